@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the haptic task tells the others about the finger, once a tick: for the picture, the report and a recording.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "hal/media_time.h"
+#include "platform/clock.h"
+
+namespace relievo {
+
+struct FingerState {
+  MonotonicTime time;
+  MediaTime media_time;
+  glm::dvec3 hip_mm{0};    // scene frame
+  glm::dvec3 proxy_mm{0};  // scene frame
+  glm::dvec3 force_n{0};   // on the hand, as sent to the device
+  std::uint32_t buttons = 0;
+  bool contact = false;
+  bool device_present = false;
+};
+
+}  // namespace relievo

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// The few depth frames around the present moment that the haptic side may look at, with the clock to place them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "app/scene/height_field.h"
+#include "hal/media_clock.h"
+#include "hal/media_time.h"
+
+namespace relievo {
+
+struct TimedSurface {
+  HeightField field;
+  MediaTime time;
+  std::shared_ptr<const void> owner;  // keeps the samples alive; only the window's writer touches it
+};
+
+// Frames in ascending order of time, all of one size. The writer puts in the frames from one before the present one
+// to three after it, as far as there are that many; a reader finds its place by time, so that a writer which comes
+// late by a frame or two does no harm.
+struct SurfaceWindow {
+  static constexpr int kCapacity = 6;
+  std::array<TimedSurface, kCapacity> frames{};
+  int count = 0;
+  std::uint32_t epoch = 0;  // changes where the film is not continuous: opened, sought, looped
+  ClockSample clock;        // rate 0: paused; the surface stands still and stays touchable
+  bool ended = false;       // no frame follows the last: holding it is right, not a lost feed
+};
+
+}  // namespace relievo

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws a colour picture as the relief that its depth picture tells, for two eyes, with the finger in it.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+
+#include "app/render/stereo.h"
+#include "app/scene/depth_calibration.h"
+#include "app/scene/display_volume.h"
+#include "hal/display.h"
+#include "hal/frame.h"
+#include "platform/error.h"
+
+namespace relievo {
+
+struct FingerMark {
+  glm::dvec3 position_mm{0};  // where the sphere is drawn: the proxy, scene frame
+  glm::dvec3 force_n{0};      // drawn as an arrow, 5 mm per N
+  bool contact = false;
+};
+
+struct RenderStatistics {
+  std::uint64_t frames = 0;
+  int grid_cols = 0, grid_rows = 0;  // vertices of the mesh now in use
+  double frame_ms = 0;               // drawing one frame, both eyes, smoothed
+};
+
+// All verbs on the thread of the display's GL context, between its beginFrame and present.
+class SceneRenderer {
+ public:
+  // `frame_budget`: how long drawing one frame may take; the grid's step grows until it holds, and shrinks again when
+  // there is room.
+  [[nodiscard]] static Result<std::unique_ptr<SceneRenderer>> create(Duration frame_budget);
+  ~SceneRenderer();
+
+  void setStereo(const StereoSettings& settings) noexcept;
+  [[nodiscard]] const StereoSettings& stereo() const noexcept;
+
+  // Uploads a pair; an empty depth draws the colour flat on the far plane's centre. Unsupported for a pixel format that
+  // cannot be uploaded. `calibration` and `volume` as the haptic side uses them.
+  [[nodiscard]] Result<void> setFrame(const Frame& color, const Frame& depth, const DepthCalibration& calibration,
+                                      const DisplayVolume& volume);
+  // Draws the last frame set into `surface`. Black when none was set.
+  [[nodiscard]] Result<void> draw(const DisplaySurface& surface, const std::optional<FingerMark>& finger);
+  [[nodiscard]] RenderStatistics statistics() const noexcept;
+
+ private:
+  struct Impl;
+  explicit SceneRenderer(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace relievo

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stereo layouts and the two off-axis cameras behind them: pure arithmetic, no GL.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <optional>
+#include <string_view>
+
+#include "app/scene/display_volume.h"
+
+namespace relievo {
+
+enum class StereoLayout : std::uint8_t { Mono, SideBySide, Anaglyph };
+[[nodiscard]] std::optional<StereoLayout> stereoLayout(std::string_view name) noexcept;  // mono sbs anaglyph
+[[nodiscard]] const char* name(StereoLayout layout) noexcept;
+
+struct StereoSettings {
+  StereoLayout layout = StereoLayout::SideBySide;
+  double eye_distance_mm = 63.0;     // 0: both eyes see the same
+  double viewing_distance_mm = 600;  // from the eyes to the screen plane
+  double screen_z_mm = 20.0;         // the scene depth that lies in the screen plane: zero parallax
+  bool swap_eyes = false;
+};
+
+enum class Eye : std::uint8_t { Left, Right, Center };
+
+struct EyeView {
+  glm::dmat4 view_projection{1};
+  // The part of the surface, in fractions of it: x, y (from the bottom), width, height.
+  double x = 0, y = 0, width = 1, height = 1;
+  // For anaglyph: which colour channels this eye writes.
+  std::array<bool, 3> channels{true, true, true};
+};
+
+// The views of a layout, one or two. The window of each camera is the picture's rectangle in the screen plane,
+// letterboxed into `surface_aspect` (width over height of the whole surface; sbs squeezes each half to that shape).
+// Off-axis projection (never toed in): parallel axes, sheared frusta, so that there is no vertical parallax.
+struct EyeViews {
+  std::array<EyeView, 2> views;
+  int count = 1;
+};
+[[nodiscard]] EyeViews eyeViews(const StereoSettings& settings, const DisplayVolume& volume, double surface_aspect);
+
+}  // namespace relievo

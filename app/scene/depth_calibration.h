@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a depth code means: law, polarity, range, bits, holes, near and far; and who said so.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "hal/frame.h"
+#include "platform/error.h"
+
+namespace relievo {
+
+enum class DepthLaw : std::uint8_t {
+  Linear,   // z = D s
+  Inverse,  // Z = 1/(s/near + (1 - s)/far), z = D (far - Z)/(far - near): disparity, near high
+};
+enum class DepthPolarity : std::uint8_t { NearIsHigh, NearIsLow };
+enum class DepthCode : std::uint8_t { Luma, Hue };
+
+// s is the normalised code: (code - low)/(high - low) clamped to [0, 1], and 1 - that when near is low.
+// Full range is 0 .. 2^bits - 1; limited range is 16 .. 235, times 2^(bits - 8). A hue code is the hue over 360 degrees:
+// s grows with distance, so its polarity is NearIsLow unless it is said otherwise.
+struct DepthCalibration {
+  DepthLaw law = DepthLaw::Linear;
+  DepthPolarity polarity = DepthPolarity::NearIsHigh;
+  ColorRange range = ColorRange::Full;
+  DepthCode code = DepthCode::Luma;
+  int bits = 8;
+  std::optional<std::uint32_t> invalid_code;  // a sample with this code is a hole
+  double near_mm = 500;                       // of the inverse law; the shape depends on far/near alone
+  double far_mm = 5000;
+
+  [[nodiscard]] double lowCode() const noexcept;
+  [[nodiscard]] double highCode() const noexcept;
+};
+
+// A height for a normalised code, mm above the far plane.
+[[nodiscard]] double heightMm(const DepthCalibration& calibration, double s, double volume_depth_mm) noexcept;
+
+// Where a value came from, in order of precedence.
+enum class CalibrationOrigin : std::uint8_t { CommandLine, SideFile, ContainerTags, StreamSignalling, Default };
+[[nodiscard]] const char* name(CalibrationOrigin origin) noexcept;
+
+// Keys: law=linear|inverse  polarity=near-high|near-low  range=full|limited  bits=8..16  invalid=CODE|none
+// near=MM  far=MM. In container tags the same keys in capitals behind DEPTH_: DEPTH_LAW=inverse, DEPTH_NEAR=500, ..
+using CalibrationSettings = std::map<std::string, std::string>;
+
+// "law=inverse,near=500" or the lines of a side file ("key = value", # begins a comment). InvalidArgument, naming
+// nothing more than the rule that was broken, for an unknown key or a value out of its range.
+[[nodiscard]] Result<CalibrationSettings> parseCalibration(std::string_view text);
+// The DEPTH_ tags among a container's or a stream's tags; those that make no sense are left out.
+[[nodiscard]] CalibrationSettings calibrationFromTags(const std::map<std::string, std::string>& tags);
+// The settings, as tags to write.
+[[nodiscard]] std::map<std::string, std::string> calibrationTags(const DepthCalibration& calibration);
+
+struct CalibrationChoice {
+  DepthCalibration calibration;
+  CalibrationOrigin origin = CalibrationOrigin::Default;  // the highest that said anything
+  std::string explanation;                                // one line: each value and who said it
+};
+
+// The layers in order of precedence; what none of them says comes from the frame's own signalling (bits, range: full
+// for gray and full-range formats, limited for other YUV) and then the defaults. InvalidArgument where the whole makes
+// no sense (far <= near).
+struct CalibrationLayers {
+  CalibrationSettings command_line;
+  CalibrationSettings side_file;
+  CalibrationSettings tags;
+};
+[[nodiscard]] Result<CalibrationChoice> chooseCalibration(const CalibrationLayers& layers, const Frame& depth_frame,
+                                                          DepthCode code);
+
+}  // namespace relievo

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// The relief: a view of a decoder's depth plane that reads a height in mm for any sample, without a copy.
+#pragma once
+
+#include <cstdint>
+
+#include "app/scene/depth_calibration.h"
+#include "app/scene/display_volume.h"
+#include "hal/frame.h"
+#include "platform/error.h"
+#include "platform/realtime.h"
+
+namespace relievo {
+
+// Trivially copyable. It does not own the samples: whoever holds the Frame does.
+// The height at a hole (an invalid code, a hue too dark to read) is not a number: no comparison with it holds, so that
+// contact with a hole cannot be found by accident. Every other height is finite, in [0, volume depth].
+class HeightField {
+ public:
+  HeightField() = default;
+  // Unsupported for a frame that has neither the luma nor the packed 8-bit RGB that the code asks for.
+  [[nodiscard]] static Result<HeightField> make(const Frame& depth, const DepthCalibration& calibration,
+                                                const DisplayVolume& volume) noexcept;
+
+  [[nodiscard]] int cols() const noexcept { return cols_; }
+  [[nodiscard]] int rows() const noexcept { return rows_; }
+  [[nodiscard]] const GridMapping& grid() const noexcept { return grid_; }
+
+  // 0 <= c < cols, 0 <= r < rows: not checked.
+  [[nodiscard]] double heightMm(int c, int r) const RELIEVO_RT;
+  // The raw code, for a picture of it; 0 at a hue that cannot be read.
+  [[nodiscard]] std::uint32_t code(int c, int r) const RELIEVO_RT;
+
+ private:
+  enum class Layout : std::uint8_t { Bytes, Words, Hue };
+  [[nodiscard]] double fromCode(std::uint32_t code) const RELIEVO_RT;
+  [[nodiscard]] double fromHue(const std::uint8_t* pixel) const RELIEVO_RT;
+  [[nodiscard]] double fromNormalised(double s) const RELIEVO_RT;
+
+  const std::uint8_t* data_ = nullptr;
+  std::ptrdiff_t stride_bytes_ = 0;
+  int cols_ = 0;
+  int rows_ = 0;
+  std::uint8_t step_bytes_ = 1;
+  std::uint8_t shift_ = 0;
+  std::uint8_t red_ = 0, green_ = 1, blue_ = 2;  // offsets inside a pixel
+  Layout layout_ = Layout::Bytes;
+  bool inverse_ = false;
+  std::uint32_t mask_ = 0xff;
+  std::uint32_t invalid_code_ = ~0u;  // ~0: none
+  double s_scale_ = 1, s_offset_ = 0; // s = clamp(s_offset + s_scale code)
+  double depth_mm_ = 0;
+  double inverse_near_ = 0, inverse_far_ = 0;  // 1/near, 1/far
+  double far_mm_ = 0, depth_per_mm_ = 0;       // D/(far - near)
+  GridMapping grid_;
+};
+
+}  // namespace relievo

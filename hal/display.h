@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Interface of a display: gives a surface to draw a frame on, and shows it.
+#pragma once
+
+#include <cstdint>
+
+#include "platform/clock.h"
+#include "platform/error.h"
+
+namespace relievo {
+
+struct DisplayCapabilities {
+  const char* name = "";
+  bool gles = false;            // a GLES 3 context is current on the opener's thread while open
+  Duration refresh_period{0};   // 0: shows a frame at once, whenever it comes
+};
+
+struct DisplayConfig {
+  int width = 1280;  // wished for; the surface tells what was given
+  int height = 720;
+};
+
+// What to draw on between beginFrame and present. `framebuffer` is a GL name (0 is a valid one) when capabilities say
+// gles, and 0 otherwise. The origin is GL's: bottom left.
+struct DisplaySurface {
+  std::uint32_t framebuffer = 0;
+  int width = 0;
+  int height = 0;
+};
+
+// States: Closed -open-> Open -beginFrame-> Drawing -present-> Open; any -close-> Closed. A verb in a state that does
+// not allow it returns InvalidState and changes nothing.
+//
+// Thread: the one that opened it, since a GL context belongs to a thread. Blocking: `present` may wait for the next
+// refresh, never longer. Lost: the screen has gone; `close`, then `open` again when it is back.
+class Display {
+ public:
+  enum class State : std::uint8_t { Closed, Open, Drawing };
+  virtual ~Display() = default;
+
+  // Unsupported, with the reason, where there is no such display or no GLES 3.
+  [[nodiscard]] Result<void> open(const DisplayConfig& config);
+  // Makes the GL context current and binds the framebuffer.
+  [[nodiscard]] Result<DisplaySurface> beginFrame();
+  // Shows what was drawn. Returns how long after the call it is on the screen (0 for an offscreen one).
+  [[nodiscard]] Result<Duration> present();
+  void close() noexcept;
+
+  [[nodiscard]] State state() const noexcept { return state_; }
+  // The same in every state.
+  [[nodiscard]] virtual DisplayCapabilities capabilities() const noexcept = 0;
+
+ private:
+  virtual Result<void> openDisplay(const DisplayConfig& config) = 0;
+  virtual Result<DisplaySurface> startFrame() = 0;
+  virtual Result<Duration> showFrame() = 0;
+  virtual void closeDisplay() noexcept = 0;
+
+  State state_ = State::Closed;
+};
+
+}  // namespace relievo

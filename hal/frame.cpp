@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cropping a frame moves its planes' beginnings, nothing else.
+#include "hal/frame.h"
+
+namespace relievo {
+
+Frame crop(const Frame& frame, int x, int y, int width, int height) noexcept {
+  Frame part = frame;
+  part.width = width;
+  part.height = height;
+  std::array<bool, 4> moved{};
+  const int component_count = frame.model == ColorModel::Gray ? 1 : 3;
+  for (int i = 0; i < component_count; ++i) {
+    const Component& component = frame.components[static_cast<std::size_t>(i)];
+    if (moved[component.plane]) continue;
+    moved[component.plane] = true;
+    const bool chroma = frame.model == ColorModel::Yuv && i > 0;
+    const int column = chroma ? x >> frame.chroma_shift_x : x;
+    const int row = chroma ? y >> frame.chroma_shift_y : y;
+    Plane& plane = part.planes[component.plane];
+    plane.data += row * plane.stride_bytes + static_cast<std::ptrdiff_t>(column) * component.step_bytes;
+  }
+  return part;
+}
+
+}  // namespace relievo

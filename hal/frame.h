@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// A decoded picture by reference: where its samples lie and how to read them, never a copy of them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "hal/media_time.h"
+
+namespace relievo {
+
+enum class ColorModel : std::uint8_t { Gray, Yuv, Rgb };
+enum class ColorRange : std::uint8_t { Unspecified, Limited, Full };
+enum class ColorMatrix : std::uint8_t { Unspecified, Bt601, Bt709, Bt2020 };
+
+// One memory plane. `stride_bytes` may be larger than a row, and negative for a picture stored upside down.
+struct Plane {
+  const std::uint8_t* data = nullptr;
+  std::ptrdiff_t stride_bytes = 0;
+};
+
+// Where one component's sample (c, r) lies: planes[plane].data + r * stride_bytes + offset_bytes + c * step_bytes.
+// 8 bits or fewer are one byte; 9 to 16 bits are two bytes, little endian. The value is (word >> shift), `bits` wide.
+struct Component {
+  std::uint8_t plane = 0;
+  std::uint8_t offset_bytes = 0;
+  std::uint8_t step_bytes = 1;
+  std::uint8_t shift = 0;
+  std::uint8_t bits = 8;
+};
+
+// Gray: components[0]. Yuv: Y, U, V; U and V have (width >> chroma_shift_x, rounded up) columns, rows likewise.
+// Rgb: R, G, B. This covers planar, semi-planar and packed formats alike; a back end converts what it does not cover.
+//
+// A Frame is a view with shared ownership: copying it copies a reference. The samples do not change while any copy
+// lives. Dropping the last copy may free memory, so a real-time thread never holds one of its own.
+struct Frame {
+  MediaTime pts;
+  Duration duration{0};  // 0 where the stream does not tell
+  int width = 0;
+  int height = 0;
+  ColorModel model = ColorModel::Gray;
+  ColorRange range = ColorRange::Unspecified;
+  ColorMatrix matrix = ColorMatrix::Unspecified;
+  double sample_aspect = 1.0;  // width of a sample over its height
+  std::uint8_t chroma_shift_x = 0;
+  std::uint8_t chroma_shift_y = 0;
+  std::uint8_t plane_count = 0;
+  std::array<Component, 3> components{};
+  std::array<Plane, 4> planes{};
+  std::shared_ptr<const void> owner;
+
+  [[nodiscard]] bool empty() const noexcept { return planes[0].data == nullptr; }
+};
+
+// The part of `frame` that is `width` x `height` samples large and begins at (x, y), as a view of the same memory.
+// x and y must be multiples of the chroma subsampling, and the part must lie inside the frame.
+[[nodiscard]] Frame crop(const Frame& frame, int x, int y, int width, int height) noexcept;
+
+}  // namespace relievo

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// State guards of the haptic device, and the last check of a force before it leaves.
+#include "hal/haptic_device.h"
+
+#include <cmath>
+
+namespace relievo {
+
+Result<void> HapticDevice::open() {
+  if (state_ != State::Closed) return fail(ErrorCode::InvalidState, "the haptic device is open already; close it first");
+  auto opened = openDevice();
+  if (!opened) {
+    closeDevice();
+    return opened;
+  }
+  state_ = State::Opened;
+  return {};
+}
+
+Result<void> HapticDevice::home() {
+  if (state_ != State::Opened && state_ != State::Ready) {
+    return fail(ErrorCode::InvalidState, "the haptic device homes only when opened and not running");
+  }
+  auto homed = homeDevice();
+  if (homed) state_ = State::Ready;
+  else if (homed.error().code == ErrorCode::Lost) state_ = State::Lost;
+  return homed;
+}
+
+Result<void> HapticDevice::start() {
+  if (state_ != State::Ready) return fail(ErrorCode::InvalidState, "the haptic device starts only after homing");
+  auto started = startDevice();
+  if (started) state_ = State::Running;
+  else if (started.error().code == ErrorCode::Lost) state_ = State::Lost;
+  return started;
+}
+
+Result<HapticSample> HapticDevice::read() RELIEVO_RT {
+  if (state_ != State::Running) return fail(ErrorCode::InvalidState, "the haptic device is not running");
+  auto sample = readSample();
+  if (!sample && sample.error().code == ErrorCode::Lost) state_ = State::Lost;
+  return sample;
+}
+
+Result<void> HapticDevice::write(const glm::dvec3& force_n) RELIEVO_RT {
+  if (state_ != State::Running) return fail(ErrorCode::InvalidState, "the haptic device is not running");
+  // Squared and with a rounding margin: a force limited to exactly the peak must pass.
+  const double peak = capabilities().peak_force_n;
+  const double squared = force_n.x * force_n.x + force_n.y * force_n.y + force_n.z * force_n.z;
+  const bool acceptable = std::isfinite(squared) && squared <= peak * peak * (1.0 + 1e-9);
+  auto written = writeForce(acceptable ? force_n : glm::dvec3(0));
+  if (!written) {
+    if (written.error().code == ErrorCode::Lost) state_ = State::Lost;
+    return written;
+  }
+  if (!acceptable) return fail(ErrorCode::InvalidArgument, "force not finite or over the device's peak; zero was sent");
+  return {};
+}
+
+void HapticDevice::stop() noexcept {
+  if (state_ != State::Running) return;
+  stopDevice();
+  state_ = State::Ready;
+}
+
+void HapticDevice::close() noexcept {
+  if (state_ == State::Closed) return;
+  stop();
+  closeDevice();
+  state_ = State::Closed;
+}
+
+}  // namespace relievo

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// The clock of a film: maps monotonic time to media time as a sampled pair and a rate.
+#pragma once
+
+#include <optional>
+
+#include "hal/media_time.h"
+#include "platform/error.h"
+
+namespace relievo {
+
+// "At `monotonic` the film stood at `media` and ran at `rate`." Trivially copyable: it travels to the real-time task
+// inside the surface window, so that both sides agree on the time without sharing a clock object.
+struct ClockSample {
+  MediaTime media;
+  MonotonicTime monotonic;
+  double rate = 0;  // 1 playing, 0 paused, 0.5 slow motion
+
+  [[nodiscard]] constexpr MediaTime at(MonotonicTime now) const noexcept {
+    const auto elapsed = now - monotonic;
+    if (rate == 1.0) return media + elapsed;
+    return media + Duration(static_cast<Duration::rep>(static_cast<double>(elapsed.count()) * rate));
+  }
+};
+
+// States: Unset (until the first frame, and after `reset`) -> Running <-> Paused. Owner's thread only; never blocks.
+// The time is injected: `now` comes from the caller's Clock, so that a test runs in simulated time. A master of another
+// kind (sound) corrects it by calling `start` again with a new pair.
+class MediaClock {
+ public:
+  // Sets the pair; from any state. The clock runs at the rate last set (1 at first), or stays paused if it was paused.
+  void start(MediaTime media, MonotonicTime now) noexcept;
+  // Back to Unset, and out of a pause: for a seek, or a new film.
+  void reset() noexcept;
+  // InvalidState while Unset. Each keeps the media time continuous.
+  [[nodiscard]] Result<void> pause(MonotonicTime now) noexcept;
+  [[nodiscard]] Result<void> resume(MonotonicTime now) noexcept;
+  // 0 < rate <= 16, else InvalidArgument. While Unset it holds from the next `start`.
+  [[nodiscard]] Result<void> setRate(double rate, MonotonicTime now) noexcept;
+
+  [[nodiscard]] bool paused() const noexcept { return paused_; }
+  // Nothing while Unset.
+  [[nodiscard]] std::optional<ClockSample> sample() const noexcept { return sample_; }
+  [[nodiscard]] std::optional<MediaTime> position(MonotonicTime now) const noexcept;
+
+ private:
+  std::optional<ClockSample> sample_;
+  double rate_ = 1.0;
+  bool paused_ = false;
+};
+
+}  // namespace relievo

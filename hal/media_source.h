@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// Interface of a media source: opens a file or a URL and hands out its coded packets.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hal/frame.h"
+#include "hal/media_time.h"
+#include "platform/error.h"
+
+namespace relievo {
+
+enum class StreamKind : std::uint8_t { Video, Audio, Other };
+
+// Names one stream and describes it as far as the container does.
+struct StreamInfo {
+  int index = 0;                      // the `stream` of its packets
+  StreamKind kind = StreamKind::Other;
+  std::string codec;                  // "h264", "hevc", "vp8", .., lower case
+  std::vector<std::uint8_t> extradata;  // parameter sets as the container holds them
+  int width = 0;
+  int height = 0;
+  Duration frame_period{0};           // a hint from the container; the true one comes from the timestamps
+  Duration duration{0};               // 0 where unknown
+  std::map<std::string, std::string> tags;  // upper-case keys: TITLE, HANDLER_NAME, DEPTH_NEAR, ..
+  // The source's own description, for a decoder of the same library; null otherwise.
+  std::shared_ptr<const void> native;
+};
+
+// Coded data by reference; valid as long as any copy of `owner` lives.
+struct Packet {
+  int stream = 0;
+  const std::uint8_t* data = nullptr;
+  std::size_t bytes = 0;
+  std::optional<MediaTime> pts;
+  std::optional<MediaTime> dts;
+  bool keyframe = false;
+  std::shared_ptr<const void> owner;
+};
+
+// States: Closed -open-> Open -read to the end-> Ended -seek-> Open; any -close-> Closed. A verb in a state that does
+// not allow it returns InvalidState and changes nothing.
+//
+// Thread: all verbs on one thread, but `interrupt`, which any thread may call. Blocking: `open`, `read` and `seek` may
+// wait for a disk or a network, at most for the back end's time-out; `interrupt` makes them return Cancelled.
+// Times: packets' times are media times, beginning near zero (the container's start time is taken away).
+class MediaSource {
+ public:
+  enum class State : std::uint8_t { Closed, Open, Ended };
+  virtual ~MediaSource() = default;
+
+  // NotFound, PermissionDenied, Unsupported (protocol), Corrupt (not media), Timeout, Cancelled. Closed only.
+  [[nodiscard]] Result<void> open(const std::string& url);
+  // The next packet of any stream, in the order of the container; nothing at the end. A file that is cut off in the
+  // middle ends like a whole one. Lost when the source has gone away. Open or Ended (nothing again).
+  [[nodiscard]] Result<std::optional<Packet>> read();
+  // To the last key frame at or before `target`; decoders must be flushed by the caller. Open or Ended.
+  [[nodiscard]] Result<void> seek(MediaTime target);
+  void close() noexcept;
+
+  // Makes a blocked verb return Cancelled, and those to come until the next `open`. Any thread, any state.
+  void interrupt() noexcept { interrupted(); }
+
+  [[nodiscard]] State state() const noexcept { return state_; }
+  // Empty while Closed. Does not change while Open.
+  [[nodiscard]] const std::vector<StreamInfo>& streams() const noexcept { return streams_; }
+  // Container tags, upper-case keys. Empty while Closed.
+  [[nodiscard]] const std::map<std::string, std::string>& tags() const noexcept { return tags_; }
+  // Of the whole film; 0 where unknown (live).
+  [[nodiscard]] Duration duration() const noexcept { return duration_; }
+
+ protected:
+  struct Description {
+    std::vector<StreamInfo> streams;
+    std::map<std::string, std::string> tags;
+    Duration duration{0};
+  };
+
+ private:
+  virtual Result<Description> openSource(const std::string& url) = 0;
+  virtual Result<std::optional<Packet>> readPacket() = 0;
+  virtual Result<void> seekTo(MediaTime target) = 0;
+  virtual void closeSource() noexcept = 0;
+  virtual void interrupted() noexcept = 0;
+
+  State state_ = State::Closed;
+  std::vector<StreamInfo> streams_;
+  std::map<std::string, std::string> tags_;
+  Duration duration_{0};
+};
+
+}  // namespace relievo

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Interface of a remote control: keys as Linux input event codes.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "platform/clock.h"
+#include "platform/error.h"
+
+namespace relievo {
+
+struct KeyEvent {
+  enum class Action : std::uint8_t { Press, Repeat, Release };
+  std::uint16_t code = 0;  // KEY_PLAY, KEY_PAUSE, .. of linux/input-event-codes.h
+  Action action = Action::Press;
+  MonotonicTime time;
+};
+
+// States: Closed -open-> Open -close-> Closed. A verb in a state that does not allow it returns InvalidState.
+// Thread: one at a time. Blocking: never. A remote that goes away yields no more keys; the film goes on.
+class RemoteInput {
+ public:
+  enum class State : std::uint8_t { Closed, Open };
+  virtual ~RemoteInput() = default;
+
+  [[nodiscard]] Result<void> open();
+  // The next key that was pressed, or nothing. Open only.
+  [[nodiscard]] Result<std::optional<KeyEvent>> poll(MonotonicTime now);
+  void close() noexcept;
+  [[nodiscard]] State state() const noexcept { return state_; }
+
+ private:
+  virtual Result<void> openRemote() = 0;
+  virtual Result<std::optional<KeyEvent>> nextKey(MonotonicTime now) = 0;
+  virtual void closeRemote() noexcept = 0;
+
+  State state_ = State::Closed;
+};
+
+}  // namespace relievo
