@@ -2,7 +2,10 @@
 // The relief: a view of a decoder's depth plane that reads a height in mm for any sample, without a copy.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "app/scene/depth_calibration.h"
 #include "app/scene/display_volume.h"
@@ -27,15 +30,32 @@ class HeightField {
   [[nodiscard]] const GridMapping& grid() const noexcept { return grid_; }
 
   // 0 <= c < cols, 0 <= r < rows: not checked.
-  [[nodiscard]] double heightMm(int c, int r) const RELIEVO_RT;
-  // The raw code, for a picture of it; 0 at a hue that cannot be read.
+  [[nodiscard]] double heightMm(int c, int r) const RELIEVO_RT {
+    const std::uint8_t* sample = data_ + r * stride_bytes_ + static_cast<std::ptrdiff_t>(c) * step_bytes_;
+    if (layout_ == Layout::Hue) return fromHue(sample);
+    const std::uint32_t code = codeAt(sample);
+    if (code == invalid_code_) return kHole;
+    return fromNormalised(s_offset_ + s_scale_ * static_cast<double>(code));
+  }
+
+  // The raw luma code; for a hue 0 .. 1535, six steps of 256, and 0 at one that cannot be read.
   [[nodiscard]] std::uint32_t code(int c, int r) const RELIEVO_RT;
+
+  static constexpr double kHole = std::numeric_limits<double>::quiet_NaN();
 
  private:
   enum class Layout : std::uint8_t { Bytes, Words, Hue };
-  [[nodiscard]] double fromCode(std::uint32_t code) const RELIEVO_RT;
+  [[nodiscard]] std::uint32_t codeAt(const std::uint8_t* sample) const RELIEVO_RT {
+    const std::uint32_t low = sample[0];
+    if (layout_ == Layout::Bytes) return (low >> shift_) & mask_;
+    return ((low | static_cast<std::uint32_t>(sample[1]) << 8) >> shift_) & mask_;
+  }
+  [[nodiscard]] double fromNormalised(double s) const RELIEVO_RT {
+    s = std::min(std::max(s, 0.0), 1.0);
+    if (!inverse_) return depth_mm_ * s;
+    return (far_mm_ - 1.0 / (far_inverse_ + s * (near_inverse_ - far_inverse_))) * depth_per_mm_;
+  }
   [[nodiscard]] double fromHue(const std::uint8_t* pixel) const RELIEVO_RT;
-  [[nodiscard]] double fromNormalised(double s) const RELIEVO_RT;
 
   const std::uint8_t* data_ = nullptr;
   std::ptrdiff_t stride_bytes_ = 0;
@@ -47,11 +67,11 @@ class HeightField {
   Layout layout_ = Layout::Bytes;
   bool inverse_ = false;
   std::uint32_t mask_ = 0xff;
-  std::uint32_t invalid_code_ = ~0u;  // ~0: none
-  double s_scale_ = 1, s_offset_ = 0; // s = clamp(s_offset + s_scale code)
+  std::uint32_t invalid_code_ = ~0u;   // ~0: none
+  double s_scale_ = 1, s_offset_ = 0;  // s = clamp(s_offset + s_scale x code), the polarity taken in
   double depth_mm_ = 0;
-  double inverse_near_ = 0, inverse_far_ = 0;  // 1/near, 1/far
-  double far_mm_ = 0, depth_per_mm_ = 0;       // D/(far - near)
+  double near_inverse_ = 0, far_inverse_ = 0;  // 1/near, 1/far
+  double far_mm_ = 0, depth_per_mm_ = 0;       // depth_per_mm = D/(far - near)
   GridMapping grid_;
 };
 

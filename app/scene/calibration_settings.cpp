@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// A calibration's written form (command line, side file, container tags) and the choice between several.
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+#include "app/scene/depth_calibration.h"
+
+namespace relievo {
+namespace {
+
+constexpr std::array<const char*, 7> kKeys{"law", "polarity", "range", "bits", "invalid", "near", "far"};
+constexpr const char* kTagPrefix = "DEPTH_";
+
+constexpr const char* kUnknownKey =
+    "unknown calibration key; known are law, polarity, range, bits, invalid, near, far";
+constexpr const char* kBadValue =
+    "calibration value out of its range; law=linear|inverse polarity=near-high|near-low range=full|limited "
+    "bits=8..16 invalid=CODE|none near=MM far=MM";
+constexpr const char* kNoValue = "calibration is written KEY=VALUE,KEY=VALUE,..";
+constexpr const char* kFarBeforeNear = "calibration has far <= near; give both in mm, far the larger";
+
+std::string_view trim(std::string_view text) {
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front())) != 0) text.remove_prefix(1);
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0) text.remove_suffix(1);
+  return text;
+}
+
+template <class T>
+std::optional<T> number(std::string_view text) {
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+// Sets one value; false when it is not one that the key may have.
+bool apply(DepthCalibration& c, std::string_view key, std::string_view value) {
+  if (key == "law") {
+    if (value != "linear" && value != "inverse") return false;
+    c.law = value == "linear" ? DepthLaw::Linear : DepthLaw::Inverse;
+  } else if (key == "polarity") {
+    if (value != "near-high" && value != "near-low") return false;
+    c.polarity = value == "near-high" ? DepthPolarity::NearIsHigh : DepthPolarity::NearIsLow;
+  } else if (key == "range") {
+    if (value != "full" && value != "limited") return false;
+    c.range = value == "full" ? ColorRange::Full : ColorRange::Limited;
+  } else if (key == "bits") {
+    const auto bits = number<int>(value);
+    if (!bits || *bits < 8 || *bits > 16) return false;
+    c.bits = *bits;
+  } else if (key == "invalid") {
+    if (value == "none") {
+      c.invalid_code.reset();
+      return true;
+    }
+    const auto code = number<std::uint32_t>(value);
+    if (!code || *code > 0xffff) return false;
+    c.invalid_code = *code;
+  } else {
+    const auto mm = number<double>(value);
+    if (!mm || !std::isfinite(*mm) || *mm <= 0) return false;
+    (key == "near" ? c.near_mm : c.far_mm) = *mm;
+  }
+  return true;
+}
+
+std::string written(const DepthCalibration& c, std::string_view key) {
+  char text[32];
+  if (key == "law") return c.law == DepthLaw::Linear ? "linear" : "inverse";
+  if (key == "polarity") return c.polarity == DepthPolarity::NearIsHigh ? "near-high" : "near-low";
+  if (key == "range") return c.range == ColorRange::Limited ? "limited" : "full";
+  if (key == "bits") return std::to_string(c.bits);
+  if (key == "invalid") return c.invalid_code ? std::to_string(*c.invalid_code) : "none";
+  const auto end = std::to_chars(text, text + sizeof text, key == "near" ? c.near_mm : c.far_mm).ptr;
+  return {text, end};
+}
+
+}  // namespace
+
+Result<CalibrationSettings> parseCalibration(std::string_view text) {
+  CalibrationSettings settings;
+  while (!text.empty()) {
+    const std::size_t end = text.find_first_of(",\n");
+    std::string_view item = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    item = trim(item.substr(0, item.find('#')));
+    if (item.empty()) continue;
+    const std::size_t equals = item.find('=');
+    if (equals == std::string_view::npos) return fail(ErrorCode::InvalidArgument, kNoValue);
+    const std::string_view key = trim(item.substr(0, equals));
+    const std::string_view value = trim(item.substr(equals + 1));
+    if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end()) {
+      return fail(ErrorCode::InvalidArgument, kUnknownKey);
+    }
+    DepthCalibration scratch;
+    if (!apply(scratch, key, value)) return fail(ErrorCode::InvalidArgument, kBadValue);
+    settings[std::string(key)] = value;
+  }
+  return settings;
+}
+
+CalibrationSettings calibrationFromTags(const std::map<std::string, std::string>& tags) {
+  CalibrationSettings settings;
+  for (const char* key : kKeys) {
+    std::string tag = kTagPrefix;
+    for (const char* p = key; *p != '\0'; ++p) tag += static_cast<char>(std::toupper(static_cast<unsigned char>(*p)));
+    const auto found = tags.find(tag);
+    DepthCalibration scratch;
+    if (found != tags.end() && apply(scratch, key, found->second)) settings[key] = found->second;
+  }
+  return settings;
+}
+
+std::map<std::string, std::string> calibrationTags(const DepthCalibration& calibration) {
+  std::map<std::string, std::string> tags;
+  for (const char* key : kKeys) {
+    std::string tag = kTagPrefix;
+    for (const char* p = key; *p != '\0'; ++p) tag += static_cast<char>(std::toupper(static_cast<unsigned char>(*p)));
+    tags[tag] = written(calibration, key);
+  }
+  return tags;
+}
+
+Result<CalibrationChoice> chooseCalibration(const CalibrationLayers& layers, const Frame& depth_frame, DepthCode code) {
+  CalibrationChoice choice;
+  DepthCalibration& c = choice.calibration;
+  c.code = code;
+  c.bits = std::max<int>(8, depth_frame.components[0].bits);
+  const bool limited_by_nature = depth_frame.model == ColorModel::Yuv && depth_frame.range != ColorRange::Full;
+  c.range = limited_by_nature || depth_frame.range == ColorRange::Limited ? ColorRange::Limited : ColorRange::Full;
+  if (code == DepthCode::Hue) {
+    c.polarity = DepthPolarity::NearIsLow;
+    c.range = ColorRange::Full;
+  }
+  const bool signalled = depth_frame.range != ColorRange::Unspecified;
+  choice.origin = signalled ? CalibrationOrigin::StreamSignalling : CalibrationOrigin::Default;
+
+  const std::array<std::pair<CalibrationOrigin, const CalibrationSettings*>, 3> order{{
+      {CalibrationOrigin::CommandLine, &layers.command_line},
+      {CalibrationOrigin::SideFile, &layers.side_file},
+      {CalibrationOrigin::ContainerTags, &layers.tags},
+  }};
+  for (const char* key : kKeys) {
+    const bool from_stream = std::string_view(key) == "bits" || (std::string_view(key) == "range" && signalled);
+    CalibrationOrigin said_by = from_stream ? CalibrationOrigin::StreamSignalling : CalibrationOrigin::Default;
+    for (const auto& [origin, settings] : order) {
+      const auto found = settings->find(key);
+      if (found == settings->end()) continue;
+      if (!apply(c, key, found->second)) return fail(ErrorCode::InvalidArgument, kBadValue);
+      said_by = origin;
+      choice.origin = std::min(choice.origin, origin);
+      break;
+    }
+    if (!choice.explanation.empty()) choice.explanation += ", ";
+    choice.explanation += std::string(key) + "=" + written(c, key) + " (" + name(said_by) + ")";
+  }
+  if (c.far_mm <= c.near_mm) return fail(ErrorCode::InvalidArgument, kFarBeforeNear);
+  return choice;
+}
+
+}  // namespace relievo

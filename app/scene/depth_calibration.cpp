@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a normalised code to a height.
+#include "app/scene/depth_calibration.h"
+
+#include <algorithm>
+
+namespace relievo {
+
+double DepthCalibration::lowCode() const noexcept {
+  return range == ColorRange::Limited ? 16.0 * (1u << (bits - 8)) : 0.0;
+}
+
+double DepthCalibration::highCode() const noexcept {
+  return range == ColorRange::Limited ? 235.0 * (1u << (bits - 8)) : static_cast<double>((1u << bits) - 1);
+}
+
+double heightMm(const DepthCalibration& calibration, double s, double volume_depth_mm) noexcept {
+  s = std::clamp(s, 0.0, 1.0);
+  if (calibration.polarity == DepthPolarity::NearIsLow) s = 1.0 - s;
+  if (calibration.law == DepthLaw::Linear) return volume_depth_mm * s;
+  const double distance = 1.0 / (s / calibration.near_mm + (1.0 - s) / calibration.far_mm);
+  return volume_depth_mm * (calibration.far_mm - distance) / (calibration.far_mm - calibration.near_mm);
+}
+
+const char* name(CalibrationOrigin origin) noexcept {
+  switch (origin) {
+    case CalibrationOrigin::CommandLine: return "command line";
+    case CalibrationOrigin::SideFile: return "side file";
+    case CalibrationOrigin::ContainerTags: return "container tags";
+    case CalibrationOrigin::StreamSignalling: return "stream signalling";
+    case CalibrationOrigin::Default: return "default";
+  }
+  return "";
+}
+
+}  // namespace relievo

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// Setting up the view of a depth plane, and reading depth that is coded as a hue.
+#include "app/scene/height_field.h"
+
+#include <optional>
+
+namespace relievo {
+namespace {
+
+// Below this sum of the three bytes a pixel has no reading: 0.3 of one channel's full scale. A hue of a dark pixel is
+// noise; footage in this coding marks what the sensor did not see by black.
+constexpr int kDarkestReadable = 76;
+constexpr int kHueSteps = 6 * 256;
+
+// Hue as an integer of 0 .. 1535, or nothing at a pixel without a reading: the textbook hexagon (red 0, yellow 256,
+// green 512, ..), in integers so that a graphics processor can give the same.
+std::optional<double> hueOf(int red, int green, int blue) noexcept {
+  const int high = std::max({red, green, blue});
+  const int low = std::min({red, green, blue});
+  const int spread = high - low;
+  if (red + green + blue <= kDarkestReadable || spread == 0) return std::nullopt;
+  double sixth = 0;
+  if (high == red) {
+    sixth = static_cast<double>(green - blue) / spread;
+    if (sixth < 0) sixth += 6.0;
+  } else if (high == green) {
+    sixth = 2.0 + static_cast<double>(blue - red) / spread;
+  } else {
+    sixth = 4.0 + static_cast<double>(red - green) / spread;
+  }
+  return sixth / 6.0;
+}
+
+}  // namespace
+
+Result<HeightField> HeightField::make(const Frame& depth, const DepthCalibration& calibration,
+                                      const DisplayVolume& volume) noexcept {
+  if (depth.empty() || depth.width < 1 || depth.height < 1) {
+    return fail(ErrorCode::InvalidArgument, "a depth picture without samples");
+  }
+  HeightField field;
+  const Component& first = depth.components[0];
+  const Plane& plane = depth.planes[first.plane];
+  field.data_ = plane.data + first.offset_bytes;
+  field.stride_bytes_ = plane.stride_bytes;
+  field.step_bytes_ = first.step_bytes;
+  field.shift_ = first.shift;
+  field.cols_ = depth.width;
+  field.rows_ = depth.height;
+  field.grid_ = GridMapping(volume, depth.width, depth.height);
+  field.depth_mm_ = volume.depth_mm;
+  if (calibration.code == DepthCode::Hue) {
+    if (depth.model != ColorModel::Rgb || first.bits != 8 || first.step_bytes < 3) {
+      return fail(ErrorCode::Unsupported, "hue depth needs packed 8-bit RGB; use --depth-code luma for this source");
+    }
+    field.layout_ = Layout::Hue;
+    field.data_ = plane.data;
+    field.red_ = first.offset_bytes;
+    field.green_ = depth.components[1].offset_bytes;
+    field.blue_ = depth.components[2].offset_bytes;
+    field.s_scale_ = 1.0;
+    field.s_offset_ = 0.0;
+  } else {
+    if (depth.model == ColorModel::Rgb) {
+      return fail(ErrorCode::Unsupported, "luma depth needs a gray or YUV picture; use --depth-code hue for RGB");
+    }
+    field.layout_ = first.bits <= 8 ? Layout::Bytes : Layout::Words;
+    field.mask_ = (1u << first.bits) - 1;
+    if (calibration.invalid_code) field.invalid_code_ = *calibration.invalid_code;
+    const double low = calibration.lowCode();
+    field.s_scale_ = 1.0 / (calibration.highCode() - low);
+    field.s_offset_ = -low * field.s_scale_;
+  }
+  if (calibration.polarity == DepthPolarity::NearIsLow) {
+    field.s_scale_ = -field.s_scale_;
+    field.s_offset_ = 1.0 - field.s_offset_;
+  }
+  if (calibration.law == DepthLaw::Inverse) {
+    field.inverse_ = true;
+    field.near_inverse_ = 1.0 / calibration.near_mm;
+    field.far_inverse_ = 1.0 / calibration.far_mm;
+    field.far_mm_ = calibration.far_mm;
+    field.depth_per_mm_ = volume.depth_mm / (calibration.far_mm - calibration.near_mm);
+  }
+  return field;
+}
+
+double HeightField::fromHue(const std::uint8_t* pixel) const RELIEVO_RT {
+  const auto hue = hueOf(pixel[red_], pixel[green_], pixel[blue_]);
+  return hue ? fromNormalised(s_offset_ + s_scale_ * *hue) : kHole;
+}
+
+std::uint32_t HeightField::code(int c, int r) const RELIEVO_RT {
+  const std::uint8_t* sample = data_ + r * stride_bytes_ + static_cast<std::ptrdiff_t>(c) * step_bytes_;
+  if (layout_ != Layout::Hue) return codeAt(sample);
+  return static_cast<std::uint32_t>(hueOf(sample[red_], sample[green_], sample[blue_]).value_or(0.0) * kHueSteps);
+}
+
+}  // namespace relievo
