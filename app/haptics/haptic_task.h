@@ -75,6 +75,10 @@ class HapticTask final : public CyclicTask {
   [[nodiscard]] const HapticCounters& counters() const noexcept { return counters_; }
 
  private:
+  void failed(const Error& error, MonotonicTime time) RELIEVO_RT;
+  void noteFeed(bool stale, MonotonicTime time) RELIEVO_RT;
+  void count(const FingerState& state) RELIEVO_RT;
+  void publish(const FingerState& state) RELIEVO_RT;
   void report(HapticFault::Kind kind, MonotonicTime time) RELIEVO_RT;
 
   HapticDevice& device_;
@@ -85,7 +89,9 @@ class HapticTask final : public CyclicTask {
   EnergyBooks books_;
   bool stale_ = false;
   bool lost_ = false;
+  bool primed_ = false;  // there was a tick before this one
   MonotonicTime last_woken_;
+  glm::dvec3 last_hip_mm_{0};
   TripleBuffer<SurfaceWindow> windows_;
   TripleBuffer<FingerState> finger_;
   SpscRing<FingerState, 4096> ticks_;

@@ -12,8 +12,8 @@ namespace {
 constexpr int kDarkestReadable = 76;
 constexpr int kHueSteps = 6 * 256;
 
-// Hue as an integer of 0 .. 1535, or nothing at a pixel without a reading: the textbook hexagon (red 0, yellow 256,
-// green 512, ..), in integers so that a graphics processor can give the same.
+// Hue over 360 degrees by the textbook hexagon (red 0, yellow 1/6, green 1/3, ..), or nothing at a pixel without a
+// reading.
 std::optional<double> hueOf(int red, int green, int blue) noexcept {
   const int high = std::max({red, green, blue});
   const int low = std::min({red, green, blue});
