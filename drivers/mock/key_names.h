@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// The keys of remote controls and keyboards by the names of linux/input-event-codes.h.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace relievo {
+
+// With or without "KEY_", in either case. Nothing when no remote or keyboard has such a key.
+[[nodiscard]] std::optional<std::uint16_t> keyCode(std::string_view name) noexcept;
+
+}  // namespace relievo

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// A screen that nobody sees, refreshed at its own pace.
+#include "drivers/mock/mock.h"
+
+namespace relievo {
+namespace {
+
+class MockDisplay final : public Display {
+public:
+  MockDisplay(const MockDisplayProfile& profile, Clock& clock) : profile_(profile), clock_(clock) {}
+
+  [[nodiscard]] DisplayCapabilities capabilities() const noexcept override {
+    return {.name = "mock", .gles = false, .refresh_period = profile_.refresh_period};
+  }
+
+private:
+  Result<void> openDisplay(const DisplayConfig& config) override {
+    if (profile_.fail_open) return fail(*profile_.fail_open, "the mock display was told not to open");
+    surface_ = {.framebuffer = 0, .width = config.width, .height = config.height};
+    first_refresh_ = clock_.now();
+    frames_ = 0;
+    return {};
+  }
+
+  Result<DisplaySurface> startFrame() override {
+    if (lost()) return fail(ErrorCode::Lost, "the mock screen has gone");
+    return surface_;
+  }
+
+  Result<Duration> showFrame() override {
+    if (lost()) return fail(ErrorCode::Lost, "the mock screen has gone");
+    ++frames_;
+    if (profile_.refresh_period <= Duration(0)) return Duration(0);
+    const MonotonicTime now = clock_.now();
+    const auto refreshes = (now - first_refresh_) / profile_.refresh_period;
+    const MonotonicTime next = first_refresh_ + (refreshes + 1) * profile_.refresh_period;
+    clock_.sleepUntil(next);
+    return next - now;
+  }
+
+  void closeDisplay() noexcept override {}
+
+  [[nodiscard]] bool lost() const noexcept { return frames_ >= profile_.lose_after_frames; }
+
+  MockDisplayProfile profile_;
+  Clock& clock_;
+  DisplaySurface surface_;
+  MonotonicTime first_refresh_;
+  std::uint64_t frames_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Display> makeMockDisplay(const MockDisplayProfile& profile, Clock& clock) {
+  return std::make_unique<MockDisplay>(profile, clock);
+}
+
+}  // namespace relievo

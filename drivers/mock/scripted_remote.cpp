@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads the script once; after that a remote is a list and a place in it.
+#include "drivers/mock/scripted_remote.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <fstream>
+#include <optional>
+#include <sstream>
+
+#include "drivers/mock/key_names.h"
+#include "platform/log.h"
+
+namespace relievo {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r";
+constexpr double kLongestScriptS = 1e6;
+
+std::string_view nextWord(std::string_view& line) {
+  const auto begin = line.find_first_not_of(kBlanks);
+  if (begin == std::string_view::npos) return line = {};
+  const auto end = std::min(line.find_first_of(kBlanks, begin), line.size());
+  const std::string_view word = line.substr(begin, end - begin);
+  line.remove_prefix(end);
+  return word;
+}
+
+std::optional<Duration> parseTime(std::string_view word) {
+  double seconds = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), seconds);
+  const bool whole = error == std::errc{} && end == word.data() + word.size();
+  if (!whole || !(seconds >= 0 && seconds <= kLongestScriptS)) return std::nullopt;
+  return fromSeconds(seconds);
+}
+
+// Nothing wrong: null.
+const char* addLine(std::string_view line, std::vector<ScriptedKey>& keys) {
+  line = line.substr(0, line.find('#'));
+  const std::string_view time_word = nextWord(line);
+  if (time_word.empty()) return nullptr;
+  const auto at = parseTime(time_word);
+  if (!at) return "a line begins with a time in seconds";
+  if (!keys.empty() && *at < keys.back().at) return "the time is before that of the line above";
+  const auto code = keyCode(nextWord(line));
+  if (!code) return "after the time comes a key's name, such as PLAYPAUSE or KEY_OK";
+  if (!nextWord(line).empty()) return "there is something after the key's name";
+  keys.push_back({*at, *code});
+  return nullptr;
+}
+
+class ScriptedRemote final : public RemoteInput {
+public:
+  ScriptedRemote(std::vector<ScriptedKey> keys, const Clock& clock) : keys_(std::move(keys)), clock_(clock) {}
+
+private:
+  Result<void> openRemote() override {
+    opened_ = clock_.now();
+    next_ = 0;
+    return {};
+  }
+
+  Result<std::optional<KeyEvent>> nextKey(MonotonicTime now) override {
+    if (next_ == keys_.size() || now < opened_ + keys_[next_].at) return std::nullopt;
+    const ScriptedKey& key = keys_[next_++];
+    return KeyEvent{.code = key.code, .action = KeyEvent::Action::Press, .time = opened_ + key.at};
+  }
+
+  void closeRemote() noexcept override {}
+
+  std::vector<ScriptedKey> keys_;
+  const Clock& clock_;
+  MonotonicTime opened_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+Result<std::vector<ScriptedKey>> parseKeyScript(std::string_view text, std::string_view script_name) {
+  std::vector<ScriptedKey> keys;
+  for (int number = 1; !text.empty(); ++number) {
+    const auto length = std::min(text.find('\n'), text.size());
+    if (const char* wrong = addLine(text.substr(0, length), keys); wrong != nullptr) {
+      log(LogLevel::Error, "remote", "%.*s:%d: %s", static_cast<int>(script_name.size()), script_name.data(),
+          number, wrong);
+      return fail(ErrorCode::InvalidArgument,
+                  "a line of the key script is wrong; a line is: seconds KEYNAME");
+    }
+    text.remove_prefix(std::min(length + 1, text.size()));
+  }
+  return keys;
+}
+
+Result<std::vector<ScriptedKey>> loadKeyScript(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) return fail(ErrorCode::NotFound, "the key script cannot be read; check its path", errno);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (file.bad()) return fail(ErrorCode::Io, "reading the key script failed", errno);
+  return parseKeyScript(text.str(), path);
+}
+
+std::unique_ptr<RemoteInput> makeScriptedRemote(std::vector<ScriptedKey> keys, const Clock& clock) {
+  return std::make_unique<ScriptedRemote>(std::move(keys), clock);
+}
+
+}  // namespace relievo

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// A remote control whose keys are pressed by a script.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/remote_input.h"
+#include "platform/clock.h"
+
+namespace relievo {
+
+struct ScriptedKey {
+  Duration at{0};  // since `open`
+  std::uint16_t code = 0;
+};
+
+// One key a line: seconds and a key's name as in linux/input-event-codes.h, with or without KEY_, in either
+// case:
+//
+//   # pause the film after two seconds
+//   2.0  PLAYPAUSE
+//
+// What follows a '#' is ignored, and so are empty lines; times do not decrease. InvalidArgument otherwise,
+// and a log line names the script's line.
+[[nodiscard]] Result<std::vector<ScriptedKey>> parseKeyScript(std::string_view text,
+                                                              std::string_view script_name);
+
+// NotFound when the file cannot be read.
+[[nodiscard]] Result<std::vector<ScriptedKey>> loadKeyScript(const std::string& path);
+
+// Yields each key once, as a Press, when its time has come. `clock` tells when `open` was and must outlive
+// the remote.
+[[nodiscard]] std::unique_ptr<RemoteInput> makeScriptedRemote(std::vector<ScriptedKey> keys,
+                                                              const Clock& clock);
+
+}  // namespace relievo
