@@ -18,10 +18,14 @@ std::optional<TimeLaw> timeLaw(std::string_view name) noexcept {
 
 std::unique_ptr<TouchMethod> makeMethod(std::string_view name, const MethodConfig& config) {
   const double stiffness = config.stiffness_n_per_mm;
-  if (name == "proxy-graph") return std::make_unique<ProxyGraph>(stiffness, config.time.value_or(TimeLaw::Hold));
+  const auto threshold = [&](bool own) {
+    return config.jump_threshold.value_or(own) ? ModifiedProxyGraph::kJumpThresholdN : 0.0;
+  };
+  if (name == "proxy-graph") {
+    return std::make_unique<ProxyGraph>(stiffness, config.time.value_or(TimeLaw::Hold), threshold(false));
+  }
   if (name == "modified-proxy-graph") {
-    const double threshold = config.jump_threshold.value_or(true) ? ModifiedProxyGraph::kJumpThresholdN : 0.0;
-    return std::make_unique<ModifiedProxyGraph>(stiffness, config.time.value_or(TimeLaw::Linear), threshold);
+    return std::make_unique<ModifiedProxyGraph>(stiffness, config.time.value_or(TimeLaw::Linear), threshold(true));
   }
   return nullptr;
 }

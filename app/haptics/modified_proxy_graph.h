@@ -29,8 +29,7 @@ class ModifiedProxyGraph final : public TouchMethod {
   double jump_threshold_n_;
   bool primed_ = false;
   std::uint32_t epoch_ = 0;
-  glm::dvec3 proxy_{0};
-  glm::dvec3 force_{0};
+  Touch last_;
   double height_under_proxy_ = HeightField::kHole;  // of the surface at the proxy's x, y, in the tick before
 };
 

@@ -2,6 +2,8 @@
 // Collision detection by the segment from the previous proxy to the finger, then the walk over the graph.
 #include "app/haptics/proxy_graph.h"
 
+#include <glm/geometric.hpp>
+
 #include "app/haptics/graph_walk.h"
 #include "app/haptics/segment_search.h"
 
@@ -29,15 +31,21 @@ Touch followFinger(const SurfaceInTime& surface, const glm::dvec3& proxy_mm, con
   return touch;
 }
 
+Touch letThroughAtJump(const Touch& touch, const glm::dvec3& force_before_n, double threshold_n,
+                       const glm::dvec3& hip_mm) RELIEVO_RT {
+  const bool jump = threshold_n > 0 && glm::length(touch.force_n - force_before_n) > threshold_n;
+  return jump ? Touch{.proxy_mm = hip_mm} : touch;
+}
+
 Touch ProxyGraph::update(const glm::dvec3& hip_mm, const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
   if (!primed_ || window.epoch != epoch_) {
     primed_ = true;
     epoch_ = window.epoch;
-    proxy_ = hip_mm;
+    last_ = Touch{.proxy_mm = hip_mm};
   }
-  const Touch touch = followFinger(SurfaceInTime(window, now, time_), proxy_, hip_mm, stiffness_);
-  proxy_ = touch.proxy_mm;
-  return touch;
+  const Touch touch = followFinger(SurfaceInTime(window, now, time_), last_.proxy_mm, hip_mm, stiffness_);
+  last_ = letThroughAtJump(touch, last_.force_n, jump_threshold_n_, hip_mm);
+  return last_;
 }
 
 }  // namespace relievo
