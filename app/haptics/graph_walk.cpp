@@ -3,6 +3,7 @@
 #include "app/haptics/graph_walk.h"
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <glm/geometric.hpp>
 
@@ -76,8 +77,12 @@ class Walk {
     for (const Node& offset : kRing) {
       const Node next{n.c + offset.c, n.r + offset.r};
       const glm::dvec3 next_point = at(next);
-      tryEdge(n, centre, next, next_point);
-      tryEdge(previous, previous_point, next, next_point);
+      // An edge is part of the surface only where a whole triangle is.
+      if (!std::isnan(previous_point.z + next_point.z)) {
+        tryEdge(n, centre, previous, previous_point);
+        tryEdge(n, centre, next, next_point);
+        tryEdge(previous, previous_point, next, next_point);
+      }
       previous = next;
       previous_point = next_point;
     }

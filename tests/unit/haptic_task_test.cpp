@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+// The haptic task in simulated time on a device of three lines: mapping, limits, loss, a feed that stops.
+#include "app/haptics/haptic_task.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <memory>
+#include <vector>
+
+#include "app/haptics/methods.h"
+#include "tests/support/depth_frames.h"
+
+namespace relievo {
+namespace {
+
+using namespace std::chrono_literals;
+constexpr DisplayVolume kVolume{160, 108, 40};
+constexpr double kStiffness = 0.5;
+
+class FakeDevice final : public HapticDevice {
+ public:
+  glm::dvec3 position{0, 0, 0};
+  glm::dvec3 force{0};
+  ErrorCode next_error = ErrorCode::InvalidState;  // InvalidState: none
+  int writes = 0;
+
+  HapticCapabilities capabilities() const noexcept override {
+    return {"fake", glm::dvec3(-50, -50, -50), glm::dvec3(50, 50, 50), 4.0, 2.0, 1.0, 1000};
+  }
+
+ private:
+  Result<void> openDevice() override { return {}; }
+  Result<void> homeDevice() override { return {}; }
+  Result<void> startDevice() override { return {}; }
+  Result<HapticSample> readSample() RELIEVO_RT override {
+    if (next_error != ErrorCode::InvalidState) {
+      const ErrorCode code = next_error;
+      next_error = ErrorCode::InvalidState;
+      return fail(code, "as asked");
+    }
+    return HapticSample{position, 5};
+  }
+  Result<void> writeForce(const glm::dvec3& f) RELIEVO_RT override {
+    force = f;
+    ++writes;
+    return {};
+  }
+  void stopDevice() noexcept override { force = glm::dvec3(0); }
+  void closeDevice() noexcept override {}
+};
+
+class HapticTaskTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(device_.open() && device_.home() && device_.start());
+    task_ = std::make_unique<HapticTask>(device_, *method_, clock_, kVolume, SafetyLimits{}, kStiffness);
+  }
+  // A still plane at `height`, playing from time 0, with frames at 0 and 40 ms.
+  void publishPlane(double height, double rate = 1, bool ended = false) {
+    std::vector<Frame> frames;
+    for (const double t : {0.0, 0.04}) {
+      frames.push_back(test::makeReliefFrame(40, 30, kVolume, mediaTime(t), [&](double, double) { return height; }));
+    }
+    SurfaceWindow& w = task_->windowToFill();
+    w = test::makeWindow(frames, kVolume);
+    w.clock = {.media = {}, .monotonic = clock_.now(), .rate = rate};
+    w.ended = ended;
+    task_->publishWindow();
+  }
+  void tick(int n = 1) {
+    for (int i = 0; i < n; ++i) {
+      clock_.advance(1ms);
+      ASSERT_EQ(task_->loop({index_++, clock_.now(), clock_.now()}), LoopControl::Continue);
+    }
+  }
+  // From 1 mm outside a plane at 20 mm to `depth` inside, slower than what the method takes for a jump.
+  void press(double depth) {
+    for (double z = 1; z > -depth; z -= 0.25) {
+      device_.position = {0, 0, z};
+      tick();
+    }
+    device_.position = {0, 0, -depth};
+    tick();
+  }
+  std::vector<HapticFault::Kind> faults() {
+    std::vector<HapticFault::Kind> kinds;
+    while (const auto fault = task_->nextFault()) kinds.push_back(fault->kind);
+    return kinds;
+  }
+
+  ManualClock clock_{MonotonicTime{} + 5s};
+  FakeDevice device_;
+  std::unique_ptr<TouchMethod> method_ = makeMethod("modified-proxy-graph", {.stiffness_n_per_mm = kStiffness});
+  std::unique_ptr<HapticTask> task_;
+  std::uint64_t index_ = 0;
+};
+
+TEST_F(HapticTaskTest, PutsTheMiddleOfTheWorkspaceInTheMiddleOfTheVolume) {
+  device_.position = {1, 2, 3};
+  tick();
+  ASSERT_TRUE(task_->refreshFinger());
+  EXPECT_EQ(task_->finger().hip_mm, glm::dvec3(1, 2, 23));
+  EXPECT_EQ(task_->finger().buttons, 5u);
+  EXPECT_FALSE(task_->finger().contact);
+  EXPECT_EQ(device_.writes, 1);
+}
+
+TEST_F(HapticTaskTest, PushesAFingerOutWithStiffnessTimesDepthWithinTheDevicesPeak) {
+  publishPlane(20, 0);
+  press(3);
+  tick(100);
+  EXPECT_NEAR(device_.force.z, 0.5 * 3, 0.01);
+  for (double z = -3; z > -15; z -= 0.25) {
+    device_.position.z = z;
+    tick();
+  }
+  tick(200);
+  EXPECT_NEAR(device_.force.z, 4.0, 1e-6) << "7.4 N are asked for, the device has 4";
+  EXPECT_NEAR(task_->counters().max_force_n.load(), 4.0, 1e-6);
+  EXPECT_LE(task_->counters().max_scene_slew_n_per_s.load(), 50.0 + 1e-6);
+}
+
+TEST_F(HapticTaskTest, ALostDeviceEndsTheForceAndIsToldOnce) {
+  publishPlane(20, 0);
+  press(1);
+  tick(50);
+  EXPECT_GT(device_.force.z, 0.4);
+  device_.next_error = ErrorCode::Lost;
+  const int writes = device_.writes;
+  tick(20);
+  EXPECT_EQ(device_.writes, writes) << "nothing is written to a lost device";
+  EXPECT_EQ(device_.state(), HapticDevice::State::Lost);
+  EXPECT_EQ(faults(), std::vector{HapticFault::Kind::DeviceLost});
+  ASSERT_TRUE(task_->refreshFinger());
+  EXPECT_FALSE(task_->finger().device_present);
+  EXPECT_EQ(task_->finger().force_n, glm::dvec3(0));
+}
+
+TEST_F(HapticTaskTest, OneFailedExchangeLeavesOutOneTick) {
+  tick(3);
+  device_.next_error = ErrorCode::Io;
+  tick(1);
+  EXPECT_EQ(device_.writes, 3);
+  tick(2);
+  EXPECT_EQ(device_.writes, 5);
+  EXPECT_EQ(faults(), std::vector{HapticFault::Kind::DeviceError});
+}
+
+TEST_F(HapticTaskTest, AFeedThatStopsFadesTheForceAndOneThatComesBackBringsItBack) {
+  publishPlane(20);
+  press(1);
+  tick(50);
+  const double held = device_.force.z;
+  EXPECT_NEAR(held, 0.5, 0.01);
+  EXPECT_TRUE(faults().empty());
+  tick(50);  // 109 ms; the last frame began at 40 ms, stale from 40 + 60
+  EXPECT_EQ(faults(), std::vector{HapticFault::Kind::FeedStale});
+  EXPECT_LT(device_.force.z, held);
+  tick(20);
+  EXPECT_EQ(device_.force.z, 0);
+  publishPlane(20);
+  tick(30);
+  EXPECT_EQ(faults(), std::vector{HapticFault::Kind::FeedRecovered});
+  EXPECT_NEAR(device_.force.z, held, 0.01);
+}
+
+TEST_F(HapticTaskTest, APausedOrEndedFilmStaysTouchable) {
+  for (const bool ended : {false, true}) {
+    publishPlane(20, ended ? 1 : 0, ended);
+    press(1);
+    tick(1000);
+    EXPECT_NEAR(device_.force.z, 0.5, 0.01);
+  }
+  EXPECT_TRUE(faults().empty());
+}
+
+TEST_F(HapticTaskTest, HandsEveryTickToTheRecorderInOrder) {
+  tick(100);
+  for (int i = 0; i < 100; ++i) {
+    const auto state = task_->nextTick();
+    ASSERT_TRUE(state.has_value());
+    EXPECT_EQ(state->time, MonotonicTime{} + 5s + (i + 1) * 1ms);
+  }
+  EXPECT_FALSE(task_->nextTick().has_value());
+  EXPECT_EQ(task_->counters().ticks.load(), 100u);
+}
+
+}  // namespace
+}  // namespace relievo
