@@ -1,1 +1,261 @@
 // SPDX-License-Identifier: Apache-2.0
+// The cyclic loop, and the thread that runs it: everything it needs is mapped, touched and locked before its first cycle.
+#include "platform/cyclic_thread.h"
+
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <array>
+#include <cassert>
+#include <cerrno>
+#include <climits>
+#include <cstring>
+#include <utility>
+
+#include "platform/allocation_counter.h"
+#include "platform/fixed_memory.h"
+#include "platform/log.h"
+
+namespace relievo {
+namespace {
+
+constexpr std::size_t kNameBytes = 16;  // the kernel's limit, with the terminating zero
+
+void count(std::atomic<std::uint64_t>& n, std::uint64_t by) noexcept {
+  n.store(n.load(std::memory_order_relaxed) + by, std::memory_order_relaxed);  // one writer
+}
+
+// How many of the cycles that follow `scheduled` were due before `now`.
+std::uint64_t missedCycles(MonotonicTime scheduled, MonotonicTime now, Duration period) noexcept {
+  const Duration late = now - (scheduled + period);
+  if (late <= Duration(0)) return 0;
+  return static_cast<std::uint64_t>((late.count() + period.count() - 1) / period.count());  // rounded up
+}
+
+// What a thread has taken from the system since it began.
+struct ThreadUsage {
+  std::uint64_t page_faults = 0;
+  std::uint64_t allocations = 0;
+};
+
+ThreadUsage threadUsage() noexcept {
+  rusage usage{};
+  ::getrusage(RUSAGE_THREAD, &usage);  // cannot fail: both arguments are good
+  return {.page_faults = static_cast<std::uint64_t>(usage.ru_minflt) + static_cast<std::uint64_t>(usage.ru_majflt),
+          .allocations = threadAllocations()};
+}
+
+// A stack of the thread's own, with an inaccessible page below it that stops an overflow.
+class Stack {
+ public:
+  Stack() noexcept = default;
+  Stack(Stack&& other) noexcept
+      : base_(std::exchange(other.base_, nullptr)), bytes_(other.bytes_), locked_(other.locked_) {}
+  Stack& operator=(Stack&&) = delete;
+  ~Stack() {
+    if (base_ != nullptr) ::munmap(base_, guardBytes() + bytes_);
+  }
+
+  static Result<Stack> create(std::size_t wanted) noexcept {
+    const std::size_t page = guardBytes();
+    Stack stack;
+    stack.bytes_ = (wanted + page - 1) / page * page;
+    void* const base = ::mmap(nullptr, page + stack.bytes_, PROT_READ | PROT_WRITE,
+                              MAP_PRIVATE | MAP_ANONYMOUS | MAP_STACK, -1, 0);
+    if (base == MAP_FAILED) return fail(ErrorCode::Exhausted, "no memory for the cyclic thread's stack", errno);
+    stack.base_ = static_cast<std::byte*>(base);
+    if (::mprotect(base, page, PROT_NONE) != 0) {
+      return fail(ErrorCode::Exhausted, "no guard page for the cyclic thread's stack", errno);
+    }
+    stack.locked_ = lockAndTouch(stack.bottom(), stack.bytes_).has_value();
+    return stack;
+  }
+
+  [[nodiscard]] void* bottom() const noexcept { return base_ + guardBytes(); }
+  [[nodiscard]] std::size_t bytes() const noexcept { return bytes_; }
+  [[nodiscard]] bool locked() const noexcept { return locked_; }
+
+ private:
+  static std::size_t guardBytes() noexcept { return static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)); }
+
+  std::byte* base_ = nullptr;
+  std::size_t bytes_ = 0;
+  bool locked_ = false;
+};
+
+// pthread attributes that are given back.
+class ThreadAttributes {
+ public:
+  ThreadAttributes() noexcept { ::pthread_attr_init(&attributes_); }
+  ThreadAttributes(const ThreadAttributes&) = delete;
+  ThreadAttributes& operator=(const ThreadAttributes&) = delete;
+  ~ThreadAttributes() { ::pthread_attr_destroy(&attributes_); }
+
+  [[nodiscard]] const pthread_attr_t* get() const noexcept { return &attributes_; }
+  [[nodiscard]] int setStack(const Stack& stack) noexcept {
+    return ::pthread_attr_setstack(&attributes_, stack.bottom(), stack.bytes());
+  }
+  [[nodiscard]] int setCpu(int cpu) noexcept {
+    if (cpu < 0) return 0;
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    CPU_SET(static_cast<std::size_t>(cpu), &set);
+    return ::pthread_attr_setaffinity_np(&attributes_, sizeof set, &set);
+  }
+  // Explicit: the thread is not to inherit its owner's scheduler.
+  [[nodiscard]] int setScheduler(Scheduler scheduler, int priority) noexcept {
+    const bool fifo = scheduler == Scheduler::Fifo;
+    sched_param parameters{};
+    parameters.sched_priority = fifo ? priority : 0;
+    if (const int error = ::pthread_attr_setinheritsched(&attributes_, PTHREAD_EXPLICIT_SCHED)) return error;
+    if (const int error = ::pthread_attr_setschedpolicy(&attributes_, fifo ? SCHED_FIFO : SCHED_OTHER)) return error;
+    return ::pthread_attr_setschedparam(&attributes_, &parameters);
+  }
+
+ private:
+  pthread_attr_t attributes_{};
+};
+
+Result<void> checked(const CyclicConfig& config) noexcept {
+  if (config.name == nullptr || ::strnlen(config.name, kNameBytes) == kNameBytes) {
+    return fail(ErrorCode::InvalidArgument, "the name of a cyclic thread has at most 15 characters");
+  }
+  if (config.period <= Duration(0)) {
+    return fail(ErrorCode::InvalidArgument, "the period of a cyclic thread is longer than nothing");
+  }
+  if (config.priority < 1 || config.priority > 99) {  // Linux's range of SCHED_FIFO
+    return fail(ErrorCode::InvalidArgument, "the priority of a cyclic thread lies between 1 and 99");
+  }
+  if (config.cpu >= CPU_SETSIZE) return fail(ErrorCode::InvalidArgument, "no processor has such a number");
+  if (config.stack_bytes < static_cast<std::size_t>(PTHREAD_STACK_MIN)) {
+    return fail(ErrorCode::InvalidArgument, "the stack of a cyclic thread is smaller than the system allows");
+  }
+  return {};
+}
+
+}  // namespace
+
+void runCycles(Clock& clock, Duration period, CyclicTask& task, CyclicStatistics& statistics,
+               const std::atomic<bool>& stop) noexcept {
+  assert(period > Duration(0));
+  Cycle cycle;
+  cycle.scheduled = clock.now();
+  for (;;) {
+    clock.sleepUntil(cycle.scheduled);
+    if (stop.load(std::memory_order_acquire)) return;
+    cycle.woken = clock.now();
+    const LoopControl control = task.loop(cycle);
+    const MonotonicTime done = clock.now();
+    statistics.wakeup.add(cycle.woken - cycle.scheduled);
+    statistics.work.add(done - cycle.woken);
+    count(statistics.cycles, 1);
+    if (control == LoopControl::Stop) return;
+    const std::uint64_t missed = missedCycles(cycle.scheduled, done, period);
+    if (missed > 0) count(statistics.overruns, missed);
+    cycle.index += 1 + missed;
+    cycle.scheduled += period * static_cast<Duration::rep>(1 + missed);
+  }
+}
+
+struct CyclicThread::Run {
+  Clock& clock;
+  CyclicTask& task;
+  CyclicStatistics& statistics;
+  Duration period;
+  std::array<char, kNameBytes> name{};
+  Stack stack;
+  std::atomic<bool> stop{false};
+  pthread_t thread{};
+
+  // Zero, or the error number of what the system refused.
+  [[nodiscard]] int create(const CyclicConfig& config, Scheduler scheduler) noexcept {
+    ThreadAttributes attributes;
+    if (const int error = attributes.setStack(stack)) return error;
+    if (const int error = attributes.setCpu(config.cpu)) return error;
+    if (const int error = attributes.setScheduler(scheduler, config.priority)) return error;
+    return ::pthread_create(&thread, attributes.get(), &entry, this);
+  }
+
+  // Takes every path of the loop once, so that binding its calls and mapping its pages falls before the count.
+  void warmUp() noexcept {
+    Histogram scratch;
+    clock.sleepUntil(clock.now());
+    scratch.add(Duration(1));
+    static_cast<void>(threadUsage());
+  }
+
+  void loop() noexcept {
+    ::pthread_setname_np(::pthread_self(), name.data());
+    ::prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);  // the ordinary scheduler would add 50 us to each sleep
+    warmUp();
+    const ThreadUsage before = threadUsage();
+    runCycles(clock, period, task, statistics, stop);
+    const ThreadUsage after = threadUsage();
+    statistics.page_faults.store(after.page_faults - before.page_faults, std::memory_order_relaxed);
+    statistics.allocations.store(after.allocations - before.allocations, std::memory_order_relaxed);
+  }
+};
+
+void* CyclicThread::entry(void* run) noexcept {
+  static_cast<Run*>(run)->loop();
+  return nullptr;
+}
+
+CyclicThread::CyclicThread(Clock& clock) : clock_(clock) {}
+
+CyclicThread::~CyclicThread() { stop(); }
+
+Result<Scheduler> CyclicThread::start(const CyclicConfig& config, CyclicTask& task) {
+  if (running()) return fail(ErrorCode::InvalidState, "the cyclic thread runs already: stop it first");
+  if (const auto good = checked(config); !good) return std::unexpected(good.error());
+  auto stack = Stack::create(config.stack_bytes);
+  if (!stack) return std::unexpected(stack.error());
+
+  auto statistics = std::make_unique<CyclicStatistics>();
+  auto run = std::unique_ptr<Run>(new Run{.clock = clock_,
+                                          .task = task,
+                                          .statistics = *statistics,
+                                          .period = config.period,
+                                          .stack = std::move(*stack)});
+  std::strncpy(run->name.data(), config.name, kNameBytes - 1);
+  const bool code_locked = lockAndTouchCode().has_value();
+  const bool run_locked = lockAndTouch(run.get(), sizeof *run).has_value();
+  const bool statistics_locked = lockAndTouch(statistics.get(), sizeof *statistics).has_value();
+  if (!(code_locked && run_locked && statistics_locked && run->stack.locked())) {
+    log(LogLevel::Warning, "cyclic", "%s: memory is touched but not locked: raise LimitMEMLOCK or grant CAP_IPC_LOCK",
+        config.name);
+  }
+
+  Scheduler scheduler = Scheduler::Fifo;
+  int error = run->create(config, scheduler);
+  if (error == EPERM) {
+    scheduler = Scheduler::Other;
+    error = run->create(config, scheduler);
+    if (error == 0) {
+      log(LogLevel::Warning, "cyclic", "%s: runs without real-time priority: grant CAP_SYS_NICE or raise LimitRTPRIO",
+          config.name);
+    }
+  }
+  if (error == EINVAL) {
+    return fail(ErrorCode::InvalidArgument, "the cyclic thread's processor is not there, or its stack is too small",
+                error);
+  }
+  if (error != 0) return fail(ErrorCode::Exhausted, "the system has no room for one more thread", error);
+  statistics->scheduler.store(scheduler, std::memory_order_relaxed);
+  statistics_ = std::move(statistics);
+  run_ = std::move(run);
+  return scheduler;
+}
+
+void CyclicThread::stop() noexcept {
+  if (!running()) return;
+  run_->stop.store(true, std::memory_order_release);
+  ::pthread_join(run_->thread, nullptr);
+  run_.reset();
+}
+
+}  // namespace relievo

@@ -43,14 +43,15 @@ struct CyclicStatistics {
   Histogram wakeup;  // woken - scheduled
   Histogram work;    // from waking to the end of the task's work
   std::atomic<std::uint64_t> cycles{0};
-  std::atomic<std::uint64_t> overruns{0};     // cycles that began after the next one was due, or were missed
+  std::atomic<std::uint64_t> overruns{0};     // cycles missed: due before the work of the one before had ended
   std::atomic<std::uint64_t> page_faults{0};  // of the thread, from the first cycle to the last; set at the end
   std::atomic<std::uint64_t> allocations{0};  // likewise
   std::atomic<Scheduler> scheduler{Scheduler::Other};
 };
 
 // The loop itself, on the calling thread: until the task says Stop or `stop` is set. On a ManualClock it runs in
-// simulated time. A cycle whose time has passed is left out and counted, never made up for: the phase is kept.
+// simulated time. The first cycle is due at once, cycle n `period` (> 0) times n later. A cycle whose time has passed
+// when the work before it ends is left out and counted, never made up for: the phase is kept.
 void runCycles(Clock& clock, Duration period, CyclicTask& task, CyclicStatistics& statistics,
                const std::atomic<bool>& stop) noexcept;
 
@@ -70,7 +71,7 @@ class CyclicThread {
   void stop() noexcept;
 
   [[nodiscard]] bool running() const noexcept { return run_ != nullptr; }
-  // Of the present or the last run.
+  // Of the present or the last run; each start makes a new one.
   [[nodiscard]] const CyclicStatistics& statistics() const noexcept { return *statistics_; }
 
  private:

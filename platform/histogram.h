@@ -61,8 +61,9 @@ class Histogram {
   static constexpr Duration middleOf(std::size_t bucket) noexcept {
     if (bucket < kSub) return Duration(static_cast<Duration::rep>(bucket));
     const auto shift = static_cast<unsigned>(bucket / kSub - 1);
-    const std::uint64_t low = (kSub + bucket % kSub) << shift;
-    return Duration(static_cast<Duration::rep>(low + ((1ull << shift) >> 1)));
+    const std::uint64_t low = kSub + bucket % kSub;
+    // The harmonic mean of the edges is as far, relatively, from the one as from the other: 1/17 at most.
+    return Duration(static_cast<Duration::rep>(((2 * low * (low + 1)) << shift) / (2 * low + 1)));
   }
 
   std::array<std::atomic<std::uint64_t>, kBuckets> counts_{};

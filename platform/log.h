@@ -2,7 +2,9 @@
 // Lines for people on stderr; and a ring through which the real-time thread hands in what it may not print itself.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
+#include <limits>
 
 #include "platform/realtime.h"
 #include "platform/spsc_ring.h"
@@ -17,13 +19,14 @@ void setLogLevel(LogLevel level) noexcept;
 // Prints one line "relievo: area: text". Thread-safe, not real-time safe.
 [[gnu::format(printf, 3, 4)]] void log(LogLevel level, const char* area, const char* format, ...) noexcept;
 
-// One record from the real-time side: a string literal and up to two numbers, no formatting there.
+// One record from the real-time side: a string literal and up to two numbers, no formatting there. It is printed as
+// "text a b"; a number that is not given (NaN) is not printed.
 struct LogRecord {
   LogLevel level = LogLevel::Info;
   const char* area = "";
   const char* text = "";
-  double a = 0;
-  double b = 0;
+  double a = std::numeric_limits<double>::quiet_NaN();
+  double b = std::numeric_limits<double>::quiet_NaN();
 };
 
 // One real-time producer, one consumer. A record that does not fit is counted, and the count is printed by `drain`.

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// The clock that a test turns by hand, and what holds for the real one however slow the machine is.
+#include "platform/clock.h"
+
+#include <gtest/gtest.h>
+
+namespace relievo {
+namespace {
+
+using std::chrono::milliseconds;
+
+MonotonicTime at(Duration since_start) { return MonotonicTime{} + since_start; }
+
+TEST(Duration, ConvertsSecondsToTheNearestNanosecond) {
+  EXPECT_EQ(fromSeconds(1.5), milliseconds(1500));
+  EXPECT_EQ(fromSeconds(-1.5), milliseconds(-1500));
+  EXPECT_EQ(fromSeconds(1.0e-9 * 2.6), Duration(3));
+  EXPECT_EQ(fromSeconds(-1.0e-9 * 2.6), Duration(-3));
+  EXPECT_DOUBLE_EQ(toSeconds(milliseconds(1500)), 1.5);
+}
+
+TEST(ManualClock, StandsStillUntilTold) {
+  const ManualClock clock(at(milliseconds(7)));
+  EXPECT_EQ(clock.now(), at(milliseconds(7)));
+  EXPECT_EQ(clock.now(), at(milliseconds(7)));
+}
+
+TEST(ManualClock, AdvancesByWhatItIsTold) {
+  ManualClock clock;
+  clock.advance(milliseconds(3));
+  clock.advance(Duration(5));
+  EXPECT_EQ(clock.now(), at(Duration(3'000'005)));
+}
+
+TEST(ManualClock, SleepsByMovingToTheDeadline) {
+  ManualClock clock;
+  clock.sleepUntil(at(milliseconds(10)));
+  EXPECT_EQ(clock.now(), at(milliseconds(10)));
+}
+
+TEST(ManualClock, NeverSleepsBackwards) {
+  ManualClock clock(at(milliseconds(10)));
+  clock.sleepUntil(at(milliseconds(4)));
+  EXPECT_EQ(clock.now(), at(milliseconds(10)));
+}
+
+TEST(MonotonicClock, NeverGoesBack) {
+  const MonotonicClock clock;
+  MonotonicTime last = clock.now();
+  EXPECT_GT(last, MonotonicTime{});
+  for (int i = 0; i < 10'000; ++i) {
+    const MonotonicTime now = clock.now();
+    ASSERT_GE(now, last);
+    last = now;
+  }
+}
+
+TEST(MonotonicClock, ReturnsFromDeadlinesThatHavePassed) {
+  MonotonicClock clock;
+  clock.sleepUntil(MonotonicTime{});
+  clock.sleepUntil(at(Duration(-1)));
+  clock.sleepUntil(MonotonicTime::min());
+  clock.sleepUntil(clock.now());
+}
+
+}  // namespace
+}  // namespace relievo
