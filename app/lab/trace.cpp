@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// The loop of the haptic task without a device, a thread or a fade.
+#include "app/lab/trace.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <glm/geometric.hpp>
+
+#include "app/haptics/safety.h"
+#include "app/lab/hip_path.h"
+#include "platform/atomic_file.h"
+#include "platform/clock.h"
+
+namespace relievo {
+namespace {
+
+constexpr const char* kOutHeader =
+    "t_s,hip_x_mm,hip_y_mm,hip_z_mm,proxy_x_mm,proxy_y_mm,proxy_z_mm,force_x_n,force_y_n,force_z_n,contact,update_ns\n";
+
+std::optional<bool> jumpThreshold(TraceGuard guard) {
+  if (guard == TraceGuard::Off) return false;
+  if (guard == TraceGuard::Threshold) return true;
+  return std::nullopt;
+}
+
+void writeRow(AtomicFile& out, const HipTick& tick, const Touch& touch, const glm::dvec3& force, Duration took) {
+  char row[400];
+  const int length = std::snprintf(row, sizeof row, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%d,%lld\n", tick.t_s,
+                                   tick.hip_mm.x, tick.hip_mm.y, tick.hip_mm.z, touch.proxy_mm.x, touch.proxy_mm.y,
+                                   touch.proxy_mm.z, force.x, force.y, force.z, touch.contact ? 1 : 0,
+                                   static_cast<long long>(took.count()));
+  out.write({row, static_cast<std::size_t>(length)});
+}
+
+}  // namespace
+
+LabResult<TraceSummary> runTrace(const TraceOptions& options, const PairReader::Backends& backends) {
+  const auto path = readHipPath(options.hip_path);
+  if (!path) return std::unexpected(path.error());
+  DepthFilm film(backends, options.film);
+  if (const auto opened = film.open(); !opened) return std::unexpected(opened.error());
+  auto out = AtomicFile::create(options.out_path);
+  if (!out) return labFail(options.out_path, out.error());
+  out->write(kOutHeader);
+
+  const auto method = makeMethod(options.method, {.stiffness_n_per_mm = options.stiffness_n_per_mm,
+                                                  .time = options.time,
+                                                  .jump_threshold = jumpThreshold(options.guard)});
+  if (method == nullptr) return labFail("--method " + options.method, "unknown method; see --help");
+  SafetyFilter safety({}, options.stiffness_n_per_mm);
+  const MonotonicClock clock;
+  TraceSummary summary;
+  const HipTick* before = nullptr;
+  for (const HipTick& tick : *path) {
+    const auto window = film.windowAt(tick.t_s);
+    if (!window) return std::unexpected(window.error());
+    const MonotonicTime begin = clock.now();
+    const Touch touch = method->update(tick.hip_mm, **window, mediaTime(tick.t_s));
+    const Duration took = clock.now() - begin;
+    method->upkeep(**window, mediaTime(tick.t_s));
+
+    glm::dvec3 force = touch.force_n;
+    if (options.guard == TraceGuard::Full) {
+      const double moved = before != nullptr ? glm::length(tick.hip_mm - before->hip_mm) : 0.0;
+      force = safety.apply(force, moved, before != nullptr ? tick.t_s - before->t_s : 0.0);
+    }
+    writeRow(*out, tick, touch, force, took);
+    ++summary.ticks;
+    summary.contact_ticks += touch.contact ? 1 : 0;
+    summary.max_force_n = std::max(summary.max_force_n, glm::length(force));
+    before = &tick;
+  }
+  if (const auto committed = out->commit(); !committed) return labFail(options.out_path, committed.error());
+  return summary;
+}
+
+}  // namespace relievo

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// A finger's path through a depth film, tick by tick, on virtual time: what the proxy did and what the hand would feel.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/haptics/methods.h"
+#include "app/lab/depth_film.h"
+#include "app/lab/failure.h"
+
+namespace relievo {
+
+enum class TraceGuard : std::uint8_t {
+  Own,        // as the method has it
+  Off,        // stiffness x (proxy - HIP), whatever it is
+  Threshold,  // the paper's force-jump threshold (IV-C)
+  Full,       // the method's own, then the safety limits of the haptic task
+};
+
+struct TraceOptions {
+  DepthFilmOptions film;
+  std::string hip_path;
+  std::string out_path;
+  std::string method = kDefaultMethod;
+  double stiffness_n_per_mm = 0.5;
+  std::optional<TimeLaw> time;
+  TraceGuard guard = TraceGuard::Own;
+};
+
+struct TraceSummary {
+  std::size_t ticks = 0, contact_ticks = 0;
+  double max_force_n = 0;
+};
+
+// Writes OUT.csv, whole or not at all: one row per row of the path, columns t_s, hip_x_mm .. hip_z_mm, proxy_x_mm ..
+// proxy_z_mm, force_x_n .. force_z_n, contact, update_ns (the method's `update`, by the monotonic clock).
+[[nodiscard]] LabResult<TraceSummary> runTrace(const TraceOptions& options, const PairReader::Backends& backends);
+
+}  // namespace relievo

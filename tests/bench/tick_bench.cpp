@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// The time of one haptic tick, position to force: a finger 5 mm deep in moving 8-bit depth, by size, speed and method.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "app/haptics/methods.h"
+#include "tests/support/depth_frames.h"
+
+namespace relievo {
+namespace {
+
+constexpr double kTickS = 0.001;
+constexpr double kFramePeriodS = 1.0 / 30;
+constexpr std::size_t kTicks = 20000;
+
+// A head of 30 mm, a nose and two eyes on it, nodding by 3 mm at 0.7 Hz.
+double relief(double x, double y, double t) {
+  const auto bump = [&](double cx, double cy, double size, double sigma) {
+    const double r2 = (x - cx) * (x - cx) + (y - cy) * (y - cy);
+    return size * std::exp(-r2 / (2 * sigma * sigma));
+  };
+  const double nod = 3.0 * std::sin(2 * std::numbers::pi * 0.7 * t);
+  return 5 + bump(0, nod, 20, 25) + bump(0, nod - 4, 6, 5) + bump(-10, nod + 8, -3, 5) + bump(10, nod + 8, -3, 5);
+}
+
+// The finger's path, at a constant speed along a Lissajous figure, 5 mm under the surface, without the tick's own time.
+std::vector<glm::dvec3> fingerPath(double speed_mm_per_s) {
+  std::vector<glm::dvec3> path;
+  double phase = 0;
+  for (std::size_t i = 0; i < kTicks; ++i) {
+    const double x = 50 * std::sin(phase), y = 33 * std::sin(0.73 * phase + 0.5);
+    const double dx = 50 * std::cos(phase), dy = 33 * 0.73 * std::cos(0.73 * phase + 0.5);
+    path.emplace_back(x, y, relief(x, y, kTickS * static_cast<double>(i)) - 5);
+    phase += speed_mm_per_s * kTickS / std::hypot(dx, dy);
+  }
+  return path;
+}
+
+void touchTick(benchmark::State& state, const char* name, TimeLaw time) {
+  const int cols = static_cast<int>(state.range(0)), rows = static_cast<int>(state.range(1));
+  const double speed = static_cast<double>(state.range(2));
+  const auto volume = DisplayVolume::forPicture(cols, rows);
+  std::vector<Frame> frames;
+  for (int k = 0; k < 5; ++k) {
+    const GridMapping grid(volume, cols, rows);
+    frames.push_back(test::makeGrayFrame(cols, rows, 8, mediaTime(kFramePeriodS * k), [&](int c, int r) {
+      return relief(grid.x(c), grid.y(r), kFramePeriodS * k) / volume.depth_mm * 255 + 0.5;
+    }));
+  }
+  const SurfaceWindow window = test::makeWindow(frames, volume, {});
+  const std::vector<glm::dvec3> path = fingerPath(speed);
+  const auto method = makeMethod(name, {.time = time, .jump_threshold = false});
+  const MonotonicClock clock;
+  Histogram times;
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const std::size_t k = i++ % kTicks;
+    if (k == 0) static_cast<void>(method->update(path[0] + glm::dvec3(0, 0, 30), window, {}));  // come in from outside
+    // The film goes forth and back over the frames at hand.
+    const double cycle = std::fmod(kTickS * static_cast<double>(k), 8 * kFramePeriodS);
+    const double t = cycle < 4 * kFramePeriodS ? cycle : 8 * kFramePeriodS - cycle;
+    const MonotonicTime begin = clock.now();
+    const Touch touch = method->update(path[k], window, mediaTime(t));
+    times.add(clock.now() - begin);
+    benchmark::DoNotOptimize(touch);
+  }
+  const auto us = [&](double q) { return static_cast<double>(times.quantile(q).count()) * 1e-3; };
+  state.counters["median_us"] = us(0.5);
+  state.counters["p99_us"] = us(0.99);
+  state.counters["p99.9_us"] = us(0.999);
+}
+
+void sizesAndSpeeds(benchmark::internal::Benchmark* bench) {
+  bench->ArgNames({"cols", "rows", "mm_per_s"})->Iterations(100000);
+  for (const auto& [cols, rows] : {std::pair(720, 486), std::pair(1920, 1080), std::pair(3840, 2160)}) {
+    for (const int speed : {100, 1000, 5000}) bench->Args({cols, rows, speed});
+  }
+}
+
+BENCHMARK_CAPTURE(touchTick, proxy_graph_hold, "proxy-graph", TimeLaw::Hold)->Apply(sizesAndSpeeds);
+BENCHMARK_CAPTURE(touchTick, modified_proxy_graph_hold, "modified-proxy-graph", TimeLaw::Hold)->Apply(sizesAndSpeeds);
+BENCHMARK_CAPTURE(touchTick, modified_proxy_graph, "modified-proxy-graph", TimeLaw::Linear)->Apply(sizesAndSpeeds);
+
+}  // namespace
+}  // namespace relievo
