@@ -24,11 +24,12 @@ struct FingerMark {
 
 struct RenderStatistics {
   std::uint64_t frames = 0;
-  int grid_cols = 0, grid_rows = 0;  // vertices of the mesh now in use
+  int grid_cols = 0, grid_rows = 0;  // vertices of the mesh now in use; 0 without depth
   double frame_ms = 0;               // drawing one frame, both eyes, smoothed
 };
 
-// All verbs on the thread of the display's GL context, between its beginFrame and present.
+// All verbs, and the end of it, on the thread of the display's GL context, between its beginFrame and present: GL
+// names die with the display's context, so the renderer goes before the display closes.
 class SceneRenderer {
  public:
   // `frame_budget`: how long drawing one frame may take; the grid's step grows until it holds, and shrinks again when
@@ -39,11 +40,13 @@ class SceneRenderer {
   void setStereo(const StereoSettings& settings) noexcept;
   [[nodiscard]] const StereoSettings& stereo() const noexcept;
 
-  // Uploads a pair; an empty depth draws the colour flat on the far plane's centre. Unsupported for a pixel format that
-  // cannot be uploaded. `calibration` and `volume` as the haptic side uses them.
+  // Uploads a pair: the frames may go when it returns. An empty depth shows the colour as a flat picture in the screen
+  // plane, the same for both eyes. Unsupported for a pixel format that cannot be uploaded; the pair before stays then.
+  // `calibration` and `volume` as the haptic side uses them.
   [[nodiscard]] Result<void> setFrame(const Frame& color, const Frame& depth, const DepthCalibration& calibration,
                                       const DisplayVolume& volume);
-  // Draws the last frame set into `surface`. Black when none was set.
+  // Draws the last pair set into `surface`; black when none was set. Blocking: waits until it is drawn, which is how the
+  // time is known.
   [[nodiscard]] Result<void> draw(const DisplaySurface& surface, const std::optional<FingerMark>& finger);
   [[nodiscard]] RenderStatistics statistics() const noexcept;
 

@@ -24,8 +24,6 @@ struct StereoSettings {
   bool swap_eyes = false;
 };
 
-enum class Eye : std::uint8_t { Left, Right, Center };
-
 struct EyeView {
   glm::dmat4 view_projection{1};
   // The part of the surface, in fractions of it: x, y (from the bottom), width, height.
@@ -34,9 +32,14 @@ struct EyeView {
   std::array<bool, 3> channels{true, true, true};
 };
 
-// The views of a layout, one or two. The window of each camera is the picture's rectangle in the screen plane,
-// letterboxed into `surface_aspect` (width over height of the whole surface; sbs squeezes each half to that shape).
-// Off-axis projection (never toed in): parallel axes, sheared frusta, so that there is no vertical parallax.
+// The views of a layout, one or two, the left eye's first: the left half of side by side, the red of anaglyph; mono is
+// seen from between the eyes. The window of each camera is the picture's rectangle in the screen plane, letterboxed
+// into `surface_aspect` (width over height of the whole surface; sbs squeezes each half to that shape).
+//
+// Off-axis projection (never toed in): parallel axes, sheared frusta, so that there is no vertical parallax. With
+// h = z - screen_z of a point, e the eyes' distance and d theirs from the screen, the left eye's image of the point
+// lies x_left - x_right = e h / (d - h) to the right of the right eye's, in mm on the screen plane: crossed, and so in
+// front of the screen, where h > 0; for the farthest points it tends to -e, parallel lines of sight.
 struct EyeViews {
   std::array<EyeView, 2> views;
   int count = 1;

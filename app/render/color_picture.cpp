@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+// Uploading colour planes and the one pass that turns them into RGB.
+#include "app/render/color_picture.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <glm/gtc/type_ptr.hpp>
+#include <glm/mat3x3.hpp>
+#include <utility>
+
+namespace relievo {
+namespace {
+
+constexpr const char* kVertexShader = R"(
+uniform vec2 chroma_scale;
+out highp vec2 luma_at;
+out highp vec2 chroma_at;
+void main() {
+  luma_at = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0;  // one triangle over the whole target
+  chroma_at = luma_at * chroma_scale;
+  gl_Position = vec4(luma_at * 2.0 - 1.0, 0.0, 1.0);
+}
+)";
+
+constexpr const char* kFragmentShader = R"(
+precision mediump float;
+in highp vec2 luma_at;
+in highp vec2 chroma_at;
+uniform sampler2D plane0;
+uniform sampler2D plane1;
+uniform sampler2D plane2;
+uniform mat4x3 to_rgb;
+uniform vec3 bias;
+out vec4 color;
+void main() {
+  color = vec4(to_rgb * SAMPLE + bias, 1.0);
+}
+)";
+
+struct Weights {
+  float red, blue;
+};
+
+// ITU-R BT.601-7, BT.709-6, BT.2020-2. What the stream does not say goes by the picture's size, as players do.
+Weights weightsOf(const Frame& frame) noexcept {
+  ColorMatrix matrix = frame.matrix;
+  if (matrix == ColorMatrix::Unspecified) matrix = frame.height >= 720 ? ColorMatrix::Bt709 : ColorMatrix::Bt601;
+  switch (matrix) {
+    case ColorMatrix::Bt601: return {0.299f, 0.114f};
+    case ColorMatrix::Bt2020: return {0.2627f, 0.0593f};
+    default: return {0.2126f, 0.0722f};
+  }
+}
+
+// Columns: what the first, second and third component add to red, green and blue.
+glm::mat3 rgbFromComponents(const Frame& frame) noexcept {
+  if (frame.model == ColorModel::Gray) return {glm::vec3(1), glm::vec3(0), glm::vec3(0)};
+  if (frame.model == ColorModel::Rgb) return glm::mat3(1);
+  const auto [red, blue] = weightsOf(frame);
+  const float green = 1 - red - blue;
+  return {glm::vec3(1), glm::vec3(0, -2 * blue * (1 - blue) / green, 2 * (1 - blue)),
+          glm::vec3(2 * (1 - red), -2 * red * (1 - red) / green, 0)};
+}
+
+bool limited(const Frame& frame) noexcept {
+  if (frame.range != ColorRange::Unspecified) return frame.range == ColorRange::Limited;
+  return frame.model == ColorModel::Yuv;
+}
+
+}  // namespace
+
+std::optional<ColorPicture::Arrangement> ColorPicture::arrangementOf(const Frame& frame) noexcept {
+  const auto& [first, second, third] = frame.components;
+  const int bytes = first.bits > 8 ? 2 : 1;
+  const auto alone = [&](const Component& c) { return c.step_bytes == bytes && c.offset_bytes == 0; };
+  const bool readable = first.bits >= 8 && first.bits <= 16 && (bytes == 2 || first.shift == 0);
+  if (!readable) return std::nullopt;
+  if (frame.model == ColorModel::Gray) return alone(first) ? std::optional(Arrangement::Gray) : std::nullopt;
+
+  const auto likeFirst = [&](const Component& c) { return c.bits == first.bits && c.shift == first.shift; };
+  if (!likeFirst(second) || !likeFirst(third)) return std::nullopt;
+  if (alone(first) && alone(second) && alone(third)) return Arrangement::Planar;
+
+  const auto isPair = [&](const Component& c) { return c.step_bytes == 2 * bytes && c.offset_bytes <= bytes; };
+  if (alone(first) && isPair(second) && isPair(third) && second.plane == third.plane) return Arrangement::SemiPlanar;
+
+  const int step = first.step_bytes;
+  const auto isPacked = [&](const Component& c) {
+    return c.plane == first.plane && c.step_bytes == step && c.offset_bytes + bytes <= step;
+  };
+  const bool whole = step == 3 * bytes || step == 4 * bytes;
+  const bool subsampled = frame.chroma_shift_x != 0 || frame.chroma_shift_y != 0;
+  if (whole && !subsampled && isPacked(first) && isPacked(second) && isPacked(third)) return Arrangement::Packed;
+  return std::nullopt;
+}
+
+const char* ColorPicture::sampling(Arrangement arrangement) noexcept {
+  switch (arrangement) {
+    case Arrangement::Gray: return "#define SAMPLE vec4(texture(plane0, luma_at).r, 0.0, 0.0, 0.0)\n";
+    case Arrangement::Planar:
+      return "#define SAMPLE vec4(texture(plane0, luma_at).r, texture(plane1, chroma_at).r, "
+             "texture(plane2, chroma_at).r, 0.0)\n";
+    case Arrangement::SemiPlanar:
+      return "#define SAMPLE vec4(texture(plane0, luma_at).r, texture(plane1, chroma_at).rg, 0.0)\n";
+    case Arrangement::Packed: return "#define SAMPLE texture(plane0, luma_at)\n";
+  }
+  return "";
+}
+
+Result<void> ColorPicture::check(const Frame& frame) noexcept {
+  if (frame.empty() || frame.width < 1 || frame.height < 1) {
+    return fail(ErrorCode::InvalidArgument, "a colour picture without samples");
+  }
+  if (arrangementOf(frame)) return {};
+  return fail(ErrorCode::Unsupported,
+              "this pixel format cannot be drawn; decode to planar or semi-planar YUV, packed RGB or gray");
+}
+
+Result<void> ColorPicture::setFrame(const Frame& frame) {
+  if (auto drawable = check(frame); !drawable) return drawable;
+  const auto arrangement = arrangementOf(frame);
+  if (arrangement != arrangement_) {
+    auto program = GlProgram::create(sampling(*arrangement), kVertexShader, kFragmentShader);
+    if (!program) return std::unexpected(program.error());
+    program_ = std::move(*program);
+    arrangement_ = arrangement;
+  }
+  width_ = frame.width;
+  height_ = frame.height;
+  upload(frame);
+  setColors(frame);
+  converted_ = false;
+  return {};
+}
+
+void ColorPicture::upload(const Frame& frame) {
+  const Component& first = frame.components[0];
+  const bool narrow = first.bits > 8;
+  const int narrowing = first.shift + first.bits - 8;
+  const auto send = [&](std::size_t texture, const Component& component, int width, int height) {
+    const Plane& plane = frame.planes[component.plane];
+    const auto channels = static_cast<std::uint8_t>(component.step_bytes / (narrow ? 2 : 1));
+    if (narrow) return planes_[texture].uploadNarrowed(channels, plane, width, height, narrowing);
+    planes_[texture].upload({.channels = channels}, plane, width, height);
+  };
+  glActiveTexture(GL_TEXTURE0);
+  send(0, first, width_, height_);
+  if (arrangement_ != Arrangement::Planar && arrangement_ != Arrangement::SemiPlanar) return;
+  const int chroma_width = (width_ + (1 << frame.chroma_shift_x) - 1) >> frame.chroma_shift_x;
+  const int chroma_height = (height_ + (1 << frame.chroma_shift_y) - 1) >> frame.chroma_shift_y;
+  // A last chroma sample that stands for fewer luma samples than the others hangs over the picture's edge.
+  chroma_scale_ = {static_cast<float>(width_) / static_cast<float>(chroma_width << frame.chroma_shift_x),
+                   static_cast<float>(height_) / static_cast<float>(chroma_height << frame.chroma_shift_y)};
+  send(1, frame.components[1], chroma_width, chroma_height);
+  if (arrangement_ == Arrangement::Planar) send(2, frame.components[2], chroma_width, chroma_height);
+}
+
+// Codes arrive as fractions of 255: rgb = sum of column x scale x (fraction - zero point).
+void ColorPicture::setColors(const Frame& frame) noexcept {
+  const glm::mat3 columns = rgbFromComponents(frame);
+  const bool is_limited = limited(frame);
+  const int count = frame.model == ColorModel::Gray ? 1 : 3;
+  to_rgb_ = glm::mat4x3(0);
+  bias_ = glm::vec3(0);
+  for (int i = 0; i < count; ++i) {
+    const Component& component = frame.components[static_cast<std::size_t>(i)];
+    const int channel = component.offset_bytes / (component.bits > 8 ? 2 : 1);
+    const bool chroma = frame.model == ColorModel::Yuv && i > 0;
+    const float span = chroma ? 224.0f : 219.0f;
+    const float scale = is_limited ? 255.0f / span : 1.0f;
+    const float zero = (chroma ? 128.0f : is_limited ? 16.0f : 0.0f) / 255.0f;
+    const int sampled = arrangement_ == Arrangement::Packed                 ? channel
+                        : arrangement_ == Arrangement::SemiPlanar && i > 0 ? 1 + channel
+                                                                            : i;
+    to_rgb_[sampled] = scale * columns[i];
+    bias_ -= zero * scale * columns[i];
+  }
+}
+
+void ColorPicture::bind(GLuint unit, int shown_width, int shown_height) {
+  const auto reduced = [](int samples, int shown) { return samples >= 2 * shown ? (samples + 1) / 2 : samples; };
+  const int width = reduced(width_, std::max(shown_width, 1));
+  const int height = reduced(height_, std::max(shown_height, 1));
+  if (width != target_width_ || height != target_height_) {
+    allocateTarget(width, height);
+    converted_ = false;
+  }
+  if (!converted_) convert();
+  converted_ = true;
+  glActiveTexture(GL_TEXTURE0 + unit);
+  glBindTexture(GL_TEXTURE_2D, target_.get());
+}
+
+void ColorPicture::allocateTarget(int width, int height) {
+  target_width_ = width;
+  target_height_ = height;
+  target_ = gl::generate<GlTexture>(glGenTextures);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, target_.get());
+  glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA8, width, height);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  if (framebuffer_.get() == 0) {
+    framebuffer_ = gl::generate<GlFramebuffer>(glGenFramebuffers);
+    no_vertices_ = gl::generate<GlVertexArray>(glGenVertexArrays);
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target_.get(), 0);
+}
+
+void ColorPicture::convert() {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
+  glViewport(0, 0, target_width_, target_height_);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_BLEND);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  program_.use();
+  glUniform2fv(program_.uniform("chroma_scale"), 1, glm::value_ptr(chroma_scale_));
+  glUniformMatrix4x3fv(program_.uniform("to_rgb"), 1, GL_FALSE, glm::value_ptr(to_rgb_));
+  glUniform3fv(program_.uniform("bias"), 1, glm::value_ptr(bias_));
+  constexpr std::array<const char*, 3> kPlanes{"plane0", "plane1", "plane2"};
+  for (GLuint unit = 0; unit < kPlanes.size(); ++unit) {
+    planes_[unit].bind(unit);
+    glUniform1i(program_.uniform(kPlanes[unit]), static_cast<GLint>(unit));
+  }
+  glBindVertexArray(no_vertices_.get());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+}  // namespace relievo

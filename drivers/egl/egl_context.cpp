@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// Start and end of an EGL display and of the context on it.
+#include "drivers/egl/egl_context.h"
+
+#include <array>
+#include <map>
+#include <mutex>
+#include <utility>
+
+namespace relievo {
+namespace {
+
+// How many contexts live on each display: eglTerminate does not count, and would take the others' display away.
+std::mutex g_displays_mutex;
+std::map<EGLDisplay, int> g_displays;
+
+bool acquire(EGLDisplay display) noexcept {
+  const std::scoped_lock lock(g_displays_mutex);
+  if (g_displays[display] == 0 && eglInitialize(display, nullptr, nullptr) != EGL_TRUE) {
+    g_displays.erase(display);
+    return false;
+  }
+  ++g_displays[display];
+  return true;
+}
+
+void release(EGLDisplay display) noexcept {
+  const std::scoped_lock lock(g_displays_mutex);
+  if (--g_displays[display] > 0) return;
+  g_displays.erase(display);
+  eglTerminate(display);
+}
+
+}  // namespace
+
+EglContext::EglContext(EglContext&& other) noexcept
+    : display_(std::exchange(other.display_, EGL_NO_DISPLAY)),
+      config_(other.config_),
+      context_(std::exchange(other.context_, EGL_NO_CONTEXT)) {}
+
+EglContext::~EglContext() {
+  if (display_ == EGL_NO_DISPLAY) return;
+  if (context_ != EGL_NO_CONTEXT) {
+    if (eglGetCurrentContext() == context_) {
+      eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    }
+    eglDestroyContext(display_, context_);
+  }
+  release(display_);
+}
+
+Result<EglContext> EglContext::create(EGLDisplay display, EGLint surface_type) {
+  if (display == EGL_NO_DISPLAY || !acquire(display)) {
+    return fail(ErrorCode::Unsupported, "EGL does not start here; install a GL driver (Debian: libegl1, libgl1-mesa-dri)");
+  }
+  EglContext made(display);
+
+  const std::array<EGLint, 13> wanted{EGL_SURFACE_TYPE, surface_type, EGL_RENDERABLE_TYPE, EGL_OPENGL_ES3_BIT,
+                                      EGL_RED_SIZE,     8,            EGL_GREEN_SIZE,      8,
+                                      EGL_BLUE_SIZE,    8,            EGL_ALPHA_SIZE,      8,
+                                      EGL_NONE};
+  EGLint found = 0;
+  if (eglBindAPI(EGL_OPENGL_ES_API) != EGL_TRUE ||
+      eglChooseConfig(display, wanted.data(), &made.config_, 1, &found) != EGL_TRUE || found < 1) {
+    return fail(ErrorCode::Unsupported, "the GL driver offers no GLES 3 with 8-bit colour; a newer driver is needed");
+  }
+  constexpr std::array<EGLint, 3> kVersion3{EGL_CONTEXT_CLIENT_VERSION, 3, EGL_NONE};
+  made.context_ = eglCreateContext(display, made.config_, EGL_NO_CONTEXT, kVersion3.data());
+  if (made.context_ != EGL_NO_CONTEXT) return made;
+  if (eglGetError() == EGL_BAD_ALLOC) return fail(ErrorCode::Exhausted, "no memory left for a GL context");
+  return fail(ErrorCode::Unsupported, "the GL driver refuses a GLES 3 context; a newer driver is needed");
+}
+
+Result<void> EglContext::makeCurrent(EGLSurface surface) noexcept {
+  if (eglGetCurrentContext() == context_ && eglGetCurrentSurface(EGL_DRAW) == surface) return {};
+  if (eglMakeCurrent(display_, surface, surface, context_) == EGL_TRUE) return {};
+  switch (eglGetError()) {
+    case EGL_BAD_ACCESS:
+      return fail(ErrorCode::InvalidState, "the GL context is current on another thread; use the one that opened it");
+    case EGL_BAD_ALLOC: return fail(ErrorCode::Exhausted, "no memory left to make the GL context current");
+    case EGL_CONTEXT_LOST: return fail(ErrorCode::Lost, "the GL context is lost; close the display and open it again");
+    default: return fail(ErrorCode::Io, "the GL context cannot be made current");
+  }
+}
+
+}  // namespace relievo

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// A GLES 3 context on an EGL display, with everything that it needs given back when it goes.
+#pragma once
+
+#include <EGL/egl.h>
+
+#include "platform/error.h"
+
+namespace relievo {
+
+// Owns a share of the EGL display and one context. An EGL display is one per process however often it is asked for, so
+// it is terminated with the last context on it. Thread: the one that makes it current.
+class EglContext {
+ public:
+  // Starts `display` and makes a context whose config can draw on surfaces of `surface_type` (EGL_PBUFFER_BIT, ..).
+  // Unsupported where there is no EGL or no GLES 3, Exhausted without memory.
+  [[nodiscard]] static Result<EglContext> create(EGLDisplay display, EGLint surface_type);
+  EglContext(EglContext&& other) noexcept;
+  EglContext& operator=(EglContext&&) = delete;
+  ~EglContext();
+
+  // Does nothing when it is current already. InvalidState when another thread holds it.
+  [[nodiscard]] Result<void> makeCurrent(EGLSurface surface) noexcept;
+
+  [[nodiscard]] EGLDisplay display() const noexcept { return display_; }
+  [[nodiscard]] EGLConfig config() const noexcept { return config_; }
+
+ private:
+  explicit EglContext(EGLDisplay display) noexcept : display_(display) {}
+
+  EGLDisplay display_ = EGL_NO_DISPLAY;
+  EGLConfig config_ = nullptr;
+  EGLContext context_ = EGL_NO_CONTEXT;
+};
+
+}  // namespace relievo

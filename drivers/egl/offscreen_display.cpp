@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// The display without a screen: an FBO, read back after each frame when it is captured.
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <GLES3/gl3.h>
+
+#include <array>
+#include <charconv>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "drivers/egl/egl.h"
+#include "drivers/egl/egl_context.h"
+#include "drivers/egl/y4m_writer.h"
+
+namespace relievo {
+namespace {
+
+constexpr double kDefaultRate = 30.0;
+
+struct Capture {
+  std::string path;
+  double rate = kDefaultRate;
+};
+
+// "FILE@25" is a file and a rate; an @ that no sensible number follows is part of the file's name.
+Capture parseCapture(std::string spec) {
+  const std::size_t at = spec.rfind('@');
+  if (at == std::string::npos) return {std::move(spec)};
+  double rate = 0;
+  const char* const end = spec.data() + spec.size();
+  const auto [rest, problem] = std::from_chars(spec.data() + at + 1, end, rate);
+  const bool is_rate = problem == std::errc() && rest == end && rate >= 0.001 && rate <= 1000.0;
+  if (!is_rate) return {std::move(spec)};
+  return {spec.substr(0, at), rate};
+}
+
+// Client extensions can be asked for without a display; where they cannot, the string is null.
+bool hasSurfacelessPlatform() {
+  const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+  return extensions != nullptr &&
+         std::string_view(extensions).find("EGL_MESA_platform_surfaceless") != std::string_view::npos;
+}
+
+EGLDisplay surfacelessDisplay() {
+  const auto get = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
+  if (get == nullptr || !hasSurfacelessPlatform()) return EGL_NO_DISPLAY;
+  return get(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr);
+}
+
+Result<EglContext> createContext() {
+  auto surfaceless = EglContext::create(surfacelessDisplay(), EGL_PBUFFER_BIT);
+  if (surfaceless) return surfaceless;
+  return EglContext::create(eglGetDisplay(EGL_DEFAULT_DISPLAY), EGL_PBUFFER_BIT);
+}
+
+class OffscreenDisplay final : public Display {
+ public:
+  explicit OffscreenDisplay(Capture capture) : capture_(std::move(capture)) {}
+  ~OffscreenDisplay() override { close(); }
+
+  [[nodiscard]] DisplayCapabilities capabilities() const noexcept override {
+    return {.name = "offscreen", .gles = true, .refresh_period = Duration(0)};
+  }
+
+ private:
+  Result<void> openDisplay(const DisplayConfig& config) override;
+  Result<DisplaySurface> startFrame() override;
+  Result<Duration> showFrame() override;
+  void closeDisplay() noexcept override;
+  Result<void> createFramebuffer();
+
+  Capture capture_;
+  std::optional<EglContext> context_;
+  EGLSurface pbuffer_ = EGL_NO_SURFACE;  // not every EGL lets a context be current without a surface
+  DisplaySurface surface_;
+  std::optional<Y4mWriter> writer_;
+  std::vector<std::uint8_t> readback_;
+};
+
+Result<void> OffscreenDisplay::openDisplay(const DisplayConfig& config) {
+  auto context = createContext();
+  if (!context) return std::unexpected(context.error());
+  context_.emplace(std::move(*context));
+
+  constexpr std::array<EGLint, 5> kOnePixel{EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};
+  pbuffer_ = eglCreatePbufferSurface(context_->display(), context_->config(), kOnePixel.data());
+  if (pbuffer_ == EGL_NO_SURFACE) return fail(ErrorCode::Exhausted, "EGL gives no pbuffer; is memory short?");
+  if (auto current = context_->makeCurrent(pbuffer_); !current) return current;
+
+  surface_ = {.framebuffer = 0, .width = config.width, .height = config.height};
+  if (auto made = createFramebuffer(); !made) return made;
+  if (capture_.path.empty()) return {};
+
+  auto writer = Y4mWriter::create(capture_.path, config.width, config.height, capture_.rate);
+  if (!writer) return std::unexpected(writer.error());
+  writer_.emplace(std::move(*writer));
+  readback_.resize(static_cast<std::size_t>(config.width) * config.height * 4);
+  return {};
+}
+
+// The names die with the context.
+Result<void> OffscreenDisplay::createFramebuffer() {
+  GLint largest = 0;
+  glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
+  if (surface_.width > largest || surface_.height > largest) {
+    return fail(ErrorCode::InvalidArgument, "the picture is larger than the GL driver can draw; ask for a smaller one");
+  }
+  std::array<GLuint, 2> buffers{};
+  glGenRenderbuffers(2, buffers.data());
+  glGenFramebuffers(1, &surface_.framebuffer);
+  glBindFramebuffer(GL_FRAMEBUFFER, surface_.framebuffer);
+  glBindRenderbuffer(GL_RENDERBUFFER, buffers[0]);
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, surface_.width, surface_.height);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers[0]);
+  glBindRenderbuffer(GL_RENDERBUFFER, buffers[1]);
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, surface_.width, surface_.height);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers[1]);
+  const bool complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+  if (glGetError() == GL_OUT_OF_MEMORY || !complete) {
+    return fail(ErrorCode::Exhausted, "no memory left for a picture of this size; ask for a smaller one");
+  }
+  return {};
+}
+
+Result<DisplaySurface> OffscreenDisplay::startFrame() {
+  if (auto current = context_->makeCurrent(pbuffer_); !current) return std::unexpected(current.error());
+  glBindFramebuffer(GL_FRAMEBUFFER, surface_.framebuffer);
+  return surface_;
+}
+
+Result<Duration> OffscreenDisplay::showFrame() {
+  if (auto current = context_->makeCurrent(pbuffer_); !current) return std::unexpected(current.error());
+  if (!writer_) {
+    glFlush();
+    return Duration(0);
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, surface_.framebuffer);
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glReadPixels(0, 0, surface_.width, surface_.height, GL_RGBA, GL_UNSIGNED_BYTE, readback_.data());
+  if (glGetError() != GL_NO_ERROR) return fail(ErrorCode::Io, "the picture cannot be read back from GL");
+  if (auto written = writer_->write(readback_); !written) return std::unexpected(written.error());
+  return Duration(0);
+}
+
+void OffscreenDisplay::closeDisplay() noexcept {
+  writer_.reset();
+  readback_ = {};
+  if (!context_) return;
+  // Marked first, gone with the context that holds it current.
+  if (pbuffer_ != EGL_NO_SURFACE) eglDestroySurface(context_->display(), std::exchange(pbuffer_, EGL_NO_SURFACE));
+  context_.reset();
+  surface_ = {};
+}
+
+}  // namespace
+
+std::unique_ptr<Display> makeOffscreenDisplay(std::string capture_path) {
+  return std::make_unique<OffscreenDisplay>(parseCapture(std::move(capture_path)));
+}
+
+}  // namespace relievo

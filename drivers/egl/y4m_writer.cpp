@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// From bottom-up RGBA to planar BT.709.
+#include "drivers/egl/y4m_writer.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstddef>
+
+namespace relievo {
+namespace {
+
+// ITU-R BT.709-6, 3.2 to 3.5, limited range, in 1/65536: the rows sum to 219/255 and to 0.
+constexpr int kShift = 16;
+constexpr int kYr = 11966, kYg = 40254, kYb = 4064;
+constexpr int kUr = -6596, kUg = -22189, kUb = 28785;
+constexpr int kVr = 28784, kVg = -26145, kVb = -2639;
+constexpr int kHalf = 1 << (kShift - 1);
+
+std::uint8_t luma(const std::uint8_t* p) noexcept {
+  return static_cast<std::uint8_t>(16 + ((kYr * p[0] + kYg * p[1] + kYb * p[2] + kHalf) >> kShift));
+}
+
+ErrorCode codeOf(int os_error) noexcept {
+  if (os_error == ENOENT) return ErrorCode::NotFound;
+  if (os_error == EACCES || os_error == EROFS) return ErrorCode::PermissionDenied;
+  return ErrorCode::Io;
+}
+
+}  // namespace
+
+Y4mWriter::Y4mWriter(std::FILE* file, int width, int height)
+    : file_(file),
+      width_(width),
+      height_(height),
+      picture_(static_cast<std::size_t>(width) * height +
+               2 * static_cast<std::size_t>((width + 1) / 2) * static_cast<std::size_t>((height + 1) / 2)) {}
+
+Result<Y4mWriter> Y4mWriter::create(const std::string& path, int width, int height, double rate) {
+  std::FILE* file = std::fopen(path.c_str(), "wbe");
+  if (file == nullptr) {
+    return fail(codeOf(errno), "the capture file cannot be written; check its folder and the rights on it", errno);
+  }
+  Y4mWriter writer(file, width, height);
+  const long thousandths = std::lround(rate * 1000.0);
+  if (std::fprintf(file, "YUV4MPEG2 W%d H%d F%ld:1000 Ip A1:1 C420jpeg XCOLORRANGE=LIMITED\n", width, height,
+                   thousandths) < 0) {
+    return fail(ErrorCode::Io, "the capture file cannot be written; is the disk full?", errno);
+  }
+  return writer;
+}
+
+Result<void> Y4mWriter::write(std::span<const std::uint8_t> rgba) {
+  const std::ptrdiff_t row_bytes = static_cast<std::ptrdiff_t>(width_) * 4;
+  const auto rowFromTop = [&](int y) { return rgba.data() + (height_ - 1 - y) * row_bytes; };
+
+  std::uint8_t* out = picture_.data();
+  for (int y = 0; y < height_; ++y) {
+    const std::uint8_t* row = rowFromTop(y);
+    for (int x = 0; x < width_; ++x) *out++ = luma(row + static_cast<std::ptrdiff_t>(x) * 4);
+  }
+
+  const int chroma_width = (width_ + 1) / 2;
+  const int chroma_height = (height_ + 1) / 2;
+  std::uint8_t* u = out;
+  std::uint8_t* v = u + static_cast<std::ptrdiff_t>(chroma_width) * chroma_height;
+  for (int y = 0; y < chroma_height; ++y) {
+    const std::uint8_t* upper = rowFromTop(2 * y);
+    const std::uint8_t* lower = rowFromTop(std::min(2 * y + 1, height_ - 1));
+    for (int x = 0; x < chroma_width; ++x) {
+      const std::ptrdiff_t left = static_cast<std::ptrdiff_t>(x) * 8;
+      const std::ptrdiff_t right = std::min(left + 4, row_bytes - 4);
+      const auto sum = [&](int channel) {
+        return upper[left + channel] + upper[right + channel] + lower[left + channel] + lower[right + channel];
+      };
+      const int r = sum(0), g = sum(1), b = sum(2);
+      *u++ = static_cast<std::uint8_t>(128 + ((kUr * r + kUg * g + kUb * b + 4 * kHalf) >> (kShift + 2)));
+      *v++ = static_cast<std::uint8_t>(128 + ((kVr * r + kVg * g + kVb * b + 4 * kHalf) >> (kShift + 2)));
+    }
+  }
+
+  if (std::fputs("FRAME\n", file_.get()) < 0 ||
+      std::fwrite(picture_.data(), 1, picture_.size(), file_.get()) != picture_.size() ||
+      std::fflush(file_.get()) != 0) {
+    return fail(ErrorCode::Io, "the capture file cannot be written on; is the disk full?", errno);
+  }
+  return {};
+}
+
+}  // namespace relievo
