@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// The device's side of the simulation: encoders, delay, amplifier, end stops, watchdog; and the hand that
+// holds it.
+#include "drivers/sim/sim.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "drivers/sim/moving_mass.h"
+
+namespace relievo {
+namespace {
+
+constexpr Duration kLongestAdvance = std::chrono::milliseconds(20);
+constexpr Duration kWatchdog = std::chrono::milliseconds(20);
+
+class SimHaptic final : public HapticDevice {
+public:
+  SimHaptic(const SimDeviceProfile& profile, HandPath path, const Clock& clock)
+      : profile_(profile), path_(std::move(path)), clock_(clock) {}
+
+  // A force held over a tick and n ticks late is late by (n + 1/2) T, and a spring K late by a short while t
+  // is a spring with a damper of -K t: the device's own damping b outweighs it up to K = 2 b / ((1 + 2 n) T).
+  // (Colgate and Brown 1994 for n = 0.) That is without the hand, which adds damping, and without dry
+  // friction.
+  [[nodiscard]] HapticCapabilities capabilities() const noexcept override {
+    const double stiffness =
+        2.0 * profile_.damping_n_s_per_mm * profile_.rate_hz / (1.0 + 2.0 * static_cast<double>(delay()));
+    return {.name = profile_.name,
+            .workspace_min_mm = profile_.workspace_min_mm,
+            .workspace_max_mm = profile_.workspace_max_mm,
+            .peak_force_n = profile_.peak_force_n,
+            .continuous_force_n = profile_.continuous_force_n,
+            .max_stiffness_n_per_mm = stiffness,
+            .rate_hz = profile_.rate_hz};
+  }
+
+private:
+  Result<void> openDevice() override {
+    const bool mass = profile_.moving_mass_kg > 0 && profile_.hand.mass_kg >= 0;
+    if (!mass || !(profile_.rate_hz > 0) || profile_.substeps_per_tick < 1) {
+      return fail(ErrorCode::InvalidArgument,
+                  "a simulated device has a mass, a rate and at least one step a tick");
+    }
+    time_s_ = 0;
+    target_ = path_.at(0);
+    mass_ = MovingMass{.mass_kg = profile_.moving_mass_kg + profile_.hand.mass_kg,
+                       .damping_n_s_per_mm = profile_.damping_n_s_per_mm + profile_.hand.damping_n_s_per_mm,
+                       .coulomb_friction_n = profile_.coulomb_friction_n,
+                       .position_mm = target_.position_mm};
+    release();
+    return {};
+  }
+
+  Result<void> homeDevice() override { return {}; }
+
+  Result<void> startDevice() override {
+    now_ = last_write_ = clock_.now();
+    return {};
+  }
+
+  Result<HapticSample> readSample() RELIEVO_RT override {
+    const MonotonicTime now = clock_.now();
+    const Duration elapsed = std::clamp(now - now_, Duration(0), kLongestAdvance);
+    now_ = now;
+    if (elapsed > Duration(0)) advance(toSeconds(elapsed));
+    if (now - last_write_ > kWatchdog) release();
+    return HapticSample{.position_mm = encode(mass_.position_mm)};
+  }
+
+  Result<void> writeForce(const glm::dvec3& force_n) RELIEVO_RT override {
+    std::move_backward(pipeline_.begin(), pipeline_.end() - 1, pipeline_.end());
+    pipeline_.front() = force_n;
+    last_write_ = now_;
+    return {};
+  }
+
+  void stopDevice() noexcept override { release(); }
+  void closeDevice() noexcept override { release(); }
+
+  void release() RELIEVO_RT { pipeline_.fill(glm::dvec3(0)); }
+
+  [[nodiscard]] std::size_t delay() const RELIEVO_RT {
+    return static_cast<std::size_t>(std::clamp(profile_.delay_ticks, 0, SimDeviceProfile::kMaxDelayTicks));
+  }
+
+  // The path's point moves straight from where it was to where it will be: one look at the path a tick, not
+  // one a step.
+  void advance(double elapsed_s) RELIEVO_RT {
+    const double steps = std::ceil(elapsed_s * profile_.rate_hz * profile_.substeps_per_tick - 1e-6);
+    const double dt_s = elapsed_s / steps;
+    time_s_ += elapsed_s;
+    const HandPoint goal = path_.at(time_s_);
+    const glm::dvec3 target_step = (goal.position_mm - target_.position_mm) / steps;
+    const glm::dvec3 target_velocity = target_step / dt_s;
+    const glm::dvec3 limit(goal.force_limit_n);
+    const SimHand& hand = profile_.hand;
+    const glm::dvec3 constant_n = pipeline_[delay()] + hand.damping_n_s_per_mm * target_velocity;
+    glm::dvec3 target = target_.position_mm;
+    for (double i = 0; i < steps; ++i) {
+      target += target_step;
+      const glm::dvec3 spring_n = hand.stiffness_n_per_mm * (target - mass_.position_mm);
+      mass_.step(constant_n + glm::clamp(spring_n, -limit, limit), dt_s);
+      stopAtEnds();
+    }
+    target_ = goal;
+  }
+
+  void stopAtEnds() RELIEVO_RT {
+    const glm::dvec3 inside =
+        glm::clamp(mass_.position_mm, profile_.workspace_min_mm, profile_.workspace_max_mm);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (inside[axis] != mass_.position_mm[axis]) mass_.velocity_mm_per_s[axis] = 0;
+    }
+    mass_.position_mm = inside;
+  }
+
+  [[nodiscard]] glm::dvec3 encode(const glm::dvec3& position_mm) const RELIEVO_RT {
+    const double step = profile_.encoder_step_mm;
+    if (!(step > 0)) return position_mm;
+    return glm::round(position_mm / step) * step;
+  }
+
+  SimDeviceProfile profile_;
+  HandPath path_;
+  const Clock& clock_;
+  MonotonicTime now_;  // up to which the simulation has come
+  MonotonicTime last_write_;
+  double time_s_ = 0;  // on the hand's path
+  HandPoint target_;
+  MovingMass mass_;
+  std::array<glm::dvec3, SimDeviceProfile::kMaxDelayTicks + 1> pipeline_{};  // [0] is the newest force
+};
+
+}  // namespace
+
+std::unique_ptr<HapticDevice> makeSimHaptic(const SimDeviceProfile& profile, HandPath path,
+                                            const Clock& clock) {
+  return std::make_unique<SimHaptic>(profile, std::move(path), clock);
+}
+
+}  // namespace relievo

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// The film's clock: unset until told, never jumping, exact at its own rate.
+#include "hal/media_clock.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace relievo {
+namespace {
+
+using namespace std::chrono_literals;
+
+// The machine's time and the film's begin far apart, so that mixing them up shows.
+constexpr MonotonicTime machine(Duration d) {
+  return MonotonicTime(100h + d);
+}
+constexpr MediaTime film(Duration d) {
+  return MediaTime(d);
+}
+
+TEST(MediaClock, IsUnsetUntilStarted) {
+  MediaClock clock;
+  EXPECT_EQ(clock.sample(), std::nullopt) << "no pair";
+  EXPECT_EQ(clock.position(machine(0s)), std::nullopt);
+  EXPECT_EQ(clock.pause(machine(0s)).error().code, ErrorCode::InvalidState);
+  EXPECT_EQ(clock.resume(machine(0s)).error().code, ErrorCode::InvalidState);
+  EXPECT_FALSE(clock.paused());
+  clock.start(film(2s), machine(0s));
+  EXPECT_EQ(clock.position(machine(0s)), film(2s));
+}
+
+TEST(MediaClock, RunsNanosecondByNanosecondForDays) {
+  MediaClock clock;
+  clock.start(film(7ns), machine(0s));
+  EXPECT_EQ(clock.position(machine(240h + 1ns)), film(240h + 8ns));
+  EXPECT_EQ(clock.position(machine(-1s)), film(7ns - 1s)) << "also backwards";
+}
+
+TEST(MediaClock, StandsWhilePausedAndGoesOnFromThere) {
+  MediaClock clock;
+  clock.start(film(0s), machine(0s));
+  ASSERT_TRUE(clock.pause(machine(3s)));
+  EXPECT_TRUE(clock.paused());
+  EXPECT_EQ(clock.position(machine(3s)), film(3s));
+  EXPECT_EQ(clock.position(machine(1h)), film(3s));
+  ASSERT_TRUE(clock.resume(machine(1h)));
+  EXPECT_FALSE(clock.paused());
+  EXPECT_EQ(clock.position(machine(1h)), film(3s));
+  EXPECT_EQ(clock.position(machine(1h + 500ms)), film(3500ms));
+}
+
+TEST(MediaClock, PausingOrResumingTwiceChangesNothing) {
+  MediaClock clock;
+  clock.start(film(0s), machine(0s));
+  ASSERT_TRUE(clock.pause(machine(1s)));
+  ASSERT_TRUE(clock.pause(machine(2s)));
+  EXPECT_EQ(clock.position(machine(9s)), film(1s));
+  ASSERT_TRUE(clock.resume(machine(10s)));
+  ASSERT_TRUE(clock.resume(machine(11s)));
+  EXPECT_EQ(clock.position(machine(12s)), film(3s));
+}
+
+TEST(MediaClock, AChangeOfRateKeepsThePosition) {
+  MediaClock clock;
+  clock.start(film(0s), machine(0s));
+  ASSERT_TRUE(clock.setRate(0.5, machine(4s)));
+  EXPECT_EQ(clock.position(machine(4s)), film(4s));
+  EXPECT_EQ(clock.position(machine(6s)), film(5s));
+  ASSERT_TRUE(clock.setRate(4.0, machine(6s)));
+  EXPECT_EQ(clock.position(machine(6s)), film(5s));
+  EXPECT_EQ(clock.position(machine(7s)), film(9s));
+}
+
+TEST(MediaClock, ARateSetWhilePausedHoldsFromResuming) {
+  MediaClock clock;
+  clock.start(film(0s), machine(0s));
+  ASSERT_TRUE(clock.pause(machine(1s)));
+  ASSERT_TRUE(clock.setRate(2.0, machine(2s)));
+  EXPECT_EQ(clock.position(machine(5s)), film(1s));
+  ASSERT_TRUE(clock.resume(machine(5s)));
+  EXPECT_EQ(clock.position(machine(6s)), film(3s));
+}
+
+TEST(MediaClock, ARateSetWhileUnsetHoldsFromStarting) {
+  MediaClock clock;
+  ASSERT_TRUE(clock.setRate(0.25, machine(0s)));
+  EXPECT_EQ(clock.position(machine(0s)), std::nullopt);
+  clock.start(film(0s), machine(0s));
+  EXPECT_EQ(clock.position(machine(8s)), film(2s));
+}
+
+TEST(MediaClock, StaysPausedWhenStartedAgain) {
+  MediaClock clock;
+  clock.start(film(0s), machine(0s));
+  ASSERT_TRUE(clock.pause(machine(1s)));
+  clock.start(film(30s), machine(2s));
+  EXPECT_TRUE(clock.paused());
+  EXPECT_EQ(clock.position(machine(9s)), film(30s));
+}
+
+TEST(MediaClock, ResetEndsAPauseAndKeepsTheRate) {
+  MediaClock clock;
+  ASSERT_TRUE(clock.setRate(2.0, machine(0s)));
+  clock.start(film(0s), machine(0s));
+  ASSERT_TRUE(clock.pause(machine(1s)));
+  clock.reset();
+  EXPECT_FALSE(clock.paused());
+  EXPECT_EQ(clock.position(machine(2s)), std::nullopt);
+  clock.start(film(10s), machine(3s));
+  EXPECT_EQ(clock.position(machine(4s)), film(12s));
+}
+
+TEST(MediaClock, RefusesARateThatIsNone) {
+  MediaClock clock;
+  clock.start(film(0s), machine(0s));
+  for (const double rate :
+       {0.0, -1.0, 16.5, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    const auto set = clock.setRate(rate, machine(1s));
+    ASSERT_FALSE(set) << rate;
+    EXPECT_EQ(set.error().code, ErrorCode::InvalidArgument);
+  }
+  EXPECT_EQ(clock.position(machine(2s)), film(2s));
+}
+
+// A hundred changes a second, each at an odd moment: the error of each is under a nanosecond, and so is their
+// sum's mean.
+TEST(MediaClock, ManyChangesDoNotAddUp) {
+  MediaClock clock;
+  clock.start(film(0s), machine(0s));
+  Duration expected_ns{0};
+  for (int i = 0; i < 1000; ++i) {
+    const MonotonicTime now = machine(i * 9'999'991ns);
+    ASSERT_TRUE(clock.setRate(i % 2 == 0 ? 0.5 : 1.5, now));
+    expected_ns += i % 2 == 0 ? 4'999'995ns : 14'999'986ns;
+  }
+  const MediaTime end = *clock.position(machine(1000 * 9'999'991ns));
+  EXPECT_NEAR(static_cast<double>((end - film(expected_ns)).count()), 0.0, 1000.0);
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// The script of a remote control: its grammar, and when its keys come.
+#include "drivers/mock/scripted_remote.h"
+
+#include <gtest/gtest.h>
+#include <linux/input-event-codes.h>
+
+#include "drivers/mock/key_names.h"
+
+namespace relievo {
+namespace {
+
+TEST(ScriptedRemote, ReadsKeysWithAndWithoutPrefixAndComments) {
+  const auto keys =
+      parseKeyScript("# a film\n0.5 PLAYPAUSE\n\n  1.25\tKEY_FASTFORWARD # twice as fast\r\n2 stop", "s");
+  ASSERT_TRUE(keys);
+  ASSERT_EQ(keys->size(), 3u);
+  EXPECT_EQ((*keys)[0].at, std::chrono::milliseconds(500));
+  EXPECT_EQ((*keys)[0].code, KEY_PLAYPAUSE);
+  EXPECT_EQ((*keys)[1].at, std::chrono::milliseconds(1250));
+  EXPECT_EQ((*keys)[1].code, KEY_FASTFORWARD);
+  EXPECT_EQ((*keys)[2].at, std::chrono::seconds(2));
+  EXPECT_EQ((*keys)[2].code, KEY_STOP);
+}
+
+TEST(ScriptedRemote, AnEmptyScriptPressesNothing) {
+  const auto keys = parseKeyScript("# nothing\n", "s");
+  ASSERT_TRUE(keys);
+  EXPECT_TRUE(keys->empty());
+}
+
+class ScriptedRemoteWrong : public testing::TestWithParam<const char*> {};
+TEST_P(ScriptedRemoteWrong, IsRefusedAndItsLineIsNamed) {
+  testing::internal::CaptureStderr();
+  const auto keys = parseKeyScript(GetParam(), "keys.txt");
+  const std::string printed = testing::internal::GetCapturedStderr();
+  ASSERT_FALSE(keys);
+  EXPECT_EQ(keys.error().code, ErrorCode::InvalidArgument);
+  EXPECT_NE(printed.find("keys.txt:2:"), std::string::npos) << printed;
+}
+INSTANTIATE_TEST_SUITE_P(Lines, ScriptedRemoteWrong,
+                         testing::Values("1 PLAY\nPLAY 2\n", "1 PLAY\n2\n", "1 PLAY\n2 PLAZ\n",
+                                         "1 PLAY\n-2 PLAY\n", "1 PLAY\n0.5 PLAY\n", "1 PLAY\n2 PLAY PAUSE\n",
+                                         "1 PLAY\nnan PLAY\n", "1 PLAY\n2s PLAY\n", "1 PLAY\n2 KEY_\n"));
+
+TEST(ScriptedRemote, AMissingFileIsNotFound) {
+  const auto keys = loadKeyScript("/nonexistent/keys.txt");
+  ASSERT_FALSE(keys);
+  EXPECT_EQ(keys.error().code, ErrorCode::NotFound);
+}
+
+TEST(ScriptedRemote, PressesEachKeyOnceWhenItsTimeHasCome) {
+  ManualClock clock(MonotonicTime(std::chrono::hours(5)));
+  const auto remote =
+      makeScriptedRemote({{std::chrono::seconds(1), KEY_OK}, {std::chrono::seconds(1), KEY_UP}}, clock);
+  ASSERT_TRUE(remote->open());
+  clock.advance(std::chrono::milliseconds(999));
+  EXPECT_FALSE(remote->poll(clock.now()).value());
+  clock.advance(std::chrono::milliseconds(2));
+  const auto first = remote->poll(clock.now()).value();
+  const auto second = remote->poll(clock.now()).value();
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(first->code, KEY_OK);
+  EXPECT_EQ(first->action, KeyEvent::Action::Press);
+  EXPECT_EQ(first->time, MonotonicTime(std::chrono::hours(5) + std::chrono::seconds(1)));
+  EXPECT_EQ(second->code, KEY_UP);
+  EXPECT_FALSE(remote->poll(clock.now()).value());
+}
+
+TEST(KeyNames, AreThoseOfTheKernel) {
+  EXPECT_EQ(keyCode("KEY_PLAY"), KEY_PLAY);
+  EXPECT_EQ(keyCode("numeric_7"), KEY_NUMERIC_7);
+  EXPECT_EQ(keyCode("7"), KEY_7);
+  EXPECT_EQ(keyCode("KEY_KEY_PLAY"), std::nullopt);
+  EXPECT_EQ(keyCode("PLA"), std::nullopt);
+  EXPECT_EQ(keyCode(""), std::nullopt);
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+// The simulated device as its user sees it: ticks in, positions out, in simulated time.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <ostream>
+
+#include "drivers/sim/sim.h"
+#include "platform/allocation_counter.h"
+
+namespace relievo {
+namespace {
+
+constexpr Duration kTick = std::chrono::milliseconds(1);
+
+HandPath stillAt(const glm::dvec3& position_mm) {
+  return HandPath({{0.0, position_mm}});
+}
+
+// Nobody holds it, nothing rubs, nothing is rounded.
+SimDeviceProfile freeMass() {
+  SimDeviceProfile profile;
+  profile.damping_n_s_per_mm = 0;
+  profile.coulomb_friction_n = 0;
+  profile.encoder_step_mm = 0;
+  profile.delay_ticks = 0;
+  profile.peak_force_n = 1000;
+  profile.hand = {.mass_kg = 0, .stiffness_n_per_mm = 0, .damping_n_s_per_mm = 0};
+  return profile;
+}
+
+struct Bench {
+  explicit Bench(const SimDeviceProfile& profile, HandPath path = stillAt({0, 0, 20}))
+      : device(makeSimHaptic(profile, std::move(path), clock)) {
+    EXPECT_TRUE(device->open() && device->home() && device->start());
+  }
+  glm::dvec3 read() {
+    const auto sample = device->read();
+    EXPECT_TRUE(sample);
+    return sample ? sample->position_mm : glm::dvec3(0);
+  }
+  // Reads, writes what `force` makes of the position, and lets a tick go by; tells the position read.
+  glm::dvec3 tick(const std::function<glm::dvec3(const glm::dvec3&)>& force) {
+    const glm::dvec3 position = read();
+    EXPECT_TRUE(device->write(force(position)));
+    clock.advance(kTick);
+    return position;
+  }
+
+  ManualClock clock;
+  std::unique_ptr<HapticDevice> device;
+};
+
+TEST(SimHaptic, TellsWholeEncoderStepsOfTheTruePosition) {
+  SimDeviceProfile exact, coarse;
+  exact.encoder_step_mm = 0;
+  coarse.encoder_step_mm = 0.5;
+  Bench a(exact, HandPath()), b(coarse, HandPath());
+  double largest_error = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const auto none = [](const glm::dvec3&) { return glm::dvec3(0); };
+    const glm::dvec3 difference = b.tick(none) - a.tick(none);
+    const glm::dvec3 read = b.read() / 0.5;
+    ASSERT_EQ(read.x, std::round(read.x));
+    ASSERT_EQ(read.z, std::round(read.z));
+    for (int axis = 0; axis < 3; ++axis) largest_error = std::max(largest_error, std::abs(difference[axis]));
+  }
+  EXPECT_LE(largest_error, 0.25 + 1e-9);
+  EXPECT_GT(largest_error, 0.2);
+}
+
+class SimHapticDelay : public testing::TestWithParam<int> {};
+
+// One tick of 1 N on 0.075 kg leaves 13.333 mm/s, that is 13.333 um a tick, from the (n+1)th tick on.
+TEST_P(SimHapticDelay, AForceIsHeldForOneTickAfterSoManyTicks) {
+  SimDeviceProfile profile = freeMass();
+  profile.delay_ticks = GetParam();
+  Bench bench(profile);
+  double before = 0;
+  for (int i = 0; i < 12; ++i) {
+    const double x = bench.tick([&](const glm::dvec3&) { return glm::dvec3(i == 0 ? 1.0 : 0.0, 0, 0); }).x;
+    const double moved_um = 1e3 * (x - before);
+    if (i <= GetParam()) {
+      EXPECT_EQ(moved_um, 0.0) << i;
+    } else if (i == GetParam() + 1) {
+      EXPECT_NEAR(moved_um, 6.667, 1e-3) << "v T/2: the speed rises over the tick";
+    } else {
+      EXPECT_NEAR(moved_um, 13.333, 1e-3) << i;
+    }
+    before = x;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Ticks, SimHapticDelay, testing::Values(0, 1, 3, 8));
+
+struct WallCase {
+  int delay_ticks;
+  double of_bound;
+};
+void PrintTo(const WallCase& wall, std::ostream* out) {
+  *out << wall.of_bound << " of the bound, " << wall.delay_ticks << " ticks of delay";
+}
+class SimHapticWall : public testing::TestWithParam<WallCase> {};
+
+// A spring K whose force is t late is K - K t s to first order in t: a spring and a damper of -K t. The force
+// held over a tick is half a tick late on average, and the delay adds n T: t = (1/2 + n) T. The device's own
+// damping b outweighs it while b > K (1/2 + n) T, that is K < 2 b/((1 + 2 n) T). The neglected terms,
+// (w t)^2/6 with w = sqrt(K/m), are under 2 % at the bound.
+TEST_P(SimHapticWall, IsStableBelowTheClassicBoundAndNotAbove) {
+  const auto [delay_ticks, of_bound] = GetParam();
+  SimDeviceProfile profile = freeMass();
+  profile.damping_n_s_per_mm = 0.002;
+  profile.delay_ticks = delay_ticks;
+  const double bound_n_per_mm = 2 * 0.002 / ((1 + 2 * delay_ticks) * 0.001);
+  Bench bench(profile, stillAt({0.01, 0, 20}));
+  EXPECT_NEAR(bench.device->capabilities().max_stiffness_n_per_mm, bound_n_per_mm, 1e-12);
+
+  const double stiffness = of_bound * bound_n_per_mm;
+  double first_swing = 0, last_swing = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const double x = bench.tick([&](const glm::dvec3& p) { return glm::dvec3(-stiffness * p.x, 0, 0); }).x;
+    if (i < 100) first_swing = std::max(first_swing, std::abs(x));
+    if (i >= 900) last_swing = std::max(last_swing, std::abs(x));
+  }
+  if (of_bound < 1) {
+    EXPECT_LT(last_swing, first_swing);
+  } else {
+    EXPECT_GT(last_swing, first_swing);
+  }
+  // The swing goes as exp((K t - b) s/(2 m)), that is 13.3 (K/bound - 1) in 1 s, here over the 0.9 s between
+  // the middles of the two spans, less 15 % for the neglected terms; and each span's largest swing is up to a
+  // tenth of it off.
+  const double exponent = 13.33 * 0.9 * (of_bound - 1);
+  EXPECT_NEAR(std::log(last_swing / first_swing), exponent, 0.15 * std::abs(exponent) + 0.1);
+}
+INSTANTIATE_TEST_SUITE_P(Bound, SimHapticWall,
+                         testing::Values(WallCase{0, 0.5}, WallCase{0, 0.85}, WallCase{0, 1.15},
+                                         WallCase{0, 1.5}, WallCase{1, 0.5}, WallCase{1, 0.85},
+                                         WallCase{1, 1.15}, WallCase{1, 1.5}, WallCase{3, 0.5},
+                                         WallCase{3, 0.85}, WallCase{3, 1.15}, WallCase{3, 1.5}));
+
+// Spring and mass at rest: the hand's 0.3 N/mm pulled by 0.9 N gives way by 3 mm, less what friction holds
+// (0.04 N / 0.3 N/mm = 0.13 mm).
+TEST(SimHaptic, TheHandGivesWayAsASpring) {
+  Bench bench(SimDeviceProfile{});
+  glm::dvec3 position{0};
+  for (int i = 0; i < 2000; ++i)
+    position = bench.tick([](const glm::dvec3&) { return glm::dvec3(0, 0.9, 0); });
+  EXPECT_NEAR(position.y, 3.0, 0.14 + 0.015);
+}
+
+class SimHapticTouch : public testing::TestWithParam<double> {};
+
+TEST_P(SimHapticTouch, TheStrokingHandPressesGentlyWhereverTheSurfaceIs) {
+  Bench bench(SimDeviceProfile{}, HandPath());
+  double least = 1e9, most = 0, left = 0, right = 0, low = 0, high = 0, last_z = 0;
+  for (int i = 0; i < 35'000; ++i) {
+    double force = 0;
+    const glm::dvec3 p = bench.tick([&](const glm::dvec3& at) {
+      force = std::max(0.0, 0.5 * (GetParam() - at.z));
+      return glm::dvec3(0, 0, force);
+    });
+    const int in_round_ms = (i - 500) % 12'000;
+    if (in_round_ms > 3000 && in_round_ms < 10'400) {
+      least = std::min(least, force);
+      most = std::max(most, force);
+      left = std::min(left, p.x), right = std::max(right, p.x);
+      low = std::min(low, p.y), high = std::max(high, p.y);
+    }
+    if (i == 12'499) last_z = p.z;
+  }
+  EXPECT_GT(least, 0.8);
+  EXPECT_LT(most, 2.2);
+  EXPECT_GT(last_z, 50.0) << "it lifts between two strokes";
+  EXPECT_LT(left, -40.0);
+  EXPECT_GT(right, 40.0);
+  EXPECT_LT(low, -25.0);
+  EXPECT_GT(high, 25.0);
+}
+INSTANTIATE_TEST_SUITE_P(Surfaces, SimHapticTouch, testing::Values(0.0, 20.0, 40.0));
+
+TEST(SimHaptic, RunsAlikeToTheLastBit) {
+  Bench a(SimDeviceProfile{}, HandPath()), b(SimDeviceProfile{}, HandPath());
+  for (int i = 0; i < 3000; ++i) {
+    const auto wall = [](const glm::dvec3& p) { return glm::dvec3(0, 0, std::max(0.0, 20 - p.z)); };
+    ASSERT_EQ(a.tick(wall), b.tick(wall));
+  }
+}
+
+TEST(SimHaptic, AGapMovesItByTwentyMillisecondsAtMost) {
+  Bench late(SimDeviceProfile{}, HandPath()), punctual(SimDeviceProfile{}, HandPath());
+  const auto none = [](const glm::dvec3&) { return glm::dvec3(0); };
+  for (int i = 0; i < 1000; ++i) late.tick(none), punctual.tick(none);
+  (void)late.read(), (void)punctual.read();
+  late.clock.advance(std::chrono::seconds(5));
+  punctual.clock.advance(std::chrono::milliseconds(20));
+  EXPECT_EQ(late.read(), punctual.read());
+}
+
+TEST(SimHaptic, AForceThatIsNotRenewedEnds) {
+  Bench bench(freeMass());
+  bench.tick([](const glm::dvec3&) { return glm::dvec3(1, 0, 0); });
+  bench.clock.advance(std::chrono::milliseconds(100));
+  const double first = bench.read().x;
+  bench.clock.advance(kTick);
+  const double second = bench.read().x;
+  bench.clock.advance(kTick);
+  EXPECT_NEAR(bench.read().x - second, second - first, 1e-9) << "it goes on, but is no longer pushed";
+}
+
+TEST(SimHaptic, StopsAtTheEndOfItsWorkspace) {
+  Bench bench(freeMass());
+  glm::dvec3 position{0};
+  for (int i = 0; i < 500; ++i) position = bench.tick([](const glm::dvec3&) { return glm::dvec3(0, 0, 1); });
+  EXPECT_EQ(position, glm::dvec3(0, 0, 80));
+  for (int i = 0; i < 100; ++i) position = bench.tick([](const glm::dvec3&) { return glm::dvec3(0, 0, -1); });
+  // 100 ticks less one of 13.33 m/s^2 from rest: the stop has kept no speed. 65.3 mm, and the integration's
+  // lead.
+  EXPECT_NEAR(position.z, 80 - 0.5 * 13'333.3 * 0.099 * 0.099, 0.05);
+}
+
+TEST(SimHaptic, ATickAllocatesNothing) {
+  Bench bench(SimDeviceProfile{}, HandPath());
+  bench.tick([](const glm::dvec3&) { return glm::dvec3(0); });
+  const std::uint64_t before = threadAllocations();
+  for (int i = 0; i < 100; ++i) {
+    (void)bench.device->read();
+    (void)bench.device->write({0, 0, 1});
+    bench.clock.advance(kTick);
+  }
+  EXPECT_EQ(threadAllocations(), before);
+}
+
+TEST(SimHaptic, RefusesAProfileThatCannotMove) {
+  SimDeviceProfile profile;
+  profile.moving_mass_kg = 0;
+  ManualClock clock;
+  const auto opened = makeSimHaptic(profile, HandPath(), clock)->open();
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().code, ErrorCode::InvalidArgument);
+}
+
+}  // namespace
+}  // namespace relievo
