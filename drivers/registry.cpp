@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Makes back ends by the names of the command line: the only file that knows them all.
+#include "drivers/registry.h"
+
+#include <optional>
+#include <utility>
+
+#include "drivers/egl/egl.h"
+#include "drivers/ffmpeg/ffmpeg.h"
+#include "drivers/mock/mock.h"
+#include "drivers/mock/scripted_remote.h"
+#include "drivers/sim/sim.h"
+
+#define RELIEVO_DISPLAY_NAMES "offscreen[:FILE.y4m] mock"
+#define RELIEVO_HAPTIC_NAMES "sim[:SCRIPT] mock none"
+#define RELIEVO_REMOTE_NAMES "script:FILE none"
+
+namespace relievo::drivers {
+
+const char* const kDisplayNames = RELIEVO_DISPLAY_NAMES;
+const char* const kHapticNames = RELIEVO_HAPTIC_NAMES;
+const char* const kRemoteNames = RELIEVO_REMOTE_NAMES;
+
+namespace {
+
+// "sim:hand.csv" -> sim, hand.csv. Only the first colon parts them, so that a path may hold more.
+struct Spec {
+  std::string_view name;
+  std::optional<std::string> argument;
+
+  explicit Spec(std::string_view text) : name(text.substr(0, text.find(':'))) {
+    if (name.size() < text.size()) argument = text.substr(name.size() + 1);
+  }
+  [[nodiscard]] bool plain(std::string_view wanted) const { return name == wanted && !argument; }
+  [[nodiscard]] bool withArgument(std::string_view wanted) const {
+    return name == wanted && argument && !argument->empty();
+  }
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Display>> makeDisplay(std::string_view text) {
+  static MonotonicClock clock;  // has no state: the mock sleeps by it
+  const Spec spec(text);
+  if (spec.plain("offscreen")) return makeOffscreenDisplay("");
+  if (spec.withArgument("offscreen")) return makeOffscreenDisplay(*spec.argument);
+  if (spec.plain("mock")) return makeMockDisplay(MockDisplayProfile{}, clock);
+  return fail(ErrorCode::InvalidArgument, "no such display; it is one of: " RELIEVO_DISPLAY_NAMES);
+}
+
+Result<std::unique_ptr<HapticDevice>> makeHapticDevice(std::string_view text, Clock& clock) {
+  const Spec spec(text);
+  if (spec.plain("sim")) return makeSimHaptic(SimDeviceProfile{}, HandPath(), clock);
+  if (spec.withArgument("sim")) {
+    auto path = HandPath::load(*spec.argument);
+    if (!path) return std::unexpected(path.error());
+    return makeSimHaptic(SimDeviceProfile{}, std::move(*path), clock);
+  }
+  if (spec.plain("mock")) return makeMockHaptic(MockHapticProfile{}, clock);
+  if (spec.plain("none")) return nullptr;
+  return fail(ErrorCode::InvalidArgument, "no such haptic device; it is one of: " RELIEVO_HAPTIC_NAMES);
+}
+
+Result<std::unique_ptr<RemoteInput>> makeRemoteInput(std::string_view text, Clock& clock) {
+  const Spec spec(text);
+  if (spec.withArgument("script")) {
+    auto keys = loadKeyScript(*spec.argument);
+    if (!keys) return std::unexpected(keys.error());
+    return makeScriptedRemote(std::move(*keys), clock);
+  }
+  if (spec.plain("none")) return nullptr;
+  return fail(ErrorCode::InvalidArgument, "no such remote; it is one of: " RELIEVO_REMOTE_NAMES);
+}
+
+std::unique_ptr<MediaSource> makeMediaSource(std::string_view /*url*/) {
+  return makeFfmpegSource();
+}
+
+std::unique_ptr<VideoDecoder> makeVideoDecoder() {
+  return makeFfmpegDecoder();
+}
+
+}  // namespace relievo::drivers
