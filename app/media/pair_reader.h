@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "app/media/track_reader.h"
+#include "app/media/packing.h"
 #include "app/scene/depth_calibration.h"
 #include "hal/frame.h"
 #include "hal/media_source.h"
@@ -15,13 +15,6 @@
 #include "platform/error.h"
 
 namespace relievo {
-
-enum class Packing : std::uint8_t {
-  Auto,        // two sources or two video tracks if there are, else the shape tells; one plain picture is colour alone
-  Tracks,      // colour and depth are two tracks of one file, or two files
-  SideBySide,  // one picture: colour left, depth right
-  TopBottom,   // one picture: colour on top, depth below
-};
 
 struct SourceOptions {
   std::string url;
@@ -32,8 +25,8 @@ struct SourceOptions {
   CalibrationSettings side_file;     // --calibration FILE
 };
 
-// Colour always; depth where there is one. The depth is that of the same time: its pts is the newest at or before the
-// colour's, and `matched` tells whether it is the right one (see PairReader).
+// Colour always; depth where there is one: the one that DepthFollower finds for the colour's time. `matched` tells
+// whether it is the right one, or a stand-in for one that is missing.
 struct FramePair {
   Frame color;
   Frame depth;  // empty: none at this time
@@ -44,10 +37,10 @@ struct FilmInfo {
   int color_width = 0, color_height = 0;
   int depth_width = 0, depth_height = 0;
   bool has_depth = false;
-  Packing packing = Packing::Auto;  // the one found
-  Duration frame_period{0};         // from the first two timestamps
+  Packing packing = Packing::Auto;  // the one found; Tracks where there is no depth
+  Duration frame_period{0};         // between the first two times, without their rounding; 0 of a single picture
   Duration duration{0};             // 0 unknown
-  CalibrationChoice calibration;
+  CalibrationChoice calibration;    // of a film with depth
   std::string color_codec, depth_codec;
 };
 
@@ -58,11 +51,14 @@ struct PairCounters {
   std::uint64_t damaged = 0;        // packets and pictures that the decoders dropped
 };
 
-// Pairs by timestamp, never by count. A depth frame belongs to every colour frame from its own time (less half a
-// millisecond, the rounding of containers) to the next depth frame's: a depth track of a lower rate is held, one of a
-// higher rate is thinned. A pair is mismatched when the depth at hand is older than the depth track's own period.
+// Pairs by timestamp, never by count, as DepthFollower says. Each source's time begins at its own zero, so that two
+// files begin together, whatever start times their containers hold.
 //
-// One thread; `interrupt` any thread. `next` blocks while it reads and decodes.
+// What fails in the colour is an error. What fails in the depth ends the depth, with one warning: the film goes on
+// without, until a seek finds it again. Depth that was asked for by name (`depth_url`) has to be there at `open`.
+//
+// One thread; `interrupt` any thread. `next` blocks while it reads and decodes. A verb that needs an open film returns
+// InvalidState without one.
 class PairReader {
  public:
   struct Backends {
@@ -71,26 +67,28 @@ class PairReader {
   };
   explicit PairReader(Backends backends);
   ~PairReader();
+  PairReader(const PairReader&) = delete;
+  PairReader& operator=(const PairReader&) = delete;
 
-  // Opens, decodes the first pair (so that `info` is known) and keeps it for `next`. On failure `failedThing` names
-  // the source that failed.
+  // Opens, decodes the first pictures (so that `info` is known) and keeps them for `next`. What was open is closed
+  // before. On failure `failedThing` names what failed: a source, or "calibration".
   [[nodiscard]] Result<void> open(const SourceOptions& options);
   // Nothing at the end of the colour. Depth that ends before the colour yields pairs without depth.
   [[nodiscard]] Result<std::optional<FramePair>> next();
-  // The next pair is the first one at or after `target` (frame-exact: what lies before is decoded and dropped).
+  // The next pair is the first one at or after `target` (frame-exact: what lies before is decoded and dropped), or
+  // nothing beyond the end. Unsupported where the source cannot seek; the film then goes on where it was.
   [[nodiscard]] Result<void> seek(MediaTime target);
   void close() noexcept;
+  // Makes a blocked verb return Cancelled, and those to come until the next `open`.
   void interrupt() noexcept;
 
-  [[nodiscard]] const FilmInfo& info() const noexcept { return info_; }
+  [[nodiscard]] const FilmInfo& info() const noexcept;
   [[nodiscard]] PairCounters counters() const noexcept;
-  [[nodiscard]] const std::string& failedThing() const noexcept { return failed_thing_; }
+  [[nodiscard]] const std::string& failedThing() const noexcept;
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
-  FilmInfo info_;
-  std::string failed_thing_;
 };
 
 }  // namespace relievo

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "hal/media_source.h"
 #include "hal/video_decoder.h"
@@ -14,22 +15,33 @@
 
 namespace relievo {
 
-// One open source and a decoder for each chosen track. Packets of the track that is not asked for at the moment are kept
-// in a queue of bounded size. One thread.
+// One open source and a decoder for each chosen track. One thread, but `interrupt`, which any thread may call.
+//
+// Packets of the track that is not asked for at the moment are kept, within bounds. The first track chosen leads: while
+// it is read and the other's queue is full, that one is emptied, and goes on from its next key frame. While the other
+// is read and the leading track's queue is full, there is nothing for now: its packets are too far behind.
 class TrackReader {
  public:
   static constexpr std::size_t kMaxTracks = 2;
+  static constexpr std::size_t kMaxWaitingPackets = 512;  // 8 s of 60 frames/s
+  static constexpr std::size_t kMaxWaitingBytes = std::size_t{64} << 20;
   TrackReader(std::unique_ptr<MediaSource> source, std::function<std::unique_ptr<VideoDecoder>()> make_decoder);
 
   [[nodiscard]] Result<void> open(const std::string& url);
-  // Chooses a stream to be decoded; returns the track's number for `next`.
+  // Chooses a stream to be decoded; returns the track's number for `next`. A frame period of the caller's in `stream`
+  // is what pictures without times are numbered by. Exhausted when two are chosen already.
   [[nodiscard]] Result<std::size_t> select(const StreamInfo& stream);
-  // The track's next picture in presentation order, or nothing at its end.
+  // The track's next picture in presentation order, or nothing: at its end (`ended`), or for now. Exhausted when the
+  // caller holds more pictures than the decoder allows.
   [[nodiscard]] Result<std::optional<Frame>> next(std::size_t track);
-  // To the key frame at or before `target`.
+  // No more pictures will come, unless after a seek.
+  [[nodiscard]] bool ended(std::size_t track) const noexcept;
+  // Afterwards each track's next picture is the last key frame at or before `target`, or one before that, or the
+  // track's first; a track that has no picture so early or goes on no longer may have a later one or none.
   [[nodiscard]] Result<void> seek(MediaTime target);
   void interrupt() noexcept { source_->interrupt(); }
   [[nodiscard]] const MediaSource& source() const noexcept { return *source_; }
+  // Packets and pictures that the decoders dropped.
   [[nodiscard]] std::uint64_t damaged() const noexcept;
 
  private:
@@ -37,8 +49,18 @@ class TrackReader {
     int stream = -1;
     std::unique_ptr<VideoDecoder> decoder;
     std::deque<Packet> waiting;
+    std::size_t waiting_bytes = 0;
+    std::optional<Frame> found;     // by the last seek
+    bool awaits_keyframe = false;   // what cannot be decoded is not tried
+    bool passed_over = false;       // packets were, for want of a key frame
   };
+  [[nodiscard]] Result<bool> seekOnce(MediaTime from, MediaTime target);
+  [[nodiscard]] Result<std::optional<Frame>> decode(Track& track);
+  [[nodiscard]] Result<bool> feed(Track& track);
   [[nodiscard]] Result<bool> readOnePacket();
+  void keep(Track& track, Packet packet);
+  [[nodiscard]] Result<void> restart(Track& track, bool await_keyframe);
+  [[nodiscard]] static bool isFull(const Track& track) noexcept;
 
   std::unique_ptr<MediaSource> source_;
   std::function<std::unique_ptr<VideoDecoder>()> make_decoder_;

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds the depth among tracks and in halves.
+#include "app/media/packing.h"
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace relievo {
+namespace {
+
+using Tags = std::map<std::string, std::string>;
+constexpr const char* kPackingTag = "DEPTH_PACKING";
+
+std::string lowerCase(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+std::vector<const StreamInfo*> videoTracks(const MediaSource& source) {
+  std::vector<const StreamInfo*> tracks;
+  for (const StreamInfo& stream : source.streams()) {
+    if (stream.kind == StreamKind::Video) tracks.push_back(&stream);
+  }
+  return tracks;
+}
+
+bool speaksOfDepth(const StreamInfo& track) {
+  for (const auto& [key, value] : track.tags) {
+    if (key.starts_with("DEPTH_") && key != kPackingTag) return true;
+    if (key != "TITLE" && key != "NAME" && key != "HANDLER_NAME") continue;
+    const std::string words = lowerCase(value);
+    for (const char* word : {"depth", "disparity", "auxiliary"}) {
+      if (words.find(word) != std::string::npos) return true;
+    }
+  }
+  return false;
+}
+
+const StreamInfo* depthAmong(const std::vector<const StreamInfo*>& tracks) {
+  if (tracks.empty()) return nullptr;
+  const auto marked = std::find_if(tracks.begin(), tracks.end(), [](auto* track) { return speaksOfDepth(*track); });
+  if (marked != tracks.end()) return *marked;
+  return tracks.size() > 1 ? tracks[1] : tracks[0];
+}
+
+std::optional<Packing> packingTag(const Tags& tags) {
+  const auto found = tags.find(kPackingTag);
+  if (found == tags.end()) return std::nullopt;
+  const std::string value = lowerCase(found->second);
+  if (value == "sbs") return Packing::SideBySide;
+  if (value == "tb") return Packing::TopBottom;
+  return std::nullopt;
+}
+
+bool isPacked(Packing packing) { return packing == Packing::SideBySide || packing == Packing::TopBottom; }
+
+// Luma alone, as a gray picture of the same range.
+Frame lumaOf(const Frame& picture) noexcept {
+  Frame gray = picture;
+  if (picture.model != ColorModel::Yuv) return gray;
+  gray.model = ColorModel::Gray;
+  gray.chroma_shift_x = gray.chroma_shift_y = 0;
+  if (gray.range == ColorRange::Unspecified) gray.range = ColorRange::Limited;  // what YUV is that says nothing
+  return gray;
+}
+
+int alignUp(int value, int shift) noexcept { return ((value + (1 << shift) - 1) >> shift) << shift; }
+
+}  // namespace
+
+const StreamInfo* findDepthTrack(const MediaSource& source) { return depthAmong(videoTracks(source)); }
+
+Result<TrackPlan> planTracks(const MediaSource& source, Packing packing, bool depth_elsewhere) {
+  const auto tracks = videoTracks(source);
+  if (tracks.empty()) return fail(ErrorCode::NotFound, "there is no video in it");
+  if (isPacked(packing)) return TrackPlan{tracks[0], nullptr, packing};
+  if (!depth_elsewhere && packing == Packing::Auto) {
+    auto tagged = packingTag(tracks[0]->tags);
+    if (!tagged) tagged = packingTag(source.tags());
+    if (tagged) return TrackPlan{tracks[0], nullptr, *tagged};
+  }
+  if (tracks.size() == 1) {
+    if (!depth_elsewhere && packing == Packing::Tracks) {
+      return fail(ErrorCode::NotFound, "it has one video track only; name the depth's source, or choose sbs or tb");
+    }
+    return TrackPlan{tracks[0], nullptr, Packing::Tracks};
+  }
+  const StreamInfo* const depth = depthAmong(tracks);
+  const StreamInfo* const color = depth == tracks[0] ? tracks[1] : tracks[0];
+  return TrackPlan{color, depth_elsewhere ? nullptr : depth, Packing::Tracks};
+}
+
+Result<Halves> splitPacked(const Frame& picture, Packing packing, DepthCode code) noexcept {
+  const bool beside = packing == Packing::SideBySide;
+  const int whole = beside ? picture.width : picture.height;
+  const Frame depth = code == DepthCode::Luma ? lumaOf(picture) : picture;
+  const int start = alignUp(whole - whole / 2, beside ? depth.chroma_shift_x : depth.chroma_shift_y);
+  const int half = whole - start;
+  if (half < 1) return fail(ErrorCode::InvalidArgument, "the picture is too small to be packed colour and depth");
+  if (beside) return Halves{crop(picture, 0, 0, half, picture.height), crop(depth, start, 0, half, picture.height)};
+  return Halves{crop(picture, 0, 0, picture.width, half), crop(depth, 0, start, picture.width, half)};
+}
+
+}  // namespace relievo

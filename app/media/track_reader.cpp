@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// Packets of one source to the decoders of its tracks, with bounded queues between.
+#include "app/media/track_reader.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace relievo {
+namespace {
+
+constexpr Duration kFirstStepBack = std::chrono::seconds(1);
+
+}  // namespace
+
+TrackReader::TrackReader(std::unique_ptr<MediaSource> source,
+                         std::function<std::unique_ptr<VideoDecoder>()> make_decoder)
+    : source_(std::move(source)), make_decoder_(std::move(make_decoder)) {}
+
+Result<void> TrackReader::open(const std::string& url) { return source_->open(url); }
+
+Result<std::size_t> TrackReader::select(const StreamInfo& stream) {
+  if (track_count_ == kMaxTracks) return fail(ErrorCode::Exhausted, "two tracks of a source are chosen already");
+  Track track;
+  track.stream = stream.index;
+  track.decoder = make_decoder_();
+  if (auto opened = track.decoder->open(stream); !opened) return std::unexpected(opened.error());
+  tracks_[track_count_] = std::move(track);
+  return track_count_++;
+}
+
+Result<std::optional<Frame>> TrackReader::next(std::size_t number) {
+  Track& track = tracks_[number];
+  if (track.found) return std::exchange(track.found, std::nullopt);
+  return decode(track);
+}
+
+bool TrackReader::ended(std::size_t number) const noexcept {
+  const Track& track = tracks_[number];
+  return !track.found && track.decoder->state() == VideoDecoder::State::Ended;
+}
+
+std::uint64_t TrackReader::damaged() const noexcept {
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < track_count_; ++i) sum += tracks_[i].decoder->damaged();
+  return sum;
+}
+
+Result<std::optional<Frame>> TrackReader::decode(Track& track) {
+  for (;;) {
+    auto frame = track.decoder->receive();
+    if (!frame || *frame || track.decoder->state() == VideoDecoder::State::Ended) return frame;
+    if (track.decoder->state() == VideoDecoder::State::Draining) continue;
+    const auto fed = feed(track);
+    if (!fed) return std::unexpected(fed.error());
+    if (!*fed) return std::nullopt;
+  }
+}
+
+// Gives the decoder one packet, or the word that there are no more; false when there is neither for now.
+Result<bool> TrackReader::feed(Track& track) {
+  const bool leads = &track == tracks_.data();
+  while (track.waiting.empty()) {
+    if (!leads && isFull(tracks_[0])) return false;
+    const auto read = readOnePacket();
+    if (!read) return std::unexpected(read.error());
+    if (*read) continue;
+    if (auto draining = track.decoder->drain(); !draining) return std::unexpected(draining.error());
+    return true;
+  }
+  const Packet& packet = track.waiting.front();
+  const auto fed = track.decoder->feed(packet);
+  if (!fed) return std::unexpected(fed.error());
+  if (*fed == Feed::Full) {  // though it had no picture to give either
+    return fail(ErrorCode::Exhausted, "more pictures are held than the decoder allows; let go of some first");
+  }
+  track.waiting_bytes -= packet.bytes;
+  track.waiting.pop_front();
+  return true;
+}
+
+// False at the end of the source.
+Result<bool> TrackReader::readOnePacket() {
+  auto packet = source_->read();
+  if (!packet) return std::unexpected(packet.error());
+  if (!*packet) return false;
+  for (std::size_t i = 0; i < track_count_; ++i) {
+    if (tracks_[i].stream == (*packet)->stream) keep(tracks_[i], std::move(**packet));
+  }
+  return true;
+}
+
+void TrackReader::keep(Track& track, Packet packet) {
+  if (isFull(track)) {
+    track.waiting.clear();
+    track.waiting_bytes = 0;
+    track.awaits_keyframe = true;
+  }
+  if (track.awaits_keyframe && !packet.keyframe) {
+    track.passed_over = true;
+    return;
+  }
+  track.awaits_keyframe = false;
+  track.waiting_bytes += packet.bytes;
+  track.waiting.push_back(std::move(packet));
+}
+
+bool TrackReader::isFull(const Track& track) noexcept {
+  return track.waiting.size() >= kMaxWaitingPackets || track.waiting_bytes >= kMaxWaitingBytes;
+}
+
+// A container seeks by one track, and some by decoding time: another track, or this one's reordered pictures, may then
+// begin after the target. So it is tried from ever earlier, at last from the beginning.
+Result<void> TrackReader::seek(MediaTime target) {
+  Duration step_back{0};
+  for (;;) {
+    const MediaTime from = std::max(MediaTime{}, target - step_back);
+    const auto reached = seekOnce(from, target);
+    if (!reached) return std::unexpected(reached.error());
+    if (*reached || from == MediaTime{}) return {};
+    step_back = step_back == Duration(0) ? kFirstStepBack : 4 * step_back;
+  }
+}
+
+// True when every track has a picture at or before the target, or none any more.
+Result<bool> TrackReader::seekOnce(MediaTime from, MediaTime target) {
+  if (auto sought = source_->seek(from); !sought) return std::unexpected(sought.error());
+  for (std::size_t i = 0; i < track_count_; ++i) {
+    if (auto restarted = restart(tracks_[i], from > MediaTime{}); !restarted) {
+      return std::unexpected(restarted.error());
+    }
+  }
+  bool reached = true;
+  for (std::size_t i = 0; i < track_count_; ++i) {
+    Track& track = tracks_[i];
+    auto frame = decode(track);
+    if (!frame) {
+      // The leading track's trouble ends the seek; the other's comes up again when that one is asked.
+      if (i == 0 || frame.error().code == ErrorCode::Cancelled) return std::unexpected(frame.error());
+      continue;
+    }
+    track.found = std::move(*frame);
+    const bool early_enough = track.found && track.found->pts <= target;
+    const bool gone = !track.found && !track.passed_over && from < target;
+    reached = reached && (early_enough || gone);
+  }
+  return reached;
+}
+
+Result<void> TrackReader::restart(Track& track, bool await_keyframe) {
+  track.found.reset();
+  track.waiting.clear();
+  track.waiting_bytes = 0;
+  track.awaits_keyframe = await_keyframe;
+  track.passed_over = false;
+  return track.decoder->flush();
+}
+
+}  // namespace relievo

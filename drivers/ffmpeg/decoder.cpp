@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+// Video decoder on libavcodec: software decoding on few threads, pictures by reference.
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "drivers/ffmpeg/ffmpeg.h"
+#include "drivers/ffmpeg/library.h"
+#include "drivers/ffmpeg/picture.h"
+
+extern "C" {
+#include <libavcodec/codec_desc.h>
+}
+
+namespace relievo {
+namespace {
+
+using namespace ffmpeg;
+
+constexpr int kThreads = 2;         // each thread adds one frame of delay; two keep a small box busy enough
+constexpr int kMaxHeldFrames = 64;  // the pool grows with what is held; a bound so that a leak shows
+constexpr Duration kDefaultPeriod = std::chrono::milliseconds(40);  // where neither times nor a rate are known
+
+constexpr const char* kNoMemory = "out of memory in the video decoder";
+
+std::int64_t ticks(const std::optional<MediaTime>& time) noexcept {
+  return time ? time->time_since_epoch().count() : AV_NOPTS_VALUE;
+}
+
+// Guesses in place of lost data look like a picture, but are none.
+bool isMended(const AVFrame& picture) noexcept {
+  return (picture.flags & AV_FRAME_FLAG_CORRUPT) != 0 || picture.decode_error_flags != 0;
+}
+
+// Parameters of a stream that another back end's source has described.
+ParametersPtr parametersFromWords(const StreamInfo& stream) {
+  ParametersPtr parameters(avcodec_parameters_alloc());
+  if (!parameters) return nullptr;
+  const AVCodecDescriptor* const codec = avcodec_descriptor_get_by_name(stream.codec.c_str());
+  parameters->codec_type = AVMEDIA_TYPE_VIDEO;
+  parameters->codec_id = codec == nullptr ? AV_CODEC_ID_NONE : codec->id;
+  parameters->width = stream.width;
+  parameters->height = stream.height;
+  if (stream.extradata.empty()) return parameters;
+  const std::size_t bytes = stream.extradata.size();
+  parameters->extradata = static_cast<std::uint8_t*>(av_mallocz(bytes + AV_INPUT_BUFFER_PADDING_SIZE));
+  if (parameters->extradata == nullptr) return nullptr;
+  std::memcpy(parameters->extradata, stream.extradata.data(), bytes);
+  parameters->extradata_size = static_cast<int>(bytes);
+  return parameters;
+}
+
+class FfmpegDecoder final : public VideoDecoder {
+ public:
+  FfmpegDecoder() noexcept { silenceLibrary(); }
+
+  [[nodiscard]] Capabilities capabilities() const noexcept override {
+    return {.name = "ffmpeg", .max_held_frames = kMaxHeldFrames, .hardware = false};
+  }
+
+ private:
+  Result<void> openDecoder(const StreamInfo& stream) override {
+    packet_.reset(av_packet_alloc());
+    picture_.reset(av_frame_alloc());
+    if (!packet_ || !picture_) return fail(ErrorCode::Exhausted, kNoMemory, ENOMEM);
+    time_base_ = kNanosecond;
+    sample_aspect_ = {0, 1};
+    period_ = stream.frame_period > Duration(0) ? stream.frame_period : kDefaultPeriod;
+    next_pts_ = MediaTime{};
+    end_pending_ = false;
+
+    if (const auto* described = native<NativeStream, NativeStreamDeleter>(stream.native)) {
+      time_base_ = described->time_base;
+      sample_aspect_ = described->sample_aspect;
+      return openCodec(*described->parameters);
+    }
+    const ParametersPtr parameters = parametersFromWords(stream);
+    if (!parameters) return fail(ErrorCode::Exhausted, kNoMemory, ENOMEM);
+    return openCodec(*parameters);
+  }
+
+  Result<void> openCodec(const AVCodecParameters& parameters) {
+    const AVCodec* const codec = avcodec_find_decoder(parameters.codec_id);
+    if (codec == nullptr) {
+      return fail(ErrorCode::Unsupported, "FFmpeg here has no decoder for this codec; convert the film");
+    }
+    context_.reset(avcodec_alloc_context3(codec));
+    if (!context_) return fail(ErrorCode::Exhausted, kNoMemory, ENOMEM);
+    if (avcodec_parameters_to_context(context_.get(), &parameters) < 0) {
+      return fail(ErrorCode::Corrupt, "the video stream's parameters make no sense");
+    }
+    context_->thread_count = kThreads;
+    context_->thread_type = FF_THREAD_FRAME | FF_THREAD_SLICE;
+    context_->pkt_timebase = kNanosecond;
+    context_->flags |= AV_CODEC_FLAG_UNALIGNED;  // cropping stays exact to the sample
+    if (avcodec_open2(context_.get(), codec, nullptr) < 0) {
+      return fail(ErrorCode::Corrupt, "the video decoder does not accept the stream's parameters");
+    }
+    return {};
+  }
+
+  Result<Feed> feedPacket(const Packet& packet) override {
+    if (packet.bytes == 0) return Feed::Accepted;  // the library would take it for the end
+    if (!fillPacket(packet)) return fail(ErrorCode::Exhausted, kNoMemory, ENOMEM);
+    const int sent = avcodec_send_packet(context_.get(), packet_.get());
+    av_packet_unref(packet_.get());
+    if (sent == AVERROR(EAGAIN)) return Feed::Full;
+    if (sent == AVERROR(ENOMEM)) return fail(ErrorCode::Exhausted, kNoMemory, ENOMEM);
+    if (sent < 0) countDamaged();
+    return Feed::Accepted;
+  }
+
+  // By reference where the packet is the library's own; times in ns.
+  bool fillPacket(const Packet& packet) {
+    AVPacket& out = *packet_;
+    if (const auto* own = native<AVPacket, PacketDeleter>(packet.owner)) {
+      if (av_packet_ref(&out, own) < 0) return false;
+      out.duration = durationFrom(own->duration, time_base_).count();
+    } else {
+      if (av_new_packet(&out, static_cast<int>(packet.bytes)) < 0) return false;
+      std::memcpy(out.data, packet.data, packet.bytes);
+      if (packet.keyframe) out.flags |= AV_PKT_FLAG_KEY;
+    }
+    out.pts = ticks(packet.pts);
+    out.dts = ticks(packet.dts);
+    return true;
+  }
+
+  Result<Progress> receiveFrame(Frame& frame) override {
+    for (;;) {
+      const int got = avcodec_receive_frame(context_.get(), picture_.get());
+      if (got == AVERROR(EAGAIN)) {
+        if (!std::exchange(end_pending_, false)) return Progress::NeedsPackets;
+        static_cast<void>(avcodec_send_packet(context_.get(), nullptr));  // fails only when it drains already
+        continue;
+      }
+      if (got == AVERROR_EOF) return Progress::EndOfStream;
+      if (got == AVERROR(ENOMEM)) return fail(ErrorCode::Exhausted, kNoMemory, ENOMEM);
+      if (got >= 0) {
+        const MediaTime pts = nextTime(picture_->best_effort_timestamp);
+        if (!isMended(*picture_)) return deliver(frame, pts);
+      }
+      countDamaged();  // each try consumes a packet or a picture, so this ends
+    }
+  }
+
+  Result<Progress> deliver(Frame& frame, MediaTime pts) {
+    const Duration duration(picture_->pkt_duration);
+    FramePtr picture(av_frame_alloc());
+    if (!picture) return fail(ErrorCode::Exhausted, kNoMemory, ENOMEM);
+    av_frame_move_ref(picture.get(), picture_.get());
+    if (!describable(picture->format)) {
+      auto converted = converter_.convert(*picture);
+      if (!converted) return std::unexpected(converted.error());
+      picture = std::move(*converted);
+    }
+    frame = frameOf(std::move(picture), sample_aspect_);
+    frame.pts = pts;
+    frame.duration = duration;
+    return Progress::Picture;
+  }
+
+  // The picture's own time, or one period after the picture before.
+  MediaTime nextTime(std::int64_t own) noexcept {
+    const MediaTime pts = own == AV_NOPTS_VALUE ? next_pts_ : MediaTime(Duration(own));
+    next_pts_ = pts + period_;
+    return pts;
+  }
+
+  // The library loses a packet that it holds undecoded when it is told of the end: so that waits until all are taken.
+  Result<void> startDrain() override {
+    end_pending_ = true;
+    return {};
+  }
+
+  Result<void> flushDecoder() override {
+    avcodec_flush_buffers(context_.get());
+    next_pts_ = MediaTime{};
+    end_pending_ = false;
+    return {};
+  }
+
+  void closeDecoder() noexcept override {
+    context_.reset();
+    packet_.reset();
+    picture_.reset();
+  }
+
+  CodecContextPtr context_;
+  PacketPtr packet_;   // filled and emptied by each feed
+  FramePtr picture_;   // likewise by each receive
+  Converter converter_;
+  AVRational time_base_ = kNanosecond;  // of the durations in the source's packets
+  AVRational sample_aspect_{0, 1};
+  Duration period_ = kDefaultPeriod;
+  MediaTime next_pts_;
+  bool end_pending_ = false;  // drain was asked for, the library does not know yet
+};
+
+}  // namespace
+
+std::unique_ptr<VideoDecoder> makeFfmpegDecoder() { return std::make_unique<FfmpegDecoder>(); }
+
+}  // namespace relievo

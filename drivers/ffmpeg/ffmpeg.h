@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Media source and video decoder on FFmpeg's libraries: any file or URL that they open, decoded in software.
+#pragma once
+
+#include <memory>
+
+#include "hal/media_source.h"
+#include "hal/video_decoder.h"
+
+namespace relievo {
+
+// Files, URLs of every protocol that libavformat knows, named pipes, numbered pictures ("frames/%03d.png"). A read
+// that brings nothing for ten seconds returns Timeout, and so does an opening that takes longer than a minute.
+//
+// Of a source with several programmes (a broadcast multiplex, the rates of an adaptive stream) the best one is the
+// film; the streams of the others are listed as Other. So are cover pictures.
+//
+// What has no times of its own (pictures, raw streams) yields packets without times, which the decoder below numbers by
+// StreamInfo::frame_period; a seek in it goes back to the beginning.
+[[nodiscard]] std::unique_ptr<MediaSource> makeFfmpegSource();
+
+// Takes the streams of the source above as they are, and those of any other source by codec name and extradata.
+// Pictures whose layout hal/frame.h cannot describe (palettes, single bits, big endian, ..) are converted to the nearest
+// that it can: the one case of a copy, exact for integers of up to 16 bits. A picture that was mended with guesses
+// after an error in its data is dropped and counted: a guessed depth must not be felt.
+[[nodiscard]] std::unique_ptr<VideoDecoder> makeFfmpegDecoder();
+
+}  // namespace relievo

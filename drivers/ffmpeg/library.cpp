@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Error codes and time units of FFmpeg's libraries, translated.
+#include "drivers/ffmpeg/library.h"
+
+#include <cerrno>
+
+extern "C" {
+#include <libavutil/error.h>
+#include <libavutil/log.h>
+#include <libavutil/mathematics.h>
+}
+
+namespace relievo::ffmpeg {
+
+void silenceLibrary() noexcept {
+  static const bool done = [] {
+    av_log_set_level(AV_LOG_QUIET);
+    return true;
+  }();
+  static_cast<void>(done);
+}
+
+Duration durationFrom(std::int64_t ticks, AVRational time_base) noexcept {
+  return Duration(av_rescale_q(ticks, time_base, kNanosecond));
+}
+
+int osError(int code) noexcept {
+  const int number = AVUNERROR(code);
+  return number > 0 && number < 4096 ? number : 0;  // the library's own codes are far larger
+}
+
+Error openError(int code) noexcept {
+  switch (code) {
+    case AVERROR(ENOENT): return {ErrorCode::NotFound, ENOENT, "no such file; check the path"};
+    case AVERROR_HTTP_NOT_FOUND:
+      return {ErrorCode::NotFound, 0, "the server does not know it; check the address"};
+    case AVERROR(EACCES):
+    case AVERROR(EPERM):
+      return {ErrorCode::PermissionDenied, osError(code), "no right to read it; check the file's permissions"};
+    case AVERROR_HTTP_UNAUTHORIZED:
+    case AVERROR_HTTP_FORBIDDEN:
+      return {ErrorCode::PermissionDenied, 0, "the server refuses it; check user name and password in the address"};
+    case AVERROR_PROTOCOL_NOT_FOUND:
+      return {ErrorCode::Unsupported, 0, "this kind of address is unknown here; use a file, http, rtsp, udp, .."};
+    case AVERROR(EISDIR): return {ErrorCode::InvalidArgument, EISDIR, "it is a folder; name a file in it"};
+    case AVERROR(ETIMEDOUT):
+      return {ErrorCode::Timeout, ETIMEDOUT, "no answer from the source in time; check the network"};
+    case AVERROR(ECONNREFUSED):
+    case AVERROR(EHOSTUNREACH):
+    case AVERROR(ENETUNREACH):
+      return {ErrorCode::Io, osError(code), "no connection to the server; check the address and the network"};
+    case AVERROR(ENOMEM): return {ErrorCode::Exhausted, ENOMEM, "out of memory while opening the source"};
+    case AVERROR_EOF:
+    case AVERROR_INVALIDDATA:
+    case AVERROR_DEMUXER_NOT_FOUND:
+      return {ErrorCode::Corrupt, 0,
+              "not a media file that FFmpeg knows, an empty one, or one cut off before its index was written"};
+    default: return {ErrorCode::Io, osError(code), "it cannot be opened; check the path or the address"};
+  }
+}
+
+}  // namespace relievo::ffmpeg

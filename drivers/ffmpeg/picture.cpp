@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pixel formats of FFmpeg in the words of hal/frame.h.
+#include "drivers/ffmpeg/picture.h"
+
+#include <bit>
+#include <cerrno>
+
+extern "C" {
+#include <libavutil/error.h>
+#include <libavutil/pixdesc.h>
+#include <libswscale/swscale.h>
+}
+
+namespace relievo::ffmpeg {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "hal/frame.h describes little-endian samples");
+
+constexpr std::uint64_t kOtherLayouts = AV_PIX_FMT_FLAG_BE | AV_PIX_FMT_FLAG_PAL | AV_PIX_FMT_FLAG_BITSTREAM |
+                                        AV_PIX_FMT_FLAG_HWACCEL | AV_PIX_FMT_FLAG_FLOAT | AV_PIX_FMT_FLAG_BAYER;
+
+// Alpha, which may follow, is not looked at.
+int componentCount(const AVPixFmtDescriptor& format) noexcept { return format.nb_components <= 2 ? 1 : 3; }
+
+bool isXyz(int format) noexcept { return format == AV_PIX_FMT_XYZ12LE || format == AV_PIX_FMT_XYZ12BE; }
+
+ColorModel modelOf(const AVPixFmtDescriptor& format) noexcept {
+  if ((format.flags & AV_PIX_FMT_FLAG_RGB) != 0) return ColorModel::Rgb;
+  return componentCount(format) == 1 ? ColorModel::Gray : ColorModel::Yuv;
+}
+
+// One byte holds 8 bits, an aligned word of two up to 16. Fewer bits are old screens' colours: not worth a reader's care.
+bool readableInPlace(const AVComponentDescriptor& c) noexcept {
+  if (c.depth <= 8) return c.depth == 8 && c.shift == 0;
+  return c.shift + c.depth <= 16 && c.offset % 2 == 0 && c.step % 2 == 0;
+}
+
+bool isFullRangeYuv(int format) noexcept {
+  switch (format) {
+    case AV_PIX_FMT_YUVJ411P:
+    case AV_PIX_FMT_YUVJ420P:
+    case AV_PIX_FMT_YUVJ422P:
+    case AV_PIX_FMT_YUVJ440P:
+    case AV_PIX_FMT_YUVJ444P: return true;
+    default: return false;
+  }
+}
+
+// Gray and RGB are full range unless it is said otherwise; YUV that says nothing stays unspecified.
+ColorRange rangeOf(const AVFrame& picture, ColorModel model) noexcept {
+  if (isFullRangeYuv(picture.format) || picture.color_range == AVCOL_RANGE_JPEG) return ColorRange::Full;
+  if (picture.color_range == AVCOL_RANGE_MPEG) return ColorRange::Limited;
+  return model == ColorModel::Yuv ? ColorRange::Unspecified : ColorRange::Full;
+}
+
+ColorMatrix matrixOf(const AVFrame& picture) noexcept {
+  switch (picture.colorspace) {
+    case AVCOL_SPC_BT709: return ColorMatrix::Bt709;
+    case AVCOL_SPC_BT470BG:
+    case AVCOL_SPC_SMPTE170M: return ColorMatrix::Bt601;
+    case AVCOL_SPC_BT2020_NCL:
+    case AVCOL_SPC_BT2020_CL: return ColorMatrix::Bt2020;
+    default: return ColorMatrix::Unspecified;
+  }
+}
+
+double sampleAspectOf(const AVFrame& picture, AVRational container) noexcept {
+  for (const AVRational aspect : {container, picture.sample_aspect_ratio}) {
+    if (aspect.num > 0 && aspect.den > 0) return av_q2d(aspect);
+  }
+  return 1.0;
+}
+
+}  // namespace
+
+bool describable(int format) noexcept {
+  const AVPixFmtDescriptor* const description = av_pix_fmt_desc_get(static_cast<AVPixelFormat>(format));
+  if (description == nullptr || (description->flags & kOtherLayouts) != 0) return false;
+  // XYZ is no model of ours; UYYVYY411 has luma at uneven steps, which its description does not tell.
+  if (isXyz(format) || format == AV_PIX_FMT_UYYVYY411) return false;
+  for (int i = 0; i < componentCount(*description); ++i) {
+    if (!readableInPlace(description->comp[i])) return false;
+  }
+  return true;
+}
+
+int nearestDescribable(int format) noexcept {
+  const AVPixFmtDescriptor* const description = av_pix_fmt_desc_get(static_cast<AVPixelFormat>(format));
+  if (description == nullptr) return AV_PIX_FMT_RGB24;
+  const AVPixelFormat swapped = av_pix_fmt_swap_endianness(static_cast<AVPixelFormat>(format));
+  if (swapped != AV_PIX_FMT_NONE && describable(swapped) && sws_isSupportedOutput(swapped) != 0) return swapped;
+  if ((description->flags & AV_PIX_FMT_FLAG_PAL) != 0 || isXyz(format)) return AV_PIX_FMT_RGB24;
+  const bool fine = description->comp[0].depth > 8;
+  switch (modelOf(*description)) {
+    case ColorModel::Gray: return fine ? AV_PIX_FMT_GRAY16LE : AV_PIX_FMT_GRAY8;
+    case ColorModel::Rgb: return fine ? AV_PIX_FMT_RGB48LE : AV_PIX_FMT_RGB24;
+    case ColorModel::Yuv: return AV_PIX_FMT_YUV420P;
+  }
+  return AV_PIX_FMT_RGB24;
+}
+
+Frame frameOf(FramePtr picture, AVRational sample_aspect) {
+  const AVPixFmtDescriptor& format = *av_pix_fmt_desc_get(static_cast<AVPixelFormat>(picture->format));
+  Frame frame;
+  frame.width = picture->width;
+  frame.height = picture->height;
+  frame.model = modelOf(format);
+  frame.range = rangeOf(*picture, frame.model);
+  frame.matrix = matrixOf(*picture);
+  frame.sample_aspect = sampleAspectOf(*picture, sample_aspect);
+  if (frame.model == ColorModel::Yuv) {
+    frame.chroma_shift_x = format.log2_chroma_w;
+    frame.chroma_shift_y = format.log2_chroma_h;
+  }
+  for (int i = 0; i < componentCount(format); ++i) {
+    const AVComponentDescriptor& c = format.comp[i];
+    frame.components[static_cast<std::size_t>(i)] = {
+        .plane = static_cast<std::uint8_t>(c.plane),
+        .offset_bytes = static_cast<std::uint8_t>(c.offset),
+        .step_bytes = static_cast<std::uint8_t>(c.step),
+        .shift = static_cast<std::uint8_t>(c.shift),
+        .bits = static_cast<std::uint8_t>(c.depth),
+    };
+  }
+  for (std::size_t i = 0; i < frame.planes.size() && picture->data[i] != nullptr; ++i) {
+    frame.planes[i] = {picture->data[i], picture->linesize[i]};
+    ++frame.plane_count;
+  }
+  frame.owner = std::shared_ptr<AVFrame>(std::move(picture));
+  return frame;
+}
+
+Converter::Converter() noexcept = default;
+Converter::~Converter() { sws_freeContext(scaler_); }
+
+Result<FramePtr> Converter::convert(const AVFrame& picture) {
+  const auto from = static_cast<AVPixelFormat>(picture.format);
+  const auto to = static_cast<AVPixelFormat>(nearestDescribable(picture.format));
+  scaler_ = sws_getCachedContext(scaler_, picture.width, picture.height, from, picture.width, picture.height, to,
+                                 SWS_BILINEAR | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INP, nullptr, nullptr, nullptr);
+  if (scaler_ == nullptr) {
+    return fail(ErrorCode::Unsupported, "pictures of this pixel format cannot be read; convert the film");
+  }
+  FramePtr converted(av_frame_alloc());
+  if (!converted) return fail(ErrorCode::Exhausted, "out of memory for a picture", ENOMEM);
+  converted->format = to;
+  converted->width = picture.width;
+  converted->height = picture.height;
+  if (av_frame_get_buffer(converted.get(), 0) < 0 || av_frame_copy_props(converted.get(), &picture) < 0) {
+    return fail(ErrorCode::Exhausted, "out of memory for a picture", ENOMEM);
+  }
+  if (sws_scale(scaler_, picture.data, picture.linesize, 0, picture.height, converted->data, converted->linesize) < 0) {
+    return fail(ErrorCode::Unsupported, "pictures of this pixel format cannot be read; convert the film");
+  }
+  return converted;
+}
+
+}  // namespace relievo::ffmpeg

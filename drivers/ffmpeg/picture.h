@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// A decoder's picture as a Frame: by reference where hal/frame.h can describe its layout, converted where not.
+#pragma once
+
+#include <memory>
+
+#include "drivers/ffmpeg/library.h"
+#include "hal/frame.h"
+#include "platform/error.h"
+
+struct SwsContext;
+
+namespace relievo::ffmpeg {
+
+// True when samples of this format (an AVPixelFormat) can be read in place through hal/frame.h.
+[[nodiscard]] bool describable(int format) noexcept;
+
+// The format to convert one to that is not: the same bits in native byte order where that is the only difference.
+[[nodiscard]] int nearestDescribable(int format) noexcept;
+
+// Size, layout, colour signalling and sample aspect; the owner is a reference of the picture. Times are the caller's.
+// `sample_aspect` is the container's word, 0/1 where it has none.
+[[nodiscard]] Frame frameOf(FramePtr picture, AVRational sample_aspect);
+
+// Converts pictures into describable ones; keeps the library's scaler between them.
+class Converter {
+ public:
+  Converter() noexcept;
+  ~Converter();
+  Converter(const Converter&) = delete;
+  Converter& operator=(const Converter&) = delete;
+  // Unsupported where the library cannot read the format, Exhausted without memory.
+  [[nodiscard]] Result<FramePtr> convert(const AVFrame& picture);
+
+ private:
+  SwsContext* scaler_ = nullptr;
+};
+
+}  // namespace relievo::ffmpeg

@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: Apache-2.0
+// Media source on libavformat: any file or URL that it opens, interruptible and bounded in its waits.
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cctype>
+#include <cerrno>
+#include <thread>
+
+#include "drivers/ffmpeg/ffmpeg.h"
+#include "drivers/ffmpeg/library.h"
+#include "platform/unique_fd.h"
+
+extern "C" {
+#include <libavformat/avformat.h>
+#include <libavutil/mathematics.h>
+#include <libavutil/opt.h>
+}
+
+namespace relievo {
+namespace {
+
+using namespace ffmpeg;
+
+constexpr Duration kReadPatience = std::chrono::seconds(10);
+constexpr Duration kOpenPatience = std::chrono::seconds(30);  // an index may be long and the line slow
+constexpr const char* kSilencePatienceUs = "10000000";        // of a connection that yields not one byte
+constexpr Duration kNap = std::chrono::milliseconds(2);       // between tries where the library says "again"
+constexpr const char* kCannotSeek = "it cannot seek: a live stream or a pipe";
+constexpr int kDamagedReads = 64;  // in a row, until a broken container counts as ended
+
+// Tells the library when to give up a call that waits.
+class Watch {
+ public:
+  // A new verb begins and may wait for so long.
+  void begin(Duration patience) noexcept {
+    expired_ = false;
+    deadline_ = clock_.now() + patience;
+  }
+  void forgive() noexcept { cancelled_ = false; }
+  void cancel() noexcept { cancelled_ = true; }
+
+  [[nodiscard]] bool cancelled() const noexcept { return cancelled_; }
+  [[nodiscard]] bool givesUp() noexcept {
+    if (clock_.now() >= deadline_.load()) expired_ = true;
+    return cancelled_ || expired_;
+  }
+  static int callback(void* watch) noexcept { return static_cast<Watch*>(watch)->givesUp() ? 1 : 0; }
+
+  // The error of a call that failed: the watch's own reason first.
+  [[nodiscard]] Error explain(Error otherwise) const noexcept {
+    if (cancelled_) return {ErrorCode::Cancelled, 0, "interrupted while waiting for the source"};
+    if (expired_) return openError(AVERROR(ETIMEDOUT));
+    return otherwise;
+  }
+
+ private:
+  MonotonicClock clock_;
+  std::atomic<MonotonicTime> deadline_{};  // atomic, since threads of the library ask as well
+  std::atomic<bool> expired_{false};
+  std::atomic<bool> cancelled_{false};
+};
+
+struct FormatCloser {
+  void operator()(AVFormatContext* context) const noexcept { avformat_close_input(&context); }
+};
+using FormatPtr = std::unique_ptr<AVFormatContext, FormatCloser>;
+
+std::map<std::string, std::string> tagsOf(const AVDictionary* dictionary) {
+  std::map<std::string, std::string> tags;
+  const AVDictionaryEntry* entry = nullptr;
+  while ((entry = av_dict_get(dictionary, "", entry, AV_DICT_IGNORE_SUFFIX)) != nullptr) {
+    std::string key = entry->key;
+    std::transform(key.begin(), key.end(), key.begin(), [](unsigned char c) { return std::toupper(c); });
+    tags[key] = entry->value;
+  }
+  return tags;
+}
+
+StreamKind kindOf(const AVStream& stream) noexcept {
+  if (stream.discard == AVDISCARD_ALL) return StreamKind::Other;
+  constexpr int kStills = AV_DISPOSITION_ATTACHED_PIC | AV_DISPOSITION_TIMED_THUMBNAILS;
+  switch (stream.codecpar->codec_type) {
+    case AVMEDIA_TYPE_VIDEO: return (stream.disposition & kStills) == 0 ? StreamKind::Video : StreamKind::Other;
+    case AVMEDIA_TYPE_AUDIO: return StreamKind::Audio;
+    default: return StreamKind::Other;
+  }
+}
+
+Duration framePeriodOf(const AVStream& stream) noexcept {
+  for (const AVRational rate : {stream.avg_frame_rate, stream.r_frame_rate}) {
+    if (rate.num > 0 && rate.den > 0) return durationFrom(1, av_inv_q(rate));
+  }
+  return Duration(0);
+}
+
+// The library would show a text file as a film of letters.
+bool isTextArt(const AVFormatContext& context) noexcept {
+  if (context.nb_streams != 1) return false;
+  switch (context.streams[0]->codecpar->codec_id) {
+    case AV_CODEC_ID_ANSI:
+    case AV_CODEC_ID_BINTEXT:
+    case AV_CODEC_ID_XBIN:
+    case AV_CODEC_ID_IDF: return true;
+    default: return false;
+  }
+}
+
+// A demuxer that asks for a frame rate (pictures, raw streams) has no times of its own; those it makes up are left out.
+bool isTimed(const AVFormatContext& context) noexcept {
+  if ((context.iformat->flags & AVFMT_NOTIMESTAMPS) != 0) return false;
+  return context.iformat->priv_class == nullptr ||
+         av_opt_find(context.priv_data, "framerate", nullptr, 0, 0) == nullptr;
+}
+
+// The library keeps the container's start in microseconds; a stream that begins there says it more exactly, and the
+// first picture's time becomes 0, not a fraction of a microsecond beside it.
+Duration startOf(const AVFormatContext& context) noexcept {
+  if (context.start_time == AV_NOPTS_VALUE) return Duration(0);
+  const Duration start = durationFrom(context.start_time, AV_TIME_BASE_Q);
+  for (unsigned i = 0; i < context.nb_streams; ++i) {
+    const AVStream& stream = *context.streams[i];
+    if (stream.start_time == AV_NOPTS_VALUE) continue;
+    const Duration exact = durationFrom(stream.start_time, stream.time_base);
+    if (std::chrono::abs(exact - start) <= std::chrono::microseconds(1)) return exact;
+  }
+  return start;
+}
+
+// Of several programmes keeps the one with the best video: the others are other films, or this one at other rates.
+void chooseProgramme(AVFormatContext& context) noexcept {
+  if (context.nb_programs < 2) return;
+  const int best = av_find_best_stream(&context, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
+  const AVProgram* const programme = best < 0 ? nullptr : av_find_program_from_stream(&context, nullptr, best);
+  if (programme == nullptr) return;
+  for (unsigned i = 0; i < context.nb_streams; ++i) context.streams[i]->discard = AVDISCARD_ALL;
+  for (unsigned i = 0; i < programme->nb_stream_indexes; ++i) {
+    context.streams[programme->stream_index[i]]->discard = AVDISCARD_DEFAULT;
+  }
+}
+
+class FfmpegSource final : public MediaSource {
+ public:
+  FfmpegSource() noexcept { silenceLibrary(); }
+  ~FfmpegSource() override { close(); }
+
+ private:
+  Result<Description> openSource(const std::string& url) override {
+    watch_.forgive();
+    url_ = url;
+    if (const auto opened = openContext(); !opened) return std::unexpected(opened.error());
+    return describe();
+  }
+
+  // Leaves what is open as it is when it fails.
+  Result<void> openContext() {
+    watch_.begin(kOpenPatience);
+    auto address = addressOf(url_);
+    if (!address) return std::unexpected(address.error());
+    AVFormatContext* context = avformat_alloc_context();
+    if (context == nullptr) return std::unexpected(openError(AVERROR(ENOMEM)));
+    context->interrupt_callback = {Watch::callback, &watch_};
+    AVDictionary* options = nullptr;
+    av_dict_set(&options, "rw_timeout", kSilencePatienceUs, 0);
+    const int opened = avformat_open_input(&context, address->c_str(), nullptr, &options);
+    av_dict_free(&options);
+    if (opened < 0) return std::unexpected(watch_.explain(openError(opened)));
+
+    FormatPtr owned(context);
+    watch_.begin(kOpenPatience);
+    const int found = avformat_find_stream_info(context, nullptr);
+    if (found < 0 || watch_.cancelled()) return std::unexpected(watch_.explain(openError(found)));
+    if (isTextArt(*context)) return std::unexpected(openError(AVERROR_INVALIDDATA));
+    timed_ = isTimed(*context);
+    start_ = startOf(*context);
+    chooseProgramme(*context);
+    seek_stream_ = std::max(av_find_default_stream_index(context), 0);
+    context_ = std::move(owned);
+    return {};
+  }
+
+  // An existing file is a file whatever its name looks like ("12:30.mkv"). A named pipe is opened here: open(2) waits for
+  // the pipe's writer, and that wait could not be interrupted.
+  Result<std::string> addressOf(const std::string& url) {
+    struct stat status {};
+    if (::stat(url.c_str(), &status) != 0) return url;
+    if (!S_ISFIFO(status.st_mode)) return "file:" + url;
+    pipe_.reset(::open(url.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+    if (!pipe_.valid()) return std::unexpected(openError(AVERROR(errno)));
+    pollfd wait{.fd = pipe_.get(), .events = POLLIN, .revents = 0};
+    while (::poll(&wait, 1, 50) <= 0) {
+      if (watch_.givesUp()) return std::unexpected(watch_.explain({}));
+    }
+    return "pipe:" + std::to_string(pipe_.get());
+  }
+
+  Result<Description> describe() const {
+    Description description;
+    description.tags = tagsOf(context_->metadata);
+    if (timed_ && context_->duration > 0) description.duration = durationFrom(context_->duration, AV_TIME_BASE_Q);
+    for (unsigned i = 0; i < context_->nb_streams; ++i) {
+      auto stream = describeStream(*context_->streams[i]);
+      if (!stream) return std::unexpected(stream.error());
+      if (stream->duration == Duration(0)) stream->duration = description.duration;
+      description.streams.push_back(std::move(*stream));
+    }
+    return description;
+  }
+
+  Result<StreamInfo> describeStream(const AVStream& stream) const {
+    const AVCodecParameters& parameters = *stream.codecpar;
+    StreamInfo info;
+    info.index = stream.index;
+    info.kind = kindOf(stream);
+    info.codec = avcodec_get_name(parameters.codec_id);
+    if (parameters.extradata_size > 0) {
+      info.extradata.assign(parameters.extradata, parameters.extradata + parameters.extradata_size);
+    }
+    info.width = parameters.width;
+    info.height = parameters.height;
+    info.frame_period = framePeriodOf(stream);
+    if (timed_ && stream.duration > 0) info.duration = durationFrom(stream.duration, stream.time_base);
+    info.tags = tagsOf(stream.metadata);
+
+    auto native = std::make_unique<NativeStream>();
+    native->parameters.reset(avcodec_parameters_alloc());
+    if (!native->parameters || avcodec_parameters_copy(native->parameters.get(), &parameters) < 0) {
+      return std::unexpected(openError(AVERROR(ENOMEM)));
+    }
+    native->time_base = stream.time_base;
+    native->sample_aspect = stream.sample_aspect_ratio;
+    info.native = std::shared_ptr<NativeStream>(native.release(), NativeStreamDeleter{});
+    return info;
+  }
+
+  Result<std::optional<Packet>> readPacket() override {
+    watch_.begin(kReadPatience);
+    PacketPtr packet(av_packet_alloc());
+    if (!packet) return fail(ErrorCode::Exhausted, "out of memory for a packet", ENOMEM);
+    int damaged_reads = 0;
+    for (;;) {
+      if (watch_.cancelled()) return std::unexpected(watch_.explain({}));
+      const int got = av_read_frame(context_.get(), packet.get());
+      if (got >= 0 && packet->size > 0) return packetOf(std::move(packet));
+      if (got >= 0) {
+        av_packet_unref(packet.get());  // side data alone
+      } else if (got == AVERROR(EAGAIN) && !watch_.givesUp()) {
+        std::this_thread::sleep_for(kNap);
+      } else if (got != AVERROR_INVALIDDATA || ++damaged_reads >= kDamagedReads) {
+        return endOrError(got);
+      }
+    }
+  }
+
+  // The library calls a broken connection the end as well; its I/O context knows better.
+  Result<std::optional<Packet>> endOrError(int code) const {
+    const int io_error = context_->pb == nullptr || context_->pb->error == AVERROR_EOF ? 0 : context_->pb->error;
+    if (io_error == 0 && (code == AVERROR_EOF || code == AVERROR_INVALIDDATA)) return std::nullopt;
+    if (code == AVERROR(ENOMEM)) return fail(ErrorCode::Exhausted, "out of memory for a packet", ENOMEM);
+    return std::unexpected(watch_.explain({ErrorCode::Lost, osError(io_error != 0 ? io_error : code),
+                                           "the source has gone away while it was read; check disk or network"}));
+  }
+
+  std::optional<Packet> packetOf(PacketPtr packet) const {
+    const AVStream& stream = *context_->streams[packet->stream_index];
+    Packet out;
+    out.stream = packet->stream_index;
+    out.data = packet->data;
+    out.bytes = static_cast<std::size_t>(packet->size);
+    out.pts = timeOf(packet->pts, stream);
+    out.dts = timeOf(packet->dts, stream);
+    out.keyframe = (packet->flags & AV_PKT_FLAG_KEY) != 0;
+    out.owner = std::shared_ptr<AVPacket>(std::move(packet));
+    return out;
+  }
+
+  std::optional<MediaTime> timeOf(std::int64_t time, const AVStream& stream) const noexcept {
+    if (time == AV_NOPTS_VALUE || !timed_) return std::nullopt;
+    return MediaTime(durationFrom(time, stream.time_base) - start_);
+  }
+
+  Result<void> seekTo(MediaTime target) override {
+    if (watch_.cancelled()) return std::unexpected(watch_.explain({}));
+    if (pipe_.valid()) return fail(ErrorCode::Unsupported, kCannotSeek);
+    if (!timed_) return openContext();  // pictures are counted from the beginning
+    watch_.begin(kReadPatience);
+    const AVRational time_base = context_->streams[seek_stream_]->time_base;
+    const std::int64_t time = av_rescale_q((target.time_since_epoch() + start_).count(), kNanosecond, time_base);
+    int sought = av_seek_frame(context_.get(), seek_stream_, time, AVSEEK_FLAG_BACKWARD);
+    // Nothing before the target: the film begins with what comes next.
+    if (sought < 0) sought = avformat_seek_file(context_.get(), seek_stream_, INT64_MIN, time, INT64_MAX, 0);
+    if (sought >= 0) return {};
+    return std::unexpected(watch_.explain({ErrorCode::Unsupported, osError(sought), kCannotSeek}));
+  }
+
+  void closeSource() noexcept override {
+    context_.reset();
+    pipe_.reset();
+  }
+
+  void interrupted() noexcept override { watch_.cancel(); }
+
+  Watch watch_;
+  std::string url_;
+  UniqueFd pipe_;      // outlives the context that reads from it
+  FormatPtr context_;
+  bool timed_ = true;
+  Duration start_{0};  // the container's start time
+  int seek_stream_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<MediaSource> makeFfmpegSource() { return std::make_unique<FfmpegSource>(); }
+
+}  // namespace relievo
