@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// mkstemp beside the target, fsync, rename.
+#include "app/player/atomic_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <utility>
+
+#include "platform/unique_fd.h"
+
+namespace relievo {
+namespace {
+
+constexpr const char* kCannotCreate = "cannot be written; check that the folder exists and may be written to";
+constexpr const char* kCannotWrite = "could not be written to the end; is the disk full?";
+
+// mkstemp makes files for the owner alone; a report is as public as any other file.
+mode_t ordinaryMode() noexcept {
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  return 0666 & ~mask;
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(AtomicFile&& other) noexcept
+    : file_(std::exchange(other.file_, nullptr)),
+      path_(std::move(other.path_)),
+      target_(std::move(other.target_)),
+      temporary_(std::exchange(other.temporary_, {})) {}
+
+AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
+  if (this == &other) return *this;
+  discard();
+  file_ = std::exchange(other.file_, nullptr);
+  path_ = std::move(other.path_);
+  target_ = std::move(other.target_);
+  temporary_ = std::exchange(other.temporary_, {});
+  return *this;
+}
+
+AtomicFile::~AtomicFile() { discard(); }
+
+Result<AtomicFile> AtomicFile::create(const std::string& path) {
+  AtomicFile made;
+  made.path_ = path;
+  made.target_ = path;
+  std::error_code missing;
+  if (const auto real = std::filesystem::canonical(path, missing); !missing) made.target_ = real.string();
+  if (path.empty()) return fail(ErrorCode::InvalidArgument, "an empty file name; give a path", ENOENT);
+
+  UniqueFd fd;
+  struct stat status {};
+  const bool exists = ::stat(made.target_.c_str(), &status) == 0;
+  if (exists && S_ISDIR(status.st_mode)) return fail(ErrorCode::Io, "is a folder; give the name of a file", EISDIR);
+  if (exists && !S_ISREG(status.st_mode)) {
+    fd.reset(::open(made.target_.c_str(), O_WRONLY | O_CLOEXEC));
+  } else {
+    made.temporary_ = made.target_ + ".XXXXXX";
+    fd.reset(::mkostemp(made.temporary_.data(), O_CLOEXEC));
+    if (!fd.valid()) made.temporary_.clear();
+  }
+  if (!fd.valid()) return fail(ErrorCode::Io, kCannotCreate, errno);
+  if (!made.temporary_.empty()) ::fchmod(fd.get(), exists ? status.st_mode & 0777 : ordinaryMode());
+  made.file_ = ::fdopen(fd.get(), "w");
+  if (made.file_ == nullptr) return fail(ErrorCode::Exhausted, kCannotCreate, errno);
+  static_cast<void>(fd.release());
+  return made;
+}
+
+void AtomicFile::write(std::string_view text) noexcept {
+  if (file_ != nullptr) static_cast<void>(std::fwrite(text.data(), 1, text.size(), file_));  // told by ferror
+}
+
+Result<void> AtomicFile::commit() {
+  if (file_ == nullptr) return fail(ErrorCode::InvalidState, "the file is not open");
+  bool good = std::fflush(file_) == 0 && std::ferror(file_) == 0;
+  if (good && !temporary_.empty()) good = ::fsync(::fileno(file_)) == 0;
+  const int os_error = errno;
+  good = std::fclose(std::exchange(file_, nullptr)) == 0 && good;
+  if (good && !temporary_.empty()) {
+    good = std::rename(temporary_.c_str(), target_.c_str()) == 0;
+    if (good) temporary_.clear();
+  }
+  if (good) return {};
+  discard();
+  return fail(ErrorCode::Io, kCannotWrite, os_error);
+}
+
+void AtomicFile::discard() noexcept {
+  if (file_ != nullptr) std::fclose(std::exchange(file_, nullptr));
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  temporary_.clear();
+}
+
+}  // namespace relievo

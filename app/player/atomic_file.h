@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// A file that appears whole or not at all: written beside its place, renamed into it when done.
+#pragma once
+
+#include <cstdio>
+#include <string>
+#include <string_view>
+
+#include "platform/error.h"
+
+namespace relievo {
+
+// Not thread-safe. A path that is a device or a pipe is written to directly, since it cannot be replaced.
+class AtomicFile {
+ public:
+  AtomicFile() = default;
+  AtomicFile(AtomicFile&& other) noexcept;
+  AtomicFile& operator=(AtomicFile&& other) noexcept;
+  ~AtomicFile();  // without a commit nothing is left
+
+  // Makes the temporary file, so that a path that cannot be written is found out before anything else is done.
+  [[nodiscard]] static Result<AtomicFile> create(const std::string& path);
+
+  // Buffered; a failure is kept and told by `commit`.
+  void write(std::string_view text) noexcept;
+  // On the disk, then in its place. Once.
+  [[nodiscard]] Result<void> commit();
+
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
+
+ private:
+  void discard() noexcept;
+
+  std::FILE* file_ = nullptr;
+  std::string path_;       // as it was given
+  std::string target_;     // with links followed
+  std::string temporary_;  // empty: written to directly
+};
+
+}  // namespace relievo

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sets the real-time side up before it starts and takes it down force first.
+#include "app/player/haptic_session.h"
+
+#include <malloc.h>
+
+#include <algorithm>
+
+namespace relievo {
+namespace {
+
+// What a plain spring may have at most on a device: what it holds, and no more than a firm touch needs.
+constexpr double kStiffnessNPerMm = 0.5;
+
+HapticSummary::Times times(const Histogram& histogram) noexcept {
+  return {histogram.quantile(0.5).count(), histogram.quantile(0.99).count(), histogram.quantile(0.999).count(),
+          histogram.max().count()};
+}
+
+}  // namespace
+
+HapticSession::HapticSession(HapticDevice* device, Clock& clock, Ticking ticking) noexcept
+    : device_(device), clock_(clock), ticking_(ticking), thread_(clock) {}
+
+HapticSession::~HapticSession() { stop(); }
+
+Result<void> HapticSession::open() {
+  if (device_ == nullptr) return {};
+  if (auto opened = device_->open(); !opened) return opened;
+  if (auto homed = device_->home(); !homed) {
+    device_->close();
+    return homed;
+  }
+  capabilities_ = device_->capabilities();
+  period_ = fromSeconds(1.0 / std::clamp(capabilities_.rate_hz, 100.0, 8000.0));
+  opened_ = true;
+  return {};
+}
+
+Result<void> HapticSession::makeTask(const DisplayVolume& volume) {
+  const double stiffness = std::min(kStiffnessNPerMm, capabilities_.max_stiffness_n_per_mm);
+  method_ = makeMethod(kDefaultMethod, {.stiffness_n_per_mm = stiffness, .time = {}, .jump_threshold = {}});
+  if (method_ == nullptr) return fail(ErrorCode::NotFound, "the default method of touch is missing from this build");
+
+  auto arena = FixedArena::create(sizeof(HapticTask) + alignof(HapticTask) + 256);
+  if (!arena) return std::unexpected(arena.error());
+  arena_.emplace(std::move(*arena));
+  task_ = arena_->make<HapticTask>(*device_, *method_, clock_, volume, SafetyLimits{}, stiffness);
+  if (task_ == nullptr) return fail(ErrorCode::Exhausted, "the real-time arena is too small for the haptic task");
+
+  // The method is an object of its own on the heap; the code is what the ticks run. Both as far as the right goes: a
+  // page that is touched but not locked is lost only when memory runs short.
+  void* const method = method_.get();
+  const bool locked = arena_->locked() && lockAndTouch(method, ::malloc_usable_size(method)).has_value() &&
+                      lockAndTouchCode().has_value();
+  if (!locked) missing_right_ = "memory cannot be locked; raise LimitMEMLOCK (ulimit -l) or grant CAP_IPC_LOCK";
+  return {};
+}
+
+Result<void> HapticSession::start(const DisplayVolume& volume, const SurfaceFeeder& first) {
+  if (device_ == nullptr) return {};
+  if (!opened_ || running_) return fail(ErrorCode::InvalidState, "the haptic side starts once, on an open device");
+  if (auto made = makeTask(volume); !made) return made;
+  first.fill(task_->windowToFill());
+  task_->publishWindow();
+  if (auto started = device_->start(); !started) return started;
+  running_ = true;
+  if (ticking_ == Ticking::ByHand) {
+    next_tick_ = clock_.now();
+    return {};
+  }
+  CyclicConfig config;
+  config.name = "relievo-haptic";
+  config.period = period_;
+  const auto scheduler = thread_.start(config, *task_);
+  if (!scheduler) {
+    stop();
+    return std::unexpected(scheduler.error());
+  }
+  if (*scheduler == Scheduler::Other) {
+    missing_right_ = "no right to SCHED_FIFO, ticks may come late; grant CAP_SYS_NICE or raise LimitRTPRIO (ulimit -r)";
+  }
+  return {};
+}
+
+void HapticSession::stop() noexcept {
+  thread_.stop();
+  if (device_ != nullptr) device_->close();
+  running_ = false;
+  opened_ = false;
+}
+
+void HapticSession::publish(const SurfaceFeeder& surface) noexcept {
+  if (!running_) return;
+  surface.fill(task_->windowToFill());
+  task_->publishWindow();
+}
+
+const FingerState* HapticSession::finger() noexcept {
+  if (!running_) return nullptr;
+  static_cast<void>(task_->refreshFinger());
+  return task_->finger().device_present ? &task_->finger() : nullptr;
+}
+
+std::optional<FingerState> HapticSession::nextTick() noexcept {
+  return task_ == nullptr ? std::nullopt : task_->nextTick();
+}
+
+std::optional<HapticFault> HapticSession::nextFault() noexcept {
+  return task_ == nullptr ? std::nullopt : task_->nextFault();
+}
+
+void HapticSession::sleepUntil(MonotonicTime deadline) noexcept {
+  if (running_ && ticking_ == Ticking::ByHand) {
+    for (; next_tick_ <= deadline; next_tick_ += period_) {
+      clock_.sleepUntil(next_tick_);
+      static_cast<void>(task_->loop({.index = tick_index_++, .scheduled = next_tick_, .woken = clock_.now()}));
+    }
+  }
+  clock_.sleepUntil(deadline);
+}
+
+HapticSummary HapticSession::summary() const {
+  HapticSummary s;
+  s.scheduler = "none";
+  if (task_ == nullptr) return s;
+  const CyclicStatistics& cyclic = thread_.statistics();
+  const HapticCounters& counters = task_->counters();
+  s.device = capabilities_.name;
+  s.scheduler = ticking_ == Ticking::ByHand                       ? "simulated time"
+                : cyclic.scheduler.load() == Scheduler::Fifo ? "SCHED_FIFO"
+                                                             : "SCHED_OTHER";
+  s.memory_locked = arena_->locked();
+  s.rate_hz = 1.0 / toSeconds(period_);
+  s.ticks = counters.ticks;
+  s.contact_ticks = counters.contact_ticks;
+  s.overruns = cyclic.overruns;
+  s.allocations = cyclic.allocations;
+  s.page_faults = cyclic.page_faults;
+  s.update = times(counters.update);
+  s.wakeup = times(cyclic.wakeup);
+  s.max_force_n = counters.max_force_n;
+  s.max_scene_slew_n_per_s = counters.max_scene_slew_n_per_s;
+  s.scene_mj = counters.scene_energy_mj;
+  s.artefact_mj = counters.artefact_energy_mj;
+  return s;
+}
+
+}  // namespace relievo

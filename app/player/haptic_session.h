@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// Owns the haptic side of a film: the device's life, fixed memory, the real-time thread, and the way in and out of it.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/haptics/haptic_task.h"
+#include "app/haptics/methods.h"
+#include "app/player/surface_feeder.h"
+#include "app/scene/display_volume.h"
+#include "hal/haptic_device.h"
+#include "platform/clock.h"
+#include "platform/cyclic_thread.h"
+#include "platform/error.h"
+#include "platform/fixed_memory.h"
+
+namespace relievo {
+
+// Who runs the ticks: a thread of its own, or `sleepUntil`, for simulated time.
+enum class Ticking : std::uint8_t { Thread, ByHand };
+
+// What the haptic side did, for the report. All zero when it never ran.
+struct HapticSummary {
+  std::string device;     // "" without one
+  std::string scheduler;  // "SCHED_FIFO", "SCHED_OTHER", "simulated time", "none"
+  bool memory_locked = false;
+  double rate_hz = 0;
+  std::uint64_t ticks = 0, contact_ticks = 0;
+  std::uint64_t overruns = 0, allocations = 0, page_faults = 0;
+  struct Times {
+    std::int64_t p50 = 0, p99 = 0, p999 = 0, max = 0;  // ns
+  } update, wakeup;
+  double max_force_n = 0, max_scene_slew_n_per_s = 0;
+  double scene_mj = 0, artefact_mj = 0;
+};
+
+// Owner's thread only. A device that is not there or does not start is the caller's to tell; the film can go on.
+class HapticSession {
+ public:
+  // `device` is borrowed and may be null: then every verb does nothing.
+  HapticSession(HapticDevice* device, Clock& clock, Ticking ticking) noexcept;
+  ~HapticSession();
+  HapticSession(const HapticSession&) = delete;
+  HapticSession& operator=(const HapticSession&) = delete;
+
+  // Opens and homes. May take seconds.
+  [[nodiscard]] Result<void> open();
+  // Makes the task for this volume in locked memory, gives it the first window and starts it. The force begins at zero.
+  // Opened and not running, else InvalidState.
+  [[nodiscard]] Result<void> start(const DisplayVolume& volume, const SurfaceFeeder& first);
+  // Zero force first; then the thread, the device. Any time.
+  void stop() noexcept;
+
+  [[nodiscard]] bool opened() const noexcept { return opened_; }
+  [[nodiscard]] bool running() const noexcept { return running_; }
+  // While it runs: what the right to real time lacks, one line; null when nothing does.
+  [[nodiscard]] const char* missingRight() const noexcept { return missing_right_; }
+
+  void publish(const SurfaceFeeder& surface) noexcept;
+  // Nothing until the first tick, and without a device.
+  [[nodiscard]] const FingerState* finger() noexcept;
+  [[nodiscard]] std::optional<FingerState> nextTick() noexcept;
+  [[nodiscard]] std::optional<HapticFault> nextFault() noexcept;
+
+  // The owner's wait. ByHand, the ticks that are due meanwhile run in it, each at its time.
+  void sleepUntil(MonotonicTime deadline) noexcept;
+
+  [[nodiscard]] HapticSummary summary() const;
+
+ private:
+  [[nodiscard]] Result<void> makeTask(const DisplayVolume& volume);
+
+  HapticDevice* device_;
+  Clock& clock_;
+  const Ticking ticking_;
+  bool opened_ = false;
+  bool running_ = false;
+  const char* missing_right_ = nullptr;
+  HapticCapabilities capabilities_;
+  Duration period_{0};
+
+  std::unique_ptr<TouchMethod> method_;
+  std::optional<FixedArena> arena_;
+  HapticTask* task_ = nullptr;  // in the arena
+  CyclicThread thread_;
+  MonotonicTime next_tick_;  // ByHand
+  std::uint64_t tick_index_ = 0;
+};
+
+}  // namespace relievo

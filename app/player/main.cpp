@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program of the box: chooses the back ends, plays or probes, and says in one line what went wrong.
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <utility>
+
+#include "app/player/atomic_file.h"
+#include "app/player/options.h"
+#include "app/player/player.h"
+#include "app/player/probe.h"
+#include "app/player/recorder.h"
+#include "drivers/registry.h"
+#include "platform/clock.h"
+
+namespace relievo {
+namespace {
+
+std::atomic<bool> stop_wanted{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+// The first signal ends the film in good order, zero force first; a second one ends the program.
+void stopOnSignals() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { stop_wanted.store(true, std::memory_order_relaxed); };
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+}
+
+int failed(const std::string& thing, const Error& error) {
+  printFailure(thing, error);
+  return error.code == ErrorCode::InvalidArgument ? kExitWrongUse : kExitFailed;
+}
+
+PairReader::Backends backendsFor(const std::string& url) {
+  return {.make_source = [url] { return drivers::makeMediaSource(url); }, .make_decoder = drivers::makeVideoDecoder};
+}
+
+int finishFiles(const PlayReport& report, AtomicFile* report_file, Recorder* recorder) {
+  if (recorder != nullptr && report.haptic.ticks > 0) {
+    if (auto finished = recorder->finish(); !finished) return failed(recorder->path(), finished.error());
+  }
+  if (report_file != nullptr) {
+    report_file->write(toJson(report));
+    if (auto written = report_file->commit(); !written) return failed(report_file->path(), written.error());
+  }
+  return kExitDone;
+}
+
+int play(PlayOptions options) {
+  MonotonicClock clock;
+  auto display = drivers::makeDisplay(options.display);
+  if (!display) return failed("--display " + options.display, display.error());
+  auto haptic = drivers::makeHapticDevice(options.haptic, clock);
+  if (!haptic) return failed("--haptic " + options.haptic, haptic.error());
+  auto remote = drivers::makeRemoteInput(options.remote, clock);
+  if (!remote) return failed("--remote " + options.remote, remote.error());
+
+  // What cannot be written is found out before the film begins.
+  std::optional<AtomicFile> report_file;
+  if (!options.report_path.empty()) {
+    auto created = AtomicFile::create(options.report_path);
+    if (!created) return failed(options.report_path, created.error());
+    report_file = std::move(*created);
+  }
+  std::optional<Recorder> recorder;
+  if (!options.record_path.empty()) {
+    auto created = Recorder::create(options.record_path);
+    if (!created) return failed(options.record_path, created.error());
+    recorder = std::move(*created);
+  }
+
+  stopOnSignals();
+  const std::string url = options.player.source.url;
+  Player player(std::move(options.player), {.clock = clock,
+                                            .display = **display,
+                                            .haptic = haptic->get(),
+                                            .remote = remote->get(),
+                                            .recorder = recorder ? &*recorder : nullptr,
+                                            .backends = backendsFor(url)});
+  const auto played = player.run(stop_wanted);
+  const PlayReport report = player.report();
+  const int files = finishFiles(report, report_file ? &*report_file : nullptr, recorder ? &*recorder : nullptr);
+  if (!played) {
+    printFailure(played.error().thing, played.error().error);
+    return kExitFailed;
+  }
+  if (files == kExitDone) std::fputs(toText(report).c_str(), stdout);
+  return files;
+}
+
+int probeSource(const ProbeOptions& options) {
+  const auto result = probe(options.source, backendsFor(options.source.url));
+  if (!result) {
+    printFailure(result.error().thing, result.error().error);
+    return kExitFailed;
+  }
+  std::fputs((options.json ? probeToJson(*result) : probeToText(*result)).c_str(), stdout);
+  return kExitDone;
+}
+
+}  // namespace
+}  // namespace relievo
+
+int main(int argc, char** argv) {
+  using namespace relievo;
+  const auto options = parseOptions(
+      argc, argv, {.display = drivers::kDisplayNames, .haptic = drivers::kHapticNames, .remote = drivers::kRemoteNames});
+  if (!options) return options.error();
+  return options->command == Options::Command::Probe ? probeSource(options->probe) : play(options->play);
+}

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command line of `relievo`: what it takes, what it teaches, and what it refuses.
+#pragma once
+
+#include <expected>
+#include <string>
+
+#include "app/player/player.h"
+
+namespace relievo {
+
+struct PlayOptions {
+  PlayerConfig player;
+  std::string display = "offscreen";
+  std::string haptic = "sim";
+  std::string remote = "none";
+  std::string report_path;  // empty: none
+  std::string record_path;
+};
+
+struct ProbeOptions {
+  SourceOptions source;
+  bool json = false;
+};
+
+struct Options {
+  enum class Command : std::uint8_t { Play, Probe };
+  Command command = Command::Play;
+  PlayOptions play;
+  ProbeOptions probe;
+};
+
+// The names of the back ends, for the help.
+struct DeviceNames {
+  const char* display = "";
+  const char* haptic = "";
+  const char* remote = "";
+};
+
+// Exit codes of every program of the project.
+inline constexpr int kExitDone = 0;
+inline constexpr int kExitFailed = 1;
+inline constexpr int kExitWrongUse = 2;
+
+// On wrong use, and when help was asked for, it has printed what there is to say and answers the exit code.
+[[nodiscard]] std::expected<Options, int> parseOptions(int argc, const char* const* argv, const DeviceNames& names);
+
+// One line on stderr: "relievo: THING: what was wrong; what to do (the system's word for it)".
+void printFailure(const std::string& thing, const Error& error);
+
+}  // namespace relievo

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws, presents, and opens a lost display again.
+#include "app/player/picture.h"
+
+namespace relievo {
+namespace {
+
+constexpr Duration kRetryPeriod = std::chrono::seconds(1);
+
+}  // namespace
+
+void Picture::close() noexcept {
+  renderer_.reset();  // its GL objects die in the context that made them
+  uploaded_ = false;
+  display_.close();
+}
+
+void Picture::setScene(const DepthCalibration& calibration, const DisplayVolume& volume,
+                       Duration frame_budget) noexcept {
+  calibration_ = calibration;
+  volume_ = volume;
+  frame_budget_ = frame_budget;
+}
+
+void Picture::setPair(const FramePair& pair) {
+  pair_ = pair;
+  uploaded_ = false;
+}
+
+Result<Picture::Shown> Picture::show(const std::optional<FingerMark>& finger, MonotonicTime now) {
+  const bool was_away = away();
+  if (was_away) {
+    if (now < next_retry_) return Shown::NoScreen;
+    next_retry_ = now + kRetryPeriod;
+    if (!display_.open(config_)) return Shown::NoScreen;  // not back yet; it was told when it went
+  }
+  const auto drawn = drawAndPresent(finger);
+  if (drawn) return was_away ? Shown::Back : Shown::OnScreen;
+  if (drawn.error().code != ErrorCode::Lost) return std::unexpected(drawn.error());
+  close();
+  next_retry_ = now + kRetryPeriod;
+  return was_away ? Shown::NoScreen : Shown::Lost;
+}
+
+Result<void> Picture::drawAndPresent(const std::optional<FingerMark>& finger) {
+  const auto surface = display_.beginFrame();
+  if (!surface) return std::unexpected(surface.error());
+  width_ = surface->width;
+  height_ = surface->height;
+  if (display_.capabilities().gles) {
+    if (auto drawn = draw(*surface, finger); !drawn) return drawn;
+  }
+  const auto presented = display_.present();
+  if (!presented) return std::unexpected(presented.error());
+  return {};
+}
+
+Result<void> Picture::draw(const DisplaySurface& surface, const std::optional<FingerMark>& finger) {
+  if (renderer_ == nullptr) {
+    auto renderer = SceneRenderer::create(frame_budget_);
+    if (!renderer) return std::unexpected(renderer.error());
+    renderer_ = std::move(*renderer);
+    renderer_->setStereo(stereo_);
+  }
+  if (!uploaded_) {
+    if (auto set = renderer_->setFrame(pair_.color, pair_.depth, calibration_, volume_); !set) return set;
+    uploaded_ = true;
+  }
+  if (auto drawn = renderer_->draw(surface, finger); !drawn) return drawn;
+  statistics_ = renderer_->statistics();
+  return {};
+}
+
+void Picture::nextLayout() noexcept {
+  constexpr int kLayouts = 3;
+  static_assert(static_cast<int>(StereoLayout::Anaglyph) == kLayouts - 1);
+  stereo_.layout = static_cast<StereoLayout>((static_cast<int>(stereo_.layout) + 1) % kLayouts);
+  if (renderer_ != nullptr) renderer_->setStereo(stereo_);
+}
+
+}  // namespace relievo

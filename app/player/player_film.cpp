@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the player does with the film: waits for the reader, follows the clock, and feeds the eye and the finger.
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "app/player/player.h"
+#include "platform/log.h"
+
+namespace relievo {
+namespace {
+
+constexpr Duration kUnknownPeriod = std::chrono::milliseconds(40);
+constexpr double kDrawShare = 0.6;  // of the film's frame period; the rest is the decoder's and the finger's
+constexpr Duration kRedrawPeriod = std::chrono::milliseconds(33);  // of a standing picture in which the finger moves
+constexpr double kMovedMm = 0.2;                                   // less is not seen
+
+const char* answerTo(HapticFault::Kind kind) noexcept {
+  switch (kind) {
+    case HapticFault::Kind::DeviceLost: return "force zero, the film plays on without force";
+    case HapticFault::Kind::DeviceError: return "the tick was left out";
+    case HapticFault::Kind::FeedStale: return "force faded";
+    case HapticFault::Kind::FeedRecovered: return "force faded in again";
+  }
+  return "";
+}
+
+bool movedVisibly(const std::optional<FingerMark>& a, const std::optional<FingerMark>& b) {
+  if (a.has_value() != b.has_value()) return true;
+  return a && (a->contact != b->contact || glm::distance(a->position_mm, b->position_mm) > kMovedMm);
+}
+
+}  // namespace
+
+void Player::followReader(MonotonicTime now) {
+  if (state_ == PlayerState::Opening) {
+    const FilmFeed::State state = feed_.state();
+    if (state == FilmFeed::State::Failed) return fail(feed_.failedThing(), feed_.error());
+    if (state == FilmFeed::State::Opening) return;
+    opened();
+  }
+  if (state_ == PlayerState::Seeking) {
+    if (feed_.state() == FilmFeed::State::Seeking) return;
+    if (const auto refused = feed_.takeSeekError()) {
+      note(std::string("seek: ") + refused->message, "the film goes on from where it stands");
+    }
+    apply(PlayerEvent::Sought);
+  }
+  if (state_ != PlayerState::Buffering) return;
+  head_.refill(feed_);
+  if (head_.filled() || (head_.last() && !head_.ahead().empty())) return begin(now);
+  if (!head_.last()) return;
+  if (feed_.state() == FilmFeed::State::Failed) return fail(feed_.failedThing(), feed_.error());
+  endOfFilm(now);
+}
+
+void Player::opened() {
+  apply(PlayerEvent::Opened);
+  report_.film = feed_.info();
+  period_ = report_.film.frame_period > Duration(0) ? report_.film.frame_period : kUnknownPeriod;
+  if (report_.film.has_depth) {
+    log(LogLevel::Info, "play", "depth: %s", report_.film.calibration.explanation.c_str());
+  } else {
+    note("no depth in this film", "it plays flat, without force");
+  }
+}
+
+// The first pair after a start, a seek or an underrun is on the screen before its clock starts: whatever the first
+// drawing takes, nothing is late by it.
+void Player::begin(MonotonicTime now) {
+  head_.begin();
+  if (!surface_) setScene();
+  if (std::exchange(new_epoch_, false)) surface_->beginEpoch();
+  const MediaTime first = head_.present().color.pts;
+  showPresent(now);
+  if (state_ == PlayerState::Fault) return;
+  if (haptic_.opened() && !haptic_.running()) startTouch(first);
+
+  now = parts_.clock.now();
+  clock_.reset();
+  clock_.start(first, now);
+  if (held_) static_cast<void>(clock_.pause(now));
+  apply(held_ ? PlayerEvent::FilledHeld : PlayerEvent::Filled);
+  if (!held_) segment_begin_ = first;
+  feedSurface(*clock_.sample());
+  if (target_ && seek_wanted_) {
+    report_.seeks.back().picture_s = toSeconds(first);
+    await_touch_ = parts_.clock.now();
+  }
+  target_.reset();
+}
+
+void Player::setScene() {
+  const Frame& shape = head_.present().depth.empty() ? head_.present().color : head_.present().depth;
+  volume_ = config_.volume.value_or(DisplayVolume::forPicture(shape.width, shape.height, shape.sample_aspect));
+  const DepthCalibration& calibration = report_.film.calibration.calibration;
+  surface_.emplace(calibration, volume_);
+  picture_.setScene(calibration, volume_, fromSeconds(kDrawShare * toSeconds(period_)));
+}
+
+// With the first surface at a stand, so that the force is faded in on something that is there.
+void Player::startTouch(MediaTime first) {
+  feedSurface({first, parts_.clock.now(), 0});
+  if (auto started = haptic_.start(volume_, *surface_); !started) {
+    note(std::string("haptic device: ") + started.error().message, "the film plays without force");
+    haptic_.stop();
+    return;
+  }
+  if (const char* missing = haptic_.missingRight()) note(std::string("haptic: ") + missing, "touch goes on without it");
+}
+
+void Player::followClock(MonotonicTime now) {
+  if (state_ != PlayerState::Playing && state_ != PlayerState::Paused) return;
+  const MediaTime position = *clock_.position(now);
+  const std::size_t steps = head_.advance(position, feed_);
+  feedSurface(*clock_.sample());
+  if (steps > 0) {
+    report_.frames_dropped += steps - 1;
+    showPresent(now);
+  } else {
+    redrawFinger(now);
+  }
+  if (state_ != PlayerState::Playing || !head_.ahead().empty()) return;
+
+  const MediaTime shown = head_.present().color.pts;
+  if (head_.last()) {
+    if (position < shown + period_) return;
+    if (feed_.state() == FilmFeed::State::Failed) return fail(feed_.failedThing(), feed_.error());
+    return endOfFilm(now);
+  }
+  // A pair that is late by less than a period is shown late; after that the film waits for the reader.
+  if (position < shown + 2 * period_) return;
+  closeSegment(now);
+  apply(PlayerEvent::Starved);
+  note("the film came too slowly", "the picture stands until it is read ahead again");
+}
+
+void Player::endOfFilm(MonotonicTime now) {
+  closeSegment(now);
+  apply(PlayerEvent::EndOfFilm);
+  if (config_.loop && report_.frames_shown > 0) return seek(MediaTime{}, PlayerEvent::Loop, now);
+  end(now);
+}
+
+void Player::closeSegment(MonotonicTime now) {
+  if (const auto position = clock_.position(now); position && segment_begin_) played_ += *position - *segment_begin_;
+  segment_begin_.reset();
+}
+
+void Player::feedSurface(const ClockSample& clock) {
+  const auto changed = surface_->update(head_.present(), head_.ahead(), head_.last(), clock);
+  if (!changed) {
+    if (!std::exchange(depth_refused_, true)) {
+      note(std::string("depth: ") + changed.error().message, "it plays without force");
+    }
+    haptic_.publish(*surface_);
+    return;
+  }
+  if (*changed) haptic_.publish(*surface_);
+  const bool missing = report_.film.has_depth && head_.present().depth.empty();
+  if (missing && !depth_missing_) note("no depth at this time", "the picture is flat there, without force");
+  depth_missing_ = missing;
+}
+
+void Player::showPresent(MonotonicTime now) {
+  picture_.setPair(head_.present());
+  draw(now);
+  if (state_ == PlayerState::Fault) return;
+  ++report_.frames_shown;
+  if (!report_.first_frame_ms) report_.first_frame_ms = 1e3 * toSeconds(parts_.clock.now() - started_);
+}
+
+// Between two pictures of the film the finger moves; it is drawn where there is time for it.
+void Player::redrawFinger(MonotonicTime now) {
+  if (!redraw_) {
+    if (now < last_draw_ + kRedrawPeriod || nextPicture(now) < now + kRedrawPeriod) return;
+    if (!picture_.away() && !movedVisibly(fingerMark(), last_mark_)) return;
+  }
+  draw(now);
+}
+
+void Player::draw(MonotonicTime now) {
+  last_mark_ = fingerMark();
+  last_draw_ = now;
+  redraw_ = false;
+  const auto shown = picture_.show(last_mark_, now);
+  if (!shown) return fail(std::string("display ") + picture_.capabilities().name, shown.error());
+  if (*shown == Picture::Shown::Lost) note("display lost", "film and touch go on; it is tried again every second");
+  if (*shown == Picture::Shown::Back) note("display back", "the picture is on it again");
+}
+
+std::optional<FingerMark> Player::fingerMark() {
+  const FingerState* finger = haptic_.finger();
+  if (finger == nullptr) return std::nullopt;
+  return FingerMark{finger->proxy_mm, finger->force_n, finger->contact};
+}
+
+// When the next picture is due: never, while the film stands.
+MonotonicTime Player::nextPicture(MonotonicTime now) const {
+  const auto sample = clock_.sample();
+  if (!sample || sample->rate <= 0) return MonotonicTime::max();
+  if (head_.ahead().empty()) return now + period_;
+  return sample->monotonic + (head_.ahead().front().color.pts - sample->media);
+}
+
+void Player::drainTouch() {
+  while (const auto tick = haptic_.nextTick()) {
+    if (parts_.recorder != nullptr) parts_.recorder->add(*tick);
+    if (!await_touch_ || tick->time <= *await_touch_) continue;
+    if (const auto frame = surface_->frameAt(tick->media_time)) report_.seeks.back().surface_s = toSeconds(*frame);
+    await_touch_.reset();
+  }
+  while (const auto fault = haptic_.nextFault()) note(name(fault->kind), answerTo(fault->kind), fault->time);
+}
+
+}  // namespace relievo

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// A look into a source: what is in it, what its depth means, and what playing it needs.
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <string>
+#include <vector>
+
+#include "app/media/pair_reader.h"
+#include "app/scene/display_volume.h"
+#include "hal/media_source.h"
+
+namespace relievo {
+
+struct ProbedTrack {
+  std::string source;
+  StreamInfo stream;
+};
+
+// The first pairs, looked at.
+struct DepthUse {
+  int pairs = 0;
+  std::uint32_t lowest_code = 0, highest_code = 0;
+  double lowest_mm = 0, highest_mm = 0;
+  double holes = 0;  // share of the samples
+};
+
+struct ProbeResult {
+  std::vector<ProbedTrack> tracks;
+  FilmInfo film;
+  PairCounters pairs;  // of the first ones
+  DisplayVolume volume;
+  DepthUse depth;
+  std::string decoder;             // its name
+  std::vector<std::string> needs;  // one line each
+};
+
+struct ProbeFailure {
+  std::string thing;
+  Error error;
+};
+
+[[nodiscard]] std::expected<ProbeResult, ProbeFailure> probe(const SourceOptions& options,
+                                                             const PairReader::Backends& backends);
+[[nodiscard]] std::string probeToText(const ProbeResult& result);
+[[nodiscard]] std::string probeToJson(const ProbeResult& result);
+
+}  // namespace relievo

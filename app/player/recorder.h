@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writes every tick of the haptic task as a line of CSV.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/haptics/finger_state.h"
+#include "app/player/atomic_file.h"
+#include "platform/error.h"
+
+namespace relievo {
+
+// Columns: t_s (since the first tick), hip, proxy (scene mm), force (N, on the hand), contact, media_s (the film's time).
+class Recorder {
+ public:
+  [[nodiscard]] static Result<Recorder> create(const std::string& path);
+  void add(const FingerState& tick) noexcept;
+  [[nodiscard]] Result<void> finish() { return file_.commit(); }
+  [[nodiscard]] const std::string& path() const noexcept { return file_.path(); }
+
+ private:
+  explicit Recorder(AtomicFile file) noexcept : file_(std::move(file)) {}
+  AtomicFile file_;
+  std::optional<MonotonicTime> first_;
+};
+
+}  // namespace relievo

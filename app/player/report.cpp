@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// The report's two forms.
+#include "app/player/report.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/player/text_line.h"
+
+namespace relievo {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A figure that a person can read; JSON has no word for what is not finite.
+double rounded(double value, double unit = 1e-6) { return std::isfinite(value) ? std::round(value / unit) * unit : 0.0; }
+
+Json orNull(const std::optional<double>& value) { return value ? Json(rounded(*value)) : Json(nullptr); }
+
+Json toJson(const HapticSummary::Times& t) {
+  return {{"p50", t.p50}, {"p99", t.p99}, {"p999", t.p999}, {"max", t.max}};
+}
+
+double share(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+Json videoPart(const PlayReport& r) {
+  return {{"frames_shown", r.frames_shown},
+          {"frames_dropped", r.frames_dropped},
+          {"pairs_mismatched", r.pairs.mismatched},
+          {"pairs_damaged", r.pairs.damaged},
+          {"first_frame_ms", orNull(r.first_frame_ms)},
+          {"display", r.display},
+          {"stereo", r.stereo},
+          {"surface", {r.surface_width, r.surface_height}},
+          {"grid", {r.grid_cols, r.grid_rows}},
+          {"draw_ms", rounded(r.draw_ms, 1e-3)}};
+}
+
+Json filmPart(const PlayReport& r) {
+  const FilmInfo& f = r.film;
+  return {{"color", {{"codec", f.color_codec}, {"width", f.color_width}, {"height", f.color_height}}},
+          {"depth", f.has_depth ? Json{{"codec", f.depth_codec}, {"width", f.depth_width}, {"height", f.depth_height}}
+                                : Json(nullptr)},
+          {"packing", name(f.packing)},
+          {"calibration", f.has_depth ? Json(f.calibration.explanation) : Json(nullptr)},
+          {"frame_period_s", rounded(toSeconds(f.frame_period))},
+          {"duration_s", rounded(toSeconds(f.duration))},
+          {"volume_mm", {rounded(r.volume.width_mm, 1e-3), rounded(r.volume.height_mm, 1e-3), r.volume.depth_mm}}};
+}
+
+Json hapticPart(const HapticSummary& h) {
+  return {{"device", h.device},
+          {"scheduler", h.scheduler},
+          {"memory_locked", h.memory_locked},
+          {"rate_hz", rounded(h.rate_hz, 1e-3)},
+          {"ticks", h.ticks},
+          {"contact_share", rounded(share(h.contact_ticks, h.ticks))},
+          {"overruns", h.overruns},
+          {"allocations", h.allocations},
+          {"page_faults", h.page_faults},
+          {"update_ns", toJson(h.update)},
+          {"wakeup_ns", toJson(h.wakeup)}};
+}
+
+}  // namespace
+
+bool PlayReport::addFault(double time_s, std::string what, std::string done) {
+  // A device that fails a thousand times a second is one entry.
+  if (!faults.empty() && faults.back().what == what && faults.back().done == done) {
+    ++faults.back().count;
+    return false;
+  }
+  constexpr std::size_t kMost = 1000;  // of a film that loops for months
+  if (faults.size() >= kMost) return false;
+  faults.push_back({time_s, std::move(what), std::move(done)});
+  return true;
+}
+
+const char* name(Packing packing) noexcept {
+  switch (packing) {
+    case Packing::Auto: return "auto";
+    case Packing::Tracks: return "tracks";
+    case Packing::SideBySide: return "sbs";
+    case Packing::TopBottom: return "tb";
+  }
+  return "";
+}
+
+std::string toJson(const PlayReport& r) {
+  Json json;
+  json["source"] = r.source;
+  if (!r.depth_source.empty()) json["depth_source"] = r.depth_source;
+  json["film"] = filmPart(r);
+  json["wall_s"] = rounded(r.wall_s);
+  json["media_s"] = rounded(r.media_s);
+  json["video"] = videoPart(r);
+  json["haptic"] = hapticPart(r.haptic);
+  json["force"] = {{"max_n", rounded(r.haptic.max_force_n)},
+                   {"max_scene_slew_n_per_s", rounded(r.haptic.max_scene_slew_n_per_s)}};
+  json["energy"] = {{"scene_mj", rounded(r.haptic.scene_mj)}, {"artefact_mj", rounded(r.haptic.artefact_mj)}};
+  json["states"] = Json::array();
+  for (const PlayerState state : r.states) json["states"].push_back(name(state));
+  json["seeks"] = Json::array();
+  for (const SeekEntry& s : r.seeks) {
+    json["seeks"].push_back(
+        {{"target_s", rounded(s.target_s)}, {"picture_s", orNull(s.picture_s)}, {"surface_s", orNull(s.surface_s)}});
+  }
+  json["faults"] = Json::array();
+  for (const FaultEntry& f : r.faults) {
+    json["faults"].push_back({{"time_s", rounded(f.time_s)}, {"what", f.what}, {"done", f.done}, {"count", f.count}});
+  }
+  // A path need not be UTF-8, JSON must be.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string toText(const PlayReport& r) {
+  const HapticSummary& h = r.haptic;
+  const auto us = [](std::int64_t ns) { return static_cast<double>(ns) * 1e-3; };
+  std::string text = textLine("film    %.2f s shown in %.2f s, first picture after %.0f ms\n", r.media_s, r.wall_s,
+                          r.first_frame_ms.value_or(0));
+  text += textLine("video   %llu frames shown, %llu dropped, %llu pairs mismatched; %s, %s, %d x %d, grid %d x %d, %.1f ms a frame\n",
+               static_cast<unsigned long long>(r.frames_shown), static_cast<unsigned long long>(r.frames_dropped),
+               static_cast<unsigned long long>(r.pairs.mismatched), r.display.c_str(), r.stereo.c_str(), r.surface_width,
+               r.surface_height, r.grid_cols, r.grid_rows, r.draw_ms);
+  if (h.ticks == 0) return text + "touch   none\n";
+  text += textLine("touch   %s, %llu ticks at %.0f Hz (%s), %llu late, %.0f %% in contact\n", h.device.c_str(),
+               static_cast<unsigned long long>(h.ticks), h.rate_hz, h.scheduler.c_str(),
+               static_cast<unsigned long long>(h.overruns), 100 * share(h.contact_ticks, h.ticks));
+  text += textLine("tick    median %.1f us, p99 %.1f us, longest %.1f us; woken late by %.1f us (p99)\n", us(h.update.p50),
+               us(h.update.p99), us(h.update.max), us(h.wakeup.p99));
+  text += textLine("force   at most %.2f N; the scene changed it by at most %.0f N/s; energy %.2f mJ scene, %.2f mJ artefacts\n",
+               h.max_force_n, h.max_scene_slew_n_per_s, h.scene_mj, h.artefact_mj);
+  return text;
+}
+
+}  // namespace relievo

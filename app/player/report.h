@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a run of the player did, as numbers; as JSON for programs and as a few lines for people.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/media/pair_reader.h"
+#include "app/player/haptic_session.h"
+#include "app/player/state_table.h"
+#include "app/scene/display_volume.h"
+
+namespace relievo {
+
+// Something that went wrong, or had to be done without, and what the player did about it.
+struct FaultEntry {
+  double time_s = 0;  // since the start; of the first one when it came several times running
+  std::string what;
+  std::string done;
+  std::uint64_t count = 1;
+};
+
+// The first picture after a seek, and the depth frame that the first touch after it was on: the two sides agree when
+// they are equal. Nothing where there was none.
+struct SeekEntry {
+  double target_s = 0;
+  std::optional<double> picture_s;
+  std::optional<double> surface_s;
+};
+
+struct PlayReport {
+  std::string source, depth_source;
+  FilmInfo film;
+  PairCounters pairs;
+  DisplayVolume volume;
+  double wall_s = 0;
+  double media_s = 0;  // shown, pauses left out
+
+  std::string display;
+  std::string stereo;
+  int surface_width = 0, surface_height = 0;
+  int grid_cols = 0, grid_rows = 0;
+  double draw_ms = 0;
+  std::uint64_t frames_shown = 0, frames_dropped = 0;
+  std::optional<double> first_frame_ms;
+
+  HapticSummary haptic;
+  std::vector<PlayerState> states;
+  std::vector<FaultEntry> faults;
+  std::vector<SeekEntry> seeks;
+
+  // False when it is the last one again, which is then counted there; or when there are too many.
+  bool addFault(double time_s, std::string what, std::string done);
+};
+
+[[nodiscard]] const char* name(Packing packing) noexcept;  // auto tracks sbs tb
+[[nodiscard]] std::string toJson(const PlayReport& report);
+[[nodiscard]] std::string toText(const PlayReport& report);
+
+}  // namespace relievo

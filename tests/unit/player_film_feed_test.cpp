@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+// The reader's side by hand, in simulated time; and once with its thread, held up and interrupted.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "app/player/film_feed.h"
+#include "app/player/playhead.h"
+#include "drivers/mock/mock.h"
+#include "platform/clock.h"
+
+namespace relievo {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+using State = FilmFeed::State;
+
+constexpr Duration kPeriod = std::chrono::milliseconds(40);
+constexpr std::size_t kCapacity = 4;
+
+MockMediaProfile filmOf(int frames) {
+  MockTrack color{.width = 16, .height = 12, .model = ColorModel::Yuv, .frames = frames, .frame_period = kPeriod};
+  MockTrack depth{.width = 16, .height = 12, .frames = frames, .frame_period = kPeriod};
+  return {.tracks = {color, depth}};
+}
+
+PairReader::Backends backends(MockMediaProfile profile, Clock& clock) {
+  return {.make_source = [profile = std::move(profile), &clock] { return makeMockSource(profile, clock); },
+          .make_decoder = [] { return makeMockDecoder({.max_held_frames = 32}); }};
+}
+
+class FilmFeedTest : public testing::Test {
+ protected:
+  FilmFeed& open(MockMediaProfile profile) {
+    feed_ = std::make_unique<FilmFeed>(backends(std::move(profile), clock_), kCapacity);
+    feed_->open({.url = "mock"});
+    return *feed_;
+  }
+  int workAll() {
+    int pieces = 0;
+    while (feed_->work()) ++pieces;
+    return pieces;
+  }
+  // Times, in frame periods, of all that can be taken without further work.
+  std::vector<int> takeAll() {
+    std::vector<int> taken;
+    while (const auto pair = feed_->take()) {
+      taken.push_back(static_cast<int>(pair->color.pts.time_since_epoch() / kPeriod));
+      EXPECT_EQ(pair->depth.pts, pair->color.pts);
+    }
+    return taken;
+  }
+
+  ManualClock clock_;
+  std::unique_ptr<FilmFeed> feed_;
+};
+
+TEST_F(FilmFeedTest, OpensThenReadsInOrderAndNoFurtherThanItsCapacity) {
+  FilmFeed& feed = open(filmOf(10));
+  EXPECT_EQ(feed.state(), State::Opening);
+  EXPECT_TRUE(feed.work());
+  EXPECT_EQ(feed.state(), State::Reading);
+  EXPECT_EQ(feed.info().color_width, 16);
+  EXPECT_TRUE(feed.info().has_depth);
+  EXPECT_EQ(workAll(), 4);
+  EXPECT_THAT(takeAll(), ElementsAre(0, 1, 2, 3));
+  EXPECT_EQ(workAll(), 4);
+  EXPECT_THAT(takeAll(), ElementsAre(4, 5, 6, 7));
+}
+
+TEST_F(FilmFeedTest, EndsWithWhatWasReadStillToBeTaken) {
+  FilmFeed& feed = open(filmOf(3));
+  workAll();
+  EXPECT_EQ(feed.state(), State::Ended);
+  EXPECT_THAT(takeAll(), ElementsAre(0, 1, 2));
+  EXPECT_THAT(takeAll(), IsEmpty());
+  EXPECT_EQ(feed.counters().pairs, 3u);
+}
+
+TEST_F(FilmFeedTest, ASeekForgetsWhatWasReadAndGoesOnAtTheTarget) {
+  FilmFeed& feed = open(filmOf(100));
+  workAll();
+  feed.seek(MediaTime(50 * kPeriod));
+  EXPECT_EQ(feed.state(), State::Seeking);
+  EXPECT_THAT(takeAll(), IsEmpty());
+  workAll();
+  EXPECT_EQ(feed.state(), State::Reading);
+  EXPECT_THAT(takeAll(), ElementsAre(50, 51, 52, 53));
+}
+
+TEST_F(FilmFeedTest, TheNewestOfTwoSeeksHolds) {
+  FilmFeed& feed = open(filmOf(100));
+  workAll();
+  feed.seek(MediaTime(50 * kPeriod));
+  feed.seek(MediaTime(20 * kPeriod));
+  workAll();
+  EXPECT_THAT(takeAll(), ElementsAre(20, 21, 22, 23));
+}
+
+TEST_F(FilmFeedTest, SeeksBackFromTheEnd) {
+  FilmFeed& feed = open(filmOf(3));
+  workAll();
+  feed.seek(MediaTime(1 * kPeriod));
+  workAll();
+  EXPECT_THAT(takeAll(), ElementsAre(1, 2));
+}
+
+TEST_F(FilmFeedTest, IgnoresASeekBeforeTheFilmIsOpen) {
+  FilmFeed& feed = open(filmOf(10));
+  feed.seek(MediaTime(5 * kPeriod));
+  EXPECT_EQ(feed.state(), State::Opening);
+}
+
+TEST_F(FilmFeedTest, ASourceThatCannotSeekGoesOnAndSaysSoOnce) {
+  MockMediaProfile profile = filmOf(100);
+  profile.live = true;
+  FilmFeed& feed = open(profile);
+  workAll();
+  feed.seek(MediaTime(50 * kPeriod));
+  workAll();
+  const auto refused = feed.takeSeekError();
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->code, ErrorCode::Unsupported);
+  EXPECT_FALSE(feed.takeSeekError());
+  EXPECT_EQ(feed.state(), State::Reading);
+  EXPECT_EQ(takeAll().size(), kCapacity);
+}
+
+TEST_F(FilmFeedTest, NamesTheSourceThatDoesNotOpen) {
+  MockMediaProfile profile = filmOf(10);
+  profile.fail_open = ErrorCode::NotFound;
+  FilmFeed& feed = open(profile);
+  workAll();
+  EXPECT_EQ(feed.state(), State::Failed);
+  EXPECT_EQ(feed.error().code, ErrorCode::NotFound);
+  EXPECT_EQ(feed.failedThing(), "mock");
+}
+
+TEST_F(FilmFeedTest, ASourceThatIsLostFailsAfterWhatWasRead) {
+  MockMediaProfile profile = filmOf(100);
+  profile.lose_after_packets = 12;
+  FilmFeed& feed = open(profile);
+  int taken = 0;
+  while (workAll() > 0) {
+    while (feed.take()) ++taken;
+  }
+  EXPECT_EQ(feed.state(), State::Failed);
+  EXPECT_EQ(feed.error().code, ErrorCode::Lost);
+  EXPECT_GE(taken, 1);
+  EXPECT_LE(taken, 7);  // two packets make a pair; the last may lack its depth
+}
+
+TEST_F(FilmFeedTest, IsClosedAfterAStopAndDoesNoMoreWork) {
+  FilmFeed& feed = open(filmOf(10));
+  workAll();
+  feed.stop();
+  feed.stop();
+  EXPECT_FALSE(feed.work());
+  EXPECT_EQ(feed.state(), State::Closed);
+  EXPECT_THAT(takeAll(), IsEmpty());
+}
+
+// The reader hangs in a source that stalls for an hour of simulated time; only an interrupt gets it out.
+TEST(FilmFeedThread, StopsWhileTheSourceStalls) {
+  MonotonicClock clock;
+  MockMediaProfile profile = filmOf(100);
+  profile.stall_after_packets = 10;
+  profile.stall = std::chrono::hours(1);
+  FilmFeed feed(backends(profile, clock), kCapacity);
+  feed.open({.url = "mock"});
+  feed.startThread();
+  while (!feed.take()) clock.sleepUntil(clock.now() + std::chrono::milliseconds(1));
+  feed.stop();
+  EXPECT_EQ(feed.state(), State::Closed);
+}
+
+TEST(FilmFeedThread, ReadsTheWholeFilmWhileItIsTaken) {
+  MonotonicClock clock;
+  FilmFeed feed(backends(filmOf(200), clock), kCapacity);
+  feed.open({.url = "mock"});
+  feed.startThread();
+  int taken = 0;
+  for (bool ended = false; !ended;) {
+    ended = feed.state() == State::Ended;  // before taking: what came before the end is then in the queue
+    while (const auto pair = feed.take()) {
+      EXPECT_EQ(pair->color.pts, MediaTime(taken * kPeriod));
+      ++taken;
+    }
+    clock.sleepUntil(clock.now() + std::chrono::microseconds(100));
+  }
+  EXPECT_EQ(taken, 200);
+}
+
+class PlayheadTest : public FilmFeedTest {
+ protected:
+  int present() const { return static_cast<int>(head_.present().color.pts.time_since_epoch() / kPeriod); }
+  bool refill() {
+    workAll();
+    return head_.refill(*feed_);
+  }
+  Playhead head_;
+};
+
+TEST_F(PlayheadTest, GoesToTheNewestPairThatIsDueAndCountsTheRest) {
+  open(filmOf(100));
+  refill();
+  head_.begin();
+  EXPECT_EQ(present(), 0);
+  EXPECT_EQ(head_.advance(MediaTime(kPeriod - Duration(1)), *feed_), 0u);
+  EXPECT_EQ(head_.advance(MediaTime(kPeriod), *feed_), 1u);
+  EXPECT_EQ(present(), 1);
+  workAll();
+  EXPECT_EQ(head_.advance(MediaTime(4 * kPeriod), *feed_), 3u);
+  EXPECT_EQ(present(), 4);
+}
+
+TEST_F(PlayheadTest, KnowsThatNothingFollowsOnlyWhenTheLastPairIsTaken) {
+  open(filmOf(6));
+  refill();
+  EXPECT_TRUE(head_.filled());
+  EXPECT_FALSE(head_.last());  // two more pairs wait in the feed
+  head_.begin();
+  head_.begin();
+  refill();
+  EXPECT_FALSE(head_.last());  // full: it has not seen that the feed is empty
+  head_.begin();
+  EXPECT_FALSE(refill());
+  EXPECT_TRUE(head_.last());
+  EXPECT_EQ(head_.ahead().size(), 3u);
+}
+
+}  // namespace
+}  // namespace relievo

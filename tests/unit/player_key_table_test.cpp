@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keys, by the numbers that the kernel's input layer and its CEC map use for them.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "app/player/key_table.h"
+
+namespace relievo {
+namespace {
+
+std::optional<PlayerCommand> pressed(int code, KeyEvent::Action action = KeyEvent::Action::Press) {
+  return commandOf({.code = static_cast<std::uint16_t>(code), .action = action, .time = {}});
+}
+
+// Numbers, not names: a wrong name in the table shows here.
+TEST(KeyTable, KnowsTheKeysOfRemotesKeyboardsAndCec) {
+  const std::map<int, PlayerCommand> expected{
+      {207, PlayerCommand::Play},         {200, PlayerCommand::Play},          {119, PlayerCommand::Pause},
+      {201, PlayerCommand::Pause},        {164, PlayerCommand::PlayPause},     {0x160, PlayerCommand::PlayPause},
+      {28, PlayerCommand::PlayPause},     {0x161, PlayerCommand::PlayPause},   {57, PlayerCommand::PlayPause},
+      {106, PlayerCommand::SeekForward},  {208, PlayerCommand::SeekForward},   {105, PlayerCommand::SeekBackward},
+      {168, PlayerCommand::SeekBackward}, {0x26f, PlayerCommand::NextLayout},  {128, PlayerCommand::Stop},
+      {166, PlayerCommand::Stop},         {158, PlayerCommand::Stop},          {174, PlayerCommand::Stop},
+      {1, PlayerCommand::Stop},           {116, PlayerCommand::Stop},
+  };
+  for (int code = 0; code <= 0x2ff; ++code) {
+    const auto known = expected.find(code);
+    if (known == expected.end()) {
+      EXPECT_FALSE(pressed(code)) << code;
+    } else {
+      EXPECT_EQ(pressed(code), known->second) << code;
+    }
+  }
+}
+
+TEST(KeyTable, AHeldKeySeeksOnAndDoesNothingElse) {
+  EXPECT_EQ(pressed(106, KeyEvent::Action::Repeat), PlayerCommand::SeekForward);
+  EXPECT_EQ(pressed(105, KeyEvent::Action::Repeat), PlayerCommand::SeekBackward);
+  EXPECT_FALSE(pressed(164, KeyEvent::Action::Repeat));
+  EXPECT_FALSE(pressed(0x26f, KeyEvent::Action::Repeat));
+}
+
+TEST(KeyTable, AReleaseMeansNothing) {
+  EXPECT_FALSE(pressed(164, KeyEvent::Action::Release));
+  EXPECT_FALSE(pressed(128, KeyEvent::Action::Release));
+}
+
+}  // namespace
+}  // namespace relievo
