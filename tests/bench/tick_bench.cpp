@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/haptics/methods.h"
+#include "platform/histogram.h"
 #include "tests/support/depth_frames.h"
 
 namespace relievo {
