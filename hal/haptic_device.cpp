@@ -23,7 +23,8 @@ Result<void> HapticDevice::home() {
   }
   auto homed = homeDevice();
   if (homed) state_ = State::Ready;
-  else if (homed.error().code == ErrorCode::Lost) state_ = State::Lost;
+  // A device that was Ready and has failed to home anew does not know its zero any more: it must not start.
+  else state_ = homed.error().code == ErrorCode::Lost ? State::Lost : State::Opened;
   return homed;
 }
 

@@ -41,7 +41,7 @@ class HapticDevice {
 
   // NotFound, PermissionDenied, Unsupported, Timeout.
   [[nodiscard]] Result<void> open();
-  // Finds the device's zero. Opened or Ready.
+  // Finds the device's zero. Opened or Ready; Opened after a failure, since the zero is not known then.
   [[nodiscard]] Result<void> home();
   [[nodiscard]] Result<void> start();
   // Once a tick, `read` first. Running only.

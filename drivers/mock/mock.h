@@ -128,7 +128,7 @@ struct MockHapticProfile {
 
   // Faults. Ticks are reads since `open`.
   std::optional<ErrorCode> fail_open;
-  bool fails_homing = false;                  // Timeout
+  std::uint64_t fail_homing_after = kNever;   // Timeout from then on; counted over all openings
   std::uint64_t lose_after_ticks = kNever;    // Lost until closed
   std::uint64_t glitch_after_ticks = kNever;  // one read answers Io
   bool refuses_force = false;                 // every write answers Io, the force stays zero

@@ -29,7 +29,9 @@ private:
 
   Result<void> homeDevice() override {
     if (gone()) return fail(ErrorCode::Lost, "the mock device has gone away");
-    if (profile_.fails_homing) return fail(ErrorCode::Timeout, "the mock device was told not to home");
+    if (homings_++ >= profile_.fail_homing_after) {
+      return fail(ErrorCode::Timeout, "the mock device was told not to home");
+    }
     return {};
   }
 
@@ -88,6 +90,7 @@ private:
   MockHapticProfile profile_;
   const Clock& clock_;
   std::shared_ptr<MockHapticBench> bench_;
+  std::uint64_t homings_ = 0;
   std::uint64_t ticks_ = 0;
   MonotonicTime started_;
   MonotonicTime last_write_;

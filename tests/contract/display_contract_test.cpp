@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every display keeps to: states, the surface it promised, and no longer a wait than its refresh.
+#include <gtest/gtest.h>
+
+#include "drivers/egl/egl.h"
+#include "drivers/mock/mock.h"
+#include "tests/contract/state_table.h"
+
+namespace relievo {
+namespace {
+
+using State = Display::State;
+using namespace std::chrono_literals;
+
+struct Backend {
+  const char* name;
+  std::function<std::unique_ptr<Display>(ManualClock&)> make;
+};
+void PrintTo(const Backend& backend, std::ostream* out) {
+  *out << backend.name;
+}
+
+const Backend kBackends[] = {
+    {"mock", [](ManualClock& clock) { return makeMockDisplay({}, clock); }},
+    {"offscreen", [](ManualClock&) { return makeOffscreenDisplay(""); }},
+};
+
+class DisplayContract : public testing::TestWithParam<Backend> {
+protected:
+  void SetUp() override {
+    const auto opened = GetParam().make(clock_)->open({64, 48});
+    if (!opened && opened.error().code == ErrorCode::Unsupported) GTEST_SKIP() << opened.error().message;
+  }
+  std::unique_ptr<Display> bring(State state) {
+    auto display = GetParam().make(clock_);
+    if (state == State::Closed) return display;
+    EXPECT_TRUE(display->open({64, 48}));
+    EXPECT_TRUE(state != State::Drawing || display->beginFrame());
+    return display;
+  }
+  ManualClock clock_{MonotonicTime(1h)};
+};
+INSTANTIATE_TEST_SUITE_P(Backends, DisplayContract, testing::ValuesIn(kBackends),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST_P(DisplayContract, EveryVerbInEveryState) {
+  const std::vector<test::Verb<Display>> verbs = {
+      {"open",
+       [](Display& d) {
+         return test::answerOf(d.open({64, 48}));
+       }},
+      {"beginFrame", [](Display& d) { return test::answerOf(d.beginFrame()); }},
+      {"present", [](Display& d) { return test::answerOf(d.present()); }},
+      {"close", [](Display& d) { return d.close(), test::Answer{}; }},
+  };
+  constexpr auto no = std::nullopt;
+  const std::vector<test::Row<State>> table = {
+      // from            open         beginFrame      present      close
+      {State::Closed, {State::Open, no, no, State::Closed}},
+      {State::Open, {no, State::Drawing, no, State::Closed}},
+      {State::Drawing, {no, no, State::Open, State::Closed}},
+  };
+  test::expectStateTable(verbs, table, [&](State state) { return bring(state); });
+}
+
+TEST_P(DisplayContract, CapabilitiesAreTheSameInEveryState) {
+  for (const State state : {State::Closed, State::Open, State::Drawing}) {
+    const auto closed = bring(State::Closed);
+    const auto other = bring(state);
+    EXPECT_STREQ(other->capabilities().name, closed->capabilities().name);
+    EXPECT_EQ(other->capabilities().gles, closed->capabilities().gles);
+    EXPECT_EQ(other->capabilities().refresh_period, closed->capabilities().refresh_period);
+  }
+}
+
+TEST_P(DisplayContract, GivesASurfaceOfASizeThatStays) {
+  const auto display = bring(State::Open);
+  for (int i = 0; i < 3; ++i) {
+    const auto surface = display->beginFrame();
+    ASSERT_TRUE(surface);
+    EXPECT_EQ(surface->width, 64);
+    EXPECT_EQ(surface->height, 48);
+    EXPECT_TRUE(display->capabilities().gles || surface->framebuffer == 0);
+    ASSERT_TRUE(display->present());
+  }
+}
+
+TEST_P(DisplayContract, PresentTakesNoLongerThanARefresh) {
+  const auto display = bring(State::Open);
+  for (int i = 0; i < 5; ++i) {
+    ASSERT_TRUE(display->beginFrame());
+    const auto shown = display->present();
+    ASSERT_TRUE(shown);
+    EXPECT_GE(*shown, Duration(0));
+    EXPECT_LE(*shown, display->capabilities().refresh_period);
+    clock_.advance(7ms);
+  }
+}
+
+TEST_P(DisplayContract, RefusesASizeThatIsNone) {
+  const auto display = bring(State::Closed);
+  for (const DisplayConfig& config :
+       {DisplayConfig{0, 48}, DisplayConfig{64, -1}, DisplayConfig{64, 16385}}) {
+    const auto opened = display->open(config);
+    ASSERT_FALSE(opened);
+    EXPECT_EQ(opened.error().code, ErrorCode::InvalidArgument);
+    EXPECT_EQ(display->state(), State::Closed);
+  }
+  EXPECT_TRUE(display->open({64, 48})) << "and goes on as if nothing had been";
+}
+
+TEST_P(DisplayContract, OpensAgainInAnotherSize) {
+  const auto display = bring(State::Drawing);
+  display->close();
+  ASSERT_TRUE(display->open({32, 16}));
+  const auto surface = display->beginFrame();
+  ASSERT_TRUE(surface);
+  EXPECT_EQ(surface->width, 32);
+  EXPECT_EQ(surface->height, 16);
+}
+
+TEST_P(DisplayContract, TwoAtOnceDoNotDisturbEachOther) {
+  const auto one = bring(State::Open);
+  const auto other = bring(State::Open);
+  ASSERT_TRUE(one->beginFrame());
+  ASSERT_TRUE(other->beginFrame());
+  EXPECT_TRUE(one->present());
+  other->close();
+  EXPECT_TRUE(one->beginFrame());
+  EXPECT_TRUE(one->present());
+}
+
+// ---- what only a display with fault switches can show
+// -----------------------------------------------------------------
+
+TEST(MockDisplay, ShowsAtItsRefreshes) {
+  ManualClock clock(MonotonicTime(1h));
+  const auto display = makeMockDisplay({.refresh_period = 20ms}, clock);
+  ASSERT_TRUE(display->open({64, 48}));
+  // Opened on a refresh; 5 ms later, then on the refresh itself, then 30 ms late.
+  const struct { Duration wait, shown; } frames[] = {{5ms, 15ms}, {0ms, 20ms}, {30ms, 10ms}};
+  for (const auto& frame : frames) {
+    clock.advance(frame.wait);
+    ASSERT_TRUE(display->beginFrame());
+    EXPECT_EQ(display->present().value(), frame.shown);
+  }
+  EXPECT_EQ(clock.now(), MonotonicTime(1h + 80ms));
+}
+
+TEST(MockDisplay, WithoutARefreshShowsAtOnce) {
+  ManualClock clock;
+  const auto display = makeMockDisplay({.refresh_period = 0ns}, clock);
+  ASSERT_TRUE(display->open({64, 48}));
+  ASSERT_TRUE(display->beginFrame());
+  EXPECT_EQ(display->present().value(), Duration(0));
+  EXPECT_EQ(clock.now(), MonotonicTime{});
+}
+
+TEST(MockDisplay, ALostScreenStaysLostUntilClosedAndOpened) {
+  ManualClock clock;
+  const auto display = makeMockDisplay({.lose_after_frames = 1}, clock);
+  ASSERT_TRUE(display->open({64, 48}));
+  ASSERT_TRUE(display->beginFrame() && display->present());
+  EXPECT_EQ(display->beginFrame().error().code, ErrorCode::Lost);
+  EXPECT_EQ(display->beginFrame().error().code, ErrorCode::Lost);
+  display->close();
+  ASSERT_TRUE(display->open({64, 48}));
+  EXPECT_TRUE(display->beginFrame());
+}
+
+TEST(MockDisplay, AFailedOpeningLeavesItClosed) {
+  ManualClock clock;
+  const auto display = makeMockDisplay({.fail_open = ErrorCode::Unsupported}, clock);
+  EXPECT_EQ(display->open({64, 48}).error().code, ErrorCode::Unsupported);
+  EXPECT_EQ(display->state(), State::Closed);
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every haptic device keeps to, whatever it is: states, and a hand that is never pushed unasked.
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "drivers/mock/mock.h"
+#include "drivers/sim/sim.h"
+#include "platform/allocation_counter.h"
+#include "tests/contract/state_table.h"
+
+namespace relievo {
+namespace {
+
+using State = HapticDevice::State;
+constexpr Duration kTick = std::chrono::milliseconds(1);
+constexpr double kPeakN = 8.5;
+
+// A device on the bench, and a way to see from outside whether it pushes.
+struct Rig {
+  std::unique_ptr<HapticDevice> device;
+  std::function<bool()> pushes;
+};
+
+struct Backend {
+  const char* name;
+  std::function<Rig(ManualClock&)> make;
+  std::function<Rig(ManualClock&)> make_losing;  // Lost at the first read; null where it cannot be lost
+};
+
+void PrintTo(const Backend& backend, std::ostream* out) {
+  *out << backend.name;
+}
+
+Rig mock(MockHapticProfile profile, ManualClock& clock) {
+  profile.capabilities.peak_force_n = kPeakN;
+  auto bench = std::make_shared<MockHapticBench>();
+  auto device = makeMockHaptic(std::move(profile), clock, bench);
+  return {std::move(device), [bench] { return bench->force() != glm::dvec3(0); }};
+}
+
+// A mass that nobody holds: if it is pushed it moves, and its damping stops it within some milliseconds when
+// it is not. Brought back to Running for the look.
+Rig sim(ManualClock& clock) {
+  SimDeviceProfile profile;
+  profile.damping_n_s_per_mm = 0.075;  // 1 N moves it by 13 um a tick
+  profile.coulomb_friction_n = 0;
+  profile.encoder_step_mm = 0;
+  profile.delay_ticks = 0;
+  profile.peak_force_n = kPeakN;
+  profile.hand = {.mass_kg = 0, .stiffness_n_per_mm = 0, .damping_n_s_per_mm = 0};
+  Rig rig{makeSimHaptic(profile, HandPath({{0.0, {0, 0, 20}}}), clock), nullptr};
+  rig.pushes = [&device = *rig.device, &clock] {
+    const bool running = (device.state() != State::Closed || device.open()) &&
+                         (device.state() != State::Opened || device.home()) &&
+                         (device.state() != State::Ready || device.start());
+    EXPECT_TRUE(running);
+    const auto before = device.read();
+    clock.advance(kTick);
+    const auto after = device.read();
+    return !before || !after || glm::distance(before->position_mm, after->position_mm) > 1e-3;
+  };
+  return rig;
+}
+
+const Backend kBackends[] = {
+    {"mock", [](ManualClock& clock) { return mock({}, clock); },
+     [](ManualClock& clock) {
+       MockHapticProfile profile;
+       profile.lose_after_ticks = 0;
+       return mock(profile, clock);
+     }},
+    {"sim", sim, nullptr},
+};
+
+class HapticDeviceContract : public testing::TestWithParam<Backend> {
+protected:
+  // In that state, or no device where this back end cannot get there.
+  Rig bring(State state) {
+    const auto& make = state == State::Lost ? GetParam().make_losing : GetParam().make;
+    if (make == nullptr) return {};
+    Rig rig = make(clock_);
+    HapticDevice& device = *rig.device;
+    if (state == State::Closed) return rig;
+    EXPECT_TRUE(device.open());
+    if (state == State::Opened) return rig;
+    EXPECT_TRUE(device.home());
+    if (state == State::Ready) return rig;
+    EXPECT_TRUE(device.start());
+    EXPECT_TRUE(state != State::Lost || device.read().error().code == ErrorCode::Lost);
+    return rig;
+  }
+  // Running, after a tick of 1 N to the right.
+  Rig pushing() {
+    Rig rig = bring(State::Running);
+    EXPECT_TRUE(rig.device->read());
+    EXPECT_TRUE(rig.device->write({1, 0, 0}));
+    return rig;
+  }
+
+  ManualClock clock_{MonotonicTime(std::chrono::hours(1))};
+};
+INSTANTIATE_TEST_SUITE_P(Backends, HapticDeviceContract, testing::ValuesIn(kBackends),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST_P(HapticDeviceContract, EveryVerbInEveryState) {
+  const std::vector<test::Verb<HapticDevice>> verbs = {
+      {"open", [](HapticDevice& d) { return test::answerOf(d.open()); }},
+      {"home", [](HapticDevice& d) { return test::answerOf(d.home()); }},
+      {"start", [](HapticDevice& d) { return test::answerOf(d.start()); }},
+      {"read", [](HapticDevice& d) { return test::answerOf(d.read()); }},
+      {"write",
+       [](HapticDevice& d) {
+         return test::answerOf(d.write({0, 0, 1}));
+       }},
+      {"stop", [](HapticDevice& d) { return d.stop(), test::Answer{}; }},
+      {"close", [](HapticDevice& d) { return d.close(), test::Answer{}; }},
+  };
+  constexpr auto no = std::nullopt;
+  const std::vector<test::Row<State>> table = {
+      // from           open           home          start           read            write         stop close
+      {State::Closed, {State::Opened, no, no, no, no, State::Closed, State::Closed}},
+      {State::Opened, {no, State::Ready, no, no, no, State::Opened, State::Closed}},
+      {State::Ready, {no, State::Ready, State::Running, no, no, State::Ready, State::Closed}},
+      {State::Running, {no, no, no, State::Running, State::Running, State::Ready, State::Closed}},
+      {State::Lost, {no, no, no, no, no, State::Lost, State::Closed}},
+  };
+  test::expectStateTable(verbs, table, [&](State state) { return std::move(bring(state).device); });
+}
+
+TEST_P(HapticDeviceContract, CapabilitiesAreSensibleAndStayTheSame) {
+  const Rig rig = bring(State::Opened);
+  HapticDevice& device = *rig.device;
+  const HapticCapabilities first = device.capabilities();
+  EXPECT_STRNE(first.name, "");
+  for (int axis = 0; axis < 3; ++axis) EXPECT_LT(first.workspace_min_mm[axis], first.workspace_max_mm[axis]);
+  EXPECT_GT(first.peak_force_n, 0);
+  EXPECT_GT(first.continuous_force_n, 0);
+  EXPECT_LE(first.continuous_force_n, first.peak_force_n);
+  EXPECT_GT(first.max_stiffness_n_per_mm, 0);
+  EXPECT_GT(first.rate_hz, 0);
+
+  const auto expectSame = [&] {
+    const HapticCapabilities now = device.capabilities();
+    EXPECT_STREQ(now.name, first.name);
+    EXPECT_EQ(now.workspace_min_mm, first.workspace_min_mm);
+    EXPECT_EQ(now.workspace_max_mm, first.workspace_max_mm);
+    EXPECT_EQ(now.peak_force_n, first.peak_force_n);
+    EXPECT_EQ(now.continuous_force_n, first.continuous_force_n);
+    EXPECT_EQ(now.max_stiffness_n_per_mm, first.max_stiffness_n_per_mm);
+    EXPECT_EQ(now.rate_hz, first.rate_hz);
+  };
+  ASSERT_TRUE(device.home());
+  expectSame();
+  ASSERT_TRUE(device.start());
+  ASSERT_TRUE(device.read());
+  ASSERT_TRUE(device.write({0, 0, 1}));
+  expectSame();
+  device.stop();
+  expectSame();
+}
+
+TEST_P(HapticDeviceContract, TheFingerIsInsideTheWorkspace) {
+  const Rig rig = bring(State::Running);
+  const HapticCapabilities capabilities = rig.device->capabilities();
+  for (int i = 0; i < 100; ++i) {
+    const auto sample = rig.device->read();
+    ASSERT_TRUE(sample);
+    for (int axis = 0; axis < 3; ++axis) {
+      ASSERT_GE(sample->position_mm[axis], capabilities.workspace_min_mm[axis]);
+      ASSERT_LE(sample->position_mm[axis], capabilities.workspace_max_mm[axis]);
+    }
+    clock_.advance(kTick);
+  }
+}
+
+TEST_P(HapticDeviceContract, AForceArrives) {
+  EXPECT_TRUE(pushing().pushes());
+}
+
+TEST_P(HapticDeviceContract, ExactlyThePeakIsAllowedInAnyDirection) {
+  const Rig rig = bring(State::Running);
+  for (const glm::dvec3& direction :
+       {glm::dvec3(1, 0, 0), glm::dvec3(2, -3, 6) / 7.0, glm::dvec3(-1, 4, -8) / 9.0}) {
+    EXPECT_TRUE(rig.device->write(kPeakN * direction));
+  }
+}
+
+TEST_P(HapticDeviceContract, AForceThatIsNoneOrTooMuchIsRefusedAndZeroIsSent) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const glm::dvec3& force :
+       {glm::dvec3(nan, 0, 0), glm::dvec3(0, nan, 0), glm::dvec3(0, 0, nan), glm::dvec3(infinity, 0, 0),
+        glm::dvec3(0, 0, -infinity), glm::dvec3(1e200, 0, 0), glm::dvec3(0, kPeakN * 1.001, 0),
+        glm::dvec3(5, 5, 5)}) {
+    SCOPED_TRACE(testing::Message() << force.x << ", " << force.y << ", " << force.z);
+    const Rig rig = pushing();
+    const auto written = rig.device->write(force);
+    ASSERT_FALSE(written);
+    EXPECT_EQ(written.error().code, ErrorCode::InvalidArgument);
+    EXPECT_EQ(rig.device->state(), State::Running);
+    EXPECT_FALSE(rig.pushes());
+    EXPECT_TRUE(rig.device->write({1, 0, 0})) << "the next one goes through";
+  }
+}
+
+TEST_P(HapticDeviceContract, DoesNotPushBeforeTheFirstForce) {
+  const Rig rig = bring(State::Running);
+  ASSERT_TRUE(rig.device->read());
+  EXPECT_FALSE(rig.pushes());
+}
+
+TEST_P(HapticDeviceContract, DoesNotPushAfterStop) {
+  const Rig rig = pushing();
+  rig.device->stop();
+  EXPECT_FALSE(rig.pushes());
+}
+
+TEST_P(HapticDeviceContract, DoesNotPushAfterClose) {
+  const Rig rig = pushing();
+  rig.device->close();
+  EXPECT_FALSE(rig.pushes());
+}
+
+TEST_P(HapticDeviceContract, DoesNotPushWhenForcesNoLongerCome) {
+  const Rig rig = pushing();
+  for (int i = 0; i < 2; ++i) {  // the second second is for what moves to come to rest
+    clock_.advance(std::chrono::seconds(1));
+    ASSERT_TRUE(rig.device->read());
+  }
+  EXPECT_FALSE(rig.pushes());
+}
+
+TEST_P(HapticDeviceContract, IsAsNewAfterCloseAndOpen) {
+  const Rig rig = pushing();
+  rig.device->close();
+  ASSERT_TRUE(rig.device->open());
+  EXPECT_EQ(rig.device->state(), State::Opened);
+  ASSERT_TRUE(rig.device->home() && rig.device->start());
+  EXPECT_TRUE(rig.device->read());
+}
+
+TEST_P(HapticDeviceContract, AnExchangeAllocatesNothing) {
+  const Rig rig = bring(State::Running);
+  ASSERT_TRUE(rig.device->read());
+  const std::uint64_t before = threadAllocations();
+  for (int i = 0; i < 10; ++i) {
+    (void)rig.device->read();
+    (void)rig.device->write({0, 0, 1});
+    (void)rig.device->write({0, 0, 1000});
+    clock_.advance(kTick);
+  }
+  EXPECT_EQ(threadAllocations(), before);
+}
+
+TEST_P(HapticDeviceContract, ALostDeviceIsLostUntilClosedAndPushesNobody) {
+  if (GetParam().make_losing == nullptr) GTEST_SKIP() << "this back end cannot be lost";
+  const Rig rig = bring(State::Lost);
+  EXPECT_FALSE(rig.pushes());
+  EXPECT_EQ(rig.device->read().error().code, ErrorCode::InvalidState);
+  rig.device->close();
+  EXPECT_TRUE(rig.device->open());
+}
+
+// ---- what only a device with fault switches can show
+// ------------------------------------------------------------------
+
+struct MockBench {
+  explicit MockBench(MockHapticProfile profile) : device(makeMockHaptic(std::move(profile), clock, bench)) {}
+  void run() { ASSERT_TRUE(device->open() && device->home() && device->start()); }
+
+  ManualClock clock;
+  std::shared_ptr<MockHapticBench> bench = std::make_shared<MockHapticBench>();
+  std::unique_ptr<HapticDevice> device;
+};
+
+TEST(MockHaptic, LosesItsForceWithTheCableInReadWriteAndHome) {
+  MockBench reading({}), writing({}), homing({});
+  for (MockBench* each : {&reading, &writing}) {
+    each->run();
+    ASSERT_TRUE(each->device->write({0, 0, 1}));
+    each->bench->unplugged = true;
+  }
+  EXPECT_EQ(reading.device->read().error().code, ErrorCode::Lost);
+  EXPECT_EQ(writing.device->write({0, 0, 2}).error().code, ErrorCode::Lost);
+  ASSERT_TRUE(homing.device->open());
+  homing.bench->unplugged = true;
+  EXPECT_EQ(homing.device->home().error().code, ErrorCode::Lost);
+  for (MockBench* each : {&reading, &writing, &homing}) {
+    EXPECT_EQ(each->device->state(), State::Lost);
+    EXPECT_EQ(each->bench->force(), glm::dvec3(0));
+  }
+  reading.device->close();
+  EXPECT_EQ(reading.device->open().error().code, ErrorCode::NotFound) << "still unplugged";
+  EXPECT_EQ(reading.device->state(), State::Closed);
+  reading.bench->unplugged = false;
+  EXPECT_TRUE(reading.device->open());
+}
+
+TEST(MockHaptic, AFailedHomingLeavesItWithoutAZero) {
+  MockBench never({.fail_homing_after = 0}), once({.fail_homing_after = 1});
+  ASSERT_TRUE(never.device->open());
+  EXPECT_EQ(never.device->home().error().code, ErrorCode::Timeout);
+  EXPECT_EQ(never.device->state(), State::Opened);
+  ASSERT_TRUE(once.device->open() && once.device->home());
+  EXPECT_EQ(once.device->home().error().code, ErrorCode::Timeout);
+  EXPECT_EQ(once.device->state(), State::Opened) << "it was Ready, but its zero is not known any more";
+  EXPECT_EQ(once.device->start().error().code, ErrorCode::InvalidState);
+}
+
+TEST(MockHaptic, AGlitchIsOneErrorAndNoMore) {
+  MockBench bench({.glitch_after_ticks = 2});
+  bench.run();
+  EXPECT_TRUE(bench.device->read() && bench.device->read());
+  EXPECT_EQ(bench.device->read().error().code, ErrorCode::Io);
+  EXPECT_EQ(bench.device->state(), State::Running);
+  EXPECT_TRUE(bench.device->read());
+}
+
+TEST(MockHaptic, ADeviceThatRefusesForcesSaysSo) {
+  MockBench bench({.refuses_force = true});
+  bench.run();
+  EXPECT_EQ(bench.device->write({0, 0, 1}).error().code, ErrorCode::Io);
+  EXPECT_EQ(bench.device->state(), State::Running);
+  EXPECT_EQ(bench.bench->force(), glm::dvec3(0));
+}
+
+TEST(MockHaptic, AFailedOpeningLeavesItClosed) {
+  MockBench bench({.fail_open = ErrorCode::PermissionDenied});
+  EXPECT_EQ(bench.device->open().error().code, ErrorCode::PermissionDenied);
+  EXPECT_EQ(bench.device->state(), State::Closed);
+}
+
+TEST(MockHaptic, MovesAsItsProfileSays) {
+  MockBench path({.path_mm = {{1, 0, 0}, {2, 0, 0}}}),
+      timed({.position_mm = [](double t) { return glm::dvec3(t); }});
+  path.run(), timed.run();
+  for (const double x : {1.0, 2.0, 2.0}) EXPECT_EQ(path.device->read()->position_mm.x, x);
+  timed.clock.advance(std::chrono::milliseconds(250));
+  EXPECT_EQ(timed.device->read()->position_mm, glm::dvec3(0.25));
+}
+
+TEST(MockHaptic, DoesNotPushWhenDestroyed) {
+  MockBench bench({});
+  bench.run();
+  ASSERT_TRUE(bench.device->write({0, 0, 1}));
+  EXPECT_EQ(bench.bench->force(), glm::dvec3(0, 0, 1));
+  bench.device.reset();
+  EXPECT_EQ(bench.bench->force(), glm::dvec3(0));
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// The back ends' names on the command line: each gives what it says, any other is refused with the list.
+#include "drivers/registry.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace relievo::drivers {
+namespace {
+
+class Registry : public testing::Test {
+protected:
+  static std::string fileWith(const char* name, const char* text) {
+    const std::string path = testing::TempDir() + name;
+    std::ofstream(path) << text;
+    return path;
+  }
+  ManualClock clock_;
+};
+
+TEST_F(Registry, MakesEachByItsName) {
+  EXPECT_STREQ(makeDisplay("offscreen").value()->capabilities().name, "offscreen");
+  EXPECT_STREQ(makeDisplay("offscreen:/tmp/a:b.y4m").value()->capabilities().name, "offscreen");
+  EXPECT_STREQ(makeDisplay("mock").value()->capabilities().name, "mock");
+  EXPECT_STREQ(makeHapticDevice("sim", clock_).value()->capabilities().name, "sim");
+  EXPECT_STREQ(makeHapticDevice("mock", clock_).value()->capabilities().name, "mock");
+  EXPECT_NE(makeMediaSource("film.mkv"), nullptr);
+  EXPECT_STREQ(makeVideoDecoder()->capabilities().name, "ffmpeg");
+}
+
+TEST_F(Registry, NoneIsNoDeviceAndNoError) {
+  EXPECT_EQ(makeHapticDevice("none", clock_).value(), nullptr);
+  EXPECT_EQ(makeRemoteInput("none", clock_).value(), nullptr);
+}
+
+TEST_F(Registry, RefusesOtherNamesAndListsTheRightOnes) {
+  for (const char* name : {"", "ofscreen", "offscreen:", "mock:1", "none"}) {
+    const auto display = makeDisplay(name);
+    ASSERT_FALSE(display) << name;
+    EXPECT_EQ(display.error().code, ErrorCode::InvalidArgument);
+    EXPECT_THAT(display.error().message, testing::HasSubstr(kDisplayNames));
+  }
+  for (const char* name : {"", "falcon", "sim:", "mock:x", "none:", "SIM"}) {
+    const auto device = makeHapticDevice(name, clock_);
+    ASSERT_FALSE(device) << name;
+    EXPECT_EQ(device.error().code, ErrorCode::InvalidArgument);
+    EXPECT_THAT(device.error().message, testing::HasSubstr(kHapticNames));
+  }
+  for (const char* name : {"", "keys", "script", "script:"}) {
+    const auto remote = makeRemoteInput(name, clock_);
+    ASSERT_FALSE(remote) << name;
+    EXPECT_EQ(remote.error().code, ErrorCode::InvalidArgument);
+    EXPECT_THAT(remote.error().message, testing::HasSubstr(kRemoteNames));
+  }
+}
+
+TEST_F(Registry, AScriptThatIsNotThereIsNotFound) {
+  EXPECT_EQ(makeHapticDevice("sim:/nonexistent.csv", clock_).error().code, ErrorCode::NotFound);
+  EXPECT_EQ(makeRemoteInput("script:/nonexistent.txt", clock_).error().code, ErrorCode::NotFound);
+}
+
+TEST_F(Registry, TheSimulatedHandFollowsItsScript) {
+  const std::string script = fileWith("registry_hand.csv", "t_s,x_mm,y_mm,z_mm\n0,30,-12,6\n");
+  const auto device = makeHapticDevice("sim:" + script, clock_).value();
+  ASSERT_TRUE(device->open() && device->home() && device->start());
+  EXPECT_EQ(device->read()->position_mm, glm::dvec3(30, -12, 6));
+}
+
+TEST_F(Registry, TheScriptedRemotePressesItsKeys) {
+  const auto remote = makeRemoteInput("script:" + fileWith("registry_keys.txt", "0 PLAY\n"), clock_).value();
+  ASSERT_TRUE(remote->open());
+  EXPECT_TRUE(remote->poll(clock_.now()).value());
+}
+
+}  // namespace
+}  // namespace relievo::drivers
