@@ -25,6 +25,7 @@ constexpr double kHeadLengthMm = 4.0;
 constexpr double kSmallestForceN = 0.02;
 constexpr float kHiddenOpacity = 0.3f;
 constexpr glm::vec3 kFreeColor{0.62f, 0.70f, 0.78f};
+constexpr glm::vec3 kBrightness{0.299f, 0.587f, 0.114f};  // BT.601
 constexpr glm::vec3 kContactColor{1.0f, 0.72f, 0.15f};
 
 constexpr const char* kVertexShader = R"(
@@ -47,11 +48,9 @@ constexpr const char* kFragmentShader = R"(
 precision mediump float;
 in mediump float light;
 uniform vec4 paint;
-uniform vec3 red_from;
 out vec4 color;
 void main() {
-  vec3 rgb = paint.rgb * light;
-  color = vec4(dot(rgb, red_from), rgb.gb, paint.a);
+  color = vec4(paint.rgb * light, paint.a);
 }
 )";
 
@@ -142,11 +141,11 @@ Result<FingerModel> FingerModel::create() {
   return finger;
 }
 
-void FingerModel::draw(const glm::dmat4& view_projection, const FingerMark& mark, const glm::vec3& red_from) const {
+void FingerModel::draw(const glm::dmat4& view_projection, const FingerMark& mark, bool brightness_as_red) const {
   program_.use();
-  glUniform3fv(program_.uniform("red_from"), 1, glm::value_ptr(red_from));
   glBindVertexArray(vertices_.get());
-  const glm::vec3 color = mark.contact ? kContactColor : kFreeColor;
+  glm::vec3 color = mark.contact ? kContactColor : kFreeColor;
+  if (brightness_as_red) color.r = glm::dot(color, kBrightness);
   const auto paint = [&](float opacity) { glUniform4f(program_.uniform("paint"), color.r, color.g, color.b, opacity); };
 
   // The hidden part first, while the depth buffer holds nothing but the relief.

@@ -29,6 +29,7 @@ void GridStep::setGrid(int cols, int rows) noexcept {
 void GridStep::drew(Duration took) noexcept {
   if (cols_ == 0) return;
   ++frames_at_step_;
+  took = std::min(took, 2 * budget_);  // a frame held up by something else tells little about the grid
   if (frames_at_step_ <= kWarmUpFrames) {
     smoothed_ = took;
     return;

@@ -12,8 +12,9 @@ namespace relievo {
 // the same it waits twice as long before it tries again.
 class GridStep {
  public:
-  static constexpr long kStartVertices = 22'000;
-  static constexpr long kFewestVertices = 1'500;
+  static constexpr long kStartVertices = 22'500;
+  // Below so few the pixels cost more than the vertices: a coarser grid would look worse and draw no faster.
+  static constexpr long kFewestVertices = 5'000;
 
   explicit GridStep(Duration budget) noexcept : budget_(budget) {}
 
@@ -23,8 +24,6 @@ class GridStep {
   void drew(Duration took) noexcept;
 
   [[nodiscard]] int step() const noexcept { return step_; }
-  // 0 before the first frame.
-  [[nodiscard]] Duration smoothed() const noexcept { return smoothed_; }
   // Samples 0, step, 2 step, .. and the last one.
   [[nodiscard]] static int verticesAlong(int samples, int step) noexcept { return (samples - 2 + step) / step + 1; }
 

@@ -29,19 +29,20 @@ constexpr const char* kVertexShader = R"(
 precision highp float;
 precision highp int;
 uniform mat4 view_projection;
+uniform vec3 frame_mm;  // right, top, z
 out vec2 picture_at;
 
 #ifdef FLAT
-uniform vec3 rectangle_mm;  // width, height, z
 void main() {
   picture_at = vec2(gl_VertexID >> 1, gl_VertexID & 1);
-  vec2 corner = vec2(picture_at.x - 0.5, 0.5 - picture_at.y) * rectangle_mm.xy;
-  gl_Position = view_projection * vec4(corner, rectangle_mm.z, 1.0);
+  vec2 corner = vec2(2.0 * picture_at.x - 1.0, 1.0 - 2.0 * picture_at.y) * frame_mm.xy;
+  gl_Position = view_projection * vec4(corner, frame_mm.z, 1.0);
 }
 #else
 
 uniform highp usampler2D codes;
 uniform ivec2 samples;
+uniform ivec2 last;  // column and row of vertices, counted from 0
 uniform int grid_step;
 uniform int tiles_across;
 uniform vec4 place_mm;  // x = place.x + place.y c, y = place.z + place.w r
@@ -79,10 +80,11 @@ float code(uvec4 texel) {
 void main() {
   ivec2 tile = ivec2(gl_InstanceID % tiles_across, gl_InstanceID / tiles_across);
   ivec2 inside = ivec2(gl_VertexID % TILE_VERTICES, gl_VertexID / TILE_VERTICES);
-  // Past the last sample the cells shrink to nothing.
-  ivec2 at = min((tile * TILE_CELLS + inside) * grid_step, samples - 1);
+  // The vertices of the samples run from 0 to last. One more on every side is the frame; past it the cells shrink to
+  // nothing.
+  ivec2 vertex = clamp(tile * TILE_CELLS + inside - 1, ivec2(-1), last + 1);
+  ivec2 at = clamp(vertex * grid_step, ivec2(0), samples - 1);
   float value = code(texelFetch(codes, at, 0));
-  picture_at = (vec2(at) + 0.5) / vec2(samples);
   if (value < 0.0) {
     // A hole: so far behind the far plane that of a triangle with one such corner nothing is left but a line.
     gl_Position = vec4(0.0, 0.0, 1.0e9, 1.0);
@@ -90,21 +92,28 @@ void main() {
   }
   float s = clamp(normalise.x + normalise.y * value, 0.0, 1.0);
   float z = inverse ? (inverse_law.z - 1.0 / (inverse_law.x + s * inverse_law.y)) * inverse_law.w : depth_mm * s;
-  vec2 xy = place_mm.xz + place_mm.yw * vec2(at);
-  gl_Position = view_projection * vec4(xy, z, 1.0);
+  vec3 position = vec3(place_mm.xz + place_mm.yw * vec2(at), z);
+  picture_at = (vec2(at) + 0.5) / vec2(samples);
+  bvec2 low = lessThan(vertex, ivec2(0));
+  bvec2 high = greaterThan(vertex, last);
+  if (any(low) || any(high)) {
+    vec2 side = vec2(high) - vec2(low);  // -1, 0 or 1: left, inside, right; top, inside, bottom
+    picture_at = mix(picture_at, 0.5 + 0.5 * side, abs(side));
+    position = vec3(mix(position.xy, vec2(side.x, -side.y) * frame_mm.xy, abs(side)), frame_mm.z);
+  }
+  gl_Position = view_projection * vec4(position, 1.0);
 }
 #endif
 )";
 
+// Nearly all of a frame's time in software rendering goes by this line: small triangles shade many pixels in vain.
 constexpr const char* kFragmentShader = R"(
 precision mediump float;
 in highp vec2 picture_at;
 uniform sampler2D picture;
-uniform vec3 red_from;
 out vec4 color;
 void main() {
-  vec3 rgb = texture(picture, picture_at).rgb;
-  color = vec4(dot(rgb, red_from), rgb.gb, 1.0);
+  color = textureLod(picture, picture_at, 0.0);
 }
 )";
 
@@ -123,15 +132,18 @@ std::vector<GLushort> tileIndices() {
   return indices;
 }
 
+// One cell less than vertices, and one at each end out to the frame.
 int tilesAlong(int samples, int step) noexcept {
-  return (GridStep::verticesAlong(samples, step) - 1 + kTileCells - 1) / kTileCells;
+  const int cells = GridStep::verticesAlong(samples, step) - 1 + 2;
+  return (cells + kTileCells - 1) / kTileCells;
 }
 
-void setPicture(const GlProgram& program, const glm::mat4& view_projection, GLuint unit, const glm::vec3& red_from) {
+void usePicture(const GlProgram& program, const PictureView& view, const DisplayVolume& volume) {
   program.use();
-  glUniformMatrix4fv(program.uniform("view_projection"), 1, GL_FALSE, glm::value_ptr(view_projection));
-  glUniform1i(program.uniform("picture"), static_cast<GLint>(unit));
-  glUniform3fv(program.uniform("red_from"), 1, glm::value_ptr(red_from));
+  glUniformMatrix4fv(program.uniform("view_projection"), 1, GL_FALSE, glm::value_ptr(view.view_projection));
+  glUniform1i(program.uniform("picture"), static_cast<GLint>(view.picture_unit));
+  glUniform3f(program.uniform("frame_mm"), static_cast<float>(0.5 * volume.width_mm),
+              static_cast<float>(0.5 * volume.height_mm), static_cast<float>(view.screen_z_mm));
 }
 
 }  // namespace
@@ -210,6 +222,7 @@ Result<void> ReliefMesh::setDepth(const Frame& depth, const DepthCalibration& ca
   codes_.upload(texel, depth.planes[first.plane], depth.width, depth.height);
   hue_ = calibration.code == DepthCode::Hue;
   decoding_ = decodingOf(depth, calibration, volume);
+  volume_ = volume;
   grid_ = readable->grid();
   cols_ = depth.width;
   rows_ = depth.height;
@@ -232,17 +245,17 @@ void ReliefMesh::setDecoding(const GlProgram& program) const {
   glUniform1ui(program.uniform("invalid"), d.invalid);
 }
 
-void ReliefMesh::draw(const glm::mat4& view_projection, int step, GLuint picture_unit,
-                      const glm::vec3& red_from) const {
+void ReliefMesh::draw(const PictureView& view, int step) const {
   const int across = tilesAlong(cols_, step);
   const int down = tilesAlong(rows_, step);
-  if (across * down == 0) return;  // a single row or column of samples has no cells
   const GlProgram& program = hue_ ? hue_program_ : luma_program_;
-  setPicture(program, view_projection, picture_unit, red_from);
+  usePicture(program, view, volume_);
   setDecoding(program);
   codes_.bind(kCodesUnit);
   glUniform1i(program.uniform("codes"), kCodesUnit);
   glUniform2i(program.uniform("samples"), cols_, rows_);
+  glUniform2i(program.uniform("last"), GridStep::verticesAlong(cols_, step) - 1,
+              GridStep::verticesAlong(rows_, step) - 1);
   glUniform1i(program.uniform("grid_step"), step);
   glUniform1i(program.uniform("tiles_across"), across);
   glUniform4f(program.uniform("place_mm"), static_cast<float>(grid_.x(0)), static_cast<float>(grid_.x(1) - grid_.x(0)),
@@ -251,11 +264,8 @@ void ReliefMesh::draw(const glm::mat4& view_projection, int step, GLuint picture
   glDrawElementsInstanced(GL_TRIANGLES, kTileIndices, GL_UNSIGNED_SHORT, nullptr, across * down);
 }
 
-void ReliefMesh::drawFlat(const glm::mat4& view_projection, const DisplayVolume& volume, double z_mm,
-                          GLuint picture_unit, const glm::vec3& red_from) const {
-  setPicture(flat_program_, view_projection, picture_unit, red_from);
-  glUniform3f(flat_program_.uniform("rectangle_mm"), static_cast<float>(volume.width_mm),
-              static_cast<float>(volume.height_mm), static_cast<float>(z_mm));
+void ReliefMesh::drawFlat(const PictureView& view, const DisplayVolume& volume) const {
+  usePicture(flat_program_, view, volume);
   glBindVertexArray(tile_.get());
   glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstdint>
 #include <glm/mat4x4.hpp>
-#include <glm/vec3.hpp>
 
 #include "app/render/gl_objects.h"
 #include "app/render/gl_program.h"
@@ -17,9 +16,16 @@
 
 namespace relievo {
 
+struct PictureView {
+  glm::mat4 view_projection{1};
+  double screen_z_mm = 0;
+  GLuint picture_unit = 0;  // where the colour texture is bound
+};
+
 // The same surface that HeightField tells: vertices on true samples at their place in the volume, cells split from
 // (c, r) to (c + 1, r + 1), holes left open. It is one piece, as it is to the finger: at a jump of depth a steep wall
-// joins both sides.
+// joins both sides. For the eye alone it is joined to a frame, the picture's rectangle in the screen plane, so that no
+// gap is seen beside it.
 class ReliefMesh {
  public:
   [[nodiscard]] static Result<ReliefMesh> create();
@@ -31,12 +37,10 @@ class ReliefMesh {
   [[nodiscard]] int cols() const noexcept { return cols_; }
   [[nodiscard]] int rows() const noexcept { return rows_; }
 
-  // Draws with every `step`-th sample, colour from `picture_unit`. `red_from`: the weights of the colour's red, green
-  // and blue in the red that is drawn.
-  void draw(const glm::mat4& view_projection, int step, GLuint picture_unit, const glm::vec3& red_from) const;
-  // Without depth: the picture as one rectangle at this height.
-  void drawFlat(const glm::mat4& view_projection, const DisplayVolume& volume, double z_mm, GLuint picture_unit,
-                const glm::vec3& red_from) const;
+  // Draws every `step`-th sample and the last one of each row and column.
+  void draw(const PictureView& view, int step) const;
+  // Without depth: the picture in its frame, flat.
+  void drawFlat(const PictureView& view, const DisplayVolume& volume) const;
 
  private:
   // The numbers of HeightField, for the shader.
@@ -57,6 +61,7 @@ class ReliefMesh {
   PlaneTexture codes_;
   bool hue_ = false;
   Decoding decoding_;
+  DisplayVolume volume_;
   GridMapping grid_;
   int cols_ = 0;
   int rows_ = 0;

@@ -19,11 +19,6 @@ namespace {
 
 constexpr GLuint kPictureUnit = 3;  // after the codes' and the colour planes'
 
-// Half-colour anaglyph: the red eye gets the picture's brightness (BT.601) in place of its red, so that a red or a blue
-// thing is not bright for one eye and black for the other; the other eye keeps the colours that it can.
-constexpr glm::vec3 kOwnRed{1.0f, 0.0f, 0.0f};
-constexpr glm::vec3 kBrightness{0.299f, 0.587f, 0.114f};
-
 struct Rectangle {
   int x, y, width, height;
 };
@@ -133,7 +128,8 @@ void SceneRenderer::Impl::drawViews(const DisplaySurface& surface, const std::op
     const EyeView& view = eyes.views[i];
     const Rectangle pixels = pixelsOf(view, surface);
     glViewport(pixels.x, pixels.y, pixels.width, pixels.height);
-    glColorMask(view.channels[0], view.channels[1], view.channels[2], GL_TRUE);
+    // The surface stays opaque whatever the picture's fourth number is.
+    glColorMask(view.channels[0], view.channels[1], view.channels[2], GL_FALSE);
     const bool over_the_first = i > 0 && view.x == eyes.views[0].x;
     if (over_the_first) glClear(GL_DEPTH_BUFFER_BIT);
     drawView(view, mark);
@@ -150,15 +146,21 @@ void SceneRenderer::Impl::bindPicture(const DisplaySurface& surface, const EyeVi
                static_cast<int>(pixels.height * std::min(1.0, surface_aspect / picture_aspect)));
 }
 
+// Half-colour anaglyph: the red eye gets the picture's brightness in place of its red, so that a red or a blue thing is
+// not bright for one eye and black for the other; the other eye keeps the colours that it can.
 void SceneRenderer::Impl::drawView(const EyeView& view, const std::optional<FingerMark>& mark) const {
   const bool red_alone = view.channels[0] && !view.channels[1];
-  const glm::vec3& red_from = red_alone ? kBrightness : kOwnRed;
+  if (red_alone) picture.showBrightnessAsRed(kPictureUnit);
+  const PictureView picture_view{.view_projection = glm::mat4(view.view_projection),
+                                 .screen_z_mm = stereo.screen_z_mm,
+                                 .picture_unit = kPictureUnit};
   if (has_depth) {
-    relief.draw(glm::mat4(view.view_projection), grid_step.step(), kPictureUnit, red_from);
+    relief.draw(picture_view, grid_step.step());
   } else {
-    relief.drawFlat(glm::mat4(view.view_projection), volume, stereo.screen_z_mm, kPictureUnit, red_from);
+    relief.drawFlat(picture_view, volume);
   }
-  if (mark) finger.draw(view.view_projection, *mark, red_from);
+  if (red_alone) picture.showColors(kPictureUnit);
+  if (mark) finger.draw(view.view_projection, *mark, red_alone);
 }
 
 }  // namespace relievo
