@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// Packages a film: reads pairs, brings their pictures to the encoders' form, writes each picture once.
+#include <unistd.h>
+
+#include <cmath>
+#include <condition_variable>
+#include <cstdio>
+#include <mutex>
+#include <thread>
+
+#include "app/author/author.h"
+#include "app/author/color_to_420.h"
+#include "app/author/key_frames.h"
+#include "app/author/output.h"
+
+namespace relievo {
+namespace {
+
+constexpr Error kCancelled{ErrorCode::Cancelled, 0, "interrupted; nothing was written"};
+
+// Wakes a reader that waits for a disk or a network when the program is to stop.
+class StopWatch {
+ public:
+  StopWatch(PairReader& reader, const std::atomic<bool>& stop)
+      : thread_([&reader, &stop, this](const std::stop_token& done) {
+          std::unique_lock lock(mutex_);
+          while (!done.stop_requested()) {
+            if (stop.load(std::memory_order_relaxed)) return reader.interrupt();
+            wake_.wait_for(lock, done, std::chrono::milliseconds(50), [] { return false; });
+          }
+        }) {}
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable_any wake_;
+  std::jthread thread_;
+};
+
+// What is cut off to the right and below: an odd column or row of the colour, and of the depth the same share of the view,
+// to half a sample.
+struct Cut {
+  int color_cols = 0, color_rows = 0, depth_cols = 0, depth_rows = 0;
+
+  Cut() = default;
+  Cut(const Frame& color, const Frame& depth)
+      : color_cols(color.width % 2),
+        color_rows(color.height % 2),
+        depth_cols(share(color_cols, color.width, depth.width)),
+        depth_rows(share(color_rows, color.height, depth.height)) {}
+
+  [[nodiscard]] static int share(int lost, int of, int depth) {
+    return static_cast<int>(std::lround(lost * static_cast<double>(depth) / of));
+  }
+  [[nodiscard]] std::string explain() const {
+    char line[160];
+    std::snprintf(line, sizeof line, "4:2:0 needs even sizes: cut off %d column and %d row of the colour, %d and %d of the depth",
+                  color_cols, color_rows, depth_cols, depth_rows);
+    return color_cols + color_rows == 0 ? "" : line;
+  }
+};
+
+// Everything between the reader and the writer.
+class Packager {
+ public:
+  Packager(PairReader& reader, const OutputOptions& output) : reader_(reader), output_(output) {}
+
+  Result<void> begin(const FramePair& pair);
+  Result<void> write(const FramePair& pair);
+  AuthorResult<AuthorSummary> finish();
+  [[nodiscard]] bool begun() const { return writer_ != nullptr; }
+  // What `write` failed on.
+  [[nodiscard]] const std::string& failedThing() const { return failed_thing_; }
+
+ private:
+  std::unexpected<Error> failOn(const std::string& thing, const Error& error) {
+    failed_thing_ = thing;
+    return std::unexpected(error);
+  }
+
+  PairReader& reader_;
+  const OutputOptions& output_;
+  std::unique_ptr<FilmWriter> writer_;
+  std::optional<DepthCoder> coder_;
+  FilmFormat format_;
+  Cut cut_;
+  KeyFrames key_frames_;
+  std::optional<MediaTime> last_depth_;
+  ColorPicture420 color_;
+  DepthPicture depth_;
+  std::string failed_thing_;
+};
+
+Result<void> Packager::begin(const FramePair& pair) {
+  const FilmInfo& info = reader_.info();
+  Frame whole_depth;  // its size alone; the first pair may lie before the depth begins
+  whole_depth.width = info.depth_width;
+  whole_depth.height = info.depth_height;
+  cut_ = Cut(pair.color, whole_depth);
+  coder_.emplace(info.calibration.calibration);
+
+  format_.color_width = pair.color.width - cut_.color_cols;
+  format_.color_height = pair.color.height - cut_.color_rows;
+  format_.depth_width = info.depth_width - cut_.depth_cols;
+  format_.depth_height = info.depth_height - cut_.depth_rows;
+  const bool rgb = pair.color.model == ColorModel::Rgb;
+  format_.color_range = rgb ? ColorRange::Limited : pair.color.range;
+  format_.color_matrix = rgb ? ColorMatrix::Bt709 : pair.color.matrix;
+  format_.sample_aspect = pair.color.sample_aspect;
+  format_.frame_period = info.frame_period;
+  format_.color_crf = output_.color_crf;
+  format_.depth_crf = output_.depth_crf;
+  format_.depth_tags = calibrationTags(coder_->outcome());
+  auto writer = FilmWriter::create(output_.path, format_);
+  if (!writer) return failOn(output_.path, writer.error());
+  writer_ = std::move(*writer);
+  return {};
+}
+
+Result<void> Packager::write(const FramePair& pair) {
+  const Frame color = crop(pair.color, 0, 0, pair.color.width - cut_.color_cols, pair.color.height - cut_.color_rows);
+  if (color.width != format_.color_width || color.height != format_.color_height) {
+    return failOn("colour", {ErrorCode::Unsupported, 0, "its pictures change their size; cut the film there"});
+  }
+  const bool depth_is_new = !pair.depth.empty() && (!last_depth_ || pair.depth.pts > *last_depth_);
+  const bool key = key_frames_.isDue(color.pts, depth_is_new || pair.depth.empty());
+  if (auto made = toColor420(color, color_); !made) return failOn("colour", made.error());
+  if (auto written = writer_->writeColor(color_, color.pts, key); !written) return failOn(output_.path, written.error());
+  if (!depth_is_new) return {};
+
+  last_depth_ = pair.depth.pts;
+  const Frame depth = crop(pair.depth, 0, 0, pair.depth.width - cut_.depth_cols, pair.depth.height - cut_.depth_rows);
+  if (depth.width != format_.depth_width || depth.height != format_.depth_height) {
+    return failOn("depth", {ErrorCode::Unsupported, 0, "its pictures change their size; cut the film there"});
+  }
+  if (auto coded = coder_->encode(depth, depth_); !coded) return failOn("depth", coded.error());
+  if (auto written = writer_->writeDepth(depth_, depth.pts, key); !written) return failOn(output_.path, written.error());
+  return {};
+}
+
+AuthorResult<AuthorSummary> Packager::finish() {
+  const auto totals = writer_->finish();
+  if (!totals) return authorFail(output_.path, totals.error());
+  AuthorSummary summary{format_, *totals, format_.frame_period, coder_->counts(), coder_->explain()};
+  if (auto line = cut_.explain(); !line.empty()) summary.notes.push_back(std::move(line));
+  const PairCounters counters = reader_.counters();
+  const auto tell = [&summary](std::uint64_t count, const char* what) {
+    if (count > 0) summary.notes.push_back(std::to_string(count) + what);
+  };
+  tell(counters.mismatched, " pictures of the colour had no depth of their time; the one before was held");
+  tell(counters.depth_skipped, " pictures of the depth lay between those of the colour and were left out");
+  tell(counters.damaged, " packets or pictures were damaged and left out");
+  return summary;
+}
+
+std::optional<std::uint64_t> expectedFrames(const FilmInfo& info) {
+  if (info.duration <= Duration(0) || info.frame_period <= Duration(0)) return std::nullopt;
+  return static_cast<std::uint64_t>(std::llround(toSeconds(info.duration) / toSeconds(info.frame_period)));
+}
+
+}  // namespace
+
+AuthorResult<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader::Backends& backends,
+                                       const OutputOptions& output, const std::atomic<bool>& stop,
+                                       const ProgressReport& progress) {
+  if (auto ready = checkOutput(output); !ready) return authorFail(output.path, ready.error());
+  PairReader reader(backends);
+  const StopWatch watch(reader, stop);
+  const auto failed = [&](const std::string& thing, const Error& error) {
+    if (stop.load(std::memory_order_relaxed)) return authorFail(output.path, kCancelled);
+    return authorFail(thing, error);
+  };
+  if (auto opened = reader.open(source); !opened) return failed(reader.failedThing(), opened.error());
+  if (!reader.info().has_depth) {
+    return authorFail(source.url, {ErrorCode::NotFound, 0, "there is no depth in it; name its source with --depth"});
+  }
+  Packager packager(reader, output);
+  for (std::uint64_t done = 1;; ++done) {
+    auto pair = reader.next();
+    if (stop.load(std::memory_order_relaxed)) return authorFail(output.path, kCancelled);
+    if (!pair) return failed(reader.failedThing(), pair.error());
+    if (!*pair) break;
+    if (!packager.begun()) {
+      if (auto begun = packager.begin(**pair); !begun) return failed(packager.failedThing(), begun.error());
+    }
+    if (auto written = packager.write(**pair); !written) return failed(packager.failedThing(), written.error());
+    progress(done, expectedFrames(reader.info()));
+  }
+  return packager.finish();
+}
+
+}  // namespace relievo

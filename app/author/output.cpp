@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// Words and numbers for the one who runs the program.
+#include "app/author/output.h"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+namespace relievo {
+namespace {
+
+[[gnu::format(printf, 1, 2)]] std::string print(const char* format, ...) {
+  char text[256];
+  std::va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  return text;
+}
+
+std::string sizeText(std::uint64_t bytes) {
+  if (bytes < 1000) return print("%llu bytes", static_cast<unsigned long long>(bytes));
+  if (bytes < 1'000'000) return print("%.1f kB", static_cast<double>(bytes) / 1e3);
+  return print("%.2f MB", static_cast<double>(bytes) / 1e6);
+}
+
+// From the first picture's time to the end of the last one's.
+double seconds(const TrackTotals& track, Duration frame_period) {
+  return toSeconds(track.last - track.first + frame_period);
+}
+
+std::string trackLine(const char* name, int width, int height, const char* chroma, int crf, const TrackTotals& track,
+                      Duration frame_period) {
+  const double length = seconds(track, frame_period);
+  const std::string size = std::to_string(width) + "x" + std::to_string(height);
+  const std::string rate =
+      length > 0 ? print("%.0f kbit/s", static_cast<double>(track.bytes) * 8e-3 / length) : std::string("still");
+  return print("  %-6s %-10s H.264 %s  crf %-3d %6llu frames  %10s  %12s\n", name, size.c_str(), chroma, crf,
+               static_cast<unsigned long long>(track.frames), sizeText(track.bytes).c_str(), rate.c_str());
+}
+
+std::string codesLine(const DepthCoder::Counts& codes) {
+  int lowest = -1, highest = -1, used = 0;
+  for (int i = 0; i < 256; ++i) {
+    if (codes.of_code[static_cast<std::size_t>(i)] == 0) continue;
+    if (lowest < 0) lowest = i;
+    highest = i;
+    ++used;
+  }
+  std::string line = used == 0 ? std::string("  depth codes: none, all of it is holes")
+                               : print("  depth codes: 8 bits, %d .. %d, %d of them used", lowest, highest, used);
+  if (codes.holes > 0) {
+    line += print("; holes %.1f %%", 100.0 * static_cast<double>(codes.holes) / static_cast<double>(codes.samples));
+  }
+  return line + "\n";
+}
+
+}  // namespace
+
+Result<void> checkOutput(const OutputOptions& output) {
+  if (!FilmWriter::knowsEnding(output.path)) {
+    return fail(ErrorCode::InvalidArgument, "unknown kind of file; let its name end in .mkv, .mp4, .m4v or .mov");
+  }
+  struct stat status {};
+  if (::stat(output.path.c_str(), &status) != 0) return {};
+  if (!S_ISREG(status.st_mode)) return fail(ErrorCode::Io, "is there already and no file; choose another name");
+  if (!output.force) return fail(ErrorCode::Io, "is there already; choose another name, or replace it with --force");
+  return {};
+}
+
+std::string progressText(std::uint64_t done, std::optional<std::uint64_t> total, Duration elapsed) {
+  const double spent = toSeconds(elapsed);
+  const double rate = spent > 0 ? static_cast<double>(done) / spent : 0;
+  std::string text = total && *total >= done ? print("%llu/%llu frames", static_cast<unsigned long long>(done),
+                                                     static_cast<unsigned long long>(*total))
+                                             : print("%llu frames", static_cast<unsigned long long>(done));
+  if (rate > 0) text += print(", %.1f frames/s", rate);
+  if (rate > 0 && total && *total >= done) {
+    const auto left = static_cast<long>(std::ceil(static_cast<double>(*total - done) / rate));
+    text += print(", %ld:%02ld left", left / 60, left % 60);
+  }
+  return text;
+}
+
+std::string toText(const std::string& path, const AuthorSummary& summary) {
+  const FilmFormat& f = summary.format;
+  const FilmTotals& totals = summary.totals;
+  std::string text = path + print(": %.2f s, ", seconds(totals.color, summary.frame_period)) + sizeText(totals.file_bytes) + "\n";
+  text += trackLine("color", f.color_width, f.color_height, "4:2:0", f.color_crf, totals.color, summary.frame_period);
+  text += trackLine("depth", f.depth_width, f.depth_height, "4:0:0", f.depth_crf, totals.depth, summary.frame_period);
+  text += codesLine(summary.codes);
+  const auto tag = [&f](const char* key) {
+    const auto found = f.depth_tags.find(key);
+    return found == f.depth_tags.end() ? std::string("?") : found->second;
+  };
+  text += "  depth means: " + tag("DEPTH_LAW") + " law, near is high, full range";
+  if (tag("DEPTH_LAW") == "inverse") text += ", near " + tag("DEPTH_NEAR") + " mm, far " + tag("DEPTH_FAR") + " mm";
+  text += "\n";
+  for (const std::string& note : summary.notes) text += "  note: " + note + "\n";
+  return text;
+}
+
+}  // namespace relievo

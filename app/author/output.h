@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the author's program checks before and says during and after its work.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "app/author/author.h"
+#include "platform/clock.h"
+#include "platform/error.h"
+
+namespace relievo {
+
+// InvalidArgument for an ending that is not written, Io where something is in the way, before any work is done.
+[[nodiscard]] Result<void> checkOutput(const OutputOptions& output);
+
+// "  123/360 frames, 41.5 frames/s, 0:06 left"; what is not known is left out.
+[[nodiscard]] std::string progressText(std::uint64_t done, std::optional<std::uint64_t> total, Duration elapsed);
+
+// A short table: tracks, sizes, bit rates, what is in the depth and what was done to it.
+[[nodiscard]] std::string toText(const std::string& path, const AuthorSummary& summary);
+
+}  // namespace relievo

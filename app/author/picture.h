@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pictures that the author's encoders take: 8 bits, colour in 4:2:0, depth in one plane.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "hal/frame.h"
+
+namespace relievo {
+
+// Planes without gaps between rows. Chroma planes are half as wide and high; width and height are even.
+struct ColorPicture420 {
+  int width = 0, height = 0;
+  ColorRange range = ColorRange::Limited;
+  ColorMatrix matrix = ColorMatrix::Unspecified;
+  std::vector<std::uint8_t> y, u, v;
+};
+
+// Codes 0 .. 255 of full range, near is high.
+struct DepthPicture {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> codes;
+};
+
+}  // namespace relievo
