@@ -78,6 +78,9 @@ Duration DepthFollower::period() const noexcept {
   return *middle;
 }
 
-Duration DepthFollower::tolerance() const noexcept { return std::clamp(period() / 8, kRounding, kJitter); }
+// While the period is not known yet: the most that it can be.
+Duration DepthFollower::tolerance() const noexcept {
+  return step_count_ == 0 ? kJitter : std::clamp(period() / 8, kRounding, kJitter);
+}
 
 }  // namespace relievo

@@ -117,7 +117,7 @@ Result<void> TrackReader::seek(MediaTime target) {
     const auto reached = seekOnce(from, target);
     if (!reached) return std::unexpected(reached.error());
     if (*reached || from == MediaTime{}) return {};
-    step_back = step_back == Duration(0) ? kFirstStepBack : 4 * step_back;
+    step_back = step_back == Duration(0) ? kFirstStepBack : 2 * step_back;
   }
 }
 

@@ -15,6 +15,9 @@ namespace relievo {
 // Of a source with several programmes (a broadcast multiplex, the rates of an adaptive stream) the best one is the
 // film; the streams of the others are listed as Other. So are cover pictures.
 //
+// Seeks are by the leading video stream's key frames where the container has an index; transport streams and adaptive
+// streams land near the target, before or after it, so the reader has to look and to try from earlier.
+//
 // What has no times of its own (pictures, raw streams) yields packets without times, which the decoder below numbers by
 // StreamInfo::frame_period; a seek in it goes back to the beginning.
 [[nodiscard]] std::unique_ptr<MediaSource> makeFfmpegSource();

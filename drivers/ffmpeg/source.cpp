@@ -8,7 +8,9 @@
 #include <atomic>
 #include <cctype>
 #include <cerrno>
+#include <cstdlib>
 #include <thread>
+#include <utility>
 
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/ffmpeg/library.h"
@@ -130,15 +132,27 @@ Duration startOf(const AVFormatContext& context) noexcept {
   return start;
 }
 
+// Picture size, then bits a second, of a programme's best video.
+std::pair<std::int64_t, std::int64_t> worthOf(const AVFormatContext& context, const AVProgram& programme) noexcept {
+  std::int64_t area = 0;
+  for (unsigned i = 0; i < programme.nb_stream_indexes; ++i) {
+    const AVCodecParameters& parameters = *context.streams[programme.stream_index[i]]->codecpar;
+    area = std::max(area, std::int64_t{parameters.width} * parameters.height);
+  }
+  const AVDictionaryEntry* const rate = av_dict_get(programme.metadata, "variant_bitrate", nullptr, 0);
+  return {area, rate == nullptr ? 0 : std::atoll(rate->value)};
+}
+
 // Of several programmes keeps the one with the best video: the others are other films, or this one at other rates.
 void chooseProgramme(AVFormatContext& context) noexcept {
   if (context.nb_programs < 2) return;
-  const int best = av_find_best_stream(&context, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
-  const AVProgram* const programme = best < 0 ? nullptr : av_find_program_from_stream(&context, nullptr, best);
-  if (programme == nullptr) return;
+  AVProgram** const end = context.programs + context.nb_programs;
+  const AVProgram& best = **std::max_element(context.programs, end, [&](const AVProgram* a, const AVProgram* b) {
+    return worthOf(context, *a) < worthOf(context, *b);
+  });
   for (unsigned i = 0; i < context.nb_streams; ++i) context.streams[i]->discard = AVDISCARD_ALL;
-  for (unsigned i = 0; i < programme->nb_stream_indexes; ++i) {
-    context.streams[programme->stream_index[i]]->discard = AVDISCARD_DEFAULT;
+  for (unsigned i = 0; i < best.nb_stream_indexes; ++i) {
+    context.streams[best.stream_index[i]]->discard = AVDISCARD_DEFAULT;
   }
 }
 
@@ -244,15 +258,20 @@ class FfmpegSource final : public MediaSource {
     for (;;) {
       if (watch_.cancelled()) return std::unexpected(watch_.explain({}));
       const int got = av_read_frame(context_.get(), packet.get());
-      if (got >= 0 && packet->size > 0) return packetOf(std::move(packet));
+      if (got >= 0 && isWanted(*packet)) return packetOf(std::move(packet));
       if (got >= 0) {
-        av_packet_unref(packet.get());  // side data alone
+        av_packet_unref(packet.get());
       } else if (got == AVERROR(EAGAIN) && !watch_.givesUp()) {
         std::this_thread::sleep_for(kNap);
       } else if (got != AVERROR_INVALIDDATA || ++damaged_reads >= kDamagedReads) {
         return endOrError(got);
       }
     }
+  }
+
+  // Not side data alone, nor what was read of another programme before this one was chosen.
+  bool isWanted(const AVPacket& packet) const noexcept {
+    return packet.size > 0 && context_->streams[packet.stream_index]->discard != AVDISCARD_ALL;
   }
 
   // The library calls a broken connection the end as well; its I/O context knows better.
@@ -287,13 +306,30 @@ class FfmpegSource final : public MediaSource {
     if (pipe_.valid()) return fail(ErrorCode::Unsupported, kCannotSeek);
     if (!timed_) return openContext();  // pictures are counted from the beginning
     watch_.begin(kReadPatience);
-    const AVRational time_base = context_->streams[seek_stream_]->time_base;
-    const std::int64_t time = av_rescale_q((target.time_since_epoch() + start_).count(), kNanosecond, time_base);
-    int sought = av_seek_frame(context_.get(), seek_stream_, time, AVSEEK_FLAG_BACKWARD);
-    // Nothing before the target: the film begins with what comes next.
-    if (sought < 0) sought = avformat_seek_file(context_.get(), seek_stream_, INT64_MIN, time, INT64_MAX, 0);
+    if (target <= MediaTime{} && seeksByBytes() && av_seek_frame(context_.get(), -1, 0, AVSEEK_FLAG_BYTE) >= 0) return {};
+    int sought = seekToKeyframe(target);
+    if (sought < 0) sought = seekToKeyframe(std::min(target, lastSecond()));  // refused as too near to the end
+    if (sought < 0) sought = seekToAny();  // nothing before the target: the film begins with what comes next
     if (sought >= 0) return {};
     return std::unexpected(watch_.explain({ErrorCode::Unsupported, osError(sought), kCannotSeek}));
+  }
+
+  int seekToKeyframe(MediaTime target) const noexcept {
+    return av_seek_frame(context_.get(), seek_stream_, ticksOf(target), AVSEEK_FLAG_BACKWARD);
+  }
+  int seekToAny() const noexcept {
+    return avformat_seek_file(context_.get(), seek_stream_, INT64_MIN, ticksOf(MediaTime{}), INT64_MAX, 0);
+  }
+  std::int64_t ticksOf(MediaTime time) const noexcept {
+    const AVRational time_base = context_->streams[seek_stream_]->time_base;
+    return av_rescale_q((time.time_since_epoch() + start_).count(), kNanosecond, time_base);
+  }
+  MediaTime lastSecond() const noexcept { return MediaTime(std::max(Duration(0), duration() - std::chrono::seconds(1))); }
+
+  // A multiplex without an index is searched by time and loses the picture that it lands in: not good enough for the
+  // first one.
+  bool seeksByBytes() const noexcept {
+    return (context_->iformat->flags & (AVFMT_TS_DISCONT | AVFMT_NO_BYTE_SEEK)) == AVFMT_TS_DISCONT;
   }
 
   void closeSource() noexcept override {

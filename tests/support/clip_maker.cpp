@@ -192,8 +192,10 @@ void makeClip(const std::string& path, const std::vector<ClipTrack>& tracks,
   std::vector<std::unique_ptr<Encoder>> encoders;
   for (const ClipTrack& track : tracks) encoders.push_back(std::make_unique<Encoder>(*file, track));
 
-  // Tags of one's own in MP4; one picture without a number in its name.
-  Dictionary options({{"movflags", "+use_metadata_tags"}, {"update", path.find('%') == std::string::npos ? "1" : "0"}});
+  // One picture without a number in its name; tags of one's own in MP4 (which then has no place for a cover).
+  std::map<std::string, std::string> words_of_format{{"update", path.find('%') == std::string::npos ? "1" : "0"}};
+  if (!tags.empty()) words_of_format["movflags"] = "+use_metadata_tags";
+  Dictionary options(words_of_format);
   check(avformat_write_header(file.get(), &options.dictionary), "header");
   for (;;) {
     Encoder* first = nullptr;

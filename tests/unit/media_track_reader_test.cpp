@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two tracks of one source: bounded queues, badly interleaved and short tracks, seeks that land too late.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "app/media/track_reader.h"
+
+namespace relievo {
+namespace {
+
+using std::chrono::milliseconds;
+
+struct Scripted {
+  int stream = 0;
+  int ms = 0;
+  bool keyframe = true;
+};
+
+// Packets in the order of the script. A seek lands on the last key frame of stream 0 at or before the target, `late`
+// packets further on than it should.
+class ScriptedSource final : public MediaSource {
+ public:
+  explicit ScriptedSource(std::vector<Scripted> script, std::size_t late = 0) : script_(std::move(script)), late_(late) {}
+  std::size_t position = 0;
+  int seeks = 0;
+  std::size_t packet_bytes = 1;
+
+ private:
+  Result<Description> openSource(const std::string&) override {
+    Description description;
+    for (int i = 0; i < 2; ++i) {
+      StreamInfo stream;
+      stream.index = i;
+      stream.kind = StreamKind::Video;
+      description.streams.push_back(stream);
+    }
+    return description;
+  }
+  Result<std::optional<Packet>> readPacket() override {
+    if (position == script_.size()) return std::nullopt;
+    const Scripted& entry = script_[position++];
+    Packet packet;
+    packet.stream = entry.stream;
+    packet.pts = MediaTime(milliseconds(entry.ms));
+    packet.keyframe = entry.keyframe;
+    packet.bytes = packet_bytes;
+    return packet;
+  }
+  Result<void> seekTo(MediaTime target) override {
+    ++seeks;
+    position = 0;
+    for (std::size_t i = 0; i < script_.size(); ++i) {
+      const bool key = script_[i].stream == 0 && script_[i].keyframe;
+      if (key && MediaTime(milliseconds(script_[i].ms)) <= target) position = i;
+    }
+    if (target > MediaTime{}) position = std::min(position + late_, script_.size());
+    return {};
+  }
+  void closeSource() noexcept override {}
+  void interrupted() noexcept override {}
+
+  std::vector<Scripted> script_;
+  std::size_t late_;
+};
+
+// One picture for one packet. Counts those that are held, and refuses more than it allows.
+class OneToOneDecoder final : public VideoDecoder {
+ public:
+  explicit OneToOneDecoder(int max_held = 1000) : max_held_(max_held) {}
+  [[nodiscard]] Capabilities capabilities() const noexcept override { return {"one-to-one", max_held_, false}; }
+
+ private:
+  Result<void> openDecoder(const StreamInfo&) override { return {}; }
+  Result<Feed> feedPacket(const Packet& packet) override {
+    if (waiting_ || held_.use_count() > max_held_) return Feed::Full;
+    waiting_ = packet.pts;
+    return Feed::Accepted;
+  }
+  Result<Progress> receiveFrame(Frame& frame) override {
+    if (!waiting_) return draining_ ? Progress::EndOfStream : Progress::NeedsPackets;
+    frame.pts = *waiting_;
+    frame.owner = held_;
+    waiting_.reset();
+    return Progress::Picture;
+  }
+  Result<void> startDrain() override {
+    draining_ = true;
+    return {};
+  }
+  Result<void> flushDecoder() override {
+    draining_ = false;
+    waiting_.reset();
+    return {};
+  }
+  void closeDecoder() noexcept override {}
+
+  int max_held_;
+  std::shared_ptr<int> held_ = std::make_shared<int>();
+  std::optional<MediaTime> waiting_;
+  bool draining_ = false;
+};
+
+struct Film {
+  ScriptedSource* source = nullptr;
+  std::unique_ptr<TrackReader> reader;
+
+  explicit Film(std::vector<Scripted> script, std::size_t late = 0, int max_held = 1000) {
+    auto owned = std::make_unique<ScriptedSource>(std::move(script), late);
+    source = owned.get();
+    reader = std::make_unique<TrackReader>(std::move(owned),
+                                           [max_held] { return std::make_unique<OneToOneDecoder>(max_held); });
+    EXPECT_TRUE(reader->open("").has_value());
+    for (const StreamInfo& stream : source->streams()) EXPECT_TRUE(reader->select(stream).has_value());
+  }
+  // The next picture's time in ms, -1 for nothing.
+  int next(std::size_t track) {
+    const auto frame = reader->next(track).value();
+    return frame ? static_cast<int>((*frame).pts.time_since_epoch() / milliseconds(1)) : -1;
+  }
+};
+
+std::vector<Scripted> interleaved(int count, int gop) {
+  std::vector<Scripted> script;
+  for (int k = 0; k < count; ++k) {
+    script.push_back({0, 40 * k, k % gop == 0});
+    script.push_back({1, 40 * k, k % gop == 0});
+  }
+  return script;
+}
+
+TEST(TrackReader, GivesEachTrackInOrderWhicheverIsAsked) {
+  Film film(interleaved(10, 1));
+  for (int k = 0; k < 5; ++k) EXPECT_EQ(film.next(0), 40 * k);
+  for (int k = 0; k < 10; ++k) EXPECT_EQ(film.next(1), 40 * k);
+  EXPECT_EQ(film.next(1), -1);
+  EXPECT_TRUE(film.reader->ended(1));
+  EXPECT_FALSE(film.reader->ended(0));
+  for (int k = 5; k < 10; ++k) EXPECT_EQ(film.next(0), 40 * k);
+  EXPECT_EQ(film.next(0), -1);
+}
+
+TEST(TrackReader, TakesNoThirdTrack) {
+  Film film(interleaved(1, 1));
+  const auto third = film.reader->select(film.source->streams()[0]);
+  ASSERT_FALSE(third.has_value());
+  EXPECT_EQ(third.error().code, ErrorCode::Exhausted);
+}
+
+// Depth that ended long ago must not make the reader swallow the rest of the film.
+TEST(TrackReader, ATrackWithNothingToGiveIsGivenUpForNow) {
+  std::vector<Scripted> script{{1, 0, true}};
+  for (int k = 0; k < 2000; ++k) script.push_back({0, 40 * k, true});
+  Film film(script);
+  EXPECT_EQ(film.next(1), 0);
+  EXPECT_EQ(film.next(1), -1);
+  EXPECT_FALSE(film.reader->ended(1));
+  EXPECT_EQ(film.source->position, 1 + TrackReader::kMaxWaitingPackets);
+  for (int k = 0; k < 2000; ++k) ASSERT_EQ(film.next(0), 40 * k);
+}
+
+TEST(TrackReader, LargePacketsAreBoundedByTheirBytes) {
+  std::vector<Scripted> script{{1, 0, true}};
+  for (int k = 0; k < 200; ++k) script.push_back({0, 40 * k, true});
+  Film film(script);
+  film.source->packet_bytes = TrackReader::kMaxWaitingBytes / 10;
+  EXPECT_EQ(film.next(1), 0);
+  EXPECT_EQ(film.next(1), -1);
+  EXPECT_EQ(film.source->position, 1 + 11u);  // the eleventh passes the bound
+}
+
+// All of the depth's packets lie before the colour's: the colour goes on, depth begins again at a key frame.
+TEST(TrackReader, TheLeadingTrackIsNeverHeldUpByTheOther) {
+  std::vector<Scripted> script;
+  const int count = static_cast<int>(TrackReader::kMaxWaitingPackets) + 100;
+  for (int k = 0; k < count; ++k) script.push_back({1, 40 * k, k % 50 == 0});
+  for (int k = 0; k < 3; ++k) script.push_back({0, 40 * k, true});
+  Film film(script);
+  EXPECT_EQ(film.next(0), 0);
+  EXPECT_EQ(film.next(1), 40 * 550);  // 512 were dropped, 513 to 549 cannot be decoded
+  EXPECT_EQ(film.next(1), 40 * 551);
+}
+
+TEST(TrackReader, HoldingMorePicturesThanTheDecoderAllowsIsAnErrorAndNoHang) {
+  Film film(interleaved(10, 1), 0, 3);
+  std::vector<Frame> held;
+  for (int i = 0; i < 3; ++i) held.push_back(film.reader->next(0).value().value());
+  const auto refused = film.reader->next(0);
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error().code, ErrorCode::Exhausted);
+  held.pop_back();
+  EXPECT_EQ(film.next(0), 120);
+}
+
+TEST(TrackReader, ASeekBringsEveryTrackToTheTargetOrBefore) {
+  Film film(interleaved(100, 12));
+  ASSERT_TRUE(film.reader->seek(MediaTime(milliseconds(40 * 30))).has_value());
+  EXPECT_EQ(film.next(0), 40 * 24);
+  EXPECT_EQ(film.next(1), 40 * 24);
+  EXPECT_EQ(film.next(0), 40 * 25);
+  EXPECT_EQ(film.source->seeks, 1);
+}
+
+// Depth's key frames lie elsewhere: from the colour's key frame on, depth cannot be decoded until after the target.
+TEST(TrackReader, ASeekGoesFartherBackForTheOtherTracksKeyFrame) {
+  std::vector<Scripted> script;
+  for (int k = 0; k < 200; ++k) {
+    script.push_back({0, 40 * k, k % 10 == 0});
+    script.push_back({1, 40 * k, k % 40 == 35});
+  }
+  Film film(script);
+  ASSERT_TRUE(film.reader->seek(MediaTime(milliseconds(40 * 112))).has_value());
+  EXPECT_LE(film.next(0), 40 * 112);
+  EXPECT_EQ(film.next(1), 40 * 75);
+  EXPECT_EQ(film.source->seeks, 3);  // from 110 and from 80 (1 s back) depth begins at 115, from 60 (2 s) at 75
+}
+
+TEST(TrackReader, ASeekThatLandsTooLateIsTriedFromEarlier) {
+  Film film(interleaved(100, 12), 20);  // 10 pictures too late
+  ASSERT_TRUE(film.reader->seek(MediaTime(milliseconds(40 * 26))).has_value());
+  EXPECT_LE(film.next(0), 40 * 26);
+  EXPECT_LE(film.next(1), 40 * 26);
+  EXPECT_GT(film.source->seeks, 1);
+}
+
+TEST(TrackReader, ASeekBeyondTheOtherTracksEndDoesNotSearchTheWholeFilmForIt) {
+  std::vector<Scripted> script = interleaved(10, 10);
+  for (int k = 10; k < 1000; ++k) script.push_back({0, 40 * k, k % 10 == 0});
+  Film film(script);
+  ASSERT_TRUE(film.reader->seek(MediaTime(milliseconds(40 * 505))).has_value());
+  EXPECT_EQ(film.source->seeks, 2);
+  EXPECT_LE(film.next(0), 40 * 505);
+  EXPECT_EQ(film.next(1), -1);
+}
+
+TEST(TrackReader, SeeksBackAfterTheEnd) {
+  Film film(interleaved(24, 12));
+  while (film.next(0) >= 0) {
+  }
+  while (film.next(1) >= 0) {
+  }
+  EXPECT_TRUE(film.reader->ended(0));
+  ASSERT_TRUE(film.reader->seek(MediaTime{}).has_value());
+  EXPECT_FALSE(film.reader->ended(0));
+  EXPECT_EQ(film.next(0), 0);
+  EXPECT_EQ(film.next(1), 0);
+}
+
+}  // namespace
+}  // namespace relievo
