@@ -19,8 +19,8 @@ struct TimedSurface {
 };
 
 // Frames in ascending order of time, all of one size. The writer puts in the frames from one before the present one
-// to three after it, as far as there are that many; a reader finds its place by time, so that a writer which comes
-// late by a frame or two does no harm.
+// to four after it, as far as there are that many; a reader finds its place by time, so that a writer which comes
+// late by a frame or two does no harm: three frames of look-ahead are left then.
 struct SurfaceWindow {
   static constexpr int kCapacity = 6;
   std::array<TimedSurface, kCapacity> frames{};

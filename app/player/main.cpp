@@ -71,7 +71,6 @@ int play(PlayOptions options) {
     recorder = std::move(*created);
   }
 
-  stopOnSignals();
   const std::string url = options.player.source.url;
   Player player(std::move(options.player), {.clock = clock,
                                             .display = **display,
@@ -105,6 +104,7 @@ int probeSource(const ProbeOptions& options) {
 
 int main(int argc, char** argv) {
   using namespace relievo;
+  stopOnSignals();
   const auto options = parseOptions(
       argc, argv, {.display = drivers::kDisplayNames, .haptic = drivers::kHapticNames, .remote = drivers::kRemoteNames});
   if (!options) return options.error();

@@ -85,7 +85,7 @@ class Player {
   void feedSurface(const ClockSample& clock);
   void showPresent(MonotonicTime now);
   void redrawFinger(MonotonicTime now);
-  void draw(MonotonicTime now);
+  [[nodiscard]] bool draw(MonotonicTime now);
   void drainTouch();
   [[nodiscard]] std::optional<FingerMark> fingerMark();
   [[nodiscard]] MediaTime seekBase(MonotonicTime now) const;

@@ -137,7 +137,7 @@ void Player::followClock(MonotonicTime now) {
 void Player::endOfFilm(MonotonicTime now) {
   closeSegment(now);
   apply(PlayerEvent::EndOfFilm);
-  if (config_.loop && report_.frames_shown > 0) return seek(MediaTime{}, PlayerEvent::Loop, now);
+  if (config_.loop && report_.first_frame_ms) return seek(MediaTime{}, PlayerEvent::Loop, now);
   end(now);
 }
 
@@ -163,8 +163,10 @@ void Player::feedSurface(const ClockSample& clock) {
 
 void Player::showPresent(MonotonicTime now) {
   picture_.setPair(head_.present());
-  draw(now);
-  if (state_ == PlayerState::Fault) return;
+  if (!draw(now)) {
+    ++report_.frames_dropped;
+    return;
+  }
   ++report_.frames_shown;
   if (!report_.first_frame_ms) report_.first_frame_ms = 1e3 * toSeconds(parts_.clock.now() - started_);
 }
@@ -175,17 +177,22 @@ void Player::redrawFinger(MonotonicTime now) {
     if (now < last_draw_ + kRedrawPeriod || nextPicture(now) < now + kRedrawPeriod) return;
     if (!picture_.away() && !movedVisibly(fingerMark(), last_mark_)) return;
   }
-  draw(now);
+  static_cast<void>(draw(now));
 }
 
-void Player::draw(MonotonicTime now) {
+// False when nobody sees it.
+bool Player::draw(MonotonicTime now) {
   last_mark_ = fingerMark();
   last_draw_ = now;
   redraw_ = false;
   const auto shown = picture_.show(last_mark_, now);
-  if (!shown) return fail(std::string("display ") + picture_.capabilities().name, shown.error());
+  if (!shown) {
+    fail(std::string("display ") + picture_.capabilities().name, shown.error());
+    return false;
+  }
   if (*shown == Picture::Shown::Lost) note("display lost", "film and touch go on; it is tried again every second");
   if (*shown == Picture::Shown::Back) note("display back", "the picture is on it again");
+  return *shown == Picture::Shown::OnScreen || *shown == Picture::Shown::Back;
 }
 
 std::optional<FingerMark> Player::fingerMark() {

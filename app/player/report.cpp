@@ -13,7 +13,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // A figure that a person can read; JSON has no word for what is not finite.
-double rounded(double value, double unit = 1e-6) { return std::isfinite(value) ? std::round(value / unit) * unit : 0.0; }
+double rounded(double value, double per_unit = 1e6) {
+  return std::isfinite(value) ? std::round(value * per_unit) / per_unit : 0.0;
+}
 
 Json orNull(const std::optional<double>& value) { return value ? Json(rounded(*value)) : Json(nullptr); }
 
@@ -35,7 +37,7 @@ Json videoPart(const PlayReport& r) {
           {"stereo", r.stereo},
           {"surface", {r.surface_width, r.surface_height}},
           {"grid", {r.grid_cols, r.grid_rows}},
-          {"draw_ms", rounded(r.draw_ms, 1e-3)}};
+          {"draw_ms", rounded(r.draw_ms, 1e3)}};
 }
 
 Json filmPart(const PlayReport& r) {
@@ -47,14 +49,14 @@ Json filmPart(const PlayReport& r) {
           {"calibration", f.has_depth ? Json(f.calibration.explanation) : Json(nullptr)},
           {"frame_period_s", rounded(toSeconds(f.frame_period))},
           {"duration_s", rounded(toSeconds(f.duration))},
-          {"volume_mm", {rounded(r.volume.width_mm, 1e-3), rounded(r.volume.height_mm, 1e-3), r.volume.depth_mm}}};
+          {"volume_mm", {rounded(r.volume.width_mm, 1e3), rounded(r.volume.height_mm, 1e3), r.volume.depth_mm}}};
 }
 
 Json hapticPart(const HapticSummary& h) {
   return {{"device", h.device},
           {"scheduler", h.scheduler},
           {"memory_locked", h.memory_locked},
-          {"rate_hz", rounded(h.rate_hz, 1e-3)},
+          {"rate_hz", rounded(h.rate_hz, 1e3)},
           {"ticks", h.ticks},
           {"contact_share", rounded(share(h.contact_ticks, h.ticks))},
           {"overruns", h.overruns},
@@ -66,16 +68,14 @@ Json hapticPart(const HapticSummary& h) {
 
 }  // namespace
 
-bool PlayReport::addFault(double time_s, std::string what, std::string done) {
+void PlayReport::addFault(double time_s, std::string what, std::string done) {
   // A device that fails a thousand times a second is one entry.
   if (!faults.empty() && faults.back().what == what && faults.back().done == done) {
     ++faults.back().count;
-    return false;
+    return;
   }
   constexpr std::size_t kMost = 1000;  // of a film that loops for months
-  if (faults.size() >= kMost) return false;
-  faults.push_back({time_s, std::move(what), std::move(done)});
-  return true;
+  if (faults.size() < kMost) faults.push_back({time_s, std::move(what), std::move(done)});
 }
 
 const char* name(Packing packing) noexcept {

@@ -17,7 +17,8 @@
 namespace relievo {
 
 // Depth frames come with every colour frame that they belong to; the window holds each once, at its own time: one from
-// before the present one, the present one, up to three after it. A HeightField is made once per depth frame.
+// before the present one, the present one, and as many after it as there is room for, since the next window comes late
+// when drawing takes long. A HeightField is made once per depth frame.
 class SurfaceFeeder {
  public:
   SurfaceFeeder(const DepthCalibration& calibration, const DisplayVolume& volume) noexcept
@@ -38,7 +39,7 @@ class SurfaceFeeder {
   [[nodiscard]] std::optional<MediaTime> frameAt(MediaTime now) const noexcept;
 
  private:
-  static constexpr std::ptrdiff_t kAhead = 3;
+  static constexpr std::ptrdiff_t kAhead = SurfaceWindow::kCapacity - 2;
   // False when not all of `ahead` went in.
   bool appendAhead(MediaTime present, const std::deque<FramePair>& ahead);
   // False when `depth` is of another size than the frames before it.

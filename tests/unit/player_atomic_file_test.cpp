@@ -3,13 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "app/player/atomic_file.h"
+#include "tests/support/clip_maker.h"
 
 namespace relievo {
 namespace {
@@ -18,13 +19,7 @@ namespace fs = std::filesystem;
 
 class AtomicFileTest : public testing::Test {
  protected:
-  AtomicFileTest() {
-    std::string pattern = (fs::temp_directory_path() / "relievo-atomic-XXXXXX").string();
-    folder_ = ::mkdtemp(pattern.data());
-  }
-  ~AtomicFileTest() override { fs::remove_all(folder_); }
-
-  [[nodiscard]] std::string at(const char* name) const { return (folder_ / name).string(); }
+  [[nodiscard]] std::string at(const char* name) const { return folder_ / name; }
   static std::string textOf(const std::string& path) {
     std::ifstream file(path);
     std::ostringstream text;
@@ -32,10 +27,10 @@ class AtomicFileTest : public testing::Test {
     return text.str();
   }
   [[nodiscard]] std::ptrdiff_t filesInFolder() const {
-    return std::distance(fs::directory_iterator(folder_), fs::directory_iterator{});
+    return std::distance(fs::directory_iterator(at("")), fs::directory_iterator{});
   }
 
-  fs::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(AtomicFileTest, AppearsWithItsWholeTextOnCommit) {
@@ -86,7 +81,7 @@ TEST_F(AtomicFileTest, WritesWhereALinkPointsAndLeavesTheLink) {
 
 TEST_F(AtomicFileTest, SaysBeforehandThatAPathCannotBeWritten) {
   EXPECT_FALSE(AtomicFile::create(at("missing/a.json")));
-  EXPECT_FALSE(AtomicFile::create(folder_.string()));
+  EXPECT_FALSE(AtomicFile::create(at("")));
   EXPECT_FALSE(AtomicFile::create(""));
   EXPECT_EQ(filesInFolder(), 0);
 }

@@ -4,12 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <vector>
 
 #include "app/player/options.h"
+#include "tests/support/clip_maker.h"
 
 namespace relievo {
 namespace {
@@ -95,10 +94,10 @@ TEST(Options, TakeASourceAfterAnOption) {
 }
 
 TEST(Options, ReadACalibrationFromAFileAsTheSideFile) {
-  const auto path = std::filesystem::temp_directory_path() / "relievo-options-test.calibration";
+  const test::TemporaryFolder folder;
+  const std::string path = folder / "camera.calibration";
   std::ofstream(path) << "# of the camera\nlaw = inverse\nnear = 250\n";
   const Parsed parsed = parse({"play", "film.mkv", "--calibration", path.c_str(), "--calibration", "far=900"});
-  std::filesystem::remove(path);
   ASSERT_TRUE(parsed.options) << parsed.err;
   EXPECT_EQ(parsed.options->play.player.source.side_file.at("near"), "250");
   EXPECT_EQ(parsed.options->play.player.source.command_line.at("far"), "900");

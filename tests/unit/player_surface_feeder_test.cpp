@@ -44,10 +44,10 @@ FramePair flatPairAt(double color_s) {
 
 class SurfaceFeederTest : public testing::Test {
  protected:
-  // The film at `index` of `pairs`, four pairs ahead, `last` when those are the rest.
+  // The film at `index` of `pairs`, `look_ahead` pairs ahead, `last` when those are the rest.
   bool at(const std::vector<FramePair>& pairs, std::size_t index, double rate = 1) {
     std::deque<FramePair> ahead;
-    for (std::size_t i = index + 1; i < pairs.size() && ahead.size() < 4; ++i) ahead.push_back(pairs[i]);
+    for (std::size_t i = index + 1; i < pairs.size() && ahead.size() < look_ahead_; ++i) ahead.push_back(pairs[i]);
     const bool last = index + 1 + ahead.size() == pairs.size();
     const auto changed = feeder_.update(pairs[index], ahead, last, {mediaTime(0), MonotonicTime{}, rate});
     EXPECT_TRUE(changed);
@@ -63,6 +63,7 @@ class SurfaceFeederTest : public testing::Test {
     return found;
   }
 
+  std::size_t look_ahead_ = 4;
   SurfaceFeeder feeder_{DepthCalibration{}, kVolume};
   SurfaceWindow window_;
 };
@@ -73,14 +74,14 @@ std::vector<FramePair> film(int frames) {
   return pairs;
 }
 
-TEST_F(SurfaceFeederTest, HoldsOneFrameBeforeThePresentAndThreeAfterIt) {
+TEST_F(SurfaceFeederTest, HoldsOneFrameBeforeThePresentAndFourAfterIt) {
   const auto pairs = film(10);
   at(pairs, 0);
-  EXPECT_THAT(times(), ElementsAre(0, 1, 2, 3));
-  at(pairs, 1);
   EXPECT_THAT(times(), ElementsAre(0, 1, 2, 3, 4));
+  at(pairs, 1);
+  EXPECT_THAT(times(), ElementsAre(0, 1, 2, 3, 4, 5));
   at(pairs, 2);
-  EXPECT_THAT(times(), ElementsAre(1, 2, 3, 4, 5));
+  EXPECT_THAT(times(), ElementsAre(1, 2, 3, 4, 5, 6));
 }
 
 TEST_F(SurfaceFeederTest, HoldsADepthFrameOfALowerRateOnce) {
@@ -99,9 +100,9 @@ TEST_F(SurfaceFeederTest, KeepsTheOneBeforeWhenPicturesWereLeftOut) {
   const auto pairs = film(10);
   at(pairs, 0);
   at(pairs, 3);
-  EXPECT_THAT(times(), ElementsAre(2, 3, 4, 5, 6));
+  EXPECT_THAT(times(), ElementsAre(2, 3, 4, 5, 6, 7));
   at(pairs, 9);
-  EXPECT_THAT(times(), ElementsAre(6, 9));
+  EXPECT_THAT(times(), ElementsAre(7, 9));
 }
 
 TEST_F(SurfaceFeederTest, SaysWhenNothingChangedSoThatNothingIsPublished) {
@@ -114,11 +115,13 @@ TEST_F(SurfaceFeederTest, SaysWhenNothingChangedSoThatNothingIsPublished) {
 }
 
 TEST_F(SurfaceFeederTest, EndsWithTheLastFrameInTheWindow) {
-  const auto pairs = film(6);
+  look_ahead_ = 10;
+  const auto pairs = film(7);
   at(pairs, 1);
-  EXPECT_FALSE(window().ended);  // the sixth frame is not in it yet
-  at(pairs, 2);
   EXPECT_THAT(times(), ElementsAre(1, 2, 3, 4, 5));
+  EXPECT_FALSE(window().ended);  // the seventh frame is not in it yet
+  at(pairs, 2);
+  EXPECT_THAT(times(), ElementsAre(1, 2, 3, 4, 5, 6));
   EXPECT_TRUE(window().ended);
 }
 
@@ -140,7 +143,7 @@ TEST_F(SurfaceFeederTest, BeginsAnEpochWithoutTheFramesOfTheLastOne) {
   const auto before = window().epoch;
   feeder_.beginEpoch();
   at(pairs, 1);
-  EXPECT_THAT(times(), ElementsAre(1, 2, 3, 4));
+  EXPECT_THAT(times(), ElementsAre(1, 2, 3, 4, 5));
   EXPECT_NE(window().epoch, before);
 }
 

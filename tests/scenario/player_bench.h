@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// A player among virtual devices in simulated time: the same film, hand and keys give the same run to the last bit.
+#pragma once
+
+#include <atomic>
+#include <glm/vec3.hpp>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/player/player.h"
+#include "drivers/mock/mock.h"
+#include "drivers/mock/scripted_remote.h"
+#include "platform/clock.h"
+#include "platform/log.h"
+
+namespace relievo {
+
+class PlayerBench {
+ public:
+  static constexpr Duration kPeriod = std::chrono::milliseconds(40);
+
+  PlayerBench() { setLogLevel(LogLevel::Error); }
+
+  static MockTrack colorTrack(int frames) {
+    return {.width = 32, .height = 24, .model = ColorModel::Yuv, .frames = frames, .frame_period = kPeriod};
+  }
+  // A plane whose height tells the frame: code 100 + frame % 10, so that what is felt tells what is shown.
+  static MockTrack depthTrack(int frames) {
+    MockTrack track{.width = 32, .height = 24, .frames = frames, .frame_period = kPeriod};
+    track.sample = [](int frame, int, int, int) { return static_cast<std::uint16_t>(100 + frame % 10); };
+    return track;
+  }
+  static MockMediaProfile film(int frames) { return {.tracks = {colorTrack(frames), depthTrack(frames)}}; }
+
+  // Sources by their urls; "film" is what is played.
+  std::map<std::string, MockMediaProfile> sources{{"film", film(100)}};
+  MockDisplayProfile display{.refresh_period = Duration(0)};
+  MockHapticProfile haptic;
+  std::vector<ScriptedKey> keys;
+  PlayerConfig config{.source = {.url = "film"}, .own_threads = false};
+  bool with_haptic = true;
+  std::atomic<bool> stop{false};
+  std::shared_ptr<MockHapticBench> hand = std::make_shared<MockHapticBench>();
+  ManualClock clock;
+
+  void press(double at_s, std::uint16_t key) { keys.push_back({fromSeconds(at_s), key}); }
+
+  std::expected<void, Player::Failure> run() { return runOn(clock); }
+
+  std::expected<void, Player::Failure> runOn(Clock& time) {
+    const auto screen = makeMockDisplay(display, time);
+    const auto device = makeMockHaptic(haptic, time, hand);
+    const auto remote = makeScriptedRemote(keys, time);
+    Player player(config, {.clock = time,
+                           .display = *screen,
+                           .haptic = with_haptic ? device.get() : nullptr,
+                           .remote = remote.get(),
+                           .recorder = nullptr,
+                           .backends = backends(time)});
+    auto played = player.run(stop);
+    report = player.report();
+    return played;
+  }
+
+  PlayReport report;
+
+  [[nodiscard]] std::string states() const {
+    std::string text;
+    for (const PlayerState state : report.states) text += std::string(text.empty() ? "" : " ") + name(state);
+    return text;
+  }
+  [[nodiscard]] std::uint64_t faults(const std::string& part) const {
+    std::uint64_t count = 0;
+    for (const FaultEntry& fault : report.faults) count += fault.what.find(part) == std::string::npos ? 0 : fault.count;
+    return count;
+  }
+
+ private:
+  // A mock source does not look at its url; which profile it has is the order in which sources are made: the film, then
+  // the depth.
+  [[nodiscard]] PairReader::Backends backends(Clock& time) {
+    auto made = std::make_shared<int>(0);
+    return {.make_source =
+                [this, made, &time] {
+                  const std::string& url = (*made)++ == 0 ? config.source.url : config.source.depth_url;
+                  return makeMockSource(sources.at(url), time);
+                },
+            .make_decoder = [] { return makeMockDecoder({.max_held_frames = 32}); }};
+  }
+};
+
+}  // namespace relievo

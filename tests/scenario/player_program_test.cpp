@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program as its user runs it: real files, real threads, exit codes, what it prints and what it leaves behind. No
+// figure of time is asserted: the machine may be busy.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "tests/support/clip_maker.h"
+#include "tests/support/program.h"
+
+namespace relievo {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test::ClipTrack;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+ClipTrack color(int frames = 30) {
+  return {.pix_fmt = "yuv420p", .width = 64, .height = 48, .frames = frames, .tags = {{"title", "color"}}};
+}
+ClipTrack depth(int frames = 30) {
+  return {.pix_fmt = "gray16le", .width = 64, .height = 48, .frames = frames, .tags = {{"title", "depth"}}};
+}
+
+class PlayerProgram : public testing::Test {
+ protected:
+  // The mock display costs nothing; one test draws.
+  test::ProgramResult play(const std::string& words, const std::string& display = "mock") {
+    return test::runProgram("relievo play --display " + display + " " + words, at(""));
+  }
+  [[nodiscard]] std::string at(const std::string& name) const { return folder_ / name; }
+  [[nodiscard]] std::string textOf(const std::string& name) const {
+    std::ifstream file(at(name));
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+  [[nodiscard]] json reportOf(const std::string& name) const { return json::parse(textOf(name), nullptr, false); }
+  // Nothing is left but what the test itself put there and what the program said.
+  void expectNothingLeft(const std::vector<std::string>& put) const {
+    for (const auto& entry : fs::directory_iterator(at(""))) {
+      const std::string name = entry.path().filename();
+      if (name == "stdout.txt" || name == "stderr.txt") continue;
+      EXPECT_NE(std::find(put.begin(), put.end(), name), put.end()) << name;
+    }
+  }
+  static void expectOneLine(const test::ProgramResult& result, int exit_code, const std::string& thing) {
+    EXPECT_EQ(result.exit_code, exit_code) << result.err;
+    EXPECT_THAT(result.err, StartsWith("relievo: "));
+    EXPECT_THAT(result.err, HasSubstr(thing));
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_EQ(result.out, "");
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(PlayerProgram, PlaysAClipThroughTheWholeStackAndReportsIt) {
+  test::makeClip(at("film.mkv"), {color(), depth()});
+  const auto result = play(at("film.mkv") + " --size 320x180 --report " + at("r.json") + " --record " + at("t.csv"),
+                           "offscreen");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("frames shown"));
+  const json r = reportOf("r.json");
+  ASSERT_FALSE(r.is_discarded());
+  EXPECT_EQ(r["video"]["frames_shown"].get<int>() + r["video"]["frames_dropped"].get<int>(), 30);
+  EXPECT_GT(r["video"]["frames_shown"].get<int>(), 0);
+  EXPECT_EQ(r["video"]["pairs_mismatched"], 0);
+  EXPECT_TRUE(r["video"]["first_frame_ms"].is_number());
+  EXPECT_EQ(r["video"]["surface"], (json{320, 180}));
+  EXPECT_GT(r["video"]["grid"][0].get<int>(), 1);
+  EXPECT_EQ(r["film"]["packing"], "tracks");
+  EXPECT_THAT(r["film"]["calibration"].get<std::string>(), HasSubstr("bits=16"));
+  EXPECT_EQ(r["states"], (json{"boot", "idle", "opening", "buffering", "playing", "ended", "idle"}));
+  EXPECT_GT(r["haptic"]["ticks"].get<int>(), 0);
+  EXPECT_GT(r["haptic"]["update_ns"]["p50"].get<int>(), 0);
+  EXPECT_GE(r["haptic"]["wakeup_ns"]["max"].get<int>(), r["haptic"]["wakeup_ns"]["p50"].get<int>());
+  for (const char* field : {"overruns", "allocations", "page_faults"}) EXPECT_TRUE(r["haptic"][field].is_number()) << field;
+  for (const char* field : {"max_n", "max_scene_slew_n_per_s"}) EXPECT_TRUE(r["force"][field].is_number()) << field;
+  for (const char* field : {"scene_mj", "artefact_mj"}) EXPECT_TRUE(r["energy"][field].is_number()) << field;
+
+  const std::string csv = textOf("t.csv");
+  const auto lines = std::count(csv.begin(), csv.end(), '\n');
+  EXPECT_EQ(lines - 1, r["haptic"]["ticks"].get<int>());  // every tick, and the header
+}
+
+TEST_F(PlayerProgram, PlaysColorAndDepthOfDifferentLengthRateAndOddSizes) {
+  ClipTrack odd_color = color(30);
+  odd_color.pix_fmt = "yuv444p";
+  odd_color.width = 63;
+  odd_color.height = 47;
+  ClipTrack odd_depth = depth(8);  // 0.8 s at 10 a second, the colour lasts 1 s
+  odd_depth.fps_num = 10;
+  odd_depth.width = 31;
+  odd_depth.height = 29;
+  test::makeClip(at("c.mkv"), {odd_color});
+  test::makeClip(at("d.mkv"), {odd_depth});
+  const auto result = play(at("c.mkv") + " --depth " + at("d.mkv") + " --report " + at("r.json"));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json r = reportOf("r.json");
+  EXPECT_EQ(r["video"]["frames_shown"].get<int>() + r["video"]["frames_dropped"].get<int>(), 30);
+  EXPECT_EQ(r["states"].back(), "idle");
+}
+
+TEST_F(PlayerProgram, ObeysAScriptedRemote) {
+  test::makeClip(at("film.mkv"), {color(600), depth(600)});
+  std::ofstream(at("keys.txt")) << "1.0 RIGHT\n1.3 PAUSE\n1.6 LEFT\n1.9 PLAY\n2.0 3D_MODE\n2.3 STOP\n";
+  const auto result =
+      play(at("film.mkv") + " --remote script:" + at("keys.txt") + " --report " + at("r.json"));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json r = reportOf("r.json");
+  EXPECT_EQ(r["states"].back(), "idle");
+  EXPECT_EQ(r["video"]["stereo"], "anaglyph");
+  ASSERT_EQ(r["seeks"].size(), 2u);
+  for (const json& seek : r["seeks"]) {
+    EXPECT_TRUE(seek["picture_s"].is_null() || seek["picture_s"] == seek["surface_s"]) << seek;
+  }
+}
+
+TEST_F(PlayerProgram, AFileCutInTheMiddlePlaysWhatIsThere) {
+  test::makeClip(at("film.mkv"), {color(), depth()});
+  fs::resize_file(at("film.mkv"), fs::file_size(at("film.mkv")) / 2);
+  const auto result = play(at("film.mkv") + " --report " + at("r.json"));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json r = reportOf("r.json");
+  const int seen = r["video"]["frames_shown"].get<int>() + r["video"]["frames_dropped"].get<int>();
+  EXPECT_GT(seen, 5);
+  EXPECT_LT(seen, 25);
+}
+
+TEST_F(PlayerProgram, WithoutDepthItSaysSoOnceAndPlays) {
+  test::makeClip(at("film.mkv"), {color(10)});
+  const auto result = play(at("film.mkv") + " --report " + at("r.json"));
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.err, HasSubstr("no depth"));
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  EXPECT_EQ(reportOf("r.json")["force"]["max_n"], 0.0);
+}
+
+TEST_F(PlayerProgram, SaysInOneLineWhatIsWrongWithASource) {
+  expectOneLine(play(at("missing.mkv")), 1, "missing.mkv");
+  std::ofstream(at("text.mkv")) << "Not a film at all, but a few words of text.\n";
+  expectOneLine(play(at("text.mkv")), 1, "text.mkv");
+  std::ofstream(at("empty.mkv")).flush();
+  expectOneLine(play(at("empty.mkv")), 1, "empty.mkv");
+  expectOneLine(play(at("")), 1, at(""));
+  test::makeClip(at("film.mkv"), {color(3), depth(3)});
+  expectOneLine(play(at("film.mkv") + " --depth " + at("missing.mkv")), 1, "missing.mkv");
+  expectOneLine(play(at("film.mkv") + " --depth " + at("text.mkv")), 1, "text.mkv");
+  expectOneLine(test::runProgram("relievo probe " + at("text.mkv"), at("")), 1, "text.mkv");
+}
+
+TEST_F(PlayerProgram, AFailureIsInTheReportAndLeavesNothingHalfDone) {
+  const auto result = play(at("missing.mkv") + " --report " + at("r.json") + " --record " + at("t.csv"));
+  expectOneLine(result, 1, "missing.mkv");
+  const json r = reportOf("r.json");
+  EXPECT_EQ(r["states"], (json{"boot", "idle", "opening", "fault"}));
+  EXPECT_EQ(r["faults"].size(), 1u);
+  expectNothingLeft({"r.json"});
+}
+
+TEST_F(PlayerProgram, WhatCannotBeWrittenIsFoundOutBeforePlaying) {
+  test::makeClip(at("film.mkv"), {color(3), depth(3)});
+  const auto report = play(at("film.mkv") + " --report " + at("missing/r.json") + " --record " + at("t.csv"));
+  expectOneLine(report, 1, "missing/r.json");
+  const auto record = play(at("film.mkv") + " --report " + at("r.json") + " --record " + at("missing/t.csv"));
+  expectOneLine(record, 1, "missing/t.csv");
+  expectNothingLeft({"film.mkv"});
+}
+
+TEST_F(PlayerProgram, WrongUseIsCodeTwoAndOneLine) {
+  expectOneLine(play("film.mkv --spin"), 2, "--spin");
+  expectOneLine(play(""), 2, "SOURCE");
+  expectOneLine(play("film.mkv", "hologram"), 2, "hologram");
+  expectOneLine(play("film.mkv --haptic glove"), 2, "glove");
+  expectOneLine(play("film.mkv --remote mind"), 2, "mind");
+  expectOneLine(play("film.mkv --calibration near=-5"), 2, "near=-5");
+  expectNothingLeft({});
+}
+
+TEST_F(PlayerProgram, ProbeTellsWhatIsInASource) {
+  ClipTrack plane = depth(5);
+  plane.sample = [](int, int c, int, int) { return c < 32 ? 1000u : 65000u; };
+  plane.tags["DEPTH_LAW"] = "inverse";
+  test::makeClip(at("film.mkv"), {color(5), plane});
+  const auto text = test::runProgram("relievo probe " + at("film.mkv"), at(""));
+  EXPECT_EQ(text.exit_code, 0) << text.err;
+  EXPECT_THAT(text.out, HasSubstr("law=inverse (container tags)"));
+  EXPECT_THAT(text.out, HasSubstr("codes 1000 to 65000"));
+  const auto as_json = test::runProgram("relievo probe --json " + at("film.mkv"), at(""));
+  const json j = json::parse(as_json.out, nullptr, false);
+  ASSERT_FALSE(j.is_discarded());
+  EXPECT_EQ(j["tracks"].size(), 2u);
+  EXPECT_EQ(j["packing"], "tracks");
+  EXPECT_EQ(j["depth"]["codes"], (json{1000, 65000}));
+  EXPECT_EQ(j["color"]["width"], 64);
+
+  test::makeClip(at("flat.mkv"), {color(5)});
+  EXPECT_THAT(test::runProgram("relievo probe " + at("flat.mkv"), at("")).out, HasSubstr("give --depth"));
+}
+
+// Ctrl-C in the middle of an endless film: code 0 and a whole report.
+TEST_F(PlayerProgram, ASignalEndsTheFilmInGoodOrder) {
+  test::makeClip(at("film.mkv"), {color(), depth()});
+  const std::string program = std::string(RELIEVO_BIN_DIR) + "/relievo";
+  const std::string film = at("film.mkv"), report = at("r.json"), record = at("t.csv");
+  const pid_t child = ::fork();
+  if (child == 0) {
+    if (std::freopen("/dev/null", "w", stdout) == nullptr || std::freopen("/dev/null", "w", stderr) == nullptr) ::_exit(9);
+    ::execl(program.c_str(), program.c_str(), "play", film.c_str(), "--loop", "--display", "mock", "--report",
+            report.c_str(), "--record", record.c_str(), nullptr);
+    ::_exit(9);
+  }
+  // It listens to signals before it makes its temporary files.
+  const auto begun = [&] { return std::distance(fs::directory_iterator(at("")), fs::directory_iterator{}) > 1; };
+  while (!begun()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  ::kill(child, SIGINT);
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_EQ(reportOf("r.json")["states"].back(), "idle");
+}
+
+TEST_F(PlayerProgram, PlaysRealFootage) {
+  const std::string cup = std::string(RELIEVO_TEST_DATA) + "/cup/";
+  if (!fs::exists(cup + "color_output.webm")) GTEST_SKIP() << "no real footage at " << cup;
+  const auto result = play(cup + "color_output.webm --depth " + cup + "depth_output.webm --duration 1.5 --report " + at("r.json"));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json r = reportOf("r.json");
+  EXPECT_EQ(r["video"]["pairs_mismatched"], 0);
+  EXPECT_EQ(r["film"]["depth"]["width"], 288);
+  EXPECT_NEAR(r["film"]["volume_mm"][1].get<double>(), 160.0 * 512 / 288, 0.01);
+}
+
+}  // namespace
+}  // namespace relievo

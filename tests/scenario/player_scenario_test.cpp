@@ -1,0 +1,381 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole films in simulated time: what is shown, what is felt, and what the report says of it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <linux/input-event-codes.h>
+
+#include "tests/scenario/player_bench.h"
+
+namespace relievo {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+constexpr const char* kWholeFilm = "boot idle opening buffering playing ended idle";
+
+// A finger 2 mm above the far plane, far below the surface at code 100 (15.7 mm of 40), would start inside the solid;
+// this one comes down from above to 1 mm below code 100's height and stays.
+std::vector<glm::dvec3> comingDown() {
+  std::vector<glm::dvec3> path;
+  for (int i = 0; i < 200; ++i) path.push_back({0, 0, 25.0 - 0.05 * i});  // to 15 mm, at 50 mm/s
+  return path;
+}
+
+// The mock's workspace is centred on z = 20, the middle of the default volume: device mm are scene mm.
+class PlayerScenario : public testing::Test {
+ protected:
+  void playsWell() {
+    const auto played = bench_.run();
+    ASSERT_TRUE(played) << played.error().thing << ": " << played.error().error.message;
+  }
+  PlayerBench bench_;
+};
+
+TEST_F(PlayerScenario, PlaysToTheEndEveryPictureAtItsTime) {
+  playsWell();
+  EXPECT_EQ(bench_.states(), kWholeFilm);
+  EXPECT_EQ(bench_.report.frames_shown, 100u);
+  EXPECT_EQ(bench_.report.frames_dropped, 0u);
+  EXPECT_EQ(bench_.report.pairs.mismatched, 0u);
+  EXPECT_NEAR(bench_.report.media_s, 4.0, 0.005);
+  EXPECT_NEAR(bench_.report.wall_s, 4.0, 0.02);
+  EXPECT_THAT(bench_.report.faults, IsEmpty());
+}
+
+TEST_F(PlayerScenario, TheFingerFeelsTheFilmAndTheForceIsZeroAfterwards) {
+  bench_.haptic.path_mm = comingDown();
+  playsWell();
+  // 4 s at 1 kHz, less what opening took.
+  EXPECT_NEAR(static_cast<double>(bench_.report.haptic.ticks), 4000, 20);
+  EXPECT_GT(bench_.report.haptic.contact_ticks, 3500u);
+  // The highest plane is code 109, 17.1 mm: 2.1 mm above the finger, at half a newton a millimetre.
+  EXPECT_NEAR(bench_.report.haptic.max_force_n, 0.5 * (40.0 * 109 / 255 - 15.0), 0.05);
+  EXPECT_LE(bench_.report.haptic.max_scene_slew_n_per_s, 50.0 + 1e-6);
+  EXPECT_EQ(bench_.hand->force(), glm::dvec3(0));
+}
+
+TEST_F(PlayerScenario, APauseStandsStillAndStaysTouchable) {
+  bench_.haptic.path_mm = comingDown();
+  bench_.press(1.0, KEY_PLAYPAUSE);
+  bench_.press(6.0, KEY_PLAYPAUSE);
+  playsWell();
+  EXPECT_EQ(bench_.states(), "boot idle opening buffering playing paused playing ended idle");
+  EXPECT_EQ(bench_.report.frames_shown, 100u);
+  EXPECT_NEAR(bench_.report.media_s, 4.0, 0.01);
+  EXPECT_NEAR(bench_.report.wall_s, 9.0, 0.02);
+  EXPECT_GT(bench_.report.haptic.contact_ticks, 8000u);  // all the five seconds of the pause
+  EXPECT_EQ(bench_.faults("depth late"), 0u);
+}
+
+TEST_F(PlayerScenario, PlayAndPauseKeysSayWhatTheyMeanWhateverTheState) {
+  bench_.press(1.0, KEY_PLAY);   // it plays already
+  bench_.press(1.5, KEY_PAUSE);
+  bench_.press(1.6, KEY_PAUSE);  // it is paused already
+  bench_.press(2.0, KEY_PLAYCD);
+  playsWell();
+  EXPECT_EQ(bench_.states(), "boot idle opening buffering playing paused playing ended idle");
+}
+
+TEST_F(PlayerScenario, AfterEachSeekThePictureAndTheSurfaceAreOfTheSameTime) {
+  bench_.sources["film"] = PlayerBench::film(1000);
+  bench_.sources["film"].tracks[0].keyframe_interval = 12;
+  bench_.sources["film"].tracks[1].keyframe_interval = 7;
+  bench_.press(2.0, KEY_RIGHT);
+  bench_.press(3.0, KEY_FASTFORWARD);
+  bench_.press(4.0, KEY_LEFT);
+  bench_.press(5.0, KEY_STOP);
+  playsWell();
+  EXPECT_EQ(bench_.states(),
+            "boot idle opening buffering playing seeking buffering playing seeking buffering playing seeking buffering "
+            "playing idle");
+  ASSERT_THAT(bench_.report.seeks, SizeIs(3));
+  const double from[] = {2.0, 13.0, 24.0}, step[] = {10.0, 10.0, -10.0};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const SeekEntry& seek = bench_.report.seeks[i];
+    EXPECT_NEAR(seek.target_s, from[i] + step[i], 0.05) << i;
+    ASSERT_TRUE(seek.picture_s && seek.surface_s) << i;
+    EXPECT_EQ(*seek.picture_s, *seek.surface_s) << i;
+    // The first picture at or after the target.
+    EXPECT_GE(*seek.picture_s, seek.target_s) << i;
+    EXPECT_LT(*seek.picture_s, seek.target_s + 0.04) << i;
+  }
+}
+
+TEST_F(PlayerScenario, PressesInARowAddUpToOneSeek) {
+  bench_.sources["film"] = PlayerBench::film(2000);
+  for (int i = 0; i < 3; ++i) bench_.press(2.0, KEY_RIGHT);
+  bench_.press(3.0, KEY_STOP);
+  playsWell();
+  ASSERT_THAT(bench_.report.seeks, SizeIs(3));
+  EXPECT_FALSE(bench_.report.seeks[0].picture_s);
+  EXPECT_FALSE(bench_.report.seeks[1].picture_s);
+  EXPECT_NEAR(bench_.report.seeks[2].picture_s.value_or(0), 32.0, 0.05);
+}
+
+TEST_F(PlayerScenario, ASeekBeforeTheBeginningGoesToTheBeginning) {
+  bench_.press(2.0, KEY_LEFT);
+  playsWell();
+  ASSERT_THAT(bench_.report.seeks, SizeIs(1));
+  EXPECT_EQ(bench_.report.seeks[0].picture_s, 0.0);
+  EXPECT_EQ(bench_.report.seeks[0].surface_s, 0.0);
+}
+
+TEST_F(PlayerScenario, ASeekBeyondTheEndEndsTheFilm) {
+  bench_.press(2.0, KEY_RIGHT);
+  playsWell();
+  EXPECT_EQ(bench_.states(), "boot idle opening buffering playing seeking buffering ended idle");
+  EXPECT_THAT(bench_.report.seeks, SizeIs(1));
+  EXPECT_FALSE(bench_.report.seeks[0].picture_s);
+}
+
+TEST_F(PlayerScenario, ASeekWhilePausedShowsItsPictureAndStaysPaused) {
+  bench_.sources["film"] = PlayerBench::film(1000);
+  bench_.press(1.0, KEY_PAUSE);
+  bench_.press(2.0, KEY_RIGHT);
+  bench_.press(4.0, KEY_STOP);
+  playsWell();
+  EXPECT_EQ(bench_.states(), "boot idle opening buffering playing paused seeking buffering paused idle");
+  ASSERT_THAT(bench_.report.seeks, SizeIs(1));
+  EXPECT_NEAR(bench_.report.seeks[0].picture_s.value_or(0), 11.0, 0.05);
+  EXPECT_EQ(bench_.report.seeks[0].picture_s, bench_.report.seeks[0].surface_s);
+  EXPECT_NEAR(bench_.report.media_s, 1.0, 0.02);
+}
+
+TEST_F(PlayerScenario, ASeekThatTheSourceRefusesGoesOn) {
+  bench_.sources["film"].live = true;
+  bench_.press(1.0, KEY_RIGHT);
+  playsWell();
+  EXPECT_EQ(bench_.states(), "boot idle opening buffering playing seeking buffering playing ended idle");
+  EXPECT_EQ(bench_.faults("seek"), 1u);
+}
+
+TEST_F(PlayerScenario, The3dModeKeyGoesRoundTheLayouts) {
+  bench_.press(1.0, KEY_3D_MODE);
+  playsWell();
+  EXPECT_EQ(bench_.report.stereo, "anaglyph");  // after side by side
+  bench_.press(1.5, KEY_3D_MODE);
+  playsWell();
+  EXPECT_EQ(bench_.report.stereo, "mono");
+  bench_.press(2.0, KEY_3D_MODE);
+  playsWell();
+  EXPECT_EQ(bench_.report.stereo, "sbs");
+}
+
+TEST_F(PlayerScenario, LoopsWithTheSurfaceBegunAnew) {
+  bench_.haptic.path_mm = comingDown();
+  bench_.sources["film"] = PlayerBench::film(50);
+  bench_.config.loop = true;
+  bench_.config.duration = std::chrono::milliseconds(5'000);
+  playsWell();
+  EXPECT_EQ(bench_.states(),
+            "boot idle opening buffering playing ended seeking buffering playing ended seeking buffering playing idle");
+  EXPECT_NEAR(bench_.report.wall_s, 5.0, 0.01);
+  EXPECT_EQ(bench_.faults("depth late"), 0u);
+  EXPECT_THAT(bench_.report.seeks, IsEmpty());  // nobody asked for them
+  EXPECT_LE(bench_.report.haptic.max_scene_slew_n_per_s, 50.0 + 1e-6);
+}
+
+TEST_F(PlayerScenario, StopsWhenItsTimeIsUp) {
+  bench_.config.duration = std::chrono::milliseconds(1'500);
+  playsWell();
+  EXPECT_EQ(bench_.states(), "boot idle opening buffering playing idle");
+  EXPECT_NEAR(bench_.report.wall_s, 1.5, 0.01);
+}
+
+TEST_F(PlayerScenario, StopsAtOnceOnASignal) {
+  bench_.stop = true;
+  playsWell();
+  EXPECT_EQ(bench_.states(), "boot idle opening idle");
+  EXPECT_EQ(bench_.report.frames_shown, 0u);
+}
+
+TEST_F(PlayerScenario, WithoutDepthItPlaysFlatAndSaysSoOnce) {
+  bench_.sources["film"].tracks.pop_back();
+  bench_.haptic.path_mm = comingDown();
+  playsWell();
+  EXPECT_EQ(bench_.states(), kWholeFilm);
+  EXPECT_EQ(bench_.report.frames_shown, 100u);
+  EXPECT_EQ(bench_.faults("no depth"), 1u);
+  EXPECT_EQ(bench_.report.haptic.max_force_n, 0.0);
+}
+
+TEST_F(PlayerScenario, DepthThatEndsBeforeTheColorFadesTheForceAndThePictureGoesOn) {
+  bench_.sources["film"].tracks[1].frames = 50;
+  bench_.haptic.path_mm = comingDown();
+  playsWell();
+  EXPECT_EQ(bench_.report.frames_shown, 100u);
+  EXPECT_EQ(bench_.faults("no depth at this time"), 1u);
+  EXPECT_GT(bench_.report.haptic.max_force_n, 0.5);
+  EXPECT_LE(bench_.report.haptic.max_scene_slew_n_per_s, 50.0 + 1e-6);
+  EXPECT_NEAR(static_cast<double>(bench_.report.haptic.contact_ticks), 2000 - 160, 150);
+}
+
+TEST_F(PlayerScenario, DepthOfALowerRateIsHeld) {
+  bench_.sources["film"].tracks[1].frames = 25;
+  bench_.sources["film"].tracks[1].frame_period = 4 * PlayerBench::kPeriod;
+  bench_.haptic.path_mm = comingDown();
+  playsWell();
+  EXPECT_EQ(bench_.report.frames_shown, 100u);
+  EXPECT_EQ(bench_.faults("depth late"), 0u);
+  EXPECT_GT(bench_.report.haptic.contact_ticks, 3000u);
+}
+
+TEST_F(PlayerScenario, ColorThatIsLostStopsTheFilmWithItsReason) {
+  bench_.sources["film"].lose_after_packets = 80;
+  bench_.haptic.path_mm = comingDown();
+  const auto played = bench_.run();
+  ASSERT_FALSE(played);
+  EXPECT_EQ(played.error().thing, "film");
+  EXPECT_EQ(played.error().error.code, ErrorCode::Lost);
+  EXPECT_EQ(bench_.states(), "boot idle opening buffering playing fault");
+  EXPECT_GT(bench_.report.frames_shown, 30u);  // what was read is shown first
+  EXPECT_EQ(bench_.hand->force(), glm::dvec3(0));
+  EXPECT_EQ(bench_.faults("film"), 1u);
+}
+
+TEST_F(PlayerScenario, AFilmThatIsCutOffPlaysWhatIsThere) {
+  bench_.sources["film"].end_after_packets = 81;
+  playsWell();
+  EXPECT_EQ(bench_.states(), kWholeFilm);
+  EXPECT_EQ(bench_.report.frames_shown, 41u);
+}
+
+TEST_F(PlayerScenario, AFilmThatDoesNotOpenIsAFault) {
+  bench_.sources["film"].fail_open = ErrorCode::NotFound;
+  const auto played = bench_.run();
+  ASSERT_FALSE(played);
+  EXPECT_EQ(played.error().error.code, ErrorCode::NotFound);
+  EXPECT_EQ(bench_.states(), "boot idle opening fault");
+}
+
+TEST_F(PlayerScenario, AFilmOfOnePicturePlays) {
+  bench_.sources["film"] = PlayerBench::film(1);
+  playsWell();
+  EXPECT_EQ(bench_.states(), kWholeFilm);
+  EXPECT_EQ(bench_.report.frames_shown, 1u);
+}
+
+TEST_F(PlayerScenario, OddSizesPlayAndAreFelt) {
+  MockTrack& color = bench_.sources["film"].tracks[0];
+  MockTrack& depth = bench_.sources["film"].tracks[1];
+  color.width = 33;
+  color.height = 17;
+  depth.width = 7;
+  depth.height = 5;
+  bench_.haptic.path_mm = comingDown();
+  playsWell();
+  EXPECT_EQ(bench_.report.frames_shown, 100u);
+  // The box has the shape of the depth picture, whatever the colour's is.
+  EXPECT_NEAR(bench_.report.volume.height_mm, 160.0 * 5 / 7, 1e-9);
+  EXPECT_GT(bench_.report.haptic.contact_ticks, 3500u);
+}
+
+TEST_F(PlayerScenario, TheVolumeAskedForIsTheOneFelt) {
+  bench_.config.volume = DisplayVolume{100, 50, 80};
+  bench_.haptic.path_mm = comingDown();
+  playsWell();
+  EXPECT_EQ(bench_.report.volume.depth_mm, 80);
+  // The plane at code 100 stands 31.4 mm high, above the finger from the beginning: it starts inside and stays free.
+  EXPECT_EQ(bench_.report.haptic.contact_ticks, 0u);
+}
+
+TEST_F(PlayerScenario, WithoutAHapticDeviceTheFilmPlays) {
+  bench_.with_haptic = false;
+  playsWell();
+  EXPECT_EQ(bench_.states(), kWholeFilm);
+  EXPECT_EQ(bench_.report.haptic.scheduler, "none");
+  EXPECT_THAT(bench_.report.faults, IsEmpty());  // nobody asked for one
+}
+
+TEST_F(PlayerScenario, AHapticDeviceThatDoesNotOpenOrHomeIsSaidAndTheFilmPlays) {
+  bench_.haptic.fail_open = ErrorCode::PermissionDenied;
+  playsWell();
+  EXPECT_EQ(bench_.report.frames_shown, 100u);
+  EXPECT_EQ(bench_.faults("haptic device"), 1u);
+  bench_.haptic.fail_open.reset();
+  bench_.haptic.fail_homing_after = 0;
+  playsWell();
+  EXPECT_EQ(bench_.faults("haptic device"), 1u);
+}
+
+TEST_F(PlayerScenario, AHapticDeviceThatIsPulledOutLeavesTheFilmRunning) {
+  bench_.haptic.path_mm = comingDown();
+  bench_.haptic.lose_after_ticks = 1000;
+  playsWell();
+  EXPECT_EQ(bench_.report.frames_shown, 100u);
+  EXPECT_EQ(bench_.faults("haptic device lost"), 1u);
+  EXPECT_EQ(bench_.hand->force(), glm::dvec3(0));
+}
+
+TEST_F(PlayerScenario, ADisplayThatDoesNotOpenStopsEverything) {
+  bench_.display.fail_open = ErrorCode::Unsupported;
+  const auto played = bench_.run();
+  ASSERT_FALSE(played);
+  EXPECT_THAT(played.error().thing, HasSubstr("display"));
+  EXPECT_EQ(bench_.states(), "boot fault");
+}
+
+TEST_F(PlayerScenario, ADisplayThatIsLostComesBackAndTheFilmGoesOnMeanwhile) {
+  bench_.display.lose_after_frames = 25;  // of each time it is open
+  playsWell();
+  EXPECT_EQ(bench_.states(), kWholeFilm);
+  // Lost after 25 pictures at 1 s, tried again at 2 s, lost after 25 more at 3 s, not tried again before the end at 4 s.
+  EXPECT_EQ(bench_.faults("display lost"), 2u);
+  EXPECT_EQ(bench_.faults("display back"), 1u);
+  EXPECT_EQ(bench_.report.frames_shown, 50u);
+  EXPECT_EQ(bench_.report.frames_dropped, 50u);
+  EXPECT_NEAR(bench_.report.wall_s, 4.0, 0.02);
+}
+
+TEST_F(PlayerScenario, ADisplayThatWaitsForItsRefreshDropsNothing) {
+  bench_.display.refresh_period = std::chrono::microseconds(16'667);
+  playsWell();
+  EXPECT_EQ(bench_.report.frames_shown, 100u);
+  EXPECT_EQ(bench_.report.frames_dropped, 0u);
+}
+
+TEST_F(PlayerScenario, ADisplayTooSlowForTheFilmDropsPicturesAndKeepsTheTime) {
+  bench_.display.refresh_period = std::chrono::milliseconds(100);  // 10 a second, the film has 25
+  playsWell();
+  EXPECT_EQ(bench_.report.frames_shown + bench_.report.frames_dropped, 100u);
+  EXPECT_NEAR(static_cast<double>(bench_.report.frames_shown), 40.0, 3.0);
+  EXPECT_GE(bench_.report.wall_s, 4.0);  // and at most a refresh before the first picture and one after the last
+  EXPECT_LE(bench_.report.wall_s, 4.0 + 0.21);
+  EXPECT_EQ(bench_.faults("depth late"), 0u);  // the finger does not feel the slow screen
+}
+
+TEST_F(PlayerScenario, TheSameFilmHandAndKeysGiveTheSameRun) {
+  bench_.haptic.path_mm = comingDown();
+  bench_.press(1.0, KEY_LEFT);
+  playsWell();
+  const PlayReport first = bench_.report;
+  PlayerBench again;
+  again.haptic = bench_.haptic;
+  again.keys = bench_.keys;
+  ASSERT_TRUE(again.run());
+  EXPECT_EQ(again.report.haptic.max_force_n, first.haptic.max_force_n);
+  EXPECT_EQ(again.report.haptic.scene_mj, first.haptic.scene_mj);
+  EXPECT_EQ(again.report.haptic.contact_ticks, first.haptic.contact_ticks);
+  EXPECT_EQ(again.report.wall_s, first.wall_s);
+}
+
+// With its own threads, on the machine's clock: no figure of time is asserted, only what must come of it.
+TEST_F(PlayerScenario, AnUnderrunStandsStillFadesTheForceAndGoesOn) {
+  bench_.sources["film"] = PlayerBench::film(60);
+  bench_.sources["film"].stall_after_packets = 60;
+  bench_.sources["film"].stall = std::chrono::milliseconds(900);  // queue and look-ahead hold 8 pairs, 320 ms
+  bench_.config.own_threads = true;
+  MonotonicClock time;
+  ASSERT_TRUE(bench_.runOn(time));
+  EXPECT_THAT(bench_.states(), HasSubstr("playing buffering playing"));
+  EXPECT_THAT(bench_.states(), HasSubstr("ended idle"));
+  EXPECT_GE(bench_.faults("the film came too slowly"), 1u);
+  EXPECT_GE(bench_.faults("depth late"), 1u);
+  EXPECT_GE(bench_.faults("depth back"), 1u);
+  EXPECT_EQ(bench_.report.frames_shown + bench_.report.frames_dropped, 60u);
+}
+
+}  // namespace
+}  // namespace relievo
