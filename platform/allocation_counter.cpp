@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The counting allocator: the C library's own, with a count per thread in front of it.
 //
-// The C library lets a program define malloc and its kin; every library of the process then calls these. They forward to
-// the C library's own allocator by its other names (__libc_malloc and so on), so the heap, and free, stay as they were.
-// operator new is left alone: the C++ library's calls malloc or aligned_alloc and is counted there, once.
-// The definitions stand in the same object file as threadAllocations, so whoever links one has the others.
+// The C library lets a program define malloc and its kin; every library of the process then calls these. They
+// forward to the C library's own allocator by its other names (__libc_malloc and so on), so the heap, and
+// free, stay as they were. operator new is left alone: the C++ library's calls malloc or aligned_alloc and is
+// counted there, once. The definitions stand in the same object file as threadAllocations, so whoever links
+// one has the others.
 #include "platform/allocation_counter.h"
 
 #include <bit>
@@ -15,11 +16,12 @@
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || defined(__SANITIZE_HWADDRESS__)
 #define RELIEVO_SANITIZER_HEAP 1
 #elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer) || \
-    __has_feature(hwaddress_sanitizer)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || \
+    __has_feature(memory_sanitizer) || __has_feature(hwaddress_sanitizer)
 #define RELIEVO_SANITIZER_HEAP 1
 #elif __has_feature(realtime_sanitizer)
-#define RELIEVO_WATCHED_HEAP 1  // it stops at an allocation itself, and needs the malloc that it has put in place
+#define RELIEVO_WATCHED_HEAP \
+  1  // it stops at an allocation itself, and needs the malloc that it has put in place
 #endif
 #endif
 
@@ -27,11 +29,18 @@ namespace relievo {
 namespace {
 
 // initial-exec: the variable lies in the thread's static block, so that reading it can never itself allocate.
+// That is why a real-time function may read it, which the compiler would forbid for thread_local variables as
+// such.
 [[gnu::tls_model("initial-exec")]] constinit thread_local std::uint64_t allocations = 0;
 
 }  // namespace
 
-std::uint64_t threadAllocations() RELIEVO_RT { return allocations; }
+#if defined(__clang__) && __clang_major__ >= 20
+#pragma clang diagnostic ignored "-Wfunction-effects"
+#endif
+std::uint64_t threadAllocations() RELIEVO_RT {
+  return allocations;
+}
 
 }  // namespace relievo
 

@@ -39,6 +39,8 @@ void ManualClock::sleepUntil(MonotonicTime deadline) noexcept {
   }
 }
 
-void ManualClock::advance(Duration by) noexcept { now_.fetch_add(by.count(), std::memory_order_acq_rel); }
+void ManualClock::advance(Duration by) noexcept {
+  now_.fetch_add(by.count(), std::memory_order_acq_rel);
+}
 
 }  // namespace relievo

@@ -35,7 +35,7 @@ struct CyclicConfig {
   Duration period = std::chrono::milliseconds(1);
   int priority = 80;                     // of SCHED_FIFO, 1 to 99
   int cpu = -1;                          // -1: any
-  std::size_t stack_bytes = 128 * 1024;  // locked and touched
+  std::size_t stack_bytes = 128 * 1024;  // locked and touched; the libraries' thread-local data come on top
 };
 
 // Written by the loop, readable from any thread at any time.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Locks and touches ranges of memory, the program's code among them; and the arena that real-time objects live in.
+// Locks and touches ranges of memory, the program's code among them; and the arena that real-time objects
+// live in.
 #include "platform/fixed_memory.h"
 
 #include <link.h>
@@ -14,7 +15,7 @@
 namespace relievo {
 namespace {
 
-// A page is touched by reading or writing any byte of it, the sanitizers' own forbidden ones included.
+// A page of code is touched by reading any byte of it, those that a sanitizer forbids included.
 #define RELIEVO_TOUCHES_ANY_BYTE __attribute__((no_sanitize("address", "thread")))
 
 std::uintptr_t pageSize() noexcept {
@@ -47,21 +48,25 @@ RELIEVO_TOUCHES_ANY_BYTE void touchByReading(Pages pages) noexcept {
   }
 }
 
-// Reading would map the shared page of zeros and leave the fault to the first write. A byte is put back as it was, by an
-// exchange, so that memory in use can be touched too.
-RELIEVO_TOUCHES_ANY_BYTE void touchByWriting(Pages pages) noexcept {
-  for (std::uintptr_t page = pages.begin; page < pages.end; page += pageSize()) {
-    auto* const byte = reinterpret_cast<volatile unsigned char*>(page);
-    unsigned char value = *byte;
+// Reading would map the shared page of zeros and leave the fault to the first write. A byte of the range
+// itself is put back as it was, by an exchange, so that memory in use can be touched too; its neighbours on
+// the page are not.
+void touchByWriting(std::uintptr_t address, std::size_t bytes) noexcept {
+  const std::uintptr_t end = address + bytes;
+  while (address < end) {
+    auto* const byte = reinterpret_cast<volatile unsigned char*>(address);
+    unsigned char value = __atomic_load_n(byte, __ATOMIC_RELAXED);
     __atomic_compare_exchange_n(byte, &value, value, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED);
+    address = (address & ~(pageSize() - 1)) + pageSize();
   }
 }
 
-// What a real-time loop runs: the program (whose entry has no name), the libraries below, the loader. Nothing else: a
-// video player's process maps hundreds of megabytes of codecs and drivers.
+// What a real-time loop runs: the program (whose entry has no name), the libraries below, the loader. Nothing
+// else: a video player's process maps hundreds of megabytes of codecs and drivers.
 bool holdsRealTimeCode(std::string_view path) noexcept {
   if (path.empty()) return true;
-  constexpr std::array<std::string_view, 5> kNames = {"libc.so.", "libm.so.", "libstdc++.so.", "libgcc_s.so.", "ld-"};
+  constexpr std::array<std::string_view, 5> kNames = {"libc.so.", "libm.so.", "libstdc++.so.", "libgcc_s.so.",
+                                                      "ld-"};
   const std::string_view name = path.substr(path.rfind('/') + 1);
   for (const std::string_view wanted : kNames) {
     if (name.starts_with(wanted)) return true;
@@ -69,8 +74,8 @@ bool holdsRealTimeCode(std::string_view path) noexcept {
   return false;
 }
 
-// Code and constants, and what became constant when the loader had relocated it: tables of virtual functions and of
-// library calls.
+// Code and constants, and what became constant when the loader had relocated it: tables of virtual functions
+// and of library calls.
 bool isReadOnly(const ElfW(Phdr) & segment) noexcept {
   if (segment.p_type == PT_GNU_RELRO) return true;
   return segment.p_type == PT_LOAD && (segment.p_flags & PF_R) != 0 && (segment.p_flags & PF_W) == 0;
@@ -93,9 +98,9 @@ int lockAndTouchObject(dl_phdr_info* object, std::size_t, void* result) {
 
 Result<void> lockAndTouch(void* address, std::size_t bytes) noexcept {
   if (bytes == 0) return {};
-  const Pages pages = pagesOf(reinterpret_cast<std::uintptr_t>(address), bytes);
-  const Result<void> locked = lock(pages);
-  touchByWriting(pages);
+  const auto begin = reinterpret_cast<std::uintptr_t>(address);
+  const Result<void> locked = lock(pagesOf(begin, bytes));
+  touchByWriting(begin, bytes);
   return locked;
 }
 
@@ -106,7 +111,8 @@ Result<void> lockAndTouchCode() noexcept {
 }
 
 Result<FixedArena> FixedArena::create(std::size_t bytes) noexcept {
-  if (bytes == 0) return fail(ErrorCode::InvalidArgument, "an arena of no bytes: give the size that the set-up needs");
+  if (bytes == 0)
+    return fail(ErrorCode::InvalidArgument, "an arena of no bytes: give the size that the set-up needs");
   void* const base = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (base == MAP_FAILED) {
     return fail(ErrorCode::Exhausted, "no memory for the real-time arena: free some, or ask for less", errno);
@@ -123,7 +129,8 @@ FixedArena::FixedArena(FixedArena&& other) noexcept
       last_(std::exchange(other.last_, nullptr)) {}
 
 FixedArena::~FixedArena() {
-  for (const Cleanup* cleanup = last_; cleanup != nullptr; cleanup = cleanup->next) cleanup->destroy(cleanup->object);
+  for (const Cleanup* cleanup = last_; cleanup != nullptr; cleanup = cleanup->next)
+    cleanup->destroy(cleanup->object);
   if (base_ != nullptr) ::munmap(base_, bytes_);
 }
 

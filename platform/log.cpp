@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines on stderr: each is put together on the stack and written in one call, so that threads do not interleave.
+// Lines on stderr: each is put together on the stack and written in one call, so that threads do not
+// interleave.
 #include "platform/log.h"
 
 #include <unistd.h>
@@ -18,7 +19,9 @@ constexpr std::size_t kLineBytes = 1024;  // below PIPE_BUF: a pipe takes it who
 
 std::atomic<LogLevel> maximum{LogLevel::Info};
 
-bool printed(LogLevel level) noexcept { return level <= maximum.load(std::memory_order_relaxed); }
+bool printed(LogLevel level) noexcept {
+  return level <= maximum.load(std::memory_order_relaxed);
+}
 
 // How much of a buffer of `room` bytes snprintf has filled; what did not fit is cut off.
 std::size_t filled(int wanted, std::size_t room) noexcept {
@@ -45,7 +48,9 @@ void writeAll(const char* bytes, std::size_t count) noexcept {
 
 }  // namespace
 
-void setLogLevel(LogLevel level) noexcept { maximum.store(level, std::memory_order_relaxed); }
+void setLogLevel(LogLevel level) noexcept {
+  maximum.store(level, std::memory_order_relaxed);
+}
 
 void log(LogLevel level, const char* area, const char* format, ...) noexcept {
   if (!printed(level)) return;

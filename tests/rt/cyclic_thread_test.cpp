@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The real thread: what it runs as, where it runs, what it takes from the system. Counts only; no time is judged.
+// The real thread: what it runs as, where it runs, what it takes from the system. Counts only; no time is
+// judged.
 #include "platform/cyclic_thread.h"
 
 #include <gtest/gtest.h>
@@ -18,12 +19,7 @@
 #include <thread>
 
 #include "platform/fixed_memory.h"
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;  // shadow memory faults at any time
-#else
-constexpr bool kSanitized = false;
-#endif
+#include "tests/support/sanitizers.h"
 
 namespace relievo {
 namespace {
@@ -33,14 +29,14 @@ constexpr std::uint64_t kCycles = 200;
 // Runs `Work` in each of kCycles cycles, then says that it has ended.
 template <class Work>
 class CountedTask final : public CyclicTask {
- public:
+public:
   explicit CountedTask(Work work) : work_(work) {}
   LoopControl loop(const Cycle& cycle) noexcept override {
     work_(cycle);
     return ++cycles_ == kCycles ? LoopControl::Stop : LoopControl::Continue;
   }
 
- private:
+private:
   Work work_;
   std::uint64_t cycles_ = 0;
 };
@@ -50,7 +46,7 @@ void waitForTheEnd(const CyclicThread& thread) {
 }
 
 class CyclicThreadTest : public testing::Test {
- protected:
+protected:
   // The whole run of a task that does `work` kCycles times.
   template <class Work>
   void run(Work work, const CyclicConfig& config = {}) {
@@ -76,7 +72,7 @@ TEST_F(CyclicThreadTest, TakesNeitherMemoryNorPagesWhileItRuns) {
   });
   const CyclicStatistics& statistics = thread.statistics();
   EXPECT_EQ(statistics.allocations, 0u);
-  if (!kSanitized) {
+  if (!kMemorySanitizer) {
     EXPECT_EQ(statistics.page_faults, 0u);
   }
   EXPECT_EQ(early, 0u);
@@ -86,6 +82,7 @@ TEST_F(CyclicThreadTest, TakesNeitherMemoryNorPagesWhileItRuns) {
 }
 
 TEST_F(CyclicThreadTest, CountsATaskThatAllocates) {
+  if (kRealtimeSanitizer) GTEST_SKIP() << "the real-time sanitizer stops at such a task, as it should";
   run([](const Cycle&) {
     void* block = std::malloc(100);
     asm volatile("" : "+r"(block) : : "memory");
@@ -96,7 +93,8 @@ TEST_F(CyclicThreadTest, CountsATaskThatAllocates) {
 
 TEST_F(CyclicThreadTest, CountsATaskThatTouchesFreshPages) {
   const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-  void* const map = ::mmap(nullptr, kCycles * page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  void* const map =
+      ::mmap(nullptr, kCycles * page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   ASSERT_NE(map, MAP_FAILED);
   ::madvise(map, kCycles * page, MADV_NOHUGEPAGE);  // one fault a page
   auto* next = static_cast<volatile unsigned char*>(map);
@@ -106,12 +104,13 @@ TEST_F(CyclicThreadTest, CountsATaskThatTouchesFreshPages) {
   });
   ::munmap(map, kCycles * page);
   EXPECT_GE(thread.statistics().page_faults, kCycles);
-  if (!kSanitized) {
+  if (!kMemorySanitizer) {
     EXPECT_EQ(thread.statistics().page_faults, kCycles);
   }
 }
 
 TEST_F(CyclicThreadTest, StartsItsCountsAgainWithEachRun) {
+  if (kRealtimeSanitizer) GTEST_SKIP() << "the real-time sanitizer stops at such a task, as it should";
   run([](const Cycle&) {
     void* block = std::malloc(100);
     asm volatile("" : "+r"(block) : : "memory");
@@ -148,6 +147,21 @@ TEST_F(CyclicThreadTest, RunsAsItIsToldTo) {
   } else {
     EXPECT_EQ(seen.policy, SCHED_OTHER);
   }
+}
+
+// The C library puts it on top of each thread's stack.
+constexpr std::size_t kThreadData = 96 * 1024;
+thread_local std::array<volatile char, kThreadData> thread_data;
+
+TEST_F(CyclicThreadTest, GivesTheTaskItsWholeStackWhateverThreadLocalDataThereIs) {
+  constexpr std::size_t kStack = 48 * 1024;
+  run(
+      [](const Cycle&) {
+        volatile char room[kStack / 2];
+        for (std::size_t i = 0; i < sizeof room; i += 1024) room[i] = 1;
+        thread_data[kThreadData - 1] = room[0];
+      },
+      {.stack_bytes = kStack});
 }
 
 // The stack's own mapping in /proc/self/smaps and the permissions of what lies just below it.
@@ -194,13 +208,14 @@ TEST_F(CyclicThreadTest, HasALockedStackWithAGuardPage) {
     }
     std::atomic<std::uintptr_t> address{0};
   } task;
-  if (kSanitized) GTEST_SKIP() << "a sanitizer keeps locals elsewhere and locks nothing";
+  if (kMemorySanitizer) GTEST_SKIP() << "a sanitizer keeps locals elsewhere and locks nothing";
   const CyclicConfig config{.stack_bytes = 256 * 1024};
   ASSERT_TRUE(thread.start(config, task).has_value());
   while (task.address == 0) std::this_thread::yield();
   const StackMapping stack = mappingOf(task.address);
   thread.stop();
-  EXPECT_EQ(stack.bytes, config.stack_bytes);
+  EXPECT_GE(stack.bytes, config.stack_bytes);
+  EXPECT_LT(stack.bytes, config.stack_bytes + kThreadData + 64 * 1024);
   EXPECT_EQ(stack.below.substr(0, 3), "---");
   int may_lock = 0;
   if (lockAndTouch(&may_lock, sizeof may_lock)) {
@@ -254,7 +269,7 @@ TEST_F(CyclicThreadTest, RefusesWhatCannotBe) {
 }
 
 TEST_F(CyclicThreadTest, RunsWithoutTheRightToRealTimeAndSaysSo) {
-  if (kSanitized) GTEST_SKIP() << "a sanitizer's own thread keeps the process from forking well";
+  if (kMemorySanitizer) GTEST_SKIP() << "a sanitizer's own thread keeps the process from forking well";
   const auto child = [this] {
     const rlimit none{.rlim_cur = 0, .rlim_max = 0};
     const bool dropped = ::setrlimit(RLIMIT_RTPRIO, &none) == 0 && ::setrlimit(RLIMIT_MEMLOCK, &none) == 0 &&
@@ -265,12 +280,15 @@ TEST_F(CyclicThreadTest, RunsWithoutTheRightToRealTimeAndSaysSo) {
     thread.stop();
     const CyclicStatistics& statistics = thread.statistics();
     const bool good = dropped && started == Scheduler::Other && statistics.scheduler == Scheduler::Other &&
-                      statistics.cycles == kCycles && statistics.allocations == 0 && statistics.page_faults == 0;
+                      statistics.cycles == kCycles && statistics.allocations == 0 &&
+                      statistics.page_faults == 0;
     std::_Exit(good ? 0 : 1);
   };
   EXPECT_EXIT(child(), testing::ExitedWithCode(0),
-              "^relievo: cyclic: unprivileged: memory is touched but not locked: raise LimitMEMLOCK or grant CAP_IPC_LOCK\n"
-              "relievo: cyclic: unprivileged: runs without real-time priority: grant CAP_SYS_NICE or raise LimitRTPRIO\n$");
+              "^relievo: cyclic: unprivileged: memory is touched but not locked: raise LimitMEMLOCK or grant "
+              "CAP_IPC_LOCK\n"
+              "relievo: cyclic: unprivileged: runs without real-time priority: grant CAP_SYS_NICE or raise "
+              "LimitRTPRIO\n$");
 }
 
 }  // namespace

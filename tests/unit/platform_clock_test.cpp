@@ -9,7 +9,9 @@ namespace {
 
 using std::chrono::milliseconds;
 
-MonotonicTime at(Duration since_start) { return MonotonicTime{} + since_start; }
+MonotonicTime at(Duration since_start) {
+  return MonotonicTime{} + since_start;
+}
 
 TEST(Duration, ConvertsSecondsToTheNearestNanosecond) {
   EXPECT_EQ(fromSeconds(1.5), milliseconds(1500));

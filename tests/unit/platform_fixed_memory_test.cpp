@@ -18,22 +18,20 @@
 #include <string>
 #include <vector>
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;  // its mlock does nothing, on purpose
-#else
-constexpr bool kSanitized = false;
-#endif
+#include "tests/support/sanitizers.h"
 
 namespace relievo {
 namespace {
 
 constexpr std::size_t kPages = 32;
 
-std::size_t pageBytes() { return static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)); }
+std::size_t pageBytes() {
+  return static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
 
 // Fresh pages of zeros; small ones, so that the kernel maps each by itself.
 class FreshPages {
- public:
+public:
   FreshPages()
       : base_(static_cast<unsigned char*>(::mmap(nullptr, kPages * pageBytes(), PROT_READ | PROT_WRITE,
                                                  MAP_PRIVATE | MAP_ANONYMOUS, -1, 0))) {
@@ -50,7 +48,7 @@ class FreshPages {
     return count;
   }
 
- private:
+private:
   unsigned char* base_;
 };
 
@@ -102,7 +100,7 @@ TEST(LockAndTouch, MapsEachPageSoThatWritingDoesNotFault) {
   const auto locked = lockAndTouch(pages[0], kPages * pageBytes());
   EXPECT_TRUE(locked || locked.error().code == ErrorCode::PermissionDenied);
   EXPECT_EQ(pages.resident(), kPages);
-  if (kSanitized) return;
+  if (kMemorySanitizer) return;
   const std::uint64_t before = pageFaults();
   for (std::size_t page = 0; page < kPages; ++page) *pages[page] = 1;
   EXPECT_EQ(pageFaults(), before);
@@ -128,7 +126,7 @@ TEST(LockAndTouch, DoesNothingToAnEmptyRange) {
 }
 
 TEST(LockAndTouch, SaysWhenTheRightIsMissingAndTouchesAllTheSame) {
-  if (kSanitized) GTEST_SKIP() << "a sanitizer's mlock always succeeds";
+  if (kMemorySanitizer) GTEST_SKIP() << "a sanitizer's mlock always succeeds";
   withoutTheRight([] {
     FreshPages pages;
     const auto locked = lockAndTouch(pages[0], kPages * pageBytes());
@@ -140,14 +138,15 @@ TEST(LockAndTouch, SaysWhenTheRightIsMissingAndTouchesAllTheSame) {
 }
 
 TEST(LockAndTouchCode, LocksTheProgramsAndItsLibrariesCode) {
-  if (kSanitized) GTEST_SKIP() << "a sanitizer's mlock does nothing";
+  if (kMemorySanitizer) GTEST_SKIP() << "a sanitizer's mlock does nothing";
   volatile double argument = 2.0;
   ASSERT_GT(std::sin(argument), 0.0);  // so that the maths library is there
   const auto locked = lockAndTouchCode();
   if (!locked) GTEST_SKIP() << locked.error().message;
   const std::string program = std::filesystem::read_symlink("/proc/self/exe");
-  for (const std::string& wanted : {program, std::string("/libc.so."), std::string("/libm.so."),
-                                    std::string("/libstdc++.so."), std::string("/libgcc_s.so."), std::string("/ld-")}) {
+  for (const std::string& wanted :
+       {program, std::string("/libc.so."), std::string("/libm.so."), std::string("/libstdc++.so."),
+        std::string("/libgcc_s.so."), std::string("/ld-")}) {
     int code = 0;
     for (const Mapping& mapping : mappings()) {
       if (mapping.file.find(wanted) == std::string::npos || mapping.permissions[1] == 'w') continue;
@@ -173,7 +172,7 @@ TEST(LockAndTouchCode, LeavesOtherLibrariesAlone) {
 }
 
 TEST(LockAndTouchCode, SaysWhenTheRightIsMissing) {
-  if (kSanitized) GTEST_SKIP() << "a sanitizer's mlock always succeeds";
+  if (kMemorySanitizer) GTEST_SKIP() << "a sanitizer's mlock always succeeds";
   withoutTheRight([] {
     const auto locked = lockAndTouchCode();
     return !locked && locked.error().code == ErrorCode::PermissionDenied;
@@ -267,7 +266,7 @@ TEST(FixedArena, MakesNoObjectThatItCouldNotDestroy) {
 }
 
 TEST(FixedArena, CostsNoPageFaultOnceItIsMade) {
-  if (kSanitized) GTEST_SKIP() << "a sanitizer's shadow memory faults";
+  if (kMemorySanitizer) GTEST_SKIP() << "a sanitizer's shadow memory faults";
   auto arena = FixedArena::create(kPages * pageBytes());
   ASSERT_TRUE(arena.has_value());
   const std::uint64_t before = pageFaults();
@@ -279,7 +278,7 @@ TEST(FixedArena, CostsNoPageFaultOnceItIsMade) {
 }
 
 TEST(FixedArena, SaysWhetherItCouldBeLocked) {
-  if (kSanitized) GTEST_SKIP() << "a sanitizer's mlock always succeeds";
+  if (kMemorySanitizer) GTEST_SKIP() << "a sanitizer's mlock always succeeds";
   withoutTheRight([] {
     const auto arena = FixedArena::create(4096);
     return arena.has_value() && !arena->locked();

@@ -29,7 +29,8 @@ TEST(Histogram, HasNoQuantileWhileEmpty) {
 
 TEST(Histogram, GivesQuantilesWithinSixPercentOfTheSortedValues) {
   std::mt19937_64 random(7);
-  std::uniform_real_distribution<double> exponent(0.0, 10.0);  // 1 ns to 10 s, each decade as often as the next
+  std::uniform_real_distribution<double> exponent(0.0,
+                                                  10.0);  // 1 ns to 10 s, each decade as often as the next
   std::vector<Duration> values;
   Histogram histogram;
   for (int i = 0; i < 20'000; ++i) {

@@ -21,7 +21,7 @@ std::string printedBy(Act act) {
 }
 
 class LevelGuard {
- public:
+public:
   explicit LevelGuard(LogLevel level) { setLogLevel(level); }
   ~LevelGuard() { setLogLevel(LogLevel::Info); }
 };
@@ -45,8 +45,13 @@ TEST(Log, LeavesOutWhatIsAboveItsLevel) {
 TEST(Log, MakesOneLineOfATextWithLineBreaks) {
   EXPECT_EQ(printedBy([] { log(LogLevel::Info, "a", "one\ntwo\tthree\x1b[2J\r\n"); }),
             "relievo: a: one two three [2J\n");
-  EXPECT_EQ(printedBy([] { log(LogLevel::Info, "a", "gr\xc3\xb6\xc3\x9f" "er"); }),
-            "relievo: a: gr\xc3\xb6\xc3\x9f" "er\n");
+  EXPECT_EQ(printedBy([] {
+              log(LogLevel::Info, "a",
+                  "gr\xc3\xb6\xc3\x9f"
+                  "er");
+            }),
+            "relievo: a: gr\xc3\xb6\xc3\x9f"
+            "er\n");
 }
 
 TEST(Log, CutsOffAnEndlessText) {

@@ -10,7 +10,9 @@
 namespace relievo {
 namespace {
 
-bool isOpen(int fd) { return ::fcntl(fd, F_GETFD) != -1; }
+bool isOpen(int fd) {
+  return ::fcntl(fd, F_GETFD) != -1;
+}
 
 int opened() {
   const int fd = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
