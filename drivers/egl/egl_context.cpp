@@ -1,37 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Start and end of an EGL display and of the context on it.
+// Start of an EGL display, and start and end of a context on it.
 #include "drivers/egl/egl_context.h"
 
 #include <array>
-#include <map>
-#include <mutex>
 #include <utility>
 
 namespace relievo {
-namespace {
-
-// How many contexts live on each display: eglTerminate does not count, and would take the others' display away.
-std::mutex g_displays_mutex;
-std::map<EGLDisplay, int> g_displays;
-
-bool acquire(EGLDisplay display) noexcept {
-  const std::scoped_lock lock(g_displays_mutex);
-  if (g_displays[display] == 0 && eglInitialize(display, nullptr, nullptr) != EGL_TRUE) {
-    g_displays.erase(display);
-    return false;
-  }
-  ++g_displays[display];
-  return true;
-}
-
-void release(EGLDisplay display) noexcept {
-  const std::scoped_lock lock(g_displays_mutex);
-  if (--g_displays[display] > 0) return;
-  g_displays.erase(display);
-  eglTerminate(display);
-}
-
-}  // namespace
 
 EglContext::EglContext(EglContext&& other) noexcept
     : display_(std::exchange(other.display_, EGL_NO_DISPLAY)),
@@ -39,18 +13,15 @@ EglContext::EglContext(EglContext&& other) noexcept
       context_(std::exchange(other.context_, EGL_NO_CONTEXT)) {}
 
 EglContext::~EglContext() {
-  if (display_ == EGL_NO_DISPLAY) return;
-  if (context_ != EGL_NO_CONTEXT) {
-    if (eglGetCurrentContext() == context_) {
-      eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    }
-    eglDestroyContext(display_, context_);
+  if (context_ == EGL_NO_CONTEXT) return;
+  if (eglGetCurrentContext() == context_) {
+    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   }
-  release(display_);
+  eglDestroyContext(display_, context_);
 }
 
 Result<EglContext> EglContext::create(EGLDisplay display, EGLint surface_type) {
-  if (display == EGL_NO_DISPLAY || !acquire(display)) {
+  if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) != EGL_TRUE) {
     return fail(ErrorCode::Unsupported, "EGL does not start here; install a GL driver (Debian: libegl1, libgl1-mesa-dri)");
   }
   EglContext made(display);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A GLES 3 context on an EGL display, with everything that it needs given back when it goes.
+// A GLES 3 context on an EGL display, given back when it goes.
 #pragma once
 
 #include <EGL/egl.h>
@@ -8,8 +8,9 @@
 
 namespace relievo {
 
-// Owns a share of the EGL display and one context. An EGL display is one per process however often it is asked for, so
-// it is terminated with the last context on it. Thread: the one that makes it current.
+// Owns one context. The EGL display is one per process however often it is asked for, and stays initialised like a
+// library stays loaded: to terminate it would end the other contexts on it, and unload the GL driver, which Mesa's
+// software one does not survive without leaks. Thread: the one that makes it current.
 class EglContext {
  public:
   // Starts `display` and makes a context whose config can draw on surfaces of `surface_type` (EGL_PBUFFER_BIT, ..).
