@@ -11,8 +11,8 @@ namespace relievo {
 
 struct DisplayCapabilities {
   const char* name = "";
-  bool gles = false;            // a GLES 3 context is current on the opener's thread while open
-  Duration refresh_period{0};   // 0: shows a frame at once, whenever it comes
+  bool gles = false;           // a GLES 3 context is current on the opener's thread while open
+  Duration refresh_period{0};  // 0: shows a frame at once, whenever it comes
 };
 
 struct DisplayConfig {

@@ -7,7 +7,8 @@
 namespace relievo {
 
 Result<void> HapticDevice::open() {
-  if (state_ != State::Closed) return fail(ErrorCode::InvalidState, "the haptic device is open already; close it first");
+  if (state_ != State::Closed)
+    return fail(ErrorCode::InvalidState, "the haptic device is open already; close it first");
   auto opened = openDevice();
   if (!opened) {
     closeDevice();

@@ -19,14 +19,14 @@ enum class StreamKind : std::uint8_t { Video, Audio, Other };
 
 // Names one stream and describes it as far as the container does.
 struct StreamInfo {
-  int index = 0;                      // the `stream` of its packets
+  int index = 0;  // the `stream` of its packets
   StreamKind kind = StreamKind::Other;
-  std::string codec;                  // "h264", "hevc", "vp8", .., lower case
+  std::string codec;                    // "h264", "hevc", "vp8", .., lower case
   std::vector<std::uint8_t> extradata;  // parameter sets as the container holds them
   int width = 0;
   int height = 0;
-  Duration frame_period{0};           // a hint from the container; the true one comes from the timestamps
-  Duration duration{0};               // 0 where unknown
+  Duration frame_period{0};                 // a hint from the container; the true one comes from the timestamps
+  Duration duration{0};                     // 0 where unknown
   std::map<std::string, std::string> tags;  // upper-case keys: TITLE, HANDLER_NAME, DEPTH_NEAR, ..
   // The source's own description, for a decoder of the same library; null otherwise.
   std::shared_ptr<const void> native;

@@ -14,7 +14,11 @@ struct MediaTimeline {
 // Nanoseconds from the film's own zero. A clock (hal/media_clock.h) maps it to MonotonicTime; nothing else does.
 using MediaTime = std::chrono::time_point<MediaTimeline, Duration>;
 
-[[nodiscard]] constexpr double toSeconds(MediaTime t) noexcept { return toSeconds(t.time_since_epoch()); }
-[[nodiscard]] constexpr MediaTime mediaTime(double s) noexcept { return MediaTime(fromSeconds(s)); }
+[[nodiscard]] constexpr double toSeconds(MediaTime t) noexcept {
+  return toSeconds(t.time_since_epoch());
+}
+[[nodiscard]] constexpr MediaTime mediaTime(double s) noexcept {
+  return MediaTime(fromSeconds(s));
+}
 
 }  // namespace relievo

@@ -26,8 +26,8 @@ class VideoDecoder {
  public:
   enum class State : std::uint8_t { Closed, Open, Draining, Ended };
   struct Capabilities {
-    const char* name = "";      // "ffmpeg", "v4l2", ..
-    int max_held_frames = 0;    // never changes while open
+    const char* name = "";    // "ffmpeg", "v4l2", ..
+    int max_held_frames = 0;  // never changes while open
     bool hardware = false;
   };
   virtual ~VideoDecoder() = default;

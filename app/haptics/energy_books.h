@@ -8,11 +8,11 @@
 
 namespace relievo {
 
-// A spring K between proxy p and finger h holds U = F^2/2K and pushes the hand with F = K(p - h). From dU = F.(dp - dh):
-// the work on the hand F.dh is the proxy's work F.dp less what the spring takes up. Sliding does no work (F is normal to
-// the surface), so F.dp is what the moving surface puts in: the scene's book, by the trapezoid rule. The device however
-// holds each force until the next tick; what the held force does beyond the scene's work and the spring's is the
-// artefacts' book. Units: N mm = mJ. Positive is energy given to the hand.
+// A spring K between proxy p and finger h holds U = F^2/2K and pushes the hand with F = K(p - h). From dU = F.(dp -
+// dh): the work on the hand F.dh is the proxy's work F.dp less what the spring takes up. Sliding does no work (F is
+// normal to the surface), so F.dp is what the moving surface puts in: the scene's book, by the trapezoid rule. The
+// device however holds each force until the next tick; what the held force does beyond the scene's work and the
+// spring's is the artefacts' book. Units: N mm = mJ. Positive is energy given to the hand.
 class EnergyBooks {
  public:
   explicit EnergyBooks(double stiffness_n_per_mm = 1) noexcept : stiffness_(stiffness_n_per_mm) {}

@@ -4,8 +4,8 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <glm/geometric.hpp>
+#include <limits>
 
 namespace relievo {
 namespace {

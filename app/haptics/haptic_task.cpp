@@ -32,17 +32,25 @@ void bump(std::atomic<std::uint64_t>& count) RELIEVO_RT {
 
 const char* name(HapticFault::Kind kind) noexcept {
   switch (kind) {
-    case HapticFault::Kind::DeviceLost: return "haptic device lost";
-    case HapticFault::Kind::DeviceError: return "haptic exchange failed";
-    case HapticFault::Kind::FeedStale: return "depth late";
-    case HapticFault::Kind::FeedRecovered: return "depth back";
+    case HapticFault::Kind::DeviceLost:
+      return "haptic device lost";
+    case HapticFault::Kind::DeviceError:
+      return "haptic exchange failed";
+    case HapticFault::Kind::FeedStale:
+      return "depth late";
+    case HapticFault::Kind::FeedRecovered:
+      return "depth back";
   }
   return "";
 }
 
 HapticTask::HapticTask(HapticDevice& device, TouchMethod& method, const Clock& clock, const DisplayVolume& volume,
                        const SafetyLimits& limits, double stiffness_n_per_mm) noexcept
-    : device_(device), method_(method), clock_(clock), mapping_(device.capabilities(), volume), books_(stiffness_n_per_mm) {
+    : device_(device),
+      method_(method),
+      clock_(clock),
+      mapping_(device.capabilities(), volume),
+      books_(stiffness_n_per_mm) {
   SafetyLimits within_device = limits;
   within_device.force_n = std::min(limits.force_n, device.capabilities().peak_force_n);
   safety_ = SafetyFilter(within_device, stiffness_n_per_mm);

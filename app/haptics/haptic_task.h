@@ -23,15 +23,15 @@ struct WorkspaceMapping {
   glm::dvec3 offset_mm{0};  // scene = device + offset
   WorkspaceMapping() = default;
   WorkspaceMapping(const HapticCapabilities& device, const DisplayVolume& volume) noexcept
-      : offset_mm(glm::dvec3(0, 0, 0.5 * volume.depth_mm) -
-                  0.5 * (device.workspace_min_mm + device.workspace_max_mm)) {}
+      : offset_mm(glm::dvec3(0, 0, 0.5 * volume.depth_mm) - 0.5 * (device.workspace_min_mm + device.workspace_max_mm)) {
+  }
 };
 
 struct HapticFault {
   enum class Kind : std::uint8_t {
-    DeviceLost,    // read or write answered Lost: force zero, the task ends its ticks but keeps counting time
-    DeviceError,   // one exchange failed: that tick is left out
-    FeedStale,     // no depth for the present moment: the force is faded
+    DeviceLost,   // read or write answered Lost: force zero, the task ends its ticks but keeps counting time
+    DeviceError,  // one exchange failed: that tick is left out
+    FeedStale,    // no depth for the present moment: the force is faded
     FeedRecovered,
   };
   Kind kind = Kind::DeviceError;

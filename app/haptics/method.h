@@ -11,7 +11,8 @@
 
 namespace relievo {
 
-// What a method answers. The force is stiffness x (proxy - HIP); it is zero without contact, where the proxy is the HIP.
+// What a method answers. The force is stiffness x (proxy - HIP); it is zero without contact, where the proxy is the
+// HIP.
 struct Touch {
   glm::dvec3 proxy_mm{0};  // scene frame
   glm::dvec3 force_n{0};
@@ -26,7 +27,8 @@ class TouchMethod {
 
   // `hip_mm`: the haptic interface point in the scene frame. `window`: valid for this call only, count may be 0.
   // `now`: the film's time. A change of `window.epoch` is a discontinuity: what was remembered does not hold any more.
-  [[nodiscard]] virtual Touch update(const glm::dvec3& hip_mm, const SurfaceWindow& window, MediaTime now) RELIEVO_RT = 0;
+  [[nodiscard]] virtual Touch update(const glm::dvec3& hip_mm, const SurfaceWindow& window,
+                                     MediaTime now) RELIEVO_RT = 0;
   virtual void upkeep(const SurfaceWindow& /*window*/, MediaTime /*now*/) RELIEVO_RT {}
   // Forgets everything: the finger is free until it has been outside.
   virtual void reset() RELIEVO_RT = 0;

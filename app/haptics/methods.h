@@ -20,8 +20,8 @@ enum class TimeLaw : std::uint8_t {
 
 struct MethodConfig {
   double stiffness_n_per_mm = 0.5;
-  std::optional<TimeLaw> time;        // nothing: the method's own
-  std::optional<bool> jump_threshold; // the paper's guard (IV-C); nothing: the method's own
+  std::optional<TimeLaw> time;         // nothing: the method's own
+  std::optional<bool> jump_threshold;  // the paper's guard (IV-C); nothing: the method's own
 };
 
 extern const char* const kMethodNames;    // "proxy-graph modified-proxy-graph"

@@ -13,10 +13,10 @@ struct SafetyLimits {
   double scene_slew_n_per_s = 50.0;  // how fast the scene may change the force
 };
 
-// The hand may change the force as fast as it likes, the scene at a limited rate. Which of the two it was is told by the
-// spring: a hand that moves by dx over a still surface changes a spring's force by at most stiffness x |dx| (the closest
-// point on a convex solid moves no further than the finger). What a tick changes beyond that is the scene's, and is let
-// through at the slew limit; the rest follows in the next ticks.
+// The hand may change the force as fast as it likes, the scene at a limited rate. Which of the two it was is told by
+// the spring: a hand that moves by dx over a still surface changes a spring's force by at most stiffness x |dx| (the
+// closest point on a convex solid moves no further than the finger). What a tick changes beyond that is the scene's,
+// and is let through at the slew limit; the rest follows in the next ticks.
 class SafetyFilter {
  public:
   SafetyFilter() = default;

@@ -86,8 +86,8 @@ struct TrianglePlane {
   [[nodiscard]] double at(double du, double dv) const RELIEVO_RT { return z0 + zu * du + zv * dv; }
 };
 
-// The surface's height at (x, y); not a number where there is none. A place on the rim of a hole belongs to the surface:
-// a proxy may rest there.
+// The surface's height at (x, y); not a number where there is none. A place on the rim of a hole belongs to the
+// surface: a proxy may rest there.
 [[nodiscard]] inline double surfaceHeight(const SurfaceInTime& surface, double x_mm, double y_mm) RELIEVO_RT {
   if (surface.empty()) return HeightField::kHole;
   const double u = surface.grid().u(x_mm);
@@ -98,9 +98,14 @@ struct TrianglePlane {
   double height = heightIn(GridTriangle::under(u, v, surface.cols(), surface.rows()));
   // One look into each of the eight directions meets all the triangles that may share an edge or a vertex here.
   constexpr double kNear = 1e-9, kNearer = 0.4e-9;
-  constexpr std::array<std::pair<double, double>, 8> kAround{
-      {{kNear, kNearer}, {kNearer, kNear}, {-kNearer, kNear}, {-kNear, kNearer},
-       {-kNear, -kNearer}, {-kNearer, -kNear}, {kNearer, -kNear}, {kNear, -kNearer}}};
+  constexpr std::array<std::pair<double, double>, 8> kAround{{{kNear, kNearer},
+                                                              {kNearer, kNear},
+                                                              {-kNearer, kNear},
+                                                              {-kNear, kNearer},
+                                                              {-kNear, -kNearer},
+                                                              {-kNearer, -kNear},
+                                                              {kNearer, -kNear},
+                                                              {kNear, -kNearer}}};
   for (std::size_t i = 0; i < kAround.size() && std::isnan(height); ++i) {
     const auto& [du, dv] = kAround[i];
     height = heightIn(GridTriangle::under(u + du, v + dv, surface.cols(), surface.rows()));

@@ -50,8 +50,8 @@ LabResult<void> DepthFilm::open() {
     }
     if (!tracks_->pairs.info().has_depth) return labFail(source.url, "no depth in this source; check --packing");
   } else {
-    const auto video = std::find_if(streams.begin(), streams.end(),
-                                    [](const StreamInfo& s) { return s.kind == StreamKind::Video; });
+    const auto video =
+        std::find_if(streams.begin(), streams.end(), [](const StreamInfo& s) { return s.kind == StreamKind::Video; });
     if (video == streams.end()) return labFail(source.url, "no video in this source");
     layers.tags = calibrationFromTags(tracks_->single.source().tags());
     layers.tags.merge(calibrationFromTags(video->tags));
@@ -99,7 +99,8 @@ LabResult<bool> DepthFilm::append() {
   }
   const auto field = HeightField::make(**frame, calibration_, volume_);
   if (!field) return fail_here(field.error());
-  if (!frames_.empty() && (field->cols() != frames_.back().field.cols() || field->rows() != frames_.back().field.rows())) {
+  if (!frames_.empty() &&
+      (field->cols() != frames_.back().field.cols() || field->rows() != frames_.back().field.rows())) {
     return labFail(options_.source.url, "the picture changes its size; cut the film there");
   }
   if (!first_pts_) first_pts_ = (*frame)->pts;

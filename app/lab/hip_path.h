@@ -11,8 +11,8 @@
 namespace relievo {
 
 struct HipTick {
-  double t_s = 0;         // from the first frame's time on
-  glm::dvec3 hip_mm{0};   // scene frame
+  double t_s = 0;        // from the first frame's time on
+  glm::dvec3 hip_mm{0};  // scene frame
 };
 
 // Header "t_s,x_mm,y_mm,z_mm", then four numbers a row, the times ascending. The failure names the line.

@@ -27,8 +27,10 @@ int complain(const std::string& thing, const Error& error, int exit_code) {
 std::optional<DisplayVolume> parseVolume(const std::string& text) {
   DisplayVolume v;
   char rest = 0;
-  if (std::sscanf(text.c_str(), "%lfx%lfx%lf%c", &v.width_mm, &v.height_mm, &v.depth_mm, &rest) != 3) return std::nullopt;
-  if (!(v.width_mm > 0 && v.height_mm > 0 && v.depth_mm > 0 && v.width_mm < 1e5 && v.height_mm < 1e5 && v.depth_mm < 1e5)) {
+  if (std::sscanf(text.c_str(), "%lfx%lfx%lf%c", &v.width_mm, &v.height_mm, &v.depth_mm, &rest) != 3)
+    return std::nullopt;
+  if (!(v.width_mm > 0 && v.height_mm > 0 && v.depth_mm > 0 && v.width_mm < 1e5 && v.height_mm < 1e5 &&
+        v.depth_mm < 1e5)) {
     return std::nullopt;
   }
   return v;
@@ -42,19 +44,27 @@ struct TraceArguments {
 void addTrace(CLI::App& app, TraceArguments& a) {
   app.footer(
       "Example: a finger's path through a 16-bit depth film, by the paper's method\n"
-      "  relievo-lab trace --depth plane.mkv --hip finger.csv --out force.csv --method modified-proxy-graph --guard off\n"
-      "HIP.csv has the header t_s,x_mm,y_mm,z_mm and one row per tick, in the scene frame: x right, y up, z toward the\n"
+      "  relievo-lab trace --depth plane.mkv --hip finger.csv --out force.csv --method modified-proxy-graph --guard "
+      "off\n"
+      "HIP.csv has the header t_s,x_mm,y_mm,z_mm and one row per tick, in the scene frame: x right, y up, z toward "
+      "the\n"
       "viewer, origin at the centre of the far plane. Time 0 is the first frame's time.");
   SourceOptions& source = a.options.film.source;
-  app.add_option("--depth", source.url, "depth film: whatever FFmpeg opens, 8 to 16 bits")->required()->type_name("SRC");
-  app.add_option("--packing", source.packing, "where the depth lies in SRC: auto, tracks, sbs (right half), tb (lower half)")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, Packing>{
-          {"auto", Packing::Auto}, {"tracks", Packing::Tracks}, {"sbs", Packing::SideBySide}, {"tb", Packing::TopBottom}}));
+  app.add_option("--depth", source.url, "depth film: whatever FFmpeg opens, 8 to 16 bits")
+      ->required()
+      ->type_name("SRC");
+  app.add_option("--packing", source.packing,
+                 "where the depth lies in SRC: auto, tracks, sbs (right half), tb (lower half)")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, Packing>{{"auto", Packing::Auto},
+                                                                         {"tracks", Packing::Tracks},
+                                                                         {"sbs", Packing::SideBySide},
+                                                                         {"tb", Packing::TopBottom}}));
   app.add_option("--depth-code", source.depth_code, "what carries the depth: luma, hue")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, DepthCode>{{"luma", DepthCode::Luma}, {"hue", DepthCode::Hue}}));
-  app.add_option("--calibration", a.calibration, "what a code means: a FILE, or KEY=VALUE,KEY=VALUE,.. of law polarity range "
-                                                 "bits invalid near far");
+  app.add_option("--calibration", a.calibration,
+                 "what a code means: a FILE, or KEY=VALUE,KEY=VALUE,.. of law polarity range "
+                 "bits invalid near far");
   app.add_option("--volume", a.volume, "display volume in mm, for instance 160x108x40 (default: 160 wide, 40 deep)")
       ->type_name("WxHxD");
   app.add_option("--fps", a.options.film.frames_per_s, "frames a second, for a source without timestamps")
@@ -68,8 +78,9 @@ void addTrace(CLI::App& app, TraceArguments& a) {
   app.add_option("--time", a.options.time, "the surface between frames: hold, linear (default: the method's own)")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, TimeLaw>{{"hold", TimeLaw::Hold}, {"linear", TimeLaw::Linear}}));
-  app.add_option("--guard", a.options.guard, "off, threshold (the paper's), full (all limits of the haptic task); default: "
-                                             "the method's own")
+  app.add_option("--guard", a.options.guard,
+                 "off, threshold (the paper's), full (all limits of the haptic task); default: "
+                 "the method's own")
       ->transform(CLI::CheckedTransformer(std::map<std::string, TraceGuard>{
           {"off", TraceGuard::Off}, {"threshold", TraceGuard::Threshold}, {"full", TraceGuard::Full}}));
 }
@@ -109,7 +120,8 @@ int main(int argc, char** argv) {
   CLI::App app("Measures touch on moving depth.");
   app.require_subcommand(1);
   relievo::TraceArguments trace;
-  CLI::App* trace_command = app.add_subcommand("trace", "a finger's path through a depth film, tick by tick, on virtual time");
+  CLI::App* trace_command =
+      app.add_subcommand("trace", "a finger's path through a depth film, tick by tick, on virtual time");
   relievo::addTrace(*trace_command, trace);
   try {
     app.parse(argc, argv);

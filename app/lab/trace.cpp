@@ -25,10 +25,10 @@ std::optional<bool> jumpThreshold(TraceGuard guard) {
 
 void writeRow(AtomicFile& out, const HipTick& tick, const Touch& touch, const glm::dvec3& force, Duration took) {
   char row[400];
-  const int length = std::snprintf(row, sizeof row, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%d,%lld\n", tick.t_s,
-                                   tick.hip_mm.x, tick.hip_mm.y, tick.hip_mm.z, touch.proxy_mm.x, touch.proxy_mm.y,
-                                   touch.proxy_mm.z, force.x, force.y, force.z, touch.contact ? 1 : 0,
-                                   static_cast<long long>(took.count()));
+  const int length =
+      std::snprintf(row, sizeof row, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%d,%lld\n", tick.t_s,
+                    tick.hip_mm.x, tick.hip_mm.y, tick.hip_mm.z, touch.proxy_mm.x, touch.proxy_mm.y, touch.proxy_mm.z,
+                    force.x, force.y, force.z, touch.contact ? 1 : 0, static_cast<long long>(took.count()));
   out.write({row, static_cast<std::size_t>(length)});
 }
 

@@ -15,8 +15,7 @@ namespace {
 constexpr std::array<const char*, 7> kKeys{"law", "polarity", "range", "bits", "invalid", "near", "far"};
 constexpr const char* kTagPrefix = "DEPTH_";
 
-constexpr const char* kUnknownKey =
-    "unknown calibration key; known are law, polarity, range, bits, invalid, near, far";
+constexpr const char* kUnknownKey = "unknown calibration key; known are law, polarity, range, bits, invalid, near, far";
 constexpr const char* kBadValue =
     "calibration value out of its range; law=linear|inverse polarity=near-high|near-low range=full|limited "
     "bits=8..16 invalid=CODE|none near=MM far=MM";

@@ -24,11 +24,16 @@ double heightMm(const DepthCalibration& calibration, double s, double volume_dep
 
 const char* name(CalibrationOrigin origin) noexcept {
   switch (origin) {
-    case CalibrationOrigin::CommandLine: return "command line";
-    case CalibrationOrigin::SideFile: return "side file";
-    case CalibrationOrigin::ContainerTags: return "container tags";
-    case CalibrationOrigin::StreamSignalling: return "stream signalling";
-    case CalibrationOrigin::Default: return "default";
+    case CalibrationOrigin::CommandLine:
+      return "command line";
+    case CalibrationOrigin::SideFile:
+      return "side file";
+    case CalibrationOrigin::ContainerTags:
+      return "container tags";
+    case CalibrationOrigin::StreamSignalling:
+      return "stream signalling";
+    case CalibrationOrigin::Default:
+      return "default";
   }
   return "";
 }

@@ -22,8 +22,8 @@ enum class DepthPolarity : std::uint8_t { NearIsHigh, NearIsLow };
 enum class DepthCode : std::uint8_t { Luma, Hue };
 
 // s is the normalised code: (code - low)/(high - low) clamped to [0, 1], and 1 - that when near is low.
-// Full range is 0 .. 2^bits - 1; limited range is 16 .. 235, times 2^(bits - 8). A hue code is the hue over 360 degrees:
-// s grows with distance, so its polarity is NearIsLow unless it is said otherwise.
+// Full range is 0 .. 2^bits - 1; limited range is 16 .. 235, times 2^(bits - 8). A hue code is the hue over 360
+// degrees: s grows with distance, so its polarity is NearIsLow unless it is said otherwise.
 struct DepthCalibration {
   DepthLaw law = DepthLaw::Linear;
   DepthPolarity polarity = DepthPolarity::NearIsHigh;

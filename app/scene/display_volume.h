@@ -22,8 +22,8 @@ struct DisplayVolume {
 // Depth pixel (c, r) of a cols x rows image lies at x = ((c + 1/2)/cols - 1/2) W, y = (1/2 - (r + 1/2)/rows) H. This
 // maps both ways between scene millimetres and grid units, in which sample (c, r) stands at u = c, v = r.
 struct GridMapping {
-  double u_per_mm = 1, u_origin = 0;  // u = u_origin + u_per_mm x
-  double v_per_mm = -1, v_origin = 0; // v = v_origin + v_per_mm y, v_per_mm < 0: rows go down
+  double u_per_mm = 1, u_origin = 0;   // u = u_origin + u_per_mm x
+  double v_per_mm = -1, v_origin = 0;  // v = v_origin + v_per_mm y, v_per_mm < 0: rows go down
 
   GridMapping() = default;
   constexpr GridMapping(const DisplayVolume& volume, int cols, int rows) noexcept

@@ -59,9 +59,10 @@ class LabTrace : public testing::Test {
       path << row;
     }
     path.close();
-    const auto result = test::runProgram("relievo-lab trace --volume 160x108x40 --depth " + (folder_ / "film.mkv") +
-                                             " --hip " + (folder_ / "hip.csv") + " --out " + (folder_ / "out.csv") + " " + options,
-                                         folder_ / ".");
+    const auto result =
+        test::runProgram("relievo-lab trace --volume 160x108x40 --depth " + (folder_ / "film.mkv") + " --hip " +
+                             (folder_ / "hip.csv") + " --out " + (folder_ / "out.csv") + " " + options,
+                         folder_ / ".");
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return readOut();
   }
@@ -78,9 +79,9 @@ class LabTrace : public testing::Test {
       Row r;
       int contact = 0;
       double update_ns = -1;
-      const int fields = std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%d,%lf", &r.t, &r.hip.x, &r.hip.y,
-                                     &r.hip.z, &r.proxy.x, &r.proxy.y, &r.proxy.z, &r.force.x, &r.force.y, &r.force.z,
-                                     &contact, &update_ns);
+      const int fields = std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%d,%lf", &r.t, &r.hip.x,
+                                     &r.hip.y, &r.hip.z, &r.proxy.x, &r.proxy.y, &r.proxy.z, &r.force.x, &r.force.y,
+                                     &r.force.z, &contact, &update_ns);
       EXPECT_EQ(fields, 12) << line;
       EXPECT_GE(update_ns, 0);
       r.contact = contact == 1;

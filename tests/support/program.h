@@ -21,7 +21,8 @@ struct ProgramResult {
 // `command_line` as in a shell, the program by its name: "relievo-lab trace ..". `folder` takes the two outputs.
 inline ProgramResult runProgram(const std::string& command_line, const std::string& folder) {
   const std::string out = folder + "/stdout.txt", err = folder + "/stderr.txt";
-  const std::string command = std::string(RELIEVO_BIN_DIR) + "/" + command_line + " >" + out + " 2>" + err + " </dev/null";
+  const std::string command =
+      std::string(RELIEVO_BIN_DIR) + "/" + command_line + " >" + out + " 2>" + err + " </dev/null";
   const int status = std::system(command.c_str());  // NOLINT(bugprone-command-processor): a test's own words
   const auto text = [](const std::string& path) {
     std::ifstream file(path);

@@ -109,8 +109,8 @@ TEST(HeightField, ReadsPaddedRowsWordsWithShiftAndUpsideDownPictures) {
 
 TEST(HeightField, DecodesHueWithNearAtRedAndHolesWhereItIsDark) {
   // red 0, yellow 60, green 120, cyan 180, blue 240, magenta 300 degrees; then two that cannot be read.
-  std::vector<std::uint8_t> pixels{255, 0,   0,   0, 255, 255, 0,   0, 0,  255, 0,  0, 0,  255, 255, 0,
-                                   0,   0,   255, 0, 255, 0,   255, 0, 40, 36,  0,  0, 90, 90,  90,  0};
+  std::vector<std::uint8_t> pixels{255, 0, 0,   0, 255, 255, 0,   0, 0,  255, 0, 0, 0,  255, 255, 0,
+                                   0,   0, 255, 0, 255, 0,   255, 0, 40, 36,  0, 0, 90, 90,  90,  0};
   Frame frame;
   frame.width = 8;
   frame.height = 1;
@@ -140,14 +140,19 @@ TEST(Calibration, ParsesCommandLinesAndSideFilesAndNamesWhatIsWrong) {
   EXPECT_EQ(settings->at("law"), "inverse");
   EXPECT_EQ(settings->at("far"), "2e3");
   EXPECT_EQ(settings->size(), 3u);
-  for (const char* bad : {"colour=1", "law=cubic", "bits=7", "bits=17", "near=-1", "near=nan", "invalid=70000", "near"}) {
+  for (const char* bad :
+       {"colour=1", "law=cubic", "bits=7", "bits=17", "near=-1", "near=nan", "invalid=70000", "near"}) {
     EXPECT_EQ(parseCalibration(bad).error().code, ErrorCode::InvalidArgument) << bad;
   }
 }
 
 TEST(Calibration, TagsComeBackAsTheyWereWritten) {
-  const DepthCalibration c{.law = DepthLaw::Inverse, .polarity = DepthPolarity::NearIsLow,
-                           .range = ColorRange::Limited, .bits = 12, .invalid_code = 0, .near_mm = 520.7,
+  const DepthCalibration c{.law = DepthLaw::Inverse,
+                           .polarity = DepthPolarity::NearIsLow,
+                           .range = ColorRange::Limited,
+                           .bits = 12,
+                           .invalid_code = 0,
+                           .near_mm = 520.7,
                            .far_mm = 1259.61};
   Frame frame;
   frame.components[0].bits = 12;
@@ -166,7 +171,8 @@ TEST(Calibration, TagsComeBackAsTheyWereWritten) {
 TEST(Calibration, TheCommandLineWinsOverTheFileOverTagsOverTheStream) {
   Frame frame;
   frame.model = ColorModel::Yuv;
-  CalibrationLayers layers{.command_line = {{"near", "1"}}, .side_file = {{"near", "2"}, {"law", "inverse"}},
+  CalibrationLayers layers{.command_line = {{"near", "1"}},
+                           .side_file = {{"near", "2"}, {"law", "inverse"}},
                            .tags = {{"near", "3"}, {"law", "linear"}, {"polarity", "near-low"}}};
   const auto choice = chooseCalibration(layers, frame, DepthCode::Luma).value();
   EXPECT_EQ(choice.calibration.near_mm, 1);

@@ -95,14 +95,14 @@ TEST(SegmentSearch, FindsWhatATestOfEveryTriangleFindsOnRandomReliefsWithHoles) 
   int hits = 0, misses = 0;
   for (int round = 0; round < 4000; ++round) {
     const int cols = 2 + static_cast<int>(unit(random) * 9), rows = 2 + static_cast<int>(unit(random) * 9);
-    const std::vector<Frame> frames{makeGrayFrame(
-        cols, rows, 8, {}, [&](int, int) { return unit(random) < 0.05 ? 0 : 1 + static_cast<int>(unit(random) * 254); })};
+    const std::vector<Frame> frames{makeGrayFrame(cols, rows, 8, {}, [&](int, int) {
+      return unit(random) < 0.05 ? 0 : 1 + static_cast<int>(unit(random) * 254);
+    })};
     const SurfaceWindow w = makeWindow(frames, kVolume, {.invalid_code = 0});
     const SurfaceInTime s(w, {}, TimeLaw::Hold);
-    const auto point = [&](double z) {
-      return glm::dvec3((unit(random) - 0.5) * 100, (unit(random) - 0.5) * 75, z);
-    };
-    const glm::dvec3 from = point(unit(random) * 60 - 5), to = round % 3 == 0 ? point(0) : point(unit(random) * 60 - 10);
+    const auto point = [&](double z) { return glm::dvec3((unit(random) - 0.5) * 100, (unit(random) - 0.5) * 75, z); };
+    const glm::dvec3 from = point(unit(random) * 60 - 5),
+                     to = round % 3 == 0 ? point(0) : point(unit(random) * 60 - 10);
     const auto found = firstCrossing(s, from, to);
     const auto truth = bruteForceCrossing(s, from, to);
     ASSERT_EQ(found.has_value(), truth.has_value()) << "round " << round;

@@ -121,7 +121,8 @@ TEST(ModifiedProxyGraph, KeepsContactOnATiltedPlaneThatRisesUnderASlidingFinger)
   int lost = 0;
   for (int i = 0; i <= 1000; ++i) {
     const double t = 0.001 * i;
-    const glm::dvec3 hip(-10 + 0.02 * i, 4 * std::sin(0.01 * i), 12 + 0.3 * (-10 + 0.02 * i) + (i == 0 ? 1 : -2) + 8 * t);
+    const glm::dvec3 hip(-10 + 0.02 * i, 4 * std::sin(0.01 * i),
+                         12 + 0.3 * (-10 + 0.02 * i) + (i == 0 ? 1 : -2) + 8 * t);
     const bool contact = m->update(hip, w, mediaTime(t)).contact;
     lost += i > 0 && !contact ? 1 : 0;
     if (i == 0) {
@@ -173,7 +174,8 @@ TEST(ModifiedProxyGraph, LetsTheFingerThroughWhereTheForceJumps) {
   // The surface jumps from 20 to 30 mm between two ticks (a cut): 1 N becomes 6 N.
   std::vector<Frame> frames;
   for (int k = 0; k < 2; ++k) {
-    frames.push_back(makeReliefFrame(kCols, kRows, kVolume, mediaTime(k), [&](double, double) { return 20.0 + 10 * k; }));
+    frames.push_back(
+        makeReliefFrame(kCols, kRows, kVolume, mediaTime(k), [&](double, double) { return 20.0 + 10 * k; }));
   }
   const SurfaceWindow w = makeWindow(frames, kVolume);
   const auto guarded = method("modified-proxy-graph", {.time = TimeLaw::Hold, .jump_threshold = true});
@@ -191,9 +193,11 @@ TEST(ModifiedProxyGraph, LetsTheFingerThroughWhereTheForceJumps) {
 }
 
 TEST(ModifiedProxyGraph, HasNoSurfaceOutsideThePictureNorInHoles) {
-  const std::vector<Frame> frames{test::makeGrayFrame(kCols, kRows, 8, {}, [](int c, int) { return c < 60 ? 0 : 128; })};
+  const std::vector<Frame> frames{
+      test::makeGrayFrame(kCols, kRows, 8, {}, [](int c, int) { return c < 60 ? 0 : 128; })};
   const SurfaceWindow w = makeWindow(frames, kVolume, {.invalid_code = 0});
-  const double x_of_hole = GridMapping(kVolume, kCols, kRows).x(30), x_of_plane = GridMapping(kVolume, kCols, kRows).x(90);
+  const double x_of_hole = GridMapping(kVolume, kCols, kRows).x(30),
+               x_of_plane = GridMapping(kVolume, kCols, kRows).x(90);
   for (const glm::dvec3 place : {glm::dvec3(90, 0, 0), glm::dvec3(0, -60, 0), glm::dvec3(x_of_hole, 0, 0)}) {
     const auto m = method("modified-proxy-graph");
     for (double z = 30; z > -10; z -= 0.5) {
@@ -225,7 +229,8 @@ TEST(ProxyGraphMethods, AreFiniteAndOnTheSurfaceOverRandomDepthAndAWildFinger) {
     for (int round = 0; round < 60; ++round) {
       std::vector<Frame> frames;
       for (int k = 0; k < 4; ++k) {
-        frames.push_back(test::makeGrayFrame(40, 30, 8, mediaTime(0.04 * k), [&](int, int) { return unit(random) * 256; }));
+        frames.push_back(
+            test::makeGrayFrame(40, 30, 8, mediaTime(0.04 * k), [&](int, int) { return unit(random) * 256; }));
       }
       const SurfaceWindow w = makeWindow(frames, kVolume, {.invalid_code = 3});
       const auto m = method(name);
