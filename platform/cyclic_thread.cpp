@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cyclic loop, and the thread that runs it: everything it needs is mapped, touched and locked before its
-// first cycle.
+// The cyclic loop, and its thread: all it needs is mapped, touched and locked before the first cycle.
 #include "platform/cyclic_thread.h"
 
 #include <link.h>

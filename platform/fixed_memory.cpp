@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Locks and touches ranges of memory, the program's code among them; and the arena that real-time objects
-// live in.
+// Locks and touches ranges of memory, the code among them; and the arena that real-time objects live in.
 #include "platform/fixed_memory.h"
 
 #include <link.h>

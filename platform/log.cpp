@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines on stderr: each is put together on the stack and written in one call, so that threads do not
-// interleave.
+// Lines on stderr, each put together on the stack and written in one call: threads do not interleave.
 #include "platform/log.h"
 
 #include <unistd.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The real thread: what it runs as, where it runs, what it takes from the system. Counts only; no time is
-// judged.
+// The real thread: what it runs as, where, and what it takes from the system. Counts only; no time is judged.
 #include "platform/cyclic_thread.h"
 
 #include <gtest/gtest.h>
