@@ -163,12 +163,18 @@ TEST(OffscreenDisplay, CaptureBeginsAnewWhenOpenedAgain) {
   EXPECT_EQ(file.content(), first);
 }
 
-TEST(OffscreenDisplay, AnAtThatIsNoRateBelongsToTheName) {
-  const CaptureFile file("me@home.y4m");
-  const auto display = makeOffscreenDisplay(file.path() + "@29.97");
+TEST(OffscreenDisplay, RateIsTheNumberBehindTheLastAt) {
+  const CaptureFile with_rate("me@home.y4m");
+  const auto display = makeOffscreenDisplay(with_rate.path() + "@29.97");
   OPEN_OR_SKIP(*display, {2, 2});
   display->close();
-  EXPECT_EQ(file.content().substr(0, 28), "YUV4MPEG2 W2 H2 F29970:1000 ");
+  EXPECT_EQ(with_rate.content().substr(0, 28), "YUV4MPEG2 W2 H2 F29970:1000 ");
+
+  const CaptureFile without("take@2b.y4m");
+  const auto other = makeOffscreenDisplay(without.path());
+  OPEN_OR_SKIP(*other, {2, 2});
+  other->close();
+  EXPECT_EQ(without.content().substr(0, 28), "YUV4MPEG2 W2 H2 F30000:1000 ");
 }
 
 TEST(OffscreenDisplay, CaptureThatCannotBeWrittenSaysWhyAndLeavesItClosed) {

@@ -264,11 +264,13 @@ TEST(RenderFormats, OnePixelFillsItsFrame) {
 }
 
 TEST(RenderFormats, LargePictureIsAveragedNotSkipped) {
-  // Columns of black and white, each a pixel wide, at half their size are gray.
+  // Columns of black and white, each a pixel wide, drawn two and a half times smaller: gray, where picking single ones
+  // would give bands from black to white.
   STAGE_OR_SKIP(stage, 320, 180);
-  const auto stripes = makeRgbFrame(640, 360, [](int x, int) { return x % 2 == 0 ? Rgb{0, 0, 0} : Rgb{255, 255, 255}; });
+  const auto stripes =
+      makeRgbFrame(800, 450, [](int x, int) { return x % 2 == 0 ? Rgb{0, 0, 0} : Rgb{255, 255, 255}; });
   const Image image = stage.show({.color = stripes, .volume = kVolume});
-  for (const int x : {10, 11, 160, 161, 309}) expectColor(image, x, 90, {128, 128, 128}, 2);
+  for (const int x : {10, 11, 12, 160, 161, 309}) expectColor(image, x, 90, {128, 128, 128}, 2);
 }
 
 TEST(RenderFormats, SizeAndFormatMayChangeFromFrameToFrame) {
