@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <vector>
 
@@ -15,13 +16,18 @@
 namespace relievo {
 namespace {
 
-constexpr const char* kAbout = "relievo: 3D video you can touch. Plays colour + depth video; a force-feedback device feels its relief.";
+constexpr const char* kAbout =
+    "relievo: 3D video you can touch. Plays colour + depth video; a force-feedback device feels its relief.";
 constexpr const char* kProgramFooter =
     "\nExamples:\n"
     "  relievo play film.mkv                          colour and depth are two tracks of one file\n"
     "  relievo probe scan.mov --packing tb --depth-code hue\n"
     "                                                 what is in it: colour on top, depth as hue below\n"
     "\n`relievo play --help` and `relievo probe --help` tell the rest.\n";
+constexpr const char* kProbeFooter =
+    "\nExamples:\n"
+    "  relievo probe color.webm --depth depth.webm    two files\n"
+    "  relievo probe --json film.mkv                  for programs\n";
 constexpr const char* kPlayFooter =
     "\nExamples:\n"
     "  relievo play color.webm --depth depth.webm --report run.json\n"
@@ -30,6 +36,8 @@ constexpr const char* kPlayFooter =
     "      one file with colour on top and depth as hue below, for red-cyan glasses, again and again for a minute\n"
     "\nKeys of the remote: play, pause, OK = pause and go on; left, right, rewind, fast forward = 10 s; 3D mode = next\n"
     "stereo layout; stop, back, exit, power = end. Exit code: 0 done, 1 failed at run time, 2 wrong use.\n";
+
+constexpr double kLongestDurationS = 1e9;
 
 struct Failed {
   std::string option;
@@ -44,46 +52,63 @@ struct Words {
   std::string stereo = "sbs";
   std::string size;
   std::string volume;
-  double duration_s = 0;
+  std::optional<double> duration_s;
   std::vector<std::string> calibration;
 };
 
+// Without CLI11's own way to list them: the help names them already.
+CLI::Validator oneOf(std::vector<std::string> words) {
+  CLI::Validator validator = CLI::IsMember(std::move(words));
+  validator.description("");
+  return validator;
+}
+
 void addSourceOptions(CLI::App& command, SourceOptions& source, Words& words) {
-  command.add_option("SOURCE", source.url, "A file or a URL")->required();
+  command.add_option("SOURCE", source.url, "A file or a URL")->required()->type_name(" ");
   command.add_option("--depth", source.depth_url, "A second file or URL that holds the depth")->type_name("SOURCE2");
-  command.add_option("--packing", words.packing,
-                     "auto: the tracks or the shape tell; tracks: two video tracks, or --depth; sbs: one picture, "
-                     "colour left, depth right; tb: colour on top, depth below")
-      ->check(CLI::IsMember({"auto", "tracks", "sbs", "tb"}))
+  command
+      .add_option("--packing", words.packing,
+                  "Where the depth is [auto]\n"
+                  "auto: the tracks or the shape tell; tracks: two video tracks, or --depth;\n"
+                  "sbs: one picture, colour left, depth right; tb: colour on top, depth below")
+      ->check(oneOf({"auto", "tracks", "sbs", "tb"}))
       ->type_name("auto|tracks|sbs|tb");
-  command.add_option("--depth-code", words.depth_code,
-                     "luma: depth is the brightness; hue: depth is the colour, red near, going round to red far")
-      ->check(CLI::IsMember({"luma", "hue"}))
+  command
+      .add_option("--depth-code", words.depth_code,
+                  "How the depth is coded [luma]\n"
+                  "luma: as brightness; hue: as colour, red near, round to red far")
+      ->check(oneOf({"luma", "hue"}))
       ->type_name("luma|hue");
-  command.add_option("--calibration", words.calibration,
-                     "What a depth code means, over what the film says: law=linear|inverse, polarity=near-high|near-low, "
-                     "range=full|limited, bits=8..16, invalid=CODE|none, near=MM, far=MM; or a file of such lines")
+  command
+      .add_option("--calibration", words.calibration,
+                  "What a depth code means, over what the film says; or a file of such lines\n"
+                  "law=linear|inverse, polarity=near-high|near-low, range=full|limited,\n"
+                  "bits=8..16, invalid=CODE|none, near=MM, far=MM")
       ->allow_extra_args(false)
       ->type_name("FILE|KEY=VALUE,..");
 }
 
 void addPlayOptions(CLI::App& command, PlayOptions& play, Words& words, const DeviceNames& names) {
   addSourceOptions(command, play.player.source, words);
-  command.add_option("--display", play.display, "Where the picture goes [offscreen]")->type_name(names.display);
+  command.add_option("--display", play.display, std::string("Where the picture goes [offscreen]\n") + names.display)
+      ->type_name("NAME");
   command.add_option("--size", words.size, "Pixels of the picture [1280x720]")->type_name("WxH");
-  command.add_option("--stereo", words.stereo,
-                     "mono: one picture; sbs: left and right eye side by side; anaglyph: red-cyan glasses [sbs]")
-      ->check(CLI::IsMember({"mono", "sbs", "anaglyph"}))
+  command
+      .add_option("--stereo", words.stereo,
+                  "How it is shown [sbs]\n"
+                  "mono: one picture; sbs: left and right eye side by side; anaglyph: red-cyan")
+      ->check(oneOf({"mono", "sbs", "anaglyph"}))
       ->type_name("mono|sbs|anaglyph");
-  command.add_option("--haptic", play.haptic, "What the finger holds [sim]")->type_name(names.haptic);
-  command.add_option("--remote", play.remote, "Where keys come from [none]")->type_name(names.remote);
-  command.add_option("--volume", words.volume,
-                     "Box in which the relief stands, mm [160 wide, 40 deep, as high as the picture's shape says]")
+  command.add_option("--haptic", play.haptic, std::string("What the finger holds [sim]\n") + names.haptic)
+      ->type_name("NAME");
+  command.add_option("--remote", play.remote, std::string("Where keys come from [none]\n") + names.remote)
+      ->type_name("NAME");
+  command
+      .add_option("--volume", words.volume,
+                  "Box in which the relief stands, mm\n[160 wide, 40 deep, as high as the depth picture's shape says]")
       ->type_name("WxHxD");
   command.add_flag("--loop", play.player.loop, "Begin again at the end");
-  command.add_option("--duration", words.duration_s, "Stop after so many seconds")
-      ->check(CLI::PositiveNumber)
-      ->type_name("S");
+  command.add_option("--duration", words.duration_s, "Stop after so many seconds")->type_name("S");
   command.add_option("--report", play.report_path, "Write what happened, as JSON")->type_name("FILE");
   command.add_option("--record", play.record_path, "Write every tick of the finger, as CSV")->type_name("FILE");
   command.footer(kPlayFooter);
@@ -149,8 +174,12 @@ std::optional<Failed> readPlay(const Words& words, PlayOptions& play) {
     }
     player.volume = DisplayVolume{mm[0], mm[1], mm[2]};
   }
-  if (words.duration_s > 1e9) return Failed{"--duration", "more than a billion seconds; leave it out to play on and on"};
-  if (words.duration_s > 0) player.duration = fromSeconds(words.duration_s);
+  if (words.duration_s) {
+    if (!(*words.duration_s > 0 && *words.duration_s <= kLongestDurationS)) {
+      return Failed{"--duration", "a duration is more than 0 and at most a billion seconds"};
+    }
+    player.duration = fromSeconds(*words.duration_s);
+  }
   return std::nullopt;
 }
 
@@ -173,6 +202,7 @@ std::expected<Options, int> parseOptions(int argc, const char* const* argv, cons
   addPlayOptions(play, options.play, words, names);
   addSourceOptions(probe, options.probe.source, probe_words);
   probe.add_flag("--json", options.probe.json, "For programs");
+  probe.footer(kProbeFooter);
 
   try {
     program.parse(argc, argv);

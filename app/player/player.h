@@ -79,6 +79,7 @@ class Player {
   void setScene();
   void startTouch(MediaTime first);
   void followClock(MonotonicTime now);
+  void followEnd(MonotonicTime now);
   void endOfFilm(MonotonicTime now);
   void closeSegment(MonotonicTime now);
 
@@ -112,6 +113,7 @@ class Player {
   bool new_epoch_ = true;            // the next picture does not continue the last one
   std::optional<MonotonicTime> await_touch_;  // the first tick after this is on the sought surface
 
+  std::optional<MonotonicTime> dry_since_;    // nothing has lain ahead since then
   std::optional<MediaTime> segment_begin_;
   Duration played_{0};
   MonotonicTime last_draw_;

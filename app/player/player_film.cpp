@@ -119,16 +119,25 @@ void Player::followClock(MonotonicTime now) {
   } else {
     redrawFinger(now);
   }
-  if (state_ != PlayerState::Playing || !head_.ahead().empty()) return;
+  if (state_ == PlayerState::Playing) followEnd(now);
+}
 
-  const MediaTime shown = head_.present().color.pts;
+// What there is to do when nothing lies ahead.
+void Player::followEnd(MonotonicTime now) {
+  if (!head_.ahead().empty()) {
+    dry_since_.reset();
+    return;
+  }
   if (head_.last()) {
-    if (position < shown + period_) return;
+    if (*clock_.position(now) < head_.present().color.pts + period_) return;
     if (feed_.state() == FilmFeed::State::Failed) return fail(feed_.failedThing(), feed_.error());
     return endOfFilm(now);
   }
-  // A pair that is late by less than a period is shown late; after that the film waits for the reader.
-  if (position < shown + 2 * period_) return;
+  // A pair that is late by less than a period is shown late; after that the film waits for the reader. Counted from here,
+  // not from the picture: the reader is not to blame for a picture that took long to draw.
+  if (!dry_since_) dry_since_ = now;
+  if (now < *dry_since_ + 2 * period_) return;
+  dry_since_.reset();
   closeSegment(now);
   apply(PlayerEvent::Starved);
   note("the film came too slowly", "the picture stands until it is read ahead again");

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <utility>
 #include <vector>
 
 #include "app/player/film_feed.h"
@@ -95,6 +96,35 @@ TEST_F(FilmFeedTest, TheNewestOfTwoSeeksHolds) {
   workAll();
   feed.seek(MediaTime(50 * kPeriod));
   feed.seek(MediaTime(20 * kPeriod));
+  workAll();
+  EXPECT_THAT(takeAll(), ElementsAre(20, 21, 22, 23));
+}
+
+// The viewer seeks at the very moment in which the reader decodes a picture: done here from inside the decoder.
+TEST_F(FilmFeedTest, APictureThatWasUnderWayWhenTheViewerSoughtIsDropped) {
+  MockMediaProfile profile = filmOf(100);
+  profile.tracks[0].sample = [this](int frame, int, int, int) {
+    if (frame == 3 && feed_->state() == State::Reading) feed_->seek(MediaTime(50 * kPeriod));
+    return std::uint16_t{0};
+  };
+  open(profile);
+  workAll();
+  EXPECT_THAT(takeAll(), ElementsAre(50, 51, 52, 53));
+}
+
+TEST_F(FilmFeedTest, ASeekThatWasUnderWayWhenANewerCameIsNotTheEndOfSeeking) {
+  MockMediaProfile profile = filmOf(100);
+  bool sought_again = false;
+  profile.tracks[0].sample = [&](int frame, int, int, int) {
+    if (frame == 50 && !std::exchange(sought_again, true)) feed_->seek(MediaTime(20 * kPeriod));
+    return std::uint16_t{0};
+  };
+  FilmFeed& feed = open(profile);
+  workAll();
+  feed.seek(MediaTime(50 * kPeriod));
+  EXPECT_TRUE(feed.work());
+  EXPECT_TRUE(sought_again);
+  EXPECT_EQ(feed.state(), State::Seeking);
   workAll();
   EXPECT_THAT(takeAll(), ElementsAre(20, 21, 22, 23));
 }

@@ -110,7 +110,9 @@ TEST(Options, RefuseWrongWordsInOneLine) {
   expectRefused({"play", "film.mkv", "--packing", "diagonal"}, "diagonal");
   expectRefused({"play", "film.mkv", "--stereo", "holo"}, "holo");
   expectRefused({"play", "film.mkv", "--duration", "-1"}, "duration");
-  expectRefused({"play", "film.mkv", "--duration", "soon"}, "soon");
+  expectRefused({"play", "film.mkv", "--duration", "0"}, "duration");
+  expectRefused({"play", "film.mkv", "--duration", "nan"}, "duration");
+  expectRefused({"play", "film.mkv", "--duration", "soon"}, "duration");
   expectRefused({"play", "film.mkv", "--size", "640"}, "--size 640");
   expectRefused({"play", "film.mkv", "--size", "640x360x2"}, "--size");
   expectRefused({"play", "film.mkv", "--size", "0x360"}, "--size");
