@@ -21,7 +21,7 @@ struct OutputOptions {
   std::string path;
   bool force = false;  // to replace a file that is there
   int color_crf = 18;
-  int depth_crf = 12;
+  int depth_crf = 8;
 };
 
 struct SampleOptions {

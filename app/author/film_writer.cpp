@@ -102,7 +102,10 @@ Result<void> FilmWriter::Impl::openTracks(const FilmFormat& format) {
                            .sample_aspect = format.sample_aspect * width_ratio / height_ratio,
                            .frame_period = format.frame_period,
                            .crf = format.depth_crf,
-                           .preset = "medium"});
+                           .preset = "medium",
+                           // What flatters the eye moves the surface under a finger: without it edges are truer
+                           // (largest error 11 codes instead of 52) at the same size.
+                           .x264_parameters = ":no-psy=1:aq-mode=0"});
 }
 
 void FilmWriter::Impl::tagTracks(const FilmFormat& format, bool matroska) {

@@ -21,7 +21,7 @@ struct FilmFormat {
   double sample_aspect = 1.0;
   Duration frame_period{0};  // for the rate control alone; 0 unknown
   int color_crf = 18;
-  int depth_crf = 12;        // 0: lossless, every code comes back
+  int depth_crf = 8;         // 0: lossless, every code comes back
   std::map<std::string, std::string> depth_tags;  // calibrationTags()
 };
 

@@ -100,7 +100,7 @@ void addOptions(CLI::App& app, Arguments& a) {
                  "what a depth code means, if the source does not say it: law=linear|inverse polarity=near-high|near-low "
                  "range=full|limited bits=8..16 invalid=CODE|none near=MM far=MM")
       ->type_name("FILE|KEY=VALUE,..");
-  app.add_option("--crf", a.crf, "quality of both tracks, 0 (lossless) to 51 (default: 18 for colour, 12 for depth)")
+  app.add_option("--crf", a.crf, "quality of both tracks, 0 (lossless) to 51 (default: 18 for colour, 8 for depth)")
       ->type_name("N")
       ->check(CLI::Range(0, 51).description(""));
   app.add_option("--depth-crf", a.depth_crf, "quality of the depth alone; 0 keeps every code, where hardware can decode it")

@@ -32,7 +32,7 @@ template <class Scene>
     const V p = foot + vec(kKey.x, kKey.y, kKey.z) * s;
     const Float4 d = scene.shade(p);
     open = lanes::min(open, d * 6.0 / s);
-    if (!lanes::any((open > 0.0) & (p.z < kStageDepthMm))) break;
+    if (!lanes::any((open > 0.0) & (p.z < scene.front()))) break;
     s = s + lanes::clamp<Float4>(d, 0.8 + s * 0.06, 9.0);
   }
   return lanes::smoothStep(open, 0.0, 1.0);

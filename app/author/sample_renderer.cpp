@@ -49,7 +49,7 @@ class Painter {
     const double cl = c0 + kHalf / 2 - 0.5, cr = cl + kHalf, rt = r0 + kHalf / 2 - 0.5, rb = rt + kHalf;
     const Float4 qx = four(raster_.x(cl), raster_.x(cr), raster_.x(cl), raster_.x(cr));
     const Float4 qy = four(raster_.y(rt), raster_.y(rt), raster_.y(rb), raster_.y(rb));
-    const Float4 start = parts ? march<Float4>(scene_, qx, qy, Scene::kFront, 0.0, reach, parts) : Float4(0.0);
+    const Float4 start = parts ? march<Float4>(scene_, qx, qy, scene_.front(), 0.0, reach, parts) : Float4(0.0);
     forTile(c0, r0, [&](int c, int r, int count) {
       const Float4 z0 = static_cast<double>(start[(r >= r0 + kHalf ? 2 : 0) + (c >= c0 + kHalf ? 1 : 0)]);
       const Hit hit = castQuad(lanes::ramp(raster_.x(c), raster_.x(1) - raster_.x(0)), raster_.y(r), z0, parts);

@@ -23,6 +23,7 @@ template <class T>
 class Portrait {
  public:
   static constexpr double kFront = kStageDepthMm;
+  [[nodiscard]] double front() const { return hand_is_in_ ? kFront : Bust<T>::kFront; }
   explicit Portrait(double t_s) : bust_(headPose(t_s)), hand_(handPose(t_s)), hand_is_in_(handIsIn(t_s)) {}
 
   [[nodiscard]] Parts partsNear(const Box2& piece) const {
@@ -59,7 +60,7 @@ class Portrait {
 // A line of sight comes down from `z` until it is within `close` of a solid or below the ground.
 template <class T, class Scene>
 [[nodiscard]] T march(const Scene& scene, T x, T y, T z, T ground, T close, Parts parts) {
-  constexpr int kMaxSteps = 1000;  // a line that only grazes needs many
+  constexpr int kMaxSteps = 100'000;  // a line that grazes needs many
   for (int i = 0; i < kMaxSteps; ++i) {
     const T d = scene.solids({x, y, z}, parts);
     const auto open = (d > close) & (z > ground);

@@ -13,7 +13,8 @@ using lanes::Vec3;
 template <class T>
 class StillLife {
  public:
-  static constexpr double kFront = 62;
+  static constexpr double kFront = 62;  // nothing lies before this
+  [[nodiscard]] double front() const { return kFront; }
 
   explicit StillLife(double t_s) : t_(t_s) {
     const double rock = 0.07 * std::sin(2.6 * t_s);

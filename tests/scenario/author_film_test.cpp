@@ -1,0 +1,444 @@
+// SPDX-License-Identifier: Apache-2.0
+// The author's program from end to end: what goes in as colour and depth comes out as one film, or nothing does.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+#include <thread>
+#include <vector>
+
+#include "app/author/author.h"
+#include "app/author/output.h"
+#include "app/media/pair_reader.h"
+#include "app/scene/height_field.h"
+#include "drivers/ffmpeg/ffmpeg.h"
+#include "tests/support/clip_maker.h"
+#include "tests/support/program.h"
+
+namespace relievo {
+namespace {
+
+using test::ClipTrack;
+using test::makeClip;
+using test::TemporaryFolder;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const PairReader::Backends kBackends{[] { return makeFfmpegSource(); }, [] { return makeFfmpegDecoder(); }};
+const ProgressReport kNoReport = [](std::uint64_t, std::optional<std::uint64_t>) {};
+
+ClipTrack colorTrack(int width = 64, int height = 48, int fps = 30, int frames = 30) {
+  return {.pix_fmt = "yuv420p", .width = width, .height = height, .fps_num = fps, .frames = frames};
+}
+ClipTrack depthTrack(const char* pix_fmt, std::function<std::uint32_t(int, int, int)> code, int width = 64, int height = 48) {
+  return {.pix_fmt = pix_fmt, .width = width, .height = height, .sample = [code](int component, int c, int r, int k) {
+            return component == 0 ? code(c, r, k) : 128u;
+          }};
+}
+
+struct Film {
+  FilmInfo info;
+  std::vector<FramePair> pairs;
+  // The code in the depth plane, as it was coded.
+  [[nodiscard]] int code(std::size_t pair, int c, int r) const {
+    return static_cast<int>(test::sampleAt(pairs.at(pair).depth, 0, c, r));
+  }
+};
+
+Film readFilm(const std::string& path) {
+  PairReader reader(kBackends);
+  const auto opened = reader.open({.url = path});
+  EXPECT_TRUE(opened.has_value()) << (opened ? "" : opened.error().message);
+  Film film{reader.info(), {}};
+  while (auto pair = reader.next().value()) film.pairs.push_back(*pair);
+  return film;
+}
+
+std::vector<std::string> filesIn(const std::string& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+class AuthorFilm : public testing::Test {
+ protected:
+  TemporaryFolder folder_;
+  std::atomic<bool> stop_{false};
+
+  AuthorResult<AuthorSummary> make(const SourceOptions& source, const std::string& out = "out.mkv") {
+    return authorFilm(source, kBackends, {.path = folder_ / out, .color_crf = 18, .depth_crf = 0}, stop_, kNoReport);
+  }
+  // Colour and depth as two files, into out.mkv.
+  AuthorSummary package(const ClipTrack& color, const ClipTrack& depth, SourceOptions source = {}) {
+    makeClip(folder_ / "color.mkv", {color});
+    makeClip(folder_ / "depth.mkv", {depth});
+    source.url = folder_ / "color.mkv";
+    source.depth_url = folder_ / "depth.mkv";
+    auto summary = make(source);
+    EXPECT_TRUE(summary.has_value()) << (summary ? "" : summary.error().thing + ": " + summary.error().error.message);
+    return summary.value_or(AuthorSummary{});
+  }
+  // `relievo-author ARGUMENTS`, in which @ stands for the folder.
+  test::ProgramResult run(std::string arguments) {
+    const std::string folder = (folder_ / "");
+    for (std::size_t at = arguments.find('@'); at != std::string::npos; at = arguments.find('@', at)) {
+      arguments.replace(at, 1, folder.substr(0, folder.size() - 1));
+    }
+    return test::runProgram("relievo-author " + arguments, folder_ / "said");
+  }
+  void SetUp() override { std::filesystem::create_directory(folder_ / "said"); }
+  // What is in the folder, but for the inputs and the outputs of the program's talk.
+  [[nodiscard]] std::vector<std::string> made() const {
+    std::vector<std::string> names = filesIn(folder_ / "");
+    std::erase_if(names, [](const std::string& n) { return n == "said" || n == "color.mkv" || n == "depth.mkv"; });
+    return names;
+  }
+};
+
+TEST_F(AuthorFilm, BringsTwoFilesTogetherWithTheirCodesAndTimes) {
+  const auto code = [](int c, int r, int k) { return static_cast<std::uint32_t>((c * 3 + r * 5 + k * 7) & 255); };
+  const AuthorSummary summary = package(colorTrack(), depthTrack("gray", code));
+  EXPECT_EQ(summary.totals.color.frames, 30u);
+  EXPECT_EQ(summary.totals.depth.frames, 30u);
+  EXPECT_EQ(summary.codes.samples, 30u * 64 * 48);
+  EXPECT_TRUE(summary.notes.empty());
+
+  const Film film = readFilm(folder_ / "out.mkv");
+  EXPECT_EQ(film.info.packing, Packing::Tracks);
+  EXPECT_EQ(film.info.calibration.origin, CalibrationOrigin::ContainerTags);
+  ASSERT_EQ(film.pairs.size(), 30u);
+  for (std::size_t k = 0; k < 30; ++k) {
+    EXPECT_NEAR(toSeconds(film.pairs[k].color.pts), static_cast<double>(k) / 30, 6e-4);
+    EXPECT_EQ(film.pairs[k].depth.pts, film.pairs[k].color.pts);
+    for (const auto& [c, r] : {std::pair{0, 0}, {63, 47}, {31, 20}}) {
+      EXPECT_EQ(film.code(k, c, r), static_cast<int>(code(c, r, static_cast<int>(k))));
+    }
+  }
+}
+
+// The whole way: 16 bits with holes and a law of its own, near low, to a height in mm that is the same within half a code.
+TEST_F(AuthorFilm, KeepsTheHeightsThatTheDepthMeant) {
+  const auto code = [](int c, int r, int) { return r == 0 && c < 8 ? 0u : static_cast<std::uint32_t>(1000 * c + 10 * r + 1); };
+  SourceOptions source;
+  source.command_line = {{"law", "inverse"}, {"near", "400"}, {"far", "4000"}, {"polarity", "near-low"}, {"invalid", "0"}};
+  const AuthorSummary summary = package(colorTrack(), depthTrack("gray16le", code), source);
+  EXPECT_EQ(summary.codes.holes, 30u * 8);
+
+  const Film film = readFilm(folder_ / "out.mkv");
+  const DepthCalibration& c = film.info.calibration.calibration;
+  EXPECT_EQ(c.law, DepthLaw::Inverse);
+  EXPECT_EQ(c.near_mm, 400);
+  EXPECT_EQ(c.far_mm, 4000);
+  EXPECT_EQ(c.invalid_code, std::optional<std::uint32_t>(0));
+  const auto field = HeightField::make(film.pairs[5].depth, c, DisplayVolume::forPicture(64, 48)).value();
+  const DepthCalibration meant{.law = DepthLaw::Inverse, .polarity = DepthPolarity::NearIsLow, .bits = 16, .near_mm = 400, .far_mm = 4000};
+  for (const auto& [col, row] : {std::pair{0, 1}, {10, 40}, {33, 3}, {63, 47}}) {
+    const double s = code(col, row, 5) / 65535.0;
+    const double half_a_code = 0.5 / 255 + 1e-9;
+    EXPECT_LE(field.heightMm(col, row), heightMm(meant, s - half_a_code, 40)) << col;
+    EXPECT_GE(field.heightMm(col, row), heightMm(meant, s + half_a_code, 40)) << col;
+  }
+  EXPECT_TRUE(std::isnan(field.heightMm(7, 0)));
+  EXPECT_FALSE(std::isnan(field.heightMm(8, 0)));
+}
+
+TEST_F(AuthorFilm, ExpandsTheLimitedRangeOfAVideo) {
+  package(colorTrack(), depthTrack("yuv420p", [](int c, int, int) { return c < 21 ? 16u : c < 42 ? 126u : 235u; }));
+  const Film film = readFilm(folder_ / "out.mkv");
+  EXPECT_EQ(film.code(3, 5, 5), 0);
+  EXPECT_EQ(film.code(3, 30, 5), 128);  // 110 x 255/219 = 128.08
+  EXPECT_EQ(film.code(3, 60, 5), 255);
+}
+
+TEST_F(AuthorFilm, ReadsColourAndDepthPackedInOnePicture) {
+  // Left half colour, right half depth of full range.
+  ClipTrack packed = depthTrack("yuv420p", [](int c, int r, int) { return static_cast<std::uint32_t>(c < 64 ? 40 : 3 * (c - 64) + r / 8); }, 128, 48);
+  packed.range = ColorRange::Full;
+  makeClip(folder_ / "color.mkv", {packed});
+  const auto summary = make({.url = folder_ / "color.mkv", .packing = Packing::SideBySide});
+  ASSERT_TRUE(summary.has_value());
+  EXPECT_EQ(summary->format.color_width, 64);
+  EXPECT_EQ(summary->format.depth_width, 64);
+  const Film film = readFilm(folder_ / "out.mkv");
+  EXPECT_EQ(film.info.packing, Packing::Tracks);
+  EXPECT_EQ(film.code(0, 10, 0), 30);
+  EXPECT_EQ(film.code(0, 63, 47), 194);
+}
+
+TEST_F(AuthorFilm, CutsAnOddSizeOffBothAlike) {
+  const AuthorSummary summary = package(colorTrack(65, 49), depthTrack("gray", [](int c, int r, int) { return static_cast<std::uint32_t>(c + r); }, 65, 49));
+  EXPECT_EQ(summary.format.color_width, 64);
+  EXPECT_EQ(summary.format.color_height, 48);
+  EXPECT_EQ(summary.format.depth_width, 64);
+  EXPECT_EQ(summary.format.depth_height, 48);
+  ASSERT_EQ(summary.notes.size(), 1u);
+  EXPECT_THAT(summary.notes[0], HasSubstr("1 column and 1 row of the colour, 1 and 1 of the depth"));
+  const Film film = readFilm(folder_ / "out.mkv");
+  EXPECT_EQ(film.code(0, 63, 47), 110);
+}
+
+TEST_F(AuthorFilm, CutsTheSameShareOffADepthOfAnotherSize) {
+  // One of 65 columns is 2 of 130 and none of 30 (0.46); the height is even.
+  const auto sizeFor = [&](int depth_width) {
+    return package(colorTrack(65, 48), depthTrack("gray", [](int, int, int) { return 9u; }, depth_width, 48)).format.depth_width;
+  };
+  EXPECT_EQ(sizeFor(130), 128);
+  std::filesystem::remove(folder_ / "out.mkv");
+  EXPECT_EQ(sizeFor(30), 30);
+}
+
+TEST_F(AuthorFilm, WritesADepthOfALowerRateOnceAPicture) {
+  ClipTrack depth = depthTrack("gray", [](int, int, int k) { return static_cast<std::uint32_t>(10 * k); });
+  depth.fps_num = 15;
+  depth.frames = 15;
+  const AuthorSummary summary = package(colorTrack(), depth);
+  EXPECT_EQ(summary.totals.color.frames, 30u);
+  EXPECT_EQ(summary.totals.depth.frames, 15u);
+  const Film film = readFilm(folder_ / "out.mkv");
+  ASSERT_EQ(film.pairs.size(), 30u);
+  for (std::size_t k = 0; k < 30; ++k) {
+    EXPECT_EQ(film.code(k, 3, 3), static_cast<int>(10 * (k / 2))) << k;
+    EXPECT_NEAR(toSeconds(film.pairs[k].depth.pts), static_cast<double>(k / 2) / 15, 6e-4) << k;
+  }
+}
+
+TEST_F(AuthorFilm, ThinsADepthOfAHigherRateAndSaysSo) {
+  ClipTrack depth = depthTrack("gray", [](int, int, int k) { return static_cast<std::uint32_t>(4 * k); });
+  depth.fps_num = 60;
+  depth.frames = 60;
+  const AuthorSummary summary = package(colorTrack(), depth);
+  EXPECT_EQ(summary.totals.depth.frames, 30u);
+  ASSERT_FALSE(summary.notes.empty());
+  EXPECT_THAT(summary.notes.back(), HasSubstr("pictures of the depth lay between"));
+  const Film film = readFilm(folder_ / "out.mkv");
+  EXPECT_EQ(film.code(7, 3, 3), 56);  // the depth of the same time: its picture 14
+}
+
+TEST_F(AuthorFilm, LetsTheDepthEndEarlier) {
+  ClipTrack depth = depthTrack("gray", [](int, int, int) { return 50u; });
+  depth.frames = 10;
+  const AuthorSummary summary = package(colorTrack(), depth);
+  EXPECT_EQ(summary.totals.color.frames, 30u);
+  EXPECT_EQ(summary.totals.depth.frames, 10u);
+  const Film film = readFilm(folder_ / "out.mkv");
+  EXPECT_FALSE(film.pairs[9].depth.empty());
+  EXPECT_TRUE(film.pairs[12].depth.empty());
+}
+
+TEST_F(AuthorFilm, PutsKeyFramesAtTheSamePlacesOfBothTracks) {
+  ClipTrack depth = depthTrack("gray", [](int c, int r, int k) { return static_cast<std::uint32_t>((c * 7 + r * 3 + k * 11) & 255); });
+  depth.frames = 100;
+  package(colorTrack(64, 48, 30, 100), depth);
+  const auto source = makeFfmpegSource();
+  ASSERT_TRUE(source->open(folder_ / "out.mkv").has_value());
+  std::map<int, std::vector<int>> keys;
+  while (auto packet = source->read().value()) {
+    if (packet->keyframe) keys[packet->stream].push_back(static_cast<int>(std::lround(toSeconds(*packet->pts) * 30)));
+  }
+  EXPECT_THAT(keys[0], ElementsAre(0, 30, 60, 90));
+  EXPECT_THAT(keys[1], ElementsAre(0, 30, 60, 90));
+}
+
+TEST_F(AuthorFilm, KeepsTheColour) {
+  ClipTrack color = colorTrack();
+  color.range = ColorRange::Full;
+  color.sample_width = 4;
+  color.sample_height = 3;
+  color.sample = [](int component, int c, int r, int) { return component == 0 ? static_cast<std::uint32_t>(2 * c + r) : component == 1 ? 90u : 170u; };
+  package(color, depthTrack("gray", [](int, int, int) { return 9u; }));
+  const Film film = readFilm(folder_ / "out.mkv");
+  const Frame& frame = film.pairs.at(4).color;
+  EXPECT_EQ(frame.range, ColorRange::Full);
+  EXPECT_NEAR(frame.sample_aspect, 4.0 / 3, 1e-3);
+  for (const auto& [c, r] : {std::pair{5, 5}, {60, 40}, {30, 20}}) {
+    EXPECT_NEAR(static_cast<double>(test::sampleAt(frame, 0, c, r)), 2 * c + r, 6);
+    EXPECT_NEAR(static_cast<double>(test::sampleAt(frame, 1, c / 2, r / 2)), 90, 3);
+    EXPECT_NEAR(static_cast<double>(test::sampleAt(frame, 2, c / 2, r / 2)), 170, 3);
+  }
+}
+
+TEST_F(AuthorFilm, LeavesNothingWhenItIsInterrupted) {
+  makeClip(folder_ / "color.mkv", {colorTrack()});
+  makeClip(folder_ / "depth.mkv", {depthTrack("gray", [](int, int, int) { return 9u; })});
+  std::uint64_t reached = 0;
+  const auto stopAtFive = [&](std::uint64_t done, std::optional<std::uint64_t> total) {
+    EXPECT_EQ(total, std::optional<std::uint64_t>(30));
+    EXPECT_EQ(made().size(), 1u);  // the temporary one
+    reached = done;
+    if (done == 5) stop_ = true;
+  };
+  const auto summary = authorFilm({.url = folder_ / "color.mkv", .depth_url = folder_ / "depth.mkv"}, kBackends,
+                                  {.path = folder_ / "out.mkv"}, stop_, stopAtFive);
+  ASSERT_FALSE(summary.has_value());
+  EXPECT_EQ(summary.error().error.code, ErrorCode::Cancelled);
+  EXPECT_EQ(reached, 5u);
+  EXPECT_TRUE(made().empty());
+}
+
+TEST_F(AuthorFilm, LeavesNothingWhenTheSampleIsInterrupted) {
+  const auto stopAtTwo = [&](std::uint64_t done, std::optional<std::uint64_t>) { stop_ = done == 2; };
+  const auto summary = authorSample({.cols = 64, .rows = 48}, {.path = folder_ / "out.mkv"}, stop_, stopAtTwo);
+  ASSERT_FALSE(summary.has_value());
+  EXPECT_EQ(summary.error().error.code, ErrorCode::Cancelled);
+  EXPECT_TRUE(made().empty());
+}
+
+TEST_F(AuthorFilm, SampleIsAFilmLikeAnyOther) {
+  const auto summary = authorSample({.cols = 160, .rows = 108, .frames = 40, .threads = 2}, {.path = folder_ / "out.mp4", .depth_crf = 0},
+                                    stop_, kNoReport);
+  ASSERT_TRUE(summary.has_value());
+  EXPECT_EQ(summary->totals.depth.frames, 40u);
+  const Film film = readFilm(folder_ / "out.mp4");
+  ASSERT_EQ(film.pairs.size(), 40u);
+  EXPECT_EQ(film.info.calibration.origin, CalibrationOrigin::ContainerTags);
+  // In the middle of a smooth part: the exact height, in codes.
+  const double x = ((80 + 0.5) / 160 - 0.5) * 160, y = (0.5 - (54 + 0.5) / 108) * 108;
+  EXPECT_NEAR(film.code(33, 80, 54), 255.0 / 40 * sampleSceneHeight(x, y, 33 / 30.0), 0.51);
+}
+
+// ---- the program ----
+
+TEST_F(AuthorFilm, ProgramPackagesAndSaysWhatItDid) {
+  makeClip(folder_ / "color.mkv", {colorTrack()});
+  makeClip(folder_ / "depth.mkv", {depthTrack("gray16le", [](int c, int, int) { return static_cast<std::uint32_t>(1000 * c); })});
+  const auto said = run("--color @/color.mkv --depth @/depth.mkv -o @/out.mp4");
+  EXPECT_EQ(said.exit_code, 0) << said.err;
+  EXPECT_EQ(said.err, "");  // no progress where there is no terminal
+  EXPECT_THAT(said.out, HasSubstr("H.264 4:2:0"));
+  EXPECT_THAT(said.out, HasSubstr("H.264 4:0:0"));
+  EXPECT_THAT(said.out, HasSubstr("16 bits rescaled to 8"));
+  EXPECT_THAT(made(), ElementsAre("out.mp4"));
+  EXPECT_EQ(readFilm(folder_ / "out.mp4").pairs.size(), 30u);
+}
+
+TEST_F(AuthorFilm, ProgramDoesNotReplaceAFileUnlessForced) {
+  makeClip(folder_ / "color.mkv", {colorTrack()});
+  makeClip(folder_ / "depth.mkv", {depthTrack("gray", [](int, int, int) { return 9u; })});
+  std::ofstream(folder_ / "out.mkv") << "mine";
+  const auto refused = run("--color @/color.mkv --depth @/depth.mkv -o @/out.mkv");
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("out.mkv: is there already"));
+  EXPECT_THAT(refused.err, HasSubstr("--force"));
+  std::string kept;
+  std::ifstream(folder_ / "out.mkv") >> kept;
+  EXPECT_EQ(kept, "mine");
+
+  EXPECT_EQ(run("--color @/color.mkv --depth @/depth.mkv -o @/out.mkv --force").exit_code, 0);
+  EXPECT_EQ(readFilm(folder_ / "out.mkv").pairs.size(), 30u);
+  EXPECT_THAT(made(), ElementsAre("out.mkv"));
+}
+
+TEST_F(AuthorFilm, ProgramKeepsTheOldFileWhenTheNewOneFails) {
+  std::ofstream(folder_ / "out.mkv") << "mine";
+  const auto failed = run("--color @/missing.mkv -o @/out.mkv --force");
+  EXPECT_EQ(failed.exit_code, 1);
+  EXPECT_THAT(failed.err, HasSubstr("missing.mkv: no such file"));
+  EXPECT_EQ(std::count(failed.err.begin(), failed.err.end(), '\n'), 1);
+  EXPECT_THAT(made(), ElementsAre("out.mkv"));
+}
+
+TEST_F(AuthorFilm, ProgramTellsWrongUseInOneLine) {
+  makeClip(folder_ / "color.mkv", {colorTrack()});
+  for (const char* arguments : {"--color @/color.mkv", "-o @/out.mkv", "--scene moon -o @/out.mkv", "--color @/color.mkv -o @/out.avi",
+                                "--scene sample --color @/color.mkv -o @/out.mkv", "--color @/color.mkv -o @/out.mkv --crf 99",
+                                "--color @/color.mkv -o @/out.mkv --calibration law=steep", "--color @/color.mkv -o @/out.mkv --packing pile"}) {
+    const auto said = run(arguments);
+    EXPECT_EQ(said.exit_code, 2) << arguments << ": " << said.err;
+    EXPECT_EQ(std::count(said.err.begin(), said.err.end(), '\n'), 1) << arguments << ": " << said.err;
+    EXPECT_TRUE(said.err.starts_with("relievo-author: ")) << said.err;
+  }
+  EXPECT_TRUE(made().empty());
+}
+
+TEST_F(AuthorFilm, ProgramSaysWhenThereIsNoDepth) {
+  makeClip(folder_ / "color.mkv", {colorTrack()});
+  const auto said = run("--color @/color.mkv -o @/out.mkv");
+  EXPECT_EQ(said.exit_code, 1);
+  EXPECT_THAT(said.err, HasSubstr("no depth in it; name its source with --depth"));
+  EXPECT_TRUE(made().empty());
+}
+
+TEST_F(AuthorFilm, ProgramTeaches) {
+  const auto said = run("--help");
+  EXPECT_EQ(said.exit_code, 0);
+  for (const char* word : {"--color", "--depth", "--packing", "--calibration", "--crf", "--force", "--scene", "Examples"}) {
+    EXPECT_THAT(said.out, HasSubstr(word));
+  }
+}
+
+// A process of its own in the way a shell starts one, so that it can be sent a signal or given limits.
+class Process {
+ public:
+  Process(const std::vector<std::string>& arguments, const std::string& errors) {
+    std::vector<char*> argv;
+    for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+    argv.push_back(nullptr);
+    pid_ = ::fork();
+    if (pid_ != 0) return;
+    const int fd = ::open(errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    ::dup2(fd, STDERR_FILENO);
+    ::dup2(fd, STDOUT_FILENO);
+    ::execv(argv[0], argv.data());
+    ::_exit(127);
+  }
+  void send(int number) const { ::kill(pid_, number); }
+  [[nodiscard]] bool isRunning() {
+    if (!ended_) ended_ = ::waitpid(pid_, &status_, WNOHANG) == pid_;
+    return !ended_;
+  }
+  int wait() {
+    if (!ended_) ::waitpid(pid_, &status_, 0);
+    ended_ = true;
+    return WIFEXITED(status_) ? WEXITSTATUS(status_) : -1;
+  }
+
+ private:
+  pid_t pid_ = -1;
+  int status_ = 0;
+  bool ended_ = false;
+};
+
+std::string textOf(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST_F(AuthorFilm, ProgramLeavesNothingOnASignal) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    Process process({std::string(RELIEVO_BIN_DIR) + "/relievo-author", "--scene", "sample", "-o", folder_ / "out.mkv"}, folder_ / "said/errors");
+    while (made().empty() && process.isRunning()) std::this_thread::yield();  // until the temporary file is there
+    ASSERT_TRUE(process.isRunning()) << textOf(folder_ / "said/errors");
+    process.send(number);
+    EXPECT_EQ(process.wait(), 1);
+    EXPECT_THAT(textOf(folder_ / "said/errors"), HasSubstr("out.mkv: interrupted; nothing was written"));
+    EXPECT_TRUE(made().empty());
+  }
+}
+
+TEST_F(AuthorFilm, ProgramLeavesNothingOnAFullDisk) {
+  // A file may grow to 16 blocks of 1 KiB: stands for a disk that fills up.
+  ClipTrack color = colorTrack(320, 240);
+  color.sample = [](int, int c, int r, int k) { return static_cast<std::uint32_t>((c * 7919 + r * 104729 + k * 1299709) >> 3); };
+  makeClip(folder_ / "color.mkv", {color});
+  makeClip(folder_ / "depth.mkv", {depthTrack("gray", [](int, int, int) { return 9u; })});
+  Process process({"/bin/bash", "-c",
+                   "ulimit -f 16; exec " RELIEVO_BIN_DIR "/relievo-author --color " + (folder_ / "color.mkv") + " --depth " +
+                       (folder_ / "depth.mkv") + " -o " + (folder_ / "out.mkv")},
+                  folder_ / "said/errors");
+  EXPECT_EQ(process.wait(), 1);
+  EXPECT_THAT(textOf(folder_ / "said/errors"), HasSubstr("out.mkv: it cannot be written; is the disk full?"));
+  EXPECT_TRUE(made().empty());
+}
+
+}  // namespace
+}  // namespace relievo
