@@ -89,21 +89,22 @@ private:
   // The path's point moves straight from where it was to where it will be: one look at the path a tick, not
   // one a step.
   void advance(double elapsed_s) RELIEVO_RT {
-    const double steps = std::ceil(elapsed_s * profile_.rate_hz * profile_.substeps_per_tick - 1e-6);
+    const auto steps =
+        static_cast<int>(std::ceil(elapsed_s * profile_.rate_hz * profile_.substeps_per_tick - 1e-6));
     const double dt_s = elapsed_s / steps;
     time_s_ += elapsed_s;
     const HandPoint goal = path_.at(time_s_);
-    const glm::dvec3 target_step = (goal.position_mm - target_.position_mm) / steps;
+    const glm::dvec3 target_step = (goal.position_mm - target_.position_mm) / static_cast<double>(steps);
     const glm::dvec3 target_velocity = target_step / dt_s;
     const glm::dvec3 limit(goal.force_limit_n);
     const SimHand& hand = profile_.hand;
     const glm::dvec3 constant_n = pipeline_[delay()] + hand.damping_n_s_per_mm * target_velocity;
     glm::dvec3 target = target_.position_mm;
-    for (double i = 0; i < steps; ++i) {
-      target += target_step;
+    for (int i = 0; i < steps; ++i) {
       const glm::dvec3 spring_n = hand.stiffness_n_per_mm * (target - mass_.position_mm);
       mass_.step(constant_n + glm::clamp(spring_n, -limit, limit), dt_s);
       stopAtEnds();
+      target += target_step;
     }
     target_ = goal;
   }

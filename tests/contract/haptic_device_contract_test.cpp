@@ -263,6 +263,40 @@ TEST_P(HapticDeviceContract, ALostDeviceIsLostUntilClosedAndPushesNobody) {
   EXPECT_TRUE(rig.device->open());
 }
 
+// ---- the guard itself
+// ------------------------------------------------------------------------------------------------
+
+// Writes down what it is asked to do.
+class Recorder final : public HapticDevice {
+public:
+  explicit Recorder(std::string& asked) : asked_(asked) {}
+  [[nodiscard]] HapticCapabilities capabilities() const noexcept override { return {}; }
+
+private:
+  Result<void> openDevice() override { return note("open "); }
+  Result<void> homeDevice() override { return note("home "); }
+  Result<void> startDevice() override { return note("start "); }
+  Result<HapticSample> readSample() RELIEVO_RT override { return HapticSample{}; }
+  Result<void> writeForce(const glm::dvec3&) RELIEVO_RT override { return {}; }
+  void stopDevice() noexcept override { (void)note("stop "); }
+  void closeDevice() noexcept override { (void)note("close "); }
+  Result<void> note(const char* verb) {
+    asked_ += verb;
+    return {};
+  }
+  std::string& asked_;
+};
+
+TEST(HapticDeviceGuard, StopsADeviceThatIsClosedWhileItRuns) {
+  std::string asked;
+  Recorder device(asked);
+  ASSERT_TRUE(device.open() && device.home() && device.start());
+  device.close();
+  device.close();
+  device.stop();
+  EXPECT_EQ(asked, "open home start stop close ");
+}
+
 // ---- what only a device with fault switches can show
 // ------------------------------------------------------------------
 

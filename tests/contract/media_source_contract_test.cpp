@@ -154,6 +154,29 @@ TEST_P(MediaSourceContract, AFailedOpeningLeavesItClosedAndUsable) {
   EXPECT_TRUE(source->open(GetParam().url()));
 }
 
+// ---- the guard itself
+// ------------------------------------------------------------------------------------------------
+
+// Ends at once, and would begin again if it were asked once more.
+class Relapsing final : public MediaSource {
+  Result<Description> openSource(const std::string&) override { return Description{}; }
+  Result<std::optional<Packet>> readPacket() override {
+    if (reads_++ == 0) return std::nullopt;
+    return Packet{};
+  }
+  Result<void> seekTo(MediaTime) override { return {}; }
+  void closeSource() noexcept override {}
+  void interrupted() noexcept override {}
+  int reads_ = 0;
+};
+
+TEST(MediaSourceGuard, AsksNoMoreAfterTheEnd) {
+  Relapsing source;
+  ASSERT_TRUE(source.open(""));
+  EXPECT_FALSE(source.read().value());
+  EXPECT_FALSE(source.read().value());
+}
+
 // ---- what only a source with fault switches can show
 // ------------------------------------------------------------------
 

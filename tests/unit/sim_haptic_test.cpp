@@ -150,6 +150,17 @@ TEST(SimHaptic, TheHandGivesWayAsASpring) {
   EXPECT_NEAR(position.y, 3.0, 0.14 + 0.015);
 }
 
+// A spring and damper to a point that moves steadily pull a mass without other friction along with it, behind by
+// nothing: the damper is at rest. A tick late would be 100 um.
+TEST(SimHaptic, TheHandKeepsUpWithItsPath) {
+  SimDeviceProfile profile = freeMass();
+  profile.hand = SimHand{};
+  Bench bench(profile, HandPath({{0.0, {-50, 0, 20}}, {1.0, {50, 0, 20}}}));
+  glm::dvec3 position{0};
+  for (int i = 0; i <= 900; ++i) position = bench.tick([](const glm::dvec3&) { return glm::dvec3(0); });
+  EXPECT_NEAR(position.x, 40.0, 1e-4);
+}
+
 class SimHapticTouch : public testing::TestWithParam<double> {};
 
 TEST_P(SimHapticTouch, TheStrokingHandPressesGentlyWhereverTheSurfaceIs) {
