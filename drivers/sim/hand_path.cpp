@@ -29,7 +29,7 @@ double wave(double t_s, double period_s) RELIEVO_RT {
 
 HandPoint stroke(double t_s) RELIEVO_RT {
   constexpr double kRestS = 0.5, kDownS = 1.5, kUpS = 1.5;  // at most 72 mm/s: contact without a blow
-  constexpr double kRoundS = 12.0;                          // down, stroke, up
+  constexpr double kRoundS = 8.0;                           // down, stroke, up
   constexpr double kAboveMm = 60.0, kAimMm = -12.0;         // 40 mm is the nearest that a surface comes
   const double t = std::max(t_s - kRestS, 0.0);
   const double in_round = std::fmod(t, kRoundS);
@@ -78,8 +78,7 @@ std::string_view takeLine(std::string_view& text) {
 }
 
 std::unexpected<Error> wrongLine(std::string_view script_name, int number, const char* what) {
-  log(LogLevel::Error, "sim", "%.*s:%d: %s", static_cast<int>(script_name.size()), script_name.data(), number,
-      what);
+  log(LogLevel::Error, "sim", "%.*s:%d: %s", static_cast<int>(script_name.size()), script_name.data(), number, what);
   return fail(ErrorCode::InvalidArgument, "the hand script is wrong; it is a CSV file t_s,x_mm,y_mm,z_mm");
 }
 
@@ -91,8 +90,7 @@ Result<HandPath> HandPath::parse(std::string_view csv, std::string_view script_n
   int number = 1;
   while (!csv.empty()) {
     ++number;
-    if (const char* wrong = addRow(takeLine(csv), rows); wrong != nullptr)
-      return wrongLine(script_name, number, wrong);
+    if (const char* wrong = addRow(takeLine(csv), rows); wrong != nullptr) return wrongLine(script_name, number, wrong);
   }
   if (rows.empty()) return wrongLine(script_name, number, "there is no row after the header");
   return HandPath(std::move(rows));

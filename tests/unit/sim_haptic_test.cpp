@@ -172,14 +172,14 @@ TEST_P(SimHapticTouch, TheStrokingHandPressesGentlyWhereverTheSurfaceIs) {
       force = std::max(0.0, 0.5 * (GetParam() - at.z));
       return glm::dvec3(0, 0, force);
     });
-    const int in_round_ms = (i - 500) % 12'000;
-    if (in_round_ms > 3000 && in_round_ms < 10'400) {
+    const int in_round_ms = (i - 500) % 8'000;
+    if (in_round_ms > 3000 && in_round_ms < 6'400) {
       least = std::min(least, force);
       most = std::max(most, force);
       left = std::min(left, p.x), right = std::max(right, p.x);
       low = std::min(low, p.y), high = std::max(high, p.y);
     }
-    if (i == 12'499) last_z = p.z;
+    if (i == 8'499) last_z = p.z;
   }
   EXPECT_GT(least, 0.8);
   EXPECT_LT(most, 2.2);
