@@ -61,7 +61,7 @@ class DepthFollower {
   std::array<Duration, kSteps> steps_{};
   std::size_t step_count_ = 0;
   bool ended_ = false;
-  bool asked_for_ = false;   // the current one, by a colour picture
+  bool asked_for_ = false;  // the current one, by a colour picture
   bool catching_up_ = false;
   std::uint64_t skipped_ = 0;
 };

@@ -55,7 +55,9 @@ std::optional<Packing> packingTag(const Tags& tags) {
   return std::nullopt;
 }
 
-bool isPacked(Packing packing) { return packing == Packing::SideBySide || packing == Packing::TopBottom; }
+bool isPacked(Packing packing) {
+  return packing == Packing::SideBySide || packing == Packing::TopBottom;
+}
 
 // Luma alone, as a gray picture of the same range.
 Frame lumaOf(const Frame& picture) noexcept {
@@ -67,11 +69,15 @@ Frame lumaOf(const Frame& picture) noexcept {
   return gray;
 }
 
-int alignUp(int value, int shift) noexcept { return ((value + (1 << shift) - 1) >> shift) << shift; }
+int alignUp(int value, int shift) noexcept {
+  return ((value + (1 << shift) - 1) >> shift) << shift;
+}
 
 }  // namespace
 
-const StreamInfo* findDepthTrack(const MediaSource& source) { return depthAmong(videoTracks(source)); }
+const StreamInfo* findDepthTrack(const MediaSource& source) {
+  return depthAmong(videoTracks(source));
+}
 
 Result<TrackPlan> planTracks(const MediaSource& source, Packing packing, bool depth_elsewhere) {
   const auto tracks = videoTracks(source);

@@ -33,8 +33,8 @@ struct TrackPlan {
 [[nodiscard]] const StreamInfo* findDepthTrack(const MediaSource& source);
 
 // For a source that holds the colour, and the depth too unless `depth_elsewhere`. Auto decides, in this order: by a tag
-// DEPTH_PACKING=sbs|tb of the container or the track; by a second video track. A picture's shape decides nothing: a wide
-// film is not taken for a packed one. NotFound where the source has not the tracks that the packing asks for.
+// DEPTH_PACKING=sbs|tb of the container or the track; by a second video track. A picture's shape decides nothing: a
+// wide film is not taken for a packed one. NotFound where the source has not the tracks that the packing asks for.
 [[nodiscard]] Result<TrackPlan> planTracks(const MediaSource& source, Packing packing, bool depth_elsewhere);
 
 struct Halves {

@@ -307,9 +307,13 @@ void PairReader::interrupt() noexcept {
   if (impl_->second_reader) impl_->second_reader->interrupt();
 }
 
-const FilmInfo& PairReader::info() const noexcept { return impl_->info; }
+const FilmInfo& PairReader::info() const noexcept {
+  return impl_->info;
+}
 
-const std::string& PairReader::failedThing() const noexcept { return impl_->failed_thing; }
+const std::string& PairReader::failedThing() const noexcept {
+  return impl_->failed_thing;
+}
 
 PairCounters PairReader::counters() const noexcept {
   PairCounters counters = impl_->counters;

@@ -16,7 +16,9 @@ TrackReader::TrackReader(std::unique_ptr<MediaSource> source,
                          std::function<std::unique_ptr<VideoDecoder>()> make_decoder)
     : source_(std::move(source)), make_decoder_(std::move(make_decoder)) {}
 
-Result<void> TrackReader::open(const std::string& url) { return source_->open(url); }
+Result<void> TrackReader::open(const std::string& url) {
+  return source_->open(url);
+}
 
 Result<std::size_t> TrackReader::select(const StreamInfo& stream) {
   if (track_count_ == kMaxTracks) return fail(ErrorCode::Exhausted, "two tracks of a source are chosen already");
@@ -35,8 +37,7 @@ Result<std::optional<Frame>> TrackReader::next(std::size_t number) {
 }
 
 bool TrackReader::ended(std::size_t number) const noexcept {
-  const Track& track = tracks_[number];
-  return !track.found && track.decoder->state() == VideoDecoder::State::Ended;
+  return tracks_[number].decoder->state() == VideoDecoder::State::Ended;
 }
 
 std::uint64_t TrackReader::damaged() const noexcept {

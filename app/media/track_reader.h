@@ -50,9 +50,9 @@ class TrackReader {
     std::unique_ptr<VideoDecoder> decoder;
     std::deque<Packet> waiting;
     std::size_t waiting_bytes = 0;
-    std::optional<Frame> found;     // by the last seek
-    bool awaits_keyframe = false;   // what cannot be decoded is not tried
-    bool passed_over = false;       // packets were, for want of a key frame
+    std::optional<Frame> found;    // by the last seek
+    bool awaits_keyframe = false;  // what cannot be decoded is not tried
+    bool passed_over = false;      // packets were, for want of a key frame
   };
   [[nodiscard]] Result<bool> seekOnce(MediaTime from, MediaTime target);
   [[nodiscard]] Result<std::optional<Frame>> decode(Track& track);

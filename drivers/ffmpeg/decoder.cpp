@@ -187,8 +187,8 @@ class FfmpegDecoder final : public VideoDecoder {
   }
 
   CodecContextPtr context_;
-  PacketPtr packet_;   // filled and emptied by each feed
-  FramePtr picture_;   // likewise by each receive
+  PacketPtr packet_;  // filled and emptied by each feed
+  FramePtr picture_;  // likewise by each receive
   Converter converter_;
   AVRational time_base_ = kNanosecond;  // of the durations in the source's packets
   AVRational sample_aspect_{0, 1};
@@ -199,6 +199,8 @@ class FfmpegDecoder final : public VideoDecoder {
 
 }  // namespace
 
-std::unique_ptr<VideoDecoder> makeFfmpegDecoder() { return std::make_unique<FfmpegDecoder>(); }
+std::unique_ptr<VideoDecoder> makeFfmpegDecoder() {
+  return std::make_unique<FfmpegDecoder>();
+}
 
 }  // namespace relievo

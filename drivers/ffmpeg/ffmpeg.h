@@ -23,9 +23,9 @@ namespace relievo {
 [[nodiscard]] std::unique_ptr<MediaSource> makeFfmpegSource();
 
 // Takes the streams of the source above as they are, and those of any other source by codec name and extradata.
-// Pictures whose layout hal/frame.h cannot describe (palettes, single bits, big endian, ..) are converted to the nearest
-// that it can: the one case of a copy, exact for integers of up to 16 bits. A picture that was mended with guesses
-// after an error in its data is dropped and counted: a guessed depth must not be felt.
+// Pictures whose layout hal/frame.h cannot describe (palettes, single bits, big endian, ..) are converted to the
+// nearest that it can: the one case of a copy, exact for integers of up to 16 bits. A picture that was mended with
+// guesses after an error in its data is dropped and counted: a guessed depth must not be felt.
 [[nodiscard]] std::unique_ptr<VideoDecoder> makeFfmpegDecoder();
 
 }  // namespace relievo

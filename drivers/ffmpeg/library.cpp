@@ -31,7 +31,8 @@ int osError(int code) noexcept {
 
 Error openError(int code) noexcept {
   switch (code) {
-    case AVERROR(ENOENT): return {ErrorCode::NotFound, ENOENT, "no such file; check the path"};
+    case AVERROR(ENOENT):
+      return {ErrorCode::NotFound, ENOENT, "no such file; check the path"};
     case AVERROR_HTTP_NOT_FOUND:
       return {ErrorCode::NotFound, 0, "the server does not know it; check the address"};
     case AVERROR(EACCES):
@@ -42,20 +43,23 @@ Error openError(int code) noexcept {
       return {ErrorCode::PermissionDenied, 0, "the server refuses it; check user name and password in the address"};
     case AVERROR_PROTOCOL_NOT_FOUND:
       return {ErrorCode::Unsupported, 0, "this kind of address is unknown here; use a file, http, rtsp, udp, .."};
-    case AVERROR(EISDIR): return {ErrorCode::InvalidArgument, EISDIR, "it is a folder; name a file in it"};
+    case AVERROR(EISDIR):
+      return {ErrorCode::InvalidArgument, EISDIR, "it is a folder; name a file in it"};
     case AVERROR(ETIMEDOUT):
       return {ErrorCode::Timeout, ETIMEDOUT, "no answer from the source in time; check the network"};
     case AVERROR(ECONNREFUSED):
     case AVERROR(EHOSTUNREACH):
     case AVERROR(ENETUNREACH):
       return {ErrorCode::Io, osError(code), "no connection to the server; check the address and the network"};
-    case AVERROR(ENOMEM): return {ErrorCode::Exhausted, ENOMEM, "out of memory while opening the source"};
+    case AVERROR(ENOMEM):
+      return {ErrorCode::Exhausted, ENOMEM, "out of memory while opening the source"};
     case AVERROR_EOF:
     case AVERROR_INVALIDDATA:
     case AVERROR_DEMUXER_NOT_FOUND:
       return {ErrorCode::Corrupt, 0,
               "not a media file that FFmpeg knows, an empty one, or one cut off before its index was written"};
-    default: return {ErrorCode::Io, osError(code), "it cannot be opened; check the path or the address"};
+    default:
+      return {ErrorCode::Io, osError(code), "it cannot be opened; check the path or the address"};
   }
 }
 

@@ -20,16 +20,21 @@ constexpr std::uint64_t kOtherLayouts = AV_PIX_FMT_FLAG_BE | AV_PIX_FMT_FLAG_PAL
                                         AV_PIX_FMT_FLAG_HWACCEL | AV_PIX_FMT_FLAG_FLOAT | AV_PIX_FMT_FLAG_BAYER;
 
 // Alpha, which may follow, is not looked at.
-int componentCount(const AVPixFmtDescriptor& format) noexcept { return format.nb_components <= 2 ? 1 : 3; }
+int componentCount(const AVPixFmtDescriptor& format) noexcept {
+  return format.nb_components <= 2 ? 1 : 3;
+}
 
-bool isXyz(int format) noexcept { return format == AV_PIX_FMT_XYZ12LE || format == AV_PIX_FMT_XYZ12BE; }
+bool isXyz(int format) noexcept {
+  return format == AV_PIX_FMT_XYZ12LE || format == AV_PIX_FMT_XYZ12BE;
+}
 
 ColorModel modelOf(const AVPixFmtDescriptor& format) noexcept {
   if ((format.flags & AV_PIX_FMT_FLAG_RGB) != 0) return ColorModel::Rgb;
   return componentCount(format) == 1 ? ColorModel::Gray : ColorModel::Yuv;
 }
 
-// One byte holds 8 bits, an aligned word of two up to 16. Fewer bits are old screens' colours: not worth a reader's care.
+// One byte holds 8 bits, an aligned word of two up to 16. Fewer bits are old screens' colours: not worth a reader's
+// care.
 bool readableInPlace(const AVComponentDescriptor& c) noexcept {
   if (c.depth <= 8) return c.depth == 8 && c.shift == 0;
   return c.shift + c.depth <= 16 && c.offset % 2 == 0 && c.step % 2 == 0;
@@ -41,8 +46,10 @@ bool isFullRangeYuv(int format) noexcept {
     case AV_PIX_FMT_YUVJ420P:
     case AV_PIX_FMT_YUVJ422P:
     case AV_PIX_FMT_YUVJ440P:
-    case AV_PIX_FMT_YUVJ444P: return true;
-    default: return false;
+    case AV_PIX_FMT_YUVJ444P:
+      return true;
+    default:
+      return false;
   }
 }
 
@@ -55,12 +62,16 @@ ColorRange rangeOf(const AVFrame& picture, ColorModel model) noexcept {
 
 ColorMatrix matrixOf(const AVFrame& picture) noexcept {
   switch (picture.colorspace) {
-    case AVCOL_SPC_BT709: return ColorMatrix::Bt709;
+    case AVCOL_SPC_BT709:
+      return ColorMatrix::Bt709;
     case AVCOL_SPC_BT470BG:
-    case AVCOL_SPC_SMPTE170M: return ColorMatrix::Bt601;
+    case AVCOL_SPC_SMPTE170M:
+      return ColorMatrix::Bt601;
     case AVCOL_SPC_BT2020_NCL:
-    case AVCOL_SPC_BT2020_CL: return ColorMatrix::Bt2020;
-    default: return ColorMatrix::Unspecified;
+    case AVCOL_SPC_BT2020_CL:
+      return ColorMatrix::Bt2020;
+    default:
+      return ColorMatrix::Unspecified;
   }
 }
 
@@ -92,9 +103,12 @@ int nearestDescribable(int format) noexcept {
   if ((description->flags & AV_PIX_FMT_FLAG_PAL) != 0 || isXyz(format)) return AV_PIX_FMT_RGB24;
   const bool fine = description->comp[0].depth > 8;
   switch (modelOf(*description)) {
-    case ColorModel::Gray: return fine ? AV_PIX_FMT_GRAY16LE : AV_PIX_FMT_GRAY8;
-    case ColorModel::Rgb: return fine ? AV_PIX_FMT_RGB48LE : AV_PIX_FMT_RGB24;
-    case ColorModel::Yuv: return AV_PIX_FMT_YUV420P;
+    case ColorModel::Gray:
+      return fine ? AV_PIX_FMT_GRAY16LE : AV_PIX_FMT_GRAY8;
+    case ColorModel::Rgb:
+      return fine ? AV_PIX_FMT_RGB48LE : AV_PIX_FMT_RGB24;
+    case ColorModel::Yuv:
+      return AV_PIX_FMT_YUV420P;
   }
   return AV_PIX_FMT_RGB24;
 }
@@ -131,7 +145,9 @@ Frame frameOf(FramePtr picture, AVRational sample_aspect) {
 }
 
 Converter::Converter() noexcept = default;
-Converter::~Converter() { sws_freeContext(scaler_); }
+Converter::~Converter() {
+  sws_freeContext(scaler_);
+}
 
 Result<FramePtr> Converter::convert(const AVFrame& picture) {
   const auto from = static_cast<AVPixelFormat>(picture.format);

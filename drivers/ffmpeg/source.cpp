@@ -86,9 +86,12 @@ StreamKind kindOf(const AVStream& stream) noexcept {
   if (stream.discard == AVDISCARD_ALL) return StreamKind::Other;
   constexpr int kStills = AV_DISPOSITION_ATTACHED_PIC | AV_DISPOSITION_TIMED_THUMBNAILS;
   switch (stream.codecpar->codec_type) {
-    case AVMEDIA_TYPE_VIDEO: return (stream.disposition & kStills) == 0 ? StreamKind::Video : StreamKind::Other;
-    case AVMEDIA_TYPE_AUDIO: return StreamKind::Audio;
-    default: return StreamKind::Other;
+    case AVMEDIA_TYPE_VIDEO:
+      return (stream.disposition & kStills) == 0 ? StreamKind::Video : StreamKind::Other;
+    case AVMEDIA_TYPE_AUDIO:
+      return StreamKind::Audio;
+    default:
+      return StreamKind::Other;
   }
 }
 
@@ -106,8 +109,10 @@ bool isTextArt(const AVFormatContext& context) noexcept {
     case AV_CODEC_ID_ANSI:
     case AV_CODEC_ID_BINTEXT:
     case AV_CODEC_ID_XBIN:
-    case AV_CODEC_ID_IDF: return true;
-    default: return false;
+    case AV_CODEC_ID_IDF:
+      return true;
+    default:
+      return false;
   }
 }
 
@@ -130,6 +135,19 @@ Duration startOf(const AVFormatContext& context) noexcept {
     if (std::chrono::abs(exact - start) <= std::chrono::microseconds(1)) return exact;
   }
   return start;
+}
+
+// The leading stream, unless another video stream begins before it.
+int earliestStream(const AVFormatContext& context, int leading) noexcept {
+  int earliest = leading;
+  const auto begins = [&](int i) {
+    const AVStream& stream = *context.streams[i];
+    return stream.start_time == AV_NOPTS_VALUE ? Duration::max() : durationFrom(stream.start_time, stream.time_base);
+  };
+  for (int i = 0; i < static_cast<int>(context.nb_streams); ++i) {
+    if (kindOf(*context.streams[i]) == StreamKind::Video && begins(i) < begins(earliest)) earliest = i;
+  }
+  return earliest;
 }
 
 // Picture size, then bits a second, of a programme's best video.
@@ -191,13 +209,14 @@ class FfmpegSource final : public MediaSource {
     timed_ = isTimed(*context);
     start_ = startOf(*context);
     chooseProgramme(*context);
-    seek_stream_ = std::max(av_find_default_stream_index(context), 0);
+    leading_stream_ = std::max(av_find_default_stream_index(context), 0);
+    earliest_stream_ = earliestStream(*context, leading_stream_);
     context_ = std::move(owned);
     return {};
   }
 
-  // An existing file is a file whatever its name looks like ("12:30.mkv"). A named pipe is opened here: open(2) waits for
-  // the pipe's writer, and that wait could not be interrupted.
+  // An existing file is a file whatever its name looks like ("12:30.mkv"). A named pipe is opened here: open(2) waits
+  // for the pipe's writer, and that wait could not be interrupted.
   Result<std::string> addressOf(const std::string& url) {
     struct stat status {};
     if (::stat(url.c_str(), &status) != 0) return url;
@@ -306,25 +325,24 @@ class FfmpegSource final : public MediaSource {
     if (pipe_.valid()) return fail(ErrorCode::Unsupported, kCannotSeek);
     if (!timed_) return openContext();  // pictures are counted from the beginning
     watch_.begin(kReadPatience);
-    if (target <= MediaTime{} && seeksByBytes() && av_seek_frame(context_.get(), -1, 0, AVSEEK_FLAG_BYTE) >= 0) return {};
-    int sought = seekToKeyframe(target);
-    if (sought < 0) sought = seekToKeyframe(std::min(target, lastSecond()));  // refused as too near to the end
-    if (sought < 0) sought = seekToAny();  // nothing before the target: the film begins with what comes next
+    const bool to_beginning = target <= MediaTime{};
+    if (to_beginning && seeksByBytes() && av_seek_frame(context_.get(), -1, 0, AVSEEK_FLAG_BYTE) >= 0) return {};
+    // By the leading stream's key frames; to the beginning by those of the stream that begins first.
+    const AVStream& stream = *context_->streams[to_beginning ? earliest_stream_ : leading_stream_];
+    int sought = seekToKeyframe(stream, target);
+    if (sought < 0) sought = seekToKeyframe(stream, std::min(target, lastSecond()));  // refused: too near to the end
     if (sought >= 0) return {};
     return std::unexpected(watch_.explain({ErrorCode::Unsupported, osError(sought), kCannotSeek}));
   }
 
-  int seekToKeyframe(MediaTime target) const noexcept {
-    return av_seek_frame(context_.get(), seek_stream_, ticksOf(target), AVSEEK_FLAG_BACKWARD);
+  int seekToKeyframe(const AVStream& stream, MediaTime target) const noexcept {
+    const Duration time = target.time_since_epoch() + start_;
+    const std::int64_t ticks = av_rescale_q(time.count(), kNanosecond, stream.time_base);
+    return av_seek_frame(context_.get(), stream.index, ticks, AVSEEK_FLAG_BACKWARD);
   }
-  int seekToAny() const noexcept {
-    return avformat_seek_file(context_.get(), seek_stream_, INT64_MIN, ticksOf(MediaTime{}), INT64_MAX, 0);
+  MediaTime lastSecond() const noexcept {
+    return MediaTime(std::max(Duration(0), duration() - std::chrono::seconds(1)));
   }
-  std::int64_t ticksOf(MediaTime time) const noexcept {
-    const AVRational time_base = context_->streams[seek_stream_]->time_base;
-    return av_rescale_q((time.time_since_epoch() + start_).count(), kNanosecond, time_base);
-  }
-  MediaTime lastSecond() const noexcept { return MediaTime(std::max(Duration(0), duration() - std::chrono::seconds(1))); }
 
   // A multiplex without an index is searched by time and loses the picture that it lands in: not good enough for the
   // first one.
@@ -341,15 +359,18 @@ class FfmpegSource final : public MediaSource {
 
   Watch watch_;
   std::string url_;
-  UniqueFd pipe_;      // outlives the context that reads from it
+  UniqueFd pipe_;  // outlives the context that reads from it
   FormatPtr context_;
   bool timed_ = true;
   Duration start_{0};  // the container's start time
-  int seek_stream_ = 0;
+  int leading_stream_ = 0;
+  int earliest_stream_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<MediaSource> makeFfmpegSource() { return std::make_unique<FfmpegSource>(); }
+std::unique_ptr<MediaSource> makeFfmpegSource() {
+  return std::make_unique<FfmpegSource>();
+}
 
 }  // namespace relievo

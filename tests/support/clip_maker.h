@@ -16,13 +16,13 @@ namespace relievo::test {
 
 // One video track. Lossless with the default codec: what `sample` says is what a reader must find.
 struct ClipTrack {
-  std::string codec = "ffv1";       // an encoder of FFmpeg: ffv1, libx264, libvpx, png, tiff, ..
+  std::string codec = "ffv1";  // an encoder of FFmpeg: ffv1, libx264, libvpx, png, tiff, ..
   std::string pix_fmt = "gray16le";
   int width = 64, height = 48;
   int fps_num = 30, fps_den = 1;
   int frames = 30;
-  Duration start{0};                // of the first picture
-  int gop = 12;                     // key frame distance; codecs of key frames alone (ffv1) take it as well
+  Duration start{0};  // of the first picture
+  int gop = 12;       // key frame distance; codecs of key frames alone (ffv1) take it as well
   int b_frames = 0;
   ColorRange range = ColorRange::Unspecified;  // as signalled
   int sample_width = 0, sample_height = 0;     // sample aspect ratio; 0: not signalled

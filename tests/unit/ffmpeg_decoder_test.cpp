@@ -91,7 +91,9 @@ struct Format {
   ColorModel model;
   int bits;
 };
-void PrintTo(const Format& format, std::ostream* out) { *out << format.codec << " " << format.pix_fmt; }
+void PrintTo(const Format& format, std::ostream* out) {
+  *out << format.codec << " " << format.pix_fmt;
+}
 
 class ExactFormats : public testing::TestWithParam<Format> {};
 
@@ -100,8 +102,12 @@ TEST_P(ExactFormats, EveryCodeComesBackAsItWasWritten) {
   TemporaryFolder folder;
   const std::string path = folder / format.file;
   const int frames = std::strchr(format.file, '%') == nullptr && std::strstr(format.file, ".mkv") == nullptr ? 1 : 5;
-  makeClip(path, {ClipTrack{.codec = format.codec, .pix_fmt = format.pix_fmt, .width = 67, .height = 41,
-                            .frames = frames, .sample = scattered}});
+  makeClip(path, {ClipTrack{.codec = format.codec,
+                            .pix_fmt = format.pix_fmt,
+                            .width = 67,
+                            .height = 41,
+                            .frames = frames,
+                            .sample = scattered}});
   Clip clip(path);
   const auto read = clip.decode();
   ASSERT_EQ(read.size(), static_cast<std::size_t>(frames));
@@ -116,24 +122,23 @@ TEST_P(ExactFormats, EveryCodeComesBackAsItWasWritten) {
 }
 
 // The last four are big endian inside the decoder: converted, and exact all the same.
-INSTANTIATE_TEST_SUITE_P(
-    Ffmpeg, ExactFormats,
-    testing::Values(Format{"ffv1", "gray", "a.mkv", ColorModel::Gray, 8},
-                    Format{"ffv1", "gray10le", "a.mkv", ColorModel::Gray, 10},
-                    Format{"ffv1", "gray12le", "a.mkv", ColorModel::Gray, 12},
-                    Format{"ffv1", "gray16le", "a.mkv", ColorModel::Gray, 16},
-                    Format{"ffv1", "yuv420p", "a.mkv", ColorModel::Yuv, 8},
-                    Format{"ffv1", "yuv422p10le", "a.mkv", ColorModel::Yuv, 10},
-                    Format{"ffv1", "yuv444p16le", "a.mkv", ColorModel::Yuv, 16},
-                    Format{"ffv1", "bgr0", "a.mkv", ColorModel::Rgb, 8},
-                    Format{"ffv1", "gbrp12le", "a.mkv", ColorModel::Rgb, 12},
-                    Format{"png", "rgb24", "a.png", ColorModel::Rgb, 8},
-                    Format{"png", "gray", "%02d.png", ColorModel::Gray, 8},
-                    Format{"tiff", "gray16le", "a.tiff", ColorModel::Gray, 16},
-                    Format{"png", "gray16be", "a.png", ColorModel::Gray, 16},
-                    Format{"png", "gray16be", "%02d.png", ColorModel::Gray, 16},
-                    Format{"png", "ya16be", "a.png", ColorModel::Gray, 16},
-                    Format{"png", "rgb48be", "a.png", ColorModel::Rgb, 16}));
+INSTANTIATE_TEST_SUITE_P(Ffmpeg, ExactFormats,
+                         testing::Values(Format{"ffv1", "gray", "a.mkv", ColorModel::Gray, 8},
+                                         Format{"ffv1", "gray10le", "a.mkv", ColorModel::Gray, 10},
+                                         Format{"ffv1", "gray12le", "a.mkv", ColorModel::Gray, 12},
+                                         Format{"ffv1", "gray16le", "a.mkv", ColorModel::Gray, 16},
+                                         Format{"ffv1", "yuv420p", "a.mkv", ColorModel::Yuv, 8},
+                                         Format{"ffv1", "yuv422p10le", "a.mkv", ColorModel::Yuv, 10},
+                                         Format{"ffv1", "yuv444p16le", "a.mkv", ColorModel::Yuv, 16},
+                                         Format{"ffv1", "bgr0", "a.mkv", ColorModel::Rgb, 8},
+                                         Format{"ffv1", "gbrp12le", "a.mkv", ColorModel::Rgb, 12},
+                                         Format{"png", "rgb24", "a.png", ColorModel::Rgb, 8},
+                                         Format{"png", "gray", "%02d.png", ColorModel::Gray, 8},
+                                         Format{"tiff", "gray16le", "a.tiff", ColorModel::Gray, 16},
+                                         Format{"png", "gray16be", "a.png", ColorModel::Gray, 16},
+                                         Format{"png", "gray16be", "%02d.png", ColorModel::Gray, 16},
+                                         Format{"png", "ya16be", "a.png", ColorModel::Gray, 16},
+                                         Format{"png", "rgb48be", "a.png", ColorModel::Rgb, 16}));
 
 TEST(FfmpegPixelFormats, EachCanBeReadInPlaceOrConverted) {
   int in_place = 0;
@@ -167,7 +172,8 @@ TEST(FfmpegPixelFormats, LayoutsThatAFrameCannotSayAreNotTakenForOnesThatItCan) 
 
 TEST(FfmpegPixelFormats, ConversionKeepsTheFinestOfWhatIsThere) {
   const auto nearest = [](const char* name) {
-    return std::string(av_get_pix_fmt_name(static_cast<AVPixelFormat>(ffmpeg::nearestDescribable(av_get_pix_fmt(name)))));
+    return std::string(
+        av_get_pix_fmt_name(static_cast<AVPixelFormat>(ffmpeg::nearestDescribable(av_get_pix_fmt(name)))));
   };
   EXPECT_EQ(nearest("gray12be"), "gray12le");
   EXPECT_EQ(nearest("yuv420p10be"), "yuv420p10le");
@@ -177,6 +183,35 @@ TEST(FfmpegPixelFormats, ConversionKeepsTheFinestOfWhatIsThere) {
   EXPECT_EQ(nearest("rgb565le"), "rgb24");
   EXPECT_EQ(nearest("bayer_rggb8"), "rgb24");
   EXPECT_EQ(nearest("uyyvyy411"), "yuv420p");
+}
+
+Frame frameOfFormat(const char* name) {
+  ffmpeg::FramePtr picture(av_frame_alloc());
+  picture->format = av_get_pix_fmt(name);
+  picture->width = picture->height = 16;
+  EXPECT_EQ(av_frame_get_buffer(picture.get(), 0), 0) << name;
+  return ffmpeg::frameOf(std::move(picture), {0, 1});
+}
+
+TEST(FfmpegPixelFormats, ChromaSubsamplingIsTold) {
+  const auto shifts = [](const char* name) {
+    const Frame frame = frameOfFormat(name);
+    return std::pair{int{frame.chroma_shift_x}, int{frame.chroma_shift_y}};
+  };
+  EXPECT_EQ(shifts("yuv420p"), (std::pair{1, 1}));
+  EXPECT_EQ(shifts("yuv422p"), (std::pair{1, 0}));
+  EXPECT_EQ(shifts("yuv440p"), (std::pair{0, 1}));
+  EXPECT_EQ(shifts("yuv410p"), (std::pair{2, 2}));
+  EXPECT_EQ(shifts("nv12"), (std::pair{1, 1}));
+  EXPECT_EQ(shifts("rgb24"), (std::pair{0, 0}));
+}
+
+TEST(FfmpegPixelFormats, TheFormatItselfMayMeanFullRange) {
+  EXPECT_EQ(frameOfFormat("yuvj420p").range, ColorRange::Full);
+  EXPECT_EQ(frameOfFormat("yuvj444p").range, ColorRange::Full);
+  EXPECT_EQ(frameOfFormat("yuv420p").range, ColorRange::Unspecified);
+  EXPECT_EQ(frameOfFormat("gray12le").range, ColorRange::Full);
+  EXPECT_EQ(frameOfFormat("bgr0").range, ColorRange::Full);
 }
 
 TEST(FfmpegDecoder, PicturesAreTheDecodersOwnMemory) {
@@ -224,8 +259,12 @@ TEST(FfmpegDecoder, HeldPicturesStayIntactWhenTheDecoderHasGone) {
 // 4:0:0 as an encoder writes it: one plane; libavcodec yields 4:2:0 of full range with flat chroma.
 TEST(FfmpegDecoder, GrayH264IsReadFromItsLumaPlaneAndIsFullRange) {
   TemporaryFolder folder;
-  makeClip(folder / "a.mkv", {ClipTrack{.codec = "libx264", .pix_fmt = "gray", .frames = 3, .range = ColorRange::Full,
-                                        .sample = scattered, .options = {{"qp", "0"}}}});
+  makeClip(folder / "a.mkv", {ClipTrack{.codec = "libx264",
+                                        .pix_fmt = "gray",
+                                        .frames = 3,
+                                        .range = ColorRange::Full,
+                                        .sample = scattered,
+                                        .options = {{"qp", "0"}}}});
   Clip clip(folder / "a.mkv");
   const auto frames = clip.decode();
   ASSERT_EQ(frames.size(), 3u);
@@ -252,8 +291,12 @@ TEST(FfmpegDecoder, RangeIsWhatTheStreamSignalsAndFullForGrayThatSaysNothing) {
 
 TEST(FfmpegDecoder, SampleAspectAndDurationAreTold) {
   TemporaryFolder folder;
-  makeClip(folder / "a.mp4", {ClipTrack{.codec = "libx264", .pix_fmt = "yuv420p", .fps_num = 25, .frames = 3,
-                                        .sample_width = 9, .sample_height = 16}});
+  makeClip(folder / "a.mp4", {ClipTrack{.codec = "libx264",
+                                        .pix_fmt = "yuv420p",
+                                        .fps_num = 25,
+                                        .frames = 3,
+                                        .sample_width = 9,
+                                        .sample_height = 16}});
   Clip clip(folder / "a.mp4");
   const auto frames = clip.decode();
   ASSERT_EQ(frames.size(), 3u);

@@ -42,7 +42,9 @@ std::vector<Packet> readAll(MediaSource& source) {
   return packets;
 }
 
-MediaTime nominal(int frame, int fps) { return MediaTime(Duration(std::int64_t{1'000'000'000} * frame / fps)); }
+MediaTime nominal(int frame, int fps) {
+  return MediaTime(Duration(std::int64_t{1'000'000'000} * frame / fps));
+}
 
 void writeFile(const std::string& path, std::string_view content) {
   std::ofstream(path, std::ios::binary).write(content.data(), static_cast<std::streamsize>(content.size()));
@@ -122,13 +124,18 @@ struct Container {
   const char* file;
   Duration exactness;
 };
-void PrintTo(const Container& container, std::ostream* out) { *out << container.file; }
+void PrintTo(const Container& container, std::ostream* out) {
+  *out << container.file;
+}
 class Containers : public testing::TestWithParam<Container> {};
 
 TEST_P(Containers, TimesBeginAtZeroWhateverTheContainerStartsWith) {
   TemporaryFolder folder;
   const std::string path = folder / GetParam().file;
-  makeClip(path, {ClipTrack{.codec = "libx264", .pix_fmt = "yuv420p", .frames = 48, .start = std::chrono::milliseconds(1500),
+  makeClip(path, {ClipTrack{.codec = "libx264",
+                            .pix_fmt = "yuv420p",
+                            .frames = 48,
+                            .start = std::chrono::milliseconds(1500),
                             .b_frames = 2}});
   const auto source = makeFfmpegSource();
   ASSERT_TRUE(source->open(path).has_value());
@@ -150,8 +157,12 @@ INSTANTIATE_TEST_SUITE_P(Ffmpeg, Containers,
 // The start of a container is kept in microseconds; 33.366667 ms are not a whole number of them.
 TEST(FfmpegSource, TheFirstTimeIsZeroToTheNanosecond) {
   TemporaryFolder folder;
-  makeClip(folder / "a.ts", {ClipTrack{.codec = "libx264", .pix_fmt = "yuv420p", .fps_num = 30000, .fps_den = 1001,
-                                       .frames = 10, .start = Duration(33'366'667)}});
+  makeClip(folder / "a.ts", {ClipTrack{.codec = "libx264",
+                                       .pix_fmt = "yuv420p",
+                                       .fps_num = 30000,
+                                       .fps_den = 1001,
+                                       .frames = 10,
+                                       .start = Duration(33'366'667)}});
   const auto source = makeFfmpegSource();
   ASSERT_TRUE(source->open(folder / "a.ts").has_value());
   EXPECT_EQ(source->read().value()->pts, MediaTime{});
@@ -175,6 +186,7 @@ TEST(FfmpegSource, SeeksToTheKeyFrameAtOrBefore) {
   ClipTrack track = kH264;
   track.gop = 12;
   track.fps_num = 25;
+  track.start = std::chrono::milliseconds(1500);
   makeClip(folder / "a.mkv", {track});
   const auto source = makeFfmpegSource();
   ASSERT_TRUE(source->open(folder / "a.mkv").has_value());
@@ -189,6 +201,41 @@ TEST(FfmpegSource, SeeksToTheKeyFrameAtOrBefore) {
   EXPECT_EQ(source->state(), MediaSource::State::Ended);
   ASSERT_TRUE(source->seek(MediaTime{}).has_value());
   EXPECT_EQ(readAll(*source).size(), 48u);
+}
+
+// Nothing of the track that leads lies at or before the target: the film begins with what comes next.
+TEST(FfmpegSource, SeeksWhereTheLeadingTrackHasNotBegun) {
+  TemporaryFolder folder;
+  ClipTrack late = kH264;
+  late.start = std::chrono::seconds(1);
+  for (const char* name : {"a.mp4", "a.mkv", "a.avi"}) {
+    makeClip(folder / name, {late, kH264});
+    const auto source = makeFfmpegSource();
+    ASSERT_TRUE(source->open(folder / name).has_value());
+    const auto count = readAll(*source).size();
+    ASSERT_TRUE(source->seek(MediaTime{}).has_value()) << name;
+    EXPECT_EQ(readAll(*source).size(), count) << name;
+    ASSERT_TRUE(source->seek(mediaTime(0.5)).has_value()) << name;
+    EXPECT_GE(readAll(*source).size(), 48u) << name;
+  }
+}
+
+// An adaptive stream refuses what it takes for its end.
+TEST(FfmpegSource, ASeekBeyondTheEndLandsNearTheEnd) {
+  TemporaryFolder folder;
+  ClipTrack track = kH264;
+  track.frames = 180;
+  for (const char* name : {"a.m3u8", "a.mp4", "a.mkv", "a.ts"}) {
+    makeClip(folder / name, {track});
+    const auto source = makeFfmpegSource();
+    ASSERT_TRUE(source->open(folder / name).has_value());
+    for (const double target : {5.99, 60.0}) {
+      ASSERT_TRUE(source->seek(mediaTime(target)).has_value()) << name;
+      const auto packets = readAll(*source);
+      const MediaTime landed = packets.empty() ? mediaTime(6) : packets[0].pts.value();
+      EXPECT_GE(landed, mediaTime(3.9)) << name << " " << target;
+    }
+  }
 }
 
 TEST(FfmpegSource, WhatHasNoTimesSeeksToItsBeginning) {
@@ -223,7 +270,9 @@ TEST(FfmpegSource, SaysWhatIsWrongWithWhatItCannotOpen) {
   EXPECT_EQ(openErrorOf("nonsense://x/y").code, ErrorCode::Unsupported);
 
   writeFile(folder / "text.mkv", "this is not a film\n");
-  writeFile(folder / "text.txt", "nor is this, though FFmpeg would show its letters\n");
+  std::string letters;
+  for (int i = 0; i < 3000; ++i) letters += "nor is this, though FFmpeg would show its letters\n";
+  writeFile(folder / "text.txt", letters);
   writeFile(folder / "empty.mkv", "");
   makeClip(folder / "no-index.mov", {kH264});
   cutFile(folder / "no-index.mov", 0.5);  // the index stands at the end

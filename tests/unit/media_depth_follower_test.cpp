@@ -152,6 +152,14 @@ TEST(DepthFollower, AnOffsetIsNoMismatch) {
   for (int k = 1; k < 19; ++k) EXPECT_EQ(track.at(k * 40), 10 + (k - 1) * 40) << k;
 }
 
+// Now a little more than the tolerance late, now less: the older one is then nearly a period old, but none is missing.
+TEST(DepthFollower, JitterAroundTheToleranceIsNoMismatch) {
+  Times depth;
+  for (int k = 0; k < 20; ++k) depth.push_back(40 * k + (k % 2 == 0 ? 6.5 : 2.5));
+  Track track(depth);
+  for (int k = 1; k < 18; ++k) EXPECT_EQ(track.at(40 * k), 40 * (k % 2 == 0 ? k - 1 : k) + 2.5) << k;
+}
+
 TEST(DepthFollower, ATrackThatIsDryForNowIsAMismatchAndComesBack) {
   Track track(every(40, 6));
   EXPECT_EQ(track.at(every(40, 2)), (Times{0, 40}));

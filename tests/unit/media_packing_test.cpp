@@ -40,11 +40,14 @@ std::string planOf(std::vector<StreamInfo> streams, Packing packing = Packing::A
   const auto plan = planTracks(source, packing, elsewhere);
   if (!plan) return plan.error().code == ErrorCode::NotFound ? "not found" : "other error";
   const char* const names[] = {"auto", "tracks", "sbs", "tb"};
-  return std::to_string(plan->color->index) + "/" + (plan->depth == nullptr ? "-" : std::to_string(plan->depth->index)) +
-         " " + names[static_cast<int>(plan->packing)];
+  return std::to_string(plan->color->index) + "/" +
+         (plan->depth == nullptr ? "-" : std::to_string(plan->depth->index)) + " " +
+         names[static_cast<int>(plan->packing)];
 }
 
-TEST(Packing, OnePlainTrackIsColourAlone) { EXPECT_EQ(planOf({video()}), "0/- tracks"); }
+TEST(Packing, OnePlainTrackIsColourAlone) {
+  EXPECT_EQ(planOf({video()}), "0/- tracks");
+}
 
 TEST(Packing, OfTwoTracksTheMarkedOneIsTheDepthElseTheSecond) {
   EXPECT_EQ(planOf({video(), video()}), "0/1 tracks");
@@ -53,6 +56,7 @@ TEST(Packing, OfTwoTracksTheMarkedOneIsTheDepthElseTheSecond) {
   EXPECT_EQ(planOf({video(), video(), video({{"DEPTH_LAW", "inverse"}})}), "0/2 tracks");
   EXPECT_EQ(planOf({video(), video(), video({{"HANDLER_NAME", "Core Media Auxiliary Picture"}})}), "0/2 tracks");
   EXPECT_EQ(planOf({video(), video(), video()}), "0/1 tracks");
+  EXPECT_EQ(planOf({video({{"DEPTH_PACKING", "tracks"}}), video()}), "0/1 tracks");
   EXPECT_EQ(planOf({video(), video()}, Packing::Tracks), "0/1 tracks");
 }
 
@@ -114,7 +118,9 @@ struct Corner {
   int width, height;
   bool operator==(const Corner&) const = default;
 };
-void PrintTo(const Corner& c, std::ostream* out) { *out << c.x << "," << c.y << " " << c.width << "x" << c.height; }
+void PrintTo(const Corner& c, std::ostream* out) {
+  *out << c.x << "," << c.y << " " << c.width << "x" << c.height;
+}
 Corner cornerOf(const Frame& part, const Frame& whole) {
   const std::ptrdiff_t distance = part.planes[0].data - whole.planes[0].data;
   return {distance % 1000, distance / 1000, part.width, part.height};
@@ -142,7 +148,8 @@ TEST(Packing, TheMiddleOfAnOddPictureIsLeftOut) {
 // Half of 642 is 321: chroma of 4:2:0 has no sample that begins there, luma has.
 TEST(Packing, LumaBeginsAtTheExactSampleAndHueAtAWholeChromaSample) {
   const Frame whole = picture(642, 362, ColorModel::Yuv);
-  EXPECT_EQ(cornerOf(splitPacked(whole, Packing::SideBySide, DepthCode::Luma)->depth, whole), (Corner{321, 0, 321, 362}));
+  EXPECT_EQ(cornerOf(splitPacked(whole, Packing::SideBySide, DepthCode::Luma)->depth, whole),
+            (Corner{321, 0, 321, 362}));
   const auto hue = splitPacked(whole, Packing::SideBySide, DepthCode::Hue).value();
   EXPECT_EQ(cornerOf(hue.depth, whole), (Corner{322, 0, 320, 362}));
   EXPECT_EQ(cornerOf(hue.color, whole), (Corner{0, 0, 320, 362}));

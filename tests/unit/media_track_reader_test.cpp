@@ -22,7 +22,8 @@ struct Scripted {
 // packets further on than it should.
 class ScriptedSource final : public MediaSource {
  public:
-  explicit ScriptedSource(std::vector<Scripted> script, std::size_t late = 0) : script_(std::move(script)), late_(late) {}
+  explicit ScriptedSource(std::vector<Scripted> script, std::size_t late = 0)
+      : script_(std::move(script)), late_(late) {}
   std::size_t position = 0;
   int seeks = 0;
   std::size_t packet_bytes = 1;
@@ -168,6 +169,15 @@ TEST(TrackReader, LargePacketsAreBoundedByTheirBytes) {
   EXPECT_EQ(film.next(1), 0);
   EXPECT_EQ(film.next(1), -1);
   EXPECT_EQ(film.source->position, 1 + 11u);  // the eleventh passes the bound
+}
+
+TEST(TrackReader, WhatWasTakenCountsNoLonger) {
+  Film film(interleaved(60, 1));
+  film.source->packet_bytes = TrackReader::kMaxWaitingBytes / 10;
+  for (int k = 0; k < 60; ++k) {
+    ASSERT_EQ(film.next(0), 40 * k);
+    ASSERT_EQ(film.next(1), 40 * k);
+  }
 }
 
 // All of the depth's packets lie before the colour's: the colour goes on, depth begins again at a key frame.
