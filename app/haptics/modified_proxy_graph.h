@@ -10,9 +10,9 @@ namespace relievo {
 
 class ModifiedProxyGraph final : public TouchMethod {
  public:
-  // The paper names no figure for its threshold (IV-C). This one is a finger that comes in at 1 m/s on the default
+  // The paper names no figure for its threshold (IV-C). This one is a finger that comes in at 2 m/s on the default
   // stiffness: a faster change than that is taken for the scene's.
-  static constexpr double kJumpThresholdN = 0.5;
+  static constexpr double kJumpThresholdN = 1.0;
 
   // `jump_threshold_n` 0: none.
   ModifiedProxyGraph(double stiffness_n_per_mm, TimeLaw time, double jump_threshold_n) noexcept

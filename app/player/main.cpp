@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "app/player/atomic_file.h"
+#include "platform/atomic_file.h"
 #include "app/player/options.h"
 #include "app/player/player.h"
 #include "app/player/probe.h"

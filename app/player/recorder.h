@@ -6,7 +6,7 @@
 #include <string>
 
 #include "app/haptics/finger_state.h"
-#include "app/player/atomic_file.h"
+#include "platform/atomic_file.h"
 #include "platform/error.h"
 
 namespace relievo {

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "app/player/atomic_file.h"
+#include "platform/atomic_file.h"
 #include "tests/support/clip_maker.h"
 
 namespace relievo {
