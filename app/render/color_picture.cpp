@@ -47,9 +47,12 @@ Weights weightsOf(const Frame& frame) noexcept {
   ColorMatrix matrix = frame.matrix;
   if (matrix == ColorMatrix::Unspecified) matrix = frame.height >= 720 ? ColorMatrix::Bt709 : ColorMatrix::Bt601;
   switch (matrix) {
-    case ColorMatrix::Bt601: return {0.299f, 0.114f};
-    case ColorMatrix::Bt2020: return {0.2627f, 0.0593f};
-    default: return {0.2126f, 0.0722f};
+    case ColorMatrix::Bt601:
+      return {0.299f, 0.114f};
+    case ColorMatrix::Bt2020:
+      return {0.2627f, 0.0593f};
+    default:
+      return {0.2126f, 0.0722f};
   }
 }
 
@@ -70,16 +73,25 @@ bool limited(const Frame& frame) noexcept {
 
 }  // namespace
 
-std::optional<ColorPicture::Arrangement> ColorPicture::arrangementOf(const Frame& frame) noexcept {
+Result<ColorPicture::Arrangement> ColorPicture::arrangementOf(const Frame& frame) noexcept {
+  if (frame.empty() || frame.width < 1 || frame.height < 1) {
+    return fail(ErrorCode::InvalidArgument, "a colour picture without samples");
+  }
+  constexpr auto kUnknown =
+      "this pixel format cannot be drawn; decode to planar or semi-planar YUV, packed RGB or gray";
+  const auto unknown = fail(ErrorCode::Unsupported, kUnknown);
   const auto& [first, second, third] = frame.components;
   const int bytes = first.bits > 8 ? 2 : 1;
   const auto alone = [&](const Component& c) { return c.step_bytes == bytes && c.offset_bytes == 0; };
   const bool readable = first.bits >= 8 && first.bits <= 16 && (bytes == 2 || first.shift == 0);
-  if (!readable) return std::nullopt;
-  if (frame.model == ColorModel::Gray) return alone(first) ? std::optional(Arrangement::Gray) : std::nullopt;
+  if (!readable) return unknown;
+  if (frame.model == ColorModel::Gray) {
+    if (alone(first)) return Arrangement::Gray;
+    return unknown;
+  }
 
   const auto likeFirst = [&](const Component& c) { return c.bits == first.bits && c.shift == first.shift; };
-  if (!likeFirst(second) || !likeFirst(third)) return std::nullopt;
+  if (!likeFirst(second) || !likeFirst(third)) return unknown;
   if (alone(first) && alone(second) && alone(third)) return Arrangement::Planar;
 
   const auto isPair = [&](const Component& c) { return c.step_bytes == 2 * bytes && c.offset_bytes <= bytes; };
@@ -92,39 +104,37 @@ std::optional<ColorPicture::Arrangement> ColorPicture::arrangementOf(const Frame
   const bool whole = step == 3 * bytes || step == 4 * bytes;
   const bool subsampled = frame.chroma_shift_x != 0 || frame.chroma_shift_y != 0;
   if (whole && !subsampled && isPacked(first) && isPacked(second) && isPacked(third)) return Arrangement::Packed;
-  return std::nullopt;
+  return unknown;
 }
 
 const char* ColorPicture::sampling(Arrangement arrangement) noexcept {
   switch (arrangement) {
-    case Arrangement::Gray: return "#define SAMPLE vec4(texture(plane0, luma_at).r, 0.0, 0.0, 0.0)\n";
+    case Arrangement::Gray:
+      return "#define SAMPLE vec4(texture(plane0, luma_at).r, 0.0, 0.0, 0.0)\n";
     case Arrangement::Planar:
       return "#define SAMPLE vec4(texture(plane0, luma_at).r, texture(plane1, chroma_at).r, "
              "texture(plane2, chroma_at).r, 0.0)\n";
     case Arrangement::SemiPlanar:
       return "#define SAMPLE vec4(texture(plane0, luma_at).r, texture(plane1, chroma_at).rg, 0.0)\n";
-    case Arrangement::Packed: return "#define SAMPLE texture(plane0, luma_at)\n";
+    case Arrangement::Packed:
+      return "#define SAMPLE texture(plane0, luma_at)\n";
   }
   return "";
 }
 
 Result<void> ColorPicture::check(const Frame& frame) noexcept {
-  if (frame.empty() || frame.width < 1 || frame.height < 1) {
-    return fail(ErrorCode::InvalidArgument, "a colour picture without samples");
-  }
-  if (arrangementOf(frame)) return {};
-  return fail(ErrorCode::Unsupported,
-              "this pixel format cannot be drawn; decode to planar or semi-planar YUV, packed RGB or gray");
+  if (auto arrangement = arrangementOf(frame); !arrangement) return std::unexpected(arrangement.error());
+  return {};
 }
 
 Result<void> ColorPicture::setFrame(const Frame& frame) {
-  if (auto drawable = check(frame); !drawable) return drawable;
   const auto arrangement = arrangementOf(frame);
-  if (arrangement != arrangement_) {
+  if (!arrangement) return std::unexpected(arrangement.error());
+  if (arrangement_ != *arrangement) {
     auto program = GlProgram::create(sampling(*arrangement), kVertexShader, kFragmentShader);
     if (!program) return std::unexpected(program.error());
     program_ = std::move(*program);
-    arrangement_ = arrangement;
+    arrangement_ = *arrangement;
   }
   width_ = frame.width;
   height_ = frame.height;
@@ -170,9 +180,9 @@ void ColorPicture::setColors(const Frame& frame) noexcept {
     const float span = chroma ? 224.0f : 219.0f;
     const float scale = is_limited ? 255.0f / span : 1.0f;
     const float zero = (chroma ? 128.0f : is_limited ? 16.0f : 0.0f) / 255.0f;
-    const int sampled = arrangement_ == Arrangement::Packed                 ? channel
+    const int sampled = arrangement_ == Arrangement::Packed                ? channel
                         : arrangement_ == Arrangement::SemiPlanar && i > 0 ? 1 + channel
-                                                                            : i;
+                                                                           : i;
     to_rgb_[sampled] = scale * columns[i];
     bias_ -= zero * scale * columns[i];
   }

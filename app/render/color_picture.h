@@ -39,7 +39,7 @@ class ColorPicture {
 
  private:
   enum class Arrangement : std::uint8_t { Gray, Planar, SemiPlanar, Packed };
-  static std::optional<Arrangement> arrangementOf(const Frame& frame) noexcept;
+  static Result<Arrangement> arrangementOf(const Frame& frame) noexcept;
   static const char* sampling(Arrangement arrangement) noexcept;
   void upload(const Frame& frame);
   void setColors(const Frame& frame) noexcept;

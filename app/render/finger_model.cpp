@@ -134,8 +134,9 @@ Result<FingerModel> FingerModel::create() {
   glBindBuffer(GL_ARRAY_BUFFER, finger.buffer_.get());
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(shapes.size() * sizeof(Vertex)), shapes.data(), GL_STATIC_DRAW);
   glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), nullptr);
-  glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex),
-                        reinterpret_cast<const void*>(offsetof(Vertex, normal)));  // an offset, as GL wants it
+  // GL takes an offset for a pointer here. NOLINTNEXTLINE(performance-no-int-to-ptr)
+  const auto* normals = reinterpret_cast<const void*>(offsetof(Vertex, normal));
+  glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), normals);
   glEnableVertexAttribArray(0);
   glEnableVertexAttribArray(1);
   return finger;

@@ -36,12 +36,24 @@ class GlName {
 };
 
 namespace gl {
-inline void deleteTexture(GLuint name) { glDeleteTextures(1, &name); }
-inline void deleteBuffer(GLuint name) { glDeleteBuffers(1, &name); }
-inline void deleteVertexArray(GLuint name) { glDeleteVertexArrays(1, &name); }
-inline void deleteFramebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
-inline void deleteShader(GLuint name) { glDeleteShader(name); }
-inline void deleteProgram(GLuint name) { glDeleteProgram(name); }
+inline void deleteTexture(GLuint name) {
+  glDeleteTextures(1, &name);
+}
+inline void deleteBuffer(GLuint name) {
+  glDeleteBuffers(1, &name);
+}
+inline void deleteVertexArray(GLuint name) {
+  glDeleteVertexArrays(1, &name);
+}
+inline void deleteFramebuffer(GLuint name) {
+  glDeleteFramebuffers(1, &name);
+}
+inline void deleteShader(GLuint name) {
+  glDeleteShader(name);
+}
+inline void deleteProgram(GLuint name) {
+  glDeleteProgram(name);
+}
 
 template <class Name>
 [[nodiscard]] Name generate(void (*make)(GLsizei, GLuint*)) {

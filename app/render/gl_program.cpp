@@ -10,14 +10,10 @@
 namespace relievo {
 namespace {
 
-constexpr std::string_view kVersion = "#version 300 es\n";
-
-Result<GlShader> compile(GLenum stage, std::string_view defines, std::string_view source) {
+Result<GlShader> compile(GLenum stage, const std::string& defines, const char* source) {
   GlShader shader(glCreateShader(stage));
-  const std::array<const GLchar*, 3> parts{kVersion.data(), defines.data(), source.data()};
-  const std::array<GLint, 3> lengths{static_cast<GLint>(kVersion.size()), static_cast<GLint>(defines.size()),
-                                     static_cast<GLint>(source.size())};
-  glShaderSource(shader.get(), static_cast<GLsizei>(parts.size()), parts.data(), lengths.data());
+  const std::array<const GLchar*, 3> parts{"#version 300 es\n", defines.c_str(), source};
+  glShaderSource(shader.get(), static_cast<GLsizei>(parts.size()), parts.data(), nullptr);
   glCompileShader(shader.get());
   GLint compiled = GL_FALSE;
   glGetShaderiv(shader.get(), GL_COMPILE_STATUS, &compiled);
@@ -30,8 +26,8 @@ Result<GlShader> compile(GLenum stage, std::string_view defines, std::string_vie
 
 }  // namespace
 
-Result<GlProgram> GlProgram::create(std::string_view defines, std::string_view vertex_source,
-                                    std::string_view fragment_source) {
+Result<GlProgram> GlProgram::create(const std::string& defines, const char* vertex_source,
+                                    const char* fragment_source) {
   auto vertex = compile(GL_VERTEX_SHADER, defines, vertex_source);
   if (!vertex) return std::unexpected(vertex.error());
   auto fragment = compile(GL_FRAGMENT_SHADER, defines, fragment_source);

@@ -2,7 +2,7 @@
 // A linked pair of shaders.
 #pragma once
 
-#include <string_view>
+#include <string>
 
 #include "app/render/gl_objects.h"
 #include "platform/error.h"
@@ -14,8 +14,8 @@ class GlProgram {
   GlProgram() noexcept = default;  // of no use until assigned
 
   // `defines` is put before both sources, behind the version line. What the driver's compiler says goes to the log.
-  [[nodiscard]] static Result<GlProgram> create(std::string_view defines, std::string_view vertex_source,
-                                                std::string_view fragment_source);
+  [[nodiscard]] static Result<GlProgram> create(const std::string& defines, const char* vertex_source,
+                                                const char* fragment_source);
   void use() const noexcept { glUseProgram(name_.get()); }
   // -1, which every glUniform ignores, for one that the compiler has optimised away.
   [[nodiscard]] GLint uniform(const char* name) const noexcept { return glGetUniformLocation(name_.get(), name); }

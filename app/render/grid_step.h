@@ -8,8 +8,8 @@ namespace relievo {
 
 // It begins with what software rendering can draw, goes coarser when the smoothed time passes the budget, and finer
 // only when the time that the finer grid would take, were all of it spent on vertices, is well within: since part of
-// it is not, the finer grid then holds as well, and the two rules do not chase one another. When it had to come back all
-// the same it waits twice as long before it tries again.
+// it is not, the finer grid then holds as well, and the two rules do not chase one another. When it had to come back
+// all the same it waits twice as long before it tries again.
 class GridStep {
  public:
   static constexpr long kStartVertices = 22'500;
@@ -36,9 +36,9 @@ class GridStep {
   int step_ = 1;
   Duration smoothed_{0};
   int frames_at_step_ = 0;
-  int room_frames_ = 0;  // in a row that a finer grid would have fitted
-  int patience_ = 0;     // how many of them it takes
-  bool refined_ = false; // the last change was to a finer grid
+  int room_frames_ = 0;   // in a row that a finer grid would have fitted
+  int patience_ = 0;      // how many of them it takes
+  bool refined_ = false;  // the last change was to a finer grid
 };
 
 }  // namespace relievo

@@ -21,8 +21,7 @@ GlFormat glFormat(const TexelLayout& layout) noexcept {
   static constexpr std::array<GLenum, 4> kBytes{GL_R8UI, GL_RG8UI, GL_RGB8UI, GL_RGBA8UI};
   static constexpr std::array<GLenum, 4> kWords{GL_R16UI, GL_RG16UI, GL_RGB16UI, GL_RGBA16UI};
   static constexpr std::array<GLenum, 4> kFormat{GL_RED, GL_RG, GL_RGB, GL_RGBA};
-  static constexpr std::array<GLenum, 4> kWholeFormat{GL_RED_INTEGER, GL_RG_INTEGER, GL_RGB_INTEGER,
-                                                      GL_RGBA_INTEGER};
+  static constexpr std::array<GLenum, 4> kWholeFormat{GL_RED_INTEGER, GL_RG_INTEGER, GL_RGB_INTEGER, GL_RGBA_INTEGER};
   const std::size_t i = layout.channels - 1u;
   if (!layout.whole) return {kFractions[i], kFormat[i], GL_UNSIGNED_BYTE};
   if (layout.bytes == 1) return {kBytes[i], kWholeFormat[i], GL_UNSIGNED_BYTE};

@@ -151,8 +151,7 @@ void usePicture(const GlProgram& program, const PictureView& view, const Display
 Result<ReliefMesh> ReliefMesh::create() {
   const std::string tile = "#define TILE_CELLS " + std::to_string(kTileCells) + "\n#define TILE_VERTICES " +
                            std::to_string(kTileVertices) + "\n";
-  const std::string hue =
-      "#define HUE\n#define DARKEST_READABLE " + std::to_string(kDarkestReadable) + "\n";
+  const std::string hue = "#define HUE\n#define DARKEST_READABLE " + std::to_string(kDarkestReadable) + "\n";
   ReliefMesh mesh;
   const auto link = [](GlProgram& program, const std::string& defines) -> Result<void> {
     auto made = GlProgram::create(defines, kVertexShader, kFragmentShader);

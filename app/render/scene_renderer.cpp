@@ -66,8 +66,12 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::create(Duration frame_budg
   return std::unique_ptr<SceneRenderer>(new SceneRenderer(std::move(impl)));
 }
 
-void SceneRenderer::setStereo(const StereoSettings& settings) noexcept { impl_->stereo = settings; }
-const StereoSettings& SceneRenderer::stereo() const noexcept { return impl_->stereo; }
+void SceneRenderer::setStereo(const StereoSettings& settings) noexcept {
+  impl_->stereo = settings;
+}
+const StereoSettings& SceneRenderer::stereo() const noexcept {
+  return impl_->stereo;
+}
 
 Result<void> SceneRenderer::setFrame(const Frame& color, const Frame& depth, const DepthCalibration& calibration,
                                      const DisplayVolume& volume) {

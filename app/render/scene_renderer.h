@@ -45,8 +45,8 @@ class SceneRenderer {
   // `calibration` and `volume` as the haptic side uses them.
   [[nodiscard]] Result<void> setFrame(const Frame& color, const Frame& depth, const DepthCalibration& calibration,
                                       const DisplayVolume& volume);
-  // Draws the last pair set into `surface`; black when none was set. Blocking: waits until it is drawn, which is how the
-  // time is known.
+  // Draws the last pair set into `surface`; black when none was set. Blocking: waits until it is drawn, which is how
+  // the time is known.
   [[nodiscard]] Result<void> draw(const DisplaySurface& surface, const std::optional<FingerMark>& finger);
   [[nodiscard]] RenderStatistics statistics() const noexcept;
 

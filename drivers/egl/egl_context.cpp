@@ -22,13 +22,23 @@ EglContext::~EglContext() {
 
 Result<EglContext> EglContext::create(EGLDisplay display, EGLint surface_type) {
   if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) != EGL_TRUE) {
-    return fail(ErrorCode::Unsupported, "EGL does not start here; install a GL driver (Debian: libegl1, libgl1-mesa-dri)");
+    return fail(ErrorCode::Unsupported,
+                "EGL does not start here; install a GL driver (Debian: libegl1, libgl1-mesa-dri)");
   }
   EglContext made(display);
 
-  const std::array<EGLint, 13> wanted{EGL_SURFACE_TYPE, surface_type, EGL_RENDERABLE_TYPE, EGL_OPENGL_ES3_BIT,
-                                      EGL_RED_SIZE,     8,            EGL_GREEN_SIZE,      8,
-                                      EGL_BLUE_SIZE,    8,            EGL_ALPHA_SIZE,      8,
+  const std::array<EGLint, 13> wanted{EGL_SURFACE_TYPE,
+                                      surface_type,
+                                      EGL_RENDERABLE_TYPE,
+                                      EGL_OPENGL_ES3_BIT,
+                                      EGL_RED_SIZE,
+                                      8,
+                                      EGL_GREEN_SIZE,
+                                      8,
+                                      EGL_BLUE_SIZE,
+                                      8,
+                                      EGL_ALPHA_SIZE,
+                                      8,
                                       EGL_NONE};
   EGLint found = 0;
   if (eglBindAPI(EGL_OPENGL_ES_API) != EGL_TRUE ||
@@ -48,9 +58,12 @@ Result<void> EglContext::makeCurrent(EGLSurface surface) noexcept {
   switch (eglGetError()) {
     case EGL_BAD_ACCESS:
       return fail(ErrorCode::InvalidState, "the GL context is current on another thread; use the one that opened it");
-    case EGL_BAD_ALLOC: return fail(ErrorCode::Exhausted, "no memory left to make the GL context current");
-    case EGL_CONTEXT_LOST: return fail(ErrorCode::Lost, "the GL context is lost; close the display and open it again");
-    default: return fail(ErrorCode::Io, "the GL context cannot be made current");
+    case EGL_BAD_ALLOC:
+      return fail(ErrorCode::Exhausted, "no memory left to make the GL context current");
+    case EGL_CONTEXT_LOST:
+      return fail(ErrorCode::Lost, "the GL context is lost; close the display and open it again");
+    default:
+      return fail(ErrorCode::Io, "the GL context cannot be made current");
   }
 }
 

@@ -71,6 +71,7 @@ class OffscreenDisplay final : public Display {
   Result<Duration> showFrame() override;
   void closeDisplay() noexcept override;
   Result<void> createFramebuffer();
+  Result<void> makeCurrent() noexcept;
 
   Capture capture_;
   std::optional<EglContext> context_;
@@ -88,7 +89,7 @@ Result<void> OffscreenDisplay::openDisplay(const DisplayConfig& config) {
   constexpr std::array<EGLint, 5> kOnePixel{EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};
   pbuffer_ = eglCreatePbufferSurface(context_->display(), context_->config(), kOnePixel.data());
   if (pbuffer_ == EGL_NO_SURFACE) return fail(ErrorCode::Exhausted, "EGL gives no pbuffer; is memory short?");
-  if (auto current = context_->makeCurrent(pbuffer_); !current) return current;
+  if (auto current = makeCurrent(); !current) return current;
 
   surface_ = {.framebuffer = 0, .width = config.width, .height = config.height};
   if (auto made = createFramebuffer(); !made) return made;
@@ -99,6 +100,11 @@ Result<void> OffscreenDisplay::openDisplay(const DisplayConfig& config) {
   writer_.emplace(std::move(*writer));
   readback_.resize(static_cast<std::size_t>(config.width) * config.height * 4);
   return {};
+}
+
+Result<void> OffscreenDisplay::makeCurrent() noexcept {
+  if (!context_) return fail(ErrorCode::InvalidState, "the display is not open");
+  return context_->makeCurrent(pbuffer_);
 }
 
 // The names die with the context.
@@ -126,13 +132,13 @@ Result<void> OffscreenDisplay::createFramebuffer() {
 }
 
 Result<DisplaySurface> OffscreenDisplay::startFrame() {
-  if (auto current = context_->makeCurrent(pbuffer_); !current) return std::unexpected(current.error());
+  if (auto current = makeCurrent(); !current) return std::unexpected(current.error());
   glBindFramebuffer(GL_FRAMEBUFFER, surface_.framebuffer);
   return surface_;
 }
 
 Result<Duration> OffscreenDisplay::showFrame() {
-  if (auto current = context_->makeCurrent(pbuffer_); !current) return std::unexpected(current.error());
+  if (auto current = makeCurrent(); !current) return std::unexpected(current.error());
   if (!writer_) {
     glFlush();
     return Duration(0);

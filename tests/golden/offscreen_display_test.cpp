@@ -17,11 +17,11 @@ namespace relievo {
 namespace {
 
 // Skips where there is no EGL.
-#define OPEN_OR_SKIP(display, ...)                                                               \
-  do {                                                                                           \
-    const auto opened = (display).open(__VA_ARGS__);                                             \
+#define OPEN_OR_SKIP(display, ...)                                                                        \
+  do {                                                                                                    \
+    const auto opened = (display).open(__VA_ARGS__);                                                      \
     if (!opened && opened.error().code == ErrorCode::Unsupported) GTEST_SKIP() << opened.error().message; \
-    ASSERT_TRUE(opened) << opened.error().message;                                               \
+    ASSERT_TRUE(opened) << opened.error().message;                                                        \
   } while (false)
 
 std::array<int, 3> pixel(int x, int y) {
@@ -129,10 +129,11 @@ TEST(OffscreenDisplay, CapturesWhatWasPresentedInItsOrder) {
 
   // BT.709 limited: red is 62.6, 102.3, 240; green 172.6, 41.7, 26.3; blue 31.8, 240, 117.7.
   const auto bytes = [](std::size_t count, int value) { return std::string(count, static_cast<char>(value)); };
-  const std::string expected = "YUV4MPEG2 W4 H4 F25000:1000 Ip A1:1 C420jpeg XCOLORRANGE=LIMITED\n"
-                               "FRAME\n" +
-                               bytes(8, 63) + bytes(8, 173) + bytes(2, 102) + bytes(2, 42) + bytes(2, 240) + bytes(2, 26) +
-                               "FRAME\n" + bytes(16, 32) + bytes(4, 240) + bytes(4, 118);
+  const std::string expected =
+      "YUV4MPEG2 W4 H4 F25000:1000 Ip A1:1 C420jpeg XCOLORRANGE=LIMITED\n"
+      "FRAME\n" +
+      bytes(8, 63) + bytes(8, 173) + bytes(2, 102) + bytes(2, 42) + bytes(2, 240) + bytes(2, 26) + "FRAME\n" +
+      bytes(16, 32) + bytes(4, 240) + bytes(4, 118);
   EXPECT_EQ(file.content(), expected);
 }
 

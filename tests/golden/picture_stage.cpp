@@ -33,7 +33,7 @@ double Image::meanDifference(const Image& other) const {
   for (std::size_t i = 0; i < rgba.size(); ++i) {
     if (i % 4 != 3) sum += std::abs(rgba[i] - other.rgba[i]);
   }
-  return sum / static_cast<double>(rgba.size() / 4 * 3);
+  return sum / (0.75 * static_cast<double>(rgba.size()));
 }
 
 std::unique_ptr<Stage> Stage::make(int width, int height) {

@@ -69,10 +69,13 @@ class Stage {
   DisplaySurface surface_;
 };
 
-#define STAGE_OR_SKIP(stage, width, height)                                             \
-  const auto stage##_owner = ::relievo::test::Stage::make(width, height);               \
-  if (!stage##_owner) GTEST_SKIP() << "this machine has no EGL with GLES 3";            \
+// Declares `stage`, a reference.
+// NOLINTBEGIN(bugprone-macro-parentheses)
+#define STAGE_OR_SKIP(stage, width, height)                                  \
+  const auto stage##_owner = ::relievo::test::Stage::make(width, height);    \
+  if (!stage##_owner) GTEST_SKIP() << "this machine has no EGL with GLES 3"; \
   ::relievo::test::Stage& stage = *stage##_owner
+// NOLINTEND(bugprone-macro-parentheses)
 
 // Packed RGB, or RGBA, the order of whose bytes is given by the offsets; rows padded to `stride` when that is larger.
 struct PackedLayout {

@@ -43,7 +43,9 @@ Box litBox(const Image& image, int x0, int x1) {
   return box;
 }
 
-double onScreen(double eye_x, double x, double z) { return eye_x + (x - eye_x) * kDistance / (kDistance - (z - kScreenZ)); }
+double onScreen(double eye_x, double x, double z) {
+  return eye_x + (x - eye_x) * kDistance / (kDistance - (z - kScreenZ));
+}
 
 TEST(RenderFinger, SphereIsWhereItsPositionProjects) {
   STAGE_OR_SKIP(stage, 1280, 720);
@@ -87,7 +89,9 @@ TEST(RenderFinger, NoForceIsNoArrow) {
   EXPECT_NEAR(box.width(), 40, 1.5);
 }
 
-double light(const Rgb& rgb) { return rgb[0] + rgb[1] + rgb[2]; }
+double light(const Rgb& rgb) {
+  return rgb[0] + rgb[1] + rgb[2];
+}
 
 TEST(RenderFinger, ContactIsBrighter) {
   STAGE_OR_SKIP(stage, 1280, 720);

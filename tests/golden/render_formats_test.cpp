@@ -74,8 +74,8 @@ Frame makeYuvFrame(int width, int height, const YuvFormat& format) {
         if (bytes == 2) *out++ = static_cast<std::uint8_t>(word >> 8);
       }
     }
-    frame.planes[frame.plane_count++] = format.upside_down ? Plane{plane.data() + stride * (rows - 1), -stride}
-                                                           : Plane{plane.data(), stride};
+    frame.planes[frame.plane_count++] =
+        format.upside_down ? Plane{plane.data() + stride * (rows - 1), -stride} : Plane{plane.data(), stride};
   };
   owner->reserve(3);
   const bool limited = format.range == ColorRange::Limited;
@@ -142,8 +142,7 @@ INSTANTIATE_TEST_SUITE_P(
         YuvFormat{.name = "i444", .chroma_x = 0, .chroma_y = 0},
         YuvFormat{.name = "full_range", .range = ColorRange::Full},
         YuvFormat{.name = "bt709", .matrix = ColorMatrix::Bt709},
-        YuvFormat{.name = "bt2020", .matrix = ColorMatrix::Bt2020},
-        YuvFormat{.name = "nv12", .semi_planar = true},
+        YuvFormat{.name = "bt2020", .matrix = ColorMatrix::Bt2020}, YuvFormat{.name = "nv12", .semi_planar = true},
         YuvFormat{.name = "nv21", .semi_planar = true, .v_first = true},
         YuvFormat{.name = "ten_bits", .matrix = ColorMatrix::Bt2020, .bits = 10},
         YuvFormat{.name = "p010", .bits = 10, .shift = 6, .semi_planar = true},
@@ -183,13 +182,14 @@ TEST(RenderFormats, PlanarRgbIsReadByItsPlanes) {
   // The order of FFmpeg's gbrp: green, blue, red.
   STAGE_OR_SKIP(stage, 320, 180);
   Frame frame = makeYuvFrame(320, 180, {.name = "", .chroma_x = 0, .chroma_y = 0});
-  auto planes = std::make_shared<std::vector<std::uint8_t>>(3 * 320 * 180);
+  constexpr std::size_t kPixels = std::size_t{320} * 180;
+  auto planes = std::make_shared<std::vector<std::uint8_t>>(3 * kPixels);
   constexpr std::array<std::size_t, 3> kChannel{1, 2, 0};
   for (std::size_t p = 0; p < 3; ++p) {
-    for (std::size_t i = 0; i < 320 * 180; ++i) {
-      (*planes)[p * 320 * 180 + i] = static_cast<std::uint8_t>(bar((static_cast<int>(i % 320) + 0.5) / 320)[kChannel[p]]);
+    for (std::size_t i = 0; i < kPixels; ++i) {
+      (*planes)[p * kPixels + i] = static_cast<std::uint8_t>(bar((static_cast<int>(i % 320) + 0.5) / 320)[kChannel[p]]);
     }
-    frame.planes[p] = {planes->data() + p * 320 * 180, 320};
+    frame.planes[p] = {planes->data() + p * kPixels, 320};
     frame.components[kChannel[p]].plane = static_cast<std::uint8_t>(p);
   }
   frame.model = ColorModel::Rgb;
@@ -283,7 +283,8 @@ TEST(RenderFormats, SizeAndFormatMayChangeFromFrameToFrame) {
                            .volume = kVolume}),
                3);
     const auto bars = [](int x, int) { return bar((x + 0.5) / 64); };
-    expectBars(stage.show({.color = makeRgbFrame(64, 36, bars), .depth = makePlane(8, 8, 8, 128), .volume = kVolume}), 2);
+    expectBars(stage.show({.color = makeRgbFrame(64, 36, bars), .depth = makePlane(8, 8, 8, 128), .volume = kVolume}),
+               2);
   }
 }
 

@@ -43,7 +43,9 @@ Pixel onScreen(double eye_x, double x, double y, double z) {
   return {(eye_x + (x - eye_x) * grow + 80.0) * kPixelsPerMmX, (45.0 - y * grow) * kPixelsPerMmY};
 }
 
-std::uint32_t code16(double z) { return static_cast<std::uint32_t>(std::lround(z / kVolume.depth_mm * 65535.0)); }
+std::uint32_t code16(double z) {
+  return static_cast<std::uint32_t>(std::lround(z / kVolume.depth_mm * 65535.0));
+}
 
 Scene sideBySide(const Marker& marker, Frame depth) {
   return {.color = markerPicture(marker),
@@ -97,8 +99,7 @@ TEST(RenderRelief, CellsAreSplitFromTopLeftToBottomRight) {
   // middle is at 0. Split the other way it would be at half height, in the screen plane. The marker lies across the
   // fold, and of its upper right half the rise moves it by half a pixel at most.
   STAGE_OR_SKIP(stage, kSurfaceWidth, kSurfaceHeight);
-  const auto corner =
-      makeGrayFrame(2, 2, 16, MediaTime{}, [](int c, int r) { return c == 1 && r == 0 ? 65535u : 0u; });
+  const auto corner = makeGrayFrame(2, 2, 16, MediaTime{}, [](int c, int r) { return c == 1 && r == 0 ? 65535u : 0u; });
   const Image image = stage.show(sideBySide({320, 180}, corner));
   const double disparity = image.centroid(0, 0, 640).x - (image.centroid(0, 640, 1280).x - 640);
   EXPECT_NEAR(disparity, kPixelsPerMmX * kEyes * -20.0 / 620.0, 0.6);  // -8.1, against 0
@@ -137,12 +138,12 @@ TEST(RenderRelief, NearerSurfaceHidesTheFartherForEachEyeOfAnAnaglyph) {
   // A red wall at the right, 40 high, before a green floor: its edge at x = 0 is seen by the left eye at
   // 31.5 * (600/580 - 1) = 1.086 mm to the right, by the right eye as far to the left, and the floor shows beside it.
   STAGE_OR_SKIP(stage, kSurfaceWidth, kSurfaceHeight);
-  Scene scene{.color = makeRgbFrame(kColorWidth, kColorHeight,
-                                    [](int x, int) { return x < 320 ? Rgb{0, 255, 0} : Rgb{255, 0, 0}; }),
-              .depth = makeGrayFrame(640, 2, 16, MediaTime{}, [](int c, int) { return c < 320 ? 0u : 65535u; }),
-              .calibration = {.bits = 16},
-              .volume = kVolume,
-              .stereo = {.layout = StereoLayout::Anaglyph}};
+  const Scene scene{.color = makeRgbFrame(kColorWidth, kColorHeight,
+                                          [](int x, int) { return x < 320 ? Rgb{0, 255, 0} : Rgb{255, 0, 0}; }),
+                    .depth = makeGrayFrame(640, 2, 16, MediaTime{}, [](int c, int) { return c < 320 ? 0u : 65535u; }),
+                    .calibration = {.bits = 16},
+                    .volume = kVolume,
+                    .stereo = {.layout = StereoLayout::Anaglyph}};
   const Image image = stage.show(scene);
   const int middle = 640;
   const int edge = 9;  // 8 pixels a mm x 1.086 = 8.7
@@ -275,7 +276,9 @@ TEST(RenderRelief, HueAndLumaOfTheSameReliefGiveTheSamePicture) {
 }
 
 // White all over; the depth's hole is between columns and rows 12 and 20.
-bool inHole(int c, int r) { return c >= 12 && c < 20 && r >= 5 && r < 13; }
+bool inHole(int c, int r) {
+  return c >= 12 && c < 20 && r >= 5 && r < 13;
+}
 
 TEST(RenderRelief, HolesStayOpen) {
   STAGE_OR_SKIP(stage, 640, 360);
@@ -323,7 +326,7 @@ TEST(RenderRelief, WithoutDepthThePictureIsFlatAndTheSameForBothEyes) {
 TEST(RenderRelief, LetterboxKeepsTheAspect) {
   // 160 x 90 mm on a square of 720: 4.5 pixels a mm both ways, 405 rows from 157.5 on.
   STAGE_OR_SKIP(stage, 720, 720);
-  Scene scene{.color = makeRgbFrame(32, 18, [](int, int) { return Rgb{255, 255, 255}; }), .volume = kVolume};
+  const Scene scene{.color = makeRgbFrame(32, 18, [](int, int) { return Rgb{255, 255, 255}; }), .volume = kVolume};
   const Image image = stage.show(scene);
   EXPECT_EQ(image.at(360, 150), (Rgb{0, 0, 0}));
   EXPECT_EQ(image.at(360, 165), (Rgb{255, 255, 255}));
@@ -336,9 +339,9 @@ TEST(RenderRelief, LetterboxKeepsTheAspect) {
 TEST(RenderRelief, LetterboxOfSideBySideIsSqueezedWithTheHalf) {
   // A picture of 90 x 90 mm on 1280 x 720: 720 wide when the half is stretched to the whole, 360 in it.
   STAGE_OR_SKIP(stage, 1280, 720);
-  Scene scene{.color = makeRgbFrame(20, 20, [](int, int) { return Rgb{255, 255, 255}; }),
-              .volume = {90.0, 90.0, 40.0},
-              .stereo = {.layout = StereoLayout::SideBySide}};
+  const Scene scene{.color = makeRgbFrame(20, 20, [](int, int) { return Rgb{255, 255, 255}; }),
+                    .volume = {90.0, 90.0, 40.0},
+                    .stereo = {.layout = StereoLayout::SideBySide}};
   const Image image = stage.show(scene);
   const int first = (640 - 360) / 2;
   EXPECT_EQ(image.at(first - 3, 360), (Rgb{0, 0, 0}));
@@ -352,9 +355,9 @@ TEST(RenderRelief, LetterboxOfSideBySideIsSqueezedWithTheHalf) {
 TEST(RenderRelief, FarSurfaceLeavesNoGapBesideItsFrame) {
   // A plane 20 behind the screen is seen 3 % smaller; the frame joins it to the picture's edge.
   STAGE_OR_SKIP(stage, 640, 360);
-  Scene scene{.color = makeRgbFrame(32, 18, [](int, int) { return Rgb{255, 255, 255}; }),
-              .depth = makePlane(32, 18, 8, 0),
-              .volume = kVolume};
+  const Scene scene{.color = makeRgbFrame(32, 18, [](int, int) { return Rgb{255, 255, 255}; }),
+                    .depth = makePlane(32, 18, 8, 0),
+                    .volume = kVolume};
   const Image image = stage.show(scene);
   for (const auto& [x, y] : {std::pair{0, 0}, {639, 0}, {0, 359}, {639, 359}, {320, 0}, {0, 180}}) {
     EXPECT_EQ(image.at(x, y), (Rgb{255, 255, 255})) << x << ", " << y;

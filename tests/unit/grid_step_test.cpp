@@ -20,8 +20,8 @@ std::vector<int> run(GridStep& grid, int frames, double fixed_ms, double us_per_
                      int rows = kRows) {
   std::vector<int> steps;
   for (int i = 0; i < frames; ++i) {
-    const double vertices = static_cast<double>(GridStep::verticesAlong(cols, grid.step())) *
-                            GridStep::verticesAlong(rows, grid.step());
+    const double vertices =
+        static_cast<double>(GridStep::verticesAlong(cols, grid.step())) * GridStep::verticesAlong(rows, grid.step());
     grid.drew(fromSeconds(1e-3 * fixed_ms + 1e-6 * us_per_vertex * vertices));
     steps.push_back(grid.step());
   }
