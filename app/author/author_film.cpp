@@ -105,7 +105,8 @@ Result<void> Packager::begin(const FramePair& pair) {
   const bool rgb = pair.color.model == ColorModel::Rgb;
   format_.color_range = rgb ? ColorRange::Limited : pair.color.range;
   format_.color_matrix = rgb ? ColorMatrix::Bt709 : pair.color.matrix;
-  format_.sample_aspect = pair.color.sample_aspect;
+  format_.color_aspect = pair.color.sample_aspect;
+  format_.depth_aspect = pair.depth.sample_aspect;
   format_.frame_period = info.frame_period;
   format_.color_crf = output_.color_crf;
   format_.depth_crf = output_.depth_crf;
@@ -141,6 +142,9 @@ AuthorResult<AuthorSummary> Packager::finish() {
   const auto totals = writer_->finish();
   if (!totals) return authorFail(output_.path, totals.error());
   AuthorSummary summary{format_, *totals, format_.frame_period, coder_->counts(), coder_->explain()};
+  if (coder_->outcome().invalid_code && format_.depth_crf > 0) {
+    summary.notes.emplace_back("coding moves the edges of holes by a sample here and there; --depth-crf 0 keeps them");
+  }
   if (auto line = cut_.explain(); !line.empty()) summary.notes.push_back(std::move(line));
   const PairCounters counters = reader_.counters();
   const auto tell = [&summary](std::uint64_t count, const char* what) {

@@ -87,19 +87,16 @@ Result<void> FilmWriter::Impl::openTracks(const FilmFormat& format) {
                                   .height = format.color_height,
                                   .range = format.color_range,
                                   .matrix = format.color_matrix,
-                                  .sample_aspect = format.sample_aspect,
+                                  .sample_aspect = format.color_aspect,
                                   .frame_period = format.frame_period,
                                   .crf = format.color_crf,
                                   .preset = "medium"});
   if (!opened) return opened;
-  const double width_ratio = format.color_width / static_cast<double>(format.depth_width);
-  const double height_ratio = format.color_height / static_cast<double>(format.depth_height);
   return depth.open(file, {.width = format.depth_width,
                            .height = format.depth_height,
                            .gray = true,
                            .range = ColorRange::Full,
-                           // Both tracks cover the same view, whatever their sizes.
-                           .sample_aspect = format.sample_aspect * width_ratio / height_ratio,
+                           .sample_aspect = format.depth_aspect,
                            .frame_period = format.frame_period,
                            .crf = format.depth_crf,
                            .preset = "medium",

@@ -18,7 +18,7 @@ struct FilmFormat {
   int depth_width = 0, depth_height = 0;
   ColorRange color_range = ColorRange::Limited;
   ColorMatrix color_matrix = ColorMatrix::Unspecified;
-  double sample_aspect = 1.0;
+  double color_aspect = 1.0, depth_aspect = 1.0;  // width of a sample over its height
   Duration frame_period{0};  // for the rate control alone; 0 unknown
   int color_crf = 18;
   int depth_crf = 8;         // 0: lossless, every code comes back

@@ -103,11 +103,12 @@ TEST(AuthorDepthCoder, KeepsTheLaw) {
 }
 
 // Hue over 360 degrees grows with distance: red 0 is the nearest, 255; yellow 1/6 -> 255 x 5/6 = 212.5; green 1/3 -> 170;
-// cyan 1/2 -> 127.5; blue 2/3 -> 85; magenta 5/6 -> 42.5. Black has no hue: a hole.
+// cyan 1/2 -> 127.5; blue 2/3 -> 85; magenta 5/6 -> 42.5; orange, half way from red to yellow, 1/12 -> 233.7. Black has no
+// hue: a hole.
 TEST(AuthorDepthCoder, DecodesHueToLuma) {
-  static const std::uint8_t pixels[] = {255, 0, 0, 255, 255, 0, 0, 255, 0, 0, 255, 255, 0, 0, 255, 255, 0, 255, 0, 0, 0};
+  static const std::uint8_t pixels[] = {255, 0, 0, 255, 255, 0, 0, 255, 0, 0, 255, 255, 0, 0, 255, 255, 0, 255, 255, 128, 0, 0, 0, 0};
   Frame frame;
-  frame.width = 7;
+  frame.width = 8;
   frame.height = 1;
   frame.model = ColorModel::Rgb;
   frame.range = ColorRange::Full;
@@ -116,9 +117,9 @@ TEST(AuthorDepthCoder, DecodesHueToLuma) {
   for (std::uint8_t i = 0; i < 3; ++i) frame.components[i] = {.plane = 0, .offset_bytes = i, .step_bytes = 3};
 
   const Codes codes = coded(frame, {.polarity = DepthPolarity::NearIsLow, .code = DepthCode::Hue});
-  const double expected[] = {255, 212.5, 170, 127.5, 85, 42.5};
-  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(codes[i], expected[i], 0.5 + 1e-9) << i;
-  EXPECT_EQ(codes[6], 0);
+  const double expected[] = {255, 212.5, 170, 127.5, 85, 42.5, 233.7};
+  for (std::size_t i = 0; i < 7; ++i) EXPECT_NEAR(codes[i], expected[i], 0.5 + 1e-9) << i;
+  EXPECT_EQ(codes[7], 0);
   EXPECT_EQ(DepthCoder({.code = DepthCode::Hue}).outcome().invalid_code, std::optional<std::uint32_t>(0));
 }
 

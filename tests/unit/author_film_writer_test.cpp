@@ -214,14 +214,14 @@ TEST_P(AuthorFilmWriter, WritesTheCalibrationWhereAReaderFindsIt) {
 }
 
 TEST_P(AuthorFilmWriter, PutsKeyFramesWhereItIsTold) {
-  // A cut at 20, where an encoder left to itself would put one of its own.
-  const auto key = [](int k) { return k % 15 == 0; };
-  writeFilm(path(), formatOf(64, 48), regularTimes(50), [](int k) {
-    return depthPicture(64, 48, [k](int c, int r) { return k < 20 ? static_cast<std::uint8_t>(c + r) : scattered(c, r, 0); });
+  // A cut at 40, where an encoder left to itself would put one of its own.
+  const auto key = [](int k) { return k % 70 == 0; };
+  writeFilm(path(), formatOf(64, 48), regularTimes(80), [](int k) {
+    return depthPicture(64, 48, [k](int c, int r) { return k < 40 ? static_cast<std::uint8_t>(c + r) : scattered(c, r, 0); });
   }, key);
   const ReadFilm film = readFilm(path());
   std::vector<MediaTime> expected;
-  for (int k = 0; k < 50; k += 15) expected.push_back(film.frames.at(0)[static_cast<std::size_t>(k)].pts);
+  for (int k = 0; k < 80; k += 70) expected.push_back(film.frames.at(0)[static_cast<std::size_t>(k)].pts);
   EXPECT_EQ(film.keys.at(0), expected);
   EXPECT_EQ(film.keys.at(1), expected);
 }
@@ -284,9 +284,12 @@ TEST(AuthorFilmWriterFile, OldOneStaysUntilTheNewOneIsWhole) {
 
 TEST(AuthorFilmWriterFile, NameMayLookLikeAnAddress) {
   const TemporaryFolder folder;
-  writeFilm(folder / "a:b%03d.mkv", formatOf(64, 48), regularTimes(2), [](int) {
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder / "");
+  writeFilm("a:b%03d.mkv", formatOf(64, 48), regularTimes(2), [](int) {
     return depthPicture(64, 48, [](int, int) { return std::uint8_t{77}; });
   }, [](int k) { return k == 0; });
+  std::filesystem::current_path(before);
   EXPECT_THAT(filesIn(folder / ""), ElementsAre("a:b%03d.mkv"));
 }
 
