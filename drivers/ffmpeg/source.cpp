@@ -27,10 +27,12 @@ namespace {
 
 using namespace ffmpeg;
 
+constexpr AVRational kMicrosecond{1, AV_TIME_BASE};  // of the times in AVFormatContext
 constexpr Duration kReadPatience = std::chrono::seconds(10);
 constexpr Duration kOpenPatience = std::chrono::seconds(30);  // an index may be long and the line slow
 constexpr const char* kSilencePatienceUs = "10000000";        // of a connection that yields not one byte
-constexpr Duration kNap = std::chrono::milliseconds(2);       // between tries where the library says "again"
+constexpr const char* kReconnectPatienceS = "4";
+constexpr Duration kNap = std::chrono::milliseconds(2);  // between tries where the library says "again"
 constexpr const char* kCannotSeek = "it cannot seek: a live stream or a pipe";
 constexpr int kDamagedReads = 64;  // in a row, until a broken container counts as ended
 
@@ -127,7 +129,7 @@ bool isTimed(const AVFormatContext& context) noexcept {
 // first picture's time becomes 0, not a fraction of a microsecond beside it.
 Duration startOf(const AVFormatContext& context) noexcept {
   if (context.start_time == AV_NOPTS_VALUE) return Duration(0);
-  const Duration start = durationFrom(context.start_time, AV_TIME_BASE_Q);
+  const Duration start = durationFrom(context.start_time, kMicrosecond);
   for (unsigned i = 0; i < context.nb_streams; ++i) {
     const AVStream& stream = *context.streams[i];
     if (stream.start_time == AV_NOPTS_VALUE) continue;
@@ -197,6 +199,8 @@ class FfmpegSource final : public MediaSource {
     context->interrupt_callback = {Watch::callback, &watch_};
     AVDictionary* options = nullptr;
     av_dict_set(&options, "rw_timeout", kSilencePatienceUs, 0);
+    av_dict_set(&options, "reconnect", "1", 0);  // of HTTP: goes on from where the connection broke
+    av_dict_set(&options, "reconnect_delay_max", kReconnectPatienceS, 0);
     const int opened = avformat_open_input(&context, address->c_str(), nullptr, &options);
     av_dict_free(&options);
     if (opened < 0) return std::unexpected(watch_.explain(openError(opened)));
@@ -233,7 +237,7 @@ class FfmpegSource final : public MediaSource {
   Result<Description> describe() const {
     Description description;
     description.tags = tagsOf(context_->metadata);
-    if (timed_ && context_->duration > 0) description.duration = durationFrom(context_->duration, AV_TIME_BASE_Q);
+    if (timed_ && context_->duration > 0) description.duration = durationFrom(context_->duration, kMicrosecond);
     for (unsigned i = 0; i < context_->nb_streams; ++i) {
       auto stream = describeStream(*context_->streams[i]);
       if (!stream) return std::unexpected(stream.error());

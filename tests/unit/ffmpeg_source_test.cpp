@@ -304,26 +304,76 @@ TEST(FfmpegSource, ACutFileEndsLikeAWholeOne) {
   }
 }
 
+// A server on the loopback interface; what it answers is the test's choice.
+struct Server {
+  UniqueFd listener{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)};
+  std::string url;
+
+  Server() {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t length = sizeof address;
+    EXPECT_EQ(::bind(listener.get(), reinterpret_cast<sockaddr*>(&address), length), 0);
+    EXPECT_EQ(::listen(listener.get(), 4), 0);
+    EXPECT_EQ(::getsockname(listener.get(), reinterpret_cast<sockaddr*>(&address), &length), 0);
+    url = "http://127.0.0.1:" + std::to_string(ntohs(address.sin_port)) + "/film.mkv";
+  }
+  [[nodiscard]] UniqueFd accept() const { return UniqueFd(::accept(listener.get(), nullptr, nullptr)); }
+};
+
+TEST(FfmpegSource, ABrokenConnectionIsTakenUpWhereItBroke) {
+  TemporaryFolder folder;
+  makeClip(folder / "a.mkv", {kH264});
+  std::ifstream file(folder / "a.mkv", std::ios::binary);
+  const std::string film(std::istreambuf_iterator<char>(file), {});
+  const std::size_t half = film.size() / 2;
+  const auto source = makeFfmpegSource();
+  Server server;
+  std::string second_request(4096, '\0');
+  std::thread other([&] {
+    const auto answer = [](const UniqueFd& to, const std::string& text) {
+      EXPECT_EQ(::send(to.get(), text.data(), text.size(), MSG_NOSIGNAL), static_cast<ssize_t>(text.size()));
+    };
+    const std::string all = std::to_string(film.size());
+    const std::string rest = std::to_string(film.size() - half);
+    UniqueFd first = server.accept();
+    EXPECT_GT(::recv(first.get(), second_request.data(), second_request.size(), 0), 0);
+    answer(first,
+           "HTTP/1.1 200 OK\r\nAccept-Ranges: bytes\r\nContent-Length: " + all + "\r\n\r\n" + film.substr(0, half));
+    first.reset();
+    const UniqueFd second = server.accept();
+    const ssize_t length = ::recv(second.get(), second_request.data(), second_request.size(), 0);
+    second_request.resize(static_cast<std::size_t>(std::max<ssize_t>(length, 0)));
+    answer(second, "HTTP/1.1 206 Partial Content\r\nContent-Range: bytes " + std::to_string(half) + "-" +
+                       std::to_string(film.size() - 1) + "/" + all + "\r\nContent-Length: " + rest + "\r\n\r\n" +
+                       film.substr(half));
+  });
+  const bool opened = source->open(server.url).has_value();
+  EXPECT_TRUE(opened);
+  std::size_t packets = 0;
+  while (opened) {
+    const auto packet = source->read();
+    if (!packet || !*packet) break;
+    ++packets;
+  }
+  EXPECT_EQ(packets, 48u);
+  ::shutdown(server.listener.get(), SHUT_RDWR);  // should the second request never come
+  other.join();
+  EXPECT_THAT(second_request, HasSubstr("bytes=" + std::to_string(half) + "-"));
+}
+
 // ---- interruption: the other thread acts once it has seen that `open` waits for it
 
 TEST(FfmpegSource, InterruptEndsTheWaitForASilentServer) {
-  UniqueFd listener(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t length = sizeof address;
-  ASSERT_EQ(::bind(listener.get(), reinterpret_cast<sockaddr*>(&address), length), 0);
-  ASSERT_EQ(::listen(listener.get(), 1), 0);
-  ASSERT_EQ(::getsockname(listener.get(), reinterpret_cast<sockaddr*>(&address), &length), 0);
-  const std::string url = "http://127.0.0.1:" + std::to_string(ntohs(address.sin_port)) + "/film.mkv";
-
+  const Server server;
   const auto source = makeFfmpegSource();
   UniqueFd connection;
   std::thread other([&] {
-    connection.reset(::accept(listener.get(), nullptr, nullptr));  // and never an answer
+    connection = server.accept();  // and never an answer
     source->interrupt();
   });
-  const auto opened = source->open(url);
+  const auto opened = source->open(server.url);
   other.join();
   ASSERT_FALSE(opened.has_value());
   EXPECT_EQ(opened.error().code, ErrorCode::Cancelled);
