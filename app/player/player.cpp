@@ -38,10 +38,9 @@ bool Player::apply(PlayerEvent event) {
 
 void Player::note(std::string what, std::string done, std::optional<MonotonicTime> when) {
   const MonotonicTime time = when.value_or(parts_.clock.now());
-  const bool known = std::any_of(report_.faults.begin(), report_.faults.end(),
-                                 [&](const FaultEntry& fault) { return fault.what == what; });
-  if (!known) log(LogLevel::Warning, "play", "%s; %s", what.c_str(), done.c_str());
-  report_.addFault(toSeconds(time - started_), std::move(what), std::move(done));
+  if (report_.addFault(toSeconds(time - started_), what, done)) {
+    log(LogLevel::Warning, "play", "%s; %s", what.c_str(), done.c_str());
+  }
 }
 
 void Player::fail(std::string thing, const Error& error) {

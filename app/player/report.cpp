@@ -2,6 +2,7 @@
 // The report's two forms.
 #include "app/player/report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -68,14 +69,17 @@ Json hapticPart(const HapticSummary& h) {
 
 }  // namespace
 
-void PlayReport::addFault(double time_s, std::string what, std::string done) {
+bool PlayReport::addFault(double time_s, std::string what, std::string done) {
   // A device that fails a thousand times a second is one entry.
   if (!faults.empty() && faults.back().what == what && faults.back().done == done) {
     ++faults.back().count;
-    return;
+    return false;
   }
   constexpr std::size_t kMost = 1000;  // of a film that loops for months
-  if (faults.size() < kMost) faults.push_back({time_s, std::move(what), std::move(done)});
+  if (faults.size() >= kMost) return false;
+  const bool known = std::any_of(faults.begin(), faults.end(), [&](const FaultEntry& f) { return f.what == what; });
+  faults.push_back({time_s, std::move(what), std::move(done)});
+  return !known;
 }
 
 const char* name(Packing packing) noexcept {

@@ -51,8 +51,8 @@ struct PlayReport {
   std::vector<FaultEntry> faults;
   std::vector<SeekEntry> seeks;
 
-  // The last one again is counted there.
-  void addFault(double time_s, std::string what, std::string done);
+  // The last one again is counted there. True for the first of its name: that one is worth a line.
+  bool addFault(double time_s, std::string what, std::string done);
 };
 
 [[nodiscard]] const char* name(Packing packing) noexcept;  // auto tracks sbs tb

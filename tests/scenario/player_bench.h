@@ -58,14 +58,17 @@ class PlayerBench {
                            .display = *screen,
                            .haptic = with_haptic ? device.get() : nullptr,
                            .remote = remote.get(),
-                           .recorder = nullptr,
+                           .recorder = recorder,
                            .backends = backends(time)});
     auto played = player.run(stop);
+    force_left = hand->force();
     report = player.report();
     return played;
   }
 
+  Recorder* recorder = nullptr;
   PlayReport report;
+  glm::dvec3 force_left{1e9};  // in the motors when `run` returned
 
   [[nodiscard]] std::string states() const {
     std::string text;

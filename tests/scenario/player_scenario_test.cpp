@@ -4,7 +4,12 @@
 #include <gtest/gtest.h>
 #include <linux/input-event-codes.h>
 
+#include <fstream>
+#include <string>
+#include <vector>
+
 #include "tests/scenario/player_bench.h"
+#include "tests/support/clip_maker.h"
 
 namespace relievo {
 namespace {
@@ -53,7 +58,7 @@ TEST_F(PlayerScenario, TheFingerFeelsTheFilmAndTheForceIsZeroAfterwards) {
   // The highest plane is code 109, 17.1 mm: 2.1 mm above the finger, at half a newton a millimetre.
   EXPECT_NEAR(bench_.report.haptic.max_force_n, 0.5 * (40.0 * 109 / 255 - 15.0), 0.05);
   EXPECT_LE(bench_.report.haptic.max_scene_slew_n_per_s, 50.0 + 1e-6);
-  EXPECT_EQ(bench_.hand->force(), glm::dvec3(0));
+  EXPECT_EQ(bench_.force_left, glm::dvec3(0));
 }
 
 TEST_F(PlayerScenario, APauseStandsStillAndStaysTouchable) {
@@ -118,6 +123,7 @@ TEST_F(PlayerScenario, ASeekBeforeTheBeginningGoesToTheBeginning) {
   bench_.press(2.0, KEY_LEFT);
   playsWell();
   ASSERT_THAT(bench_.report.seeks, SizeIs(1));
+  EXPECT_EQ(bench_.report.seeks[0].target_s, 0.0);
   EXPECT_EQ(bench_.report.seeks[0].picture_s, 0.0);
   EXPECT_EQ(bench_.report.seeks[0].surface_s, 0.0);
 }
@@ -141,6 +147,31 @@ TEST_F(PlayerScenario, ASeekWhilePausedShowsItsPictureAndStaysPaused) {
   EXPECT_NEAR(bench_.report.seeks[0].picture_s.value_or(0), 11.0, 0.05);
   EXPECT_EQ(bench_.report.seeks[0].picture_s, bench_.report.seeks[0].surface_s);
   EXPECT_NEAR(bench_.report.media_s, 1.0, 0.02);
+  EXPECT_NEAR(static_cast<double>(bench_.report.frames_shown), 25 + 1, 1);  // of the first second, and one
+}
+
+TEST_F(PlayerScenario, UntilTheSoughtPictureComesTheSurfaceStandsAsThePictureDoes) {
+  const test::TemporaryFolder folder;
+  auto recorder = Recorder::create(folder / "touch.csv");
+  ASSERT_TRUE(recorder);
+  bench_.recorder = &*recorder;
+  bench_.sources["film"] = PlayerBench::film(1000);
+  bench_.press(1.0, KEY_RIGHT);
+  bench_.press(2.0, KEY_STOP);
+  playsWell();
+  ASSERT_TRUE(recorder->finish());
+
+  // The film's time, the last column, as each tick saw it.
+  std::vector<double> times;
+  std::ifstream csv(folder / "touch.csv");
+  std::string line;
+  std::getline(csv, line);
+  while (std::getline(csv, line)) times.push_back(std::stod(line.substr(line.rfind(',') + 1)));
+  std::size_t jump = 1;
+  while (jump < times.size() && times[jump] - times[jump - 1] < 5) ++jump;
+  ASSERT_LT(jump, times.size());
+  EXPECT_EQ(times[jump - 1], times[jump - 2]);  // the reader takes 2 ms at least
+  EXPECT_NEAR(times[jump - 1], 1.0, 0.02);
 }
 
 TEST_F(PlayerScenario, ASeekThatTheSourceRefusesGoesOn) {
@@ -231,7 +262,7 @@ TEST_F(PlayerScenario, ColorThatIsLostStopsTheFilmWithItsReason) {
   EXPECT_EQ(played.error().error.code, ErrorCode::Lost);
   EXPECT_EQ(bench_.states(), "boot idle opening buffering playing fault");
   EXPECT_GT(bench_.report.frames_shown, 30u);  // what was read is shown first
-  EXPECT_EQ(bench_.hand->force(), glm::dvec3(0));
+  EXPECT_EQ(bench_.force_left, glm::dvec3(0));
   EXPECT_EQ(bench_.faults("film"), 1u);
 }
 
@@ -306,7 +337,7 @@ TEST_F(PlayerScenario, AHapticDeviceThatIsPulledOutLeavesTheFilmRunning) {
   playsWell();
   EXPECT_EQ(bench_.report.frames_shown, 100u);
   EXPECT_EQ(bench_.faults("haptic device lost"), 1u);
-  EXPECT_EQ(bench_.hand->force(), glm::dvec3(0));
+  EXPECT_EQ(bench_.force_left, glm::dvec3(0));
 }
 
 TEST_F(PlayerScenario, ADisplayThatDoesNotOpenStopsEverything) {

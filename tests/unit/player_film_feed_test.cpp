@@ -192,16 +192,17 @@ TEST_F(FilmFeedTest, IsClosedAfterAStopAndDoesNoMoreWork) {
   EXPECT_THAT(takeAll(), IsEmpty());
 }
 
-// The reader hangs in a source that stalls for an hour of simulated time; only an interrupt gets it out.
+// The reader hangs in a source that stalls for an hour; only an interrupt gets it out.
 TEST(FilmFeedThread, StopsWhileTheSourceStalls) {
   MonotonicClock clock;
   MockMediaProfile profile = filmOf(100);
-  profile.stall_after_packets = 10;
+  profile.stall_after_packets = 6;  // before the queue is full
   profile.stall = std::chrono::hours(1);
   FilmFeed feed(backends(profile, clock), kCapacity);
   feed.open({.url = "mock"});
   feed.startThread();
   while (!feed.take()) clock.sleepUntil(clock.now() + std::chrono::milliseconds(1));
+  clock.sleepUntil(clock.now() + std::chrono::milliseconds(20));
   feed.stop();
   EXPECT_EQ(feed.state(), State::Closed);
 }
@@ -244,6 +245,15 @@ TEST_F(PlayheadTest, GoesToTheNewestPairThatIsDueAndCountsTheRest) {
   workAll();
   EXPECT_EQ(head_.advance(MediaTime(4 * kPeriod), *feed_), 3u);
   EXPECT_EQ(present(), 4);
+}
+
+TEST_F(PlayheadTest, AFeedThatIsEmptyForTheMomentIsNotAtItsEnd) {
+  FilmFeed& feed = open(filmOf(100));
+  feed.work();  // opens
+  feed.work();  // one pair
+  EXPECT_TRUE(head_.refill(feed));
+  EXPECT_EQ(head_.ahead().size(), 1u);
+  EXPECT_FALSE(head_.last());
 }
 
 TEST_F(PlayheadTest, KnowsThatNothingFollowsOnlyWhenTheLastPairIsTaken) {

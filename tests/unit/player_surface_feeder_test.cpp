@@ -78,6 +78,7 @@ TEST_F(SurfaceFeederTest, HoldsOneFrameBeforeThePresentAndFourAfterIt) {
   const auto pairs = film(10);
   at(pairs, 0);
   EXPECT_THAT(times(), ElementsAre(0, 1, 2, 3, 4));
+  EXPECT_FALSE(window().ended);  // all that lies ahead is in it, but more will come
   at(pairs, 1);
   EXPECT_THAT(times(), ElementsAre(0, 1, 2, 3, 4, 5));
   at(pairs, 2);
