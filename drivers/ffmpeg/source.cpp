@@ -6,12 +6,10 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cctype>
 #include <cerrno>
-#include <cstdlib>
 #include <thread>
-#include <utility>
 
+#include "drivers/ffmpeg/container.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/ffmpeg/library.h"
 #include "platform/unique_fd.h"
@@ -19,7 +17,6 @@
 extern "C" {
 #include <libavformat/avformat.h>
 #include <libavutil/mathematics.h>
-#include <libavutil/opt.h>
 }
 
 namespace relievo {
@@ -27,7 +24,6 @@ namespace {
 
 using namespace ffmpeg;
 
-constexpr AVRational kMicrosecond{1, AV_TIME_BASE};  // of the times in AVFormatContext
 constexpr Duration kReadPatience = std::chrono::seconds(10);
 constexpr Duration kOpenPatience = std::chrono::seconds(30);  // an index may be long and the line slow
 constexpr const char* kSilencePatienceUs = "10000000";        // of a connection that yields not one byte
@@ -72,109 +68,6 @@ struct FormatCloser {
   void operator()(AVFormatContext* context) const noexcept { avformat_close_input(&context); }
 };
 using FormatPtr = std::unique_ptr<AVFormatContext, FormatCloser>;
-
-std::map<std::string, std::string> tagsOf(const AVDictionary* dictionary) {
-  std::map<std::string, std::string> tags;
-  const AVDictionaryEntry* entry = nullptr;
-  while ((entry = av_dict_get(dictionary, "", entry, AV_DICT_IGNORE_SUFFIX)) != nullptr) {
-    std::string key = entry->key;
-    std::transform(key.begin(), key.end(), key.begin(), [](unsigned char c) { return std::toupper(c); });
-    tags[key] = entry->value;
-  }
-  return tags;
-}
-
-StreamKind kindOf(const AVStream& stream) noexcept {
-  if (stream.discard == AVDISCARD_ALL) return StreamKind::Other;
-  constexpr int kStills = AV_DISPOSITION_ATTACHED_PIC | AV_DISPOSITION_TIMED_THUMBNAILS;
-  switch (stream.codecpar->codec_type) {
-    case AVMEDIA_TYPE_VIDEO:
-      return (stream.disposition & kStills) == 0 ? StreamKind::Video : StreamKind::Other;
-    case AVMEDIA_TYPE_AUDIO:
-      return StreamKind::Audio;
-    default:
-      return StreamKind::Other;
-  }
-}
-
-Duration framePeriodOf(const AVStream& stream) noexcept {
-  for (const AVRational rate : {stream.avg_frame_rate, stream.r_frame_rate}) {
-    if (rate.num > 0 && rate.den > 0) return durationFrom(1, av_inv_q(rate));
-  }
-  return Duration(0);
-}
-
-// The library would show a text file as a film of letters.
-bool isTextArt(const AVFormatContext& context) noexcept {
-  if (context.nb_streams != 1) return false;
-  switch (context.streams[0]->codecpar->codec_id) {
-    case AV_CODEC_ID_ANSI:
-    case AV_CODEC_ID_BINTEXT:
-    case AV_CODEC_ID_XBIN:
-    case AV_CODEC_ID_IDF:
-      return true;
-    default:
-      return false;
-  }
-}
-
-// A demuxer that asks for a frame rate (pictures, raw streams) has no times of its own; those it makes up are left out.
-bool isTimed(const AVFormatContext& context) noexcept {
-  if ((context.iformat->flags & AVFMT_NOTIMESTAMPS) != 0) return false;
-  return context.iformat->priv_class == nullptr ||
-         av_opt_find(context.priv_data, "framerate", nullptr, 0, 0) == nullptr;
-}
-
-// The library keeps the container's start in microseconds; a stream that begins there says it more exactly, and the
-// first picture's time becomes 0, not a fraction of a microsecond beside it.
-Duration startOf(const AVFormatContext& context) noexcept {
-  if (context.start_time == AV_NOPTS_VALUE) return Duration(0);
-  const Duration start = durationFrom(context.start_time, kMicrosecond);
-  for (unsigned i = 0; i < context.nb_streams; ++i) {
-    const AVStream& stream = *context.streams[i];
-    if (stream.start_time == AV_NOPTS_VALUE) continue;
-    const Duration exact = durationFrom(stream.start_time, stream.time_base);
-    if (std::chrono::abs(exact - start) <= std::chrono::microseconds(1)) return exact;
-  }
-  return start;
-}
-
-// The leading stream, unless another video stream begins before it.
-int earliestStream(const AVFormatContext& context, int leading) noexcept {
-  int earliest = leading;
-  const auto begins = [&](int i) {
-    const AVStream& stream = *context.streams[i];
-    return stream.start_time == AV_NOPTS_VALUE ? Duration::max() : durationFrom(stream.start_time, stream.time_base);
-  };
-  for (int i = 0; i < static_cast<int>(context.nb_streams); ++i) {
-    if (kindOf(*context.streams[i]) == StreamKind::Video && begins(i) < begins(earliest)) earliest = i;
-  }
-  return earliest;
-}
-
-// Picture size, then bits a second, of a programme's best video.
-std::pair<std::int64_t, std::int64_t> worthOf(const AVFormatContext& context, const AVProgram& programme) noexcept {
-  std::int64_t area = 0;
-  for (unsigned i = 0; i < programme.nb_stream_indexes; ++i) {
-    const AVCodecParameters& parameters = *context.streams[programme.stream_index[i]]->codecpar;
-    area = std::max(area, std::int64_t{parameters.width} * parameters.height);
-  }
-  const AVDictionaryEntry* const rate = av_dict_get(programme.metadata, "variant_bitrate", nullptr, 0);
-  return {area, rate == nullptr ? 0 : std::atoll(rate->value)};
-}
-
-// Of several programmes keeps the one with the best video: the others are other films, or this one at other rates.
-void chooseProgramme(AVFormatContext& context) noexcept {
-  if (context.nb_programs < 2) return;
-  AVProgram** const end = context.programs + context.nb_programs;
-  const AVProgram& best = **std::max_element(context.programs, end, [&](const AVProgram* a, const AVProgram* b) {
-    return worthOf(context, *a) < worthOf(context, *b);
-  });
-  for (unsigned i = 0; i < context.nb_streams; ++i) context.streams[i]->discard = AVDISCARD_ALL;
-  for (unsigned i = 0; i < best.nb_stream_indexes; ++i) {
-    context.streams[best.stream_index[i]]->discard = AVDISCARD_DEFAULT;
-  }
-}
 
 class FfmpegSource final : public MediaSource {
  public:
@@ -239,38 +132,12 @@ class FfmpegSource final : public MediaSource {
     description.tags = tagsOf(context_->metadata);
     if (timed_ && context_->duration > 0) description.duration = durationFrom(context_->duration, kMicrosecond);
     for (unsigned i = 0; i < context_->nb_streams; ++i) {
-      auto stream = describeStream(*context_->streams[i]);
+      auto stream = describeStream(*context_->streams[i], timed_);
       if (!stream) return std::unexpected(stream.error());
       if (stream->duration == Duration(0)) stream->duration = description.duration;
       description.streams.push_back(std::move(*stream));
     }
     return description;
-  }
-
-  Result<StreamInfo> describeStream(const AVStream& stream) const {
-    const AVCodecParameters& parameters = *stream.codecpar;
-    StreamInfo info;
-    info.index = stream.index;
-    info.kind = kindOf(stream);
-    info.codec = avcodec_get_name(parameters.codec_id);
-    if (parameters.extradata_size > 0) {
-      info.extradata.assign(parameters.extradata, parameters.extradata + parameters.extradata_size);
-    }
-    info.width = parameters.width;
-    info.height = parameters.height;
-    info.frame_period = framePeriodOf(stream);
-    if (timed_ && stream.duration > 0) info.duration = durationFrom(stream.duration, stream.time_base);
-    info.tags = tagsOf(stream.metadata);
-
-    auto native = std::make_unique<NativeStream>();
-    native->parameters.reset(avcodec_parameters_alloc());
-    if (!native->parameters || avcodec_parameters_copy(native->parameters.get(), &parameters) < 0) {
-      return std::unexpected(openError(AVERROR(ENOMEM)));
-    }
-    native->time_base = stream.time_base;
-    native->sample_aspect = stream.sample_aspect_ratio;
-    info.native = std::shared_ptr<NativeStream>(native.release(), NativeStreamDeleter{});
-    return info;
   }
 
   Result<std::optional<Packet>> readPacket() override {

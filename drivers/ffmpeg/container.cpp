@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads libavformat's description of a container.
+#include "drivers/ffmpeg/container.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstdlib>
+#include <utility>
+
+#include "drivers/ffmpeg/library.h"
+
+extern "C" {
+#include <libavutil/opt.h>
+}
+
+namespace relievo::ffmpeg {
+namespace {
+
+Duration framePeriodOf(const AVStream& stream) noexcept {
+  for (const AVRational rate : {stream.avg_frame_rate, stream.r_frame_rate}) {
+    if (rate.num > 0 && rate.den > 0) return durationFrom(1, av_inv_q(rate));
+  }
+  return Duration(0);
+}
+
+// Picture size, then bits a second, of a programme's best video.
+std::pair<std::int64_t, std::int64_t> worthOf(const AVFormatContext& context, const AVProgram& programme) noexcept {
+  std::int64_t area = 0;
+  for (unsigned i = 0; i < programme.nb_stream_indexes; ++i) {
+    const AVCodecParameters& parameters = *context.streams[programme.stream_index[i]]->codecpar;
+    area = std::max(area, std::int64_t{parameters.width} * parameters.height);
+  }
+  const AVDictionaryEntry* const rate = av_dict_get(programme.metadata, "variant_bitrate", nullptr, 0);
+  return {area, rate == nullptr ? 0 : std::atoll(rate->value)};
+}
+
+}  // namespace
+
+std::map<std::string, std::string> tagsOf(const AVDictionary* dictionary) {
+  std::map<std::string, std::string> tags;
+  const AVDictionaryEntry* entry = nullptr;
+  while ((entry = av_dict_get(dictionary, "", entry, AV_DICT_IGNORE_SUFFIX)) != nullptr) {
+    std::string key = entry->key;
+    std::transform(key.begin(), key.end(), key.begin(), [](unsigned char c) { return std::toupper(c); });
+    tags[key] = entry->value;
+  }
+  return tags;
+}
+
+StreamKind kindOf(const AVStream& stream) noexcept {
+  if (stream.discard == AVDISCARD_ALL) return StreamKind::Other;
+  constexpr int kStills = AV_DISPOSITION_ATTACHED_PIC | AV_DISPOSITION_TIMED_THUMBNAILS;
+  switch (stream.codecpar->codec_type) {
+    case AVMEDIA_TYPE_VIDEO:
+      return (stream.disposition & kStills) == 0 ? StreamKind::Video : StreamKind::Other;
+    case AVMEDIA_TYPE_AUDIO:
+      return StreamKind::Audio;
+    default:
+      return StreamKind::Other;
+  }
+}
+
+bool isTextArt(const AVFormatContext& context) noexcept {
+  if (context.nb_streams != 1) return false;
+  switch (context.streams[0]->codecpar->codec_id) {
+    case AV_CODEC_ID_ANSI:
+    case AV_CODEC_ID_BINTEXT:
+    case AV_CODEC_ID_XBIN:
+    case AV_CODEC_ID_IDF:
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool isTimed(const AVFormatContext& context) noexcept {
+  if ((context.iformat->flags & AVFMT_NOTIMESTAMPS) != 0) return false;
+  return context.iformat->priv_class == nullptr ||
+         av_opt_find(context.priv_data, "framerate", nullptr, 0, 0) == nullptr;
+}
+
+Duration startOf(const AVFormatContext& context) noexcept {
+  if (context.start_time == AV_NOPTS_VALUE) return Duration(0);
+  const Duration start = durationFrom(context.start_time, kMicrosecond);
+  for (unsigned i = 0; i < context.nb_streams; ++i) {
+    const AVStream& stream = *context.streams[i];
+    if (stream.start_time == AV_NOPTS_VALUE) continue;
+    const Duration exact = durationFrom(stream.start_time, stream.time_base);
+    if (std::chrono::abs(exact - start) <= std::chrono::microseconds(1)) return exact;
+  }
+  return start;
+}
+
+int earliestStream(const AVFormatContext& context, int leading) noexcept {
+  int earliest = leading;
+  const auto begins = [&](int i) {
+    const AVStream& stream = *context.streams[i];
+    return stream.start_time == AV_NOPTS_VALUE ? Duration::max() : durationFrom(stream.start_time, stream.time_base);
+  };
+  for (int i = 0; i < static_cast<int>(context.nb_streams); ++i) {
+    if (kindOf(*context.streams[i]) == StreamKind::Video && begins(i) < begins(earliest)) earliest = i;
+  }
+  return earliest;
+}
+
+void chooseProgramme(AVFormatContext& context) noexcept {
+  if (context.nb_programs < 2) return;
+  AVProgram** const end = context.programs + context.nb_programs;
+  const AVProgram& best = **std::max_element(context.programs, end, [&](const AVProgram* a, const AVProgram* b) {
+    return worthOf(context, *a) < worthOf(context, *b);
+  });
+  for (unsigned i = 0; i < context.nb_streams; ++i) context.streams[i]->discard = AVDISCARD_ALL;
+  for (unsigned i = 0; i < best.nb_stream_indexes; ++i) {
+    context.streams[best.stream_index[i]]->discard = AVDISCARD_DEFAULT;
+  }
+}
+
+Result<StreamInfo> describeStream(const AVStream& stream, bool timed) {
+  const AVCodecParameters& parameters = *stream.codecpar;
+  StreamInfo info;
+  info.index = stream.index;
+  info.kind = kindOf(stream);
+  info.codec = avcodec_get_name(parameters.codec_id);
+  if (parameters.extradata_size > 0) {
+    info.extradata.assign(parameters.extradata, parameters.extradata + parameters.extradata_size);
+  }
+  info.width = parameters.width;
+  info.height = parameters.height;
+  info.frame_period = framePeriodOf(stream);
+  if (timed && stream.duration > 0) info.duration = durationFrom(stream.duration, stream.time_base);
+  info.tags = tagsOf(stream.metadata);
+
+  auto native = std::make_unique<NativeStream>();
+  native->parameters.reset(avcodec_parameters_alloc());
+  if (!native->parameters || avcodec_parameters_copy(native->parameters.get(), &parameters) < 0) {
+    return std::unexpected(openError(AVERROR(ENOMEM)));
+  }
+  native->time_base = stream.time_base;
+  native->sample_aspect = stream.sample_aspect_ratio;
+  info.native = std::shared_ptr<NativeStream>(native.release(), NativeStreamDeleter{});
+  return info;
+}
+
+}  // namespace relievo::ffmpeg
