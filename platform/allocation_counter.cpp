@@ -16,12 +16,11 @@
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || defined(__SANITIZE_HWADDRESS__)
 #define RELIEVO_SANITIZER_HEAP 1
 #elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || \
-    __has_feature(memory_sanitizer) || __has_feature(hwaddress_sanitizer)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer) || \
+    __has_feature(hwaddress_sanitizer)
 #define RELIEVO_SANITIZER_HEAP 1
 #elif __has_feature(realtime_sanitizer)
-#define RELIEVO_WATCHED_HEAP \
-  1  // it stops at an allocation itself, and needs the malloc that it has put in place
+#define RELIEVO_WATCHED_HEAP 1  // it stops at an allocation itself, and needs the malloc that it has put in place
 #endif
 #endif
 

@@ -8,9 +8,9 @@
 
 namespace relievo {
 
-// Calls of malloc, calloc, realloc, aligned_alloc and operator new by this thread since it began, from whatever library.
-// The counting allocator stands in for the C library's in every program that links this; under a sanitizer its hooks
-// are used instead.
+// Calls of malloc, calloc, realloc, aligned_alloc and operator new by this thread since it began, from whatever
+// library. The counting allocator stands in for the C library's in every program that links this; under a sanitizer its
+// hooks are used instead.
 [[nodiscard]] std::uint64_t threadAllocations() RELIEVO_RT;
 
 }  // namespace relievo

@@ -43,7 +43,9 @@ AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
   return *this;
 }
 
-AtomicFile::~AtomicFile() { discard(); }
+AtomicFile::~AtomicFile() {
+  discard();
+}
 
 Result<AtomicFile> AtomicFile::create(const std::string& path) {
   AtomicFile made;
@@ -54,7 +56,7 @@ Result<AtomicFile> AtomicFile::create(const std::string& path) {
   if (path.empty()) return fail(ErrorCode::InvalidArgument, "an empty file name; give a path", ENOENT);
 
   UniqueFd fd;
-  struct stat status {};
+  struct stat status{};
   const bool exists = ::stat(made.target_.c_str(), &status) == 0;
   if (exists && S_ISDIR(status.st_mode)) return fail(ErrorCode::Io, "is a folder; give the name of a file", EISDIR);
   if (exists && !S_ISREG(status.st_mode)) {

@@ -17,7 +17,9 @@ struct MonotonicTimeline {
 };
 using MonotonicTime = std::chrono::time_point<MonotonicTimeline, Duration>;
 
-[[nodiscard]] constexpr double toSeconds(Duration d) noexcept { return static_cast<double>(d.count()) * 1e-9; }
+[[nodiscard]] constexpr double toSeconds(Duration d) noexcept {
+  return static_cast<double>(d.count()) * 1e-9;
+}
 [[nodiscard]] constexpr Duration fromSeconds(double s) noexcept {
   return Duration(static_cast<Duration::rep>(s * 1e9 + (s < 0 ? -0.5 : 0.5)));
 }

@@ -46,14 +46,13 @@ struct ThreadUsage {
 ThreadUsage threadUsage() noexcept {
   rusage usage{};
   ::getrusage(RUSAGE_THREAD, &usage);  // cannot fail: both arguments are good
-  return {.page_faults =
-              static_cast<std::uint64_t>(usage.ru_minflt) + static_cast<std::uint64_t>(usage.ru_majflt),
+  return {.page_faults = static_cast<std::uint64_t>(usage.ru_minflt) + static_cast<std::uint64_t>(usage.ru_majflt),
           .allocations = threadAllocations()};
 }
 
 int addThreadData(dl_phdr_info* object, std::size_t, void* sum) {
   for (int i = 0; i < object->dlpi_phnum; ++i) {
-    const ElfW(Phdr)& segment = object->dlpi_phdr[i];
+    const ElfW(Phdr) & segment = object->dlpi_phdr[i];
     if (segment.p_type == PT_TLS) *static_cast<std::size_t*>(sum) += segment.p_memsz + segment.p_align;
   }
   return 0;  // go on to the next object
@@ -69,7 +68,7 @@ std::size_t threadDataBytes() noexcept {
 
 // A stack of the thread's own, with an inaccessible page below it that stops an overflow.
 class Stack {
-public:
+ public:
   Stack() noexcept = default;
   Stack(Stack&& other) noexcept
       : base_(std::exchange(other.base_, nullptr)), bytes_(other.bytes_), locked_(other.locked_) {}
@@ -82,10 +81,9 @@ public:
     const std::size_t page = guardBytes();
     Stack stack;
     stack.bytes_ = (wanted + threadDataBytes() + page - 1) / page * page;
-    void* const base = ::mmap(nullptr, page + stack.bytes_, PROT_READ | PROT_WRITE,
-                              MAP_PRIVATE | MAP_ANONYMOUS | MAP_STACK, -1, 0);
-    if (base == MAP_FAILED)
-      return fail(ErrorCode::Exhausted, "no memory for the cyclic thread's stack", errno);
+    void* const base =
+        ::mmap(nullptr, page + stack.bytes_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_STACK, -1, 0);
+    if (base == MAP_FAILED) return fail(ErrorCode::Exhausted, "no memory for the cyclic thread's stack", errno);
     stack.base_ = static_cast<std::byte*>(base);
     if (::mprotect(base, page, PROT_NONE) != 0) {
       return fail(ErrorCode::Exhausted, "no guard page for the cyclic thread's stack", errno);
@@ -98,7 +96,7 @@ public:
   [[nodiscard]] std::size_t bytes() const noexcept { return bytes_; }
   [[nodiscard]] bool locked() const noexcept { return locked_; }
 
-private:
+ private:
   static std::size_t guardBytes() noexcept { return static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)); }
 
   std::byte* base_ = nullptr;
@@ -108,7 +106,7 @@ private:
 
 // pthread attributes that are given back.
 class ThreadAttributes {
-public:
+ public:
   ThreadAttributes() noexcept { ::pthread_attr_init(&attributes_); }
   ThreadAttributes(const ThreadAttributes&) = delete;
   ThreadAttributes& operator=(const ThreadAttributes&) = delete;
@@ -131,12 +129,11 @@ public:
     sched_param parameters{};
     parameters.sched_priority = fifo ? priority : 0;
     if (const int error = ::pthread_attr_setinheritsched(&attributes_, PTHREAD_EXPLICIT_SCHED)) return error;
-    if (const int error = ::pthread_attr_setschedpolicy(&attributes_, fifo ? SCHED_FIFO : SCHED_OTHER))
-      return error;
+    if (const int error = ::pthread_attr_setschedpolicy(&attributes_, fifo ? SCHED_FIFO : SCHED_OTHER)) return error;
     return ::pthread_attr_setschedparam(&attributes_, &parameters);
   }
 
-private:
+ private:
   pthread_attr_t attributes_{};
 };
 
@@ -239,18 +236,15 @@ Result<Scheduler> CyclicThread::start(const CyclicConfig& config, CyclicTask& ta
   if (!stack) return std::unexpected(stack.error());
 
   auto statistics = std::make_unique<CyclicStatistics>();
-  auto run = std::unique_ptr<Run>(new Run{.clock = clock_,
-                                          .task = task,
-                                          .statistics = *statistics,
-                                          .period = config.period,
-                                          .stack = std::move(*stack)});
+  auto run = std::unique_ptr<Run>(new Run{
+      .clock = clock_, .task = task, .statistics = *statistics, .period = config.period, .stack = std::move(*stack)});
   std::strncpy(run->name.data(), config.name, kNameBytes - 1);
   const bool code_locked = lockAndTouchCode().has_value();
   const bool run_locked = lockAndTouch(run.get(), sizeof *run).has_value();
   const bool statistics_locked = lockAndTouch(statistics.get(), sizeof *statistics).has_value();
   if (!(code_locked && run_locked && statistics_locked && run->stack.locked())) {
-    log(LogLevel::Warning, "cyclic",
-        "%s: memory is touched but not locked: raise LimitMEMLOCK or grant CAP_IPC_LOCK", config.name);
+    log(LogLevel::Warning, "cyclic", "%s: memory is touched but not locked: raise LimitMEMLOCK or grant CAP_IPC_LOCK",
+        config.name);
   }
 
   Scheduler scheduler = Scheduler::Fifo;
@@ -259,13 +253,13 @@ Result<Scheduler> CyclicThread::start(const CyclicConfig& config, CyclicTask& ta
     scheduler = Scheduler::Other;
     error = run->create(config, scheduler);
     if (error == 0) {
-      log(LogLevel::Warning, "cyclic",
-          "%s: runs without real-time priority: grant CAP_SYS_NICE or raise LimitRTPRIO", config.name);
+      log(LogLevel::Warning, "cyclic", "%s: runs without real-time priority: grant CAP_SYS_NICE or raise LimitRTPRIO",
+          config.name);
     }
   }
   if (error == EINVAL) {
-    return fail(ErrorCode::InvalidArgument,
-                "the cyclic thread's processor is not there, or its stack is too small", error);
+    return fail(ErrorCode::InvalidArgument, "the cyclic thread's processor is not there, or its stack is too small",
+                error);
   }
   if (error != 0) return fail(ErrorCode::Exhausted, "the system has no room for one more thread", error);
   statistics->scheduler.store(scheduler, std::memory_order_relaxed);

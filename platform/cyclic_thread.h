@@ -16,9 +16,9 @@ namespace relievo {
 enum class LoopControl : std::uint8_t { Continue, Stop };
 
 struct Cycle {
-  std::uint64_t index = 0;   // 0, 1, 2, ..; a missed cycle leaves a gap
-  MonotonicTime scheduled;   // when it should have woken
-  MonotonicTime woken;       // when it did
+  std::uint64_t index = 0;  // 0, 1, 2, ..; a missed cycle leaves a gap
+  MonotonicTime scheduled;  // when it should have woken
+  MonotonicTime woken;      // when it did
 };
 
 // What a cyclic thread runs. `loop` is called on the real-time thread: no allocation, no lock, no system call.

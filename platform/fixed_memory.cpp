@@ -64,8 +64,7 @@ void touchByWriting(std::uintptr_t address, std::size_t bytes) noexcept {
 // else: a video player's process maps hundreds of megabytes of codecs and drivers.
 bool holdsRealTimeCode(std::string_view path) noexcept {
   if (path.empty()) return true;
-  constexpr std::array<std::string_view, 5> kNames = {"libc.so.", "libm.so.", "libstdc++.so.", "libgcc_s.so.",
-                                                      "ld-"};
+  constexpr std::array<std::string_view, 5> kNames = {"libc.so.", "libm.so.", "libstdc++.so.", "libgcc_s.so.", "ld-"};
   const std::string_view name = path.substr(path.rfind('/') + 1);
   for (const std::string_view wanted : kNames) {
     if (name.starts_with(wanted)) return true;
@@ -84,7 +83,7 @@ int lockAndTouchObject(dl_phdr_info* object, std::size_t, void* result) {
   if (!holdsRealTimeCode(object->dlpi_name == nullptr ? "" : object->dlpi_name)) return 0;
   auto& outcome = *static_cast<Result<void>*>(result);
   for (int i = 0; i < object->dlpi_phnum; ++i) {
-    const ElfW(Phdr)& segment = object->dlpi_phdr[i];
+    const ElfW(Phdr) & segment = object->dlpi_phdr[i];
     if (!isReadOnly(segment) || segment.p_memsz == 0) continue;
     const Pages pages = pagesOf(object->dlpi_addr + segment.p_vaddr, segment.p_memsz);
     if (auto locked = lock(pages); !locked) outcome = locked;
@@ -110,8 +109,7 @@ Result<void> lockAndTouchCode() noexcept {
 }
 
 Result<FixedArena> FixedArena::create(std::size_t bytes) noexcept {
-  if (bytes == 0)
-    return fail(ErrorCode::InvalidArgument, "an arena of no bytes: give the size that the set-up needs");
+  if (bytes == 0) return fail(ErrorCode::InvalidArgument, "an arena of no bytes: give the size that the set-up needs");
   void* const base = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (base == MAP_FAILED) {
     return fail(ErrorCode::Exhausted, "no memory for the real-time arena: free some, or ask for less", errno);
@@ -128,8 +126,7 @@ FixedArena::FixedArena(FixedArena&& other) noexcept
       last_(std::exchange(other.last_, nullptr)) {}
 
 FixedArena::~FixedArena() {
-  for (const Cleanup* cleanup = last_; cleanup != nullptr; cleanup = cleanup->next)
-    cleanup->destroy(cleanup->object);
+  for (const Cleanup* cleanup = last_; cleanup != nullptr; cleanup = cleanup->next) cleanup->destroy(cleanup->object);
   if (base_ != nullptr) ::munmap(base_, bytes_);
 }
 

@@ -12,9 +12,9 @@
 
 namespace relievo {
 
-// Locks the pages of [address, address + bytes), which must be writable, and touches each of them. Ranges, not mlockall, which would pin a GL
-// driver's hundreds of megabytes. Needs room under RLIMIT_MEMLOCK (or the right to pass it): PermissionDenied without;
-// the range is touched all the same.
+// Locks the pages of [address, address + bytes), which must be writable, and touches each of them. Ranges, not
+// mlockall, which would pin a GL driver's hundreds of megabytes. Needs room under RLIMIT_MEMLOCK (or the right to pass
+// it): PermissionDenied without; the range is touched all the same.
 [[nodiscard]] Result<void> lockAndTouch(void* address, std::size_t bytes) noexcept;
 
 // The same for the code and read-only data of this program, the C, C++ and maths libraries and the loader.

@@ -10,9 +10,9 @@
 
 namespace relievo {
 
-// The writer fills `back()` and calls `publish()`; the reader calls `refresh()` and reads `front()`. Each slot belongs to
-// one side at a time, so what a slot owns (a frame's reference) is released by the WRITER when it fills the slot again,
-// never by the reader: a real-time reader frees nothing.
+// The writer fills `back()` and calls `publish()`; the reader calls `refresh()` and reads `front()`. Each slot belongs
+// to one side at a time, so what a slot owns (a frame's reference) is released by the WRITER when it fills the slot
+// again, never by the reader: a real-time reader frees nothing.
 template <class T>
 class TripleBuffer {
  public:

@@ -36,8 +36,8 @@ class StopWatch {
   std::jthread thread_;
 };
 
-// What is cut off to the right and below: an odd column or row of the colour, and of the depth the same share of the view,
-// to half a sample.
+// What is cut off to the right and below: an odd column or row of the colour, and of the depth the same share of the
+// view, to half a sample.
 struct Cut {
   int color_cols = 0, color_rows = 0, depth_cols = 0, depth_rows = 0;
 
@@ -53,7 +53,8 @@ struct Cut {
   }
   [[nodiscard]] std::string explain() const {
     char line[160];
-    std::snprintf(line, sizeof line, "4:2:0 needs even sizes: cut off %d column and %d row of the colour, %d and %d of the depth",
+    std::snprintf(line, sizeof line,
+                  "4:2:0 needs even sizes: cut off %d column and %d row of the colour, %d and %d of the depth",
                   color_cols, color_rows, depth_cols, depth_rows);
     return color_cols + color_rows == 0 ? "" : line;
   }
@@ -125,7 +126,8 @@ Result<void> Packager::write(const FramePair& pair) {
   const bool depth_is_new = !pair.depth.empty() && (!last_depth_ || pair.depth.pts > *last_depth_);
   const bool key = key_frames_.isDue(color.pts, depth_is_new || pair.depth.empty());
   if (auto made = toColor420(color, color_); !made) return failOn("colour", made.error());
-  if (auto written = writer_->writeColor(color_, color.pts, key); !written) return failOn(output_.path, written.error());
+  if (auto written = writer_->writeColor(color_, color.pts, key); !written)
+    return failOn(output_.path, written.error());
   if (!depth_is_new) return {};
 
   last_depth_ = pair.depth.pts;
@@ -134,7 +136,8 @@ Result<void> Packager::write(const FramePair& pair) {
     return failOn("depth", {ErrorCode::Unsupported, 0, "its pictures change their size; cut the film there"});
   }
   if (auto coded = coder_->encode(depth, depth_); !coded) return failOn("depth", coded.error());
-  if (auto written = writer_->writeDepth(depth_, depth.pts, key); !written) return failOn(output_.path, written.error());
+  if (auto written = writer_->writeDepth(depth_, depth.pts, key); !written)
+    return failOn(output_.path, written.error());
   return {};
 }
 

@@ -14,9 +14,10 @@
 
 namespace relievo {
 
-// The normalised code s (see DepthCalibration), near high, becomes round(255 s). Whole-number arithmetic for luma: 8-bit
-// codes of full range and near high go through unchanged, those with near low are 255 - code. The law stays what it is.
-// Where the source may have holes, code 0 is theirs alone (`invalid` of the outcome) and every other code is 1 at least.
+// The normalised code s (see DepthCalibration), near high, becomes round(255 s). Whole-number arithmetic for luma:
+// 8-bit codes of full range and near high go through unchanged, those with near low are 255 - code. The law stays what
+// it is. Where the source may have holes, code 0 is theirs alone (`invalid` of the outcome) and every other code is 1
+// at least.
 class DepthCoder {
  public:
   explicit DepthCoder(const DepthCalibration& source);

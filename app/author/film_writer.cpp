@@ -140,7 +140,9 @@ Result<void> FilmWriter::Impl::begin(const FilmFormat& format) {
 FilmWriter::FilmWriter(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 FilmWriter::~FilmWriter() = default;
 
-bool FilmWriter::knowsEnding(const std::string& path) { return formatOf(path) != nullptr; }
+bool FilmWriter::knowsEnding(const std::string& path) {
+  return formatOf(path) != nullptr;
+}
 
 Result<std::unique_ptr<FilmWriter>> FilmWriter::create(const std::string& path, const FilmFormat& format) {
   av_log_set_level(AV_LOG_QUIET);  // the program prints its own line
@@ -169,7 +171,7 @@ Result<FilmTotals> FilmWriter::finish() {
 
   // On the disk before it has its name, so that a power cut leaves the whole film or none.
   const UniqueFd fd(::open(film.temporary.c_str(), O_RDONLY | O_CLOEXEC));
-  struct stat status {};
+  struct stat status{};
   if (!fd.valid() || ::fsync(fd.get()) != 0 || ::fstat(fd.get(), &status) != 0 ||
       ::rename(film.temporary.c_str(), film.target.c_str()) != 0) {
     return fail(ErrorCode::Io, kCannotWrite, errno);

@@ -19,9 +19,9 @@ struct FilmFormat {
   ColorRange color_range = ColorRange::Limited;
   ColorMatrix color_matrix = ColorMatrix::Unspecified;
   double color_aspect = 1.0, depth_aspect = 1.0;  // width of a sample over its height
-  Duration frame_period{0};  // for the rate control alone; 0 unknown
+  Duration frame_period{0};                       // for the rate control alone; 0 unknown
   int color_crf = 18;
-  int depth_crf = 8;         // 0: lossless, every code comes back
+  int depth_crf = 8;                              // 0: lossless, every code comes back
   std::map<std::string, std::string> depth_tags;  // calibrationTags()
 };
 
@@ -38,8 +38,8 @@ struct FilmTotals {
 // Track 0 is the colour, 4:2:0, titled "color"; track 1 is the depth, 4:0:0 of full range, titled "depth" and carrying
 // the tags. MP4 keeps few tags of a track: there the depth is named by its handler and the tags are the file's.
 //
-// One thread; libx264 has threads of its own. It is written under a temporary name beside the target, which is renamed by
-// `finish`; without that nothing is left. Times of a track must rise.
+// One thread; libx264 has threads of its own. It is written under a temporary name beside the target, which is renamed
+// by `finish`; without that nothing is left. Times of a track must rise.
 class FilmWriter {
  public:
   // InvalidArgument for an ending other than .mkv, .mp4, .mov or .m4v, NotFound for a folder that is not there,

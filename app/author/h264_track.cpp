@@ -18,23 +18,31 @@ constexpr AVRational kNanosecond{1, 1'000'000'000};
 
 AVColorRange rangeOf(ColorRange range) {
   switch (range) {
-    case ColorRange::Full: return AVCOL_RANGE_JPEG;
-    case ColorRange::Limited: return AVCOL_RANGE_MPEG;
-    case ColorRange::Unspecified: break;
+    case ColorRange::Full:
+      return AVCOL_RANGE_JPEG;
+    case ColorRange::Limited:
+      return AVCOL_RANGE_MPEG;
+    case ColorRange::Unspecified:
+      break;
   }
   return AVCOL_RANGE_UNSPECIFIED;
 }
 
 void signalMatrix(AVCodecContext& codec, ColorMatrix matrix) {
   switch (matrix) {
-    case ColorMatrix::Bt601: codec.colorspace = AVCOL_SPC_SMPTE170M; break;
+    case ColorMatrix::Bt601:
+      codec.colorspace = AVCOL_SPC_SMPTE170M;
+      break;
     case ColorMatrix::Bt709:
       codec.colorspace = AVCOL_SPC_BT709;
       codec.color_primaries = AVCOL_PRI_BT709;
       codec.color_trc = AVCOL_TRC_BT709;
       break;
-    case ColorMatrix::Bt2020: codec.colorspace = AVCOL_SPC_BT2020_NCL; break;
-    case ColorMatrix::Unspecified: break;
+    case ColorMatrix::Bt2020:
+      codec.colorspace = AVCOL_SPC_BT2020_NCL;
+      break;
+    case ColorMatrix::Unspecified:
+      break;
   }
 }
 
@@ -51,8 +59,9 @@ void configure(AVCodecContext& codec, const H264Track::Settings& s, bool global_
   codec.gop_size = 1 << 20;  // key frames are where `encode` asks for them
   if (global_header) codec.flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
   // libx264 takes the frame rate, on which its level rests, from the time base unless told.
-  const std::string parameters = "fps=" + std::to_string(codec.framerate.num) + "/" + std::to_string(codec.framerate.den) +
-                                 ":scenecut=0:keyint=infinite" + s.x264_parameters;
+  const std::string parameters = "fps=" + std::to_string(codec.framerate.num) + "/" +
+                                 std::to_string(codec.framerate.den) + ":scenecut=0:keyint=infinite" +
+                                 s.x264_parameters;
   av_opt_set(codec.priv_data, "preset", s.preset, 0);
   av_opt_set(codec.priv_data, "x264-params", parameters.c_str(), 0);
   av_opt_set_double(codec.priv_data, "crf", s.crf, 0);

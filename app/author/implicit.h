@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Distance fields of simple solids and their smooth combinations: below zero inside, smooth, never steeper than about one.
+// Distance fields of simple solids and their smooth combinations: below zero inside, smooth, never steeper than about
+// one.
 #pragma once
 
 #include "app/author/lanes.h"
@@ -9,7 +10,8 @@ namespace relievo::lanes {
 // The field of an ellipsoid: exact on the surface to first order, nowhere more than the distance. Inside, where the
 // slope fades towards the middle, the last term keeps it from growing without bound; on the surface that term is zero.
 template <class T>
-[[nodiscard, gnu::always_inline]] inline T ellipsoid(const Vec3<T>& p, const Vec3<T>& center, const Vec3<double>& radii) {
+[[nodiscard, gnu::always_inline]] inline T ellipsoid(const Vec3<T>& p, const Vec3<T>& center,
+                                                     const Vec3<double>& radii) {
   const Vec3<T> per_mm = {T(1.0 / radii.x), T(1.0 / radii.y), T(1.0 / radii.z)};
   const double thin = std::min(radii.x, std::min(radii.y, radii.z));
   const Vec3<T> unit = (p - center) * per_mm;
@@ -25,7 +27,8 @@ template <class T>
 
 // A rod from a to b whose radius goes from `radius_a` to `radius_b`.
 template <class T>
-[[nodiscard, gnu::always_inline]] inline T rod(const Vec3<T>& p, const Vec3<T>& a, const Vec3<T>& b, double radius_a, double radius_b) {
+[[nodiscard, gnu::always_inline]] inline T rod(const Vec3<T>& p, const Vec3<T>& a, const Vec3<T>& b, double radius_a,
+                                               double radius_b) {
   const Vec3<T> along = b - a;
   const Vec3<T> from_a = p - a;
   const T s = clamp<T>(dot(from_a, along) / dot(along, along), T(0.0), T(1.0));

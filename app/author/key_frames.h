@@ -13,8 +13,8 @@ class KeyFrames {
   static constexpr Duration kEvery = std::chrono::seconds(1);
   static constexpr Duration kLatest = std::chrono::seconds(2);
 
-  // For each picture of the colour in turn: whether it is a key frame. `depth_is_new` says that a depth picture is written
-  // with it; a held one cannot become a key frame any more, so the next one is waited for, but not for ever.
+  // For each picture of the colour in turn: whether it is a key frame. `depth_is_new` says that a depth picture is
+  // written with it; a held one cannot become a key frame any more, so the next one is waited for, but not for ever.
   [[nodiscard]] bool isDue(MediaTime color, bool depth_is_new) noexcept {
     const bool first = !last_;
     const Duration since = first ? Duration(0) : color - *last_;

@@ -34,21 +34,43 @@ struct Float4 {
   friend Mask4 operator>(Float4 a, Float4 b) { return {a.v > b.v}; }
 };
 
-[[nodiscard, gnu::always_inline]] inline Float4 select(Mask4 m, Float4 a, Float4 b) { return {m.v ? a.v : b.v}; }
-[[nodiscard, gnu::always_inline]] inline Float4 min(Float4 a, Float4 b) { return {a.v < b.v ? a.v : b.v}; }
-[[nodiscard, gnu::always_inline]] inline Float4 max(Float4 a, Float4 b) { return {a.v > b.v ? a.v : b.v}; }
-[[nodiscard, gnu::always_inline]] inline Float4 abs(Float4 a) { return max(a, -a); }
+[[nodiscard, gnu::always_inline]] inline Float4 select(Mask4 m, Float4 a, Float4 b) {
+  return {m.v ? a.v : b.v};
+}
+[[nodiscard, gnu::always_inline]] inline Float4 min(Float4 a, Float4 b) {
+  return {a.v < b.v ? a.v : b.v};
+}
+[[nodiscard, gnu::always_inline]] inline Float4 max(Float4 a, Float4 b) {
+  return {a.v > b.v ? a.v : b.v};
+}
+[[nodiscard, gnu::always_inline]] inline Float4 abs(Float4 a) {
+  return max(a, -a);
+}
 [[nodiscard, gnu::always_inline]] inline Float4 sqrt(Float4 a) {
   return FloatVector{std::sqrt(a.v[0]), std::sqrt(a.v[1]), std::sqrt(a.v[2]), std::sqrt(a.v[3])};
 }
-[[nodiscard, gnu::always_inline]] inline bool any(Mask4 m) { return (m.v[0] | m.v[1] | m.v[2] | m.v[3]) != 0; }
+[[nodiscard, gnu::always_inline]] inline bool any(Mask4 m) {
+  return (m.v[0] | m.v[1] | m.v[2] | m.v[3]) != 0;
+}
 
-[[nodiscard, gnu::always_inline]] inline double select(bool m, double a, double b) { return m ? a : b; }
-[[nodiscard, gnu::always_inline]] inline double min(double a, double b) { return std::min(a, b); }
-[[nodiscard, gnu::always_inline]] inline double max(double a, double b) { return std::max(a, b); }
-[[nodiscard, gnu::always_inline]] inline double abs(double a) { return std::abs(a); }
-[[nodiscard, gnu::always_inline]] inline double sqrt(double a) { return std::sqrt(a); }
-[[nodiscard, gnu::always_inline]] inline bool any(bool m) { return m; }
+[[nodiscard, gnu::always_inline]] inline double select(bool m, double a, double b) {
+  return m ? a : b;
+}
+[[nodiscard, gnu::always_inline]] inline double min(double a, double b) {
+  return std::min(a, b);
+}
+[[nodiscard, gnu::always_inline]] inline double max(double a, double b) {
+  return std::max(a, b);
+}
+[[nodiscard, gnu::always_inline]] inline double abs(double a) {
+  return std::abs(a);
+}
+[[nodiscard, gnu::always_inline]] inline double sqrt(double a) {
+  return std::sqrt(a);
+}
+[[nodiscard, gnu::always_inline]] inline bool any(bool m) {
+  return m;
+}
 
 // Lane 0 is `first`, each next lane is `step` more.
 [[nodiscard, gnu::always_inline]] inline Float4 ramp(double first, double step) {
@@ -70,7 +92,9 @@ template <class T>
 }
 
 // A sine good to 3e-6 over the few turns that patterns and waves need.
-[[nodiscard, gnu::always_inline]] inline double sine(double x) { return std::sin(x); }
+[[nodiscard, gnu::always_inline]] inline double sine(double x) {
+  return std::sin(x);
+}
 [[nodiscard, gnu::always_inline]] inline Float4 sine(Float4 x) {
   const Float4 turns = x * 0.15915494309189535;
   constexpr float kRoundToWhole = 12582912.0F;  // 1.5 * 2^23: adding it leaves no bits for a fraction

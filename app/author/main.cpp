@@ -27,7 +27,7 @@ std::atomic<bool> stop_wanted{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 void stopOnSignals() {
-  struct sigaction action {};
+  struct sigaction action{};
   action.sa_handler = [](int) { stop_wanted.store(true, std::memory_order_relaxed); };
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::sigaction(number, &action, nullptr);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of the write, told like any other
@@ -77,17 +77,21 @@ void addOptions(CLI::App& app, Arguments& a) {
       "  a depth camera's film, colour above, depth below as hue, with what its depth means:\n"
       "    relievo-author --color desk.mov --packing tb --depth-code hue --calibration near=520,far=1260 -o desk.mp4\n"
       "\n"
-      "The file holds two H.264 tracks: colour (4:2:0) and depth (4:0:0, 8 bits, full range, near is high), each picture at\n"
-      "the time it had. The depth's meaning is written in its tags. At the end a table says what was done to the depth.");
+      "The file holds two H.264 tracks: colour (4:2:0) and depth (4:0:0, 8 bits, full range, near is high), each "
+      "picture at\n"
+      "the time it had. The depth's meaning is written in its tags. At the end a table says what was done to the "
+      "depth.");
   app.add_option("--color", a.source.url, "colour: a file or a URL; without --depth it holds the depth as well")
       ->type_name("SRC");
   app.add_option("--depth", a.source.depth_url, "depth of 8 to 16 bits: a file or a URL")->type_name("SRC");
-  app.add_option("-o,--output", a.output.path, "the film to write: .mkv, .mp4, .m4v or .mov")->required()->type_name("OUT");
+  app.add_option("-o,--output", a.output.path, "the film to write: .mkv, .mp4, .m4v or .mov")
+      ->required()
+      ->type_name("OUT");
   app.add_option("--depth-code", a.source.depth_code, "what carries the depth: luma (default) or hue")
       ->type_name("luma|hue")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, DepthCode>{{"luma", DepthCode::Luma}, {"hue", DepthCode::Hue}})
-                      .description(""));
+      ->transform(
+          CLI::CheckedTransformer(std::map<std::string, DepthCode>{{"luma", DepthCode::Luma}, {"hue", DepthCode::Hue}})
+              .description(""));
   app.add_option("--packing", a.source.packing,
                  "where the depth lies: auto (default), tracks, sbs (right half of the picture), tb (lower half)")
       ->type_name("auto|tracks|sbs|tb")
@@ -96,14 +100,16 @@ void addOptions(CLI::App& app, Arguments& a) {
                                                                          {"sbs", Packing::SideBySide},
                                                                          {"tb", Packing::TopBottom}})
                       .description(""));
-  app.add_option("--calibration", a.calibration,
-                 "what a depth code means, if the source does not say it: law=linear|inverse polarity=near-high|near-low "
-                 "range=full|limited bits=8..16 invalid=CODE|none near=MM far=MM")
+  app.add_option(
+         "--calibration", a.calibration,
+         "what a depth code means, if the source does not say it: law=linear|inverse polarity=near-high|near-low "
+         "range=full|limited bits=8..16 invalid=CODE|none near=MM far=MM")
       ->type_name("FILE|KEY=VALUE,..");
   app.add_option("--crf", a.crf, "quality of both tracks, 0 (lossless) to 51 (default: 18 for colour, 8 for depth)")
       ->type_name("N")
       ->check(CLI::Range(0, 51).description(""));
-  app.add_option("--depth-crf", a.depth_crf, "quality of the depth alone; 0 keeps every code, where hardware can decode it")
+  app.add_option("--depth-crf", a.depth_crf,
+                 "quality of the depth alone; 0 keeps every code, where hardware can decode it")
       ->type_name("N")
       ->check(CLI::Range(0, 51).description(""));
   app.add_option("--scene", a.scene, "make a film of the project's own instead, with its exact depth: sample")
@@ -121,7 +127,8 @@ Result<void> readCalibration(Arguments& a) {
   if (a.calibration.empty()) return {};
   std::ifstream file(a.calibration);
   const bool from_file = a.calibration.find('=') == std::string::npos;
-  if (from_file && !file.good()) return fail(ErrorCode::NotFound, "no such file; name one, or write KEY=VALUE,KEY=VALUE,..");
+  if (from_file && !file.good())
+    return fail(ErrorCode::NotFound, "no such file; name one, or write KEY=VALUE,KEY=VALUE,..");
   const std::string text = from_file ? std::string(std::istreambuf_iterator<char>(file), {}) : a.calibration;
   auto settings = parseCalibration(text);
   if (!settings) return std::unexpected(settings.error());
@@ -131,7 +138,8 @@ Result<void> readCalibration(Arguments& a) {
 
 int run(Arguments& a) {
   if (a.scene.empty() && a.source.url.empty()) {
-    return complain("--color", {ErrorCode::InvalidArgument, 0, "missing: name the film's colour, or take --scene sample"});
+    return complain("--color",
+                    {ErrorCode::InvalidArgument, 0, "missing: name the film's colour, or take --scene sample"});
   }
   if (auto read = readCalibration(a); !read) return complain("--calibration " + a.calibration, read.error());
   if (a.crf >= 0) a.output.color_crf = a.output.depth_crf = a.crf;

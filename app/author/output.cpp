@@ -64,7 +64,7 @@ Result<void> checkOutput(const OutputOptions& output) {
   if (!FilmWriter::knowsEnding(output.path)) {
     return fail(ErrorCode::InvalidArgument, "unknown kind of file; let its name end in .mkv, .mp4, .m4v or .mov");
   }
-  struct stat status {};
+  struct stat status{};
   if (::stat(output.path.c_str(), &status) != 0) return {};
   if (!S_ISREG(status.st_mode)) return fail(ErrorCode::Io, "is there already and no file; choose another name");
   if (!output.force) return fail(ErrorCode::Io, "is there already; choose another name, or replace it with --force");
@@ -88,7 +88,8 @@ std::string progressText(std::uint64_t done, std::optional<std::uint64_t> total,
 std::string toText(const std::string& path, const AuthorSummary& summary) {
   const FilmFormat& f = summary.format;
   const FilmTotals& totals = summary.totals;
-  std::string text = path + print(": %.2f s, ", seconds(totals.color, summary.frame_period)) + sizeText(totals.file_bytes) + "\n";
+  std::string text =
+      path + print(": %.2f s, ", seconds(totals.color, summary.frame_period)) + sizeText(totals.file_bytes) + "\n";
   text += trackLine("color", f.color_width, f.color_height, "4:2:0", f.color_crf, totals.color, summary.frame_period);
   text += trackLine("depth", f.depth_width, f.depth_height, "4:0:0", f.depth_crf, totals.depth, summary.frame_period);
   text += codesLine(summary.codes);

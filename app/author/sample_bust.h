@@ -12,16 +12,28 @@ using lanes::Vec3;
 // Where the head is at one time: a turn about its upright axis, a nod and a tilt to the side, in radians.
 struct HeadPose {
   double turn = 0, nod = 0, tilt = 0;
-  double eyes_closed = 0;          // 0 open .. 1 shut
-  Vec3<double> gaze = {0, 0, 1};   // where the eyes look, in head coordinates, of length 1
+  double eyes_closed = 0;         // 0 open .. 1 shut
+  Vec3<double> gaze = {0, 0, 1};  // where the eyes look, in head coordinates, of length 1
 };
 
-// Stage millimetres (see sample_scene.h). Head coordinates: origin between the eyes inside the skull, z out of the face.
+// Stage millimetres (see sample_scene.h). Head coordinates: origin between the eyes inside the skull, z out of the
+// face.
 template <class T>
 class Bust {
  public:
-  enum Part : Parts { kSkull = 1, kEyes = 2, kNose = 4, kMouth = 8, kEars = 16, kHair = 32, kNeck = 64, kJumper = 128,
-                     kChin = 256, kCheeks = 512, kBustParts = 1023 };
+  enum Part : Parts {
+    kSkull = 1,
+    kEyes = 2,
+    kNose = 4,
+    kMouth = 8,
+    kEars = 16,
+    kHair = 32,
+    kNeck = 64,
+    kJumper = 128,
+    kChin = 256,
+    kCheeks = 512,
+    kBustParts = 1023
+  };
   static constexpr double kFront = 50;  // nothing lies before this
 
   explicit Bust(const HeadPose& pose) {
@@ -125,8 +137,8 @@ class Bust {
     }
     if (parts & kNose) {
       d = blend(d, rod(h, at(0, 1.5, 20.5), at(0, -8.2, 25.6), 1.7, 2.5), 4.5);  // bridge
-      d = blend(d, sphere(h, at(0, -9.2, 26.6), 3.1), 2.0);                       // tip
-      d = blend(d, ellipsoid(m, at(3.3, -10.2, 23.6), {2.4, 2.2, 2.9}), 2.0);     // wing
+      d = blend(d, sphere(h, at(0, -9.2, 26.6), 3.1), 2.0);                      // tip
+      d = blend(d, ellipsoid(m, at(3.3, -10.2, 23.6), {2.4, 2.2, 2.9}), 2.0);    // wing
     }
     if (parts & kMouth) d = lips(d, m);
     if (parts & kEars) d = blend(d, ear(m), 2.0);
@@ -137,20 +149,27 @@ class Bust {
   [[nodiscard]] T eye(const Vec3<T>& m) const { return lanes::sphere(m, at(kEyeX, 0, kEyeZ), kEyeRadius); }
 
   // How far a point of the lids lies above the upper and below the lower edge of the opening.
-  [[nodiscard]] T aboveUpperLid(const Vec3<T>& e) const { return e.y - e.z * (T(0.40) - T(0.72) * lid_) + e.x * e.x * T(0.03); }
+  [[nodiscard]] T aboveUpperLid(const Vec3<T>& e) const {
+    return e.y - e.z * (T(0.40) - T(0.72) * lid_) + e.x * e.x * T(0.03);
+  }
   [[nodiscard]] T belowLowerLid(const Vec3<T>& e) const { return -e.y - e.z * T(0.42) + e.x * e.x * T(0.02); }
 
   [[nodiscard]] T lids(const Vec3<T>& m) const {
     const Vec3<T> e = m - at(kEyeX, 0, kEyeZ);
-    return lanes::common(length(e) - T(kEyeRadius + 0.7), -lanes::max(aboveUpperLid(e), belowLowerLid(e)) * T(0.9), 0.5);
+    return lanes::common(length(e) - T(kEyeRadius + 0.7), -lanes::max(aboveUpperLid(e), belowLowerLid(e)) * T(0.9),
+                         0.5);
   }
 
   [[nodiscard]] static Vec3<T> smiling(const Vec3<T>& m) {
     return {m.x, m.y - m.x * m.x * T(0.027), m.z + m.x * m.x * T(0.032)};  // corners up, and around the jaw
   }
-  [[nodiscard]] static T upperLip(const Vec3<T>& s) { return lanes::ellipsoid(s, at(2.6, -17.2, 22.2), {4.7, 1.8, 2.3}); }
+  [[nodiscard]] static T upperLip(const Vec3<T>& s) {
+    return lanes::ellipsoid(s, at(2.6, -17.2, 22.2), {4.7, 1.8, 2.3});
+  }
   [[nodiscard]] static T lowerLip(const Vec3<T>& s) { return lanes::ellipsoid(s, at(0, -20.6, 21.6), {6.2, 2.2, 2.9}); }
-  [[nodiscard]] static T mouthLine(const Vec3<T>& s) { return lanes::ellipsoid(s, at(0, -18.8, 24.1), {6.4, 0.5, 1.9}); }
+  [[nodiscard]] static T mouthLine(const Vec3<T>& s) {
+    return lanes::ellipsoid(s, at(0, -18.8, 24.1), {6.4, 0.5, 1.9});
+  }
   [[nodiscard]] T lips(T face, const Vec3<T>& m) const {
     const Vec3<T> s = smiling(m);
     return lanes::carve(lanes::blend(lanes::blend(face, upperLip(s), 1.2), lowerLip(s), 1.2), mouthLine(s), 0.7);
@@ -234,7 +253,8 @@ class Bust {
     using namespace lanes;
     // Combed up to the bun: strands run along meridians of an axis through it.
     const T around = h.x / (abs(h.z + T(10.0)) + abs(h.x) + T(4.0));
-    const T strands = sine(around * T(70.0)) + sine(around * T(113.0) + h.y * T(0.12)) + sine(around * T(171.0) - h.y * T(0.2));
+    const T strands =
+        sine(around * T(70.0)) + sine(around * T(113.0) + h.y * T(0.12)) + sine(around * T(171.0) - h.y * T(0.2));
     Look<T> look = plain<T>(0.115, 0.050, 0.026, 0.55);
     look.albedo = look.albedo * (T(1.0) + strands * T(0.16));
     return look;

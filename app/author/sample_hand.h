@@ -23,7 +23,12 @@ struct HandPose {
 template <class T>
 class Hand {
  public:
-  enum Part : Parts { kPalm = 1 << 10, kArm = 1 << 11, kFinger = 1 << 12, kHandParts = 127 << 10 };  // five bits from kFinger on
+  enum Part : Parts {
+    kPalm = 1 << 10,
+    kArm = 1 << 11,
+    kFinger = 1 << 12,
+    kHandParts = 127 << 10
+  };  // five bits from kFinger on
 
   explicit Hand(const HandPose& pose) : palm_(pose.palm) {
     const double cr = std::cos(pose.roll), sr = std::sin(pose.roll);

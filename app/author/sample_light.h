@@ -12,8 +12,12 @@ namespace relievo::sample {
 using lanes::Float4;
 using V = Vec3<Float4>;
 
-inline V vec(double x, double y, double z) { return {x, y, z}; }
-inline V unit(const V& v) { return v * (Float4(1.0) / lanes::length(v)); }
+inline V vec(double x, double y, double z) {
+  return {x, y, z};
+}
+inline V unit(const V& v) {
+  return v * (Float4(1.0) / lanes::length(v));
+}
 
 inline constexpr Vec3<double> kKey = {-0.479, 0.585, 0.654};  // towards the lamp, length 1
 inline constexpr Vec3<double> kRim = {0.72, 0.42, -0.55};     // towards a window behind

@@ -45,7 +45,8 @@ class Painter {
   void cast(int c0, int r0) {
     const Parts parts = scene_.partsNear(box(c0, r0));
     // One ray for each quarter of the tile, stopped before anything in the quarter can be met.
-    const double reach = 1.25 * (kHalf / 2) * std::hypot(raster_.x(1) - raster_.x(0), raster_.y(1) - raster_.y(0)) + 0.1;
+    const double reach =
+        1.25 * (kHalf / 2) * std::hypot(raster_.x(1) - raster_.x(0), raster_.y(1) - raster_.y(0)) + 0.1;
     const double cl = c0 + kHalf / 2 - 0.5, cr = cl + kHalf, rt = r0 + kHalf / 2 - 0.5, rb = rt + kHalf;
     const Float4 qx = four(raster_.x(cl), raster_.x(cr), raster_.x(cl), raster_.x(cr));
     const Float4 qy = four(raster_.y(rt), raster_.y(rt), raster_.y(rb), raster_.y(rb));
@@ -70,11 +71,12 @@ class Painter {
     for (int j = r0 / 2; j < j1; ++j) {
       for (int i = c0 / 2; i < i1; i += lanes::kLanes) {
         const Surface s = surfaceAt(2 * i, 2 * j, 2);
-        const Light light = lightAt(scene_, {lanes::ramp(raster_.x(2 * i), raster_.x(2) - raster_.x(0)), raster_.y(2 * j), s.z},
-                                    s.normal, parts);
+        const Light light =
+            lightAt(scene_, {lanes::ramp(raster_.x(2 * i), raster_.x(2) - raster_.x(0)), raster_.y(2 * j), s.z},
+                    s.normal, parts);
         for (int k = 0; k < lanes::kLanes && i + k < i1; ++k) {
-          light_[static_cast<std::size_t>(j) * static_cast<std::size_t>(light_cols_) + static_cast<std::size_t>(i + k)] = {
-              light.key[k], light.sky[k], s.z[k]};
+          light_[static_cast<std::size_t>(j) * static_cast<std::size_t>(light_cols_) +
+                 static_cast<std::size_t>(i + k)] = {light.key[k], light.sky[k], s.z[k]};
         }
       }
     }
@@ -133,7 +135,8 @@ class Painter {
     if (parts) {
       const Float4 z = descend<Float4>(scene_, x, y, lanes::max(start, ground), ground - 0.1, parts);
       const Float4 here = scene_.solids({x, y, z}, parts);
-      const Vec3<Float4> slope = {scene_.solids({x + e, y, z}, parts) - here, scene_.solids({x, y + e, z}, parts) - here,
+      const Vec3<Float4> slope = {scene_.solids({x + e, y, z}, parts) - here,
+                                  scene_.solids({x, y + e, z}, parts) - here,
                                   scene_.solids({x, y, z + e}, parts) - here};
       const Float4 top = polished<Float4>(z, here, slope.z * (1 / e));
       on_ground = !(top > ground);
@@ -164,7 +167,8 @@ class Painter {
       const float v = std::clamp(rows[lane] * 0.5F, 0.0F, static_cast<float>((picture_.rows + 1) / 2) - 0.001F);
       const int i = static_cast<int>(u), j = static_cast<int>(v);
       const float fu = u - static_cast<float>(i), fv = v - static_cast<float>(j);
-      const LightSample* row = &light_[static_cast<std::size_t>(j) * static_cast<std::size_t>(light_cols_) + static_cast<std::size_t>(i)];
+      const LightSample* row =
+          &light_[static_cast<std::size_t>(j) * static_cast<std::size_t>(light_cols_) + static_cast<std::size_t>(i)];
       float weights = 0, key = 0, sky = 0;
       const auto add = [&](const LightSample& s, float share) {
         const float gap = s.z - z[lane];
@@ -226,7 +230,8 @@ void overTiles(const SamplePicture& picture, int threads, Work work) {
   const int across = (picture.cols + kTile - 1) / kTile, down = (picture.rows + kTile - 1) / kTile;
   std::atomic<int> next{0};
   const auto run = [&] {
-    for (int i = next.fetch_add(1); i < across * down; i = next.fetch_add(1)) work(i % across * kTile, i / across * kTile);
+    for (int i = next.fetch_add(1); i < across * down; i = next.fetch_add(1))
+      work(i % across * kTile, i / across * kTile);
   };
   std::vector<std::jthread> helpers;
   for (int i = 1; i < threads; ++i) helpers.emplace_back(run);

@@ -14,12 +14,13 @@ class Room {
     using namespace lanes;
     const T r = sqrt(x * x + y * y + T(1e-6));
     const T bowl = min(r * T(1.0 / kRing), T(1.0));
-    T z = T(2.5) + T(2.5) * bowl * bowl;                           // a shallow dish
+    T z = T(2.5) + T(2.5) * bowl * bowl;  // a shallow dish
     const T across = (r - T(kRing)) * T(1.0 / 5.0);
     const T hump = max(T(1.0) - across * across, T(0.0));
-    if (any(hump > T(0.0))) z = z + hump * hump * (T(4.0) + T(0.8) * cosine32(x / r, y / r));  // the frame and its beads
+    if (any(hump > T(0.0)))
+      z = z + hump * hump * (T(4.0) + T(0.8) * cosine32(x / r, y / r));  // the frame and its beads
     if (any(r > T(60.0))) z = z + T(4.2) * rosette(x, y);
-    const T sweep = x * T(1.0 / 80.0);                             // the wall comes forward to the sides
+    const T sweep = x * T(1.0 / 80.0);  // the wall comes forward to the sides
     return z + T(3.0) * sweep * sweep * sweep * sweep;
   }
 

@@ -42,7 +42,9 @@ HandPose handPose(double t) noexcept {
   return pose;
 }
 
-bool handIsIn(double t) noexcept { return t > kHandFrom && t < kHandTo; }
+bool handIsIn(double t) noexcept {
+  return t > kHandFrom && t < kHandTo;
+}
 
 HeadPose headPose(double t) noexcept {
   HeadPose pose;

@@ -129,7 +129,8 @@ class StillLife {
   [[nodiscard]] static Look<T> peel(const Vec3<T>& q, double r, double g, double b) {
     using lanes::sine;
     Look<T> look = plain<T>(r, g, b, 0.5, 0.5);
-    const T pores = sine(q.x * T(4.1) + sine(q.y * T(2.3))) * sine(q.y * T(4.3) + sine(q.z * T(2.9))) * sine(q.z * T(4.0));
+    const T pores =
+        sine(q.x * T(4.1) + sine(q.y * T(2.3))) * sine(q.y * T(4.3) + sine(q.z * T(2.9))) * sine(q.z * T(4.0));
     look.albedo = look.albedo * (T(0.95) + pores * T(0.10));
     return look;
   }
@@ -140,12 +141,13 @@ class StillLife {
     const T band = smoothStep(abs(b.z + T(13.0)), 0.9, 1.2);
     paint(look, T(1.0) - band, 0.06, 0.15, 0.34);
     paint(look, smoothStep(b.z, -10.6, -10.0), 0.06, 0.15, 0.34);
-    paint(look, (T(1.0) - smoothStep(abs(b.z + T(17.5)), 2.0, 2.3)) * smoothStep(sine(b.x * T(0.8)) * sine(b.y * T(0.8)), -0.05, 0.05), 0.50, 0.13, 0.07);
+    paint(look,
+          (T(1.0) - smoothStep(abs(b.z + T(17.5)), 2.0, 2.3)) *
+              smoothStep(sine(b.x * T(0.8)) * sine(b.y * T(0.8)), -0.05, 0.05),
+          0.50, 0.13, 0.07);
     return look;
   }
-  [[nodiscard]] static Look<T> fruitLook(const Vec3<T>& b) {
-    return peel(b, 0.88, 0.30, 0.03);
-  }
+  [[nodiscard]] static Look<T> fruitLook(const Vec3<T>& b) { return peel(b, 0.88, 0.30, 0.03); }
   [[nodiscard]] Look<T> ballLook(const Vec3<T>& q) const {
     using namespace lanes;
     // It rolls without slipping: stripes turn by the way over the radius.

@@ -10,7 +10,9 @@ namespace relievo {
 FilmFeed::FilmFeed(PairReader::Backends backends, std::size_t capacity)
     : capacity_(capacity), reader_(std::move(backends)) {}
 
-FilmFeed::~FilmFeed() { stop(); }
+FilmFeed::~FilmFeed() {
+  stop();
+}
 
 void FilmFeed::startThread() {
   if (!thread_.joinable()) thread_ = std::thread([this] { threadMain(); });

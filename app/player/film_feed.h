@@ -15,8 +15,8 @@
 
 namespace relievo {
 
-// The player's side (all verbs but `work`) never waits for the film: it asks, and looks at `state`. The reader's side is
-// `work`: a thread does it after `startThread`; without, the caller does, so that a test runs in simulated time.
+// The player's side (all verbs but `work`) never waits for the film: it asks, and looks at `state`. The reader's side
+// is `work`: a thread does it after `startThread`; without, the caller does, so that a test runs in simulated time.
 //
 // States: Closed -open-> Opening -> Reading -> Ended; Reading or Ended -seek-> Seeking -> Reading; any but Closed ->
 // Failed. Pairs that were read before an end or a failure can still be taken.
@@ -34,8 +34,8 @@ class FilmFeed {
   void stop() noexcept;
 
   void open(SourceOptions options);  // Closed only
-  // Forgets what was read ahead. What is taken once the state has left Seeking lies at or after `target`. A newer target
-  // replaces one that is not reached yet. Reading, Ended or Seeking, else nothing happens.
+  // Forgets what was read ahead. What is taken once the state has left Seeking lies at or after `target`. A newer
+  // target replaces one that is not reached yet. Reading, Ended or Seeking, else nothing happens.
   void seek(MediaTime target);
   [[nodiscard]] State state() const;
   // The next pair in order; nothing while there is none.

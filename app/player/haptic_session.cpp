@@ -22,7 +22,9 @@ HapticSummary::Times times(const Histogram& histogram) noexcept {
 HapticSession::HapticSession(HapticDevice* device, Clock& clock, Ticking ticking) noexcept
     : device_(device), clock_(clock), ticking_(ticking), thread_(clock) {}
 
-HapticSession::~HapticSession() { stop(); }
+HapticSession::~HapticSession() {
+  stop();
+}
 
 Result<void> HapticSession::open() {
   if (device_ == nullptr) return {};
@@ -127,7 +129,7 @@ HapticSummary HapticSession::summary() const {
   const CyclicStatistics& cyclic = thread_.statistics();
   const HapticCounters& counters = task_->counters();
   s.device = capabilities_.name;
-  s.scheduler = ticking_ == Ticking::ByHand                       ? "simulated time"
+  s.scheduler = ticking_ == Ticking::ByHand                  ? "simulated time"
                 : cyclic.scheduler.load() == Scheduler::Fifo ? "SCHED_FIFO"
                                                              : "SCHED_OTHER";
   s.memory_locked = arena_->locked();

@@ -13,10 +13,10 @@ enum class PlayerCommand : std::uint8_t {
   Play,
   Pause,
   PlayPause,
-  SeekForward,   // by kSeekStep
+  SeekForward,  // by kSeekStep
   SeekBackward,
-  NextLayout,    // the next way to show stereo
-  Stop,          // ends the film, and with it the program
+  NextLayout,  // the next way to show stereo
+  Stop,        // ends the film, and with it the program
 };
 
 // Nothing for a key that means nothing here, for a release, and for the repeat of a key that makes no sense repeated.

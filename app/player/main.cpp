@@ -5,12 +5,12 @@
 #include <cstdio>
 #include <utility>
 
-#include "platform/atomic_file.h"
 #include "app/player/options.h"
 #include "app/player/player.h"
 #include "app/player/probe.h"
 #include "app/player/recorder.h"
 #include "drivers/registry.h"
+#include "platform/atomic_file.h"
 #include "platform/clock.h"
 
 namespace relievo {
@@ -21,7 +21,7 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 
 // The first signal ends the film in good order, zero force first; a second one ends the program.
 void stopOnSignals() {
-  struct sigaction action {};
+  struct sigaction action{};
   action.sa_handler = [](int) { stop_wanted.store(true, std::memory_order_relaxed); };
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   ::sigaction(SIGINT, &action, nullptr);
@@ -106,7 +106,8 @@ int main(int argc, char** argv) {
   using namespace relievo;
   stopOnSignals();
   const auto options = parseOptions(
-      argc, argv, {.display = drivers::kDisplayNames, .haptic = drivers::kHapticNames, .remote = drivers::kRemoteNames});
+      argc, argv,
+      {.display = drivers::kDisplayNames, .haptic = drivers::kHapticNames, .remote = drivers::kRemoteNames});
   if (!options) return options.error();
   return options->command == Options::Command::Probe ? probeSource(options->probe) : play(options->play);
 }

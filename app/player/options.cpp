@@ -34,7 +34,8 @@ constexpr const char* kPlayFooter =
     "      two files, shown off screen, touched by the simulated hand; the figures go to run.json\n"
     "  relievo play scan.mov --packing tb --depth-code hue --stereo anaglyph --loop --duration 60\n"
     "      one file with colour on top and depth as hue below, for red-cyan glasses, again and again for a minute\n"
-    "\nKeys of the remote: play, pause, OK = pause and go on; left, right, rewind, fast forward = 10 s; 3D mode = next\n"
+    "\nKeys of the remote: play, pause, OK = pause and go on; left, right, rewind, fast forward = 10 s; 3D mode = "
+    "next\n"
     "stereo layout; stop, back, exit, power = end. Exit code: 0 done, 1 failed at run time, 2 wrong use.\n";
 
 constexpr double kLongestDurationS = 1e9;
@@ -121,7 +122,8 @@ bool parseSizes(const std::string& text, T* values, int count) {
   for (int i = 0; i < count; ++i) {
     double value = 0;
     int used = 0;
-    if (std::sscanf(text.c_str() + at, "%lf%n", &value, &used) != 1 || !std::isfinite(value) || value <= 0) return false;
+    if (std::sscanf(text.c_str() + at, "%lf%n", &value, &used) != 1 || !std::isfinite(value) || value <= 0)
+      return false;
     values[i] = static_cast<T>(value);
     at += static_cast<std::size_t>(used);
     if (i + 1 < count && text[at++] != 'x') return false;

@@ -10,10 +10,10 @@
 namespace relievo {
 namespace {
 
-constexpr std::size_t kQueuedPairs = 4;  // beyond those that the playhead holds
-constexpr Duration kLongestWait = std::chrono::milliseconds(5);   // a key is heard after this at most
-constexpr Duration kReaderWait = std::chrono::milliseconds(2);    // while the picture waits for the reader
-constexpr std::size_t kMostStates = 10'000;                       // of a film that loops for months
+constexpr std::size_t kQueuedPairs = 4;                          // beyond those that the playhead holds
+constexpr Duration kLongestWait = std::chrono::milliseconds(5);  // a key is heard after this at most
+constexpr Duration kReaderWait = std::chrono::milliseconds(2);   // while the picture waits for the reader
+constexpr std::size_t kMostStates = 10'000;                      // of a film that loops for months
 
 }  // namespace
 
@@ -26,7 +26,9 @@ Player::Player(PlayerConfig config, PlayerParts parts)
   report_.states.push_back(state_);
 }
 
-Player::~Player() { haptic_.stop(); }
+Player::~Player() {
+  haptic_.stop();
+}
 
 bool Player::apply(PlayerEvent event) {
   const auto next = nextState(state_, event);
@@ -68,7 +70,9 @@ std::expected<void, Player::Failure> Player::run(const std::atomic<bool>& stop) 
   return {};
 }
 
-bool Player::alive() const noexcept { return state_ != PlayerState::Idle && state_ != PlayerState::Fault; }
+bool Player::alive() const noexcept {
+  return state_ != PlayerState::Idle && state_ != PlayerState::Fault;
+}
 
 void Player::end(MonotonicTime now) {
   closeSegment(now);
@@ -156,16 +160,22 @@ void Player::readRemote(MonotonicTime now) {
 
 void Player::obey(PlayerCommand command, MonotonicTime now) {
   switch (command) {
-    case PlayerCommand::Play: return setHeld(false, now);
-    case PlayerCommand::Pause: return setHeld(true, now);
-    case PlayerCommand::PlayPause: return setHeld(!held_, now);
-    case PlayerCommand::SeekForward: return seek(seekBase(now) + kSeekStep, PlayerEvent::Seek, now);
-    case PlayerCommand::SeekBackward: return seek(seekBase(now) - kSeekStep, PlayerEvent::Seek, now);
+    case PlayerCommand::Play:
+      return setHeld(false, now);
+    case PlayerCommand::Pause:
+      return setHeld(true, now);
+    case PlayerCommand::PlayPause:
+      return setHeld(!held_, now);
+    case PlayerCommand::SeekForward:
+      return seek(seekBase(now) + kSeekStep, PlayerEvent::Seek, now);
+    case PlayerCommand::SeekBackward:
+      return seek(seekBase(now) - kSeekStep, PlayerEvent::Seek, now);
     case PlayerCommand::NextLayout:
       picture_.nextLayout();
       redraw_ = true;
       return;
-    case PlayerCommand::Stop: return end(now);
+    case PlayerCommand::Stop:
+      return end(now);
   }
 }
 

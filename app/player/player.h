@@ -108,12 +108,12 @@ class Player {
   Duration period_{0};  // of the film
   DisplayVolume volume_;
 
-  std::optional<MediaTime> target_;  // of a seek that has shown no picture yet
-  bool seek_wanted_ = false;         // by the viewer: it goes into the report
-  bool new_epoch_ = true;            // the next picture does not continue the last one
+  std::optional<MediaTime> target_;           // of a seek that has shown no picture yet
+  bool seek_wanted_ = false;                  // by the viewer: it goes into the report
+  bool new_epoch_ = true;                     // the next picture does not continue the last one
   std::optional<MonotonicTime> await_touch_;  // the first tick after this is on the sought surface
 
-  std::optional<MonotonicTime> dry_since_;    // nothing has lain ahead since then
+  std::optional<MonotonicTime> dry_since_;  // nothing has lain ahead since then
   std::optional<MediaTime> segment_begin_;
   Duration played_{0};
   MonotonicTime last_draw_;

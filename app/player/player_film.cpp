@@ -16,10 +16,14 @@ constexpr double kMovedMm = 0.2;                                   // less is no
 
 const char* answerTo(HapticFault::Kind kind) noexcept {
   switch (kind) {
-    case HapticFault::Kind::DeviceLost: return "force zero, the film plays on without force";
-    case HapticFault::Kind::DeviceError: return "the tick was left out";
-    case HapticFault::Kind::FeedStale: return "force faded";
-    case HapticFault::Kind::FeedRecovered: return "force faded in again";
+    case HapticFault::Kind::DeviceLost:
+      return "force zero, the film plays on without force";
+    case HapticFault::Kind::DeviceError:
+      return "the tick was left out";
+    case HapticFault::Kind::FeedStale:
+      return "force faded";
+    case HapticFault::Kind::FeedRecovered:
+      return "force faded in again";
   }
   return "";
 }
@@ -133,8 +137,8 @@ void Player::followEnd(MonotonicTime now) {
     if (feed_.state() == FilmFeed::State::Failed) return fail(feed_.failedThing(), feed_.error());
     return endOfFilm(now);
   }
-  // A pair that is late by less than a period is shown late; after that the film waits for the reader. Counted from here,
-  // not from the picture: the reader is not to blame for a picture that took long to draw.
+  // A pair that is late by less than a period is shown late; after that the film waits for the reader. Counted from
+  // here, not from the picture: the reader is not to blame for a picture that took long to draw.
   if (!dry_since_) dry_since_ = now;
   if (now < *dry_since_ + 2 * period_) return;
   dry_since_.reset();

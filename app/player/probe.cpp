@@ -90,8 +90,9 @@ std::vector<std::string> needsOf(const ProbeResult& r) {
     return needs;
   }
   if (r.depth.highest_mm - r.depth.lowest_mm < 0.25 * r.volume.depth_mm) {
-    needs.push_back(textLine("more relief: it takes up %.1f of %.0f mm; try --calibration range=.. or law=inverse,near=MM,far=MM",
-                             r.depth.highest_mm - r.depth.lowest_mm, r.volume.depth_mm));
+    needs.push_back(
+        textLine("more relief: it takes up %.1f of %.0f mm; try --calibration range=.. or law=inverse,near=MM,far=MM",
+                 r.depth.highest_mm - r.depth.lowest_mm, r.volume.depth_mm));
   }
   if (r.depth.holes > 0.02) {
     needs.push_back(textLine("holes filled: %.0f %% of the depth samples are holes, and a hole cannot be touched",

@@ -11,7 +11,8 @@ Result<Recorder> Recorder::create(const std::string& path) {
   auto file = AtomicFile::create(path);
   if (!file) return std::unexpected(file.error());
   file->write(
-      "t_s,hip_x_mm,hip_y_mm,hip_z_mm,proxy_x_mm,proxy_y_mm,proxy_z_mm,force_x_n,force_y_n,force_z_n,contact,media_s\n");
+      "t_s,hip_x_mm,hip_y_mm,hip_z_mm,proxy_x_mm,proxy_y_mm,proxy_z_mm,force_x_n,force_y_n,force_z_n,contact,media_"
+      "s\n");
   return Recorder(std::move(*file));
 }
 

@@ -11,7 +11,8 @@
 
 namespace relievo {
 
-// Columns: t_s (since the first tick), hip, proxy (scene mm), force (N, on the hand), contact, media_s (the film's time).
+// Columns: t_s (since the first tick), hip, proxy (scene mm), force (N, on the hand), contact, media_s (the film's
+// time).
 class Recorder {
  public:
   [[nodiscard]] static Result<Recorder> create(const std::string& path);

@@ -18,7 +18,9 @@ double rounded(double value, double per_unit = 1e6) {
   return std::isfinite(value) ? std::round(value * per_unit) / per_unit : 0.0;
 }
 
-Json orNull(const std::optional<double>& value) { return value ? Json(rounded(*value)) : Json(nullptr); }
+Json orNull(const std::optional<double>& value) {
+  return value ? Json(rounded(*value)) : Json(nullptr);
+}
 
 Json toJson(const HapticSummary::Times& t) {
   return {{"p50", t.p50}, {"p99", t.p99}, {"p999", t.p999}, {"max", t.max}};
@@ -84,10 +86,14 @@ bool PlayReport::addFault(double time_s, std::string what, std::string done) {
 
 const char* name(Packing packing) noexcept {
   switch (packing) {
-    case Packing::Auto: return "auto";
-    case Packing::Tracks: return "tracks";
-    case Packing::SideBySide: return "sbs";
-    case Packing::TopBottom: return "tb";
+    case Packing::Auto:
+      return "auto";
+    case Packing::Tracks:
+      return "tracks";
+    case Packing::SideBySide:
+      return "sbs";
+    case Packing::TopBottom:
+      return "tb";
   }
   return "";
 }
@@ -123,19 +129,22 @@ std::string toText(const PlayReport& r) {
   const HapticSummary& h = r.haptic;
   const auto us = [](std::int64_t ns) { return static_cast<double>(ns) * 1e-3; };
   std::string text = textLine("film    %.2f s shown in %.2f s, first picture after %.0f ms\n", r.media_s, r.wall_s,
-                          r.first_frame_ms.value_or(0));
-  text += textLine("video   %llu frames shown, %llu dropped, %llu pairs mismatched; %s, %s, %d x %d, grid %d x %d, %.1f ms a frame\n",
-               static_cast<unsigned long long>(r.frames_shown), static_cast<unsigned long long>(r.frames_dropped),
-               static_cast<unsigned long long>(r.pairs.mismatched), r.display.c_str(), r.stereo.c_str(), r.surface_width,
-               r.surface_height, r.grid_cols, r.grid_rows, r.draw_ms);
+                              r.first_frame_ms.value_or(0));
+  text += textLine(
+      "video   %llu frames shown, %llu dropped, %llu pairs mismatched; %s, %s, %d x %d, grid %d x %d, %.1f ms a "
+      "frame\n",
+      static_cast<unsigned long long>(r.frames_shown), static_cast<unsigned long long>(r.frames_dropped),
+      static_cast<unsigned long long>(r.pairs.mismatched), r.display.c_str(), r.stereo.c_str(), r.surface_width,
+      r.surface_height, r.grid_cols, r.grid_rows, r.draw_ms);
   if (h.ticks == 0) return text + "touch   none\n";
   text += textLine("touch   %s, %llu ticks at %.0f Hz (%s), %llu late, %.0f %% in contact\n", h.device.c_str(),
-               static_cast<unsigned long long>(h.ticks), h.rate_hz, h.scheduler.c_str(),
-               static_cast<unsigned long long>(h.overruns), 100 * share(h.contact_ticks, h.ticks));
-  text += textLine("tick    median %.1f us, p99 %.1f us, longest %.1f us; woken late by %.1f us (p99)\n", us(h.update.p50),
-               us(h.update.p99), us(h.update.max), us(h.wakeup.p99));
-  text += textLine("force   at most %.2f N; the scene changed it by at most %.0f N/s; energy %.2f mJ scene, %.2f mJ artefacts\n",
-               h.max_force_n, h.max_scene_slew_n_per_s, h.scene_mj, h.artefact_mj);
+                   static_cast<unsigned long long>(h.ticks), h.rate_hz, h.scheduler.c_str(),
+                   static_cast<unsigned long long>(h.overruns), 100 * share(h.contact_ticks, h.ticks));
+  text += textLine("tick    median %.1f us, p99 %.1f us, longest %.1f us; woken late by %.1f us (p99)\n",
+                   us(h.update.p50), us(h.update.p99), us(h.update.max), us(h.wakeup.p99));
+  text += textLine(
+      "force   at most %.2f N; the scene changed it by at most %.0f N/s; energy %.2f mJ scene, %.2f mJ artefacts\n",
+      h.max_force_n, h.max_scene_slew_n_per_s, h.scene_mj, h.artefact_mj);
   return text;
 }
 

@@ -71,8 +71,8 @@ constexpr bool hasOneRowPerPair() {
 }
 static_assert(hasOneRowPerPair());
 
-constexpr std::array<const char*, kPlayerStateCount> kNames{
-    "boot", "idle", "opening", "buffering", "playing", "paused", "seeking", "ended", "fault"};
+constexpr std::array<const char*, kPlayerStateCount> kNames{"boot",   "idle",    "opening", "buffering", "playing",
+                                                            "paused", "seeking", "ended",   "fault"};
 
 }  // namespace
 
@@ -83,6 +83,8 @@ std::optional<PlayerState> nextState(PlayerState state, PlayerEvent event) noexc
   return std::nullopt;
 }
 
-const char* name(PlayerState state) noexcept { return kNames[static_cast<std::size_t>(state)]; }
+const char* name(PlayerState state) noexcept {
+  return kNames[static_cast<std::size_t>(state)];
+}
 
 }  // namespace relievo

@@ -14,10 +14,10 @@ enum class PlayerState : std::uint8_t {
   Opening,    // the source is being opened
   Buffering,  // pairs are being read ahead; the picture stands
   Playing,
-  Paused,     // the picture and the surface stand, and stay touchable
-  Seeking,    // the reader is on its way to another time
-  Ended,      // the last picture has had its time
-  Fault,      // the film cannot go on
+  Paused,   // the picture and the surface stand, and stay touchable
+  Seeking,  // the reader is on its way to another time
+  Ended,    // the last picture has had its time
+  Fault,    // the film cannot go on
 };
 inline constexpr std::size_t kPlayerStateCount = 9;
 

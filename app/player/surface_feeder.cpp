@@ -22,8 +22,8 @@ Result<bool> SurfaceFeeder::update(const FramePair& present, const std::deque<Fr
   }
 
   // Of what is over, the newest frame stays: a surface in time looks back by one.
-  const auto now = std::find_if(frames_.begin(), frames_.end(),
-                                [&](const TimedSurface& f) { return f.time >= present.depth.pts; });
+  const auto now =
+      std::find_if(frames_.begin(), frames_.end(), [&](const TimedSurface& f) { return f.time >= present.depth.pts; });
   if (now - frames_.begin() > 1) {
     frames_.erase(frames_.begin(), now - 1);
     changed = true;

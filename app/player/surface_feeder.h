@@ -27,9 +27,10 @@ class SurfaceFeeder {
   // The film is not continuous here: opened, sought, looped. What follows is a new epoch.
   void beginEpoch() noexcept;
 
-  // `present` is the pair on the screen, `ahead` those after it; `last`: nothing follows `ahead`. A present pair without
-  // depth makes the window empty, one of another size begins an epoch. True when the frames or the clock are not those
-  // of the last call: then `fill` and publish. Fails for a depth format that cannot be felt; the window is then empty.
+  // `present` is the pair on the screen, `ahead` those after it; `last`: nothing follows `ahead`. A present pair
+  // without depth makes the window empty, one of another size begins an epoch. True when the frames or the clock are
+  // not those of the last call: then `fill` and publish. Fails for a depth format that cannot be felt; the window is
+  // then empty.
   [[nodiscard]] Result<bool> update(const FramePair& present, const std::deque<FramePair>& ahead, bool last,
                                     const ClockSample& clock);
   // The whole window; what it held before is released.

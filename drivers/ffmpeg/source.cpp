@@ -115,7 +115,7 @@ class FfmpegSource final : public MediaSource {
   // An existing file is a file whatever its name looks like ("12:30.mkv"). A named pipe is opened here: open(2) waits
   // for the pipe's writer, and that wait could not be interrupted.
   Result<std::string> addressOf(const std::string& url) {
-    struct stat status {};
+    struct stat status{};
     if (::stat(url.c_str(), &status) != 0) return url;
     if (!S_ISFIFO(status.st_mode)) return "file:" + url;
     pipe_.reset(::open(url.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));

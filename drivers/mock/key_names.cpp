@@ -15,8 +15,7 @@ struct KeyName {
   std::uint16_t code;
 };
 
-#define RELIEVO_KEY(name) \
-  { #name, KEY_##name }
+#define RELIEVO_KEY(name) {#name, KEY_##name}
 constexpr KeyName kKeys[] = {
     // Transport.
     RELIEVO_KEY(PLAY),

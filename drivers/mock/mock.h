@@ -49,9 +49,7 @@ struct MockTrack {
   // moves.
   std::function<std::uint16_t(int, int, int, int)> sample;
 
-  [[nodiscard]] MediaTime pts(int frame) const noexcept {
-    return MediaTime(first_pts + frame * frame_period);
-  }
+  [[nodiscard]] MediaTime pts(int frame) const noexcept { return MediaTime(first_pts + frame * frame_period); }
 };
 
 struct MockMediaProfile {
@@ -106,9 +104,7 @@ struct MockHapticBench {
   std::atomic<std::uint64_t> reads{0}, writes{0};
   std::atomic<bool> unplugged{false};  // homing and every exchange answer Lost
 
-  [[nodiscard]] glm::dvec3 force() const noexcept {
-    return {force_x_n.load(), force_y_n.load(), force_z_n.load()};
-  }
+  [[nodiscard]] glm::dvec3 force() const noexcept { return {force_x_n.load(), force_y_n.load(), force_z_n.load()}; }
 };
 
 struct MockHapticProfile {

@@ -15,7 +15,7 @@ constexpr std::ptrdiff_t kRowPaddingBytes = 16;
 
 // A picture's memory. Counts itself among those outside as long as a copy of the frame lives.
 class Picture {
-public:
+ public:
   Picture(std::size_t bytes, std::shared_ptr<std::atomic<int>> outside)
       : bytes_(bytes, std::uint8_t{0xA5}), outside_(std::move(outside)) {
     ++*outside_;
@@ -25,7 +25,7 @@ public:
   Picture& operator=(const Picture&) = delete;
   [[nodiscard]] std::uint8_t* data() noexcept { return bytes_.data(); }
 
-private:
+ private:
   std::vector<std::uint8_t> bytes_;
   std::shared_ptr<std::atomic<int>> outside_;
 };
@@ -65,8 +65,7 @@ Frame makeFrame(const MockTrack& track, int number, const std::shared_ptr<std::a
   const int sample_bytes = track.bits > 8 ? 2 : 1;
   const std::ptrdiff_t stride = static_cast<std::ptrdiff_t>(track.width) * sample_bytes + kRowPaddingBytes;
   const std::ptrdiff_t plane_bytes = stride * track.height;
-  const auto picture =
-      std::make_shared<Picture>(static_cast<std::size_t>(plane_bytes) * frame.plane_count, outside);
+  const auto picture = std::make_shared<Picture>(static_cast<std::size_t>(plane_bytes) * frame.plane_count, outside);
   for (int i = 0; i < frame.plane_count; ++i) {
     const int shift_x = i > 0 ? frame.chroma_shift_x : 0;
     const int shift_y = i > 0 ? frame.chroma_shift_y : 0;
@@ -85,18 +84,17 @@ Frame makeFrame(const MockTrack& track, int number, const std::shared_ptr<std::a
 }
 
 class MockDecoder final : public VideoDecoder {
-public:
+ public:
   explicit MockDecoder(const MockDecoderProfile& profile)
       : profile_(profile),
         // A queue no longer than what is held back would be full before the first picture.
-        capacity_(std::max(profile.queue_packets,
-                           static_cast<std::size_t>(std::max(profile.reorder_frames, 0)) + 1)) {}
+        capacity_(std::max(profile.queue_packets, static_cast<std::size_t>(std::max(profile.reorder_frames, 0)) + 1)) {}
 
   [[nodiscard]] Capabilities capabilities() const noexcept override {
     return {.name = "mock", .max_held_frames = profile_.max_held_frames, .hardware = false};
   }
 
-private:
+ private:
   Result<void> openDecoder(const StreamInfo& stream) override {
     if (stream.codec != kMockCodec || stream.native == nullptr) {
       return fail(ErrorCode::Unsupported, "the mock decoder decodes mock films only");

@@ -6,14 +6,14 @@ namespace relievo {
 namespace {
 
 class MockDisplay final : public Display {
-public:
+ public:
   MockDisplay(const MockDisplayProfile& profile, Clock& clock) : profile_(profile), clock_(clock) {}
 
   [[nodiscard]] DisplayCapabilities capabilities() const noexcept override {
     return {.name = "mock", .gles = false, .refresh_period = profile_.refresh_period};
   }
 
-private:
+ private:
   Result<void> openDisplay(const DisplayConfig& config) override {
     if (profile_.fail_open) return fail(*profile_.fail_open, "the mock display was told not to open");
     surface_ = {.framebuffer = 0, .width = config.width, .height = config.height};

@@ -10,7 +10,7 @@ namespace {
 constexpr Duration kWatchdog = std::chrono::milliseconds(20);
 
 class MockHaptic final : public HapticDevice {
-public:
+ public:
   MockHaptic(MockHapticProfile profile, const Clock& clock, std::shared_ptr<MockHapticBench> bench)
       : profile_(std::move(profile)),
         clock_(clock),
@@ -19,7 +19,7 @@ public:
 
   [[nodiscard]] HapticCapabilities capabilities() const noexcept override { return profile_.capabilities; }
 
-private:
+ private:
   Result<void> openDevice() override {
     if (profile_.fail_open) return fail(*profile_.fail_open, "the mock device was told not to open");
     if (bench_->unplugged) return fail(ErrorCode::NotFound, "the mock device is unplugged");
@@ -47,8 +47,7 @@ private:
     if (tick >= profile_.lose_after_ticks || bench_->unplugged) return lose();
     const MonotonicTime now = clock_.now();
     if (now - last_write_ > kWatchdog) apply(glm::dvec3(0));
-    if (tick == profile_.glitch_after_ticks)
-      return fail(ErrorCode::Io, "one exchange with the mock device failed");
+    if (tick == profile_.glitch_after_ticks) return fail(ErrorCode::Io, "one exchange with the mock device failed");
     return HapticSample{.position_mm = positionAt(tick, now), .buttons = profile_.buttons};
   }
 
@@ -71,9 +70,7 @@ private:
     return 0.5 * (profile_.capabilities.workspace_min_mm + profile_.capabilities.workspace_max_mm);
   }
 
-  [[nodiscard]] bool gone() const RELIEVO_RT {
-    return ticks_ > profile_.lose_after_ticks || bench_->unplugged;
-  }
+  [[nodiscard]] bool gone() const RELIEVO_RT { return ticks_ > profile_.lose_after_ticks || bench_->unplugged; }
 
   // Motors without a cable have no current.
   Result<HapticSample> lose() RELIEVO_RT {

@@ -10,13 +10,12 @@ namespace relievo {
 namespace {
 
 class MockSource final : public MediaSource {
-public:
+ public:
   MockSource(MockMediaProfile profile, Clock& clock) : profile_(std::move(profile)), clock_(clock) {
-    for (const MockTrack& track : profile_.tracks)
-      tracks_.push_back({std::make_shared<const MockTrack>(track)});
+    for (const MockTrack& track : profile_.tracks) tracks_.push_back({std::make_shared<const MockTrack>(track)});
   }
 
-private:
+ private:
   struct Cursor {
     std::shared_ptr<const MockTrack> track;
     int next = 0;
@@ -58,8 +57,7 @@ private:
 
   Result<std::optional<Packet>> readPacket() override {
     if (interrupted_) return fail(ErrorCode::Cancelled, "reading was interrupted");
-    if (packets_ >= profile_.lose_after_packets)
-      return fail(ErrorCode::Lost, "the mock source has gone away");
+    if (packets_ >= profile_.lose_after_packets) return fail(ErrorCode::Lost, "the mock source has gone away");
     if (packets_ >= profile_.end_after_packets) return std::nullopt;
     if (packets_ == profile_.stall_after_packets && !stalled_) {
       if (auto waited = stall(); !waited) return std::unexpected(waited.error());
@@ -86,8 +84,7 @@ private:
     Cursor* first = nullptr;
     for (Cursor& cursor : tracks_) {
       if (cursor.ended()) continue;
-      if (first == nullptr || cursor.track->pts(cursor.next) < first->track->pts(first->next))
-        first = &cursor;
+      if (first == nullptr || cursor.track->pts(cursor.next) < first->track->pts(first->next)) first = &cursor;
     }
     return first;
   }
@@ -109,8 +106,7 @@ private:
 
   Result<void> seekTo(MediaTime target) override {
     if (interrupted_) return fail(ErrorCode::Cancelled, "seeking was interrupted");
-    if (packets_ >= profile_.lose_after_packets)
-      return fail(ErrorCode::Lost, "the mock source has gone away");
+    if (packets_ >= profile_.lose_after_packets) return fail(ErrorCode::Lost, "the mock source has gone away");
     if (profile_.live) return fail(ErrorCode::Unsupported, "a live source cannot seek");
     for (Cursor& cursor : tracks_) {
       const MockTrack& track = *cursor.track;

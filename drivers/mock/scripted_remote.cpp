@@ -51,10 +51,10 @@ const char* addLine(std::string_view line, std::vector<ScriptedKey>& keys) {
 }
 
 class ScriptedRemote final : public RemoteInput {
-public:
+ public:
   ScriptedRemote(std::vector<ScriptedKey> keys, const Clock& clock) : keys_(std::move(keys)), clock_(clock) {}
 
-private:
+ private:
   Result<void> openRemote() override {
     opened_ = clock_.now();
     next_ = 0;
@@ -82,10 +82,9 @@ Result<std::vector<ScriptedKey>> parseKeyScript(std::string_view text, std::stri
   for (int number = 1; !text.empty(); ++number) {
     const auto length = std::min(text.find('\n'), text.size());
     if (const char* wrong = addLine(text.substr(0, length), keys); wrong != nullptr) {
-      log(LogLevel::Error, "remote", "%.*s:%d: %s", static_cast<int>(script_name.size()), script_name.data(),
-          number, wrong);
-      return fail(ErrorCode::InvalidArgument,
-                  "a line of the key script is wrong; a line is: seconds KEYNAME");
+      log(LogLevel::Error, "remote", "%.*s:%d: %s", static_cast<int>(script_name.size()), script_name.data(), number,
+          wrong);
+      return fail(ErrorCode::InvalidArgument, "a line of the key script is wrong; a line is: seconds KEYNAME");
     }
     text.remove_prefix(std::min(length + 1, text.size()));
   }

@@ -25,15 +25,13 @@ struct ScriptedKey {
 //
 // What follows a '#' is ignored, and so are empty lines; times do not decrease. InvalidArgument otherwise,
 // and a log line names the script's line.
-[[nodiscard]] Result<std::vector<ScriptedKey>> parseKeyScript(std::string_view text,
-                                                              std::string_view script_name);
+[[nodiscard]] Result<std::vector<ScriptedKey>> parseKeyScript(std::string_view text, std::string_view script_name);
 
 // NotFound when the file cannot be read.
 [[nodiscard]] Result<std::vector<ScriptedKey>> loadKeyScript(const std::string& path);
 
 // Yields each key once, as a Press, when its time has come. `clock` tells when `open` was and must outlive
 // the remote.
-[[nodiscard]] std::unique_ptr<RemoteInput> makeScriptedRemote(std::vector<ScriptedKey> keys,
-                                                              const Clock& clock);
+[[nodiscard]] std::unique_ptr<RemoteInput> makeScriptedRemote(std::vector<ScriptedKey> keys, const Clock& clock);
 
 }  // namespace relievo

@@ -22,7 +22,7 @@ struct HandPoint {
 };
 
 class HandPath {
-public:
+ public:
   struct Row {
     double t_s = 0;
     glm::dvec3 position_mm{0};
@@ -45,7 +45,7 @@ public:
 
   [[nodiscard]] HandPoint at(double t_s) const RELIEVO_RT;
 
-private:
+ private:
   std::vector<Row> rows_;  // none: the hand's own path
 };
 

@@ -17,7 +17,7 @@ constexpr Duration kLongestAdvance = std::chrono::milliseconds(20);
 constexpr Duration kWatchdog = std::chrono::milliseconds(20);
 
 class SimHaptic final : public HapticDevice {
-public:
+ public:
   SimHaptic(const SimDeviceProfile& profile, HandPath path, const Clock& clock)
       : profile_(profile), path_(std::move(path)), clock_(clock) {}
 
@@ -37,12 +37,11 @@ public:
             .rate_hz = profile_.rate_hz};
   }
 
-private:
+ private:
   Result<void> openDevice() override {
     const bool mass = profile_.moving_mass_kg > 0 && profile_.hand.mass_kg >= 0;
     if (!mass || !(profile_.rate_hz > 0) || profile_.substeps_per_tick < 1) {
-      return fail(ErrorCode::InvalidArgument,
-                  "a simulated device has a mass, a rate and at least one step a tick");
+      return fail(ErrorCode::InvalidArgument, "a simulated device has a mass, a rate and at least one step a tick");
     }
     time_s_ = 0;
     target_ = path_.at(0);
@@ -89,8 +88,7 @@ private:
   // The path's point moves straight from where it was to where it will be: one look at the path a tick, not
   // one a step.
   void advance(double elapsed_s) RELIEVO_RT {
-    const auto steps =
-        static_cast<int>(std::ceil(elapsed_s * profile_.rate_hz * profile_.substeps_per_tick - 1e-6));
+    const auto steps = static_cast<int>(std::ceil(elapsed_s * profile_.rate_hz * profile_.substeps_per_tick - 1e-6));
     const double dt_s = elapsed_s / steps;
     time_s_ += elapsed_s;
     const HandPoint goal = path_.at(time_s_);
@@ -110,8 +108,7 @@ private:
   }
 
   void stopAtEnds() RELIEVO_RT {
-    const glm::dvec3 inside =
-        glm::clamp(mass_.position_mm, profile_.workspace_min_mm, profile_.workspace_max_mm);
+    const glm::dvec3 inside = glm::clamp(mass_.position_mm, profile_.workspace_min_mm, profile_.workspace_max_mm);
     for (int axis = 0; axis < 3; ++axis) {
       if (inside[axis] != mass_.position_mm[axis]) mass_.velocity_mm_per_s[axis] = 0;
     }
@@ -137,8 +134,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<HapticDevice> makeSimHaptic(const SimDeviceProfile& profile, HandPath path,
-                                            const Clock& clock) {
+std::unique_ptr<HapticDevice> makeSimHaptic(const SimDeviceProfile& profile, HandPath path, const Clock& clock) {
   return std::make_unique<SimHaptic>(profile, std::move(path), clock);
 }
 

@@ -26,7 +26,7 @@ const Backend kBackends[] = {
 };
 
 class DisplayContract : public testing::TestWithParam<Backend> {
-protected:
+ protected:
   void SetUp() override {
     const auto opened = GetParam().make(clock_)->open({64, 48});
     if (!opened && opened.error().code == ErrorCode::Unsupported) GTEST_SKIP() << opened.error().message;
@@ -45,10 +45,7 @@ INSTANTIATE_TEST_SUITE_P(Backends, DisplayContract, testing::ValuesIn(kBackends)
 
 TEST_P(DisplayContract, EveryVerbInEveryState) {
   const std::vector<test::Verb<Display>> verbs = {
-      {"open",
-       [](Display& d) {
-         return test::answerOf(d.open({64, 48}));
-       }},
+      {"open", [](Display& d) { return test::answerOf(d.open({64, 48})); }},
       {"beginFrame", [](Display& d) { return test::answerOf(d.beginFrame()); }},
       {"present", [](Display& d) { return test::answerOf(d.present()); }},
       {"close", [](Display& d) { return d.close(), test::Answer{}; }},
@@ -99,8 +96,7 @@ TEST_P(DisplayContract, PresentTakesNoLongerThanARefresh) {
 
 TEST_P(DisplayContract, RefusesASizeThatIsNone) {
   const auto display = bring(State::Closed);
-  for (const DisplayConfig& config :
-       {DisplayConfig{0, 48}, DisplayConfig{64, -1}, DisplayConfig{64, 16385}}) {
+  for (const DisplayConfig& config : {DisplayConfig{0, 48}, DisplayConfig{64, -1}, DisplayConfig{64, 16385}}) {
     const auto opened = display->open(config);
     ASSERT_FALSE(opened);
     EXPECT_EQ(opened.error().code, ErrorCode::InvalidArgument);
@@ -138,7 +134,9 @@ TEST(MockDisplay, ShowsAtItsRefreshes) {
   const auto display = makeMockDisplay({.refresh_period = 20ms}, clock);
   ASSERT_TRUE(display->open({64, 48}));
   // Opened on a refresh; 5 ms later, then on the refresh itself, then 30 ms late.
-  const struct { Duration wait, shown; } frames[] = {{5ms, 15ms}, {0ms, 20ms}, {30ms, 10ms}};
+  const struct {
+    Duration wait, shown;
+  } frames[] = {{5ms, 15ms}, {0ms, 20ms}, {30ms, 10ms}};
   for (const auto& frame : frames) {
     clock.advance(frame.wait);
     ASSERT_TRUE(display->beginFrame());

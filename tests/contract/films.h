@@ -58,13 +58,13 @@ inline std::unique_ptr<MediaSource> mockFilm() {
 }
 
 inline const FilmBackend kFilmBackends[] = {
-    {"mock", mockFilm, [] { return makeMockDecoder({.reorder_frames = 2}); },
-     [] { return std::string("mock:"); }, nullptr},
+    {"mock", mockFilm, [] { return makeMockDecoder({.reorder_frames = 2}); }, [] { return std::string("mock:"); },
+     nullptr},
     {"ffmpeg", makeFfmpegSource, makeFfmpegDecoder, encodedFilm, "/nonexistent/film.mkv"},
 };
 
 class FilmContract : public testing::TestWithParam<FilmBackend> {
-protected:
+ protected:
   [[nodiscard]] std::unique_ptr<MediaSource> openSource() const {
     auto source = GetParam().make_source();
     EXPECT_TRUE(source->open(GetParam().url()));

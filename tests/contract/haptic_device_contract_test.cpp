@@ -75,7 +75,7 @@ const Backend kBackends[] = {
 };
 
 class HapticDeviceContract : public testing::TestWithParam<Backend> {
-protected:
+ protected:
   // In that state, or no device where this back end cannot get there.
   Rig bring(State state) {
     const auto& make = state == State::Lost ? GetParam().make_losing : GetParam().make;
@@ -110,10 +110,7 @@ TEST_P(HapticDeviceContract, EveryVerbInEveryState) {
       {"home", [](HapticDevice& d) { return test::answerOf(d.home()); }},
       {"start", [](HapticDevice& d) { return test::answerOf(d.start()); }},
       {"read", [](HapticDevice& d) { return test::answerOf(d.read()); }},
-      {"write",
-       [](HapticDevice& d) {
-         return test::answerOf(d.write({0, 0, 1}));
-       }},
+      {"write", [](HapticDevice& d) { return test::answerOf(d.write({0, 0, 1})); }},
       {"stop", [](HapticDevice& d) { return d.stop(), test::Answer{}; }},
       {"close", [](HapticDevice& d) { return d.close(), test::Answer{}; }},
   };
@@ -181,8 +178,7 @@ TEST_P(HapticDeviceContract, AForceArrives) {
 
 TEST_P(HapticDeviceContract, ExactlyThePeakIsAllowedInAnyDirection) {
   const Rig rig = bring(State::Running);
-  for (const glm::dvec3& direction :
-       {glm::dvec3(1, 0, 0), glm::dvec3(2, -3, 6) / 7.0, glm::dvec3(-1, 4, -8) / 9.0}) {
+  for (const glm::dvec3& direction : {glm::dvec3(1, 0, 0), glm::dvec3(2, -3, 6) / 7.0, glm::dvec3(-1, 4, -8) / 9.0}) {
     EXPECT_TRUE(rig.device->write(kPeakN * direction));
   }
 }
@@ -192,8 +188,7 @@ TEST_P(HapticDeviceContract, AForceThatIsNoneOrTooMuchIsRefusedAndZeroIsSent) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const glm::dvec3& force :
        {glm::dvec3(nan, 0, 0), glm::dvec3(0, nan, 0), glm::dvec3(0, 0, nan), glm::dvec3(infinity, 0, 0),
-        glm::dvec3(0, 0, -infinity), glm::dvec3(1e200, 0, 0), glm::dvec3(0, kPeakN * 1.001, 0),
-        glm::dvec3(5, 5, 5)}) {
+        glm::dvec3(0, 0, -infinity), glm::dvec3(1e200, 0, 0), glm::dvec3(0, kPeakN * 1.001, 0), glm::dvec3(5, 5, 5)}) {
     SCOPED_TRACE(testing::Message() << force.x << ", " << force.y << ", " << force.z);
     const Rig rig = pushing();
     const auto written = rig.device->write(force);
@@ -268,11 +263,11 @@ TEST_P(HapticDeviceContract, ALostDeviceIsLostUntilClosedAndPushesNobody) {
 
 // Writes down what it is asked to do.
 class Recorder final : public HapticDevice {
-public:
+ public:
   explicit Recorder(std::string& asked) : asked_(asked) {}
   [[nodiscard]] HapticCapabilities capabilities() const noexcept override { return {}; }
 
-private:
+ private:
   Result<void> openDevice() override { return note("open "); }
   Result<void> homeDevice() override { return note("home "); }
   Result<void> startDevice() override { return note("start "); }
@@ -367,8 +362,7 @@ TEST(MockHaptic, AFailedOpeningLeavesItClosed) {
 }
 
 TEST(MockHaptic, MovesAsItsProfileSays) {
-  MockBench path({.path_mm = {{1, 0, 0}, {2, 0, 0}}}),
-      timed({.position_mm = [](double t) { return glm::dvec3(t); }});
+  MockBench path({.path_mm = {{1, 0, 0}, {2, 0, 0}}}), timed({.position_mm = [](double t) { return glm::dvec3(t); }});
   path.run(), timed.run();
   for (const double x : {1.0, 2.0, 2.0}) EXPECT_EQ(path.device->read()->position_mm.x, x);
   timed.clock.advance(std::chrono::milliseconds(250));

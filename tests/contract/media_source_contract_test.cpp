@@ -79,8 +79,7 @@ TEST_P(MediaSourceContract, HandsOutEveryPictureFromTimeZero) {
   }
   EXPECT_TRUE(packets[0].keyframe);
   std::sort(times.begin(), times.end());
-  for (int i = 0; i < test::kFilmFrames; ++i)
-    EXPECT_EQ(times[static_cast<std::size_t>(i)], MediaTime(i * 40ms)) << i;
+  for (int i = 0; i < test::kFilmFrames; ++i) EXPECT_EQ(times[static_cast<std::size_t>(i)], MediaTime(i * 40ms)) << i;
 }
 
 TEST_P(MediaSourceContract, TheEndComesOnceAndStays) {
@@ -209,8 +208,7 @@ TEST(MockSource, InterleavesItsTracksByTime) {
     const auto packet = film.source->read().value().value();
     first.emplace_back(packet.stream, packet.pts->time_since_epoch());
   }
-  const std::vector<std::pair<int, Duration>> expected = {
-      {0, 0ms}, {1, 10ms}, {0, 40ms}, {0, 80ms}, {1, 90ms}};
+  const std::vector<std::pair<int, Duration>> expected = {{0, 0ms}, {1, 10ms}, {0, 40ms}, {0, 80ms}, {1, 90ms}};
   EXPECT_EQ(first, expected);
 }
 

@@ -22,14 +22,11 @@ void PrintTo(const Backend& backend, std::ostream* out) {
 }
 
 const Backend kBackends[] = {
-    {"script",
-     [](ManualClock& clock) {
-       return makeScriptedRemote({{1s, KEY_OK}}, clock);
-     }},
+    {"script", [](ManualClock& clock) { return makeScriptedRemote({{1s, KEY_OK}}, clock); }},
 };
 
 class RemoteInputContract : public testing::TestWithParam<Backend> {
-protected:
+ protected:
   ManualClock clock_{MonotonicTime(1h)};
 };
 INSTANTIATE_TEST_SUITE_P(Backends, RemoteInputContract, testing::ValuesIn(kBackends),

@@ -10,7 +10,7 @@ using State = VideoDecoder::State;
 using namespace std::chrono_literals;
 
 class VideoDecoderContract : public test::FilmContract {
-protected:
+ protected:
   void SetUp() override {
     source_ = openSource();
     stream_ = source_->streams().at(0);
@@ -172,8 +172,7 @@ TEST_P(VideoDecoderContract, PicturesStayAsTheyAreWhileHeldAndOutliveTheDecoder)
   std::vector<Frame> held;
   std::vector<std::uint64_t> digests;
   const auto hold = [&](Frame frame) {
-    if (held.size() >= static_cast<std::size_t>(std::min(decoder->capabilities().max_held_frames, 8)) - 1)
-      return;
+    if (held.size() >= static_cast<std::size_t>(std::min(decoder->capabilities().max_held_frames, 8)) - 1) return;
     digests.push_back(digest(frame));
     held.push_back(std::move(frame));
   };

@@ -28,14 +28,14 @@ constexpr std::uint64_t kCycles = 200;
 // Runs `Work` in each of kCycles cycles, then says that it has ended.
 template <class Work>
 class CountedTask final : public CyclicTask {
-public:
+ public:
   explicit CountedTask(Work work) : work_(work) {}
   LoopControl loop(const Cycle& cycle) noexcept override {
     work_(cycle);
     return ++cycles_ == kCycles ? LoopControl::Stop : LoopControl::Continue;
   }
 
-private:
+ private:
   Work work_;
   std::uint64_t cycles_ = 0;
 };
@@ -45,7 +45,7 @@ void waitForTheEnd(const CyclicThread& thread) {
 }
 
 class CyclicThreadTest : public testing::Test {
-protected:
+ protected:
   // The whole run of a task that does `work` kCycles times.
   template <class Work>
   void run(Work work, const CyclicConfig& config = {}) {
@@ -92,8 +92,7 @@ TEST_F(CyclicThreadTest, CountsATaskThatAllocates) {
 
 TEST_F(CyclicThreadTest, CountsATaskThatTouchesFreshPages) {
   const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-  void* const map =
-      ::mmap(nullptr, kCycles * page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  void* const map = ::mmap(nullptr, kCycles * page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   ASSERT_NE(map, MAP_FAILED);
   ::madvise(map, kCycles * page, MADV_NOHUGEPAGE);  // one fault a page
   auto* next = static_cast<volatile unsigned char*>(map);
@@ -279,8 +278,7 @@ TEST_F(CyclicThreadTest, RunsWithoutTheRightToRealTimeAndSaysSo) {
     thread.stop();
     const CyclicStatistics& statistics = thread.statistics();
     const bool good = dropped && started == Scheduler::Other && statistics.scheduler == Scheduler::Other &&
-                      statistics.cycles == kCycles && statistics.allocations == 0 &&
-                      statistics.page_faults == 0;
+                      statistics.cycles == kCycles && statistics.allocations == 0 && statistics.page_faults == 0;
     std::_Exit(good ? 0 : 1);
   };
   EXPECT_EXIT(child(), testing::ExitedWithCode(0),

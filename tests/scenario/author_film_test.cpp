@@ -39,7 +39,8 @@ const ProgressReport kNoReport = [](std::uint64_t, std::optional<std::uint64_t>)
 ClipTrack colorTrack(int width = 64, int height = 48, int fps = 30, int frames = 30) {
   return {.pix_fmt = "yuv420p", .width = width, .height = height, .fps_num = fps, .frames = frames};
 }
-ClipTrack depthTrack(const char* pix_fmt, std::function<std::uint32_t(int, int, int)> code, int width = 64, int height = 48) {
+ClipTrack depthTrack(const char* pix_fmt, std::function<std::uint32_t(int, int, int)> code, int width = 64,
+                     int height = 48) {
   return {.pix_fmt = pix_fmt, .width = width, .height = height, .sample = [code](int component, int c, int r, int k) {
             return component == 0 ? code(c, r, k) : 128u;
           }};
@@ -65,7 +66,8 @@ Film readFilm(const std::string& path) {
 
 std::vector<std::string> filesIn(const std::string& folder) {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.push_back(entry.path().filename().string());
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -126,11 +128,15 @@ TEST_F(AuthorFilm, BringsTwoFilesTogetherWithTheirCodesAndTimes) {
   }
 }
 
-// The whole way: 16 bits with holes and a law of its own, near low, to a height in mm that is the same within half a code.
+// The whole way: 16 bits with holes and a law of its own, near low, to a height in mm that is the same within half a
+// code.
 TEST_F(AuthorFilm, KeepsTheHeightsThatTheDepthMeant) {
-  const auto code = [](int c, int r, int) { return r == 0 && c < 8 ? 0u : static_cast<std::uint32_t>(1000 * c + 10 * r + 1); };
+  const auto code = [](int c, int r, int) {
+    return r == 0 && c < 8 ? 0u : static_cast<std::uint32_t>(1000 * c + 10 * r + 1);
+  };
   SourceOptions source;
-  source.command_line = {{"law", "inverse"}, {"near", "400"}, {"far", "4000"}, {"polarity", "near-low"}, {"invalid", "0"}};
+  source.command_line = {
+      {"law", "inverse"}, {"near", "400"}, {"far", "4000"}, {"polarity", "near-low"}, {"invalid", "0"}};
   const AuthorSummary summary = package(colorTrack(), depthTrack("gray16le", code), source);
   EXPECT_EQ(summary.codes.holes, 30u * 8);
 
@@ -141,7 +147,8 @@ TEST_F(AuthorFilm, KeepsTheHeightsThatTheDepthMeant) {
   EXPECT_EQ(c.far_mm, 4000);
   EXPECT_EQ(c.invalid_code, std::optional<std::uint32_t>(0));
   const auto field = HeightField::make(film.pairs[5].depth, c, DisplayVolume::forPicture(64, 48)).value();
-  const DepthCalibration meant{.law = DepthLaw::Inverse, .polarity = DepthPolarity::NearIsLow, .bits = 16, .near_mm = 400, .far_mm = 4000};
+  const DepthCalibration meant{
+      .law = DepthLaw::Inverse, .polarity = DepthPolarity::NearIsLow, .bits = 16, .near_mm = 400, .far_mm = 4000};
   for (const auto& [col, row] : {std::pair{0, 1}, {10, 40}, {33, 3}, {63, 47}}) {
     const double s = code(col, row, 5) / 65535.0;
     const double half_a_code = 0.5 / 255 + 1e-9;
@@ -162,7 +169,9 @@ TEST_F(AuthorFilm, ExpandsTheLimitedRangeOfAVideo) {
 
 TEST_F(AuthorFilm, ReadsColourAndDepthPackedInOnePicture) {
   // Left half colour, right half depth of full range.
-  ClipTrack packed = depthTrack("yuv420p", [](int c, int r, int) { return static_cast<std::uint32_t>(c < 64 ? 40 : 3 * (c - 64) + r / 8); }, 128, 48);
+  ClipTrack packed = depthTrack(
+      "yuv420p", [](int c, int r, int) { return static_cast<std::uint32_t>(c < 64 ? 40 : 3 * (c - 64) + r / 8); }, 128,
+      48);
   packed.range = ColorRange::Full;
   makeClip(folder_ / "color.mkv", {packed});
   const auto summary = make({.url = folder_ / "color.mkv", .packing = Packing::SideBySide});
@@ -176,7 +185,9 @@ TEST_F(AuthorFilm, ReadsColourAndDepthPackedInOnePicture) {
 }
 
 TEST_F(AuthorFilm, CutsAnOddSizeOffBothAlike) {
-  const AuthorSummary summary = package(colorTrack(65, 49), depthTrack("gray", [](int c, int r, int) { return static_cast<std::uint32_t>(c + r); }, 65, 49));
+  const AuthorSummary summary =
+      package(colorTrack(65, 49),
+              depthTrack("gray", [](int c, int r, int) { return static_cast<std::uint32_t>(c + r); }, 65, 49));
   EXPECT_EQ(summary.format.color_width, 64);
   EXPECT_EQ(summary.format.color_height, 48);
   EXPECT_EQ(summary.format.depth_width, 64);
@@ -190,7 +201,9 @@ TEST_F(AuthorFilm, CutsAnOddSizeOffBothAlike) {
 TEST_F(AuthorFilm, CutsTheSameShareOffADepthOfAnotherSize) {
   // One of 65 columns is 2 of 130 and none of 30 (0.46); the height is even.
   const auto sizeFor = [&](int depth_width) {
-    return package(colorTrack(65, 48), depthTrack("gray", [](int, int, int) { return 9u; }, depth_width, 48)).format.depth_width;
+    return package(colorTrack(65, 48), depthTrack(
+                                           "gray", [](int, int, int) { return 9u; }, depth_width, 48))
+        .format.depth_width;
   };
   EXPECT_EQ(sizeFor(130), 128);
   std::filesystem::remove(folder_ / "out.mkv");
@@ -236,7 +249,8 @@ TEST_F(AuthorFilm, LetsTheDepthEndEarlier) {
 }
 
 TEST_F(AuthorFilm, PutsKeyFramesAtTheSamePlacesOfBothTracks) {
-  ClipTrack depth = depthTrack("gray", [](int c, int r, int k) { return static_cast<std::uint32_t>((c * 7 + r * 3 + k * 11) & 255); });
+  ClipTrack depth = depthTrack(
+      "gray", [](int c, int r, int k) { return static_cast<std::uint32_t>((c * 7 + r * 3 + k * 11) & 255); });
   depth.frames = 100;
   package(colorTrack(64, 48, 30, 100), depth);
   const auto source = makeFfmpegSource();
@@ -254,7 +268,9 @@ TEST_F(AuthorFilm, KeepsTheColour) {
   color.range = ColorRange::Full;
   color.sample_width = 4;
   color.sample_height = 3;
-  color.sample = [](int component, int c, int r, int) { return component == 0 ? static_cast<std::uint32_t>(2 * c + r) : component == 1 ? 90u : 170u; };
+  color.sample = [](int component, int c, int r, int) {
+    return component == 0 ? static_cast<std::uint32_t>(2 * c + r) : component == 1 ? 90u : 170u;
+  };
   package(color, depthTrack("gray", [](int, int, int) { return 9u; }));
   const Film film = readFilm(folder_ / "out.mkv");
   const Frame& frame = film.pairs.at(4).color;
@@ -294,8 +310,8 @@ TEST_F(AuthorFilm, LeavesNothingWhenTheSampleIsInterrupted) {
 }
 
 TEST_F(AuthorFilm, SampleIsAFilmLikeAnyOther) {
-  const auto summary = authorSample({.cols = 160, .rows = 108, .frames = 40, .threads = 2}, {.path = folder_ / "out.mp4", .depth_crf = 0},
-                                    stop_, kNoReport);
+  const auto summary = authorSample({.cols = 160, .rows = 108, .frames = 40, .threads = 2},
+                                    {.path = folder_ / "out.mp4", .depth_crf = 0}, stop_, kNoReport);
   ASSERT_TRUE(summary.has_value());
   EXPECT_EQ(summary->totals.depth.frames, 40u);
   const Film film = readFilm(folder_ / "out.mp4");
@@ -310,7 +326,8 @@ TEST_F(AuthorFilm, SampleIsAFilmLikeAnyOther) {
 
 TEST_F(AuthorFilm, ProgramPackagesAndSaysWhatItDid) {
   makeClip(folder_ / "color.mkv", {colorTrack()});
-  makeClip(folder_ / "depth.mkv", {depthTrack("gray16le", [](int c, int, int) { return static_cast<std::uint32_t>(1000 * c); })});
+  makeClip(folder_ / "depth.mkv",
+           {depthTrack("gray16le", [](int c, int, int) { return static_cast<std::uint32_t>(1000 * c); })});
   const auto said = run("--color @/color.mkv --depth @/depth.mkv -o @/out.mp4");
   EXPECT_EQ(said.exit_code, 0) << said.err;
   EXPECT_EQ(said.err, "");  // no progress where there is no terminal
@@ -349,9 +366,11 @@ TEST_F(AuthorFilm, ProgramKeepsTheOldFileWhenTheNewOneFails) {
 
 TEST_F(AuthorFilm, ProgramTellsWrongUseInOneLine) {
   makeClip(folder_ / "color.mkv", {colorTrack()});
-  for (const char* arguments : {"--color @/color.mkv", "-o @/out.mkv", "--scene moon -o @/out.mkv", "--color @/color.mkv -o @/out.avi",
-                                "--scene sample --color @/color.mkv -o @/out.mkv", "--color @/color.mkv -o @/out.mkv --crf 99",
-                                "--color @/color.mkv -o @/out.mkv --calibration law=steep", "--color @/color.mkv -o @/out.mkv --packing pile"}) {
+  for (const char* arguments :
+       {"--color @/color.mkv", "-o @/out.mkv", "--scene moon -o @/out.mkv", "--color @/color.mkv -o @/out.avi",
+        "--scene sample --color @/color.mkv -o @/out.mkv", "--color @/color.mkv -o @/out.mkv --crf 99",
+        "--color @/color.mkv -o @/out.mkv --calibration law=steep",
+        "--color @/color.mkv -o @/out.mkv --packing pile"}) {
     const auto said = run(arguments);
     EXPECT_EQ(said.exit_code, 2) << arguments << ": " << said.err;
     EXPECT_EQ(std::count(said.err.begin(), said.err.end(), '\n'), 1) << arguments << ": " << said.err;
@@ -371,7 +390,8 @@ TEST_F(AuthorFilm, ProgramSaysWhenThereIsNoDepth) {
 TEST_F(AuthorFilm, ProgramTeaches) {
   const auto said = run("--help");
   EXPECT_EQ(said.exit_code, 0);
-  for (const char* word : {"--color", "--depth", "--packing", "--calibration", "--crf", "--force", "--scene", "Examples"}) {
+  for (const char* word :
+       {"--color", "--depth", "--packing", "--calibration", "--crf", "--force", "--scene", "Examples"}) {
     EXPECT_THAT(said.out, HasSubstr(word));
   }
 }
@@ -415,7 +435,8 @@ std::string textOf(const std::string& path) {
 
 TEST_F(AuthorFilm, ProgramLeavesNothingOnASignal) {
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
-    Process process({std::string(RELIEVO_BIN_DIR) + "/relievo-author", "--scene", "sample", "-o", folder_ / "out.mkv"}, folder_ / "said/errors");
+    Process process({std::string(RELIEVO_BIN_DIR) + "/relievo-author", "--scene", "sample", "-o", folder_ / "out.mkv"},
+                    folder_ / "said/errors");
     while (made().empty() && process.isRunning()) std::this_thread::yield();  // until the temporary file is there
     ASSERT_TRUE(process.isRunning()) << textOf(folder_ / "said/errors");
     process.send(number);
@@ -428,12 +449,14 @@ TEST_F(AuthorFilm, ProgramLeavesNothingOnASignal) {
 TEST_F(AuthorFilm, ProgramLeavesNothingOnAFullDisk) {
   // A file may grow to 16 blocks of 1 KiB: stands for a disk that fills up.
   ClipTrack color = colorTrack(320, 240);
-  color.sample = [](int, int c, int r, int k) { return static_cast<std::uint32_t>((c * 7919 + r * 104729 + k * 1299709) >> 3); };
+  color.sample = [](int, int c, int r, int k) {
+    return static_cast<std::uint32_t>((c * 7919 + r * 104729 + k * 1299709) >> 3);
+  };
   makeClip(folder_ / "color.mkv", {color});
   makeClip(folder_ / "depth.mkv", {depthTrack("gray", [](int, int, int) { return 9u; })});
   Process process({"/bin/bash", "-c",
-                   "ulimit -f 16; exec " RELIEVO_BIN_DIR "/relievo-author --color " + (folder_ / "color.mkv") + " --depth " +
-                       (folder_ / "depth.mkv") + " -o " + (folder_ / "out.mkv")},
+                   "ulimit -f 16; exec " RELIEVO_BIN_DIR "/relievo-author --color " + (folder_ / "color.mkv") +
+                       " --depth " + (folder_ / "depth.mkv") + " -o " + (folder_ / "out.mkv")},
                   folder_ / "said/errors");
   EXPECT_EQ(process.wait(), 1);
   EXPECT_THAT(textOf(folder_ / "said/errors"), HasSubstr("out.mkv: it cannot be written; is the disk full?"));

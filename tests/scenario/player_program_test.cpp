@@ -69,8 +69,8 @@ class PlayerProgram : public testing::Test {
 
 TEST_F(PlayerProgram, PlaysAClipThroughTheWholeStackAndReportsIt) {
   test::makeClip(at("film.mkv"), {color(), depth()});
-  const auto result = play(at("film.mkv") + " --size 320x180 --report " + at("r.json") + " --record " + at("t.csv"),
-                           "offscreen");
+  const auto result =
+      play(at("film.mkv") + " --size 320x180 --report " + at("r.json") + " --record " + at("t.csv"), "offscreen");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("frames shown"));
   const json r = reportOf("r.json");
@@ -87,7 +87,8 @@ TEST_F(PlayerProgram, PlaysAClipThroughTheWholeStackAndReportsIt) {
   EXPECT_GT(r["haptic"]["ticks"].get<int>(), 0);
   EXPECT_GT(r["haptic"]["update_ns"]["p50"].get<int>(), 0);
   EXPECT_GE(r["haptic"]["wakeup_ns"]["max"].get<int>(), r["haptic"]["wakeup_ns"]["p50"].get<int>());
-  for (const char* field : {"overruns", "allocations", "page_faults"}) EXPECT_TRUE(r["haptic"][field].is_number()) << field;
+  for (const char* field : {"overruns", "allocations", "page_faults"})
+    EXPECT_TRUE(r["haptic"][field].is_number()) << field;
   for (const char* field : {"max_n", "max_scene_slew_n_per_s"}) EXPECT_TRUE(r["force"][field].is_number()) << field;
   for (const char* field : {"scene_mj", "artefact_mj"}) EXPECT_TRUE(r["energy"][field].is_number()) << field;
 
@@ -117,8 +118,7 @@ TEST_F(PlayerProgram, PlaysColorAndDepthOfDifferentLengthRateAndOddSizes) {
 TEST_F(PlayerProgram, ObeysAScriptedRemote) {
   test::makeClip(at("film.mkv"), {color(600), depth(600)});
   std::ofstream(at("keys.txt")) << "1.0 RIGHT\n1.3 PAUSE\n1.6 LEFT\n1.9 PLAY\n2.0 3D_MODE\n2.3 STOP\n";
-  const auto result =
-      play(at("film.mkv") + " --remote script:" + at("keys.txt") + " --report " + at("r.json"));
+  const auto result = play(at("film.mkv") + " --remote script:" + at("keys.txt") + " --report " + at("r.json"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json r = reportOf("r.json");
   EXPECT_EQ(r["states"].back(), "idle");
@@ -218,7 +218,8 @@ TEST_F(PlayerProgram, ASignalEndsTheFilmInGoodOrder) {
   const std::string film = at("film.mkv"), report = at("r.json"), record = at("t.csv");
   const pid_t child = ::fork();
   if (child == 0) {
-    if (std::freopen("/dev/null", "w", stdout) == nullptr || std::freopen("/dev/null", "w", stderr) == nullptr) ::_exit(9);
+    if (std::freopen("/dev/null", "w", stdout) == nullptr || std::freopen("/dev/null", "w", stderr) == nullptr)
+      ::_exit(9);
     ::execl(program.c_str(), program.c_str(), "play", film.c_str(), "--loop", "--display", "mock", "--report",
             report.c_str(), "--record", record.c_str(), nullptr);
     ::_exit(9);
@@ -238,7 +239,8 @@ TEST_F(PlayerProgram, ASignalEndsTheFilmInGoodOrder) {
 TEST_F(PlayerProgram, PlaysRealFootage) {
   const std::string cup = std::string(RELIEVO_TEST_DATA) + "/cup/";
   if (!fs::exists(cup + "color_output.webm")) GTEST_SKIP() << "no real footage at " << cup;
-  const auto result = play(cup + "color_output.webm --depth " + cup + "depth_output.webm --duration 1.5 --report " + at("r.json"));
+  const auto result =
+      play(cup + "color_output.webm --depth " + cup + "depth_output.webm --duration 1.5 --report " + at("r.json"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json r = reportOf("r.json");
   EXPECT_EQ(r["video"]["pairs_mismatched"], 0);

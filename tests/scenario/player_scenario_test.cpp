@@ -75,7 +75,7 @@ TEST_F(PlayerScenario, APauseStandsStillAndStaysTouchable) {
 }
 
 TEST_F(PlayerScenario, PlayAndPauseKeysSayWhatTheyMeanWhateverTheState) {
-  bench_.press(1.0, KEY_PLAY);   // it plays already
+  bench_.press(1.0, KEY_PLAY);  // it plays already
   bench_.press(1.5, KEY_PAUSE);
   bench_.press(1.6, KEY_PAUSE);  // it is paused already
   bench_.press(2.0, KEY_PLAYCD);
@@ -352,7 +352,8 @@ TEST_F(PlayerScenario, ADisplayThatIsLostComesBackAndTheFilmGoesOnMeanwhile) {
   bench_.display.lose_after_frames = 25;  // of each time it is open
   playsWell();
   EXPECT_EQ(bench_.states(), kWholeFilm);
-  // Lost after 25 pictures at 1 s, tried again at 2 s, lost after 25 more at 3 s, not tried again before the end at 4 s.
+  // Lost after 25 pictures at 1 s, tried again at 2 s, lost after 25 more at 3 s, not tried again before the end at 4
+  // s.
   EXPECT_EQ(bench_.faults("display lost"), 2u);
   EXPECT_EQ(bench_.faults("display back"), 1u);
   EXPECT_EQ(bench_.report.frames_shown, 50u);

@@ -18,8 +18,7 @@ inline constexpr bool kThreadSanitizer = false;
 
 // These bring an allocator of their own, and a shadow memory that may fault at any time; their mlock does
 // nothing.
-#if defined(__SANITIZE_ADDRESS__) || RELIEVO_HAS_FEATURE(address_sanitizer) || \
-    RELIEVO_HAS_FEATURE(memory_sanitizer)
+#if defined(__SANITIZE_ADDRESS__) || RELIEVO_HAS_FEATURE(address_sanitizer) || RELIEVO_HAS_FEATURE(memory_sanitizer)
 inline constexpr bool kMemorySanitizer = true;
 #else
 inline constexpr bool kMemorySanitizer = kThreadSanitizer;

@@ -102,9 +102,9 @@ TEST(AuthorColorTo420, ConvertsRgbByBt709) {
     std::array<std::uint8_t, 3> rgb;
     std::array<int, 3> yuv;
   };
-  for (const Case& c : {Case{{0, 0, 0}, {16, 128, 128}}, Case{{255, 255, 255}, {235, 128, 128}},
-                        Case{{255, 0, 0}, {63, 102, 240}}, Case{{0, 255, 0}, {173, 42, 26}},
-                        Case{{0, 0, 255}, {32, 240, 118}}, Case{{128, 128, 128}, {126, 128, 128}}}) {
+  for (const Case& c :
+       {Case{{0, 0, 0}, {16, 128, 128}}, Case{{255, 255, 255}, {235, 128, 128}}, Case{{255, 0, 0}, {63, 102, 240}},
+        Case{{0, 255, 0}, {173, 42, 26}}, Case{{0, 0, 255}, {32, 240, 118}}, Case{{128, 128, 128}, {126, 128, 128}}}) {
     Bytes pixels;
     for (int i = 0; i < 4; ++i) pixels.insert(pixels.end(), c.rgb.begin(), c.rgb.end());
     Frame frame;

@@ -43,7 +43,8 @@ TEST(AuthorDepthCoder, RoundsSixteenBitsToTheNearestOfEight) {
 
 // 255 c/1023: 2 -> 0.499, 3 -> 0.748, 511 -> 127.4, 512 -> 127.6, 1021 -> 254.50 (254.501), 1020 -> 254.25.
 TEST(AuthorDepthCoder, RoundsTenBits) {
-  EXPECT_EQ(coded(grayRow({0, 2, 3, 511, 512, 1020, 1021, 1023}, 10), {.bits = 10}), (Codes{0, 0, 1, 127, 128, 254, 255, 255}));
+  EXPECT_EQ(coded(grayRow({0, 2, 3, 511, 512, 1020, 1021, 1023}, 10), {.bits = 10}),
+            (Codes{0, 0, 1, 127, 128, 254, 255, 255}));
 }
 
 // (c - 16) 255/219: 17 -> 1.16, 18 -> 2.33, 126 -> 128.08, 234 -> 253.84; footroom is 0, headroom is 255.
@@ -102,11 +103,12 @@ TEST(AuthorDepthCoder, KeepsTheLaw) {
   EXPECT_EQ(coded(grayRow({1365}, 12), source), Codes{85});
 }
 
-// Hue over 360 degrees grows with distance: red 0 is the nearest, 255; yellow 1/6 -> 255 x 5/6 = 212.5; green 1/3 -> 170;
-// cyan 1/2 -> 127.5; blue 2/3 -> 85; magenta 5/6 -> 42.5; orange, half way from red to yellow, 1/12 -> 233.7. Black has no
-// hue: a hole.
+// Hue over 360 degrees grows with distance: red 0 is the nearest, 255; yellow 1/6 -> 255 x 5/6 = 212.5; green 1/3 ->
+// 170; cyan 1/2 -> 127.5; blue 2/3 -> 85; magenta 5/6 -> 42.5; orange, half way from red to yellow, 1/12 -> 233.7.
+// Black has no hue: a hole.
 TEST(AuthorDepthCoder, DecodesHueToLuma) {
-  static const std::uint8_t pixels[] = {255, 0, 0, 255, 255, 0, 0, 255, 0, 0, 255, 255, 0, 0, 255, 255, 0, 255, 255, 128, 0, 0, 0, 0};
+  static const std::uint8_t pixels[] = {255, 0, 0,   255, 255, 0,   0,   255, 0, 0, 255, 255,
+                                        0,   0, 255, 255, 0,   255, 255, 128, 0, 0, 0,   0};
   Frame frame;
   frame.width = 8;
   frame.height = 1;

@@ -47,7 +47,8 @@ ColorPicture420 colorPicture(int width, int height, int k) {
   ColorPicture420 picture{.width = width, .height = height, .y = {}, .u = {}, .v = {}};
   const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   picture.y.resize(pixels);
-  for (std::size_t i = 0; i < pixels; ++i) picture.y[i] = static_cast<std::uint8_t>(16 + (i + 3 * static_cast<std::size_t>(k)) % 219);
+  for (std::size_t i = 0; i < pixels; ++i)
+    picture.y[i] = static_cast<std::uint8_t>(16 + (i + 3 * static_cast<std::size_t>(k)) % 219);
   picture.u.assign(pixels / 4, 110);
   picture.v.assign(pixels / 4, 150);
   return picture;
@@ -56,7 +57,7 @@ ColorPicture420 colorPicture(int width, int height, int k) {
 struct ReadFilm {
   std::vector<StreamInfo> streams;
   std::map<std::string, std::string> tags;
-  std::map<int, std::vector<MediaTime>> keys;      // of each stream
+  std::map<int, std::vector<MediaTime>> keys;  // of each stream
   std::map<int, std::vector<Frame>> frames;
 };
 
@@ -92,7 +93,8 @@ void writeFilm(const std::string& path, const FilmFormat& format, const std::vec
   ASSERT_TRUE(writer.has_value()) << writer.error().message;
   for (int k = 0; k < static_cast<int>(times.size()); ++k) {
     const MediaTime time = times[static_cast<std::size_t>(k)];
-    ASSERT_TRUE((*writer)->writeColor(colorPicture(format.color_width, format.color_height, k), time, key(k)).has_value());
+    ASSERT_TRUE(
+        (*writer)->writeColor(colorPicture(format.color_width, format.color_height, k), time, key(k)).has_value());
     ASSERT_TRUE((*writer)->writeDepth(depth(k), time, key(k)).has_value());
   }
   const auto totals = (*writer)->finish();
@@ -118,9 +120,10 @@ class AuthorFilmWriter : public testing::TestWithParam<const char*> {
 TEST_P(AuthorFilmWriter, LosslessDepthComesBackCodeByCode) {
   FilmFormat format = formatOf(64, 48);
   format.depth_crf = 0;
-  writeFilm(path(), format, regularTimes(12), [](int k) {
-    return depthPicture(64, 48, [k](int c, int r) { return scattered(c, r, k); });
-  }, [](int k) { return k == 0; });
+  writeFilm(
+      path(), format, regularTimes(12),
+      [](int k) { return depthPicture(64, 48, [k](int c, int r) { return scattered(c, r, k); }); },
+      [](int k) { return k == 0; });
   const ReadFilm film = readFilm(path());
   const auto& frames = film.frames.at(1);
   ASSERT_EQ(frames.size(), 12u);
@@ -128,17 +131,19 @@ TEST_P(AuthorFilmWriter, LosslessDepthComesBackCodeByCode) {
     const Frame& frame = frames[static_cast<std::size_t>(k)];
     EXPECT_EQ(frame.range, ColorRange::Full);
     for (int r = 0; r < 48; ++r) {
-      for (int c = 0; c < 64; ++c) ASSERT_EQ(test::sampleAt(frame, 0, c, r), scattered(c, r, k)) << c << "," << r << " of " << k;
+      for (int c = 0; c < 64; ++c)
+        ASSERT_EQ(test::sampleAt(frame, 0, c, r), scattered(c, r, k)) << c << "," << r << " of " << k;
     }
   }
 }
 
-// Black and white of limited range are 16 and 235: had anything scaled the codes, 0 and 255 would not come back, and the
-// slope would be off by up to 20 codes.
+// Black and white of limited range are 16 and 235: had anything scaled the codes, 0 and 255 would not come back, and
+// the slope would be off by up to 20 codes.
 TEST_P(AuthorFilmWriter, CodedDepthIsNotRescaled) {
-  writeFilm(path(), formatOf(256, 64), regularTimes(8), [](int) {
-    return depthPicture(256, 64, [](int c, int) { return static_cast<std::uint8_t>(c); });
-  }, [](int k) { return k == 0; });
+  writeFilm(
+      path(), formatOf(256, 64), regularTimes(8),
+      [](int) { return depthPicture(256, 64, [](int c, int) { return static_cast<std::uint8_t>(c); }); },
+      [](int k) { return k == 0; });
   const ReadFilm film = readFilm(path());
   for (const Frame& frame : film.frames.at(1)) {
     for (int c = 0; c < 256; ++c) ASSERT_NEAR(static_cast<double>(test::sampleAt(frame, 0, c, 30)), c, 3);
@@ -147,12 +152,13 @@ TEST_P(AuthorFilmWriter, CodedDepthIsNotRescaled) {
   }
 }
 
-// chroma_format_idc of the sequence parameter set is the second Exp-Golomb number behind profile, constraints and level:
-// the first is the set's number, 0, written "1"; 0 (4:0:0) is "1", 1 (4:2:0) is "010".
+// chroma_format_idc of the sequence parameter set is the second Exp-Golomb number behind profile, constraints and
+// level: the first is the set's number, 0, written "1"; 0 (4:0:0) is "1", 1 (4:2:0) is "010".
 TEST_P(AuthorFilmWriter, DepthIsMonochromeAndColourIs420) {
-  writeFilm(path(), formatOf(64, 48), regularTimes(3), [](int) {
-    return depthPicture(64, 48, [](int, int) { return std::uint8_t{77}; });
-  }, [](int k) { return k == 0; });
+  writeFilm(
+      path(), formatOf(64, 48), regularTimes(3),
+      [](int) { return depthPicture(64, 48, [](int, int) { return std::uint8_t{77}; }); },
+      [](int k) { return k == 0; });
   const ReadFilm film = readFilm(path());
   ASSERT_EQ(film.streams.size(), 2u);
   const auto chromaBits = [&](std::size_t stream) { return film.streams[stream].extradata.at(12) >> 4; };
@@ -168,9 +174,10 @@ TEST_P(AuthorFilmWriter, KeepsTheTimes) {
   // A film with a gap and uneven steps.
   std::vector<MediaTime> times;
   for (const int ms : {0, 33, 67, 100, 400, 417, 500, 1500}) times.emplace_back(std::chrono::milliseconds(ms));
-  writeFilm(path(), formatOf(64, 48), times, [](int k) {
-    return depthPicture(64, 48, [k](int, int) { return static_cast<std::uint8_t>(10 * k); });
-  }, [](int k) { return k == 0; });
+  writeFilm(
+      path(), formatOf(64, 48), times,
+      [](int k) { return depthPicture(64, 48, [k](int, int) { return static_cast<std::uint8_t>(10 * k); }); },
+      [](int k) { return k == 0; });
   const ReadFilm film = readFilm(path());
   for (const int stream : {0, 1}) {
     const auto& frames = film.frames.at(stream);
@@ -189,9 +196,10 @@ TEST_P(AuthorFilmWriter, WritesTheCalibrationWhereAReaderFindsIt) {
   FilmFormat format = formatOf(64, 48);
   const DepthCalibration meaning{.law = DepthLaw::Inverse, .invalid_code = 0, .near_mm = 412.5, .far_mm = 3100};
   format.depth_tags = calibrationTags(meaning);
-  writeFilm(path(), format, regularTimes(3), [](int) {
-    return depthPicture(64, 48, [](int, int) { return std::uint8_t{77}; });
-  }, [](int k) { return k == 0; });
+  writeFilm(
+      path(), format, regularTimes(3),
+      [](int) { return depthPicture(64, 48, [](int, int) { return std::uint8_t{77}; }); },
+      [](int k) { return k == 0; });
   const ReadFilm film = readFilm(path());
   auto tags = film.streams.at(1).tags;
   tags.insert(film.tags.begin(), film.tags.end());
@@ -216,9 +224,13 @@ TEST_P(AuthorFilmWriter, WritesTheCalibrationWhereAReaderFindsIt) {
 TEST_P(AuthorFilmWriter, PutsKeyFramesWhereItIsTold) {
   // A cut at 40, where an encoder left to itself would put one of its own.
   const auto key = [](int k) { return k % 70 == 0; };
-  writeFilm(path(), formatOf(64, 48), regularTimes(80), [](int k) {
-    return depthPicture(64, 48, [k](int c, int r) { return k < 40 ? static_cast<std::uint8_t>(c + r) : scattered(c, r, 0); });
-  }, key);
+  writeFilm(
+      path(), formatOf(64, 48), regularTimes(80),
+      [](int k) {
+        return depthPicture(
+            64, 48, [k](int c, int r) { return k < 40 ? static_cast<std::uint8_t>(c + r) : scattered(c, r, 0); });
+      },
+      key);
   const ReadFilm film = readFilm(path());
   std::vector<MediaTime> expected;
   for (int k = 0; k < 80; k += 70) expected.push_back(film.frames.at(0)[static_cast<std::size_t>(k)].pts);
@@ -254,7 +266,8 @@ INSTANTIATE_TEST_SUITE_P(Kinds, AuthorFilmWriter, testing::Values(".mkv", ".mp4"
 
 std::vector<std::string> filesIn(const std::string& folder) {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.push_back(entry.path().filename().string());
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    names.push_back(entry.path().filename().string());
   return names;
 }
 
@@ -275,7 +288,9 @@ TEST(AuthorFilmWriterFile, OldOneStaysUntilTheNewOneIsWhole) {
   const TemporaryFolder folder;
   const std::string path = folder / "film.mkv";
   std::ofstream(path) << "old";
-  { auto writer = FilmWriter::create(path, formatOf(64, 48)); }
+  {
+    auto writer = FilmWriter::create(path, formatOf(64, 48));
+  }
   std::string left;
   std::ifstream(path) >> left;
   EXPECT_EQ(left, "old");
@@ -286,9 +301,10 @@ TEST(AuthorFilmWriterFile, NameMayLookLikeAnAddress) {
   const TemporaryFolder folder;
   const std::filesystem::path before = std::filesystem::current_path();
   std::filesystem::current_path(folder / "");
-  writeFilm("a:b%03d.mkv", formatOf(64, 48), regularTimes(2), [](int) {
-    return depthPicture(64, 48, [](int, int) { return std::uint8_t{77}; });
-  }, [](int k) { return k == 0; });
+  writeFilm(
+      "a:b%03d.mkv", formatOf(64, 48), regularTimes(2),
+      [](int) { return depthPicture(64, 48, [](int, int) { return std::uint8_t{77}; }); },
+      [](int k) { return k == 0; });
   std::filesystem::current_path(before);
   EXPECT_THAT(filesIn(folder / ""), ElementsAre("a:b%03d.mkv"));
 }

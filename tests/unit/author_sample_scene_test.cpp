@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sample film before coding: its depth is that of its surfaces, its surfaces are where they say, it moves as it should.
+// The sample film before coding: its depth is that of its surfaces, its surfaces are where they say, it moves as it
+// should.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,8 +18,12 @@ namespace {
 
 constexpr double kCodesPerMm = 255.0 / SampleFilm::kDepthMm;
 
-double xOf(int c, int cols) { return ((c + 0.5) / cols - 0.5) * SampleFilm::kWidthMm; }
-double yOf(int r, int rows) { return (0.5 - (r + 0.5) / rows) * SampleFilm::kHeightMm; }
+double xOf(int c, int cols) {
+  return ((c + 0.5) / cols - 0.5) * SampleFilm::kWidthMm;
+}
+double yOf(int r, int rows) {
+  return (0.5 - (r + 0.5) / rows) * SampleFilm::kHeightMm;
+}
 
 SamplePicture rendered(double t_s, int cols, int rows, int threads = 2) {
   SamplePicture picture{.cols = cols, .rows = rows, .rgb = {}, .depth = {}};
@@ -28,12 +33,14 @@ SamplePicture rendered(double t_s, int cols, int rows, int threads = 2) {
 
 class AuthorSampleScene : public testing::TestWithParam<double> {};
 
-// The picture's rays are cast in groups, in single precision, with parts left out that cannot matter; the height is found
-// in double precision from all parts by the plain march. Where a ray only grazes an edge the two may differ.
+// The picture's rays are cast in groups, in single precision, with parts left out that cannot matter; the height is
+// found in double precision from all parts by the plain march. Where a ray only grazes an edge the two may differ.
 TEST_P(AuthorSampleScene, DepthIsThatOfTheSurfaceToHalfACode) {
   constexpr int kCols = SampleFilm::kCols, kRows = SampleFilm::kRows;
   const SamplePicture picture = rendered(GetParam(), kCols, kRows);
-  const auto code = [&](int c, int r) { return static_cast<int>(picture.depth[static_cast<std::size_t>(r * kCols + c)]); };
+  const auto code = [&](int c, int r) {
+    return static_cast<int>(picture.depth[static_cast<std::size_t>(r * kCols + c)]);
+  };
   int looked_at = 0, off = 0;
   for (int r = 3; r < kRows - 1; r += 5) {
     for (int c = 3; c < kCols - 1; c += 5) {
@@ -42,7 +49,8 @@ TEST_P(AuthorSampleScene, DepthIsThatOfTheSurfaceToHalfACode) {
       if (std::abs(code(c, r) - exact) < 0.51) continue;
       ++off;
       const int jump = std::max({std::abs(code(c - 1, r) - code(c + 1, r)), std::abs(code(c, r - 1) - code(c, r + 1))});
-      EXPECT_GT(jump, 3) << "at " << c << "," << r << ": " << code(c, r) << " instead of " << exact << ", not at an edge";
+      EXPECT_GT(jump, 3) << "at " << c << "," << r << ": " << code(c, r) << " instead of " << exact
+                         << ", not at an edge";
     }
   }
   EXPECT_GT(looked_at, 13000);

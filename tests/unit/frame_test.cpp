@@ -14,8 +14,7 @@ namespace {
 int sampleAt(const Frame& frame, int component_index, int c, int r) {
   const Component& component = frame.components[static_cast<std::size_t>(component_index)];
   const Plane& plane = frame.planes[component.plane];
-  const std::uint8_t* at =
-      plane.data + r * plane.stride_bytes + component.offset_bytes + c * component.step_bytes;
+  const std::uint8_t* at = plane.data + r * plane.stride_bytes + component.offset_bytes + c * component.step_bytes;
   const int word = component.bits > 8 ? at[0] | at[1] << 8 : at[0];
   return (word >> component.shift) & ((1 << component.bits) - 1);
 }
@@ -23,8 +22,7 @@ int sampleAt(const Frame& frame, int component_index, int c, int r) {
 // Memory in which every byte differs from its neighbours along rows, columns and planes.
 std::vector<std::uint8_t> pattern() {
   std::vector<std::uint8_t> bytes(4096);
-  for (std::size_t i = 0; i < bytes.size(); ++i)
-    bytes[i] = static_cast<std::uint8_t>((i * 37 + i / 256 * 11) & 0xFF);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>((i * 37 + i / 256 * 11) & 0xFF);
   return bytes;
 }
 
@@ -87,8 +85,7 @@ TEST(FrameCrop, PlanarYuv420) {
   Picture picture(ColorModel::Yuv);
   picture.frame.chroma_shift_x = picture.frame.chroma_shift_y = 1;
   for (std::uint8_t i = 0; i < 3; ++i) picture.frame.components[i].plane = i;
-  picture.frame.planes = {Plane{picture.at(0), 24}, Plane{picture.at(1000), 10}, Plane{picture.at(2000), 12},
-                          Plane{}};
+  picture.frame.planes = {Plane{picture.at(0), 24}, Plane{picture.at(1000), 10}, Plane{picture.at(2000), 12}, Plane{}};
   expectPartOf(picture.frame, 6, 4, 8, 6);
 }
 

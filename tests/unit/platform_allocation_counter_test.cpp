@@ -33,10 +33,9 @@ std::uint64_t allocationsOf(Act act) {
 }
 
 class ThreadAllocations : public testing::Test {
-protected:
+ protected:
   void SetUp() override {
-    if (kRealtimeSanitizer)
-      GTEST_SKIP() << "the real-time sanitizer stops at an allocation instead of counting it";
+    if (kRealtimeSanitizer) GTEST_SKIP() << "the real-time sanitizer stops at an allocation instead of counting it";
   }
 };
 

@@ -63,7 +63,7 @@ TEST_F(AtomicFileTest, ReplacesAFileAndKeepsItsMode) {
   file->write("new");
   ASSERT_TRUE(file->commit());
   EXPECT_EQ(textOf(at("a.json")), "new");
-  struct stat status {};
+  struct stat status{};
   ASSERT_EQ(::stat(at("a.json").c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777, 0640u);
 }

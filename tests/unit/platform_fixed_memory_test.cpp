@@ -31,10 +31,10 @@ std::size_t pageBytes() {
 
 // Fresh pages of zeros; small ones, so that the kernel maps each by itself.
 class FreshPages {
-public:
+ public:
   FreshPages()
-      : base_(static_cast<unsigned char*>(::mmap(nullptr, kPages * pageBytes(), PROT_READ | PROT_WRITE,
-                                                 MAP_PRIVATE | MAP_ANONYMOUS, -1, 0))) {
+      : base_(static_cast<unsigned char*>(
+            ::mmap(nullptr, kPages * pageBytes(), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0))) {
     ::madvise(base_, kPages * pageBytes(), MADV_NOHUGEPAGE);
   }
   ~FreshPages() { ::munmap(base_, kPages * pageBytes()); }
@@ -48,7 +48,7 @@ public:
     return count;
   }
 
-private:
+ private:
   unsigned char* base_;
 };
 
@@ -144,9 +144,8 @@ TEST(LockAndTouchCode, LocksTheProgramsAndItsLibrariesCode) {
   const auto locked = lockAndTouchCode();
   if (!locked) GTEST_SKIP() << locked.error().message;
   const std::string program = std::filesystem::read_symlink("/proc/self/exe");
-  for (const std::string& wanted :
-       {program, std::string("/libc.so."), std::string("/libm.so."), std::string("/libstdc++.so."),
-        std::string("/libgcc_s.so."), std::string("/ld-")}) {
+  for (const std::string& wanted : {program, std::string("/libc.so."), std::string("/libm.so."),
+                                    std::string("/libstdc++.so."), std::string("/libgcc_s.so."), std::string("/ld-")}) {
     int code = 0;
     for (const Mapping& mapping : mappings()) {
       if (mapping.file.find(wanted) == std::string::npos || mapping.permissions[1] == 'w') continue;

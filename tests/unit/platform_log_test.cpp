@@ -21,7 +21,7 @@ std::string printedBy(Act act) {
 }
 
 class LevelGuard {
-public:
+ public:
   explicit LevelGuard(LogLevel level) { setLogLevel(level); }
   ~LevelGuard() { setLogLevel(LogLevel::Info); }
 };
@@ -119,8 +119,7 @@ TEST(RingLog, SaysHowManyRecordsWereLostAndSaysItOnce) {
   const LevelGuard guard(LogLevel::Warning);
   RingLog ring;
   for (int i = 0; i < 256 + 3; ++i) ring.push({.level = LogLevel::Debug, .area = "a", .text = "b"});
-  EXPECT_EQ(printedBy([&] { ring.drain(); }),
-            "relievo: log: 3 lines lost: they came faster than they were printed\n");
+  EXPECT_EQ(printedBy([&] { ring.drain(); }), "relievo: log: 3 lines lost: they came faster than they were printed\n");
   EXPECT_EQ(printedBy([&] { ring.drain(); }), "");
 }
 

@@ -20,7 +20,7 @@ constexpr MonotonicTime kStart = MonotonicTime{} + milliseconds(5);
 
 // Takes as much of the clock's time as it is told to, and writes down each cycle.
 class RecordingTask final : public CyclicTask {
-public:
+ public:
   using Work = std::function<Duration(const Cycle&)>;
   RecordingTask(ManualClock& clock, std::size_t cycles, Work work)
       : clock_(clock), cycles_(cycles), work_(std::move(work)) {
@@ -38,7 +38,7 @@ public:
     return all;
   }
 
-private:
+ private:
   ManualClock& clock_;
   std::size_t cycles_;
   Work work_;
@@ -47,9 +47,8 @@ private:
 
 // Wakes late, once per given delay, in order; then on time.
 class LateClock final : public Clock {
-public:
-  explicit LateClock(ManualClock& clock, std::vector<Duration> delays)
-      : clock_(clock), delays_(std::move(delays)) {}
+ public:
+  explicit LateClock(ManualClock& clock, std::vector<Duration> delays) : clock_(clock), delays_(std::move(delays)) {}
   [[nodiscard]] MonotonicTime now() const noexcept override { return clock_.now(); }
   void sleepUntil(MonotonicTime deadline) noexcept override {
     clock_.sleepUntil(deadline);
@@ -57,14 +56,14 @@ public:
     ++slept_;
   }
 
-private:
+ private:
   ManualClock& clock_;
   std::vector<Duration> delays_;
   std::size_t slept_ = 0;
 };
 
 class RunCycles : public testing::Test {
-protected:
+ protected:
   void run(RecordingTask& task) { runCycles(clock, kPeriod, task, statistics, stop); }
 
   ManualClock clock{kStart};
@@ -78,8 +77,7 @@ RecordingTask::Work always(Duration work) {
 
 void expectOnPhase(const std::vector<Cycle>& cycles) {
   for (const Cycle& cycle : cycles) {
-    EXPECT_EQ(cycle.scheduled, kStart + kPeriod * static_cast<Duration::rep>(cycle.index))
-        << "cycle " << cycle.index;
+    EXPECT_EQ(cycle.scheduled, kStart + kPeriod * static_cast<Duration::rep>(cycle.index)) << "cycle " << cycle.index;
   }
 }
 

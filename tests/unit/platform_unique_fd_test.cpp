@@ -45,7 +45,9 @@ TEST(UniqueFd, ClosesOnlyOnce) {
   const UniqueFd other(opened());
   ASSERT_EQ(other.get(), raw) << "the kernel gives the lowest free number";
   fd.reset();
-  { const UniqueFd gone = std::move(fd); }
+  {
+    const UniqueFd gone = std::move(fd);
+  }
   EXPECT_TRUE(isOpen(raw));
 }
 

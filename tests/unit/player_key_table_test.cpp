@@ -16,12 +16,12 @@ std::optional<PlayerCommand> pressed(int code, KeyEvent::Action action = KeyEven
 // Numbers, not names: a wrong name in the table shows here.
 TEST(KeyTable, KnowsTheKeysOfRemotesKeyboardsAndCec) {
   const std::map<int, PlayerCommand> expected{
-      {207, PlayerCommand::Play},         {200, PlayerCommand::Play},          {119, PlayerCommand::Pause},
-      {201, PlayerCommand::Pause},        {164, PlayerCommand::PlayPause},     {0x160, PlayerCommand::PlayPause},
-      {28, PlayerCommand::PlayPause},     {0x161, PlayerCommand::PlayPause},   {57, PlayerCommand::PlayPause},
-      {106, PlayerCommand::SeekForward},  {208, PlayerCommand::SeekForward},   {105, PlayerCommand::SeekBackward},
-      {168, PlayerCommand::SeekBackward}, {0x26f, PlayerCommand::NextLayout},  {128, PlayerCommand::Stop},
-      {166, PlayerCommand::Stop},         {158, PlayerCommand::Stop},          {174, PlayerCommand::Stop},
+      {207, PlayerCommand::Play},         {200, PlayerCommand::Play},         {119, PlayerCommand::Pause},
+      {201, PlayerCommand::Pause},        {164, PlayerCommand::PlayPause},    {0x160, PlayerCommand::PlayPause},
+      {28, PlayerCommand::PlayPause},     {0x161, PlayerCommand::PlayPause},  {57, PlayerCommand::PlayPause},
+      {106, PlayerCommand::SeekForward},  {208, PlayerCommand::SeekForward},  {105, PlayerCommand::SeekBackward},
+      {168, PlayerCommand::SeekBackward}, {0x26f, PlayerCommand::NextLayout}, {128, PlayerCommand::Stop},
+      {166, PlayerCommand::Stop},         {158, PlayerCommand::Stop},         {174, PlayerCommand::Stop},
       {1, PlayerCommand::Stop},           {116, PlayerCommand::Stop},
   };
   for (int code = 0; code <= 0x2ff; ++code) {

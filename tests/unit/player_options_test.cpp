@@ -61,10 +61,13 @@ TEST(Options, HaveTheDefaultsOfTheBox) {
 }
 
 TEST(Options, TakeEveryWordOfPlay) {
-  const Parsed parsed = parse({"play", "scan.mov", "--packing", "tb", "--depth-code", "hue", "--calibration",
-                               "law=inverse,near=300,far=3000", "--display", "mock", "--stereo", "anaglyph", "--haptic",
-                               "none", "--remote", "script:keys.txt", "--loop", "--duration", "12.5", "--report", "r.json",
-                               "--record", "t.csv", "--volume", "200x100.5x30", "--size", "640x360"});
+  const Parsed parsed = parse({"play",         "scan.mov",   "--packing",     "tb",
+                               "--depth-code", "hue",        "--calibration", "law=inverse,near=300,far=3000",
+                               "--display",    "mock",       "--stereo",      "anaglyph",
+                               "--haptic",     "none",       "--remote",      "script:keys.txt",
+                               "--loop",       "--duration", "12.5",          "--report",
+                               "r.json",       "--record",   "t.csv",         "--volume",
+                               "200x100.5x30", "--size",     "640x360"});
   ASSERT_TRUE(parsed.options) << parsed.err;
   const PlayOptions& play = parsed.options->play;
   EXPECT_EQ(play.player.source.packing, Packing::TopBottom);

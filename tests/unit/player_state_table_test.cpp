@@ -11,8 +11,8 @@ namespace relievo {
 namespace {
 
 // Written from the words of the states, not from the code. A row per state, a column per event; a letter is the state
-// that follows, '.' a refusal. Columns: Ready Open Opened Filled FilledHeld Play Pause Seek Sought Starved EndOfFilm Loop
-// Stop Fail. Letters: b(O)ot (I)dle (o)pening (B)uffering (P)laying pa(u)sed (S)eeking (E)nded (F)ault.
+// that follows, '.' a refusal. Columns: Ready Open Opened Filled FilledHeld Play Pause Seek Sought Starved EndOfFilm
+// Loop Stop Fail. Letters: b(O)ot (I)dle (o)pening (B)uffering (P)laying pa(u)sed (S)eeking (E)nded (F)ault.
 constexpr std::array<std::string_view, kPlayerStateCount> kExpected{
     "I............F",  // boot
     ".o............",  // idle

@@ -59,7 +59,8 @@ class SurfaceFeederTest : public testing::Test {
   }
   std::vector<double> times() {
     std::vector<double> found;
-    for (int i = 0; i < window().count; ++i) found.push_back(toSeconds(window().frames[static_cast<std::size_t>(i)].time));
+    for (int i = 0; i < window().count; ++i)
+      found.push_back(toSeconds(window().frames[static_cast<std::size_t>(i)].time));
     return found;
   }
 

@@ -11,7 +11,7 @@ namespace relievo::drivers {
 namespace {
 
 class Registry : public testing::Test {
-protected:
+ protected:
   static std::string fileWith(const char* name, const char* text) {
     const std::string path = testing::TempDir() + name;
     std::ofstream(path) << text;

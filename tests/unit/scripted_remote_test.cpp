@@ -11,8 +11,7 @@ namespace relievo {
 namespace {
 
 TEST(ScriptedRemote, ReadsKeysWithAndWithoutPrefixAndComments) {
-  const auto keys =
-      parseKeyScript("# a film\n0.5 PLAYPAUSE\n\n  1.25\tKEY_FASTFORWARD # twice as fast\r\n2 stop", "s");
+  const auto keys = parseKeyScript("# a film\n0.5 PLAYPAUSE\n\n  1.25\tKEY_FASTFORWARD # twice as fast\r\n2 stop", "s");
   ASSERT_TRUE(keys);
   ASSERT_EQ(keys->size(), 3u);
   EXPECT_EQ((*keys)[0].at, std::chrono::milliseconds(500));
@@ -39,9 +38,9 @@ TEST_P(ScriptedRemoteWrong, IsRefusedAndItsLineIsNamed) {
   EXPECT_NE(printed.find("keys.txt:2:"), std::string::npos) << printed;
 }
 INSTANTIATE_TEST_SUITE_P(Lines, ScriptedRemoteWrong,
-                         testing::Values("1 PLAY\nPLAY 2\n", "1 PLAY\n2\n", "1 PLAY\n2 PLAZ\n",
-                                         "1 PLAY\n-2 PLAY\n", "1 PLAY\n0.5 PLAY\n", "1 PLAY\n2 PLAY PAUSE\n",
-                                         "1 PLAY\nnan PLAY\n", "1 PLAY\n2s PLAY\n", "1 PLAY\n2 KEY_\n"));
+                         testing::Values("1 PLAY\nPLAY 2\n", "1 PLAY\n2\n", "1 PLAY\n2 PLAZ\n", "1 PLAY\n-2 PLAY\n",
+                                         "1 PLAY\n0.5 PLAY\n", "1 PLAY\n2 PLAY PAUSE\n", "1 PLAY\nnan PLAY\n",
+                                         "1 PLAY\n2s PLAY\n", "1 PLAY\n2 KEY_\n"));
 
 TEST(ScriptedRemote, AMissingFileIsNotFound) {
   const auto keys = loadKeyScript("/nonexistent/keys.txt");
@@ -51,8 +50,7 @@ TEST(ScriptedRemote, AMissingFileIsNotFound) {
 
 TEST(ScriptedRemote, PressesEachKeyOnceWhenItsTimeHasCome) {
   ManualClock clock(MonotonicTime(std::chrono::hours(5)));
-  const auto remote =
-      makeScriptedRemote({{std::chrono::seconds(1), KEY_OK}, {std::chrono::seconds(1), KEY_UP}}, clock);
+  const auto remote = makeScriptedRemote({{std::chrono::seconds(1), KEY_OK}, {std::chrono::seconds(1), KEY_UP}}, clock);
   ASSERT_TRUE(remote->open());
   clock.advance(std::chrono::milliseconds(999));
   EXPECT_FALSE(remote->poll(clock.now()).value());

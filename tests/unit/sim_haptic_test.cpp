@@ -135,18 +135,16 @@ TEST_P(SimHapticWall, IsStableBelowTheClassicBoundAndNotAbove) {
   EXPECT_NEAR(std::log(last_swing / first_swing), exponent, 0.15 * std::abs(exponent) + 0.1);
 }
 INSTANTIATE_TEST_SUITE_P(Bound, SimHapticWall,
-                         testing::Values(WallCase{0, 0.5}, WallCase{0, 0.85}, WallCase{0, 1.15},
-                                         WallCase{0, 1.5}, WallCase{1, 0.5}, WallCase{1, 0.85},
-                                         WallCase{1, 1.15}, WallCase{1, 1.5}, WallCase{3, 0.5},
-                                         WallCase{3, 0.85}, WallCase{3, 1.15}, WallCase{3, 1.5}));
+                         testing::Values(WallCase{0, 0.5}, WallCase{0, 0.85}, WallCase{0, 1.15}, WallCase{0, 1.5},
+                                         WallCase{1, 0.5}, WallCase{1, 0.85}, WallCase{1, 1.15}, WallCase{1, 1.5},
+                                         WallCase{3, 0.5}, WallCase{3, 0.85}, WallCase{3, 1.15}, WallCase{3, 1.5}));
 
 // Spring and mass at rest: the hand's 0.3 N/mm pulled by 0.9 N gives way by 3 mm, less what friction holds
 // (0.04 N / 0.3 N/mm = 0.13 mm).
 TEST(SimHaptic, TheHandGivesWayAsASpring) {
   Bench bench(SimDeviceProfile{});
   glm::dvec3 position{0};
-  for (int i = 0; i < 2000; ++i)
-    position = bench.tick([](const glm::dvec3&) { return glm::dvec3(0, 0.9, 0); });
+  for (int i = 0; i < 2000; ++i) position = bench.tick([](const glm::dvec3&) { return glm::dvec3(0, 0.9, 0); });
   EXPECT_NEAR(position.y, 3.0, 0.14 + 0.015);
 }
 

@@ -23,8 +23,7 @@ TEST(SimMovingMass, ConstantForceAgainstViscousDamping) {
   for (const double t_s : {0.02, 0.04, 0.06, 0.08, 0.10, 0.12}) {
     run(mass, {0.1, 0, 0}, 0.02);
     const double rise = 1.0 - std::exp(-t_s / 0.0375);
-    EXPECT_NEAR(mass.velocity_mm_per_s.x, 50.0 * rise,
-                50.0 / 0.0375 * std::exp(-t_s / 0.0375) * 31.25e-6 + 0.01);
+    EXPECT_NEAR(mass.velocity_mm_per_s.x, 50.0 * rise, 50.0 / 0.0375 * std::exp(-t_s / 0.0375) * 31.25e-6 + 0.01);
     EXPECT_NEAR(mass.position_mm.x, 50.0 * (t_s - 0.0375 * rise), 50.0 * 31.25e-6);
   }
   EXPECT_EQ(mass.position_mm.y, 0.0);
