@@ -80,6 +80,9 @@ Result<void> H264Track::open(AVFormatContext* file, const Settings& settings) {
   if (encoder == nullptr) {
     return fail(ErrorCode::Unsupported, "FFmpeg on this machine has no libx264; install one that has");
   }
+  if (!settings.gray && (settings.width % 2 != 0 || settings.height % 2 != 0)) {
+    return fail(ErrorCode::InvalidArgument, "colour of 4:2:0 has an even width and height; cut the pictures");
+  }
   file_ = file;
   codec_.reset(avcodec_alloc_context3(encoder));
   frame_.reset(av_frame_alloc());
