@@ -55,7 +55,7 @@ Result<void> HapticSession::makeTask(const DisplayVolume& volume) {
   void* const method = method_.get();
   const bool locked = arena_->locked() && lockAndTouch(method, ::malloc_usable_size(method)).has_value() &&
                       lockAndTouchCode().has_value();
-  if (!locked) missing_right_ = "memory cannot be locked; raise LimitMEMLOCK (ulimit -l) or grant CAP_IPC_LOCK";
+  if (!locked) missing_memory_ = "memory not locked; raise LimitMEMLOCK (ulimit -l) or grant CAP_IPC_LOCK";
   return {};
 }
 
@@ -80,7 +80,7 @@ Result<void> HapticSession::start(const DisplayVolume& volume, const SurfaceFeed
     return std::unexpected(scheduler.error());
   }
   if (*scheduler == Scheduler::Other) {
-    missing_right_ = "no right to SCHED_FIFO, ticks may come late; grant CAP_SYS_NICE or raise LimitRTPRIO (ulimit -r)";
+    missing_scheduler_ = "no right to SCHED_FIFO; grant CAP_SYS_NICE or raise LimitRTPRIO (ulimit -r)";
   }
   return {};
 }

@@ -56,8 +56,9 @@ class HapticSession {
 
   [[nodiscard]] bool opened() const noexcept { return opened_; }
   [[nodiscard]] bool running() const noexcept { return running_; }
-  // While it runs: what the right to real time lacks, one line; null when nothing does.
-  [[nodiscard]] const char* missingRight() const noexcept { return missing_right_; }
+  // What it had to start without: memory that stays, a scheduler that is in time. Null where nothing is missing.
+  [[nodiscard]] const char* missingMemory() const noexcept { return missing_memory_; }
+  [[nodiscard]] const char* missingScheduler() const noexcept { return missing_scheduler_; }
 
   void publish(const SurfaceFeeder& surface) noexcept;
   // Nothing until the first tick, and without a device.
@@ -78,7 +79,8 @@ class HapticSession {
   const Ticking ticking_;
   bool opened_ = false;
   bool running_ = false;
-  const char* missing_right_ = nullptr;
+  const char* missing_memory_ = nullptr;
+  const char* missing_scheduler_ = nullptr;
   HapticCapabilities capabilities_;
   Duration period_{0};
 

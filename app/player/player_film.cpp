@@ -109,7 +109,11 @@ void Player::startTouch(MediaTime first) {
     haptic_.stop();
     return;
   }
-  if (const char* missing = haptic_.missingRight()) note(std::string("haptic: ") + missing, "touch goes on without it");
+  // The real-time thread says so itself: here it is for the report.
+  const double time_s = toSeconds(parts_.clock.now() - started_);
+  for (const char* missing : {haptic_.missingMemory(), haptic_.missingScheduler()}) {
+    if (missing != nullptr) report_.addFault(time_s, std::string("haptic: ") + missing, "ticks may come late");
+  }
 }
 
 void Player::followClock(MonotonicTime now) {
