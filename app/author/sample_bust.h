@@ -161,14 +161,14 @@ class Bust {
   }
 
   [[nodiscard]] static Vec3<T> smiling(const Vec3<T>& m) {
-    return {m.x, m.y - m.x * m.x * T(0.027), m.z + m.x * m.x * T(0.032)};  // corners up, and around the jaw
+    return {m.x, m.y - m.x * m.x * T(0.031), m.z + m.x * m.x * T(0.032)};  // corners up, and around the jaw
   }
   [[nodiscard]] static T upperLip(const Vec3<T>& s) {
     return lanes::ellipsoid(s, at(2.6, -17.2, 22.2), {4.7, 1.8, 2.3});
   }
   [[nodiscard]] static T lowerLip(const Vec3<T>& s) { return lanes::ellipsoid(s, at(0, -20.6, 21.6), {6.2, 2.2, 2.9}); }
   [[nodiscard]] static T mouthLine(const Vec3<T>& s) {
-    return lanes::ellipsoid(s, at(0, -18.8, 24.1), {6.4, 0.5, 1.9});
+    return lanes::ellipsoid(s, at(0, -18.8, 24.1), {5.4, 0.5, 1.8});
   }
   [[nodiscard]] T lips(T face, const Vec3<T>& m) const {
     const Vec3<T> s = smiling(m);
@@ -218,7 +218,7 @@ class Bust {
     if (!(parts & kEyes)) return look;
     // A brow: a stroke that thins outwards, in the plane of the face.
     const T along = clamp<T>((m.x - T(4.6)) / T(11.0), T(0.0), T(1.0));
-    const T arch = m.y - T(8.0) - along * (T(1.0) - along) * T(4.4) - along * T(0.5);
+    const T arch = m.y - T(8.3) - along * (T(1.0) - along) * T(4.2) - along * T(0.1);
     const T beyond = max(abs(m.x - T(10.1)) - T(5.5), T(0.0));
     const T stroke = sqrt(arch * arch + beyond * beyond) + along * T(0.7);
     paint(look, front * (T(1.0) - smoothStep(stroke, 0.9, 1.7)) * T(0.9), 0.10, 0.05, 0.03);
@@ -237,7 +237,7 @@ class Bust {
     const Vec3<T> e = (h - Vec3<T>{side * T(kEyeX), T(0.0), T(kEyeZ)}) * T(1.0 / kEyeRadius);
     const Vec3<T> off = e - gaze_;
     const T r = sqrt(dot(off, off));
-    Look<T> look = plain<T>(0.82, 0.80, 0.78, 5.0);
+    Look<T> look = plain<T>(0.82, 0.80, 0.78, 1.6);
     paint(look, T(1.0) - smoothStep(r, 0.44, 0.50), 0.03, 0.06, 0.05);
     const T rays = T(0.75) + T(0.25) * sine(off.x * T(31.0)) * sine(off.y * T(29.0) + T(1.0));
     Look<T> iris = plain<T>(0.10, 0.26, 0.20, 1.6);
@@ -246,6 +246,10 @@ class Bust {
     paint(look, T(1.0) - smoothStep(r, 0.17, 0.21), 0.005, 0.005, 0.005);
     const T lid = aboveUpperLid(e * T(kEyeRadius));  // the lid and its lashes throw a shadow
     look.albedo = look.albedo * (T(1.0) - T(0.55) * smoothStep(lid, -2.0, 0.0));
+    // The lamp in the wet of the eye: where the surface faces half way between lamp and viewer.
+    const Vec3<T> half = at(-0.26, 0.32, 0.91);
+    const Vec3<T> glint = e - Vec3<T>{dot(axis_[0], half), dot(axis_[1], half), dot(axis_[2], half)};
+    paint(look, T(1.0) - smoothStep(length(glint), 0.09, 0.15), 1.6, 1.6, 1.6);
     return look;
   }
 

@@ -30,7 +30,8 @@ struct Raster {
 constexpr int kTile = 16;
 constexpr int kHalf = kTile / 2;
 
-// One picture in three passes over its tiles, each on all threads: cast, gather light on every second pixel, shade.
+// One picture in five passes over its tiles, each on all threads: cast, gather light on every second pixel, shade, find
+// the edges, smooth them.
 template <class Scene>
 class Painter {
  public:
@@ -40,6 +41,7 @@ class Painter {
         raster_{picture.cols, picture.rows},
         light_cols_((picture.cols + 1) / 2 + 1),
         heights_(picture.depth.size()),
+        edges_(picture.depth.size()),
         light_(static_cast<std::size_t>(light_cols_) * static_cast<std::size_t>((picture.rows + 1) / 2 + 1)) {}
 
   void cast(int c0, int r0) {
@@ -90,11 +92,17 @@ class Painter {
       const Vec3<Float4> color = colorAt(scene_, p, s.normal, lightOver(lanes::ramp(c, 1), r, s.z), parts);
       for (int i = 0; i < count; ++i) put(c + i, r, color.x[i], color.y[i], color.z[i]);
     });
-    for (int r = r0; r < std::min(r0 + kTile, picture_.rows); ++r) {
-      for (int c = c0; c < std::min(c0 + kTile, picture_.cols); ++c) {
-        if (isEdge(c, r)) shadeEdge(c, r, parts);
-      }
-    }
+  }
+
+  void findEdges(int c0, int r0) {
+    forPixels(c0, r0, [&](int c, int r) { edges_[raster_.at(c, r)] = isEdge(c, r) ? 1 : 0; });
+  }
+
+  void smooth(int c0, int r0) {
+    const Parts parts = scene_.partsNear(box(c0, r0));
+    forPixels(c0, r0, [&](int c, int r) {
+      if (edges_[raster_.at(c, r)] != 0) shadeEdge(c, r, parts);
+    });
   }
 
  private:
@@ -187,10 +195,23 @@ class Painter {
     return light;
   }
 
+  template <class Pixel>
+  void forPixels(int c0, int r0, Pixel pixel) const {
+    for (int r = r0; r < std::min(r0 + kTile, picture_.rows); ++r) {
+      for (int c = c0; c < std::min(c0 + kTile, picture_.cols); ++c) pixel(c, r);
+    }
+  }
+
+  // Where the surface jumps, or the colour does, as between hair and skin.
   [[nodiscard]] bool isEdge(int c, int r) const {
-    constexpr float kJump = 0.8F;
-    const float z = heights_[raster_.at(c, r)].z;
-    const auto jumps = [&](int cc, int rr) { return std::abs(heights_[raster_.at(cc, rr)].z - z) > kJump; };
+    constexpr float kJumpMm = 0.8F;
+    constexpr int kContrast = 40;
+    const std::size_t here = raster_.at(c, r);
+    const auto jumps = [&](int cc, int rr) {
+      const std::size_t there = raster_.at(cc, rr);
+      return std::abs(heights_[there].z - heights_[here].z) > kJumpMm ||
+             std::abs(picture_.rgb[3 * there + 1] - picture_.rgb[3 * here + 1]) > kContrast;
+    };
     return jumps(c - 1, r) || jumps(c + 1, r) || jumps(c, r - 1) || jumps(c, r + 1);
   }
 
@@ -222,6 +243,7 @@ class Painter {
   Raster raster_;
   int light_cols_;
   std::vector<Sample> heights_;
+  std::vector<std::uint8_t> edges_;
   std::vector<LightSample> light_;
 };
 
@@ -244,6 +266,8 @@ void paint(const Scene& scene, int threads, SamplePicture& picture) {
   overTiles(picture, threads, [&](int c, int r) { painter.cast(c, r); });
   overTiles(picture, threads, [&](int c, int r) { painter.gather(c, r); });
   overTiles(picture, threads, [&](int c, int r) { painter.shade(c, r); });
+  overTiles(picture, threads, [&](int c, int r) { painter.findEdges(c, r); });
+  overTiles(picture, threads, [&](int c, int r) { painter.smooth(c, r); });
 }
 
 }  // namespace
