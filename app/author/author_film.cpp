@@ -81,7 +81,7 @@ class Packager {
   PairReader& reader_;
   const OutputOptions& output_;
   std::unique_ptr<FilmWriter> writer_;
-  std::optional<DepthCoder> coder_;
+  DepthCoder coder_{DepthCalibration{}};  // `begin` gives it the film's
   FilmFormat format_;
   Cut cut_;
   KeyFrames key_frames_;
@@ -97,7 +97,7 @@ Result<void> Packager::begin(const FramePair& pair) {
   whole_depth.width = info.depth_width;
   whole_depth.height = info.depth_height;
   cut_ = Cut(pair.color, whole_depth);
-  coder_.emplace(info.calibration.calibration);
+  coder_ = DepthCoder(info.calibration.calibration);
 
   format_.color_width = pair.color.width - cut_.color_cols;
   format_.color_height = pair.color.height - cut_.color_rows;
@@ -111,7 +111,7 @@ Result<void> Packager::begin(const FramePair& pair) {
   format_.frame_period = info.frame_period;
   format_.color_crf = output_.color_crf;
   format_.depth_crf = output_.depth_crf;
-  format_.depth_tags = calibrationTags(coder_->outcome());
+  format_.depth_tags = calibrationTags(coder_.outcome());
   auto writer = FilmWriter::create(output_.path, format_);
   if (!writer) return failOn(output_.path, writer.error());
   writer_ = std::move(*writer);
@@ -135,7 +135,7 @@ Result<void> Packager::write(const FramePair& pair) {
   if (depth.width != format_.depth_width || depth.height != format_.depth_height) {
     return failOn("depth", {ErrorCode::Unsupported, 0, "its pictures change their size; cut the film there"});
   }
-  if (auto coded = coder_->encode(depth, depth_); !coded) return failOn("depth", coded.error());
+  if (auto coded = coder_.encode(depth, depth_); !coded) return failOn("depth", coded.error());
   if (auto written = writer_->writeDepth(depth_, depth.pts, key); !written)
     return failOn(output_.path, written.error());
   return {};
@@ -144,8 +144,8 @@ Result<void> Packager::write(const FramePair& pair) {
 AuthorResult<AuthorSummary> Packager::finish() {
   const auto totals = writer_->finish();
   if (!totals) return authorFail(output_.path, totals.error());
-  AuthorSummary summary{format_, *totals, format_.frame_period, coder_->counts(), coder_->explain()};
-  if (coder_->outcome().invalid_code && format_.depth_crf > 0) {
+  AuthorSummary summary{format_, *totals, format_.frame_period, coder_.counts(), coder_.explain()};
+  if (coder_.outcome().invalid_code && format_.depth_crf > 0) {
     summary.notes.emplace_back("coding moves the edges of holes by a sample here and there; --depth-crf 0 keeps them");
   }
   if (auto line = cut_.explain(); !line.empty()) summary.notes.push_back(std::move(line));

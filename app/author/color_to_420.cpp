@@ -18,7 +18,8 @@ class Samples {
   }
 
   [[nodiscard]] int at(int column, int row) const {
-    const std::uint8_t* p = plane_.data + row * plane_.stride_bytes + c_.offset_bytes + column * c_.step_bytes;
+    const std::uint8_t* p =
+        plane_.data + row * plane_.stride_bytes + c_.offset_bytes + std::ptrdiff_t{column} * c_.step_bytes;
     if (c_.bits <= 8) return (p[0] >> c_.shift) & mask_;
     const int code = ((p[0] | p[1] << 8) >> c_.shift) & mask_;
     if (full_) return (code * 255 + mask_ / 2) / mask_;

@@ -30,7 +30,7 @@ std::vector<std::uint8_t> tableOf(const DepthCalibration& c) {
   for (std::size_t i = 0; i < table.size(); ++i) {
     const std::int64_t above = std::clamp(static_cast<std::int64_t>(i), low, high) - low;
     const std::int64_t s = c.polarity == DepthPolarity::NearIsHigh ? above : (high - low) - above;
-    table[i] = static_cast<std::uint8_t>((2 * 255 * s + (high - low)) / (2 * (high - low)));
+    table[i] = static_cast<std::uint8_t>((510 * s + (high - low)) / (2 * (high - low)));
     if (c.invalid_code) table[i] = i == *c.invalid_code ? kHole : std::max<std::uint8_t>(table[i], kHole + 1);
   }
   return table;
@@ -60,7 +60,7 @@ Result<void> DepthCoder::encode(const Frame& depth, DepthPicture& picture) {
         *out = from_luma_[field->code(c, r) & (from_luma_.size() - 1)];
       } else {
         const double height = field->heightMm(c, r);
-        *out = std::isnan(height) ? kHole : std::max(static_cast<std::uint8_t>(height + 0.5), std::uint8_t{1});
+        *out = std::isnan(height) ? kHole : std::max(static_cast<std::uint8_t>(std::lround(height)), std::uint8_t{1});
       }
       ++counts_.of_code[*out];
     }

@@ -28,7 +28,7 @@ struct FilmFormat {
 struct TrackTotals {
   std::uint64_t frames = 0;
   std::uint64_t bytes = 0;
-  MediaTime first{}, last{};
+  MediaTime first, last;
 };
 struct FilmTotals {
   TrackTotals color, depth;

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <exception>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -164,20 +165,29 @@ int run(Arguments& a) {
   return kDone;
 }
 
-}  // namespace
-}  // namespace relievo
-
-int main(int argc, char** argv) {
+int parseAndRun(int argc, char** argv) {
   CLI::App app("Brings colour and depth together in one film that can be touched.", "relievo-author");
-  relievo::Arguments arguments;
-  relievo::addOptions(app, arguments);
+  Arguments arguments;
+  addOptions(app, arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
     std::fprintf(stderr, "relievo-author: %s; see --help\n", error.what());
-    return relievo::kWrongUse;
+    return kWrongUse;
   }
-  return relievo::run(arguments);
+  return run(arguments);
+}
+
+}  // namespace
+}  // namespace relievo
+
+int main(int argc, char** argv) {
+  try {
+    return relievo::parseAndRun(argc, argv);
+  } catch (const std::exception& error) {  // out of memory, out of threads
+    std::fprintf(stderr, "relievo-author: %s; close other programs and try again\n", error.what());
+    return relievo::kFailed;
+  }
 }

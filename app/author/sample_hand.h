@@ -61,7 +61,7 @@ class Hand {
       ball(kFinger << i, (joints_[i][0] + joints_[i][1]) * 0.5, 9.5);
       ball(kFinger << i, (joints_[i][1] + joints_[i][2]) * 0.5, 9.5);
     }
-    for (double y = -28; y > -140; y -= 12) ball(kArm, {0, y, 0}, 19);
+    for (int y = -28; y > -140; y -= 12) ball(kArm, {0, static_cast<double>(y), 0}, 19);
     return parts;
   }
 

@@ -18,7 +18,7 @@ std::array<std::uint8_t, kSteps + 1> makeCurve() {
     const double x = kWhite * i / kSteps;
     const double y = x * (1 + x * 0.16) / (1 + x * 0.42);
     const double s = y <= 0.0031308 ? 12.92 * y : 1.055 * std::pow(y, 1 / 2.4) - 0.055;
-    curve[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(std::clamp(s, 0.0, 1.0) * 255 + 0.5);
+    curve[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(std::lround(std::clamp(s, 0.0, 1.0) * 255));
   }
   return curve;
 }

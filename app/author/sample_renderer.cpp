@@ -29,6 +29,7 @@ struct Raster {
 
 constexpr int kTile = 16;
 constexpr int kHalf = kTile / 2;
+constexpr double kMiddle = 0.5 * kHalf;  // of a quarter
 
 // One picture in five passes over its tiles, each on all threads: cast, gather light on every second pixel, shade, find
 // the edges, smooth them.
@@ -47,9 +48,8 @@ class Painter {
   void cast(int c0, int r0) {
     const Parts parts = scene_.partsNear(box(c0, r0));
     // One ray for each quarter of the tile, stopped before anything in the quarter can be met.
-    const double reach =
-        1.25 * (kHalf / 2) * std::hypot(raster_.x(1) - raster_.x(0), raster_.y(1) - raster_.y(0)) + 0.1;
-    const double cl = c0 + kHalf / 2 - 0.5, cr = cl + kHalf, rt = r0 + kHalf / 2 - 0.5, rb = rt + kHalf;
+    const double reach = 1.25 * kMiddle * std::hypot(raster_.x(1) - raster_.x(0), raster_.y(1) - raster_.y(0)) + 0.1;
+    const double cl = c0 + kMiddle - 0.5, cr = cl + kHalf, rt = r0 + kMiddle - 0.5, rb = rt + kHalf;
     const Float4 qx = four(raster_.x(cl), raster_.x(cr), raster_.x(cl), raster_.x(cr));
     const Float4 qy = four(raster_.y(rt), raster_.y(rt), raster_.y(rb), raster_.y(rb));
     const Float4 start = parts ? march<Float4>(scene_, qx, qy, scene_.front(), 0.0, reach, parts) : Float4(0.0);
@@ -59,7 +59,8 @@ class Painter {
       for (int i = 0; i < count; ++i) {
         const std::size_t at = raster_.at(c + i, r);
         heights_[at] = {hit.p.z[i], hit.normal.x[i], hit.normal.y[i], hit.normal.z[i]};
-        picture_.depth[at] = static_cast<std::uint8_t>(hit.p.z[i] * static_cast<float>(255 / kStageDepthMm) + 0.5F);
+        picture_.depth[at] =
+            static_cast<std::uint8_t>(std::lround(hit.p.z[i] * static_cast<float>(255 / kStageDepthMm)));
       }
     });
   }
@@ -172,7 +173,8 @@ class Painter {
     Light light = {0.0, 0.0};
     for (int lane = 0; lane < lanes::kLanes; ++lane) {
       const float u = std::clamp(cols[lane] * 0.5F, 0.0F, static_cast<float>(light_cols_) - 1.001F);
-      const float v = std::clamp(rows[lane] * 0.5F, 0.0F, static_cast<float>((picture_.rows + 1) / 2) - 0.001F);
+      const int last_row = (picture_.rows + 1) / 2;
+      const float v = std::clamp(rows[lane] * 0.5F, 0.0F, static_cast<float>(last_row) - 0.001F);
       const int i = static_cast<int>(u), j = static_cast<int>(v);
       const float fu = u - static_cast<float>(i), fv = v - static_cast<float>(j);
       const LightSample* row =
