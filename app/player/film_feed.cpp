@@ -107,9 +107,9 @@ bool FilmFeed::work() {
   const MediaTime target = target_;
   const std::uint64_t generation = generation_;
   if (task == State::Opening) {
-    SourceOptions options = options_;
+    const SourceOptions options = options_;
     lock.unlock();
-    workOpen(std::move(options));
+    workOpen(options);
     return true;
   }
   lock.unlock();
@@ -121,7 +121,7 @@ bool FilmFeed::work() {
   return true;
 }
 
-void FilmFeed::workOpen(SourceOptions options) {
+void FilmFeed::workOpen(const SourceOptions& options) {
   const auto opened = reader_.open(options);
   const std::scoped_lock lock(mutex_);
   if (!opened) return failed(opened.error());

@@ -55,7 +55,7 @@ class FilmFeed {
 
  private:
   [[nodiscard]] bool hasWork() const;
-  void workOpen(SourceOptions options);
+  void workOpen(const SourceOptions& options);
   void workSeek(MediaTime target, std::uint64_t generation);
   void workRead(std::uint64_t generation);
   void failed(const Error& error);

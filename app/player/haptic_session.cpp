@@ -53,7 +53,8 @@ Result<void> HapticSession::makeTask(const DisplayVolume& volume) {
   // The method is an object of its own on the heap; the code is what the ticks run. Both as far as the right goes: a
   // page that is touched but not locked is lost only when memory runs short.
   void* const method = method_.get();
-  const bool locked = arena_->locked() && lockAndTouch(method, ::malloc_usable_size(method)).has_value() &&
+  memory_locked_ = arena_->locked();
+  const bool locked = memory_locked_ && lockAndTouch(method, ::malloc_usable_size(method)).has_value() &&
                       lockAndTouchCode().has_value();
   if (!locked) missing_memory_ = "memory not locked; raise LimitMEMLOCK (ulimit -l) or grant CAP_IPC_LOCK";
   return {};
@@ -132,7 +133,7 @@ HapticSummary HapticSession::summary() const {
   s.scheduler = ticking_ == Ticking::ByHand                  ? "simulated time"
                 : cyclic.scheduler.load() == Scheduler::Fifo ? "SCHED_FIFO"
                                                              : "SCHED_OTHER";
-  s.memory_locked = arena_->locked();
+  s.memory_locked = memory_locked_;
   s.rate_hz = 1.0 / toSeconds(period_);
   s.ticks = counters.ticks;
   s.contact_ticks = counters.contact_ticks;

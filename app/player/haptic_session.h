@@ -79,6 +79,7 @@ class HapticSession {
   const Ticking ticking_;
   bool opened_ = false;
   bool running_ = false;
+  bool memory_locked_ = false;
   const char* missing_memory_ = nullptr;
   const char* missing_scheduler_ = nullptr;
   HapticCapabilities capabilities_;

@@ -3,8 +3,10 @@
 #include "app/player/options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <optional>
@@ -39,6 +41,7 @@ constexpr const char* kPlayFooter =
     "stereo layout; stop, back, exit, power = end. Exit code: 0 done, 1 failed at run time, 2 wrong use.\n";
 
 constexpr double kLongestDurationS = 1e9;
+constexpr double kMostPixels = 16384;  // of a display, across and down
 
 struct Failed {
   std::string option;
@@ -115,20 +118,22 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, Words& words, const De
   command.footer(kPlayFooter);
 }
 
-// "160x90x40" into `count` positive numbers.
-template <class T>
-bool parseSizes(const std::string& text, T* values, int count) {
-  std::size_t at = 0;
-  for (int i = 0; i < count; ++i) {
-    double value = 0;
-    int used = 0;
-    if (std::sscanf(text.c_str() + at, "%lf%n", &value, &used) != 1 || !std::isfinite(value) || value <= 0)
-      return false;
-    values[i] = static_cast<T>(value);
-    at += static_cast<std::size_t>(used);
-    if (i + 1 < count && text[at++] != 'x') return false;
+// "160x90x40" into positive numbers.
+template <std::size_t Count>
+std::optional<std::array<double, Count>> parseSizes(const std::string& text) {
+  std::array<double, Count> values{};
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  for (std::size_t i = 0; i < Count; ++i) {
+    if (i > 0) {
+      if (at == end || *at != 'x') return std::nullopt;
+      ++at;
+    }
+    const auto [next, error] = std::from_chars(at, end, values[i]);
+    if (error != std::errc{} || !std::isfinite(values[i]) || values[i] <= 0) return std::nullopt;
+    at = next;
   }
-  return at == text.size();
+  return at == end ? std::optional(values) : std::nullopt;
 }
 
 std::optional<Failed> readCalibration(const Words& words, SourceOptions& source) {
@@ -136,7 +141,7 @@ std::optional<Failed> readCalibration(const Words& words, SourceOptions& source)
     const bool on_command_line = text.find('=') != std::string::npos;
     std::string content = text;
     if (!on_command_line) {
-      std::ifstream file(text);
+      const std::ifstream file(text);
       if (!file) return Failed{text, "no such calibration file; give its path, or KEY=VALUE,..", kExitFailed};
       std::ostringstream read;
       read << file.rdbuf();
@@ -161,20 +166,18 @@ std::optional<Failed> readSource(const Words& words, SourceOptions& source) {
 std::optional<Failed> readPlay(const Words& words, PlayOptions& play) {
   PlayerConfig& player = play.player;
   if (auto failed = readSource(words, player.source)) return failed;
-  player.stereo.layout = *stereoLayout(words.stereo);  // one of the names: checked by the parser
+  player.stereo.layout = stereoLayout(words.stereo).value_or(player.stereo.layout);
   if (!words.size.empty()) {
-    double size[2];
-    if (!parseSizes(words.size, size, 2) || size[0] > 16384 || size[1] > 16384 || size[0] < 1 || size[1] < 1) {
+    const auto size = parseSizes<2>(words.size);
+    if (!size || std::min((*size)[0], (*size)[1]) < 1 || std::max((*size)[0], (*size)[1]) > kMostPixels) {
       return Failed{"--size " + words.size, "a size is WIDTHxHEIGHT in pixels, such as 1280x720"};
     }
-    player.display = {.width = static_cast<int>(size[0]), .height = static_cast<int>(size[1])};
+    player.display = {.width = static_cast<int>((*size)[0]), .height = static_cast<int>((*size)[1])};
   }
   if (!words.volume.empty()) {
-    double mm[3];
-    if (!parseSizes(words.volume, mm, 3)) {
-      return Failed{"--volume " + words.volume, "a volume is WIDTHxHEIGHTxDEPTH in mm, such as 160x90x40"};
-    }
-    player.volume = DisplayVolume{mm[0], mm[1], mm[2]};
+    const auto mm = parseSizes<3>(words.volume);
+    if (!mm) return Failed{"--volume " + words.volume, "a volume is WIDTHxHEIGHTxDEPTH in mm, such as 160x90x40"};
+    player.volume = DisplayVolume{(*mm)[0], (*mm)[1], (*mm)[2]};
   }
   if (words.duration_s) {
     if (!(*words.duration_s > 0 && *words.duration_s <= kLongestDurationS)) {

@@ -38,7 +38,7 @@ bool Player::apply(PlayerEvent event) {
   return true;
 }
 
-void Player::note(std::string what, std::string done, std::optional<MonotonicTime> when) {
+void Player::note(const std::string& what, const std::string& done, std::optional<MonotonicTime> when) {
   const MonotonicTime time = when.value_or(parts_.clock.now());
   if (report_.addFault(toSeconds(time - started_), what, done)) {
     log(LogLevel::Warning, "play", "%s; %s", what.c_str(), done.c_str());
@@ -184,13 +184,13 @@ void Player::setHeld(bool held, MonotonicTime now) {
   if (!apply(held ? PlayerEvent::Pause : PlayerEvent::Play)) return;
   held_ = held;
   if (state_ == before) return;  // heard while buffering or seeking: it holds from the next picture on
-  if (held) {
-    closeSegment(now);
-    static_cast<void>(clock_.pause(now));  // a playing film's clock runs
-  } else {
-    static_cast<void>(clock_.resume(now));
-    segment_begin_ = clock_.position(now);
-  }
+  if (held) closeSegment(now);
+  setClockHeld(held, now);
+  if (!held) segment_begin_ = clock_.position(now);
+}
+
+void Player::setClockHeld(bool held, MonotonicTime now) {
+  if (auto set = held ? clock_.pause(now) : clock_.resume(now); !set) fail("the film's clock", set.error());
 }
 
 // Where a step of the remote counts from: several presses add up, whether or not the first has been carried out.
@@ -204,7 +204,7 @@ void Player::seek(MediaTime target, PlayerEvent why, MonotonicTime now) {
   closeSegment(now);
   if (!apply(why)) return;
   // As the picture stands until the new one comes, so does the surface: what is seen is what is felt.
-  if (const auto position = clock_.position(now); position && surface_) feedSurface({*position, now, 0});
+  if (const auto position = clock_.position(now)) feedSurface({*position, now, 0});
   await_touch_.reset();
   clock_.reset();
   head_.clear();

@@ -58,7 +58,7 @@ class Player {
 
  private:
   bool apply(PlayerEvent event);
-  void note(std::string what, std::string done, std::optional<MonotonicTime> when = {});
+  void note(const std::string& what, const std::string& done, std::optional<MonotonicTime> when = {});
   void fail(std::string thing, const Error& error);
 
   void step(MonotonicTime now);
@@ -71,6 +71,7 @@ class Player {
   void readRemote(MonotonicTime now);
   void obey(PlayerCommand command, MonotonicTime now);
   void setHeld(bool held, MonotonicTime now);
+  void setClockHeld(bool held, MonotonicTime now);
   void seek(MediaTime target, PlayerEvent why, MonotonicTime now);
 
   void followReader(MonotonicTime now);
@@ -79,10 +80,11 @@ class Player {
   void setScene();
   void startTouch(MediaTime first);
   void followClock(MonotonicTime now);
-  void followEnd(MonotonicTime now);
+  void followEnd(MediaTime position, MonotonicTime now);
   void endOfFilm(MonotonicTime now);
   void closeSegment(MonotonicTime now);
 
+  void followSurface();
   void feedSurface(const ClockSample& clock);
   void showPresent(MonotonicTime now);
   void redrawFinger(MonotonicTime now);
@@ -99,7 +101,8 @@ class Player {
   HapticSession haptic_;
   Playhead head_;
   MediaClock clock_;
-  std::optional<SurfaceFeeder> surface_;  // from the first pair on
+  SurfaceFeeder surface_;
+  bool scene_known_ = false;  // from the first pair on
 
   PlayerState state_ = PlayerState::Boot;
   bool held_ = false;  // the viewer wants it paused

@@ -72,8 +72,8 @@ void Player::opened() {
 // drawing takes, nothing is late by it.
 void Player::begin(MonotonicTime now) {
   head_.begin();
-  if (!surface_) setScene();
-  if (std::exchange(new_epoch_, false)) surface_->beginEpoch();
+  if (!std::exchange(scene_known_, true)) setScene();
+  if (std::exchange(new_epoch_, false)) surface_.beginEpoch();
   const MediaTime first = head_.present().color.pts;
   showPresent(now);
   if (state_ == PlayerState::Fault) return;
@@ -82,10 +82,10 @@ void Player::begin(MonotonicTime now) {
   now = parts_.clock.now();
   clock_.reset();
   clock_.start(first, now);
-  if (held_) static_cast<void>(clock_.pause(now));
+  if (held_) setClockHeld(true, now);
   apply(held_ ? PlayerEvent::FilledHeld : PlayerEvent::Filled);
   if (!held_) segment_begin_ = first;
-  feedSurface(*clock_.sample());
+  followSurface();
   if (target_ && seek_wanted_) {
     report_.seeks.back().picture_s = toSeconds(first);
     await_touch_ = parts_.clock.now();
@@ -97,14 +97,14 @@ void Player::setScene() {
   const Frame& shape = head_.present().depth.empty() ? head_.present().color : head_.present().depth;
   volume_ = config_.volume.value_or(DisplayVolume::forPicture(shape.width, shape.height, shape.sample_aspect));
   const DepthCalibration& calibration = report_.film.calibration.calibration;
-  surface_.emplace(calibration, volume_);
+  surface_.setScene(calibration, volume_);
   picture_.setScene(calibration, volume_, fromSeconds(kDrawShare * toSeconds(period_)));
 }
 
 // With the first surface at a stand, so that the force is faded in on something that is there.
 void Player::startTouch(MediaTime first) {
   feedSurface({first, parts_.clock.now(), 0});
-  if (auto started = haptic_.start(volume_, *surface_); !started) {
+  if (auto started = haptic_.start(volume_, surface_); !started) {
     note(std::string("haptic device: ") + started.error().message, "the film plays without force");
     haptic_.stop();
     return;
@@ -118,26 +118,26 @@ void Player::startTouch(MediaTime first) {
 
 void Player::followClock(MonotonicTime now) {
   if (state_ != PlayerState::Playing && state_ != PlayerState::Paused) return;
-  const MediaTime position = *clock_.position(now);
+  const MediaTime position = clock_.position(now).value_or(MediaTime{});  // these two states have a clock
   const std::size_t steps = head_.advance(position, feed_);
-  feedSurface(*clock_.sample());
+  followSurface();
   if (steps > 0) {
     report_.frames_dropped += steps - 1;
     showPresent(now);
   } else {
     redrawFinger(now);
   }
-  if (state_ == PlayerState::Playing) followEnd(now);
+  if (state_ == PlayerState::Playing) followEnd(position, now);
 }
 
 // What there is to do when nothing lies ahead.
-void Player::followEnd(MonotonicTime now) {
+void Player::followEnd(MediaTime position, MonotonicTime now) {
   if (!head_.ahead().empty()) {
     dry_since_.reset();
     return;
   }
   if (head_.last()) {
-    if (*clock_.position(now) < head_.present().color.pts + period_) return;
+    if (position < head_.present().color.pts + period_) return;
     if (feed_.state() == FilmFeed::State::Failed) return fail(feed_.failedThing(), feed_.error());
     return endOfFilm(now);
   }
@@ -163,16 +163,20 @@ void Player::closeSegment(MonotonicTime now) {
   segment_begin_.reset();
 }
 
+void Player::followSurface() {
+  if (const auto sample = clock_.sample()) feedSurface(*sample);
+}
+
 void Player::feedSurface(const ClockSample& clock) {
-  const auto changed = surface_->update(head_.present(), head_.ahead(), head_.last(), clock);
+  const auto changed = surface_.update(head_.present(), head_.ahead(), head_.last(), clock);
   if (!changed) {
     if (!std::exchange(depth_refused_, true)) {
       note(std::string("depth: ") + changed.error().message, "it plays without force");
     }
-    haptic_.publish(*surface_);
+    haptic_.publish(surface_);
     return;
   }
-  if (*changed) haptic_.publish(*surface_);
+  if (*changed) haptic_.publish(surface_);
   const bool missing = report_.film.has_depth && head_.present().depth.empty();
   if (missing && !depth_missing_) note("no depth at this time", "the picture is flat there, without force");
   depth_missing_ = missing;
@@ -230,7 +234,7 @@ void Player::drainTouch() {
   while (const auto tick = haptic_.nextTick()) {
     if (parts_.recorder != nullptr) parts_.recorder->add(*tick);
     if (!await_touch_ || tick->time <= *await_touch_) continue;
-    if (const auto frame = surface_->frameAt(tick->media_time)) report_.seeks.back().surface_s = toSeconds(*frame);
+    if (const auto frame = surface_.frameAt(tick->media_time)) report_.seeks.back().surface_s = toSeconds(*frame);
     await_touch_.reset();
   }
   while (const auto fault = haptic_.nextFault()) note(name(fault->kind), answerTo(fault->kind), fault->time);

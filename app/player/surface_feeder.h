@@ -21,8 +21,11 @@ namespace relievo {
 // when drawing takes long. A HeightField is made once per depth frame.
 class SurfaceFeeder {
  public:
-  SurfaceFeeder(const DepthCalibration& calibration, const DisplayVolume& volume) noexcept
-      : calibration_(calibration), volume_(volume) {}
+  // What depth means in this film, and the box that it fills. Before the first update.
+  void setScene(const DepthCalibration& calibration, const DisplayVolume& volume) noexcept {
+    calibration_ = calibration;
+    volume_ = volume;
+  }
 
   // The film is not continuous here: opened, sought, looped. What follows is a new epoch.
   void beginEpoch() noexcept;

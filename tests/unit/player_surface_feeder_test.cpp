@@ -44,6 +44,7 @@ FramePair flatPairAt(double color_s) {
 
 class SurfaceFeederTest : public testing::Test {
  protected:
+  SurfaceFeederTest() { feeder_.setScene(DepthCalibration{}, kVolume); }
   // The film at `index` of `pairs`, `look_ahead` pairs ahead, `last` when those are the rest.
   bool at(const std::vector<FramePair>& pairs, std::size_t index, double rate = 1) {
     std::deque<FramePair> ahead;
@@ -65,7 +66,7 @@ class SurfaceFeederTest : public testing::Test {
   }
 
   std::size_t look_ahead_ = 4;
-  SurfaceFeeder feeder_{DepthCalibration{}, kVolume};
+  SurfaceFeeder feeder_;
   SurfaceWindow window_;
 };
 
