@@ -24,7 +24,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using test::ClipTrack;
 using testing::HasSubstr;
-using testing::IsEmpty;
 using testing::StartsWith;
 
 ClipTrack color(int frames = 30) {
@@ -42,7 +41,7 @@ class PlayerProgram : public testing::Test {
   }
   [[nodiscard]] std::string at(const std::string& name) const { return folder_ / name; }
   [[nodiscard]] std::string textOf(const std::string& name) const {
-    std::ifstream file(at(name));
+    const std::ifstream file(at(name));
     std::ostringstream text;
     text << file.rdbuf();
     return text.str();

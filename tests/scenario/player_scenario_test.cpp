@@ -20,11 +20,10 @@ using testing::SizeIs;
 
 constexpr const char* kWholeFilm = "boot idle opening buffering playing ended idle";
 
-// A finger 2 mm above the far plane, far below the surface at code 100 (15.7 mm of 40), would start inside the solid;
-// this one comes down from above to 1 mm below code 100's height and stays.
+// From above the surface (code 100 is 15.7 mm of 40) to 15 mm, and there it stays: 0.7 to 2.1 mm deep.
 std::vector<glm::dvec3> comingDown() {
-  std::vector<glm::dvec3> path;
-  for (int i = 0; i < 200; ++i) path.push_back({0, 0, 25.0 - 0.05 * i});  // to 15 mm, at 50 mm/s
+  std::vector<glm::dvec3> path(201);
+  for (std::size_t i = 0; i < path.size(); ++i) path[i] = {0, 0, 25.0 - 0.05 * static_cast<double>(i)};  // 50 mm/s
   return path;
 }
 
@@ -100,11 +99,11 @@ TEST_F(PlayerScenario, AfterEachSeekThePictureAndTheSurfaceAreOfTheSameTime) {
   for (std::size_t i = 0; i < 3; ++i) {
     const SeekEntry& seek = bench_.report.seeks[i];
     EXPECT_NEAR(seek.target_s, from[i] + step[i], 0.05) << i;
-    ASSERT_TRUE(seek.picture_s && seek.surface_s) << i;
-    EXPECT_EQ(*seek.picture_s, *seek.surface_s) << i;
+    const double picture_s = seek.picture_s.value_or(-1);
+    EXPECT_EQ(picture_s, seek.surface_s) << i;
     // The first picture at or after the target.
-    EXPECT_GE(*seek.picture_s, seek.target_s) << i;
-    EXPECT_LT(*seek.picture_s, seek.target_s + 0.04) << i;
+    EXPECT_GE(picture_s, seek.target_s) << i;
+    EXPECT_LT(picture_s, seek.target_s + 0.04) << i;
   }
 }
 

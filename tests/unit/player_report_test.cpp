@@ -114,7 +114,7 @@ TEST(Recorder, WritesALinePerTickFromTheFirstTicksTime) {
   recorder->add(tick);
   ASSERT_TRUE(recorder->finish());
 
-  std::ifstream file(path);
+  const std::ifstream file(path);
   std::ostringstream text;
   text << file.rdbuf();
   EXPECT_EQ(text.str(),
