@@ -2,6 +2,7 @@
 // How the sample film is lit: a warm lamp with soft shadows, a sky, a cool edge, and the curve from light to bytes.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "app/author/sample_look.h"
@@ -83,7 +84,19 @@ template <class Scene>
   return diffuse + vec(1.0, 0.96, 0.9) * (look.gloss * light.key * (h16 * 0.10 + h16 * h16 * h16 * 0.28));
 }
 
-// The sRGB curve behind a shoulder that keeps highlights from burning out.
-[[nodiscard]] std::uint8_t toByte(float light) noexcept;
+// The sRGB curve behind a shoulder that keeps highlights from burning out, as a table over the light.
+class FilmCurve {
+ public:
+  FilmCurve();
+  [[nodiscard]] std::uint8_t operator()(float light) const {
+    const float step = std::clamp(light * kScale + 0.5F, 0.0F, static_cast<float>(kSteps));
+    return table_[static_cast<std::size_t>(step)];
+  }
+
+ private:
+  static constexpr int kSteps = 8192;
+  static constexpr float kWhite = 4.0F, kScale = kSteps / kWhite;
+  std::array<std::uint8_t, kSteps + 1> table_{};
+};
 
 }  // namespace relievo::sample

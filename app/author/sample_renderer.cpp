@@ -235,11 +235,12 @@ class Painter {
   static float mean(Float4 v) { return 0.25F * (v[0] + v[1] + v[2] + v[3]); }
   void put(int c, int r, float red, float green, float blue) {
     std::uint8_t* pixel = &picture_.rgb[3 * raster_.at(c, r)];
-    pixel[0] = toByte(red);
-    pixel[1] = toByte(green);
-    pixel[2] = toByte(blue);
+    pixel[0] = curve_(red);
+    pixel[1] = curve_(green);
+    pixel[2] = curve_(blue);
   }
 
+  static inline const FilmCurve curve_;
   const Scene& scene_;
   SamplePicture& picture_;
   Raster raster_;
