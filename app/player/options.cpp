@@ -73,7 +73,7 @@ void addSourceOptions(CLI::App& command, SourceOptions& source, Words& words) {
   command
       .add_option("--packing", words.packing,
                   "Where the depth is [auto]\n"
-                  "auto: the tracks or the shape tell; tracks: two video tracks, or --depth;\n"
+                  "auto: two tracks or a DEPTH_PACKING tag tell; tracks: two video tracks, or --depth;\n"
                   "sbs: one picture, colour left, depth right; tb: colour on top, depth below")
       ->check(oneOf({"auto", "tracks", "sbs", "tb"}))
       ->type_name("auto|tracks|sbs|tb");
