@@ -79,8 +79,8 @@ class Hand {
     const T near_hand = length(h - at(-4, 8, -2)) - T(46.0);
     const T arm = rod(h, at(0, -8, -1), at(0, -140, -4), 6.0, 11.0);
     if (!any(near_hand < T(14.0))) return min(arm, near_hand);  // too far for even a half-shadow
-    T d = min(arm, ellipsoid(h, at(0, 2, -1), {14, 17, 4.5}));
-    for (const Bone& bone : bones_) d = min(d, bone.distance(h) + T(0.6));
+    T d = min(arm, ellipsoid(h, at(0, 3, -1.5), {15, 18.5, 5}));
+    for (const Bone& bone : bones_) d = min(d, bone.distance(h) + T(0.3));
     return d;
   }
 
