@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-#include "app/haptics/methods.h"
+#include "app/haptics/parts.h"
 #include "app/haptics/surface_window.h"
 #include "hal/media_time.h"
 #include "platform/realtime.h"

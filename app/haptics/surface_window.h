@@ -16,13 +16,15 @@ struct TimedSurface {
   HeightField field;
   MediaTime time;
   std::shared_ptr<const void> owner;  // keeps the samples alive; only the window's writer touches it
+  std::uint32_t shot = 0;             // frames of one shot continue each other; where it changes there is a cut
 };
 
-// Frames in ascending order of time, all of one size. The writer puts in the frames from one before the present one
-// to four after it, as far as there are that many; a reader finds its place by time, so that a writer which comes
+// Frames in ascending order of time, all of one size. The writer puts in the frames from two before the present one
+// to five after it, as far as there are that many; a reader finds its place by time, so that a writer which comes
 // late by a frame or two does no harm: three frames of look-ahead are left then.
 struct SurfaceWindow {
-  static constexpr int kCapacity = 6;
+  static constexpr int kBefore = 2, kAhead = 5;
+  static constexpr int kCapacity = kBefore + 1 + kAhead;
   std::array<TimedSurface, kCapacity> frames{};
   int count = 0;
   std::uint32_t epoch = 0;  // changes where the film is not continuous: opened, sought, looped

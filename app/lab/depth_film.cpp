@@ -123,12 +123,13 @@ LabResult<const SurfaceWindow*> DepthFilm::windowAt(double t_s) {
     if (!read) return std::unexpected(read.error());
     changed = true;
   }
-  // One frame from before the present one stays.
-  while (frames_.size() > 2 && frames_[2].time <= now) {
+  // Two frames from before the present one stay.
+  while (frames_.size() > SurfaceWindow::kBefore + 1 && frames_[SurfaceWindow::kBefore + 1].time <= now) {
     frames_.pop_front();
     changed = true;
   }
   if (!changed) return &window_;
+  shots_.mark(frames_);
   window_.count = static_cast<int>(std::min<std::size_t>(frames_.size(), SurfaceWindow::kCapacity));
   std::copy_n(frames_.begin(), window_.count, window_.frames.begin());
   window_.ended = ended_;

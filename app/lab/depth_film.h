@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "app/haptics/shots.h"
 #include "app/haptics/surface_window.h"
 #include "app/lab/failure.h"
 #include "app/media/pair_reader.h"
@@ -27,7 +28,7 @@ class DepthFilm {
   ~DepthFilm();
 
   [[nodiscard]] LabResult<void> open();
-  // The frames from one before `t_s` to three after it; time 0 is the first frame's. Times must not go back.
+  // The frames from two before the one at `t_s` to three after it; time 0 is the first frame's. Times must not go back.
   [[nodiscard]] LabResult<const SurfaceWindow*> windowAt(double t_s);
   [[nodiscard]] const DisplayVolume& volume() const noexcept { return volume_; }
 
@@ -41,6 +42,7 @@ class DepthFilm {
   DisplayVolume volume_;
   DepthCalibration calibration_;
   std::deque<TimedSurface> frames_;
+  ShotFinder shots_;
   std::optional<MediaTime> first_pts_;
   std::int64_t frame_count_ = 0;
   bool ended_ = false;

@@ -8,6 +8,7 @@ namespace relievo {
 
 void SurfaceFeeder::beginEpoch() noexcept {
   frames_.clear();
+  shots_.forget();
   ++epoch_;
 }
 
@@ -21,11 +22,11 @@ Result<bool> SurfaceFeeder::update(const FramePair& present, const std::deque<Fr
     return changed;
   }
 
-  // Of what is over, the newest frame stays: a surface in time looks back by one.
+  // Of what is over, the newest two frames stay: a surface in time looks back by two.
   const auto now =
       std::find_if(frames_.begin(), frames_.end(), [&](const TimedSurface& f) { return f.time >= present.depth.pts; });
-  if (now - frames_.begin() > 1) {
-    frames_.erase(frames_.begin(), now - 1);
+  if (now - frames_.begin() > SurfaceWindow::kBefore) {
+    frames_.erase(frames_.begin(), now - SurfaceWindow::kBefore);
     changed = true;
   }
 
@@ -40,6 +41,7 @@ Result<bool> SurfaceFeeder::update(const FramePair& present, const std::deque<Fr
     return std::unexpected(appended.error());
   }
   const bool ended = appendAhead(present.depth.pts, ahead) && last;
+  if (frames_.size() != before) shots_.mark(frames_);
   changed = changed || frames_.size() != before || ended != ended_;
   ended_ = ended;
   return changed;

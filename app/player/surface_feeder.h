@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/haptics/shots.h"
 #include "app/haptics/surface_window.h"
 #include "app/media/pair_reader.h"
 #include "app/scene/depth_calibration.h"
@@ -16,7 +17,7 @@
 
 namespace relievo {
 
-// Depth frames come with every colour frame that they belong to; the window holds each once, at its own time: one from
+// Depth frames come with every colour frame that they belong to; the window holds each once, at its own time: two from
 // before the present one, the present one, and as many after it as there is room for, since the next window comes late
 // when drawing takes long. A HeightField is made once per depth frame.
 class SurfaceFeeder {
@@ -43,7 +44,7 @@ class SurfaceFeeder {
   [[nodiscard]] std::optional<MediaTime> frameAt(MediaTime now) const noexcept;
 
  private:
-  static constexpr std::ptrdiff_t kAhead = SurfaceWindow::kCapacity - 2;
+  static constexpr std::ptrdiff_t kAhead = SurfaceWindow::kAhead;
   // False when not all of `ahead` went in.
   bool appendAhead(MediaTime present, const std::deque<FramePair>& ahead);
   // False when `depth` is of another size than the frames before it.
@@ -52,6 +53,7 @@ class SurfaceFeeder {
   DepthCalibration calibration_;
   DisplayVolume volume_;
   std::vector<TimedSurface> frames_;  // ascending, at most SurfaceWindow::kCapacity
+  ShotFinder shots_;
   std::uint32_t epoch_ = 0;
   ClockSample clock_;
   bool ended_ = false;

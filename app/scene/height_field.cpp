@@ -2,6 +2,7 @@
 // Setting up the view of a depth plane, and reading depth that is coded as a hue.
 #include "app/scene/height_field.h"
 
+#include <cmath>
 #include <optional>
 
 namespace relievo {
@@ -82,7 +83,70 @@ Result<HeightField> HeightField::make(const Frame& depth, const DepthCalibration
     field.far_mm_ = calibration.far_mm;
     field.depth_per_mm_ = volume.depth_mm / (calibration.far_mm - calibration.near_mm);
   }
+  const double s_last = field.s_offset_ + field.s_scale_ * static_cast<double>(field.mask_);
+  const auto clamped = [](double s) { return s < -1e-12 || s > 1 + 1e-12; };
+  field.plain_ = calibration.code == DepthCode::Luma && !field.inverse_ && !calibration.invalid_code &&
+                 field.shift_ == 0 && !clamped(field.s_offset_) && !clamped(s_last);
   return field;
+}
+
+template <class Sample>
+double HeightField::meanOfCodes(const std::uint8_t* first, int across, int down, std::ptrdiff_t step,
+                                std::ptrdiff_t stride) const RELIEVO_RT {
+  std::uint32_t sum = 0;
+  for (int r = 0; r < down; ++r) {
+    const std::uint8_t* sample = first + r * stride;
+    for (int c = 0; c < across; ++c, sample += step) sum += Sample::code(sample) & mask_;
+  }
+  return depth_mm_ * (s_offset_ + s_scale_ * static_cast<double>(sum) / (across * down));
+}
+
+namespace {
+
+// The samples to read of `length` in a row: all of them, or about `most` at a steady step, with exactly the same margin
+// on either side. Off centre by half a sample, the mean of a slope would be off by half a sample's rise.
+struct Places {
+  int count, step = 1, first = 0;
+  Places(int length, int most) RELIEVO_RT : count(length) {
+    if (length <= most) return;
+    count = most + ((length ^ most) & 1);  // as even or odd as the length
+    step = length / count;
+    if (count % 2 == 0 && step % 2 == 0) step += (step + 1) * (count - 1) < length ? 1 : -1;
+    first = (length - 1 - step * (count - 1)) / 2;
+  }
+};
+
+}  // namespace
+
+double HeightField::meanHeight(int c0, int r0, int width, int height, int most) const RELIEVO_RT {
+  struct Byte {
+    static std::uint32_t code(const std::uint8_t* s) noexcept { return s[0]; }
+  };
+  struct Word {
+    static std::uint32_t code(const std::uint8_t* s) noexcept {
+      return static_cast<std::uint32_t>(s[0]) | static_cast<std::uint32_t>(s[1]) << 8;
+    }
+  };
+  const Places h(width, most), v(height, most);
+  const int across = h.count, down = v.count, step_c = h.step, step_r = v.step;
+  const int c = c0 + h.first, r = r0 + v.first;
+  if (plain_) {
+    const std::uint8_t* first = data_ + r * stride_bytes_ + static_cast<std::ptrdiff_t>(c) * step_bytes_;
+    const std::ptrdiff_t step = static_cast<std::ptrdiff_t>(step_c) * step_bytes_, stride = step_r * stride_bytes_;
+    return layout_ == Layout::Bytes ? meanOfCodes<Byte>(first, across, down, step, stride)
+                                    : meanOfCodes<Word>(first, across, down, step, stride);
+  }
+  double sum = 0;
+  int count = 0;
+  for (int j = 0; j < down; ++j) {
+    for (int i = 0; i < across; ++i) {
+      const double z = heightMm(c + i * step_c, r + j * step_r);
+      if (std::isnan(z)) continue;
+      sum += z;
+      ++count;
+    }
+  }
+  return 2 * count < across * down ? kHole : sum / count;
 }
 
 double HeightField::fromHue(const std::uint8_t* pixel) const RELIEVO_RT {

@@ -38,6 +38,11 @@ class HeightField {
     return fromNormalised(s_offset_ + s_scale_ * static_cast<double>(code));
   }
 
+  // The mean height of the samples in a block that lies inside the picture, of which about `most` are read across and
+  // as many down, evenly spread about its centre. Not a number when less than half of those read have a height.
+  [[nodiscard]] double meanHeight(int c0, int r0, int width, int height, int most) const RELIEVO_RT;
+  [[nodiscard]] double depthMm() const RELIEVO_RT { return depth_mm_; }
+
   // The raw luma code; for a hue 0 .. 1535, six steps of 256, and 0 at one that cannot be read.
   [[nodiscard]] std::uint32_t code(int c, int r) const RELIEVO_RT;
 
@@ -56,6 +61,9 @@ class HeightField {
     return (far_mm_ - 1.0 / (far_inverse_ + s * (near_inverse_ - far_inverse_))) * depth_per_mm_;
   }
   [[nodiscard]] double fromHue(const std::uint8_t* pixel) const RELIEVO_RT;
+  template <class Sample>
+  [[nodiscard]] double meanOfCodes(const std::uint8_t* first, int across, int down, std::ptrdiff_t step,
+                                   std::ptrdiff_t stride) const RELIEVO_RT;
 
   const std::uint8_t* data_ = nullptr;
   std::ptrdiff_t stride_bytes_ = 0;
@@ -66,6 +74,7 @@ class HeightField {
   std::uint8_t red_ = 0, green_ = 1, blue_ = 2;  // offsets inside a pixel
   Layout layout_ = Layout::Bytes;
   bool inverse_ = false;
+  bool plain_ = false;  // height = a code x scale + offset, whatever the code: a mean of codes is a mean of heights
   std::uint32_t mask_ = 0xff;
   std::uint32_t invalid_code_ = ~0u;   // ~0: none
   double s_scale_ = 1, s_offset_ = 0;  // s = clamp(s_offset + s_scale x code), the polarity taken in

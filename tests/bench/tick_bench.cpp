@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The time of one haptic tick, position to force: a finger 5 mm deep in moving 8-bit depth, by size, speed and method.
+// The time of one haptic tick, position to force, and of its upkeep: a finger 5 mm deep in moving 8-bit depth, by size,
+// speed and method.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -41,7 +42,7 @@ std::vector<glm::dvec3> fingerPath(double speed_mm_per_s) {
   return path;
 }
 
-void touchTick(benchmark::State& state, const char* name, TimeLaw time) {
+void touchTick(benchmark::State& state, const char* name, MethodConfig config) {
   const int cols = static_cast<int>(state.range(0)), rows = static_cast<int>(state.range(1));
   const double speed = static_cast<double>(state.range(2));
   const auto volume = DisplayVolume::forPicture(cols, rows);
@@ -54,9 +55,10 @@ void touchTick(benchmark::State& state, const char* name, TimeLaw time) {
   }
   const SurfaceWindow window = test::makeWindow(frames, volume, {});
   const std::vector<glm::dvec3> path = fingerPath(speed);
-  const auto method = makeMethod(name, {.time = time, .jump_threshold = false});
+  config.jump_threshold = false;
+  const auto method = makeMethod(name, config);
   const MonotonicClock clock;
-  Histogram times;
+  Histogram times, upkeep_times;
   std::size_t i = 0;
   for (auto _ : state) {
     const std::size_t k = i++ % kTicks;
@@ -66,13 +68,18 @@ void touchTick(benchmark::State& state, const char* name, TimeLaw time) {
     const double t = cycle < 4 * kFramePeriodS ? cycle : 8 * kFramePeriodS - cycle;
     const MonotonicTime begin = clock.now();
     const Touch touch = method->update(path[k], window, mediaTime(t));
-    times.add(clock.now() - begin);
+    const MonotonicTime done = clock.now();
+    method->upkeep(window, mediaTime(t));
+    upkeep_times.add(clock.now() - done);
+    times.add(done - begin);
     benchmark::DoNotOptimize(touch);
   }
-  const auto us = [&](double q) { return static_cast<double>(times.quantile(q).count()) * 1e-3; };
-  state.counters["median_us"] = us(0.5);
-  state.counters["p99_us"] = us(0.99);
-  state.counters["p99.9_us"] = us(0.999);
+  const auto us = [](const Histogram& h, double q) { return static_cast<double>(h.quantile(q).count()) * 1e-3; };
+  state.counters["median_us"] = us(times, 0.5);
+  state.counters["p99_us"] = us(times, 0.99);
+  state.counters["p99.9_us"] = us(times, 0.999);
+  state.counters["upkeep_median_us"] = us(upkeep_times, 0.5);
+  state.counters["upkeep_p99.9_us"] = us(upkeep_times, 0.999);
 }
 
 void sizesAndSpeeds(benchmark::internal::Benchmark* bench) {
@@ -82,9 +89,11 @@ void sizesAndSpeeds(benchmark::internal::Benchmark* bench) {
   }
 }
 
-BENCHMARK_CAPTURE(touchTick, proxy_graph_hold, "proxy-graph", TimeLaw::Hold)->Apply(sizesAndSpeeds);
-BENCHMARK_CAPTURE(touchTick, modified_proxy_graph_hold, "modified-proxy-graph", TimeLaw::Hold)->Apply(sizesAndSpeeds);
-BENCHMARK_CAPTURE(touchTick, modified_proxy_graph, "modified-proxy-graph", TimeLaw::Linear)->Apply(sizesAndSpeeds);
+BENCHMARK_CAPTURE(touchTick, relievo, "relievo", MethodConfig{})->Apply(sizesAndSpeeds);
+BENCHMARK_CAPTURE(touchTick, god_object, "relievo", MethodConfig{.space = SpaceLaw::Triangles})->Apply(sizesAndSpeeds);
+BENCHMARK_CAPTURE(touchTick, modified_proxy_graph, "modified-proxy-graph", MethodConfig{})->Apply(sizesAndSpeeds);
+BENCHMARK_CAPTURE(touchTick, proxy_graph, "proxy-graph", MethodConfig{})->Apply(sizesAndSpeeds);
+BENCHMARK_CAPTURE(touchTick, penalty, "penalty", MethodConfig{})->Apply(sizesAndSpeeds);
 
 }  // namespace
 }  // namespace relievo

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// The surface in time: how much each frame of the window counts at a moment.
+#pragma once
+
+#include <array>
+
+#include "app/haptics/parts.h"
+#include "app/haptics/surface_window.h"
+#include "hal/media_time.h"
+#include "platform/realtime.h"
+
+namespace relievo {
+
+// S(t) = sum over i of weight[i] x frame i. The weights sum to 1 and are zero but for the frames around `present`, at
+// most six. A frame that the window does not hold, or that lies beyond a cut, is stood in for by the nearest one on
+// this side: the first and the last frame of a shot hold.
+struct FrameWeights {
+  std::array<float, SurfaceWindow::kCapacity> weight{};
+  int present = -1;  // index of the newest frame whose time has come; -1: no frame at all
+
+  FrameWeights() = default;
+  FrameWeights(const SurfaceWindow& window, MediaTime now, TimeLaw law) RELIEVO_RT;
+};
+
+}  // namespace relievo

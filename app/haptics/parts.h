@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The parts that a method of touch is made of, by name: how the surface lies between samples and between frames.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace relievo {
+
+// How a surface lies between two frames, and how many frames after the next one it looks ahead for that.
+enum class TimeLaw : std::uint8_t {
+  Hold,     // the newest frame as it is
+  Linear,   // between the frame before and the buffered next one (paper, eq. 1)
+  BSpline,  // cubic B-spline on the frames: smooth to the second derivative, but a low-pass; 1 more frame ahead
+  Fitted,   // cubic spline that stays with the frames to the fourth order (quasi-interpolation); 2 more ahead
+};
+[[nodiscard]] std::optional<TimeLaw> timeLaw(std::string_view name) noexcept;  // hold linear bspline fitted
+[[nodiscard]] const char* name(TimeLaw law) noexcept;
+
+// How a surface lies between samples.
+enum class SpaceLaw : std::uint8_t {
+  Triangles,  // the paper's: each cell split by its diagonal
+  Quadratic,  // quadratic B-spline on block means: continuous slope
+  BSpline,    // cubic B-spline on block means: continuous curvature
+};
+[[nodiscard]] std::optional<SpaceLaw> spaceLaw(std::string_view name) noexcept;  // triangles quadratic bspline
+[[nodiscard]] const char* name(SpaceLaw law) noexcept;
+
+}  // namespace relievo

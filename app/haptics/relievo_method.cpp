@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// Inside and outside, contact and release, and what happens at a cut.
+#include "app/haptics/relievo_method.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+namespace relievo {
+namespace {
+
+constexpr int kMostPasses = 4;
+// 128 samples half a pitch apart: 28 mm, a finger that comes back from a gap of 5 ticks at 5 m/s.
+constexpr int kMostSamples = 128;
+constexpr int kBisections = 6;
+// Points of frames to come that are read in one tick's upkeep.
+constexpr int kPointsAhead = 2;
+
+bool isFinite(const glm::dvec3& p) RELIEVO_RT {
+  return std::isfinite(p.x + p.y + p.z);
+}
+
+}  // namespace
+
+glm::dvec3 RelievoMethod::proxy() const RELIEVO_RT {
+  return {contact_.x_mm, contact_.y_mm, contact_.surface.z - lowered_mm_};
+}
+
+bool RelievoMethod::inside(const glm::dvec3& place_mm) RELIEVO_RT {
+  return place_mm.z < surface_.height(place_mm.x, place_mm.y) - lowered_mm_;
+}
+
+Touch RelievoMethod::update(const glm::dvec3& hip_mm, const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
+  Touch touch{.proxy_mm = hip_mm};
+  if (!isFinite(hip_mm) || !surface_.moment(window, now)) {
+    had_surface_ = false;
+    force_n_ = 0;
+    return touch;
+  }
+  const std::uint32_t shot = surface_.shot();
+  const bool other_scene = !had_surface_ || window.epoch != epoch_ || shot != shot_;
+  had_surface_ = true;
+  epoch_ = window.epoch;
+  shot_ = shot;
+
+  const Contact before = contact_;
+  if (state_ == State::Unknown) {
+    lowered_mm_ = 0;
+    state_ = inside(hip_mm) ? State::Buried : State::Free;
+  } else if (other_scene && state_ != State::Buried) {
+    enterScene(hip_mm);
+  } else if (state_ == State::Buried) {
+    if (!inside(hip_mm)) state_ = State::Free;
+  } else if (state_ == State::Contact) {
+    const glm::dvec2 step = predictedStep(contact_, hip_mm_, hip_mm - hip_mm_, lowered_mm_);
+    contact_.x_mm += step.x;
+    contact_.y_mm += step.y;
+    slide(hip_mm);
+    // A long jump that came out further away than staying would have been has left the finger's side of a ridge.
+    if (glm::dot(step, step) > 4 * surface_.sampleMm() * surface_.sampleMm()) {
+      const glm::dvec3 stayed(before.x_mm, before.y_mm, before.surface.z - lowered_mm_);
+      if (glm::distance(proxy(), hip_mm) > glm::distance(stayed, hip_mm) + surface_.sampleMm()) {
+        contact_ = before;
+        slide(hip_mm);
+      }
+    }
+    follow(proxy(), hip_mm);
+  } else {
+    follow(hip_mm_, hip_mm);
+  }
+
+  if (state_ == State::Contact) {
+    rub(hip_mm);
+    touch.contact = true;
+    touch.proxy_mm = proxy();
+    touch.force_n = config_.stiffness_n_per_mm * (touch.proxy_mm - hip_mm);
+  }
+  rubbing_ = rubbing_ && touch.contact;
+  force_n_ = glm::length(touch.force_n);
+  if (lowered_mm_ > 0) settleLowering(hip_mm, force_n_);
+  const bool sliding = state_ == State::Contact;
+  ahead_x_mm_ = sliding ? 2 * contact_.x_mm - before.x_mm : 2 * hip_mm.x - hip_mm_.x;
+  ahead_y_mm_ = sliding ? 2 * contact_.y_mm - before.y_mm : 2 * hip_mm.y - hip_mm_.y;
+  hip_mm_ = hip_mm;
+  return touch;
+}
+
+void RelievoMethod::upkeep(const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
+  if (state_ == State::Unknown || !surface_.moment(window, now)) return;
+  surface_.prepare(ahead_x_mm_, ahead_y_mm_, kPointsAhead);
+}
+
+// The finger stays where it is and the scene is another one.
+void RelievoMethod::enterScene(const glm::dvec3& hip_mm) RELIEVO_RT {
+  const double depth = surface_.height(hip_mm.x, hip_mm.y) - hip_mm.z;
+  force_before_cut_n_ = force_n_;
+  lowered_mm_ = std::max(depth - force_n_ / config_.stiffness_n_per_mm, 0.0);
+  if (depth <= 0) {
+    state_ = State::Free;
+    return;
+  }
+  contact_.x_mm = hip_mm.x;
+  contact_.y_mm = hip_mm.y;
+  state_ = State::Contact;
+  slide(hip_mm);
+  follow(proxy(), hip_mm);
+}
+
+void RelievoMethod::slide(const glm::dvec3& hip_mm) RELIEVO_RT {
+  contact_ = closestPoint(surface_, contact_.x_mm, contact_.y_mm, hip_mm, lowered_mm_);
+}
+
+// From a place that is on the surface or outside to the finger: in contact if the surface is between them.
+void RelievoMethod::follow(glm::dvec3 from_mm, const glm::dvec3& hip_mm) RELIEVO_RT {
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    if (state_ == State::Contact) {
+      if (proxy().z > hip_mm.z) return;
+      state_ = State::Free;
+      from_mm = proxy();
+    }
+    if (!enterOnPath(from_mm, hip_mm)) return;
+    state_ = State::Contact;
+    slide(hip_mm);
+  }
+  if (proxy().z > hip_mm.z) return;
+  // Still on its way after four times in and out: it is what it is at its end.
+  state_ = State::Free;
+  if (!inside(hip_mm)) return;
+  contact_ = {hip_mm.x, hip_mm.y, surface_.at(hip_mm.x, hip_mm.y)};
+  state_ = State::Contact;
+}
+
+// Sets `contact_` to where the path first goes in.
+bool RelievoMethod::enterOnPath(const glm::dvec3& from_mm, const glm::dvec3& hip_mm) RELIEVO_RT {
+  // The splines stay below the volume's front but for the fitted one's overshoot, of less than a half.
+  if (std::min(from_mm.z, hip_mm.z) > 1.5 * surface_.volumeDepthMm()) return false;
+  const glm::dvec3 way = hip_mm - from_mm;
+  const double length = std::sqrt(way.x * way.x + way.y * way.y);
+  const int samples = std::clamp(static_cast<int>(std::ceil(length / surface_.sampleMm())), 1, kMostSamples);
+  constexpr double kRoundingMm = 1e-6;  // a proxy lies on the surface but for rounding
+  double outside = 0;
+  for (int k = 0; k <= samples; ++k) {
+    double in = static_cast<double>(k) / samples;
+    const double slack = k == 0 ? kRoundingMm : 0;
+    if (!inside(from_mm + way * in + glm::dvec3(0, 0, slack))) {
+      outside = in;
+      continue;
+    }
+    for (int i = 0; i < kBisections && k > 0; ++i) {
+      const double middle = 0.5 * (outside + in);
+      (inside(from_mm + way * middle) ? in : outside) = middle;
+    }
+    const glm::dvec3 entry = from_mm + way * in;
+    contact_ = {entry.x, entry.y, surface_.at(entry.x, entry.y)};
+    return true;
+  }
+  return false;
+}
+
+// Stays where it was while the finger pulls less than static friction holds, and otherwise goes on until dynamic
+// friction holds what is left (Coulomb; the cone around the normal where the proxy was).
+void RelievoMethod::rub(const glm::dvec3& hip_mm) RELIEVO_RT {
+  if (config_.friction.static_coefficient <= 0) return;
+  if (!rubbing_) {
+    rubbing_ = true;
+    stuck_ = contact_;
+    return;
+  }
+  const SurfacePoint s = surface_.at(stuck_.x_mm, stuck_.y_mm);
+  const glm::dvec3 place(stuck_.x_mm, stuck_.y_mm, s.z - lowered_mm_);
+  const glm::dvec3 normal = glm::normalize(glm::dvec3(-s.zx, -s.zy, 1));
+  const glm::dvec3 pull = hip_mm - place;
+  const double pressed = -glm::dot(pull, normal);
+  const double aside = glm::length(pull + pressed * normal);
+  double share = 1;  // of the way to the closest point
+  if (pressed > 0 && aside <= config_.friction.static_coefficient * pressed) share = 0;
+  else if (pressed > 0) share = 1 - std::min(config_.friction.dynamic_coefficient * pressed / aside, 1.0);
+  contact_.x_mm = stuck_.x_mm + share * (contact_.x_mm - stuck_.x_mm);
+  contact_.y_mm = stuck_.y_mm + share * (contact_.y_mm - stuck_.y_mm);
+  contact_.surface = surface_.at(contact_.x_mm, contact_.y_mm);
+  stuck_ = contact_;
+}
+
+void RelievoMethod::settleLowering(const glm::dvec3& hip_mm, double force_n) RELIEVO_RT {
+  if (state_ == State::Contact) {
+    const double after = force_n + config_.stiffness_n_per_mm * config_.rise_mm_per_tick;
+    if (after <= force_before_cut_n_) lowered_mm_ = std::max(lowered_mm_ - config_.rise_mm_per_tick, 0.0);
+  } else {
+    // The finger is above the lowered surface: that much may come back under it unfelt.
+    lowered_mm_ = std::clamp(surface_.height(hip_mm.x, hip_mm.y) - hip_mm.z, 0.0, lowered_mm_);
+  }
+}
+
+}  // namespace relievo

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// The default method: a proxy on the true closest point of a moving surface at the scale that a finger feels.
+#pragma once
+
+#include <cstdint>
+
+#include "app/haptics/closest_point.h"
+#include "app/haptics/felt_surface.h"
+#include "app/haptics/method.h"
+
+namespace relievo {
+
+// Coulomb friction between proxy and surface; 0: none.
+struct Friction {
+  double static_coefficient = 0, dynamic_coefficient = 0;
+};
+
+// Contact is a matter of inside and outside, not of crossing: a finger that was outside is in contact in the first tick
+// in which it is inside the solid, whoever of the two moved, and its path within the tick is sampled closer than the
+// surface has crests. So nothing passes through, however fast it rises. In contact the proxy slides to the closest
+// point (see closestPoint) and is free when that point is no longer above the finger.
+//
+// At a cut, and wherever else the film is not continuous, a finger left inside the new solid is re-seated: the new
+// surface is lowered under it until it is as deep as it was before, so that it feels the new shape at once and at no
+// more force. The lowering leaves as the finger allows: while the force is no more than it was, and when it lifts.
+class RelievoMethod final : public TouchMethod {
+ public:
+  struct Config {
+    double stiffness_n_per_mm = 0.5;
+    FeltScale scale;
+    Friction friction;
+    double rise_mm_per_tick = 0.1;  // how fast a lowered surface comes back: 50 N/s on 0.5 N/mm at 1 kHz
+  };
+  explicit RelievoMethod(const Config& config) noexcept : config_(config), surface_(config.scale) {}
+
+  [[nodiscard]] Touch update(const glm::dvec3& hip_mm, const SurfaceWindow& window, MediaTime now) RELIEVO_RT override;
+  void upkeep(const SurfaceWindow& window, MediaTime now) RELIEVO_RT override;
+  void reset() RELIEVO_RT override { state_ = State::Unknown; }
+
+ private:
+  enum class State : std::uint8_t {
+    Unknown,  // before the first tick
+    Buried,   // inside from the beginning: free until it has been outside
+    Free,     // outside
+    Contact,
+  };
+  [[nodiscard]] bool inside(const glm::dvec3& place_mm) RELIEVO_RT;
+  void enterScene(const glm::dvec3& hip_mm) RELIEVO_RT;
+  void slide(const glm::dvec3& hip_mm) RELIEVO_RT;
+  void rub(const glm::dvec3& hip_mm) RELIEVO_RT;
+  [[nodiscard]] bool enterOnPath(const glm::dvec3& from_mm, const glm::dvec3& hip_mm) RELIEVO_RT;
+  void follow(glm::dvec3 from_mm, const glm::dvec3& hip_mm) RELIEVO_RT;
+  void settleLowering(const glm::dvec3& hip_mm, double force_n) RELIEVO_RT;
+  [[nodiscard]] glm::dvec3 proxy() const RELIEVO_RT;
+
+  Config config_;
+  FeltSurface surface_;
+  State state_ = State::Unknown;
+  std::uint32_t epoch_ = 0, shot_ = 0;
+  bool had_surface_ = false;
+  glm::dvec3 hip_mm_{0};
+  Contact contact_;
+  bool rubbing_ = false;
+  Contact stuck_;          // where friction last held the proxy
+  double lowered_mm_ = 0;  // of the surface, after a cut
+  double force_before_cut_n_ = 0;
+  double force_n_ = 0;
+  double ahead_x_mm_ = 0, ahead_y_mm_ = 0;  // where the proxy, or the free finger, will be in the next tick
+};
+
+}  // namespace relievo

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// The vote of the places.
+#include "app/haptics/shots.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace relievo {
+namespace {
+
+constexpr double kLeastJumpMm = 2.0;
+constexpr double kTimesTheMotion = 3.0;
+constexpr double kLeastShare = 0.25;
+
+}  // namespace
+
+void ShotFinder::look(const TimedSurface& frame) {
+  const auto [at, is_new] = places_.try_emplace(frame.time);
+  if (!is_new) return;
+  const HeightField& field = frame.field;
+  std::size_t i = 0;
+  for (int r = 0; r < kDown; ++r) {
+    for (int c = 0; c < kAcross; ++c) {
+      at->second[i++] =
+          field.heightMm((2 * c + 1) * field.cols() / (2 * kAcross), (2 * r + 1) * field.rows() / (2 * kDown));
+    }
+  }
+}
+
+bool ShotFinder::isCut(const TimedSurface* before, const TimedSurface& last, const TimedSurface& next,
+                       const TimedSurface* after) const {
+  const Places& z = places_.at(last.time);
+  const Places& next_z = places_.at(next.time);
+  const Places* before_z = before != nullptr ? &places_.at(before->time) : nullptr;
+  const Places* after_z = after != nullptr ? &places_.at(after->time) : nullptr;
+  int votes = 0, readable = 0;
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    const double jump = std::abs(next_z[i] - z[i]);
+    if (std::isnan(jump)) continue;
+    ++readable;
+    // A hole in a neighbouring frame says nothing: fmax passes it over.
+    double motion = 0;
+    if (before_z != nullptr) motion = std::fmax(motion, std::abs(z[i] - (*before_z)[i]));
+    if (after_z != nullptr) motion = std::fmax(motion, std::abs((*after_z)[i] - next_z[i]));
+    if (jump > std::max(kLeastJumpMm, kTimesTheMotion * motion)) ++votes;
+  }
+  return readable > 0 && votes >= kLeastShare * readable;
+}
+
+}  // namespace relievo
