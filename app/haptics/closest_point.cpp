@@ -12,7 +12,7 @@ constexpr int kMostEvaluations = 10;
 constexpr double kSettledMm = 1e-4;
 // A step shorter than this is taken on the second-order Taylor polynomial, without a look at the place it leads to; one
 // shorter than the second is the last.
-constexpr double kTaylorMm = 0.02, kTaylorEndMm = 0.002;
+constexpr double kTaylorMm = 0.03, kTaylorEndMm = 0.01;
 
 // Slope and curvature of half the squared distance over (x, y).
 struct Distance {
@@ -42,8 +42,8 @@ struct Distance {
   }
 };
 
-double length(const glm::dvec2& v) RELIEVO_RT {
-  return std::sqrt(v.x * v.x + v.y * v.y);
+double squared(const glm::dvec2& v) RELIEVO_RT {
+  return v.x * v.x + v.y * v.y;
 }
 
 void taylorStep(Contact& c, const glm::dvec2& step) RELIEVO_RT {
@@ -66,20 +66,20 @@ Contact closestPoint(FeltSurface& surface, double x_mm, double y_mm, const glm::
   double scale = 1;
   for (int evaluation = 1;; ++evaluation) {
     glm::dvec2 step = scale * distance.solve(-distance.gx, -distance.gy);
-    const double size = length(step);
-    if (size < kTaylorMm && scale == 1) {
+    const double size2 = squared(step);
+    if (size2 < kTaylorMm * kTaylorMm && scale == 1) {
       taylorStep(best, step);
       best.settled = true;
-      if (size < kTaylorEndMm || evaluation >= kMostEvaluations) return best;
+      if (size2 < kTaylorEndMm * kTaylorEndMm || evaluation >= kMostEvaluations) return best;
       best.surface = surface.at(best.x_mm, best.y_mm);
       distance = Distance(best, hip_mm, lowered_mm);
       continue;
     }
-    if (size < kSettledMm || evaluation >= kMostEvaluations) {
-      best.settled = size < kTaylorMm;
+    if (size2 < kSettledMm * kSettledMm || evaluation >= kMostEvaluations) {
+      best.settled = size2 < kTaylorMm * kTaylorMm;
       return best;
     }
-    if (size > longest) step *= longest / size;
+    if (size2 > longest * longest) step *= longest / std::sqrt(size2);
     Contact next{best.x_mm + step.x, best.y_mm + step.y, {}};
     next.surface = surface.at(next.x_mm, next.y_mm);
     const Distance there(next, hip_mm, lowered_mm);

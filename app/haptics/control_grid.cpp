@@ -15,10 +15,6 @@ int blockFor(double pitch_mm, double samples_per_mm) RELIEVO_RT {
   return std::max(1, static_cast<int>(std::lround(pitch_mm * std::abs(samples_per_mm))));
 }
 
-Float4 load(const float* p) RELIEVO_RT {
-  return Float4{p[0], p[1], p[2], p[3]};
-}
-
 }  // namespace
 
 void ControlGrid::setPicture(const HeightField& field) RELIEVO_RT {
@@ -37,53 +33,41 @@ void ControlGrid::setPicture(const HeightField& field) RELIEVO_RT {
 }
 
 void ControlGrid::forget() RELIEVO_RT {
-  for (Point& p : points_) p.filled = p.hole = 0;
+  patch_slots_ = 0;
+  filled_.fill(0);
+  hole_.fill(0);
 }
 
 void ControlGrid::forgetFrame(int slot) RELIEVO_RT {
-  const auto keep = static_cast<std::uint16_t>(~(1U << slot));
-  for (Point& p : points_) {
-    p.filled &= keep;
-    p.hole &= keep;
-  }
+  patch_slots_ = 0;
+  const auto keep = static_cast<std::uint8_t>(~(1U << slot));
+  for (std::uint8_t& bits : filled_) bits &= keep;
+  for (std::uint8_t& bits : hole_) bits &= keep;
 }
 
-ControlGrid::Point& ControlGrid::at(int i, int j, const Frames& frames) RELIEVO_RT {
-  Point& p = points_[static_cast<std::size_t>((j & (kSide - 1)) * kSide + (i & (kSide - 1)))];
-  if (p.i != i || p.j != j) {
-    p.i = i;
-    p.j = j;
-    p.filled = p.hole = 0;
+bool ControlGrid::fill(int i, int j, const Frames& frames, std::uint32_t slots) RELIEVO_RT {
+  const std::size_t p = slotOf(i, j);
+  if (i_[p] != i || j_[p] != j) {
+    i_[p] = i;
+    j_[p] = j;
+    filled_[p] = hole_[p] = 0;
+    patch_slots_ = 0;
   }
-  const std::uint32_t missing = frames.wanted & ~std::uint32_t{p.filled};
-  if (missing != 0) read(p, frames, missing);
-  return p;
-}
-
-bool ControlGrid::fill(int i, int j, const Frames& frames, std::uint32_t wanted) RELIEVO_RT {
-  Point& p = points_[static_cast<std::size_t>((j & (kSide - 1)) * kSide + (i & (kSide - 1)))];
-  const bool other = p.i != i || p.j != j;
-  if (!other && (wanted & ~std::uint32_t{p.filled}) == 0) return false;
-  if (other) {
-    p.i = i;
-    p.j = j;
-    p.filled = p.hole = 0;
-  }
-  read(p, frames, wanted & ~std::uint32_t{p.filled});
+  const std::uint32_t missing = slots & ~std::uint32_t{filled_[p]};
+  if (missing == 0) return false;
+  read(p, frames, missing);
   return true;
 }
 
-void ControlGrid::read(Point& p, const Frames& frames, std::uint32_t missing) RELIEVO_RT {
+void ControlGrid::read(std::size_t p, const Frames& frames, std::uint32_t missing) RELIEVO_RT {
   // 64 bits: a finger may be anywhere. The part of the block inside the picture is read.
-  const std::int64_t u0 = std::int64_t{p.i} * block_cols_, v0 = std::int64_t{p.j} * block_rows_;
+  const std::int64_t u0 = std::int64_t{i_[p]} * block_cols_, v0 = std::int64_t{j_[p]} * block_rows_;
   const auto c0 = std::max<std::int64_t>(u0, 0), c1 = std::min<std::int64_t>(u0 + block_cols_, cols_);
   const auto r0 = std::max<std::int64_t>(v0, 0), r1 = std::min<std::int64_t>(v0 + block_rows_, rows_);
   const bool outside = c0 >= c1 || r0 >= r1 || 2 * (c1 - c0) * (r1 - r0) < std::int64_t{block_cols_} * block_rows_;
   for (; missing != 0; missing &= missing - 1) {
     const auto slot = static_cast<std::size_t>(__builtin_ctz(missing));
-    const auto bit = static_cast<std::uint16_t>(1U << slot);
-    p.filled |= bit;
-    p.height[slot] = 0;
+    const auto bit = static_cast<std::uint8_t>(1U << slot);
     double mean = HeightField::kHole;
     if (!outside) {
       const auto frame = static_cast<std::size_t>(frames.frame_of_slot[slot]);
@@ -91,40 +75,47 @@ void ControlGrid::read(Point& p, const Frames& frames, std::uint32_t missing) RE
                                                            static_cast<int>(c1 - c0), static_cast<int>(r1 - r0),
                                                            most_samples_);
     }
-    if (std::isnan(mean)) p.hole |= bit;
-    else p.height[slot] = static_cast<float>(mean);
+    filled_[p] |= bit;
+    if (std::isnan(mean)) hole_[p] |= bit;
+    height_[p][slot] = std::isnan(mean) ? 0 : static_cast<float>(mean);
   }
 }
 
 // Holes come and go from frame to frame with a depth camera: as long as most of the weight lies on readings, they tell.
-float ControlGrid::withHoles(const Point& p, const Frames& frames) const RELIEVO_RT {
+float ControlGrid::withHoles(std::size_t p, const Frames& frames) const RELIEVO_RT {
   float sum = 0, readings = 0;
   for (std::size_t slot = 0; slot < kFrames; ++slot) {
-    if ((p.hole >> slot & 1U) != 0) continue;
-    sum += frames.weight[slot] * p.height[slot];
+    if ((hole_[p] >> slot & 1U) != 0) continue;
+    sum += frames.weight[slot] * height_[p][slot];
     readings += frames.weight[slot];
   }
   return readings < kLeastWeight ? pit_mm_ : sum / readings;
 }
 
 void ControlGrid::patch(int i0, int j0, const Frames& frames, Patch& out) RELIEVO_RT {
-  const Float4 low = load(frames.weight.data()), high = load(frames.weight.data() + 4);
-  for (int j = 0; j < 4; ++j) {
-    std::array<Float4, 4> part;
+  if (i0 != patch_i_ || j0 != patch_j_ || frames.wanted != patch_slots_) {
     std::uint32_t holes = 0;
-    for (int i = 0; i < 4; ++i) {
-      const Point& p = at(i0 + i, j0 + j, frames);
-      holes |= p.hole & frames.wanted;
-      part[static_cast<std::size_t>(i)] = load(p.height.data()) * low + load(p.height.data() + 4) * high;
+    for (int j = j0; j < j0 + 4; ++j) {
+      for (int i = i0; i < i0 + 4; ++i) {
+        fill(i, j, frames, frames.wanted);
+        holes |= hole_[slotOf(i, j)] & frames.wanted;
+      }
     }
-    Float4 sum{};
-    for (std::size_t lane = 0; lane < 4; ++lane) {
-      sum += Float4{part[0][lane], part[1][lane], part[2][lane], part[3][lane]};
-    }
-    if (holes != 0) {
-      for (int i = 0; i < 4; ++i) sum[i] = withHoles(at(i0 + i, j0 + j, frames), frames);
-    }
-    out[static_cast<std::size_t>(j)] = sum;
+    patch_i_ = i0;
+    patch_j_ = j0;
+    patch_slots_ = frames.wanted;
+    patch_holes_ = holes != 0;
+  }
+  const Float4 low = load4(frames.weight.data()), high = load4(frames.weight.data() + 4);
+  const auto blend = [&](int i, int j) RELIEVO_RT {
+    const float* height = height_[slotOf(i, j)].data();
+    return load4(height) * low + load4(height + 4) * high;
+  };
+  for (int j = 0; j < 4; ++j) {
+    Float4& row = out[static_cast<std::size_t>(j)];
+    row = sums(blend(i0, j0 + j), blend(i0 + 1, j0 + j), blend(i0 + 2, j0 + j), blend(i0 + 3, j0 + j));
+    if (!patch_holes_) continue;
+    for (int i = 0; i < 4; ++i) row[i] = withHoles(slotOf(i0 + i, j0 + j), frames);
   }
 }
 

@@ -5,14 +5,13 @@
 #include <array>
 #include <cstdint>
 
+#include "app/haptics/float4.h"
 #include "app/haptics/frame_weights.h"
 #include "app/haptics/surface_window.h"
 #include "platform/realtime.h"
 
 namespace relievo {
 
-// Four floats that are worked on at once, on any machine (a vector extension of GCC and clang).
-using Float4 = float __attribute__((vector_size(16)));
 // The 4 x 4 control points that a cubic or quadratic patch hangs from: row j, element i.
 using Patch = std::array<Float4, 4>;
 
@@ -43,28 +42,26 @@ class ControlGrid {
   [[nodiscard]] int blockCols() const RELIEVO_RT { return block_cols_; }
   [[nodiscard]] int blockRows() const RELIEVO_RT { return block_rows_; }
 
+  // The frames of the moment, by their slots in the cache.
   struct Frames {
     const SurfaceWindow* window = nullptr;
-    std::array<std::uint8_t, kFrames> slot{};  // of each frame of the window, in the cache
-    std::uint32_t wanted = 0;                  // slots that must be there
     std::array<std::int8_t, kFrames> frame_of_slot{};
+    std::uint32_t wanted = 0;                         // bit per slot with a weight
     alignas(16) std::array<float, kFrames> weight{};  // by slot
   };
   // The control points (i0 .. i0+3, j0 .. j0+3) at the moment that `frames` weighs out.
   void patch(int i0, int j0, const Frames& frames, Patch& out) RELIEVO_RT;
-  // Reads what is missing of a point; true when there was something to read.
-  bool fill(int i, int j, const Frames& frames, std::uint32_t wanted) RELIEVO_RT;
+  // Reads what is missing of a point in the slots that are asked for; true when there was something to read.
+  bool fill(int i, int j, const Frames& frames, std::uint32_t slots) RELIEVO_RT;
 
  private:
   static constexpr int kSide = 16;
-  struct Point {
-    alignas(16) std::array<float, kFrames> height{};  // by slot; 0 at a hole
-    std::int32_t i = 0, j = 0;
-    std::uint16_t filled = 0, hole = 0;  // bit per slot
-  };
-  [[nodiscard]] Point& at(int i, int j, const Frames& frames) RELIEVO_RT;
-  void read(Point& point, const Frames& frames, std::uint32_t missing) RELIEVO_RT;
-  [[nodiscard]] float withHoles(const Point& point, const Frames& frames) const RELIEVO_RT;
+  static constexpr std::size_t kPoints = static_cast<std::size_t>(kSide) * kSide;
+  [[nodiscard]] static std::size_t slotOf(int i, int j) RELIEVO_RT {
+    return static_cast<std::size_t>((j & (kSide - 1)) * kSide + (i & (kSide - 1)));
+  }
+  void read(std::size_t point, const Frames& frames, std::uint32_t missing) RELIEVO_RT;
+  [[nodiscard]] float withHoles(std::size_t point, const Frames& frames) const RELIEVO_RT;
 
   double pitch_wanted_mm_;
   int most_samples_;
@@ -72,7 +69,14 @@ class ControlGrid {
   int block_cols_ = 1, block_rows_ = 1;
   double a_per_mm_ = 1, a_origin_ = 0, b_per_mm_ = -1, b_origin_ = 0;
   float pit_mm_ = -40;
-  std::array<Point, kSide * kSide> points_{};
+  // The last patch: its points are all there as long as nothing was forgotten or replaced since.
+  int patch_i_ = 0, patch_j_ = 0;
+  std::uint32_t patch_slots_ = 0;
+  bool patch_holes_ = false;
+  // A point each. Bits and heights by slot; 0 at a hole.
+  std::array<std::int32_t, kPoints> i_{}, j_{};
+  std::array<std::uint8_t, kPoints> filled_{}, hole_{};
+  alignas(16) std::array<std::array<float, kFrames>, kPoints> height_{};
 };
 
 }  // namespace relievo

@@ -30,38 +30,45 @@ Taps fitted(double s) RELIEVO_RT {
 
 }  // namespace
 
-FrameWeights::FrameWeights(const SurfaceWindow& window, MediaTime now, TimeLaw law) RELIEVO_RT {
+FrameMoment::FrameMoment(const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
   if (window.count == 0) return;
   const auto frame = [&](int i) -> const TimedSurface& { return window.frames[static_cast<std::size_t>(i)]; };
   present = window.count - 1;
   while (present > 0 && frame(present).time > now) --present;
-  int first = present, last = present;  // of the present shot, inside the window
+  first = last = present;
   while (first > 0 && frame(first - 1).shot == frame(present).shot) --first;
   while (last + 1 < window.count && frame(last + 1).shot == frame(present).shot) ++last;
+  if (now <= frame(present).time) return;
+  // After the last frame the spline runs out within one period like the one before, and then holds.
+  const Duration period = present + 1 < window.count ? frame(present + 1).time - frame(present).time
+                          : present > 0              ? frame(present).time - frame(present - 1).time
+                                                     : Duration(0);
+  if (period > Duration(0)) share = std::min(toSeconds(now - frame(present).time) / toSeconds(period), 1.0);
+}
 
+FrameWeights frameWeights(const FrameMoment& moment, TimeLaw law) RELIEVO_RT {
+  FrameWeights weight{};
+  if (moment.present < 0) return weight;
   const auto give = [&](int i, double share) {
-    weight[static_cast<std::size_t>(std::clamp(i, first, last))] += static_cast<float>(share);
+    weight[static_cast<std::size_t>(std::clamp(i, moment.first, moment.last))] += static_cast<float>(share);
   };
-  if (law == TimeLaw::Hold) {
-    give(present, 1);
-    return;
+  const double s = moment.share;
+  switch (law) {
+    case TimeLaw::Hold:
+      give(moment.present, 1);
+      break;
+    case TimeLaw::Linear:
+      give(moment.present, 1 - s);
+      give(moment.present + 1, s);
+      break;
+    case TimeLaw::BSpline:
+    case TimeLaw::Fitted: {
+      const Taps taps = law == TimeLaw::BSpline ? bspline(s) : fitted(s);
+      for (int i = 0; i < 6; ++i) give(moment.present - 2 + i, taps[static_cast<std::size_t>(i)]);
+      break;
+    }
   }
-  double s = 0;
-  if (now > frame(present).time) {
-    const int next = std::min(present + 1, window.count - 1);
-    // After the last frame of a shot the spline goes on for one period of the frames before it, and then holds.
-    const Duration period = next > present ? frame(next).time - frame(present).time
-                            : present > 0  ? frame(present).time - frame(present - 1).time
-                                           : Duration(0);
-    if (period > Duration(0)) s = std::min(toSeconds(now - frame(present).time) / toSeconds(period), 1.0);
-  }
-  if (law == TimeLaw::Linear) {
-    give(present, 1 - s);
-    give(present + 1, s);
-    return;
-  }
-  const Taps taps = law == TimeLaw::BSpline ? bspline(s) : fitted(s);
-  for (int i = 0; i < 6; ++i) give(present - 2 + i, taps[static_cast<std::size_t>(i)]);
+  return weight;
 }
 
 }  // namespace relievo

@@ -20,7 +20,7 @@ struct Touch {
 };
 
 // Pure: no clock, no thread, no allocation after construction. Called on the real-time thread, once a tick: `update`
-// first; `upkeep` when the force is out, for whatever can wait.
+// first; `upkeep` when the force is out, with the same window and time, for whatever can wait.
 class TouchMethod {
  public:
   virtual ~TouchMethod() = default;

@@ -15,7 +15,7 @@ Touch ProxyBlend::update(const glm::dvec3& hip_mm, const SurfaceWindow& window, 
     primed_ = false;
     return Touch{.proxy_mm = hip_mm};
   }
-  const auto k = static_cast<std::size_t>(FrameWeights(window, now, TimeLaw::Hold).present);
+  const auto k = static_cast<std::size_t>(FrameMoment(window, now).present);
   const TimedSurface& frame = window.frames[k];
   if (!primed_ || window.epoch != epoch_) {
     primed_ = true;

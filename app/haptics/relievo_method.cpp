@@ -16,9 +16,17 @@ constexpr int kMostSamples = 128;
 constexpr int kBisections = 6;
 // Points of frames to come that are read in one tick's upkeep.
 constexpr int kPointsAhead = 2;
+constexpr Duration kLongestStep = std::chrono::milliseconds(10);
 
 bool isFinite(const glm::dvec3& p) RELIEVO_RT {
   return std::isfinite(p.x + p.y + p.z);
+}
+
+// How much the surface itself has risen from one contact to the next one.
+double riseBetween(const Contact& from, const Contact& to) RELIEVO_RT {
+  const double dx = to.x_mm - from.x_mm, dy = to.y_mm - from.y_mm;
+  return to.surface.z - from.surface.z -
+         0.5 * ((from.surface.zx + to.surface.zx) * dx + (from.surface.zy + to.surface.zy) * dy);
 }
 
 }  // namespace
@@ -35,7 +43,7 @@ Touch RelievoMethod::update(const glm::dvec3& hip_mm, const SurfaceWindow& windo
   Touch touch{.proxy_mm = hip_mm};
   if (!isFinite(hip_mm) || !surface_.moment(window, now)) {
     had_surface_ = false;
-    force_n_ = 0;
+    force_n_ = glm::dvec3(0);
     return touch;
   }
   const std::uint32_t shot = surface_.shot();
@@ -53,7 +61,9 @@ Touch RelievoMethod::update(const glm::dvec3& hip_mm, const SurfaceWindow& windo
   } else if (state_ == State::Buried) {
     if (!inside(hip_mm)) state_ = State::Free;
   } else if (state_ == State::Contact) {
-    const glm::dvec2 step = predictedStep(contact_, hip_mm_, hip_mm - hip_mm_, lowered_mm_);
+    // The finger moves against a surface that rises as it did in the tick before.
+    const glm::dvec3 moved = hip_mm - hip_mm_ - glm::dvec3(0, 0, rise_mm_);
+    const glm::dvec2 step = predictedStep(contact_, hip_mm_, moved, lowered_mm_);
     contact_.x_mm += step.x;
     contact_.y_mm += step.y;
     slide(hip_mm);
@@ -77,9 +87,10 @@ Touch RelievoMethod::update(const glm::dvec3& hip_mm, const SurfaceWindow& windo
     touch.force_n = config_.stiffness_n_per_mm * (touch.proxy_mm - hip_mm);
   }
   rubbing_ = rubbing_ && touch.contact;
-  force_n_ = glm::length(touch.force_n);
-  if (lowered_mm_ > 0) settleLowering(hip_mm, force_n_);
+  force_n_ = touch.force_n;
+  if (lowered_mm_ > 0) settleLowering(hip_mm);
   const bool sliding = state_ == State::Contact;
+  rise_mm_ = sliding ? riseBetween(before, contact_) : 0;
   ahead_x_mm_ = sliding ? 2 * contact_.x_mm - before.x_mm : 2 * hip_mm.x - hip_mm_.x;
   ahead_y_mm_ = sliding ? 2 * contact_.y_mm - before.y_mm : 2 * hip_mm.y - hip_mm_.y;
   hip_mm_ = hip_mm;
@@ -87,15 +98,18 @@ Touch RelievoMethod::update(const glm::dvec3& hip_mm, const SurfaceWindow& windo
 }
 
 void RelievoMethod::upkeep(const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
-  if (state_ == State::Unknown || !surface_.moment(window, now)) return;
-  surface_.prepare(ahead_x_mm_, ahead_y_mm_, kPointsAhead);
+  if (!had_surface_) return;
+  // The next tick comes as long after this one as this one after the last; a pause stands still.
+  const Duration step = std::clamp(now - now_, Duration(0), kLongestStep);
+  surface_.prepare(window, now + step, ahead_x_mm_, ahead_y_mm_, kPointsAhead);
+  now_ = now;
 }
 
 // The finger stays where it is and the scene is another one.
 void RelievoMethod::enterScene(const glm::dvec3& hip_mm) RELIEVO_RT {
   const double depth = surface_.height(hip_mm.x, hip_mm.y) - hip_mm.z;
-  force_before_cut_n_ = force_n_;
-  lowered_mm_ = std::max(depth - force_n_ / config_.stiffness_n_per_mm, 0.0);
+  force_before_cut_n_ = glm::length(force_n_);
+  lowered_mm_ = std::max(depth - force_before_cut_n_ / config_.stiffness_n_per_mm, 0.0);
   if (depth <= 0) {
     state_ = State::Free;
     return;
@@ -182,9 +196,9 @@ void RelievoMethod::rub(const glm::dvec3& hip_mm) RELIEVO_RT {
   stuck_ = contact_;
 }
 
-void RelievoMethod::settleLowering(const glm::dvec3& hip_mm, double force_n) RELIEVO_RT {
+void RelievoMethod::settleLowering(const glm::dvec3& hip_mm) RELIEVO_RT {
   if (state_ == State::Contact) {
-    const double after = force_n + config_.stiffness_n_per_mm * config_.rise_mm_per_tick;
+    const double after = glm::length(force_n_) + config_.stiffness_n_per_mm * config_.rise_mm_per_tick;
     if (after <= force_before_cut_n_) lowered_mm_ = std::max(lowered_mm_ - config_.rise_mm_per_tick, 0.0);
   } else {
     // The finger is above the lowered surface: that much may come back under it unfelt.

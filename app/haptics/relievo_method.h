@@ -50,7 +50,7 @@ class RelievoMethod final : public TouchMethod {
   void rub(const glm::dvec3& hip_mm) RELIEVO_RT;
   [[nodiscard]] bool enterOnPath(const glm::dvec3& from_mm, const glm::dvec3& hip_mm) RELIEVO_RT;
   void follow(glm::dvec3 from_mm, const glm::dvec3& hip_mm) RELIEVO_RT;
-  void settleLowering(const glm::dvec3& hip_mm, double force_n) RELIEVO_RT;
+  void settleLowering(const glm::dvec3& hip_mm) RELIEVO_RT;
   [[nodiscard]] glm::dvec3 proxy() const RELIEVO_RT;
 
   Config config_;
@@ -58,13 +58,15 @@ class RelievoMethod final : public TouchMethod {
   State state_ = State::Unknown;
   std::uint32_t epoch_ = 0, shot_ = 0;
   bool had_surface_ = false;
+  MediaTime now_;  // of the last upkeep
   glm::dvec3 hip_mm_{0};
   Contact contact_;
+  double rise_mm_ = 0;  // of the surface under the proxy in the last tick
   bool rubbing_ = false;
   Contact stuck_;          // where friction last held the proxy
   double lowered_mm_ = 0;  // of the surface, after a cut
   double force_before_cut_n_ = 0;
-  double force_n_ = 0;
+  glm::dvec3 force_n_{0};
   double ahead_x_mm_ = 0, ahead_y_mm_ = 0;  // where the proxy, or the free finger, will be in the next tick
 };
 

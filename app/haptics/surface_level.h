@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// A smooth surface of one width: B-splines in space on the control points of a grid, weighed over the frames in time.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "app/haptics/control_grid.h"
+#include "app/haptics/frame_weights.h"
+#include "app/haptics/parts.h"
+#include "platform/realtime.h"
+
+namespace relievo {
+
+// Height and its derivatives in space at one place and moment; mm, 1, 1/mm.
+struct SurfacePoint {
+  double z = 0;
+  double zx = 0, zy = 0;
+  double zxx = 0, zxy = 0, zyy = 0;
+};
+
+// Which frame of the window lies in which slot of the caches.
+struct FrameSlots {
+  const SurfaceWindow* window = nullptr;
+  std::array<std::uint8_t, ControlGrid::kFrames> of_frame{};
+  std::array<std::int8_t, ControlGrid::kFrames> frame{};
+  std::uint32_t in_use = 0;  // bit per slot
+};
+
+// The standard deviation of its smoothing is 0.645 x the pitch of its control points: a box of one pitch under a cubic
+// B-spline (variances 1/12 and 4/12 pitch^2); 0.577 under a quadratic one.
+class SurfaceLevel {
+ public:
+  SurfaceLevel(double sigma_mm, int most_samples, SpaceLaw space, TimeLaw time) noexcept;
+
+  [[nodiscard]] ControlGrid& grid() RELIEVO_RT { return grid_; }
+
+  // A new moment. `since_prepared_s`: how long after the moment that `prepare` was given it is; nothing: what was
+  // prepared does not hold. `slots` must live until the next `begin`.
+  void begin(const FrameSlots& slots, const FrameMoment& moment, std::optional<double> since_prepared_s) RELIEVO_RT;
+  [[nodiscard]] SurfacePoint at(double x_mm, double y_mm) RELIEVO_RT;
+
+  // Ahead of the moment `next`, for a place: reads the points around it, and of them at most `points` in frames that do
+  // not count yet, and weighs them out for `next` and for `later`, which comes `step_s` after it.
+  void prepare(const FrameSlots& slots, double x_mm, double y_mm, int points, const FrameMoment& next,
+               const FrameMoment& later, double step_s) RELIEVO_RT;
+
+ private:
+  struct Cell {
+    int i = 0, j = 0;    // of the first of the 4 x 4 control points
+    float a = 0, b = 0;  // place within the cell
+  };
+  [[nodiscard]] Cell cellOf(double x_mm, double y_mm) const RELIEVO_RT;
+  void weigh(const FrameSlots& slots, const FrameMoment& moment, ControlGrid::Frames& frames) const RELIEVO_RT;
+
+  ControlGrid grid_;
+  TimeLaw time_;
+  bool cubic_;
+
+  const FrameSlots* slots_ = nullptr;
+  FrameMoment moment_;
+  ControlGrid::Frames frames_;
+  bool weighed_ = false;  // `frames_` for `moment_`: done when it is first needed
+  Patch patch_{};
+  int i_ = 0, j_ = 0;
+  bool patched_ = false;
+
+  Patch prepared_{}, prepared_rate_{};  // mm, mm/s
+  int prepared_i_ = 0, prepared_j_ = 0;
+  std::optional<float> since_prepared_s_;
+};
+
+}  // namespace relievo
