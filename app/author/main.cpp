@@ -147,7 +147,7 @@ int run(Arguments& a) {
   if (a.depth_crf >= 0) a.output.depth_crf = a.depth_crf;
 
   stopOnSignals();
-  AuthorResult<AuthorSummary> summary;
+  Outcome<AuthorSummary> summary;
   {
     ProgressLine line;
     const auto progress = [&line](std::uint64_t done, std::optional<std::uint64_t> total) { line.show(done, total); };

@@ -8,9 +8,9 @@
 #include <string>
 
 #include "app/haptics/surface_window.h"
-#include "app/lab/failure.h"
 #include "app/media/pair_reader.h"
 #include "app/scene/display_volume.h"
+#include "platform/failure.h"
 
 namespace relievo {
 
@@ -26,15 +26,15 @@ class DepthFilm {
   DepthFilm(PairReader::Backends backends, DepthFilmOptions options);
   ~DepthFilm();
 
-  [[nodiscard]] LabResult<void> open();
+  [[nodiscard]] Outcome<void> open();
   // The frames from one before `t_s` to three after it; time 0 is the first frame's. Times must not go back.
-  [[nodiscard]] LabResult<const SurfaceWindow*> windowAt(double t_s);
+  [[nodiscard]] Outcome<const SurfaceWindow*> windowAt(double t_s);
   [[nodiscard]] const DisplayVolume& volume() const noexcept { return volume_; }
 
  private:
   struct Tracks;
   [[nodiscard]] Result<std::optional<Frame>> nextFrame();
-  [[nodiscard]] LabResult<bool> append();
+  [[nodiscard]] Outcome<bool> append();
 
   DepthFilmOptions options_;
   std::unique_ptr<Tracks> tracks_;
