@@ -28,9 +28,9 @@ double wave(double t_s, double period_s) RELIEVO_RT {
 }
 
 HandPoint stroke(double t_s) RELIEVO_RT {
-  constexpr double kRestS = 0.5, kDownS = 1.5, kUpS = 1.5;  // at most 72 mm/s: contact without a blow
-  constexpr double kRoundS = 8.0;                           // down, stroke, up
-  constexpr double kAboveMm = 60.0, kAimMm = -12.0;         // 40 mm is the nearest that a surface comes
+  constexpr double kRestS = 0.5, kDownS = 1.2, kUpS = 1.1;  // at most 82 mm/s: contact without a blow
+  constexpr double kRoundS = 4.0;                           // down, stroke, up: it is soon out of what let it through
+  constexpr double kAboveMm = 48.0, kAimMm = -12.0;         // 40 mm is the nearest that a surface comes
   const double t = std::max(t_s - kRestS, 0.0);
   const double in_round = std::fmod(t, kRoundS);
   const double down = easeIn(in_round, kDownS) - easeIn(in_round - (kRoundS - kUpS), kUpS);

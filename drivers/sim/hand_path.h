@@ -29,7 +29,7 @@ class HandPath {
   };
 
   // Rests in front of the scene, comes down to its middle, strokes over it in a Lissajous figure with a
-  // pressure that swells between 1 and 2 N, and lifts now and then; for ever. It aims below the far plane, so
+  // pressure that swells between 1 and 2 N, and lifts every 4 s; for ever. It aims below the far plane, so
   // that any surface stops it: what it presses with is its limit, wherever the surface is.
   HandPath() = default;
 

@@ -60,9 +60,18 @@ TEST(SimHandPath, AMissingFileIsNotFound) {
 
 TEST(SimHandPath, ItsOwnPathRestsInFrontThenComesDownInTheMiddle) {
   const HandPath path;
-  for (const double t : {0.0, 0.25, 0.5}) EXPECT_EQ(path.at(t).position_mm, glm::dvec3(0, 0, 60)) << t;
-  EXPECT_EQ(path.at(2.0).position_mm.x, 0.0);
-  EXPECT_LT(path.at(2.0).position_mm.z, 0.0);
+  for (const double t : {0.0, 0.25, 0.5}) EXPECT_EQ(path.at(t).position_mm, glm::dvec3(0, 0, 48)) << t;
+  EXPECT_EQ(path.at(1.7).position_mm.x, 0.0);
+  EXPECT_LT(path.at(1.7).position_mm.z, 0.0);
+}
+
+// A finger that has passed into the solid is held again only after it has come out of it.
+TEST(SimHandPath, ItsOwnPathComesOutEveryFourSeconds) {
+  const HandPath path;
+  for (int round = 1; round < 30; ++round) {
+    EXPECT_GT(path.at(0.5 + 4.0 * round).position_mm.z, 40.0) << "above the nearest surface, round " << round;
+    EXPECT_LT(path.at(2.5 + 4.0 * round).position_mm.z, 0.0) << "below the farthest, round " << round;
+  }
 }
 
 TEST(SimHandPath, ItsOwnPathIsSlowUnbrokenAndInReach) {
