@@ -47,11 +47,11 @@ int finishFiles(const PlayReport& report, AtomicFile* report_file, Recorder* rec
 int play(PlayOptions options) {
   MonotonicClock clock;
   auto display = drivers::makeDisplay(options.display);
-  if (!display) return tell({"--display " + options.display, display.error()});
+  if (!display) return tell(display.error());
   auto haptic = drivers::makeHapticDevice(options.haptic, clock);
-  if (!haptic) return tell({"--haptic " + options.haptic, haptic.error()});
+  if (!haptic) return tell(haptic.error());
   auto remote = drivers::makeRemoteInput(options.remote, clock);
-  if (!remote) return tell({"--remote " + options.remote, remote.error()});
+  if (!remote) return tell(remote.error());
 
   // What cannot be written is found out before the film begins.
   std::optional<AtomicFile> report_file;

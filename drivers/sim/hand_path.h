@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "platform/error.h"
+#include "platform/failure.h"
 #include "platform/realtime.h"
 
 namespace relievo {
@@ -38,10 +38,10 @@ class HandPath {
   explicit HandPath(std::vector<Row> rows) : rows_(std::move(rows)) {}
 
   // CSV in the device frame: the line `t_s,x_mm,y_mm,z_mm`, then one row a line. InvalidArgument otherwise,
-  // and a log line names the script's line.
-  [[nodiscard]] static Result<HandPath> parse(std::string_view csv, std::string_view script_name);
+  // and the failure names the script's line.
+  [[nodiscard]] static Outcome<HandPath> parse(std::string_view csv, const std::string& script_name);
   // NotFound when the file cannot be read.
-  [[nodiscard]] static Result<HandPath> load(const std::string& path);
+  [[nodiscard]] static Outcome<HandPath> load(const std::string& path);
 
   [[nodiscard]] HandPoint at(double t_s) const RELIEVO_RT;
 
