@@ -44,10 +44,10 @@ std::unexpected<Failure> unknown(const char* option, std::string_view name, cons
 }  // namespace
 
 Outcome<std::unique_ptr<Display>> makeDisplay(std::string_view text) {
-  static MonotonicClock clock;  // has no state: the mock sleeps by it
+  static MonotonicClock clock;  // has no state
   const Spec spec(text);
-  if (spec.plain("offscreen")) return makeOffscreenDisplay("");
-  if (spec.withArgument("offscreen")) return makeOffscreenDisplay(*spec.argument);
+  if (spec.plain("offscreen")) return makeOffscreenDisplay("", clock);
+  if (spec.withArgument("offscreen")) return makeOffscreenDisplay(*spec.argument, clock);
   if (spec.plain("mock")) return makeMockDisplay(MockDisplayProfile{}, clock);
   return unknown("--display", text, "no such display; it is one of: " RELIEVO_DISPLAY_NAMES);
 }
