@@ -37,18 +37,22 @@ struct Spec {
   }
 };
 
-}  // namespace
-
-Result<std::unique_ptr<Display>> makeDisplay(std::string_view text) {
-  static MonotonicClock clock;  // has no state: the mock sleeps by it
-  const Spec spec(text);
-  if (spec.plain("offscreen")) return makeOffscreenDisplay("");
-  if (spec.withArgument("offscreen")) return makeOffscreenDisplay(*spec.argument);
-  if (spec.plain("mock")) return makeMockDisplay(MockDisplayProfile{}, clock);
-  return fail(ErrorCode::InvalidArgument, "no such display; it is one of: " RELIEVO_DISPLAY_NAMES);
+std::unexpected<Failure> unknown(const char* option, std::string_view name, const char* message) {
+  return failOn(option + (" " + std::string(name)), {ErrorCode::InvalidArgument, 0, message});
 }
 
-Result<std::unique_ptr<HapticDevice>> makeHapticDevice(std::string_view text, Clock& clock) {
+}  // namespace
+
+Outcome<std::unique_ptr<Display>> makeDisplay(std::string_view text) {
+  static MonotonicClock clock;  // has no state
+  const Spec spec(text);
+  if (spec.plain("offscreen")) return makeOffscreenDisplay("", clock);
+  if (spec.withArgument("offscreen")) return makeOffscreenDisplay(*spec.argument, clock);
+  if (spec.plain("mock")) return makeMockDisplay(MockDisplayProfile{}, clock);
+  return unknown("--display", text, "no such display; it is one of: " RELIEVO_DISPLAY_NAMES);
+}
+
+Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(std::string_view text, Clock& clock) {
   const Spec spec(text);
   if (spec.plain("sim")) return makeSimHaptic(SimDeviceProfile{}, HandPath(), clock);
   if (spec.withArgument("sim")) {
@@ -58,10 +62,10 @@ Result<std::unique_ptr<HapticDevice>> makeHapticDevice(std::string_view text, Cl
   }
   if (spec.plain("mock")) return makeMockHaptic(MockHapticProfile{}, clock);
   if (spec.plain("none")) return nullptr;
-  return fail(ErrorCode::InvalidArgument, "no such haptic device; it is one of: " RELIEVO_HAPTIC_NAMES);
+  return unknown("--haptic", text, "no such haptic device; it is one of: " RELIEVO_HAPTIC_NAMES);
 }
 
-Result<std::unique_ptr<RemoteInput>> makeRemoteInput(std::string_view text, Clock& clock) {
+Outcome<std::unique_ptr<RemoteInput>> makeRemoteInput(std::string_view text, Clock& clock) {
   const Spec spec(text);
   if (spec.withArgument("script")) {
     auto keys = loadKeyScript(*spec.argument);
@@ -69,7 +73,7 @@ Result<std::unique_ptr<RemoteInput>> makeRemoteInput(std::string_view text, Cloc
     return makeScriptedRemote(std::move(*keys), clock);
   }
   if (spec.plain("none")) return nullptr;
-  return fail(ErrorCode::InvalidArgument, "no such remote; it is one of: " RELIEVO_REMOTE_NAMES);
+  return unknown("--remote", text, "no such remote; it is one of: " RELIEVO_REMOTE_NAMES);
 }
 
 std::unique_ptr<MediaSource> makeMediaSource(std::string_view /*url*/) {

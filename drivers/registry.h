@@ -12,7 +12,7 @@
 #include "hal/remote_input.h"
 #include "hal/video_decoder.h"
 #include "platform/clock.h"
-#include "platform/error.h"
+#include "platform/failure.h"
 
 namespace relievo::drivers {
 
@@ -21,11 +21,12 @@ extern const char* const kDisplayNames;
 extern const char* const kHapticNames;
 extern const char* const kRemoteNames;
 
-// A null pointer means "none". InvalidArgument for a name that is not known; NotFound for a script that is not there.
+// A null pointer means "none". The failure names the option when its word is not known (InvalidArgument), the script
+// when that is not there (NotFound), or its line when that is wrong (InvalidArgument).
 // `clock` must outlive what is made.
-[[nodiscard]] Result<std::unique_ptr<Display>> makeDisplay(std::string_view spec);
-[[nodiscard]] Result<std::unique_ptr<HapticDevice>> makeHapticDevice(std::string_view spec, Clock& clock);
-[[nodiscard]] Result<std::unique_ptr<RemoteInput>> makeRemoteInput(std::string_view spec, Clock& clock);
+[[nodiscard]] Outcome<std::unique_ptr<Display>> makeDisplay(std::string_view spec);
+[[nodiscard]] Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(std::string_view spec, Clock& clock);
+[[nodiscard]] Outcome<std::unique_ptr<RemoteInput>> makeRemoteInput(std::string_view spec, Clock& clock);
 [[nodiscard]] std::unique_ptr<MediaSource> makeMediaSource(std::string_view url);
 [[nodiscard]] std::unique_ptr<VideoDecoder> makeVideoDecoder();
 

@@ -15,7 +15,6 @@
 namespace relievo {
 namespace {
 
-constexpr const char* kCannotCreate = "cannot be written; check that the folder exists and may be written to";
 constexpr const char* kCannotWrite = "could not be written to the end; is the disk full?";
 
 // mkstemp makes files for the owner alone; a report is as public as any other file.
@@ -23,6 +22,14 @@ mode_t ordinaryMode() noexcept {
   const mode_t mask = ::umask(0);
   ::umask(mask);
   return 0666 & ~mask;
+}
+
+std::unexpected<Error> cannotCreate(int os_error) noexcept {
+  if (os_error == ENOENT) return fail(ErrorCode::NotFound, "its folder is not there; make it first", os_error);
+  if (os_error == EACCES || os_error == EROFS) {
+    return fail(ErrorCode::PermissionDenied, "no right to write there; choose another folder", os_error);
+  }
+  return fail(ErrorCode::Io, "no file can be made there; choose another folder", os_error);
 }
 
 }  // namespace
@@ -66,10 +73,10 @@ Result<AtomicFile> AtomicFile::create(const std::string& path) {
     fd.reset(::mkostemp(made.temporary_.data(), O_CLOEXEC));
     if (!fd.valid()) made.temporary_.clear();
   }
-  if (!fd.valid()) return fail(ErrorCode::Io, kCannotCreate, errno);
+  if (!fd.valid()) return cannotCreate(errno);
   if (!made.temporary_.empty()) ::fchmod(fd.get(), exists ? status.st_mode & 0777 : ordinaryMode());
   made.file_ = ::fdopen(fd.get(), "w");
-  if (made.file_ == nullptr) return fail(ErrorCode::Exhausted, kCannotCreate, errno);
+  if (made.file_ == nullptr) return cannotCreate(errno);
   static_cast<void>(fd.release());
   return made;
 }

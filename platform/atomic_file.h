@@ -27,6 +27,9 @@ class AtomicFile {
   [[nodiscard]] Result<void> commit();
 
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
+  // Where it lies until the commit, for a library that writes files by their names instead of through `write`; it has
+  // closed the file before the commit.
+  [[nodiscard]] const std::string& writtenPath() const noexcept { return temporary_.empty() ? target_ : temporary_; }
 
  private:
   void discard() noexcept;

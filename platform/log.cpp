@@ -17,6 +17,7 @@ namespace {
 constexpr std::size_t kLineBytes = 1024;  // below PIPE_BUF: a pipe takes it whole or not at all
 
 std::atomic<LogLevel> maximum{LogLevel::Info};
+std::atomic<const char*> program{"relievo"};
 
 bool printed(LogLevel level) noexcept {
   return level <= maximum.load(std::memory_order_relaxed);
@@ -50,12 +51,17 @@ void setLogLevel(LogLevel level) noexcept {
   maximum.store(level, std::memory_order_relaxed);
 }
 
+void setLogProgram(const char* name) noexcept {
+  program.store(name, std::memory_order_relaxed);
+}
+
 void log(LogLevel level, const char* area, const char* format, ...) noexcept {
   if (!printed(level)) return;
   const int kept_errno = errno;  // a line is often printed between a failure and its report
   char line[kLineBytes];
   constexpr std::size_t kRoom = sizeof line - 1;  // the last byte is the newline's
-  std::size_t length = filled(std::snprintf(line, kRoom, "relievo: %s: ", area), kRoom);
+  const char* const name = program.load(std::memory_order_relaxed);
+  std::size_t length = filled(std::snprintf(line, kRoom, "%s: %s: ", name, area), kRoom);
   va_list arguments;
   va_start(arguments, format);
   length += filled(std::vsnprintf(line + length, kRoom - length, format, arguments), kRoom - length);

@@ -16,7 +16,10 @@ enum class LogLevel : std::uint8_t { Error, Warning, Info, Debug };
 // Lines above this level are not printed; Info at start. Thread-safe.
 void setLogLevel(LogLevel level) noexcept;
 
-// Prints one line "relievo: area: text". Thread-safe, not real-time safe.
+// What each line begins with: a string literal; "relievo" at start. Thread-safe.
+void setLogProgram(const char* name) noexcept;
+
+// Prints one line "PROGRAM: area: text". Thread-safe, not real-time safe.
 [[gnu::format(printf, 3, 4)]] void log(LogLevel level, const char* area, const char* format, ...) noexcept;
 
 // One record from the real-time side: a string literal and up to two numbers, no formatting there. It is printed as

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "app/author/depth_coder.h"
-#include "app/author/failure.h"
 #include "app/author/film_writer.h"
 #include "app/author/sample_scene.h"
 #include "app/media/pair_reader.h"
+#include "platform/failure.h"
 
 namespace relievo {
 
@@ -45,10 +45,10 @@ using ProgressReport = std::function<void(std::uint64_t done, std::optional<std:
 // The film's pictures keep their times. A depth picture is written once, at its own time, however many pictures of the
 // colour it belongs to. Colour of an odd width or height loses its last column or row, and the depth as much of its own
 // as keeps the two in register.
-[[nodiscard]] AuthorResult<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader::Backends& backends,
-                                                     const OutputOptions& output, const std::atomic<bool>& stop,
-                                                     const ProgressReport& progress);
-[[nodiscard]] AuthorResult<AuthorSummary> authorSample(const SampleOptions& sample, const OutputOptions& output,
-                                                       const std::atomic<bool>& stop, const ProgressReport& progress);
+[[nodiscard]] Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader::Backends& backends,
+                                                const OutputOptions& output, const std::atomic<bool>& stop,
+                                                const ProgressReport& progress);
+[[nodiscard]] Outcome<AuthorSummary> authorSample(const SampleOptions& sample, const OutputOptions& output,
+                                                  const std::atomic<bool>& stop, const ProgressReport& progress);
 
 }  // namespace relievo

@@ -65,19 +65,12 @@ class Packager {
  public:
   Packager(PairReader& reader, const OutputOptions& output) : reader_(reader), output_(output) {}
 
-  Result<void> begin(const FramePair& pair);
-  Result<void> write(const FramePair& pair);
-  AuthorResult<AuthorSummary> finish();
+  Outcome<void> begin(const FramePair& pair);
+  Outcome<void> write(const FramePair& pair);
+  Outcome<AuthorSummary> finish();
   [[nodiscard]] bool begun() const { return writer_ != nullptr; }
-  // What `write` failed on.
-  [[nodiscard]] const std::string& failedThing() const { return failed_thing_; }
 
  private:
-  std::unexpected<Error> failOn(const std::string& thing, const Error& error) {
-    failed_thing_ = thing;
-    return std::unexpected(error);
-  }
-
   PairReader& reader_;
   const OutputOptions& output_;
   std::unique_ptr<FilmWriter> writer_;
@@ -88,10 +81,9 @@ class Packager {
   std::optional<MediaTime> last_depth_;
   ColorPicture420 color_;
   DepthPicture depth_;
-  std::string failed_thing_;
 };
 
-Result<void> Packager::begin(const FramePair& pair) {
+Outcome<void> Packager::begin(const FramePair& pair) {
   const FilmInfo& info = reader_.info();
   Frame whole_depth;  // its size alone; the first pair may lie before the depth begins
   whole_depth.width = info.depth_width;
@@ -118,7 +110,7 @@ Result<void> Packager::begin(const FramePair& pair) {
   return {};
 }
 
-Result<void> Packager::write(const FramePair& pair) {
+Outcome<void> Packager::write(const FramePair& pair) {
   const Frame color = crop(pair.color, 0, 0, pair.color.width - cut_.color_cols, pair.color.height - cut_.color_rows);
   if (color.width != format_.color_width || color.height != format_.color_height) {
     return failOn("colour", {ErrorCode::Unsupported, 0, "its pictures change their size; cut the film there"});
@@ -141,9 +133,9 @@ Result<void> Packager::write(const FramePair& pair) {
   return {};
 }
 
-AuthorResult<AuthorSummary> Packager::finish() {
+Outcome<AuthorSummary> Packager::finish() {
   const auto totals = writer_->finish();
-  if (!totals) return authorFail(output_.path, totals.error());
+  if (!totals) return failOn(output_.path, totals.error());
   AuthorSummary summary{format_, *totals, format_.frame_period, coder_.counts(), coder_.explain()};
   if (coder_.outcome().invalid_code && format_.depth_crf > 0) {
     summary.notes.emplace_back("coding moves the edges of holes by a sample here and there; --depth-crf 0 keeps them");
@@ -166,30 +158,30 @@ std::optional<std::uint64_t> expectedFrames(const FilmInfo& info) {
 
 }  // namespace
 
-AuthorResult<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader::Backends& backends,
-                                       const OutputOptions& output, const std::atomic<bool>& stop,
-                                       const ProgressReport& progress) {
-  if (auto ready = checkOutput(output); !ready) return authorFail(output.path, ready.error());
+Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader::Backends& backends,
+                                  const OutputOptions& output, const std::atomic<bool>& stop,
+                                  const ProgressReport& progress) {
+  if (auto ready = checkOutput(output); !ready) return failOn(output.path, ready.error());
   PairReader reader(backends);
   const StopWatch watch(reader, stop);
   const auto failed = [&](const std::string& thing, const Error& error) {
-    if (stop.load(std::memory_order_relaxed)) return authorFail(output.path, kCancelled);
-    return authorFail(thing, error);
+    if (stop.load(std::memory_order_relaxed)) return failOn(output.path, kCancelled);
+    return failOn(thing, error);
   };
   if (auto opened = reader.open(source); !opened) return failed(reader.failedThing(), opened.error());
   if (!reader.info().has_depth) {
-    return authorFail(source.url, {ErrorCode::NotFound, 0, "there is no depth in it; name its source with --depth"});
+    return failOn(source.url, {ErrorCode::NotFound, 0, "there is no depth in it; name its source with --depth"});
   }
   Packager packager(reader, output);
   for (std::uint64_t done = 1;; ++done) {
     auto pair = reader.next();
-    if (stop.load(std::memory_order_relaxed)) return authorFail(output.path, kCancelled);
+    if (stop.load(std::memory_order_relaxed)) return failOn(output.path, kCancelled);
     if (!pair) return failed(reader.failedThing(), pair.error());
     if (!*pair) break;
     if (!packager.begun()) {
-      if (auto begun = packager.begin(**pair); !begun) return failed(packager.failedThing(), begun.error());
+      if (auto begun = packager.begin(**pair); !begun) return failed(begun.error().thing, begun.error().error);
     }
-    if (auto written = packager.write(**pair); !written) return failed(packager.failedThing(), written.error());
+    if (auto written = packager.write(**pair); !written) return failed(written.error().thing, written.error().error);
     progress(done, expectedFrames(reader.info()));
   }
   return packager.finish();

@@ -36,14 +36,14 @@ FilmFormat formatOf(const SampleOptions& sample, const OutputOptions& output) {
 
 }  // namespace
 
-AuthorResult<AuthorSummary> authorSample(const SampleOptions& sample, const OutputOptions& output,
-                                         const std::atomic<bool>& stop, const ProgressReport& progress) {
-  if (auto ready = checkOutput(output); !ready) return authorFail(output.path, ready.error());
+Outcome<AuthorSummary> authorSample(const SampleOptions& sample, const OutputOptions& output,
+                                    const std::atomic<bool>& stop, const ProgressReport& progress) {
+  if (auto ready = checkOutput(output); !ready) return failOn(output.path, ready.error());
   AuthorSummary summary;
   summary.format = formatOf(sample, output);
   summary.frame_period = summary.format.frame_period;
   auto writer = FilmWriter::create(output.path, summary.format);
-  if (!writer) return authorFail(output.path, writer.error());
+  if (!writer) return failOn(output.path, writer.error());
 
   SamplePicture picture{.cols = sample.cols, .rows = sample.rows, .rgb = {}, .depth = {}};
   ColorPicture420 color;
@@ -51,22 +51,22 @@ AuthorResult<AuthorSummary> authorSample(const SampleOptions& sample, const Outp
   KeyFrames key_frames;
   for (int k = 0; k < sample.frames; ++k) {
     if (stop.load(std::memory_order_relaxed)) {
-      return authorFail(output.path, {ErrorCode::Cancelled, 0, "interrupted; nothing was written"});
+      return failOn(output.path, {ErrorCode::Cancelled, 0, "interrupted; nothing was written"});
     }
     const double t_s = k / static_cast<double>(SampleFilm::kFramesPerSecond);
     renderSample(t_s, sample.threads, picture);
-    if (auto made = toColor420(rgbFrame(picture), color); !made) return authorFail(output.path, made.error());
+    if (auto made = toColor420(rgbFrame(picture), color); !made) return failOn(output.path, made.error());
     depth = {sample.cols, sample.rows, picture.depth};
     const bool key = key_frames.isDue(mediaTime(t_s), true);
     auto written = (*writer)->writeColor(color, mediaTime(t_s), key);
     if (written) written = (*writer)->writeDepth(depth, mediaTime(t_s), key);
-    if (!written) return authorFail(output.path, written.error());
+    if (!written) return failOn(output.path, written.error());
     for (const std::uint8_t code : picture.depth) ++summary.codes.of_code[code];
     summary.codes.samples += picture.depth.size();
     progress(static_cast<std::uint64_t>(k) + 1, static_cast<std::uint64_t>(sample.frames));
   }
   const auto totals = (*writer)->finish();
-  if (!totals) return authorFail(output.path, totals.error());
+  if (!totals) return failOn(output.path, totals.error());
   summary.totals = *totals;
   return summary;
 }

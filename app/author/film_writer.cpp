@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The file around the two tracks: its kind, its tags, its temporary name.
+// The file around the two tracks: its kind, its tags, its place.
 #include "app/author/film_writer.h"
-
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
-#include <cstdlib>
 #include <filesystem>
 #include <utility>
 
@@ -18,7 +13,7 @@ extern "C" {
 }
 
 #include "app/author/h264_track.h"
-#include "platform/unique_fd.h"
+#include "platform/atomic_file.h"
 
 namespace relievo {
 namespace {
@@ -35,12 +30,6 @@ const char* formatOf(const std::string& path) {
   return nullptr;
 }
 
-mode_t ordinaryMode() {
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  return 0666 & ~mask;
-}
-
 void setTag(AVDictionary** tags, const std::string& key, const std::string& value) {
   av_dict_set(tags, key.c_str(), value.c_str(), 0);
 }
@@ -53,34 +42,17 @@ struct FilmWriter::Impl {
       if (file->pb != nullptr) avio_closep(&file->pb);
       avformat_free_context(file);
     }
-    if (!temporary.empty()) ::unlink(temporary.c_str());
   }
 
-  Result<void> makeTemporary();
   Result<void> openTracks(const FilmFormat& format);
   void tagTracks(const FilmFormat& format, bool matroska);
   Result<void> begin(const FilmFormat& format);
 
-  std::string target, temporary;
+  std::string target;
+  AtomicFile place;  // FFmpeg writes there by its name
   AVFormatContext* file = nullptr;
   H264Track color, depth;
 };
-
-Result<void> FilmWriter::Impl::makeTemporary() {
-  std::string name = target + ".XXXXXX";
-  const UniqueFd fd(::mkostemp(name.data(), O_CLOEXEC));
-  if (!fd.valid()) {
-    const int number = errno;
-    if (number == ENOENT) return fail(ErrorCode::NotFound, "its folder is not there; make it first", number);
-    if (number == EACCES || number == EROFS) {
-      return fail(ErrorCode::PermissionDenied, "no right to write there; choose another folder", number);
-    }
-    return fail(ErrorCode::Io, "no file can be made there", number);
-  }
-  temporary = name;
-  ::fchmod(fd.get(), ordinaryMode());
-  return {};
-}
 
 Result<void> FilmWriter::Impl::openTracks(const FilmFormat& format) {
   auto opened = color.open(file, {.width = format.color_width,
@@ -118,8 +90,10 @@ void FilmWriter::Impl::tagTracks(const FilmFormat& format, bool matroska) {
 Result<void> FilmWriter::Impl::begin(const FilmFormat& format) {
   const char* const kind = formatOf(target);
   if (kind == nullptr) return fail(ErrorCode::InvalidArgument, "unknown ending; name it .mkv, .mp4, .m4v or .mov");
-  if (auto made = makeTemporary(); !made) return made;
-  const std::string url = "file:" + temporary;  // the name may hold a colon
+  auto made = AtomicFile::create(target);
+  if (!made) return std::unexpected(made.error());
+  place = std::move(*made);
+  const std::string url = "file:" + place.writtenPath();  // the name may hold a colon
   if (avformat_alloc_output_context2(&file, nullptr, kind, url.c_str()) < 0) {
     return fail(ErrorCode::Exhausted, "out of memory for a film", ENOMEM);
   }
@@ -169,15 +143,10 @@ Result<FilmTotals> FilmWriter::finish() {
   if (code >= 0) code = closed;
   if (code < 0) return fail(ErrorCode::Io, kCannotWrite, osErrorOf(code));
 
-  // On the disk before it has its name, so that a power cut leaves the whole film or none.
-  const UniqueFd fd(::open(film.temporary.c_str(), O_RDONLY | O_CLOEXEC));
-  struct stat status{};
-  if (!fd.valid() || ::fsync(fd.get()) != 0 || ::fstat(fd.get(), &status) != 0 ||
-      ::rename(film.temporary.c_str(), film.target.c_str()) != 0) {
-    return fail(ErrorCode::Io, kCannotWrite, errno);
-  }
-  film.temporary.clear();
-  return FilmTotals{film.color.totals(), film.depth.totals(), static_cast<std::uint64_t>(status.st_size)};
+  std::error_code unknown;
+  const std::uintmax_t bytes = std::filesystem::file_size(film.place.writtenPath(), unknown);
+  if (auto committed = film.place.commit(); !committed) return std::unexpected(committed.error());
+  return FilmTotals{film.color.totals(), film.depth.totals(), unknown ? 0 : bytes};
 }
 
 }  // namespace relievo

@@ -6,23 +6,18 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
-#include <cstring>
-#include <exception>
-#include <fstream>
-#include <iterator>
-#include <map>
 #include <string>
 #include <thread>
 
 #include "app/author/author.h"
 #include "app/author/output.h"
+#include "app/cli/options.h"
+#include "app/cli/program.h"
 #include "drivers/registry.h"
 #include "platform/clock.h"
 
 namespace relievo {
 namespace {
-
-constexpr int kDone = 0, kFailed = 1, kWrongUse = 2;
 
 std::atomic<bool> stop_wanted{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
@@ -32,12 +27,6 @@ void stopOnSignals() {
   action.sa_handler = [](int) { stop_wanted.store(true, std::memory_order_relaxed); };
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::sigaction(number, &action, nullptr);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of the write, told like any other
-}
-
-int complain(const std::string& thing, const Error& error) {
-  const std::string why = error.os_error != 0 ? std::string(" (") + std::strerror(error.os_error) + ")" : "";
-  std::fprintf(stderr, "relievo-author: %s: %s%s\n", thing.c_str(), error.message, why.c_str());
-  return error.code == ErrorCode::InvalidArgument ? kWrongUse : kFailed;
 }
 
 // One line that is written over, on a terminal alone.
@@ -66,7 +55,7 @@ class ProgressLine {
 struct Arguments {
   SourceOptions source;
   OutputOptions output;
-  std::string calibration, scene;
+  std::string scene;
   int crf = -1, depth_crf = -1;
 };
 
@@ -82,38 +71,21 @@ void addOptions(CLI::App& app, Arguments& a) {
       "picture at\n"
       "the time it had. The depth's meaning is written in its tags. At the end a table says what was done to the "
       "depth.");
-  app.add_option("--color", a.source.url, "colour: a file or a URL; without --depth it holds the depth as well")
+  app.add_option("--color", a.source.url, "Colour: a file or a URL; without --depth it holds the depth as well")
       ->type_name("SRC");
-  app.add_option("--depth", a.source.depth_url, "depth of 8 to 16 bits: a file or a URL")->type_name("SRC");
-  app.add_option("-o,--output", a.output.path, "the film to write: .mkv, .mp4, .m4v or .mov")
+  app.add_option("--depth", a.source.depth_url, "Depth of 8 to 16 bits: a file or a URL")->type_name("SRC");
+  app.add_option("-o,--output", a.output.path, "The film to write: .mkv, .mp4, .m4v or .mov")
       ->required()
       ->type_name("OUT");
-  app.add_option("--depth-code", a.source.depth_code, "what carries the depth: luma (default) or hue")
-      ->type_name("luma|hue")
-      ->transform(
-          CLI::CheckedTransformer(std::map<std::string, DepthCode>{{"luma", DepthCode::Luma}, {"hue", DepthCode::Hue}})
-              .description(""));
-  app.add_option("--packing", a.source.packing,
-                 "where the depth lies: auto (default), tracks, sbs (right half of the picture), tb (lower half)")
-      ->type_name("auto|tracks|sbs|tb")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, Packing>{{"auto", Packing::Auto},
-                                                                         {"tracks", Packing::Tracks},
-                                                                         {"sbs", Packing::SideBySide},
-                                                                         {"tb", Packing::TopBottom}})
-                      .description(""));
-  app.add_option(
-         "--calibration", a.calibration,
-         "what a depth code means, if the source does not say it: law=linear|inverse polarity=near-high|near-low "
-         "range=full|limited bits=8..16 invalid=CODE|none near=MM far=MM")
-      ->type_name("FILE|KEY=VALUE,..");
-  app.add_option("--crf", a.crf, "quality of both tracks, 0 (lossless) to 51 (default: 18 for colour, 8 for depth)")
+  addDepthOptions(app, a.source);
+  app.add_option("--crf", a.crf, "Quality of both tracks, 0 (lossless) to 51 [18 for colour, 8 for depth]")
       ->type_name("N")
       ->check(CLI::Range(0, 51).description(""));
   app.add_option("--depth-crf", a.depth_crf,
-                 "quality of the depth alone; 0 keeps every code, where hardware can decode it")
+                 "Quality of the depth alone; 0 keeps every code, where hardware can decode it")
       ->type_name("N")
       ->check(CLI::Range(0, 51).description(""));
-  app.add_option("--scene", a.scene, "make a film of the project's own instead, with its exact depth: sample")
+  app.add_option("--scene", a.scene, "Make a film of the project's own instead, with its exact depth: sample")
       ->type_name("NAME")
       ->check(CLI::IsMember({"sample"}).description(""))
       ->excludes("--color")
@@ -121,33 +93,19 @@ void addOptions(CLI::App& app, Arguments& a) {
       ->excludes("--packing")
       ->excludes("--depth-code")
       ->excludes("--calibration");
-  app.add_flag("--force", a.output.force, "replace OUT if it is there");
-}
-
-Result<void> readCalibration(Arguments& a) {
-  if (a.calibration.empty()) return {};
-  std::ifstream file(a.calibration);
-  const bool from_file = a.calibration.find('=') == std::string::npos;
-  if (from_file && !file.good())
-    return fail(ErrorCode::NotFound, "no such file; name one, or write KEY=VALUE,KEY=VALUE,..");
-  const std::string text = from_file ? std::string(std::istreambuf_iterator<char>(file), {}) : a.calibration;
-  auto settings = parseCalibration(text);
-  if (!settings) return std::unexpected(settings.error());
-  (from_file ? a.source.side_file : a.source.command_line) = std::move(*settings);
-  return {};
+  app.add_flag("--force", a.output.force, "Replace OUT if it is there");
 }
 
 int run(Arguments& a) {
   if (a.scene.empty() && a.source.url.empty()) {
-    return complain("--color",
-                    {ErrorCode::InvalidArgument, 0, "missing: name the film's colour, or take --scene sample"});
+    return tell(
+        {"--color", {ErrorCode::InvalidArgument, 0, "missing; name the film's colour, or take --scene sample"}});
   }
-  if (auto read = readCalibration(a); !read) return complain("--calibration " + a.calibration, read.error());
   if (a.crf >= 0) a.output.color_crf = a.output.depth_crf = a.crf;
   if (a.depth_crf >= 0) a.output.depth_crf = a.depth_crf;
 
   stopOnSignals();
-  AuthorResult<AuthorSummary> summary;
+  Outcome<AuthorSummary> summary;
   {
     ProgressLine line;
     const auto progress = [&line](std::uint64_t done, std::optional<std::uint64_t> total) { line.show(done, total); };
@@ -160,23 +118,16 @@ int run(Arguments& a) {
       summary = authorSample({.threads = threads}, a.output, stop_wanted, progress);
     }
   }
-  if (!summary) return complain(summary.error().thing, summary.error().error);
+  if (!summary) return tell(summary.error());
   std::fputs(toText(a.output.path, *summary).c_str(), stdout);
-  return kDone;
+  return kExitDone;
 }
 
 int parseAndRun(int argc, char** argv) {
   CLI::App app("Brings colour and depth together in one film that can be touched.", "relievo-author");
   Arguments arguments;
   addOptions(app, arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& help) {
-    return app.exit(help);
-  } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "relievo-author: %s; see --help\n", error.what());
-    return kWrongUse;
-  }
+  if (const auto parsed = parseCommandLine(app, argc, argv); !parsed) return parsed.error();
   return run(arguments);
 }
 
@@ -184,10 +135,5 @@ int parseAndRun(int argc, char** argv) {
 }  // namespace relievo
 
 int main(int argc, char** argv) {
-  try {
-    return relievo::parseAndRun(argc, argv);
-  } catch (const std::exception& error) {  // out of memory, out of threads
-    std::fprintf(stderr, "relievo-author: %s; close other programs and try again\n", error.what());
-    return relievo::kFailed;
-  }
+  return relievo::runProgram("relievo-author", [&] { return relievo::parseAndRun(argc, argv); });
 }

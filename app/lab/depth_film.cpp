@@ -36,9 +36,9 @@ DepthFilm::DepthFilm(PairReader::Backends backends, DepthFilmOptions options)
     : options_(std::move(options)), tracks_(std::make_unique<Tracks>(backends)) {}
 DepthFilm::~DepthFilm() = default;
 
-LabResult<void> DepthFilm::open() {
+Outcome<void> DepthFilm::open() {
   const SourceOptions& source = options_.source;
-  if (const auto opened = tracks_->single.open(source.url); !opened) return labFail(source.url, opened.error());
+  if (const auto opened = tracks_->single.open(source.url); !opened) return failOn(source.url, opened.error());
   const auto& streams = tracks_->single.source().streams();
   const bool tagged = tracks_->single.source().tags().contains(kPackingTag);
   tracks_->paired = countVideo(streams) > 1 || source.packing != Packing::Auto || tagged;
@@ -46,23 +46,24 @@ LabResult<void> DepthFilm::open() {
   CalibrationLayers layers{source.command_line, source.side_file, {}};
   if (tracks_->paired) {
     if (const auto opened = tracks_->pairs.open(source); !opened) {
-      return labFail(tracks_->pairs.failedThing(), opened.error());
+      return failOn(tracks_->pairs.failedThing(), opened.error());
     }
-    if (!tracks_->pairs.info().has_depth) return labFail(source.url, "no depth in this source; check --packing");
+    if (!tracks_->pairs.info().has_depth)
+      return failOn(source.url, {ErrorCode::NotFound, 0, "no depth in this source; check --packing"});
   } else {
     const auto video =
         std::find_if(streams.begin(), streams.end(), [](const StreamInfo& s) { return s.kind == StreamKind::Video; });
-    if (video == streams.end()) return labFail(source.url, "no video in this source");
+    if (video == streams.end()) return failOn(source.url, {ErrorCode::NotFound, 0, "no video in this source"});
     layers.tags = calibrationFromTags(tracks_->single.source().tags());
     layers.tags.merge(calibrationFromTags(video->tags));
     const auto selected = tracks_->single.select(*video);
-    if (!selected) return labFail(source.url, selected.error());
+    if (!selected) return failOn(source.url, selected.error());
     tracks_->track = *selected;
   }
 
   auto first = nextFrame();
-  if (!first) return labFail(source.url, first.error());
-  if (!*first) return labFail(source.url, "no picture in this source");
+  if (!first) return failOn(source.url, first.error());
+  if (!*first) return failOn(source.url, {ErrorCode::NotFound, 0, "no picture in this source"});
   tracks_->first = std::move(*first);
   const Frame& frame = *tracks_->first;
   volume_ = options_.volume.value_or(DisplayVolume::forPicture(frame.width, frame.height, frame.sample_aspect));
@@ -71,7 +72,7 @@ LabResult<void> DepthFilm::open() {
     return {};
   }
   const auto choice = chooseCalibration(layers, frame, source.depth_code);
-  if (!choice) return labFail(source.url, choice.error());
+  if (!choice) return failOn(source.url, choice.error());
   calibration_ = choice->calibration;
   return {};
 }
@@ -89,8 +90,8 @@ Result<std::optional<Frame>> DepthFilm::nextFrame() {
   }
 }
 
-LabResult<bool> DepthFilm::append() {
-  const auto fail_here = [&](const Error& error) { return labFail(options_.source.url, error); };
+Outcome<bool> DepthFilm::append() {
+  const auto fail_here = [&](const Error& error) { return failOn(options_.source.url, error); };
   auto frame = nextFrame();
   if (!frame) return fail_here(frame.error());
   if (!*frame) {
@@ -101,7 +102,7 @@ LabResult<bool> DepthFilm::append() {
   if (!field) return fail_here(field.error());
   if (!frames_.empty() &&
       (field->cols() != frames_.back().field.cols() || field->rows() != frames_.back().field.rows())) {
-    return labFail(options_.source.url, "the picture changes its size; cut the film there");
+    return failOn(options_.source.url, {ErrorCode::Unsupported, 0, "the picture changes its size; cut the film there"});
   }
   if (!first_pts_) first_pts_ = (*frame)->pts;
   MediaTime time{(*frame)->pts - *first_pts_};
@@ -112,7 +113,7 @@ LabResult<bool> DepthFilm::append() {
   return true;
 }
 
-LabResult<const SurfaceWindow*> DepthFilm::windowAt(double t_s) {
+Outcome<const SurfaceWindow*> DepthFilm::windowAt(double t_s) {
   const MediaTime now = mediaTime(t_s);
   bool changed = window_.count == 0;
   const auto ahead = [&] {

@@ -9,9 +9,9 @@
 
 #include "app/haptics/shots.h"
 #include "app/haptics/surface_window.h"
-#include "app/lab/failure.h"
 #include "app/media/pair_reader.h"
 #include "app/scene/display_volume.h"
+#include "platform/failure.h"
 
 namespace relievo {
 
@@ -35,7 +35,7 @@ class DepthFilm {
  private:
   struct Tracks;
   [[nodiscard]] Result<std::optional<Frame>> nextFrame();
-  [[nodiscard]] LabResult<bool> append();
+  [[nodiscard]] Outcome<bool> append();
 
   DepthFilmOptions options_;
   std::unique_ptr<Tracks> tracks_;

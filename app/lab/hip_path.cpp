@@ -30,24 +30,26 @@ std::optional<HipTick> parseRow(std::string_view row) {
 
 }  // namespace
 
-LabResult<std::vector<HipTick>> readHipPath(const std::string& path) {
+Outcome<std::vector<HipTick>> readHipPath(const std::string& path) {
   std::ifstream file(path);
-  if (!file) return labFail(path, Error{ErrorCode::NotFound, errno, "cannot be read; check the path"});
+  if (!file) return failOn(path, {ErrorCode::NotFound, errno, "cannot be read; check the path"});
   std::vector<HipTick> ticks;
   std::string line;
   for (std::size_t number = 1; std::getline(file, line); ++number) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     const auto here = [&] { return path + ": line " + std::to_string(number); };
     if (number == 1) {
-      if (line != kHeader) return labFail(here(), "the header must be t_s,x_mm,y_mm,z_mm");
+      if (line != kHeader) return failOn(here(), {ErrorCode::Corrupt, 0, "the header must be t_s,x_mm,y_mm,z_mm"});
       continue;
     }
     const auto tick = parseRow(line);
-    if (!tick) return labFail(here(), "a row is four finite numbers with commas between them");
-    if (!ticks.empty() && tick->t_s < ticks.back().t_s) return labFail(here(), "times must not go back");
+    if (!tick) return failOn(here(), {ErrorCode::Corrupt, 0, "a row is four finite numbers with commas between them"});
+    if (!ticks.empty() && tick->t_s < ticks.back().t_s)
+      return failOn(here(), {ErrorCode::Corrupt, 0, "times must not go back"});
     ticks.push_back(*tick);
   }
-  if (ticks.empty()) return labFail(path, "no row of numbers; the file needs a header and at least one row");
+  if (ticks.empty())
+    return failOn(path, {ErrorCode::Corrupt, 0, "no row of numbers; the file needs a header and at least one row"});
   return ticks;
 }
 

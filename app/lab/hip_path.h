@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/lab/failure.h"
+#include "platform/failure.h"
 
 namespace relievo {
 
@@ -16,6 +16,6 @@ struct HipTick {
 };
 
 // Header "t_s,x_mm,y_mm,z_mm", then four numbers a row, the times ascending. The failure names the line.
-[[nodiscard]] LabResult<std::vector<HipTick>> readHipPath(const std::string& path);
+[[nodiscard]] Outcome<std::vector<HipTick>> readHipPath(const std::string& path);
 
 }  // namespace relievo

@@ -34,19 +34,20 @@ void writeRow(AtomicFile& out, const HipTick& tick, const Touch& touch, const gl
 
 }  // namespace
 
-LabResult<TraceSummary> runTrace(const TraceOptions& options, const PairReader::Backends& backends) {
+Outcome<TraceSummary> runTrace(const TraceOptions& options, const PairReader::Backends& backends) {
   const auto path = readHipPath(options.hip_path);
   if (!path) return std::unexpected(path.error());
   DepthFilm film(backends, options.film);
   if (const auto opened = film.open(); !opened) return std::unexpected(opened.error());
   auto out = AtomicFile::create(options.out_path);
-  if (!out) return labFail(options.out_path, out.error());
+  if (!out) return failOn(options.out_path, out.error());
   out->write(kOutHeader);
 
   const auto method = makeMethod(options.method, {.stiffness_n_per_mm = options.stiffness_n_per_mm,
                                                   .time = options.time,
                                                   .jump_threshold = jumpThreshold(options.guard)});
-  if (method == nullptr) return labFail("--method " + options.method, "unknown method; see --help");
+  if (method == nullptr)
+    return failOn("--method " + options.method, {ErrorCode::InvalidArgument, 0, "unknown method; see --help"});
   SafetyFilter safety({}, options.stiffness_n_per_mm);
   const MonotonicClock clock;
   TraceSummary summary;
@@ -70,7 +71,7 @@ LabResult<TraceSummary> runTrace(const TraceOptions& options, const PairReader::
     summary.max_force_n = std::max(summary.max_force_n, glm::length(force));
     before = &tick;
   }
-  if (const auto committed = out->commit(); !committed) return labFail(options.out_path, committed.error());
+  if (const auto committed = out->commit(); !committed) return failOn(options.out_path, committed.error());
   return summary;
 }
 

@@ -7,7 +7,7 @@
 
 #include "app/haptics/methods.h"
 #include "app/lab/depth_film.h"
-#include "app/lab/failure.h"
+#include "platform/failure.h"
 
 namespace relievo {
 
@@ -35,6 +35,6 @@ struct TraceSummary {
 
 // Writes OUT.csv, whole or not at all: one row per row of the path, columns t_s, hip_x_mm .. hip_z_mm, proxy_x_mm ..
 // proxy_z_mm, force_x_n .. force_z_n, contact, update_ns (the method's `update`, by the monotonic clock).
-[[nodiscard]] LabResult<TraceSummary> runTrace(const TraceOptions& options, const PairReader::Backends& backends);
+[[nodiscard]] Outcome<TraceSummary> runTrace(const TraceOptions& options, const PairReader::Backends& backends);
 
 }  // namespace relievo

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "app/cli/program.h"
 #include "app/player/options.h"
 #include "app/player/player.h"
 #include "app/player/probe.h"
@@ -28,22 +29,17 @@ void stopOnSignals() {
   ::sigaction(SIGTERM, &action, nullptr);
 }
 
-int failed(const std::string& thing, const Error& error) {
-  printFailure(thing, error);
-  return error.code == ErrorCode::InvalidArgument ? kExitWrongUse : kExitFailed;
-}
-
 PairReader::Backends backendsFor(const std::string& url) {
   return {.make_source = [url] { return drivers::makeMediaSource(url); }, .make_decoder = drivers::makeVideoDecoder};
 }
 
 int finishFiles(const PlayReport& report, AtomicFile* report_file, Recorder* recorder) {
   if (recorder != nullptr && report.haptic.ticks > 0) {
-    if (auto finished = recorder->finish(); !finished) return failed(recorder->path(), finished.error());
+    if (auto finished = recorder->finish(); !finished) return tell({recorder->path(), finished.error()});
   }
   if (report_file != nullptr) {
     report_file->write(toJson(report));
-    if (auto written = report_file->commit(); !written) return failed(report_file->path(), written.error());
+    if (auto written = report_file->commit(); !written) return tell({report_file->path(), written.error()});
   }
   return kExitDone;
 }
@@ -51,23 +47,23 @@ int finishFiles(const PlayReport& report, AtomicFile* report_file, Recorder* rec
 int play(PlayOptions options) {
   MonotonicClock clock;
   auto display = drivers::makeDisplay(options.display);
-  if (!display) return failed("--display " + options.display, display.error());
+  if (!display) return tell(display.error());
   auto haptic = drivers::makeHapticDevice(options.haptic, clock);
-  if (!haptic) return failed("--haptic " + options.haptic, haptic.error());
+  if (!haptic) return tell(haptic.error());
   auto remote = drivers::makeRemoteInput(options.remote, clock);
-  if (!remote) return failed("--remote " + options.remote, remote.error());
+  if (!remote) return tell(remote.error());
 
   // What cannot be written is found out before the film begins.
   std::optional<AtomicFile> report_file;
   if (!options.report_path.empty()) {
     auto created = AtomicFile::create(options.report_path);
-    if (!created) return failed(options.report_path, created.error());
+    if (!created) return tell({options.report_path, created.error()});
     report_file = std::move(*created);
   }
   std::optional<Recorder> recorder;
   if (!options.record_path.empty()) {
     auto created = Recorder::create(options.record_path);
-    if (!created) return failed(options.record_path, created.error());
+    if (!created) return tell({options.record_path, created.error()});
     recorder = std::move(*created);
   }
 
@@ -81,33 +77,30 @@ int play(PlayOptions options) {
   const auto played = player.run(stop_wanted);
   const PlayReport report = player.report();
   const int files = finishFiles(report, report_file ? &*report_file : nullptr, recorder ? &*recorder : nullptr);
-  if (!played) {
-    printFailure(played.error().thing, played.error().error);
-    return kExitFailed;
-  }
+  if (!played) return tell(played.error(), kExitFailed);
   if (files == kExitDone) std::fputs(toText(report).c_str(), stdout);
   return files;
 }
 
 int probeSource(const ProbeOptions& options) {
   const auto result = probe(options.source, backendsFor(options.source.url));
-  if (!result) {
-    printFailure(result.error().thing, result.error().error);
-    return kExitFailed;
-  }
+  if (!result) return tell(result.error(), kExitFailed);
   std::fputs((options.json ? probeToJson(*result) : probeToText(*result)).c_str(), stdout);
   return kExitDone;
+}
+
+int parseAndRun(int argc, char** argv) {
+  const auto options = parseOptions(
+      argc, argv,
+      {.display = drivers::kDisplayNames, .haptic = drivers::kHapticNames, .remote = drivers::kRemoteNames});
+  if (!options) return options.error();
+  return options->command == Options::Command::Probe ? probeSource(options->probe) : play(options->play);
 }
 
 }  // namespace
 }  // namespace relievo
 
 int main(int argc, char** argv) {
-  using namespace relievo;
-  stopOnSignals();
-  const auto options = parseOptions(
-      argc, argv,
-      {.display = drivers::kDisplayNames, .haptic = drivers::kHapticNames, .remote = drivers::kRemoteNames});
-  if (!options) return options.error();
-  return options->command == Options::Command::Probe ? probeSource(options->probe) : play(options->play);
+  relievo::stopOnSignals();
+  return relievo::runProgram("relievo", [&] { return relievo::parseAndRun(argc, argv); });
 }

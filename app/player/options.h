@@ -37,15 +37,7 @@ struct DeviceNames {
   const char* remote = "";
 };
 
-// Exit codes of every program of the project.
-inline constexpr int kExitDone = 0;
-inline constexpr int kExitFailed = 1;
-inline constexpr int kExitWrongUse = 2;
-
 // On wrong use, and when help was asked for, it has printed what there is to say and answers the exit code.
 [[nodiscard]] std::expected<Options, int> parseOptions(int argc, const char* const* argv, const DeviceNames& names);
-
-// One line on stderr: "relievo: THING: what was wrong; what to do (the system's word for it)".
-void printFailure(const std::string& thing, const Error& error);
 
 }  // namespace relievo

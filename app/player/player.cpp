@@ -52,7 +52,7 @@ void Player::fail(std::string thing, const Error& error) {
   failure_ = Failure{std::move(thing), error};
 }
 
-std::expected<void, Player::Failure> Player::run(const std::atomic<bool>& stop) {
+Outcome<void> Player::run(const std::atomic<bool>& stop) {
   started_ = parts_.clock.now();
   boot();
   while (alive()) {

@@ -16,6 +16,7 @@
 #include "app/player/state_table.h"
 #include "app/player/surface_feeder.h"
 #include "hal/remote_input.h"
+#include "platform/failure.h"
 
 namespace relievo {
 
@@ -42,17 +43,13 @@ struct PlayerParts {
 // One thread, the display's. Never waits for the film or the finger, only for the display's refresh.
 class Player {
  public:
-  struct Failure {
-    std::string thing;
-    Error error;
-  };
   static constexpr Duration kSeekStep = std::chrono::seconds(10);
 
   Player(PlayerConfig config, PlayerParts parts);
   ~Player();
 
   // Plays until the end, a stop or a failure. `stop` may be set by a signal handler. Once.
-  [[nodiscard]] std::expected<void, Failure> run(const std::atomic<bool>& stop);
+  [[nodiscard]] Outcome<void> run(const std::atomic<bool>& stop);
   // After `run`.
   [[nodiscard]] PlayReport report() const;
 

@@ -17,10 +17,10 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kPairsLookedAt = 8;
 
-std::expected<void, ProbeFailure> listTracks(const std::string& url, const PairReader::Backends& backends,
-                                             std::vector<ProbedTrack>& tracks) {
+Outcome<void> listTracks(const std::string& url, const PairReader::Backends& backends,
+                         std::vector<ProbedTrack>& tracks) {
   const auto source = backends.make_source();
-  if (auto opened = source->open(url); !opened) return std::unexpected(ProbeFailure{url, opened.error()});
+  if (auto opened = source->open(url); !opened) return failOn(url, opened.error());
   for (const StreamInfo& stream : source->streams()) tracks.push_back({url, stream});
   return {};
 }
@@ -50,18 +50,18 @@ struct DepthLook {
   }
 };
 
-std::expected<void, ProbeFailure> lookAtPairs(PairReader& reader, ProbeResult& result) {
+Outcome<void> lookAtPairs(PairReader& reader, ProbeResult& result) {
   const FilmInfo& film = result.film;
   DepthLook look;
   for (int i = 0; i < kPairsLookedAt; ++i) {
     const auto pair = reader.next();
-    if (!pair) return std::unexpected(ProbeFailure{reader.failedThing(), pair.error()});
+    if (!pair) return failOn(reader.failedThing(), pair.error());
     if (!*pair) break;
     const Frame& shape = (*pair)->depth.empty() ? (*pair)->color : (*pair)->depth;
     if (i == 0) result.volume = DisplayVolume::forPicture(shape.width, shape.height, shape.sample_aspect);
     if ((*pair)->depth.empty()) continue;
     const auto field = HeightField::make((*pair)->depth, film.calibration.calibration, result.volume);
-    if (!field) return std::unexpected(ProbeFailure{"depth", field.error()});
+    if (!field) return failOn("depth", field.error());
     look.add(*field);
     ++look.use.pairs;
   }
@@ -112,7 +112,7 @@ std::string describe(const StreamInfo& s) {
 
 }  // namespace
 
-std::expected<ProbeResult, ProbeFailure> probe(const SourceOptions& options, const PairReader::Backends& backends) {
+Outcome<ProbeResult> probe(const SourceOptions& options, const PairReader::Backends& backends) {
   ProbeResult result;
   if (auto listed = listTracks(options.url, backends, result.tracks); !listed) return std::unexpected(listed.error());
   if (!options.depth_url.empty()) {
@@ -122,8 +122,7 @@ std::expected<ProbeResult, ProbeFailure> probe(const SourceOptions& options, con
   }
   PairReader reader(backends);
   if (auto opened = reader.open(options); !opened) {
-    return std::unexpected(
-        ProbeFailure{reader.failedThing().empty() ? options.url : reader.failedThing(), opened.error()});
+    return failOn(reader.failedThing().empty() ? options.url : reader.failedThing(), opened.error());
   }
   result.film = reader.info();
   result.decoder = backends.make_decoder()->capabilities().name;

@@ -3,13 +3,13 @@
 #pragma once
 
 #include <cstdint>
-#include <expected>
 #include <string>
 #include <vector>
 
 #include "app/media/pair_reader.h"
 #include "app/scene/display_volume.h"
 #include "hal/media_source.h"
+#include "platform/failure.h"
 
 namespace relievo {
 
@@ -36,13 +36,7 @@ struct ProbeResult {
   std::vector<std::string> needs;  // one line each
 };
 
-struct ProbeFailure {
-  std::string thing;
-  Error error;
-};
-
-[[nodiscard]] std::expected<ProbeResult, ProbeFailure> probe(const SourceOptions& options,
-                                                             const PairReader::Backends& backends);
+[[nodiscard]] Outcome<ProbeResult> probe(const SourceOptions& options, const PairReader::Backends& backends);
 [[nodiscard]] std::string probeToText(const ProbeResult& result);
 [[nodiscard]] std::string probeToJson(const ProbeResult& result);
 

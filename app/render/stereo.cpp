@@ -5,16 +5,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <glm/gtc/matrix_transform.hpp>
-#include <utility>
 
 namespace relievo {
 namespace {
-
-constexpr std::array<std::pair<const char*, StereoLayout>, 3> kLayouts{{
-    {"mono", StereoLayout::Mono},
-    {"sbs", StereoLayout::SideBySide},
-    {"anaglyph", StereoLayout::Anaglyph},
-}};
 
 // What stands out of the volume, a force arrow for instance, is still drawn this far below and, in front, up to a tenth
 // of the way before the eyes.
@@ -47,16 +40,14 @@ glm::dmat4 offAxis(double eye_x_mm, const Window& window, const StereoSettings& 
 
 }  // namespace
 
-std::optional<StereoLayout> stereoLayout(std::string_view name) noexcept {
-  for (const auto& [known, layout] : kLayouts) {
-    if (name == known) return layout;
-  }
-  return std::nullopt;
-}
-
 const char* name(StereoLayout layout) noexcept {
-  for (const auto& [known, value] : kLayouts) {
-    if (value == layout) return known;
+  switch (layout) {
+    case StereoLayout::Mono:
+      return "mono";
+    case StereoLayout::SideBySide:
+      return "sbs";
+    case StereoLayout::Anaglyph:
+      return "anaglyph";
   }
   return "";
 }

@@ -5,16 +5,13 @@
 #include <array>
 #include <cstdint>
 #include <glm/mat4x4.hpp>
-#include <optional>
-#include <string_view>
 
 #include "app/scene/display_volume.h"
 
 namespace relievo {
 
 enum class StereoLayout : std::uint8_t { Mono, SideBySide, Anaglyph };
-[[nodiscard]] std::optional<StereoLayout> stereoLayout(std::string_view name) noexcept;  // mono sbs anaglyph
-[[nodiscard]] const char* name(StereoLayout layout) noexcept;
+[[nodiscard]] const char* name(StereoLayout layout) noexcept;  // mono sbs anaglyph
 
 struct StereoSettings {
   StereoLayout layout = StereoLayout::SideBySide;

@@ -6,16 +6,18 @@
 #include <string>
 
 #include "hal/display.h"
+#include "platform/clock.h"
 
 namespace relievo {
 
 // A display without a screen: a framebuffer object of the size asked for, on the surfaceless platform of Mesa or a
 // pbuffer of the default one. It shows a frame at once.
 //
-// With a capture path every frame presented is also appended to that file, one picture each whenever it comes, as
-// YUV4MPEG2: 4:2:0, BT.709, limited range. The display does not know how often it will be given a frame, so the rate
-// in the file's header is said by who knows: "FILE.y4m@25", "FILE.y4m@29.97"; without it 30. `open` begins the file
-// anew, and answers NotFound, PermissionDenied or Io where it cannot be written.
-[[nodiscard]] std::unique_ptr<Display> makeOffscreenDisplay(std::string capture_path);
+// With a capture path what is presented is also written to that file, as YUV4MPEG2: 4:2:0, BT.709, limited range. The
+// display does not know how often it will be given a frame, so the file's rate is said by who knows: "FILE.y4m@25",
+// "FILE.y4m@29.97"; without it 30. The file holds that rate by `clock`, which must outlive the display: a frame that
+// is late has the one before it repeated, one more than a period early is left out. `open` begins the file anew, and
+// answers NotFound, PermissionDenied or Io where it cannot be written.
+[[nodiscard]] std::unique_ptr<Display> makeOffscreenDisplay(std::string capture_path, const Clock& clock);
 
 }  // namespace relievo

@@ -58,7 +58,7 @@ Result<EglContext> createContext() {
 
 class OffscreenDisplay final : public Display {
  public:
-  explicit OffscreenDisplay(Capture capture) : capture_(std::move(capture)) {}
+  OffscreenDisplay(Capture capture, const Clock& clock) : capture_(std::move(capture)), clock_(clock) {}
   ~OffscreenDisplay() override { close(); }
 
   [[nodiscard]] DisplayCapabilities capabilities() const noexcept override {
@@ -74,6 +74,7 @@ class OffscreenDisplay final : public Display {
   Result<void> makeCurrent() noexcept;
 
   Capture capture_;
+  const Clock& clock_;
   std::optional<EglContext> context_;
   EGLSurface pbuffer_ = EGL_NO_SURFACE;  // not every EGL lets a context be current without a surface
   DisplaySurface surface_;
@@ -138,6 +139,7 @@ Result<DisplaySurface> OffscreenDisplay::startFrame() {
 }
 
 Result<Duration> OffscreenDisplay::showFrame() {
+  const MonotonicTime shown = clock_.now();
   if (auto current = makeCurrent(); !current) return std::unexpected(current.error());
   if (!writer_) {
     glFlush();
@@ -147,7 +149,7 @@ Result<Duration> OffscreenDisplay::showFrame() {
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
   glReadPixels(0, 0, surface_.width, surface_.height, GL_RGBA, GL_UNSIGNED_BYTE, readback_.data());
   if (glGetError() != GL_NO_ERROR) return fail(ErrorCode::Io, "the picture cannot be read back from GL");
-  if (auto written = writer_->write(readback_); !written) return std::unexpected(written.error());
+  if (auto written = writer_->write(readback_, shown); !written) return std::unexpected(written.error());
   return Duration(0);
 }
 
@@ -163,8 +165,8 @@ void OffscreenDisplay::closeDisplay() noexcept {
 
 }  // namespace
 
-std::unique_ptr<Display> makeOffscreenDisplay(std::string capture_path) {
-  return std::make_unique<OffscreenDisplay>(parseCapture(std::move(capture_path)));
+std::unique_ptr<Display> makeOffscreenDisplay(std::string capture_path, const Clock& clock) {
+  return std::make_unique<OffscreenDisplay>(parseCapture(std::move(capture_path)), clock);
 }
 
 }  // namespace relievo

@@ -10,6 +10,11 @@
 namespace relievo {
 namespace {
 
+// Pictures come with some jitter. A repeated one moves the next from half a period late to half a period early, far
+// enough from being left out for that.
+constexpr double kLatePeriods = 0.5;
+constexpr double kEarlyPeriods = 1.0;
+
 // ITU-R BT.709-6, 3.2 to 3.5, limited range, in 1/65536: the rows sum to 219/255 and to 0.
 constexpr int kShift = 16;
 constexpr int kYr = 11966, kYg = 40254, kYb = 4064;
@@ -29,10 +34,11 @@ ErrorCode codeOf(int os_error) noexcept {
 
 }  // namespace
 
-Y4mWriter::Y4mWriter(std::FILE* file, int width, int height)
+Y4mWriter::Y4mWriter(std::FILE* file, int width, int height, double rate)
     : file_(file),
       width_(width),
       height_(height),
+      rate_(rate),
       picture_(static_cast<std::size_t>(width) * height +
                2 * static_cast<std::size_t>((width + 1) / 2) * static_cast<std::size_t>((height + 1) / 2)) {}
 
@@ -41,8 +47,8 @@ Result<Y4mWriter> Y4mWriter::create(const std::string& path, int width, int heig
   if (file == nullptr) {
     return fail(codeOf(errno), "the capture file cannot be written; check its folder and the rights on it", errno);
   }
-  Y4mWriter writer(file, width, height);
   const long thousandths = std::lround(rate * 1000.0);
+  Y4mWriter writer(file, width, height, static_cast<double>(thousandths) / 1000.0);
   if (std::fprintf(file, "YUV4MPEG2 W%d H%d F%ld:1000 Ip A1:1 C420jpeg XCOLORRANGE=LIMITED\n", width, height,
                    thousandths) < 0) {
     return fail(ErrorCode::Io, "the capture file cannot be written; is the disk full?", errno);
@@ -50,7 +56,18 @@ Result<Y4mWriter> Y4mWriter::create(const std::string& path, int width, int heig
   return writer;
 }
 
-Result<void> Y4mWriter::write(std::span<const std::uint8_t> rgba) {
+Result<void> Y4mWriter::write(std::span<const std::uint8_t> rgba, MonotonicTime time) {
+  if (written_ == 0) first_ = time;
+  const double due = toSeconds(time - first_) * rate_;  // pictures that belong before this one
+  while (static_cast<double>(written_) + kLatePeriods < due) {
+    if (auto repeated = append(); !repeated) return repeated;
+  }
+  if (static_cast<double>(written_) > due + kEarlyPeriods) return {};
+  convert(rgba);
+  return append();
+}
+
+void Y4mWriter::convert(std::span<const std::uint8_t> rgba) noexcept {
   const std::ptrdiff_t row_bytes = static_cast<std::ptrdiff_t>(width_) * 4;
   const auto rowFromTop = [&](int y) { return rgba.data() + (height_ - 1 - y) * row_bytes; };
 
@@ -78,12 +95,15 @@ Result<void> Y4mWriter::write(std::span<const std::uint8_t> rgba) {
       *v++ = static_cast<std::uint8_t>(128 + ((kVr * r + kVg * g + kVb * b + 4 * kHalf) >> (kShift + 2)));
     }
   }
+}
 
+Result<void> Y4mWriter::append() {
   if (std::fputs("FRAME\n", file_.get()) < 0 ||
       std::fwrite(picture_.data(), 1, picture_.size(), file_.get()) != picture_.size() ||
       std::fflush(file_.get()) != 0) {
     return fail(ErrorCode::Io, "the capture file cannot be written on; is the disk full?", errno);
   }
+  ++written_;
   return {};
 }
 

@@ -10,7 +10,6 @@
 #include <sstream>
 
 #include "drivers/mock/key_names.h"
-#include "platform/log.h"
 
 namespace relievo {
 namespace {
@@ -41,11 +40,11 @@ const char* addLine(std::string_view line, std::vector<ScriptedKey>& keys) {
   const std::string_view time_word = nextWord(line);
   if (time_word.empty()) return nullptr;
   const auto at = parseTime(time_word);
-  if (!at) return "a line begins with a time in seconds";
-  if (!keys.empty() && *at < keys.back().at) return "the time is before that of the line above";
+  if (!at) return "does not begin with a time; a line is: SECONDS KEYNAME";
+  if (!keys.empty() && *at < keys.back().at) return "its time is before that of the line above; put the lines in order";
   const auto code = keyCode(nextWord(line));
-  if (!code) return "after the time comes a key's name, such as PLAYPAUSE or KEY_OK";
-  if (!nextWord(line).empty()) return "there is something after the key's name";
+  if (!code) return "has no key that is known; a line is: SECONDS KEYNAME, such as 2.0 PLAYPAUSE";
+  if (!nextWord(line).empty()) return "goes on after the key's name; a line is: SECONDS KEYNAME";
   keys.push_back({*at, *code});
   return nullptr;
 }
@@ -77,26 +76,24 @@ class ScriptedRemote final : public RemoteInput {
 
 }  // namespace
 
-Result<std::vector<ScriptedKey>> parseKeyScript(std::string_view text, std::string_view script_name) {
+Outcome<std::vector<ScriptedKey>> parseKeyScript(std::string_view text, const std::string& script_name) {
   std::vector<ScriptedKey> keys;
   for (int number = 1; !text.empty(); ++number) {
     const auto length = std::min(text.find('\n'), text.size());
     if (const char* wrong = addLine(text.substr(0, length), keys); wrong != nullptr) {
-      log(LogLevel::Error, "remote", "%.*s:%d: %s", static_cast<int>(script_name.size()), script_name.data(), number,
-          wrong);
-      return fail(ErrorCode::InvalidArgument, "a line of the key script is wrong; a line is: seconds KEYNAME");
+      return failOn(script_name + ":" + std::to_string(number), {ErrorCode::InvalidArgument, 0, wrong});
     }
     text.remove_prefix(std::min(length + 1, text.size()));
   }
   return keys;
 }
 
-Result<std::vector<ScriptedKey>> loadKeyScript(const std::string& path) {
+Outcome<std::vector<ScriptedKey>> loadKeyScript(const std::string& path) {
   std::ifstream file(path);
-  if (!file) return fail(ErrorCode::NotFound, "the key script cannot be read; check its path", errno);
+  if (!file) return failOn(path, {ErrorCode::NotFound, errno, "the key script cannot be read; check its path"});
   std::ostringstream text;
   text << file.rdbuf();
-  if (file.bad()) return fail(ErrorCode::Io, "reading the key script failed", errno);
+  if (file.bad()) return failOn(path, {ErrorCode::Io, errno, "reading the key script failed"});
   return parseKeyScript(text.str(), path);
 }
 

@@ -9,6 +9,7 @@
 
 #include "hal/remote_input.h"
 #include "platform/clock.h"
+#include "platform/failure.h"
 
 namespace relievo {
 
@@ -24,11 +25,11 @@ struct ScriptedKey {
 //   2.0  PLAYPAUSE
 //
 // What follows a '#' is ignored, and so are empty lines; times do not decrease. InvalidArgument otherwise,
-// and a log line names the script's line.
-[[nodiscard]] Result<std::vector<ScriptedKey>> parseKeyScript(std::string_view text, std::string_view script_name);
+// and the failure names the script's line.
+[[nodiscard]] Outcome<std::vector<ScriptedKey>> parseKeyScript(std::string_view text, const std::string& script_name);
 
 // NotFound when the file cannot be read.
-[[nodiscard]] Result<std::vector<ScriptedKey>> loadKeyScript(const std::string& path);
+[[nodiscard]] Outcome<std::vector<ScriptedKey>> loadKeyScript(const std::string& path);
 
 // Yields each key once, as a Press, when its time has come. `clock` tells when `open` was and must outlive
 // the remote.

@@ -10,8 +10,6 @@
 #include <numbers>
 #include <sstream>
 
-#include "platform/log.h"
-
 namespace relievo {
 namespace {
 
@@ -28,9 +26,9 @@ double wave(double t_s, double period_s) RELIEVO_RT {
 }
 
 HandPoint stroke(double t_s) RELIEVO_RT {
-  constexpr double kRestS = 0.5, kDownS = 1.5, kUpS = 1.5;  // at most 72 mm/s: contact without a blow
-  constexpr double kRoundS = 8.0;                           // down, stroke, up
-  constexpr double kAboveMm = 60.0, kAimMm = -12.0;         // 40 mm is the nearest that a surface comes
+  constexpr double kRestS = 0.5, kDownS = 1.2, kUpS = 1.1;  // at most 82 mm/s: contact without a blow
+  constexpr double kRoundS = 4.0;                           // down, stroke, up: it is soon out of what let it through
+  constexpr double kAboveMm = 48.0, kAimMm = -12.0;         // 40 mm is the nearest that a surface comes
   const double t = std::max(t_s - kRestS, 0.0);
   const double in_round = std::fmod(t, kRoundS);
   const double down = easeIn(in_round, kDownS) - easeIn(in_round - (kRoundS - kUpS), kUpS);
@@ -63,8 +61,9 @@ bool parseNumbers(std::string_view line, double* numbers, int count) {
 // Nothing wrong: null.
 const char* addRow(std::string_view line, std::vector<HandPath::Row>& rows) {
   double n[4] = {};
-  if (!parseNumbers(line, n, 4)) return "a row is four numbers with commas between: t_s,x_mm,y_mm,z_mm";
-  if (!rows.empty() && n[0] <= rows.back().t_s) return "the time is not after that of the row above";
+  if (!parseNumbers(line, n, 4)) return "is no row of the hand script; a row is four numbers: t_s,x_mm,y_mm,z_mm";
+  if (!rows.empty() && n[0] <= rows.back().t_s)
+    return "its time is not after that of the row above; put the rows in order";
   rows.push_back({n[0], {n[1], n[2], n[3]}});
   return nullptr;
 }
@@ -77,31 +76,31 @@ std::string_view takeLine(std::string_view& text) {
   return line;
 }
 
-std::unexpected<Error> wrongLine(std::string_view script_name, int number, const char* what) {
-  log(LogLevel::Error, "sim", "%.*s:%d: %s", static_cast<int>(script_name.size()), script_name.data(), number, what);
-  return fail(ErrorCode::InvalidArgument, "the hand script is wrong; it is a CSV file t_s,x_mm,y_mm,z_mm");
+std::unexpected<Failure> wrongLine(const std::string& script_name, int number, const char* what) {
+  return failOn(script_name + ":" + std::to_string(number), {ErrorCode::InvalidArgument, 0, what});
 }
 
 }  // namespace
 
-Result<HandPath> HandPath::parse(std::string_view csv, std::string_view script_name) {
-  if (takeLine(csv) != kHeader) return wrongLine(script_name, 1, "the first line is not t_s,x_mm,y_mm,z_mm");
+Outcome<HandPath> HandPath::parse(std::string_view csv, const std::string& script_name) {
+  if (takeLine(csv) != kHeader)
+    return wrongLine(script_name, 1, "a hand script begins with the line t_s,x_mm,y_mm,z_mm");
   std::vector<Row> rows;
   int number = 1;
   while (!csv.empty()) {
     ++number;
     if (const char* wrong = addRow(takeLine(csv), rows); wrong != nullptr) return wrongLine(script_name, number, wrong);
   }
-  if (rows.empty()) return wrongLine(script_name, number, "there is no row after the header");
+  if (rows.empty()) return wrongLine(script_name, number, "no row follows; a row is four numbers: t_s,x_mm,y_mm,z_mm");
   return HandPath(std::move(rows));
 }
 
-Result<HandPath> HandPath::load(const std::string& path) {
+Outcome<HandPath> HandPath::load(const std::string& path) {
   std::ifstream file(path);
-  if (!file) return fail(ErrorCode::NotFound, "the hand script cannot be read; check its path", errno);
+  if (!file) return failOn(path, {ErrorCode::NotFound, errno, "the hand script cannot be read; check its path"});
   std::ostringstream text;
   text << file.rdbuf();
-  if (file.bad()) return fail(ErrorCode::Io, "reading the hand script failed", errno);
+  if (file.bad()) return failOn(path, {ErrorCode::Io, errno, "reading the hand script failed"});
   return parse(text.str(), path);
 }
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "platform/error.h"
+#include "platform/failure.h"
 #include "platform/realtime.h"
 
 namespace relievo {
@@ -29,7 +29,7 @@ class HandPath {
   };
 
   // Rests in front of the scene, comes down to its middle, strokes over it in a Lissajous figure with a
-  // pressure that swells between 1 and 2 N, and lifts now and then; for ever. It aims below the far plane, so
+  // pressure that swells between 1 and 2 N, and lifts every 4 s; for ever. It aims below the far plane, so
   // that any surface stops it: what it presses with is its limit, wherever the surface is.
   HandPath() = default;
 
@@ -38,10 +38,10 @@ class HandPath {
   explicit HandPath(std::vector<Row> rows) : rows_(std::move(rows)) {}
 
   // CSV in the device frame: the line `t_s,x_mm,y_mm,z_mm`, then one row a line. InvalidArgument otherwise,
-  // and a log line names the script's line.
-  [[nodiscard]] static Result<HandPath> parse(std::string_view csv, std::string_view script_name);
+  // and the failure names the script's line.
+  [[nodiscard]] static Outcome<HandPath> parse(std::string_view csv, const std::string& script_name);
   // NotFound when the file cannot be read.
-  [[nodiscard]] static Result<HandPath> load(const std::string& path);
+  [[nodiscard]] static Outcome<HandPath> load(const std::string& path);
 
   [[nodiscard]] HandPoint at(double t_s) const RELIEVO_RT;
 

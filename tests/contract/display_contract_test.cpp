@@ -22,7 +22,7 @@ void PrintTo(const Backend& backend, std::ostream* out) {
 
 const Backend kBackends[] = {
     {"mock", [](ManualClock& clock) { return makeMockDisplay({}, clock); }},
-    {"offscreen", [](ManualClock&) { return makeOffscreenDisplay(""); }},
+    {"offscreen", [](ManualClock& clock) { return makeOffscreenDisplay("", clock); }},
 };
 
 class DisplayContract : public testing::TestWithParam<Backend> {

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "drivers/egl/egl.h"
+#include "platform/clock.h"
 
 namespace relievo {
 namespace {
@@ -36,6 +37,8 @@ void fill(float red, float green, float blue) {
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
+const ManualClock kStill;
+
 // A file of this process, gone with the test.
 class CaptureFile {
  public:
@@ -53,7 +56,7 @@ class CaptureFile {
 };
 
 TEST(OffscreenDisplay, GivesTheSizeAskedForAndGles3) {
-  const auto display = makeOffscreenDisplay("");
+  const auto display = makeOffscreenDisplay("", kStill);
   EXPECT_TRUE(display->capabilities().gles);
   EXPECT_EQ(display->capabilities().refresh_period, Duration(0));
   OPEN_OR_SKIP(*display, {321, 123});
@@ -73,7 +76,7 @@ TEST(OffscreenDisplay, GivesTheSizeAskedForAndGles3) {
 }
 
 TEST(OffscreenDisplay, OpensAgainTwoHundredTimes) {
-  const auto display = makeOffscreenDisplay("");
+  const auto display = makeOffscreenDisplay("", kStill);
   for (int round = 0; round < 200; ++round) {
     OPEN_OR_SKIP(*display, {64, 64});
     ASSERT_TRUE(display->beginFrame());
@@ -85,8 +88,8 @@ TEST(OffscreenDisplay, OpensAgainTwoHundredTimes) {
 }
 
 TEST(OffscreenDisplay, ClosingOneLeavesTheOtherAlone) {
-  const auto first = makeOffscreenDisplay("");
-  const auto second = makeOffscreenDisplay("");
+  const auto first = makeOffscreenDisplay("", kStill);
+  const auto second = makeOffscreenDisplay("", kStill);
   OPEN_OR_SKIP(*first, {32, 32});
   OPEN_OR_SKIP(*second, {16, 16});
   ASSERT_TRUE(first->beginFrame());
@@ -103,7 +106,7 @@ TEST(OffscreenDisplay, ClosingOneLeavesTheOtherAlone) {
 }
 
 TEST(OffscreenDisplay, GoesWhileOpen) {
-  auto display = makeOffscreenDisplay("");
+  auto display = makeOffscreenDisplay("", kStill);
   OPEN_OR_SKIP(*display, {32, 32});
   ASSERT_TRUE(display->beginFrame());
   display.reset();
@@ -112,7 +115,8 @@ TEST(OffscreenDisplay, GoesWhileOpen) {
 
 TEST(OffscreenDisplay, CapturesWhatWasPresentedInItsOrder) {
   const CaptureFile file("two_frames.y4m");
-  const auto display = makeOffscreenDisplay(file.path() + "@25");
+  ManualClock clock;
+  const auto display = makeOffscreenDisplay(file.path() + "@25", clock);
   OPEN_OR_SKIP(*display, {4, 4});
   // The upper half red, the lower half green; then all blue.
   ASSERT_TRUE(display->beginFrame());
@@ -122,6 +126,7 @@ TEST(OffscreenDisplay, CapturesWhatWasPresentedInItsOrder) {
   glClearColor(1, 0, 0, 1);
   glClear(GL_COLOR_BUFFER_BIT);
   ASSERT_TRUE(display->present());
+  clock.advance(std::chrono::milliseconds(40));
   ASSERT_TRUE(display->beginFrame());
   fill(0, 0, 1);
   ASSERT_TRUE(display->present());
@@ -137,9 +142,37 @@ TEST(OffscreenDisplay, CapturesWhatWasPresentedInItsOrder) {
   EXPECT_EQ(file.content(), expected);
 }
 
+// At 25 a second. What each picture of the file shows is told by its luma: white 235, black 16, blue 32.
+TEST(OffscreenDisplay, CaptureHoldsItsRateWhateverComesLateOrEarly) {
+  const CaptureFile file("steady.y4m");
+  ManualClock clock;
+  const auto display = makeOffscreenDisplay(file.path() + "@25", clock);
+  OPEN_OR_SKIP(*display, {2, 2});
+  const auto show = [&](int after_ms, float red_green, float blue) {
+    clock.advance(std::chrono::milliseconds(after_ms));
+    ASSERT_TRUE(display->beginFrame());
+    fill(red_green, red_green, blue);
+    ASSERT_TRUE(display->present());
+  };
+  show(0, 1, 1);   // white at 0 ms
+  show(58, 0, 0);  // black, 18 ms late: neither repeated nor left out
+  show(24, 1, 1);  // white at 82 ms, about its time
+  show(78, 0, 1);  // blue at 160 ms: the one at 120 ms was dropped, white stands for it
+  show(1, 0, 0);   // black at 161 ms, 39 ms early
+  show(1, 1, 1);   // white at 162 ms, two periods early: left out
+  display->close();
+
+  const std::string content = file.content();
+  std::string lumas;
+  for (std::size_t at = content.find("FRAME\n"); at != std::string::npos; at = content.find("FRAME\n", at + 12)) {
+    lumas += content[at + 6];
+  }
+  EXPECT_EQ(lumas, "\xeb\x10\xeb\xeb\x20\x10");
+}
+
 TEST(OffscreenDisplay, CaptureOfAnOddSizeRoundsItsChromaUp) {
   const CaptureFile file("odd.y4m");
-  const auto display = makeOffscreenDisplay(file.path());
+  const auto display = makeOffscreenDisplay(file.path(), kStill);
   OPEN_OR_SKIP(*display, {5, 3});
   ASSERT_TRUE(display->beginFrame());
   fill(1, 1, 1);
@@ -151,7 +184,7 @@ TEST(OffscreenDisplay, CaptureOfAnOddSizeRoundsItsChromaUp) {
 
 TEST(OffscreenDisplay, CaptureBeginsAnewWhenOpenedAgain) {
   const CaptureFile file("again.y4m");
-  const auto display = makeOffscreenDisplay(file.path());
+  const auto display = makeOffscreenDisplay(file.path(), kStill);
   std::string first;
   for (int round = 0; round < 2; ++round) {
     OPEN_OR_SKIP(*display, {2, 2});
@@ -166,20 +199,20 @@ TEST(OffscreenDisplay, CaptureBeginsAnewWhenOpenedAgain) {
 
 TEST(OffscreenDisplay, RateIsTheNumberBehindTheLastAt) {
   const CaptureFile with_rate("me@home.y4m");
-  const auto display = makeOffscreenDisplay(with_rate.path() + "@29.97");
+  const auto display = makeOffscreenDisplay(with_rate.path() + "@29.97", kStill);
   OPEN_OR_SKIP(*display, {2, 2});
   display->close();
   EXPECT_EQ(with_rate.content().substr(0, 28), "YUV4MPEG2 W2 H2 F29970:1000 ");
 
   const CaptureFile without("take@2b.y4m");
-  const auto other = makeOffscreenDisplay(without.path());
+  const auto other = makeOffscreenDisplay(without.path(), kStill);
   OPEN_OR_SKIP(*other, {2, 2});
   other->close();
   EXPECT_EQ(without.content().substr(0, 28), "YUV4MPEG2 W2 H2 F30000:1000 ");
 }
 
 TEST(OffscreenDisplay, CaptureThatCannotBeWrittenSaysWhyAndLeavesItClosed) {
-  const auto display = makeOffscreenDisplay("/no/such/folder/film.y4m");
+  const auto display = makeOffscreenDisplay("/no/such/folder/film.y4m", kStill);
   const auto opened = display->open({16, 16});
   ASSERT_FALSE(opened);
   if (opened.error().code == ErrorCode::Unsupported) GTEST_SKIP() << opened.error().message;
@@ -189,7 +222,7 @@ TEST(OffscreenDisplay, CaptureThatCannotBeWrittenSaysWhyAndLeavesItClosed) {
 }
 
 TEST(OffscreenDisplay, FullDiskIsTold) {
-  const auto display = makeOffscreenDisplay("/dev/full");
+  const auto display = makeOffscreenDisplay("/dev/full", kStill);
   OPEN_OR_SKIP(*display, {64, 64});
   ASSERT_TRUE(display->beginFrame());
   const auto presented = display->present();
@@ -198,7 +231,7 @@ TEST(OffscreenDisplay, FullDiskIsTold) {
 }
 
 TEST(OffscreenDisplay, SizeThatGlCannotDrawIsRefused) {
-  const auto display = makeOffscreenDisplay("");
+  const auto display = makeOffscreenDisplay("", kStill);
   OPEN_OR_SKIP(*display, {1, 1});
   ASSERT_TRUE(display->beginFrame());
   display->close();

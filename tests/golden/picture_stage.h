@@ -13,6 +13,7 @@
 #include "app/render/scene_renderer.h"
 #include "hal/display.h"
 #include "hal/frame.h"
+#include "platform/clock.h"
 
 namespace relievo::test {
 
@@ -64,6 +65,7 @@ class Stage {
  private:
   [[nodiscard]] Image read() const;
 
+  ManualClock clock_;
   std::unique_ptr<Display> display_;
   std::unique_ptr<SceneRenderer> renderer_;
   DisplaySurface surface_;

@@ -77,7 +77,7 @@ class AuthorFilm : public testing::Test {
   TemporaryFolder folder_;
   std::atomic<bool> stop_{false};
 
-  AuthorResult<AuthorSummary> make(const SourceOptions& source, const std::string& out = "out.mkv") {
+  Outcome<AuthorSummary> make(const SourceOptions& source, const std::string& out = "out.mkv") {
     return authorFilm(source, kBackends, {.path = folder_ / out, .color_crf = 18, .depth_crf = 0}, stop_, kNoReport);
   }
   // Colour and depth as two files, into out.mkv.

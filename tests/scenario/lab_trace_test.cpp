@@ -235,5 +235,19 @@ TEST_F(LabTrace, SaysWhichLineIsWrongAndLeavesNoHalfOfAnOutput) {
   EXPECT_EQ(readOut().size(), 1u);
 }
 
+TEST_F(LabTrace, WrongWordsAreOneLineAndCodeTwo) {
+  const std::string whole = "relievo-lab trace --depth none.mkv --hip none.csv --out none.csv --method proxy-graph ";
+  for (const char* words : {"--packing diagonal", "--depth-code smell", "--time later", "--guard dog",
+                            "--volume 160x108", "--volume 1e9x1x1", "--calibration law=steep", "--spin"}) {
+    const auto result = test::runProgram(whole + words, folder_ / ".");
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_TRUE(result.err.starts_with("relievo-lab: ")) << result.err;
+    EXPECT_NE(result.err.find(words), std::string::npos) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_EQ(result.err.find("->"), std::string::npos) << "a list that only a parser reads: " << result.err;
+  }
+  EXPECT_EQ(test::runProgram(whole + "--calibration none.txt", folder_ / ".").exit_code, 1);
+}
+
 }  // namespace
 }  // namespace relievo

@@ -48,9 +48,9 @@ class PlayerBench {
 
   void press(double at_s, std::uint16_t key) { keys.push_back({fromSeconds(at_s), key}); }
 
-  std::expected<void, Player::Failure> run() { return runOn(clock); }
+  Outcome<void> run() { return runOn(clock); }
 
-  std::expected<void, Player::Failure> runOn(Clock& time) {
+  Outcome<void> runOn(Clock& time) {
     const auto screen = makeMockDisplay(display, time);
     const auto device = makeMockHaptic(haptic, time, hand);
     const auto remote = makeScriptedRemote(keys, time);

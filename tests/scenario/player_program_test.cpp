@@ -189,6 +189,15 @@ TEST_F(PlayerProgram, WrongUseIsCodeTwoAndOneLine) {
   expectNothingLeft({});
 }
 
+TEST_F(PlayerProgram, AScriptThatIsMissingOrWrongIsOneLine) {
+  std::ofstream(at("keys.txt")) << "1 PLAY\n2 PLAZ\n";
+  std::ofstream(at("hand.csv")) << "t_s,x_mm,y_mm,z_mm\n0,1,2\n";
+  expectOneLine(play("film.mkv --remote script:" + at("none.txt")), 1, "none.txt: ");
+  expectOneLine(play("film.mkv --remote script:" + at("keys.txt")), 2, "keys.txt:2: ");
+  expectOneLine(play("film.mkv --haptic sim:" + at("none.csv")), 1, "none.csv: ");
+  expectOneLine(play("film.mkv --haptic sim:" + at("hand.csv")), 2, "hand.csv:2: ");
+}
+
 TEST_F(PlayerProgram, ProbeTellsWhatIsInASource) {
   ClipTrack plane = depth(5);
   plane.sample = [](int, int c, int, int) { return c < 32 ? 1000u : 65000u; };

@@ -43,9 +43,10 @@ const std::vector<Room>& rooms() {
       {"app/media", {"app/scene"}},
       {"app/haptics", {"app/scene"}},
       {"app/render", {"app/scene"}},
-      {"app/player", {"app/scene", "app/media", "app/haptics", "app/render"}},
-      {"app/author", {"app/scene", "app/media"}},
-      {"app/lab", {"app/scene", "app/media", "app/haptics", "app/render"}},
+      {"app/cli", {"app/scene", "app/media"}},
+      {"app/player", {"app/scene", "app/media", "app/haptics", "app/render", "app/cli"}},
+      {"app/author", {"app/scene", "app/media", "app/cli"}},
+      {"app/lab", {"app/scene", "app/media", "app/haptics", "app/render", "app/cli"}},
   };
   return all;
 }
@@ -186,6 +187,7 @@ TEST(Layers, EachKindOfOffenceIsSeen) {
       Example{"app/haptics/haptic_task.cpp", "#include <pthread.h>\n"},
       Example{"app/haptics/haptic_task.cpp", "auto t = std::chrono::steady_clock::now();\n"},
       Example{"app/render/stereo.cpp", "#include \"app/player/player.h\"\n"},
+      Example{"app/cli/options.cpp", "#include \"app/player/options.h\"\n"},
       Example{"app/player/player.cpp", "#include \"app/lab/report.h\"\n"},
       Example{"app/player/player.cpp", "#include \"drivers/registry.h\"\n"},
       Example{"app/player/main.cpp", "#include \"drivers/mock/mock.h\"\n"},

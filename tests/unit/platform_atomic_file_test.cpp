@@ -86,6 +86,24 @@ TEST_F(AtomicFileTest, SaysBeforehandThatAPathCannotBeWritten) {
   EXPECT_EQ(filesInFolder(), 0);
 }
 
+TEST_F(AtomicFileTest, AnotherWriterMayFillItByItsName) {
+  std::ofstream(at("film.mkv")) << "old";
+  auto file = AtomicFile::create(at("film.mkv"));
+  ASSERT_TRUE(file);
+  std::ofstream(file->writtenPath()) << "new";
+  EXPECT_EQ(textOf(at("film.mkv")), "old");
+  ASSERT_TRUE(file->commit());
+  EXPECT_EQ(textOf(at("film.mkv")), "new");
+  EXPECT_EQ(filesInFolder(), 1);
+}
+
+TEST_F(AtomicFileTest, SaysThatTheFolderIsNotThere) {
+  const auto file = AtomicFile::create(at("nowhere/a.json"));
+  ASSERT_FALSE(file);
+  EXPECT_EQ(file.error().code, ErrorCode::NotFound);
+  EXPECT_EQ(file.error().os_error, ENOENT);
+}
+
 TEST_F(AtomicFileTest, WritesIntoADeviceWithoutReplacingIt) {
   auto file = AtomicFile::create("/dev/null");
   ASSERT_TRUE(file);

@@ -31,6 +31,13 @@ TEST(Log, PrintsOneLineWithItsArea) {
             "relievo: media: 25 frames in x.mkv\n");
 }
 
+TEST(Log, NamesTheProgram) {
+  setLogProgram("relievo-lab");
+  const std::string line = printedBy([] { log(LogLevel::Info, "media", "open"); });
+  setLogProgram("relievo");
+  EXPECT_EQ(line, "relievo-lab: media: open\n");
+}
+
 TEST(Log, LeavesOutWhatIsAboveItsLevel) {
   EXPECT_EQ(printedBy([] { log(LogLevel::Debug, "a", "hidden at start"); }), "");
   const LevelGuard guard(LogLevel::Warning);

@@ -39,26 +39,27 @@ TEST_F(Registry, RefusesOtherNamesAndListsTheRightOnes) {
   for (const char* name : {"", "ofscreen", "offscreen:", "mock:1", "none"}) {
     const auto display = makeDisplay(name);
     ASSERT_FALSE(display) << name;
-    EXPECT_EQ(display.error().code, ErrorCode::InvalidArgument);
-    EXPECT_THAT(display.error().message, testing::HasSubstr(kDisplayNames));
+    EXPECT_EQ(display.error().error.code, ErrorCode::InvalidArgument);
+    EXPECT_EQ(display.error().thing, std::string("--display ") + name);
+    EXPECT_THAT(display.error().error.message, testing::HasSubstr(kDisplayNames));
   }
   for (const char* name : {"", "falcon", "sim:", "mock:x", "none:", "SIM"}) {
     const auto device = makeHapticDevice(name, clock_);
     ASSERT_FALSE(device) << name;
-    EXPECT_EQ(device.error().code, ErrorCode::InvalidArgument);
-    EXPECT_THAT(device.error().message, testing::HasSubstr(kHapticNames));
+    EXPECT_EQ(device.error().error.code, ErrorCode::InvalidArgument);
+    EXPECT_THAT(device.error().error.message, testing::HasSubstr(kHapticNames));
   }
   for (const char* name : {"", "keys", "script", "script:"}) {
     const auto remote = makeRemoteInput(name, clock_);
     ASSERT_FALSE(remote) << name;
-    EXPECT_EQ(remote.error().code, ErrorCode::InvalidArgument);
-    EXPECT_THAT(remote.error().message, testing::HasSubstr(kRemoteNames));
+    EXPECT_EQ(remote.error().error.code, ErrorCode::InvalidArgument);
+    EXPECT_THAT(remote.error().error.message, testing::HasSubstr(kRemoteNames));
   }
 }
 
 TEST_F(Registry, AScriptThatIsNotThereIsNotFound) {
-  EXPECT_EQ(makeHapticDevice("sim:/nonexistent.csv", clock_).error().code, ErrorCode::NotFound);
-  EXPECT_EQ(makeRemoteInput("script:/nonexistent.txt", clock_).error().code, ErrorCode::NotFound);
+  EXPECT_EQ(makeHapticDevice("sim:/nonexistent.csv", clock_).error().error.code, ErrorCode::NotFound);
+  EXPECT_EQ(makeRemoteInput("script:/nonexistent.txt", clock_).error().error.code, ErrorCode::NotFound);
 }
 
 TEST_F(Registry, TheSimulatedHandFollowsItsScript) {

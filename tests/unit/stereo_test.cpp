@@ -27,14 +27,6 @@ double disparityMm(const EyeViews& eyes, double x, double y, double z) {
   return 80.0 * (project(eyes.views[0], x, y, z).x - project(eyes.views[1], x, y, z).x);
 }
 
-TEST(Stereo, NamesOfTheCommandLineGoBothWays) {
-  for (const StereoLayout layout : {StereoLayout::Mono, StereoLayout::SideBySide, StereoLayout::Anaglyph}) {
-    EXPECT_EQ(stereoLayout(name(layout)), layout);
-  }
-  EXPECT_EQ(stereoLayout("sbs"), StereoLayout::SideBySide);
-  EXPECT_FALSE(stereoLayout("quilt"));
-}
-
 TEST(Stereo, PointInFrontOfTheScreenIsCrossedByEyesTimesHeightOverDistance) {
   // e = 63, d = 600, screen at 20: z = 40 is h = 20 in front, 63 * 20 / 580 = 2.172414 mm; z = 0 is 20 behind,
   // 63 * -20 / 620 = -2.032258 mm.

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// Words are read while CLI11 parses: what is wrong with one is thrown as CLI11's own errors are.
+#include "app/cli/options.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "app/cli/program.h"
+#include "platform/log.h"
+
+namespace relievo {
+namespace {
+
+constexpr double kLongestMm = 1e5;  // of a side of the volume
+constexpr const char* kNoVolume = "a volume is WIDTHxHEIGHTxDEPTH in mm, such as 160x90x40";
+
+// A file that is missing or wrong is a failure at run time: the words themselves are not at fault.
+CalibrationSettings readCalibrationFile(const std::string& thing, const std::string& path) {
+  const std::ifstream file(path);
+  if (!file) {
+    throw WordFailure({thing, {ErrorCode::NotFound, errno, "cannot be read; give a file's path, or KEY=VALUE,.."}});
+  }
+  std::ostringstream text;
+  text << file.rdbuf();
+  auto settings = parseCalibration(text.str());
+  if (!settings) throw WordFailure({thing, {ErrorCode::Corrupt, 0, settings.error().message}});
+  return std::move(*settings);
+}
+
+void readCalibration(const std::string& word, SourceOptions& source) {
+  const std::string thing = "--calibration " + word;
+  if (word.find('=') == std::string::npos) {
+    source.side_file = readCalibrationFile(thing, word);
+    return;
+  }
+  auto settings = parseCalibration(word);
+  if (!settings) throw WordFailure({thing, settings.error()});
+  source.command_line = std::move(*settings);
+}
+
+// "relievo play": the program with the command that was given, if any.
+std::string commandOf(const CLI::App& program) {
+  std::string command = program.get_name();
+  for (const CLI::App* given : program.get_subcommands()) command += " " + given->get_name();
+  return command;
+}
+
+}  // namespace
+
+bool parseSizes(std::string_view text, std::span<double> sizes) noexcept {
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  for (double& size : sizes) {
+    if (&size != sizes.data()) {
+      if (at == end || *at != 'x') return false;
+      ++at;
+    }
+    const auto [next, error] = std::from_chars(at, end, size);
+    if (error != std::errc{} || !std::isfinite(size) || size <= 0) return false;
+    at = next;
+  }
+  return at == end;
+}
+
+void addDepthOptions(CLI::App& app, SourceOptions& source) {
+  addChoice(
+      app, "--packing", source.packing,
+      {{"auto", Packing::Auto}, {"tracks", Packing::Tracks}, {"sbs", Packing::SideBySide}, {"tb", Packing::TopBottom}},
+      "Where the depth is [auto]\n"
+      "auto: two tracks or a DEPTH_PACKING tag tell; tracks: two video tracks, or --depth;\n"
+      "sbs: one picture, colour left, depth right; tb: colour on top, depth below");
+  addChoice(app, "--depth-code", source.depth_code, {{"luma", DepthCode::Luma}, {"hue", DepthCode::Hue}},
+            "How the depth is coded [luma]\n"
+            "luma: as brightness; hue: as colour, red near, round to red far");
+  app.add_option_function<std::vector<std::string>>(
+         "--calibration",
+         [&source](const std::vector<std::string>& given) {
+           for (const std::string& text : given) readCalibration(text, source);
+         },
+         "What a depth code means, over what the film says; or a file of such lines\n"
+         "law=linear|inverse, polarity=near-high|near-low, range=full|limited,\n"
+         "bits=8..16, invalid=CODE|none, near=MM, far=MM")
+      ->allow_extra_args(false)
+      ->type_name("FILE|KEY=VALUE,..");
+}
+
+void addVolumeOption(CLI::App& app, std::optional<DisplayVolume>& volume) {
+  app.add_option_function<std::string>(
+         "--volume",
+         [&volume](const std::string& text) {
+           std::array<double, 3> mm{};
+           if (!parseSizes(text, mm) || *std::max_element(mm.begin(), mm.end()) > kLongestMm) {
+             throw WordFailure({"--volume " + text, {ErrorCode::InvalidArgument, 0, kNoVolume}});
+           }
+           volume = DisplayVolume{mm[0], mm[1], mm[2]};
+         },
+         "Box in which the relief stands, mm\n[160 wide, 40 deep, as high as the depth picture's shape says]")
+      ->type_name("WxHxD");
+}
+
+std::expected<void, int> parseCommandLine(CLI::App& program, int argc, const char* const* argv) {
+  try {
+    program.parse(argc, argv);
+    return {};
+  } catch (const WordFailure& failure) {
+    return std::unexpected(tell(failure));
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
+      program.exit(error);  // prints the help
+      return std::unexpected(kExitDone);
+    }
+    log(LogLevel::Error, "wrong use", "%s; see %s --help", error.what(), commandOf(program).c_str());
+    return std::unexpected(kExitWrongUse);
+  }
+}
+
+}  // namespace relievo

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// How every program of the project ends: its exit codes, and the one line on stderr that says what went wrong.
+#pragma once
+
+#include <functional>
+
+#include "platform/failure.h"
+
+namespace relievo {
+
+inline constexpr int kExitDone = 0;
+inline constexpr int kExitFailed = 1;    // at run time
+inline constexpr int kExitWrongUse = 2;  // by its words alone
+
+[[nodiscard]] constexpr int exitCodeOf(const Error& error) noexcept {
+  return error.code == ErrorCode::InvalidArgument ? kExitWrongUse : kExitFailed;
+}
+
+// Prints "PROGRAM: THING: what was wrong; what to do (the system's word for it)" and answers the exit code.
+int tell(const Failure& failure, int exit_code);
+inline int tell(const Failure& failure) {
+  return tell(failure, exitCodeOf(failure.error));
+}
+
+// The body of a main, which answers its exit code. `name` (a literal) goes before each line on stderr. What is thrown
+// (out of memory, out of threads) becomes a failure like any other.
+[[nodiscard]] int runProgram(const char* name, const std::function<int()>& body) noexcept;
+
+}  // namespace relievo
