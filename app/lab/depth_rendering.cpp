@@ -46,7 +46,10 @@ class GaussianNoise {
 template <class Sample>
 void quantise(const std::vector<double>& codes, double highest, std::uint8_t* row) {
   auto* out = reinterpret_cast<Sample*>(row);  // aligned: rows begin at multiples of the sample's size
-  for (const double code : codes) *out++ = static_cast<Sample>(std::clamp(code, 0.0, highest) + 0.5);
+  for (const double code : codes) {
+    const double shifted = std::clamp(code, 0.0, highest) + 0.5;
+    *out++ = static_cast<Sample>(shifted);  // rounds what is not negative, and quicker than lround
+  }
 }
 
 }  // namespace

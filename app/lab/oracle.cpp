@@ -19,25 +19,22 @@ constexpr double kPieceMm = 0.05;
 constexpr double kOnTheWayMm = 1e-6;  // the proxy's tolerance within a tick
 constexpr double kAtTheEndMm = 1e-13;
 
-StepSection sectionOf(const StepWall& wall) {
-  return {wall.high_mm, wall.low_mm};
-}
-
 }  // namespace
 
 TrueTouch Oracle::update(const glm::dvec3& hip_mm, double t_s) {
+  const auto before = surface_.wallAt(t_), now = surface_.wallAt(t_s);
   if (state_ == State::New || surface_.shotAt(t_s) != surface_.shotAt(t_)) {
     state_ = outside(hip_mm, t_s) ? State::Free : State::Buried;
-  } else if (surface_.wallAt(t_s)) {
-    followStep(hip_mm, t_s);
+  } else if (before && now) {
+    followStep(hip_mm, *before, *now);
   } else {
     followSheet(hip_mm, t_s);
   }
   hip_ = hip_mm;
   t_ = t_s;
   if (state_ != State::Contact) return {hip_mm, false};
-  if (const auto wall = surface_.wallAt(t_s)) {
-    const glm::dvec2 plan = glm::dvec2(hip_mm) + wall->normal * (section_.x - wall->distance(hip_mm.x, hip_mm.y));
+  if (now) {
+    const glm::dvec2 plan = glm::dvec2(hip_mm) + now->normal * (section_.x - now->distance(hip_mm.x, hip_mm.y));
     return {{plan, section_.y}, true};
   }
   return {{proxy_, surface_.height(proxy_.x, proxy_.y, t_s)}, true};
@@ -82,9 +79,8 @@ void Oracle::passSheet(const glm::dvec3& hip, double t, double tolerance_mm) {
 
 // In section and relative to the wall the finger's way is straight. It is cut where it meets the floors' heights and
 // the wall's plane: between two such events it is inside or outside all the time.
-void Oracle::followStep(const glm::dvec3& hip, double t) {
-  const StepWall before = *surface_.wallAt(t_), now = *surface_.wallAt(t);
-  const StepSection section = sectionOf(now);
+void Oracle::followStep(const glm::dvec3& hip, const StepWall& before, const StepWall& now) {
+  const StepSection section{now.high_mm, now.low_mm};
   const glm::dvec2 from(before.distance(hip_.x, hip_.y), hip_.z), to(now.distance(hip.x, hip.y), hip.z);
   const auto event = [](double a, double b, double level) {
     return (a - level) * (b - level) < 0 ? (level - a) / (b - a) : 1.0;

@@ -37,7 +37,7 @@ class Oracle {
 
   void followSheet(const glm::dvec3& hip, double t);
   void passSheet(const glm::dvec3& hip, double t, double tolerance_mm);
-  void followStep(const glm::dvec3& hip, double t);
+  void followStep(const glm::dvec3& hip, const StepWall& before, const StepWall& now);
   [[nodiscard]] bool outside(const glm::dvec3& hip, double t) const {
     return hip.z >= surface_.height(hip.x, hip.y, t);
   }

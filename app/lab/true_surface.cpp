@@ -32,11 +32,13 @@ struct Motion {
 
 template <class Shape>
 double steepestAcross(const Shape& shape) {
-  constexpr double kStepMm = 0.5, kRimMm = 4;  // the rim is what a slide brings in
+  constexpr int kPerMm = 2, kRimMm = 4;  // the rim is what a slide brings in
+  constexpr int kEndX = (static_cast<int>(TrueSurface::kVolume.width_mm) / 2 + kRimMm) * kPerMm;
+  constexpr int kEndY = static_cast<int>(TrueSurface::kVolume.height_mm) / 2 * kPerMm;
   double steepest = 0;
-  const double end_x = TrueSurface::kVolume.width_mm / 2 + kRimMm, end_y = TrueSurface::kVolume.height_mm / 2;
-  for (double y = -end_y; y <= end_y; y += kStepMm) {
-    for (double x = -end_x; x <= end_x; x += kStepMm) {
+  for (int r = -kEndY; r <= kEndY; ++r) {
+    for (int c = -kEndX; c <= kEndX; ++c) {
+      const double x = static_cast<double>(c) / kPerMm, y = static_cast<double>(r) / kPerMm;
       steepest = std::max(steepest, std::abs(shape(Jet(x, 1, 0), Jet(y, 0, 1)).x));
     }
   }
@@ -80,22 +82,23 @@ class Step final : public TrueSurface {
         start_mm_(start_mm),
         speed_mm_per_s_(speed_mm_per_s) {}
 
-  [[nodiscard]] double height(double x, double y, double t) const override { return levelOf(*wallAt(t), x, y); }
+  [[nodiscard]] double height(double x, double y, double t) const override { return levelOf(wall(t), x, y); }
   void heights(std::span<const double> x, double y, double t, std::span<double> out) const override {
-    const StepWall wall = *wallAt(t);
-    for (std::size_t i = 0; i < x.size(); ++i) out[i] = levelOf(wall, x[i], y);
+    const StepWall now = wall(t);
+    for (std::size_t i = 0; i < x.size(); ++i) out[i] = levelOf(now, x[i], y);
   }
   [[nodiscard]] SurfaceJet jet(double x, double y, double t) const override { return {.z = height(x, y, t)}; }
-  [[nodiscard]] std::optional<StepWall> wallAt(double t) const override {
-    return StepWall{{1 / kLength, -kSlant / kLength}, (start_mm_ + speed_mm_per_s_ * t) / kLength, kHighMm, kLowMm};
-  }
+  [[nodiscard]] std::optional<StepWall> wallAt(double t) const override { return wall(t); }
 
  private:
   static constexpr double kSlant = 0.3, kHighMm = 27.5, kLowMm = 12.5;
   static constexpr double kLength = 1.0440306508910550;  // sqrt(1 + kSlant^2)
 
-  static double levelOf(const StepWall& wall, double x, double y) {
-    return wall.distance(x, y) < 0 ? wall.high_mm : wall.low_mm;
+  [[nodiscard]] StepWall wall(double t) const {
+    return {{1 / kLength, -kSlant / kLength}, (start_mm_ + speed_mm_per_s_ * t) / kLength, kHighMm, kLowMm};
+  }
+  static double levelOf(const StepWall& now, double x, double y) {
+    return now.distance(x, y) < 0 ? now.high_mm : now.low_mm;
   }
 
   double start_mm_, speed_mm_per_s_;

@@ -15,6 +15,10 @@ namespace {
 
 constexpr double kHalfWidth = TrueSurface::kVolume.width_mm / 2, kHalfHeight = TrueSurface::kVolume.height_mm / 2;
 
+StepWall wallOf(const TrueSurface& s, double t) {
+  return s.wallAt(t).value_or(StepWall{});
+}
+
 struct Place {
   double x, y, t;
 };
@@ -24,6 +28,7 @@ std::vector<Place> randomPlaces(const TrueSurface& surface, int count) {
   std::uniform_real_distribution<double> unit(0, 1);
   const double end = std::min(surface.traits().duration_s, 4.0);
   std::vector<Place> places;
+  places.reserve(count);
   for (int i = 0; i < count; ++i) {
     places.push_back({(2 * unit(random) - 1) * kHalfWidth, (2 * unit(random) - 1) * kHalfHeight, unit(random) * end});
   }
@@ -92,7 +97,7 @@ TEST_P(EveryTrueSurface, HasTheDerivativesOfItsHeights) {
 TEST_P(EveryTrueSurface, IsNoFasterThanItSaysAndNearlyAsFast) {
   const auto s = makeTrueSurface(GetParam());
   if (s->wallAt(0)) {
-    const double moved = s->wallAt(0.1)->offset_mm - s->wallAt(0)->offset_mm;
+    const double moved = wallOf(*s, 0.1).offset_mm - wallOf(*s, 0).offset_mm;
     EXPECT_NEAR(s->traits().max_speed_mm_per_s, std::abs(moved) / 0.1, 1e-9);
     return;
   }
@@ -120,9 +125,9 @@ TEST(TrueSurface, ShallowPlaneAndNoseHaveTheSlopeAndTheRadiusThatTheyAreNamedFor
   EXPECT_NEAR(std::hypot(plane.zx, plane.zy), 0.033, 1e-5);
   const auto face = makeTrueSurface("face");
   double tightest = 0, highest = 0, lowest = 40;
-  for (double y = -50; y <= 50; y += 0.25) {
-    for (double x = -50; x <= 50; x += 0.25) {
-      const SurfaceJet j = face->jet(x, y, 0);
+  for (int r = -200; r <= 200; ++r) {
+    for (int c = -200; c <= 200; ++c) {
+      const SurfaceJet j = face->jet(0.25 * c, 0.25 * r, 0);
       tightest = std::max(tightest, convexCurvature(j));
       highest = std::max(highest, j.z);
       lowest = std::min(lowest, j.z);
@@ -145,7 +150,7 @@ TEST(TrueSurface, RisesAndSweepsAtTheSpeedThatIsAskedFor) {
     EXPECT_NEAR(rise->height(1, 2, 0.05) - rise->height(1, 2, 0), 0.05 * speed, 1e-12);
     // A wall that moves by v along x keeps its place in a frame that moves along.
     const auto step = makeTrueSurface("step-moving", {.speed_mm_per_s = speed});
-    EXPECT_NEAR(step->wallAt(0.05)->distance(0.05 * speed, 7), step->wallAt(0)->distance(0, 7), 1e-12);
+    EXPECT_NEAR(wallOf(*step, 0.05).distance(0.05 * speed, 7), wallOf(*step, 0).distance(0, 7), 1e-12);
   }
 }
 
