@@ -27,9 +27,9 @@ class DepthFilm {
   DepthFilm(PairReader::Backends backends, DepthFilmOptions options);
   ~DepthFilm();
 
-  [[nodiscard]] LabResult<void> open();
+  [[nodiscard]] Outcome<void> open();
   // The frames from two before the one at `t_s` to three after it; time 0 is the first frame's. Times must not go back.
-  [[nodiscard]] LabResult<const SurfaceWindow*> windowAt(double t_s);
+  [[nodiscard]] Outcome<const SurfaceWindow*> windowAt(double t_s);
   [[nodiscard]] const DisplayVolume& volume() const noexcept { return volume_; }
 
  private:
