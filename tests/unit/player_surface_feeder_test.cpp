@@ -76,15 +76,18 @@ std::vector<FramePair> film(int frames) {
   return pairs;
 }
 
-TEST_F(SurfaceFeederTest, HoldsOneFrameBeforeThePresentAndFourAfterIt) {
+TEST_F(SurfaceFeederTest, HoldsTwoFramesBeforeThePresentAndFiveAfterIt) {
   const auto pairs = film(10);
   at(pairs, 0);
   EXPECT_THAT(times(), ElementsAre(0, 1, 2, 3, 4));
   EXPECT_FALSE(window().ended);  // all that lies ahead is in it, but more will come
   at(pairs, 1);
   EXPECT_THAT(times(), ElementsAre(0, 1, 2, 3, 4, 5));
+  look_ahead_ = 10;
   at(pairs, 2);
-  EXPECT_THAT(times(), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(times(), ElementsAre(0, 1, 2, 3, 4, 5, 6, 7));
+  at(pairs, 3);
+  EXPECT_THAT(times(), ElementsAre(1, 2, 3, 4, 5, 6, 7, 8));
 }
 
 TEST_F(SurfaceFeederTest, HoldsADepthFrameOfALowerRateOnce) {
@@ -99,13 +102,13 @@ TEST_F(SurfaceFeederTest, HoldsADepthFrameOfALowerRateOnce) {
   EXPECT_THAT(times(), ElementsAre(0, 3, 6, 9));
 }
 
-TEST_F(SurfaceFeederTest, KeepsTheOneBeforeWhenPicturesWereLeftOut) {
+TEST_F(SurfaceFeederTest, KeepsTheTwoBeforeWhenPicturesWereLeftOut) {
   const auto pairs = film(10);
   at(pairs, 0);
   at(pairs, 3);
-  EXPECT_THAT(times(), ElementsAre(2, 3, 4, 5, 6, 7));
+  EXPECT_THAT(times(), ElementsAre(1, 2, 3, 4, 5, 6, 7));
   at(pairs, 9);
-  EXPECT_THAT(times(), ElementsAre(7, 9));
+  EXPECT_THAT(times(), ElementsAre(6, 7, 9));
 }
 
 TEST_F(SurfaceFeederTest, SaysWhenNothingChangedSoThatNothingIsPublished) {
@@ -119,12 +122,12 @@ TEST_F(SurfaceFeederTest, SaysWhenNothingChangedSoThatNothingIsPublished) {
 
 TEST_F(SurfaceFeederTest, EndsWithTheLastFrameInTheWindow) {
   look_ahead_ = 10;
-  const auto pairs = film(7);
+  const auto pairs = film(8);
   at(pairs, 1);
-  EXPECT_THAT(times(), ElementsAre(1, 2, 3, 4, 5));
-  EXPECT_FALSE(window().ended);  // the seventh frame is not in it yet
-  at(pairs, 2);
   EXPECT_THAT(times(), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_FALSE(window().ended);  // the eighth frame is not in it yet
+  at(pairs, 2);
+  EXPECT_THAT(times(), ElementsAre(1, 2, 3, 4, 5, 6, 7));
   EXPECT_TRUE(window().ended);
 }
 
