@@ -12,15 +12,16 @@ constexpr int kNarrowSamples = 3, kWideSamples = 5;
 // A tick this much off the time that was prepared for is still on what was prepared.
 constexpr Duration kPreparedWithin = std::chrono::microseconds(500);
 
-// c(u) = u/(1 + (u/d)^4)^(1/4) and its derivatives: u while small, d while large.
+// Where W and N differ by less than half the clamp d, W it is: c(u) = u. Beyond, c goes on to d as a + (d - a) g(s)
+// with a = d/2, s = (|u| - a)/(d - a) and g(s) = s/(1 + s^4)^(1/4): two continuous derivatives, and monotone.
 struct SoftClamp {
   double value, slope, bend;
   SoftClamp(double u, double d) RELIEVO_RT {
-    const double q = u / d, q2 = q * q, base = 1 + q2 * q2;
+    const double a = 0.5 * d, s = (std::abs(u) - a) / (d - a), s2 = s * s, base = 1 + s2 * s2;
     const double root = std::sqrt(std::sqrt(base));
     slope = 1 / (base * root);
-    value = u * base * slope;
-    bend = -5 * q2 * q * root * slope * slope / d;
+    value = std::copysign(a + (d - a) * s / root, u);
+    bend = std::copysign(-5 * s2 * s * slope / (base * (d - a)), u);
   }
 };
 
@@ -105,9 +106,10 @@ bool FeltSurface::placeFrames(const SurfaceWindow& window) RELIEVO_RT {
 }
 
 SurfacePoint FeltSurface::at(double x_mm, double y_mm) RELIEVO_RT {
-  const SurfacePoint n = narrow_.at(x_mm, y_mm);
-  if (!two_levels_) return n;
+  if (!two_levels_) return narrow_.at(x_mm, y_mm);
   const SurfacePoint w = wide_.at(x_mm, y_mm);
+  if (std::abs(w.z - narrow_.height(x_mm, y_mm)) <= 0.5 * scale_.clamp_mm) return w;
+  const SurfacePoint n = narrow_.at(x_mm, y_mm);
   const SoftClamp c(w.z - n.z, scale_.clamp_mm);
   const double ux = w.zx - n.zx, uy = w.zy - n.zy;
   return {n.z + c.value,
@@ -116,6 +118,13 @@ SurfacePoint FeltSurface::at(double x_mm, double y_mm) RELIEVO_RT {
           n.zxx + c.slope * (w.zxx - n.zxx) + c.bend * ux * ux,
           n.zxy + c.slope * (w.zxy - n.zxy) + c.bend * ux * uy,
           n.zyy + c.slope * (w.zyy - n.zyy) + c.bend * uy * uy};
+}
+
+double FeltSurface::height(double x_mm, double y_mm) RELIEVO_RT {
+  const double n = narrow_.height(x_mm, y_mm);
+  if (!two_levels_) return n;
+  const double w = wide_.height(x_mm, y_mm);
+  return std::abs(w - n) <= 0.5 * scale_.clamp_mm ? w : n + SoftClamp(w - n, scale_.clamp_mm).value;
 }
 
 void FeltSurface::prepare(const SurfaceWindow& window, MediaTime next, double x_mm, double y_mm,

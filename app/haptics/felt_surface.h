@@ -24,7 +24,8 @@ struct FeltScale {
 };
 
 // S = N + c(W - N): N sees edges, W is calm, and c is a soft clamp, so that W may correct N's noise but not round an
-// edge off by more than `clamp_mm`. Monotone: c never turns back, or a lip would be left at an edge.
+// edge off by more than `clamp_mm`; away from edges S is W. Monotone: c never turns back, or a lip would be left at an
+// edge.
 // A view for one moment of one window; reads depth where it is asked for.
 class FeltSurface {
  public:
@@ -34,7 +35,7 @@ class FeltSurface {
   bool moment(const SurfaceWindow& window, MediaTime now) RELIEVO_RT;
 
   [[nodiscard]] SurfacePoint at(double x_mm, double y_mm) RELIEVO_RT;
-  [[nodiscard]] double height(double x_mm, double y_mm) RELIEVO_RT { return at(x_mm, y_mm).z; }
+  [[nodiscard]] double height(double x_mm, double y_mm) RELIEVO_RT;
 
   // Half the narrow pitch: a path sampled so closely sees every crest that the surface has.
   [[nodiscard]] double sampleMm() const RELIEVO_RT { return sample_mm_; }

@@ -12,9 +12,12 @@ constexpr double kSigmaPerPitch = 0.645497;  // sqrt(5/12)
 
 // Basis functions of four control points and their first and second derivatives, in units of the pitch: a polynomial
 // in the place within the cell for each control point.
+Float4 basis(const std::array<Float4, 4>& c, float t) RELIEVO_RT {
+  return ((c[3] * t + c[2]) * t + c[1]) * t + c[0];
+}
 struct Basis {
   Float4 value, slope, bend;
-  Basis(const std::array<Float4, 4>& c, float t) RELIEVO_RT : value(((c[3] * t + c[2]) * t + c[1]) * t + c[0]),
+  Basis(const std::array<Float4, 4>& c, float t) RELIEVO_RT : value(basis(c, t)),
                                                               slope((3 * c[3] * t + 2 * c[2]) * t + c[1]),
                                                               bend(6 * c[3] * t + 2 * c[2]) {}
 };
@@ -62,23 +65,35 @@ SurfaceLevel::Cell SurfaceLevel::cellOf(double x_mm, double y_mm) const RELIEVO_
   return {static_cast<int>(fa) - 1, static_cast<int>(fb) - 1, static_cast<float>(a - fa), static_cast<float>(b - fb)};
 }
 
+const Patch& SurfaceLevel::patchAt(const Cell& cell) RELIEVO_RT {
+  if (patched_ && cell.i == i_ && cell.j == j_) return patch_;
+  if (since_prepared_s_ && cell.i == prepared_i_ && cell.j == prepared_j_) {
+    for (std::size_t j = 0; j < 4; ++j) patch_[j] = prepared_[j] + prepared_rate_[j] * *since_prepared_s_;
+  } else {
+    if (!weighed_) weigh(*slots_, moment_, frames_);
+    weighed_ = true;
+    grid_.patch(cell.i, cell.j, frames_, patch_);
+  }
+  i_ = cell.i;
+  j_ = cell.j;
+  patched_ = true;
+  return patch_;
+}
+
+double SurfaceLevel::height(double x_mm, double y_mm) RELIEVO_RT {
+  const Cell cell = cellOf(x_mm, y_mm);
+  const Patch& p = patchAt(cell);
+  const std::array<Float4, 4>& polynomials = cubic_ ? kCubic : kQuadratic;
+  const Float4 h = basis(polynomials, cell.a), v = basis(polynomials, cell.b);
+  const Float4 row = (p[0] * v[0] + p[1] * v[1] + p[2] * v[2] + p[3] * v[3]) * h;
+  return static_cast<double>((row[0] + row[1]) + (row[2] + row[3]));
+}
+
 SurfacePoint SurfaceLevel::at(double x_mm, double y_mm) RELIEVO_RT {
   const Cell cell = cellOf(x_mm, y_mm);
-  if (!patched_ || cell.i != i_ || cell.j != j_) {
-    if (since_prepared_s_ && cell.i == prepared_i_ && cell.j == prepared_j_) {
-      for (std::size_t j = 0; j < 4; ++j) patch_[j] = prepared_[j] + prepared_rate_[j] * *since_prepared_s_;
-    } else {
-      if (!weighed_) weigh(*slots_, moment_, frames_);
-      weighed_ = true;
-      grid_.patch(cell.i, cell.j, frames_, patch_);
-    }
-    i_ = cell.i;
-    j_ = cell.j;
-    patched_ = true;
-  }
+  const Patch& p = patchAt(cell);
   const std::array<Float4, 4>& polynomials = cubic_ ? kCubic : kQuadratic;
   const Basis h(polynomials, cell.a), v(polynomials, cell.b);
-  const Patch& p = patch_;
   const Float4 row = p[0] * v.value[0] + p[1] * v.value[1] + p[2] * v.value[2] + p[3] * v.value[3];
   const Float4 row_slope = p[0] * v.slope[0] + p[1] * v.slope[1] + p[2] * v.slope[2] + p[3] * v.slope[3];
   const Float4 row_bend = p[0] * v.bend[0] + p[1] * v.bend[1] + p[2] * v.bend[2] + p[3] * v.bend[3];

@@ -40,6 +40,7 @@ class SurfaceLevel {
   // prepared does not hold. `slots` must live until the next `begin`.
   void begin(const FrameSlots& slots, const FrameMoment& moment, std::optional<double> since_prepared_s) RELIEVO_RT;
   [[nodiscard]] SurfacePoint at(double x_mm, double y_mm) RELIEVO_RT;
+  [[nodiscard]] double height(double x_mm, double y_mm) RELIEVO_RT;
 
   // Ahead of the moment `next`, for a place: reads the points around it, and of them at most `points` in frames that do
   // not count yet, and weighs them out for `next` and for `later`, which comes `step_s` after it.
@@ -52,6 +53,8 @@ class SurfaceLevel {
     float a = 0, b = 0;  // place within the cell
   };
   [[nodiscard]] Cell cellOf(double x_mm, double y_mm) const RELIEVO_RT;
+  // The control points around a cell at this moment.
+  [[nodiscard]] const Patch& patchAt(const Cell& cell) RELIEVO_RT;
   void weigh(const FrameSlots& slots, const FrameMoment& moment, ControlGrid::Frames& frames) const RELIEVO_RT;
 
   ControlGrid grid_;
