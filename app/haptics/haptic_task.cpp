@@ -46,11 +46,7 @@ const char* name(HapticFault::Kind kind) noexcept {
 
 HapticTask::HapticTask(HapticDevice& device, TouchMethod& method, const Clock& clock, const DisplayVolume& volume,
                        const SafetyLimits& limits, double stiffness_n_per_mm) noexcept
-    : device_(device),
-      method_(method),
-      clock_(clock),
-      mapping_(device.capabilities(), volume),
-      books_(stiffness_n_per_mm) {
+    : device_(device), method_(method), clock_(clock), mapping_(device.capabilities(), volume) {
   SafetyLimits within_device = limits;
   within_device.force_n = std::min(limits.force_n, device.capabilities().peak_force_n);
   safety_ = SafetyFilter(within_device, stiffness_n_per_mm);
@@ -80,9 +76,8 @@ LoopControl HapticTask::loop(const Cycle& cycle) RELIEVO_RT {
   state.media_time = window.clock.at(cycle.woken);
   const Touch touch = method_.update(state.hip_mm, window, state.media_time);
   noteFeed(isStale(window, state.media_time), cycle.woken);
-  const double moved = primed_ ? glm::length(state.hip_mm - last_hip_mm_) : 0.0;
   const double elapsed = primed_ ? toSeconds(cycle.woken - last_woken_) : 0.0;
-  state.force_n = safety_.apply(stale_ ? glm::dvec3(0) : touch.force_n, moved, elapsed);
+  state.force_n = safety_.apply(stale_ ? glm::dvec3(0) : touch.force_n, state.hip_mm, elapsed);
   state.proxy_mm = touch.proxy_mm;
   state.contact = touch.contact;
   counters_.update.add(clock_.now() - started);
@@ -90,7 +85,6 @@ LoopControl HapticTask::loop(const Cycle& cycle) RELIEVO_RT {
   const auto written = device_.write(state.force_n);
   if (!written) failed(written.error(), cycle.woken);
   primed_ = true;
-  last_hip_mm_ = state.hip_mm;
   last_woken_ = cycle.woken;
 
   method_.upkeep(window, state.media_time);
@@ -108,7 +102,6 @@ void HapticTask::failed(const Error& error, MonotonicTime time) RELIEVO_RT {
   lost_ = true;
   primed_ = false;
   safety_.reset();
-  books_.reset();
   method_.reset();
 }
 
@@ -120,11 +113,10 @@ void HapticTask::noteFeed(bool stale, MonotonicTime time) RELIEVO_RT {
 
 void HapticTask::count(const FingerState& state) RELIEVO_RT {
   if (state.contact) bump(counters_.contact_ticks);
-  books_.tick(state.hip_mm, state.force_n);
   raise(counters_.max_force_n, glm::length(state.force_n));
   raise(counters_.max_scene_slew_n_per_s, safety_.sceneSlew());
-  counters_.scene_energy_mj.store(books_.sceneMj(), std::memory_order_relaxed);
-  counters_.artefact_energy_mj.store(books_.artefactMj(), std::memory_order_relaxed);
+  counters_.scene_energy_mj.store(safety_.books().sceneMj(), std::memory_order_relaxed);
+  counters_.artefact_energy_mj.store(safety_.books().artefactMj(), std::memory_order_relaxed);
 }
 
 void HapticTask::publish(const FingerState& state) RELIEVO_RT {

@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cstdint>
 
-#include "app/haptics/energy_books.h"
 #include "app/haptics/finger_state.h"
 #include "app/haptics/method.h"
 #include "app/haptics/safety.h"
@@ -86,12 +85,10 @@ class HapticTask final : public CyclicTask {
   const Clock& clock_;
   WorkspaceMapping mapping_;
   SafetyFilter safety_;
-  EnergyBooks books_;
   bool stale_ = false;
   bool lost_ = false;
   bool primed_ = false;  // there was a tick before this one
   MonotonicTime last_woken_;
-  glm::dvec3 last_hip_mm_{0};
   TripleBuffer<SurfaceWindow> windows_;
   TripleBuffer<FingerState> finger_;
   SpscRing<FingerState, 4096> ticks_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The order of the limits: finite, magnitude, then the rate at which the scene may act.
+// The order of the limits: finite, magnitude, the rate at which the scene may act, the artefacts' energy.
 #include "app/haptics/safety.h"
 
 #include <algorithm>
@@ -8,7 +8,24 @@
 
 namespace relievo {
 
-glm::dvec3 SafetyFilter::apply(const glm::dvec3& wanted_n, double moved_mm, double elapsed_s) RELIEVO_RT {
+namespace {
+
+// From `from` towards `to`, by `most` at most.
+glm::dvec3 approach(const glm::dvec3& from, const glm::dvec3& to, double most) RELIEVO_RT {
+  const glm::dvec3 change = to - from;
+  const double wished = glm::length(change);
+  return wished > most ? from + change * (most / wished) : to;
+}
+
+}  // namespace
+
+void SafetyFilter::reset() RELIEVO_RT {
+  spring_n_ = sent_n_ = glm::dvec3(0);
+  primed_ = false;
+  books_.reset();
+}
+
+glm::dvec3 SafetyFilter::apply(const glm::dvec3& wanted_n, const glm::dvec3& hip_mm, double elapsed_s) RELIEVO_RT {
   glm::dvec3 target = wanted_n;
   double size = glm::length(target);
   if (!std::isfinite(size)) {
@@ -17,17 +34,37 @@ glm::dvec3 SafetyFilter::apply(const glm::dvec3& wanted_n, double moved_mm, doub
   }
   if (size > limits_.force_n) target *= limits_.force_n / size;
 
-  const double by_hand = std::isfinite(moved_mm) ? stiffness_ * moved_mm : 0.0;
-  const double elapsed = std::clamp(elapsed_s, 0.0, 0.1);
-  const glm::dvec3 change = target - sent_n_;
-  const double wished = glm::length(change);
-  const double allowed = by_hand + limits_.scene_slew_n_per_s * elapsed;
-  if (wished > allowed) target = sent_n_ + change * (allowed / wished);
+  glm::dvec3 moved = primed_ ? hip_mm - hip_mm_ : glm::dvec3(0);
+  if (!std::isfinite(glm::dot(moved, moved))) moved = glm::dvec3(0);
 
-  const double beyond_hand = std::max(glm::length(target - sent_n_) - by_hand, 0.0);
+  const double by_hand = stiffness_ * glm::length(moved);
+  const double elapsed = std::clamp(elapsed_s, 0.0, 0.1);
+  const double allowed = by_hand + limits_.scene_slew_n_per_s * elapsed;
+  const glm::dvec3 spring = approach(spring_n_, target, allowed);
+  glm::dvec3 sent = limits_.limit_energy ? leanAgainst(spring, moved) : spring;
+  if (glm::length(sent) > limits_.force_n) sent *= limits_.force_n / glm::length(sent);
+  sent = approach(sent_n_, sent, allowed);
+
+  const double beyond_hand = std::max(glm::length(sent - sent_n_) - by_hand, 0.0);
   scene_slew_ = elapsed > 0 ? beyond_hand / elapsed : 0.0;
-  sent_n_ = target;
-  return target;
+  spring_n_ = spring;
+  sent_n_ = sent;
+  if (std::isfinite(glm::dot(hip_mm, hip_mm))) {
+    primed_ = true;
+    hip_mm_ = hip_mm;
+    books_.tick(hip_mm, spring, sent);
+  }
+  return sent;
+}
+
+// The tick to come is taken to be like the last one: the same motion, the same change of the force.
+glm::dvec3 SafetyFilter::leanAgainst(const glm::dvec3& spring_n, const glm::dvec3& moved_mm) const RELIEVO_RT {
+  const double moved2 = glm::dot(moved_mm, moved_mm);
+  if (moved2 <= 0) return spring_n;
+  const double coming = 0.5 * glm::dot(spring_n_ - spring_n, moved_mm);
+  const double excess = books_.openArtefactMj() + coming;
+  if (excess <= 0) return spring_n;
+  return spring_n - std::min(excess / moved2, stiffness_) * moved_mm;
 }
 
 }  // namespace relievo

@@ -37,8 +37,18 @@ void addTrace(CLI::App& app, TraceOptions& options) {
   app.add_option("--stiffness", options.stiffness_n_per_mm, "Stiffness between finger and proxy [0.5]")
       ->type_name("N_PER_MM")
       ->check(CLI::Range(1e-6, 1e3).description(""));
-  addChoice(app, "--time", options.time, {{"hold", TimeLaw::Hold}, {"linear", TimeLaw::Linear}},
-            "The surface between frames [the method's own]");
+  addChoice(
+      app, "--space", options.space,
+      {{"triangles", SpaceLaw::Triangles}, {"quadratic", SpaceLaw::Quadratic}, {"bspline", SpaceLaw::BSpline}},
+      "The surface between samples [the method's own]\ntriangles: the paper's; quadratic, bspline: a smooth local "
+      "patch, of relievo alone");
+  addChoice(app, "--time", options.time,
+            {{"hold", TimeLaw::Hold},
+             {"linear", TimeLaw::Linear},
+             {"bspline", TimeLaw::BSpline},
+             {"fitted", TimeLaw::Fitted}},
+            "The surface between frames [the method's own]\nhold: the newest as it is; linear: the paper's; bspline, "
+            "fitted: smooth splines, of relievo alone");
   addChoice(app, "--guard", options.guard,
             {{"off", TraceGuard::Off}, {"threshold", TraceGuard::Threshold}, {"full", TraceGuard::Full}},
             "What limits the force [the method's own]\noff: nothing; threshold: the paper's; full: all limits of the "
@@ -49,6 +59,11 @@ int runTraceCommand(const TraceOptions& options) {
   if (makeMethod(options.method, {}) == nullptr) {
     return tell(
         {"--method " + options.method, {ErrorCode::InvalidArgument, 0, "unknown; see relievo-lab trace --help"}});
+  }
+  if (makeMethod(options.method, {.space = options.space, .time = options.time}) == nullptr) {
+    return tell({"--method " + options.method,
+                 {ErrorCode::InvalidArgument, 0,
+                  "does not go with these --space and --time; methods on triangles take triangles, hold and linear"}});
   }
   const std::string url = options.film.source.url;
   const PairReader::Backends backends{[url] { return drivers::makeMediaSource(url); }, drivers::makeVideoDecoder};

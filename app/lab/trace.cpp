@@ -44,6 +44,7 @@ Outcome<TraceSummary> runTrace(const TraceOptions& options, const PairReader::Ba
   out->write(kOutHeader);
 
   const auto method = makeMethod(options.method, {.stiffness_n_per_mm = options.stiffness_n_per_mm,
+                                                  .space = options.space,
                                                   .time = options.time,
                                                   .jump_threshold = jumpThreshold(options.guard)});
   if (method == nullptr)
@@ -62,8 +63,7 @@ Outcome<TraceSummary> runTrace(const TraceOptions& options, const PairReader::Ba
 
     glm::dvec3 force = touch.force_n;
     if (options.guard == TraceGuard::Full) {
-      const double moved = before != nullptr ? glm::length(tick.hip_mm - before->hip_mm) : 0.0;
-      force = safety.apply(force, moved, before != nullptr ? tick.t_s - before->t_s : 0.0);
+      force = safety.apply(force, tick.hip_mm, before != nullptr ? tick.t_s - before->t_s : 0.0);
     }
     writeRow(*out, tick, touch, force, took);
     ++summary.ticks;
