@@ -71,6 +71,7 @@ int runTraceCommand(const TraceOptions& options) {
   if (!summary) return tell(summary.error(), kExitFailed);
   std::printf("%s: %zu ticks, %zu in contact, %.3f N at most\n", options.out_path.c_str(), summary->ticks,
               summary->contact_ticks, summary->max_force_n);
+  if (!summary->plan.empty()) std::printf("plan: %s\n", summary->plan.c_str());
   return kExitDone;
 }
 

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <glm/geometric.hpp>
+#include <span>
 
 #include "app/haptics/safety.h"
+#include "app/haptics/touch_plan.h"
 #include "app/lab/hip_path.h"
 #include "platform/atomic_file.h"
 #include "platform/clock.h"
@@ -43,15 +45,20 @@ Outcome<TraceSummary> runTrace(const TraceOptions& options, const PairReader::Ba
   if (!out) return failOn(options.out_path, out.error());
   out->write(kOutHeader);
 
+  const auto first = film.windowAt(0);
+  if (!first) return std::unexpected(first.error());
+  const TouchPlan plan =
+      planTouch(measureClip(std::span((*first)->frames).first(static_cast<std::size_t>((*first)->count))));
   const auto method = makeMethod(options.method, {.stiffness_n_per_mm = options.stiffness_n_per_mm,
                                                   .space = options.space,
                                                   .time = options.time,
-                                                  .jump_threshold = jumpThreshold(options.guard)});
+                                                  .jump_threshold = jumpThreshold(options.guard),
+                                                  .scale = plan.scale});
   if (method == nullptr)
     return failOn("--method " + options.method, {ErrorCode::InvalidArgument, 0, "unknown method; see --help"});
   SafetyFilter safety({}, options.stiffness_n_per_mm);
   const MonotonicClock clock;
-  TraceSummary summary;
+  TraceSummary summary{.plan = options.method == kDefaultMethod ? plan.reason : ""};
   const HipTick* before = nullptr;
   for (const HipTick& tick : *path) {
     const auto window = film.windowAt(tick.t_s);

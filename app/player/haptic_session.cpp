@@ -5,6 +5,10 @@
 #include <malloc.h>
 
 #include <algorithm>
+#include <span>
+#include <utility>
+
+#include "app/haptics/touch_plan.h"
 
 namespace relievo {
 namespace {
@@ -39,9 +43,11 @@ Result<void> HapticSession::open() {
   return {};
 }
 
-Result<void> HapticSession::makeTask(const DisplayVolume& volume) {
+Result<void> HapticSession::makeTask(const DisplayVolume& volume, const SurfaceWindow& first) {
   const double stiffness = std::min(kStiffnessNPerMm, capabilities_.max_stiffness_n_per_mm);
-  method_ = makeMethod(kDefaultMethod, {.stiffness_n_per_mm = stiffness, .time = {}, .jump_threshold = {}});
+  TouchPlan plan = planTouch(measureClip(std::span(first.frames).first(static_cast<std::size_t>(first.count))));
+  plan_ = std::move(plan.reason);
+  method_ = makeMethod(kDefaultMethod, {.stiffness_n_per_mm = stiffness, .scale = plan.scale});
   if (method_ == nullptr) return fail(ErrorCode::NotFound, "the default method of touch is missing from this build");
 
   auto arena = FixedArena::create(sizeof(HapticTask) + alignof(HapticTask) + 256);
@@ -63,8 +69,10 @@ Result<void> HapticSession::makeTask(const DisplayVolume& volume) {
 Result<void> HapticSession::start(const DisplayVolume& volume, const SurfaceFeeder& first) {
   if (device_ == nullptr) return {};
   if (!opened_ || running_) return fail(ErrorCode::InvalidState, "the haptic side starts once, on an open device");
-  if (auto made = makeTask(volume); !made) return made;
-  first.fill(task_->windowToFill());
+  SurfaceWindow window;
+  first.fill(window);
+  if (auto made = makeTask(volume, window); !made) return made;
+  task_->windowToFill() = std::move(window);
   task_->publishWindow();
   if (auto started = device_->start(); !started) return started;
   running_ = true;
@@ -144,6 +152,7 @@ HapticSummary HapticSession::summary() const {
   s.wakeup = times(cyclic.wakeup);
   s.max_force_n = counters.max_force_n;
   s.max_scene_slew_n_per_s = counters.max_scene_slew_n_per_s;
+  s.plan = plan_;
   s.scene_mj = counters.scene_energy_mj;
   s.artefact_mj = counters.artefact_energy_mj;
   return s;

@@ -25,6 +25,7 @@ enum class Ticking : std::uint8_t { Thread, ByHand };
 // What the haptic side did, for the report. All zero when it never ran.
 struct HapticSummary {
   std::string device;     // "" without one
+  std::string plan;       // which parts of the method this film got, and why
   std::string scheduler;  // "SCHED_FIFO", "SCHED_OTHER", "simulated time", "none"
   bool memory_locked = false;
   double rate_hz = 0;
@@ -72,7 +73,7 @@ class HapticSession {
   [[nodiscard]] HapticSummary summary() const;
 
  private:
-  [[nodiscard]] Result<void> makeTask(const DisplayVolume& volume);
+  [[nodiscard]] Result<void> makeTask(const DisplayVolume& volume, const SurfaceWindow& first);
 
   HapticDevice* device_;
   Clock& clock_;
@@ -85,6 +86,7 @@ class HapticSession {
   HapticCapabilities capabilities_;
   Duration period_{0};
 
+  std::string plan_;
   std::unique_ptr<TouchMethod> method_;
   std::optional<FixedArena> arena_;
   HapticTask* task_ = nullptr;  // in the arena

@@ -53,6 +53,7 @@ struct DepthLook {
 Outcome<void> lookAtPairs(PairReader& reader, ProbeResult& result) {
   const FilmInfo& film = result.film;
   DepthLook look;
+  std::vector<TimedSurface> surfaces;
   for (int i = 0; i < kPairsLookedAt; ++i) {
     const auto pair = reader.next();
     if (!pair) return failOn(reader.failedThing(), pair.error());
@@ -64,8 +65,11 @@ Outcome<void> lookAtPairs(PairReader& reader, ProbeResult& result) {
     if (!field) return failOn("depth", field.error());
     look.add(*field);
     ++look.use.pairs;
+    const MediaTime time = (*pair)->depth.pts;
+    if (surfaces.empty() || time > surfaces.back().time) surfaces.push_back({*field, time, (*pair)->depth.owner});
   }
   result.depth = look.use;
+  if (!surfaces.empty()) result.touch = planTouch(measureClip(surfaces));
   result.pairs = reader.counters();
   return {};
 }
@@ -145,6 +149,7 @@ std::string probeToText(const ProbeResult& r) {
     text += textLine("relief  codes %u to %u, %.1f to %.1f mm, %.1f %% holes in the first %d pictures\n",
                      r.depth.lowest_code, r.depth.highest_code, r.depth.lowest_mm, r.depth.highest_mm,
                      100 * r.depth.holes, r.depth.pairs);
+    if (r.touch) text += "touch   " + r.touch->reason + "\n";
   } else {
     text += "depth   none\n";
   }
@@ -178,6 +183,21 @@ std::string probeToJson(const ProbeResult& r) {
                      {"codes", {r.depth.lowest_code, r.depth.highest_code}},
                      {"relief_mm", {r.depth.lowest_mm, r.depth.highest_mm}},
                      {"holes", r.depth.holes}};
+  }
+  json["touch"] = nullptr;
+  if (r.touch) {
+    const ClipMeasure& m = r.touch->measure;
+    json["touch"] = {{"quantum_mm", m.quantum_mm},
+                     {"noise_mm", m.noise_mm},
+                     {"speed_mm_per_s", m.speed_mm_per_s},
+                     {"edges", m.edges},
+                     {"still", m.still},
+                     {"narrow_mm", r.touch->scale.narrow_mm},
+                     {"wide_mm", r.touch->scale.wide_mm},
+                     {"clamp_mm", r.touch->scale.clamp_mm},
+                     {"time", {name(r.touch->scale.narrow_time), name(r.touch->scale.wide_time)}},
+                     {"error", r.touch->error},
+                     {"reason", r.touch->reason}};
   }
   json["packing"] = name(f.packing);
   json["frames_per_s"] = framesPerSecond(f);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/haptics/touch_plan.h"
 #include "app/media/pair_reader.h"
 #include "app/scene/display_volume.h"
 #include "hal/media_source.h"
@@ -32,6 +33,7 @@ struct ProbeResult {
   PairCounters pairs;  // of the first ones
   DisplayVolume volume;
   DepthUse depth;
+  std::optional<TouchPlan> touch;  // what the finger needs; nothing without depth
   std::string decoder;             // its name
   std::vector<std::string> needs;  // one line each
 };

@@ -57,6 +57,7 @@ Json filmPart(const PlayReport& r) {
 
 Json hapticPart(const HapticSummary& h) {
   return {{"device", h.device},
+          {"plan", h.plan},
           {"scheduler", h.scheduler},
           {"memory_locked", h.memory_locked},
           {"rate_hz", rounded(h.rate_hz, 1e3)},
@@ -140,6 +141,7 @@ std::string toText(const PlayReport& r) {
   text += textLine("touch   %s, %llu ticks at %.0f Hz (%s), %llu late, %.0f %% in contact\n", h.device.c_str(),
                    static_cast<unsigned long long>(h.ticks), h.rate_hz, h.scheduler.c_str(),
                    static_cast<unsigned long long>(h.overruns), 100 * share(h.contact_ticks, h.ticks));
+  text += "felt    " + h.plan + "\n";
   text += textLine("tick    median %.1f us, p99 %.1f us, longest %.1f us; woken late by %.1f us (p99)\n",
                    us(h.update.p50), us(h.update.p99), us(h.update.max), us(h.wakeup.p99));
   text += textLine(

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// Robust measures over a lattice of places, and the formulas that turn them into widths.
+#include "app/haptics/touch_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+namespace relievo {
+namespace {
+
+constexpr int kAcross = 64, kDown = 48;
+constexpr double kEdgeMm = 3.0;
+
+// The value below which a share of the list lies; 0 of none.
+double quantile(std::vector<double>& values, double share) {
+  if (values.empty()) return 0;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+// The middle sample of each field of the lattice; the two beside it are inside the picture.
+template <class Visit>
+void forPlaces(const HeightField& field, Visit&& visit) {
+  if (field.cols() < 3 || field.rows() < 1) return;
+  for (int r = 0; r < kDown; ++r) {
+    for (int c = 0; c < kAcross; ++c) {
+      visit(std::clamp((2 * c + 1) * field.cols() / (2 * kAcross), 1, field.cols() - 2),
+            (2 * r + 1) * field.rows() / (2 * kDown));
+    }
+  }
+}
+
+// Across the samples of a row a smooth surface is straight: the second difference is noise, of 6 x its variance, and
+// the median does not see edges.
+void lookAcross(const HeightField& field, std::vector<double>& bends, std::size_t& edges, double& quantum) {
+  forPlaces(field, [&](int c, int r) {
+    const double left = field.heightMm(c - 1, r), here = field.heightMm(c, r), right = field.heightMm(c + 1, r);
+    const double bend = std::abs(left - 2 * here + right);
+    // What lies at either end of the range is often painted there, and has no noise.
+    if (std::isnan(bend) || here <= 0 || here >= field.depthMm()) return;
+    bends.push_back(bend);
+    const double step = std::abs(right - here);
+    if (step > 0) quantum = std::min(quantum, step);
+    if (std::max(step, std::abs(here - left)) > kEdgeMm) ++edges;
+  });
+}
+
+void lookAhead(const TimedSurface& from, const TimedSurface& to, std::vector<double>& speeds, bool& still) {
+  const double period = toSeconds(to.time - from.time);
+  forPlaces(from.field, [&](int c, int r) {
+    const double moved = std::abs(to.field.heightMm(c, r) - from.field.heightMm(c, r));
+    if (std::isnan(moved)) return;
+    speeds.push_back(moved / period);
+    if (moved > 0) still = false;
+  });
+}
+
+}  // namespace
+
+ClipMeasure measureClip(std::span<const TimedSurface> frames) {
+  ClipMeasure m;
+  m.frames = static_cast<int>(frames.size());
+  if (frames.empty()) return m;
+  std::vector<double> bends, speeds;
+  std::size_t edges = 0;
+  double quantum = std::numeric_limits<double>::infinity();
+  m.still = true;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    lookAcross(frames[i].field, bends, edges, quantum);
+    if (i > 0 && frames[i].shot == frames[i - 1].shot) lookAhead(frames[i - 1], frames[i], speeds, m.still);
+  }
+  if (frames.size() > 1) {
+    m.period_s = toSeconds(frames.back().time - frames.front().time) / static_cast<double>(frames.size() - 1);
+  }
+  m.sample_mm = 1 / std::abs(frames.front().field.grid().u_per_mm);
+  if (bends.empty()) return m;
+  m.edges = static_cast<double>(edges) / static_cast<double>(bends.size());
+  if (std::isfinite(quantum)) m.quantum_mm = quantum;
+  // A slope that is cut into steps bends by one step at every other sample: that much is the quantum's.
+  const double deviation = quantile(bends, 0.5) / (0.6745 * std::sqrt(6.0));
+  const double of_quantum = 0.61 * m.quantum_mm;
+  m.noise_mm = std::sqrt(std::max(deviation * deviation - of_quantum * of_quantum, 0.0));
+  m.speed_mm_per_s =
+      std::max(quantile(speeds, 0.95) - (m.noise_mm * 2.8 + m.quantum_mm) / std::max(m.period_s, 1e-3), 0.0);
+  return m;
+}
+
+TouchPlan planTouch(const ClipMeasure& m) {
+  constexpr double kNarrowMm = 0.28, kFineNarrowMm = 0.14, kWidestMm = 1.0;
+  constexpr double kTimesTheNarrow = 1.8;  // less is one level twice
+  constexpr double kFineMm = 0.02;         // steps and noise that are not felt even through 0.14 mm
+  const bool noisy = m.noise_mm > std::max(m.quantum_mm, kFineMm);
+  const bool fine = !noisy && m.quantum_mm < kFineMm;
+  TouchPlan plan;
+  plan.measure = m;
+  FeltScale& s = plan.scale;
+
+  // A still scene costs no work in time, unless its noise is to be averaged; one that moves less than can be felt in a
+  // frame is straight enough between two; noise is averaged by the smoother law.
+  if (m.still) s.narrow_time = s.wide_time = TimeLaw::Hold;
+  else if (noisy) s.wide_time = TimeLaw::BSpline;
+  else s.wide_time = m.speed_mm_per_s * m.period_s < kFineMm ? TimeLaw::Linear : TimeLaw::Fitted;
+
+  // Share of the noise's power that the weights of the frames let through: the mean of their sum of squares.
+  const double through = s.wide_time == TimeLaw::BSpline ? 0.48 : s.wide_time == TimeLaw::Hold ? 1.0 : 0.75;
+  // Error of direction of a Gaussian of width w on white noise s from samples p apart: s p sqrt(g) sqrt(1.2)/(3.54 w^2)
+  // times the square root of 1.2; on steps of q, at the worst slope, q/(7.09 w).
+  const auto width = [&](double error) {
+    return std::max(std::sqrt(1.2 * m.noise_mm * m.sample_mm * std::sqrt(through) / (3.54 * error)),
+                    m.quantum_mm / (7.09 * error));
+  };
+  s.narrow_mm = fine ? kFineNarrowMm : kNarrowMm;
+  s.wide_mm = std::clamp(width(kErrorWanted), kTimesTheNarrow * s.narrow_mm, kWidestMm);
+  const double of_noise = 1.2 * m.noise_mm * m.sample_mm * std::sqrt(through) / (3.54 * s.wide_mm * s.wide_mm);
+  const double of_steps = m.quantum_mm / (7.09 * s.wide_mm);
+  plan.error = std::max(of_noise, of_steps);
+
+  // What the narrow level is off by must fit under the clamp: four standard deviations of its noise, and its steps.
+  const double narrow_noise =
+      m.noise_mm * m.sample_mm * (m.still ? 1.0 : 0.82) / (s.narrow_mm * std::sqrt(4 * std::numbers::pi));
+  s.clamp_mm = std::max({0.15, 1.6 * std::min(m.quantum_mm, 0.2), 4 * narrow_noise});
+
+  char text[240];
+  std::snprintf(text, sizeof text,
+                "steps of %.3f mm, noise %.3f mm, %.0f mm/s%s: levels of %.2f and %.2f mm, %s and %s in time; error of "
+                "the force about %.1f %%",
+                m.quantum_mm, m.noise_mm, m.speed_mm_per_s, m.still ? " (still)" : "", s.narrow_mm, s.wide_mm,
+                name(s.narrow_time), name(s.wide_time), 100 * plan.error);
+  plan.reason = text;
+  return plan;
+}
+
+}  // namespace relievo
