@@ -68,17 +68,23 @@ void ControlGrid::read(std::size_t p, const Frames& frames, std::uint32_t missin
   for (; missing != 0; missing &= missing - 1) {
     const auto slot = static_cast<std::size_t>(__builtin_ctz(missing));
     const auto bit = static_cast<std::uint8_t>(1U << slot);
-    double mean = HeightField::kHole;
-    if (!outside) {
-      const auto frame = static_cast<std::size_t>(frames.frame_of_slot[slot]);
-      mean = frames.window->frames[frame].field.meanHeight(static_cast<int>(c0), static_cast<int>(r0),
-                                                           static_cast<int>(c1 - c0), static_cast<int>(r1 - r0),
-                                                           most_samples_);
-    }
+    const double mean =
+        outside ? HeightField::kHole
+                : meanOrBridged(frames.window->frames[frames.frame_of_slot[slot]].field, static_cast<int>(c0),
+                                static_cast<int>(r0), static_cast<int>(c1 - c0), static_cast<int>(r1 - r0));
     filled_[p] |= bit;
     if (std::isnan(mean)) hole_[p] |= bit;
     height_[p][slot] = std::isnan(mean) ? 0 : static_cast<float>(mean);
   }
+}
+
+// A hole that is narrower than the blocks around it, a dead sample, is bridged by what is around it.
+double ControlGrid::meanOrBridged(const HeightField& field, int c, int r, int width, int height) const RELIEVO_RT {
+  const double mean = field.meanHeight(c, r, width, height, most_samples_);
+  if (!std::isnan(mean)) return mean;
+  const int left = std::max(c - block_cols_, 0), right = std::min(c + width + block_cols_, cols_);
+  const int top = std::max(r - block_rows_, 0), bottom = std::min(r + height + block_rows_, rows_);
+  return field.meanHeight(left, top, right - left, bottom - top, 3 * most_samples_);
 }
 
 // Holes come and go from frame to frame with a depth camera: as long as most of the weight lies on readings, they tell.

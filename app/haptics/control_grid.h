@@ -17,8 +17,8 @@ using Patch = std::array<Float4, 4>;
 
 // Control point (i, j) stands at the centre of the block of block_cols x block_rows samples that begins at sample
 // (i block_cols, j block_rows). Its height is the mean of the block's samples, in each frame by itself; a block of
-// which less than half has a reading is a hole, and a hole, like all that lies outside the picture, is a pit one volume
-// depth below the far plane: free space with the same rounded rim as any other edge.
+// which less than half has a reading, with its neighbours as well, is a hole, and a hole, like all that lies outside
+// the picture, is a pit one volume depth below the far plane: free space with the same rounded rim as any other edge.
 //
 // Nothing is built: a block is read when it is first asked for and kept in a toroidal cache of 16 x 16 points for as
 // long as its frame is in the window. 10 KiB, fixed.
@@ -45,7 +45,7 @@ class ControlGrid {
   // The frames of the moment, by their slots in the cache.
   struct Frames {
     const SurfaceWindow* window = nullptr;
-    std::array<std::int8_t, kFrames> frame_of_slot{};
+    std::array<std::uint8_t, kFrames> frame_of_slot{};
     std::uint32_t wanted = 0;                         // bit per slot with a weight
     alignas(16) std::array<float, kFrames> weight{};  // by slot
   };
@@ -58,9 +58,10 @@ class ControlGrid {
   static constexpr int kSide = 16;
   static constexpr std::size_t kPoints = static_cast<std::size_t>(kSide) * kSide;
   [[nodiscard]] static std::size_t slotOf(int i, int j) RELIEVO_RT {
-    return static_cast<std::size_t>((j & (kSide - 1)) * kSide + (i & (kSide - 1)));
+    return static_cast<std::size_t>(j & (kSide - 1)) * kSide + static_cast<std::size_t>(i & (kSide - 1));
   }
   void read(std::size_t point, const Frames& frames, std::uint32_t missing) RELIEVO_RT;
+  [[nodiscard]] double meanOrBridged(const HeightField& field, int c, int r, int width, int height) const RELIEVO_RT;
   [[nodiscard]] float withHoles(std::size_t point, const Frames& frames) const RELIEVO_RT;
 
   double pitch_wanted_mm_;

@@ -100,7 +100,7 @@ bool FeltSurface::placeFrames(const SurfaceWindow& window) RELIEVO_RT {
       narrow_.grid().forgetFrame(static_cast<int>(s));
       wide_.grid().forgetFrame(static_cast<int>(s));
     }
-    slots_.frame[slots_.of_frame[f]] = static_cast<std::int8_t>(f);
+    slots_.frame[slots_.of_frame[f]] = static_cast<std::uint8_t>(f);
   }
   return true;
 }

@@ -172,12 +172,13 @@ bool RelievoMethod::enterOnPath(const glm::dvec3& from_mm, const glm::dvec3& hip
   return false;
 }
 
-// Stays where it was while the finger pulls less than static friction holds, and otherwise goes on until dynamic
-// friction holds what is left (Coulomb; the cone around the normal where the proxy was).
+// Stays where it was while the finger pulls less than static friction holds, and then slides, held back by dynamic
+// friction, until that holds it (Coulomb; the cone around the normal where the proxy was).
 void RelievoMethod::rub(const glm::dvec3& hip_mm) RELIEVO_RT {
   if (config_.friction.static_coefficient <= 0) return;
   if (!rubbing_) {
     rubbing_ = true;
+    sliding_ = false;
     stuck_ = contact_;
     return;
   }
@@ -187,9 +188,11 @@ void RelievoMethod::rub(const glm::dvec3& hip_mm) RELIEVO_RT {
   const glm::dvec3 pull = hip_mm - place;
   const double pressed = -glm::dot(pull, normal);
   const double aside = glm::length(pull + pressed * normal);
-  double share = 1;  // of the way to the closest point
-  if (pressed > 0 && aside <= config_.friction.static_coefficient * pressed) share = 0;
-  else if (pressed > 0) share = 1 - std::min(config_.friction.dynamic_coefficient * pressed / aside, 1.0);
+  const Friction& friction = config_.friction;
+  const double hold = (sliding_ ? friction.dynamic_coefficient : friction.static_coefficient) * pressed;
+  sliding_ = aside > hold;
+  // Of the way to the closest point; dynamic friction holds what is left.
+  const double share = sliding_ ? 1 - std::clamp(friction.dynamic_coefficient * pressed / aside, 0.0, 1.0) : 0;
   contact_.x_mm = stuck_.x_mm + share * (contact_.x_mm - stuck_.x_mm);
   contact_.y_mm = stuck_.y_mm + share * (contact_.y_mm - stuck_.y_mm);
   contact_.surface = surface_.at(contact_.x_mm, contact_.y_mm);

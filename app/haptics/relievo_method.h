@@ -62,7 +62,7 @@ class RelievoMethod final : public TouchMethod {
   glm::dvec3 hip_mm_{0};
   Contact contact_;
   double rise_mm_ = 0;  // of the surface under the proxy in the last tick
-  bool rubbing_ = false;
+  bool rubbing_ = false, sliding_ = false;
   Contact stuck_;          // where friction last held the proxy
   double lowered_mm_ = 0;  // of the surface, after a cut
   double force_before_cut_n_ = 0;

@@ -24,7 +24,7 @@ struct SurfacePoint {
 struct FrameSlots {
   const SurfaceWindow* window = nullptr;
   std::array<std::uint8_t, ControlGrid::kFrames> of_frame{};
-  std::array<std::int8_t, ControlGrid::kFrames> frame{};
+  std::array<std::uint8_t, ControlGrid::kFrames> frame{};
   std::uint32_t in_use = 0;  // bit per slot
 };
 

@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kAcross = 64, kDown = 48;
 constexpr double kEdgeMm = 3.0;
+constexpr double kRoundingMm = 1e-6;
 
 // The value below which a share of the list lies; 0 of none.
 double quantile(std::vector<double>& values, double share) {
@@ -45,7 +46,10 @@ void lookAcross(const HeightField& field, std::vector<double>& bends, std::size_
     if (std::isnan(bend) || here <= 0 || here >= field.depthMm()) return;
     bends.push_back(bend);
     const double step = std::abs(right - here);
-    if (step > 0) quantum = std::min(quantum, step);
+    // On a steep slope every step is more than one quantum; how the steps differ tells.
+    for (const double d : {step, bend}) {
+      if (d > kRoundingMm) quantum = std::min(quantum, d);
+    }
     if (std::max(step, std::abs(here - left)) > kEdgeMm) ++edges;
   });
 }

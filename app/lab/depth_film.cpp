@@ -32,7 +32,7 @@ struct DepthFilm::Tracks {
   std::optional<Frame> first;  // read to know its shape, not yet handed out
 };
 
-DepthFilm::DepthFilm(PairReader::Backends backends, DepthFilmOptions options)
+DepthFilm::DepthFilm(const PairReader::Backends& backends, DepthFilmOptions options)
     : options_(std::move(options)), tracks_(std::make_unique<Tracks>(backends)) {}
 DepthFilm::~DepthFilm() = default;
 

@@ -24,7 +24,7 @@ struct DepthFilmOptions {
 // Reads ahead as far as a window goes and forgets what lies behind it, so that a film of any length fits.
 class DepthFilm {
  public:
-  DepthFilm(PairReader::Backends backends, DepthFilmOptions options);
+  DepthFilm(const PairReader::Backends& backends, DepthFilmOptions options);
   ~DepthFilm();
 
   [[nodiscard]] Outcome<void> open();

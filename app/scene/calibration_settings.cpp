@@ -58,7 +58,7 @@ bool apply(DepthCalibration& c, std::string_view key, std::string_view value) {
     }
     const auto code = number<std::uint32_t>(value);
     if (!code || *code > 0xffff) return false;
-    c.invalid_code = *code;
+    c.invalid_code = code;
   } else {
     const auto mm = number<double>(value);
     if (!mm || !std::isfinite(*mm) || *mm <= 0) return false;
