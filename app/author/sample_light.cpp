@@ -7,7 +7,7 @@
 
 namespace relievo::sample {
 
-FilmCurve::FilmCurve() {
+FilmCurve::FilmCurve() noexcept {
   for (std::size_t i = 0; i < table_.size(); ++i) {
     const double x = static_cast<double>(i) / static_cast<double>(kScale);
     const double y = x * (1 + x * 0.16) / (1 + x * 0.42);

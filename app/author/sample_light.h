@@ -87,7 +87,7 @@ template <class Scene>
 // The sRGB curve behind a shoulder that keeps highlights from burning out, as a table over the light.
 class FilmCurve {
  public:
-  FilmCurve();
+  FilmCurve() noexcept;
   [[nodiscard]] std::uint8_t operator()(float light) const {
     const float step = std::clamp(light * kScale + 0.5F, 0.0F, static_cast<float>(kSteps));
     return table_[static_cast<std::size_t>(step)];

@@ -134,7 +134,7 @@ Result<FingerModel> FingerModel::create() {
   glBindBuffer(GL_ARRAY_BUFFER, finger.buffer_.get());
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(shapes.size() * sizeof(Vertex)), shapes.data(), GL_STATIC_DRAW);
   glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), nullptr);
-  // GL takes an offset for a pointer here. NOLINTNEXTLINE(performance-no-int-to-ptr)
+  // GL takes an offset for a pointer here.
   const auto* normals = reinterpret_cast<const void*>(offsetof(Vertex, normal));
   glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), normals);
   glEnableVertexAttribArray(0);

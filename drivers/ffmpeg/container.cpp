@@ -32,7 +32,7 @@ std::pair<std::int64_t, std::int64_t> worthOf(const AVFormatContext& context, co
     area = std::max(area, std::int64_t{parameters.width} * parameters.height);
   }
   const AVDictionaryEntry* const rate = av_dict_get(programme.metadata, "variant_bitrate", nullptr, 0);
-  return {area, rate == nullptr ? 0 : std::atoll(rate->value)};
+  return {area, rate == nullptr ? 0 : std::strtoll(rate->value, nullptr, 10)};
 }
 
 }  // namespace

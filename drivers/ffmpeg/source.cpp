@@ -59,7 +59,7 @@ class Watch {
 
  private:
   MonotonicClock clock_;
-  std::atomic<MonotonicTime> deadline_{};  // atomic, since threads of the library ask as well
+  std::atomic<MonotonicTime> deadline_;  // atomic, since threads of the library ask as well
   std::atomic<bool> expired_{false};
   std::atomic<bool> cancelled_{false};
 };

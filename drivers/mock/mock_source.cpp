@@ -64,7 +64,7 @@ class MockSource final : public MediaSource {
     }
     Cursor* const first = earliest();
     if (first == nullptr) return std::nullopt;
-    const Packet packet = take(*first);
+    Packet packet = take(*first);
     ++packets_;
     return packet;
   }
