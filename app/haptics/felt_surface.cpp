@@ -21,7 +21,7 @@ struct SoftClamp {
     const double root = std::sqrt(std::sqrt(base));
     slope = 1 / (base * root);
     value = std::copysign(a + (d - a) * s / root, u);
-    bend = std::copysign(-5 * s2 * s * slope / (base * (d - a)), u);
+    bend = std::copysign(5 * s2 * s * slope / (base * (d - a)), -u);
   }
 };
 
