@@ -105,26 +105,25 @@ TEST(FeltSurface, ItsDerivativesAreThoseOfItsHeightAlsoAtAnEdge) {
   const SurfaceWindow w = makeWindow(frames, kVolume);
   FeltSurface s({});
   std::mt19937 random(2);
-  std::uniform_real_distribution<double> x(6, 14), y(-10, 10);
+  std::uniform_real_distribution<double> beside(-1.2, 1.2), y(-10, 10);
   constexpr double kStep = 0.001;
   int off = 0;
   for (int i = 0; i < 2000; ++i) {
-    const double px = x(random), py = y(random);
+    const double py = y(random), px = 10 + 0.3 * py + beside(random);
     ASSERT_TRUE(s.moment(w, mediaTime(0.08)));
     const SurfacePoint p = s.at(px, py), e = s.at(px + kStep, py), o = s.at(px - kStep, py), n = s.at(px, py + kStep),
                        u = s.at(px, py - kStep);
-    // Central differences: right to the third derivative x step^2/6, and rounding of single precision.
-    ASSERT_NEAR(p.zx, (e.z - o.z) / (2 * kStep), 0.02 + 0.005 * std::abs(p.zx)) << px << ' ' << py;
-    ASSERT_NEAR(p.zy, (n.z - u.z) / (2 * kStep), 0.02 + 0.005 * std::abs(p.zy));
     // The clamp's third derivative jumps, and is large: a difference across the jump is off.
     const auto close = [](double exact, double difference) {
       return std::abs(exact - difference) < 0.02 * (std::abs(exact) + 20);
     };
+    ASSERT_NEAR(p.zx, (e.z - o.z) / (2 * kStep), 0.02 * (std::abs(p.zx) + 1)) << px << ' ' << py;
+    ASSERT_NEAR(p.zy, (n.z - u.z) / (2 * kStep), 0.02 * (std::abs(p.zy) + 1));
     off += close(p.zxx, (e.zx - o.zx) / (2 * kStep)) ? 0 : 1;
     off += close(p.zxy, (n.zx - u.zx) / (2 * kStep)) ? 0 : 1;
     off += close(p.zyy, (n.zy - u.zy) / (2 * kStep)) ? 0 : 1;
   }
-  EXPECT_LT(off, 0.02 * 3 * 2000);
+  EXPECT_LT(off, 60) << "of 6000";
 }
 
 TEST(FeltSurface, WhatWasPreparedIsWhatWouldHaveBeenComputed) {
