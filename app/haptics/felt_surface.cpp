@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/vector_relational.hpp>
+
+#include "app/haptics/edge_motion.h"
 
 namespace relievo {
 namespace {
@@ -48,6 +51,9 @@ bool FeltSurface::moment(const SurfaceWindow& window, MediaTime now) RELIEVO_RT 
       std::chrono::abs(now - prepared_for_) <= kPreparedWithin) {
     since_prepared_s = toSeconds(now - prepared_for_);
   }
+  edge_moves_ = two_levels_ && edge_way_mm_ != glm::dvec2(0) &&
+                window.frames[static_cast<std::size_t>(moment.present)].time == edge_from_;
+  share_ = moment.share;
   narrow_.begin(slots_, moment, since_prepared_s);
   if (two_levels_) wide_.begin(slots_, moment, since_prepared_s);
   return true;
@@ -61,6 +67,7 @@ void FeltSurface::setPicture(const SurfaceWindow& window) RELIEVO_RT {
   depth_mm_ = field.depthMm();
   slots_.in_use = 0;
   count_ = 0;
+  edge_from_ = MediaTime::min();
   ControlGrid& narrow = narrow_.grid();
   ControlGrid& wide = wide_.grid();
   narrow.setPicture(field);
@@ -105,11 +112,22 @@ bool FeltSurface::placeFrames(const SurfaceWindow& window) RELIEVO_RT {
   return true;
 }
 
+// On the present frame as the edge has left it, and on the next as it comes.
+SurfacePoint FeltSurface::narrowAt(double x_mm, double y_mm) RELIEVO_RT {
+  if (!edge_moves_) return narrow_.at(x_mm, y_mm);
+  const glm::dvec2 gone = share_ * edge_way_mm_, to_come = edge_way_mm_ - gone;
+  const SurfacePoint a = narrow_.atFrame(0, x_mm - gone.x, y_mm - gone.y);
+  const SurfacePoint b = narrow_.atFrame(1, x_mm + to_come.x, y_mm + to_come.y);
+  const auto mix = [s = share_](double from, double to) { return from + (to - from) * s; };
+  return {mix(a.z, b.z), mix(a.zx, b.zx), mix(a.zy, b.zy), mix(a.zxx, b.zxx), mix(a.zxy, b.zxy), mix(a.zyy, b.zyy)};
+}
+
 SurfacePoint FeltSurface::at(double x_mm, double y_mm) RELIEVO_RT {
   if (!two_levels_) return narrow_.at(x_mm, y_mm);
   const SurfacePoint w = wide_.at(x_mm, y_mm);
-  if (std::abs(w.z - narrow_.height(x_mm, y_mm)) <= 0.5 * scale_.clamp_mm) return w;
-  const SurfacePoint n = narrow_.at(x_mm, y_mm);
+  if (!edge_moves_ && std::abs(w.z - narrow_.height(x_mm, y_mm)) <= 0.5 * scale_.clamp_mm) return w;
+  const SurfacePoint n = narrowAt(x_mm, y_mm);
+  if (std::abs(w.z - n.z) <= 0.5 * scale_.clamp_mm) return w;
   const SoftClamp c(w.z - n.z, scale_.clamp_mm);
   const double ux = w.zx - n.zx, uy = w.zy - n.zy;
   return {n.z + c.value,
@@ -121,10 +139,30 @@ SurfacePoint FeltSurface::at(double x_mm, double y_mm) RELIEVO_RT {
 }
 
 double FeltSurface::height(double x_mm, double y_mm) RELIEVO_RT {
-  const double n = narrow_.height(x_mm, y_mm);
+  const double n = edge_moves_ ? narrowAt(x_mm, y_mm).z : narrow_.height(x_mm, y_mm);
   if (!two_levels_) return n;
   const double w = wide_.height(x_mm, y_mm);
   return std::abs(w - n) <= 0.5 * scale_.clamp_mm ? w : n + SoftClamp(w - n, scale_.clamp_mm).value;
+}
+
+// Looks again for every frame, and when the finger has gone on so far that the edge may be another one; not too often
+// for a finger that hurries.
+void FeltSurface::followEdge(const SurfaceWindow& window, MediaTime next, const FrameMoment& moment, double x_mm,
+                             double y_mm) RELIEVO_RT {
+  constexpr double kNearMm = 1.5;
+  constexpr Duration kNotSooner = std::chrono::milliseconds(4);
+  const TimedSurface& from = window.frames[static_cast<std::size_t>(moment.present)];
+  const glm::dvec2 place(x_mm, y_mm), moved = place - edge_place_mm_;
+  if (from.time == edge_from_) {
+    const bool near = std::max(std::abs(moved.x), std::abs(moved.y)) < kNearMm;
+    if (near || std::chrono::abs(next - edge_looked_) < kNotSooner) return;
+  }
+  edge_looked_ = next;
+  edge_from_ = from.time;
+  edge_place_mm_ = place;
+  edge_way_mm_ = glm::dvec2(0);
+  if (scale_.narrow_time == TimeLaw::Hold || moment.present >= moment.last) return;
+  edge_way_mm_ = edgeMotion(from.field, window.frames[static_cast<std::size_t>(moment.present) + 1].field, x_mm, y_mm);
 }
 
 void FeltSurface::prepare(const SurfaceWindow& window, MediaTime next, double x_mm, double y_mm,
@@ -137,6 +175,7 @@ void FeltSurface::prepare(const SurfaceWindow& window, MediaTime next, double x_
   prepared_from_ = present > 0 ? window.frames[present].time : MediaTime::min();
   prepared_until_ =
       present + 1 < static_cast<std::size_t>(window.count) ? window.frames[present + 1].time : MediaTime::max();
+  if (two_levels_) followEdge(window, next, moment, x_mm, y_mm);
   // Where a frame begins in between, the later moment tells nothing about how the surface goes on.
   const FrameMoment& comparable = later.present == moment.present ? later : moment;
   narrow_.prepare(slots_, x_mm, y_mm, points, moment, comparable, toSeconds(kStep));

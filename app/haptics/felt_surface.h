@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/vec2.hpp>
 
 #include "app/haptics/parts.h"
 #include "app/haptics/surface_level.h"
@@ -25,7 +26,7 @@ struct FeltScale {
 
 // S = N + c(W - N): N sees edges, W is calm, and c is a soft clamp, so that W may correct N's noise but not round an
 // edge off by more than `clamp_mm`; away from edges S is W. Monotone: c never turns back, or a lip would be left at an
-// edge.
+// edge. Where an edge moves, N moves with it from frame to frame instead of fading one into the other.
 // A view for one moment of one window; reads depth where it is asked for.
 class FeltSurface {
  public:
@@ -47,6 +48,9 @@ class FeltSurface {
   void prepare(const SurfaceWindow& window, MediaTime next, double x_mm, double y_mm, int points) RELIEVO_RT;
 
  private:
+  [[nodiscard]] SurfacePoint narrowAt(double x_mm, double y_mm) RELIEVO_RT;
+  void followEdge(const SurfaceWindow& window, MediaTime next, const FrameMoment& moment, double x_mm,
+                  double y_mm) RELIEVO_RT;
   void setPicture(const SurfaceWindow& window) RELIEVO_RT;
   [[nodiscard]] bool placeFrames(const SurfaceWindow& window) RELIEVO_RT;
 
@@ -62,6 +66,13 @@ class FeltSurface {
   std::array<MediaTime, ControlGrid::kFrames> time_of_slot_{};
   MediaTime first_time_, last_time_;
   int count_ = 0;
+
+  // How the edge near a place moves from one frame to the next, and the narrow level with it.
+  glm::dvec2 edge_way_mm_{0}, edge_place_mm_{0};
+  MediaTime edge_from_ = MediaTime::min();  // the frame's time
+  MediaTime edge_looked_;
+  bool edge_moves_ = false;  // at this moment
+  double share_ = 0;         // of the way, at this moment
 
   // For which moment the levels are prepared, and between which two frames that lies.
   bool prepared_ = false;

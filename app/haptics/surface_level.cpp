@@ -51,7 +51,7 @@ void SurfaceLevel::begin(const FrameSlots& slots, const FrameMoment& moment,
                          std::optional<double> since_prepared_s) RELIEVO_RT {
   slots_ = &slots;
   moment_ = moment;
-  weighed_ = patched_ = false;
+  weighed_ = patch_.valid = frame_patch_[0].valid = frame_patch_[1].valid = false;
   since_prepared_s_.reset();
   if (since_prepared_s) since_prepared_s_ = static_cast<float>(*since_prepared_s);
 }
@@ -66,18 +66,34 @@ SurfaceLevel::Cell SurfaceLevel::cellOf(double x_mm, double y_mm) const RELIEVO_
 }
 
 const Patch& SurfaceLevel::patchAt(const Cell& cell) RELIEVO_RT {
-  if (patched_ && cell.i == i_ && cell.j == j_) return patch_;
+  if (patch_.isOf(cell)) return patch_.points;
   if (since_prepared_s_ && cell.i == prepared_i_ && cell.j == prepared_j_) {
-    for (std::size_t j = 0; j < 4; ++j) patch_[j] = prepared_[j] + prepared_rate_[j] * *since_prepared_s_;
+    for (std::size_t j = 0; j < 4; ++j) patch_.points[j] = prepared_[j] + prepared_rate_[j] * *since_prepared_s_;
   } else {
     if (!weighed_) weigh(*slots_, moment_, frames_);
     weighed_ = true;
-    grid_.patch(cell.i, cell.j, frames_, patch_);
+    grid_.patch(cell.i, cell.j, frames_, patch_.points);
   }
-  i_ = cell.i;
-  j_ = cell.j;
-  patched_ = true;
-  return patch_;
+  patch_.i = cell.i;
+  patch_.j = cell.j;
+  patch_.valid = true;
+  return patch_.points;
+}
+
+SurfacePoint SurfaceLevel::atFrame(std::size_t which, double x_mm, double y_mm) RELIEVO_RT {
+  const Cell cell = cellOf(x_mm, y_mm);
+  CellPatch& patch = frame_patch_[which];
+  if (!patch.isOf(cell)) {
+    const int frame = std::min(moment_.present + static_cast<int>(which), moment_.last);
+    const std::uint8_t slot = slots_->of_frame[static_cast<std::size_t>(frame)];
+    ControlGrid::Frames one{.window = slots_->window, .frame_of_slot = slots_->frame, .wanted = 1U << slot};
+    one.weight[slot] = 1;
+    grid_.patch(cell.i, cell.j, one, patch.points);
+    patch.i = cell.i;
+    patch.j = cell.j;
+    patch.valid = true;
+  }
+  return pointOn(patch.points, cell);
 }
 
 double SurfaceLevel::height(double x_mm, double y_mm) RELIEVO_RT {
@@ -91,7 +107,10 @@ double SurfaceLevel::height(double x_mm, double y_mm) RELIEVO_RT {
 
 SurfacePoint SurfaceLevel::at(double x_mm, double y_mm) RELIEVO_RT {
   const Cell cell = cellOf(x_mm, y_mm);
-  const Patch& p = patchAt(cell);
+  return pointOn(patchAt(cell), cell);
+}
+
+SurfacePoint SurfaceLevel::pointOn(const Patch& p, const Cell& cell) const RELIEVO_RT {
   const std::array<Float4, 4>& polynomials = cubic_ ? kCubic : kQuadratic;
   const Basis h(polynomials, cell.a), v(polynomials, cell.b);
   const Float4 row = p[0] * v.value[0] + p[1] * v.value[1] + p[2] * v.value[2] + p[3] * v.value[3];

@@ -41,6 +41,8 @@ class SurfaceLevel {
   void begin(const FrameSlots& slots, const FrameMoment& moment, std::optional<double> since_prepared_s) RELIEVO_RT;
   [[nodiscard]] SurfacePoint at(double x_mm, double y_mm) RELIEVO_RT;
   [[nodiscard]] double height(double x_mm, double y_mm) RELIEVO_RT;
+  // The same on one frame alone: the present one (0) or the next (1).
+  [[nodiscard]] SurfacePoint atFrame(std::size_t which, double x_mm, double y_mm) RELIEVO_RT;
 
   // Ahead of the moment `next`, for a place: reads the points around it, and of them at most `points` in frames that do
   // not count yet, and weighs them out for `next` and for `later`, which comes `step_s` after it.
@@ -53,8 +55,15 @@ class SurfaceLevel {
     float a = 0, b = 0;  // place within the cell
   };
   [[nodiscard]] Cell cellOf(double x_mm, double y_mm) const RELIEVO_RT;
-  // The control points around a cell at this moment.
+  // The control points around a cell, and which cell that is.
+  struct CellPatch {
+    Patch points{};
+    int i = 0, j = 0;
+    bool valid = false;  // at this moment
+    [[nodiscard]] bool isOf(const Cell& cell) const RELIEVO_RT { return valid && cell.i == i && cell.j == j; }
+  };
   [[nodiscard]] const Patch& patchAt(const Cell& cell) RELIEVO_RT;
+  [[nodiscard]] SurfacePoint pointOn(const Patch& patch, const Cell& cell) const RELIEVO_RT;
   void weigh(const FrameSlots& slots, const FrameMoment& moment, ControlGrid::Frames& frames) const RELIEVO_RT;
 
   ControlGrid grid_;
@@ -65,9 +74,8 @@ class SurfaceLevel {
   FrameMoment moment_;
   ControlGrid::Frames frames_;
   bool weighed_ = false;  // `frames_` for `moment_`: done when it is first needed
-  Patch patch_{};
-  int i_ = 0, j_ = 0;
-  bool patched_ = false;
+  CellPatch patch_;
+  std::array<CellPatch, 2> frame_patch_;  // of the present frame and the next alone
 
   Patch prepared_{}, prepared_rate_{};  // mm, mm/s
   int prepared_i_ = 0, prepared_j_ = 0;

@@ -48,7 +48,7 @@ void lookAcross(const HeightField& field, std::vector<double>& bends, std::size_
     const double step = std::abs(right - here);
     // On a steep slope every step is more than one quantum; how the steps differ tells.
     for (const double d : {step, bend}) {
-      if (d > kRoundingMm) quantum = std::min(quantum, d);
+      if (d > kRoundingMm && d < kEdgeMm) quantum = std::min(quantum, d);
     }
     if (std::max(step, std::abs(here - left)) > kEdgeMm) ++edges;
   });
@@ -84,7 +84,7 @@ ClipMeasure measureClip(std::span<const TimedSurface> frames) {
   m.sample_mm = 1 / std::abs(frames.front().field.grid().u_per_mm);
   if (bends.empty()) return m;
   m.edges = static_cast<double>(edges) / static_cast<double>(bends.size());
-  if (std::isfinite(quantum)) m.quantum_mm = quantum;
+  m.quantum_mm = std::isfinite(quantum) ? quantum : frames.front().field.stepMm();
   // A slope that is cut into steps bends by one step at every other sample: that much is the quantum's.
   const double deviation = quantile(bends, 0.5) / (0.6745 * std::sqrt(6.0));
   const double of_quantum = 0.61 * m.quantum_mm;
@@ -107,7 +107,7 @@ TouchPlan planTouch(const ClipMeasure& m) {
   // A still scene costs no work in time, unless its noise is to be averaged; one that moves less than can be felt in a
   // frame is straight enough between two; noise is averaged by the smoother law.
   if (m.still) s.narrow_time = s.wide_time = TimeLaw::Hold;
-  else if (noisy) s.wide_time = TimeLaw::BSpline;
+  else if (noisy) s.narrow_time = s.wide_time = TimeLaw::BSpline;
   else s.wide_time = m.speed_mm_per_s * m.period_s < kFineMm ? TimeLaw::Linear : TimeLaw::Fitted;
 
   // Share of the noise's power that the weights of the frames let through: the mean of their sum of squares.
@@ -126,7 +126,7 @@ TouchPlan planTouch(const ClipMeasure& m) {
 
   // What the narrow level is off by must fit under the clamp: four standard deviations of its noise, and its steps.
   const double narrow_noise =
-      m.noise_mm * m.sample_mm * (m.still ? 1.0 : 0.82) / (s.narrow_mm * std::sqrt(4 * std::numbers::pi));
+      m.noise_mm * m.sample_mm * std::sqrt(through) / (s.narrow_mm * std::sqrt(4 * std::numbers::pi));
   s.clamp_mm = std::max({0.15, 1.6 * std::min(m.quantum_mm, 0.2), 4 * narrow_noise});
 
   char text[240];

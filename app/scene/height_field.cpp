@@ -11,7 +11,6 @@ namespace {
 // Below this sum of the three bytes a pixel has no reading: 0.3 of one channel's full scale. A hue of a dark pixel is
 // noise; footage in this coding marks what the sensor did not see by black.
 constexpr int kDarkestReadable = 76;
-constexpr int kHueSteps = 6 * 256;
 
 // Hue over 360 degrees by the textbook hexagon (red 0, yellow 1/6, green 1/3, ..), or nothing at a pixel without a
 // reading.

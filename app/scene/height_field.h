@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -42,10 +43,15 @@ class HeightField {
   // as many down, evenly spread about its centre. Not a number when less than half of those read have a height.
   [[nodiscard]] double meanHeight(int c0, int r0, int width, int height, int most) const RELIEVO_RT;
   [[nodiscard]] double depthMm() const RELIEVO_RT { return depth_mm_; }
+  // The height of one code, in the mean over the volume.
+  [[nodiscard]] double stepMm() const RELIEVO_RT {
+    return depth_mm_ * (layout_ == Layout::Hue ? 1.0 / kHueSteps : std::abs(s_scale_));
+  }
 
   // The raw luma code; for a hue 0 .. 1535, six steps of 256, and 0 at one that cannot be read.
   [[nodiscard]] std::uint32_t code(int c, int r) const RELIEVO_RT;
 
+  static constexpr int kHueSteps = 6 * 256;
   static constexpr double kHole = std::numeric_limits<double>::quiet_NaN();
 
  private:

@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numeric>
 #include <random>
 #include <vector>
 
+#include "app/haptics/edge_motion.h"
 #include "app/haptics/shots.h"
 #include "app/haptics/touch_plan.h"
 #include "tests/support/depth_frames.h"
@@ -184,22 +186,62 @@ TEST(FeltSurface, HolesAndThePicturesOutsideArePitsAndLoneHolesAreNot) {
   }
 }
 
+// Distance of the true upper corner of a 15 mm step to the surface, across the edge at (edge, y).
+double cornerError(FeltSurface& s, double edge, double y) {
+  double corner = 1e9;
+  for (double d = -3; d < 3; d += 0.02) {
+    corner = std::min(corner, std::hypot(d / std::hypot(1, 0.3), s.height(edge + d, y) - 25));
+  }
+  return corner;
+}
+
 TEST(FeltSurface, AStepKeepsItsCornerWithinAMillimetreAndFlatGroundIsFlat) {
   const auto frames = film(6, [](double x, double y, double) { return x > 3.07 + 0.3 * y ? 25.0 : 10.0; }, 720, 486);
   const SurfaceWindow w = makeWindow(frames, kVolume);
   FeltSurface s({});
   ASSERT_TRUE(s.moment(w, mediaTime(0.08)));
-  const double cosine = 1 / std::hypot(1, 0.3);
   for (double y = -15; y < 15; y += 0.7) {
     const double edge = 3.07 + 0.3 * y;
-    double corner = 1e9;  // distance of the true upper corner to the surface, across the edge
-    for (double d = -2; d < 2; d += 0.02) {
-      corner = std::min(corner, std::hypot(d * cosine, s.height(edge + d, y) - 25));
-    }
-    ASSERT_LE(corner, 0.9) << y;
+    ASSERT_LE(cornerError(s, edge, y), 0.9) << y;
     ASSERT_NEAR(s.height(edge + 3, y), 25, 0.02);
     ASSERT_NEAR(s.height(edge - 3, y), 10, 0.02);
   }
+}
+
+TEST(FeltSurface, AnEdgeThatMovesIsInOnePlaceBetweenTheFrames) {
+  for (const double speed : {12.6, 50.0, -50.0}) {
+    const auto edge = [&](double y, double t) { return 3.07 + 0.3 * y + speed * t; };
+    const auto frames = film(6, [&](double x, double y, double t) { return x > edge(y, t) ? 25.0 : 10.0; }, 720, 486);
+    const SurfaceWindow w = makeWindow(frames, kVolume);
+    FeltSurface s({});
+    for (double t = 2.0 * kPeriod; t < 3 * kPeriod; t += 0.0031) {
+      for (const double y : {-7.0, 0.4, 8.0}) {
+        ASSERT_TRUE(s.moment(w, mediaTime(t - 0.001)));
+        s.prepare(w, mediaTime(t), edge(y, t) + 1, y, 2);
+        ASSERT_TRUE(s.moment(w, mediaTime(t)));
+        ASSERT_LE(cornerError(s, edge(y, t), y), 0.9) << speed << " mm/s at " << t;
+      }
+    }
+  }
+}
+
+TEST(EdgeMotion, FindsTheWayOfAnEdgeAcrossItselfAndNoOther) {
+  const auto field = [](const Frame& f) { return HeightField::make(f, {.bits = 16}, kVolume).value(); };
+  const auto frame = [](auto&& height) { return makeReliefFrame(720, 486, kVolume, {}, height); };
+  const auto step = [&](double at, double lift) {
+    return frame([=](double x, double y) { return (x > at + 0.3 * y ? 25.0 : 10.0) + lift + 0.1 * x; });
+  };
+  const Frame here = step(0, 0), there = step(1.6, 0), lifted = step(0, 1.0), both = step(1.6, 1.0), gone = step(30, 0);
+  const glm::dvec2 across = 1.6 / (1 + 0.09) * glm::dvec2(1, -0.3);  // of a sideways way, the part across the edge
+  for (const glm::dvec2 place : {glm::dvec2(0.8, 0), glm::dvec2(-1.5, 1), glm::dvec2(2.5, -2)}) {
+    const auto way = [&](const Frame& to) { return edgeMotion(field(here), field(to), place.x, place.y); };
+    EXPECT_LT(glm::length(way(there) - across), 0.25);
+    EXPECT_LT(glm::length(way(both) - across), 0.35) << "also when the whole is lifted by a little";
+    EXPECT_EQ(way(here), glm::dvec2(0));
+    EXPECT_EQ(way(lifted), glm::dvec2(0)) << "what is lifted has not moved sideways";
+    EXPECT_EQ(way(gone), glm::dvec2(0)) << "what is gone has not moved";
+  }
+  EXPECT_EQ(edgeMotion(field(here), field(there), 40, 0), glm::dvec2(0)) << "no edge in sight";
 }
 
 TEST(ShotFinder, FindsCutsAndNoRise) {
@@ -254,7 +296,7 @@ TEST(TouchPlan, TakesWhatTheClipNeedsAndNoMore) {
   EXPECT_GT(coarse.scale.wide_mm, 0.8);
   EXPECT_NEAR(noisy.measure.noise_mm, 0.4, 0.06);
   EXPECT_EQ(noisy.scale.wide_time, TimeLaw::BSpline);
-  EXPECT_GT(noisy.scale.clamp_mm, coarse.scale.clamp_mm);
+  EXPECT_GT(noisy.scale.clamp_mm, fine.scale.clamp_mm);
   EXPECT_TRUE(still.measure.still);
   EXPECT_EQ(still.scale.wide_time, TimeLaw::Hold) << "a still scene costs no work in time";
   EXPECT_EQ(still.scale.narrow_time, TimeLaw::Hold);
