@@ -22,7 +22,9 @@ std::unique_ptr<TouchMethod> makeMethod(std::string_view name, const MethodConfi
                                            TriangleParts{walk, config.time.value_or(time), carry, threshold(guarded)});
   };
   if (name == "relievo" && config.space != SpaceLaw::Triangles) {
-    RelievoMethod::Config own{.stiffness_n_per_mm = stiffness, .scale = config.scale.value_or(FeltScale{})};
+    RelievoMethod::Config own{.stiffness_n_per_mm = stiffness,
+                              .scale = config.scale.value_or(FeltScale{}),
+                              .jump_threshold_n = threshold(false)};
     if (config.time) own.scale.narrow_time = own.scale.wide_time = *config.time;
     own.scale.space = config.space.value_or(own.scale.space);
     return std::make_unique<RelievoMethod>(own);

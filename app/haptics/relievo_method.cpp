@@ -42,8 +42,7 @@ bool RelievoMethod::inside(const glm::dvec3& place_mm) RELIEVO_RT {
 Touch RelievoMethod::update(const glm::dvec3& hip_mm, const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
   Touch touch{.proxy_mm = hip_mm};
   if (!isFinite(hip_mm) || !surface_.moment(window, now)) {
-    had_surface_ = false;
-    force_n_ = glm::dvec3(0);
+    had_surface_ = false;  // a surface that comes back is felt as it was before: `force_n_` stays
     return touch;
   }
   const std::uint32_t shot = surface_.shot();
@@ -87,6 +86,10 @@ Touch RelievoMethod::update(const glm::dvec3& hip_mm, const SurfaceWindow& windo
     touch.force_n = config_.stiffness_n_per_mm * (touch.proxy_mm - hip_mm);
   }
   rubbing_ = rubbing_ && touch.contact;
+  if (config_.jump_threshold_n > 0 && glm::distance(touch.force_n, force_n_) > config_.jump_threshold_n) {
+    touch = Touch{.proxy_mm = hip_mm};
+    state_ = State::Buried;
+  }
   force_n_ = touch.force_n;
   if (lowered_mm_ > 0) settleLowering(hip_mm);
   const bool sliding = state_ == State::Contact;

@@ -29,6 +29,7 @@ class RelievoMethod final : public TouchMethod {
     double stiffness_n_per_mm = 0.5;
     FeltScale scale;
     Friction friction;
+    double jump_threshold_n = 0;    // the paper's guard (IV-C) on top; 0: none, the re-seating needs none
     double rise_mm_per_tick = 0.1;  // how fast a lowered surface comes back: 50 N/s on 0.5 N/mm at 1 kHz
   };
   explicit RelievoMethod(const Config& config) noexcept : config_(config), surface_(config.scale) {}

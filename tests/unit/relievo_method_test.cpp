@@ -199,6 +199,27 @@ TEST_F(RelievoMethodTest, AfterASeekTheFingerIsReSeated) {
   EXPECT_NEAR(touch.force_n.z, 1, 1e-2);
 }
 
+TEST_F(RelievoMethodTest, ASurfaceThatComesBackIsFeltAsItWas) {
+  film(0.2, [](double, double, double) { return 20.0; });
+  static_cast<void>(tick(0, {0, 0, 21}));
+  EXPECT_NEAR(tick(0.001, {0, 0, 17}).force_n.z, 1.5, 1e-3);
+  const SurfaceWindow none;
+  for (int i = 2; i < 40; ++i) EXPECT_FALSE(method_.update({0, 0, 15}, none, mediaTime(i * kTick)).contact);
+  const Touch touch = tick(0.04, {0, 0, 15});
+  EXPECT_TRUE(touch.contact);
+  EXPECT_NEAR(touch.force_n.z, 1.5, 1e-3) << "not the 2.5 N that its depth would give";
+}
+
+TEST_F(RelievoMethodTest, ThePapersGuardCanBePutOnTop) {
+  RelievoMethod guarded({.stiffness_n_per_mm = kStiffness, .jump_threshold_n = 1});
+  const Frame frame = test::makeReliefFrame(kCols, kRows, kVolume, {}, [](double, double) { return 20.0; });
+  const SurfaceWindow w = test::makeWindow(std::span(&frame, 1), kVolume);
+  static_cast<void>(guarded.update({0, 0, 21}, w, {}));
+  EXPECT_TRUE(guarded.update({0, 0, 18.5}, w, {}).contact) << "0.75 N";
+  EXPECT_FALSE(guarded.update({0, 0, 16}, w, {}).contact) << "1.25 N more";
+  EXPECT_FALSE(guarded.update({0, 0, 16}, w, {}).contact) << "free until it has been outside";
+}
+
 TEST_F(RelievoMethodTest, FrictionHoldsUntilTheConeAndThenDrags) {
   RelievoMethod rough({.stiffness_n_per_mm = kStiffness, .friction = {0.5, 0.3}});
   const Frame frame = test::makeReliefFrame(kCols, kRows, kVolume, {}, [](double, double) { return 20.0; });
