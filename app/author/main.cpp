@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // relievo-author: the content maker's program.
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <csignal>
@@ -13,6 +11,7 @@
 #include "app/author/output.h"
 #include "app/cli/options.h"
 #include "app/cli/program.h"
+#include "app/cli/text.h"
 #include "drivers/registry.h"
 #include "platform/clock.h"
 
@@ -28,29 +27,6 @@ void stopOnSignals() {
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::sigaction(number, &action, nullptr);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of the write, told like any other
 }
-
-// One line that is written over, on a terminal alone.
-class ProgressLine {
- public:
-  ~ProgressLine() {
-    if (shown_) std::fputs("\r\033[K", stderr);
-  }
-  void show(std::uint64_t done, std::optional<std::uint64_t> total) {
-    if (!on_terminal_) return;
-    const MonotonicTime now = clock_.now();
-    if (shown_ && now - last_ < std::chrono::milliseconds(200)) return;
-    shown_ = true;
-    last_ = now;
-    std::fprintf(stderr, "\r\033[K%s", progressText(done, total, now - start_).c_str());
-    std::fflush(stderr);
-  }
-
- private:
-  MonotonicClock clock_;
-  bool on_terminal_ = ::isatty(STDERR_FILENO) == 1;
-  MonotonicTime start_ = clock_.now(), last_ = start_;
-  bool shown_ = false;
-};
 
 struct Arguments {
   SourceOptions source;
@@ -108,7 +84,9 @@ int run(Arguments& a) {
   Outcome<AuthorSummary> summary;
   {
     ProgressLine line;
-    const auto progress = [&line](std::uint64_t done, std::optional<std::uint64_t> total) { line.show(done, total); };
+    const auto progress = [&line](std::uint64_t done, std::optional<std::uint64_t> total) {
+      line.show([&](Duration elapsed) { return progressText(done, total, elapsed); });
+    };
     if (a.scene.empty()) {
       const std::string url = a.source.url;
       const PairReader::Backends backends{[url] { return drivers::makeMediaSource(url); }, drivers::makeVideoDecoder};

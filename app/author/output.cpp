@@ -6,20 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
+
+#include "app/cli/text.h"
 
 namespace relievo {
 namespace {
-
-[[gnu::format(printf, 1, 2)]] std::string print(const char* format, ...) {
-  char text[256];
-  std::va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return text;
-}
 
 std::string sizeText(std::uint64_t bytes) {
   if (bytes < 1000) return print("%llu bytes", static_cast<unsigned long long>(bytes));
