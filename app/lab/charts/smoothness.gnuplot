@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: Apache-2.0
+set terminal svg size 1000,880 dynamic enhanced font "sans-serif,13" background "#ffffff"
+set multiplot title ARG2 noenhanced font ",16"
+set label 1 ARG3 at screen 0.5, 0.045 center noenhanced
+LEGEND_Y = 0.955
+@LEGEND
+plot NaN notitle, for [c = 1:CURVE_COUNT] keyentry with lines lw 2.5 lc rgb TINT[c] title word(CURVES, c) . AHEAD[c]
+@END_LEGEND
+
+set xrange [0:60]
+set yrange [-160:10]
+set xlabel "frequency, Hz" offset 0, 0.5
+left(i) = 0.075 + 0.48 * (i % 2)
+top(i) = 0.85 - 0.40 * (i / 2)
+rate(i) = i < 2 ? "15" : "30"
+depth(i) = i % 2 ? "16-bit" : "8-bit"
+do for [i = 0:3] {
+  set lmargin at screen left(i)
+  set rmargin at screen left(i) + 0.43
+  set tmargin at screen top(i)
+  set bmargin at screen top(i) - 0.285
+  set title rate(i) . " frames/s, " . depth(i) . " depth" noenhanced offset 0, -0.6
+  set ylabel (i % 2 ? "" : "density, dB re 1 N^2/Hz") offset 1
+  plot for [c = 1:CURVE_COUNT] ARG1 \
+         using (column("frequency_hz")):(column(word(CURVES, c) . " " . rate(i) . "/s " . depth(i))) \
+         with lines lw 1.2 lc rgb TINT[c]
+}
+unset multiplot
