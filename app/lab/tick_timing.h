@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// How long a tick takes, by method, in one run on one machine.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "app/lab/contenders.h"
+#include "app/lab/film_run.h"
+#include "app/lab/statistics.h"
+
+namespace relievo {
+
+// In microseconds, of all ticks of all rounds, the clock's own cost taken off.
+struct TickTimes {
+  Spread update, upkeep;
+};
+
+struct TimedPath {
+  const MemoryFilm& film;
+  std::span<const HipTick> path;
+  std::size_t skipped_ticks = 0;  // at the path's begin, until the finger is in
+};
+
+// Median of what two readings of the clock one after the other differ by.
+[[nodiscard]] Duration clockCost();
+
+// `rounds` times: every contender once along the whole path, one after the other, so that what else the machine does
+// hits all alike. One entry per contender.
+[[nodiscard]] std::vector<TickTimes> timeTicks(std::span<const Contender* const> contenders, const TimedPath& timed,
+                                               int rounds);
+// The same with cold caches: `ticks` ticks, and before each 96 MB are read and written, not timed.
+[[nodiscard]] std::vector<TickTimes> timeColdTicks(std::span<const Contender* const> contenders, const TimedPath& timed,
+                                                   std::size_t ticks);
+
+}  // namespace relievo
