@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // relievo-lab: the engineer's measurements.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cstdio>
+#include <filesystem>
 #include <string>
 
 #include "app/cli/options.h"
 #include "app/cli/program.h"
+#include "app/cli/text.h"
+#include "app/lab/measurement.h"
+#include "app/lab/report.h"
 #include "app/lab/trace.h"
 #include "drivers/registry.h"
 
@@ -75,13 +82,61 @@ int runTraceCommand(const TraceOptions& options) {
   return kExitDone;
 }
 
+CLI::App* addMeasurement(CLI::App& app, const char* name, const char* about, MeasureOptions& options) {
+  CLI::App* const command = app.add_subcommand(name, about);
+  command->add_flag("--quick", options.quick, "Fewer scenes, rounds and seconds: within a minute");
+  command->add_option("--out", options.out, "Folder for the CSVs and SVGs; made when it is missing")
+      ->required()
+      ->type_name("DIR");
+  return command;
+}
+
+Outcome<void> makeFolder(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error)
+    return failOn("--out " + path, {ErrorCode::Io, error.value(), "the folder cannot be made; choose another"});
+  if (::access(path.c_str(), W_OK) != 0) {
+    return failOn("--out " + path, {ErrorCode::Io, errno, "the folder cannot be written to; choose another"});
+  }
+  return {};
+}
+
+// `work` takes the options, with the way to tell how far it is.
+template <class Work>
+int runIntoFolder(MeasureOptions options, Work&& work) {
+  if (const auto made = makeFolder(options.out); !made) return tell(made.error(), kExitFailed);
+  Outcome<void> done;
+  {
+    ProgressLine line;
+    options.tell = [&line](const std::string& what) {
+      const auto s = static_cast<int>(toSeconds(line.elapsed()));
+      line.say(print("%d:%02d  %s", s / 60, s % 60, what.c_str()));
+    };
+    done = work(options);
+  }
+  return done ? kExitDone : tell(done.error(), kExitFailed);
+}
+
 int parseAndRun(int argc, char** argv) {
   CLI::App app("Measures touch on moving depth.", "relievo-lab");
   app.require_subcommand(1);
   TraceOptions trace;
-  addTrace(*app.add_subcommand("trace", "a finger's path through a depth film, tick by tick, on virtual time"), trace);
+  CLI::App* const trace_command =
+      app.add_subcommand("trace", "a finger's path through a depth film, tick by tick, on virtual time");
+  addTrace(*trace_command, trace);
+  MeasureOptions options;
+  std::vector<std::pair<const CLI::App*, const Measurement*>> commands;
+  for (const Measurement& m : measurements()) commands.emplace_back(addMeasurement(app, m.name, m.about, options), &m);
+  addMeasurement(app, "report", "all of these that DIR has not yet, and one page over them", options);
   if (const auto parsed = parseCommandLine(app, argc, argv); !parsed) return parsed.error();
-  return runTraceCommand(trace);
+
+  if (trace_command->parsed()) return runTraceCommand(trace);
+  for (const auto& [command, measurement] : commands) {
+    if (!command->parsed()) continue;
+    return runIntoFolder(options, [m = measurement](const MeasureOptions& o) { return runMeasurement(*m, o); });
+  }
+  return runIntoFolder(options, writeReport);
 }
 
 }  // namespace

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// The list of measurements.
+#include "app/lab/measurement.h"
+
+#include <array>
+
+#include "app/lab/smoothness.h"
+#include "app/lab/speed_accuracy.h"
+
+namespace relievo {
+namespace {
+
+constexpr std::array kSpeedAccuracyCharts{"speed-accuracy", "accuracy-by-scene", "parts", "tick-time"};
+constexpr std::array kSmoothnessCharts{"smoothness", "smoothness-hand", "smoothness-peaks"};
+
+constexpr std::array kMeasurements{
+    Measurement{"speed-accuracy", "what a tick takes and how far the force is from the true one, by method and parts",
+                kSpeedAccuracyCharts, measureSpeedAndAccuracy},
+    Measurement{"smoothness", "the force's spectrum on a moving face, and what of it is the frame rate",
+                kSmoothnessCharts, measureSmoothness},
+};
+
+}  // namespace
+
+std::span<const Measurement> measurements() {
+  return kMeasurements;
+}
+
+Outcome<void> runMeasurement(const Measurement& measurement, const MeasureOptions& options) {
+  const auto words = measurement.measure(options);
+  if (!words) return std::unexpected(words.error());
+  for (std::size_t i = 0; i < measurement.charts.size(); ++i) {
+    const std::string name = measurement.charts[i];
+    options.tell("drawing " + name);
+    if (auto drawn = drawChart(options.out, name, words->at(i)); !drawn) return drawn;
+  }
+  return {};
+}
+
+}  // namespace relievo
