@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+// The charts as a user makes them: relievo-lab's measurements, quick. No time on a clock is judged.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/support/clip_maker.h"
+#include "tests/support/program.h"
+
+namespace relievo {
+namespace {
+
+using CsvRow = std::map<std::string, std::string>;
+
+std::string textOf(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::vector<std::string> cellsOf(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream in(line);
+  for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+class Csv {
+ public:
+  explicit Csv(const std::string& path) {
+    std::ifstream file(path);
+    std::string line;
+    std::getline(file, line);
+    const auto header = cellsOf(line);
+    while (std::getline(file, line)) {
+      const auto cells = cellsOf(line);
+      EXPECT_LE(cells.size(), header.size()) << line;
+      CsvRow row;
+      for (std::size_t i = 0; i < header.size(); ++i) row[header[i]] = i < cells.size() ? cells[i] : "";
+      rows_.push_back(row);
+    }
+  }
+  // The one row in which all these cells are so.
+  [[nodiscard]] double value(const CsvRow& wanted, const std::string& column) const {
+    const CsvRow* found = nullptr;
+    int count = 0;
+    for (const CsvRow& row : rows_) {
+      bool same = true;
+      for (const auto& [name, text] : wanted) same = same && row.count(name) == 1 && row.at(name) == text;
+      if (!same) continue;
+      found = &row;
+      ++count;
+    }
+    EXPECT_EQ(count, 1) << column;
+    return found == nullptr ? std::nan("") : std::strtod(found->at(column).c_str(), nullptr);
+  }
+  [[nodiscard]] const std::vector<CsvRow>& rows() const { return rows_; }
+
+ private:
+  std::vector<CsvRow> rows_;
+};
+
+// One run of everything serves all tests.
+class LabCharts : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new test::TemporaryFolder;
+    result_ = test::runProgram("relievo-lab report --quick --out " + out(), *folder_ / ".");
+  }
+  static void TearDownTestSuite() { delete folder_; }
+  void SetUp() override {
+    if (result_.err.find("gnuplot-nox") != std::string::npos) GTEST_SKIP() << result_.err;
+    ASSERT_EQ(result_.exit_code, 0) << result_.err;
+  }
+  static std::string out() { return *folder_ / "charts"; }
+  static std::string out(const std::string& file) { return out() + "/" + file; }
+
+  static inline test::TemporaryFolder* folder_ = nullptr;
+  static inline test::ProgramResult result_;
+};
+
+TEST_F(LabCharts, SaysNothingWhenAllIsWell) {
+  EXPECT_EQ(result_.err, "");
+}
+
+TEST_F(LabCharts, RelievoIsManyTimesAsExactOnEightBitsAsThePapersMethod) {
+  const Csv csv(out("speed-accuracy.csv"));
+  const auto percent = [&](const char* method, const char* depth) {
+    return csv.value({{"method", method}, {"depth", depth}, {"scene", "all"}}, "force_rms_percent");
+  };
+  EXPECT_LT(percent("relievo", "8-bit"), percent("modified-proxy-graph", "8-bit") / 5);
+  EXPECT_LT(percent("relievo", "H.264 crf 23"), percent("modified-proxy-graph", "H.264 crf 23") / 2);
+  // Terraces of 0.157 mm turn a correct proxy on triangles by ten degrees and more; 16 bits do not.
+  EXPECT_GT(percent("god-object", "8-bit"), 15);
+  EXPECT_LT(percent("god-object", "16-bit"), 1);
+  EXPECT_LT(percent("relievo", "16-bit"), 1);
+  for (const char* depth : {"16-bit", "8-bit", "H.264 crf 23", "noise 1 %"}) {
+    EXPECT_EQ(csv.value({{"method", "relievo"}, {"depth", depth}, {"scene", "all"}}, "lost_ticks"), 0) << depth;
+  }
+}
+
+TEST_F(LabCharts, EveryTimedRowHasItsTimesInOrder) {
+  const Csv csv(out("tick-time.csv"));
+  ASSERT_FALSE(csv.rows().empty());
+  for (const CsvRow& row : csv.rows()) {
+    const auto number = [&](const char* name) { return std::strtod(row.at(name).c_str(), nullptr); };
+    EXPECT_GT(number("update_median_us"), 0) << row.at("method");
+    EXPECT_LE(number("update_median_us"), number("update_p99_us"));
+    EXPECT_LE(number("update_p99_us"), number("update_p999_us"));
+  }
+  EXPECT_GT(csv.value({{"method", "relievo"}, {"speed_m_per_s", "0.1"}, {"caches", "cold"}}, "update_median_us"), 0);
+}
+
+// Of a movement of 0.7 Hz in 15 frames/s holding leaves an image of 0.7/15 beside the frame rate, and interpolating in
+// a line the square of that: 26 dB less.
+TEST_F(LabCharts, HoldingTheFramePeaksAtTheFrameRateFarOverInterpolation) {
+  const Csv csv(out("smoothness-peaks.csv"));
+  const auto value = [&](const char* method, const char* finger, const char* rate, const char* column) {
+    return csv.value({{"method", method}, {"finger", finger}, {"frames_per_s", rate}, {"depth", "8-bit"}}, column);
+  };
+  for (const char* finger : {"fixed point", "resting hand"}) {
+    for (const char* rate : {"15", "30"}) {
+      EXPECT_GT(value("relievo linear", finger, rate, "under_hold_db"), 15) << finger << rate;
+      EXPECT_GT(value("modified-proxy-graph", finger, rate, "under_hold_db"), 15) << finger << rate;
+      EXPECT_GT(value("relievo", finger, rate, "under_hold_db"), 50) << finger << rate;
+      EXPECT_LE(value("relievo", finger, rate, "force_rms_percent"),
+                1.05 * value("relievo linear", finger, rate, "force_rms_percent"))
+          << finger << rate;
+      EXPECT_EQ(value("relievo hold", finger, rate, "under_hold_db"), 0);
+    }
+  }
+  EXPECT_NEAR(value("relievo linear", "fixed point", "15", "under_hold_db"), 26, 3);
+  EXPECT_NEAR(value("modified-proxy-graph", "fixed point", "15", "added_latency_ms"), 1000.0 / 15, 0.01);
+}
+
+TEST_F(LabCharts, ThePageHoldsEveryChartWithItsWordsAndItsFigures) {
+  const std::string page = textOf(out("index.html"));
+  int charts = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(out())) {
+    if (entry.path().extension() != ".svg") continue;
+    ++charts;
+    const std::string name = entry.path().stem(), svg = textOf(entry.path());
+    EXPECT_EQ(svg.find("Produced by GNUPLOT"), std::string::npos) << name;
+    const std::size_t title = svg.find("<title>") + 7;
+    EXPECT_NE(page.find("<h2>" + svg.substr(title, svg.find("</title>") - title) + "</h2>"), std::string::npos) << name;
+    EXPECT_NE(page.find("href=\"" + name + ".csv\""), std::string::npos) << name;
+    EXPECT_TRUE(std::filesystem::exists(out(name + ".csv"))) << name;
+  }
+  EXPECT_GE(charts, 7);
+  EXPECT_EQ(page.find("nan"), std::string::npos);
+}
+
+TEST_F(LabCharts, AReportRunsOnlyWhatIsMissing) {
+  const auto kept = std::filesystem::last_write_time(out("speed-accuracy.csv"));
+  const auto old_page = std::filesystem::last_write_time(out("index.html"));
+  std::filesystem::remove(out("smoothness-hand.svg"));
+  const auto again = test::runProgram("relievo-lab report --quick --out " + out(), *folder_ / ".");
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_TRUE(std::filesystem::exists(out("smoothness-hand.svg")));
+  EXPECT_EQ(std::filesystem::last_write_time(out("speed-accuracy.csv")), kept);
+  EXPECT_GT(std::filesystem::last_write_time(out("index.html")), old_page);
+}
+
+TEST(LabChartsWords, WrongUseAndAFolderThatCannotBeMadeAreOneLineEach) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "file") << "in the way";
+  for (const char* command : {"speed-accuracy", "smoothness", "report"}) {
+    const auto without = test::runProgram(std::string("relievo-lab ") + command, folder / ".");
+    EXPECT_EQ(without.exit_code, 2) << command;
+    EXPECT_NE(without.err.find("--out"), std::string::npos) << without.err;
+    const auto blocked =
+        test::runProgram(std::string("relievo-lab ") + command + " --quick --out " + (folder / "file/x"), folder / ".");
+    EXPECT_EQ(blocked.exit_code, 1) << command;
+    EXPECT_NE(blocked.err.find("file/x"), std::string::npos) << blocked.err;
+    EXPECT_EQ(std::count(blocked.err.begin(), blocked.err.end(), '\n'), 1) << blocked.err;
+  }
+}
+
+}  // namespace
+}  // namespace relievo
