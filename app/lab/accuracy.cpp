@@ -29,10 +29,10 @@ std::vector<std::string_view> accuracyScenes() {
   return scenes;
 }
 
-Outcome<AccuracySums> measureAccuracy(std::span<const Contender> contenders, const AccuracyOptions& options,
-                                      const std::function<void(const std::string&)>& tell) {
-  AccuracySums sums(contenders.size());
-  for (auto& of_contender : sums) {
+Outcome<AccuracyTable> measureAccuracy(std::span<const Contender> contenders, const AccuracyOptions& options,
+                                       const std::function<void(const std::string&)>& tell) {
+  AccuracyTable table(contenders.size());
+  for (auto& of_contender : table) {
     for (auto& of_depth : of_contender) of_depth.resize(options.scenes.size());
   }
   for (std::size_t s = 0; s < options.scenes.size(); ++s) {
@@ -45,12 +45,12 @@ Outcome<AccuracySums> measureAccuracy(std::span<const Contender> contenders, con
       const auto film = MemoryFilm::make(*surface, {.depth = kDepthKinds[d]}, 0, options.duration_s);
       if (!film) return failOn("depth of " + scene, film.error());
       inParallel(contenders.size(), [&](std::size_t c) {
-        const auto method = contenders[c].make();
-        sums[c][d][s] = forceErrors(playPath(*film, *method, path, truth), kSettledS);
+        const auto ticks = playPath(*film, *contenders[c].make(*film), path, truth);
+        table[c][d][s] = {forceErrors(ticks, kSettledS), contenders[c].parts(*film)};
       });
     }
   }
-  return sums;
+  return table;
 }
 
 }  // namespace relievo

@@ -39,10 +39,14 @@ struct AccuracyOptions {
   double duration_s = 3;
 };
 
-// sums[contender][kind of depth][scene], at 720x486 and 30 frames/s, finger 5 mm deep at 0.1 m/s.
-using AccuracySums = std::vector<std::array<std::vector<ForceErrorSum>, kDepthKinds.size()>>;
-[[nodiscard]] Outcome<AccuracySums> measureAccuracy(std::span<const Contender> contenders,
-                                                    const AccuracyOptions& options,
-                                                    const std::function<void(const std::string&)>& tell);
+struct AccuracyCell {
+  ForceErrorSum sum;
+  ContenderParts parts;
+};
+// [contender][kind of depth][scene], at 720x486 and 30 frames/s, finger 5 mm deep at 0.1 m/s.
+using AccuracyTable = std::vector<std::array<std::vector<AccuracyCell>, kDepthKinds.size()>>;
+[[nodiscard]] Outcome<AccuracyTable> measureAccuracy(std::span<const Contender> contenders,
+                                                     const AccuracyOptions& options,
+                                                     const std::function<void(const std::string&)>& tell);
 
 }  // namespace relievo

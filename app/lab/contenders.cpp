@@ -4,47 +4,85 @@
 
 #include <algorithm>
 #include <array>
-#include <string_view>
+
+#include "app/haptics/touch_plan.h"
 
 namespace relievo {
 namespace {
 
-constexpr MethodConfig parts(std::optional<SpaceLaw> space, std::optional<TimeLaw> time) {
+constexpr MethodConfig with(std::optional<SpaceLaw> space, std::optional<TimeLaw> time) {
   return {.space = space, .time = time, .jump_threshold = false};
 }
 
-constexpr MethodConfig oneWidth(double mm) {
+constexpr MethodConfig onScale(const FeltScale& scale) {
   MethodConfig config{.jump_threshold = false};
-  config.scale = FeltScale{.narrow_mm = mm, .wide_mm = mm};
+  config.scale = scale;
   return config;
 }
 
-constexpr MethodConfig kOwn = parts({}, {});
-constexpr MethodConfig kTriangles = parts(SpaceLaw::Triangles, {});
+constexpr MethodConfig oneWidth(double mm) {
+  return onScale({.narrow_mm = mm, .wide_mm = mm});
+}
+
+constexpr MethodConfig kOwn = with({}, {});
+constexpr bool kPlanned = true, kFixed = true;
 
 constexpr std::array kContenders{
-    Contender{"relievo", "relievo", kOwn, "bspline", "own"},
-    Contender{"god-object", "relievo", kTriangles, "triangles", "linear"},
-    Contender{"modified-proxy-graph", "modified-proxy-graph", kOwn, "triangles", "linear"},
-    Contender{"proxy-graph", "proxy-graph", kOwn, "triangles", "hold"},
-    Contender{"proxy-blend", "proxy-blend", kOwn, "triangles", "hold"},
-    Contender{"penalty", "penalty", kOwn, "triangles", "linear"},
+    Contender{"relievo", "relievo", kOwn, kPlanned},
+    Contender{"god-object", "relievo", with(SpaceLaw::Triangles, {})},
+    Contender{"modified-proxy-graph", "modified-proxy-graph", kOwn},
+    Contender{"proxy-graph", "proxy-graph", kOwn},
+    Contender{"proxy-blend", "proxy-blend", kOwn},
+    Contender{"penalty", "penalty", kOwn},
 
-    Contender{"quadratic", "relievo", parts(SpaceLaw::Quadratic, {}), "quadratic", "own", true},
-    Contender{"time hold", "relievo", parts({}, TimeLaw::Hold), "bspline", "hold", true},
-    Contender{"time linear", "relievo", parts({}, TimeLaw::Linear), "bspline", "linear", true},
-    Contender{"time bspline", "relievo", parts({}, TimeLaw::BSpline), "bspline", "bspline", true},
-    Contender{"time fitted", "relievo", parts({}, TimeLaw::Fitted), "bspline", "fitted", true},
-    Contender{"width 0.28", "relievo", oneWidth(0.28), "bspline", "own", true},
-    Contender{"width 0.43", "relievo", oneWidth(0.43), "bspline", "own", true},
-    Contender{"width 0.72", "relievo", oneWidth(0.72), "bspline", "own", true},
-    Contender{"width 1.0", "relievo", oneWidth(1.0), "bspline", "own", true},
-    Contender{"god-object hold", "relievo", parts(SpaceLaw::Triangles, TimeLaw::Hold), "triangles", "hold", true},
-    Contender{"proxy-graph linear", "proxy-graph", parts({}, TimeLaw::Linear), "triangles", "linear", true},
-    Contender{"modified hold", "modified-proxy-graph", parts({}, TimeLaw::Hold), "triangles", "hold", true},
+    Contender{"relievo quadratic", "relievo", with(SpaceLaw::Quadratic, {}), kPlanned, kFixed},
+    Contender{"relievo hold", "relievo", with({}, TimeLaw::Hold), kPlanned, kFixed},
+    Contender{"relievo linear", "relievo", with({}, TimeLaw::Linear), kPlanned, kFixed},
+    Contender{"relievo bspline", "relievo", with({}, TimeLaw::BSpline), kPlanned, kFixed},
+    Contender{"relievo fitted", "relievo", with({}, TimeLaw::Fitted), kPlanned, kFixed},
+    Contender{"relievo 0.28 + 0.72", "relievo", onScale({}), !kPlanned, kFixed},
+    Contender{"relievo 0.14", "relievo", oneWidth(0.14), !kPlanned, kFixed},
+    Contender{"relievo 0.28", "relievo", oneWidth(0.28), !kPlanned, kFixed},
+    Contender{"relievo 0.43", "relievo", oneWidth(0.43), !kPlanned, kFixed},
+    Contender{"relievo 0.72", "relievo", oneWidth(0.72), !kPlanned, kFixed},
+    Contender{"relievo 1.0", "relievo", oneWidth(1.0), !kPlanned, kFixed},
+    Contender{"god-object hold", "relievo", with(SpaceLaw::Triangles, TimeLaw::Hold), !kPlanned, kFixed},
+    Contender{"modified hold", "modified-proxy-graph", with({}, TimeLaw::Hold), !kPlanned, kFixed},
+    Contender{"proxy-graph linear", "proxy-graph", with({}, TimeLaw::Linear), !kPlanned, kFixed},
 };
 
+// As the player does when a film begins.
+FeltScale plannedScale(const MemoryFilm& film) {
+  constexpr std::size_t kLookedAt = FilmRun::kAhead + 1;
+  return planTouch(measureClip(film.frames().first(std::min(film.frames().size(), kLookedAt)))).scale;
+}
+
+int lookAhead(TimeLaw law) {
+  return static_cast<int>(law);  // hold 0, linear 1, bspline 2, fitted 3
+}
+
 }  // namespace
+
+std::unique_ptr<TouchMethod> Contender::make(const MemoryFilm& film) const {
+  MethodConfig on_film = config;
+  if (planned) on_film.scale = plannedScale(film);
+  return makeMethod(method, on_film);
+}
+
+ContenderParts Contender::parts(const MemoryFilm& film) const {
+  if (std::string_view(method) != "relievo" || config.space == SpaceLaw::Triangles) {
+    const bool holds = std::string_view(method) == "proxy-graph" || std::string_view(method) == "proxy-blend";
+    const TimeLaw time = config.time.value_or(holds ? TimeLaw::Hold : TimeLaw::Linear);
+    return {.space = name(SpaceLaw::Triangles), .time = name(time), .look_ahead_frames = lookAhead(time)};
+  }
+  FeltScale scale = planned ? plannedScale(film) : config.scale.value_or(FeltScale{});
+  if (config.time) scale.narrow_time = scale.wide_time = *config.time;
+  return {.space = name(config.space.value_or(scale.space)),
+          .time = name(scale.wide_time),
+          .narrow_mm = scale.narrow_mm,
+          .wide_mm = scale.wide_mm,
+          .look_ahead_frames = std::max(lookAhead(scale.narrow_time), lookAhead(scale.wide_time))};
+}
 
 std::span<const Contender> contenders() {
   return kContenders;

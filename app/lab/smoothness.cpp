@@ -25,21 +25,15 @@ constexpr double kHighestHz = 100;      // of the tables
 constexpr double kPeakHalfWidthHz = 2;  // the scene's own movements stand beside the frame rate
 
 struct CurveKind {
-  const char* name;       // on the chart
-  const char* contender;  // whose
-  const char* hold;       // the same surface with the frame held
-  int look_ahead_frames;
+  const char* contender;
+  const char* hold;  // the same surface with the frame held
 };
 constexpr std::array kCurves{
-    CurveKind{"relievo", "relievo", "time hold", 3},
-    CurveKind{"relievo hold", "time hold", "time hold", 0},
-    CurveKind{"relievo linear", "time linear", "time hold", 1},
-    CurveKind{"relievo bspline", "time bspline", "time hold", 2},
-    CurveKind{"relievo fitted", "time fitted", "time hold", 3},
-    CurveKind{"modified-proxy-graph", "modified-proxy-graph", "modified hold", 1},
-    CurveKind{"modified hold", "modified hold", "modified hold", 0},
-    CurveKind{"proxy-blend", "proxy-blend", "modified hold", 0},
-    CurveKind{"proxy-graph", "proxy-graph", "modified hold", 0},
+    CurveKind{"relievo", "relievo hold"},        CurveKind{"relievo hold", "relievo hold"},
+    CurveKind{"relievo linear", "relievo hold"}, CurveKind{"relievo bspline", "relievo hold"},
+    CurveKind{"relievo fitted", "relievo hold"}, CurveKind{"modified-proxy-graph", "modified hold"},
+    CurveKind{"modified hold", "modified hold"}, CurveKind{"proxy-blend", "modified hold"},
+    CurveKind{"proxy-graph", "modified hold"},
 };
 
 struct Setting {
@@ -57,9 +51,10 @@ struct Curve {
   Spectrum spectrum;
   ForceErrorSum errors;
   std::vector<double> density;
+  int look_ahead_frames = 0;
 
   [[nodiscard]] std::string column() const {
-    return print("%s %d/s %s", kind->name, setting.frames_per_s, setting.depth->name);
+    return print("%s %d/s %s", kind->contender, setting.frames_per_s, setting.depth->name);
   }
   // Nothing where contact is lost: there is no force to speak of.
   [[nodiscard]] double peakDb() const {
@@ -70,7 +65,7 @@ struct Curve {
     const auto to = density.begin() + index(setting.frames_per_s + kPeakHalfWidthHz) + 1;
     return toDecibel(*std::max_element(from, to));
   }
-  [[nodiscard]] double latencyMs() const { return 1000.0 * kind->look_ahead_frames / setting.frames_per_s; }
+  [[nodiscard]] double latencyMs() const { return 1000.0 * look_ahead_frames / setting.frames_per_s; }
   [[nodiscard]] bool lost() const { return errors.result().lost_ticks > errors.result().ticks / 100; }
 };
 
@@ -113,11 +108,12 @@ class Smoothness {
   }
 
   static void addSegment(const TrueSurface& face, const MemoryFilm& film, const HoldPlan& plan, Curve& curve) {
-    const auto method = contender(curve.kind->contender)->make();
+    const auto method = contender(curve.kind->contender)->make(film);
     const auto ticks = holdFinger(face, film, *method, curve.setting.hold, plan);
     std::vector<double> magnitudes;
     magnitudes.reserve(ticks.size());
     for (const PlayedTick& tick : ticks) magnitudes.push_back(glm::length(tick.touch.force_n));
+    curve.look_ahead_frames = contender(curve.kind->contender)->parts(film).look_ahead_frames;
     curve.spectrum.add(magnitudes);
     curve.errors.add(forceErrors(ticks, 0));
   }
@@ -141,8 +137,8 @@ class Smoothness {
     for (const Curve& c : curves_) {
       const ForceError e = c.errors.result();
       table.row({c.setting.hold == FingerHold::FixedPoint ? "fixed point" : "resting hand", c.setting.frames_per_s,
-                 c.setting.depth->name, c.kind->name, c.peakDb(), underHoldDb(c), e.rms_n, e.rms_percent,
-                 e.magnitude_rms_percent, e.lost_ticks, c.kind->look_ahead_frames, c.latencyMs()});
+                 c.setting.depth->name, c.kind->contender, c.peakDb(), underHoldDb(c), e.rms_n, e.rms_percent,
+                 e.magnitude_rms_percent, e.lost_ticks, c.look_ahead_frames, c.latencyMs()});
     }
     return table.write(options_.out + "/smoothness-peaks.csv");
   }
@@ -167,7 +163,7 @@ class Smoothness {
   [[nodiscard]] std::string lostWords(const Setting& setting) const {
     std::string losers;
     for (const CurveKind& kind : kCurves) {
-      if (find(setting, kind.contender).lost()) losers += (losers.empty() ? "" : ", ") + std::string(kind.name);
+      if (find(setting, kind.contender).lost()) losers += (losers.empty() ? "" : ", ") + std::string(kind.contender);
     }
     return losers.empty() ? "" : " Without contact, and so without a curve: " + losers + ".";
   }
@@ -178,7 +174,7 @@ class Smoothness {
     const std::string reading = print(
         "15 frames/s, 8 bits: at the frame rate relievo lies %.0f dB under holding the frame, %d frames ahead; the "
         "paper's method %.0f dB, %d ahead (the paper: 18 dB).",
-        underHoldDb(own), own.kind->look_ahead_frames, underHoldDb(paper), paper.kind->look_ahead_frames);
+        underHoldDb(own), own.look_ahead_frames, underHoldDb(paper), paper.look_ahead_frames);
     return {print("Force spectrum on a nodding face, %s, %d segments of 10 s",
                   hold == FingerHold::FixedPoint ? "finger held at a point" : "a resting hand", segments_),
             reading + lostWords(setting)};
@@ -186,7 +182,7 @@ class Smoothness {
 
   [[nodiscard]] ChartWords peakWords() const {
     const Setting setting{FingerHold::FixedPoint, 15, &kEightBits};
-    const Curve &own = find(setting, "relievo"), &linear = find(setting, "time linear");
+    const Curve &own = find(setting, "relievo"), &linear = find(setting, "relievo linear");
     const std::string reading = print(
         "15 frames/s, 8 bits, fixed point: relievo %.0f dB under hold with %.2g %% error; linear in time on the same "
         "surface %.0f dB with %.2g %%.",

@@ -51,23 +51,25 @@ class SpeedAccuracy {
 
  private:
   Outcome<void> addAccuracy() {
-    const auto sums = measureAccuracy(contenders(), {plan_.scenes, plan_.duration_s}, options_.tell);
-    if (!sums) return std::unexpected(sums.error());
+    const auto table = measureAccuracy(contenders(), {plan_.scenes, plan_.duration_s}, options_.tell);
+    if (!table) return std::unexpected(table.error());
     for (std::size_t c = 0; c < all_.size(); ++c) {
       for (std::size_t d = 0; d < kDepthKinds.size(); ++d) {
         ForceErrorSum together;
         for (std::size_t s = 0; s < plan_.scenes.size(); ++s) {
-          together.add((*sums)[c][d][s]);
-          addError(*all_[c], kDepthKinds[d], std::string(plan_.scenes[s]), (*sums)[c][d][s].result());
+          const auto& [sum, parts] = (*table)[c][d][s];
+          together.add(sum);
+          addError(*all_[c], kDepthKinds[d], std::string(plan_.scenes[s]), parts, sum.result());
         }
-        addError(*all_[c], kDepthKinds[d], kAllScenes, together.result());
+        addError(*all_[c], kDepthKinds[d], kAllScenes, {}, together.result());
       }
     }
     return {};
   }
 
-  void addError(const Contender& who, const DepthKind& depth, std::string scene, const ForceError& error) {
-    figures_.rows.push_back({.who = &who, .depth = &depth, .scene = std::move(scene), .error = error});
+  void addError(const Contender& who, const DepthKind& depth, std::string scene, const ContenderParts& parts,
+                const ForceError& error) {
+    figures_.rows.push_back({.who = &who, .depth = &depth, .scene = std::move(scene), .parts = parts, .error = error});
   }
 
   // One film. Other depth than 8 bits is timed with the slow finger alone.
@@ -85,8 +87,8 @@ class SpeedAccuracy {
       const TimedPath timed{*film, path, static_cast<std::size_t>(kSettledS / FingerPathOptions::kTickS)};
       const auto times = timeTicks(all_, timed, plan_.rounds);
       for (std::size_t c = 0; c < all_.size(); ++c) {
-        const auto error = forceErrors(playPath(*film, *all_[c]->make(), path, truth), kSettledS).result();
-        addTimed({all_[c], &depth, kTimedScene, size, speed, false, error, times[c]});
+        const auto error = forceErrors(playPath(*film, *all_[c]->make(*film), path, truth), kSettledS).result();
+        addTimed({all_[c], &depth, kTimedScene, size, speed, false, all_[c]->parts(*film), error, times[c]});
       }
       if (speed == kSlowMPerS && &depth == &kEightBits) addColdTimes(size, timed);
     }
@@ -110,7 +112,8 @@ class SpeedAccuracy {
     const std::vector<const Contender*> two{contender("relievo"), contender("god-object")};
     const auto times = timeColdTicks(two, timed, plan_.cold_ticks);
     for (std::size_t c = 0; c < two.size(); ++c) {
-      figures_.rows.push_back({.who = two[c], .size = size, .cold = true, .times = times[c]});
+      figures_.rows.push_back(
+          {.who = two[c], .size = size, .cold = true, .parts = two[c]->parts(timed.film), .times = times[c]});
     }
   }
 

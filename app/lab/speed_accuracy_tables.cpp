@@ -33,6 +33,8 @@ Outcome<void> writeAll(const Figures& figures, const std::string& path) {
                   "of",
                   "space",
                   "time",
+                  "narrow_mm",
+                  "wide_mm",
                   "depth",
                   "scene",
                   "cols",
@@ -57,30 +59,13 @@ Outcome<void> writeAll(const Figures& figures, const std::string& path) {
     const ForceError e = r.error.value_or(ForceError{kNothing, kNothing, kNothing, kNothing});
     const Spread none{kNothing, kNothing, kNothing};
     const auto [update, upkeep] = r.times.value_or(TickTimes{none, none});
-    table.row({r.who->label,
-               r.who->method,
-               r.who->space,
-               r.who->time,
-               r.depth->name,
-               r.scene,
-               r.size.cols,
-               r.size.rows,
-               r.speed_m_per_s,
-               caches(r),
-               e.rms_n,
-               e.rms_percent,
-               e.direction_rms_deg,
-               e.magnitude_rms_percent,
-               e.ticks,
-               e.lost_ticks,
-               update.median,
-               update.p99,
-               update.p999,
-               upkeep.median,
-               upkeep.p99,
-               upkeep.p999,
-               update.count,
-               figures.clock_ns});
+    table.row({r.who->label,      r.who->method,   r.parts.space,       r.parts.time,
+               r.parts.narrow_mm, r.parts.wide_mm, r.depth->name,       r.scene,
+               r.size.cols,       r.size.rows,     r.speed_m_per_s,     caches(r),
+               e.rms_n,           e.rms_percent,   e.direction_rms_deg, e.magnitude_rms_percent,
+               e.ticks,           e.lost_ticks,    update.median,       update.p99,
+               update.p999,       upkeep.median,   upkeep.p99,          upkeep.p999,
+               update.count,      figures.clock_ns});
   }
   return table.write(path);
 }

@@ -29,6 +29,7 @@ struct SpeedAccuracyRow {
   PictureSize size;
   double speed_m_per_s = kSlowMPerS;
   bool cold = false;
+  ContenderParts parts;  // empty over all scenes: the plan picks for each film
   std::optional<ForceError> error;
   std::optional<TickTimes> times;
 };

@@ -54,7 +54,7 @@ std::vector<TickTimes> timeTicks(std::span<const Contender* const> contenders, c
   const Duration clock = clockCost();
   std::vector<Samples> samples(contenders.size());
   std::vector<std::unique_ptr<TouchMethod>> methods;
-  for (const Contender* c : contenders) methods.push_back(c->make());
+  for (const Contender* c : contenders) methods.push_back(c->make(timed.film));
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t m = 0; m < methods.size(); ++m) {
       FilmRun run(timed.film, *methods[m]);
@@ -74,7 +74,7 @@ std::vector<TickTimes> timeColdTicks(std::span<const Contender* const> contender
   std::vector<Samples> samples(contenders.size());
   std::vector<std::unique_ptr<TouchMethod>> methods;
   std::vector<FilmRun> runs;
-  for (const Contender* c : contenders) methods.push_back(c->make());
+  for (const Contender* c : contenders) methods.push_back(c->make(timed.film));
   for (const auto& method : methods) runs.emplace_back(timed.film, *method);
   const std::size_t end = std::min(timed.path.size(), timed.skipped_ticks + ticks);
   for (std::size_t i = 0; i < end; ++i) {

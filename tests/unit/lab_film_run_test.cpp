@@ -143,8 +143,18 @@ TEST(TickTiming, CountsTheTicksOfAllRoundsButThoseOfTheWayIn) {
 }
 
 TEST(Contenders, AreAllMade) {
-  for (const Contender& c : contenders()) EXPECT_NE(c.make(), nullptr) << c.label;
+  const auto film = MemoryFilm::make(*makeTrueSurface("face-nodding"), {}, 0, 0.1).value();
+  for (const Contender& c : contenders()) EXPECT_NE(c.make(film), nullptr) << c.label;
   EXPECT_EQ(contender("no such method"), nullptr);
+}
+
+TEST(Contenders, AreMadeOfThePartsThatTheyAreNamedFor) {
+  const auto film = MemoryFilm::make(*makeTrueSurface("face-nodding"), {}, 0, 0.1).value();
+  EXPECT_STREQ(contender("relievo hold")->parts(film).time, "hold");
+  EXPECT_EQ(contender("relievo fitted")->parts(film).look_ahead_frames, 3);
+  EXPECT_EQ(contender("relievo 0.43")->parts(film).wide_mm, 0.43);
+  EXPECT_STREQ(contender("god-object")->parts(film).space, "triangles");
+  EXPECT_EQ(contender("proxy-graph")->parts(film).look_ahead_frames, 0);
 }
 
 // Every smooth scene that lasts and moves its surface by less than 100 mm/s.

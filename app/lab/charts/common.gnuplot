@@ -21,4 +21,4 @@ END_LEGEND = "unset key; unset label 1; set border; set tics; set autoscale"
 CURVES = '"relievo hold" "modified hold" "proxy-blend" "proxy-graph" "modified-proxy-graph" "relievo linear" "relievo bspline" "relievo fitted" "relievo"'
 CURVE_COUNT = 9
 array TINT[9] = ["#8a8f98", "#c2a878", "#8e5cc2", "#7cb342", "#e08e0b", "#1e88e5", "#26a69a", "#5d4db3", "#d81b60"]
-array AHEAD[9] = ["", "", "", "", ", 1 ahead", ", 1 ahead", ", 2 ahead", ", 3 ahead", ", 3 ahead"]
+array AHEAD[9] = ["", "", "", "", ", 1 ahead", ", 1 ahead", ", 2 ahead", ", 3 ahead", ", by plan"]
