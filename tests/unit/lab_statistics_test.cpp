@@ -55,11 +55,18 @@ TEST(ForceError, DoesNotCountWhereThereIsNoContactInTruth) {
 
 TEST(ForceError, OfTwoRunsTogetherWeighsTheirTicks) {
   ForceErrorSum first, second;
-  first.add({0, 0, 1}, true, {0, 0, 2}, true);
-  for (int i = 0; i < 3; ++i) second.add({0, 0, 2}, true, {0, 0, 2}, true);
+  for (int i = 0; i < 3; ++i) first.add({0, 0, 2}, true, {0, 0, 2}, true);
+  second.add({1, 0, 0}, false, {0, 0, 2}, true);
+  second.add({0, 2, 0}, true, {0, 0, 2}, true);
+  second.add({0, 0, 1}, true, {0, 0, 2}, true);
   first.add(second);
-  EXPECT_EQ(first.result().ticks, 4u);
-  EXPECT_NEAR(first.result().rms_n, 0.5, 1e-12);
+  const ForceError e = first.result();
+  EXPECT_EQ(e.ticks, 6u);
+  EXPECT_EQ(e.lost_ticks, 1u);
+  EXPECT_NEAR(e.rms_n, std::sqrt((4 + 8 + 1) / 6.0), 1e-12);
+  EXPECT_NEAR(e.rms_percent, 100 * std::sqrt((4 + 8 + 1) / 24.0), 1e-10);
+  EXPECT_NEAR(e.direction_rms_deg, std::sqrt(90.0 * 90 / 5), 1e-10);
+  EXPECT_NEAR(e.magnitude_rms_percent, 100 * std::sqrt((4 + 0 + 1) / 24.0), 1e-10);
 }
 
 TEST(Spread, IsByRank) {
