@@ -43,9 +43,13 @@ std::string unescaped(std::string_view text) {
   return plain;
 }
 
+// Between words, but not between a number and its unit.
 std::string wrapped(std::string text) {
   for (std::size_t line = 0; text.size() - line > kColumns;) {
-    const std::size_t space = text.rfind(' ', line + kColumns);
+    std::size_t space = text.rfind(' ', line + kColumns);
+    while (space != std::string::npos && space > line && text[space - 1] >= '0' && text[space - 1] <= '9') {
+      space = text.rfind(' ', space - 1);
+    }
     if (space == std::string::npos || space <= line) break;
     text[space] = '\n';
     line = space + 1;

@@ -54,6 +54,7 @@ Outcome<std::string> runGnuplot(std::string_view script, const std::vector<std::
   std::vector<std::string> words{"gnuplot", "-c", "/dev/stdin"};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
+  argv.reserve(words.size() + 1);
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
 

@@ -123,18 +123,22 @@ ChartWords mainWords(const Figures& figures) {
 }
 
 ChartWords sceneWords(const Figures& figures) {
-  const Row* worst = nullptr;
-  double least_gain = std::numeric_limits<double>::infinity();
+  std::string worst;
+  double worst_percent = 0, least_gain = std::numeric_limits<double>::infinity();
   for (const Row& r : figures.rows) {
     if (r.who != contender("relievo") || !isAccuracy(r) || r.depth != &kEightBits || r.scene == kAllScenes) continue;
-    if (worst == nullptr || r.error->rms_percent > worst->error->rms_percent) worst = &r;
+    const double percent = r.error->rms_percent;
+    if (percent > worst_percent) {
+      worst = r.scene;
+      worst_percent = percent;
+    }
     const Row* paper = figures.find({.who = contender("modified-proxy-graph"), .depth = r.depth, .scene = r.scene});
-    least_gain = std::min(least_gain, paper->error->rms_percent / r.error->rms_percent);
+    least_gain = std::min(least_gain, paper->error->rms_percent / percent);
   }
   return {"Error of the force by scene and kind of depth",
           print("On 8-bit depth relievo is worst on %s, with %.2g %%; on every scene its error is at least %.2g times "
                 "smaller than that of the paper's method.",
-                worst->scene.c_str(), worst->error->rms_percent, least_gain)};
+                worst.c_str(), worst_percent, least_gain)};
 }
 
 ChartWords partWords(const Figures& figures) {
@@ -145,7 +149,7 @@ ChartWords partWords(const Figures& figures) {
         found = c.label;
       }
     }
-    return print("%s: %s (%.2g %%, relievo as it is %.2g %%)", depth.name, found,
+    return print("%s: %s (%.3g %%, relievo as it is %.3g %%)", depth.name, found,
                  overall(figures, found, depth).error->rms_percent,
                  overall(figures, "relievo", depth).error->rms_percent);
   };

@@ -23,6 +23,7 @@ class Samples {
 
 std::vector<TickTimes> timesOf(const std::vector<Samples>& samples) {
   std::vector<TickTimes> times;
+  times.reserve(samples.size());
   for (const Samples& s : samples) times.push_back(s.times());
   return times;
 }
@@ -75,6 +76,7 @@ std::vector<TickTimes> timeColdTicks(std::span<const Contender* const> contender
   std::vector<std::unique_ptr<TouchMethod>> methods;
   std::vector<FilmRun> runs;
   for (const Contender* c : contenders) methods.push_back(c->make(timed.film));
+  runs.reserve(methods.size());
   for (const auto& method : methods) runs.emplace_back(timed.film, *method);
   const std::size_t end = std::min(timed.path.size(), timed.skipped_ticks + ticks);
   for (std::size_t i = 0; i < end; ++i) {

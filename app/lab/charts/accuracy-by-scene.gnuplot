@@ -17,7 +17,7 @@ mine(m, d, value) = (strcol("method") eq word(METHODS, m)) ? where("depth", word
 stats ARG1 using (strcol("method") eq "relievo" && strcol("depth") eq "8-bit" ? 1 : NaN) nooutput
 SCENES = int(STATS_records)
 set xrange [-0.5 : SCENES - 0.5]
-set yrange [0.0003:1000]
+set yrange [0.003:1000]
 do for [d = 1:4] {
   set lmargin at screen left(d)
   set rmargin at screen left(d) + 0.41

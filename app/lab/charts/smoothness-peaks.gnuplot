@@ -13,7 +13,7 @@ plot NaN notitle, for [c = 1:CURVE_COUNT] keyentry with points pt 7 ps 1.2 lc rg
 set logscale y
 set format y "%g"
 set xrange [-5:106]
-set yrange [0.1:30]
+set yrange [0.02:30]
 set xlabel "peak at the frame rate, dB under holding the frame"
 set tmargin at screen 0.755
 set bmargin at screen 0.20
