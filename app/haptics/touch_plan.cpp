@@ -95,7 +95,7 @@ ClipMeasure measureClip(std::span<const TimedSurface> frames) {
 }
 
 TouchPlan planTouch(const ClipMeasure& m) {
-  constexpr double kNarrowMm = 0.28, kFineNarrowMm = 0.14, kWidestMm = 1.0;
+  constexpr double kNarrowMm = 0.28, kFineNarrowMm = 0.14, kWidestMm = 1.2;
   constexpr double kTimesTheNarrow = 1.8;  // less is one level twice
   constexpr double kFineMm = 0.02;         // steps and noise that are not felt even through 0.14 mm
   const bool noisy = m.noise_mm > std::max(m.quantum_mm, kFineMm);
