@@ -36,13 +36,11 @@ section { border-top: 1px solid var(--line); margin: 2rem 0 0; padding: 1.5rem 0
 section p { margin: 0 0 .6rem; }
 svg { display: block; height: auto; width: 100%; }
 svg > g > rect[fill="#ffffff"] { fill: var(--paper); }
-svg [color="black"] { color: var(--ink); }
-svg [stroke="black"] { stroke: var(--ink); }
-svg [fill="black"] { fill: var(--ink); }
-svg [stroke="rgb(216, 219, 224)"] {
-stroke:
-  var(--line);
-}
+svg [color="#FFFFFF"] { color: var(--paper); }
+svg [color="black"], svg [color="rgb(  0,   0,   0)"] { color: var(--ink); }
+svg [stroke="black"], svg [stroke="rgb(  0,   0,   0)"] { stroke: var(--ink); }
+svg [fill="black"], svg [fill="rgb(0,0,0)"] { fill: var(--ink); }
+svg [stroke="rgb(216, 219, 224)"] { stroke: var(--line); }
 </style>
 )html";
 

@@ -16,8 +16,8 @@ struct Plan {
   double duration_s = 3;
   std::vector<double> speeds_m_per_s{kSlowMPerS, 1, 5};
   std::vector<PictureSize> sizes{{720, 486}, {1920, 1080}, {3840, 2160}};
-  int rounds = 100;
-  std::size_t cold_ticks = 2000;  // on the smallest and the largest picture
+  int rounds = 50;
+  std::size_t cold_ticks = 1000;  // on the smallest and the largest picture
 
   static Plan of(bool quick) {
     if (!quick) return {};
