@@ -15,24 +15,34 @@ constexpr double kLeastShare = 0.25;
 }  // namespace
 
 void ShotFinder::look(const TimedSurface& frame) {
-  const auto [at, is_new] = places_.try_emplace(frame.time);
+  const auto [at, is_new] = seen_.try_emplace(frame.time);
   if (!is_new) return;
   const HeightField& field = frame.field;
   std::size_t i = 0;
   for (int r = 0; r < kDown; ++r) {
     for (int c = 0; c < kAcross; ++c) {
-      at->second[i++] =
+      at->second.heights[i++] =
           field.heightMm((2 * c + 1) * field.cols() / (2 * kAcross), (2 * r + 1) * field.rows() / (2 * kDown));
     }
   }
 }
 
+bool ShotFinder::beginsShot(const TimedSurface* before, const TimedSurface& last, const TimedSurface& next,
+                            const TimedSurface* after) {
+  Seen& seen = seen_.at(next.time);
+  if (seen.judged && seen.last == last.time) return seen.cut;
+  seen.cut = isCut(before, last, next, after);
+  seen.judged = after != nullptr;
+  seen.last = last.time;
+  return seen.cut;
+}
+
 bool ShotFinder::isCut(const TimedSurface* before, const TimedSurface& last, const TimedSurface& next,
                        const TimedSurface* after) const {
-  const Places& z = places_.at(last.time);
-  const Places& next_z = places_.at(next.time);
-  const Places* before_z = before != nullptr ? &places_.at(before->time) : nullptr;
-  const Places* after_z = after != nullptr ? &places_.at(after->time) : nullptr;
+  const Places& z = seen_.at(last.time).heights;
+  const Places& next_z = seen_.at(next.time).heights;
+  const Places* before_z = before != nullptr ? &seen_.at(before->time).heights : nullptr;
+  const Places* after_z = after != nullptr ? &seen_.at(after->time).heights : nullptr;
   int votes = 0, readable = 0;
   for (std::size_t i = 0; i < z.size(); ++i) {
     const double jump = std::abs(next_z[i] - z[i]);

@@ -14,35 +14,43 @@ namespace relievo {
 // Looks at 192 places of the picture, whatever its size. A place votes for a cut between two frames when its height
 // jumps there by more than 2 mm and by more than three times what it moves in the frame before and the frame after: a
 // fast rise moves in both, a cut in neither. A quarter of the places that can be read decide. A pair whose next frame
-// is not there yet is judged without it, and again when it is.
+// is not there yet is judged without it, and again when it is; after that the verdict stands, or a rise would become a
+// cut when the frame that showed its motion is let go.
 // The feeder's thread, not the real-time one.
 class ShotFinder {
  public:
-  void forget() { places_.clear(); }
+  void forget() { seen_.clear(); }
 
   // Numbers the shots of frames in ascending order of time. The first frame keeps the number it has.
   template <class Frames>  // of TimedSurface: random access
   void mark(Frames& frames) {
     if (frames.empty()) return;
     for (const TimedSurface& f : frames) look(f);
-    places_.erase(places_.begin(), places_.lower_bound(frames[0].time));
+    seen_.erase(seen_.begin(), seen_.lower_bound(frames[0].time));
     for (std::size_t i = 1; i < frames.size(); ++i) {
       // A frame before the last cut says nothing about this shot's motion.
       const bool motion_before = i >= 2 && frames[i - 2].shot == frames[i - 1].shot;
       const TimedSurface* before = motion_before ? &frames[i - 2] : nullptr;
       const TimedSurface* after = i + 1 < frames.size() ? &frames[i + 1] : nullptr;
-      frames[i].shot = frames[i - 1].shot + (isCut(before, frames[i - 1], frames[i], after) ? 1 : 0);
+      frames[i].shot = frames[i - 1].shot + (beginsShot(before, frames[i - 1], frames[i], after) ? 1 : 0);
     }
   }
 
  private:
   static constexpr int kAcross = 16, kDown = 12;
   using Places = std::array<double, static_cast<std::size_t>(kAcross) * kDown>;
+  struct Seen {
+    Places heights;  // mm
+    bool cut = false, judged = false;
+    MediaTime last;  // the frame before it when it was judged
+  };
   void look(const TimedSurface& frame);
+  [[nodiscard]] bool beginsShot(const TimedSurface* before, const TimedSurface& last, const TimedSurface& next,
+                                const TimedSurface* after);
   [[nodiscard]] bool isCut(const TimedSurface* before, const TimedSurface& last, const TimedSurface& next,
                            const TimedSurface* after) const;
 
-  std::map<MediaTime, Places> places_;  // heights, mm
+  std::map<MediaTime, Seen> seen_;
 };
 
 }  // namespace relievo

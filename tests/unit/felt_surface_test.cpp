@@ -267,6 +267,20 @@ TEST(ShotFinder, FindsCutsAndNoRise) {
   EXPECT_EQ(shots(passing, 8).back(), 0U) << "something passes by";
 }
 
+TEST(ShotFinder, ARiseThatEndsIsNoCutWhenTheFrameThatShowedItIsLetGo) {
+  const auto frames = film(
+      12, [](double, double, double t) { return 10 + 63 * std::clamp(t - 2 * kPeriod, 0.0, 4.2 * kPeriod); }, 90, 61);
+  ShotFinder finder;
+  std::vector<TimedSurface> held;
+  for (const Frame& f : frames) {
+    held.push_back({HeightField::make(f, {.bits = 16}, kVolume).value(), f.pts, f.owner});
+    if (held.size() > 6) held.erase(held.begin());
+    finder.mark(held);
+    // The newest pair may yet be taken for a cut: what follows it is not known.
+    for (std::size_t i = 0; i + 1 < held.size(); ++i) EXPECT_EQ(held[i].shot, 0U) << toSeconds(f.pts) << ' ' << i;
+  }
+}
+
 TouchPlan planFor(int bits, double noise_mm, bool moving) {
   std::mt19937 random(5);
   std::normal_distribution<double> noise(0, noise_mm > 0 ? noise_mm : 1e-9);
