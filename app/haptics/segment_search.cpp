@@ -33,6 +33,7 @@ std::optional<Crossing> firstCrossing(const SurfaceInTime& surface, const glm::d
   const GridMapping& grid = surface.grid();
   const double u0 = grid.u(from_mm.x), v0 = grid.v(from_mm.y), z0 = from_mm.z;
   const double du = grid.u(to_mm.x) - u0, dv = grid.v(to_mm.y) - v0, dz = to_mm.z - z0;
+  if (!std::isfinite(du + dv + dz)) return std::nullopt;  // the walk along it would never end
 
   // Only the part over the grid counts: clip it first, so that a finger far away costs no more than one nearby.
   double s = 0, end = 1;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -260,6 +261,19 @@ TEST(MakeMethod, KnowsTheNamesThatItListsAndNoOther) {
   EXPECT_EQ(timeLaw("hold"), TimeLaw::Hold);
   EXPECT_EQ(timeLaw("linear"), TimeLaw::Linear);
   EXPECT_EQ(timeLaw("cubic"), std::nullopt);
+}
+
+TEST(ProxyGraphMethods, APositionThatIsNoNumberIsOneTickWithoutContactAndNoMore) {
+  const auto frames = planeFrames(20, 0.25, 0);
+  const SurfaceWindow w = makeWindow(frames, kVolume);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const char* name : {"modified-proxy-graph", "proxy-graph", "proxy-blend"}) {
+    const auto m = method(name);
+    EXPECT_FALSE(m->update({0, 0, 25}, w, {}).contact);
+    EXPECT_FALSE(m->update({nan, 0, 25}, w, {}).contact) << name;
+    EXPECT_FALSE(m->update({0, 0, 25}, w, {}).contact) << name;
+    EXPECT_NEAR(m->update({0, 0, 18}, w, {}).force_n.z, 0.94, 0.05) << name << ": 2 mm, and K is 0.5";
+  }
 }
 
 }  // namespace
