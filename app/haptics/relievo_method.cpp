@@ -39,6 +39,10 @@ bool RelievoMethod::inside(const glm::dvec3& place_mm) RELIEVO_RT {
   return place_mm.z < surface_.height(place_mm.x, place_mm.y) - lowered_mm_;
 }
 
+double RelievoMethod::depthMm() RELIEVO_RT {
+  return had_surface_ ? surface_.height(hip_mm_.x, hip_mm_.y) - lowered_mm_ - hip_mm_.z : 0;
+}
+
 Touch RelievoMethod::update(const glm::dvec3& hip_mm, const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
   Touch touch{.proxy_mm = hip_mm};
   if (!isFinite(hip_mm) || !surface_.moment(window, now)) {

@@ -38,6 +38,11 @@ class RelievoMethod final : public TouchMethod {
   void upkeep(const SurfaceWindow& window, MediaTime now) RELIEVO_RT override;
   void reset() RELIEVO_RT override { state_ = State::Unknown; }
 
+  // For tests, between `update` and `upkeep`: how far this tick's finger lies below the surface as it is felt, and
+  // whether it is free because it has been inside from the beginning.
+  [[nodiscard]] double depthMm() RELIEVO_RT;
+  [[nodiscard]] bool buried() const RELIEVO_RT { return state_ == State::Buried; }
+
  private:
   enum class State : std::uint8_t {
     Unknown,  // before the first tick

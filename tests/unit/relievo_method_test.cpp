@@ -249,5 +249,22 @@ TEST_F(RelievoMethodTest, WhatIsNotAFingerOrNoFilmIsNoContact) {
   method_.upkeep(none, {});
 }
 
+TEST_F(RelievoMethodTest, AGapInTheFramesOrInThePositionsEndsInTheForceBeforeIt) {
+  film(0.5, [](double x, double, double t) { return t < 0.25 ? 12 + 0.1 * x : 24 - 0.1 * x; });
+  double before = 0;
+  const glm::dvec3 hip(1, 2, 10);
+  for (int i = 0; i < 100; ++i) before = glm::length(tick(i * kTick, i < 20 ? glm::dvec3(1, 2, 15) : hip).force_n);
+  EXPECT_NEAR(before, kStiffness * 2.1, 0.02);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(tick(100 * kTick, {nan, 0, 0}).contact);
+  EXPECT_NEAR(glm::length(tick(101 * kTick, hip).force_n), before, 0.02) << "one position was no number";
+  SurfaceWindow empty;
+  empty.epoch = window_.epoch;
+  for (int i = 0; i < 50; ++i) EXPECT_FALSE(method_.update(hip, empty, mediaTime(0.11)).contact);
+  ++window_.epoch;  // sought: 12 mm higher there
+  shots_.forget();
+  EXPECT_NEAR(glm::length(tick(0.3, hip).force_n), before, 0.02);
+}
+
 }  // namespace
 }  // namespace relievo
