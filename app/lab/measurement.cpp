@@ -6,18 +6,22 @@
 
 #include "app/lab/smoothness.h"
 #include "app/lab/speed_accuracy.h"
+#include "app/lab/stability.h"
 
 namespace relievo {
 namespace {
 
 constexpr std::array kSpeedAccuracyCharts{"speed-accuracy", "accuracy-by-scene", "parts", "tick-time"};
 constexpr std::array kSmoothnessCharts{"smoothness", "smoothness-hand", "smoothness-peaks"};
+constexpr std::array kStabilityCharts{"stability", "stability-onset"};
 
 constexpr std::array kMeasurements{
     Measurement{"speed-accuracy", "what a tick takes and how far the force is from the true one, by method and parts",
                 kSpeedAccuracyCharts, measureSpeedAndAccuracy},
     Measurement{"smoothness", "the force's spectrum on a moving face, and what of it is the frame rate",
                 kSmoothnessCharts, measureSmoothness},
+    Measurement{"stability", "every method where methods fail, and where closed loops begin to swing", kStabilityCharts,
+                measureStability},
 };
 
 }  // namespace

@@ -154,7 +154,7 @@ TEST_F(LabCharts, ThePageHoldsEveryChartWithItsWordsAndItsFigures) {
     EXPECT_NE(page.find("href=\"" + name + ".csv\""), std::string::npos) << name;
     EXPECT_TRUE(std::filesystem::exists(out(name + ".csv"))) << name;
   }
-  EXPECT_GE(charts, 7);
+  EXPECT_GE(charts, 9);
   EXPECT_EQ(page.find("nan"), std::string::npos);
 }
 
@@ -172,7 +172,7 @@ TEST_F(LabCharts, AReportRunsOnlyWhatIsMissing) {
 TEST(LabChartsWords, WrongUseAndAFolderThatCannotBeMadeAreOneLineEach) {
   const test::TemporaryFolder folder;
   std::ofstream(folder / "file") << "in the way";
-  for (const char* command : {"speed-accuracy", "smoothness", "report"}) {
+  for (const char* command : {"speed-accuracy", "smoothness", "stability", "report"}) {
     const auto without = test::runProgram(std::string("relievo-lab ") + command, folder / ".");
     EXPECT_EQ(without.exit_code, 2) << command;
     EXPECT_NE(without.err.find("--out"), std::string::npos) << without.err;
