@@ -52,7 +52,7 @@ glm::dvec3 SafetyFilter::apply(const glm::dvec3& wanted_n, const glm::dvec3& hip
   if (std::isfinite(glm::dot(hip_mm, hip_mm))) {
     primed_ = true;
     hip_mm_ = hip_mm;
-    books_.tick(hip_mm, spring, sent);
+    books_.tick(hip_mm, spring, target, sent);
   }
   return sent;
 }

@@ -104,14 +104,14 @@ TouchPlan planTouch(const ClipMeasure& m) {
   plan.measure = m;
   FeltScale& s = plan.scale;
 
-  // A still scene costs no work in time, unless its noise is to be averaged; one that moves less than can be felt in a
-  // frame is straight enough between two; noise is averaged by the smoother law.
-  if (m.still) s.narrow_time = s.wide_time = TimeLaw::Hold;
+  // A picture costs no work in time. A film that begins still may move later: it is treated as one that moves. Noise is
+  // averaged by the smoother law.
+  if (m.frames == 1) s.narrow_time = s.wide_time = TimeLaw::Hold;
   else if (noisy) s.narrow_time = s.wide_time = TimeLaw::BSpline;
-  else s.wide_time = m.speed_mm_per_s * m.period_s < kFineMm ? TimeLaw::Linear : TimeLaw::Fitted;
+  else s.wide_time = TimeLaw::Fitted;
 
   // Share of the noise's power that the weights of the frames let through: the mean of their sum of squares.
-  const double through = s.wide_time == TimeLaw::BSpline ? 0.48 : s.wide_time == TimeLaw::Hold ? 1.0 : 0.75;
+  const double through = s.wide_time == TimeLaw::BSpline ? 0.48 : m.still ? 1.0 : 0.75;
   // Error of direction of a Gaussian of width w on white noise s from samples p apart: s p sqrt(g) sqrt(1.2)/(3.54 w^2)
   // times the square root of 1.2; on steps of q, at the worst slope, q/(7.09 w).
   const auto width = [&](double error) {

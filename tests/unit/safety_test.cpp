@@ -109,7 +109,10 @@ TEST(EnergyBooks, AStillWallTakesNothingFromTheSceneAndGivesHalfKDxSquaredPerHel
   // In and out of a wall K = 0.5 N/mm in steps of 0.1 mm, 2 mm deep, without friction. The exact work over the closed
   // path is zero. Held over the tick, each step in or out gives the hand K dx^2/2: 40 steps, 40 x 0.0025 mJ.
   EnergyBooks books(0.5);
-  const auto tick = [&](double depth) { books.tick({0, 0, -depth}, {0, 0, 0.5 * depth}, {0, 0, 0.5 * depth}); };
+  const auto tick = [&](double depth) {
+    const glm::dvec3 force(0, 0, 0.5 * depth);
+    books.tick({0, 0, -depth}, force, force, force);
+  };
   for (int i = 0; i <= 20; ++i) tick(0.1 * i);
   for (int i = 19; i >= 0; --i) tick(0.1 * i);
   EXPECT_NEAR(books.sceneMj(), 0, 1e-9);
@@ -119,7 +122,10 @@ TEST(EnergyBooks, AStillWallTakesNothingFromTheSceneAndGivesHalfKDxSquaredPerHel
 TEST(EnergyBooks, ARisingSurfaceIsBookedToTheScene) {
   // The surface rises 2 mm through a finger that stands still: the spring is loaded with K d^2/2 = 1 mJ.
   EnergyBooks books(0.5);
-  for (int i = 0; i <= 200; ++i) books.tick({0, 0, 0}, {0, 0, 0.5 * 0.01 * i}, {0, 0, 0.5 * 0.01 * i});
+  for (int i = 0; i <= 200; ++i) {
+    const glm::dvec3 force(0, 0, 0.5 * 0.01 * i);
+    books.tick({0, 0, 0}, force, force, force);
+  }
   EXPECT_NEAR(books.sceneMj(), 1.0, 1e-9);
   EXPECT_NEAR(books.artefactMj(), 0, 1e-12);
 }
@@ -127,7 +133,7 @@ TEST(EnergyBooks, ARisingSurfaceIsBookedToTheScene) {
 TEST(EnergyBooks, SlidingAlongAStillSlopeIsNoWork) {
   EnergyBooks books(0.5);
   const glm::dvec3 normal = glm::normalize(glm::dvec3(-0.3, 0, 1)), along = glm::normalize(glm::dvec3(1, 0, 0.3));
-  for (int i = 0; i <= 100; ++i) books.tick(0.1 * i * along, 1.5 * normal, 1.5 * normal);
+  for (int i = 0; i <= 100; ++i) books.tick(0.1 * i * along, 1.5 * normal, 1.5 * normal, 1.5 * normal);
   EXPECT_NEAR(books.sceneMj(), 0, 1e-9);
   EXPECT_NEAR(books.artefactMj(), 0, 1e-9);
 }
