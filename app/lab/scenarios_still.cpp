@@ -137,12 +137,16 @@ Verdict energyLoop(const Challenger& challenger, bool quick) {
   const Relief steep = [=](double x, double y, double) {
     return hills(x, y) + 1.2 * std::sin(0.9 * x + 0.5 * y) + (across(x, y) < 3 ? 2 : 0);
   };
+  // Over the step the finger goes on as it did: one that jumped with it would be faster than it is said to be.
+  const Relief under_steep = [=](double x, double y, double) {
+    return hills(x, y) + 1.2 * std::sin(0.9 * x + 0.5 * y) + 1 - std::tanh(across(x, y) - 3);
+  };
   struct Scene {
-    Relief relief;
+    Relief finger;  // what its height follows
     std::vector<TimedSurface> film;
   };
   const Scene scenes[] = {{wide, makeFilm(wide, {.bits = 8}, 0.1)},
-                          {steep, makeFilm(steep, {.bits = 8}, 0.1)},
+                          {under_steep, makeFilm(steep, {.bits = 8}, 0.1)},
                           {wide, makeFilm(wide, {.bits = 8, .noise_share = 0.01}, 0)}};
   std::mt19937_64 random(7);  // NOLINT(bugprone-random-generator-seed): the same at every run
   const auto draw = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
@@ -155,13 +159,13 @@ Verdict energyLoop(const Challenger& challenger, bool quick) {
   double touched = 0, counted = 0;
   for (Speed& speed : speeds) {
     for (int loop = 0; loop < loops; ++loop) {
-      const auto& [relief, film] = scenes[loop % 3];
+      const auto& [follows, film] = scenes[loop % 3];
       const double radius = draw(2, 8), deep = draw(2.5, 4.5), swing = draw(0, 0.5), phase = draw(0, 6);
       const glm::dvec2 centre(draw(-9, 9), draw(-4, 4));
       // A whole number of ticks a lap: the path is closed to the last bit.
       const int lap = std::max(20, static_cast<int>(std::lround(2e3 * std::numbers::pi * radius / speed.mm_per_s)));
       constexpr int kLead = 40;
-      const auto finger = [&, &relief = relief](double t, const glm::dvec3&) -> std::optional<glm::dvec3> {
+      const auto finger = [&, &relief = follows](double t, const glm::dvec3&) -> std::optional<glm::dvec3> {
         const int tick = static_cast<int>(std::lround(t * 1e3)) - kLead;
         const double turn = 2 * std::numbers::pi * std::max(tick, 0) / lap;
         const glm::dvec2 p = centre + radius * glm::dvec2(std::cos(turn + phase), std::sin(turn + phase));
