@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -117,6 +118,28 @@ std::expected<void, int> parseCommandLine(CLI::App& program, int argc, const cha
     log(LogLevel::Error, "wrong use", "%s; see %s --help", error.what(), commandOf(program).c_str());
     return std::unexpected(kExitWrongUse);
   }
+}
+
+Outcome<void> keepApart(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
+  const auto same = [](const std::string& a, const std::string& b) {
+    std::error_code none;
+    return !a.empty() && !b.empty() && (a == b || std::filesystem::equivalent(a, b, none));
+  };
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    for (const std::string& input : inputs) {
+      if (same(outputs[i], input)) {
+        return failOn(outputs[i],
+                      {ErrorCode::InvalidArgument, 0, "is read from and would be written over; name another file"});
+      }
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      if (same(outputs[i], outputs[j])) {
+        return failOn(outputs[i],
+                      {ErrorCode::InvalidArgument, 0, "is named for two outputs; name another file for one"});
+      }
+    }
+  }
+  return {};
 }
 
 }  // namespace relievo

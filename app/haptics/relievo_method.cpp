@@ -78,6 +78,11 @@ Touch RelievoMethod::update(const glm::dvec3& hip_mm, const SurfaceWindow& windo
         slide(hip_mm);
       }
     }
+    if (sweptAway(before, hip_mm)) {
+      contact_.x_mm = hip_mm.x;
+      contact_.y_mm = hip_mm.y;
+      slide(hip_mm);
+    }
     follow(proxy(), hip_mm);
   } else {
     follow(hip_mm_, hip_mm);
@@ -126,6 +131,18 @@ void RelievoMethod::enterScene(const glm::dvec3& hip_mm) RELIEVO_RT {
   state_ = State::Contact;
   slide(hip_mm);
   follow(proxy(), hip_mm);
+}
+
+// A wall that has gone over the finger and on takes the proxy with it, although the way out is by now much shorter
+// elsewhere: straight up. Only where the scene did it: a finger that pushes itself deep into a wall stays at that wall.
+bool RelievoMethod::sweptAway(const Contact& before, const glm::dvec3& hip_mm) RELIEVO_RT {
+  constexpr double kFurtherMm = 3;
+  const double away = glm::distance(proxy(), hip_mm);
+  if (away < 2 * kFurtherMm) return false;
+  const double carried = std::hypot(contact_.x_mm - before.x_mm, contact_.y_mm - before.y_mm);
+  if (carried < 2 * glm::distance(hip_mm, hip_mm_)) return false;
+  const double up = surface_.height(hip_mm.x, hip_mm.y) - lowered_mm_ - hip_mm.z;
+  return up > 0 && away > up + kFurtherMm;
 }
 
 void RelievoMethod::slide(const glm::dvec3& hip_mm) RELIEVO_RT {

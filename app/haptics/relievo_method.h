@@ -53,6 +53,7 @@ class RelievoMethod final : public TouchMethod {
   [[nodiscard]] bool inside(const glm::dvec3& place_mm) RELIEVO_RT;
   void enterScene(const glm::dvec3& hip_mm) RELIEVO_RT;
   void slide(const glm::dvec3& hip_mm) RELIEVO_RT;
+  [[nodiscard]] bool sweptAway(const Contact& before, const glm::dvec3& hip_mm) RELIEVO_RT;
   void rub(const glm::dvec3& hip_mm) RELIEVO_RT;
   [[nodiscard]] bool enterOnPath(const glm::dvec3& from_mm, const glm::dvec3& hip_mm) RELIEVO_RT;
   void follow(glm::dvec3 from_mm, const glm::dvec3& hip_mm) RELIEVO_RT;

@@ -63,6 +63,10 @@ void addTrace(CLI::App& app, TraceOptions& options) {
 }
 
 int runTraceCommand(const TraceOptions& options) {
+  const SourceOptions& source = options.film.source;
+  if (auto apart = keepApart({options.out_path}, {options.hip_path, source.url, source.depth_url}); !apart) {
+    return tell(apart.error());
+  }
   if (makeMethod(options.method, {}) == nullptr) {
     return tell(
         {"--method " + options.method, {ErrorCode::InvalidArgument, 0, "unknown; see relievo-lab trace --help"}});

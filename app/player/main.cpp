@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "app/cli/options.h"
 #include "app/cli/program.h"
 #include "app/player/options.h"
 #include "app/player/player.h"
@@ -27,6 +28,7 @@ void stopOnSignals() {
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
+  ::sigaction(SIGHUP, &action, nullptr);
 }
 
 PairReader::Backends backendsFor(const std::string& url) {
@@ -44,7 +46,20 @@ int finishFiles(const PlayReport& report, AtomicFile* report_file, Recorder* rec
   return kExitDone;
 }
 
+// The file of "offscreen:FILE[@FPS]".
+std::string captureFile(const std::string& display) {
+  const std::string prefix = "offscreen:";
+  if (!display.starts_with(prefix)) return "";
+  return display.substr(prefix.size(), display.rfind('@') - prefix.size());
+}
+
 int play(PlayOptions options) {
+  const SourceOptions& source = options.player.source;
+  if (auto apart = keepApart({options.report_path, options.record_path, captureFile(options.display)},
+                             {source.url, source.depth_url});
+      !apart) {
+    return tell(apart.error());
+  }
   MonotonicClock clock;
   auto display = drivers::makeDisplay(options.display);
   if (!display) return tell(display.error());

@@ -208,7 +208,9 @@ bool Player::draw(MonotonicTime now) {
   redraw_ = false;
   const auto shown = picture_.show(last_mark_, now);
   if (!shown) {
-    fail(std::string("display ") + picture_.capabilities().name, shown.error());
+    // What cannot be drawn is the film's fault, not the display's.
+    const bool film = shown.error().code == ErrorCode::Unsupported;
+    fail(film ? config_.source.url : std::string("display ") + picture_.capabilities().name, shown.error());
     return false;
   }
   if (*shown == Picture::Shown::Lost) note("display lost", "film and touch go on; it is tried again every second");

@@ -156,6 +156,21 @@ TEST_F(RelievoMethodTest, AFastFingerDoesNotJumpOverARidgeUnseen) {
   }
 }
 
+TEST_F(RelievoMethodTest, AWallThatHasGoneOverTheFingerDoesNotTakeTheProxyAlong) {
+  // A block of 15 mm comes from the left at 150 mm/s and goes on to the right; the finger rests in its way.
+  film(1, [](double x, double, double t) { return x > -50 + 150 * t - 60 && x < -50 + 150 * t ? 25.0 : 10.0; });
+  static_cast<void>(tick(0, {0, 0, 30}));
+  double furthest = 0;
+  int pushed = 0;
+  for (int i = 1; i < 700; ++i) {
+    const Touch touch = tick(i * kTick, {0, 0, 17});
+    furthest = std::max(furthest, glm::distance(touch.proxy_mm, glm::dvec3(0, 0, 17)));
+    if (touch.contact) ++pushed;
+  }
+  EXPECT_LT(furthest, 8 + 3 + 1) << "up is 8 mm";
+  EXPECT_GT(pushed, 300) << "and it is pushed all the while that it is inside";
+}
+
 TEST_F(RelievoMethodTest, ACutUpIsFeltAtOnceAtNoMoreForceAndComesToItsPlaceAsTheFingerLifts) {
   const double cut = 10 * kPeriod;
   film(2, [&](double x, double, double t) { return t < cut - 1e-6 ? 12.0 : 28 + 0.2 * x; });
