@@ -91,10 +91,11 @@ bool FeltSurface::placeFrames(const SurfaceWindow& window) RELIEVO_RT {
   std::array<bool, ControlGrid::kFrames> placed{};
   for (std::size_t f = 0; f <= last; ++f) {
     for (std::size_t s = 0; s < ControlGrid::kFrames; ++s) {
-      if ((slots_.in_use >> s & 1U) == 0 || time_of_slot_[s] != window.frames[f].time) continue;
+      if ((slots_.in_use & ~kept & 1U << s) == 0 || time_of_slot_[s] != window.frames[f].time) continue;
       kept |= 1U << s;
       slots_.of_frame[f] = static_cast<std::uint8_t>(s);
       placed[f] = true;
+      break;
     }
   }
   slots_.in_use = kept;
@@ -156,6 +157,10 @@ void FeltSurface::followEdge(const SurfaceWindow& window, MediaTime next, const 
   if (from.time == edge_from_) {
     const bool near = std::max(std::abs(moved.x), std::abs(moved.y)) < kNearMm;
     if (near || std::chrono::abs(next - edge_looked_) < kNotSooner) return;
+  }
+  if (moment.present >= moment.last && moment.present + 1 >= window.count) {
+    edge_way_mm_ = glm::dvec2(0);  // the next frame is not there yet
+    return;
   }
   edge_looked_ = next;
   edge_from_ = from.time;

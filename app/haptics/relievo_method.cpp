@@ -19,7 +19,8 @@ constexpr int kPointsAhead = 2;
 constexpr Duration kLongestStep = std::chrono::milliseconds(10);
 
 bool isFinite(const glm::dvec3& p) RELIEVO_RT {
-  return std::isfinite(p.x + p.y + p.z);
+  constexpr double kFar = 1e6;  // beyond it a place is a reading gone wrong, and an index out of range
+  return std::abs(p.x) < kFar && std::abs(p.y) < kFar && std::abs(p.z) < kFar;
 }
 
 // How much the surface itself has risen from one contact to the next one.
@@ -45,10 +46,11 @@ double RelievoMethod::depthMm() RELIEVO_RT {
 
 Touch RelievoMethod::update(const glm::dvec3& hip_mm, const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
   Touch touch{.proxy_mm = hip_mm};
-  if (!isFinite(hip_mm) || !surface_.moment(window, now)) {
+  if (!surface_.moment(window, now)) {
     had_surface_ = false;  // a surface that comes back is felt as it was before: `force_n_` stays
     return touch;
   }
+  if (!isFinite(hip_mm)) return touch;  // a tick left out: the next one goes on from the last place
   const std::uint32_t shot = surface_.shot();
   const bool other_scene = !had_surface_ || window.epoch != epoch_ || shot != shot_;
   had_surface_ = true;
@@ -56,6 +58,7 @@ Touch RelievoMethod::update(const glm::dvec3& hip_mm, const SurfaceWindow& windo
   shot_ = shot;
 
   const Contact before = contact_;
+  const bool continues = state_ == State::Contact && !other_scene;
   if (state_ == State::Unknown) {
     lowered_mm_ = 0;
     state_ = inside(hip_mm) ? State::Buried : State::Free;
@@ -102,9 +105,12 @@ Touch RelievoMethod::update(const glm::dvec3& hip_mm, const SurfaceWindow& windo
   force_n_ = touch.force_n;
   if (lowered_mm_ > 0) settleLowering(hip_mm);
   const bool sliding = state_ == State::Contact;
-  rise_mm_ = sliding ? riseBetween(before, contact_) : 0;
-  ahead_x_mm_ = sliding ? 2 * contact_.x_mm - before.x_mm : 2 * hip_mm.x - hip_mm_.x;
-  ahead_y_mm_ = sliding ? 2 * contact_.y_mm - before.y_mm : 2 * hip_mm.y - hip_mm_.y;
+  rise_mm_ = sliding && continues ? riseBetween(before, contact_) : 0;
+  const glm::dvec2 here = sliding ? glm::dvec2(contact_.x_mm, contact_.y_mm) : glm::dvec2(hip_mm.x, hip_mm.y);
+  const glm::dvec2 last = sliding && continues ? glm::dvec2(before.x_mm, before.y_mm)
+                          : sliding            ? here
+                                               : glm::dvec2(hip_mm_.x, hip_mm_.y);
+  ahead_mm_ = 2.0 * here - last;
   hip_mm_ = hip_mm;
   return touch;
 }
@@ -113,7 +119,7 @@ void RelievoMethod::upkeep(const SurfaceWindow& window, MediaTime now) RELIEVO_R
   if (!had_surface_) return;
   // The next tick comes as long after this one as this one after the last; a pause stands still.
   const Duration step = std::clamp(now - now_, Duration(0), kLongestStep);
-  surface_.prepare(window, now + step, ahead_x_mm_, ahead_y_mm_, kPointsAhead);
+  surface_.prepare(window, now + step, ahead_mm_.x, ahead_mm_.y, kPointsAhead);
   now_ = now;
 }
 
@@ -121,6 +127,7 @@ void RelievoMethod::upkeep(const SurfaceWindow& window, MediaTime now) RELIEVO_R
 void RelievoMethod::enterScene(const glm::dvec3& hip_mm) RELIEVO_RT {
   const double depth = surface_.height(hip_mm.x, hip_mm.y) - hip_mm.z;
   force_before_cut_n_ = glm::length(force_n_);
+  rubbing_ = false;  // where friction held is a place of the old scene
   lowered_mm_ = std::max(depth - force_before_cut_n_ / config_.stiffness_n_per_mm, 0.0);
   if (depth <= 0) {
     state_ = State::Free;

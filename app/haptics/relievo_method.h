@@ -74,7 +74,7 @@ class RelievoMethod final : public TouchMethod {
   double lowered_mm_ = 0;  // of the surface, after a cut
   double force_before_cut_n_ = 0;
   glm::dvec3 force_n_{0};
-  double ahead_x_mm_ = 0, ahead_y_mm_ = 0;  // where the proxy, or the free finger, will be in the next tick
+  glm::dvec2 ahead_mm_{0};  // where the proxy, or the free finger, will be in the next tick
 };
 
 }  // namespace relievo

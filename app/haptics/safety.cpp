@@ -38,7 +38,7 @@ glm::dvec3 SafetyFilter::apply(const glm::dvec3& wanted_n, const glm::dvec3& hip
   if (!std::isfinite(glm::dot(moved, moved))) moved = glm::dvec3(0);
 
   const double by_hand = stiffness_ * glm::length(moved);
-  const double elapsed = std::clamp(elapsed_s, 0.0, 0.1);
+  const double elapsed = elapsed_s > 0 ? std::min(elapsed_s, 0.1) : 0.0;  // not a number: 0
   const double allowed = by_hand + limits_.scene_slew_n_per_s * elapsed;
   const glm::dvec3 spring = approach(spring_n_, target, allowed);
   glm::dvec3 sent = limits_.limit_energy ? leanAgainst(spring, moved) : spring;

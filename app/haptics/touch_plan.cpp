@@ -82,9 +82,10 @@ ClipMeasure measureClip(std::span<const TimedSurface> frames) {
     m.period_s = toSeconds(frames.back().time - frames.front().time) / static_cast<double>(frames.size() - 1);
   }
   m.sample_mm = 1 / std::abs(frames.front().field.grid().u_per_mm);
-  if (bends.empty()) return m;
+  m.quantum_mm = frames.front().field.stepMm();
+  if (bends.empty()) return m;  // nothing but the ends of the range: what it will be like is not known
   m.edges = static_cast<double>(edges) / static_cast<double>(bends.size());
-  m.quantum_mm = std::isfinite(quantum) ? quantum : frames.front().field.stepMm();
+  if (std::isfinite(quantum)) m.quantum_mm = quantum;
   // A slope that is cut into steps bends by one step at every other sample: that much is the quantum's.
   const double deviation = quantile(bends, 0.5) / (0.6745 * std::sqrt(6.0));
   const double of_quantum = 0.61 * m.quantum_mm;
@@ -104,10 +105,9 @@ TouchPlan planTouch(const ClipMeasure& m) {
   plan.measure = m;
   FeltScale& s = plan.scale;
 
-  // A picture costs no work in time. A film that begins still may move later: it is treated as one that moves. Noise is
-  // averaged by the smoother law.
-  if (m.frames == 1) s.narrow_time = s.wide_time = TimeLaw::Hold;
-  else if (noisy) s.narrow_time = s.wide_time = TimeLaw::BSpline;
+  // A film that begins still may move later: it is treated as one that moves. (A picture costs no work in time under
+  // any law: all the weight lies on its one frame.) Noise is averaged by the smoother law.
+  if (noisy) s.narrow_time = s.wide_time = TimeLaw::BSpline;
   else s.wide_time = TimeLaw::Fitted;
 
   // Share of the noise's power that the weights of the frames let through: the mean of their sum of squares.

@@ -225,6 +225,46 @@ TEST_F(RelievoMethodTest, ASurfaceThatComesBackIsFeltAsItWas) {
   EXPECT_NEAR(touch.force_n.z, 1.5, 1e-3) << "not the 2.5 N that its depth would give";
 }
 
+TEST_F(RelievoMethodTest, AStillFingerFeelsNoKickAfterACutToABumpyScene) {
+  const double cut = 6 * kPeriod;
+  film(1, [&](double x, double y, double t) {
+    return t < cut - 1e-6 ? 12.0 : 26 + 0.8 * std::sin(1.1 * x) * std::cos(0.9 * y);
+  });
+  for (const double x : {-7.3, -2.1, 0.4, 3.9, 8.8}) {
+    method_.reset();
+    glm::dvec3 before(0);
+    static_cast<void>(tick(0, {x, 2, 13}));
+    for (int i = 1; i < 400; ++i) {
+      const Touch touch = tick(i * kTick, {x, 2, 10});
+      if (i * kTick > cut + 0.002) {
+        ASSERT_LT(glm::distance(touch.force_n, before), 0.1) << x << ' ' << i;
+      }
+      before = touch.force_n;
+    }
+  }
+}
+
+TEST_F(RelievoMethodTest, OneReadingThatIsNoneLeavesTheFingerWhereItWas) {
+  film(0.2, [](double, double, double) { return 20.0; });
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  static_cast<void>(tick(0, {0, 0, 21}));
+  static_cast<void>(tick(0.001, {0, 0, nan}));
+  EXPECT_NEAR(tick(0.002, {0, 0, 15}).force_n.z, 2.5, 1e-3) << "it came in while nobody looked";
+}
+
+TEST_F(RelievoMethodTest, FrictionLetsGoOfTheOldSceneAtACut) {
+  RelievoMethod rough({.stiffness_n_per_mm = kStiffness, .friction = {0.8, 0.6}});
+  const Frame low = test::makeReliefFrame(kCols, kRows, kVolume, {}, [](double, double) { return 12.0; });
+  const Frame high = test::makeReliefFrame(kCols, kRows, kVolume, {}, [](double x, double) { return 25 + 0.5 * x; });
+  SurfaceWindow w = test::makeWindow(std::span(&low, 1), kVolume);
+  static_cast<void>(rough.update({0, 0, 13}, w, {}));
+  double before = 0;
+  for (int i = 0; i < 50; ++i) before = glm::length(rough.update({0.05 * i, 0, 9}, w, {}).force_n);
+  w = test::makeWindow(std::span(&high, 1), kVolume);
+  w.epoch = 1;
+  EXPECT_LE(glm::length(rough.update({2.45, 0, 9}, w, {}).force_n), before + 1e-3);
+}
+
 TEST_F(RelievoMethodTest, ThePapersGuardCanBePutOnTop) {
   RelievoMethod guarded({.stiffness_n_per_mm = kStiffness, .jump_threshold_n = 1});
   const Frame frame = test::makeReliefFrame(kCols, kRows, kVolume, {}, [](double, double) { return 20.0; });

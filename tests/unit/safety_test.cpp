@@ -57,6 +57,14 @@ TEST(SafetyFilter, TreatsWhatIsNotFiniteAsZeroForce) {
   }
 }
 
+TEST(SafetyFilter, AReadingThatIsNoneOpensNoLimit) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  SafetyFilter filter({}, 0.5);
+  static_cast<void>(filter.apply({0, 0, 0}, kRest, kTick));
+  EXPECT_LE(glm::length(filter.apply({0, 0, 9}, {0, 0, nan}, kTick)), 0.05 + 1e-9);
+  EXPECT_LE(glm::length(filter.apply({0, 0, 9}, kRest, nan)), 0.05 + 1e-9) << "no time has passed";
+}
+
 TEST(SafetyFilter, StartsFromZeroAfterReset) {
   SafetyFilter filter({}, 0.5);
   for (int i = 0; i < 40; ++i) static_cast<void>(filter.apply({0, 0, 1}, kRest, kTick));
