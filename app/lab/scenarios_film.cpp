@@ -113,7 +113,9 @@ Verdict holdVideo(const Challenger& challenger, bool quick) {
   const auto counted = between(ticks, kFrom, duration);
   double largest = 0;
   for (const double centre : {kFps, 2 * kFps}) {
-    for (double off = -2; off < 2.05; off += 0.1) largest = std::max(largest, swingAt(counted, centre + off));
+    for (int tenths = -20; tenths <= 20; ++tenths) {
+      largest = std::max(largest, swingAt(counted, centre + 0.1 * tenths));
+    }
   }
   Judge judge;
   // 10 um at the finger, about what is felt at 15 Hz, on the spring.

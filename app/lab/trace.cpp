@@ -58,7 +58,8 @@ Outcome<TraceSummary> runTrace(const TraceOptions& options, const PairReader::Ba
     return failOn("--method " + options.method, {ErrorCode::InvalidArgument, 0, "unknown method; see --help"});
   SafetyFilter safety({}, options.stiffness_n_per_mm);
   const MonotonicClock clock;
-  TraceSummary summary{.plan = options.method == kDefaultMethod ? plan.reason : ""};
+  TraceSummary summary;
+  if (options.method == kDefaultMethod) summary.plan = plan.reason;
   const HipTick* before = nullptr;
   for (const HipTick& tick : *path) {
     const auto window = film.windowAt(tick.t_s);

@@ -32,7 +32,7 @@ struct TraceOptions {
 struct TraceSummary {
   std::size_t ticks = 0, contact_ticks = 0;
   double max_force_n = 0;
-  std::string plan = {};  // of `relievo`: what was picked for this film, and why
+  std::string plan;  // of `relievo`: what was picked for this film, and why
 };
 
 // Writes OUT.csv, whole or not at all: one row per row of the path, columns t_s, hip_x_mm .. hip_z_mm, proxy_x_mm ..
