@@ -69,16 +69,12 @@ Contact closestPoint(FeltSurface& surface, double x_mm, double y_mm, const glm::
     const double size2 = squared(step);
     if (size2 < kTaylorMm * kTaylorMm && scale == 1) {
       taylorStep(best, step);
-      best.settled = true;
       if (size2 < kTaylorEndMm * kTaylorEndMm || evaluation >= kMostEvaluations) return best;
       best.surface = surface.at(best.x_mm, best.y_mm);
       distance = Distance(best, hip_mm, lowered_mm);
       continue;
     }
-    if (size2 < kSettledMm * kSettledMm || evaluation >= kMostEvaluations) {
-      best.settled = size2 < kTaylorMm * kTaylorMm;
-      return best;
-    }
+    if (size2 < kSettledMm * kSettledMm || evaluation >= kMostEvaluations) return best;
     if (size2 > longest * longest) step *= longest / std::sqrt(size2);
     Contact next{best.x_mm + step.x, best.y_mm + step.y, {}};
     next.surface = surface.at(next.x_mm, next.y_mm);

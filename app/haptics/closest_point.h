@@ -14,7 +14,6 @@ namespace relievo {
 struct Contact {
   double x_mm = 0, y_mm = 0;
   SurfacePoint surface;
-  bool settled = false;  // at the minimum; else it is reached in the next ticks
 };
 
 // From (x, y) downhill to the local minimum of the distance between (x, y, S(x, y) - lowered) and the finger. Steps are

@@ -34,8 +34,8 @@ struct TouchPlan {
 // The share of a force that its error may take: a third of the 6 % that people can just feel (Jones 2000).
 inline constexpr double kErrorWanted = 0.02;
 
-// The narrowest smoothing, and the fewest frames, with which the error stays under kErrorWanted for a finger that
-// presses 5 mm deep; where none does, the widest.
+// The narrowest smoothing with which the error stays under kErrorWanted for a finger that presses 5 mm deep, the widest
+// where none does; and the law of time that noise or its absence asks for.
 [[nodiscard]] TouchPlan planTouch(const ClipMeasure& measure);
 
 }  // namespace relievo
