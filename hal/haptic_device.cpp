@@ -9,6 +9,7 @@ namespace relievo {
 Result<void> HapticDevice::open() {
   if (state_ != State::Closed)
     return fail(ErrorCode::InvalidState, "the haptic device is open already; close it first");
+  if (cancelled_) return fail(ErrorCode::Cancelled, "opening the haptic device was called off");
   auto opened = openDevice();
   if (!opened) {
     closeDevice();
@@ -22,6 +23,7 @@ Result<void> HapticDevice::home() {
   if (state_ != State::Opened && state_ != State::Ready) {
     return fail(ErrorCode::InvalidState, "the haptic device homes only when opened and not running");
   }
+  if (cancelled_) return fail(ErrorCode::Cancelled, "homing the haptic device was called off");
   auto homed = homeDevice();
   if (homed) state_ = State::Ready;
   // A device that was Ready and has failed to home anew does not know its zero any more: it must not start.
@@ -66,6 +68,7 @@ void HapticDevice::stop() noexcept {
 }
 
 void HapticDevice::close() noexcept {
+  cancelled_ = false;
   if (state_ == State::Closed) return;
   stop();
   closeDevice();

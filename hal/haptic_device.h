@@ -2,6 +2,7 @@
 // Interface of a haptic device: tells where the finger is, and pushes it.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <glm/vec3.hpp>
 
@@ -31,7 +32,8 @@ struct HapticSample {
 // and changes nothing.
 //
 // Thread: `open`, `home`, `start`, `stop`, `close` on the owner's thread while no exchange goes on; `read` and `write`
-// on the real-time thread. Blocking: `open` and `home` may take seconds; `read` and `write` never longer than a tick.
+// on the real-time thread; `cancel` on any thread. Blocking: `open` may take seconds, and `home` as long as the user
+// takes to move the handle through its range; `read` and `write` never longer than a tick.
 // Safety: the force is zero from `open` to the first `write`, after `stop`, `close` and Lost, and when no `write` comes
 // within the back end's watchdog.
 class HapticDevice {
@@ -52,10 +54,16 @@ class HapticDevice {
   // Zero force, then Ready. Running; does nothing in the other states.
   void stop() noexcept;
   void close() noexcept;
+  // An `open` or `home` that is under way, or comes before the next `close`, ends within 100 ms and answers Cancelled.
+  void cancel() noexcept { cancelled_ = true; }
 
   [[nodiscard]] State state() const noexcept { return state_; }
   // Known from `open` on; never changes while open.
   [[nodiscard]] virtual HapticCapabilities capabilities() const noexcept = 0;
+
+ protected:
+  // For a back end whose `open` or `home` waits.
+  [[nodiscard]] const std::atomic<bool>& cancelled() const noexcept { return cancelled_; }
 
  private:
   virtual Result<void> openDevice() = 0;
@@ -67,6 +75,7 @@ class HapticDevice {
   virtual void closeDevice() noexcept = 0;
 
   State state_ = State::Closed;
+  std::atomic<bool> cancelled_{false};
 };
 
 }  // namespace relievo

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// The requests of an FT232B (FTDI's SIO protocol) and the steps of the boot loader, restated from libnifalcon (BSD
+// licence).
+#include "drivers/falcon/link.h"
+
+#include <algorithm>
+#include <array>
+
+#include "drivers/falcon/packet.h"
+
+namespace relievo::falcon {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Duration kAnswer = 20ms;  // of one look for bytes
+constexpr Duration kIdle = 1ms;     // between two packets of an idle bridge, at the least
+
+struct Request {
+  std::uint8_t request;
+  std::uint16_t value;
+};
+constexpr Request kEmptyIncoming{0, 1}, kEmptyOutgoing{0, 2};
+constexpr Request kRtsLow{1, 0x0200}, kDtrLow{1, 0x0100}, kDtrHigh{1, 0x0101};
+constexpr Request kNoFlowControl{2, 0}, k8N1{4, 0x0008};
+constexpr Request k9600Baud{3, 0x4138}, k143KiloBaud{3, 0x0015}, k1500KiloBaud{3, 0x0002};
+constexpr Request kLatency16Ms{9, 16}, kLatency1Ms{9, 1};
+
+Result<void> ask(UsbPort& port, std::initializer_list<Request> requests) {
+  for (const Request& each : requests) {
+    if (auto done = port.control(each.request, each.value); !done) return done;
+  }
+  return {};
+}
+
+// What comes, until `most` bytes are there or nothing has come for `patience`. None is no failure.
+Result<std::vector<std::uint8_t>> gather(UsbPort& port, std::size_t most, Duration patience) {
+  std::vector<std::uint8_t> bytes;
+  // The bridge sends its two bytes whenever its latency timer runs out: those are no news.
+  for (Duration silent{0}; silent < patience && bytes.size() < most;) {
+    const auto packet = port.receive(kAnswer);
+    if (!packet && packet.error().code != ErrorCode::Timeout) return std::unexpected(packet.error());
+    silent = packet && packet->bytes > kStatusBytes ? Duration{0} : silent + (packet ? kIdle : kAnswer);
+    if (!packet) continue;
+    const UsbBytes payload = payloadOf(*packet);
+    bytes.insert(bytes.end(), payload.begin(), payload.end());
+  }
+  return bytes;
+}
+
+bool endsWith(UsbBytes bytes, UsbBytes wanted) {
+  return bytes.size() >= wanted.size() && std::ranges::equal(bytes.last(wanted.size()), wanted);
+}
+
+// The greeting is answered with or without a zero byte before it.
+Result<void> greet(UsbPort& port, const std::atomic<bool>& cancelled) {
+  constexpr std::array<std::uint8_t, 3> kHello{0x0A, 0x43, 0x0D};
+  constexpr std::array<std::uint8_t, 4> kWelcome{0x0A, 0x44, 0x2C, 0x0D};
+  constexpr int kGreetings = 20;
+  for (int i = 0; i < kGreetings; ++i) {
+    if (cancelled) return fail(ErrorCode::Cancelled, "loading the firmware was called off");
+    if (auto sent = port.send(kHello, 1s); !sent) return sent;
+    const auto answer = gather(port, kWelcome.size() + 1, 3 * kAnswer);
+    if (!answer) return std::unexpected(answer.error());
+    if (endsWith(*answer, kWelcome)) return {};
+  }
+  return fail(ErrorCode::Timeout,
+              "the Falcon's boot loader does not answer; check its power adaptor and plug it in anew");
+}
+
+Result<void> sendEchoed(UsbPort& port, UsbBytes bytes) {
+  if (auto sent = port.send(bytes, 1s); !sent) return sent;
+  const auto echo = gather(port, bytes.size(), 1s);
+  if (!echo) return std::unexpected(echo.error());
+  if (echo->size() < bytes.size()) return fail(ErrorCode::Timeout, "the Falcon's boot loader stopped to echo");
+  if (!std::ranges::equal(*echo, bytes)) return fail(ErrorCode::Corrupt, "the Falcon's boot loader echoed other bytes");
+  return {};
+}
+
+}  // namespace
+
+UsbBytes payloadOf(const UsbPacket& packet) RELIEVO_RT {
+  if (packet.bytes <= kStatusBytes || (packet.data[1] & kLineErrors) != 0) return {};
+  return packet.view().subspan(kStatusBytes);
+}
+
+Result<void> setBootMode(UsbPort& port) {
+  return ask(port, {kEmptyIncoming, kEmptyOutgoing, kLatency16Ms, k9600Baud, k8N1, kNoFlowControl, kRtsLow, kDtrLow,
+                    kDtrHigh});
+}
+
+Result<void> setRunMode(UsbPort& port) {
+  return ask(port, {kLatency1Ms, k1500KiloBaud, kEmptyIncoming, kEmptyOutgoing});
+}
+
+Result<bool> firmwareAnswers(UsbPort& port) {
+  if (auto ready = setRunMode(port); !ready) return std::unexpected(ready.error());
+  for (int i = 0; i < 3; ++i) {
+    if (auto sent = port.send(encode(Command{}), kAnswer); !sent) {
+      if (sent.error().code == ErrorCode::Timeout) continue;
+      return std::unexpected(sent.error());
+    }
+    const auto answer = gather(port, kPacketBytes, kAnswer);
+    if (!answer) return std::unexpected(answer.error());
+    PacketStream stream;
+    stream.add(*answer);
+    if (stream.next()) return true;
+  }
+  return false;
+}
+
+Result<void> loadFirmware(UsbPort& port, const std::vector<std::uint8_t>& image, const std::atomic<bool>& cancelled) {
+  constexpr std::array<std::uint8_t, 1> kBegin{0x41};
+  if (auto ready = setBootMode(port); !ready) return ready;
+  if (auto greeted = greet(port, cancelled); !greeted) return greeted;
+  if (auto fast = ask(port, {kDtrLow, k143KiloBaud}); !fast) return fast;
+  if (auto begun = sendEchoed(port, kBegin); !begun) return begun;
+  for (std::size_t at = 0; at < image.size(); at += kMostPayload) {
+    if (cancelled) return fail(ErrorCode::Cancelled, "loading the firmware was called off");
+    const std::size_t bytes = std::min(kMostPayload, image.size() - at);
+    if (auto sent = sendEchoed(port, UsbBytes(image).subspan(at, bytes)); !sent) return sent;
+  }
+  return setRunMode(port);
+}
+
+}  // namespace relievo::falcon

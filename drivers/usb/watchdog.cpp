@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Looks four times within its patience.
+#include "drivers/usb/watchdog.h"
+
+namespace relievo {
+
+void Watchdog::start(bool own_thread) {
+  fed_ns_ = kQuiet;
+  barked_ = false;
+  if (!own_thread) return;
+  const CyclicConfig config{.name = "relievo-watch", .period = kPatience / 4, .priority = 85};
+  // Without a thread the look in `check` is left, and the player says what it had to start without.
+  static_cast<void>(thread_.start(config, *this));
+}
+
+LoopControl Watchdog::loop(const Cycle& cycle) RELIEVO_RT {
+  bark(cycle.woken);
+  return LoopControl::Continue;
+}
+
+bool Watchdog::check(MonotonicTime now) RELIEVO_RT {
+  bark(now);
+  return barked_.exchange(false, std::memory_order_relaxed);
+}
+
+void Watchdog::bark(MonotonicTime now) RELIEVO_RT {
+  Duration::rep fed = fed_ns_.load(std::memory_order_relaxed);
+  if (fed == kQuiet || now.time_since_epoch().count() - fed <= kPatience.count()) return;
+  // Fed again meanwhile: nothing to do.
+  if (!fed_ns_.compare_exchange_strong(fed, kQuiet, std::memory_order_relaxed)) return;
+  port_.quieten();
+  barked_.store(true, std::memory_order_relaxed);
+}
+
+}  // namespace relievo
