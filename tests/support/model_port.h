@@ -12,6 +12,7 @@ namespace relievo::test {
 // What a test sees and does from outside. `verbs_left` counts down with every verb: at zero the cable is pulled.
 struct Cable {
   bool plugged = true;
+  bool comes_back = false;  // it is plugged in again before the next `open`
   int verbs_left = std::numeric_limits<int>::max();
   int verbs = 0;
   bool open = false, exchanging = false;
@@ -24,6 +25,7 @@ class ModelPort final : public UsbPort {
   ~ModelPort() override { close(); }
 
   Result<void> open() override {
+    if (cable_.comes_back) cable_.plugged = true;
     if (!there()) return fail(ErrorCode::NotFound, "no model is plugged in");
     cable_.open = true;
     return {};
