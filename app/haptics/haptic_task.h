@@ -28,7 +28,7 @@ struct WorkspaceMapping {
 
 struct HapticFault {
   enum class Kind : std::uint8_t {
-    DeviceLost,   // read or write answered Lost: force zero, the task ends its ticks but keeps counting time
+    DeviceLost,   // read or write answered Lost: force zero; the ticks leave the device alone until `resume`
     DeviceError,  // one exchange failed: that tick is left out
     FeedStale,    // no depth for the present moment: the force is faded
     FeedRecovered,
@@ -56,6 +56,9 @@ class HapticTask final : public CyclicTask {
              const SafetyLimits& limits, double stiffness_n_per_mm) noexcept;
 
   LoopControl loop(const Cycle& cycle) RELIEVO_RT override;
+
+  // A lost device is back. While no tick runs; the force begins at zero.
+  void resume() noexcept { lost_ = false; }
 
   // The feeder's side, one thread. Fill the whole window, then publish. What a window held before is released when it
   // is filled again (see TripleBuffer).

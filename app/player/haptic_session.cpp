@@ -24,23 +24,27 @@ HapticSummary::Times times(const Histogram& histogram) noexcept {
 }  // namespace
 
 HapticSession::HapticSession(HapticDevice* device, Clock& clock, Ticking ticking) noexcept
-    : device_(device), clock_(clock), ticking_(ticking), thread_(clock) {}
+    : device_(device), clock_(clock), ticking_(ticking), thread_(clock) {
+  if (device_ != nullptr) keeper_.emplace(*device_, clock_, ticking_ == Ticking::Thread);
+}
 
 HapticSession::~HapticSession() {
   stop();
 }
 
-Result<void> HapticSession::open() {
-  if (device_ == nullptr) return {};
-  if (auto opened = device_->open(); !opened) return opened;
-  if (auto homed = device_->home(); !homed) {
-    device_->close();
-    return homed;
+void HapticSession::begin() {
+  if (keeper_) keeper_->begin();
+}
+
+std::optional<DeviceKeeper::News> HapticSession::poll() {
+  if (!keeper_) return std::nullopt;
+  const auto news = keeper_->poll();
+  if (news && news->kind == DeviceKeeper::News::Kind::Ready) {
+    capabilities_ = device_->capabilities();
+    period_ = fromSeconds(1.0 / std::clamp(capabilities_.rate_hz, 100.0, 8000.0));
+    opened_ = true;
   }
-  capabilities_ = device_->capabilities();
-  period_ = fromSeconds(1.0 / std::clamp(capabilities_.rate_hz, 100.0, 8000.0));
-  opened_ = true;
-  return {};
+  return news;
 }
 
 Result<void> HapticSession::makeTask(const DisplayVolume& volume, const SurfaceWindow& first) {
@@ -67,38 +71,57 @@ Result<void> HapticSession::makeTask(const DisplayVolume& volume, const SurfaceW
 }
 
 Result<void> HapticSession::start(const DisplayVolume& volume, const SurfaceFeeder& first) {
-  if (device_ == nullptr) return {};
-  if (!opened_ || running_) return fail(ErrorCode::InvalidState, "the haptic side starts once, on an open device");
+  if (!waiting()) return fail(ErrorCode::InvalidState, "the haptic side starts on a device that is homed and at rest");
   SurfaceWindow window;
   first.fill(window);
-  if (auto made = makeTask(volume, window); !made) return made;
+  if (task_ != nullptr) {
+    task_->resume();
+  } else if (auto made = makeTask(volume, window); !made) {
+    stop();  // not the device's doing: another try would fail as well
+    return made;
+  }
   task_->windowToFill() = std::move(window);
   task_->publishWindow();
+  auto running = run();
+  if (!running) {
+    halt();
+    begin();
+  }
+  return running;
+}
+
+Result<void> HapticSession::run() {
   if (auto started = device_->start(); !started) return started;
   running_ = true;
   if (ticking_ == Ticking::ByHand) {
     next_tick_ = clock_.now();
     return {};
   }
+  const CyclicStatistics& ended = thread_.statistics();  // of the run that a lost device ended; else all zero
+  before_.overruns += ended.overruns;
+  before_.allocations += ended.allocations;
+  before_.page_faults += ended.page_faults;
   CyclicConfig config;
   config.name = "relievo-haptic";
   config.period = period_;
   const auto scheduler = thread_.start(config, *task_);
-  if (!scheduler) {
-    stop();
-    return std::unexpected(scheduler.error());
-  }
+  if (!scheduler) return std::unexpected(scheduler.error());
   if (*scheduler == Scheduler::Other) {
     missing_scheduler_ = "no right to SCHED_FIFO; grant CAP_SYS_NICE or raise LimitRTPRIO (ulimit -r)";
   }
   return {};
 }
 
-void HapticSession::stop() noexcept {
+void HapticSession::halt() noexcept {
   thread_.stop();
   if (device_ != nullptr) device_->close();
   running_ = false;
   opened_ = false;
+}
+
+void HapticSession::stop() noexcept {
+  if (keeper_) keeper_->stop();
+  halt();
 }
 
 void HapticSession::publish(const SurfaceFeeder& surface) noexcept {
@@ -117,8 +140,13 @@ std::optional<FingerState> HapticSession::nextTick() noexcept {
   return task_ == nullptr ? std::nullopt : task_->nextTick();
 }
 
-std::optional<HapticFault> HapticSession::nextFault() noexcept {
-  return task_ == nullptr ? std::nullopt : task_->nextFault();
+std::optional<HapticFault> HapticSession::nextFault() {
+  auto fault = task_ == nullptr ? std::nullopt : task_->nextFault();
+  if (fault && fault->kind == HapticFault::Kind::DeviceLost && running_) {
+    halt();
+    begin();
+  }
+  return fault;
 }
 
 void HapticSession::sleepUntil(MonotonicTime deadline) noexcept {
@@ -145,9 +173,9 @@ HapticSummary HapticSession::summary() const {
   s.rate_hz = 1.0 / toSeconds(period_);
   s.ticks = counters.ticks;
   s.contact_ticks = counters.contact_ticks;
-  s.overruns = cyclic.overruns;
-  s.allocations = cyclic.allocations;
-  s.page_faults = cyclic.page_faults;
+  s.overruns = before_.overruns + cyclic.overruns;
+  s.allocations = before_.allocations + cyclic.allocations;
+  s.page_faults = before_.page_faults + cyclic.page_faults;
   s.update = times(counters.update);
   s.wakeup = times(cyclic.wakeup);
   s.max_force_n = counters.max_force_n;

@@ -9,6 +9,7 @@
 
 #include "app/haptics/haptic_task.h"
 #include "app/haptics/methods.h"
+#include "app/player/device_keeper.h"
 #include "app/player/surface_feeder.h"
 #include "app/scene/display_volume.h"
 #include "hal/haptic_device.h"
@@ -38,7 +39,7 @@ struct HapticSummary {
   double scene_mj = 0, artefact_mj = 0;
 };
 
-// Owner's thread only. A device that is not there or does not start is the caller's to tell; the film can go on.
+// Owner's thread only. A device that is not there, or goes away, is looked for every second beside the film.
 class HapticSession {
  public:
   // `device` is borrowed and may be null: then every verb does nothing.
@@ -47,15 +48,19 @@ class HapticSession {
   HapticSession(const HapticSession&) = delete;
   HapticSession& operator=(const HapticSession&) = delete;
 
-  // Opens and homes. May take seconds.
-  [[nodiscard]] Result<void> open();
-  // Makes the task for this volume in locked memory, gives it the first window and starts it. The force begins at zero.
-  // Opened and not running, else InvalidState.
+  // Begins to open and home the device.
+  void begin();
+  // What came of it: why it is refused, that it waits for the user, that it is `waiting` to be started.
+  [[nodiscard]] std::optional<DeviceKeeper::News> poll();
+  // Opened and homed, and not started.
+  [[nodiscard]] bool waiting() const noexcept { return opened_ && !running_; }
+  // Makes the task for this volume in locked memory, or takes the one that a lost device has left; gives it the first
+  // window and starts it. The force begins at zero. Waiting, else InvalidState. After a failure the device is looked
+  // for anew.
   [[nodiscard]] Result<void> start(const DisplayVolume& volume, const SurfaceFeeder& first);
   // Zero force first; then the thread, the device. Any time.
   void stop() noexcept;
 
-  [[nodiscard]] bool opened() const noexcept { return opened_; }
   [[nodiscard]] bool running() const noexcept { return running_; }
   // What it had to start without: memory that stays, a scheduler that is in time. Null where nothing is missing.
   [[nodiscard]] const char* missingMemory() const noexcept { return missing_memory_; }
@@ -65,7 +70,8 @@ class HapticSession {
   // Nothing until the first tick, and without a device.
   [[nodiscard]] const FingerState* finger() noexcept;
   [[nodiscard]] std::optional<FingerState> nextTick() noexcept;
-  [[nodiscard]] std::optional<HapticFault> nextFault() noexcept;
+  // After DeviceLost the device has been closed and is looked for.
+  [[nodiscard]] std::optional<HapticFault> nextFault();
 
   // The owner's wait. ByHand, the ticks that are due meanwhile run in it, each at its time.
   void sleepUntil(MonotonicTime deadline) noexcept;
@@ -74,6 +80,8 @@ class HapticSession {
 
  private:
   [[nodiscard]] Result<void> makeTask(const DisplayVolume& volume, const SurfaceWindow& first);
+  [[nodiscard]] Result<void> run();
+  void halt() noexcept;
 
   HapticDevice* device_;
   Clock& clock_;
@@ -85,12 +93,16 @@ class HapticSession {
   const char* missing_scheduler_ = nullptr;
   HapticCapabilities capabilities_;
   Duration period_{0};
+  std::optional<DeviceKeeper> keeper_;
 
   std::string plan_;
   std::unique_ptr<TouchMethod> method_;
   std::optional<FixedArena> arena_;
   HapticTask* task_ = nullptr;  // in the arena
   CyclicThread thread_;
+  struct {
+    std::uint64_t overruns = 0, allocations = 0, page_faults = 0;
+  } before_;                 // of the threads before the present one, each ended by a lost device
   MonotonicTime next_tick_;  // ByHand
   std::uint64_t tick_index_ = 0;
 };

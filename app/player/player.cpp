@@ -90,9 +90,7 @@ void Player::boot() {
       parts_.remote = nullptr;
     }
   }
-  if (auto opened = haptic_.open(); !opened) {
-    note(std::string("haptic device: ") + opened.error().message, "the film plays without force");
-  }
+  haptic_.begin();
   apply(PlayerEvent::Ready);
   apply(PlayerEvent::Open);
   feed_.open(config_.source);
@@ -105,6 +103,7 @@ void Player::step(MonotonicTime now) {
     }
   }
   readRemote(now);
+  followDevice();
   followReader(now);
   followClock(now);
   drainTouch();

@@ -71,11 +71,12 @@ class Player {
   void setClockHeld(bool held, MonotonicTime now);
   void seek(MediaTime target, PlayerEvent why, MonotonicTime now);
 
+  void followDevice();
   void followReader(MonotonicTime now);
   void opened();
   void begin(MonotonicTime now);
   void setScene();
-  void startTouch(MediaTime first);
+  void startTouch();
   void followClock(MonotonicTime now);
   void followEnd(MediaTime position, MonotonicTime now);
   void endOfFilm(MonotonicTime now);
@@ -119,6 +120,7 @@ class Player {
   MonotonicTime last_draw_;
   std::optional<FingerMark> last_mark_;
   bool redraw_ = false;
+  bool haptic_lost_ = false;  // it was there once and went away
   bool depth_missing_ = false;
   bool depth_refused_ = false;
   PlayReport report_;

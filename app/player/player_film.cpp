@@ -17,7 +17,7 @@ constexpr double kMovedMm = 0.2;                                   // less is no
 const char* answerTo(HapticFault::Kind kind) noexcept {
   switch (kind) {
     case HapticFault::Kind::DeviceLost:
-      return "force zero, the film plays on without force";
+      return "force zero; the film plays on, and the device is looked for";
     case HapticFault::Kind::DeviceError:
       return "the tick was left out";
     case HapticFault::Kind::FeedStale:
@@ -77,7 +77,10 @@ void Player::begin(MonotonicTime now) {
   const MediaTime first = head_.present().color.pts;
   showPresent(now);
   if (state_ == PlayerState::Fault) return;
-  if (haptic_.opened() && !haptic_.running()) startTouch(first);
+  if (haptic_.waiting()) {
+    feedSurface({first, parts_.clock.now(), 0});  // at a stand, so that the force fades in on something that is there
+    startTouch();
+  }
 
   now = parts_.clock.now();
   clock_.reset();
@@ -101,12 +104,27 @@ void Player::setScene() {
   picture_.setScene(calibration, volume_, fromSeconds(kDrawShare * toSeconds(period_)));
 }
 
-// With the first surface at a stand, so that the force is faded in on something that is there.
-void Player::startTouch(MediaTime first) {
-  feedSurface({first, parts_.clock.now(), 0});
+// A device may come, or come back, at any time.
+void Player::followDevice() {
+  using Kind = DeviceKeeper::News::Kind;
+  while (const auto news = haptic_.poll()) {
+    if (news->kind == Kind::Refused) {
+      note(std::string("haptic device: ") + news->error.message, "the film plays without force; it is looked for anew");
+    } else if (news->kind == Kind::Homing) {
+      note("haptic device: it does not know its zero; move the handle through its whole range", "no force until then");
+    } else if (haptic_lost_) {
+      note("haptic device back", "the force fades in");
+    }
+  }
+  const bool shown = state_ == PlayerState::Playing || state_ == PlayerState::Paused;
+  if (!haptic_.waiting() || !shown) return;
+  followSurface();
+  startTouch();
+}
+
+void Player::startTouch() {
   if (auto started = haptic_.start(volume_, surface_); !started) {
     note(std::string("haptic device: ") + started.error().message, "the film plays without force");
-    haptic_.stop();
     return;
   }
   // The real-time thread says so itself: here it is for the report.
@@ -239,7 +257,10 @@ void Player::drainTouch() {
     if (const auto frame = surface_.frameAt(tick->media_time)) report_.seeks.back().surface_s = toSeconds(*frame);
     await_touch_.reset();
   }
-  while (const auto fault = haptic_.nextFault()) note(name(fault->kind), answerTo(fault->kind), fault->time);
+  while (const auto fault = haptic_.nextFault()) {
+    haptic_lost_ = haptic_lost_ || fault->kind == HapticFault::Kind::DeviceLost;
+    note(name(fault->kind), answerTo(fault->kind), fault->time);
+  }
 }
 
 }  // namespace relievo

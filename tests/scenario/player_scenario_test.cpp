@@ -330,13 +330,64 @@ TEST_F(PlayerScenario, AHapticDeviceThatDoesNotOpenOrHomeIsSaidAndTheFilmPlays) 
   EXPECT_EQ(bench_.faults("haptic device"), 1u);
 }
 
+// Simulated time in which the haptic device's cable is out for a while; looks at the force once a tick.
+class CableClock final : public Clock {
+ public:
+  CableClock(MockHapticBench& hand, double out_s, double in_s) : hand_(hand), out_s_(out_s), in_s_(in_s) {}
+  [[nodiscard]] MonotonicTime now() const noexcept override { return time_.now(); }
+  void sleepUntil(MonotonicTime deadline) noexcept override {
+    time_.sleepUntil(deadline);
+    const double t_s = toSeconds(now() - MonotonicTime{});
+    hand_.unplugged = t_s >= out_s_ && t_s < in_s_;
+    const double force_n = glm::length(hand_.force());
+    if (t_s < out_s_) before_n = force_n;
+    if (t_s > out_s_ + 0.005 && t_s < in_s_) while_out_n = std::max(while_out_n, force_n);
+    if (t_s >= in_s_) steepest_n = std::max(steepest_n, force_n - last_n_), last_n = force_n;
+    last_n_ = force_n;
+  }
+  double before_n = 0, while_out_n = 0, steepest_n = 0, last_n = 0;
+
+ private:
+  ManualClock time_;
+  MockHapticBench& hand_;
+  double out_s_, in_s_;
+  double last_n_ = 0;
+};
+
 TEST_F(PlayerScenario, AHapticDeviceThatIsPulledOutLeavesTheFilmRunning) {
   bench_.haptic.path_mm = comingDown();
-  bench_.haptic.lose_after_ticks = 1000;
-  playsWell();
+  CableClock time(*bench_.hand, 1.5, 1000);
+  ASSERT_TRUE(bench_.runOn(time));
   EXPECT_EQ(bench_.report.frames_shown, 100u);
+  EXPECT_GT(time.before_n, 0.1) << "it was in contact";
+  EXPECT_EQ(time.while_out_n, 0);
   EXPECT_EQ(bench_.faults("haptic device lost"), 1u);
+  EXPECT_EQ(bench_.faults("haptic device: the mock device is unplugged"), 1u) << "told once, though tried again";
   EXPECT_EQ(bench_.force_left, glm::dvec3(0));
+}
+
+TEST_F(PlayerScenario, AHapticDeviceThatComesBackIsFeltAgainByAndBy) {
+  bench_.haptic.path_mm = comingDown();
+  CableClock time(*bench_.hand, 1.5, 2.2);
+  ASSERT_TRUE(bench_.runOn(time));
+  EXPECT_EQ(bench_.report.frames_shown, 100u);
+  EXPECT_GT(time.before_n, 0.1);
+  EXPECT_EQ(time.while_out_n, 0);
+  EXPECT_EQ(bench_.faults("haptic device lost"), 1u);
+  EXPECT_EQ(bench_.faults("haptic device back"), 1u);
+  EXPECT_GT(time.last_n, 0.1) << "in contact again";
+  EXPECT_LE(time.steepest_n, 0.051) << "50 N/s";
+}
+
+TEST_F(PlayerScenario, AHapticDeviceThatIsPluggedInLateIsFeltFromThenOn) {
+  bench_.haptic.path_mm = comingDown();
+  bench_.hand->unplugged = true;
+  CableClock time(*bench_.hand, 0, 1.5);
+  ASSERT_TRUE(bench_.runOn(time));
+  EXPECT_EQ(bench_.report.frames_shown, 100u);
+  EXPECT_EQ(bench_.faults("haptic device"), 1u);
+  EXPECT_GT(bench_.report.haptic.ticks, 1000u);
+  EXPECT_GT(time.last_n, 0.1);
 }
 
 TEST_F(PlayerScenario, ADisplayThatDoesNotOpenStopsEverything) {
