@@ -49,7 +49,7 @@ HapticTask::HapticTask(HapticDevice& device, TouchMethod& method, const Clock& c
     : device_(device), method_(method), clock_(clock), mapping_(device.capabilities(), volume) {
   SafetyLimits within_device = limits;
   within_device.force_n = std::min(limits.force_n, device.capabilities().peak_force_n);
-  safety_ = SafetyFilter(within_device, stiffness_n_per_mm);
+  safety_ = SafetyFilter(within_device, stiffness_n_per_mm * mapping_.scale());
 }
 
 LoopControl HapticTask::loop(const Cycle& cycle) RELIEVO_RT {
@@ -72,12 +72,16 @@ LoopControl HapticTask::loop(const Cycle& cycle) RELIEVO_RT {
   const SurfaceWindow& window = windows_.front();
   state.device_present = true;
   state.buttons = sample->buttons;
-  state.hip_mm = sample->position_mm + mapping_.offset_mm;
+  const WorkspaceMapping::Place place = mapping_.place(*sample);
+  state.hip_mm = place.hip_mm;
   state.media_time = window.clock.at(cycle.woken);
   const Touch touch = method_.update(state.hip_mm, window, state.media_time);
   noteFeed(isStale(window, state.media_time), cycle.woken);
   const double elapsed = primed_ ? toSeconds(cycle.woken - last_woken_) : 0.0;
-  state.force_n = safety_.apply(stale_ ? glm::dvec3(0) : touch.force_n, state.hip_mm, elapsed);
+  // Limits and energies are the hand's, in the device's frame.
+  const bool felt = !stale_ && !place.clutched;
+  const glm::dvec3 wanted = place.edge_force_n + (felt ? touch.force_n : glm::dvec3(0));
+  state.force_n = safety_.apply(wanted, sample->position_mm, elapsed);
   state.proxy_mm = touch.proxy_mm;
   state.contact = touch.contact;
   counters_.update.add(clock_.now() - started);

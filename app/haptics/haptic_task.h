@@ -9,6 +9,7 @@
 #include "app/haptics/method.h"
 #include "app/haptics/safety.h"
 #include "app/haptics/surface_window.h"
+#include "app/haptics/workspace_mapping.h"
 #include "app/scene/display_volume.h"
 #include "hal/haptic_device.h"
 #include "platform/cyclic_thread.h"
@@ -16,15 +17,6 @@
 #include "platform/triple_buffer.h"
 
 namespace relievo {
-
-// Device millimetres are scene millimetres; the centre of the device's workspace is that of the display volume.
-struct WorkspaceMapping {
-  glm::dvec3 offset_mm{0};  // scene = device + offset
-  WorkspaceMapping() = default;
-  WorkspaceMapping(const HapticCapabilities& device, const DisplayVolume& volume) noexcept
-      : offset_mm(glm::dvec3(0, 0, 0.5 * volume.depth_mm) - 0.5 * (device.workspace_min_mm + device.workspace_max_mm)) {
-  }
-};
 
 struct HapticFault {
   enum class Kind : std::uint8_t {
@@ -51,7 +43,8 @@ struct HapticCounters {
 
 class HapticTask final : public CyclicTask {
  public:
-  // All are borrowed and must outlive the task. `clock` is read for `counters().update` alone.
+  // All are borrowed and must outlive the task. `clock` is read for `counters().update` alone. `stiffness_n_per_mm` is
+  // the method's, of the scene; the device feels the mapping's scale times that.
   HapticTask(HapticDevice& device, TouchMethod& method, const Clock& clock, const DisplayVolume& volume,
              const SafetyLimits& limits, double stiffness_n_per_mm) noexcept;
 

@@ -48,7 +48,9 @@ std::optional<DeviceKeeper::News> HapticSession::poll() {
 }
 
 Result<void> HapticSession::makeTask(const DisplayVolume& volume, const SurfaceWindow& first) {
-  const double stiffness = std::min(kStiffnessNPerMm, capabilities_.max_stiffness_n_per_mm);
+  // What the hand feels is the mapping's scale times what the scene has.
+  const double stiffness = std::min(kStiffnessNPerMm, capabilities_.max_stiffness_n_per_mm) /
+                           WorkspaceMapping(capabilities_, volume).scale();
   TouchPlan plan = planTouch(measureClip(std::span(first.frames).first(static_cast<std::size_t>(first.count))));
   plan_ = std::move(plan.reason);
   method_ = makeMethod(kDefaultMethod, {.stiffness_n_per_mm = stiffness, .scale = plan.scale});

@@ -26,7 +26,7 @@ class FakeDevice final : public HapticDevice {
   int writes = 0;
 
   HapticCapabilities capabilities() const noexcept override {
-    return {"fake", glm::dvec3(-50, -50, -50), glm::dvec3(50, 50, 50), 4.0, 2.0, 1.0, 1000};
+    return {"fake", glm::dvec3(-100, -100, -50), glm::dvec3(100, 100, 50), 4.0, 2.0, 1.0, 1000};
   }
 
  private:
