@@ -6,13 +6,14 @@
 #include <utility>
 
 #include "drivers/egl/egl.h"
+#include "drivers/falcon/falcon.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/mock/mock.h"
 #include "drivers/mock/scripted_remote.h"
 #include "drivers/sim/sim.h"
 
 #define RELIEVO_DISPLAY_NAMES "offscreen[:FILE.y4m] mock"
-#define RELIEVO_HAPTIC_NAMES "sim[:SCRIPT] mock none"
+#define RELIEVO_HAPTIC_NAMES "falcon[:FIRMWARE] sim[:SCRIPT] mock none"
 #define RELIEVO_REMOTE_NAMES "script:FILE none"
 
 namespace relievo::drivers {
@@ -37,6 +38,18 @@ struct Spec {
   }
 };
 
+FalconConfig falconConfig(const HapticSettings& settings, const std::optional<std::string>& firmware) {
+  FalconConfig config{.firmware_path = firmware.value_or(settings.falcon_firmware)};
+  if (settings.falcon_counts_per_nm) config.counts_per_nm = *settings.falcon_counts_per_nm;
+  return config;
+}
+
+DeviceState look(const char* name, HapticDevice& device) {
+  const auto opened = device.open();
+  device.close();
+  return {"haptic", name, opened.has_value(), opened ? "ready; its handle wants to be homed" : opened.error().message};
+}
+
 std::unexpected<Failure> unknown(const char* option, std::string_view name, const char* message) {
   return failOn(option + (" " + std::string(name)), {ErrorCode::InvalidArgument, 0, message});
 }
@@ -52,8 +65,11 @@ Outcome<std::unique_ptr<Display>> makeDisplay(std::string_view text) {
   return unknown("--display", text, "no such display; it is one of: " RELIEVO_DISPLAY_NAMES);
 }
 
-Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(std::string_view text, Clock& clock) {
+Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(std::string_view text, Clock& clock,
+                                                        const HapticSettings& settings) {
   const Spec spec(text);
+  if (spec.plain("falcon") || spec.withArgument("falcon"))
+    return makeFalcon(falconConfig(settings, spec.argument), clock);
   if (spec.plain("sim")) return makeSimHaptic(SimDeviceProfile{}, HandPath(), clock);
   if (spec.withArgument("sim")) {
     auto path = HandPath::load(*spec.argument);
@@ -82,6 +98,14 @@ std::unique_ptr<MediaSource> makeMediaSource(std::string_view /*url*/) {
 
 std::unique_ptr<VideoDecoder> makeVideoDecoder() {
   return makeFfmpegDecoder();
+}
+
+std::vector<DeviceState> lookAtDevices(const HapticSettings& settings, Clock& clock) {
+  return {look("falcon", *makeFalcon(falconConfig(settings, std::nullopt), clock))};
+}
+
+void stopAllMotors() noexcept {
+  quietenAllUsbDevices();
 }
 
 }  // namespace relievo::drivers

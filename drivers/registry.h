@@ -3,8 +3,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "hal/display.h"
 #include "hal/haptic_device.h"
@@ -21,13 +23,32 @@ extern const char* const kDisplayNames;
 extern const char* const kHapticNames;
 extern const char* const kRemoteNames;
 
+// What the haptic back ends are told besides their names; from the configuration.
+struct HapticSettings {
+  std::string falcon_firmware;  // empty: only one that runs already will do
+  std::optional<double> falcon_counts_per_nm;
+};
+
 // A null pointer means "none". The failure names the option when its word is not known (InvalidArgument), the script
 // when that is not there (NotFound), or its line when that is wrong (InvalidArgument).
 // `clock` must outlive what is made.
 [[nodiscard]] Outcome<std::unique_ptr<Display>> makeDisplay(std::string_view spec);
-[[nodiscard]] Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(std::string_view spec, Clock& clock);
+[[nodiscard]] Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(std::string_view spec, Clock& clock,
+                                                                      const HapticSettings& settings = {});
 [[nodiscard]] Outcome<std::unique_ptr<RemoteInput>> makeRemoteInput(std::string_view spec, Clock& clock);
 [[nodiscard]] std::unique_ptr<MediaSource> makeMediaSource(std::string_view url);
 [[nodiscard]] std::unique_ptr<VideoDecoder> makeVideoDecoder();
+
+// What is there of each kind of hardware, found out by opening it: takes seconds where a device must be started up.
+struct DeviceState {
+  const char* kind = "";  // haptic
+  const char* name = "";  // as on the command line
+  bool there = false;
+  const char* state = "";  // why not, and what to do
+};
+[[nodiscard]] std::vector<DeviceState> lookAtDevices(const HapticSettings& settings, Clock& clock);
+
+// Takes the force from every haptic device of the process; for a handler of a fatal signal.
+void stopAllMotors() noexcept;
 
 }  // namespace relievo::drivers

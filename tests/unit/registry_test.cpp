@@ -24,6 +24,8 @@ TEST_F(Registry, MakesEachByItsName) {
   EXPECT_STREQ(makeDisplay("offscreen").value()->capabilities().name, "offscreen");
   EXPECT_STREQ(makeDisplay("offscreen:/tmp/a:b.y4m").value()->capabilities().name, "offscreen");
   EXPECT_STREQ(makeDisplay("mock").value()->capabilities().name, "mock");
+  EXPECT_STREQ(makeHapticDevice("falcon", clock_).value()->capabilities().name, "Novint Falcon");
+  EXPECT_STREQ(makeHapticDevice("falcon:image.bin", clock_).value()->capabilities().name, "Novint Falcon");
   EXPECT_STREQ(makeHapticDevice("sim", clock_).value()->capabilities().name, "sim");
   EXPECT_STREQ(makeHapticDevice("mock", clock_).value()->capabilities().name, "mock");
   EXPECT_NE(makeMediaSource("film.mkv"), nullptr);
@@ -43,7 +45,7 @@ TEST_F(Registry, RefusesOtherNamesAndListsTheRightOnes) {
     EXPECT_EQ(display.error().thing, std::string("--display ") + name);
     EXPECT_THAT(display.error().error.message, testing::HasSubstr(kDisplayNames));
   }
-  for (const char* name : {"", "falcon", "sim:", "mock:x", "none:", "SIM"}) {
+  for (const char* name : {"", "falcon:", "sim:", "mock:x", "none:", "SIM"}) {
     const auto device = makeHapticDevice(name, clock_);
     ASSERT_FALSE(device) << name;
     EXPECT_EQ(device.error().error.code, ErrorCode::InvalidArgument);
