@@ -31,9 +31,7 @@ std::vector<std::uint8_t> image() {
 class FalconUsb : public testing::Test {
  protected:
   void SetUp() override {
-    if (std::getenv("UMOCKDEV_DIR") == nullptr && !umockdev_in_mock_environment()) {
-      GTEST_SKIP() << "run it under umockdev-wrapper";
-    }
+    if (!test::machineIsMocked()) GTEST_SKIP() << "run it with umockdev's library loaded first";
   }
   falcon::Words words() {
     const std::lock_guard guard(usb_.lock());

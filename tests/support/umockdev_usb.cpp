@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <vector>
 
@@ -105,6 +106,11 @@ usbdevfs_urb& urbOf(UMockdevIoctlData* data) {
 }
 
 }  // namespace
+
+bool machineIsMocked() {
+  const char* preloaded = std::getenv("LD_PRELOAD");
+  return preloaded != nullptr && std::strstr(preloaded, "umockdev") != nullptr;
+}
 
 UmockdevUsb::UmockdevUsb(UsbModel& model, const UsbDeviceId& id) : model_(model), id_(id) {
   bed_ = umockdev_testbed_new();

@@ -16,6 +16,9 @@
 
 namespace relievo::test {
 
+// Whether umockdev's library was loaded first; without it nothing can be plugged in.
+[[nodiscard]] bool machineIsMocked();
+
 class UmockdevUsb {
  public:
   // `model` is called on a thread of this object's, with `lock` held, at the system's monotonic time.

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole player, as a program, on a Falcon that umockdev plugs into this machine: the grip presses into the sample
+// scene, and what the haptic task computed arrives at the motors.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "app/haptics/workspace_mapping.h"
+#include "drivers/falcon/falcon.h"
+#include "drivers/falcon/link.h"
+#include "tests/support/clip_maker.h"
+#include "tests/support/falcon_model.h"
+#include "tests/support/program.h"
+#include "tests/support/sanitizers.h"
+#include "tests/support/umockdev_usb.h"
+
+namespace relievo {
+namespace {
+
+struct Tick {
+  glm::dvec3 hip_mm{0}, force_n{0};
+};
+
+std::vector<Tick> readTicks(const std::string& path) {
+  std::vector<Tick> ticks;
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  while (std::getline(file, line)) {
+    std::istringstream row(line);
+    std::vector<double> n;
+    for (std::string cell; std::getline(row, cell, ',');) n.push_back(std::stod(cell));
+    ticks.push_back({{n[1], n[2], n[3]}, {n[7], n[8], n[9]}});
+  }
+  return ticks;
+}
+
+// The capabilities are the device's own; the volume is that of the sample film, 720 x 486.
+WorkspaceMapping sampleMapping() {
+  MonotonicClock clock;
+  return {makeFalcon({}, clock)->capabilities(), DisplayVolume::forPicture(720, 486)};
+}
+
+falcon::Words wordsOf(const Tick& tick, const WorkspaceMapping& mapping) {
+  const auto pose = falcon::inverse(mapping.deviceAt(tick.hip_mm));
+  if (!pose) return {};
+  return falcon::Motors(falcon::kDefaultCountsPerNm).wordsFor(falcon::torquesOf(tick.force_n, *pose), 0.001);
+}
+
+bool within(const falcon::Words& a, const falcon::Words& b, int counts) {
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (std::abs(a[i] - b[i]) > counts) return false;
+  }
+  return true;
+}
+
+// The sample film; a plane of its size where a sanitizer makes its rendering take minutes.
+void makeFilm(const test::TemporaryFolder& folder) {
+  const std::string path = folder / "sample.mkv";
+  if (kMemorySanitizer) {
+    const auto plane = [](int, int, int, int) { return 40000U; };
+    test::makeClip(path,
+                   {{.pix_fmt = "yuv420p", .width = 720, .height = 486, .frames = 300, .tags = {{"title", "color"}}},
+                    {.width = 720, .height = 486, .frames = 300, .sample = plane, .tags = {{"title", "depth"}}}});
+  } else {
+    ASSERT_EQ(test::runProgram("relievo-author --scene sample -o " + path, folder / "").exit_code, 0);
+  }
+}
+
+TEST(PlayerOnAFalcon, WhatTheTaskComputesArrivesAtTheMotors) {
+  if (!test::machineIsMocked()) GTEST_SKIP() << "run it with umockdev's library loaded first";
+  const test::TemporaryFolder folder;
+  makeFilm(folder);
+
+  test::FalconModel model({});
+  model.runFirmware();
+  // Through its range until it is homed; then down into the head and in circles there.
+  double homed_s = 0;
+  model.grip = [&](double t_s) {
+    if (!model.homed()) homed_s = t_s;
+    if (!model.homed()) return glm::dvec3(0, 0, 120 + 45 * std::sin(6.283 * t_s));
+    const double t = t_s - homed_s;
+    return glm::dvec3(6 * std::sin(t), 6 * std::cos(t), 150 - 32 * std::min(t / 2, 1.0));
+  };
+  test::UmockdevUsb usb(model, falcon::kUsbId);
+  const auto played = test::runProgram("relievo play " + (folder / "sample.mkv") +
+                                           " --display mock --haptic falcon --duration 7 --report " +
+                                           (folder / "r.json") + " --record " + (folder / "t.csv"),
+                                       folder / "");
+  ASSERT_EQ(played.exit_code, 0) << played.err;
+  std::ifstream file(folder / "r.json");
+  const auto report = nlohmann::json::parse(file);
+  EXPECT_EQ(report["haptic"]["device"], "Novint Falcon");
+  EXPECT_GT(report["force"]["max_n"].get<double>(), 0.5);
+  EXPECT_EQ(usb.unknownRequests(), 0);
+
+  const std::lock_guard guard(usb.lock());
+  EXPECT_EQ(model.last().motors, falcon::Words{}) << "zero in the end";
+  const auto ticks = readTicks(folder / "t.csv");
+  ASSERT_GT(ticks.size(), 1000U);
+  const WorkspaceMapping mapping = sampleMapping();
+  // Each command that is not zero is that of a tick, in order; a tick whose command found the one before still on its
+  // way is left out. The driver has faded in long before the grip meets the surface.
+  constexpr std::size_t kMostLeftOut = 300;
+  std::size_t tick = 0, matched = 0, strong = 0;
+  while (tick < ticks.size() && glm::length(ticks[tick].force_n) == 0) ++tick;
+  for (const falcon::Words& words : model.history()) {
+    if (words == falcon::Words{}) continue;
+    std::size_t at = tick;
+    const std::size_t end = std::min(ticks.size(), tick + kMostLeftOut);
+    while (at < end && !within(words, wordsOf(ticks[at], mapping), 1)) ++at;
+    ASSERT_LT(at, end) << "no tick computed " << words[0] << " " << words[1] << " " << words[2];
+    tick = at + 1;
+    ++matched;
+    strong += glm::length(ticks[at].force_n) > 0.3 ? 1 : 0;
+  }
+  EXPECT_GT(strong, 500U);
+  EXPECT_GE(matched, strong);
+}
+
+}  // namespace
+}  // namespace relievo
