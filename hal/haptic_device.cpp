@@ -31,6 +31,10 @@ Result<void> HapticDevice::home() {
   return homed;
 }
 
+void HapticDevice::aim(const glm::dvec3& place_mm) noexcept {
+  if (state_ == State::Ready) aimHand(place_mm);
+}
+
 Result<void> HapticDevice::start() {
   if (state_ != State::Ready) return fail(ErrorCode::InvalidState, "the haptic device starts only after homing");
   auto started = startDevice();

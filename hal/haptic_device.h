@@ -31,9 +31,9 @@ struct HapticSample {
 // away answers Lost and is in state Lost until closed. A verb in a state that does not allow it returns InvalidState
 // and changes nothing.
 //
-// Thread: `open`, `home`, `start`, `stop`, `close` on the owner's thread while no exchange goes on; `read` and `write`
-// on the real-time thread; `cancel` on any thread. Blocking: `open` may take seconds, and `home` as long as the user
-// takes to move the handle through its range; `read` and `write` never longer than a tick.
+// Thread: `open`, `home`, `aim`, `start`, `stop`, `close` on the owner's thread while no exchange goes on; `read` and
+// `write` on the real-time thread; `cancel` on any thread. Blocking: `open` may take seconds, and `home` as long as the
+// user takes to move the handle through its range; `read` and `write` never longer than a tick.
 // Safety: the force is zero from `open` to the first `write`, after `stop`, `close` and Lost, and when no `write` comes
 // within the back end's watchdog.
 class HapticDevice {
@@ -45,6 +45,9 @@ class HapticDevice {
   [[nodiscard]] Result<void> open();
   // Finds the device's zero. Opened or Ready; Opened after a failure, since the zero is not known then.
   [[nodiscard]] Result<void> home();
+  // For a device whose hand is computed, and sees nothing: a place of the workspace where there is something to touch.
+  // Any other takes no notice. Ready; does nothing in the other states.
+  void aim(const glm::dvec3& place_mm) noexcept;
   [[nodiscard]] Result<void> start();
   // Once a tick, `read` first. Running only.
   [[nodiscard]] Result<HapticSample> read() RELIEVO_RT;
@@ -68,6 +71,7 @@ class HapticDevice {
  private:
   virtual Result<void> openDevice() = 0;
   virtual Result<void> homeDevice() = 0;
+  virtual void aimHand(const glm::dvec3& /*place_mm*/) noexcept {}
   virtual Result<void> startDevice() = 0;
   virtual Result<HapticSample> readSample() RELIEVO_RT = 0;
   virtual Result<void> writeForce(const glm::dvec3& force_n) RELIEVO_RT = 0;

@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "app/haptics/touch_place.h"
 #include "app/haptics/touch_plan.h"
 
 namespace relievo {
@@ -72,6 +73,7 @@ Result<void> HapticSession::start(const DisplayVolume& volume, const SurfaceFeed
   SurfaceWindow window;
   first.fill(window);
   if (auto made = makeTask(volume, window); !made) return made;
+  aimDevice(volume, window);
   task_->windowToFill() = std::move(window);
   task_->publishWindow();
   if (auto started = device_->start(); !started) return started;
@@ -92,6 +94,11 @@ Result<void> HapticSession::start(const DisplayVolume& volume, const SurfaceFeed
     missing_scheduler_ = "no right to SCHED_FIFO; grant CAP_SYS_NICE or raise LimitRTPRIO (ulimit -r)";
   }
   return {};
+}
+
+void HapticSession::aimDevice(const DisplayVolume& volume, const SurfaceWindow& first) {
+  const auto place = first.count > 0 ? placeToTouch(first.frames[0].field) : std::nullopt;
+  if (place) device_->aim(glm::dvec3(*place, 0) - WorkspaceMapping(capabilities_, volume).offset_mm);
 }
 
 void HapticSession::stop() noexcept {

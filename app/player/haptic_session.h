@@ -74,6 +74,7 @@ class HapticSession {
 
  private:
   [[nodiscard]] Result<void> makeTask(const DisplayVolume& volume, const SurfaceWindow& first);
+  void aimDevice(const DisplayVolume& volume, const SurfaceWindow& first);
 
   HapticDevice* device_;
   Clock& clock_;

@@ -25,19 +25,19 @@ double wave(double t_s, double period_s) RELIEVO_RT {
   return std::sin(2.0 * std::numbers::pi * t_s / period_s);
 }
 
-HandPoint stroke(double t_s) RELIEVO_RT {
+HandPoint stroke(double t_s, const glm::dvec2& begin_mm) RELIEVO_RT {
   constexpr double kRestS = 0.5, kDownS = 1.2, kUpS = 1.1;  // at most 82 mm/s: contact without a blow
   constexpr double kRoundS = 4.0;                           // down, stroke, up: it is soon out of what let it through
   constexpr double kAboveMm = 48.0, kAimMm = -12.0;         // 40 mm is the nearest that a surface comes
   const double t = std::max(t_s - kRestS, 0.0);
   const double in_round = std::fmod(t, kRoundS);
   const double down = easeIn(in_round, kDownS) - easeIn(in_round - (kRoundS - kUpS), kUpS);
-  const double reach = easeIn(t - kDownS, 3.0);  // the first contact is in the middle
+  const double reach = easeIn(t - kDownS, 3.0);  // the first contact is where it begins
 
   HandPoint point;
   // At most 31 and 28 mm/s; the periods have no common multiple before 803 s, so that no line is drawn twice.
-  point.position_mm.x = reach * 55.0 * wave(t - kDownS, 11.0);
-  point.position_mm.y = reach * 32.0 * wave(t - kDownS, 7.3);
+  point.position_mm.x = (1 - reach) * begin_mm.x + reach * 55.0 * wave(t - kDownS, 11.0);
+  point.position_mm.y = (1 - reach) * begin_mm.y + reach * 32.0 * wave(t - kDownS, 7.3);
   point.position_mm.z = kAboveMm + down * (kAimMm - kAboveMm);
   point.force_limit_n = 1.5 + 0.5 * wave(t, 3.1);
   return point;
@@ -105,7 +105,7 @@ Outcome<HandPath> HandPath::load(const std::string& path) {
 }
 
 HandPoint HandPath::at(double t_s) const RELIEVO_RT {
-  if (rows_.empty()) return stroke(t_s);
+  if (rows_.empty()) return stroke(t_s, begin_mm_);
   const auto after =
       std::upper_bound(rows_.begin(), rows_.end(), t_s, [](double t, const Row& row) { return t < row.t_s; });
   if (after == rows_.begin()) return {.position_mm = rows_.front().position_mm};

@@ -55,6 +55,13 @@ class SimHaptic final : public HapticDevice {
 
   Result<void> homeDevice() override { return {}; }
 
+  void aimHand(const glm::dvec3& place_mm) noexcept override {
+    if (time_s_ > 0) return;  // it is on its way
+    path_.beginOver(place_mm.x, place_mm.y);
+    target_ = path_.at(0);
+    mass_.position_mm = target_.position_mm;
+  }
+
   Result<void> startDevice() override {
     now_ = last_write_ = clock_.now();
     return {};

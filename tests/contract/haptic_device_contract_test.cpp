@@ -144,6 +144,7 @@ TEST_P(HapticDeviceContract, EveryVerbInEveryState) {
   const std::vector<test::Verb<HapticDevice>> verbs = {
       {"open", [](HapticDevice& d) { return test::answerOf(d.open()); }},
       {"home", [](HapticDevice& d) { return test::answerOf(d.home()); }},
+      {"aim", [](HapticDevice& d) { return d.aim({1, 2, 3}), test::Answer{}; }},
       {"start", [](HapticDevice& d) { return test::answerOf(d.start()); }},
       {"read", [](HapticDevice& d) { return test::answerOf(d.read()); }},
       {"write", [](HapticDevice& d) { return test::answerOf(d.write({0, 0, 1})); }},
@@ -152,12 +153,12 @@ TEST_P(HapticDeviceContract, EveryVerbInEveryState) {
   };
   constexpr auto no = std::nullopt;
   const std::vector<test::Row<State>> table = {
-      // from           open           home          start           read            write         stop close
-      {State::Closed, {State::Opened, no, no, no, no, State::Closed, State::Closed}},
-      {State::Opened, {no, State::Ready, no, no, no, State::Opened, State::Closed}},
-      {State::Ready, {no, State::Ready, State::Running, no, no, State::Ready, State::Closed}},
-      {State::Running, {no, no, no, State::Running, State::Running, State::Ready, State::Closed}},
-      {State::Lost, {no, no, no, no, no, State::Lost, State::Closed}},
+      // from           open           home       aim            start           read            write      stop close
+      {State::Closed, {State::Opened, no, State::Closed, no, no, no, State::Closed, State::Closed}},
+      {State::Opened, {no, State::Ready, State::Opened, no, no, no, State::Opened, State::Closed}},
+      {State::Ready, {no, State::Ready, State::Ready, State::Running, no, no, State::Ready, State::Closed}},
+      {State::Running, {no, no, State::Running, no, State::Running, State::Running, State::Ready, State::Closed}},
+      {State::Lost, {no, no, State::Lost, no, no, no, State::Lost, State::Closed}},
   };
   test::expectStateTable(verbs, table, [&](State state) { return std::move(bring(state).device); });
 }

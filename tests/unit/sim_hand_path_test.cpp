@@ -65,6 +65,26 @@ TEST(SimHandPath, ItsOwnPathRestsInFrontThenComesDownInTheMiddle) {
   EXPECT_LT(path.at(1.7).position_mm.z, 0.0);
 }
 
+TEST(SimHandPath, ItsOwnPathComesDownWhereItIsToldToBegin) {
+  HandPath path;
+  path.beginOver(-30, 17);
+  EXPECT_EQ(path.at(0).position_mm, glm::dvec3(-30, 17, 48));
+  EXPECT_EQ(path.at(1.7).position_mm.x, -30.0);
+  EXPECT_EQ(path.at(1.7).position_mm.y, 17.0);
+  // From the end of the reach on it is the figure that it is without.
+  EXPECT_EQ(path.at(12.3).position_mm, HandPath().at(12.3).position_mm);
+  for (int i = 1; i < 20'000; ++i) {
+    ASSERT_LT(glm::distance(path.at(i * 1e-3).position_mm, path.at((i - 1) * 1e-3).position_mm), 0.1) << i;
+  }
+}
+
+TEST(SimHandPath, AScriptBeginsWhereItSays) {
+  auto path = HandPath::parse(kScript, "script");
+  ASSERT_TRUE(path);
+  path->beginOver(-30, 17);
+  EXPECT_EQ(path->at(0).position_mm, glm::dvec3(0, 0, 60));
+}
+
 // A finger that has passed into the solid is held again only after it has come out of it.
 TEST(SimHandPath, ItsOwnPathComesOutEveryFourSeconds) {
   const HandPath path;

@@ -189,6 +189,15 @@ TEST_P(SimHapticTouch, TheStrokingHandPressesGentlyWhereverTheSurfaceIs) {
 }
 INSTANTIATE_TEST_SUITE_P(Surfaces, SimHapticTouch, testing::Values(0.0, 20.0, 40.0));
 
+TEST(SimHaptic, TheStrokingHandBeginsWhereItIsAimed) {
+  ManualClock clock;
+  const auto device = makeSimHaptic(SimDeviceProfile{}, HandPath(), clock);
+  ASSERT_TRUE(device->open() && device->home());
+  device->aim({24, -12, 3});
+  ASSERT_TRUE(device->start());
+  EXPECT_EQ(device->read()->position_mm, glm::dvec3(24, -12, 48));
+}
+
 TEST(SimHaptic, RunsAlikeToTheLastBit) {
   Bench a(SimDeviceProfile{}, HandPath()), b(SimDeviceProfile{}, HandPath());
   for (int i = 0; i < 3000; ++i) {
