@@ -57,7 +57,7 @@ class MediaSource {
   // NotFound, PermissionDenied, Unsupported (protocol), Corrupt (not media), Timeout, Cancelled. Closed only.
   [[nodiscard]] Result<void> open(const std::string& url);
   // The next packet of any stream, in the order of the container; nothing at the end. A file that is cut off in the
-  // middle ends like a whole one. Lost when the source has gone away. Open or Ended (nothing again).
+  // middle ends like a whole one (see `missing`). Lost when the source has gone away. Open or Ended (nothing again).
   [[nodiscard]] Result<std::optional<Packet>> read();
   // To the last key frame at or before `target`; decoders must be flushed by the caller. Open or Ended.
   [[nodiscard]] Result<void> seek(MediaTime target);
@@ -73,6 +73,9 @@ class MediaSource {
   [[nodiscard]] const std::map<std::string, std::string>& tags() const noexcept { return tags_; }
   // Of the whole film; 0 where unknown (live).
   [[nodiscard]] Duration duration() const noexcept { return duration_; }
+  // How much of that was not there: the film broke off so long before its end. Ended; 0 of a whole film, where it is
+  // unknown, and in the other states.
+  [[nodiscard]] Duration missing() const noexcept { return state_ == State::Ended ? missingTime() : Duration(0); }
 
  protected:
   struct Description {
@@ -85,6 +88,7 @@ class MediaSource {
   virtual Result<Description> openSource(const std::string& url) = 0;
   virtual Result<std::optional<Packet>> readPacket() = 0;
   virtual Result<void> seekTo(MediaTime target) = 0;
+  [[nodiscard]] virtual Duration missingTime() const noexcept { return Duration(0); }
   virtual void closeSource() noexcept = 0;
   virtual void interrupted() noexcept = 0;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// mkstemp beside the target, fsync, rename.
+// O_TMPFILE and a link, or mkstemp beside the target; fsync, rename.
 #include "platform/atomic_file.h"
 
 #include <fcntl.h>
@@ -32,13 +32,41 @@ std::unexpected<Error> cannotCreate(int os_error) noexcept {
   return fail(ErrorCode::Io, "no file can be made there; choose another folder", os_error);
 }
 
+// Not on every file system, and only where /proc is there: it gives the file's one name.
+UniqueFd openNameless(const std::string& target) {
+  const std::string folder = std::filesystem::path(target).parent_path().string();
+  UniqueFd fd(::open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666));
+  if (fd.valid() && ::access(("/proc/self/fd/" + std::to_string(fd.get())).c_str(), W_OK) != 0) fd.reset();
+  return fd;
+}
+
+// A link does not replace: over a file that is there it takes a name for a moment.
+bool linkInto(const std::string& target, const std::string& nameless) {
+  const auto link = [&](const std::string& name) {
+    return ::linkat(AT_FDCWD, nameless.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+  };
+  if (link(target)) return true;
+  std::string beside;
+  for (int i = 0; errno == EEXIST && i < 100; ++i) {
+    beside = target + "." + std::to_string(::getpid()) + "." + std::to_string(i);
+    if (!link(beside)) continue;
+    if (std::rename(beside.c_str(), target.c_str()) == 0) return true;
+    const int os_error = errno;
+    ::unlink(beside.c_str());
+    errno = os_error;
+    return false;
+  }
+  return false;
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(AtomicFile&& other) noexcept
     : file_(std::exchange(other.file_, nullptr)),
       path_(std::move(other.path_)),
       target_(std::move(other.target_)),
-      temporary_(std::exchange(other.temporary_, {})) {}
+      temporary_(std::exchange(other.temporary_, {})),
+      nameless_(other.nameless_) {}
 
 AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
   if (this == &other) return *this;
@@ -47,6 +75,7 @@ AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
   path_ = std::move(other.path_);
   target_ = std::move(other.target_);
   temporary_ = std::exchange(other.temporary_, {});
+  nameless_ = other.nameless_;
   return *this;
 }
 
@@ -68,6 +97,9 @@ Result<AtomicFile> AtomicFile::create(const std::string& path) {
   if (exists && S_ISDIR(status.st_mode)) return fail(ErrorCode::Io, "is a folder; give the name of a file", EISDIR);
   if (exists && !S_ISREG(status.st_mode)) {
     fd.reset(::open(made.target_.c_str(), O_WRONLY | O_CLOEXEC));
+  } else if (fd = openNameless(made.target_); fd.valid()) {
+    made.nameless_ = true;
+    made.temporary_ = "/proc/self/fd/" + std::to_string(fd.get());
   } else {
     made.temporary_ = made.target_ + ".XXXXXX";
     fd.reset(::mkostemp(made.temporary_.data(), O_CLOEXEC));
@@ -88,21 +120,23 @@ void AtomicFile::write(std::string_view text) noexcept {
 Result<void> AtomicFile::commit() {
   if (file_ == nullptr) return fail(ErrorCode::InvalidState, "the file is not open");
   bool good = std::fflush(file_) == 0 && std::ferror(file_) == 0;
-  if (good && !temporary_.empty()) good = ::fsync(::fileno(file_)) == 0;
+  if (good && !temporary_.empty()) good = ::fsync(::fileno(file_)) == 0 && putInPlace();
   const int os_error = errno;
   good = std::fclose(std::exchange(file_, nullptr)) == 0 && good;
-  if (good && !temporary_.empty()) {
-    good = std::rename(temporary_.c_str(), target_.c_str()) == 0;
-    if (good) temporary_.clear();
-  }
   if (good) return {};
   discard();
   return fail(ErrorCode::Io, kCannotWrite, os_error);
 }
 
+bool AtomicFile::putInPlace() {
+  const bool done = nameless_ ? linkInto(target_, temporary_) : std::rename(temporary_.c_str(), target_.c_str()) == 0;
+  if (done) temporary_.clear();
+  return done;
+}
+
 void AtomicFile::discard() noexcept {
   if (file_ != nullptr) std::fclose(std::exchange(file_, nullptr));
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  if (!temporary_.empty() && !nameless_) ::unlink(temporary_.c_str());
   temporary_.clear();
 }
 

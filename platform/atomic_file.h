@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A file that appears whole or not at all: written beside its place, renamed into it when done.
+// A file that appears whole or not at all: written without a name, or beside its place, and put into it when done.
 #pragma once
 
 #include <cstdio>
@@ -10,7 +10,9 @@
 
 namespace relievo {
 
-// Not thread-safe. A path that is a device or a pipe is written to directly, since it cannot be replaced.
+// Not thread-safe. A path that is a device or a pipe is written to directly, since it cannot be replaced. Where the
+// file system has files without a name (ext4, xfs, btrfs, tmpfs, ..) nothing is left however the program ends;
+// elsewhere the temporary file stays when it is killed.
 class AtomicFile {
  public:
   AtomicFile() = default;
@@ -28,16 +30,18 @@ class AtomicFile {
 
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
   // Where it lies until the commit, for a library that writes files by their names instead of through `write`; it has
-  // closed the file before the commit.
+  // closed the file before the commit. A path of this process alone.
   [[nodiscard]] const std::string& writtenPath() const noexcept { return temporary_.empty() ? target_ : temporary_; }
 
  private:
+  [[nodiscard]] bool putInPlace();
   void discard() noexcept;
 
   std::FILE* file_ = nullptr;
   std::string path_;       // as it was given
   std::string target_;     // with links followed
   std::string temporary_;  // empty: written to directly
+  bool nameless_ = false;  // `temporary_` is the open file, by /proc
 };
 
 }  // namespace relievo

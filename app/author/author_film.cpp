@@ -63,7 +63,8 @@ struct Cut {
 // Everything between the reader and the writer.
 class Packager {
  public:
-  Packager(PairReader& reader, const OutputOptions& output) : reader_(reader), output_(output) {}
+  Packager(PairReader& reader, const SourceOptions& source, const OutputOptions& output)
+      : reader_(reader), source_(source), output_(output) {}
 
   Outcome<void> begin(const FramePair& pair);
   Outcome<void> write(const FramePair& pair);
@@ -71,7 +72,10 @@ class Packager {
   [[nodiscard]] bool begun() const { return writer_ != nullptr; }
 
  private:
+  [[nodiscard]] std::vector<std::string> sourceNotes() const;
+
   PairReader& reader_;
+  const SourceOptions& source_;
   const OutputOptions& output_;
   std::unique_ptr<FilmWriter> writer_;
   DepthCoder coder_{DepthCalibration{}};  // `begin` gives it the film's
@@ -141,14 +145,29 @@ Outcome<AuthorSummary> Packager::finish() {
     summary.notes.emplace_back("coding moves the edges of holes by a sample here and there; --depth-crf 0 keeps them");
   }
   if (auto line = cut_.explain(); !line.empty()) summary.notes.push_back(std::move(line));
+  for (std::string& line : sourceNotes()) summary.notes.push_back(std::move(line));
+  return summary;
+}
+
+// What the film had not, or what was left of it.
+std::vector<std::string> Packager::sourceNotes() const {
+  std::vector<std::string> notes;
   const PairCounters counters = reader_.counters();
-  const auto tell = [&summary](std::uint64_t count, const char* what) {
-    if (count > 0) summary.notes.push_back(std::to_string(count) + what);
+  const auto tell = [&notes](std::uint64_t count, const char* what) {
+    if (count > 0) notes.push_back(std::to_string(count) + what);
   };
+  const auto tellMissing = [&notes](const std::string& url, Duration missing) {
+    char line[80];
+    std::snprintf(line, sizeof line, " breaks off %.1f s before its end, cut off or damaged", toSeconds(missing));
+    if (missing > Duration(0)) notes.push_back(url + line);
+  };
+  tellMissing(source_.url, counters.missing);
+  tellMissing(source_.depth_url, counters.depth_missing);
+  tell(counters.without_depth, " pictures of the colour have no depth: its pictures begin later or end earlier");
   tell(counters.mismatched, " pictures of the colour had no depth of their time; the one before was held");
   tell(counters.depth_skipped, " pictures of the depth lay between those of the colour and were left out");
   tell(counters.damaged, " packets or pictures were damaged and left out");
-  return summary;
+  return notes;
 }
 
 std::optional<std::uint64_t> expectedFrames(const FilmInfo& info) {
@@ -172,7 +191,7 @@ Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader:
   if (!reader.info().has_depth) {
     return failOn(source.url, {ErrorCode::NotFound, 0, "there is no depth in it; name its source with --depth"});
   }
-  Packager packager(reader, output);
+  Packager packager(reader, source, output);
   for (std::uint64_t done = 1;; ++done) {
     auto pair = reader.next();
     if (stop.load(std::memory_order_relaxed)) return failOn(output.path, kCancelled);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // relievo-author: the content maker's program.
 #include <CLI/CLI.hpp>
-#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <string>
@@ -17,16 +16,6 @@
 
 namespace relievo {
 namespace {
-
-std::atomic<bool> stop_wanted{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
-
-void stopOnSignals() {
-  struct sigaction action{};
-  action.sa_handler = [](int) { stop_wanted.store(true, std::memory_order_relaxed); };
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::sigaction(number, &action, nullptr);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of the write, told like any other
-}
 
 struct Arguments {
   SourceOptions source;
@@ -80,7 +69,8 @@ int run(Arguments& a) {
   if (a.crf >= 0) a.output.color_crf = a.output.depth_crf = a.crf;
   if (a.depth_crf >= 0) a.output.depth_crf = a.depth_crf;
 
-  stopOnSignals();
+  const std::atomic<bool>& stop = stopOnSignals();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of the write, told like any other
   Outcome<AuthorSummary> summary;
   {
     ProgressLine line;
@@ -90,10 +80,10 @@ int run(Arguments& a) {
     if (a.scene.empty()) {
       const std::string url = a.source.url;
       const PairReader::Backends backends{[url] { return drivers::makeMediaSource(url); }, drivers::makeVideoDecoder};
-      summary = authorFilm(a.source, backends, a.output, stop_wanted, progress);
+      summary = authorFilm(a.source, backends, a.output, stop, progress);
     } else {
       const int threads = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1u));
-      summary = authorSample({.threads = threads}, a.output, stop_wanted, progress);
+      summary = authorSample({.threads = threads}, a.output, stop, progress);
     }
   }
   if (!summary) return tell(summary.error());

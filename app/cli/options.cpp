@@ -39,9 +39,9 @@ void readCalibration(const std::string& word, SourceOptions& source) {
     source.side_file = readCalibrationFile(thing, word);
     return;
   }
-  auto settings = parseCalibration(word);
+  const auto settings = parseCalibration(word);
   if (!settings) throw WordFailure({thing, settings.error()});
-  source.command_line = std::move(*settings);
+  for (const auto& [key, value] : *settings) source.command_line[key] = value;  // over what came before
 }
 
 // "relievo play": the program with the command that was given, if any.
@@ -49,6 +49,23 @@ std::string commandOf(const CLI::App& program) {
   std::string command = program.get_name();
   for (const CLI::App* given : program.get_subcommands()) command += " " + given->get_name();
   return command;
+}
+
+// CLI11 says of a command that it does not know no more than that one is required.
+void tellWrongUse(CLI::App& program, const CLI::ParseError& error) {
+  std::string commands;
+  for (const CLI::App* known : program.get_subcommands([](const CLI::App*) { return true; })) {
+    commands += (commands.empty() ? "" : ", ") + known->get_name();
+  }
+  if (commands.empty() || !program.get_subcommands().empty()) {
+    log(LogLevel::Error, "wrong use", "%s; see %s --help", error.what(), commandOf(program).c_str());
+  } else if (const auto words = program.remaining(); !words.empty()) {
+    log(LogLevel::Error, words.front().c_str(), "no such command; it is one of %s; see %s --help", commands.c_str(),
+        program.get_name().c_str());
+  } else {
+    log(LogLevel::Error, "wrong use", "a command is missing; it is one of %s; see %s --help", commands.c_str(),
+        program.get_name().c_str());
+  }
 }
 
 }  // namespace
@@ -84,8 +101,9 @@ void addDepthOptions(CLI::App& app, SourceOptions& source) {
            for (const std::string& text : given) readCalibration(text, source);
          },
          "What a depth code means, over what the film says; or a file of such lines\n"
-         "law=linear|inverse, polarity=near-high|near-low, range=full|limited,\n"
-         "bits=8..16, invalid=CODE|none, near=MM, far=MM")
+         "law=linear|inverse: whether codes are even in distance or in 1/distance;\n"
+         "polarity=near-high|near-low, range=full|limited, bits=8..16,\n"
+         "invalid=CODE|none: the code of a hole; near=MM, far=MM: of the inverse law")
       ->allow_extra_args(false)
       ->type_name("FILE|KEY=VALUE,..");
 }
@@ -105,6 +123,7 @@ void addVolumeOption(CLI::App& app, std::optional<DisplayVolume>& volume) {
 }
 
 std::expected<void, int> parseCommandLine(CLI::App& program, int argc, const char* const* argv) {
+  program.set_version_flag("--version", program.get_name() + " " RELIEVO_VERSION, "Print the version and exit");
   try {
     program.parse(argc, argv);
     return {};
@@ -112,10 +131,10 @@ std::expected<void, int> parseCommandLine(CLI::App& program, int argc, const cha
     return std::unexpected(tell(failure));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
-      program.exit(error);  // prints the help
+      program.exit(error);  // prints the help, or the version
       return std::unexpected(kExitDone);
     }
-    log(LogLevel::Error, "wrong use", "%s; see %s --help", error.what(), commandOf(program).c_str());
+    tellWrongUse(program, error);
     return std::unexpected(kExitWrongUse);
   }
 }

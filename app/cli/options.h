@@ -44,12 +44,13 @@ CLI::Option* addChoice(CLI::App& app, const char* option, T& value,
   return app.add_option_function<std::string>(option, choose, help)->type_name(words);
 }
 
-// --packing, --depth-code, and --calibration, which may come more than once.
+// --packing, --depth-code, and --calibration, which may come more than once: a later value of a key goes before.
 void addDepthOptions(CLI::App& app, SourceOptions& source);
 // --volume
 void addVolumeOption(CLI::App& app, std::optional<DisplayVolume>& volume);
 
-// On wrong use, and when help was asked for, it has printed what there is to say and answers the exit code.
+// Adds --version. On wrong use, and when help or the version was asked for, it has printed what there is to say and
+// answers the exit code.
 [[nodiscard]] std::expected<void, int> parseCommandLine(CLI::App& program, int argc, const char* const* argv);
 
 // InvalidArgument for an output that is one of the inputs, or another output: writing it would destroy that. Words that

@@ -2,12 +2,32 @@
 // The failure's line goes the way of every other line: whole, in one piece, without control characters.
 #include "app/cli/program.h"
 
+#include <csignal>
 #include <cstring>
 #include <exception>
 
 #include "platform/log.h"
 
 namespace relievo {
+namespace {
+
+std::atomic<bool> stop_wanted{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+void onSignal(int number) {
+  if (!stop_wanted.exchange(true, std::memory_order_relaxed)) return;
+  std::signal(number, SIG_DFL);
+  std::raise(number);  // it comes when this returns
+}
+
+}  // namespace
+
+const std::atomic<bool>& stopOnSignals() noexcept {
+  struct sigaction action{};
+  action.sa_handler = onSignal;
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::sigaction(number, &action, nullptr);
+  return stop_wanted;
+}
 
 int tell(const Failure& failure, int exit_code) {
   const auto& [thing, error] = failure;

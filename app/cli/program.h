@@ -2,6 +2,7 @@
 // How every program of the project ends: its exit codes, and the one line on stderr that says what went wrong.
 #pragma once
 
+#include <atomic>
 #include <functional>
 
 #include "platform/failure.h"
@@ -21,6 +22,10 @@ int tell(const Failure& failure, int exit_code);
 inline int tell(const Failure& failure) {
   return tell(failure, exitCodeOf(failure.error));
 }
+
+// From now on SIGINT, SIGTERM and SIGHUP set what is returned: the work is to end in good order. A second signal, of
+// either kind, ends the program at once. Once.
+[[nodiscard]] const std::atomic<bool>& stopOnSignals() noexcept;
 
 // The body of a main, which answers its exit code. `name` (a literal) goes before each line on stderr. What is thrown
 // (out of memory, out of threads) becomes a failure like any other.

@@ -2,6 +2,9 @@
 // The list of methods, each a row of parts.
 #include "app/haptics/methods.h"
 
+#include <algorithm>
+#include <array>
+
 #include "app/haptics/penalty.h"
 #include "app/haptics/proxy_blend.h"
 #include "app/haptics/relievo_method.h"
@@ -12,31 +15,53 @@ namespace relievo {
 const char* const kMethodNames = "relievo modified-proxy-graph proxy-graph proxy-blend penalty";
 const char* const kDefaultMethod = "relievo";
 
-std::unique_ptr<TouchMethod> makeMethod(std::string_view name, const MethodConfig& config) {
+namespace {
+
+struct Row {
+  std::string_view method;
+  TimeLaw time;  // on triangles
+};
+constexpr std::array kRows{
+    Row{"relievo", TimeLaw::Linear},   Row{"modified-proxy-graph", TimeLaw::Linear},
+    Row{"proxy-graph", TimeLaw::Hold}, Row{"proxy-blend", TimeLaw::Hold},
+    Row{"penalty", TimeLaw::Linear},
+};
+
+}  // namespace
+
+std::optional<MethodParts> partsOf(std::string_view method, const MethodConfig& config) {
+  if (method == "relievo" && config.space != SpaceLaw::Triangles) {
+    FeltScale scale = config.scale.value_or(FeltScale{});
+    if (config.time) scale.narrow_time = scale.wide_time = *config.time;
+    scale.space = config.space.value_or(scale.space);
+    return MethodParts{scale.space, scale.wide_time, scale};
+  }
+  const auto row = std::find_if(kRows.begin(), kRows.end(), [&](const Row& r) { return r.method == method; });
+  if (row == kRows.end() || config.space.value_or(SpaceLaw::Triangles) != SpaceLaw::Triangles) return std::nullopt;
+  const TimeLaw time = config.time.value_or(row->time);
+  const bool known = time == TimeLaw::Hold || (time == TimeLaw::Linear && method != "proxy-blend");
+  return known ? std::optional(MethodParts{SpaceLaw::Triangles, time, {}}) : std::nullopt;
+}
+
+std::unique_ptr<TouchMethod> makeMethod(std::string_view method, const MethodConfig& config) {
+  const auto parts = partsOf(method, config);
+  if (!parts) return nullptr;
   const double stiffness = config.stiffness_n_per_mm;
   const auto threshold = [&](bool own) {
     return config.jump_threshold.value_or(own) ? TriangleProxy::kJumpThresholdN : 0.0;
   };
-  const auto onTriangles = [&](Walk walk, TimeLaw time, bool carry, bool guarded) {
-    return std::make_unique<TriangleProxy>(stiffness,
-                                           TriangleParts{walk, config.time.value_or(time), carry, threshold(guarded)});
+  const auto onTriangles = [&](Walk walk, bool carry, bool guarded) {
+    return std::make_unique<TriangleProxy>(stiffness, TriangleParts{walk, parts->time, carry, threshold(guarded)});
   };
-  if (name == "relievo" && config.space != SpaceLaw::Triangles) {
-    RelievoMethod::Config own{.stiffness_n_per_mm = stiffness,
-                              .scale = config.scale.value_or(FeltScale{}),
-                              .jump_threshold_n = threshold(false)};
-    if (config.time) own.scale.narrow_time = own.scale.wide_time = *config.time;
-    own.scale.space = config.space.value_or(own.scale.space);
-    return std::make_unique<RelievoMethod>(own);
+  if (parts->scale) {
+    return std::make_unique<RelievoMethod>(RelievoMethod::Config{
+        .stiffness_n_per_mm = stiffness, .scale = *parts->scale, .jump_threshold_n = threshold(false)});
   }
-  if (config.time && *config.time != TimeLaw::Hold && *config.time != TimeLaw::Linear) return nullptr;
-  if (name == "relievo") return onTriangles(Walk::Faces, TimeLaw::Linear, true, false);
-  if (config.space.value_or(SpaceLaw::Triangles) != SpaceLaw::Triangles) return nullptr;
-  if (name == "modified-proxy-graph") return onTriangles(Walk::Graph, TimeLaw::Linear, true, true);
-  if (name == "proxy-graph") return onTriangles(Walk::Graph, TimeLaw::Hold, false, false);
-  if (name == "proxy-blend") return std::make_unique<ProxyBlend>(stiffness, threshold(false));
-  if (name == "penalty") return std::make_unique<Penalty>(stiffness, config.time.value_or(TimeLaw::Linear));
-  return nullptr;
+  if (method == "relievo") return onTriangles(Walk::Faces, true, false);
+  if (method == "modified-proxy-graph") return onTriangles(Walk::Graph, true, true);
+  if (method == "proxy-graph") return onTriangles(Walk::Graph, false, false);
+  if (method == "proxy-blend") return std::make_unique<ProxyBlend>(stiffness, threshold(false));
+  return std::make_unique<Penalty>(stiffness, parts->time);
 }
 
 }  // namespace relievo

@@ -23,9 +23,19 @@ struct MethodConfig {
 extern const char* const kMethodNames;    // "relievo modified-proxy-graph .."
 extern const char* const kDefaultMethod;  // what `relievo play` touches with
 
-// Null for a name that is not known, and for parts that do not go together: the methods on triangles have no space law
-// but their own, and know the surface between two frames alone (hold, linear). `relievo` with triangles in space is a
-// converged god-object on the paper's surface. Allocates: before the real-time task starts.
-[[nodiscard]] std::unique_ptr<TouchMethod> makeMethod(std::string_view name, const MethodConfig& config);
+// What a method is made of.
+struct MethodParts {
+  SpaceLaw space = SpaceLaw::Triangles;
+  TimeLaw time = TimeLaw::Linear;  // of `scale` the wide level's
+  std::optional<FeltScale> scale;  // of `relievo` on a smooth surface alone
+};
+
+// Nothing for a name that is not known, and for parts that do not go together: the methods on triangles have no space
+// law but their own, and know the surface between two frames alone (hold, linear; proxy-blend blends what it holds).
+// `relievo` with triangles in space is a converged god-object on the paper's surface.
+[[nodiscard]] std::optional<MethodParts> partsOf(std::string_view method, const MethodConfig& config);
+
+// Null where `partsOf` answers nothing. Allocates: before the real-time task starts.
+[[nodiscard]] std::unique_ptr<TouchMethod> makeMethod(std::string_view method, const MethodConfig& config);
 
 }  // namespace relievo

@@ -15,6 +15,7 @@ namespace {
 constexpr int kAcross = 64, kDown = 48;
 constexpr double kEdgeMm = 3.0;
 constexpr double kRoundingMm = 1e-6;
+constexpr double kLeastErrorTold = 0.001;
 
 // The value below which a share of the list lies; 0 of none.
 double quantile(std::vector<double>& values, double share) {
@@ -129,14 +130,20 @@ TouchPlan planTouch(const ClipMeasure& m) {
       m.noise_mm * m.sample_mm * std::sqrt(through) / (s.narrow_mm * std::sqrt(4 * std::numbers::pi));
   s.clamp_mm = std::max({0.15, 1.6 * std::min(m.quantum_mm, 0.2), 4 * narrow_noise});
 
-  char text[240];
-  std::snprintf(text, sizeof text,
-                "steps of %.3f mm, noise %.3f mm, %.0f mm/s%s: levels of %.2f and %.2f mm, %s and %s in time; error of "
-                "the force about %.1f %%",
-                m.quantum_mm, m.noise_mm, m.speed_mm_per_s, m.still ? " (still)" : "", s.narrow_mm, s.wide_mm,
-                name(s.narrow_time), name(s.wide_time), 100 * plan.error);
-  plan.reason = text;
+  char depth[120], error[40] = "under 0.1 %";
+  std::snprintf(depth, sizeof depth, "steps of %.3f mm, noise %.3f mm, %.0f mm/s%s", m.quantum_mm, m.noise_mm,
+                m.speed_mm_per_s, m.still ? " (still)" : "");
+  if (plan.error >= kLeastErrorTold) std::snprintf(error, sizeof error, "about %.1f %%", 100 * plan.error);
+  plan.reason = std::string(depth) + ": " + describe(s) + "; error of the force " + error;
   return plan;
+}
+
+std::string describe(const FeltScale& s) {
+  char text[120];
+  const bool alike = s.narrow_time == s.wide_time;
+  std::snprintf(text, sizeof text, "levels of %.2f and %.2f mm, %s%s%s in time", s.narrow_mm, s.wide_mm,
+                alike ? "" : name(s.narrow_time), alike ? "" : " and ", name(s.wide_time));
+  return text;
 }
 
 }  // namespace relievo

@@ -37,5 +37,7 @@ inline constexpr double kErrorWanted = 0.02;
 // The narrowest smoothing with which the error stays under kErrorWanted for a finger that presses 5 mm deep, the widest
 // where none does; and the law of time that noise or its absence asks for.
 [[nodiscard]] TouchPlan planTouch(const ClipMeasure& measure);
+// "levels of 0.28 and 0.72 mm, linear and fitted in time"
+[[nodiscard]] std::string describe(const FeltScale& scale);
 
 }  // namespace relievo

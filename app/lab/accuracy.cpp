@@ -2,6 +2,7 @@
 // One film per scene and kind of depth serves all contenders.
 #include "app/lab/accuracy.h"
 
+#include "app/cli/text.h"
 #include "app/lab/finger_paths.h"
 #include "app/lab/parallel.h"
 
@@ -41,7 +42,8 @@ Outcome<AccuracyTable> measureAccuracy(std::span<const Contender> contenders, co
     const auto truth = truthAlong(*surface, path);
     for (std::size_t d = 0; d < kDepthKinds.size(); ++d) {
       const std::string scene(options.scenes[s]);
-      tell("accuracy: " + scene + ", " + kDepthKinds[d].name);
+      tell(print("accuracy, film %zu of %zu: %s, %s", s * kDepthKinds.size() + d + 1,
+                 options.scenes.size() * kDepthKinds.size(), scene.c_str(), kDepthKinds[d].name));
       const auto film = MemoryFilm::make(*surface, {.depth = kDepthKinds[d]}, 0, options.duration_s);
       if (!film) return failOn("depth of " + scene, film.error());
       inParallel(contenders.size(), [&](std::size_t c) {

@@ -57,6 +57,12 @@ FeltScale plannedScale(const MemoryFilm& film) {
   return planTouch(measureClip(film.frames().first(std::min(film.frames().size(), kLookedAt)))).scale;
 }
 
+MethodConfig configOn(const MemoryFilm& film, const Contender& who) {
+  MethodConfig config = who.config;
+  if (who.planned) config.scale = plannedScale(film);
+  return config;
+}
+
 int lookAhead(TimeLaw law) {
   return static_cast<int>(law);  // hold 0, linear 1, bspline 2, fitted 3
 }
@@ -64,24 +70,18 @@ int lookAhead(TimeLaw law) {
 }  // namespace
 
 std::unique_ptr<TouchMethod> Contender::make(const MemoryFilm& film) const {
-  MethodConfig on_film = config;
-  if (planned) on_film.scale = plannedScale(film);
-  return makeMethod(method, on_film);
+  return makeMethod(method, configOn(film, *this));
 }
 
 ContenderParts Contender::parts(const MemoryFilm& film) const {
-  if (std::string_view(method) != "relievo" || config.space == SpaceLaw::Triangles) {
-    const bool holds = std::string_view(method) == "proxy-graph" || std::string_view(method) == "proxy-blend";
-    const TimeLaw time = config.time.value_or(holds ? TimeLaw::Hold : TimeLaw::Linear);
-    return {.space = name(SpaceLaw::Triangles), .time = name(time), .look_ahead_frames = lookAhead(time)};
+  const MethodParts parts = *partsOf(method, configOn(film, *this));  // the list holds such alone
+  ContenderParts out{.space = name(parts.space), .time = name(parts.time), .look_ahead_frames = lookAhead(parts.time)};
+  if (parts.scale) {
+    out.narrow_mm = parts.scale->narrow_mm;
+    out.wide_mm = parts.scale->wide_mm;
+    out.look_ahead_frames = std::max(out.look_ahead_frames, lookAhead(parts.scale->narrow_time));
   }
-  FeltScale scale = planned ? plannedScale(film) : config.scale.value_or(FeltScale{});
-  if (config.time) scale.narrow_time = scale.wide_time = *config.time;
-  return {.space = name(config.space.value_or(scale.space)),
-          .time = name(scale.wide_time),
-          .narrow_mm = scale.narrow_mm,
-          .wide_mm = scale.wide_mm,
-          .look_ahead_frames = std::max(lookAhead(scale.narrow_time), lookAhead(scale.wide_time))};
+  return out;
 }
 
 std::span<const Contender> contenders() {

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
+#include <sstream>
 #include <string>
 
 #include "app/cli/options.h"
@@ -19,14 +20,26 @@
 namespace relievo {
 namespace {
 
+std::vector<std::pair<std::string, std::string>> methodChoices() {
+  std::vector<std::pair<std::string, std::string>> choices;
+  std::istringstream names(kMethodNames);
+  for (std::string name; names >> name;) choices.emplace_back(name, name);
+  return choices;
+}
+
 void addTrace(CLI::App& app, TraceOptions& options) {
   app.footer(
-      "Example: a finger's path through a 16-bit depth film, by the paper's method\n"
-      "  relievo-lab trace --depth plane.mkv --hip finger.csv --out force.csv --method modified-proxy-graph --guard "
+      "Examples:\n"
+      "  a finger's path through a 16-bit depth film, by the paper's method, with no limit on the force\n"
+      "    relievo-lab trace --depth plane.mkv --hip finger.csv --out force.csv --method modified-proxy-graph --guard "
       "off\n"
+      "  the same by relievo with one part swapped: the frame held, not interpolated\n"
+      "    relievo-lab trace --depth plane.mkv --hip finger.csv --out force.csv --method relievo --time hold\n"
       "HIP.csv has the header t_s,x_mm,y_mm,z_mm and one row per tick, in the scene frame: x right, y up, z toward "
       "the\n"
-      "viewer, origin at the centre of the far plane. Time 0 is the first frame's time.");
+      "viewer, origin at the centre of the far plane. Time 0 is the first frame's time. OUT.csv has a row for each: "
+      "the\n"
+      "finger, the proxy, the force on the hand, whether it is in contact, and the nanoseconds that the tick took.");
   SourceOptions& source = options.film.source;
   app.add_option("--depth", source.url, "Depth film: whatever FFmpeg opens, 8 to 16 bits")
       ->required()
@@ -38,9 +51,11 @@ void addTrace(CLI::App& app, TraceOptions& options) {
       ->type_name("F");
   app.add_option("--hip", options.hip_path, "The finger's path")->required()->type_name("HIP.csv");
   app.add_option("--out", options.out_path, "What came of it, a row per tick")->required()->type_name("OUT.csv");
-  app.add_option("--method", options.method, std::string("Method of touch: ") + kMethodNames)
-      ->required()
-      ->type_name("NAME");
+  addChoice(
+      app, "--method", options.method, methodChoices(),
+      "Method of touch\nrelievo: the player's own; modified-proxy-graph: the paper's; proxy-graph, proxy-blend: those "
+      "before it;\npenalty: depth alone, no proxy. The charts' god-object is relievo with --space triangles")
+      ->required();
   app.add_option("--stiffness", options.stiffness_n_per_mm, "Stiffness between finger and proxy [0.5]")
       ->type_name("N_PER_MM")
       ->check(CLI::Range(1e-6, 1e3).description(""));
@@ -55,7 +70,7 @@ void addTrace(CLI::App& app, TraceOptions& options) {
              {"bspline", TimeLaw::BSpline},
              {"fitted", TimeLaw::Fitted}},
             "The surface between frames [the method's own]\nhold: the newest as it is; linear: the paper's; bspline, "
-            "fitted: smooth splines, of relievo alone");
+            "fitted: smooth splines, of relievo on a smooth patch");
   addChoice(app, "--guard", options.guard,
             {{"off", TraceGuard::Off}, {"threshold", TraceGuard::Threshold}, {"full", TraceGuard::Full}},
             "What limits the force [the method's own]\noff: nothing; threshold: the paper's; full: all limits of the "
@@ -67,21 +82,14 @@ int runTraceCommand(const TraceOptions& options) {
   if (auto apart = keepApart({options.out_path}, {options.hip_path, source.url, source.depth_url}); !apart) {
     return tell(apart.error());
   }
-  if (makeMethod(options.method, {}) == nullptr) {
-    return tell(
-        {"--method " + options.method, {ErrorCode::InvalidArgument, 0, "unknown; see relievo-lab trace --help"}});
-  }
-  if (makeMethod(options.method, {.space = options.space, .time = options.time}) == nullptr) {
-    return tell({"--method " + options.method,
-                 {ErrorCode::InvalidArgument, 0,
-                  "does not go with these --space and --time; methods on triangles take triangles, hold and linear"}});
-  }
+  if (auto checked = checkParts(options); !checked) return tell(checked.error());
   const std::string url = options.film.source.url;
   const PairReader::Backends backends{[url] { return drivers::makeMediaSource(url); }, drivers::makeVideoDecoder};
   const auto summary = runTrace(options, backends);
-  if (!summary) return tell(summary.error(), kExitFailed);
+  if (!summary) return tell(summary.error());
   std::printf("%s: %zu ticks, %zu in contact, %.3f N at most\n", options.out_path.c_str(), summary->ticks,
               summary->contact_ticks, summary->max_force_n);
+  std::printf("parts: %s\n", summary->parts.c_str());
   if (!summary->plan.empty()) std::printf("plan: %s\n", summary->plan.c_str());
   return kExitDone;
 }
@@ -106,9 +114,9 @@ Outcome<void> makeFolder(const std::string& path) {
   return {};
 }
 
-// `work` takes the options, with the way to tell how far it is.
+// `work` takes the options, with the way to tell how far it is. `files` says what lies in the folder then.
 template <class Work>
-int runIntoFolder(MeasureOptions options, Work&& work) {
+int runIntoFolder(MeasureOptions options, Work&& work, const std::string& files) {
   if (const auto made = makeFolder(options.out); !made) return tell(made.error(), kExitFailed);
   Outcome<void> done;
   {
@@ -119,11 +127,27 @@ int runIntoFolder(MeasureOptions options, Work&& work) {
     };
     done = work(options);
   }
-  return done ? kExitDone : tell(done.error(), kExitFailed);
+  if (!done) return tell(done.error(), kExitFailed);
+  std::printf("%s/%s\n", options.out.c_str(), files.c_str());
+  return kExitDone;
+}
+
+// "smoothness.svg, smoothness-hand.svg; their figures beside them as CSV"
+std::string chartFiles(const Measurement& measurement) {
+  std::string words;
+  for (const char* chart : measurement.charts) words += (words.empty() ? "" : ", ") + std::string(chart) + ".svg";
+  return words + "; the figures beside them as .csv";
 }
 
 int parseAndRun(int argc, char** argv) {
   CLI::App app("Measures touch on moving depth.", "relievo-lab");
+  app.footer(
+      "\nExamples:\n"
+      "  relievo-lab report --quick --out charts      every chart in a few minutes, and charts/index.html over them\n"
+      "  relievo-lab trace --help                     one finger, one film, one method, tick by tick\n"
+      "\nIn the charts `god-object` is the method relievo with triangles in space, the paper's surface: what a "
+      "converged\n"
+      "proxy makes of it. Names such as `relievo hold` are a method with one part swapped.\n");
   app.require_subcommand(1);
   TraceOptions trace;
   CLI::App* const trace_command =
@@ -138,9 +162,10 @@ int parseAndRun(int argc, char** argv) {
   if (trace_command->parsed()) return runTraceCommand(trace);
   for (const auto& [command, measurement] : commands) {
     if (!command->parsed()) continue;
-    return runIntoFolder(options, [m = measurement](const MeasureOptions& o) { return runMeasurement(*m, o); });
+    const auto run = [m = measurement](const MeasureOptions& o) { return runMeasurement(*m, o); };
+    return runIntoFolder(options, run, chartFiles(*measurement));
   }
-  return runIntoFolder(options, writeReport);
+  return runIntoFolder(options, writeReport, "index.html: every chart; each is beside it as .svg, its figures as .csv");
 }
 
 }  // namespace

@@ -31,11 +31,13 @@ std::span<const Measurement> measurements() {
 }
 
 Outcome<void> runMeasurement(const Measurement& measurement, const MeasureOptions& options) {
-  const auto words = measurement.measure(options);
+  MeasureOptions own = options;
+  own.tell = [&](const std::string& what) { options.tell(std::string(measurement.name) + ": " + what); };
+  const auto words = measurement.measure(own);
   if (!words) return std::unexpected(words.error());
   for (std::size_t i = 0; i < measurement.charts.size(); ++i) {
     const std::string name = measurement.charts[i];
-    options.tell("drawing " + name);
+    own.tell("drawing " + name);
     if (auto drawn = drawChart(options.out, name, words->at(i)); !drawn) return drawn;
   }
   return {};

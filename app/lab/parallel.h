@@ -10,17 +10,30 @@
 
 namespace relievo {
 
-// Calls work(0) .. work(count - 1), each once, in any order and on several threads. `work` does not throw.
-template <class Work>
-void inParallel(std::size_t count, Work&& work) {
-  std::atomic<std::size_t> next{0};
+// Calls work(0) .. work(count - 1), each once, in any order and on several threads. `work` does not throw. `tell` is
+// called on the caller's thread now and then, with the number of pieces that are done.
+template <class Work, class Tell>
+void inParallel(std::size_t count, Work&& work, Tell&& tell) {
+  std::atomic<std::size_t> next{0}, done{0};
+  const auto step = [&] {
+    const std::size_t i = next++;
+    if (i >= count) return false;
+    work(i);
+    ++done;
+    return true;
+  };
   const auto drain = [&] {
-    for (std::size_t i = next++; i < count; i = next++) work(i);
+    while (step()) {
+    }
   };
   const std::size_t threads = std::min<std::size_t>(count, std::max(1u, std::thread::hardware_concurrency()));
   std::vector<std::jthread> helpers;
   for (std::size_t i = 1; i < threads; ++i) helpers.emplace_back(drain);
-  drain();
+  while (step()) tell(done.load());
+}
+template <class Work>
+void inParallel(std::size_t count, Work&& work) {
+  inParallel(count, work, [](std::size_t) {});
 }
 
 }  // namespace relievo

@@ -89,9 +89,15 @@ Outcome<void> writeReport(const MeasureOptions& options) {
   std::string page = kHead;
   page += "<h1>relievo: measurements of touch</h1>\n<p class=\"about\">" + escaped(processorName()) + ", " + today() +
           (options.quick ? ", quick run" : "") + "</p>\n";
-  for (const Measurement& measurement : measurements()) {
+  const auto all = measurements();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Measurement& measurement = all[i];
     if (!isComplete(measurement, options.out)) {
-      const auto done = runMeasurement(measurement, options);
+      MeasureOptions part = options;
+      part.tell = [&, i](const std::string& what) {
+        options.tell(print("part %zu of %zu: ", i + 1, all.size()) + what);
+      };
+      const auto done = runMeasurement(measurement, part);
       if (!done && first_failure) first_failure = done;
     }
     for (const char* chart : measurement.charts) page += sectionOf(options.out, chart);

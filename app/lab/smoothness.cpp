@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <limits>
 
 #include "app/cli/text.h"
@@ -66,7 +67,7 @@ struct Curve {
     return toDecibel(*std::max_element(from, to));
   }
   [[nodiscard]] double latencyMs() const { return 1000.0 * look_ahead_frames / setting.frames_per_s; }
-  [[nodiscard]] bool lost() const { return errors.result().lost_ticks > errors.result().ticks / 100; }
+  [[nodiscard]] bool lost() const { return errors.result().contactLost(); }
 };
 
 class Smoothness {
@@ -96,7 +97,8 @@ class Smoothness {
       }
     }
     for (int s = 0; s < segments_; ++s) {
-      options_.tell(print("smoothness: %d frames/s, %s, segment %d/%d", rate, depth.name, s + 1, segments_));
+      const int films = static_cast<int>(std::size(kFrameRates) * std::size(kDepths)) * segments_;
+      options_.tell(print("spectra, film %d of %d: %d frames/s, %s", ++films_begun_, films, rate, depth.name));
       const HoldPlan plan{.from_s = s * kSegmentS, .measured_s = kSegmentS};
       const auto film = MemoryFilm::make(face, {.depth = depth, .frames_per_s = static_cast<double>(rate)}, plan.from_s,
                                          plan.from_s + HoldPlan::kSettleS + kSegmentS);
@@ -192,6 +194,7 @@ class Smoothness {
 
   const MeasureOptions& options_;
   int segments_;
+  int films_begun_ = 0;
   std::vector<Curve> curves_;
 };
 

@@ -75,13 +75,15 @@ class SpeedAccuracy {
   // One film. Other depth than 8 bits is timed with the slow finger alone.
   Outcome<void> addTimes(const PictureSize& size, const DepthKind& depth) {
     const std::string what = print("%dx%d, %s", size.cols, size.rows, depth.name);
-    options_.tell("times: " + what);
+    const std::size_t films = kDepthKinds.size() + plan_.sizes.size() - 1;
+    const std::string film_of = print("times, film %zu of %zu: ", ++films_timed_, films) + what;
+    options_.tell(film_of);
     const auto surface = makeTrueSurface(kTimedScene);
     const auto film = MemoryFilm::make(*surface, {depth, size.cols, size.rows}, 0, plan_.duration_s);
     if (!film) return failOn("depth of " + what, film.error());
     for (const double speed : plan_.speeds_m_per_s) {
       if (speed != kSlowMPerS && &depth != &kEightBits) continue;
-      options_.tell(print("times: %s, %g m/s", what.c_str(), speed));
+      options_.tell(film_of + print(", %g m/s", speed));
       const auto path = makeFingerPath(*surface, {.speed_mm_per_s = 1000 * speed, .duration_s = plan_.duration_s});
       const auto truth = truthAlong(*surface, path);
       const TimedPath timed{*film, path, static_cast<std::size_t>(kSettledS / FingerPathOptions::kTickS)};
@@ -90,7 +92,10 @@ class SpeedAccuracy {
         const auto error = forceErrors(playPath(*film, *all_[c]->make(*film), path, truth), kSettledS).result();
         addTimed({all_[c], &depth, kTimedScene, size, speed, false, all_[c]->parts(*film), error, times[c]});
       }
-      if (speed == kSlowMPerS && &depth == &kEightBits) addColdTimes(size, timed);
+      if (speed == kSlowMPerS && &depth == &kEightBits) {
+        options_.tell(film_of + ", cold caches");
+        addColdTimes(size, timed);
+      }
     }
     return {};
   }
@@ -108,7 +113,6 @@ class SpeedAccuracy {
 
   void addColdTimes(const PictureSize& size, const TimedPath& timed) {
     if (size != plan_.sizes.front() && size != plan_.sizes.back()) return;
-    options_.tell(print("times: %dx%d, cold caches", size.cols, size.rows));
     const std::vector<const Contender*> two{contender("relievo"), contender("god-object")};
     const auto times = timeColdTicks(two, timed, plan_.cold_ticks);
     for (std::size_t c = 0; c < two.size(); ++c) {
@@ -120,6 +124,7 @@ class SpeedAccuracy {
   const MeasureOptions& options_;
   Plan plan_;
   std::vector<const Contender*> all_;
+  std::size_t films_timed_ = 0;
   SpeedAccuracyFigures figures_;
 };
 

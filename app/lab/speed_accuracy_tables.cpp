@@ -47,6 +47,7 @@ Outcome<void> writeAll(const Figures& figures, const std::string& path) {
                   "magnitude_rms_percent",
                   "judged_ticks",
                   "lost_ticks",
+                  "contact_lost",
                   "update_median_us",
                   "update_p99_us",
                   "update_p999_us",
@@ -57,40 +58,64 @@ Outcome<void> writeAll(const Figures& figures, const std::string& path) {
                   "clock_cost_ns"});
   for (const Row& r : figures.rows) {
     const ForceError e = r.error.value_or(ForceError{kNothing, kNothing, kNothing, kNothing});
+    const double lost = r.error ? (e.contactLost() ? 1 : 0) : kNothing;
     const Spread none{kNothing, kNothing, kNothing};
     const auto [update, upkeep] = r.times.value_or(TickTimes{none, none});
-    table.row({r.who->label,      r.who->method,   r.parts.space,       r.parts.time,
-               r.parts.narrow_mm, r.parts.wide_mm, r.depth->name,       r.scene,
-               r.size.cols,       r.size.rows,     r.speed_m_per_s,     caches(r),
-               e.rms_n,           e.rms_percent,   e.direction_rms_deg, e.magnitude_rms_percent,
-               e.ticks,           e.lost_ticks,    update.median,       update.p99,
-               update.p999,       upkeep.median,   upkeep.p99,          upkeep.p999,
-               update.count,      figures.clock_ns});
+    table.row({r.who->label,
+               r.who->method,
+               r.parts.space,
+               r.parts.time,
+               r.parts.narrow_mm,
+               r.parts.wide_mm,
+               r.depth->name,
+               r.scene,
+               r.size.cols,
+               r.size.rows,
+               r.speed_m_per_s,
+               caches(r),
+               e.rms_n,
+               e.rms_percent,
+               e.direction_rms_deg,
+               e.magnitude_rms_percent,
+               e.ticks,
+               e.lost_ticks,
+               lost,
+               update.median,
+               update.p99,
+               update.p999,
+               upkeep.median,
+               upkeep.p99,
+               upkeep.p999,
+               update.count,
+               figures.clock_ns});
   }
   return table.write(path);
 }
 
 Outcome<void> writeScenes(const Figures& figures, const std::string& path) {
-  CsvTable table({"depth", "scene", "method", "force_rms_percent", "direction_rms_deg", "lost_ticks"});
+  CsvTable table({"depth", "scene", "method", "force_rms_percent", "direction_rms_deg", "lost_ticks", "contact_lost"});
   for (const Row& r : figures.rows) {
     if (!isAccuracy(r) || r.who->fixed_choice) continue;
-    table.row(
-        {r.depth->name, r.scene, r.who->label, r.error->rms_percent, r.error->direction_rms_deg, r.error->lost_ticks});
+    table.row({r.depth->name, r.scene, r.who->label, r.error->rms_percent, r.error->direction_rms_deg,
+               r.error->lost_ticks, r.error->contactLost() ? 1 : 0});
   }
   return table.write(path);
 }
 
 Outcome<void> writeParts(const Figures& figures, const std::string& path) {
   CsvTable table({"method", "update_median_us", "update_p999_us", "upkeep_median_us", "upkeep_p999_us",
-                  "percent_16_bit", "percent_8_bit", "percent_h264", "percent_noise"});
+                  "percent_16_bit", "percent_8_bit", "percent_h264", "percent_noise", "contact_lost_16_bit",
+                  "contact_lost_8_bit", "contact_lost_h264", "contact_lost_noise"});
   for (const Contender& who : contenders()) {
-    std::array<double, kDepthKinds.size()> percent{};
-    for (std::size_t d = 0; d < percent.size(); ++d) {
-      percent[d] = figures.find({.who = &who, .depth = &kDepthKinds[d], .scene = kAllScenes})->error->rms_percent;
-    }
     const auto& [update, upkeep] = *figures.find({.who = &who})->times;
-    table.row({who.label, update.median, update.p999, upkeep.median, upkeep.p999, percent[0], percent[1], percent[2],
-               percent[3]});
+    std::vector<Cell> row{who.label, update.median, update.p999, upkeep.median, upkeep.p999}, lost;
+    for (const DepthKind& depth : kDepthKinds) {
+      const ForceError& error = *figures.find({.who = &who, .depth = &depth, .scene = kAllScenes})->error;
+      row.emplace_back(error.rms_percent);
+      lost.emplace_back(error.contactLost() ? 1 : 0);
+    }
+    row.insert(row.end(), lost.begin(), lost.end());
+    table.row(row);
   }
   return table.write(path);
 }

@@ -28,13 +28,15 @@ struct Onset {
 std::vector<Verdict> judgeAll(const MeasureOptions& options) {
   const auto all = scenarios();
   std::vector<Verdict> verdicts(all.size() * kMethods.size());
-  inParallel(verdicts.size(), [&](std::size_t i) {
+  const auto judge = [&](std::size_t i) {
     verdicts[i] = all[i / kMethods.size()].judge(challengerNamed(kMethods[i % kMethods.size()]), options.quick);
-  });
+  };
+  inParallel(verdicts.size(), judge,
+             [&](std::size_t done) { options.tell(print("methods in scenarios, %zu of %zu", done, verdicts.size())); });
   return verdicts;
 }
 
-std::vector<Onset> findOnsets() {
+std::vector<Onset> findOnsets(const MeasureOptions& options) {
   std::vector<Onset> onsets;
   for (const char* method : kMethods) {
     for (int delay = 0; delay <= 3; ++delay) {
@@ -46,10 +48,12 @@ std::vector<Onset> findOnsets() {
       onsets.push_back({method, "full", full, std::min(full.viscousBound(), full.frictionBound()), {}});
     }
   }
-  inParallel(onsets.size(), [&](std::size_t i) {
+  const auto find = [&](std::size_t i) {
     Onset& o = onsets[i];
     o.found = loopOnset(challengerNamed(o.method), o.loop, 4 * o.bound);
-  });
+  };
+  inParallel(onsets.size(), find,
+             [&](std::size_t done) { options.tell(print("closed loops, %zu of %zu", done, onsets.size())); });
   return onsets;
 }
 
@@ -99,11 +103,11 @@ ChartWords onsetWords(const std::vector<Onset>& onsets) {
 }  // namespace
 
 Outcome<std::vector<ChartWords>> measureStability(const MeasureOptions& options) {
-  options.tell(print("%zu scenarios, %zu methods", scenarios().size(), kMethods.size()));
+  options.tell("methods in scenarios");
   const auto verdicts = judgeAll(options);
   if (const auto written = writeMap(options.out, verdicts); !written) return std::unexpected(written.error());
   options.tell("closed loops");
-  const auto onsets = findOnsets();
+  const auto onsets = findOnsets(options);
   if (const auto written = writeOnsets(options.out, onsets); !written) return std::unexpected(written.error());
   return std::vector{mapWords(verdicts), onsetWords(onsets)};
 }

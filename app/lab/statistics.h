@@ -14,6 +14,9 @@ struct ForceError {
   double direction_rms_deg = 0;  // over the ticks in which both forces are there
   double magnitude_rms_percent = 0;
   std::size_t ticks = 0, lost_ticks = 0;  // lost: contact in truth and none by the method
+
+  // In more than a hundredth of the ticks: the error is that of no force, not of a wrong one.
+  [[nodiscard]] bool contactLost() const { return lost_ticks > ticks / 100; }
 };
 
 // A tick without true contact does not count.

@@ -25,6 +25,12 @@ std::optional<bool> jumpThreshold(TraceGuard guard) {
   return std::nullopt;
 }
 
+// "bspline in space, levels of 0.28 and 0.72 mm, linear and fitted in time"; "triangles in space, hold in time".
+std::string describe(const MethodParts& parts) {
+  const std::string space = std::string(name(parts.space)) + " in space, ";
+  return space + (parts.scale ? relievo::describe(*parts.scale) : std::string(name(parts.time)) + " in time");
+}
+
 void writeRow(AtomicFile& out, const HipTick& tick, const Touch& touch, const glm::dvec3& force, Duration took) {
   char row[400];
   const int length =
@@ -35,6 +41,32 @@ void writeRow(AtomicFile& out, const HipTick& tick, const Touch& touch, const gl
 }
 
 }  // namespace
+
+Outcome<void> checkParts(const TraceOptions& options) {
+  const std::optional<SpaceLaw> space = options.space;
+  const std::optional<TimeLaw> time = options.time;
+  const auto go = [&](std::optional<SpaceLaw> s, std::optional<TimeLaw> t) {
+    return partsOf(options.method, {.space = s, .time = t}).has_value();
+  };
+  const auto refuse = [](const std::string& one, const std::string& other, const char* what_goes) {
+    return failOn(one + " with " + other, {ErrorCode::InvalidArgument, 0, what_goes});
+  };
+  const std::string method = "--method " + options.method;
+  if (space && !go(space, {})) {
+    return refuse(std::string("--space ") + name(*space), method,
+                  "they do not go together; quadratic and bspline are of relievo, the others lie on triangles");
+  }
+  if (time && !go({}, time)) {
+    return refuse(std::string("--time ") + name(*time), method,
+                  "they do not go together; bspline and fitted are of relievo, proxy-blend takes hold, the others hold "
+                  "or linear");
+  }
+  if (!go(space, time)) {
+    return refuse(std::string("--time ") + name(*time), std::string("--space ") + name(*space),
+                  "they do not go together; triangles take hold or linear");
+  }
+  return {};
+}
 
 Outcome<TraceSummary> runTrace(const TraceOptions& options, const PairReader::Backends& backends) {
   const auto path = readHipPath(options.hip_path);
@@ -49,17 +81,19 @@ Outcome<TraceSummary> runTrace(const TraceOptions& options, const PairReader::Ba
   if (!first) return std::unexpected(first.error());
   const TouchPlan plan =
       planTouch(measureClip(std::span((*first)->frames).first(static_cast<std::size_t>((*first)->count))));
-  const auto method = makeMethod(options.method, {.stiffness_n_per_mm = options.stiffness_n_per_mm,
-                                                  .space = options.space,
-                                                  .time = options.time,
-                                                  .jump_threshold = jumpThreshold(options.guard),
-                                                  .scale = plan.scale});
-  if (method == nullptr)
-    return failOn("--method " + options.method, {ErrorCode::InvalidArgument, 0, "unknown method; see --help"});
+  const MethodConfig config{.stiffness_n_per_mm = options.stiffness_n_per_mm,
+                            .space = options.space,
+                            .time = options.time,
+                            .jump_threshold = jumpThreshold(options.guard),
+                            .scale = plan.scale};
+  const auto parts = partsOf(options.method, config);
+  if (!parts) return failOn("--method " + options.method, {ErrorCode::InvalidArgument, 0, "no such method"});
+  const auto method = makeMethod(options.method, config);
   SafetyFilter safety({}, options.stiffness_n_per_mm);
   const MonotonicClock clock;
   TraceSummary summary;
-  if (options.method == kDefaultMethod) summary.plan = plan.reason;
+  summary.parts = describe(*parts);
+  if (parts->scale && !options.space && !options.time) summary.plan = plan.reason;
   const HipTick* before = nullptr;
   for (const HipTick& tick : *path) {
     const auto window = film.windowAt(tick.t_s);

@@ -32,8 +32,12 @@ struct TraceOptions {
 struct TraceSummary {
   std::size_t ticks = 0, contact_ticks = 0;
   double max_force_n = 0;
-  std::string plan;  // of `relievo`: what was picked for this film, and why
+  std::string parts;  // that the method was made of
+  std::string plan;   // of `relievo` with parts of its own: what was picked for this film, and why
 };
+
+// InvalidArgument for options of which one does not go with another; the failure names the two.
+[[nodiscard]] Outcome<void> checkParts(const TraceOptions& options);
 
 // Writes OUT.csv, whole or not at all: one row per row of the path, columns t_s, hip_x_mm .. hip_z_mm, proxy_x_mm ..
 // proxy_z_mm, force_x_n .. force_z_n, contact, update_ns (the method's `update`, by the monotonic clock).

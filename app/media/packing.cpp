@@ -105,7 +105,7 @@ Result<Halves> splitPacked(const Frame& picture, Packing packing, DepthCode code
   const Frame depth = code == DepthCode::Luma ? lumaOf(picture) : picture;
   const int start = alignUp(whole - whole / 2, beside ? depth.chroma_shift_x : depth.chroma_shift_y);
   const int half = whole - start;
-  if (half < 1) return fail(ErrorCode::InvalidArgument, "the picture is too small to be packed colour and depth");
+  if (half < 1) return fail(ErrorCode::Unsupported, "the picture is too small to be packed colour and depth");
   if (beside) return Halves{crop(picture, 0, 0, half, picture.height), crop(depth, start, 0, half, picture.height)};
   return Halves{crop(picture, 0, 0, picture.width, half), crop(depth, 0, start, picture.width, half)};
 }

@@ -45,7 +45,7 @@ struct Halves {
 // The halves of a SideBySide or TopBottom picture, by reference; the depth's size is the colour's. Of an odd number of
 // columns (rows) the middle one belongs to neither. Depth that is read from luma (`code`) becomes a gray view, so that
 // it begins at the exact sample; where chroma is read too it begins at a whole chroma sample, at most one pixel late.
-// InvalidArgument for a picture too small to be halved.
+// Unsupported for a picture too small to be halved.
 [[nodiscard]] Result<Halves> splitPacked(const Frame& picture, Packing packing, DepthCode code) noexcept;
 
 }  // namespace relievo

@@ -274,6 +274,7 @@ Result<std::optional<FramePair>> PairReader::next() {
   if (!pair) return std::unexpected(pair.error());
   ++impl_->counters.pairs;
   if (!pair->matched) ++impl_->counters.mismatched;
+  if (impl_->info.has_depth && pair->depth.empty()) ++impl_->counters.without_depth;
   return std::move(*pair);
 }
 
@@ -318,8 +319,14 @@ const std::string& PairReader::failedThing() const noexcept {
 PairCounters PairReader::counters() const noexcept {
   PairCounters counters = impl_->counters;
   if (impl_->depth) counters.depth_skipped = impl_->depth->skipped();
-  if (impl_->color_reader) counters.damaged += impl_->color_reader->damaged();
-  if (impl_->second_reader) counters.damaged += impl_->second_reader->damaged();
+  if (impl_->color_reader) {
+    counters.damaged += impl_->color_reader->damaged();
+    counters.missing = impl_->color_reader->source().missing();
+  }
+  if (impl_->second_reader) {
+    counters.damaged += impl_->second_reader->damaged();
+    counters.depth_missing = impl_->second_reader->source().missing();
+  }
   return counters;
 }
 

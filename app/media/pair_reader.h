@@ -46,9 +46,13 @@ struct FilmInfo {
 
 struct PairCounters {
   std::uint64_t pairs = 0;
+  std::uint64_t without_depth = 0;  // pairs before the depth begins, after it has ended, or where it was lost
   std::uint64_t mismatched = 0;     // pairs whose depth frame is missing though its track goes on
   std::uint64_t depth_skipped = 0;  // depth frames that no colour frame asked for
   std::uint64_t damaged = 0;        // packets and pictures that the decoders dropped
+  // Once a source has been read to its end: how much of its length was not there (MediaSource::missing).
+  Duration missing{0};
+  Duration depth_missing{0};  // of `depth_url`
 };
 
 // Pairs by timestamp, never by count, as DepthFollower says. Each source's time begins at its own zero, so that two

@@ -5,38 +5,56 @@
 
 #include <linux/input-event-codes.h>
 
+#include <algorithm>
 #include <array>
+#include <utility>
 
 namespace relievo {
 namespace {
 
 struct Binding {
   std::uint16_t code;
+  const char* name;
   PlayerCommand command;
   bool repeats = false;
 };
 
+#define RELIEVO_BIND(key, ...)                  \
+  Binding {                                     \
+    KEY_##key, #key, PlayerCommand::__VA_ARGS__ \
+  }
 constexpr std::array kBindings{
-    Binding{KEY_PLAY, PlayerCommand::Play},
-    Binding{KEY_PLAYCD, PlayerCommand::Play},
-    Binding{KEY_PAUSE, PlayerCommand::Pause},
-    Binding{KEY_PAUSECD, PlayerCommand::Pause},
-    Binding{KEY_PLAYPAUSE, PlayerCommand::PlayPause},
-    Binding{KEY_OK, PlayerCommand::PlayPause},
-    Binding{KEY_ENTER, PlayerCommand::PlayPause},
-    Binding{KEY_SELECT, PlayerCommand::PlayPause},
-    Binding{KEY_SPACE, PlayerCommand::PlayPause},
-    Binding{KEY_RIGHT, PlayerCommand::SeekForward, true},
-    Binding{KEY_FASTFORWARD, PlayerCommand::SeekForward, true},
-    Binding{KEY_LEFT, PlayerCommand::SeekBackward, true},
-    Binding{KEY_REWIND, PlayerCommand::SeekBackward, true},
-    Binding{KEY_3D_MODE, PlayerCommand::NextLayout},
-    Binding{KEY_STOP, PlayerCommand::Stop},
-    Binding{KEY_STOPCD, PlayerCommand::Stop},
-    Binding{KEY_BACK, PlayerCommand::Stop},
-    Binding{KEY_EXIT, PlayerCommand::Stop},
-    Binding{KEY_ESC, PlayerCommand::Stop},
-    Binding{KEY_POWER, PlayerCommand::Stop},
+    RELIEVO_BIND(PLAY, Play),
+    RELIEVO_BIND(PLAYCD, Play),
+    RELIEVO_BIND(PAUSE, Pause),
+    RELIEVO_BIND(PAUSECD, Pause),
+    RELIEVO_BIND(PLAYPAUSE, PlayPause),
+    RELIEVO_BIND(OK, PlayPause),
+    RELIEVO_BIND(ENTER, PlayPause),
+    RELIEVO_BIND(SELECT, PlayPause),
+    RELIEVO_BIND(SPACE, PlayPause),
+    RELIEVO_BIND(RIGHT, SeekForward, true),
+    RELIEVO_BIND(FASTFORWARD, SeekForward, true),
+    RELIEVO_BIND(LEFT, SeekBackward, true),
+    RELIEVO_BIND(REWIND, SeekBackward, true),
+    RELIEVO_BIND(3D_MODE, NextLayout),
+    RELIEVO_BIND(STOP, Stop),
+    RELIEVO_BIND(STOPCD, Stop),
+    RELIEVO_BIND(BACK, Stop),
+    RELIEVO_BIND(EXIT, Stop),
+    RELIEVO_BIND(ESC, Stop),
+    RELIEVO_BIND(POWER, Stop),
+};
+#undef RELIEVO_BIND
+
+constexpr std::array kMeanings{
+    std::pair{PlayerCommand::Play, "play"},
+    std::pair{PlayerCommand::Pause, "pause"},
+    std::pair{PlayerCommand::PlayPause, "pause, or go on"},
+    std::pair{PlayerCommand::SeekForward, "10 s forward"},
+    std::pair{PlayerCommand::SeekBackward, "10 s back"},
+    std::pair{PlayerCommand::NextLayout, "the next way to show stereo"},
+    std::pair{PlayerCommand::Stop, "end"},
 };
 
 }  // namespace
@@ -49,6 +67,20 @@ std::optional<PlayerCommand> commandOf(const KeyEvent& key) noexcept {
     return binding.command;
   }
   return std::nullopt;
+}
+
+std::string keyHelp() {
+  constexpr std::size_t kColumn = 36;  // of the meanings
+  std::string text;
+  for (const auto& [command, meaning] : kMeanings) {
+    std::string line = " ";
+    for (const Binding& binding : kBindings) {
+      if (binding.command == command) line += std::string(" ") + binding.name;
+    }
+    line.resize(std::max(kColumn, line.size() + 2), ' ');
+    text += line + meaning + "\n";
+  }
+  return text;
 }
 
 }  // namespace relievo

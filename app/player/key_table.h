@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "hal/remote_input.h"
 
@@ -21,5 +22,8 @@ enum class PlayerCommand : std::uint8_t {
 
 // Nothing for a key that means nothing here, for a release, and for the repeat of a key that makes no sense repeated.
 [[nodiscard]] std::optional<PlayerCommand> commandOf(const KeyEvent& key) noexcept;
+
+// For the help: a line for each command, with the keys' names as linux/input-event-codes.h has them, without KEY_.
+[[nodiscard]] std::string keyHelp();
 
 }  // namespace relievo

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program of the box: chooses the back ends, plays or probes, and says in one line what went wrong.
 #include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <utility>
 
@@ -17,19 +16,6 @@
 
 namespace relievo {
 namespace {
-
-std::atomic<bool> stop_wanted{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
-
-// The first signal ends the film in good order, zero force first; a second one ends the program.
-void stopOnSignals() {
-  struct sigaction action{};
-  action.sa_handler = [](int) { stop_wanted.store(true, std::memory_order_relaxed); };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
-  ::sigaction(SIGHUP, &action, nullptr);
-}
 
 PairReader::Backends backendsFor(const std::string& url) {
   return {.make_source = [url] { return drivers::makeMediaSource(url); }, .make_decoder = drivers::makeVideoDecoder};
@@ -54,6 +40,7 @@ std::string captureFile(const std::string& display) {
 }
 
 int play(PlayOptions options) {
+  const std::atomic<bool>& stop = stopOnSignals();
   const SourceOptions& source = options.player.source;
   if (auto apart = keepApart({options.report_path, options.record_path, captureFile(options.display)},
                              {source.url, source.depth_url});
@@ -65,6 +52,10 @@ int play(PlayOptions options) {
   if (!display) return tell(display.error());
   auto haptic = drivers::makeHapticDevice(options.haptic, clock);
   if (!haptic) return tell(haptic.error());
+  if (*haptic == nullptr && !options.record_path.empty()) {
+    return tell({"--record " + options.record_path,
+                 {ErrorCode::InvalidArgument, 0, "there is no finger to record with --haptic none; leave one out"}});
+  }
   auto remote = drivers::makeRemoteInput(options.remote, clock);
   if (!remote) return tell(remote.error());
 
@@ -89,19 +80,19 @@ int play(PlayOptions options) {
                                             .remote = remote->get(),
                                             .recorder = recorder ? &*recorder : nullptr,
                                             .backends = backendsFor(url)});
-  const auto played = player.run(stop_wanted);
+  const auto played = player.run(stop);
   const PlayReport report = player.report();
   const int files = finishFiles(report, report_file ? &*report_file : nullptr, recorder ? &*recorder : nullptr);
-  if (!played) return tell(played.error(), kExitFailed);
+  if (!played) return tell(played.error());
   if (files == kExitDone) std::fputs(toText(report).c_str(), stdout);
   return files;
 }
 
 int probeSource(const ProbeOptions& options) {
   const auto result = probe(options.source, backendsFor(options.source.url));
-  if (!result) return tell(result.error(), kExitFailed);
+  if (!result) return tell(result.error());
   std::fputs((options.json ? probeToJson(*result) : probeToText(*result)).c_str(), stdout);
-  return kExitDone;
+  return result->failure ? tell(*result->failure) : kExitDone;
 }
 
 int parseAndRun(int argc, char** argv) {
@@ -116,6 +107,5 @@ int parseAndRun(int argc, char** argv) {
 }  // namespace relievo
 
 int main(int argc, char** argv) {
-  relievo::stopOnSignals();
   return relievo::runProgram("relievo", [&] { return relievo::parseAndRun(argc, argv); });
 }

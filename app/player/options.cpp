@@ -7,6 +7,7 @@
 #include <array>
 
 #include "app/cli/options.h"
+#include "app/player/key_table.h"
 
 namespace relievo {
 namespace {
@@ -18,20 +19,30 @@ constexpr const char* kProgramFooter =
     "  relievo play film.mkv                          colour and depth are two tracks of one file\n"
     "  relievo probe scan.mov --packing tb --depth-code hue\n"
     "                                                 what is in it: colour on top, depth as hue below\n"
-    "\n`relievo play --help` and `relievo probe --help` tell the rest.\n";
+    "\n`relievo play --help` and `relievo probe --help` tell the rest, `relievo-author --help` how to make a film.\n";
 constexpr const char* kProbeFooter =
     "\nExamples:\n"
+    "  relievo probe film.mkv                         its tracks, what its depth means, what a finger will feel of it\n"
     "  relievo probe color.webm --depth depth.webm    two files\n"
-    "  relievo probe --json film.mkv                  for programs\n";
+    "  relievo probe --json film.mkv                  for programs\n"
+    "\nWhat it tells: tracks; `meaning`: each value of the calibration and who said it; `relief`: the codes and "
+    "heights in\n"
+    "use; `touch`: the widths that the finger will feel the relief through, and the error that is left; `needs`: what "
+    "the\n"
+    "film asks for or lacks, and the option to try. Exit code: 0 done, 1 failed at run time, 2 wrong use.\n";
 constexpr const char* kPlayFooter =
     "\nExamples:\n"
     "  relievo play color.webm --depth depth.webm --report run.json\n"
     "      two files, shown off screen, touched by the simulated hand; the figures go to run.json\n"
     "  relievo play scan.mov --packing tb --depth-code hue --stereo anaglyph --loop --duration 60\n"
     "      one file with colour on top and depth as hue below, for red-cyan glasses, again and again for a minute\n"
-    "\nKeys of the remote: play, pause, OK = pause and go on; left, right, rewind, fast forward = 10 s; 3D mode = "
-    "next\n"
-    "stereo layout; stop, back, exit, power = end. Exit code: 0 done, 1 failed at run time, 2 wrong use.\n";
+    "  relievo play film.mkv --display offscreen:film.y4m --haptic sim:hand.csv --remote script:keys.txt\n"
+    "      the picture into a file that ffmpeg reads, finger and keys by scripts\n"
+    "\nA hand script has the line t_s,x_mm,y_mm,z_mm and a row a moment; x right, y up, z toward the viewer, 0,0,0 in "
+    "the\n"
+    "middle of the far plane. A key script has lines such as: 2.5 PLAYPAUSE (seconds, a key's name). Keys, by their "
+    "names:\n";
+constexpr const char* kExitCodes = "\nExit code: 0 done, 1 failed at run time, 2 wrong use.\n";
 
 constexpr double kLongestDurationS = 1e9;
 constexpr double kMostPixels = 16384;  // of a display, across and down
@@ -85,7 +96,7 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
       ->type_name("S");
   command.add_option("--report", play.report_path, "Write what happened, as JSON")->type_name("FILE");
   command.add_option("--record", play.record_path, "Write every tick of the finger, as CSV")->type_name("FILE");
-  command.footer(kPlayFooter);
+  command.footer(kPlayFooter + keyHelp() + kExitCodes);
 }
 
 }  // namespace

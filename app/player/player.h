@@ -80,6 +80,7 @@ class Player {
   void followClock(MonotonicTime now);
   void followEnd(MediaTime position, MonotonicTime now);
   void endOfFilm(MonotonicTime now);
+  void noteMissing();
   void closeSegment(MonotonicTime now);
 
   void followSurface();

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/player/player.h"
+#include "app/player/text_line.h"
 #include "platform/log.h"
 
 namespace relievo {
@@ -171,9 +172,20 @@ void Player::followEnd(MediaTime position, MonotonicTime now) {
 
 void Player::endOfFilm(MonotonicTime now) {
   closeSegment(now);
+  noteMissing();
   apply(PlayerEvent::EndOfFilm);
   if (config_.loop && report_.first_frame_ms) return seek(MediaTime{}, PlayerEvent::Loop, now);
   end(now);
+}
+
+void Player::noteMissing() {
+  const auto noteOne = [this](const std::string& url, Duration missing, const char* done) {
+    if (missing <= Duration(0)) return;
+    note(textLine("%s breaks off %.1f s before its end, cut off or damaged", url.c_str(), toSeconds(missing)), done);
+  };
+  const PairCounters pairs = feed_.counters();
+  noteOne(config_.source.url, pairs.missing, "what is there was played");
+  noteOne(config_.source.depth_url, pairs.depth_missing, "from there on the picture was flat, without force");
 }
 
 void Player::closeSegment(MonotonicTime now) {

@@ -106,12 +106,39 @@ std::vector<std::string> needsOf(const ProbeResult& r) {
   return needs;
 }
 
+// What the container calls a track; nothing where that is one of the words that muxers put there by themselves.
+std::string titleOf(const StreamInfo& s) {
+  for (const char* key : {"TITLE", "NAME", "HANDLER_NAME"}) {
+    const auto found = s.tags.find(key);
+    if (found != s.tags.end() && !found->second.ends_with("Handler")) return found->second;
+  }
+  return "";
+}
+
 std::string describe(const StreamInfo& s) {
   const char* const kind = s.kind == StreamKind::Video ? "video" : s.kind == StreamKind::Audio ? "audio" : "other";
   std::string text = textLine("%d %s %s", s.index, kind, s.codec.c_str());
   if (s.kind == StreamKind::Video) text += textLine(" %d x %d", s.width, s.height);
-  const auto title = s.tags.find("TITLE");
-  return title == s.tags.end() ? text : text + " \"" + title->second + "\"";
+  const std::string title = titleOf(s);
+  return title.empty() ? text : text + " \"" + title + "\"";
+}
+
+Outcome<void> lookAtFilm(const SourceOptions& options, const PairReader::Backends& backends, ProbeResult& result) {
+  PairReader reader(backends);
+  if (auto opened = reader.open(options); !opened) {
+    return failOn(reader.failedThing().empty() ? options.url : reader.failedThing(), opened.error());
+  }
+  result.film = reader.info();
+  result.decoder = backends.make_decoder()->capabilities().name;
+  if (auto looked = lookAtPairs(reader, result); !looked) return looked;
+  result.needs = needsOf(result);
+  return {};
+}
+
+std::string trackLines(const ProbeResult& r) {
+  std::string text;
+  for (const ProbedTrack& t : r.tracks) text += "track   " + t.source + " " + describe(t.stream) + "\n";
+  return text;
 }
 
 }  // namespace
@@ -124,21 +151,14 @@ Outcome<ProbeResult> probe(const SourceOptions& options, const PairReader::Backe
       return std::unexpected(listed.error());
     }
   }
-  PairReader reader(backends);
-  if (auto opened = reader.open(options); !opened) {
-    return failOn(reader.failedThing().empty() ? options.url : reader.failedThing(), opened.error());
-  }
-  result.film = reader.info();
-  result.decoder = backends.make_decoder()->capabilities().name;
-  if (auto looked = lookAtPairs(reader, result); !looked) return std::unexpected(looked.error());
-  result.needs = needsOf(result);
+  if (auto looked = lookAtFilm(options, backends, result); !looked) result.failure = looked.error();
   return result;
 }
 
 std::string probeToText(const ProbeResult& r) {
+  std::string text = trackLines(r);
+  if (r.failure) return text;
   const FilmInfo& f = r.film;
-  std::string text;
-  for (const ProbedTrack& t : r.tracks) text += "track   " + t.source + " " + describe(t.stream) + "\n";
   text += textLine("color   %s %d x %d, %.3g frames a second", f.color_codec.c_str(), f.color_width, f.color_height,
                    framesPerSecond(f));
   text += f.duration > Duration(0) ? textLine(", %.2f s\n", toSeconds(f.duration)) : std::string(", length unknown\n");
@@ -171,6 +191,10 @@ std::string probeToJson(const ProbeResult& r) {
                               {"height", t.stream.height},
                               {"duration_s", toSeconds(t.stream.duration)},
                               {"tags", t.stream.tags}});
+  }
+  if (r.failure) {
+    json["failure"] = r.failure->thing + ": " + r.failure->error.message;
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   }
   json["color"] = {{"codec", f.color_codec}, {"width", f.color_width}, {"height", f.color_height}};
   json["depth"] = nullptr;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,7 @@ struct DepthUse {
 
 struct ProbeResult {
   std::vector<ProbedTrack> tracks;
+  std::optional<Failure> failure;  // the tracks are there, but no film was found in them, and the rest is empty
   FilmInfo film;
   PairCounters pairs;  // of the first ones
   DisplayVolume volume;
@@ -38,6 +40,7 @@ struct ProbeResult {
   std::vector<std::string> needs;  // one line each
 };
 
+// Fails where a source does not open.
 [[nodiscard]] Outcome<ProbeResult> probe(const SourceOptions& options, const PairReader::Backends& backends);
 [[nodiscard]] std::string probeToText(const ProbeResult& result);
 [[nodiscard]] std::string probeToJson(const ProbeResult& result);

@@ -34,6 +34,7 @@ Json videoPart(const PlayReport& r) {
   return {{"frames_shown", r.frames_shown},
           {"frames_dropped", r.frames_dropped},
           {"pairs_mismatched", r.pairs.mismatched},
+          {"pairs_without_depth", r.pairs.without_depth},
           {"pairs_damaged", r.pairs.damaged},
           {"first_frame_ms", orNull(r.first_frame_ms)},
           {"display", r.display},

@@ -18,9 +18,13 @@ constexpr const char* kTagPrefix = "DEPTH_";
 constexpr const char* kUnknownKey = "unknown calibration key; known are law, polarity, range, bits, invalid, near, far";
 constexpr const char* kBadValue =
     "calibration value out of its range; law=linear|inverse polarity=near-high|near-low range=full|limited "
-    "bits=8..16 invalid=CODE|none near=MM far=MM";
+    "bits=8..16 invalid=0..65535|none near and far in mm, 1e-3..1e9";
 constexpr const char* kNoValue = "calibration is written KEY=VALUE,KEY=VALUE,..";
 constexpr const char* kFarBeforeNear = "calibration has far <= near; give both in mm, far the larger";
+constexpr const char* kTooManyBits = "calibration has more bits than the depth's samples; leave bits out";
+constexpr const char* kNoSuchCode =
+    "calibration has an invalid code that the depth's bits cannot hold; give one below 2^bits";
+constexpr double kNearestMm = 1e-3, kFarthestMm = 1e9;
 
 std::string_view trim(std::string_view text) {
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front())) != 0) text.remove_prefix(1);
@@ -61,7 +65,7 @@ bool apply(DepthCalibration& c, std::string_view key, std::string_view value) {
     c.invalid_code = code;
   } else {
     const auto mm = number<double>(value);
-    if (!mm || !std::isfinite(*mm) || *mm <= 0) return false;
+    if (!mm || !(*mm >= kNearestMm && *mm <= kFarthestMm)) return false;
     (key == "near" ? c.near_mm : c.far_mm) = *mm;
   }
   return true;
@@ -76,6 +80,22 @@ std::string written(const DepthCalibration& c, std::string_view key) {
   if (key == "invalid") return c.invalid_code ? std::to_string(*c.invalid_code) : "none";
   const auto end = std::to_chars(text, text + sizeof text, key == "near" ? c.near_mm : c.far_mm).ptr;
   return {text, end};
+}
+
+// Nothing wrong: null.
+const char* misfit(const DepthCalibration& c, int sample_bits) {
+  if (c.bits > sample_bits) return kTooManyBits;
+  if (c.code == DepthCode::Luma && c.invalid_code.value_or(0) >> c.bits != 0) return kNoSuchCode;
+  return nullptr;
+}
+
+// What the settings say together is wrong whatever the film is.
+const char* contradiction(const CalibrationSettings& settings) {
+  DepthCalibration c;
+  c.bits = 16;
+  for (const auto& [key, value] : settings) apply(c, key, value);
+  if (settings.contains("near") && settings.contains("far") && c.far_mm <= c.near_mm) return kFarBeforeNear;
+  return misfit(c, 16);
 }
 
 }  // namespace
@@ -99,6 +119,7 @@ Result<CalibrationSettings> parseCalibration(std::string_view text) {
     if (!apply(scratch, key, value)) return fail(ErrorCode::InvalidArgument, kBadValue);
     settings[std::string(key)] = value;
   }
+  if (const char* wrong = contradiction(settings); wrong != nullptr) return fail(ErrorCode::InvalidArgument, wrong);
   return settings;
 }
 
@@ -128,7 +149,7 @@ Result<CalibrationChoice> chooseCalibration(const CalibrationLayers& layers, con
   CalibrationChoice choice;
   DepthCalibration& c = choice.calibration;
   c.code = code;
-  c.bits = std::max<int>(8, depth_frame.components[0].bits);
+  const int sample_bits = c.bits = std::max<int>(8, depth_frame.components[0].bits);
   const bool limited_by_nature = depth_frame.model == ColorModel::Yuv && depth_frame.range != ColorRange::Full;
   c.range = limited_by_nature || depth_frame.range == ColorRange::Limited ? ColorRange::Limited : ColorRange::Full;
   if (code == DepthCode::Hue) {
@@ -143,21 +164,34 @@ Result<CalibrationChoice> chooseCalibration(const CalibrationLayers& layers, con
       {CalibrationOrigin::SideFile, &layers.side_file},
       {CalibrationOrigin::ContainerTags, &layers.tags},
   }};
+  const auto refuse = [](CalibrationOrigin said_by, const char* wrong) {
+    return fail(said_by == CalibrationOrigin::CommandLine ? ErrorCode::InvalidArgument : ErrorCode::Corrupt, wrong);
+  };
+  auto distances_by = CalibrationOrigin::Default;  // the highest that said near or far
   for (const char* key : kKeys) {
     const bool from_stream = std::string_view(key) == "bits" || (std::string_view(key) == "range" && signalled);
     CalibrationOrigin said_by = from_stream ? CalibrationOrigin::StreamSignalling : CalibrationOrigin::Default;
     for (const auto& [origin, settings] : order) {
       const auto found = settings->find(key);
       if (found == settings->end()) continue;
-      if (!apply(c, key, found->second)) return fail(ErrorCode::InvalidArgument, kBadValue);
+      DepthCalibration with = c;
+      if (!apply(with, key, found->second)) return refuse(origin, kBadValue);
+      if (const char* wrong = misfit(with, sample_bits); wrong != nullptr) {
+        if (origin == CalibrationOrigin::ContainerTags) continue;  // left over from another coding
+        return refuse(origin, wrong);
+      }
+      c = with;
       said_by = origin;
       choice.origin = std::min(choice.origin, origin);
       break;
     }
+    if (std::string_view(key) == "near" || std::string_view(key) == "far") {
+      distances_by = std::min(distances_by, said_by);
+    }
     if (!choice.explanation.empty()) choice.explanation += ", ";
     choice.explanation += std::string(key) + "=" + written(c, key) + " (" + name(said_by) + ")";
   }
-  if (c.far_mm <= c.near_mm) return fail(ErrorCode::InvalidArgument, kFarBeforeNear);
+  if (c.far_mm <= c.near_mm) return refuse(distances_by, kFarBeforeNear);
   return choice;
 }
 

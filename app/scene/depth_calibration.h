@@ -50,7 +50,8 @@ enum class CalibrationOrigin : std::uint8_t { CommandLine, SideFile, ContainerTa
 using CalibrationSettings = std::map<std::string, std::string>;
 
 // "law=inverse,near=500" or the lines of a side file ("key = value", # begins a comment). InvalidArgument, naming
-// nothing more than the rule that was broken, for an unknown key or a value out of its range.
+// nothing more than the rule that was broken, for an unknown key, a value out of its range (near and far: 1e-3 to 1e9
+// mm) or values that contradict one another.
 [[nodiscard]] Result<CalibrationSettings> parseCalibration(std::string_view text);
 // The DEPTH_ tags among a container's or a stream's tags; those that make no sense are left out.
 [[nodiscard]] CalibrationSettings calibrationFromTags(const std::map<std::string, std::string>& tags);
@@ -64,8 +65,9 @@ struct CalibrationChoice {
 };
 
 // The layers in order of precedence; what none of them says comes from the frame's own signalling (bits, range: full
-// for gray and full-range formats, limited for other YUV) and then the defaults. InvalidArgument where the whole makes
-// no sense (far <= near).
+// for gray and full-range formats, limited for other YUV) and then the defaults. Where the whole makes no sense (far <=
+// near, more bits than the frame's samples have, an invalid code beyond them): InvalidArgument when the command line
+// has said it, Corrupt when a file has; bits and an invalid code of tags are left out then.
 struct CalibrationLayers {
   CalibrationSettings command_line;
   CalibrationSettings side_file;

@@ -44,7 +44,7 @@ Error openError(int code) noexcept {
     case AVERROR_PROTOCOL_NOT_FOUND:
       return {ErrorCode::Unsupported, 0, "this kind of address is unknown here; use a file, http, rtsp, udp, .."};
     case AVERROR(EISDIR):
-      return {ErrorCode::InvalidArgument, EISDIR, "it is a folder; name a file in it"};
+      return {ErrorCode::Unsupported, EISDIR, "it is a folder; name a file in it"};
     case AVERROR(ETIMEDOUT):
       return {ErrorCode::Timeout, ETIMEDOUT, "no answer from the source in time; check the network"};
     case AVERROR(ECONNREFUSED):

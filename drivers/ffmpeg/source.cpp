@@ -31,6 +31,8 @@ constexpr const char* kReconnectPatienceS = "4";
 constexpr Duration kNap = std::chrono::milliseconds(2);  // between tries where the library says "again"
 constexpr const char* kCannotSeek = "it cannot seek: a live stream or a pipe";
 constexpr int kDamagedReads = 64;  // in a row, until a broken container counts as ended
+// A container's length may count a last picture longer than its packet, or sound that a codec adds at the end.
+constexpr Duration kWholeWithin = std::chrono::milliseconds(250);
 
 // Tells the library when to give up a call that waits.
 class Watch {
@@ -105,6 +107,7 @@ class FfmpegSource final : public MediaSource {
     if (isTextArt(*context)) return std::unexpected(openError(AVERROR_INVALIDDATA));
     timed_ = isTimed(*context);
     start_ = startOf(*context);
+    latest_end_ = Duration(0);
     chooseProgramme(*context);
     leading_stream_ = std::max(av_find_default_stream_index(context), 0);
     earliest_stream_ = earliestStream(*context, leading_stream_);
@@ -148,6 +151,7 @@ class FfmpegSource final : public MediaSource {
     for (;;) {
       if (watch_.cancelled()) return std::unexpected(watch_.explain({}));
       const int got = av_read_frame(context_.get(), packet.get());
+      if (got >= 0) noteEnd(*packet);
       if (got >= 0 && isWanted(*packet)) return packetOf(std::move(packet));
       if (got >= 0) {
         av_packet_unref(packet.get());
@@ -157,6 +161,21 @@ class FfmpegSource final : public MediaSource {
         return endOrError(got);
       }
     }
+  }
+
+  void noteEnd(const AVPacket& packet) noexcept {
+    const std::int64_t begin = packet.pts != AV_NOPTS_VALUE ? packet.pts : packet.dts;
+    if (begin == AV_NOPTS_VALUE) return;
+    const AVStream& stream = *context_->streams[packet.stream_index];
+    latest_end_ = std::max(latest_end_, durationFrom(begin + packet.duration, stream.time_base) - start_);
+  }
+
+  // Only what the container itself says of its length is believed, and only of a single film.
+  Duration missingTime() const noexcept override {
+    const bool told = timed_ && context_->nb_programs < 2 && context_->duration > 0 &&
+                      context_->duration_estimation_method == AVFMT_DURATION_FROM_STREAM;
+    const Duration missing = told ? durationFrom(context_->duration, kMicrosecond) - latest_end_ : Duration(0);
+    return missing > kWholeWithin ? missing : Duration(0);
   }
 
   // Not side data alone, nor what was read of another programme before this one was chosen.
@@ -196,6 +215,7 @@ class FfmpegSource final : public MediaSource {
     if (pipe_.valid()) return fail(ErrorCode::Unsupported, kCannotSeek);
     if (!timed_) return openContext();  // pictures are counted from the beginning
     watch_.begin(kReadPatience);
+    latest_end_ = target.time_since_epoch();  // what lies before it is not missing
     const bool to_beginning = target <= MediaTime{};
     if (to_beginning && seeksByBytes() && av_seek_frame(context_.get(), -1, 0, AVSEEK_FLAG_BYTE) >= 0) return {};
     // By the leading stream's key frames; to the beginning by those of the stream that begins first.
@@ -233,7 +253,8 @@ class FfmpegSource final : public MediaSource {
   UniqueFd pipe_;  // outlives the context that reads from it
   FormatPtr context_;
   bool timed_ = true;
-  Duration start_{0};  // the container's start time
+  Duration start_{0};       // the container's start time
+  Duration latest_end_{0};  // of all packets read so far, from the start on
   int leading_stream_ = 0;
   int earliest_stream_ = 0;
 };

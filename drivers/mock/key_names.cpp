@@ -6,6 +6,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace relievo {
 namespace {
@@ -174,15 +178,59 @@ bool equalInUpperCase(std::string_view word, std::string_view upper) noexcept {
                     [](char a, char b) { return std::toupper(static_cast<unsigned char>(a)) == b; });
 }
 
+std::string_view withoutPrefix(std::string_view name) noexcept {
+  constexpr std::string_view kPrefix = "KEY_";
+  if (equalInUpperCase(name.substr(0, kPrefix.size()), kPrefix)) name.remove_prefix(kPrefix.size());
+  return name;
+}
+
+// Letters and digits alone, in upper case.
+std::string essence(std::string_view word) {
+  std::string kept;
+  for (const char c : word) {
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
+      kept += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    }
+  }
+  return kept;
+}
+
+// Letters to put in, take out or change (Levenshtein 1966).
+std::size_t editDistance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t k = 1; k <= b.size(); ++k) {
+      const std::size_t changed = diagonal + (a[i - 1] == b[k - 1] ? 0 : 1);
+      diagonal = row[k];
+      row[k] = std::min({changed, row[k] + 1, row[k - 1] + 1});
+    }
+  }
+  return row.back();
+}
+
 }  // namespace
 
 std::optional<std::uint16_t> keyCode(std::string_view name) noexcept {
-  constexpr std::string_view kPrefix = "KEY_";
-  if (equalInUpperCase(name.substr(0, kPrefix.size()), kPrefix)) name.remove_prefix(kPrefix.size());
+  name = withoutPrefix(name);
   for (const KeyName& key : kKeys) {
     if (equalInUpperCase(name, key.name)) return key.code;
   }
   return std::nullopt;
+}
+
+std::string_view nearestKeyName(std::string_view word) {
+  const std::string wanted = essence(withoutPrefix(word));
+  std::size_t least = wanted.size() / 3 + 1;  // so many letters may be wrong, less one
+  std::string_view nearest;
+  for (const KeyName& key : kKeys) {
+    const std::size_t distance = editDistance(wanted, essence(key.name));
+    if (distance >= least) continue;
+    least = distance;
+    nearest = key.name;
+  }
+  return nearest;
 }
 
 }  // namespace relievo

@@ -31,6 +31,7 @@ class MockSource final : public MediaSource {
     interrupted_ = false;
     if (profile_.fail_open) return fail(*profile_.fail_open, "the mock source was told not to open");
     packets_ = 0;
+    latest_end_ = MediaTime{};
     Description description{.streams = {}, .tags = profile_.tags, .duration = Duration(0)};
     for (Cursor& cursor : tracks_) {
       cursor.next = 0;
@@ -99,6 +100,7 @@ class MockSource final : public MediaSource {
     packet.pts = packet.dts = cursor.track->pts(cursor.next);
     packet.keyframe = cursor.next % std::max(cursor.track->keyframe_interval, 1) == 0;
     packet.owner = content;
+    latest_end_ = std::max(latest_end_, *packet.pts + cursor.track->frame_period);
     ++cursor.next;
     cursor.skipMissing();
     return packet;
@@ -108,6 +110,7 @@ class MockSource final : public MediaSource {
     if (interrupted_) return fail(ErrorCode::Cancelled, "seeking was interrupted");
     if (packets_ >= profile_.lose_after_packets) return fail(ErrorCode::Lost, "the mock source has gone away");
     if (profile_.live) return fail(ErrorCode::Unsupported, "a live source cannot seek");
+    latest_end_ = target;  // what lies before it is not missing
     for (Cursor& cursor : tracks_) {
       const MockTrack& track = *cursor.track;
       const auto frame = (target - track.pts(0)) / track.frame_period;
@@ -118,6 +121,10 @@ class MockSource final : public MediaSource {
     return {};
   }
 
+  [[nodiscard]] Duration missingTime() const noexcept override {
+    return latest_end_ < MediaTime(duration()) ? duration() - latest_end_.time_since_epoch() : Duration(0);
+  }
+
   void closeSource() noexcept override { stalled_ = false; }
   void interrupted() noexcept override { interrupted_ = true; }
 
@@ -125,6 +132,7 @@ class MockSource final : public MediaSource {
   Clock& clock_;
   std::vector<Cursor> tracks_;
   std::uint64_t packets_ = 0;
+  MediaTime latest_end_;  // of the packets handed out
   bool stalled_ = false;
   std::atomic<bool> interrupted_{false};
 };

@@ -34,19 +34,36 @@ std::optional<Duration> parseTime(std::string_view word) {
   return fromSeconds(seconds);
 }
 
-// Nothing wrong: null.
-const char* addLine(std::string_view line, std::vector<ScriptedKey>& keys) {
+// What is left of a line, without blanks around it.
+std::string_view restOf(std::string_view line) {
+  const auto begin = line.find_first_not_of(kBlanks);
+  if (begin == std::string_view::npos) return {};
+  return line.substr(begin, line.find_last_not_of(kBlanks) - begin + 1);
+}
+
+// `place` names the line.
+Outcome<void> addLine(std::string_view line, const std::string& place, std::vector<ScriptedKey>& keys) {
+  const auto wrong = [](const std::string& thing, const char* what) {
+    return failOn(thing, {ErrorCode::InvalidArgument, 0, what});
+  };
   line = line.substr(0, line.find('#'));
   const std::string_view time_word = nextWord(line);
-  if (time_word.empty()) return nullptr;
+  if (time_word.empty()) return {};
   const auto at = parseTime(time_word);
-  if (!at) return "does not begin with a time; a line is: SECONDS KEYNAME";
-  if (!keys.empty() && *at < keys.back().at) return "its time is before that of the line above; put the lines in order";
-  const auto code = keyCode(nextWord(line));
-  if (!code) return "has no key that is known; a line is: SECONDS KEYNAME, such as 2.0 PLAYPAUSE";
-  if (!nextWord(line).empty()) return "goes on after the key's name; a line is: SECONDS KEYNAME";
+  if (!at) return wrong(place, "does not begin with a time; a line is: SECONDS KEYNAME, such as 2.0 PLAYPAUSE");
+  if (!keys.empty() && *at < keys.back().at) {
+    return wrong(place, "its time is before that of the line above; put the lines in order");
+  }
+  const std::string_view name = restOf(line);
+  if (name.empty()) return wrong(place, "has no key; a line is: SECONDS KEYNAME, such as 2.0 PLAYPAUSE");
+  const auto code = keyCode(name);
+  if (!code) {
+    const std::string_view nearest = nearestKeyName(name);
+    const std::string hint = nearest.empty() ? "" : " (" + std::string(nearest) + "?)";
+    return wrong(place + ": " + std::string(name) + hint, "is no key's name; relievo play --help lists the names");
+  }
   keys.push_back({*at, *code});
-  return nullptr;
+  return {};
 }
 
 class ScriptedRemote final : public RemoteInput {
@@ -80,9 +97,8 @@ Outcome<std::vector<ScriptedKey>> parseKeyScript(std::string_view text, const st
   std::vector<ScriptedKey> keys;
   for (int number = 1; !text.empty(); ++number) {
     const auto length = std::min(text.find('\n'), text.size());
-    if (const char* wrong = addLine(text.substr(0, length), keys); wrong != nullptr) {
-      return failOn(script_name + ":" + std::to_string(number), {ErrorCode::InvalidArgument, 0, wrong});
-    }
+    const std::string place = script_name + ":" + std::to_string(number);
+    if (auto added = addLine(text.substr(0, length), place, keys); !added) return std::unexpected(added.error());
     text.remove_prefix(std::min(length + 1, text.size()));
   }
   return keys;

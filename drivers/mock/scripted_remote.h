@@ -24,8 +24,8 @@ struct ScriptedKey {
 //   # pause the film after two seconds
 //   2.0  PLAYPAUSE
 //
-// What follows a '#' is ignored, and so are empty lines; times do not decrease. InvalidArgument otherwise,
-// and the failure names the script's line.
+// What follows a '#' is ignored, and so are empty lines; times do not decrease. InvalidArgument otherwise, and
+// the failure names the script's line, and of a name that is not known the nearest one.
 [[nodiscard]] Outcome<std::vector<ScriptedKey>> parseKeyScript(std::string_view text, const std::string& script_name);
 
 // NotFound when the file cannot be read.

@@ -93,6 +93,16 @@ TEST_P(MediaSourceContract, TheEndComesOnceAndStays) {
   }
 }
 
+TEST_P(MediaSourceContract, OfAWholeFilmNothingIsMissing) {
+  const auto source = openSource();
+  EXPECT_EQ(source->missing(), Duration(0));
+  (void)readAll(*source);
+  EXPECT_EQ(source->missing(), Duration(0));
+  ASSERT_TRUE(source->seek(MediaTime(1h)));
+  (void)readAll(*source);
+  EXPECT_EQ(source->missing(), Duration(0));
+}
+
 TEST_P(MediaSourceContract, PacketsOutliveTheSource) {
   auto source = openSource();
   const auto packet = source->read();

@@ -87,8 +87,25 @@ class LabCharts : public testing::Test {
   static inline test::ProgramResult result_;
 };
 
-TEST_F(LabCharts, SaysNothingWhenAllIsWell) {
-  EXPECT_EQ(result_.err, "");
+TEST_F(LabCharts, SaysHowFarItIsAndWhereThePageLies) {
+  std::istringstream lines(result_.err);  // of a machine so slow that there are any
+  for (std::string line; std::getline(lines, line);) EXPECT_TRUE(line.starts_with("relievo-lab: at work: ")) << line;
+  EXPECT_EQ(result_.out.substr(0, result_.out.find(':')), out("index.html"));
+}
+
+TEST_F(LabCharts, WhereContactWasLostItIsMarkedSo) {
+  const Csv all(out("speed-accuracy.csv")), parts(out("parts.csv"));
+  int lost = 0;
+  for (const CsvRow& row : all.rows()) {
+    if (row.at("lost_ticks").empty() || row.at("contact_lost").empty()) continue;
+    const auto number = [&](const char* name) { return std::strtod(row.at(name).c_str(), nullptr); };
+    EXPECT_EQ(row.at("contact_lost") == "1", number("lost_ticks") > std::floor(number("judged_ticks") / 100));
+    lost += row.at("contact_lost") == "1" ? 1 : 0;
+    if (row.at("scene") != "all" || row.at("depth") != "8-bit") continue;
+    EXPECT_EQ(parts.value({{"method", row.at("method")}}, "contact_lost_8_bit"), number("contact_lost"));
+  }
+  EXPECT_GT(lost, 0) << "a still-map method loses a moving surface";
+  EXPECT_NE(textOf(out("speed-accuracy.svg")).find("hollow: contact lost"), std::string::npos);
 }
 
 TEST_F(LabCharts, RelievoIsManyTimesAsExactOnEightBitsAsThePapersMethod) {

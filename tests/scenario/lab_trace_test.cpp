@@ -235,6 +235,51 @@ TEST_F(LabTrace, SaysWhichLineIsWrongAndLeavesNoHalfOfAnOutput) {
   EXPECT_EQ(readOut().size(), 1u);
 }
 
+TEST_F(LabTrace, TellsThePartsThatItReallyUsed) {
+  makeFilm(32, 24, 30, 6, [](double x, double, double) { return 20 + 0.1 * x; });
+  std::ofstream(folder_ / "hip.csv") << "t_s,x_mm,y_mm,z_mm\n0,0,0,30\n";
+  const auto said = [&](const std::string& words) {
+    return test::runProgram("relievo-lab trace --depth " + (folder_ / "film.mkv") + " --hip " + (folder_ / "hip.csv") +
+                                " --out " + (folder_ / "out.csv") + " --method " + words,
+                            folder_ / ".")
+        .out;
+  };
+  const auto holds = [](const std::string& text, const char* part) { return text.find(part) != std::string::npos; };
+  const std::string own = said("relievo");
+  EXPECT_TRUE(holds(own, "parts: bspline in space, levels of ")) << own;
+  EXPECT_TRUE(holds(own, "plan: steps of ")) << own;
+  const std::string held = said("relievo --time hold");
+  EXPECT_TRUE(holds(held, " mm, hold in time")) << held;
+  EXPECT_FALSE(holds(held, "fitted")) << "the plan's, not what was used: " << held;
+  const std::string quadratic = said("relievo --space quadratic");
+  EXPECT_TRUE(holds(quadratic, "parts: quadratic in space, levels of ")) << quadratic;
+  for (const auto& [words, parts] :
+       {std::pair{"relievo --space triangles", "parts: triangles in space, linear in time\n"},
+        {"proxy-graph", "parts: triangles in space, hold in time\n"},
+        {"proxy-graph --time linear", "parts: triangles in space, linear in time\n"}}) {
+    const std::string text = said(words);
+    EXPECT_TRUE(holds(text, parts)) << text;
+    EXPECT_FALSE(holds(text, "levels")) << text;
+  }
+}
+
+TEST_F(LabTrace, OptionsThatDoNotGoTogetherAreNamedBoth) {
+  struct Case {
+    const char *words, *named;
+  };
+  for (const Case& c : {Case{"proxy-graph --space bspline", "--space bspline with --method proxy-graph: "},
+                        Case{"penalty --time fitted", "--time fitted with --method penalty: "},
+                        Case{"proxy-blend --time linear", "--time linear with --method proxy-blend: "},
+                        Case{"relievo --space triangles --time bspline", "--time bspline with --space triangles: "}}) {
+    const auto result = test::runProgram(
+        std::string("relievo-lab trace --depth none.mkv --hip none.csv --out none.csv --method ") + c.words,
+        folder_ / ".");
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_TRUE(result.err.starts_with(std::string("relievo-lab: ") + c.named)) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  }
+}
+
 TEST_F(LabTrace, WrongWordsAreOneLineAndCodeTwo) {
   const std::string whole = "relievo-lab trace --depth none.mkv --hip none.csv --out none.csv --method proxy-graph ";
   for (const char* words : {"--packing diagonal", "--depth-code smell", "--time later", "--guard dog",

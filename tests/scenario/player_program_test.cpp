@@ -4,10 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "tests/support/clip_maker.h"
+#include "tests/support/process.h"
 #include "tests/support/program.h"
 
 namespace relievo {
@@ -61,6 +62,20 @@ class PlayerProgram : public testing::Test {
     EXPECT_THAT(result.err, HasSubstr(thing));
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
     EXPECT_EQ(result.out, "");
+  }
+
+  // Without an end, with both files to write.
+  [[nodiscard]] std::vector<std::string> endless(const std::string& film) const {
+    return {std::string(RELIEVO_BIN_DIR) + "/relievo",
+            "play",
+            at(film),
+            "--loop",
+            "--display",
+            "mock",
+            "--report",
+            at("r.json"),
+            "--record",
+            at("t.csv")};
   }
 
   test::TemporaryFolder folder_;
@@ -137,6 +152,13 @@ TEST_F(PlayerProgram, AFileCutInTheMiddlePlaysWhatIsThere) {
   const int seen = r["video"]["frames_shown"].get<int>() + r["video"]["frames_dropped"].get<int>();
   EXPECT_GT(seen, 5);
   EXPECT_LT(seen, 25);
+  EXPECT_THAT(result.err, HasSubstr("film.mkv breaks off 0."));
+  EXPECT_THAT(result.err, HasSubstr("what is there was played"));
+  bool told = false;
+  for (const json& fault : r["faults"]) {
+    told = told || fault["what"].get<std::string>().find("breaks off") != std::string::npos;
+  }
+  EXPECT_TRUE(told) << r["faults"];
 }
 
 TEST_F(PlayerProgram, WithoutDepthItSaysSoOnceAndPlays) {
@@ -186,7 +208,33 @@ TEST_F(PlayerProgram, WrongUseIsCodeTwoAndOneLine) {
   expectOneLine(play("film.mkv --haptic glove"), 2, "glove");
   expectOneLine(play("film.mkv --remote mind"), 2, "mind");
   expectOneLine(play("film.mkv --calibration near=-5"), 2, "near=-5");
+  expectOneLine(play("film.mkv --haptic none --record " + at("t.csv")), 2, "--record");
   expectNothingLeft({});
+}
+
+// Some words can be judged only beside the film.
+TEST_F(PlayerProgram, ACalibrationThatDoesNotFitTheFilmIsWrongUse) {
+  ClipTrack bytes = depth(3);
+  bytes.pix_fmt = "gray";
+  test::makeClip(at("film.mkv"), {color(3), bytes});
+  for (const char* words : {"invalid=300", "bits=12", "near=6000"}) {
+    expectOneLine(play(at("film.mkv") + " --calibration " + words), 2, "calibration");
+    const auto probed = test::runProgram("relievo probe " + at("film.mkv") + " --calibration " + words, at(""));
+    EXPECT_EQ(probed.exit_code, 2) << probed.err;
+  }
+  std::ofstream(at("camera.txt")) << "near = 6000\n";
+  expectOneLine(play(at("film.mkv") + " --calibration " + at("camera.txt")), 1, "calibration");
+}
+
+// The simulated hand has no eyes: it is told where there is something.
+TEST_F(PlayerProgram, TheSimulatedHandFindsWhatThereIsBesideAHole) {
+  ClipTrack ring = depth(75);
+  ring.pix_fmt = "gray";
+  ring.sample = [](int, int c, int r, int) { return std::hypot(c - 32, r - 24) < 14 ? 0u : 128u; };
+  test::makeClip(at("film.mkv"), {color(75), ring});
+  const auto result = play(at("film.mkv") + " --calibration invalid=0 --report " + at("r.json"));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_GT(reportOf("r.json")["haptic"]["contact_share"].get<double>(), 0.0);
 }
 
 TEST_F(PlayerProgram, AScriptThatIsMissingOrWrongIsOneLine) {
@@ -215,6 +263,13 @@ TEST_F(PlayerProgram, ProbeTellsWhatIsInASource) {
   EXPECT_EQ(j["depth"]["codes"], (json{1000, 65000}));
   EXPECT_EQ(j["color"]["width"], 64);
 
+  // The tracks are listed whatever is wrong with the film in them.
+  const auto refused = test::runProgram("relievo probe --calibration bits=8,near=9000 " + at("film.mkv"), at(""));
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.out, HasSubstr("0 video ffv1 64 x 48 \"color\""));
+  EXPECT_THAT(refused.out, HasSubstr("1 video ffv1 64 x 48 \"depth\""));
+  EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
+
   test::makeClip(at("flat.mkv"), {color(5)});
   EXPECT_THAT(test::runProgram("relievo probe " + at("flat.mkv"), at("")).out, HasSubstr("give --depth"));
 }
@@ -222,26 +277,23 @@ TEST_F(PlayerProgram, ProbeTellsWhatIsInASource) {
 // Ctrl-C in the middle of an endless film: code 0 and a whole report.
 TEST_F(PlayerProgram, ASignalEndsTheFilmInGoodOrder) {
   test::makeClip(at("film.mkv"), {color(), depth()});
-  const std::string program = std::string(RELIEVO_BIN_DIR) + "/relievo";
-  const std::string film = at("film.mkv"), report = at("r.json"), record = at("t.csv");
-  const pid_t child = ::fork();
-  if (child == 0) {
-    if (std::freopen("/dev/null", "w", stdout) == nullptr || std::freopen("/dev/null", "w", stderr) == nullptr)
-      ::_exit(9);
-    ::execl(program.c_str(), program.c_str(), "play", film.c_str(), "--loop", "--display", "mock", "--report",
-            report.c_str(), "--record", record.c_str(), nullptr);
-    ::_exit(9);
-  }
-  // It listens to signals before it makes its temporary files.
-  const auto begun = [&] { return std::distance(fs::directory_iterator(at("")), fs::directory_iterator{}) > 1; };
-  while (!begun()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  test::Process player(endless("film.mkv"), at("said.txt"));
+  while (!player.catches(SIGINT) && player.isRunning()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
-  ::kill(child, SIGINT);
-  int status = 0;
-  ASSERT_EQ(::waitpid(child, &status, 0), child);
-  ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 0);
+  player.send(SIGINT);
+  EXPECT_EQ(player.wait(), 0);
   EXPECT_EQ(reportOf("r.json")["states"].back(), "idle");
+}
+
+TEST_F(PlayerProgram, ASecondSignalEndsItAtOnceAndLeavesNothing) {
+  test::makeClip(at("film.mkv"), {color(), depth()});
+  for (const int second : {SIGINT, SIGHUP}) {
+    test::Process player(endless("film.mkv"), at("said.txt"));
+    while (!player.catches(SIGHUP) && player.isRunning()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    player.sendBoth(SIGTERM, second);
+    EXPECT_LT(player.wait(), 0) << "ended by a signal";
+    expectNothingLeft({"film.mkv", "said.txt"});
+  }
 }
 
 TEST_F(PlayerProgram, PlaysRealFootage) {

@@ -133,6 +133,7 @@ TEST_F(PlayerScenario, ASeekBeyondTheEndEndsTheFilm) {
   EXPECT_EQ(bench_.states(), "boot idle opening buffering playing seeking buffering ended idle");
   EXPECT_THAT(bench_.report.seeks, SizeIs(1));
   EXPECT_FALSE(bench_.report.seeks[0].picture_s);
+  EXPECT_EQ(bench_.faults("breaks off"), 0u);
 }
 
 TEST_F(PlayerScenario, ASeekWhilePausedShowsItsPictureAndStaysPaused) {
@@ -270,6 +271,18 @@ TEST_F(PlayerScenario, AFilmThatIsCutOffPlaysWhatIsThere) {
   playsWell();
   EXPECT_EQ(bench_.states(), kWholeFilm);
   EXPECT_EQ(bench_.report.frames_shown, 41u);
+  // 81 packets: the 41st colour picture, the last, ends at 1.64 s of 4.
+  ASSERT_EQ(bench_.faults("film breaks off 2.4 s before its end"), 1u);
+  EXPECT_NEAR(bench_.report.faults.back().time_s, 1.64, 0.05);
+}
+
+TEST_F(PlayerScenario, ADepthFileThatIsCutOffIsSaidSo) {
+  bench_.sources["film"].tracks.pop_back();
+  bench_.sources["depth"] = {.tracks = {PlayerBench::depthTrack(100)}, .end_after_packets = 50};
+  bench_.config.source.depth_url = "depth";
+  playsWell();
+  EXPECT_EQ(bench_.report.frames_shown, 100u);
+  EXPECT_EQ(bench_.faults("depth breaks off 2.0 s before its end"), 1u);
 }
 
 TEST_F(PlayerScenario, AFilmThatDoesNotOpenIsAFault) {

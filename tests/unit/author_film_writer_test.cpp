@@ -192,6 +192,20 @@ TEST_P(AuthorFilmWriter, KeepsTheTimes) {
   }
 }
 
+TEST_P(AuthorFilmWriter, NamesItsTracks) {
+  writeFilm(
+      path(), formatOf(64, 48), regularTimes(2), [](int) { return depthPicture(64, 48, [](int, int) { return 9; }); },
+      [](int k) { return k == 0; });
+  const ReadFilm film = readFilm(path());
+  ASSERT_EQ(film.streams.size(), 2u);
+  const bool matroska = std::string(GetParam()) == ".mkv";
+  for (const char* key : matroska ? std::vector{"TITLE"} : std::vector{"TITLE", "HANDLER_NAME"}) {
+    ASSERT_TRUE(film.streams[0].tags.contains(key)) << key;
+    EXPECT_EQ(film.streams[0].tags.at(key), "color") << key;
+    EXPECT_EQ(film.streams[1].tags.at(key), "depth") << key;
+  }
+}
+
 TEST_P(AuthorFilmWriter, WritesTheCalibrationWhereAReaderFindsIt) {
   FilmFormat format = formatOf(64, 48);
   const DepthCalibration meaning{.law = DepthLaw::Inverse, .invalid_code = 0, .near_mm = 412.5, .far_mm = 3100};

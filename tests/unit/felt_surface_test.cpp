@@ -320,5 +320,18 @@ TEST(TouchPlan, TakesWhatTheClipNeedsAndNoMore) {
   EXPECT_EQ(measureClip({}).frames, 0);
 }
 
+TEST(TouchPlan, TellsNoErrorThatItCannotName) {
+  const auto told = [](const TouchPlan& plan, const char* part) { return plan.reason.find(part) != std::string::npos; };
+  const Frame flat = makeGrayFrame(90, 61, 16, {}, [](int, int) { return 30000; });
+  const TimedSurface alone{HeightField::make(flat, {.bits = 16}, kVolume).value(), {}, flat.owner};
+  const TouchPlan plan = planTouch(measureClip(std::span(&alone, 1)));
+  EXPECT_LT(plan.error, 0.001);
+  EXPECT_TRUE(told(plan, "error of the force under 0.1 %")) << plan.reason;
+  const TouchPlan coarse = planFor(8, 0, true);
+  EXPECT_FALSE(told(coarse, " 0.0 %")) << coarse.reason;
+  EXPECT_TRUE(told(coarse, "error of the force about ")) << coarse.reason;
+  EXPECT_TRUE(told(coarse, describe(coarse.scale).c_str())) << coarse.reason;
+}
+
 }  // namespace
 }  // namespace relievo

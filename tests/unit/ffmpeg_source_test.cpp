@@ -266,7 +266,7 @@ TEST(FfmpegSource, SaysWhatIsWrongWithWhatItCannotOpen) {
   TemporaryFolder folder;
   EXPECT_EQ(openErrorOf(folder / "none.mkv").code, ErrorCode::NotFound);
   EXPECT_THAT(openErrorOf(folder / "none.mkv").message, HasSubstr("no such file"));
-  EXPECT_EQ(openErrorOf(folder / "").code, ErrorCode::InvalidArgument);
+  EXPECT_EQ(openErrorOf(folder / "").code, ErrorCode::Unsupported);
   EXPECT_EQ(openErrorOf("nonsense://x/y").code, ErrorCode::Unsupported);
 
   writeFile(folder / "text.mkv", "this is not a film\n");
@@ -301,6 +301,29 @@ TEST(FfmpegSource, ACutFileEndsLikeAWholeOne) {
     EXPECT_GT(packets.size(), 10u) << name;
     EXPECT_LT(packets.size(), 48u) << name;
     EXPECT_EQ(source->state(), MediaSource::State::Ended) << name;
+  }
+}
+
+// 48 pictures are 2 s.
+TEST(FfmpegSource, TellsHowMuchOfACutFileIsMissing) {
+  TemporaryFolder folder;
+  for (const char* name : {"a.mkv", "a.flv", "a.avi"}) {
+    makeClip(folder / name, {kH264});
+    const auto source = makeFfmpegSource();
+    ASSERT_TRUE(source->open(folder / name).has_value()) << name;
+    readAll(*source);
+    EXPECT_EQ(source->missing(), Duration(0)) << name << " is whole";
+    ASSERT_TRUE(source->seek(mediaTime(60)).has_value()) << name;
+    readAll(*source);
+    EXPECT_EQ(source->missing(), Duration(0)) << name << " has nothing beyond its end";
+    source->close();
+
+    cutFile(folder / name, 0.6);
+    ASSERT_TRUE(source->open(folder / name).has_value()) << name;
+    EXPECT_EQ(source->missing(), Duration(0)) << name << " is not known before its end";
+    const auto packets = readAll(*source);
+    const double there = static_cast<double>(packets.size()) / 24;
+    EXPECT_NEAR(toSeconds(source->missing()), 2 - there, 0.15) << name;
   }
 }
 

@@ -69,6 +69,12 @@ TEST(ForceError, OfTwoRunsTogetherWeighsTheirTicks) {
   EXPECT_NEAR(e.magnitude_rms_percent, 100 * std::sqrt((4 + 0 + 1) / 24.0), 1e-10);
 }
 
+TEST(ForceError, ContactIsLostWhereItIsInMoreThanAHundredthOfTheTicks) {
+  EXPECT_FALSE((ForceError{.ticks = 1000, .lost_ticks = 10}.contactLost()));
+  EXPECT_TRUE((ForceError{.ticks = 1000, .lost_ticks = 11}.contactLost()));
+  EXPECT_FALSE(ForceError{}.contactLost());
+}
+
 TEST(Spread, IsByRank) {
   std::vector<double> samples(1000);
   std::iota(samples.begin(), samples.end(), 1.0);

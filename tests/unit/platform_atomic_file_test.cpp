@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A file that is whole or not there.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -10,6 +11,7 @@
 #include <sstream>
 
 #include "platform/atomic_file.h"
+#include "platform/unique_fd.h"
 #include "tests/support/clip_maker.h"
 
 namespace relievo {
@@ -95,6 +97,23 @@ TEST_F(AtomicFileTest, AnotherWriterMayFillItByItsName) {
   ASSERT_TRUE(file->commit());
   EXPECT_EQ(textOf(at("film.mkv")), "new");
   EXPECT_EQ(filesInFolder(), 1);
+}
+
+// However a program ends, a file without a name is gone with it.
+TEST_F(AtomicFileTest, HasNoNameUntilTheCommit) {
+  const UniqueFd nameless(::open(at("").c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600));
+  if (!nameless.valid()) GTEST_SKIP() << "this file system has no files without a name";
+  auto file = AtomicFile::create(at("a.json"));
+  ASSERT_TRUE(file);
+  file->write("new");
+  EXPECT_EQ(filesInFolder(), 0);
+  ASSERT_TRUE(file->commit());
+  EXPECT_EQ(textOf(at("a.json")), "new");
+  struct stat status{};
+  ASSERT_EQ(::stat(at("a.json").c_str(), &status), 0);
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  EXPECT_EQ(status.st_mode & 0777, 0666u & ~mask);
 }
 
 TEST_F(AtomicFileTest, SaysThatTheFolderIsNotThere) {

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <sstream>
+#include <string>
 
 #include "app/player/key_table.h"
+#include "drivers/mock/key_names.h"
 
 namespace relievo {
 namespace {
@@ -32,6 +35,26 @@ TEST(KeyTable, KnowsTheKeysOfRemotesKeyboardsAndCec) {
       EXPECT_EQ(pressed(code), known->second) << code;
     }
   }
+}
+
+// The names that the help lists are those that a script takes, each with its command.
+TEST(KeyTable, HelpNamesEveryKeyAsScriptsDo) {
+  std::istringstream help(keyHelp());
+  int lines = 0, names = 0;
+  for (std::string line; std::getline(help, line); ++lines) {
+    std::istringstream words(line.substr(0, line.find("   ")));
+    std::optional<PlayerCommand> command;
+    for (std::string word; words >> word; ++names) {
+      const auto code = keyCode(word);
+      ASSERT_TRUE(code) << word;
+      const auto meant = pressed(*code);
+      ASSERT_TRUE(meant) << word;
+      EXPECT_EQ(*meant, command.value_or(*meant)) << word << " is on the line of another command";
+      command = meant;
+    }
+  }
+  EXPECT_EQ(lines, 7);
+  EXPECT_EQ(names, 20);
 }
 
 TEST(KeyTable, AHeldKeySeeksOnAndDoesNothingElse) {

@@ -96,6 +96,15 @@ TEST(Options, TakeASourceAfterAnOption) {
   EXPECT_TRUE(parsed.options->probe.json);
 }
 
+TEST(Options, TakeCalibrationsOneAfterTheOther) {
+  const Parsed parsed =
+      parse({"play", "film.mkv", "--calibration", "near=100,law=inverse", "--calibration", "near=200"});
+  ASSERT_TRUE(parsed.options) << parsed.err;
+  const CalibrationSettings& settings = parsed.options->play.player.source.command_line;
+  EXPECT_EQ(settings.at("law"), "inverse");
+  EXPECT_EQ(settings.at("near"), "200");
+}
+
 TEST(Options, ReadACalibrationFromAFileAsTheSideFile) {
   const test::TemporaryFolder folder;
   const std::string path = folder / "camera.calibration";
@@ -108,7 +117,7 @@ TEST(Options, ReadACalibrationFromAFileAsTheSideFile) {
 
 TEST(Options, RefuseWrongWordsInOneLine) {
   expectRefused({"play"}, "SOURCE");
-  expectRefused({"jump"}, "relievo --help");
+  expectRefused({"jump"}, "jump: no such command; it is one of play, probe; see relievo --help");
   expectRefused({"play", "film.mkv", "--spin"}, "--spin");
   expectRefused({"play", "film.mkv", "--packing", "diagonal"}, "diagonal");
   expectRefused({"play", "film.mkv", "--stereo", "holo"}, "holo");
@@ -124,6 +133,10 @@ TEST(Options, RefuseWrongWordsInOneLine) {
   expectRefused({"play", "film.mkv", "--volume", "160x90x-4"}, "--volume");
   expectRefused({"play", "film.mkv", "--volume", "160x90xnan"}, "--volume");
   expectRefused({"play", "film.mkv", "--calibration", "colour=blue"}, "colour=blue");
+  expectRefused({"play", "film.mkv", "--calibration", "near=900,far=500"}, "near=900,far=500");
+  expectRefused({"play", "film.mkv", "--calibration", "bits=8,invalid=300"}, "invalid=300");
+  expectRefused({"play", "film.mkv", "--calibration", "near=1e-9"}, "near=1e-9");
+  expectRefused({"play", "film.mkv", "--calibration", "far=1e300"}, "far=1e300");
   expectRefused({"play", "one.mkv", "two.mkv"}, "two.mkv");
 }
 
@@ -140,6 +153,7 @@ TEST(Options, HelpTeachesOnStdoutAndIsNoFailure) {
   EXPECT_EQ(parsed.options.error(), 0);
   EXPECT_THAT(parsed.out, HasSubstr("Examples:"));
   EXPECT_THAT(parsed.out, HasSubstr("offscreen mock"));
+  EXPECT_THAT(parsed.out, HasSubstr("FASTFORWARD"));
   EXPECT_EQ(parsed.err, "");
 }
 

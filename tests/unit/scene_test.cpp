@@ -140,8 +140,8 @@ TEST(Calibration, ParsesCommandLinesAndSideFilesAndNamesWhatIsWrong) {
   EXPECT_EQ(settings->at("law"), "inverse");
   EXPECT_EQ(settings->at("far"), "2e3");
   EXPECT_EQ(settings->size(), 3u);
-  for (const char* bad :
-       {"colour=1", "law=cubic", "bits=7", "bits=17", "near=-1", "near=nan", "invalid=70000", "near"}) {
+  for (const char* bad : {"colour=1", "law=cubic", "bits=7", "bits=17", "near=-1", "near=nan", "invalid=70000", "near",
+                          "near=1e-4", "far=1e10", "near=700,far=600", "bits=10,invalid=1024"}) {
     EXPECT_EQ(parseCalibration(bad).error().code, ErrorCode::InvalidArgument) << bad;
   }
 }
@@ -200,8 +200,33 @@ TEST(Calibration, UnsignalledRangeIsLimitedForYuvAndFullForGrayAndFullRangeYuv) 
 }
 
 TEST(Calibration, FarMustLieBehindNear) {
-  EXPECT_EQ(chooseCalibration({.command_line = {{"near", "9000"}}}, Frame{}, DepthCode::Luma).error().code,
-            ErrorCode::InvalidArgument);
+  const auto code = [](const CalibrationLayers& layers) {
+    return chooseCalibration(layers, Frame{}, DepthCode::Luma).error().code;
+  };
+  EXPECT_EQ(code({.command_line = {{"near", "9000"}}}), ErrorCode::InvalidArgument);
+  EXPECT_EQ(code({.command_line = {{"near", "600"}}, .tags = {{"far", "400"}}}), ErrorCode::InvalidArgument);
+  // The words of the command line are not at fault here.
+  EXPECT_EQ(code({.command_line = {{"law", "inverse"}}, .side_file = {{"near", "9000"}}}), ErrorCode::Corrupt);
+  EXPECT_EQ(code({.tags = {{"near", "9000"}}}), ErrorCode::Corrupt);
+}
+
+TEST(Calibration, WhatTheSamplesCannotHoldIsRefusedAndOfTagsLeftOut) {
+  Frame frame;
+  frame.components[0].bits = 8;
+  const auto choose = [&](const CalibrationLayers& layers) {
+    return chooseCalibration(layers, frame, DepthCode::Luma);
+  };
+  EXPECT_EQ(choose({.command_line = {{"invalid", "256"}}}).error().code, ErrorCode::InvalidArgument);
+  EXPECT_EQ(choose({.command_line = {{"bits", "10"}}}).error().code, ErrorCode::InvalidArgument);
+  EXPECT_EQ(choose({.side_file = {{"invalid", "300"}}}).error().code, ErrorCode::Corrupt);
+  EXPECT_EQ(choose({.command_line = {{"invalid", "255"}}})->calibration.invalid_code, 255u);
+  const auto left_out = choose({.tags = {{"bits", "16"}, {"invalid", "65535"}}});
+  ASSERT_TRUE(left_out);
+  EXPECT_EQ(left_out->calibration.bits, 8);
+  EXPECT_FALSE(left_out->calibration.invalid_code);
+  // Twelve bits in samples of sixteen are usual.
+  frame.components[0].bits = 16;
+  EXPECT_EQ(choose({.command_line = {{"bits", "12"}, {"invalid", "4095"}}})->calibration.bits, 12);
 }
 
 }  // namespace

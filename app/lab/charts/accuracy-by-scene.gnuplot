@@ -4,7 +4,8 @@ set multiplot title ARG2 noenhanced font ",16"
 set label 1 ARG3 at screen 0.5, 0.035 center noenhanced
 LEGEND_Y = 0.955
 @LEGEND
-plot NaN notitle, for [m = 1:6] keyentry with points pt 7 ps 1.2 lc rgb COLOUR[m] title word(METHODS, m)
+plot NaN notitle, for [m = 1:6] keyentry with points pt 7 ps 1.2 lc rgb COLOUR[m] title word(METHODS, m), \
+     keyentry with points pt 6 lw 2 ps 1.1 lc rgb "black" title LOST
 @END_LEGEND
 
 set logscale y
@@ -27,6 +28,8 @@ do for [d = 1:4] {
   set ylabel (d % 2 ? "force error rms, %" : "") offset 1
   plot for [m = 6:1:-1] ARG1 using (int(column(0)) % SCENES + 0.09 * (m - 3.5)):(mine(m, d, column("force_rms_percent"))) \
          with points pt 7 ps 0.7 lc rgb COLOUR[m], \
+       for [m = 6:1:-1] ARG1 using (int(column(0)) % SCENES + 0.09 * (m - 3.5)):(lost(mine(m, d, column("force_rms_percent")))) \
+         with points pt 7 ps 0.35 lc rgb "#ffffff", \
        ARG1 using (int(column(0)) % SCENES):(NaN):xtic(strcol("scene")) with dots
 }
 unset multiplot

@@ -9,6 +9,9 @@ METHODS = "relievo god-object modified-proxy-graph proxy-graph proxy-blend penal
 DEPTHS = '"16-bit" "8-bit" "H.264 crf 23" "noise 1 %"'
 array COLOUR[6] = ["#d81b60", "#1e88e5", "#e08e0b", "#7cb342", "#8e5cc2", "#8a8f98"]
 array SYMBOL[4] = [7, 5, 9, 13]
+# Where contact was lost there is no force whose error could be told: a white spot on the mark.
+lost(value) = column("contact_lost") == 1 ? value : NaN
+LOST = "hollow: contact lost"
 # A value where a cell of the row is the wanted text.
 where(name, text, value) = (strcol(name) eq text) ? value : NaN
 # An empty plot over the whole width that holds the legend of several panels: macros around its key entries.

@@ -17,6 +17,9 @@ mine(m, d, value) = (strcol("scene") eq "all" && strcol("method") eq word(METHOD
 plot for [m = 6:1:-1] for [d = 1:4] ARG1 \
        using (mine(m, d, column("update_median_us"))):(column("force_rms_percent")):(column("update_median_us")):(column("update_p999_us")) \
        with xerrorbars pt SYMBOL[d] ps 1.1 lw 1.2 lc rgb COLOUR[m] notitle, \
+     for [m = 6:1:-1] for [d = 1:4] ARG1 using (lost(mine(m, d, column("update_median_us")))):(column("force_rms_percent")) \
+       with points pt SYMBOL[d] ps 0.7 lc rgb "#ffffff" notitle, \
      for [m = 1:6] keyentry with points pt 7 ps 1.3 lc rgb COLOUR[m] title word(METHODS, m), \
      keyentry with lines lt nodraw title " ", \
-     for [d = 1:4] keyentry with points pt SYMBOL[d] ps 1.3 lc rgb "black" title word(DEPTHS, d)
+     for [d = 1:4] keyentry with points pt SYMBOL[d] ps 1.3 lc rgb "black" title word(DEPTHS, d), \
+     keyentry with points pt 6 lw 2 ps 1.2 lc rgb "black" title LOST

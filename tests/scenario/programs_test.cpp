@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the three programs have in common on their command lines.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/support/clip_maker.h"
+#include "tests/support/program.h"
+
+namespace relievo {
+namespace {
+
+using testing::HasSubstr;
+
+class Programs : public testing::TestWithParam<const char*> {
+ protected:
+  [[nodiscard]] test::ProgramResult run(const std::string& words) const {
+    return test::runProgram(GetParam() + (" " + words), folder_ / ".");
+  }
+  test::TemporaryFolder folder_;
+};
+INSTANTIATE_TEST_SUITE_P(All, Programs, testing::Values("relievo", "relievo-author", "relievo-lab"),
+                         [](const auto& test) {
+                           std::string name = test.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST_P(Programs, TellTheirVersion) {
+  const auto said = run("--version");
+  EXPECT_EQ(said.exit_code, 0);
+  EXPECT_EQ(said.out, std::string(GetParam()) + " " RELIEVO_VERSION "\n");
+  EXPECT_EQ(said.err, "");
+}
+
+TEST_P(Programs, NameTheWordThatTheyDoNotKnow) {
+  const auto said = run("foo");
+  EXPECT_EQ(said.exit_code, 2);
+  EXPECT_EQ(std::count(said.err.begin(), said.err.end(), '\n'), 1) << said.err;
+  EXPECT_TRUE(said.err.starts_with(std::string(GetParam()) + ": ")) << said.err;
+  if (std::string(GetParam()) != "relievo-author") {  // which has no commands: it misses an option first
+    EXPECT_THAT(said.err, HasSubstr(": foo: no such command; it is one of "));
+  }
+}
+
+TEST_P(Programs, HelpIsOnStdoutAndNamesTheVersionsOption) {
+  const auto said = run("--help");
+  EXPECT_EQ(said.exit_code, 0);
+  EXPECT_THAT(said.out, HasSubstr("--version"));
+  EXPECT_EQ(said.err, "");
+}
+
+TEST(ProgramWords, AMissingCommandIsOneLineWithTheCommands) {
+  const test::TemporaryFolder folder;
+  const auto said = test::runProgram("relievo", folder / ".");
+  EXPECT_EQ(said.exit_code, 2);
+  EXPECT_THAT(said.err, HasSubstr("a command is missing; it is one of play, probe"));
+}
+
+TEST(ProgramWords, TheChartsGodObjectIsExplained) {
+  const test::TemporaryFolder folder;
+  EXPECT_THAT(test::runProgram("relievo-lab --help", folder / ".").out, HasSubstr("god-object"));
+  EXPECT_THAT(test::runProgram("relievo-lab trace --help", folder / ".").out,
+              HasSubstr("god-object is relievo with --space triangles"));
+}
+
+}  // namespace
+}  // namespace relievo

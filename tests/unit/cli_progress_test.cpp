@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the programs tell that they are at work, on a terminal and elsewhere, in simulated time.
+#include <gtest/gtest.h>
+
+#include "app/cli/text.h"
+#include "platform/clock.h"
+
+namespace relievo {
+namespace {
+
+using namespace std::chrono_literals;
+
+std::string saidBy(const std::function<void()>& work) {
+  testing::internal::CaptureStderr();
+  work();
+  return testing::internal::GetCapturedStderr();
+}
+
+TEST(ProgressLine, WithoutATerminalIsALineEveryTenSeconds) {
+  ManualClock clock;
+  setLogProgram("worker");
+  const std::string said = saidBy([&] {
+    ProgressLine line(clock, false);
+    for (int i = 0; i < 250; ++i, clock.advance(100ms)) line.say("film " + std::to_string(i));
+  });
+  EXPECT_EQ(said, "worker: at work: film 100\nworker: at work: film 200\n");
+}
+
+TEST(ProgressLine, WithoutATerminalAShortJobSaysNothing) {
+  ManualClock clock;
+  EXPECT_EQ(saidBy([&] {
+              ProgressLine line(clock, false);
+              for (int i = 0; i < 99; ++i, clock.advance(100ms)) line.show([](Duration) { return std::string("x"); });
+            }),
+            "");
+}
+
+TEST(ProgressLine, OnATerminalIsWrittenOverAndGoneAtTheEnd) {
+  ManualClock clock;
+  EXPECT_EQ(saidBy([&] {
+              ProgressLine line(clock, true);
+              line.show([](Duration) { return std::string("first"); });
+              clock.advance(100ms);
+              line.show([](Duration) { return std::string("too soon"); });
+              line.say("a step");
+              clock.advance(200ms);
+              line.show([](Duration at) { return std::to_string(at.count()); });
+            }),
+            "\r\033[Kfirst\r\033[Ka step\r\033[K300000000\r\033[K");
+}
+
+}  // namespace
+}  // namespace relievo
