@@ -21,6 +21,7 @@ namespace relievo::drivers {
 const char* const kDisplayNames = RELIEVO_DISPLAY_NAMES;
 const char* const kHapticNames = RELIEVO_HAPTIC_NAMES;
 const char* const kRemoteNames = RELIEVO_REMOTE_NAMES;
+const double kFalconCountsPerNm = falcon::kDefaultCountsPerNm;
 
 namespace {
 

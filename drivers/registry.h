@@ -23,6 +23,8 @@ extern const char* const kDisplayNames;
 extern const char* const kHapticNames;
 extern const char* const kRemoteNames;
 
+extern const double kFalconCountsPerNm;  // where the configuration does not tell
+
 // What the haptic back ends are told besides their names; from the configuration.
 struct HapticSettings {
   std::string falcon_firmware;  // empty: only one that runs already will do

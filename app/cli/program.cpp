@@ -14,18 +14,32 @@ namespace {
 std::atomic<bool> stop_wanted{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-void onSignal(int number) {
-  if (!stop_wanted.exchange(true, std::memory_order_relaxed)) return;
+std::atomic<void (*)() noexcept> last_act{nullptr};
+
+void endNow(int number) {
+  if (auto* const act = last_act.load()) act();
   std::signal(number, SIG_DFL);
   std::raise(number);  // it comes when this returns
 }
 
+void onSignal(int number) {
+  if (stop_wanted.exchange(true, std::memory_order_relaxed)) endNow(number);
+}
+
 }  // namespace
 
-const std::atomic<bool>& stopOnSignals() noexcept {
+const std::atomic<bool>& stopOnSignals(void (*last)() noexcept) noexcept {
+  last_act = last;
   struct sigaction action{};
   action.sa_handler = onSignal;
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::sigaction(number, &action, nullptr);
+  if (last == nullptr) return stop_wanted;
+  action.sa_handler = endNow;
+  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) {
+    struct sigaction old{};
+    ::sigaction(number, nullptr, &old);
+    if (old.sa_handler == SIG_DFL) ::sigaction(number, &action, nullptr);  // a sanitizer has its own
+  }
   return stop_wanted;
 }
 

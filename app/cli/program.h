@@ -24,8 +24,9 @@ inline int tell(const Failure& failure) {
 }
 
 // From now on SIGINT, SIGTERM and SIGHUP set what is returned: the work is to end in good order. A second signal, of
-// either kind, ends the program at once. Once.
-[[nodiscard]] const std::atomic<bool>& stopOnSignals() noexcept;
+// either kind, ends the program at once, as a fault of the program does (SIGSEGV, SIGABRT and their like); `last`, if
+// given, is called first: async-signal-safe. Once.
+[[nodiscard]] const std::atomic<bool>& stopOnSignals(void (*last)() noexcept = nullptr) noexcept;
 
 // The body of a main, which answers its exit code. `name` (a literal) goes before each line on stderr. What is thrown
 // (out of memory, out of threads) becomes a failure like any other.

@@ -3,6 +3,7 @@
 #include "app/player/config_file.h"
 
 #include <toml++/toml.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -10,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include "platform/atomic_file.h"
 
 namespace relievo {
 namespace {
@@ -101,6 +103,18 @@ std::string withNumber(const std::string& text, const std::string& table, const 
   std::string result;
   for (const std::string& each : lines) result += each + "\n";
   return result;
+}
+
+Outcome<void> setNumber(const std::string& path, const std::string& table, const std::string& key, double value) {
+  std::ostringstream text;
+  if (const std::ifstream file(path); file) text << file.rdbuf();
+  std::error_code none;
+  std::filesystem::create_directories(std::filesystem::path(path).parent_path(), none);
+  auto file = AtomicFile::create(path);
+  if (!file) return failOn(path, file.error());
+  file->write(withNumber(text.str(), table, key, value));
+  if (auto written = file->commit(); !written) return failOn(path, written.error());
+  return {};
 }
 
 }  // namespace relievo

@@ -29,4 +29,8 @@ struct FileConfig {
 [[nodiscard]] std::string withNumber(const std::string& text, const std::string& table, const std::string& key,
                                      double value);
 
+// The same in the file itself, which is made with its folder where there is none.
+[[nodiscard]] Outcome<void> setNumber(const std::string& path, const std::string& table, const std::string& key,
+                                      double value);
+
 }  // namespace relievo

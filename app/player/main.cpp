@@ -6,6 +6,8 @@
 
 #include "app/cli/options.h"
 #include "app/cli/program.h"
+#include "app/player/calibrate.h"
+#include "app/player/config_file.h"
 #include "app/player/options.h"
 #include "app/player/player.h"
 #include "app/player/probe.h"
@@ -39,8 +41,21 @@ std::string captureFile(const std::string& display) {
   return display.substr(prefix.size(), display.rfind('@') - prefix.size());
 }
 
+std::optional<double> askForReading(double asked_n) {
+  std::printf("It is asked for %.0f N. The scale shows (N): ", asked_n);
+  std::fflush(stdout);
+  double shown_n = 0;
+  return std::scanf("%lf", &shown_n) == 1 ? std::optional(shown_n) : std::nullopt;
+}
+
+drivers::HapticSettings settingsOf(const FileConfig& config) {
+  return {.falcon_firmware = config.falcon_firmware.value_or(""), .falcon_counts_per_nm = config.falcon_counts_per_nm};
+}
+
 int play(PlayOptions options) {
-  const std::atomic<bool>& stop = stopOnSignals();
+  const std::atomic<bool>& stop = stopOnSignals(drivers::stopAllMotors);
+  const auto config = loadConfig(options.config_path);
+  if (!config) return tell(config.error());
   const SourceOptions& source = options.player.source;
   if (auto apart = keepApart({options.report_path, options.record_path, captureFile(options.display)},
                              {source.url, source.depth_url});
@@ -50,7 +65,7 @@ int play(PlayOptions options) {
   MonotonicClock clock;
   auto display = drivers::makeDisplay(options.display);
   if (!display) return tell(display.error());
-  auto haptic = drivers::makeHapticDevice(options.haptic, clock);
+  auto haptic = drivers::makeHapticDevice(options.haptic, clock, settingsOf(*config));
   if (!haptic) return tell(haptic.error());
   if (*haptic == nullptr && !options.record_path.empty()) {
     return tell({"--record " + options.record_path,
@@ -95,12 +110,52 @@ int probeSource(const ProbeOptions& options) {
   return result->failure ? tell(*result->failure) : kExitDone;
 }
 
+int listDevices(const DevicesOptions& options) {
+  const auto config = loadConfig(options.config_path);
+  if (!config) return tell(config.error());
+  MonotonicClock clock;
+  for (const auto& each : drivers::lookAtDevices(settingsOf(*config), clock)) {
+    std::printf("%-7s %-8s %-6s %s\n", each.kind, each.name, each.there ? "there" : "-", each.state);
+  }
+  return kExitDone;
+}
+
+int calibrateFalcon(const DevicesOptions& options) {
+  static_cast<void>(stopOnSignals(drivers::stopAllMotors));
+  const auto config = loadConfig(options.config_path);
+  if (!config) return tell(config.error());
+  drivers::HapticSettings settings = settingsOf(*config);
+  const double counts = settings.falcon_counts_per_nm.value_or(drivers::kFalconCountsPerNm);
+  settings.falcon_counts_per_nm = counts;
+  MonotonicClock clock;
+  const auto falcon = drivers::makeHapticDevice("falcon", clock, settings);
+  if (!falcon) return tell(falcon.error());
+  std::puts("Home the Falcon: pull its grip out and push it in. Then hold it by the scale in the middle of its way.");
+  const auto ratio = measureStrength(**falcon, askForReading, clock);
+  if (!ratio) return tell({"falcon", ratio.error()});
+
+  const std::string path = options.config_path.empty() ? defaultConfigPath() : options.config_path;
+  const auto saved = setNumber(path, "falcon", "counts_per_nm", counts / *ratio);
+  if (!saved) return tell(saved.error());
+  std::printf("The Falcon gives %.0f %% of what it was asked for: counts_per_nm = %.0f is in %s now.\n", 100 * *ratio,
+              counts / *ratio, path.c_str());
+  return kExitDone;
+}
+
 int parseAndRun(int argc, char** argv) {
   const auto options = parseOptions(
       argc, argv,
       {.display = drivers::kDisplayNames, .haptic = drivers::kHapticNames, .remote = drivers::kRemoteNames});
   if (!options) return options.error();
-  return options->command == Options::Command::Probe ? probeSource(options->probe) : play(options->play);
+  switch (options->command) {
+    case Options::Command::Probe:
+      return probeSource(options->probe);
+    case Options::Command::Devices:
+      return options->devices.calibrate ? calibrateFalcon(options->devices) : listDevices(options->devices);
+    case Options::Command::Play:
+      break;
+  }
+  return play(options->play);
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ constexpr const char* kProgramFooter =
     "  relievo play film.mkv                          colour and depth are two tracks of one file\n"
     "  relievo probe scan.mov --packing tb --depth-code hue\n"
     "                                                 what is in it: colour on top, depth as hue below\n"
+    "  relievo devices                                what hardware is there, and why a thing is refused\n"
     "\n`relievo play --help` and `relievo probe --help` tell the rest, `relievo-author --help` how to make a film.\n";
 constexpr const char* kProbeFooter =
     "\nExamples:\n"
@@ -42,6 +43,18 @@ constexpr const char* kPlayFooter =
     "the\n"
     "middle of the far plane. A key script has lines such as: 2.5 PLAYPAUSE (seconds, a key's name). Keys, by their "
     "names:\n";
+constexpr const char* kDevicesFooter =
+    "\nEach device is opened as `play` would; where it is refused, the line says why and what to do.\n"
+    "\nThe configuration is TOML:\n"
+    "  [falcon]\n"
+    "  firmware = \"/path/to/image\"    the maker's firmware, from the SDK that came with the device\n"
+    "  counts_per_nm = 6000           how strong it is, as `relievo devices calibrate` finds it\n";
+constexpr const char* kCalibrateFooter =
+    "\nHook a spring scale to the Falcon's grip and pull it out to the middle of its way. The grip pushes toward you "
+    "with "
+    "2,\n3 and 4 N in turn: type what the scale shows each time, in newtons. The result goes into the configuration, "
+    "where\n`relievo play` finds it. Until then the Falcon is taken for as strong as any is said to be, so "
+    "that it is\nnever stronger than asked.\n";
 constexpr const char* kExitCodes = "\nExit code: 0 done, 1 failed at run time, 2 wrong use.\n";
 
 constexpr double kLongestDurationS = 1e9;
@@ -70,6 +83,13 @@ Duration readDuration(double seconds) {
   return fromSeconds(seconds);
 }
 
+void addConfigOption(CLI::App& command, std::string& path) {
+  command
+      .add_option("--config", path,
+                  "The configuration [~/.config/relievo/relievo.toml, else /etc/relievo/relievo.toml]")
+      ->type_name("FILE");
+}
+
 void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& names) {
   addSourceOptions(command, play.player.source);
   command.add_option("--display", play.display, std::string("Where the picture goes [offscreen]\n") + names.display)
@@ -96,6 +116,7 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
       ->type_name("S");
   command.add_option("--report", play.report_path, "Write what happened, as JSON")->type_name("FILE");
   command.add_option("--record", play.record_path, "Write every tick of the finger, as CSV")->type_name("FILE");
+  addConfigOption(command, play.config_path);
   command.footer(kPlayFooter + keyHelp() + kExitCodes);
 }
 
@@ -108,13 +129,22 @@ std::expected<Options, int> parseOptions(int argc, const char* const* argv, cons
   program.require_subcommand(1);
   CLI::App& play = *program.add_subcommand("play", "Play a film: shown in stereo, felt by the finger");
   CLI::App& probe = *program.add_subcommand("probe", "Tell what is in a source, and what it needs");
+  CLI::App& devices = *program.add_subcommand("devices", "Tell what hardware is there, and why a thing is refused");
+  CLI::App& calibrate = *devices.add_subcommand("calibrate", "Find out how strong the Falcon is, with a spring scale");
   addPlayOptions(play, options.play, names);
   addSourceOptions(probe, options.probe.source);
   probe.add_flag("--json", options.probe.json, "For programs");
   probe.footer(kProbeFooter);
+  addConfigOption(devices, options.devices.config_path);
+  devices.footer(kDevicesFooter);
+  calibrate.fallthrough();  // --config may come after it
+  calibrate.footer(kCalibrateFooter);
 
   if (auto parsed = parseCommandLine(program, argc, argv); !parsed) return std::unexpected(parsed.error());
-  options.command = probe.parsed() ? Options::Command::Probe : Options::Command::Play;
+  options.command = probe.parsed()     ? Options::Command::Probe
+                    : devices.parsed() ? Options::Command::Devices
+                                       : Options::Command::Play;
+  options.devices.calibrate = calibrate.parsed();
   return options;
 }
 

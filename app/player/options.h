@@ -16,6 +16,12 @@ struct PlayOptions {
   std::string remote = "none";
   std::string report_path;  // empty: none
   std::string record_path;
+  std::string config_path;  // empty: the default one
+};
+
+struct DevicesOptions {
+  bool calibrate = false;
+  std::string config_path;
 };
 
 struct ProbeOptions {
@@ -24,10 +30,11 @@ struct ProbeOptions {
 };
 
 struct Options {
-  enum class Command : std::uint8_t { Play, Probe };
+  enum class Command : std::uint8_t { Play, Probe, Devices };
   Command command = Command::Play;
   PlayOptions play;
   ProbeOptions probe;
+  DevicesOptions devices;
 };
 
 // The names of the back ends, for the help.
