@@ -9,10 +9,10 @@
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/mock/mock.h"
 #include "drivers/mock/scripted_remote.h"
-#include "drivers/sim/sim.h"
+#include "drivers/sim/profiles.h"
 
 #define RELIEVO_DISPLAY_NAMES "offscreen[:FILE.y4m] mock"
-#define RELIEVO_HAPTIC_NAMES "sim[:SCRIPT] mock none"
+#define RELIEVO_HAPTIC_NAMES "sim[:DEVICE][,HAND][,SCRIPT] mock none"
 #define RELIEVO_REMOTE_NAMES "script:FILE none"
 
 namespace relievo::drivers {
@@ -54,11 +54,10 @@ Outcome<std::unique_ptr<Display>> makeDisplay(std::string_view text) {
 
 Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(std::string_view text, Clock& clock) {
   const Spec spec(text);
-  if (spec.plain("sim")) return makeSimHaptic(SimDeviceProfile{}, HandPath(), clock);
-  if (spec.withArgument("sim")) {
-    auto path = HandPath::load(*spec.argument);
-    if (!path) return std::unexpected(path.error());
-    return makeSimHaptic(SimDeviceProfile{}, std::move(*path), clock);
+  if (spec.plain("sim") || spec.withArgument("sim")) {
+    auto setup = parseSim(spec.argument.value_or(""));
+    if (!setup) return std::unexpected(setup.error());
+    return makeSimHaptic(setup->profile, std::move(setup->path), clock);
   }
   if (spec.plain("mock")) return makeMockHaptic(MockHapticProfile{}, clock);
   if (spec.plain("none")) return nullptr;

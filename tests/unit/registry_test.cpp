@@ -69,6 +69,11 @@ TEST_F(Registry, TheSimulatedHandFollowsItsScript) {
   EXPECT_EQ(device->read()->position_mm, glm::dvec3(30, -12, 6));
 }
 
+TEST_F(Registry, TheSimulatedDeviceIsTheOneThatIsNamed) {
+  EXPECT_STREQ(makeHapticDevice("sim:falcon,tense", clock_).value()->capabilities().name, "sim falcon");
+  EXPECT_EQ(makeHapticDevice("sim:flacon", clock_).error().error.code, ErrorCode::InvalidArgument);
+}
+
 TEST_F(Registry, TheScriptedRemotePressesItsKeys) {
   const auto remote = makeRemoteInput("script:" + fileWith("registry_keys.txt", "0 PLAY\n"), clock_).value();
   ASSERT_TRUE(remote->open());
