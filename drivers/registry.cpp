@@ -9,10 +9,11 @@
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/mock/mock.h"
 #include "drivers/mock/scripted_remote.h"
+#include "drivers/replay/replay.h"
 #include "drivers/sim/profiles.h"
 
 #define RELIEVO_DISPLAY_NAMES "offscreen[:FILE.y4m] mock"
-#define RELIEVO_HAPTIC_NAMES "sim[:DEVICE][,HAND][,SCRIPT] mock none"
+#define RELIEVO_HAPTIC_NAMES "sim[:DEVICE][,HAND][,SCRIPT] replay:FILE mock none"
 #define RELIEVO_REMOTE_NAMES "script:FILE none"
 
 namespace relievo::drivers {
@@ -58,6 +59,11 @@ Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(std::string_view text, C
     auto setup = parseSim(spec.argument.value_or(""));
     if (!setup) return std::unexpected(setup.error());
     return makeSimHaptic(setup->profile, std::move(setup->path), clock);
+  }
+  if (spec.withArgument("replay")) {
+    auto recording = Recording::load(*spec.argument);
+    if (!recording) return std::unexpected(recording.error());
+    return makeReplay(std::move(*recording));
   }
   if (spec.plain("mock")) return makeMockHaptic(MockHapticProfile{}, clock);
   if (spec.plain("none")) return nullptr;
