@@ -9,11 +9,12 @@
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/mock/mock.h"
 #include "drivers/mock/scripted_remote.h"
+#include "drivers/pointer/pointer.h"
 #include "drivers/replay/replay.h"
 #include "drivers/sim/profiles.h"
 
 #define RELIEVO_DISPLAY_NAMES "offscreen[:FILE.y4m] mock"
-#define RELIEVO_HAPTIC_NAMES "sim[:DEVICE][,HAND][,SCRIPT] replay:FILE mock none"
+#define RELIEVO_HAPTIC_NAMES "sim[:DEVICE][,HAND][,SCRIPT] pointer[:/dev/input/eventN] replay:FILE mock none"
 #define RELIEVO_REMOTE_NAMES "script:FILE none"
 
 namespace relievo::drivers {
@@ -60,6 +61,7 @@ Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(std::string_view text, C
     if (!setup) return std::unexpected(setup.error());
     return makeSimHaptic(setup->profile, std::move(setup->path), clock);
   }
+  if (spec.plain("pointer") || spec.withArgument("pointer")) return makePointer(spec.argument.value_or(""), clock);
   if (spec.withArgument("replay")) {
     auto recording = Recording::load(*spec.argument);
     if (!recording) return std::unexpected(recording.error());
