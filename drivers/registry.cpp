@@ -10,10 +10,13 @@
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/mock/mock.h"
 #include "drivers/mock/scripted_remote.h"
-#include "drivers/sim/sim.h"
+#include "drivers/pointer/pointer.h"
+#include "drivers/replay/replay.h"
+#include "drivers/sim/profiles.h"
 
 #define RELIEVO_DISPLAY_NAMES "offscreen[:FILE.y4m] mock"
-#define RELIEVO_HAPTIC_NAMES "falcon[:FIRMWARE] sim[:SCRIPT] mock none"
+#define RELIEVO_HAPTIC_NAMES \
+  "falcon[:FIRMWARE] pointer[:/dev/input/eventN] sim[:DEVICE][,HAND][,SCRIPT] replay:FILE mock none"
 #define RELIEVO_REMOTE_NAMES "script:FILE none"
 
 namespace relievo::drivers {
@@ -71,11 +74,16 @@ Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(std::string_view text, C
   const Spec spec(text);
   if (spec.plain("falcon") || spec.withArgument("falcon"))
     return makeFalcon(falconConfig(settings, spec.argument), clock);
-  if (spec.plain("sim")) return makeSimHaptic(SimDeviceProfile{}, HandPath(), clock);
-  if (spec.withArgument("sim")) {
-    auto path = HandPath::load(*spec.argument);
-    if (!path) return std::unexpected(path.error());
-    return makeSimHaptic(SimDeviceProfile{}, std::move(*path), clock);
+  if (spec.plain("sim") || spec.withArgument("sim")) {
+    auto setup = parseSim(spec.argument.value_or(""));
+    if (!setup) return std::unexpected(setup.error());
+    return makeSimHaptic(setup->profile, std::move(setup->path), clock);
+  }
+  if (spec.plain("pointer") || spec.withArgument("pointer")) return makePointer(spec.argument.value_or(""), clock);
+  if (spec.withArgument("replay")) {
+    auto recording = Recording::load(*spec.argument);
+    if (!recording) return std::unexpected(recording.error());
+    return makeReplay(std::move(*recording));
   }
   if (spec.plain("mock")) return makeMockHaptic(MockHapticProfile{}, clock);
   if (spec.plain("none")) return nullptr;

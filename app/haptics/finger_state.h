@@ -13,9 +13,10 @@ namespace relievo {
 struct FingerState {
   MonotonicTime time;
   MediaTime media_time;
-  glm::dvec3 hip_mm{0};    // scene frame
-  glm::dvec3 proxy_mm{0};  // scene frame
-  glm::dvec3 force_n{0};   // on the hand, as sent to the device
+  glm::dvec3 device_mm{0};  // device frame
+  glm::dvec3 hip_mm{0};     // scene frame
+  glm::dvec3 proxy_mm{0};   // scene frame
+  glm::dvec3 force_n{0};    // on the hand, as sent to the device
   std::uint32_t buttons = 0;
   bool contact = false;
   bool device_present = false;

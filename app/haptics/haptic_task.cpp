@@ -71,6 +71,7 @@ LoopControl HapticTask::loop(const Cycle& cycle) RELIEVO_RT {
   windows_.refresh();
   const SurfaceWindow& window = windows_.front();
   state.device_present = true;
+  state.device_mm = sample->position_mm;
   state.buttons = sample->buttons;
   const WorkspaceMapping::Place place = mapping_.place(*sample);
   state.hip_mm = place.hip_mm;

@@ -128,6 +128,7 @@ void Player::startTouch() {
     note(std::string("haptic device: ") + started.error().message, "the film plays without force");
     return;
   }
+  if (parts_.recorder != nullptr) parts_.recorder->setDevice(haptic_.capabilities());
   // The real-time thread says so itself: here it is for the report.
   const double time_s = toSeconds(parts_.clock.now() - started_);
   for (const char* missing : {haptic_.missingMemory(), haptic_.missingScheduler()}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The stroking hand and the reader of scripts.
+// The reader of scripts.
 #include "drivers/sim/hand_path.h"
 
 #include <algorithm>
@@ -7,41 +7,12 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <numbers>
 #include <sstream>
 
 namespace relievo {
 namespace {
 
 constexpr std::string_view kHeader = "t_s,x_mm,y_mm,z_mm";
-
-// From 0 at t = 0 to 1 at t = length, without a corner.
-double easeIn(double t, double length) RELIEVO_RT {
-  const double u = std::clamp(t / length, 0.0, 1.0);
-  return u * u * (3.0 - 2.0 * u);
-}
-
-double wave(double t_s, double period_s) RELIEVO_RT {
-  return std::sin(2.0 * std::numbers::pi * t_s / period_s);
-}
-
-HandPoint stroke(double t_s) RELIEVO_RT {
-  constexpr double kRestS = 0.5, kDownS = 1.2, kUpS = 1.1;  // at most 82 mm/s: contact without a blow
-  constexpr double kRoundS = 4.0;                           // down, stroke, up: it is soon out of what let it through
-  constexpr double kAboveMm = 48.0, kAimMm = -12.0;         // 40 mm is the nearest that a surface comes
-  const double t = std::max(t_s - kRestS, 0.0);
-  const double in_round = std::fmod(t, kRoundS);
-  const double down = easeIn(in_round, kDownS) - easeIn(in_round - (kRoundS - kUpS), kUpS);
-  const double reach = easeIn(t - kDownS, 3.0);  // the first contact is in the middle
-
-  HandPoint point;
-  // At most 31 and 28 mm/s; the periods have no common multiple before 803 s, so that no line is drawn twice.
-  point.position_mm.x = reach * 55.0 * wave(t - kDownS, 11.0);
-  point.position_mm.y = reach * 32.0 * wave(t - kDownS, 7.3);
-  point.position_mm.z = kAboveMm + down * (kAimMm - kAboveMm);
-  point.force_limit_n = 1.5 + 0.5 * wave(t, 3.1);
-  return point;
-}
 
 // One row of `count` numbers with commas between; false when it is anything else.
 bool parseNumbers(std::string_view line, double* numbers, int count) {
@@ -105,7 +76,7 @@ Outcome<HandPath> HandPath::load(const std::string& path) {
 }
 
 HandPoint HandPath::at(double t_s) const RELIEVO_RT {
-  if (rows_.empty()) return stroke(t_s);
+  if (rows_.empty()) return moveHand(motion_, t_s, reach_);
   const auto after =
       std::upper_bound(rows_.begin(), rows_.end(), t_s, [](double t, const Row& row) { return t < row.t_s; });
   if (after == rows_.begin()) return {.position_mm = rows_.front().position_mm};

@@ -1,25 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a simulated hand wants to be: a path of its own, or that of a script.
+// Where a simulated hand wants to be: a motion of its own, or the path of a script.
 #pragma once
 
 #include <glm/vec3.hpp>
-#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "drivers/sim/hand_motion.h"
 #include "platform/failure.h"
 #include "platform/realtime.h"
 
 namespace relievo {
-
-struct HandPoint {
-  glm::dvec3 position_mm{0};  // device frame
-  // How hard the hand's spring pulls along each axis at most: a hand that strokes gives way sooner than it
-  // lags.
-  double force_limit_n = std::numeric_limits<double>::infinity();
-};
 
 class HandPath {
  public:
@@ -28,10 +21,9 @@ class HandPath {
     glm::dvec3 position_mm{0};
   };
 
-  // Rests in front of the scene, comes down to its middle, strokes over it in a Lissajous figure with a
-  // pressure that swells between 1 and 2 N, and lifts every 4 s; for ever. It aims below the far plane, so
-  // that any surface stops it: what it presses with is its limit, wherever the surface is.
-  HandPath() = default;
+  // A motion of the hand's own, for ever; `reach` see moveHand.
+  explicit HandPath(HandMotion motion = HandMotion::Stroking, double reach = 1) noexcept
+      : motion_(motion), reach_(reach) {}
 
   // Straight from row to row; before the first row it is there already, and at the last one it stays. The
   // spring pulls without a limit. The rows' times increase.
@@ -46,7 +38,9 @@ class HandPath {
   [[nodiscard]] HandPoint at(double t_s) const RELIEVO_RT;
 
  private:
-  std::vector<Row> rows_;  // none: the hand's own path
+  HandMotion motion_ = HandMotion::Stroking;
+  double reach_ = 1;
+  std::vector<Row> rows_;  // none: the motion
 };
 
 }  // namespace relievo

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <limits>
 
 #include "drivers/sim/moving_mass.h"
 
@@ -15,25 +16,28 @@ namespace {
 
 constexpr Duration kLongestAdvance = std::chrono::milliseconds(20);
 constexpr Duration kWatchdog = std::chrono::milliseconds(20);
+constexpr double kMargin = 0.8;  // of the bounds
+
+std::size_t delayOf(const SimDeviceProfile& profile) RELIEVO_RT {
+  return static_cast<std::size_t>(std::clamp(profile.delay_ticks, 0, SimDeviceProfile::kMaxDelayTicks));
+}
+double jitterOf(const SimDeviceProfile& profile) RELIEVO_RT {
+  return std::clamp(profile.jitter_ticks, 0.0, 1.0);
+}
 
 class SimHaptic final : public HapticDevice {
  public:
   SimHaptic(const SimDeviceProfile& profile, HandPath path, const Clock& clock)
       : profile_(profile), path_(std::move(path)), clock_(clock) {}
 
-  // A force held over a tick and n ticks late is late by (n + 1/2) T, and a spring K late by a short while t
-  // is a spring with a damper of -K t: the device's own damping b outweighs it up to K = 2 b / ((1 + 2 n) T).
-  // (Colgate and Brown 1994 for n = 0.) That is without the hand, which adds damping, and without dry
-  // friction.
   [[nodiscard]] HapticCapabilities capabilities() const noexcept override {
-    const double stiffness =
-        2.0 * profile_.damping_n_s_per_mm * profile_.rate_hz / (1.0 + 2.0 * static_cast<double>(delay()));
+    const double bound = std::min(profile_.viscousBound(), profile_.frictionBound());
     return {.name = profile_.name,
             .workspace_min_mm = profile_.workspace_min_mm,
             .workspace_max_mm = profile_.workspace_max_mm,
             .peak_force_n = profile_.peak_force_n,
             .continuous_force_n = profile_.continuous_force_n,
-            .max_stiffness_n_per_mm = stiffness,
+            .max_stiffness_n_per_mm = std::min(kMargin * bound, profile_.most_stiffness_n_per_mm),
             .rate_hz = profile_.rate_hz};
   }
 
@@ -44,6 +48,7 @@ class SimHaptic final : public HapticDevice {
       return fail(ErrorCode::InvalidArgument, "a simulated device has a mass, a rate and at least one step a tick");
     }
     time_s_ = 0;
+    random_ = profile_.jitter_seed;
     target_ = path_.at(0);
     mass_ = MovingMass{.mass_kg = profile_.moving_mass_kg + profile_.hand.mass_kg,
                        .damping_n_s_per_mm = profile_.damping_n_s_per_mm + profile_.hand.damping_n_s_per_mm,
@@ -81,8 +86,12 @@ class SimHaptic final : public HapticDevice {
 
   void release() RELIEVO_RT { pipeline_.fill(glm::dvec3(0)); }
 
-  [[nodiscard]] std::size_t delay() const RELIEVO_RT {
-    return static_cast<std::size_t>(std::clamp(profile_.delay_ticks, 0, SimDeviceProfile::kMaxDelayTicks));
+  // 0 to 1; splitmix64 (Steele, Lea and Flood 2014).
+  double nextRandom() RELIEVO_RT {
+    std::uint64_t z = random_ += 0x9E3779B97F4A7C15U;
+    z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9U;
+    z = (z ^ (z >> 27U)) * 0x94D049BB133111EBU;
+    return static_cast<double>((z ^ (z >> 31U)) >> 11U) * 0x1p-53;
   }
 
   // The path's point moves straight from where it was to where it will be: one look at the path a tick, not
@@ -96,11 +105,16 @@ class SimHaptic final : public HapticDevice {
     const glm::dvec3 target_velocity = target_step / dt_s;
     const glm::dvec3 limit(goal.force_limit_n);
     const SimHand& hand = profile_.hand;
-    const glm::dvec3 constant_n = pipeline_[delay()] + hand.damping_n_s_per_mm * target_velocity;
+    const glm::dvec3 pull_n = hand.damping_n_s_per_mm * target_velocity;
+    // Until the force that is due has come, the one before it acts on.
+    const double late_s = jitterOf(profile_) * nextRandom() / profile_.rate_hz;
+    const auto late_steps = static_cast<int>(late_s / dt_s + 0.5);
+    const std::size_t due = delayOf(profile_);
     glm::dvec3 target = target_.position_mm;
     for (int i = 0; i < steps; ++i) {
       const glm::dvec3 spring_n = hand.stiffness_n_per_mm * (target - mass_.position_mm);
-      mass_.step(constant_n + glm::clamp(spring_n, -limit, limit), dt_s);
+      const glm::dvec3& motors_n = pipeline_[i < late_steps ? due + 1 : due];
+      mass_.step(motors_n + pull_n + glm::clamp(spring_n, -limit, limit), dt_s);
       stopAtEnds();
       target += target_step;
     }
@@ -127,12 +141,23 @@ class SimHaptic final : public HapticDevice {
   MonotonicTime now_;  // up to which the simulation has come
   MonotonicTime last_write_;
   double time_s_ = 0;  // on the hand's path
+  std::uint64_t random_ = 0;
   HandPoint target_;
   MovingMass mass_;
-  std::array<glm::dvec3, SimDeviceProfile::kMaxDelayTicks + 1> pipeline_{};  // [0] is the newest force
+  std::array<glm::dvec3, SimDeviceProfile::kMaxDelayTicks + 2> pipeline_{};  // [0] is the newest force
 };
 
 }  // namespace
+
+double SimDeviceProfile::viscousBound() const RELIEVO_RT {
+  const double late_ticks = 0.5 + static_cast<double>(delayOf(*this)) + jitterOf(*this);
+  return damping_n_s_per_mm * rate_hz / late_ticks;
+}
+
+double SimDeviceProfile::frictionBound() const RELIEVO_RT {
+  const bool holds = encoder_step_mm > 0 && coulomb_friction_n > 0;
+  return holds ? 2 * coulomb_friction_n / encoder_step_mm : std::numeric_limits<double>::infinity();
+}
 
 std::unique_ptr<HapticDevice> makeSimHaptic(const SimDeviceProfile& profile, HandPath path, const Clock& clock) {
   return std::make_unique<SimHaptic>(profile, std::move(path), clock);

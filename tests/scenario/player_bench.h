@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <map>
 #include <memory>
@@ -39,6 +40,7 @@ class PlayerBench {
   std::map<std::string, MockMediaProfile> sources{{"film", film(100)}};
   MockDisplayProfile display{.refresh_period = Duration(0)};
   MockHapticProfile haptic;
+  std::function<std::unique_ptr<HapticDevice>(Clock&)> make_haptic;  // another device in place of the mock
   std::vector<ScriptedKey> keys;
   PlayerConfig config{.source = {.url = "film"}, .own_threads = false};
   bool with_haptic = true;
@@ -52,7 +54,7 @@ class PlayerBench {
 
   Outcome<void> runOn(Clock& time) {
     const auto screen = makeMockDisplay(display, time);
-    const auto device = makeMockHaptic(haptic, time, hand);
+    const auto device = make_haptic ? make_haptic(time) : makeMockHaptic(haptic, time, hand);
     const auto remote = makeScriptedRemote(keys, time);
     Player player(config, {.clock = time,
                            .display = *screen,

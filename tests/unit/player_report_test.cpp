@@ -96,7 +96,7 @@ TEST(Report, TellsPeopleTheSameFigures) {
   EXPECT_THAT(text, HasSubstr("p99 2.0 us"));
 }
 
-TEST(Recorder, WritesALinePerTickFromTheFirstTicksTime) {
+TEST(Recorder, WritesALinePerTickFromTheFirstTicksTimeAndTheDeviceOnce) {
   const test::TemporaryFolder folder;
   const std::string path = folder / "touch.csv";
   auto recorder = Recorder::create(path);
@@ -104,13 +104,20 @@ TEST(Recorder, WritesALinePerTickFromTheFirstTicksTime) {
   FingerState tick;
   tick.time = MonotonicTime(std::chrono::seconds(100));
   tick.media_time = mediaTime(7.0);
-  tick.hip_mm = {1, 2, 3};
+  tick.hip_mm = {1, 2, 1.0 / 3};
   tick.proxy_mm = {1.5, 2.5, 3.5};
-  tick.force_n = {0.25, 0, -0.125};
+  tick.force_n = {0.25, 0, -1e-7};
+  tick.device_mm = {0.1, 0.2, 0.1 + 0.2};
+  tick.buttons = 5;
   tick.contact = true;
+  tick.device_present = true;
   recorder->add(tick);
-  tick.time += std::chrono::milliseconds(1);
+  recorder->setDevice({"any", {-1, -2, -3}, {4, 5, 6}, 8.5, 1.4, 16.0 / 15, 1000});
+  tick.time += std::chrono::milliseconds(3);
   tick.contact = false;
+  recorder->add(tick);
+  tick = {};
+  tick.time = MonotonicTime(std::chrono::nanoseconds(100'004'000'001));
   recorder->add(tick);
   ASSERT_TRUE(recorder->finish());
 
@@ -119,9 +126,13 @@ TEST(Recorder, WritesALinePerTickFromTheFirstTicksTime) {
   text << file.rdbuf();
   EXPECT_EQ(text.str(),
             "t_s,hip_x_mm,hip_y_mm,hip_z_mm,proxy_x_mm,proxy_y_mm,proxy_z_mm,force_x_n,force_y_n,force_z_n,contact,"
-            "media_s\n"
-            "0.000000,1.00000,2.00000,3.00000,1.50000,2.50000,3.50000,0.250000,0.000000,-0.125000,1,7.000000\n"
-            "0.001000,1.00000,2.00000,3.00000,1.50000,2.50000,3.50000,0.250000,0.000000,-0.125000,0,7.000000\n");
+            "media_s,device_x_mm,device_y_mm,device_z_mm,buttons,device_present,workspace_min_x_mm,workspace_min_y_mm,"
+            "workspace_min_z_mm,workspace_max_x_mm,workspace_max_y_mm,workspace_max_z_mm,peak_force_n,"
+            "continuous_force_n,max_stiffness_n_per_mm,rate_hz\n"
+            "0,1,2,0.3333333333333333,1.5,2.5,3.5,0.25,0,-1e-07,1,7,0.1,0.2,0.30000000000000004,5,1,,,,,,,,,,\n"
+            "0.003,1,2,0.3333333333333333,1.5,2.5,3.5,0.25,0,-1e-07,0,7,0.1,0.2,0.30000000000000004,5,1,"
+            "-1,-2,-3,4,5,6,8.5,1.4,1.0666666666666667,1000\n"
+            "0.004000001,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,,,,,,,,,,\n");
 }
 
 }  // namespace

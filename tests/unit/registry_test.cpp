@@ -45,7 +45,7 @@ TEST_F(Registry, RefusesOtherNamesAndListsTheRightOnes) {
     EXPECT_EQ(display.error().thing, std::string("--display ") + name);
     EXPECT_THAT(display.error().error.message, testing::HasSubstr(kDisplayNames));
   }
-  for (const char* name : {"", "falcon:", "sim:", "mock:x", "none:", "SIM"}) {
+  for (const char* name : {"", "falcon:", "sim:", "mock:x", "none:", "SIM", "replay", "replay:"}) {
     const auto device = makeHapticDevice(name, clock_);
     ASSERT_FALSE(device) << name;
     EXPECT_EQ(device.error().error.code, ErrorCode::InvalidArgument);
@@ -69,6 +69,19 @@ TEST_F(Registry, TheSimulatedHandFollowsItsScript) {
   const auto device = makeHapticDevice("sim:" + script, clock_).value();
   ASSERT_TRUE(device->open() && device->home() && device->start());
   EXPECT_EQ(device->read()->position_mm, glm::dvec3(30, -12, 6));
+}
+
+TEST_F(Registry, TheSimulatedDeviceIsTheOneThatIsNamed) {
+  EXPECT_STREQ(makeHapticDevice("sim:falcon,tense", clock_).value()->capabilities().name, "sim falcon");
+  EXPECT_EQ(makeHapticDevice("sim:flacon", clock_).error().error.code, ErrorCode::InvalidArgument);
+}
+
+TEST_F(Registry, ARecordingIsPlayedAgain) {
+  const std::string file = fileWith("registry_touch.csv", "t_s,x_mm,y_mm,z_mm\n0,30,-12,6\n");
+  const auto device = makeHapticDevice("replay:" + file, clock_).value();
+  ASSERT_TRUE(device->open() && device->home() && device->start());
+  EXPECT_EQ(device->read()->position_mm, glm::dvec3(30, -12, 6));
+  EXPECT_EQ(makeHapticDevice("replay:/nonexistent.csv", clock_).error().error.code, ErrorCode::NotFound);
 }
 
 TEST_F(Registry, TheScriptedRemotePressesItsKeys) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <ostream>
+#include <vector>
 
 #include "drivers/sim/sim.h"
 #include "platform/allocation_counter.h"
@@ -94,6 +95,48 @@ TEST_P(SimHapticDelay, AForceIsHeldForOneTickAfterSoManyTicks) {
 }
 INSTANTIATE_TEST_SUITE_P(Ticks, SimHapticDelay, testing::Values(0, 1, 3, 8));
 
+// 1 N on 0.075 kg for four ticks leaves 53.333 um a tick; it begins late by one share of a tick and ends late by
+// another.
+TEST(SimHaptic, JitterMovesAForceWithinATick) {
+  SimDeviceProfile profile = freeMass();
+  profile.delay_ticks = 1;
+  profile.jitter_ticks = 1;
+  double earliest = 1, latest = 0, shortest = 1, longest = -1;  // ticks
+  for (int seed = 0; seed < 200; ++seed) {
+    profile.jitter_seed = static_cast<std::uint64_t>(seed);
+    Bench bench(profile);
+    std::vector<double> x;  // um
+    for (int i = 0; i < 8; ++i) {
+      x.push_back(1e3 * bench.tick([&](const glm::dvec3&) { return glm::dvec3(i < 4 ? 1.0 : 0.0, 0, 0); }).x);
+    }
+    ASSERT_EQ(x[1], 0.0);
+    const double late = 1 - std::sqrt(x[2] / 6.6667);  // it moves the mass by (1 - late)^2 6.667 um in its first tick
+    const double longer = (x[7] - x[6]) / 13.3333 - 4;
+    earliest = std::min(earliest, late), latest = std::max(latest, late);
+    shortest = std::min(shortest, longer), longest = std::max(longest, longer);
+  }
+  EXPECT_LT(earliest, 0.1);
+  EXPECT_GT(latest, 0.9);
+  EXPECT_NEAR(shortest, -0.9, 0.1);
+  EXPECT_NEAR(longest, 0.9, 0.1);
+}
+
+TEST(SimHaptic, JitterIsOffByDefaultAndOneSeedIsOneRun) {
+  EXPECT_EQ(SimDeviceProfile{}.jitter_ticks, 0);
+  SimDeviceProfile profile, other;
+  profile.jitter_ticks = other.jitter_ticks = 1;
+  other.jitter_seed = 2;
+  Bench a(profile, HandPath()), b(profile, HandPath()), c(other, HandPath());
+  bool differs = false;
+  for (int i = 0; i < 3000; ++i) {
+    const auto wall = [](const glm::dvec3& p) { return glm::dvec3(0, 0, std::clamp(20 - p.z, 0.0, 8.0)); };
+    const glm::dvec3 at = a.tick(wall);
+    ASSERT_EQ(at, b.tick(wall));
+    differs = differs || at != c.tick(wall);
+  }
+  EXPECT_TRUE(differs);
+}
+
 struct WallCase {
   int delay_ticks;
   double of_bound;
@@ -114,7 +157,7 @@ TEST_P(SimHapticWall, IsStableBelowTheClassicBoundAndNotAbove) {
   profile.delay_ticks = delay_ticks;
   const double bound_n_per_mm = 2 * 0.002 / ((1 + 2 * delay_ticks) * 0.001);
   Bench bench(profile, stillAt({0.01, 0, 20}));
-  EXPECT_NEAR(bench.device->capabilities().max_stiffness_n_per_mm, bound_n_per_mm, 1e-12);
+  EXPECT_NEAR(profile.viscousBound(), bound_n_per_mm, 1e-12);
 
   const double stiffness = of_bound * bound_n_per_mm;
   double first_swing = 0, last_swing = 0;

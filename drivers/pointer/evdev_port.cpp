@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// libevdev says what a device is. The events are read by read(2): libevdev_next_event asks the kernel for the state of
+// every key, axis and slot when events were dropped, and keeps a queue and a log of its own, which a mouse does not
+// need and a tick cannot afford.
+#include <fcntl.h>
+#include <libevdev/libevdev.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <utility>
+
+#include "drivers/pointer/mouse_port.h"
+#include "platform/unique_fd.h"
+
+namespace relievo {
+namespace {
+
+constexpr int kMostDevices = 256;  // event0 and so on
+constexpr const char* kNoRight =
+    "the right to read the mouse is missing; add the user to the group that may (sudo usermod -aG input $USER) and log "
+    "in anew";
+
+bool isMouse(int fd) {
+  libevdev* device = nullptr;
+  if (libevdev_new_from_fd(fd, &device) != 0) return false;
+  const bool mouse = libevdev_has_event_code(device, EV_REL, REL_X) != 0 &&
+                     libevdev_has_event_code(device, EV_REL, REL_Y) != 0 &&
+                     libevdev_has_event_code(device, EV_KEY, BTN_LEFT) != 0;
+  libevdev_free(device);
+  return mouse;
+}
+
+UniqueFd openEvents(const std::string& path) {
+  return UniqueFd(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+}
+
+class EvdevPort final : public MousePort {
+ public:
+  explicit EvdevPort(std::string path) : path_(std::move(path)) {}
+
+  Result<void> open() override { return path_.empty() ? openFirst() : openPath(); }
+  void close() noexcept override { fd_.reset(); }
+
+  Result<std::size_t> take(std::span<input_event> events) RELIEVO_RT override {
+    const ssize_t bytes = ::read(fd_.get(), events.data(), events.size_bytes());
+    if (bytes > 0) return static_cast<std::size_t>(bytes) / sizeof(input_event);
+    if (bytes < 0 && (errno == EAGAIN || errno == EINTR)) return 0;
+    return gone();
+  }
+
+  Result<std::uint8_t> buttonsDown() RELIEVO_RT override {
+    std::array<std::uint8_t, KEY_MAX / 8 + 1> keys{};
+    if (::ioctl(fd_.get(), EVIOCGKEY(sizeof keys), keys.data()) < 0) return gone();
+    const auto down = [&keys](unsigned code, std::uint8_t button) -> std::uint8_t {
+      return (keys[code / 8] >> (code % 8) & 1U) != 0 ? button : std::uint8_t{0};
+    };
+    return static_cast<std::uint8_t>(down(BTN_LEFT, kLeftButton) | down(BTN_RIGHT, kRightButton) |
+                                     down(BTN_MIDDLE, kMiddleButton));
+  }
+
+ private:
+  Result<void> openPath() {
+    fd_ = openEvents(path_);
+    const int error = errno;
+    if (!fd_.valid() && error == EACCES) return fail(ErrorCode::PermissionDenied, kNoRight, error);
+    if (!fd_.valid()) return fail(ErrorCode::NotFound, "the mouse is not there; see /dev/input for what is", error);
+    if (isMouse(fd_.get())) return {};
+    fd_.reset();
+    return fail(ErrorCode::Unsupported, "this input device is no mouse: it lacks two axes that move or a left button");
+  }
+
+  Result<void> openFirst() {
+    bool refused = false;
+    for (int i = 0; i < kMostDevices; ++i) {
+      fd_ = openEvents("/dev/input/event" + std::to_string(i));
+      refused = refused || (!fd_.valid() && errno == EACCES);
+      if (fd_.valid() && isMouse(fd_.get())) return {};
+    }
+    fd_.reset();
+    if (refused) return fail(ErrorCode::PermissionDenied, kNoRight, EACCES);
+    return fail(ErrorCode::NotFound, "no mouse was found; plug one in, or give its path: pointer:/dev/input/eventN");
+  }
+
+  static std::unexpected<Error> gone() RELIEVO_RT {
+    return fail(ErrorCode::Lost, "the mouse has gone away; plug it in again", errno);
+  }
+
+  std::string path_;
+  UniqueFd fd_;
+};
+
+}  // namespace
+
+std::unique_ptr<MousePort> makeEvdevPort(std::string path) {
+  return std::make_unique<EvdevPort>(std::move(path));
+}
+
+}  // namespace relievo

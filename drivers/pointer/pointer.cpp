@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// Counts become a place to go to, the left button a press; the finger follows both smoothly.
+#include "drivers/pointer/pointer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <utility>
+
+namespace relievo {
+namespace {
+
+constexpr glm::dvec3 kMinMm(-100, -75, -20), kMaxMm(100, 75, 60);
+constexpr glm::dvec3 kStartMm(0, 0, 46);  // 40 mm is the nearest that a surface of the default volume comes
+constexpr double kMmPerCount = 0.1, kMmPerNotch = 2;
+constexpr double kPressMmPerS = 80, kPressN = 2;
+constexpr double kSmoothS = 0.01;
+constexpr double kLongestStepS = 0.02;
+constexpr Duration kWatchdog = std::chrono::milliseconds(20);
+constexpr std::size_t kEventsARead = 64;
+constexpr int kReadsATick = 4;
+
+class Pointer final : public HapticDevice {
+ public:
+  Pointer(std::unique_ptr<MousePort> port, const Clock& clock) : port_(std::move(port)), clock_(clock) {}
+  ~Pointer() override { close(); }
+  Pointer(const Pointer&) = delete;
+  Pointer& operator=(const Pointer&) = delete;
+
+  // The forces are those of a small device, for the picture; what does not push holds any stiffness.
+  [[nodiscard]] HapticCapabilities capabilities() const noexcept override {
+    return {.name = "pointer",
+            .workspace_min_mm = kMinMm,
+            .workspace_max_mm = kMaxMm,
+            .peak_force_n = 8,
+            .continuous_force_n = 8,
+            .max_stiffness_n_per_mm = 1,
+            .rate_hz = 1000};
+  }
+
+ private:
+  Result<void> openDevice() override {
+    place_mm_ = finger_mm_ = kStartMm;
+    pressed_mm_ = 0;
+    return port_->open();
+  }
+  Result<void> homeDevice() override { return {}; }
+
+  // What the mouse did until now is not meant for the finger.
+  Result<void> startDevice() override {
+    const glm::dvec3 place = place_mm_;
+    for (int i = 0; i < kReadsATick; ++i) {
+      if (auto taken = takeEvents(); !taken) return std::unexpected(taken.error());
+    }
+    const auto down = port_->buttonsDown();
+    if (!down) return std::unexpected(down.error());
+    down_ = *down;
+    place_mm_ = place;
+    force_z_n_ = 0;
+    now_ = last_write_ = clock_.now();
+    return {};
+  }
+
+  Result<HapticSample> readSample() RELIEVO_RT override {
+    const MonotonicTime now = clock_.now();
+    const double elapsed_s = std::clamp(toSeconds(now - now_), 0.0, kLongestStepS);
+    now_ = now;
+    if (now - last_write_ > kWatchdog) force_z_n_ = 0;
+    for (int i = 0; i < kReadsATick; ++i) {
+      const auto taken = takeEvents();
+      if (!taken) return std::unexpected(taken.error());
+      if (*taken < kEventsARead) break;
+    }
+    press(elapsed_s);
+    const glm::dvec3 goal_mm(place_mm_.x, place_mm_.y, place_mm_.z - pressed_mm_);
+    finger_mm_ += (1 - std::exp(-elapsed_s / kSmoothS)) * (goal_mm - finger_mm_);
+    return HapticSample{.position_mm = glm::clamp(finger_mm_, kMinMm, kMaxMm), .buttons = buttons()};
+  }
+
+  Result<void> writeForce(const glm::dvec3& force_n) RELIEVO_RT override {
+    force_z_n_ = force_n.z;
+    last_write_ = now_;
+    return {};
+  }
+
+  void stopDevice() noexcept override { force_z_n_ = 0; }
+  void closeDevice() noexcept override {
+    force_z_n_ = 0;
+    port_->close();
+  }
+
+  // Like a finger of a given strength: what pushes back slows it down, and more of it drives it back.
+  void press(double elapsed_s) RELIEVO_RT {
+    const bool held = (down_ & kLeftButton) != 0;
+    const double share = held ? std::clamp(1 - force_z_n_ / kPressN, -1.0, 1.0) : -1.0;
+    pressed_mm_ = std::clamp(pressed_mm_ + share * kPressMmPerS * elapsed_s, 0.0, place_mm_.z - kMinMm.z);
+  }
+
+  [[nodiscard]] std::uint32_t buttons() const RELIEVO_RT {
+    return ((down_ & kMiddleButton) != 0 ? 1U : 0U) | ((down_ & kRightButton) != 0 ? 2U : 0U);
+  }
+
+  Result<std::size_t> takeEvents() RELIEVO_RT {
+    std::array<input_event, kEventsARead> events;
+    const auto taken = port_->take(events);
+    if (!taken) return taken;
+    for (std::size_t i = 0; i < *taken; ++i) {
+      if (auto followed = follow(events[i]); !followed) return std::unexpected(followed.error());
+    }
+    return taken;
+  }
+
+  // Where events were dropped the rest of their report is no good, and the buttons are asked for anew (kernel,
+  // Documentation/input/event-codes.rst, SYN_DROPPED).
+  Result<void> follow(const input_event& event) RELIEVO_RT {
+    if (event.type == EV_SYN && event.code == SYN_DROPPED) dropped_ = true;
+    if (dropped_ && event.type == EV_SYN && event.code == SYN_REPORT) {
+      dropped_ = false;
+      const auto down = port_->buttonsDown();
+      if (!down) return std::unexpected(down.error());
+      down_ = *down;
+    } else if (!dropped_ && event.type == EV_REL) {
+      move(event.code, event.value);
+    } else if (!dropped_ && event.type == EV_KEY) {
+      turn(event.code, event.value != 0);
+    }
+    return {};
+  }
+
+  void move(std::uint16_t axis, std::int32_t counts) RELIEVO_RT {
+    if (axis == REL_X) place_mm_.x += kMmPerCount * counts;
+    if (axis == REL_Y) place_mm_.y -= kMmPerCount * counts;  // a mouse counts toward its user
+    if (axis == REL_WHEEL) place_mm_.z -= kMmPerNotch * counts;
+    place_mm_ = glm::clamp(place_mm_, kMinMm, kMaxMm);
+  }
+
+  void turn(std::uint16_t key, bool down) RELIEVO_RT {
+    std::uint8_t button = 0;
+    if (key == BTN_LEFT) button = kLeftButton;
+    if (key == BTN_RIGHT) button = kRightButton;
+    if (key == BTN_MIDDLE) button = kMiddleButton;
+    down_ = static_cast<std::uint8_t>(down ? down_ | button : down_ & ~button);
+  }
+
+  std::unique_ptr<MousePort> port_;
+  const Clock& clock_;
+  glm::dvec3 place_mm_ = kStartMm;  // where mouse and wheel point
+  double pressed_mm_ = 0;           // how far below that the left button has pressed
+  glm::dvec3 finger_mm_ = kStartMm;
+  std::uint8_t down_ = 0;  // buttons of the mouse
+  bool dropped_ = false;   // within a report of which a part is missing
+  double force_z_n_ = 0;
+  MonotonicTime now_, last_write_;
+};
+
+}  // namespace
+
+std::unique_ptr<HapticDevice> makePointer(std::unique_ptr<MousePort> port, const Clock& clock) {
+  return std::make_unique<Pointer>(std::move(port), clock);
+}
+
+std::unique_ptr<HapticDevice> makePointer(std::string path, const Clock& clock) {
+  return makePointer(makeEvdevPort(std::move(path)), clock);
+}
+
+}  // namespace relievo

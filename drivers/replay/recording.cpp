@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads the columns that it needs, and says which line is wrong.
+#include "drivers/replay/recording.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+namespace relievo {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kAbsent = std::numeric_limits<std::size_t>::max();
+constexpr const char* kNoColumns =
+    "is no recording: it has neither device_x_mm,device_y_mm,device_z_mm with the device's workspace, nor "
+    "hip_x_mm,hip_y_mm,hip_z_mm, nor x_mm,y_mm,z_mm";
+
+using Cells = std::vector<std::string_view>;
+
+std::string_view takeUntil(std::string_view& text, char end) {
+  const auto length = std::min(text.find(end), text.size());
+  const std::string_view part = text.substr(0, length);
+  text.remove_prefix(std::min(length + 1, text.size()));
+  return part;
+}
+std::string_view takeLine(std::string_view& text) {
+  std::string_view line = takeUntil(text, '\n');
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return line;
+}
+Cells cellsOf(std::string_view line) {
+  Cells cells;
+  for (bool more = true; more;) {
+    more = line.find(',') != line.npos;
+    cells.push_back(takeUntil(line, ','));
+  }
+  return cells;
+}
+
+std::size_t columnOf(const Cells& names, std::string_view name) {
+  const auto found = std::ranges::find(names, name);
+  return found == names.end() ? kAbsent : static_cast<std::size_t>(found - names.begin());
+}
+
+// None where there is no such column, or no number in it.
+double numberIn(const Cells& cells, std::size_t column) {
+  if (column == kAbsent) return kNone;
+  const char* const end = cells[column].data() + cells[column].size();
+  double value = 0;
+  const auto [last, error] = std::from_chars(cells[column].data(), end, value);
+  return error == std::errc{} && last == end ? value : kNone;
+}
+
+// x, y and z of one thing.
+struct Columns {
+  std::size_t x = kAbsent, y = kAbsent, z = kAbsent;
+  Columns(const Cells& names, const std::string& thing)
+      : x(columnOf(names, thing + "x_mm")), y(columnOf(names, thing + "y_mm")), z(columnOf(names, thing + "z_mm")) {}
+  [[nodiscard]] bool all() const { return x != kAbsent && y != kAbsent && z != kAbsent; }
+  [[nodiscard]] glm::dvec3 in(const Cells& cells) const {
+    return {numberIn(cells, x), numberIn(cells, y), numberIn(cells, z)};
+  }
+};
+
+bool isFinite(const glm::dvec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+// What the first row says of the device; nothing where it does not say it whole.
+std::optional<HapticCapabilities> deviceIn(const Cells& names, const Cells& cells) {
+  const auto number = [&](std::string_view name) { return numberIn(cells, columnOf(names, name)); };
+  const HapticCapabilities device{.name = "replay",
+                                  .workspace_min_mm = Columns(names, "workspace_min_").in(cells),
+                                  .workspace_max_mm = Columns(names, "workspace_max_").in(cells),
+                                  .peak_force_n = number("peak_force_n"),
+                                  .continuous_force_n = number("continuous_force_n"),
+                                  .max_stiffness_n_per_mm = number("max_stiffness_n_per_mm"),
+                                  .rate_hz = number("rate_hz")};
+  const glm::dvec3 room = device.workspace_max_mm - device.workspace_min_mm;
+  const bool whole = isFinite(room) && room.x > 0 && room.y > 0 && room.z > 0 && device.peak_force_n > 0 &&
+                     device.continuous_force_n > 0 && device.max_stiffness_n_per_mm > 0 && device.rate_hz > 0;
+  return whole ? std::optional(device) : std::nullopt;
+}
+
+// Its millimetres are the scene's: the middle of its workspace is that of the default volume, and its ends are far.
+HapticCapabilities sceneDevice() {
+  constexpr double kFarMm = 1000;
+  const glm::dvec3 middle(0, 0, 20);
+  return {.name = "replay",
+          .workspace_min_mm = middle - glm::dvec3(kFarMm),
+          .workspace_max_mm = middle + glm::dvec3(kFarMm),
+          .peak_force_n = 8.5,
+          .continuous_force_n = 8.5,
+          .max_stiffness_n_per_mm = 1};
+}
+
+class Reader {
+ public:
+  Reader(const Cells& names, std::string_view first_row) : names_(names), position_(names, "device_") {
+    const Cells cells = cellsOf(first_row);
+    const auto device = position_.all() && cells.size() == names_.size() ? deviceIn(names_, cells) : std::nullopt;
+    recording_.capabilities = device.value_or(sceneDevice());
+    if (device) {
+      buttons_ = columnOf(names_, "buttons");
+      answered_ = columnOf(names_, "device_present");
+    } else {
+      position_ = Columns(names_, "hip_");
+      if (!position_.all()) position_ = Columns(names_, "");
+      time_ = columnOf(names_, "t_s");
+    }
+  }
+  [[nodiscard]] bool finds() const { return position_.all(); }
+
+  // Nothing wrong: null.
+  const char* addRow(std::string_view line) {
+    const Cells cells = cellsOf(line);
+    if (cells.size() != names_.size()) return "has not as many cells as the file's first line has names";
+    RecordedTick tick{.position_mm = position_.in(cells)};
+    if (!isFinite(tick.position_mm)) return "has no number for the position";
+    if (buttons_ != kAbsent) {
+      const double buttons = numberIn(cells, buttons_);
+      if (!(buttons >= 0 && buttons <= 0xFFFFFFFFU && buttons == std::floor(buttons)))
+        return "has no number for buttons";
+      tick.buttons = static_cast<std::uint32_t>(buttons);
+    }
+    if (answered_ != kAbsent) tick.answered = numberIn(cells, answered_) != 0;
+    const double t_s = numberIn(cells, time_);
+    if (recording_.ticks.empty()) first_s_ = t_s;
+    last_s_ = t_s;
+    recording_.ticks.push_back(tick);
+    return nullptr;
+  }
+
+  // The rate, where the file does not say it: as many ticks as there are in its time, to a whole number.
+  [[nodiscard]] Recording finish() && {
+    const double rate = std::round(static_cast<double>(recording_.ticks.size() - 1) / (last_s_ - first_s_));
+    if (rate >= 1 && rate <= 1e5) recording_.capabilities.rate_hz = rate;
+    return std::move(recording_);
+  }
+
+ private:
+  const Cells& names_;
+  Recording recording_;
+  Columns position_;
+  std::size_t buttons_ = kAbsent, answered_ = kAbsent, time_ = kAbsent;
+  double first_s_ = kNone, last_s_ = kNone;
+};
+
+std::unexpected<Failure> wrongLine(const std::string& name, int number, const char* what) {
+  return failOn(name + ":" + std::to_string(number), {ErrorCode::InvalidArgument, 0, what});
+}
+
+}  // namespace
+
+Outcome<Recording> Recording::parse(std::string_view csv, const std::string& name) {
+  const Cells names = cellsOf(takeLine(csv));
+  std::string_view rest = csv;
+  Reader reader(names, takeLine(rest));
+  if (!reader.finds()) return wrongLine(name, 1, kNoColumns);
+  int number = 1;
+  while (!csv.empty()) {
+    ++number;
+    if (const char* wrong = reader.addRow(takeLine(csv)); wrong != nullptr) return wrongLine(name, number, wrong);
+  }
+  if (number == 1) return wrongLine(name, 2, "no row follows; a recording has one for each tick");
+  return std::move(reader).finish();
+}
+
+Outcome<Recording> Recording::load(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return failOn(path, {ErrorCode::NotFound, errno, "the recording cannot be read; check its path"});
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (file.bad()) return failOn(path, {ErrorCode::Io, errno, "reading the recording failed"});
+  return parse(text.str(), path);
+}
+
+}  // namespace relievo

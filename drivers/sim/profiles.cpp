@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// The figures of devices and hands, and which of them a line of words means.
+#include "drivers/sim/profiles.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace relievo {
+
+#define RELIEVO_SIM_WORDS "phantom falcon polhem, stroking resting tapping tense shaking"
+const char* const kSimWords = RELIEVO_SIM_WORDS;
+
+namespace {
+
+constexpr const char* kUnknown =
+    "is neither a file nor a word of the simulated device and hand; those are: " RELIEVO_SIM_WORDS;
+
+const std::array kDevices = {
+    SimDeviceName{"phantom", {}},
+    SimDeviceName{"falcon",
+                  {.name = "sim falcon",
+                   .moving_mass_kg = 0.15,
+                   .damping_n_s_per_mm = 0.002,
+                   .coulomb_friction_n = 0.2,
+                   .encoder_step_mm = 0.04,
+                   .peak_force_n = 8.0,
+                   .continuous_force_n = 2.7,
+                   .most_stiffness_n_per_mm = 0.8,
+                   .workspace_min_mm = {-50, -50, -30},
+                   .workspace_max_mm = {50, 50, 70},
+                   .delay_ticks = 2}},
+    SimDeviceName{"polhem",
+                  {.name = "sim polhem",
+                   .moving_mass_kg = 0.1,
+                   .damping_n_s_per_mm = 0.002,
+                   .coulomb_friction_n = 0.1,
+                   .encoder_step_mm = 0.04,
+                   .peak_force_n = 5.0,
+                   .continuous_force_n = 2.0,
+                   .most_stiffness_n_per_mm = 2.0,
+                   .delay_ticks = 2}},
+};
+
+const std::array kHands = {
+    SimHandName{"stroking", {}, HandMotion::Stroking},
+    SimHandName{"resting", {}, HandMotion::Resting},
+    SimHandName{"tapping", {}, HandMotion::Tapping},
+    SimHandName{"tense", {.stiffness_n_per_mm = 1.5, .damping_n_s_per_mm = 0.011}, HandMotion::Pressing},
+    SimHandName{"shaking", {}, HandMotion::Shaking},
+};
+
+template <class Named>
+const Named* find(std::span<const Named> all, const std::string& word) {
+  const auto found = std::ranges::find_if(all, [&](const Named& named) { return word == named.word; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+bool isFile(const std::string& path) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(path, ignored);
+}
+
+// A word with one of these is no name that was mistyped.
+bool looksLikePath(const std::string& word) {
+  return word.find_first_of("./") != std::string::npos;
+}
+
+// A whole stroke goes 55 mm to either side; it shall end within the workspace.
+double reachOf(const SimDeviceProfile& profile) {
+  const double half_width_mm = (profile.workspace_max_mm.x - profile.workspace_min_mm.x) / 2;
+  return std::min(1.0, 0.84 * half_width_mm / 55.0);
+}
+
+std::vector<std::string> partsOf(const std::string& words) {
+  if (isFile(words)) return {words};  // its name may have a comma
+  std::vector<std::string> parts;
+  for (std::size_t at = 0; at <= words.size();) {
+    const std::size_t comma = std::min(words.find(',', at), words.size());
+    parts.push_back(words.substr(at, comma - at));
+    at = comma + 1;
+  }
+  return parts;
+}
+
+std::unexpected<Failure> wrongWord(const std::string& word, const char* what) {
+  return failOn("--haptic sim, \"" + word + "\"", {ErrorCode::InvalidArgument, 0, what});
+}
+
+}  // namespace
+
+std::span<const SimDeviceName> simDevices() {
+  return kDevices;
+}
+
+std::span<const SimHandName> simHands() {
+  return kHands;
+}
+
+Outcome<SimSetup> parseSim(const std::string& words) {
+  const SimDeviceName* device = nullptr;
+  const SimHandName* hand = nullptr;
+  std::optional<HandPath> script;
+  for (const std::string& word : words.empty() ? std::vector<std::string>{} : partsOf(words)) {
+    if (const auto* named = find(simDevices(), word)) {
+      if (device != nullptr) return wrongWord(word, "is a second device; name one");
+      device = named;
+    } else if (const auto* held = find(simHands(), word)) {
+      if (hand != nullptr) return wrongWord(word, "is a second hand; name one");
+      hand = held;
+    } else if (isFile(word) || looksLikePath(word)) {
+      if (script) return wrongWord(word, "is a second hand script; name one");
+      auto loaded = HandPath::load(word);
+      if (!loaded) return std::unexpected(loaded.error());
+      script = std::move(*loaded);
+    } else {
+      return wrongWord(word, kUnknown);
+    }
+  }
+  SimSetup setup;
+  if (device != nullptr) setup.profile = device->profile;
+  if (hand != nullptr) setup.profile.hand = hand->hand;
+  const HandMotion motion = hand != nullptr ? hand->motion : HandMotion::Stroking;
+  setup.path = script ? std::move(*script) : HandPath(motion, reachOf(setup.profile));
+  return setup;
+}
+
+}  // namespace relievo

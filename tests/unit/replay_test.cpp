@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// Recordings as they are written, older ones, paths of a finger, and files that are none.
+#include "drivers/replay/replay.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace relievo {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* kDevice =
+    "t_s,hip_x_mm,hip_y_mm,hip_z_mm,device_x_mm,device_y_mm,device_z_mm,buttons,device_present,workspace_min_x_mm,"
+    "workspace_min_y_mm,workspace_min_z_mm,workspace_max_x_mm,workspace_max_y_mm,workspace_max_z_mm,peak_force_n,"
+    "continuous_force_n,max_stiffness_n_per_mm,rate_hz\n";
+
+Recording parsed(const std::string& csv) {
+  auto recording = Recording::parse(csv, "file");
+  EXPECT_TRUE(recording) << recording.error().thing << " " << recording.error().error.message;
+  return recording ? *recording : Recording{};
+}
+
+TEST(Recording, IsTheDeviceThatWasRecorded) {
+  const Recording recording = parsed(std::string(kDevice) +
+                                     "0,9,9,9,0.30000000000000004,-2e-7,3,5,1,-50,-40,75,50,60,175,8,2.7,0.64,2000\r\n"
+                                     "0.0005,9,9,9,4,5,6,0,1,,,,,,,,,,\n");
+  ASSERT_EQ(recording.ticks.size(), 2u);
+  EXPECT_EQ(recording.ticks[0].position_mm, glm::dvec3(0.1 + 0.2, -2e-7, 3));
+  EXPECT_EQ(recording.ticks[0].buttons, 5u);
+  EXPECT_EQ(recording.ticks[1].position_mm, glm::dvec3(4, 5, 6));
+  const HapticCapabilities& device = recording.capabilities;
+  EXPECT_EQ(device.workspace_min_mm, glm::dvec3(-50, -40, 75));
+  EXPECT_EQ(device.workspace_max_mm, glm::dvec3(50, 60, 175));
+  EXPECT_EQ(device.peak_force_n, 8);
+  EXPECT_EQ(device.continuous_force_n, 2.7);
+  EXPECT_EQ(device.max_stiffness_n_per_mm, 0.64);
+  EXPECT_EQ(device.rate_hz, 2000);
+}
+
+// Scene millimetres are device millimetres where the middle of the workspace is (0, 0, 20) and it has room to spare.
+TEST(Recording, WithoutTheDeviceItIsThePathInTheScene) {
+  for (const std::string head : {"t_s,hip_x_mm,hip_y_mm,hip_z_mm,proxy_x_mm\n", "t_s,x_mm,y_mm,z_mm,note\n",
+                                 "t_s,hip_x_mm,hip_y_mm,hip_z_mm,device_x_mm\n"}) {
+    const Recording recording = parsed(head + "0,1,2,3,\n0.00025,4,5,6,\n0.0005,4,5,6,\n");
+    EXPECT_EQ(recording.ticks[1].position_mm, glm::dvec3(4, 5, 6));
+    EXPECT_EQ(recording.capabilities.workspace_min_mm + recording.capabilities.workspace_max_mm, glm::dvec3(0, 0, 40));
+    EXPECT_GT(recording.capabilities.workspace_max_mm.x, 500);
+    EXPECT_EQ(recording.capabilities.rate_hz, 4000);
+  }
+}
+
+TEST(Recording, APathHasAColumnOrderOfItsOwn) {
+  EXPECT_EQ(parsed("z_mm,x_mm,y_mm\n3,1,2\n").ticks[0].position_mm, glm::dvec3(1, 2, 3));
+  EXPECT_EQ(parsed("z_mm,x_mm,y_mm\n3,1,2\n").capabilities.rate_hz, 1000) << "no time, no rate";
+}
+
+struct Wrong {
+  std::string csv;
+  const char* where;
+  const char* what;
+};
+TEST(Recording, AWrongFileIsRefusedByItsLine) {
+  const std::string first = "0,9,9,9,1,2,3,0,1,-1,-1,-1,1,1,1,8,2,1,1000\n";
+  for (const Wrong& wrong : {
+           Wrong{"", "file:1", "is no recording"},
+           Wrong{"0,0,0,0\n", "file:1", "is no recording"},
+           Wrong{"t_s,x_mm,z_mm\n0,0,0\n", "file:1", "is no recording"},
+           Wrong{"t_s,device_x_mm,device_y_mm,device_z_mm\n0,0,0,0\n", "file:1", "is no recording"},
+           Wrong{"t_s,x_mm,y_mm,z_mm\n", "file:2", "no row follows"},
+           Wrong{"t_s,x_mm,y_mm,z_mm\n0,0,0,0\n0,0,0\n", "file:3", "cells"},
+           Wrong{"t_s,x_mm,y_mm,z_mm\n0,0,0,0\n0,0,0,0,0\n", "file:3", "cells"},
+           Wrong{"t_s,x_mm,y_mm,z_mm\n0,0,0,0\n0,0,no,0\n", "file:3", "position"},
+           Wrong{"t_s,x_mm,y_mm,z_mm\n0,0,nan,0\n", "file:2", "position"},
+           Wrong{"t_s,x_mm,y_mm,z_mm\n0,0,,0\n", "file:2", "position"},
+           Wrong{"t_s,x_mm,y_mm,z_mm\n0,0,0,0\n\n", "file:3", "cells"},
+           Wrong{kDevice + first + "0,9,9,9,1,2,3,-1,1,,,,,,,,,,\n", "file:3", "buttons"},
+           Wrong{kDevice + first + "0,9,9,9,1,2,3,,1,,,,,,,,,,\n", "file:3", "buttons"},
+           Wrong{kDevice + first + "0,9,9,9,1,2", "file:3", "cells"},
+       }) {
+    const auto recording = Recording::parse(wrong.csv, "file");
+    ASSERT_FALSE(recording) << wrong.csv;
+    EXPECT_EQ(recording.error().error.code, ErrorCode::InvalidArgument);
+    EXPECT_EQ(recording.error().thing, wrong.where) << wrong.csv;
+    EXPECT_THAT(recording.error().error.message, HasSubstr(wrong.what)) << wrong.csv;
+  }
+}
+
+TEST(Recording, AMissingFileIsNotFound) {
+  EXPECT_EQ(Recording::load("/nonexistent/touch.csv").error().error.code, ErrorCode::NotFound);
+}
+
+TEST(Replay, AnswersTickByTickAndStaysAtTheEnd) {
+  const auto device = makeReplay(parsed("t_s,x_mm,y_mm,z_mm\n0,1,0,0\n0.001,2,0,0\n0.002,3,0,0\n"));
+  for (int opening = 0; opening < 2; ++opening) {
+    ASSERT_TRUE(device->open() && device->home() && device->start());
+    for (const double x : {1.0, 2.0}) {
+      EXPECT_EQ(device->read()->position_mm.x, x);
+      EXPECT_TRUE(device->write({0, 0, 5}));
+    }
+    device->stop();
+    ASSERT_TRUE(device->start());
+    for (const double x : {3.0, 3.0, 3.0}) EXPECT_EQ(device->read()->position_mm.x, x) << "it goes on where it was";
+    device->close();
+  }
+}
+
+TEST(Replay, WhereTheDeviceDidNotAnswerItDoesNot) {
+  const auto device = makeReplay(
+      parsed(kDevice + std::string("0,0,0,0,1,2,3,0,1,-1,-1,-1,1,1,1,8,2,1,1000\n0,0,0,0,0,0,0,0,0,,,,,,,,,,\n"
+                                   "0,0,0,0,1,2,4,0,1,,,,,,,,,,\n")));
+  ASSERT_TRUE(device->open() && device->home() && device->start());
+  EXPECT_TRUE(device->read());
+  EXPECT_EQ(device->read().error().code, ErrorCode::Io);
+  EXPECT_EQ(device->state(), HapticDevice::State::Running);
+  EXPECT_EQ(device->read()->position_mm.z, 4);
+}
+
+}  // namespace
+}  // namespace relievo
