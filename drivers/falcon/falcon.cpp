@@ -21,6 +21,7 @@ using namespace falcon;
 
 constexpr Duration kTick = 1ms;
 constexpr int kLoads = 10;     // tries to load the firmware
+constexpr int kMostPackets = 16;  // of a tick: a device that floods the bus does not hold it up
 constexpr int kFirmHomed = 3;  // replies in a row that all say "homed"
 
 constexpr const char* kNoFirmware =
@@ -167,10 +168,10 @@ class Falcon final : public HapticDevice {
 
   Result<std::optional<Reply>> newestReply() RELIEVO_RT {
     std::optional<Reply> newest;
-    for (;;) {
+    for (int i = 0; i < kMostPackets; ++i) {
       const auto packet = port_->take();
       if (!packet) return std::unexpected(packet.error());
-      if (packet->bytes == 0) return newest;
+      if (packet->bytes == 0) break;
       const UsbBytes payload = payloadOf(*packet);
       if (payload.empty() && packet->bytes > kStatusBytes) stream_.clear();  // broken: no packet spans it
       stream_.add(payload);
@@ -178,6 +179,7 @@ class Falcon final : public HapticDevice {
         if (const auto reply = decodeReply(*whole)) newest = reply;
       }
     }
+    return newest;
   }
 
   // The main button of the grip is the one in its centre.
