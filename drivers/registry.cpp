@@ -10,10 +10,11 @@
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/mock/mock.h"
 #include "drivers/mock/scripted_remote.h"
+#include "drivers/polhem/polhem.h"
 #include "drivers/sim/sim.h"
 
 #define RELIEVO_DISPLAY_NAMES "offscreen[:FILE.y4m] mock"
-#define RELIEVO_HAPTIC_NAMES "falcon[:FIRMWARE] sim[:SCRIPT] mock none"
+#define RELIEVO_HAPTIC_NAMES "falcon[:FIRMWARE] polhem[:DESCRIPTION.json] sim[:SCRIPT] mock none"
 #define RELIEVO_REMOTE_NAMES "script:FILE none"
 
 namespace relievo::drivers {
@@ -70,6 +71,12 @@ Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(std::string_view text, C
   const Spec spec(text);
   if (spec.plain("falcon") || spec.withArgument("falcon"))
     return makeFalcon(falconConfig(settings, spec.argument), clock);
+  if (spec.plain("polhem")) return makePolhem({}, clock);
+  if (spec.withArgument("polhem")) {
+    auto description = polhem::loadDescription(*spec.argument);
+    if (!description) return std::unexpected(description.error());
+    return makePolhem({.description = *description}, clock);
+  }
   if (spec.plain("sim")) return makeSimHaptic(SimDeviceProfile{}, HandPath(), clock);
   if (spec.withArgument("sim")) {
     auto path = HandPath::load(*spec.argument);

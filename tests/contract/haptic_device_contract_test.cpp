@@ -8,11 +8,13 @@
 
 #include "drivers/falcon/falcon.h"
 #include "drivers/mock/mock.h"
+#include "drivers/polhem/polhem.h"
 #include "drivers/sim/sim.h"
 #include "platform/allocation_counter.h"
 #include "tests/contract/state_table.h"
 #include "tests/support/falcon_model.h"
 #include "tests/support/model_port.h"
+#include "tests/support/polhem_model.h"
 
 namespace relievo {
 namespace {
@@ -93,6 +95,32 @@ Rig falcon(ManualClock& clock, bool loses) {
           [bench] { return bench->cable.model_allocations; }, 600};
 }
 
+// The same; calibrated in the middle of the workspace, so that it is inside from the first tick on.
+Rig polhem(ManualClock& clock, bool loses) {
+  using relievo::polhem::Description;
+  using relievo::polhem::Milliamps;
+  Description arm = relievo::polhem::kWoodenHaptics2019;
+  arm.calibrate_enc = test::PolhemModel::countsAt({0, 0, 0}, arm);
+  struct Bench {
+    explicit Bench(const Description& arm) : model(arm) {}
+    test::PolhemModel model;
+    test::Cable cable;
+  };
+  auto bench = std::make_shared<Bench>(arm);
+  auto device = makePolhem({.description = arm, .watchdog_thread = false},
+                           std::make_unique<test::ModelPort>(bench->model, bench->cable, clock), clock);
+  if (loses) {
+    bench->cable.comes_back = true;
+    bench->model.grip = [bench = bench.get()](double) {
+      // Calibrated in the first exchange, gone with the second.
+      if (bench->cable.exchanging && bench->cable.exchanges == 2) bench->cable.plugged = false;
+      return glm::dvec3(0);
+    };
+  }
+  return {bench, std::move(device), [bench, &clock] { return bench->model.milliamps(clock.now()) != Milliamps{}; },
+          [bench] { return bench->cable.model_allocations; }, 600};
+}
+
 const Backend kBackends[] = {
     {"falcon", [](ManualClock& clock) { return falcon(clock, false); },
      [](ManualClock& clock) { return falcon(clock, true); }},
@@ -102,6 +130,8 @@ const Backend kBackends[] = {
        profile.lose_after_ticks = 0;
        return mock(profile, clock);
      }},
+    {"polhem", [](ManualClock& clock) { return polhem(clock, false); },
+     [](ManualClock& clock) { return polhem(clock, true); }},
     {"sim", sim, nullptr},
 };
 

@@ -33,7 +33,11 @@ std::int16_t wrapped(long count) {
 
 PolhemModel::PolhemModel(const Description& description, PolhemFaults faults)
     : arm_(description), faults_(std::move(faults)) {
-  grip = [this](double) { return calibrated_ ? glm::dvec3(0) : placeOf(anglesOf(arm_.calibrate_enc, arm_), arm_); };
+  constexpr double kHeldOnS = 0.05;
+  grip = [this](double t_s) {
+    const bool left = calibrated_ && t_s > calibrated_s_ + kHeldOnS;
+    return left ? glm::dvec3(0) : placeOf(anglesOf(arm_.calibrate_enc, arm_), arm_);
+  };
   powerOn();
 }
 
@@ -127,6 +131,7 @@ void PolhemModel::write(UsbBytes bytes, MonotonicTime now) {
         zero_[i] = wrapped(command->counts[i] - there[i]);
       }
       calibrated_ = true;
+      calibrated_s_ = toSeconds(now - *began_);
     }
   }
   if (!silent_) report(now + 300us);

@@ -30,7 +30,7 @@ class PolhemModel final : public UsbModel {
   std::optional<UsbPacket> read(MonotonicTime now) override;
 
   // Where the tip is, mm in the driver's frame, `t_s` after the first command. Its default holds the arm where it is
-  // calibrated until that is done, and the middle of the workspace from then on.
+  // calibrated until that is done and a moment longer, then in the middle of the workspace.
   std::function<glm::dvec3(double t_s)> grip;
   bool button = false;
 
@@ -64,6 +64,7 @@ class PolhemModel final : public UsbModel {
   std::deque<Spoken> to_host_;
   bool silent_ = false;
   bool calibrated_ = false;
+  double calibrated_s_ = 0;
   EncoderCounts zero_{};  // what is added to the true counts
   polhem::Command command_;
   MonotonicTime commanded_;
