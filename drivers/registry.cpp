@@ -108,7 +108,8 @@ std::unique_ptr<VideoDecoder> makeVideoDecoder() {
 }
 
 std::vector<DeviceState> lookAtDevices(const HapticSettings& settings, Clock& clock) {
-  return {look("falcon", *makeFalcon(falconConfig(settings, std::nullopt), clock))};
+  return {look("falcon", *makeFalcon(falconConfig(settings, std::nullopt), clock)),
+          look("polhem", *makePolhem({}, clock))};
 }
 
 void stopAllMotors() noexcept {
