@@ -11,12 +11,14 @@
 #include "drivers/mock/mock.h"
 #include "drivers/mock/scripted_remote.h"
 #include "drivers/pointer/pointer.h"
+#include "drivers/polhem/polhem.h"
 #include "drivers/replay/replay.h"
 #include "drivers/sim/profiles.h"
 
 #define RELIEVO_DISPLAY_NAMES "offscreen[:FILE.y4m] mock"
-#define RELIEVO_HAPTIC_NAMES \
-  "falcon[:FIRMWARE] pointer[:/dev/input/eventN] sim[:DEVICE][,HAND][,SCRIPT] replay:FILE mock none"
+#define RELIEVO_HAPTIC_NAMES                                                 \
+  "falcon[:FIRMWARE] polhem[:DESCRIPTION.json] pointer[:/dev/input/eventN] " \
+  "sim[:DEVICE][,HAND][,SCRIPT] replay:FILE mock none"
 #define RELIEVO_REMOTE_NAMES "script:FILE none"
 
 namespace relievo::drivers {
@@ -74,6 +76,12 @@ Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(std::string_view text, C
   const Spec spec(text);
   if (spec.plain("falcon") || spec.withArgument("falcon"))
     return makeFalcon(falconConfig(settings, spec.argument), clock);
+  if (spec.plain("polhem")) return makePolhem({}, clock);
+  if (spec.withArgument("polhem")) {
+    auto description = polhem::loadDescription(*spec.argument);
+    if (!description) return std::unexpected(description.error());
+    return makePolhem({.description = *description}, clock);
+  }
   if (spec.plain("sim") || spec.withArgument("sim")) {
     auto setup = parseSim(spec.argument.value_or(""));
     if (!setup) return std::unexpected(setup.error());
@@ -110,7 +118,8 @@ std::unique_ptr<VideoDecoder> makeVideoDecoder() {
 }
 
 std::vector<DeviceState> lookAtDevices(const HapticSettings& settings, Clock& clock) {
-  return {look("falcon", *makeFalcon(falconConfig(settings, std::nullopt), clock))};
+  return {look("falcon", *makeFalcon(falconConfig(settings, std::nullopt), clock)),
+          look("polhem", *makePolhem({}, clock))};
 }
 
 void stopAllMotors() noexcept {

@@ -2,18 +2,16 @@
 // One exchange a tick: the newest reply becomes a position, the force becomes motor words.
 #include "drivers/falcon/falcon.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <iterator>
 #include <vector>
 
-#include "drivers/falcon/encoder_gate.h"
 #include "drivers/falcon/kinematics.h"
 #include "drivers/falcon/link.h"
 #include "drivers/falcon/packet.h"
-#include "drivers/usb/watchdog.h"
+#include "drivers/usb/force_session.h"
 
 namespace relievo {
 namespace {
@@ -22,9 +20,8 @@ using namespace std::chrono_literals;
 using namespace falcon;
 
 constexpr Duration kTick = 1ms;
-constexpr Duration kSilence = 100ms;  // a device that answers nothing for so long is lost
-constexpr double kFadeInS = 0.5;
 constexpr int kLoads = 10;     // tries to load the firmware
+constexpr int kMostPackets = 16;  // of a tick: a device that floods the bus does not hold it up
 constexpr int kFirmHomed = 3;  // replies in a row that all say "homed"
 
 constexpr const char* kNoFirmware =
@@ -34,7 +31,11 @@ constexpr const char* kNoFirmware =
 class Falcon final : public HapticDevice {
  public:
   Falcon(const FalconConfig& config, std::unique_ptr<UsbPort> port, Clock& clock)
-      : config_(config), port_(std::move(port)), clock_(clock), motors_(config.counts_per_nm), watchdog_(*port_) {}
+      : config_(config),
+        port_(std::move(port)),
+        clock_(clock),
+        motors_(config.counts_per_nm),
+        session_(*port_, clock) {}
   ~Falcon() override { close(); }
   Falcon(const Falcon&) = delete;
   Falcon& operator=(const Falcon&) = delete;
@@ -85,16 +86,16 @@ class Falcon final : public HapticDevice {
   }
 
   Result<void> homeDevice() override {
-    if (auto begun = beginExchange(); !begun) return begun;
+    stream_.clear();
+    if (auto begun = session_.begin(encode(Command{})); !begun) return begun;
     auto homed = waitForIndex();
-    endExchange();
+    session_.end();
     return homed;
   }
 
   // The counts jump when a leg finds its index: what is known of the position begins after that.
   Result<void> waitForIndex() {
     int firm = 0;
-    MonotonicTime heard = clock_.now();
     while (firm < kFirmHomed) {
       if (cancelled()) return fail(ErrorCode::Cancelled, "homing the Falcon was called off");
       if (auto sent = port_->post(encode(Command{.homing = true, .red = true})); !sent) {
@@ -103,12 +104,10 @@ class Falcon final : public HapticDevice {
       clock_.sleepUntil(clock_.now() + kTick);
       const auto reply = newestReply();
       if (!reply) return std::unexpected(reply.error());
-      if (*reply) {
-        heard = clock_.now();
-        firm = (*reply)->allHomed() ? firm + 1 : 0;
-        if (firm == kFirmHomed) return settle((*reply)->encoders);
-      }
-      if (clock_.now() - heard > kSilence) return fail(ErrorCode::Lost, "the Falcon stopped answering while homing");
+      if (auto alive = session_.listened(reply->has_value()); !alive) return alive;
+      if (!*reply) continue;
+      firm = (*reply)->allHomed() ? firm + 1 : 0;
+      if (firm == kFirmHomed) return settle((*reply)->encoders);
     }
     return {};
   }
@@ -122,32 +121,24 @@ class Falcon final : public HapticDevice {
   }
 
   Result<void> startDevice() override {
-    if (auto begun = beginExchange(); !begun) return begun;
+    stream_.clear();
     motors_ = Motors(config_.counts_per_nm);
-    fade_ = 0;
     unhomed_ = 0;
-    last_write_ = heard_ = clock_.now();
+    if (auto begun = session_.beginForces(encode(Command{}), config_.watchdog_thread); !begun) return begun;
     if (auto sent = port_->post(encode(Command{.green = true})); !sent) {
-      endExchange();
+      session_.end();
       return std::unexpected(sent.error());
     }
-    watchdog_.start(config_.watchdog_thread);
     return {};
   }
 
   Result<HapticSample> readSample() RELIEVO_RT override {
-    const MonotonicTime now = clock_.now();
     const auto reply = newestReply();
     if (!reply) return std::unexpected(reply.error());
-    if (*reply) {
-      heard_ = now;
-      follow(**reply);
-    } else {
-      gate_.skip();
-    }
+    if (*reply) follow(**reply);
+    else gate_.skip();
     if (unhomed_ >= kFirmHomed) return fail(ErrorCode::Lost, "the Falcon has lost its zero; it must be homed anew");
-    if (now - heard_ > kSilence) return fail(ErrorCode::Lost, "the Falcon stopped answering; plug it in anew");
-    if (watchdog_.check(now)) fade_ = 0;
+    if (auto alive = session_.listened(reply->has_value()); !alive) return std::unexpected(alive.error());
     return sample_;
   }
 
@@ -161,48 +152,26 @@ class Falcon final : public HapticDevice {
   }
 
   Result<void> writeForce(const glm::dvec3& force_n) RELIEVO_RT override {
-    const MonotonicTime now = clock_.now();
-    const double elapsed_s = toSeconds(now - last_write_);
-    last_write_ = now;
-    fade_ = std::min(1.0, fade_ + elapsed_s / kFadeInS);
+    const auto share = session_.nextShare();
     Command command{.green = true};
     if (const auto pose = inverse(sample_.position_mm)) {
-      command.motors = motors_.wordsFor(torquesOf(fade_ * force_n, *pose), elapsed_s);
+      command.motors = motors_.wordsFor(torquesOf(share.of_force * force_n, *pose), share.elapsed_s);
     }
-    const auto sent = port_->post(encode(command));
-    if (!sent) return std::unexpected(sent.error());
-    if (*sent) watchdog_.feed(now);
-    return {};
+    return session_.send(encode(command));
   }
 
-  void stopDevice() noexcept override {
-    watchdog_.stop();
-    endExchange();
-  }
+  void stopDevice() noexcept override { session_.end(); }
   void closeDevice() noexcept override {
-    stopDevice();
+    session_.end();
     port_->close();
-  }
-
-  Result<void> beginExchange() {
-    stream_.clear();
-    auto begun = port_->startExchange(encode(Command{}));
-    exchanging_ = begun.has_value();
-    return begun;
-  }
-  void endExchange() noexcept {
-    if (!exchanging_) return;
-    port_->quieten();
-    port_->stopExchange();
-    exchanging_ = false;
   }
 
   Result<std::optional<Reply>> newestReply() RELIEVO_RT {
     std::optional<Reply> newest;
-    for (;;) {
+    for (int i = 0; i < kMostPackets; ++i) {
       const auto packet = port_->take();
       if (!packet) return std::unexpected(packet.error());
-      if (packet->bytes == 0) return newest;
+      if (packet->bytes == 0) break;
       const UsbBytes payload = payloadOf(*packet);
       if (payload.empty() && packet->bytes > kStatusBytes) stream_.clear();  // broken: no packet spans it
       stream_.add(payload);
@@ -210,6 +179,7 @@ class Falcon final : public HapticDevice {
         if (const auto reply = decodeReply(*whole)) newest = reply;
       }
     }
+    return newest;
   }
 
   // The main button of the grip is the one in its centre.
@@ -221,14 +191,11 @@ class Falcon final : public HapticDevice {
   std::unique_ptr<UsbPort> port_;
   Clock& clock_;
   Motors motors_;
-  Watchdog watchdog_;
+  ForceSession session_;
   PacketStream stream_;
-  EncoderGate gate_;
+  EncoderGate gate_{kGateSlack};
   HapticSample sample_;
-  bool exchanging_ = false;
   int unhomed_ = 0;  // replies in a row that say that a leg has not found its index
-  double fade_ = 0;
-  MonotonicTime last_write_, heard_;
 };
 
 }  // namespace
@@ -238,7 +205,7 @@ std::unique_ptr<HapticDevice> makeFalcon(const FalconConfig& config, std::unique
 }
 
 std::unique_ptr<HapticDevice> makeFalcon(const FalconConfig& config, Clock& clock) {
-  return makeFalcon(config, makeLibusbPort(kUsbId), clock);
+  return makeFalcon(config, makeLibusbPort({kUsbId}), clock);
 }
 
 }  // namespace relievo

@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
+#include "drivers/usb/encoder_gate.h"
 #include "platform/realtime.h"
 
 namespace relievo::falcon {
@@ -23,8 +24,10 @@ inline constexpr glm::dvec3 kCentreMm{0, 0, 115};
 
 // Encoder counts of the three motors once they are homed, as thigh angles: 1280 counts a turn of the motor, capstan
 // 14.25 mm on a 110 mm drum, 35 degrees at the index. One count is 0.64 mrad, 38 um at the knee.
-using Counts = std::array<std::int16_t, 3>;
+using Counts = EncoderCounts;
 [[nodiscard]] glm::dvec3 anglesOf(const Counts& counts) RELIEVO_RT;
+// A count is the 38 um, so that the highest acceleration makes 4 in a tick.
+inline constexpr int kGateSlack = EncoderGate::kRounding + 4;
 // The nearest counts; for models of the device and for tests.
 [[nodiscard]] Counts countsOf(const glm::dvec3& theta_rad) RELIEVO_RT;
 

@@ -16,6 +16,7 @@
 #include <cstdio>
 #include <cstring>
 #include <optional>
+#include <utility>
 
 #include "drivers/usb/quiet_list.h"
 #include "drivers/usb/usb_port.h"
@@ -36,7 +37,8 @@ std::unexpected<Error> failUsb(int code) {
       return fail(ErrorCode::Timeout, "the USB device did not answer in time; check its power adaptor");
     case LIBUSB_ERROR_ACCESS:
       return fail(ErrorCode::PermissionDenied,
-                  "the right to use the USB device is missing; install relievo's udev rules");
+                  "the right to use the USB device is missing; copy toolchain/udev/70-relievo.rules to "
+                  "/etc/udev/rules.d and plug it in again");
     default:
       return fail(ErrorCode::Io, "a USB transfer failed; try another port or cable");
   }
@@ -44,7 +46,7 @@ std::unexpected<Error> failUsb(int code) {
 
 class LibusbPort final : public UsbPort {
  public:
-  explicit LibusbPort(const UsbDeviceId& id) : id_(id) {}
+  explicit LibusbPort(std::vector<UsbDeviceId> ids) : ids_(std::move(ids)) {}
   ~LibusbPort() override { close(); }
   LibusbPort(const LibusbPort&) = delete;
   LibusbPort& operator=(const LibusbPort&) = delete;
@@ -166,7 +168,11 @@ class LibusbPort final : public UsbPort {
     for (ssize_t i = 0; i < count; ++i) {
       libusb_device_descriptor descriptor{};
       libusb_get_device_descriptor(list[i], &descriptor);
-      if (descriptor.idVendor != id_.vendor || descriptor.idProduct != id_.product) continue;
+      const auto id = std::ranges::find_if(ids_, [&](const UsbDeviceId& each) {
+        return descriptor.idVendor == each.vendor && descriptor.idProduct == each.product;
+      });
+      if (id == ids_.end()) continue;
+      id_ = *id;
       result = claim(list[i]);
       if (result) break;
     }
@@ -240,7 +246,8 @@ class LibusbPort final : public UsbPort {
     return fail(ErrorCode::Io, "a USB transfer failed; try another port or cable", number);
   }
 
-  UsbDeviceId id_;
+  std::vector<UsbDeviceId> ids_;
+  UsbDeviceId id_;  // of the device that is open
   libusb_context* context_ = nullptr;
   libusb_device_handle* handle_ = nullptr;
   UniqueFd fd_;
@@ -254,8 +261,8 @@ class LibusbPort final : public UsbPort {
 
 }  // namespace
 
-std::unique_ptr<UsbPort> makeLibusbPort(const UsbDeviceId& id) {
-  return std::make_unique<LibusbPort>(id);
+std::unique_ptr<UsbPort> makeLibusbPort(std::vector<UsbDeviceId> ids) {
+  return std::make_unique<LibusbPort>(std::move(ids));
 }
 
 }  // namespace relievo

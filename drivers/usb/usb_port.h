@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "platform/clock.h"
 #include "platform/error.h"
@@ -39,7 +40,7 @@ class UsbPort {
  public:
   virtual ~UsbPort() = default;
 
-  // Opens the first device of the id that nobody else has, and claims interface 0. NotFound, PermissionDenied,
+  // Opens the first device of its ids that nobody else has, and claims interface 0. NotFound, PermissionDenied,
   // Unsupported (somebody has it).
   [[nodiscard]] virtual Result<void> open() = 0;
   virtual void close() noexcept = 0;
@@ -63,8 +64,9 @@ class UsbPort {
   virtual void quieten() noexcept = 0;
 };
 
-// Through libusb. Allocates nothing and takes no lock between startExchange and stopExchange.
-[[nodiscard]] std::unique_ptr<UsbPort> makeLibusbPort(const UsbDeviceId& id);
+// Through libusb, to a device of any of the ids. Allocates nothing and takes no lock between startExchange and
+// stopExchange.
+[[nodiscard]] std::unique_ptr<UsbPort> makeLibusbPort(std::vector<UsbDeviceId> ids);
 
 // Quietens every device that is in an exchange, for a handler of a fatal signal: async-signal-safe.
 void quietenAllUsbDevices() noexcept;

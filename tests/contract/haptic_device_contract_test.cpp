@@ -9,6 +9,7 @@
 #include "drivers/falcon/falcon.h"
 #include "drivers/mock/mock.h"
 #include "drivers/pointer/pointer.h"
+#include "drivers/polhem/polhem.h"
 #include "drivers/replay/replay.h"
 #include "drivers/sim/sim.h"
 #include "platform/allocation_counter.h"
@@ -16,6 +17,7 @@
 #include "tests/support/fake_mouse.h"
 #include "tests/support/falcon_model.h"
 #include "tests/support/model_port.h"
+#include "tests/support/polhem_model.h"
 
 namespace relievo {
 namespace {
@@ -110,6 +112,32 @@ Rig replay() {
   return {nullptr, makeReplay(recording.value()), [] { return false; }};
 }
 
+// The same; calibrated in the middle of the workspace, so that it is inside from the first tick on.
+Rig polhem(ManualClock& clock, bool loses) {
+  using relievo::polhem::Description;
+  using relievo::polhem::Milliamps;
+  Description arm = relievo::polhem::kWoodenHaptics2019;
+  arm.calibrate_enc = test::PolhemModel::countsAt({0, 0, 0}, arm);
+  struct Bench {
+    explicit Bench(const Description& arm) : model(arm) {}
+    test::PolhemModel model;
+    test::Cable cable;
+  };
+  auto bench = std::make_shared<Bench>(arm);
+  auto device = makePolhem({.description = arm, .watchdog_thread = false},
+                           std::make_unique<test::ModelPort>(bench->model, bench->cable, clock), clock);
+  if (loses) {
+    bench->cable.comes_back = true;
+    bench->model.grip = [bench = bench.get()](double) {
+      // Calibrated in the first exchange, gone with the second.
+      if (bench->cable.exchanging && bench->cable.exchanges == 2) bench->cable.plugged = false;
+      return glm::dvec3(0);
+    };
+  }
+  return {bench, std::move(device), [bench, &clock] { return bench->model.milliamps(clock.now()) != Milliamps{}; },
+          [bench] { return bench->cable.model_allocations; }, 600};
+}
+
 const Backend kBackends[] = {
     {"falcon", [](ManualClock& clock) { return falcon(clock, false); },
      [](ManualClock& clock) { return falcon(clock, true); }},
@@ -122,6 +150,8 @@ const Backend kBackends[] = {
     {"pointer", [](ManualClock& clock) { return pointer(clock, false); },
      [](ManualClock& clock) { return pointer(clock, true); }, false},
     {"replay", [](ManualClock&) { return replay(); }, nullptr, false},
+    {"polhem", [](ManualClock& clock) { return polhem(clock, false); },
+     [](ManualClock& clock) { return polhem(clock, true); }},
     {"sim", sim, nullptr},
 };
 

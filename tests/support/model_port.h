@@ -15,6 +15,7 @@ struct Cable {
   bool comes_back = false;  // it is plugged in again before the next `open`
   int verbs_left = std::numeric_limits<int>::max();
   int verbs = 0;
+  int exchanges = 0;  // that were started
   bool open = false, exchanging = false;
   std::uint64_t model_allocations = 0;  // by the model, on the thread of its caller
 };
@@ -59,6 +60,7 @@ class ModelPort final : public UsbPort {
     if (!there()) return gone();
     quiet_.assign(quiet.begin(), quiet.end());
     cable_.exchanging = true;
+    ++cable_.exchanges;
     return {};
   }
   Result<UsbPacket> take() RELIEVO_RT override {

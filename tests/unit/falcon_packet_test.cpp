@@ -7,8 +7,6 @@
 #include <random>
 #include <vector>
 
-#include "drivers/falcon/encoder_gate.h"
-
 namespace relievo::falcon {
 namespace {
 
@@ -121,7 +119,7 @@ TEST(FalconStream, MoreThanItHoldsCostsTheOldest) {
 }
 
 TEST(FalconGate, MotionPassesAndALeapDoesNot) {
-  EncoderGate gate;
+  EncoderGate gate(kGateSlack);
   gate.reset({0, 0, 0});
   int place = 0;
   for (int tick = 1; tick < 200; ++tick) {  // accelerates by 3 counts a tick and tick, then stops as softly
@@ -133,7 +131,7 @@ TEST(FalconGate, MotionPassesAndALeapDoesNot) {
 }
 
 TEST(FalconGate, ALeapThatStaysIsBelievedTheSecondTime) {
-  EncoderGate gate;
+  EncoderGate gate(kGateSlack);
   gate.reset({0, 0, 0});
   EXPECT_FALSE(gate.accept({500, 0, 0}));
   EXPECT_TRUE(gate.accept({501, 0, 0}));
@@ -143,7 +141,7 @@ TEST(FalconGate, ALeapThatStaysIsBelievedTheSecondTime) {
 }
 
 TEST(FalconGate, ATickWithoutAWordWidensIt) {
-  EncoderGate gate;
+  EncoderGate gate(kGateSlack);
   gate.reset({0, 0, 0});
   gate.skip();
   gate.skip();

@@ -26,6 +26,7 @@ TEST_F(Registry, MakesEachByItsName) {
   EXPECT_STREQ(makeDisplay("mock").value()->capabilities().name, "mock");
   EXPECT_STREQ(makeHapticDevice("falcon", clock_).value()->capabilities().name, "Novint Falcon");
   EXPECT_STREQ(makeHapticDevice("falcon:image.bin", clock_).value()->capabilities().name, "Novint Falcon");
+  EXPECT_STREQ(makeHapticDevice("polhem", clock_).value()->capabilities().name, "Polhem");
   EXPECT_STREQ(makeHapticDevice("sim", clock_).value()->capabilities().name, "sim");
   EXPECT_STREQ(makeHapticDevice("mock", clock_).value()->capabilities().name, "mock");
   EXPECT_NE(makeMediaSource("film.mkv"), nullptr);
@@ -45,7 +46,7 @@ TEST_F(Registry, RefusesOtherNamesAndListsTheRightOnes) {
     EXPECT_EQ(display.error().thing, std::string("--display ") + name);
     EXPECT_THAT(display.error().error.message, testing::HasSubstr(kDisplayNames));
   }
-  for (const char* name : {"", "falcon:", "sim:", "mock:x", "none:", "SIM", "replay", "replay:"}) {
+  for (const char* name : {"", "falcon:", "polhem:", "sim:", "mock:x", "none:", "SIM", "replay", "replay:"}) {
     const auto device = makeHapticDevice(name, clock_);
     ASSERT_FALSE(device) << name;
     EXPECT_EQ(device.error().error.code, ErrorCode::InvalidArgument);
@@ -62,6 +63,15 @@ TEST_F(Registry, RefusesOtherNamesAndListsTheRightOnes) {
 TEST_F(Registry, AScriptThatIsNotThereIsNotFound) {
   EXPECT_EQ(makeHapticDevice("sim:/nonexistent.csv", clock_).error().error.code, ErrorCode::NotFound);
   EXPECT_EQ(makeRemoteInput("script:/nonexistent.txt", clock_).error().error.code, ErrorCode::NotFound);
+}
+
+TEST_F(Registry, APolhemIsAsItsDescriptionSays) {
+  const auto device = makeHapticDevice("polhem:" RELIEVO_SOURCE_DIR "/drivers/polhem/polhem-1.json", clock_);
+  ASSERT_TRUE(device);
+  EXPECT_EQ((*device)->capabilities().max_stiffness_n_per_mm, 0.8);
+  const auto closed = makeHapticDevice("polhem:" + fileWith("registry_arm.json", "{\"variant\": 3}"), clock_);
+  EXPECT_EQ(closed.error().error.code, ErrorCode::Unsupported);
+  EXPECT_EQ(makeHapticDevice("polhem:/nonexistent.json", clock_).error().error.code, ErrorCode::NotFound);
 }
 
 TEST_F(Registry, TheSimulatedHandFollowsItsScript) {

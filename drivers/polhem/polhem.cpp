@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+// One exchange a tick: the newest report becomes a position, the force becomes currents.
+#include "drivers/polhem/polhem.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "drivers/polhem/arm.h"
+#include "drivers/polhem/report.h"
+#include "drivers/usb/force_session.h"
+#include "drivers/usb/motor_limit.h"
+
+namespace relievo {
+namespace {
+
+using namespace std::chrono_literals;
+using namespace polhem;
+
+constexpr Duration kTick = 1ms;
+constexpr Duration kAnswer = 20ms;
+constexpr Duration kHeldStill = 500ms;  // before it is calibrated
+constexpr Duration kSettled = 20ms;     // after that
+constexpr int kMostPackets = 16;         // of a tick: a device that floods the bus does not hold it up
+constexpr int kStillCounts = 4;         // 0.2 mm: what a hand that rests makes
+// What the windings and amplifiers stand for good is not published for these arms: half of the highest current is
+// taken for it, 1 A of 2 A, where the motors that the torque constants point at are rated for 1.7 A and more.
+constexpr double kLastingShare = 0.5;
+
+class Polhem final : public HapticDevice {
+ public:
+  Polhem(const PolhemConfig& config, std::unique_ptr<UsbPort> port, Clock& clock)
+      : config_(config),
+        port_(std::move(port)),
+        clock_(clock),
+        arm_(config.description),
+        limit_(mostMilliamps(), kLastingShare),
+        session_(*port_, clock),
+        gate_(arm_.gateSlack()) {
+    const double reachable_n = arm_.forceInEveryDirection(mostMilliamps());
+    peak_n_ = std::min(config.description.max_linear_force, reachable_n);
+    continuous_n_ = std::min(peak_n_, kLastingShare * reachable_n);
+  }
+  ~Polhem() override { close(); }
+  Polhem(const Polhem&) = delete;
+  Polhem& operator=(const Polhem&) = delete;
+
+  // The peak is what the currents' limit leaves in every direction, cut at what the maker promises.
+  [[nodiscard]] HapticCapabilities capabilities() const noexcept override {
+    const glm::dvec3 radius_mm(1e3 * config_.description.workspace_radius);
+    return {.name = "Polhem",
+            .workspace_min_mm = -radius_mm,
+            .workspace_max_mm = radius_mm,
+            .peak_force_n = peak_n_,
+            .continuous_force_n = continuous_n_,
+            .max_stiffness_n_per_mm = 1e-3 * config_.description.max_linear_stiffness,
+            .rate_hz = 1000};
+  }
+
+ private:
+  // Whole, and below what an int16 and the amplifiers' setting hold.
+  [[nodiscard]] double mostMilliamps() const {
+    const Description& d = config_.description;
+    return std::floor(std::min({d.max_milliamps, 1e3 * d.current_for_10_v_signal, 32000.0}));
+  }
+
+  // The ids are those of many other gadgets: what answers with another kind of report is not this device. The first
+  // answer tells how long the board's reports are.
+  Result<void> openDevice() override {
+    if (auto opened = port_->open(); !opened) return opened;
+    report_bytes_ = kReportBytes;
+    for (int i = 0; i < 5 && !cancelled(); ++i) {
+      if (auto sent = port_->send(bytesOf(Command{}), kAnswer); !sent && sent.error().code != ErrorCode::Timeout) {
+        return sent;
+      }
+      const auto packet = port_->receive(kAnswer);
+      if (!packet && packet.error().code != ErrorCode::Timeout) return std::unexpected(packet.error());
+      if (!packet) continue;
+      if (packet->bytes != kReportBytes && packet->bytes != kPaddedBytes) {
+        return fail(ErrorCode::Unsupported, "another gadget has the Polhem's USB id; unplug it");
+      }
+      report_bytes_ = packet->bytes;
+      return {};
+    }
+    if (cancelled()) return fail(ErrorCode::Cancelled, "opening the Polhem was called off");
+    return fail(ErrorCode::Timeout, "the Polhem does not answer; check its power and plug it in anew");
+  }
+
+  Result<void> homeDevice() override {
+    if (auto begun = session_.begin(bytesOf(Command{})); !begun) return begun;
+    auto homed = calibrate();
+    session_.end();
+    return homed;
+  }
+
+  Result<void> calibrate() {
+    if (auto still = waitUntilStill(kHeldStill); !still) return std::unexpected(still.error());
+    // The grip's joints are not used here; where a board does not know the verb their fields are currents: zero.
+    const Command command{.verb = Verb::Calibrate, .counts = config_.description.calibrate_enc};
+    for (auto sent = port_->post(bytesOf(command)); !sent || !*sent; sent = port_->post(bytesOf(command))) {
+      if (!sent) return std::unexpected(sent.error());
+      if (cancelled()) return fail(ErrorCode::Cancelled, "homing the Polhem was called off");
+      clock_.sleepUntil(clock_.now() + kTick);
+    }
+    const auto shown = waitUntilStill(kSettled);
+    if (!shown) return std::unexpected(shown.error());
+    for (std::size_t i = 0; i < shown->size(); ++i) {
+      correction_[i] = static_cast<std::uint16_t>(config_.description.calibrate_enc[i] - (*shown)[i]);
+    }
+    const EncoderCounts counts = corrected(*shown);
+    gate_.reset(counts);
+    theta_rad_ = arm_.anglesOf(counts);
+    sample_ = {.position_mm = arm_.positionOf(theta_rad_)};
+    return {};
+  }
+
+  // The counts, raw, once none has moved for so long.
+  Result<EncoderCounts> waitUntilStill(Duration wanted) {
+    std::optional<EncoderCounts> first;
+    MonotonicTime since = clock_.now();
+    for (;;) {
+      if (cancelled()) return fail(ErrorCode::Cancelled, "homing the Polhem was called off");
+      if (auto sent = port_->post(bytesOf(Command{})); !sent) return std::unexpected(sent.error());
+      clock_.sleepUntil(clock_.now() + kTick);
+      const auto report = newestReport();
+      if (!report) return std::unexpected(report.error());
+      if (auto alive = session_.listened(report->has_value()); !alive) return std::unexpected(alive.error());
+      if (!*report) continue;
+      if (!first || !near(*first, (*report)->arm)) {
+        first = (*report)->arm;
+        since = clock_.now();
+      }
+      if (clock_.now() - since >= wanted) return (*report)->arm;
+    }
+  }
+
+  static bool near(const EncoderCounts& a, const EncoderCounts& b) {
+    return std::ranges::equal(a, b, [](int one, int other) { return std::abs(one - other) <= kStillCounts; });
+  }
+
+  Result<void> startDevice() override {
+    limit_ = MotorLimit(mostMilliamps(), kLastingShare);
+    if (auto begun = session_.beginForces(bytesOf(Command{}), config_.watchdog_thread); !begun) return begun;
+    if (auto sent = port_->post(bytesOf(Command{})); !sent) {
+      session_.end();
+      return std::unexpected(sent.error());
+    }
+    return {};
+  }
+
+  Result<HapticSample> readSample() RELIEVO_RT override {
+    const auto report = newestReport();
+    if (!report) return std::unexpected(report.error());
+    if (*report) follow(**report);
+    else gate_.skip();
+    if (auto alive = session_.listened(report->has_value()); !alive) return std::unexpected(alive.error());
+    return sample_;
+  }
+
+  // A report that cannot be so leaves the last position standing for this tick.
+  void follow(const Report& report) RELIEVO_RT {
+    sample_.buttons = report.button() ? 1 : 0;
+    const EncoderCounts counts = corrected(report.arm);
+    if (!gate_.accept(counts)) return;
+    theta_rad_ = arm_.anglesOf(counts);
+    sample_.position_mm = arm_.positionOf(theta_rad_);
+  }
+
+  Result<void> writeForce(const glm::dvec3& force_n) RELIEVO_RT override {
+    const auto share = session_.nextShare();
+    const glm::dvec3 wanted = arm_.currentsFor(share.of_force * force_n, theta_rad_);
+    const glm::dvec3 given = limit_.limit(wanted, share.elapsed_s);
+    return session_.send(bytesOf({.motors = {static_cast<std::int16_t>(given.x), static_cast<std::int16_t>(given.y),
+                                             static_cast<std::int16_t>(given.z)}}));
+  }
+
+  void stopDevice() noexcept override { session_.end(); }
+  void closeDevice() noexcept override {
+    session_.end();
+    port_->close();
+  }
+
+  Result<std::optional<Report>> newestReport() RELIEVO_RT {
+    std::optional<Report> newest;
+    for (int i = 0; i < kMostPackets; ++i) {
+      const auto packet = port_->take();
+      if (!packet) return std::unexpected(packet.error());
+      if (packet->bytes == 0) break;
+      if (const auto report = decodeReport(packet->view(), report_bytes_)) newest = report;
+    }
+    return newest;
+  }
+
+  // Kept until the next call; one thread at a time.
+  UsbBytes bytesOf(const Command& command) RELIEVO_RT {
+    outgoing_ = encode(command);
+    return UsbBytes(outgoing_).first(report_bytes_);
+  }
+
+  [[nodiscard]] EncoderCounts corrected(const EncoderCounts& raw) const RELIEVO_RT {
+    EncoderCounts counts{};
+    for (std::size_t i = 0; i < raw.size(); ++i) {  // modulo 2^16, as the board counts
+      counts[i] = static_cast<std::int16_t>(static_cast<std::uint16_t>(raw[i] + correction_[i]));
+    }
+    return counts;
+  }
+
+  PolhemConfig config_;
+  std::unique_ptr<UsbPort> port_;
+  Clock& clock_;
+  Arm arm_;
+  MotorLimit limit_;
+  ForceSession session_;
+  EncoderGate gate_;
+  double peak_n_ = 0, continuous_n_ = 0;
+  std::size_t report_bytes_ = kReportBytes;
+  PaddedReport outgoing_{};
+  std::array<std::uint16_t, 3> correction_{};
+  glm::dvec3 theta_rad_{0};
+  HapticSample sample_;
+};
+
+}  // namespace
+
+std::unique_ptr<HapticDevice> makePolhem(const PolhemConfig& config, std::unique_ptr<UsbPort> port, Clock& clock) {
+  return std::make_unique<Polhem>(config, std::move(port), clock);
+}
+
+std::unique_ptr<HapticDevice> makePolhem(const PolhemConfig& config, Clock& clock) {
+  return makePolhem(config, makeLibusbPort({kMbedId, kTeensyId}), clock);
+}
+
+}  // namespace relievo
