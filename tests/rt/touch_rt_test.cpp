@@ -1,17 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tick of every method allocates nothing, whatever comes: motion, cuts, holes, gaps, a finger that darts.
+// The haptic task's tick allocates nothing, takes no lock and does not call the system, with every method and whatever
+// comes: motion, cuts, holes, gaps, a finger that darts.
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <csignal>
 #include <limits>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
+#include "app/haptics/haptic_task.h"
 #include "app/haptics/methods.h"
-#include "app/haptics/safety.h"
 #include "app/haptics/shots.h"
 #include "platform/allocation_counter.h"
+#include "tests/rt/forbidden_calls.h"
 #include "tests/support/depth_frames.h"
+#include "tests/support/fake_haptic_device.h"
+#include "tests/support/sanitizers.h"
 
 namespace relievo {
 namespace {
@@ -36,37 +45,80 @@ std::vector<TimedSurface> movingFilm() {
   return film;
 }
 
-class TouchRt : public testing::TestWithParam<std::string> {};
+struct Taken {
+  std::uint64_t allocations = 0, locks = 0, contact_ticks = 0;
+};
 
-TEST_P(TouchRt, ATickAllocatesNothing) {
-  const auto film = movingFilm();
-  const auto method = makeMethod(GetParam(), {});
-  SafetyFilter safety({}, 0.5);
-  SurfaceWindow window;
-  std::uint64_t allocations = 0;
-  int contacts = 0;
-  for (int tick = 0; tick < 1300; ++tick) {
-    const double t = tick * kTickS;
-    const int now = static_cast<int>(t / kPeriodS + 1e-9), first = std::max(now - 2, 0);
+// The whole task in simulated time, on a device and a film made of numbers.
+class Stage {
+ public:
+  explicit Stage(const std::string& method) : method_(makeMethod(method, {})) {
+    static_cast<void>(device_.open() && device_.home() && device_.start());
+    task_ = std::make_unique<HapticTask>(device_, *method_, clock_, kVolume, SafetyLimits{}, 0.5);
+  }
+
+  Taken play() {
+    Taken taken;
+    for (int tick = 0; tick < 1300; ++tick) {
+      show(tick);
+      // Comes in from outside again and again; strokes, then darts at 5 m/s. The volume's centre is the device's.
+      const double press = 20 * std::max(0.0, std::sin(0.02 * tick));
+      device_.position = {60 * std::sin((tick > 700 ? 0.08 : 0.003) * tick), 20 * std::cos(0.01 * tick), 14 - press};
+      if (tick % 500 == 250) device_.position.x = std::numeric_limits<double>::quiet_NaN();
+      if (tick % 500 == 400) device_.next_error = ErrorCode::Io;
+      const std::uint64_t allocations = threadAllocations(), locks = test::threadLocks();
+      static_cast<void>(task_->loop({static_cast<std::uint64_t>(tick), clock_.now(), clock_.now()}));
+      taken.allocations += threadAllocations() - allocations;
+      taken.locks += test::threadLocks() - locks;
+      clock_.advance(fromSeconds(kTickS));
+    }
+    taken.contact_ticks = task_->counters().contact_ticks;
+    return taken;
+  }
+
+ private:
+  void show(int tick) {
+    const int now = static_cast<int>(tick * kTickS / kPeriodS + 1e-9), first = std::max(now - 2, 0);
+    SurfaceWindow& window = task_->windowToFill();
     window.count = tick % 400 == 399 ? 0 : std::min(now + 4, kFrames) - first;
     for (int i = 0; i < window.count; ++i)
-      window.frames[static_cast<std::size_t>(i)] = film[static_cast<std::size_t>(first + i)];
+      window.frames[static_cast<std::size_t>(i)] = film_[static_cast<std::size_t>(first + i)];
     window.epoch = tick > 1000 ? 1 : 0;
-    // Comes in from outside again and again; strokes, then darts at 5 m/s.
-    const double press = 20 * std::max(0.0, std::sin(0.02 * tick));
-    glm::dvec3 hip(60 * std::sin((tick > 700 ? 0.08 : 0.003) * tick), 20 * std::cos(0.01 * tick), 34 - press);
-    if (tick % 500 == 250) hip.x = std::numeric_limits<double>::quiet_NaN();
-
-    const std::uint64_t before = threadAllocations();
-    const Touch touch = method->update(hip, window, mediaTime(t));
-    const glm::dvec3 force = safety.apply(touch.force_n, hip, kTickS);
-    method->upkeep(window, mediaTime(t));
-    allocations += threadAllocations() - before;
-    contacts += touch.contact ? 1 : 0;
-    ASSERT_TRUE(std::isfinite(force.z)) << tick;
+    window.clock = {.media = mediaTime(tick * kTickS), .monotonic = clock_.now(), .rate = 1};
+    task_->publishWindow();
   }
-  EXPECT_EQ(allocations, 0U);
-  EXPECT_GT(contacts, 50) << "the film and the finger must meet";
+
+  const std::vector<TimedSurface> film_ = movingFilm();
+  ManualClock clock_{MonotonicTime{} + std::chrono::seconds(5)};
+  test::FakeHapticDevice device_;
+  std::unique_ptr<TouchMethod> method_;
+  std::unique_ptr<HapticTask> task_;
+};
+
+class TouchRt : public testing::TestWithParam<std::string> {};
+
+TEST_P(TouchRt, ATickAllocatesNothingAndTakesNoLock) {
+  const Taken taken = Stage(GetParam()).play();
+  EXPECT_EQ(taken.allocations, 0U);
+  EXPECT_EQ(taken.locks, 0U);
+  EXPECT_GT(taken.contact_ticks, 50U) << "the film and the finger must meet";
+}
+
+TEST_P(TouchRt, ATickDoesNotCallTheSystem) {
+  if (kMemorySanitizer || kRealtimeSanitizer) GTEST_SKIP() << "a sanitizer makes calls of its own";
+  constexpr int kNoFilter = 77;
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    Stage stage(GetParam());
+    if (!test::forbidSystemCalls()) ::_exit(kNoFilter);
+    ::_exit(stage.play().contact_ticks > 50 ? 0 : 1);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kNoFilter) GTEST_SKIP() << "this kernel has no seccomp";
+  EXPECT_FALSE(WIFSIGNALED(status) && WTERMSIG(status) == SIGSYS) << "a tick has called the system: see strace -f";
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, TouchRt,
@@ -76,6 +128,30 @@ INSTANTIATE_TEST_SUITE_P(Methods, TouchRt,
                            std::erase(name, '-');
                            return name;
                          });
+
+TEST(ForbiddenCalls, ALockThatNobodyHoldsIsCounted) {
+  if (kThreadSanitizer || kRealtimeSanitizer) GTEST_SKIP() << "the sanitizer needs the locks to itself";
+  std::mutex free_lock;
+  const std::uint64_t before = test::threadLocks();
+  {
+    const std::lock_guard guard(free_lock);
+  }
+  EXPECT_EQ(test::threadLocks() - before, 1U);
+}
+
+TEST(ForbiddenCalls, ASystemCallEndsTheProcess) {
+  if (kMemorySanitizer || kRealtimeSanitizer) GTEST_SKIP() << "a sanitizer makes calls of its own";
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    if (!test::forbidSystemCalls()) ::_exit(77);
+    ::_exit(::getppid() == 0 ? 1 : 0);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 77) GTEST_SKIP() << "this kernel has no seccomp";
+  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGSYS) << status;
+}
 
 }  // namespace
 }  // namespace relievo

@@ -10,6 +10,7 @@
 
 #include "app/haptics/methods.h"
 #include "tests/support/depth_frames.h"
+#include "tests/support/fake_haptic_device.h"
 
 namespace relievo {
 namespace {
@@ -17,38 +18,6 @@ namespace {
 using namespace std::chrono_literals;
 constexpr DisplayVolume kVolume{160, 108, 40};
 constexpr double kStiffness = 0.5;
-
-class FakeDevice final : public HapticDevice {
- public:
-  glm::dvec3 position{0, 0, 0};
-  glm::dvec3 force{0};
-  ErrorCode next_error = ErrorCode::InvalidState;  // InvalidState: none
-  int writes = 0;
-
-  HapticCapabilities capabilities() const noexcept override {
-    return {"fake", glm::dvec3(-100, -100, -50), glm::dvec3(100, 100, 50), 4.0, 2.0, 1.0, 1000};
-  }
-
- private:
-  Result<void> openDevice() override { return {}; }
-  Result<void> homeDevice() override { return {}; }
-  Result<void> startDevice() override { return {}; }
-  Result<HapticSample> readSample() RELIEVO_RT override {
-    if (next_error != ErrorCode::InvalidState) {
-      const ErrorCode code = next_error;
-      next_error = ErrorCode::InvalidState;
-      return fail(code, "as asked");
-    }
-    return HapticSample{position, 5};
-  }
-  Result<void> writeForce(const glm::dvec3& f) RELIEVO_RT override {
-    force = f;
-    ++writes;
-    return {};
-  }
-  void stopDevice() noexcept override { force = glm::dvec3(0); }
-  void closeDevice() noexcept override {}
-};
 
 class HapticTaskTest : public testing::Test {
  protected:
@@ -90,7 +59,7 @@ class HapticTaskTest : public testing::Test {
   }
 
   ManualClock clock_{MonotonicTime{} + 5s};
-  FakeDevice device_;
+  test::FakeHapticDevice device_;
   std::unique_ptr<TouchMethod> method_ = makeMethod("modified-proxy-graph", {.stiffness_n_per_mm = kStiffness});
   std::unique_ptr<HapticTask> task_;
   std::uint64_t index_ = 0;

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// A haptic device of three lines: is where the test says, remembers the force, fails when told to.
+#pragma once
+
+#include "hal/haptic_device.h"
+
+namespace relievo::test {
+
+class FakeHapticDevice final : public HapticDevice {
+ public:
+  glm::dvec3 position{0, 0, 0};
+  glm::dvec3 force{0};
+  ErrorCode next_error = ErrorCode::InvalidState;  // of one exchange; InvalidState: none
+  int writes = 0;
+
+  HapticCapabilities capabilities() const noexcept override {
+    return {"fake", glm::dvec3(-100, -100, -50), glm::dvec3(100, 100, 50), 4.0, 2.0, 1.0, 1000};
+  }
+
+ private:
+  Result<void> openDevice() override { return {}; }
+  Result<void> homeDevice() override { return {}; }
+  Result<void> startDevice() override { return {}; }
+  Result<HapticSample> readSample() RELIEVO_RT override {
+    if (next_error != ErrorCode::InvalidState) {
+      const ErrorCode code = next_error;
+      next_error = ErrorCode::InvalidState;
+      return fail(code, "as asked");
+    }
+    return HapticSample{position, 5};
+  }
+  Result<void> writeForce(const glm::dvec3& f) RELIEVO_RT override {
+    force = f;
+    ++writes;
+    return {};
+  }
+  void stopDevice() noexcept override { force = glm::dvec3(0); }
+  void closeDevice() noexcept override {}
+};
+
+}  // namespace relievo::test
