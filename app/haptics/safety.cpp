@@ -20,7 +20,7 @@ glm::dvec3 approach(const glm::dvec3& from, const glm::dvec3& to, double most) R
 }  // namespace
 
 void SafetyFilter::reset() RELIEVO_RT {
-  spring_n_ = sent_n_ = glm::dvec3(0);
+  spring_n_ = sent_n_ = lean_n_ = glm::dvec3(0);
   primed_ = false;
   books_.reset();
 }
@@ -41,7 +41,8 @@ glm::dvec3 SafetyFilter::apply(const glm::dvec3& wanted_n, const glm::dvec3& hip
   const double elapsed = elapsed_s > 0 ? std::min(elapsed_s, 0.1) : 0.0;  // not a number: 0
   const double allowed = by_hand + limits_.scene_slew_n_per_s * elapsed;
   const glm::dvec3 spring = approach(spring_n_, target, allowed);
-  glm::dvec3 sent = limits_.limit_energy ? leanAgainst(spring, moved) : spring;
+  if (limits_.limit_energy) lean(spring, moved, elapsed);
+  glm::dvec3 sent = spring + lean_n_;
   if (glm::length(sent) > limits_.force_n) sent *= limits_.force_n / glm::length(sent);
   sent = approach(sent_n_, sent, allowed);
 
@@ -52,19 +53,25 @@ glm::dvec3 SafetyFilter::apply(const glm::dvec3& wanted_n, const glm::dvec3& hip
   if (std::isfinite(glm::dot(hip_mm, hip_mm))) {
     primed_ = true;
     hip_mm_ = hip_mm;
-    books_.tick(hip_mm, spring, target, sent);
+    books_.tick(hip_mm, spring, target, sent, elapsed);
   }
   return sent;
 }
 
-// The tick to come is taken to be like the last one: the same motion, the same change of the force.
-glm::dvec3 SafetyFilter::leanAgainst(const glm::dvec3& spring_n, const glm::dvec3& moved_mm) const RELIEVO_RT {
+// The way to come is taken to be like the last one: the same motion, the same change of the force.
+void SafetyFilter::lean(const glm::dvec3& spring_n, const glm::dvec3& moved_mm, double elapsed_s) RELIEVO_RT {
+  constexpr double kOverdue = 2.5;  // times the last way's time: positions may come in turns of one tick and two
+  since_moved_s_ += elapsed_s;
   const double moved2 = glm::dot(moved_mm, moved_mm);
-  if (moved2 <= 0) return spring_n;
+  if (moved2 <= 0) {
+    if (since_moved_s_ > kOverdue * pace_s_) lean_n_ = glm::dvec3(0);
+    return;
+  }
+  pace_s_ = since_moved_s_ > EnergyBooks::kRestS ? elapsed_s : since_moved_s_;
+  since_moved_s_ = 0;
   const double coming = 0.5 * glm::dot(spring_n_ - spring_n, moved_mm);
-  const double excess = books_.openArtefactMj() + coming;
-  if (excess <= 0) return spring_n;
-  return spring_n - std::min(excess / moved2, stiffness_) * moved_mm;
+  const double excess = std::max(books_.openArtefactMj() + coming, 0.0);
+  lean_n_ = -std::min(excess / moved2, stiffness_) * moved_mm;
 }
 
 }  // namespace relievo

@@ -25,7 +25,8 @@ struct SafetyLimits {
 // A force that is held for a tick does stiffness x dx^2/2 of work too much, in and out (see EnergyBooks). Where the
 // book of these artefacts would go above zero, the force is leant against the finger's motion by as much as takes it
 // back in the tick to come, and never by more than stiffness x |dx|: a damping, not a kick (after the passivity
-// controller of Hannaford and Ryu 2002, with the scene's own work left out of the book).
+// controller of Hannaford and Ryu 2002, with the scene's own work left out of the book). Where the device has a new
+// position in every other tick only, dx is the way from one to the next, and the force leans until the next is overdue.
 class SafetyFilter {
  public:
   SafetyFilter() = default;
@@ -43,7 +44,7 @@ class SafetyFilter {
   [[nodiscard]] const EnergyBooks& books() const RELIEVO_RT { return books_; }
 
  private:
-  [[nodiscard]] glm::dvec3 leanAgainst(const glm::dvec3& spring_n, const glm::dvec3& moved_mm) const RELIEVO_RT;
+  void lean(const glm::dvec3& spring_n, const glm::dvec3& moved_mm, double elapsed_s) RELIEVO_RT;
 
   SafetyLimits limits_;
   double stiffness_ = 0;
@@ -52,6 +53,8 @@ class SafetyFilter {
   glm::dvec3 hip_mm_{0};
   glm::dvec3 spring_n_{0};  // limited in all but the artefacts' energy
   glm::dvec3 sent_n_{0};
+  glm::dvec3 lean_n_{0};
+  double since_moved_s_ = 0, pace_s_ = 0;  // since the last new position; from the one before to that
   double scene_slew_ = 0;
 };
 
