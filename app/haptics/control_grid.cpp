@@ -29,10 +29,6 @@ void ControlGrid::setPicture(const HeightField& field) RELIEVO_RT {
   b_per_mm_ = grid.v_per_mm / block_rows_;
   b_origin_ = (grid.v_origin + 0.5) / block_rows_ - 0.5;
   pit_mm_ = static_cast<float>(-field.depthMm());
-  forget();
-}
-
-void ControlGrid::forget() RELIEVO_RT {
   patch_slots_ = 0;
   filled_.fill(0);
   hole_.fill(0);
@@ -72,6 +68,7 @@ void ControlGrid::read(std::size_t p, const Frames& frames, std::uint32_t missin
         outside ? HeightField::kHole
                 : meanOrBridged(frames.window->frames[frames.frame_of_slot[slot]].field, static_cast<int>(c0),
                                 static_cast<int>(r0), static_cast<int>(c1 - c0), static_cast<int>(r1 - r0));
+    ++blocks_read_;
     filled_[p] |= bit;
     if (std::isnan(mean)) hole_[p] |= bit;
     height_[p][slot] = std::isnan(mean) ? 0 : static_cast<float>(mean);

@@ -30,7 +30,6 @@ class ControlGrid {
 
   // A picture of another shape: forgets everything.
   void setPicture(const HeightField& field) RELIEVO_RT;
-  void forget() RELIEVO_RT;
   // Frame `slot` of the cache is another frame from now on.
   void forgetFrame(int slot) RELIEVO_RT;
 
@@ -53,6 +52,8 @@ class ControlGrid {
   void patch(int i0, int j0, const Frames& frames, Patch& out) RELIEVO_RT;
   // Reads what is missing of a point in the slots that are asked for; true when there was something to read.
   bool fill(int i, int j, const Frames& frames, std::uint32_t slots) RELIEVO_RT;
+  // So far, each in each frame.
+  [[nodiscard]] std::uint64_t blocksRead() const RELIEVO_RT { return blocks_read_; }
 
  private:
   static constexpr int kSide = 16;
@@ -77,6 +78,7 @@ class ControlGrid {
   // A point each. Bits and heights by slot; 0 at a hole.
   std::array<std::int32_t, kPoints> i_{}, j_{};
   std::array<std::uint8_t, kPoints> filled_{}, hole_{};
+  std::uint64_t blocks_read_ = 0;
   alignas(16) std::array<std::array<float, kFrames>, kPoints> height_{};
 };
 

@@ -77,7 +77,8 @@ void FeltSurface::setPicture(const SurfaceWindow& window) RELIEVO_RT {
   sample_mm_ = 0.5 / std::max(std::abs(narrow.aPerMm()), std::abs(narrow.bPerMm()));
 }
 
-// Gives every frame of the window a slot of the caches, the one it had if it had one. False: nothing has changed.
+// Gives every frame of the window a slot of the caches, the one it had if it had one; those that repeat each other have
+// one slot, which goes by the time of the newest. False: nothing has changed.
 bool FeltSurface::placeFrames(const SurfaceWindow& window) RELIEVO_RT {
   const auto last = static_cast<std::size_t>(window.count - 1);
   if (window.count == count_ && window.frames[0].time == first_time_ && window.frames[last].time == last_time_) {
@@ -98,17 +99,24 @@ bool FeltSurface::placeFrames(const SurfaceWindow& window) RELIEVO_RT {
       break;
     }
   }
+  for (std::size_t f = last; f > 0; --f) {
+    if (!window.frames[f].repeats || !placed[f] || placed[f - 1]) continue;
+    slots_.of_frame[f - 1] = slots_.of_frame[f];
+    placed[f - 1] = true;
+  }
   slots_.in_use = kept;
   for (std::size_t f = 0; f <= last; ++f) {
-    if (!placed[f]) {
+    if (!placed[f] && f > 0 && window.frames[f].repeats) {
+      slots_.of_frame[f] = slots_.of_frame[f - 1];
+    } else if (!placed[f]) {
       const auto s = static_cast<std::size_t>(__builtin_ctz(~slots_.in_use));
       slots_.in_use |= 1U << s;
       slots_.of_frame[f] = static_cast<std::uint8_t>(s);
-      time_of_slot_[s] = window.frames[f].time;
       narrow_.grid().forgetFrame(static_cast<int>(s));
       wide_.grid().forgetFrame(static_cast<int>(s));
     }
     slots_.frame[slots_.of_frame[f]] = static_cast<std::uint8_t>(f);
+    time_of_slot_[slots_.of_frame[f]] = window.frames[f].time;
   }
   return true;
 }
@@ -167,7 +175,8 @@ void FeltSurface::followEdge(const SurfaceWindow& window, MediaTime next, const 
   edge_place_mm_ = place;
   edge_way_mm_ = glm::dvec2(0);
   if (scale_.narrow_time == TimeLaw::Hold || moment.present >= moment.last) return;
-  edge_way_mm_ = edgeMotion(from.field, window.frames[static_cast<std::size_t>(moment.present) + 1].field, x_mm, y_mm);
+  const TimedSurface& to = window.frames[static_cast<std::size_t>(moment.present) + 1];
+  if (!to.repeats) edge_way_mm_ = edgeMotion(from.field, to.field, x_mm, y_mm);
 }
 
 void FeltSurface::prepare(const SurfaceWindow& window, MediaTime next, double x_mm, double y_mm,

@@ -26,7 +26,8 @@ struct FeltScale {
 
 // S = N + c(W - N): N sees edges, W is calm, and c is a soft clamp, so that W may correct N's noise but not round an
 // edge off by more than `clamp_mm`; away from edges S is W. Monotone: c never turns back, or a lip would be left at an
-// edge. Where an edge moves, N moves with it from frame to frame instead of fading one into the other.
+// edge. Where an edge moves, N moves with it from frame to frame instead of fading one into the other. Frames that
+// repeat each other are one: a film that stands still costs what a picture does.
 // A view for one moment of one window; reads depth where it is asked for.
 class FeltSurface {
  public:
@@ -42,6 +43,10 @@ class FeltSurface {
   [[nodiscard]] double sampleMm() const RELIEVO_RT { return sample_mm_; }
   [[nodiscard]] std::uint32_t shot() const RELIEVO_RT { return shot_; }
   [[nodiscard]] double volumeDepthMm() const RELIEVO_RT { return depth_mm_; }
+  // Blocks of samples that were read so far: what the scene has cost.
+  [[nodiscard]] std::uint64_t blocksRead() const RELIEVO_RT {
+    return narrow_.grid().blocksRead() + wide_.grid().blocksRead();
+  }
 
   // After `moment`, on the same window: what can be done ahead of a tick that is likely to come at `next`, with the
   // proxy near (x, y). Reads at most `points` control points of each level in frames that do not count yet.

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vote of the places.
+// The vote of the places, and the comparison of pictures.
 #include "app/haptics/shots.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace relievo {
 namespace {
@@ -55,6 +56,18 @@ bool ShotFinder::isCut(const TimedSurface* before, const TimedSurface& last, con
     if (jump > std::max(kLeastJumpMm, kTimesTheMotion * motion)) ++votes;
   }
   return readable > 0 && votes >= kLeastShare * readable;
+}
+
+bool ShotFinder::repeats(const TimedSurface& last, const TimedSurface& next) {
+  Seen& seen = seen_.at(next.time);
+  if (seen.compared != last.time) {
+    // By their bits: a hole is like a hole.
+    const Places& before = seen_.at(last.time).heights;
+    seen.repeats =
+        std::memcmp(before.data(), seen.heights.data(), sizeof before) == 0 && next.field.sameSamples(last.field);
+    seen.compared = last.time;
+  }
+  return seen.repeats;
 }
 
 }  // namespace relievo

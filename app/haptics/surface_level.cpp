@@ -42,7 +42,7 @@ void SurfaceLevel::weigh(const FrameSlots& slots, const FrameMoment& moment,
   frames.wanted = 0;
   for (std::size_t f = 0; f < static_cast<std::size_t>(slots.window->count); ++f) {
     if (weights[f] == 0) continue;
-    frames.weight[slots.of_frame[f]] = weights[f];
+    frames.weight[slots.of_frame[f]] += weights[f];
     frames.wanted |= 1U << slots.of_frame[f];
   }
 }

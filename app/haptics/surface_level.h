@@ -35,6 +35,7 @@ class SurfaceLevel {
   SurfaceLevel(double sigma_mm, int most_samples, SpaceLaw space, TimeLaw time) noexcept;
 
   [[nodiscard]] ControlGrid& grid() RELIEVO_RT { return grid_; }
+  [[nodiscard]] const ControlGrid& grid() const RELIEVO_RT { return grid_; }
 
   // A new moment. `since_prepared_s`: how long after the moment that `prepare` was given it is; nothing: what was
   // prepared does not hold. `slots` must live until the next `begin`.

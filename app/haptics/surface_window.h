@@ -17,6 +17,7 @@ struct TimedSurface {
   MediaTime time;
   std::shared_ptr<const void> owner;  // keeps the samples alive; only the window's writer touches it
   std::uint32_t shot = 0;             // frames of one shot continue each other; where it changes there is a cut
+  bool repeats = false;               // every sample is as in the frame before it, which may be read in its place
 };
 
 // Frames in ascending order of time, all of one size. The writer puts in the frames from two before the present one

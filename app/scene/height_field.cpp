@@ -3,6 +3,7 @@
 #include "app/scene/height_field.h"
 
 #include <cmath>
+#include <cstring>
 #include <optional>
 
 namespace relievo {
@@ -146,6 +147,21 @@ double HeightField::meanHeight(int c0, int r0, int width, int height, int most) 
     }
   }
   return 2 * count < across * down ? kHole : sum / count;
+}
+
+bool HeightField::sameSamples(const HeightField& other) const noexcept {
+  if (cols_ != other.cols_ || rows_ != other.rows_ || layout_ != other.layout_ || step_bytes_ != other.step_bytes_) {
+    return false;
+  }
+  const int of_one = layout_ == Layout::Bytes ? 1 : layout_ == Layout::Words ? 2 : 1 + std::max({red_, green_, blue_});
+  const std::ptrdiff_t row_bytes = static_cast<std::ptrdiff_t>(cols_ - 1) * step_bytes_ + of_one;
+  for (int r = 0; r < rows_; ++r) {
+    if (std::memcmp(data_ + r * stride_bytes_, other.data_ + r * other.stride_bytes_,
+                    static_cast<std::size_t>(row_bytes)) != 0) {
+      return false;
+    }
+  }
+  return true;
 }
 
 double HeightField::fromHue(const std::uint8_t* pixel) const RELIEVO_RT {

@@ -48,6 +48,10 @@ class HeightField {
     return depth_mm_ * (layout_ == Layout::Hue ? 1.0 / kHueSteps : std::abs(s_scale_));
   }
 
+  // Whether every sample is the same as in another field of the same film. Bytes between the samples count as well:
+  // what differs there alone may be told apart. Looks at the whole picture where it is; not for the real-time thread.
+  [[nodiscard]] bool sameSamples(const HeightField& other) const noexcept;
+
   // The raw luma code; for a hue 0 .. 1535, six steps of 256, and 0 at one that cannot be read.
   [[nodiscard]] std::uint32_t code(int c, int r) const RELIEVO_RT;
 

@@ -50,16 +50,30 @@ Frame makeReliefFrame(int cols, int rows, const DisplayVolume& volume, MediaTime
   });
 }
 
+inline TimedSurface surfaceOf(const Frame& frame, const DisplayVolume& volume,
+                              const DepthCalibration& calibration = {.bits = 16}) {
+  return {HeightField::make(frame, calibration, volume).value(), frame.pts, frame.owner};
+}
+
 inline SurfaceWindow makeWindow(std::span<const Frame> frames, const DisplayVolume& volume,
                                 const DepthCalibration& calibration = {.bits = 16}) {
   SurfaceWindow window;
   for (const Frame& frame : frames) {
-    TimedSurface& surface = window.frames[static_cast<std::size_t>(window.count++)];
-    surface.field = HeightField::make(frame, calibration, volume).value();
-    surface.time = frame.pts;
-    surface.owner = frame.owner;
+    window.frames[static_cast<std::size_t>(window.count++)] = surfaceOf(frame, volume, calibration);
   }
   return window;
+}
+
+// `count` frames of height(x_mm, y_mm, t_s), a period apart, the first at time 0.
+template <class Height>
+std::vector<Frame> makeReliefFilm(int count, double period_s, int cols, int rows, const DisplayVolume& volume,
+                                  Height&& height) {
+  std::vector<Frame> frames;
+  for (int k = 0; k < count; ++k) {
+    frames.push_back(makeReliefFrame(cols, rows, volume, mediaTime(k * period_s),
+                                     [&](double x, double y) { return height(x, y, k * period_s); }));
+  }
+  return frames;
 }
 
 }  // namespace relievo::test

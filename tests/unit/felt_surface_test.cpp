@@ -1,25 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of the default method: weights of frames, block means, the two levels and the clamp, cuts, and the plan.
+// The surface that the default method touches: block means, the two levels and the clamp, and the frames they share.
 #include "app/haptics/felt_surface.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
-#include <numeric>
+#include <glm/vec2.hpp>
 #include <random>
+#include <span>
 #include <vector>
 
-#include "app/haptics/edge_motion.h"
 #include "app/haptics/shots.h"
-#include "app/haptics/touch_plan.h"
 #include "tests/support/depth_frames.h"
 
 namespace relievo {
 namespace {
 
 using test::makeGrayFrame;
-using test::makeReliefFrame;
 using test::makeWindow;
 
 constexpr DisplayVolume kVolume{160, 108, 40};
@@ -28,53 +26,7 @@ constexpr double kPeriod = 1.0 / 30;
 
 template <class Height>
 std::vector<Frame> film(int count, Height&& height, int cols = kCols, int rows = kRows) {
-  std::vector<Frame> frames;
-  for (int k = 0; k < count; ++k) {
-    frames.push_back(makeReliefFrame(cols, rows, kVolume, mediaTime(k * kPeriod),
-                                     [&](double x, double y) { return height(x, y, k * kPeriod); }));
-  }
-  return frames;
-}
-
-SurfaceWindow emptyFrames(int count) {
-  SurfaceWindow w;
-  w.count = count;
-  for (int k = 0; k < count; ++k) w.frames[static_cast<std::size_t>(k)].time = mediaTime(k * kPeriod);
-  return w;
-}
-
-double at(const SurfaceWindow& w, TimeLaw law, double t, const std::vector<double>& values) {
-  const FrameWeights weights = frameWeights(FrameMoment(w, mediaTime(t)), law);
-  return std::inner_product(values.begin(), values.end(), weights.begin(), 0.0);
-}
-
-TEST(FrameWeights, EveryLawGivesALineBackAndTheFittedOneACubic) {
-  const SurfaceWindow w = emptyFrames(8);
-  std::vector<double> line, cubic;
-  const auto c = [](double k) { return 0.3 * k * k * k - 2 * k * k + k; };
-  for (int k = 0; k < 8; ++k) {
-    line.push_back(3 - 0.5 * k);
-    cubic.push_back(c(k));
-  }
-  for (double k = 2; k < 4.99; k += 0.13) {
-    for (const TimeLaw law : {TimeLaw::Linear, TimeLaw::BSpline, TimeLaw::Fitted}) {
-      ASSERT_NEAR(at(w, law, k * kPeriod, line), 3 - 0.5 * k, 1e-5) << name(law) << ' ' << k;
-    }
-    ASSERT_NEAR(at(w, TimeLaw::Fitted, k * kPeriod, cubic), c(k), 1e-4) << k;
-    ASSERT_EQ(at(w, TimeLaw::Hold, k * kPeriod, line), 3 - 0.5 * std::floor(k + 1e-9)) << k;
-  }
-  EXPECT_GT(std::abs(at(w, TimeLaw::BSpline, 3.0 * kPeriod, cubic) - c(3)), 0.1) << "a B-spline smooths";
-}
-
-TEST(FrameWeights, AShotsFirstAndLastFramesHoldAndNothingComesFromBeyondACut) {
-  SurfaceWindow w = emptyFrames(8);
-  for (std::size_t k = 4; k < 8; ++k) w.frames[k].shot = 1;
-  const std::vector<double> values{1, 1, 1, 1, 9, 9, 9, 9};
-  for (double k = 0; k < 7.9; k += 0.09) {
-    for (const TimeLaw law : {TimeLaw::Hold, TimeLaw::Linear, TimeLaw::BSpline, TimeLaw::Fitted}) {
-      ASSERT_NEAR(at(w, law, k * kPeriod, values), k + 1e-6 < 4 ? 1 : 9, 1e-5) << name(law) << ' ' << k;
-    }
-  }
+  return test::makeReliefFilm(count, kPeriod, cols, rows, kVolume, height);
 }
 
 TEST(FeltSurface, GivesAMovingPlaneBackExactly) {
@@ -225,112 +177,139 @@ TEST(FeltSurface, AnEdgeThatMovesIsInOnePlaceBetweenTheFrames) {
   }
 }
 
-TEST(EdgeMotion, FindsTheWayOfAnEdgeAcrossItselfAndNoOther) {
-  const auto field = [](const Frame& f) { return HeightField::make(f, {.bits = 16}, kVolume).value(); };
-  const auto frame = [](auto&& height) { return makeReliefFrame(720, 486, kVolume, {}, height); };
-  const auto step = [&](double at, double lift) {
-    return frame([=](double x, double y) { return (x > at + 0.3 * y ? 25.0 : 10.0) + lift + 0.1 * x; });
+TEST(FeltSurface, AnotherEpochOrSizeAtTheSameTimesIsAnotherPicture) {
+  const auto flat = [](double z, int cols, int rows) {
+    return film(3, [z](double, double, double) { return z; }, cols, rows);
   };
-  const Frame here = step(0, 0), there = step(1.6, 0), lifted = step(0, 1.0), both = step(1.6, 1.0), gone = step(30, 0);
-  const glm::dvec2 across = 1.6 / (1 + 0.09) * glm::dvec2(1, -0.3);  // of a sideways way, the part across the edge
-  for (const glm::dvec2 place : {glm::dvec2(0.8, 0), glm::dvec2(-1.5, 1), glm::dvec2(2.5, -2)}) {
-    const auto way = [&](const Frame& to) { return edgeMotion(field(here), field(to), place.x, place.y); };
-    EXPECT_LT(glm::length(way(there) - across), 0.25);
-    EXPECT_LT(glm::length(way(both) - across), 0.35) << "also when the whole is lifted by a little";
-    EXPECT_EQ(way(here), glm::dvec2(0));
-    EXPECT_EQ(way(lifted), glm::dvec2(0)) << "what is lifted has not moved sideways";
-    EXPECT_EQ(way(gone), glm::dvec2(0)) << "what is gone has not moved";
+  FeltSurface s({});
+  const auto heightOn = [&](const std::vector<Frame>& frames, std::uint32_t epoch) {
+    SurfaceWindow w = makeWindow(frames, kVolume);
+    w.epoch = epoch;
+    EXPECT_TRUE(s.moment(w, mediaTime(0.04)));
+    return s.height(1, 2);
+  };
+  EXPECT_NEAR(heightOn(flat(10, kCols, kRows), 0), 10, 1e-3);
+  EXPECT_NEAR(heightOn(flat(30, kCols, kRows), 1), 30, 1e-3);
+  EXPECT_NEAR(heightOn(flat(20, kCols, 2 * kRows), 1), 20, 1e-3);
+  EXPECT_NEAR(heightOn(flat(15, kCols / 2, 2 * kRows), 1), 15, 1e-3);
+}
+
+TEST(FeltSurface, WhatWasPreparedDoesNotOutliveItsFrames) {
+  const auto frames = film(6, [](double, double, double t) { return 5 + 200 * t * t / kPeriod; });
+  const SurfaceWindow early = makeWindow(std::span(frames).first(3), kVolume), whole = makeWindow(frames, kVolume);
+  FeltSurface ahead({}), plain({});
+  const double t = 2.5 * kPeriod;
+  ASSERT_TRUE(ahead.moment(early, mediaTime(t - 0.001)));
+  ahead.prepare(early, mediaTime(t), 0, 0, 2);
+  ASSERT_TRUE(ahead.moment(whole, mediaTime(t)));
+  ASSERT_TRUE(plain.moment(whole, mediaTime(t)));
+  EXPECT_NEAR(ahead.height(0, 0), plain.height(0, 0), 1e-5) << "the next frames have come";
+}
+
+TEST(FeltSurface, WhatWasPreparedHoldsBetweenTwoFramesOnly) {
+  // Every frame 10 mm higher, held: between 1 and 2 periods it is 20 mm, after that 30.
+  const auto frames = film(4, [](double, double, double t) { return 10 + 10 * std::round(t / kPeriod); });
+  const SurfaceWindow w = makeWindow(frames, kVolume);
+  const double second = 2 * kPeriod;
+  const auto height = [&](double prepared_for, double now) {
+    FeltSurface s({.narrow_time = TimeLaw::Hold, .wide_time = TimeLaw::Hold});
+    EXPECT_TRUE(s.moment(w, mediaTime(prepared_for - 0.001)));
+    s.prepare(w, mediaTime(prepared_for), 0, 0, 2);
+    EXPECT_TRUE(s.moment(w, mediaTime(now)));
+    return s.height(0, 0);
+  };
+  EXPECT_NEAR(height(second - 0.0001, second + 0.0001), 30, 1e-3) << "the next frame's time has come";
+  EXPECT_NEAR(height(second + 0.0001, second - 0.0001), 20, 1e-3) << "the clock was set back";
+  EXPECT_NEAR(height(second - 0.0003, second - 0.0001), 20, 1e-3) << "the next frame says nothing about this one";
+}
+
+TEST(FeltSurface, ATickThatComesLateDoesNotGoByWhatWasPrepared) {
+  const auto frames = film(8, [](double, double, double t) { return 20 + 8 * std::sin(60 * t); });
+  const SurfaceWindow w = makeWindow(frames, kVolume);
+  FeltSurface late({}), plain({});
+  ASSERT_TRUE(late.moment(w, mediaTime(0.101)));
+  late.prepare(w, mediaTime(0.102), 0, 0, 2);
+  ASSERT_TRUE(late.moment(w, mediaTime(0.125)));
+  ASSERT_TRUE(plain.moment(w, mediaTime(0.125)));
+  EXPECT_NEAR(late.height(0, 0), plain.height(0, 0), 1e-5);
+}
+
+// A window as the player hands it out: from two frames before the present one to five after it.
+SurfaceWindow windowAt(std::span<const TimedSurface> film, double t) {
+  const auto now = static_cast<std::size_t>(t / kPeriod + 1e-6);
+  SurfaceWindow w;
+  for (std::size_t f = now - std::min<std::size_t>(now, 2); f < film.size() && f < now + 6; ++f) {
+    w.frames[static_cast<std::size_t>(w.count++)] = film[f];
   }
-  EXPECT_EQ(edgeMotion(field(here), field(there), 40, 0), glm::dvec2(0)) << "no edge in sight";
+  return w;
 }
-
-TEST(ShotFinder, FindsCutsAndNoRise) {
-  const auto shots = [](auto&& height, int count) {
-    const auto frames = film(count, height, 90, 61);
-    std::vector<TimedSurface> surfaces;
-    for (const Frame& f : frames) {
-      surfaces.push_back({HeightField::make(f, {.bits = 16}, kVolume).value(), f.pts, f.owner});
-    }
-    ShotFinder finder;
-    finder.mark(surfaces);
-    std::vector<std::uint32_t> numbers;
-    for (const TimedSurface& s : surfaces) numbers.push_back(s.shot);
-    return numbers;
-  };
-  const auto cut = [](double x, double y, double t) {
-    return t < 3.5 * kPeriod ? 10 + 0.1 * x : 25 - 0.1 * y + 20 * t;
-  };
-  EXPECT_EQ(shots(cut, 8), (std::vector<std::uint32_t>{0, 0, 0, 0, 1, 1, 1, 1}));
-  const auto rise = [](double, double, double t) { return std::clamp(900 * (t - 2.5 * kPeriod), 0.0, 40.0); };
-  EXPECT_EQ(shots([&](double x, double y, double t) { return rise(x, y, t / 2); }, 8).back(), 0U) << "a fast rise";
-  const auto passing = [](double x, double, double t) { return std::abs(x - 300 * t + 40) < 10 ? 30.0 : 10.0; };
-  EXPECT_EQ(shots(passing, 8).back(), 0U) << "something passes by";
-}
-
-TEST(ShotFinder, ARiseThatEndsIsNoCutWhenTheFrameThatShowedItIsLetGo) {
-  const auto frames = film(
-      12, [](double, double, double t) { return 10 + 63 * std::clamp(t - 2 * kPeriod, 0.0, 4.2 * kPeriod); }, 90, 61);
-  ShotFinder finder;
-  std::vector<TimedSurface> held;
-  for (const Frame& f : frames) {
-    held.push_back({HeightField::make(f, {.bits = 16}, kVolume).value(), f.pts, f.owner});
-    if (held.size() > 6) held.erase(held.begin());
-    finder.mark(held);
-    // The newest pair may yet be taken for a cut: what follows it is not known.
-    for (std::size_t i = 0; i + 1 < held.size(); ++i) EXPECT_EQ(held[i].shot, 0U) << toSeconds(f.pts) << ' ' << i;
-  }
-}
-
-TouchPlan planFor(int bits, double noise_mm, bool moving) {
-  std::mt19937 random(5);
-  std::normal_distribution<double> noise(0, noise_mm > 0 ? noise_mm : 1e-9);
-  std::vector<Frame> frames;
+std::vector<TimedSurface> marked(const std::vector<Frame>& frames) {
   std::vector<TimedSurface> surfaces;
-  const double top = (1 << bits) - 1;
-  const GridMapping grid(kVolume, 720, 486);
-  for (int k = 0; k < 4; ++k) {
-    frames.push_back(makeGrayFrame(720, 486, bits, mediaTime(k * kPeriod), [&](int c, int r) {
-      const double z = 18 + 0.2 * grid.x(c) + 2 * std::sin(0.2 * grid.y(r)) + (moving ? 0.5 * k : 0) + noise(random);
-      return std::clamp(z / 40, 0.0, 1.0) * top + 0.5;
-    }));
-    surfaces.push_back(
-        {HeightField::make(frames.back(), {.bits = bits}, kVolume).value(), frames.back().pts, frames.back().owner});
+  for (const Frame& f : frames) surfaces.push_back(test::surfaceOf(f, kVolume));
+  ShotFinder().mark(surfaces);
+  return surfaces;
+}
+// A stroke over the step at x = 10, and then a rest.
+glm::dvec2 strokeAt(double t) {
+  return {6 + 20 * std::min(t, 0.4), 3 * std::sin(5 * std::min(t, 0.4))};
+}
+
+TEST(FeltSurface, AFilmThatStandsStillCostsWhatAPictureDoes) {
+  auto still = marked(film(24, [](double x, double y, double) { return rough(x, y, 0); }));
+  const auto blocksOn = [](std::span<const TimedSurface> frames) {
+    std::vector<std::uint64_t> read;
+    FeltSurface s({});
+    for (double t = 0; t < 0.6; t += 0.001) {
+      const SurfaceWindow w = windowAt(frames, frames.size() == 1 ? 0 : t);
+      const glm::dvec2 here = strokeAt(t), next = strokeAt(t + 0.001);
+      EXPECT_TRUE(s.moment(w, mediaTime(t)));
+      static_cast<void>(s.at(here.x, here.y));
+      s.prepare(w, mediaTime(t + 0.001), next.x, next.y, 2);
+      read.push_back(s.blocksRead());
+    }
+    return read;
+  };
+  const auto of_film = blocksOn(still), of_picture = blocksOn(std::span(still).first(1));
+  EXPECT_EQ(of_film, of_picture) << "tick by tick";
+  for (TimedSurface& f : still) f.repeats = false;
+  EXPECT_GT(blocksOn(still).back(), 5 * of_film.back()) << "or this test would show nothing";
+}
+
+TEST(FeltSurface, AFrameThatIsSaidToRepeatIsNotCompared) {
+  // The second frame's edge is 1 mm further on, but it is said to be the first one's: nothing moves.
+  const auto frames = film(2, [](double x, double, double t) { return x > 3 + t / kPeriod ? 25.0 : 10.0; }, 720, 486);
+  SurfaceWindow w = makeWindow(frames, kVolume);
+  w.frames[1].repeats = true;
+  FeltSurface s({});
+  double first = 0;
+  for (double t = 0.001; t < kPeriod; t += 0.004) {
+    ASSERT_TRUE(s.moment(w, mediaTime(t)));
+    const double here = s.height(3.8, 0);
+    if (t < 0.002) first = here;
+    EXPECT_NEAR(here, first, 1e-4) << t;
+    s.prepare(w, mediaTime(t + 0.004), 3.8, 0, 2);
   }
-  return planTouch(measureClip(surfaces));
 }
 
-TEST(TouchPlan, TakesWhatTheClipNeedsAndNoMore) {
-  const TouchPlan fine = planFor(16, 0, true), coarse = planFor(8, 0, true), noisy = planFor(8, 0.4, true),
-                  still = planFor(8, 0, false);
-  EXPECT_LT(fine.scale.wide_mm, 0.3);
-  EXPECT_EQ(fine.scale.wide_time, TimeLaw::Fitted);
-  EXPECT_NEAR(coarse.measure.quantum_mm, 40.0 / 255, 1e-9);
-  EXPECT_EQ(coarse.measure.noise_mm, 0);
-  EXPECT_NEAR(coarse.measure.speed_mm_per_s, 15, 5);
-  EXPECT_GT(coarse.scale.wide_mm, 0.8);
-  EXPECT_NEAR(noisy.measure.noise_mm, 0.4, 0.06);
-  EXPECT_EQ(noisy.scale.wide_time, TimeLaw::BSpline);
-  EXPECT_GT(noisy.scale.clamp_mm, fine.scale.clamp_mm);
-  EXPECT_TRUE(still.measure.still);
-  EXPECT_NE(still.scale.wide_time, TimeLaw::Hold) << "a film that begins still may move later";
-  // A lead-in of black says nothing: what comes after it may be coarse.
-  const Frame black = makeGrayFrame(90, 61, 8, {}, [](int, int) { return 0; });
-  const TimedSurface alone{HeightField::make(black, {.bits = 8}, kVolume).value(), {}, black.owner};
-  EXPECT_NEAR(planTouch(measureClip(std::span(&alone, 1))).scale.wide_mm, coarse.scale.wide_mm, 1e-9);
-  EXPECT_EQ(measureClip({}).frames, 0);
-}
-
-TEST(TouchPlan, TellsNoErrorThatItCannotName) {
-  const auto told = [](const TouchPlan& plan, const char* part) { return plan.reason.find(part) != std::string::npos; };
-  const Frame flat = makeGrayFrame(90, 61, 16, {}, [](int, int) { return 30000; });
-  const TimedSurface alone{HeightField::make(flat, {.bits = 16}, kVolume).value(), {}, flat.owner};
-  const TouchPlan plan = planTouch(measureClip(std::span(&alone, 1)));
-  EXPECT_LT(plan.error, 0.001);
-  EXPECT_TRUE(told(plan, "error of the force under 0.1 %")) << plan.reason;
-  const TouchPlan coarse = planFor(8, 0, true);
-  EXPECT_FALSE(told(coarse, " 0.0 %")) << coarse.reason;
-  EXPECT_TRUE(told(coarse, "error of the force about ")) << coarse.reason;
-  EXPECT_TRUE(told(coarse, describe(coarse.scale).c_str())) << coarse.reason;
+TEST(FeltSurface, MotionAfterStillnessIsTheMotionThatItWas) {
+  const auto move = [](double t) { return std::clamp(t - 0.3, 0.0, 0.25); };
+  auto frames =
+      marked(film(24, [&](double x, double y, double t) { return rough(x - 30 * move(t), y, 20 * move(t)); }));
+  ASSERT_TRUE(frames[5].repeats && !frames[12].repeats && frames[20].repeats);
+  auto unmarked = frames;
+  for (TimedSurface& f : unmarked) f.repeats = false;
+  for (const TimeLaw law : {TimeLaw::Linear, TimeLaw::BSpline, TimeLaw::Fitted}) {
+    FeltSurface merged({.narrow_time = law, .wide_time = law}), plain({.narrow_time = law, .wide_time = law});
+    for (double t = 0; t < 0.75; t += 0.001) {
+      const glm::dvec2 here = strokeAt(t), next = strokeAt(t + 0.001);
+      const SurfaceWindow w = windowAt(frames, t), u = windowAt(unmarked, t);
+      ASSERT_TRUE(merged.moment(w, mediaTime(t)));
+      ASSERT_TRUE(plain.moment(u, mediaTime(t)));
+      ASSERT_NEAR(merged.height(here.x, here.y), plain.height(here.x, here.y), 2e-4) << name(law) << ' ' << t;
+      merged.prepare(w, mediaTime(t + 0.001), next.x, next.y, 2);
+      plain.prepare(u, mediaTime(t + 0.001), next.x, next.y, 2);
+    }
+  }
 }
 
 }  // namespace

@@ -42,6 +42,12 @@ TEST(SurfaceInTime, HoldShowsTheNewestFrameThatHasBegun) {
   EXPECT_DOUBLE_EQ(heightAt(w, 9, TimeLaw::Hold), 250 * unit);
 }
 
+TEST(SurfaceInTime, AFrameThatIsSaidToRepeatIsNotRead) {
+  SurfaceWindow w = risingWindow();
+  w.frames[1].repeats = true;
+  EXPECT_DOUBLE_EQ(heightAt(w, 0.02, TimeLaw::Linear), 100 * 40.0 / 255);
+}
+
 TEST(SurfaceInTime, LinearFollowsTheTimestampsNotANominalRate) {
   const SurfaceWindow w = risingWindow();
   const double unit = 40.0 / 255;
