@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "app/scene/depth_calibration.h"
@@ -124,6 +126,79 @@ TEST(HeightField, DecodesHueWithNearAtRedAndHolesWhereItIsDark) {
   EXPECT_TRUE(std::isnan(field.heightMm(7, 0)));  // gray has no hue
   pixels[24] = 41;                                // 77: readable
   EXPECT_FALSE(std::isnan(field.heightMm(6, 0)));
+}
+
+TEST(HeightField, TheMeanOfABlockIsThatOfItsReadings) {
+  // 8 and 16 bits, either polarity, a clamped range, the inverse law, holes: the short cut over codes and the long way.
+  // Where the picture has more bits than the depth, or fewer, the range is clamped at one end alone.
+  const std::pair<int, DepthCalibration> meanings[] = {{8, {}},
+                                                       {16, {.bits = 16}},
+                                                       {8, {.polarity = DepthPolarity::NearIsLow}},
+                                                       {8, {.range = ColorRange::Limited}},
+                                                       {10, {.bits = 8}},
+                                                       {10, {.range = ColorRange::Limited, .bits = 12}},
+                                                       {8, {.law = DepthLaw::Inverse, .near_mm = 500, .far_mm = 1000}},
+                                                       {8, {.invalid_code = 9}}};
+  for (const auto& [bits, meaning] : meanings) {
+    const int top = bits > 8 ? 1019 : 251;
+    const Frame frame = test::makeGrayFrame(20, 15, bits, {}, [&](int c, int r) { return (c * 137 + r * 401) % top; });
+    const auto field = HeightField::make(frame, meaning, kVolume).value();
+    for (const auto& [c0, r0, width, height] : {std::tuple(0, 0, 5, 5), {3, 7, 4, 2}, {15, 10, 5, 5}, {19, 14, 1, 1}}) {
+      double sum = 0;
+      int count = 0;
+      for (int r = r0; r < r0 + height; ++r) {
+        for (int c = c0; c < c0 + width; ++c) {
+          const double z = field.heightMm(c, r);
+          if (std::isnan(z)) continue;
+          sum += z;
+          ++count;
+        }
+      }
+      EXPECT_NEAR(field.meanHeight(c0, r0, width, height, 5), sum / count, 1e-9) << bits << ' ' << c0;
+    }
+  }
+}
+
+TEST(HeightField, TheMeanOfAWideBlockIsReadAtAFewPlacesWithTheSameMarginsAllAround) {
+  // On a slope only a reading that is centred gives the height in the middle.
+  const Frame frame = test::makeGrayFrame(40, 40, 16, {}, [](int c, int r) { return 1000 + 700 * c + 300 * r; });
+  const auto field = HeightField::make(frame, {.bits = 16}, kVolume).value();
+  for (int width = 1; width <= 33; ++width) {
+    for (int most = 1; most <= 6; ++most) {
+      const int height = 34 - width;
+      const double middle = 40 * (1000 + 700 * (2 + 0.5 * (width - 1)) + 300 * (1 + 0.5 * (height - 1))) / 65535;
+      ASSERT_NEAR(field.meanHeight(2, 1, width, height, most), middle, 1e-9) << width << ' ' << most;
+    }
+  }
+}
+
+TEST(HeightField, ABlockWithReadingsInLessThanHalfOfItIsAHole) {
+  const auto mean = [](int holes) {
+    const Frame frame = test::makeGrayFrame(4, 4, 8, {}, [&](int c, int r) { return 4 * r + c < holes ? 0 : 51; });
+    return HeightField::make(frame, {.invalid_code = 0}, kVolume).value().meanHeight(0, 0, 4, 4, 4);
+  };
+  EXPECT_DOUBLE_EQ(mean(0), 8);
+  EXPECT_DOUBLE_EQ(mean(8), 8);
+  EXPECT_TRUE(std::isnan(mean(9)));
+}
+
+TEST(HeightField, TellsSamplesApartWhateverLiesBesideThem) {
+  std::vector<std::uint8_t> one(96, 1), other(96, 1);
+  const auto field = [](std::vector<std::uint8_t>& memory, int width) {
+    Frame frame;
+    frame.width = width;
+    frame.height = 3;
+    frame.components[0] = {.plane = 0, .offset_bytes = 2, .step_bytes = 4, .bits = 16};
+    frame.planes[0] = {memory.data(), 32};
+    return HeightField::make(frame, {.bits = 16}, kVolume).value();
+  };
+  const auto same = [&] { return field(one, 5).sameSamples(field(other, 5)); };
+  EXPECT_TRUE(same());
+  EXPECT_FALSE(field(one, 5).sameSamples(field(other, 4)));
+  other[0] = other[2 + 4 * 4 + 2] = other[31] = 7;  // before the first sample of a row and after the last
+  EXPECT_TRUE(same());
+  other[2 * 32 + 2 + 4 * 4 + 1] = 7;  // the last byte of the last sample
+  EXPECT_FALSE(same());
 }
 
 TEST(HeightField, RefusesAPictureThatItsCodeCannotLieIn) {
