@@ -54,8 +54,10 @@ std::unique_ptr<TouchMethod> makeMethod(std::string_view method, const MethodCon
     return std::make_unique<TriangleProxy>(stiffness, TriangleParts{walk, parts->time, carry, threshold(guarded)});
   };
   if (parts->scale) {
-    return std::make_unique<RelievoMethod>(RelievoMethod::Config{
-        .stiffness_n_per_mm = stiffness, .scale = *parts->scale, .jump_threshold_n = threshold(false)});
+    return std::make_unique<RelievoMethod>(RelievoMethod::Config{.stiffness_n_per_mm = stiffness,
+                                                                 .scale = *parts->scale,
+                                                                 .jump_threshold_n = threshold(false),
+                                                                 .tick_s = config.tick_s});
   }
   if (method == "relievo") return onTriangles(Walk::Faces, true, false);
   if (method == "modified-proxy-graph") return onTriangles(Walk::Graph, true, true);

@@ -14,6 +14,7 @@ namespace relievo {
 
 struct MethodConfig {
   double stiffness_n_per_mm = 0.5;
+  double tick_s = 0.001;               // the task's period
   std::optional<SpaceLaw> space;       // nothing: the method's own
   std::optional<TimeLaw> time;         // nothing: the method's own
   std::optional<bool> jump_threshold;  // the paper's guard (IV-C); nothing: the method's own

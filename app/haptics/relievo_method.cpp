@@ -67,7 +67,8 @@ Touch RelievoMethod::update(const glm::dvec3& hip_mm, const SurfaceWindow& windo
   } else if (state_ == State::Buried) {
     if (!inside(hip_mm)) state_ = State::Free;
   } else if (state_ == State::Contact) {
-    // The finger moves against a surface that rises as it did in the tick before.
+    // The finger moves against a surface that rises as it did in the tick before: the guess saves a look at the surface
+    // where that is fast.
     const glm::dvec3 moved = hip_mm - hip_mm_ - glm::dvec3(0, 0, rise_mm_);
     const glm::dvec2 step = predictedStep(contact_, hip_mm_, moved, lowered_mm_);
     contact_.x_mm += step.x;
@@ -81,7 +82,7 @@ Touch RelievoMethod::update(const glm::dvec3& hip_mm, const SurfaceWindow& windo
         slide(hip_mm);
       }
     }
-    if (sweptAway(before, hip_mm)) {
+    if (sweptAway(hip_mm)) {
       contact_.x_mm = hip_mm.x;
       contact_.y_mm = hip_mm.y;
       slide(hip_mm);
@@ -141,13 +142,19 @@ void RelievoMethod::enterScene(const glm::dvec3& hip_mm) RELIEVO_RT {
 }
 
 // A wall that has gone over the finger and on takes the proxy with it, although the way out is by now much shorter
-// elsewhere: straight up. Only where the scene did it: a finger that pushes itself deep into a wall stays at that wall.
-bool RelievoMethod::sweptAway(const Contact& before, const glm::dvec3& hip_mm) RELIEVO_RT {
-  constexpr double kFurtherMm = 3;
+// elsewhere: straight up. Only where the scene did it: a finger that pushes itself deep into a wall stays at that wall,
+// also when it rests there or is read in every other tick only.
+bool RelievoMethod::sweptAway(const glm::dvec3& hip_mm) RELIEVO_RT {
+  constexpr double kFurtherMm = 3, kCarriedMm = 0.5;
+  const glm::dvec2 place(contact_.x_mm, contact_.y_mm);
   const double away = glm::distance(proxy(), hip_mm);
-  if (away < 2 * kFurtherMm) return false;
-  const double carried = std::hypot(contact_.x_mm - before.x_mm, contact_.y_mm - before.y_mm);
-  if (carried < 2 * glm::distance(hip_mm, hip_mm_)) return false;
+  const double carried = glm::distance(place, own_place_mm_);
+  if (away < 2 * kFurtherMm || carried <= 2 * glm::distance(hip_mm, own_hip_mm_)) {
+    own_place_mm_ = place;
+    own_hip_mm_ = hip_mm;
+    return false;
+  }
+  if (carried < kCarriedMm) return false;
   const double up = surface_.height(hip_mm.x, hip_mm.y) - lowered_mm_ - hip_mm.z;
   return up > 0 && away > up + kFurtherMm;
 }
@@ -232,11 +239,12 @@ void RelievoMethod::rub(const glm::dvec3& hip_mm) RELIEVO_RT {
 
 void RelievoMethod::settleLowering(const glm::dvec3& hip_mm) RELIEVO_RT {
   if (state_ == State::Contact) {
-    const double after = glm::length(force_n_) + config_.stiffness_n_per_mm * config_.rise_mm_per_tick;
-    if (after <= force_before_cut_n_) lowered_mm_ = std::max(lowered_mm_ - config_.rise_mm_per_tick, 0.0);
-  } else {
+    const double rise = config_.rise_mm_per_s * config_.tick_s;
+    const double after = glm::length(force_n_) + config_.stiffness_n_per_mm * rise;
+    if (after <= force_before_cut_n_) lowered_mm_ = std::max(lowered_mm_ - rise, 0.0);
+  } else if (state_ == State::Free) {
     // The finger is above the lowered surface: that much may come back under it unfelt.
-    lowered_mm_ = std::clamp(surface_.height(hip_mm.x, hip_mm.y) - hip_mm.z, 0.0, lowered_mm_);
+    lowered_mm_ = std::max(surface_.height(hip_mm.x, hip_mm.y) - hip_mm.z, 0.0);
   }
 }
 

@@ -29,8 +29,9 @@ class RelievoMethod final : public TouchMethod {
     double stiffness_n_per_mm = 0.5;
     FeltScale scale;
     Friction friction;
-    double jump_threshold_n = 0;    // the paper's guard (IV-C) on top; 0: none, the re-seating needs none
-    double rise_mm_per_tick = 0.1;  // how fast a lowered surface comes back: 50 N/s on 0.5 N/mm at 1 kHz
+    double jump_threshold_n = 0;   // the paper's guard (IV-C) on top; 0: none, the re-seating needs none
+    double rise_mm_per_s = 100.0;  // how fast a lowered surface comes back: 50 N/s on 0.5 N/mm
+    double tick_s = 0.001;         // the task's period
   };
   explicit RelievoMethod(const Config& config) noexcept : config_(config), surface_(config.scale) {}
 
@@ -53,7 +54,7 @@ class RelievoMethod final : public TouchMethod {
   [[nodiscard]] bool inside(const glm::dvec3& place_mm) RELIEVO_RT;
   void enterScene(const glm::dvec3& hip_mm) RELIEVO_RT;
   void slide(const glm::dvec3& hip_mm) RELIEVO_RT;
-  [[nodiscard]] bool sweptAway(const Contact& before, const glm::dvec3& hip_mm) RELIEVO_RT;
+  [[nodiscard]] bool sweptAway(const glm::dvec3& hip_mm) RELIEVO_RT;
   void rub(const glm::dvec3& hip_mm) RELIEVO_RT;
   [[nodiscard]] bool enterOnPath(const glm::dvec3& from_mm, const glm::dvec3& hip_mm) RELIEVO_RT;
   void follow(glm::dvec3 from_mm, const glm::dvec3& hip_mm) RELIEVO_RT;
@@ -69,6 +70,9 @@ class RelievoMethod final : public TouchMethod {
   glm::dvec3 hip_mm_{0};
   Contact contact_;
   double rise_mm_ = 0;  // of the surface under the proxy in the last tick
+  // Where proxy and finger were when the one had last gone no further than the other explains.
+  glm::dvec2 own_place_mm_{0};
+  glm::dvec3 own_hip_mm_{0};
   bool rubbing_ = false, sliding_ = false;
   Contact stuck_;          // where friction last held the proxy
   double lowered_mm_ = 0;  // of the surface, after a cut

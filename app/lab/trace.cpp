@@ -81,11 +81,13 @@ Outcome<TraceSummary> runTrace(const TraceOptions& options, const PairReader::Ba
   if (!first) return std::unexpected(first.error());
   const TouchPlan plan =
       planTouch(measureClip(std::span((*first)->frames).first(static_cast<std::size_t>((*first)->count))));
-  const MethodConfig config{.stiffness_n_per_mm = options.stiffness_n_per_mm,
-                            .space = options.space,
-                            .time = options.time,
-                            .jump_threshold = jumpThreshold(options.guard),
-                            .scale = plan.scale};
+  MethodConfig config{.stiffness_n_per_mm = options.stiffness_n_per_mm,
+                      .space = options.space,
+                      .time = options.time,
+                      .jump_threshold = jumpThreshold(options.guard),
+                      .scale = plan.scale};
+  // The path's own rate: what a method does in time it does so at any.
+  if (path->size() > 1) config.tick_s = (path->back().t_s - path->front().t_s) / static_cast<double>(path->size() - 1);
   const auto parts = partsOf(options.method, config);
   if (!parts) return failOn("--method " + options.method, {ErrorCode::InvalidArgument, 0, "no such method"});
   const auto method = makeMethod(options.method, config);

@@ -53,7 +53,8 @@ Result<void> HapticSession::makeTask(const DisplayVolume& volume, const SurfaceW
                            WorkspaceMapping(capabilities_, volume).scale();
   TouchPlan plan = planTouch(measureClip(std::span(first.frames).first(static_cast<std::size_t>(first.count))));
   plan_ = std::move(plan.reason);
-  method_ = makeMethod(kDefaultMethod, {.stiffness_n_per_mm = stiffness, .scale = plan.scale});
+  method_ =
+      makeMethod(kDefaultMethod, {.stiffness_n_per_mm = stiffness, .tick_s = toSeconds(period_), .scale = plan.scale});
   if (method_ == nullptr) return fail(ErrorCode::NotFound, "the default method of touch is missing from this build");
 
   auto arena = FixedArena::create(sizeof(HapticTask) + alignof(HapticTask) + 256);
