@@ -36,13 +36,12 @@ Result<void> ask(UsbPort& port, std::initializer_list<Request> requests) {
 // What comes, until `most` bytes are there or nothing has come for `patience`. None is no failure.
 Result<std::vector<std::uint8_t>> gather(UsbPort& port, std::size_t most, Duration patience) {
   std::vector<std::uint8_t> bytes;
-  // The bridge sends its two bytes whenever its latency timer runs out: those are no news.
+  // The bridge sends its two bytes whenever its latency timer runs out: those are no news, nor is what is broken.
   for (Duration silent{0}; silent < patience && bytes.size() < most;) {
     const auto packet = port.receive(kAnswer);
     if (!packet && packet.error().code != ErrorCode::Timeout) return std::unexpected(packet.error());
-    silent = packet && packet->bytes > kStatusBytes ? Duration{0} : silent + (packet ? kIdle : kAnswer);
-    if (!packet) continue;
-    const UsbBytes payload = payloadOf(*packet);
+    const UsbBytes payload = packet ? payloadOf(*packet) : UsbBytes();
+    silent = payload.empty() ? silent + (packet ? kIdle : kAnswer) : Duration{0};
     bytes.insert(bytes.end(), payload.begin(), payload.end());
   }
   return bytes;

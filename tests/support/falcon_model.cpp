@@ -169,6 +169,11 @@ std::optional<UsbPacket> FalconModel::read(MonotonicTime now) {
   packet.data[0] = 0x01;
   packet.data[1] = 0x60;
   packet.bytes = 2;
+  if (faults_.broken_line) {
+    packet.data[1] = 0x62;  // overrun
+    packet.bytes = 3;
+    return packet;
+  }
   const std::size_t most = std::min(packet.data.size(), 2 + faults_.most_payload);
   while (!to_host_.empty() && to_host_.front().when <= now && packet.bytes < most) {
     packet.data[packet.bytes++] = to_host_.front().byte;

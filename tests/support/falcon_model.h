@@ -18,6 +18,7 @@ struct FalconFaults {
   int silent_loads = 0;                                     // the greeting is never answered
   int wrong_echo_loads = 0;                                 // a byte of the image comes back changed
   int dead_loads = 0;                                       // the image is taken, but does not run
+  bool broken_line = false;                                 // every packet says that bytes of it were lost
   bool leading_zero = false;                                // the greeting's answer has a zero byte before it
   std::size_t most_payload = falcon::kPacketBytes * 4 - 2;  // of an IN packet: short reads
   // Applied to the bytes of every reply of the firmware.

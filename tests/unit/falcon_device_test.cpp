@@ -107,6 +107,12 @@ TEST_F(FalconDevice, GivesUpOnADeviceThatNeverTakesIt) {
   EXPECT_FALSE(cable_.open);
 }
 
+TEST_F(FalconDevice, GivesUpOnALineThatNeverStopsToBreak) {
+  FalconModel model(image(), {.broken_line = true});
+  EXPECT_EQ(make(model, path_)->open().error().code, ErrorCode::Timeout);
+  EXPECT_EQ(make(model)->open().error().code, ErrorCode::NotFound) << "no firmware answers";
+}
+
 TEST_F(FalconDevice, SaysWhatIsWrongWithTheFirmwaresFile) {
   FalconModel model(image());
   EXPECT_EQ(make(model)->open().error().code, ErrorCode::NotFound);
