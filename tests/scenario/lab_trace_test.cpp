@@ -272,7 +272,7 @@ TEST_F(LabTrace, OptionsThatDoNotGoTogetherAreNamedBoth) {
                         Case{"proxy-blend --time linear", "--time linear with --method proxy-blend: "},
                         Case{"relievo --space triangles --time bspline", "--time bspline with --space triangles: "}}) {
     const auto result = test::runProgram(
-        std::string("relievo-lab trace --depth none.mkv --hip none.csv --out none.csv --method ") + c.words,
+        std::string("relievo-lab trace --depth none.mkv --hip none.csv --out out.csv --method ") + c.words,
         folder_ / ".");
     EXPECT_EQ(result.exit_code, 2) << result.err;
     EXPECT_TRUE(result.err.starts_with(std::string("relievo-lab: ") + c.named)) << result.err;

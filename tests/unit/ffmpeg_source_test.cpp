@@ -322,8 +322,9 @@ TEST(FfmpegSource, TellsHowMuchOfACutFileIsMissing) {
     ASSERT_TRUE(source->open(folder / name).has_value()) << name;
     EXPECT_EQ(source->missing(), Duration(0)) << name << " is not known before its end";
     const auto packets = readAll(*source);
+    // Of reordered pictures the one that lies farthest ahead comes first.
     const double there = static_cast<double>(packets.size()) / 24;
-    EXPECT_NEAR(toSeconds(source->missing()), 2 - there, 0.15) << name;
+    EXPECT_NEAR(toSeconds(source->missing()), 2 - there, 0.25) << name;
   }
 }
 
