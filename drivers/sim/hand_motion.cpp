@@ -32,10 +32,11 @@ HandPoint stroke(double t, double reach) RELIEVO_RT {
   constexpr double kRoundS = 4.0;  // down, stroke, up: it is soon out of what let it through
   const double in_round = std::fmod(t, kRoundS);
   const double down = easeIn(in_round, kDownS) - easeIn(in_round - (kRoundS - kUpS), kUpS);
-  const double share = reach * easeIn(t - kDownS, 3.0);  // the first contact is in the middle
-  // At most 31 and 28 mm/s; the periods have no common multiple before 803 s, so that no line is drawn twice.
-  return over(share * 55.0 * wave(t - kDownS, 11.0), share * 32.0 * wave(t - kDownS, 7.3), down,
-              1.5 + 0.5 * wave(t, 3.1));
+  // The first contact is near the middle; what has a hole there is found within half a second more.
+  const double share = reach * easeIn(t - kDownS / 2, kDownS);
+  // At most 31 and 28 mm/s in the end; the periods have no common multiple before 803 s, so that no line is drawn
+  // twice.
+  return over(-share * 55.0 * wave(t, 11.0), share * 32.0 * wave(t, 7.3), down, 1.5 + 0.5 * wave(t, 3.1));
 }
 
 HandPoint rest(double t, double force_n) RELIEVO_RT {
