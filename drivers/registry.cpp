@@ -18,7 +18,7 @@
 #define RELIEVO_DISPLAY_NAMES "offscreen[:FILE.y4m] mock"
 #define RELIEVO_HAPTIC_NAMES                                                 \
   "falcon[:FIRMWARE] polhem[:DESCRIPTION.json] pointer[:/dev/input/eventN] " \
-  "sim[:DEVICE][,HAND][,SCRIPT] replay:FILE mock none"
+  "sim[:phantom|falcon|polhem][,stroking|resting|tapping|tense|shaking][,SCRIPT.csv] replay:FILE mock none"
 #define RELIEVO_REMOTE_NAMES "script:FILE none"
 
 namespace relievo::drivers {

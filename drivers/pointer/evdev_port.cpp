@@ -7,9 +7,14 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
+#include <filesystem>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "drivers/pointer/mouse_port.h"
 #include "platform/unique_fd.h"
@@ -17,7 +22,7 @@
 namespace relievo {
 namespace {
 
-constexpr int kMostDevices = 256;  // event0 and so on
+constexpr const char* kFolder = "/dev/input";
 constexpr const char* kNoRight =
     "the right to read the mouse is missing; add the user to the group that may (sudo usermod -aG input $USER) and log "
     "in anew";
@@ -34,6 +39,23 @@ bool isMouse(int fd) {
 
 UniqueFd openEvents(const std::string& path) {
   return UniqueFd(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+}
+
+// N of each eventN, the lowest first.
+std::vector<int> eventNumbers() {
+  constexpr std::string_view kBefore = "event";
+  std::vector<int> numbers;
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(kFolder, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename();
+    int number = 0;
+    const char* const last = name.data() + name.size();
+    if (name.starts_with(kBefore) && std::from_chars(name.data() + kBefore.size(), last, number).ptr == last) {
+      numbers.push_back(number);
+    }
+  }
+  std::ranges::sort(numbers);
+  return numbers;
 }
 
 class EvdevPort final : public MousePort {
@@ -73,8 +95,8 @@ class EvdevPort final : public MousePort {
 
   Result<void> openFirst() {
     bool refused = false;
-    for (int i = 0; i < kMostDevices; ++i) {
-      fd_ = openEvents("/dev/input/event" + std::to_string(i));
+    for (const int number : eventNumbers()) {
+      fd_ = openEvents(kFolder + ("/event" + std::to_string(number)));
       refused = refused || (!fd_.valid() && errno == EACCES);
       if (fd_.valid() && isMouse(fd_.get())) return {};
     }

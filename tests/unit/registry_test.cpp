@@ -86,6 +86,20 @@ TEST_F(Registry, TheSimulatedDeviceIsTheOneThatIsNamed) {
   EXPECT_EQ(makeHapticDevice("sim:flacon", clock_).error().error.code, ErrorCode::InvalidArgument);
 }
 
+TEST_F(Registry, EachWordOfTheSimulatedDeviceIsListed) {
+  for (const char* word : {"phantom", "falcon", "polhem", "stroking", "resting", "tapping", "tense", "shaking"}) {
+    EXPECT_TRUE(makeHapticDevice(std::string("sim:") + word, clock_)) << word;
+    EXPECT_THAT(kHapticNames, testing::HasSubstr(word));
+  }
+}
+
+TEST_F(Registry, AMouseIsThePointerByItselfOrByItsPath) {
+  EXPECT_STREQ(makeHapticDevice("pointer", clock_).value()->capabilities().name, "pointer");
+  const auto device = makeHapticDevice("pointer:/nonexistent/event0", clock_).value();
+  EXPECT_EQ(device->open().error().code, ErrorCode::NotFound);
+  EXPECT_FALSE(makeHapticDevice("pointer:", clock_));
+}
+
 TEST_F(Registry, ARecordingIsPlayedAgain) {
   const std::string file = fileWith("registry_touch.csv", "t_s,x_mm,y_mm,z_mm\n0,30,-12,6\n");
   const auto device = makeHapticDevice("replay:" + file, clock_).value();

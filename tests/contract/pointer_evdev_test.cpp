@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pointer on nodes of /dev/input that umockdev plugs into this machine: libevdev finds the mouse, read(2) its
+// events.
+#include <gtest/gtest.h>
+#include <linux/input.h>
+
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <memory>
+
+#include "drivers/pointer/pointer.h"
+#include "platform/allocation_counter.h"
+#include "tests/support/umockdev_mouse.h"
+
+namespace relievo {
+namespace {
+
+using State = HapticDevice::State;
+using test::UmockdevMouse;
+
+class PointerEvdev : public testing::Test {
+ protected:
+  void SetUp() override {
+    bed_ = umockdev_testbed_new();
+    if (!umockdev_in_mock_environment()) GTEST_SKIP() << "run it under umockdev-wrapper";
+  }
+  void TearDown() override {
+    if (bed_ != nullptr) g_object_unref(bed_);
+  }
+  std::unique_ptr<HapticDevice> run(const std::string& path = {}) {
+    auto device = makePointer(path, clock_);
+    const auto opened = device->open();
+    EXPECT_TRUE(opened) << opened.error().message;
+    EXPECT_TRUE(device->home());
+    const auto started = device->start();
+    EXPECT_TRUE(started) << started.error().message;
+    return device;
+  }
+  // A tick of simulated time after the other until it is so: what a node is told takes the kernel a moment.
+  static constexpr int kPatience = 5000;
+  HapticSample until(HapticDevice& device, const std::function<bool(const HapticSample&)>& so) {
+    HapticSample sample;
+    for (int i = 0; i < kPatience; ++i) {
+      clock_.advance(std::chrono::milliseconds(1));
+      const auto read = device.read();
+      EXPECT_TRUE(read) << read.error().message;
+      if (!read) break;
+      sample = *read;
+      if (so(sample)) return sample;
+      MonotonicClock real;
+      real.sleepUntil(real.now() + std::chrono::milliseconds(1));
+    }
+    ADD_FAILURE() << "it was never so";
+    return sample;
+  }
+
+  UMockdevTestbed* bed_ = nullptr;
+  ManualClock clock_;
+};
+
+TEST_F(PointerEvdev, FindsTheFirstMouseAmongOtherDevicesAndFollowsIt) {
+  UmockdevMouse keys(bed_, 0, UmockdevMouse::keyboard()), mouse(bed_, 3, UmockdevMouse::mouse());
+  UmockdevMouse second(bed_, 12, UmockdevMouse::mouse());
+  const auto device = run();
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(device->read()->position_mm, glm::dvec3(0, 0, 46)) << "it does not wait";
+  mouse.say(EV_REL, REL_X, 120);
+  mouse.say(EV_REL, REL_Y, -60);
+  mouse.say(EV_KEY, BTN_MIDDLE, 1);
+  mouse.say(EV_SYN, SYN_REPORT, 0);
+  until(*device, [](const HapticSample& sample) {
+    return sample.buttons == 1 && glm::distance(sample.position_mm, glm::dvec3(12, 6, 46)) < 1e-6;
+  });
+  EXPECT_EQ(mouse.unknownRequests(), 0);
+}
+
+TEST_F(PointerEvdev, AsksForTheButtonsAfterDroppedEvents) {
+  UmockdevMouse mouse(bed_, 3, UmockdevMouse::mouse());
+  mouse.hold(BTN_RIGHT, true);
+  const auto device = run("/dev/input/event3");
+  EXPECT_EQ(device->read()->buttons, 2u) << "held when it began";
+  mouse.hold(BTN_RIGHT, false);
+  mouse.say(EV_SYN, SYN_DROPPED, 0);
+  mouse.say(EV_SYN, SYN_REPORT, 0);
+  until(*device, [](const HapticSample& sample) { return sample.buttons == 0; });
+}
+
+TEST_F(PointerEvdev, ATickOnTheRealNodeAllocatesNothing) {
+  UmockdevMouse mouse(bed_, 3, UmockdevMouse::mouse());
+  const auto device = run();
+  for (int i = 0; i < 50; ++i) {
+    mouse.say(EV_REL, REL_X, 1);
+    mouse.say(EV_SYN, SYN_REPORT, 0);
+  }
+  const std::uint64_t before = threadAllocations();
+  std::uint64_t in_ticks = 0;
+  until(*device, [&](const HapticSample& sample) {
+    (void)device->write({0, 0, 1});
+    in_ticks = threadAllocations();
+    return std::abs(sample.position_mm.x - 5) < 1e-6;
+  });
+  EXPECT_EQ(in_ticks, before);
+}
+
+TEST_F(PointerEvdev, UnpluggedInUseItIsLostAndItsPlaceIsNotFound) {
+  UmockdevMouse mouse(bed_, 3, UmockdevMouse::mouse());
+  const auto device = run();
+  ASSERT_TRUE(device->read());
+  mouse.unplug();
+  MonotonicClock real;
+  for (int i = 0; i < kPatience && device->state() == State::Running; ++i) {
+    (void)device->read();
+    real.sleepUntil(real.now() + std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(device->state(), State::Lost);
+  device->close();
+  EXPECT_EQ(device->open().error().code, ErrorCode::NotFound);
+}
+
+TEST_F(PointerEvdev, WhatIsNoMouseIsRefused) {
+  UmockdevMouse keys(bed_, 0, UmockdevMouse::keyboard());
+  EXPECT_EQ(makePointer("/dev/input/event0", clock_)->open().error().code, ErrorCode::Unsupported);
+  EXPECT_EQ(makePointer("/dev/input/event9", clock_)->open().error().code, ErrorCode::NotFound);
+  EXPECT_EQ(makePointer("", clock_)->open().error().code, ErrorCode::NotFound);
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Plugs a mouse into this machine: a node of /dev/input that answers evdev's requests and says what a test lets it say.
+// Only under `umockdev-wrapper`.
+#pragma once
+
+#include <umockdev.h>
+
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace relievo::test {
+
+class UmockdevMouse {
+ public:
+  // What it is: the codes that it has, by their types.
+  using Codes = std::map<std::uint16_t, std::vector<std::uint16_t>>;
+  static Codes mouse();
+  static Codes keyboard();
+
+  // /dev/input/eventN.
+  UmockdevMouse(UMockdevTestbed* bed, int number, Codes codes);
+  ~UmockdevMouse();
+  UmockdevMouse(const UmockdevMouse&) = delete;
+  UmockdevMouse& operator=(const UmockdevMouse&) = delete;
+
+  void say(std::uint16_t type, std::uint16_t code, std::int32_t value);
+  void unplug();
+  // What its keys are, when it is asked.
+  void hold(std::uint16_t key, bool down);
+  // Requests that were not answered, since nobody taught them here.
+  [[nodiscard]] int unknownRequests() const { return unknown_; }
+
+ private:
+  static gboolean onRequest(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self);
+  bool answer(UMockdevIoctlClient* client);
+
+  UMockdevTestbed* bed_;
+  std::string node_, device_;
+  Codes codes_;
+  UMockdevIoctlBase* handler_ = nullptr;
+  GMainContext* context_ = nullptr;
+  GMainLoop* loop_ = nullptr;
+  std::thread thread_;
+  std::mutex lock_;
+  std::vector<std::uint16_t> held_;
+  int unknown_ = 0;
+};
+
+}  // namespace relievo::test
