@@ -20,9 +20,9 @@ using namespace std::chrono_literals;
 using namespace falcon;
 
 constexpr Duration kTick = 1ms;
-constexpr int kLoads = 10;     // tries to load the firmware
+constexpr int kLoads = 10;        // tries to load the firmware
 constexpr int kMostPackets = 16;  // of a tick: a device that floods the bus does not hold it up
-constexpr int kFirmHomed = 3;  // replies in a row that all say "homed"
+constexpr int kFirmHomed = 3;     // replies in a row that all say "homed"
 
 constexpr const char* kNoFirmware =
     "the Falcon has no firmware yet; give its image: falcon:FILE (it came with the device's SDK and may not be "

@@ -20,7 +20,7 @@ constexpr Duration kTick = 1ms;
 constexpr Duration kAnswer = 20ms;
 constexpr Duration kHeldStill = 500ms;  // before it is calibrated
 constexpr Duration kSettled = 20ms;     // after that
-constexpr int kMostPackets = 16;         // of a tick: a device that floods the bus does not hold it up
+constexpr int kMostPackets = 16;        // of a tick: a device that floods the bus does not hold it up
 constexpr int kStillCounts = 4;         // 0.2 mm: what a hand that rests makes
 // What the windings and amplifiers stand for good is not published for these arms: half of the highest current is
 // taken for it, 1 A of 2 A, where the motors that the torque constants point at are rated for 1.7 A and more.
