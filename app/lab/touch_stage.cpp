@@ -6,7 +6,7 @@
 
 namespace relievo {
 
-// Its workspace's centre is that of the volume: device millimetres are scene millimetres.
+// Its workspace's centre is that of the volume, and its ends are far away: device millimetres are scene millimetres.
 class TouchStage::Handle final : public HapticDevice {
  public:
   explicit Handle(const Options& options) : options_(options) {}
@@ -14,10 +14,10 @@ class TouchStage::Handle final : public HapticDevice {
   glm::dvec3 held{0};
 
   [[nodiscard]] HapticCapabilities capabilities() const noexcept override {
-    const DisplayVolume& v = options_.volume;
+    const glm::dvec3 centre_mm(0, 0, 0.5 * options_.volume.depth_mm);
     return {.name = "stage",
-            .workspace_min_mm = {-0.5 * v.width_mm, -0.5 * v.height_mm, 0},
-            .workspace_max_mm = {0.5 * v.width_mm, 0.5 * v.height_mm, v.depth_mm},
+            .workspace_min_mm = centre_mm - 1000.0,
+            .workspace_max_mm = centre_mm + 1000.0,
             .peak_force_n = options_.peak_force_n,
             .continuous_force_n = options_.peak_force_n,
             .max_stiffness_n_per_mm = options_.stiffness_n_per_mm};

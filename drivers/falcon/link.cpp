@@ -14,6 +14,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr Duration kAnswer = 20ms;  // of one look for bytes
+constexpr Duration kEcho = 100ms;   // for 62 bytes: 4 ms on the line and the latency timer's 16
 constexpr Duration kIdle = 1ms;     // between two packets of an idle bridge, at the least
 
 struct Request {
@@ -58,7 +59,7 @@ Result<void> greet(UsbPort& port, const std::atomic<bool>& cancelled) {
   constexpr int kGreetings = 20;
   for (int i = 0; i < kGreetings; ++i) {
     if (cancelled) return fail(ErrorCode::Cancelled, "loading the firmware was called off");
-    if (auto sent = port.send(kHello, 1s); !sent) return sent;
+    if (auto sent = port.send(kHello, kEcho); !sent) return sent;
     const auto answer = gather(port, kWelcome.size() + 1, 3 * kAnswer);
     if (!answer) return std::unexpected(answer.error());
     if (endsWith(*answer, kWelcome)) return {};
@@ -68,8 +69,8 @@ Result<void> greet(UsbPort& port, const std::atomic<bool>& cancelled) {
 }
 
 Result<void> sendEchoed(UsbPort& port, UsbBytes bytes) {
-  if (auto sent = port.send(bytes, 1s); !sent) return sent;
-  const auto echo = gather(port, bytes.size(), 1s);
+  if (auto sent = port.send(bytes, kEcho); !sent) return sent;
+  const auto echo = gather(port, bytes.size(), kEcho);
   if (!echo) return std::unexpected(echo.error());
   if (echo->size() < bytes.size()) return fail(ErrorCode::Timeout, "the Falcon's boot loader stopped to echo");
   if (!std::ranges::equal(*echo, bytes)) return fail(ErrorCode::Corrupt, "the Falcon's boot loader echoed other bytes");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Falcon's driver over the real libusb and usbfs's requests, on a model that umockdev plugs into this machine.
+// The Falcon's driver over the real libusb and usbfs's requests, on a model that is plugged
+// into the machine: by umockdev, and in a guest by the kernel itself.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -11,7 +12,7 @@
 #include "drivers/falcon/falcon.h"
 #include "drivers/falcon/link.h"
 #include "tests/support/falcon_model.h"
-#include "tests/support/umockdev_usb.h"
+#include "tests/support/plugged_usb.h"
 
 namespace relievo {
 namespace {
@@ -31,10 +32,10 @@ std::vector<std::uint8_t> image() {
 class FalconUsb : public testing::Test {
  protected:
   void SetUp() override {
-    if (!test::machineIsMocked()) GTEST_SKIP() << "run it with umockdev's library loaded first";
+    if (usb_ == nullptr) GTEST_SKIP() << test::kNoPlug;
   }
   falcon::Words words() {
-    const std::lock_guard guard(usb_.lock());
+    const std::lock_guard guard(usb_->lock());
     return model_.last().motors;
   }
   std::unique_ptr<HapticDevice> make(std::string firmware = {}) {
@@ -50,7 +51,7 @@ class FalconUsb : public testing::Test {
   }
 
   FalconModel model_{image()};
-  test::UmockdevUsb usb_{model_, falcon::kUsbId};
+  std::unique_ptr<test::PluggedUsb> usb_ = test::plugIn(model_, falcon::kUsbId);
   MonotonicClock clock_;
 };
 
@@ -64,7 +65,7 @@ TEST_F(FalconUsb, LoadsItsFirmwareThroughLibusb) {
   std::filesystem::remove(path);
   ASSERT_TRUE(opened) << opened.error().message;
   EXPECT_TRUE(model_.running());
-  EXPECT_EQ(usb_.unknownRequests(), 0);
+  EXPECT_EQ(usb_->unknownRequests(), 0);
 }
 
 TEST_F(FalconUsb, ExchangesAThousandTicksAndCountsNoneTwice) {
@@ -86,7 +87,7 @@ TEST_F(FalconUsb, ExchangesAThousandTicksAndCountsNoneTwice) {
   device->stop();
   EXPECT_EQ(words(), falcon::Words{});
   EXPECT_GT(model_.commands() - before, 500) << "on a machine that keeps up, a thousand";
-  EXPECT_EQ(usb_.unknownRequests(), 0);
+  EXPECT_EQ(usb_->unknownRequests(), 0);
 }
 
 TEST_F(FalconUsb, UnpluggedInUseItIsLostAndComesBack) {
@@ -95,7 +96,7 @@ TEST_F(FalconUsb, UnpluggedInUseItIsLostAndComesBack) {
     ASSERT_TRUE(device->read() && device->write({0, 0, 2}));
     clock_.sleepUntil(clock_.now() + kTick);
   }
-  usb_.unplug();
+  usb_->unplug();
   for (int i = 0; i < 100 && device->state() == State::Running; ++i) {
     (void)device->read();
     (void)device->write({0, 0, 2});
@@ -105,7 +106,7 @@ TEST_F(FalconUsb, UnpluggedInUseItIsLostAndComesBack) {
   EXPECT_EQ(device->open().error().code, ErrorCode::NotFound);
   model_.powerOn();
   model_.runFirmware();
-  usb_.plug();
+  usb_->plug();
   const auto opened = device->open();
   ASSERT_TRUE(opened) << opened.error().message;
   EXPECT_TRUE(device->home() && device->start());

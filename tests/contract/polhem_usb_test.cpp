@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Polhem's driver over the real libusb and usbfs's requests, on a model that umockdev plugs into this machine.
+// The Polhem's driver over the real libusb and usbfs's requests, on a model that is plugged
+// into the machine: by umockdev, and in a guest by the kernel itself.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -7,8 +8,8 @@
 
 #include "drivers/polhem/polhem.h"
 #include "drivers/polhem/report.h"
+#include "tests/support/plugged_usb.h"
 #include "tests/support/polhem_model.h"
-#include "tests/support/umockdev_usb.h"
 
 namespace relievo {
 namespace {
@@ -32,15 +33,13 @@ constexpr Board kBoards[] = {{"mbed", polhem::kMbedId, polhem::kReportBytes},
 class PolhemUsb : public testing::Test {
  protected:
   explicit PolhemUsb(const Board& board = kBoards[0])
-      : model_(kWoodenHaptics2019, {.report_bytes = board.report_bytes}), usb_(model_, board.id) {}
+      : model_(kWoodenHaptics2019, {.report_bytes = board.report_bytes}), usb_(test::plugIn(model_, board.id)) {}
   void SetUp() override {
-    if (std::getenv("UMOCKDEV_DIR") == nullptr && !umockdev_in_mock_environment()) {
-      GTEST_SKIP() << "run it under umockdev-wrapper";
-    }
+    if (usb_ == nullptr) GTEST_SKIP() << test::kNoPlug;
   }
   // What it was told last.
   Milliamps milliamps() {
-    const std::lock_guard guard(usb_.lock());
+    const std::lock_guard guard(usb_->lock());
     return model_.last().motors;
   }
   std::unique_ptr<HapticDevice> run() {
@@ -58,7 +57,7 @@ class PolhemUsb : public testing::Test {
   }
 
   PolhemModel model_;
-  test::UmockdevUsb usb_;
+  std::unique_ptr<test::PluggedUsb> usb_;
   MonotonicClock clock_;
 };
 
@@ -86,13 +85,13 @@ TEST_P(PolhemUsbBoards, ExchangesAReportForEveryTick) {
   device->stop();
   EXPECT_EQ(milliamps(), Milliamps{});
   EXPECT_GT(model_.commands() - before, kTicks);
-  EXPECT_EQ(usb_.unknownRequests(), 0);
+  EXPECT_EQ(usb_->unknownRequests(), 0);
 }
 
 TEST_F(PolhemUsb, UnpluggedInUseItIsLostAndComesBack) {
   const auto device = run();
   push(*device, 20, {0, 0, 2});
-  usb_.unplug();
+  usb_->unplug();
   for (int i = 0; i < 100 && device->state() == State::Running; ++i) {
     (void)device->read();
     (void)device->write({0, 0, 2});
@@ -101,7 +100,7 @@ TEST_F(PolhemUsb, UnpluggedInUseItIsLostAndComesBack) {
   device->close();
   EXPECT_EQ(device->open().error().code, ErrorCode::NotFound);
   model_.powerOn();
-  usb_.plug();
+  usb_->plug();
   const auto opened = device->open();
   ASSERT_TRUE(opened) << opened.error().message;
   EXPECT_TRUE(device->home() && device->start());

@@ -22,60 +22,10 @@ constexpr const char* kDevice = "/sys/devices/pci0000:00/usb1/1-1";
 constexpr const char* kNode = "/dev/bus/usb/001/002";
 
 std::vector<std::uint8_t> descriptorsOf(const UsbDeviceId& id) {
-  const auto low = [](std::uint16_t word) { return static_cast<std::uint8_t>(word & 0xFF); };
-  const auto high = [](std::uint16_t word) { return static_cast<std::uint8_t>(word >> 8); };
-  const std::uint8_t kind = id.interrupt ? 3 : 2;
-  const std::uint8_t interval = id.interrupt ? 1 : 0;
-  return {18,
-          1,
-          0,
-          2,
-          0,
-          0,
-          0,
-          8,
-          low(id.vendor),
-          high(id.vendor),
-          low(id.product),
-          high(id.product),
-          0,
-          6,
-          1,
-          2,
-          3,
-          1,
-          9,
-          2,
-          32,
-          0,
-          1,
-          1,
-          0,
-          0xA0,
-          45,
-          9,
-          4,
-          0,
-          0,
-          2,
-          0xFF,
-          0xFF,
-          0xFF,
-          2,
-          7,
-          5,
-          id.in_endpoint,
-          kind,
-          kUsbPacketBytes,
-          0,
-          interval,
-          7,
-          5,
-          id.out_endpoint,
-          kind,
-          kUsbPacketBytes,
-          0,
-          interval};
+  std::vector<std::uint8_t> all = deviceDescriptor(id);
+  const std::vector<std::uint8_t> configuration = configurationDescriptor(id);
+  all.insert(all.end(), configuration.begin(), configuration.end());
+  return all;
 }
 
 std::string hex(const std::vector<std::uint8_t>& bytes) {

@@ -1,38 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 // Plugs a model of a USB device into this machine: the real libusb, in this process and in those that it starts, finds
-// it and speaks to it through usbfs. Only under `umockdev-wrapper`.
+// it and speaks to it through usbfs. Only where umockdev's library was loaded first.
 #pragma once
 
 #include <umockdev.h>
 
 #include <deque>
 #include <map>
-#include <mutex>
 #include <string>
 #include <thread>
 
-#include "drivers/usb/usb_port.h"
-#include "tests/support/usb_model.h"
+#include "tests/support/plugged_usb.h"
 
 namespace relievo::test {
 
 // Whether umockdev's library was loaded first; without it nothing can be plugged in.
 [[nodiscard]] bool machineIsMocked();
 
-class UmockdevUsb {
+class UmockdevUsb final : public PluggedUsb {
  public:
-  // `model` is called on a thread of this object's, with `lock` held, at the system's monotonic time.
   UmockdevUsb(UsbModel& model, const UsbDeviceId& id);
-  ~UmockdevUsb();
+  ~UmockdevUsb() override;
   UmockdevUsb(const UmockdevUsb&) = delete;
   UmockdevUsb& operator=(const UmockdevUsb&) = delete;
 
-  void plug();
-  void unplug();
-  // Take it to look at the model.
-  [[nodiscard]] std::mutex& lock() { return lock_; }
-  // Requests of the kernel's interface that were not answered, since nobody taught them here.
-  [[nodiscard]] int unknownRequests() const { return unknown_; }
+  void plug() override;
+  void unplug() override;
+  [[nodiscard]] std::mutex& lock() override { return lock_; }
+  [[nodiscard]] int unknownRequests() const override { return unknown_; }
 
  private:
   struct Urb {
