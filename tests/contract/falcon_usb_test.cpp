@@ -86,7 +86,10 @@ TEST_F(FalconUsb, ExchangesAThousandTicksAndCountsNoneTwice) {
   EXPECT_NEAR(felt.z, 2, 0.02);
   device->stop();
   EXPECT_EQ(words(), falcon::Words{});
-  EXPECT_GT(model_.commands() - before, 500) << "on a machine that keeps up, a thousand";
+  // A guest's time is virtual; a mocked machine may be busy.
+  if (!test::machineIsMocked()) {
+    EXPECT_GT(model_.commands() - before, 950) << "of a thousand";
+  }
   EXPECT_EQ(usb_->unknownRequests(), 0);
 }
 

@@ -21,6 +21,9 @@ class PluggedUsb {
   [[nodiscard]] virtual int unknownRequests() const { return 0; }
 };
 
+// Whether umockdev's library was loaded first.
+[[nodiscard]] bool machineIsMocked();
+
 // By umockdev where its library was loaded first, by the kernel's virtual host controller (vhci_hcd) where that is
 // there; null where neither is. `model` is called on a thread of the result's, with its lock held, at the system's
 // monotonic time.

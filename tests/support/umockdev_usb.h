@@ -14,9 +14,6 @@
 
 namespace relievo::test {
 
-// Whether umockdev's library was loaded first; without it nothing can be plugged in.
-[[nodiscard]] bool machineIsMocked();
-
 class UmockdevUsb final : public PluggedUsb {
  public:
   UmockdevUsb(UsbModel& model, const UsbDeviceId& id);
