@@ -53,7 +53,7 @@ FalconConfig falconConfig(const HapticSettings& settings, const std::optional<st
 DeviceState look(const char* name, HapticDevice& device) {
   const auto opened = device.open();
   device.close();
-  return {"haptic", name, opened.has_value(), opened ? "ready; its handle wants to be homed" : opened.error().message};
+  return {"haptic", name, opened.has_value(), opened ? "ready" : opened.error().message};
 }
 
 std::unexpected<Failure> unknown(const char* option, std::string_view name, const char* message) {
@@ -119,7 +119,7 @@ std::unique_ptr<VideoDecoder> makeVideoDecoder() {
 
 std::vector<DeviceState> lookAtDevices(const HapticSettings& settings, Clock& clock) {
   return {look("falcon", *makeFalcon(falconConfig(settings, std::nullopt), clock)),
-          look("polhem", *makePolhem({}, clock))};
+          look("polhem", *makePolhem({}, clock)), look("pointer", *makePointer("", clock))};
 }
 
 void stopAllMotors() noexcept {

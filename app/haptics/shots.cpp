@@ -3,8 +3,9 @@
 #include "app/haptics/shots.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 
 namespace relievo {
 namespace {
@@ -62,9 +63,9 @@ bool ShotFinder::repeats(const TimedSurface& last, const TimedSurface& next) {
   Seen& seen = seen_.at(next.time);
   if (seen.compared != last.time) {
     // By their bits: a hole is like a hole.
-    const Places& before = seen_.at(last.time).heights;
-    seen.repeats =
-        std::memcmp(before.data(), seen.heights.data(), sizeof before) == 0 && next.field.sameSamples(last.field);
+    const auto bits = [](double height) { return std::bit_cast<std::uint64_t>(height); };
+    seen.repeats = std::ranges::equal(seen_.at(last.time).heights, seen.heights, {}, bits, bits) &&
+                   next.field.sameSamples(last.field);
     seen.compared = last.time;
   }
   return seen.repeats;

@@ -2,6 +2,9 @@
 // The program of the box: chooses the back ends, plays or probes, and says in one line what went wrong.
 #include <atomic>
 #include <cstdio>
+#include <cstdlib>
+#include <iostream>
+#include <string>
 #include <utility>
 
 #include "app/cli/options.h"
@@ -44,8 +47,11 @@ std::string captureFile(const std::string& display) {
 std::optional<double> askForReading(double asked_n) {
   std::printf("It is asked for %.0f N. The scale shows (N): ", asked_n);
   std::fflush(stdout);
-  double shown_n = 0;
-  return std::scanf("%lf", &shown_n) == 1 ? std::optional(shown_n) : std::nullopt;
+  std::string line;
+  if (!std::getline(std::cin, line)) return std::nullopt;
+  char* end = nullptr;
+  const double shown_n = std::strtod(line.c_str(), &end);
+  return end == line.c_str() ? std::nullopt : std::optional(shown_n);
 }
 
 drivers::HapticSettings settingsOf(const FileConfig& config) {

@@ -51,9 +51,10 @@ std::size_t columnOf(const Cells& names, std::string_view name) {
 // None where there is no such column, or no number in it.
 double numberIn(const Cells& cells, std::size_t column) {
   if (column == kAbsent) return kNone;
-  const char* const end = cells[column].data() + cells[column].size();
+  const char* const begin = cells[column].data();
+  const char* const end = begin + cells[column].size();
   double value = 0;
-  const auto [last, error] = std::from_chars(cells[column].data(), end, value);
+  const auto [last, error] = std::from_chars(begin, end, value);
   return error == std::errc{} && last == end ? value : kNone;
 }
 

@@ -19,32 +19,6 @@ namespace {
 constexpr const char* kUnknown =
     "is neither a file nor a word of the simulated device and hand; those are: " RELIEVO_SIM_WORDS;
 
-const std::array kDevices = {
-    SimDeviceName{"phantom", {}},
-    SimDeviceName{"falcon",
-                  {.name = "sim falcon",
-                   .moving_mass_kg = 0.15,
-                   .damping_n_s_per_mm = 0.002,
-                   .coulomb_friction_n = 0.2,
-                   .encoder_step_mm = 0.04,
-                   .peak_force_n = 8.0,
-                   .continuous_force_n = 2.7,
-                   .most_stiffness_n_per_mm = 0.8,
-                   .workspace_min_mm = {-50, -50, -30},
-                   .workspace_max_mm = {50, 50, 70},
-                   .delay_ticks = 2}},
-    SimDeviceName{"polhem",
-                  {.name = "sim polhem",
-                   .moving_mass_kg = 0.1,
-                   .damping_n_s_per_mm = 0.002,
-                   .coulomb_friction_n = 0.1,
-                   .encoder_step_mm = 0.04,
-                   .peak_force_n = 5.0,
-                   .continuous_force_n = 2.0,
-                   .most_stiffness_n_per_mm = 2.0,
-                   .delay_ticks = 2}},
-};
-
 const std::array kHands = {
     SimHandName{"stroking", {}, HandMotion::Stroking},
     SimHandName{"resting", {}, HandMotion::Resting},
@@ -93,7 +67,32 @@ std::unexpected<Failure> wrongWord(const std::string& word, const char* what) {
 }  // namespace
 
 std::span<const SimDeviceName> simDevices() {
-  return kDevices;
+  static const std::array devices = {
+      SimDeviceName{"phantom", {}},
+      SimDeviceName{"falcon",
+                    {.name = "sim falcon",
+                     .moving_mass_kg = 0.15,
+                     .damping_n_s_per_mm = 0.002,
+                     .coulomb_friction_n = 0.2,
+                     .encoder_step_mm = 0.04,
+                     .peak_force_n = 8.0,
+                     .continuous_force_n = 2.7,
+                     .most_stiffness_n_per_mm = 0.8,
+                     .workspace_min_mm = {-50, -50, -30},
+                     .workspace_max_mm = {50, 50, 70},
+                     .delay_ticks = 2}},
+      SimDeviceName{"polhem",
+                    {.name = "sim polhem",
+                     .moving_mass_kg = 0.1,
+                     .damping_n_s_per_mm = 0.002,
+                     .coulomb_friction_n = 0.1,
+                     .encoder_step_mm = 0.04,
+                     .peak_force_n = 5.0,
+                     .continuous_force_n = 2.0,
+                     .most_stiffness_n_per_mm = 2.0,
+                     .delay_ticks = 2}},
+  };
+  return devices;
 }
 
 std::span<const SimHandName> simHands() {

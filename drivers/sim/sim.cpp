@@ -108,7 +108,7 @@ class SimHaptic final : public HapticDevice {
     const glm::dvec3 pull_n = hand.damping_n_s_per_mm * target_velocity;
     // Until the force that is due has come, the one before it acts on.
     const double late_s = jitterOf(profile_) * nextRandom() / profile_.rate_hz;
-    const auto late_steps = static_cast<int>(late_s / dt_s + 0.5);
+    const auto late_steps = static_cast<int>(std::lround(late_s / dt_s));
     const std::size_t due = delayOf(profile_);
     glm::dvec3 target = target_.position_mm;
     for (int i = 0; i < steps; ++i) {

@@ -24,8 +24,9 @@ Result<void> ForceSession::beginForces(UsbBytes quiet, bool watchdog_thread) {
   if (auto begun = begin(quiet); !begun) return begun;
   fade_ = 0;
   last_share_ = heard_;
-  watchdog_.start(watchdog_thread);
-  return {};
+  auto watched = watchdog_.start(watchdog_thread);
+  if (!watched) end();
+  return watched;
 }
 
 void ForceSession::end() noexcept {

@@ -185,11 +185,13 @@ class LibusbPort final : public UsbPort {
     char node[32];
     std::snprintf(node, sizeof node, "/dev/bus/usb/%03u/%03u", unsigned{libusb_get_bus_number(device)},
                   unsigned{libusb_get_device_address(device)});
-    fd_.reset(::open(node, O_RDWR | O_CLOEXEC));
-    if (!fd_.valid()) {
-      if (errno == EACCES || errno == EPERM) return failUsb(LIBUSB_ERROR_ACCESS);
-      return fail(ErrorCode::NotFound, "the USB device's node cannot be opened", errno);
+    const int opened = ::open(node, O_RDWR | O_CLOEXEC);
+    if (opened < 0) {
+      const int why = errno;
+      if (why == EACCES || why == EPERM) return failUsb(LIBUSB_ERROR_ACCESS);
+      return fail(ErrorCode::NotFound, "the USB device's node cannot be opened", why);
     }
+    fd_.reset(opened);
     if (const int wrapped = libusb_wrap_sys_device(context_, fd_.get(), &handle_); wrapped != 0) {
       handle_ = nullptr;
       return failUsb(wrapped);

@@ -4,13 +4,14 @@
 
 namespace relievo {
 
-void Watchdog::start(bool own_thread) {
+Result<void> Watchdog::start(bool own_thread) {
   fed_ns_ = kQuiet;
   barked_ = false;
-  if (!own_thread) return;
+  if (!own_thread) return {};
   const CyclicConfig config{.name = "relievo-watch", .period = kPatience / 4, .priority = 85};
-  // Without a thread the look in `check` is left, and the player says what it had to start without.
-  static_cast<void>(thread_.start(config, *this));
+  const auto started = thread_.start(config, *this);
+  if (!started) return std::unexpected(started.error());
+  return {};
 }
 
 LoopControl Watchdog::loop(const Cycle& cycle) RELIEVO_RT {

@@ -18,7 +18,8 @@ class Watchdog final : private CyclicTask {
 
   explicit Watchdog(UsbPort& port) : port_(port), thread_(clock_) {}
 
-  void start(bool own_thread);
+  // Exhausted when no thread can be made.
+  [[nodiscard]] Result<void> start(bool own_thread);
   void stop() noexcept { thread_.stop(); }
 
   // A command is on its way.
