@@ -22,8 +22,6 @@ constexpr GLsizei kTileIndices = kTileCells * kTileCells * 6;
 
 constexpr GLint kCodesUnit = 0;
 
-constexpr double kJumpMm = 3.0;  // from one vertex to the next: two things, not a slope
-
 // As HeightField reads hues: a pixel whose three bytes sum to no more is a hole.
 constexpr int kDarkestReadable = 76;
 
@@ -79,15 +77,6 @@ float code(uvec4 texel) {
 }
 #endif
 
-// Below zero at a hole.
-float height(ivec2 at) {
-  float value = code(texelFetch(codes, clamp(at, ivec2(0), samples - 1), 0));
-  if (value < 0.0) return -1.0;
-  float s = clamp(normalise.x + normalise.y * value, 0.0, 1.0);
-  float far_side = inverse_law.z - 1.0 / (inverse_law.x + s * inverse_law.y);  // may round to a little below zero
-  return inverse ? max(far_side * inverse_law.w, 0.0) : depth_mm * s;
-}
-
 void main() {
   ivec2 tile = ivec2(gl_InstanceID % tiles_across, gl_InstanceID / tiles_across);
   ivec2 inside = ivec2(gl_VertexID % TILE_VERTICES, gl_VertexID / TILE_VERTICES);
@@ -95,21 +84,14 @@ void main() {
   // nothing.
   ivec2 vertex = clamp(tile * TILE_CELLS + inside - 1, ivec2(-1), last + 1);
   ivec2 at = clamp(vertex * grid_step, ivec2(0), samples - 1);
-  float z = height(at);
-  if (z < 0.0) {
+  float value = code(texelFetch(codes, at, 0));
+  if (value < 0.0) {
     // A hole: so far behind the far plane that of a triangle with one such corner nothing is left but a line.
     gl_Position = vec4(0.0, 0.0, 1.0e9, 1.0);
     return;
   }
-  // Past the outline of what stands before something else the nearer height goes on for one cell: the wall then stands
-  // behind the outline that the picture shows, whatever cells that outline runs through.
-  if (grid_step > 1) {
-    float own = z;
-    for (int i = 0; i < 9; ++i) {
-      float beside = height(at + grid_step * (ivec2(i % 3, i / 3) - 1));
-      if (beside > own + JUMP_MM) z = max(z, beside);
-    }
-  }
+  float s = clamp(normalise.x + normalise.y * value, 0.0, 1.0);
+  float z = inverse ? (inverse_law.z - 1.0 / (inverse_law.x + s * inverse_law.y)) * inverse_law.w : depth_mm * s;
   vec3 position = vec3(place_mm.xz + place_mm.yw * vec2(at), z);
   picture_at = (vec2(at) + 0.5) / vec2(samples);
   bvec2 low = lessThan(vertex, ivec2(0));
@@ -168,7 +150,7 @@ void usePicture(const GlProgram& program, const PictureView& view, const Display
 
 Result<ReliefMesh> ReliefMesh::create() {
   const std::string tile = "#define TILE_CELLS " + std::to_string(kTileCells) + "\n#define TILE_VERTICES " +
-                           std::to_string(kTileVertices) + "\n#define JUMP_MM " + std::to_string(kJumpMm) + "\n";
+                           std::to_string(kTileVertices) + "\n";
   const std::string hue = "#define HUE\n#define DARKEST_READABLE " + std::to_string(kDarkestReadable) + "\n";
   ReliefMesh mesh;
   const auto link = [](GlProgram& program, const std::string& defines) -> Result<void> {

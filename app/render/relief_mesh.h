@@ -24,9 +24,8 @@ struct PictureView {
 
 // The same surface that HeightField tells: vertices on true samples at their place in the volume, cells split from
 // (c, r) to (c + 1, r + 1), holes left open. It is one piece, as it is to the finger: at a jump of depth a steep wall
-// joins both sides; on a coarser grid it stands one cell farther out, so that an outline is as smooth as the picture's
-// and not as the cells'. For the eye alone it is joined to a frame, the picture's rectangle in the screen plane, so
-// that no gap is seen beside it.
+// joins both sides. For the eye alone it is joined to a frame, the picture's rectangle in the screen plane, so that no
+// gap is seen beside it.
 class ReliefMesh {
  public:
   [[nodiscard]] static Result<ReliefMesh> create();

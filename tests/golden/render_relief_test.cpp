@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "app/scene/height_field.h"
 #include "tests/golden/picture_stage.h"
@@ -68,13 +67,6 @@ void expectMarker(const Image& image, const Marker& marker, double z) {
   // x_left - x_right = e h / (d - h), to the same quarter of a pixel.
   const double h = z - kScreenZ;
   EXPECT_NEAR(left.x - (right.x - 640), kPixelsPerMmX * kEyes * h / (kDistance - h), 0.25);
-}
-
-// Of one row between two columns, in white pixels.
-double brightness(const Image& image, int y, int x0, int x1) {
-  double sum = 0;
-  for (int x = x0; x < x1; ++x) sum += image.channel(x, y, 0) / 255.0;
-  return sum;
 }
 
 TEST(RenderRelief, PlaneLiesWhereItsDepthSays) {
@@ -239,43 +231,6 @@ TEST(RenderRelief, CoarserGridStandsOnTrueSamples) {
   EXPECT_NEAR(heightSeen(stage, sieve, {}), 8.0, 0.1);
   EXPECT_EQ(stage.renderer().statistics().grid_cols, 181);
   EXPECT_EQ(stage.renderer().statistics().grid_rows, 123);
-}
-
-// How far the left border of what is black lies from a straight line, in pixels, rms over the rows of one eye's half.
-double roughnessOf(const Image& image, int x0, int x1) {
-  std::vector<double> edges;
-  for (int y = 120; y < 600; ++y) edges.push_back(brightness(image, y, x0, x1));
-  const double n = static_cast<double>(edges.size()), middle = 0.5 * (n - 1);
-  double sum = 0, moment = 0, inertia = 0, squares = 0;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const double at = static_cast<double>(i) - middle;
-    sum += edges[i];
-    moment += at * edges[i];
-    inertia += at * at;
-  }
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const double line = sum / n + moment / inertia * (static_cast<double>(i) - middle);
-    squares += (edges[i] - line) * (edges[i] - line);
-  }
-  return std::sqrt(squares / n);
-}
-
-TEST(RenderRelief, AnOutlineOnACoarseGridIsAsSmoothAsThePicturesOwn) {
-  // A white thing with a straight, leaning border, 30 mm before a black ground: its border moves by 6 pixels with the
-  // height, and every fourth sample is drawn.
-  STAGE_OR_SKIP(stage, kSurfaceWidth, kSurfaceHeight);
-  const auto isThing = [](double x_mm, double y_mm) { return x_mm < 10 + 0.35 * y_mm; };
-  const GridMapping depth_grid(kVolume, 720, 405), color_grid(kVolume, kColorWidth, kColorHeight);
-  Scene scene = sideBySide({0, 0}, makeGrayFrame(720, 405, 16, MediaTime{}, [&](int c, int r) {
-                             return code16(isThing(depth_grid.x(c), depth_grid.y(r)) ? 35.0 : 5.0);
-                           }));
-  scene.color = makeRgbFrame(kColorWidth, kColorHeight, [&](int x, int y) {
-    return isThing(color_grid.x(x), color_grid.y(y)) ? Rgb{255, 255, 255} : Rgb{0, 0, 0};
-  });
-  const Image image = stage.show(scene);
-  EXPECT_EQ(stage.renderer().statistics().grid_cols, 181);
-  EXPECT_LT(roughnessOf(image, 100, 600), 0.5) << "left eye";
-  EXPECT_LT(roughnessOf(image, 740, 1240), 0.5) << "right eye";
 }
 
 // A hue of the textbook's hexagon for s, as footage in this coding stores it.
