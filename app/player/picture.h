@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "app/media/pair_reader.h"
 #include "app/render/scene_renderer.h"
@@ -42,12 +43,18 @@ class Picture {
   void setPair(const FramePair& pair);
   // Fails for what no retry helps: no renderer, a pixel format that cannot be drawn.
   [[nodiscard]] Result<Shown> show(const std::optional<FingerMark>& finger, MonotonicTime now);
-  // Mono, side by side, anaglyph, mono, ..
+  // The next one that the surface takes.
   void nextLayout() noexcept;
+  void swapEyes() noexcept;
+  void changeStrength(double by) noexcept;  // of the depth, 0 to 2
+  // What lies in the screen plane, in the volume: the rest stands before it or behind it.
+  void changeScreenPlane(double by_mm) noexcept;
+  // Once, when the surface has refused a layout: why. It is shown in another way then.
+  [[nodiscard]] const char* takeRefusal() noexcept { return std::exchange(refusal_, nullptr); }
 
   [[nodiscard]] bool away() const noexcept { return display_.state() == Display::State::Closed; }
   [[nodiscard]] DisplayCapabilities capabilities() const noexcept { return display_.capabilities(); }
-  [[nodiscard]] StereoLayout layout() const noexcept { return stereo_.layout; }
+  [[nodiscard]] const StereoSettings& stereo() const noexcept { return stereo_; }
   [[nodiscard]] int width() const noexcept { return width_; }
   [[nodiscard]] int height() const noexcept { return height_; }
   [[nodiscard]] const RenderStatistics& statistics() const noexcept { return statistics_; }
@@ -55,10 +62,13 @@ class Picture {
  private:
   [[nodiscard]] Result<void> drawAndPresent(const std::optional<FingerMark>& finger);
   [[nodiscard]] Result<void> draw(const DisplaySurface& surface, const std::optional<FingerMark>& finger);
+  void fallBack(const DisplaySurface& surface) noexcept;
+  void stereoChanged() noexcept;
 
   Display& display_;
   DisplayConfig config_;
   StereoSettings stereo_;
+  const char* refusal_ = nullptr;
   DepthCalibration calibration_;
   DisplayVolume volume_;
   Duration frame_budget_{0};

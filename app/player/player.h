@@ -67,6 +67,7 @@ class Player {
   void boot();
   void readRemote(MonotonicTime now);
   void obey(PlayerCommand command, MonotonicTime now);
+  void changeStereo(PlayerCommand command);
   void setHeld(bool held, MonotonicTime now);
   void setClockHeld(bool held, MonotonicTime now);
   void seek(MediaTime target, PlayerEvent why, MonotonicTime now);

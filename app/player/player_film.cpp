@@ -244,6 +244,9 @@ bool Player::draw(MonotonicTime now) {
     fail(film ? config_.source.url : std::string("display ") + picture_.capabilities().name, shown.error());
     return false;
   }
+  if (const char* why = picture_.takeRefusal()) {
+    note(std::string("stereo: ") + why, textLine("shown as %s", name(picture_.stereo().layout)));
+  }
   if (*shown == Picture::Shown::Lost) note("display lost", "film and touch go on; it is tried again every second");
   if (*shown == Picture::Shown::Back) note("display back", "the picture is on it again");
   return *shown == Picture::Shown::OnScreen || *shown == Picture::Shown::Back;
