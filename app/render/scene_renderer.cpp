@@ -167,6 +167,7 @@ Result<void> SceneRenderer::Impl::drawViews(const DisplaySurface& surface, const
     }
     drawView(eyes.views[i], mark);
   }
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   if (eyes.mixed) {
     glBindFramebuffer(GL_FRAMEBUFFER, surface.framebuffer);
     mixer.mix(shown);
@@ -203,6 +204,7 @@ void SceneRenderer::Impl::bindPicture(const PixelArea& area) {
 }
 
 void SceneRenderer::Impl::drawView(const EyeView& view, const std::optional<FingerMark>& mark) const {
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);  // the surface stays opaque whatever is blended on it
   glViewport(view.area.x, view.area.y, view.area.width, view.area.height);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);

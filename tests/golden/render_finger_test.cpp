@@ -132,16 +132,6 @@ TEST(RenderFinger, HalfSunkSphereIsSolidAboveTheSurfaceAndFaintBelow) {
   EXPECT_GT(light(image.at(640 + 19, 360)), 0);
 }
 
-TEST(RenderFinger, SphereKeepsItsBrightnessInTheRedEyeOfAnAnaglyph) {
-  STAGE_OR_SKIP(stage, 1280, 720);
-  Scene scene = blackPlane(0, {.position_mm = {0, 0, 20}, .contact = true});
-  const Rgb mono = stage.show(scene).at(640, 360);
-  scene.stereo = {.layout = StereoLayout::Anaglyph, .eye_distance_mm = 0};
-  const Rgb anaglyph = stage.show(scene).at(640, 360);
-  EXPECT_NEAR(anaglyph[0], 0.299 * mono[0] + 0.587 * mono[1] + 0.114 * mono[2], 2);
-  EXPECT_EQ(anaglyph[1], mono[1]);
-}
-
 TEST(RenderFinger, GoesWhenThereIsNone) {
   STAGE_OR_SKIP(stage, 320, 180);
   Scene scene = blackPlane(0, {.position_mm = {0, 0, 20}});
