@@ -75,21 +75,6 @@ void HeightLattice::read(const HeightField& field, int most_across) {
       fillHoles(j);
     }
   }
-  sharpen(1, 1, 0);
-  sharpen(static_cast<std::ptrdiff_t>(width), 0, 1);
-}
-
-// Along the rows, or along the columns: `step` from a sample to the next in the line.
-void HeightLattice::sharpen(std::ptrdiff_t step, int first_i, int first_j) {
-  const auto width = static_cast<std::ptrdiff_t>(columns_.size());
-  for (int j = first_j; j < rows() - first_j; ++j) {
-    float* z = heights_.data() + j * width;
-    for (int i = first_i; i < cols() - first_i; ++i) {
-      const float before = z[i] - z[i - step], behind = z[i + step] - z[i];
-      if (std::min(std::abs(before), std::abs(behind)) <= jump_mm_ || (before > 0) != (behind > 0)) continue;
-      z[i] = std::abs(before) <= std::abs(behind) ? z[i - step] : z[i + step];
-    }
-  }
 }
 
 void HeightLattice::fillHoles(int j) {

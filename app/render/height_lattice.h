@@ -13,8 +13,6 @@ namespace relievo {
 // Every vertex stands on a true sample. A picture whose sides are no multiple of the tile has some columns and rows
 // twice, one whose samples are more than are wanted has some left out; both evenly spread. A hole has the height of
 // the farther of its neighbours in the row: its colour is known, and what was not measured is mostly hidden background.
-// Where coding or a sensor has smeared a jump over some samples, those between take the height of the side that is
-// nearer to theirs: they belong to no thing.
 class HeightLattice {
  public:
   static constexpr int kLargestTile = 32;
@@ -31,6 +29,7 @@ class HeightLattice {
   [[nodiscard]] int rows() const noexcept { return static_cast<int>(rows_.size()); }
   [[nodiscard]] std::size_t size() const noexcept { return heights_.size(); }
   [[nodiscard]] const float* heights() const noexcept { return heights_.data(); }  // mm, row by row
+  [[nodiscard]] float* heights() noexcept { return heights_.data(); }
   // The sample under a vertex, its place in mm and in the picture, 0 to 1.
   [[nodiscard]] int column(int i) const noexcept { return columns_[static_cast<std::size_t>(i)]; }
   [[nodiscard]] int row(int j) const noexcept { return rows_[static_cast<std::size_t>(j)]; }
@@ -42,7 +41,6 @@ class HeightLattice {
  private:
   void lay(const HeightField& field, int most_across);
   void fillHoles(int j);
-  void sharpen(std::ptrdiff_t step, int first_i, int first_j);
 
   int tile_ = 1;
   float jump_mm_ = 0;

@@ -6,7 +6,8 @@ namespace relievo {
 
 void ReliefTriangles::build(const HeightField& field, const DisplayVolume& volume, const ReliefDetail& detail) {
   lattice_.read(field, detail.most_across);
-  network_.measure(lattice_, lattice_.jumpMm());
+  cuts_.find(lattice_, lattice_.jumpMm());
+  network_.measure(lattice_, cuts_);
   network_.triangulate(static_cast<float>(detail.error_mm));
   slots_.assign(lattice_.size(), 0);
   vertices_.clear();
@@ -17,7 +18,7 @@ void ReliefTriangles::build(const HeightField& field, const DisplayVolume& volum
   }
   addFrame(volume, static_cast<float>(detail.view.screen_z_mm));
   SilhouetteDrawer silhouettes(lattice_, detail.view, vertices_, indices_);
-  for (const std::uint32_t corner : network_.cutCells()) silhouettes.drawCell(corner, slots_);
+  for (const std::uint32_t corner : cuts_.cells()) silhouettes.drawCell(corner, slots_);
   addFloor(volume, static_cast<float>(detail.view.screen_z_mm));
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "app/render/cut_cells.h"
 #include "app/render/height_lattice.h"
 #include "app/render/silhouette.h"
 #include "app/render/textured_vertex.h"
@@ -34,7 +35,7 @@ class ReliefTriangles {
   // where an eye looks past everything it sees the picture's own colours.
   [[nodiscard]] const std::vector<std::uint32_t>& indices() const noexcept { return indices_; }
   [[nodiscard]] std::size_t surfaceTriangles() const noexcept { return network_.triangles().size(); }
-  [[nodiscard]] std::size_t cutCells() const noexcept { return network_.cutCells().size(); }
+  [[nodiscard]] std::size_t cutCells() const noexcept { return cuts_.cells().size(); }
 
  private:
   std::uint32_t use(std::uint32_t lattice_vertex);
@@ -42,6 +43,7 @@ class ReliefTriangles {
   void addFloor(const DisplayVolume& volume, float screen_z_mm);
 
   HeightLattice lattice_;
+  CutCells cuts_;
   TriangleNetwork network_;
   std::vector<std::uint32_t> slots_;  // of a lattice vertex: its place among the vertices, and 1
   std::vector<TexturedVertex> vertices_;

@@ -5,89 +5,89 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 namespace relievo {
 
-void TriangleNetwork::measure(const HeightLattice& lattice, float jump_mm) {
+void TriangleNetwork::measure(const HeightLattice& lattice, const CutCells& cuts) {
+  cuts_ = &cuts;
   cols_ = lattice.cols();
   rows_ = lattice.rows();
   tile_ = lattice.tile();
   errors_.assign(lattice.size(), 0.0F);
-  findCuts(lattice, jump_mm);
-  for (int step = 1; step < tile_; step *= 2) measureLevel(lattice.heights(), step);
+  markCuts();
+  for (int step = 1; step < tile_; step *= 2) {
+    if (step == 1) {
+      measureFinest(lattice.heights());
+    } else {
+      measureSides(lattice.heights(), step);
+    }
+    measureMiddles(lattice.heights(), step);
+  }
 }
 
 // The smallest triangles have their right angles at the vertices with i + j odd: where those two of a cell are there,
 // so are the two halves of the cell.
-void TriangleNetwork::findCuts(const HeightLattice& lattice, float jump_mm) {
-  const float* z = lattice.heights();
+void TriangleNetwork::markCuts() {
+  const auto width = static_cast<std::uint32_t>(cols_);
+  for (const std::uint32_t cell : cuts_->cells()) {
+    const bool odd = ((cell / width + cell % width) & 1U) != 0;
+    errors_[odd ? cell : cell + 1] = std::numeric_limits<float>::infinity();
+    errors_[odd ? cell + width + 1 : cell + width] = std::numeric_limits<float>::infinity();
+  }
+}
+
+// Leaving a vertex out moves the surface at most by what it moves there, and so do those that depend on it: the sum is
+// a bound. First those on the middle of a hypotenuse of two cells, along a row or a column; what is written beside
+// them is written again by the coarser ones.
+void TriangleNetwork::measureFinest(const float* z) {
   const auto width = static_cast<std::size_t>(cols_);
-  cut_.resize(lattice.size() + sizeof(std::uint64_t));
-  cut_cells_.clear();
-  for (int j = 0; j + 1 < rows_; ++j) {
-    const float* top = z + static_cast<std::size_t>(j) * width;
-    const float* low = top + width;
-    std::uint8_t* cut = cut_.data() + static_cast<std::size_t>(j) * width;
-    for (int i = 0; i + 1 < cols_; ++i) {
-      const float across = std::max(std::abs(top[i + 1] - top[i]), std::abs(low[i + 1] - low[i]));
-      const float down = std::max(std::abs(low[i] - top[i]), std::abs(low[i + 1] - top[i + 1]));
-      cut[i] = std::max(across, down) > jump_mm ? 1 : 0;
-    }
-    cut[cols_ - 1] = 0;
-    for (std::size_t i = 0; i < width; i += sizeof(std::uint64_t)) {
-      std::uint64_t eight = 0;
-      std::memcpy(&eight, cut + i, sizeof eight);
-      if (eight == 0) continue;
-      for (std::size_t k = i; k < std::min(i + sizeof eight, width); ++k) {
-        if (cut[k] == 0) continue;
-        const std::size_t corner = static_cast<std::size_t>(j) * width + k;
-        cut_cells_.push_back(static_cast<std::uint32_t>(corner));
-        const bool odd = ((static_cast<std::size_t>(j) + k) & 1U) != 0;
-        errors_[odd ? corner : corner + 1] = std::numeric_limits<float>::infinity();
-        errors_[odd ? corner + width + 1 : corner + width] = std::numeric_limits<float>::infinity();
-      }
+  for (std::size_t j = 0; j < static_cast<std::size_t>(rows_); ++j) {
+    const float* line = z + j * width;
+    float* error = errors_.data() + j * width;
+    if (j % 2 == 0) {
+      for (std::size_t i = 1; i + 1 < width; ++i) error[i] += std::abs(line[i] - 0.5F * (line[i - 1] + line[i + 1]));
+    } else {
+      const float *above = line - width, *below = line + width;
+      for (std::size_t i = 0; i < width; ++i) error[i] += std::abs(line[i] - 0.5F * (above[i] + below[i]));
     }
   }
 }
 
-// Of the triangles with a hypotenuse of 2 step along an axis, then of those with one of 2 step along both. Leaving a
-// vertex out moves the surface at most by what it moves there, and so do those that depend on it: the sum is a bound.
-void TriangleNetwork::measureLevel(const float* z, int step) {
+// The middles of hypotenuses of 2 step along an axis; on those depend the four middles beside each.
+void TriangleNetwork::measureSides(const float* z, int step) {
   const auto width = static_cast<std::ptrdiff_t>(cols_);
-  const std::ptrdiff_t down = step * width;
-  const int half = step / 2;
-  const std::ptrdiff_t near_down = half * width;
-  float* error = errors_.data();
-  const auto own = [z](std::ptrdiff_t at, std::ptrdiff_t way) {
-    return std::abs(z[at] - 0.5F * (z[at - way] + z[at + way]));
-  };
+  const std::ptrdiff_t half = step / 2, half_down = half * width;
   for (int j = 0; j < rows_; j += step) {
     const bool odd_row = ((j / step) & 1) != 0;
-    const std::ptrdiff_t line = j * width;
-    const std::ptrdiff_t way = odd_row ? down : step;
+    const std::ptrdiff_t way = odd_row ? step * width : step;
+    const bool above = j > 0, under = j + 1 < rows_;
     for (int i = odd_row ? 0 : step; i < cols_; i += 2 * step) {
-      const std::ptrdiff_t at = line + i;
+      const std::ptrdiff_t at = j * width + i;
+      const bool left = i > 0, right = i + 1 < cols_;
+      const float* error = errors_.data() + at;
       float below = 0;
-      if (half > 0) {
-        if (j > 0 && i > 0) below = std::max(below, error[at - near_down - half]);
-        if (j > 0 && i + 1 < cols_) below = std::max(below, error[at - near_down + half]);
-        if (j + 1 < rows_ && i > 0) below = std::max(below, error[at + near_down - half]);
-        if (j + 1 < rows_ && i + 1 < cols_) below = std::max(below, error[at + near_down + half]);
-      } else {
-        below = error[at];  // without end, of a cut cell
-      }
-      error[at] = own(at, way) + below;
+      if (above && left) below = std::max(below, error[-half_down - half]);
+      if (above && right) below = std::max(below, error[-half_down + half]);
+      if (under && left) below = std::max(below, error[half_down - half]);
+      if (under && right) below = std::max(below, error[half_down + half]);
+      errors_[static_cast<std::size_t>(at)] = std::abs(z[at] - 0.5F * (z[at - way] + z[at + way])) + below;
     }
   }
+}
+
+// The middles of hypotenuses of 2 step along both axes, that fall or rise in turns; on those depend the four beside,
+// above and below each.
+void TriangleNetwork::measureMiddles(const float* z, int step) {
+  const std::ptrdiff_t width = cols_, down = step * width;
   for (int j = step; j < rows_; j += 2 * step) {
     for (int i = step; i < cols_; i += 2 * step) {
       const std::ptrdiff_t at = j * width + i;
       const bool falling = (((i - step) / (2 * step) + (j - step) / (2 * step)) & 1) == 0;
-      const float below =
-          std::max(std::max(error[at - step], error[at + step]), std::max(error[at - down], error[at + down]));
-      error[at] = own(at, falling ? down + step : down - step) + below;
+      const std::ptrdiff_t way = falling ? down + step : down - step;
+      const float* error = errors_.data() + at;
+      const float below = std::max(std::max(error[-step], error[step]), std::max(error[-down], error[down]));
+      errors_[static_cast<std::size_t>(at)] = std::abs(z[at] - 0.5F * (z[at - way] + z[at + way])) + below;
     }
   }
 }
@@ -124,7 +124,7 @@ void TriangleNetwork::split(std::uint32_t a, std::uint32_t b, std::uint32_t apex
     const auto width = static_cast<std::uint32_t>(cols_);
     const std::uint32_t row = std::min({a / width, b / width, apex / width});
     const std::uint32_t col = std::min({a % width, b % width, apex % width});
-    if (cut_[row * width + col] != 0) return;
+    if (cuts_->contains(row * width + col)) return;
   }
   triangles_.push_back({a, b, apex});
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "app/render/cut_cells.h"
 #include "app/render/height_lattice.h"
 
 namespace relievo {
@@ -20,25 +21,25 @@ class TriangleNetwork {
     std::uint32_t a, b, c;  // vertices of the lattice, counterclockwise to the viewer
   };
 
-  // From the fine to the coarse. A cell of which two neighbouring corners differ by more than `jump_mm` is cut: it is
-  // reached by the finest triangles alone, and none of them covers it.
-  void measure(const HeightLattice& lattice, float jump_mm);
+  // From the fine to the coarse. A cut cell is reached by the finest triangles alone, and none of them covers it. Both
+  // are looked at again by `triangulate`.
+  void measure(const HeightLattice& lattice, const CutCells& cuts);
   // No point of the lattice is farther than `error_mm` from the triangles, along z, but for those of the cut cells.
   void triangulate(float error_mm);
 
   [[nodiscard]] const std::vector<Triangle>& triangles() const noexcept { return triangles_; }
-  [[nodiscard]] const std::vector<std::uint32_t>& cutCells() const noexcept { return cut_cells_; }  // top left corner
 
  private:
-  void findCuts(const HeightLattice& lattice, float jump_mm);
-  void measureLevel(const float* z, int step);
+  void markCuts();
+  void measureFinest(const float* z);
+  void measureSides(const float* z, int step);
+  void measureMiddles(const float* z, int step);
   void split(std::uint32_t a, std::uint32_t b, std::uint32_t apex, int depth);
 
+  const CutCells* cuts_ = nullptr;
   int cols_ = 0, rows_ = 0, tile_ = 1;
   float error_mm_ = 0;
   std::vector<float> errors_;
-  std::vector<std::uint8_t> cut_;
-  std::vector<std::uint32_t> cut_cells_;
   std::vector<Triangle> triangles_;
 };
 
