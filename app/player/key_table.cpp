@@ -47,6 +47,8 @@ constexpr std::array kBindings{
     RELIEVO_BIND(CHANNELUP, ScreenForward, true),
     RELIEVO_BIND(PAGEDOWN, ScreenBackward, true),
     RELIEVO_BIND(CHANNELDOWN, ScreenBackward, true),
+    RELIEVO_BIND(INFO, Info),
+    RELIEVO_BIND(I, Info),
     RELIEVO_BIND(STOP, Stop),
     RELIEVO_BIND(STOPCD, Stop),
     RELIEVO_BIND(BACK, Stop),
@@ -68,6 +70,7 @@ constexpr std::array kMeanings{
     std::pair{PlayerCommand::FlatterPicture, "less depth"},
     std::pair{PlayerCommand::ScreenForward, "the scene comes out of the screen"},
     std::pair{PlayerCommand::ScreenBackward, "the scene goes back"},
+    std::pair{PlayerCommand::Info, "what is going on, as text on the screen, or no more"},
     std::pair{PlayerCommand::Stop, "end"},
 };
 

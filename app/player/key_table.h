@@ -22,6 +22,7 @@ enum class PlayerCommand : std::uint8_t {
   FlatterPicture,
   ScreenForward,  // the whole scene towards the viewer
   ScreenBackward,
+  Info,  // the text on the screen, or no more
   Stop,  // ends the film, and with it the program
 };
 

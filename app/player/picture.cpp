@@ -69,6 +69,7 @@ Result<void> Picture::draw(const DisplaySurface& surface, const std::optional<Fi
     if (auto set = renderer_->setFrame(pair_.color, pair_.depth, calibration_, volume_); !set) return set;
     uploaded_ = true;
   }
+  renderer_->setText(text_);
   if (auto drawn = renderer_->draw(surface, finger); !drawn) return drawn;
   statistics_ = renderer_->statistics();
   return {};

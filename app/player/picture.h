@@ -4,7 +4,9 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "app/media/pair_reader.h"
 #include "app/render/scene_renderer.h"
@@ -41,6 +43,8 @@ class Picture {
   void setScene(const DepthCalibration& calibration, const DisplayVolume& volume, Duration frame_budget) noexcept;
   // What `show` shows from now on; a reference is kept, for a screen that comes back.
   void setPair(const FramePair& pair);
+  // What stands at the picture's foot from the next `show` on.
+  void setText(std::vector<std::string> lines) { text_ = std::move(lines); }
   // Fails for what no retry helps: no renderer, a pixel format that cannot be drawn.
   [[nodiscard]] Result<Shown> show(const std::optional<FingerMark>& finger, MonotonicTime now);
   // The next one that the surface takes.
@@ -74,6 +78,7 @@ class Picture {
   Duration frame_budget_{0};
   std::unique_ptr<SceneRenderer> renderer_;
   FramePair pair_;
+  std::vector<std::string> text_;
   bool uploaded_ = false;
   MonotonicTime next_retry_;
   int width_ = 0, height_ = 0;

@@ -42,6 +42,7 @@ void Player::note(const std::string& what, const std::string& done, std::optiona
   const MonotonicTime time = when.value_or(parts_.clock.now());
   if (report_.addFault(toSeconds(time - started_), what, done)) {
     log(LogLevel::Warning, "play", "%s; %s", what.c_str(), done.c_str());
+    text_.tell(what, time);
   }
 }
 
@@ -107,6 +108,7 @@ void Player::step(MonotonicTime now) {
   followReader(now);
   followClock(now);
   drainTouch();
+  writeText(now);
 }
 
 // Until the next picture, but so often that keys are heard.
@@ -159,6 +161,7 @@ void Player::readRemote(MonotonicTime now) {
 }
 
 void Player::obey(PlayerCommand command, MonotonicTime now) {
+  text_.wake(now);
   switch (command) {
     case PlayerCommand::Play:
       return setHeld(false, now);
@@ -177,6 +180,8 @@ void Player::obey(PlayerCommand command, MonotonicTime now) {
     case PlayerCommand::ScreenForward:
     case PlayerCommand::ScreenBackward:
       return changeStereo(command);
+    case PlayerCommand::Info:
+      return text_.toggle();
     case PlayerCommand::Stop:
       return end(now);
   }

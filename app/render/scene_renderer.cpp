@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <utility>
 
 #include "app/render/color_picture.h"
@@ -14,6 +15,8 @@
 #include "app/render/relief_mesh.h"
 #include "app/render/relief_surface.h"
 #include "app/render/relief_triangles.h"
+#include "app/render/surface_mark.h"
+#include "app/render/text_panel.h"
 #include "app/scene/height_field.h"
 #include "platform/clock.h"
 
@@ -22,6 +25,11 @@ namespace {
 
 constexpr GLuint kPictureUnit = 3;  // after the codes' and the colour planes'
 constexpr Duration::rep kSmoothing = 8;
+
+constexpr double kShadowSlant = 0.35, kShadowRadiusMm = 4.5, kShadowGrowth = 0.15;
+constexpr double kShadowOpacity = 0.65, kShadowHalfMm = 15;
+constexpr double kGlowRadiusMm = 7.0, kGlowOpacity = 0.35, kGlowPerN = 0.1;
+constexpr glm::vec3 kGlowColor{1.0F, 0.78F, 0.35F};
 
 void smooth(Duration& smoothed, Duration took, bool first) noexcept {
   smoothed = first ? took : smoothed + (took - smoothed) / kSmoothing;
@@ -36,7 +44,8 @@ struct SceneRenderer::Impl {
   [[nodiscard]] Result<void> drawViews(const DisplaySurface& surface, const std::optional<FingerMark>& mark);
   void makeTriangles(const EyeViews& eyes);
   void bindPicture(const PixelArea& area);
-  void drawView(const EyeView& view, const std::optional<FingerMark>& mark) const;
+  void drawView(const EyeView& view, const std::optional<FingerMark>& mark);
+  void drawFinger(const EyeView& view, const FingerMark& mark);
 
   StereoSettings stereo;
   DetailSettings detail;
@@ -51,7 +60,9 @@ struct SceneRenderer::Impl {
   ReliefDetail made;  // what the triangles were made for
   bool is_made = false;
   EyeMixer mixer;
+  SurfaceMark on_surface;
   FingerModel finger;
+  TextPanel text;
   DetailLevel level;
   MonotonicClock clock;
   bool has_picture = false;
@@ -71,6 +82,8 @@ Result<void> SceneRenderer::Impl::createParts() {
   if (auto made_grid = take(grid, ReliefMesh::create()); !made_grid) return made_grid;
   if (auto made_surface = take(surface_of_triangles, ReliefSurface::create()); !made_surface) return made_surface;
   if (auto made_mixer = take(mixer, EyeMixer::create()); !made_mixer) return made_mixer;
+  if (auto made_mark = take(on_surface, SurfaceMark::create()); !made_mark) return made_mark;
+  if (auto made_text = take(text, TextPanel::create()); !made_text) return made_text;
   if (auto made_finger = take(finger, FingerModel::create()); !made_finger) return made_finger;
   return glOutcome();
 }
@@ -89,6 +102,10 @@ const StereoSettings& SceneRenderer::stereo() const noexcept {
 }
 void SceneRenderer::setDetail(const DetailSettings& settings) noexcept {
   impl_->detail = settings;
+}
+
+void SceneRenderer::setText(const std::vector<std::string>& lines) {
+  impl_->text.setLines(lines);
 }
 
 Result<void> SceneRenderer::setFrame(const Frame& color, const Frame& depth, const DepthCalibration& calibration,
@@ -203,7 +220,7 @@ void SceneRenderer::Impl::bindPicture(const PixelArea& area) {
                static_cast<int>(area.height * std::min(1.0, area_aspect / picture_aspect)));
 }
 
-void SceneRenderer::Impl::drawView(const EyeView& view, const std::optional<FingerMark>& mark) const {
+void SceneRenderer::Impl::drawView(const EyeView& view, const std::optional<FingerMark>& mark) {
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);  // the surface stays opaque whatever is blended on it
   glViewport(view.area.x, view.area.y, view.area.width, view.area.height);
   glEnable(GL_DEPTH_TEST);
@@ -222,7 +239,31 @@ void SceneRenderer::Impl::drawView(const EyeView& view, const std::optional<Fing
   } else {
     surface_of_triangles.draw(picture_view);
   }
-  if (mark) finger.draw(view.view_projection, *mark);
+  if (mark) drawFinger(view, *mark);
+  text.draw(view.view_projection, volume, stereo.screen_z_mm);
+}
+
+// A shadow that falls to the lower right, the farther and the fainter the higher the finger is over the surface; and
+// the glow of a contact, the brighter the harder.
+void SceneRenderer::Impl::drawFinger(const EyeView& view, const FingerMark& mark) {
+  if (!depth.empty()) {
+    const glm::dvec2 under(mark.position_mm);
+    const double gap = std::max(0.0, mark.position_mm.z - SurfaceMark::heightUnder(field, under.x, under.y));
+    on_surface.draw(view.view_projection, field,
+                    {.center_mm = under + glm::dvec2(kShadowSlant, -kShadowSlant) * gap,
+                     .radius_mm = kShadowRadiusMm + kShadowGrowth * gap,
+                     .color = glm::vec3(0),
+                     .opacity = static_cast<float>(kShadowOpacity / (1 + gap / kShadowHalfMm))});
+    const double force = glm::length(mark.force_n);
+    if (mark.contact) {
+      on_surface.draw(view.view_projection, field,
+                      {.center_mm = under,
+                       .radius_mm = kGlowRadiusMm,
+                       .color = kGlowColor,
+                       .opacity = static_cast<float>(std::min(1.0, kGlowOpacity + kGlowPerN * force))});
+    }
+  }
+  finger.draw(view.view_projection, mark);
 }
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws a colour picture as the relief that its depth picture tells, for two eyes, with the finger in it.
+// Draws a colour picture as the relief that its depth picture tells, for every eye, with the finger and a text in it.
 #pragma once
 
 #include <cstddef>
@@ -7,6 +7,8 @@
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "app/render/stereo.h"
 #include "app/scene/depth_calibration.h"
@@ -50,7 +52,10 @@ class SceneRenderer {
   // A layout that the surface refuses is drawn as mono.
   void setStereo(const StereoSettings& settings) noexcept;
   [[nodiscard]] const StereoSettings& stereo() const noexcept;
+  // Before the frame that it is for.
   void setDetail(const DetailSettings& settings) noexcept;
+  // Shown at the picture's foot from now on, in the screen plane; no lines: nothing is. In the context.
+  void setText(const std::vector<std::string>& lines);
 
   // Uploads a pair; of the depth a reference is kept until the next one. An empty depth shows the colour as a flat
   // picture in the screen plane, the same for both eyes. Unsupported for a pixel format that cannot be uploaded; the

@@ -48,6 +48,8 @@ TEST(KeyTable, KnowsTheKeysOfRemotesKeyboardsAndCec) {
       {0x192, PlayerCommand::ScreenForward},
       {109, PlayerCommand::ScreenBackward},
       {0x193, PlayerCommand::ScreenBackward},
+      {0x166, PlayerCommand::Info},
+      {23, PlayerCommand::Info},
   };
   for (int code = 0; code <= 0x2ff; ++code) {
     const auto known = expected.find(code);
@@ -75,8 +77,8 @@ TEST(KeyTable, HelpNamesEveryKeyAsScriptsDo) {
       command = meant;
     }
   }
-  EXPECT_EQ(lines, 12);
-  EXPECT_EQ(names, 29);
+  EXPECT_EQ(lines, 13);
+  EXPECT_EQ(names, 31);
 }
 
 TEST(KeyTable, AHeldKeySeeksOnAndDoesNothingElse) {
