@@ -94,7 +94,8 @@ void TextPanel::draw(const glm::dmat4& view_projection, const DisplayVolume& vol
   const double margin = kMarginOfLine * kLinePixels * pixel_mm;
   const double text_width = width_ * pixel_mm, text_height = height_ * pixel_mm;
   const double width = text_width + 2 * margin, height = text_height + 2 * margin;
-  const double left = -0.5 * volume.width_mm + margin, bottom = -0.5 * volume.height_mm + margin;
+  const double left = -0.5 * kWidestOfPicture * volume.width_mm;
+  const double bottom = -0.5 * volume.height_mm + volume.height_mm * kMarginOfLine / kLinesOfPicture;
   const glm::mat4 camera(view_projection);
   program_.use();
   glUniformMatrix4fv(program_.uniform("view_projection"), 1, GL_FALSE, glm::value_ptr(camera));
