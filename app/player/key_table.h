@@ -17,7 +17,13 @@ enum class PlayerCommand : std::uint8_t {
   SeekForward,  // by kSeekStep
   SeekBackward,
   NextLayout,  // the next way to show stereo
-  Stop,        // ends the film, and with it the program
+  SwapEyes,
+  DeeperPicture,
+  FlatterPicture,
+  ScreenForward,  // the whole scene towards the viewer
+  ScreenBackward,
+  Info,  // the text on the screen, or no more
+  Stop,  // ends the film, and with it the program
 };
 
 // Nothing for a key that means nothing here, for a release, and for the repeat of a key that makes no sense repeated.

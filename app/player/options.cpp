@@ -8,6 +8,7 @@
 
 #include "app/cli/options.h"
 #include "app/player/key_table.h"
+#include "app/player/stereo_word.h"
 
 namespace relievo {
 namespace {
@@ -60,6 +61,14 @@ constexpr const char* kExitCodes = "\nExit code: 0 done, 1 failed at run time, 2
 constexpr double kLongestDurationS = 1e9;
 constexpr double kMostPixels = 16384;  // of a display, across and down
 constexpr const char* kNoSize = "a size is WIDTHxHEIGHT in pixels, such as 1280x720";
+constexpr const char* kStereoHelp =
+    "How it is shown [sbs]\n"
+    "mono: one picture; sbs, tab: left and right eye side by side, or one above the other, each squeezed by half; "
+    "sbs:full, tab:full: each in its own shape; rows, columns: line by line; anaglyph[:gray|color]: for red-cyan "
+    "glasses; frame-packing: HDMI 3D; quilt[:COLSxROWS]: many views [8x6]";
+constexpr const char* kNoStereo =
+    "no such layout; it is one of: mono sbs[:full] tab[:full] rows columns anaglyph[:gray|color] frame-packing "
+    "quilt[:COLSxROWS]";
 constexpr const char* kNoDuration = "a duration is more than 0 and at most a billion seconds";
 
 void addSourceOptions(CLI::App& command, SourceOptions& source) {
@@ -90,6 +99,19 @@ void addConfigOption(CLI::App& command, std::string& path) {
       ->type_name("FILE");
 }
 
+void addStereoOptions(CLI::App& command, StereoSettings& stereo) {
+  const auto readStereo = [&stereo](const std::string& word) {
+    if (!parseStereo(word, stereo)) throw WordFailure({"--stereo " + word, {ErrorCode::InvalidArgument, 0, kNoStereo}});
+  };
+  command.add_option_function<std::string>("--stereo", readStereo, kStereoHelp)->type_name("NAME");
+  command.add_flag("--swap-eyes", stereo.swap_eyes, "The left eye's picture for the right eye");
+  command
+      .add_option("--depth-strength", stereo.strength,
+                  "How deep the picture looks, to the eye alone: 0 flat, 1 as the viewer's eyes stand [1]")
+      ->check(CLI::Range(0.0, StereoSettings::kMostStrength))
+      ->type_name("X");
+}
+
 void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& names) {
   addSourceOptions(command, play.player.source);
   command.add_option("--display", play.display, std::string("Where the picture goes [offscreen]\n") + names.display)
@@ -99,10 +121,7 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
           "--size", [&play](const std::string& word) { play.player.display = readSize(word); },
           "Pixels of the picture [1280x720]")
       ->type_name("WxH");
-  addChoice(command, "--stereo", play.player.stereo.layout,
-            {{"mono", StereoLayout::Mono}, {"sbs", StereoLayout::SideBySide}, {"anaglyph", StereoLayout::Anaglyph}},
-            "How it is shown [sbs]\n"
-            "mono: one picture; sbs: left and right eye side by side; anaglyph: red-cyan");
+  addStereoOptions(command, play.player.stereo);
   command.add_option("--haptic", play.haptic, std::string("What the finger holds [sim]\n") + names.haptic)
       ->type_name("NAME");
   command.add_option("--remote", play.remote, std::string("Where keys come from [none]\n") + names.remote)

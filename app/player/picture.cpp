@@ -2,6 +2,8 @@
 // Draws, presents, and opens a lost display again.
 #include "app/player/picture.h"
 
+#include <algorithm>
+
 namespace relievo {
 namespace {
 
@@ -56,6 +58,7 @@ Result<void> Picture::drawAndPresent(const std::optional<FingerMark>& finger) {
 }
 
 Result<void> Picture::draw(const DisplaySurface& surface, const std::optional<FingerMark>& finger) {
+  fallBack(surface);
   if (renderer_ == nullptr) {
     auto renderer = SceneRenderer::create(frame_budget_);
     if (!renderer) return std::unexpected(renderer.error());
@@ -66,15 +69,45 @@ Result<void> Picture::draw(const DisplaySurface& surface, const std::optional<Fi
     if (auto set = renderer_->setFrame(pair_.color, pair_.depth, calibration_, volume_); !set) return set;
     uploaded_ = true;
   }
+  renderer_->setText(text_);
   if (auto drawn = renderer_->draw(surface, finger); !drawn) return drawn;
   statistics_ = renderer_->statistics();
   return {};
 }
 
+// A packed frame that nothing takes was meant for a screen that shows two eyes: side by side such a one mostly can.
+void Picture::fallBack(const DisplaySurface& surface) noexcept {
+  const char* why = refusal(stereo_, surface.width, surface.height);
+  if (why == nullptr) return;
+  refusal_ = why;
+  const bool packed = stereo_.layout == StereoLayout::FramePacking;
+  stereo_.layout = packed && surface.width > 1 ? StereoLayout::SideBySide : StereoLayout::Mono;
+  stereoChanged();
+}
+
 void Picture::nextLayout() noexcept {
-  constexpr int kLayouts = 3;
-  static_assert(static_cast<int>(StereoLayout::Anaglyph) == kLayouts - 1);
-  stereo_.layout = static_cast<StereoLayout>((static_cast<int>(stereo_.layout) + 1) % kLayouts);
+  do {
+    stereo_.layout = static_cast<StereoLayout>((static_cast<int>(stereo_.layout) + 1) % kStereoLayouts);
+  } while (refusal(stereo_, width_, height_) != nullptr);  // mono is never refused
+  stereoChanged();
+}
+
+void Picture::swapEyes() noexcept {
+  stereo_.swap_eyes = !stereo_.swap_eyes;
+  stereoChanged();
+}
+
+void Picture::changeStrength(double by) noexcept {
+  stereo_.strength = std::clamp(stereo_.strength + by, 0.0, StereoSettings::kMostStrength);
+  stereoChanged();
+}
+
+void Picture::changeScreenPlane(double by_mm) noexcept {
+  stereo_.screen_z_mm = std::clamp(stereo_.screen_z_mm + by_mm, 0.0, volume_.depth_mm);
+  stereoChanged();
+}
+
+void Picture::stereoChanged() noexcept {
   if (renderer_ != nullptr) renderer_->setStereo(stereo_);
 }
 

@@ -4,6 +4,9 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "app/media/pair_reader.h"
 #include "app/render/scene_renderer.h"
@@ -40,14 +43,22 @@ class Picture {
   void setScene(const DepthCalibration& calibration, const DisplayVolume& volume, Duration frame_budget) noexcept;
   // What `show` shows from now on; a reference is kept, for a screen that comes back.
   void setPair(const FramePair& pair);
+  // What stands at the picture's foot from the next `show` on.
+  void setText(std::vector<std::string> lines) { text_ = std::move(lines); }
   // Fails for what no retry helps: no renderer, a pixel format that cannot be drawn.
   [[nodiscard]] Result<Shown> show(const std::optional<FingerMark>& finger, MonotonicTime now);
-  // Mono, side by side, anaglyph, mono, ..
+  // The next one that the surface takes.
   void nextLayout() noexcept;
+  void swapEyes() noexcept;
+  void changeStrength(double by) noexcept;  // of the depth, 0 to 2
+  // What lies in the screen plane, in the volume: the rest stands before it or behind it.
+  void changeScreenPlane(double by_mm) noexcept;
+  // Once, when the surface has refused a layout: why. It is shown in another way then.
+  [[nodiscard]] const char* takeRefusal() noexcept { return std::exchange(refusal_, nullptr); }
 
   [[nodiscard]] bool away() const noexcept { return display_.state() == Display::State::Closed; }
   [[nodiscard]] DisplayCapabilities capabilities() const noexcept { return display_.capabilities(); }
-  [[nodiscard]] StereoLayout layout() const noexcept { return stereo_.layout; }
+  [[nodiscard]] const StereoSettings& stereo() const noexcept { return stereo_; }
   [[nodiscard]] int width() const noexcept { return width_; }
   [[nodiscard]] int height() const noexcept { return height_; }
   [[nodiscard]] const RenderStatistics& statistics() const noexcept { return statistics_; }
@@ -55,15 +66,19 @@ class Picture {
  private:
   [[nodiscard]] Result<void> drawAndPresent(const std::optional<FingerMark>& finger);
   [[nodiscard]] Result<void> draw(const DisplaySurface& surface, const std::optional<FingerMark>& finger);
+  void fallBack(const DisplaySurface& surface) noexcept;
+  void stereoChanged() noexcept;
 
   Display& display_;
   DisplayConfig config_;
   StereoSettings stereo_;
+  const char* refusal_ = nullptr;
   DepthCalibration calibration_;
   DisplayVolume volume_;
   Duration frame_budget_{0};
   std::unique_ptr<SceneRenderer> renderer_;
   FramePair pair_;
+  std::vector<std::string> text_;
   bool uploaded_ = false;
   MonotonicTime next_retry_;
   int width_ = 0, height_ = 0;

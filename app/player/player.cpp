@@ -42,6 +42,7 @@ void Player::note(const std::string& what, const std::string& done, std::optiona
   const MonotonicTime time = when.value_or(parts_.clock.now());
   if (report_.addFault(toSeconds(time - started_), what, done)) {
     log(LogLevel::Warning, "play", "%s; %s", what.c_str(), done.c_str());
+    text_.tell(what, time);
   }
 }
 
@@ -107,6 +108,7 @@ void Player::step(MonotonicTime now) {
   followReader(now);
   followClock(now);
   drainTouch();
+  writeText(now);
 }
 
 // Until the next picture, but so often that keys are heard.
@@ -133,11 +135,12 @@ PlayReport Player::report() const {
   report.volume = volume_;
   report.media_s = toSeconds(played_);
   report.display = picture_.capabilities().name;
-  report.stereo = name(picture_.layout());
+  report.stereo = name(picture_.stereo().layout);
   report.surface_width = picture_.width();
   report.surface_height = picture_.height();
-  report.grid_cols = picture_.statistics().grid_cols;
-  report.grid_rows = picture_.statistics().grid_rows;
+  report.triangles = picture_.statistics().triangles;
+  report.picture_error_px = picture_.statistics().error_px;
+  report.mesh_ms = picture_.statistics().mesh_ms;
   report.draw_ms = picture_.statistics().frame_ms;
   report.haptic = haptic_.summary();
   return report;
@@ -158,6 +161,7 @@ void Player::readRemote(MonotonicTime now) {
 }
 
 void Player::obey(PlayerCommand command, MonotonicTime now) {
+  text_.wake(now);
   switch (command) {
     case PlayerCommand::Play:
       return setHeld(false, now);
@@ -170,12 +174,29 @@ void Player::obey(PlayerCommand command, MonotonicTime now) {
     case PlayerCommand::SeekBackward:
       return seek(seekBase(now) - kSeekStep, PlayerEvent::Seek, now);
     case PlayerCommand::NextLayout:
-      picture_.nextLayout();
-      redraw_ = true;
-      return;
+    case PlayerCommand::SwapEyes:
+    case PlayerCommand::DeeperPicture:
+    case PlayerCommand::FlatterPicture:
+    case PlayerCommand::ScreenForward:
+    case PlayerCommand::ScreenBackward:
+      return changeStereo(command);
+    case PlayerCommand::Info:
+      return text_.toggle();
     case PlayerCommand::Stop:
       return end(now);
   }
+}
+
+void Player::changeStereo(PlayerCommand command) {
+  constexpr double kStrengthStep = 0.1, kPlaneStepMm = 2.0;
+  if (command == PlayerCommand::NextLayout) picture_.nextLayout();
+  if (command == PlayerCommand::SwapEyes) picture_.swapEyes();
+  if (command == PlayerCommand::DeeperPicture) picture_.changeStrength(kStrengthStep);
+  if (command == PlayerCommand::FlatterPicture) picture_.changeStrength(-kStrengthStep);
+  // What is higher in the volume than the plane stands before the screen.
+  if (command == PlayerCommand::ScreenForward) picture_.changeScreenPlane(-kPlaneStepMm);
+  if (command == PlayerCommand::ScreenBackward) picture_.changeScreenPlane(kPlaneStepMm);
+  redraw_ = true;
 }
 
 void Player::setHeld(bool held, MonotonicTime now) {

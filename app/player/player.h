@@ -5,6 +5,7 @@
 #include <atomic>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/player/film_feed.h"
 #include "app/player/haptic_session.h"
@@ -13,6 +14,7 @@
 #include "app/player/playhead.h"
 #include "app/player/recorder.h"
 #include "app/player/report.h"
+#include "app/player/screen_text.h"
 #include "app/player/state_table.h"
 #include "app/player/surface_feeder.h"
 #include "hal/remote_input.h"
@@ -67,6 +69,7 @@ class Player {
   void boot();
   void readRemote(MonotonicTime now);
   void obey(PlayerCommand command, MonotonicTime now);
+  void changeStereo(PlayerCommand command);
   void setHeld(bool held, MonotonicTime now);
   void setClockHeld(bool held, MonotonicTime now);
   void seek(MediaTime target, PlayerEvent why, MonotonicTime now);
@@ -90,6 +93,7 @@ class Player {
   [[nodiscard]] bool draw(MonotonicTime now);
   void drainTouch();
   [[nodiscard]] std::optional<FingerMark> fingerMark();
+  void writeText(MonotonicTime now);
   [[nodiscard]] MediaTime seekBase(MonotonicTime now) const;
   [[nodiscard]] MonotonicTime nextPicture(MonotonicTime now) const;
 
@@ -97,6 +101,7 @@ class Player {
   PlayerParts parts_;
   FilmFeed feed_;
   Picture picture_;
+  ScreenText text_;
   HapticSession haptic_;
   Playhead head_;
   MediaClock clock_;
@@ -121,6 +126,7 @@ class Player {
   MonotonicTime last_draw_;
   std::optional<FingerMark> last_mark_;
   bool redraw_ = false;
+  std::vector<std::string> last_text_;
   bool haptic_lost_ = false;  // it was there once and went away
   bool depth_missing_ = false;
   bool depth_refused_ = false;

@@ -29,6 +29,16 @@ const char* answerTo(HapticFault::Kind kind) noexcept {
   return "";
 }
 
+// The last part of a path or an address, without what follows a question mark.
+std::string titleOf(const std::string& url) {
+  const std::string path = url.substr(0, url.find('?'));
+  const std::size_t end = path.find_last_not_of('/');
+  if (end == std::string::npos) return url;
+  const std::size_t slash = path.rfind('/', end);
+  return path.substr(slash == std::string::npos ? 0 : slash + 1,
+                     end - (slash == std::string::npos ? 0 : slash + 1) + 1);
+}
+
 bool movedVisibly(const std::optional<FingerMark>& a, const std::optional<FingerMark>& b) {
   if (a.has_value() != b.has_value()) return true;
   return a && (a->contact != b->contact || glm::distance(a->position_mm, b->position_mm) > kMovedMm);
@@ -73,7 +83,10 @@ void Player::opened() {
 // drawing takes, nothing is late by it.
 void Player::begin(MonotonicTime now) {
   head_.begin();
-  if (!std::exchange(scene_known_, true)) setScene();
+  if (!std::exchange(scene_known_, true)) {
+    setScene();
+    text_.wake(now);
+  }
   if (std::exchange(new_epoch_, false)) surface_.beginEpoch();
   const MediaTime first = head_.present().color.pts;
   showPresent(now);
@@ -244,9 +257,30 @@ bool Player::draw(MonotonicTime now) {
     fail(film ? config_.source.url : std::string("display ") + picture_.capabilities().name, shown.error());
     return false;
   }
+  if (const char* why = picture_.takeRefusal()) {
+    note(std::string("stereo: ") + why, textLine("shown as %s", name(picture_.stereo().layout)));
+  }
   if (*shown == Picture::Shown::Lost) note("display lost", "film and touch go on; it is tried again every second");
   if (*shown == Picture::Shown::Back) note("display back", "the picture is on it again");
   return *shown == Picture::Shown::OnScreen || *shown == Picture::Shown::Back;
+}
+
+void Player::writeText(MonotonicTime now) {
+  if (!report_.first_frame_ms) return;
+  const ScreenFacts facts{.title = titleOf(config_.source.url),
+                          .position_s = toSeconds(clock_.position(now).value_or(head_.present().color.pts)),
+                          .duration_s = toSeconds(report_.film.duration),
+                          .state = state_,
+                          .held = held_,
+                          .stereo = picture_.stereo(),
+                          .has_depth = report_.film.has_depth,
+                          .haptic = haptic_.running() ? haptic_.capabilities().name : "",
+                          .contact = last_mark_ && last_mark_->contact};
+  auto lines = text_.lines(facts, now);
+  if (lines == last_text_) return;
+  last_text_ = lines;
+  picture_.setText(std::move(lines));
+  redraw_ = true;
 }
 
 std::optional<FingerMark> Player::fingerMark() {

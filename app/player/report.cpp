@@ -40,7 +40,9 @@ Json videoPart(const PlayReport& r) {
           {"display", r.display},
           {"stereo", r.stereo},
           {"surface", {r.surface_width, r.surface_height}},
-          {"grid", {r.grid_cols, r.grid_rows}},
+          {"triangles", r.triangles},
+          {"picture_error_px", rounded(r.picture_error_px, 1e2)},
+          {"mesh_ms", rounded(r.mesh_ms, 1e3)},
           {"draw_ms", rounded(r.draw_ms, 1e3)}};
 }
 
@@ -133,11 +135,11 @@ std::string toText(const PlayReport& r) {
   std::string text = textLine("film    %.2f s shown in %.2f s, first picture after %.0f ms\n", r.media_s, r.wall_s,
                               r.first_frame_ms.value_or(0));
   text += textLine(
-      "video   %llu frames shown, %llu dropped, %llu pairs mismatched; %s, %s, %d x %d, grid %d x %d, %.1f ms a "
-      "frame\n",
+      "video   %llu frames shown, %llu dropped, %llu pairs mismatched; %s, %s, %d x %d, %zu triangles, %.1f "
+      "ms a frame\n",
       static_cast<unsigned long long>(r.frames_shown), static_cast<unsigned long long>(r.frames_dropped),
       static_cast<unsigned long long>(r.pairs.mismatched), r.display.c_str(), r.stereo.c_str(), r.surface_width,
-      r.surface_height, r.grid_cols, r.grid_rows, r.draw_ms);
+      r.surface_height, r.triangles, r.draw_ms);
   if (h.ticks == 0) return text + "touch   none\n";
   text += textLine("touch   %s, %llu ticks at %.0f Hz (%s), %llu late, %.0f %% in contact\n", h.device.c_str(),
                    static_cast<unsigned long long>(h.ticks), h.rate_hz, h.scheduler.c_str(),

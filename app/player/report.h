@@ -2,6 +2,7 @@
 // What a run of the player did, as numbers; as JSON for programs and as a few lines for people.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -41,8 +42,9 @@ struct PlayReport {
   std::string display;
   std::string stereo;
   int surface_width = 0, surface_height = 0;
-  int grid_cols = 0, grid_rows = 0;
-  double draw_ms = 0;
+  std::size_t triangles = 0;  // of the relief, in the last picture
+  double picture_error_px = 0;
+  double mesh_ms = 0, draw_ms = 0;  // a picture's, smoothed
   std::uint64_t frames_shown = 0, frames_dropped = 0;
   std::optional<double> first_frame_ms;
 

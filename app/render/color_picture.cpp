@@ -34,7 +34,7 @@ uniform vec3 bias;
 out vec4 color;
 void main() {
   vec3 rgb = clamp(to_rgb * SAMPLE + bias, 0.0, 1.0);
-  color = vec4(rgb, dot(rgb, vec3(0.299, 0.587, 0.114)));
+  color = vec4(rgb, 1.0);
 }
 )";
 
@@ -200,16 +200,6 @@ void ColorPicture::bind(GLuint unit, int shown_width, int shown_height) {
   converted_ = true;
   glActiveTexture(GL_TEXTURE0 + unit);
   glBindTexture(GL_TEXTURE_2D, target_.get());
-}
-
-void ColorPicture::showBrightnessAsRed(GLuint unit) const noexcept {
-  glActiveTexture(GL_TEXTURE0 + unit);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_R, GL_ALPHA);
-}
-
-void ColorPicture::showColors(GLuint unit) const noexcept {
-  glActiveTexture(GL_TEXTURE0 + unit);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_R, GL_RED);
 }
 
 void ColorPicture::allocateTarget(int width, int height) {

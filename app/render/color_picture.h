@@ -32,10 +32,6 @@ class ColorPicture {
   // `shown_width` and `shown_height`: about how many pixels large it will be drawn; a picture of twice that or more is
   // halved on the way, or it would shimmer. Changes the framebuffer and the viewport.
   void bind(GLuint unit, int shown_width, int shown_height);
-  // Of the texture so bound: what its red reads as. The brightness (BT.601) is kept beside the colours as a fourth
-  // number, so that choosing it costs no shader a thing.
-  void showBrightnessAsRed(GLuint unit) const noexcept;
-  void showColors(GLuint unit) const noexcept;
 
  private:
   enum class Arrangement : std::uint8_t { Gray, Planar, SemiPlanar, Packed };

@@ -25,7 +25,6 @@ constexpr double kHeadLengthMm = 4.0;
 constexpr double kSmallestForceN = 0.02;
 constexpr float kHiddenOpacity = 0.3f;
 constexpr glm::vec3 kFreeColor{0.62f, 0.70f, 0.78f};
-constexpr glm::vec3 kBrightness{0.299f, 0.587f, 0.114f};  // BT.601
 constexpr glm::vec3 kContactColor{1.0f, 0.72f, 0.15f};
 
 constexpr const char* kVertexShader = R"(
@@ -142,11 +141,10 @@ Result<FingerModel> FingerModel::create() {
   return finger;
 }
 
-void FingerModel::draw(const glm::dmat4& view_projection, const FingerMark& mark, bool brightness_as_red) const {
+void FingerModel::draw(const glm::dmat4& view_projection, const FingerMark& mark) const {
   program_.use();
   glBindVertexArray(vertices_.get());
-  glm::vec3 color = mark.contact ? kContactColor : kFreeColor;
-  if (brightness_as_red) color.r = glm::dot(color, kBrightness);
+  const glm::vec3 color = mark.contact ? kContactColor : kFreeColor;
   const auto paint = [&](float opacity) { glUniform4f(program_.uniform("paint"), color.r, color.g, color.b, opacity); };
 
   // The hidden part first, while the depth buffer holds nothing but the relief.

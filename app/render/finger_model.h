@@ -20,9 +20,8 @@ class FingerModel {
   [[nodiscard]] static Result<FingerModel> create();
 
   // Against the depth buffer of the relief: solid where it lies before, faint where it is hidden, so that the viewer
-  // never loses it. The arrow begins on the sphere and grows by 5 mm per N. `brightness_as_red`: for the red eye of a
-  // half-colour anaglyph.
-  void draw(const glm::dmat4& view_projection, const FingerMark& mark, bool brightness_as_red) const;
+  // never loses it. The arrow begins on the sphere and grows by 5 mm per N.
+  void draw(const glm::dmat4& view_projection, const FingerMark& mark) const;
 
  private:
   struct Range {

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "app/render/grid_step.h"
 #include "app/scene/height_field.h"
 
 namespace relievo {
@@ -106,17 +105,6 @@ void main() {
 #endif
 )";
 
-// Nearly all of a frame's time in software rendering goes by this line: small triangles shade many pixels in vain.
-constexpr const char* kFragmentShader = R"(
-precision mediump float;
-in highp vec2 picture_at;
-uniform sampler2D picture;
-out vec4 color;
-void main() {
-  color = textureLod(picture, picture_at, 0.0);
-}
-)";
-
 std::vector<GLushort> tileIndices() {
   std::vector<GLushort> indices;
   indices.reserve(kTileIndices);
@@ -134,7 +122,7 @@ std::vector<GLushort> tileIndices() {
 
 // One cell less than vertices, and one at each end out to the frame.
 int tilesAlong(int samples, int step) noexcept {
-  const int cells = GridStep::verticesAlong(samples, step) - 1 + 2;
+  const int cells = ReliefMesh::verticesAlong(samples, step) - 1 + 2;
   return (cells + kTileCells - 1) / kTileCells;
 }
 
@@ -148,13 +136,24 @@ void usePicture(const GlProgram& program, const PictureView& view, const Display
 
 }  // namespace
 
+// Nearly all of a frame's time in software rendering goes by this line: small triangles shade many pixels in vain.
+const char* const kPictureFragmentShader = R"(
+precision mediump float;
+in highp vec2 picture_at;
+uniform sampler2D picture;
+out vec4 color;
+void main() {
+  color = textureLod(picture, picture_at, 0.0);
+}
+)";
+
 Result<ReliefMesh> ReliefMesh::create() {
   const std::string tile = "#define TILE_CELLS " + std::to_string(kTileCells) + "\n#define TILE_VERTICES " +
                            std::to_string(kTileVertices) + "\n";
   const std::string hue = "#define HUE\n#define DARKEST_READABLE " + std::to_string(kDarkestReadable) + "\n";
   ReliefMesh mesh;
   const auto link = [](GlProgram& program, const std::string& defines) -> Result<void> {
-    auto made = GlProgram::create(defines, kVertexShader, kFragmentShader);
+    auto made = GlProgram::create(defines, kVertexShader, kPictureFragmentShader);
     if (!made) return std::unexpected(made.error());
     program = std::move(*made);
     return {};
@@ -253,8 +252,7 @@ void ReliefMesh::draw(const PictureView& view, int step) const {
   codes_.bind(kCodesUnit);
   glUniform1i(program.uniform("codes"), kCodesUnit);
   glUniform2i(program.uniform("samples"), cols_, rows_);
-  glUniform2i(program.uniform("last"), GridStep::verticesAlong(cols_, step) - 1,
-              GridStep::verticesAlong(rows_, step) - 1);
+  glUniform2i(program.uniform("last"), verticesAlong(cols_, step) - 1, verticesAlong(rows_, step) - 1);
   glUniform1i(program.uniform("grid_step"), step);
   glUniform1i(program.uniform("tiles_across"), across);
   glUniform4f(program.uniform("place_mm"), static_cast<float>(grid_.x(0)), static_cast<float>(grid_.x(1) - grid_.x(0)),

@@ -22,12 +22,19 @@ struct PictureView {
   GLuint picture_unit = 0;  // where the colour texture is bound
 };
 
-// The same surface that HeightField tells: vertices on true samples at their place in the volume, cells split from
-// (c, r) to (c + 1, r + 1), holes left open. It is one piece, as it is to the finger: at a jump of depth a steep wall
-// joins both sides. For the eye alone it is joined to a frame, the picture's rectangle in the screen plane, so that no
-// gap is seen beside it.
+// A picture on a surface: colour from `picture` at `picture_at`, which the vertex shader gives.
+extern const char* const kPictureFragmentShader;
+
+// The uniform grid, every sample or every `step`-th: what the irregular network is measured against, and the flat
+// picture of a film without depth. The same surface that HeightField tells: vertices on true samples at their place in
+// the volume, cells split from (c, r) to (c + 1, r + 1), holes left open. It is one piece, as it is to the finger: at a
+// jump of depth a steep wall joins both sides. For the eye alone it is joined to a frame, the picture's rectangle in
+// the screen plane, so that no gap is seen beside it.
 class ReliefMesh {
  public:
+  // Samples 0, step, 2 step, .. and the last one.
+  [[nodiscard]] static int verticesAlong(int samples, int step) noexcept { return (samples - 2 + step) / step + 1; }
+
   [[nodiscard]] static Result<ReliefMesh> create();
 
   // Uploads the codes as they are. Unsupported where HeightField says so, and nothing has changed then.

@@ -4,65 +4,93 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
+#include <glm/geometric.hpp>
 #include <utility>
 
 #include "app/render/color_picture.h"
+#include "app/render/detail_level.h"
+#include "app/render/eye_mixer.h"
 #include "app/render/finger_model.h"
 #include "app/render/gl_objects.h"
-#include "app/render/grid_step.h"
 #include "app/render/relief_mesh.h"
+#include "app/render/relief_surface.h"
+#include "app/render/relief_triangles.h"
+#include "app/render/surface_mark.h"
+#include "app/render/text_panel.h"
+#include "app/scene/height_field.h"
 #include "platform/clock.h"
 
 namespace relievo {
 namespace {
 
 constexpr GLuint kPictureUnit = 3;  // after the codes' and the colour planes'
+constexpr Duration::rep kSmoothing = 8;
 
-struct Rectangle {
-  int x, y, width, height;
-};
+constexpr double kShadowSlant = 0.35, kShadowRadiusMm = 4.5, kShadowGrowth = 0.15;
+constexpr double kShadowOpacity = 0.65, kShadowHalfMm = 15;
+constexpr double kGlowRadiusMm = 7.0, kGlowOpacity = 0.35, kGlowPerN = 0.1;
+constexpr glm::vec3 kGlowColor{1.0F, 0.78F, 0.35F};
 
-Rectangle pixelsOf(const EyeView& view, const DisplaySurface& surface) noexcept {
-  const auto edge = [](double fraction, int size) { return static_cast<int>(std::lround(fraction * size)); };
-  const int x = edge(view.x, surface.width);
-  const int y = edge(view.y, surface.height);
-  return {x, y, edge(view.x + view.width, surface.width) - x, edge(view.y + view.height, surface.height) - y};
+void smooth(Duration& smoothed, Duration took, bool first) noexcept {
+  smoothed = first ? took : smoothed + (took - smoothed) / kSmoothing;
 }
 
 }  // namespace
 
 struct SceneRenderer::Impl {
-  Impl(ReliefMesh made_relief, FingerModel made_finger, Duration frame_budget)
-      : relief(std::move(made_relief)), finger(std::move(made_finger)), grid_step(frame_budget) {}
+  explicit Impl(Duration frame_budget) : level(frame_budget) {}
+  [[nodiscard]] Result<void> createParts();
 
-  void drawViews(const DisplaySurface& surface, const std::optional<FingerMark>& mark);
-  void drawView(const EyeView& view, const std::optional<FingerMark>& mark) const;
-  void bindPicture(const DisplaySurface& surface, const EyeView& view);
+  [[nodiscard]] Result<void> drawViews(const DisplaySurface& surface, const std::optional<FingerMark>& mark);
+  void makeTriangles(const EyeViews& eyes);
+  void bindPicture(const PixelArea& area);
+  void drawView(const EyeView& view, const std::optional<FingerMark>& mark);
+  void drawFinger(const EyeView& view, const FingerMark& mark);
 
   StereoSettings stereo;
+  DetailSettings detail;
   DisplayVolume volume;
+  Frame depth;  // keeps the samples alive that `field` reads
+  HeightField field;
+
   ColorPicture picture;
-  ReliefMesh relief;
+  ReliefMesh grid;
+  ReliefTriangles triangles;
+  ReliefSurface surface_of_triangles;
+  ReliefDetail made;  // what the triangles were made for
+  bool is_made = false;
+  EyeMixer mixer;
+  SurfaceMark on_surface;
   FingerModel finger;
-  GridStep grid_step;
+  TextPanel text;
+  DetailLevel level;
   MonotonicClock clock;
   bool has_picture = false;
-  bool has_depth = false;
-  std::uint64_t frames = 0;
-  Duration smoothed{0};
+  std::uint64_t frames = 0, meshes = 0;
+  Duration drawing{0}, meshing{0};  // smoothed
 };
 
 SceneRenderer::SceneRenderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 SceneRenderer::~SceneRenderer() = default;
 
+Result<void> SceneRenderer::Impl::createParts() {
+  const auto take = [](auto& part, auto created) -> Result<void> {
+    if (!created) return std::unexpected(created.error());
+    part = std::move(*created);
+    return {};
+  };
+  if (auto made_grid = take(grid, ReliefMesh::create()); !made_grid) return made_grid;
+  if (auto made_surface = take(surface_of_triangles, ReliefSurface::create()); !made_surface) return made_surface;
+  if (auto made_mixer = take(mixer, EyeMixer::create()); !made_mixer) return made_mixer;
+  if (auto made_mark = take(on_surface, SurfaceMark::create()); !made_mark) return made_mark;
+  if (auto made_text = take(text, TextPanel::create()); !made_text) return made_text;
+  if (auto made_finger = take(finger, FingerModel::create()); !made_finger) return made_finger;
+  return glOutcome();
+}
+
 Result<std::unique_ptr<SceneRenderer>> SceneRenderer::create(Duration frame_budget) {
-  auto relief = ReliefMesh::create();
-  if (!relief) return std::unexpected(relief.error());
-  auto finger = FingerModel::create();
-  if (!finger) return std::unexpected(finger.error());
-  if (auto outcome = glOutcome(); !outcome) return std::unexpected(outcome.error());
-  auto impl = std::make_unique<Impl>(std::move(*relief), std::move(*finger), frame_budget);
+  auto impl = std::make_unique<Impl>(frame_budget);
+  if (auto made = impl->createParts(); !made) return std::unexpected(made.error());
   return std::unique_ptr<SceneRenderer>(new SceneRenderer(std::move(impl)));
 }
 
@@ -72,99 +100,170 @@ void SceneRenderer::setStereo(const StereoSettings& settings) noexcept {
 const StereoSettings& SceneRenderer::stereo() const noexcept {
   return impl_->stereo;
 }
+void SceneRenderer::setDetail(const DetailSettings& settings) noexcept {
+  impl_->detail = settings;
+}
+
+void SceneRenderer::setText(const std::vector<std::string>& lines) {
+  impl_->text.setLines(lines);
+}
 
 Result<void> SceneRenderer::setFrame(const Frame& color, const Frame& depth, const DepthCalibration& calibration,
                                      const DisplayVolume& volume) {
   Impl& impl = *impl_;
   if (auto drawable = ColorPicture::check(color); !drawable) return drawable;
   if (!depth.empty()) {
-    if (auto set = impl.relief.setDepth(depth, calibration, volume); !set) return set;
-    impl.grid_step.setGrid(impl.relief.cols(), impl.relief.rows());
+    auto field = HeightField::make(depth, calibration, volume);
+    if (!field) return std::unexpected(field.error());
+    if (impl.detail.grid_step > 0) {
+      if (auto set = impl.grid.setDepth(depth, calibration, volume); !set) return set;
+    }
+    impl.field = *field;
   }
   if (auto set = impl.picture.setFrame(color); !set) return set;
-  impl.has_depth = !depth.empty();
-  impl.has_picture = true;
+  impl.depth = depth;
   impl.volume = volume;
+  impl.is_made = false;
+  impl.has_picture = true;
   return glOutcome();
 }
 
 Result<void> SceneRenderer::draw(const DisplaySurface& surface, const std::optional<FingerMark>& finger) {
   Impl& impl = *impl_;
   const MonotonicTime start = impl.clock.now();
-  impl.drawViews(surface, finger);
+  if (auto drawn = impl.drawViews(surface, finger); !drawn) return drawn;
   glFinish();
   const Duration took = impl.clock.now() - start;
-  impl.smoothed = impl.frames == 0 ? took : impl.smoothed + (took - impl.smoothed) / 8;
+  smooth(impl.drawing, took, impl.frames == 0);
   ++impl.frames;
-  if (impl.has_depth) impl.grid_step.drew(took);
+  if (!impl.depth.empty()) impl.level.drew(took);
   return glOutcome();
 }
 
 RenderStatistics SceneRenderer::statistics() const noexcept {
   const Impl& impl = *impl_;
-  RenderStatistics result{.frames = impl.frames, .frame_ms = toSeconds(impl.smoothed) * 1e3};
-  if (!impl.has_depth) return result;
-  result.grid_cols = GridStep::verticesAlong(impl.relief.cols(), impl.grid_step.step());
-  result.grid_rows = GridStep::verticesAlong(impl.relief.rows(), impl.grid_step.step());
+  RenderStatistics result{.frames = impl.frames, .frame_ms = toSeconds(impl.drawing) * 1e3};
+  if (impl.depth.empty()) return result;
+  if (impl.detail.grid_step > 0) {
+    const auto along = [&](int samples) {
+      return static_cast<std::size_t>(ReliefMesh::verticesAlong(samples, impl.detail.grid_step) - 1);
+    };
+    result.triangles = 2 * along(impl.depth.width) * along(impl.depth.height);
+    return result;
+  }
+  result.triangles = impl.triangles.indices().size() / 3;
+  result.cut_cells = impl.triangles.cutCells();
+  result.error_px = impl.detail.error_px * impl.level.factor();
+  result.mesh_ms = toSeconds(impl.meshing) * 1e3;
   return result;
 }
 
-void SceneRenderer::Impl::drawViews(const DisplaySurface& surface, const std::optional<FingerMark>& mark) {
-  const EyeViews eyes = eyeViews(stereo, volume, static_cast<double>(surface.width) / surface.height);
-  if (has_picture) bindPicture(surface, eyes.views[0]);
-
+Result<void> SceneRenderer::Impl::drawViews(const DisplaySurface& surface, const std::optional<FingerMark>& mark) {
+  StereoSettings shown = stereo;
+  if (refusal(shown, surface.width, surface.height) != nullptr) shown.layout = StereoLayout::Mono;
+  const EyeViews eyes = eyeViews(shown, volume, surface.width, surface.height);
+  if (has_picture) {
+    bindPicture(eyes.views[0].area);
+    if (!depth.empty() && detail.grid_step == 0) makeTriangles(eyes);
+  }
+  const auto clear = [] {
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_BLEND);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDepthMask(GL_TRUE);
+    glClearColor(0.0f, 0.0f, 0.0f, 1.0f);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  };
   glBindFramebuffer(GL_FRAMEBUFFER, surface.framebuffer);
-  glDisable(GL_SCISSOR_TEST);
-  glDisable(GL_BLEND);
+  clear();
+  if (!has_picture) return {};
+  for (std::size_t i = 0; i < eyes.views.size(); ++i) {
+    if (eyes.mixed) {
+      if (auto bound = mixer.bindEye(i, surface.width, surface.height); !bound) return bound;
+      clear();
+    }
+    drawView(eyes.views[i], mark);
+  }
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  glDepthMask(GL_TRUE);
-  glDepthFunc(GL_LESS);
-  glClearColor(0.0f, 0.0f, 0.0f, 1.0f);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  if (!has_picture) return;
+  if (eyes.mixed) {
+    glBindFramebuffer(GL_FRAMEBUFFER, surface.framebuffer);
+    mixer.mix(shown);
+  }
+  return {};
+}
 
+// They follow from the picture and from how finely it will be seen.
+void SceneRenderer::Impl::makeTriangles(const EyeViews& eyes) {
+  // Finer than twice a view's pixels nobody sees; and a lattice of this width takes as long as there is time for.
+  constexpr int kLeastAcross = 64, kMostAcross = 1024;
+  double eye_mm = 0;
+  for (const EyeView& view : eyes.views) eye_mm = std::max(eye_mm, std::abs(view.eye_x_mm));
+  const double pixel_mm = heightOfPixelMm(stereo, volume, eyes.pixels_per_mm);
+  const ReliefDetail wanted{
+      .most_across = std::clamp(static_cast<int>(2 * eyes.pixels_per_mm * volume.width_mm), kLeastAcross, kMostAcross),
+      .error_mm = detail.error_px * level.factor() * pixel_mm,
+      .view = {.eye_mm = eye_mm, .distance_mm = stereo.viewing_distance_mm, .screen_z_mm = stereo.screen_z_mm}};
+  if (is_made && wanted == made) return;
+  const MonotonicTime start = clock.now();
+  triangles.build(field, volume, wanted);
+  surface_of_triangles.upload(triangles);
+  smooth(meshing, clock.now() - start, meshes++ == 0);
+  made = wanted;
+  is_made = true;
+}
+
+// The picture's size on the surface is its window's, less the bars.
+void SceneRenderer::Impl::bindPicture(const PixelArea& area) {
+  const double area_aspect = static_cast<double>(area.width) / area.height;
+  const double picture_aspect = volume.width_mm / volume.height_mm;
+  picture.bind(kPictureUnit, static_cast<int>(area.width * std::min(1.0, picture_aspect / area_aspect)),
+               static_cast<int>(area.height * std::min(1.0, area_aspect / picture_aspect)));
+}
+
+void SceneRenderer::Impl::drawView(const EyeView& view, const std::optional<FingerMark>& mark) {
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);  // the surface stays opaque whatever is blended on it
+  glViewport(view.area.x, view.area.y, view.area.width, view.area.height);
   glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
   // Nobody sees the relief from below, and the finger's shapes are closed.
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
   glFrontFace(GL_CCW);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(eyes.count); ++i) {
-    const EyeView& view = eyes.views[i];
-    const Rectangle pixels = pixelsOf(view, surface);
-    glViewport(pixels.x, pixels.y, pixels.width, pixels.height);
-    // The surface stays opaque whatever the picture's fourth number is.
-    glColorMask(view.channels[0], view.channels[1], view.channels[2], GL_FALSE);
-    const bool over_the_first = i > 0 && view.x == eyes.views[0].x;
-    if (over_the_first) glClear(GL_DEPTH_BUFFER_BIT);
-    drawView(view, mark);
-  }
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-}
-
-// The picture's size on the surface is its window's, less the bars.
-void SceneRenderer::Impl::bindPicture(const DisplaySurface& surface, const EyeView& view) {
-  const double surface_aspect = static_cast<double>(surface.width) / surface.height;
-  const double picture_aspect = volume.width_mm / volume.height_mm;
-  const Rectangle pixels = pixelsOf(view, surface);
-  picture.bind(kPictureUnit, static_cast<int>(pixels.width * std::min(1.0, picture_aspect / surface_aspect)),
-               static_cast<int>(pixels.height * std::min(1.0, surface_aspect / picture_aspect)));
-}
-
-// Half-colour anaglyph: the red eye gets the picture's brightness in place of its red, so that a red or a blue thing is
-// not bright for one eye and black for the other; the other eye keeps the colours that it can.
-void SceneRenderer::Impl::drawView(const EyeView& view, const std::optional<FingerMark>& mark) const {
-  const bool red_alone = view.channels[0] && !view.channels[1];
-  if (red_alone) picture.showBrightnessAsRed(kPictureUnit);
   const PictureView picture_view{.view_projection = glm::mat4(view.view_projection),
                                  .screen_z_mm = stereo.screen_z_mm,
                                  .picture_unit = kPictureUnit};
-  if (has_depth) {
-    relief.draw(picture_view, grid_step.step());
+  if (depth.empty()) {
+    grid.drawFlat(picture_view, volume);
+  } else if (detail.grid_step > 0) {
+    grid.draw(picture_view, detail.grid_step);
   } else {
-    relief.drawFlat(picture_view, volume);
+    surface_of_triangles.draw(picture_view);
   }
-  if (red_alone) picture.showColors(kPictureUnit);
-  if (mark) finger.draw(view.view_projection, *mark, red_alone);
+  if (mark) drawFinger(view, *mark);
+  text.draw(view.view_projection, volume, stereo.screen_z_mm);
+}
+
+// A shadow that falls to the lower right, the farther and the fainter the higher the finger is over the surface; and
+// the glow of a contact, the brighter the harder.
+void SceneRenderer::Impl::drawFinger(const EyeView& view, const FingerMark& mark) {
+  if (!depth.empty()) {
+    const glm::dvec2 under(mark.position_mm);
+    const double gap = std::max(0.0, mark.position_mm.z - SurfaceMark::heightUnder(field, under.x, under.y));
+    on_surface.draw(view.view_projection, field,
+                    {.center_mm = under + glm::dvec2(kShadowSlant, -kShadowSlant) * gap,
+                     .radius_mm = kShadowRadiusMm + kShadowGrowth * gap,
+                     .color = glm::vec3(0),
+                     .opacity = static_cast<float>(kShadowOpacity / (1 + gap / kShadowHalfMm))});
+    const double force = glm::length(mark.force_n);
+    if (mark.contact) {
+      on_surface.draw(view.view_projection, field,
+                      {.center_mm = under,
+                       .radius_mm = kGlowRadiusMm,
+                       .color = kGlowColor,
+                       .opacity = static_cast<float>(std::min(1.0, kGlowOpacity + kGlowPerN * force))});
+    }
+  }
+  finger.draw(view.view_projection, mark);
 }
 
 }  // namespace relievo

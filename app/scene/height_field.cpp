@@ -149,6 +149,27 @@ double HeightField::meanHeight(int c0, int r0, int width, int height, int most) 
   return 2 * count < across * down ? kHole : sum / count;
 }
 
+bool HeightField::readRow(int r, std::span<const int> columns, float* heights_mm) const noexcept {
+  if (plain_) {
+    const std::uint8_t* line = data_ + r * stride_bytes_;
+    const auto offset = static_cast<float>(depth_mm_ * s_offset_), scale = static_cast<float>(depth_mm_ * s_scale_);
+    const int high_byte = layout_ == Layout::Words ? 256 : 0;
+    for (const int c : columns) {
+      const std::uint8_t* sample = line + static_cast<std::ptrdiff_t>(c) * step_bytes_;
+      const int code = high_byte == 0 ? sample[0] : sample[0] + high_byte * sample[1];
+      *heights_mm++ = offset + scale * static_cast<float>(code);
+    }
+    return false;
+  }
+  bool hole = false;
+  for (const int c : columns) {
+    const double z = heightMm(c, r);
+    hole = hole || std::isnan(z);
+    *heights_mm++ = static_cast<float>(z);
+  }
+  return hole;
+}
+
 bool HeightField::sameSamples(const HeightField& other) const noexcept {
   if (cols_ != other.cols_ || rows_ != other.rows_ || layout_ != other.layout_ || step_bytes_ != other.step_bytes_) {
     return false;

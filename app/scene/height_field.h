@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 #include "app/scene/depth_calibration.h"
 #include "app/scene/display_volume.h"
@@ -38,6 +39,9 @@ class HeightField {
     if (code == invalid_code_) return kHole;
     return fromNormalised(s_offset_ + s_scale_ * static_cast<double>(code));
   }
+
+  // The heights of some samples of a row, in the order asked for. Whether there is a hole among them.
+  bool readRow(int r, std::span<const int> columns, float* heights_mm) const noexcept;
 
   // The mean height of the samples in a block that lies inside the picture, of which about `most` are read across and
   // as many down, evenly spread about its centre. Not a number when less than half of those read have a height.

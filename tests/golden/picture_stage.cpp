@@ -45,7 +45,7 @@ std::unique_ptr<Stage> Stage::make(int width, int height) {
   auto surface = stage->display_->beginFrame();
   EXPECT_TRUE(surface);
   stage->surface_ = *surface;
-  // A budget so large that the grid is never made coarser by a slow machine.
+  // A budget so large that the relief is never made coarser by a slow machine.
   auto renderer = SceneRenderer::create(std::chrono::hours(1));
   EXPECT_TRUE(renderer) << renderer.error().message;
   stage->renderer_ = std::move(*renderer);
@@ -59,6 +59,7 @@ Stage::~Stage() {
 
 Result<void> Stage::tryShow(const Scene& scene) {
   renderer_->setStereo(scene.stereo);
+  renderer_->setDetail(scene.detail);
   if (auto set = renderer_->setFrame(scene.color, scene.depth, scene.calibration, scene.volume); !set) return set;
   return renderer_->draw(surface_, scene.finger);
 }

@@ -85,7 +85,7 @@ TEST(RenderFinger, ArrowGrowsByFiveMillimetresANewton) {
 
 TEST(RenderFinger, NoForceIsNoArrow) {
   STAGE_OR_SKIP(stage, 1280, 720);
-  const Box box = litBox(stage.show(blackPlane(0, {.position_mm = {0, 0, 20}, .contact = true})), 0, 1280);
+  const Box box = litBox(stage.show(blackPlane(0, {.position_mm = {0, 0, 20}})), 0, 1280);
   EXPECT_NEAR(box.width(), 40, 1.5);
 }
 
@@ -105,7 +105,7 @@ TEST(RenderFinger, ContactIsBrighter) {
 
 TEST(RenderFinger, HiddenFingerShowsFaintly) {
   STAGE_OR_SKIP(stage, 1280, 720);
-  const FingerMark mark{.position_mm = {0, 0, 20}, .contact = true};
+  const FingerMark mark{.position_mm = {0, 0, 20}};
   const double before = light(stage.show(blackPlane(0, mark)).at(640, 360));
   const double behind = light(stage.show(blackPlane(40, mark)).at(640, 360));
   EXPECT_GT(behind, 0.15 * before);
@@ -132,14 +132,56 @@ TEST(RenderFinger, HalfSunkSphereIsSolidAboveTheSurfaceAndFaintBelow) {
   EXPECT_GT(light(image.at(640 + 19, 360)), 0);
 }
 
-TEST(RenderFinger, SphereKeepsItsBrightnessInTheRedEyeOfAnAnaglyph) {
+// White, 20 high; the darkest spot is the shadow, the finger left out by its colour.
+Spot shadow(const Image& image) {
+  Spot spot;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const Rgb rgb = image.at(x, y);
+      if (rgb[0] != rgb[2]) continue;  // the finger is yellow
+      const double dark = 1 - rgb[0] / 255.0;
+      spot.x += dark * x;
+      spot.y += dark * y;
+      spot.weight += dark;
+    }
+  }
+  spot.x /= spot.weight;
+  spot.y /= spot.weight;
+  return spot;
+}
+
+TEST(RenderFinger, ShadowMovesAwayAndFadesWithTheHeightOverTheSurface) {
   STAGE_OR_SKIP(stage, 1280, 720);
-  Scene scene = blackPlane(0, {.position_mm = {0, 0, 20}, .contact = true});
-  const Rgb mono = stage.show(scene).at(640, 360);
-  scene.stereo = {.layout = StereoLayout::Anaglyph, .eye_distance_mm = 0};
-  const Rgb anaglyph = stage.show(scene).at(640, 360);
-  EXPECT_NEAR(anaglyph[0], 0.299 * mono[0] + 0.587 * mono[1] + 0.114 * mono[2], 2);
-  EXPECT_EQ(anaglyph[1], mono[1]);
+  Scene scene = blackPlane(20, {});
+  scene.color = makeRgbFrame(32, 18, [](int, int) { return Rgb{255, 255, 255}; });
+  double x = 0, y = 0, deepest = 256;
+  for (const double height : {8.0, 16.0, 30.0}) {
+    scene.finger = FingerMark{.position_mm = {0, 0, 20 + height}};
+    const Image image = stage.show(scene);
+    const Spot at = shadow(image);
+    // To the lower right by 0.35 of the height, 8 pixels a mm.
+    EXPECT_GT(at.x, 640 + 8 * 0.25 * height);
+    EXPECT_GT(at.x, x);
+    EXPECT_GT(at.y, y);
+    const int dark = 255 - image.channel(static_cast<int>(at.x), static_cast<int>(at.y), 0);
+    EXPECT_LT(dark, deepest);
+    EXPECT_GT(dark, 20);
+    x = at.x;
+    y = at.y;
+    deepest = dark;
+  }
+}
+
+TEST(RenderFinger, ContactGlowsOnTheSurfaceTheMoreTheHarder) {
+  STAGE_OR_SKIP(stage, 1280, 720);
+  const auto glow = [&](bool contact, double force) {
+    const FingerMark mark{.position_mm = {0, 0, 20}, .force_n = {0, 0, force}, .contact = contact};
+    const Image image = stage.show(blackPlane(20, mark));
+    return image.channel(640 - 32, 360, 0);  // 4 mm beside the middle: past the sphere
+  };
+  EXPECT_EQ(glow(false, 0), 0);
+  EXPECT_GT(glow(true, 0), 20);
+  EXPECT_GT(glow(true, 4), glow(true, 0) + 20);
 }
 
 TEST(RenderFinger, GoesWhenThereIsNone) {

@@ -94,7 +94,7 @@ TEST_F(PlayerProgram, PlaysAClipThroughTheWholeStackAndReportsIt) {
   EXPECT_EQ(r["video"]["pairs_mismatched"], 0);
   EXPECT_TRUE(r["video"]["first_frame_ms"].is_number());
   EXPECT_EQ(r["video"]["surface"], (json{320, 180}));
-  EXPECT_GT(r["video"]["grid"][0].get<int>(), 1);
+  EXPECT_GT(r["video"]["triangles"].get<int>(), 1);
   EXPECT_EQ(r["film"]["packing"], "tracks");
   EXPECT_THAT(r["film"]["calibration"].get<std::string>(), HasSubstr("bits=16"));
   EXPECT_EQ(r["states"], (json{"boot", "idle", "opening", "buffering", "playing", "ended", "idle"}));

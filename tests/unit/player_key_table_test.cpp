@@ -19,13 +19,37 @@ std::optional<PlayerCommand> pressed(int code, KeyEvent::Action action = KeyEven
 // Numbers, not names: a wrong name in the table shows here.
 TEST(KeyTable, KnowsTheKeysOfRemotesKeyboardsAndCec) {
   const std::map<int, PlayerCommand> expected{
-      {207, PlayerCommand::Play},         {200, PlayerCommand::Play},         {119, PlayerCommand::Pause},
-      {201, PlayerCommand::Pause},        {164, PlayerCommand::PlayPause},    {0x160, PlayerCommand::PlayPause},
-      {28, PlayerCommand::PlayPause},     {0x161, PlayerCommand::PlayPause},  {57, PlayerCommand::PlayPause},
-      {106, PlayerCommand::SeekForward},  {208, PlayerCommand::SeekForward},  {105, PlayerCommand::SeekBackward},
-      {168, PlayerCommand::SeekBackward}, {0x26f, PlayerCommand::NextLayout}, {128, PlayerCommand::Stop},
-      {166, PlayerCommand::Stop},         {158, PlayerCommand::Stop},         {174, PlayerCommand::Stop},
-      {1, PlayerCommand::Stop},           {116, PlayerCommand::Stop},
+      {207, PlayerCommand::Play},
+      {200, PlayerCommand::Play},
+      {119, PlayerCommand::Pause},
+      {201, PlayerCommand::Pause},
+      {164, PlayerCommand::PlayPause},
+      {0x160, PlayerCommand::PlayPause},
+      {28, PlayerCommand::PlayPause},
+      {0x161, PlayerCommand::PlayPause},
+      {57, PlayerCommand::PlayPause},
+      {106, PlayerCommand::SeekForward},
+      {208, PlayerCommand::SeekForward},
+      {105, PlayerCommand::SeekBackward},
+      {168, PlayerCommand::SeekBackward},
+      {0x26f, PlayerCommand::NextLayout},
+      {128, PlayerCommand::Stop},
+      {166, PlayerCommand::Stop},
+      {158, PlayerCommand::Stop},
+      {174, PlayerCommand::Stop},
+      {1, PlayerCommand::Stop},
+      {116, PlayerCommand::Stop},
+      {15, PlayerCommand::NextLayout},
+      {0x191, PlayerCommand::SwapEyes},
+      {18, PlayerCommand::SwapEyes},
+      {103, PlayerCommand::DeeperPicture},
+      {108, PlayerCommand::FlatterPicture},
+      {104, PlayerCommand::ScreenForward},
+      {0x192, PlayerCommand::ScreenForward},
+      {109, PlayerCommand::ScreenBackward},
+      {0x193, PlayerCommand::ScreenBackward},
+      {0x166, PlayerCommand::Info},
+      {23, PlayerCommand::Info},
   };
   for (int code = 0; code <= 0x2ff; ++code) {
     const auto known = expected.find(code);
@@ -53,8 +77,8 @@ TEST(KeyTable, HelpNamesEveryKeyAsScriptsDo) {
       command = meant;
     }
   }
-  EXPECT_EQ(lines, 7);
-  EXPECT_EQ(names, 20);
+  EXPECT_EQ(lines, 13);
+  EXPECT_EQ(names, 31);
 }
 
 TEST(KeyTable, AHeldKeySeeksOnAndDoesNothingElse) {

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// A stereo layout by its word on the command line.
+#pragma once
+
+#include <string_view>
+
+#include "app/render/stereo.h"
+
+namespace relievo {
+
+// "sbs", "tab:full", "anaglyph:gray", "quilt:5x9": sets the layout and its variant in `settings`, and nothing else.
+// False, and nothing is set, for a word that is none.
+[[nodiscard]] bool parseStereo(std::string_view word, StereoSettings& settings);
+
+}  // namespace relievo

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which samples the lattice stands on, and reading them.
+#include "app/render/height_lattice.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace relievo {
+namespace {
+
+constexpr float kSteepest = 4.0F;
+constexpr float kLeastJumpMm = 1.0F;
+
+// Vertices on `samples` samples in a line, in whole tiles of at most `most` cells or one tile.
+std::vector<int> spread(int samples, int most, int tile) {
+  const int cells = std::clamp(samples - 1, 1, std::max(1, most));
+  const int whole = (cells + tile - 1) / tile * tile;
+  std::vector<int> result;
+  for (int i = 0; i <= whole; ++i) result.push_back((2 * i * (samples - 1) + whole) / (2 * whole));
+  return result;
+}
+
+float leastStep(const std::vector<float>& places) {
+  float least = 0;
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const float step = std::abs(places[i] - places[i - 1]);
+    if (step > 0 && (least == 0 || step < least)) least = step;
+  }
+  return least;
+}
+
+}  // namespace
+
+void HeightLattice::lay(const HeightField& field, int most_across) {
+  picture_cols_ = field.cols();
+  picture_rows_ = field.rows();
+  most_across_ = most_across;
+  grid_ = field.grid();
+  const int across = std::clamp(picture_cols_ - 1, 1, most_across);
+  const int down =
+      std::max(1, static_cast<int>(std::lround(static_cast<double>(picture_rows_) * across / picture_cols_)));
+  tile_ = std::min(kLargestTile, static_cast<int>(std::bit_floor(static_cast<unsigned>(std::min(across, down)))));
+  columns_ = spread(picture_cols_, across, tile_);
+  rows_ = spread(picture_rows_, down, tile_);
+  xs_.clear();
+  us_.clear();
+  for (const int c : columns_) {
+    xs_.push_back(static_cast<float>(grid_.x(c)));
+    us_.push_back((static_cast<float>(c) + 0.5F) / static_cast<float>(picture_cols_));
+  }
+  ys_.clear();
+  vs_.clear();
+  for (const int r : rows_) {
+    ys_.push_back(static_cast<float>(grid_.y(r)));
+    vs_.push_back((static_cast<float>(r) + 0.5F) / static_cast<float>(picture_rows_));
+  }
+  const float across_mm = leastStep(xs_), down_mm = leastStep(ys_);
+  const float cell_mm = across_mm == 0 ? down_mm : down_mm == 0 ? across_mm : std::min(across_mm, down_mm);
+  jump_mm_ = std::max(kSteepest * cell_mm, kLeastJumpMm);
+  heights_.resize(columns_.size() * rows_.size());
+}
+
+void HeightLattice::read(const HeightField& field, int most_across) {
+  const GridMapping& grid = field.grid();
+  const bool same = field.cols() == picture_cols_ && field.rows() == picture_rows_ && most_across == most_across_ &&
+                    grid.u_per_mm == grid_.u_per_mm && grid.v_per_mm == grid_.v_per_mm;
+  if (!same) lay(field, most_across);
+  const std::size_t width = columns_.size();
+  for (int j = 0; j < rows(); ++j) {
+    float* line = heights_.data() + static_cast<std::size_t>(j) * width;
+    if (j > 0 && rows_[static_cast<std::size_t>(j)] == rows_[static_cast<std::size_t>(j) - 1]) {
+      std::copy_n(line - width, width, line);
+    } else if (field.readRow(row(j), columns_, line)) {
+      fillHoles(j);
+    }
+  }
+}
+
+void HeightLattice::fillHoles(int j) {
+  float* line = heights_.data() + static_cast<std::size_t>(j) * columns_.size();
+  const int count = cols();
+  int i = 0;
+  while (i < count) {
+    if (!std::isnan(line[i])) {
+      ++i;
+      continue;
+    }
+    int end = i;
+    while (end < count && std::isnan(line[end])) ++end;
+    const float before = i > 0 ? line[i - 1] : HUGE_VALF;
+    const float behind = end < count ? line[end] : HUGE_VALF;
+    float fill = std::min(before, behind);
+    if (fill == HUGE_VALF) fill = 0;  // nothing was measured in this row
+    std::fill(line + i, line + end, fill);
+    i = end;
+  }
+}
+
+}  // namespace relievo

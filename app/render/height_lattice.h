@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// The depth picture as heights on a lattice of square tiles, whose sides are a power of two: what is subdivided.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "app/scene/height_field.h"
+
+namespace relievo {
+
+// Every vertex stands on a true sample. A picture whose sides are no multiple of the tile has some columns and rows
+// twice, one whose samples are more than are wanted has some left out; both evenly spread. A hole has the height of
+// the farther of its neighbours in the row: its colour is known, and what was not measured is mostly hidden background.
+class HeightLattice {
+ public:
+  static constexpr int kLargestTile = 32;
+
+  // Between two neighbouring samples a step of more than this parts two things: steeper than 4 in 1, and more than
+  // the noise of coded depth.
+  [[nodiscard]] float jumpMm() const noexcept { return jump_mm_; }
+
+  // About `most_across` cells in a row at most, and as many down as the picture's shape wants.
+  void read(const HeightField& field, int most_across);
+
+  [[nodiscard]] int tile() const noexcept { return tile_; }
+  [[nodiscard]] int cols() const noexcept { return static_cast<int>(columns_.size()); }  // vertices
+  [[nodiscard]] int rows() const noexcept { return static_cast<int>(rows_.size()); }
+  [[nodiscard]] std::size_t size() const noexcept { return heights_.size(); }
+  [[nodiscard]] const float* heights() const noexcept { return heights_.data(); }  // mm, row by row
+  [[nodiscard]] float* heights() noexcept { return heights_.data(); }
+  // The sample under a vertex, its place in mm and in the picture, 0 to 1.
+  [[nodiscard]] int column(int i) const noexcept { return columns_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] int row(int j) const noexcept { return rows_[static_cast<std::size_t>(j)]; }
+  [[nodiscard]] float x(int i) const noexcept { return xs_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] float y(int j) const noexcept { return ys_[static_cast<std::size_t>(j)]; }
+  [[nodiscard]] float u(int i) const noexcept { return us_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] float v(int j) const noexcept { return vs_[static_cast<std::size_t>(j)]; }
+
+ private:
+  void lay(const HeightField& field, int most_across);
+  void fillHoles(int j);
+
+  int tile_ = 1;
+  float jump_mm_ = 0;
+  int picture_cols_ = 0, picture_rows_ = 0, most_across_ = 0;
+  GridMapping grid_;
+  std::vector<int> columns_, rows_;
+  std::vector<float> xs_, ys_, us_, vs_;
+  std::vector<float> heights_;
+};
+
+}  // namespace relievo

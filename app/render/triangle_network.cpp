@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// The errors of the vertices from the fine to the coarse, and the triangles from the coarse to the fine.
+#include "app/render/triangle_network.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace relievo {
+
+void TriangleNetwork::measure(const HeightLattice& lattice, const CutCells& cuts) {
+  cuts_ = &cuts;
+  cols_ = lattice.cols();
+  rows_ = lattice.rows();
+  tile_ = lattice.tile();
+  errors_.assign(lattice.size(), 0.0F);
+  markCuts();
+  for (int step = 1; step < tile_; step *= 2) {
+    if (step == 1) {
+      measureFinest(lattice.heights());
+    } else {
+      measureSides(lattice.heights(), step);
+    }
+    measureMiddles(lattice.heights(), step);
+  }
+}
+
+// The smallest triangles have their right angles at the vertices with i + j odd: where those two of a cell are there,
+// so are the two halves of the cell.
+void TriangleNetwork::markCuts() {
+  const auto width = static_cast<std::uint32_t>(cols_);
+  for (const std::uint32_t cell : cuts_->cells()) {
+    const bool odd = ((cell / width + cell % width) & 1U) != 0;
+    errors_[odd ? cell : cell + 1] = std::numeric_limits<float>::infinity();
+    errors_[odd ? cell + width + 1 : cell + width] = std::numeric_limits<float>::infinity();
+  }
+}
+
+// Leaving a vertex out moves the surface at most by what it moves there, and so do those that depend on it: the sum is
+// a bound. First those on the middle of a hypotenuse of two cells, along a row or a column; what is written beside
+// them is written again by the coarser ones.
+void TriangleNetwork::measureFinest(const float* z) {
+  const auto width = static_cast<std::size_t>(cols_);
+  for (std::size_t j = 0; j < static_cast<std::size_t>(rows_); ++j) {
+    const float* line = z + j * width;
+    float* error = errors_.data() + j * width;
+    if (j % 2 == 0) {
+      for (std::size_t i = 1; i + 1 < width; ++i) error[i] += std::abs(line[i] - 0.5F * (line[i - 1] + line[i + 1]));
+    } else {
+      const float *above = line - width, *below = line + width;
+      for (std::size_t i = 0; i < width; ++i) error[i] += std::abs(line[i] - 0.5F * (above[i] + below[i]));
+    }
+  }
+}
+
+// The middles of hypotenuses of 2 step along an axis; on those depend the four middles beside each.
+void TriangleNetwork::measureSides(const float* z, int step) {
+  const auto width = static_cast<std::ptrdiff_t>(cols_);
+  const std::ptrdiff_t half = step / 2, half_down = half * width;
+  for (int j = 0; j < rows_; j += step) {
+    const bool odd_row = ((j / step) & 1) != 0;
+    const std::ptrdiff_t way = odd_row ? step * width : step;
+    const bool above = j > 0, under = j + 1 < rows_;
+    for (int i = odd_row ? 0 : step; i < cols_; i += 2 * step) {
+      const std::ptrdiff_t at = j * width + i;
+      const bool left = i > 0, right = i + 1 < cols_;
+      const float* error = errors_.data() + at;
+      float below = 0;
+      if (above && left) below = std::max(below, error[-half_down - half]);
+      if (above && right) below = std::max(below, error[-half_down + half]);
+      if (under && left) below = std::max(below, error[half_down - half]);
+      if (under && right) below = std::max(below, error[half_down + half]);
+      errors_[static_cast<std::size_t>(at)] = std::abs(z[at] - 0.5F * (z[at - way] + z[at + way])) + below;
+    }
+  }
+}
+
+// The middles of hypotenuses of 2 step along both axes, that fall or rise in turns; on those depend the four beside,
+// above and below each.
+void TriangleNetwork::measureMiddles(const float* z, int step) {
+  const std::ptrdiff_t width = cols_, down = step * width;
+  for (int j = step; j < rows_; j += 2 * step) {
+    for (int i = step; i < cols_; i += 2 * step) {
+      const std::ptrdiff_t at = j * width + i;
+      const bool falling = (((i - step) / (2 * step) + (j - step) / (2 * step)) & 1) == 0;
+      const std::ptrdiff_t way = falling ? down + step : down - step;
+      const float* error = errors_.data() + at;
+      const float below = std::max(std::max(error[-step], error[step]), std::max(error[-down], error[down]));
+      errors_[static_cast<std::size_t>(at)] = std::abs(z[at] - 0.5F * (z[at - way] + z[at + way])) + below;
+    }
+  }
+}
+
+void TriangleNetwork::triangulate(float error_mm) {
+  error_mm_ = error_mm;
+  triangles_.clear();
+  const int depth = 2 * std::countr_zero(static_cast<unsigned>(tile_));
+  const auto vertex = [this](int i, int j) { return static_cast<std::uint32_t>(j * cols_ + i); };
+  for (int j = 0; j + 1 < rows_; j += tile_) {
+    for (int i = 0; i + 1 < cols_; i += tile_) {
+      const std::uint32_t top_left = vertex(i, j), top_right = vertex(i + tile_, j);
+      const std::uint32_t low_left = vertex(i, j + tile_), low_right = vertex(i + tile_, j + tile_);
+      if (((i + j) / tile_ & 1) == 0) {
+        split(top_left, low_right, top_right, depth);
+        split(low_right, top_left, low_left, depth);
+      } else {
+        split(low_left, top_right, top_left, depth);
+        split(top_right, low_left, low_right, depth);
+      }
+    }
+  }
+}
+
+void TriangleNetwork::split(std::uint32_t a, std::uint32_t b, std::uint32_t apex, int depth) {
+  const std::uint32_t middle = (a + b) / 2;
+  if (depth > 0 && errors_[middle] > error_mm_) {
+    split(apex, a, middle, depth - 1);
+    split(b, apex, middle, depth - 1);
+    return;
+  }
+  if (depth == 0) {
+    // Of half a cell the top left corner of the cell is in the row of its upper corners and the column of its left.
+    const auto width = static_cast<std::uint32_t>(cols_);
+    const std::uint32_t row = std::min({a / width, b / width, apex / width});
+    const std::uint32_t col = std::min({a % width, b % width, apex % width});
+    if (cuts_->contains(row * width + col)) return;
+  }
+  triangles_.push_back({a, b, apex});
+}
+
+}  // namespace relievo

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// A right-triangulated irregular network: as few triangles as keep within an error of the lattice's heights.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "app/render/cut_cells.h"
+#include "app/render/height_lattice.h"
+
+namespace relievo {
+
+// W. Evans, D. Kirkpatrick, G. Townsend, "Right-triangulated irregular networks", Algorithmica 30 (2001): a right
+// isosceles triangle is split at the middle of its hypotenuse, both that share it at once, so that no crack opens. Each
+// vertex knows the error of leaving it and all that depend on it out; that follows the moving depth with one pass over
+// the samples, and nothing is kept from frame to frame.
+class TriangleNetwork {
+ public:
+  struct Triangle {
+    std::uint32_t a, b, c;  // vertices of the lattice, counterclockwise to the viewer
+  };
+
+  // From the fine to the coarse. A cut cell is reached by the finest triangles alone, and none of them covers it. Both
+  // are looked at again by `triangulate`.
+  void measure(const HeightLattice& lattice, const CutCells& cuts);
+  // No point of the lattice is farther than `error_mm` from the triangles, along z, but for those of the cut cells.
+  void triangulate(float error_mm);
+
+  [[nodiscard]] const std::vector<Triangle>& triangles() const noexcept { return triangles_; }
+
+ private:
+  void markCuts();
+  void measureFinest(const float* z);
+  void measureSides(const float* z, int step);
+  void measureMiddles(const float* z, int step);
+  void split(std::uint32_t a, std::uint32_t b, std::uint32_t apex, int depth);
+
+  const CutCells* cuts_ = nullptr;
+  int cols_ = 0, rows_ = 0, tile_ = 1;
+  float error_mm_ = 0;
+  std::vector<float> errors_;
+  std::vector<Triangle> triangles_;
+};
+
+}  // namespace relievo
