@@ -38,6 +38,7 @@ constexpr std::array kBindings{
     RELIEVO_BIND(LEFT, SeekBackward, true),
     RELIEVO_BIND(REWIND, SeekBackward, true),
     RELIEVO_BIND(3D_MODE, NextLayout),
+    RELIEVO_BIND(S, NextLayout),
     RELIEVO_BIND(STOP, Stop),
     RELIEVO_BIND(STOPCD, Stop),
     RELIEVO_BIND(BACK, Stop),

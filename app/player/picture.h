@@ -42,6 +42,9 @@ class Picture {
   void setPair(const FramePair& pair);
   // Fails for what no retry helps: no renderer, a pixel format that cannot be drawn.
   [[nodiscard]] Result<Shown> show(const std::optional<FingerMark>& finger, MonotonicTime now);
+  // Between pictures, often. True when the last one should be drawn anew; Lost when the screen has gone just now, and
+  // is tried again from `show`; Cancelled when the viewer has closed it.
+  [[nodiscard]] Result<bool> attend(MonotonicTime now);
   // Mono, side by side, anaglyph, mono, ..
   void nextLayout() noexcept;
 
@@ -53,6 +56,7 @@ class Picture {
   [[nodiscard]] const RenderStatistics& statistics() const noexcept { return statistics_; }
 
  private:
+  void lose(MonotonicTime now) noexcept;
   [[nodiscard]] Result<void> drawAndPresent(const std::optional<FingerMark>& finger);
   [[nodiscard]] Result<void> draw(const DisplaySurface& surface, const std::optional<FingerMark>& finger);
 

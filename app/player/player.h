@@ -65,6 +65,7 @@ class Player {
   void finish();
 
   void boot();
+  void attendScreen(MonotonicTime now);
   void readRemote(MonotonicTime now);
   void obey(PlayerCommand command, MonotonicTime now);
   void setHeld(bool held, MonotonicTime now);
@@ -88,6 +89,7 @@ class Player {
   void showPresent(MonotonicTime now);
   void redrawFinger(MonotonicTime now);
   [[nodiscard]] bool draw(MonotonicTime now);
+  void noteLost();
   void drainTouch();
   [[nodiscard]] std::optional<FingerMark> fingerMark();
   [[nodiscard]] MediaTime seekBase(MonotonicTime now) const;

@@ -244,9 +244,13 @@ bool Player::draw(MonotonicTime now) {
     fail(film ? config_.source.url : std::string("display ") + picture_.capabilities().name, shown.error());
     return false;
   }
-  if (*shown == Picture::Shown::Lost) note("display lost", "film and touch go on; it is tried again every second");
+  if (*shown == Picture::Shown::Lost) noteLost();
   if (*shown == Picture::Shown::Back) note("display back", "the picture is on it again");
   return *shown == Picture::Shown::OnScreen || *shown == Picture::Shown::Back;
+}
+
+void Player::noteLost() {
+  note("display lost", "film and touch go on; it is tried again every second");
 }
 
 std::optional<FingerMark> Player::fingerMark() {

@@ -25,7 +25,7 @@ TEST(KeyTable, KnowsTheKeysOfRemotesKeyboardsAndCec) {
       {106, PlayerCommand::SeekForward},  {208, PlayerCommand::SeekForward},  {105, PlayerCommand::SeekBackward},
       {168, PlayerCommand::SeekBackward}, {0x26f, PlayerCommand::NextLayout}, {128, PlayerCommand::Stop},
       {166, PlayerCommand::Stop},         {158, PlayerCommand::Stop},         {174, PlayerCommand::Stop},
-      {1, PlayerCommand::Stop},           {116, PlayerCommand::Stop},
+      {1, PlayerCommand::Stop},           {116, PlayerCommand::Stop},         {31, PlayerCommand::NextLayout},
   };
   for (int code = 0; code <= 0x2ff; ++code) {
     const auto known = expected.find(code);
@@ -54,7 +54,7 @@ TEST(KeyTable, HelpNamesEveryKeyAsScriptsDo) {
     }
   }
   EXPECT_EQ(lines, 7);
-  EXPECT_EQ(names, 20);
+  EXPECT_EQ(names, 21);
 }
 
 TEST(KeyTable, AHeldKeySeeksOnAndDoesNothingElse) {
