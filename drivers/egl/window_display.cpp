@@ -19,8 +19,9 @@ constexpr SDL_Scancode kFullScreenKey = SDL_SCANCODE_F11;
 constexpr const char* kNoGles =
     "the desktop gives no window with GLES 3; install a GL driver (Debian: libegl1, libgl1-mesa-dri)";
 
-// What a user has set in the environment goes before these.
-void giveHints() {
+// SDL's video stays once it is there, and so does the GL driver, like a library stays loaded: Mesa's software one does not survive without leaks. What a user has set in the environment goes before the hints.
+bool startSdl() {
+  if (SDL_WasInit(SDL_INIT_VIDEO) != 0) return true;
   // The console is the kms display's. Without a Wayland server its library would complain on stderr.
   SDL_SetHint(SDL_HINT_VIDEODRIVER, std::getenv("WAYLAND_DISPLAY") != nullptr ? "x11,wayland" : "x11");
   SDL_SetHint(SDL_HINT_VIDEO_X11_FORCE_EGL, "1");       // not GLX
@@ -28,6 +29,20 @@ void giveHints() {
   SDL_SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");  // a press that brings the window forward presses as well
   SDL_SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
   SDL_SetHint(SDL_HINT_APP_NAME, kTitle);
+  if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) return false;
+  SDL_StopTextInput();  // no input method between the keys and here
+  SDL_GL_ResetAttributes();
+  for (const auto& [attribute, value] : {std::pair{SDL_GL_CONTEXT_PROFILE_MASK, int{SDL_GL_CONTEXT_PROFILE_ES}},
+                                         {SDL_GL_CONTEXT_MAJOR_VERSION, 3},
+                                         {SDL_GL_CONTEXT_MINOR_VERSION, 0},
+                                         {SDL_GL_RED_SIZE, 8},
+                                         {SDL_GL_GREEN_SIZE, 8},
+                                         {SDL_GL_BLUE_SIZE, 8},
+                                         {SDL_GL_DEPTH_SIZE, 24}}) {
+    SDL_GL_SetAttribute(attribute, value);
+  }
+  SDL_GL_LoadLibrary(nullptr);  // once more than the windows do; what is wrong with it a window tells
+  return true;
 }
 
 class WindowDisplay final : public Display {
@@ -58,7 +73,6 @@ class WindowDisplay final : public Display {
 
   std::shared_ptr<WindowInput> input_;
   const Clock& clock_;
-  bool started_ = false;  // SDL's video
   SDL_Window* window_ = nullptr;
   SDL_GLContext context_ = nullptr;
   Duration refresh_period_{0};
@@ -69,22 +83,8 @@ class WindowDisplay final : public Display {
 };
 
 Result<void> WindowDisplay::openDisplay(const DisplayConfig& config) {
-  giveHints();
-  if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) {
+  if (!startSdl()) {
     return fail(ErrorCode::Unsupported, "there is no desktop to open a window on; start it from one (X11 or Wayland)");
-  }
-  started_ = true;
-  SDL_StopTextInput();  // no input method between the keys and here
-
-  SDL_GL_ResetAttributes();
-  for (const auto& [attribute, value] : {std::pair{SDL_GL_CONTEXT_PROFILE_MASK, int{SDL_GL_CONTEXT_PROFILE_ES}},
-                                         {SDL_GL_CONTEXT_MAJOR_VERSION, 3},
-                                         {SDL_GL_CONTEXT_MINOR_VERSION, 0},
-                                         {SDL_GL_RED_SIZE, 8},
-                                         {SDL_GL_GREEN_SIZE, 8},
-                                         {SDL_GL_BLUE_SIZE, 8},
-                                         {SDL_GL_DEPTH_SIZE, 24}}) {
-    SDL_GL_SetAttribute(attribute, value);
   }
   window_ = SDL_CreateWindow(kTitle, SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, config.width, config.height,
                              SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
@@ -213,7 +213,6 @@ void WindowDisplay::closeDisplay() noexcept {
   if (window_ != nullptr) input_->open = false;
   if (context_ != nullptr) SDL_GL_DeleteContext(std::exchange(context_, nullptr));
   if (window_ != nullptr) SDL_DestroyWindow(std::exchange(window_, nullptr));
-  if (std::exchange(started_, false)) SDL_QuitSubSystem(SDL_INIT_VIDEO);
 }
 
 }  // namespace

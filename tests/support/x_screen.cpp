@@ -77,22 +77,22 @@ std::unique_ptr<XScreen> XScreen::start() {
   XSelectInput(connection, DefaultRootWindow(connection), SubstructureNotifyMask);
   ::setenv("DISPLAY", name.c_str(), 1);
   ::unsetenv("WAYLAND_DISPLAY");
+  ::setenv("DBUS_SESSION_BUS_ADDRESS", "disabled:", 1);  // there is no session that it could start a bus for
   return std::unique_ptr<XScreen>(new XScreen(server, connection));
 }
 
 XScreen::~XScreen() {
-  if (connection_ != nullptr) XCloseDisplay(connection_);
   kill();
   ::unsetenv("DISPLAY");
 }
 
 void XScreen::kill() {
   if (server_ <= 0) return;
+  XCloseDisplay(connection_);  // first: without its server it would end this program
+  connection_ = nullptr;
   ::kill(server_, SIGKILL);
   ::waitpid(server_, nullptr, 0);
   server_ = 0;
-  if (connection_ != nullptr) ::close(ConnectionNumber(connection_));  // to say goodbye to it would end this program
-  connection_ = nullptr;
 }
 
 std::array<int, 3> XScreen::pixel(int x, int y) const {
