@@ -14,12 +14,13 @@
 #include "drivers/polhem/polhem.h"
 #include "drivers/replay/replay.h"
 #include "drivers/sim/profiles.h"
+#include "drivers/window/window_remote.h"
 
-#define RELIEVO_DISPLAY_NAMES "offscreen[:FILE.y4m] mock"
-#define RELIEVO_HAPTIC_NAMES                                                 \
-  "falcon[:FIRMWARE] polhem[:DESCRIPTION.json] pointer[:/dev/input/eventN] " \
+#define RELIEVO_DISPLAY_NAMES "window offscreen[:FILE.y4m] mock"
+#define RELIEVO_HAPTIC_NAMES                                                         \
+  "falcon[:FIRMWARE] polhem[:DESCRIPTION.json] pointer[:window|:/dev/input/eventN] " \
   "sim[:phantom|falcon|polhem][,stroking|resting|tapping|tense|shaking][,SCRIPT.csv] replay:FILE mock none"
-#define RELIEVO_REMOTE_NAMES "script:FILE none"
+#define RELIEVO_REMOTE_NAMES "window script:FILE none"
 
 namespace relievo::drivers {
 
@@ -44,6 +45,11 @@ struct Spec {
   }
 };
 
+const std::shared_ptr<WindowInput>& theWindow() {
+  static const auto input = std::make_shared<WindowInput>();
+  return input;
+}
+
 FalconConfig falconConfig(const HapticSettings& settings, const std::optional<std::string>& firmware) {
   FalconConfig config{.firmware_path = firmware.value_or(settings.falcon_firmware)};
   if (settings.falcon_counts_per_nm) config.counts_per_nm = *settings.falcon_counts_per_nm;
@@ -65,6 +71,7 @@ std::unexpected<Failure> unknown(const char* option, std::string_view name, cons
 Outcome<std::unique_ptr<Display>> makeDisplay(std::string_view text) {
   static MonotonicClock clock;  // has no state
   const Spec spec(text);
+  if (spec.plain("window")) return makeWindowDisplay(theWindow(), clock);
   if (spec.plain("offscreen")) return makeOffscreenDisplay("", clock);
   if (spec.withArgument("offscreen")) return makeOffscreenDisplay(*spec.argument, clock);
   if (spec.plain("mock")) return makeMockDisplay(MockDisplayProfile{}, clock);
@@ -87,6 +94,7 @@ Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(std::string_view text, C
     if (!setup) return std::unexpected(setup.error());
     return makeSimHaptic(setup->profile, std::move(setup->path), clock);
   }
+  if (text == "pointer:window") return makePointer(theWindow(), clock);
   if (spec.plain("pointer") || spec.withArgument("pointer")) return makePointer(spec.argument.value_or(""), clock);
   if (spec.withArgument("replay")) {
     auto recording = Recording::load(*spec.argument);
@@ -100,6 +108,7 @@ Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(std::string_view text, C
 
 Outcome<std::unique_ptr<RemoteInput>> makeRemoteInput(std::string_view text, Clock& clock) {
   const Spec spec(text);
+  if (spec.plain("window")) return makeWindowRemote(theWindow());
   if (spec.withArgument("script")) {
     auto keys = loadKeyScript(*spec.argument);
     if (!keys) return std::unexpected(keys.error());
@@ -119,7 +128,7 @@ std::unique_ptr<VideoDecoder> makeVideoDecoder() {
 
 std::vector<DeviceState> lookAtDevices(const HapticSettings& settings, Clock& clock) {
   return {look("falcon", *makeFalcon(falconConfig(settings, std::nullopt), clock)),
-          look("polhem", *makePolhem({}, clock)), look("pointer", *makePointer("", clock))};
+          look("polhem", *makePolhem({}, clock)), look("pointer", *makePointer(std::string(), clock))};
 }
 
 void stopAllMotors() noexcept {

@@ -33,7 +33,8 @@ struct HapticSettings {
 
 // A null pointer means "none". The failure names the option when its word is not known (InvalidArgument), the script
 // when that is not there (NotFound), or its line when that is wrong (InvalidArgument).
-// `clock` must outlive what is made.
+// `clock` must outlive what is made. The names with "window" in them are about the one window of the process: its
+// display, its keys and its mouse.
 [[nodiscard]] Outcome<std::unique_ptr<Display>> makeDisplay(std::string_view spec);
 [[nodiscard]] Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(std::string_view spec, Clock& clock,
                                                                       const HapticSettings& settings = {});

@@ -31,6 +31,11 @@ Result<Duration> Display::present() {
   return showFrame();
 }
 
+Result<bool> Display::attend() {
+  if (state_ != State::Open) return fail(ErrorCode::InvalidState, "a display is attended to when open, between frames");
+  return attendScreen();
+}
+
 void Display::close() noexcept {
   if (state_ == State::Closed) return;
   closeDisplay();

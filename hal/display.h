@@ -12,7 +12,7 @@ namespace relievo {
 struct DisplayCapabilities {
   const char* name = "";
   bool gles = false;           // a GLES 3 context is current on the opener's thread while open
-  Duration refresh_period{0};  // 0: shows a frame at once, whenever it comes
+  Duration refresh_period{0};  // of the screen, known from `open` on; 0: shows a frame at once, whenever it comes
 };
 
 struct DisplayConfig {
@@ -28,8 +28,8 @@ struct DisplaySurface {
   int height = 0;
 };
 
-// States: Closed -open-> Open -beginFrame-> Drawing -present-> Open; any -close-> Closed. A verb in a state that does
-// not allow it returns InvalidState and changes nothing.
+// States: Closed -open-> Open -beginFrame-> Drawing -present-> Open; any -close-> Closed; `attend` when Open. A verb in
+// a state that does not allow it returns InvalidState and changes nothing.
 //
 // Thread: the one that opened it, since a GL context belongs to a thread. Blocking: `present` may wait for the next
 // refresh, never longer. Lost: the screen has gone; `close`, then `open` again when it is back.
@@ -44,16 +44,21 @@ class Display {
   [[nodiscard]] Result<DisplaySurface> beginFrame();
   // Shows what was drawn. Returns how long after the call it is on the screen (0 for an offscreen one).
   [[nodiscard]] Result<Duration> present();
+  // Between frames, often, also while a picture stands: does what the system wants of a screen meanwhile. True when the
+  // last frame should be drawn anew, since its size has changed or it was covered. Cancelled when the viewer has closed
+  // the window: the film is to end. Never waits.
+  [[nodiscard]] Result<bool> attend();
   void close() noexcept;
 
   [[nodiscard]] State state() const noexcept { return state_; }
-  // The same in every state.
+  // But for what is known from `open` on the same in every state.
   [[nodiscard]] virtual DisplayCapabilities capabilities() const noexcept = 0;
 
  private:
   virtual Result<void> openDisplay(const DisplayConfig& config) = 0;
   virtual Result<DisplaySurface> startFrame() = 0;
   virtual Result<Duration> showFrame() = 0;
+  virtual Result<bool> attendScreen() { return false; }
   virtual void closeDisplay() noexcept = 0;
 
   State state_ = State::Closed;

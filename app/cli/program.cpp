@@ -3,6 +3,7 @@
 #include "app/cli/program.h"
 
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 
@@ -34,6 +35,7 @@ const std::atomic<bool>& stopOnSignals(void (*last)() noexcept) noexcept {
   action.sa_handler = onSignal;
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::sigaction(number, &action, nullptr);
   if (last == nullptr) return stop_wanted;
+  std::atexit([] { last_act.load()(); });
   action.sa_handler = endNow;
   for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) {
     struct sigaction old{};

@@ -25,7 +25,8 @@ inline int tell(const Failure& failure) {
 
 // From now on SIGINT, SIGTERM and SIGHUP set what is returned: the work is to end in good order. A second signal, of
 // either kind, ends the program at once, as a fault of the program does (SIGSEGV, SIGABRT and their like); `last`, if
-// given, is called first: async-signal-safe. Once.
+// given, is called first, and also when a library ends the program by `exit`, as Xlib does without its server:
+// async-signal-safe. Once.
 [[nodiscard]] const std::atomic<bool>& stopOnSignals(void (*last)() noexcept = nullptr) noexcept;
 
 // The body of a main, which answers its exit code. `name` (a literal) goes before each line on stderr. What is thrown

@@ -39,6 +39,7 @@ constexpr std::array kBindings{
     RELIEVO_BIND(REWIND, SeekBackward, true),
     RELIEVO_BIND(3D_MODE, NextLayout),
     RELIEVO_BIND(TAB, NextLayout),
+    RELIEVO_BIND(S, NextLayout),
     RELIEVO_BIND(BLUE, SwapEyes),
     RELIEVO_BIND(E, SwapEyes),
     RELIEVO_BIND(UP, DeeperPicture, true),

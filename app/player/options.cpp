@@ -7,6 +7,7 @@
 #include <array>
 
 #include "app/cli/options.h"
+#include "app/cli/program.h"
 #include "app/player/key_table.h"
 #include "app/player/stereo_word.h"
 
@@ -40,6 +41,8 @@ constexpr const char* kPlayFooter =
     "      one file with colour on top and depth as hue below, for red-cyan glasses, again and again for a minute\n"
     "  relievo play film.mkv --display offscreen:film.y4m --haptic sim:hand.csv --remote script:keys.txt\n"
     "      the picture into a file that ffmpeg reads, finger and keys by scripts\n"
+    "  relievo play film.mkv --display window --haptic pointer\n"
+    "      in a window on the desktop: its keys are the remote, its mouse is the finger; F11 fills the screen\n"
     "\nA hand script has the line t_s,x_mm,y_mm,z_mm and a row a moment; x right, y up, z toward the viewer, 0,0,0 in "
     "the\n"
     "middle of the far plane. A key script has lines such as: 2.5 PLAYPAUSE (seconds, a key's name). Keys, by their "
@@ -124,7 +127,9 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
   addStereoOptions(command, play.player.stereo);
   command.add_option("--haptic", play.haptic, std::string("What the finger holds [sim]\n") + names.haptic)
       ->type_name("NAME");
-  command.add_option("--remote", play.remote, std::string("Where keys come from [none]\n") + names.remote)
+  command
+      .add_option("--remote", play.remote,
+                  std::string("Where keys come from [a window's own keys, or none]\n") + names.remote)
       ->type_name("NAME");
   addVolumeOption(command, play.player.volume);
   command.add_flag("--loop", play.player.loop, "Begin again at the end");
@@ -137,6 +142,19 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
   command.add_option("--record", play.record_path, "Write every tick of the finger, as CSV")->type_name("FILE");
   addConfigOption(command, play.config_path);
   command.footer(kPlayFooter + keyHelp() + kExitCodes);
+}
+
+// A window brings its keys and its mouse along; nothing else has them.
+Outcome<void> settleWindow(PlayOptions& play) {
+  const bool window = play.display == "window";
+  if (play.remote.empty()) play.remote = window ? "window" : "none";
+  if (window && play.haptic == "pointer") play.haptic = "pointer:window";
+  const auto none = [](const std::string& thing) {
+    return failOn(thing, {ErrorCode::InvalidArgument, 0, "there is no window; add --display window"});
+  };
+  if (!window && play.remote == "window") return none("--remote window");
+  if (!window && play.haptic == "pointer:window") return none("--haptic pointer:window");
+  return {};
 }
 
 }  // namespace
@@ -164,6 +182,9 @@ std::expected<Options, int> parseOptions(int argc, const char* const* argv, cons
                     : devices.parsed() ? Options::Command::Devices
                                        : Options::Command::Play;
   options.devices.calibrate = calibrate.parsed();
+  if (play.parsed()) {
+    if (auto settled = settleWindow(options.play); !settled) return std::unexpected(tell(settled.error()));
+  }
   return options;
 }
 

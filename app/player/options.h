@@ -13,7 +13,7 @@ struct PlayOptions {
   PlayerConfig player;
   std::string display = "offscreen";
   std::string haptic = "sim";
-  std::string remote = "none";
+  std::string remote;
   std::string report_path;  // empty: none
   std::string record_path;
   std::string config_path;  // empty: the default one

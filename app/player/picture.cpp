@@ -39,9 +39,20 @@ Result<Picture::Shown> Picture::show(const std::optional<FingerMark>& finger, Mo
   const auto drawn = drawAndPresent(finger);
   if (drawn) return was_away ? Shown::Back : Shown::OnScreen;
   if (drawn.error().code != ErrorCode::Lost) return std::unexpected(drawn.error());
+  lose(now);
+  return was_away ? Shown::NoScreen : Shown::Lost;
+}
+
+void Picture::lose(MonotonicTime now) noexcept {
   close();
   next_retry_ = now + kRetryPeriod;
-  return was_away ? Shown::NoScreen : Shown::Lost;
+}
+
+Result<bool> Picture::attend(MonotonicTime now) {
+  if (away()) return false;
+  auto attended = display_.attend();
+  if (!attended && attended.error().code == ErrorCode::Lost) lose(now);
+  return attended;
 }
 
 Result<void> Picture::drawAndPresent(const std::optional<FingerMark>& finger) {

@@ -47,6 +47,9 @@ class Picture {
   void setText(std::vector<std::string> lines) { text_ = std::move(lines); }
   // Fails for what no retry helps: no renderer, a pixel format that cannot be drawn.
   [[nodiscard]] Result<Shown> show(const std::optional<FingerMark>& finger, MonotonicTime now);
+  // Between pictures, often. True when the last one should be drawn anew; Lost when the screen has gone just now, and
+  // is tried again from `show`; Cancelled when the viewer has closed it.
+  [[nodiscard]] Result<bool> attend(MonotonicTime now);
   // The next one that the surface takes.
   void nextLayout() noexcept;
   void swapEyes() noexcept;
@@ -64,6 +67,7 @@ class Picture {
   [[nodiscard]] const RenderStatistics& statistics() const noexcept { return statistics_; }
 
  private:
+  void lose(MonotonicTime now) noexcept;
   [[nodiscard]] Result<void> drawAndPresent(const std::optional<FingerMark>& finger);
   [[nodiscard]] Result<void> draw(const DisplaySurface& surface, const std::optional<FingerMark>& finger);
   void fallBack(const DisplaySurface& surface) noexcept;

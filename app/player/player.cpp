@@ -103,6 +103,7 @@ void Player::step(MonotonicTime now) {
     while (feed_.work()) {
     }
   }
+  attendScreen(now);
   readRemote(now);
   followDevice();
   followReader(now);
@@ -144,6 +145,19 @@ PlayReport Player::report() const {
   report.draw_ms = picture_.statistics().frame_ms;
   report.haptic = haptic_.summary();
   return report;
+}
+
+void Player::attendScreen(MonotonicTime now) {
+  const auto redraw = picture_.attend(now);
+  if (redraw) {
+    redraw_ = redraw_ || *redraw;
+  } else if (redraw.error().code == ErrorCode::Cancelled) {
+    end(now);
+  } else if (redraw.error().code == ErrorCode::Lost) {
+    noteLost();
+  } else {
+    fail(std::string("display ") + picture_.capabilities().name, redraw.error());
+  }
 }
 
 void Player::readRemote(MonotonicTime now) {

@@ -67,6 +67,7 @@ class Player {
   void finish();
 
   void boot();
+  void attendScreen(MonotonicTime now);
   void readRemote(MonotonicTime now);
   void obey(PlayerCommand command, MonotonicTime now);
   void changeStereo(PlayerCommand command);
@@ -91,6 +92,7 @@ class Player {
   void showPresent(MonotonicTime now);
   void redrawFinger(MonotonicTime now);
   [[nodiscard]] bool draw(MonotonicTime now);
+  void noteLost();
   void drainTouch();
   [[nodiscard]] std::optional<FingerMark> fingerMark();
   void writeText(MonotonicTime now);

@@ -260,7 +260,7 @@ bool Player::draw(MonotonicTime now) {
   if (const char* why = picture_.takeRefusal()) {
     note(std::string("stereo: ") + why, textLine("shown as %s", name(picture_.stereo().layout)));
   }
-  if (*shown == Picture::Shown::Lost) note("display lost", "film and touch go on; it is tried again every second");
+  if (*shown == Picture::Shown::Lost) noteLost();
   if (*shown == Picture::Shown::Back) note("display back", "the picture is on it again");
   return *shown == Picture::Shown::OnScreen || *shown == Picture::Shown::Back;
 }
@@ -281,6 +281,10 @@ void Player::writeText(MonotonicTime now) {
   last_text_ = lines;
   picture_.setText(std::move(lines));
   redraw_ = true;
+}
+
+void Player::noteLost() {
+  note("display lost", "film and touch go on; it is tried again every second");
 }
 
 std::optional<FingerMark> Player::fingerMark() {

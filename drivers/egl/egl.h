@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "drivers/window/window_input.h"
 #include "hal/display.h"
 #include "platform/clock.h"
 
@@ -19,5 +20,11 @@ namespace relievo {
 // is late has the one before it repeated, one more than a period early is left out. `open` begins the file anew, and
 // answers NotFound, PermissionDenied or Io where it cannot be written.
 [[nodiscard]] std::unique_ptr<Display> makeOffscreenDisplay(std::string capture_path, const Clock& clock);
+
+// A window of the size asked for on the desktop, X11 or Wayland, whose surface follows when the viewer resizes it; F11
+// fills the screen. It is drawn at the pace of the screen where the GL driver can. What it hears of its other keys and
+// of its mouse goes into `input`, in `attend`; the keys' times are `clock`'s, which must outlive the display. SDL is
+// started with the first `open`, not before.
+[[nodiscard]] std::unique_ptr<Display> makeWindowDisplay(std::shared_ptr<WindowInput> input, const Clock& clock);
 
 }  // namespace relievo

@@ -89,7 +89,8 @@ struct MockDisplayProfile {
 
   // Faults.
   std::optional<ErrorCode> fail_open;
-  std::uint64_t lose_after_frames = kNever;  // beginFrame and present answer Lost until closed
+  std::uint64_t lose_after_frames = kNever;   // every verb answers Lost until closed
+  std::uint64_t close_after_frames = kNever;  // attend answers Cancelled: the viewer has closed it
 };
 
 // Shows nothing, at the pace of its refresh: `present` sleeps until the next one.

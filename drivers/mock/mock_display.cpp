@@ -38,6 +38,13 @@ class MockDisplay final : public Display {
     return next - now;
   }
 
+  Result<bool> attendScreen() override {
+    if (lost()) return fail(ErrorCode::Lost, "the mock screen has gone");
+    if (frames_ >= profile_.close_after_frames)
+      return fail(ErrorCode::Cancelled, "the viewer has closed the mock screen");
+    return false;
+  }
+
   void closeDisplay() noexcept override {}
 
   [[nodiscard]] bool lost() const noexcept { return frames_ >= profile_.lose_after_frames; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts become a place to go to, the left button a press; the finger follows both smoothly.
+// Counts, or a place in a window, become a place to go to, the left button a press; the finger follows both smoothly.
 #include "drivers/pointer/pointer.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-constexpr glm::dvec3 kMinMm(-100, -75, -20), kMaxMm(100, 75, 60);
+constexpr double kFarMm = -20, kNearMm = 60;
 constexpr glm::dvec3 kStartMm(0, 0, 46);  // 40 mm is the nearest that a surface of the default volume comes
 constexpr double kMmPerCount = 0.1, kMmPerNotch = 2;
 constexpr double kPressMmPerS = 80, kPressN = 2;
@@ -31,8 +31,8 @@ class Pointer final : public HapticDevice {
   // The forces are those of a small device, for the picture; what does not push holds any stiffness.
   [[nodiscard]] HapticCapabilities capabilities() const noexcept override {
     return {.name = "pointer",
-            .workspace_min_mm = kMinMm,
-            .workspace_max_mm = kMaxMm,
+            .workspace_min_mm = min_mm_,
+            .workspace_max_mm = max_mm_,
             .peak_force_n = 8,
             .continuous_force_n = 8,
             .max_stiffness_n_per_mm = 1,
@@ -43,11 +43,16 @@ class Pointer final : public HapticDevice {
   Result<void> openDevice() override {
     place_mm_ = finger_mm_ = kStartMm;
     pressed_mm_ = 0;
-    return port_->open();
+    absolute_ = false;
+    if (auto opened = port_->open(); !opened) return opened;
+    const glm::dvec2 reach_mm = port_->reachMm();
+    min_mm_ = {-reach_mm, kFarMm};
+    max_mm_ = {reach_mm, kNearMm};
+    return {};
   }
   Result<void> homeDevice() override { return {}; }
 
-  // What the mouse did until now is not meant for the finger.
+  // What the mouse did until now is not meant for the finger; a place that it points at is.
   Result<void> startDevice() override {
     const glm::dvec3 place = place_mm_;
     for (int i = 0; i < kReadsATick; ++i) {
@@ -56,7 +61,7 @@ class Pointer final : public HapticDevice {
     const auto down = port_->buttonsDown();
     if (!down) return std::unexpected(down.error());
     down_ = *down;
-    place_mm_ = place;
+    place_mm_ = absolute_ ? glm::dvec3(place_mm_.x, place_mm_.y, place.z) : place;
     force_z_n_ = 0;
     now_ = last_write_ = clock_.now();
     return {};
@@ -75,7 +80,7 @@ class Pointer final : public HapticDevice {
     press(elapsed_s);
     const glm::dvec3 goal_mm(place_mm_.x, place_mm_.y, place_mm_.z - pressed_mm_);
     finger_mm_ += (1 - std::exp(-elapsed_s / kSmoothS)) * (goal_mm - finger_mm_);
-    return HapticSample{.position_mm = glm::clamp(finger_mm_, kMinMm, kMaxMm), .buttons = buttons()};
+    return HapticSample{.position_mm = glm::clamp(finger_mm_, min_mm_, max_mm_), .buttons = buttons()};
   }
 
   Result<void> writeForce(const glm::dvec3& force_n) RELIEVO_RT override {
@@ -94,7 +99,7 @@ class Pointer final : public HapticDevice {
   void press(double elapsed_s) RELIEVO_RT {
     const bool held = (down_ & kLeftButton) != 0;
     const double share = held ? std::clamp(1 - force_z_n_ / kPressN, -1.0, 1.0) : -1.0;
-    pressed_mm_ = std::clamp(pressed_mm_ + share * kPressMmPerS * elapsed_s, 0.0, place_mm_.z - kMinMm.z);
+    pressed_mm_ = std::clamp(pressed_mm_ + share * kPressMmPerS * elapsed_s, 0.0, place_mm_.z - kFarMm);
   }
 
   [[nodiscard]] std::uint32_t buttons() const RELIEVO_RT {
@@ -122,6 +127,8 @@ class Pointer final : public HapticDevice {
       down_ = *down;
     } else if (!dropped_ && event.type == EV_REL) {
       move(event.code, event.value);
+    } else if (!dropped_ && event.type == EV_ABS) {
+      point(event.code, event.value);
     } else if (!dropped_ && event.type == EV_KEY) {
       turn(event.code, event.value != 0);
     }
@@ -132,7 +139,14 @@ class Pointer final : public HapticDevice {
     if (axis == REL_X) place_mm_.x += kMmPerCount * counts;
     if (axis == REL_Y) place_mm_.y -= kMmPerCount * counts;  // a mouse counts toward its user
     if (axis == REL_WHEEL) place_mm_.z -= kMmPerNotch * counts;
-    place_mm_ = glm::clamp(place_mm_, kMinMm, kMaxMm);
+    place_mm_ = glm::clamp(place_mm_, min_mm_, max_mm_);
+  }
+
+  void point(std::uint16_t axis, std::int32_t value) RELIEVO_RT {
+    absolute_ = true;
+    if (axis == ABS_X) place_mm_.x = kMmPerAbs * value;
+    if (axis == ABS_Y) place_mm_.y = kMmPerAbs * value;
+    place_mm_ = glm::clamp(place_mm_, min_mm_, max_mm_);
   }
 
   void turn(std::uint16_t key, bool down) RELIEVO_RT {
@@ -145,10 +159,12 @@ class Pointer final : public HapticDevice {
 
   std::unique_ptr<MousePort> port_;
   const Clock& clock_;
+  glm::dvec3 min_mm_{-port_->reachMm(), kFarMm}, max_mm_{port_->reachMm(), kNearMm};
   glm::dvec3 place_mm_ = kStartMm;  // where mouse and wheel point
   double pressed_mm_ = 0;           // how far below that the left button has pressed
   glm::dvec3 finger_mm_ = kStartMm;
   std::uint8_t down_ = 0;  // buttons of the mouse
+  bool absolute_ = false;  // it tells where it points, not how far it has moved
   bool dropped_ = false;   // within a report of which a part is missing
   double force_z_n_ = 0;
   MonotonicTime now_, last_write_;
@@ -162,6 +178,10 @@ std::unique_ptr<HapticDevice> makePointer(std::unique_ptr<MousePort> port, const
 
 std::unique_ptr<HapticDevice> makePointer(std::string path, const Clock& clock) {
   return makePointer(makeEvdevPort(std::move(path)), clock);
+}
+
+std::unique_ptr<HapticDevice> makePointer(std::shared_ptr<WindowInput> window, const Clock& clock) {
+  return makePointer(makeWindowPort(std::move(window)), clock);
 }
 
 }  // namespace relievo

@@ -18,10 +18,13 @@ namespace relievo {
 // one is none, since it presses. Every step is smoothed with a time constant of 10 ms, about the time between two
 // reports.
 //
+// Over a window it points at a place: the finger is where the mouse is, and the picture plane is the window's.
+//
 // It cannot push: a force is kept for 20 ms to press against, and nobody feels it. Unplugged it is Lost. The mouse is
 // not taken from a desktop that uses it as well.
 [[nodiscard]] std::unique_ptr<HapticDevice> makePointer(std::unique_ptr<MousePort> port, const Clock& clock);
 // `path`: see makeEvdevPort.
 [[nodiscard]] std::unique_ptr<HapticDevice> makePointer(std::string path, const Clock& clock);
+[[nodiscard]] std::unique_ptr<HapticDevice> makePointer(std::shared_ptr<WindowInput> window, const Clock& clock);
 
 }  // namespace relievo

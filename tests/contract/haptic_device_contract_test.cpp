@@ -107,6 +107,12 @@ Rig pointer(ManualClock& clock, bool loses) {
   return {mouse, makePointer(std::make_unique<test::FakeMousePort>(mouse), clock), [] { return false; }};
 }
 
+Rig pointerOverWindow(ManualClock& clock) {
+  auto window = std::make_shared<WindowInput>();
+  window->open = true;
+  return {window, makePointer(window, clock), [] { return false; }};
+}
+
 Rig replay() {
   const auto recording = Recording::parse("t_s,x_mm,y_mm,z_mm\n0,1,2,3\n0.001,1,2,2.9\n", "recording");
   return {nullptr, makeReplay(recording.value()), [] { return false; }};
@@ -149,6 +155,7 @@ const Backend kBackends[] = {
      }},
     {"pointer", [](ManualClock& clock) { return pointer(clock, false); },
      [](ManualClock& clock) { return pointer(clock, true); }, false},
+    {"pointer_over_a_window", pointerOverWindow, nullptr, false},
     {"replay", [](ManualClock&) { return replay(); }, nullptr, false},
     {"polhem", [](ManualClock& clock) { return polhem(clock, false); },
      [](ManualClock& clock) { return polhem(clock, true); }},

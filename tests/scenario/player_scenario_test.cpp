@@ -417,16 +417,26 @@ TEST_F(PlayerScenario, ADisplayThatDoesNotOpenStopsEverything) {
 }
 
 TEST_F(PlayerScenario, ADisplayThatIsLostComesBackAndTheFilmGoesOnMeanwhile) {
-  bench_.display.lose_after_frames = 25;  // of each time it is open
+  bench_.display.lose_after_frames = 30;  // of each time it is open
   playsWell();
   EXPECT_EQ(bench_.states(), kWholeFilm);
-  // Lost after 25 pictures at 1 s, tried again at 2 s, lost after 25 more at 3 s, not tried again before the end at 4
-  // s.
+  // Lost after 30 pictures at 1.16 s, tried again a second later, lost after 30 more at 3.4 s, not tried again before
+  // the end at 4 s.
   EXPECT_EQ(bench_.faults("display lost"), 2u);
   EXPECT_EQ(bench_.faults("display back"), 1u);
-  EXPECT_EQ(bench_.report.frames_shown, 50u);
-  EXPECT_EQ(bench_.report.frames_dropped, 50u);
+  EXPECT_EQ(bench_.report.frames_shown, 60u);
+  EXPECT_EQ(bench_.report.frames_dropped, 40u);
   EXPECT_NEAR(bench_.report.wall_s, 4.0, 0.02);
+}
+
+TEST_F(PlayerScenario, AViewerWhoClosesTheWindowEndsTheFilm) {
+  bench_.display.close_after_frames = 25;
+  playsWell();
+  EXPECT_EQ(bench_.states(), "boot idle opening buffering playing idle");
+  EXPECT_EQ(bench_.report.frames_shown, 25u);
+  EXPECT_NEAR(bench_.report.media_s, 1.0, 0.05);
+  EXPECT_THAT(bench_.report.faults, IsEmpty());
+  EXPECT_EQ(bench_.force_left, glm::dvec3(0));
 }
 
 TEST_F(PlayerScenario, ADisplayThatWaitsForItsRefreshDropsNothing) {

@@ -50,6 +50,7 @@ TEST(KeyTable, KnowsTheKeysOfRemotesKeyboardsAndCec) {
       {0x193, PlayerCommand::ScreenBackward},
       {0x166, PlayerCommand::Info},
       {23, PlayerCommand::Info},
+      {31, PlayerCommand::NextLayout},
   };
   for (int code = 0; code <= 0x2ff; ++code) {
     const auto known = expected.find(code);
@@ -78,7 +79,7 @@ TEST(KeyTable, HelpNamesEveryKeyAsScriptsDo) {
     }
   }
   EXPECT_EQ(lines, 13);
-  EXPECT_EQ(names, 31);
+  EXPECT_EQ(names, 32);
 }
 
 TEST(KeyTable, AHeldKeySeeksOnAndDoesNothingElse) {

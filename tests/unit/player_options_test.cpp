@@ -87,6 +87,24 @@ TEST(Options, TakeEveryWordOfPlay) {
   EXPECT_EQ(play.player.display.height, 360);
 }
 
+TEST(Options, AWindowBringsItsKeysAndItsMouseAlong) {
+  const auto parsedPlay = [](std::vector<const char*> words) {
+    words.insert(words.begin(), {"play", "film.mkv"});
+    return parse(words).options.value().play;
+  };
+  EXPECT_EQ(parsedPlay({"--display", "window"}).remote, "window");
+  EXPECT_EQ(parsedPlay({"--display", "window"}).haptic, "sim");
+  EXPECT_EQ(parsedPlay({"--display", "window", "--haptic", "pointer"}).haptic, "pointer:window");
+  EXPECT_EQ(parsedPlay({"--display", "window", "--haptic", "pointer:/dev/input/event3"}).haptic,
+            "pointer:/dev/input/event3");
+  EXPECT_EQ(parsedPlay({"--display", "window", "--remote", "none"}).remote, "none");
+  EXPECT_EQ(parsedPlay({"--display", "window", "--remote", "window"}).remote, "window");
+  EXPECT_EQ(parsedPlay({"--haptic", "pointer"}).haptic, "pointer");
+  expectRefused({"play", "film.mkv", "--remote", "window"},
+                "--remote window: there is no window; add --display window");
+  expectRefused({"play", "film.mkv", "--haptic", "pointer:window"}, "--haptic pointer:window: there is no window");
+}
+
 TEST(Options, TakeASourceAfterAnOption) {
   const Parsed parsed = parse({"probe", "--calibration", "near=100", "film.mkv", "--json"});
   ASSERT_TRUE(parsed.options) << parsed.err;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "app/haptics/workspace_mapping.h"
 #include "tests/support/fake_mouse.h"
 
 namespace relievo {
@@ -154,6 +155,109 @@ TEST_F(PointerTest, AMouseThatGoesBeforeTheStartIsLost) {
   device_->stop();
   mouse_->plugged = false;
   EXPECT_EQ(device_->start().error().code, ErrorCode::Lost);
+}
+
+// ---- over a window ----
+
+class WindowPointerTest : public testing::Test {
+ protected:
+  void point(double right_px, double up_px) {
+    mouse_.right_px = right_px;
+    mouse_.up_px = up_px;
+    publish();
+  }
+  void publish() {
+    window_->mouse.back() = mouse_;
+    window_->mouse.publish();
+  }
+  void start() {
+    publish();
+    window_->open = true;
+    ASSERT_TRUE(device_->open() && device_->home() && device_->start());
+  }
+  HapticSample after(int ticks) {
+    HapticSample sample;
+    for (int i = 0; i < ticks; ++i) {
+      clock_.advance(1ms);
+      const auto read = device_->read();
+      EXPECT_TRUE(read);
+      if (read) sample = *read;
+    }
+    return sample;
+  }
+
+  ManualClock clock_{MonotonicTime(1h)};
+  WindowMouse mouse_{.width_px = 1280, .height_px = 720};
+  std::shared_ptr<WindowInput> window_ = std::make_shared<WindowInput>();
+  std::unique_ptr<HapticDevice> device_ = makePointer(window_, clock_);
+};
+
+// The volume of a picture of the window's shape is 160 mm x 90 mm: an eighth of a millimetre a pixel.
+TEST_F(WindowPointerTest, TheFingerIsWhereTheMousePoints) {
+  point(320, -80);
+  start();
+  EXPECT_LT(glm::distance(after(300).position_mm, glm::dvec3(40, -10, 46)), 0.01) << "where it was when it began, too";
+  point(-640, 360);
+  EXPECT_LT(glm::distance(after(300).position_mm, glm::dvec3(-80, 45, 46)), 0.01) << "the window's corner";
+  point(-5000, 0);
+  EXPECT_NEAR(after(300).position_mm.x, device_->capabilities().workspace_min_mm.x, 1e-6);
+}
+
+TEST_F(WindowPointerTest, TheFingerIsThereWhateverThePicturesShape) {
+  start();
+  point(200, 100);
+  const HapticSample sample = after(300);
+  // The picture as large as the window lets it be: so many millimetres of it are a pixel.
+  for (const DisplayVolume& volume : {DisplayVolume{160, 90, 40}, DisplayVolume{160, 120, 40},
+                                      DisplayVolume{160, 284, 40}, DisplayVolume{320, 90, 40}}) {
+    const double mm_a_px = std::max(volume.width_mm / 1280, volume.height_mm / 720);
+    WorkspaceMapping mapping(device_->capabilities(), volume);
+    const glm::dvec3 hip_mm = mapping.place(sample).hip_mm;
+    EXPECT_NEAR(hip_mm.x, 200 * mm_a_px, 0.05) << volume.width_mm << " x " << volume.height_mm;
+    EXPECT_NEAR(hip_mm.y, 100 * mm_a_px, 0.05) << volume.width_mm << " x " << volume.height_mm;
+    EXPECT_EQ(mapping.place(sample).edge_force_n, glm::dvec3(0));
+  }
+}
+
+TEST_F(WindowPointerTest, TheFingerStaysUnderTheMouseWhenTheWindowGrows) {
+  start();
+  mouse_.width_px = 2560;
+  mouse_.height_px = 1440;
+  point(640, 160);
+  EXPECT_LT(glm::distance(after(300).position_mm, glm::dvec3(40, 10, 46)), 0.01);
+}
+
+TEST_F(WindowPointerTest, WheelAndButtonsAreThoseOfAMouse) {
+  mouse_.notches = 7;  // turned before
+  start();
+  mouse_.notches = 10;
+  mouse_.right = true;
+  publish();
+  const HapticSample sample = after(300);
+  EXPECT_NEAR(sample.position_mm.z, 40, 1e-6);
+  EXPECT_EQ(sample.buttons, 2u);
+  mouse_.right = false;
+  mouse_.middle = true;
+  publish();
+  EXPECT_EQ(after(1).buttons, 1u);
+  mouse_.middle = false;
+  mouse_.left = true;
+  publish();
+  EXPECT_LT(after(300).position_mm.z, 20) << "it presses";
+  EXPECT_EQ(after(1).buttons, 0u);
+}
+
+TEST_F(WindowPointerTest, AButtonHeldWhenItBeginsIsDown) {
+  mouse_.right = true;
+  start();
+  EXPECT_EQ(after(1).buttons, 2u);
+}
+
+TEST_F(WindowPointerTest, WithoutAWindowThereIsNothingToPointIn) {
+  EXPECT_EQ(device_->open().error().code, ErrorCode::NotFound);
+  start();
+  window_->open = false;
+  EXPECT_EQ(device_->read().error().code, ErrorCode::Lost);
 }
 
 }  // namespace

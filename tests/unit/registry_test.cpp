@@ -23,6 +23,7 @@ class Registry : public testing::Test {
 TEST_F(Registry, MakesEachByItsName) {
   EXPECT_STREQ(makeDisplay("offscreen").value()->capabilities().name, "offscreen");
   EXPECT_STREQ(makeDisplay("offscreen:/tmp/a:b.y4m").value()->capabilities().name, "offscreen");
+  EXPECT_STREQ(makeDisplay("window").value()->capabilities().name, "window");
   EXPECT_STREQ(makeDisplay("mock").value()->capabilities().name, "mock");
   EXPECT_STREQ(makeHapticDevice("falcon", clock_).value()->capabilities().name, "Novint Falcon");
   EXPECT_STREQ(makeHapticDevice("falcon:image.bin", clock_).value()->capabilities().name, "Novint Falcon");
@@ -39,7 +40,7 @@ TEST_F(Registry, NoneIsNoDeviceAndNoError) {
 }
 
 TEST_F(Registry, RefusesOtherNamesAndListsTheRightOnes) {
-  for (const char* name : {"", "ofscreen", "offscreen:", "mock:1", "none"}) {
+  for (const char* name : {"", "ofscreen", "offscreen:", "window:", "mock:1", "none"}) {
     const auto display = makeDisplay(name);
     ASSERT_FALSE(display) << name;
     EXPECT_EQ(display.error().error.code, ErrorCode::InvalidArgument);
@@ -52,7 +53,7 @@ TEST_F(Registry, RefusesOtherNamesAndListsTheRightOnes) {
     EXPECT_EQ(device.error().error.code, ErrorCode::InvalidArgument);
     EXPECT_THAT(device.error().error.message, testing::HasSubstr(kHapticNames));
   }
-  for (const char* name : {"", "keys", "script", "script:"}) {
+  for (const char* name : {"", "keys", "window:1", "script", "script:"}) {
     const auto remote = makeRemoteInput(name, clock_);
     ASSERT_FALSE(remote) << name;
     EXPECT_EQ(remote.error().error.code, ErrorCode::InvalidArgument);
@@ -98,6 +99,9 @@ TEST_F(Registry, AMouseIsThePointerByItselfOrByItsPath) {
   const auto device = makeHapticDevice("pointer:/nonexistent/event0", clock_).value();
   EXPECT_EQ(device->open().error().code, ErrorCode::NotFound);
   EXPECT_FALSE(makeHapticDevice("pointer:", clock_));
+  EXPECT_STREQ(makeHapticDevice("pointer:window", clock_).value()->capabilities().name, "pointer");
+  EXPECT_STREQ(makeHapticDevice("pointer:window", clock_).value()->open().error().message,
+               "there is no window to point in; it opens with --display window");
 }
 
 TEST_F(Registry, ARecordingIsPlayedAgain) {
@@ -106,6 +110,10 @@ TEST_F(Registry, ARecordingIsPlayedAgain) {
   ASSERT_TRUE(device->open() && device->home() && device->start());
   EXPECT_EQ(device->read()->position_mm, glm::dvec3(30, -12, 6));
   EXPECT_EQ(makeHapticDevice("replay:/nonexistent.csv", clock_).error().error.code, ErrorCode::NotFound);
+}
+
+TEST_F(Registry, AWindowsKeysAreARemote) {
+  EXPECT_NE(makeRemoteInput("window", clock_).value(), nullptr);
 }
 
 TEST_F(Registry, TheScriptedRemotePressesItsKeys) {

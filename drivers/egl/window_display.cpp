@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+// The display in a window: SDL opens it and makes the GLES context through EGL, and this listens to it.
+#include <EGL/egl.h>
+#include <SDL.h>
+
+#include <cstdlib>
+#include <memory>
+#include <utility>
+
+#include "drivers/egl/egl.h"
+#include "drivers/egl/window_keys.h"
+
+namespace relievo {
+namespace {
+
+constexpr const char* kTitle = "relievo";
+constexpr const char* kOwner = "relievo display";  // under which a window knows its display
+constexpr SDL_Scancode kFullScreenKey = SDL_SCANCODE_F11;
+constexpr const char* kNoGles =
+    "the desktop gives no window with GLES 3; install a GL driver (Debian: libegl1, libgl1-mesa-dri)";
+
+// SDL's video stays once it is there, and so does the GL driver, like a library stays loaded: Mesa's software one does not survive without leaks. What a user has set in the environment goes before the hints.
+bool startSdl() {
+  if (SDL_WasInit(SDL_INIT_VIDEO) != 0) return true;
+  // The console is the kms display's. Without a Wayland server its library would complain on stderr.
+  SDL_SetHint(SDL_HINT_VIDEODRIVER, std::getenv("WAYLAND_DISPLAY") != nullptr ? "x11,wayland" : "x11");
+  SDL_SetHint(SDL_HINT_VIDEO_X11_FORCE_EGL, "1");       // not GLX
+  SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");        // the program has its own
+  SDL_SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");  // a press that brings the window forward presses as well
+  SDL_SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
+  SDL_SetHint(SDL_HINT_APP_NAME, kTitle);
+  if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) return false;
+  SDL_StopTextInput();  // no input method between the keys and here
+  SDL_GL_ResetAttributes();
+  for (const auto& [attribute, value] : {std::pair{SDL_GL_CONTEXT_PROFILE_MASK, int{SDL_GL_CONTEXT_PROFILE_ES}},
+                                         {SDL_GL_CONTEXT_MAJOR_VERSION, 3},
+                                         {SDL_GL_CONTEXT_MINOR_VERSION, 0},
+                                         {SDL_GL_RED_SIZE, 8},
+                                         {SDL_GL_GREEN_SIZE, 8},
+                                         {SDL_GL_BLUE_SIZE, 8},
+                                         {SDL_GL_DEPTH_SIZE, 24}}) {
+    SDL_GL_SetAttribute(attribute, value);
+  }
+  SDL_GL_LoadLibrary(nullptr);  // once more than the windows do; what is wrong with it a window tells
+  return true;
+}
+
+class WindowDisplay final : public Display {
+ public:
+  WindowDisplay(std::shared_ptr<WindowInput> input, const Clock& clock) : input_(std::move(input)), clock_(clock) {}
+  ~WindowDisplay() override { close(); }
+
+  [[nodiscard]] DisplayCapabilities capabilities() const noexcept override {
+    return {.name = "window", .gles = true, .refresh_period = refresh_period_};
+  }
+
+ private:
+  Result<void> openDisplay(const DisplayConfig& config) override;
+  Result<DisplaySurface> startFrame() override;
+  Result<Duration> showFrame() override;
+  Result<bool> attendScreen() override;
+  void closeDisplay() noexcept override;
+
+  Result<void> makeCurrent() noexcept;
+  void readRefresh() noexcept;
+
+  void hear(const SDL_Event& event);
+  void hearWindow(const SDL_WindowEvent& event);
+  void hearKey(const SDL_KeyboardEvent& event);
+  void hearButton(const SDL_MouseButtonEvent& event);
+  void moveMouse(int x, int y) noexcept;
+  void publishMouse() noexcept;
+
+  std::shared_ptr<WindowInput> input_;
+  const Clock& clock_;
+  SDL_Window* window_ = nullptr;
+  SDL_GLContext context_ = nullptr;
+  Duration refresh_period_{0};
+  bool paced_ = false;  // swapping waits for the refresh
+  WindowMouse mouse_;
+  bool redraw_ = false;
+  bool closed_by_viewer_ = false;
+};
+
+Result<void> WindowDisplay::openDisplay(const DisplayConfig& config) {
+  if (!startSdl()) {
+    return fail(ErrorCode::Unsupported, "there is no desktop to open a window on; start it from one (X11 or Wayland)");
+  }
+  window_ = SDL_CreateWindow(kTitle, SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, config.width, config.height,
+                             SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
+  if (window_ == nullptr) return fail(ErrorCode::Unsupported, kNoGles);
+  SDL_SetWindowData(window_, kOwner, this);
+  context_ = SDL_GL_CreateContext(window_);
+  if (context_ == nullptr) return fail(ErrorCode::Unsupported, kNoGles);
+  paced_ = SDL_GL_SetSwapInterval(1) == 0;
+  readRefresh();
+
+  redraw_ = closed_by_viewer_ = false;
+  mouse_ = {};
+  publishMouse();
+  input_->open = true;
+  return {};
+}
+
+void WindowDisplay::readRefresh() noexcept {
+  SDL_DisplayMode mode{};
+  const bool known = SDL_GetCurrentDisplayMode(SDL_GetWindowDisplayIndex(window_), &mode) == 0 && mode.refresh_rate > 0;
+  refresh_period_ = known ? fromSeconds(1.0 / mode.refresh_rate) : Duration(0);
+}
+
+// SDL remembers what it has made current and does not see what others make so.
+Result<void> WindowDisplay::makeCurrent() noexcept {
+  if (eglGetCurrentContext() != context_) SDL_GL_MakeCurrent(nullptr, nullptr);
+  if (SDL_GL_MakeCurrent(window_, context_) == 0) return {};
+  return fail(ErrorCode::Lost, "the window's GL context is gone; it is opened again");
+}
+
+Result<DisplaySurface> WindowDisplay::startFrame() {
+  if (auto current = makeCurrent(); !current) return std::unexpected(current.error());
+  DisplaySurface surface;
+  SDL_GL_GetDrawableSize(window_, &surface.width, &surface.height);
+  return surface;
+}
+
+// Swapping tells nothing but by SDL's last error. A frame is on the screen with the next refresh.
+Result<Duration> WindowDisplay::showFrame() {
+  if (auto current = makeCurrent(); !current) return std::unexpected(current.error());
+  SDL_ClearError();
+  SDL_GL_SwapWindow(window_);
+  if (*SDL_GetError() != '\0')
+    return fail(ErrorCode::Lost, "the window cannot be drawn on any more; it is opened again");
+  return paced_ ? refresh_period_ : Duration(0);
+}
+
+// The queue is the process's: what another window has heard goes there.
+Result<bool> WindowDisplay::attendScreen() {
+  for (SDL_Event event; SDL_PollEvent(&event) != 0;) {
+    SDL_Window* window = SDL_GetWindowFromID(event.window.windowID);  // at the same place in each kind of event
+    if (window == nullptr) continue;
+    if (void* owner = SDL_GetWindowData(window, kOwner)) static_cast<WindowDisplay*>(owner)->hear(event);
+  }
+  if (closed_by_viewer_) return fail(ErrorCode::Cancelled, "the viewer has closed the window");
+  return std::exchange(redraw_, false);
+}
+
+void WindowDisplay::hear(const SDL_Event& event) {
+  switch (event.type) {
+    case SDL_WINDOWEVENT:
+      return hearWindow(event.window);
+    case SDL_KEYDOWN:
+    case SDL_KEYUP:
+      return hearKey(event.key);
+    case SDL_MOUSEMOTION:
+      return moveMouse(event.motion.x, event.motion.y);
+    case SDL_MOUSEBUTTONDOWN:
+    case SDL_MOUSEBUTTONUP:
+      return hearButton(event.button);
+    case SDL_MOUSEWHEEL:
+      mouse_.notches += event.wheel.direction == SDL_MOUSEWHEEL_FLIPPED ? -event.wheel.y : event.wheel.y;
+      return publishMouse();
+    default:
+      return;
+  }
+}
+
+void WindowDisplay::hearWindow(const SDL_WindowEvent& event) {
+  if (event.event == SDL_WINDOWEVENT_CLOSE) closed_by_viewer_ = true;
+  if (event.event == SDL_WINDOWEVENT_EXPOSED) redraw_ = true;
+  if (event.event != SDL_WINDOWEVENT_SIZE_CHANGED) return;
+  redraw_ = true;
+  publishMouse();
+}
+
+void WindowDisplay::hearKey(const SDL_KeyboardEvent& event) {
+  const bool down = event.state == SDL_PRESSED;
+  if (event.keysym.scancode == kFullScreenKey) {
+    if (!down || event.repeat != 0) return;
+    const bool full = (SDL_GetWindowFlags(window_) & SDL_WINDOW_FULLSCREEN) != 0;
+    SDL_SetWindowFullscreen(window_, full ? 0U : Uint32{SDL_WINDOW_FULLSCREEN_DESKTOP});
+    SDL_ShowCursor(full ? SDL_ENABLE : SDL_DISABLE);
+    return;
+  }
+  const auto code = linuxKey(event.keysym.scancode);
+  if (!code) return;
+  using Action = KeyEvent::Action;
+  const Action action = !down ? Action::Release : event.repeat != 0 ? Action::Repeat : Action::Press;
+  static_cast<void>(input_->keys.tryPush({.code = *code, .action = action, .time = clock_.now()}));
+}
+
+void WindowDisplay::hearButton(const SDL_MouseButtonEvent& event) {
+  const bool down = event.state == SDL_PRESSED;
+  if (event.button == SDL_BUTTON_LEFT) mouse_.left = down;
+  if (event.button == SDL_BUTTON_MIDDLE) mouse_.middle = down;
+  if (event.button == SDL_BUTTON_RIGHT) mouse_.right = down;
+  moveMouse(event.x, event.y);
+}
+
+void WindowDisplay::moveMouse(int x, int y) noexcept {
+  int width = 0, height = 0;
+  SDL_GetWindowSize(window_, &width, &height);
+  mouse_.right_px = x + 0.5 - 0.5 * width;
+  mouse_.up_px = 0.5 * height - (y + 0.5);
+  publishMouse();
+}
+
+void WindowDisplay::publishMouse() noexcept {
+  SDL_GetWindowSize(window_, &mouse_.width_px, &mouse_.height_px);
+  input_->mouse.back() = mouse_;
+  input_->mouse.publish();
+}
+
+void WindowDisplay::closeDisplay() noexcept {
+  if (window_ != nullptr) input_->open = false;
+  if (context_ != nullptr) SDL_GL_DeleteContext(std::exchange(context_, nullptr));
+  if (window_ != nullptr) SDL_DestroyWindow(std::exchange(window_, nullptr));
+}
+
+}  // namespace
+
+std::unique_ptr<Display> makeWindowDisplay(std::shared_ptr<WindowInput> input, const Clock& clock) {
+  return std::make_unique<WindowDisplay>(std::move(input), clock);
+}
+
+}  // namespace relievo

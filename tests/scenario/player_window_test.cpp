@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program in a window on an X server of the test's own: its viewer has a keyboard, a mouse and a close button.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <array>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "tests/support/clip_maker.h"
+#include "tests/support/process.h"
+#include "tests/support/x_screen.h"
+
+namespace relievo {
+namespace {
+
+using nlohmann::json;
+using namespace std::chrono_literals;
+
+class PlayerWindow : public testing::Test {
+ protected:
+  static constexpr int kWidth = 320, kHeight = 240;
+
+  void SetUp() override {
+    if (screen_ == nullptr) GTEST_SKIP() << test::kNoXServer;
+    // Gray, as far as the eye sees; its depth is that of a wall in the middle.
+    test::makeClip(folder_ / "film.mkv",
+                   {{.pix_fmt = "yuv420p",
+                     .frames = 60,
+                     .sample = [](int component, int, int, int) { return component == 0 ? 180U : 128U; },
+                     .tags = {{"title", "color"}}},
+                    {.pix_fmt = "gray",
+                     .frames = 60,
+                     .sample = [](int, int, int, int) { return 128U; },
+                     .tags = {{"title", "depth"}}}});
+  }
+  std::unique_ptr<test::Process> play(std::vector<std::string> words) {
+    words.insert(words.begin(),
+                 {std::string(RELIEVO_BIN_DIR) + "/relievo", "play", folder_ / "film.mkv", "--loop", "--display",
+                  "window", "--size", "320x240", "--stereo", "mono", "--report", folder_ / "r.json"});
+    auto player = std::make_unique<test::Process>(words, folder_ / "said.txt");
+    window_ = screen_->find("relievo");
+    EXPECT_NE(window_, 0u) << textOf("said.txt");
+    place_ = screen_->place(window_).value_or(test::XScreen::Place{});
+    screen_->focus(window_);
+    return player;
+  }
+  static bool until(const std::function<bool()>& so) {
+    for (int tries = 0; tries < 4000; ++tries) {
+      if (so()) return true;
+      std::this_thread::sleep_for(5ms);
+    }
+    return false;
+  }
+  // The film's gray, in the middle of the window.
+  [[nodiscard]] bool shows() const {
+    const auto [red, green, blue] = screen_->pixel(place_.x + 40, place_.y + kHeight / 2);
+    return red > 100 && red == green && green == blue;
+  }
+  [[nodiscard]] std::string textOf(const std::string& name) const {
+    const std::ifstream file(folder_ / name);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+  [[nodiscard]] json report() const { return json::parse(textOf("r.json"), nullptr, false); }
+
+  test::TemporaryFolder folder_;
+  std::unique_ptr<test::XScreen> screen_ = test::XScreen::start();
+  unsigned long window_ = 0;
+  test::XScreen::Place place_;
+};
+
+TEST_F(PlayerWindow, ShowsTheFilmAndItsKeysAreTheRemote) {
+  const auto player = play({"--haptic", "none"});
+  EXPECT_TRUE(until([&] { return shows(); }));
+  for (const char* key : {"space", "s", "space", "Escape"}) {
+    screen_->tap(key);
+    std::this_thread::sleep_for(50ms);  // the same key twice within 2 ms is taken for its repeat
+  }
+  EXPECT_EQ(player->wait(), 0) << textOf("said.txt");
+  const json r = report();
+  EXPECT_EQ(r["states"], (json{"boot", "idle", "opening", "buffering", "playing", "paused", "playing", "idle"}));
+  EXPECT_EQ(r["video"]["display"], "window");
+  EXPECT_EQ(r["video"]["stereo"], "sbs") << "the next one after mono";
+  EXPECT_EQ(r["video"]["surface"], (json{kWidth, kHeight}));
+}
+
+TEST_F(PlayerWindow, ItsCloseButtonEndsThePausedFilmWhateverTheRemoteIs) {
+  std::ofstream(folder_ / "keys.txt") << "0.5 PAUSE\n";
+  const auto player = play({"--haptic", "none", "--remote", "script:" + folder_ / "keys.txt"});
+  EXPECT_TRUE(until([&] { return shows(); }));
+  screen_->tap("Escape");  // not the remote's
+  std::this_thread::sleep_for(1s);
+  EXPECT_TRUE(player->isRunning());
+  screen_->askToClose(window_);
+  EXPECT_EQ(player->wait(), 0) << textOf("said.txt");
+  const json r = report();
+  EXPECT_EQ(r["states"], (json{"boot", "idle", "opening", "buffering", "playing", "paused", "idle"}));
+  EXPECT_TRUE(r["faults"].empty()) << r["faults"];
+}
+
+// A film that stands has no pictures of its own to fill a larger window with.
+TEST_F(PlayerWindow, ThePausedPictureFollowsTheWindow) {
+  const auto player = play({"--haptic", "none"});
+  EXPECT_TRUE(until([&] { return shows(); }));
+  screen_->tap("space");
+  screen_->resize(window_, 480, 360);
+  EXPECT_TRUE(until([&] {
+    const auto [red, green, blue] = screen_->pixel(place_.x + 440, place_.y + 320);
+    return red > 100 && red == green && green == blue;
+  })) << "where there was no window before";
+  screen_->tap("Escape");
+  EXPECT_EQ(player->wait(), 0) << textOf("said.txt");
+  EXPECT_EQ(report()["video"]["surface"], (json{480, 360}));
+}
+
+// The wall is 20 mm high. The finger is where the mouse points (half a millimetre a pixel) and presses into it there.
+TEST_F(PlayerWindow, ItsMouseIsTheFinger) {
+  const auto player = play({"--haptic", "pointer", "--record", folder_ / "t.csv"});
+  EXPECT_TRUE(until([&] { return shows(); }));
+  screen_->moveMouse(place_.x + 220, place_.y + 80);
+  screen_->button(1, true);
+  std::this_thread::sleep_for(1500ms);  // 26 mm at 80 mm/s
+  screen_->button(1, false);
+  screen_->tap("Escape");
+  EXPECT_EQ(player->wait(), 0) << textOf("said.txt");
+  EXPECT_GT(report()["force"]["max_n"].get<double>(), 0.5) << textOf("said.txt");
+  std::istringstream csv(textOf("t.csv"));
+  std::string line, touching;
+  while (std::getline(csv, line)) {
+    if (line.find(",1,") != std::string::npos) touching = line;
+  }
+  std::istringstream row(touching);
+  std::array<double, 4> place{};
+  char comma = 0;
+  row >> place[0] >> comma >> place[1] >> comma >> place[2] >> comma >> place[3];
+  EXPECT_NEAR(place[1], 60 * 0.5, 0.5) << touching;
+  EXPECT_NEAR(place[2], 40 * 0.5, 0.5) << touching;
+}
+
+TEST_F(PlayerWindow, WithoutADesktopItSaysSoInOneLine) {
+  ::unsetenv("DISPLAY");
+  test::Process player({std::string(RELIEVO_BIN_DIR) + "/relievo", "play", folder_ / "film.mkv", "--display", "window"},
+                       folder_ / "said.txt");
+  EXPECT_EQ(player.wait(), 1);
+  EXPECT_THAT(textOf("said.txt"), testing::StartsWith("relievo: display window: there is no desktop"));
+}
+
+// A session that ends under the program: Xlib ends it then.
+TEST_F(PlayerWindow, AServerThatDiesDoesNotLeaveItHanging) {
+  const auto player = play({"--haptic", "sim"});
+  EXPECT_TRUE(until([&] { return shows(); }));
+  screen_->kill();
+  EXPECT_EQ(player->wait(), 1) << textOf("said.txt");
+}
+
+}  // namespace
+}  // namespace relievo
