@@ -22,7 +22,7 @@ double angleOf(double phi_deg, const glm::dvec3& p) {
   const double wanted = 22.5 + std::sqrt(102.5 * 102.5 - v * v);
   const double toward = std::atan2(p.z, u);
   double low = toward - std::numbers::pi, high = toward;  // farthest, nearest
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < 60; ++i) {  // to the last bit
     const double middle = 0.5 * (low + high);
     const double distance = std::hypot(u - 60.0 * std::cos(middle), p.z - 60.0 * std::sin(middle));
     (distance > wanted ? low : high) = middle;
