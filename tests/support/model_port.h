@@ -14,7 +14,7 @@ struct Cable {
   bool plugged = true;
   bool comes_back = false;  // it is plugged in again before the next `open`
   int verbs_left = std::numeric_limits<int>::max();
-  int verbs = 0;
+  MonotonicTime pulled_at;
   int exchanges = 0;  // that were started
   bool open = false, exchanging = false;
   std::uint64_t model_allocations = 0;  // by the model, on the thread of its caller
@@ -94,8 +94,10 @@ class ModelPort final : public UsbPort {
   };
 
   bool there() RELIEVO_RT {
-    ++cable_.verbs;
-    if (cable_.verbs_left > 0 && --cable_.verbs_left == 0) cable_.plugged = false;
+    if (cable_.verbs_left > 0 && --cable_.verbs_left == 0) {
+      cable_.plugged = false;
+      cable_.pulled_at = clock_.now();
+    }
     return cable_.plugged;
   }
   static std::unexpected<Error> gone() RELIEVO_RT { return fail(ErrorCode::Lost, "the model was unplugged"); }
