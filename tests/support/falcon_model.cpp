@@ -168,6 +168,8 @@ std::optional<UsbPacket> FalconModel::read(MonotonicTime now) {
   packet.data[1] = 0x60;
   packet.bytes = 2;
   if (faults_.broken_line) {
+    if (now - last_read_ < 1ms) return std::nullopt;
+    last_read_ = now;
     packet.data[1] = 0x62;  // overrun
     packet.bytes = 3;
     return packet;

@@ -88,6 +88,14 @@ TEST_F(FalconDevice, GivesUpOnADeviceThatNeverTakesIt) {
   EXPECT_FALSE(cable_.open);
 }
 
+TEST_F(FalconDevice, ABootLoaderThatIsSilentIsNotWaitedForOnceItIsCalledOff) {
+  FalconModel model(firmware_.image(), {.silent_loads = 1000});
+  const auto device = make(model, firmware_.path());
+  cable_ = {.instead = [&device] { device->cancel(); }, .verbs_left = 200};
+  EXPECT_EQ(device->open().error().code, ErrorCode::Cancelled);
+  EXPECT_LE(clock_.now() - cable_.pulled_at, std::chrono::milliseconds(100));
+}
+
 TEST_F(FalconDevice, GivesUpOnALineThatNeverStopsToBreak) {
   FalconModel model(firmware_.image(), {.broken_line = true});
   EXPECT_EQ(make(model, firmware_.path())->open().error().code, ErrorCode::Timeout);

@@ -60,24 +60,31 @@ class UsbDevice : public testing::TestWithParam<UsbKind> {
 INSTANTIATE_TEST_SUITE_P(Kinds, UsbDevice, testing::ValuesIn(test::usbKinds().begin(), test::usbKinds().end()),
                          [](const auto& test) { return std::string(test.param.name); });
 
-TEST_P(UsbDevice, AHomingThatNobodyHelpsEndsWhenItIsCalledOff) {
-  HapticDevice* caller = nullptr;
-  MonotonicTime called;
-  model().grip = [&](double t_s) {  // moves, but not to where its zero is
-    if (t_s > 3 && called == MonotonicTime{}) {
-      caller->cancel();
-      called = clock_.now();
+// Called off at the first verb of the port, at the second, and so on while the firmware is loaded, while nobody helps
+// it to home, and once it has nothing to wait for.
+TEST_P(UsbDevice, OpeningAndHomingEndSoonWhenTheyAreCalledOff) {
+  for (const bool helped : {true, false}) {
+    if (!helped) {  // it moves, but not to where its zero is
+      model().grip = [this](double t_s) { return GetParam().rest_mm + glm::dvec3(0, 2 * std::sin(9 * t_s), 0); };
     }
-    return GetParam().rest_mm + glm::dvec3(0, 2 * std::sin(9 * t_s), 0);
-  };
-  const auto device = make();
-  caller = device.get();
-  ASSERT_TRUE(device->open());
-  EXPECT_EQ(device->home().error().code, ErrorCode::Cancelled);
-  EXPECT_LE(clock_.now() - called, std::chrono::milliseconds(100));
-  EXPECT_FALSE(model().homed());
-  device->close();
-  EXPECT_TRUE(device->open()) << "closing forgets the call";
+    const auto live = [](HapticDevice& device) {
+      auto opened = device.open();
+      return opened ? device.home() : opened;
+    };
+    for (int moment = 1; moment < 2500; moment += helped ? 1 : 400) {
+      model().powerOn();
+      const auto device = make();
+      cable_ = Cable{.instead = [&device] { device->cancel(); }, .verbs_left = moment};
+      const auto lived = live(*device);
+      if (lived && helped) break;
+      ASSERT_EQ(lived.error().code, ErrorCode::Cancelled) << moment;
+      ASSERT_LE(clock_.now() - cable_.pulled_at, std::chrono::milliseconds(100)) << moment;
+      ASSERT_FALSE(!helped && model().homed()) << moment;
+      if (moment % 50 != 1) continue;
+      device->close();
+      ASSERT_TRUE(device->open()) << "closing forgets the call";
+    }
+  }
 }
 
 TEST_P(UsbDevice, ThePositionIsTheHandsWithinACount) {
@@ -186,6 +193,33 @@ TEST_P(UsbDevice, AForceThatNobodyRenewsEnds) {
   EXPECT_FALSE(pushes());
   ASSERT_TRUE(device->write({0, 0, 3}));
   EXPECT_LT(felt().z, 0.3) << "it fades in anew";
+}
+
+TEST_P(UsbDevice, AHandThatIsNotSeenIsNotPushed) {
+  const auto device = run();
+  push(*device);
+  bool seen = false;
+  model().spoil = [&](std::vector<std::uint8_t>& bytes) {
+    if (!seen) bytes.clear();
+  };
+  for (int i = 0; i < 20; ++i) (void)tick(*device, {0, 0, 3});
+  EXPECT_NEAR(felt().z, 3, 0.05) << "some lost answers are not yet a reason";
+  for (int i = 0; i < 30; ++i) (void)tick(*device, {0, 0, 3});
+  EXPECT_LT(felt().z, 0.03);
+  seen = true;
+  for (int i = 0; i < 100; ++i) (void)tick(*device, {0, 0, 3});
+  EXPECT_NEAR(felt().z, 0.6, 0.05) << "it fades in anew";
+}
+
+TEST_P(UsbDevice, WhatDoesNotTakeItsZeroGetsItAgain) {
+  const auto device = run();
+  push(*device);
+  cable_.deaf = true;
+  for (int i = 0; i < 30; ++i) (void)tick(*device, {0, 0, 3});
+  cable_.deaf = false;
+  EXPECT_TRUE(pushes()) << "it has not heard";
+  ASSERT_TRUE(device->read());
+  EXPECT_FALSE(pushes());
 }
 
 TEST_P(UsbDevice, ForceIsZeroAfterStopCloseAndTheEnd) {
