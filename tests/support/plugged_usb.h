@@ -15,7 +15,7 @@ class PluggedUsb {
   virtual ~PluggedUsb() = default;
   virtual void plug() = 0;
   virtual void unplug() = 0;
-  // As `unplug`, but by itself after so many requests from now on; call `unplug` when it has happened.
+  // As `unplug`, but by itself after so many requests from now on (0: not); call `unplug` when it has happened.
   virtual void unplugAfter(int requests) = 0;
   // The device takes no command until `takesAgain`: transfers to it wait.
   virtual void takesNothing() = 0;
