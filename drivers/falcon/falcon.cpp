@@ -55,7 +55,7 @@ class Falcon final : public HapticDevice {
  private:
   Result<void> openDevice() override {
     if (auto opened = port_->open(); !opened) return opened;
-    const auto answers = firmwareAnswers(*port_);
+    const auto answers = firmwareAnswers(*port_, patience_);
     if (!answers) return std::unexpected(answers.error());
     return *answers ? Result<void>{} : load();
   }
@@ -69,18 +69,18 @@ class Falcon final : public HapticDevice {
       return fail(ErrorCode::Corrupt, "this is no firmware image of the Falcon; one has some 8000 bytes");
     }
     Result<void> loaded;
-    for (int i = 0; i < kLoads && !cancelled(); ++i) {
+    for (int i = 0; i < kLoads; ++i) {
       if (i > 0) {
         port_->close();
         if (auto opened = port_->open(); !opened) return opened;
       }
-      loaded = loadFirmware(*port_, image, cancelled());
-      const auto answers = loaded ? firmwareAnswers(*port_) : Result<bool>(false);
+      loaded = loadFirmware(*port_, image, patience_);
+      const auto answers = loaded ? firmwareAnswers(*port_, patience_) : Result<bool>(false);
       if (!answers) return std::unexpected(answers.error());
       if (*answers) return {};
-      if (!loaded && loaded.error().code == ErrorCode::Lost) return loaded;
+      const bool again = loaded || (loaded.error().code != ErrorCode::Lost && !cancelled());
+      if (!again) return loaded;
     }
-    if (cancelled()) return fail(ErrorCode::Cancelled, "opening the Falcon was called off");
     if (!loaded) return loaded;
     return fail(ErrorCode::Corrupt, "the Falcon took its firmware but does not run; check the image, plug it in anew");
   }
@@ -190,6 +190,7 @@ class Falcon final : public HapticDevice {
   FalconConfig config_;
   std::unique_ptr<UsbPort> port_;
   Clock& clock_;
+  Patience patience_{clock_, cancelled()};
   Motors motors_;
   ForceSession session_;
   PacketStream stream_;

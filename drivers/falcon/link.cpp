@@ -15,7 +15,6 @@ using namespace std::chrono_literals;
 
 constexpr Duration kAnswer = 20ms;  // of one look for bytes
 constexpr Duration kEcho = 100ms;   // for 62 bytes: 4 ms on the line and the latency timer's 16
-constexpr Duration kIdle = 1ms;     // between two packets of an idle bridge, at the least
 
 struct Request {
   std::uint8_t request;
@@ -34,15 +33,17 @@ Result<void> ask(UsbPort& port, std::initializer_list<Request> requests) {
   return {};
 }
 
-// What comes, until `most` bytes are there or nothing has come for `patience`. None is no failure.
-Result<std::vector<std::uint8_t>> gather(UsbPort& port, std::size_t most, Duration patience) {
+// What comes, until `most` bytes are there or nothing has come for so long. None is no failure.
+Result<std::vector<std::uint8_t>> gather(UsbPort& port, std::size_t most, Duration wait, const Patience& patience) {
   std::vector<std::uint8_t> bytes;
-  // The bridge sends its two bytes whenever its latency timer runs out: those are no news, nor is what is broken.
-  for (Duration silent{0}; silent < patience && bytes.size() < most;) {
+  MonotonicTime news = patience.clock.now();
+  while (patience.clock.now() - news < wait && bytes.size() < most) {
+    if (patience.cancelled) return fail(ErrorCode::Cancelled, "opening the Falcon was called off");
     const auto packet = port.receive(kAnswer);
     if (!packet && packet.error().code != ErrorCode::Timeout) return std::unexpected(packet.error());
+    // The bridge sends its two bytes whenever its latency timer runs out: those are no news, nor is what is broken.
     const UsbBytes payload = packet ? payloadOf(*packet) : UsbBytes();
-    silent = payload.empty() ? silent + (packet ? kIdle : kAnswer) : Duration{0};
+    if (!payload.empty()) news = patience.clock.now();
     bytes.insert(bytes.end(), payload.begin(), payload.end());
   }
   return bytes;
@@ -53,14 +54,13 @@ bool endsWith(UsbBytes bytes, UsbBytes wanted) {
 }
 
 // The greeting is answered with or without a zero byte before it.
-Result<void> greet(UsbPort& port, const std::atomic<bool>& cancelled) {
+Result<void> greet(UsbPort& port, const Patience& patience) {
   constexpr std::array<std::uint8_t, 3> kHello{0x0A, 0x43, 0x0D};
   constexpr std::array<std::uint8_t, 4> kWelcome{0x0A, 0x44, 0x2C, 0x0D};
   constexpr int kGreetings = 20;
   for (int i = 0; i < kGreetings; ++i) {
-    if (cancelled) return fail(ErrorCode::Cancelled, "loading the firmware was called off");
     if (auto sent = port.send(kHello, kEcho); !sent) return sent;
-    const auto answer = gather(port, kWelcome.size() + 1, 3 * kAnswer);
+    const auto answer = gather(port, kWelcome.size() + 1, 3 * kAnswer, patience);
     if (!answer) return std::unexpected(answer.error());
     if (endsWith(*answer, kWelcome)) return {};
   }
@@ -68,9 +68,9 @@ Result<void> greet(UsbPort& port, const std::atomic<bool>& cancelled) {
               "the Falcon's boot loader does not answer; check its power adaptor and plug it in anew");
 }
 
-Result<void> sendEchoed(UsbPort& port, UsbBytes bytes) {
+Result<void> sendEchoed(UsbPort& port, UsbBytes bytes, const Patience& patience) {
   if (auto sent = port.send(bytes, kEcho); !sent) return sent;
-  const auto echo = gather(port, bytes.size(), kEcho);
+  const auto echo = gather(port, bytes.size(), kEcho, patience);
   if (!echo) return std::unexpected(echo.error());
   if (echo->size() < bytes.size()) return fail(ErrorCode::Timeout, "the Falcon's boot loader stopped to echo");
   if (!std::ranges::equal(*echo, bytes)) return fail(ErrorCode::Corrupt, "the Falcon's boot loader echoed other bytes");
@@ -93,14 +93,14 @@ Result<void> setRunMode(UsbPort& port) {
   return ask(port, {kLatency1Ms, k1500KiloBaud, kEmptyIncoming, kEmptyOutgoing});
 }
 
-Result<bool> firmwareAnswers(UsbPort& port) {
+Result<bool> firmwareAnswers(UsbPort& port, const Patience& patience) {
   if (auto ready = setRunMode(port); !ready) return std::unexpected(ready.error());
   for (int i = 0; i < 3; ++i) {
     if (auto sent = port.send(encode(Command{}), kAnswer); !sent) {
       if (sent.error().code == ErrorCode::Timeout) continue;
       return std::unexpected(sent.error());
     }
-    const auto answer = gather(port, kPacketBytes, kAnswer);
+    const auto answer = gather(port, kPacketBytes, kAnswer, patience);
     if (!answer) return std::unexpected(answer.error());
     PacketStream stream;
     stream.add(*answer);
@@ -109,16 +109,15 @@ Result<bool> firmwareAnswers(UsbPort& port) {
   return false;
 }
 
-Result<void> loadFirmware(UsbPort& port, const std::vector<std::uint8_t>& image, const std::atomic<bool>& cancelled) {
+Result<void> loadFirmware(UsbPort& port, const std::vector<std::uint8_t>& image, const Patience& patience) {
   constexpr std::array<std::uint8_t, 1> kBegin{0x41};
   if (auto ready = setBootMode(port); !ready) return ready;
-  if (auto greeted = greet(port, cancelled); !greeted) return greeted;
+  if (auto greeted = greet(port, patience); !greeted) return greeted;
   if (auto fast = ask(port, {kDtrLow, k143KiloBaud}); !fast) return fast;
-  if (auto begun = sendEchoed(port, kBegin); !begun) return begun;
+  if (auto begun = sendEchoed(port, kBegin, patience); !begun) return begun;
   for (std::size_t at = 0; at < image.size(); at += kMostPayload) {
-    if (cancelled) return fail(ErrorCode::Cancelled, "loading the firmware was called off");
     const std::size_t bytes = std::min(kMostPayload, image.size() - at);
-    if (auto sent = sendEchoed(port, UsbBytes(image).subspan(at, bytes)); !sent) return sent;
+    if (auto sent = sendEchoed(port, UsbBytes(image).subspan(at, bytes), patience); !sent) return sent;
   }
   return setRunMode(port);
 }

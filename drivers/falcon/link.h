@@ -26,13 +26,19 @@ inline constexpr std::size_t kMostPayload = kUsbPacketBytes - kStatusBytes;
 // Fast line, for the firmware: 1.5 MBd, latency timer 1 ms, both directions emptied.
 [[nodiscard]] Result<void> setRunMode(UsbPort& port);
 
-// True when the firmware answers a packet. Set-up; takes 100 ms at most where it does not.
-[[nodiscard]] Result<bool> firmwareAnswers(UsbPort& port);
+// What the two verbs of set-up wait by, and what calls them off within 100 ms.
+struct Patience {
+  Clock& clock;
+  const std::atomic<bool>& cancelled;
+};
+
+// True when the firmware answers a packet; takes 100 ms at most where it does not. Cancelled.
+[[nodiscard]] Result<bool> firmwareAnswers(UsbPort& port, const Patience& patience);
 
 // Hands the image to the boot loader, which echoes every byte. One try of about 3 s: users report that the first one
 // often fails, so that the caller opens the port anew and tries again. Leaves the bridge in run mode.
-// Corrupt: a wrong echo. Timeout: no answer. Cancelled once `cancelled` is set.
+// Corrupt: a wrong echo. Timeout: no answer. Cancelled.
 [[nodiscard]] Result<void> loadFirmware(UsbPort& port, const std::vector<std::uint8_t>& image,
-                                        const std::atomic<bool>& cancelled);
+                                        const Patience& patience);
 
 }  // namespace relievo::falcon

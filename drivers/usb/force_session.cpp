@@ -32,7 +32,7 @@ Result<void> ForceSession::beginForces(UsbBytes quiet, bool watchdog_thread) {
 void ForceSession::end() noexcept {
   watchdog_.stop();
   if (!exchanging_) return;
-  port_.quieten();
+  static_cast<void>(port_.quieten());  // a device that does not take it has gone
   port_.stopExchange();
   exchanging_ = false;
 }
@@ -41,7 +41,7 @@ Result<void> ForceSession::listened(bool answered) RELIEVO_RT {
   const MonotonicTime now = clock_.now();
   if (answered) heard_ = now;
   if (now - heard_ > kSilence) return fail(ErrorCode::Lost, "the device stopped answering; plug it in anew");
-  if (watchdog_.check(now)) fade_ = 0;
+  if (watchdog_.check(now) || now - heard_ > Watchdog::kPatience) fade_ = 0;
   return {};
 }
 

@@ -28,7 +28,9 @@ class ForceSession {
   [[nodiscard]] Result<void> listened(bool answered) RELIEVO_RT;
 
   struct Share {
-    double of_force = 0;   // that may go out: from 0 to 1 within half a second, anew after a watchdog's bite
+    // That may go out: from 0 to 1 within half a second, anew after the watchdog has barked, and none while the device
+    // has not answered for as long as that one waits: where the hand is is not known then.
+    double of_force = 0;
     double elapsed_s = 0;  // since the last one
   };
   // Once for each force.

@@ -75,7 +75,7 @@ class LibusbPort final : public UsbPort {
 
   Result<void> control(std::uint8_t request, std::uint16_t value) override {
     constexpr std::uint8_t kVendorToDevice = 0x40;
-    constexpr unsigned kTimeoutMs = 1000;
+    constexpr unsigned kTimeoutMs = 100;
     const int done = libusb_control_transfer(handle_, kVendorToDevice, request, value, 0, nullptr, 0, kTimeoutMs);
     if (done < 0) return failUsb(done);
     return {};
@@ -97,8 +97,11 @@ class LibusbPort final : public UsbPort {
   }
 
   Result<void> startExchange(UsbBytes quiet) override {
-    quiet_ =
-        QuietEntry{.fd = fd_.get(), .endpoint = id_.out_endpoint, .bytes = std::min(quiet.size(), kUsbPacketBytes)};
+    quiet_.fd = fd_.get();
+    quiet_.endpoint = id_.out_endpoint;
+    quiet_.bytes = std::min(quiet.size(), kUsbPacketBytes);
+    quiet_.command = out_.urb.get();
+    quiet_.silenced = false;
     std::copy_n(quiet.begin(), quiet_.bytes, quiet_.packet.begin());
     exchanging_ = true;
     next_ = 0;
@@ -127,7 +130,7 @@ class LibusbPort final : public UsbPort {
 
   Result<bool> post(UsbBytes bytes) RELIEVO_RT override {
     if (auto reaped = reap(); !reaped) return std::unexpected(reaped.error());
-    if (out_.busy || bytes.size() > kUsbPacketBytes) return false;
+    if (out_.busy || quiet_.silenced || bytes.size() > kUsbPacketBytes) return false;
     std::copy(bytes.begin(), bytes.end(), out_.data.begin());
     if (auto sent = submit(out_, id_.out_endpoint, bytes.size()); !sent) return std::unexpected(sent.error());
     return true;
@@ -148,9 +151,7 @@ class LibusbPort final : public UsbPort {
     exchanging_ = false;
   }
 
-  void quieten() noexcept override {
-    if (exchanging_) sendQuiet(quiet_);
-  }
+  bool quieten() noexcept override { return !exchanging_ || sendQuiet(quiet_); }
 
  private:
   struct Transfer {

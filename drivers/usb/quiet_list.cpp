@@ -11,40 +11,48 @@
 namespace relievo {
 namespace {
 
-std::array<std::atomic<const QuietEntry*>, 4> listed;
-static_assert(std::atomic<const QuietEntry*>::is_always_lock_free);
+std::array<std::atomic<QuietEntry*>, 4> listed;
+static_assert(std::atomic<QuietEntry*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
 }  // namespace
 
-void sendQuiet(const QuietEntry& entry) noexcept {
+bool sendQuiet(const QuietEntry& entry) noexcept {
   constexpr unsigned kTimeoutMs = 20;
   const int saved = errno;
   usbdevfs_bulktransfer transfer{};
   transfer.ep = entry.endpoint;
   transfer.len = static_cast<unsigned>(entry.bytes);
   transfer.timeout = kTimeoutMs;
-  transfer.data = const_cast<std::uint8_t*>(entry.packet.data());  // read only: the endpoint is an OUT one
-  static_cast<void>(::ioctl(entry.fd, USBDEVFS_BULK, &transfer));  // a device that does not answer has no motors
+  transfer.data = const_cast<std::uint8_t*>(entry.packet.data());            // read only: the endpoint is an OUT one
+  static_cast<void>(::ioctl(entry.fd, USBDEVFS_DISCARDURB, entry.command));  // there may be none
+  const bool taken = ::ioctl(entry.fd, USBDEVFS_BULK, &transfer) >= 0;
   errno = saved;
+  return taken;
 }
 
-QuietListing::QuietListing(const QuietEntry& entry) noexcept : entry_(&entry) {
+QuietListing::QuietListing(QuietEntry& entry) noexcept : entry_(&entry) {
   for (auto& place : listed) {
-    const QuietEntry* none = nullptr;
+    QuietEntry* none = nullptr;
     if (place.compare_exchange_strong(none, entry_)) return;
   }
 }
 
 QuietListing::~QuietListing() {
   for (auto& place : listed) {
-    const QuietEntry* mine = entry_;
+    QuietEntry* mine = entry_;
     if (place.compare_exchange_strong(mine, nullptr)) return;
   }
 }
 
 void quietenAllUsbDevices() noexcept {
-  for (const auto& place : listed) {
-    if (const QuietEntry* entry = place.load()) sendQuiet(*entry);
+  // Twice: a tick that was past its look at `silenced` may have sent its force after the first.
+  for (int round = 0; round < 2; ++round) {
+    for (const auto& place : listed) {
+      QuietEntry* entry = place.load();
+      if (entry == nullptr) continue;
+      entry->silenced = true;
+      static_cast<void>(sendQuiet(*entry));  // a device that does not answer has no motors
+    }
   }
 }
 

@@ -59,16 +59,17 @@ class UsbPort {
   [[nodiscard]] virtual Result<bool> post(UsbBytes bytes) RELIEVO_RT = 0;
   virtual void stopExchange() noexcept = 0;
 
-  // Sends the quiet packet past whatever the exchange is doing and waits for it, 20 ms at most. Any thread, while an
-  // exchange runs.
-  virtual void quieten() noexcept = 0;
+  // Takes back what was posted and has not gone out, sends the quiet packet and waits for it, 20 ms at most. False when
+  // the device did not take it. Any thread, while an exchange runs.
+  virtual bool quieten() noexcept = 0;
 };
 
 // Through libusb, to a device of any of the ids. Allocates nothing and takes no lock between startExchange and
 // stopExchange.
 [[nodiscard]] std::unique_ptr<UsbPort> makeLibusbPort(std::vector<UsbDeviceId> ids);
 
-// Quietens every device that is in an exchange, for a handler of a fatal signal: async-signal-safe.
+// Quietens every device that is in an exchange, for a handler of a fatal signal: async-signal-safe. Nothing that is
+// posted in that exchange goes out any more, whatever the other threads do until they are gone.
 void quietenAllUsbDevices() noexcept;
 
 }  // namespace relievo

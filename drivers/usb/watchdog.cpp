@@ -7,6 +7,7 @@ namespace relievo {
 Result<void> Watchdog::start(bool own_thread) {
   fed_ns_ = kQuiet;
   barked_ = false;
+  own_thread_ = own_thread;
   if (!own_thread) return {};
   const CyclicConfig config{.name = "relievo-watch", .period = kPatience / 4, .priority = 85};
   const auto started = thread_.start(config, *this);
@@ -20,7 +21,7 @@ LoopControl Watchdog::loop(const Cycle& cycle) RELIEVO_RT {
 }
 
 bool Watchdog::check(MonotonicTime now) RELIEVO_RT {
-  bark(now);
+  if (!own_thread_) bark(now);
   return barked_.exchange(false, std::memory_order_relaxed);
 }
 
@@ -29,8 +30,10 @@ void Watchdog::bark(MonotonicTime now) RELIEVO_RT {
   if (fed == kQuiet || now.time_since_epoch().count() - fed <= kPatience.count()) return;
   // Fed again meanwhile: nothing to do.
   if (!fed_ns_.compare_exchange_strong(fed, kQuiet, std::memory_order_relaxed)) return;
-  port_.quieten();
   barked_.store(true, std::memory_order_relaxed);
+  if (port_.quieten()) return;
+  Duration::rep quiet = kQuiet;  // the device did not take it: again at the next look
+  fed_ns_.compare_exchange_strong(quiet, fed, std::memory_order_relaxed);
 }
 
 }  // namespace relievo

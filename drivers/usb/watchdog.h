@@ -24,7 +24,7 @@ class Watchdog final : private CyclicTask {
 
   // A command is on its way.
   void feed(MonotonicTime now) RELIEVO_RT { fed_ns_.store(now.time_since_epoch().count(), std::memory_order_relaxed); }
-  // Quietens the device if it is due. True once after each time that it has been quietened, whoever did.
+  // True once after each time that the device was quietened; without a thread it is done here.
   bool check(MonotonicTime now) RELIEVO_RT;
 
  private:
@@ -34,6 +34,7 @@ class Watchdog final : private CyclicTask {
 
   UsbPort& port_;
   MonotonicClock clock_;
+  bool own_thread_ = false;
   std::atomic<Duration::rep> fed_ns_{kQuiet};
   std::atomic<bool> barked_{false};
   CyclicThread thread_;

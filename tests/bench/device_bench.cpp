@@ -43,7 +43,7 @@ class NullPort final : public UsbPort {
     return true;
   }
   void stopExchange() noexcept override {}
-  void quieten() noexcept override {}
+  bool quieten() noexcept override { return true; }
 
   bool moving = false;
 

@@ -32,9 +32,10 @@ void fuzz(FuzzedDataProvider& data) {
   FuzzPort port(data, clock, loader);
   port.on_sent = [&sent](UsbBytes bytes) { sent.insert(sent.end(), bytes.begin(), bytes.end()); };
   port.on_many_verbs = [&cancelled] { cancelled = true; };
-  const auto answers = firmwareAnswers(port);
+  const Patience patience{clock, cancelled};
+  const auto answers = firmwareAnswers(port, patience);
   sent.clear();
-  const auto loaded = loadFirmware(port, image, cancelled);
+  const auto loaded = loadFirmware(port, image, patience);
   require(!answers || !*answers || loaded || loaded.error().message != nullptr, "a failure says what it is");
   if (!loaded) return;
   require(sent.size() >= image.size() && std::ranges::equal(UsbBytes(sent).last(image.size()), image),

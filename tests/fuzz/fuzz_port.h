@@ -44,6 +44,7 @@ class FuzzPort final : public UsbPort {
     return fail(ErrorCode::Timeout, "the fuzzer's device is busy");
   }
   Result<UsbPacket> receive(Duration timeout) override {
+    clock_.advance(std::chrono::microseconds(100));  // no packet comes sooner
     if (const auto packet = answer(); !packet || packet->bytes > 0) return packet;
     clock_.advance(timeout);
     return fail(ErrorCode::Timeout, "the fuzzer's device has nothing to say");
@@ -64,9 +65,10 @@ class FuzzPort final : public UsbPort {
     return true;
   }
   void stopExchange() noexcept override { exchanging_ = false; }
-  void quieten() noexcept override {
+  bool quieten() noexcept override {
     require(exchanging_, "the motors are stopped while there is an exchange");
     on_sent(quiet_);
+    return true;
   }
 
   [[nodiscard]] bool exchanging() const { return exchanging_; }

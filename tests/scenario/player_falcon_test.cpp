@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole player, as a program, on a Falcon that is plugged into this machine: the grip presses into the sample
-// scene, and what the haptic task computed arrives at the motors.
+// The whole player, as a program, on a Falcon that is plugged into this machine: the grip presses into a slope, and
+// what the haptic task computed arrives at the motors.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,6 @@
 #include "tests/support/falcon_model.h"
 #include "tests/support/plugged_usb.h"
 #include "tests/support/program.h"
-#include "tests/support/sanitizers.h"
 
 namespace relievo {
 namespace {
@@ -42,10 +41,11 @@ std::vector<Tick> readTicks(const std::string& path) {
   return ticks;
 }
 
-// The capabilities are the device's own; the volume is that of the sample film, 720 x 486.
-WorkspaceMapping sampleMapping() {
+constexpr int kCols = 180, kRows = 120;
+
+WorkspaceMapping filmMapping() {
   MonotonicClock clock;
-  return {makeFalcon({}, clock)->capabilities(), DisplayVolume::forPicture(720, 486)};
+  return {makeFalcon({}, clock)->capabilities(), DisplayVolume::forPicture(kCols, kRows)};
 }
 
 falcon::Words wordsOf(const Tick& tick, const WorkspaceMapping& mapping) {
@@ -63,17 +63,24 @@ std::optional<double> shareOf(const falcon::Words& part, const falcon::Words& wh
   return std::max({off.x, off.y, off.z}) <= 1 ? std::optional(share) : std::nullopt;
 }
 
-// The sample film; a plane of its size where a sanitizer makes its rendering take minutes.
-void makeFilm(const test::TemporaryFolder& folder) {
-  const std::string path = folder / "sample.mkv";
-  if (kMemorySanitizer) {
-    const auto plane = [](int, int, int, int) { return 40000U; };
-    test::makeClip(path,
-                   {{.pix_fmt = "yuv420p", .width = 720, .height = 486, .frames = 300, .tags = {{"title", "color"}}},
-                    {.width = 720, .height = 486, .frames = 300, .sample = plane, .tags = {{"title", "depth"}}}});
-  } else {
-    ASSERT_EQ(test::runProgram("relievo-author --scene sample -o " + path, folder / "").exit_code, 0);
-  }
+// Half-way up the volume in the middle, and 0.15 mm higher for each to the right and 0.1 for each down, so that each
+// leg has another share of the force.
+void makeSlope(const std::string& path) {
+  constexpr int kFps = 25, kSeconds = 8;
+  const auto slope = [](int, int column, int row, int) {
+    return static_cast<std::uint32_t>(32768 + 218 * (column - kCols / 2) + 146 * (row - kRows / 2));
+  };
+  const test::ClipTrack color{.pix_fmt = "yuv420p",
+                              .width = kCols,
+                              .height = kRows,
+                              .fps_num = kFps,
+                              .frames = kFps * kSeconds,
+                              .tags = {{"title", "color"}}};
+  test::ClipTrack depth = color;
+  depth.pix_fmt = "gray16le";
+  depth.sample = slope;
+  depth.tags = {{"title", "depth"}};
+  test::makeClip(path, {color, depth});
 }
 
 TEST(PlayerOnAFalcon, WhatTheTaskComputesArrivesAtTheMotors) {
@@ -81,7 +88,7 @@ TEST(PlayerOnAFalcon, WhatTheTaskComputesArrivesAtTheMotors) {
 
   test::FalconModel model({});
   model.runFirmware();
-  // Through its range until it is homed; then down into the head and in circles there.
+  // Through its range until it is homed; then down into the slope and in circles there.
   double homed_s = 0;
   model.grip = [&](double t_s) {
     if (!model.homed()) homed_s = t_s;
@@ -91,8 +98,8 @@ TEST(PlayerOnAFalcon, WhatTheTaskComputesArrivesAtTheMotors) {
   };
   const auto usb = test::plugIn(model, falcon::kUsbId);
   if (usb == nullptr) GTEST_SKIP() << test::kNoPlug;
-  makeFilm(folder);
-  const auto played = test::runProgram("relievo play " + (folder / "sample.mkv") +
+  makeSlope(folder / "slope.mkv");
+  const auto played = test::runProgram("relievo play " + (folder / "slope.mkv") +
                                            " --display mock --haptic falcon --duration 7 --report " +
                                            (folder / "r.json") + " --record " + (folder / "t.csv"),
                                        folder / "");
@@ -107,7 +114,7 @@ TEST(PlayerOnAFalcon, WhatTheTaskComputesArrivesAtTheMotors) {
   EXPECT_EQ(model.last().motors, falcon::Words{}) << "zero in the end";
   const auto ticks = readTicks(folder / "t.csv");
   ASSERT_GT(ticks.size(), 100U) << "of 7000, on a machine that keeps up";
-  const WorkspaceMapping mapping = sampleMapping();
+  const WorkspaceMapping mapping = filmMapping();
   std::vector<falcon::Words> computed;
   for (const Tick& tick : ticks) computed.push_back(wordsOf(tick, mapping));
   // Each command that is not zero is that of a tick, in order. A tick is left out whose command found the one before

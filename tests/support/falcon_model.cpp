@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <numbers>
+
+#include "drivers/falcon/motors.h"
 
 namespace relievo::test {
 namespace {
@@ -22,7 +23,7 @@ double angleOf(double phi_deg, const glm::dvec3& p) {
   const double wanted = 22.5 + std::sqrt(102.5 * 102.5 - v * v);
   const double toward = std::atan2(p.z, u);
   double low = toward - std::numbers::pi, high = toward;  // farthest, nearest
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < 60; ++i) {                          // to the last bit
     const double middle = 0.5 * (low + high);
     const double distance = std::hypot(u - 60.0 * std::cos(middle), p.z - 60.0 * std::sin(middle));
     (distance > wanted ? low : high) = middle;
@@ -40,7 +41,7 @@ int countOf(double theta_rad) {
 FalconModel::FalconModel(std::vector<std::uint8_t> image, FalconFaults faults)
     : image_(std::move(image)), faults_(std::move(faults)) {
   grip = [this](double t_s) {
-    return glm::dvec3(0, 0, homed_ == 7 ? 120 : 120 + 45 * std::sin(2 * std::numbers::pi * t_s));
+    return homed() ? kRestMm : kRestMm + glm::dvec3(0, 0, 45 * std::sin(2 * std::numbers::pi * t_s));
   };
 }
 
@@ -49,15 +50,7 @@ glm::dvec3 FalconModel::anglesAt(const glm::dvec3& position_mm) {
 }
 
 glm::dvec3 FalconModel::forceOfTorques(const glm::dvec3& torques_nmm, const glm::dvec3& position_mm) {
-  constexpr double kStepMm = 1e-3;
-  glm::dvec3 force{0};
-  for (int axis = 0; axis < 3; ++axis) {
-    glm::dvec3 before = position_mm, after = position_mm;
-    before[axis] -= kStepMm;
-    after[axis] += kStepMm;
-    force[axis] = glm::dot(torques_nmm, anglesAt(after) - anglesAt(before)) / (2 * kStepMm);
-  }
-  return force;
+  return test::forceOfTorques(torques_nmm, position_mm, anglesAt);
 }
 
 glm::dvec3 FalconModel::forceOf(const falcon::Words& words, const glm::dvec3& position_mm, double counts_per_nm) {
@@ -73,6 +66,7 @@ void FalconModel::powerOn() {
   taken_.clear();
   stream_.clear();
   before_ = {};
+  began_.reset();
   command_ = {};
 }
 
@@ -127,8 +121,12 @@ void FalconModel::bootByte(std::uint8_t byte, MonotonicTime now) {
   }
 }
 
-glm::dvec3 FalconModel::gripNow(MonotonicTime now) const {
-  return grip(began_ ? toSeconds(now - *began_) : 0.0);
+glm::dvec3 FalconModel::forceAt(const glm::dvec3& place_mm, MonotonicTime /*now*/) const {
+  return forceOf(command_.motors, place_mm, falcon::kDefaultCountsPerNm);
+}
+
+bool FalconModel::pushes(MonotonicTime /*now*/) const {
+  return command_.motors != falcon::Words{};
 }
 
 // Counts mean nothing until each leg has passed its index with homing on; there they become zero.
@@ -153,7 +151,7 @@ void FalconModel::obey(const falcon::Command& command, MonotonicTime now) {
   reply.homed = static_cast<std::uint8_t>(homed_);
   const falcon::Packet packet = falcon::encode(reply);
   std::vector<std::uint8_t> bytes(packet.begin(), packet.end());
-  if (faults_.spoil) faults_.spoil(bytes);
+  if (spoil) spoil(bytes);
   constexpr Duration kWire = 2 * 107us;  // 16 bytes there and 16 back at 1.5 MBd
   say(std::move(bytes), now + kWire);
 }
@@ -170,6 +168,8 @@ std::optional<UsbPacket> FalconModel::read(MonotonicTime now) {
   packet.data[1] = 0x60;
   packet.bytes = 2;
   if (faults_.broken_line) {
+    if (now - last_read_ < 1ms) return std::nullopt;
+    last_read_ = now;
     packet.data[1] = 0x62;  // overrun
     packet.bytes = 3;
     return packet;

@@ -4,12 +4,11 @@
 #pragma once
 
 #include <deque>
-#include <functional>
 #include <glm/vec3.hpp>
 #include <vector>
 
 #include "drivers/falcon/packet.h"
-#include "tests/support/usb_model.h"
+#include "tests/support/haptic_model.h"
 
 namespace relievo::test {
 
@@ -21,11 +20,9 @@ struct FalconFaults {
   bool broken_line = false;                                 // every packet says that bytes of it were lost
   bool leading_zero = false;                                // the greeting's answer has a zero byte before it
   std::size_t most_payload = falcon::kPacketBytes * 4 - 2;  // of an IN packet: short reads
-  // Applied to the bytes of every reply of the firmware.
-  std::function<void(std::vector<std::uint8_t>& bytes)> spoil;
 };
 
-class FalconModel final : public UsbModel {
+class FalconModel final : public HapticModel {
  public:
   explicit FalconModel(std::vector<std::uint8_t> image, FalconFaults faults = {});
 
@@ -33,19 +30,19 @@ class FalconModel final : public UsbModel {
   void write(UsbBytes bytes, MonotonicTime now) override;
   std::optional<UsbPacket> read(MonotonicTime now) override;
 
-  // Where the grip is, mm in the driver's frame, `t_s` after the firmware was first spoken to. Its default moves
-  // through the range once a second, as a user does to home it, until it is homed, and then rests in the middle.
-  std::function<glm::dvec3(double t_s)> grip;
+  // The default grip moves through the range once a second, as a user does to home it, and then rests here.
+  static constexpr glm::dvec3 kRestMm{0, 0, 120};
 
-  void powerOn();  // as after its power came back: no firmware, no zero
+  void powerOn() override;  // no firmware, no zero
+  void silence() override { running_ = false; }
+  [[nodiscard]] bool homed() const override { return homed_ == 7; }
+  [[nodiscard]] glm::dvec3 forceAt(const glm::dvec3& place_mm, MonotonicTime now) const override;
+  [[nodiscard]] bool pushes(MonotonicTime now) const override;
   void runFirmware() { running_ = true; }
   [[nodiscard]] bool running() const { return running_; }
-  [[nodiscard]] bool homed() const { return homed_ == 7; }
   [[nodiscard]] int loads() const { return loads_; }
-  [[nodiscard]] int commands() const { return commands_; }
   [[nodiscard]] const falcon::Command& last() const { return command_; }
   [[nodiscard]] const std::vector<falcon::Words>& history() const { return history_; }
-  [[nodiscard]] glm::dvec3 gripNow(MonotonicTime now) const;
 
   // The thigh angles of a pose, rad, by bisection.
   [[nodiscard]] static glm::dvec3 anglesAt(const glm::dvec3& position_mm);
@@ -81,8 +78,6 @@ class FalconModel final : public UsbModel {
   falcon::PacketStream stream_;
   falcon::Command command_;
   std::vector<falcon::Words> history_;
-  int commands_ = 0;
-  std::optional<MonotonicTime> began_;
   unsigned homed_ = 0;
   falcon::Counts start_counts_{};
   std::array<std::optional<int>, 3> before_;

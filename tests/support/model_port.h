@@ -2,6 +2,7 @@
 // A USB port with a model of a device behind it, in simulated time and in one thread.
 #pragma once
 
+#include <functional>
 #include <limits>
 
 #include "platform/allocation_counter.h"
@@ -9,12 +10,15 @@
 
 namespace relievo::test {
 
-// What a test sees and does from outside. `verbs_left` counts down with every verb: at zero the cable is pulled.
+// What a test sees and does from outside. `verbs_left` counts down with every verb: at zero the cable is pulled, or
+// what the test has in its place is done.
 struct Cable {
+  std::function<void()> instead;
   bool plugged = true;
+  bool deaf = false;        // the device takes nothing for a while
   bool comes_back = false;  // it is plugged in again before the next `open`
   int verbs_left = std::numeric_limits<int>::max();
-  int verbs = 0;
+  MonotonicTime pulled_at;
   int exchanges = 0;  // that were started
   bool open = false, exchanging = false;
   std::uint64_t model_allocations = 0;  // by the model, on the thread of its caller
@@ -70,13 +74,16 @@ class ModelPort final : public UsbPort {
   }
   Result<bool> post(UsbBytes bytes) RELIEVO_RT override {
     if (!there()) return gone();
+    if (cable_.deaf) return false;
     const ModelAllocations counted(cable_);
     model_.write(bytes, clock_.now());
     return true;
   }
   void stopExchange() noexcept override { cable_.exchanging = false; }
-  void quieten() noexcept override {
-    if (cable_.plugged && cable_.exchanging) model_.write(quiet_, clock_.now());
+  bool quieten() noexcept override {
+    if (!cable_.plugged || !cable_.exchanging || cable_.deaf) return false;
+    model_.write(quiet_, clock_.now());
+    return true;
   }
 
  private:
@@ -94,8 +101,11 @@ class ModelPort final : public UsbPort {
   };
 
   bool there() RELIEVO_RT {
-    ++cable_.verbs;
-    if (cable_.verbs_left > 0 && --cable_.verbs_left == 0) cable_.plugged = false;
+    if (cable_.verbs_left > 0 && --cable_.verbs_left == 0) {
+      cable_.plugged = cable_.instead != nullptr;
+      if (cable_.instead) cable_.instead();
+      cable_.pulled_at = clock_.now();
+    }
     return cable_.plugged;
   }
   static std::unexpected<Error> gone() RELIEVO_RT { return fail(ErrorCode::Lost, "the model was unplugged"); }

@@ -15,6 +15,11 @@ class PluggedUsb {
   virtual ~PluggedUsb() = default;
   virtual void plug() = 0;
   virtual void unplug() = 0;
+  // As `unplug`, but by itself after so many requests from now on (0: not); call `unplug` when it has happened.
+  virtual void unplugAfter(int requests) = 0;
+  // The device takes no command until `takesAgain`: transfers to it wait.
+  virtual void takesNothing() = 0;
+  virtual void takesAgain() = 0;
   // Take it to look at the model.
   [[nodiscard]] virtual std::mutex& lock() = 0;
   // Requests of the kernel's interface that a transport does not know: a kernel has none.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/polhem_model.h"
 
+#include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <numbers>
 
@@ -84,15 +84,7 @@ glm::dvec3 PolhemModel::forceOf(const glm::dvec3& milliamps, const glm::dvec3& p
     const int axis = static_cast<int>(i);
     torque_nmm[axis] = milliamps[axis] * arm.torque_constant[i] * gearOf(arm, i);
   }
-  constexpr double kStepMm = 1e-3;
-  glm::dvec3 force{0};
-  for (int axis = 0; axis < 3; ++axis) {
-    glm::dvec3 before = place_mm, after = place_mm;
-    before[axis] -= kStepMm;
-    after[axis] += kStepMm;
-    force[axis] = glm::dot(torque_nmm, anglesAt(after, arm) - anglesAt(before, arm)) / (2 * kStepMm);
-  }
-  return force;
+  return forceOfTorques(torque_nmm, place_mm, [&arm](const glm::dvec3& place) { return anglesAt(place, arm); });
 }
 
 void PolhemModel::powerOn() {
@@ -107,8 +99,9 @@ void PolhemModel::powerOn() {
 
 void PolhemModel::control(std::uint8_t /*request*/, std::uint16_t /*value*/, MonotonicTime /*now*/) {}
 
-glm::dvec3 PolhemModel::gripNow(MonotonicTime now) const {
-  return grip(began_ ? toSeconds(now - *began_) : 0.0);
+glm::dvec3 PolhemModel::forceAt(const glm::dvec3& place_mm, MonotonicTime now) const {
+  const polhem::Milliamps now_ma = milliamps(now);
+  return forceOf({now_ma[0], now_ma[1], now_ma[2]}, place_mm, arm_);
 }
 
 polhem::Milliamps PolhemModel::milliamps(MonotonicTime now) const {
@@ -134,7 +127,7 @@ void PolhemModel::write(UsbBytes bytes, MonotonicTime now) {
       calibrated_s_ = toSeconds(now - *began_);
     }
   }
-  if (!silent_) report(now + 300us);
+  if (!silent_) report(now + kAnswersIn);
 }
 
 void PolhemModel::report(MonotonicTime when) {
@@ -144,7 +137,7 @@ void PolhemModel::report(MonotonicTime when) {
   report.grip[0] = button ? 10000 : 0;
   const polhem::PaddedReport padded = polhem::encode(report);
   std::vector<std::uint8_t> bytes(padded.begin(), padded.begin() + static_cast<std::ptrdiff_t>(faults_.report_bytes));
-  if (faults_.spoil) faults_.spoil(bytes);
+  if (spoil) spoil(bytes);
   to_host_.push_back({std::move(bytes), when});
 }
 

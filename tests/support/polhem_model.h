@@ -4,24 +4,21 @@
 #pragma once
 
 #include <deque>
-#include <functional>
 #include <glm/vec3.hpp>
 #include <vector>
 
 #include "drivers/polhem/description.h"
 #include "drivers/polhem/report.h"
-#include "tests/support/usb_model.h"
+#include "tests/support/haptic_model.h"
 
 namespace relievo::test {
 
 struct PolhemFaults {
   std::size_t report_bytes = polhem::kReportBytes;  // what it sends; with kReportBytes it also takes no other length
   bool deaf_to_calibrate = false;                   // a board that does not know the command
-  // Applied to the bytes of every report.
-  std::function<void(std::vector<std::uint8_t>& bytes)> spoil;
 };
 
-class PolhemModel final : public UsbModel {
+class PolhemModel final : public HapticModel {
  public:
   explicit PolhemModel(const polhem::Description& description = polhem::kWoodenHaptics2019, PolhemFaults faults = {});
 
@@ -29,19 +26,19 @@ class PolhemModel final : public UsbModel {
   void write(UsbBytes bytes, MonotonicTime now) override;
   std::optional<UsbPacket> read(MonotonicTime now) override;
 
-  // Where the tip is, mm in the driver's frame, `t_s` after the first command. Its default holds the arm where it is
-  // calibrated until that is done and a moment longer, then in the middle of the workspace.
-  std::function<glm::dvec3(double t_s)> grip;
+  // The default grip holds the arm where it is calibrated until that is done and a moment longer, then in the middle of
+  // the workspace.
+  static constexpr Duration kAnswersIn = std::chrono::microseconds(300);
   bool button = false;
 
-  void powerOn();  // as after its power came back: the counters are zero wherever the arm is
-  void silence() { silent_ = true; }
-  [[nodiscard]] bool calibrated() const { return calibrated_; }
-  [[nodiscard]] int commands() const { return commands_; }
+  void powerOn() override;  // the counters are zero wherever the arm is
+  void silence() override { silent_ = true; }
+  [[nodiscard]] bool homed() const override { return calibrated_; }
+  [[nodiscard]] glm::dvec3 forceAt(const glm::dvec3& place_mm, MonotonicTime now) const override;
+  [[nodiscard]] bool pushes(MonotonicTime now) const override { return milliamps(now) != polhem::Milliamps{}; }
   [[nodiscard]] const polhem::Command& last() const { return command_; }
   [[nodiscard]] polhem::Milliamps milliamps(MonotonicTime now) const;  // that flow: none after half a second
   [[nodiscard]] const std::vector<polhem::Milliamps>& history() const { return history_; }
-  [[nodiscard]] glm::dvec3 gripNow(MonotonicTime now) const;
 
   // The same for any arm; angles in rad, places in mm in the driver's frame.
   [[nodiscard]] static glm::dvec3 placeOf(const glm::dvec3& angles, const polhem::Description& arm);
@@ -69,8 +66,6 @@ class PolhemModel final : public UsbModel {
   polhem::Command command_;
   MonotonicTime commanded_;
   std::vector<polhem::Milliamps> history_;
-  int commands_ = 0;
-  std::optional<MonotonicTime> began_;
 };
 
 }  // namespace relievo::test

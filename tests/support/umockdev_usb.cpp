@@ -109,6 +109,23 @@ void UmockdevUsb::unplug() {
   umockdev_testbed_remove_device(bed_, kDevice);
 }
 
+void UmockdevUsb::unplugAfter(int requests) {
+  const std::lock_guard guard(lock_);
+  requests_left_ = requests;
+}
+
+void UmockdevUsb::takesNothing() {
+  const std::lock_guard guard(lock_);
+  deaf_ = true;
+}
+
+void UmockdevUsb::takesAgain() {
+  const std::lock_guard guard(lock_);
+  deaf_ = false;
+  for (const Urb& urb : untaken_) take(urb);
+  untaken_.clear();
+}
+
 gboolean UmockdevUsb::onRequest(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self) {
   auto& usb = *static_cast<UmockdevUsb*>(self);
   const std::lock_guard guard(usb.lock_);
@@ -122,11 +139,14 @@ bool UmockdevUsb::answer(UMockdevIoctlClient* client) {
     umockdev_ioctl_client_complete(client, result, error);
     return true;
   };
+  if (requests_left_ > 0 && --requests_left_ == 0) plugged_ = false;
   const bool reaps = request == USBDEVFS_REAPURB || request == USBDEVFS_REAPURBNDELAY;
   if (!plugged_) {
     // What was with the kernel comes back once; after that there is nothing to reap.
-    for (const Urb& urb : waiting_) finish(urb, -ESHUTDOWN, 0);
-    waiting_.clear();
+    for (std::deque<Urb>* queue : {&waiting_, &untaken_}) {
+      for (const Urb& urb : *queue) finish(urb, -ESHUTDOWN, 0);
+      queue->clear();
+    }
     if (!reaps || done_.empty()) return complete(-1, ENODEV);
   }
   switch (request) {
@@ -204,10 +224,17 @@ void UmockdevUsb::submit(UMockdevIoctlData* argument) {
     finish(pending, vendor_out ? 0 : -EPIPE, 0);
   } else if ((urb.endpoint & 0x80) != 0) {
     waiting_.push_back(pending);
+  } else if (deaf_) {
+    untaken_.push_back(pending);
   } else {
-    model_.write({buffer->data, length}, now);
-    finish(pending, 0, length);
+    take(pending);
   }
+}
+
+void UmockdevUsb::take(const Urb& urb) {
+  const auto length = static_cast<std::size_t>(urbOf(urb.urb).buffer_length);
+  model_.write({urb.buffer->data, length}, MonotonicClock().now());
+  finish(urb, 0, length);
 }
 
 void UmockdevUsb::bulk(UMockdevIoctlData* argument, UMockdevIoctlClient* client) {
@@ -215,17 +242,21 @@ void UmockdevUsb::bulk(UMockdevIoctlData* argument, UMockdevIoctlClient* client)
   const auto& transfer = *reinterpret_cast<const usbdevfs_bulktransfer*>(data->data);
   UMockdevIoctlData* buffer =
       umockdev_ioctl_data_resolve(data, offsetof(usbdevfs_bulktransfer, data), transfer.len, nullptr);
+  if (deaf_) return static_cast<void>(umockdev_ioctl_client_complete(client, -1, ETIMEDOUT));
   model_.write({buffer->data, transfer.len}, MonotonicClock().now());
   umockdev_ioctl_client_complete(client, static_cast<long>(transfer.len), 0);
 }
 
 bool UmockdevUsb::discard(UMockdevIoctlData* argument) {
   const auto address = *reinterpret_cast<const gulong*>(argument->data);
-  const auto found = std::ranges::find_if(waiting_, [&](const Urb& u) { return u.urb->client_addr == address; });
-  if (found == waiting_.end()) return false;
-  finish(*found, -ENOENT, 0);
-  waiting_.erase(found);
-  return true;
+  for (std::deque<Urb>* queue : {&waiting_, &untaken_}) {
+    const auto found = std::ranges::find_if(*queue, [&](const Urb& u) { return u.urb->client_addr == address; });
+    if (found == queue->end()) continue;
+    finish(*found, -ENOENT, 0);
+    queue->erase(found);
+    return true;
+  }
+  return false;
 }
 
 void UmockdevUsb::pump() {

@@ -23,6 +23,9 @@ class UmockdevUsb final : public PluggedUsb {
 
   void plug() override;
   void unplug() override;
+  void unplugAfter(int requests) override;
+  void takesNothing() override;
+  void takesAgain() override;
   [[nodiscard]] std::mutex& lock() override { return lock_; }
   [[nodiscard]] int unknownRequests() const override { return unknown_; }
 
@@ -34,6 +37,7 @@ class UmockdevUsb final : public PluggedUsb {
   static gboolean onRequest(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self);
   bool answer(UMockdevIoctlClient* client);
   void submit(UMockdevIoctlData* argument);
+  void take(const Urb& urb);
   void bulk(UMockdevIoctlData* argument, UMockdevIoctlClient* client);
   bool discard(UMockdevIoctlData* argument);
   void pump();
@@ -48,8 +52,10 @@ class UmockdevUsb final : public PluggedUsb {
   std::thread thread_;
   std::mutex lock_;
   bool plugged_ = false;
+  int requests_left_ = 0;  // until the cable is pulled; 0: it is not
+  bool deaf_ = false;
   int unknown_ = 0;
-  std::deque<Urb> waiting_, done_;
+  std::deque<Urb> waiting_, untaken_, done_;  // IN, OUT, and what may be reaped
 };
 
 }  // namespace relievo::test

@@ -52,6 +52,7 @@ void VhciUsb::plug() {
   const UniqueFd theirs(pair[1]);
   stopping_ = false;
   waiting_.clear();
+  untaken_.clear();
   thread_ = std::thread([this] { serve(); });
   constexpr int kPort = 0, kBusAndDevice = 0x10002, kFullSpeed = 2;
   std::ofstream attach(kAttach);
@@ -70,11 +71,36 @@ void VhciUsb::unplug() {
   std::this_thread::sleep_for(std::chrono::milliseconds(500));  // until the kernel has taken its node away
 }
 
+void VhciUsb::unplugAfter(int requests) {
+  const std::lock_guard guard(lock_);
+  requests_left_ = requests;
+}
+
+void VhciUsb::takesNothing() {
+  const std::lock_guard guard(lock_);
+  deaf_ = true;
+}
+
+void VhciUsb::takesAgain() {
+  const std::lock_guard guard(lock_);
+  deaf_ = false;
+  for (const Untaken& command : untaken_) take(command);
+  untaken_.clear();
+}
+
+void VhciUsb::take(const Untaken& command) {
+  model_.write(command.data, MonotonicClock().now());
+  reply(command.sequence, 0, command.data.size(), {});
+}
+
 void VhciUsb::serve() {
   while (!stopping_) {
     pollfd ready{socket_.get(), POLLIN, 0};
     const int timeout_ms = waiting_.empty() ? 20 : 1;
-    if (::poll(&ready, 1, timeout_ms) > 0 && !takeRequest()) return;
+    if (::poll(&ready, 1, timeout_ms) > 0 && !takeRequest()) {
+      ::shutdown(socket_.get(), SHUT_RDWR);  // the kernel takes that for a pulled cable
+      return;
+    }
     const std::lock_guard guard(lock_);
     giveWhatThereIs();
   }
@@ -98,12 +124,14 @@ bool VhciUsb::takeRequest() {
   const std::lock_guard guard(lock_);
   if (ntohl(header.command) == kUnlink) {
     const std::uint32_t which = ntohl(header.rest[0]);
-    const auto gone = std::erase_if(waiting_, [which](const Waiting& each) { return each.sequence == which; });
+    const auto isIt = [which](const auto& each) { return each.sequence == which; };
+    const auto gone = std::erase_if(waiting_, isIt) + std::erase_if(untaken_, isIt);
     Header answer{.command = htonl(kUnlinked), .sequence = header.sequence};
     answer.rest[0] = htonl(static_cast<std::uint32_t>(gone > 0 ? kUnlinkedStatus : 0));
     return ::write(socket_.get(), &answer, sizeof answer) == sizeof answer;
   }
   if (ntohl(header.command) != kSubmit) return false;
+  if (requests_left_ > 0 && --requests_left_ == 0) return false;
   const bool in = ntohl(header.in) != 0;
   const std::size_t length = ntohl(header.rest[1]);
   std::vector<std::uint8_t> data(in ? 0 : length);
@@ -114,9 +142,10 @@ bool VhciUsb::takeRequest() {
     answerControl(sequence, setup.data(), length, in);
   } else if (in) {
     waiting_.push_back({sequence, length});
+  } else if (deaf_) {
+    untaken_.push_back({sequence, std::move(data)});
   } else {
-    model_.write(data, MonotonicClock().now());
-    reply(sequence, 0, length, {});
+    take({sequence, std::move(data)});
   }
   return true;
 }

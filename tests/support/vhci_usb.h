@@ -24,6 +24,9 @@ class VhciUsb final : public PluggedUsb {
   [[nodiscard]] static bool available();
   void plug() override;
   void unplug() override;
+  void unplugAfter(int requests) override;
+  void takesNothing() override;
+  void takesAgain() override;
   [[nodiscard]] std::mutex& lock() override { return lock_; }
 
  private:
@@ -31,10 +34,15 @@ class VhciUsb final : public PluggedUsb {
     std::uint32_t sequence = 0;
     std::size_t most = 0;
   };
+  struct Untaken {
+    std::uint32_t sequence = 0;
+    std::vector<std::uint8_t> data;
+  };
   void serve();
   [[nodiscard]] bool takeRequest();
   void answerControl(std::uint32_t sequence, const std::uint8_t* setup, std::size_t length, bool in);
   void giveWhatThereIs();
+  void take(const Untaken& command);
   void reply(std::uint32_t sequence, int status, std::size_t actual, UsbBytes data);
   [[nodiscard]] bool readAll(void* into, std::size_t bytes) const;
 
@@ -44,7 +52,10 @@ class VhciUsb final : public PluggedUsb {
   std::thread thread_;
   std::atomic<bool> stopping_{false};
   std::mutex lock_;
+  int requests_left_ = 0;  // until the cable is pulled; 0: it is not
+  bool deaf_ = false;
   std::deque<Waiting> waiting_;
+  std::deque<Untaken> untaken_;
 };
 
 }  // namespace relievo::test
