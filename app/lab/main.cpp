@@ -160,6 +160,9 @@ int parseAndRun(int argc, char** argv) {
   if (const auto parsed = parseCommandLine(app, argc, argv); !parsed) return parsed.error();
 
   if (trace_command->parsed()) return runTraceCommand(trace);
+  const auto display = drivers::makeDisplay("offscreen");
+  if (!display) return tell(display.error());
+  options.display = display->get();
   for (const auto& [command, measurement] : commands) {
     if (!command->parsed()) continue;
     const auto run = [m = measurement](const MeasureOptions& o) { return runMeasurement(*m, o); };
