@@ -2,6 +2,8 @@
 // What the pictures should be is drawn first, and kept; then all levels, on a display of the size that is shown.
 #include "app/lab/detail.h"
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "app/cli/text.h"
@@ -15,54 +17,39 @@
 namespace relievo {
 namespace {
 
-constexpr int kWidth = 1280, kHeight = 720, kFiner = 3;
+constexpr int kWidth = 1280, kHeight = 720;
+constexpr int kFiner = 3, kFinerTruth = 2;
+constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr DetailSettings kAllSamples{.grid_step = 1};
 
 struct Plan {
-  int pictures = 8, apart = 5;  // frames of the film between two of them
-  int rounds = 3;               // in which each is drawn and timed
+  int pictures = 4, apart = 10;  // frames of the film between two of them
+  int rounds = 3;                // in which each is drawn and timed
   double touch_s = 3;
 
   static Plan of(bool quick) {
     if (!quick) return {};
-    return {.pictures = 2, .apart = 5, .rounds = 2, .touch_s = 0.8};
+    return {.pictures = 1, .rounds = 2, .touch_s = 0.8};
   }
 };
 
 // One picture of the film, and what it should look like.
 struct Shot {
   Frame color, depth;
-  Picture reference;
+  Picture mesh, truth;
   std::vector<std::uint8_t> whole, away;  // the pixels that count
-};
-
-// White where the relief is near none of its silhouettes, red where it is.
-Frame markedSilhouettes(const Frame& color, const std::vector<std::uint8_t>& near_silhouette) {
-  const auto bytes = std::make_shared<std::vector<std::uint8_t>>();
-  bytes->reserve(3 * near_silhouette.size());
-  for (const std::uint8_t near : near_silhouette) {
-    const std::uint8_t other = near != 0 ? 0 : 255;
-    bytes->insert(bytes->end(), {255, other, other});
-  }
-  Frame marked = color;
-  marked.planes[0].data = bytes->data();
-  marked.owner = bytes;
-  return marked;
-}
-
-struct Times {
-  std::vector<double> frame_ms, draw_ms;
 };
 
 class Detail {
  public:
   explicit Detail(const MeasureOptions& options) : options_(options), plan_(Plan::of(options.quick)) {
     const auto volume = DisplayVolume::forPicture(SilhouetteFilm::kCols, SilhouetteFilm::kRows);
-    pixels_per_mm_ = eyeViews({.layout = StereoLayout::SideBySide}, volume, kWidth, kHeight).pixels_per_mm;
+    eyes_ = eyeViews({.layout = StereoLayout::SideBySide}, volume, kWidth, kHeight);
   }
 
   Outcome<std::vector<ChartWords>> run() {
     for (const DepthKind* depth : kDrawnDepths) {
+      if (options_.quick && depth->crf) continue;
       if (auto done = addPictures(*depth); !done) return std::unexpected(done.error());
       if (auto done = addTouch(*depth); !done) return std::unexpected(done.error());
     }
@@ -80,22 +67,14 @@ class Detail {
     if (!stage) return std::unexpected(stage.error());
     std::vector<DetailFigures> figures;
     for (const DetailSettings& level : kDetails) figures.push_back({.depth = &depth, .level = level});
-    std::vector<Times> times(figures.size());
     for (const Shot& shot : *shots) {
       options_.tell(
           print("pictures, %s: %zu of %zu", depth.name, &shot - shots->data() + std::size_t{1}, shots->size()));
       for (std::size_t i = 0; i < figures.size(); ++i) {
-        if (auto done = draw(**stage, shot, figures[i], times[i]); !done) return done;
+        if (auto done = draw(**stage, shot, figures[i]); !done) return done;
       }
     }
-    for (std::size_t i = 0; i < figures.size(); ++i) {
-      DetailFigures& f = figures[i];
-      f.triangles /= static_cast<double>(shots->size());
-      f.frame_ms = spreadOf(times[i].frame_ms).median;
-      f.draw_ms = spreadOf(times[i].draw_ms).median;
-      f.mesh_ms = std::max(0.0, f.frame_ms - f.draw_ms);
-      figures_.push_back(f);
-    }
+    figures_.insert(figures_.end(), figures.begin(), figures.end());
     return {};
   }
 
@@ -122,39 +101,46 @@ class Detail {
       Shot& shot = shots[i];
       const auto drawn = (*stage)->show(shot.color, shot.depth, kAllSamples);
       if (!drawn) return std::unexpected(drawn.error());
-      shot.reference = averagedDown((*stage)->picture(), kFiner);
-      const Frame exact = SilhouetteFilm::depth(static_cast<int>(i) * plan_.apart);
-      const Frame marked = markedSilhouettes(shot.color, nearSilhouettes(exact, kNearSilhouetteSamples));
-      const auto marking = (*stage)->show(marked, shot.depth, kAllSamples);
-      if (!marking) return std::unexpected(marking.error());
-      const Picture marks = averagedDown((*stage)->picture(), kFiner);
-      for (std::size_t p = 0; p < marks.rgba.size(); p += 4) {
-        shot.whole.push_back(marks.rgba[p] == 255 ? 1 : 0);
-        shot.away.push_back(marks.rgba[p + 1] == 255 ? 1 : 0);
+      shot.mesh = averagedDown((*stage)->picture(), kFiner);
+      const int index = static_cast<int>(i) * plan_.apart;
+      shot.truth = SilhouetteFilm::seen(index, eyes_, kWidth, kHeight, kFinerTruth);
+      const Frame marks = SilhouetteFilm::marks(SilhouetteFilm::depth(index), kNearSilhouetteSamples);
+      const auto marked = (*stage)->show(marks, shot.depth, kAllSamples);
+      if (!marked) return std::unexpected(marked.error());
+      const Picture counted = averagedDown((*stage)->picture(), kFiner);
+      for (std::size_t p = 0; p < counted.rgba.size(); p += 4) {
+        shot.whole.push_back(counted.rgba[p] == 255 ? 1 : 0);
+        shot.away.push_back(counted.rgba[p + 1] == 255 ? 1 : 0);
       }
     }
     return {};
   }
 
-  Outcome<void> draw(DrawingStage& stage, const Shot& shot, DetailFigures& figures, Times& times) const {
+  Outcome<void> draw(DrawingStage& stage, const Shot& shot, DetailFigures& figures) const {
+    double frame_ms = kNever, draw_ms = kNever;
     for (int round = 0; round < plan_.rounds; ++round) {
       const auto shown = stage.show(shot.color, shot.depth, figures.level);
       if (!shown) return std::unexpected(shown.error());
       const auto again = stage.again();
       if (!again) return std::unexpected(again.error());
-      times.frame_ms.push_back(toSeconds(*shown) * 1e3);
-      times.draw_ms.push_back(toSeconds(*again) * 1e3);
+      frame_ms = std::min(frame_ms, toSeconds(*shown) * 1e3);
+      draw_ms = std::min(draw_ms, toSeconds(*again) * 1e3);
     }
-    const PictureDifference difference = differenceOf(stage.picture(), shot.reference);
-    figures.whole.add(difference, shot.whole);
-    figures.away.add(difference, shot.away);
-    figures.triangles += static_cast<double>(stage.triangles());
+    const double share = 1.0 / plan_.pictures;
+    figures.frame_ms += share * frame_ms;
+    figures.draw_ms += share * draw_ms;
+    figures.triangles += share * static_cast<double>(stage.triangles());
+    const Picture picture = stage.picture();
+    const PictureDifference from_mesh = differenceOf(picture, shot.mesh);
+    figures.away.add(from_mesh, shot.away);
+    figures.whole.add(from_mesh, shot.whole);
+    figures.truth.add(differenceOf(picture, shot.truth), shot.whole);
     return {};
   }
 
   // The rows of this kind are the last ones.
   Outcome<void> addTouch(const DepthKind& depth) {
-    const auto touch = touchOfDetails(depth, pixels_per_mm_, plan_.touch_s, options_.tell);
+    const auto touch = touchOfDetails(depth, eyes_.pixels_per_mm, plan_.touch_s, options_.tell);
     if (!touch) return std::unexpected(touch.error());
     for (std::size_t i = 0; i < touch->size(); ++i) {
       DetailFigures& row = figures_[figures_.size() - touch->size() + i];
@@ -166,7 +152,7 @@ class Detail {
 
   const MeasureOptions& options_;
   Plan plan_;
-  double pixels_per_mm_ = 1;
+  EyeViews eyes_;
   std::vector<DetailFigures> figures_;
 };
 

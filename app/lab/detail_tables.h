@@ -23,15 +23,16 @@ inline constexpr std::array kDetails{
     DetailSettings{.grid_step = 12},
 };
 inline constexpr std::array kDrawnDepths{&kDepthKinds[1], &kDepthKinds[2]};
-// No sample of any level is stretched farther from a silhouette than the coarsest grid does.
-inline constexpr int kNearSilhouetteSamples = 12;
+// What a coder smears, and what the grid of all samples stretches. Farther away a stretched triangle is a level's own.
+inline constexpr int kNearSilhouetteSamples = 3;
 
 struct DetailFigures {
   const DepthKind* depth = nullptr;
   DetailSettings level;
-  double triangles = 0;                           // of a picture, in the mean
-  double mesh_ms = 0, draw_ms = 0, frame_ms = 0;  // a new picture takes the sum
-  PictureError whole, away;
+  double triangles = 0;              // of a picture, in the mean
+  double frame_ms = 0, draw_ms = 0;  // of a new picture; of the same once more
+  PictureError away, whole;          // from the grid of all samples
+  PictureError truth;                // from what the eyes would see
   ForceError touch;
   double touch_triangles = 0;  // of a picture of the film that is felt
 };

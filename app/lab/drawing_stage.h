@@ -35,7 +35,4 @@ class DrawingStage {
   MonotonicClock clock_;
 };
 
-// Each pixel is the mean of `factor` x `factor`; the sides are multiples of that.
-[[nodiscard]] Picture averagedDown(const Picture& picture, int factor);
-
 }  // namespace relievo

@@ -77,7 +77,9 @@ std::vector<int> samplesOf(int samples, int step) {
   return kept;
 }
 
+// Of all samples it is the depth itself.
 std::size_t coverGrid(const HeightField& field, int step, Heights& heights) {
+  if (step == 1) return std::size_t{2} * (field.cols() - 1) * (field.rows() - 1);
   const std::vector<int> columns = samplesOf(field.cols(), step), rows = samplesOf(field.rows(), step);
   const auto corner = [&](std::size_t i, std::size_t j) {
     return Corner{columns[i], rows[j], field.heightMm(columns[i], rows[j])};

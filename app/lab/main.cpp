@@ -140,7 +140,7 @@ std::string chartFiles(const Measurement& measurement) {
 }
 
 int parseAndRun(int argc, char** argv) {
-  CLI::App app("Measures touch on moving depth.", "relievo-lab");
+  CLI::App app("Measures touch on moving depth, and the drawing of it.", "relievo-lab");
   app.footer(
       "\nExamples:\n"
       "  relievo-lab report --quick --out charts      every chart in a few minutes, and charts/index.html over them\n"

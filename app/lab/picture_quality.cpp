@@ -70,6 +70,27 @@ class WindowMeans {
 
 }  // namespace
 
+Picture averagedDown(const Picture& picture, int factor) {
+  Picture small{picture.width / factor, picture.height / factor, {}};
+  small.rgba.reserve(static_cast<std::size_t>(small.width) * small.height * 4);
+  const std::size_t row_bytes = static_cast<std::size_t>(picture.width) * 4;
+  const int share = factor * factor;
+  for (int y = 0; y < small.height; ++y) {
+    for (int x = 0; x < small.width; ++x) {
+      const std::uint8_t* corner = picture.rgba.data() + static_cast<std::size_t>(y) * factor * row_bytes +
+                                   static_cast<std::size_t>(x) * factor * 4;
+      for (int c = 0; c < 4; ++c) {
+        int sum = 0;
+        for (int j = 0; j < factor; ++j) {
+          for (int i = 0; i < factor; ++i) sum += corner[static_cast<std::size_t>(j) * row_bytes + 4 * i + c];
+        }
+        small.rgba.push_back(static_cast<std::uint8_t>((sum + share / 2) / share));
+      }
+    }
+  }
+  return small;
+}
+
 PictureDifference differenceOf(const Picture& picture, const Picture& reference) {
   const std::size_t size = reference.rgba.size() / 4;
   PictureDifference result{Plane(size), Plane(size, std::numeric_limits<float>::quiet_NaN())};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far a drawn picture is from the one that it should be: PSNR, and the structural similarity of Wang et al.
+// Drawn pictures, and how far one is from what it should be: PSNR, and the structural similarity of Wang et al.
 #pragma once
 
 #include <cstddef>
@@ -14,6 +14,9 @@ struct Picture {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgba;
 };
+
+// Each pixel is the mean of `factor` x `factor`; the sides are multiples of that.
+[[nodiscard]] Picture averagedDown(const Picture& picture, int factor);
 
 // Pixel by pixel, row by row.
 struct PictureDifference {

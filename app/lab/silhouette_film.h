@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A made film of colour and depth with silhouettes, for measuring pictures: a mask nods before a draped wall, a ball
-// flies past it, a rod leans over both.
+// The scene of silhouettes as a film of colour and depth, and as two eyes would see it in truth.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "app/lab/picture_quality.h"
+#include "app/render/stereo.h"
 #include "hal/frame.h"
 
 namespace relievo {
@@ -16,13 +17,13 @@ struct SilhouetteFilm {
 
   // 8 bits, linear, near high, full range: DepthCalibration{}.
   [[nodiscard]] static Frame depth(int index);
-  // Light on coloured surfaces whose patterns are 2.6 mm long and longer, nine samples of it, so that what is lost in
-  // drawing a picture is lost by its shape and not between its pixels.
   [[nodiscard]] static Frame color(int index);
-};
+  // Cast line by line, on all processors: `finer` squared of them to a pixel.
+  [[nodiscard]] static Picture seen(int index, const EyeViews& eyes, int width, int height, int finer);
 
-// Within `reach` samples, across or down, of two neighbours whose heights differ by more than 1 mm: 1 there, row by
-// row. `depth` as of the film.
-[[nodiscard]] std::vector<std::uint8_t> nearSilhouettes(const Frame& depth, int reach);
+  // A picture to draw on the depth: white, but red within `reach` samples, across or down, of two neighbours whose
+  // heights differ by more than 1 mm, and black at the picture's rim.
+  [[nodiscard]] static Frame marks(const Frame& depth, int reach);
+};
 
 }  // namespace relievo

@@ -102,5 +102,14 @@ TEST(PictureQuality, WhatIsNotCountedIsLeftOut) {
   EXPECT_NEAR(errorOf(half, flat(100)).psnrDb(), 20 * std::log10(25.5) + 10 * std::log10(2.0), 1e-6);
 }
 
+TEST(PictureQuality, AveragingDownTakesTheMeanOfEachChannel) {
+  const Picture fine{4, 2, {0, 1, 2, 3, 4, 5, 6,  7,  100, 0, 0, 255, 100, 0, 0, 255,    // above
+                            8, 9, 9, 9, 8, 9, 10, 11, 100, 0, 0, 255, 103, 0, 0, 255}};  // below
+  const Picture small = averagedDown(fine, 2);
+  EXPECT_EQ(small.width, 2);
+  EXPECT_EQ(small.height, 1);
+  EXPECT_EQ(small.rgba, (std::vector<std::uint8_t>{5, 6, 7, 8, 101, 0, 0, 255}));  // 20/4, 24/4, 27/4, 30/4; 403/4
+}
+
 }  // namespace
 }  // namespace relievo
