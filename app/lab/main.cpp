@@ -140,7 +140,7 @@ std::string chartFiles(const Measurement& measurement) {
 }
 
 int parseAndRun(int argc, char** argv) {
-  CLI::App app("Measures touch on moving depth.", "relievo-lab");
+  CLI::App app("Measures touch on moving depth, and the drawing of it.", "relievo-lab");
   app.footer(
       "\nExamples:\n"
       "  relievo-lab report --quick --out charts      every chart in a few minutes, and charts/index.html over them\n"
@@ -160,6 +160,9 @@ int parseAndRun(int argc, char** argv) {
   if (const auto parsed = parseCommandLine(app, argc, argv); !parsed) return parsed.error();
 
   if (trace_command->parsed()) return runTraceCommand(trace);
+  const auto display = drivers::makeDisplay("offscreen");
+  if (!display) return tell(display.error());
+  options.display = display->get();
   for (const auto& [command, measurement] : commands) {
     if (!command->parsed()) continue;
     const auto run = [m = measurement](const MeasureOptions& o) { return runMeasurement(*m, o); };

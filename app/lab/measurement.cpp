@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "app/lab/detail.h"
 #include "app/lab/smoothness.h"
 #include "app/lab/speed_accuracy.h"
 #include "app/lab/stability.h"
@@ -14,6 +15,7 @@ namespace {
 constexpr std::array kSpeedAccuracyCharts{"speed-accuracy", "accuracy-by-scene", "parts", "tick-time"};
 constexpr std::array kSmoothnessCharts{"smoothness", "smoothness-hand", "smoothness-peaks"};
 constexpr std::array kStabilityCharts{"stability", "stability-onset"};
+constexpr std::array kDetailCharts{"detail"};
 
 constexpr std::array kMeasurements{
     Measurement{"speed-accuracy", "what a tick takes and how far the force is from the true one, by method and parts",
@@ -22,6 +24,8 @@ constexpr std::array kMeasurements{
                 kSmoothnessCharts, measureSmoothness},
     Measurement{"stability", "every method where methods fail, and where closed loops begin to swing", kStabilityCharts,
                 measureStability},
+    Measurement{"detail", "what a level of detail of the drawn relief costs, and how far picture and touch are off",
+                kDetailCharts, measureDetail},
 };
 
 }  // namespace

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Things before one another, known whole: what is hidden from the front an eye beside it sees.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace relievo {
+
+// A mask nods before a wall that is level at the left and a pleated curtain at the right, a ball flies past it, a rod
+// leans over both. Each is a sheet with a free rim: between two of them is nothing. On the default volume of a picture
+// of 720x486, at most 60 mm/s. Colours have patterns of 2.6 mm and more, so that a picture of 720 columns holds them.
+class SilhouetteScene {
+ public:
+  explicit SilhouetteScene(double t_s);
+
+  // Of what is nearest, seen straight from the front.
+  [[nodiscard]] double height(double x_mm, double y_mm) const;
+  [[nodiscard]] glm::dvec3 color(double x_mm, double y_mm) const;  // 0 to 255
+  // Of what a line of sight from `front`, before everything, to `back` behind it meets first.
+  [[nodiscard]] glm::dvec3 colorAlong(const glm::dvec3& front, const glm::dvec3& back) const;
+
+ private:
+  enum Part : std::uint8_t { Wall, Mask, Ball, Rod, kParts };
+
+  // The sheets go on beyond their rims.
+  [[nodiscard]] double heightOf(Part part, double x, double y) const;
+  [[nodiscard]] bool covers(Part part, double x, double y) const;
+  [[nodiscard]] Part nearest(double x, double y) const;
+  [[nodiscard]] glm::dvec3 colorOf(Part part, double x, double y) const;
+
+  double t_s_;
+  glm::dvec2 origins_[kParts];
+  double mask_z_mm_;
+};
+
+}  // namespace relievo
