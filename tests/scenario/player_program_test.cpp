@@ -136,7 +136,7 @@ TEST_F(PlayerProgram, ObeysAScriptedRemote) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json r = reportOf("r.json");
   EXPECT_EQ(r["states"].back(), "idle");
-  EXPECT_EQ(r["video"]["stereo"], "anaglyph");
+  EXPECT_EQ(r["video"]["stereo"], "tab");
   ASSERT_EQ(r["seeks"].size(), 2u);
   for (const json& seek : r["seeks"]) {
     EXPECT_TRUE(seek["picture_s"].is_null() || seek["picture_s"] == seek["surface_s"]) << seek;
