@@ -18,16 +18,19 @@ ROWS = "truth_psnr_db away_psnr_db force_rms_percent"
 array TITLE[3] = ["Whole picture, against what the eyes would see", "Away from silhouettes, against the full mesh", "A finger on these triangles"]
 set logscale x
 set format x "%g"
-# A network's fine levels stand close together: of them the finest alone is named, above its mark.
-level(m) = m == 2 ? "1:" . strcol("grid_step") : column("error_px") >= 0.5 ? strcol("error_px") . " px" : ""
-finest(m) = (m == 1 && column("error_px") == 0.125) ? "0.125 px" : ""
+# A network's fine levels stand close together: of them the finest alone is named, above its mark. To the finger the
+# coarsest are the same.
+coarse(row) = column("error_px") < 0.5 ? "" : row < 3 || column("error_px") < 2 ? strcol("error_px") . " px" : \
+  column("error_px") == 2 ? "2, 4 px" : ""
+finest(row) = column("error_px") == 0.125 ? "0.125 px" : ""
 mine(m, k, value) = (strcol("model") eq word(MODELS, m) && strcol("depth") eq word(KINDS, k)) ? value : NaN
 do for [p = 0:5] {
   row = p / 2 + 1
   value = word(ROWS, row)
   abscissa = p % 2 ? "frame_ms" : row < 3 ? "triangles" : "touch_triangles"
+  set autoscale
   stats ARG1 using (column(abscissa)) name "X" nooutput
-  set xrange [X_min * 0.7 : X_max * 1.6]
+  set xrange [X_min * (p == 4 ? 0.35 : 0.55) : X_max * 1.6]
   set offsets 0, 0, graph 0.12, graph 0.06
   if (row == 3) { set logscale y; set format y "%g"; set yrange [0.8:30]; unset offsets }
   set lmargin at screen 0.075 + 0.48 * (p % 2)
@@ -39,11 +42,11 @@ do for [p = 0:5] {
   set xlabel (p % 2 ? "time of a frame, ms" : row < 3 ? "triangles" : "triangles of the face that is felt") offset 0, 0.5
   plot for [m = 1:2] for [k = 1:2] ARG1 using (mine(m, k, column(abscissa))):(column(value)) \
          with linespoints pt SHAPE[k] ps 0.8 dt DASH[k] lw 1.5 lc rgb TINTS[m] notitle, \
-       ARG1 using (mine(1, 1, column(abscissa))):(column(value)):(level(1)) \
-         with labels left font ",10" tc rgb TINTS[1] offset 1.2, -0.1 noenhanced notitle, \
-       ARG1 using (mine(1, 1, column(abscissa))):(column(value)):(finest(1)) \
+       ARG1 using (mine(1, 1, column(abscissa))):(column(value)):(coarse(row)) \
+         with labels right font ",10" tc rgb TINTS[1] offset -1.4, -0.1 noenhanced notitle, \
+       ARG1 using (mine(1, 1, column(abscissa))):(column(value)):(finest(row)) \
          with labels font ",10" tc rgb TINTS[1] offset 0, 0.8 noenhanced notitle, \
-       ARG1 using (mine(2, 1, column(abscissa))):(column(value)):(level(2)) \
+       ARG1 using (mine(2, 1, column(abscissa))):(column(value)):("1:" . strcol("grid_step")) \
          with labels font ",10" tc rgb TINTS[2] offset 0, 0.8 noenhanced notitle, \
        for [k = 1:2] ARG1 using (column("players") == 1 ? mine(1, k, column(abscissa)) : NaN):(column(value)) \
          with points pt 6 ps 2.2 lw 2 lc rgb "black" notitle
