@@ -16,7 +16,7 @@
 #include "drivers/sim/profiles.h"
 #include "drivers/window/window_remote.h"
 
-#define RELIEVO_DISPLAY_NAMES "window offscreen[:FILE.y4m] mock"
+#define RELIEVO_DISPLAY_NAMES "kms[:/dev/dri/cardN] window offscreen[:FILE.y4m] mock"
 #define RELIEVO_HAPTIC_NAMES                                                         \
   "falcon[:FIRMWARE] polhem[:DESCRIPTION.json] pointer[:window|:/dev/input/eventN] " \
   "sim[:phantom|falcon|polhem][,stroking|resting|tapping|tense|shaking][,SCRIPT.csv] replay:FILE mock none"
@@ -56,6 +56,12 @@ FalconConfig falconConfig(const HapticSettings& settings, const std::optional<st
   return config;
 }
 
+DeviceState look(const char* name, Display& display) {
+  const auto opened = display.open({});
+  display.close();
+  return {"display", name, opened.has_value(), opened ? "ready" : opened.error().message};
+}
+
 DeviceState look(const char* name, HapticDevice& device) {
   const auto opened = device.open();
   device.close();
@@ -71,6 +77,7 @@ std::unexpected<Failure> unknown(const char* option, std::string_view name, cons
 Outcome<std::unique_ptr<Display>> makeDisplay(std::string_view text) {
   static MonotonicClock clock;  // has no state
   const Spec spec(text);
+  if (spec.plain("kms") || spec.withArgument("kms")) return makeKmsDisplay(spec.argument.value_or(""));
   if (spec.plain("window")) return makeWindowDisplay(theWindow(), clock);
   if (spec.plain("offscreen")) return makeOffscreenDisplay("", clock);
   if (spec.withArgument("offscreen")) return makeOffscreenDisplay(*spec.argument, clock);
@@ -127,8 +134,15 @@ std::unique_ptr<VideoDecoder> makeVideoDecoder() {
 }
 
 std::vector<DeviceState> lookAtDevices(const HapticSettings& settings, Clock& clock) {
-  return {look("falcon", *makeFalcon(falconConfig(settings, std::nullopt), clock)),
-          look("polhem", *makePolhem({}, clock)), look("pointer", *makePointer(std::string(), clock))};
+  std::vector<DeviceState> states;
+  for (const KmsScreen& screen : lookAtKmsScreens()) {
+    states.push_back({"display", screen.card.empty() ? "kms" : "kms:" + screen.card, screen.there, screen.state});
+  }
+  states.push_back(look("window", *makeWindowDisplay(theWindow(), clock)));
+  states.insert(states.end(),
+                {look("falcon", *makeFalcon(falconConfig(settings, std::nullopt), clock)),
+                 look("polhem", *makePolhem({}, clock)), look("pointer", *makePointer(std::string(), clock))});
+  return states;
 }
 
 void stopAllMotors() noexcept {

@@ -18,7 +18,7 @@
 
 namespace relievo::drivers {
 
-// The names that each option takes, for --help and for the message of a wrong one: "offscreen[:FILE.y4m] mock".
+// The names that each option takes, for --help and for the message of a wrong one: "kms .. mock".
 extern const char* const kDisplayNames;
 extern const char* const kHapticNames;
 extern const char* const kRemoteNames;
@@ -44,10 +44,10 @@ struct HapticSettings {
 
 // What is there of each kind of hardware, found out by opening it: takes seconds where a device must be started up.
 struct DeviceState {
-  const char* kind = "";  // haptic
-  const char* name = "";  // as on the command line
+  const char* kind = "";  // display, haptic
+  std::string name;       // as on the command line
   bool there = false;
-  const char* state = "";  // why not, and what to do
+  std::string state;  // what it is; why not, and what to do
 };
 [[nodiscard]] std::vector<DeviceState> lookAtDevices(const HapticSettings& settings, Clock& clock);
 

@@ -121,7 +121,7 @@ int listDevices(const DevicesOptions& options) {
   if (!config) return tell(config.error());
   MonotonicClock clock;
   for (const auto& each : drivers::lookAtDevices(settingsOf(*config), clock)) {
-    std::printf("%-7s %-8s %-6s %s\n", each.kind, each.name, each.there ? "there" : "-", each.state);
+    std::printf("%-7s %-20s %-6s %s\n", each.kind, each.name.c_str(), each.there ? "there" : "-", each.state.c_str());
   }
   return kExitDone;
 }

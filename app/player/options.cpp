@@ -41,6 +41,8 @@ constexpr const char* kPlayFooter =
     "      one file with colour on top and depth as hue below, for red-cyan glasses, again and again for a minute\n"
     "  relievo play film.mkv --display offscreen:film.y4m --haptic sim:hand.csv --remote script:keys.txt\n"
     "      the picture into a file that ffmpeg reads, finger and keys by scripts\n"
+    "  relievo play film.mkv --display kms --size 1920x1080 --haptic falcon\n"
+    "      on a whole screen of the box, without a desktop\n"
     "  relievo play film.mkv --display window --haptic pointer\n"
     "      in a window on the desktop: its keys are the remote, its mouse is the finger; F11 fills the screen\n"
     "\nA hand script has the line t_s,x_mm,y_mm,z_mm and a row a moment; x right, y up, z toward the viewer, 0,0,0 in "
@@ -48,7 +50,8 @@ constexpr const char* kPlayFooter =
     "middle of the far plane. A key script has lines such as: 2.5 PLAYPAUSE (seconds, a key's name). Keys, by their "
     "names:\n";
 constexpr const char* kDevicesFooter =
-    "\nEach device is opened as `play` would; where it is refused, the line says why and what to do.\n"
+    "\nEach display and device is opened as `play` would; where it is refused, the line says why and what to do. Of a "
+    "screen\nit tells the mode and the 3D signals that it takes.\n"
     "\nThe configuration is TOML:\n"
     "  [falcon]\n"
     "  firmware = \"/path/to/image\"    the maker's firmware, from the SDK that came with the device\n"
@@ -122,7 +125,7 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
   command
       .add_option_function<std::string>(
           "--size", [&play](const std::string& word) { play.player.display = readSize(word); },
-          "Pixels of the picture [1280x720]")
+          "Pixels of the picture; of kms a mode that the screen has, else its favourite [1280x720]")
       ->type_name("WxH");
   addStereoOptions(command, play.player.stereo);
   command.add_option("--haptic", play.haptic, std::string("What the finger holds [sim]\n") + names.haptic)

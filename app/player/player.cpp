@@ -81,13 +81,16 @@ void Player::end(MonotonicTime now) {
 }
 
 void Player::boot() {
-  if (auto opened = picture_.open(); !opened) {
+  auto opened = picture_.open();
+  if (!opened && opened.error().code == ErrorCode::NotFound) {
+    note(std::string("display: ") + opened.error().message, "film and touch go on without it");
+  } else if (!opened) {
     fail(std::string("display ") + picture_.capabilities().name, opened.error());
     return;
   }
   if (parts_.remote != nullptr) {
-    if (auto opened = parts_.remote->open(); !opened) {
-      note(std::string("remote: ") + opened.error().message, "the film plays without one");
+    if (auto heard = parts_.remote->open(); !heard) {
+      note(std::string("remote: ") + heard.error().message, "the film plays without one");
       parts_.remote = nullptr;
     }
   }

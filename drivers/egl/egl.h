@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "drivers/window/window_input.h"
 #include "hal/display.h"
@@ -26,5 +27,20 @@ namespace relievo {
 // of its mouse goes into `input`, in `attend`; the keys' times are `clock`'s, which must outlive the display. SDL is
 // started with the first `open`, not before.
 [[nodiscard]] std::unique_ptr<Display> makeWindowDisplay(std::shared_ptr<WindowInput> input, const Clock& clock);
+
+// A whole screen without a desktop, by the kernel's mode setting (KMS), of the card `path` ("/dev/dri/card0"), or of
+// the first card that has a screen. The mode is the screen's of the size asked for, else its favourite; it is set with
+// the first frame and given back by `close`. `present` waits for the frame before, at most two refreshes and a tenth of
+// a second: a screen that does not show it by then is Lost. So is one that is pulled out, within a second, and one that
+// another program takes. PermissionDenied while another program (a desktop) has the card.
+[[nodiscard]] std::unique_ptr<Display> makeKmsDisplay(std::string path = {});
+
+struct KmsScreen {
+  std::string card;  // "/dev/dri/card0"; empty where there is none
+  bool there = false;
+  std::string state;  // what it is, or why it is none
+};
+// Of every card. Asks the screens, which takes up to a tenth of a second each.
+[[nodiscard]] std::vector<KmsScreen> lookAtKmsScreens();
 
 }  // namespace relievo

@@ -3,9 +3,44 @@
 #include "drivers/egl/egl_context.h"
 
 #include <array>
+#include <span>
 #include <utility>
 
 namespace relievo {
+namespace {
+
+// A window brings its own depth buffer, and may be without alpha. EGL sorts configs by their sizes, not by the format.
+EGLConfig chooseConfig(EGLDisplay display, EGLint surface_type, std::optional<EGLint> native_format) {
+  constexpr EGLint kMostConfigs = 256;
+  const std::array<EGLint, 15> wanted{EGL_SURFACE_TYPE,
+                                      surface_type,
+                                      EGL_RENDERABLE_TYPE,
+                                      EGL_OPENGL_ES3_BIT,
+                                      EGL_RED_SIZE,
+                                      8,
+                                      EGL_GREEN_SIZE,
+                                      8,
+                                      EGL_BLUE_SIZE,
+                                      8,
+                                      EGL_ALPHA_SIZE,
+                                      native_format ? 0 : 8,
+                                      EGL_DEPTH_SIZE,
+                                      native_format ? 24 : 0,
+                                      EGL_NONE};
+  std::array<EGLConfig, kMostConfigs> configs{};
+  EGLint found = 0;
+  if (eglChooseConfig(display, wanted.data(), configs.data(), kMostConfigs, &found) != EGL_TRUE) return nullptr;
+  for (const EGLConfig config : std::span(configs).first(static_cast<std::size_t>(found))) {
+    EGLint format = 0;
+    if (!native_format) return config;
+    if (eglGetConfigAttrib(display, config, EGL_NATIVE_VISUAL_ID, &format) == EGL_TRUE && format == *native_format) {
+      return config;
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace
 
 EglContext::EglContext(EglContext&& other) noexcept
     : display_(std::exchange(other.display_, EGL_NO_DISPLAY)),
@@ -20,29 +55,22 @@ EglContext::~EglContext() {
   eglDestroyContext(display_, context_);
 }
 
-Result<EglContext> EglContext::create(EGLDisplay display, EGLint surface_type) {
+Result<EglContext> EglContext::createForPbuffers(EGLDisplay display) {
+  return create(display, EGL_PBUFFER_BIT, std::nullopt);
+}
+
+Result<EglContext> EglContext::createForWindows(EGLDisplay display, EGLint native_format) {
+  return create(display, EGL_WINDOW_BIT, native_format);
+}
+
+Result<EglContext> EglContext::create(EGLDisplay display, EGLint surface_type, std::optional<EGLint> native_format) {
   if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) != EGL_TRUE) {
     return fail(ErrorCode::Unsupported,
                 "EGL does not start here; install a GL driver (Debian: libegl1, libgl1-mesa-dri)");
   }
   EglContext made(display);
-
-  const std::array<EGLint, 13> wanted{EGL_SURFACE_TYPE,
-                                      surface_type,
-                                      EGL_RENDERABLE_TYPE,
-                                      EGL_OPENGL_ES3_BIT,
-                                      EGL_RED_SIZE,
-                                      8,
-                                      EGL_GREEN_SIZE,
-                                      8,
-                                      EGL_BLUE_SIZE,
-                                      8,
-                                      EGL_ALPHA_SIZE,
-                                      8,
-                                      EGL_NONE};
-  EGLint found = 0;
-  if (eglBindAPI(EGL_OPENGL_ES_API) != EGL_TRUE ||
-      eglChooseConfig(display, wanted.data(), &made.config_, 1, &found) != EGL_TRUE || found < 1) {
+  if (eglBindAPI(EGL_OPENGL_ES_API) == EGL_TRUE) made.config_ = chooseConfig(display, surface_type, native_format);
+  if (made.config_ == nullptr) {
     return fail(ErrorCode::Unsupported, "the GL driver offers no GLES 3 with 8-bit colour; a newer driver is needed");
   }
   constexpr std::array<EGLint, 3> kVersion3{EGL_CONTEXT_CLIENT_VERSION, 3, EGL_NONE};

@@ -4,6 +4,8 @@
 
 #include <EGL/egl.h>
 
+#include <optional>
+
 #include "platform/error.h"
 
 namespace relievo {
@@ -13,9 +15,10 @@ namespace relievo {
 // software one does not survive without leaks. Thread: the one that makes it current.
 class EglContext {
  public:
-  // Starts `display` and makes a context whose config can draw on surfaces of `surface_type` (EGL_PBUFFER_BIT, ..).
-  // Unsupported where there is no EGL or no GLES 3, Exhausted without memory.
-  [[nodiscard]] static Result<EglContext> create(EGLDisplay display, EGLint surface_type);
+  // Starts `display` and makes a context that can draw on pbuffers, or on windows of a native pixel format (one of
+  // GBM's). Unsupported where there is no EGL or no GLES 3, Exhausted without memory.
+  [[nodiscard]] static Result<EglContext> createForPbuffers(EGLDisplay display);
+  [[nodiscard]] static Result<EglContext> createForWindows(EGLDisplay display, EGLint native_format);
   EglContext(EglContext&& other) noexcept;
   EglContext& operator=(EglContext&&) = delete;
   ~EglContext();
@@ -28,6 +31,7 @@ class EglContext {
 
  private:
   explicit EglContext(EGLDisplay display) noexcept : display_(display) {}
+  static Result<EglContext> create(EGLDisplay display, EGLint surface_type, std::optional<EGLint> native_format);
 
   EGLDisplay display_ = EGL_NO_DISPLAY;
   EGLConfig config_ = nullptr;

@@ -51,9 +51,9 @@ EGLDisplay surfacelessDisplay() {
 }
 
 Result<EglContext> createContext() {
-  auto surfaceless = EglContext::create(surfacelessDisplay(), EGL_PBUFFER_BIT);
+  auto surfaceless = EglContext::createForPbuffers(surfacelessDisplay());
   if (surfaceless) return surfaceless;
-  return EglContext::create(eglGetDisplay(EGL_DEFAULT_DISPLAY), EGL_PBUFFER_BIT);
+  return EglContext::createForPbuffers(eglGetDisplay(EGL_DEFAULT_DISPLAY));
 }
 
 class OffscreenDisplay final : public Display {

@@ -20,7 +20,7 @@ constexpr const char* kNoGles =
     "the desktop gives no window with GLES 3; install a GL driver (Debian: libegl1, libgl1-mesa-dri)";
 
 // SDL's video stays once it is there, and so does the GL driver, like a library stays loaded: Mesa's software one does
-// not go without leaks. What a user has set in the environment goes before the hints.
+// not survive without leaks. What a user has set in the environment goes before the hints.
 bool startSdl() {
   if (SDL_WasInit(SDL_INIT_VIDEO) != 0) return true;
   // The console is the kms display's. Without a Wayland server its library would complain on stderr.

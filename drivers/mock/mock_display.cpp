@@ -15,7 +15,8 @@ class MockDisplay final : public Display {
 
  private:
   Result<void> openDisplay(const DisplayConfig& config) override {
-    if (profile_.fail_open) return fail(*profile_.fail_open, "the mock display was told not to open");
+    if (profile_.fail_open && opens_++ < profile_.failing_opens)
+      return fail(*profile_.fail_open, "the mock display was told not to open");
     surface_ = {.framebuffer = 0, .width = config.width, .height = config.height};
     first_refresh_ = clock_.now();
     frames_ = 0;
@@ -53,7 +54,7 @@ class MockDisplay final : public Display {
   Clock& clock_;
   DisplaySurface surface_;
   MonotonicTime first_refresh_;
-  std::uint64_t frames_ = 0;
+  std::uint64_t frames_ = 0, opens_ = 0;
 };
 
 }  // namespace

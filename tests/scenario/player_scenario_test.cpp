@@ -429,6 +429,17 @@ TEST_F(PlayerScenario, ADisplayThatIsLostComesBackAndTheFilmGoesOnMeanwhile) {
   EXPECT_NEAR(bench_.report.wall_s, 4.0, 0.02);
 }
 
+TEST_F(PlayerScenario, AScreenThatIsOffAtTheStartMayComeLater) {
+  bench_.display.fail_open = ErrorCode::NotFound;
+  bench_.display.failing_opens = 3;  // at the start, with the first picture, and a second after that
+  playsWell();
+  EXPECT_EQ(bench_.states(), kWholeFilm);
+  EXPECT_EQ(bench_.faults("display: "), 1u);
+  EXPECT_EQ(bench_.faults("display back"), 1u);
+  EXPECT_NEAR(static_cast<double>(bench_.report.frames_shown), 50, 1);
+  EXPECT_NEAR(bench_.report.wall_s, 4.0, 0.02);
+}
+
 TEST_F(PlayerScenario, AViewerWhoClosesTheWindowEndsTheFilm) {
   bench_.display.close_after_frames = 25;
   playsWell();

@@ -23,6 +23,8 @@ class Registry : public testing::Test {
 TEST_F(Registry, MakesEachByItsName) {
   EXPECT_STREQ(makeDisplay("offscreen").value()->capabilities().name, "offscreen");
   EXPECT_STREQ(makeDisplay("offscreen:/tmp/a:b.y4m").value()->capabilities().name, "offscreen");
+  EXPECT_STREQ(makeDisplay("kms").value()->capabilities().name, "kms");
+  EXPECT_EQ(makeDisplay("kms:/dev/null").value()->open({}).error().code, ErrorCode::Unsupported);
   EXPECT_STREQ(makeDisplay("window").value()->capabilities().name, "window");
   EXPECT_STREQ(makeDisplay("mock").value()->capabilities().name, "mock");
   EXPECT_STREQ(makeHapticDevice("falcon", clock_).value()->capabilities().name, "Novint Falcon");
@@ -40,7 +42,7 @@ TEST_F(Registry, NoneIsNoDeviceAndNoError) {
 }
 
 TEST_F(Registry, RefusesOtherNamesAndListsTheRightOnes) {
-  for (const char* name : {"", "ofscreen", "offscreen:", "window:", "mock:1", "none"}) {
+  for (const char* name : {"", "ofscreen", "offscreen:", "window:", "kms:", "mock:1", "none"}) {
     const auto display = makeDisplay(name);
     ASSERT_FALSE(display) << name;
     EXPECT_EQ(display.error().error.code, ErrorCode::InvalidArgument);

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+// The display on a screen of its own, by the kernel's mode setting: no desktop is needed and none may be there.
+#include <GLES3/gl3.h>
+
+#include <optional>
+#include <utility>
+
+#include "drivers/egl/egl.h"
+#include "drivers/egl/egl_context.h"
+#include "drivers/egl/kms_buffers.h"
+#include "drivers/egl/kms_mode.h"
+#include "drivers/egl/kms_screen.h"
+
+namespace relievo {
+namespace {
+
+constexpr Duration kBetweenLooks = std::chrono::seconds(1);       // whether the screen is still there
+constexpr Duration kFlipMargin = std::chrono::milliseconds(100);  // over the two refreshes that a flip may take
+constexpr const char* kNoScreen = "no screen is connected, or it is off; it is looked for every second";
+
+// What is there to show on: a card, and one of its connected screens.
+struct Found {
+  UniqueFd card;
+  kms::Connector connector;
+};
+
+Result<Found> findScreen(const std::string& wanted_path) {
+  const auto paths = wanted_path.empty() ? kms::cardPaths() : std::vector{wanted_path};
+  Error why{ErrorCode::Unsupported, 0, "this machine has no display card (/dev/dri/card*)"};
+  for (const std::string& path : paths) {
+    auto card = kms::openCard(path);
+    if (!card) {
+      if (why.code != ErrorCode::NotFound) why = card.error();
+      continue;
+    }
+    for (kms::Connector& connector : kms::readConnectors(card->get(), true)) {
+      if (connector.connected) return Found{std::move(*card), std::move(connector)};
+    }
+    why = {ErrorCode::NotFound, 0, kNoScreen};
+  }
+  return std::unexpected(why);
+}
+
+class KmsDisplay final : public Display {
+ public:
+  explicit KmsDisplay(std::string path) : path_(std::move(path)) {}
+  ~KmsDisplay() override { close(); }
+
+  [[nodiscard]] DisplayCapabilities capabilities() const noexcept override {
+    return {.name = "kms", .gles = true, .refresh_period = refresh_period_, .stereo = stereo_signals_};
+  }
+
+ private:
+  Result<void> openDisplay(const DisplayConfig& config) override;
+  Result<DisplaySurface> startFrame() override;
+  Result<Duration> showFrame() override;
+  Result<bool> attendScreen() override;
+  void closeDisplay() noexcept override;
+
+  Result<kms::Connector> findConnector();
+  Result<void> chooseMode(const kms::Connector& connector, DisplayConfig config);
+  [[nodiscard]] Duration untilRefresh() const noexcept;
+
+  const std::string path_;  // empty: the first card that has a screen
+  // The card stays open with its GL, whatever becomes of its screens.
+  UniqueFd card_;
+  std::unique_ptr<kms::CardGl> gl_;
+
+  MonotonicClock clock_;  // the kernel's: its events are on it
+  std::unique_ptr<kms::Screen> screen_;
+  std::unique_ptr<kms::Buffers> buffers_;
+  std::optional<EglContext> context_;
+  drmModeModeInfo mode_{};
+  bool mode_is_set_ = false;
+  DisplaySurface surface_;
+  Duration refresh_period_{0};
+  StereoSignals stereo_signals_;
+  MonotonicTime next_look_;
+};
+
+Result<void> KmsDisplay::openDisplay(const DisplayConfig& config) {
+  const auto connector = findConnector();
+  if (!connector) return std::unexpected(connector.error());
+  if (auto chosen = chooseMode(*connector, config); !chosen) return chosen;
+  auto screen = kms::Screen::take(card_.get(), connector->id);
+  if (!screen) return std::unexpected(screen.error());
+  screen_ = std::move(*screen);
+
+  auto context = EglContext::createForWindows(gl_->display(), static_cast<EGLint>(kms::kPixelFormat));
+  if (!context) return std::unexpected(context.error());
+  context_.emplace(std::move(*context));
+  auto buffers = kms::Buffers::make(*gl_, context_->config(), surface_.width, surface_.height);
+  if (!buffers) return std::unexpected(buffers.error());
+  buffers_ = std::move(*buffers);
+  next_look_ = clock_.now() + kBetweenLooks;
+  return context_->makeCurrent(buffers_->surface());
+}
+
+// Of the card that is open already, or of another when that has none any more.
+Result<kms::Connector> KmsDisplay::findConnector() {
+  if (card_.valid()) {
+    for (kms::Connector& connector : kms::readConnectors(card_.get(), true)) {
+      if (connector.connected) return std::move(connector);
+    }
+  }
+  auto found = findScreen(path_);
+  if (!found) return std::unexpected(found.error());
+  gl_.reset();
+  card_ = std::move(found->card);
+  auto gl = kms::CardGl::start(card_.get());
+  if (!gl) return std::unexpected(gl.error());
+  gl_ = std::move(*gl);
+  return std::move(found->connector);
+}
+
+Result<void> KmsDisplay::chooseMode(const kms::Connector& connector, DisplayConfig config) {
+  stereo_signals_ = kms::stereoSignals(connector.modes);
+  if (!stereo_signals_.has(config.stereo)) {
+    if (config.stereo == StereoSignal::FramePacking) {
+      return fail(ErrorCode::Unsupported,
+                  "the screen takes no frame packing; relievo devices tells what it takes, --stereo sbs fits any");
+    }
+    config.stereo = StereoSignal::None;
+  }
+  const drmModeModeInfo* mode = kms::chooseMode(connector.modes, config);
+  if (mode == nullptr) return fail(ErrorCode::Unsupported, "the screen has no mode that is not interlaced");
+  mode_ = *mode;
+  refresh_period_ = kms::refreshPeriod(mode_);
+  const kms::ScanOut size = kms::scanOut(mode_);
+  surface_ = {.framebuffer = 0,
+              .width = size.width,
+              .height = size.height,
+              .stereo = kms::stereoOf(mode_),
+              .eye_gap_rows = size.eye_gap_rows};
+  return {};
+}
+
+Result<DisplaySurface> KmsDisplay::startFrame() {
+  if (auto current = context_->makeCurrent(buffers_->surface()); !current) return std::unexpected(current.error());
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  return surface_;
+}
+
+// GL has finished before the screen is given the buffer: of a software one the kernel would not know. The renderer has
+// waited for it already.
+Result<Duration> KmsDisplay::showFrame() {
+  if (auto current = context_->makeCurrent(buffers_->surface()); !current) return std::unexpected(current.error());
+  if (mode_is_set_) {
+    if (auto done = screen_->finishFlip(2 * refresh_period_ + kFlipMargin); !done) return std::unexpected(done.error());
+    buffers_->shown();
+  }
+  glFinish();
+  const auto framebuffer = buffers_->swap();
+  if (!framebuffer) return std::unexpected(framebuffer.error());
+  if (mode_is_set_) {
+    if (auto flipped = screen_->flip(*framebuffer); !flipped) return std::unexpected(flipped.error());
+    return untilRefresh();
+  }
+  if (auto set = screen_->setMode(mode_, *framebuffer); !set) return std::unexpected(set.error());
+  mode_is_set_ = true;
+  return Duration(0);
+}
+
+Duration KmsDisplay::untilRefresh() const noexcept {
+  if (refresh_period_ <= Duration(0)) return Duration(0);
+  const Duration since = clock_.now() - screen_->lastFlip();
+  return refresh_period_ - since % refresh_period_;
+}
+
+// The kernel hears of a screen that comes or goes; to ask it costs next to nothing.
+Result<bool> KmsDisplay::attendScreen() {
+  const MonotonicTime now = clock_.now();
+  if (now < next_look_) return false;
+  next_look_ = now + kBetweenLooks;
+  if (screen_->connected()) return false;
+  return fail(ErrorCode::Lost, kNoScreen);
+}
+
+// The screen lets go of the buffers before they do.
+void KmsDisplay::closeDisplay() noexcept {
+  screen_.reset();
+  context_.reset();
+  buffers_.reset();
+  mode_is_set_ = false;
+}
+
+}  // namespace
+
+std::unique_ptr<Display> makeKmsDisplay(std::string path) {
+  return std::make_unique<KmsDisplay>(std::move(path));
+}
+
+}  // namespace relievo

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// What this machine's display cards have connected, in words.
+#include <cstdio>
+
+#include "drivers/egl/egl.h"
+#include "drivers/egl/kms_mode.h"
+#include "drivers/egl/kms_screen.h"
+
+namespace relievo {
+namespace {
+
+std::string wordsOf(const StereoSignals& stereo) {
+  std::string words;
+  const auto add = [&words](bool has, const char* word) {
+    if (has) words += (words.empty() ? "" : ", ") + std::string(word);
+  };
+  add(stereo.frame_packing, "frame packing");
+  add(stereo.side_by_side_half, "side by side");
+  add(stereo.top_and_bottom, "top and bottom");
+  return words.empty() ? "takes no 3D signal" : "takes 3D by " + words;
+}
+
+std::string wordsOf(const kms::Connector& connector) {
+  const drmModeModeInfo* mode = kms::chooseMode(connector.modes, {.width = 0, .height = 0});
+  if (mode == nullptr) return connector.name + ": no mode that is not interlaced";
+  char text[80];
+  std::snprintf(text, sizeof text, "%dx%d at %.2f Hz, %zu modes; ", mode->hdisplay, mode->vdisplay,
+                1 / toSeconds(kms::refreshPeriod(*mode)), connector.modes.size());
+  return connector.name + ": " + text + wordsOf(kms::stereoSignals(connector.modes));
+}
+
+}  // namespace
+
+std::vector<KmsScreen> lookAtKmsScreens() {
+  std::vector<KmsScreen> screens;
+  for (const std::string& path : kms::cardPaths()) {
+    const auto card = kms::openCard(path);
+    if (!card) {
+      screens.push_back({path, false, card.error().message});
+      continue;
+    }
+    for (const kms::Connector& connector : kms::readConnectors(card->get(), true)) {
+      if (!connector.connected) {
+        screens.push_back({path, false, connector.name + ": no screen is connected, or it is off"});
+      } else if (const auto taken = kms::Screen::take(card->get(), connector.id); !taken) {
+        screens.push_back({path, false, connector.name + ": " + taken.error().message});
+      } else {
+        screens.push_back({path, true, wordsOf(connector)});
+      }
+    }
+  }
+  if (screens.empty()) screens.push_back({"", false, "this machine has no display card (/dev/dri/card*)"});
+  return screens;
+}
+
+}  // namespace relievo

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+// Atomic commits on one CRTC, and the events that they end with.
+#include "drivers/egl/kms_screen.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <xf86drm.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+#include "drivers/egl/kms_mode.h"
+
+namespace relievo::kms {
+namespace {
+
+constexpr const char* kFolder = "/dev/dri";
+constexpr const char* kGone = "the screen has gone; it is looked for every second";
+constexpr const char* kTaken =
+    "another program shows on this card; end it (sudo systemctl stop display-manager), or use a window";
+
+struct Free {
+  void operator()(drmModeRes* all) const noexcept { drmModeFreeResources(all); }
+  void operator()(drmModePlaneRes* all) const noexcept { drmModeFreePlaneResources(all); }
+  void operator()(drmModeConnector* one) const noexcept { drmModeFreeConnector(one); }
+  void operator()(drmModeEncoder* one) const noexcept { drmModeFreeEncoder(one); }
+  void operator()(drmModePlane* one) const noexcept { drmModeFreePlane(one); }
+  void operator()(drmModeObjectProperties* all) const noexcept { drmModeFreeObjectProperties(all); }
+  void operator()(drmModePropertyRes* one) const noexcept { drmModeFreeProperty(one); }
+};
+template <class T>
+std::unique_ptr<T, Free> own(T* object) {
+  return std::unique_ptr<T, Free>(object);
+}
+
+struct Property {
+  std::uint32_t id = 0;  // 0: there is none
+  std::uint64_t value = 0;
+};
+Property propertyOf(int card, std::uint32_t object, std::uint32_t type, const std::string& name) {
+  const auto all = own(drmModeObjectGetProperties(card, object, type));
+  for (std::uint32_t i = 0; all != nullptr && i < all->count_props; ++i) {
+    const auto property = own(drmModeGetProperty(card, all->props[i]));
+    if (property != nullptr && name == property->name) return {property->prop_id, all->prop_values[i]};
+  }
+  return {};
+}
+
+// The CRTCs that a connector can be driven by, one bit for each of the card's list.
+std::uint32_t possibleCrtcs(int card, const drmModeConnector& connector) {
+  std::uint32_t possible = 0;
+  for (int i = 0; i < connector.count_encoders; ++i) {
+    if (const auto encoder = own(drmModeGetEncoder(card, connector.encoders[i]))) possible |= encoder->possible_crtcs;
+  }
+  return possible;
+}
+
+std::uint32_t primaryPlane(int card, std::uint32_t crtc_bit) {
+  const auto planes = own(drmModeGetPlaneResources(card));
+  for (std::uint32_t i = 0; planes != nullptr && i < planes->count_planes; ++i) {
+    const auto plane = own(drmModeGetPlane(card, planes->planes[i]));
+    if (plane == nullptr || (plane->possible_crtcs & crtc_bit) == 0) continue;
+    if (propertyOf(card, plane->plane_id, DRM_MODE_OBJECT_PLANE, "type").value == DRM_PLANE_TYPE_PRIMARY) {
+      return plane->plane_id;
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+
+std::vector<std::string> cardPaths() {
+  std::vector<std::string> paths;
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(kFolder, error), end; !error && entry != end; entry.increment(error)) {
+    if (entry->path().filename().string().starts_with("card")) paths.push_back(entry->path());
+  }
+  std::ranges::sort(paths, [](const std::string& a, const std::string& b) {
+    return std::pair(a.size(), a) < std::pair(b.size(), b);  // card10 after card9
+  });
+  return paths;
+}
+
+Result<UniqueFd> openCard(const std::string& path) {
+  UniqueFd card(::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC));
+  if (!card.valid() && errno == EACCES) {
+    return fail(
+        ErrorCode::PermissionDenied,
+        "the right to show on the display card is missing; add the user to the group that may (sudo usermod -aG "
+        "video $USER) and log in anew",
+        errno);
+  }
+  if (!card.valid()) return fail(ErrorCode::NotFound, "the display card is not there; see /dev/dri for what is", errno);
+  const auto resources = own(drmModeGetResources(card.get()));
+  if (resources == nullptr || resources->count_crtcs == 0) {
+    return fail(ErrorCode::Unsupported, "this card draws but has no screens; name another, such as kms:/dev/dri/card1");
+  }
+  if (drmSetClientCap(card.get(), DRM_CLIENT_CAP_UNIVERSAL_PLANES, 1) != 0 ||
+      drmSetClientCap(card.get(), DRM_CLIENT_CAP_ATOMIC, 1) != 0) {
+    return fail(ErrorCode::Unsupported, "the card's driver has no atomic mode setting; a newer kernel is needed");
+  }
+  // Where the driver knows no stereo, the connectors list no stereo modes.
+  static_cast<void>(drmSetClientCap(card.get(), DRM_CLIENT_CAP_STEREO_3D, 1));
+  drmDropMaster(card.get());  // which who opens it first becomes
+  return card;
+}
+
+std::vector<Connector> readConnectors(int card, bool probe) {
+  std::vector<Connector> connectors;
+  const auto resources = own(drmModeGetResources(card));
+  for (int i = 0; resources != nullptr && i < resources->count_connectors; ++i) {
+    const std::uint32_t id = resources->connectors[i];
+    const auto found = own(probe ? drmModeGetConnector(card, id) : drmModeGetConnectorCurrent(card, id));
+    if (found == nullptr || found->connector_type == DRM_MODE_CONNECTOR_WRITEBACK) continue;
+    const char* type = drmModeGetConnectorTypeName(found->connector_type);
+    Connector connector{
+        .id = id,
+        .name = std::string(type == nullptr ? "screen" : type) + "-" + std::to_string(found->connector_type_id),
+        .connected = found->connection == DRM_MODE_CONNECTED};
+    connector.modes.assign(found->modes, found->modes + found->count_modes);
+    connectors.push_back(std::move(connector));
+  }
+  return connectors;
+}
+
+Result<std::unique_ptr<Screen>> Screen::take(int card, std::uint32_t connector) {
+  std::unique_ptr<Screen> screen(new Screen(card));
+  if (drmSetMaster(card) != 0) return fail(ErrorCode::PermissionDenied, kTaken, errno);
+  screen->master_ = true;
+  if (auto found = screen->findParts(connector); !found) return std::unexpected(found.error());
+  screen->before_.reset(drmModeGetCrtc(card, screen->crtc_));
+  return screen;
+}
+
+Result<void> Screen::findParts(std::uint32_t connector_id) {
+  connector_ = connector_id;
+  const auto resources = own(drmModeGetResources(card_));
+  const auto connector = own(drmModeGetConnectorCurrent(card_, connector_id));
+  if (resources == nullptr || connector == nullptr) return fail(ErrorCode::Lost, kGone, errno);
+  const std::uint32_t possible = possibleCrtcs(card_, *connector);
+  for (int i = 0; i < resources->count_crtcs && plane_ == 0; ++i) {
+    if ((possible >> i & 1U) == 0) continue;
+    crtc_ = resources->crtcs[i];
+    plane_ = primaryPlane(card_, 1U << i);
+  }
+  connector_crtc_ = propertyOf(card_, connector_, DRM_MODE_OBJECT_CONNECTOR, "CRTC_ID").id;
+  crtc_mode_ = propertyOf(card_, crtc_, DRM_MODE_OBJECT_CRTC, "MODE_ID").id;
+  crtc_active_ = propertyOf(card_, crtc_, DRM_MODE_OBJECT_CRTC, "ACTIVE").id;
+  plane_framebuffer_ = propertyOf(card_, plane_, DRM_MODE_OBJECT_PLANE, "FB_ID").id;
+  if (plane_ != 0 && connector_crtc_ != 0 && crtc_mode_ != 0 && crtc_active_ != 0 && plane_framebuffer_ != 0) return {};
+  return fail(ErrorCode::Unsupported,
+              "the card has nothing left that could drive this screen; use another of its screens");
+}
+
+Result<void> Screen::setMode(const drmModeModeInfo& mode, std::uint32_t framebuffer) {
+  if (mode_blob_ != 0) drmModeDestroyPropertyBlob(card_, std::exchange(mode_blob_, 0U));
+  if (drmModeCreatePropertyBlob(card_, &mode, sizeof mode, &mode_blob_) != 0) {
+    return fail(ErrorCode::Exhausted, "the card takes no further mode", errno);
+  }
+  const ScanOut size = scanOut(mode);
+  const auto width = static_cast<std::uint64_t>(size.width), height = static_cast<std::uint64_t>(size.height);
+  const std::unique_ptr<drmModeAtomicReq, Free> request(drmModeAtomicAlloc());
+  if (request == nullptr) return fail(ErrorCode::Exhausted, "no memory left to set the screen's mode");
+  drmModeAtomicAddProperty(request.get(), connector_, connector_crtc_, crtc_);
+  drmModeAtomicAddProperty(request.get(), crtc_, crtc_mode_, mode_blob_);
+  drmModeAtomicAddProperty(request.get(), crtc_, crtc_active_, 1);
+  const std::pair<const char*, std::uint64_t> plane[] = {
+      {"FB_ID", framebuffer}, {"CRTC_ID", crtc_},      {"SRC_X", 0},      {"SRC_Y", 0},
+      {"SRC_W", width << 16}, {"SRC_H", height << 16},  // 16.16 fixed point
+      {"CRTC_X", 0},          {"CRTC_Y", 0},           {"CRTC_W", width}, {"CRTC_H", height}};
+  for (const auto& [name, value] : plane) {
+    const std::uint32_t id = propertyOf(card_, plane_, DRM_MODE_OBJECT_PLANE, name).id;
+    drmModeAtomicAddProperty(request.get(), plane_, id, value);
+  }
+  return commit(*request, DRM_MODE_ATOMIC_ALLOW_MODESET);
+}
+
+Result<void> Screen::flip(std::uint32_t framebuffer) {
+  static std::uintptr_t flips = 0;
+  if (flip_ != 0) return fail(ErrorCode::InvalidState, "a flip is under way; wait for its end");
+  const std::unique_ptr<drmModeAtomicReq, Free> request(drmModeAtomicAlloc());
+  if (request == nullptr) return fail(ErrorCode::Exhausted, "no memory left to flip");
+  drmModeAtomicAddProperty(request.get(), plane_, plane_framebuffer_, framebuffer);
+  flip_ = ++flips;
+  auto committed = commit(*request, DRM_MODE_ATOMIC_NONBLOCK | DRM_MODE_PAGE_FLIP_EVENT);
+  if (!committed) flip_ = 0;
+  return committed;
+}
+
+Result<void> Screen::commit(drmModeAtomicReq& request, std::uint32_t flags) {
+  if (drmModeAtomicCommit(card_, &request, flags, reinterpret_cast<void*>(flip_)) == 0) return {};
+  const int error = errno;
+  if (error == EACCES) return fail(ErrorCode::Lost, "another program has taken the screen; it is tried again", error);
+  if (error == ENODEV || !connected()) return fail(ErrorCode::Lost, kGone, error);
+  return fail(ErrorCode::Io, "the card refuses the picture; choose another size or stereo layout", error);
+}
+
+// An event may still be of a screen that was here before: each flip of the process has a number of its own.
+Result<void> Screen::readEvents() {
+  alignas(drm_event_vblank) std::array<char, 1024> bytes;
+  const ssize_t count = ::read(card_, bytes.data(), bytes.size());
+  if (count < 0 && errno != EAGAIN && errno != EINTR) return fail(ErrorCode::Lost, kGone, errno);
+  for (ssize_t at = 0; at + static_cast<ssize_t>(sizeof(drm_event)) <= count;) {
+    drm_event_vblank event{};
+    std::memcpy(&event.base, bytes.data() + at, sizeof event.base);
+    if (event.base.type == DRM_EVENT_FLIP_COMPLETE) {
+      std::memcpy(&event, bytes.data() + at, sizeof event);
+      if (event.user_data == flip_) {
+        flip_ = 0;
+        last_flip_ = MonotonicTime(std::chrono::seconds(event.tv_sec) + std::chrono::microseconds(event.tv_usec));
+      }
+    }
+    at += event.base.length;
+  }
+  return {};
+}
+
+Result<void> Screen::finishFlip(Duration longest) {
+  const MonotonicClock clock;
+  const MonotonicTime end = clock.now() + longest;
+  while (flip_ != 0) {
+    const Duration left = end - clock.now();
+    if (left <= Duration(0))
+      return fail(ErrorCode::Lost, "the screen does not show what it is given; it is opened anew");
+    pollfd ready{.fd = card_, .events = POLLIN, .revents = 0};
+    const timespec wait{.tv_sec = left.count() / 1'000'000'000, .tv_nsec = left.count() % 1'000'000'000};
+    if (::ppoll(&ready, 1, &wait, nullptr) <= 0) continue;
+    if (auto read = readEvents(); !read) return read;
+  }
+  return {};
+}
+
+bool Screen::connected() const {
+  const auto connector = own(drmModeGetConnectorCurrent(card_, connector_));
+  return connector != nullptr && connector->connection == DRM_MODE_CONNECTED;
+}
+
+Screen::~Screen() {
+  if (!master_) return;
+  constexpr Duration kLongestFlip = std::chrono::milliseconds(100);
+  [[maybe_unused]] const auto finished = finishFlip(kLongestFlip);
+  if (mode_blob_ != 0) {
+    // Without a buffer the CRTC was off.
+    const bool was_on = before_ != nullptr && before_->mode_valid != 0 && before_->buffer_id != 0;
+    drmModeSetCrtc(card_, crtc_, was_on ? before_->buffer_id : 0, was_on ? before_->x : 0, was_on ? before_->y : 0,
+                   was_on ? &connector_ : nullptr, was_on ? 1 : 0, was_on ? &before_->mode : nullptr);
+    drmModeDestroyPropertyBlob(card_, mode_blob_);
+  }
+  drmDropMaster(card_);
+}
+
+}  // namespace relievo::kms

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program on a whole screen, in a guest: from a screen that is off to a picture, and through its being pulled out.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "platform/clock.h"
+#include "tests/support/clip_maker.h"
+#include "tests/support/guest_screen.h"
+#include "tests/support/process.h"
+#include "tests/support/program.h"
+
+namespace relievo {
+namespace {
+
+using nlohmann::json;
+using namespace std::chrono_literals;
+
+class PlayerScreen : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (screen_ == nullptr) GTEST_SKIP() << test::kNoGuest;
+    test::makeClip(folder_ / "film.mkv",
+                   {{.pix_fmt = "yuv420p",
+                     .fps_num = 5,
+                     .frames = 20,
+                     .sample = [](int component, int, int, int) { return component == 0 ? 180U : 128U; },
+                     .tags = {{"title", "color"}}},
+                    {.pix_fmt = "gray",
+                     .fps_num = 5,
+                     .frames = 20,
+                     .sample = [](int, int, int, int) { return 128U; },
+                     .tags = {{"title", "depth"}}}});
+  }
+  [[nodiscard]] std::string textOf(const std::string& name) const {
+    const std::ifstream file(folder_ / name);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+  void wait(Duration time) { clock_.sleepUntil(clock_.now() + time); }
+  // The film's gray, in the middle of the screen of the size that was asked for.
+  bool shows() {
+    for (int i = 0; i < 40; ++i) {
+      const test::ScreenDump dump = screen_->dump();
+      const auto [red, green, blue] = dump.at(dump.width / 2 + 40, dump.height / 2);
+      if (dump.width == 640 && red > 100 && red == green && green == blue) return true;
+      wait(250ms);
+    }
+    return false;
+  }
+
+  test::TemporaryFolder folder_;
+  std::unique_ptr<test::GuestScreen> screen_ = test::GuestScreen::find("virtio");
+  MonotonicClock clock_;
+};
+
+TEST_F(PlayerScreen, ItStartsWithoutAScreenAndPlaysOnWhileItIsAway) {
+  screen_->plug(false);
+  test::Process player({std::string(RELIEVO_BIN_DIR) + "/relievo", "play", folder_ / "film.mkv", "--loop", "--display",
+                        "kms:" + screen_->card(), "--size", "640x480", "--stereo", "mono", "--haptic", "none",
+                        "--report", folder_ / "r.json"},
+                       folder_ / "said.txt");
+  wait(3s);
+  EXPECT_TRUE(player.isRunning()) << textOf("said.txt");
+  screen_->plug(true);
+  EXPECT_TRUE(shows()) << textOf("said.txt");
+  screen_->plug(false);
+  wait(3s);
+  EXPECT_TRUE(player.isRunning()) << textOf("said.txt");
+  screen_->plug(true);
+  EXPECT_TRUE(shows()) << textOf("said.txt");
+  player.send(SIGINT);
+  EXPECT_EQ(player.wait(), 0) << textOf("said.txt");
+
+  const json report = json::parse(textOf("r.json"), nullptr, false);
+  std::vector<std::string> faults;
+  for (const json& fault : report["faults"]) faults.push_back(fault["what"]);
+  EXPECT_THAT(faults, testing::Contains(testing::StartsWith("display: no screen is connected")));
+  EXPECT_THAT(faults, testing::Contains("display lost"));
+  EXPECT_THAT(faults, testing::Contains("display back"));
+  EXPECT_EQ(report["video"]["surface"], (json{640, 480}));
+  EXPECT_GT(report["video"]["frames_shown"].get<int>(), 0);
+  bool given_back = false;
+  for (int i = 0; i < 40 && !given_back; ++i) {
+    given_back = screen_->dump().width != 640;
+    wait(250ms);
+  }
+  EXPECT_TRUE(given_back) << "the screen";
+}
+
+TEST_F(PlayerScreen, DevicesListsIt) {
+  const auto listed = test::runProgram("relievo devices", folder_ / "");
+  EXPECT_EQ(listed.exit_code, 0);
+  EXPECT_THAT(listed.out, testing::HasSubstr("display kms:" + screen_->card()));
+  EXPECT_THAT(listed.out, testing::HasSubstr("there  Virtual-1: 1280x800 at "));
+}
+
+}  // namespace
+}  // namespace relievo
