@@ -60,6 +60,7 @@ Result<void> Picture::drawAndPresent(const std::optional<FingerMark>& finger) {
   if (!surface) return std::unexpected(surface.error());
   width_ = surface->width;
   height_ = surface->height;
+  fallBack(*surface);
   if (display_.capabilities().gles) {
     if (auto drawn = draw(*surface, finger); !drawn) return drawn;
   }
@@ -69,7 +70,6 @@ Result<void> Picture::drawAndPresent(const std::optional<FingerMark>& finger) {
 }
 
 Result<void> Picture::draw(const DisplaySurface& surface, const std::optional<FingerMark>& finger) {
-  fallBack(surface);
   if (renderer_ == nullptr) {
     auto renderer = SceneRenderer::create(frame_budget_);
     if (!renderer) return std::unexpected(renderer.error());

@@ -280,7 +280,7 @@ void Player::writeText(MonotonicTime now) {
   if (lines == last_text_) return;
   last_text_ = lines;
   picture_.setText(std::move(lines));
-  redraw_ = true;
+  if (nextPicture(now) > now + 2 * kRedrawPeriod) redraw_ = true;  // else the next picture bears it
 }
 
 void Player::noteLost() {

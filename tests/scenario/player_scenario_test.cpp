@@ -187,15 +187,21 @@ TEST_F(PlayerScenario, ASeekThatTheSourceRefusesGoesOn) {
   EXPECT_EQ(bench_.faults("seek"), 1u);
 }
 
-TEST_F(PlayerScenario, The3dModeKeyGoesRoundTheLayouts) {
-  bench_.press(1.0, KEY_3D_MODE);
+TEST_F(PlayerScenario, The3dModeKeyGoesRoundTheLayoutsThatTheScreenTakes) {
+  double time_s = 1.0;
+  // After side by side. This screen takes no frame packing.
+  for (const char* layout : {"tab", "rows", "columns", "anaglyph", "quilt", "mono", "sbs"}) {
+    bench_.press(time_s, KEY_3D_MODE);
+    time_s += 0.2;
+    playsWell();
+    EXPECT_EQ(bench_.report.stereo, layout);
+  }
+}
+
+TEST_F(PlayerScenario, ALayoutThatTheScreenRefusesIsToldAndAnotherIsShown) {
+  bench_.config.stereo.layout = StereoLayout::FramePacking;
   playsWell();
-  EXPECT_EQ(bench_.report.stereo, "anaglyph");  // after side by side
-  bench_.press(1.5, KEY_3D_MODE);
-  playsWell();
-  EXPECT_EQ(bench_.report.stereo, "mono");
-  bench_.press(2.0, KEY_3D_MODE);
-  playsWell();
+  EXPECT_EQ(bench_.faults("stereo: frame packing needs"), 1u);
   EXPECT_EQ(bench_.report.stereo, "sbs");
 }
 
