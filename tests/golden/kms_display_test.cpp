@@ -136,25 +136,31 @@ TEST_F(KmsDisplay, TheReliefOnTheScreenIsThatOfTheOffscreenDisplay) {
     ASSERT_TRUE(renderer->draw(*surface, scene.finger));
     ASSERT_TRUE(display_->present());
   }
-  int largest = 0;
-  double light = 0;
+  // GL draws a window upside down and a framebuffer object not: where an edge goes through the middle of a pixel, that
+  // is drawn by one of them and not by the other.
+  constexpr double kPixels = 640 * 480;
+  double other = 0, sum = 0, light = 0;
   untilDump([&](const test::ScreenDump& dump) {
-    largest = 255;
+    other = sum = kPixels;
     light = 0;
     if (dump.width != 640 || dump.height != 480) return false;
-    largest = 0;
+    other = sum = 0;
     for (int y = 0; y < dump.height; ++y) {
       for (int x = 0; x < dump.width; ++x) {
+        int difference = 0;
         for (std::size_t c = 0; c < 3; ++c) {
-          largest = std::max(largest, std::abs(dump.at(x, y)[c] - expected.at(x, y)[c]));
-          light += expected.at(x, y)[c];
+          difference = std::max(difference, std::abs(dump.at(x, y)[c] - expected.at(x, y)[c]));
+          light += expected.at(x, y)[c] / 3.0;
         }
+        other += difference > 1 ? 1 : 0;
+        sum += difference;
       }
     }
-    return largest <= 1;
+    return other < 0.001 * kPixels;
   });
-  EXPECT_LE(largest, 1);
-  EXPECT_GT(light / (640 * 480 * 3), 30) << "there is something to be seen";
+  EXPECT_LT(other, 0.001 * kPixels);
+  EXPECT_LT(sum, 0.01 * kPixels);
+  EXPECT_GT(light, 30 * kPixels) << "there is something to be seen";
 }
 
 TEST_F(KmsDisplay, TheModeIsTheOneAskedForElseTheScreensFavourite) {
