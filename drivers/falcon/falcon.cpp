@@ -122,7 +122,6 @@ class Falcon final : public HapticDevice {
 
   Result<void> startDevice() override {
     stream_.clear();
-    motors_ = Motors(config_.counts_per_nm);
     unhomed_ = 0;
     if (auto begun = session_.beginForces(encode(Command{}), config_.watchdog_thread); !begun) return begun;
     if (auto sent = port_->post(encode(Command{.green = true})); !sent) {

@@ -138,7 +138,6 @@ class Polhem final : public HapticDevice {
   }
 
   Result<void> startDevice() override {
-    limit_ = MotorLimit(mostMilliamps(), kLastingShare);
     if (auto begun = session_.beginForces(bytesOf(Command{}), config_.watchdog_thread); !begun) return begun;
     if (auto sent = port_->post(bytesOf(Command{})); !sent) {
       session_.end();

@@ -162,8 +162,10 @@ TEST_P(HapticUsb, AFatalSignalsHandlerStopsTheMotorsWhateverOtherThreadsDo) {
   EXPECT_FALSE(pushes());
   push(*device, 20);  // the task goes on until the process is gone
   EXPECT_FALSE(pushes());
-  device->close();
-  quietenAllUsbDevices();  // nobody is listed any more
+  device->stop();
+  const int commands = model().commands();
+  quietenAllUsbDevices();
+  EXPECT_EQ(model().commands(), commands) << "nobody is listed any more";
 }
 
 TEST_P(HapticUsb, ACommandThatTheDeviceDidNotTakeIsTakenBackBeforeTheMotorsAreStopped) {
@@ -172,9 +174,48 @@ TEST_P(HapticUsb, ACommandThatTheDeviceDidNotTakeIsTakenBackBeforeTheMotorsAreSt
   usb_->takesNothing();
   push(*device, 2, 4);
   clock_.sleepUntil(clock_.now() + std::chrono::milliseconds(100));  // the watchdog barks, and is not heard
+  const int before = model().pushingCommands();
   usb_->takesAgain();
   clock_.sleepUntil(clock_.now() + std::chrono::milliseconds(100));
+  EXPECT_EQ(model().pushingCommands(), before);
   EXPECT_FALSE(pushes()) << "it barks again";
+}
+
+// Says a number in every packet, one a millisecond.
+class Counter final : public test::UsbModel {
+ public:
+  void control(std::uint8_t, std::uint16_t, MonotonicTime) override {}
+  void write(UsbBytes, MonotonicTime) override {}
+  std::optional<UsbPacket> read(MonotonicTime now) override {
+    if (now - last_ < kTick) return std::nullopt;
+    last_ = now;
+    UsbPacket packet;
+    packet.bytes = 2;
+    packet.data = {static_cast<std::uint8_t>(count_ & 0xFF), static_cast<std::uint8_t>(count_ >> 8)};
+    ++count_;
+    return packet;
+  }
+
+ private:
+  MonotonicTime last_;
+  int count_ = 0;
+};
+
+TEST(LibusbPort, TakesEveryPacketInItsOrder) {
+  Counter counter;
+  const auto usb = test::plugIn(counter, falcon::kUsbId);
+  if (usb == nullptr) GTEST_SKIP() << test::kNoPlug;
+  MonotonicClock clock;
+  const auto port = makeLibusbPort({falcon::kUsbId});
+  ASSERT_TRUE(port->open() && port->startExchange({}));
+  int next = 0;
+  for (int i = 0; i < 20'000 && next < 200; ++i) {
+    const auto packet = port->take();
+    ASSERT_TRUE(packet);
+    if (packet->bytes == 0) clock.sleepUntil(clock.now() + kTick / 4);
+    else ASSERT_EQ(packet->data[0] | packet->data[1] << 8, next++);
+  }
+  EXPECT_EQ(next, 200);
 }
 
 TEST(FalconUsb, LoadsItsFirmwareAlsoWhenTheFirstTryFailsInEachWayThatUsersReport) {

@@ -133,6 +133,7 @@ bool FalconModel::pushes(MonotonicTime /*now*/) const {
 void FalconModel::obey(const falcon::Command& command, MonotonicTime now) {
   ++commands_;
   command_ = command;
+  pushing_ += pushes(now) ? 1 : 0;
   history_.push_back(command.motors);
   if (!began_) began_ = now;
   const glm::dvec3 theta = anglesAt(gripNow(now));

@@ -27,10 +27,11 @@ class HapticModel : public UsbModel {
   [[nodiscard]] virtual bool pushes(MonotonicTime now) const = 0;
 
   [[nodiscard]] int commands() const { return commands_; }
+  [[nodiscard]] int pushingCommands() const { return pushing_; }  // of them, with a force
   [[nodiscard]] glm::dvec3 gripNow(MonotonicTime now) const { return grip(began_ ? toSeconds(now - *began_) : 0.0); }
 
  protected:
-  int commands_ = 0;
+  int commands_ = 0, pushing_ = 0;
   std::optional<MonotonicTime> began_;
 };
 

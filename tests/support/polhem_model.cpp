@@ -92,6 +92,7 @@ void PolhemModel::powerOn() {
   silent_ = calibrated_ = false;
   command_ = {};
   began_.reset();
+  zero_from_.reset();
   const EncoderCounts there = countsAt(grip(0), arm_);
   for (std::size_t i = 0; i < 3; ++i) zero_[i] = wrapped(-there[i]);
   report(MonotonicTime{});
@@ -117,12 +118,12 @@ void PolhemModel::write(UsbBytes bytes, MonotonicTime now) {
     ++commands_;
     command_ = *command;
     commanded_ = now;
+    pushing_ += pushes(now) ? 1 : 0;
     if (command->verb == polhem::Verb::Drive) history_.push_back(command->motors);
     if (command->verb == polhem::Verb::Calibrate) {
       const EncoderCounts there = countsAt(gripNow(now), arm_);
-      for (std::size_t i = 0; i < 3 && !faults_.deaf_to_calibrate; ++i) {
-        zero_[i] = wrapped(command->counts[i] - there[i]);
-      }
+      for (std::size_t i = 0; i < 3; ++i) next_zero_[i] = wrapped(command->counts[i] - there[i]);
+      if (!faults_.deaf_to_calibrate) zero_from_ = now + faults_.calibrates_in;
       calibrated_ = true;
       calibrated_s_ = toSeconds(now - *began_);
     }
@@ -132,6 +133,7 @@ void PolhemModel::write(UsbBytes bytes, MonotonicTime now) {
 
 void PolhemModel::report(MonotonicTime when) {
   const EncoderCounts there = countsAt(gripNow(when), arm_);
+  if (zero_from_ && when >= *zero_from_) zero_ = next_zero_;
   polhem::Report report;
   for (std::size_t i = 0; i < 3; ++i) report.arm[i] = wrapped(there[i] + zero_[i]);
   report.grip[0] = button ? 10000 : 0;

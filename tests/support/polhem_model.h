@@ -16,6 +16,7 @@ namespace relievo::test {
 struct PolhemFaults {
   std::size_t report_bytes = polhem::kReportBytes;  // what it sends; with kReportBytes it also takes no other length
   bool deaf_to_calibrate = false;                   // a board that does not know the command
+  Duration calibrates_in{0};                        // a board that takes its time
 };
 
 class PolhemModel final : public HapticModel {
@@ -63,6 +64,8 @@ class PolhemModel final : public HapticModel {
   bool calibrated_ = false;
   double calibrated_s_ = 0;
   EncoderCounts zero_{};  // what is added to the true counts
+  EncoderCounts next_zero_{};
+  std::optional<MonotonicTime> zero_from_;  // the next one
   polhem::Command command_;
   MonotonicTime commanded_;
   std::vector<polhem::Milliamps> history_;

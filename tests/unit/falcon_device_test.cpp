@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <deque>
 #include <fstream>
 #include <glm/geometric.hpp>
 
@@ -137,6 +138,70 @@ TEST_F(FalconDevice, TheForceReachesTheMotorsWithinACount) {
     }
     EXPECT_LT(glm::distance(FalconModel::forceOf(model.last().motors, at, falcon::kDefaultCountsPerNm), force), 0.003);
   }
+}
+
+// Its power failed for a moment: it homes anew, and its counts mean nothing.
+TEST_F(FalconDevice, WithoutItsZeroItIsLost) {
+  FalconModel model(firmware_.image());
+  const auto device = run(model);
+  fadeIn(*device);
+  const glm::dvec3 before = device->read()->position_mm;
+  model.powerOn();
+  model.runFirmware();
+  int ticks = 0;
+  for (; device->state() == HapticDevice::State::Running && ticks < 100; ++ticks) {
+    if (const auto sample = tick(*device, {0, 0, 1})) {
+      EXPECT_EQ(sample->position_mm, before);
+    }
+  }
+  EXPECT_LE(ticks, 5);
+  device->close();
+  EXPECT_FALSE(model.pushes(clock_.now()));
+}
+
+// Passes on what a Falcon says, cut in two, with a packet between them that says that bytes of it were lost.
+class BrokenLine final : public test::UsbModel {
+ public:
+  explicit BrokenLine(FalconModel& falcon) : falcon_(falcon) {}
+  bool broken = false;
+  void control(std::uint8_t request, std::uint16_t value, MonotonicTime now) override {
+    falcon_.control(request, value, now);
+  }
+  void write(UsbBytes bytes, MonotonicTime now) override { falcon_.write(bytes, now); }
+  std::optional<UsbPacket> read(MonotonicTime now) override {
+    if (parts_.empty()) {
+      const auto whole = falcon_.read(now);
+      if (!broken || !whole || whole->bytes < 18) return whole;
+      UsbPacket first = *whole, lost = *whole, last = *whole;
+      first.bytes = 10;
+      lost.data[1] |= 0x02;  // overrun
+      lost.bytes = 3;
+      std::copy_n(whole->data.begin() + 10, 8, last.data.begin() + 2);
+      last.bytes = 10;
+      parts_ = {first, lost, last};
+    }
+    const UsbPacket part = parts_.front();
+    parts_.pop_front();
+    return part;
+  }
+
+ private:
+  FalconModel& falcon_;
+  std::deque<UsbPacket> parts_;
+};
+
+TEST_F(FalconDevice, NoAnswerSpansAPacketThatIsBroken) {
+  FalconModel model(firmware_.image());
+  model.runFirmware();
+  BrokenLine line(model);
+  const auto device =
+      makeFalcon({.watchdog_thread = false}, std::make_unique<test::ModelPort>(line, cable_, clock_), clock_);
+  ASSERT_TRUE(device->open() && device->home() && device->start());
+  for (int i = 0; i < 10; ++i) (void)tick(*device, {});
+  line.broken = true;
+  int ticks = 0;
+  while (device->state() == HapticDevice::State::Running && ticks < 200) (void)tick(*device, {}), ++ticks;
+  EXPECT_EQ(device->state(), HapticDevice::State::Lost) << "there was no answer for 100 ms";
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "drivers/falcon/link.h"
+
 namespace relievo::falcon {
 namespace {
 
@@ -147,6 +149,17 @@ TEST(FalconGate, ATickWithoutAWordWidensIt) {
   gate.skip();
   EXPECT_TRUE(gate.accept({17, 0, 0}));
   EXPECT_FALSE(gate.accept({40, 0, 0}));
+}
+
+TEST(FalconBridge, APacketThatSaysItIsBrokenCarriesNothing) {
+  UsbPacket packet{.data = {0x01, 0x60, 'x', 'y'}, .bytes = 4};
+  EXPECT_EQ(payloadOf(packet).size(), 2U);
+  for (const unsigned error : {0x02U, 0x04U, 0x08U, 0x10U}) {  // overrun, parity, framing, break
+    packet.data[1] = static_cast<std::uint8_t>(0x60 | error);
+    EXPECT_TRUE(payloadOf(packet).empty()) << error;
+  }
+  packet = {.data = {0x01, 0x60}, .bytes = 2};
+  EXPECT_TRUE(payloadOf(packet).empty()) << "its own two bytes";
 }
 
 }  // namespace

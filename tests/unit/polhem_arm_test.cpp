@@ -156,5 +156,10 @@ TEST(PolhemArmByHand, AMotorThatIsAlignedTurnsBackwards) {
   EXPECT_EQ(other.currentsFor({1, 2, 3}, theta), -arm.currentsFor({1, 2, 3}, theta));
 }
 
+TEST(PolhemArmByHand, TheGateLetsThroughWhatAHandCanDoAndNoMore) {
+  // The finest: 205 mm x 2 pi / 2000 / 16 is 0.040 mm a count, 0.15 mm are 4 of it; and 2 for rounding.
+  EXPECT_EQ(Arm(kWoodenHaptics2019).gateSlack(), 6);
+}
+
 }  // namespace
 }  // namespace relievo::polhem

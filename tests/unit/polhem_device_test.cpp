@@ -96,6 +96,12 @@ TEST_F(PolhemDevice, CalibratesWithoutForceOnceTheArmIsHeldStill) {
   EXPECT_LT(glm::distance(device->read()->position_mm, {0, 205, 25}), 0.1);
 }
 
+TEST_F(PolhemDevice, ABoardThatTakesAMomentToCalibrateIsWaitedFor) {
+  PolhemModel model(kWoodenHaptics2019, {.calibrates_in = std::chrono::milliseconds(10)});
+  const auto device = run(model);
+  EXPECT_LT(glm::length(tick(*device, {})->position_mm), 0.15);
+}
+
 TEST_F(PolhemDevice, ABoardThatDoesNotKnowTheCommandIsCorrectedInTheDriver) {
   PolhemModel model(kWoodenHaptics2019, {.deaf_to_calibrate = true});
   const auto device = run(model);
@@ -143,6 +149,10 @@ TEST_F(PolhemDevice, ALoadThatLastsIsDerated) {
   for (int i = 0; i < 120'000; ++i) (void)highest();
   EXPECT_GE(highest(), 500);
   EXPECT_LE(highest(), 613) << "a load that lasts settles at most 1.22 times above the half";
+  device->stop();
+  ASSERT_TRUE(device->start());
+  fadeIn(*device);
+  EXPECT_LE(highest(), 640) << "and is not forgotten with a start: half a second cools by a fortieth";
 }
 
 TEST_F(PolhemDevice, TheGripsButtonIsTheMainOne) {
@@ -161,6 +171,9 @@ TEST_F(PolhemDevice, ItsPeakIsWhatItsCurrentsHoldInEveryDirection) {
   polhem::Description older = kWoodenHaptics2019;
   older.torque_constant = {0.0259, 0.0259, 0.0259};
   EXPECT_NEAR(make(model, older)->capabilities().peak_force_n, 2.537, 0.001);
+  polhem::Description tame = kWoodenHaptics2019;
+  tame.current_for_10_v_signal = 0.5;
+  EXPECT_NEAR(make(model, tame)->capabilities().peak_force_n, 2.95 / 2, 0.01) << "amplifiers that are set to half an A";
 }
 
 }  // namespace
