@@ -66,6 +66,7 @@ class Detail {
     auto stage = DrawingStage::open(*options_.display, kWidth, kHeight);
     if (!stage) return std::unexpected(stage.error());
     std::vector<DetailFigures> figures;
+    figures.reserve(kDetails.size());
     for (const DetailSettings& level : kDetails) figures.push_back({.depth = &depth, .level = level});
     for (const Shot& shot : *shots) {
       options_.tell(

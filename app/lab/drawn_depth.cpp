@@ -45,8 +45,9 @@ class Heights {
   [[nodiscard]] Frame frame(double depth_mm) const {
     const auto codes = std::make_shared<std::vector<std::uint16_t>>();
     codes->reserve(z_.size());
-    for (const double z : z_)
-      codes->push_back(static_cast<std::uint16_t>(std::clamp(z / depth_mm, 0.0, 1.0) * 65535 + 0.5));
+    for (const double z : z_) {
+      codes->push_back(static_cast<std::uint16_t>(std::lround(std::clamp(z / depth_mm, 0.0, 1.0) * 65535)));
+    }
     Frame frame;
     frame.width = cols_;
     frame.height = rows_;

@@ -22,7 +22,7 @@ double timeOf(int index) {
 }
 
 std::uint8_t toByte(double value) {
-  return static_cast<std::uint8_t>(std::clamp(value, 0.0, 255.0) + 0.5);
+  return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
 }
 
 // `put(c, r, out)` writes the sample's bytes.
@@ -38,8 +38,9 @@ Frame makeFrame(MediaTime pts, int bytes_a_sample, Put&& put) {
   frame.model = bytes_a_sample == 3 ? ColorModel::Rgb : ColorModel::Gray;
   frame.range = ColorRange::Full;
   frame.plane_count = 1;
-  for (std::uint8_t i = 0; i < bytes_a_sample; ++i) {
-    frame.components[i] = {.offset_bytes = i, .step_bytes = static_cast<std::uint8_t>(bytes_a_sample)};
+  for (int i = 0; i < bytes_a_sample; ++i) {
+    frame.components[i] = {.offset_bytes = static_cast<std::uint8_t>(i),
+                           .step_bytes = static_cast<std::uint8_t>(bytes_a_sample)};
   }
   frame.planes[0] = {samples->data(), std::ptrdiff_t{cols} * bytes_a_sample};
   frame.owner = samples;
@@ -93,8 +94,9 @@ Picture SilhouetteFilm::seen(int index, const EyeViews& eyes, int width, int hei
       for (int x = 0; x < view.area.width; ++x, out += 4) {
         glm::dvec3 sum(0);
         for (int k = 0; k < finer * finer; ++k) {
-          const double at_x = (x + (k % finer + 0.5) / finer) / view.area.width;
-          const double at_y = (static_cast<double>(row) + (k / finer + 0.5) / finer) / view.area.height;
+          const int aside = k % finer, up = k / finer;
+          const double at_x = (x + (aside + 0.5) / finer) / view.area.width;
+          const double at_y = (static_cast<double>(row) + (up + 0.5) / finer) / view.area.height;
           sum += glm::clamp(scene.colorAlong(sight.at(at_x, at_y, -1), sight.at(at_x, at_y, 1)), 0.0, 255.0);
         }
         for (int i = 0; i < 3; ++i) out[i] = toByte(sum[i] / (finer * finer));
