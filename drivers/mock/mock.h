@@ -89,7 +89,7 @@ struct MockDisplayProfile {
 
   // Faults.
   std::optional<ErrorCode> fail_open;
-  std::uint64_t failing_opens = kNever;      // how often it fails
+  std::uint64_t failing_opens = kNever;       // how often it fails
   std::uint64_t lose_after_frames = kNever;   // every verb answers Lost until closed
   std::uint64_t close_after_frames = kNever;  // attend answers Cancelled: the viewer has closed it
 };
