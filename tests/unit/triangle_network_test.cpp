@@ -197,7 +197,7 @@ TEST(CutCells, SmearedJumpHasNothingBetweenItsSides) {
   cuts.find(lattice, lattice.jumpMm());
   EXPECT_EQ(cuts.cells().size(), 161U - 1 + static_cast<unsigned>(lattice.rows() - 161)) << "one in each row";
   for (std::size_t i = 0; i < lattice.size(); ++i) {
-    const double z = lattice.heights()[i];
+    const double z = static_cast<double>(lattice.heights()[i]);
     ASSERT_TRUE(std::abs(z - 5) < 0.01 || std::abs(z - 25) < 0.01) << z;
   }
 }
