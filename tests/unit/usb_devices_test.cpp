@@ -65,7 +65,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, UsbDevice, testing::ValuesIn(test::usbKinds().be
 TEST_P(UsbDevice, OpeningAndHomingEndSoonWhenTheyAreCalledOff) {
   for (const bool helped : {true, false}) {
     if (!helped) {  // it moves, but not to where its zero is
-      model().grip = [this](double t_s) { return GetParam().rest_mm + glm::dvec3(0, 2 * std::sin(9 * t_s), 0); };
+      model().grip = [](double t_s) { return GetParam().rest_mm + glm::dvec3(0, 2 * std::sin(9 * t_s), 0); };
     }
     const auto live = [](HapticDevice& device) {
       auto opened = device.open();
@@ -89,7 +89,7 @@ TEST_P(UsbDevice, OpeningAndHomingEndSoonWhenTheyAreCalledOff) {
 
 TEST_P(UsbDevice, ThePositionIsTheHandsWithinACount) {
   const auto device = run();
-  model().grip = [this](double t_s) {
+  model().grip = [](double t_s) {
     return GetParam().rest_mm +
            glm::dvec3(30 * std::sin(2 * t_s), 25 * std::sin(3 * t_s + 1), 30 * std::sin(1.3 * t_s));
   };
@@ -117,7 +117,7 @@ TEST_P(UsbDevice, TheFirstTickKnowsWhereTheHandIs) {
 
 TEST_P(UsbDevice, AfterLostAnswersTheFirstOneIsBelieved) {
   const auto device = run();
-  model().grip = [this](double t_s) {  // 0.4 m/s
+  model().grip = [](double t_s) {  // 0.4 m/s
     return GetParam().rest_mm + glm::dvec3(10 * std::sin(40 * t_s), 0, 0);
   };
   int lost = 0, seen = 0;
@@ -166,7 +166,7 @@ TEST_P(UsbDevice, CorruptSplitAndLostAnswersMakeNoWrongPositionAndNoWildForce) {
   std::vector<std::uint8_t> late;
   const auto device = run();
   push(*device);
-  model().grip = [this](double t_s) {
+  model().grip = [](double t_s) {
     return GetParam().rest_mm + glm::dvec3(20 * std::sin(4 * t_s), 20 * std::sin(5 * t_s), 20 * std::sin(3 * t_s));
   };
   for (int i = 0; i < 50; ++i) (void)tick(*device, {});
