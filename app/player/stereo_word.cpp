@@ -3,6 +3,7 @@
 #include "app/player/stereo_word.h"
 
 #include <charconv>
+#include <string>
 
 namespace relievo {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 constexpr int kMostTiles = 100;  // across or down
 
 // "8x6".
-bool parseTiles(std::string_view word, int& cols, int& rows) {
+bool parseTiles(const std::string& word, int& cols, int& rows) {
   const char* const end = word.data() + word.size();
   const auto [sign, no_cols] = std::from_chars(word.data(), end, cols);
   if (no_cols != std::errc() || sign == end || *sign != 'x') return false;
@@ -28,7 +29,7 @@ bool parseVariant(std::string_view variant, StereoSettings& settings) {
       settings.anaglyph = variant == "gray" ? AnaglyphColors::Gray : AnaglyphColors::Color;
       return variant == "gray" || variant == "color";
     case StereoLayout::Quilt:
-      return parseTiles(variant, settings.quilt_cols, settings.quilt_rows);
+      return parseTiles(std::string(variant), settings.quilt_cols, settings.quilt_rows);
     default:
       return false;
   }
