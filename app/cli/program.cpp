@@ -37,7 +37,8 @@ const std::atomic<bool>& stopOnSignals(void (*last)() noexcept) noexcept {
   if (last == nullptr) return stop_wanted;
   std::atexit([] { last_act.load()(); });
   action.sa_handler = endNow;
-  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) {
+  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGQUIT, SIGPIPE, SIGSYS, SIGTRAP, SIGXCPU,
+                           SIGXFSZ, SIGALRM, SIGVTALRM, SIGPROF, SIGUSR1, SIGUSR2}) {
     struct sigaction old{};
     ::sigaction(number, nullptr, &old);
     if (old.sa_handler == SIG_DFL) ::sigaction(number, &action, nullptr);  // a sanitizer has its own

@@ -123,7 +123,7 @@ TEST_P(HapticUsb, UnpluggedAtAnyRequestItIsLostAndComesBack) {
     EXPECT_NE(device->state(), State::Running) << moment;
     replug();
   }
-  EXPECT_GT(moment, 200) << "and then it works";
+  EXPECT_GT(moment, 100) << "and then it works";
   usb_->unplugAfter(0);
   for (const int later : {1, 2, 20}) {
     push(*device, 10);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -18,7 +19,9 @@
 #include "tests/support/clip_maker.h"
 #include "tests/support/falcon_model.h"
 #include "tests/support/plugged_usb.h"
+#include "tests/support/process.h"
 #include "tests/support/program.h"
+#include "tests/support/sanitizers.h"
 
 namespace relievo {
 namespace {
@@ -83,19 +86,21 @@ void makeSlope(const std::string& path) {
   test::makeClip(path, {color, depth});
 }
 
+// Once it is homed, down into the slope and in circles there.
+void circle(test::FalconModel& model) {
+  model.grip = [&model, homing = model.grip, homed_s = 0.0](double t_s) mutable {
+    if (!model.homed()) return homing(homed_s = t_s);
+    const double t = t_s - homed_s;
+    return glm::dvec3(6 * std::sin(t), 6 * std::cos(t), 150 - 32 * std::min(t / 2, 1.0));
+  };
+}
+
 TEST(PlayerOnAFalcon, WhatTheTaskComputesArrivesAtTheMotors) {
   const test::TemporaryFolder folder;
 
   test::FalconModel model({});
   model.runFirmware();
-  // Through its range until it is homed; then down into the slope and in circles there.
-  double homed_s = 0;
-  model.grip = [&](double t_s) {
-    if (!model.homed()) homed_s = t_s;
-    if (!model.homed()) return glm::dvec3(0, 0, 120 + 45 * std::sin(6.283 * t_s));
-    const double t = t_s - homed_s;
-    return glm::dvec3(6 * std::sin(t), 6 * std::cos(t), 150 - 32 * std::min(t / 2, 1.0));
-  };
+  circle(model);
   const auto usb = test::plugIn(model, falcon::kUsbId);
   if (usb == nullptr) GTEST_SKIP() << test::kNoPlug;
   makeSlope(folder / "slope.mkv");
@@ -129,6 +134,35 @@ TEST(PlayerOnAFalcon, WhatTheTaskComputesArrivesAtTheMotors) {
     whole += *share > 0.99 && glm::length(ticks[tick - 1].force_n) > 0.3 ? 1 : 0;
   }
   EXPECT_GT(whole, 10U) << "of some thousands, on a machine that keeps up";
+}
+
+// Once it pushes: asked to end, killed by a fault, by an impatient user, by whatever else ends a process.
+TEST(PlayerOnAFalcon, NoSignalThatEndsItLeavesAForce) {
+  if (test::machineIsMocked()) GTEST_SKIP() << "umockdev does not stand a program that dies in the middle of a request";
+  const test::TemporaryFolder folder;
+  makeSlope(folder / "slope.mkv");
+  for (const int number : {SIGTERM, SIGSEGV, SIGQUIT, SIGUSR1}) {
+    if (number == SIGSEGV && kMemorySanitizer) continue;  // it has a handler of its own
+    SCOPED_TRACE(::strsignal(number));
+    test::FalconModel model({});
+    model.runFirmware();
+    circle(model);
+    const auto usb = test::plugIn(model, falcon::kUsbId);
+    if (usb == nullptr) GTEST_SKIP() << test::kNoPlug;
+    MonotonicClock clock;
+    const auto pushes = [&] {
+      const std::lock_guard guard(usb->lock());
+      return model.pushes(clock.now());
+    };
+    test::Process player(
+        {RELIEVO_BIN_DIR "/relievo", "play", folder / "slope.mkv", "--display", "mock", "--haptic", "falcon", "--loop"},
+        folder / "said.txt");
+    while (!pushes() && player.isRunning()) clock.sleepUntil(clock.now() + std::chrono::milliseconds(1));
+    EXPECT_TRUE(player.isRunning());
+    player.send(number);
+    EXPECT_EQ(player.wait(), number == SIGTERM ? 0 : -number);
+    EXPECT_FALSE(pushes());
+  }
 }
 
 }  // namespace

@@ -185,8 +185,7 @@ bool UmockdevUsb::answer(UMockdevIoctlClient* client) {
     case USBDEVFS_IOCTL:  // to give the interface back to a kernel driver: there is none
       return complete(-1, ENODATA);
     case USBDEVFS_SUBMITURB:
-      submit(argument);
-      return complete(0);
+      return submit(argument) ? complete(0) : complete(-1, ENOENT);
     case USBDEVFS_BULK:
       bulk(argument, client);
       return true;
@@ -208,16 +207,18 @@ bool UmockdevUsb::answer(UMockdevIoctlClient* client) {
   }
 }
 
-void UmockdevUsb::submit(UMockdevIoctlData* argument) {
+bool UmockdevUsb::submit(UMockdevIoctlData* argument) {
   const MonotonicTime now = MonotonicClock().now();
   UMockdevIoctlData* data = umockdev_ioctl_data_resolve(argument, 0, sizeof(usbdevfs_urb), nullptr);
   usbdevfs_urb& urb = urbOf(data);
+  const bool control = urb.type == USBDEVFS_URB_TYPE_CONTROL;
+  if (!control && urb.endpoint != id_.in_endpoint && urb.endpoint != id_.out_endpoint) return false;
   const auto length = static_cast<std::size_t>(urb.buffer_length);
   UMockdevIoctlData* buffer =
       length == 0 ? nullptr : umockdev_ioctl_data_resolve(data, offsetof(usbdevfs_urb, buffer), length, nullptr);
   Urb pending{static_cast<UMockdevIoctlData*>(g_object_ref(data)),
               buffer == nullptr ? nullptr : static_cast<UMockdevIoctlData*>(g_object_ref(buffer))};
-  if (urb.type == USBDEVFS_URB_TYPE_CONTROL) {
+  if (control) {
     const std::uint8_t* setup = buffer->data;
     const bool vendor_out = setup[0] == 0x40;
     if (vendor_out) model_.control(setup[1], static_cast<std::uint16_t>(setup[2] | setup[3] << 8), now);
@@ -229,6 +230,7 @@ void UmockdevUsb::submit(UMockdevIoctlData* argument) {
   } else {
     take(pending);
   }
+  return true;
 }
 
 void UmockdevUsb::take(const Urb& urb) {
@@ -242,7 +244,10 @@ void UmockdevUsb::bulk(UMockdevIoctlData* argument, UMockdevIoctlClient* client)
   const auto& transfer = *reinterpret_cast<const usbdevfs_bulktransfer*>(data->data);
   UMockdevIoctlData* buffer =
       umockdev_ioctl_data_resolve(data, offsetof(usbdevfs_bulktransfer, data), transfer.len, nullptr);
-  if (deaf_) return static_cast<void>(umockdev_ioctl_client_complete(client, -1, ETIMEDOUT));
+  if (deaf_ || transfer.ep != id_.out_endpoint) {
+    umockdev_ioctl_client_complete(client, -1, deaf_ ? ETIMEDOUT : ENOENT);
+    return;
+  }
   model_.write({buffer->data, transfer.len}, MonotonicClock().now());
   umockdev_ioctl_client_complete(client, static_cast<long>(transfer.len), 0);
 }

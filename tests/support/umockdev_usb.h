@@ -36,7 +36,7 @@ class UmockdevUsb final : public PluggedUsb {
   };
   static gboolean onRequest(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self);
   bool answer(UMockdevIoctlClient* client);
-  void submit(UMockdevIoctlData* argument);
+  [[nodiscard]] bool submit(UMockdevIoctlData* argument);
   void take(const Urb& urb);
   void bulk(UMockdevIoctlData* argument, UMockdevIoctlClient* client);
   bool discard(UMockdevIoctlData* argument);
