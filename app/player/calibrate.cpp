@@ -6,6 +6,8 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstdlib>
+#include <string_view>
 #include <vector>
 
 #include "platform/cyclic_thread.h"
@@ -60,7 +62,6 @@ Result<double> agreed(const std::vector<double>& ratios) {
 
 Result<double> measureStrength(HapticDevice& device, const ReadScale& readScale, Clock& clock, bool own_thread) {
   const Closing closing{device};
-  if (auto opened = device.open(); !opened) return std::unexpected(opened.error());
   if (auto homed = device.home(); !homed) return std::unexpected(homed.error());
   if (auto started = device.start(); !started) return std::unexpected(started.error());
 
@@ -90,6 +91,15 @@ Result<double> measureStrength(HapticDevice& device, const ReadScale& readScale,
   }
   if (ratios.empty()) return fail(ErrorCode::Unsupported, "this device has too little force to be measured");
   return agreed(ratios);
+}
+
+std::optional<double> newtonsIn(std::string line) {
+  std::ranges::replace(line, ',', '.');
+  char* end = nullptr;
+  const double number = std::strtod(line.c_str(), &end);
+  if (end == line.c_str() || !std::isfinite(number)) return std::nullopt;
+  const bool all = std::string_view(end).find_first_not_of(" \tN") == std::string_view::npos;
+  return all ? std::optional(number) : std::nullopt;
 }
 
 }  // namespace relievo

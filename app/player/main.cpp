@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "app/cli/options.h"
@@ -45,13 +46,14 @@ std::string captureFile(const std::string& display) {
 }
 
 std::optional<double> askForReading(double asked_n) {
-  std::printf("It is asked for %.0f N. The scale shows (N): ", asked_n);
-  std::fflush(stdout);
-  std::string line;
-  if (!std::getline(std::cin, line)) return std::nullopt;
-  char* end = nullptr;
-  const double shown_n = std::strtod(line.c_str(), &end);
-  return end == line.c_str() ? std::nullopt : std::optional(shown_n);
+  for (;;) {
+    std::printf("It is asked for %.0f N. The scale shows (N): ", asked_n);
+    std::fflush(stdout);
+    std::string line;
+    if (!std::getline(std::cin, line) || line.empty()) return std::nullopt;
+    if (const auto shown_n = newtonsIn(line)) return shown_n;
+    std::puts("That is no number. Type newtons, such as 2.7; an empty line gives up.");
+  }
 }
 
 drivers::HapticSettings settingsOf(const FileConfig& config) {
@@ -120,14 +122,18 @@ int listDevices(const DevicesOptions& options) {
   const auto config = loadConfig(options.config_path);
   if (!config) return tell(config.error());
   MonotonicClock clock;
+  bool any = false;
   for (const auto& each : drivers::lookAtDevices(settingsOf(*config), clock)) {
     std::printf("%-7s %-20s %-6s %s\n", each.kind, each.name.c_str(), each.there ? "there" : "-", each.state.c_str());
+    any = any || each.there;
   }
+  std::puts(any ? "To feel with one of them: relievo play FILM --haptic NAME"
+                : "None is needed to begin with: relievo play FILM holds a simulated one in a simulated hand.");
   return kExitDone;
 }
 
 int calibrateFalcon(const DevicesOptions& options) {
-  static_cast<void>(stopOnSignals(drivers::stopAllMotors));
+  const std::atomic<bool>& stop = stopOnSignals(drivers::stopAllMotors);
   const auto config = loadConfig(options.config_path);
   if (!config) return tell(config.error());
   drivers::HapticSettings settings = settingsOf(*config);
@@ -136,15 +142,21 @@ int calibrateFalcon(const DevicesOptions& options) {
   MonotonicClock clock;
   const auto falcon = drivers::makeHapticDevice("falcon", clock, settings);
   if (!falcon) return tell(falcon.error());
+  const std::jthread listener([&stop, &device = **falcon](const std::stop_token& done) {  // nobody else looks at `stop`
+    while (!done.stop_requested() && !stop) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    if (stop) device.cancel();
+  });
+  if (auto opened = (*falcon)->open(); !opened) return tell({"falcon", opened.error()});
   std::puts("Home the Falcon: pull its grip out and push it in. Then hold it by the scale in the middle of its way.");
   const auto ratio = measureStrength(**falcon, askForReading, clock);
   if (!ratio) return tell({"falcon", ratio.error()});
 
   const std::string path = options.config_path.empty() ? defaultConfigPath() : options.config_path;
+  std::printf("The Falcon gives %.0f %% of what it was asked for: counts_per_nm = %.0f.\n", 100 * *ratio,
+              counts / *ratio);
   const auto saved = setNumber(path, "falcon", "counts_per_nm", counts / *ratio);
   if (!saved) return tell(saved.error());
-  std::printf("The Falcon gives %.0f %% of what it was asked for: counts_per_nm = %.0f is in %s now.\n", 100 * *ratio,
-              counts / *ratio, path.c_str());
+  std::printf("That is in %s now.\n", path.c_str());
   return kExitDone;
 }
 

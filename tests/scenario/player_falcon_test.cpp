@@ -9,6 +9,7 @@
 #include <fstream>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
@@ -134,6 +135,28 @@ TEST(PlayerOnAFalcon, WhatTheTaskComputesArrivesAtTheMotors) {
     whole += *share > 0.99 && glm::length(ticks[tick - 1].force_n) > 0.3 ? 1 : 0;
   }
   EXPECT_GT(whole, 10U) << "of some thousands, on a machine that keeps up";
+}
+
+TEST(CalibrateOnAFalcon, IsCalledOffWhileItWaitsForTheUser) {
+  const test::TemporaryFolder folder;
+  test::FalconModel model({});
+  model.runFirmware();
+  model.grip = [](double) { return test::FalconModel::kRestMm; };  // nobody moves it
+  const auto usb = test::plugIn(model, falcon::kUsbId);
+  if (usb == nullptr) GTEST_SKIP() << test::kNoPlug;
+  MonotonicClock clock;
+  const auto waits = [&] {
+    const std::lock_guard guard(usb->lock());
+    return model.last().homing;
+  };
+  test::Process calibrate({RELIEVO_BIN_DIR "/relievo", "devices", "calibrate"}, folder / "said.txt");
+  while (!waits() && calibrate.isRunning()) clock.sleepUntil(clock.now() + std::chrono::milliseconds(1));
+  calibrate.send(SIGINT);
+  EXPECT_EQ(calibrate.wait(), 1);
+  std::ifstream said(folder / "said.txt");
+  const std::string text(std::istreambuf_iterator<char>(said), {});
+  EXPECT_NE(text.find("pull its grip out"), std::string::npos) << text;
+  EXPECT_NE(text.find("called off"), std::string::npos) << text;
 }
 
 // Once it pushes: asked to end, killed by a fault, by an impatient user, by whatever else ends a process.

@@ -23,6 +23,10 @@ class Calibrate : public testing::Test {
     return makeFalcon({.counts_per_nm = counts_per_nm, .watchdog_thread = false},
                       std::make_unique<test::ModelPort>(model_, cable_, clock_), clock_);
   }
+  Result<double> measure(HapticDevice& device, const ReadScale& readScale) {
+    EXPECT_TRUE(device.open());
+    return measureStrength(device, readScale, clock_, false);
+  }
   // What a scale shows on a Falcon of so many counts a newton-metre.
   ReadScale scale(double true_counts_per_nm) {
     return [this, true_counts_per_nm](double) {
@@ -37,37 +41,40 @@ class Calibrate : public testing::Test {
 
 TEST_F(Calibrate, FindsTheTrueScale) {
   const auto device = falcon(6000);
-  const auto ratio = measureStrength(*device, scale(9264), clock_, false);
+  const auto ratio = measure(*device, scale(9264));
   ASSERT_TRUE(ratio) << ratio.error().message;
   EXPECT_NEAR(6000 / *ratio, 9264, 20);
   EXPECT_EQ(model_.last().motors, falcon::Words{}) << "no force is left";
   EXPECT_EQ(device->state(), HapticDevice::State::Closed);
 
   const auto again = falcon(6000 / *ratio);
-  EXPECT_NEAR(measureStrength(*again, scale(9264), clock_, false).value(), 1, 0.005);
+  EXPECT_NEAR(measure(*again, scale(9264)).value(), 1, 0.005);
 }
 
 TEST_F(Calibrate, EndsWithoutForceWhenTheUserGivesUpOrTheCableIsPulled) {
   const auto device = falcon(6000);
-  EXPECT_EQ(
-      measureStrength(*device, [](double) { return std::nullopt; }, clock_, false).error().code, ErrorCode::Cancelled);
+  EXPECT_EQ(measure(*device, [](double) { return std::nullopt; }).error().code, ErrorCode::Cancelled);
   EXPECT_EQ(model_.last().motors, falcon::Words{});
-  const auto pulled = measureStrength(
-      *device,
-      [&](double asked_n) {
-        cable_.plugged = asked_n < 3;
-        return asked_n;
-      },
-      clock_, false);
+  const auto pulled = measure(*device, [&](double asked_n) {
+    cable_.plugged = asked_n < 3;
+    return asked_n;
+  });
   EXPECT_EQ(pulled.error().code, ErrorCode::Lost);
 }
 
 TEST_F(Calibrate, RefusesReadingsThatCannotBe) {
   const auto device = falcon(6000);
   const ReadScale far_off = [](double) { return 100.0; };
-  EXPECT_EQ(measureStrength(*device, far_off, clock_, false).error().code, ErrorCode::InvalidArgument);
+  EXPECT_EQ(measure(*device, far_off).error().code, ErrorCode::InvalidArgument);
   const ReadScale apart = [](double asked_n) { return asked_n > 3.5 ? 8.0 : asked_n; };
-  EXPECT_EQ(measureStrength(*device, apart, clock_, false).error().code, ErrorCode::InvalidArgument);
+  EXPECT_EQ(measure(*device, apart).error().code, ErrorCode::InvalidArgument);
+}
+
+TEST(Newtons, AreReadAsPeopleWriteThem) {
+  EXPECT_EQ(newtonsIn("2.7"), 2.7);
+  EXPECT_EQ(newtonsIn("2,7"), 2.7);
+  EXPECT_EQ(newtonsIn(" 3 N "), 3.0);
+  for (const char* none : {"", "x", "2.7 kg", "2.7.1", "270 g", "nan", "1e999"}) EXPECT_FALSE(newtonsIn(none)) << none;
 }
 
 class Config : public testing::Test {
