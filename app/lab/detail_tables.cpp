@@ -68,15 +68,16 @@ ChartWords detailWords(std::span<const DetailFigures> figures) {
   const double away = static_cast<double>(own.away.pixels()) / static_cast<double>(own.whole.pixels());
   return {
       "Detail: what it costs to draw, and the errors of picture and touch",
-      print("%s: at the player's %g px %.0f thousand triangles, %.0f %% of the grid of all samples, are %.1f dB (SSIM "
-            "%.3f) from what the eyes would see; that grid is %.1f (%.3f), and one of %.0f thousand %.1f. Away from "
-            "silhouettes (%.0f %% of the pixels), against the full mesh, it is %.1f dB and %.1f for the grid of "
-            "%.0f thousand: there a grid has more of its triangles. A finger would be off by %.2g %% of the force on "
-            "these triangles, by %.2g %% on all samples, which is why it feels those.",
-            own.depth->name, own.level.error_px, own.triangles / 1e3, 100 * own.triangles / all.triangles,
-            own.truth.psnrDb(), own.truth.similarity(), all.truth.psnrDb(), all.truth.similarity(),
-            alike.triangles / 1e3, alike.truth.psnrDb(), 100 * away, own.away.psnrDb(), alike.away.psnrDb(),
-            alike.triangles / 1e3, own.touch.rms_percent, all.touch.rms_percent)};
+      print(
+          "%s, the player's %g px: %.0f thousand triangles (%.0f %% of the full grid's), %.1f dB (SSIM %.3f) from "
+          "what the eyes would see; the full grid %.1f (%.3f), a grid of %.0f thousand %.1f. Near silhouettes the full "
+          "mesh is no measure; away from them (%.0f %% of the pixels) the player's is %.1f dB from it, the grid of "
+          "%.0f thousand %.1f. A finger on these triangles is off by %.2g %% of the force, on all samples by %.2g %%: "
+          "it feels those.",
+          own.depth->name, own.level.error_px, own.triangles / 1e3, 100 * own.triangles / all.triangles,
+          own.truth.psnrDb(), own.truth.similarity(), all.truth.psnrDb(), all.truth.similarity(), alike.triangles / 1e3,
+          alike.truth.psnrDb(), 100 * away, own.away.psnrDb(), alike.triangles / 1e3, alike.away.psnrDb(),
+          own.touch.rms_percent, all.touch.rms_percent)};
 }
 
 }  // namespace relievo
