@@ -51,7 +51,8 @@ struct DisplaySurface {
 // a state that does not allow it returns InvalidState and changes nothing.
 //
 // Thread: the one that opened it, since a GL context belongs to a thread. Blocking: `present` may wait for the next
-// refresh; a screen that does not come to it is Lost soon after. Lost: the screen has gone; `close`, then `open` again when it is back.
+// refresh; a screen that does not come to it is Lost soon after. Lost: the screen has gone; `close`, then `open` again
+// when it is back.
 class Display {
  public:
   enum class State : std::uint8_t { Closed, Open, Drawing };
