@@ -18,7 +18,9 @@ Frame crop(const Frame& frame, int x, int y, int width, int height) noexcept {
     const int column = chroma ? x >> frame.chroma_shift_x : x;
     const int row = chroma ? y >> frame.chroma_shift_y : y;
     Plane& plane = part.planes[component.plane];
-    plane.data += row * plane.stride_bytes + static_cast<std::ptrdiff_t>(column) * component.step_bytes;
+    const std::ptrdiff_t offset = row * plane.stride_bytes + static_cast<std::ptrdiff_t>(column) * component.step_bytes;
+    plane.data += offset;
+    part.dma_bufs[component.plane].offset_bytes += static_cast<std::uint32_t>(offset);
   }
   return part;
 }

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "hal/media_time.h"
 
@@ -19,6 +20,13 @@ enum class ColorMatrix : std::uint8_t { Unspecified, Bt601, Bt709, Bt2020 };
 struct Plane {
   const std::uint8_t* data = nullptr;
   std::ptrdiff_t stride_bytes = 0;
+};
+
+// The same plane as devices find it, besides `data`: its first sample is `offset_bytes` into the dma-buf `fd`, which
+// the frame's owner keeps open, in rows of the plane's stride. -1: in memory alone.
+struct DmaBuf {
+  int fd = -1;
+  std::uint32_t offset_bytes = 0;
 };
 
 // Where one component's sample (c, r) lies: planes[plane].data + r * stride_bytes + offset_bytes + c * step_bytes.
@@ -50,6 +58,8 @@ struct Frame {
   std::uint8_t plane_count = 0;
   std::array<Component, 3> components{};
   std::array<Plane, 4> planes{};
+  std::array<DmaBuf, 4> dma_bufs{};           // one for each plane
+  std::optional<std::uint64_t> dma_modifier;  // how their samples are arranged, if told (drm_fourcc.h)
   std::shared_ptr<const void> owner;
 
   [[nodiscard]] bool empty() const noexcept { return planes[0].data == nullptr; }

@@ -142,6 +142,7 @@ PlayReport Player::report() const {
   report.stereo = name(picture_.stereo().layout);
   report.surface_width = picture_.width();
   report.surface_height = picture_.height();
+  report.imported = picture_.statistics().imported;
   report.triangles = picture_.statistics().triangles;
   report.picture_error_px = picture_.statistics().error_px;
   report.mesh_ms = picture_.statistics().mesh_ms;

@@ -40,6 +40,7 @@ Json videoPart(const PlayReport& r) {
           {"display", r.display},
           {"stereo", r.stereo},
           {"surface", {r.surface_width, r.surface_height}},
+          {"color_planes", r.imported ? "dma-buf" : "uploaded"},
           {"triangles", r.triangles},
           {"picture_error_px", rounded(r.picture_error_px, 1e2)},
           {"mesh_ms", rounded(r.mesh_ms, 1e3)},

@@ -42,6 +42,7 @@ struct PlayReport {
   std::string display;
   std::string stereo;
   int surface_width = 0, surface_height = 0;
+  bool imported = false;      // the last picture's colour, from dma-bufs
   std::size_t triangles = 0;  // of the relief, in the last picture
   double picture_error_px = 0;
   double mesh_ms = 0, draw_ms = 0;  // a picture's, smoothed

@@ -8,6 +8,8 @@
 #include <glm/mat3x3.hpp>
 #include <utility>
 
+#include "app/render/dma_import.h"
+
 namespace relievo {
 namespace {
 
@@ -130,6 +132,11 @@ Result<void> ColorPicture::check(const Frame& frame) noexcept {
 Result<void> ColorPicture::setFrame(const Frame& frame) {
   const auto arrangement = arrangementOf(frame);
   if (!arrangement) return std::unexpected(arrangement.error());
+  GLint largest = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+  if (std::max(frame.width, frame.height) > largest) {
+    return fail(ErrorCode::Unsupported, "the picture is larger than this GL driver's textures; give it a smaller video");
+  }
   if (arrangement_ != *arrangement) {
     auto program = GlProgram::create(sampling(*arrangement), kVertexShader, kFragmentShader);
     if (!program) return std::unexpected(program.error());
@@ -138,32 +145,63 @@ Result<void> ColorPicture::setFrame(const Frame& frame) {
   }
   width_ = frame.width;
   height_ = frame.height;
-  upload(frame);
+  glActiveTexture(GL_TEXTURE0);
+  imported_ = import(frame);
+  if (!imported_) upload(frame);
+  // A last chroma sample that stands for fewer luma samples than the others hangs over the picture's edge.
+  const glm::ivec2 chroma = samplesOf(frame, 1);
+  chroma_scale_ = {static_cast<float>(width_) / static_cast<float>(chroma.x << frame.chroma_shift_x),
+                   static_cast<float>(height_) / static_cast<float>(chroma.y << frame.chroma_shift_y)};
+  frame_ = frame;
   setColors(frame);
   converted_ = false;
   return {};
+}
+
+// Texture i holds the plane of component i.
+std::size_t ColorPicture::textureCount() const noexcept {
+  return arrangement_ == Arrangement::Planar ? 3 : arrangement_ == Arrangement::SemiPlanar ? 2 : 1;
+}
+
+glm::ivec2 ColorPicture::samplesOf(const Frame& frame, std::size_t component) noexcept {
+  if (component == 0) return {frame.width, frame.height};
+  return {(frame.width + (1 << frame.chroma_shift_x) - 1) >> frame.chroma_shift_x,
+          (frame.height + (1 << frame.chroma_shift_y) - 1) >> frame.chroma_shift_y};
+}
+
+// All planes or none: the first that the driver refuses is the last that it is asked for.
+bool ColorPicture::import(const Frame& frame) {
+  const std::size_t count = textureCount();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Component& component = frame.components[i];
+    if (frame.dma_bufs[component.plane].fd < 0 || component.bits > 8 || component.step_bytes > 2) return false;
+  }
+  if (!takes_dma_bufs_) takes_dma_bufs_ = takesDmaBufs();
+  for (std::size_t i = 0; i < count && *takes_dma_bufs_; ++i) {
+    const Component& component = frame.components[i];
+    const glm::ivec2 samples = samplesOf(frame, i);
+    takes_dma_bufs_ =
+        planes_[i].import({.channels = component.step_bytes}, frame.dma_bufs[component.plane],
+                          frame.planes[component.plane].stride_bytes, samples.x, samples.y, frame.dma_modifier);
+  }
+  return *takes_dma_bufs_;
 }
 
 void ColorPicture::upload(const Frame& frame) {
   const Component& first = frame.components[0];
   const bool narrow = first.bits > 8;
   const int narrowing = first.shift + first.bits - 8;
-  const auto send = [&](std::size_t texture, const Component& component, int width, int height) {
+  for (std::size_t i = 0; i < textureCount(); ++i) {
+    const Component& component = frame.components[i];
     const Plane& plane = frame.planes[component.plane];
+    const glm::ivec2 samples = samplesOf(frame, i);
     const auto channels = static_cast<std::uint8_t>(component.step_bytes / (narrow ? 2 : 1));
-    if (narrow) return planes_[texture].uploadNarrowed(channels, plane, width, height, narrowing);
-    planes_[texture].upload({.channels = channels}, plane, width, height);
-  };
-  glActiveTexture(GL_TEXTURE0);
-  send(0, first, width_, height_);
-  if (arrangement_ != Arrangement::Planar && arrangement_ != Arrangement::SemiPlanar) return;
-  const int chroma_width = (width_ + (1 << frame.chroma_shift_x) - 1) >> frame.chroma_shift_x;
-  const int chroma_height = (height_ + (1 << frame.chroma_shift_y) - 1) >> frame.chroma_shift_y;
-  // A last chroma sample that stands for fewer luma samples than the others hangs over the picture's edge.
-  chroma_scale_ = {static_cast<float>(width_) / static_cast<float>(chroma_width << frame.chroma_shift_x),
-                   static_cast<float>(height_) / static_cast<float>(chroma_height << frame.chroma_shift_y)};
-  send(1, frame.components[1], chroma_width, chroma_height);
-  if (arrangement_ == Arrangement::Planar) send(2, frame.components[2], chroma_width, chroma_height);
+    if (narrow) {
+      planes_[i].uploadNarrowed(channels, plane, samples.x, samples.y, narrowing);
+    } else {
+      planes_[i].upload({.channels = channels}, plane, samples.x, samples.y);
+    }
+  }
 }
 
 // Codes arrive as fractions of 255: rgb = sum of column x scale x (fraction - zero point).

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/mat4x3.hpp>
 #include <glm/vec2.hpp>
@@ -24,9 +25,12 @@ class ColorPicture {
   // Planar and semi-planar YUV, packed and planar RGB, gray, of 8 to 16 bits; Unsupported for anything else.
   [[nodiscard]] static Result<void> check(const Frame& frame) noexcept;
 
-  // Uploads the planes of a frame that passes the check: 8 bits as they are, more cut to the top 8, which is what a
-  // display shows.
+  // Takes the planes of a frame that passes the check: 8 bits as they are, from dma-bufs without a copy where the GL
+  // driver takes them, more cut to the top 8, which is what a display shows. Of the frame a reference is kept until the
+  // next one.
   [[nodiscard]] Result<void> setFrame(const Frame& frame);
+  // How the planes of the last frame came: without a copy?
+  [[nodiscard]] bool isImported() const noexcept { return imported_; }
 
   // Converts what was set, if that has not been done, and leaves the texture bound to `unit`, row 0 the top one.
   // `shown_width` and `shown_height`: about how many pixels large it will be drawn; a picture of twice that or more is
@@ -37,6 +41,9 @@ class ColorPicture {
   enum class Arrangement : std::uint8_t { Gray, Planar, SemiPlanar, Packed };
   static Result<Arrangement> arrangementOf(const Frame& frame) noexcept;
   static const char* sampling(Arrangement arrangement) noexcept;
+  [[nodiscard]] std::size_t textureCount() const noexcept;
+  [[nodiscard]] static glm::ivec2 samplesOf(const Frame& frame, std::size_t component) noexcept;
+  [[nodiscard]] bool import(const Frame& frame);
   void upload(const Frame& frame);
   void setColors(const Frame& frame) noexcept;
   void allocateTarget(int width, int height);
@@ -49,7 +56,10 @@ class ColorPicture {
   glm::vec3 bias_{0};
   glm::vec2 chroma_scale_{1};
   std::array<PlaneTexture, 3> planes_;
+  std::optional<bool> takes_dma_bufs_;  // false from the first refusal on
+  bool imported_ = false;
   bool converted_ = false;
+  Frame frame_;  // a texture may lie in its memory
 
   GlProgram program_;
   GlVertexArray no_vertices_;

@@ -3,9 +3,10 @@
 #include "app/render/plane_texture.h"
 
 #include <array>
-#include <cstddef>
 #include <cstring>
-#include <optional>
+#include <utility>
+
+#include "app/render/dma_import.h"
 
 namespace relievo {
 namespace {
@@ -52,7 +53,7 @@ void PlaneTexture::bind(GLuint unit) const noexcept {
 }
 
 void PlaneTexture::allocate(const TexelLayout& layout, int width, int height) {
-  if (texture_.get() != 0 && layout == layout_ && width == width_ && height == height_) {
+  if (texture_.get() != 0 && !imported_ && layout == layout_ && width == width_ && height == height_) {
     glBindTexture(GL_TEXTURE_2D, texture_.get());
     return;
   }
@@ -60,9 +61,14 @@ void PlaneTexture::allocate(const TexelLayout& layout, int width, int height) {
   layout_ = layout;
   width_ = width;
   height_ = height;
-  const GLint filter = layout.whole ? GL_NEAREST : GL_LINEAR;
+  imported_ = false;
   glBindTexture(GL_TEXTURE_2D, texture_.get());
   glTexStorage2D(GL_TEXTURE_2D, 1, glFormat(layout).internal, width, height);
+  configure();
+}
+
+void PlaneTexture::configure() const {
+  const GLint filter = layout_.whole ? GL_NEAREST : GL_LINEAR;
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -72,6 +78,17 @@ void PlaneTexture::allocate(const TexelLayout& layout, int width, int height) {
 void PlaneTexture::send(const void* samples) const {
   const GlFormat format = glFormat(layout_);
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, format.format, format.type, samples);
+}
+
+bool PlaneTexture::import(const TexelLayout& layout, const DmaBuf& dma_buf, std::ptrdiff_t stride_bytes, int width,
+                          int height, std::optional<std::uint64_t> modifier) {
+  auto texture = importDmaBuf(dma_buf, stride_bytes, width, height, layout.channels, modifier);
+  if (!texture) return false;
+  texture_ = std::move(*texture);
+  layout_ = layout;
+  imported_ = true;
+  configure();
+  return true;
 }
 
 void PlaneTexture::upload(const TexelLayout& layout, const Plane& plane, int width, int height) {

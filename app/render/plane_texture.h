@@ -2,7 +2,9 @@
 // A texture that holds one memory plane of a picture, sample for sample, whatever its stride.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "app/render/gl_objects.h"
@@ -28,16 +30,22 @@ class PlaneTexture {
   // The same from 16-bit words of `plane`, each cut to its top 8 bits: (word >> shift) as a byte.
   void uploadNarrowed(std::uint8_t channels, const Plane& plane, int width, int height, int shift);
 
+  // No copy: the texels are those of a dma-buf (importDmaBuf). False where that cannot be, and nothing is changed.
+  [[nodiscard]] bool import(const TexelLayout& layout, const DmaBuf& dma_buf, std::ptrdiff_t stride_bytes, int width,
+                            int height, std::optional<std::uint64_t> modifier);
+
   void bind(GLuint unit) const noexcept;
 
  private:
   void allocate(const TexelLayout& layout, int width, int height);
+  void configure() const;
   void send(const void* samples) const;
 
   GlTexture texture_;
   TexelLayout layout_;
   int width_ = 0;
   int height_ = 0;
+  bool imported_ = false;
   std::vector<std::uint8_t> staging_;
 };
 

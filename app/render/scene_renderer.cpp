@@ -142,7 +142,8 @@ Result<void> SceneRenderer::draw(const DisplaySurface& surface, const std::optio
 
 RenderStatistics SceneRenderer::statistics() const noexcept {
   const Impl& impl = *impl_;
-  RenderStatistics result{.frames = impl.frames, .frame_ms = toSeconds(impl.drawing) * 1e3};
+  RenderStatistics result{
+      .frames = impl.frames, .imported = impl.picture.isImported(), .frame_ms = toSeconds(impl.drawing) * 1e3};
   if (impl.depth.empty()) return result;
   if (impl.detail.grid_step > 0) {
     const auto along = [&](int samples) {

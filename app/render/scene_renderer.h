@@ -35,9 +35,10 @@ struct RenderStatistics {
   std::uint64_t frames = 0;
   std::size_t triangles = 0;  // of the relief as it is drawn now, silhouettes and all; 0 without depth
   std::size_t cut_cells = 0;  // at silhouettes
-  double error_px = 0;        // that now holds
-  double mesh_ms = 0;         // making those triangles of one picture, smoothed
-  double frame_ms = 0;        // drawing one frame, all views, smoothed; with the triangles
+  bool imported = false;  // the colour picture's planes are read where the decoder wrote them (dma-buf), not uploaded
+  double error_px = 0;    // that now holds
+  double mesh_ms = 0;     // making those triangles of one picture, smoothed
+  double frame_ms = 0;    // drawing one frame, all views, smoothed; with the triangles
 };
 
 // All verbs, and the end of it, on the thread of the display's GL context, between its beginFrame and present: GL

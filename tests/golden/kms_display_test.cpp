@@ -5,11 +5,14 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 #include <xf86drm.h>
 #include <xf86drmMode.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <functional>
 #include <vector>
@@ -162,6 +165,105 @@ TEST_F(KmsDisplay, TheReliefOnTheScreenIsThatOfTheOffscreenDisplay) {
   EXPECT_LT(other, 0.001 * kPixels);
   EXPECT_LT(sum, 0.01 * kPixels);
   EXPECT_GT(light, 30 * kPixels) << "there is something to be seen";
+}
+
+// A picture in a buffer that the card has given, as a hardware decoder's is: NV12, a pattern of luma and of chroma.
+class CardPicture {
+ public:
+  CardPicture(const std::string& card, int width, int height)
+      : card_(::open(card.c_str(), O_RDWR | O_CLOEXEC)), width_(width), height_(height) {
+    std::uint32_t pitch = 0;
+    std::uint64_t size = 0, offset = 0;
+    // Bytes that lie together: the planes are where a decoder would have put them.
+    if (drmModeCreateDumbBuffer(card_.get(), static_cast<std::uint32_t>(width),
+                                static_cast<std::uint32_t>(height * 3 / 2), 8, 0, &handle_, &pitch, &size) != 0 ||
+        drmModeMapDumbBuffer(card_.get(), handle_, &offset) != 0) {
+      return;
+    }
+    size_ = size;
+    stride_ = pitch;
+    int fd = -1;
+    if (drmPrimeHandleToFD(card_.get(), handle_, DRM_CLOEXEC | DRM_RDWR, &fd) != 0) return;
+    buffer_ = UniqueFd(fd);
+    void* mapped = ::mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_SHARED, card_.get(), static_cast<off_t>(offset));
+    if (mapped == MAP_FAILED) return;
+    bytes_ = static_cast<std::uint8_t*>(mapped);
+    for (int r = 0; r < height * 3 / 2; ++r) {
+      for (int c = 0; c < width; ++c) {
+        bytes_[r * stride_ + c] = static_cast<std::uint8_t>(r < height ? 40 + (c + 2 * r) % 180 : 90 + (c % 2) * 60);
+      }
+    }
+  }
+  ~CardPicture() {
+    if (bytes_ != nullptr) ::munmap(bytes_, size_);
+    buffer_ = UniqueFd();
+    drmModeDestroyDumbBuffer(card_.get(), handle_);
+  }
+  CardPicture(const CardPicture&) = delete;
+  CardPicture& operator=(const CardPicture&) = delete;
+
+  [[nodiscard]] bool made() const { return bytes_ != nullptr; }
+  [[nodiscard]] Frame frame(bool with_dma_buf) const {
+    Frame frame;
+    frame.width = width_;
+    frame.height = height_;
+    frame.model = ColorModel::Yuv;
+    frame.chroma_shift_x = frame.chroma_shift_y = 1;
+    frame.plane_count = 2;
+    frame.components = {Component{}, {.plane = 1, .step_bytes = 2}, {.plane = 1, .offset_bytes = 1, .step_bytes = 2}};
+    const auto chroma = static_cast<std::uint32_t>(stride_ * height_);
+    frame.planes[0] = {bytes_, stride_};
+    frame.planes[1] = {bytes_ + chroma, stride_};
+    if (with_dma_buf) {
+      frame.dma_bufs[0] = {buffer_.get(), 0};
+      frame.dma_bufs[1] = {buffer_.get(), chroma};
+      frame.dma_modifier = 0;  // linear
+    }
+    return frame;
+  }
+
+ private:
+  UniqueFd card_, buffer_;
+  int width_ = 0, height_ = 0;
+  std::uint32_t handle_ = 0;
+  std::size_t size_ = 0;
+  std::ptrdiff_t stride_ = 0;
+  std::uint8_t* bytes_ = nullptr;
+};
+
+// Whatever the GL driver of a card does with dma-bufs, the picture is the one that an upload makes.
+void expectTheSameFromDmaBufs(Display& display, const std::string& card) {
+  // Before this display is the card's master: a dumb buffer wants no master.
+  const CardPicture picture(card, 256, 160);
+  ASSERT_TRUE(picture.made()) << errno;
+  ASSERT_TRUE(display.open({640, 480}));
+  std::array<std::vector<std::uint8_t>, 2> drawn;
+  bool imported = false;
+  for (const bool with_dma_buf : {false, true}) {
+    const auto surface = display.beginFrame();
+    ASSERT_TRUE(surface);
+    {
+      auto renderer = SceneRenderer::create(1h).value();
+      ASSERT_TRUE(renderer->setFrame(picture.frame(with_dma_buf), {}, {}, {160, 100, 40}));
+      ASSERT_TRUE(renderer->draw(*surface, std::nullopt));
+      imported = renderer->statistics().imported;
+      auto& pixels = drawn[with_dma_buf ? 1 : 0];
+      pixels.resize(std::size_t{640} * 480 * 4);
+      glReadPixels(0, 0, 640, 480, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+    }
+    ASSERT_TRUE(display.present());
+  }
+  std::printf("dma-bufs of this card are %s\n", imported ? "imported" : "uploaded");
+  EXPECT_GT(*std::max_element(drawn[0].begin(), drawn[0].end() - 4), 100);
+  EXPECT_EQ(drawn[0], drawn[1]);
+}
+
+TEST_F(KmsDisplay, APictureInADmaBufIsShownAsItIs) {
+  expectTheSameFromDmaBufs(*display_, screen_->card());
+}
+
+TEST_F(PacedKmsDisplay, APictureInADmaBufIsShownAsItIs) {
+  expectTheSameFromDmaBufs(*display_, screen_->card());
 }
 
 TEST_F(KmsDisplay, TheModeIsTheOneAskedForElseTheScreensFavourite) {

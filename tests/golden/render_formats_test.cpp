@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every pixel format shows the same colours, whatever its planes, strides and sizes; what cannot be shown says so.
+#include <GLES3/gl3.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "drivers/egl/egl.h"
 #include "tests/golden/picture_stage.h"
 #include "tests/support/depth_frames.h"
 
@@ -153,6 +155,17 @@ INSTANTIATE_TEST_SUITE_P(
         YuvFormat{.name = "ten_bits_upside_down", .bits = 10, .padding = 6, .upside_down = true}),
     [](const auto& one) { return std::string(one.param.name); });
 
+// A descriptor that is no dma-buf is refused by every driver.
+TEST(RenderFormats, WhatTheDriverDoesNotImportIsUploaded) {
+  STAGE_OR_SKIP(stage, 320, 180);
+  for (const YuvFormat& format : {YuvFormat{.name = "i420"}, YuvFormat{.name = "nv12", .semi_planar = true}}) {
+    Frame frame = makeYuvFrame(320, 180, format);
+    for (DmaBuf& each : frame.dma_bufs) each = {.fd = 0};
+    expectBars(stage.show({.color = frame, .volume = kVolume}), 3);
+    EXPECT_FALSE(stage.renderer().statistics().imported);
+  }
+}
+
 TEST(RenderFormats, UpsideDownRowsAreTurned) {
   // Bars run down the columns; this one has a dark half below.
   STAGE_OR_SKIP(stage, 320, 180);
@@ -261,6 +274,67 @@ TEST(RenderFormats, OnePixelFillsItsFrame) {
     const Image image = stage.show({.color = color, .depth = depth, .volume = {40, 40, 40}});
     for (const auto& [x, y] : {std::pair{2, 2}, {80, 80}, {157, 157}}) expectColor(image, x, y, shown, 3);
   }
+}
+
+TEST(RenderFormats, AVideoOfEightThousandLinesIsShown) {
+  STAGE_OR_SKIP(stage, 320, 320);
+  const auto quarter = [](int c, int r) { return std::uint32_t(c < 4096 ? 200 : 60) - (r < 4096 ? 0 : 40); };
+  const Frame samples = makeGrayFrame(8192, 8192, 8, MediaTime{}, quarter);
+  Scene scene{.color = samples, .depth = samples, .volume = {80, 80, 4}};
+  const Image image = stage.show(scene);
+  for (const auto& [x, y, gray] : {std::array{80, 80, 200}, {240, 80, 60}, {80, 240, 160}, {240, 240, 20}}) {
+    expectColor(image, x, y, {gray, gray, gray}, 2);
+  }
+  EXPECT_GT(stage.renderer().statistics().cut_cells, 0U) << "its depth as well";
+}
+
+TEST(RenderFormats, WhatNoTextureHoldsIsRefusedAndThePictureBeforeStays) {
+  STAGE_OR_SKIP(stage, 320, 180);
+  Scene scene{.color = makeYuvFrame(320, 180, {.name = ""}), .volume = kVolume};
+  (void)stage.show(scene);
+  scene.color = makePlane(100'000, 1, 8, 90);
+  const auto shown = stage.tryShow(scene);
+  ASSERT_FALSE(shown);
+  EXPECT_EQ(shown.error().code, ErrorCode::Unsupported);
+  EXPECT_NE(std::string(shown.error().message).find("larger than"), std::string::npos);
+  expectBars(stage.again(), 3);
+}
+
+// GL gives the lowest name that is free: when all went, the next one is what it was.
+TEST(RenderFormats, AThousandRenderersLeaveNoGlObject) {
+  const ManualClock clock;
+  const auto display = makeOffscreenDisplay("", clock);
+  if (!display->open({32, 32})) GTEST_SKIP() << "this machine has no EGL with GLES 3";
+  const auto surface = display->beginFrame();
+  ASSERT_TRUE(surface);
+  const auto next = [] {
+    std::array<GLuint, 6> names{};
+    glGenTextures(1, &names[0]);
+    glGenBuffers(1, &names[1]);
+    glGenVertexArrays(1, &names[2]);
+    glGenFramebuffers(1, &names[3]);
+    names[4] = glCreateProgram();
+    names[5] = glCreateShader(GL_VERTEX_SHADER);
+    glDeleteTextures(1, &names[0]);
+    glDeleteBuffers(1, &names[1]);
+    glDeleteVertexArrays(1, &names[2]);
+    glDeleteFramebuffers(1, &names[3]);
+    glDeleteProgram(names[4]);
+    glDeleteShader(names[5]);
+    return names;
+  };
+  const auto before = next();
+  for (int round = 0; round < 1000; ++round) {
+    auto renderer = SceneRenderer::create(std::chrono::hours(1)).value();
+    if (round % 20 != 0) continue;  // to draw takes longer
+    renderer->setText({"title"});
+    for (const auto layout : {StereoLayout::SideBySide, StereoLayout::Anaglyph}) {
+      renderer->setStereo({.layout = layout});
+      ASSERT_TRUE(renderer->setFrame(makeYuvFrame(64, 36, {.name = ""}), makePlane(64, 36, 8, 128), {}, kVolume));
+      ASSERT_TRUE(renderer->draw(*surface, FingerMark{.contact = true}));
+    }
+  }
+  EXPECT_EQ(next(), before);
 }
 
 TEST(RenderFormats, LargePictureIsAveragedNotSkipped) {
