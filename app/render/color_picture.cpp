@@ -135,7 +135,8 @@ Result<void> ColorPicture::setFrame(const Frame& frame) {
   GLint largest = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
   if (std::max(frame.width, frame.height) > largest) {
-    return fail(ErrorCode::Unsupported, "the picture is larger than this GL driver's textures; give it a smaller video");
+    return fail(ErrorCode::Unsupported,
+                "the picture is larger than this GL driver's textures; give it a smaller video");
   }
   if (arrangement_ != *arrangement) {
     auto program = GlProgram::create(sampling(*arrangement), kVertexShader, kFragmentShader);
