@@ -44,7 +44,8 @@ class LabTrace : public testing::Test {
     track.fps_num = fps;
     track.frames = frames;
     track.sample = [=](int, int c, int r, int k) {
-      return static_cast<std::uint32_t>(height(grid.x(c), grid.y(r), static_cast<double>(k) / fps) / 40 * 65535 + 0.5);
+      const double z = height(grid.x(c), grid.y(r), static_cast<double>(k) / fps) / 40;
+      return static_cast<std::uint32_t>(std::clamp(z, 0.0, 1.0) * 65535 + 0.5);
     };
     test::makeClip(folder_ / "film.mkv", {track});
   }

@@ -2,6 +2,7 @@
 // Depth frames and surface windows made of numbers, for tests that need no file.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -40,13 +41,14 @@ Frame makeGrayFrame(int cols, int rows, int bits, MediaTime time, Code&& code) {
   return frame;
 }
 
-// 16-bit frame whose heights follow height(x_mm, y_mm) in a volume, to within the code's step (0.0006 mm of 40).
+// 16-bit frame whose heights follow height(x_mm, y_mm) in a volume, to within the code's step (0.0006 mm of 40), and end
+// at its bounds.
 template <class Height>
 Frame makeReliefFrame(int cols, int rows, const DisplayVolume& volume, MediaTime time, Height&& height) {
   const GridMapping grid(volume, cols, rows);
   return makeGrayFrame(cols, rows, 16, time, [&](int c, int r) {
     const double z = height(grid.x(c), grid.y(r));
-    return static_cast<std::uint32_t>(z / volume.depth_mm * 65535.0 + 0.5);
+    return static_cast<std::uint32_t>(std::clamp(z / volume.depth_mm, 0.0, 1.0) * 65535.0 + 0.5);
   });
 }
 

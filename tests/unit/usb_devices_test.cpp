@@ -116,11 +116,11 @@ TEST_P(UsbDevice, TheFirstTickKnowsWhereTheHandIs) {
 }
 
 TEST_P(UsbDevice, AfterLostAnswersTheFirstOneIsBelieved) {
+  int lost = 0, seen = 0;
   const auto device = run();
   model().grip = [](double t_s) {  // 0.4 m/s
     return GetParam().rest_mm + glm::dvec3(10 * std::sin(40 * t_s), 0, 0);
   };
-  int lost = 0, seen = 0;
   for (int i = 0; i < 10; ++i) (void)tick(*device, {});
   model().spoil = [&](std::vector<std::uint8_t>& bytes) {
     if (++lost % 7 > 1) bytes.clear();
@@ -228,9 +228,9 @@ TEST_P(UsbDevice, AForceThatNobodyRenewsEnds) {
 }
 
 TEST_P(UsbDevice, AHandThatIsNotSeenIsNotPushed) {
+  bool seen = false;
   const auto device = run();
   push(*device);
-  bool seen = false;
   model().spoil = [&](std::vector<std::uint8_t>& bytes) {
     if (!seen) bytes.clear();
   };

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// Drawing 3D at 1280 x 720, side by side: making the relief's few triangles of a depth picture, and drawing frames of
+// them against frames of the uniform grid of all samples. On the sample film (toolchain/demo makes it) and the real
+// depth video beside the project; what is not there is left out, with a word.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/media/pair_reader.h"
+#include "app/render/relief_triangles.h"
+#include "app/render/scene_renderer.h"
+#include "app/render/stereo.h"
+#include "drivers/egl/egl.h"
+#include "drivers/ffmpeg/ffmpeg.h"
+#include "platform/clock.h"
+#include "tests/support/real_depth.h"
+
+namespace relievo {
+namespace {
+
+constexpr int kWidth = 1280, kHeight = 720;
+constexpr int kPictures = 40;
+constexpr double kErrorPx = 0.5;
+
+struct Film {
+  std::string name;
+  std::vector<FramePair> pairs;
+  DepthCalibration calibration;
+  DisplayVolume volume;
+};
+
+// Every `stride`th pair.
+Film read(std::string name, const SourceOptions& source, int stride) {
+  Film film{.name = std::move(name)};
+  PairReader reader({makeFfmpegSource, makeFfmpegDecoder});
+  if (!reader.open(source)) {
+    std::fprintf(stderr, "picture_bench: %s is not there; left out\n", source.url.c_str());
+    return film;
+  }
+  film.calibration = reader.info().calibration.calibration;
+  for (int i = 0; static_cast<int>(film.pairs.size()) < kPictures; ++i) {
+    auto pair = reader.next();
+    if (!pair || !*pair) break;
+    if (i % stride == 0 && !(*pair)->depth.empty()) film.pairs.push_back(std::move(**pair));
+  }
+  if (!film.pairs.empty()) {
+    const Frame& depth = film.pairs[0].depth;
+    film.volume = DisplayVolume::forPicture(depth.width, depth.height);
+  }
+  return film;
+}
+
+Film cones(const std::string& data) {
+  const auto disparity = test::readCones(data);
+  Film film{.name = "cones"};
+  if (!disparity) return film;
+  PairReader reader({makeFfmpegSource, makeFfmpegDecoder});
+  if (!reader.open({.url = data + "/cones/left_rgb_8bit.png"})) return film;
+  auto pair = reader.next();
+  if (!pair || !*pair) return film;
+  film.pairs = {{.color = (*pair)->color, .depth = test::depthOf(*disparity)}};
+  film.calibration = {.bits = 16, .invalid_code = 0};
+  film.volume = DisplayVolume::forPicture(test::Disparity::kCols, test::Disparity::kRows);
+  return film;
+}
+
+ReliefDetail wanted(const DisplayVolume& volume) {
+  const StereoSettings stereo{.layout = StereoLayout::SideBySide};
+  const EyeViews eyes = eyeViews(stereo, volume, kWidth, kHeight);
+  return {.error_mm = kErrorPx * heightOfPixelMm(stereo, volume, eyes.pixels_per_mm),
+          .view = {.eye_mm = std::abs(eyes.views[0].eye_x_mm),
+                   .distance_mm = stereo.viewing_distance_mm,
+                   .screen_z_mm = stereo.screen_z_mm}};
+}
+
+// Each picture several times, the best of each: what it takes where nothing else runs.
+void makeTriangles(benchmark::State& state, const Film& film) {
+  constexpr int kTimes = 8;
+  const MonotonicClock clock;
+  const ReliefDetail detail = wanted(film.volume);
+  ReliefTriangles triangles;
+  std::size_t most = 0, sum = 0, cuts = 0;
+  Duration best_sum{0}, worst{0};
+  for (auto _ : state) {
+    for (const FramePair& pair : film.pairs) {
+      const HeightField field = HeightField::make(pair.depth, film.calibration, film.volume).value();
+      Duration best = std::chrono::hours(1);
+      for (int i = 0; i < kTimes; ++i) {
+        const MonotonicTime begin = clock.now();
+        triangles.build(field, film.volume, detail);
+        best = std::min(best, clock.now() - begin);
+      }
+      best_sum += best;
+      worst = std::max(worst, best);
+      const std::size_t count = triangles.indices().size() / 3;
+      most = std::max(most, count);
+      sum += count;
+      cuts += triangles.cutCells();
+    }
+  }
+  const auto pictures = static_cast<double>(film.pairs.size());
+  const Frame& depth = film.pairs[0].depth;
+  state.counters["mean_ms"] = toSeconds(best_sum) * 1e3 / pictures;
+  state.counters["worst_ms"] = toSeconds(worst) * 1e3;
+  state.counters["triangles"] = static_cast<double>(sum) / pictures;
+  state.counters["most"] = static_cast<double>(most);
+  state.counters["cut_cells"] = static_cast<double>(cuts) / pictures;
+  state.counters["all_samples"] = 2.0 * (depth.width - 1) * (depth.height - 1);
+}
+
+void drawFrames(benchmark::State& state, const Film& film, const DetailSettings& detail) {
+  const MonotonicClock clock;
+  const auto display = makeOffscreenDisplay("", clock);
+  if (!display->open({kWidth, kHeight})) return state.SkipWithError("no EGL with GLES 3");
+  const auto surface = display->beginFrame();
+  {
+    auto renderer = SceneRenderer::create(std::chrono::hours(1)).value();
+    renderer->setStereo({.layout = StereoLayout::SideBySide});
+    renderer->setDetail(detail);
+    std::size_t i = 0;
+    for (auto _ : state) {
+      const FramePair& pair = film.pairs[i++ % film.pairs.size()];
+      if (!renderer->setFrame(pair.color, pair.depth, film.calibration, film.volume) ||
+          !renderer->draw(*surface, FingerMark{.position_mm = {0, 0, 30}, .force_n = {0, 0, 2}, .contact = true})) {
+        return state.SkipWithError("a frame was not drawn");
+      }
+    }
+    state.counters["triangles"] = static_cast<double>(renderer->statistics().triangles);
+  }
+  state.counters["frames_per_s"] =
+      benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+  display->close();
+}
+
+// Held for as long as the benchmarks run.
+std::vector<std::unique_ptr<const Film>>& films() {
+  static std::vector<std::unique_ptr<const Film>> all;
+  return all;
+}
+
+const bool kRegistered = [] {
+  const std::string data = RELIEVO_TEST_DATA;
+  for (Film film :
+       {read("sample", {.url = RELIEVO_SOURCE_DIR "/out/sample.mkv"}, 9),
+        read("cup", {.url = data + "/cup/color_output.webm", .depth_url = data + "/cup/depth_output.webm"}, 14),
+        read("desk", {.url = data + "/desk/Test.mov", .packing = Packing::TopBottom, .depth_code = DepthCode::Hue}, 1),
+        cones(data)}) {
+    if (film.pairs.empty()) continue;
+    films().push_back(std::make_unique<const Film>(std::move(film)));
+    const Film& kept = *films().back();
+    benchmark::RegisterBenchmark(("make/" + kept.name).c_str(), makeTriangles, kept)->Iterations(1);
+    for (const auto& [name, detail] :
+         {std::pair{"draw/", DetailSettings{}}, {"draw_all_samples/", DetailSettings{.grid_step = 1}}}) {
+      benchmark::RegisterBenchmark((name + kept.name).c_str(), drawFrames, kept, detail)
+          ->UseRealTime()
+          ->Unit(benchmark::kMillisecond)
+          ->MinTime(3);
+    }
+  }
+  return true;
+}();
+
+}  // namespace
+}  // namespace relievo
