@@ -45,7 +45,8 @@ std::uint64_t threadAllocations() RELIEVO_RT {
 
 #ifdef RELIEVO_SANITIZER_HEAP
 
-// Declared here: not every compiler ships sanitizer/allocator_interface.h.
+// Declared here: not every compiler ships sanitizer/allocator_interface.h. The names are the sanitizer's.
+// NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming,bugprone-throwing-static-initialization)
 extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*)(const volatile void*, std::size_t),
                                                          void (*)(const volatile void*));
 
@@ -55,6 +56,7 @@ namespace {
     [](const volatile void*, std::size_t) { ++relievo::allocations; }, [](const volatile void*) {});
 
 }  // namespace
+// NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming,bugprone-throwing-static-initialization)
 
 #elif !defined(RELIEVO_WATCHED_HEAP)
 
