@@ -40,7 +40,12 @@ class HeightLattice {
 
  private:
   void lay(const HeightField& field, int most_across);
-  void fillHoles(int j);
+  struct Level {
+    int cols = 0, rows = 0;
+    float* heights = nullptr;
+  };
+  void fillHoles();
+  static void fillFrom(const Level& coarse, const Level& fine);
 
   int tile_ = 1;
   float jump_mm_ = 0;
@@ -49,6 +54,7 @@ class HeightLattice {
   std::vector<int> columns_, rows_;
   std::vector<float> xs_, ys_, us_, vs_;
   std::vector<float> heights_;
+  std::vector<std::vector<float>> coarser_;  // levels over a picture with holes
 };
 
 }  // namespace relievo
