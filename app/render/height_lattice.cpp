@@ -67,59 +67,46 @@ void HeightLattice::read(const HeightField& field, int most_across) {
                     grid.u_per_mm == grid_.u_per_mm && grid.v_per_mm == grid_.v_per_mm;
   if (!same) lay(field, most_across);
   const std::size_t width = columns_.size();
-  bool has_holes = false;
+  filled_.assign(width, 0);
+  bool has_holes = false;  // the row above
   for (int j = 0; j < rows(); ++j) {
     float* line = heights_.data() + static_cast<std::size_t>(j) * width;
     if (j > 0 && rows_[static_cast<std::size_t>(j)] == rows_[static_cast<std::size_t>(j) - 1]) {
       std::copy_n(line - width, width, line);
-    } else {
-      has_holes = field.readRow(row(j), columns_, line) || has_holes;
+    } else if (field.readRow(row(j), columns_, line)) {
+      fillHoles(j);
+      has_holes = true;
+    } else if (has_holes) {
+      std::fill(filled_.begin(), filled_.end(), std::uint8_t{0});
+      has_holes = false;
     }
-  }
-  if (has_holes) fillHoles();
-}
-
-// Each level has half the columns and rows of the one below, and the farthest height that is known of four; then from
-// the coarsest down, what is not known lies between the heights of the level above.
-void HeightLattice::fillHoles() {
-  const auto farther = [](float a, float b) { return std::isnan(a) || b < a ? b : a; };
-  Level below{cols(), rows(), heights_.data()};
-  std::size_t count = 0;
-  while (below.cols > 1 || below.rows > 1) {
-    Level above{(below.cols + 1) / 2, (below.rows + 1) / 2, nullptr};
-    if (coarser_.size() <= count) coarser_.emplace_back();
-    coarser_[count].resize(static_cast<std::size_t>(above.cols) * above.rows);
-    above.heights = coarser_[count++].data();
-    for (int j = 0; j < above.rows; ++j) {
-      const float* upper = below.heights + static_cast<std::ptrdiff_t>(2 * j) * below.cols;
-      const float* lower = 2 * j + 1 < below.rows ? upper + below.cols : upper;
-      float* line = above.heights + static_cast<std::ptrdiff_t>(j) * above.cols;
-      for (int i = 0; i < above.cols; ++i) {
-        const int right = std::min(2 * i + 1, below.cols - 1);
-        line[i] = farther(farther(upper[2 * i], upper[right]), farther(lower[2 * i], lower[right]));
-      }
-    }
-    below = above;
-  }
-  if (std::isnan(*below.heights)) *below.heights = 0;  // nothing was measured
-  while (count-- > 0) {
-    Level fine{cols(), rows(), heights_.data()};
-    for (std::size_t k = 0; k < count; ++k) fine = {(fine.cols + 1) / 2, (fine.rows + 1) / 2, coarser_[k].data()};
-    fillFrom({(fine.cols + 1) / 2, (fine.rows + 1) / 2, coarser_[count].data()}, fine);
   }
 }
 
-// A sample of the finer level lies a quarter of a coarse cell from the middle of its own.
-void HeightLattice::fillFrom(const Level& coarse, const Level& fine) {
-  for (int j = 0; j < fine.rows; ++j) {
-    const int own_j = j / 2, next_j = std::clamp(own_j + (j % 2 == 0 ? -1 : 1), 0, coarse.rows - 1);
-    const float* own = coarse.heights + static_cast<std::ptrdiff_t>(own_j) * coarse.cols;
-    const float* next = coarse.heights + static_cast<std::ptrdiff_t>(next_j) * coarse.cols;
-    float* line = fine.heights + static_cast<std::ptrdiff_t>(j) * fine.cols;
-    for (int i = 0; i < fine.cols; ++i) {
-      if (!std::isnan(line[i])) continue;
-      const int own_i = i / 2, next_i = std::clamp(own_i + (i % 2 == 0 ? -1 : 1), 0, coarse.cols - 1);
-      line[i] = 0.5625F * own[own_i] + 0.1875F * (own[next_i] + next[own_i]) + 0.0625F * next[next_i];
+// From one row to the next what is filled changes by less than a jump, whatever its neighbours do: nothing ends there.
+void HeightLattice::fillHoles(int j) {
+  const auto width = static_cast<std::ptrdiff_t>(columns_.size());
+  float* line = heights_.data() + j * width;
+  const float* above = j > 0 ? line - width : line;
+  const float most = 0.5F * jump_mm_;
+  const auto count = static_cast<int>(width);
+  int i = 0;
+  while (i < count) {
+    if (!std::isnan(line[i])) {
+      filled_[static_cast<std::size_t>(i++)] = 0;
+      continue;
+    }
+    const int begin = i;
+    while (i < count && std::isnan(line[i])) ++i;
+    const float before = begin > 0 ? line[begin - 1] : HUGE_VALF;
+    const float behind = i < count ? line[i] : HUGE_VALF;
+    float fill = std::min(before, behind);
+    if (fill == HUGE_VALF) fill = 0;  // nothing was measured in this row
+    for (int k = begin; k < i; ++k) {
+      std::uint8_t& filled = filled_[static_cast<std::size_t>(k)];
+      line[k] = filled != 0 ? std::clamp(fill, above[k] - most, above[k] + most) : fill;
+      if (k > begin) line[k] = std::clamp(line[k], line[k - 1] - most, line[k - 1] + most);
+      filled = 1;
     }
   }
 }

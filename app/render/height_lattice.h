@@ -40,12 +40,7 @@ class HeightLattice {
 
  private:
   void lay(const HeightField& field, int most_across);
-  struct Level {
-    int cols = 0, rows = 0;
-    float* heights = nullptr;
-  };
-  void fillHoles();
-  static void fillFrom(const Level& coarse, const Level& fine);
+  void fillHoles(int j);
 
   int tile_ = 1;
   float jump_mm_ = 0;
@@ -54,7 +49,7 @@ class HeightLattice {
   std::vector<int> columns_, rows_;
   std::vector<float> xs_, ys_, us_, vs_;
   std::vector<float> heights_;
-  std::vector<std::vector<float>> coarser_;  // levels over a picture with holes
+  std::vector<std::uint8_t> filled_;  // 1 where the row above has a hole
 };
 
 }  // namespace relievo
