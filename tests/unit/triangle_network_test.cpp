@@ -202,6 +202,27 @@ TEST(CutCells, SmearedJumpHasNothingBetweenItsSides) {
   }
 }
 
+// A thing whose border rows are of many heights, and beside it nothing that was measured: what is filled in ends
+// nowhere.
+TEST(CutCells, WhatFillsAHoleIsNotCut) {
+  constexpr int kCols = 200, kRows = 120, kBorder = 80;
+  constexpr std::uint32_t kHole = 0;
+  std::mt19937 random(7);
+  std::vector<std::uint32_t> borders(kRows);
+  for (auto& each : borders) each = 20'000U + static_cast<std::uint32_t>(random() % 40'000U);
+  const Frame frame = test::makeGrayFrame(kCols, kRows, 16, MediaTime{}, [&](int c, int r) {
+    return c < kBorder ? borders[static_cast<std::size_t>(r)] : kHole;
+  });
+  HeightLattice lattice;
+  lattice.read(HeightField::make(frame, {.bits = 16, .invalid_code = kHole}, kVolume).value(), 1024);
+  CutCells cuts;
+  cuts.find(lattice, lattice.jumpMm());
+  EXPECT_GT(cuts.cells().size(), 1000U) << "between the rows of the thing";
+  for (const std::uint32_t cell : cuts.cells()) {
+    ASSERT_LT(lattice.column(static_cast<int>(cell) % lattice.cols()), kBorder);
+  }
+}
+
 TEST(HeightLattice, StandsOnTrueSamplesFromTheFirstToTheLast) {
   for (const auto& [cols, rows] : {std::pair{720, 486}, {2, 2}, {3, 200}, {1920, 1080}, {33, 65}}) {
     const HeightLattice lattice = latticeOf(cols, rows, wave, 1024);
