@@ -41,8 +41,8 @@ Frame makeGrayFrame(int cols, int rows, int bits, MediaTime time, Code&& code) {
   return frame;
 }
 
-// 16-bit frame whose heights follow height(x_mm, y_mm) in a volume, to within the code's step (0.0006 mm of 40), and end
-// at its bounds.
+// 16-bit frame whose heights follow height(x_mm, y_mm) in a volume, to within the code's step (0.0006 mm of 40), and
+// end at its bounds.
 template <class Height>
 Frame makeReliefFrame(int cols, int rows, const DisplayVolume& volume, MediaTime time, Height&& height) {
   const GridMapping grid(volume, cols, rows);
