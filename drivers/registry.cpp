@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "drivers/egl/egl.h"
+#include "drivers/evdev/evdev.h"
 #include "drivers/falcon/falcon.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/mock/mock.h"
@@ -20,7 +21,7 @@
 #define RELIEVO_HAPTIC_NAMES                                                         \
   "falcon[:FIRMWARE] polhem[:DESCRIPTION.json] pointer[:window|:/dev/input/eventN] " \
   "sim[:phantom|falcon|polhem][,stroking|resting|tapping|tense|shaking][,SCRIPT.csv] replay:FILE mock none"
-#define RELIEVO_REMOTE_NAMES "window script:FILE none"
+#define RELIEVO_REMOTE_NAMES "evdev window script:FILE none"
 
 namespace relievo::drivers {
 
@@ -115,6 +116,7 @@ Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(std::string_view text, C
 
 Outcome<std::unique_ptr<RemoteInput>> makeRemoteInput(std::string_view text, Clock& clock) {
   const Spec spec(text);
+  if (spec.plain("evdev")) return makeEvdevRemote();
   if (spec.plain("window")) return makeWindowRemote(theWindow());
   if (spec.withArgument("script")) {
     auto keys = loadKeyScript(*spec.argument);

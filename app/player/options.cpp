@@ -131,8 +131,11 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
   command.add_option("--haptic", play.haptic, std::string("What the finger holds [sim]\n") + names.haptic)
       ->type_name("NAME");
   command
-      .add_option("--remote", play.remote,
-                  std::string("Where keys come from [a window's own keys, or none]\n") + names.remote)
+      .add_option(
+          "--remote", play.remote,
+          std::string(
+              "Where keys come from [a window's own; on a whole screen evdev, all remote controls; else none]\n") +
+              names.remote)
       ->type_name("NAME");
   addVolumeOption(command, play.player.volume);
   command.add_flag("--loop", play.player.loop, "Begin again at the end");
@@ -147,10 +150,11 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
   command.footer(kPlayFooter + keyHelp() + kExitCodes);
 }
 
-// A window brings its keys and its mouse along; nothing else has them.
+// A window brings its keys and its mouse along; nothing else has them. A whole screen is watched from a sofa.
 Outcome<void> settleWindow(PlayOptions& play) {
   const bool window = play.display == "window";
-  if (play.remote.empty()) play.remote = window ? "window" : "none";
+  const bool whole_screen = play.display == "kms" || play.display.starts_with("kms:");
+  if (play.remote.empty()) play.remote = window ? "window" : whole_screen ? "evdev" : "none";
   if (window && play.haptic == "pointer") play.haptic = "pointer:window";
   const auto none = [](const std::string& thing) {
     return failOn(thing, {ErrorCode::InvalidArgument, 0, "there is no window; add --display window"});

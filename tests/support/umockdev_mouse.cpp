@@ -20,6 +20,9 @@ UmockdevMouse::Codes UmockdevMouse::mouse() {
 UmockdevMouse::Codes UmockdevMouse::keyboard() {
   return {{EV_SYN, {SYN_REPORT}}, {EV_KEY, {KEY_A, KEY_B, KEY_ENTER}}};
 }
+UmockdevMouse::Codes UmockdevMouse::remote() {
+  return {{EV_SYN, {SYN_REPORT}}, {EV_KEY, {KEY_OK, KEY_LEFT, KEY_RIGHT, KEY_PLAYPAUSE}}};
+}
 
 UmockdevMouse::UmockdevMouse(UMockdevTestbed* bed, int number, Codes codes)
     : bed_(bed),
@@ -84,6 +87,13 @@ bool UmockdevMouse::answer(UMockdevIoctlClient* client) {
   const auto request = umockdev_ioctl_client_get_request(client);
   const std::size_t size = _IOC_SIZE(request);
   const unsigned number = _IOC_NR(request);
+  if (request == EVIOCGRAB) {  // a number for an argument, not a pointer
+    std::uintptr_t wanted = 0;
+    std::memcpy(&wanted, umockdev_ioctl_client_get_arg(client)->data, sizeof wanted);
+    grabbed_ = wanted != 0;
+    umockdev_ioctl_client_complete(client, 0, 0);
+    return true;
+  }
   UMockdevIoctlData* data = umockdev_ioctl_data_resolve(umockdev_ioctl_client_get_arg(client), 0, size, nullptr);
   const auto complete = [client](long result, int error = 0) {
     umockdev_ioctl_client_complete(client, result, error);

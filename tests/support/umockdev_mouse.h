@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plugs a mouse into this machine: a node of /dev/input that answers evdev's requests and says what a test lets it say.
+// Plugs a mouse, or what its codes make it, into this machine: a node of /dev/input that answers evdev's requests and
+// says what a test lets it say.
 // Only under `umockdev-wrapper`.
 #pragma once
 
 #include <umockdev.h>
 
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <mutex>
@@ -20,6 +22,7 @@ class UmockdevMouse {
   using Codes = std::map<std::uint16_t, std::vector<std::uint16_t>>;
   static Codes mouse();
   static Codes keyboard();
+  static Codes remote();
 
   // /dev/input/eventN.
   UmockdevMouse(UMockdevTestbed* bed, int number, Codes codes);
@@ -31,6 +34,7 @@ class UmockdevMouse {
   void unplug();
   // What its keys are, when it is asked.
   void hold(std::uint16_t key, bool down);
+  [[nodiscard]] bool isGrabbed() const { return grabbed_; }
   // Requests that were not answered, since nobody taught them here.
   [[nodiscard]] int unknownRequests() const { return unknown_; }
 
@@ -47,6 +51,7 @@ class UmockdevMouse {
   std::thread thread_;
   std::mutex lock_;
   std::vector<std::uint16_t> held_;
+  std::atomic<bool> grabbed_ = false;
   int unknown_ = 0;
 };
 

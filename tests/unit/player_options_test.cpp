@@ -93,6 +93,9 @@ TEST(Options, AWindowBringsItsKeysAndItsMouseAlong) {
     return parse(words).options.value().play;
   };
   EXPECT_EQ(parsedPlay({"--display", "window"}).remote, "window");
+  EXPECT_EQ(parsedPlay({"--display", "kms"}).remote, "evdev");
+  EXPECT_EQ(parsedPlay({"--display", "kms:/dev/dri/card1"}).remote, "evdev");
+  EXPECT_EQ(parsedPlay({"--display", "kms", "--remote", "none"}).remote, "none");
   EXPECT_EQ(parsedPlay({"--display", "window"}).haptic, "sim");
   EXPECT_EQ(parsedPlay({"--display", "window", "--haptic", "pointer"}).haptic, "pointer:window");
   EXPECT_EQ(parsedPlay({"--display", "window", "--haptic", "pointer:/dev/input/event3"}).haptic,

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finding the devices, and reading them through libevdev, which makes up for what was dropped.
+#include <fcntl.h>
+#include <libevdev/libevdev.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "drivers/evdev/evdev.h"
+#include "drivers/evdev/key_hold.h"
+#include "platform/log.h"
+#include "platform/unique_fd.h"
+
+namespace relievo {
+namespace {
+
+constexpr const char* kFolder = "/dev/input";
+constexpr Duration kLookEvery = std::chrono::seconds(1);
+
+struct FreeDevice {
+  void operator()(libevdev* device) const noexcept { libevdev_free(device); }
+};
+using Device = std::unique_ptr<libevdev, FreeDevice>;
+
+bool isRemote(const libevdev* device) {
+  const auto has = [device](unsigned key) { return libevdev_has_event_code(device, EV_KEY, key) != 0; };
+  const bool arrows = has(KEY_LEFT) && has(KEY_RIGHT);
+  const bool confirms = has(KEY_OK) || has(KEY_ENTER) || has(KEY_SELECT);
+  const bool plays = has(KEY_PLAYPAUSE) || has(KEY_PLAY) || has(KEY_PLAYCD) || has(KEY_PAUSE);
+  return (arrows && confirms) || plays;
+}
+
+// On which somebody writes: what its keys say is meant for others as well.
+bool isKeyboard(const libevdev* device) {
+  return libevdev_has_event_code(device, EV_KEY, KEY_Q) != 0 && libevdev_has_event_code(device, EV_KEY, KEY_M) != 0;
+}
+
+struct Remote {
+  std::string path;
+  UniqueFd fd;  // goes after the device
+  Device device;
+  KeyHold keys;
+  bool there = true;
+};
+
+class EvdevRemote final : public RemoteInput {
+ public:
+  ~EvdevRemote() override { close(); }
+
+ private:
+  Result<void> openRemote() override {
+    looked_.reset();
+    if (!look() && remotes_.empty()) {
+      return fail(ErrorCode::PermissionDenied,
+                  "the right to read remote controls is missing; add the user to the group that may (sudo usermod -aG "
+                  "input $USER) and log in anew",
+                  EACCES);
+    }
+    return {};
+  }
+
+  Result<std::optional<KeyEvent>> nextKey(MonotonicTime now) override {
+    if (!looked_) looked_ = now;
+    if (now - *looked_ >= kLookEvery) {
+      (void)look();
+      looked_ = now;
+    }
+    for (std::size_t i = 0; i < remotes_.size(); ++i) {
+      Remote& remote = *remotes_[i];
+      remote.there = remote.there && read(remote, now);
+      if (!remote.there) remote.keys.letGo(now);
+      if (const auto event = remote.keys.poll(now)) return event;
+      if (remote.there) continue;
+      log(LogLevel::Info, "remote", "%s has gone", libevdev_get_name(remote.device.get()));
+      remotes_.erase(remotes_.begin() + static_cast<std::ptrdiff_t>(i--));
+    }
+    return std::nullopt;
+  }
+
+  void closeRemote() noexcept override {
+    remotes_.clear();
+    others_.clear();
+  }
+
+  // False where a device may not be read.
+  bool look() {
+    bool allowed = true;
+    std::vector<Node> nodes;
+    std::error_code error;
+    for (std::filesystem::directory_iterator entry(kFolder, error), end; !error && entry != end;
+         entry.increment(error)) {
+      if (!entry->path().filename().string().starts_with("event")) continue;
+      Node node{entry->path(), {}};
+      struct stat about{};
+      if (::stat(node.path.c_str(), &about) == 0) node.changed = about.st_ctim;
+      nodes.push_back(node);
+    }
+    for (const auto& remote : remotes_) {
+      remote->there = std::ranges::any_of(nodes, [&](const Node& node) { return node.path == remote->path; });
+    }
+    // A node that is new, or another device of the same number, or one whose rights have changed.
+    for (const Node& node : nodes) {
+      const bool known = std::ranges::any_of(remotes_, [&](const auto& r) { return r->path == node.path; }) ||
+                         std::ranges::find(others_, node) != others_.end();
+      if (!known) allowed = take(node.path) && allowed;
+    }
+    others_ = std::move(nodes);
+    return allowed;
+  }
+
+  bool take(const std::string& path) {
+    auto remote = std::make_unique<Remote>();
+    remote->path = path;
+    remote->fd = UniqueFd(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+    if (!remote->fd.valid()) return errno != EACCES;
+    libevdev* device = nullptr;
+    if (libevdev_new_from_fd(remote->fd.get(), &device) != 0) return true;
+    remote->device.reset(device);
+    if (!isRemote(device)) return true;
+    if (!isKeyboard(device)) (void)libevdev_grab(device, LIBEVDEV_GRAB);  // another may have it: then both hear
+    log(LogLevel::Info, "remote", "%s (%s)", libevdev_get_name(device), path.c_str());
+    remotes_.push_back(std::move(remote));
+    return true;
+  }
+
+  // False when it has gone.
+  static bool read(Remote& remote, MonotonicTime now) {
+    unsigned how = LIBEVDEV_READ_FLAG_NORMAL;
+    for (;;) {
+      input_event event{};
+      const int read = libevdev_next_event(remote.device.get(), how, &event);
+      if (read == -EAGAIN && how == LIBEVDEV_READ_FLAG_NORMAL) return true;
+      if (read == -EAGAIN) {
+        how = LIBEVDEV_READ_FLAG_NORMAL;  // all that was dropped is made up for
+        continue;
+      }
+      if (read < 0) return false;
+      if (read == LIBEVDEV_READ_STATUS_SYNC) how = LIBEVDEV_READ_FLAG_SYNC;
+      if (event.type == EV_KEY) remote.keys.take(event.code, event.value, now);
+    }
+  }
+
+  struct Node {
+    std::string path;
+    timespec changed;
+    bool operator==(const Node& other) const noexcept {
+      return path == other.path && changed.tv_sec == other.changed.tv_sec && changed.tv_nsec == other.changed.tv_nsec;
+    }
+  };
+  std::vector<std::unique_ptr<Remote>> remotes_;
+  std::vector<Node> others_;  // all that were looked at
+  std::optional<MonotonicTime> looked_;
+};
+
+}  // namespace
+
+std::unique_ptr<RemoteInput> makeEvdevRemote() {
+  return std::make_unique<EvdevRemote>();
+}
+
+}  // namespace relievo

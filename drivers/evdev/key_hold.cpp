@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drivers/evdev/key_hold.h"
+
+namespace relievo {
+
+void KeyHold::take(std::uint16_t code, int value, MonotonicTime now) noexcept {
+  if (value == 0) {
+    sends_releases_ = true;
+    if (held_ && held_->code == code) letGo(now);
+    return;
+  }
+  if (held_ && held_->code == code) {
+    held_->heard = now;
+    return;
+  }
+  if (value != 1) return;  // the repeat of a key that was ended by another
+  letGo(now);
+  say(code, KeyEvent::Action::Press, now);
+  held_ = Held{code, now, now + kDelay};
+}
+
+void KeyHold::letGo(MonotonicTime now) noexcept {
+  if (held_) say(held_->code, KeyEvent::Action::Release, now);
+  held_.reset();
+}
+
+std::optional<KeyEvent> KeyHold::poll(MonotonicTime now) noexcept {
+  if (held_ && !sends_releases_ && now - held_->heard > kSilence) letGo(now);
+  if (held_ && count_ == 0 && now >= held_->next_repeat) {
+    say(held_->code, KeyEvent::Action::Repeat, now);
+    // Nobody who looked away for a while gets all repeats at once.
+    held_->next_repeat = now + kPeriod;
+  }
+  if (count_ == 0) return std::nullopt;
+  const KeyEvent event = said_[first_];
+  first_ = (first_ + 1) % said_.size();
+  --count_;
+  return event;
+}
+
+void KeyHold::say(std::uint16_t code, KeyEvent::Action action, MonotonicTime now) noexcept {
+  if (count_ == said_.size()) return;
+  said_[(first_ + count_++) % said_.size()] = {code, action, now};
+}
+
+}  // namespace relievo

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Remote controls on nodes of /dev/input that umockdev plugs into this machine.
+#include <gtest/gtest.h>
+#include <linux/input.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "drivers/evdev/evdev.h"
+#include "tests/support/umockdev_mouse.h"
+
+namespace relievo {
+namespace {
+
+using namespace std::chrono_literals;
+using test::UmockdevMouse;
+
+class RemoteEvdev : public testing::Test {
+ protected:
+  void SetUp() override {
+    bed_ = umockdev_testbed_new();
+    if (!umockdev_in_mock_environment()) GTEST_SKIP() << "run it under umockdev-wrapper";
+  }
+  void TearDown() override {
+    if (bed_ != nullptr) g_object_unref(bed_);
+  }
+  static void press(UmockdevMouse& remote, std::uint16_t key, int value) {
+    remote.say(EV_KEY, key, value);
+    remote.say(EV_SYN, SYN_REPORT, 0);
+  }
+  // What a node is told takes the kernel a moment; the remote's own time stands still meanwhile.
+  std::optional<KeyEvent> next(RemoteInput& remote) {
+    MonotonicClock real;
+    for (int i = 0; i < 3000; ++i) {
+      const auto key = remote.poll(now_);
+      EXPECT_TRUE(key) << key.error().message;
+      if (!key || *key) return key.value_or(std::nullopt);
+      real.sleepUntil(real.now() + 1ms);
+    }
+    return std::nullopt;
+  }
+  void expectNext(RemoteInput& remote, std::uint16_t code, KeyEvent::Action action) {
+    const auto key = next(remote);
+    ASSERT_TRUE(key);
+    EXPECT_EQ(key->code, code);
+    EXPECT_EQ(key->action, action);
+  }
+
+  UMockdevTestbed* bed_ = nullptr;
+  MonotonicTime now_{1h};
+};
+
+TEST_F(RemoteEvdev, HearsEveryRemoteAndNoOtherDevice) {
+  UmockdevMouse mouse(bed_, 0, UmockdevMouse::mouse()), first(bed_, 1, UmockdevMouse::remote());
+  UmockdevMouse second(bed_, 12, UmockdevMouse::remote());
+  const auto remote = makeEvdevRemote();
+  ASSERT_TRUE(remote->open());
+  EXPECT_TRUE(first.isGrabbed());
+  EXPECT_TRUE(second.isGrabbed());
+  EXPECT_FALSE(mouse.isGrabbed());
+  EXPECT_FALSE(remote->poll(now_).value());
+  press(first, KEY_OK, 1);
+  expectNext(*remote, KEY_OK, KeyEvent::Action::Press);
+  press(first, KEY_OK, 0);
+  expectNext(*remote, KEY_OK, KeyEvent::Action::Release);
+  press(second, KEY_RIGHT, 1);
+  expectNext(*remote, KEY_RIGHT, KeyEvent::Action::Press);
+  now_ += 500ms;
+  expectNext(*remote, KEY_RIGHT, KeyEvent::Action::Repeat);
+  EXPECT_FALSE(remote->poll(now_).value());
+  EXPECT_EQ(first.unknownRequests() + second.unknownRequests() + mouse.unknownRequests(), 0);
+}
+
+TEST_F(RemoteEvdev, OneThatComesLaterIsHeardAndOneThatGoesHoldsNothing) {
+  const auto remote = makeEvdevRemote();
+  ASSERT_TRUE(remote->open()) << "a box without one waits";
+  EXPECT_FALSE(remote->poll(now_).value());
+  {
+    UmockdevMouse late(bed_, 4, UmockdevMouse::remote());
+    EXPECT_FALSE(remote->poll(now_).value());
+    EXPECT_FALSE(late.isGrabbed()) << "not looked for yet";
+    now_ += 1s;
+    EXPECT_FALSE(remote->poll(now_).value());
+    EXPECT_TRUE(late.isGrabbed());
+    press(late, KEY_LEFT, 1);
+    expectNext(*remote, KEY_LEFT, KeyEvent::Action::Press);
+    late.unplug();
+    now_ += 1s;
+    expectNext(*remote, KEY_LEFT, KeyEvent::Action::Release);
+  }
+  UmockdevMouse again(bed_, 5, UmockdevMouse::remote());
+  now_ += 1s;
+  EXPECT_FALSE(remote->poll(now_).value());
+  press(again, KEY_PLAYPAUSE, 1);
+  expectNext(*remote, KEY_PLAYPAUSE, KeyEvent::Action::Press);
+}
+
+}  // namespace
+}  // namespace relievo
