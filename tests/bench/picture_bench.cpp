@@ -157,6 +157,7 @@ const bool kRegistered = [] {
     for (const auto& [name, detail] :
          {std::pair{"draw/", DetailSettings{}}, {"draw_all_samples/", DetailSettings{.grid_step = 1}}}) {
       benchmark::RegisterBenchmark((name + kept.name).c_str(), drawFrames, kept, detail)
+          ->MeasureProcessCPUTime()
           ->UseRealTime()
           ->Unit(benchmark::kMillisecond)
           ->MinTime(3);
