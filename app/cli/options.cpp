@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <string>
 
 #include "app/cli/program.h"
 #include "platform/log.h"
@@ -137,6 +138,17 @@ std::expected<void, int> parseCommandLine(CLI::App& program, int argc, const cha
     tellWrongUse(program, error);
     return std::unexpected(kExitWrongUse);
   }
+}
+
+CLI::Validator between(double low, double high) {
+  const auto judge = [low, high](const std::string& word) -> std::string {
+    double number = 0;
+    if (CLI::detail::lexical_cast(word, number) && number >= low && number <= high) return {};
+    std::ostringstream words;
+    words << word << " is not from " << low << " to " << high;
+    return words.str();
+  };
+  return {judge, ""};
 }
 
 Outcome<void> keepApart(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {

@@ -44,6 +44,9 @@ CLI::Option* addChoice(CLI::App& app, const char* option, T& value,
   return app.add_option_function<std::string>(option, choose, help)->type_name(words);
 }
 
+// For `check`: a number within bounds. CLI::Range lets through what is not a number.
+[[nodiscard]] CLI::Validator between(double low, double high);
+
 // --packing, --depth-code, and --calibration, which may come more than once: a later value of a key goes before.
 void addDepthOptions(CLI::App& app, SourceOptions& source);
 // --volume

@@ -41,6 +41,9 @@ class ControlGrid {
   [[nodiscard]] int blockCols() const RELIEVO_RT { return block_cols_; }
   [[nodiscard]] int blockRows() const RELIEVO_RT { return block_rows_; }
 
+  // The height of a point at a hole.
+  [[nodiscard]] float pitMm() const RELIEVO_RT { return pit_mm_; }
+
   // The frames of the moment, by their slots in the cache.
   struct Frames {
     const SurfaceWindow* window = nullptr;

@@ -132,7 +132,12 @@ void SurfaceLevel::prepare(const FrameSlots& slots, double x_mm, double y_mm, in
   grid_.patch(cell.i, cell.j, frames_, prepared_rate_);
   weigh(slots, next, frames_);
   grid_.patch(cell.i, cell.j, frames_, prepared_);
+  // A point at which a hole opens or closes in between has no rate: it jumps.
+  const float pit = grid_.pitMm();
   for (std::size_t j = 0; j < 4; ++j) {
+    for (int i = 0; i < 4; ++i) {
+      if ((prepared_rate_[j][i] == pit) != (prepared_[j][i] == pit)) prepared_rate_[j][i] = prepared_[j][i];
+    }
     prepared_rate_[j] = (prepared_rate_[j] - prepared_[j]) / static_cast<float>(step_s);
   }
   for (int k = 0; k < 16 && points > 0; ++k) {

@@ -47,7 +47,7 @@ void addTrace(CLI::App& app, TraceOptions& options) {
   addDepthOptions(app, source);
   addVolumeOption(app, options.film.volume);
   app.add_option("--fps", options.film.frames_per_s, "Frames a second, for a source without timestamps")
-      ->check(CLI::Range(0.01, 10000.0).description(""))
+      ->check(between(0.01, 10000.0))
       ->type_name("F");
   app.add_option("--hip", options.hip_path, "The finger's path")->required()->type_name("HIP.csv");
   app.add_option("--out", options.out_path, "What came of it, a row per tick")->required()->type_name("OUT.csv");
@@ -58,7 +58,7 @@ void addTrace(CLI::App& app, TraceOptions& options) {
       ->required();
   app.add_option("--stiffness", options.stiffness_n_per_mm, "Stiffness between finger and proxy [0.5]")
       ->type_name("N_PER_MM")
-      ->check(CLI::Range(1e-6, 1e3).description(""));
+      ->check(between(1e-6, 1e3));
   addChoice(
       app, "--space", options.space,
       {{"triangles", SpaceLaw::Triangles}, {"quadratic", SpaceLaw::Quadratic}, {"bspline", SpaceLaw::BSpline}},

@@ -45,6 +45,12 @@ std::string captureFile(const std::string& display) {
   return display.substr(prefix.size(), display.rfind('@') - prefix.size());
 }
 
+// Of "replay:FILE", "sim:FILE", "script:FILE"; the name of a profile is no file.
+std::string fileOf(const std::string& device) {
+  const std::size_t colon = device.find(':');
+  return colon == std::string::npos ? "" : device.substr(colon + 1);
+}
+
 std::optional<double> askForReading(double asked_n) {
   for (;;) {
     std::printf("It is asked for %.0f N. The scale shows (N): ", asked_n);
@@ -66,7 +72,7 @@ int play(PlayOptions options) {
   if (!config) return tell(config.error());
   const SourceOptions& source = options.player.source;
   if (auto apart = keepApart({options.report_path, options.record_path, captureFile(options.display)},
-                             {source.url, source.depth_url});
+                             {source.url, source.depth_url, fileOf(options.haptic), fileOf(options.remote)});
       !apart) {
     return tell(apart.error());
   }

@@ -66,12 +66,12 @@ constexpr const char* kExitCodes = "\nExit code: 0 done, 1 failed at run time, 2
 
 constexpr double kLongestDurationS = 1e9;
 constexpr double kMostPixels = 16384;  // of a display, across and down
-constexpr const char* kNoSize = "a size is WIDTHxHEIGHT in pixels, such as 1280x720";
+constexpr const char* kNoSize = "a size is WIDTHxHEIGHT in pixels, each from 1 to 16384, such as 1280x720";
 constexpr const char* kStereoHelp =
     "How it is shown [sbs]\n"
-    "mono: one picture; sbs, tab: left and right eye side by side, or one above the other, each squeezed by half; "
-    "sbs:full, tab:full: each in its own shape; rows, columns: line by line; anaglyph[:gray|color]: for red-cyan "
-    "glasses; frame-packing: HDMI 3D; quilt[:COLSxROWS]: many views [8x6]";
+    "mono: one picture; sbs, tab: left and right eye side by side, or one above the other,\n"
+    "each squeezed by half; sbs:full, tab:full: each in its own shape; rows, columns: line by line;\n"
+    "anaglyph[:gray|color]: for red-cyan glasses; frame-packing: HDMI 3D; quilt[:COLSxROWS]: many views [8x6]";
 constexpr const char* kNoStereo =
     "no such layout; it is one of: mono sbs[:full] tab[:full] rows columns anaglyph[:gray|color] frame-packing "
     "quilt[:COLSxROWS]";
@@ -114,7 +114,7 @@ void addStereoOptions(CLI::App& command, StereoSettings& stereo) {
   command
       .add_option("--depth-strength", stereo.strength,
                   "How deep the picture looks, to the eye alone: 0 flat, 1 as the viewer's eyes stand [1]")
-      ->check(CLI::Range(0.0, StereoSettings::kMostStrength))
+      ->check(between(0.0, StereoSettings::kMostStrength))
       ->type_name("X");
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/player/stereo_word.h"
 #include "platform/log.h"
 
 namespace relievo {
@@ -139,7 +140,7 @@ PlayReport Player::report() const {
   report.volume = volume_;
   report.media_s = toSeconds(played_);
   report.display = picture_.capabilities().name;
-  report.stereo = name(picture_.stereo().layout);
+  report.stereo = stereoWord(picture_.stereo());
   report.surface_width = picture_.width();
   report.surface_height = picture_.height();
   report.imported = picture_.statistics().imported;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/player/stereo_word.h"
 #include "app/player/text_line.h"
 
 namespace relievo {
@@ -22,7 +23,7 @@ std::string wordOf(const ScreenFacts& facts) {
 }
 
 std::string stereoLine(const ScreenFacts& facts) {
-  std::string line = std::string("3D: ") + name(facts.stereo.layout);
+  std::string line = "3D: " + stereoWord(facts.stereo);
   if (!facts.has_depth) return line + ", flat: the film has no depth";
   if (facts.stereo.swap_eyes) line += ", eyes swapped";
   if (facts.stereo.strength != 1.0) line += textLine(", depth %.0f %%", 100 * facts.stereo.strength);

@@ -52,4 +52,20 @@ bool parseStereo(std::string_view word, StereoSettings& settings) {
   return false;
 }
 
+std::string stereoWord(const StereoSettings& settings) {
+  const std::string word = name(settings.layout);
+  switch (settings.layout) {
+    case StereoLayout::SideBySide:
+    case StereoLayout::TopBottom:
+      return settings.full ? word + ":full" : word;
+    case StereoLayout::Anaglyph:
+      if (settings.anaglyph == AnaglyphColors::Dubois) return word;
+      return word + (settings.anaglyph == AnaglyphColors::Gray ? ":gray" : ":color");
+    case StereoLayout::Quilt:
+      return word + ":" + std::to_string(settings.quilt_cols) + "x" + std::to_string(settings.quilt_rows);
+    default:
+      return word;
+  }
+}
+
 }  // namespace relievo

@@ -26,8 +26,8 @@ std::uint8_t luma(const std::uint8_t* p) noexcept {
   return static_cast<std::uint8_t>(16 + ((kYr * p[0] + kYg * p[1] + kYb * p[2] + kHalf) >> kShift));
 }
 
+// Never NotFound: a display that is not there may come, a folder does not.
 ErrorCode codeOf(int os_error) noexcept {
-  if (os_error == ENOENT) return ErrorCode::NotFound;
   if (os_error == EACCES || os_error == EROFS) return ErrorCode::PermissionDenied;
   return ErrorCode::Io;
 }

@@ -216,7 +216,7 @@ TEST(OffscreenDisplay, CaptureThatCannotBeWrittenSaysWhyAndLeavesItClosed) {
   const auto opened = display->open({16, 16});
   ASSERT_FALSE(opened);
   if (opened.error().code == ErrorCode::Unsupported) GTEST_SKIP() << opened.error().message;
-  EXPECT_EQ(opened.error().code, ErrorCode::NotFound);
+  EXPECT_EQ(opened.error().code, ErrorCode::Io) << "the player does not wait for a folder";
   EXPECT_NE(opened.error().os_error, 0);
   EXPECT_EQ(display->state(), Display::State::Closed);
 }

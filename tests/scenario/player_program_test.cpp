@@ -198,6 +198,9 @@ TEST_F(PlayerProgram, WhatCannotBeWrittenIsFoundOutBeforePlaying) {
   expectOneLine(report, 1, "missing/r.json");
   const auto record = play(at("film.mkv") + " --report " + at("r.json") + " --record " + at("missing/t.csv"));
   expectOneLine(record, 1, "missing/t.csv");
+  const auto capture = play(at("film.mkv"), "offscreen:" + at("missing/x.y4m"));
+  EXPECT_EQ(capture.exit_code, 1) << capture.err;
+  EXPECT_THAT(capture.err, HasSubstr("the capture file cannot be written"));
   expectNothingLeft({"film.mkv"});
 }
 
@@ -209,6 +212,9 @@ TEST_F(PlayerProgram, WrongUseIsCodeTwoAndOneLine) {
   expectOneLine(play("film.mkv --remote mind"), 2, "mind");
   expectOneLine(play("film.mkv --calibration near=-5"), 2, "near=-5");
   expectOneLine(play("film.mkv --haptic none --record " + at("t.csv")), 2, "--record");
+  expectOneLine(play("film.mkv --depth-strength nan"), 2, "--depth-strength: nan");
+  expectOneLine(play("film.mkv --depth-strength 2.1"), 2, "--depth-strength: 2.1");
+  expectOneLine(play("film.mkv --haptic replay:" + at("t.csv") + " --record " + at("t.csv")), 2, "written over");
   expectNothingLeft({});
 }
 

@@ -35,6 +35,15 @@ TEST(StereoWord, Variants) {
   EXPECT_EQ(settings.quilt_rows, 9);
 }
 
+TEST(StereoWord, IsSaidAsItWasRead) {
+  for (const char* word : {"mono", "sbs", "sbs:full", "tab", "tab:full", "rows", "columns", "anaglyph", "anaglyph:gray",
+                           "anaglyph:color", "frame-packing", "quilt:8x6", "quilt:5x9"}) {
+    StereoSettings settings{.full = true, .anaglyph = AnaglyphColors::Dubois};
+    ASSERT_TRUE(parseStereo(word, settings));
+    EXPECT_EQ(stereoWord(settings), word);
+  }
+}
+
 TEST(StereoWord, WhatIsNoneChangesNothing) {
   for (const char* word : {"", "sb", "sbsx", "mono:full", "sbs:", "sbs:half", "anaglyph:red", "quilt:8", "quilt:0x6",
                            "quilt:8x6x", "quilt:x6", "quilt:101x1", "frame-packing:full", ":full"}) {
