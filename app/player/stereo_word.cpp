@@ -53,7 +53,7 @@ bool parseStereo(std::string_view word, StereoSettings& settings) {
 }
 
 std::string stereoWord(const StereoSettings& settings) {
-  const std::string word = name(settings.layout);
+  std::string word = name(settings.layout);
   switch (settings.layout) {
     case StereoLayout::SideBySide:
     case StereoLayout::TopBottom:
