@@ -83,7 +83,7 @@ class EvdevRemote final : public RemoteInput {
 
   void closeRemote() noexcept override {
     remotes_.clear();
-    others_.clear();
+    looked_at_.clear();
   }
 
   // False where a device may not be read.
@@ -100,15 +100,16 @@ class EvdevRemote final : public RemoteInput {
       nodes.push_back(node);
     }
     for (const auto& remote : remotes_) {
-      remote->there = std::ranges::any_of(nodes, [&](const Node& node) { return node.path == remote->path; });
+      const auto isIts = [&](const Node& node) { return node.path == remote->path; };
+      remote->there = remote->there && std::ranges::any_of(nodes, isIts);
     }
     // A node that is new, or another device of the same number, or one whose rights have changed.
     for (const Node& node : nodes) {
       const bool known = std::ranges::any_of(remotes_, [&](const auto& r) { return r->path == node.path; }) ||
-                         std::ranges::find(others_, node) != others_.end();
+                         std::ranges::find(looked_at_, node) != looked_at_.end();
       if (!known) allowed = take(node.path) && allowed;
     }
-    others_ = std::move(nodes);
+    looked_at_ = std::move(nodes);
     return allowed;
   }
 
@@ -152,7 +153,7 @@ class EvdevRemote final : public RemoteInput {
     }
   };
   std::vector<std::unique_ptr<Remote>> remotes_;
-  std::vector<Node> others_;  // all that were looked at
+  std::vector<Node> looked_at_;
   std::optional<MonotonicTime> looked_;
 };
 

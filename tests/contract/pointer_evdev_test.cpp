@@ -11,6 +11,7 @@
 
 #include "drivers/pointer/pointer.h"
 #include "platform/allocation_counter.h"
+#include "tests/support/mocked_machine.h"
 #include "tests/support/umockdev_mouse.h"
 
 namespace relievo {
@@ -19,15 +20,8 @@ namespace {
 using State = HapticDevice::State;
 using test::UmockdevMouse;
 
-class PointerEvdev : public testing::Test {
+class PointerEvdev : public test::MockedMachine {
  protected:
-  void SetUp() override {
-    bed_ = umockdev_testbed_new();
-    if (!umockdev_in_mock_environment()) GTEST_SKIP() << "run it under umockdev-wrapper";
-  }
-  void TearDown() override {
-    if (bed_ != nullptr) g_object_unref(bed_);
-  }
   std::unique_ptr<HapticDevice> run(const std::string& path = {}) {
     auto device = makePointer(path, clock_);
     const auto opened = device->open();
@@ -55,7 +49,6 @@ class PointerEvdev : public testing::Test {
     return sample;
   }
 
-  UMockdevTestbed* bed_ = nullptr;
   ManualClock clock_;
 };
 

@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 #include <linux/input.h>
 
-#include <functional>
 #include <memory>
 #include <optional>
 
 #include "drivers/evdev/evdev.h"
+#include "tests/support/mocked_machine.h"
 #include "tests/support/umockdev_mouse.h"
 
 namespace relievo {
@@ -16,15 +16,8 @@ namespace {
 using namespace std::chrono_literals;
 using test::UmockdevMouse;
 
-class RemoteEvdev : public testing::Test {
+class RemoteEvdev : public test::MockedMachine {
  protected:
-  void SetUp() override {
-    bed_ = umockdev_testbed_new();
-    if (!umockdev_in_mock_environment()) GTEST_SKIP() << "run it under umockdev-wrapper";
-  }
-  void TearDown() override {
-    if (bed_ != nullptr) g_object_unref(bed_);
-  }
   static void press(UmockdevMouse& remote, std::uint16_t key, int value) {
     remote.say(EV_KEY, key, value);
     remote.say(EV_SYN, SYN_REPORT, 0);
@@ -47,7 +40,6 @@ class RemoteEvdev : public testing::Test {
     EXPECT_EQ(key->action, action);
   }
 
-  UMockdevTestbed* bed_ = nullptr;
   MonotonicTime now_{1h};
 };
 

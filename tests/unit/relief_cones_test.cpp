@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "app/render/cut_cells.h"
 #include "app/render/height_lattice.h"
-#include "app/render/relief_triangles.h"
 #include "app/render/triangle_network.h"
 #include "tests/support/real_depth.h"
 
