@@ -135,6 +135,10 @@ std::unique_ptr<VideoDecoder> makeVideoDecoder() {
   return makeFfmpegDecoder();
 }
 
+Result<std::string> readText(const std::string& url, std::size_t most_bytes, const std::atomic<bool>& cancelled) {
+  return readFfmpegText(url, most_bytes, cancelled);
+}
+
 std::vector<DeviceState> lookAtDevices(const HapticSettings& settings, Clock& clock) {
   std::vector<DeviceState> states;
   for (const KmsScreen& screen : lookAtKmsScreens()) {

@@ -2,6 +2,7 @@
 // The explicit list of back ends, by the names of the command line: real ones first, mock last. For the mains only.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
@@ -41,6 +42,9 @@ struct HapticSettings {
 [[nodiscard]] Outcome<std::unique_ptr<RemoteInput>> makeRemoteInput(std::string_view spec, Clock& clock);
 [[nodiscard]] std::unique_ptr<MediaSource> makeMediaSource(std::string_view url);
 [[nodiscard]] std::unique_ptr<VideoDecoder> makeVideoDecoder();
+// The text at a path or an address, as makeMediaSource would open it.
+[[nodiscard]] Result<std::string> readText(const std::string& url, std::size_t most_bytes,
+                                           const std::atomic<bool>& cancelled);
 
 // What is there of each kind of hardware, found out by opening it: takes seconds where a device must be started up.
 struct DeviceState {

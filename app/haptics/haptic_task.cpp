@@ -46,10 +46,22 @@ const char* name(HapticFault::Kind kind) noexcept {
 
 HapticTask::HapticTask(HapticDevice& device, TouchMethod& method, const Clock& clock, const DisplayVolume& volume,
                        const SafetyLimits& limits, double stiffness_n_per_mm) noexcept
-    : device_(device), method_(method), clock_(clock), mapping_(device.capabilities(), volume) {
+    : device_(device), method_(&method), clock_(clock), mapping_(device.capabilities(), volume) {
+  changeScene(method, volume, limits, stiffness_n_per_mm);
+}
+
+void HapticTask::changeScene(TouchMethod& method, const DisplayVolume& volume, const SafetyLimits& limits,
+                             double stiffness_n_per_mm) noexcept {
+  method_ = &method;
+  mapping_ = WorkspaceMapping(device_.capabilities(), volume);
   SafetyLimits within_device = limits;
-  within_device.force_n = std::min(limits.force_n, device.capabilities().peak_force_n);
+  within_device.force_n = std::min(limits.force_n, device_.capabilities().peak_force_n);
+  scenes_before_mj_ += safety_.books().sceneMj();
+  artefacts_before_mj_ += safety_.books().artefactMj();
   safety_ = SafetyFilter(within_device, stiffness_n_per_mm * mapping_.scale());
+  lost_ = false;
+  primed_ = false;
+  stale_ = false;
 }
 
 LoopControl HapticTask::loop(const Cycle& cycle) RELIEVO_RT {
@@ -76,7 +88,7 @@ LoopControl HapticTask::loop(const Cycle& cycle) RELIEVO_RT {
   const WorkspaceMapping::Place place = mapping_.place(*sample);
   state.hip_mm = place.hip_mm;
   state.media_time = window.clock.at(cycle.woken);
-  const Touch touch = method_.update(state.hip_mm, window, state.media_time);
+  const Touch touch = method_->update(state.hip_mm, window, state.media_time);
   noteFeed(isStale(window, state.media_time), cycle.woken);
   const double elapsed = primed_ ? toSeconds(cycle.woken - last_woken_) : 0.0;
   // Limits and energies are the hand's, in the device's frame.
@@ -92,7 +104,7 @@ LoopControl HapticTask::loop(const Cycle& cycle) RELIEVO_RT {
   primed_ = true;
   last_woken_ = cycle.woken;
 
-  method_.upkeep(window, state.media_time);
+  method_->upkeep(window, state.media_time);
   count(state);
   publish(state);
   return LoopControl::Continue;
@@ -107,7 +119,7 @@ void HapticTask::failed(const Error& error, MonotonicTime time) RELIEVO_RT {
   lost_ = true;
   primed_ = false;
   safety_.reset();
-  method_.reset();
+  method_->reset();
 }
 
 void HapticTask::noteFeed(bool stale, MonotonicTime time) RELIEVO_RT {
@@ -120,8 +132,8 @@ void HapticTask::count(const FingerState& state) RELIEVO_RT {
   if (state.contact) bump(counters_.contact_ticks);
   raise(counters_.max_force_n, glm::length(state.force_n));
   raise(counters_.max_scene_slew_n_per_s, safety_.sceneSlew());
-  counters_.scene_energy_mj.store(safety_.books().sceneMj(), std::memory_order_relaxed);
-  counters_.artefact_energy_mj.store(safety_.books().artefactMj(), std::memory_order_relaxed);
+  counters_.scene_energy_mj.store(scenes_before_mj_ + safety_.books().sceneMj(), std::memory_order_relaxed);
+  counters_.artefact_energy_mj.store(artefacts_before_mj_ + safety_.books().artefactMj(), std::memory_order_relaxed);
 }
 
 void HapticTask::publish(const FingerState& state) RELIEVO_RT {

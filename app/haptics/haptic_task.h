@@ -52,6 +52,9 @@ class HapticTask final : public CyclicTask {
 
   // A lost device is back. While no tick runs; the force begins at zero.
   void resume() noexcept { lost_ = false; }
+  // Another film: its volume, and a method of its own. While no tick runs; the force begins at zero.
+  void changeScene(TouchMethod& method, const DisplayVolume& volume, const SafetyLimits& limits,
+                   double stiffness_n_per_mm) noexcept;
 
   // The feeder's side, one thread. Fill the whole window, then publish. What a window held before is released when it
   // is filled again (see TripleBuffer).
@@ -77,10 +80,11 @@ class HapticTask final : public CyclicTask {
   void report(HapticFault::Kind kind, MonotonicTime time) RELIEVO_RT;
 
   HapticDevice& device_;
-  TouchMethod& method_;
+  TouchMethod* method_;
   const Clock& clock_;
   WorkspaceMapping mapping_;
   SafetyFilter safety_;
+  double scenes_before_mj_ = 0, artefacts_before_mj_ = 0;  // of the scenes before the present one
   bool stale_ = false;
   bool lost_ = false;
   bool primed_ = false;  // there was a tick before this one

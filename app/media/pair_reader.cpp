@@ -75,6 +75,7 @@ struct PairReader::Impl {
   std::optional<DepthFollower> depth;
   bool depth_lost = false;
   bool loss_told = false;
+  Duration key_step{0};  // of the last seek
 };
 
 Result<void> PairReader::Impl::openReader(std::unique_ptr<TrackReader>& reader, const std::string& url) {
@@ -242,11 +243,22 @@ Result<void> PairReader::Impl::seekDepth(MediaTime target) {
   depth->restart();
   depth_lost = false;
   if (!second_reader) return {};
-  const auto sought = second_reader->seek(target);
+  const auto sought = second_reader->seek(target, key_step);
   if (sought) return {};
   if (sought.error().code == ErrorCode::Cancelled) return failOn(depthUrl(), sought.error());
   loseDepth(sought.error());
   return {};
+}
+
+PairCounters& PairCounters::operator+=(const PairCounters& other) noexcept {
+  pairs += other.pairs;
+  without_depth += other.without_depth;
+  mismatched += other.mismatched;
+  depth_skipped += other.depth_skipped;
+  damaged += other.damaged;
+  missing += other.missing;
+  depth_missing += other.depth_missing;
+  return *this;
 }
 
 PairReader::PairReader(Backends backends) : impl_(std::make_unique<Impl>(std::move(backends))) {}
@@ -273,17 +285,18 @@ Result<std::optional<FramePair>> PairReader::next() {
   auto pair = impl_->pairFor(std::move(**color));
   if (!pair) return std::unexpected(pair.error());
   ++impl_->counters.pairs;
-  if (!pair->matched) ++impl_->counters.mismatched;
+  if (!pair->matched && impl_->key_step == Duration(0)) ++impl_->counters.mismatched;
   if (impl_->info.has_depth && pair->depth.empty()) ++impl_->counters.without_depth;
   return std::move(*pair);
 }
 
-Result<void> PairReader::seek(MediaTime target) {
+Result<void> PairReader::seek(MediaTime target, Duration key_step) {
   if (!impl_->color_reader) return fail(ErrorCode::InvalidState, kNotOpen);
-  if (auto sought = impl_->color_reader->seek(target); !sought) {
+  if (auto sought = impl_->color_reader->seek(target, key_step); !sought) {
     return impl_->failOn(impl_->options.url, sought.error());
   }
   impl_->color_ahead.clear();
+  impl_->key_step = key_step;
   if (auto sought = impl_->seekDepth(target); !sought) return sought;
   return impl_->passTo(target);
 }
@@ -295,6 +308,7 @@ void PairReader::close() noexcept {
   film.color_ahead.clear();
   film.depth_lost = film.loss_told = false;
   film.counters = {};
+  film.key_step = Duration(0);
   film.info = {};
   const std::scoped_lock lock(film.readers_mutex);
   film.color_reader.reset();

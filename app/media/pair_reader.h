@@ -2,6 +2,7 @@
 // Reads a film as pairs of a colour picture and a depth picture, whatever way the two are packed.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -53,6 +54,8 @@ struct PairCounters {
   // Once a source has been read to its end: how much of its length was not there (MediaSource::missing).
   Duration missing{0};
   Duration depth_missing{0};  // of `depth_url`
+
+  PairCounters& operator+=(const PairCounters& other) noexcept;
 };
 
 // Pairs by timestamp, never by count, as DepthFollower says. Each source's time begins at its own zero, so that two
@@ -68,6 +71,8 @@ class PairReader {
   struct Backends {
     std::function<std::unique_ptr<MediaSource>()> make_source;
     std::function<std::unique_ptr<VideoDecoder>()> make_decoder;
+    // The text at an address, at most so many bytes of it; gives up when the flag is set. Of lists of films.
+    std::function<Result<std::string>(const std::string&, std::size_t, const std::atomic<bool>&)> read_text = {};
   };
   explicit PairReader(Backends backends);
   ~PairReader();
@@ -81,7 +86,9 @@ class PairReader {
   [[nodiscard]] Result<std::optional<FramePair>> next();
   // The next pair is the first one at or after `target` (frame-exact: what lies before is decoded and dropped), or
   // nothing beyond the end. Unsupported where the source cannot seek; the film then goes on where it was.
-  [[nodiscard]] Result<void> seek(MediaTime target);
+  // `key_step` over 0: from there on the colour's key frames alone, at least so far apart, with whatever key frame of
+  // the depth is nearest before each; such pairs are not counted as mismatched.
+  [[nodiscard]] Result<void> seek(MediaTime target, Duration key_step = Duration(0));
   void close() noexcept;
   // Makes a blocked verb return Cancelled, and those to come until the next `open`.
   void interrupt() noexcept;

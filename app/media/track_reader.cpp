@@ -37,7 +37,7 @@ Result<std::optional<Frame>> TrackReader::next(std::size_t number) {
 }
 
 bool TrackReader::ended(std::size_t number) const noexcept {
-  return tracks_[number].decoder->state() == VideoDecoder::State::Ended;
+  return tracks_[number].finished && tracks_[number].decoder->state() == VideoDecoder::State::Ended;
 }
 
 std::uint64_t TrackReader::damaged() const noexcept {
@@ -49,8 +49,12 @@ std::uint64_t TrackReader::damaged() const noexcept {
 Result<std::optional<Frame>> TrackReader::decode(Track& track) {
   for (;;) {
     auto frame = track.decoder->receive();
-    if (!frame || *frame || track.decoder->state() == VideoDecoder::State::Ended) return frame;
+    if (!frame || *frame) return frame;
     if (track.decoder->state() == VideoDecoder::State::Draining) continue;
+    if (track.decoder->state() == VideoDecoder::State::Ended) {
+      if (track.finished) return frame;
+      if (auto flushed = track.decoder->flush(); !flushed) return std::unexpected(flushed.error());
+    }
     const auto fed = feed(track);
     if (!fed) return std::unexpected(fed.error());
     if (!*fed) return std::nullopt;
@@ -65,6 +69,7 @@ Result<bool> TrackReader::feed(Track& track) {
     const auto read = readOnePacket();
     if (!read) return std::unexpected(read.error());
     if (*read) continue;
+    track.finished = true;
     if (auto draining = track.decoder->drain(); !draining) return std::unexpected(draining.error());
     return true;
   }
@@ -76,6 +81,8 @@ Result<bool> TrackReader::feed(Track& track) {
   }
   track.waiting_bytes -= packet.bytes;
   track.waiting.pop_front();
+  if (key_step_ == Duration(0)) return true;
+  if (auto draining = track.decoder->drain(); !draining) return std::unexpected(draining.error());
   return true;
 }
 
@@ -90,7 +97,17 @@ Result<bool> TrackReader::readOnePacket() {
   return true;
 }
 
+bool TrackReader::isWanted(Track& track, const Packet& packet) const {
+  if (key_step_ == Duration(0)) return true;
+  if (!packet.keyframe) return false;
+  const auto time = packet.pts ? packet.pts : packet.dts;
+  if (time && track.last_key && *time < *track.last_key + key_step_) return false;
+  track.last_key = time;
+  return true;
+}
+
 void TrackReader::keep(Track& track, Packet packet) {
+  if (!isWanted(track, packet)) return;
   if (isFull(track)) {
     track.waiting.clear();
     track.waiting_bytes = 0;
@@ -111,11 +128,11 @@ bool TrackReader::isFull(const Track& track) noexcept {
 
 // A container seeks by one track, and some by decoding time: another track, or this one's reordered pictures, may then
 // begin after the target. So it is tried from ever earlier, at last from the beginning.
-Result<void> TrackReader::seek(MediaTime target) {
+Result<void> TrackReader::seek(MediaTime target, Duration key_step) {
   Duration step_back{0};
   for (;;) {
     const MediaTime from = std::max(MediaTime{}, target - step_back);
-    const auto reached = seekOnce(from, target);
+    const auto reached = seekOnce(from, target, key_step);
     if (!reached) return std::unexpected(reached.error());
     if (*reached || from == MediaTime{}) return {};
     step_back = step_back == Duration(0) ? kFirstStepBack : 2 * step_back;
@@ -123,8 +140,9 @@ Result<void> TrackReader::seek(MediaTime target) {
 }
 
 // True when every track has a picture at or before the target, or none any more.
-Result<bool> TrackReader::seekOnce(MediaTime from, MediaTime target) {
+Result<bool> TrackReader::seekOnce(MediaTime from, MediaTime target, Duration key_step) {
   if (auto sought = source_->seek(from); !sought) return std::unexpected(sought.error());
+  key_step_ = key_step;
   for (std::size_t i = 0; i < track_count_; ++i) {
     if (auto restarted = restart(tracks_[i], from > MediaTime{}); !restarted) {
       return std::unexpected(restarted.error());
@@ -153,6 +171,8 @@ Result<void> TrackReader::restart(Track& track, bool await_keyframe) {
   track.waiting_bytes = 0;
   track.awaits_keyframe = await_keyframe;
   track.passed_over = false;
+  track.finished = false;
+  track.last_key.reset();
   return track.decoder->flush();
 }
 

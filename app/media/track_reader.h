@@ -38,7 +38,8 @@ class TrackReader {
   [[nodiscard]] bool ended(std::size_t track) const noexcept;
   // Afterwards each track's next picture is the last key frame at or before `target`, or one before that, or the
   // track's first; a track that has no picture so early or goes on no longer may have a later one or none.
-  [[nodiscard]] Result<void> seek(MediaTime target);
+  // `key_step` over 0: from there on key frames alone, at least so far apart; each is decoded by itself.
+  [[nodiscard]] Result<void> seek(MediaTime target, Duration key_step = Duration(0));
   void interrupt() noexcept { source_->interrupt(); }
   [[nodiscard]] const MediaSource& source() const noexcept { return *source_; }
   // Packets and pictures that the decoders dropped.
@@ -50,11 +51,14 @@ class TrackReader {
     std::unique_ptr<VideoDecoder> decoder;
     std::deque<Packet> waiting;
     std::size_t waiting_bytes = 0;
-    std::optional<Frame> found;    // by the last seek
-    bool awaits_keyframe = false;  // what cannot be decoded is not tried
-    bool passed_over = false;      // packets were, for want of a key frame
+    std::optional<Frame> found;         // by the last seek
+    bool awaits_keyframe = false;       // what cannot be decoded is not tried
+    bool passed_over = false;           // packets were, for want of a key frame
+    bool finished = false;              // the source has no more of it
+    std::optional<MediaTime> last_key;  // kept, of key frames alone
   };
-  [[nodiscard]] Result<bool> seekOnce(MediaTime from, MediaTime target);
+  [[nodiscard]] Result<bool> seekOnce(MediaTime from, MediaTime target, Duration key_step);
+  [[nodiscard]] bool isWanted(Track& track, const Packet& packet) const;
   [[nodiscard]] Result<std::optional<Frame>> decode(Track& track);
   [[nodiscard]] Result<bool> feed(Track& track);
   [[nodiscard]] Result<bool> readOnePacket();
@@ -66,6 +70,7 @@ class TrackReader {
   std::function<std::unique_ptr<VideoDecoder>()> make_decoder_;
   std::array<Track, kMaxTracks> tracks_;
   std::size_t track_count_ = 0;
+  Duration key_step_{0};
 };
 
 }  // namespace relievo

@@ -61,8 +61,10 @@ const Entry& entryOf(PlayerVerb verb) noexcept {
 // The whole text, a finite number of at most a week in seconds.
 std::optional<double> numberIn(std::string_view text) {
   constexpr double kMost = 7 * 24 * 3600.0;
-  if (text.starts_with('+')) text.remove_prefix(1);
-  if (text.starts_with('+') || text.empty()) return std::nullopt;
+  if (text.starts_with('+')) {
+    text.remove_prefix(1);
+    if (text.starts_with('-')) return std::nullopt;  // from_chars takes that one
+  }
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || !(std::abs(value) <= kMost)) return std::nullopt;
@@ -102,6 +104,7 @@ std::optional<PlayerCommand> parseCommand(std::string_view words) {
   const std::size_t space = words.find(' ');
   const std::string_view word = words.substr(0, space);
   const std::string_view operand = space == std::string_view::npos ? "" : words.substr(space + 1);
+  if (operand.empty() && word.size() != words.size()) return std::nullopt;
   for (const Entry& entry : kEntries) {
     if (word == entry.word) return withOperand(entry, operand);
   }

@@ -8,7 +8,7 @@
 namespace relievo {
 
 FilmFeed::FilmFeed(PairReader::Backends backends, std::size_t capacity)
-    : capacity_(capacity), reader_(std::move(backends)) {}
+    : capacity_(capacity), backends_(std::move(backends)), reader_(backends_) {}
 
 FilmFeed::~FilmFeed() {
   stop();
@@ -26,6 +26,7 @@ void FilmFeed::stop() noexcept {
     // An interrupt that comes just before the reader opens a source does not reach it: so it is repeated.
     while (thread_.joinable() && !thread_ended_) {
       lock.unlock();
+      interrupted_ = true;
       reader_.interrupt();
       lock.lock();
       wake_.wait_for(lock, std::chrono::milliseconds(10), [this] { return thread_ended_; });
@@ -39,17 +40,42 @@ void FilmFeed::stop() noexcept {
 
 void FilmFeed::open(SourceOptions options) {
   const std::scoped_lock lock(mutex_);
-  if (state_ != State::Closed) return;
   options_ = std::move(options);
-  state_ = State::Opening;
+  begin(State::Opening);
+}
+
+void FilmFeed::close() {
+  const std::scoped_lock lock(mutex_);
+  begin(State::Closed);
+}
+
+void FilmFeed::begin(State state) {
+  ++film_;
+  ++generation_;
+  queue_.clear();
+  films_.clear();
+  seek_error_.reset();
+  info_ = {};
+  counters_ = {};
+  state_ = state;
+  interruptStale();
   wake_.notify_all();
 }
 
-void FilmFeed::seek(MediaTime target) {
+// What the reader does for a film that nobody wants any more. Asked for again and again: an interrupt that comes just
+// before the reader opens that film does not reach it.
+void FilmFeed::interruptStale() const {
+  if (at_work_ == 0 || at_work_ == film_) return;
+  interrupted_ = true;
+  reader_.interrupt();
+}
+
+void FilmFeed::seek(MediaTime target, Duration key_step) {
   std::deque<FramePair> dropped;  // freed after the lock
   const std::scoped_lock lock(mutex_);
   if (state_ != State::Reading && state_ != State::Ended && state_ != State::Seeking) return;
   target_ = target;
+  key_step_ = key_step;
   ++generation_;
   queue_.swap(dropped);
   state_ = State::Seeking;
@@ -58,7 +84,13 @@ void FilmFeed::seek(MediaTime target) {
 
 FilmFeed::State FilmFeed::state() const {
   const std::scoped_lock lock(mutex_);
+  interruptStale();
   return state_;
+}
+
+std::vector<PlaylistEntry> FilmFeed::films() const {
+  const std::scoped_lock lock(mutex_);
+  return films_;
 }
 
 std::optional<FramePair> FilmFeed::take() {
@@ -96,7 +128,7 @@ std::optional<Error> FilmFeed::takeSeekError() {
 }
 
 bool FilmFeed::hasWork() const {
-  return state_ == State::Opening || state_ == State::Seeking ||
+  return state_ == State::Opening || state_ == State::Seeking || (state_ == State::Closed && reader_open_) ||
          (state_ == State::Reading && queue_.size() < capacity_);
 }
 
@@ -104,33 +136,62 @@ bool FilmFeed::work() {
   std::unique_lock lock(mutex_);
   if (stopping_ || !hasWork()) return false;
   const State task = state_;
-  const MediaTime target = target_;
   const std::uint64_t generation = generation_;
+  at_work_ = film_;
+  interrupted_ = false;
   if (task == State::Opening) {
     const SourceOptions options = options_;
     lock.unlock();
-    workOpen(options);
-    return true;
-  }
-  lock.unlock();
-  if (task == State::Seeking) {
-    workSeek(target, generation);
+    workOpen(options, generation);
+  } else if (task == State::Seeking) {
+    const MediaTime target = target_;
+    const Duration key_step = key_step_;
+    lock.unlock();
+    workSeek(target, key_step, generation);
+  } else if (task == State::Closed) {
+    reader_open_ = false;
+    lock.unlock();
+    reader_.close();
   } else {
+    lock.unlock();
     workRead(generation);
   }
+  lock.lock();
+  at_work_ = 0;
   return true;
 }
 
-void FilmFeed::workOpen(const SourceOptions& options) {
-  const auto opened = reader_.open(options);
+void FilmFeed::workOpen(const SourceOptions& options, std::uint64_t generation) {
+  auto list = readList(options.url);
+  const auto opened = list && !*list ? reader_.open(options) : Result<void>{};
   const std::scoped_lock lock(mutex_);
-  if (!opened) return failed(opened.error());
+  reader_open_ = list && !*list && opened;
+  if (generation != generation_) return;  // given up meanwhile
+  if (!list) return failed(list.error().thing, list.error().error);
+  if (!opened) return failed(reader_.failedThing(), opened.error());
+  if (*list) {
+    films_ = std::move(**list);
+    state_ = State::Listed;
+    return;
+  }
   info_ = reader_.info();
   state_ = State::Reading;
 }
 
-void FilmFeed::workSeek(MediaTime target, std::uint64_t generation) {
-  const auto sought = reader_.seek(target);
+// Nothing for what is a film.
+Outcome<std::optional<std::vector<PlaylistEntry>>> FilmFeed::readList(const std::string& url) {
+  constexpr std::size_t kMostBytes = std::size_t{4} << 20;
+  if (!backends_.read_text || !mayBePlaylist(url)) return std::nullopt;
+  const auto text = backends_.read_text(url, kMostBytes, interrupted_);
+  if (!text) return failOn(url, text.error());
+  if (!isPlaylist(url, *text)) return std::nullopt;
+  auto films = parsePlaylist(*text, url);
+  if (!films) return std::unexpected(films.error());
+  return std::move(*films);
+}
+
+void FilmFeed::workSeek(MediaTime target, Duration key_step, std::uint64_t generation) {
+  const auto sought = reader_.seek(target, key_step);
   const std::scoped_lock lock(mutex_);
   if (generation != generation_) return;  // a newer target has come meanwhile
   if (!sought) seek_error_ = sought.error();
@@ -141,9 +202,9 @@ void FilmFeed::workRead(std::uint64_t generation) {
   auto pair = reader_.next();
   const PairCounters counters = reader_.counters();
   const std::scoped_lock lock(mutex_);
-  counters_ = counters;
+  if (at_work_ == film_) counters_ = counters;
   if (generation != generation_) return;
-  if (!pair) return failed(pair.error());
+  if (!pair) return failed(reader_.failedThing(), pair.error());
   if (!*pair) {
     state_ = State::Ended;
     return;
@@ -151,9 +212,9 @@ void FilmFeed::workRead(std::uint64_t generation) {
   queue_.push_back(std::move(**pair));
 }
 
-void FilmFeed::failed(const Error& error) {
+void FilmFeed::failed(std::string thing, const Error& error) {
   error_ = error;
-  failed_thing_ = reader_.failedThing().empty() ? options_.url : reader_.failedThing();
+  failed_thing_ = thing.empty() ? options_.url : std::move(thing);
   state_ = State::Failed;
 }
 

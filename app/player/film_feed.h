@@ -2,6 +2,7 @@
 // Reads a film ahead of the player: a bounded queue of pairs, filled by a thread of its own.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -9,9 +10,12 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "app/media/pair_reader.h"
+#include "app/media/playlist.h"
 #include "hal/media_time.h"
+#include "platform/failure.h"
 
 namespace relievo {
 
@@ -19,10 +23,11 @@ namespace relievo {
 // is `work`: a thread does it after `startThread`; without, the caller does, so that a test runs in simulated time.
 //
 // States: Closed -open-> Opening -> Reading -> Ended; Reading or Ended -seek-> Seeking -> Reading; any but Closed ->
-// Failed. Pairs that were read before an end or a failure can still be taken.
+// Failed; any -open-> Opening; any -close-> Closed. A source that turns out to be a list of films goes from Opening to
+// Listed. Pairs that were read before an end or a failure can still be taken.
 class FilmFeed {
  public:
-  enum class State : std::uint8_t { Closed, Opening, Seeking, Reading, Ended, Failed };
+  enum class State : std::uint8_t { Closed, Opening, Seeking, Reading, Ended, Failed, Listed };
 
   FilmFeed(PairReader::Backends backends, std::size_t capacity);
   ~FilmFeed();
@@ -33,14 +38,19 @@ class FilmFeed {
   // Interrupts what the reader waits for, ends the thread and closes the film. Does nothing the second time.
   void stop() noexcept;
 
-  void open(SourceOptions options);  // Closed only
+  // What was open, or under way, is given up for it.
+  void open(SourceOptions options);
+  void close();
   // Forgets what was read ahead. What is taken once the state has left Seeking lies at or after `target`. A newer
-  // target replaces one that is not reached yet. Reading, Ended or Seeking, else nothing happens.
-  void seek(MediaTime target);
+  // target replaces one that is not reached yet. Reading, Ended or Seeking, else nothing happens. `key_step` as in
+  // PairReader::seek.
+  void seek(MediaTime target, Duration key_step = Duration(0));
   [[nodiscard]] State state() const;
   // The next pair in order; nothing while there is none.
   [[nodiscard]] std::optional<FramePair> take();
 
+  // Listed: the films.
+  [[nodiscard]] std::vector<PlaylistEntry> films() const;
   // From Reading on.
   [[nodiscard]] FilmInfo info() const;
   [[nodiscard]] PairCounters counters() const;
@@ -55,21 +65,31 @@ class FilmFeed {
 
  private:
   [[nodiscard]] bool hasWork() const;
-  void workOpen(const SourceOptions& options);
-  void workSeek(MediaTime target, std::uint64_t generation);
+  void workOpen(const SourceOptions& options, std::uint64_t generation);
+  [[nodiscard]] Outcome<std::optional<std::vector<PlaylistEntry>>> readList(const std::string& url);
+  void workSeek(MediaTime target, Duration key_step, std::uint64_t generation);
   void workRead(std::uint64_t generation);
-  void failed(const Error& error);
+  void failed(std::string thing, const Error& error);
+  void begin(State state);
+  void interruptStale() const;
   void threadMain();
 
   const std::size_t capacity_;
-  PairReader reader_;  // the reader's side only, but for `interrupt`
+  const PairReader::Backends backends_;
+  mutable std::atomic<bool> interrupted_{false};  // while a list is read
+  mutable PairReader reader_;                     // the reader's side only, but for `interrupt`
 
   mutable std::mutex mutex_;  // guards all below
   std::condition_variable wake_;
   State state_ = State::Closed;
   SourceOptions options_;
   MediaTime target_;
-  std::uint64_t generation_ = 0;  // of seeks: what was read under an older one is dropped
+  Duration key_step_{0};
+  std::uint64_t generation_ = 0;  // of films and seeks: what was read under an older one is dropped
+  std::uint64_t film_ = 0;        // counts films
+  std::uint64_t at_work_ = 0;     // the film that the reader is busy with; 0: it is idle
+  bool reader_open_ = false;
+  std::vector<PlaylistEntry> films_;
   std::deque<FramePair> queue_;
   FilmInfo info_;
   PairCounters counters_;

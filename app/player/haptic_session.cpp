@@ -47,27 +47,30 @@ std::optional<DeviceKeeper::News> HapticSession::poll() {
   return news;
 }
 
-Result<void> HapticSession::makeTask(const DisplayVolume& volume, const SurfaceWindow& first) {
+Result<void> HapticSession::setScene(const DisplayVolume& volume, const SurfaceWindow& first) {
   // What the hand feels is the mapping's scale times what the scene has.
   const double stiffness = std::min(kStiffnessNPerMm, capabilities_.max_stiffness_n_per_mm) /
                            WorkspaceMapping(capabilities_, volume).scale();
   TouchPlan plan = planTouch(measureClip(std::span(first.frames).first(static_cast<std::size_t>(first.count))));
   plan_ = std::move(plan.reason);
-  method_ =
+  auto method =
       makeMethod(kDefaultMethod, {.stiffness_n_per_mm = stiffness, .tick_s = toSeconds(period_), .scale = plan.scale});
-  if (method_ == nullptr) return fail(ErrorCode::NotFound, "the default method of touch is missing from this build");
-
-  auto arena = FixedArena::create(sizeof(HapticTask) + alignof(HapticTask) + 256);
-  if (!arena) return std::unexpected(arena.error());
-  arena_.emplace(std::move(*arena));
-  task_ = arena_->make<HapticTask>(*device_, *method_, clock_, volume, SafetyLimits{}, stiffness);
-  if (task_ == nullptr) return fail(ErrorCode::Exhausted, "the real-time arena is too small for the haptic task");
+  if (method == nullptr) return fail(ErrorCode::NotFound, "the default method of touch is missing from this build");
+  if (task_ == nullptr) {
+    auto arena = FixedArena::create(sizeof(HapticTask) + alignof(HapticTask) + 256);
+    if (!arena) return std::unexpected(arena.error());
+    arena_.emplace(std::move(*arena));
+    task_ = arena_->make<HapticTask>(*device_, *method, clock_, volume, SafetyLimits{}, stiffness);
+    if (task_ == nullptr) return fail(ErrorCode::Exhausted, "the real-time arena is too small for the haptic task");
+  } else {
+    task_->changeScene(*method, volume, SafetyLimits{}, stiffness);
+  }
+  method_ = std::move(method);
 
   // The method is an object of its own on the heap; the code is what the ticks run. Both as far as the right goes: a
   // page that is touched but not locked is lost only when memory runs short.
-  void* const method = method_.get();
   memory_locked_ = arena_->locked();
-  const bool locked = memory_locked_ && lockAndTouch(method, ::malloc_usable_size(method)).has_value() &&
+  const bool locked = memory_locked_ && lockAndTouch(method_.get(), ::malloc_usable_size(method_.get())).has_value() &&
                       lockAndTouchCode().has_value();
   if (!locked) missing_memory_ = "memory not locked; raise LimitMEMLOCK (ulimit -l) or grant CAP_IPC_LOCK";
   return {};
@@ -77,12 +80,13 @@ Result<void> HapticSession::start(const DisplayVolume& volume, const SurfaceFeed
   if (!waiting()) return fail(ErrorCode::InvalidState, "the haptic side starts on a device that is homed and at rest");
   SurfaceWindow window;
   first.fill(window);
-  if (task_ != nullptr) {
+  if (!new_scene_) {
     task_->resume();
-  } else if (auto made = makeTask(volume, window); !made) {
+  } else if (auto set = setScene(volume, window); !set) {
     stop();  // not the device's doing: another try would fail as well
-    return made;
+    return set;
   }
+  new_scene_ = false;
   task_->windowToFill() = std::move(window);
   task_->publishWindow();
   auto running = run();
@@ -120,6 +124,15 @@ void HapticSession::halt() noexcept {
   if (device_ != nullptr) device_->close();
   running_ = false;
   opened_ = false;
+}
+
+void HapticSession::rest() noexcept {
+  if (running_) {
+    thread_.stop();
+    device_->stop();
+    running_ = false;
+  }
+  new_scene_ = true;
 }
 
 void HapticSession::stop() noexcept {

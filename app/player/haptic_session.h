@@ -54,10 +54,12 @@ class HapticSession {
   [[nodiscard]] std::optional<DeviceKeeper::News> poll();
   // Opened and homed, and not started.
   [[nodiscard]] bool waiting() const noexcept { return opened_ && !running_; }
-  // Makes the task for this volume in locked memory, or takes the one that a lost device has left; gives it the first
-  // window and starts it. The force begins at zero. Waiting, else InvalidState. After a failure the device is looked
-  // for anew.
+  // Makes the task for this volume in locked memory, or takes the one that a lost device or the last film has left;
+  // gives it the first window and starts it. The force begins at zero. Waiting, else InvalidState. After a failure the
+  // device is looked for anew.
   [[nodiscard]] Result<void> start(const DisplayVolume& volume, const SurfaceFeeder& first);
+  // Between two films: zero force, and no ticks; the device stays homed. The next `start` is on another scene.
+  void rest() noexcept;
   // Zero force first; then the thread, the device. Any time.
   void stop() noexcept;
 
@@ -81,7 +83,7 @@ class HapticSession {
   [[nodiscard]] HapticSummary summary() const;
 
  private:
-  [[nodiscard]] Result<void> makeTask(const DisplayVolume& volume, const SurfaceWindow& first);
+  [[nodiscard]] Result<void> setScene(const DisplayVolume& volume, const SurfaceWindow& first);
   [[nodiscard]] Result<void> run();
   void halt() noexcept;
 
@@ -101,6 +103,7 @@ class HapticSession {
   std::unique_ptr<TouchMethod> method_;
   std::optional<FixedArena> arena_;
   HapticTask* task_ = nullptr;  // in the arena
+  bool new_scene_ = true;
   CyclicThread thread_;
   struct {
     std::uint64_t overruns = 0, allocations = 0, page_faults = 0;

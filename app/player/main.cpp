@@ -24,7 +24,9 @@ namespace relievo {
 namespace {
 
 PairReader::Backends backendsFor(const std::string& url) {
-  return {.make_source = [url] { return drivers::makeMediaSource(url); }, .make_decoder = drivers::makeVideoDecoder};
+  return {.make_source = [url] { return drivers::makeMediaSource(url); },
+          .make_decoder = drivers::makeVideoDecoder,
+          .read_text = drivers::readText};
 }
 
 int finishFiles(const PlayReport& report, AtomicFile* report_file, Recorder* recorder) {
@@ -66,10 +68,24 @@ drivers::HapticSettings settingsOf(const FileConfig& config) {
   return {.falcon_firmware = config.falcon_firmware.value_or(""), .falcon_counts_per_nm = config.falcon_counts_per_nm};
 }
 
+// What `play` needs besides devices: its keys, and a place to remember positions.
+Outcome<void> complete(PlayOptions& options) {
+  if (!options.keys_path.empty()) {
+    auto keys = KeyTable::load(options.keys_path);
+    if (!keys) return std::unexpected(keys.error());
+    options.player.keys = std::move(*keys);
+  }
+  if (!options.resume) return {};
+  options.player.resume_path = Resume::defaultPath();
+  if (!options.player.resume_path.empty()) return {};
+  return failOn("--resume", {ErrorCode::NotFound, 0, "there is no home to remember in; set HOME or STATE_DIRECTORY"});
+}
+
 int play(PlayOptions options) {
   const std::atomic<bool>& stop = stopOnSignals(drivers::stopAllMotors);
   const auto config = loadConfig(options.config_path);
   if (!config) return tell(config.error());
+  if (auto completed = complete(options); !completed) return tell(completed.error());
   const SourceOptions& source = options.player.source;
   if (auto apart = keepApart({options.report_path, options.record_path, captureFile(options.display)},
                              {source.url, source.depth_url, fileOf(options.haptic), fileOf(options.remote)});
@@ -178,6 +194,11 @@ int parseAndRun(int argc, char** argv) {
       return options->devices.calibrate ? calibrateFalcon(options->devices) : listDevices(options->devices);
     case Options::Command::Play:
       break;
+  }
+  if (options->play.print_keys || options->play.print_states) {
+    const std::string text = options->play.print_keys ? std::string(KeyTable::usualText()) : stateGraph();
+    std::fputs(text.c_str(), stdout);
+    return kExitDone;
   }
   return play(options->play);
 }

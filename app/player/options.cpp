@@ -45,6 +45,8 @@ constexpr const char* kPlayFooter =
     "      on a whole screen of the box, without a desktop\n"
     "  relievo play film.mkv --display window --haptic pointer\n"
     "      in a window on the desktop: its keys are the remote, its mouse is the finger; F11 fills the screen\n"
+    "  relievo play evening.m3u --loop --resume\n"
+    "      the films of a list, from where they were left\n"
     "\nA hand script has the line t_s,x_mm,y_mm,z_mm and a row a moment; x right, y up, z toward the viewer, 0,0,0 in "
     "the\n"
     "middle of the far plane. A key script has lines such as: 2.5 PLAYPAUSE (seconds, a key's name). Keys, by their "
@@ -144,10 +146,16 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
           "--duration", [&play](double seconds) { play.player.duration = readDuration(seconds); },
           "Stop after so many seconds")
       ->type_name("S");
+  command.add_flag("--resume", play.resume, "Begin where the film was left, and remember where it is left");
+  command.add_option("--keys", play.keys_path, "Which key means what (see --print-keys) [the usual]")
+      ->type_name("FILE");
+  command.add_flag("--print-keys", play.print_keys, "Print the table of keys, to begin one of your own from");
+  command.add_flag("--print-states", play.print_states,
+                   "Print the player's states as a drawing: | dot -Tsvg > states.svg");
   command.add_option("--report", play.report_path, "Write what happened, as JSON")->type_name("FILE");
   command.add_option("--record", play.record_path, "Write every tick of the finger, as CSV")->type_name("FILE");
   addConfigOption(command, play.config_path);
-  command.footer(kPlayFooter + keyHelp() + kExitCodes);
+  command.footer(kPlayFooter + KeyTable::usual().help() + kExitCodes);
 }
 
 // A window brings its keys and its mouse along; nothing else has them. A whole screen is watched from a sofa.

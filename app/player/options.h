@@ -16,6 +16,9 @@ struct PlayOptions {
   std::string remote;
   std::string report_path;  // empty: none
   std::string record_path;
+  std::string keys_path;  // empty: the usual keys
+  bool resume = false;
+  bool print_keys = false, print_states = false;
   std::string config_path;  // empty: the default one
 };
 

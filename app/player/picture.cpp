@@ -29,6 +29,11 @@ void Picture::setPair(const FramePair& pair) {
   uploaded_ = false;
 }
 
+void Picture::clear() noexcept {
+  setPair({});
+  renderer_.reset();
+}
+
 Result<Picture::Shown> Picture::show(const std::optional<FingerMark>& finger, MonotonicTime now) {
   const bool was_away = away();
   if (was_away) {
@@ -76,7 +81,7 @@ Result<void> Picture::draw(const DisplaySurface& surface, const std::optional<Fi
     renderer_ = std::move(*renderer);
     renderer_->setStereo(stereo_);
   }
-  if (!uploaded_) {
+  if (!uploaded_ && !pair_.color.empty()) {
     if (auto set = renderer_->setFrame(pair_.color, pair_.depth, calibration_, volume_); !set) return set;
     uploaded_ = true;
   }

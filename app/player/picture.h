@@ -43,6 +43,8 @@ class Picture {
   void setScene(const DepthCalibration& calibration, const DisplayVolume& volume, Duration frame_budget) noexcept;
   // What `show` shows from now on; a reference is kept, for a screen that comes back.
   void setPair(const FramePair& pair);
+  // Black, with whatever text there is, from the next `show` on.
+  void clear() noexcept;
   // What stands at the picture's foot from the next `show` on.
   void setText(std::vector<std::string> lines) { text_ = std::move(lines); }
   // Fails for what no retry helps: no renderer, a pixel format that cannot be drawn.

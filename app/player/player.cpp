@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The player's life: boot, the loop, the remote's wishes, the end. What follows the film is in player_film.cpp.
+// The player's life: boot, the loop, the end.
 #include "app/player/player.h"
 
 #include <algorithm>
@@ -23,8 +23,10 @@ Player::Player(PlayerConfig config, PlayerParts parts)
       parts_(std::move(parts)),
       feed_(parts_.backends, kQueuedPairs),
       picture_(parts_.display, config_.display, config_.stereo),
-      haptic_(parts_.haptic, parts_.clock, config_.own_threads ? Ticking::Thread : Ticking::ByHand) {
+      haptic_(parts_.haptic, parts_.clock, config_.own_threads ? Ticking::Thread : Ticking::ByHand),
+      keys_(config_.keys) {
   report_.states.push_back(state_);
+  if (!config_.resume_path.empty()) resume_.emplace(config_.resume_path);
 }
 
 Player::~Player() {
@@ -54,31 +56,29 @@ void Player::fail(std::string thing, const Error& error) {
   failure_ = Failure{std::move(thing), error};
 }
 
+void Player::failDisplay(const Error& error) {
+  hopeless_ = true;
+  fail(std::string("display ") + picture_.capabilities().name, error);
+}
+
 Outcome<void> Player::run(const std::atomic<bool>& stop) {
   started_ = parts_.clock.now();
   boot();
   while (alive()) {
     const MonotonicTime now = parts_.clock.now();
     const bool time_is_up = config_.duration && now - started_ >= *config_.duration;
-    if (time_is_up || stop.load(std::memory_order_relaxed)) {
-      end(now);
-      break;
-    }
+    if (time_is_up || stop.load(std::memory_order_relaxed)) break;
     step(now);
     if (alive()) haptic_.sleepUntil(nextWake(parts_.clock.now()));
   }
-  finish();
+  finish(parts_.clock.now());
   if (failure_) return std::unexpected(*failure_);
   return {};
 }
 
 bool Player::alive() const noexcept {
-  return state_ != PlayerState::Idle && state_ != PlayerState::Fault;
-}
-
-void Player::end(MonotonicTime now) {
-  closeSegment(now);
-  apply(PlayerEvent::Stop);
+  if (quitting_ || state_ == PlayerState::Fault) return false;
+  return state_ != PlayerState::Idle || config_.stays;
 }
 
 void Player::boot() {
@@ -86,8 +86,7 @@ void Player::boot() {
   if (!opened && opened.error().code == ErrorCode::NotFound) {
     note(std::string("display: ") + opened.error().message, "film and touch go on without it");
   } else if (!opened) {
-    fail(std::string("display ") + picture_.capabilities().name, opened.error());
-    return;
+    return failDisplay(opened.error());
   }
   if (parts_.remote != nullptr) {
     if (auto heard = parts_.remote->open(); !heard) {
@@ -97,9 +96,8 @@ void Player::boot() {
   }
   haptic_.begin();
   apply(PlayerEvent::Ready);
-  apply(PlayerEvent::Open);
-  feed_.open(config_.source);
   if (config_.own_threads) feed_.startThread();
+  if (!config_.source.url.empty()) openList(config_.source.url, config_.source.depth_url, started_);
 }
 
 void Player::step(MonotonicTime now) {
@@ -112,22 +110,25 @@ void Player::step(MonotonicTime now) {
   followDevice();
   followReader(now);
   followClock(now);
+  keepPosition(now);
   drainTouch();
   writeText(now);
+  followFault(now);
 }
 
 // Until the next picture, but so often that keys are heard.
 MonotonicTime Player::nextWake(MonotonicTime now) const {
   if (state_ == PlayerState::Playing) return std::min(nextPicture(now), now + kLongestWait);
-  return now + (state_ == PlayerState::Paused ? kLongestWait : kReaderWait);
+  const bool stands = state_ == PlayerState::Paused || state_ == PlayerState::Idle;
+  return now + (stands ? kLongestWait : kReaderWait);
 }
 
-void Player::finish() {
+void Player::finish(MonotonicTime now) {
   haptic_.stop();  // zero force before anything else
   drainTouch();
-  const MonotonicTime ended = parts_.clock.now();
-  report_.wall_s = toSeconds(ended - started_);
-  report_.pairs = feed_.counters();
+  leaveFilm(now);
+  if (state_ != PlayerState::Fault) apply(PlayerEvent::Stop);
+  report_.wall_s = toSeconds(parts_.clock.now() - started_);
   feed_.stop();
   picture_.close();
   if (parts_.remote != nullptr) parts_.remote->close();
@@ -157,101 +158,12 @@ void Player::attendScreen(MonotonicTime now) {
   if (redraw) {
     redraw_ = redraw_ || *redraw;
   } else if (redraw.error().code == ErrorCode::Cancelled) {
-    end(now);
+    quitting_ = true;  // the viewer has closed it
   } else if (redraw.error().code == ErrorCode::Lost) {
     noteLost();
   } else {
-    fail(std::string("display ") + picture_.capabilities().name, redraw.error());
+    failDisplay(redraw.error());
   }
-}
-
-void Player::readRemote(MonotonicTime now) {
-  while (parts_.remote != nullptr) {
-    const auto key = parts_.remote->poll(now);
-    if (!key) {
-      note(std::string("remote: ") + key.error().message, "the film goes on without one");
-      parts_.remote->close();
-      parts_.remote = nullptr;
-      return;
-    }
-    if (!*key) return;
-    if (const auto command = commandOf(**key)) obey(*command, now);
-  }
-}
-
-void Player::obey(PlayerCommand command, MonotonicTime now) {
-  text_.wake(now);
-  switch (command) {
-    case PlayerCommand::Play:
-      return setHeld(false, now);
-    case PlayerCommand::Pause:
-      return setHeld(true, now);
-    case PlayerCommand::PlayPause:
-      return setHeld(!held_, now);
-    case PlayerCommand::SeekForward:
-      return seek(seekBase(now) + kSeekStep, PlayerEvent::Seek, now);
-    case PlayerCommand::SeekBackward:
-      return seek(seekBase(now) - kSeekStep, PlayerEvent::Seek, now);
-    case PlayerCommand::NextLayout:
-    case PlayerCommand::SwapEyes:
-    case PlayerCommand::DeeperPicture:
-    case PlayerCommand::FlatterPicture:
-    case PlayerCommand::ScreenForward:
-    case PlayerCommand::ScreenBackward:
-      return changeStereo(command);
-    case PlayerCommand::Info:
-      return text_.toggle();
-    case PlayerCommand::Stop:
-      return end(now);
-  }
-}
-
-void Player::changeStereo(PlayerCommand command) {
-  constexpr double kStrengthStep = 0.1, kPlaneStepMm = 2.0;
-  if (command == PlayerCommand::NextLayout) picture_.nextLayout();
-  if (command == PlayerCommand::SwapEyes) picture_.swapEyes();
-  if (command == PlayerCommand::DeeperPicture) picture_.changeStrength(kStrengthStep);
-  if (command == PlayerCommand::FlatterPicture) picture_.changeStrength(-kStrengthStep);
-  // What is higher in the volume than the plane stands before the screen.
-  if (command == PlayerCommand::ScreenForward) picture_.changeScreenPlane(-kPlaneStepMm);
-  if (command == PlayerCommand::ScreenBackward) picture_.changeScreenPlane(kPlaneStepMm);
-  redraw_ = true;
-}
-
-void Player::setHeld(bool held, MonotonicTime now) {
-  const PlayerState before = state_;
-  if (!apply(held ? PlayerEvent::Pause : PlayerEvent::Play)) return;
-  held_ = held;
-  if (state_ == before) return;  // heard while buffering or seeking: it holds from the next picture on
-  if (held) closeSegment(now);
-  setClockHeld(held, now);
-  if (!held) segment_begin_ = clock_.position(now);
-}
-
-void Player::setClockHeld(bool held, MonotonicTime now) {
-  if (auto set = held ? clock_.pause(now) : clock_.resume(now); !set) fail("the film's clock", set.error());
-}
-
-// Where a step of the remote counts from: several presses add up, whether or not the first has been carried out.
-MediaTime Player::seekBase(MonotonicTime now) const {
-  if (target_) return *target_;
-  if (state_ == PlayerState::Buffering) return head_.present().color.pts;
-  return clock_.position(now).value_or(MediaTime{});
-}
-
-void Player::seek(MediaTime target, PlayerEvent why, MonotonicTime now) {
-  closeSegment(now);
-  if (!apply(why)) return;
-  // As the picture stands until the new one comes, so does the surface: what is seen is what is felt.
-  if (const auto position = clock_.position(now)) feedSurface({*position, now, 0});
-  await_touch_.reset();
-  clock_.reset();
-  head_.clear();
-  target_ = std::max(target, MediaTime{});
-  feed_.seek(*target_);
-  new_epoch_ = true;
-  seek_wanted_ = why == PlayerEvent::Seek;
-  if (seek_wanted_) report_.seeks.push_back({toSeconds(*target_), {}, {}});
 }
 
 }  // namespace relievo

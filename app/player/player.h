@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plays one film: follows the remote, the reader and the clock through the states, and hands each pair to both senses.
+// Plays films: follows the remote, the reader and the clock through the states, and hands each pair to both senses.
 #pragma once
 
 #include <atomic>
@@ -14,6 +14,7 @@
 #include "app/player/playhead.h"
 #include "app/player/recorder.h"
 #include "app/player/report.h"
+#include "app/player/resume.h"
 #include "app/player/screen_text.h"
 #include "app/player/state_table.h"
 #include "app/player/surface_feeder.h"
@@ -23,11 +24,14 @@
 namespace relievo {
 
 struct PlayerConfig {
-  SourceOptions source;
+  SourceOptions source;  // a film or a list of films; its url may be empty for one that stays
   DisplayConfig display;
   StereoSettings stereo;
   std::optional<DisplayVolume> volume;  // nothing: the default one of the picture's shape
+  KeyTable keys = KeyTable::usual();
   bool loop = false;
+  bool stays = false;       // without a film it waits for the next one, until it is asked to quit
+  std::string resume_path;  // where each film was left is kept there; empty: every film begins at its beginning
   std::optional<Duration> duration;  // of the machine's time
   bool own_threads = true;           // false: reader and ticks run inside `step`, for simulated time
 };
@@ -45,46 +49,65 @@ struct PlayerParts {
 // One thread, the display's. Never waits for the film or the finger, only for the display's refresh.
 class Player {
  public:
-  static constexpr Duration kSeekStep = std::chrono::seconds(10);
-
   Player(PlayerConfig config, PlayerParts parts);
   ~Player();
 
-  // Plays until the end, a stop or a failure. `stop` may be set by a signal handler. Once.
+  // Plays until the end, a stop or a failure. `stop` may be set by a signal handler. Once. Fails for a lost display and
+  // when the last film could not be played, not for one before it in a list: that is in the report.
   [[nodiscard]] Outcome<void> run(const std::atomic<bool>& stop);
+  // A viewer's wish. Within `run`, on its thread. One that the present state does not allow changes nothing.
+  void obey(const PlayerCommand& command, MonotonicTime now);
   // After `run`.
   [[nodiscard]] PlayReport report() const;
 
  private:
+  // player.cpp: its life
   bool apply(PlayerEvent event);
   void note(const std::string& what, const std::string& done, std::optional<MonotonicTime> when = {});
   void fail(std::string thing, const Error& error);
-
+  void failDisplay(const Error& error);
+  void boot();
   void step(MonotonicTime now);
   [[nodiscard]] bool alive() const noexcept;
-  void end(MonotonicTime now);
   [[nodiscard]] MonotonicTime nextWake(MonotonicTime now) const;
-  void finish();
-
-  void boot();
+  void finish(MonotonicTime now);
   void attendScreen(MonotonicTime now);
-  void readRemote(MonotonicTime now);
-  void obey(PlayerCommand command, MonotonicTime now);
-  void changeStereo(PlayerCommand command);
-  void setHeld(bool held, MonotonicTime now);
-  void setClockHeld(bool held, MonotonicTime now);
-  void seek(MediaTime target, PlayerEvent why, MonotonicTime now);
 
+  // player_remote.cpp: the viewer's wishes
+  void readRemote(MonotonicTime now);
+  void play(MonotonicTime now);
+  void pause(MonotonicTime now);
+  void stepPicture(MonotonicTime now);
+  void changeRate(double rate, MonotonicTime now);
+  void changeStereo(const PlayerCommand& command);
+  void setClockHeld(bool held, MonotonicTime now);
+  void seekShare(double share, MonotonicTime now);
+  void seek(MediaTime target, PlayerEvent why, bool wanted, MonotonicTime now);
+  [[nodiscard]] MediaTime seekBase(MonotonicTime now) const;
+
+  // player_list.cpp: from film to film
+  void openList(const std::string& url, const std::string& depth_url, MonotonicTime now);
+  void openFilm(std::size_t film, MonotonicTime now);
+  void previousFilm(MonotonicTime now);
+  void leaveFilm(MonotonicTime now);
+  void stopFilm(MonotonicTime now);
+  void endOfFilm(MonotonicTime now);
+  void noteMissing();
+  void followFault(MonotonicTime now);
+  void followList(MonotonicTime now);
+  void goOnWhereLeft(MonotonicTime now);
+  void keepPosition(MonotonicTime now);
+  [[nodiscard]] const PlaylistEntry& film() const noexcept { return films_[film_]; }
+
+  // player_film.cpp: within a film
   void followDevice();
   void followReader(MonotonicTime now);
-  void opened();
+  void opened(MonotonicTime now);
   void begin(MonotonicTime now);
   void setScene();
   void startTouch();
   void followClock(MonotonicTime now);
   void followEnd(MediaTime position, MonotonicTime now);
-  void endOfFilm(MonotonicTime now);
-  void noteMissing();
   void closeSegment(MonotonicTime now);
 
   void followSurface();
@@ -96,7 +119,6 @@ class Player {
   void drainTouch();
   [[nodiscard]] std::optional<FingerMark> fingerMark();
   void writeText(MonotonicTime now);
-  [[nodiscard]] MediaTime seekBase(MonotonicTime now) const;
   [[nodiscard]] MonotonicTime nextPicture(MonotonicTime now) const;
 
   PlayerConfig config_;
@@ -110,9 +132,20 @@ class Player {
   SurfaceFeeder surface_;
   bool scene_known_ = false;  // from the first pair on
 
+  KeyReader keys_;
+  std::optional<Resume> resume_;
+
   PlayerState state_ = PlayerState::Boot;
   bool held_ = false;  // the viewer wants it paused
+  double rate_ = 1;    // over 1: by key frames, without touch
+  bool quitting_ = false;
+  bool hopeless_ = false;  // no other film would go better
   std::optional<Failure> failure_;
+  std::vector<PlaylistEntry> films_ = std::vector<PlaylistEntry>(1);
+  std::size_t film_ = 0;            // of them
+  bool film_open_ = false;          // or being opened
+  std::uint64_t shown_before_ = 0;  // pictures, when the list was begun
+  MonotonicTime keep_due_;          // the position
   MonotonicTime started_;
   Duration period_{0};  // of the film
   DisplayVolume volume_;

@@ -51,12 +51,14 @@ void Player::followReader(MonotonicTime now) {
     const FilmFeed::State state = feed_.state();
     if (state == FilmFeed::State::Failed) return fail(feed_.failedThing(), feed_.error());
     if (state == FilmFeed::State::Opening) return;
-    opened();
+    if (state == FilmFeed::State::Listed) return followList(now);
+    opened(now);
   }
   if (state_ == PlayerState::Seeking) {
     if (feed_.state() == FilmFeed::State::Seeking) return;
     if (const auto refused = feed_.takeSeekError()) {
       note(std::string("seek: ") + refused->message, "the film goes on from where it stands");
+      static_cast<void>(clock_.setRate(rate_ = 1, now));
     }
     apply(PlayerEvent::Sought);
   }
@@ -68,8 +70,9 @@ void Player::followReader(MonotonicTime now) {
   endOfFilm(now);
 }
 
-void Player::opened() {
+void Player::opened(MonotonicTime now) {
   apply(PlayerEvent::Opened);
+  failure_.reset();  // of a film before
   report_.film = feed_.info();
   period_ = report_.film.frame_period > Duration(0) ? report_.film.frame_period : kUnknownPeriod;
   if (report_.film.has_depth) {
@@ -77,6 +80,7 @@ void Player::opened() {
   } else {
     note("no depth in this film", "it plays flat, without force");
   }
+  goOnWhereLeft(now);
 }
 
 // The first pair after a start, a seek or an underrun is on the screen before its clock starts: whatever the first
@@ -184,24 +188,6 @@ void Player::followEnd(MediaTime position, MonotonicTime now) {
   note("the film came too slowly", "the picture stands until it is read ahead again");
 }
 
-void Player::endOfFilm(MonotonicTime now) {
-  closeSegment(now);
-  noteMissing();
-  apply(PlayerEvent::EndOfFilm);
-  if (config_.loop && report_.first_frame_ms) return seek(MediaTime{}, PlayerEvent::Loop, now);
-  end(now);
-}
-
-void Player::noteMissing() {
-  const auto noteOne = [this](const std::string& url, Duration missing, const char* done) {
-    if (missing <= Duration(0)) return;
-    note(textLine("%s breaks off %.1f s before its end, cut off or damaged", url.c_str(), toSeconds(missing)), done);
-  };
-  const PairCounters pairs = feed_.counters();
-  noteOne(config_.source.url, pairs.missing, "what is there was played");
-  noteOne(config_.source.depth_url, pairs.depth_missing, "from there on the picture was flat, without force");
-}
-
 void Player::closeSegment(MonotonicTime now) {
   if (const auto position = clock_.position(now); position && segment_begin_) played_ += *position - *segment_begin_;
   segment_begin_.reset();
@@ -212,7 +198,9 @@ void Player::followSurface() {
 }
 
 void Player::feedSurface(const ClockSample& clock) {
-  const auto changed = surface_.update(head_.present(), head_.ahead(), head_.last(), clock);
+  static const FramePair kNothing;  // what is felt of a film that rushes by
+  const FramePair& present = rate_ > 1 ? kNothing : head_.present();
+  const auto changed = surface_.update(present, head_.ahead(), head_.last(), clock);
   if (!changed) {
     if (!std::exchange(depth_refused_, true)) {
       note(std::string("depth: ") + changed.error().message, "it plays without force");
@@ -221,7 +209,7 @@ void Player::feedSurface(const ClockSample& clock) {
     return;
   }
   if (*changed) haptic_.publish(surface_);
-  const bool missing = report_.film.has_depth && head_.present().depth.empty();
+  const bool missing = rate_ <= 1 && report_.film.has_depth && present.depth.empty();
   if (missing && !depth_missing_) note("no depth at this time", "the picture is flat there, without force");
   depth_missing_ = missing;
 }
@@ -253,8 +241,8 @@ bool Player::draw(MonotonicTime now) {
   const auto shown = picture_.show(last_mark_, now);
   if (!shown) {
     // What cannot be drawn is the film's fault, not the display's.
-    const bool film = shown.error().code == ErrorCode::Unsupported;
-    fail(film ? config_.source.url : std::string("display ") + picture_.capabilities().name, shown.error());
+    if (shown.error().code == ErrorCode::Unsupported) fail(film().url, shown.error());
+    else failDisplay(shown.error());
     return false;
   }
   if (const char* why = picture_.takeRefusal()) {
@@ -267,7 +255,7 @@ bool Player::draw(MonotonicTime now) {
 
 void Player::writeText(MonotonicTime now) {
   if (!report_.first_frame_ms) return;
-  const ScreenFacts facts{.title = titleOf(config_.source.url),
+  const ScreenFacts facts{.title = film().title.empty() ? titleOf(film().url) : film().title,
                           .position_s = toSeconds(clock_.position(now).value_or(head_.present().color.pts)),
                           .duration_s = toSeconds(report_.film.duration),
                           .state = state_,
@@ -298,7 +286,8 @@ MonotonicTime Player::nextPicture(MonotonicTime now) const {
   const auto sample = clock_.sample();
   if (!sample || sample->rate <= 0) return MonotonicTime::max();
   if (head_.ahead().empty()) return now + period_;
-  return sample->monotonic + (head_.ahead().front().color.pts - sample->media);
+  const Duration until = head_.ahead().front().color.pts - sample->media;
+  return sample->monotonic + fromSeconds(toSeconds(until) / sample->rate);
 }
 
 void Player::drainTouch() {

@@ -107,6 +107,7 @@ std::string toJson(const PlayReport& r) {
   Json json;
   json["source"] = r.source;
   if (!r.depth_source.empty()) json["depth_source"] = r.depth_source;
+  if (r.films.size() > 1) json["films"] = r.films;
   json["film"] = filmPart(r);
   json["wall_s"] = rounded(r.wall_s);
   json["media_s"] = rounded(r.media_s);

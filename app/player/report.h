@@ -33,7 +33,8 @@ struct SeekEntry {
 
 struct PlayReport {
   std::string source, depth_source;
-  FilmInfo film;
+  std::vector<std::string> films;  // opened, in order
+  FilmInfo film;                   // the last one
   PairCounters pairs;
   DisplayVolume volume;
   double wall_s = 0;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 namespace relievo {
 
@@ -23,12 +24,14 @@ inline constexpr std::size_t kPlayerStateCount = 9;
 
 enum class PlayerEvent : std::uint8_t {
   Ready,       // the devices are open, or are known to be missing
-  Open,        // a film is wanted
+  Open,        // a film is wanted, or another one
   Opened,      // its source is open
   Filled,      // enough pairs are read ahead: play
   FilledHeld,  // likewise, but the viewer wants it paused
   Play,        // the viewer's wish
   Pause,       // the viewer's wish
+  Step,        // the viewer's wish: the next picture, and stand
+  Rate,        // the viewer's wish: slower or faster
   Seek,        // the viewer's wish
   Sought,      // the reader has arrived
   Starved,     // no pair when one was due
@@ -37,12 +40,16 @@ enum class PlayerEvent : std::uint8_t {
   Stop,        // the viewer's wish, a signal, or the time is up
   Fail,        // something the film cannot go on without is lost
 };
-inline constexpr std::size_t kPlayerEventCount = 14;
+inline constexpr std::size_t kPlayerEventCount = 16;
 
 // Where `event` leads from `state`; nothing where it is refused. A wish that changes no state but is heard (pause while
 // buffering) leads back to the same state.
 [[nodiscard]] std::optional<PlayerState> nextState(PlayerState state, PlayerEvent event) noexcept;
 
 [[nodiscard]] const char* name(PlayerState state) noexcept;  // "boot", "idle", .. as in the report
+[[nodiscard]] const char* name(PlayerEvent event) noexcept;  // "ready", "end of film", ..
+
+// The table as a drawing, for Graphviz: dot -Tsvg.
+[[nodiscard]] std::string stateGraph();
 
 }  // namespace relievo

@@ -2,10 +2,13 @@
 // Media source and video decoder on FFmpeg's libraries: any file or URL that they open, decoded in software.
 #pragma once
 
+#include <atomic>
 #include <memory>
+#include <string>
 
 #include "hal/media_source.h"
 #include "hal/video_decoder.h"
+#include "platform/error.h"
 
 namespace relievo {
 
@@ -27,5 +30,10 @@ namespace relievo {
 // nearest that it can: the one case of a copy, exact for integers of up to 16 bits. A picture that was mended with
 // guesses after an error in its data is dropped and counted: a guessed depth must not be felt.
 [[nodiscard]] std::unique_ptr<VideoDecoder> makeFfmpegDecoder();
+
+// The text at a path or an address (http, https), at most so many bytes, else Corrupt. May wait as long as opening a
+// source; Cancelled soon after the flag is set.
+[[nodiscard]] Result<std::string> readFfmpegText(const std::string& url, std::size_t most_bytes,
+                                                 const std::atomic<bool>& cancelled);
 
 }  // namespace relievo

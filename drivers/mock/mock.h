@@ -68,6 +68,8 @@ struct MockMediaProfile {
 
 // Ignores what the url says. Its packets are understood by the mock decoder alone (codec "mock").
 [[nodiscard]] std::unique_ptr<MediaSource> makeMockSource(MockMediaProfile profile, Clock& clock);
+// The film of the url that is opened; NotFound where there is none.
+[[nodiscard]] std::unique_ptr<MediaSource> makeMockSources(std::map<std::string, MockMediaProfile> films, Clock& clock);
 
 struct MockDecoderProfile {
   std::size_t queue_packets = 4;  // taken and not yet received; then Full

@@ -9,11 +9,11 @@
 namespace relievo {
 namespace {
 
+constexpr const char* kAnyUrl = "*";
+
 class MockSource final : public MediaSource {
  public:
-  MockSource(MockMediaProfile profile, Clock& clock) : profile_(std::move(profile)), clock_(clock) {
-    for (const MockTrack& track : profile_.tracks) tracks_.push_back({std::make_shared<const MockTrack>(track)});
-  }
+  MockSource(std::map<std::string, MockMediaProfile> films, Clock& clock) : films_(std::move(films)), clock_(clock) {}
 
  private:
   struct Cursor {
@@ -27,8 +27,13 @@ class MockSource final : public MediaSource {
     [[nodiscard]] bool ended() const { return next >= track->frames; }
   };
 
-  Result<Description> openSource(const std::string& /*url*/) override {
+  Result<Description> openSource(const std::string& url) override {
     interrupted_ = false;
+    const auto film = films_.contains(kAnyUrl) ? films_.find(kAnyUrl) : films_.find(url);
+    if (film == films_.end()) return fail(ErrorCode::NotFound, "the mock source has no such film");
+    profile_ = film->second;
+    tracks_.clear();
+    for (const MockTrack& track : profile_.tracks) tracks_.push_back({std::make_shared<const MockTrack>(track)});
     if (profile_.fail_open) return fail(*profile_.fail_open, "the mock source was told not to open");
     packets_ = 0;
     latest_end_ = MediaTime{};
@@ -128,7 +133,8 @@ class MockSource final : public MediaSource {
   void closeSource() noexcept override { stalled_ = false; }
   void interrupted() noexcept override { interrupted_ = true; }
 
-  MockMediaProfile profile_;
+  const std::map<std::string, MockMediaProfile> films_;
+  MockMediaProfile profile_;  // of the one that is open
   Clock& clock_;
   std::vector<Cursor> tracks_;
   std::uint64_t packets_ = 0;
@@ -140,7 +146,11 @@ class MockSource final : public MediaSource {
 }  // namespace
 
 std::unique_ptr<MediaSource> makeMockSource(MockMediaProfile profile, Clock& clock) {
-  return std::make_unique<MockSource>(std::move(profile), clock);
+  return makeMockSources({{kAnyUrl, std::move(profile)}}, clock);
+}
+
+std::unique_ptr<MediaSource> makeMockSources(std::map<std::string, MockMediaProfile> films, Clock& clock) {
+  return std::make_unique<MockSource>(std::move(films), clock);
 }
 
 }  // namespace relievo

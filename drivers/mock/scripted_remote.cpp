@@ -9,7 +9,7 @@
 #include <optional>
 #include <sstream>
 
-#include "drivers/mock/key_names.h"
+#include "hal/key_names.h"
 
 namespace relievo {
 namespace {
@@ -54,7 +54,14 @@ Outcome<void> addLine(std::string_view line, const std::string& place, std::vect
   if (!keys.empty() && *at < keys.back().at) {
     return wrong(place, "its time is before that of the line above; put the lines in order");
   }
-  const std::string_view name = restOf(line);
+  std::string_view name = restOf(line);
+  ScriptedKey key{.at = *at};
+  if (const auto blank = name.find_last_of(kBlanks); blank != std::string_view::npos) {
+    if (const auto held = parseTime(name.substr(blank + 1))) {
+      key.held = *held;
+      name = restOf(name.substr(0, blank));
+    }
+  }
   if (name.empty()) return wrong(place, "has no key; a line is: SECONDS KEYNAME, such as 2.0 PLAYPAUSE");
   const auto code = keyCode(name);
   if (!code) {
@@ -62,13 +69,21 @@ Outcome<void> addLine(std::string_view line, const std::string& place, std::vect
     const std::string hint = nearest.empty() ? "" : " (" + std::string(nearest) + "?)";
     return wrong(place + ": " + std::string(name) + hint, "is no key's name; relievo play --help lists the names");
   }
-  keys.push_back({*at, *code});
+  key.code = *code;
+  keys.push_back(key);
   return {};
 }
 
 class ScriptedRemote final : public RemoteInput {
  public:
-  ScriptedRemote(std::vector<ScriptedKey> keys, const Clock& clock) : keys_(std::move(keys)), clock_(clock) {}
+  ScriptedRemote(const std::vector<ScriptedKey>& keys, const Clock& clock) : clock_(clock) {
+    using Action = KeyEvent::Action;
+    for (const ScriptedKey& key : keys) {
+      events_.push_back({key.code, Action::Press, MonotonicTime(key.at)});
+      events_.push_back({key.code, Action::Release, MonotonicTime(key.at + key.held)});
+    }
+    std::ranges::stable_sort(events_, {}, &KeyEvent::time);
+  }
 
  private:
   Result<void> openRemote() override {
@@ -78,14 +93,17 @@ class ScriptedRemote final : public RemoteInput {
   }
 
   Result<std::optional<KeyEvent>> nextKey(MonotonicTime now) override {
-    if (next_ == keys_.size() || now < opened_ + keys_[next_].at) return std::nullopt;
-    const ScriptedKey& key = keys_[next_++];
-    return KeyEvent{.code = key.code, .action = KeyEvent::Action::Press, .time = opened_ + key.at};
+    if (next_ == events_.size()) return std::nullopt;
+    KeyEvent event = events_[next_];
+    event.time = opened_ + event.time.time_since_epoch();
+    if (now < event.time) return std::nullopt;
+    ++next_;
+    return event;
   }
 
   void closeRemote() noexcept override {}
 
-  std::vector<ScriptedKey> keys_;
+  std::vector<KeyEvent> events_;  // their times since `open`
   const Clock& clock_;
   MonotonicTime opened_;
   std::size_t next_ = 0;
@@ -113,8 +131,8 @@ Outcome<std::vector<ScriptedKey>> loadKeyScript(const std::string& path) {
   return parseKeyScript(text.str(), path);
 }
 
-std::unique_ptr<RemoteInput> makeScriptedRemote(std::vector<ScriptedKey> keys, const Clock& clock) {
-  return std::make_unique<ScriptedRemote>(std::move(keys), clock);
+std::unique_ptr<RemoteInput> makeScriptedRemote(const std::vector<ScriptedKey>& keys, const Clock& clock) {
+  return std::make_unique<ScriptedRemote>(keys, clock);
 }
 
 }  // namespace relievo

@@ -16,13 +16,15 @@ namespace relievo {
 struct ScriptedKey {
   Duration at{0};  // since `open`
   std::uint16_t code = 0;
+  Duration held = std::chrono::milliseconds(50);
 };
 
 // One key a line: seconds and a key's name as in linux/input-event-codes.h, with or without KEY_, in either
-// case:
+// case; and, of a key that is held down, for how many seconds:
 //
 //   # pause the film after two seconds
 //   2.0  PLAYPAUSE
+//   5.0  OK  1.5
 //
 // What follows a '#' is ignored, and so are empty lines; times do not decrease. InvalidArgument otherwise, and
 // the failure names the script's line, and of a name that is not known the nearest one.
@@ -31,8 +33,8 @@ struct ScriptedKey {
 // NotFound when the file cannot be read.
 [[nodiscard]] Outcome<std::vector<ScriptedKey>> loadKeyScript(const std::string& path);
 
-// Yields each key once, as a Press, when its time has come. `clock` tells when `open` was and must outlive
+// Yields each key's Press and its Release when their times have come. `clock` tells when `open` was and must outlive
 // the remote.
-[[nodiscard]] std::unique_ptr<RemoteInput> makeScriptedRemote(std::vector<ScriptedKey> keys, const Clock& clock);
+[[nodiscard]] std::unique_ptr<RemoteInput> makeScriptedRemote(const std::vector<ScriptedKey>& keys, const Clock& clock);
 
 }  // namespace relievo

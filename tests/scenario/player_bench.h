@@ -38,6 +38,7 @@ class PlayerBench {
 
   // Sources by their urls; "film" is what is played.
   std::map<std::string, MockMediaProfile> sources{{"film", film(100)}};
+  std::map<std::string, std::string> texts;  // lists of films
   MockDisplayProfile display{.refresh_period = Duration(0)};
   MockHapticProfile haptic;
   std::function<std::unique_ptr<HapticDevice>(Clock&)> make_haptic;  // another device in place of the mock
@@ -48,7 +49,9 @@ class PlayerBench {
   std::shared_ptr<MockHapticBench> hand = std::make_shared<MockHapticBench>();
   ManualClock clock;
 
-  void press(double at_s, std::uint16_t key) { keys.push_back({fromSeconds(at_s), key}); }
+  void press(double at_s, std::uint16_t key, double held_s = 0.05) {
+    keys.push_back({fromSeconds(at_s), key, fromSeconds(held_s)});
+  }
 
   Outcome<void> run() { return runOn(clock); }
 
@@ -84,16 +87,14 @@ class PlayerBench {
   }
 
  private:
-  // A mock source does not look at its url; which profile it has is the order in which sources are made: the film, then
-  // the depth.
   [[nodiscard]] PairReader::Backends backends(Clock& time) {
-    auto made = std::make_shared<int>(0);
-    return {.make_source =
-                [this, made, &time] {
-                  const std::string& url = (*made)++ == 0 ? config.source.url : config.source.depth_url;
-                  return makeMockSource(sources.at(url), time);
-                },
-            .make_decoder = [] { return makeMockDecoder({.max_held_frames = 32}); }};
+    return {.make_source = [this, &time] { return makeMockSources(sources, time); },
+            .make_decoder = [] { return makeMockDecoder({.max_held_frames = 32}); },
+            .read_text = [this](const std::string& url, std::size_t, const std::atomic<bool>&) -> Result<std::string> {
+              const auto text = texts.find(url);
+              if (text == texts.end()) return fail(ErrorCode::NotFound, "no such text");
+              return text->second;
+            }};
   }
 };
 

@@ -88,7 +88,7 @@ TEST_F(PlayerScenario, AfterEachSeekThePictureAndTheSurfaceAreOfTheSameTime) {
   bench_.sources["film"].tracks[0].keyframe_interval = 12;
   bench_.sources["film"].tracks[1].keyframe_interval = 7;
   bench_.press(2.0, KEY_RIGHT);
-  bench_.press(3.0, KEY_FASTFORWARD);
+  bench_.press(3.0, KEY_FORWARD);
   bench_.press(4.0, KEY_LEFT);
   bench_.press(5.0, KEY_STOP);
   playsWell();

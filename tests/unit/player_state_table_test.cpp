@@ -11,18 +11,19 @@ namespace relievo {
 namespace {
 
 // Written from the words of the states, not from the code. A row per state, a column per event; a letter is the state
-// that follows, '.' a refusal. Columns: Ready Open Opened Filled FilledHeld Play Pause Seek Sought Starved EndOfFilm
-// Loop Stop Fail. Letters: b(O)ot (I)dle (o)pening (B)uffering (P)laying pa(u)sed (S)eeking (E)nded (F)ault.
+// that follows, '.' a refusal. Columns: Ready Open Opened Filled FilledHeld Play Pause sTep Rate Seek soUght starVed
+// EndOfFilm Loop stoP Fail. Letters: b(O)ot (I)dle (o)pening (B)uffering (P)laying pa(u)sed (S)eeking (E)nded (F)ault.
 constexpr std::array<std::string_view, kPlayerStateCount> kExpected{
-    "I............F",  // boot
-    ".o............",  // idle
-    "..B.........IF",  // opening
-    "...PuBBS..E.IF",  // buffering
-    "......uS.BE.IF",  // playing
-    ".....P.S....IF",  // paused
-    ".....SSSB...IF",  // seeking
-    "...........SIF",  // ended
-    "............I.",  // fault
+    // ROOFFPPTRSUVELPF
+    "I..............F",  // boot
+    ".o..............",  // idle
+    ".oB..oo.......IF",  // opening
+    ".o.PuBB.BS..E.IF",  // buffering
+    ".o....uuPS.BE.IF",  // playing
+    ".o...P.u.S....IF",  // paused
+    ".o...SS.SSB...IF",  // seeking
+    ".o...........SIF",  // ended
+    ".o............I.",  // fault
 };
 constexpr std::string_view kLetters = "OIoBPuSEF";
 
@@ -62,6 +63,30 @@ TEST(StateTable, NamesStatesAsTheReportDoes) {
   EXPECT_STREQ(name(PlayerState::Boot), "boot");
   EXPECT_STREQ(name(PlayerState::Buffering), "buffering");
   EXPECT_STREQ(name(PlayerState::Fault), "fault");
+}
+
+// Every row of the table is on the drawing, and nothing else is.
+TEST(StateTable, TheDrawingIsTheTable) {
+  const std::string graph = stateGraph();
+  std::size_t rows = 0;
+  for (std::size_t s = 0; s < kPlayerStateCount; ++s) {
+    for (std::size_t e = 0; e < kPlayerEventCount; ++e) {
+      const auto event = static_cast<PlayerEvent>(e);
+      const auto next = nextState(static_cast<PlayerState>(s), event);
+      if (!next) continue;
+      ++rows;
+      const std::string arrow = std::string(name(static_cast<PlayerState>(s))) + " -> " + name(*next) + " [label=\"";
+      const std::size_t at = graph.find(arrow);
+      ASSERT_NE(at, std::string::npos) << arrow;
+      const std::string label =
+          "\\n" + graph.substr(at + arrow.size(), graph.find("\"]", at) - at - arrow.size()) + "\\n";
+      EXPECT_NE(label.find(std::string("\\n") + name(event) + "\\n"), std::string::npos) << arrow << name(event);
+    }
+  }
+  std::size_t labels = 0;
+  for (std::size_t at = graph.find("label"); at != std::string::npos; at = graph.find("label", at + 1)) ++labels;
+  for (std::size_t at = graph.find("\\n"); at != std::string::npos; at = graph.find("\\n", at + 1)) ++labels;
+  EXPECT_EQ(labels, rows);
 }
 
 }  // namespace

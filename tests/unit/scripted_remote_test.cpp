@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <linux/input-event-codes.h>
 
-#include "drivers/mock/key_names.h"
+#include "hal/key_names.h"
 
 namespace relievo {
 namespace {
@@ -60,7 +60,8 @@ TEST(ScriptedRemote, AMissingFileIsNotFound) {
 
 TEST(ScriptedRemote, PressesEachKeyOnceWhenItsTimeHasCome) {
   ManualClock clock(MonotonicTime(std::chrono::hours(5)));
-  const auto remote = makeScriptedRemote({{std::chrono::seconds(1), KEY_OK}, {std::chrono::seconds(1), KEY_UP}}, clock);
+  const auto remote = makeScriptedRemote(
+      {{std::chrono::seconds(1), KEY_OK, std::chrono::seconds(2)}, {std::chrono::seconds(1), KEY_UP}}, clock);
   ASSERT_TRUE(remote->open());
   clock.advance(std::chrono::milliseconds(999));
   EXPECT_FALSE(remote->poll(clock.now()).value());
@@ -73,6 +74,32 @@ TEST(ScriptedRemote, PressesEachKeyOnceWhenItsTimeHasCome) {
   EXPECT_EQ(first->time, MonotonicTime(std::chrono::hours(5) + std::chrono::seconds(1)));
   EXPECT_EQ(second->code, KEY_UP);
   EXPECT_FALSE(remote->poll(clock.now()).value());
+
+  // Each is let go of after its own time.
+  clock.advance(std::chrono::seconds(1));
+  const auto third = remote->poll(clock.now()).value();
+  ASSERT_TRUE(third);
+  EXPECT_EQ(third->code, KEY_UP);
+  EXPECT_EQ(third->action, KeyEvent::Action::Release);
+  EXPECT_FALSE(remote->poll(clock.now()).value());
+  clock.advance(std::chrono::seconds(1));
+  const auto fourth = remote->poll(clock.now()).value();
+  ASSERT_TRUE(fourth);
+  EXPECT_EQ(fourth->code, KEY_OK);
+  EXPECT_EQ(fourth->time, MonotonicTime(std::chrono::hours(5) + std::chrono::seconds(3)));
+  EXPECT_FALSE(remote->poll(clock.now()).value());
+}
+
+TEST(ScriptedRemote, AKeyMayBeHeldDown) {
+  const auto keys = parseKeyScript("1 OK 1.5\n2 5\n3 5 0.2\n", "s");
+  ASSERT_TRUE(keys);
+  ASSERT_EQ(keys->size(), 3u);
+  EXPECT_EQ((*keys)[0].code, KEY_OK);
+  EXPECT_EQ((*keys)[0].held, std::chrono::milliseconds(1500));
+  EXPECT_EQ((*keys)[1].code, KEY_5);
+  EXPECT_EQ((*keys)[1].held, ScriptedKey{}.held);
+  EXPECT_EQ((*keys)[2].code, KEY_5);
+  EXPECT_EQ((*keys)[2].held, std::chrono::milliseconds(200));
 }
 
 TEST(KeyNames, AreThoseOfTheKernel) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A table and a linear search: a script is read once.
-#include "drivers/mock/key_names.h"
+#include "hal/key_names.h"
 
 #include <linux/input-event-codes.h>
 
@@ -218,6 +218,13 @@ std::optional<std::uint16_t> keyCode(std::string_view name) noexcept {
     if (equalInUpperCase(name, key.name)) return key.code;
   }
   return std::nullopt;
+}
+
+std::string_view keyName(std::uint16_t code) noexcept {
+  for (const KeyName& key : kKeys) {
+    if (key.code == code) return key.name;
+  }
+  return {};
 }
 
 std::string_view nearestKeyName(std::string_view word) {

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/media/playlist.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <utility>
+
+namespace relievo {
+namespace {
+
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+constexpr std::array<std::string_view, 4> kNetwork{"http", "https", "rtsp", "udp"};
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return result;
+}
+
+// "http" of "http://..", "concat" of "concat:a|b"; empty for a path. A letter alone is no scheme.
+std::string schemeOf(std::string_view url) {
+  const std::size_t colon = url.find(':');
+  if (colon == std::string_view::npos || colon < 2) return {};
+  const std::string_view scheme = url.substr(0, colon);
+  const bool is_one = std::ranges::all_of(scheme, [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '+' || c == '-' || c == '.';
+  });
+  return is_one ? lower(scheme) : std::string{};
+}
+
+bool isOnNetwork(std::string_view url) {
+  return std::ranges::find(kNetwork, schemeOf(url)) != kNetwork.end();
+}
+
+// In lower case, without what follows ? or # of an address.
+std::string nameOf(std::string_view url) {
+  return lower(url.substr(0, isOnNetwork(url) ? url.find_first_of("?#") : url.size()));
+}
+
+// A path beside a URL: "//host/a" keeps the scheme, "/a" the host, "a" the folder. What comes after ? or # of the
+// playlist's own address is no folder.
+std::string besideUrl(std::string_view path, std::string_view from) {
+  from = from.substr(0, from.find_first_of("?#"));
+  const std::size_t host = from.find("://") + 3;
+  if (path.starts_with("//")) return std::string(from.substr(0, host - 2)) + std::string(path);
+  const std::size_t root = std::min(from.find('/', host), from.size());
+  if (path.starts_with('/')) return std::string(from.substr(0, root)) + std::string(path);
+  const std::size_t last = from.rfind('/');
+  const std::string_view folder =
+      last == std::string_view::npos || last < root ? from.substr(0, root) : from.substr(0, last);
+  return std::string(folder) + "/" + std::string(path);
+}
+
+class Parser {
+ public:
+  explicit Parser(const std::string& from) : from_(from), from_network_(isOnNetwork(from)) {}
+
+  Outcome<void> addLine(std::string_view line) {
+    ++number_;
+    while (!line.empty() && std::isspace(static_cast<unsigned char>(line.back())) != 0) line.remove_suffix(1);
+    while (!line.empty() && std::isspace(static_cast<unsigned char>(line.front())) != 0) line.remove_prefix(1);
+    if (line.empty()) return {};
+    constexpr std::string_view kInfo = "#EXTINF:", kDepth = "#RELIEVO-DEPTH:";
+    if (line.starts_with(kInfo)) {
+      const std::size_t comma = line.find(',');
+      next_.title = comma == std::string_view::npos ? "" : std::string(line.substr(comma + 1));
+      return {};
+    }
+    if (line.starts_with(kDepth)) return address(line.substr(kDepth.size()), next_.depth_url);
+    if (line.front() == '#') return {};
+    if (auto done = address(line, next_.url); !done) return done;
+    if (entries_.size() == kMostEntries) return wrong("has more than 10000 entries; make several of it");
+    entries_.push_back(std::exchange(next_, {}));
+    return {};
+  }
+
+  Outcome<std::vector<PlaylistEntry>> entries() && {
+    if (entries_.empty()) return failOn(from_, {ErrorCode::Corrupt, 0, "the playlist names no film"});
+    return std::move(entries_);
+  }
+
+ private:
+  Outcome<void> address(std::string_view text, std::string& into) const {
+    const std::string scheme = schemeOf(text);
+    if (from_network_ && scheme.empty()) {
+      into = besideUrl(text, from_);
+      return {};
+    }
+    const bool allowed = scheme.empty() || isOnNetwork(text) || (scheme == "file" && !from_network_);
+    if (!allowed)
+      return wrong("names what a playlist may not open; http, https, rtsp, udp and, in a file, paths are let in");
+    const std::filesystem::path path{std::string(text)};
+    into = text;
+    if (scheme.empty() && path.is_relative()) {
+      // "./" before what has no folder: FFmpeg takes some names for protocols, such as "subfile,,..".
+      const auto folder = std::filesystem::path(from_).parent_path();
+      into = ((folder.empty() ? "." : folder) / path).string();
+    }
+    return {};
+  }
+
+  [[nodiscard]] std::unexpected<Failure> wrong(const char* what) const {
+    return std::unexpected(Failure{from_ + ", line " + std::to_string(number_), {ErrorCode::Corrupt, 0, what}});
+  }
+
+  const std::string& from_;
+  bool from_network_;
+  int number_ = 0;
+  PlaylistEntry next_;
+  std::vector<PlaylistEntry> entries_;
+};
+
+}  // namespace
+
+bool mayBePlaylist(std::string_view url) {
+  const std::string name = nameOf(url);
+  return name.ends_with(".m3u") || name.ends_with(".m3u8");
+}
+
+bool isPlaylist(std::string_view url, std::string_view text) {
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  if (text.find("#EXT-X-") != std::string_view::npos) return false;
+  return text.starts_with("#EXTM3U") || nameOf(url).ends_with(".m3u");
+}
+
+Outcome<std::vector<PlaylistEntry>> parsePlaylist(std::string_view text, const std::string& from) {
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  Parser parser(from);
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    if (auto added = parser.addLine(text.substr(0, end)); !added) return std::unexpected(added.error());
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return std::move(parser).entries();
+}
+
+}  // namespace relievo

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lists, rates, steps and places in films, in simulated time.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <linux/input-event-codes.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "app/player/resume.h"
+#include "tests/scenario/player_bench.h"
+
+namespace relievo {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+class PlayerTransport : public testing::Test {
+ protected:
+  void playsWell() {
+    const auto played = bench_.run();
+    ASSERT_TRUE(played) << played.error().thing << ": " << played.error().error.message;
+  }
+  // Films of 1, 2, 3 s.
+  void aList() {
+    bench_.sources = {{"./a", PlayerBench::film(25)}, {"./b", PlayerBench::film(50)}, {"./c", PlayerBench::film(75)}};
+    bench_.texts["list.m3u"] = "#EXTM3U\na\nb\nc\n";
+    bench_.config.source.url = "list.m3u";
+  }
+  // At rest in the highest plane of the film (code 109, 17.1 mm).
+  void aFingerInside() {
+    bench_.haptic.position_mm = [](double t) { return glm::dvec3(0, 0, t < 0.3 ? 25 : 15); };
+  }
+
+  PlayerBench bench_;
+};
+
+TEST_F(PlayerTransport, AListIsPlayedFromItsFirstFilmToItsLast) {
+  aList();
+  playsWell();
+  EXPECT_EQ(
+      bench_.states(),
+      "boot idle opening buffering playing ended opening buffering playing ended opening buffering playing ended idle");
+  EXPECT_THAT(bench_.report.films, ElementsAre("./a", "./b", "./c"));
+  EXPECT_EQ(bench_.report.frames_shown, 150u);
+  EXPECT_EQ(bench_.report.pairs.pairs, 150u);
+  EXPECT_EQ(bench_.report.pairs.mismatched, 0u);
+  EXPECT_NEAR(bench_.report.media_s, 6.0, 0.02);
+  EXPECT_THAT(bench_.report.faults, IsEmpty());
+}
+
+TEST_F(PlayerTransport, AListOnLoopBeginsAgain) {
+  aList();
+  bench_.config.loop = true;
+  bench_.config.duration = std::chrono::seconds(10);
+  playsWell();
+  EXPECT_THAT(bench_.report.films, ElementsAre("./a", "./b", "./c", "./a", "./b", "./c"));
+}
+
+TEST_F(PlayerTransport, NextAndPreviousGoFromFilmToFilm) {
+  aList();
+  bench_.sources["./b"] = PlayerBench::film(500);
+  bench_.press(0.5, KEY_NEXT);      // to b
+  bench_.press(4.5, KEY_PREVIOUS);  // more than 3 s into it: its beginning
+  bench_.press(5.0, KEY_PREVIOUS);  // to a
+  bench_.press(5.5, KEY_NEXTSONG);
+  bench_.press(6.0, KEY_CHANNELUP);
+  bench_.press(6.5, KEY_NEXT);  // there is none
+  playsWell();
+  EXPECT_THAT(bench_.report.films, ElementsAre("./a", "./b", "./a", "./b", "./c"));
+  ASSERT_THAT(bench_.report.seeks, SizeIs(1));
+  EXPECT_EQ(bench_.report.seeks[0].target_s, 0.0);
+}
+
+TEST_F(PlayerTransport, TheForceIsZeroBetweenFilmsAndFadesInOnTheNext) {
+  aList();
+  bench_.sources["./b"].tracks[0].width = 24;  // another shape: another volume
+  bench_.sources["./b"].tracks[1].width = 24;
+  aFingerInside();
+  playsWell();
+  EXPECT_GT(bench_.report.haptic.contact_ticks, 1000u);
+  EXPECT_NEAR(static_cast<double>(bench_.report.haptic.ticks), 6000, 30);
+  EXPECT_LE(bench_.report.haptic.max_scene_slew_n_per_s, 50.0 + 1e-6);
+  EXPECT_EQ(bench_.force_left, glm::dvec3(0));
+}
+
+TEST_F(PlayerTransport, AFilmThatCannotBePlayedIsPassedOver) {
+  aList();
+  bench_.sources.erase("./b");
+  playsWell();
+  EXPECT_THAT(bench_.report.films, ElementsAre("./a", "./b", "./c"));
+  EXPECT_EQ(bench_.faults("./b"), 1u);
+  EXPECT_EQ(bench_.report.frames_shown, 100u);
+}
+
+TEST_F(PlayerTransport, AListOfWhichNothingCanBePlayedFails) {
+  aList();
+  bench_.sources.clear();
+  bench_.config.loop = true;
+  const auto played = bench_.run();
+  ASSERT_FALSE(played);
+  EXPECT_EQ(played.error().thing, "./c");
+}
+
+TEST_F(PlayerTransport, AListThatNamesFilesOfTheBoxFromTheNetworkOpensNothing) {
+  bench_.texts["http://host/list.m3u"] = "#EXTM3U\nfile:///etc/passwd\n";
+  bench_.config.source.url = "http://host/list.m3u";
+  const auto played = bench_.run();
+  ASSERT_FALSE(played);
+  EXPECT_THAT(played.error().thing, HasSubstr("line 2"));
+  EXPECT_THAT(bench_.report.films, ElementsAre("http://host/list.m3u"));
+}
+
+TEST_F(PlayerTransport, APlayerThatStaysWaitsForTheNextFilm) {
+  bench_.config.stays = true;
+  bench_.config.duration = std::chrono::seconds(20);
+  bench_.press(6.0, KEY_PLAY);  // the same again; it ended at 4
+  bench_.press(7.0, KEY_STOP);
+  bench_.press(8.0, KEY_OK);
+  playsWell();
+  EXPECT_EQ(
+      bench_.states(),
+      "boot idle opening buffering playing ended idle opening buffering playing idle opening buffering playing ended "
+      "idle");
+  EXPECT_NEAR(bench_.report.wall_s, 20.0, 0.02);
+  EXPECT_NEAR(bench_.report.media_s, 9.0, 0.1);
+}
+
+TEST_F(PlayerTransport, APlayerThatStaysOutlivesAFilmThatFails) {
+  bench_.config.stays = true;
+  bench_.config.duration = std::chrono::seconds(5);
+  bench_.sources.clear();
+  playsWell();
+  EXPECT_EQ(bench_.states(), "boot idle opening fault idle");
+  EXPECT_EQ(bench_.faults("film"), 1u);
+}
+
+TEST_F(PlayerTransport, SlowMotionShowsEveryPictureLongerAndIsFelt) {
+  aFingerInside();
+  bench_.press(1.0, KEY_SLOW);  // 1/2 from 1 s on: 3 s take 6
+  playsWell();
+  EXPECT_EQ(bench_.report.frames_shown, 100u);
+  EXPECT_EQ(bench_.report.frames_dropped, 0u);
+  EXPECT_NEAR(bench_.report.wall_s, 7.0, 0.05);
+  EXPECT_GT(bench_.report.haptic.contact_ticks, 6000u);
+  EXPECT_EQ(bench_.faults("depth late"), 0u);
+}
+
+TEST_F(PlayerTransport, SlowerAndSlowerAndPlayIsTheUsualRateAgain) {
+  for (int i = 0; i < 5; ++i) bench_.press(1.0, KEY_SLOW);  // 1/8 is the least
+  bench_.press(9.0, KEY_PLAY);                              // a second of film later
+  playsWell();
+  EXPECT_NEAR(bench_.report.wall_s, 1 + 8 + 2, 0.05);
+  EXPECT_EQ(bench_.report.frames_shown, 100u);
+}
+
+TEST_F(PlayerTransport, FastForwardShowsKeyFramesAtItsRateAndIsNotFelt) {
+  bench_.sources["film"] = PlayerBench::film(2000);  // 80 s
+  bench_.sources["film"].tracks[0].keyframe_interval = 12;
+  bench_.sources["film"].tracks[1].keyframe_interval = 12;
+  aFingerInside();
+  bench_.press(1.0, KEY_FASTFORWARD);  // 2
+  bench_.press(1.0, KEY_FASTFORWARD);  // 4
+  playsWell();
+  EXPECT_NEAR(bench_.report.wall_s, 1 + 79.0 / 4, 0.6);
+  // A key frame each 0.48 s of film: 25 before, then 165.
+  EXPECT_NEAR(static_cast<double>(bench_.report.frames_shown), 25 + 165, 3);
+  EXPECT_EQ(bench_.report.pairs.mismatched, 0u);
+  EXPECT_NEAR(static_cast<double>(bench_.report.haptic.contact_ticks), 700, 100);  // until then
+  EXPECT_LE(bench_.report.haptic.max_scene_slew_n_per_s, 50.0 + 1e-6);
+  EXPECT_THAT(bench_.report.faults, IsEmpty());
+}
+
+TEST_F(PlayerTransport, WhereEveryFrameIsAKeyFrameOnlySoManyAreShownAsTheEyeFollows) {
+  bench_.sources["film"] = PlayerBench::film(2000);
+  for (int i = 0; i < 6; ++i) bench_.press(1.0, KEY_FASTFORWARD);  // 16
+  playsWell();
+  EXPECT_NEAR(bench_.report.wall_s, 1 + 79.0 / 16, 0.6);
+  EXPECT_NEAR(static_cast<double>(bench_.report.frames_shown), 25 + 50, 5);  // ten a second
+  EXPECT_LE(bench_.report.frames_dropped, 1u);
+}
+
+TEST_F(PlayerTransport, OutOfFastForwardItGoesOnExactlyThereAndIsFeltAgain) {
+  bench_.sources["film"] = PlayerBench::film(2000);
+  bench_.sources["film"].tracks[0].keyframe_interval = 50;
+  bench_.sources["film"].tracks[1].keyframe_interval = 50;
+  aFingerInside();
+  bench_.press(1.0, KEY_FASTFORWARD);
+  bench_.press(6.0, KEY_PAUSE);
+  bench_.press(8.0, KEY_PLAY);
+  bench_.press(9.0, KEY_STOP);
+  playsWell();
+  EXPECT_THAT(bench_.states(), HasSubstr("seeking buffering playing seeking buffering paused playing idle"));
+  EXPECT_NEAR(static_cast<double>(bench_.report.haptic.contact_ticks), 700 + 2900, 200);  // not in the 5 s between
+  EXPECT_NEAR(bench_.report.media_s, 1 + 2 * 5 + 1, 2.5);
+}
+
+TEST_F(PlayerTransport, ALiveSourceCannotRushAndPlaysOn) {
+  bench_.sources["film"].live = true;
+  bench_.press(1.0, KEY_FASTFORWARD);
+  playsWell();
+  EXPECT_NEAR(bench_.report.wall_s, 4.0, 0.05);
+  EXPECT_EQ(bench_.report.frames_shown, 100u);
+  EXPECT_EQ(bench_.faults("a live film"), 1u);
+}
+
+TEST_F(PlayerTransport, AStepShowsTheNextPictureAndStands) {
+  aFingerInside();
+  bench_.press(1.0, KEY_DOT);
+  for (int i = 0; i < 4; ++i) bench_.press(2.0 + i, KEY_DOT);
+  bench_.press(7.0, KEY_STOP);
+  playsWell();
+  EXPECT_EQ(bench_.states(), "boot idle opening buffering playing paused idle");
+  EXPECT_NEAR(static_cast<double>(bench_.report.frames_shown), 25 + 5, 1);
+  EXPECT_GT(bench_.report.haptic.contact_ticks, 6000u);
+  EXPECT_LE(bench_.report.haptic.max_scene_slew_n_per_s, 50.0 + 1e-6);
+  EXPECT_EQ(bench_.faults("depth late"), 0u);
+}
+
+TEST_F(PlayerTransport, AStepBeyondTheLastPictureStands) {
+  bench_.press(3.9, KEY_PAUSE);
+  for (int i = 0; i < 20; ++i) bench_.press(4.0 + i, KEY_DOT);
+  bench_.press(30.0, KEY_STOP);
+  playsWell();
+  EXPECT_EQ(bench_.report.frames_shown, 100u);
+}
+
+TEST_F(PlayerTransport, ADigitGoesToItsShareOfTheFilm) {
+  bench_.sources["film"] = PlayerBench::film(1000);  // 40 s
+  bench_.press(1.0, KEY_5);
+  bench_.press(2.0, KEY_NUMERIC_9);
+  bench_.press(3.0, KEY_STOP);
+  playsWell();
+  ASSERT_THAT(bench_.report.seeks, SizeIs(2));
+  EXPECT_NEAR(bench_.report.seeks[0].picture_s.value_or(-1), 20.0, 0.05);
+  EXPECT_NEAR(bench_.report.seeks[1].picture_s.value_or(-1), 36.0, 0.05);
+}
+
+TEST_F(PlayerTransport, OfALiveSourceThereIsNoShare) {
+  bench_.sources["film"].live = true;
+  bench_.press(1.0, KEY_5);
+  playsWell();
+  EXPECT_EQ(bench_.faults("length is not known"), 1u);
+  EXPECT_THAT(bench_.report.seeks, IsEmpty());
+}
+
+TEST_F(PlayerTransport, AHeldOkIsInfoAndAShortOnePauses) {
+  bench_.press(1.0, KEY_OK, 2.0);
+  bench_.press(3.5, KEY_ENTER, 0.1);
+  bench_.press(4.5, KEY_STOP);
+  playsWell();
+  EXPECT_EQ(bench_.states(), "boot idle opening buffering playing paused idle");
+  EXPECT_NEAR(bench_.report.media_s, 3.6, 0.05);
+}
+
+class PlayerResume : public PlayerTransport {
+ protected:
+  PlayerResume() { bench_.config.resume_path = path_; }
+  ~PlayerResume() override { std::filesystem::remove(path_); }
+  const std::string path_ = testing::TempDir() + "player-resume-" + std::to_string(::getpid()) + ".json";
+};
+
+TEST_F(PlayerResume, AFilmGoesOnWhereItWasLeft) {
+  bench_.sources["film"] = PlayerBench::film(1000);
+  bench_.press(12.0, KEY_STOP);
+  playsWell();
+  bench_.keys.clear();
+  bench_.config.duration = std::chrono::seconds(3);
+  playsWell();
+  EXPECT_EQ(bench_.states(), "boot idle opening buffering seeking buffering playing idle");
+  EXPECT_THAT(bench_.report.seeks, IsEmpty());  // nobody asked
+  EXPECT_NEAR(toSeconds(Resume(path_).find("film").value_or(MediaTime{})), 15.0, 0.1);
+}
+
+TEST_F(PlayerResume, AFilmThatHasEndedBeginsAtItsBeginning) {
+  bench_.press(0.5, KEY_9);
+  playsWell();
+  EXPECT_FALSE(Resume(path_).find("film"));
+  playsWell();
+  EXPECT_NEAR(bench_.report.wall_s, 0.5 + 0.4, 0.1);
+}
+
+TEST_F(PlayerResume, AListGoesOnWithTheFilmThatWasSeenLast) {
+  aList();
+  bench_.sources["./b"] = PlayerBench::film(500);
+  bench_.press(6.0, KEY_STOP);
+  playsWell();
+  bench_.keys.clear();
+  playsWell();
+  EXPECT_THAT(bench_.report.films, ElementsAre("./b", "./c"));
+  EXPECT_NEAR(bench_.report.media_s, 15 + 3, 0.2);  // 5 s of b were seen
+}
+
+}  // namespace
+}  // namespace relievo

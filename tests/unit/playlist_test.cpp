@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a playlist names, and what it may not.
+#include "app/media/playlist.h"
+
+#include <gtest/gtest.h>
+
+namespace relievo {
+namespace {
+
+std::vector<PlaylistEntry> entries(std::string_view text, const std::string& from = "/films/list.m3u") {
+  const auto parsed = parsePlaylist(text, from);
+  EXPECT_TRUE(parsed) << parsed.error().error.message;
+  return parsed.value_or(std::vector<PlaylistEntry>{});
+}
+std::string url(std::string_view line, const std::string& from) {
+  const auto all = entries(line, from);
+  return all.size() == 1 ? all[0].url : "";
+}
+std::string refused(std::string_view text, const std::string& from) {
+  const auto parsed = parsePlaylist(text, from);
+  return parsed ? "" : parsed.error().thing;
+}
+
+TEST(Playlist, NamesFilmsWithTheirTitles) {
+  const auto all = entries(
+      "\xef\xbb\xbf#EXTM3U\r\n#EXTINF:12.5,A face, in relief\r\nface.mkv\r\n\r\n# by hand\r\n"
+      "#EXTINF:-1\r\n#RELIEVO-DEPTH:cup-depth.webm\r\n  /other/cup.webm  \r\nhttp://host/film.mkv\r\nlast one.mkv");
+  const std::vector<PlaylistEntry> expected{{"/films/face.mkv", "", "A face, in relief"},
+                                            {"/other/cup.webm", "/films/cup-depth.webm", ""},
+                                            {"http://host/film.mkv", "", ""},
+                                            {"/films/last one.mkv", "", ""}};
+  EXPECT_EQ(all, expected);
+}
+
+TEST(Playlist, WhatIsRelativeLiesBesideIt) {
+  EXPECT_EQ(url("a.mkv", "list.m3u"), "./a.mkv");
+  EXPECT_EQ(url("../a.mkv", "films/list.m3u"), "films/../a.mkv");
+  EXPECT_EQ(url("C:a.mkv", "/films/list.m3u"), "/films/C:a.mkv") << "a letter is no scheme";
+  EXPECT_EQ(url("a.mkv", "http://host/films/list.m3u?who=me/you#top"), "http://host/films/a.mkv");
+  EXPECT_EQ(url("/a.mkv", "http://host/films/list.m3u"), "http://host/a.mkv");
+  EXPECT_EQ(url("//other/a.mkv", "https://host/list.m3u"), "https://other/a.mkv");
+  EXPECT_EQ(url("a.mkv", "http://host"), "http://host/a.mkv");
+}
+
+TEST(Playlist, OneOnTheNetworkOpensTheNetworkAlone) {
+  const std::string from = "HTTP://host/list.m3u";
+  for (const char* line : {"file:///etc/shadow", "FILE:/etc/shadow", "concat:/etc/a|/etc/b", "data:text/plain,x",
+                           "crypto:file:/a", "pipe:0", "ftp://host/a"}) {
+    EXPECT_EQ(refused(std::string("ok.mkv\n") + line, from), from + ", line 2") << line;
+    EXPECT_EQ(refused(std::string("#RELIEVO-DEPTH:") + line + "\na.mkv", from), from + ", line 1") << line;
+  }
+  EXPECT_EQ(url("/etc/shadow", from), "HTTP://host/etc/shadow") << "of that host";
+  EXPECT_EQ(url("subfile,,start,0,end,9,,:/etc/shadow", from), "HTTP://host/subfile,,start,0,end,9,,:/etc/shadow")
+      << "a comma ends no scheme";
+  for (const char* line : {"http://a/b", "https://a/b", "rtsp://a/b", "udp://@:1234"}) EXPECT_EQ(url(line, from), line);
+}
+
+TEST(Playlist, OneInAFileOpensFilesButNoTricks) {
+  EXPECT_EQ(url("file:///films/a.mkv", "/films/list.m3u"), "file:///films/a.mkv");
+  for (const char* line : {"concat:a|b", "data:x", "pipe:0", "crypto:a"}) {
+    EXPECT_EQ(refused(line, "list.m3u"), "list.m3u, line 1") << line;
+  }
+}
+
+TEST(Playlist, WithoutAnEntryOrWithTooManyItIsNone) {
+  for (const char* text : {"", "#EXTM3U\n", "\n\n# nothing\n"}) EXPECT_EQ(refused(text, "list.m3u"), "list.m3u");
+  std::string text;
+  for (std::size_t i = 0; i < kMostEntries; ++i) text += "a.mkv\n";
+  EXPECT_EQ(entries(text).size(), kMostEntries);
+  EXPECT_EQ(refused(text + "b.mkv", "list.m3u"), "list.m3u, line 10001");
+}
+
+TEST(Playlist, IsToldFromOneFilmInManyParts) {
+  EXPECT_TRUE(isPlaylist("x", "#EXTM3U\na.mkv"));
+  EXPECT_TRUE(isPlaylist("list.M3U", "a.mkv"));
+  EXPECT_TRUE(isPlaylist("http://host/list.m3u?x=1", "a.mkv"));
+  EXPECT_FALSE(isPlaylist("http://host/film.m3u8", "#EXTM3U\n#EXT-X-TARGETDURATION:4\nsegment0.ts"));
+  EXPECT_FALSE(isPlaylist("film.mkv", "\x1a\x45\xdf\xa3"));
+}
+
+}  // namespace
+}  // namespace relievo
