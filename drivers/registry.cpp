@@ -15,13 +15,14 @@
 #include "drivers/polhem/polhem.h"
 #include "drivers/replay/replay.h"
 #include "drivers/sim/profiles.h"
+#include "drivers/terminal/terminal.h"
 #include "drivers/window/window_remote.h"
 
 #define RELIEVO_DISPLAY_NAMES "kms[:/dev/dri/cardN] window offscreen[:FILE.y4m] mock"
 #define RELIEVO_HAPTIC_NAMES                                                         \
   "falcon[:FIRMWARE] polhem[:DESCRIPTION.json] pointer[:window|:/dev/input/eventN] " \
   "sim[:phantom|falcon|polhem][,stroking|resting|tapping|tense|shaking][,SCRIPT.csv] replay:FILE mock none"
-#define RELIEVO_REMOTE_NAMES "evdev window script:FILE none"
+#define RELIEVO_REMOTE_NAMES "evdev keys window script:FILE none"
 
 namespace relievo::drivers {
 
@@ -117,6 +118,7 @@ Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(std::string_view text, C
 Outcome<std::unique_ptr<RemoteInput>> makeRemoteInput(std::string_view text, Clock& clock) {
   const Spec spec(text);
   if (spec.plain("evdev")) return makeEvdevRemote();
+  if (spec.plain("keys")) return makeTerminalRemote();
   if (spec.plain("window")) return makeWindowRemote(theWindow());
   if (spec.withArgument("script")) {
     auto keys = loadKeyScript(*spec.argument);

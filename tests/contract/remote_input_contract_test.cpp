@@ -2,9 +2,19 @@
 // What every remote control keeps to.
 #include <gtest/gtest.h>
 #include <linux/input-event-codes.h>
+#include <poll.h>
+#include <pty.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <stdexcept>
+#include <string_view>
 
 #include "drivers/mock/scripted_remote.h"
+#include "drivers/terminal/terminal.h"
+#include "drivers/terminal/terminal_keys.h"
 #include "drivers/window/window_remote.h"
+#include "platform/unique_fd.h"
 #include "tests/contract/state_table.h"
 
 namespace relievo {
@@ -15,7 +25,23 @@ using namespace std::chrono_literals;
 
 struct Remote {
   std::unique_ptr<RemoteInput> input;
-  std::function<void()> press;  // KEY_OK, one second after opening; called then
+  std::function<void()> press;  // one second after opening; called then
+  std::uint16_t key = KEY_OK;
+};
+
+struct Terminal {
+  Terminal() {
+    int out = -1, in = -1;
+    if (::openpty(&out, &in, nullptr, nullptr, nullptr) != 0) throw std::runtime_error("no pseudo-terminal");
+    outside.reset(out);
+    inside.reset(in);
+  }
+  void type(std::string_view text) const {
+    ASSERT_EQ(::write(outside.get(), text.data(), text.size()), static_cast<ssize_t>(text.size()));
+    pollfd wait{.fd = inside.get(), .events = POLLIN, .revents = 0};
+    ASSERT_EQ(::poll(&wait, 1, 5000), 1) << "the kernel hands it on by itself";
+  }
+  UniqueFd outside, inside;
 };
 
 struct Backend {
@@ -33,6 +59,11 @@ const Backend kBackends[] = {
        const auto window = std::make_shared<WindowInput>();
        return Remote{makeWindowRemote(window),
                      [window, &clock] { EXPECT_TRUE(window->keys.tryPush({.code = KEY_OK, .time = clock.now()})); }};
+     }},
+    {"keys",
+     [](ManualClock&) {
+       const auto terminal = std::make_shared<Terminal>();
+       return Remote{makeTerminalRemote(terminal->inside.get()), [terminal] { terminal->type("\r"); }, KEY_ENTER};
      }},
 };
 
@@ -55,15 +86,17 @@ TEST_P(RemoteInputContract, EveryVerbInEveryState) {
       {State::Closed, {State::Open, no, State::Closed}},
       {State::Open, {no, State::Open, State::Closed}},
   };
+  std::vector<std::function<void()>> senders;  // a terminal lives on in its own
   test::expectStateTable(verbs, table, [&](State state) {
-    auto remote = GetParam().make(clock_).input;
+    auto [remote, press, key] = GetParam().make(clock_);
+    senders.push_back(std::move(press));
     EXPECT_TRUE(state != State::Open || remote->open());
-    return remote;
+    return std::move(remote);
   });
 }
 
 TEST_P(RemoteInputContract, YieldsAKeyOnceAndNothingInBetween) {
-  const auto [remote, press] = GetParam().make(clock_);
+  const auto [remote, press, expected] = GetParam().make(clock_);
   for (int opening = 0; opening < 2; ++opening) {
     ASSERT_TRUE(remote->open());
     EXPECT_FALSE(remote->poll(clock_.now()).value()) << "no key yet";
@@ -72,11 +105,65 @@ TEST_P(RemoteInputContract, YieldsAKeyOnceAndNothingInBetween) {
     clock_.advance(1s);
     const auto key = remote->poll(clock_.now()).value();
     ASSERT_TRUE(key);
-    EXPECT_EQ(key->code, KEY_OK);
+    EXPECT_EQ(key->code, expected);
+    EXPECT_EQ(key->action, KeyEvent::Action::Press);
     EXPECT_LE(key->time, clock_.now());
-    EXPECT_FALSE(remote->poll(clock_.now()).value());
+    while (const auto next = remote->poll(clock_.now()).value()) {
+      EXPECT_EQ(next->code, expected);
+      EXPECT_EQ(next->action, KeyEvent::Action::Release);
+    }
     remote->close();
   }
+}
+
+std::vector<std::uint16_t> keysOf(std::string_view bytes) {
+  std::vector<std::uint16_t> codes;
+  while (!bytes.empty()) {
+    if (const auto code = takeTerminalKey(bytes)) codes.push_back(*code);
+  }
+  return codes;
+}
+
+TEST(TerminalKeys, AreThoseOfTheKernel) {
+  using Keys = std::vector<std::uint16_t>;
+  EXPECT_EQ(keysOf("pP 7."), (Keys{KEY_P, KEY_P, KEY_SPACE, KEY_7, KEY_DOT}));
+  EXPECT_EQ(keysOf("\x1b[A\x1b[B\x1b[C\x1b[D\x1bOC"), (Keys{KEY_UP, KEY_DOWN, KEY_RIGHT, KEY_LEFT, KEY_RIGHT}));
+  EXPECT_EQ(keysOf("\x1b[5~\x1b[6~\x1b[H\x1b[4~"), (Keys{KEY_PAGEUP, KEY_PAGEDOWN, KEY_HOME, KEY_END}));
+  EXPECT_EQ(keysOf("\x1b"), (Keys{KEY_ESC}));
+  EXPECT_EQ(keysOf("\x1b\x1b[A"), (Keys{KEY_ESC, KEY_UP}));
+  // What means nothing here takes nothing with it.
+  EXPECT_EQ(keysOf("\x1b[1;5Cq\x1b[200~\xc3\xa4s\x01"), (Keys{KEY_Q, KEY_S}));
+  EXPECT_EQ(keysOf("\x1b[12"), (Keys{}));
+}
+
+TEST(TerminalRemote, TheTerminalIsAsItWasAfterwards) {
+  const Terminal terminal;
+  termios before{}, open{}, after{};
+  ASSERT_EQ(::tcgetattr(terminal.inside.get(), &before), 0);
+  const auto remote = makeTerminalRemote(terminal.inside.get());
+  ASSERT_TRUE(remote->open());
+  ASSERT_EQ(::tcgetattr(terminal.inside.get(), &open), 0);
+  EXPECT_EQ(open.c_lflag & (ICANON | ECHO), 0U);
+  EXPECT_NE(open.c_lflag & ISIG, 0U) << "Ctrl-C stays";
+  remote->close();
+  ASSERT_EQ(::tcgetattr(terminal.inside.get(), &after), 0);
+  EXPECT_EQ(after.c_lflag, before.c_lflag);
+}
+
+TEST(TerminalRemote, WhatIsNoTerminalIsRefused) {
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  const UniqueFd out(ends[0]), in(ends[1]);
+  EXPECT_EQ(makeTerminalRemote(out.get())->open().error().code, ErrorCode::Unsupported);
+}
+
+TEST(TerminalRemote, AfterAHangUpThereAreNoMoreKeys) {
+  Terminal terminal;
+  const auto remote = makeTerminalRemote(terminal.inside.get());
+  ASSERT_TRUE(remote->open());
+  terminal.outside.reset();
+  const auto key = remote->poll(MonotonicTime(1h));
+  EXPECT_TRUE(key && !*key);
 }
 
 TEST(WindowRemote, WhatWasPressedBeforeItListenedIsNotMeantForIt) {

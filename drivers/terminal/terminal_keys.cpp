@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drivers/terminal/terminal_keys.h"
+
+#include <linux/input-event-codes.h>
+
+#include <algorithm>
+
+#include "hal/key_names.h"
+
+namespace relievo {
+namespace {
+
+struct Sequence {
+  std::string_view bytes;  // after the escape and its [ or O
+  std::uint16_t code;
+};
+constexpr Sequence kSequences[] = {
+    {"A", KEY_UP},  {"B", KEY_DOWN},  {"C", KEY_RIGHT}, {"D", KEY_LEFT},    {"H", KEY_HOME},
+    {"F", KEY_END}, {"1~", KEY_HOME}, {"4~", KEY_END},  {"5~", KEY_PAGEUP}, {"6~", KEY_PAGEDOWN},
+};
+struct Character {
+  char character;
+  std::uint16_t code;
+};
+constexpr Character kCharacters[] = {
+    {' ', KEY_SPACE}, {'\r', KEY_ENTER}, {'\n', KEY_ENTER}, {'\t', KEY_TAB},  {'\x7f', KEY_BACKSPACE},
+    {'.', KEY_DOT},   {',', KEY_COMMA},  {'-', KEY_MINUS},  {'=', KEY_EQUAL}, {'/', KEY_SLASH},
+};
+
+// A sequence ends with its first byte from '@' on.
+std::string_view takeSequence(std::string_view& bytes) noexcept {
+  const auto last = std::ranges::find_if(bytes, [](char c) { return c >= '@'; });
+  const auto length = static_cast<std::size_t>(last - bytes.begin()) + (last == bytes.end() ? 0 : 1);
+  const std::string_view sequence = bytes.substr(0, length);
+  bytes.remove_prefix(length);
+  return sequence;
+}
+
+}  // namespace
+
+std::optional<std::uint16_t> takeTerminalKey(std::string_view& bytes) noexcept {
+  const char first = bytes.front();
+  bytes.remove_prefix(1);
+  if (first == '\x1b') {
+    if (bytes.empty() || (bytes.front() != '[' && bytes.front() != 'O')) return KEY_ESC;
+    bytes.remove_prefix(1);
+    const auto* const known = std::ranges::find(kSequences, takeSequence(bytes), &Sequence::bytes);
+    return known == std::end(kSequences) ? std::nullopt : std::optional(known->code);
+  }
+  const auto* const known = std::ranges::find(kCharacters, first, &Character::character);
+  if (known != std::end(kCharacters)) return known->code;
+  const bool named = (first >= '0' && first <= '9') || (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z');
+  return named ? keyCode({&first, 1}) : std::nullopt;
+}
+
+}  // namespace relievo
