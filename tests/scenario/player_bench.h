@@ -42,6 +42,8 @@ class PlayerBench {
   MockDisplayProfile display{.refresh_period = Duration(0)};
   MockHapticProfile haptic;
   std::function<std::unique_ptr<HapticDevice>(Clock&)> make_haptic;  // another device in place of the mock
+  std::function<std::unique_ptr<MediaSource>()> make_source;         // of real films, with a decoder for them
+  std::function<std::unique_ptr<VideoDecoder>()> make_decoder = [] { return makeMockDecoder({.max_held_frames = 32}); };
   std::vector<ScriptedKey> keys;
   PlayerConfig config{.source = {.url = "film"}, .own_threads = false};
   bool with_haptic = true;
@@ -88,8 +90,8 @@ class PlayerBench {
 
  private:
   [[nodiscard]] PairReader::Backends backends(Clock& time) {
-    return {.make_source = [this, &time] { return makeMockSources(sources, time); },
-            .make_decoder = [] { return makeMockDecoder({.max_held_frames = 32}); },
+    return {.make_source = [this, &time] { return make_source ? make_source() : makeMockSources(sources, time); },
+            .make_decoder = make_decoder,
             .read_text = [this](const std::string& url, std::size_t, const std::atomic<bool>&) -> Result<std::string> {
               const auto text = texts.find(url);
               if (text == texts.end()) return fail(ErrorCode::NotFound, "no such text");
