@@ -110,8 +110,12 @@ void Player::noteMissing() {
 // A film that cannot go on: the next one, or none.
 void Player::followFault(MonotonicTime now) {
   if (state_ != PlayerState::Fault || hopeless_) return;
-  if (film_ + 1 < films_.size()) return openFilm(film_ + 1, now);
-  if (!config_.stays) return;
+  const bool more = film_ + 1 < films_.size();
+  if (!more && !config_.stays) return;  // it ends with that failure
+  const std::string what = failure_->thing + ": " + failure_->error.message;
+  log(LogLevel::Error, "play", "%s; %s", what.c_str(), more ? "the next film is played" : "it is stopped");
+  text_.tell(what, now);
+  if (more) return openFilm(film_ + 1, now);
   failure_.reset();
   stopFilm(now);
 }

@@ -314,5 +314,49 @@ TEST_F(PlayerProgram, PlaysRealFootage) {
   EXPECT_NEAR(r["film"]["volume_mm"][1].get<double>(), 160.0 * 512 / 288, 0.01);
 }
 
+// Killed in the middle, it goes on where the film was, to within what is shown between two notes of the place.
+TEST_F(PlayerProgram, AfterAKillItGoesOnWhereItWas) {
+  test::makeClip(at("film.mkv"), {color(900), depth(900)});
+  ::setenv("XDG_STATE_HOME", at("state").c_str(), 1);
+  const auto kept = [this] {
+    const json films = json::parse(textOf("state/relievo/resume.json"), nullptr, false);
+    return films.is_array() && !films.empty() ? films[0][1].get<double>() : 0.0;
+  };
+  double left_s = 0;
+  {
+    test::Process player({std::string(RELIEVO_BIN_DIR) + "/relievo", "play", at("film.mkv"), "--display", "mock",
+                          "--resume", "--record", at("t.csv")},
+                         at("stderr.txt"));
+    for (int i = 0; i < 600 && kept() < 3; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    player.send(SIGKILL);
+    EXPECT_EQ(player.wait(), -SIGKILL);
+    left_s = kept();
+  }
+  ASSERT_GE(left_s, 3);
+  EXPECT_FALSE(fs::exists(at("t.csv"))) << "half written";
+  const auto again = play(at("film.mkv") + " --resume --duration 2 --report " + at("r.json"));
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  const double shown_s = reportOf("r.json")["media_s"].get<double>();
+  EXPECT_NEAR(kept(), left_s + shown_s, 0.1);
+  ::unsetenv("XDG_STATE_HOME");
+}
+
+TEST_F(PlayerProgram, AListIsPlayedFilmByFilm) {
+  test::makeClip(at("one.mkv"), {color(), depth()});
+  test::makeClip(at("two.mkv"), {color(15), depth(15)});
+  std::ofstream(at("list.m3u")) << "#EXTM3U\n#EXTINF:1,One\none.mkv\nnone.mkv\ntwo.mkv\n";
+  const auto result = play(at("list.m3u") + " --report " + at("r.json"));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("none.mkv"));
+  const json r = reportOf("r.json");
+  EXPECT_EQ(r["films"], (json{at("one.mkv"), at("none.mkv"), at("two.mkv")}));
+  EXPECT_EQ(r["video"]["frames_shown"].get<int>() + r["video"]["frames_dropped"].get<int>(), 45);
+}
+
+TEST_F(PlayerProgram, AWrongKeyTableIsNamedByItsLine) {
+  std::ofstream(at("keys.toml")) << "[always]\nRIGHT = \"dance\"\n";
+  expectOneLine(play("film.mkv --keys " + at("keys.toml")), 2, "keys.toml:2");
+}
+
 }  // namespace
 }  // namespace relievo
