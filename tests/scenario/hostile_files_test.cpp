@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// Damaged films: five hundred files, each played in a process of its own. It ends with a clean error or plays; it never
+// crashes, hangs or takes the machine's memory.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <random>
+
+#include "drivers/ffmpeg/ffmpeg.h"
+#include "tests/scenario/player_bench.h"
+#include "tests/support/clip_maker.h"
+#include "tests/support/sanitizers.h"
+
+namespace relievo {
+namespace {
+
+constexpr int kFilesOfAKind = 125;
+constexpr rlim_t kMostCpuS = 5;
+constexpr long kMostKb = 512 * 1024;
+constexpr int kPlayed = 10, kRefused = 11;
+
+std::string bytesOf(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// Bits flipped, bytes overwritten, pieces cut out, doubled or moved, the end cut off; the head more often than the
+// rest, since there the sizes and the tables are.
+std::string damaged(std::string bytes, std::mt19937& random) {
+  const auto place = [&random](std::size_t size) {
+    const std::size_t reach = random() % 2 == 0 ? std::min<std::size_t>(size, 1024) : size;
+    return random() % std::max<std::size_t>(reach, 1);
+  };
+  for (auto times = 1 + random() % 12; times > 0 && !bytes.empty(); --times) {
+    const std::size_t at = place(bytes.size());
+    const std::size_t length = std::min<std::size_t>(1 + random() % 64, bytes.size() - at);
+    switch (random() % 6) {
+      case 0:
+        bytes[at] = static_cast<char>(bytes[at] ^ (1 << random() % 8));
+        break;
+      case 1:
+        for (std::size_t i = 0; i < length; ++i) bytes[at + i] = static_cast<char>(random());
+        break;
+      case 2:
+        bytes.erase(at, length);
+        break;
+      case 3:
+        bytes.insert(at, bytes.substr(at, length));
+        break;
+      case 4:
+        std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), length,
+                    static_cast<char>(random() % 2 == 0 ? 0 : 255));
+        break;
+      default:
+        if (random() % 4 == 0) bytes.resize(place(bytes.size()));
+    }
+  }
+  return bytes;
+}
+
+// How the process ended that played `film`: its exit status, and what it took at most.
+struct End {
+  int status = 0;
+  rusage used{};
+};
+End playApart(const std::string& film) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const rlimit cpu{.rlim_cur = kMostCpuS, .rlim_max = kMostCpuS};
+    ::setrlimit(RLIMIT_CPU, &cpu);
+    ::alarm(100);  // of a wait for ever
+    PlayerBench bench;
+    bench.make_source = makeFfmpegSource;
+    bench.make_decoder = makeFfmpegDecoder;
+    bench.config.source.url = film;
+    bench.config.duration = std::chrono::seconds(3);
+    bench.press(0.5, 106);  // right: a seek
+    const auto played = bench.run();
+    ::_exit(played ? kPlayed : kRefused);  // not 1: that is a sanitizer's
+  }
+  End end;
+  ::wait4(child, &end.status, 0, &end.used);
+  return end;
+}
+
+class HostileFiles : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Containers, HostileFiles, testing::Values("mkv", "mp4", "ts", "webm"),
+                         [](const auto& test) { return std::string(test.param); });
+
+TEST_P(HostileFiles, PlayOrFailCleanly) {
+  const test::TemporaryFolder folder;
+  const std::string whole = folder / (std::string("whole.") + GetParam()),
+                    film = folder / (std::string("x.") + GetParam());
+  const std::string codec = std::string(GetParam()) == "webm" ? "libvpx" : "libx264";
+  const test::ClipTrack track{.codec = codec, .pix_fmt = "yuv420p", .width = 64, .height = 48, .frames = 40};
+  test::makeClip(whole, {track, track});
+  const std::string bytes = bytesOf(whole);
+  ASSERT_EQ(WEXITSTATUS(playApart(whole).status), kPlayed);
+
+  int played = 0;
+  for (int i = 0; i < kFilesOfAKind; ++i) {
+    std::mt19937 random(static_cast<unsigned>(i));
+    std::ofstream(film, std::ios::binary) << damaged(bytes, random);
+    const End end = playApart(film);
+    ASSERT_TRUE(WIFEXITED(end.status)) << "file " << i << " ended it with signal " << WTERMSIG(end.status);
+    const int code = WEXITSTATUS(end.status);
+    ASSERT_TRUE(code == kPlayed || code == kRefused) << "file " << i << " ended it with code " << code;
+    if (!kMemorySanitizer) {
+      ASSERT_LT(end.used.ru_maxrss, kMostKb) << "file " << i;
+    }
+    played += code == kPlayed ? 1 : 0;
+  }
+  // Neither all nor none: else the damage is too little or too much to say anything.
+  EXPECT_GT(played, kFilesOfAKind / 10);
+  EXPECT_LT(played, kFilesOfAKind);
+}
+
+}  // namespace
+}  // namespace relievo
