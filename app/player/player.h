@@ -153,6 +153,7 @@ class Player {
   std::optional<MediaTime> target_;           // of a seek that has shown no picture yet
   bool seek_wanted_ = false;                  // by the viewer: it goes into the report
   bool new_epoch_ = true;                     // the next picture does not continue the last one
+  MonotonicTime sought_;                      // when it was asked for
   std::optional<MonotonicTime> await_touch_;  // the first tick after this is on the sought surface
 
   std::optional<MonotonicTime> dry_since_;  // nothing has lain ahead since then

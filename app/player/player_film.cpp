@@ -109,6 +109,7 @@ void Player::begin(MonotonicTime now) {
   followSurface();
   if (target_ && seek_wanted_) {
     report_.seeks.back().picture_s = toSeconds(first);
+    report_.seeks.back().picture_ms = 1e3 * toSeconds(now - sought_);
     await_touch_ = parts_.clock.now();
   }
   target_.reset();
@@ -293,8 +294,12 @@ MonotonicTime Player::nextPicture(MonotonicTime now) const {
 void Player::drainTouch() {
   while (const auto tick = haptic_.nextTick()) {
     if (parts_.recorder != nullptr) parts_.recorder->add(*tick);
+    if (!report_.first_touch_ms && tick->device_present) {
+      report_.first_touch_ms = 1e3 * toSeconds(tick->time - started_);
+    }
     if (!await_touch_ || tick->time <= *await_touch_) continue;
     if (const auto frame = surface_.frameAt(tick->media_time)) report_.seeks.back().surface_s = toSeconds(*frame);
+    report_.seeks.back().surface_ms = 1e3 * toSeconds(tick->time - sought_);
     await_touch_.reset();
   }
   while (const auto fault = haptic_.nextFault()) {

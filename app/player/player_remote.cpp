@@ -170,6 +170,7 @@ void Player::seek(MediaTime target, PlayerEvent why, bool wanted, MonotonicTime 
   feed_.seek(*target_, rate_ > 1 ? fromSeconds(kRushStepS * rate_) : Duration(0));
   new_epoch_ = true;
   seek_wanted_ = wanted;
+  sought_ = now;
   if (wanted) report_.seeks.push_back({toSeconds(*target_), {}, {}});
 }
 

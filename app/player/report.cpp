@@ -59,13 +59,15 @@ Json filmPart(const PlayReport& r) {
           {"volume_mm", {rounded(r.volume.width_mm, 1e3), rounded(r.volume.height_mm, 1e3), r.volume.depth_mm}}};
 }
 
-Json hapticPart(const HapticSummary& h) {
+Json hapticPart(const PlayReport& r) {
+  const HapticSummary& h = r.haptic;
   return {{"device", h.device},
           {"plan", h.plan},
           {"scheduler", h.scheduler},
           {"memory_locked", h.memory_locked},
           {"rate_hz", rounded(h.rate_hz, 1e3)},
           {"ticks", h.ticks},
+          {"first_touch_ms", orNull(r.first_touch_ms)},
           {"contact_share", rounded(share(h.contact_ticks, h.ticks))},
           {"overruns", h.overruns},
           {"allocations", h.allocations},
@@ -112,7 +114,7 @@ std::string toJson(const PlayReport& r) {
   json["wall_s"] = rounded(r.wall_s);
   json["media_s"] = rounded(r.media_s);
   json["video"] = videoPart(r);
-  json["haptic"] = hapticPart(r.haptic);
+  json["haptic"] = hapticPart(r);
   json["force"] = {{"max_n", rounded(r.haptic.max_force_n)},
                    {"max_scene_slew_n_per_s", rounded(r.haptic.max_scene_slew_n_per_s)}};
   json["energy"] = {{"scene_mj", rounded(r.haptic.scene_mj)}, {"artefact_mj", rounded(r.haptic.artefact_mj)}};
@@ -120,8 +122,11 @@ std::string toJson(const PlayReport& r) {
   for (const PlayerState state : r.states) json["states"].push_back(name(state));
   json["seeks"] = Json::array();
   for (const SeekEntry& s : r.seeks) {
-    json["seeks"].push_back(
-        {{"target_s", rounded(s.target_s)}, {"picture_s", orNull(s.picture_s)}, {"surface_s", orNull(s.surface_s)}});
+    json["seeks"].push_back({{"target_s", rounded(s.target_s)},
+                             {"picture_s", orNull(s.picture_s)},
+                             {"surface_s", orNull(s.surface_s)},
+                             {"picture_ms", orNull(s.picture_ms)},
+                             {"surface_ms", orNull(s.surface_ms)}});
   }
   json["faults"] = Json::array();
   for (const FaultEntry& f : r.faults) {

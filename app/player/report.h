@@ -29,6 +29,7 @@ struct SeekEntry {
   double target_s = 0;
   std::optional<double> picture_s;
   std::optional<double> surface_s;
+  std::optional<double> picture_ms, surface_ms;  // from the wish to the picture, to the touch
 };
 
 struct PlayReport {
@@ -49,6 +50,7 @@ struct PlayReport {
   double mesh_ms = 0, draw_ms = 0;  // a picture's, smoothed
   std::uint64_t frames_shown = 0, frames_dropped = 0;
   std::optional<double> first_frame_ms;
+  std::optional<double> first_touch_ms;  // the first tick on the film's surface
 
   HapticSummary haptic;
   std::vector<PlayerState> states;

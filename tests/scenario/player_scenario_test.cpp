@@ -105,7 +105,12 @@ TEST_F(PlayerScenario, AfterEachSeekThePictureAndTheSurfaceAreOfTheSameTime) {
     // The first picture at or after the target.
     EXPECT_GE(picture_s, seek.target_s) << i;
     EXPECT_LT(picture_s, seek.target_s + 0.04) << i;
+    // Simulated time: decoding takes none, the feeler's next tick comes within a millisecond.
+    EXPECT_LT(seek.picture_ms.value_or(1e9), 10) << i;
+    EXPECT_LE(seek.picture_ms, seek.surface_ms) << i;
+    EXPECT_LT(seek.surface_ms.value_or(1e9), seek.picture_ms.value_or(0) + 1.5) << i;
   }
+  EXPECT_LT(bench_.report.first_touch_ms.value_or(1e9), bench_.report.first_frame_ms.value_or(0) + 10);
 }
 
 TEST_F(PlayerScenario, PressesInARowAddUpToOneSeek) {
