@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "drivers/alsa/alsa.h"
 #include "drivers/egl/egl.h"
 #include "drivers/evdev/evdev.h"
 #include "drivers/falcon/falcon.h"
@@ -23,12 +24,14 @@
   "falcon[:FIRMWARE] polhem[:DESCRIPTION.json] pointer[:window|:/dev/input/eventN] " \
   "sim[:phantom|falcon|polhem][,stroking|resting|tapping|tense|shaking][,SCRIPT.csv] replay:FILE mock none"
 #define RELIEVO_REMOTE_NAMES "evdev keys window script:FILE none"
+#define RELIEVO_AUDIO_NAMES "alsa[:DEVICE] null none"
 
 namespace relievo::drivers {
 
 const char* const kDisplayNames = RELIEVO_DISPLAY_NAMES;
 const char* const kHapticNames = RELIEVO_HAPTIC_NAMES;
 const char* const kRemoteNames = RELIEVO_REMOTE_NAMES;
+const char* const kAudioNames = RELIEVO_AUDIO_NAMES;
 const double kFalconCountsPerNm = falcon::kDefaultCountsPerNm;
 
 namespace {
@@ -62,6 +65,12 @@ DeviceState look(const char* name, Display& display) {
   const auto opened = display.open({});
   display.close();
   return {"display", name, opened.has_value(), opened ? "ready" : opened.error().message};
+}
+
+DeviceState look(const char* name, AudioOutput& output) {
+  const auto opened = output.open({});
+  output.close();
+  return {"audio", name, opened.has_value(), opened ? "ready" : opened.error().message};
 }
 
 DeviceState look(const char* name, HapticDevice& device) {
@@ -129,6 +138,14 @@ Outcome<std::unique_ptr<RemoteInput>> makeRemoteInput(std::string_view text, Clo
   return unknown("--remote", text, "no such remote; it is one of: " RELIEVO_REMOTE_NAMES);
 }
 
+Outcome<std::unique_ptr<AudioOutput>> makeAudioOutput(std::string_view text, const Clock& clock) {
+  const Spec spec(text);
+  if (spec.plain("alsa") || spec.withArgument("alsa")) return makeAlsaOutput(spec.argument.value_or("default"), clock);
+  if (spec.plain("null")) return makeMockAudio({}, clock);
+  if (spec.plain("none")) return nullptr;
+  return unknown("--audio", text, "no such sound output; it is one of: " RELIEVO_AUDIO_NAMES);
+}
+
 std::unique_ptr<MediaSource> makeMediaSource(std::string_view /*url*/) {
   return makeFfmpegSource();
 }
@@ -141,6 +158,10 @@ Result<std::string> readText(const std::string& url, std::size_t most_bytes, con
   return readFfmpegText(url, most_bytes, cancelled);
 }
 
+std::unique_ptr<AudioDecoder> makeAudioDecoder() {
+  return makeFfmpegAudioDecoder();
+}
+
 std::vector<DeviceState> lookAtDevices(const HapticSettings& settings, Clock& clock) {
   std::vector<DeviceState> states;
   for (const KmsScreen& screen : lookAtKmsScreens()) {
@@ -148,7 +169,8 @@ std::vector<DeviceState> lookAtDevices(const HapticSettings& settings, Clock& cl
   }
   states.push_back(look("window", *makeWindowDisplay(theWindow(), clock)));
   states.insert(states.end(),
-                {look("falcon", *makeFalcon(falconConfig(settings, std::nullopt), clock)),
+                {look("alsa", *makeAlsaOutput("default", clock)),
+                 look("falcon", *makeFalcon(falconConfig(settings, std::nullopt), clock)),
                  look("polhem", *makePolhem({}, clock)), look("pointer", *makePointer(std::string(), clock))});
   return states;
 }

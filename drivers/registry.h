@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "hal/audio_decoder.h"
+#include "hal/audio_output.h"
 #include "hal/display.h"
 #include "hal/haptic_device.h"
 #include "hal/media_source.h"
@@ -23,6 +25,7 @@ namespace relievo::drivers {
 extern const char* const kDisplayNames;
 extern const char* const kHapticNames;
 extern const char* const kRemoteNames;
+extern const char* const kAudioNames;
 
 extern const double kFalconCountsPerNm;  // where the configuration does not tell
 
@@ -40,15 +43,17 @@ struct HapticSettings {
 [[nodiscard]] Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(std::string_view spec, Clock& clock,
                                                                       const HapticSettings& settings = {});
 [[nodiscard]] Outcome<std::unique_ptr<RemoteInput>> makeRemoteInput(std::string_view spec, Clock& clock);
+[[nodiscard]] Outcome<std::unique_ptr<AudioOutput>> makeAudioOutput(std::string_view spec, const Clock& clock);
 [[nodiscard]] std::unique_ptr<MediaSource> makeMediaSource(std::string_view url);
 [[nodiscard]] std::unique_ptr<VideoDecoder> makeVideoDecoder();
+[[nodiscard]] std::unique_ptr<AudioDecoder> makeAudioDecoder();
 // The text at a path or an address, as makeMediaSource would open it.
 [[nodiscard]] Result<std::string> readText(const std::string& url, std::size_t most_bytes,
                                            const std::atomic<bool>& cancelled);
 
 // What is there of each kind of hardware, found out by opening it: takes seconds where a device must be started up.
 struct DeviceState {
-  const char* kind = "";  // display, haptic
+  const char* kind = "";  // display, audio, haptic
   std::string name;       // as on the command line
   bool there = false;
   std::string state;  // what it is; why not, and what to do

@@ -14,18 +14,25 @@ namespace relievo {
 struct ClockSample {
   MediaTime media;
   MonotonicTime monotonic;
-  double rate = 0;  // 1 playing, 0 paused, 0.5 slow motion
+  double rate = 0;  // about 1 playing, 0 paused, 0.5 slow motion
 
   [[nodiscard]] constexpr MediaTime at(MonotonicTime now) const noexcept {
     const auto elapsed = now - monotonic;
     if (rate == 1.0) return media + elapsed;
     return media + Duration(static_cast<Duration::rep>(static_cast<double>(elapsed.count()) * rate));
   }
+  // A moment at which the film stands at `time` or just beyond it; for a rate over 0.
+  [[nodiscard]] constexpr MonotonicTime when(MediaTime time) const noexcept {
+    const auto ahead = time - media;
+    if (rate == 1.0) return monotonic + ahead;
+    constexpr Duration kRounding(2);
+    return monotonic + Duration(static_cast<Duration::rep>(static_cast<double>(ahead.count()) / rate)) + kRounding;
+  }
 };
 
 // States: Unset (until the first frame, and after `reset`) -> Running <-> Paused. Owner's thread only; never blocks.
 // The time is injected: `now` comes from the caller's Clock, so that a test runs in simulated time. A master of another
-// kind (sound) corrects it by calling `start` again with a new pair.
+// kind (sound) leads it by `steer`: its time is felt by the finger as well, and must not jump.
 class MediaClock {
  public:
   // Sets the pair; from any state. The clock runs at the rate last set (1 at first), or stays paused if it was paused.
@@ -37,6 +44,10 @@ class MediaClock {
   [[nodiscard]] Result<void> resume(MonotonicTime now) noexcept;
   // 0 < rate <= 16, else InvalidArgument. While Unset it holds from the next `start`.
   [[nodiscard]] Result<void> setRate(double rate, MonotonicTime now) noexcept;
+  // From now on it runs so many times as fast as its rate says, until told otherwise; 1 at first. Within kMostSteering
+  // of 1, else it is cut to that. Continuous; in any state, and kept by `reset`.
+  void steer(double ratio, MonotonicTime now) noexcept;
+  static constexpr double kMostSteering = 0.005;
 
   [[nodiscard]] bool paused() const noexcept { return paused_; }
   // Nothing while Unset.
@@ -46,6 +57,7 @@ class MediaClock {
  private:
   std::optional<ClockSample> sample_;
   double rate_ = 1.0;
+  double steering_ = 1.0;
   bool paused_ = false;
 };
 

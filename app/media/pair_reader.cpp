@@ -2,6 +2,7 @@
 // Opens a film, finds colour and depth in it and brings the two together.
 #include "app/media/pair_reader.h"
 
+#include <algorithm>
 #include <deque>
 #include <mutex>
 #include <utility>
@@ -42,6 +43,7 @@ struct PairReader::Impl {
   Result<void> openColor(const StreamInfo& color);
   Result<void> selectDepth(const TrackPlan& plan);
   Result<void> openDepth(const StreamInfo& color);
+  void openSound();
   Result<void> describeDepth(const Frame& first, const StreamInfo& stream, const MediaSource& source);
   Result<std::optional<Frame>> nextColor();
   Result<FramePair> pairFor(Frame color);
@@ -104,6 +106,7 @@ Result<void> PairReader::Impl::openFilm() {
   const auto chosen = color_reader->select(*plan->color);
   if (!chosen) return failOn(options.url, chosen.error());
   if (auto selected = selectDepth(*plan); !selected) return selected;
+  openSound();
   if (auto opened = openColor(*plan->color); !opened) return opened;
   return openDepth(*plan->color);
 }
@@ -167,6 +170,17 @@ Result<void> PairReader::Impl::openDepth(const StreamInfo& color) {
   loseDepth(missing);
   depth_track.reset();
   return {};
+}
+
+void PairReader::Impl::openSound() {
+  if (!options.sound || !backends.make_audio_decoder) return;
+  const auto& streams = color_reader->source().streams();
+  const auto first =
+      std::find_if(streams.begin(), streams.end(), [](const StreamInfo& s) { return s.kind == StreamKind::Audio; });
+  if (first == streams.end()) return;
+  info.sound_codec = first->codec;
+  const auto opened = color_reader->listen(backends.make_audio_decoder(), *first, *options.sound);
+  if (!opened) info.sound_refused = opened.error().message;
 }
 
 Result<void> PairReader::Impl::describeDepth(const Frame& first, const StreamInfo& stream, const MediaSource& source) {
@@ -299,6 +313,14 @@ Result<void> PairReader::seek(MediaTime target, Duration key_step) {
   impl_->key_step = key_step;
   if (auto sought = impl_->seekDepth(target); !sought) return sought;
   return impl_->passTo(target);
+}
+
+std::optional<AudioChunk> PairReader::nextSound() {
+  return impl_->color_reader ? impl_->color_reader->nextSound() : std::nullopt;
+}
+
+bool PairReader::readAhead() {
+  return impl_->color_reader && impl_->color_reader->readAhead();
 }
 
 void PairReader::close() noexcept {

@@ -10,6 +10,7 @@
 
 #include "app/media/packing.h"
 #include "app/scene/depth_calibration.h"
+#include "hal/audio_decoder.h"
 #include "hal/frame.h"
 #include "hal/media_source.h"
 #include "hal/video_decoder.h"
@@ -24,6 +25,7 @@ struct SourceOptions {
   DepthCode depth_code = DepthCode::Luma;
   CalibrationSettings command_line;  // --calibration KEY=VALUE,..
   CalibrationSettings side_file;     // --calibration FILE
+  std::optional<AudioFormat> sound;  // that the film's sound is wanted in; nothing: it is left out
 };
 
 // Colour always; depth where there is one: the one that DepthFollower finds for the colour's time. `matched` tells
@@ -43,6 +45,8 @@ struct FilmInfo {
   Duration duration{0};             // 0 unknown
   CalibrationChoice calibration;    // of a film with depth
   std::string color_codec, depth_codec;
+  std::string sound_codec;              // of the film's sound, where it was wanted and there is some
+  const char* sound_refused = nullptr;  // why it cannot be decoded
 };
 
 struct PairCounters {
@@ -66,6 +70,8 @@ struct PairCounters {
 //
 // One thread; `interrupt` any thread. `next` blocks while it reads and decodes. A verb that needs an open film returns
 // InvalidState without one.
+//
+// The sound is the first one of the source that holds the colour. It neither waits for pictures nor makes them wait.
 class PairReader {
  public:
   struct Backends {
@@ -73,6 +79,7 @@ class PairReader {
     std::function<std::unique_ptr<VideoDecoder>()> make_decoder;
     // The text at an address, at most so many bytes of it; gives up when the flag is set. Of lists of films.
     std::function<Result<std::string>(const std::string&, std::size_t, const std::atomic<bool>&)> read_text = {};
+    std::function<std::unique_ptr<AudioDecoder>()> make_audio_decoder = {};  // of who wants sound
   };
   explicit PairReader(Backends backends);
   ~PairReader();
@@ -89,6 +96,10 @@ class PairReader {
   // `key_step` over 0: from there on the colour's key frames alone, at least so far apart, with whatever key frame of
   // the depth is nearest before each; such pairs are not counted as mismatched.
   [[nodiscard]] Result<void> seek(MediaTime target, Duration key_step = Duration(0));
+  // The next samples among what has been read, in order; after a seek some may lie before its target. Never reads.
+  [[nodiscard]] std::optional<AudioChunk> nextSound();
+  // Reads one packet more, where sound comes later in the source than its pictures; false when that helps no more.
+  [[nodiscard]] bool readAhead();
   void close() noexcept;
   // Makes a blocked verb return Cancelled, and those to come until the next `open`.
   void interrupt() noexcept;

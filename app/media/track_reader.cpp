@@ -43,12 +43,13 @@ bool TrackReader::ended(std::size_t number) const noexcept {
 std::uint64_t TrackReader::damaged() const noexcept {
   std::uint64_t sum = 0;
   for (std::size_t i = 0; i < track_count_; ++i) sum += tracks_[i].decoder->damaged();
-  return sum;
+  return sum + sound_.damaged();
 }
 
 Result<std::optional<Frame>> TrackReader::decode(Track& track) {
   for (;;) {
     auto frame = track.decoder->receive();
+    if (frame && *frame && &track == tracks_.data()) given_ = (*frame)->pts;
     if (!frame || *frame) return frame;
     if (track.decoder->state() == VideoDecoder::State::Draining) continue;
     if (track.decoder->state() == VideoDecoder::State::Ended) {
@@ -91,6 +92,12 @@ Result<bool> TrackReader::readOnePacket() {
   auto packet = source_->read();
   if (!packet) return std::unexpected(packet.error());
   if (!*packet) return false;
+  const Packet& read = **packet;
+  if (read.stream == sound_.stream()) {
+    sound_.keep(std::move(**packet));
+    return true;
+  }
+  if (read.stream == tracks_[0].stream) read_ = read.dts ? read.dts : read.pts;
   for (std::size_t i = 0; i < track_count_; ++i) {
     if (tracks_[i].stream == (*packet)->stream) keep(tracks_[i], std::move(**packet));
   }
@@ -104,6 +111,13 @@ bool TrackReader::isWanted(Track& track, const Packet& packet) const {
   if (time && track.last_key && *time < *track.last_key + key_step_) return false;
   track.last_key = time;
   return true;
+}
+
+bool TrackReader::readAhead() {
+  if (!sound_.open() || !given_ || !read_ || *read_ > *given_ + kReadAhead) return false;
+  if (std::any_of(tracks_.begin(), tracks_.end(), isFull)) return false;
+  const auto read = readOnePacket();
+  return read && *read;
 }
 
 void TrackReader::keep(Track& track, Packet packet) {
@@ -143,6 +157,9 @@ Result<void> TrackReader::seek(MediaTime target, Duration key_step) {
 Result<bool> TrackReader::seekOnce(MediaTime from, MediaTime target, Duration key_step) {
   if (auto sought = source_->seek(from); !sought) return std::unexpected(sought.error());
   key_step_ = key_step;
+  sound_.restart();
+  given_.reset();
+  read_.reset();
   for (std::size_t i = 0; i < track_count_; ++i) {
     if (auto restarted = restart(tracks_[i], from > MediaTime{}); !restarted) {
       return std::unexpected(restarted.error());

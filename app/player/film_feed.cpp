@@ -32,6 +32,7 @@ void FilmFeed::stop() noexcept {
       wake_.wait_for(lock, std::chrono::milliseconds(10), [this] { return thread_ended_; });
     }
     queue_.clear();
+    forgetSound();
     state_ = State::Closed;
   }
   if (thread_.joinable()) thread_.join();
@@ -53,6 +54,8 @@ void FilmFeed::begin(State state) {
   ++film_;
   ++generation_;
   queue_.clear();
+  forgetSound();
+  target_ = MediaTime{};
   films_.clear();
   seek_error_.reset();
   info_ = {};
@@ -78,8 +81,16 @@ void FilmFeed::seek(MediaTime target, Duration key_step) {
   key_step_ = key_step;
   ++generation_;
   queue_.swap(dropped);
+  forgetSound();
   state_ = State::Seeking;
   wake_.notify_all();
+}
+
+void FilmFeed::forgetSound() {
+  sound_.clear();
+  sound_ahead_ = Duration(0);
+  sound_until_.reset();
+  sound_may_come_ = false;
 }
 
 FilmFeed::State FilmFeed::state() const {
@@ -100,6 +111,21 @@ std::optional<FramePair> FilmFeed::take() {
   queue_.pop_front();
   wake_.notify_all();
   return pair;
+}
+
+std::optional<AudioChunk> FilmFeed::takeSound() {
+  const std::scoped_lock lock(mutex_);
+  if (sound_.empty()) return std::nullopt;
+  std::optional<AudioChunk> chunk(std::move(sound_.front()));
+  sound_.pop_front();
+  sound_ahead_ -= lengthOf(*chunk);
+  wake_.notify_all();
+  return chunk;
+}
+
+bool FilmFeed::hasSoundUntil(MediaTime time) const {
+  const std::scoped_lock lock(mutex_);
+  return !wantsSound() || (sound_until_ && *sound_until_ >= time);
 }
 
 FilmInfo FilmFeed::info() const {
@@ -129,7 +155,16 @@ std::optional<Error> FilmFeed::takeSeekError() {
 
 bool FilmFeed::hasWork() const {
   return state_ == State::Opening || state_ == State::Seeking || (state_ == State::Closed && reader_open_) ||
-         (state_ == State::Reading && queue_.size() < capacity_);
+         wantsPair() || wantsSound();
+}
+
+bool FilmFeed::wantsSound() const {
+  return sound_may_come_ && sound_ahead_ < kSoundAhead && (state_ == State::Reading || state_ == State::Ended);
+}
+
+Duration FilmFeed::lengthOf(const AudioChunk& chunk) const {
+  const AudioFormat& format = *options_.sound;  // there is no chunk without
+  return fromSeconds(static_cast<double>(chunk.samples.size()) / format.channels / format.rate_hz);
 }
 
 bool FilmFeed::work() {
@@ -153,8 +188,10 @@ bool FilmFeed::work() {
     lock.unlock();
     reader_.close();
   } else {
+    const bool pair = wantsPair(), sound = wantsSound();
     lock.unlock();
-    workRead(generation);
+    const bool sounded = sound && workSound(!pair, generation);
+    if (pair && !sounded) workRead(generation);
   }
   lock.lock();
   at_work_ = 0;
@@ -175,6 +212,7 @@ void FilmFeed::workOpen(const SourceOptions& options, std::uint64_t generation) 
     return;
   }
   info_ = reader_.info();
+  sound_may_come_ = hasSound();
   state_ = State::Reading;
 }
 
@@ -194,7 +232,11 @@ void FilmFeed::workSeek(MediaTime target, Duration key_step, std::uint64_t gener
   const auto sought = reader_.seek(target, key_step);
   const std::scoped_lock lock(mutex_);
   if (generation != generation_) return;  // a newer target has come meanwhile
-  if (!sought) seek_error_ = sought.error();
+  if (!sought) {
+    seek_error_ = sought.error();
+    target_ = MediaTime{};  // nothing is left out
+  }
+  sound_may_come_ = hasSound();
   state_ = State::Reading;
 }
 
@@ -204,12 +246,30 @@ void FilmFeed::workRead(std::uint64_t generation) {
   const std::scoped_lock lock(mutex_);
   if (at_work_ == film_) counters_ = counters;
   if (generation != generation_) return;
+  sound_may_come_ = hasSound();
   if (!pair) return failed(reader_.failedThing(), pair.error());
   if (!*pair) {
     state_ = State::Ended;
     return;
   }
   queue_.push_back(std::move(**pair));
+}
+
+// What has been read already is decoded first. False when there is none and the source was not to be read.
+bool FilmFeed::workSound(bool may_read, std::uint64_t generation) {
+  auto chunk = reader_.nextSound();
+  if (!chunk && !may_read) return false;
+  const bool more = chunk || reader_.readAhead();
+  const std::scoped_lock lock(mutex_);
+  if (generation != generation_) return true;
+  sound_may_come_ = more;
+  if (!chunk) return true;
+  const Duration length = lengthOf(*chunk);
+  if (chunk->pts + length <= target_) return true;  // between a seek's key frame and its target
+  sound_ahead_ += length;
+  sound_until_ = chunk->pts + length;
+  sound_.push_back(std::move(*chunk));
+  return true;
 }
 
 void FilmFeed::failed(std::string thing, const Error& error) {

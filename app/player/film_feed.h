@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a film ahead of the player: a bounded queue of pairs, filled by a thread of its own.
+// Reads a film ahead of the player: bounded queues of pairs and of sound, filled by a thread of its own.
 #pragma once
 
 #include <atomic>
@@ -24,9 +24,13 @@ namespace relievo {
 //
 // States: Closed -open-> Opening -> Reading -> Ended; Reading or Ended -seek-> Seeking -> Reading; any but Closed ->
 // Failed; any -open-> Opening; any -close-> Closed. A source that turns out to be a list of films goes from Opening to
-// Listed. Pairs that were read before an end or a failure can still be taken.
+// Listed. Pairs and sound that were read before an end or a failure can still be taken.
+//
+// Sound is decoded as long as less than kSoundAhead of it lies in the queue. Pairs go first where something has to be
+// read from the source.
 class FilmFeed {
  public:
+  static constexpr Duration kSoundAhead = std::chrono::milliseconds(500);
   enum class State : std::uint8_t { Closed, Opening, Seeking, Reading, Ended, Failed, Listed };
 
   FilmFeed(PairReader::Backends backends, std::size_t capacity);
@@ -48,6 +52,11 @@ class FilmFeed {
   [[nodiscard]] State state() const;
   // The next pair in order; nothing while there is none.
   [[nodiscard]] std::optional<FramePair> take();
+  // The next samples in order; nothing while there are none.
+  [[nodiscard]] std::optional<AudioChunk> takeSound();
+  // True when no sound before `time` will come that has not come yet, as far as the film's interleaving tells: it is
+  // there, or the reader would have to go too far for it.
+  [[nodiscard]] bool hasSoundUntil(MediaTime time) const;
 
   // Listed: the films.
   [[nodiscard]] std::vector<PlaylistEntry> films() const;
@@ -60,15 +69,21 @@ class FilmFeed {
   // The seek that the source refused, once; the film then goes on from where the source stands.
   [[nodiscard]] std::optional<Error> takeSeekError();
 
-  // One piece of the reader's work: opens, seeks or reads one pair. False when there is nothing to do.
+  // One piece of the reader's work: opens, seeks, reads one pair or some sound. False when there is nothing to do.
   bool work();
 
  private:
   [[nodiscard]] bool hasWork() const;
+  [[nodiscard]] bool wantsPair() const { return state_ == State::Reading && queue_.size() < capacity_; }
+  [[nodiscard]] bool wantsSound() const;
+  [[nodiscard]] bool hasSound() const { return !info_.sound_codec.empty() && info_.sound_refused == nullptr; }
+  [[nodiscard]] Duration lengthOf(const AudioChunk& chunk) const;
+  void forgetSound();
   void workOpen(const SourceOptions& options, std::uint64_t generation);
   [[nodiscard]] Outcome<std::optional<std::vector<PlaylistEntry>>> readList(const std::string& url);
   void workSeek(MediaTime target, Duration key_step, std::uint64_t generation);
   void workRead(std::uint64_t generation);
+  bool workSound(bool may_read, std::uint64_t generation);
   void failed(std::string thing, const Error& error);
   void begin(State state);
   void interruptStale() const;
@@ -91,6 +106,10 @@ class FilmFeed {
   bool reader_open_ = false;
   std::vector<PlaylistEntry> films_;
   std::deque<FramePair> queue_;
+  std::deque<AudioChunk> sound_;
+  Duration sound_ahead_{0};               // all that is in it
+  std::optional<MediaTime> sound_until_;  // the end of the newest
+  bool sound_may_come_ = false;
   FilmInfo info_;
   PairCounters counters_;
   Error error_;

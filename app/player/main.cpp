@@ -26,7 +26,8 @@ namespace {
 PairReader::Backends backendsFor(const std::string& url) {
   return {.make_source = [url] { return drivers::makeMediaSource(url); },
           .make_decoder = drivers::makeVideoDecoder,
-          .read_text = drivers::readText};
+          .read_text = drivers::readText,
+          .make_audio_decoder = drivers::makeAudioDecoder};
 }
 
 int finishFiles(const PlayReport& report, AtomicFile* report_file, Recorder* recorder) {
@@ -103,6 +104,8 @@ int play(PlayOptions options) {
   }
   auto remote = drivers::makeRemoteInput(options.remote, clock);
   if (!remote) return tell(remote.error());
+  auto audio = drivers::makeAudioOutput(options.audio, clock);
+  if (!audio) return tell(audio.error());
 
   // What cannot be written is found out before the film begins.
   std::optional<AtomicFile> report_file;
@@ -123,6 +126,7 @@ int play(PlayOptions options) {
                                             .display = **display,
                                             .haptic = haptic->get(),
                                             .remote = remote->get(),
+                                            .audio = audio->get(),
                                             .recorder = recorder ? &*recorder : nullptr,
                                             .backends = backendsFor(url)});
   const auto played = player.run(stop);
@@ -183,9 +187,11 @@ int calibrateFalcon(const DevicesOptions& options) {
 }
 
 int parseAndRun(int argc, char** argv) {
-  const auto options = parseOptions(
-      argc, argv,
-      {.display = drivers::kDisplayNames, .haptic = drivers::kHapticNames, .remote = drivers::kRemoteNames});
+  const auto options = parseOptions(argc, argv,
+                                    {.display = drivers::kDisplayNames,
+                                     .haptic = drivers::kHapticNames,
+                                     .remote = drivers::kRemoteNames,
+                                     .audio = drivers::kAudioNames});
   if (!options) return options.error();
   switch (options->command) {
     case Options::Command::Probe:

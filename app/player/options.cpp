@@ -139,6 +139,10 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
               "Where keys come from [a window's own; on a whole screen evdev, all remote controls; else none]\n") +
               names.remote)
       ->type_name("NAME");
+  command
+      .add_option("--audio", play.audio,
+                  std::string("Where the sound goes [of a window or a whole screen alsa, else none]\n") + names.audio)
+      ->type_name("NAME");
   addVolumeOption(command, play.player.volume);
   command.add_flag("--loop", play.player.loop, "Begin again at the end");
   command
@@ -158,11 +162,13 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
   command.footer(kPlayFooter + KeyTable::usual().help() + kExitCodes);
 }
 
-// A window brings its keys and its mouse along; nothing else has them. A whole screen is watched from a sofa.
+// A window brings its keys and its mouse along; nothing else has them. A whole screen is watched from a sofa. Who sees
+// the film hears it.
 Outcome<void> settleWindow(PlayOptions& play) {
   const bool window = play.display == "window";
   const bool whole_screen = play.display == "kms" || play.display.starts_with("kms:");
   if (play.remote.empty()) play.remote = window ? "window" : whole_screen ? "evdev" : "none";
+  if (play.audio.empty()) play.audio = window || whole_screen ? "alsa" : "none";
   if (window && play.haptic == "pointer") play.haptic = "pointer:window";
   const auto none = [](const std::string& thing) {
     return failOn(thing, {ErrorCode::InvalidArgument, 0, "there is no window; add --display window"});

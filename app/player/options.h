@@ -14,6 +14,7 @@ struct PlayOptions {
   std::string display = "offscreen";
   std::string haptic = "sim";
   std::string remote;
+  std::string audio;
   std::string report_path;  // empty: none
   std::string record_path;
   std::string keys_path;  // empty: the usual keys
@@ -45,6 +46,7 @@ struct DeviceNames {
   const char* display = "";
   const char* haptic = "";
   const char* remote = "";
+  const char* audio = "";
 };
 
 // On wrong use, and when help was asked for, it has printed what there is to say and answers the exit code.

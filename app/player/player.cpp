@@ -24,6 +24,7 @@ Player::Player(PlayerConfig config, PlayerParts parts)
       feed_(parts_.backends, kQueuedPairs),
       picture_(parts_.display, config_.display, config_.stereo),
       haptic_(parts_.haptic, parts_.clock, config_.own_threads ? Ticking::Thread : Ticking::ByHand),
+      sound_(parts_.audio, parts_.clock),
       keys_(config_.keys) {
   report_.states.push_back(state_);
   if (!config_.resume_path.empty()) resume_.emplace(config_.resume_path);
@@ -94,6 +95,8 @@ void Player::boot() {
       parts_.remote = nullptr;
     }
   }
+  sound_.open();
+  config_.source.sound = sound_.format();
   haptic_.begin();
   apply(PlayerEvent::Ready);
   if (config_.own_threads) feed_.startThread();
@@ -110,6 +113,7 @@ void Player::step(MonotonicTime now) {
   followDevice();
   followReader(now);
   followClock(now);
+  followSound();
   keepPosition(now);
   drainTouch();
   writeText(now);
@@ -125,6 +129,7 @@ MonotonicTime Player::nextWake(MonotonicTime now) const {
 
 void Player::finish(MonotonicTime now) {
   haptic_.stop();  // zero force before anything else
+  sound_.close();
   drainTouch();
   leaveFilm(now);
   if (state_ != PlayerState::Fault) apply(PlayerEvent::Stop);
@@ -150,6 +155,7 @@ PlayReport Player::report() const {
   report.mesh_ms = picture_.statistics().mesh_ms;
   report.draw_ms = picture_.statistics().frame_ms;
   report.haptic = haptic_.summary();
+  report.sound = sound_.summary();
   return report;
 }
 

@@ -16,6 +16,7 @@
 #include "app/player/report.h"
 #include "app/player/resume.h"
 #include "app/player/screen_text.h"
+#include "app/player/sound.h"
 #include "app/player/state_table.h"
 #include "app/player/surface_feeder.h"
 #include "hal/remote_input.h"
@@ -42,6 +43,7 @@ struct PlayerParts {
   Display& display;
   HapticDevice* haptic = nullptr;
   RemoteInput* remote = nullptr;
+  AudioOutput* audio = nullptr;
   Recorder* recorder = nullptr;
   PairReader::Backends backends;
 };
@@ -107,6 +109,7 @@ class Player {
   void setScene();
   void startTouch();
   void followClock(MonotonicTime now);
+  void followSound();
   void followEnd(MediaTime position, MonotonicTime now);
   void closeSegment(MonotonicTime now);
 
@@ -127,6 +130,7 @@ class Player {
   Picture picture_;
   ScreenText text_;
   HapticSession haptic_;
+  Sound sound_;
   Playhead head_;
   MediaClock clock_;
   SurfaceFeeder surface_;

@@ -11,6 +11,7 @@ namespace relievo {
 namespace {
 
 constexpr Duration kUnknownPeriod = std::chrono::milliseconds(40);
+constexpr Duration kSoundFirst = std::chrono::milliseconds(300);  // that has to be there when the film begins
 constexpr double kDrawShare = 0.6;  // of the film's frame period; the rest is the decoder's and the finger's
 constexpr Duration kRedrawPeriod = std::chrono::milliseconds(33);  // of a standing picture in which the finger moves
 constexpr double kMovedMm = 0.2;                                   // less is not seen
@@ -64,7 +65,11 @@ void Player::followReader(MonotonicTime now) {
   }
   if (state_ != PlayerState::Buffering) return;
   head_.refill(feed_);
-  if (head_.filled() || (head_.last() && !head_.ahead().empty())) return begin(now);
+  if (head_.filled() || (head_.last() && !head_.ahead().empty())) {
+    const MediaTime heard_until = head_.ahead().front().color.pts + kSoundFirst;
+    if (rate_ == 1 && !feed_.hasSoundUntil(heard_until)) return;
+    return begin(now);
+  }
   if (!head_.last()) return;
   if (feed_.state() == FilmFeed::State::Failed) return fail(feed_.failedThing(), feed_.error());
   endOfFilm(now);
@@ -80,6 +85,8 @@ void Player::opened(MonotonicTime now) {
   } else {
     note("no depth in this film", "it plays flat, without force");
   }
+  if (const char* refused = report_.film.sound_refused)
+    note(std::string("sound: ") + refused, "the film plays without");
   goOnWhereLeft(now);
 }
 
@@ -168,6 +175,11 @@ void Player::followClock(MonotonicTime now) {
   if (state_ == PlayerState::Playing) followEnd(position, now);
 }
 
+void Player::followSound() {
+  sound_.follow(state_ == PlayerState::Playing && rate_ == 1, clock_, feed_);
+  if (const auto news = sound_.takeNews()) note(news->what, news->done);
+}
+
 // What there is to do when nothing lies ahead.
 void Player::followEnd(MediaTime position, MonotonicTime now) {
   if (!head_.ahead().empty()) {
@@ -222,6 +234,7 @@ void Player::showPresent(MonotonicTime now) {
     return;
   }
   ++report_.frames_shown;
+  sound_.noteShown(head_.present().color.pts);
   if (!report_.first_frame_ms) report_.first_frame_ms = 1e3 * toSeconds(parts_.clock.now() - started_);
 }
 
@@ -287,8 +300,7 @@ MonotonicTime Player::nextPicture(MonotonicTime now) const {
   const auto sample = clock_.sample();
   if (!sample || sample->rate <= 0) return MonotonicTime::max();
   if (head_.ahead().empty()) return now + period_;
-  const Duration until = head_.ahead().front().color.pts - sample->media;
-  return sample->monotonic + fromSeconds(toSeconds(until) / sample->rate);
+  return sample->when(head_.ahead().front().color.pts);
 }
 
 void Player::drainTouch() {

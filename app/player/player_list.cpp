@@ -65,6 +65,7 @@ void Player::leaveFilm(MonotonicTime now) {
   clock_.reset();
   static_cast<void>(clock_.setRate(rate_ = 1, now));
   head_ = {};
+  sound_.forget();
   surface_.beginEpoch();
   held_ = scene_known_ = depth_missing_ = depth_refused_ = false;
   new_epoch_ = true;

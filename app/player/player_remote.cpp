@@ -166,6 +166,7 @@ void Player::seek(MediaTime target, PlayerEvent why, bool wanted, MonotonicTime 
   await_touch_.reset();
   clock_.reset();
   head_.clear();
+  sound_.forget();
   target_ = std::max(target, MediaTime{});
   feed_.seek(*target_, rate_ > 1 ? fromSeconds(kRushStepS * rate_) : Duration(0));
   new_epoch_ = true;

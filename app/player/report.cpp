@@ -59,6 +59,19 @@ Json filmPart(const PlayReport& r) {
           {"volume_mm", {rounded(r.volume.width_mm, 1e3), rounded(r.volume.height_mm, 1e3), r.volume.depth_mm}}};
 }
 
+Json audioPart(const PlayReport& r) {
+  const SoundSummary& s = r.sound;
+  return {{"device", s.device},
+          {"codec", r.film.sound_codec},
+          {"rate_hz", s.rate_hz},
+          {"underruns", s.underruns},
+          {"realigned", s.realigned},
+          {"pictures", s.pictures},
+          {"max_offset_ms", rounded(s.max_offset_ms, 1e3)},
+          {"mean_offset_ms", rounded(s.mean_offset_ms, 1e3)},
+          {"drift_ppm", rounded(s.drift_ppm, 1e1)}};
+}
+
 Json hapticPart(const PlayReport& r) {
   const HapticSummary& h = r.haptic;
   return {{"device", h.device},
@@ -114,6 +127,7 @@ std::string toJson(const PlayReport& r) {
   json["wall_s"] = rounded(r.wall_s);
   json["media_s"] = rounded(r.media_s);
   json["video"] = videoPart(r);
+  json["audio"] = audioPart(r);
   json["haptic"] = hapticPart(r);
   json["force"] = {{"max_n", rounded(r.haptic.max_force_n)},
                    {"max_scene_slew_n_per_s", rounded(r.haptic.max_scene_slew_n_per_s)}};

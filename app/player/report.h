@@ -10,6 +10,7 @@
 
 #include "app/media/pair_reader.h"
 #include "app/player/haptic_session.h"
+#include "app/player/sound.h"
 #include "app/player/state_table.h"
 #include "app/scene/display_volume.h"
 
@@ -53,6 +54,7 @@ struct PlayReport {
   std::optional<double> first_touch_ms;  // the first tick on the film's surface
 
   HapticSummary haptic;
+  SoundSummary sound;
   std::vector<PlayerState> states;
   std::vector<FaultEntry> faults;
   std::vector<SeekEntry> seeks;

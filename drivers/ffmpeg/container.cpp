@@ -127,6 +127,8 @@ Result<StreamInfo> describeStream(const AVStream& stream, bool timed) {
   }
   info.width = parameters.width;
   info.height = parameters.height;
+  info.sample_rate_hz = parameters.sample_rate;
+  info.channels = parameters.ch_layout.nb_channels;
   info.frame_period = framePeriodOf(stream);
   if (timed && stream.duration > 0) info.duration = durationFrom(stream.duration, stream.time_base);
   info.tags = tagsOf(stream.metadata);

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Video decoder on libavcodec: software decoding on few threads, pictures by reference.
 #include <cerrno>
-#include <cstring>
 #include <utility>
 
+#include "drivers/ffmpeg/coding.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/ffmpeg/library.h"
 #include "drivers/ffmpeg/picture.h"
-
-extern "C" {
-#include <libavcodec/codec_desc.h>
-}
 
 namespace relievo {
 namespace {
@@ -23,31 +19,9 @@ constexpr Duration kDefaultPeriod = std::chrono::milliseconds(40);  // where nei
 
 constexpr const char* kNoMemory = "out of memory in the video decoder";
 
-std::int64_t ticks(const std::optional<MediaTime>& time) noexcept {
-  return time ? time->time_since_epoch().count() : AV_NOPTS_VALUE;
-}
-
 // Guesses in place of lost data look like a picture, but are none.
 bool isMended(const AVFrame& picture) noexcept {
   return (picture.flags & AV_FRAME_FLAG_CORRUPT) != 0 || picture.decode_error_flags != 0;
-}
-
-// Parameters of a stream that another back end's source has described.
-ParametersPtr parametersFromWords(const StreamInfo& stream) {
-  ParametersPtr parameters(avcodec_parameters_alloc());
-  if (!parameters) return nullptr;
-  const AVCodecDescriptor* const codec = avcodec_descriptor_get_by_name(stream.codec.c_str());
-  parameters->codec_type = AVMEDIA_TYPE_VIDEO;
-  parameters->codec_id = codec == nullptr ? AV_CODEC_ID_NONE : codec->id;
-  parameters->width = stream.width;
-  parameters->height = stream.height;
-  if (stream.extradata.empty()) return parameters;
-  const std::size_t bytes = stream.extradata.size();
-  parameters->extradata = static_cast<std::uint8_t*>(av_mallocz(bytes + AV_INPUT_BUFFER_PADDING_SIZE));
-  if (parameters->extradata == nullptr) return nullptr;
-  std::memcpy(parameters->extradata, stream.extradata.data(), bytes);
-  parameters->extradata_size = static_cast<int>(bytes);
-  return parameters;
 }
 
 class FfmpegDecoder final : public VideoDecoder {
@@ -74,7 +48,7 @@ class FfmpegDecoder final : public VideoDecoder {
       sample_aspect_ = described->sample_aspect;
       return openCodec(*described->parameters);
     }
-    const ParametersPtr parameters = parametersFromWords(stream);
+    const ParametersPtr parameters = parametersFromWords(stream, AVMEDIA_TYPE_VIDEO);
     if (!parameters) return fail(ErrorCode::Exhausted, kNoMemory, ENOMEM);
     return openCodec(*parameters);
   }
@@ -101,29 +75,13 @@ class FfmpegDecoder final : public VideoDecoder {
 
   Result<Feed> feedPacket(const Packet& packet) override {
     if (packet.bytes == 0) return Feed::Accepted;  // the library would take it for the end
-    if (!fillPacket(packet)) return fail(ErrorCode::Exhausted, kNoMemory, ENOMEM);
+    if (!fillPacket(*packet_, packet, time_base_)) return fail(ErrorCode::Exhausted, kNoMemory, ENOMEM);
     const int sent = avcodec_send_packet(context_.get(), packet_.get());
     av_packet_unref(packet_.get());
     if (sent == AVERROR(EAGAIN)) return Feed::Full;
     if (sent == AVERROR(ENOMEM)) return fail(ErrorCode::Exhausted, kNoMemory, ENOMEM);
     if (sent < 0) countDamaged();
     return Feed::Accepted;
-  }
-
-  // By reference where the packet is the library's own; times in ns.
-  bool fillPacket(const Packet& packet) {
-    AVPacket& out = *packet_;
-    if (const auto* own = native<AVPacket, PacketDeleter>(packet.owner)) {
-      if (av_packet_ref(&out, own) < 0) return false;
-      out.duration = durationFrom(own->duration, time_base_).count();
-    } else {
-      if (av_new_packet(&out, static_cast<int>(packet.bytes)) < 0) return false;
-      std::memcpy(out.data, packet.data, packet.bytes);
-      if (packet.keyframe) out.flags |= AV_PKT_FLAG_KEY;
-    }
-    out.pts = ticks(packet.pts);
-    out.dts = ticks(packet.dts);
-    return true;
   }
 
   Result<Progress> receiveFrame(Frame& frame) override {

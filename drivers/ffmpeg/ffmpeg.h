@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Media source and video decoder on FFmpeg's libraries: any file or URL that they open, decoded in software.
+// Media source and decoders on FFmpeg's libraries: any file or URL that they open, decoded in software.
 #pragma once
 
 #include <atomic>
 #include <memory>
 #include <string>
 
+#include "hal/audio_decoder.h"
 #include "hal/media_source.h"
 #include "hal/video_decoder.h"
 #include "platform/error.h"
@@ -30,6 +31,10 @@ namespace relievo {
 // nearest that it can: the one case of a copy, exact for integers of up to 16 bits. A picture that was mended with
 // guesses after an error in its data is dropped and counted: a guessed depth must not be felt.
 [[nodiscard]] std::unique_ptr<VideoDecoder> makeFfmpegDecoder();
+
+// Any codec, rate and layout, which may change in the middle. Mixed down by the layout's own rule, and so that the sum
+// is not clipped.
+[[nodiscard]] std::unique_ptr<AudioDecoder> makeFfmpegAudioDecoder();
 
 // The text at a path or an address (http, https), at most so many bytes, else Corrupt. May wait as long as opening a
 // source; Cancelled soon after the flag is set.

@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "hal/audio_decoder.h"
+#include "hal/audio_output.h"
 #include "hal/display.h"
 #include "hal/haptic_device.h"
 #include "hal/media_source.h"
@@ -30,9 +32,10 @@ inline constexpr std::uint64_t kNever = ~std::uint64_t{0};
 // ---- film
 // ----------------------------------------------------------------------------------------------------------
 
-// One video track. Pictures are planar, 8 bits in a byte, more in two, and each row is followed by some bytes
-// of no meaning, so that who mistakes the width for the stride is caught.
+// One track. Pictures are planar, 8 bits in a byte, more in two, and each row is followed by some bytes
+// of no meaning, so that who mistakes the width for the stride is caught. Of sound a frame is a packet of one period.
 struct MockTrack {
+  StreamKind kind = StreamKind::Video;
   int width = 160;
   int height = 108;
   ColorModel model = ColorModel::Gray;
@@ -44,8 +47,11 @@ struct MockTrack {
   Duration first_pts{0};
   int keyframe_interval = 1;  // a seek lands on a multiple of it
   std::vector<int> missing;   // frames that the container has lost
+  Duration late{0};           // its packets come so much later in the film than their times
   std::map<std::string, std::string> tags;
-  // Value of a sample: (frame, component, column, row). Called on the decoder's thread. Default: a slope that
+  // Value of a sound's sample: (seconds, channel). Called on the decoder's thread. Default: 440 Hz.
+  std::function<float(double, int)> sound;
+  // Value of a picture's sample: (frame, component, column, row). Called on the decoder's thread. Default: a slope that
   // moves.
   std::function<std::uint16_t(int, int, int, int)> sample;
 
@@ -83,6 +89,9 @@ struct MockDecoderProfile {
 // Decodes a mock source's packets, and Unsupported for any other stream.
 [[nodiscard]] std::unique_ptr<VideoDecoder> makeMockDecoder(MockDecoderProfile profile = {});
 
+// Likewise for sound: every channel, at the rate that is asked for.
+[[nodiscard]] std::unique_ptr<AudioDecoder> makeMockAudioDecoder();
+
 // ---- display
 // -------------------------------------------------------------------------------------------------------
 
@@ -94,10 +103,41 @@ struct MockDisplayProfile {
   std::uint64_t failing_opens = kNever;       // how often it fails
   std::uint64_t lose_after_frames = kNever;   // every verb answers Lost until closed
   std::uint64_t close_after_frames = kNever;  // attend answers Cancelled: the viewer has closed it
+  std::function<void()> shown;                // called as each picture comes onto the screen
 };
 
 // Shows nothing, at the pace of its refresh: `present` sleeps until the next one.
 [[nodiscard]] std::unique_ptr<Display> makeMockDisplay(const MockDisplayProfile& profile, Clock& clock);
+
+// ---- sound
+// ---------------------------------------------------------------------------------------------------------
+
+// What an observer hears. On the thread that uses the device.
+struct MockAudioBench {
+  // The first channel's sample that is in the air at a moment since the device was last asked; nothing in a silence.
+  std::function<std::optional<float>(MonotonicTime)> heard;
+  bool unplugged = false;  // every verb answers Lost until closed
+};
+
+// A sink that plays nothing, at the pace of the clock given.
+struct MockAudioProfile {
+  const char* name = "null";
+  std::optional<AudioFormat> format;  // what it runs at, whatever is wished for
+  Duration buffer = std::chrono::milliseconds(500);
+  double drift_ppm = 0;       // how much faster its crystal is than the clock
+  Duration latency{0};        // from the buffer to the ear: known to it, and in its positions
+  Duration start_latency{0};  // from the first frame's writing until it begins: seen in its positions alone
+  Duration jitter{0};         // its positions are off by up to this, either way
+
+  // Faults.
+  std::optional<ErrorCode> fail_open;
+  std::uint64_t failing_opens = kNever;      // how often it fails
+  std::uint64_t lose_after_frames = kNever;  // heard since `open`: Lost until closed
+  bool paced = true;                         // false: takes all at once and says that it was heard
+};
+
+[[nodiscard]] std::unique_ptr<AudioOutput> makeMockAudio(MockAudioProfile profile, const Clock& clock,
+                                                         std::shared_ptr<MockAudioBench> bench = nullptr);
 
 // ---- haptic device
 // -------------------------------------------------------------------------------------------------

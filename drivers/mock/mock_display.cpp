@@ -31,6 +31,12 @@ class MockDisplay final : public Display {
   Result<Duration> showFrame() override {
     if (lost()) return fail(ErrorCode::Lost, "the mock screen has gone");
     ++frames_;
+    const Duration waited = waitForRefresh();
+    if (profile_.shown) profile_.shown();
+    return waited;
+  }
+
+  Duration waitForRefresh() {
     if (profile_.refresh_period <= Duration(0)) return Duration(0);
     const MonotonicTime now = clock_.now();
     const auto refreshes = (now - first_refresh_) / profile_.refresh_period;

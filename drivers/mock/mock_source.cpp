@@ -25,6 +25,7 @@ class MockSource final : public MediaSource {
       while (std::find(missing.begin(), missing.end(), next) != missing.end()) ++next;
     }
     [[nodiscard]] bool ended() const { return next >= track->frames; }
+    [[nodiscard]] MediaTime place() const { return track->pts(next) + track->late; }  // in the film
   };
 
   Result<Description> openSource(const std::string& url) override {
@@ -50,10 +51,15 @@ class MockSource final : public MediaSource {
   [[nodiscard]] StreamInfo describe(const std::shared_ptr<const MockTrack>& track, int index) const {
     StreamInfo stream;
     stream.index = index;
-    stream.kind = StreamKind::Video;
+    stream.kind = track->kind;
     stream.codec = kMockCodec;
-    stream.width = track->width;
-    stream.height = track->height;
+    if (track->kind == StreamKind::Video) {
+      stream.width = track->width;
+      stream.height = track->height;
+    } else {
+      stream.sample_rate_hz = 48000;
+      stream.channels = 2;
+    }
     stream.frame_period = track->frame_period;
     if (!profile_.live) stream.duration = track->frames * track->frame_period;
     stream.tags = track->tags;
@@ -90,7 +96,7 @@ class MockSource final : public MediaSource {
     Cursor* first = nullptr;
     for (Cursor& cursor : tracks_) {
       if (cursor.ended()) continue;
-      if (first == nullptr || cursor.track->pts(cursor.next) < first->track->pts(first->next)) first = &cursor;
+      if (first == nullptr || cursor.place() < first->place()) first = &cursor;
     }
     return first;
   }

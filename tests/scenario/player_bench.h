@@ -34,6 +34,12 @@ class PlayerBench {
     track.sample = [](int frame, int, int, int) { return static_cast<std::uint16_t>(100 + frame % 10); };
     return track;
   }
+  // As long as `frames` pictures. Each sample tells its own time: seconds by a thousand.
+  static MockTrack soundTrack(int frames) {
+    MockTrack track{.kind = StreamKind::Audio, .frames = 2 * frames, .frame_period = kPeriod / 2};
+    track.sound = [](double seconds, int) { return static_cast<float>(seconds * 1e-3); };
+    return track;
+  }
   static MockMediaProfile film(int frames) { return {.tracks = {colorTrack(frames), depthTrack(frames)}}; }
 
   // Sources by their urls; "film" is what is played.
@@ -47,8 +53,10 @@ class PlayerBench {
   std::vector<ScriptedKey> keys;
   PlayerConfig config{.source = {.url = "film"}, .own_threads = false};
   bool with_haptic = true;
+  std::optional<MockAudioProfile> audio;  // nothing: a film without an output for its sound
   std::atomic<bool> stop{false};
   std::shared_ptr<MockHapticBench> hand = std::make_shared<MockHapticBench>();
+  std::shared_ptr<MockAudioBench> ear = std::make_shared<MockAudioBench>();
   ManualClock clock;
 
   void press(double at_s, std::uint16_t key, double held_s = 0.05) {
@@ -61,10 +69,12 @@ class PlayerBench {
     const auto screen = makeMockDisplay(display, time);
     const auto device = make_haptic ? make_haptic(time) : makeMockHaptic(haptic, time, hand);
     const auto remote = makeScriptedRemote(keys, time);
+    const auto output = audio ? makeMockAudio(*audio, time, ear) : nullptr;
     Player player(config, {.clock = time,
                            .display = *screen,
                            .haptic = with_haptic ? device.get() : nullptr,
                            .remote = remote.get(),
+                           .audio = output.get(),
                            .recorder = recorder,
                            .backends = backends(time)});
     auto played = player.run(stop);
@@ -96,7 +106,8 @@ class PlayerBench {
               const auto text = texts.find(url);
               if (text == texts.end()) return fail(ErrorCode::NotFound, "no such text");
               return text->second;
-            }};
+            },
+            .make_audio_decoder = makeMockAudioDecoder};
   }
 };
 

@@ -111,6 +111,28 @@ TEST_F(PlayerProgram, PlaysAClipThroughTheWholeStackAndReportsIt) {
   EXPECT_EQ(lines - 1, r["haptic"]["ticks"].get<int>());  // every tick, and the header
 }
 
+TEST_F(PlayerProgram, PlaysTheSoundThatIsInTheClip) {
+  test::makeClip(at("film.mkv"), {color(60), depth(60)}, {},
+                 {{.codec = "aac", .rate_hz = 44100, .length = std::chrono::seconds(2)}});
+  const auto result = play(at("film.mkv") + " --audio null --report " + at("r.json"));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json r = reportOf("r.json");
+  EXPECT_EQ(r["audio"]["device"], "null");
+  EXPECT_EQ(r["audio"]["codec"], "aac");
+  EXPECT_EQ(r["audio"]["rate_hz"], 48000);
+  EXPECT_GT(r["audio"]["pictures"].get<int>(), 0);
+  EXPECT_EQ(r["states"].back(), "idle");
+  expectOneLine(play(at("film.mkv") + " --audio pulse"), 2, "pulse");
+}
+
+TEST_F(PlayerProgram, PlaysWithoutASoundCardAndSaysSoOnce) {
+  test::makeClip(at("film.mkv"), {color(), depth()}, {}, {{}});
+  const auto result = play(at("film.mkv") + " --audio alsa:nothing --report " + at("r.json"));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("no such sound card"));
+  EXPECT_EQ(reportOf("r.json")["faults"].size(), 1u);
+}
+
 TEST_F(PlayerProgram, PlaysColorAndDepthOfDifferentLengthRateAndOddSizes) {
   ClipTrack odd_color = color(30);
   odd_color.pix_fmt = "yuv444p";

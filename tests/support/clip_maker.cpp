@@ -8,9 +8,9 @@
 #include <memory>
 #include <stdexcept>
 
+#include "tests/support/clip_encoder.h"
+
 extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
 #include <libavutil/pixdesc.h>
 }
 
@@ -18,29 +18,6 @@ namespace relievo::test {
 namespace {
 
 constexpr AVRational kTimeBase{1, 90000};  // whole ticks for 24, 25, 30, 60 and 30000/1001 frames a second
-constexpr AVRational kNanosecond{1, 1'000'000'000};
-
-[[noreturn]] void give_up(const std::string& what, int code = 0) {
-  char reason[AV_ERROR_MAX_STRING_SIZE] = "";
-  if (code < 0) av_strerror(code, reason, sizeof reason);
-  throw std::runtime_error("clip: " + what + " " + reason);
-}
-int check(int code, const std::string& what) {
-  if (code < 0) give_up(what, code);
-  return code;
-}
-
-struct Free {
-  void operator()(AVFormatContext* c) const {
-    if ((c->oformat->flags & AVFMT_NOFILE) == 0) avio_closep(&c->pb);
-    avformat_free_context(c);
-  }
-  void operator()(AVCodecContext* c) const { avcodec_free_context(&c); }
-  void operator()(AVFrame* f) const { av_frame_free(&f); }
-  void operator()(AVPacket* p) const { av_packet_free(&p); }
-};
-template <class T>
-using Owned = std::unique_ptr<T, Free>;
 
 struct Dictionary {
   explicit Dictionary(const std::map<std::string, std::string>& entries) {
@@ -56,10 +33,10 @@ std::uint32_t movingSlope(int component, int column, int row, int frame) {
   return static_cast<std::uint32_t>(16 + column * 3 + row * 2 + frame * 5 + component * 40);
 }
 
-// One track on its way into the file.
-class Encoder {
+// Pictures on their way into the file.
+class PictureEncoder final : public Encoder {
  public:
-  Encoder(AVFormatContext& file, const ClipTrack& track) : file_(file), track_(track) {
+  PictureEncoder(AVFormatContext& file, const ClipTrack& track) : file_(file), track_(track) {
     const AVCodec* const codec = avcodec_find_encoder_by_name(track.codec.c_str());
     if (codec == nullptr) give_up("no encoder " + track.codec);
     context_.reset(avcodec_alloc_context3(codec));
@@ -93,10 +70,10 @@ class Encoder {
     skipLeftOut();
   }
 
-  [[nodiscard]] bool done() const { return frame_ >= track_.frames; }
-  [[nodiscard]] Duration nextTime() const { return *timeOf(frame_); }
+  [[nodiscard]] bool done() const override { return frame_ >= track_.frames; }
+  [[nodiscard]] Duration nextTime() const override { return *timeOf(frame_); }
 
-  void encodeNext() {
+  void encodeNext() override {
     Owned<AVFrame> picture(av_frame_alloc());
     picture->format = context_->pix_fmt;
     picture->width = track_.width;
@@ -111,7 +88,7 @@ class Encoder {
     skipLeftOut();
   }
 
-  void finish() {
+  void finish() override {
     check(avcodec_send_frame(context_.get(), nullptr), "flush");
     write();
   }
@@ -184,13 +161,14 @@ Owned<AVFormatContext> openFile(const std::string& path) {
 }  // namespace
 
 void makeClip(const std::string& path, const std::vector<ClipTrack>& tracks,
-              const std::map<std::string, std::string>& tags) {
+              const std::map<std::string, std::string>& tags, const std::vector<ClipSound>& sounds) {
   av_log_set_level(AV_LOG_QUIET);
   const Owned<AVFormatContext> file = openFile(path);
   Dictionary words(tags);
   std::swap(file->metadata, words.dictionary);
   std::vector<std::unique_ptr<Encoder>> encoders;
-  for (const ClipTrack& track : tracks) encoders.push_back(std::make_unique<Encoder>(*file, track));
+  for (const ClipTrack& track : tracks) encoders.push_back(std::make_unique<PictureEncoder>(*file, track));
+  for (const ClipSound& sound : sounds) encoders.push_back(makeSoundEncoder(*file, sound));
 
   // One picture without a number in its name; tags of one's own in MP4 (which then has no place for a cover).
   std::map<std::string, std::string> words_of_format{{"update", path.find('%') == std::string::npos ? "1" : "0"}};

@@ -35,10 +35,21 @@ struct ClipTrack {
   std::map<std::string, std::string> options;  // of the encoder: crf, ..
 };
 
+// One sound track.
+struct ClipSound {
+  std::string codec = "flac";  // an encoder of FFmpeg: aac, libopus, libmp3lame, pcm_s16le, ..
+  int rate_hz = 48000;
+  int channels = 2;
+  Duration start{0};
+  Duration length = std::chrono::seconds(1);
+  // (seconds from 0, channel): a sample from -1 to 1. Default: 440 Hz.
+  std::function<double(double, int)> sound;
+};
+
 // The format is told by the path's ending: .mkv .mp4 .mov .avi .ts .png ("%02d.png": numbered pictures) .. Tags are the
 // container's. Throws std::runtime_error with the reason when it cannot be made.
 void makeClip(const std::string& path, const std::vector<ClipTrack>& tracks,
-              const std::map<std::string, std::string>& tags = {});
+              const std::map<std::string, std::string>& tags = {}, const std::vector<ClipSound>& sounds = {});
 
 // The sample of component `component` at (column, row), read as hal/frame.h says.
 [[nodiscard]] std::uint32_t sampleAt(const Frame& frame, int component, int column, int row) noexcept;

@@ -111,6 +111,43 @@ TEST(MediaClock, ResetEndsAPauseAndKeepsTheRate) {
   EXPECT_EQ(clock.position(machine(4s)), film(12s));
 }
 
+TEST(MediaClock, IsSteeredWithoutAJumpAndNoFurtherThanALittle) {
+  MediaClock clock;
+  clock.start(film(0s), machine(0s));
+  clock.steer(1.001, machine(10s));
+  EXPECT_EQ(clock.position(machine(10s)), film(10s));
+  EXPECT_LE(std::chrono::abs(*clock.position(machine(20s)) - film(20s + 10ms)), 1ns);
+  clock.steer(2.0, machine(20s));
+  EXPECT_DOUBLE_EQ(clock.sample()->rate, 1 + MediaClock::kMostSteering);
+  clock.steer(1.0, machine(20s));
+  EXPECT_LE(std::chrono::abs(*clock.position(machine(30s)) - film(30s + 10ms)), 1ns);
+}
+
+TEST(MediaClock, SteeringKeepsToThePauseAndToTheRate) {
+  MediaClock clock;
+  clock.start(film(0s), machine(0s));
+  ASSERT_TRUE(clock.pause(machine(1s)));
+  clock.steer(1.004, machine(2s));
+  EXPECT_EQ(clock.position(machine(9s)), film(1s));
+  ASSERT_TRUE(clock.resume(machine(10s)));
+  EXPECT_DOUBLE_EQ(clock.sample()->rate, 1.004);
+  ASSERT_TRUE(clock.setRate(0.5, machine(10s)));
+  EXPECT_DOUBLE_EQ(clock.sample()->rate, 0.502);
+}
+
+// The player sleeps until then and looks at the clock again: it must not find that it is too early.
+TEST(MediaClock, WhenItSaysSoTheTimeHasCome) {
+  for (const double rate : {1.0, 0.5, 0.995, 1.00001, 1.005, 1.0 / 3, 16.0}) {
+    for (int i = 1; i < 1000; ++i) {
+      const ClockSample sample{film(1s), machine(i * 1237ns), rate};
+      const MediaTime time = film(1s + i * 40'000'019ns);
+      const MediaTime reached = sample.at(sample.when(time));
+      ASSERT_GE(reached, time) << rate << " " << i;
+      ASSERT_LE(reached, time + 50ns) << rate << " " << i;
+    }
+  }
+}
+
 TEST(MediaClock, RefusesARateThatIsNone) {
   MediaClock clock;
   clock.start(film(0s), machine(0s));

@@ -18,8 +18,8 @@ struct Scripted {
   bool keyframe = true;
 };
 
-// Packets in the order of the script. A seek lands on the last key frame of stream 0 at or before the target, `late`
-// packets further on than it should.
+// Sound is stream 2. Packets in the order of the script. A seek lands on the last key frame of stream 0 at or before
+// the target, `late` packets further on than it should.
 class ScriptedSource final : public MediaSource {
  public:
   explicit ScriptedSource(std::vector<Scripted> script, std::size_t late = 0)
@@ -31,10 +31,10 @@ class ScriptedSource final : public MediaSource {
  private:
   Result<Description> openSource(const std::string&) override {
     Description description;
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < 3; ++i) {
       StreamInfo stream;
       stream.index = i;
-      stream.kind = StreamKind::Video;
+      stream.kind = i < 2 ? StreamKind::Video : StreamKind::Audio;
       description.streams.push_back(stream);
     }
     return description;
@@ -103,6 +103,23 @@ class OneToOneDecoder final : public VideoDecoder {
   bool draining_ = false;
 };
 
+// A sample a packet, which tells its time in ms.
+class SampleDecoder final : public AudioDecoder {
+ public:
+  [[nodiscard]] const char* name() const noexcept override { return "sample"; }
+  std::uint64_t lose_after = 1000;
+
+ private:
+  Result<void> openDecoder(const StreamInfo&, const AudioFormat&) override { return {}; }
+  Result<AudioChunk> decodePacket(const Packet& packet) override {
+    if (decoded_++ == lose_after) return fail(ErrorCode::Unsupported, "no more");
+    return AudioChunk{*packet.pts, {static_cast<float>(packet.pts->time_since_epoch() / milliseconds(1))}};
+  }
+  void flushDecoder() noexcept override {}
+  void closeDecoder() noexcept override {}
+  std::uint64_t decoded_ = 0;
+};
+
 struct Film {
   ScriptedSource* source = nullptr;
   std::unique_ptr<TrackReader> reader;
@@ -113,7 +130,19 @@ struct Film {
     reader = std::make_unique<TrackReader>(std::move(owned),
                                            [max_held] { return std::make_unique<OneToOneDecoder>(max_held); });
     EXPECT_TRUE(reader->open("").has_value());
-    for (const StreamInfo& stream : source->streams()) EXPECT_TRUE(reader->select(stream).has_value());
+    for (int i = 0; i < 2; ++i) EXPECT_TRUE(reader->select(source->streams()[static_cast<std::size_t>(i)]).has_value());
+  }
+  SampleDecoder& listen() {
+    auto decoder = std::make_unique<SampleDecoder>();
+    SampleDecoder& ear = *decoder;
+    EXPECT_TRUE(reader->listen(std::move(decoder), source->streams()[2], {}).has_value());
+    return ear;
+  }
+  // Times in ms of all the sound that has been read.
+  std::vector<int> sound() {
+    std::vector<int> times;
+    while (const auto chunk = reader->nextSound()) times.push_back(static_cast<int>(chunk->samples[0]));
+    return times;
   }
   // The next picture's time in ms, -1 for nothing.
   int next(std::size_t track) {
@@ -242,6 +271,93 @@ TEST(TrackReader, ASeekBeyondTheOtherTracksEndDoesNotSearchTheWholeFilmForIt) {
   EXPECT_EQ(film.source->seeks, 2);
   EXPECT_LE(film.next(0), 40 * 505);
   EXPECT_EQ(film.next(1), -1);
+}
+
+TEST(TrackReader, SoundComesAlongWithThePictures) {
+  std::vector<Scripted> script;
+  for (int k = 0; k < 10; ++k) {
+    script.push_back({2, 40 * k});
+    script.push_back({0, 40 * k});
+    script.push_back({2, 40 * k + 20});
+  }
+  Film film(script);
+  film.listen();
+  EXPECT_EQ(film.sound(), std::vector<int>{});
+  EXPECT_EQ(film.next(0), 0);
+  EXPECT_EQ(film.next(0), 40);
+  EXPECT_EQ(film.sound(), (std::vector{0, 20, 40}));
+}
+
+// The container has it a second later than its pictures: it is fetched, the pictures in between are kept.
+TEST(TrackReader, ReadsAheadForSoundThatLiesLate) {
+  std::vector<Scripted> script;
+  for (int k = 0; k < 100; ++k) {
+    script.push_back({0, 40 * k});
+    if (k >= 25) script.push_back({2, 40 * (k - 25)});
+  }
+  Film film(script);
+  EXPECT_FALSE(film.reader->readAhead()) << "nobody listens";
+  film.listen();
+  EXPECT_FALSE(film.reader->readAhead()) << "before the first picture";
+  EXPECT_EQ(film.next(0), 0);
+  while (film.sound().empty()) ASSERT_TRUE(film.reader->readAhead());
+  for (int k = 1; k < 100; ++k) ASSERT_EQ(film.next(0), 40 * k);
+}
+
+TEST(TrackReader, ReadsNoFurtherAheadThanItsBound) {
+  std::vector<Scripted> script;
+  for (int k = 0; k < 1000; ++k) script.push_back({0, 40 * k});
+  Film film(script);
+  film.listen();
+  EXPECT_EQ(film.next(0), 0);
+  int read = 0;
+  while (film.reader->readAhead()) ++read;
+  EXPECT_EQ(read, TrackReader::kReadAhead / milliseconds(40) + 1);
+  EXPECT_EQ(film.next(0), 40);
+  EXPECT_TRUE(film.reader->readAhead());
+}
+
+TEST(TrackReader, SoundThatNobodyTakesIsDroppedTheOldestFirst) {
+  std::vector<Scripted> script;
+  const int count = static_cast<int>(SoundTrack::kMaxWaitingPackets) + 100;
+  for (int k = 0; k < count; ++k) script.push_back({2, k});
+  script.push_back({0, 0});
+  Film film(script);
+  film.listen();
+  EXPECT_EQ(film.next(0), 0);
+  const std::vector<int> times = film.sound();
+  ASSERT_EQ(times.size(), 1000u) << "then the decoder gives up";
+  EXPECT_EQ(times.front(), 100);
+}
+
+TEST(TrackReader, ADecoderOfSoundThatFailsEndsTheSoundAlone) {
+  std::vector<Scripted> script;
+  for (int k = 0; k < 10; ++k) {
+    script.push_back({2, 40 * k});
+    script.push_back({0, 40 * k});
+  }
+  Film film(script);
+  film.listen().lose_after = 2;
+  for (int k = 0; k < 10; ++k) ASSERT_EQ(film.next(0), 40 * k);
+  EXPECT_EQ(film.sound(), (std::vector{0, 40}));
+  EXPECT_EQ(film.next(0), -1);
+}
+
+TEST(TrackReader, ASeekForgetsSoundAsWell) {
+  std::vector<Scripted> script;
+  for (int k = 0; k < 100; ++k) {
+    script.push_back({0, 40 * k, k % 10 == 0});
+    script.push_back({2, 40 * k});
+  }
+  Film film(script);
+  film.listen();
+  for (int k = 0; k < 5; ++k) EXPECT_EQ(film.next(0), 40 * k);
+  ASSERT_TRUE(film.reader->seek(MediaTime(milliseconds(40 * 50))).has_value());
+  const int picture = film.next(0);
+  EXPECT_GT(picture, 40 * 5);
+  const std::vector<int> times = film.sound();
+  ASSERT_FALSE(times.empty());
+  EXPECT_EQ(times.front(), picture);
 }
 
 TEST(TrackReader, SeeksBackAfterTheEnd) {

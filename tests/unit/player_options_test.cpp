@@ -26,7 +26,8 @@ Parsed parse(const std::vector<const char*>& arguments) {
   words.insert(words.end(), arguments.begin(), arguments.end());
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
-  auto options = parseOptions(static_cast<int>(words.size()), words.data(), {"offscreen mock", "sim mock", "none"});
+  auto options =
+      parseOptions(static_cast<int>(words.size()), words.data(), {"offscreen mock", "sim mock", "none", "alsa null"});
   std::string out = testing::internal::GetCapturedStdout();
   std::string err = testing::internal::GetCapturedStderr();
   return {std::move(options), std::move(out), std::move(err)};
@@ -52,6 +53,7 @@ TEST(Options, HaveTheDefaultsOfTheBox) {
   EXPECT_EQ(play.display, "offscreen");
   EXPECT_EQ(play.haptic, "sim");
   EXPECT_EQ(play.remote, "none");
+  EXPECT_EQ(play.audio, "none");
   EXPECT_EQ(play.player.display.width, 1280);
   EXPECT_EQ(play.player.display.height, 720);
   EXPECT_FALSE(play.player.duration);
@@ -96,6 +98,10 @@ TEST(Options, AWindowBringsItsKeysAndItsMouseAlong) {
   EXPECT_EQ(parsedPlay({"--display", "kms"}).remote, "evdev");
   EXPECT_EQ(parsedPlay({"--display", "kms:/dev/dri/card1"}).remote, "evdev");
   EXPECT_EQ(parsedPlay({"--display", "kms", "--remote", "none"}).remote, "none");
+  EXPECT_EQ(parsedPlay({"--display", "window"}).audio, "alsa");
+  EXPECT_EQ(parsedPlay({"--display", "kms:/dev/dri/card1"}).audio, "alsa");
+  EXPECT_EQ(parsedPlay({"--display", "window", "--audio", "none"}).audio, "none");
+  EXPECT_EQ(parsedPlay({"--audio", "alsa:hdmi:CARD=vc4hdmi0"}).audio, "alsa:hdmi:CARD=vc4hdmi0");
   EXPECT_EQ(parsedPlay({"--display", "window"}).haptic, "sim");
   EXPECT_EQ(parsedPlay({"--display", "window", "--haptic", "pointer"}).haptic, "pointer:window");
   EXPECT_EQ(parsedPlay({"--display", "window", "--haptic", "pointer:/dev/input/event3"}).haptic,

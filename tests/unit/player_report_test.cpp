@@ -39,6 +39,7 @@ PlayReport example() {
   r.haptic.max_scene_slew_n_per_s = 49.5;
   r.haptic.scene_mj = 2.0;
   r.haptic.artefact_mj = 0.5;
+  r.sound = {.device = "alsa", .rate_hz = 48000, .underruns = 1, .realigned = 2, .pictures = 50, .max_offset_ms = 12.5};
   r.states = {PlayerState::Boot, PlayerState::Idle, PlayerState::Opening};
   r.seeks = {{10.0, 10.04, 10.04}, {0.0, {}, {}}};
   return r;
@@ -60,6 +61,11 @@ TEST(Report, HoldsTheFieldsThatProgramsReadAtTheirPlaces) {
   EXPECT_EQ(j["haptic"]["update_ns"], (json{{"p50", 1000}, {"p99", 2000}, {"p999", 3000}, {"max", 4000}}));
   EXPECT_EQ(j["haptic"]["wakeup_ns"], (json{{"p50", 5000}, {"p99", 6000}, {"p999", 7000}, {"max", 8000}}));
   EXPECT_EQ(j["force"], (json{{"max_n", 1.25}, {"max_scene_slew_n_per_s", 49.5}}));
+  EXPECT_EQ(j["audio"]["device"], "alsa");
+  EXPECT_EQ(j["audio"]["rate_hz"], 48000);
+  EXPECT_EQ(j["audio"]["underruns"], 1);
+  EXPECT_EQ(j["audio"]["realigned"], 2);
+  EXPECT_EQ(j["audio"]["max_offset_ms"], 12.5);
   EXPECT_EQ(j["energy"], (json{{"scene_mj", 2.0}, {"artefact_mj", 0.5}}));
   EXPECT_EQ(j["states"], (json{"boot", "idle", "opening"}));
   EXPECT_EQ(j["seeks"][0], (json{{"target_s", 10.0}, {"picture_s", 10.04}, {"surface_s", 10.04}}));

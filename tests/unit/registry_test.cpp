@@ -32,6 +32,10 @@ TEST_F(Registry, MakesEachByItsName) {
   EXPECT_STREQ(makeHapticDevice("polhem", clock_).value()->capabilities().name, "Polhem");
   EXPECT_STREQ(makeHapticDevice("sim", clock_).value()->capabilities().name, "sim");
   EXPECT_STREQ(makeHapticDevice("mock", clock_).value()->capabilities().name, "mock");
+  EXPECT_STREQ(makeAudioOutput("alsa", clock_).value()->capabilities().name, "alsa");
+  EXPECT_STREQ(makeAudioOutput("alsa:hdmi:CARD=0", clock_).value()->capabilities().name, "alsa");
+  EXPECT_STREQ(makeAudioOutput("null", clock_).value()->capabilities().name, "null");
+  EXPECT_STREQ(makeAudioDecoder()->name(), "ffmpeg");
   EXPECT_NE(makeMediaSource("film.mkv"), nullptr);
   EXPECT_STREQ(makeVideoDecoder()->capabilities().name, "ffmpeg");
 }
@@ -39,6 +43,7 @@ TEST_F(Registry, MakesEachByItsName) {
 TEST_F(Registry, NoneIsNoDeviceAndNoError) {
   EXPECT_EQ(makeHapticDevice("none", clock_).value(), nullptr);
   EXPECT_EQ(makeRemoteInput("none", clock_).value(), nullptr);
+  EXPECT_EQ(makeAudioOutput("none", clock_).value(), nullptr);
 }
 
 TEST_F(Registry, RefusesOtherNamesAndListsTheRightOnes) {
@@ -60,6 +65,12 @@ TEST_F(Registry, RefusesOtherNamesAndListsTheRightOnes) {
     ASSERT_FALSE(remote) << name;
     EXPECT_EQ(remote.error().error.code, ErrorCode::InvalidArgument);
     EXPECT_THAT(remote.error().error.message, testing::HasSubstr(kRemoteNames));
+  }
+  for (const char* name : {"", "alsa:", "pulse", "null:1"}) {
+    const auto audio = makeAudioOutput(name, clock_);
+    ASSERT_FALSE(audio) << name;
+    EXPECT_EQ(audio.error().error.code, ErrorCode::InvalidArgument);
+    EXPECT_THAT(audio.error().error.message, testing::HasSubstr(kAudioNames));
   }
 }
 

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// ALSA in its non-blocking mode: the library counts, recovers and converts; this asks it the right questions.
+#include "drivers/alsa/alsa.h"
+
+#include <alsa/asoundlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <utility>
+
+namespace relievo {
+namespace {
+
+constexpr unsigned kBufferUs = 500'000;
+constexpr unsigned kPeriodUs = 20'000;
+constexpr std::size_t kConvertedAtOnce = 2048;  // samples
+
+// The library prints to stderr by itself unless told once; the program prints its own line.
+void printNothing(const char* /*file*/, int /*line*/, const char* /*function*/, int /*error*/, const char* /*text*/,
+                  ...) {}
+
+Error openError(int code) noexcept {
+  switch (code) {
+    case -ENOENT:
+    case -ENODEV:
+    case -ENXIO:
+      return {ErrorCode::NotFound, -code, "no such sound card is there; `aplay -L` lists those that are"};
+    case -EBUSY:
+      return {ErrorCode::Exhausted, EBUSY,
+              "another program has the sound card; stop that one, or name a shared device"};
+    case -EACCES:
+    case -EPERM:
+      return {ErrorCode::PermissionDenied, -code, "no right to the sound card; add the user to the group audio"};
+    default:
+      return {ErrorCode::Unsupported, std::max(-code, 0), "the sound card does not work; `speaker-test` tells more"};
+  }
+}
+
+class AlsaOutput final : public AudioOutput {
+ public:
+  AlsaOutput(std::string device, const Clock& clock) : device_(std::move(device)), clock_(clock) {
+    snd_lib_error_set_handler(printNothing);
+  }
+  ~AlsaOutput() override { close(); }
+  AlsaOutput(const AlsaOutput&) = delete;
+  AlsaOutput& operator=(const AlsaOutput&) = delete;
+
+  [[nodiscard]] Capabilities capabilities() const noexcept override { return {.name = "alsa", .buffer = buffer_}; }
+
+ private:
+  Result<AudioFormat> openOutput(const AudioFormat& wished) override {
+    if (const int code = snd_pcm_open(&pcm_, device_.c_str(), SND_PCM_STREAM_PLAYBACK, SND_PCM_NONBLOCK); code < 0) {
+      pcm_ = nullptr;
+      return std::unexpected(openError(code));
+    }
+    AudioFormat given = wished;
+    if (const int code = configure(given); code < 0) {
+      return fail(ErrorCode::Unsupported,
+                  "the sound card takes neither float nor 16 bit samples; name it as plughw:.., which converts", -code);
+    }
+    written_ = 0;
+    return given;
+  }
+
+  int configure(AudioFormat& format) {
+    snd_pcm_hw_params_t* hardware = nullptr;
+    snd_pcm_hw_params_alloca(&hardware);
+    if (const int code = snd_pcm_hw_params_any(pcm_, hardware); code < 0) return code;
+    if (const int code = snd_pcm_hw_params_set_access(pcm_, hardware, SND_PCM_ACCESS_RW_INTERLEAVED); code < 0) {
+      return code;
+    }
+    as_float_ = snd_pcm_hw_params_set_format(pcm_, hardware, SND_PCM_FORMAT_FLOAT) >= 0;
+    if (!as_float_) {
+      if (const int code = snd_pcm_hw_params_set_format(pcm_, hardware, SND_PCM_FORMAT_S16); code < 0) return code;
+    }
+    auto channels = static_cast<unsigned>(format.channels);
+    auto rate = static_cast<unsigned>(format.rate_hz);
+    unsigned buffer_us = kBufferUs, period_us = kPeriodUs;
+    for (const int code : {snd_pcm_hw_params_set_channels_near(pcm_, hardware, &channels),
+                           snd_pcm_hw_params_set_rate_near(pcm_, hardware, &rate, nullptr),
+                           snd_pcm_hw_params_set_buffer_time_near(pcm_, hardware, &buffer_us, nullptr),
+                           snd_pcm_hw_params_set_period_time_near(pcm_, hardware, &period_us, nullptr),
+                           snd_pcm_hw_params(pcm_, hardware)}) {
+      if (code < 0) return code;
+    }
+    snd_pcm_uframes_t frames = 0;
+    if (const int code = snd_pcm_hw_params_get_buffer_size(hardware, &frames); code < 0) return code;
+    buffer_ = fromSeconds(static_cast<double>(frames) / rate);
+    format = {.rate_hz = static_cast<int>(rate), .channels = static_cast<int>(channels)};
+
+    snd_pcm_sw_params_t* software = nullptr;
+    snd_pcm_sw_params_alloca(&software);
+    if (const int code = snd_pcm_sw_params_current(pcm_, software); code < 0) return code;
+    if (const int code = snd_pcm_sw_params_set_start_threshold(pcm_, software, 1); code < 0) return code;
+    return snd_pcm_sw_params(pcm_, software);
+  }
+
+  Result<std::size_t> writeFrames(const float* samples, std::size_t frames) override {
+    const auto channels = static_cast<std::size_t>(format().channels);
+    std::size_t done = 0;
+    bool recovered = false;
+    while (done < frames) {
+      // Asked first: the library does not write less than a period of its own accord.
+      snd_pcm_sframes_t taken = snd_pcm_avail_update(pcm_);
+      if (taken > 0) {
+        const std::size_t most = as_float_ ? frames : kConvertedAtOnce / channels;
+        const std::size_t count = std::min({frames - done, static_cast<std::size_t>(taken), most});
+        taken = snd_pcm_writei(pcm_, native(samples + done * channels, count * channels), count);
+      }
+      if (taken == 0 || taken == -EAGAIN) break;
+      if (taken > 0) {
+        done += static_cast<std::size_t>(taken);
+        continue;
+      }
+      // Dry, or the machine has slept: it begins anew.
+      const bool anew = (taken == -EPIPE || taken == -ESTRPIPE) && !std::exchange(recovered, true);
+      if (!anew || snd_pcm_prepare(pcm_) < 0) return std::unexpected(lost(static_cast<int>(taken)));
+    }
+    written_ += static_cast<std::int64_t>(done);
+    return done;
+  }
+
+  const void* native(const float* samples, std::size_t count) noexcept {
+    if (as_float_) return samples;
+    for (std::size_t i = 0; i < count; ++i) {
+      converted_[i] = static_cast<std::int16_t>(std::lround(32767.0F * std::clamp(samples[i], -1.0F, 1.0F)));
+    }
+    return converted_.data();
+  }
+
+  // The time is read around the library's answer, which is about the moment that it is given in; its own time stamps
+  // are of another clock behind some of its plug-ins.
+  Result<std::optional<AudioPosition>> samplePosition() override {
+    const snd_pcm_state_t state = snd_pcm_state(pcm_);
+    if (state == SND_PCM_STATE_DISCONNECTED) return std::unexpected(lost(-ENODEV));
+    if (state != SND_PCM_STATE_RUNNING) return std::nullopt;
+    snd_pcm_sframes_t available = 0, delay = 0;
+    const MonotonicTime before = clock_.now();
+    const int code = snd_pcm_avail_delay(pcm_, &available, &delay);  // the delay alone need not see that it is dry
+    const MonotonicTime after = clock_.now();
+    if (code == -EPIPE || code == -ESTRPIPE) return std::nullopt;
+    if (code < 0) return std::unexpected(lost(code));
+    return AudioPosition{written_ - delay, before + (after - before) / 2};
+  }
+
+  Result<void> dropFrames() override {
+    for (const int code : {snd_pcm_drop(pcm_), snd_pcm_prepare(pcm_)}) {
+      if (code < 0) return std::unexpected(lost(code));
+    }
+    written_ = 0;
+    return {};
+  }
+
+  void closeOutput() noexcept override {
+    if (pcm_ != nullptr) snd_pcm_close(std::exchange(pcm_, nullptr));
+  }
+
+  static Error lost(int code) noexcept { return {ErrorCode::Lost, std::max(-code, 0), "the sound card has gone away"}; }
+
+  const std::string device_;
+  const Clock& clock_;
+  snd_pcm_t* pcm_ = nullptr;
+  bool as_float_ = true;
+  Duration buffer_{0};
+  std::int64_t written_ = 0;  // since `open` or the last flush
+  std::array<std::int16_t, kConvertedAtOnce> converted_{};
+};
+
+}  // namespace
+
+std::unique_ptr<AudioOutput> makeAlsaOutput(std::string device, const Clock& clock) {
+  return std::make_unique<AlsaOutput>(std::move(device), clock);
+}
+
+}  // namespace relievo
