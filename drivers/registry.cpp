@@ -2,6 +2,7 @@
 // Makes back ends by the names of the command line: the only file that knows them all.
 #include "drivers/registry.h"
 
+#include <atomic>
 #include <optional>
 #include <utility>
 
@@ -79,6 +80,25 @@ DeviceState look(const char* name, HapticDevice& device) {
   return {"haptic", name, opened.has_value(), opened ? "ready" : opened.error().message};
 }
 
+// Of the mocks that are there. The main thread's.
+std::weak_ptr<MockDisplayBench> display_bench;
+std::weak_ptr<MockHapticBench> haptic_bench;
+
+template <class Bench>
+std::shared_ptr<Bench> newBench(std::weak_ptr<Bench>& known) {
+  auto bench = std::make_shared<Bench>();
+  known = bench;
+  return bench;
+}
+
+template <class Bench>
+Result<void> turn(const std::weak_ptr<Bench>& known, std::atomic<bool> Bench::* which, bool on) {
+  const auto bench = known.lock();
+  if (!bench) return fail(ErrorCode::InvalidState, "that device is no mock; start with --display mock, --haptic mock");
+  *bench.*which = on;
+  return {};
+}
+
 std::unexpected<Failure> unknown(const char* option, std::string_view name, const char* message) {
   return failOn(option + (" " + std::string(name)), {ErrorCode::InvalidArgument, 0, message});
 }
@@ -92,7 +112,7 @@ Outcome<std::unique_ptr<Display>> makeDisplay(std::string_view text) {
   if (spec.plain("window")) return makeWindowDisplay(theWindow(), clock);
   if (spec.plain("offscreen")) return makeOffscreenDisplay("", clock);
   if (spec.withArgument("offscreen")) return makeOffscreenDisplay(*spec.argument, clock);
-  if (spec.plain("mock")) return makeMockDisplay(MockDisplayProfile{}, clock);
+  if (spec.plain("mock")) return makeMockDisplay(MockDisplayProfile{}, clock, newBench(display_bench));
   return unknown("--display", text, "no such display; it is one of: " RELIEVO_DISPLAY_NAMES);
 }
 
@@ -119,7 +139,7 @@ Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(std::string_view text, C
     if (!recording) return std::unexpected(recording.error());
     return makeReplay(std::move(*recording));
   }
-  if (spec.plain("mock")) return makeMockHaptic(MockHapticProfile{}, clock);
+  if (spec.plain("mock")) return makeMockHaptic(MockHapticProfile{}, clock, newBench(haptic_bench));
   if (spec.plain("none")) return nullptr;
   return unknown("--haptic", text, "no such haptic device; it is one of: " RELIEVO_HAPTIC_NAMES);
 }
@@ -160,6 +180,16 @@ Result<std::string> readText(const std::string& url, std::size_t most_bytes, con
 
 std::unique_ptr<AudioDecoder> makeAudioDecoder() {
   return makeFfmpegAudioDecoder();
+}
+
+Result<void> switchFault(std::string_view device, std::string_view fault) {
+  const bool unplug = fault == "unplug";
+  if (device == "haptic" && fault == "glitch") return turn(haptic_bench, &MockHapticBench::glitch, true);
+  if (unplug || fault == "plug") {
+    if (device == "haptic") return turn(haptic_bench, &MockHapticBench::unplugged, unplug);
+    if (device == "display") return turn(display_bench, &MockDisplayBench::unplugged, unplug);
+  }
+  return fail(ErrorCode::InvalidArgument, "no such fault; there are: haptic unplug|plug|glitch, display unplug|plug");
 }
 
 std::vector<DeviceState> lookAtDevices(const HapticSettings& settings, Clock& clock) {

@@ -51,6 +51,10 @@ struct HapticSettings {
 [[nodiscard]] Result<std::string> readText(const std::string& url, std::size_t most_bytes,
                                            const std::atomic<bool>& cancelled);
 
+// A fault of a mock that this process has made, or its end, while it runs: "haptic" "unplug", "display" "plug". The
+// failure of a wrong word says which there are; InvalidState where that device is no mock.
+[[nodiscard]] Result<void> switchFault(std::string_view device, std::string_view fault);
+
 // What is there of each kind of hardware, found out by opening it: takes seconds where a device must be started up.
 struct DeviceState {
   const char* kind = "";  // display, audio, haptic

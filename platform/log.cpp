@@ -2,6 +2,7 @@
 // Lines on stderr, each put together on the stack and written in one call: threads do not interleave.
 #include "platform/log.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,17 +11,43 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 
 namespace relievo {
 namespace {
 
 constexpr std::size_t kLineBytes = 1024;  // below PIPE_BUF: a pipe takes it whole or not at all
 
-std::atomic<LogLevel> maximum{LogLevel::Info};
+std::atomic<LogLevel> of_all{LogLevel::Info};
+constexpr auto kAsAll = static_cast<LogLevel>(0xff);
+struct AreaLevel {
+  std::atomic<LogLevel> level{kAsAll};
+};
+std::array<AreaLevel, kLogAreas.size()> of_area;
 std::atomic<const char*> program{"relievo"};
 
-bool printed(LogLevel level) noexcept {
-  return level <= maximum.load(std::memory_order_relaxed);
+std::atomic<LogLevel>* levelOf(std::string_view area) noexcept {
+  const auto* const found = std::ranges::find(kLogAreas, area);
+  return found == kLogAreas.end() ? nullptr : &of_area[static_cast<std::size_t>(found - kLogAreas.begin())].level;
+}
+
+// $JOURNAL_STREAM names the file that systemd has made stderr (systemd.exec(5)): "DEVICE:INODE".
+bool stderrIsTheJournal() noexcept {
+  const char* const stream = std::getenv("JOURNAL_STREAM");
+  struct stat file{};
+  if (stream == nullptr || ::fstat(STDERR_FILENO, &file) != 0) return false;
+  char ours[64];
+  std::snprintf(ours, sizeof ours, "%ju:%ju", static_cast<std::uintmax_t>(file.st_dev),
+                static_cast<std::uintmax_t>(file.st_ino));
+  return std::strcmp(stream, ours) == 0;
+}
+
+// sd-daemon(3)
+const char* priority(LogLevel level) noexcept {
+  static const bool wanted = stderrIsTheJournal();
+  constexpr std::array kPriorities{"<3>", "<4>", "<6>", "<7>"};
+  return wanted ? kPriorities[static_cast<std::size_t>(level)] : "";
 }
 
 // How much of a buffer of `room` bytes snprintf has filled; what did not fit is cut off.
@@ -47,8 +74,26 @@ void writeAll(const char* bytes, std::size_t count) noexcept {
 
 }  // namespace
 
+std::optional<LogLevel> logLevelOf(std::string_view word) noexcept {
+  constexpr std::array<std::string_view, 4> kWords{"error", "warning", "info", "debug"};
+  const auto* const found = std::ranges::find(kWords, word);
+  if (found == kWords.end()) return std::nullopt;
+  return static_cast<LogLevel>(found - kWords.begin());
+}
+
 void setLogLevel(LogLevel level) noexcept {
-  maximum.store(level, std::memory_order_relaxed);
+  of_all.store(level, std::memory_order_relaxed);
+  for (AreaLevel& each : of_area) each.level.store(kAsAll, std::memory_order_relaxed);
+}
+
+void setLogLevel(std::string_view area, LogLevel level) noexcept {
+  if (auto* const its_own = levelOf(area)) its_own->store(level, std::memory_order_relaxed);
+}
+
+LogLevel logLevel(std::string_view area) noexcept {
+  const auto* const its_own = levelOf(area);
+  const LogLevel level = its_own == nullptr ? kAsAll : its_own->load(std::memory_order_relaxed);
+  return level == kAsAll ? of_all.load(std::memory_order_relaxed) : level;
 }
 
 void setLogProgram(const char* name) noexcept {
@@ -56,12 +101,12 @@ void setLogProgram(const char* name) noexcept {
 }
 
 void log(LogLevel level, const char* area, const char* format, ...) noexcept {
-  if (!printed(level)) return;
+  if (level > logLevel(area)) return;
   const int kept_errno = errno;  // a line is often printed between a failure and its report
   char line[kLineBytes];
   constexpr std::size_t kRoom = sizeof line - 1;  // the last byte is the newline's
   const char* const name = program.load(std::memory_order_relaxed);
-  std::size_t length = filled(std::snprintf(line, kRoom, "%s: %s: ", name, area), kRoom);
+  std::size_t length = filled(std::snprintf(line, kRoom, "%s%s: %s: ", priority(level), name, area), kRoom);
   va_list arguments;
   va_start(arguments, format);
   length += filled(std::vsnprintf(line + length, kRoom - length, format, arguments), kRoom - length);
@@ -74,17 +119,17 @@ void log(LogLevel level, const char* area, const char* format, ...) noexcept {
 
 void RingLog::drain() noexcept {
   while (const std::optional<LogRecord> record = ring_.tryPop()) {
-    const auto& [level, area, text, a, b] = *record;
+    const auto& [level, text, a, b] = *record;
     if (!std::isnan(b)) {
-      log(level, area, "%s %g %g", text, a, b);
+      log(level, area_, "%s %g %g", text, a, b);
     } else if (!std::isnan(a)) {
-      log(level, area, "%s %g", text, a);
+      log(level, area_, "%s %g", text, a);
     } else {
-      log(level, area, "%s", text);
+      log(level, area_, "%s", text);
     }
   }
   const std::uint32_t lost = lost_.exchange(0, std::memory_order_relaxed);
-  if (lost > 0) log(LogLevel::Warning, "log", "%u lines lost: they came faster than they were printed", lost);
+  if (lost > 0) log(LogLevel::Warning, area_, "%u lines lost: they came faster than they were printed", lost);
 }
 
 }  // namespace relievo

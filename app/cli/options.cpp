@@ -69,6 +69,31 @@ void tellWrongUse(CLI::App& program, const CLI::ParseError& error) {
   }
 }
 
+// "--packing auto|tracks|sbs|tb     Where the depth is [auto]"
+class Help final : public CLI::Formatter {
+ public:
+  using CLI::Formatter::Formatter;
+
+  std::string make_option_opts(const CLI::Option* option) const override {
+    const std::string type = option->get_type_size() == 0 ? "" : option->get_type_name();
+    const bool many = option->get_expected_max() == CLI::detail::expected_max_vector_size;
+    return (type.empty() ? "" : " " + type) + (many ? " ..." : "") +
+           (option->get_required() ? " " + get_label("REQUIRED") : "");
+  }
+  std::string make_option_desc(const CLI::Option* option) const override {
+    std::string text = option->get_description();
+    const std::string& usual = option->get_default_str();
+    if (!usual.empty() && !option->get_required())
+      text.insert(std::min(text.find('\n'), text.size()), " [" + usual + "]");
+    return text;
+  }
+};
+
+void setHelp(CLI::App& app) {
+  app.formatter(std::make_shared<Help>());
+  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) setHelp(*command);
+}
+
 }  // namespace
 
 bool parseSizes(std::string_view text, std::span<double> sizes) noexcept {
@@ -90,11 +115,11 @@ void addDepthOptions(CLI::App& app, SourceOptions& source) {
   addChoice(
       app, "--packing", source.packing,
       {{"auto", Packing::Auto}, {"tracks", Packing::Tracks}, {"sbs", Packing::SideBySide}, {"tb", Packing::TopBottom}},
-      "Where the depth is [auto]\n"
+      "Where the depth is\n"
       "auto: two tracks or a DEPTH_PACKING tag tell; tracks: two video tracks, or --depth;\n"
       "sbs: one picture, colour left, depth right; tb: colour on top, depth below");
   addChoice(app, "--depth-code", source.depth_code, {{"luma", DepthCode::Luma}, {"hue", DepthCode::Hue}},
-            "How the depth is coded [luma]\n"
+            "How the depth is coded\n"
             "luma: as brightness; hue: as colour, red near, round to red far");
   app.add_option_function<std::vector<std::string>>(
          "--calibration",
@@ -125,6 +150,7 @@ void addVolumeOption(CLI::App& app, std::optional<DisplayVolume>& volume) {
 
 std::expected<void, int> parseCommandLine(CLI::App& program, int argc, const char* const* argv) {
   program.set_version_flag("--version", program.get_name() + " " RELIEVO_VERSION, "Print the version and exit");
+  setHelp(program);
   try {
     program.parse(argc, argv);
     return {};

@@ -31,8 +31,11 @@ struct WordFailure final : std::exception, Failure {
 template <class T>
 CLI::Option* addChoice(CLI::App& app, const char* option, T& value,
                        std::vector<std::pair<std::string, std::type_identity_t<T>>> choices, const char* help) {
-  std::string words;
-  for (const auto& choice : choices) words += (words.empty() ? "" : "|") + choice.first;
+  std::string words, usual;
+  for (const auto& choice : choices) {
+    words += (words.empty() ? "" : "|") + choice.first;
+    if (choice.second == value) usual = choice.first;
+  }
   const auto choose = [&value, option, choices = std::move(choices), words](const std::string& word) {
     for (const auto& [known, meaning] : choices) {
       if (word != known) continue;
@@ -41,7 +44,7 @@ CLI::Option* addChoice(CLI::App& app, const char* option, T& value,
     }
     throw CLI::ValidationError(option + (" " + word), "it is one of " + words);
   };
-  return app.add_option_function<std::string>(option, choose, help)->type_name(words);
+  return app.add_option_function<std::string>(option, choose, help)->type_name(words)->default_str(usual);
 }
 
 // For `check`: a number within bounds. CLI::Range lets through what is not a number.
@@ -52,8 +55,8 @@ void addDepthOptions(CLI::App& app, SourceOptions& source);
 // --volume
 void addVolumeOption(CLI::App& app, std::optional<DisplayVolume>& volume);
 
-// Adds --version. On wrong use, and when help or the version was asked for, it has printed what there is to say and
-// answers the exit code.
+// Adds --version; the help tells an option's default, where it has one, after the first line of its text. On wrong use,
+// and when help or the version was asked for, it has printed what there is to say and answers the exit code.
 [[nodiscard]] std::expected<void, int> parseCommandLine(CLI::App& program, int argc, const char* const* argv);
 
 // InvalidArgument for an output that is one of the inputs, or another output: writing it would destroy that. Words that

@@ -66,6 +66,7 @@ void HapticTask::changeScene(TouchMethod& method, const DisplayVolume& volume, c
 
 LoopControl HapticTask::loop(const Cycle& cycle) RELIEVO_RT {
   bump(counters_.ticks);
+  noteLate(cycle);
   FingerState state;
   state.time = cycle.woken;
   if (lost_) {
@@ -110,10 +111,21 @@ LoopControl HapticTask::loop(const Cycle& cycle) RELIEVO_RT {
   return LoopControl::Continue;
 }
 
+void HapticTask::noteLate(const Cycle& cycle) RELIEVO_RT {
+  if (cycle.index > next_index_ && next_index_ > 0) {
+    log_.push({.level = LogLevel::Debug,
+               .text = "ticks left out, then one woken late by so many us:",
+               .a = static_cast<double>(cycle.index - next_index_),
+               .b = 1e6 * toSeconds(cycle.woken - cycle.scheduled)});
+  }
+  next_index_ = cycle.index + 1;
+}
+
 // Zero force is the device's own on Lost (see HapticDevice); here the task forgets what it held, so that a device that
 // comes back is faded in from zero.
 void HapticTask::failed(const Error& error, MonotonicTime time) RELIEVO_RT {
   const bool lost = error.code == ErrorCode::Lost;
+  log_.push({.level = lost ? LogLevel::Info : LogLevel::Debug, .text = error.message});
   report(lost ? HapticFault::Kind::DeviceLost : HapticFault::Kind::DeviceError, time);
   if (!lost) return;
   lost_ = true;

@@ -13,6 +13,7 @@
 #include "app/scene/display_volume.h"
 #include "hal/haptic_device.h"
 #include "platform/cyclic_thread.h"
+#include "platform/log.h"
 #include "platform/spsc_ring.h"
 #include "platform/triple_buffer.h"
 
@@ -70,9 +71,13 @@ class HapticTask final : public CyclicTask {
   [[nodiscard]] std::optional<FingerState> nextTick() noexcept { return ticks_.tryPop(); }
   [[nodiscard]] std::optional<HapticFault> nextFault() noexcept { return faults_.tryPop(); }
 
+  // The printer's side, one thread: what the task has had to say since, in the area "haptic".
+  void printLog() noexcept { log_.drain(); }
+
   [[nodiscard]] const HapticCounters& counters() const noexcept { return counters_; }
 
  private:
+  void noteLate(const Cycle& cycle) RELIEVO_RT;
   void failed(const Error& error, MonotonicTime time) RELIEVO_RT;
   void noteFeed(bool stale, MonotonicTime time) RELIEVO_RT;
   void count(const FingerState& state) RELIEVO_RT;
@@ -89,10 +94,12 @@ class HapticTask final : public CyclicTask {
   bool lost_ = false;
   bool primed_ = false;  // there was a tick before this one
   MonotonicTime last_woken_;
+  std::uint64_t next_index_ = 0;
   TripleBuffer<SurfaceWindow> windows_;
   TripleBuffer<FingerState> finger_;
   SpscRing<FingerState, 4096> ticks_;
   SpscRing<HapticFault, 64> faults_;
+  RingLog log_{"haptic"};
   HapticCounters counters_;
 };
 

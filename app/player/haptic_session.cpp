@@ -165,6 +165,10 @@ std::optional<HapticFault> HapticSession::nextFault() {
   return fault;
 }
 
+void HapticSession::printLog() noexcept {
+  if (task_ != nullptr) task_->printLog();
+}
+
 void HapticSession::sleepUntil(MonotonicTime deadline) noexcept {
   if (running_ && ticking_ == Ticking::ByHand) {
     for (; next_tick_ <= deadline; next_tick_ += period_) {

@@ -76,6 +76,8 @@ class HapticSession {
   [[nodiscard]] std::optional<FingerState> nextTick() noexcept;
   // After DeviceLost the device has been closed and is looked for.
   [[nodiscard]] std::optional<HapticFault> nextFault();
+  // What the real-time side has had to say since.
+  void printLog() noexcept;
 
   // The owner's wait. ByHand, the ticks that are due meanwhile run in it, each at its time.
   void sleepUntil(MonotonicTime deadline) noexcept;

@@ -12,8 +12,10 @@
 #include "app/cli/program.h"
 #include "app/player/calibrate.h"
 #include "app/player/config_file.h"
+#include "app/player/control_socket.h"
 #include "app/player/options.h"
 #include "app/player/player.h"
+#include "app/player/player_control.h"
 #include "app/player/probe.h"
 #include "app/player/recorder.h"
 #include "drivers/registry.h"
@@ -82,21 +84,21 @@ Outcome<void> complete(PlayOptions& options) {
   return failOn("--resume", {ErrorCode::NotFound, 0, "there is no home to remember in; set HOME or STATE_DIRECTORY"});
 }
 
-int play(PlayOptions options) {
+int play(PlayOptions options, const FileConfig& config) {
   const std::atomic<bool>& stop = stopOnSignals(drivers::stopAllMotors);
-  const auto config = loadConfig(options.config_path);
-  if (!config) return tell(config.error());
+  applyLogLevels(config);
   if (auto completed = complete(options); !completed) return tell(completed.error());
   const SourceOptions& source = options.player.source;
-  if (auto apart = keepApart({options.report_path, options.record_path, captureFile(options.display)},
-                             {source.url, source.depth_url, fileOf(options.haptic), fileOf(options.remote)});
+  if (auto apart =
+          keepApart({options.report_path, options.record_path, options.control_path, captureFile(options.display)},
+                    {source.url, source.depth_url, fileOf(options.haptic), fileOf(options.remote)});
       !apart) {
     return tell(apart.error());
   }
   MonotonicClock clock;
   auto display = drivers::makeDisplay(options.display);
   if (!display) return tell(display.error());
-  auto haptic = drivers::makeHapticDevice(options.haptic, clock, settingsOf(*config));
+  auto haptic = drivers::makeHapticDevice(options.haptic, clock, settingsOf(config));
   if (!haptic) return tell(haptic.error());
   if (*haptic == nullptr && !options.record_path.empty()) {
     return tell({"--record " + options.record_path,
@@ -121,6 +123,14 @@ int play(PlayOptions options) {
     recorder = std::move(*created);
   }
 
+  std::unique_ptr<ControlSocket> socket;
+  if (!options.control_path.empty()) {
+    auto listening = ControlSocket::listen(options.control_path);
+    if (!listening) return tell(listening.error());
+    socket = std::move(*listening);
+  }
+  PlayerControl control(std::move(socket), drivers::switchFault);
+
   const std::string url = options.player.source.url;
   Player player(std::move(options.player), {.clock = clock,
                                             .display = **display,
@@ -128,6 +138,7 @@ int play(PlayOptions options) {
                                             .remote = remote->get(),
                                             .audio = audio->get(),
                                             .recorder = recorder ? &*recorder : nullptr,
+                                            .control = &control,
                                             .backends = backendsFor(url)});
   const auto played = player.run(stop);
   const PlayReport report = player.report();
@@ -144,12 +155,10 @@ int probeSource(const ProbeOptions& options) {
   return result->failure ? tell(*result->failure) : kExitDone;
 }
 
-int listDevices(const DevicesOptions& options) {
-  const auto config = loadConfig(options.config_path);
-  if (!config) return tell(config.error());
+int listDevices(const FileConfig& config) {
   MonotonicClock clock;
   bool any = false;
-  for (const auto& each : drivers::lookAtDevices(settingsOf(*config), clock)) {
+  for (const auto& each : drivers::lookAtDevices(settingsOf(config), clock)) {
     std::printf("%-7s %-20s %-6s %s\n", each.kind, each.name.c_str(), each.there ? "there" : "-", each.state.c_str());
     any = any || each.there;
   }
@@ -158,11 +167,9 @@ int listDevices(const DevicesOptions& options) {
   return kExitDone;
 }
 
-int calibrateFalcon(const DevicesOptions& options) {
+int calibrateFalcon(const FileConfig& config) {
   const std::atomic<bool>& stop = stopOnSignals(drivers::stopAllMotors);
-  const auto config = loadConfig(options.config_path);
-  if (!config) return tell(config.error());
-  drivers::HapticSettings settings = settingsOf(*config);
+  drivers::HapticSettings settings = settingsOf(config);
   const double counts = settings.falcon_counts_per_nm.value_or(drivers::kFalconCountsPerNm);
   settings.falcon_counts_per_nm = counts;
   MonotonicClock clock;
@@ -177,7 +184,7 @@ int calibrateFalcon(const DevicesOptions& options) {
   const auto ratio = measureStrength(**falcon, askForReading, clock);
   if (!ratio) return tell({"falcon", ratio.error()});
 
-  const std::string path = options.config_path.empty() ? defaultConfigPath() : options.config_path;
+  const std::string path = config.path.empty() ? defaultConfigPath() : config.path;
   std::printf("The Falcon gives %.0f %% of what it was asked for: counts_per_nm = %.0f.\n", 100 * *ratio,
               counts / *ratio);
   const auto saved = setNumber(path, "falcon", "counts_per_nm", counts / *ratio);
@@ -197,7 +204,7 @@ int parseAndRun(int argc, char** argv) {
     case Options::Command::Probe:
       return probeSource(options->probe);
     case Options::Command::Devices:
-      return options->devices.calibrate ? calibrateFalcon(options->devices) : listDevices(options->devices);
+      return options->calibrate ? calibrateFalcon(options->config) : listDevices(options->config);
     case Options::Command::Play:
       break;
   }
@@ -206,7 +213,7 @@ int parseAndRun(int argc, char** argv) {
     std::fputs(text.c_str(), stdout);
     return kExitDone;
   }
-  return play(options->play);
+  return play(options->play, options->config);
 }
 
 }  // namespace

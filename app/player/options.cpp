@@ -5,11 +5,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cstdio>
 
 #include "app/cli/options.h"
 #include "app/cli/program.h"
+#include "app/player/config_options.h"
 #include "app/player/key_table.h"
 #include "app/player/stereo_word.h"
+#include "app/player/text_line.h"
 
 namespace relievo {
 namespace {
@@ -47,6 +50,14 @@ constexpr const char* kPlayFooter =
     "      in a window on the desktop: its keys are the remote, its mouse is the finger; F11 fills the screen\n"
     "  relievo play evening.m3u --loop --resume\n"
     "      the films of a list, from where they were left\n"
+    "  relievo play --control /run/user/1000/relievo\n"
+    "      waits; a program opens films by lines such as {\"do\": \"open film.mkv\"}, and is told what happens\n"
+    "\nEvery option can stand in the configuration by its long name, SOURCE as source:\n"
+    "  [play]\n"
+    "  display = \"kms\"\n"
+    "  loop = true\n"
+    "  [log]\n"
+    "  all = \"warning\"                error, warning, info, debug; or for an area, as haptic = \"debug\"\n"
     "\nA hand script has the line t_s,x_mm,y_mm,z_mm and a row a moment; x right, y up, z toward the viewer, 0,0,0 in "
     "the\n"
     "middle of the far plane. A key script has lines such as: 2.5 PLAYPAUSE (seconds, a key's name). Keys, by their "
@@ -54,7 +65,7 @@ constexpr const char* kPlayFooter =
 constexpr const char* kDevicesFooter =
     "\nEach display and device is opened as `play` would; where it is refused, the line says why and what to do. Of a "
     "screen\nit tells the mode and the 3D signals that it takes.\n"
-    "\nThe configuration is TOML:\n"
+    "\nIn the configuration (TOML; `relievo play --print-config` shows one) stands of them:\n"
     "  [falcon]\n"
     "  firmware = \"/path/to/image\"    the maker's firmware, from the SDK that came with the device\n"
     "  counts_per_nm = 6000           how strong it is, as `relievo devices calibrate` finds it\n";
@@ -70,7 +81,7 @@ constexpr double kLongestDurationS = 1e9;
 constexpr double kMostPixels = 16384;  // of a display, across and down
 constexpr const char* kNoSize = "a size is WIDTHxHEIGHT in pixels, each from 1 to 16384, such as 1280x720";
 constexpr const char* kStereoHelp =
-    "How it is shown [sbs]\n"
+    "How it is shown\n"
     "mono: one picture; sbs, tab: left and right eye side by side, or one above the other,\n"
     "each squeezed by half; sbs:full, tab:full: each in its own shape; rows, columns: line by line;\n"
     "anaglyph[:gray|color]: for red-cyan glasses; frame-packing: HDMI 3D; quilt[:COLSxROWS]: many views [8x6]";
@@ -79,10 +90,11 @@ constexpr const char* kNoStereo =
     "quilt[:COLSxROWS]";
 constexpr const char* kNoDuration = "a duration is more than 0 and at most a billion seconds";
 
-void addSourceOptions(CLI::App& command, SourceOptions& source) {
-  command.add_option("SOURCE", source.url, "A file or a URL")->required()->type_name(" ");
+CLI::Option* addSourceOptions(CLI::App& command, SourceOptions& source) {
+  CLI::Option* url = command.add_option("SOURCE", source.url, "A file or a URL")->type_name(" ");
   command.add_option("--depth", source.depth_url, "A second file or URL that holds the depth")->type_name("SOURCE2");
   addDepthOptions(command, source);
+  return url;
 }
 
 DisplayConfig readSize(const std::string& word) {
@@ -104,33 +116,40 @@ void addConfigOption(CLI::App& command, std::string& path) {
   command
       .add_option("--config", path,
                   "The configuration [~/.config/relievo/relievo.toml, else /etc/relievo/relievo.toml]")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->configurable(false);
 }
 
 void addStereoOptions(CLI::App& command, StereoSettings& stereo) {
   const auto readStereo = [&stereo](const std::string& word) {
     if (!parseStereo(word, stereo)) throw WordFailure({"--stereo " + word, {ErrorCode::InvalidArgument, 0, kNoStereo}});
   };
-  command.add_option_function<std::string>("--stereo", readStereo, kStereoHelp)->type_name("NAME");
+  command.add_option_function<std::string>("--stereo", readStereo, kStereoHelp)
+      ->type_name("NAME")
+      ->default_str(stereoWord(stereo));
   command.add_flag("--swap-eyes", stereo.swap_eyes, "The left eye's picture for the right eye");
   command
       .add_option("--depth-strength", stereo.strength,
-                  "How deep the picture looks, to the eye alone: 0 flat, 1 as the viewer's eyes stand [1]")
+                  "How deep the picture looks, to the eye alone: 0 flat, 1 as the viewer's eyes stand")
+      ->capture_default_str()
       ->check(between(0.0, StereoSettings::kMostStrength))
       ->type_name("X");
 }
 
 void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& names) {
   addSourceOptions(command, play.player.source);
-  command.add_option("--display", play.display, std::string("Where the picture goes [offscreen]\n") + names.display)
+  command.add_option("--display", play.display, std::string("Where the picture goes\n") + names.display)
+      ->capture_default_str()
       ->type_name("NAME");
   command
       .add_option_function<std::string>(
           "--size", [&play](const std::string& word) { play.player.display = readSize(word); },
-          "Pixels of the picture; of kms a mode that the screen has, else its favourite [1280x720]")
+          "Pixels of the picture; of kms a mode that the screen has, else its favourite")
+      ->default_str(textLine("%dx%d", play.player.display.width, play.player.display.height))
       ->type_name("WxH");
   addStereoOptions(command, play.player.stereo);
-  command.add_option("--haptic", play.haptic, std::string("What the finger holds [sim]\n") + names.haptic)
+  command.add_option("--haptic", play.haptic, std::string("What the finger holds\n") + names.haptic)
+      ->capture_default_str()
       ->type_name("NAME");
   command
       .add_option(
@@ -153,12 +172,17 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
   command.add_flag("--resume", play.resume, "Begin where the film was left, and remember where it is left");
   command.add_option("--keys", play.keys_path, "Which key means what (see --print-keys) [the usual]")
       ->type_name("FILE");
-  command.add_flag("--print-keys", play.print_keys, "Print the table of keys, to begin one of your own from");
-  command.add_flag("--print-states", play.print_states,
-                   "Print the player's states as a drawing: | dot -Tsvg > states.svg");
+  command.add_flag("--print-keys", play.print_keys, "Print the table of keys, to begin one of your own from")
+      ->configurable(false);
+  command
+      .add_flag("--print-states", play.print_states, "Print the player's states as a drawing: | dot -Tsvg > states.svg")
+      ->configurable(false);
   command.add_option("--report", play.report_path, "Write what happened, as JSON")->type_name("FILE");
   command.add_option("--record", play.record_path, "Write every tick of the finger, as CSV")->type_name("FILE");
-  addConfigOption(command, play.config_path);
+  command
+      .add_option("--control", play.control_path,
+                  "Listen there for commands of programs, one JSON object a line; without SOURCE, wait for a film")
+      ->type_name("SOCKET");
   command.footer(kPlayFooter + KeyTable::usual().help() + kExitCodes);
 }
 
@@ -178,10 +202,30 @@ Outcome<void> settleWindow(PlayOptions& play) {
   return {};
 }
 
+Outcome<ConfigLines> readConfig(CLI::App& play, const std::string& path, FileConfig& config) {
+  auto read = loadConfig(path);
+  if (!read) return std::unexpected(read.error());
+  config = std::move(*read);
+  return play.parsed() ? applyConfig(play, config) : ConfigLines{};
+}
+
+Outcome<void> settlePlay(PlayOptions& play) {
+  if (play.print_keys || play.print_states) return {};
+  play.player.stays = play.player.source.url.empty();
+  if (play.player.stays && play.control_path.empty()) {
+    return failOn("SOURCE", {ErrorCode::InvalidArgument, 0,
+                             "is missing; name a film, or with --control a socket to be told one; see relievo play "
+                             "--help"});
+  }
+  return settleWindow(play);
+}
+
 }  // namespace
 
 std::expected<Options, int> parseOptions(int argc, const char* const* argv, const DeviceNames& names) {
   Options options;
+  std::string config_path;
+  bool print_config = false;
   CLI::App program(kAbout, "relievo");
   program.footer(kProgramFooter);
   program.require_subcommand(1);
@@ -190,10 +234,14 @@ std::expected<Options, int> parseOptions(int argc, const char* const* argv, cons
   CLI::App& devices = *program.add_subcommand("devices", "Tell what hardware is there, and why a thing is refused");
   CLI::App& calibrate = *devices.add_subcommand("calibrate", "Find out how strong the Falcon is, with a spring scale");
   addPlayOptions(play, options.play, names);
-  addSourceOptions(probe, options.probe.source);
+  addConfigOption(play, config_path);
+  play.add_flag("--print-config", print_config,
+                "Print what would be in use, as a configuration, and where each value is from")
+      ->configurable(false);
+  addSourceOptions(probe, options.probe.source)->required();
   probe.add_flag("--json", options.probe.json, "For programs");
   probe.footer(kProbeFooter);
-  addConfigOption(devices, options.devices.config_path);
+  addConfigOption(devices, config_path);
   devices.footer(kDevicesFooter);
   calibrate.fallthrough();  // --config may come after it
   calibrate.footer(kCalibrateFooter);
@@ -202,9 +250,17 @@ std::expected<Options, int> parseOptions(int argc, const char* const* argv, cons
   options.command = probe.parsed()     ? Options::Command::Probe
                     : devices.parsed() ? Options::Command::Devices
                                        : Options::Command::Play;
-  options.devices.calibrate = calibrate.parsed();
+  options.calibrate = calibrate.parsed();
+  if (probe.parsed()) return options;
+
+  const auto lines = readConfig(play, config_path, options.config);
+  if (!lines) return std::unexpected(tell(lines.error()));
+  if (print_config) {
+    std::fputs(configText(play, options.config, *lines).c_str(), stdout);
+    return std::unexpected(kExitDone);
+  }
   if (play.parsed()) {
-    if (auto settled = settleWindow(options.play); !settled) return std::unexpected(tell(settled.error()));
+    if (auto settled = settlePlay(options.play); !settled) return std::unexpected(tell(settled.error()));
   }
   return options;
 }

@@ -5,6 +5,7 @@
 #include <expected>
 #include <string>
 
+#include "app/player/config_file.h"
 #include "app/player/player.h"
 
 namespace relievo {
@@ -20,12 +21,7 @@ struct PlayOptions {
   std::string keys_path;  // empty: the usual keys
   bool resume = false;
   bool print_keys = false, print_states = false;
-  std::string config_path;  // empty: the default one
-};
-
-struct DevicesOptions {
-  bool calibrate = false;
-  std::string config_path;
+  std::string control_path;  // empty: no control socket
 };
 
 struct ProbeOptions {
@@ -38,7 +34,8 @@ struct Options {
   Command command = Command::Play;
   PlayOptions play;
   ProbeOptions probe;
-  DevicesOptions devices;
+  bool calibrate = false;  // of Devices
+  FileConfig config;       // of play and devices: read, and what it says of play is in `play`
 };
 
 // The names of the back ends, for the help.
@@ -49,7 +46,8 @@ struct DeviceNames {
   const char* audio = "";
 };
 
-// On wrong use, and when help was asked for, it has printed what there is to say and answers the exit code.
+// Options are the command line's, then the configuration's, then the defaults. On wrong use, and when help or the
+// configuration was asked for, it has printed what there is to say and answers the exit code.
 [[nodiscard]] std::expected<Options, int> parseOptions(int argc, const char* const* argv, const DeviceNames& names);
 
 }  // namespace relievo

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/player/player_control.h"
 #include "app/player/stereo_word.h"
 #include "platform/log.h"
 
@@ -13,6 +14,7 @@ namespace {
 
 constexpr std::size_t kQueuedPairs = 4;                          // beyond those that the playhead holds
 constexpr Duration kLongestWait = std::chrono::milliseconds(5);  // a key is heard after this at most
+constexpr Duration kIdleWait = std::chrono::milliseconds(20);    // without a film
 constexpr Duration kReaderWait = std::chrono::milliseconds(2);   // while the picture waits for the reader
 constexpr std::size_t kMostStates = 10'000;                      // of a film that loops for months
 
@@ -37,13 +39,18 @@ Player::~Player() {
 bool Player::apply(PlayerEvent event) {
   const auto next = nextState(state_, event);
   if (!next) return false;
-  if (*next != state_ && report_.states.size() < kMostStates) report_.states.push_back(*next);
+  const bool changed = *next != state_;
+  if (changed && report_.states.size() < kMostStates) report_.states.push_back(*next);
   state_ = *next;
+  if (changed && parts_.control != nullptr) {
+    parts_.control->stateChanged(state_, toSeconds(parts_.clock.now() - started_));
+  }
   return true;
 }
 
 void Player::note(const std::string& what, const std::string& done, std::optional<MonotonicTime> when) {
   const MonotonicTime time = when.value_or(parts_.clock.now());
+  if (parts_.control != nullptr) parts_.control->happened({toSeconds(time - started_), what, done});
   if (report_.addFault(toSeconds(time - started_), what, done)) {
     log(LogLevel::Warning, "play", "%s; %s", what.c_str(), done.c_str());
     text_.tell(what, time);
@@ -53,7 +60,9 @@ void Player::note(const std::string& what, const std::string& done, std::optiona
 void Player::fail(std::string thing, const Error& error) {
   if (!apply(PlayerEvent::Fail)) return;
   closeSegment(parts_.clock.now());
-  report_.addFault(toSeconds(parts_.clock.now() - started_), thing + ": " + error.message, "stopped");
+  const double time_s = toSeconds(parts_.clock.now() - started_);
+  report_.addFault(time_s, thing + ": " + error.message, "stopped");
+  if (parts_.control != nullptr) parts_.control->happened({time_s, thing + ": " + error.message, "stopped"});
   failure_ = Failure{std::move(thing), error};
 }
 
@@ -99,6 +108,7 @@ void Player::boot() {
   config_.source.sound = sound_.format();
   haptic_.begin();
   apply(PlayerEvent::Ready);
+  if (parts_.control != nullptr) parts_.control->ready();
   if (config_.own_threads) feed_.startThread();
   if (!config_.source.url.empty()) openList(config_.source.url, config_.source.depth_url, started_);
 }
@@ -118,22 +128,24 @@ void Player::step(MonotonicTime now) {
   drainTouch();
   writeText(now);
   followFault(now);
+  if (parts_.control != nullptr) parts_.control->attend(*this, now);
 }
 
 // Until the next picture, but so often that keys are heard.
 MonotonicTime Player::nextWake(MonotonicTime now) const {
+  if (state_ == PlayerState::Idle) return now + kIdleWait;
   if (state_ == PlayerState::Playing) return std::min(nextPicture(now), now + kLongestWait);
-  const bool stands = state_ == PlayerState::Paused || state_ == PlayerState::Idle;
-  return now + (stands ? kLongestWait : kReaderWait);
+  return now + (state_ == PlayerState::Paused ? kLongestWait : kReaderWait);
 }
 
 void Player::finish(MonotonicTime now) {
   haptic_.stop();  // zero force before anything else
   sound_.close();
+  if (parts_.control != nullptr) parts_.control->stopping();
   drainTouch();
   leaveFilm(now);
   if (state_ != PlayerState::Fault) apply(PlayerEvent::Stop);
-  report_.wall_s = toSeconds(parts_.clock.now() - started_);
+  ended_ = parts_.clock.now();
   feed_.stop();
   picture_.close();
   if (parts_.remote != nullptr) parts_.remote->close();
@@ -141,6 +153,8 @@ void Player::finish(MonotonicTime now) {
 
 PlayReport Player::report() const {
   PlayReport report = report_;
+  report.wall_s = toSeconds(ended_.value_or(parts_.clock.now()) - started_);
+  if (film_open_) report.pairs += feed_.counters();
   report.source = config_.source.url;
   report.depth_source = config_.source.depth_url;
   report.volume = volume_;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/player/command.h"
 #include "app/player/film_feed.h"
 #include "app/player/haptic_session.h"
 #include "app/player/key_table.h"
@@ -23,6 +24,8 @@
 #include "platform/failure.h"
 
 namespace relievo {
+
+class PlayerControl;
 
 struct PlayerConfig {
   SourceOptions source;  // a film or a list of films; its url may be empty for one that stays
@@ -45,6 +48,7 @@ struct PlayerParts {
   RemoteInput* remote = nullptr;
   AudioOutput* audio = nullptr;
   Recorder* recorder = nullptr;
+  PlayerControl* control = nullptr;
   PairReader::Backends backends;
 };
 
@@ -59,8 +63,12 @@ class Player {
   [[nodiscard]] Outcome<void> run(const std::atomic<bool>& stop);
   // A viewer's wish. Within `run`, on its thread. One that the present state does not allow changes nothing.
   void obey(const PlayerCommand& command, MonotonicTime now);
-  // After `run`.
+  // What has happened so far. On its thread.
   [[nodiscard]] PlayReport report() const;
+
+  // What is going on, and of which film; empty: none. On its thread.
+  [[nodiscard]] ScreenFacts facts() const;
+  [[nodiscard]] std::string source() const { return film_open_ ? film().url : ""; }
 
  private:
   // player.cpp: its life
@@ -151,6 +159,7 @@ class Player {
   std::uint64_t shown_before_ = 0;  // pictures, when the list was begun
   MonotonicTime keep_due_;          // the position
   MonotonicTime started_;
+  std::optional<MonotonicTime> ended_;
   Duration period_{0};  // of the film
   DisplayVolume volume_;
 

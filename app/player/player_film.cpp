@@ -267,18 +267,23 @@ bool Player::draw(MonotonicTime now) {
   return *shown == Picture::Shown::OnScreen || *shown == Picture::Shown::Back;
 }
 
+ScreenFacts Player::facts() const {
+  const bool shown = report_.first_frame_ms.has_value();
+  const auto position = clock_.position(parts_.clock.now()).value_or(shown ? head_.present().color.pts : MediaTime{});
+  return {.title = film().title.empty() ? titleOf(film().url) : film().title,
+          .position_s = toSeconds(position),
+          .duration_s = toSeconds(report_.film.duration),
+          .state = state_,
+          .held = held_,
+          .stereo = picture_.stereo(),
+          .has_depth = report_.film.has_depth,
+          .haptic = haptic_.running() ? haptic_.capabilities().name : "",
+          .contact = last_mark_ && last_mark_->contact};
+}
+
 void Player::writeText(MonotonicTime now) {
   if (!report_.first_frame_ms) return;
-  const ScreenFacts facts{.title = film().title.empty() ? titleOf(film().url) : film().title,
-                          .position_s = toSeconds(clock_.position(now).value_or(head_.present().color.pts)),
-                          .duration_s = toSeconds(report_.film.duration),
-                          .state = state_,
-                          .held = held_,
-                          .stereo = picture_.stereo(),
-                          .has_depth = report_.film.has_depth,
-                          .haptic = haptic_.running() ? haptic_.capabilities().name : "",
-                          .contact = last_mark_ && last_mark_->contact};
-  auto lines = text_.lines(facts, now);
+  auto lines = text_.lines(facts(), now);
   if (lines == last_text_) return;
   last_text_ = lines;
   picture_.setText(std::move(lines));
@@ -314,6 +319,7 @@ void Player::drainTouch() {
     report_.seeks.back().surface_ms = 1e3 * toSeconds(tick->time - sought_);
     await_touch_.reset();
   }
+  haptic_.printLog();
   while (const auto fault = haptic_.nextFault()) {
     haptic_lost_ = haptic_lost_ || fault->kind == HapticFault::Kind::DeviceLost;
     note(name(fault->kind), answerTo(fault->kind), fault->time);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The report's two forms.
+// The report's forms.
 #include "app/player/report.h"
 
 #include <algorithm>
@@ -89,6 +89,14 @@ Json hapticPart(const PlayReport& r) {
           {"wakeup_ns", toJson(h.wakeup)}};
 }
 
+Json forcePart(const HapticSummary& h) {
+  return {{"max_n", rounded(h.max_force_n)}, {"max_scene_slew_n_per_s", rounded(h.max_scene_slew_n_per_s)}};
+}
+
+Json energyPart(const HapticSummary& h) {
+  return {{"scene_mj", rounded(h.scene_mj)}, {"artefact_mj", rounded(h.artefact_mj)}};
+}
+
 }  // namespace
 
 bool PlayReport::addFault(double time_s, std::string what, std::string done) {
@@ -129,9 +137,8 @@ std::string toJson(const PlayReport& r) {
   json["video"] = videoPart(r);
   json["audio"] = audioPart(r);
   json["haptic"] = hapticPart(r);
-  json["force"] = {{"max_n", rounded(r.haptic.max_force_n)},
-                   {"max_scene_slew_n_per_s", rounded(r.haptic.max_scene_slew_n_per_s)}};
-  json["energy"] = {{"scene_mj", rounded(r.haptic.scene_mj)}, {"artefact_mj", rounded(r.haptic.artefact_mj)}};
+  json["force"] = forcePart(r.haptic);
+  json["energy"] = energyPart(r.haptic);
   json["states"] = Json::array();
   for (const PlayerState state : r.states) json["states"].push_back(name(state));
   json["seeks"] = Json::array();
@@ -148,6 +155,13 @@ std::string toJson(const PlayReport& r) {
   }
   // A path need not be UTF-8, JSON must be.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string metricsOf(const PlayReport& r) {
+  const Json json{{"wall_s", rounded(r.wall_s)},   {"media_s", rounded(r.media_s)}, {"video", videoPart(r)},
+                  {"audio", audioPart(r)},         {"haptic", hapticPart(r)},       {"force", forcePart(r.haptic)},
+                  {"energy", energyPart(r.haptic)}};
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string toText(const PlayReport& r) {

@@ -66,5 +66,7 @@ struct PlayReport {
 [[nodiscard]] const char* name(Packing packing) noexcept;  // auto tracks sbs tb
 [[nodiscard]] std::string toJson(const PlayReport& report);
 [[nodiscard]] std::string toText(const PlayReport& report);
+// The report's counters and times alone, as JSON in one line, while the film plays.
+[[nodiscard]] std::string metricsOf(const PlayReport& report);
 
 }  // namespace relievo

@@ -106,8 +106,14 @@ struct MockDisplayProfile {
   std::function<void()> shown;                // called as each picture comes onto the screen
 };
 
+// The cable. Any thread.
+struct MockDisplayBench {
+  std::atomic<bool> unplugged{false};  // no screen: an open one is Lost, `open` answers NotFound
+};
+
 // Shows nothing, at the pace of its refresh: `present` sleeps until the next one.
-[[nodiscard]] std::unique_ptr<Display> makeMockDisplay(const MockDisplayProfile& profile, Clock& clock);
+[[nodiscard]] std::unique_ptr<Display> makeMockDisplay(const MockDisplayProfile& profile, Clock& clock,
+                                                       std::shared_ptr<MockDisplayBench> bench = nullptr);
 
 // ---- sound
 // ---------------------------------------------------------------------------------------------------------
@@ -147,6 +153,7 @@ struct MockHapticBench {
   std::atomic<double> force_x_n{0}, force_y_n{0}, force_z_n{0};  // in the motors at this moment
   std::atomic<std::uint64_t> reads{0}, writes{0};
   std::atomic<bool> unplugged{false};  // homing and every exchange answer Lost
+  std::atomic<bool> glitch{false};     // the next read answers Io, once
 
   [[nodiscard]] glm::dvec3 force() const noexcept { return {force_x_n.load(), force_y_n.load(), force_z_n.load()}; }
 };

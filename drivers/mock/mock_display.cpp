@@ -7,7 +7,8 @@ namespace {
 
 class MockDisplay final : public Display {
  public:
-  MockDisplay(const MockDisplayProfile& profile, Clock& clock) : profile_(profile), clock_(clock) {}
+  MockDisplay(const MockDisplayProfile& profile, Clock& clock, std::shared_ptr<MockDisplayBench> bench)
+      : profile_(profile), clock_(clock), bench_(bench ? std::move(bench) : std::make_shared<MockDisplayBench>()) {}
 
   [[nodiscard]] DisplayCapabilities capabilities() const noexcept override {
     return {.name = "mock", .gles = false, .refresh_period = profile_.refresh_period};
@@ -17,6 +18,7 @@ class MockDisplay final : public Display {
   Result<void> openDisplay(const DisplayConfig& config) override {
     if (profile_.fail_open && opens_++ < profile_.failing_opens)
       return fail(*profile_.fail_open, "the mock display was told not to open");
+    if (bench_->unplugged) return fail(ErrorCode::NotFound, "the mock screen is unplugged");
     surface_ = {.framebuffer = 0, .width = config.width, .height = config.height};
     first_refresh_ = clock_.now();
     frames_ = 0;
@@ -54,10 +56,11 @@ class MockDisplay final : public Display {
 
   void closeDisplay() noexcept override {}
 
-  [[nodiscard]] bool lost() const noexcept { return frames_ >= profile_.lose_after_frames; }
+  [[nodiscard]] bool lost() const noexcept { return frames_ >= profile_.lose_after_frames || bench_->unplugged; }
 
   MockDisplayProfile profile_;
   Clock& clock_;
+  std::shared_ptr<MockDisplayBench> bench_;
   DisplaySurface surface_;
   MonotonicTime first_refresh_;
   std::uint64_t frames_ = 0, opens_ = 0;
@@ -65,8 +68,9 @@ class MockDisplay final : public Display {
 
 }  // namespace
 
-std::unique_ptr<Display> makeMockDisplay(const MockDisplayProfile& profile, Clock& clock) {
-  return std::make_unique<MockDisplay>(profile, clock);
+std::unique_ptr<Display> makeMockDisplay(const MockDisplayProfile& profile, Clock& clock,
+                                         std::shared_ptr<MockDisplayBench> bench) {
+  return std::make_unique<MockDisplay>(profile, clock, std::move(bench));
 }
 
 }  // namespace relievo

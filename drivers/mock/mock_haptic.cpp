@@ -47,7 +47,8 @@ class MockHaptic final : public HapticDevice {
     if (tick >= profile_.lose_after_ticks || bench_->unplugged) return lose();
     const MonotonicTime now = clock_.now();
     if (now - last_write_ > kWatchdog) apply(glm::dvec3(0));
-    if (tick == profile_.glitch_after_ticks) return fail(ErrorCode::Io, "one exchange with the mock device failed");
+    if (tick == profile_.glitch_after_ticks || bench_->glitch.exchange(false, std::memory_order_relaxed))
+      return fail(ErrorCode::Io, "one exchange with the mock device failed");
     return HapticSample{.position_mm = positionAt(tick, now), .buttons = profile_.buttons};
   }
 

@@ -76,6 +76,7 @@ class PlayerBench {
                            .remote = remote.get(),
                            .audio = output.get(),
                            .recorder = recorder,
+                           .control = control,
                            .backends = backends(time)});
     auto played = player.run(stop);
     force_left = hand->force();
@@ -84,6 +85,7 @@ class PlayerBench {
   }
 
   Recorder* recorder = nullptr;
+  PlayerControl* control = nullptr;
   PlayReport report;
   glm::dvec3 force_left{1e9};  // in the motors when `run` returned
 

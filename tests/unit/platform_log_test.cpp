@@ -3,9 +3,14 @@
 #include "platform/log.h"
 
 #include <fcntl.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -110,24 +115,72 @@ TEST(Log, KeepsTheLinesOfTwoThreadsApart) {
 }
 
 TEST(RingLog, PrintsItsRecordsInOrderWithTheNumbersThatAreGiven) {
-  RingLog ring;
-  ring.push({.level = LogLevel::Warning, .area = "haptics", .text = "force limited, N:", .a = 12.5, .b = 10});
-  ring.push({.level = LogLevel::Info, .area = "haptics", .text = "ticks missed:", .a = 0});
-  ring.push({.level = LogLevel::Info, .area = "haptics", .text = "device lost"});
-  ring.push({.level = LogLevel::Debug, .area = "haptics", .text = "hidden"});
+  RingLog ring("haptic");
+  ring.push({.level = LogLevel::Warning, .text = "force limited, N:", .a = 12.5, .b = 10});
+  ring.push({.level = LogLevel::Info, .text = "ticks missed:", .a = 0});
+  ring.push({.level = LogLevel::Info, .text = "device lost"});
+  ring.push({.level = LogLevel::Debug, .text = "hidden"});
   EXPECT_EQ(printedBy([&] { ring.drain(); }),
-            "relievo: haptics: force limited, N: 12.5 10\n"
-            "relievo: haptics: ticks missed: 0\n"
-            "relievo: haptics: device lost\n");
+            "relievo: haptic: force limited, N: 12.5 10\n"
+            "relievo: haptic: ticks missed: 0\n"
+            "relievo: haptic: device lost\n");
   EXPECT_EQ(printedBy([&] { ring.drain(); }), "");
 }
 
 TEST(RingLog, SaysHowManyRecordsWereLostAndSaysItOnce) {
   const LevelGuard guard(LogLevel::Warning);
-  RingLog ring;
-  for (int i = 0; i < 256 + 3; ++i) ring.push({.level = LogLevel::Debug, .area = "a", .text = "b"});
-  EXPECT_EQ(printedBy([&] { ring.drain(); }), "relievo: log: 3 lines lost: they came faster than they were printed\n");
+  RingLog ring("a");
+  for (int i = 0; i < 256 + 3; ++i) ring.push({.level = LogLevel::Error, .text = "b"});
+  EXPECT_THAT(printedBy([&] { ring.drain(); }),
+              testing::EndsWith("relievo: a: 3 lines lost: they came faster than they were printed\n"));
   EXPECT_EQ(printedBy([&] { ring.drain(); }), "");
+}
+
+// What nobody wants to see takes no room from what is wanted.
+TEST(RingLog, TakesWhatItsAreasLevelLetsThrough) {
+  const LevelGuard guard(LogLevel::Error);
+  setLogLevel("haptic", LogLevel::Debug);
+  RingLog haptic("haptic"), other("play");
+  for (int i = 0; i < 1000; ++i) other.push({.level = LogLevel::Debug, .text = "b"});
+  haptic.push({.level = LogLevel::Debug, .text = "fine"});
+  EXPECT_EQ(printedBy([&] { haptic.drain(); }), "relievo: haptic: fine\n");
+  EXPECT_EQ(printedBy([&] { other.drain(); }), "");
+}
+
+TEST(Log, AnAreaHasALevelOfItsOwnUntilAllAreSet) {
+  const LevelGuard guard(LogLevel::Warning);
+  setLogLevel("play", LogLevel::Debug);
+  setLogLevel("no such area", LogLevel::Debug);
+  const auto speak = [] {
+    log(LogLevel::Debug, "play", "p");
+    log(LogLevel::Info, "media", "m");
+    log(LogLevel::Info, "no such area", "n");
+    log(LogLevel::Warning, "film.mkv", "f");
+  };
+  EXPECT_EQ(printedBy(speak), "relievo: play: p\nrelievo: film.mkv: f\n");
+  setLogLevel(LogLevel::Error);
+  EXPECT_EQ(printedBy(speak), "");
+}
+
+// A line of an area that is not in the list could not be asked for by the configuration.
+TEST(Log, EveryAreaThatTheSourcesNameIsInTheList) {
+  namespace fs = std::filesystem;
+  const std::regex named(R"re((?:log\(LogLevel::(?:Warning|Info|Debug), |RingLog \w+[{(])"([a-z ]+)")re");
+  int found = 0;
+  for (const char* top : {"platform", "hal", "drivers", "app"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(RELIEVO_SOURCE_DIR) / top)) {
+      if (entry.path().extension() != ".cpp" && entry.path().extension() != ".h") continue;
+      std::ostringstream text;
+      text << std::ifstream(entry.path()).rdbuf();
+      const std::string words = text.str();
+      for (std::sregex_iterator it(words.begin(), words.end(), named), end; it != end; ++it, ++found) {
+        const std::string area = (*it)[1];
+        EXPECT_TRUE(area == "at work" || std::ranges::find(kLogAreas, area) != kLogAreas.end())
+            << entry.path() << ": " << area;
+      }
+    }
+  }
+  EXPECT_GE(found, 8);
 }
 
 }  // namespace
