@@ -14,6 +14,8 @@ Result<void> MediaSource::open(const std::string& url) {
   streams_ = std::move(description->streams);
   tags_ = std::move(description->tags);
   duration_ = description->duration;
+  origin_ = description->origin;
+  times_.begin(origin_.longest_gap);
   state_ = State::Open;
   return {};
 }
@@ -22,14 +24,29 @@ Result<std::optional<Packet>> MediaSource::read() {
   if (state_ == State::Closed) return fail(ErrorCode::InvalidState, "the source is closed; open it first");
   if (state_ == State::Ended) return std::nullopt;
   auto packet = readPacket();
-  if (packet && !*packet) state_ = State::Ended;
+  if (!packet) return packet;
+  if (!*packet) {
+    state_ = State::Ended;
+  } else {
+    place(**packet);
+  }
   return packet;
+}
+
+void MediaSource::place(Packet& packet) {
+  const auto& time = packet.dts ? packet.dts : packet.pts;
+  if (!time) return;
+  const Duration offset = times_.offsetFor(packet.stream, *time);
+  if (packet.pts) *packet.pts += offset;
+  if (packet.dts) *packet.dts += offset;
 }
 
 Result<void> MediaSource::seek(MediaTime target) {
   if (state_ == State::Closed) return fail(ErrorCode::InvalidState, "the source is closed; open it first");
   auto sought = seekTo(target);
-  if (sought) state_ = State::Open;
+  if (!sought) return sought;
+  state_ = State::Open;
+  times_.begin(origin_.longest_gap);
   return sought;
 }
 
@@ -39,6 +56,7 @@ void MediaSource::close() noexcept {
   streams_.clear();
   tags_.clear();
   duration_ = Duration(0);
+  origin_ = {};
   state_ = State::Closed;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "hal/continuous_time.h"
 #include "hal/frame.h"
 #include "hal/media_time.h"
 #include "platform/error.h"
@@ -30,6 +31,7 @@ struct StreamInfo {
   Duration frame_period{0};                 // a hint from the container; the true one comes from the timestamps
   Duration duration{0};                     // 0 where unknown
   std::map<std::string, std::string> tags;  // upper-case keys: TITLE, HANDLER_NAME, DEPTH_NEAR, ..
+  bool auxiliary = false;                   // signalled as depth or parallax (ISO/IEC 23002-3), whatever the tags say
   // The source's own description, for a decoder of the same library; null otherwise.
   std::shared_ptr<const void> native;
 };
@@ -50,7 +52,8 @@ struct Packet {
 //
 // Thread: all verbs on one thread, but `interrupt`, which any thread may call. Blocking: `open`, `read` and `seek` may
 // wait for a disk or a network, at most for the back end's time-out; `interrupt` makes them return Cancelled.
-// Times: packets' times are media times, beginning near zero (the container's start time is taken away).
+// Times: packets' times are media times, beginning near zero (the container's start time is taken away). Where a
+// container's times may jump, as in broadcasts, they go on nevertheless (ContinuousTime); a seek is by the container's.
 class MediaSource {
  public:
   enum class State : std::uint8_t { Closed, Open, Ended };
@@ -59,7 +62,8 @@ class MediaSource {
   // NotFound, PermissionDenied, Unsupported (protocol), Corrupt (not media), Timeout, Cancelled. Closed only.
   [[nodiscard]] Result<void> open(const std::string& url);
   // The next packet of any stream, in the order of the container; nothing at the end. A file that is cut off in the
-  // middle ends like a whole one (see `missing`). Lost when the source has gone away. Open or Ended (nothing again).
+  // middle ends like a whole one (see `missing`). Lost or Timeout when the source has gone away: a `remote` one may be
+  // back after `close` and `open`, a live one then with times from zero. Open or Ended (nothing again).
   [[nodiscard]] Result<std::optional<Packet>> read();
   // To the last key frame at or before `target`; decoders must be flushed by the caller. Open or Ended.
   [[nodiscard]] Result<void> seek(MediaTime target);
@@ -75,15 +79,32 @@ class MediaSource {
   [[nodiscard]] const std::map<std::string, std::string>& tags() const noexcept { return tags_; }
   // Of the whole film; 0 where unknown (live).
   [[nodiscard]] Duration duration() const noexcept { return duration_; }
-  // How much of that was not there: the film broke off so long before its end. Ended; 0 of a whole film, where it is
-  // unknown, and in the other states.
+  // It comes over a network.
+  [[nodiscard]] bool remote() const noexcept { return origin_.remote; }
+  // It cannot be had again: no beginning, no end, no seeking.
+  [[nodiscard]] bool live() const noexcept { return remote() && duration_ == Duration(0); }
+  // Where its time 0 is on two other clocks, to bring two live sources together: the machine's, at its arrival, and the
+  // sender's own, which is nothing where the container does not tell.
+  [[nodiscard]] MonotonicTime arrival() const noexcept { return origin_.arrival; }
+  [[nodiscard]] std::optional<Duration> senderStart() const noexcept { return origin_.sender_start; }
+  // How often its times have jumped, since construction.
+  [[nodiscard]] std::uint64_t jumps() const noexcept { return times_.jumps(); }
+  // How much of the duration was not there: the film broke off so long before its end. Ended; 0 of a whole film, where
+  // it is unknown, and in the other states.
   [[nodiscard]] Duration missing() const noexcept { return state_ == State::Ended ? missingTime() : Duration(0); }
 
  protected:
+  struct Origin {
+    bool remote = false;
+    Duration longest_gap{0};  // see ContinuousTime
+    MonotonicTime arrival;
+    std::optional<Duration> sender_start;
+  };
   struct Description {
     std::vector<StreamInfo> streams;
     std::map<std::string, std::string> tags;
     Duration duration{0};
+    Origin origin;
   };
 
  private:
@@ -93,11 +114,14 @@ class MediaSource {
   [[nodiscard]] virtual Duration missingTime() const noexcept { return Duration(0); }
   virtual void closeSource() noexcept = 0;
   virtual void interrupted() noexcept = 0;
+  void place(Packet& packet);
 
   State state_ = State::Closed;
   std::vector<StreamInfo> streams_;
   std::map<std::string, std::string> tags_;
   Duration duration_{0};
+  Origin origin_;
+  ContinuousTime times_;
 };
 
 }  // namespace relievo

@@ -41,6 +41,8 @@ bool speaksOfDepth(const StreamInfo& track) {
 
 const StreamInfo* depthAmong(const std::vector<const StreamInfo*>& tracks) {
   if (tracks.empty()) return nullptr;
+  const auto signalled = std::find_if(tracks.begin(), tracks.end(), [](auto* track) { return track->auxiliary; });
+  if (signalled != tracks.end()) return *signalled;
   const auto marked = std::find_if(tracks.begin(), tracks.end(), [](auto* track) { return speaksOfDepth(*track); });
   if (marked != tracks.end()) return *marked;
   return tracks.size() > 1 ? tracks[1] : tracks[0];

@@ -27,9 +27,9 @@ struct TrackPlan {
   Packing packing = Packing::Tracks;
 };
 
-// The depth track of a source with two or more video tracks: the one whose TITLE, NAME or HANDLER_NAME speaks of depth,
-// disparity or an auxiliary picture, or that has DEPTH_ tags; else the second. Of one video track: that one. Null
-// without any.
+// The depth track of a source with two or more video tracks: the one that is signalled as auxiliary; else the one whose
+// TITLE, NAME or HANDLER_NAME speaks of depth, disparity or an auxiliary picture, or that has DEPTH_ tags; else the
+// second. Of one video track: that one. Null without any.
 [[nodiscard]] const StreamInfo* findDepthTrack(const MediaSource& source);
 
 // For a source that holds the colour, and the depth too unless `depth_elsewhere`. Auto decides, in this order: by a tag

@@ -51,10 +51,13 @@ struct FilmInfo {
 
 struct PairCounters {
   std::uint64_t pairs = 0;
-  std::uint64_t without_depth = 0;  // pairs before the depth begins, after it has ended, or where it was lost
-  std::uint64_t mismatched = 0;     // pairs whose depth frame is missing though its track goes on
-  std::uint64_t depth_skipped = 0;  // depth frames that no colour frame asked for
-  std::uint64_t damaged = 0;        // packets and pictures that the decoders dropped
+  std::uint64_t without_depth = 0;     // pairs before the depth begins, after it has ended, or where it was lost
+  std::uint64_t mismatched = 0;        // pairs whose depth frame is missing though its track goes on
+  std::uint64_t depth_skipped = 0;     // depth frames that no colour frame asked for
+  std::uint64_t damaged = 0;           // packets and pictures that the decoders dropped
+  std::uint64_t jumps = 0;             // of the containers' times (ContinuousTime)
+  std::uint64_t reconnects = 0;        // how often the colour's source was lost and found again
+  std::uint64_t depth_reconnects = 0;  // of `depth_url`
   // Once a source has been read to its end: how much of its length was not there (MediaSource::missing).
   Duration missing{0};
   Duration depth_missing{0};  // of `depth_url`
@@ -65,8 +68,12 @@ struct PairCounters {
 // Pairs by timestamp, never by count, as DepthFollower says. Each source's time begins at its own zero, so that two
 // files begin together, whatever start times their containers hold.
 //
-// What fails in the colour is an error. What fails in the depth ends the depth, with one warning: the film goes on
-// without, until a seek finds it again. Depth that was asked for by name (`depth_url`) has to be there at `open`.
+// What fails in the colour is an error; where it is `lost`, `reopen` may find it again, and the film's times go on.
+// What fails in the depth ends the depth, with one warning: the film goes on without, until a seek finds it again, or,
+// where it comes over a network, DepthSource does. Depth that was asked for by name (`depth_url`) has to be there at
+// `open`.
+//
+// Two live sources are brought together by their sender's clock, where that is one; else by their arrival here.
 //
 // One thread; `interrupt` any thread. `next` blocks while it reads and decodes. A verb that needs an open film returns
 // InvalidState without one.
@@ -80,6 +87,8 @@ class PairReader {
     // The text at an address, at most so many bytes of it; gives up when the flag is set. Of lists of films.
     std::function<Result<std::string>(const std::string&, std::size_t, const std::atomic<bool>&)> read_text = {};
     std::function<std::unique_ptr<AudioDecoder>()> make_audio_decoder = {};  // of who wants sound
+    Clock* clock = nullptr;    // for what is lost and tried again; null: it stays lost
+    bool own_threads = false;  // for a depth source that must not hold the colour up
   };
   explicit PairReader(Backends backends);
   ~PairReader();
@@ -96,6 +105,11 @@ class PairReader {
   // `key_step` over 0: from there on the colour's key frames alone, at least so far apart, with whatever key frame of
   // the depth is nearest before each; such pairs are not counted as mismatched.
   [[nodiscard]] Result<void> seek(MediaTime target, Duration key_step = Duration(0));
+  // After an error of a verb above: the colour's source has gone away and may come back.
+  [[nodiscard]] bool lost(const Error& error) const noexcept;
+  // Opens the colour's source anew, once. A film goes on where it was; a live one from what comes now, as if nothing
+  // had been missed. After a failure only `reopen` and `close` are of use.
+  [[nodiscard]] Result<void> reopen();
   // The next samples among what has been read, in order; after a seek some may lie before its target. Never reads.
   [[nodiscard]] std::optional<AudioChunk> nextSound();
   // Reads one packet more, where sound comes later in the source than its pictures; false when that helps no more.
@@ -106,6 +120,8 @@ class PairReader {
 
   [[nodiscard]] const FilmInfo& info() const noexcept;
   [[nodiscard]] PairCounters counters() const noexcept;
+  // Why the depth of `depth_url` is away, while it is looked for.
+  [[nodiscard]] std::optional<Error> depthLoss() const noexcept;
   [[nodiscard]] const std::string& failedThing() const noexcept;
 
  private:

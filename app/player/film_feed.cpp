@@ -58,6 +58,8 @@ void FilmFeed::begin(State state) {
   target_ = MediaTime{};
   films_.clear();
   seek_error_.reset();
+  news_.clear();
+  depth_away_ = false;
   info_ = {};
   counters_ = {};
   state_ = state;
@@ -76,13 +78,14 @@ void FilmFeed::interruptStale() const {
 void FilmFeed::seek(MediaTime target, Duration key_step) {
   std::deque<FramePair> dropped;  // freed after the lock
   const std::scoped_lock lock(mutex_);
-  if (state_ != State::Reading && state_ != State::Ended && state_ != State::Seeking) return;
+  const bool away = state_ == State::Reconnecting;
+  if (!away && state_ != State::Reading && state_ != State::Ended && state_ != State::Seeking) return;
   target_ = target;
   key_step_ = key_step;
   ++generation_;
   queue_.swap(dropped);
   forgetSound();
-  state_ = State::Seeking;
+  (away ? resume_ : state_) = State::Seeking;
   wake_.notify_all();
 }
 
@@ -153,7 +156,16 @@ std::optional<Error> FilmFeed::takeSeekError() {
   return std::exchange(seek_error_, std::nullopt);
 }
 
+std::optional<FilmFeed::News> FilmFeed::takeNews() {
+  const std::scoped_lock lock(mutex_);
+  if (news_.empty()) return std::nullopt;
+  const News news = news_.front();
+  news_.pop_front();
+  return news;
+}
+
 bool FilmFeed::hasWork() const {
+  if (state_ == State::Reconnecting) return backends_.clock->now() >= back_off_.next();
   return state_ == State::Opening || state_ == State::Seeking || (state_ == State::Closed && reader_open_) ||
          wantsPair() || wantsSound();
 }
@@ -187,6 +199,9 @@ bool FilmFeed::work() {
     reader_open_ = false;
     lock.unlock();
     reader_.close();
+  } else if (task == State::Reconnecting) {
+    lock.unlock();
+    workReopen();
   } else {
     const bool pair = wantsPair(), sound = wantsSound();
     lock.unlock();
@@ -232,6 +247,7 @@ void FilmFeed::workSeek(MediaTime target, Duration key_step, std::uint64_t gener
   const auto sought = reader_.seek(target, key_step);
   const std::scoped_lock lock(mutex_);
   if (generation != generation_) return;  // a newer target has come meanwhile
+  if (!sought && loses(sought.error())) return;
   if (!sought) {
     seek_error_ = sought.error();
     target_ = MediaTime{};  // nothing is left out
@@ -243,8 +259,12 @@ void FilmFeed::workSeek(MediaTime target, Duration key_step, std::uint64_t gener
 void FilmFeed::workRead(std::uint64_t generation) {
   auto pair = reader_.next();
   const PairCounters counters = reader_.counters();
+  const auto depth_loss = reader_.depthLoss();
   const std::scoped_lock lock(mutex_);
-  if (at_work_ == film_) counters_ = counters;
+  if (at_work_ != film_) return;
+  counters_ = counters;
+  noteDepth(depth_loss);
+  if (!pair && loses(pair.error())) return;
   if (generation != generation_) return;
   sound_may_come_ = hasSound();
   if (!pair) return failed(reader_.failedThing(), pair.error());
@@ -272,6 +292,42 @@ bool FilmFeed::workSound(bool may_read, std::uint64_t generation) {
   return true;
 }
 
+void FilmFeed::workReopen() {
+  const auto reopened = reader_.reopen();
+  const PairCounters counters = reader_.counters();
+  const std::scoped_lock lock(mutex_);
+  if (at_work_ != film_) return;
+  counters_ = counters;
+  const MonotonicTime now = backends_.clock->now();
+  if (reopened) {
+    state_ = resume_;
+    sound_may_come_ = hasSound();
+    if (state_ == State::Reading && sound_until_) target_ = *sound_until_;  // no sound twice
+    news_.push_back({News::Kind::ColorBack, "", now});
+  } else if (back_off_.away(now) >= kPatience) {
+    failed(options_.url, loss_);
+  } else {
+    back_off_.failed(now);
+  }
+}
+
+// What it goes on with, once it is found again, is what it did.
+bool FilmFeed::loses(const Error& error) {
+  if (backends_.clock == nullptr || !reader_.lost(error)) return false;
+  loss_ = error;
+  resume_ = std::exchange(state_, State::Reconnecting);
+  back_off_.begin(backends_.clock->now());
+  news_.push_back({News::Kind::ColorLost, error.message, backends_.clock->now()});
+  return true;
+}
+
+void FilmFeed::noteDepth(const std::optional<Error>& loss) {
+  if (loss.has_value() == depth_away_) return;
+  depth_away_ = loss.has_value();
+  const auto kind = loss ? News::Kind::DepthLost : News::Kind::DepthBack;
+  news_.push_back({kind, loss ? loss->message : "", backends_.clock->now()});
+}
+
 void FilmFeed::failed(std::string thing, const Error& error) {
   error_ = error;
   failed_thing_ = thing.empty() ? options_.url : std::move(thing);
@@ -282,7 +338,12 @@ void FilmFeed::threadMain() {
   for (;;) {
     {
       std::unique_lock lock(mutex_);
-      wake_.wait(lock, [this] { return stopping_ || hasWork(); });
+      const auto wanted = [this] { return stopping_ || hasWork(); };
+      if (state_ == State::Reconnecting) {
+        wake_.wait_for(lock, back_off_.next() - backends_.clock->now(), wanted);
+      } else {
+        wake_.wait(lock, wanted);
+      }
       if (stopping_) break;
     }
     work();

@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "app/media/back_off.h"
 #include "app/media/pair_reader.h"
 #include "app/media/playlist.h"
 #include "hal/media_time.h"
@@ -22,17 +23,29 @@ namespace relievo {
 // The player's side (all verbs but `work`) never waits for the film: it asks, and looks at `state`. The reader's side
 // is `work`: a thread does it after `startThread`; without, the caller does, so that a test runs in simulated time.
 //
-// States: Closed -open-> Opening -> Reading -> Ended; Reading or Ended -seek-> Seeking -> Reading; any but Closed ->
-// Failed; any -open-> Opening; any -close-> Closed. A source that turns out to be a list of films goes from Opening to
-// Listed. Pairs and sound that were read before an end or a failure can still be taken.
+// States: Closed -open-> Opening -> Reading -> Ended; Reading or Ended -seek-> Seeking -> Reading; Reading or Seeking,
+// when a source on the network is lost -> Reconnecting -> what it was; any but Closed -> Failed; any -open-> Opening;
+// any -close-> Closed. A source that turns out to be a list of films goes from Opening to Listed. Pairs and sound that
+// were read before an end, a loss or a failure can still be taken.
 //
 // Sound is decoded as long as less than kSoundAhead of it lies in the queue. Pairs go first where something has to be
 // read from the source.
 class FilmFeed {
  public:
   static constexpr Duration kSoundAhead = std::chrono::milliseconds(500);
-  enum class State : std::uint8_t { Closed, Opening, Seeking, Reading, Ended, Failed, Listed };
+  enum class State : std::uint8_t { Closed, Opening, Seeking, Reading, Ended, Failed, Listed, Reconnecting };
+  // A lost colour is looked for so long, at the intervals of BackOff; then the film has failed. The depth is looked for
+  // as long as the film lasts.
+  static constexpr Duration kPatience = std::chrono::seconds(30);
+  // What has happened to a source.
+  struct News {
+    enum class Kind : std::uint8_t { ColorLost, ColorBack, DepthLost, DepthBack };
+    Kind kind;
+    const char* why = "";  // of a loss
+    MonotonicTime time;
+  };
 
+  // Without a clock among the back ends what is lost has failed.
   FilmFeed(PairReader::Backends backends, std::size_t capacity);
   ~FilmFeed();
   FilmFeed(const FilmFeed&) = delete;
@@ -46,8 +59,8 @@ class FilmFeed {
   void open(SourceOptions options);
   void close();
   // Forgets what was read ahead. What is taken once the state has left Seeking lies at or after `target`. A newer
-  // target replaces one that is not reached yet. Reading, Ended or Seeking, else nothing happens. `key_step` as in
-  // PairReader::seek.
+  // target replaces one that is not reached yet. Reading, Ended, Seeking or Reconnecting (it is sought once it is found
+  // again), else nothing happens. `key_step` as in PairReader::seek.
   void seek(MediaTime target, Duration key_step = Duration(0));
   [[nodiscard]] State state() const;
   // The next pair in order; nothing while there is none.
@@ -69,7 +82,11 @@ class FilmFeed {
   // The seek that the source refused, once; the film then goes on from where the source stands.
   [[nodiscard]] std::optional<Error> takeSeekError();
 
-  // One piece of the reader's work: opens, seeks, reads one pair or some sound. False when there is nothing to do.
+  // In order, each once.
+  [[nodiscard]] std::optional<News> takeNews();
+
+  // One piece of the reader's work: opens, seeks, reads one pair or some sound, or tries a lost source again. False
+  // when there is nothing to do now.
   bool work();
 
  private:
@@ -83,6 +100,9 @@ class FilmFeed {
   [[nodiscard]] Outcome<std::optional<std::vector<PlaylistEntry>>> readList(const std::string& url);
   void workSeek(MediaTime target, Duration key_step, std::uint64_t generation);
   void workRead(std::uint64_t generation);
+  void workReopen();
+  [[nodiscard]] bool loses(const Error& error);
+  void noteDepth(const std::optional<Error>& loss);
   bool workSound(bool may_read, std::uint64_t generation);
   void failed(std::string thing, const Error& error);
   void begin(State state);
@@ -115,6 +135,11 @@ class FilmFeed {
   Error error_;
   std::string failed_thing_;
   std::optional<Error> seek_error_;
+  BackOff back_off_;
+  Error loss_;                     // while Reconnecting
+  State resume_ = State::Reading;  // after it
+  bool depth_away_ = false;
+  std::deque<News> news_;
   bool stopping_ = false;
   bool thread_ended_ = false;
 

@@ -91,8 +91,11 @@ constexpr const char* kNoStereo =
 constexpr const char* kNoDuration = "a duration is more than 0 and at most a billion seconds";
 
 CLI::Option* addSourceOptions(CLI::App& command, SourceOptions& source) {
-  CLI::Option* url = command.add_option("SOURCE", source.url, "A file or a URL")->type_name(" ");
-  command.add_option("--depth", source.depth_url, "A second file or URL that holds the depth")->type_name("SOURCE2");
+  CLI::Option* url =
+      command.add_option("SOURCE", source.url, "A file, or an address: http, https (HLS as well), rtsp, rtp, udp, tcp")
+          ->type_name(" ");
+  command.add_option("--depth", source.depth_url, "A second file or address that holds the depth")
+      ->type_name("SOURCE2");
   addDepthOptions(command, source);
   return url;
 }

@@ -18,12 +18,19 @@ constexpr Duration kIdleWait = std::chrono::milliseconds(20);    // without a fi
 constexpr Duration kReaderWait = std::chrono::milliseconds(2);   // while the picture waits for the reader
 constexpr std::size_t kMostStates = 10'000;                      // of a film that loops for months
 
+PairReader::Backends backendsOf(const PlayerParts& parts, bool own_threads) {
+  PairReader::Backends backends = parts.backends;
+  backends.clock = &parts.clock;
+  backends.own_threads = own_threads;
+  return backends;
+}
+
 }  // namespace
 
 Player::Player(PlayerConfig config, PlayerParts parts)
     : config_(std::move(config)),
       parts_(std::move(parts)),
-      feed_(parts_.backends, kQueuedPairs),
+      feed_(backendsOf(parts_, config_.own_threads), kQueuedPairs),
       picture_(parts_.display, config_.display, config_.stereo),
       haptic_(parts_.haptic, parts_.clock, config_.own_threads ? Ticking::Thread : Ticking::ByHand),
       sound_(parts_.audio, parts_.clock),
@@ -121,6 +128,7 @@ void Player::step(MonotonicTime now) {
   attendScreen(now);
   readRemote(now);
   followDevice();
+  followSource();
   followReader(now);
   followClock(now);
   followSound();

@@ -111,6 +111,7 @@ class Player {
 
   // player_film.cpp: within a film
   void followDevice();
+  void followSource();
   void followReader(MonotonicTime now);
   void opened(MonotonicTime now);
   void begin(MonotonicTime now);

@@ -234,7 +234,7 @@ void Player::showPresent(MonotonicTime now) {
     return;
   }
   ++report_.frames_shown;
-  sound_.noteShown(head_.present().color.pts);
+  sound_.noteShown(head_.present().color.pts, clock_);
   if (!report_.first_frame_ms) report_.first_frame_ms = 1e3 * toSeconds(parts_.clock.now() - started_);
 }
 

@@ -119,6 +119,7 @@ std::string describe(const StreamInfo& s) {
   const char* const kind = s.kind == StreamKind::Video ? "video" : s.kind == StreamKind::Audio ? "audio" : "other";
   std::string text = textLine("%d %s %s", s.index, kind, s.codec.c_str());
   if (s.kind == StreamKind::Video) text += textLine(" %d x %d", s.width, s.height);
+  if (s.auxiliary) text += ", signalled as depth by its stream type";
   const std::string title = titleOf(s);
   return title.empty() ? text : text + " \"" + title + "\"";
 }
@@ -189,6 +190,7 @@ std::string probeToJson(const ProbeResult& r) {
                               {"codec", t.stream.codec},
                               {"width", t.stream.width},
                               {"height", t.stream.height},
+                              {"auxiliary", t.stream.auxiliary},
                               {"duration_s", toSeconds(t.stream.duration)},
                               {"tags", t.stream.tags}});
   }

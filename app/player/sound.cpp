@@ -20,6 +20,8 @@ constexpr double kSteeringStep = 1e-5;  // finer ones are not worth a new clock 
 constexpr Duration kRetryPeriod = std::chrono::seconds(5);
 constexpr Duration kMostLatency = std::chrono::seconds(1);
 constexpr int kMostRestarts = 5;
+constexpr Duration kMostLate = std::chrono::milliseconds(100);  // of a picture; more is a hitch
+constexpr int kLatenessPictures = 64;                           // that are averaged
 constexpr std::size_t kBlockFrames = 4096;
 
 }  // namespace
@@ -77,7 +79,7 @@ void Sound::collect(MediaTime position, FilmFeed& feed) {
 }
 
 void Sound::start(MediaTime position) {
-  base_ = cursor_ = window_->frameAt(position + latency_);
+  base_ = cursor_ = window_->frameAt(position + latency_ - fromSeconds(picture_late_s_));
   readings_ = 0;
   offset_s_ = 0;
   heard_ = settled_ = false;
@@ -116,7 +118,7 @@ bool Sound::listen(MediaClock& clock, const FilmFeed& feed, MonotonicTime now) {
   heard_ = true;
   last_ = **heard;
   const MediaTime film = clock.position(last_.time).value_or(MediaTime{});  // it plays: there is one
-  const double offset_s = toSeconds(window_->timeOf(base_ + last_.frames) - film);
+  const double offset_s = toSeconds(window_->timeOf(base_ + last_.frames) - film) + picture_late_s_;
   ++readings_;
   offset_s_ += (offset_s - offset_s_) * std::max(1.0 / readings_, kSmoothing);
   if (readings_ < kSettledAfter) return true;
@@ -173,9 +175,14 @@ void Sound::lose(const Error& error) {
   news_ = News{std::string("sound: ") + error.message, "the film goes on by the system's clock"};
 }
 
-void Sound::noteShown(MediaTime picture) {
-  if (!running_ || !settled_) return;
-  const MediaTime sound = window_->timeOf(base_ + last_.frames) + (clock_.now() - last_.time);
+void Sound::noteShown(MediaTime picture, const MediaClock& clock) {
+  const MonotonicTime now = clock_.now();
+  if (!running_) return;
+  const Duration late = std::clamp(clock.position(now).value_or(picture) - picture, Duration(0), kMostLate);
+  pictures_late_ = std::min(pictures_late_ + 1, kLatenessPictures);
+  picture_late_s_ += (toSeconds(late) - picture_late_s_) / pictures_late_;
+  if (!settled_) return;
+  const MediaTime sound = window_->timeOf(base_ + last_.frames) + (now - last_.time);
   const double offset_ms = 1e3 * toSeconds(sound - picture);
   ++summary_.pictures;
   sum_offset_ms_ += offset_ms;

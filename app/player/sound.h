@@ -32,6 +32,9 @@ struct SoundSummary {
 // sound is further off than that can mend in time, the sound jumps: it is started anew at the film's present position,
 // earlier by what it was late.
 //
+// A picture comes onto the screen some time after the clock has said so: it has to be drawn, and waits for the refresh.
+// The sound is late by what the pictures are on average.
+//
 // Owner's thread only; the output, if there is one, is borrowed. Nothing waits, but for an output that is opened. One
 // that is refused or goes away is tried again every few seconds; meanwhile the film follows the system's clock.
 class Sound {
@@ -52,7 +55,7 @@ class Sound {
   // Once a step, the last thing. `plays`: the film goes at its own pace; else there is silence.
   void follow(bool plays, MediaClock& clock, FilmFeed& feed);
   // A picture has come onto the screen.
-  void noteShown(MediaTime picture);
+  void noteShown(MediaTime picture, const MediaClock& clock);
   void close() noexcept;
 
   // What is worth a line in the report, and what was done about it.
@@ -79,13 +82,15 @@ class Sound {
   std::vector<float> block_;  // on its way into the output
 
   bool running_ = false;
-  std::int64_t base_ = 0;    // the frame of the film that the output's first one is
-  std::int64_t cursor_ = 0;  // the next one to be written
-  Duration latency_{0};      // from the first frame's writing to its being heard, as far as positions do not tell
-  bool heard_ = false;       // since the start
-  AudioPosition last_;       // that was read
-  int readings_ = 0;         // since the start
-  double offset_s_ = 0;      // smoothed
+  std::int64_t base_ = 0;      // the frame of the film that the output's first one is
+  std::int64_t cursor_ = 0;    // the next one to be written
+  Duration latency_{0};        // from the first frame's writing to its being heard, as far as positions do not tell
+  double picture_late_s_ = 0;  // smoothed
+  int pictures_late_ = 0;      // that this is known of
+  bool heard_ = false;         // since the start
+  AudioPosition last_;         // that was read
+  int readings_ = 0;           // since the start
+  double offset_s_ = 0;        // smoothed
   bool settled_ = false;
   int restarts_ = 0;  // without having settled
   double steering_ = 1;

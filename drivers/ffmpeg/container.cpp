@@ -17,6 +17,10 @@ extern "C" {
 namespace relievo::ffmpeg {
 namespace {
 
+// A transport stream's stream type, which the library keeps where a codec's tag is kept elsewhere (ISO/IEC 13818-1,
+// table 2-34).
+constexpr std::uint32_t kAuxiliaryVideo = 0x1e;
+
 Duration framePeriodOf(const AVStream& stream) noexcept {
   for (const AVRational rate : {stream.avg_frame_rate, stream.r_frame_rate}) {
     if (rate.num > 0 && rate.den > 0) return durationFrom(1, av_inv_q(rate));
@@ -132,6 +136,7 @@ Result<StreamInfo> describeStream(const AVStream& stream, bool timed) {
   info.frame_period = framePeriodOf(stream);
   if (timed && stream.duration > 0) info.duration = durationFrom(stream.duration, stream.time_base);
   info.tags = tagsOf(stream.metadata);
+  info.auxiliary = info.kind == StreamKind::Video && parameters.codec_tag == kAuxiliaryVideo;
 
   auto native = std::make_unique<NativeStream>();
   native->parameters.reset(avcodec_parameters_alloc());

@@ -13,8 +13,14 @@
 
 namespace relievo {
 
-// Files, URLs of every protocol that libavformat knows, named pipes, numbered pictures ("frames/%03d.png"). A read
-// that brings nothing for ten seconds returns Timeout, and so does an opening that takes longer than a minute.
+// Files, named pipes, numbered pictures ("frames/%03d.png"), and addresses that begin with http, https (HLS and DASH as
+// well), rtsp, rtsps, rtp, udp or tcp; Unsupported for any other. What one of them names is opened only if it is of the
+// same origin: from a file other files, from the network never a file of this machine (see address.h). RTSP comes over
+// TCP unless the address ends in "?udp".
+//
+// A read that brings nothing for ten seconds, of a stream at its own pace (rtsp, rtp, udp, tcp) for three, returns
+// Timeout, and so does an opening that takes longer than a minute. `interrupt` ends every wait within a tenth of a
+// second, but that for a name server. A stream at its own pace without a length does not end: it is Lost.
 //
 // Of a source with several programmes (a broadcast multiplex, the rates of an adaptive stream) the best one is the
 // film; the streams of the others are listed as Other. So are cover pictures.

@@ -42,7 +42,7 @@ Error openError(int code) noexcept {
     case AVERROR_HTTP_FORBIDDEN:
       return {ErrorCode::PermissionDenied, 0, "the server refuses it; check user name and password in the address"};
     case AVERROR_PROTOCOL_NOT_FOUND:
-      return {ErrorCode::Unsupported, 0, "this kind of address is unknown here; use a file, http, rtsp, udp, .."};
+      return {ErrorCode::Unsupported, 0, "FFmpeg here was built without this protocol; use another address"};
     case AVERROR(EISDIR):
       return {ErrorCode::Unsupported, EISDIR, "it is a folder; name a file in it"};
     case AVERROR(ETIMEDOUT):

@@ -2,16 +2,16 @@
 // Media source on libavformat: any file or URL that it opens, interruptible and bounded in its waits.
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/stat.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <thread>
 
+#include "drivers/ffmpeg/address.h"
 #include "drivers/ffmpeg/container.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/ffmpeg/library.h"
+#include "drivers/ffmpeg/watch.h"
 #include "platform/unique_fd.h"
 
 extern "C" {
@@ -25,46 +25,16 @@ namespace {
 using namespace ffmpeg;
 
 constexpr Duration kReadPatience = std::chrono::seconds(10);
+constexpr Duration kFlowPatience = std::chrono::seconds(3);   // of what never pauses
 constexpr Duration kOpenPatience = std::chrono::seconds(30);  // an index may be long and the line slow
-constexpr const char* kSilencePatienceUs = "10000000";        // of a connection that yields not one byte
-constexpr const char* kReconnectPatienceS = "4";
-constexpr Duration kNap = std::chrono::milliseconds(2);  // between tries where the library says "again"
+constexpr Duration kNap = std::chrono::milliseconds(2);       // between tries where the library says "again"
 constexpr const char* kCannotSeek = "it cannot seek: a live stream or a pipe";
 constexpr int kDamagedReads = 64;  // in a row, until a broken container counts as ended
 // A container's length may count a last picture longer than its packet, or sound that a codec adds at the end.
 constexpr Duration kWholeWithin = std::chrono::milliseconds(250);
-
-// Tells the library when to give up a call that waits.
-class Watch {
- public:
-  // A new verb begins and may wait for so long.
-  void begin(Duration patience) noexcept {
-    expired_ = false;
-    deadline_ = clock_.now() + patience;
-  }
-  void forgive() noexcept { cancelled_ = false; }
-  void cancel() noexcept { cancelled_ = true; }
-
-  [[nodiscard]] bool cancelled() const noexcept { return cancelled_; }
-  [[nodiscard]] bool givesUp() noexcept {
-    if (clock_.now() >= deadline_.load()) expired_ = true;
-    return cancelled_ || expired_;
-  }
-  static int callback(void* watch) noexcept { return static_cast<Watch*>(watch)->givesUp() ? 1 : 0; }
-
-  // The error of a call that failed: the watch's own reason first.
-  [[nodiscard]] Error explain(Error otherwise) const noexcept {
-    if (cancelled_) return {ErrorCode::Cancelled, 0, "interrupted while waiting for the source"};
-    if (expired_) return openError(AVERROR(ETIMEDOUT));
-    return otherwise;
-  }
-
- private:
-  MonotonicClock clock_;
-  std::atomic<MonotonicTime> deadline_;  // atomic, since threads of the library ask as well
-  std::atomic<bool> expired_{false};
-  std::atomic<bool> cancelled_{false};
-};
+// What lost data leaves open is waited out; of a stream that comes at its own pace that wait is over already.
+constexpr Duration kLongestGap = std::chrono::seconds(10);
+constexpr Duration kLongestFlowGap = std::chrono::seconds(2);
 
 struct FormatCloser {
   void operator()(AVFormatContext* context) const noexcept { avformat_close_input(&context); }
@@ -87,23 +57,24 @@ class FfmpegSource final : public MediaSource {
   // Leaves what is open as it is when it fails.
   Result<void> openContext() {
     watch_.begin(kOpenPatience);
-    auto address = addressOf(url_);
+    auto address = parseAddress(url_);
     if (!address) return std::unexpected(address.error());
+    if (address->way == Way::Pipe) {
+      if (auto piped = openPipe(*address); !piped) return piped;
+    }
     AVFormatContext* context = avformat_alloc_context();
     if (context == nullptr) return std::unexpected(openError(AVERROR(ENOMEM)));
     context->interrupt_callback = {Watch::callback, &watch_};
-    AVDictionary* options = nullptr;
-    av_dict_set(&options, "rw_timeout", kSilencePatienceUs, 0);
-    av_dict_set(&options, "reconnect", "1", 0);  // of HTTP: goes on from where the connection broke
-    av_dict_set(&options, "reconnect_delay_max", kReconnectPatienceS, 0);
-    const int opened = avformat_open_input(&context, address->c_str(), nullptr, &options);
+    AVDictionary* options = optionsFor(*address);
+    const int opened = avformat_open_input(&context, address->url.c_str(), nullptr, &options);
     av_dict_free(&options);
-    if (opened < 0) return std::unexpected(watch_.explain(openError(opened)));
+    if (opened < 0) return std::unexpected(watch_.explain(refusal(*address, opened)));
+    arrival_ = watch_.now();
 
     FormatPtr owned(context);
     watch_.begin(kOpenPatience);
     const int found = avformat_find_stream_info(context, nullptr);
-    if (found < 0 || watch_.cancelled()) return std::unexpected(watch_.explain(openError(found)));
+    if (found < 0 || watch_.cancelled()) return std::unexpected(watch_.explain(refusal(*address, found)));
     if (isTextArt(*context)) return std::unexpected(openError(AVERROR_INVALIDDATA));
     timed_ = isTimed(*context);
     start_ = startOf(*context);
@@ -112,28 +83,34 @@ class FfmpegSource final : public MediaSource {
     leading_stream_ = std::max(av_find_default_stream_index(context), 0);
     earliest_stream_ = earliestStream(*context, leading_stream_);
     context_ = std::move(owned);
+    address_ = std::move(*address);
     return {};
   }
 
-  // An existing file is a file whatever its name looks like ("12:30.mkv"). A named pipe is opened here: open(2) waits
-  // for the pipe's writer, and that wait could not be interrupted.
-  Result<std::string> addressOf(const std::string& url) {
-    struct stat status{};
-    if (::stat(url.c_str(), &status) != 0) return url;
-    if (!S_ISFIFO(status.st_mode)) return "file:" + url;
-    pipe_.reset(::open(url.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  // open(2) waits for the pipe's writer, and that wait could not be interrupted.
+  Result<void> openPipe(Address& address) {
+    pipe_.reset(::open(address.url.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
     if (!pipe_.valid()) return std::unexpected(openError(AVERROR(errno)));
     pollfd wait{.fd = pipe_.get(), .events = POLLIN, .revents = 0};
     while (::poll(&wait, 1, 50) <= 0) {
       if (watch_.givesUp()) return std::unexpected(watch_.explain({}));
     }
-    return "pipe:" + std::to_string(pipe_.get());
+    address.url = "pipe:" + std::to_string(pipe_.get());
+    return {};
+  }
+
+  // The library answers "invalid argument" where the lists of `optionsFor` forbid.
+  static Error refusal(const Address& address, int code) noexcept {
+    if (code != AVERROR(EINVAL) || !address.remote()) return openError(code);
+    return {ErrorCode::Unsupported, 0,
+            "what comes from there is no film, or names what is not opened from a network; check the address"};
   }
 
   Result<Description> describe() const {
     Description description;
     description.tags = tagsOf(context_->metadata);
     if (timed_ && context_->duration > 0) description.duration = durationFrom(context_->duration, kMicrosecond);
+    description.origin = origin();
     for (unsigned i = 0; i < context_->nb_streams; ++i) {
       auto stream = describeStream(*context_->streams[i], timed_);
       if (!stream) return std::unexpected(stream.error());
@@ -143,8 +120,18 @@ class FfmpegSource final : public MediaSource {
     return description;
   }
 
+  [[nodiscard]] Origin origin() const noexcept {
+    Origin origin{.remote = address_.remote(), .arrival = arrival_};
+    if ((context_->iformat->flags & AVFMT_TS_DISCONT) != 0 || address_.flows()) {
+      origin.longest_gap = address_.flows() ? kLongestFlowGap : kLongestGap;
+    }
+    // A session's times begin anew each time; a transport stream's are the sender's clock.
+    if (address_.way != Way::Rtsp && timed_) origin.sender_start = start_;
+    return origin;
+  }
+
   Result<std::optional<Packet>> readPacket() override {
-    watch_.begin(kReadPatience);
+    watch_.begin(address_.flows() ? kFlowPatience : kReadPatience);
     PacketPtr packet(av_packet_alloc());
     if (!packet) return fail(ErrorCode::Exhausted, "out of memory for a packet", ENOMEM);
     int damaged_reads = 0;
@@ -152,6 +139,7 @@ class FfmpegSource final : public MediaSource {
       if (watch_.cancelled()) return std::unexpected(watch_.explain({}));
       const int got = av_read_frame(context_.get(), packet.get());
       if (got >= 0) noteEnd(*packet);
+      if (got >= 0 && context_->pb != nullptr) context_->pb->error = 0;  // got over
       if (got >= 0 && isWanted(*packet)) return packetOf(std::move(packet));
       if (got >= 0) {
         av_packet_unref(packet.get());
@@ -183,10 +171,12 @@ class FfmpegSource final : public MediaSource {
     return packet.size > 0 && context_->streams[packet.stream_index]->discard != AVDISCARD_ALL;
   }
 
-  // The library calls a broken connection the end as well; its I/O context knows better.
+  // The library calls a broken connection the end as well; its I/O context knows better, where there is one. What flows
+  // without a length does not end.
   Result<std::optional<Packet>> endOrError(int code) const {
     const int io_error = context_->pb == nullptr || context_->pb->error == AVERROR_EOF ? 0 : context_->pb->error;
-    if (io_error == 0 && (code == AVERROR_EOF || code == AVERROR_INVALIDDATA)) return std::nullopt;
+    const bool endless = address_.flows() && context_->duration <= 0;
+    if (io_error == 0 && !endless && (code == AVERROR_EOF || code == AVERROR_INVALIDDATA)) return std::nullopt;
     if (code == AVERROR(ENOMEM)) return fail(ErrorCode::Exhausted, "out of memory for a packet", ENOMEM);
     return std::unexpected(watch_.explain({ErrorCode::Lost, osError(io_error != 0 ? io_error : code),
                                            "the source has gone away while it was read; check disk or network"}));
@@ -250,6 +240,8 @@ class FfmpegSource final : public MediaSource {
 
   Watch watch_;
   std::string url_;
+  Address address_;
+  MonotonicTime arrival_;
   UniqueFd pipe_;  // outlives the context that reads from it
   FormatPtr context_;
   bool timed_ = true;

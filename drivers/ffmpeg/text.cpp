@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The text at an address, by libavformat's own protocols.
-#include <sys/stat.h>
-
 #include <array>
 
+#include "drivers/ffmpeg/address.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/ffmpeg/library.h"
 
@@ -22,13 +21,12 @@ Result<std::string> readFfmpegText(const std::string& url, std::size_t most_byte
   const auto explain = [&cancelled](int code) {
     return cancelled ? Error{ErrorCode::Cancelled, 0, "interrupted while waiting for the text"} : openError(code);
   };
-  struct stat status{};
-  const std::string address = ::stat(url.c_str(), &status) == 0 ? "file:" + url : url;
-  AVDictionary* options = nullptr;
-  av_dict_set(&options, "rw_timeout", "10000000", 0);  // us
-  av_dict_set(&options, "protocol_whitelist", "file,http,https,tcp,tls", 0);
+  auto address = parseAddress(url);
+  if (!address) return std::unexpected(address.error());
+  if (address->way == Way::Pipe) *address = {"file:" + url, Way::File};
+  AVDictionary* options = optionsFor(*address);
   AVIOContext* file = nullptr;
-  const int opened = avio_open2(&file, address.c_str(), AVIO_FLAG_READ, &interrupt, &options);
+  const int opened = avio_open2(&file, address->url.c_str(), AVIO_FLAG_READ, &interrupt, &options);
   av_dict_free(&options);
   if (opened < 0) return std::unexpected(explain(opened));
 

@@ -61,7 +61,10 @@ struct MockTrack {
 struct MockMediaProfile {
   std::vector<MockTrack> tracks{MockTrack{}};
   std::map<std::string, std::string> tags;
-  bool live = false;  // of unknown duration, cannot seek
+  bool live = false;    // of unknown duration, cannot seek
+  bool remote = false;  // comes over a network, as MediaSource::remote says
+  std::optional<Duration> sender_start;
+  Duration longest_gap{0};  // of its times (ContinuousTime)
 
   // Faults. Packets are counted over all tracks since `open`.
   std::optional<ErrorCode> fail_open;
@@ -69,7 +72,10 @@ struct MockMediaProfile {
   std::uint64_t end_after_packets = kNever;    // a file that is cut off
   std::uint64_t stall_after_packets = kNever;  // one read takes `stall`, or less when interrupted
   Duration stall = std::chrono::seconds(2);
-  std::uint64_t damaged_every = 0;  // every n-th packet; 0: none
+  std::uint64_t damaged_every = 0;            // every n-th packet; 0: none
+  std::uint64_t jump_after_packets = kNever;  // from there on the container's times are so much later, or earlier
+  Duration jump{0};
+  Duration wrap{0};  // they are counted up to this and begin again at 0; 0: they are not
 };
 
 // Ignores what the url says. Its packets are understood by the mock decoder alone (codec "mock").

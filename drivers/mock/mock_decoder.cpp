@@ -47,9 +47,9 @@ void paint(const MockTrack& track, int number, int component, int cols, int rows
   }
 }
 
-Frame makeFrame(const MockTrack& track, int number, const std::shared_ptr<std::atomic<int>>& outside) {
+Frame makeFrame(const MockTrack& track, int number, MediaTime pts, const std::shared_ptr<std::atomic<int>>& outside) {
   Frame frame;
-  frame.pts = track.pts(number);
+  frame.pts = pts;
   frame.duration = track.frame_period;
   frame.width = track.width;
   frame.height = track.height;
@@ -120,7 +120,7 @@ class MockDecoder final : public VideoDecoder {
     if (!whole || content.damaged || !has_key_frame_) {
       countDamaged();
     } else {
-      queue_.push_back(content.frame);
+      queue_.push_back({content.frame, packet.pts.value_or(track_->pts(content.frame))});
     }
     return Feed::Accepted;
   }
@@ -130,7 +130,7 @@ class MockDecoder final : public VideoDecoder {
     if (queue_.empty()) return draining_ ? Progress::EndOfStream : Progress::NeedsPackets;
     const auto held_back = static_cast<std::size_t>(draining_ ? 0 : std::max(profile_.reorder_frames, 0));
     if (queue_.size() <= held_back || *outside_ >= profile_.max_held_frames) return Progress::NeedsPackets;
-    frame = makeFrame(*track_, queue_.front(), outside_);
+    frame = makeFrame(*track_, queue_.front().number, queue_.front().pts, outside_);
     queue_.pop_front();
     return Progress::Picture;
   }
@@ -160,7 +160,11 @@ class MockDecoder final : public VideoDecoder {
   MockDecoderProfile profile_;
   std::size_t capacity_;
   std::shared_ptr<const MockTrack> track_;
-  std::deque<int> queue_;
+  struct Queued {
+    int number;
+    MediaTime pts;
+  };
+  std::deque<Queued> queue_;
   std::uint64_t packets_ = 0;
   bool draining_ = false;
   bool has_key_frame_ = false;

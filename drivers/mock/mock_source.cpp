@@ -45,6 +45,10 @@ class MockSource final : public MediaSource {
       description.streams.push_back(describe(cursor.track, static_cast<int>(description.streams.size())));
       description.duration = std::max(description.duration, description.streams.back().duration);
     }
+    description.origin = {.remote = profile_.remote,
+                          .longest_gap = profile_.longest_gap,
+                          .arrival = clock_.now(),
+                          .sender_start = profile_.sender_start};
     return description;
   }
 
@@ -112,6 +116,9 @@ class MockSource final : public MediaSource {
     packet.keyframe = cursor.next % std::max(cursor.track->keyframe_interval, 1) == 0;
     packet.owner = content;
     latest_end_ = std::max(latest_end_, *packet.pts + cursor.track->frame_period);
+    if (packets_ >= profile_.jump_after_packets) *packet.pts += profile_.jump;
+    if (profile_.wrap > Duration(0)) packet.pts = MediaTime(packet.pts->time_since_epoch() % profile_.wrap);
+    packet.dts = packet.pts;
     ++cursor.next;
     cursor.skipMissing();
     return packet;

@@ -2,6 +2,7 @@
 // A player among virtual devices in simulated time: the same film, hand and keys give the same run to the last bit.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <functional>
 #include <glm/vec3.hpp>
@@ -44,7 +45,9 @@ class PlayerBench {
 
   // Sources by their urls; "film" is what is played.
   std::map<std::string, MockMediaProfile> sources{{"film", film(100)}};
-  std::map<std::string, std::string> texts;  // lists of films
+  std::vector<MockMediaProfile> found_again;  // what is opened after the first film and its depth; then the last again
+  std::map<std::string, std::string> texts;   // lists of films
+  decltype(PairReader::Backends::read_text) read_text;  // real ones
   MockDisplayProfile display{.refresh_period = Duration(0)};
   MockHapticProfile haptic;
   std::function<std::unique_ptr<HapticDevice>(Clock&)> make_haptic;  // another device in place of the mock
@@ -102,9 +105,18 @@ class PlayerBench {
 
  private:
   [[nodiscard]] PairReader::Backends backends(Clock& time) {
-    return {.make_source = [this, &time] { return make_source ? make_source() : makeMockSources(sources, time); },
+    return {.make_source =
+                [this, &time, made = std::make_shared<std::size_t>(0)] {
+                  if (make_source) return make_source();
+                  const std::size_t first = config.source.depth_url.empty() ? 1 : 2;
+                  const std::size_t number = (*made)++;
+                  if (found_again.empty() || number < first) return makeMockSources(sources, time);
+                  return makeMockSource(found_again[std::min(number - first, found_again.size() - 1)], time);
+                },
             .make_decoder = make_decoder,
-            .read_text = [this](const std::string& url, std::size_t, const std::atomic<bool>&) -> Result<std::string> {
+            .read_text = [this](const std::string& url, std::size_t most,
+                                const std::atomic<bool>& cancelled) -> Result<std::string> {
+              if (read_text) return read_text(url, most, cancelled);
               const auto text = texts.find(url);
               if (text == texts.end()) return fail(ErrorCode::NotFound, "no such text");
               return text->second;

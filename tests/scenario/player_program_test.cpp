@@ -17,6 +17,7 @@
 #include "tests/support/clip_maker.h"
 #include "tests/support/process.h"
 #include "tests/support/program.h"
+#include "tests/support/ts_patch.h"
 
 namespace relievo {
 namespace {
@@ -149,6 +150,27 @@ TEST_F(PlayerProgram, PlaysColorAndDepthOfDifferentLengthRateAndOddSizes) {
   const json r = reportOf("r.json");
   EXPECT_EQ(r["video"]["frames_shown"].get<int>() + r["video"]["frames_dropped"].get<int>(), 30);
   EXPECT_EQ(r["states"].back(), "idle");
+}
+
+TEST_F(PlayerProgram, TellsTheDepthOfABroadcastByItsStreamType) {
+  ClipTrack plain = color();
+  plain.codec = "libx264";
+  plain.tags.clear();
+  test::makeClip(at("film.ts"), {plain, plain});
+  ASSERT_GT(test::signalAsDepth(at("film.ts"), 0), 0);
+  const auto text = test::runProgram("relievo probe " + at("film.ts"), at(""));
+  ASSERT_EQ(text.exit_code, 0) << text.err;
+  EXPECT_THAT(text.out, HasSubstr("0 video h264 64 x 48, signalled as depth by its stream type\n"));
+  const auto result = test::runProgram("relievo probe --json " + at("film.ts"), at(""));
+  const json r = json::parse(result.out, nullptr, false);
+  ASSERT_FALSE(r.is_discarded());
+  EXPECT_EQ(r["tracks"][0]["auxiliary"], true);
+  EXPECT_EQ(r["tracks"][1]["auxiliary"], false);
+  EXPECT_TRUE(r["depth"].is_object());
+}
+
+TEST_F(PlayerProgram, RefusesAnAddressThatReadsWhatItIsNotToReadInOneLine) {
+  expectOneLine(play("'concat:" + at("a.ts") + "|" + at("b.ts") + "'"), 1, "concat:");
 }
 
 TEST_F(PlayerProgram, ObeysAScriptedRemote) {

@@ -120,6 +120,23 @@ TEST_P(PlayerSoundDrift, StaysThereThoughPositionsAreRoughAndSoundIsLateByItself
   EXPECT_LT(worstOffsetMs(25, moments_.size()), 20.0) << "from one second on";
 }
 
+// Each picture is there just after a refresh and waits for the next one.
+TEST_F(PlayerSound, WaitsForAScreenThatIsSlow) {
+  film(500);
+  bench_.display.refresh_period = PlayerBench::kPeriod / 2;
+  playsWell();
+  // The very first comes before the clock runs: after it each is late by a refresh.
+  const double late_s = moments_[0].time_s + 0.02;
+  std::erase_if(moments_, [late_s](const Moment& moment) {  // what is drawn anew between two
+    return std::abs(std::remainder(moment.time_s - late_s, 0.04)) > 0.01;
+  });
+  ASSERT_GE(moments_.size(), 490u);
+  for (std::size_t k = 25; k < moments_.size(); ++k) {
+    const double picture_s = moments_[k].time_s - late_s;
+    EXPECT_NEAR(moments_[k].heard_s.value_or(0), picture_s, k < 250 ? 0.01 : 0.003) << k;
+  }
+}
+
 TEST_F(PlayerSound, APauseIsSilentAtOnceAndSoundGoesOnWhereThePictureDoes) {
   film(500);
   bench_.audio->start_latency = 40ms;

@@ -87,7 +87,7 @@ void PrintTo(const Case& c, std::ostream* out) {
 // The writer of WebM counts the delay of Opus twice.
 const Case kCases[] = {
     {"FlacMono", "a.mkv", {.codec = "flac", .channels = 1}},
-    {"Pcm44100", "a.mov", {.codec = "pcm_s16le", .rate_hz = 44100}},
+    {"Pcm44100", "a.mov", {.codec = "pcm_s16le", .rate_hz = 44100}, 0.0015, 0.0001},
     {"Pcm44100Matroska", "a.mkv", {.codec = "pcm_s16le", .rate_hz = 44100}},
     {"AacMp4", "a.mp4", {.codec = "aac", .rate_hz = 44100}},
     {"AacStream", "a.ts", {.codec = "aac"}},

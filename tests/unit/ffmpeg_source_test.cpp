@@ -17,6 +17,8 @@
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "platform/unique_fd.h"
 #include "tests/support/clip_maker.h"
+#include "tests/support/http_server.h"
+#include "tests/support/ts_patch.h"
 
 namespace relievo {
 namespace {
@@ -328,6 +330,105 @@ TEST(FfmpegSource, TellsHowMuchOfACutFileIsMissing) {
   }
 }
 
+// ISO/IEC 23002-3 by the programme map, whatever the order of the streams.
+TEST(FfmpegSource, TellsAuxiliaryVideoOfATransportStream) {
+  TemporaryFolder folder;
+  for (const int depth : {0, 1}) {
+    makeClip(folder / "a.ts", {kH264, kH264});
+    const auto source = makeFfmpegSource();
+    ASSERT_TRUE(source->open(folder / "a.ts").has_value());
+    for (const StreamInfo& stream : source->streams()) EXPECT_FALSE(stream.auxiliary);
+    source->close();
+    ASSERT_GT(test::signalAsDepth(folder / "a.ts", depth), 0);
+    ASSERT_TRUE(source->open(folder / "a.ts").has_value());
+    ASSERT_EQ(source->streams().size(), 2u);
+    for (const StreamInfo& stream : source->streams()) {
+      EXPECT_EQ(stream.auxiliary, stream.index == depth);
+      EXPECT_EQ(stream.codec, "h264");
+      EXPECT_EQ(stream.width, 64);
+    }
+  }
+}
+
+// ---- what may be opened from where
+
+TEST(FfmpegSource, OpensNoOtherKindOfAddress) {
+  TemporaryFolder folder;
+  makeClip(folder / "a.ts", {kH264});
+  const std::string path = folder / "a.ts";
+  const auto source = makeFfmpegSource();
+  ASSERT_TRUE(source->open("file:" + path).has_value());
+  source->close();
+  for (const std::string& url : {"concat:" + path + "|" + path, "concatf:" + path, "subfile,,start,0,end,0,,:" + path,
+                                 "crypto:" + path, "async:" + path, "cache:" + path, "file+crypto:" + path,
+                                 std::string("pipe:0"), std::string("data:text/plain,x"),
+                                 std::string("ftp://127.0.0.1/a.ts"), std::string("gopher://127.0.0.1/a.ts")}) {
+    const Error error = openErrorOf(url);
+    EXPECT_EQ(error.code, ErrorCode::Unsupported) << url;
+    EXPECT_THAT(error.message, HasSubstr("not opened here; use a file, http")) << url;
+  }
+}
+
+class Playlists : public testing::Test {
+ protected:
+  Playlists() { makeClip(at("part.ts"), {kH264}); }
+  [[nodiscard]] std::string at(const std::string& name) const { return folder_ / name; }
+  void write(const std::string& file, const std::string& part) const {
+    writeFile(at(file),
+              "#EXTM3U\n#EXT-X-VERSION:3\n#EXT-X-TARGETDURATION:2\n#EXTINF:1.6,\n" + part + "\n#EXT-X-ENDLIST\n");
+  }
+  // How many packets come of it; 0 where it is not opened.
+  static std::size_t packetsOf(const std::string& url) {
+    const auto source = makeFfmpegSource();
+    if (!source->open(url)) return 0;
+    return readAll(*source).size();
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Playlists, NameFilesBesideThemWhereTheyAreFiles) {
+  write("film.m3u8", "part.ts");
+  EXPECT_EQ(packetsOf(at("film.m3u8")), 48u);
+  write("film.m3u8", "file://" + at("part.ts"));
+  EXPECT_EQ(packetsOf(at("film.m3u8")), 48u);
+}
+
+TEST_F(Playlists, OfANetworkNameNothingOfThisMachine) {
+  const test::HttpServer server(at(""));
+  write("film.m3u8", "part.ts");
+  ASSERT_EQ(packetsOf(server.url("film.m3u8")), 48u);
+  for (const std::string& part :
+       {"file://" + at("part.ts"), "file:" + at("part.ts"), "concat:" + at("part.ts") + "|" + at("part.ts"),
+        "subfile,,start,0,end,0,,:" + at("part.ts"), "crypto:" + at("part.ts"), "crypto+file:" + at("part.ts"),
+        "async:" + at("part.ts"), std::string("pipe:0"), std::string("udp://127.0.0.1:9"),
+        std::string("concat:") + server.url("part.ts"), std::string("data:video/mp2t,x")}) {
+    write("film.m3u8", part);
+    EXPECT_EQ(packetsOf(server.url("film.m3u8")), 0u) << part;
+  }
+  // Nor a list of lists.
+  write("inner.m3u8", "part.ts");
+  const std::string variant = "#EXTM3U\n#EXT-X-STREAM-INF:BANDWIDTH=100000\n";
+  writeFile(at("outer.m3u8"), variant + "inner.m3u8\n");
+  ASSERT_EQ(packetsOf(server.url("outer.m3u8")), 48u);
+  writeFile(at("outer.m3u8"), variant + "file://" + at("inner.m3u8") + "\n");
+  EXPECT_EQ(packetsOf(server.url("outer.m3u8")), 0u);
+}
+
+// Formats that are lists of addresses, or ask for ports to be opened, are for files alone.
+TEST_F(Playlists, OfOtherKindsAreForFilesAlone) {
+  const test::HttpServer server(at(""));
+  writeFile(at("film.ffconcat"), "ffconcat version 1.0\nfile part.ts\n");
+  EXPECT_EQ(packetsOf(at("film.ffconcat")), 48u);
+  EXPECT_EQ(packetsOf(server.url("film.ffconcat")), 0u);
+  writeFile(at("film.sdp"),
+            "v=0\r\no=- 0 0 IN IP4 127.0.0.1\r\ns=-\r\nc=IN IP4 127.0.0.1\r\nt=0 0\r\n"
+            "m=video 9 RTP/AVP 33\r\n");
+  const Error refused = openErrorOf(server.url("film.sdp"));
+  EXPECT_EQ(refused.code, ErrorCode::Unsupported);
+  EXPECT_THAT(refused.message, HasSubstr("not opened from a network"));
+}
+
 // A server on the loopback interface; what it answers is the test's choice.
 struct Server {
   UniqueFd listener{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)};
@@ -401,6 +502,31 @@ TEST(FfmpegSource, InterruptEndsTheWaitForASilentServer) {
   other.join();
   ASSERT_FALSE(opened.has_value());
   EXPECT_EQ(opened.error().code, ErrorCode::Cancelled);
+}
+
+// A connection that says nothing, a port to which nobody sends.
+TEST(FfmpegSource, InterruptEndsEveryWaitSoon) {
+  const Server silent;
+  const std::string port = silent.url.substr(17, silent.url.rfind('/') - 17);
+  for (const std::string& url :
+       {"http://127.0.0.1:" + port + "/a.ts", "rtsp://127.0.0.1:" + port + "/a", "tcp://127.0.0.1:" + port,
+        std::string("udp://127.0.0.1:0"), std::string("rtp://127.0.0.1:15004")}) {
+    const auto source = makeFfmpegSource();
+    MonotonicClock clock;
+    MonotonicTime interrupted;
+    std::thread other([&] {
+      clock.sleepUntil(clock.now() + std::chrono::milliseconds(330));  // it waits by then, or soon will
+      interrupted = clock.now();
+      source->interrupt();
+    });
+    const auto opened = source->open(url);
+    const MonotonicTime ended = clock.now();
+    other.join();
+    ASSERT_FALSE(opened.has_value()) << url;
+    EXPECT_EQ(opened.error().code, ErrorCode::Cancelled) << url;
+    EXPECT_LT(toSeconds(ended - interrupted), 2.0) << url;
+    std::cout << url << ": interrupted in " << 1e3 * toSeconds(ended - interrupted) << " ms\n";
+  }
 }
 
 TEST(FfmpegSource, InterruptEndsTheWaitForAPipesWriter) {

@@ -60,6 +60,19 @@ TEST(Packing, OfTwoTracksTheMarkedOneIsTheDepthElseTheSecond) {
   EXPECT_EQ(planOf({video(), video()}, Packing::Tracks), "0/1 tracks");
 }
 
+StreamInfo auxiliary() {
+  StreamInfo stream = video();
+  stream.auxiliary = true;
+  return stream;
+}
+
+TEST(Packing, WhatTheStreamSignalsGoesBeforeTheTags) {
+  EXPECT_EQ(planOf({auxiliary(), video()}), "1/0 tracks");
+  EXPECT_EQ(planOf({video(), video(), auxiliary()}), "0/2 tracks");
+  EXPECT_EQ(planOf({auxiliary(), video({{"TITLE", "depth"}})}), "1/0 tracks");
+  EXPECT_EQ(findDepthTrack(ListedSource({video(), video(), auxiliary()}, {}))->index, 2);
+}
+
 TEST(Packing, OnlyVideoStreamsCount) {
   StreamInfo audio;
   audio.kind = StreamKind::Audio;

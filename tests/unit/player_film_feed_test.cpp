@@ -30,7 +30,8 @@ MockMediaProfile filmOf(int frames) {
 
 PairReader::Backends backends(MockMediaProfile profile, Clock& clock) {
   return {.make_source = [profile = std::move(profile), &clock] { return makeMockSource(profile, clock); },
-          .make_decoder = [] { return makeMockDecoder({.max_held_frames = 32}); }};
+          .make_decoder = [] { return makeMockDecoder({.max_held_frames = 32}); },
+          .clock = &clock};
 }
 
 class FilmFeedTest : public testing::Test {
@@ -136,7 +137,11 @@ class FilmFeedSound : public FilmFeedTest {
   static constexpr Duration kPiece = std::chrono::milliseconds(20);
   FilmFeed& openWithSound(int frames, Duration late = Duration(0)) {
     MockMediaProfile profile = filmOf(frames);
-    profile.tracks.push_back({.kind = StreamKind::Audio, .frames = 2 * frames, .frame_period = kPiece, .late = late});
+    profile.tracks.push_back({.kind = StreamKind::Audio,
+                              .frames = 2 * frames,
+                              .frame_period = kPiece,
+                              .keyframe_interval = 16,
+                              .late = late});
     PairReader::Backends parts = backends(std::move(profile), clock_);
     parts.make_audio_decoder = makeMockAudioDecoder;
     feed_ = std::make_unique<FilmFeed>(std::move(parts), kCapacity);
@@ -205,7 +210,7 @@ TEST_F(FilmFeedSound, AfterASeekBeginsAtTheTarget) {
   workAll();
   const std::vector<int> taken = takeSound();
   ASSERT_FALSE(taken.empty());
-  EXPECT_EQ(taken.front(), 100);
+  EXPECT_EQ(taken.front(), 100) << "not at the key frame before";
 }
 
 TEST_F(FilmFeedSound, IsLeftOutForWhoDoesNotWantIt) {
@@ -270,6 +275,39 @@ TEST_F(FilmFeedTest, ASourceThatIsLostFailsAfterWhatWasRead) {
   EXPECT_LE(taken, 7);  // two packets make a pair; the last may lack its depth
 }
 
+// Tried after 0.25 s, and then each time after twice as long, but no more than 4 s.
+TEST_F(FilmFeedTest, ALostSourceIsTriedEverMoreSeldomAndNotForEver) {
+  std::vector<double> tries;
+  PairReader::Backends parts = backends({}, clock_);
+  parts.make_source = [&, made = 0]() mutable {
+    MockMediaProfile profile = filmOf(100);
+    profile.remote = profile.live = true;
+    profile.lose_after_packets = 6;
+    if (made++ > 0) {
+      tries.push_back(toSeconds(clock_.now() - MonotonicTime{}));
+      profile.fail_open = ErrorCode::Io;
+    }
+    return makeMockSource(profile, clock_);
+  };
+  FilmFeed feed(parts, kCapacity);
+  feed.open({.url = "mock"});
+  while (feed.state() != State::Failed) {
+    while (feed.work()) {
+      while (feed.take()) {
+      }
+    }
+    clock_.advance(std::chrono::milliseconds(10));
+  }
+  EXPECT_EQ(feed.error().code, ErrorCode::Lost);
+  ASSERT_EQ(tries.size(), 11u);
+  const double expected[] = {0.25, 0.75, 1.75, 3.75, 7.75, 11.75, 15.75, 19.75, 23.75, 27.75, 31.75};
+  for (std::size_t i = 0; i < tries.size(); ++i) EXPECT_NEAR(tries[i], expected[i], 0.02) << i;
+  const auto news = feed.takeNews();
+  ASSERT_TRUE(news);
+  EXPECT_EQ(news->kind, FilmFeed::News::Kind::ColorLost);
+  EXPECT_FALSE(feed.takeNews());
+}
+
 TEST_F(FilmFeedTest, IsClosedAfterAStopAndDoesNoMoreWork) {
   FilmFeed& feed = open(filmOf(10));
   workAll();
@@ -291,6 +329,19 @@ TEST(FilmFeedThread, StopsWhileTheSourceStalls) {
   feed.startThread();
   while (!feed.take()) clock.sleepUntil(clock.now() + std::chrono::milliseconds(1));
   clock.sleepUntil(clock.now() + std::chrono::milliseconds(20));
+  feed.stop();
+  EXPECT_EQ(feed.state(), State::Closed);
+}
+
+TEST(FilmFeedThread, StopsWhileItWaitsForALostSource) {
+  MonotonicClock clock;
+  MockMediaProfile profile = filmOf(100);
+  profile.remote = profile.live = true;
+  profile.lose_after_packets = 5;  // each time
+  FilmFeed feed(backends(profile, clock), kCapacity);
+  feed.open({.url = "mock"});
+  feed.startThread();
+  while (feed.state() != State::Reconnecting) clock.sleepUntil(clock.now() + std::chrono::milliseconds(1));
   feed.stop();
   EXPECT_EQ(feed.state(), State::Closed);
 }

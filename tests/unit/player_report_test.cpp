@@ -41,7 +41,7 @@ PlayReport example() {
   r.haptic.artefact_mj = 0.5;
   r.sound = {.device = "alsa", .rate_hz = 48000, .underruns = 1, .realigned = 2, .pictures = 50, .max_offset_ms = 12.5};
   r.states = {PlayerState::Boot, PlayerState::Idle, PlayerState::Opening};
-  r.seeks = {{10.0, 10.04, 10.04}, {0.0, {}, {}}};
+  r.seeks = {{10.0, 10.04, 10.04, 45.5, 46.5}, {0.0, {}, {}}};
   return r;
 }
 
@@ -68,7 +68,10 @@ TEST(Report, HoldsTheFieldsThatProgramsReadAtTheirPlaces) {
   EXPECT_EQ(j["audio"]["max_offset_ms"], 12.5);
   EXPECT_EQ(j["energy"], (json{{"scene_mj", 2.0}, {"artefact_mj", 0.5}}));
   EXPECT_EQ(j["states"], (json{"boot", "idle", "opening"}));
-  EXPECT_EQ(j["seeks"][0], (json{{"target_s", 10.0}, {"picture_s", 10.04}, {"surface_s", 10.04}}));
+  EXPECT_EQ(
+      j["seeks"][0],
+      (json{
+          {"target_s", 10.0}, {"picture_s", 10.04}, {"surface_s", 10.04}, {"picture_ms", 45.5}, {"surface_ms", 46.5}}));
   EXPECT_TRUE(j["seeks"][1]["picture_s"].is_null());
   EXPECT_TRUE(j["faults"].is_array());
 }

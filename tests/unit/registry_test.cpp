@@ -60,7 +60,7 @@ TEST_F(Registry, RefusesOtherNamesAndListsTheRightOnes) {
     EXPECT_EQ(device.error().error.code, ErrorCode::InvalidArgument);
     EXPECT_THAT(device.error().error.message, testing::HasSubstr(kHapticNames));
   }
-  for (const char* name : {"", "keys", "window:1", "script", "script:"}) {
+  for (const char* name : {"", "keys:1", "window:1", "script", "script:"}) {
     const auto remote = makeRemoteInput(name, clock_);
     ASSERT_FALSE(remote) << name;
     EXPECT_EQ(remote.error().error.code, ErrorCode::InvalidArgument);

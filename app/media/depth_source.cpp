@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads, loses and finds again; here or in a thread.
+#include "app/media/depth_source.h"
+
+#include <utility>
+
+namespace relievo {
+namespace {
+
+constexpr std::size_t kQueued = 8;  // pictures
+constexpr Duration kPatience = std::chrono::milliseconds(250);
+constexpr Duration kWarmUp = std::chrono::seconds(5);
+
+}  // namespace
+
+DepthSource::~DepthSource() {
+  if (!thread_.joinable()) return;
+  {
+    std::unique_lock lock(mutex_);
+    // An interrupt that comes just before the thread opens the source does not reach it: so it is repeated.
+    while (!thread_ended_) {
+      lock.unlock();
+      interrupt();
+      lock.lock();
+      ready_.wait_for(lock, std::chrono::milliseconds(10), [this] { return thread_ended_; });
+    }
+  }
+  thread_.join();
+}
+
+Result<void> DepthSource::open(const std::string& url) {
+  url_ = url;
+  if (auto connected = connect(); !connected) return connected;
+  const MediaSource& source = reader_->source();
+  stream_ = *findDepthTrack(source);
+  tags_ = source.tags();
+  tried_again_ = source.remote() && backends_.clock != nullptr;
+  if (tried_again_ && backends_.own_threads) thread_ = std::thread([this] { threadMain(); });
+  return {};
+}
+
+Result<void> DepthSource::connect() {
+  auto reader = std::make_unique<TrackReader>(backends_.make_source(), backends_.make_decoder);
+  {
+    const std::scoped_lock lock(mutex_);
+    if (interrupted_) return fail(ErrorCode::Cancelled, "interrupted before it was opened");
+    reader_.swap(reader);
+  }
+  reader.reset();
+  if (auto opened = reader_->open(url_); !opened) return opened;
+  const MediaSource& source = reader_->source();
+  const StreamInfo* const stream = findDepthTrack(source);
+  if (stream == nullptr) return fail(ErrorCode::NotFound, "there is no video in it");
+  const auto track = reader_->select(*stream);
+  if (!track) return std::unexpected(track.error());
+  track_ = *track;
+  const std::scoped_lock lock(mutex_);
+  session_ = {session_.number + 1, source.live(), source.arrival(), source.senderStart()};
+  return {};
+}
+
+Result<DepthSource::Given> DepthSource::next() {
+  if (!thread_.joinable()) return nextHere();
+  std::unique_lock lock(mutex_);
+  if (!late_) {
+    ready_.wait_for(lock, warming_up_ ? kWarmUp : kPatience,
+                    [this] { return !queue_.empty() || ended_ || loss_ || interrupted_; });
+  }
+  if (interrupted_) return fail(ErrorCode::Cancelled, "interrupted while waiting for the depth");
+  late_ = queue_.empty();
+  if (queue_.empty()) return Given{.session = session_, .ended = ended_, .away = !ended_};
+  warming_up_ = false;
+  Given given = std::move(queue_.front());
+  queue_.pop_front();
+  wake_.notify_all();
+  return given;
+}
+
+Result<DepthSource::Given> DepthSource::nextHere() {
+  std::unique_lock lock(mutex_);
+  if (loss_) findAgain(lock);
+  if (!loss_) readOne(lock);
+  if (loss_ && (!tried_again_ || loss_->code == ErrorCode::Cancelled)) {
+    return std::unexpected(*std::exchange(loss_, std::nullopt));
+  }
+  if (queue_.empty()) return Given{.session = session_, .ended = ended_, .away = !ended_};
+  Given given = std::move(queue_.front());
+  queue_.pop_front();
+  return given;
+}
+
+Result<void> DepthSource::seek(MediaTime target, Duration key_step) {
+  std::unique_lock lock(mutex_);
+  queue_.clear();
+  resume_ = target;
+  key_step_ = key_step;
+  ended_ = late_ = false;
+  warming_up_ = true;
+  if (thread_.joinable()) {
+    target_ = target;
+    ++generation_;
+    wake_.notify_all();
+    return {};
+  }
+  if (loss_) return {};  // it is found again at the target
+  lock.unlock();
+  return reader_->seek(target, key_step);
+}
+
+void DepthSource::interrupt() noexcept {
+  const std::scoped_lock lock(mutex_);
+  interrupted_ = true;
+  if (reader_) reader_->interrupt();
+  wake_.notify_all();
+  ready_.notify_all();
+}
+
+std::optional<Error> DepthSource::loss() const {
+  const std::scoped_lock lock(mutex_);
+  return tried_again_ ? loss_ : std::nullopt;
+}
+
+DepthSource::Counters DepthSource::counters() const {
+  const std::scoped_lock lock(mutex_);
+  return counters_;
+}
+
+void DepthSource::threadMain() {
+  std::unique_lock lock(mutex_);
+  while (!interrupted_) {
+    if (loss_) {
+      wake_.wait_for(lock, back_off_.next() - backends_.clock->now(), [this] { return interrupted_; });
+    } else {
+      wake_.wait(lock, [this] { return interrupted_ || target_ || (!ended_ && queue_.size() < kQueued); });
+    }
+    if (!interrupted_) work(lock);
+  }
+  thread_ended_ = true;
+  ready_.notify_all();
+}
+
+void DepthSource::work(std::unique_lock<std::mutex>& lock) {
+  if (loss_) return findAgain(lock);
+  if (!target_) return readOne(lock);
+  const MediaTime target = *std::exchange(target_, std::nullopt);
+  const Duration key_step = key_step_;
+  lock.unlock();
+  const auto sought = reader_->seek(target, key_step);
+  lock.lock();
+  if (!sought) lose(sought.error());
+}
+
+void DepthSource::readOne(std::unique_lock<std::mutex>& lock) {
+  const std::uint64_t generation = generation_;
+  lock.unlock();
+  auto frame = reader_->next(track_);
+  const bool ended = reader_->ended(track_);
+  lock.lock();
+  count();
+  if (generation != generation_) return;  // sought meanwhile
+  if (!frame) return lose(frame.error());
+  if (*frame) resume_ = (*frame)->pts;
+  ended_ = !*frame && ended;
+  if (*frame) queue_.push_back({.frame = std::move(**frame), .session = session_});
+  ready_.notify_all();
+}
+
+void DepthSource::findAgain(std::unique_lock<std::mutex>& lock) {
+  if (!tried_again_ || backends_.clock->now() < back_off_.next()) return;
+  damaged_before_ = counters_.damaged;
+  jumps_before_ = counters_.jumps;
+  const MediaTime resume = resume_;
+  const Duration key_step = key_step_;
+  lock.unlock();
+  auto found = connect();
+  if (found && !reader_->source().live()) found = reader_->seek(resume, key_step);
+  lock.lock();
+  if (!found) return back_off_.failed(backends_.clock->now());
+  loss_.reset();
+  target_.reset();
+  ++counters_.reconnects;
+}
+
+void DepthSource::lose(const Error& error) {
+  loss_ = error;
+  if (tried_again_) back_off_.begin(backends_.clock->now());
+  ready_.notify_all();
+}
+
+void DepthSource::count() {
+  counters_.damaged = damaged_before_ + reader_->damaged();
+  counters_.jumps = jumps_before_ + reader_->source().jumps();
+  counters_.missing = reader_->source().missing();
+}
+
+}  // namespace relievo

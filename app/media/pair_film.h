@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a pair reader has open: how its film was found (pair_opening.cpp) and how it is read (pair_reader.cpp).
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "app/media/depth_follower.h"
+#include "app/media/depth_source.h"
+#include "app/media/pair_reader.h"
+#include "app/media/track_reader.h"
+
+namespace relievo {
+
+struct PairReader::Impl {
+  static constexpr std::size_t kColorTrack = 0;
+
+  explicit Impl(Backends b) : backends(std::move(b)) {}
+
+  Result<void> openReader();
+  Result<void> openFilm();
+  Result<void> openColor(const StreamInfo& color);
+  Result<void> selectDepth(const StreamInfo* depth);
+  Result<void> openDepth(const StreamInfo& color);
+  void openSound();
+  Result<void> describeDepth(const Frame& first, const StreamInfo& stream,
+                             const std::map<std::string, std::string>& tags);
+  Result<std::optional<Frame>> readColor();
+  Result<std::optional<Frame>> nextColor();
+  Result<DepthFollower::Supplied> supplyDepth();
+  Result<FramePair> pairFor(Frame color);
+  Result<DepthFollower::Match> depthAt(MediaTime time);
+  Result<void> seekDepth(MediaTime target);
+  Result<void> passTo(MediaTime target);
+  void meet(const DepthSource::Session& session, MediaTime first);
+  void loseDepth(const Error& error);
+  void leaveColor();
+  Result<void> goOn();
+
+  [[nodiscard]] bool isPacked() const noexcept { return info.packing != Packing::Tracks; }
+  [[nodiscard]] bool isLoss(const Error& error) const noexcept {
+    using enum ErrorCode;
+    return remote && (error.code == Lost || error.code == Timeout || error.code == Io);
+  }
+  // Asked for by name: `open` fails without.
+  [[nodiscard]] bool isDepthRequired() const noexcept {
+    return !options.depth_url.empty() || options.packing == Packing::Tracks;
+  }
+  [[nodiscard]] const std::string& depthUrl() const noexcept {
+    return options.depth_url.empty() ? options.url : options.depth_url;
+  }
+  std::unexpected<Error> failOn(const std::string& thing, const Error& error) {
+    failed_thing = thing;
+    return std::unexpected(error);
+  }
+
+  Backends backends;
+  SourceOptions options;
+  FilmInfo info;
+  std::string failed_thing;
+  PairCounters counters;
+
+  std::mutex readers_mutex;  // the pointers to the readers and `interrupted`, against `interrupt`
+  bool interrupted = false;
+  std::unique_ptr<TrackReader> color_reader;
+  std::unique_ptr<DepthSource> depth_source;  // of `depth_url`
+
+  std::deque<Frame> color_ahead;               // read, not yet handed out
+  std::optional<std::size_t> depth_track;      // in the colour's source
+  const StreamInfo* depth_stream = nullptr;    // likewise; valid while the film is opened
+  bool remote = false, live = false;           // the colour's source
+  Duration color_shift{0};                     // from the time of its present session to the film's
+  MediaTime resume;                            // the film's time after the last colour picture
+  Duration depth_shift{0};                     // of `depth_source`
+  std::optional<std::uint32_t> depth_session;  // that `depth_shift` is of
+  std::optional<DepthFollower> depth;
+  bool depth_away = false;  // it is late or lost, and looked for
+  bool depth_lost = false;
+  bool loss_told = false;
+  Duration key_step{0};  // of the last seek
+};
+
+}  // namespace relievo

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+// Opens a film, finds colour and depth in it, and brings the clocks of two sources together.
+#include <algorithm>
+#include <utility>
+
+#include "app/media/pair_film.h"
+
+namespace relievo {
+namespace {
+
+constexpr Duration kSameClock = std::chrono::seconds(20);   // of one sender: two lines differ by less
+constexpr Duration kLongestWait = std::chrono::seconds(5);  // for the depth of a live film to begin
+constexpr const char* kNoPicture = "not one picture of its video could be decoded; it is empty, damaged or unknown";
+
+// The difference of two rounded times is off by up to a millisecond; the container's own period, if it says the same to
+// within that, is not.
+Duration framePeriod(Duration between, Duration nominal) noexcept {
+  const bool agree = nominal > Duration(0) && std::chrono::abs(between - nominal) <= std::chrono::milliseconds(1);
+  return agree ? nominal : between;
+}
+
+}  // namespace
+
+Result<void> PairReader::Impl::openReader() {
+  auto reader = std::make_unique<TrackReader>(backends.make_source(), backends.make_decoder);
+  {
+    const std::scoped_lock lock(readers_mutex);
+    if (interrupted) return failOn(options.url, {ErrorCode::Cancelled, 0, "interrupted before it was opened"});
+    color_reader.swap(reader);
+  }
+  reader.reset();
+  if (auto opened = color_reader->open(options.url); !opened) return failOn(options.url, opened.error());
+  return {};
+}
+
+// The first time, or again: then the depth of a second source has gone on meanwhile.
+Result<void> PairReader::Impl::openFilm() {
+  const bool two_sources = !options.depth_url.empty();
+  if (two_sources && options.packing != Packing::Auto && options.packing != Packing::Tracks) {
+    return failOn(options.depth_url, {ErrorCode::InvalidArgument, 0,
+                                      "depth cannot be packed into the picture and come from a second source as well"});
+  }
+  if (auto opened = openReader(); !opened) return opened;
+  const MediaSource& source = color_reader->source();
+  const auto plan = planTracks(source, options.packing, two_sources);
+  if (!plan) return failOn(options.url, plan.error());
+  info.packing = plan->packing;
+  info.duration = source.duration();
+  remote = source.remote();
+  live = source.live();
+
+  // The colour is the track that leads, so it is chosen first.
+  const auto chosen = color_reader->select(*plan->color);
+  if (!chosen) return failOn(options.url, chosen.error());
+  if (auto selected = selectDepth(plan->depth); !selected) return selected;
+  openSound();
+  if (auto opened = openColor(*plan->color); !opened) return opened;
+  return openDepth(*plan->color);
+}
+
+// Two pictures: their times tell the frame period.
+Result<void> PairReader::Impl::openColor(const StreamInfo& color) {
+  while (color_ahead.size() < 2) {
+    auto frame = readColor();
+    if (!frame) return failOn(options.url, frame.error());
+    if (!*frame) break;
+    color_ahead.push_back(std::move(**frame));
+  }
+  if (color_ahead.empty()) return failOn(options.url, {ErrorCode::Corrupt, 0, kNoPicture});
+  info.color_width = color_ahead[0].width;
+  info.color_height = color_ahead[0].height;
+  info.color_codec = color.codec;
+  if (color_ahead.size() == 2) {
+    info.frame_period = framePeriod(color_ahead[1].pts - color_ahead[0].pts, color.frame_period);
+  }
+  return {};
+}
+
+Result<void> PairReader::Impl::selectDepth(const StreamInfo* stream) {
+  depth_track.reset();
+  depth_stream = stream;
+  if (!options.depth_url.empty()) {
+    if (depth_source) return {};
+    {
+      const std::scoped_lock lock(readers_mutex);
+      if (interrupted) return failOn(depthUrl(), {ErrorCode::Cancelled, 0, "interrupted before it was opened"});
+      depth_source = std::make_unique<DepthSource>(backends);
+    }
+    if (auto opened = depth_source->open(depthUrl()); !opened) return failOn(depthUrl(), opened.error());
+    return {};
+  }
+  if (stream == nullptr) return {};
+  const auto number = color_reader->select(*stream);
+  if (number) {
+    depth_track = *number;
+  } else if (isDepthRequired()) {
+    return failOn(depthUrl(), number.error());
+  } else {
+    loseDepth(number.error());
+  }
+  return {};
+}
+
+Result<void> PairReader::Impl::openDepth(const StreamInfo& color) {
+  const MediaSource& source = color_reader->source();
+  if (isPacked()) {
+    const auto halves = splitPacked(color_ahead[0], info.packing, options.depth_code);
+    if (!halves) return failOn(options.url, halves.error());
+    info.color_width = halves->color.width;
+    info.color_height = halves->color.height;
+    return describeDepth(halves->depth, color, source.tags());
+  }
+  if (!depth_track && !depth_source) return {};
+  if (depth) {  // known from the first time
+    depth->restart();
+    depth_lost = false;
+    return {};
+  }
+  depth.emplace([this] { return supplyDepth(); });
+  const auto first = depth->peek();
+  if (first && *first != nullptr) {
+    if (!depth_source) return describeDepth(**first, *depth_stream, source.tags());
+    const MediaTime begins = (*first)->pts;
+    auto described = describeDepth(**first, depth_source->stream(), depth_source->tags());
+    // Of two live sources the second is opened later: what the first has brought until then is let go.
+    const bool later = described && live && begins > MediaTime{} && begins < MediaTime(kLongestWait);
+    return later ? passTo(begins) : described;
+  }
+  const Error missing = first ? Error{ErrorCode::Corrupt, 0, kNoPicture} : first.error();
+  if (isDepthRequired() || missing.code == ErrorCode::Cancelled) return failOn(depthUrl(), missing);
+  loseDepth(missing);
+  depth_track.reset();
+  depth.reset();
+  return {};
+}
+
+void PairReader::Impl::openSound() {
+  if (!options.sound || !backends.make_audio_decoder) return;
+  const auto& streams = color_reader->source().streams();
+  const auto first =
+      std::find_if(streams.begin(), streams.end(), [](const StreamInfo& s) { return s.kind == StreamKind::Audio; });
+  if (first == streams.end()) return;
+  info.sound_codec = first->codec;
+  const auto opened = color_reader->listen(backends.make_audio_decoder(), *first, *options.sound);
+  if (!opened) info.sound_refused = opened.error().message;
+}
+
+Result<void> PairReader::Impl::describeDepth(const Frame& first, const StreamInfo& stream,
+                                             const std::map<std::string, std::string>& container_tags) {
+  auto tags = stream.tags;  // the track's word goes before the container's
+  tags.insert(container_tags.begin(), container_tags.end());
+  const CalibrationLayers layers{options.command_line, options.side_file, calibrationFromTags(tags)};
+  auto choice = chooseCalibration(layers, first, options.depth_code);
+  if (!choice) return failOn("calibration", choice.error());
+  info.calibration = std::move(*choice);
+  info.has_depth = true;
+  info.depth_width = first.width;
+  info.depth_height = first.height;
+  info.depth_codec = stream.codec;
+  return {};
+}
+
+// What a new session of the depth's source has to be shifted by to go with the colour's.
+void PairReader::Impl::meet(const DepthSource::Session& session, MediaTime first) {
+  if (depth_session) depth->restart();
+  depth_session = session.number;
+  depth_shift = Duration(0);
+  if (!session.live) return;
+  const MediaSource& color = color_reader->source();
+  if (!color.live()) {  // what comes now goes with what is shown now
+    depth_shift = resume - first;
+    return;
+  }
+  const Duration by_arrival = session.arrival - color.arrival();
+  Duration distance = by_arrival;
+  if (session.sender_start && color.senderStart()) {
+    const Duration by_sender = *session.sender_start - *color.senderStart();
+    if (std::chrono::abs(by_sender - by_arrival) < kSameClock) distance = by_sender;
+  }
+  depth_shift = distance + color_shift;
+}
+
+}  // namespace relievo

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// The table of protocols.
+#include "drivers/ffmpeg/address.h"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace relievo::ffmpeg {
+namespace {
+
+constexpr const char* kUnknown =
+    "this kind of address is not opened here; use a file, http, https, rtsp, rtsps, rtp, udp or tcp";
+
+struct Protocol {
+  std::string_view name;
+  Way way;
+};
+constexpr std::array kProtocols{
+    Protocol{"file", Way::File},   Protocol{"http", Way::Http},  Protocol{"https", Way::Http},
+    Protocol{"rtsp", Way::Rtsp},   Protocol{"rtsps", Way::Rtsp}, Protocol{"rtp", Way::Packets},
+    Protocol{"udp", Way::Packets}, Protocol{"tcp", Way::Tcp},
+};
+
+// As the library reads it: "http" of "http://..", "concat" of "concat:a|b", "subfile" of "subfile,,start,1,:a".
+std::string_view schemeOf(std::string_view url) noexcept {
+  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789+-.";
+  const std::size_t end = std::min(url.find_first_not_of(kLetters), url.size());
+  const bool has_options = url.starts_with("subfile,") && url.find(':') != url.npos;
+  return end < url.size() && (url[end] == ':' || has_options) ? url.substr(0, end) : std::string_view();
+}
+
+// Containers and streams. Not: lists of other addresses (concat), sessions that open ports (sdp), pictures by pattern.
+constexpr const char* kFilms =
+    "mov,mp4,matroska,webm,mpegts,mpeg,flv,live_flv,avi,ogg,asf,nut,ivf,h264,hevc,mpegvideo,m4v,obu,mjpeg,mpjpeg,"
+    "yuv4mpegpipe,"
+    "aac,ac3,eac3,mp3,flac,wav,webvtt,hls,dash,rtsp,rtp";
+
+constexpr const char* kSilenceUs = "10000000";     // of a connection that yields not one byte
+constexpr const char* kFlowSilenceUs = "3000000";  // of one that never pauses
+constexpr const char* kFlowProbeUs = "1500000";    // of a stream that comes at its own pace: the viewer waits for it
+constexpr const char* kFlowProbeFrames = "3";
+
+const char* protocolsOf(Way way) noexcept {
+  switch (way) {
+    case Way::File:
+      return "file,crypto,rtp,udp";
+    case Way::Pipe:
+      return "pipe";
+    case Way::Http:
+      return "http,https,httpproxy,tls,tcp,crypto";
+    case Way::Rtsp:
+      return "rtsp,rtsps,rtp,srtp,udp,tcp,tls";
+    case Way::Packets:
+      return "rtp,udp";
+    case Way::Tcp:
+      return "tcp";
+  }
+  return "";
+}
+
+}  // namespace
+
+Result<Address> parseAddress(const std::string& url) {
+  struct stat status{};
+  if (::stat(url.c_str(), &status) == 0) {
+    return Address{S_ISFIFO(status.st_mode) ? url : "file:" + url, S_ISFIFO(status.st_mode) ? Way::Pipe : Way::File};
+  }
+  const std::string_view scheme = schemeOf(url);
+  if (scheme.empty()) return Address{url, Way::File};
+  const auto known = std::find_if(kProtocols.begin(), kProtocols.end(), [&](auto& p) { return p.name == scheme; });
+  if (known == kProtocols.end()) return fail(ErrorCode::Unsupported, kUnknown);
+  return Address{url, known->way};
+}
+
+AVDictionary* optionsFor(const Address& address) {
+  AVDictionary* options = nullptr;
+  const auto set = [&](const char* key, const char* value) { av_dict_set(&options, key, value, 0); };
+  set("protocol_whitelist", protocolsOf(address.way));
+  if (address.remote()) set("format_whitelist", kFilms);
+  set("rw_timeout", address.flows() ? kFlowSilenceUs : kSilenceUs);
+  if (address.flows()) {
+    set("timeout", kFlowSilenceUs);
+    set("analyzeduration", kFlowProbeUs);
+    set("fpsprobesize", kFlowProbeFrames);
+  }
+  if (address.way == Way::Http) {
+    set("reconnect", "1");  // goes on from where the connection broke: at once or not at all
+    set("reconnect_delay_max", "0");
+  }
+  if (address.way == Way::Rtsp) set("rtsp_flags", "prefer_tcp");  // an address that ends in "?udp" asks for UDP
+  if (address.way == Way::Packets) set("overrun_nonfatal", "1");  // a reader that is late loses packets, not the stream
+  return options;
+}
+
+}  // namespace relievo::ffmpeg

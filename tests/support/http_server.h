@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// A web server of a folder that stalls, breaks off and loses files as it is told.
+#pragma once
+
+#include <atomic>
+#include <list>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "platform/clock.h"
+#include "platform/unique_fd.h"
+
+namespace relievo::test {
+
+// Answers GET, with or without a range, each on a connection of its own.
+class HttpServer {
+ public:
+  struct Fault {
+    std::size_t after_bytes = 0;  // of the file
+    Duration stall{0};            // once
+    Duration away{0};             // once: breaks off, and refuses every connection for so long
+  };
+  explicit HttpServer(std::string folder);
+  ~HttpServer();
+
+  // Before the first request.
+  std::map<std::string, Fault> faults;  // by file
+  double bytes_per_s = 0;               // 0: as fast as it goes
+
+  [[nodiscard]] std::string url(const std::string& file) const;
+  // "GET /film.ts 200"; of a broken off or refused one nothing.
+  [[nodiscard]] std::vector<std::string> requests() const;
+  // When the last fault was over; 0 while there was none.
+  [[nodiscard]] MonotonicTime faultOver() const { return fault_over_; }
+
+ private:
+  void serve();
+  void answer(UniqueFd to);
+  [[nodiscard]] bool sendBody(const UniqueFd& to, const std::string& file, const std::string& body, std::size_t from);
+
+  const std::string folder_;
+  UniqueFd listener_;
+  std::uint16_t port_ = 0;
+  MonotonicClock clock_;
+  std::atomic<bool> ending_{false};
+  std::atomic<MonotonicTime> away_until_{MonotonicTime{}};
+  std::atomic<MonotonicTime> fault_over_{MonotonicTime{}};
+  mutable std::mutex mutex_;  // guards the two below and `faults`
+  std::vector<std::string> requests_;
+  std::list<std::thread> answers_;
+  std::thread thread_;
+};
+
+}  // namespace relievo::test
