@@ -152,7 +152,7 @@ Outcome<std::unique_ptr<RemoteInput>> makeRemoteInput(std::string_view text, Clo
   if (spec.withArgument("script")) {
     auto keys = loadKeyScript(*spec.argument);
     if (!keys) return std::unexpected(keys.error());
-    return makeScriptedRemote(std::move(*keys), clock);
+    return makeScriptedRemote(*keys, clock);
   }
   if (spec.plain("none")) return nullptr;
   return unknown("--remote", text, "no such remote; it is one of: " RELIEVO_REMOTE_NAMES);

@@ -85,8 +85,8 @@ class PairReader {
     std::function<std::unique_ptr<MediaSource>()> make_source;
     std::function<std::unique_ptr<VideoDecoder>()> make_decoder;
     // The text at an address, at most so many bytes of it; gives up when the flag is set. Of lists of films.
-    std::function<Result<std::string>(const std::string&, std::size_t, const std::atomic<bool>&)> read_text = {};
-    std::function<std::unique_ptr<AudioDecoder>()> make_audio_decoder = {};  // of who wants sound
+    std::function<Result<std::string>(const std::string&, std::size_t, const std::atomic<bool>&)> read_text;
+    std::function<std::unique_ptr<AudioDecoder>()> make_audio_decoder;  // of who wants sound
     Clock* clock = nullptr;    // for what is lost and tried again; null: it stays lost
     bool own_threads = false;  // for a depth source that must not hold the colour up
   };

@@ -112,7 +112,7 @@ std::optional<PlayerCommand> parseCommand(std::string_view words) {
 }
 
 std::string wordsOf(const PlayerCommand& command) {
-  const std::string word = entryOf(command.verb).word;
+  std::string word = entryOf(command.verb).word;
   switch (command.verb) {
     case PlayerVerb::SeekBy:
     case PlayerVerb::DepthBy:

@@ -35,7 +35,7 @@ enum class PlayerVerb : std::uint8_t {
 struct PlayerCommand {
   PlayerVerb verb = PlayerVerb::Play;
   double value = 0;
-  std::string url = {};  // of Open
+  std::string url;  // of Open
 
   friend bool operator==(const PlayerCommand&, const PlayerCommand&) = default;
 };

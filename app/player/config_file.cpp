@@ -67,15 +67,18 @@ const char* takeFalcon(const toml::node& node, const std::string& key, FileConfi
 }
 
 std::string tomlOf(const std::string& word) {
+  const auto asText = [&word] {
+    std::ostringstream quoted;
+    quoted << toml::toml_formatter(toml::value<std::string>(word), toml::format_flags::allow_unicode_strings);
+    return quoted.str();
+  };
   try {
     const toml::table parsed = toml::parse("x = " + word);
     const toml::node* node = parsed.get("x");
-    if (parsed.size() == 1 && !node->is_string() && wordOf(*node) == word) return word;
-  } catch (const toml::parse_error&) {  // then it is text
+    return parsed.size() == 1 && !node->is_string() && wordOf(*node) == word ? word : asText();
+  } catch (const toml::parse_error&) {
+    return asText();
   }
-  std::ostringstream quoted;
-  quoted << toml::toml_formatter(toml::value<std::string>(word), toml::format_flags::allow_unicode_strings);
-  return quoted.str();
 }
 
 bool isLogArea(const std::string& key) {

@@ -9,7 +9,7 @@
 #include "app/player/config_file.h"
 #include "platform/failure.h"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): the library's name
 class App;
 }
 

@@ -38,6 +38,10 @@ UniqueFd newSocket() noexcept {
   return UniqueFd(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
 }
 
+std::unexpected<Failure> cannot(const std::string& path) {
+  return failOn(path, {ErrorCode::Io, errno, "no socket can be made there; check its folder"});
+}
+
 // Nothing there, or a socket that nobody listens on.
 Outcome<void> mayReplace(const std::string& path) {
   struct stat file{};
@@ -46,12 +50,9 @@ Outcome<void> mayReplace(const std::string& path) {
     return failOn(path, {ErrorCode::InvalidArgument, 0, "is no socket and stays as it is; name another path"});
   }
   const UniqueFd probe = newSocket();
+  if (!probe.valid()) return cannot(path);
   if (callOn(::connect, probe.get(), path) != 0 && errno == ECONNREFUSED) return {};
   return failOn(path, {ErrorCode::InvalidState, 0, "another program listens there; end it, or name another path"});
-}
-
-std::unexpected<Failure> cannot(const std::string& path) {
-  return failOn(path, {ErrorCode::Io, errno, "no socket can be made there; check its folder"});
 }
 
 }  // namespace
@@ -124,7 +125,7 @@ void ControlSocket::receive(Client& client) {
 }
 
 std::optional<ControlSocket::Line> ControlSocket::takeLine(Client& client) {
-  std::size_t end = client.in.find('\n');
+  const std::size_t end = client.in.find('\n');
   if (end != std::string::npos || client.ended) {
     const bool nothing = client.in.empty();
     Line line{.client = client.id, .text = client.in.substr(0, end)};

@@ -12,6 +12,7 @@
 #include <sstream>
 #include <vector>
 
+#include "app/player/text_line.h"
 #include "hal/key_names.h"
 
 namespace relievo {
@@ -187,7 +188,7 @@ Outcome<void> KeyTable::add(std::string_view text, const std::string& file) {
       const auto code = keyCode(word);
       if (!code) {
         const std::string nearest(nearestKeyName(word));
-        return reader.wrong(row, word + (nearest.empty() ? "" : " (" + nearest + "?)"),
+        return reader.wrong(row, nearest.empty() ? word : textLine("%s (%s?)", word.c_str(), nearest.c_str()),
                             "is no key's name; relievo play --help lists the names");
       }
       auto binding = reader.binding(row);
@@ -222,7 +223,7 @@ std::string KeyTable::help() const {
     else line->second += " " + key;
   };
   for (std::size_t t = 0; t <= kPlayerStateCount; ++t) {
-    const std::string when = t == kAlways ? "" : std::string(" (") + name(static_cast<PlayerState>(t)) + ")";
+    const std::string when = t == kAlways ? "" : textLine(" (%s)", name(static_cast<PlayerState>(t)));
     for (const auto& [code, binding] : tables_[t]) {
       const std::string key(keyName(code));
       put(binding.press, key + when);

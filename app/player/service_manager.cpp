@@ -3,6 +3,7 @@
 #include "app/player/service_manager.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstddef>
 #include <cstdlib>
 
@@ -18,7 +19,9 @@ std::string_view wordOf(const char* variable) noexcept {
 Duration watchdogInterval() noexcept {
   const std::string_view pid = wordOf("WATCHDOG_PID");
   if (!pid.empty() && pid != std::to_string(::getpid())) return Duration(0);
-  const long long interval_us = std::atoll(wordOf("WATCHDOG_USEC").data());
+  const std::string_view interval = wordOf("WATCHDOG_USEC");
+  long long interval_us = 0;  // and stays so when it is no number
+  std::from_chars(interval.data(), interval.data() + interval.size(), interval_us);
   return std::chrono::microseconds(std::clamp(interval_us, 0LL, 86'400'000'000LL));
 }
 

@@ -15,7 +15,7 @@ constexpr std::int64_t kHistoryFrames = 48'000;  // that the bench may ask for, 
 class MockAudio final : public AudioOutput {
  public:
   MockAudio(MockAudioProfile profile, const Clock& clock, std::shared_ptr<MockAudioBench> bench)
-      : profile_(std::move(profile)), clock_(clock), bench_(std::move(bench)) {
+      : profile_(profile), clock_(clock), bench_(std::move(bench)) {
     if (bench_ == nullptr) bench_ = std::make_shared<MockAudioBench>();
     bench_->heard = [this](MonotonicTime time) { return heardAt(time); };
   }
@@ -130,14 +130,14 @@ class MockAudio final : public AudioOutput {
   bool running_ = false;
   MonotonicTime begin_;           // when it began to run,
   std::int64_t begin_frame_ = 0;  // and with which frame
-  std::minstd_rand random_;       // the same in every run
+  std::minstd_rand random_{1};    // the same in every run
 };
 
 }  // namespace
 
 std::unique_ptr<AudioOutput> makeMockAudio(MockAudioProfile profile, const Clock& clock,
                                            std::shared_ptr<MockAudioBench> bench) {
-  return std::make_unique<MockAudio>(std::move(profile), clock, std::move(bench));
+  return std::make_unique<MockAudio>(profile, clock, std::move(bench));
 }
 
 }  // namespace relievo

@@ -79,13 +79,17 @@ class ScriptedRemote final : public RemoteInput {
   ScriptedRemote(const std::vector<ScriptedKey>& keys, const Clock& clock) : clock_(clock) {
     using Action = KeyEvent::Action;
     for (const ScriptedKey& key : keys) {
-      events_.push_back({key.code, Action::Press, MonotonicTime(key.at)});
-      events_.push_back({key.code, Action::Release, MonotonicTime(key.at + key.held)});
+      add({key.code, Action::Press, MonotonicTime(key.at)});
+      add({key.code, Action::Release, MonotonicTime(key.at + key.held)});
     }
-    std::ranges::stable_sort(events_, {}, &KeyEvent::time);
   }
 
  private:
+  // In order of time; of one time, in the script's order.
+  void add(const KeyEvent& event) {
+    events_.insert(std::ranges::upper_bound(events_, event.time, {}, &KeyEvent::time), event);
+  }
+
   Result<void> openRemote() override {
     opened_ = clock_.now();
     next_ = 0;
