@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A child with the remote: ten thousand keys at random, in simulated time. A seed that fails is printed; it fails again
-// with RELIEVO_SEED set to it. RELIEVO_KEYS sets how many keys the real films get.
+// A child with the remote: ten thousand keys at random, in simulated time, and seconds of them in real time. A seed
+// that fails is printed; it fails again with RELIEVO_SEED set to it. RELIEVO_KEYS sets how many keys the real films get
+// in simulated time, RELIEVO_SECONDS for how long in real time, and RELIEVO_FILM names a film that joins them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <linux/input-event-codes.h>
@@ -9,10 +10,15 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <random>
 
 #include "drivers/ffmpeg/ffmpeg.h"
+#include "hal/key_names.h"
 #include "tests/scenario/player_bench.h"
+#include "tests/support/clip_maker.h"
+#include "tests/support/program.h"
 
 namespace relievo {
 namespace {
@@ -94,17 +100,25 @@ TEST(RandomRemote, TenThousandKeysOnAListOfManyKindsOfFilms) {
   EXPECT_GT(shown, 10'000u);
 }
 
-TEST(RandomRemote, KeysOnRealFilmsJoined) {
+// A list of real depth video; nothing where there is none.
+std::string realFilms() {
   const std::string cup = std::string(RELIEVO_TEST_DATA) + "/cup/";
-  if (!std::filesystem::exists(cup)) GTEST_SKIP() << "there is no real depth video at " << cup;
+  if (!std::filesystem::exists(cup)) return "";
+  const std::string film = "#RELIEVO-DEPTH:" + cup + "depth_output.webm\n" + cup + "color_output.webm\n";
+  const char* another = std::getenv("RELIEVO_FILM");
+  return film + (another == nullptr ? film : std::string(another) + "\n");
+}
+
+TEST(RandomRemote, KeysOnRealFilmsJoined) {
+  const std::string films = realFilms();
+  if (films.empty()) GTEST_SKIP() << "there is no real depth video in " << RELIEVO_TEST_DATA;
   const unsigned seed = seedOf("RELIEVO_SEED", 7);
   SCOPED_TRACE("RELIEVO_SEED=" + std::to_string(seed));
   std::mt19937 random(seed);
   PlayerBench bench;
   bench.make_source = makeFfmpegSource;
   bench.make_decoder = makeFfmpegDecoder;
-  const std::string film = "#RELIEVO-DEPTH:" + cup + "depth_output.webm\n" + cup + "color_output.webm\n";
-  bench.texts["list.m3u"] = film + film;
+  bench.texts["list.m3u"] = films;
   bench.config.stays = true;
   bench.config.loop = true;
   bench.config.source.url = "list.m3u";
@@ -113,6 +127,42 @@ TEST(RandomRemote, KeysOnRealFilmsJoined) {
   bench.config.duration = fromSeconds(pressAtRandom(bench, random, static_cast<int>(keys)));
   expectWell(bench, bench.run());
   EXPECT_GT(bench.report.haptic.contact_ticks, 1000u);
+}
+
+// The program with all its threads. A key that ends it is left out: it has to last.
+TEST(RandomRemote, SecondsInRealTime) {
+  const std::string films = realFilms();
+  if (films.empty()) GTEST_SKIP() << "there is no real depth video in " << RELIEVO_TEST_DATA;
+  const unsigned seed = seedOf("RELIEVO_SEED", 7), seconds = seedOf("RELIEVO_SECONDS", 6);
+  SCOPED_TRACE("RELIEVO_SEED=" + std::to_string(seed));
+  std::mt19937 random(seed);
+  std::exponential_distribution<double> wait(1.0 / 0.25);
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "list.m3u") << films;
+  {
+    std::ofstream script(folder / "keys.txt");
+    for (double at_s = 0.5; at_s < seconds - 2.5; at_s += wait(random)) {
+      const std::uint16_t key = kKeys[random() % std::size(kKeys)];
+      if (key != KEY_STOP && key != KEY_BACK) script << at_s << " " << keyName(key) << "\n";
+    }
+    script << seconds - 2 << " PREVIOUS\n" << seconds - 1.5 << " PLAY\n";
+  }
+  const auto played =
+      test::runProgram("relievo play --loop --haptic sim:phantom,stroking --remote script:" + folder / "keys.txt" +
+                           " --duration " + std::to_string(seconds) + " --report " + folder / "r.json" + " --record " +
+                           folder / "t.csv " + folder / "list.m3u",
+                       folder / "");
+  ASSERT_EQ(played.exit_code, 0) << played.err;
+  std::ifstream file(folder / "r.json");
+  const auto report = nlohmann::json::parse(file, nullptr, false);
+  ASSERT_TRUE(report.is_object());
+  std::cout << report["haptic"].dump() << "\n";
+  EXPECT_EQ(report["video"]["pairs_mismatched"], 0);
+  EXPECT_GT(report["video"]["frames_shown"], 10);
+  EXPECT_GT(report["haptic"]["contact_share"], 0.05);
+  EXPECT_LE(report["force"]["max_n"], 10.0 + 1e-6);
+  EXPECT_LE(report["force"]["max_scene_slew_n_per_s"], 50.0 + 1e-6);
+  EXPECT_EQ(report["haptic"]["allocations"], 0);
 }
 
 }  // namespace
