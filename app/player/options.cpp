@@ -183,8 +183,10 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
   command.add_option("--report", play.report_path, "Write what happened, as JSON")->type_name("FILE");
   command.add_option("--record", play.record_path, "Write every tick of the finger, as CSV")->type_name("FILE");
   command
-      .add_option("--control", play.control_path,
-                  "Listen there for commands of programs, one JSON object a line; without SOURCE, wait for a film")
+      .add_option(
+          "--control", play.control_path,
+          "Listen there for commands of programs, one JSON object a line; after SOURCE, or without, wait for the next\n"
+          "film, until one says quit")
       ->type_name("SOCKET");
   command.footer(kPlayFooter + KeyTable::usual().help() + kExitCodes);
 }
@@ -214,8 +216,8 @@ Outcome<ConfigLines> readConfig(CLI::App& play, const std::string& path, FileCon
 
 Outcome<void> settlePlay(PlayOptions& play) {
   if (play.print_keys || play.print_states) return {};
-  play.player.stays = play.player.source.url.empty();
-  if (play.player.stays && play.control_path.empty()) {
+  play.player.stays = !play.control_path.empty();
+  if (play.player.source.url.empty() && !play.player.stays) {
     return failOn("SOURCE", {ErrorCode::InvalidArgument, 0,
                              "is missing; name a film, or with --control a socket to be told one; see relievo play "
                              "--help"});

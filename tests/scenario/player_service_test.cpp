@@ -82,6 +82,17 @@ TEST_F(PlayerService, IsToldWhatToPlayAndTellsWhatHappens) {
   EXPECT_FALSE(fs::exists(at("control")));
 }
 
+TEST_F(PlayerService, AfterTheFilmThatItBeganWithItWaitsForTheNext) {
+  test::Process player(words({at("film.mkv")}), at("said.txt"));
+  ControlClient program(at("control"));
+  EXPECT_TRUE(program.untilState("ended"));
+  EXPECT_TRUE(program.untilState("idle"));
+  EXPECT_EQ(program.ask("open " + at("film.mkv"))["ok"], true);
+  EXPECT_TRUE(program.untilState("playing"));
+  program.say("quit");
+  EXPECT_EQ(player.wait(), 0);
+}
+
 TEST_F(PlayerService, AFaultIsForMocksAlone) {
   test::Process player(words({}, "none"), at("said.txt"));
   ControlClient program(at("control"));
