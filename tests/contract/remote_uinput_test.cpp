@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// A remote control that the kernel itself makes and takes away (uinput): toolchain/guest runs this on a kernel of its
+// own.
+#include <gtest/gtest.h>
+#include <libevdev/libevdev-uinput.h>
+#include <libevdev/libevdev.h>
+#include <unistd.h>
+
+#include <memory>
+#include <optional>
+
+#include "drivers/evdev/evdev.h"
+#include "platform/clock.h"
+
+namespace relievo {
+namespace {
+
+using namespace std::chrono_literals;
+
+class UinputRemote {
+ public:
+  UinputRemote() {
+    libevdev* codes = libevdev_new();
+    libevdev_set_name(codes, "infra-red");
+    for (const unsigned key : {KEY_LEFT, KEY_RIGHT, KEY_OK, KEY_PLAYPAUSE}) {
+      libevdev_enable_event_code(codes, EV_KEY, key, nullptr);
+    }
+    libevdev_uinput_create_from_device(codes, LIBEVDEV_UINPUT_OPEN_MANAGED, &device_);
+    libevdev_free(codes);
+  }
+  ~UinputRemote() {
+    if (device_ != nullptr) libevdev_uinput_destroy(device_);
+  }
+  void press(unsigned key, int value) {
+    libevdev_uinput_write_event(device_, EV_KEY, key, value);
+    libevdev_uinput_write_event(device_, EV_SYN, SYN_REPORT, 0);
+  }
+
+ private:
+  libevdev_uinput* device_ = nullptr;
+};
+
+class RemoteUinput : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (::access("/dev/uinput", W_OK) != 0) GTEST_SKIP() << "/dev/uinput is not there; toolchain/guest has one";
+  }
+  // The next key, in at most ten seconds.
+  std::optional<KeyEvent> next() {
+    for (const MonotonicTime until = clock_.now() + 10s; clock_.now() < until; clock_.sleepUntil(clock_.now() + 5ms)) {
+      const auto key = remote_->poll(clock_.now());
+      EXPECT_TRUE(key) << key.error().message;
+      if (!key || *key) return key.value_or(std::nullopt);
+    }
+    return std::nullopt;
+  }
+  void expectNext(std::uint16_t code, KeyEvent::Action action) {
+    const auto key = next();
+    ASSERT_TRUE(key);
+    EXPECT_EQ(key->code, code);
+    EXPECT_EQ(key->action, action);
+  }
+
+  MonotonicClock clock_;
+  std::unique_ptr<RemoteInput> remote_ = makeEvdevRemote();
+};
+
+TEST_F(RemoteUinput, IsHeardWheneverItComesAndHoldsNothingWhenItGoes) {
+  ASSERT_TRUE(remote_->open());
+  {
+    UinputRemote late;
+    EXPECT_FALSE(remote_->poll(clock_.now()).value());
+    clock_.sleepUntil(clock_.now() + 1500ms);  // it is looked for every second
+    EXPECT_FALSE(remote_->poll(clock_.now()).value());
+    late.press(KEY_PLAYPAUSE, 1);
+    expectNext(KEY_PLAYPAUSE, KeyEvent::Action::Press);
+    late.press(KEY_PLAYPAUSE, 0);
+    expectNext(KEY_PLAYPAUSE, KeyEvent::Action::Release);
+    late.press(KEY_RIGHT, 1);
+    expectNext(KEY_RIGHT, KeyEvent::Action::Press);
+    expectNext(KEY_RIGHT, KeyEvent::Action::Repeat);
+  }
+  std::optional<KeyEvent> last;
+  do last = next();
+  while (last && last->action == KeyEvent::Action::Repeat);  // until it is seen to be gone
+  ASSERT_TRUE(last);
+  EXPECT_EQ(last->code, KEY_RIGHT);
+  EXPECT_EQ(last->action, KeyEvent::Action::Release);
+  EXPECT_FALSE(remote_->poll(clock_.now()).value());
+}
+
+// What the film is told, a login behind it is not.
+TEST_F(RemoteUinput, IsGrabbedUntilItIsClosed) {
+  UinputRemote there;
+  clock_.sleepUntil(clock_.now() + 100ms);
+  ASSERT_TRUE(remote_->open());
+  auto another = makeEvdevRemote();
+  ASSERT_TRUE(another->open());
+  there.press(KEY_OK, 1);
+  expectNext(KEY_OK, KeyEvent::Action::Press);
+  EXPECT_FALSE(another->poll(clock_.now()).value());
+  remote_->close();
+  clock_.sleepUntil(clock_.now() + 1500ms);
+  (void)another->poll(clock_.now());
+  there.press(KEY_OK, 0);
+  there.press(KEY_LEFT, 1);
+  remote_.swap(another);
+  expectNext(KEY_LEFT, KeyEvent::Action::Press);
+}
+
+}  // namespace
+}  // namespace relievo
