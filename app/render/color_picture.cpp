@@ -271,13 +271,18 @@ void ColorPicture::convert() {
   glUniform2fv(program_.uniform("chroma_scale"), 1, glm::value_ptr(chroma_scale_));
   glUniformMatrix4x3fv(program_.uniform("to_rgb"), 1, GL_FALSE, glm::value_ptr(to_rgb_));
   glUniform3fv(program_.uniform("bias"), 1, glm::value_ptr(bias_));
+  const bool as_it_is = target_width_ == width_ && target_height_ == height_;  // each pixel is one luma sample
   constexpr std::array<const char*, 3> kPlanes{"plane0", "plane1", "plane2"};
   for (GLuint unit = 0; unit < kPlanes.size(); ++unit) {
     planes_[unit].bind(unit);
+    const GLint filter = unit == 0 && as_it_is ? GL_NEAREST : GL_LINEAR;
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
     glUniform1i(program_.uniform(kPlanes[unit]), static_cast<GLint>(unit));
   }
   glBindVertexArray(no_vertices_.get());
   glDrawArrays(GL_TRIANGLES, 0, 3);
+  glFlush();  // it is converted while the relief is made
 }
 
 }  // namespace relievo
