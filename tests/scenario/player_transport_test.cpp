@@ -5,7 +5,9 @@
 #include <linux/input-event-codes.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <glm/geometric.hpp>
 
 #include "app/player/resume.h"
 #include "tests/scenario/player_bench.h"
@@ -85,6 +87,40 @@ TEST_F(PlayerTransport, TheForceIsZeroBetweenFilmsAndFadesInOnTheNext) {
   EXPECT_NEAR(static_cast<double>(bench_.report.haptic.ticks), 6000, 30);
   EXPECT_LE(bench_.report.haptic.max_scene_slew_n_per_s, 50.0 + 1e-6);
   EXPECT_EQ(bench_.force_left, glm::dvec3(0));
+}
+
+TEST_F(PlayerTransport, AFilmIsFeltByItsOwnCalibration) {
+  aList();
+  MockTrack& deeper = bench_.sources["./b"].tracks[1];  // the same heights in other codes
+  deeper.bits = 16;
+  deeper.sample = [](int frame, int, int, int) { return static_cast<std::uint16_t>(257 * (100 + frame % 10)); };
+  double hardest_n = 0;
+  bench_.haptic.position_mm = [&](double t) {
+    hardest_n = std::max(hardest_n, bench_.hand->force().z);
+    return glm::dvec3(0, 0, t < 0.3 ? 60 : 15);
+  };
+  playsWell();
+  EXPECT_GT(hardest_n, 0.1);
+  EXPECT_LT(hardest_n, 3.0) << "2.1 mm inside, not 25";
+}
+
+TEST_F(PlayerTransport, WhereNothingIsPlayedTheDeviceIsAtRest) {
+  bench_.config.stays = true;
+  bench_.config.duration = std::chrono::seconds(8);
+  bench_.press(2.0, KEY_STOP);
+  bench_.press(5.0, KEY_PLAY);
+  std::vector<double> ticks_s;
+  double left_n = -1;
+  bench_.haptic.position_mm = [&](double t) {
+    const double now_s = toSeconds(bench_.clock.now().time_since_epoch());
+    if (!ticks_s.empty() && now_s - ticks_s.back() > 1) left_n = glm::length(bench_.hand->force());
+    ticks_s.push_back(now_s);
+    return glm::dvec3(0, 0, t < 0.3 ? 25 : 15);
+  };
+  playsWell();
+  EXPECT_GT(ticks_s.size(), 4000u);
+  EXPECT_TRUE(std::ranges::none_of(ticks_s, [](double t) { return t > 2.1 && t < 5.0; }));
+  EXPECT_EQ(left_n, 0.0) << "in the motors, from one film to the next";
 }
 
 TEST_F(PlayerTransport, AFilmThatCannotBePlayedIsPassedOver) {
