@@ -227,7 +227,7 @@ std::string KeyTable::help() const {
     for (const auto& [code, binding] : tables_[t]) {
       const std::string key(keyName(code));
       put(binding.press, key + when);
-      put(binding.hold, key + " (held)" + when);
+      put(binding.hold, textLine("%s (held)%s", key.c_str(), when.c_str()));
     }
   }
   std::ranges::stable_sort(lines, {}, [](const auto& line) { return line.first.verb; });

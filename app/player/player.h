@@ -157,7 +157,6 @@ class Player {
   std::vector<PlaylistEntry> films_ = std::vector<PlaylistEntry>(1);
   std::size_t film_ = 0;            // of them
   bool film_open_ = false;          // or being opened
-  std::uint64_t shown_before_ = 0;  // pictures, when the list was begun
   MonotonicTime keep_due_;          // the position
   MonotonicTime started_;
   std::optional<MonotonicTime> ended_;

@@ -19,7 +19,6 @@ void Player::openList(const std::string& url, const std::string& depth_url, Mono
   if (!nextState(state_, PlayerEvent::Open)) return;
   leaveFilm(now);
   films_ = {{.url = url, .depth_url = depth_url, .title = ""}};
-  shown_before_ = report_.frames_shown;
   openFilm(0, now);
 }
 
@@ -89,12 +88,11 @@ void Player::endOfFilm(MonotonicTime now) {
   apply(PlayerEvent::EndOfFilm);
   if (resume_) resume_->forget(film().url);
   const bool more = film_ + 1 < films_.size();
-  const bool again = !more && config_.loop && report_.frames_shown > shown_before_;  // of nothing there is no loop
+  const bool again = !more && config_.loop;
   if (again && films_.size() == 1) return seek(MediaTime{}, PlayerEvent::Loop, false, now);
   clock_.reset();  // where this film ended is not where one left it
   if (more) return openFilm(film_ + 1, now);
   if (!again) return stopFilm(now);
-  shown_before_ = report_.frames_shown;
   openFilm(0, now);
 }
 

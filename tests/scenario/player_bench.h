@@ -59,6 +59,7 @@ class PlayerBench {
   std::optional<MockAudioProfile> audio;  // nothing: a film without an output for its sound
   std::atomic<bool> stop{false};
   std::shared_ptr<MockHapticBench> hand = std::make_shared<MockHapticBench>();
+  std::shared_ptr<MockDisplayBench> cable = std::make_shared<MockDisplayBench>();
   std::shared_ptr<MockAudioBench> ear = std::make_shared<MockAudioBench>();
   ManualClock clock;
 
@@ -69,7 +70,7 @@ class PlayerBench {
   Outcome<void> run() { return runOn(clock); }
 
   Outcome<void> runOn(Clock& time) {
-    const auto screen = makeMockDisplay(display, time);
+    const auto screen = makeMockDisplay(display, time, cable);
     const auto device = make_haptic ? make_haptic(time) : makeMockHaptic(haptic, time, hand);
     const auto remote = makeScriptedRemote(keys, time);
     const auto output = audio ? makeMockAudio(*audio, time, ear) : nullptr;

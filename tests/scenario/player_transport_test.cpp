@@ -89,6 +89,23 @@ TEST_F(PlayerTransport, TheForceIsZeroBetweenFilmsAndFadesInOnTheNext) {
   EXPECT_EQ(bench_.force_left, glm::dvec3(0));
 }
 
+TEST_F(PlayerTransport, PastTheLastFilmThereIsNoNext) {
+  aList();
+  for (const double at_s : {0.2, 0.4, 0.6, 0.8}) bench_.press(at_s, KEY_NEXT);
+  playsWell();
+  EXPECT_THAT(bench_.report.films, ElementsAre("./a", "./b", "./c"));
+  EXPECT_NEAR(bench_.report.media_s, 0.4 + 3.0, 0.1);
+}
+
+TEST_F(PlayerTransport, AListOnLoopGoesOnWithoutAScreen) {
+  aList();
+  bench_.config.loop = true;
+  bench_.config.duration = std::chrono::seconds(13);
+  bench_.display.shown = [this] { bench_.cable->unplugged = true; };
+  playsWell();
+  EXPECT_THAT(bench_.report.films, SizeIs(7));
+}
+
 TEST_F(PlayerTransport, AFilmIsFeltByItsOwnCalibration) {
   aList();
   MockTrack& deeper = bench_.sources["./b"].tracks[1];  // the same heights in other codes
@@ -312,11 +329,16 @@ TEST_F(PlayerResume, AFilmGoesOnWhereItWasLeft) {
 }
 
 TEST_F(PlayerResume, AFilmThatHasEndedBeginsAtItsBeginning) {
-  bench_.press(0.5, KEY_9);
   playsWell();
   EXPECT_FALSE(Resume(path_).find("film"));
   playsWell();
-  EXPECT_NEAR(bench_.report.wall_s, 0.5 + 0.4, 0.1);
+  EXPECT_NEAR(bench_.report.media_s, 4.0, 0.1);
+}
+
+TEST_F(PlayerResume, OfAListThatWasSeenToItsEndNoFilmIsKept) {
+  aList();
+  playsWell();
+  for (const char* film : {"./a", "./b", "./c"}) EXPECT_FALSE(Resume(path_).find(film)) << film;
 }
 
 TEST_F(PlayerResume, AListGoesOnWithTheFilmThatWasSeenLast) {
