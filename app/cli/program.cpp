@@ -33,12 +33,12 @@ const std::atomic<bool>& stopOnSignals(void (*last)() noexcept) noexcept {
   last_act = last;
   struct sigaction action{};
   action.sa_handler = onSignal;
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::sigaction(number, &action, nullptr);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) ::sigaction(number, &action, nullptr);
   if (last == nullptr) return stop_wanted;
   std::atexit([] { last_act.load()(); });
   action.sa_handler = endNow;
-  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGQUIT, SIGPIPE, SIGSYS, SIGTRAP, SIGXCPU,
-                           SIGXFSZ, SIGALRM, SIGVTALRM, SIGPROF, SIGUSR1, SIGUSR2}) {
+  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGSYS, SIGTRAP, SIGXCPU, SIGXFSZ, SIGALRM,
+                           SIGVTALRM, SIGPROF, SIGUSR1, SIGUSR2}) {
     struct sigaction old{};
     ::sigaction(number, nullptr, &old);
     if (old.sa_handler == SIG_DFL) ::sigaction(number, &action, nullptr);  // a sanitizer has its own
@@ -58,6 +58,7 @@ int tell(const Failure& failure, int exit_code) {
 
 int runProgram(const char* name, const std::function<int()>& body) noexcept {
   setLogProgram(name);
+  std::signal(SIGPIPE, SIG_IGN);  // who no longer listens ends nothing
   try {
     return body();
   } catch (const std::exception& error) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
 #include <filesystem>
 #include <utility>
 
@@ -53,6 +54,22 @@ std::string besideUrl(std::string_view path, std::string_view from) {
   return std::string(folder) + "/" + std::string(path);
 }
 
+// The path of file://HOST/PATH, in which %20 is a space.
+std::string pathOf(std::string_view url) {
+  url.remove_prefix(std::string_view("file:").size());
+  if (url.starts_with("//")) url.remove_prefix(std::min(url.find('/', 2), url.size()));
+  std::string path;
+  for (std::size_t i = 0; i < url.size(); ++i) {
+    unsigned char code = 0;
+    const std::string_view digits = url.substr(i + 1 < url.size() ? i + 1 : i, 2);
+    const bool coded = url[i] == '%' && digits.size() == 2 &&
+                       std::from_chars(digits.data(), digits.data() + 2, code, 16).ptr == digits.data() + 2;
+    path += coded ? static_cast<char>(code) : url[i];
+    if (coded) i += 2;
+  }
+  return path;
+}
+
 class Parser {
  public:
   explicit Parser(const std::string& from) : from_(from), from_network_(isOnNetwork(from)) {}
@@ -92,7 +109,7 @@ class Parser {
     if (!allowed)
       return wrong("names what a playlist may not open; http, https, rtsp, udp and, in a file, paths are let in");
     const std::filesystem::path path{std::string(text)};
-    into = text;
+    into = scheme == "file" ? pathOf(text) : std::string(text);
     if (scheme.empty() && path.is_relative()) {
       // "./" before what has no folder: FFmpeg takes some names for protocols, such as "subfile,,..".
       const auto folder = std::filesystem::path(from_).parent_path();

@@ -32,15 +32,17 @@ PairReader::Backends backendsFor(const std::string& url) {
           .make_audio_decoder = drivers::makeAudioDecoder};
 }
 
+// One that cannot be written costs the other nothing.
 int finishFiles(const PlayReport& report, AtomicFile* report_file, Recorder* recorder) {
+  int result = kExitDone;
   if (recorder != nullptr && report.haptic.ticks > 0) {
-    if (auto finished = recorder->finish(); !finished) return tell({recorder->path(), finished.error()});
+    if (auto finished = recorder->finish(); !finished) result = tell({recorder->path(), finished.error()});
   }
   if (report_file != nullptr) {
     report_file->write(toJson(report));
-    if (auto written = report_file->commit(); !written) return tell({report_file->path(), written.error()});
+    if (auto written = report_file->commit(); !written) result = tell({report_file->path(), written.error()});
   }
-  return kExitDone;
+  return result;
 }
 
 // The file of "offscreen:FILE[@FPS]".
@@ -144,7 +146,7 @@ int play(PlayOptions options, const FileConfig& config) {
   const PlayReport report = player.report();
   const int files = finishFiles(report, report_file ? &*report_file : nullptr, recorder ? &*recorder : nullptr);
   if (!played) return tell(played.error());
-  if (files == kExitDone) std::fputs(toText(report).c_str(), stdout);
+  std::fputs(toText(report).c_str(), stdout);
   return files;
 }
 

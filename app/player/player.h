@@ -93,6 +93,7 @@ class Player {
   void setClockHeld(bool held, MonotonicTime now);
   void seekShare(double share, MonotonicTime now);
   void seek(MediaTime target, PlayerEvent why, bool wanted, MonotonicTime now);
+  [[nodiscard]] std::optional<MediaTime> place(MonotonicTime now) const;
   [[nodiscard]] MediaTime seekBase(MonotonicTime now) const;
 
   // player_list.cpp: from film to film
@@ -155,9 +156,12 @@ class Player {
   bool hopeless_ = false;  // no other film would go better
   std::optional<Failure> failure_;
   std::vector<PlaylistEntry> films_ = std::vector<PlaylistEntry>(1);
-  std::size_t film_ = 0;            // of them
-  bool film_open_ = false;          // or being opened
-  MonotonicTime keep_due_;          // the position
+  std::size_t film_ = 0;     // of them
+  bool film_open_ = false;   // or being opened
+  int lists_ = 0;            // that were found to be one, since the first was asked for
+  bool backwards_ = false;   // the viewer goes back through the list, until a film opens
+  bool played_one_ = false;  // of the list, before this film
+  MonotonicTime keep_due_;   // the position
   MonotonicTime started_;
   std::optional<MonotonicTime> ended_;
   Duration period_{0};  // of the film

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the player does with the film: waits for the reader, follows the clock, and feeds the eye and the finger.
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -78,6 +79,7 @@ void Player::followReader(MonotonicTime now) {
 void Player::opened(MonotonicTime now) {
   apply(PlayerEvent::Opened);
   failure_.reset();  // of a film before
+  backwards_ = false;
   report_.film = feed_.info();
   period_ = report_.film.frame_period > Duration(0) ? report_.film.frame_period : kUnknownPeriod;
   if (report_.film.has_depth) {
@@ -198,11 +200,14 @@ void Player::followEnd(MediaTime position, MonotonicTime now) {
   dry_since_.reset();
   closeSegment(now);
   apply(PlayerEvent::Starved);
-  note("the film came too slowly", "the picture stands until it is read ahead again");
+  note("the film came too slowly, or this machine is too slow for it",
+       "the picture stands until it is read ahead again");
 }
 
 void Player::closeSegment(MonotonicTime now) {
-  if (const auto position = clock_.position(now); position && segment_begin_) played_ += *position - *segment_begin_;
+  if (const auto position = clock_.position(now); position && segment_begin_) {
+    played_ += std::min(*position, head_.present().color.pts + period_) - *segment_begin_;
+  }
   segment_begin_.reset();
 }
 
@@ -269,7 +274,7 @@ bool Player::draw(MonotonicTime now) {
 
 ScreenFacts Player::facts() const {
   const bool shown = report_.first_frame_ms.has_value();
-  const auto position = clock_.position(parts_.clock.now()).value_or(shown ? head_.present().color.pts : MediaTime{});
+  const auto position = place(parts_.clock.now()).value_or(shown ? head_.present().color.pts : MediaTime{});
   return {.title = film().title.empty() ? titleOf(film().url) : film().title,
           .position_s = toSeconds(position),
           .duration_s = toSeconds(report_.film.duration),

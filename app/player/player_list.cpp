@@ -12,6 +12,7 @@ namespace {
 
 constexpr Duration kBeginning = std::chrono::seconds(3);  // so near to it, "previous" means the film before
 constexpr Duration kKeepPeriod = std::chrono::seconds(2);
+constexpr int kMostLists = 20;  // within one another
 
 }  // namespace
 
@@ -19,16 +20,24 @@ void Player::openList(const std::string& url, const std::string& depth_url, Mono
   if (!nextState(state_, PlayerEvent::Open)) return;
   leaveFilm(now);
   films_ = {{.url = url, .depth_url = depth_url, .title = ""}};
+  lists_ = 0;
+  played_one_ = false;
   openFilm(0, now);
 }
 
-// The source has turned out to be a list.
+// The film has turned out to be a list: its films stand where it stood.
 void Player::followList(MonotonicTime now) {
+  if (++lists_ > kMostLists) {
+    return fail(film().url, {ErrorCode::Unsupported, 0, "lists within lists without an end; one of them names itself"});
+  }
   report_.films.pop_back();  // a list is no film
-  films_ = feed_.films();
-  std::size_t first = 0;
-  if (const auto last = resume_ ? resume_->last() : std::nullopt) {
-    const auto seen = std::ranges::find(films_, *last, &PlaylistEntry::url);
+  const std::vector<PlaylistEntry> listed = feed_.films();
+  const auto at = films_.erase(films_.begin() + static_cast<std::ptrdiff_t>(film_));
+  films_.insert(at, listed.begin(), listed.end());
+  std::size_t first = film_;
+  if (const auto last = resume_ && lists_ == 1 ? resume_->last() : std::nullopt) {
+    const auto is_last = [&](const PlaylistEntry& entry) { return Resume::keyOf(entry.url) == *last; };
+    const auto seen = std::ranges::find_if(films_, is_last);
     if (seen != films_.end()) first = static_cast<std::size_t>(seen - films_.begin());
   }
   openFilm(first, now);
@@ -48,7 +57,11 @@ void Player::openFilm(std::size_t film, MonotonicTime now) {
 
 void Player::previousFilm(MonotonicTime now) {
   const bool at_beginning = seekBase(now) < MediaTime(kBeginning);
-  if (at_beginning && film_ > 0) return openFilm(film_ - 1, now);
+  if (at_beginning && film_ > 0) {
+    openFilm(film_ - 1, now);
+    backwards_ = true;
+    return;
+  }
   seek(MediaTime{}, PlayerEvent::Seek, true, now);
 }
 
@@ -66,6 +79,7 @@ void Player::leaveFilm(MonotonicTime now) {
   head_ = {};
   sound_.forget();
   surface_.beginEpoch();
+  played_one_ = played_one_ || scene_known_;
   held_ = scene_known_ = depth_missing_ = depth_refused_ = false;
   new_epoch_ = true;
   target_.reset();
@@ -102,19 +116,32 @@ void Player::noteMissing() {
     note(textLine("%s breaks off %.1f s before its end, cut off or damaged", url.c_str(), toSeconds(missing)), done);
   };
   const PairCounters pairs = feed_.counters();
+  if (pairs.damaged > 0) {
+    note(
+        textLine("%llu pictures of %s are damaged", static_cast<unsigned long long>(pairs.damaged), film().url.c_str()),
+        "what could be decoded was shown");
+  }
   noteOne(film().url, pairs.missing, "what is there was played");
   noteOne(film().depth_url, pairs.depth_missing, "from there on the picture was flat, without force");
 }
 
-// A film that cannot go on: the next one, or none.
+// A film that cannot go on: the next one on the viewer's way, or none. A list of which something was played has not
+// failed.
 void Player::followFault(MonotonicTime now) {
   if (state_ != PlayerState::Fault || hopeless_) return;
-  const bool more = film_ + 1 < films_.size();
-  if (!more && !config_.stays) return;  // it ends with that failure
+  std::optional<std::size_t> other;
+  if (backwards_ && film_ > 0) other = film_ - 1;
+  else if (film_ + 1 < films_.size()) other = film_ + 1;
+  else if (config_.loop && played_one_) other = 0;
+  if (!other && !config_.stays && !played_one_) return;  // it ends with that failure
   const std::string what = failure_->thing + ": " + failure_->error.message;
-  log(LogLevel::Error, "play", "%s; %s", what.c_str(), more ? "the next film is played" : "it is stopped");
+  log(LogLevel::Error, "play", "%s; %s", what.c_str(), other ? "another film is played" : "it is stopped");
   text_.tell(what, now);
-  if (more) return openFilm(film_ + 1, now);
+  if (other == 0U) played_one_ = false;
+  const bool backwards = backwards_ && other && *other < film_;
+  if (other) openFilm(*other, now);
+  backwards_ = backwards;
+  if (other) return;
   failure_.reset();
   stopFilm(now);
 }
@@ -129,7 +156,7 @@ void Player::goOnWhereLeft(MonotonicTime now) {
 
 void Player::keepPosition(MonotonicTime now) {
   if (!resume_ || now < keep_due_) return;
-  const auto position = clock_.position(now);
+  const auto position = place(now);
   if (!position || report_.film.duration <= Duration(0) || target_) return;
   if (state_ == PlayerState::Ended) return;
   keep_due_ = now + kKeepPeriod;

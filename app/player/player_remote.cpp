@@ -154,8 +154,13 @@ void Player::seekShare(double share, MonotonicTime now) {
 // Where a step of the remote counts from: several presses add up, whether or not the first has been carried out.
 MediaTime Player::seekBase(MonotonicTime now) const {
   if (target_) return *target_;
-  if (state_ == PlayerState::Buffering) return head_.present().color.pts;
-  return clock_.position(now).value_or(MediaTime{});
+  return place(now).value_or(MediaTime{});
+}
+
+// Where the picture is. While it stands for want of the next one, the clock goes on: what is felt fades by it.
+std::optional<MediaTime> Player::place(MonotonicTime now) const {
+  const auto position = clock_.position(now);
+  return position && state_ == PlayerState::Buffering ? head_.present().color.pts : position;
 }
 
 void Player::seek(MediaTime target, PlayerEvent why, bool wanted, MonotonicTime now) {

@@ -44,6 +44,13 @@ std::string Resume::defaultPath() {
   return "";
 }
 
+std::string Resume::keyOf(const std::string& url) {
+  if (url.find("://") != std::string::npos) return url;
+  std::error_code none;
+  const auto path = std::filesystem::absolute(url, none);
+  return none ? url : path.lexically_normal().string();
+}
+
 Resume::Resume(std::string path) : path_(std::move(path)), films_(load(path_)), thread_([this] { threadMain(); }) {}
 
 Resume::~Resume() {
@@ -62,7 +69,7 @@ std::optional<std::string> Resume::last() const {
 
 std::optional<MediaTime> Resume::find(const std::string& url) const {
   const std::scoped_lock lock(mutex_);
-  const auto film = std::ranges::find(films_, url, &Films::value_type::first);
+  const auto film = std::ranges::find(films_, keyOf(url), &Films::value_type::first);
   if (film == films_.end()) return std::nullopt;
   return mediaTime(film->second);
 }
@@ -70,15 +77,17 @@ std::optional<MediaTime> Resume::find(const std::string& url) const {
 void Resume::keep(const std::string& url, MediaTime position) {
   if (position.time_since_epoch() < kLeast) return forget(url);
   const std::scoped_lock lock(mutex_);
-  std::erase_if(films_, [&](const auto& film) { return film.first == url; });
-  films_.emplace(films_.begin(), url, toSeconds(position));
+  const std::string key = keyOf(url);
+  std::erase_if(films_, [&](const auto& film) { return film.first == key; });
+  films_.emplace(films_.begin(), key, toSeconds(position));
   if (films_.size() > kMostFilms) films_.pop_back();
   changed();
 }
 
 void Resume::forget(const std::string& url) {
   const std::scoped_lock lock(mutex_);
-  if (std::erase_if(films_, [&](const auto& film) { return film.first == url; }) > 0) changed();
+  const std::string key = keyOf(url);
+  if (std::erase_if(films_, [&](const auto& film) { return film.first == key; }) > 0) changed();
 }
 
 void Resume::changed() {

@@ -30,7 +30,10 @@ class Resume {
   Resume(const Resume&) = delete;
   Resume& operator=(const Resume&) = delete;
 
-  // The film that was seen last.
+  // What a film is kept by: a path without its detours from the root on, an address as it is.
+  [[nodiscard]] static std::string keyOf(const std::string& url);
+
+  // The key of the film that was seen last.
   [[nodiscard]] std::optional<std::string> last() const;
   [[nodiscard]] std::optional<MediaTime> find(const std::string& url) const;
   // Never waits. The newest position is on the disk soon afterwards.

@@ -130,7 +130,8 @@ class MockAudio final : public AudioOutput {
   bool running_ = false;
   MonotonicTime begin_;           // when it began to run,
   std::int64_t begin_frame_ = 0;  // and with which frame
-  std::minstd_rand random_{1};    // the same in every run
+  // NOLINTNEXTLINE(bugprone-random-generator-seed): the same in every run
+  std::minstd_rand random_{1};
 };
 
 }  // namespace

@@ -149,6 +149,42 @@ TEST_F(PlayerTransport, AFilmThatCannotBePlayedIsPassedOver) {
   EXPECT_EQ(bench_.report.frames_shown, 100u);
 }
 
+TEST_F(PlayerTransport, AMissingLastFilmIsPassedOverAsWell) {
+  aList();
+  bench_.sources.erase("./c");
+  playsWell();
+  EXPECT_EQ(bench_.faults("./c"), 1u);
+  EXPECT_EQ(bench_.report.frames_shown, 75u);
+  bench_.config.loop = true;
+  bench_.config.duration = std::chrono::seconds(5);
+  playsWell();
+  EXPECT_THAT(bench_.report.films, ElementsAre("./a", "./b", "./c", "./a", "./b"));
+}
+
+TEST_F(PlayerTransport, BackwardsWhatIsMissingIsPassedOverBackwards) {
+  aList();
+  bench_.sources.erase("./b");
+  bench_.press(2.0, KEY_PREVIOUS);  // out of c
+  playsWell();
+  EXPECT_THAT(bench_.report.films, ElementsAre("./a", "./b", "./c", "./b", "./a", "./b", "./c"));
+}
+
+TEST_F(PlayerTransport, AListInAListIsPlayedInItsPlace) {
+  aList();
+  bench_.texts["./inner.m3u"] = "b\nc\n";
+  bench_.texts["list.m3u"] = "inner.m3u\na\n";
+  playsWell();
+  EXPECT_THAT(bench_.report.films, ElementsAre("./b", "./c", "./a"));
+}
+
+TEST_F(PlayerTransport, AListThatNamesItselfEnds) {
+  bench_.texts["./self.m3u"] = "self.m3u\n";
+  bench_.config.source.url = "./self.m3u";
+  const auto played = bench_.run();
+  ASSERT_FALSE(played);
+  EXPECT_THAT(played.error().error.message, HasSubstr("names itself"));
+}
+
 TEST_F(PlayerTransport, AListOfWhichNothingCanBePlayedFails) {
   aList();
   bench_.sources.clear();
@@ -333,6 +369,20 @@ TEST_F(PlayerResume, AFilmThatHasEndedBeginsAtItsBeginning) {
   EXPECT_FALSE(Resume(path_).find("film"));
   playsWell();
   EXPECT_NEAR(bench_.report.media_s, 4.0, 0.1);
+}
+
+// Its place is the picture's, however long that has stood.
+TEST_F(PlayerResume, AFilmThatStandsIsKeptWhereItStands) {
+  bench_.sources["film"] = PlayerBench::film(1000);
+  bench_.sources["film"].remote = true;
+  bench_.sources["film"].lose_after_packets = 500;  // 10 s of both tracks
+  MockMediaProfile away = bench_.sources["film"];
+  away.fail_open = ErrorCode::Io;
+  bench_.found_again = {away};
+  bench_.press(20.0, KEY_STOP);
+  playsWell();
+  EXPECT_NEAR(toSeconds(Resume(path_).find("film").value_or(MediaTime{})), 9.96, 0.2);
+  EXPECT_NEAR(bench_.report.media_s, 10.0, 0.2);
 }
 
 TEST_F(PlayerResume, OfAListThatWasSeenToItsEndNoFilmIsKept) {

@@ -67,6 +67,7 @@ class Session {
   }
   ~Session() {
     for (Channel& channel : channels_) {
+      av_write_trailer(channel.muxer);  // which alone frees what the header has taken
       av_freep(&channel.muxer->pb->buffer);
       avio_context_free(&channel.muxer->pb);
       avformat_free_context(channel.muxer);

@@ -46,7 +46,16 @@ TEST_F(ResumeTest, PositionsOutliveTheProgram) {
   EXPECT_DOUBLE_EQ(at(again, "a.mkv"), 62.5);
   EXPECT_EQ(at(again, "http://b/c d.mkv?e=\"f\""), 7);
   EXPECT_EQ(at(again, "other"), -1);
-  EXPECT_EQ(again.last(), "a.mkv");
+  EXPECT_EQ(again.last(), Resume::keyOf("a.mkv"));
+}
+
+TEST_F(ResumeTest, AFilmIsTheSameByWhateverPathItIsNamed) {
+  Resume resume(path_);
+  resume.keep("films/a.mkv", mediaTime(10));
+  const auto here = std::filesystem::current_path();
+  EXPECT_EQ(at(resume, here / "lists/../films/a.mkv"), 10);
+  EXPECT_EQ(at(resume, here.parent_path() / "films/a.mkv"), -1) << "another one";
+  EXPECT_EQ(Resume::keyOf("http://a/../b"), "http://a/../b");
 }
 
 TEST_F(ResumeTest, WhatHasEndedOrHardlyBegunIsForgotten) {
@@ -69,10 +78,10 @@ TEST_F(ResumeTest, TheOldestFilmsAreDropped) {
 TEST_F(ResumeTest, OfADamagedFileWhatMakesSenseIsKept) {
   path_ = folder_ / "resume.json";
   write(
-      R"([["good", 5], ["late", 1e9], ["before", -1], [7, 7], ["long", 1, 2], "x", ["word", "5"], ["good too", 6.5]])");
+      R"([["/good", 5], ["late", 1e9], ["before", -1], [7, 7], ["long", 1, 2], "x", ["word", "5"], ["/good too", 6.5]])");
   const Resume resume(path_);
-  EXPECT_EQ(at(resume, "good"), 5);
-  EXPECT_DOUBLE_EQ(at(resume, "good too"), 6.5);
+  EXPECT_EQ(at(resume, "/good"), 5);
+  EXPECT_DOUBLE_EQ(at(resume, "/good too"), 6.5);
   for (const char* url : {"late", "before", "long", "x", "word"}) EXPECT_EQ(at(resume, url), -1) << url;
   for (const char* text : {"", "{", "[[\"good\", 5]", "{\"good\": 5}", "\xff\xfe"}) {
     write(text);

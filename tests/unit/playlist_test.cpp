@@ -56,7 +56,8 @@ TEST(Playlist, OneOnTheNetworkOpensTheNetworkAlone) {
 }
 
 TEST(Playlist, OneInAFileOpensFilesButNoTricks) {
-  EXPECT_EQ(url("file:///films/a.mkv", "/films/list.m3u"), "file:///films/a.mkv");
+  EXPECT_EQ(url("file:///films/a.mkv", "/films/list.m3u"), "/films/a.mkv");
+  EXPECT_EQ(url("file://localhost/%C3%A4%20100%.mkv%", "/films/list.m3u"), "/\xC3\xA4 100%.mkv%");
   for (const char* line : {"concat:a|b", "data:x", "pipe:0", "crypto:a"}) {
     EXPECT_EQ(refused(line, "list.m3u"), "list.m3u, line 1") << line;
   }
