@@ -12,6 +12,8 @@
 #include <cstring>
 #include <utility>
 
+#include "tests/support/quit_loop.h"
+
 namespace relievo::test {
 
 UmockdevMouse::Codes UmockdevMouse::mouse() {
@@ -49,7 +51,7 @@ UmockdevMouse::UmockdevMouse(UMockdevTestbed* bed, int number, Codes codes)
 }
 
 UmockdevMouse::~UmockdevMouse() {
-  g_main_loop_quit(loop_);
+  quitLoop(loop_);
   thread_.join();
   g_object_unref(handler_);
   g_main_loop_unref(loop_);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "platform/clock.h"
+#include "tests/support/quit_loop.h"
 
 namespace relievo::test {
 namespace {
@@ -75,7 +76,7 @@ UmockdevUsb::UmockdevUsb(UsbModel& model, const UsbDeviceId& id) : model_(model)
 }
 
 UmockdevUsb::~UmockdevUsb() {
-  g_main_loop_quit(loop_);
+  quitLoop(loop_);
   thread_.join();
   g_object_unref(handler_);
   g_object_unref(bed_);
