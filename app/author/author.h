@@ -12,6 +12,7 @@
 #include "app/author/depth_coder.h"
 #include "app/author/film_writer.h"
 #include "app/author/sample_scene.h"
+#include "app/enhance/enhancer.h"
 #include "app/media/pair_reader.h"
 #include "platform/failure.h"
 
@@ -22,6 +23,7 @@ struct OutputOptions {
   bool force = false;  // to replace a file that is there
   int color_crf = 18;
   int depth_crf = 8;
+  std::optional<Enhancement> enhancement;  // nothing: the depth as it comes
 };
 
 struct SampleOptions {
@@ -35,6 +37,8 @@ struct AuthorSummary {
   FilmTotals totals;
   Duration frame_period{0};
   DepthCoder::Counts codes;
+  std::optional<Enhancement> enhancement;
+  EnhancementSummary enhanced;     // where it was enhanced
   std::vector<std::string> notes;  // what was done to the pictures
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <condition_variable>
 #include <cstdio>
+#include <deque>
 #include <mutex>
 #include <thread>
 
@@ -72,16 +73,21 @@ class Packager {
   [[nodiscard]] bool begun() const { return writer_ != nullptr; }
 
  private:
+  Outcome<void> writeDepth(const Frame& depth);
+  Outcome<void> writeEnhanced();
   [[nodiscard]] std::vector<std::string> sourceNotes() const;
 
   PairReader& reader_;
   const SourceOptions& source_;
   const OutputOptions& output_;
   std::unique_ptr<FilmWriter> writer_;
+  std::optional<DepthEnhancer> enhancer_;
   DepthCoder coder_{DepthCalibration{}};  // `begin` gives it the film's
+  std::vector<std::string> code_notes_;
   FilmFormat format_;
   Cut cut_;
   KeyFrames key_frames_;
+  std::deque<bool> depth_keys_;  // of the pictures that are not written yet
   std::optional<MediaTime> last_depth_;
   ColorPicture420 color_;
   DepthPicture depth_;
@@ -94,6 +100,11 @@ Outcome<void> Packager::begin(const FramePair& pair) {
   whole_depth.height = info.depth_height;
   cut_ = Cut(pair.color, whole_depth);
   coder_ = DepthCoder(info.calibration.calibration);
+  code_notes_ = coder_.explain();
+  if (output_.enhancement) {
+    enhancer_.emplace(*output_.enhancement, info.calibration.calibration);
+    coder_ = DepthCoder(enhancer_->outcome());
+  }
 
   format_.color_width = pair.color.width - cut_.color_cols;
   format_.color_height = pair.color.height - cut_.color_rows;
@@ -131,6 +142,23 @@ Outcome<void> Packager::write(const FramePair& pair) {
   if (depth.width != format_.depth_width || depth.height != format_.depth_height) {
     return failOn("depth", {ErrorCode::Unsupported, 0, "its pictures change their size; cut the film there"});
   }
+  depth_keys_.push_back(key);
+  if (!enhancer_) return writeDepth(depth);
+  if (auto added = enhancer_->add(depth); !added) return failOn("depth", added.error());
+  return writeEnhanced();
+}
+
+// Pictures that are ready by now, at the times that they had.
+Outcome<void> Packager::writeEnhanced() {
+  while (const auto depth = enhancer_->next()) {
+    if (auto written = writeDepth(*depth); !written) return written;
+  }
+  return {};
+}
+
+Outcome<void> Packager::writeDepth(const Frame& depth) {
+  const bool key = depth_keys_.front();
+  depth_keys_.pop_front();
   if (auto coded = coder_.encode(depth, depth_); !coded) return failOn("depth", coded.error());
   if (auto written = writer_->writeDepth(depth_, depth.pts, key); !written)
     return failOn(output_.path, written.error());
@@ -138,9 +166,19 @@ Outcome<void> Packager::write(const FramePair& pair) {
 }
 
 Outcome<AuthorSummary> Packager::finish() {
+  if (enhancer_) {
+    if (auto ended = enhancer_->finish(); !ended) return failOn("depth", ended.error());
+    if (auto written = writeEnhanced(); !written) return std::unexpected(written.error());
+  }
   const auto totals = writer_->finish();
   if (!totals) return failOn(output_.path, totals.error());
-  AuthorSummary summary{format_, *totals, format_.frame_period, coder_.counts(), coder_.explain()};
+  AuthorSummary summary{.format = format_,
+                        .totals = *totals,
+                        .frame_period = format_.frame_period,
+                        .codes = coder_.counts(),
+                        .enhancement = output_.enhancement,
+                        .enhanced = enhancer_ ? enhancer_->summary() : EnhancementSummary{},
+                        .notes = code_notes_};
   if (coder_.outcome().invalid_code && format_.depth_crf > 0) {
     summary.notes.emplace_back("coding moves the edges of holes by a sample here and there; --depth-crf 0 keeps them");
   }

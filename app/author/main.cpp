@@ -50,6 +50,15 @@ void addOptions(CLI::App& app, Arguments& a) {
                  "Quality of the depth alone; 0 keeps every code, where hardware can decode it")
       ->type_name("N")
       ->check(CLI::Range(0, 51).description(""));
+  addChoice(
+      app, "--enhance", a.output.enhancement,
+      {{"none", std::nullopt},
+       {"median", Enhancement::Median},
+       {"dibm", Enhancement::Dibm},
+       {"space-time", Enhancement::SpaceTime}},
+      "What a sensor did to the depth is undone [none]\nmedian: narrow holes filled, the median of 5 by 5 samples; "
+      "dibm: behind that each picture as a\nsmoothed mesh of few points; space-time: behind the median smoothed "
+      "over five pictures and a few\nsamples. Edges stay where they are");
   app.add_option("--scene", a.scene, "Make a film of the project's own instead, with its exact depth: sample")
       ->type_name("NAME")
       ->check(CLI::IsMember({"sample"}).description(""))

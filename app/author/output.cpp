@@ -49,6 +49,22 @@ std::string codesLine(const DepthCoder::Counts& codes) {
   return line + "\n";
 }
 
+std::string enhancementLines(Enhancement how, const EnhancementSummary& e) {
+  const auto percent = [&e](std::uint64_t count) {
+    return e.samples > 0 ? 100.0 * static_cast<double>(count) / static_cast<double>(e.samples) : 0;
+  };
+  std::string lines =
+      print("  enhanced (%s): holes %.1f %%, outliers %.2f %%; %.1f %% filled, %.1f %% left as holes\n", name(how),
+            percent(e.holes), percent(e.outliers), percent(e.filled), percent(e.holes + e.outliers - e.filled));
+  lines +=
+      print("    noise from sample to sample: %.2f levels of 255 before, %.2f after\n", e.noise_before, e.noise_after);
+  if (e.points > 0) {
+    lines += print("    mesh: %.0f points a picture, %zu at most; no sample farther from it than %.1f levels\n",
+                   e.points, e.most_points, e.bound);
+  }
+  return lines;
+}
+
 }  // namespace
 
 Result<void> checkOutput(const OutputOptions& output) {
@@ -83,6 +99,7 @@ std::string toText(const std::string& path, const AuthorSummary& summary) {
       path + print(": %.2f s, ", seconds(totals.color, summary.frame_period)) + sizeText(totals.file_bytes) + "\n";
   text += trackLine("color", f.color_width, f.color_height, "4:2:0", f.color_crf, totals.color, summary.frame_period);
   text += trackLine("depth", f.depth_width, f.depth_height, "4:0:0", f.depth_crf, totals.depth, summary.frame_period);
+  if (summary.enhancement) text += enhancementLines(*summary.enhancement, summary.enhanced);
   text += codesLine(summary.codes);
   const auto tag = [&f](const char* key) {
     const auto found = f.depth_tags.find(key);

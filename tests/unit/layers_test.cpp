@@ -45,8 +45,9 @@ const std::vector<Room>& rooms() {
       {"app/render", {"app/scene"}},
       {"app/cli", {"app/scene", "app/media"}},
       {"app/player", {"app/scene", "app/media", "app/haptics", "app/render", "app/cli"}},
-      {"app/author", {"app/scene", "app/media", "app/cli"}},
-      {"app/lab", {"app/scene", "app/media", "app/haptics", "app/render", "app/cli"}},
+      {"app/enhance", {"app/scene"}},
+      {"app/author", {"app/scene", "app/media", "app/cli", "app/enhance"}},
+      {"app/lab", {"app/scene", "app/media", "app/haptics", "app/render", "app/cli", "app/enhance"}},
   };
   return all;
 }

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+// Few samples are unknown or near a step: those are looked at one by one, all others in whole rows.
+#include "app/enhance/cleaning.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+namespace relievo {
+namespace {
+
+constexpr int kReach = 2;  // of five by five samples
+
+cv::Mat viewOf(std::vector<float>& codes, const DepthMap& map) {
+  return {map.rows, map.cols, CV_32F, codes.data()};
+}
+cv::Mat viewOf(std::vector<std::uint8_t>& mask, const DepthMap& map) {
+  return {map.rows, map.cols, CV_8U, mask.data()};
+}
+
+// How many samples of five by five lie inside the picture, along one axis.
+int inside(int at, int size) {
+  return std::min(at + kReach, size - 1) - std::max(at - kReach, 0) + 1;
+}
+
+// 1 where a known sample is like too few of those around it. At the picture's corners fewer are enough.
+std::vector<std::uint8_t> findOutliers(const DepthMap& map, float noise) {
+  constexpr int kAlike = 3, kOneOf = 4;
+  const float alike = DepthMap::kStep + 4 * noise;
+  std::vector<std::uint8_t> outliers(map.size());
+  std::vector<std::uint8_t> count(map.cols);
+  for (int r = 0; r < map.rows; ++r) {
+    std::fill(count.begin(), count.end(), std::uint8_t{0});
+    const float* const own = map.codes.data() + map.at(0, r);
+    for (int dr = -kReach; dr <= kReach; ++dr) {
+      if (r + dr < 0 || r + dr >= map.rows) continue;
+      for (int dc = -kReach; dc <= kReach; ++dc) {
+        if (dr == 0 && dc == 0) continue;
+        const std::ptrdiff_t away = static_cast<std::ptrdiff_t>(dr) * map.cols + dc;
+        const std::uint8_t* const hole = map.holes.data() + map.at(0, r) + away;
+        const int end = map.cols - std::max(dc, 0);
+        for (int c = std::max(-dc, 0); c < end; ++c) {
+          const bool is = std::abs(own[c + away] - own[c]) <= alike;
+          count[c] = static_cast<std::uint8_t>(count[c] + (is & (hole[c] == 0)));
+        }
+      }
+    }
+    for (int c = 0; c < map.cols; ++c) {
+      const int around = inside(c, map.cols) * inside(r, map.rows) - 1;
+      const bool known = map.holes[map.at(c, r)] == 0;
+      outliers[map.at(c, r)] = known && count[c] < std::min(kAlike, around / kOneOf) ? 1 : 0;
+    }
+  }
+  return outliers;
+}
+
+// 1 where a disc of `radius` fits into what is unknown.
+std::vector<std::uint8_t> findWide(std::vector<std::uint8_t>& unknown, const DepthMap& map, int radius) {
+  std::vector<std::uint8_t> wide(unknown.size());
+  const cv::Mat disc = cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1});
+  cv::Mat opened = viewOf(wide, map);
+  cv::erode(viewOf(unknown, map), opened, disc, {-1, -1}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
+  cv::dilate(opened.clone(), opened, disc);
+  return wide;
+}
+
+// The nearest known sample in each of four directions, with its distance.
+class Surroundings {
+ public:
+  Surroundings(const DepthMap& map, const std::vector<std::uint8_t>& unknown, int c, int r, int farthest) {
+    for (const auto& [dc, dr] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+      for (int d = 1; d <= farthest; ++d) {
+        const int x = c + d * dc, y = r + d * dr;
+        if (x < 0 || y < 0 || x >= map.cols || y >= map.rows) break;
+        const std::size_t i = map.at(x, y);
+        if (unknown[i] != 0) continue;
+        codes_[count_] = map.codes[i];
+        weights_[count_++] = 1.0F / static_cast<float>(d);
+        break;
+      }
+    }
+  }
+  [[nodiscard]] bool empty() const { return count_ == 0; }
+  [[nodiscard]] float farthest() const { return *std::min_element(codes_.begin(), codes_.begin() + count_); }
+  [[nodiscard]] float nearestTo(float code) const {
+    return *std::min_element(codes_.begin(), codes_.begin() + count_,
+                             [&](float a, float b) { return std::abs(a - code) < std::abs(b - code); });
+  }
+  // By distance, of those that go on from `code`.
+  [[nodiscard]] float meanAround(float code, float alike) const {
+    float sum = 0, weight = 0;
+    for (int i = 0; i < count_; ++i) {
+      if (std::abs(codes_[i] - code) > alike) continue;
+      sum += weights_[i] * codes_[i];
+      weight += weights_[i];
+    }
+    return sum / weight;
+  }
+
+ private:
+  std::array<float, 4> codes_{}, weights_{};
+  int count_ = 0;
+};
+
+// The median of the samples around (c, r) that are on its side of a step, if there is one.
+float medianOfSide(const DepthMap& map, int c, int r, float alike) {
+  std::array<float, 25> samples{};
+  int count = 0;
+  for (int y = std::max(r - kReach, 0); y <= std::min(r + kReach, map.rows - 1); ++y) {
+    for (int x = std::max(c - kReach, 0); x <= std::min(c + kReach, map.cols - 1); ++x) {
+      const std::size_t i = map.at(x, y);
+      if (map.holes[i] == 0) samples[count++] = map.codes[i];
+    }
+  }
+  auto* first = samples.data();
+  auto* last = first + count;
+  const auto [low, high] = std::minmax_element(first, last);
+  if (*high - *low > alike) {
+    const float middle = 0.5F * (*low + *high);
+    const bool near = map.codes[map.at(c, r)] > middle;
+    last = std::partition(first, last, [&](float code) { return (code > middle) == near; });
+  }
+  auto* const median = first + (last - first) / 2;
+  std::nth_element(first, median, last);
+  return *median;
+}
+
+}  // namespace
+
+CleaningCounts fillHoles(DepthMap& map, float noise) {
+  CleaningCounts counts;
+  const std::vector<std::uint8_t> outliers = findOutliers(map, noise);
+  std::vector<std::uint8_t> unknown(map.size());
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    unknown[i] = map.holes[i] | outliers[i];
+    counts.holes += map.holes[i];
+    counts.outliers += outliers[i];
+  }
+  if (counts.holes + counts.outliers == 0) return counts;
+  const int radius = std::max(2, map.cols / 80);
+  const std::vector<std::uint8_t> wide = findWide(unknown, map, radius);
+  const float alike = DepthMap::kStep + 2 * noise;
+  DepthMap filled = map;
+  for (int r = 0; r < map.rows; ++r) {
+    for (int c = 0; c < map.cols; ++c) {
+      const std::size_t i = map.at(c, r);
+      if (unknown[i] == 0) continue;
+      const Surroundings around(map, unknown, c, r, 2 * radius + 1);
+      if (wide[i] == 0 && !around.empty()) {
+        const float side = outliers[i] != 0 ? around.nearestTo(map.codes[i]) : around.farthest();
+        filled.codes[i] = around.meanAround(side, alike);
+        filled.holes[i] = 0;
+        ++counts.filled;
+      } else if (counts.holes > 0) {  // where a picture has none, what nobody can place stays as it is
+        filled.codes[i] = 0;
+        filled.holes[i] = 1;
+      }
+    }
+  }
+  map = std::move(filled);
+  return counts;
+}
+
+void filterByMedian(DepthMap& map, float noise) {
+  const float alike = DepthMap::kStep + 7 * noise;  // more than 25 samples of one side are apart
+  const cv::Mat window = cv::getStructuringElement(cv::MORPH_RECT, {2 * kReach + 1, 2 * kReach + 1});
+  const cv::Mat codes = viewOf(map.codes, map);
+  cv::Mat lowest, highest, median;
+  cv::erode(codes, lowest, window);
+  cv::dilate(codes, highest, window);
+  cv::medianBlur(codes, median, 2 * kReach + 1);
+  cv::Mat holes;
+  cv::dilate(viewOf(map.holes, map), holes, window);
+  for (int r = 0; r < map.rows; ++r) {
+    for (int c = 0; c < map.cols; ++c) {
+      const bool step = highest.at<float>(r, c) - lowest.at<float>(r, c) > alike;
+      if (map.holes[map.at(c, r)] == 0 && (step || holes.at<std::uint8_t>(r, c) != 0)) {
+        median.at<float>(r, c) = medianOfSide(map, c, r, alike);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    map.codes[i] =
+        map.holes[i] != 0 ? 0 : median.at<float>(static_cast<int>(i / map.cols), static_cast<int>(i % map.cols));
+  }
+}
+
+}  // namespace relievo

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Frames are read as the player reads them: as a relief, here one that is 65535 mm deep and linear.
+#include "app/enhance/depth_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "app/scene/height_field.h"
+
+namespace relievo {
+
+Result<DepthMap> readDepth(const Frame& depth, const DepthCalibration& calibration) {
+  DepthCalibration linear = calibration;
+  linear.law = DepthLaw::Linear;
+  const DisplayVolume volume{.width_mm = 1, .height_mm = 1, .depth_mm = static_cast<double>(DepthMap::kHighest)};
+  const auto field = HeightField::make(depth, linear, volume);
+  if (!field) return std::unexpected(field.error());
+  DepthMap map(depth.width, depth.height);
+  std::size_t i = 0;
+  for (int r = 0; r < map.rows; ++r) {
+    for (int c = 0; c < map.cols; ++c, ++i) {
+      const double height = field->heightMm(c, r);
+      map.holes[i] = std::isnan(height) ? 1 : 0;
+      map.codes[i] = std::isnan(height) ? 0 : static_cast<float>(height);
+    }
+  }
+  return map;
+}
+
+DepthCalibration writtenCalibration(const DepthCalibration& source) {
+  const bool has_holes = source.invalid_code.has_value() || source.code == DepthCode::Hue;
+  DepthCalibration written = source;
+  written.polarity = DepthPolarity::NearIsHigh;
+  written.range = ColorRange::Full;
+  written.code = DepthCode::Luma;
+  written.bits = 16;
+  written.invalid_code = has_holes ? std::optional<std::uint32_t>(0) : std::nullopt;
+  return written;
+}
+
+Frame writeDepth(const DepthMap& map, bool may_have_holes, const Frame& like) {
+  const auto samples = std::make_shared<std::vector<std::uint16_t>>(map.size());
+  const float lowest = may_have_holes ? 1 : 0;
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    const float code = std::clamp(map.codes[i], lowest, DepthMap::kHighest);
+    (*samples)[i] = map.holes[i] != 0 ? std::uint16_t{0} : static_cast<std::uint16_t>(code + 0.5F);
+  }
+  Frame frame;
+  frame.pts = like.pts;
+  frame.duration = like.duration;
+  frame.width = map.cols;
+  frame.height = map.rows;
+  frame.model = ColorModel::Gray;
+  frame.range = ColorRange::Full;
+  frame.sample_aspect = like.sample_aspect;
+  frame.plane_count = 1;
+  frame.components[0] = {.step_bytes = 2, .bits = 16};
+  frame.planes[0] = {reinterpret_cast<const std::uint8_t*>(samples->data()), static_cast<std::ptrdiff_t>(map.cols) * 2};
+  frame.owner = samples;
+  return frame;
+}
+
+}  // namespace relievo

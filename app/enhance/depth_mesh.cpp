@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// Garland and Heckbert, Fast Polygonal Approximation of Terrains and Height Fields (1995): after a point only the
+// triangles around it are looked at anew.
+#include "app/enhance/depth_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <queue>
+
+namespace relievo {
+namespace {
+
+using Point = Delaunay::Point;
+
+constexpr int floorDivide(int a, int b) {
+  return a / b - (a % b != 0 && (a < 0) != (b < 0) ? 1 : 0);
+}
+
+// Calls row(r, first, last) for each row of samples inside a triangle or on its rim.
+template <class Row>
+void eachRow(const std::array<Point, 3>& corners, Row&& row) {
+  const auto [top, bottom] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
+  for (int r = top; r <= bottom; ++r) {
+    int first = std::numeric_limits<int>::max(), last = std::numeric_limits<int>::min();
+    for (int k = 0; k < 3; ++k) {
+      const Point &a = corners[k], &b = corners[(k + 1) % 3];
+      if (r < std::min(a.y, b.y) || r > std::max(a.y, b.y)) continue;
+      if (a.y == b.y) {
+        first = std::min({first, a.x, b.x});
+        last = std::max({last, a.x, b.x});
+        continue;
+      }
+      const int along = (b.x - a.x) * (r - a.y), down = b.y - a.y;
+      first = std::min(first, a.x - floorDivide(-along, down));
+      last = std::max(last, a.x + floorDivide(along, down));
+    }
+    if (first <= last) row(r, first, last);
+  }
+}
+
+// The plane of three points.
+struct Facet {
+  double origin = 0, across = 0, down = 0;
+
+  Facet(const std::array<Point, 3>& p, const std::array<float, 3>& codes) {
+    const double a = static_cast<double>(codes[0]);
+    const double ab = static_cast<double>(codes[1]) - a, ac = static_cast<double>(codes[2]) - a;
+    const double bx = p[1].x - p[0].x, by = p[1].y - p[0].y, cx = p[2].x - p[0].x, cy = p[2].y - p[0].y;
+    const double per_area = 1 / (bx * cy - by * cx);
+    across = (ab * cy - ac * by) * per_area;
+    down = (ac * bx - ab * cx) * per_area;
+    origin = a - across * p[0].x - down * p[0].y;
+  }
+};
+
+class Growing {
+ public:
+  Growing(const DepthMap& map, float bound) : map_(map), bound_(bound), delaunay_(map.cols - 1, map.rows - 1) {
+    for (const Point& corner : delaunay_.points()) codes_.push_back(cornerCode(corner));
+    measure(0);
+    measure(1);
+  }
+
+  DepthMesh grow() {
+    while (!worst_.empty()) {
+      const Candidate next = worst_.top();
+      worst_.pop();
+      if (next.version != versions_[next.triangle]) continue;
+      codes_.push_back(map_.codes[map_.at(next.point.x, next.point.y)]);
+      for (const int triangle : delaunay_.insert(next.point, next.triangle)) measure(triangle);
+    }
+    return {delaunay_.points(), std::move(codes_), delaunay_.triangles()};
+  }
+
+ private:
+  struct Candidate {
+    float error = 0;
+    int triangle = 0;
+    unsigned version = 0;
+    Point point;
+    bool operator<(const Candidate& other) const { return error < other.error; }
+  };
+
+  // At a hole that of the nearest known sample.
+  [[nodiscard]] float cornerCode(const Point& corner) const {
+    std::size_t found = 0;
+    long nearest = std::numeric_limits<long>::max();
+    for (int r = 0; r < map_.rows; ++r) {
+      for (int c = 0; c < map_.cols; ++c) {
+        const long dc = c - corner.x, dr = r - corner.y, distance = dc * dc + dr * dr;
+        if (map_.holes[map_.at(c, r)] != 0 || distance >= nearest) continue;
+        nearest = distance;
+        found = map_.at(c, r);
+      }
+    }
+    return map_.codes[found];
+  }
+
+  void measure(int triangle) {
+    if (versions_.size() <= static_cast<std::size_t>(triangle)) versions_.resize(triangle + 1);
+    const auto [a, b, c] = delaunay_.triangles()[triangle];
+    const auto& p = delaunay_.points();
+    const std::array<Point, 3> corners{p[a], p[b], p[c]};
+    const Facet facet(corners, {codes_[a], codes_[b], codes_[c]});
+    Candidate worst{.error = bound_, .triangle = triangle, .version = ++versions_[triangle]};
+    eachRow(corners, [&](int row, int first, int last) {
+      const float* const codes = map_.codes.data() + map_.at(0, row);
+      const std::uint8_t* const holes = map_.holes.data() + map_.at(0, row);
+      const auto begin = static_cast<float>(facet.origin + facet.down * row + facet.across * first);
+      const auto step = static_cast<float>(facet.across);
+      for (int column = first; column <= last; ++column) {
+        const float error = std::abs(codes[column] - (begin + step * static_cast<float>(column - first)));
+        if (error <= worst.error || holes[column] != 0) continue;
+        worst.error = error;
+        worst.point = {column, row};
+      }
+    });
+    if (worst.error > bound_) worst_.push(worst);
+  }
+
+  const DepthMap& map_;
+  float bound_;
+  Delaunay delaunay_;
+  std::vector<float> codes_;
+  std::vector<unsigned> versions_;  // by triangle: candidates of older ones are void
+  std::priority_queue<Candidate> worst_;
+};
+
+}  // namespace
+
+DepthMesh meshOf(const DepthMap& map, float bound) {
+  if (map.cols < 2 || map.rows < 2) return {};
+  if (std::all_of(map.holes.begin(), map.holes.end(), [](std::uint8_t hole) { return hole != 0; })) return {};
+  // Rounding alone must not make a corner a candidate again.
+  constexpr float kLeast = 1.0F / 16;
+  return Growing(map, std::max(bound, kLeast)).grow();
+}
+
+void renderMesh(const DepthMesh& mesh, DepthMap& map) {
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const std::array<Point, 3> corners{mesh.points[a], mesh.points[b], mesh.points[c]};
+    const Facet facet(corners, {mesh.codes[a], mesh.codes[b], mesh.codes[c]});
+    eachRow(corners, [&](int row, int first, int last) {
+      for (int column = first; column <= last; ++column) {
+        const std::size_t i = map.at(column, row);
+        if (map.holes[i] == 0)
+          map.codes[i] = static_cast<float>(facet.origin + facet.down * row + facet.across * column);
+      }
+    });
+  }
+}
+
+}  // namespace relievo

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures are cleaned each on its own, then finished with a look at their neighbours, several at once in both.
+#include "app/enhance/enhancer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/core/utility.hpp>
+#include <utility>
+
+#include "app/enhance/depth_mesh.h"
+#include "app/enhance/edge_keeping_fit.h"
+#include "app/enhance/noise.h"
+#include "app/enhance/steady_mean.h"
+
+namespace relievo {
+namespace {
+
+constexpr std::size_t kBefore = 2, kAhead = 2;  // pictures that are looked at
+constexpr float kAfterMedian = 0.3F;            // what the median of 25 leaves of noise
+constexpr float kAfterFit = 0.12F;              // what a fit of reach 3 leaves of it
+constexpr int kReferenceCols = 720;             // reaches are those of a picture so wide
+
+template <class Work>
+void inParallel(std::size_t count, Work&& work) {
+  cv::parallel_for_(cv::Range(0, static_cast<int>(count)), [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i) work(static_cast<std::size_t>(i));
+  });
+}
+
+int scaled(float reach, int cols) {
+  return static_cast<int>(std::lround(reach * static_cast<float>(cols) / kReferenceCols));
+}
+
+// The reach at which noise and the rounding-off of curves cost about the same, found with the laboratory's surfaces.
+int reachFor(float noise, int cols) {
+  return scaled(3 * std::cbrt(noise / DepthMap::kLevel), cols);
+}
+
+}  // namespace
+
+const char* name(Enhancement how) noexcept {
+  switch (how) {
+    case Enhancement::Median:
+      return "median";
+    case Enhancement::Dibm:
+      return "dibm";
+    case Enhancement::SpaceTime:
+      return "space-time";
+  }
+  return "";
+}
+
+DepthEnhancer::DepthEnhancer(Enhancement how, const DepthCalibration& source, double bound_levels)
+    : how_(how),
+      source_(source),
+      outcome_(writtenCalibration(source)),
+      bound_(static_cast<float>(bound_levels) * DepthMap::kLevel),
+      code_step_(static_cast<float>(static_cast<double>(DepthMap::kHighest) / (source.highCode() - source.lowCode()))),
+      at_once_(static_cast<std::size_t>(std::max(cv::getNumThreads(), 1))) {}
+
+Result<void> DepthEnhancer::add(const Frame& depth) {
+  if (!pictures_.empty() &&
+      (depth.width != pictures_.back().source.width || depth.height != pictures_.back().source.height)) {
+    return fail(ErrorCode::Unsupported, "its pictures change their size; cut the film there");
+  }
+  pictures_.push_back({.source = depth});
+  return pictures_.size() - cleaned_ < at_once_ ? Result<void>{} : work();
+}
+
+Result<void> DepthEnhancer::finish() {
+  ended_ = true;
+  return work();
+}
+
+std::optional<Frame> DepthEnhancer::next() {
+  if (ready_.empty()) return std::nullopt;
+  Frame frame = std::move(ready_.front());
+  ready_.pop_front();
+  return frame;
+}
+
+Result<void> DepthEnhancer::work() {
+  std::vector<char> read(pictures_.size() - cleaned_);
+  inParallel(read.size(), [&](std::size_t i) { read[i] = clean(pictures_[cleaned_ + i]) ? 1 : 0; });
+  if (std::find(read.begin(), read.end(), 0) != read.end()) {
+    return fail(ErrorCode::Unsupported, "no depth can be read from this kind of picture");
+  }
+  cleaned_ = pictures_.size();
+  const std::size_t ahead = how_ == Enhancement::SpaceTime && !ended_ ? kAhead : 0;
+  const std::size_t end = std::max(done_, cleaned_ - std::min(ahead, cleaned_));
+  inParallel(end - done_, [&](std::size_t i) { enhance(done_ + i); });
+  for (; done_ < end; ++done_) {
+    count(pictures_[done_]);
+    ready_.push_back(std::move(pictures_[done_].outcome));
+  }
+  for (; done_ > kBefore; --done_, --cleaned_) pictures_.pop_front();
+  return {};
+}
+
+bool DepthEnhancer::clean(Picture& picture) const {
+  auto map = readDepth(picture.source, source_);
+  if (!map) return false;
+  picture.map = std::move(*map);
+  picture.noise = noiseOf(picture.map);
+  picture.counts = fillHoles(picture.map, picture.noise);
+  filterByMedian(picture.map, picture.noise);
+  picture.source.owner.reset();  // its size and times are all that is needed from here on
+  picture.source.planes = {};
+  return true;
+}
+
+// Reads the cleaned pictures around it, writes to its own outcome alone.
+void DepthEnhancer::enhance(std::size_t index) {
+  Picture& picture = pictures_[index];
+  DepthMap map = how_ == Enhancement::SpaceTime ? steadied(index) : picture.map;
+  if (how_ == Enhancement::SpaceTime) fitLines(map, reachFor(picture.noise, map.cols));
+  if (how_ == Enhancement::Dibm) model(picture, map);
+  picture.noise_after = noiseOf(map);
+  picture.outcome = writeDepth(map, outcome_.invalid_code.has_value(), picture.source);
+}
+
+DepthMap DepthEnhancer::steadied(std::size_t index) const {
+  std::array<const DepthMap*, kBefore> before{};
+  std::array<const DepthMap*, kAhead> after{};
+  const std::size_t pairs = std::min({kBefore, index, pictures_.size() - 1 - index});
+  for (std::size_t k = 0; k < pairs; ++k) {
+    before[k] = &pictures_[index - 1 - k].map;
+    after[k] = &pictures_[index + 1 + k].map;
+  }
+  const Picture& present = pictures_[index];
+  const float alike = DepthMap::kLevel + 5 * kAfterMedian * present.noise;
+  return steadyMean(present.map, std::span(before).first(pairs), std::span(after).first(pairs), alike);
+}
+
+void DepthEnhancer::model(Picture& picture, DepthMap& map) const {
+  fitLines(map, reachFor(picture.noise, map.cols));
+  picture.bound = bound_ + 0.5F * code_step_ + 4 * kAfterFit * picture.noise;
+  const DepthMesh mesh = meshOf(map, picture.bound);
+  picture.points = mesh.points.size();
+  renderMesh(mesh, map);
+  fitLines(map, scaled(4, map.cols));
+}
+
+void DepthEnhancer::count(const Picture& picture) {
+  ++sums_.pictures;
+  sums_.samples += picture.map.size();
+  sums_.holes += picture.counts.holes;
+  sums_.outliers += picture.counts.outliers;
+  sums_.filled += picture.counts.filled;
+  sums_.noise_before += static_cast<double>(picture.noise / DepthMap::kLevel);
+  sums_.noise_after += static_cast<double>(picture.noise_after / DepthMap::kLevel);
+  sums_.points += static_cast<double>(picture.points);
+  sums_.most_points = std::max(sums_.most_points, picture.points);
+  sums_.bound += static_cast<double>(picture.bound / DepthMap::kLevel);
+}
+
+EnhancementSummary DepthEnhancer::summary() const {
+  EnhancementSummary mean = sums_;
+  const double share = sums_.pictures > 0 ? 1.0 / static_cast<double>(sums_.pictures) : 0;
+  mean.noise_before *= share;
+  mean.noise_after *= share;
+  mean.points *= share;
+  mean.bound *= share;
+  return mean;
+}
+
+}  // namespace relievo

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// One pass over all the pictures at once.
+#include "app/enhance/steady_mean.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace relievo {
+
+DepthMap steadyMean(const DepthMap& present, std::span<const DepthMap* const> before,
+                    std::span<const DepthMap* const> after, float alike) {
+  DepthMap mean = present;
+  const std::size_t pairs = std::min(before.size(), after.size());
+  for (std::size_t i = 0; i < present.size(); ++i) {
+    if (present.holes[i] != 0) continue;
+    float sum = present.codes[i], count = 1;
+    for (std::size_t k = 0; k < pairs; ++k) {
+      const float earlier = before[k]->codes[i], later = after[k]->codes[i], both = earlier + later;
+      const bool known = (before[k]->holes[i] | after[k]->holes[i]) == 0;
+      const bool moves = std::abs(later - earlier) > DepthMap::kStep * static_cast<float>(2 * (k + 1));
+      if (!known || moves || std::abs(0.5F * both - present.codes[i]) > alike) continue;
+      sum += both;
+      count += 2;
+    }
+    mean.codes[i] = sum / count;
+  }
+  return mean;
+}
+
+}  // namespace relievo
