@@ -25,32 +25,44 @@ int inside(int at, int size) {
   return std::min(at + kReach, size - 1) - std::max(at - kReach, 0) + 1;
 }
 
+// How many of the 24 known samples around each are like it. Each two of them are compared once.
+std::vector<std::uint8_t> countAlike(const DepthMap& map, float alike) {
+  std::vector<std::uint8_t> counts(map.size());
+  const auto compare = [&](std::size_t first, std::ptrdiff_t away, int count) {
+    const float *const a = map.codes.data() + first, *const b = a + away;
+    const std::uint8_t *const hole_a = map.holes.data() + first, *const hole_b = hole_a + away;
+    std::uint8_t *const of_a = counts.data() + first, *const of_b = of_a + away;
+    std::array<std::uint8_t, 64> both{};
+    for (int done = 0; done < count; done += static_cast<int>(both.size())) {
+      const int end = std::min(count - done, static_cast<int>(both.size()));
+      for (int i = 0; i < end; ++i) {
+        const bool is = std::abs(b[done + i] - a[done + i]) <= alike;
+        both[i] = static_cast<std::uint8_t>(static_cast<int>(is) & ~(hole_a[done + i] | hole_b[done + i]));
+      }
+      for (int i = 0; i < end; ++i) of_a[done + i] = static_cast<std::uint8_t>(of_a[done + i] + both[i]);
+      for (int i = 0; i < end; ++i) of_b[done + i] = static_cast<std::uint8_t>(of_b[done + i] + both[i]);
+    }
+  };
+  for (int r = 0; r < map.rows; ++r) {
+    for (int dr = 0; dr <= std::min(kReach, map.rows - 1 - r); ++dr) {
+      for (int dc = dr == 0 ? 1 : -kReach; dc <= kReach; ++dc) {
+        compare(map.at(std::max(-dc, 0), r), static_cast<std::ptrdiff_t>(dr) * map.cols + dc, map.cols - std::abs(dc));
+      }
+    }
+  }
+  return counts;
+}
+
 // 1 where a known sample is like too few of those around it. At the picture's corners fewer are enough.
 std::vector<std::uint8_t> findOutliers(const DepthMap& map, float noise) {
   constexpr int kAlike = 3, kOneOf = 4;
-  const float alike = DepthMap::kStep + 4 * noise;
-  std::vector<std::uint8_t> outliers(map.size());
-  std::vector<std::uint8_t> count(map.cols);
+  std::vector<std::uint8_t> outliers = countAlike(map, DepthMap::kStep + 4 * noise);
   for (int r = 0; r < map.rows; ++r) {
-    std::fill(count.begin(), count.end(), std::uint8_t{0});
-    const float* const own = map.codes.data() + map.at(0, r);
-    for (int dr = -kReach; dr <= kReach; ++dr) {
-      if (r + dr < 0 || r + dr >= map.rows) continue;
-      for (int dc = -kReach; dc <= kReach; ++dc) {
-        if (dr == 0 && dc == 0) continue;
-        const std::ptrdiff_t away = static_cast<std::ptrdiff_t>(dr) * map.cols + dc;
-        const std::uint8_t* const hole = map.holes.data() + map.at(0, r) + away;
-        const int end = map.cols - std::max(dc, 0);
-        for (int c = std::max(-dc, 0); c < end; ++c) {
-          const bool is = std::abs(own[c + away] - own[c]) <= alike;
-          count[c] = static_cast<std::uint8_t>(count[c] + (is & (hole[c] == 0)));
-        }
-      }
-    }
+    const int rows_around = inside(r, map.rows);
     for (int c = 0; c < map.cols; ++c) {
-      const int around = inside(c, map.cols) * inside(r, map.rows) - 1;
-      const bool known = map.holes[map.at(c, r)] == 0;
-      outliers[map.at(c, r)] = known && count[c] < std::min(kAlike, around / kOneOf) ? 1 : 0;
+      const std::size_t i = map.at(c, r);
+      const int wanted = std::min(kAlike, (inside(c, map.cols) * rows_around - 1) / kOneOf);
+      outliers[i] = map.holes[i] == 0 && outliers[i] < wanted ? 1 : 0;
     }
   }
   return outliers;

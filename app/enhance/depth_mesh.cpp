@@ -57,7 +57,11 @@ struct Facet {
 
 class Growing {
  public:
-  Growing(const DepthMap& map, float bound) : map_(map), bound_(bound), delaunay_(map.cols - 1, map.rows - 1) {
+  Growing(const DepthMap& map, float bound)
+      : map_(map), known_(map.codes), bound_(bound), delaunay_(map.cols - 1, map.rows - 1) {
+    for (std::size_t i = 0; i < map.size(); ++i) {
+      if (map.holes[i] != 0) known_[i] = std::numeric_limits<float>::quiet_NaN();
+    }
     for (const Point& corner : delaunay_.points()) codes_.push_back(cornerCode(corner));
     measure(0);
     measure(1);
@@ -106,21 +110,39 @@ class Growing {
     const Facet facet(corners, {codes_[a], codes_[b], codes_[c]});
     Candidate worst{.error = bound_, .triangle = triangle, .version = ++versions_[triangle]};
     eachRow(corners, [&](int row, int first, int last) {
-      const float* const codes = map_.codes.data() + map_.at(0, row);
-      const std::uint8_t* const holes = map_.holes.data() + map_.at(0, row);
+      const float* const codes = known_.data() + map_.at(first, row);
       const auto begin = static_cast<float>(facet.origin + facet.down * row + facet.across * first);
       const auto step = static_cast<float>(facet.across);
-      for (int column = first; column <= last; ++column) {
-        const float error = std::abs(codes[column] - (begin + step * static_cast<float>(column - first)));
-        if (error <= worst.error || holes[column] != 0) continue;
-        worst.error = error;
-        worst.point = {column, row};
+      const auto error = [&](int i) { return std::abs(codes[i] - (begin + step * static_cast<float>(i))); };
+      const int count = last - first + 1;
+      if (largest(count, error) <= worst.error) return;
+      for (int i = 0; i < count; ++i) {
+        if (!(error(i) > worst.error)) continue;
+        worst.error = error(i);
+        worst.point = {first + i, row};
       }
     });
     if (worst.error > bound_) worst_.push(worst);
   }
 
+  // The largest of error(0) .. error(count - 1), those that are no numbers left out: four at a time.
+  template <class Error>
+  static float largest(int count, const Error& error) {
+    constexpr int kLanes = 4;
+    std::array<float, kLanes> lanes{};
+    int i = 0;
+    for (; i + kLanes <= count; i += kLanes) {
+      for (int lane = 0; lane < kLanes; ++lane) {
+        const float value = error(i + lane);
+        lanes[lane] = value > lanes[lane] ? value : lanes[lane];
+      }
+    }
+    for (; i < count; ++i) lanes[0] = error(i) > lanes[0] ? error(i) : lanes[0];
+    return *std::max_element(lanes.begin(), lanes.end());
+  }
+
   const DepthMap& map_;
+  std::vector<float> known_;  // codes, not a number at a hole: no error there is more than another
   float bound_;
   Delaunay delaunay_;
   std::vector<float> codes_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sums along a run of samples from its begin on: a window of any width costs two differences.
+// Inside a run of samples a fit is a mean, by sums from the row's begin on; near its ends it is worked out.
 #include "app/enhance/edge_keeping_fit.h"
 
 #include <algorithm>
@@ -12,42 +12,48 @@ namespace {
 
 class LineFit {
  public:
-  LineFit(int length, int reach) : reach_(reach), sums_(length + 1), moments_(length + 1) {}
+  LineFit(int length, int reach) : reach_(reach), sums_(length + 1), before_(length) {}
 
-  void run(const std::uint8_t* ends, float* codes, int length) {
+  // A run ends behind each sample that has 1 in `ends`; the last one has.
+  void row(const std::uint8_t* ends, float* codes, int length) {
+    std::copy_n(codes, length, before_.begin());
     for (int begin = 0; begin < length;) {
       int end = begin + 1;
       while (ends[end - 1] == 0) ++end;
-      fit(codes + begin, end - begin);
+      if (end - begin > 2) run(before_.data() + begin, codes + begin, end - begin);
       begin = end;
     }
   }
 
  private:
-  // No step inside.
-  void fit(float* codes, int length) {
-    if (length < 3) return;
-    const double first = static_cast<double>(codes[0]);  // keeps the sums small
-    for (int i = 0; i < length; ++i) {
-      const double code = static_cast<double>(codes[i]) - first;
-      sums_[i + 1] = sums_[i] + code;
-      moments_[i + 1] = moments_[i] + code * i;
-    }
-    for (int i = 0; i < length; ++i) {
-      const int a = std::max(i - reach_, 0), b = std::min(i + reach_, length - 1);
-      const double n = b - a + 1, middle = 0.5 * (a + b);
-      const double sum = sums_[b + 1] - sums_[a];
-      double value = sum / n;
-      if (middle != i) {
-        const double moment = moments_[b + 1] - moments_[a] - middle * sum;
-        value += 12 * moment / (n * (n * n - 1)) * (i - middle);
-      }
-      codes[i] = static_cast<float>(first + value);
+  // Where as many samples lie before as behind, the line's value is their mean.
+  void run(const float* codes, float* out, int length) {
+    const int inner_end = length - reach_;
+    for (int i = 0; i < std::min(reach_, length); ++i) out[i] = atEnd(codes, i, length);
+    for (int i = std::max(inner_end, reach_); i < length; ++i) out[i] = atEnd(codes, i, length);
+    if (inner_end <= reach_) return;
+    for (int i = 0; i < length; ++i) sums_[i + 1] = sums_[i] + static_cast<double>(codes[i]);
+    const double share = 1.0 / (2 * reach_ + 1);
+    for (int i = reach_; i < inner_end; ++i) {
+      out[i] = static_cast<float>((sums_[i + reach_ + 1] - sums_[i - reach_]) * share);
     }
   }
 
+  [[nodiscard]] float atEnd(const float* codes, int i, int length) const {
+    const int a = std::max(i - reach_, 0), b = std::min(i + reach_, length - 1);
+    const float n = static_cast<float>(b - a + 1), middle = 0.5F * static_cast<float>(a + b);
+    float sum = 0, moment = 0;
+    for (int k = a; k <= b; ++k) {
+      const float code = codes[k] - codes[i];  // keeps the sums small
+      sum += code;
+      moment += code * (static_cast<float>(k) - middle);
+    }
+    return codes[i] + sum / n + 12 * moment / (n * (n * n - 1)) * (static_cast<float>(i) - middle);
+  }
+
   int reach_;
-  std::vector<double> sums_, moments_;
+  std::vector<double> sums_;
+  std::vector<float> before_;
 };
 
 // 1 at the last sample before a step, a hole or the end of its row.
@@ -67,7 +73,7 @@ cv::Mat endsOfRuns(const cv::Mat& codes, const cv::Mat& holes) {
 
 void fitRows(cv::Mat& codes, const cv::Mat& ends, int reach) {
   LineFit line(codes.cols, reach);
-  for (int r = 0; r < codes.rows; ++r) line.run(ends.ptr<std::uint8_t>(r), codes.ptr<float>(r), codes.cols);
+  for (int r = 0; r < codes.rows; ++r) line.row(ends.ptr<std::uint8_t>(r), codes.ptr<float>(r), codes.cols);
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ Outcome<std::vector<DetailTouch>> touchOfDetails(const DepthKind& depth, double 
       touch.triangles += static_cast<double>(one.triangles) / static_cast<double>(drawn.size());
       frames.push_back(std::move(one.frame));
     }
-    const auto felt = MemoryFilm::of(frames, 16);
+    const auto felt = MemoryFilm::of(frames, {.bits = 16});
     if (!felt) return failOn(kScene, felt.error());
     touch.error = forceErrors(playPath(*felt, *contender("relievo")->make(*felt), path, truth), kSettledS).result();
     found.push_back(touch);

@@ -28,13 +28,13 @@ Result<MemoryFilm> MemoryFilm::make(const TrueSurface& surface, const Format& fo
     if (!coded) return std::unexpected(coded.error());
     pictures = std::move(coded->frames);
   }
-  return of(pictures, format.depth.bits);
+  return of(pictures, {.bits = format.depth.bits});
 }
 
-Result<MemoryFilm> MemoryFilm::of(std::span<const Frame> pictures, int bits) {
+Result<MemoryFilm> MemoryFilm::of(std::span<const Frame> pictures, const DepthCalibration& calibration) {
   MemoryFilm film;
   for (const Frame& picture : pictures) {
-    const auto field = HeightField::make(picture, {.bits = bits}, TrueSurface::kVolume);
+    const auto field = HeightField::make(picture, calibration, TrueSurface::kVolume);
     if (!field) return std::unexpected(field.error());
     film.frames_.push_back({*field, picture.pts, picture.owner});
   }

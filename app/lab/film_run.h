@@ -37,8 +37,8 @@ class MemoryFilm {
   // Rendered on all processors.
   [[nodiscard]] static Result<MemoryFilm> make(const TrueSurface& surface, const Format& format, double from_s,
                                                double until_s);
-  // Of pictures at hand, of the volume of the true surfaces: linear, near high, full range.
-  [[nodiscard]] static Result<MemoryFilm> of(std::span<const Frame> pictures, int bits);
+  // Of pictures at hand, of the volume of the true surfaces.
+  [[nodiscard]] static Result<MemoryFilm> of(std::span<const Frame> pictures, const DepthCalibration& calibration);
 
   [[nodiscard]] std::span<const TimedSurface> frames() const { return frames_; }
 

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "app/lab/detail.h"
+#include "app/lab/enhance.h"
 #include "app/lab/smoothness.h"
 #include "app/lab/speed_accuracy.h"
 #include "app/lab/stability.h"
@@ -16,6 +17,7 @@ constexpr std::array kSpeedAccuracyCharts{"speed-accuracy", "accuracy-by-scene",
 constexpr std::array kSmoothnessCharts{"smoothness", "smoothness-hand", "smoothness-peaks"};
 constexpr std::array kStabilityCharts{"stability", "stability-onset"};
 constexpr std::array kDetailCharts{"detail"};
+constexpr std::array kEnhanceCharts{"enhance", "enhance-points"};
 
 constexpr std::array kMeasurements{
     Measurement{"speed-accuracy", "what a tick takes and how far the force is from the true one, by method and parts",
@@ -26,6 +28,8 @@ constexpr std::array kMeasurements{
                 measureStability},
     Measurement{"detail", "what a level of detail of the drawn relief costs, and how far picture and touch are off",
                 kDetailCharts, measureDetail},
+    Measurement{"enhance", "what enhancement of a camera's depth does for force and edges, and what a mesh takes",
+                kEnhanceCharts, measureEnhancement},
 };
 
 }  // namespace

@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: Apache-2.0
+set terminal svg size 1000,520 dynamic enhanced font "sans-serif,13" background "#ffffff"
+set multiplot title ARG2 noenhanced font ",16"
+set label 1 ARG3 at screen 0.5, 0.06 center noenhanced
+SCENES = "plane sphere face step"
+array TINTS[4] = ["#8a8f98", "#1e88e5", "#d81b60", "#7cb342"]
+set lmargin at screen 0.08
+set rmargin at screen 0.97
+set tmargin at screen 0.88
+set bmargin at screen 0.2
+set logscale xy
+set format "%g"
+set xlabel "error bound, levels of 255"
+set ylabel "points"
+set yrange [2:*]
+set key top right
+plot for [s = 1:4] ARG1 using (column("bound_levels")):(where("scene", word(SCENES, s), column("points"))) \
+  with linespoints pt 7 ps 0.9 lw 2 lc rgb TINTS[s] title word(SCENES, s)
+unset multiplot
