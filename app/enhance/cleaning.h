@@ -16,12 +16,13 @@ struct CleaningCounts {
 
 // Samples that are like fewer than three of the 24 around them become unknown. What is unknown is filled where it is
 // narrower than a fortieth of the picture's width, and is a hole where it is wider: a guess is no measurement. What is
-// filled goes on as the side does that lies farther back, since that is what a camera does not see beside something
-// near; an outlier goes with the side that its own code is nearest to. `noise` is the standard deviation of the codes.
+// filled goes on as the side does that most of eight directions see, so that an edge goes straight through a hole. Of
+// two sides that are seen about alike it is the farther: beside something near a camera does not see what lies behind.
+// `noise` is the standard deviation of the codes.
 CleaningCounts fillHoles(DepthMap& map, float noise);
 
 // The median of five by five samples. Near a step only the samples of the same side count, so that the step stays
-// where it is, with its corners, and what lies in between joins the side that it is nearer to.
+// where it is, with its corners, and what hangs in between joins the side that most of them are on.
 void filterByMedian(DepthMap& map, float noise);
 
 }  // namespace relievo

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kBefore = 2, kAhead = 2;  // pictures that are looked at
 constexpr float kAfterMedian = 0.3F;            // what the median of 25 leaves of noise
-constexpr float kAfterFit = 0.12F;              // what a fit of reach 3 leaves of it
+constexpr float kSmoothing = 5;                 // reach, of a mesh
 constexpr int kReferenceCols = 720;             // reaches are those of a picture so wide
 
 template <class Work>
@@ -32,9 +32,15 @@ int scaled(float reach, int cols) {
   return static_cast<int>(std::lround(reach * static_cast<float>(cols) / kReferenceCols));
 }
 
-// The reach at which noise and the rounding-off of curves cost about the same, found with the laboratory's surfaces.
-int reachFor(float noise, int cols) {
-  return scaled(3 * std::cbrt(noise / DepthMap::kLevel), cols);
+// `reach` is that for noise of one level. Noise and the rounding-off of curves cost about the same then, by what the
+// laboratory's surfaces show; five pictures ask for less than one.
+int reachFor(float reach, float noise, int cols) {
+  return scaled(reach * std::cbrt(noise / DepthMap::kLevel), cols);
+}
+
+// What the median and a fit leave of noise.
+float noiseAfterFit(float noise, int reach) {
+  return noise * std::min(kAfterMedian, 0.84F / static_cast<float>(2 * reach + 1));
 }
 
 }  // namespace
@@ -114,7 +120,7 @@ bool DepthEnhancer::clean(Picture& picture) const {
 void DepthEnhancer::enhance(std::size_t index) {
   Picture& picture = pictures_[index];
   DepthMap map = how_ == Enhancement::SpaceTime ? steadied(index) : picture.map;
-  if (how_ == Enhancement::SpaceTime) fitLines(map, reachFor(picture.noise, map.cols));
+  if (how_ == Enhancement::SpaceTime) fitLines(map, reachFor(3, picture.noise, map.cols));
   if (how_ == Enhancement::Dibm) model(picture, map);
   picture.noise_after = noiseOf(map);
   picture.outcome = writeDepth(map, outcome_.invalid_code.has_value(), picture.source);
@@ -134,12 +140,13 @@ DepthMap DepthEnhancer::steadied(std::size_t index) const {
 }
 
 void DepthEnhancer::model(Picture& picture, DepthMap& map) const {
-  fitLines(map, reachFor(picture.noise, map.cols));
-  picture.bound = bound_ + 0.5F * code_step_ + 4 * kAfterFit * picture.noise;
+  const int reach = reachFor(4, picture.noise, map.cols);
+  fitLines(map, reach);
+  picture.bound = bound_ + std::max(0.5F * code_step_, 4 * noiseAfterFit(picture.noise, reach));
   const DepthMesh mesh = meshOf(map, picture.bound);
   picture.points = mesh.points.size();
   renderMesh(mesh, map);
-  fitLines(map, scaled(4, map.cols));
+  fitLines(map, scaled(kSmoothing, map.cols));
 }
 
 void DepthEnhancer::count(const Picture& picture) {

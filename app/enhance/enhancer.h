@@ -35,8 +35,8 @@ struct EnhancementSummary {
 class DepthEnhancer {
  public:
   // How far a sample may be from the mesh of `dibm` before smoothing. What the codes cannot tell comes on top: half a
-  // step of the source's and four times the noise that is left.
-  static constexpr double kBoundLevels = 0.5;
+  // step of the source's, or four times the noise that is left if that is more.
+  static constexpr double kBoundLevels = 0.25;
 
   DepthEnhancer(Enhancement how, const DepthCalibration& source, double bound_levels = kBoundLevels);
 

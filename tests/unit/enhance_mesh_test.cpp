@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// The mesh of a depth picture: within its bound at every sample, and no more points than that takes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "app/enhance/depth_mesh.h"
+#include "tests/support/real_depth.h"
+
+namespace relievo {
+namespace {
+
+template <class Code>
+DepthMap mapOf(int cols, int rows, Code&& code) {
+  DepthMap map(cols, rows);
+  for (int r = 0; r < rows; ++r) {
+    for (int c = 0; c < cols; ++c) map.codes[map.at(c, r)] = static_cast<float>(code(c, r));
+  }
+  return map;
+}
+
+float mostOff(const DepthMesh& mesh, const DepthMap& map) {
+  DepthMap rendered = map;
+  renderMesh(mesh, rendered);
+  float most = 0;
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    if (map.holes[i] == 0) most = std::max(most, std::abs(rendered.codes[i] - map.codes[i]));
+  }
+  return most;
+}
+
+TEST(EnhanceMesh, APlaneTakesFourPoints) {
+  const auto plane = mapOf(160, 120, [](int c, int r) { return 1000 + 37.25 * c + 81.5 * r; });
+  EXPECT_EQ(meshOf(plane, 1).points.size(), 4u);
+  EXPECT_LT(mostOff(meshOf(plane, 1), plane), 0.05F);
+}
+
+// Rounding moves a corner and a sample by half a step each; opposite ways they are a step apart.
+TEST(EnhanceMesh, APlaneInEightBitsTakesFourPointsWithinAStep) {
+  const auto plane = mapOf(160, 120, [](int c, int r) { return 257 * std::round(20 + 0.31 * c + 0.17 * r); });
+  EXPECT_EQ(meshOf(plane, 1.001F * DepthMap::kLevel).points.size(), 4u);
+  EXPECT_GT(meshOf(plane, 0.25F * DepthMap::kLevel).points.size(), 100u);
+}
+
+TEST(EnhanceMesh, HoldsItsBoundOnAnySurface) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> share(0, 1);
+  for (int round = 0; round < 12; ++round) {
+    const double wave = 0.05 + 0.3 * share(random), height = 8000 * share(random), edge = 30 + 40 * share(random),
+                 slant = share(random) - 0.5, roughness = round % 3 == 0 ? 300 : 0;
+    auto map = mapOf(97, 71, [&](int c, int r) {
+      const double step = c < edge + slant * r ? 20000 : 0;
+      return 20000 + step + height * std::sin(wave * c) * std::cos(wave * r) + roughness * share(random);
+    });
+    for (int i = 0; i < 300; ++i) {
+      const auto at = static_cast<std::size_t>(share(random) * static_cast<double>(map.size() - 1));
+      map.holes[at] = 1;
+      map.codes[at] = 0;
+    }
+    std::size_t before = map.size() + 1;
+    for (const float bound : {50.0F, 200.0F, 1000.0F}) {
+      const DepthMesh mesh = meshOf(map, bound);
+      EXPECT_LE(mostOff(mesh, map), bound + 0.1F);
+      EXPECT_LE(mesh.points.size(), before) << "a wider bound takes no more";
+      before = mesh.points.size();
+    }
+  }
+}
+
+// Every sample as it was, for two points a row at most.
+TEST(EnhanceMesh, KeepsAStep) {
+  const auto upright = mapOf(80, 60, [](int c, int) { return c < 33 ? 50000 : 9000; });
+  EXPECT_LE(meshOf(upright, 100).points.size(), 4u + 2 * 60);
+  EXPECT_LT(mostOff(meshOf(upright, 100), upright), 0.1F);
+  const auto round = mapOf(80, 60, [](int c, int r) { return std::hypot(c - 40, r - 30) < 20 ? 50000 : 9000; });
+  EXPECT_LT(mostOff(meshOf(round, 100), round), 100.1F);
+}
+
+TEST(EnhanceMesh, HolesAskForNothingAndStay) {
+  auto map = mapOf(80, 60, [](int c, int r) { return 500 + 100 * c + 10 * r; });
+  for (int r = 0; r < 30; ++r) {
+    for (int c = 0; c < 50; ++c) {  // a corner of the picture among them
+      map.holes[map.at(c, r)] = 1;
+      map.codes[map.at(c, r)] = 0;
+    }
+  }
+  const DepthMesh mesh = meshOf(map, 20);
+  EXPECT_LE(mostOff(mesh, map), 20.1F);
+  EXPECT_LT(mesh.points.size(), 40u) << "the corner that nobody knows costs a few";
+  renderMesh(mesh, map);
+  EXPECT_EQ(map.codes[0], 0);
+}
+
+TEST(EnhanceMesh, TakesTheSmallestPictures) {
+  EXPECT_TRUE(meshOf(mapOf(1, 1, [](int, int) { return 5; }), 1).points.empty());
+  EXPECT_TRUE(meshOf(mapOf(9, 1, [](int c, int) { return c; }), 1).points.empty());
+  EXPECT_TRUE(meshOf(mapOf(1, 9, [](int, int r) { return r; }), 1).points.empty());
+  const auto four = mapOf(2, 2, [](int c, int r) { return 100 * c + 7000 * r * c; });
+  EXPECT_EQ(meshOf(four, 1).points.size(), 4u);
+  EXPECT_LT(mostOff(meshOf(four, 1), four), 0.1F);
+  auto none = four;
+  none.holes.assign(4, 1);
+  EXPECT_TRUE(meshOf(none, 1).points.empty());
+}
+
+// A still life whose disparity was measured: what its bound asks for, far less than its samples.
+TEST(EnhanceMesh, TakesOfARealSceneWhatItsBoundAsksFor) {
+  const auto cones = test::readCones(RELIEVO_TEST_DATA);
+  if (!cones) GTEST_SKIP() << "no real depth video at " RELIEVO_TEST_DATA;
+  const auto map = readDepth(test::depthOf(*cones), {.bits = 16, .invalid_code = 0}).value();
+  std::size_t before = map.size();
+  for (const float levels : {0.5F, 1.0F, 2.0F, 4.0F}) {
+    const DepthMesh mesh = meshOf(map, levels * DepthMap::kLevel);
+    EXPECT_LE(mostOff(mesh, map), levels * DepthMap::kLevel + 0.1F);
+    EXPECT_LT(mesh.points.size(), before);
+    before = mesh.points.size();
+    RecordProperty("points", static_cast<int>(before));
+  }
+  EXPECT_LT(before, map.size() / 10);
+}
+
+}  // namespace
+}  // namespace relievo
