@@ -150,7 +150,7 @@ TEST(EnhanceCleaning, KnownSamplesAtAHoleDoNotTakeItsCode) {
 
 TEST(EnhanceCleaning, TakesTheSmallestPictures) {
   for (const auto& [cols, rows] : {std::pair{1, 1}, {2, 2}, {1, 7}, {7, 1}, {3, 2}}) {
-    auto map = mapOf(cols, rows, [](int c, int r) { return 1000 * c + 3000 * r; });
+    auto map = mapOf(cols, rows, [](int c, int r) { return 1000 * c + 1500 * r; });
     const DepthMap before = map;
     EXPECT_EQ(fillHoles(map, 0).outliers, 0u);
     EXPECT_EQ(map.codes, before.codes);

@@ -124,6 +124,9 @@ std::vector<std::string> offences(const std::string& path, const std::string& te
     };
     if (const auto include = parseInclude(line)) {
       if (include->quoted && !mayInclude(path, include->name)) report("may not include " + include->name);
+      if (include->name.starts_with("opencv2/") && !isUnder(path, "app/enhance")) {
+        report("OpenCV is for enhancement alone");  // not on the box
+      }
       if (!include->quoted && isPure(path) && isImpureHeader(include->name)) {
         report("pure code does not include <" + include->name + ">");
       }
@@ -194,6 +197,9 @@ TEST(Layers, EachKindOfOffenceIsSeen) {
       Example{"app/render/stereo.cpp", "#include \"app/player/player.h\"\n"},
       Example{"app/cli/options.cpp", "#include \"app/player/options.h\"\n"},
       Example{"app/player/player.cpp", "#include \"app/lab/report.h\"\n"},
+      Example{"app/player/player.cpp", "#include \"app/enhance/enhancer.h\"\n"},
+      Example{"app/enhance/enhancer.cpp", "#include \"app/author/author.h\"\n"},
+      Example{"app/render/stereo.cpp", "#include <opencv2/core.hpp>\n"},
       Example{"app/player/player.cpp", "#include \"drivers/registry.h\"\n"},
       Example{"app/player/main.cpp", "#include \"drivers/mock/mock.h\"\n"},
       Example{"app/player/main.cpp", "#include \"tests/support/film.h\"\n"},
@@ -214,6 +220,8 @@ TEST(Layers, WhatIsAllowedIsNotReported) {
       Example{"drivers/registry.cpp", "#include \"drivers/registry.h\"\n#include \"drivers/egl/egl.h\"\n"},
       Example{"app/scene/height_field.h",
               "#include \"hal/frame.h\"\n#include \"platform/error.h\"\n#include <cmath>\n"},
+      Example{"app/enhance/cleaning.cpp",
+              "#include \"app/scene/depth_calibration.h\"\n#include <opencv2/imgproc.hpp>\n"},
       Example{"app/haptics/safety.cpp", "#include \"app/scene/display_volume.h\"\n// no steady_clock here\n"},
       Example{"app/player/main.cpp", "#include \"drivers/registry.h\"\n#include \"app/player/player.h\"\n"},
   };

@@ -12,6 +12,7 @@ set logscale xy
 set format "%g"
 set xlabel "error bound, levels of 255"
 set ylabel "points"
+set xrange [0.05:10]
 set yrange [2:*]
 set key top right
 plot for [s = 1:4] ARG1 using (column("bound_levels")):(where("scene", word(SCENES, s), column("points"))) \

@@ -37,7 +37,7 @@ do for [row = 1:3] {
            for [k = 1:4] for [m = 1:2] ARG1 using (column("noise_levels")):(lost(felt(row, m, of("force", f, k, column("force_rms_percent"))))) \
              with points pt 7 ps 0.35 lc rgb "black" notitle
     } else {
-      unset logscale y; set format y "%g"; set yrange [-0.1:*]
+      unset logscale y; set format y "%g"; set yrange [-0.2:11]
       set title "edges, " . WHAT[f + 1] offset 0, -0.6
       set ylabel (f ? "" : "off by, px: mean and most") offset 1
       set xlabel "noise, levels of 255" offset 0, 0.5
