@@ -17,8 +17,7 @@ DepthMap steadyMean(const DepthMap& present, std::span<const DepthMap* const> be
     for (std::size_t k = 0; k < pairs; ++k) {
       const float earlier = before[k]->codes[i], later = after[k]->codes[i], both = earlier + later;
       const bool known = (before[k]->holes[i] | after[k]->holes[i]) == 0;
-      const bool moves = std::abs(later - earlier) > DepthMap::kStep * static_cast<float>(2 * (k + 1));
-      if (!known || moves || std::abs(0.5F * both - present.codes[i]) > alike) continue;
+      if (!known || std::abs(0.5F * both - present.codes[i]) > alike) continue;
       sum += both;
       count += 2;
     }
