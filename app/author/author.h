@@ -24,6 +24,7 @@ struct OutputOptions {
   int color_crf = 18;
   int depth_crf = 8;
   std::optional<Enhancement> enhancement;  // nothing: the depth as it comes
+  std::string preview;                     // a PNG, see preview.h; empty: none
 };
 
 struct SampleOptions {

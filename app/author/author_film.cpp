@@ -13,6 +13,7 @@
 #include "app/author/color_to_420.h"
 #include "app/author/key_frames.h"
 #include "app/author/output.h"
+#include "app/author/preview.h"
 
 namespace relievo {
 namespace {
@@ -61,6 +62,11 @@ struct Cut {
   }
 };
 
+std::optional<std::uint64_t> expectedFrames(const FilmInfo& info) {
+  if (info.duration <= Duration(0) || info.frame_period <= Duration(0)) return std::nullopt;
+  return static_cast<std::uint64_t>(std::llround(toSeconds(info.duration) / toSeconds(info.frame_period)));
+}
+
 // Everything between the reader and the writer.
 class Packager {
  public:
@@ -75,6 +81,7 @@ class Packager {
  private:
   Outcome<void> writeDepth(const Frame& depth);
   Outcome<void> writeEnhanced();
+  [[nodiscard]] const DepthCalibration& sourceCalibration() const { return reader_.info().calibration.calibration; }
   [[nodiscard]] std::vector<std::string> sourceNotes() const;
 
   PairReader& reader_;
@@ -91,6 +98,7 @@ class Packager {
   std::optional<MediaTime> last_depth_;
   ColorPicture420 color_;
   DepthPicture depth_;
+  Preview preview_;
 };
 
 Outcome<void> Packager::begin(const FramePair& pair) {
@@ -99,10 +107,10 @@ Outcome<void> Packager::begin(const FramePair& pair) {
   whole_depth.width = info.depth_width;
   whole_depth.height = info.depth_height;
   cut_ = Cut(pair.color, whole_depth);
-  coder_ = DepthCoder(info.calibration.calibration);
+  coder_ = DepthCoder(sourceCalibration());
   code_notes_ = coder_.explain();
   if (output_.enhancement) {
-    enhancer_.emplace(*output_.enhancement, info.calibration.calibration);
+    enhancer_.emplace(*output_.enhancement, sourceCalibration());
     coder_ = DepthCoder(enhancer_->outcome());
   }
 
@@ -143,6 +151,7 @@ Outcome<void> Packager::write(const FramePair& pair) {
     return failOn("depth", {ErrorCode::Unsupported, 0, "its pictures change their size; cut the film there"});
   }
   depth_keys_.push_back(key);
+  if (!output_.preview.empty()) preview_.before(color_, depth, sourceCalibration(), expectedFrames(reader_.info()));
   if (!enhancer_) return writeDepth(depth);
   if (auto added = enhancer_->add(depth); !added) return failOn("depth", added.error());
   return writeEnhanced();
@@ -159,6 +168,7 @@ Outcome<void> Packager::writeEnhanced() {
 Outcome<void> Packager::writeDepth(const Frame& depth) {
   const bool key = depth_keys_.front();
   depth_keys_.pop_front();
+  if (!output_.preview.empty()) preview_.after(depth, enhancer_ ? enhancer_->outcome() : sourceCalibration());
   if (auto coded = coder_.encode(depth, depth_); !coded) return failOn("depth", coded.error());
   if (auto written = writer_->writeDepth(depth_, depth.pts, key); !written)
     return failOn(output_.path, written.error());
@@ -172,6 +182,9 @@ Outcome<AuthorSummary> Packager::finish() {
   }
   const auto totals = writer_->finish();
   if (!totals) return failOn(output_.path, totals.error());
+  if (!output_.preview.empty()) {
+    if (auto drawn = preview_.writePng(output_.preview); !drawn) return failOn(output_.preview, drawn.error());
+  }
   AuthorSummary summary{.format = format_,
                         .totals = *totals,
                         .frame_period = format_.frame_period,
@@ -208,17 +221,13 @@ std::vector<std::string> Packager::sourceNotes() const {
   return notes;
 }
 
-std::optional<std::uint64_t> expectedFrames(const FilmInfo& info) {
-  if (info.duration <= Duration(0) || info.frame_period <= Duration(0)) return std::nullopt;
-  return static_cast<std::uint64_t>(std::llround(toSeconds(info.duration) / toSeconds(info.frame_period)));
-}
-
 }  // namespace
 
 Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader::Backends& backends,
                                   const OutputOptions& output, const std::atomic<bool>& stop,
                                   const ProgressReport& progress) {
   if (auto ready = checkOutput(output); !ready) return failOn(output.path, ready.error());
+  if (auto ready = checkPreview(output); !ready) return failOn(output.preview, ready.error());
   PairReader reader(backends);
   const StopWatch watch(reader, stop);
   const auto failed = [&](const std::string& thing, const Error& error) {

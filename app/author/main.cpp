@@ -59,6 +59,10 @@ void addOptions(CLI::App& app, Arguments& a) {
       "What a sensor did to the depth is undone [none]\nmedian: narrow holes filled, the median of 5 by 5 samples; "
       "dibm: behind that each picture as a\nsmoothed mesh of few points; space-time: behind the median smoothed "
       "over five pictures and a few\nsamples. Edges stay where they are");
+  app.add_option("--preview", a.output.preview,
+                 "A picture of what was done, a PNG: colour, depth before and after as lit reliefs, and below the\n"
+                 "heights along their line, before in orange, after in blue, a grid line each millimetre")
+      ->type_name("PNG");
   app.add_option("--scene", a.scene, "Make a film of the project's own instead, with its exact depth: sample")
       ->type_name("NAME")
       ->check(CLI::IsMember({"sample"}).description(""))
@@ -66,7 +70,9 @@ void addOptions(CLI::App& app, Arguments& a) {
       ->excludes("--depth")
       ->excludes("--packing")
       ->excludes("--depth-code")
-      ->excludes("--calibration");
+      ->excludes("--calibration")
+      ->excludes("--enhance")
+      ->excludes("--preview");
   app.add_flag("--force", a.output.force, "Replace OUT if it is there");
 }
 

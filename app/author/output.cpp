@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "app/cli/text.h"
+#include "app/scene/display_volume.h"
 
 namespace relievo {
 namespace {
@@ -49,6 +50,15 @@ std::string codesLine(const DepthCoder::Counts& codes) {
   return line + "\n";
 }
 
+// What so many levels of 255 are under a finger.
+double mm(double levels) {
+  return levels * DisplayVolume::kDefaultDepthMm / 255;
+}
+double newtons(double levels) {
+  constexpr double kStiffnessNPerMm = 0.5;  // the player's
+  return mm(levels) * kStiffnessNPerMm;
+}
+
 std::string enhancementLines(Enhancement how, const EnhancementSummary& e) {
   const auto percent = [&e](std::uint64_t count) {
     return e.samples > 0 ? 100.0 * static_cast<double>(count) / static_cast<double>(e.samples) : 0;
@@ -58,11 +68,21 @@ std::string enhancementLines(Enhancement how, const EnhancementSummary& e) {
             percent(e.holes), percent(e.outliers), percent(e.filled), percent(e.holes + e.outliers - e.filled));
   lines +=
       print("    noise from sample to sample: %.2f levels of 255 before, %.2f after\n", e.noise_before, e.noise_after);
+  lines += print("    touch error estimated, away from edges: %.3f mm (%.3f N) before, %.3f mm (%.3f N) after\n",
+                 mm(e.noise_before), newtons(e.noise_before), mm(e.error), newtons(e.error));
   if (e.points > 0) {
     lines += print("    mesh: %.0f points a picture, %zu at most; no sample farther from it than %.1f levels\n",
                    e.points, e.most_points, e.bound);
   }
   return lines;
+}
+
+Result<void> checkPlace(const std::string& path, bool force) {
+  struct stat status{};
+  if (::stat(path.c_str(), &status) != 0) return {};
+  if (!S_ISREG(status.st_mode)) return fail(ErrorCode::Io, "is there already and no file; choose another name");
+  if (!force) return fail(ErrorCode::Io, "is there already; choose another name, or replace it with --force");
+  return {};
 }
 
 }  // namespace
@@ -71,11 +91,13 @@ Result<void> checkOutput(const OutputOptions& output) {
   if (!FilmWriter::knowsEnding(output.path)) {
     return fail(ErrorCode::InvalidArgument, "unknown kind of file; let its name end in .mkv, .mp4, .m4v or .mov");
   }
-  struct stat status{};
-  if (::stat(output.path.c_str(), &status) != 0) return {};
-  if (!S_ISREG(status.st_mode)) return fail(ErrorCode::Io, "is there already and no file; choose another name");
-  if (!output.force) return fail(ErrorCode::Io, "is there already; choose another name, or replace it with --force");
-  return {};
+  return checkPlace(output.path, output.force);
+}
+
+Result<void> checkPreview(const OutputOptions& output) {
+  if (output.preview.empty()) return {};
+  if (!output.preview.ends_with(".png")) return fail(ErrorCode::InvalidArgument, "let its name end in .png");
+  return checkPlace(output.preview, output.force);
 }
 
 std::string progressText(std::uint64_t done, std::optional<std::uint64_t> total, Duration elapsed) {

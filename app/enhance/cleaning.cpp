@@ -25,8 +25,8 @@ int inside(int at, int size) {
   return std::min(at + kReach, size - 1) - std::max(at - kReach, 0) + 1;
 }
 
-// How many of the 24 known samples around each are like it. Each two of them are compared once.
-std::vector<std::uint8_t> countAlike(const DepthMap& map, float alike) {
+// How many of the eight known samples around each are like it. Each two of them are compared once, in whole rows.
+std::vector<std::uint8_t> countAlikeNearby(const DepthMap& map, float alike) {
   std::vector<std::uint8_t> counts(map.size());
   const auto compare = [&](std::size_t first, std::ptrdiff_t away, int count) {
     const float *const a = map.codes.data() + first, *const b = a + away;
@@ -44,25 +44,42 @@ std::vector<std::uint8_t> countAlike(const DepthMap& map, float alike) {
     }
   };
   for (int r = 0; r < map.rows; ++r) {
-    for (int dr = 0; dr <= std::min(kReach, map.rows - 1 - r); ++dr) {
-      for (int dc = dr == 0 ? 1 : -kReach; dc <= kReach; ++dc) {
-        compare(map.at(std::max(-dc, 0), r), static_cast<std::ptrdiff_t>(dr) * map.cols + dc, map.cols - std::abs(dc));
-      }
-    }
+    compare(map.at(0, r), 1, map.cols - 1);
+    if (r + 1 == map.rows) break;
+    compare(map.at(0, r), map.cols, map.cols);
+    compare(map.at(0, r), map.cols + 1, map.cols - 1);
+    compare(map.at(1, r), map.cols - 1, map.cols - 1);
   }
   return counts;
 }
 
-// 1 where a known sample is like too few of those around it. At the picture's corners fewer are enough.
+int countAlike(const DepthMap& map, int c, int r, float alike) {
+  const float code = map.codes[map.at(c, r)];
+  int count = -1;  // itself
+  for (int y = std::max(r - kReach, 0); y <= std::min(r + kReach, map.rows - 1); ++y) {
+    for (int x = std::max(c - kReach, 0); x <= std::min(c + kReach, map.cols - 1); ++x) {
+      const std::size_t i = map.at(x, y);
+      count += map.holes[i] == 0 && std::abs(map.codes[i] - code) <= alike ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+// 1 where a known sample is like too few of the 24 around it. At the picture's corners fewer are enough. The eight
+// nearest are enough to tell of nearly all.
 std::vector<std::uint8_t> findOutliers(const DepthMap& map, float noise) {
   constexpr int kAlike = 3, kOneOf = 4;
-  std::vector<std::uint8_t> outliers = countAlike(map, DepthMap::kStep + 4 * noise);
+  const float alike = DepthMap::kStep + 4 * noise;
+  std::vector<std::uint8_t> outliers = countAlikeNearby(map, alike);
   for (int r = 0; r < map.rows; ++r) {
-    const int rows_around = inside(r, map.rows);
     for (int c = 0; c < map.cols; ++c) {
-      const std::size_t i = map.at(c, r);
-      const int wanted = std::min(kAlike, (inside(c, map.cols) * rows_around - 1) / kOneOf);
-      outliers[i] = map.holes[i] == 0 && outliers[i] < wanted ? 1 : 0;
+      std::uint8_t& outlier = outliers[map.at(c, r)];
+      if (outlier >= kAlike || map.holes[map.at(c, r)] != 0) {
+        outlier = 0;
+        continue;
+      }
+      const int wanted = std::min(kAlike, (inside(c, map.cols) * inside(r, map.rows) - 1) / kOneOf);
+      outlier = countAlike(map, c, r, alike) < wanted ? 1 : 0;
     }
   }
   return outliers;
@@ -199,24 +216,22 @@ void filterByMedian(DepthMap& map, float noise) {
   const float alike = DepthMap::kStep + 7 * noise;  // more than 25 samples of one side are apart
   const cv::Mat window = cv::getStructuringElement(cv::MORPH_RECT, {2 * kReach + 1, 2 * kReach + 1});
   const cv::Mat codes = viewOf(map.codes, map);
-  cv::Mat lowest, highest, median;
+  cv::Mat lowest, highest, median, near_hole;
   cv::erode(codes, lowest, window);
   cv::dilate(codes, highest, window);
   cv::medianBlur(codes, median, 2 * kReach + 1);
-  cv::Mat holes;
-  cv::dilate(viewOf(map.holes, map), holes, window);
+  cv::dilate(viewOf(map.holes, map), near_hole, window);
   for (int r = 0; r < map.rows; ++r) {
+    const auto *const low = lowest.ptr<float>(r), *const high = highest.ptr<float>(r);
+    const auto* const hole = map.holes.data() + map.at(0, r);
+    const auto* const beside = near_hole.ptr<std::uint8_t>(r);
+    auto* const out = median.ptr<float>(r);
     for (int c = 0; c < map.cols; ++c) {
-      const bool step = highest.at<float>(r, c) - lowest.at<float>(r, c) > alike;
-      if (map.holes[map.at(c, r)] == 0 && (step || holes.at<std::uint8_t>(r, c) != 0)) {
-        median.at<float>(r, c) = medianOfSide(map, c, r, alike);
-      }
+      if (beside[c] == 0 && high[c] - low[c] <= alike) continue;
+      out[c] = hole[c] != 0 ? 0 : medianOfSide(map, c, r, alike);
     }
   }
-  for (std::size_t i = 0; i < map.size(); ++i) {
-    map.codes[i] =
-        map.holes[i] != 0 ? 0 : median.at<float>(static_cast<int>(i / map.cols), static_cast<int>(i % map.cols));
-  }
+  median.copyTo(codes);
 }
 
 }  // namespace relievo

@@ -89,6 +89,7 @@ class Growing {
 
   // At a hole that of the nearest known sample.
   [[nodiscard]] float cornerCode(const Point& corner) const {
+    if (const std::size_t i = map_.at(corner.x, corner.y); map_.holes[i] == 0) return map_.codes[i];
     std::size_t found = 0;
     long nearest = std::numeric_limits<long>::max();
     for (int r = 0; r < map_.rows; ++r) {
@@ -115,7 +116,9 @@ class Growing {
       const auto step = static_cast<float>(facet.across);
       const auto error = [&](int i) { return std::abs(codes[i] - (begin + step * static_cast<float>(i))); };
       const int count = last - first + 1;
-      if (largest(count, error) <= worst.error) return;
+      int beyond = 0;  // most rows have none: without a branch several samples at a time
+      for (int i = 0; i < count; ++i) beyond |= error(i) > worst.error ? 1 : 0;
+      if (beyond == 0) return;
       for (int i = 0; i < count; ++i) {
         if (!(error(i) > worst.error)) continue;
         worst.error = error(i);
@@ -123,22 +126,6 @@ class Growing {
       }
     });
     if (worst.error > bound_) worst_.push(worst);
-  }
-
-  // The largest of error(0) .. error(count - 1), those that are no numbers left out: four at a time.
-  template <class Error>
-  static float largest(int count, const Error& error) {
-    constexpr int kLanes = 4;
-    std::array<float, kLanes> lanes{};
-    int i = 0;
-    for (; i + kLanes <= count; i += kLanes) {
-      for (int lane = 0; lane < kLanes; ++lane) {
-        const float value = error(i + lane);
-        lanes[lane] = value > lanes[lane] ? value : lanes[lane];
-      }
-    }
-    for (; i < count; ++i) lanes[0] = error(i) > lanes[0] ? error(i) : lanes[0];
-    return *std::max_element(lanes.begin(), lanes.end());
   }
 
   const DepthMap& map_;

@@ -11,6 +11,7 @@
 #include "app/enhance/depth_mesh.h"
 #include "app/enhance/edge_keeping_fit.h"
 #include "app/enhance/noise.h"
+#include "app/enhance/shape_change.h"
 #include "app/enhance/steady_mean.h"
 
 namespace relievo {
@@ -110,6 +111,7 @@ bool DepthEnhancer::clean(Picture& picture) const {
   picture.map = std::move(*map);
   picture.noise = noiseOf(picture.map);
   picture.counts = fillHoles(picture.map, picture.noise);
+  picture.means = blockMeans(picture.map);
   filterByMedian(picture.map, picture.noise);
   picture.source.owner.reset();  // its size and times are all that is needed from here on
   picture.source.planes = {};
@@ -120,9 +122,11 @@ bool DepthEnhancer::clean(Picture& picture) const {
 void DepthEnhancer::enhance(std::size_t index) {
   Picture& picture = pictures_[index];
   DepthMap map = how_ == Enhancement::SpaceTime ? steadied(index) : picture.map;
-  if (how_ == Enhancement::SpaceTime) fitLines(map, reachFor(3, picture.noise, map.cols));
+  if (how_ == Enhancement::SpaceTime) fitLines(map, reachFor(3, grain(picture), map.cols));
   if (how_ == Enhancement::Dibm) model(picture, map);
   picture.noise_after = noiseOf(map);
+  const float moved = std::max(shapeChange(picture.means, map), picture.noise / kShapeBlock);
+  picture.error = std::hypot(picture.noise_after, moved);
   picture.outcome = writeDepth(map, outcome_.invalid_code.has_value(), picture.source);
 }
 
@@ -139,8 +143,14 @@ DepthMap DepthEnhancer::steadied(std::size_t index) const {
   return steadyMean(present.map, std::span(before).first(pairs), std::span(after).first(pairs), alike);
 }
 
+// The noise, or the rounding of the source's codes where that is more: steps of a slope are no feature points.
+float DepthEnhancer::grain(const Picture& picture) const {
+  constexpr float kOfRounding = 0.289F;  // 1/sqrt(12)
+  return std::max(picture.noise, kOfRounding * code_step_);
+}
+
 void DepthEnhancer::model(Picture& picture, DepthMap& map) const {
-  const int reach = reachFor(4, picture.noise, map.cols);
+  const int reach = reachFor(4, grain(picture), map.cols);
   fitLines(map, reach);
   picture.bound = bound_ + std::max(0.5F * code_step_, 4 * noiseAfterFit(picture.noise, reach));
   const DepthMesh mesh = meshOf(map, picture.bound);
@@ -159,6 +169,7 @@ void DepthEnhancer::count(const Picture& picture) {
   sums_.noise_after += static_cast<double>(picture.noise_after / DepthMap::kLevel);
   sums_.points += static_cast<double>(picture.points);
   sums_.most_points = std::max(sums_.most_points, picture.points);
+  sums_.error += static_cast<double>(picture.error / DepthMap::kLevel);
   sums_.bound += static_cast<double>(picture.bound / DepthMap::kLevel);
 }
 
@@ -169,6 +180,7 @@ EnhancementSummary DepthEnhancer::summary() const {
   mean.noise_after *= share;
   mean.points *= share;
   mean.bound *= share;
+  mean.error *= share;
   return mean;
 }
 

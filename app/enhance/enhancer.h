@@ -28,10 +28,15 @@ struct EnhancementSummary {
   double points = 0;                                  // of a mesh, in the mean; 0 without one
   std::size_t most_points = 0;
   double bound = 0;  // levels of 255, in the mean: how far from the mesh the samples are at most
+  double error = 0;  // levels of 255, in the mean: an estimate of how far the heights are off by now, away from edges
 };
 
 // One thread; its work on several pictures at once goes to OpenCV's threads. A picture comes out after a few more have
 // gone in, so that memory is flat. Holes are filled first; wide ones stay (see cleaning.h).
+//
+// The error is estimated without knowing the true depth, from two parts taken as independent: the noise that is left
+// from sample to sample, and how far the means of blocks of samples were moved. The latter counts as an eighth of the
+// noise before at least, as that much is in such a mean itself, and no picture tells it from shape.
 class DepthEnhancer {
  public:
   // How far a sample may be from the mesh of `dibm` before smoothing. What the codes cannot tell comes on top: half a
@@ -57,7 +62,9 @@ class DepthEnhancer {
     DepthMap map;
     float noise = 0;
     CleaningCounts counts;
+    std::vector<float> means;  // see shape_change.h
     float noise_after = 0;
+    float error = 0;
     std::size_t points = 0;
     float bound = 0;
     Frame outcome;
@@ -67,6 +74,7 @@ class DepthEnhancer {
   [[nodiscard]] bool clean(Picture& picture) const;
   void enhance(std::size_t index);
   [[nodiscard]] DepthMap steadied(std::size_t index) const;
+  [[nodiscard]] float grain(const Picture& picture) const;
   void model(Picture& picture, DepthMap& map) const;
   void count(const Picture& picture);
 

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// A picture to draw into, and its PNG.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "platform/error.h"
+
+namespace relievo {
+
+using Rgb = std::array<std::uint8_t, 3>;
+
+struct RgbPicture {
+  int width = 0, height = 0;
+  std::vector<Rgb> pixels;  // row by row
+
+  RgbPicture(int cols, int rows, const Rgb& color)
+      : width(cols), height(rows), pixels(static_cast<std::size_t>(cols) * rows, color) {}
+  [[nodiscard]] Rgb& at(int x, int y) { return pixels[static_cast<std::size_t>(y) * width + x]; }
+};
+
+// The bytes of a file.
+[[nodiscard]] Result<std::string> encodePng(const RgbPicture& picture);
+
+}  // namespace relievo
