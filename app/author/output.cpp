@@ -69,7 +69,7 @@ std::string enhancementLines(Enhancement how, const EnhancementSummary& e) {
   lines +=
       print("    noise from sample to sample: %.2f levels of 255 before, %.2f after\n", e.noise_before, e.noise_after);
   lines += print("    touch error estimated, away from edges: %.3f mm (%.3f N) before, %.3f mm (%.3f N) after\n",
-                 mm(e.noise_before), newtons(e.noise_before), mm(e.error), newtons(e.error));
+                 mm(e.error_before), newtons(e.error_before), mm(e.error_after), newtons(e.error_after));
   if (e.points > 0) {
     lines += print("    mesh: %.0f points a picture, %zu at most; no sample farther from it than %.1f levels\n",
                    e.points, e.most_points, e.bound);

@@ -21,7 +21,7 @@ namespace relievo {
 [[nodiscard]] std::string progressText(std::uint64_t done, std::optional<std::uint64_t> total, Duration elapsed);
 
 // A short table: tracks, sizes, bit rates, what is in the depth and what was done to it. The touch error is the
-// enhancement's estimate (see enhancer.h; before it, the noise from sample to sample) as heights in a film 40 mm deep,
+// enhancement's estimate (see enhancer.h) as heights in a film 40 mm deep,
 // and as the force of a finger that presses with 0.5 N/mm on single samples. Coding comes on top.
 [[nodiscard]] std::string toText(const std::string& path, const AuthorSummary& summary);
 

@@ -7,7 +7,6 @@
 #include <limits>
 #include <memory>
 
-#include "app/author/png_picture.h"
 #include "app/scene/display_volume.h"
 #include "platform/atomic_file.h"
 
@@ -163,7 +162,7 @@ void Preview::after(const Frame& depth, const DepthCalibration& calibration) {
   waits_ = false;
 }
 
-Result<void> Preview::writePng(const std::string& path) const {
+Result<RgbPicture> Preview::draw() const {
   if (waits_ || after_.size() == 0) return fail(ErrorCode::NotFound, "there is no depth to show");
   const double shape = after_.cols * aspect_ / after_.rows;
   const int pane_cols = std::clamp(static_cast<int>(std::lround(kPaneRows * shape)), kPaneRows / 4, kMostCols);
@@ -180,8 +179,13 @@ Result<void> Preview::writePng(const std::string& path) const {
   const Pane profile{kGap, pane_rows + 2 * kGap, picture.width - 2 * kGap, kProfileRows};
   for (int y = 0; y < profile.height; ++y) drawRule(picture, profile, y, kWhite);
   drawProfiles(picture, profile, before_, after_, row);
+  return picture;
+}
 
-  const auto png = encodePng(picture);
+Result<void> Preview::writePng(const std::string& path) const {
+  const auto picture = draw();
+  if (!picture) return std::unexpected(picture.error());
+  const auto png = encodePng(*picture);
   if (!png) return std::unexpected(png.error());
   auto file = AtomicFile::create(path);
   if (!file) return std::unexpected(file.error());

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "app/author/picture.h"
+#include "app/author/png_picture.h"
 #include "app/enhance/depth_map.h"
 #include "hal/frame.h"
 #include "platform/error.h"
@@ -26,7 +26,8 @@ class Preview {
   // Every one after it, at the time that it had.
   void after(const Frame& depth, const DepthCalibration& calibration);
 
-  // NotFound where no picture was seen both before and after.
+  // Both: NotFound where no picture was seen both before and after.
+  [[nodiscard]] Result<RgbPicture> draw() const;
   [[nodiscard]] Result<void> writePng(const std::string& path) const;
 
  private:

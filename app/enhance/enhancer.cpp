@@ -125,7 +125,7 @@ void DepthEnhancer::enhance(std::size_t index) {
   if (how_ == Enhancement::SpaceTime) fitLines(map, reachFor(3, grain(picture), map.cols));
   if (how_ == Enhancement::Dibm) model(picture, map);
   picture.noise_after = noiseOf(map);
-  const float moved = std::max(shapeChange(picture.means, map), picture.noise / kShapeBlock);
+  const float moved = std::max(shapeChange(picture.means, map), grain(picture) / kShapeBlock);
   picture.error = std::hypot(picture.noise_after, moved);
   picture.outcome = writeDepth(map, outcome_.invalid_code.has_value(), picture.source);
 }
@@ -169,7 +169,8 @@ void DepthEnhancer::count(const Picture& picture) {
   sums_.noise_after += static_cast<double>(picture.noise_after / DepthMap::kLevel);
   sums_.points += static_cast<double>(picture.points);
   sums_.most_points = std::max(sums_.most_points, picture.points);
-  sums_.error += static_cast<double>(picture.error / DepthMap::kLevel);
+  sums_.error_before += static_cast<double>(grain(picture) / DepthMap::kLevel);
+  sums_.error_after += static_cast<double>(picture.error / DepthMap::kLevel);
   sums_.bound += static_cast<double>(picture.bound / DepthMap::kLevel);
 }
 
@@ -180,7 +181,8 @@ EnhancementSummary DepthEnhancer::summary() const {
   mean.noise_after *= share;
   mean.points *= share;
   mean.bound *= share;
-  mean.error *= share;
+  mean.error_before *= share;
+  mean.error_after *= share;
   return mean;
 }
 

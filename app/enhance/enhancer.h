@@ -28,7 +28,8 @@ struct EnhancementSummary {
   double points = 0;                                  // of a mesh, in the mean; 0 without one
   std::size_t most_points = 0;
   double bound = 0;  // levels of 255, in the mean: how far from the mesh the samples are at most
-  double error = 0;  // levels of 255, in the mean: an estimate of how far the heights are off by now, away from edges
+  // Levels of 255, in the mean: estimates of how far the heights were off and are now, away from edges.
+  double error_before = 0, error_after = 0;
 };
 
 // One thread; its work on several pictures at once goes to OpenCV's threads. A picture comes out after a few more have
@@ -36,7 +37,8 @@ struct EnhancementSummary {
 //
 // The error is estimated without knowing the true depth, from two parts taken as independent: the noise that is left
 // from sample to sample, and how far the means of blocks of samples were moved. The latter counts as an eighth of the
-// noise before at least, as that much is in such a mean itself, and no picture tells it from shape.
+// noise before at least, as that much is in such a mean itself, and no picture tells it from shape. Before, it is the
+// noise, or the rounding of the source's codes where that is more.
 class DepthEnhancer {
  public:
   // How far a sample may be from the mesh of `dibm` before smoothing. What the codes cannot tell comes on top: half a

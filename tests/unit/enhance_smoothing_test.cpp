@@ -8,6 +8,7 @@
 
 #include "app/enhance/edge_keeping_fit.h"
 #include "app/enhance/noise.h"
+#include "app/enhance/shape_change.h"
 #include "app/enhance/steady_mean.h"
 
 namespace relievo {
@@ -42,6 +43,22 @@ TEST(EnhanceNoise, IsNoneWhereNothingCanBeTold) {
 
 // Two means of n samples in a row make a triangle of weights: the squares' sum is (2 n^2 + 1)/(3 n^3), both ways its
 // square.
+// Half of the picture raised by 100 codes: by the root of a half in the mean of squares.
+TEST(EnhanceShapeChange, IsThatOfWholeBlocksWithoutHolesAndSteps) {
+  DepthMap map(64, 32);
+  std::fill(map.codes.begin(), map.codes.end(), 1000.0F);
+  map.holes[map.at(3, 3)] = 1;
+  const auto before = blockMeans(map);
+  EXPECT_EQ(shapeChange(before, map), 0);
+  for (int r = 0; r < 32; ++r) {
+    for (int c = 0; c < 32; ++c) map.codes[map.at(c, r)] += 100;
+  }
+  EXPECT_NEAR(shapeChange(before, map), 100 * std::sqrt(15.0 / 31), 0.01);
+  for (int c = 0; c < 64; ++c) map.codes[map.at(c, 12)] += 2 * DepthMap::kStep;  // through the second row of blocks
+  EXPECT_NEAR(shapeChange(before, map), 100 * std::sqrt(11.0 / 23), 0.01);
+  EXPECT_EQ(shapeChange({}, DepthMap(7, 7)), 0);
+}
+
 TEST(EnhanceFit, SpreadsAnImpulseAsTwoMeansEachWay) {
   constexpr int kReach = 3;
   constexpr double kImpulse = 1000, n = 2 * kReach + 1;
