@@ -60,7 +60,7 @@ Rgb reliefAt(const DepthMap& map, int c, int r, double mm_across, double mm_down
   };
   const double across = (height(c + 1, r) - height(c - 1, r)) / (2 * mm_across);
   const double down = (height(c, r + 1) - height(c, r - 1)) / (2 * mm_down);
-  const double gray = (90 + 165 * height(c, r) / DisplayVolume::kDefaultDepthMm) * lightOn(across, down);
+  const double gray = (120 + 135 * height(c, r) / DisplayVolume::kDefaultDepthMm) * lightOn(across, down);
   const auto level = static_cast<std::uint8_t>(std::lround(std::min(gray, 255.0)));
   return {level, level, level};
 }

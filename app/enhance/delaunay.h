@@ -9,6 +9,7 @@
 
 namespace relievo {
 
+// OpenCV's cv::Subdiv2D decides in single precision and does not tell which triangles a point has changed.
 // Points have whole-number coordinates up to 16383, so that every decision is exact: no four of them upset it, in
 // whatever line or circle they stand. All of the rectangle is covered, its rim included.
 class Delaunay {

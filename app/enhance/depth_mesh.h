@@ -17,7 +17,8 @@ struct DepthMesh {
 
 // Greedily: as long as a known sample is farther than `bound` from the mesh, the farthest of its triangle becomes a
 // point. So a plane takes the four corners, a curved place as many as its curvature, and a step is followed on both
-// sides. Nothing for a picture without a known sample, or of one row or column.
+// sides. (The paper samples where the first gradient is large; a slope that goes on costs nothing here.) Nothing for a
+// picture without a known sample, or of one row or column.
 [[nodiscard]] DepthMesh meshOf(const DepthMap& map, float bound);
 
 // The mesh's codes in place of the known samples'.
