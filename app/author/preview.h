@@ -33,7 +33,7 @@ class Preview {
  private:
   std::uint64_t seen_ = 0;
   bool waits_ = false;  // for the depth of `time_` to come out
-  MediaTime time_{};
+  MediaTime time_;
   double aspect_ = 1;  // of the depth's samples
   ColorPicture420 color_;
   DepthMap before_, after_;

@@ -44,7 +44,7 @@ Frame writeDepth(const DepthMap& map, bool may_have_holes, const Frame& like) {
   const float lowest = may_have_holes ? 1 : 0;
   for (std::size_t i = 0; i < map.size(); ++i) {
     const float code = std::clamp(map.codes[i], lowest, DepthMap::kHighest);
-    (*samples)[i] = map.holes[i] != 0 ? std::uint16_t{0} : static_cast<std::uint16_t>(code + 0.5F);
+    (*samples)[i] = map.holes[i] != 0 ? std::uint16_t{0} : static_cast<std::uint16_t>(std::lround(code));
   }
   Frame frame;
   frame.pts = like.pts;

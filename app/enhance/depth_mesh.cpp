@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <limits>
-#include <queue>
+#include <utility>
+#include <vector>
 
 namespace relievo {
 namespace {
@@ -67,13 +69,25 @@ class Growing {
     measure(1);
   }
 
+  // In rounds: of each triangle beyond the bound the worst sample becomes a point, the worst of all first, and only
+  // then are those that have changed measured, once. One point at a time would be a few points less for twice the time.
   DepthMesh grow() {
-    while (!worst_.empty()) {
-      const Candidate next = worst_.top();
-      worst_.pop();
-      if (next.version != versions_[next.triangle]) continue;
-      codes_.push_back(map_.codes[map_.at(next.point.x, next.point.y)]);
-      for (const int triangle : delaunay_.insert(next.point, next.triangle)) measure(triangle);
+    std::vector<int> changed, changed_in;  // the latter by triangle: the round
+    for (int round = 1; !worst_.empty(); ++round) {
+      std::vector<Candidate> candidates = std::exchange(worst_, {});
+      std::ranges::stable_sort(candidates, std::greater{}, &Candidate::error);
+      changed.clear();
+      for (const Candidate& next : candidates) {
+        changed_in.resize(delaunay_.triangles().size());
+        if (changed_in[next.triangle] == round) continue;  // no longer the triangle that it was
+        codes_.push_back(map_.codes[map_.at(next.point.x, next.point.y)]);
+        const auto touched = delaunay_.insert(next.point, next.triangle);
+        changed_in.resize(delaunay_.triangles().size());
+        for (const int triangle : touched) {
+          if (std::exchange(changed_in[triangle], round) != round) changed.push_back(triangle);
+        }
+      }
+      for (const int triangle : changed) measure(triangle);
     }
     return {delaunay_.points(), std::move(codes_), delaunay_.triangles()};
   }
@@ -82,9 +96,7 @@ class Growing {
   struct Candidate {
     float error = 0;
     int triangle = 0;
-    unsigned version = 0;
     Point point;
-    bool operator<(const Candidate& other) const { return error < other.error; }
   };
 
   // At a hole that of the nearest known sample.
@@ -104,12 +116,11 @@ class Growing {
   }
 
   void measure(int triangle) {
-    if (versions_.size() <= static_cast<std::size_t>(triangle)) versions_.resize(triangle + 1);
     const auto [a, b, c] = delaunay_.triangles()[triangle];
     const auto& p = delaunay_.points();
     const std::array<Point, 3> corners{p[a], p[b], p[c]};
     const Facet facet(corners, {codes_[a], codes_[b], codes_[c]});
-    Candidate worst{.error = bound_, .triangle = triangle, .version = ++versions_[triangle]};
+    Candidate worst{.error = bound_, .triangle = triangle};
     eachRow(corners, [&](int row, int first, int last) {
       const float* const codes = known_.data() + map_.at(first, row);
       const auto begin = static_cast<float>(facet.origin + facet.down * row + facet.across * first);
@@ -125,7 +136,7 @@ class Growing {
         worst.point = {first + i, row};
       }
     });
-    if (worst.error > bound_) worst_.push(worst);
+    if (worst.error > bound_) worst_.push_back(worst);
   }
 
   const DepthMap& map_;
@@ -133,8 +144,7 @@ class Growing {
   float bound_;
   Delaunay delaunay_;
   std::vector<float> codes_;
-  std::vector<unsigned> versions_;  // by triangle: candidates of older ones are void
-  std::priority_queue<Candidate> worst_;
+  std::vector<Candidate> worst_;  // samples of their triangles, beyond the bound
 };
 
 }  // namespace
