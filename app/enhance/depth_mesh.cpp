@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <functional>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -75,7 +74,9 @@ class Growing {
     std::vector<int> changed, changed_in;  // the latter by triangle: the round
     for (int round = 1; !worst_.empty(); ++round) {
       std::vector<Candidate> candidates = std::exchange(worst_, {});
-      std::ranges::stable_sort(candidates, std::greater{}, &Candidate::error);
+      std::ranges::sort(candidates, [](const Candidate& a, const Candidate& b) {
+        return a.error != b.error ? a.error > b.error : a.triangle < b.triangle;
+      });
       changed.clear();
       for (const Candidate& next : candidates) {
         changed_in.resize(delaunay_.triangles().size());
