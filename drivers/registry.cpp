@@ -18,6 +18,7 @@
 #include "drivers/replay/replay.h"
 #include "drivers/sim/profiles.h"
 #include "drivers/terminal/terminal.h"
+#include "drivers/v4l2/v4l2.h"
 #include "drivers/window/window_remote.h"
 
 #define RELIEVO_DISPLAY_NAMES "kms[:/dev/dri/cardN] window offscreen[:FILE.y4m] mock"
@@ -166,12 +167,12 @@ Outcome<std::unique_ptr<AudioOutput>> makeAudioOutput(std::string_view text, con
   return unknown("--audio", text, "no such sound output; it is one of: " RELIEVO_AUDIO_NAMES);
 }
 
-std::unique_ptr<MediaSource> makeMediaSource(std::string_view /*url*/) {
-  return makeFfmpegSource();
+std::unique_ptr<MediaSource> makeMediaSource(const std::string& url) {
+  return url.starts_with("v4l2:") ? makeV4l2Source() : makeFfmpegSource();
 }
 
-std::unique_ptr<VideoDecoder> makeVideoDecoder() {
-  return makeFfmpegDecoder();
+std::unique_ptr<VideoDecoder> makeVideoDecoder(const StreamInfo& stream) {
+  return isV4l2Raw(stream) ? makeV4l2Decoder() : makeFfmpegDecoder();
 }
 
 Result<std::string> readText(const std::string& url, std::size_t most_bytes, const std::atomic<bool>& cancelled) {

@@ -44,8 +44,8 @@ struct HapticSettings {
                                                                       const HapticSettings& settings = {});
 [[nodiscard]] Outcome<std::unique_ptr<RemoteInput>> makeRemoteInput(std::string_view spec, Clock& clock);
 [[nodiscard]] Outcome<std::unique_ptr<AudioOutput>> makeAudioOutput(std::string_view spec, const Clock& clock);
-[[nodiscard]] std::unique_ptr<MediaSource> makeMediaSource(std::string_view url);
-[[nodiscard]] std::unique_ptr<VideoDecoder> makeVideoDecoder();
+[[nodiscard]] std::unique_ptr<MediaSource> makeMediaSource(const std::string& url);
+[[nodiscard]] std::unique_ptr<VideoDecoder> makeVideoDecoder(const StreamInfo& stream);
 [[nodiscard]] std::unique_ptr<AudioDecoder> makeAudioDecoder();
 // The text at a path or an address, as makeMediaSource would open it.
 [[nodiscard]] Result<std::string> readText(const std::string& url, std::size_t most_bytes,

@@ -79,16 +79,19 @@ class MediaSource {
   [[nodiscard]] const std::map<std::string, std::string>& tags() const noexcept { return tags_; }
   // Of the whole film; 0 where unknown (live).
   [[nodiscard]] Duration duration() const noexcept { return duration_; }
-  // It comes over a network.
+  // It comes over a network or from a camera: it may go away and come back.
   [[nodiscard]] bool remote() const noexcept { return origin_.remote; }
   // It cannot be had again: no beginning, no end, no seeking.
   [[nodiscard]] bool live() const noexcept { return remote() && duration_ == Duration(0); }
-  // Where its time 0 is on two other clocks, to bring two live sources together: the machine's, at its arrival, and the
-  // sender's own, which is nothing where the container does not tell.
+  // Where its time 0 is on two other clocks, to bring two live sources together: the machine's, at its arrival (of a
+  // camera: when the picture was taken), and the sender's own, which is nothing where the container does not tell.
   [[nodiscard]] MonotonicTime arrival() const noexcept { return origin_.arrival; }
   [[nodiscard]] std::optional<Duration> senderStart() const noexcept { return origin_.sender_start; }
   // How often its times have jumped, since construction.
   [[nodiscard]] std::uint64_t jumps() const noexcept { return times_.jumps(); }
+  // Pictures that were taken and never came here, as far as the source can tell (a camera counts them), since
+  // construction.
+  [[nodiscard]] std::uint64_t lost() const noexcept { return lost_; }
   // How much of the duration was not there: the film broke off so long before its end. Ended; 0 of a whole film, where
   // it is unknown, and in the other states.
   [[nodiscard]] Duration missing() const noexcept { return state_ == State::Ended ? missingTime() : Duration(0); }
@@ -106,6 +109,7 @@ class MediaSource {
     Duration duration{0};
     Origin origin;
   };
+  void countLost(std::uint64_t pictures) noexcept { lost_ += pictures; }
 
  private:
   virtual Result<Description> openSource(const std::string& url) = 0;
@@ -122,6 +126,7 @@ class MediaSource {
   Duration duration_{0};
   Origin origin_;
   ContinuousTime times_;
+  std::uint64_t lost_ = 0;
 };
 
 }  // namespace relievo

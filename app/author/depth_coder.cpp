@@ -19,6 +19,7 @@ DepthCalibration outcomeOf(DepthCalibration c) {
   c.range = ColorRange::Full;
   c.code = DepthCode::Luma;
   c.bits = 8;
+  c.unit_mm.reset();
   c.invalid_code = has_holes ? std::optional<std::uint32_t>(kHole) : std::nullopt;
   return c;
 }

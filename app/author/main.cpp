@@ -93,8 +93,7 @@ int run(Arguments& a) {
       line.show([&](Duration elapsed) { return progressText(done, total, elapsed); });
     };
     if (a.scene.empty()) {
-      const std::string url = a.source.url;
-      const PairReader::Backends backends{[url] { return drivers::makeMediaSource(url); }, drivers::makeVideoDecoder};
+      const PairReader::Backends backends{drivers::makeMediaSource, drivers::makeVideoDecoder};
       summary = authorFilm(a.source, backends, a.output, stop, progress);
     } else {
       const int threads = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1u));

@@ -23,8 +23,8 @@ int countVideo(const std::vector<StreamInfo>& streams) {
 
 // Exactly one of the two readers is open.
 struct DepthFilm::Tracks {
-  explicit Tracks(const PairReader::Backends& backends)
-      : single(backends.make_source(), backends.make_decoder), pairs(backends) {}
+  Tracks(const PairReader::Backends& backends, const std::string& url)
+      : single(backends.make_source(url), backends.make_decoder), pairs(backends) {}
   TrackReader single;
   PairReader pairs;
   bool paired = false;
@@ -33,7 +33,7 @@ struct DepthFilm::Tracks {
 };
 
 DepthFilm::DepthFilm(const PairReader::Backends& backends, DepthFilmOptions options)
-    : options_(std::move(options)), tracks_(std::make_unique<Tracks>(backends)) {}
+    : options_(std::move(options)), tracks_(std::make_unique<Tracks>(backends, options_.source.url)) {}
 DepthFilm::~DepthFilm() = default;
 
 Outcome<void> DepthFilm::open() {

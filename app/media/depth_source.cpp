@@ -40,7 +40,7 @@ Result<void> DepthSource::open(const std::string& url) {
 }
 
 Result<void> DepthSource::connect() {
-  auto reader = std::make_unique<TrackReader>(backends_.make_source(), backends_.make_decoder);
+  auto reader = std::make_unique<TrackReader>(backends_.make_source(url_), backends_.make_decoder);
   {
     const std::scoped_lock lock(mutex_);
     if (interrupted_) return fail(ErrorCode::Cancelled, "interrupted before it was opened");
@@ -167,8 +167,7 @@ void DepthSource::readOne(std::unique_lock<std::mutex>& lock) {
 
 void DepthSource::findAgain(std::unique_lock<std::mutex>& lock) {
   if (!tried_again_ || backends_.clock->now() < back_off_.next()) return;
-  damaged_before_ = counters_.damaged;
-  jumps_before_ = counters_.jumps;
+  before_ = counters_;
   const MediaTime resume = resume_;
   const Duration key_step = key_step_;
   lock.unlock();
@@ -188,8 +187,9 @@ void DepthSource::lose(const Error& error) {
 }
 
 void DepthSource::count() {
-  counters_.damaged = damaged_before_ + reader_->damaged();
-  counters_.jumps = jumps_before_ + reader_->source().jumps();
+  counters_.damaged = before_.damaged + reader_->damaged();
+  counters_.jumps = before_.jumps + reader_->source().jumps();
+  counters_.lost = before_.lost + reader_->source().lost();
   counters_.missing = reader_->source().missing();
 }
 

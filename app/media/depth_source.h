@@ -18,10 +18,10 @@
 
 namespace relievo {
 
-// A file is read by who asks. What comes over a network is read ahead by a thread (Backends::own_threads), and is
-// waited for a quarter of a second, longer after an opening or a seek; then there is no depth until it is there again.
-// When it is lost it is opened again, with back-off and for as long as the colour plays (Backends::clock, else it stays
-// lost).
+// A file is read by who asks. What comes over a network or from a camera is read ahead by a thread
+// (Backends::own_threads), and is waited for a quarter of a second, longer after an opening or a seek; then there is no
+// depth until it is there again. When it is lost it is opened again, with back-off and for as long as the colour plays
+// (Backends::clock, else it stays lost).
 //
 // One thread, but `interrupt`, which any thread may call.
 class DepthSource {
@@ -61,7 +61,7 @@ class DepthSource {
   // Why it is away, while it is looked for.
   [[nodiscard]] std::optional<Error> loss() const;
   struct Counters {
-    std::uint64_t damaged = 0, jumps = 0, reconnects = 0;
+    std::uint64_t damaged = 0, jumps = 0, lost = 0, reconnects = 0;
     Duration missing{0};
   };
   [[nodiscard]] Counters counters() const;
@@ -84,7 +84,7 @@ class DepthSource {
 
   // The reading side's: the thread's, where there is one.
   std::size_t track_ = 0;
-  std::uint64_t damaged_before_ = 0, jumps_before_ = 0;  // of the sessions before
+  Counters before_;  // of the sessions before
   BackOff back_off_;
 
   mutable std::mutex mutex_;  // guards all below; not held while the source is read

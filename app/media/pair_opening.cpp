@@ -22,7 +22,7 @@ Duration framePeriod(Duration between, Duration nominal) noexcept {
 }  // namespace
 
 Result<void> PairReader::Impl::openReader() {
-  auto reader = std::make_unique<TrackReader>(backends.make_source(), backends.make_decoder);
+  auto reader = std::make_unique<TrackReader>(backends.make_source(options.url), backends.make_decoder);
   {
     const std::scoped_lock lock(readers_mutex);
     if (interrupted) return failOn(options.url, {ErrorCode::Cancelled, 0, "interrupted before it was opened"});

@@ -53,11 +53,11 @@ Result<FramePair> PairReader::Impl::pairFor(Frame color) {
   if (isPacked()) {
     auto halves = splitPacked(color, info.packing, options.depth_code);
     if (!halves) return failOn(options.url, halves.error());
-    return FramePair{std::move(halves->color), std::move(halves->depth), true};
+    return FramePair{std::move(halves->color), std::move(halves->depth), true, {}};
   }
   auto match = depthAt(color.pts);
   if (!match) return std::unexpected(match.error());
-  return FramePair{std::move(color), std::move(match->depth), match->matched};
+  return FramePair{std::move(color), std::move(match->depth), match->matched, {}};
 }
 
 // An error of the depth ends the depth; only an interruption goes to the caller.
@@ -120,6 +120,7 @@ Result<void> PairReader::Impl::goOn() {
 void PairReader::Impl::leaveColor() {
   counters.damaged += color_reader->damaged();
   counters.jumps += color_reader->source().jumps();
+  counters.lost += color_reader->source().lost();
   color_ahead.clear();
 }
 
@@ -130,6 +131,7 @@ PairCounters& PairCounters::operator+=(const PairCounters& other) noexcept {
   depth_skipped += other.depth_skipped;
   damaged += other.damaged;
   jumps += other.jumps;
+  lost += other.lost;
   reconnects += other.reconnects;
   depth_reconnects += other.depth_reconnects;
   missing += other.missing;
@@ -161,6 +163,9 @@ Result<std::optional<FramePair>> PairReader::next() {
   auto pair = impl_->pairFor(std::move(**color));
   if (!pair) return std::unexpected(pair.error());
   impl_->resume = pair->color.pts + impl_->info.frame_period;
+  if (impl_->live) {
+    pair->taken = impl_->color_reader->source().arrival() + (pair->color.pts - impl_->color_shift).time_since_epoch();
+  }
   ++impl_->counters.pairs;
   if (!pair->matched && impl_->key_step == Duration(0)) ++impl_->counters.mismatched;
   if (impl_->info.has_depth && pair->depth.empty()) ++impl_->counters.without_depth;
@@ -247,12 +252,14 @@ PairCounters PairReader::counters() const noexcept {
   if (impl_->color_reader) {
     counters.damaged += impl_->color_reader->damaged();
     counters.jumps += impl_->color_reader->source().jumps();
+    counters.lost += impl_->color_reader->source().lost();
     counters.missing = impl_->color_reader->source().missing();
   }
   if (impl_->depth_source) {
     const DepthSource::Counters depth = impl_->depth_source->counters();
     counters.damaged += depth.damaged;
     counters.jumps += depth.jumps;
+    counters.lost += depth.lost;
     counters.depth_reconnects = depth.reconnects;
     counters.depth_missing = depth.missing;
   }

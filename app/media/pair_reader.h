@@ -34,6 +34,7 @@ struct FramePair {
   Frame color;
   Frame depth;  // empty: none at this time
   bool matched = true;
+  std::optional<MonotonicTime> taken;  // of a live film: when the colour was taken, or came here
 };
 
 struct FilmInfo {
@@ -56,6 +57,7 @@ struct PairCounters {
   std::uint64_t depth_skipped = 0;     // depth frames that no colour frame asked for
   std::uint64_t damaged = 0;           // packets and pictures that the decoders dropped
   std::uint64_t jumps = 0;             // of the containers' times (ContinuousTime)
+  std::uint64_t lost = 0;              // pictures that the sources took and never handed out (MediaSource::lost)
   std::uint64_t reconnects = 0;        // how often the colour's source was lost and found again
   std::uint64_t depth_reconnects = 0;  // of `depth_url`
   // Once a source has been read to its end: how much of its length was not there (MediaSource::missing).
@@ -82,8 +84,8 @@ struct PairCounters {
 class PairReader {
  public:
   struct Backends {
-    std::function<std::unique_ptr<MediaSource>()> make_source;
-    std::function<std::unique_ptr<VideoDecoder>()> make_decoder;
+    std::function<std::unique_ptr<MediaSource>(const std::string& url)> make_source;
+    std::function<std::unique_ptr<VideoDecoder>(const StreamInfo&)> make_decoder;
     // The text at an address, at most so many bytes of it; gives up when the flag is set. Of lists of films.
     std::function<Result<std::string>(const std::string&, std::size_t, const std::atomic<bool>&)> read_text;
     std::function<std::unique_ptr<AudioDecoder>()> make_audio_decoder;  // of who wants sound

@@ -13,7 +13,7 @@ constexpr Duration kFirstStepBack = std::chrono::seconds(1);
 }  // namespace
 
 TrackReader::TrackReader(std::unique_ptr<MediaSource> source,
-                         std::function<std::unique_ptr<VideoDecoder>()> make_decoder)
+                         std::function<std::unique_ptr<VideoDecoder>(const StreamInfo&)> make_decoder)
     : source_(std::move(source)), make_decoder_(std::move(make_decoder)) {}
 
 Result<void> TrackReader::open(const std::string& url) {
@@ -24,7 +24,7 @@ Result<std::size_t> TrackReader::select(const StreamInfo& stream) {
   if (track_count_ == kMaxTracks) return fail(ErrorCode::Exhausted, "two tracks of a source are chosen already");
   Track track;
   track.stream = stream.index;
-  track.decoder = make_decoder_();
+  track.decoder = make_decoder_(stream);
   if (auto opened = track.decoder->open(stream); !opened) return std::unexpected(opened.error());
   tracks_[track_count_] = std::move(track);
   return track_count_++;

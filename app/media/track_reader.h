@@ -31,7 +31,8 @@ class TrackReader {
   static constexpr std::size_t kMaxWaitingPackets = 512;  // 8 s of 60 frames/s
   static constexpr std::size_t kMaxWaitingBytes = std::size_t{64} << 20;
   static constexpr Duration kReadAhead = std::chrono::seconds(2);  // what interleaving is off by at most
-  TrackReader(std::unique_ptr<MediaSource> source, std::function<std::unique_ptr<VideoDecoder>()> make_decoder);
+  TrackReader(std::unique_ptr<MediaSource> source,
+              std::function<std::unique_ptr<VideoDecoder>(const StreamInfo&)> make_decoder);
 
   [[nodiscard]] Result<void> open(const std::string& url);
   // Chooses a stream to be decoded; returns the track's number for `next`. A frame period of the caller's in `stream`
@@ -83,7 +84,7 @@ class TrackReader {
   [[nodiscard]] static bool isFull(const Track& track) noexcept;
 
   std::unique_ptr<MediaSource> source_;
-  std::function<std::unique_ptr<VideoDecoder>()> make_decoder_;
+  std::function<std::unique_ptr<VideoDecoder>(const StreamInfo&)> make_decoder_;
   std::array<Track, kMaxTracks> tracks_;
   std::size_t track_count_ = 0;
   Duration key_step_{0};

@@ -25,8 +25,8 @@
 namespace relievo {
 namespace {
 
-PairReader::Backends backendsFor(const std::string& url) {
-  return {.make_source = [url] { return drivers::makeMediaSource(url); },
+PairReader::Backends realBackends() {
+  return {.make_source = drivers::makeMediaSource,
           .make_decoder = drivers::makeVideoDecoder,
           .read_text = drivers::readText,
           .make_audio_decoder = drivers::makeAudioDecoder};
@@ -133,7 +133,6 @@ int play(PlayOptions options, const FileConfig& config) {
   }
   PlayerControl control(std::move(socket), drivers::switchFault);
 
-  const std::string url = options.player.source.url;
   Player player(std::move(options.player), {.clock = clock,
                                             .display = **display,
                                             .haptic = haptic->get(),
@@ -141,7 +140,7 @@ int play(PlayOptions options, const FileConfig& config) {
                                             .audio = audio->get(),
                                             .recorder = recorder ? &*recorder : nullptr,
                                             .control = &control,
-                                            .backends = backendsFor(url)});
+                                            .backends = realBackends()});
   const auto played = player.run(stop);
   const PlayReport report = player.report();
   const int files = finishFiles(report, report_file ? &*report_file : nullptr, recorder ? &*recorder : nullptr);
@@ -151,7 +150,7 @@ int play(PlayOptions options, const FileConfig& config) {
 }
 
 int probeSource(const ProbeOptions& options) {
-  const auto result = probe(options.source, backendsFor(options.source.url));
+  const auto result = probe(options.source, realBackends());
   if (!result) return tell(result.error());
   std::fputs((options.json ? probeToJson(*result) : probeToText(*result)).c_str(), stdout);
   return result->failure ? tell(*result->failure) : kExitDone;

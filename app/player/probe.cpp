@@ -19,7 +19,7 @@ constexpr int kPairsLookedAt = 8;
 
 Outcome<void> listTracks(const std::string& url, const PairReader::Backends& backends,
                          std::vector<ProbedTrack>& tracks) {
-  const auto source = backends.make_source();
+  const auto source = backends.make_source(url);
   if (auto opened = source->open(url); !opened) return failOn(url, opened.error());
   for (const StreamInfo& stream : source->streams()) tracks.push_back({url, stream});
   return {};
@@ -130,7 +130,7 @@ Outcome<void> lookAtFilm(const SourceOptions& options, const PairReader::Backend
     return failOn(reader.failedThing().empty() ? options.url : reader.failedThing(), opened.error());
   }
   result.film = reader.info();
-  result.decoder = backends.make_decoder()->capabilities().name;
+  result.decoder = backends.make_decoder(result.tracks.front().stream)->capabilities().name;
   if (auto looked = lookAtPairs(reader, result); !looked) return looked;
   result.needs = needsOf(result);
   return {};

@@ -12,15 +12,19 @@
 namespace relievo {
 namespace {
 
-constexpr std::array<const char*, 7> kKeys{"law", "polarity", "range", "bits", "invalid", "near", "far"};
+// In the order in which they are applied: distances (unit) bring a law and a polarity of their own.
+constexpr std::array<const char*, 8> kKeys{"unit", "law", "polarity", "range", "bits", "invalid", "near", "far"};
 constexpr const char* kTagPrefix = "DEPTH_";
 
-constexpr const char* kUnknownKey = "unknown calibration key; known are law, polarity, range, bits, invalid, near, far";
+constexpr const char* kUnknownKey =
+    "unknown calibration key; known are law, polarity, range, bits, invalid, unit, near, far";
 constexpr const char* kBadValue =
     "calibration value out of its range; law=linear|inverse polarity=near-high|near-low range=full|limited "
-    "bits=8..16 invalid=0..65535|none near and far in mm, 1e-3..1e9";
+    "bits=8..16 invalid=0..65535|none unit (or none), near and far in mm, 1e-3..1e9";
 constexpr const char* kNoValue = "calibration is written KEY=VALUE,KEY=VALUE,..";
 constexpr const char* kFarBeforeNear = "calibration has far <= near; give both in mm, far the larger";
+constexpr const char* kUnitIsLinear =
+    "calibration has codes that are distances (unit), but not law=linear; leave one out";
 constexpr const char* kTooManyBits = "calibration has more bits than the depth's samples; leave bits out";
 constexpr const char* kNoSuchCode =
     "calibration has an invalid code that the depth's bits cannot hold; give one below 2^bits";
@@ -63,10 +67,18 @@ bool apply(DepthCalibration& c, std::string_view key, std::string_view value) {
     const auto code = number<std::uint32_t>(value);
     if (!code || *code > 0xffff) return false;
     c.invalid_code = code;
+  } else if (key == "unit" && value == "none") {
+    c.unit_mm.reset();
   } else {
     const auto mm = number<double>(value);
     if (!mm || !(*mm >= kNearestMm && *mm <= kFarthestMm)) return false;
-    (key == "near" ? c.near_mm : c.far_mm) = *mm;
+    if (key == "unit") {
+      c.unit_mm = *mm;
+      c.law = DepthLaw::Linear;
+      c.polarity = DepthPolarity::NearIsLow;
+    } else {
+      (key == "near" ? c.near_mm : c.far_mm) = *mm;
+    }
   }
   return true;
 }
@@ -78,7 +90,9 @@ std::string written(const DepthCalibration& c, std::string_view key) {
   if (key == "range") return c.range == ColorRange::Limited ? "limited" : "full";
   if (key == "bits") return std::to_string(c.bits);
   if (key == "invalid") return c.invalid_code ? std::to_string(*c.invalid_code) : "none";
-  const auto end = std::to_chars(text, text + sizeof text, key == "near" ? c.near_mm : c.far_mm).ptr;
+  if (key == "unit" && !c.unit_mm) return "none";
+  const double mm = key == "unit" ? *c.unit_mm : key == "near" ? c.near_mm : c.far_mm;
+  const auto end = std::to_chars(text, text + sizeof text, mm).ptr;
   return {text, end};
 }
 
@@ -93,8 +107,11 @@ const char* misfit(const DepthCalibration& c, int sample_bits) {
 const char* contradiction(const CalibrationSettings& settings) {
   DepthCalibration c;
   c.bits = 16;
-  for (const auto& [key, value] : settings) apply(c, key, value);
+  for (const char* key : kKeys) {
+    if (const auto said = settings.find(key); said != settings.end()) apply(c, key, said->second);
+  }
   if (settings.contains("near") && settings.contains("far") && c.far_mm <= c.near_mm) return kFarBeforeNear;
+  if (settings.contains("unit") && c.unit_mm && c.law == DepthLaw::Inverse) return kUnitIsLinear;
   return misfit(c, 16);
 }
 
@@ -191,6 +208,7 @@ Result<CalibrationChoice> chooseCalibration(const CalibrationLayers& layers, con
     if (!choice.explanation.empty()) choice.explanation += ", ";
     choice.explanation += std::string(key) + "=" + written(c, key) + " (" + name(said_by) + ")";
   }
+  if (c.unit_mm && c.law == DepthLaw::Inverse) return refuse(choice.origin, kUnitIsLinear);
   if (c.far_mm <= c.near_mm) return refuse(distances_by, kFarBeforeNear);
   return choice;
 }

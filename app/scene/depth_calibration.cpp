@@ -7,10 +7,12 @@
 namespace relievo {
 
 double DepthCalibration::lowCode() const noexcept {
+  if (unit_mm) return near_mm / *unit_mm;
   return range == ColorRange::Limited ? 16.0 * (1u << (bits - 8)) : 0.0;
 }
 
 double DepthCalibration::highCode() const noexcept {
+  if (unit_mm) return far_mm / *unit_mm;
   return range == ColorRange::Limited ? 235.0 * (1u << (bits - 8)) : static_cast<double>((1u << bits) - 1);
 }
 

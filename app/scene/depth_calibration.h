@@ -22,8 +22,9 @@ enum class DepthPolarity : std::uint8_t { NearIsHigh, NearIsLow };
 enum class DepthCode : std::uint8_t { Luma, Hue };
 
 // s is the normalised code: (code - low)/(high - low) clamped to [0, 1], and 1 - that when near is low.
-// Full range is 0 .. 2^bits - 1; limited range is 16 .. 235, times 2^(bits - 8). A hue code is the hue over 360
-// degrees: s grows with distance, so its polarity is NearIsLow unless it is said otherwise.
+// Full range is 0 .. 2^bits - 1; limited range is 16 .. 235, times 2^(bits - 8). Codes that are distances, `unit_mm`
+// each, reach from near to far: near is low then, the law is linear and the range is not asked for. A hue code is the
+// hue over 360 degrees: s grows with distance, so its polarity is NearIsLow unless it is said otherwise.
 struct DepthCalibration {
   DepthLaw law = DepthLaw::Linear;
   DepthPolarity polarity = DepthPolarity::NearIsHigh;
@@ -31,7 +32,8 @@ struct DepthCalibration {
   DepthCode code = DepthCode::Luma;
   int bits = 8;
   std::optional<std::uint32_t> invalid_code;  // a sample with this code is a hole
-  double near_mm = 500;                       // of the inverse law; the shape depends on far/near alone
+  std::optional<double> unit_mm;              // a code is so many mm of distance from the camera
+  double near_mm = 500;                       // of distances, and of the inverse law, where far/near alone counts
   double far_mm = 5000;
 
   [[nodiscard]] double lowCode() const noexcept;
@@ -46,7 +48,8 @@ enum class CalibrationOrigin : std::uint8_t { CommandLine, SideFile, ContainerTa
 [[nodiscard]] const char* name(CalibrationOrigin origin) noexcept;
 
 // Keys: law=linear|inverse  polarity=near-high|near-low  range=full|limited  bits=8..16  invalid=CODE|none
-// near=MM  far=MM. In container tags the same keys in capitals behind DEPTH_: DEPTH_LAW=inverse, DEPTH_NEAR=500, ..
+// unit=MM|none  near=MM  far=MM. In container tags the same keys in capitals behind DEPTH_: DEPTH_LAW=inverse,
+// DEPTH_NEAR=500, ..
 using CalibrationSettings = std::map<std::string, std::string>;
 
 // "law=inverse,near=500" or the lines of a side file ("key = value", # begins a comment). InvalidArgument, naming

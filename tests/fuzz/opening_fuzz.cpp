@@ -14,7 +14,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   setLogLevel(LogLevel::Error);
   const UniqueFd file(::memfd_create("film", MFD_CLOEXEC));
   if (::write(file.get(), bytes, size) != static_cast<ssize_t>(size)) return 0;
-  PairReader reader({.make_source = makeFfmpegSource, .make_decoder = makeFfmpegDecoder, .read_text = {}});
+  PairReader reader({.make_source = [](const std::string&) { return makeFfmpegSource(); },
+                     .make_decoder = [](const StreamInfo&) { return makeFfmpegDecoder(); },
+                     .read_text = {}});
   if (!reader.open({.url = "/proc/self/fd/" + std::to_string(file.get())})) return 0;
   const auto readSome = [&reader] {
     for (int i = 0; i < 4; ++i) {

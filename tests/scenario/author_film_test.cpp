@@ -32,7 +32,8 @@ using test::TemporaryFolder;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-const PairReader::Backends kBackends{[] { return makeFfmpegSource(); }, [] { return makeFfmpegDecoder(); }};
+const PairReader::Backends kBackends{[](const std::string&) { return makeFfmpegSource(); },
+                                     [](const StreamInfo&) { return makeFfmpegDecoder(); }};
 const ProgressReport kNoReport = [](std::uint64_t, std::optional<std::uint64_t>) {};
 
 ClipTrack colorTrack(int width = 64, int height = 48, int fps = 30, int frames = 30) {

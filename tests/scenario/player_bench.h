@@ -107,14 +107,14 @@ class PlayerBench {
  private:
   [[nodiscard]] PairReader::Backends backends(Clock& time) {
     return {.make_source =
-                [this, &time, made = std::make_shared<std::size_t>(0)] {
+                [this, &time, made = std::make_shared<std::size_t>(0)](const std::string&) {
                   if (make_source) return make_source();
                   const std::size_t first = config.source.depth_url.empty() ? 1 : 2;
                   const std::size_t number = (*made)++;
                   if (found_again.empty() || number < first) return makeMockSources(sources, time);
                   return makeMockSource(found_again[std::min(number - first, found_again.size() - 1)], time);
                 },
-            .make_decoder = make_decoder,
+            .make_decoder = [this](const StreamInfo&) { return make_decoder(); },
             .read_text = [this](const std::string& url, std::size_t most,
                                 const std::atomic<bool>& cancelled) -> Result<std::string> {
               if (read_text) return read_text(url, most, cancelled);

@@ -20,7 +20,8 @@ using test::makeClip;
 using test::sampleAt;
 using test::TemporaryFolder;
 
-const PairReader::Backends kFfmpeg{makeFfmpegSource, makeFfmpegDecoder};
+const PairReader::Backends kFfmpeg{[](const std::string&) { return makeFfmpegSource(); },
+                                   [](const StreamInfo&) { return makeFfmpegDecoder(); }};
 
 // Every sample of frame k is k: a picture tells which one it is.
 std::uint32_t frameNumber(int /*component*/, int /*column*/, int /*row*/, int frame) {
@@ -376,8 +377,8 @@ struct MockFilm {
   ManualClock clock;
   MockMediaProfile color, depth;
   int sources = 0;
-  PairReader reader{
-      {[this] { return makeMockSource(sources++ == 0 ? color : depth, clock); }, [] { return makeMockDecoder(); }}};
+  PairReader reader{{[this](const std::string&) { return makeMockSource(sources++ == 0 ? color : depth, clock); },
+                     [](const StreamInfo&) { return makeMockDecoder(); }}};
 };
 
 TEST(PairReader, AFilmWithoutOnePictureDoesNotOpen) {
@@ -462,12 +463,12 @@ class OnceFailingSource final : public MediaSource {
 
 // The depth's source fails its eleventh read.
 PairReader::Backends onceFailingDepth(Clock& clock, ErrorCode code) {
-  return {[&clock, code, sources = 0]() mutable -> std::unique_ptr<MediaSource> {
+  return {[&clock, code, sources = 0](const std::string&) mutable -> std::unique_ptr<MediaSource> {
             auto source = makeMockSource({}, clock);
             if (sources++ == 0) return source;
             return std::make_unique<OnceFailingSource>(std::move(source), 10, code);
           },
-          [] { return makeMockDecoder(); }};
+          [](const StreamInfo&) { return makeMockDecoder(); }};
 }
 
 TEST(PairReader, AnInterruptionIsNoLossOfDepth) {
@@ -508,12 +509,12 @@ MockMediaProfile live(int frames) {
 PairReader::Backends twoLive(const MockMediaProfile& color, const MockMediaProfile& depth, ManualClock& clock,
                              Duration later) {
   return {.make_source =
-              [=, &clock, made = 0]() mutable {
+              [=, &clock, made = 0](const std::string&) mutable {
                 const bool second = made++ % 2 == 1;
                 if (second) clock.advance(later);
                 return makeMockSource(second ? depth : color, clock);
               },
-          .make_decoder = [] { return makeMockDecoder({.max_held_frames = 32}); },
+          .make_decoder = [](const StreamInfo&) { return makeMockDecoder({.max_held_frames = 32}); },
           .clock = &clock};
 }
 
@@ -566,8 +567,9 @@ TEST(PairReader, TwoLiveSourcesMeetAnewAfterTheColourWasAway) {
   MockMediaProfile color = live(100), depth = live(100);
   color.lose_after_packets = 25;
   PairReader reader(
-      {.make_source = [=, &clock, made = 0]() mutable { return makeMockSource(made++ == 1 ? depth : color, clock); },
-       .make_decoder = [] { return makeMockDecoder({.max_held_frames = 32}); },
+      {.make_source = [=, &clock, made = 0](
+                          const std::string&) mutable { return makeMockSource(made++ == 1 ? depth : color, clock); },
+       .make_decoder = [](const StreamInfo&) { return makeMockDecoder({.max_held_frames = 32}); },
        .clock = &clock});
   ASSERT_TRUE(reader.open({.url = "color", .depth_url = "depth"}).has_value());
   Result<std::optional<FramePair>> pair = reader.next();
@@ -594,8 +596,9 @@ TEST(PairReader, DepthThatFallsSilentDoesNotHoldTheColourUp) {
   depth.stall_after_packets = 20;
   depth.stall = std::chrono::hours(1);
   PairReader reader(
-      {.make_source = [=, &clock, made = 0]() mutable { return makeMockSource(made++ == 0 ? color : depth, clock); },
-       .make_decoder = [] { return makeMockDecoder({.max_held_frames = 64}); },
+      {.make_source = [=, &clock, made = 0](
+                          const std::string&) mutable { return makeMockSource(made++ == 0 ? color : depth, clock); },
+       .make_decoder = [](const StreamInfo&) { return makeMockDecoder({.max_held_frames = 64}); },
        .clock = &clock,
        .own_threads = true});
   ASSERT_TRUE(reader.open({.url = "color", .depth_url = "depth"}).has_value());
@@ -611,8 +614,9 @@ TEST(PairReader, DepthOfAThreadOfItsOwnIsPairedLikeAnyOther) {
   MockMediaProfile color{.tracks = {MockTrack{.frames = 200}}}, depth{.tracks = {MockTrack{.frames = 200}}};
   depth.remote = true;
   PairReader reader(
-      {.make_source = [=, &clock, made = 0]() mutable { return makeMockSource(made++ == 0 ? color : depth, clock); },
-       .make_decoder = [] { return makeMockDecoder({.max_held_frames = 300}); },
+      {.make_source = [=, &clock, made = 0](
+                          const std::string&) mutable { return makeMockSource(made++ == 0 ? color : depth, clock); },
+       .make_decoder = [](const StreamInfo&) { return makeMockDecoder({.max_held_frames = 300}); },
        .clock = &clock,
        .own_threads = true});
   ASSERT_TRUE(reader.open({.url = "color", .depth_url = "depth"}).has_value());

@@ -127,8 +127,8 @@ struct Film {
   explicit Film(std::vector<Scripted> script, std::size_t late = 0, int max_held = 1000) {
     auto owned = std::make_unique<ScriptedSource>(std::move(script), late);
     source = owned.get();
-    reader = std::make_unique<TrackReader>(std::move(owned),
-                                           [max_held] { return std::make_unique<OneToOneDecoder>(max_held); });
+    reader = std::make_unique<TrackReader>(
+        std::move(owned), [max_held](const StreamInfo&) { return std::make_unique<OneToOneDecoder>(max_held); });
     EXPECT_TRUE(reader->open("").has_value());
     for (int i = 0; i < 2; ++i) EXPECT_TRUE(reader->select(source->streams()[static_cast<std::size_t>(i)]).has_value());
   }

@@ -29,8 +29,9 @@ MockMediaProfile filmOf(int frames) {
 }
 
 PairReader::Backends backends(MockMediaProfile profile, Clock& clock) {
-  return {.make_source = [profile = std::move(profile), &clock] { return makeMockSource(profile, clock); },
-          .make_decoder = [] { return makeMockDecoder({.max_held_frames = 32}); },
+  return {.make_source = [profile = std::move(profile),
+                          &clock](const std::string&) { return makeMockSource(profile, clock); },
+          .make_decoder = [](const StreamInfo&) { return makeMockDecoder({.max_held_frames = 32}); },
           .clock = &clock};
 }
 
@@ -279,7 +280,7 @@ TEST_F(FilmFeedTest, ASourceThatIsLostFailsAfterWhatWasRead) {
 TEST_F(FilmFeedTest, ALostSourceIsTriedEverMoreSeldomAndNotForEver) {
   std::vector<double> tries;
   PairReader::Backends parts = backends({}, clock_);
-  parts.make_source = [&, made = 0]() mutable {
+  parts.make_source = [&, made = 0](const std::string&) mutable {
     MockMediaProfile profile = filmOf(100);
     profile.remote = profile.live = true;
     profile.lose_after_packets = 6;

@@ -37,7 +37,8 @@ TEST_F(Registry, MakesEachByItsName) {
   EXPECT_STREQ(makeAudioOutput("null", clock_).value()->capabilities().name, "null");
   EXPECT_STREQ(makeAudioDecoder()->name(), "ffmpeg");
   EXPECT_NE(makeMediaSource("film.mkv"), nullptr);
-  EXPECT_STREQ(makeVideoDecoder()->capabilities().name, "ffmpeg");
+  EXPECT_STREQ(makeVideoDecoder({})->capabilities().name, "ffmpeg");
+  EXPECT_EQ(makeMediaSource("v4l2:/nonexistent")->open("v4l2:/nonexistent").error().code, ErrorCode::NotFound);
 }
 
 TEST_F(Registry, NoneIsNoDeviceAndNoError) {
