@@ -21,15 +21,17 @@ namespace {
 constexpr double kLongestMm = 1e5;  // of a side of the volume
 constexpr const char* kNoVolume = "a volume is WIDTHxHEIGHTxDEPTH in mm, such as 160x90x40";
 
-// A file that is missing or wrong is a failure at run time: the words themselves are not at fault.
-CalibrationSettings readCalibrationFile(const std::string& thing, const std::string& path) {
+std::string readFile(const std::string& thing, const std::string& path, const char* otherwise) {
   const std::ifstream file(path);
-  if (!file) {
-    throw WordFailure({thing, {ErrorCode::NotFound, errno, "cannot be read; give a file's path, or KEY=VALUE,.."}});
-  }
+  if (!file) throw WordFailure({thing, {ErrorCode::NotFound, errno, otherwise}});
   std::ostringstream text;
   text << file.rdbuf();
-  auto settings = parseCalibration(text.str());
+  return text.str();
+}
+
+// A file that is missing or wrong is a failure at run time: the words themselves are not at fault.
+CalibrationSettings readCalibrationFile(const std::string& thing, const std::string& path) {
+  auto settings = parseCalibration(readFile(thing, path, "cannot be read; give a file's path, or KEY=VALUE,.."));
   if (!settings) throw WordFailure({thing, {ErrorCode::Corrupt, 0, settings.error().message}});
   return std::move(*settings);
 }
@@ -43,6 +45,13 @@ void readCalibration(const std::string& word, SourceOptions& source) {
   const auto settings = parseCalibration(word);
   if (!settings) throw WordFailure({thing, settings.error()});
   for (const auto& [key, value] : *settings) source.command_line[key] = value;  // over what came before
+}
+
+Registration readRegistration(const std::string& path) {
+  const std::string thing = "--registration " + path;
+  auto registration = parseRegistration(readFile(thing, path, "cannot be read; give a file's path"));
+  if (!registration) throw WordFailure({thing, {ErrorCode::Corrupt, 0, registration.error().message}});
+  return *registration;
 }
 
 // "relievo play": the program with the command that was given, if any.
@@ -133,6 +142,10 @@ void addDepthOptions(CLI::App& app, SourceOptions& source) {
          "near=MM, far=MM: of distances, and of the inverse law")
       ->allow_extra_args(false)
       ->type_name("FILE|KEY=VALUE,..");
+  app.add_option_function<std::string>(
+         "--registration", [&source](const std::string& path) { source.registration = readRegistration(path); },
+         "Where the depth camera stands beside the colour camera: its depth is brought into the colour's view")
+      ->type_name("FILE.toml");
 }
 
 void addVolumeOption(CLI::App& app, std::optional<DisplayVolume>& volume) {

@@ -32,6 +32,7 @@ struct PairReader::Impl {
   Result<std::optional<Frame>> readColor();
   Result<std::optional<Frame>> nextColor();
   Result<DepthFollower::Supplied> supplyDepth();
+  Result<DepthFollower::Supplied> supplyOwnDepth();
   Result<FramePair> pairFor(Frame color);
   Result<DepthFollower::Match> depthAt(MediaTime time);
   Result<void> seekDepth(MediaTime target);

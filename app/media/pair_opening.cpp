@@ -49,6 +49,12 @@ Result<void> PairReader::Impl::openFilm() {
   remote = source.remote();
   live = source.live();
 
+  if (isPacked() && options.registration) {
+    return failOn(options.url, {ErrorCode::InvalidArgument, 0,
+                                "depth that is packed into the picture is in the colour's view already; leave the "
+                                "registration out"});
+  }
+
   // The colour is the track that leads, so it is chosen first.
   const auto chosen = color_reader->select(*plan->color);
   if (!chosen) return failOn(options.url, chosen.error());
@@ -149,6 +155,9 @@ Result<void> PairReader::Impl::describeDepth(const Frame& first, const StreamInf
                                              const std::map<std::string, std::string>& container_tags) {
   auto tags = stream.tags;  // the track's word goes before the container's
   tags.insert(container_tags.begin(), container_tags.end());
+  if (options.registration) {
+    tags.insert({{"DEPTH_UNIT", std::to_string(options.registration->unit_mm)}, {"DEPTH_INVALID", "0"}});
+  }
   const CalibrationLayers layers{options.command_line, options.side_file, calibrationFromTags(tags)};
   auto choice = chooseCalibration(layers, first, options.depth_code);
   if (!choice) return failOn("calibration", choice.error());

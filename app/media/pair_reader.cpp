@@ -32,8 +32,17 @@ Result<std::optional<Frame>> PairReader::Impl::nextColor() {
   return frame;
 }
 
-// Likewise.
+// Likewise, and in the colour's view.
 Result<DepthFollower::Supplied> PairReader::Impl::supplyDepth() {
+  auto supplied = supplyOwnDepth();
+  if (!options.registration || !supplied || !supplied->frame) return supplied;
+  auto frame = registered(*supplied->frame, *options.registration);
+  if (!frame) return std::unexpected(frame.error());
+  supplied->frame = std::move(*frame);
+  return supplied;
+}
+
+Result<DepthFollower::Supplied> PairReader::Impl::supplyOwnDepth() {
   if (!depth_source) {
     auto frame = color_reader->next(*depth_track);
     if (!frame) return std::unexpected(frame.error());

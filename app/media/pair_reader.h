@@ -9,6 +9,7 @@
 #include <string>
 
 #include "app/media/packing.h"
+#include "app/media/registration.h"
 #include "app/scene/depth_calibration.h"
 #include "hal/audio_decoder.h"
 #include "hal/frame.h"
@@ -23,9 +24,10 @@ struct SourceOptions {
   std::string depth_url;  // empty: the depth is in `url`
   Packing packing = Packing::Auto;
   DepthCode depth_code = DepthCode::Luma;
-  CalibrationSettings command_line;  // --calibration KEY=VALUE,..
-  CalibrationSettings side_file;     // --calibration FILE
-  std::optional<AudioFormat> sound;  // that the film's sound is wanted in; nothing: it is left out
+  CalibrationSettings command_line;          // --calibration KEY=VALUE,..
+  CalibrationSettings side_file;             // --calibration FILE
+  std::optional<Registration> registration;  // of depth that another camera sees than the colour's; not of packed depth
+  std::optional<AudioFormat> sound;          // that the film's sound is wanted in; nothing: it is left out
 };
 
 // Colour always; depth where there is one: the one that DepthFollower finds for the colour's time. `matched` tells

@@ -25,6 +25,11 @@ PairReader::Backends backendsOf(const PlayerParts& parts, bool own_threads) {
   return backends;
 }
 
+LiveLatency::Times times(const Histogram& histogram) {
+  const auto ms = [](Duration d) { return 1e3 * toSeconds(d); };
+  return {ms(histogram.quantile(0.5)), ms(histogram.quantile(0.99)), ms(histogram.max())};
+}
+
 }  // namespace
 
 Player::Player(PlayerConfig config, PlayerParts parts)
@@ -176,6 +181,7 @@ PlayReport Player::report() const {
   report.picture_error_px = picture_.statistics().error_px;
   report.mesh_ms = picture_.statistics().mesh_ms;
   report.draw_ms = picture_.statistics().frame_ms;
+  if (picture_latency_.count() > 0) report.live = {times(picture_latency_), times(touch_latency_)};
   report.haptic = haptic_.summary();
   report.sound = sound_.summary();
   return report;

@@ -22,6 +22,7 @@
 #include "app/player/surface_feeder.h"
 #include "hal/remote_input.h"
 #include "platform/failure.h"
+#include "platform/histogram.h"
 
 namespace relievo {
 
@@ -126,6 +127,7 @@ class Player {
   void followSurface();
   void feedSurface(const ClockSample& clock);
   void showPresent(MonotonicTime now);
+  void noteLatency();
   void redrawFinger(MonotonicTime now);
   [[nodiscard]] bool draw(MonotonicTime now);
   void noteLost();
@@ -184,6 +186,7 @@ class Player {
   bool depth_missing_ = false;
   bool depth_refused_ = false;
   PlayReport report_;
+  Histogram picture_latency_, touch_latency_;  // of a live film
 };
 
 }  // namespace relievo

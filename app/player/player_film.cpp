@@ -240,7 +240,18 @@ void Player::showPresent(MonotonicTime now) {
   }
   ++report_.frames_shown;
   sound_.noteShown(head_.present().color.pts, clock_);
+  noteLatency();
   if (!report_.first_frame_ms) report_.first_frame_ms = 1e3 * toSeconds(parts_.clock.now() - started_);
+}
+
+// What is felt is the surface at the clock's time, between this picture and the next.
+void Player::noteLatency() {
+  const FramePair& shown = head_.present();
+  if (!shown.taken) return;
+  const MonotonicTime now = parts_.clock.now();
+  const MediaTime felt = clock_.position(now).value_or(shown.color.pts);
+  picture_latency_.add(now - *shown.taken);
+  touch_latency_.add(now - (*shown.taken + (felt - shown.color.pts)));
 }
 
 // Between two pictures of the film the finger moves; it is drawn where there is time for it.

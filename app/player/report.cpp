@@ -26,6 +26,15 @@ Json toJson(const HapticSummary::Times& t) {
   return {{"p50", t.p50}, {"p99", t.p99}, {"p999", t.p999}, {"max", t.max}};
 }
 
+Json toJson(const LiveLatency::Times& t) {
+  return {{"p50", rounded(t.p50_ms, 1e3)}, {"p99", rounded(t.p99_ms, 1e3)}, {"max", rounded(t.max_ms, 1e3)}};
+}
+
+Json livePart(const std::optional<LiveLatency>& live) {
+  if (!live) return nullptr;
+  return {{"picture_latency_ms", toJson(live->picture)}, {"touch_latency_ms", toJson(live->touch)}};
+}
+
 double share(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
@@ -36,6 +45,7 @@ Json videoPart(const PlayReport& r) {
           {"pairs_mismatched", r.pairs.mismatched},
           {"pairs_without_depth", r.pairs.without_depth},
           {"pairs_damaged", r.pairs.damaged},
+          {"pictures_lost", r.pairs.lost},
           {"reconnects", r.pairs.reconnects},
           {"depth_reconnects", r.pairs.depth_reconnects},
           {"time_jumps", r.pairs.jumps},
@@ -138,6 +148,7 @@ std::string toJson(const PlayReport& r) {
   json["wall_s"] = rounded(r.wall_s);
   json["media_s"] = rounded(r.media_s);
   json["video"] = videoPart(r);
+  json["live"] = livePart(r.live);
   json["audio"] = audioPart(r);
   json["haptic"] = hapticPart(r);
   json["force"] = forcePart(r.haptic);
@@ -161,9 +172,9 @@ std::string toJson(const PlayReport& r) {
 }
 
 std::string metricsOf(const PlayReport& r) {
-  const Json json{{"wall_s", rounded(r.wall_s)},   {"media_s", rounded(r.media_s)}, {"video", videoPart(r)},
-                  {"audio", audioPart(r)},         {"haptic", hapticPart(r)},       {"force", forcePart(r.haptic)},
-                  {"energy", energyPart(r.haptic)}};
+  const Json json{{"wall_s", rounded(r.wall_s)},  {"media_s", rounded(r.media_s)}, {"video", videoPart(r)},
+                  {"live", livePart(r.live)},     {"audio", audioPart(r)},         {"haptic", hapticPart(r)},
+                  {"force", forcePart(r.haptic)}, {"energy", energyPart(r.haptic)}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -178,6 +189,13 @@ std::string toText(const PlayReport& r) {
       static_cast<unsigned long long>(r.frames_shown), static_cast<unsigned long long>(r.frames_dropped),
       static_cast<unsigned long long>(r.pairs.mismatched), r.display.c_str(), r.stereo.c_str(), r.surface_width,
       r.surface_height, r.triangles, r.draw_ms);
+  if (r.live) {
+    text += textLine(
+        "live    seen %.0f ms after it was taken, felt after %.0f ms (medians; at most %.0f and %.0f); %llu pictures "
+        "lost on the way\n",
+        r.live->picture.p50_ms, r.live->touch.p50_ms, r.live->picture.max_ms, r.live->touch.max_ms,
+        static_cast<unsigned long long>(r.pairs.lost));
+  }
   if (h.ticks == 0) return text + "touch   none\n";
   text += textLine("touch   %s, %llu ticks at %.0f Hz (%s), %llu late, %.0f %% in contact\n", h.device.c_str(),
                    static_cast<unsigned long long>(h.ticks), h.rate_hz, h.scheduler.c_str(),

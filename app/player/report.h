@@ -33,6 +33,13 @@ struct SeekEntry {
   std::optional<double> picture_ms, surface_ms;  // from the wish to the picture, to the touch
 };
 
+// Of a live film: how long ago was taken what is seen and felt.
+struct LiveLatency {
+  struct Times {
+    double p50_ms = 0, p99_ms = 0, max_ms = 0;
+  } picture, touch;
+};
+
 struct PlayReport {
   std::string source, depth_source;
   std::vector<std::string> films;  // opened, in order
@@ -52,6 +59,7 @@ struct PlayReport {
   std::uint64_t frames_shown = 0, frames_dropped = 0;
   std::optional<double> first_frame_ms;
   std::optional<double> first_touch_ms;  // the first tick on the film's surface
+  std::optional<LiveLatency> live;
 
   HapticSummary haptic;
   SoundSummary sound;

@@ -21,6 +21,7 @@ constexpr Duration kPatience = std::chrono::seconds(3);
 constexpr Duration kNap = std::chrono::milliseconds(1);  // where the driver says that there is a picture, and has none
 constexpr std::uint32_t kBuffers = 16;                   // what a player holds, and what the camera fills meanwhile
 constexpr std::uint32_t kLeftToCamera = 4;
+constexpr double kFastest = 1e4;  // frames a second
 constexpr int kFailedTakes = 64;  // in a row, until the camera counts as gone
 
 constexpr const char* kForm =
@@ -64,7 +65,7 @@ Result<Wish> parseAddress(const std::string& url) {
   words.remove_prefix(5);
   Wish wish;
   if (const std::size_t at = words.rfind('@'); at != words.npos) {
-    if (!readNumber(words.substr(at + 1), wish.frames_per_s)) return refuse();
+    if (!readNumber(words.substr(at + 1), wish.frames_per_s) || wish.frames_per_s > kFastest) return refuse();
     words = words.substr(0, at);
   }
   wish.device = words.substr(0, words.find(','));

@@ -27,8 +27,8 @@ class V4l2Source final : public MediaSource {
     if (!wish) return std::unexpected(wish.error());
     if (auto opened = camera_.open(*wish); !opened) return std::unexpected(opened.error());
     auto first = camera_.take();
+    countLost(camera_.takeLost());
     if (!first) return std::unexpected(first.error());
-    static_cast<void>(camera_.takeLost());  // while it started
     begin_ = first->taken;
     Description description;
     description.origin = {.remote = true, .longest_gap = Duration(0), .arrival = begin_, .sender_start = std::nullopt};

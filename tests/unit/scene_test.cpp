@@ -243,6 +243,34 @@ TEST(Calibration, TagsComeBackAsTheyWereWritten) {
   EXPECT_DOUBLE_EQ(choice->calibration.far_mm, 1259.61);
 }
 
+// (far - Z)/(far - near) of the 40 mm, whatever the law of other codes is.
+TEST(Calibration, CodesThatAreDistancesReachFromNearToFar) {
+  Frame frame;
+  frame.components[0].bits = 16;
+  const CalibrationSettings camera{{"unit", "0.5"}, {"invalid", "0"}, {"near", "400"}, {"far", "2000"}};
+  const auto choice = chooseCalibration({.tags = camera}, frame, DepthCode::Luma);
+  ASSERT_TRUE(choice) << choice.error().message;
+  const DepthCalibration& c = choice->calibration;
+  const struct {
+    std::uint32_t code;
+    double mm;
+  } heights[] = {{800, kVolume.depth_mm},      {4000, 0}, {2400, kVolume.depth_mm / 2}, {100, kVolume.depth_mm},
+                 {3200, kVolume.depth_mm / 4}, {65535, 0}};
+  for (const auto& [code, mm] : heights) EXPECT_NEAR(heightOf(code, 16, c), mm, 1e-9) << code;
+  EXPECT_TRUE(std::isnan(heightOf(0, 16, c)));
+  const auto again = chooseCalibration({.tags = calibrationFromTags(calibrationTags(c))}, frame, DepthCode::Luma);
+  EXPECT_EQ(again->calibration.unit_mm, 0.5);
+  EXPECT_EQ(again->calibration.polarity, DepthPolarity::NearIsLow);
+  EXPECT_EQ(chooseCalibration({.command_line = {{"unit", "none"}}, .tags = camera}, frame, DepthCode::Luma)
+                ->calibration.unit_mm,
+            std::nullopt);
+  EXPECT_EQ(parseCalibration("unit=1,law=inverse").error().code, ErrorCode::InvalidArgument);
+  EXPECT_EQ(parseCalibration("unit=0").error().code, ErrorCode::InvalidArgument);
+  EXPECT_EQ(
+      chooseCalibration({.command_line = {{"law", "inverse"}}, .tags = camera}, frame, DepthCode::Luma).error().code,
+      ErrorCode::InvalidArgument);
+}
+
 TEST(Calibration, TheCommandLineWinsOverTheFileOverTagsOverTheStream) {
   Frame frame;
   frame.model = ColorModel::Yuv;

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// Out along the depth camera's rays, across to the other camera, and back onto its picture.
+#include "app/media/registration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace relievo {
+namespace {
+
+constexpr double kNearestMm = 1;  // in front of the colour camera
+constexpr std::uint32_t kLargestCode = 0xffff;
+
+// The same camera, of another picture size.
+PinholeCamera scaled(const PinholeCamera& camera, int cols, int rows) noexcept {
+  const double x = cols / camera.cols, y = rows / camera.rows;
+  return {.cols = static_cast<double>(cols),
+          .rows = static_cast<double>(rows),
+          .focal_x = camera.focal_x * x,
+          .focal_y = camera.focal_y * y,
+          .center_x = (camera.center_x + 0.5) * x - 0.5,
+          .center_y = (camera.center_y + 0.5) * y - 0.5};
+}
+
+struct Point {
+  double x, y, z;
+};
+
+// The picture that is made.
+struct Target {
+  int cols, rows;
+  std::vector<std::uint16_t> codes;
+
+  // The pixels whose centres lie in the plate, so that plates side by side leave no pixel out and share none.
+  void cover(double u, double v, double half_width, double half_height, std::uint16_t code) noexcept {
+    const auto first = [](double edge) { return static_cast<int>(std::ceil(std::clamp(edge, -1.0, 1e6))); };
+    const int c0 = std::max(first(u - half_width), 0), c1 = std::min(first(u + half_width), cols);
+    const int r0 = std::max(first(v - half_height), 0), r1 = std::min(first(v + half_height), rows);
+    for (int r = r0; r < r1; ++r) {
+      std::uint16_t* const row = codes.data() + static_cast<std::ptrdiff_t>(r) * cols;
+      for (int c = c0; c < c1; ++c) {
+        if (row[c] == 0 || code < row[c]) row[c] = code;
+      }
+    }
+  }
+};
+
+std::uint32_t codeAt(const Component& where, const std::uint8_t* sample) noexcept {
+  const std::uint32_t low = sample[0];
+  const std::uint32_t word = where.bits > 8 ? low | static_cast<std::uint32_t>(sample[1]) << 8 : low;
+  return (word >> where.shift) & ((1U << where.bits) - 1);
+}
+
+}  // namespace
+
+Result<Frame> registered(const Frame& depth, const Registration& registration) {
+  if (depth.empty() || depth.model == ColorModel::Rgb || depth.width < 1 || depth.height < 1) {
+    return fail(ErrorCode::Unsupported, "registration needs gray depth of distances");
+  }
+  const PinholeCamera from = scaled(registration.depth, depth.width, depth.height);
+  Target target{depth.width, 0, {}};
+  target.rows =
+      std::max(1, static_cast<int>(std::lround(target.cols * registration.color.rows / registration.color.cols)));
+  target.codes.resize(static_cast<std::size_t>(target.cols) * static_cast<std::size_t>(target.rows));
+  const PinholeCamera to = scaled(registration.color, target.cols, target.rows);
+
+  const auto& m = registration.rotation;
+  const auto& t = registration.translation_mm;
+  const Component& where = depth.components[0];
+  const Plane& plane = depth.planes[where.plane];
+  for (int r = 0; r < depth.height; ++r) {
+    const std::uint8_t* sample = plane.data + r * plane.stride_bytes + where.offset_bytes;
+    const double y = (r - from.center_y) / from.focal_y;
+    for (int c = 0; c < depth.width; ++c, sample += where.step_bytes) {
+      const std::uint32_t code = codeAt(where, sample);
+      if (code == 0) continue;
+      const double z = code * registration.unit_mm;
+      const double x = (c - from.center_x) / from.focal_x;
+      const Point p{z * (m[0] * x + m[1] * y + m[2]) + t[0], z * (m[3] * x + m[4] * y + m[5]) + t[1],
+                    z * (m[6] * x + m[7] * y + m[8]) + t[2]};
+      if (p.z < kNearestMm) continue;
+      const double there = std::round(p.z / registration.unit_mm);
+      if (there < 1 || there > kLargestCode) continue;
+      const double shrinks = z / p.z / 2;
+      target.cover(to.focal_x * p.x / p.z + to.center_x, to.focal_y * p.y / p.z + to.center_y,
+                   shrinks * to.focal_x / from.focal_x, shrinks * to.focal_y / from.focal_y,
+                   static_cast<std::uint16_t>(there));
+    }
+  }
+
+  const auto codes = std::make_shared<std::vector<std::uint16_t>>(std::move(target.codes));
+  Frame frame;
+  frame.pts = depth.pts;
+  frame.duration = depth.duration;
+  frame.width = target.cols;
+  frame.height = target.rows;
+  frame.range = ColorRange::Full;
+  frame.plane_count = 1;
+  frame.components[0] = {.step_bytes = 2, .bits = 16};
+  frame.planes[0] = {reinterpret_cast<const std::uint8_t*>(codes->data()), 2 * std::ptrdiff_t{target.cols}};
+  frame.owner = codes;
+  return frame;
+}
+
+}  // namespace relievo

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// A registration's written form.
+#include <toml++/toml.h>
+
+#include <cmath>
+#include <optional>
+
+#include "app/media/registration.h"
+
+namespace relievo {
+namespace {
+
+constexpr const char* kNoToml = "it is no TOML";
+constexpr const char* kBadCamera =
+    "[depth] and [color] each need size = [columns, rows], focal = [x, y] and center = [x, y], in pixels";
+constexpr const char* kBadMotion =
+    "[depth_to_color] has rotation = nine numbers, row by row, of a rotation, and translation_mm = three";
+constexpr const char* kBadUnit = "depth.unit_mm is the distance of one depth code, over 0";
+constexpr double kSquareToWithin = 1e-3;  // of a rotation's rows
+
+// As many finite numbers as `values` holds.
+template <std::size_t N>
+bool read(const toml::node_view<const toml::node>& node, std::array<double, N>& values) {
+  const toml::array* const list = node.as_array();
+  if (list == nullptr || list->size() != N) return false;
+  for (std::size_t i = 0; i < N; ++i) {
+    const auto value = (*list)[i].value<double>();
+    if (!value || !std::isfinite(*value)) return false;
+    values[i] = *value;
+  }
+  return true;
+}
+
+std::optional<PinholeCamera> readCamera(const toml::node_view<const toml::node>& node) {
+  std::array<double, 2> size{}, focal{}, center{};
+  if (!read(node["size"], size) || !read(node["focal"], focal) || !read(node["center"], center)) return std::nullopt;
+  if (!(size[0] >= 1 && size[1] >= 1 && focal[0] > 0 && focal[1] > 0)) return std::nullopt;
+  return PinholeCamera{size[0], size[1], focal[0], focal[1], center[0], center[1]};
+}
+
+bool isRotation(const std::array<double, 9>& m) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = i; j < 3; ++j) {
+      const double dot = m[3 * i] * m[3 * j] + m[3 * i + 1] * m[3 * j + 1] + m[3 * i + 2] * m[3 * j + 2];
+      if (std::abs(dot - (i == j ? 1 : 0)) > kSquareToWithin) return false;
+    }
+  }
+  const double determinant =
+      m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) + m[2] * (m[3] * m[7] - m[4] * m[6]);
+  return determinant > 0;
+}
+
+}  // namespace
+
+Result<Registration> parseRegistration(std::string_view text) {
+  const auto refuse = [](const char* rule) { return fail(ErrorCode::InvalidArgument, rule); };
+  toml::table table;
+  try {
+    table = toml::parse(text);
+  } catch (const toml::parse_error&) {
+    return refuse(kNoToml);
+  }
+  const toml::table& root = table;
+  const auto depth = readCamera(root["depth"]), color = readCamera(root["color"]);
+  if (!depth || !color) return refuse(kBadCamera);
+  Registration registration{.depth = *depth, .color = *color};
+  const auto motion = root["depth_to_color"];
+  if (motion["rotation"] && !read(motion["rotation"], registration.rotation)) return refuse(kBadMotion);
+  if (motion["translation_mm"] && !read(motion["translation_mm"], registration.translation_mm)) {
+    return refuse(kBadMotion);
+  }
+  if (!isRotation(registration.rotation)) return refuse(kBadMotion);
+  if (const auto unit = root["depth"]["unit_mm"]) {
+    registration.unit_mm = unit.value<double>().value_or(0);
+    if (!(registration.unit_mm > 0) || !std::isfinite(registration.unit_mm)) return refuse(kBadUnit);
+  }
+  return registration;
+}
+
+}  // namespace relievo

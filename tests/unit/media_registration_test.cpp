@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// Depth in the colour camera's view, against numbers worked out on paper.
+#include "app/media/registration.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <vector>
+
+namespace relievo {
+namespace {
+
+using Row = std::vector<int>;
+
+Frame depthOf(int cols, int rows, const std::function<int(int, int)>& mm) {
+  const auto codes = std::make_shared<std::vector<std::uint16_t>>();
+  for (int r = 0; r < rows; ++r) {
+    for (int c = 0; c < cols; ++c) codes->push_back(static_cast<std::uint16_t>(mm(c, r)));
+  }
+  Frame frame{.width = cols, .height = rows, .plane_count = 1};
+  frame.components[0] = {.step_bytes = 2, .bits = 16};
+  frame.planes[0] = {reinterpret_cast<const std::uint8_t*>(codes->data()), 2 * cols};
+  frame.owner = codes;
+  return frame;
+}
+
+int codeOf(const Frame& frame, int c, int r) {
+  const std::uint8_t* const at = frame.planes[0].data + r * frame.planes[0].stride_bytes + 2 * c;
+  return at[0] | at[1] << 8;
+}
+Row rowOf(const Frame& frame, int r) {
+  Row row;
+  for (int c = 0; c < frame.width; ++c) row.push_back(codeOf(frame, c, r));
+  return row;
+}
+
+// 16 x 8, 100 pixels of focal length, the axis through the middle.
+PinholeCamera camera() {
+  return {.cols = 16, .rows = 8, .focal_x = 100, .focal_y = 100, .center_x = 7.5, .center_y = 3.5};
+}
+
+TEST(Registration, OfTheSameCameraIsTheSamePicture) {
+  const Frame depth = depthOf(16, 8, [](int c, int r) { return 500 + 37 * c + 11 * r; });
+  const Frame there = registered(depth, {.depth = camera(), .color = camera()}).value();
+  for (int r = 0; r < 8; ++r) EXPECT_EQ(rowOf(there, r), rowOf(depth, r)) << r;
+  EXPECT_EQ(there.components[0].bits, 16);
+}
+
+// A camera 20 mm to the right sees a wall 1000 mm away 100 * 20 / 1000 = 2 pixels further left, and a post before it,
+// 500 mm away, 4 pixels: over the wall, and with a shadow of two pixels behind it.
+TEST(Registration, ACameraToTheRightSeesNearThingsFurtherLeftAndAShadowBehindThem) {
+  const Frame depth = depthOf(16, 8, [](int c, int) { return c >= 8 && c < 11 ? 500 : 1000; });
+  const Frame there = registered(depth, {.depth = camera(), .color = camera(), .translation_mm = {-20, 0, 0}}).value();
+  const Row expected{1000, 1000, 1000, 1000, 500, 500, 500, 0, 0, 1000, 1000, 1000, 1000, 1000, 0, 0};
+  for (int r = 0; r < 8; ++r) EXPECT_EQ(rowOf(there, r), expected) << r;
+}
+
+TEST(Registration, TheNearerOfTwoWinsWhicheverComesFirst) {
+  for (const double to_left : {20.0, -20.0}) {
+    const Frame depth = depthOf(16, 8, [](int c, int) { return c == 8 ? 500 : 1000; });
+    const Frame there =
+        registered(depth, {.depth = camera(), .color = camera(), .translation_mm = {to_left, 0, 0}}).value();
+    EXPECT_EQ(codeOf(there, to_left > 0 ? 12 : 4, 3), 500);
+  }
+}
+
+// Nothing has no place.
+TEST(Registration, HolesStayHoles) {
+  const Frame depth = depthOf(16, 8, [](int c, int r) { return c == 5 && r == 2 ? 0 : 800; });
+  const Frame there = registered(depth, {.depth = camera(), .color = camera()}).value();
+  EXPECT_EQ(codeOf(there, 5, 2), 0);
+  EXPECT_EQ(codeOf(there, 6, 2), 800);
+}
+
+// 1000 mm further back everything is half as large, and its distance is the colour camera's own.
+TEST(Registration, FromFurtherBackThePictureShrinksAndDistancesGrow) {
+  const Frame depth = depthOf(16, 8, [](int, int) { return 1000; });
+  const Frame there = registered(depth, {.depth = camera(), .color = camera(), .translation_mm = {0, 0, 1000}}).value();
+  for (int r = 0; r < 8; ++r) {
+    for (int c = 0; c < 16; ++c) {
+      const bool inside = c >= 4 && c < 12 && r >= 2 && r < 6;
+      EXPECT_EQ(codeOf(there, c, r), inside ? 2000 : 0) << c << ' ' << r;
+    }
+  }
+}
+
+// A colour camera of twice the pixels and a wider shape: as wide as the depth, in the colour's shape, without gaps.
+TEST(Registration, IsAsWideAsTheDepthAndOfTheColoursShape) {
+  const PinholeCamera wide{.cols = 32, .rows = 24, .focal_x = 200, .focal_y = 200, .center_x = 15.5, .center_y = 11.5};
+  const Frame depth = depthOf(16, 8, [](int, int) { return 900; });
+  const Frame there = registered(depth, {.depth = camera(), .color = wide}).value();
+  ASSERT_EQ(there.width, 16);
+  ASSERT_EQ(there.height, 12);
+  for (int r = 0; r < 12; ++r) EXPECT_EQ(codeOf(there, 9, r), r >= 2 && r < 10 ? 900 : 0) << r;
+}
+
+// Turned by a right angle about its axis: columns become rows.
+TEST(Registration, ATurnedCameraSeesTheSameTurned) {
+  const PinholeCamera square{.cols = 8, .rows = 8, .focal_x = 100, .focal_y = 100, .center_x = 3.5, .center_y = 3.5};
+  const Frame depth = depthOf(8, 8, [](int c, int r) { return 600 + 20 * c + r; });
+  // x' = -y, y' = x: (c, r) goes to (7 - r, c).
+  const Frame there =
+      registered(depth, {.depth = square, .color = square, .rotation = {0, -1, 0, 1, 0, 0, 0, 0, 1}}).value();
+  for (int r = 0; r < 8; ++r) {
+    for (int c = 0; c < 8; ++c) EXPECT_EQ(codeOf(there, 7 - r, c), codeOf(depth, c, r)) << c << ' ' << r;
+  }
+}
+
+TEST(Registration, ItsFileSaysTheSame) {
+  const auto read = parseRegistration(
+      "[depth]\nsize = [640, 480]\nfocal = [600.5, 601]\ncenter = [319.5, 240]\nunit_mm = 0.25\n"
+      "[color]\nsize = [1280, 720]\nfocal = [920, 920]\ncenter = [639.5, 359.5]\n"
+      "[depth_to_color]\nrotation = [0, -1, 0, 1, 0, 0, 0, 0, 1]\ntranslation_mm = [-15, 0.5, 0]\n");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->depth.cols, 640);
+  EXPECT_EQ(read->depth.focal_x, 600.5);
+  EXPECT_EQ(read->depth.center_y, 240);
+  EXPECT_EQ(read->color.rows, 720);
+  EXPECT_EQ(read->unit_mm, 0.25);
+  EXPECT_EQ(read->rotation[1], -1);
+  EXPECT_EQ(read->translation_mm[0], -15);
+}
+
+TEST(Registration, RefusesWhatIsNone) {
+  const std::string cameras =
+      "[depth]\nsize = [640, 480]\nfocal = [600, 600]\ncenter = [320, 240]\n"
+      "[color]\nsize = [640, 480]\nfocal = [600, 600]\ncenter = [320, 240]\n";
+  ASSERT_TRUE(parseRegistration(cameras)) << "side by side at one place";
+  for (const std::string& text :
+       {std::string("[depth"), std::string(), cameras + "[depth_to_color]\nrotation = [1, 0, 0, 0, 1, 0, 0, 0]\n",
+        cameras + "[depth_to_color]\nrotation = [1, 0, 0, 0, 1, 0, 0, 0, -1]\n",
+        cameras + "[depth_to_color]\nrotation = [2, 0, 0, 0, 2, 0, 0, 0, 2]\n",
+        cameras + "[depth_to_color]\ntranslation_mm = [1, nan, 3]\n",
+        std::string("[depth]\nsize = [640, 480]\nfocal = [0, 600]\ncenter = [320, 240]\n") + cameras.substr(58)}) {
+    EXPECT_EQ(parseRegistration(text).error().code, ErrorCode::InvalidArgument) << text;
+  }
+  EXPECT_EQ(registered(Frame{}, {}).error().code, ErrorCode::Unsupported);
+}
+
+}  // namespace
+}  // namespace relievo
