@@ -14,6 +14,7 @@
 #include "app/author/key_frames.h"
 #include "app/author/output.h"
 #include "app/author/preview.h"
+#include "platform/log.h"
 
 namespace relievo {
 namespace {
@@ -217,6 +218,7 @@ std::vector<std::string> Packager::sourceNotes() const {
   tell(counters.without_depth, " pictures of the colour have no depth: its pictures begin later or end earlier");
   tell(counters.mismatched, " pictures of the colour had no depth of their time; the one before was held");
   tell(counters.depth_skipped, " pictures of the depth lay between those of the colour and were left out");
+  tell(counters.lost, " pictures were lost between the camera and here");
   tell(counters.damaged, " packets or pictures were damaged and left out");
   return notes;
 }
@@ -239,11 +241,18 @@ Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader:
     return failOn(source.url, {ErrorCode::NotFound, 0, "there is no depth in it; name its source with --depth"});
   }
   Packager packager(reader, source, output);
+  bool live = false;  // ends when it is told to, or when its camera is pulled out; what there is by then is the film
   for (std::uint64_t done = 1;; ++done) {
     auto pair = reader.next();
+    if (live && stop.load(std::memory_order_relaxed)) break;
     if (stop.load(std::memory_order_relaxed)) return failOn(output.path, kCancelled);
+    if (!pair && live && reader.lost(pair.error())) {
+      log(LogLevel::Warning, source.url.c_str(), "%s; the film ends there", pair.error().message);
+      break;
+    }
     if (!pair) return failed(reader.failedThing(), pair.error());
     if (!*pair) break;
+    live = (*pair)->taken.has_value();
     if (!packager.begun()) {
       if (auto begun = packager.begin(**pair); !begun) return failed(begun.error().thing, begun.error().error);
     }
