@@ -84,14 +84,23 @@ TEST(Registration, FromFurtherBackThePictureShrinksAndDistancesGrow) {
   }
 }
 
+TEST(Registration, FromNearerThePictureGrowsWithoutGaps) {
+  const Frame depth = depthOf(16, 8, [](int, int) { return 1000; });
+  const Frame there =
+      registered(depth, {.depth = camera(), .color = camera(), .translation_mm = {0, 0, -500}}).value();
+  for (int r = 0; r < 8; ++r) EXPECT_EQ(rowOf(there, r), Row(16, 500)) << r;
+}
+
 // A colour camera of twice the pixels and a wider shape: as wide as the depth, in the colour's shape, without gaps.
 TEST(Registration, IsAsWideAsTheDepthAndOfTheColoursShape) {
-  const PinholeCamera wide{.cols = 32, .rows = 24, .focal_x = 200, .focal_y = 200, .center_x = 15.5, .center_y = 11.5};
+  const PinholeCamera wide{.cols = 32, .rows = 24, .focal_x = 200, .focal_y = 200, .center_x = 8.3, .center_y = 11.5};
   const Frame depth = depthOf(16, 8, [](int, int) { return 900; });
   const Frame there = registered(depth, {.depth = camera(), .color = wide}).value();
   ASSERT_EQ(there.width, 16);
   ASSERT_EQ(there.height, 12);
   for (int r = 0; r < 12; ++r) EXPECT_EQ(codeOf(there, 9, r), r >= 2 && r < 10 ? 900 : 0) << r;
+  // Its axis is (8.3 + 0.5)/2 - 0.5 = 3.9 columns from the left, the depth's 7.5: all is seen 3.6 further left.
+  for (int c = 0; c < 16; ++c) EXPECT_EQ(codeOf(there, c, 5), c < 12 ? 900 : 0) << c;
 }
 
 // Turned by a right angle about its axis: columns become rows.
