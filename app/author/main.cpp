@@ -29,6 +29,11 @@ void addOptions(CLI::App& app, Arguments& a) {
       "Examples\n"
       "  a colour film and a depth film, both of any kind that FFmpeg opens, into one file:\n"
       "    relievo-author --color street.mp4 --depth street-depth.mkv -o film.mkv\n"
+      "  a renderer's numbered pictures, depth in mm of 16 bits:\n"
+      "    relievo-author --color color-%04d.png --depth depth-%04d.png --fps 24 --calibration unit=1,invalid=0 -o "
+      "film.mkv\n"
+      "  two cameras, until Ctrl-C:\n"
+      "    relievo-author --color v4l2:/dev/video4 --depth v4l2:/dev/video2 --registration rig.toml -o film.mkv\n"
       "  a depth camera's film, colour above, depth below as hue, with what its depth means:\n"
       "    relievo-author --color desk.mov --packing tb --depth-code hue --calibration near=520,far=1260 -o desk.mp4\n"
       "\n"
@@ -36,9 +41,14 @@ void addOptions(CLI::App& app, Arguments& a) {
       "picture at\n"
       "the time it had. The depth's meaning is written in its tags. At the end a table says what was done to the "
       "depth.");
-  app.add_option("--color", a.source.url, "Colour: a file or a URL; without --depth it holds the depth as well")
+  app.add_option("--color", a.source.url,
+                 "Colour: a file, a URL, v4l2:DEVICE; without --depth it holds the depth as well")
       ->type_name("SRC");
   app.add_option("--depth", a.source.depth_url, "Depth of 8 to 16 bits: a file or a URL")->type_name("SRC");
+  app.add_option("--fps", a.source.frames_per_s,
+                 "Frames a second of pictures without times, such as numbered files [25]")
+      ->type_name("F")
+      ->check(between(0.01, 10000.0));
   app.add_option("-o,--output", a.output.path, "The film to write: .mkv, .mp4, .m4v or .mov")
       ->required()
       ->type_name("OUT");

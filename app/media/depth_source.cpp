@@ -51,7 +51,9 @@ Result<void> DepthSource::connect() {
   const MediaSource& source = reader_->source();
   const StreamInfo* const stream = findDepthTrack(source);
   if (stream == nullptr) return fail(ErrorCode::NotFound, "there is no video in it");
-  const auto track = reader_->select(*stream);
+  StreamInfo told = *stream;
+  if (frames_per_s_) told.frame_period = fromSeconds(1 / *frames_per_s_);
+  const auto track = reader_->select(told);
   if (!track) return std::unexpected(track.error());
   track_ = *track;
   const std::scoped_lock lock(mutex_);

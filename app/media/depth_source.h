@@ -40,8 +40,9 @@ class DepthSource {
     bool away = false;   // without a frame: it is late or lost
   };
 
-  // `backends` must outlive it.
-  explicit DepthSource(const PairReader::Backends& backends) : backends_(backends) {}
+  // `backends` must outlive it. The rate is of pictures without times.
+  DepthSource(const PairReader::Backends& backends, std::optional<double> frames_per_s)
+      : backends_(backends), frames_per_s_(frames_per_s) {}
   ~DepthSource();
   DepthSource(const DepthSource&) = delete;
   DepthSource& operator=(const DepthSource&) = delete;
@@ -77,6 +78,7 @@ class DepthSource {
   void count();
 
   const PairReader::Backends& backends_;
+  const std::optional<double> frames_per_s_;
   std::string url_;
   StreamInfo stream_;
   std::map<std::string, std::string> tags_;

@@ -42,6 +42,12 @@ struct PairReader::Impl {
   void leaveColor();
   Result<void> goOn();
 
+  // A stream, with the rate that the user has told.
+  [[nodiscard]] StreamInfo asTold(const StreamInfo& stream) const {
+    StreamInfo told = stream;
+    if (options.frames_per_s) told.frame_period = fromSeconds(1 / *options.frames_per_s);
+    return told;
+  }
   [[nodiscard]] bool isPacked() const noexcept { return info.packing != Packing::Tracks; }
   [[nodiscard]] bool isLoss(const Error& error) const noexcept {
     using enum ErrorCode;

@@ -56,7 +56,7 @@ Result<void> PairReader::Impl::openFilm() {
   }
 
   // The colour is the track that leads, so it is chosen first.
-  const auto chosen = color_reader->select(*plan->color);
+  const auto chosen = color_reader->select(asTold(*plan->color));
   if (!chosen) return failOn(options.url, chosen.error());
   if (auto selected = selectDepth(plan->depth); !selected) return selected;
   openSound();
@@ -90,13 +90,13 @@ Result<void> PairReader::Impl::selectDepth(const StreamInfo* stream) {
     {
       const std::scoped_lock lock(readers_mutex);
       if (interrupted) return failOn(depthUrl(), {ErrorCode::Cancelled, 0, "interrupted before it was opened"});
-      depth_source = std::make_unique<DepthSource>(backends);
+      depth_source = std::make_unique<DepthSource>(backends, options.frames_per_s);
     }
     if (auto opened = depth_source->open(depthUrl()); !opened) return failOn(depthUrl(), opened.error());
     return {};
   }
   if (stream == nullptr) return {};
-  const auto number = color_reader->select(*stream);
+  const auto number = color_reader->select(asTold(*stream));
   if (number) {
     depth_track = *number;
   } else if (isDepthRequired()) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "drivers/ffmpeg/library.h"
+#include "drivers/ffmpeg/picture.h"
 
 extern "C" {
 #include <libavutil/opt.h>
@@ -136,6 +137,7 @@ Result<StreamInfo> describeStream(const AVStream& stream, bool timed) {
   info.frame_period = framePeriodOf(stream);
   if (timed && stream.duration > 0) info.duration = durationFrom(stream.duration, stream.time_base);
   info.tags = tagsOf(stream.metadata);
+  if (isDistance(parameters.format)) info.tags.insert({{"DEPTH_UNIT", "1"}, {"DEPTH_INVALID", "0"}});
   info.auxiliary = info.kind == StreamKind::Video && parameters.codec_tag == kAuxiliaryVideo;
 
   auto native = std::make_unique<NativeStream>();

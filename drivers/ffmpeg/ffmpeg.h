@@ -34,8 +34,9 @@ namespace relievo {
 
 // Takes the streams of the source above as they are, and those of any other source by codec name and extradata.
 // Pictures whose layout hal/frame.h cannot describe (palettes, single bits, big endian, ..) are converted to the
-// nearest that it can: the one case of a copy, exact for integers of up to 16 bits. A picture that was mended with
-// guesses after an error in its data is dropped and counted: a guessed depth must not be felt.
+// nearest that it can: the one case of a copy, exact for integers of up to 16 bits. Gray in floating point (a
+// renderer's EXR) is taken for distances in metres and becomes whole mm, with calibration tags that say so. A picture
+// that was mended with guesses after an error in its data is dropped and counted: a guessed depth must not be felt.
 [[nodiscard]] std::unique_ptr<VideoDecoder> makeFfmpegDecoder();
 
 // Any codec, rate and layout, which may change in the middle. Mixed down by the layout's own rule, and so that the sum

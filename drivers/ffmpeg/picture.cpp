@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <cerrno>
+#include <cmath>
 
 extern "C" {
 #include <libavutil/error.h>
@@ -82,7 +83,24 @@ double sampleAspectOf(const AVFrame& picture, AVRational container) noexcept {
   return 1.0;
 }
 
+// Rounded; what is not finite, not in front of the camera, or too far, is no value.
+void toMillimetres(const AVFrame& metres, const AVFrame& mm) noexcept {
+  constexpr float kMmPerMetre = 1000, kBeyond = 65535.5F;
+  for (int r = 0; r < metres.height; ++r) {
+    const auto* const from = reinterpret_cast<const float*>(metres.data[0] + std::ptrdiff_t{r} * metres.linesize[0]);
+    auto* const to = reinterpret_cast<std::uint16_t*>(mm.data[0] + std::ptrdiff_t{r} * mm.linesize[0]);
+    for (int c = 0; c < metres.width; ++c) {
+      const float value = kMmPerMetre * from[c];
+      to[c] = value > 0 && value < kBeyond ? static_cast<std::uint16_t>(std::lround(value)) : std::uint16_t{0};
+    }
+  }
+}
+
 }  // namespace
+
+bool isDistance(int format) noexcept {
+  return format == AV_PIX_FMT_GRAYF32LE;
+}
 
 bool describable(int format) noexcept {
   const AVPixFmtDescriptor* const description = av_pix_fmt_desc_get(static_cast<AVPixelFormat>(format));
@@ -150,12 +168,15 @@ Converter::~Converter() {
 }
 
 Result<FramePtr> Converter::convert(const AVFrame& picture) {
+  const bool distance = isDistance(picture.format);
   const auto from = static_cast<AVPixelFormat>(picture.format);
   const auto to = static_cast<AVPixelFormat>(nearestDescribable(picture.format));
-  scaler_ = sws_getCachedContext(scaler_, picture.width, picture.height, from, picture.width, picture.height, to,
-                                 SWS_BILINEAR | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INP, nullptr, nullptr, nullptr);
-  if (scaler_ == nullptr) {
-    return fail(ErrorCode::Unsupported, "pictures of this pixel format cannot be read; convert the film");
+  if (!distance) {
+    scaler_ = sws_getCachedContext(scaler_, picture.width, picture.height, from, picture.width, picture.height, to,
+                                   SWS_BILINEAR | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INP, nullptr, nullptr, nullptr);
+    if (scaler_ == nullptr) {
+      return fail(ErrorCode::Unsupported, "pictures of this pixel format cannot be read; convert the film");
+    }
   }
   FramePtr converted(av_frame_alloc());
   if (!converted) return fail(ErrorCode::Exhausted, "out of memory for a picture", ENOMEM);
@@ -164,6 +185,10 @@ Result<FramePtr> Converter::convert(const AVFrame& picture) {
   converted->height = picture.height;
   if (av_frame_get_buffer(converted.get(), 0) < 0 || av_frame_copy_props(converted.get(), &picture) < 0) {
     return fail(ErrorCode::Exhausted, "out of memory for a picture", ENOMEM);
+  }
+  if (distance) {
+    toMillimetres(picture, *converted);
+    return converted;
   }
   if (sws_scale(scaler_, picture.data, picture.linesize, 0, picture.height, converted->data, converted->linesize) < 0) {
     return fail(ErrorCode::Unsupported, "pictures of this pixel format cannot be read; convert the film");

@@ -15,6 +15,9 @@ namespace relievo::ffmpeg {
 // True when samples of this format (an AVPixelFormat) can be read in place through hal/frame.h.
 [[nodiscard]] bool describable(int format) noexcept;
 
+// A renderer's distances: gray in floating point, taken for metres along the camera's axis.
+[[nodiscard]] bool isDistance(int format) noexcept;
+
 // The format to convert one to that is not: the same bits in native byte order where that is the only difference.
 [[nodiscard]] int nearestDescribable(int format) noexcept;
 
@@ -29,7 +32,8 @@ class Converter {
   ~Converter();
   Converter(const Converter&) = delete;
   Converter& operator=(const Converter&) = delete;
-  // Unsupported where the library cannot read the format, Exhausted without memory.
+  // Distances become whole mm, 0 where there is none or it is beyond 65 m. Unsupported where the library cannot read
+  // the format, Exhausted without memory.
   [[nodiscard]] Result<FramePtr> convert(const AVFrame& picture);
 
  private:

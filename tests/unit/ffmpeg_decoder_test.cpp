@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <limits>
 #include <set>
 
 #include "drivers/ffmpeg/ffmpeg.h"
@@ -383,6 +384,26 @@ TEST(FfmpegDecoder, PicturesWithoutTimesAreNumberedByTheFramePeriod) {
   const auto frames = clip.decodeOpen();
   ASSERT_EQ(frames.size(), 4u);
   for (int k = 0; k < 4; ++k) EXPECT_EQ(frames[static_cast<std::size_t>(k)].pts, MediaTime(k * stream.frame_period));
+}
+
+// Metres to mm, rounded; what is no distance is no value.
+TEST(FfmpegDecoder, DistancesInFloatingPointBecomeWholeMillimetres) {
+  constexpr float kInfinite = std::numeric_limits<float>::infinity(), kNone = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<float> metres{0.5F, 1.2344F, 1.2346F, 65.535F, 65.6F, 0, -1, kInfinite, kNone, 0.0004F};
+  const std::vector<std::uint16_t> mm{500, 1234, 1235, 65535, 0, 0, 0, 0, 0, 0};
+  ffmpeg::FramePtr picture(av_frame_alloc());
+  picture->format = AV_PIX_FMT_GRAYF32LE;
+  picture->width = static_cast<int>(metres.size());
+  picture->height = 2;
+  ASSERT_GE(av_frame_get_buffer(picture.get(), 0), 0);
+  for (int r = 0; r < 2; ++r) {
+    std::memcpy(picture->data[0] + r * picture->linesize[0], metres.data(), metres.size() * sizeof(float));
+  }
+  const auto converted = ffmpeg::Converter().convert(*picture);
+  ASSERT_TRUE(converted.has_value());
+  EXPECT_EQ((*converted)->format, AV_PIX_FMT_GRAY16LE);
+  const auto* const row = reinterpret_cast<const std::uint16_t*>((*converted)->data[0] + (*converted)->linesize[0]);
+  EXPECT_EQ(std::vector<std::uint16_t>(row, row + mm.size()), mm);
 }
 
 TEST(FfmpegDecoder, FlushForgetsAndStartsAgain) {
