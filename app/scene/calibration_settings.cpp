@@ -73,7 +73,7 @@ bool apply(DepthCalibration& c, std::string_view key, std::string_view value) {
     const auto mm = number<double>(value);
     if (!mm || !(*mm >= kNearestMm && *mm <= kFarthestMm)) return false;
     if (key == "unit") {
-      c.unit_mm = *mm;
+      c.unit_mm = mm;
       c.law = DepthLaw::Linear;
       c.polarity = DepthPolarity::NearIsLow;
     } else {

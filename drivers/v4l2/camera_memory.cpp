@@ -3,7 +3,6 @@
 #include "drivers/v4l2/camera_memory.h"
 
 #include <fcntl.h>
-#include <linux/videodev2.h>
 #include <sys/ioctl.h>
 #include <sys/mman.h>
 
@@ -34,7 +33,7 @@ Held::~Held() {
 }
 
 Result<std::shared_ptr<CameraMemory>> CameraMemory::make(UniqueFd device, std::uint32_t wanted) {
-  const std::shared_ptr<CameraMemory> memory(new CameraMemory(std::move(device)));
+  std::shared_ptr<CameraMemory> memory(new CameraMemory(std::move(device)));
   v4l2_requestbuffers request{};
   request.count = wanted;
   request.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;

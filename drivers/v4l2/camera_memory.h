@@ -2,6 +2,8 @@
 // The buffers that a camera fills, shared by the camera and by whoever holds its pictures.
 #pragma once
 
+#include <linux/videodev2.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -10,8 +12,6 @@
 
 #include "platform/error.h"
 #include "platform/unique_fd.h"
-
-struct v4l2_buffer;
 
 namespace relievo::v4l2 {
 

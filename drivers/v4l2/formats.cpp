@@ -2,8 +2,6 @@
 // The table of formats (Documentation/userspace-api/media/v4l/pixfmt.rst).
 #include "drivers/v4l2/formats.h"
 
-#include <linux/videodev2.h>
-
 #include <algorithm>
 #include <array>
 

@@ -2,6 +2,8 @@
 // The pixel formats of cameras in the words of hal/frame.h.
 #pragma once
 
+#include <linux/videodev2.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -9,8 +11,6 @@
 #include <string_view>
 
 #include "hal/frame.h"
-
-struct v4l2_pix_format;
 
 namespace relievo::v4l2 {
 

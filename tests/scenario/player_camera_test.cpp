@@ -59,6 +59,50 @@ TEST_F(PlayerOnACamera, TheLivePictureIsTouchedAndItsLatencyIsTold) {
   EXPECT_EQ(camera.unknownRequests(), 0);
 }
 
+// The colour camera stands 30 mm to the right: 1.2 m away the ball is 80 x 30 / 1200 = 2 of its pixels further left.
+TEST_F(PlayerOnACamera, ColourAndDepthOfTwoCamerasMeet) {
+  UmockdevCamera depth(bed_, 0, ballCamera());
+  test::CameraKind kind = ballCamera();
+  kind.formats = {V4L2_PIX_FMT_YUYV};
+  UmockdevCamera color(bed_, 1, kind);
+  std::ofstream(folder_ / "rig.toml") << "[depth]\nsize = [160, 120]\nfocal = [80, 80]\ncenter = [79.5, 59.5]\n"
+                                         "[color]\nsize = [160, 120]\nfocal = [80, 80]\ncenter = [79.5, 59.5]\n"
+                                         "[depth_to_color]\ntranslation_mm = [-30, 0, 0]\n";
+  const auto played = test::runProgram("relievo play v4l2:/dev/video1 --depth v4l2:/dev/video0 --registration " +
+                                           (folder_ / "rig.toml") +
+                                           " --calibration near=1000,far=1500 --display mock --haptic sim --duration 4 "
+                                           "--report " +
+                                           (folder_ / "r.json"),
+                                       folder_ / "");
+  ASSERT_EQ(played.exit_code, 0) << played.err;
+  const auto r = report();
+  EXPECT_EQ(r["film"]["color"]["codec"], "yuyv");
+  EXPECT_EQ(r["film"]["depth"]["codec"], "z16");
+  EXPECT_GT(r["video"]["frames_shown"].get<int>(), 10);
+  EXPECT_LT(r["video"]["pairs_without_depth"].get<int>(), r["video"]["frames_shown"].get<int>() / 2);
+  EXPECT_GT(r["haptic"]["contact_share"].get<double>(), 0);
+  EXPECT_EQ(r["video"]["pictures_lost"].get<std::uint32_t>(), depth.starved() + color.starved());
+}
+
+// Until Ctrl-C; then it is a film like any other.
+TEST_F(PlayerOnACamera, WhatTheAuthorRecordsIsAFilm) {
+  UmockdevCamera camera(bed_, 0, ballCamera());
+  test::Process author({RELIEVO_BIN_DIR "/relievo-author", "--color", "v4l2:/dev/video0", "-o", folder_ / "film.mkv"},
+                       folder_ / "said.txt");
+  MonotonicClock clock;
+  while (camera.taken() < 60 && author.isRunning()) clock.sleepUntil(clock.now() + std::chrono::milliseconds(5));
+  author.send(SIGINT);
+  std::ifstream said(folder_ / "said.txt");
+  ASSERT_EQ(author.wait(), 0) << std::string(std::istreambuf_iterator<char>(said), {});
+  const auto probed = test::runProgram("relievo probe --json " + (folder_ / "film.mkv"), folder_ / "");
+  ASSERT_EQ(probed.exit_code, 0) << probed.err;
+  const auto film = nlohmann::json::parse(probed.out);
+  EXPECT_EQ(film["depth"]["width"], 160);
+  EXPECT_NEAR(film["frames_per_s"].get<double>(), 30, 0.5);
+  EXPECT_GT(film["duration_s"].get<double>(), 0.1);
+  EXPECT_NE(film["depth"]["calibration"].get<std::string>().find("near=300 (container tags)"), std::string::npos);
+}
+
 TEST_F(PlayerOnACamera, PluggedInAgainItGoesOn) {
   UmockdevCamera camera(bed_, 0, ballCamera());
   test::Process player({RELIEVO_BIN_DIR "/relievo", "play", "v4l2:/dev/video0", "--display", "mock", "--haptic", "none",

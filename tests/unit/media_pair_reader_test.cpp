@@ -109,6 +109,24 @@ TEST(PairReader, TheFramePeriodIsFreeOfTheContainersRounding) {
   EXPECT_NEAR(toSeconds(reader.info().frame_period), 1.0 / 30, 1e-8);  // though its times are 0, 33, 67 ms
 }
 
+// A renderer's: colour with times, depth without.
+TEST(PairReader, PicturesWithoutTimesComeAtTheRateThatIsTold) {
+  TemporaryFolder folder;
+  makeClip(folder / "color.mkv", {color(20, 10)});
+  ClipTrack numbered = depth(25, 10);
+  numbered.codec = "png", numbered.pix_fmt = "gray16be";
+  makeClip(folder / "%02d.png", {numbered});
+  PairReader reader(kFfmpeg);
+  ASSERT_TRUE(
+      reader.open({.url = folder / "color.mkv", .depth_url = folder / "%02d.png", .frames_per_s = 20}).has_value());
+  const auto pairs = readAll(reader);
+  ASSERT_EQ(pairs.size(), 10u);
+  for (int k = 0; k < 10; ++k) {
+    EXPECT_EQ(numberOf(pairs[static_cast<std::size_t>(k)].depth), k);
+    EXPECT_EQ(pairs[static_cast<std::size_t>(k)].depth.pts, MediaTime(k * milliseconds(50)));
+  }
+}
+
 TEST(PairReader, RatesAndEndsAreToldByTimestamps) {
   TemporaryFolder folder;
   makeClip(folder / "half.mkv", {color(30, 6), depth(15, 3)});
