@@ -37,7 +37,8 @@ struct Film {
 // Every `stride`th pair.
 Film read(std::string name, const SourceOptions& source, int stride) {
   Film film{.name = std::move(name)};
-  PairReader reader({makeFfmpegSource, makeFfmpegDecoder});
+  PairReader reader(
+      {[](const std::string&) { return makeFfmpegSource(); }, [](const StreamInfo&) { return makeFfmpegDecoder(); }});
   if (!reader.open(source)) {
     std::fprintf(stderr, "picture_bench: %s is not there; left out\n", source.url.c_str());
     return film;
@@ -59,7 +60,8 @@ Film cones(const std::string& data) {
   const auto disparity = test::readCones(data);
   Film film{.name = "cones"};
   if (!disparity) return film;
-  PairReader reader({makeFfmpegSource, makeFfmpegDecoder});
+  PairReader reader(
+      {[](const std::string&) { return makeFfmpegSource(); }, [](const StreamInfo&) { return makeFfmpegDecoder(); }});
   if (!reader.open({.url = data + "/cones/left_rgb_8bit.png"})) return film;
   auto pair = reader.next();
   if (!pair || !*pair) return film;

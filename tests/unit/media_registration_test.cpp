@@ -86,8 +86,7 @@ TEST(Registration, FromFurtherBackThePictureShrinksAndDistancesGrow) {
 
 TEST(Registration, FromNearerThePictureGrowsWithoutGaps) {
   const Frame depth = depthOf(16, 8, [](int, int) { return 1000; });
-  const Frame there =
-      registered(depth, {.depth = camera(), .color = camera(), .translation_mm = {0, 0, -500}}).value();
+  const Frame there = registered(depth, {.depth = camera(), .color = camera(), .translation_mm = {0, 0, -500}}).value();
   for (int r = 0; r < 8; ++r) EXPECT_EQ(rowOf(there, r), Row(16, 500)) << r;
 }
 
