@@ -13,6 +13,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "tests/support/quit_loop.h"
+
 namespace relievo::test {
 
 UmockdevCamera::UmockdevCamera(UMockdevTestbed* bed, int number, CameraKind kind)
@@ -37,7 +39,7 @@ UmockdevCamera::UmockdevCamera(UMockdevTestbed* bed, int number, CameraKind kind
 }
 
 UmockdevCamera::~UmockdevCamera() {
-  g_main_loop_quit(loop_);
+  quitLoop(loop_);
   thread_.join();
   g_object_unref(handler_);
   g_main_loop_unref(loop_);
