@@ -77,7 +77,8 @@ class AuthorFilm : public testing::Test {
   std::atomic<bool> stop_{false};
 
   Outcome<AuthorSummary> make(const SourceOptions& source, const std::string& out = "out.mkv") {
-    return authorFilm(source, kBackends, {.path = folder_ / out, .color_crf = 18, .depth_crf = 0}, stop_, kNoReport);
+    return authorFilm(source, kBackends, {.path = folder_ / out, .color_crf = 18, .depth = {.crf = 0}}, stop_,
+                      kNoReport);
   }
   // Colour and depth as two files, into out.mkv.
   AuthorSummary package(const ClipTrack& color, const ClipTrack& depth, SourceOptions source = {}) {
@@ -333,7 +334,7 @@ TEST_F(AuthorFilm, LeavesNothingWhenTheSampleIsInterrupted) {
 
 TEST_F(AuthorFilm, SampleIsAFilmLikeAnyOther) {
   const auto summary = authorSample({.cols = 160, .rows = 108, .frames = 40, .threads = 2},
-                                    {.path = folder_ / "out.mp4", .depth_crf = 0}, stop_, kNoReport);
+                                    {.path = folder_ / "out.mp4", .depth = {.crf = 0}}, stop_, kNoReport);
   ASSERT_TRUE(summary.has_value());
   EXPECT_EQ(summary->totals.depth.frames, 40u);
   const Film film = readFilm(folder_ / "out.mp4");
