@@ -49,7 +49,10 @@ class HlsFolder final : public FilmPlace {
     if (::chmod(apart_.c_str(), 0777 & ~mask()) != 0 || ::mkdir((apart_ / segments_.filename()).c_str(), 0777) != 0) {
       return fail(ErrorCode::Io, kCannotWrite, errno);
     }
-    return makeMuxer("hls", (apart_ / playlist_.filename()).string());
+    if (auto made = makeMuxer("hls", (apart_ / playlist_.filename()).string()); !made) return made;
+    muxer().opaque = this;
+    muxer().io_close2 = closeFile;
+    return {};
   }
 
   Result<void> begin() override {
@@ -71,12 +74,12 @@ class HlsFolder final : public FilmPlace {
     if (const int code = av_write_trailer(&muxer()); code < 0) {
       return fail(ErrorCode::Io, kCannotWrite, osErrorOf(code));
     }
+    if (error_ < 0) return fail(ErrorCode::Io, kCannotWrite, osErrorOf(error_));
     std::error_code failed;
     std::uint64_t bytes = 0;
     for (const auto& entry : fs::recursive_directory_iterator(apart_, failed)) {
       if (!entry.is_regular_file()) continue;
-      // The muxer lets a failed write pass: a segment that could not be finished is empty.
-      if (entry.file_size() == 0 || !onDisk(entry.path())) return fail(ErrorCode::Io, kCannotWrite);
+      if (!onDisk(entry.path())) return fail(ErrorCode::Io, kCannotWrite, errno);
       bytes += entry.file_size();
     }
     if (failed) return fail(ErrorCode::Io, kCannotWrite, failed.value());
@@ -85,6 +88,16 @@ class HlsFolder final : public FilmPlace {
   }
 
  private:
+  // The muxer lets it pass when a segment could not be written.
+  static int closeFile(AVFormatContext* muxer, AVIOContext* file) {
+    avio_flush(file);
+    const int code = file->error < 0 ? file->error : 0;
+    const int closed = avio_close(file);
+    int& error = static_cast<HlsFolder*>(muxer->opaque)->error_;
+    if (error == 0) error = code < 0 ? code : closed;
+    return code < 0 ? code : closed;
+  }
+
   static mode_t mask() {
     const mode_t now = ::umask(022);
     ::umask(now);
@@ -103,6 +116,7 @@ class HlsFolder final : public FilmPlace {
 
   fs::path playlist_, segments_;
   fs::path apart_;
+  int error_ = 0;  // of the library, the first
 };
 
 }  // namespace
