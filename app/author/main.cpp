@@ -31,7 +31,6 @@ void addOptions(CLI::App& app, Arguments& a) {
       "    relievo-author --color street.mp4 --depth street-depth.mkv -o film.mkv\n"
       "  a depth camera's film, colour above, depth below as hue, with what its depth means:\n"
       "    relievo-author --color desk.mov --packing tb --depth-code hue --calibration near=520,far=1260 -o desk.mp4\n"
-      "\n"
       "  sent as a transport stream, at its own pace: ffplay or relievo play udp://@:5000 over there\n"
       "    relievo-author --color street.mp4 --depth street-depth.mkv -o udp://192.168.1.20:5000\n"
       "\n"
@@ -70,17 +69,17 @@ void addOptions(CLI::App& app, Arguments& a) {
       ->type_name("PNG");
   addChoice(app, "--depth-codec", a.output.depth.codec,
             {{"h264", VideoCodec::H264}, {"hevc", VideoCodec::Hevc}, {"ffv1", VideoCodec::Ffv1}},
-            "Codec of the depth [h264]; ffv1, in .mkv alone, is lossless");
+            "Codec of the depth; ffv1, in .mkv alone, is lossless");
   app.add_option("--depth-bits", a.output.depth.bits,
                  "Bits of the depth [8]: h264 has 8 and 10, hevc 8, 10 and 12, ffv1 8, 10, 12 and 16")
       ->type_name("N")
       ->check(CLI::IsMember({8, 10, 12, 16}).description(""));
   addChoice(app, "--depth-chroma", a.output.depth.flat_chroma, {{"none", false}, {"flat", true}},
-            "none: depth is 4:0:0 [none]; flat: 4:2:0 with gray chroma, for hardware that knows no 4:0:0");
+            "none: depth is 4:0:0; flat: 4:2:0 with gray chroma, for hardware that knows no 4:0:0");
   addChoice(app, "--depth-law", a.output.depth.law,
             {{"source", std::nullopt}, {"linear", DepthLaw::Linear}, {"inverse", DepthLaw::Inverse}},
-            "Where the depth's steps are fine: as in the source [source], evenly (linear), or near the viewer\n"
-            "(inverse: by disparity)");
+            "Where the depth's steps are fine: as in the source, evenly (linear), or near the viewer (inverse:\n"
+            "by disparity); the heights stay");
   app.add_option("--scene", a.scene, "Make a film of the project's own instead, with its exact depth: sample")
       ->type_name("NAME")
       ->check(CLI::IsMember({"sample"}).description(""))

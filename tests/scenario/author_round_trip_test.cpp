@@ -46,6 +46,7 @@ DepthPicture scatteredPicture(int k, int bits) {
 void expectPicture(const Frame& depth, int k, int bits) {
   ASSERT_EQ(depth.width, kCols);
   ASSERT_EQ(depth.height, kRows);
+  EXPECT_EQ(depth.range, ColorRange::Full);
   for (int r = 0; r < kRows; ++r) {
     for (int c = 0; c < kCols; ++c) {
       ASSERT_EQ(test::sampleAt(depth, 0, c, r), scattered(c, r, k, bits)) << c << "," << r << " of " << k;
