@@ -19,10 +19,10 @@
 namespace relievo {
 
 struct OutputOptions {
-  std::string path;
+  std::string path;    // or udp://HOST:PORT: sent at the film's own pace
   bool force = false;  // to replace a file that is there
   int color_crf = 18;
-  int depth_crf = 8;
+  DepthCoding depth;
   std::optional<Enhancement> enhancement;  // nothing: the depth as it comes
   std::string preview;                     // a PNG, see preview.h; empty: none
 };
@@ -47,7 +47,8 @@ struct AuthorSummary {
 using ProgressReport = std::function<void(std::uint64_t done, std::optional<std::uint64_t> total)>;
 
 // Both run until they are done, fail, or find `stop` set, which makes them return Cancelled; nothing is left then.
-// A live film ends at `stop`, and when its source goes away: it is whole then.
+// A live film ends at `stop`, and when its source goes away: it is whole then. What goes out on a line may be stopped at
+// any time: it is done then.
 // The film's pictures keep their times. A depth picture is written once, at its own time, however many pictures of the
 // colour it belongs to. Colour of an odd width or height loses its last column or row, and the depth as much of its own
 // as keeps the two in register.

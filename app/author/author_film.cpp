@@ -11,9 +11,12 @@
 
 #include "app/author/author.h"
 #include "app/author/color_to_420.h"
+#include "app/author/film_kind.h"
 #include "app/author/key_frames.h"
 #include "app/author/output.h"
 #include "app/author/preview.h"
+#include "app/haptics/shots.h"
+#include "app/scene/height_field.h"
 #include "platform/log.h"
 
 namespace relievo {
@@ -39,27 +42,32 @@ class StopWatch {
   std::jthread thread_;
 };
 
-// What is cut off to the right and below: an odd column or row of the colour, and of the depth the same share of the
-// view, to half a sample.
+// What is cut off to the right and below: an odd column or row of what is 4:2:0, and of the other the same share of the
+// view, to half a sample of the depth.
 struct Cut {
   int color_cols = 0, color_rows = 0, depth_cols = 0, depth_rows = 0;
 
   Cut() = default;
-  Cut(const Frame& color, const Frame& depth)
-      : color_cols(color.width % 2),
-        color_rows(color.height % 2),
-        depth_cols(share(color_cols, color.width, depth.width)),
-        depth_rows(share(color_rows, color.height, depth.height)) {}
+  Cut(const Frame& color, const Frame& depth, bool even_depth) {
+    cut(color.width, depth.width, even_depth, color_cols, depth_cols);
+    cut(color.height, depth.height, even_depth, color_rows, depth_rows);
+  }
 
-  [[nodiscard]] static int share(int lost, int of, int depth) {
-    return static_cast<int>(std::lround(lost * static_cast<double>(depth) / of));
+  // The least that leaves both even where they have to be.
+  static void cut(int color, int depth, bool even_depth, int& off_color, int& off_depth) {
+    const auto isOdd = [&] { return even_depth && (depth - off_depth) % 2 != 0; };
+    for (off_color = color % 2; off_color + 2 < color; off_color += 2) {
+      off_depth = static_cast<int>(std::lround(off_color * static_cast<double>(depth) / color));
+      if (isOdd() && depth > color) ++off_depth;  // less than a sample of the colour
+      if (!isOdd()) return;
+    }
   }
   [[nodiscard]] std::string explain() const {
     char line[160];
     std::snprintf(line, sizeof line,
                   "4:2:0 needs even sizes: cut off %d column and %d row of the colour, %d and %d of the depth",
                   color_cols, color_rows, depth_cols, depth_rows);
-    return color_cols + color_rows == 0 ? "" : line;
+    return color_cols + color_rows + depth_cols + depth_rows == 0 ? "" : line;
   }
 };
 
@@ -83,6 +91,8 @@ class Packager {
   Outcome<void> writeDepth(const Frame& depth);
   Outcome<void> writeEnhanced();
   [[nodiscard]] const DepthCalibration& sourceCalibration() const { return reader_.info().calibration.calibration; }
+  static constexpr std::size_t kRecent = 3;
+  [[nodiscard]] bool beginsShot(const Frame& depth);
   [[nodiscard]] std::vector<std::string> sourceNotes() const;
 
   PairReader& reader_;
@@ -95,7 +105,9 @@ class Packager {
   FilmFormat format_;
   Cut cut_;
   KeyFrames key_frames_;
-  std::deque<bool> depth_keys_;  // of the pictures that are not written yet
+  std::deque<bool> depth_keys_;      // of the pictures that are not written yet
+  std::deque<TimedSurface> recent_;  // depth pictures, the newest last
+  ShotFinder shots_;
   std::optional<MediaTime> last_depth_;
   ColorPicture420 color_;
   DepthPicture depth_;
@@ -107,12 +119,12 @@ Outcome<void> Packager::begin(const FramePair& pair) {
   Frame whole_depth;  // its size alone; the first pair may lie before the depth begins
   whole_depth.width = info.depth_width;
   whole_depth.height = info.depth_height;
-  cut_ = Cut(pair.color, whole_depth);
-  coder_ = DepthCoder(sourceCalibration());
+  cut_ = Cut(pair.color, whole_depth, output_.depth.flat_chroma);
+  coder_ = DepthCoder(sourceCalibration(), output_.depth);
   code_notes_ = coder_.explain();
   if (output_.enhancement) {
     enhancer_.emplace(*output_.enhancement, sourceCalibration());
-    coder_ = DepthCoder(enhancer_->outcome());
+    coder_ = DepthCoder(enhancer_->outcome(), output_.depth);
   }
 
   format_.color_width = pair.color.width - cut_.color_cols;
@@ -126,7 +138,7 @@ Outcome<void> Packager::begin(const FramePair& pair) {
   format_.depth_aspect = pair.depth.sample_aspect;
   format_.frame_period = info.frame_period;
   format_.color_crf = output_.color_crf;
-  format_.depth_crf = output_.depth_crf;
+  format_.depth = output_.depth;
   format_.depth_tags = calibrationTags(coder_.outcome());
   auto writer = FilmWriter::create(output_.path, format_);
   if (!writer) return failOn(output_.path, writer.error());
@@ -140,7 +152,8 @@ Outcome<void> Packager::write(const FramePair& pair) {
     return failOn("colour", {ErrorCode::Unsupported, 0, "its pictures change their size; cut the film there"});
   }
   const bool depth_is_new = !pair.depth.empty() && (!last_depth_ || pair.depth.pts > *last_depth_);
-  const bool key = key_frames_.isDue(color.pts, depth_is_new || pair.depth.empty());
+  const bool key =
+      key_frames_.isDue(color.pts, depth_is_new || pair.depth.empty(), depth_is_new && beginsShot(pair.depth));
   if (auto made = toColor420(color, color_); !made) return failOn("colour", made.error());
   if (auto written = writer_->writeColor(color_, color.pts, key); !written)
     return failOn(output_.path, written.error());
@@ -176,6 +189,17 @@ Outcome<void> Packager::writeDepth(const Frame& depth) {
   return {};
 }
 
+// As the player finds it: a cut under the finger. What moves fast may look like one, and has a key frame more.
+bool Packager::beginsShot(const Frame& depth) {
+  const auto field =
+      HeightField::make(depth, sourceCalibration(), DisplayVolume::forPicture(depth.width, depth.height));
+  if (!field) return false;  // told by the coder
+  if (recent_.size() == kRecent) recent_.pop_front();
+  recent_.push_back({.field = *field, .time = depth.pts, .owner = depth.owner});
+  shots_.mark(recent_);
+  return recent_.size() > 1 && recent_.back().shot != recent_[recent_.size() - 2].shot;
+}
+
 Outcome<AuthorSummary> Packager::finish() {
   if (enhancer_) {
     if (auto ended = enhancer_->finish(); !ended) return failOn("depth", ended.error());
@@ -193,7 +217,8 @@ Outcome<AuthorSummary> Packager::finish() {
                         .enhancement = output_.enhancement,
                         .enhanced = enhancer_ ? enhancer_->summary() : EnhancementSummary{},
                         .notes = code_notes_};
-  if (coder_.outcome().invalid_code && format_.depth_crf > 0) {
+  const bool lossy = format_.depth.crf > 0 && format_.depth.codec != VideoCodec::Ffv1;
+  if (coder_.outcome().invalid_code && lossy) {
     summary.notes.emplace_back("coding moves the edges of holes by a sample here and there; --depth-crf 0 keeps them");
   }
   if (auto line = cut_.explain(); !line.empty()) summary.notes.push_back(std::move(line));
@@ -244,8 +269,10 @@ Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader:
   bool live = false;  // ends when it is told to, or when its camera is pulled out; what there is by then is the film
   for (std::uint64_t done = 1;; ++done) {
     auto pair = reader.next();
-    if (live && stop.load(std::memory_order_relaxed)) break;
-    if (stop.load(std::memory_order_relaxed)) return failOn(output.path, kCancelled);
+    if (stop.load(std::memory_order_relaxed)) {
+      if (live || (packager.begun() && filmKindOf(output.path) == FilmKind::Live)) break;
+      return failOn(output.path, kCancelled);
+    }
     if (!pair && live && reader.lost(pair.error())) {
       log(LogLevel::Warning, source.url.c_str(), "%s; the film ends there", pair.error().message);
       break;

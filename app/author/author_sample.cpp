@@ -2,6 +2,7 @@
 // Makes the sample film: renders its pictures in turn and writes them with their exact depth.
 #include "app/author/author.h"
 #include "app/author/color_to_420.h"
+#include "app/author/film_kind.h"
 #include "app/author/key_frames.h"
 #include "app/author/output.h"
 #include "app/author/sample_renderer.h"
@@ -22,6 +23,17 @@ Frame rgbFrame(const SamplePicture& picture) {
   return frame;
 }
 
+// A view of its depth: 8 bits, full range, linear, near is high.
+Frame depthFrame(const SamplePicture& picture) {
+  Frame frame;
+  frame.width = picture.cols;
+  frame.height = picture.rows;
+  frame.range = ColorRange::Full;
+  frame.plane_count = 1;
+  frame.planes[0] = {picture.depth.data(), picture.cols};
+  return frame;
+}
+
 FilmFormat formatOf(const SampleOptions& sample, const OutputOptions& output) {
   FilmFormat format;
   format.color_width = format.depth_width = sample.cols;
@@ -29,8 +41,7 @@ FilmFormat formatOf(const SampleOptions& sample, const OutputOptions& output) {
   format.color_matrix = ColorMatrix::Bt709;
   format.frame_period = fromSeconds(1.0 / SampleFilm::kFramesPerSecond);
   format.color_crf = output.color_crf;
-  format.depth_crf = output.depth_crf;
-  format.depth_tags = calibrationTags(DepthCalibration{});  // 8 bits, full range, linear, near is high: what is drawn
+  format.depth = output.depth;
   return format;
 }
 
@@ -39,8 +50,10 @@ FilmFormat formatOf(const SampleOptions& sample, const OutputOptions& output) {
 Outcome<AuthorSummary> authorSample(const SampleOptions& sample, const OutputOptions& output,
                                     const std::atomic<bool>& stop, const ProgressReport& progress) {
   if (auto ready = checkOutput(output); !ready) return failOn(output.path, ready.error());
+  DepthCoder coder(DepthCalibration{}, output.depth);
   AuthorSummary summary;
   summary.format = formatOf(sample, output);
+  summary.format.depth_tags = calibrationTags(coder.outcome());
   summary.frame_period = summary.format.frame_period;
   auto writer = FilmWriter::create(output.path, summary.format);
   if (!writer) return failOn(output.path, writer.error());
@@ -51,23 +64,24 @@ Outcome<AuthorSummary> authorSample(const SampleOptions& sample, const OutputOpt
   KeyFrames key_frames;
   for (int k = 0; k < sample.frames; ++k) {
     if (stop.load(std::memory_order_relaxed)) {
+      if (filmKindOf(output.path) == FilmKind::Live) break;
       return failOn(output.path, {ErrorCode::Cancelled, 0, "interrupted; nothing was written"});
     }
     const double t_s = k / static_cast<double>(SampleFilm::kFramesPerSecond);
     renderSample(t_s, sample.threads, picture);
     if (auto made = toColor420(rgbFrame(picture), color); !made) return failOn(output.path, made.error());
-    depth = {sample.cols, sample.rows, picture.depth};
+    if (auto coded = coder.encode(depthFrame(picture), depth); !coded) return failOn(output.path, coded.error());
     const bool key = key_frames.isDue(mediaTime(t_s), true);
     auto written = (*writer)->writeColor(color, mediaTime(t_s), key);
     if (written) written = (*writer)->writeDepth(depth, mediaTime(t_s), key);
     if (!written) return failOn(output.path, written.error());
-    for (const std::uint8_t code : picture.depth) ++summary.codes.of_code[code];
-    summary.codes.samples += picture.depth.size();
     progress(static_cast<std::uint64_t>(k) + 1, static_cast<std::uint64_t>(sample.frames));
   }
   const auto totals = (*writer)->finish();
   if (!totals) return failOn(output.path, totals.error());
   summary.totals = *totals;
+  summary.codes = coder.counts();
+  summary.notes = coder.explain();
   return summary;
 }
 

@@ -1,128 +1,166 @@
 // SPDX-License-Identifier: Apache-2.0
-// The file around the two tracks: its kind, its tags, its place.
+// Two encoders, and the place that their packets go to.
 #include "app/author/film_writer.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
-#include <filesystem>
+#include <cstring>
 #include <utility>
+#include <vector>
 
 extern "C" {
 #include <libavutil/log.h>
 }
 
-#include "app/author/h264_track.h"
-#include "platform/atomic_file.h"
+#include "app/author/film_place.h"
 
 namespace relievo {
 namespace {
-
-constexpr const char* kCannotWrite = "it cannot be written; is the disk full?";
-
-// FFmpeg's name of the kind of file, by the ending; null for one that is not written here.
-const char* formatOf(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  if (ending == ".mkv") return "matroska";
-  if (ending == ".mp4" || ending == ".m4v") return "mp4";
-  if (ending == ".mov") return "mov";
-  return nullptr;
-}
 
 void setTag(AVDictionary** tags, const std::string& key, const std::string& value) {
   av_dict_set(tags, key.c_str(), value.c_str(), 0);
 }
 
+// One track of the film.
+struct Track {
+  Result<void> open(AVFormatContext& muxer, const VideoEncoder::Settings& settings, const char* title);
+  Result<void> encode(const VideoEncoder::Planes& planes, MediaTime time, bool key);
+  Result<void> drain() { return encoder.drain(sink()); }
+  VideoEncoder::Sink sink() {
+    return [this](AVPacket& packet) { return write(packet); };
+  }
+  Result<void> write(AVPacket& packet);
+
+  VideoEncoder encoder;
+  AVFormatContext* muxer = nullptr;
+  AVStream* stream = nullptr;
+  TrackTotals totals;
+};
+
+Result<void> Track::open(AVFormatContext& film, const VideoEncoder::Settings& settings, const char* title) {
+  muxer = &film;
+  if (auto opened = encoder.open(settings, (film.oformat->flags & AVFMT_GLOBALHEADER) != 0); !opened) return opened;
+  stream = avformat_new_stream(&film, nullptr);
+  if (stream == nullptr || avcodec_parameters_from_context(stream->codecpar, &encoder.context()) < 0) {
+    return fail(ErrorCode::Exhausted, "out of memory for a track", ENOMEM);
+  }
+  stream->time_base = encoder.context().time_base;
+  stream->avg_frame_rate = encoder.context().framerate;
+  stream->sample_aspect_ratio = encoder.context().sample_aspect_ratio;
+  setTag(&stream->metadata, "title", title);
+  setTag(&stream->metadata, "handler_name", title);
+  return {};
+}
+
+Result<void> Track::encode(const VideoEncoder::Planes& planes, MediaTime time, bool key) {
+  if (auto encoded = encoder.encode(planes, time, key, sink()); !encoded) return encoded;
+  if (totals.frames == 0) totals.first = time;
+  totals.last = time;
+  ++totals.frames;
+  return {};
+}
+
+Result<void> Track::write(AVPacket& packet) {
+  totals.bytes += static_cast<std::uint64_t>(packet.size);
+  packet.stream_index = stream->index;
+  av_packet_rescale_ts(&packet, VideoEncoder::kTimeBase, stream->time_base);
+  const int code = av_interleaved_write_frame(muxer, &packet);
+  if (code < 0) return fail(ErrorCode::Io, kCannotWrite, osErrorOf(code));
+  return {};
+}
+
 }  // namespace
 
 struct FilmWriter::Impl {
-  ~Impl() {
-    if (file != nullptr) {
-      if (file->pb != nullptr) avio_closep(&file->pb);
-      avformat_free_context(file);
-    }
-  }
-
+  Result<void> begin(const std::string& path, const FilmFormat& format);
   Result<void> openTracks(const FilmFormat& format);
-  void tagTracks(const FilmFormat& format, bool matroska);
-  Result<void> begin(const FilmFormat& format);
+  [[nodiscard]] VideoEncoder::Planes depthPlanes(const DepthPicture& picture);
 
-  std::string target;
-  AtomicFile place;  // FFmpeg writes there by its name
-  AVFormatContext* file = nullptr;
-  H264Track color, depth;
+  FilmKind kind = FilmKind::Matroska;
+  std::unique_ptr<FilmPlace> place;
+  Track color, depth;
+  DepthCoding coding;
+  std::vector<std::uint8_t> bytes;    // of a depth picture of 8 bits
+  std::vector<std::uint16_t> chroma;  // of one that has some
 };
 
-Result<void> FilmWriter::Impl::openTracks(const FilmFormat& format) {
-  auto opened = color.open(file, {.width = format.color_width,
-                                  .height = format.color_height,
-                                  .range = format.color_range,
-                                  .matrix = format.color_matrix,
-                                  .sample_aspect = format.color_aspect,
-                                  .frame_period = format.frame_period,
-                                  .crf = format.color_crf,
-                                  .preset = "medium"});
-  if (!opened) return opened;
-  return depth.open(file, {.width = format.depth_width,
-                           .height = format.depth_height,
-                           .gray = true,
-                           .range = ColorRange::Full,
-                           .sample_aspect = format.depth_aspect,
-                           .frame_period = format.frame_period,
-                           .crf = format.depth_crf,
-                           .preset = "medium",
-                           // What flatters the eye moves the surface under a finger: without it edges are truer
-                           // (largest error 11 codes instead of 52) at the same size.
-                           .x264_parameters = ":no-psy=1:aq-mode=0"});
-}
-
-void FilmWriter::Impl::tagTracks(const FilmFormat& format, bool matroska) {
-  for (const auto& [track, title] : {std::pair{&color, "color"}, std::pair{&depth, "depth"}}) {
-    setTag(&track->stream()->metadata, "title", title);
-    setTag(&track->stream()->metadata, "handler_name", title);
-  }
-  color.stream()->disposition = AV_DISPOSITION_DEFAULT;
-  AVDictionary** const where = matroska ? &depth.stream()->metadata : &file->metadata;
-  for (const auto& [key, value] : format.depth_tags) setTag(where, key, value);
-}
-
-Result<void> FilmWriter::Impl::begin(const FilmFormat& format) {
-  const char* const kind = formatOf(target);
-  if (kind == nullptr) return fail(ErrorCode::InvalidArgument, "unknown ending; name it .mkv, .mp4, .m4v or .mov");
-  auto made = AtomicFile::create(target);
+Result<void> FilmWriter::Impl::begin(const std::string& path, const FilmFormat& format) {
+  const auto known = filmKindOf(path);
+  if (!known) return fail(ErrorCode::InvalidArgument, kUnknownKind);
+  if (!holds(*known, format.depth.codec)) return fail(ErrorCode::InvalidArgument, kNotHeld);
+  kind = *known;
+  coding = format.depth;
+  auto made = FilmPlace::create(path, kind);
   if (!made) return std::unexpected(made.error());
   place = std::move(*made);
-  const std::string url = "file:" + place.writtenPath();  // the name may hold a colon
-  if (avformat_alloc_output_context2(&file, nullptr, kind, url.c_str()) < 0) {
-    return fail(ErrorCode::Exhausted, "out of memory for a film", ENOMEM);
-  }
   if (auto opened = openTracks(format); !opened) return opened;
-  const bool matroska = std::string(kind) == "matroska";
-  tagTracks(format, matroska);
-  if (const int code = avio_open(&file->pb, url.c_str(), AVIO_FLAG_WRITE); code < 0) {
-    return fail(ErrorCode::Io, kCannotWrite, osErrorOf(code));
-  }
-  AVDictionary* options = nullptr;
-  if (!matroska) av_dict_set(&options, "movflags", "use_metadata_tags+faststart", 0);
-  const int code = avformat_write_header(file, &options);
-  av_dict_free(&options);
-  if (code < 0) return fail(ErrorCode::Io, kCannotWrite, osErrorOf(code));
+  return place->begin();
+}
+
+Result<void> FilmWriter::Impl::openTracks(const FilmFormat& format) {
+  AVFormatContext& muxer = place->muxer();
+  const bool live = kind == FilmKind::Live;
+  auto opened = color.open(muxer,
+                           {.width = format.color_width,
+                            .height = format.color_height,
+                            .live = live,
+                            .range = format.color_range,
+                            .matrix = format.color_matrix,
+                            .sample_aspect = format.color_aspect,
+                            .frame_period = format.frame_period,
+                            .crf = format.color_crf},
+                           "color");
+  if (!opened) return opened;
+  std::string lines;
+  for (const auto& [key, value] : format.depth_tags) lines.append(key).append("=").append(value).append("\n");
+  opened = depth.open(muxer,
+                      {.codec = coding.codec,
+                       .width = format.depth_width,
+                       .height = format.depth_height,
+                       .bits = coding.bits,
+                       .gray = !coding.flat_chroma,
+                       .to_touch = true,
+                       .live = live,
+                       .range = ColorRange::Full,
+                       .sample_aspect = format.depth_aspect,
+                       .frame_period = format.frame_period,
+                       .crf = coding.crf,
+                       .stream_tags = lines},
+                      "depth");
+  if (!opened) return opened;
+  color.stream->disposition = AV_DISPOSITION_DEFAULT;
+  const bool of_file = kind == FilmKind::Mp4 || kind == FilmKind::Mov;
+  AVDictionary** const where = of_file ? &muxer.metadata : &depth.stream->metadata;
+  for (const auto& [key, value] : format.depth_tags) setTag(where, key, value);
+  // As players of Apple's want it: parameter sets in the container alone.
+  const bool mp4 = of_file || kind == FilmKind::Hls;
+  if (mp4 && coding.codec == VideoCodec::Hevc) depth.stream->codecpar->codec_tag = MKTAG('h', 'v', 'c', '1');
   return {};
+}
+
+VideoEncoder::Planes FilmWriter::Impl::depthPlanes(const DepthPicture& picture) {
+  const std::uint8_t* luma = reinterpret_cast<const std::uint8_t*>(picture.codes.data());
+  if (coding.bits == 8) {
+    bytes.resize(picture.codes.size());
+    std::transform(picture.codes.begin(), picture.codes.end(), bytes.begin(),
+                   [](std::uint16_t code) { return static_cast<std::uint8_t>(code); });
+    luma = bytes.data();
+  }
+  if (!coding.flat_chroma) return {luma, nullptr, nullptr};
+  // The middle, in one byte or two.
+  chroma.assign(picture.codes.size() / 4,
+                static_cast<std::uint16_t>(coding.bits == 8 ? 0x8080 : 1 << (coding.bits - 1)));
+  const auto* const flat = reinterpret_cast<const std::uint8_t*>(chroma.data());
+  return {luma, flat, flat};
 }
 
 FilmWriter::FilmWriter(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 FilmWriter::~FilmWriter() = default;
 
-bool FilmWriter::knowsEnding(const std::string& path) {
-  return formatOf(path) != nullptr;
-}
-
 Result<std::unique_ptr<FilmWriter>> FilmWriter::create(const std::string& path, const FilmFormat& format) {
   av_log_set_level(AV_LOG_QUIET);  // the program prints its own line
   auto impl = std::make_unique<Impl>();
-  impl->target = path;
-  if (auto begun = impl->begin(format); !begun) return std::unexpected(begun.error());
+  if (auto begun = impl->begin(path, format); !begun) return std::unexpected(begun.error());
   return std::unique_ptr<FilmWriter>(new FilmWriter(std::move(impl)));
 }
 
@@ -131,22 +169,16 @@ Result<void> FilmWriter::writeColor(const ColorPicture420& picture, MediaTime ti
 }
 
 Result<void> FilmWriter::writeDepth(const DepthPicture& picture, MediaTime time, bool key) {
-  return impl_->depth.encode({picture.codes.data(), nullptr, nullptr}, time, key);
+  return impl_->depth.encode(impl_->depthPlanes(picture), time, key);
 }
 
 Result<FilmTotals> FilmWriter::finish() {
   Impl& film = *impl_;
   if (auto drained = film.color.drain(); !drained) return std::unexpected(drained.error());
   if (auto drained = film.depth.drain(); !drained) return std::unexpected(drained.error());
-  int code = av_write_trailer(film.file);
-  const int closed = avio_closep(&film.file->pb);
-  if (code >= 0) code = closed;
-  if (code < 0) return fail(ErrorCode::Io, kCannotWrite, osErrorOf(code));
-
-  std::error_code unknown;
-  const std::uintmax_t bytes = std::filesystem::file_size(film.place.writtenPath(), unknown);
-  if (auto committed = film.place.commit(); !committed) return std::unexpected(committed.error());
-  return FilmTotals{film.color.totals(), film.depth.totals(), unknown ? 0 : bytes};
+  const auto bytes = film.place->finish();
+  if (!bytes) return std::unexpected(bytes.error());
+  return FilmTotals{film.color.totals, film.depth.totals, *bytes, film.place->latest()};
 }
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes one Matroska or MP4 file with a colour and a depth track of H.264, which appears whole or not at all.
+// Writes one film with a colour and a depth track, which appears whole or not at all, or goes out on a line.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "app/author/depth_coding.h"
 #include "app/author/picture.h"
 #include "hal/media_time.h"
 #include "platform/error.h"
@@ -21,7 +22,7 @@ struct FilmFormat {
   double color_aspect = 1.0, depth_aspect = 1.0;  // width of a sample over its height
   Duration frame_period{0};                       // for the rate control alone; 0 unknown
   int color_crf = 18;
-  int depth_crf = 8;                              // 0: lossless, every code comes back
+  DepthCoding depth;
   std::map<std::string, std::string> depth_tags;  // calibrationTags()
 };
 
@@ -33,20 +34,25 @@ struct TrackTotals {
 struct FilmTotals {
   TrackTotals color, depth;
   std::uint64_t file_bytes = 0;
+  Duration latest{0};  // of a line: how far sending was behind at most
 };
 
-// Track 0 is the colour, 4:2:0, titled "color"; track 1 is the depth, 4:0:0 of full range, titled "depth" and carrying
-// the tags. MP4 keeps few tags of a track: there the depth is named by its handler and the tags are the file's.
+// Track 0 is the colour, H.264 4:2:0, titled "color"; track 1 is the depth, of full range, titled "depth". Its tags are
+// where the container and the codec keep some:
 //
-// One thread; libx264 has threads of its own. It is written under a temporary name beside the target, which is renamed
-// by `finish`; without that nothing is left. Times of a track must rise.
+//   Matroska           of the track
+//   MP4, QuickTime     of the file; the tracks are named by their handlers
+//   H.264 and HEVC     in the stream, beside each key frame, whatever the container (hal/stream_tags.h)
+//   transport streams  the stream's type besides: auxiliary video
+//
+// One thread; the encoders have threads of their own. A file is written under a temporary name beside the target, which
+// is renamed by `finish`; without that nothing is left. On a line pictures go out at their times: writing waits. Times
+// of a track must rise.
 class FilmWriter {
  public:
-  // InvalidArgument for an ending other than .mkv, .mp4, .mov or .m4v, NotFound for a folder that is not there,
-  // Unsupported without libx264.
+  // InvalidArgument for a kind of film that is not written (filmKindOf) or does not hold the codec, NotFound for a
+  // folder that is not there, Unsupported without the codec's library.
   [[nodiscard]] static Result<std::unique_ptr<FilmWriter>> create(const std::string& path, const FilmFormat& format);
-  // Whether `create` knows the file's ending; so that a typing error is told before any work is done.
-  [[nodiscard]] static bool knowsEnding(const std::string& path);
   ~FilmWriter();
 
   // `key` makes it a key frame; no others are made, apart from the first.

@@ -36,11 +36,14 @@ void addOptions(CLI::App& app, Arguments& a) {
       "    relievo-author --color v4l2:/dev/video4 --depth v4l2:/dev/video2 --registration rig.toml -o film.mkv\n"
       "  a depth camera's film, colour above, depth below as hue, with what its depth means:\n"
       "    relievo-author --color desk.mov --packing tb --depth-code hue --calibration near=520,far=1260 -o desk.mp4\n"
+      "  sent as a transport stream, at its own pace: ffplay or relievo play udp://@:5000 over there\n"
+      "    relievo-author --color street.mp4 --depth street-depth.mkv -o udp://192.168.1.20:5000\n"
       "\n"
-      "The file holds two H.264 tracks: colour (4:2:0) and depth (4:0:0, 8 bits, full range, near is high), each "
-      "picture at\n"
-      "the time it had. The depth's meaning is written in its tags. At the end a table says what was done to the "
-      "depth.");
+      "The film holds two tracks: colour (H.264 4:2:0) and depth (H.264 4:0:0 of 8 bits unless asked otherwise, full "
+      "range,\n"
+      "near is high), each picture at the time it had. The depth's meaning is written in its tags, and in the stream "
+      "itself\n"
+      "where a container keeps none. At the end a table says what was done to the depth.");
   app.add_option("--color", a.source.url,
                  "Colour: a file, a URL, v4l2:DEVICE; without --depth it holds the depth as well")
       ->type_name("SRC");
@@ -49,7 +52,8 @@ void addOptions(CLI::App& app, Arguments& a) {
                  "Frames a second of pictures without times, such as numbered files [25]")
       ->type_name("F")
       ->check(between(0.01, 10000.0));
-  app.add_option("-o,--output", a.output.path, "The film to write: .mkv, .mp4, .m4v or .mov")
+  app.add_option("-o,--output", a.output.path,
+                 "The film to write: .mkv, .mp4, .m4v, .mov, .ts, .m3u8 (HLS) or udp://HOST:PORT")
       ->required()
       ->type_name("OUT");
   addDepthOptions(app, a.source);
@@ -73,6 +77,19 @@ void addOptions(CLI::App& app, Arguments& a) {
                  "A picture of what was done, a PNG: colour, depth before and after as lit reliefs, and below the\n"
                  "heights along their line, before in orange, after in blue, a grid line each millimetre")
       ->type_name("PNG");
+  addChoice(app, "--depth-codec", a.output.depth.codec,
+            {{"h264", VideoCodec::H264}, {"hevc", VideoCodec::Hevc}, {"ffv1", VideoCodec::Ffv1}},
+            "Codec of the depth; ffv1, in .mkv alone, is lossless");
+  app.add_option("--depth-bits", a.output.depth.bits,
+                 "Bits of the depth [8]: h264 has 8 and 10, hevc 8, 10 and 12, ffv1 8, 10, 12 and 16")
+      ->type_name("N")
+      ->check(CLI::IsMember({8, 10, 12, 16}).description(""));
+  addChoice(app, "--depth-chroma", a.output.depth.flat_chroma, {{"none", false}, {"flat", true}},
+            "none: depth is 4:0:0; flat: 4:2:0 with gray chroma, for hardware that knows no 4:0:0");
+  addChoice(app, "--depth-law", a.output.depth.law,
+            {{"source", std::nullopt}, {"linear", DepthLaw::Linear}, {"inverse", DepthLaw::Inverse}},
+            "Where the depth's steps are fine: as in the source, evenly (linear), or near the viewer (inverse:\n"
+            "by disparity); the heights stay");
   app.add_option("--scene", a.scene, "Make a film of the project's own instead, with its exact depth: sample")
       ->type_name("NAME")
       ->check(CLI::IsMember({"sample"}).description(""))
@@ -91,8 +108,8 @@ int run(Arguments& a) {
     return tell(
         {"--color", {ErrorCode::InvalidArgument, 0, "missing; name the film's colour, or take --scene sample"}});
   }
-  if (a.crf >= 0) a.output.color_crf = a.output.depth_crf = a.crf;
-  if (a.depth_crf >= 0) a.output.depth_crf = a.depth_crf;
+  if (a.crf >= 0) a.output.color_crf = a.output.depth.crf = a.crf;
+  if (a.depth_crf >= 0) a.output.depth.crf = a.depth_crf;
 
   const std::atomic<bool>& stop = stopOnSignals();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of the write, told like any other

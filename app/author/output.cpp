@@ -7,11 +7,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/author/film_kind.h"
 #include "app/cli/text.h"
 #include "app/scene/display_volume.h"
 
 namespace relievo {
 namespace {
+
+constexpr Duration kLate = std::chrono::milliseconds(500);
 
 std::string sizeText(std::uint64_t bytes) {
   if (bytes < 1000) return print("%llu bytes", static_cast<unsigned long long>(bytes));
@@ -24,26 +27,34 @@ double seconds(const TrackTotals& track, Duration frame_period) {
   return toSeconds(track.last - track.first + frame_period);
 }
 
-std::string trackLine(const char* name, int width, int height, const char* chroma, int crf, const TrackTotals& track,
-                      Duration frame_period) {
+std::string codingText(const FilmFormat& f) {
+  std::string text = std::string(name(f.depth.codec)) + (f.depth.flat_chroma ? " 4:2:0" : " 4:0:0");
+  return f.depth.bits == 8 ? text : text + print(", %d bits", f.depth.bits);
+}
+
+std::string trackLine(const char* name, int width, int height, const std::string& coding, int crf,
+                      const TrackTotals& track, Duration frame_period) {
   const double length = seconds(track, frame_period);
   const std::string size = std::to_string(width) + "x" + std::to_string(height);
   const std::string rate =
       length > 0 ? print("%.0f kbit/s", static_cast<double>(track.bytes) * 8e-3 / length) : std::string("still");
-  return print("  %-6s %-10s H.264 %s  crf %-3d %6llu frames  %10s  %12s\n", name, size.c_str(), chroma, crf,
-               static_cast<unsigned long long>(track.frames), sizeText(track.bytes).c_str(), rate.c_str());
+  const std::string quality = crf > 0 ? print("crf %d", crf) : std::string("lossless");
+  return print("  %-6s %-10s %-21s %-8s %6llu frames  %10s  %12s\n", name, size.c_str(), coding.c_str(),
+               quality.c_str(), static_cast<unsigned long long>(track.frames), sizeText(track.bytes).c_str(),
+               rate.c_str());
 }
 
 std::string codesLine(const DepthCoder::Counts& codes) {
   int lowest = -1, highest = -1, used = 0;
-  for (int i = 0; i < 256; ++i) {
+  for (int i = 0; i < 1 << codes.bits; ++i) {
     if (codes.of_code[static_cast<std::size_t>(i)] == 0) continue;
     if (lowest < 0) lowest = i;
     highest = i;
     ++used;
   }
-  std::string line = used == 0 ? std::string("  depth codes: none, all of it is holes")
-                               : print("  depth codes: 8 bits, %d .. %d, %d of them used", lowest, highest, used);
+  std::string line =
+      used == 0 ? std::string("  depth codes: none, all of it is holes")
+                : print("  depth codes: %d bits, %d .. %d, %d of them used", codes.bits, lowest, highest, used);
   if (codes.holes > 0) {
     line += print("; holes %.1f %%", 100.0 * static_cast<double>(codes.holes) / static_cast<double>(codes.samples));
   }
@@ -88,8 +99,18 @@ Result<void> checkPlace(const std::string& path, bool force) {
 }  // namespace
 
 Result<void> checkOutput(const OutputOptions& output) {
-  if (!FilmWriter::knowsEnding(output.path)) {
-    return fail(ErrorCode::InvalidArgument, "unknown kind of file; let its name end in .mkv, .mp4, .m4v or .mov");
+  const auto kind = filmKindOf(output.path);
+  if (!kind) return fail(ErrorCode::InvalidArgument, kUnknownKind);
+  if (!holds(*kind, output.depth.codec)) return fail(ErrorCode::InvalidArgument, kNotHeld);
+  if (!codes(output.depth.codec, output.depth.bits)) {
+    return fail(ErrorCode::InvalidArgument,
+                "so many bits are not coded so: H.264 has 8 and 10, HEVC 12 too, FFV1 16 too");
+  }
+  if (kind == FilmKind::Live) return {};
+  struct stat status{};
+  if (kind == FilmKind::Hls && !output.force && ::stat(segmentFolderOf(output.path).c_str(), &status) == 0) {
+    return fail(ErrorCode::Io,
+                "its folder of segments is there already; choose another name, or replace it with --force");
   }
   return checkPlace(output.path, output.force);
 }
@@ -119,8 +140,11 @@ std::string toText(const std::string& path, const AuthorSummary& summary) {
   const FilmTotals& totals = summary.totals;
   std::string text =
       path + print(": %.2f s, ", seconds(totals.color, summary.frame_period)) + sizeText(totals.file_bytes) + "\n";
-  text += trackLine("color", f.color_width, f.color_height, "4:2:0", f.color_crf, totals.color, summary.frame_period);
-  text += trackLine("depth", f.depth_width, f.depth_height, "4:0:0", f.depth_crf, totals.depth, summary.frame_period);
+  const int depth_crf = f.depth.codec == VideoCodec::Ffv1 ? 0 : f.depth.crf;
+  text +=
+      trackLine("color", f.color_width, f.color_height, "H.264 4:2:0", f.color_crf, totals.color, summary.frame_period);
+  text +=
+      trackLine("depth", f.depth_width, f.depth_height, codingText(f), depth_crf, totals.depth, summary.frame_period);
   if (summary.enhancement) text += enhancementLines(*summary.enhancement, summary.enhanced);
   text += codesLine(summary.codes);
   const auto tag = [&f](const char* key) {
@@ -130,6 +154,10 @@ std::string toText(const std::string& path, const AuthorSummary& summary) {
   text += "  depth means: " + tag("DEPTH_LAW") + " law, near is high, full range";
   if (tag("DEPTH_LAW") == "inverse") text += ", near " + tag("DEPTH_NEAR") + " mm, far " + tag("DEPTH_FAR") + " mm";
   text += "\n";
+  if (totals.latest > kLate) {
+    text += print("  note: sent up to %.1f s late: this machine is too slow for the film, take it smaller\n",
+                  toSeconds(totals.latest));
+  }
   for (const std::string& note : summary.notes) text += "  note: " + note + "\n";
   return text;
 }

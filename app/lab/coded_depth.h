@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth frames through H.264 and back, in memory: what a coder of a given quality leaves of them.
+// Depth frames through a coder and back, in memory: what it leaves of them.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "app/coding/video_encoder.h"
 #include "hal/frame.h"
 #include "platform/error.h"
 
@@ -16,8 +17,11 @@ struct CodedDepth {
   std::uint64_t bytes = 0;    // of all packets
 };
 
-// libx264, 4:0:0, 8 bits, signalled as full range, default preset; crf 0 is lossless, 51 the coarsest. InvalidArgument
-// for no frames, for other than 8-bit gray frames of one size, or for times that do not rise.
+// 4:0:0, signalled as full range, with a key frame at every second. Codec, bits, crf and what they are to be good for
+// are the caller's, the rest of `settings` is the frames'. InvalidArgument for no frames, for other than gray frames of
+// one size with that many bits, or for times that do not rise.
+[[nodiscard]] Result<CodedDepth> codeDepth(std::span<const Frame> frames, VideoEncoder::Settings settings);
+// As a coder does that knows nothing of touch: H.264, 8 bits; crf 0 is lossless, 51 the coarsest.
 [[nodiscard]] Result<CodedDepth> codeDepth(std::span<const Frame> frames, int crf);
 
 }  // namespace relievo

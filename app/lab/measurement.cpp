@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "app/lab/bitrate.h"
 #include "app/lab/detail.h"
 #include "app/lab/enhance.h"
 #include "app/lab/smoothness.h"
@@ -18,6 +19,7 @@ constexpr std::array kSmoothnessCharts{"smoothness", "smoothness-hand", "smoothn
 constexpr std::array kStabilityCharts{"stability", "stability-onset"};
 constexpr std::array kDetailCharts{"detail"};
 constexpr std::array kEnhanceCharts{"enhance", "enhance-points"};
+constexpr std::array kBitrateCharts{"bitrate"};
 
 constexpr std::array kMeasurements{
     Measurement{"speed-accuracy", "what a tick takes and how far the force is from the true one, by method and parts",
@@ -30,6 +32,8 @@ constexpr std::array kMeasurements{
                 kDetailCharts, measureDetail},
     Measurement{"enhance", "what enhancement of a camera's depth does for force and edges, and what a mesh takes",
                 kEnhanceCharts, measureEnhancement},
+    Measurement{"bitrate", "what the depth's codec, bits and quality cost, and how far the force is off with them",
+                kBitrateCharts, measureBitrate},
 };
 
 }  // namespace

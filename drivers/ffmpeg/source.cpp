@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <deque>
+#include <map>
 #include <thread>
 
 #include "drivers/ffmpeg/address.h"
 #include "drivers/ffmpeg/container.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/ffmpeg/library.h"
+#include "drivers/ffmpeg/stream_tags.h"
 #include "drivers/ffmpeg/watch.h"
 #include "platform/unique_fd.h"
 
@@ -29,7 +32,9 @@ constexpr Duration kFlowPatience = std::chrono::seconds(3);   // of what never p
 constexpr Duration kOpenPatience = std::chrono::seconds(30);  // an index may be long and the line slow
 constexpr Duration kNap = std::chrono::milliseconds(2);       // between tries where the library says "again"
 constexpr const char* kCannotSeek = "it cannot seek: a live stream or a pipe";
-constexpr int kDamagedReads = 64;  // in a row, until a broken container counts as ended
+constexpr std::size_t kTagPackets = 512;      // among which a key frame of each stream is looked for
+constexpr std::size_t kFlowTagPackets = 128;  // of what comes at its own pace: about as many as the opening has brought
+constexpr int kDamagedReads = 64;             // in a row, until a broken container counts as ended
 // A container's length may count a last picture longer than its packet, or sound that a codec adds at the end.
 constexpr Duration kWholeWithin = std::chrono::milliseconds(250);
 // What lost data leaves open is waited out; of a stream that comes at its own pace that wait is over already.
@@ -84,7 +89,37 @@ class FfmpegSource final : public MediaSource {
     earliest_stream_ = earliestStream(*context, leading_stream_);
     context_ = std::move(owned);
     address_ = std::move(*address);
+    ahead_.clear();
+    readStreamTags();
     return {};
+  }
+
+  // Where the container says nothing of a depth, the streams may: beside their first key frames. What is read for that
+  // is kept; most of it the library has read already.
+  void readStreamTags() {
+    stream_tags_.clear();
+    std::map<int, const AVStream*> wanted;
+    for (unsigned i = 0; i < context_->nb_streams; ++i) {
+      const AVStream& stream = *context_->streams[i];
+      if (saysDepth(stream.metadata) || saysDepth(context_->metadata)) return;
+      if (kindOf(stream) == StreamKind::Video && mayCarryTags(stream.codecpar->codec_id)) {
+        wanted[stream.index] = &stream;
+      }
+    }
+    const std::size_t most = address_.flows() ? kFlowTagPackets : kTagPackets;
+    while (!wanted.empty() && ahead_.size() < most) {
+      PacketPtr packet(av_packet_alloc());
+      if (!packet || av_read_frame(context_.get(), packet.get()) < 0) return;  // `readPacket` meets it again
+      const auto found = wanted.find(packet->stream_index);
+      if (found != wanted.end() && (packet->flags & AV_PKT_FLAG_KEY) != 0) {
+        stream_tags_[found->first] = streamTags(*packet, *found->second->codecpar);
+        wanted.erase(found);
+      }
+      ahead_.push_back(std::move(packet));
+    }
+  }
+  static bool saysDepth(const AVDictionary* tags) noexcept {
+    return av_dict_get(tags, "DEPTH_", nullptr, AV_DICT_IGNORE_SUFFIX) != nullptr;
   }
 
   // open(2) waits for the pipe's writer, and that wait could not be interrupted.
@@ -115,6 +150,9 @@ class FfmpegSource final : public MediaSource {
       auto stream = describeStream(*context_->streams[i], timed_);
       if (!stream) return std::unexpected(stream.error());
       if (stream->duration == Duration(0)) stream->duration = description.duration;
+      if (const auto own = stream_tags_.find(stream->index); own != stream_tags_.end()) {
+        stream->tags.insert(own->second.begin(), own->second.end());
+      }
       description.streams.push_back(std::move(*stream));
     }
     return description;
@@ -137,7 +175,7 @@ class FfmpegSource final : public MediaSource {
     int damaged_reads = 0;
     for (;;) {
       if (watch_.cancelled()) return std::unexpected(watch_.explain({}));
-      const int got = av_read_frame(context_.get(), packet.get());
+      const int got = readNext(packet);
       if (got >= 0) noteEnd(*packet);
       if (got >= 0 && context_->pb != nullptr) context_->pb->error = 0;  // got over
       if (got >= 0 && isWanted(*packet)) return packetOf(std::move(packet));
@@ -149,6 +187,14 @@ class FfmpegSource final : public MediaSource {
         return endOrError(got);
       }
     }
+  }
+
+  // A code of the library, as of av_read_frame.
+  int readNext(PacketPtr& packet) {
+    if (ahead_.empty()) return av_read_frame(context_.get(), packet.get());
+    packet = std::move(ahead_.front());
+    ahead_.pop_front();
+    return 0;
   }
 
   void noteEnd(const AVPacket& packet) noexcept {
@@ -205,6 +251,7 @@ class FfmpegSource final : public MediaSource {
     if (pipe_.valid()) return fail(ErrorCode::Unsupported, kCannotSeek);
     if (!timed_) return openContext();  // pictures are counted from the beginning
     watch_.begin(kReadPatience);
+    ahead_.clear();
     latest_end_ = target.time_since_epoch();  // what lies before it is not missing
     const bool to_beginning = target <= MediaTime{};
     if (to_beginning && seeksByBytes() && av_seek_frame(context_.get(), -1, 0, AVSEEK_FLAG_BYTE) >= 0) return {};
@@ -232,6 +279,7 @@ class FfmpegSource final : public MediaSource {
   }
 
   void closeSource() noexcept override {
+    ahead_.clear();
     context_.reset();
     pipe_.reset();
   }
@@ -245,8 +293,10 @@ class FfmpegSource final : public MediaSource {
   UniqueFd pipe_;  // outlives the context that reads from it
   FormatPtr context_;
   bool timed_ = true;
-  Duration start_{0};       // the container's start time
-  Duration latest_end_{0};  // of all packets read so far, from the start on
+  Duration start_{0};                                              // the container's start time
+  Duration latest_end_{0};                                         // of all packets read so far, from the start on
+  std::deque<PacketPtr> ahead_;                                    // read for the tags' sake, not given yet
+  std::map<int, std::map<std::string, std::string>> stream_tags_;  // of the streams that carry some
   int leading_stream_ = 0;
   int earliest_stream_ = 0;
 };

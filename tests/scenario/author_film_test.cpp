@@ -78,7 +78,8 @@ class AuthorFilm : public testing::Test {
   std::atomic<bool> stop_{false};
 
   Outcome<AuthorSummary> make(const SourceOptions& source, const std::string& out = "out.mkv") {
-    return authorFilm(source, kBackends, {.path = folder_ / out, .color_crf = 18, .depth_crf = 0}, stop_, kNoReport);
+    return authorFilm(source, kBackends, {.path = folder_ / out, .color_crf = 18, .depth = {.crf = 0}}, stop_,
+                      kNoReport);
   }
   // Colour and depth as two files, into out.mkv.
   AuthorSummary package(const ClipTrack& color, const ClipTrack& depth, SourceOptions source = {}) {
@@ -334,7 +335,7 @@ TEST_F(AuthorFilm, LeavesNothingWhenTheSampleIsInterrupted) {
 
 TEST_F(AuthorFilm, SampleIsAFilmLikeAnyOther) {
   const auto summary = authorSample({.cols = 160, .rows = 108, .frames = 40, .threads = 2},
-                                    {.path = folder_ / "out.mp4", .depth_crf = 0}, stop_, kNoReport);
+                                    {.path = folder_ / "out.mp4", .depth = {.crf = 0}}, stop_, kNoReport);
   ASSERT_TRUE(summary.has_value());
   EXPECT_EQ(summary->totals.depth.frames, 40u);
   const Film film = readFilm(folder_ / "out.mp4");
@@ -424,15 +425,28 @@ std::string textOf(const std::string& path) {
 }
 
 TEST_F(AuthorFilm, ProgramLeavesNothingOnASignal) {
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
-    Process process({std::string(RELIEVO_BIN_DIR) + "/relievo-author", "--scene", "sample", "-o", folder_ / "out.mkv"},
+  for (const auto& [number, out] : {std::pair{SIGINT, "out.mkv"}, {SIGTERM, "out.ts"}, {SIGHUP, "out.m3u8"}}) {
+    Process process({std::string(RELIEVO_BIN_DIR) + "/relievo-author", "--scene", "sample", "-o", folder_ / out},
                     folder_ / "said/errors");
     while (!process.catches(number) && process.isRunning()) std::this_thread::yield();
     ASSERT_TRUE(process.isRunning()) << textOf(folder_ / "said/errors");
     process.send(number);
     EXPECT_EQ(process.wait(), 1);
-    EXPECT_THAT(textOf(folder_ / "said/errors"), HasSubstr("out.mkv: interrupted; nothing was written"));
+    EXPECT_THAT(textOf(folder_ / "said/errors"), HasSubstr(std::string(out) + ": interrupted; nothing was written"));
     EXPECT_TRUE(made().empty());
+  }
+}
+
+// What is made apart may be left where files without a name are unknown, and of HLS; never a film that is not whole.
+TEST_F(AuthorFilm, ProgramLeavesNoFilmWhenItIsKilled) {
+  for (const char* out : {"out.mkv", "out.mp4", "out.ts", "out.m3u8"}) {
+    Process process({std::string(RELIEVO_BIN_DIR) + "/relievo-author", "--scene", "sample", "-o", folder_ / out},
+                    folder_ / "said/errors");
+    while (!process.catches(SIGHUP) && process.isRunning()) std::this_thread::yield();
+    process.send(SIGKILL);
+    EXPECT_LT(process.wait(), 0) << "ended by a signal";
+    EXPECT_FALSE(std::filesystem::exists(folder_ / out)) << out;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out.segments"));
   }
 }
 
@@ -455,13 +469,126 @@ TEST_F(AuthorFilm, ProgramLeavesNothingOnAFullDisk) {
   };
   makeClip(folder_ / "color.mkv", {color});
   makeClip(folder_ / "depth.mkv", {depthTrack("gray", [](int, int, int) { return 9u; })});
-  Process process({"/bin/bash", "-c",
-                   "ulimit -f 16; exec " RELIEVO_BIN_DIR "/relievo-author --color " + (folder_ / "color.mkv") +
-                       " --depth " + (folder_ / "depth.mkv") + " -o " + (folder_ / "out.mkv")},
-                  folder_ / "said/errors");
-  EXPECT_EQ(process.wait(), 1);
-  EXPECT_THAT(textOf(folder_ / "said/errors"), HasSubstr("out.mkv: it cannot be written; is the disk full?"));
-  EXPECT_TRUE(made().empty());
+  for (const char* out : {"out.mkv", "out.mp4", "out.ts", "out.m3u8"}) {
+    Process process({"/bin/bash", "-c",
+                     "ulimit -f 16; exec " RELIEVO_BIN_DIR "/relievo-author --color " + (folder_ / "color.mkv") +
+                         " --depth " + (folder_ / "depth.mkv") + " -o " + (folder_ / out)},
+                    folder_ / "said/errors");
+    EXPECT_EQ(process.wait(), 1) << out;
+    EXPECT_THAT(textOf(folder_ / "said/errors"),
+                HasSubstr(std::string(out) + ": it cannot be written; is the disk full?"));
+    EXPECT_TRUE(made().empty()) << out;
+  }
+}
+
+TEST_F(AuthorFilm, ReplacesAnHlsFilmWholeWhenForced) {
+  makeClip(folder_ / "color.mkv", {colorTrack()});
+  makeClip(folder_ / "depth.mkv", {depthTrack("gray", [](int, int, int k) { return 8u * static_cast<unsigned>(k); })});
+  const SourceOptions source{.url = folder_ / "color.mkv", .depth_url = folder_ / "depth.mkv"};
+  ASSERT_TRUE(make(source, "out.m3u8").has_value());
+  EXPECT_THAT(made(), ElementsAre("out.m3u8", "out.segments"));
+  EXPECT_THAT(filesIn(folder_ / "out.segments"), ElementsAre("00000.m4s", "init.mp4"));
+  std::ofstream(folder_ / "out.segments/00007.m4s") << "old";
+  EXPECT_FALSE(make(source, "out.m3u8").has_value());
+  std::filesystem::remove(folder_ / "out.m3u8");
+  const auto refused = make(source, "out.m3u8");
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_THAT(refused.error().error.message, HasSubstr("segments is there already"));
+  ASSERT_TRUE(authorFilm(source, kBackends, {.path = folder_ / "out.m3u8", .force = true}, stop_, kNoReport));
+  EXPECT_THAT(made(), ElementsAre("out.m3u8", "out.segments"));
+  EXPECT_THAT(filesIn(folder_ / "out.segments"), ElementsAre("00000.m4s", "init.mp4"));
+  EXPECT_EQ(readFilm(folder_ / "out.m3u8").pairs.size(), 30u);
+}
+
+TEST_F(AuthorFilm, PutsKeyFramesAtCuts) {
+  // From a slope to its mirror image between 40 and 41; a second has its own at 30, and 71 is a second from the cut.
+  ClipTrack depth =
+      depthTrack("gray", [](int c, int, int k) { return static_cast<std::uint32_t>(k <= 40 ? 4 * c : 255 - 4 * c); });
+  depth.frames = 80;
+  package(colorTrack(64, 48, 30, 80), depth);
+  const auto source = makeFfmpegSource();
+  ASSERT_TRUE(source->open(folder_ / "out.mkv").has_value());
+  std::map<int, std::vector<int>> keys;
+  while (auto packet = source->read().value()) {
+    if (packet->keyframe) keys[packet->stream].push_back(static_cast<int>(std::lround(toSeconds(*packet->pts) * 30)));
+  }
+  EXPECT_THAT(keys[0], ElementsAre(0, 30, 41, 71));
+  EXPECT_THAT(keys[1], ElementsAre(0, 30, 41, 71));
+}
+
+TEST_F(AuthorFilm, CutsADepthForFlatChromaToAnEvenSize) {
+  makeClip(folder_ / "color.mkv", {colorTrack(64, 48)});
+  makeClip(folder_ / "depth.mkv",
+           {depthTrack("gray", [](int c, int r, int) { return static_cast<std::uint32_t>(c + r); }, 33, 25)});
+  // One of 33 columns is 2 of 64 (1.03 of 33); one of 25 rows is 2 of 48 (1.04 of 25).
+  const auto summary =
+      authorFilm({.url = folder_ / "color.mkv", .depth_url = folder_ / "depth.mkv"}, kBackends,
+                 {.path = folder_ / "out.mkv", .depth = {.flat_chroma = true, .crf = 0}}, stop_, kNoReport);
+  ASSERT_TRUE(summary.has_value()) << summary.error().error.message;
+  EXPECT_EQ(summary->format.color_width, 62);
+  EXPECT_EQ(summary->format.color_height, 46);
+  EXPECT_EQ(summary->format.depth_width, 32);
+  EXPECT_EQ(summary->format.depth_height, 24);
+  EXPECT_EQ(readFilm(folder_ / "out.mkv").code(0, 31, 23), 54);
+}
+
+TEST_F(AuthorFilm, TakesADepthThatIsAllHoles) {
+  SourceOptions source;
+  source.command_line = {{"invalid", "7"}};
+  const AuthorSummary summary = package(colorTrack(), depthTrack("gray", [](int, int, int) { return 7u; }), source);
+  EXPECT_EQ(summary.codes.holes, summary.codes.samples);
+  EXPECT_THAT(toText("out.mkv", summary), HasSubstr("none, all of it is holes"));
+  EXPECT_EQ(readFilm(folder_ / "out.mkv").info.calibration.calibration.invalid_code, std::optional<std::uint32_t>(0));
+}
+
+TEST_F(AuthorFilm, ProgramWritesWhatItsWordsSay) {
+  makeClip(folder_ / "color.mkv", {colorTrack()});
+  makeClip(folder_ / "depth.mkv",
+           {depthTrack("gray16le", [](int c, int, int) { return static_cast<std::uint32_t>(1000 * c); })});
+  const auto said =
+      run("--color @/color.mkv --depth @/depth.mkv -o @/out.ts --depth-codec hevc --depth-bits 12 --depth-chroma flat "
+          "--depth-law inverse --calibration near=500,far=2000");
+  EXPECT_EQ(said.exit_code, 0) << said.err;
+  EXPECT_THAT(said.out, HasSubstr("HEVC 4:2:0, 12 bits"));
+  EXPECT_THAT(said.out, HasSubstr("linear steps made inverse ones"));
+  EXPECT_EQ(said.err, "");
+  const Film film = readFilm(folder_ / "out.ts");
+  EXPECT_EQ(film.info.calibration.calibration.law, DepthLaw::Inverse);
+  EXPECT_EQ(film.info.calibration.calibration.bits, 12);
+  EXPECT_EQ(film.info.calibration.calibration.near_mm, 500);
+  EXPECT_EQ(film.info.depth_codec, "hevc");
+}
+
+// Others play it as ordinary video: every picture of the colour, and the depth is not taken for it.
+TEST_F(AuthorFilm, OtherPlayersPlayItAsOrdinaryVideo) {
+  makeClip(folder_ / "color.mkv", {colorTrack()});
+  makeClip(folder_ / "depth.mkv", {depthTrack("gray", [](int, int, int k) { return 8u * static_cast<unsigned>(k); })});
+  const SourceOptions source{.url = folder_ / "color.mkv", .depth_url = folder_ / "depth.mkv"};
+  const auto shell = [this](const std::string& command) {
+    Process process({"/bin/bash", "-c", command + " >" + (folder_ / "said/out")}, folder_ / "said/errors");
+    return process.wait();
+  };
+  const auto isThere = [&](const std::string& program) { return shell("command -v " + program) == 0; };
+  if (!isThere("ffprobe")) GTEST_SKIP() << "no ffprobe: toolchain/setup demo";
+  for (const char* out : {"out.mkv", "out.mp4", "out.mov", "out.ts", "out.m3u8"}) {
+    ASSERT_TRUE(make(source, out).has_value());
+    const std::string film = folder_ / out;
+    ASSERT_EQ(shell("ffprobe -v error -select_streams v:0 -count_frames -show_entries "
+                    "stream=codec_name,nb_read_frames,pix_fmt -of csv=p=0 " +
+                    film),
+              0);
+    EXPECT_THAT(textOf(folder_ / "said/out"), testing::StartsWith("h264,yuv420p,30")) << out;
+    EXPECT_EQ(textOf(folder_ / "said/errors"), "") << out;
+    if (isThere("mpv")) {
+      EXPECT_EQ(shell("mpv --no-config --frames=30 --vo=null --ao=null --untimed " + film), 0) << out;
+    }
+    // Its demuxers of transport streams and HLS are in packages of 80 MB.
+    const bool plain = film.ends_with(".mkv") || film.ends_with(".mp4") || film.ends_with(".mov");
+    if (plain && isThere("gst-launch-1.0")) {
+      EXPECT_EQ(shell("gst-launch-1.0 -q uridecodebin uri=file://" + film + " ! fakesink"), 0)
+          << out << ": " << textOf(folder_ / "said/errors");
+    }
+  }
 }
 
 }  // namespace

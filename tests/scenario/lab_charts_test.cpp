@@ -165,6 +165,25 @@ TEST_F(LabCharts, HoldingTheFramePeaksAtTheFrameRateFarOverInterpolation) {
   EXPECT_NEAR(value("modified-proxy-graph", "fixed point", "15", "added_latency_ms"), 1000.0 / 15, 0.01);
 }
 
+// What is coded finer costs more and is truer, whatever the codec; bits that are not there cannot be felt.
+TEST_F(LabCharts, FinerDepthCostsMoreAndIsTruer) {
+  const Csv csv(out("bitrate.csv"));
+  const auto value = [&](const char* codec, const char* bits, const char* crf, const char* column) {
+    return csv.value({{"codec", codec}, {"bits", bits}, {"steps", "even"}, {"crf", crf}}, column);
+  };
+  for (const auto& [codec, bits] : {std::pair{"H.264", "8"}, {"H.264", "10"}, {"HEVC", "10"}}) {
+    EXPECT_GT(value(codec, bits, "8", "kbit_s"), 2 * value(codec, bits, "20", "kbit_s")) << codec << bits;
+    EXPECT_LT(value(codec, bits, "8", "height_rms_mm"), value(codec, bits, "20", "height_rms_mm")) << codec << bits;
+  }
+  // Rounding alone: a step of 40/255 mm over the square root of 12.
+  EXPECT_NEAR(value("FFV1", "8", "0", "height_rms_mm"), 40.0 / 255 / std::sqrt(12.0), 0.002);
+  EXPECT_NEAR(value("FFV1", "10", "0", "height_rms_mm"), 40.0 / 1023 / std::sqrt(12.0), 0.001);
+  EXPECT_EQ(value("FFV1", "16", "0", "height_max_mm"), 0);
+  EXPECT_EQ(value("H.264", "8", "0", "height_rms_mm"), value("FFV1", "8", "0", "height_rms_mm"));
+  EXPECT_LT(value("FFV1", "16", "0", "force_rms_percent"), value("FFV1", "8", "0", "force_rms_percent"));
+  EXPECT_NE(textOf(out("bitrate.svg")).find("default"), std::string::npos);
+}
+
 // One run of this chart alone.
 class LabDetail : public testing::Test {
  protected:
@@ -261,7 +280,7 @@ TEST_F(LabCharts, AReportRunsOnlyWhatIsMissing) {
 TEST(LabChartsWords, WrongUseAndAFolderThatCannotBeMadeAreOneLineEach) {
   const test::TemporaryFolder folder;
   std::ofstream(folder / "file") << "in the way";
-  for (const char* command : {"speed-accuracy", "smoothness", "stability", "detail", "report"}) {
+  for (const char* command : {"speed-accuracy", "smoothness", "stability", "detail", "bitrate", "report"}) {
     const auto without = test::runProgram(std::string("relievo-lab ") + command, folder / ".");
     EXPECT_EQ(without.exit_code, 2) << command;
     EXPECT_NE(without.err.find("--out"), std::string::npos) << without.err;

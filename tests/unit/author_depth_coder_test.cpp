@@ -18,8 +18,8 @@ Frame grayRow(const Codes& codes, int bits) {
                              [&](int c, int) { return codes[static_cast<std::size_t>(c)]; });
 }
 
-Codes coded(const Frame& frame, const DepthCalibration& calibration) {
-  DepthCoder coder(calibration);
+Codes coded(const Frame& frame, const DepthCalibration& calibration, const DepthCoding& coding = {}) {
+  DepthCoder coder(calibration, coding);
   DepthPicture picture;
   EXPECT_TRUE(coder.encode(frame, picture).has_value());
   EXPECT_EQ(picture.width, frame.width);
@@ -125,6 +125,38 @@ TEST(AuthorDepthCoder, DecodesHueToLuma) {
   EXPECT_EQ(DepthCoder({.code = DepthCode::Hue}).outcome().invalid_code, std::optional<std::uint32_t>(0));
 }
 
+// 65535 to 4095: 16.004 codes to one; 8 -> 0.4999, 9 -> 0.56, 32768 -> 2047.53. 10 to 12 bits: 4095/1023 = 4.003.
+TEST(AuthorDepthCoder, KeepsAsManyBitsAsAreAskedFor) {
+  const DepthCoding twelve{.codec = VideoCodec::Hevc, .bits = 12};
+  EXPECT_EQ(coded(grayRow({0, 8, 9, 32768, 65535}, 16), {.bits = 16}, twelve), (Codes{0, 0, 1, 2048, 4095}));
+  EXPECT_EQ(coded(grayRow({0, 1, 512, 1023}, 10), {.bits = 10}, twelve), (Codes{0, 4, 2050, 4095}));
+  const DepthCoding sixteen{.codec = VideoCodec::Ffv1, .bits = 16};
+  EXPECT_EQ(coded(grayRow({0, 1, 32767, 65535}, 16), {.bits = 16}, sixteen), (Codes{0, 1, 32767, 65535}));
+  EXPECT_TRUE(DepthCoder({.bits = 16}, sixteen).explain().empty());
+  DepthCoder coder({.bits = 16, .invalid_code = 0}, twelve);
+  DepthPicture picture;
+  ASSERT_TRUE(coder.encode(grayRow({0, 1, 65535}, 16), picture).has_value());
+  EXPECT_EQ(picture.codes, (std::vector<std::uint16_t>{0, 1, 4095}));
+  EXPECT_EQ(coder.outcome().bits, 12);
+  EXPECT_EQ(coder.counts().of_code.at(4095), 1u);
+}
+
+// Near 500, far 2000 mm. Half the height is 1250 mm away: (1/1250 - 1/2000)/(1/500 - 1/2000) = 0.2 of the codes, 51 of
+// 255; code 51 of disparity is half the height, 127.5.
+TEST(AuthorDepthCoder, ChangesTheLawAndKeepsTheHeights) {
+  const DepthCalibration even{.bits = 16, .near_mm = 500, .far_mm = 2000};
+  const DepthCoding by_disparity{.law = DepthLaw::Inverse};
+  EXPECT_EQ(coded(grayRow({0, 32768, 65535}, 16), even, by_disparity), (Codes{0, 51, 255}));
+  EXPECT_EQ(DepthCoder(even, by_disparity).outcome().law, DepthLaw::Inverse);
+  const DepthCalibration inverse{.law = DepthLaw::Inverse, .near_mm = 500, .far_mm = 2000};
+  EXPECT_EQ(coded(grayRow({0, 51, 255}, 8), inverse, {.law = DepthLaw::Linear}), (Codes{0, 128, 255}));
+  EXPECT_EQ(coded(grayRow({0, 51, 255}, 8), inverse, by_disparity), (Codes{0, 51, 255}));
+  // Near low: the same heights, from the other side.
+  DepthCalibration low = even;
+  low.polarity = DepthPolarity::NearIsLow;
+  EXPECT_EQ(coded(grayRow({0, 32767, 65535}, 16), low, by_disparity), (Codes{255, 51, 0}));
+}
+
 TEST(AuthorDepthCoder, SaysWhatItDid) {
   const auto said = [](const DepthCalibration& c) {
     std::string all;
@@ -137,6 +169,8 @@ TEST(AuthorDepthCoder, SaysWhatItDid) {
   EXPECT_NE(said({.polarity = DepthPolarity::NearIsLow}).find("turned round"), std::string::npos);
   EXPECT_NE(said({.invalid_code = 3}).find("holes are code 0"), std::string::npos);
   EXPECT_NE(said({.code = DepthCode::Hue}).find("hue decoded"), std::string::npos);
+  EXPECT_NE(DepthCoder({}, {.law = DepthLaw::Inverse}).explain().at(0).find("linear steps made inverse"),
+            std::string::npos);
 }
 
 }  // namespace

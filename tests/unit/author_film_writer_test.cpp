@@ -119,7 +119,7 @@ class AuthorFilmWriter : public testing::TestWithParam<const char*> {
 
 TEST_P(AuthorFilmWriter, LosslessDepthComesBackCodeByCode) {
   FilmFormat format = formatOf(64, 48);
-  format.depth_crf = 0;
+  format.depth.crf = 0;
   writeFilm(
       path(), format, regularTimes(12),
       [](int k) { return depthPicture(64, 48, [k](int c, int r) { return scattered(c, r, k); }); },

@@ -45,6 +45,15 @@ TEST(AuthorKeyFrames, WaitForADepthPicture) {
   EXPECT_THAT(keysOf(70, 30, [](int k) { return k % 4 == 0; }), ElementsAre(0, 32, 64));
 }
 
+TEST(AuthorKeyFrames, AreAtCuts) {
+  KeyFrames keys;
+  std::vector<int> found;
+  for (int k = 0; k < 80; ++k) {  // a cut at 40 and one at 50, where there is no depth picture to begin with
+    if (keys.isDue(mediaTime(k / 30.0), k != 50, k == 40 || k == 50)) found.push_back(k);
+  }
+  EXPECT_THAT(found, ElementsAre(0, 30, 40, 70));
+}
+
 TEST(AuthorKeyFrames, DoNotWaitForEver) {
   EXPECT_THAT(keysOf(125, 30, [](int k) { return k == 0; }), ElementsAre(0, 61, 122));
 }
@@ -61,12 +70,28 @@ TEST(AuthorProgress, LeavesOutWhatIsNotKnown) {
   EXPECT_EQ(progressText(401, 400, std::chrono::seconds(10)), "401 frames, 40.1 frames/s");
 }
 
+TEST(AuthorOutput, IsCheckedBeforeAnyWork) {
+  const auto refused = [](const OutputOptions& output) {
+    const auto checked = checkOutput(output);
+    return checked ? std::string() : std::string(checked.error().message);
+  };
+  for (const char* path : {"no/a.mkv", "no/a.MP4", "no/a.ts", "no/a.m3u8", "udp://127.0.0.1:5000"}) {
+    EXPECT_EQ(refused({.path = path}), "") << path;
+  }
+  EXPECT_THAT(refused({.path = "a.avi"}), HasSubstr(".m3u8"));
+  EXPECT_EQ(refused({.path = "no/a.mkv", .depth = {.codec = VideoCodec::Ffv1, .bits = 16}}), "");
+  EXPECT_THAT(refused({.path = "no/a.ts", .depth = {.codec = VideoCodec::Ffv1}}), HasSubstr("write a .mkv"));
+  EXPECT_THAT(refused({.path = "no/a.mkv", .depth = {.bits = 12}}), HasSubstr("H.264 has 8 and 10"));
+}
+
 TEST(AuthorSummary, TellsTracksCodesAndWhatWasDone) {
   AuthorSummary summary;
   summary.format.color_width = 640;
   summary.format.color_height = 480;
   summary.format.depth_width = 320;
   summary.format.depth_height = 240;
+  summary.format.depth.codec = VideoCodec::Hevc;
+  summary.format.depth.bits = 10;
   summary.format.depth_tags = {{"DEPTH_LAW", "inverse"}, {"DEPTH_NEAR", "500"}, {"DEPTH_FAR", "4000"}};
   summary.frame_period = std::chrono::milliseconds(40);
   // 50 pictures of 40 ms are 2 s; 250,000 bytes are 1000 kbit/s.
@@ -86,6 +111,7 @@ TEST(AuthorSummary, TellsTracksCodesAndWhatWasDone) {
   EXPECT_THAT(text, HasSubstr(" 1000 kbit/s"));
   EXPECT_THAT(text, HasSubstr(" 100 kbit/s"));
   EXPECT_THAT(text, HasSubstr("8 bits, 3 .. 200, 2 of them used; holes 10.0 %"));
+  EXPECT_THAT(text, HasSubstr("HEVC 4:0:0, 10 bits"));
   EXPECT_THAT(text, HasSubstr("inverse law"));
   EXPECT_THAT(text, HasSubstr("near 500 mm, far 4000 mm"));
   EXPECT_THAT(text, HasSubstr("note: 16 bits rescaled to 8"));

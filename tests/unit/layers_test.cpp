@@ -41,13 +41,14 @@ const std::vector<Room>& rooms() {
   static const std::vector<Room> all = {
       {"app/scene", {}},
       {"app/media", {"app/scene"}},
+      {"app/coding", {}},
       {"app/haptics", {"app/scene"}},
       {"app/render", {"app/scene"}},
       {"app/cli", {"app/scene", "app/media"}},
       {"app/player", {"app/scene", "app/media", "app/haptics", "app/render", "app/cli"}},
       {"app/enhance", {"app/scene"}},
-      {"app/author", {"app/scene", "app/media", "app/cli", "app/enhance"}},
-      {"app/lab", {"app/scene", "app/media", "app/haptics", "app/render", "app/cli", "app/enhance"}},
+      {"app/author", {"app/scene", "app/media", "app/coding", "app/haptics", "app/cli", "app/enhance"}},
+      {"app/lab", {"app/scene", "app/media", "app/coding", "app/haptics", "app/render", "app/cli", "app/enhance"}},
   };
   return all;
 }

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// The codecs that films are written in, and the bits that they take.
+#pragma once
+
+#include <cstdint>
+
+namespace relievo {
+
+enum class VideoCodec : std::uint8_t { H264, Hevc, Ffv1 };
+[[nodiscard]] const char* name(VideoCodec codec) noexcept;  // "H.264"
+// H.264: 8 and 10, HEVC: 8, 10 and 12, FFV1: 8, 10, 12 and 16.
+[[nodiscard]] bool codes(VideoCodec codec, int bits) noexcept;
+
+}  // namespace relievo
