@@ -47,11 +47,10 @@ struct AuthorSummary {
 using ProgressReport = std::function<void(std::uint64_t done, std::optional<std::uint64_t> total)>;
 
 // Both run until they are done, fail, or find `stop` set, which makes them return Cancelled; nothing is left then.
-// A live film ends at `stop`, and when its source goes away: it is whole then. What goes out on a line may be stopped at
-// any time: it is done then.
-// The film's pictures keep their times. A depth picture is written once, at its own time, however many pictures of the
-// colour it belongs to. Colour of an odd width or height loses its last column or row, and the depth as much of its own
-// as keeps the two in register.
+// A live film ends at `stop`, and when its source goes away: it is whole then. What goes out on a line may be stopped
+// at any time: it is done then. The film's pictures keep their times. A depth picture is written once, at its own time,
+// however many pictures of the colour it belongs to. Colour of an odd width or height loses its last column or row, and
+// the depth as much of its own as keeps the two in register.
 [[nodiscard]] Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader::Backends& backends,
                                                 const OutputOptions& output, const std::atomic<bool>& stop,
                                                 const ProgressReport& progress);

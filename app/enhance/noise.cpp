@@ -14,7 +14,8 @@ float noiseOf(const DepthMap& map) {
   // The mask's weights are 1 -2 1 times 1 -2 1: of noise s it makes 6 s. Half of a normal distribution lies within
   // 0.6745 of its standard deviation.
   constexpr float kPerCode = 6 * 0.6745F;
-  // Some rows are enough. The responses in a histogram: whole numbers of small codes would make the median itself one of few numbers.
+  // Some rows are enough. The responses in a histogram: whole numbers of small codes would make the median itself one
+  // of few numbers.
   constexpr int kBins = 4096;
   constexpr float kBinsPerCode = 1.0F / 8;
   std::array<std::size_t, kBins> bins{};

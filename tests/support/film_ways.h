@@ -84,7 +84,8 @@ struct ReadFilm {
   std::vector<FramePair> pairs;
 };
 inline ReadFilm readFilm(const std::string& url, std::size_t most = 1000) {
-  const PairReader::Backends backends{[] { return makeFfmpegSource(); }, [] { return makeFfmpegDecoder(); }};
+  const PairReader::Backends backends{[](const std::string&) { return makeFfmpegSource(); },
+                                      [](const StreamInfo&) { return makeFfmpegDecoder(); }};
   PairReader reader(backends);
   const auto opened = reader.open({.url = url});
   EXPECT_TRUE(opened) << (opened ? "" : opened.error().message);
