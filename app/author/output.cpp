@@ -28,7 +28,7 @@ double seconds(const TrackTotals& track, Duration frame_period) {
 }
 
 std::string codingText(const FilmFormat& f) {
-  std::string text = std::string(name(f.depth.codec)) + (f.depth.flat_chroma ? " 4:2:0" : " 4:0:0");
+  const std::string text = std::string(name(f.depth.codec)) + (f.depth.flat_chroma ? " 4:2:0" : " 4:0:0");
   return f.depth.bits == 8 ? text : text + print(", %d bits", f.depth.bits);
 }
 

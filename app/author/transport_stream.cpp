@@ -92,7 +92,7 @@ class TransportStream final : public FilmPlace {
   }
   void freePackets() noexcept {
     if (packets_ == nullptr) return;
-    av_freep(&packets_->buffer);
+    av_free(packets_->buffer);
     avio_context_free(&packets_);
   }
 

@@ -46,7 +46,7 @@ struct Plan {
     return {.scenes = {"face-nodding"},
             .qualities = {8, 20},
             .codecs = {{VideoCodec::H264, 8}, {VideoCodec::H264, 10}, {VideoCodec::Hevc, 10}},
-            .duration_s = 0.8};
+            .duration_s = 0.5};
   }
   [[nodiscard]] std::vector<Coding> codings() const {
     std::vector<Coding> all;

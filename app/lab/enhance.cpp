@@ -38,8 +38,7 @@ struct Plan {
 
   static Plan of(bool quick) {
     if (!quick) return {};
-    return {
-        .felt = {"face-nodding"}, .edges = {"step-moving"}, .noises = {1, 4}, .duration_s = 0.8, .edge_pictures = 7};
+    return {.felt = {"face-nodding"}, .edges = {"step-moving"}, .noises = {4}, .duration_s = 0.5, .edge_pictures = 7};
   }
 };
 

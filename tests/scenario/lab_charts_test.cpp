@@ -262,7 +262,7 @@ TEST_F(LabCharts, ThePageHoldsEveryChartWithItsWordsAndItsFigures) {
     EXPECT_NE(page.find("href=\"" + name + ".csv\""), std::string::npos) << name;
     EXPECT_TRUE(std::filesystem::exists(out(name + ".csv"))) << name;
   }
-  EXPECT_EQ(charts, withoutEgl(result_) ? 9 : 10);
+  EXPECT_EQ(charts, withoutEgl(result_) ? 12 : 13);
   EXPECT_EQ(page.find("nan"), std::string::npos);
 }
 

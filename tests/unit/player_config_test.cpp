@@ -110,6 +110,7 @@ TEST_F(PlayConfig, EveryOptionCanStandInTheFileAndIsPrintedAsItReadsBack) {
                                                       {"packing", R"("tb")"},
                                                       {"depth-code", R"("hue")"},
                                                       {"calibration", R"(["near=100", "far=2000"])"},
+                                                      {"registration", R"("rig.toml")"},
                                                       {"display", R"("mock")"},
                                                       {"size", R"("640x360")"},
                                                       {"stereo", R"("quilt:5x9")"},
