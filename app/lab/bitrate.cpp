@@ -93,6 +93,7 @@ Scene makeScene(std::string_view name, double duration_s) {
 Result<void> addScene(const Scene& scene, Figures& figures) {
   const Coding& coding = figures.coding;
   std::vector<Frame> steps;
+  steps.reserve(scene.frames.size());
   for (const Frame& frame : scene.frames) steps.push_back(requantised(frame, coding.bits, coding.steps));
   auto coded = codeDepth(steps, {.codec = coding.codec, .bits = coding.bits, .to_touch = true, .crf = coding.crf});
   if (!coded) return std::unexpected(coded.error());

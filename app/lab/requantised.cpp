@@ -17,7 +17,8 @@ double ditherAt(int c, int r) {
   static constexpr std::array<int, 4> kQuarter{0, 2, 3, 1};  // [(r & 1) * 2 + (c & 1)]
   int rank = 0;
   for (int bit = 0; bit < 3; ++bit) {
-    rank = 4 * rank + kQuarter.at(static_cast<std::size_t>(((r >> bit) & 1) * 2 + ((c >> bit) & 1)));
+    const int quarter = ((r >> bit) & 1) * 2 + ((c >> bit) & 1);
+    rank = 4 * rank + kQuarter.at(static_cast<std::size_t>(quarter));
   }
   return (rank + 0.5) / 64 - 0.5;
 }

@@ -105,12 +105,15 @@ TEST_F(PlayConfig, ACalibrationOfTheCommandLineTakesThePlaceOfTheFiles) {
 
 // Every option that there is: one that is new has to be given a word here.
 TEST_F(PlayConfig, EveryOptionCanStandInTheFileAndIsPrintedAsItReadsBack) {
+  const std::string rig = path() + "-rig.toml";
+  const std::string camera = "size = [640, 480]\nfocal = [600, 600]\ncenter = [320, 240]\n";
+  std::ofstream(rig) << "[depth]\n" << camera << "[color]\n" << camera;
   const std::map<std::string, std::string> samples = {{"source", R"("a \"b\" c.mkv")"},
                                                       {"depth", R"("d.mkv")"},
                                                       {"packing", R"("tb")"},
                                                       {"depth-code", R"("hue")"},
                                                       {"calibration", R"(["near=100", "far=2000"])"},
-                                                      {"registration", R"("rig.toml")"},
+                                                      {"registration", "\"" + rig + "\""},
                                                       {"display", R"("mock")"},
                                                       {"size", R"("640x360")"},
                                                       {"stereo", R"("quilt:5x9")"},
