@@ -53,7 +53,9 @@ void UmockdevCamera::plug() {
                                   "=00\nE: DEVNAME=" + node_ +
                                   "\nE: SUBSYSTEM=video4linux\nE: MAJOR=81\nE: MINOR=0\n\n";
   umockdev_testbed_add_from_string(bed_, description.c_str(), nullptr);
-  const std::string file = umockdev_testbed_get_root_dir(bed_) + node_;
+  gchar* const root = umockdev_testbed_get_root_dir(bed_);
+  const std::string file = root + node_;
+  g_free(root);
   const int fd = ::open(file.c_str(), O_RDWR | O_CLOEXEC);
   const std::size_t bytes = std::size_t{bufferBytes()} * kind_.buffers;
   void* const memory = ::ftruncate(fd, static_cast<off_t>(bytes)) == 0
