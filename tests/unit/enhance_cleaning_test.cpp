@@ -7,20 +7,14 @@
 #include <random>
 
 #include "app/enhance/cleaning.h"
+#include "tests/support/depth_map.h"
 
 namespace relievo {
 namespace {
 
 constexpr float kNear = 50000, kFar = 10000;
 
-template <class Code>
-DepthMap mapOf(int cols, int rows, Code&& code) {
-  DepthMap map(cols, rows);
-  for (int r = 0; r < rows; ++r) {
-    for (int c = 0; c < cols; ++c) map.codes[map.at(c, r)] = static_cast<float>(code(c, r));
-  }
-  return map;
-}
+using test::mapOf;
 
 template <class Where>
 std::size_t punch(DepthMap& map, Where&& where) {

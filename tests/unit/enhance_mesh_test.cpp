@@ -7,19 +7,13 @@
 #include <random>
 
 #include "app/enhance/depth_mesh.h"
+#include "tests/support/depth_map.h"
 #include "tests/support/real_depth.h"
 
 namespace relievo {
 namespace {
 
-template <class Code>
-DepthMap mapOf(int cols, int rows, Code&& code) {
-  DepthMap map(cols, rows);
-  for (int r = 0; r < rows; ++r) {
-    for (int c = 0; c < cols; ++c) map.codes[map.at(c, r)] = static_cast<float>(code(c, r));
-  }
-  return map;
-}
+using test::mapOf;
 
 // Each triangle's plane at each sample inside it or on its rim, by areas: how far it is off a known one, at most.
 double mostOff(const DepthMesh& mesh, const DepthMap& map) {

@@ -10,18 +10,12 @@
 #include "app/enhance/noise.h"
 #include "app/enhance/shape_change.h"
 #include "app/enhance/steady_mean.h"
+#include "tests/support/depth_map.h"
 
 namespace relievo {
 namespace {
 
-template <class Code>
-DepthMap mapOf(int cols, int rows, Code&& code) {
-  DepthMap map(cols, rows);
-  for (int r = 0; r < rows; ++r) {
-    for (int c = 0; c < cols; ++c) map.codes[map.at(c, r)] = static_cast<float>(code(c, r));
-  }
-  return map;
-}
+using test::mapOf;
 
 TEST(EnhanceNoise, IsThatOfTheSamplesWhateverTheSurface) {
   std::mt19937 random(5);
