@@ -61,9 +61,9 @@ std::string pathOf(std::string_view url) {
   std::string path;
   for (std::size_t i = 0; i < url.size(); ++i) {
     unsigned char code = 0;
-    const std::string_view digits = url.substr(i + 1 < url.size() ? i + 1 : i, 2);
-    const bool coded = url[i] == '%' && digits.size() == 2 &&
-                       std::from_chars(digits.data(), digits.data() + 2, code, 16).ptr == digits.data() + 2;
+    const char* const begin = url.data() + i + 1;
+    const bool coded =
+        url[i] == '%' && url.size() - i > 2 && std::from_chars(begin, begin + 2, code, 16).ptr == begin + 2;
     path += coded ? static_cast<char>(code) : url[i];
     if (coded) i += 2;
   }
