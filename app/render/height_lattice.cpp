@@ -89,11 +89,12 @@ void HeightLattice::fillHoles(int j) {
   float* line = heights_.data() + j * width;
   const float* above = j > 0 ? line - width : line;
   const float most = 0.5F * jump_mm_;
+  std::uint8_t* const filled = filled_.data();
   const auto count = static_cast<int>(width);
   int i = 0;
   while (i < count) {
     if (!std::isnan(line[i])) {
-      filled_[static_cast<std::size_t>(i++)] = 0;
+      filled[i++] = 0;
       continue;
     }
     const int begin = i;
@@ -102,12 +103,15 @@ void HeightLattice::fillHoles(int j) {
     const float behind = i < count ? line[i] : HUGE_VALF;
     float fill = std::min(before, behind);
     if (fill == HUGE_VALF) fill = 0;  // nothing was measured in this row
+    bool even = true;
     for (int k = begin; k < i; ++k) {
-      std::uint8_t& filled = filled_[static_cast<std::size_t>(k)];
-      line[k] = filled != 0 ? std::clamp(fill, above[k] - most, above[k] + most) : fill;
-      if (k > begin) line[k] = std::clamp(line[k], line[k - 1] - most, line[k - 1] + most);
-      filled = 1;
+      const float followed = std::clamp(fill, above[k] - most, above[k] + most);
+      line[k] = filled[k] != 0 ? followed : fill;
+      filled[k] = 1;
     }
+    for (int k = begin + 1; k < i; ++k) even = even && std::abs(line[k] - line[k - 1]) <= most;
+    if (even) continue;
+    for (int k = begin + 1; k < i; ++k) line[k] = std::clamp(line[k], line[k - 1] - most, line[k - 1] + most);
   }
 }
 

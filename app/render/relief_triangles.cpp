@@ -13,8 +13,7 @@ void ReliefTriangles::build(const HeightField& field, const DisplayVolume& volum
   vertices_.clear();
   indices_.clear();
   for (const auto& [a, b, c] : network_.triangles()) {
-    const std::uint32_t at_a = use(a), at_b = use(b), at_c = use(c);
-    indices_.insert(indices_.end(), {at_a, at_b, at_c});
+    for (const std::uint32_t vertex : {a, b, c}) indices_.push_back(use(vertex));
   }
   addFrame(volume, static_cast<float>(detail.view.screen_z_mm));
   SilhouetteDrawer silhouettes(lattice_, detail.view, vertices_, indices_);
@@ -25,8 +24,8 @@ void ReliefTriangles::build(const HeightField& field, const DisplayVolume& volum
 std::uint32_t ReliefTriangles::use(std::uint32_t lattice_vertex) {
   std::uint32_t& slot = slots_[lattice_vertex];
   if (slot == 0) {
-    const int i = static_cast<int>(lattice_vertex) % lattice_.cols();
-    const int j = static_cast<int>(lattice_vertex) / lattice_.cols();
+    const auto cols = static_cast<std::uint32_t>(lattice_.cols());
+    const auto j = static_cast<int>(lattice_vertex / cols), i = static_cast<int>(lattice_vertex % cols);
     vertices_.push_back(
         {lattice_.x(i), lattice_.y(j), lattice_.heights()[lattice_vertex], lattice_.u(i), lattice_.v(j)});
     slot = static_cast<std::uint32_t>(vertices_.size());

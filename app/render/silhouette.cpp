@@ -137,9 +137,9 @@ void SilhouetteDrawer::addStrip(const TexturedVertex& first, const TexturedVerte
 
 void SilhouetteDrawer::addFan(const TexturedVertex* polygon, int count) {
   const auto first = static_cast<std::uint32_t>(vertices_.size());
-  vertices_.insert(vertices_.end(), polygon, polygon + count);
+  for (int k = 0; k < count; ++k) vertices_.push_back(polygon[k]);
   for (std::uint32_t k = 2; k < static_cast<std::uint32_t>(count); ++k) {
-    indices_.insert(indices_.end(), {first, first + k - 1, first + k});
+    for (const std::uint32_t vertex : {first, first + k - 1, first + k}) indices_.push_back(vertex);
   }
 }
 

@@ -120,11 +120,9 @@ void TriangleNetwork::split(std::uint32_t a, std::uint32_t b, std::uint32_t apex
     return;
   }
   if (depth == 0) {
-    // Of half a cell the top left corner of the cell is in the row of its upper corners and the column of its left.
-    const auto width = static_cast<std::uint32_t>(cols_);
-    const std::uint32_t row = std::min({a / width, b / width, apex / width});
-    const std::uint32_t col = std::min({a % width, b % width, apex % width});
-    if (cuts_->contains(row * width + col)) return;
+    // Half a cell: a and b are its top left and low right corners, or its top right and low left ones.
+    const std::uint32_t upper = std::min(a, b), apart = std::max(a, b) - upper;
+    if (cuts_->contains(apart < static_cast<std::uint32_t>(cols_) ? upper - 1 : upper)) return;
   }
   triangles_.push_back({a, b, apex});
 }

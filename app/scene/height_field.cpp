@@ -13,23 +13,16 @@ namespace {
 // noise; footage in this coding marks what the sensor did not see by black.
 constexpr int kDarkestReadable = 76;
 
-// Hue over 360 degrees by the textbook hexagon (red 0, yellow 1/6, green 1/3, ..), or nothing at a pixel without a
-// reading.
-std::optional<double> hueOf(int red, int green, int blue) noexcept {
+// Hue over 360 degrees by the textbook hexagon (red 0, yellow 1/6, green 1/3, ..), or a hole at a pixel without a
+// reading. Which channel leads is chosen without a branch: in noise nobody can foretell it.
+inline double hueOf(int red, int green, int blue) noexcept {
   const int high = std::max({red, green, blue});
-  const int low = std::min({red, green, blue});
-  const int spread = high - low;
-  if (red + green + blue <= kDarkestReadable || spread == 0) return std::nullopt;
-  double sixth = 0;
-  if (high == red) {
-    sixth = static_cast<double>(green - blue) / spread;
-    if (sixth < 0) sixth += 6.0;
-  } else if (high == green) {
-    sixth = 2.0 + static_cast<double>(blue - red) / spread;
-  } else {
-    sixth = 4.0 + static_cast<double>(red - green) / spread;
-  }
-  return sixth / 6.0;
+  const int spread = high - std::min({red, green, blue});
+  if (red + green + blue <= kDarkestReadable || spread == 0) return HeightField::kHole;
+  const bool is_red = high == red, is_green = high == green;
+  const int ahead = is_red ? green - blue : is_green ? blue - red : red - green;
+  const int sixth = is_red ? (ahead < 0 ? 6 : 0) : is_green ? 2 : 4;
+  return (sixth + static_cast<double>(ahead) / spread) / 6.0;
 }
 
 }  // namespace
@@ -149,6 +142,11 @@ double HeightField::meanHeight(int c0, int r0, int width, int height, int most) 
   return 2 * count < across * down ? kHole : sum / count;
 }
 
+double HeightField::fromHue(const std::uint8_t* pixel) const RELIEVO_RT {
+  const double hue = hueOf(pixel[red_], pixel[green_], pixel[blue_]);
+  return std::isnan(hue) ? kHole : fromNormalised(s_offset_ + s_scale_ * hue);
+}
+
 bool HeightField::readRow(int r, std::span<const int> columns, float* heights_mm) const noexcept {
   if (plain_) {
     const std::uint8_t* line = data_ + r * stride_bytes_;
@@ -161,13 +159,16 @@ bool HeightField::readRow(int r, std::span<const int> columns, float* heights_mm
     }
     return false;
   }
-  bool hole = false;
-  for (const int c : columns) {
-    const double z = heightMm(c, r);
-    hole = hole || std::isnan(z);
-    *heights_mm++ = static_cast<float>(z);
+  const float* const first = heights_mm;
+  if (layout_ == Layout::Hue) {
+    const std::uint8_t* line = data_ + r * stride_bytes_;
+    for (const int c : columns) {
+      *heights_mm++ = static_cast<float>(fromHue(line + static_cast<std::ptrdiff_t>(c) * step_bytes_));
+    }
+  } else {
+    for (const int c : columns) *heights_mm++ = static_cast<float>(heightMm(c, r));
   }
-  return hole;
+  return std::any_of(first, const_cast<const float*>(heights_mm), [](float z) { return std::isnan(z); });
 }
 
 bool HeightField::sameSamples(const HeightField& other) const noexcept {
@@ -185,15 +186,11 @@ bool HeightField::sameSamples(const HeightField& other) const noexcept {
   return true;
 }
 
-double HeightField::fromHue(const std::uint8_t* pixel) const RELIEVO_RT {
-  const auto hue = hueOf(pixel[red_], pixel[green_], pixel[blue_]);
-  return hue ? fromNormalised(s_offset_ + s_scale_ * *hue) : kHole;
-}
-
 std::uint32_t HeightField::code(int c, int r) const RELIEVO_RT {
   const std::uint8_t* sample = data_ + r * stride_bytes_ + static_cast<std::ptrdiff_t>(c) * step_bytes_;
   if (layout_ != Layout::Hue) return codeAt(sample);
-  return static_cast<std::uint32_t>(hueOf(sample[red_], sample[green_], sample[blue_]).value_or(0.0) * kHueSteps);
+  const double hue = hueOf(sample[red_], sample[green_], sample[blue_]);
+  return std::isnan(hue) ? 0 : static_cast<std::uint32_t>(hue * kHueSteps);
 }
 
 }  // namespace relievo
