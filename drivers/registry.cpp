@@ -18,6 +18,7 @@
 #include "drivers/replay/replay.h"
 #include "drivers/sim/profiles.h"
 #include "drivers/terminal/terminal.h"
+#include "drivers/tiff/tiff.h"
 #include "drivers/v4l2/v4l2.h"
 #include "drivers/window/window_remote.h"
 
@@ -172,7 +173,8 @@ std::unique_ptr<MediaSource> makeMediaSource(const std::string& url) {
 }
 
 std::unique_ptr<VideoDecoder> makeVideoDecoder(const StreamInfo& stream) {
-  return isV4l2Raw(stream) ? makeV4l2Decoder() : makeFfmpegDecoder();
+  if (isV4l2Raw(stream)) return makeV4l2Decoder();
+  return isFloatTiff(stream) ? makeTiffDecoder() : makeFfmpegDecoder();
 }
 
 Result<std::string> readText(const std::string& url, std::size_t most_bytes, const std::atomic<bool>& cancelled) {

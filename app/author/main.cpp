@@ -64,15 +64,14 @@ void addOptions(CLI::App& app, Arguments& a) {
                  "Quality of the depth alone; 0 keeps every code, where hardware can decode it")
       ->type_name("N")
       ->check(CLI::Range(0, 51).description(""));
-  addChoice(
-      app, "--enhance", a.output.enhancement,
-      {{"none", std::nullopt},
-       {"median", Enhancement::Median},
-       {"dibm", Enhancement::Dibm},
-       {"space-time", Enhancement::SpaceTime}},
-      "What a sensor did to the depth is undone [none]\nmedian: narrow holes filled, the median of 5 by 5 samples; "
-      "dibm: behind that each picture as a\nsmoothed mesh of few points; space-time: behind the median smoothed "
-      "over five pictures and a few\nsamples. Edges stay where they are");
+  addChoice(app, "--enhance", a.output.enhancement,
+            {{"none", std::nullopt},
+             {"median", Enhancement::Median},
+             {"dibm", Enhancement::Dibm},
+             {"space-time", Enhancement::SpaceTime}},
+            "What a sensor did to the depth is undone\nmedian: narrow holes filled, the median of 5 by 5 samples; "
+            "dibm: behind that each picture as a\nsmoothed mesh of few points; space-time: behind the median smoothed "
+            "over five pictures and a few\nsamples. Edges stay where they are");
   app.add_option("--preview", a.output.preview,
                  "A picture of what was done, a PNG: colour, depth before and after as lit reliefs, and below the\n"
                  "heights along their line, before in orange, after in blue, a grid line each millimetre")
@@ -88,8 +87,8 @@ void addOptions(CLI::App& app, Arguments& a) {
             "none: depth is 4:0:0; flat: 4:2:0 with gray chroma, for hardware that knows no 4:0:0");
   addChoice(app, "--depth-law", a.output.depth.law,
             {{"source", std::nullopt}, {"linear", DepthLaw::Linear}, {"inverse", DepthLaw::Inverse}},
-            "Where the depth's steps are fine: as in the source, evenly (linear), or near the viewer (inverse:\n"
-            "by disparity); the heights stay");
+            "Where the depth's steps are fine\nsource: as they are there; linear: evenly; inverse: near the viewer, by "
+            "disparity. The heights stay");
   app.add_option("--scene", a.scene, "Make a film of the project's own instead, with its exact depth: sample")
       ->type_name("NAME")
       ->check(CLI::IsMember({"sample"}).description(""))

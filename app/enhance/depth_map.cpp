@@ -6,8 +6,6 @@
 #include <cmath>
 #include <memory>
 
-#include "app/scene/height_field.h"
-
 namespace relievo {
 
 Result<DepthMap> readDepth(const Frame& depth, const DepthCalibration& calibration) {
@@ -16,13 +14,18 @@ Result<DepthMap> readDepth(const Frame& depth, const DepthCalibration& calibrati
   const DisplayVolume volume{.width_mm = 1, .height_mm = 1, .depth_mm = static_cast<double>(DepthMap::kHighest)};
   const auto field = HeightField::make(depth, linear, volume);
   if (!field) return std::unexpected(field.error());
-  DepthMap map(depth.width, depth.height);
+  return mapOf(*field);
+}
+
+DepthMap mapOf(const HeightField& field) {
+  const double code_per_mm = static_cast<double>(DepthMap::kHighest) / field.depthMm();
+  DepthMap map(field.cols(), field.rows());
   std::size_t i = 0;
   for (int r = 0; r < map.rows; ++r) {
     for (int c = 0; c < map.cols; ++c, ++i) {
-      const double height = field->heightMm(c, r);
+      const double height = field.heightMm(c, r);
       map.holes[i] = std::isnan(height) ? 1 : 0;
-      map.codes[i] = std::isnan(height) ? 0 : static_cast<float>(height);
+      map.codes[i] = std::isnan(height) ? 0 : static_cast<float>(height * code_per_mm);
     }
   }
   return map;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/scene/depth_calibration.h"
+#include "app/scene/height_field.h"
 #include "hal/frame.h"
 #include "platform/error.h"
 
@@ -32,6 +33,9 @@ struct DepthMap {
 
 // Unsupported for a frame that has not what the calibration speaks of.
 [[nodiscard]] Result<DepthMap> readDepth(const Frame& depth, const DepthCalibration& calibration);
+
+// Of a relief, by its heights.
+[[nodiscard]] DepthMap mapOf(const HeightField& field);
 
 // What the codes of `writeDepth` mean: 16 bits, full range, near is high, the source's law. Code 0 is the holes' own
 // where the source may have any.

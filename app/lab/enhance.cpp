@@ -9,12 +9,12 @@
 #include <optional>
 
 #include "app/cli/text.h"
-#include "app/enhance/depth_mesh.h"
 #include "app/enhance/enhancer.h"
 #include "app/lab/accuracy.h"
 #include "app/lab/csv_table.h"
 #include "app/lab/depth_rendering.h"
 #include "app/lab/finger_paths.h"
+#include "app/lab/mesh_points.h"
 #include "app/lab/parallel.h"
 #include "app/lab/sensor_depth.h"
 
@@ -107,8 +107,9 @@ class Enhance {
       }
     }
     if (auto done = writeForces(); !done) return std::unexpected(done.error());
-    if (auto done = writePoints(); !done) return std::unexpected(done.error());
-    return std::vector{forceWords(), pointWords()};
+    const auto points = measureMeshPoints(options_);
+    if (!points) return std::unexpected(points.error());
+    return std::vector{forceWords(), *points};
   }
 
  private:
@@ -192,40 +193,6 @@ class Enhance {
     return table.write(options_.out + "/enhance.csv");
   }
 
-  // The mesh alone, on depth without noise, at 16 bits.
-  Outcome<void> writePoints() {
-    CsvTable table({"scene", "bound_levels", "points", "rms_levels", "most_levels"});
-    for (const std::string_view scene : {"plane", "sphere", "face", "step"}) {
-      options_.tell(print("points, %s", std::string(scene).c_str()));
-      const Frame exact = renderDepth(*makeTrueSurface(scene), {.bits = 16}, 0);
-      const auto map = readDepth(exact, {.bits = 16});
-      if (!map) return failOn(std::string(scene), map.error());
-      constexpr std::array kBounds{0.0625, 0.125, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0};
-      struct Found {
-        std::size_t points = 0;
-        double rms = 0, most = 0;
-      };
-      std::array<Found, kBounds.size()> found;
-      inParallel(kBounds.size(), [&](std::size_t b) {
-        const DepthMesh mesh = meshOf(*map, static_cast<float>(kBounds[b]) * DepthMap::kLevel);
-        DepthMap rendered = *map;
-        renderMesh(mesh, rendered);
-        double sum = 0, most = 0;
-        for (std::size_t i = 0; i < map->size(); ++i) {
-          const double error = static_cast<double>(std::abs(rendered.codes[i] - map->codes[i]) / DepthMap::kLevel);
-          sum += error * error;
-          most = std::max(most, error);
-        }
-        found[b] = {mesh.points.size(), std::sqrt(sum / static_cast<double>(map->size())), most};
-      });
-      for (std::size_t b = 0; b < kBounds.size(); ++b) {
-        table.row({std::string(scene), kBounds[b], found[b].points, found[b].rms, found[b].most});
-        if (kBounds[b] == 0.5) points_ += print(", %s %zu", std::string(scene).c_str(), found[b].points);
-      }
-    }
-    return table.write(options_.out + "/enhance-points.csv");
-  }
-
   [[nodiscard]] double percent(const SensorModel& s, const std::optional<Enhancement>& kind, int bits) const {
     const auto found = std::find_if(forces_.begin(), forces_.end(), [&](const EnhanceRow& r) {
       return r.sensor.noise_levels == s.noise_levels && r.sensor.faults == s.faults && r.kind == kind &&
@@ -258,17 +225,11 @@ class Enhance {
               "%% are within 1 px at worst.",
               least_gain, worst.noise_levels, all(8).c_str(), all(16).c_str(), within)};
   }
-  [[nodiscard]] ChartWords pointWords() const {
-    return {"Points of a mesh by its error bound, on depth without noise",
-            "Within half a level of 255: points" + points_.substr(1) +
-                ". A plane takes its four corners whatever the bound; the others as many as their shape asks for."};
-  }
 
   const MeasureOptions& options_;
   Plan plan_;
   std::vector<EnhanceRow> forces_;
   std::vector<EdgeRow> edges_;
-  std::string points_;
 };
 
 }  // namespace

@@ -155,6 +155,10 @@ int parseAndRun(int argc, char** argv) {
   MeasureOptions options;
   std::vector<std::pair<const CLI::App*, const Measurement*>> commands;
   for (const Measurement& m : measurements()) commands.emplace_back(addMeasurement(app, m.name, m.about, options), &m);
+  app.get_subcommand("enhance")
+      ->add_option("--depth", options.depth_films,
+                   "Depth films whose first pictures go into the chart of points as well")
+      ->type_name("SOURCE");
   addMeasurement(app, "report", "all of these that DIR has not yet, and one page over them", options);
   if (const auto parsed = parseCommandLine(app, argc, argv); !parsed) return parsed.error();
 
@@ -162,6 +166,7 @@ int parseAndRun(int argc, char** argv) {
   const auto display = drivers::makeDisplay("offscreen");
   if (!display) return tell(display.error());
   options.display = display->get();
+  options.backends = {drivers::makeMediaSource, drivers::makeVideoDecoder};
   for (const auto& [command, measurement] : commands) {
     if (!command->parsed()) continue;
     const auto run = [m = measurement](const MeasureOptions& o) { return runMeasurement(*m, o); };

@@ -8,15 +8,18 @@
 #include <vector>
 
 #include "app/lab/chart.h"
+#include "app/media/pair_reader.h"
 #include "hal/display.h"
 #include "platform/failure.h"
 
 namespace relievo {
 
 struct MeasureOptions {
-  std::string out;             // a folder that is there
-  bool quick = false;          // fewer scenes, rounds and seconds: within a minute on two processors
-  Display* display = nullptr;  // closed, without a screen: for what is drawn
+  std::string out;                       // a folder that is there
+  bool quick = false;                    // fewer scenes, rounds and seconds: within a minute on two processors
+  Display* display = nullptr;            // closed, without a screen: for what is drawn
+  std::vector<std::string> depth_films;  // real depth, for those who look at it too
+  PairReader::Backends backends;         // that open it
   std::function<void(const std::string&)> tell = [](const std::string&) {};  // what it is at, in a few words
 };
 

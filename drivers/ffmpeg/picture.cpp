@@ -2,9 +2,11 @@
 // Pixel formats of FFmpeg in the words of hal/frame.h.
 #include "drivers/ffmpeg/picture.h"
 
+#include <algorithm>
 #include <bit>
 #include <cerrno>
-#include <cmath>
+
+#include "hal/distance.h"
 
 extern "C" {
 #include <libavutil/error.h>
@@ -83,16 +85,11 @@ double sampleAspectOf(const AVFrame& picture, AVRational container) noexcept {
   return 1.0;
 }
 
-// Rounded; what is not finite, not in front of the camera, or too far, is no value.
 void toMillimetres(const AVFrame& metres, const AVFrame& mm) noexcept {
-  constexpr float kMmPerMetre = 1000, kBeyond = 65535.5F;
   for (int r = 0; r < metres.height; ++r) {
     const auto* const from = reinterpret_cast<const float*>(metres.data[0] + std::ptrdiff_t{r} * metres.linesize[0]);
     auto* const to = reinterpret_cast<std::uint16_t*>(mm.data[0] + std::ptrdiff_t{r} * mm.linesize[0]);
-    for (int c = 0; c < metres.width; ++c) {
-      const float value = kMmPerMetre * from[c];
-      to[c] = value > 0 && value < kBeyond ? static_cast<std::uint16_t>(std::lround(value)) : std::uint16_t{0};
-    }
+    std::transform(from, from + metres.width, to, millimetres);
   }
 }
 

@@ -1,13 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 // What every video decoder keeps to: states, back-pressure that loses nothing, pictures that stay, one end.
+#include "drivers/tiff/tiff.h"
 #include "tests/contract/films.h"
 #include "tests/contract/state_table.h"
+#include "tests/support/float_tiff.h"
 
 namespace relievo {
 namespace {
 
 using State = VideoDecoder::State;
 using namespace std::chrono_literals;
+
+// A renderer's Z buffers, one file each.
+std::string zBufferFilm() {
+  static const test::TemporaryFolder folder;
+  for (int i = 0; i < test::kFilmFrames; ++i) {
+    const test::FloatTiff picture{.samples =
+                                      std::vector<float>(std::size_t{64} * 48, 1.0F + 0.1F * static_cast<float>(i))};
+    test::writeFloatTiff(folder / ("z" + std::to_string(i) + ".tif"), picture);
+  }
+  return folder / "z%d.tif";
+}
+
+std::vector<test::FilmBackend> backends() {
+  std::vector<test::FilmBackend> all(std::begin(test::kFilmBackends), std::end(test::kFilmBackends));
+  all.push_back({"tiff", makeFfmpegSource, makeTiffDecoder, zBufferFilm, nullptr});
+  return all;
+}
 
 class VideoDecoderContract : public test::FilmContract {
  protected:
@@ -16,6 +35,10 @@ class VideoDecoderContract : public test::FilmContract {
     stream_ = source_->streams().at(0);
     packets_ = readAll(*source_);
     ASSERT_EQ(packets_.size(), static_cast<std::size_t>(test::kFilmFrames));
+    for (int i = 0; i < test::kFilmFrames; ++i) {  // numbered pictures have no times
+      Packet& packet = packets_[static_cast<std::size_t>(i)];
+      if (!packet.pts) packet.pts = MediaTime(i * test::kFilmPeriod);
+    }
   }
   [[nodiscard]] std::unique_ptr<VideoDecoder> openDecoder() const {
     auto decoder = GetParam().make_decoder();
@@ -82,7 +105,7 @@ class VideoDecoderContract : public test::FilmContract {
   StreamInfo stream_;
   std::vector<Packet> packets_;
 };
-INSTANTIATE_TEST_SUITE_P(Backends, VideoDecoderContract, testing::ValuesIn(test::kFilmBackends),
+INSTANTIATE_TEST_SUITE_P(Backends, VideoDecoderContract, testing::ValuesIn(backends()),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST_P(VideoDecoderContract, EveryVerbInEveryState) {
