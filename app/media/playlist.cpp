@@ -12,7 +12,7 @@ namespace relievo {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-constexpr std::array<std::string_view, 4> kNetwork{"http", "https", "rtsp", "udp"};
+constexpr std::array<std::string_view, 7> kNetwork{"http", "https", "rtsp", "rtsps", "rtp", "udp", "tcp"};
 
 std::string lower(std::string_view text) {
   std::string result(text);
@@ -75,7 +75,6 @@ class Parser {
   explicit Parser(const std::string& from) : from_(from), from_network_(isOnNetwork(from)) {}
 
   Outcome<void> addLine(std::string_view line) {
-    ++number_;
     while (!line.empty() && std::isspace(static_cast<unsigned char>(line.back())) != 0) line.remove_suffix(1);
     while (!line.empty() && std::isspace(static_cast<unsigned char>(line.front())) != 0) line.remove_prefix(1);
     if (line.empty()) return {};
@@ -85,10 +84,15 @@ class Parser {
       next_.title = comma == std::string_view::npos ? "" : std::string(line.substr(comma + 1));
       return {};
     }
-    if (line.starts_with(kDepth)) return address(line.substr(kDepth.size()), next_.depth_url);
+    if (line.starts_with(kDepth)) {
+      next_.depth_url = address(line.substr(kDepth.size()));
+      return {};
+    }
     if (line.front() == '#') return {};
-    if (auto done = address(line, next_.url); !done) return done;
-    if (entries_.size() == kMostEntries) return wrong("has more than 10000 entries; make several of it");
+    next_.url = address(line);
+    if (entries_.size() == kMostEntries) {
+      return failOn(from_, {ErrorCode::Corrupt, 0, "the playlist has more than 10000 entries; make several of it"});
+    }
     entries_.push_back(std::exchange(next_, {}));
     return {};
   }
@@ -99,32 +103,22 @@ class Parser {
   }
 
  private:
-  Outcome<void> address(std::string_view text, std::string& into) const {
+  // Marks the entry where it may not be opened.
+  std::string address(std::string_view text) {
     const std::string scheme = schemeOf(text);
-    if (from_network_ && scheme.empty()) {
-      into = besideUrl(text, from_);
-      return {};
-    }
-    const bool allowed = scheme.empty() || isOnNetwork(text) || (scheme == "file" && !from_network_);
-    if (!allowed)
-      return wrong("names what a playlist may not open; http, https, rtsp, udp and, in a file, paths are let in");
+    if (from_network_ && scheme.empty()) return besideUrl(text, from_);
+    const bool is_file = scheme == "file" && !from_network_;
+    next_.refused = next_.refused || !(scheme.empty() || isOnNetwork(text) || is_file);
+    if (is_file) return pathOf(text);
     const std::filesystem::path path{std::string(text)};
-    into = scheme == "file" ? pathOf(text) : std::string(text);
-    if (scheme.empty() && path.is_relative()) {
-      // "./" before what has no folder: FFmpeg takes some names for protocols, such as "subfile,,..".
-      const auto folder = std::filesystem::path(from_).parent_path();
-      into = ((folder.empty() ? "." : folder) / path).string();
-    }
-    return {};
-  }
-
-  [[nodiscard]] std::unexpected<Failure> wrong(const char* what) const {
-    return std::unexpected(Failure{from_ + ", line " + std::to_string(number_), {ErrorCode::Corrupt, 0, what}});
+    if (!scheme.empty() || path.is_absolute()) return std::string(text);
+    // "./" before what has no folder: FFmpeg takes some names for protocols, such as "subfile,,..".
+    const auto folder = std::filesystem::path(from_).parent_path();
+    return ((folder.empty() ? "." : folder) / path).string();
   }
 
   const std::string& from_;
   bool from_network_;
-  int number_ = 0;
   PlaylistEntry next_;
   std::vector<PlaylistEntry> entries_;
 };

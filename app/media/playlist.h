@@ -15,6 +15,7 @@ struct PlaylistEntry {
   std::string url;        // as it is opened: what was relative is joined to where the playlist lies
   std::string depth_url;  // of a film in two files; else empty
   std::string title;      // empty: none is told
+  bool refused = false;   // it names what a list may not open
   bool operator==(const PlaylistEntry&) const = default;
 };
 
@@ -27,9 +28,9 @@ struct PlaylistEntry {
 // One entry a line; `#EXTINF:seconds,title` before one names it, `#RELIEVO-DEPTH:url` before one says where its depth
 // is. Other lines that begin with # say nothing here. `from`: the file or the URL that the playlist was read from.
 //
-// A list on the network names things on the network alone (http, https, rtsp, udp): it must not make a box open its own
-// files, or join them by FFmpeg's other protocols; its lines that try are Corrupt, and so is a list without an entry,
-// or of more than kMostEntries. The failure names the playlist and the line.
+// A list on the network names things on the network alone (http, https, rtsp, rtsps, rtp, udp, tcp): it must not make a
+// box open its own files, or join them by FFmpeg's other protocols. A list in a file may name files besides. An entry
+// that tries more is refused, the others are not. Corrupt: a list without an entry, or of more than kMostEntries.
 inline constexpr std::size_t kMostEntries = 10'000;
 [[nodiscard]] Outcome<std::vector<PlaylistEntry>> parsePlaylist(std::string_view text, const std::string& from);
 

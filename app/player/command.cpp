@@ -6,17 +6,14 @@
 #include <charconv>
 #include <cmath>
 
+#include "app/player/stereo_word.h"
 #include "app/player/text_line.h"
 
 namespace relievo {
 namespace {
 
-enum class Operand : std::uint8_t {
-  None,
-  Step,
-  Time,
-  Url
-};  // Step: a number with its sign; Time: also without, or with %
+// Step: a number with its sign; Time: also without, or with %; OnOff and Layout may be left away.
+enum class Operand : std::uint8_t { None, Step, Time, Url, OnOff, Layout };
 
 struct Entry {
   PlayerVerb verb;
@@ -41,11 +38,11 @@ constexpr std::array kEntries{
     Entry{PlayerVerb::Next, "next", Operand::None, "the next film of the list"},
     Entry{PlayerVerb::Previous, "previous", Operand::None,
           "this film from its beginning; in its first 3 s the one before"},
-    Entry{PlayerVerb::Loop, "loop", Operand::None, "begin again at the end, or no longer"},
+    Entry{PlayerVerb::Loop, "loop", Operand::OnOff, "begin again at the end, or no longer"},
     Entry{PlayerVerb::Open, "open", Operand::Url, "another film"},
     Entry{PlayerVerb::Stop, "stop", Operand::None, "end the film"},
     Entry{PlayerVerb::Quit, "quit", Operand::None, "end the program"},
-    Entry{PlayerVerb::Layout, "layout", Operand::None, "the next way to show stereo"},
+    Entry{PlayerVerb::Layout, "layout", Operand::Layout, "the next way to show stereo"},
     Entry{PlayerVerb::SwapEyes, "swap-eyes", Operand::None, "left eye right, right eye left"},
     Entry{PlayerVerb::DepthBy, "depth", Operand::Step, "depth for the eyes", true},
     Entry{PlayerVerb::ScreenBy, "screen", Operand::Step, "mm, the whole scene towards you", true},
@@ -94,6 +91,14 @@ std::optional<PlayerCommand> withOperand(const Entry& entry, std::string_view op
     }
     case Operand::Url:
       return operand.empty() ? std::nullopt : std::optional(PlayerCommand{entry.verb, 0, std::string(operand)});
+    case Operand::OnOff:
+      if (operand == "on" || operand == "off") return PlayerCommand{entry.verb, operand == "on" ? 1.0 : -1.0};
+      return operand.empty() ? std::optional(PlayerCommand{entry.verb}) : std::nullopt;
+    case Operand::Layout: {
+      StereoSettings any;
+      const bool known = operand.empty() || parseStereo(operand, any);
+      return known ? std::optional(PlayerCommand{entry.verb, 0, std::string(operand)}) : std::nullopt;
+    }
   }
   return std::nullopt;
 }
@@ -122,15 +127,18 @@ std::string wordsOf(const PlayerCommand& command) {
       return word + textLine(" %.6g", command.value);
     case PlayerVerb::SeekShare:
       return word + textLine(" %.6g%%", 100 * command.value);
+    case PlayerVerb::Loop:
+      return command.value == 0 ? word : word + (command.value > 0 ? " on" : " off");
     case PlayerVerb::Open:
-      return word + " " + command.url;
+    case PlayerVerb::Layout:
+      return command.word.empty() ? word : word + " " + command.word;
     default:
       return word;
   }
 }
 
 std::string commandWords() {
-  constexpr std::array kOperands{"", " +X|-X", " +S|-S|S|P%", " URL"};
+  constexpr std::array kOperands{"", " +X|-X", " +S|-S|S|P%", " URL", " [on|off]", " [WORD]"};
   std::string text;
   const char* last = "";
   for (const Entry& entry : kEntries) {
@@ -149,6 +157,10 @@ std::string meaningOf(const PlayerCommand& command) {
   if (command.verb == PlayerVerb::SeekTo) return textLine("to %.6g s", command.value);
   if (command.verb == PlayerVerb::SeekShare) return textLine("to %.6g %% of the film", 100 * command.value);
   if (entry.operand == Operand::Step) return textLine("%+.6g %s", command.value, entry.meaning);
+  if (command.verb == PlayerVerb::Loop && command.value != 0) {
+    return command.value > 0 ? "begin again at the end" : "do not begin again at the end";
+  }
+  if (command.verb == PlayerVerb::Layout && !command.word.empty()) return "show stereo as " + command.word;
   return entry.meaning;
 }
 

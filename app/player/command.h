@@ -21,11 +21,11 @@ enum class PlayerVerb : std::uint8_t {
   SeekShare,  // of the film's length, 0 to 1
   Next,       // film of the list
   Previous,   // film of the list, or this one from its beginning
-  Loop,       // begins again at the end, or no longer
+  Loop,       // begins again at the end, or no longer; value 1: does, -1: does not, 0: the other of the two
   Open,       // another film or list
   Stop,       // ends the film
   Quit,       // ends the program
-  Layout,     // the next way to show stereo
+  Layout,     // another way to show stereo; without its word the next one
   SwapEyes,
   DepthBy,   // for the eyes, of 1
   ScreenBy,  // mm, the whole scene towards the viewer
@@ -35,12 +35,13 @@ enum class PlayerVerb : std::uint8_t {
 struct PlayerCommand {
   PlayerVerb verb = PlayerVerb::Play;
   double value = 0;
-  std::string url;  // of Open
+  std::string word;  // of Open its URL, of Layout a stereo word (see app/player/stereo_word.h)
 
   friend bool operator==(const PlayerCommand&, const PlayerCommand&) = default;
 };
 
-// "pause", "seek +10", "seek 75", "seek 50%", "depth -0.1", "open URL", ..; nothing for what is none.
+// "pause", "seek +10", "seek 75", "seek 50%", "depth -0.1", "loop on", "layout tab", "open URL", ..; nothing for what
+// is none.
 [[nodiscard]] std::optional<PlayerCommand> parseCommand(std::string_view words);
 // Words that `parseCommand` reads back.
 [[nodiscard]] std::string wordsOf(const PlayerCommand& command);

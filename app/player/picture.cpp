@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "app/player/stereo_word.h"
+
 namespace relievo {
 namespace {
 
@@ -106,6 +108,10 @@ void Picture::nextLayout() noexcept {
     stereo_.layout = static_cast<StereoLayout>((static_cast<int>(stereo_.layout) + 1) % kStereoLayouts);
   } while (refusal(stereo_, width_, height_) != nullptr);  // mono is never refused
   stereoChanged();
+}
+
+void Picture::setLayout(std::string_view word) noexcept {
+  if (parseStereo(word, stereo_)) stereoChanged();
 }
 
 void Picture::swapEyes() noexcept {

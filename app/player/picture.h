@@ -54,6 +54,7 @@ class Picture {
   [[nodiscard]] Result<bool> attend(MonotonicTime now);
   // The next one that the surface takes.
   void nextLayout() noexcept;
+  void setLayout(std::string_view word) noexcept;  // see app/player/stereo_word.h
   void swapEyes() noexcept;
   void changeStrength(double by) noexcept;  // of the depth, 0 to 2
   // What lies in the screen plane, in the volume: the rest stands before it or behind it.

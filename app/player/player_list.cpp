@@ -51,6 +51,10 @@ void Player::openFilm(std::size_t film, MonotonicTime now) {
   source.url = films_[film].url;
   source.depth_url = films_[film].depth_url;
   report_.films.push_back(source.url);
+  if (films_[film].refused) {
+    return fail(source.url, {ErrorCode::Unsupported, 0,
+                             "a list may not name this: http, https, rtsp, rtp, udp, tcp and, in a file, paths"});
+  }
   feed_.open(std::move(source));
   film_open_ = true;
 }

@@ -61,10 +61,10 @@ void Player::obey(const PlayerCommand& command, MonotonicTime now) {
     case PlayerVerb::Previous:
       return previousFilm(now);
     case PlayerVerb::Loop:
-      config_.loop = !config_.loop;
+      config_.loop = command.value == 0 ? !config_.loop : command.value > 0;
       return;
     case PlayerVerb::Open:
-      return openList(command.url, "", now);
+      return openList(command.word, "", now);
     case PlayerVerb::Stop:
       return stopFilm(now);
     case PlayerVerb::Quit:
@@ -81,7 +81,8 @@ void Player::obey(const PlayerCommand& command, MonotonicTime now) {
 }
 
 void Player::changeStereo(const PlayerCommand& command) {
-  if (command.verb == PlayerVerb::Layout) picture_.nextLayout();
+  if (command.verb == PlayerVerb::Layout && command.word.empty()) picture_.nextLayout();
+  else if (command.verb == PlayerVerb::Layout) picture_.setLayout(command.word);
   if (command.verb == PlayerVerb::SwapEyes) picture_.swapEyes();
   if (command.verb == PlayerVerb::DepthBy) picture_.changeStrength(command.value);
   // What is higher in the volume than the plane stands before the screen.

@@ -17,9 +17,16 @@ std::string clockTime(double seconds) {
   return textLine("%ld:%02ld", whole / 60, whole % 60);
 }
 
-std::string wordOf(const ScreenFacts& facts) {
-  if (facts.held) return "paused";
-  return facts.state == PlayerState::Playing ? "" : name(facts.state);
+// What there is to say beside the time.
+std::string wordsOf(const ScreenFacts& facts) {
+  std::string words;
+  const auto add = [&words](const std::string& word) { words += "   " + word; };
+  if (facts.held) add("paused");
+  else if (facts.state != PlayerState::Playing) add(name(facts.state));
+  if (facts.rate != 1) add(facts.rate > 1 ? textLine("%gx", facts.rate) : textLine("1/%gx", 1 / facts.rate));
+  if (facts.films > 1) add(textLine("film %zu of %zu", facts.film, facts.films));
+  if (facts.loop) add("again and again");
+  return words;
 }
 
 std::string stereoLine(const ScreenFacts& facts) {
@@ -52,9 +59,7 @@ std::vector<std::string> ScreenText::lines(const ScreenFacts& facts, MonotonicTi
   if (!shown(facts, now)) return {};
   std::string first = facts.title + "   " + clockTime(facts.position_s);
   if (facts.duration_s > 0) first += " / " + clockTime(facts.duration_s);
-  const std::string word = wordOf(facts);
-  if (!word.empty()) first += "   " + word;
-  std::vector<std::string> lines{first, stereoLine(facts), hapticLine(facts)};
+  std::vector<std::string> lines{first + wordsOf(facts), stereoLine(facts), hapticLine(facts)};
   if (now < told_until_) lines.push_back(why_);
   return lines;
 }

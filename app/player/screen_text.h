@@ -2,6 +2,7 @@
 // What the player writes on the screen, and for how long: pure.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct ScreenFacts {
   double position_s = 0, duration_s = 0;  // duration 0: unknown
   PlayerState state = PlayerState::Boot;
   bool held = false;
+  double rate = 1;
+  bool loop = false;
+  std::size_t film = 1, films = 1;  // the how manieth of the list
   StereoSettings stereo;
   bool has_depth = false;
   std::string haptic;  // the device's name; empty: none

@@ -116,6 +116,31 @@ TEST_F(PlayerAndPrograms, AStatusTellsWhatIsGoingOn) {
   EXPECT_EQ(status["stereo"], "sbs");
   EXPECT_EQ(status["haptic"], "mock");
   EXPECT_EQ(status["has_depth"], true);
+  EXPECT_EQ(status["rate"], 1.0);
+  EXPECT_EQ(status["loop"], false);
+  EXPECT_EQ(status["film"], 1);
+  EXPECT_EQ(status["films"], 1);
+}
+
+TEST_F(PlayerAndPrograms, AProgramCanSetWhatAKeyOnlyTurns) {
+  at(1, "layout tab:full");
+  at(1, "loop on");
+  at(1, "loop on");
+  at(1.5, "faster");
+  at(2, "status");
+  at(2, "loop off");
+  at(2, "layout mono");
+  at(2, "play");
+  at(2.5, "status");
+  play();
+  const auto all = answers();
+  const json before = all[4], after = all[8];
+  EXPECT_EQ(before["stereo"], "tab:full");
+  EXPECT_EQ(before["loop"], true);
+  EXPECT_EQ(before["rate"], 2.0);
+  EXPECT_EQ(after["stereo"], "mono");
+  EXPECT_EQ(after["loop"], false);
+  EXPECT_EQ(after["rate"], 1.0);
 }
 
 TEST_F(PlayerAndPrograms, MetricsComeOnceASecondToWhoeverWantsThem) {

@@ -196,11 +196,20 @@ TEST_F(PlayerTransport, AListOfWhichNothingCanBePlayedFails) {
 
 TEST_F(PlayerTransport, AListThatNamesFilesOfTheBoxFromTheNetworkOpensNothing) {
   bench_.texts["http://host/list.m3u"] = "#EXTM3U\nfile:///etc/passwd\n";
+  bench_.sources["file:///etc/passwd"] = bench_.sources["film"];
   bench_.config.source.url = "http://host/list.m3u";
   const auto played = bench_.run();
   ASSERT_FALSE(played);
-  EXPECT_THAT(played.error().thing, HasSubstr("line 2"));
-  EXPECT_THAT(bench_.report.films, ElementsAre("http://host/list.m3u"));
+  EXPECT_EQ(played.error().thing, "file:///etc/passwd");
+  EXPECT_EQ(bench_.states(), "boot idle opening fault");
+}
+
+TEST_F(PlayerTransport, WhatAListMayNotNameIsPassedOver) {
+  aList();
+  bench_.texts["list.m3u"] = "#EXTM3U\na\nconcat:a|b\nb\n";
+  playsWell();
+  EXPECT_THAT(bench_.report.films, ElementsAre("./a", "concat:a|b", "./b"));
+  EXPECT_EQ(bench_.faults("concat:a|b: a list may not name this"), 1u);
 }
 
 TEST_F(PlayerTransport, APlayerThatStaysWaitsForTheNextFilm) {

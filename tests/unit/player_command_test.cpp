@@ -22,7 +22,7 @@ TEST(Command, EachHasWordsThatReadBackAsItself) {
       if (stepped.contains(command.verb)) command.value = value;
       if (command.verb == V::SeekTo) command.value = 75.25;
       if (command.verb == V::SeekShare) command.value = 0.5;
-      if (command.verb == V::Open) command.url = "http://a.b/c d.mkv";
+      if (command.verb == V::Open) command.word = "http://a.b/c d.mkv";
       const auto read = parseCommand(wordsOf(command));
       ASSERT_TRUE(read) << wordsOf(command);
       EXPECT_EQ(*read, command) << wordsOf(command);
@@ -39,6 +39,22 @@ TEST(Command, ASeeksNumberSaysWhatItCountsFrom) {
   EXPECT_EQ(parseCommand("seek 10"), (PlayerCommand{V::SeekTo, 10}));
   EXPECT_EQ(parseCommand("seek 50%"), (PlayerCommand{V::SeekShare, 0.5}));
   EXPECT_EQ(parseCommand("seek 0%"), (PlayerCommand{V::SeekShare, 0}));
+}
+
+TEST(Command, WhatTurnsCanAlsoBeSet) {
+  EXPECT_EQ(parseCommand("loop"), (PlayerCommand{V::Loop}));
+  EXPECT_EQ(parseCommand("loop on"), (PlayerCommand{V::Loop, 1}));
+  EXPECT_EQ(parseCommand("loop off"), (PlayerCommand{V::Loop, -1}));
+  EXPECT_EQ(parseCommand("layout"), (PlayerCommand{V::Layout}));
+  EXPECT_EQ(parseCommand("layout quilt:5x9"), (PlayerCommand{V::Layout, 0, "quilt:5x9"}));
+  for (const char* words : {"loop on", "loop off", "layout tab:full"}) {
+    EXPECT_EQ(wordsOf(*parseCommand(words)), words);
+    EXPECT_NE(meaningOf(*parseCommand(words)),
+              meaningOf(*parseCommand(std::string(words).substr(0, std::string(words).find(' ')))));
+  }
+  for (const char* words : {"loop maybe", "loop ", "layout 3d", "layout quilt:0x9", "layout sbs tab"}) {
+    EXPECT_FALSE(parseCommand(words)) << words;
+  }
 }
 
 TEST(Command, WhatIsNoneIsNone) {

@@ -31,6 +31,20 @@ TEST(ScreenText, TellsTitleTimeStereoAndTouch) {
             (Lines{"film.mkv   1:23 / 1:02:05", "3D: tab", "touch: Novint Falcon, in contact"}));
 }
 
+TEST(ScreenText, TellsSpeedAndPlaceInTheList) {
+  ScreenText text;
+  text.wake(kStart);
+  ScreenFacts facts = playing();
+  facts.rate = 4;
+  facts.film = 2;
+  facts.films = 5;
+  EXPECT_EQ(text.lines(facts, kStart)[0], "film.mkv   1:23 / 1:02:05   4x   film 2 of 5");
+  facts = playing();
+  facts.rate = 0.125;
+  facts.loop = true;
+  EXPECT_EQ(text.lines(facts, kStart)[0], "film.mkv   1:23 / 1:02:05   1/8x   again and again");
+}
+
 TEST(ScreenText, FallsSilentFourSecondsAfterTheLastKey) {
   ScreenText text;
   EXPECT_TRUE(text.lines(playing(), kStart).empty());
