@@ -24,15 +24,23 @@ CLI::Option* optionFor(CLI::App& command, const std::string& key) {
   return nullptr;
 }
 
+// "c.toml:2: stereo = x: no such layout" of "--stereo x: no such layout".
+std::string placed(const std::string& place, const std::string& key, std::string_view words) {
+  const std::string dashed = "--" + key;
+  if (!words.starts_with(dashed)) return place + ": " + std::string(words);
+  words.remove_prefix(dashed.size());
+  return place + (words.starts_with(' ') ? " =" : "") + std::string(words);
+}
+
 Outcome<void> give(CLI::Option& option, const ConfigEntry& entry, const std::string& place) {
   try {
     option.add_result(entry.words);
     option.run_callback();
     return {};
   } catch (const WordFailure& failure) {
-    return failOn(place + ": " + failure.thing, failure.error);
+    return failOn(placed(place, entry.key, failure.thing), failure.error);
   } catch (const CLI::Error& error) {
-    return failOn(place + ": " + error.what(), {ErrorCode::InvalidArgument, 0, "see relievo play --help"});
+    return failOn(placed(place, entry.key, error.what()), {ErrorCode::InvalidArgument, 0, "see relievo play --help"});
   }
 }
 

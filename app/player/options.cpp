@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <sstream>
 
 #include "app/cli/options.h"
 #include "app/cli/program.h"
@@ -115,6 +116,20 @@ Duration readDuration(double seconds) {
   return fromSeconds(seconds);
 }
 
+// The name, without what follows its colon, is one of `names`: words parted by spaces, each with what may follow it in
+// brackets or behind a colon.
+CLI::Validator deviceAmong(const char* kind, const char* names) {
+  const auto judge = [=](const std::string& word) -> std::string {
+    const std::string name = word.substr(0, word.find(':'));
+    std::istringstream all(names);
+    for (std::string known; all >> known;) {
+      if (!name.empty() && known.substr(0, known.find_first_of(":[")) == name) return "";
+    }
+    return word + ": no such " + kind + "; it is one of: " + names;
+  };
+  return {judge, ""};
+}
+
 void addConfigOption(CLI::App& command, std::string& path) {
   command
       .add_option("--config", path,
@@ -143,6 +158,7 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
   addSourceOptions(command, play.player.source);
   command.add_option("--display", play.display, std::string("Where the picture goes\n") + names.display)
       ->capture_default_str()
+      ->check(deviceAmong("display", names.display))
       ->type_name("NAME");
   command
       .add_option_function<std::string>(
@@ -153,6 +169,7 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
   addStereoOptions(command, play.player.stereo);
   command.add_option("--haptic", play.haptic, std::string("What the finger holds\n") + names.haptic)
       ->capture_default_str()
+      ->check(deviceAmong("haptic device", names.haptic))
       ->type_name("NAME");
   command
       .add_option(
@@ -160,10 +177,12 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
           std::string(
               "Where keys come from [a window's own; on a whole screen evdev, all remote controls; else none]\n") +
               names.remote)
+      ->check(deviceAmong("remote", names.remote))
       ->type_name("NAME");
   command
       .add_option("--audio", play.audio,
                   std::string("Where the sound goes [of a window or a whole screen alsa, else none]\n") + names.audio)
+      ->check(deviceAmong("sound output", names.audio))
       ->type_name("NAME");
   addVolumeOption(command, play.player.volume);
   command.add_flag("--loop", play.player.loop, "Begin again at the end");

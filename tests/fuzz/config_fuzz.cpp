@@ -62,7 +62,10 @@ std::string printed(const std::string& text) {
   int exit_code = -1;
   {
     const Redirected to_out(STDOUT_FILENO, out.fd()), to_err(STDERR_FILENO, err.fd());
-    const auto options = parseOptions(static_cast<int>(words.size()), words.data(), {"mock", "mock", "none"});
+    const auto options =
+        parseOptions(static_cast<int>(words.size()), words.data(),
+                     {"kms[:CARD] window offscreen[:FILE] mock", "falcon sim[:HAND] pointer replay:FILE mock none",
+                      "evdev keys window script:FILE none", "alsa[:DEVICE] null none"});
     require(!options, "it printed, or it refused");
     exit_code = options.error();
   }

@@ -37,7 +37,10 @@ class PlayConfig : public testing::Test {
     for (const std::string& word : words) argv.push_back(word.c_str());
     testing::internal::CaptureStdout();
     testing::internal::CaptureStderr();
-    auto options = parseOptions(static_cast<int>(argv.size()), argv.data(), {"offscreen mock", "sim mock", "none"});
+    auto options =
+        parseOptions(static_cast<int>(argv.size()), argv.data(),
+                     {"kms[:CARD] window offscreen[:FILE] mock", "falcon sim[:HAND] pointer replay:FILE mock none",
+                      "evdev keys window script:FILE none", "alsa[:DEVICE] null none"});
     std::string out = testing::internal::GetCapturedStdout();
     return {std::move(options), std::move(out), testing::internal::GetCapturedStderr()};
   }
@@ -174,14 +177,17 @@ TEST_F(PlayConfig, WhatIsWrongIsOneLineThatNamesItsPlace) {
   expectRefused("[play]\ndepth-strength = 3\n", 2, path() + ":2: ");
   expectRefused("[play]\ndepth-strength = nan\n", 2, path() + ":2: ");
   expectRefused("[play]\npacking = \"diagonal\"\n", 2, path() + ":2: ");
-  expectRefused("[play]\nsize = 640\n", 2, path() + ":2: size: --size 640: ");
+  expectRefused("[play]\nsize = 640\n", 2, path() + ":2: size = 640: a size is");
   expectRefused("[play]\nloop = \"perhaps\"\n", 2, path() + ":2: ");
   expectRefused("[play]\ndisplay = [\"a\", \"b\"]\n", 2, path() + ":2: ");
   expectRefused("[play]\nsize = []\n", 2, path() + ":2: ");
   expectRefused("[play]\nsize = { w = 1 }\n", 2, path() + ":2: ");
   expectRefused("[play]\nhelp = true\n", 2, path() + ":2: help: no such option");
   expectRefused("[play]\nconfig = \"other\"\n", 2, path() + ":2: config: no such option");
-  expectRefused("[play]\ncalibration = \"/nowhere/c.txt\"\n", 1, path() + ":2: calibration: ");
+  expectRefused("[play]\ncalibration = \"/nowhere/c.txt\"\n", 1, path() + ":2: calibration = /nowhere/c.txt: ");
+  expectRefused("[play]\ndisplay = \"screen\"\n", 2,
+                path() + ":2: display: screen: no such display; it is one of: kms");
+  expectRefused("[play]\nhaptic = \"simple:x\"\n", 2, path() + ":2: haptic: simple:x: no such haptic device");
   expectRefused("[player]\n", 2, path() + ":1: ");
   expectRefused("[log]\nhaptics = \"debug\"\n", 2,
                 path() + ":2: haptics is no area of the log; they are all, control,");

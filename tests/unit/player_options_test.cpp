@@ -27,7 +27,9 @@ Parsed parse(const std::vector<const char*>& arguments) {
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
   auto options =
-      parseOptions(static_cast<int>(words.size()), words.data(), {"offscreen mock", "sim mock", "none", "alsa null"});
+      parseOptions(static_cast<int>(words.size()), words.data(),
+                   {"kms[:CARD] window offscreen[:FILE] mock", "falcon sim[:HAND] pointer replay:FILE mock none",
+                    "evdev keys window script:FILE none", "alsa[:DEVICE] null none"});
   std::string out = testing::internal::GetCapturedStdout();
   std::string err = testing::internal::GetCapturedStderr();
   return {std::move(options), std::move(out), std::move(err)};

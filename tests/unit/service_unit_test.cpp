@@ -43,7 +43,9 @@ std::expected<Options, int> parse(const std::string& line) {
   const std::vector<std::string> words(std::istream_iterator<std::string>(stream), {});
   std::vector<const char*> argv;
   for (const std::string& word : words) argv.push_back(word.c_str());
-  return parseOptions(static_cast<int>(argv.size()), argv.data(), {});
+  return parseOptions(static_cast<int>(argv.size()), argv.data(),
+                      {"kms[:CARD] window offscreen[:FILE] mock", "falcon sim[:HAND] pointer replay:FILE mock none",
+                       "evdev keys window script:FILE none", "alsa[:DEVICE] null none"});
 }
 
 TEST(ServiceUnit, GrantsThePriorityThatTheHapticTaskAsksFor) {
