@@ -181,7 +181,7 @@ TEST(Options, HelpTeachesOnStdoutAndIsNoFailure) {
   ASSERT_FALSE(parsed.options);
   EXPECT_EQ(parsed.options.error(), 0);
   EXPECT_THAT(parsed.out, HasSubstr("Examples:"));
-  EXPECT_THAT(parsed.out, HasSubstr("offscreen mock"));
+  EXPECT_THAT(parsed.out, HasSubstr("offscreen[:FILE] mock"));
   EXPECT_THAT(parsed.out, HasSubstr("FASTFORWARD"));
   EXPECT_EQ(parsed.err, "");
 }
