@@ -34,8 +34,9 @@ std::int16_t wrapped(long count) {
 PolhemModel::PolhemModel(const Description& description, PolhemFaults faults)
     : arm_(description), faults_(std::move(faults)) {
   constexpr double kHeldOnS = 0.05;
+  constexpr int kHeldOn = 15;  // commands: a driver that is held up still finds it there
   grip = [this](double t_s) {
-    const bool left = calibrated_ && t_s > calibrated_s_ + kHeldOnS;
+    const bool left = calibrated_ && t_s > calibrated_s_ + kHeldOnS && commands_ > calibrated_at_ + kHeldOn;
     return left ? glm::dvec3(0) : placeOf(anglesOf(arm_.calibrate_enc, arm_), arm_);
   };
   powerOn();
@@ -126,6 +127,7 @@ void PolhemModel::write(UsbBytes bytes, MonotonicTime now) {
       if (!faults_.deaf_to_calibrate) zero_from_ = now + faults_.calibrates_in;
       calibrated_ = true;
       calibrated_s_ = toSeconds(now - *began_);
+      calibrated_at_ = commands_;
     }
   }
   if (!silent_) report(now + kAnswersIn);
