@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is drawn where one thing ends before another, vertex by vertex; and what stands in holes.
+#include "app/render/silhouette.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "app/render/cut_cells.h"
+#include "app/render/relief_triangles.h"
+#include "tests/support/depth_frames.h"
+
+namespace relievo {
+namespace {
+
+constexpr DisplayVolume kVolume{160.0, 80.0, 40.0};
+constexpr int kCols = 65, kRows = 33;  // two tiles of 32 cells and one: every sample is a vertex, once
+constexpr double kHole = -1;
+constexpr int kEdge = 33;  // the first near column
+
+using HeightMm = std::function<double(int c, int r)>;
+
+Frame frameOf(const HeightMm& height, int cols = kCols, int rows = kRows) {
+  return test::makeGrayFrame(cols, rows, 16, MediaTime{}, [&](int c, int r) {
+    const double z = height(c, r);
+    return z == kHole ? 0U : static_cast<std::uint32_t>(1 + std::lround(z / 40 * 65534));
+  });
+}
+HeightField fieldOf(const Frame& frame) {
+  return HeightField::make(frame, {.bits = 16, .invalid_code = 0}, kVolume).value();
+}
+HeightLattice latticeOf(const HeightMm& height, int cols = kCols, int rows = kRows) {
+  const Frame frame = frameOf(height, cols, rows);
+  HeightLattice lattice;
+  lattice.read(fieldOf(frame), 4096);
+  return lattice;
+}
+std::vector<std::uint32_t> cutsOf(HeightLattice lattice) {
+  CutCells cuts;
+  cuts.find(lattice, lattice.jumpMm());
+  return cuts.cells();
+}
+
+struct Drawn {
+  HeightLattice lattice;
+  std::vector<TexturedVertex> vertices;
+  std::vector<std::uint32_t> indices;
+
+  // The heights that are drawn at a vertex of the lattice.
+  [[nodiscard]] std::vector<double> heightsAt(int c, int r) const {
+    std::vector<double> heights;
+    for (const TexturedVertex& v : vertices) {
+      if (std::abs(v.x - lattice.x(c)) < 1e-4F && std::abs(v.y - lattice.y(r)) < 1e-4F) heights.push_back(v.z);
+    }
+    return heights;
+  }
+  [[nodiscard]] bool isDrawnAt(int c, int r, double z) const {
+    const auto all = heightsAt(c, r);
+    return std::ranges::any_of(all, [z](double one) { return std::abs(one - z) < 0.01; });
+  }
+};
+
+// One cell, whose top left corner is (c, r).
+Drawn drawCell(const HeightMm& height, int c, int r, const ViewSpan& view = {}) {
+  Drawn drawn{.lattice = latticeOf(height), .vertices = {}, .indices = {}};
+  const auto corner = static_cast<std::uint32_t>(r * drawn.lattice.cols() + c);
+  // The surface has one vertex there, on the far side.
+  drawn.vertices.push_back({drawn.lattice.x(c), drawn.lattice.y(r), 0, drawn.lattice.u(c), drawn.lattice.v(r)});
+  std::vector<std::uint32_t> slots(drawn.lattice.size(), 0);
+  slots[corner] = 1;
+  SilhouetteDrawer(drawn.lattice, view, drawn.vertices, drawn.indices).drawCell(corner, slots);
+  return drawn;
+}
+
+double step(int c, int /*r*/) {
+  return c < kEdge ? 5 : 30;
+}
+
+TEST(Silhouette, TheFarSideGoesOnBehindTheNearOne) {
+  const Drawn drawn = drawCell(step, kEdge - 1, 10);
+  for (const int r : {10, 11}) {
+    EXPECT_TRUE(drawn.isDrawnAt(kEdge, r, 30)) << "the near side";
+    EXPECT_TRUE(drawn.isDrawnAt(kEdge, r, 5)) << "and the far one behind it";
+    EXPECT_FALSE(drawn.isDrawnAt(kEdge - 1, r, 30));
+  }
+}
+
+TEST(Silhouette, ACornerBelongsToTheSideThatItIsNearerTo) {
+  const auto height = [](int c, int r) { return c >= kEdge ? 30.0 : r > 10 ? 12.0 : 5.0; };
+  const Drawn drawn = drawCell(height, kEdge - 1, 10);
+  EXPECT_TRUE(drawn.isDrawnAt(kEdge, 11, 12)) << "the far side's own slope goes on behind the near one";
+  EXPECT_TRUE(drawn.isDrawnAt(kEdge, 10, 5));
+}
+
+TEST(Silhouette, BesideTheOutlineTheFarSideShowsWhatIsFartherAway) {
+  const Drawn drawn = drawCell(step, kEdge - 1, 10);
+  const float aside = drawn.lattice.u(kEdge - 1) - 1.5F / kCols;
+  EXPECT_NEAR(drawn.vertices[0].u, aside, 1e-6) << "of the surface";
+  for (const TexturedVertex& v : drawn.vertices) {
+    const bool is_far = std::abs(v.x - drawn.lattice.x(kEdge - 1)) < 1e-4F;
+    EXPECT_NEAR(v.u, is_far ? aside : v.u, 1e-6);
+    EXPECT_NEAR(v.v, drawn.lattice.v(v.y > drawn.lattice.y(10) - 1e-4F ? 10 : 11), 1e-6);
+  }
+}
+
+// Behind a thing that rises for some samples the eye sees as far as over its top.
+TEST(Silhouette, ReachesAsFarBehindAsSomeEyeSees) {
+  const auto height = [](int c, int /*r*/) { return c < kEdge ? 5.0 : 20.0 + std::min(2 * (c - kEdge), 20); };
+  const ViewSpan view;
+  const Drawn drawn = drawCell(height, kEdge - 1, 10, view);
+  const double top = 20 + 2 * 7;  // of the eight samples that are looked at
+  const double distance = view.distance_mm + view.screen_z_mm - top;
+  const double length = (top - 5) * (static_cast<double>(drawn.lattice.x(kEdge)) + view.eye_mm) / distance;
+  double reach = 0;
+  for (const TexturedVertex& v : drawn.vertices) {
+    if (v.z < 6) reach = std::max(reach, static_cast<double>(v.x));
+  }
+  EXPECT_NEAR(reach, static_cast<double>(drawn.lattice.x(kEdge)) + length, 0.01);
+}
+
+TEST(CutCells, AThinThingIsNoSmear) {
+  const auto wire = [](int c, int /*r*/) { return c == 20 ? 30.0 : 5.0; };
+  HeightLattice lattice = latticeOf(wire);
+  CutCells cuts;
+  cuts.find(lattice, lattice.jumpMm());
+  EXPECT_NEAR(lattice.heights()[20], 30, 0.01);
+  EXPECT_EQ(cuts.cells().size(), 2U * (kRows - 1));
+}
+
+TEST(CutCells, NothingIsLeftOfAnotherPicture) {
+  CutCells cuts;
+  HeightLattice wide = latticeOf([](int c, int r) { return (c + r) % 2 == 0 ? 5.0 : 30.0; });
+  cuts.find(wide, wide.jumpMm());
+  HeightLattice narrow = latticeOf(step, 49, 25);
+  cuts.find(narrow, narrow.jumpMm());
+  EXPECT_EQ(cuts.cells(), cutsOf(latticeOf(step, 49, 25)));
+  for (int r = 0; r + 1 < narrow.rows(); ++r) {
+    EXPECT_FALSE(cuts.contains(static_cast<std::size_t>(r + 1) * narrow.cols() - 1)) << "right of the picture";
+  }
+}
+
+TEST(HeightLattice, ARowThatNobodyMeasuredLiesOnTheFarPlane) {
+  const HeightLattice lattice = latticeOf([](int, int) { return kHole; });
+  EXPECT_EQ(std::count(lattice.heights(), lattice.heights() + lattice.size(), 0.0F),
+            static_cast<std::ptrdiff_t>(lattice.size()));
+}
+
+// The hole of the second row is wider than that of the first and has a lower neighbour.
+TEST(HeightLattice, WhatIsFilledHasNoJumps) {
+  const auto height = [](int c, int r) {
+    if (r == 0) return c >= 20 && c < 40 ? kHole : 30.0;
+    return c >= 5 && c < 40 ? kHole : c < 5 ? 2.0 : 30.0;
+  };
+  const HeightLattice lattice = latticeOf(height);
+  const float* second = lattice.heights() + lattice.cols();
+  for (int c = 6; c < 40; ++c) EXPECT_LE(std::abs(second[c] - second[c - 1]), 0.5001F * lattice.jumpMm()) << c;
+  EXPECT_GT(*std::max_element(second + 5, second + 40), 15) << "it follows the row above";
+}
+
+TEST(ReliefTriangles, AFrameJoinsTheReliefToThePicturesRectangle) {
+  const Frame frame = frameOf([](int, int) { return 30.0; });
+  ReliefTriangles relief;
+  relief.build(fieldOf(frame), kVolume, {});
+  const float screen_mm = 20;
+  int left = 0, right = 0, above = 0, below = 0;
+  const auto& at = relief.vertices();
+  for (std::size_t i = 0; i + 2 < relief.indices().size(); i += 3) {
+    bool on_relief = false, on_screen = false;
+    float x = 0, y = 0;
+    for (std::size_t k = i; k < i + 3; ++k) {
+      const TexturedVertex& v = at[relief.indices()[k]];
+      on_relief = on_relief || std::abs(v.z - 30) < 0.01F;
+      on_screen = on_screen || v.z == screen_mm;
+      if (v.z == screen_mm) x = v.x, y = v.y;
+    }
+    if (!on_relief || !on_screen) continue;
+    left += x == -80;
+    right += x == 80;
+    above += y == 40;
+    below += y == -40;
+  }
+  for (const int side : {left, right, above, below}) EXPECT_GT(side, 1);
+}
+
+}  // namespace
+}  // namespace relievo
