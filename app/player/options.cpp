@@ -98,9 +98,11 @@ constexpr const char* kNoStereo =
 constexpr const char* kNoDuration = "a duration is more than 0 and at most a billion seconds";
 
 CLI::Option* addSourceOptions(CLI::App& command, SourceOptions& source) {
-  CLI::Option* url =
-      command.add_option("SOURCE", source.url, "A file, or an address: http, https (HLS as well), rtsp, rtp, udp, tcp")
-          ->type_name(" ");
+  CLI::Option* url = command
+                         .add_option("SOURCE", source.url,
+                                     "A file, or an address: http, https (HLS as well), rtsp, rtp, udp, tcp; "
+                                     "v4l2:DEVICE; mock:, which needs no file")
+                         ->type_name(" ");
   command.add_option("--depth", source.depth_url, "A second file or address that holds the depth")
       ->type_name("SOURCE2");
   addDepthOptions(command, source);
@@ -149,7 +151,7 @@ void addStereoOptions(CLI::App& command, StereoSettings& stereo) {
     if (!parseStereo(word, stereo)) throw WordFailure({"--stereo " + word, {ErrorCode::InvalidArgument, 0, kNoStereo}});
   };
   command.add_option_function<std::string>("--stereo", readStereo, kStereoHelp)
-      ->type_name("NAME")
+      ->type_name("mono|sbs|tab|rows|columns|anaglyph|frame-packing|quilt")
       ->default_str(stereoWord(stereo));
   command.add_flag("--swap-eyes", stereo.swap_eyes, "The left eye's picture for the right eye");
   command

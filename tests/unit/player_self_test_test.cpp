@@ -24,7 +24,8 @@ class SelfTest : public testing::Test {
     auto setup = parseSim("");
     auto haptic = hand_ ? makeSimHaptic(setup->profile, std::move(setup->path), clock_) : makeMockHaptic({}, clock_);
     const auto make_decoder = [this](const StreamInfo& stream) {
-      return isMock(stream) || stream.codec == unknown_codec_ ? makeMockDecoder() : makeFfmpegDecoder();
+      return isMock(stream) || stream.codec == unknown_codec_ ? makeMockDecoder({.max_held_frames = 32})
+                                                              : makeFfmpegDecoder();
     };
     std::map<std::string, SelfTestLine> lines;
     for (SelfTestLine& line :
