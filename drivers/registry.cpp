@@ -177,7 +177,6 @@ std::unique_ptr<MediaSource> makeMediaSource(const std::string& url) {
 
 std::unique_ptr<VideoDecoder> makeVideoDecoder(const StreamInfo& stream) {
   if (isMock(stream)) return makeMockDecoder({.max_held_frames = 32});
-  if (isMock(stream)) return makeMockDecoder({.max_held_frames = 32});
   if (isV4l2Raw(stream)) return makeV4l2Decoder();
   return isFloatTiff(stream) ? makeTiffDecoder() : makeFfmpegDecoder();
 }
