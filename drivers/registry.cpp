@@ -35,6 +35,7 @@ const char* const kDisplayNames = RELIEVO_DISPLAY_NAMES;
 const char* const kHapticNames = RELIEVO_HAPTIC_NAMES;
 const char* const kRemoteNames = RELIEVO_REMOTE_NAMES;
 const char* const kAudioNames = RELIEVO_AUDIO_NAMES;
+const char* const kMockFilm = "mock:";
 const double kFalconCountsPerNm = falcon::kDefaultCountsPerNm;
 
 namespace {
@@ -169,10 +170,13 @@ Outcome<std::unique_ptr<AudioOutput>> makeAudioOutput(std::string_view text, con
 }
 
 std::unique_ptr<MediaSource> makeMediaSource(const std::string& url) {
+  static MonotonicClock clock;
+  if (url == kMockFilm) return makeMockSource(mockFilm(), clock);
   return url.starts_with("v4l2:") ? makeV4l2Source() : makeFfmpegSource();
 }
 
 std::unique_ptr<VideoDecoder> makeVideoDecoder(const StreamInfo& stream) {
+  if (isMock(stream)) return makeMockDecoder({.max_held_frames = 32});
   if (isV4l2Raw(stream)) return makeV4l2Decoder();
   return isFloatTiff(stream) ? makeTiffDecoder() : makeFfmpegDecoder();
 }

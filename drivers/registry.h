@@ -27,6 +27,8 @@ extern const char* const kHapticNames;
 extern const char* const kRemoteNames;
 extern const char* const kAudioNames;
 
+extern const char* const kMockFilm;  // the url of a film of three seconds that is in no file
+
 extern const double kFalconCountsPerNm;  // where the configuration does not tell
 
 // What the haptic back ends are told besides their names; from the configuration.

@@ -89,8 +89,8 @@ void addOptions(CLI::App& app, Arguments& a) {
             {{"source", std::nullopt}, {"linear", DepthLaw::Linear}, {"inverse", DepthLaw::Inverse}},
             "Where the depth's steps are fine\nsource: as they are there; linear: evenly; inverse: near the viewer, by "
             "disparity. The heights stay");
-  app.add_option("--scene", a.scene, "Make a film of the project's own instead, with its exact depth: sample")
-      ->type_name("NAME")
+  app.add_option("--scene", a.scene, "Make a film of the project's own instead, with its exact depth")
+      ->type_name("sample")
       ->check(CLI::IsMember({"sample"}).description(""))
       ->excludes("--color")
       ->excludes("--depth")

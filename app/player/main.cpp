@@ -18,6 +18,7 @@
 #include "app/player/player_control.h"
 #include "app/player/probe.h"
 #include "app/player/recorder.h"
+#include "app/player/self_test.h"
 #include "drivers/registry.h"
 #include "platform/atomic_file.h"
 #include "platform/clock.h"
@@ -194,6 +195,26 @@ int calibrateFalcon(const FileConfig& config) {
   return kExitDone;
 }
 
+int testItself() {
+  MonotonicClock clock;
+  auto display = drivers::makeDisplay("offscreen");
+  auto haptic = drivers::makeHapticDevice("sim", clock);
+  if (!display) return tell(display.error());
+  if (!haptic) return tell(haptic.error());
+  bool bad = false;
+  for (const SelfTestLine& line : selfTest({.clock = clock,
+                                            .display = **display,
+                                            .haptic = **haptic,
+                                            .backends = realBackends(),
+                                            .film = drivers::kMockFilm})) {
+    using Verdict = SelfTestLine::Verdict;
+    const char* const verdict = line.verdict == Verdict::Good ? "good" : line.verdict == Verdict::Note ? "note" : "bad";
+    std::printf("%-4s  %-9s %s\n", verdict, line.thing.c_str(), line.said.c_str());
+    bad = bad || line.verdict == Verdict::Bad;
+  }
+  return bad ? kExitFailed : kExitDone;
+}
+
 int parseAndRun(int argc, char** argv) {
   const auto options = parseOptions(argc, argv,
                                     {.display = drivers::kDisplayNames,
@@ -206,6 +227,8 @@ int parseAndRun(int argc, char** argv) {
       return probeSource(options->probe);
     case Options::Command::Devices:
       return options->calibrate ? calibrateFalcon(options->config) : listDevices(options->config);
+    case Options::Command::SelfTest:
+      return testItself();
     case Options::Command::Play:
       break;
   }

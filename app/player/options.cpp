@@ -26,6 +26,7 @@ constexpr const char* kProgramFooter =
     "  relievo probe scan.mov --packing tb --depth-code hue\n"
     "                                                 what is in it: colour on top, depth as hue below\n"
     "  relievo devices                                what hardware is there, and why a thing is refused\n"
+    "  relievo selftest                               whether it works here, without any hardware\n"
     "\n`relievo play --help` and `relievo probe --help` tell the rest, `relievo-author --help` how to make a film.\n";
 constexpr const char* kProbeFooter =
     "\nExamples:\n"
@@ -76,6 +77,11 @@ constexpr const char* kCalibrateFooter =
     "2,\n3 and 4 N in turn: type what the scale shows each time, in newtons. The result goes into the configuration, "
     "where\n`relievo play` finds it. Until then the Falcon is taken for as strong as any is said to be, so "
     "that it is\nnever stronger than asked.\n";
+constexpr const char* kSelfTestFooter =
+    "\nIt looks for a font and the decoders, and plays a film of its own for three seconds off screen, touched by the\n"
+    "simulated hand. Each line begins with `good`, `note` (it goes without, less well) or `bad`. Exit code: 0 nothing "
+    "is\n"
+    "bad, 1 something is, 2 wrong use.\n";
 constexpr const char* kExitCodes = "\nExit code: 0 done, 1 failed at run time, 2 wrong use.\n";
 
 constexpr double kLongestDurationS = 1e9;
@@ -92,9 +98,11 @@ constexpr const char* kNoStereo =
 constexpr const char* kNoDuration = "a duration is more than 0 and at most a billion seconds";
 
 CLI::Option* addSourceOptions(CLI::App& command, SourceOptions& source) {
-  CLI::Option* url =
-      command.add_option("SOURCE", source.url, "A file, or an address: http, https (HLS as well), rtsp, rtp, udp, tcp")
-          ->type_name(" ");
+  CLI::Option* url = command
+                         .add_option("SOURCE", source.url,
+                                     "A file, or an address: http, https (HLS as well), rtsp, rtp, udp, tcp; "
+                                     "v4l2:DEVICE; mock:, which needs no file")
+                         ->type_name(" ");
   command.add_option("--depth", source.depth_url, "A second file or address that holds the depth")
       ->type_name("SOURCE2");
   addDepthOptions(command, source);
@@ -143,7 +151,7 @@ void addStereoOptions(CLI::App& command, StereoSettings& stereo) {
     if (!parseStereo(word, stereo)) throw WordFailure({"--stereo " + word, {ErrorCode::InvalidArgument, 0, kNoStereo}});
   };
   command.add_option_function<std::string>("--stereo", readStereo, kStereoHelp)
-      ->type_name("NAME")
+      ->type_name("mono|sbs|tab|rows|columns|anaglyph|frame-packing|quilt")
       ->default_str(stereoWord(stereo));
   command.add_flag("--swap-eyes", stereo.swap_eyes, "The left eye's picture for the right eye");
   command
@@ -256,6 +264,8 @@ std::expected<Options, int> parseOptions(int argc, const char* const* argv, cons
   CLI::App& play = *program.add_subcommand("play", "Play a film: shown in stereo, felt by the finger");
   CLI::App& probe = *program.add_subcommand("probe", "Tell what is in a source, and what it needs");
   CLI::App& devices = *program.add_subcommand("devices", "Tell what hardware is there, and why a thing is refused");
+  CLI::App& self_test = *program.add_subcommand("selftest", "Tell whether it works here, without any hardware");
+  self_test.footer(kSelfTestFooter);
   CLI::App& calibrate = *devices.add_subcommand("calibrate", "Find out how strong the Falcon is, with a spring scale");
   addPlayOptions(play, options.play, names);
   addConfigOption(play, config_path);
@@ -271,11 +281,12 @@ std::expected<Options, int> parseOptions(int argc, const char* const* argv, cons
   calibrate.footer(kCalibrateFooter);
 
   if (auto parsed = parseCommandLine(program, argc, argv); !parsed) return std::unexpected(parsed.error());
-  options.command = probe.parsed()     ? Options::Command::Probe
-                    : devices.parsed() ? Options::Command::Devices
-                                       : Options::Command::Play;
+  options.command = probe.parsed()       ? Options::Command::Probe
+                    : devices.parsed()   ? Options::Command::Devices
+                    : self_test.parsed() ? Options::Command::SelfTest
+                                         : Options::Command::Play;
   options.calibrate = calibrate.parsed();
-  if (probe.parsed()) return options;
+  if (probe.parsed() || self_test.parsed()) return options;
 
   const auto lines = readConfig(play, config_path, options.config);
   if (!lines) return std::unexpected(tell(lines.error()));

@@ -30,7 +30,7 @@ struct ProbeOptions {
 };
 
 struct Options {
-  enum class Command : std::uint8_t { Play, Probe, Devices };
+  enum class Command : std::uint8_t { Play, Probe, Devices, SelfTest };
   Command command = Command::Play;
   PlayOptions play;
   ProbeOptions probe;

@@ -78,6 +78,11 @@ struct MockMediaProfile {
   Duration wrap{0};  // they are counted up to this and begin again at 0; 0: they are not
 };
 
+// Three seconds of a ball that rolls to and fro on a wall, in colour and depth.
+[[nodiscard]] MockMediaProfile mockFilm();
+// Whether it is a stream of a mock source.
+[[nodiscard]] bool isMock(const StreamInfo& stream) noexcept;
+
 // Ignores what the url says. Its packets are understood by the mock decoder alone (codec "mock").
 [[nodiscard]] std::unique_ptr<MediaSource> makeMockSource(MockMediaProfile profile, Clock& clock);
 // The film of the url that is opened; NotFound where there is none.

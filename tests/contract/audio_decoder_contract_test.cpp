@@ -7,8 +7,10 @@
 
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/mock/mock.h"
+#include "drivers/sample/sample.h"
 #include "tests/contract/state_table.h"
 #include "tests/support/clip_maker.h"
+#include "tests/support/sample_clip.h"
 
 namespace relievo {
 namespace {
@@ -45,9 +47,18 @@ std::unique_ptr<MediaSource> openClip() {
   return source;
 }
 
+std::unique_ptr<MediaSource> openSample() {
+  const test::TemporaryFolder folder;
+  test::writeSampleClip(folder / "film", {.pictures = 1, .sound_packets = 50});
+  auto source = makeSampleSource();
+  EXPECT_TRUE(source->open(folder / "film"));
+  return source;
+}
+
 const Backend kBackends[] = {
     {"mock", openMock, makeMockAudioDecoder},
     {"ffmpeg", openClip, makeFfmpegAudioDecoder},
+    {"sample", openSample, makeSampleAudioDecoder},
 };
 
 class AudioDecoderContract : public testing::TestWithParam<Backend> {

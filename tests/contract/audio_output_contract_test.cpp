@@ -6,6 +6,7 @@
 
 #include "drivers/alsa/alsa.h"
 #include "drivers/mock/mock.h"
+#include "drivers/sample/sample.h"
 #include "tests/contract/state_table.h"
 #include "tests/support/fake_sound_card.h"
 
@@ -43,6 +44,11 @@ const Backend kBackends[] = {
      }},
     {"alsa_float", [](ManualClock& clock) { return makeFakeCard(clock, true); }},
     {"alsa_16_bit", [](ManualClock& clock) { return makeFakeCard(clock, false); }},
+    {"sample",
+     [](ManualClock& clock) {
+       const auto card = std::make_shared<SampleCard>();
+       return Output{makeSampleAudio(card, clock), [card](bool unplugged) { card->there = !unplugged; }};
+     }},
 };
 
 class AudioOutputContract : public testing::TestWithParam<Backend> {

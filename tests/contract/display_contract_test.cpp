@@ -6,6 +6,7 @@
 
 #include "drivers/egl/egl.h"
 #include "drivers/mock/mock.h"
+#include "drivers/sample/sample.h"
 #include "tests/contract/state_table.h"
 #include "tests/support/guest_screen.h"
 #include "tests/support/x_screen.h"
@@ -36,6 +37,7 @@ const Backend kBackends[] = {
     {"mock", [](ManualClock& clock) { return makeMockDisplay({}, clock); }},
     {"offscreen", [](ManualClock& clock) { return makeOffscreenDisplay("", clock); }},
     {"window", makeWindow},
+    {"sample", [](ManualClock&) { return makeSampleDisplay(); }},
     {"kms", [](ManualClock&) { return makeKmsDisplay(); }, false, false},
 };
 

@@ -12,7 +12,9 @@
 
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/mock/mock.h"
+#include "drivers/sample/sample.h"
 #include "tests/support/clip_maker.h"
+#include "tests/support/sample_clip.h"
 
 namespace relievo::test {
 
@@ -57,10 +59,21 @@ inline std::unique_ptr<MediaSource> mockFilm() {
   return makeMockSource({.tracks = {track}, .tags = {{"TITLE", "film"}}}, clock);
 }
 
+inline std::string sampleFilm() {
+  static const TemporaryFolder folder;
+  static const std::string path = [] {
+    writeSampleClip(folder / "film",
+                    {.pictures = kFilmFrames, .key_interval = kFilmKeyInterval, .period = kFilmPeriod});
+    return folder / "film";
+  }();
+  return path;
+}
+
 inline const FilmBackend kFilmBackends[] = {
     {"mock", mockFilm, [] { return makeMockDecoder({.reorder_frames = 2}); }, [] { return std::string("mock:"); },
      nullptr},
     {"ffmpeg", makeFfmpegSource, makeFfmpegDecoder, encodedFilm, "/nonexistent/film.mkv"},
+    {"sample", makeSampleSource, makeSampleDecoder, sampleFilm, "/nonexistent/film"},
 };
 
 class FilmContract : public testing::TestWithParam<FilmBackend> {

@@ -11,6 +11,7 @@
 #include "drivers/pointer/pointer.h"
 #include "drivers/polhem/polhem.h"
 #include "drivers/replay/replay.h"
+#include "drivers/sample/sample.h"
 #include "drivers/sim/sim.h"
 #include "platform/allocation_counter.h"
 #include "tests/contract/state_table.h"
@@ -144,6 +145,35 @@ Rig polhem(ManualClock& clock, bool loses) {
           [bench] { return bench->cable.model_allocations; }, 600};
 }
 
+// The driver on a wire of our own.
+struct SampleWire {
+  glm::dvec3 force_n{0};
+  bool loses = false;  // with the first exchange; plugged in again it is there
+};
+class FakeSamplePort final : public SamplePort {
+ public:
+  explicit FakeSamplePort(std::shared_ptr<SampleWire> wire) : wire_(std::move(wire)) {}
+  Result<void> open() override { return {}; }
+  void close() noexcept override {}
+  Result<glm::dvec3> readPosition() RELIEVO_RT override {
+    if (wire_->loses) return fail(ErrorCode::Lost, "unplugged");
+    return glm::dvec3(1, 2, 3);
+  }
+  Result<void> writeForce(const glm::dvec3& force_n) RELIEVO_RT override {
+    wire_->force_n = force_n;
+    return {};
+  }
+
+ private:
+  std::shared_ptr<SampleWire> wire_;
+};
+Rig sample(ManualClock& clock, bool loses) {
+  auto wire = std::make_shared<SampleWire>();
+  wire->loses = loses;
+  auto device = makeSampleHaptic(std::make_unique<FakeSamplePort>(wire), clock);
+  return {wire, std::move(device), [wire] { return wire->force_n != glm::dvec3(0); }};
+}
+
 const Backend kBackends[] = {
     {"falcon", [](ManualClock& clock) { return falcon(clock, false); },
      [](ManualClock& clock) { return falcon(clock, true); }},
@@ -160,6 +190,8 @@ const Backend kBackends[] = {
     {"polhem", [](ManualClock& clock) { return polhem(clock, false); },
      [](ManualClock& clock) { return polhem(clock, true); }},
     {"sim", sim, nullptr},
+    {"sample", [](ManualClock& clock) { return sample(clock, false); },
+     [](ManualClock& clock) { return sample(clock, true); }},
 };
 
 class HapticDeviceContract : public testing::TestWithParam<Backend> {

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "drivers/mock/scripted_remote.h"
+#include "drivers/sample/sample.h"
 #include "drivers/terminal/terminal.h"
 #include "drivers/terminal/terminal_keys.h"
 #include "drivers/window/window_remote.h"
@@ -44,6 +45,16 @@ struct Terminal {
   UniqueFd outside, inside;
 };
 
+// The receiver's wire.
+struct Wire {
+  Wire() {
+    int ends[2];
+    if (::pipe(ends) != 0) throw std::runtime_error("no pipe");
+    out.reset(ends[0]), in.reset(ends[1]);
+  }
+  UniqueFd out, in;
+};
+
 struct Backend {
   const char* name;
   std::function<Remote(ManualClock&)> make;
@@ -64,6 +75,11 @@ const Backend kBackends[] = {
      [](ManualClock&) {
        const auto terminal = std::make_shared<Terminal>();
        return Remote{makeTerminalRemote(terminal->inside.get()), [terminal] { terminal->type("\r"); }, KEY_ENTER};
+     }},
+    {"sample",
+     [](ManualClock&) {
+       const auto wire = std::make_shared<Wire>();
+       return Remote{makeSampleRemote(wire->out.get()), [wire] { EXPECT_EQ(::write(wire->in.get(), "?O", 2), 2); }};
      }},
 };
 

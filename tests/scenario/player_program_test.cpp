@@ -82,6 +82,13 @@ class PlayerProgram : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
+TEST_F(PlayerProgram, TestsItself) {
+  const auto said = test::runProgram("relievo selftest", at(""));
+  EXPECT_EQ(said.exit_code, 0) << said.out << said.err;
+  EXPECT_THAT(said.out, HasSubstr("good  display   offscreen, 640x360"));
+  EXPECT_THAT(said.out, HasSubstr("good  touch     sim"));
+}
+
 TEST_F(PlayerProgram, PlaysAClipThroughTheWholeStackAndReportsIt) {
   test::makeClip(at("film.mkv"), {color(), depth()});
   const auto result =

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// The manual's pages and the completion tell what the programs take, all of it and nothing else.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <iterator>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "tests/support/clip_maker.h"
+#include "tests/support/program.h"
+
+namespace relievo {
+namespace {
+
+using Words = std::set<std::string>;
+
+std::string outputOf(const std::string& command) {
+  std::string text;
+  FILE* const pipe = ::popen(command.c_str(), "r");  // NOLINT(bugprone-command-processor): a test's own words
+  for (int c; pipe != nullptr && (c = std::fgetc(pipe)) != EOF;) text += static_cast<char>(c);
+  EXPECT_EQ(pipe == nullptr ? -1 : ::pclose(pipe), 0) << command;
+  return text;
+}
+
+// What bash would offer behind these words, the last of them unfinished.
+Words offered(const std::string& words) {
+  const std::string program = words.substr(0, words.find(' '));
+  std::string function = "_" + program;
+  std::ranges::replace(function, '-', '_');
+  std::istringstream text(outputOf("bash -c '. " RELIEVO_MANUAL_DIR "/" + program + ".bash; COMP_WORDS=(" + words +
+                                   "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); " + function +
+                                   "; printf \"%s\\n\" \"${COMPREPLY[@]}\"'"));
+  return {std::istream_iterator<std::string>(text), {}};
+}
+
+Words found(const std::string& text, const std::regex& what) {
+  Words words;
+  for (std::sregex_iterator at(text.begin(), text.end(), what), end; at != end; ++at) words.insert((*at)[1]);
+  return words;
+}
+
+class Manual : public testing::TestWithParam<const char*> {
+ protected:
+  [[nodiscard]] std::string helpOf(const std::string& command) const {
+    const auto said = test::runProgram(command + " --help", folder_ / ".");
+    EXPECT_EQ(said.exit_code, 0) << command;
+    return said.out;
+  }
+  static Words optionsIn(const std::string& help) {
+    return found(help, std::regex("\n  (?:-\\w,)?(--[a-z-]+)", std::regex::ECMAScript));
+  }
+  static Words commandsIn(const std::string& help) {
+    const std::size_t list = help.find("\nSubcommands:\n");
+    if (list == std::string::npos) return {};
+    return found(help.substr(list, help.find("\n\n", list + 14) - list), std::regex("\n  ([a-z-]+)"));
+  }
+  // A command and all below it.
+  void walk(const std::string& command, const std::function<void(const std::string&)>& visit) const {
+    visit(command);
+    for (const std::string& below : commandsIn(helpOf(command))) walk(command + " " + below, visit);
+  }
+  test::TemporaryFolder folder_;
+};
+INSTANTIATE_TEST_SUITE_P(All, Manual, testing::Values("relievo", "relievo-author", "relievo-lab"),
+                         [](const auto& test) {
+                           std::string name = test.param;
+                           std::ranges::replace(name, '-', '_');
+                           return name;
+                         });
+
+TEST_P(Manual, TheCompletionOffersTheOptionsAndCommandsOfTheHelp) {
+  walk(GetParam(), [this](const std::string& command) {
+    SCOPED_TRACE(command);
+    const std::string help = helpOf(command);
+    EXPECT_GE(optionsIn(help).size(), 1u);
+    EXPECT_EQ(offered(command + " --"), optionsIn(help));
+    EXPECT_EQ(offered(command + " \"\""), commandsIn(help));
+  });
+}
+
+TEST_P(Manual, ThePageHasThemAll) {
+  std::string page = outputOf(std::string("zcat " RELIEVO_MANUAL_DIR "/") + GetParam() + ".1.gz");
+  page = std::regex_replace(page, std::regex("\\\\f.|\\\\(?=-)"), "");
+  walk(GetParam(), [&](const std::string& command) {
+    EXPECT_THAT(page, testing::HasSubstr("\n" + command + " [OPTIONS]")) << "among the synopses";
+    for (const std::string& option : optionsIn(helpOf(command))) {
+      EXPECT_TRUE(std::regex_search(page, std::regex("\n(-.,)?" + option + "\\b"))) << command << " " << option;
+    }
+  });
+}
+
+TEST(Completion, KnowsTheWordsOfAChoiceAndTheNamesOfDevices) {
+  EXPECT_EQ(offered("relievo play film.mkv --packing \"\""), (Words{"auto", "tracks", "sbs", "tb"}));
+  EXPECT_EQ(offered("relievo play --display \"\""), (Words{"kms", "window", "offscreen", "mock"}));
+  EXPECT_EQ(offered("relievo play --haptic p"), (Words{"polhem", "pointer"}));
+  EXPECT_EQ(offered("relievo-lab trace --method p"), (Words{"penalty", "proxy-graph", "proxy-blend"}));
+  EXPECT_EQ(offered("relievo play film"), Words{}) << "a file is bash's to complete";
+}
+
+}  // namespace
+}  // namespace relievo
