@@ -9,6 +9,7 @@
 #include "drivers/alsa/alsa.h"
 #include "drivers/egl/egl.h"
 #include "drivers/evdev/evdev.h"
+#include "drivers/failover/failover.h"
 #include "drivers/falcon/falcon.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/mock/mock.h"
@@ -175,10 +176,19 @@ std::unique_ptr<MediaSource> makeMediaSource(const std::string& url) {
   return url.starts_with("v4l2:") ? makeV4l2Source() : makeFfmpegSource();
 }
 
-std::unique_ptr<VideoDecoder> makeVideoDecoder(const StreamInfo& stream) {
+std::unique_ptr<VideoDecoder> makeSoftwareDecoder(const StreamInfo& stream) {
   if (isMock(stream)) return makeMockDecoder({.max_held_frames = 32});
-  if (isV4l2Raw(stream)) return makeV4l2Decoder();
+  if (isV4l2Raw(stream)) return makeV4l2RawDecoder();
   return isFloatTiff(stream) ? makeTiffDecoder() : makeFfmpegDecoder();
+}
+
+std::unique_ptr<VideoDecoder> makeVideoDecoder(const StreamInfo& stream) {
+  const bool own = isMock(stream) || isV4l2Raw(stream) || isFloatTiff(stream);
+  if (own || lookAtV4l2M2mNodes().empty()) return makeSoftwareDecoder(stream);
+  std::vector<std::unique_ptr<VideoDecoder>> decoders;
+  decoders.push_back(makeV4l2M2mDecoder());
+  decoders.push_back(makeSoftwareDecoder(stream));
+  return makeFailoverDecoder(std::move(decoders));
 }
 
 Result<std::string> readText(const std::string& url, std::size_t most_bytes, const std::atomic<bool>& cancelled) {
@@ -203,6 +213,11 @@ std::vector<DeviceState> lookAtDevices(const HapticSettings& settings, Clock& cl
   std::vector<DeviceState> states;
   for (const KmsScreen& screen : lookAtKmsScreens()) {
     states.push_back({"display", screen.card.empty() ? "kms" : "kms:" + screen.card, screen.there, screen.state});
+  }
+  for (const V4l2M2mNode& node : lookAtV4l2M2mNodes()) {
+    std::string codecs;
+    for (const std::string& codec : node.codecs) codecs += " " + codec;
+    states.push_back({"decoder", node.path, true, node.card + ":" + codecs});
   }
   states.push_back(look("window", *makeWindowDisplay(theWindow(), clock)));
   states.insert(states.end(),

@@ -47,6 +47,9 @@ struct HapticSettings {
 [[nodiscard]] Outcome<std::unique_ptr<RemoteInput>> makeRemoteInput(std::string_view spec, Clock& clock);
 [[nodiscard]] Outcome<std::unique_ptr<AudioOutput>> makeAudioOutput(std::string_view spec, const Clock& clock);
 [[nodiscard]] std::unique_ptr<MediaSource> makeMediaSource(const std::string& url);
+// In software, exactly the same everywhere; or by hardware that takes the stream, with the software behind it in case
+// that it fails.
+[[nodiscard]] std::unique_ptr<VideoDecoder> makeSoftwareDecoder(const StreamInfo& stream);
 [[nodiscard]] std::unique_ptr<VideoDecoder> makeVideoDecoder(const StreamInfo& stream);
 [[nodiscard]] std::unique_ptr<AudioDecoder> makeAudioDecoder();
 // The text at a path or an address, as makeMediaSource would open it.
@@ -59,7 +62,7 @@ struct HapticSettings {
 
 // What is there of each kind of hardware, found out by opening it: takes seconds where a device must be started up.
 struct DeviceState {
-  const char* kind = "";  // display, audio, haptic
+  const char* kind = "";  // display, decoder, audio, haptic
   std::string name;       // as on the command line
   bool there = false;
   std::string state;  // what it is; why not, and what to do

@@ -26,7 +26,10 @@ struct StreamInfo {
   std::vector<std::uint8_t> extradata;  // parameter sets as the container holds them
   int width = 0;
   int height = 0;
-  int sample_rate_hz = 0;  // of sound
+  ColorRange range = ColorRange::Unspecified;
+  ColorMatrix matrix = ColorMatrix::Unspecified;
+  double sample_aspect = 1.0;  // width of a sample over its height
+  int sample_rate_hz = 0;      // of sound
   int channels = 0;
   Duration frame_period{0};                 // a hint from the container; the true one comes from the timestamps
   Duration duration{0};                     // 0 where unknown

@@ -8,6 +8,7 @@ Result<void> VideoDecoder::open(const StreamInfo& stream) {
   if (state_ != State::Closed) return fail(ErrorCode::InvalidState, "the decoder is open already; close it first");
   if (stream.kind != StreamKind::Video) return fail(ErrorCode::InvalidArgument, "not a video stream");
   damaged_ = 0;
+  restart_.reset();
   auto opened = openDecoder(stream);
   if (!opened) {
     closeDecoder();

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "hal/frame.h"
 #include "hal/media_source.h"
@@ -49,11 +51,20 @@ class VideoDecoder {
   [[nodiscard]] virtual Capabilities capabilities() const noexcept = 0;
   // Packets and pictures dropped because they were damaged, since `open`.
   [[nodiscard]] std::uint64_t damaged() const noexcept { return damaged_; }
+  // For people: what decodes, and why not something better. While open.
+  [[nodiscard]] virtual std::string description() const { return capabilities().name; }
+  // It has died and gone on where it was: no picture is missing. The last time, once.
+  struct Restart {
+    const char* why = "";
+    const char* done = "";
+  };
+  [[nodiscard]] std::optional<Restart> takeRestart() noexcept { return std::exchange(restart_, std::nullopt); }
 
  protected:
   // What a back end answers on `receive`.
   enum class Progress : std::uint8_t { Picture, NeedsPackets, EndOfStream };
-  void countDamaged() noexcept { ++damaged_; }
+  void countDamaged(std::uint64_t more = 1) noexcept { damaged_ += more; }
+  void noteRestart(const Restart& restart) noexcept { restart_ = restart; }
 
  private:
   virtual Result<void> openDecoder(const StreamInfo& stream) = 0;
@@ -65,6 +76,7 @@ class VideoDecoder {
 
   State state_ = State::Closed;
   std::uint64_t damaged_ = 0;
+  std::optional<Restart> restart_;
 };
 
 }  // namespace relievo

@@ -119,7 +119,7 @@ int run(Arguments& a) {
       line.show([&](Duration elapsed) { return progressText(done, total, elapsed); });
     };
     if (a.scene.empty()) {
-      const PairReader::Backends backends{drivers::makeMediaSource, drivers::makeVideoDecoder};
+      const PairReader::Backends backends{drivers::makeMediaSource, drivers::makeSoftwareDecoder};
       summary = authorFilm(a.source, backends, a.output, stop, progress);
     } else {
       const int threads = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1u));

@@ -83,7 +83,7 @@ int runTraceCommand(const TraceOptions& options) {
     return tell(apart.error());
   }
   if (auto checked = checkParts(options); !checked) return tell(checked.error());
-  const PairReader::Backends backends{drivers::makeMediaSource, drivers::makeVideoDecoder};
+  const PairReader::Backends backends{drivers::makeMediaSource, drivers::makeSoftwareDecoder};
   const auto summary = runTrace(options, backends);
   if (!summary) return tell(summary.error());
   std::printf("%s: %zu ticks, %zu in contact, %.3f N at most\n", options.out_path.c_str(), summary->ticks,

@@ -56,6 +56,7 @@ Result<void> DepthSource::connect() {
   const auto track = reader_->select(told);
   if (!track) return std::unexpected(track.error());
   track_ = *track;
+  decoder_ = reader_->decoder(track_);
   const std::scoped_lock lock(mutex_);
   session_ = {session_.number + 1, source.live(), source.arrival(), source.senderStart()};
   return {};
@@ -127,6 +128,11 @@ DepthSource::Counters DepthSource::counters() const {
   return counters_;
 }
 
+std::optional<VideoDecoder::Restart> DepthSource::takeRestart() noexcept {
+  const std::scoped_lock lock(mutex_);
+  return std::exchange(restart_, std::nullopt);
+}
+
 void DepthSource::threadMain() {
   std::unique_lock lock(mutex_);
   while (!interrupted_) {
@@ -159,6 +165,7 @@ void DepthSource::readOne(std::unique_lock<std::mutex>& lock) {
   const bool ended = reader_->ended(track_);
   lock.lock();
   count();
+  if (auto restart = reader_->takeRestart()) restart_ = restart;
   if (generation != generation_) return;  // sought meanwhile
   if (!frame) return lose(frame.error());
   if (*frame) resume_ = (*frame)->pts;

@@ -66,6 +66,9 @@ class DepthSource {
     Duration missing{0};
   };
   [[nodiscard]] Counters counters() const;
+  // Of its decoder.
+  [[nodiscard]] std::optional<VideoDecoder::Restart> takeRestart() noexcept;
+  [[nodiscard]] const std::string& decoder() const noexcept { return decoder_; }
 
  private:
   [[nodiscard]] Result<void> connect();
@@ -81,6 +84,7 @@ class DepthSource {
   const std::optional<double> frames_per_s_;
   std::string url_;
   StreamInfo stream_;
+  std::string decoder_;
   std::map<std::string, std::string> tags_;
   bool tried_again_ = false;  // when lost
 
@@ -98,6 +102,7 @@ class DepthSource {
   MediaTime resume_;                 // where one that can be sought goes on when it is found again
   Duration key_step_{0};             // of the last one
   std::uint64_t generation_ = 0;     // of seeks
+  std::optional<VideoDecoder::Restart> restart_;
   std::optional<Error> loss_;
   Counters counters_;
   bool ended_ = false;

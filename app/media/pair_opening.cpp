@@ -76,6 +76,7 @@ Result<void> PairReader::Impl::openColor(const StreamInfo& color) {
   info.color_width = color_ahead[0].width;
   info.color_height = color_ahead[0].height;
   info.color_codec = color.codec;
+  info.color_decoder = color_reader->decoder(kColorTrack);
   if (color_ahead.size() == 2) {
     info.frame_period = framePeriod(color_ahead[1].pts - color_ahead[0].pts, color.frame_period);
   }
@@ -166,6 +167,9 @@ Result<void> PairReader::Impl::describeDepth(const Frame& first, const StreamInf
   info.depth_width = first.width;
   info.depth_height = first.height;
   info.depth_codec = stream.codec;
+  info.depth_decoder = isPacked()      ? info.color_decoder
+                       : depth_source ? depth_source->decoder()
+                                      : color_reader->decoder(*depth_track);
   return {};
 }
 

@@ -275,6 +275,11 @@ PairCounters PairReader::counters() const noexcept {
   return counters;
 }
 
+std::optional<VideoDecoder::Restart> PairReader::takeRestart() noexcept {
+  auto restart = impl_->color_reader ? impl_->color_reader->takeRestart() : std::nullopt;
+  return restart || !impl_->depth_source ? restart : impl_->depth_source->takeRestart();
+}
+
 std::optional<Error> PairReader::depthLoss() const noexcept {
   return impl_->depth_source ? impl_->depth_source->loss() : std::nullopt;
 }

@@ -49,6 +49,7 @@ struct FilmInfo {
   Duration duration{0};             // 0 unknown
   CalibrationChoice calibration;    // of a film with depth
   std::string color_codec, depth_codec;
+  std::string color_decoder, depth_decoder;  // VideoDecoder::description
   std::string sound_codec;              // of the film's sound, where it was wanted and there is some
   const char* sound_refused = nullptr;  // why it cannot be decoded
 };
@@ -127,6 +128,8 @@ class PairReader {
   [[nodiscard]] PairCounters counters() const noexcept;
   // Why the depth of `depth_url` is away, while it is looked for.
   [[nodiscard]] std::optional<Error> depthLoss() const noexcept;
+  // Of a decoder, each once; after a loss of the source none of before.
+  [[nodiscard]] std::optional<VideoDecoder::Restart> takeRestart() noexcept;
   [[nodiscard]] const std::string& failedThing() const noexcept;
 
  private:

@@ -46,6 +46,13 @@ std::uint64_t TrackReader::damaged() const noexcept {
   return sum + sound_.damaged();
 }
 
+std::optional<VideoDecoder::Restart> TrackReader::takeRestart() noexcept {
+  for (std::size_t i = 0; i < track_count_; ++i) {
+    if (auto restart = tracks_[i].decoder->takeRestart()) return restart;
+  }
+  return std::nullopt;
+}
+
 Result<std::optional<Frame>> TrackReader::decode(Track& track) {
   for (;;) {
     auto frame = track.decoder->receive();

@@ -61,6 +61,8 @@ class TrackReader {
   [[nodiscard]] const MediaSource& source() const noexcept { return *source_; }
   // Packets and pictures that the decoders dropped.
   [[nodiscard]] std::uint64_t damaged() const noexcept;
+  [[nodiscard]] std::optional<VideoDecoder::Restart> takeRestart() noexcept;
+  [[nodiscard]] std::string decoder(std::size_t track) const { return tracks_[track].decoder->description(); }
 
  private:
   struct Track {

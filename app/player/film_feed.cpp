@@ -260,9 +260,11 @@ void FilmFeed::workRead(std::uint64_t generation) {
   auto pair = reader_.next();
   const PairCounters counters = reader_.counters();
   const auto depth_loss = reader_.depthLoss();
+  const auto restart = reader_.takeRestart();
   const std::scoped_lock lock(mutex_);
   if (at_work_ != film_) return;
   counters_ = counters;
+  noteRestart(restart);
   noteDepth(depth_loss);
   if (!pair && loses(pair.error())) return;
   if (generation != generation_) return;
@@ -303,7 +305,7 @@ void FilmFeed::workReopen() {
     state_ = resume_;
     sound_may_come_ = hasSound();
     if (state_ == State::Reading && sound_until_) target_ = *sound_until_;  // no sound twice
-    news_.push_back({News::Kind::ColorBack, "", now});
+    news_.push_back({News::Kind::ColorBack, "", "", now});
   } else if (back_off_.away(now) >= kPatience) {
     failed(options_.url, loss_);
   } else {
@@ -317,15 +319,21 @@ bool FilmFeed::loses(const Error& error) {
   loss_ = error;
   resume_ = std::exchange(state_, State::Reconnecting);
   back_off_.begin(backends_.clock->now());
-  news_.push_back({News::Kind::ColorLost, error.message, backends_.clock->now()});
+  news_.push_back({News::Kind::ColorLost, error.message, "", backends_.clock->now()});
   return true;
+}
+
+void FilmFeed::noteRestart(const std::optional<VideoDecoder::Restart>& restart) {
+  if (!restart) return;
+  const MonotonicTime now = backends_.clock == nullptr ? MonotonicTime{} : backends_.clock->now();
+  news_.push_back({News::Kind::DecoderRestarted, restart->why, restart->done, now});
 }
 
 void FilmFeed::noteDepth(const std::optional<Error>& loss) {
   if (loss.has_value() == depth_away_) return;
   depth_away_ = loss.has_value();
   const auto kind = loss ? News::Kind::DepthLost : News::Kind::DepthBack;
-  news_.push_back({kind, loss ? loss->message : "", backends_.clock->now()});
+  news_.push_back({kind, loss ? loss->message : "", "", backends_.clock->now()});
 }
 
 void FilmFeed::failed(std::string thing, const Error& error) {

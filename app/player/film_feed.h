@@ -37,11 +37,12 @@ class FilmFeed {
   // A lost colour is looked for so long, at the intervals of BackOff; then the film has failed. The depth is looked for
   // as long as the film lasts.
   static constexpr Duration kPatience = std::chrono::seconds(30);
-  // What has happened to a source.
+  // What has happened to a source, or to a decoder.
   struct News {
-    enum class Kind : std::uint8_t { ColorLost, ColorBack, DepthLost, DepthBack };
+    enum class Kind : std::uint8_t { ColorLost, ColorBack, DepthLost, DepthBack, DecoderRestarted };
     Kind kind;
-    const char* why = "";  // of a loss
+    const char* why = "";   // of a loss or a restart
+    const char* done = "";  // of a restart
     MonotonicTime time;
   };
 
@@ -102,6 +103,7 @@ class FilmFeed {
   void workRead(std::uint64_t generation);
   void workReopen();
   [[nodiscard]] bool loses(const Error& error);
+  void noteRestart(const std::optional<VideoDecoder::Restart>& restart);
   void noteDepth(const std::optional<Error>& loss);
   bool workSound(bool may_read, std::uint64_t generation);
   void failed(std::string thing, const Error& error);

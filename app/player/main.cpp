@@ -26,9 +26,9 @@
 namespace relievo {
 namespace {
 
-PairReader::Backends realBackends() {
+PairReader::Backends realBackends(bool software = false) {
   return {.make_source = drivers::makeMediaSource,
-          .make_decoder = drivers::makeVideoDecoder,
+          .make_decoder = software ? drivers::makeSoftwareDecoder : drivers::makeVideoDecoder,
           .read_text = drivers::readText,
           .make_audio_decoder = drivers::makeAudioDecoder};
 }
@@ -141,7 +141,7 @@ int play(PlayOptions options, const FileConfig& config) {
                                             .audio = audio->get(),
                                             .recorder = recorder ? &*recorder : nullptr,
                                             .control = &control,
-                                            .backends = realBackends()});
+                                            .backends = realBackends(options.software)});
   const auto played = player.run(stop);
   const PlayReport report = player.report();
   const int files = finishFiles(report, report_file ? &*report_file : nullptr, recorder ? &*recorder : nullptr);

@@ -192,6 +192,7 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
                   std::string("Where the sound goes [of a window or a whole screen alsa, else none]\n") + names.audio)
       ->check(deviceAmong("sound output", names.audio))
       ->type_name("NAME");
+  command.add_flag("--software", play.software, "Decode without the video hardware, where that shows faults");
   addVolumeOption(command, play.player.volume);
   command.add_flag("--loop", play.player.loop, "Begin again at the end");
   command

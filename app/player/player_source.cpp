@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the player tells of sources that are lost and found again.
+// What the player tells of sources that are lost and found again, and of decoders that begin anew.
 #include "app/player/player.h"
 #include "app/player/text_line.h"
 
@@ -25,6 +25,9 @@ void Player::followSource() {
         break;
       case Kind::DepthBack:
         note(url + " found again", "its depth is felt again", news->time);
+        break;
+      case Kind::DecoderRestarted:
+        note(news->why, news->done, news->time);
         break;
     }
   }

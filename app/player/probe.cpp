@@ -130,7 +130,7 @@ Outcome<void> lookAtFilm(const SourceOptions& options, const PairReader::Backend
     return failOn(reader.failedThing().empty() ? options.url : reader.failedThing(), opened.error());
   }
   result.film = reader.info();
-  result.decoder = backends.make_decoder(result.tracks.front().stream)->capabilities().name;
+  result.decoder = result.film.color_decoder;
   if (auto looked = lookAtPairs(reader, result); !looked) return looked;
   result.needs = needsOf(result);
   return {};

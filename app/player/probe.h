@@ -36,7 +36,7 @@ struct ProbeResult {
   DisplayVolume volume;
   DepthUse depth;
   std::optional<TouchPlan> touch;  // what the finger needs; nothing without depth
-  std::string decoder;             // its name
+  std::string decoder;             // VideoDecoder::description
   std::vector<std::string> needs;  // one line each
 };
 

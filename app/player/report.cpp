@@ -62,8 +62,14 @@ Json videoPart(const PlayReport& r) {
 
 Json filmPart(const PlayReport& r) {
   const FilmInfo& f = r.film;
-  return {{"color", {{"codec", f.color_codec}, {"width", f.color_width}, {"height", f.color_height}}},
-          {"depth", f.has_depth ? Json{{"codec", f.depth_codec}, {"width", f.depth_width}, {"height", f.depth_height}}
+  return {{"color", {{"codec", f.color_codec},
+            {"decoder", f.color_decoder},
+            {"width", f.color_width},
+            {"height", f.color_height}}},
+          {"depth", f.has_depth ? Json{{"codec", f.depth_codec},
+                                     {"decoder", f.depth_decoder},
+                                     {"width", f.depth_width},
+                                     {"height", f.depth_height}}
                                 : Json(nullptr)},
           {"packing", name(f.packing)},
           {"calibration", f.has_depth ? Json(f.calibration.explanation) : Json(nullptr)},

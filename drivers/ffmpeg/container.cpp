@@ -132,6 +132,7 @@ Result<StreamInfo> describeStream(const AVStream& stream, bool timed) {
   }
   info.width = parameters.width;
   info.height = parameters.height;
+  if (info.kind == StreamKind::Video) describeSignals(info, parameters, stream.sample_aspect_ratio);
   info.sample_rate_hz = parameters.sample_rate;
   info.channels = parameters.ch_layout.nb_channels;
   info.frame_period = framePeriodOf(stream);

@@ -57,14 +57,14 @@ bool isFullRangeYuv(int format) noexcept {
 }
 
 // Gray and RGB are full range unless it is said otherwise; YUV that says nothing stays unspecified.
-ColorRange rangeOf(const AVFrame& picture, ColorModel model) noexcept {
-  if (isFullRangeYuv(picture.format) || picture.color_range == AVCOL_RANGE_JPEG) return ColorRange::Full;
-  if (picture.color_range == AVCOL_RANGE_MPEG) return ColorRange::Limited;
+ColorRange rangeOf(int format, AVColorRange range, ColorModel model) noexcept {
+  if (isFullRangeYuv(format) || range == AVCOL_RANGE_JPEG) return ColorRange::Full;
+  if (range == AVCOL_RANGE_MPEG) return ColorRange::Limited;
   return model == ColorModel::Yuv ? ColorRange::Unspecified : ColorRange::Full;
 }
 
-ColorMatrix matrixOf(const AVFrame& picture) noexcept {
-  switch (picture.colorspace) {
+ColorMatrix matrixOf(AVColorSpace space) noexcept {
+  switch (space) {
     case AVCOL_SPC_BT709:
       return ColorMatrix::Bt709;
     case AVCOL_SPC_BT470BG:
@@ -78,8 +78,8 @@ ColorMatrix matrixOf(const AVFrame& picture) noexcept {
   }
 }
 
-double sampleAspectOf(const AVFrame& picture, AVRational container) noexcept {
-  for (const AVRational aspect : {container, picture.sample_aspect_ratio}) {
+double sampleAspectOf(AVRational container, AVRational own) noexcept {
+  for (const AVRational aspect : {container, own}) {
     if (aspect.num > 0 && aspect.den > 0) return av_q2d(aspect);
   }
   return 1.0;
@@ -134,9 +134,9 @@ Frame frameOf(FramePtr picture, AVRational sample_aspect) {
   frame.width = picture->width;
   frame.height = picture->height;
   frame.model = modelOf(format);
-  frame.range = rangeOf(*picture, frame.model);
-  frame.matrix = matrixOf(*picture);
-  frame.sample_aspect = sampleAspectOf(*picture, sample_aspect);
+  frame.range = rangeOf(picture->format, picture->color_range, frame.model);
+  frame.matrix = matrixOf(picture->colorspace);
+  frame.sample_aspect = sampleAspectOf(sample_aspect, picture->sample_aspect_ratio);
   if (frame.model == ColorModel::Yuv) {
     frame.chroma_shift_x = format.log2_chroma_w;
     frame.chroma_shift_y = format.log2_chroma_h;
@@ -157,6 +157,14 @@ Frame frameOf(FramePtr picture, AVRational sample_aspect) {
   }
   frame.owner = std::shared_ptr<AVFrame>(std::move(picture));
   return frame;
+}
+
+void describeSignals(StreamInfo& stream, const AVCodecParameters& parameters, AVRational sample_aspect) noexcept {
+  const AVPixFmtDescriptor* const format = av_pix_fmt_desc_get(static_cast<AVPixelFormat>(parameters.format));
+  const ColorModel model = format == nullptr ? ColorModel::Yuv : modelOf(*format);
+  stream.range = rangeOf(parameters.format, parameters.color_range, model);
+  stream.matrix = matrixOf(parameters.color_space);
+  stream.sample_aspect = sampleAspectOf(sample_aspect, parameters.sample_aspect_ratio);
 }
 
 Converter::Converter() noexcept = default;

@@ -6,6 +6,7 @@
 
 #include "drivers/ffmpeg/library.h"
 #include "hal/frame.h"
+#include "hal/media_source.h"
 #include "platform/error.h"
 
 struct SwsContext;
@@ -24,6 +25,9 @@ namespace relievo::ffmpeg {
 // Size, layout, colour signalling and sample aspect; the owner is a reference of the picture. Times are the caller's.
 // `sample_aspect` is the container's word, 0/1 where it has none.
 [[nodiscard]] Frame frameOf(FramePtr picture, AVRational sample_aspect);
+
+// The same of a stream, as far as its parameters tell it.
+void describeSignals(StreamInfo& stream, const AVCodecParameters& parameters, AVRational sample_aspect) noexcept;
 
 // Converts pictures into describable ones; keeps the library's scaler between them.
 class Converter {

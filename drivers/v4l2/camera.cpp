@@ -14,6 +14,8 @@
 #include <cstring>
 #include <vector>
 
+#include "drivers/v4l2/control.h"
+
 namespace relievo::v4l2 {
 namespace {
 

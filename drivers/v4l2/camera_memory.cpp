@@ -3,11 +3,12 @@
 #include "drivers/v4l2/camera_memory.h"
 
 #include <fcntl.h>
-#include <sys/ioctl.h>
 #include <sys/mman.h>
 
 #include <cerrno>
 #include <utility>
+
+#include "drivers/v4l2/control.h"
 
 namespace relievo::v4l2 {
 namespace {
@@ -16,14 +17,6 @@ constexpr std::uint32_t kFewest = 2;
 constexpr const char* kNoBuffers = "the camera gives no buffers; another program may be using it";
 
 }  // namespace
-
-int control(int fd, unsigned long request, void* argument) noexcept {
-  int answer = 0;
-  do {
-    answer = ::ioctl(fd, request, argument);
-  } while (answer < 0 && errno == EINTR);
-  return answer;
-}
 
 Held::Held(std::shared_ptr<CameraMemory> from, std::uint32_t which)
     : memory(std::move(from)), index(which), data(memory->data(which)), dma_buf(memory->dmaBuf(which)) {}

@@ -15,9 +15,6 @@
 
 namespace relievo::v4l2 {
 
-// ioctl(2), again after a signal.
-int control(int fd, unsigned long request, void* argument) noexcept;
-
 // One buffer, held: it goes back to the camera when this dies, on whatever thread that is, unless the camera has been
 // closed; the memory stays as long as any is held.
 class CameraMemory;

@@ -61,7 +61,7 @@ TEST_F(CameraGuest, EveryFormatComesWithTimesThatGrowAndNothingIsLost) {
     SCOPED_TRACE(format);
     const auto source = open(std::string(format) + ",320x180@30");
     const StreamInfo& stream = source->streams().back();
-    const auto decoder = makeV4l2Decoder();
+    const auto decoder = makeV4l2RawDecoder();
     ASSERT_TRUE(decoder->open(stream));
     MediaTime last{Duration(-1)};
     for (int i = 0; i < 20; ++i) {
@@ -78,7 +78,7 @@ TEST_F(CameraGuest, EveryFormatComesWithTimesThatGrowAndNothingIsLost) {
 TEST_F(CameraGuest, ItsMemoryComesAsADmaBufOfTheSamePicture) {
   const auto source = open(",Y16,320x180@30");
   const StreamInfo& stream = source->streams()[1];
-  const auto decoder = makeV4l2Decoder();
+  const auto decoder = makeV4l2RawDecoder();
   ASSERT_TRUE(decoder->open(stream));
   const auto frame = next(*source, *decoder, stream.index);
   ASSERT_TRUE(frame && *frame);
@@ -95,7 +95,7 @@ TEST_F(CameraGuest, ItsMemoryComesAsADmaBufOfTheSamePicture) {
 TEST_F(CameraGuest, IsOpenedAnewWhilePicturesAreHeld) {
   auto source = open(",Y16,320x180@30");
   const StreamInfo stream = source->streams()[1];
-  const auto decoder = makeV4l2Decoder();
+  const auto decoder = makeV4l2RawDecoder();
   ASSERT_TRUE(decoder->open(stream));
   const auto held = next(*source, *decoder, stream.index);
   ASSERT_TRUE(held && *held);

@@ -38,7 +38,7 @@ std::unique_ptr<MediaSource> openCamera(const std::string& url = kUrl) {
 class Reader {
  public:
   explicit Reader(MediaSource& source, std::size_t stream)
-      : source_(source), stream_(source.streams().at(stream)), decoder_(makeV4l2Decoder()) {
+      : source_(source), stream_(source.streams().at(stream)), decoder_(makeV4l2RawDecoder()) {
     EXPECT_TRUE(decoder_->open(stream_));
   }
   std::optional<Frame> next() {

@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every video decoder keeps to: states, back-pressure that loses nothing, pictures that stay, one end.
+// The contract over the decoders that need no machine of their own, and what only one with fault switches can show.
+#include "tests/contract/video_decoder_contract.h"
+
+#include "drivers/failover/failover.h"
 #include "drivers/tiff/tiff.h"
-#include "tests/contract/films.h"
-#include "tests/contract/state_table.h"
 #include "tests/support/float_tiff.h"
 
 namespace relievo {
 namespace {
 
-using State = VideoDecoder::State;
-using namespace std::chrono_literals;
+// One that has died at once, and the one behind it.
+std::unique_ptr<VideoDecoder> failedOver() {
+  std::vector<std::unique_ptr<VideoDecoder>> decoders;
+  decoders.push_back(makeMockDecoder());
+  decoders.push_back(makeFfmpegDecoder());
+  return makeFailoverDecoder(std::move(decoders));
+}
+constexpr test::FilmBackend kFailover{"failover", makeFfmpegSource, failedOver, test::encodedFilm, nullptr};
 
 // A renderer's Z buffers, one file each.
 std::string zBufferFilm() {
@@ -21,238 +28,13 @@ std::string zBufferFilm() {
   }
   return folder / "z%d.tif";
 }
+constexpr test::FilmBackend kTiff{"tiff", makeFfmpegSource, makeTiffDecoder, zBufferFilm, nullptr};
 
-std::vector<test::FilmBackend> backends() {
-  std::vector<test::FilmBackend> all(std::begin(test::kFilmBackends), std::end(test::kFilmBackends));
-  all.push_back({"tiff", makeFfmpegSource, makeTiffDecoder, zBufferFilm, nullptr});
-  return all;
+std::string nameOf(const testing::TestParamInfo<test::FilmBackend>& test) {
+  return test.param.name;
 }
-
-class VideoDecoderContract : public test::FilmContract {
- protected:
-  void SetUp() override {
-    source_ = openSource();
-    stream_ = source_->streams().at(0);
-    packets_ = readAll(*source_);
-    ASSERT_EQ(packets_.size(), static_cast<std::size_t>(test::kFilmFrames));
-    for (int i = 0; i < test::kFilmFrames; ++i) {  // numbered pictures have no times
-      Packet& packet = packets_[static_cast<std::size_t>(i)];
-      if (!packet.pts) packet.pts = MediaTime(i * test::kFilmPeriod);
-    }
-  }
-  [[nodiscard]] std::unique_ptr<VideoDecoder> openDecoder() const {
-    auto decoder = GetParam().make_decoder();
-    EXPECT_TRUE(decoder->open(stream_));
-    return decoder;
-  }
-  [[nodiscard]] std::unique_ptr<VideoDecoder> bring(State state) const {
-    auto decoder = GetParam().make_decoder();
-    if (state == State::Closed) return decoder;
-    EXPECT_TRUE(decoder->open(stream_));
-    if (state == State::Open) return decoder;
-    EXPECT_EQ(decoder->feed(packets_[0]), Feed::Accepted);
-    EXPECT_TRUE(decoder->drain());
-    if (state == State::Ended) (void)receiveAll(*decoder);
-    return decoder;
-  }
-  // Feeds packets [first, last), receiving whatever comes; hands each picture to `take`.
-  template <class Take>
-  static void play(VideoDecoder& decoder, const Packet* first, const Packet* last, Take&& take) {
-    int tries = 0;
-    while (first != last && ++tries < 1000) {
-      const auto fed = decoder.feed(*first);
-      ASSERT_TRUE(fed);
-      if (*fed == Feed::Accepted) ++first;
-      for (Frame& frame : receiveAll(decoder)) take(std::move(frame));
-    }
-    ASSERT_EQ(first, last) << "it took no more packets";
-  }
-  // All that there is to receive now.
-  static std::vector<Frame> receiveAll(VideoDecoder& decoder) {
-    std::vector<Frame> frames;
-    for (;;) {
-      auto frame = decoder.receive();
-      EXPECT_TRUE(frame);
-      if (!frame || !*frame) return frames;
-      frames.push_back(std::move(**frame));
-    }
-  }
-  [[nodiscard]] const Packet* packets(int from = 0) const { return packets_.data() + from; }
-  // The times of a whole run from `decoder`'s present state, to the end.
-  [[nodiscard]] std::vector<MediaTime> timesOf(VideoDecoder& decoder, int from = 0) const {
-    std::vector<MediaTime> times;
-    play(decoder, packets(from), packets(test::kFilmFrames), [&](const Frame& f) { times.push_back(f.pts); });
-    EXPECT_TRUE(decoder.drain());
-    for (const Frame& frame : receiveAll(decoder)) times.push_back(frame.pts);
-    EXPECT_EQ(decoder.state(), State::Ended);
-    return times;
-  }
-  static std::vector<MediaTime> filmTimes(int from = 0) {
-    std::vector<MediaTime> times;
-    for (int i = from; i < test::kFilmFrames; ++i) times.emplace_back(i * test::kFilmPeriod);
-    return times;
-  }
-  // A number that tells one picture from another.
-  static std::uint64_t digest(const Frame& frame) {
-    std::uint64_t sum = 1469598103934665603ull;
-    for (int r = 0; r < frame.height; ++r) {
-      for (int c = 0; c < frame.width; ++c) sum = (sum ^ test::sampleAt(frame, 0, c, r)) * 1099511628211ull;
-    }
-    return sum;
-  }
-
-  std::unique_ptr<MediaSource> source_;
-  StreamInfo stream_;
-  std::vector<Packet> packets_;
-};
-INSTANTIATE_TEST_SUITE_P(Backends, VideoDecoderContract, testing::ValuesIn(backends()),
-                         [](const auto& test) { return std::string(test.param.name); });
-
-TEST_P(VideoDecoderContract, EveryVerbInEveryState) {
-  const std::vector<test::Verb<VideoDecoder>> verbs = {
-      {"open", [&](VideoDecoder& d) { return test::answerOf(d.open(stream_)); }},
-      {"feed", [&](VideoDecoder& d) { return test::answerOf(d.feed(packets_[0])); }},
-      {"receive", [](VideoDecoder& d) { return test::answerOf(d.receive()); }},
-      {"drain", [](VideoDecoder& d) { return test::answerOf(d.drain()); }},
-      {"flush", [](VideoDecoder& d) { return test::answerOf(d.flush()); }},
-      {"close", [](VideoDecoder& d) { return d.close(), test::Answer{}; }},
-  };
-  constexpr auto no = std::nullopt;
-  const std::vector<test::Row<State>> table = {
-      // from              open         feed         receive          drain            flush        close
-      {State::Closed, {State::Open, no, no, no, no, State::Closed}},
-      {State::Open, {no, State::Open, State::Open, State::Draining, State::Open, State::Closed}},
-      {State::Draining, {no, no, State::Draining, no, State::Open, State::Closed}},
-      {State::Ended, {no, no, State::Ended, no, State::Open, State::Closed}},
-  };
-  test::expectStateTable(verbs, table, [&](State state) { return bring(state); });
-}
-
-TEST_P(VideoDecoderContract, EveryPictureComesOutOnceInOrderOfPresentation) {
-  EXPECT_EQ(timesOf(*openDecoder()), filmTimes());
-}
-
-TEST_P(VideoDecoderContract, PicturesAreAsTheStreamSays) {
-  const auto decoder = openDecoder();
-  play(*decoder, packets(), packets(test::kFilmFrames), [](const Frame& frame) {
-    EXPECT_FALSE(frame.empty());
-    EXPECT_EQ(frame.width, 64);
-    EXPECT_EQ(frame.height, 48);
-    EXPECT_EQ(frame.duration, test::kFilmPeriod);
-    EXPECT_NE(frame.owner, nullptr);
-    EXPECT_GE(std::abs(frame.planes[0].stride_bytes), 64);
-  });
-}
-
-TEST_P(VideoDecoderContract, WhenFullItTakesNothingAndTheSamePacketLater) {
-  const auto decoder = openDecoder();
-  int next = 0;
-  while (next < test::kFilmFrames &&
-         decoder->feed(packets_[static_cast<std::size_t>(next)]).value() == Feed::Accepted) {
-    ++next;
-  }
-  ASSERT_LT(next, test::kFilmFrames) << "it never is full";
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(decoder->feed(*packets(next)).value(), Feed::Full);
-  EXPECT_EQ(packets(next)->owner.use_count(), 1) << "the refused packet is the caller's alone";
-  std::vector<MediaTime> times;
-  for (const Frame& frame : receiveAll(*decoder)) times.push_back(frame.pts);
-  EXPECT_FALSE(times.empty()) << "full, but nothing to receive";
-  EXPECT_EQ(decoder->feed(*packets(next)).value(), Feed::Accepted);
-  for (const Frame& frame : receiveAll(*decoder)) times.push_back(frame.pts);
-  for (const MediaTime time : timesOf(*decoder, next + 1)) times.push_back(time);
-  EXPECT_EQ(times, filmTimes()) << "nothing was lost, nothing came twice";
-}
-
-TEST_P(VideoDecoderContract, TheEndComesOnceAndStays) {
-  const auto decoder = bring(State::Ended);
-  for (int i = 0; i < 3; ++i) {
-    const auto frame = decoder->receive();
-    ASSERT_TRUE(frame);
-    EXPECT_FALSE(*frame);
-    EXPECT_EQ(decoder->state(), State::Ended);
-  }
-}
-
-TEST_P(VideoDecoderContract, DrainingAnEmptyDecoderEndsAtOnce) {
-  const auto decoder = openDecoder();
-  ASSERT_TRUE(decoder->drain());
-  EXPECT_FALSE(decoder->receive().value());
-  EXPECT_EQ(decoder->state(), State::Ended);
-}
-
-TEST_P(VideoDecoderContract, AFlushForgetsWhatIsInside) {
-  const auto decoder = openDecoder();
-  play(*decoder, packets(), packets(5), [](const Frame&) {});
-  ASSERT_TRUE(decoder->flush());
-  EXPECT_EQ(timesOf(*decoder, 2 * test::kFilmKeyInterval), filmTimes(2 * test::kFilmKeyInterval))
-      << "as after a seek: nothing of before, all of after";
-  ASSERT_TRUE(decoder->flush());
-  EXPECT_EQ(timesOf(*decoder), filmTimes()) << "from the end likewise";
-}
-
-TEST_P(VideoDecoderContract, PicturesStayAsTheyAreWhileHeldAndOutliveTheDecoder) {
-  auto decoder = openDecoder();
-  std::vector<Frame> held;
-  std::vector<std::uint64_t> digests;
-  const auto hold = [&](Frame frame) {
-    if (held.size() >= static_cast<std::size_t>(std::min(decoder->capabilities().max_held_frames, 8)) - 1) return;
-    digests.push_back(digest(frame));
-    held.push_back(std::move(frame));
-  };
-  play(*decoder, packets(), packets(test::kFilmFrames), hold);
-  ASSERT_GT(held.size(), 3u);
-  decoder->close();
-  decoder.reset();
-  source_.reset();
-  for (std::size_t i = 0; i < held.size(); ++i) EXPECT_EQ(digest(held[i]), digests[i]) << i;
-  EXPECT_NE(digests.front(), digests.back()) << "the film moves";
-}
-
-TEST_P(VideoDecoderContract, ADamagedPacketIsDroppedAndCounted) {
-  const auto decoder = openDecoder();
-  static const std::uint8_t noise[] = {0, 0, 0, 1, 0xFF, 0x13, 0x37};
-  Packet damaged = packets_[3];
-  damaged.data = noise;
-  damaged.bytes = sizeof noise;
-  damaged.owner = std::make_shared<int>(0);
-  std::swap(packets_[3], damaged);
-  EXPECT_EQ(decoder->damaged(), 0u);
-  const std::size_t pictures = timesOf(*decoder).size();
-  EXPECT_GT(decoder->damaged(), 0u);
-  EXPECT_LT(pictures, static_cast<std::size_t>(test::kFilmFrames));
-  // Whatever hangs on the lost one is lost with it, but nothing beyond the next key frame.
-  EXPECT_GE(pictures, static_cast<std::size_t>(test::kFilmFrames - test::kFilmKeyInterval));
-  decoder->close();
-  ASSERT_TRUE(decoder->open(stream_));
-  EXPECT_EQ(decoder->damaged(), 0u) << "counted since opening";
-}
-
-TEST_P(VideoDecoderContract, CapabilitiesStayTheSame) {
-  const auto decoder = openDecoder();
-  const auto first = decoder->capabilities();
-  EXPECT_STRNE(first.name, "");
-  EXPECT_GT(first.max_held_frames, 2);
-  (void)timesOf(*decoder);
-  EXPECT_STREQ(decoder->capabilities().name, first.name);
-  EXPECT_EQ(decoder->capabilities().max_held_frames, first.max_held_frames);
-  EXPECT_EQ(decoder->capabilities().hardware, first.hardware);
-}
-
-TEST_P(VideoDecoderContract, RefusesWhatItCannotDecodeAndStaysClosed) {
-  const auto decoder = GetParam().make_decoder();
-  StreamInfo audio = stream_;
-  audio.kind = StreamKind::Audio;
-  EXPECT_EQ(test::answerOf(decoder->open(audio)), ErrorCode::InvalidArgument);
-  StreamInfo unknown;
-  unknown.kind = StreamKind::Video;
-  unknown.codec = "no-such-codec";
-  EXPECT_EQ(test::answerOf(decoder->open(unknown)), ErrorCode::Unsupported);
-  EXPECT_EQ(decoder->state(), State::Closed);
-  EXPECT_TRUE(decoder->open(stream_)) << "and goes on as if nothing had been";
-}
-
-// ---- what only a decoder with fault switches can show
-// -----------------------------------------------------------------
+INSTANTIATE_TEST_SUITE_P(Backends, VideoDecoderContract, testing::ValuesIn(test::kFilmBackends), nameOf);
+INSTANTIATE_TEST_SUITE_P(Others, VideoDecoderContract, testing::Values(kFailover, kTiff), nameOf);
 
 struct MockFilm {
   explicit MockFilm(MockMediaProfile profile, MockDecoderProfile decoding = {})

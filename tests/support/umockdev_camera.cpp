@@ -13,8 +13,6 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "tests/support/quit_loop.h"
-
 namespace relievo::test {
 
 UmockdevCamera::UmockdevCamera(UMockdevTestbed* bed, int number, CameraKind kind)
@@ -23,27 +21,13 @@ UmockdevCamera::UmockdevCamera(UMockdevTestbed* bed, int number, CameraKind kind
       node_("/dev/" + name_),
       device_("/sys/devices/platform/camera/video4linux/" + name_),
       kind_(std::move(kind)),
-      format_(kind_.formats.front()) {
-  context_ = g_main_context_new();
-  loop_ = g_main_loop_new(context_, FALSE);
-  g_main_context_push_thread_default(context_);
-  handler_ = umockdev_ioctl_base_new();
-  g_main_context_pop_thread_default(context_);
-  g_signal_connect(handler_, "handle-ioctl", G_CALLBACK(onRequest), this);
+      format_(kind_.formats.front()),
+      requests_([this](UMockdevIoctlClient* client) { return answer(client), true; }) {
   plug();
-  thread_ = std::thread([this] {
-    g_main_context_push_thread_default(context_);
-    g_main_loop_run(loop_);
-    g_main_context_pop_thread_default(context_);
-  });
 }
 
 UmockdevCamera::~UmockdevCamera() {
-  quitLoop(loop_);
-  thread_.join();
-  g_object_unref(handler_);
-  g_main_loop_unref(loop_);
-  g_main_context_unref(context_);
+  requests_.end();
   ::munmap(memory_, std::size_t{bufferBytes()} * kind_.buffers);
 }
 
@@ -71,7 +55,7 @@ void UmockdevCamera::plug() {
     plugged_ = true;
     streaming_ = silent_ = false;
   }
-  if (first) umockdev_testbed_attach_ioctl(bed_, node_.c_str(), handler_, nullptr);
+  if (first) umockdev_testbed_attach_ioctl(bed_, node_.c_str(), requests_.handler(), nullptr);
 }
 
 // What is open answers that the device is gone: its requests still come here.
@@ -102,11 +86,6 @@ std::uint32_t UmockdevCamera::starved() {
 int UmockdevCamera::unknownRequests() {
   const std::lock_guard guard(lock_);
   return unknown_;
-}
-
-gboolean UmockdevCamera::onRequest(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self) {
-  static_cast<UmockdevCamera*>(self)->answer(client);
-  return TRUE;
 }
 
 void UmockdevCamera::answer(UMockdevIoctlClient* client) {

@@ -10,10 +10,10 @@
 #include <functional>
 #include <mutex>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "platform/clock.h"
+#include "tests/support/request_loop.h"
 
 namespace relievo::test {
 
@@ -58,7 +58,6 @@ class UmockdevCamera {
     std::uint32_t index, number, flags, bytes;
     MonotonicTime time;
   };
-  static gboolean onRequest(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self);
   void answer(UMockdevIoctlClient* client);
   [[nodiscard]] int answerTo(unsigned long request, void* argument);
   [[nodiscard]] int setFormat(void* argument);
@@ -71,10 +70,6 @@ class UmockdevCamera {
   UMockdevTestbed* bed_;
   std::string name_, node_, device_;
   const CameraKind kind_;
-  UMockdevIoctlBase* handler_ = nullptr;
-  GMainContext* context_ = nullptr;
-  GMainLoop* loop_ = nullptr;
-  std::thread thread_;
   MonotonicClock clock_;
 
   std::mutex lock_;  // guards all below
@@ -87,6 +82,7 @@ class UmockdevCamera {
   std::uint32_t next_number_ = 0, starved_ = 0;
   MonotonicTime next_time_;
   int unknown_ = 0;
+  RequestLoop requests_;
 };
 
 }  // namespace relievo::test

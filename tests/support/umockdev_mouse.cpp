@@ -12,8 +12,6 @@
 #include <cstring>
 #include <utility>
 
-#include "tests/support/quit_loop.h"
-
 namespace relievo::test {
 
 UmockdevMouse::Codes UmockdevMouse::mouse() {
@@ -30,32 +28,17 @@ UmockdevMouse::UmockdevMouse(UMockdevTestbed* bed, int number, Codes codes)
     : bed_(bed),
       node_("/dev/input/event" + std::to_string(number)),
       device_("/sys/devices/platform/mouse/input/event" + std::to_string(number)),
-      codes_(std::move(codes)) {
+      codes_(std::move(codes)),
+      requests_([this](UMockdevIoctlClient* client) {
+        const std::lock_guard guard(lock_);
+        return answer(client);
+      }) {
   const std::string name = "event" + std::to_string(number);
   const std::string description = "P: /devices/platform/mouse/input/" + name + "\nN: input/" + name +
                                   "\nE: DEVNAME=/dev/input/" + name +
                                   "\nE: MAJOR=13\nE: MINOR=" + std::to_string(64 + number) + "\nE: SUBSYSTEM=input\n\n";
   umockdev_testbed_add_from_string(bed_, description.c_str(), nullptr);
-  context_ = g_main_context_new();
-  loop_ = g_main_loop_new(context_, FALSE);
-  g_main_context_push_thread_default(context_);
-  handler_ = umockdev_ioctl_base_new();
-  g_main_context_pop_thread_default(context_);
-  g_signal_connect(handler_, "handle-ioctl", G_CALLBACK(onRequest), this);
-  umockdev_testbed_attach_ioctl(bed_, node_.c_str(), handler_, nullptr);
-  thread_ = std::thread([this] {
-    g_main_context_push_thread_default(context_);
-    g_main_loop_run(loop_);
-    g_main_context_pop_thread_default(context_);
-  });
-}
-
-UmockdevMouse::~UmockdevMouse() {
-  quitLoop(loop_);
-  thread_.join();
-  g_object_unref(handler_);
-  g_main_loop_unref(loop_);
-  g_main_context_unref(context_);
+  umockdev_testbed_attach_ioctl(bed_, node_.c_str(), requests_.handler(), nullptr);
 }
 
 void UmockdevMouse::say(std::uint16_t type, std::uint16_t code, std::int32_t value) {
@@ -77,12 +60,6 @@ void UmockdevMouse::hold(std::uint16_t key, bool down) {
   const std::lock_guard guard(lock_);
   std::erase(held_, key);
   if (down) held_.push_back(key);
-}
-
-gboolean UmockdevMouse::onRequest(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self) {
-  auto& mouse = *static_cast<UmockdevMouse*>(self);
-  const std::lock_guard guard(mouse.lock_);
-  return mouse.answer(client) ? TRUE : FALSE;
 }
 
 bool UmockdevMouse::answer(UMockdevIoctlClient* client) {

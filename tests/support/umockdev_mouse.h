@@ -11,8 +11,9 @@
 #include <map>
 #include <mutex>
 #include <string>
-#include <thread>
 #include <vector>
+
+#include "tests/support/request_loop.h"
 
 namespace relievo::test {
 
@@ -26,7 +27,6 @@ class UmockdevMouse {
 
   // /dev/input/eventN.
   UmockdevMouse(UMockdevTestbed* bed, int number, Codes codes);
-  ~UmockdevMouse();
   UmockdevMouse(const UmockdevMouse&) = delete;
   UmockdevMouse& operator=(const UmockdevMouse&) = delete;
 
@@ -39,20 +39,16 @@ class UmockdevMouse {
   [[nodiscard]] int unknownRequests() const { return unknown_; }
 
  private:
-  static gboolean onRequest(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self);
   bool answer(UMockdevIoctlClient* client);
 
   UMockdevTestbed* bed_;
   std::string node_, device_;
   Codes codes_;
-  UMockdevIoctlBase* handler_ = nullptr;
-  GMainContext* context_ = nullptr;
-  GMainLoop* loop_ = nullptr;
-  std::thread thread_;
   std::mutex lock_;
   std::vector<std::uint16_t> held_;
   std::atomic<bool> grabbed_ = false;
   int unknown_ = 0;
+  RequestLoop requests_;
 };
 
 }  // namespace relievo::test

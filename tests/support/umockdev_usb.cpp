@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "platform/clock.h"
-#include "tests/support/quit_loop.h"
 
 namespace relievo::test {
 namespace {
@@ -63,36 +62,23 @@ bool machineIsMocked() {
   return preloaded != nullptr && std::strstr(preloaded, "umockdev") != nullptr;
 }
 
-UmockdevUsb::UmockdevUsb(UsbModel& model, const UsbDeviceId& id) : model_(model), id_(id) {
+UmockdevUsb::UmockdevUsb(UsbModel& model, const UsbDeviceId& id)
+    : model_(model), id_(id), requests_([this](UMockdevIoctlClient* client) {
+        const std::lock_guard guard(lock_);
+        return answer(client);
+      }) {
   bed_ = umockdev_testbed_new();
-  context_ = g_main_context_new();
-  loop_ = g_main_loop_new(context_, FALSE);
   plug();
-  thread_ = std::thread([this] {
-    g_main_context_push_thread_default(context_);
-    g_main_loop_run(loop_);
-    g_main_context_pop_thread_default(context_);
-  });
 }
 
 UmockdevUsb::~UmockdevUsb() {
-  quitLoop(loop_);
-  thread_.join();
-  g_object_unref(handler_);
+  requests_.end();
   g_object_unref(bed_);
-  g_main_loop_unref(loop_);
-  g_main_context_unref(context_);
 }
 
 void UmockdevUsb::plug() {
   umockdev_testbed_add_from_string(bed_, describe(id_).c_str(), nullptr);
-  if (handler_ == nullptr) {
-    g_main_context_push_thread_default(context_);
-    handler_ = umockdev_ioctl_base_new();
-    g_main_context_pop_thread_default(context_);
-    g_signal_connect(handler_, "handle-ioctl", G_CALLBACK(onRequest), this);
-  }
-  umockdev_testbed_attach_ioctl(bed_, kNode, handler_, nullptr);
+  umockdev_testbed_attach_ioctl(bed_, kNode, requests_.handler(), nullptr);
   {
     const std::lock_guard guard(lock_);
     plugged_ = true;
@@ -125,12 +111,6 @@ void UmockdevUsb::takesAgain() {
   deaf_ = false;
   for (const Urb& urb : untaken_) take(urb);
   untaken_.clear();
-}
-
-gboolean UmockdevUsb::onRequest(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self) {
-  auto& usb = *static_cast<UmockdevUsb*>(self);
-  const std::lock_guard guard(usb.lock_);
-  return usb.answer(client) ? TRUE : FALSE;
 }
 
 bool UmockdevUsb::answer(UMockdevIoctlClient* client) {

@@ -8,9 +8,9 @@
 #include <deque>
 #include <map>
 #include <string>
-#include <thread>
 
 #include "tests/support/plugged_usb.h"
+#include "tests/support/request_loop.h"
 
 namespace relievo::test {
 
@@ -34,7 +34,6 @@ class UmockdevUsb final : public PluggedUsb {
     UMockdevIoctlData* urb = nullptr;
     UMockdevIoctlData* buffer = nullptr;
   };
-  static gboolean onRequest(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self);
   bool answer(UMockdevIoctlClient* client);
   [[nodiscard]] bool submit(UMockdevIoctlData* argument);
   void take(const Urb& urb);
@@ -46,16 +45,13 @@ class UmockdevUsb final : public PluggedUsb {
   UsbModel& model_;
   UsbDeviceId id_;
   UMockdevTestbed* bed_ = nullptr;
-  UMockdevIoctlBase* handler_ = nullptr;
-  GMainContext* context_ = nullptr;
-  GMainLoop* loop_ = nullptr;
-  std::thread thread_;
   std::mutex lock_;
   bool plugged_ = false;
   int requests_left_ = 0;  // until the cable is pulled; 0: it is not
   bool deaf_ = false;
   int unknown_ = 0;
   std::deque<Urb> waiting_, untaken_, done_;  // IN, OUT, and what may be reaped
+  RequestLoop requests_;
 };
 
 }  // namespace relievo::test

@@ -30,7 +30,7 @@ std::vector<std::uint8_t> brightnessTable(const Format& format) {
   return table;
 }
 
-class V4l2Decoder final : public VideoDecoder {
+class RawDecoder final : public VideoDecoder {
  public:
   [[nodiscard]] Capabilities capabilities() const noexcept override {
     return {.name = "v4l2", .max_held_frames = kMaxHeldFrames, .hardware = false};
@@ -124,8 +124,8 @@ bool isV4l2Raw(const StreamInfo& stream) noexcept {
   return std::get_deleter<RawStreamDeleter>(stream.native) != nullptr;
 }
 
-std::unique_ptr<VideoDecoder> makeV4l2Decoder() {
-  return std::make_unique<V4l2Decoder>();
+std::unique_ptr<VideoDecoder> makeV4l2RawDecoder() {
+  return std::make_unique<RawDecoder>();
 }
 
 }  // namespace relievo

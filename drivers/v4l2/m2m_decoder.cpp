@@ -1,0 +1,389 @@
+// SPDX-License-Identifier: Apache-2.0
+// The states of a stateful decoder (Documentation/userspace-api/media/v4l/dev-decoder.rst; the names of its sequences
+// stand beside them).
+#include <poll.h>
+
+#include <algorithm>
+#include <cstring>
+#include <deque>
+#include <utility>
+
+#include "drivers/v4l2/annex_b.h"
+#include "drivers/v4l2/control.h"
+#include "drivers/v4l2/m2m_buffers.h"
+#include "drivers/v4l2/m2m_node.h"
+#include "drivers/v4l2/m2m_picture.h"
+#include "drivers/v4l2/v4l2.h"
+#include "platform/clock.h"
+
+namespace relievo {
+namespace {
+
+using namespace v4l2;
+
+constexpr std::uint32_t kPackets = 6;        // that the driver is ahead by
+constexpr std::uint32_t kPlayersHold = 12;   // pictures beyond those that the driver needs
+constexpr std::uint32_t kUsualPictures = 8;  // that it needs, where it does not tell
+constexpr int kMaxHeldFrames = 64;           // those beyond the buffers are copies
+constexpr std::size_t kMostUnanswered = 64;  // packets, until the oldest will have no picture
+constexpr Duration kDefaultPeriod = std::chrono::milliseconds(40);
+// Without a sign of life while there is work; the first time firmware may have to be loaded.
+constexpr Duration kPatience = std::chrono::milliseconds(400), kFirstPatience = std::chrono::seconds(2);
+constexpr Duration kTurn = std::chrono::milliseconds(20);
+constexpr Duration kNap = std::chrono::milliseconds(1);  // where the driver says that it has something, and has not
+
+constexpr const char* kGone = "the video hardware has gone away";
+constexpr const char* kHangs = "the video hardware hangs";
+constexpr const char* kStumbles = "the video hardware cannot go on";
+constexpr const char* kUnreadable = "the video hardware's pictures are of a format that is not known here";
+
+// Behind Frame::owner: one buffer, held. It goes back on whatever thread the last reference is dropped.
+struct HeldPicture {
+  std::shared_ptr<M2mBuffers> buffers;
+  std::uint32_t index;
+  HeldPicture(std::shared_ptr<M2mBuffers> from, std::uint32_t which) : buffers(std::move(from)), index(which) {
+    buffers->lend(index);
+  }
+  ~HeldPicture() { buffers->giveBack(index); }
+  HeldPicture(const HeldPicture&) = delete;
+  HeldPicture& operator=(const HeldPicture&) = delete;
+};
+
+class M2mDecoder final : public VideoDecoder {
+ public:
+  ~M2mDecoder() override { close(); }
+
+  [[nodiscard]] Capabilities capabilities() const noexcept override {
+    return {.name = "v4l2-m2m", .max_held_frames = kMaxHeldFrames, .hardware = true};
+  }
+  [[nodiscard]] std::string description() const override {
+    return device_ ? "v4l2-m2m, " + device_->node.card + " at " + device_->node.path : capabilities().name;
+  }
+
+ private:
+  // "Initialization".
+  Result<void> openDecoder(const StreamInfo& stream) override {
+    auto form = AnnexB::make(stream);
+    if (!form) return std::unexpected(form.error());
+    const auto profile = form->profile();
+    auto device = openM2mDevice(stream, profile);
+    if (!device) return std::unexpected(device.error());
+    if (!profile && stream.codec != "fwht") {
+      return fail(ErrorCode::Unsupported, "the stream does not tell beforehand whether hardware can decode it");
+    }
+    form_ = std::move(*form);
+    stream_ = stream;
+    if (stream_.frame_period <= Duration(0)) stream_.frame_period = kDefaultPeriod;
+    device_ = std::move(*device);
+    v4l2_event_subscription wanted{};
+    wanted.type = V4L2_EVENT_SOURCE_CHANGE;
+    tells_changes_ = control(fd(), VIDIOC_SUBSCRIBE_EVENT, &wanted) == 0;
+    auto packets = M2mBuffers::make(device_->fd, device_->node.packetQueue(), kPackets);
+    if (!packets) return std::unexpected(packets.error());
+    packets_ = std::move(*packets);
+    given_any_ = false;
+    forget();
+    return answer(packets_->start());
+  }
+
+  Result<Feed> feedPacket(const Packet& packet) override {
+    if (packet.bytes == 0) return Feed::Accepted;
+    if (!packet.pts) return fail(ErrorCode::Unsupported, "pictures without times are not decoded by hardware");
+    if (auto served = serve(); !served) return std::unexpected(served.error());
+    const auto index = packets_->anyHere();
+    if (!index) return Feed::Full;
+    const M2mBuffers::Memory& room = packets_->memory(*index)[0];
+    const bool decodable = begun_ || packet.keyframe;  // nothing can be made of what precedes the first key frame
+    const auto bytes = decodable ? form_.write(packet, !begun_, {room.data, room.bytes}) : std::nullopt;
+    if (!bytes) {
+      countDamaged();
+      return Feed::Accepted;
+    }
+    if (auto queued = answer(packets_->queue(*index, *bytes, ++last_tag_)); !queued) {
+      return std::unexpected(queued.error());
+    }
+    begun_ = true;
+    unanswered_.push_back({last_tag_, *packet.pts});
+    if (unanswered_.size() <= kMostUnanswered) return Feed::Accepted;
+    unanswered_.pop_front();
+    countDamaged();
+    return Feed::Accepted;
+  }
+
+  // "Decoding", and what it may lead to.
+  Result<Progress> receiveFrame(Frame& frame) override {
+    idle_ = Duration(0);
+    for (;;) {
+      if (draining_ && !begun_) return Progress::EndOfStream;
+      const auto served = serve();
+      if (!served) return std::unexpected(served.error());
+      const auto got = pictures_ ? takePicture(frame) : Result<bool>(false);
+      if (!got) return std::unexpected(got.error());
+      if (*got) return Progress::Picture;
+      if (stopped_ && !change_due_) {
+        if (drain_told_) return endOfStream();
+        if (auto resumed = resume(); !resumed) return std::unexpected(resumed.error());
+      }
+      const bool has_room = packets_->anyHere().has_value();
+      if (!draining_ && has_room) return Progress::NeedsPackets;
+      if (draining_ && !pictures_ && !change_due_ && packets_->withDevice() == 0) return endOfStream();
+      if (draining_ && pictures_ && !stopped_) tellDrain();
+      if (auto waited = wait(); !waited) return std::unexpected(waited.error());
+    }
+  }
+
+  // What the driver has to say: events, packets that it has done with, a change that is due.
+  Result<void> serve() {
+    for (v4l2_event event{}; tells_changes_ && control(fd(), VIDIOC_DQEVENT, &event) == 0;) {
+      const bool changed =
+          event.type == V4L2_EVENT_SOURCE_CHANGE && (event.u.src_change.changes & V4L2_EVENT_SRC_CH_RESOLUTION) != 0;
+      change_due_ = change_due_ || changed;
+      progressed();
+    }
+    M2mBuffers::Done done;
+    int error = 0;
+    while ((error = packets_->take(done)) == 0) {
+      if (done.damaged) lose(done.tag);
+      progressed();
+    }
+    if (isFatal(error)) return answer(error);
+    const bool first = !pictures_ && begun_ && (change_due_ || !tells_changes_);
+    const bool change = pictures_ && change_due_ && stopped_;
+    return first || change ? setUpPictures() : Result<void>{};
+  }
+
+  // "Capture Setup", the first time and after a "Dynamic Resolution Change".
+  Result<void> setUpPictures() {
+    if (pictures_) pictures_->release();
+    pictures_.reset();
+    const std::uint32_t queue = device_->node.pictureQueue();
+    v4l2_format format{};
+    format.type = queue;
+    if (control(fd(), VIDIOC_G_FMT, &format) < 0) {
+      return tells_changes_ ? answer(errno) : Result<void>{};  // one that tells nothing may not know yet
+    }
+    if (auto readable = chooseReadable(format); !readable) return readable;
+    const auto layout = layoutOf(format, visiblePart(), stream_);
+    if (!layout) return fail(ErrorCode::Unsupported, kUnreadable);
+    layout_ = *layout;
+    v4l2_control least{.id = V4L2_CID_MIN_BUFFERS_FOR_CAPTURE, .value = 0};
+    const bool told =
+        control(fd(), VIDIOC_G_CTRL, &least) == 0 && least.value > 0 && least.value <= VIDEO_MAX_FRAME / 2;
+    needed_ = told ? static_cast<std::uint32_t>(least.value) : kUsualPictures;
+    auto pictures = M2mBuffers::make(device_->fd, queue, needed_ + kPlayersHold);
+    if (!pictures) return std::unexpected(pictures.error());
+    if (!layout_.fits((*pictures)->memory(0))) return fail(ErrorCode::Unsupported, kUnreadable);
+    if (auto queued = answer((*pictures)->queueAll()); !queued) return queued;
+    if (auto started = answer((*pictures)->start()); !started) return started;
+    pictures_ = std::move(*pictures);
+    change_due_ = stopped_ = drain_told_ = false;
+    progressed();
+    return {};
+  }
+
+  // The driver's own choice, else its first that can be read.
+  Result<void> chooseReadable(v4l2_format& format) const {
+    const bool planes = device_->node.planes;
+    const auto chosen = [&] { return planes ? format.fmt.pix_mp.pixelformat : format.fmt.pix.pixelformat; };
+    if (isPictureFormat(chosen())) return {};
+    v4l2_fmtdesc each{.index = 0, .type = format.type};
+    for (; control(fd(), VIDIOC_ENUM_FMT, &each) == 0; ++each.index) {
+      if (!isPictureFormat(each.pixelformat)) continue;
+      if (planes) {
+        format.fmt.pix_mp.pixelformat = each.pixelformat;
+      } else {
+        format.fmt.pix.pixelformat = each.pixelformat;
+      }
+      if (control(fd(), VIDIOC_S_FMT, &format) == 0 && chosen() == each.pixelformat) return {};
+    }
+    return fail(ErrorCode::Unsupported, kUnreadable);
+  }
+
+  // Both interfaces are asked by the kind of one plane.
+  [[nodiscard]] std::optional<v4l2_rect> visiblePart() const noexcept {
+    v4l2_selection part{};
+    part.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+    part.target = V4L2_SEL_TGT_COMPOSE;
+    if (control(fd(), VIDIOC_G_SELECTION, &part) == 0) return part.r;
+    return v4l2_rect{0, 0, static_cast<std::uint32_t>(stream_.width), static_cast<std::uint32_t>(stream_.height)};
+  }
+
+  // False when there is none.
+  Result<bool> takePicture(Frame& frame) {
+    for (;;) {
+      M2mBuffers::Done done;
+      const int error = pictures_->take(done);
+      if (error == EPIPE) stopped_ = true;
+      if (isFatal(error)) return std::unexpected(answer(error).error());
+      if (error != 0) return false;
+      progressed();
+      stopped_ = stopped_ || done.last;
+      const auto pts = done.bytes > 0 ? timeOf(done.tag) : std::nullopt;
+      if (pts && !done.damaged) {
+        frame = pictureIn(done.index);
+        frame.pts = *pts;
+        frame.duration = stream_.frame_period;
+        given_any_ = true;
+        return true;
+      }
+      if (pts) countDamaged();
+      pictures_->giveBack(done.index);
+    }
+  }
+
+  [[nodiscard]] Frame pictureIn(std::uint32_t index) const {
+    const auto& memory = pictures_->memory(index);
+    std::array<const std::uint8_t*, 3> data{};
+    std::array<int, 3> fds{-1, -1, -1};
+    if (pictures_->withDevice() >= needed_) {
+      for (std::size_t i = 0; i < data.size(); ++i) {
+        data[i] = memory[i].data;
+        fds[i] = memory[i].dma_buf.get();
+      }
+      Frame frame = layout_.placeAt(data, fds);
+      frame.owner = std::make_shared<HeldPicture>(pictures_, index);
+      return frame;
+    }
+    auto copy = std::make_shared<std::array<std::vector<std::uint8_t>, 3>>();
+    for (std::size_t i = 0; i < data.size(); ++i) {
+      if (memory[i].data != nullptr) (*copy)[i].assign(memory[i].data, memory[i].data + layout_.bytes[i]);
+      data[i] = (*copy)[i].data();
+    }
+    pictures_->giveBack(index);
+    Frame frame = layout_.placeAt(data, fds);
+    frame.owner = std::move(copy);
+    return frame;
+  }
+
+  // Of the packet that it is from; none of before a flush.
+  std::optional<MediaTime> timeOf(std::uint64_t tag) {
+    const auto found = std::find_if(unanswered_.begin(), unanswered_.end(), [&](auto& u) { return u.tag == tag; });
+    if (found == unanswered_.end()) return std::nullopt;
+    const MediaTime pts = found->pts;
+    unanswered_.erase(found);
+    return pts;
+  }
+  void lose(std::uint64_t tag) {
+    if (timeOf(tag)) countDamaged();
+  }
+
+  // "Drain".
+  Result<void> startDrain() override {
+    draining_ = true;
+    return {};
+  }
+  // A driver that is still busy with the last one, or does not know the word, is found out by its silence.
+  void tellDrain() {
+    if (std::exchange(drain_told_, true)) return;
+    v4l2_decoder_cmd stop{};
+    stop.cmd = V4L2_DEC_CMD_STOP;
+    control(fd(), VIDIOC_DECODER_CMD, &stop);
+  }
+  // Of what is left unanswered no picture will come.
+  Progress endOfStream() {
+    countDamaged(unanswered_.size());
+    unanswered_.clear();
+    return Progress::EndOfStream;
+  }
+  // The stream had a mark of its end in it, and goes on.
+  Result<void> resume() {
+    stopped_ = false;
+    v4l2_decoder_cmd go_on{};
+    go_on.cmd = V4L2_DEC_CMD_START;
+    return answer(control(fd(), VIDIOC_DECODER_CMD, &go_on) < 0 ? errno : 0);
+  }
+
+  // "Seek", at once: of both queues.
+  Result<void> flushDecoder() override {
+    if (auto served = serve(); !served) return served;
+    if (auto stopped = answer(packets_->stop()); !stopped) return stopped;
+    if (pictures_ && change_due_) {  // the old pictures' end will not come any more
+      pictures_->release();
+      pictures_.reset();
+    }
+    if (pictures_) {
+      if (auto stopped = answer(pictures_->stop()); !stopped) return stopped;
+      if (auto queued = answer(pictures_->queueAll()); !queued) return queued;
+      if (auto started = answer(pictures_->start()); !started) return started;
+    }
+    forget();
+    return answer(packets_->start());
+  }
+
+  void closeDecoder() noexcept override {
+    if (pictures_) pictures_->release();
+    if (packets_) packets_->release();
+    pictures_.reset();
+    packets_.reset();
+    device_.reset();
+    change_due_ = false;
+    forget();
+  }
+
+  void forget() noexcept {
+    unanswered_.clear();
+    begun_ = draining_ = drain_told_ = stopped_ = false;
+    progressed();
+  }
+
+  [[nodiscard]] int fd() const noexcept { return device_->fd->get(); }
+
+  // EINVAL: the queue does not run, as before its set-up.
+  static bool isFatal(int error) noexcept { return error != 0 && error != EAGAIN && error != EPIPE && error != EINVAL; }
+  static Result<void> answer(int error) noexcept {
+    if (error == 0) return {};
+    if (error == ENODEV || error == ENXIO) return fail(ErrorCode::Lost, kGone, error);
+    return fail(ErrorCode::Io, kStumbles, error);
+  }
+
+  void progressed() noexcept {
+    idle_ = Duration(0);
+    said_ready_ = false;
+  }
+  // For the driver; what the machine itself stood still for is not counted against it.
+  Result<void> wait() {
+    if (idle_ >= (given_any_ ? kPatience : kFirstPatience)) return fail(ErrorCode::Timeout, kHangs);
+    const MonotonicTime begin = clock_.now();
+    if (said_ready_) {
+      clock_.sleepUntil(begin + kNap);
+      said_ready_ = false;
+    } else {
+      pollfd device{fd(), POLLIN | POLLOUT | POLLPRI, 0};
+      constexpr int kTurnMs = static_cast<int>(kTurn / std::chrono::milliseconds(1));
+      said_ready_ = ::poll(&device, 1, kTurnMs) > 0;
+    }
+    idle_ += std::min(clock_.now() - begin, 2 * kTurn);
+    return {};
+  }
+
+  MonotonicClock clock_;
+  StreamInfo stream_;
+  AnnexB form_;
+  std::optional<M2mDevice> device_;
+  bool tells_changes_ = false;
+  std::shared_ptr<M2mBuffers> packets_, pictures_;  // shared with the pictures that are held
+  PictureLayout layout_;
+  std::uint32_t needed_ = 0;  // buffers that the driver has to have
+
+  struct Unanswered {
+    std::uint64_t tag;
+    MediaTime pts;
+  };
+  std::deque<Unanswered> unanswered_;  // packets whose picture has not come yet
+  std::uint64_t last_tag_ = 0;
+  bool begun_ = false;       // a packet was fed
+  bool change_due_ = false;  // of the pictures' format
+  bool stopped_ = false;     // the last picture before a change, or of a drain, has come
+  bool draining_ = false, drain_told_ = false;
+  bool given_any_ = false;
+  Duration idle_{0};
+  bool said_ready_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<VideoDecoder> makeV4l2M2mDecoder() {
+  return std::make_unique<M2mDecoder>();
+}
+
+}  // namespace relievo

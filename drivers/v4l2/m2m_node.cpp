@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+// Asks the nodes (Documentation/userspace-api/media/v4l/dev-decoder.rst, "Querying Capabilities").
+#include "drivers/v4l2/m2m_node.h"
+
+#include <fcntl.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <utility>
+
+#include "drivers/v4l2/control.h"
+
+namespace relievo::v4l2 {
+namespace {
+
+constexpr int kNodes = 64;
+constexpr std::uint32_t kFewestPacketBytes = 256 << 10;
+
+struct Coding {
+  const char* codec;
+  std::uint32_t fourcc;
+};
+constexpr std::array kCodings{Coding{"h264", V4L2_PIX_FMT_H264}, Coding{"hevc", V4L2_PIX_FMT_HEVC},
+                              Coding{"fwht", V4L2_PIX_FMT_FWHT}};  // the last is the kernel's virtual codec's
+
+UniqueFd openNode(const std::string& path) noexcept {
+  return UniqueFd(::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC));
+}
+
+std::vector<std::string> codecsOf(int fd, std::uint32_t queue) {
+  std::vector<std::string> codecs;
+  for (v4l2_fmtdesc each{.index = 0, .type = queue}; control(fd, VIDIOC_ENUM_FMT, &each) == 0; ++each.index) {
+    const auto known = [&](const Coding& c) { return c.fourcc == each.pixelformat; };
+    const auto found = std::find_if(kCodings.begin(), kCodings.end(), known);
+    if (found != kCodings.end() && (each.flags & V4L2_FMT_FLAG_COMPRESSED) != 0) codecs.emplace_back(found->codec);
+  }
+  return codecs;
+}
+
+std::optional<M2mNode> lookAt(const std::string& path, int fd) {
+  v4l2_capability is{};
+  if (control(fd, VIDIOC_QUERYCAP, &is) < 0) return std::nullopt;
+  const std::uint32_t can = (is.capabilities & V4L2_CAP_DEVICE_CAPS) != 0 ? is.device_caps : is.capabilities;
+  if ((can & (V4L2_CAP_VIDEO_M2M | V4L2_CAP_VIDEO_M2M_MPLANE)) == 0 || (can & V4L2_CAP_STREAMING) == 0) {
+    return std::nullopt;
+  }
+  M2mNode node;
+  node.path = path;
+  node.planes = (can & V4L2_CAP_VIDEO_M2M_MPLANE) != 0;
+  const auto* const card = reinterpret_cast<const char*>(is.card);
+  node.card.assign(card, ::strnlen(card, sizeof is.card));
+  node.codecs = codecsOf(fd, node.packetQueue());
+  if (node.codecs.empty()) return std::nullopt;
+  return node;
+}
+
+template <class Visit>
+void visitNodes(Visit&& visit) {
+  for (int i = 0; i < kNodes; ++i) {
+    const std::string path = "/dev/video" + std::to_string(i);
+    UniqueFd fd = openNode(path);
+    if (!fd.valid()) continue;
+    if (auto node = lookAt(path, fd.get()); node && !visit(std::move(*node), std::move(fd))) return;
+  }
+}
+
+// A driver that does not tell is tried.
+bool takesSize(int fd, std::uint32_t fourcc, int width, int height) noexcept {
+  v4l2_frmsizeenum sizes{.index = 0, .pixel_format = fourcc};
+  if (control(fd, VIDIOC_ENUM_FRAMESIZES, &sizes) < 0 || sizes.type == V4L2_FRMSIZE_TYPE_DISCRETE) return true;
+  return static_cast<std::uint32_t>(width) <= sizes.stepwise.max_width &&
+         static_cast<std::uint32_t>(height) <= sizes.stepwise.max_height;
+}
+
+// The kernel's numbers of profiles, in the menus of their controls.
+int menuItem(const std::string& codec, int profile) noexcept {
+  if (codec == "hevc") return profile == 1 ? V4L2_MPEG_VIDEO_HEVC_PROFILE_MAIN : -1;
+  switch (profile) {
+    case 66:
+      return V4L2_MPEG_VIDEO_H264_PROFILE_BASELINE;
+    case 77:
+      return V4L2_MPEG_VIDEO_H264_PROFILE_MAIN;
+    case 88:
+      return V4L2_MPEG_VIDEO_H264_PROFILE_EXTENDED;
+    case 100:
+      return V4L2_MPEG_VIDEO_H264_PROFILE_HIGH;
+    default:
+      return -1;
+  }
+}
+
+// Likewise. One without the item of Baseline still takes it where it is Constrained Baseline, which most is.
+bool takesProfile(int fd, const std::string& codec, int profile) noexcept {
+  v4l2_queryctrl menu{};
+  menu.id = codec == "hevc" ? V4L2_CID_MPEG_VIDEO_HEVC_PROFILE : V4L2_CID_MPEG_VIDEO_H264_PROFILE;
+  const int item = menuItem(codec, profile);
+  if (item < 0 || control(fd, VIDIOC_QUERYCTRL, &menu) < 0 || (menu.flags & V4L2_CTRL_FLAG_DISABLED) != 0) return true;
+  const auto has = [&](int index) {
+    v4l2_querymenu entry{};
+    entry.id = menu.id;
+    entry.index = static_cast<std::uint32_t>(index);
+    return control(fd, VIDIOC_QUERYMENU, &entry) == 0;
+  };
+  const bool baseline = codec == "h264" && item == V4L2_MPEG_VIDEO_H264_PROFILE_BASELINE;
+  return has(item) || (baseline && has(V4L2_MPEG_VIDEO_H264_PROFILE_CONSTRAINED_BASELINE));
+}
+
+// A packet is at most half a raw picture of its level (MinCR, ISO/IEC 14496-10, A.3).
+Result<void> setPacketFormat(const M2mNode& node, int fd, const StreamInfo& stream, std::uint32_t fourcc) noexcept {
+  const auto width = static_cast<std::uint32_t>(stream.width), height = static_cast<std::uint32_t>(stream.height);
+  const std::uint32_t bytes = std::max(kFewestPacketBytes, width * height * 3 / 4);
+  v4l2_format format{};
+  format.type = node.packetQueue();
+  if (node.planes) {
+    v4l2_pix_format_mplane& picture = format.fmt.pix_mp;
+    picture.pixelformat = fourcc;
+    picture.width = width;
+    picture.height = height;
+    picture.num_planes = 1;
+    picture.plane_fmt[0].sizeimage = bytes;
+  } else {
+    v4l2_pix_format& picture = format.fmt.pix;
+    picture.pixelformat = fourcc;
+    picture.width = width;
+    picture.height = height;
+    picture.sizeimage = bytes;
+  }
+  const int answer = control(fd, VIDIOC_S_FMT, &format);
+  if (answer < 0 && errno == EBUSY) return fail(ErrorCode::Io, "the video hardware is busy", errno);
+  const std::uint32_t got = node.planes ? format.fmt.pix_mp.pixelformat : format.fmt.pix.pixelformat;
+  if (answer < 0 || got != fourcc) return fail(ErrorCode::Unsupported, "the video hardware refuses the stream", errno);
+  return {};
+}
+
+}  // namespace
+
+std::optional<std::uint32_t> packetFormatOf(const std::string& codec) noexcept {
+  const auto found = std::find_if(kCodings.begin(), kCodings.end(), [&](const Coding& c) { return codec == c.codec; });
+  return found == kCodings.end() ? std::nullopt : std::optional(found->fourcc);
+}
+
+Result<M2mDevice> openM2mDevice(const StreamInfo& stream, const std::optional<CodingProfile>& profile) {
+  const auto fourcc = packetFormatOf(stream.codec);
+  if (!fourcc) return fail(ErrorCode::Unsupported, "the video hardware decodes H.264 and HEVC");
+  Result<M2mDevice> found = fail(ErrorCode::NotFound, "there is no video hardware that decodes this codec");
+  visitNodes([&](M2mNode node, UniqueFd fd) {
+    if (std::find(node.codecs.begin(), node.codecs.end(), stream.codec) == node.codecs.end()) return true;
+    if (!takesSize(fd.get(), *fourcc, stream.width, stream.height)) {
+      found = fail(ErrorCode::Unsupported, "the pictures are too large for the video hardware");
+      return true;
+    }
+    if (profile && (!profile->plain || !takesProfile(fd.get(), stream.codec, profile->profile))) {
+      found = fail(ErrorCode::Unsupported, "the video hardware takes 8-bit 4:2:0 of the usual profiles alone");
+      return true;
+    }
+    if (auto set = setPacketFormat(node, fd.get(), stream, *fourcc); !set) {
+      found = std::unexpected(set.error());
+      return true;
+    }
+    found = M2mDevice{std::move(node), std::make_shared<const UniqueFd>(std::move(fd))};
+    return false;
+  });
+  return found;
+}
+
+}  // namespace relievo::v4l2
+
+namespace relievo {
+
+std::vector<V4l2M2mNode> lookAtV4l2M2mNodes() {
+  std::vector<V4l2M2mNode> nodes;
+  v4l2::visitNodes([&](const v4l2::M2mNode& node, const UniqueFd&) {
+    nodes.push_back(node);
+    return true;
+  });
+  return nodes;
+}
+
+}  // namespace relievo
