@@ -6,7 +6,11 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstring>
+#include <filesystem>
+#include <map>
+#include <string_view>
 #include <utility>
 
 #include "drivers/v4l2/control.h"
@@ -14,7 +18,7 @@
 namespace relievo::v4l2 {
 namespace {
 
-constexpr int kNodes = 64;
+constexpr std::string_view kNode = "video";
 constexpr std::uint32_t kFewestPacketBytes = 256 << 10;
 
 struct Coding {
@@ -23,10 +27,6 @@ struct Coding {
 };
 constexpr std::array kCodings{Coding{"h264", V4L2_PIX_FMT_H264}, Coding{"hevc", V4L2_PIX_FMT_HEVC},
                               Coding{"fwht", V4L2_PIX_FMT_FWHT}};  // the last is the kernel's virtual codec's
-
-UniqueFd openNode(const std::string& path) noexcept {
-  return UniqueFd(::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC));
-}
 
 std::vector<std::string> codecsOf(int fd, std::uint32_t queue) {
   std::vector<std::string> codecs;
@@ -55,11 +55,27 @@ std::optional<M2mNode> lookAt(const std::string& path, int fd) {
   return node;
 }
 
+// "/dev/videoN" by their numbers.
+std::vector<std::string> paths() {
+  std::map<int, std::string> found;
+  std::error_code failed;
+  for (const auto& entry : std::filesystem::directory_iterator("/dev", failed)) {
+    const std::string name = entry.path().filename();
+    int number = 0;
+    const char* const end = name.data() + name.size();
+    if (!name.starts_with(kNode)) continue;
+    const auto read = std::from_chars(name.data() + kNode.size(), end, number);
+    if (read.ec == std::errc() && read.ptr == end) found[number] = entry.path();
+  }
+  std::vector<std::string> all;
+  for (auto& [number, path] : found) all.push_back(std::move(path));
+  return all;
+}
+
 template <class Visit>
 void visitNodes(Visit&& visit) {
-  for (int i = 0; i < kNodes; ++i) {
-    const std::string path = "/dev/video" + std::to_string(i);
-    UniqueFd fd = openNode(path);
+  for (const std::string& path : paths()) {
+    UniqueFd fd(::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC));
     if (!fd.valid()) continue;
     if (auto node = lookAt(path, fd.get()); node && !visit(std::move(*node), std::move(fd))) return;
   }

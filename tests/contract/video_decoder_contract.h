@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every video decoder keeps to: states, back-pressure that loses nothing, pictures that stay, one end. Included once
-// by each program that names back ends for it.
+// What every video decoder keeps to: states, back-pressure that loses nothing, pictures that stay, one end. Included
+// once by each program that names back ends for it.
 #pragma once
 
 #include "tests/contract/films.h"

@@ -109,6 +109,8 @@ UmockdevCodec::UmockdevCodec(UMockdevTestbed* bed, int number, CodecKind kind)
 }
 
 UmockdevCodec::~UmockdevCodec() {
+  umockdev_testbed_detach_ioctl(bed_, node_.c_str(), nullptr);
+  umockdev_testbed_remove_device(bed_, device_.c_str());
   requests_.end();
   ::munmap(memory_, kMemoryBytes);
 }
@@ -337,7 +339,6 @@ int UmockdevCodec::makeBuffers(v4l2_requestbuffers& request) {
       packets ? packet_bytes_ : wholePages(lumaBytes()) + wholePages(wholePages(lumaBytes()) / 2);
   if (next_offset_ + std::size_t{bytes} * request.count > kMemoryBytes) next_offset_ = 0;
   for (std::uint32_t i = 0; i < request.count; ++i, next_offset_ += bytes) offsets.push_back(next_offset_);
-  if (!packets) buffers_size_ = size_;
   if (!packets || request.count == 0) return 0;
   ++openings_;
   given_ = 0;

@@ -95,7 +95,6 @@ class UmockdevCodec {
   std::uint32_t packet_bytes_ = 0;
   Size size_;  // that was told last
   std::vector<std::uint32_t> packet_offsets_, picture_offsets_;
-  Size buffers_size_;  // of the pictures' buffers
   std::deque<Packet> packets_;
   std::deque<std::uint32_t> empty_;
   std::deque<Done> packets_done_, pictures_done_;

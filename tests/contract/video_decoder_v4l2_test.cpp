@@ -1,0 +1,424 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decoders on nodes of /dev that umockdev plugs into this machine, behind which FFmpeg decodes: the contract, pictures
+// exact to the bit, and what becomes of a film when the driver hangs, stumbles or goes.
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <optional>
+
+#include "drivers/failover/failover.h"
+#include "drivers/v4l2/v4l2.h"
+#include "tests/contract/video_decoder_contract.h"
+#include "tests/support/mocked_machine.h"
+#include "tests/support/umockdev_codec.h"
+
+namespace relievo {
+namespace {
+
+using test::CodecKind;
+using test::UmockdevCodec;
+
+constexpr CodecKind kPlanes{.pictures = V4L2_PIX_FMT_NV12M, .planes = true};
+
+// One machine for all of the contract.
+std::unique_ptr<VideoDecoder> decoderOnMockedMachine() {
+  static UmockdevCodec codec(umockdev_testbed_new(), 10);
+  return makeV4l2M2mDecoder();
+}
+INSTANTIATE_TEST_SUITE_P(V4l2, VideoDecoderContract,
+                         testing::Values(test::FilmBackend{"v4l2", makeFfmpegSource, decoderOnMockedMachine,
+                                                           test::encodedFilm, nullptr}),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+// A film's packets of one track.
+struct Film {
+  explicit Film(const std::string& path, std::size_t track = 0) {
+    const auto source = makeFfmpegSource();
+    EXPECT_TRUE(source->open(path));
+    stream = source->streams().at(track);
+    for (;;) {
+      auto packet = source->read();
+      EXPECT_TRUE(packet);
+      if (!packet || !*packet) return;
+      if ((*packet)->stream == stream.index) packets.push_back(std::move(**packet));
+    }
+  }
+  StreamInfo stream;
+  std::vector<Packet> packets;
+};
+
+struct Shown {
+  MediaTime pts;
+  int width, height;
+  std::uint64_t digest;
+  bool operator==(const Shown&) const = default;
+};
+void PrintTo(const Shown& shown, std::ostream* out) {
+  *out << toSeconds(shown.pts) << " s, " << shown.width << " x " << shown.height << ", " << std::hex << shown.digest;
+}
+
+// Of every sample of every component.
+Shown shownOf(const Frame& frame) {
+  std::uint64_t sum = 1469598103934665603ull;
+  for (int i = 0; i < 3; ++i) {
+    const int shift = i > 0 ? 1 : 0;
+    for (int r = 0; r < (frame.height + shift) >> shift; ++r) {
+      for (int c = 0; c < (frame.width + shift) >> shift; ++c) {
+        sum = (sum ^ test::sampleAt(frame, i, c, r)) * 1099511628211ull;
+      }
+    }
+  }
+  return {frame.pts, frame.width, frame.height, sum};
+}
+
+// Feeds packets [from, to) and collects what comes, as a film is read; `each` sees every picture.
+using Each = std::function<void(const Frame&)>;
+Result<void> feedTo(VideoDecoder& decoder, const Film& film, std::size_t from, std::size_t to,
+                    std::vector<Shown>& shown, const Each& each = {}) {
+  const auto receive = [&]() -> Result<void> {
+    for (;;) {
+      auto frame = decoder.receive();
+      if (!frame) return std::unexpected(frame.error());
+      if (!*frame) return {};
+      shown.push_back(shownOf(**frame));
+      if (each) each(**frame);
+    }
+  };
+  for (std::size_t i = from; i < to;) {
+    if (auto received = receive(); !received) return received;
+    const auto fed = decoder.feed(film.packets[i]);
+    if (!fed) return std::unexpected(fed.error());
+    EXPECT_EQ(*fed, Feed::Accepted) << "though all pictures were received";
+    ++i;
+  }
+  if (to < film.packets.size()) return receive();
+  if (auto drained = decoder.drain(); !drained) return drained;
+  auto received = receive();
+  EXPECT_TRUE(!received || decoder.state() == VideoDecoder::State::Ended);
+  return received;
+}
+std::vector<Shown> play(VideoDecoder& decoder, const Film& film, const Each& each = {}) {
+  std::vector<Shown> shown;
+  const auto played = feedTo(decoder, film, 0, film.packets.size(), shown, each);
+  EXPECT_TRUE(played) << played.error().message;
+  return shown;
+}
+std::vector<Shown> bySoftware(const Film& film) {
+  const auto decoder = makeFfmpegDecoder();
+  EXPECT_TRUE(decoder->open(film.stream));
+  return play(*decoder, film);
+}
+
+test::ClipTrack movingClip(int width = 100, int height = 70) {
+  test::ClipTrack track{.codec = "libx264",
+                        .pix_fmt = "yuv420p",
+                        .width = width,
+                        .height = height,
+                        .fps_num = 25,
+                        .frames = 120,
+                        .gop = 24,
+                        .b_frames = 2};
+  track.sample = [](int i, int c, int r, int n) {
+    return static_cast<std::uint32_t>(i == 0 ? 20 + (3 * c + 2 * r + 5 * n + (c * r) % 7) % 200
+                                             : 100 + (c + n + 7 * i) % 50);
+  };
+  return track;
+}
+
+class V4l2M2m : public test::MockedMachine {
+ protected:
+  void SetUp() override {
+    test::MockedMachine::SetUp();
+    if (IsSkipped()) return;
+    if (!clip_) {
+      clip_.emplace();
+      test::makeClip(*clip_ / "film.mkv", {movingClip()});
+    }
+  }
+  static void TearDownTestSuite() { clip_.reset(); }
+  [[nodiscard]] static std::string clip(const std::string& name = "film.mkv") { return *clip_ / name; }
+  [[nodiscard]] static std::string makeClip(const std::string& name, const test::ClipTrack& track) {
+    test::makeClip(clip(name), {track});
+    return clip(name);
+  }
+  [[nodiscard]] static std::unique_ptr<VideoDecoder> open(const Film& film) {
+    auto decoder = makeV4l2M2mDecoder();
+    const auto opened = decoder->open(film.stream);
+    EXPECT_TRUE(opened) << opened.error().message;
+    return decoder;
+  }
+  [[nodiscard]] static std::unique_ptr<VideoDecoder> openWithFailover(const Film& film) {
+    std::vector<std::unique_ptr<VideoDecoder>> decoders;
+    decoders.push_back(makeV4l2M2mDecoder());
+    decoders.push_back(makeFfmpegDecoder());
+    auto decoder = makeFailoverDecoder(std::move(decoders));
+    EXPECT_TRUE(decoder->open(film.stream));
+    return decoder;
+  }
+  static ErrorCode refusal(const Film& film) {
+    const auto opened = makeV4l2M2mDecoder()->open(film.stream);
+    return opened ? ErrorCode::InvalidState : opened.error().code;
+  }
+
+ private:
+  static inline std::optional<test::TemporaryFolder> clip_;
+};
+
+// The buffers are larger than the picture, and their rows are padded.
+TEST_F(V4l2M2m, PicturesAreThoseOfSoftwareToTheBitInEveryArrangement) {
+  const Film film(clip());
+  const auto software = bySoftware(film);
+  ASSERT_EQ(software.size(), 120u);
+  const CodecKind kinds[] = {{}, {.pictures = V4L2_PIX_FMT_YUV420, .row_padding = 32}, kPlanes, {.needed = 1}};
+  for (const CodecKind& kind : kinds) {
+    UmockdevCodec codec(bed_, 10, kind);
+    const auto decoder = open(film);
+    EXPECT_EQ(play(*decoder, film), software) << kind.pictures;
+    EXPECT_EQ(codec.openings(), 1);
+    EXPECT_EQ(codec.unknownRequests(), 0);
+    EXPECT_EQ(decoder->damaged(), 0u);
+    EXPECT_EQ(decoder->description(), "v4l2-m2m, A decoder that is not there at /dev/video10");
+  }
+}
+
+TEST_F(V4l2M2m, PacketsOfEveryContainerAndCodecAreDecoded) {
+  test::ClipTrack hevc = movingClip();
+  hevc.codec = "libx265";
+  hevc.options = {{"x265-params", "log-level=none"}};
+  for (const char* name : {"film.mp4", "film.ts"}) {
+    UmockdevCodec codec(bed_, 10);
+    const Film film(makeClip(name, movingClip()));
+    EXPECT_EQ(play(*open(film), film), bySoftware(film)) << name;
+  }
+  for (const char* name : {"hevc.mkv", "hevc.ts"}) {
+    UmockdevCodec codec(bed_, 10, {.packets = V4L2_PIX_FMT_HEVC});
+    const Film film(makeClip(name, hevc));
+    EXPECT_EQ(play(*open(film), film), bySoftware(film)) << name;
+  }
+}
+
+TEST_F(V4l2M2m, ColoursAreAsTheStreamSaysThem) {
+  UmockdevCodec codec(bed_, 10);
+  test::ClipTrack track = movingClip();
+  track.range = ColorRange::Full;
+  track.pix_fmt = "yuvj420p";
+  track.sample_width = 4, track.sample_height = 3;
+  const Film film(makeClip("full.mkv", track));
+  (void)play(*open(film), film, [](const Frame& frame) {
+    EXPECT_EQ(frame.range, ColorRange::Full);
+    EXPECT_DOUBLE_EQ(frame.sample_aspect, 4.0 / 3);
+  });
+}
+
+TEST_F(V4l2M2m, ASeekForgetsWhatWasInsideAndGoesOnExactly) {
+  UmockdevCodec codec(bed_, 10);
+  const Film film(clip());
+  const auto software = bySoftware(film);
+  const auto decoder = open(film);
+  for (const std::size_t key : {48u, 0u, 96u}) {
+    std::vector<Shown> before, after;
+    ASSERT_TRUE(feedTo(*decoder, film, 0, 30, before));
+    EXPECT_GT(before.size(), 10u);
+    ASSERT_TRUE(decoder->flush());
+    ASSERT_TRUE(feedTo(*decoder, film, key, film.packets.size(), after));
+    EXPECT_EQ(after, std::vector(software.begin() + static_cast<std::ptrdiff_t>(key), software.end()));
+    ASSERT_TRUE(decoder->flush());
+  }
+  EXPECT_EQ(codec.openings(), 1);
+  EXPECT_EQ(decoder->damaged(), 0u);
+}
+
+// As when one winds: each key frame is drained by itself.
+TEST_F(V4l2M2m, DrainsAgainAndAgain) {
+  UmockdevCodec codec(bed_, 10);
+  const Film film(clip());
+  const auto software = bySoftware(film);
+  const auto decoder = open(film);
+  for (std::size_t key = 0; key < film.packets.size(); key += 24) {
+    ASSERT_TRUE(film.packets[key].keyframe);
+    ASSERT_EQ(decoder->feed(film.packets[key]).value(), Feed::Accepted);
+    ASSERT_TRUE(decoder->drain());
+    const auto frame = decoder->receive().value();
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(shownOf(*frame), software[key]);
+    EXPECT_FALSE(decoder->receive().value());
+    EXPECT_EQ(decoder->state(), VideoDecoder::State::Ended);
+    ASSERT_TRUE(decoder->flush());
+  }
+  EXPECT_EQ(codec.drains(), 5);
+}
+
+TEST_F(V4l2M2m, TheResolutionChangesInMidStream) {
+  (void)makeClip("a.ts", movingClip());
+  test::ClipTrack second = movingClip(64, 160);
+  second.start = std::chrono::seconds(5);
+  (void)makeClip("b.ts", second);
+  for (const char* const name : {"a.ts", "b.ts", "a.ts"}) {
+    std::ofstream(clip("changing.ts"), std::ios::binary | std::ios::app) << std::ifstream(clip(name)).rdbuf();
+  }
+  const Film film(clip("changing.ts"));
+  const auto software = bySoftware(film);
+  ASSERT_GT(software.size(), 350u);
+  for (const CodecKind& kind : {CodecKind{}, kPlanes}) {
+    UmockdevCodec codec(bed_, 10, kind);
+    const auto decoder = open(film);
+    std::vector<Frame> held;  // across the changes
+    EXPECT_EQ(play(*decoder, film,
+                   [&](const Frame& frame) {
+                     if (held.size() < 6 || frame.width != held.back().width) held.push_back(frame);
+                   }),
+              software);
+    EXPECT_EQ(codec.openings(), 1);
+    for (const Frame& frame : held) {
+      EXPECT_EQ(std::count(software.begin(), software.end(), shownOf(frame)), 1) << "it is not what it was any more";
+    }
+  }
+}
+
+// A seek in the middle of a change.
+TEST_F(V4l2M2m, ASeekMayLeadToAnotherResolution) {
+  (void)makeClip("a.ts", movingClip());
+  test::ClipTrack second = movingClip(64, 160);
+  second.start = std::chrono::seconds(5);
+  (void)makeClip("b.ts", second);
+  std::ofstream(clip("two.ts"), std::ios::binary)
+      << std::ifstream(clip("a.ts")).rdbuf() << std::ifstream(clip("b.ts")).rdbuf();
+  const Film film(clip("two.ts"));
+  const auto software = bySoftware(film);
+  UmockdevCodec codec(bed_, 10);
+  const auto decoder = open(film);
+  for (std::size_t stop = 118; stop < 130; ++stop) {
+    std::vector<Shown> some, rest;
+    ASSERT_TRUE(feedTo(*decoder, film, 96, stop, some));
+    ASSERT_TRUE(decoder->flush());
+    ASSERT_TRUE(feedTo(*decoder, film, 0, 20, some));
+    ASSERT_TRUE(decoder->flush());
+    ASSERT_TRUE(feedTo(*decoder, film, 216, 240, rest));
+    EXPECT_EQ(rest, std::vector(software.begin() + 216, software.end())) << stop;
+    ASSERT_TRUE(decoder->flush());
+  }
+}
+
+// Beyond the buffers that the driver can spare they are copies, and the film goes on.
+TEST_F(V4l2M2m, AnyNumberOfPicturesMayBeHeldAndTheDriverNeverStarves) {
+  UmockdevCodec codec(bed_, 10, {.exports = true});
+  const Film film(clip());
+  const auto software = bySoftware(film);
+  const auto decoder = open(film);
+  std::vector<Frame> held;
+  const auto shown = play(*decoder, film, [&](const Frame& frame) {
+    held.push_back(frame);
+    if (held.size() > 64) held.erase(held.begin() + 20);
+  });
+  EXPECT_EQ(shown, software);
+  EXPECT_GE(codec.empty(), 3) << "of the four that it needs, but for the one that ends it";
+  const auto exported = std::count_if(held.begin(), held.end(), [](auto& f) { return f.dma_bufs[0].fd >= 0; });
+  EXPECT_GT(exported, 4);
+  EXPECT_LT(exported, 20);
+  const Frame& first = held.front();
+  EXPECT_EQ(first.dma_bufs[1].fd, first.dma_bufs[0].fd);
+  EXPECT_EQ(first.dma_bufs[1].offset_bytes, first.planes[0].stride_bytes * 80) << "the coded height";
+  decoder->close();
+  EXPECT_GE(::fcntl(first.dma_bufs[0].fd, F_GETFD), 0);
+  for (const Frame& frame : held) EXPECT_EQ(std::count(software.begin(), software.end(), shownOf(frame)), 1);
+}
+
+TEST_F(V4l2M2m, WhatItCannotDecodeItRefusesBeforehand) {
+  EXPECT_EQ(refusal(Film(clip())), ErrorCode::NotFound) << "no hardware";
+  test::ClipTrack fine = movingClip();
+  fine.pix_fmt = "yuv420p10le";
+  test::ClipTrack colourful = movingClip();
+  colourful.pix_fmt = "yuv444p";
+  test::ClipTrack gray = movingClip();
+  gray.pix_fmt = "gray";
+  {
+    UmockdevCodec codec(bed_, 10, {.largest = 128});
+    EXPECT_EQ(refusal(Film(makeClip("fine.mkv", fine))), ErrorCode::Unsupported);
+    EXPECT_EQ(refusal(Film(makeClip("colourful.mkv", colourful))), ErrorCode::Unsupported);
+    EXPECT_EQ(refusal(Film(makeClip("gray.mkv", gray))), ErrorCode::Unsupported);
+    EXPECT_EQ(refusal(Film(makeClip("wide.mkv", movingClip(160, 64)))), ErrorCode::Unsupported);
+    EXPECT_EQ(refusal(Film(makeClip("lossless.mkv", {}))), ErrorCode::Unsupported) << "another codec";
+    fine.codec = "libx265";
+    fine.options = {{"x265-params", "log-level=none"}};
+    EXPECT_EQ(refusal(Film(makeClip("hevc10.mkv", fine))), ErrorCode::NotFound) << "none of this codec";
+    EXPECT_EQ(codec.openings(), 0);
+  }
+  UmockdevCodec codec(bed_, 10, {.main_profile_only = true});
+  EXPECT_EQ(refusal(Film(clip())), ErrorCode::Unsupported) << "High";
+  test::ClipTrack main = movingClip();
+  main.options = {{"profile", "main"}};
+  const Film film(makeClip("main.mkv", main));
+  EXPECT_EQ(play(*open(film), film), bySoftware(film));
+}
+
+TEST_F(V4l2M2m, ABusyNodeLeavesTheFilmToTheNextOne) {
+  UmockdevCodec codec(bed_, 10), other(bed_, 11);
+  const Film film(clip());
+  const auto first = open(film), second = open(film);
+  EXPECT_EQ(other.openings(), 1);
+  EXPECT_EQ(refusal(film), ErrorCode::Io);
+  EXPECT_EQ(play(*first, film), play(*second, film));
+}
+
+TEST_F(V4l2M2m, AHungDriverIsFoundOutAndAGoneOneToo) {
+  const Film film(clip());
+  for (const bool gone : {false, true}) {
+    UmockdevCodec codec(bed_, 10);
+    if (gone) codec.unplugAfter(50);
+    else codec.hangAfter(50, 1);
+    const auto decoder = open(film);
+    std::vector<Shown> shown;
+    const auto played = feedTo(*decoder, film, 0, film.packets.size(), shown);
+    EXPECT_EQ(test::answerOf(played), gone ? ErrorCode::Lost : ErrorCode::Timeout);
+    EXPECT_GT(shown.size(), 30u);
+    decoder->close();
+    if (gone) continue;
+    ASSERT_TRUE(decoder->open(film.stream)) << "begun anew it decodes again";
+    EXPECT_EQ(play(*decoder, film), bySoftware(film));
+  }
+}
+
+struct Trouble {
+  const char* name;
+  std::function<void(UmockdevCodec&)> befalls;
+  int openings;
+  std::vector<std::string> told;
+  bool in_software;
+};
+
+// Pictures are held all the while, as a player does.
+TEST_F(V4l2M2m, TheFilmGoesOnWhereItWasWithoutAPictureLostOrTwice) {
+  const Film film(clip());
+  const auto software = bySoftware(film);
+  const std::string anew = "the decoder was begun anew where it was",
+                    other = "another decoder, in software, goes on where it was";
+  const Trouble troubles[] = {
+      {"hangs once", [](auto& codec) { codec.hangAfter(70, 1); }, 2, {anew}, false},
+      {"hangs twice", [](auto& codec) { codec.hangAfter(50, 2); }, 2, {anew, other}, true},
+      {"hangs at once", [](auto& codec) { codec.hangAfter(0, 2); }, 2, {other}, true},  // the last is told
+      {"is gone", [](auto& codec) { codec.unplugAfter(77); }, 1, {other}, true},
+  };
+  for (const Trouble& trouble : troubles) {
+    UmockdevCodec codec(bed_, 10);
+    trouble.befalls(codec);
+    const auto decoder = openWithFailover(film);
+    EXPECT_EQ(decoder->description(), "v4l2-m2m, A decoder that is not there at /dev/video10");
+    std::vector<std::string> told;
+    std::deque<Frame> held;
+    const auto take = [&](const Frame& frame) {
+      if (const auto restart = decoder->takeRestart()) told.emplace_back(restart->done);
+      held.push_back(frame);
+      if (held.size() > 8) held.pop_front();
+    };
+    EXPECT_EQ(play(*decoder, film, take), software) << trouble.name;
+    EXPECT_EQ(codec.openings(), trouble.openings) << trouble.name;
+    EXPECT_EQ(told, trouble.told) << trouble.name;
+    EXPECT_EQ(decoder->description().starts_with("ffmpeg; no better one: the video hardware"), trouble.in_software)
+        << decoder->description();
+    EXPECT_EQ(decoder->damaged(), 0u);
+  }
+}
+
+}  // namespace
+}  // namespace relievo
