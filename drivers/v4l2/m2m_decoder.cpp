@@ -28,7 +28,7 @@ constexpr int kMaxHeldFrames = 64;           // those beyond the buffers are cop
 constexpr std::size_t kMostUnanswered = 64;  // packets, until the oldest will have no picture
 constexpr Duration kDefaultPeriod = std::chrono::milliseconds(40);
 // Without a sign of life while there is work; the first time firmware may have to be loaded.
-constexpr Duration kPatience = std::chrono::milliseconds(400), kFirstPatience = std::chrono::seconds(2);
+constexpr Duration kPatience = std::chrono::milliseconds(400), kFirstPatience = std::chrono::seconds(1);
 constexpr Duration kTurn = std::chrono::milliseconds(20);
 constexpr Duration kNap = std::chrono::milliseconds(1);  // where the driver says that it has something, and has not
 

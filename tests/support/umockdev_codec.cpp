@@ -321,7 +321,7 @@ int UmockdevCodec::setFormat(v4l2_format& format) {
   if (!(packets ? packet_offsets_ : picture_offsets_).empty()) return EBUSY;
   if (packets) {
     packet_bytes_ = wholePages(kind_.planes ? format.fmt.pix_mp.plane_fmt[0].sizeimage : format.fmt.pix.sizeimage);
-    size_ = {16, 16};  // until the stream tells
+    size_ = kUntold;
   }
   fillFormat(format);
   return 0;
@@ -419,6 +419,10 @@ bool UmockdevCodec::decodeOne() {
   const Packet packet = packets_.front();
   packets_.pop_front();
   const bool good = library_->feed(memory_ + packet_offsets_[packet.index], packet.bytes, packet.tag);
+  const AVCodecContext& known = *library_->context;
+  if (known.width > 0 && size_ == kUntold) {
+    announce({static_cast<std::uint32_t>(known.width), static_cast<std::uint32_t>(known.height)});
+  }
   packets_done_.push_back({packet.index, 0, good ? 0U : static_cast<std::uint32_t>(V4L2_BUF_FLAG_ERROR), packet.tag});
   return true;
 }

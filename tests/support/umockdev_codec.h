@@ -56,6 +56,7 @@ class UmockdevCodec {
     std::uint32_t width = 0, height = 0;
     bool operator==(const Size&) const = default;
   };
+  static constexpr Size kUntold{16, 16};  // until the stream tells
   struct Done {
     std::uint32_t index, bytes, flags;
     std::uint64_t tag;
