@@ -352,6 +352,18 @@ TEST_F(V4l2M2m, WhatItCannotDecodeItRefusesBeforehand) {
   EXPECT_EQ(play(*open(film), film), bySoftware(film));
 }
 
+TEST_F(V4l2M2m, NodesAreListedByTheirNumbers) {
+  EXPECT_TRUE(lookAtV4l2M2mNodes().empty());
+  UmockdevCodec second(bed_, 11, {.packets = V4L2_PIX_FMT_HEVC, .planes = true}), first(bed_, 2);
+  const auto nodes = lookAtV4l2M2mNodes();
+  ASSERT_EQ(nodes.size(), 2u);
+  EXPECT_EQ(nodes[0].path, "/dev/video2");
+  EXPECT_EQ(nodes[0].card, "A decoder that is not there");
+  EXPECT_EQ(nodes[0].codecs, std::vector<std::string>{"h264"});
+  EXPECT_EQ(nodes[1].path, "/dev/video11");
+  EXPECT_EQ(nodes[1].codecs, std::vector<std::string>{"hevc"});
+}
+
 TEST_F(V4l2M2m, ABusyNodeLeavesTheFilmToTheNextOne) {
   UmockdevCodec codec(bed_, 10), other(bed_, 11);
   const Film film(clip());
