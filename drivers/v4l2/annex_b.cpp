@@ -138,20 +138,20 @@ void AnnexB::addUnit(Bytes unit) {
   parameters_.insert(parameters_.end(), unit.begin(), unit.end());
 }
 
-// The unit and what follows it, from its header on.
-Bytes AnnexB::parameterSet() const noexcept {
+// The first one and what follows it, from its header on; of units with start codes.
+Bytes AnnexB::sequenceSetIn(Bytes units) const noexcept {
   constexpr std::array<std::uint8_t, 3> kCode{0, 0, 1};
-  for (auto at = parameters_.begin();; ++at) {
-    at = std::search(at, parameters_.end(), kCode.begin(), kCode.end());
-    if (parameters_.end() - at < 8) return {};
+  for (auto at = units.begin();; ++at) {
+    at = std::search(at, units.end(), kCode.begin(), kCode.end());
+    if (units.end() - at < 8) return {};
     const int type = codec_ == Codec::H264 ? at[3] & 0x1f : at[3] >> 1 & 0x3f;
-    if (type == (codec_ == Codec::H264 ? kAvcSequenceSet : kHevcSequenceSet)) return {&at[3], &*parameters_.end()};
+    if (type == (codec_ == Codec::H264 ? kAvcSequenceSet : kHevcSequenceSet)) return {at + 3, units.end()};
   }
 }
 
 std::optional<CodingProfile> AnnexB::profile() const noexcept {
   if (codec_ == Codec::Other) return std::nullopt;
-  const Bytes set = parameterSet();
+  const Bytes set = sequenceSetIn(parameters_);
   if (set.empty()) return std::nullopt;
   return codec_ == Codec::H264 ? avcProfile(set) : hevcProfile(set);
 }
@@ -166,8 +166,9 @@ std::optional<std::size_t> AnnexB::write(const Packet& packet, bool with_paramet
     return true;
   };
   const bool apart = length_bytes_ > 0;
-  if ((with_parameters || (apart && packet.keyframe)) && !parameters_.empty() && !put(parameters_)) return std::nullopt;
   Reader reader{{packet.data, packet.bytes}};
+  const bool wanted = with_parameters && (apart || sequenceSetIn(reader.rest).empty());
+  if ((wanted || (apart && packet.keyframe)) && !parameters_.empty() && !put(parameters_)) return std::nullopt;
   if (!apart) return put(reader.rest) ? std::optional(written) : std::nullopt;
   while (!reader.rest.empty()) {
     const Bytes unit = reader.take(reader.number(length_bytes_));

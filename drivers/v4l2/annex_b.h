@@ -29,7 +29,8 @@ class AnnexB {
   // Nothing where the stream does not tell, or another codec has none.
   [[nodiscard]] std::optional<CodingProfile> profile() const noexcept;
   // Writes a packet, with the parameter sets that the container keeps apart where it is a key frame or
-  // `with_parameters`. The bytes written; nothing for a damaged packet, or one too large for the room.
+  // `with_parameters`, unless it has some of its own. The bytes written; nothing for a damaged packet, or one too large
+  // for the room.
   [[nodiscard]] std::optional<std::size_t> write(const Packet& packet, bool with_parameters,
                                                  std::span<std::uint8_t> room) const noexcept;
 
@@ -37,7 +38,7 @@ class AnnexB {
   [[nodiscard]] bool readAvcDescription(std::span<const std::uint8_t> extradata);
   [[nodiscard]] bool readHevcDescription(std::span<const std::uint8_t> extradata);
   void addUnit(std::span<const std::uint8_t> unit);
-  [[nodiscard]] std::span<const std::uint8_t> parameterSet() const noexcept;
+  [[nodiscard]] std::span<const std::uint8_t> sequenceSetIn(std::span<const std::uint8_t> units) const noexcept;
 
   enum class Codec : std::uint8_t { Other, H264, Hevc } codec_ = Codec::Other;
   std::size_t length_bytes_ = 0;  // before each unit; 0: there are start codes

@@ -36,6 +36,12 @@ struct Form {
 
 }  // namespace
 
+Result<void> outcomeOf(int error) noexcept {
+  if (error == 0) return {};
+  if (error == ENODEV || error == ENXIO) return fail(ErrorCode::Lost, "the video hardware has gone away", error);
+  return fail(ErrorCode::Io, "the video hardware cannot go on", error);
+}
+
 Result<std::shared_ptr<M2mBuffers>> M2mBuffers::make(std::shared_ptr<const UniqueFd> device, std::uint32_t type,
                                                      std::uint32_t wanted) {
   std::shared_ptr<M2mBuffers> made(new M2mBuffers(std::move(device), type));

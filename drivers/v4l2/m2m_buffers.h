@@ -17,6 +17,9 @@
 
 namespace relievo::v4l2 {
 
+// Of an errno of the device's: Lost where it has gone, else Io.
+[[nodiscard]] Result<void> outcomeOf(int error) noexcept;
+
 // Mapped buffers, each with the device, here, or lent to who holds its picture. Thread: one, but `giveBack`.
 class M2mBuffers {
  public:

@@ -4,7 +4,6 @@
 #include <poll.h>
 
 #include <algorithm>
-#include <cstring>
 #include <deque>
 #include <utility>
 
@@ -12,7 +11,7 @@
 #include "drivers/v4l2/control.h"
 #include "drivers/v4l2/m2m_buffers.h"
 #include "drivers/v4l2/m2m_node.h"
-#include "drivers/v4l2/m2m_picture.h"
+#include "drivers/v4l2/m2m_picture_queue.h"
 #include "drivers/v4l2/v4l2.h"
 #include "platform/clock.h"
 
@@ -22,8 +21,6 @@ namespace {
 using namespace v4l2;
 
 constexpr std::uint32_t kPackets = 6;        // that the driver is ahead by
-constexpr std::uint32_t kPlayersHold = 12;   // pictures beyond those that the driver needs
-constexpr std::uint32_t kUsualPictures = 8;  // that it needs, where it does not tell
 constexpr int kMaxHeldFrames = 64;           // those beyond the buffers are copies
 constexpr std::size_t kMostUnanswered = 64;  // packets, until the oldest will have no picture
 constexpr Duration kDefaultPeriod = std::chrono::milliseconds(40);
@@ -32,22 +29,7 @@ constexpr Duration kPatience = std::chrono::milliseconds(400), kFirstPatience = 
 constexpr Duration kTurn = std::chrono::milliseconds(20);
 constexpr Duration kNap = std::chrono::milliseconds(1);  // where the driver says that it has something, and has not
 
-constexpr const char* kGone = "the video hardware has gone away";
 constexpr const char* kHangs = "the video hardware hangs";
-constexpr const char* kStumbles = "the video hardware cannot go on";
-constexpr const char* kUnreadable = "the video hardware's pictures are of a format that is not known here";
-
-// Behind Frame::owner: one buffer, held. It goes back on whatever thread the last reference is dropped.
-struct HeldPicture {
-  std::shared_ptr<M2mBuffers> buffers;
-  std::uint32_t index;
-  HeldPicture(std::shared_ptr<M2mBuffers> from, std::uint32_t which) : buffers(std::move(from)), index(which) {
-    buffers->lend(index);
-  }
-  ~HeldPicture() { buffers->giveBack(index); }
-  HeldPicture(const HeldPicture&) = delete;
-  HeldPicture& operator=(const HeldPicture&) = delete;
-};
 
 class M2mDecoder final : public VideoDecoder {
  public:
@@ -83,7 +65,7 @@ class M2mDecoder final : public VideoDecoder {
     packets_ = std::move(*packets);
     given_any_ = false;
     forget();
-    return answer(packets_->start());
+    return outcomeOf(packets_->start());
   }
 
   Result<Feed> feedPacket(const Packet& packet) override {
@@ -99,7 +81,7 @@ class M2mDecoder final : public VideoDecoder {
       countDamaged();
       return Feed::Accepted;
     }
-    if (auto queued = answer(packets_->queue(*index, *bytes, ++last_tag_)); !queued) {
+    if (auto queued = outcomeOf(packets_->queue(*index, *bytes, ++last_tag_)); !queued) {
       return std::unexpected(queued.error());
     }
     begun_ = true;
@@ -117,17 +99,20 @@ class M2mDecoder final : public VideoDecoder {
       if (draining_ && !begun_) return Progress::EndOfStream;
       const auto served = serve();
       if (!served) return std::unexpected(served.error());
-      const auto got = pictures_ ? takePicture(frame) : Result<bool>(false);
+      const auto got = pictures_.running() ? takePicture(frame) : Result<bool>(false);
       if (!got) return std::unexpected(got.error());
       if (*got) return Progress::Picture;
+      if (stopped_ && !change_due_) {  // the word of a change may have come together with the last picture
+        if (auto again = serve(); !again) return std::unexpected(again.error());
+      }
       if (stopped_ && !change_due_) {
         if (drain_told_) return endOfStream();
         if (auto resumed = resume(); !resumed) return std::unexpected(resumed.error());
       }
       const bool has_room = packets_->anyHere().has_value();
       if (!draining_ && has_room) return Progress::NeedsPackets;
-      if (draining_ && !pictures_ && !change_due_ && packets_->withDevice() == 0) return endOfStream();
-      if (draining_ && pictures_ && !stopped_) tellDrain();
+      if (draining_ && !pictures_.running() && !change_due_ && packets_->withDevice() == 0) return endOfStream();
+      if (draining_ && pictures_.running() && !stopped_) tellDrain();
       if (auto waited = wait(); !waited) return std::unexpected(waited.error());
     }
   }
@@ -146,113 +131,40 @@ class M2mDecoder final : public VideoDecoder {
       if (done.damaged) lose(done.tag);
       progressed();
     }
-    if (isFatal(error)) return answer(error);
-    const bool first = !pictures_ && begun_ && (change_due_ || !tells_changes_);
-    const bool change = pictures_ && change_due_ && stopped_;
+    if (isFatal(error)) return outcomeOf(error);
+    const bool first = !pictures_.running() && begun_ && (change_due_ || !tells_changes_);
+    const bool change = pictures_.running() && change_due_ && stopped_;
     return first || change ? setUpPictures() : Result<void>{};
   }
 
-  // "Capture Setup", the first time and after a "Dynamic Resolution Change".
   Result<void> setUpPictures() {
-    if (pictures_) pictures_->release();
-    pictures_.reset();
-    const std::uint32_t queue = device_->node.pictureQueue();
-    v4l2_format format{};
-    format.type = queue;
-    if (control(fd(), VIDIOC_G_FMT, &format) < 0) {
-      return tells_changes_ ? answer(errno) : Result<void>{};  // one that tells nothing may not know yet
-    }
-    if (auto readable = chooseReadable(format); !readable) return readable;
-    const auto layout = layoutOf(format, visiblePart(), stream_);
-    if (!layout) return fail(ErrorCode::Unsupported, kUnreadable);
-    layout_ = *layout;
-    v4l2_control least{.id = V4L2_CID_MIN_BUFFERS_FOR_CAPTURE, .value = 0};
-    const bool told =
-        control(fd(), VIDIOC_G_CTRL, &least) == 0 && least.value > 0 && least.value <= VIDEO_MAX_FRAME / 2;
-    needed_ = told ? static_cast<std::uint32_t>(least.value) : kUsualPictures;
-    auto pictures = M2mBuffers::make(device_->fd, queue, needed_ + kPlayersHold);
-    if (!pictures) return std::unexpected(pictures.error());
-    if (!layout_.fits((*pictures)->memory(0))) return fail(ErrorCode::Unsupported, kUnreadable);
-    if (auto queued = answer((*pictures)->queueAll()); !queued) return queued;
-    if (auto started = answer((*pictures)->start()); !started) return started;
-    pictures_ = std::move(*pictures);
+    auto made = pictures_.setUp(*device_, stream_);
+    if (!made && !tells_changes_ && made.error().code == ErrorCode::Io) return {};  // it may not know yet
+    if (!made) return made;
     change_due_ = stopped_ = drain_told_ = false;
     progressed();
     return {};
   }
 
-  // The driver's own choice, else its first that can be read.
-  Result<void> chooseReadable(v4l2_format& format) const {
-    const bool planes = device_->node.planes;
-    const auto chosen = [&] { return planes ? format.fmt.pix_mp.pixelformat : format.fmt.pix.pixelformat; };
-    if (isPictureFormat(chosen())) return {};
-    v4l2_fmtdesc each{.index = 0, .type = format.type};
-    for (; control(fd(), VIDIOC_ENUM_FMT, &each) == 0; ++each.index) {
-      if (!isPictureFormat(each.pixelformat)) continue;
-      if (planes) {
-        format.fmt.pix_mp.pixelformat = each.pixelformat;
-      } else {
-        format.fmt.pix.pixelformat = each.pixelformat;
-      }
-      if (control(fd(), VIDIOC_S_FMT, &format) == 0 && chosen() == each.pixelformat) return {};
-    }
-    return fail(ErrorCode::Unsupported, kUnreadable);
-  }
-
-  // Both interfaces are asked by the kind of one plane.
-  [[nodiscard]] std::optional<v4l2_rect> visiblePart() const noexcept {
-    v4l2_selection part{};
-    part.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-    part.target = V4L2_SEL_TGT_COMPOSE;
-    if (control(fd(), VIDIOC_G_SELECTION, &part) == 0) return part.r;
-    return v4l2_rect{0, 0, static_cast<std::uint32_t>(stream_.width), static_cast<std::uint32_t>(stream_.height)};
-  }
-
   // False when there is none.
   Result<bool> takePicture(Frame& frame) {
     for (;;) {
-      M2mBuffers::Done done;
-      const int error = pictures_->take(done);
+      PictureQueue::Taken taken;
+      const int error = pictures_.take(taken);
       if (error == EPIPE) stopped_ = true;
-      if (isFatal(error)) return std::unexpected(answer(error).error());
+      if (isFatal(error)) return std::unexpected(outcomeOf(error).error());
       if (error != 0) return false;
       progressed();
-      stopped_ = stopped_ || done.last;
-      const auto pts = done.bytes > 0 ? timeOf(done.tag) : std::nullopt;
-      if (pts && !done.damaged) {
-        frame = pictureIn(done.index);
-        frame.pts = *pts;
-        frame.duration = stream_.frame_period;
-        given_any_ = true;
-        return true;
-      }
-      if (pts) countDamaged();
-      pictures_->giveBack(done.index);
+      stopped_ = stopped_ || taken.last;
+      if (taken.damaged) lose(taken.tag);
+      const auto pts = taken.frame.empty() ? std::nullopt : timeOf(taken.tag);
+      if (!pts) continue;
+      frame = std::move(taken.frame);
+      frame.pts = *pts;
+      frame.duration = stream_.frame_period;
+      given_any_ = true;
+      return true;
     }
-  }
-
-  [[nodiscard]] Frame pictureIn(std::uint32_t index) const {
-    const auto& memory = pictures_->memory(index);
-    std::array<const std::uint8_t*, 3> data{};
-    std::array<int, 3> fds{-1, -1, -1};
-    if (pictures_->withDevice() >= needed_) {
-      for (std::size_t i = 0; i < data.size(); ++i) {
-        data[i] = memory[i].data;
-        fds[i] = memory[i].dma_buf.get();
-      }
-      Frame frame = layout_.placeAt(data, fds);
-      frame.owner = std::make_shared<HeldPicture>(pictures_, index);
-      return frame;
-    }
-    auto copy = std::make_shared<std::array<std::vector<std::uint8_t>, 3>>();
-    for (std::size_t i = 0; i < data.size(); ++i) {
-      if (memory[i].data != nullptr) (*copy)[i].assign(memory[i].data, memory[i].data + layout_.bytes[i]);
-      data[i] = (*copy)[i].data();
-    }
-    pictures_->giveBack(index);
-    Frame frame = layout_.placeAt(data, fds);
-    frame.owner = std::move(copy);
-    return frame;
   }
 
   // Of the packet that it is from; none of before a flush.
@@ -290,30 +202,24 @@ class M2mDecoder final : public VideoDecoder {
     stopped_ = false;
     v4l2_decoder_cmd go_on{};
     go_on.cmd = V4L2_DEC_CMD_START;
-    return answer(control(fd(), VIDIOC_DECODER_CMD, &go_on) < 0 ? errno : 0);
+    return outcomeOf(control(fd(), VIDIOC_DECODER_CMD, &go_on) < 0 ? errno : 0);
   }
 
   // "Seek", at once: of both queues.
   Result<void> flushDecoder() override {
     if (auto served = serve(); !served) return served;
-    if (auto stopped = answer(packets_->stop()); !stopped) return stopped;
-    if (pictures_ && change_due_) {  // the old pictures' end will not come any more
-      pictures_->release();
-      pictures_.reset();
-    }
-    if (pictures_) {
-      if (auto stopped = answer(pictures_->stop()); !stopped) return stopped;
-      if (auto queued = answer(pictures_->queueAll()); !queued) return queued;
-      if (auto started = answer(pictures_->start()); !started) return started;
+    if (auto stopped = outcomeOf(packets_->stop()); !stopped) return stopped;
+    if (change_due_) pictures_.release();  // the old pictures' end will not come any more
+    if (pictures_.running()) {
+      if (auto restarted = pictures_.restart(); !restarted) return restarted;
     }
     forget();
-    return answer(packets_->start());
+    return outcomeOf(packets_->start());
   }
 
   void closeDecoder() noexcept override {
-    if (pictures_) pictures_->release();
+    pictures_.release();
     if (packets_) packets_->release();
-    pictures_.reset();
     packets_.reset();
     device_.reset();
     change_due_ = false;
@@ -330,11 +236,6 @@ class M2mDecoder final : public VideoDecoder {
 
   // EINVAL: the queue does not run, as before its set-up.
   static bool isFatal(int error) noexcept { return error != 0 && error != EAGAIN && error != EPIPE && error != EINVAL; }
-  static Result<void> answer(int error) noexcept {
-    if (error == 0) return {};
-    if (error == ENODEV || error == ENXIO) return fail(ErrorCode::Lost, kGone, error);
-    return fail(ErrorCode::Io, kStumbles, error);
-  }
 
   void progressed() noexcept {
     idle_ = Duration(0);
@@ -361,9 +262,8 @@ class M2mDecoder final : public VideoDecoder {
   AnnexB form_;
   std::optional<M2mDevice> device_;
   bool tells_changes_ = false;
-  std::shared_ptr<M2mBuffers> packets_, pictures_;  // shared with the pictures that are held
-  PictureLayout layout_;
-  std::uint32_t needed_ = 0;  // buffers that the driver has to have
+  std::shared_ptr<M2mBuffers> packets_;
+  PictureQueue pictures_;
 
   struct Unanswered {
     std::uint64_t tag;

@@ -49,6 +49,8 @@ TEST(AnnexB, WhatHasStartCodesStaysAsItIs) {
   const Bytes packet{0, 0, 1, 0x65, 1, 2};
   EXPECT_EQ(written(form, packet, true, false), packet) << "its key frames have parameters of their own";
   EXPECT_EQ(written(form, packet, true, true), kAvcSets + packet) << "where decoding begins they are given once more";
+  const Bytes own = Bytes{0, 0, 1, 0x67, 77, 0, 30, 0xff, 0x80} + packet;
+  EXPECT_EQ(written(form, own, true, true), own) << "unless it has its own, which may be others";
   EXPECT_EQ(written(formOf("fwht", {1, 2, 3, 4, 5}), packet, true, true), packet);
 }
 
