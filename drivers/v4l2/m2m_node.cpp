@@ -68,6 +68,7 @@ std::vector<std::string> paths() {
     if (read.ec == std::errc() && read.ptr == end) found[number] = entry.path();
   }
   std::vector<std::string> all;
+  all.reserve(found.size());
   for (auto& [number, path] : found) all.push_back(std::move(path));
   return all;
 }
@@ -75,9 +76,9 @@ std::vector<std::string> paths() {
 template <class Visit>
 void visitNodes(Visit&& visit) {
   for (const std::string& path : paths()) {
-    UniqueFd fd(::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC));
-    if (!fd.valid()) continue;
-    if (auto node = lookAt(path, fd.get()); node && !visit(std::move(*node), std::move(fd))) return;
+    auto fd = std::make_shared<const UniqueFd>(::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC));
+    if (!fd->valid()) continue;
+    if (auto node = lookAt(path, fd->get()); node && !visit(M2mDevice{std::move(*node), std::move(fd)})) return;
   }
 }
 
@@ -160,22 +161,21 @@ Result<M2mDevice> openM2mDevice(const StreamInfo& stream, const std::optional<Co
   const auto fourcc = packetFormatOf(stream.codec);
   if (!fourcc) return fail(ErrorCode::Unsupported, "the video hardware decodes H.264 and HEVC");
   Result<M2mDevice> found = fail(ErrorCode::NotFound, "there is no video hardware that decodes this codec");
-  visitNodes([&](M2mNode node, UniqueFd fd) {
+  visitNodes([&](M2mDevice device) {
+    const M2mNode& node = device.node;
+    const int fd = device.fd->get();
     if (std::find(node.codecs.begin(), node.codecs.end(), stream.codec) == node.codecs.end()) return true;
-    if (!takesSize(fd.get(), *fourcc, stream.width, stream.height)) {
+    if (!takesSize(fd, *fourcc, stream.width, stream.height)) {
       found = fail(ErrorCode::Unsupported, "the pictures are too large for the video hardware");
-      return true;
-    }
-    if (profile && (!profile->plain || !takesProfile(fd.get(), stream.codec, profile->profile))) {
+    } else if (profile && (!profile->plain || !takesProfile(fd, stream.codec, profile->profile))) {
       found = fail(ErrorCode::Unsupported, "the video hardware takes 8-bit 4:2:0 of the usual profiles alone");
-      return true;
-    }
-    if (auto set = setPacketFormat(node, fd.get(), stream, *fourcc); !set) {
+    } else if (auto set = setPacketFormat(node, fd, stream, *fourcc); !set) {
       found = std::unexpected(set.error());
-      return true;
+    } else {
+      found = std::move(device);
+      return false;
     }
-    found = M2mDevice{std::move(node), std::make_shared<const UniqueFd>(std::move(fd))};
-    return false;
+    return true;
   });
   return found;
 }
@@ -186,8 +186,8 @@ namespace relievo {
 
 std::vector<V4l2M2mNode> lookAtV4l2M2mNodes() {
   std::vector<V4l2M2mNode> nodes;
-  v4l2::visitNodes([&](const v4l2::M2mNode& node, const UniqueFd&) {
-    nodes.push_back(node);
+  v4l2::visitNodes([&](const v4l2::M2mDevice& device) {
+    nodes.push_back(device.node);
     return true;
   });
   return nodes;
