@@ -166,7 +166,7 @@ int parseAndRun(int argc, char** argv) {
   const auto display = drivers::makeDisplay("offscreen");
   if (!display) return tell(display.error());
   options.display = display->get();
-  options.backends = {drivers::makeMediaSource, drivers::makeVideoDecoder};
+  options.backends = {drivers::makeMediaSource, drivers::makeSoftwareDecoder};
   for (const auto& [command, measurement] : commands) {
     if (!command->parsed()) continue;
     const auto run = [m = measurement](const MeasureOptions& o) { return runMeasurement(*m, o); };
