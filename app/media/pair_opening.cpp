@@ -167,7 +167,7 @@ Result<void> PairReader::Impl::describeDepth(const Frame& first, const StreamInf
   info.depth_width = first.width;
   info.depth_height = first.height;
   info.depth_codec = stream.codec;
-  info.depth_decoder = isPacked()      ? info.color_decoder
+  info.depth_decoder = isPacked()     ? info.color_decoder
                        : depth_source ? depth_source->decoder()
                                       : color_reader->decoder(*depth_track);
   return {};

@@ -50,8 +50,8 @@ struct FilmInfo {
   CalibrationChoice calibration;    // of a film with depth
   std::string color_codec, depth_codec;
   std::string color_decoder, depth_decoder;  // VideoDecoder::description
-  std::string sound_codec;              // of the film's sound, where it was wanted and there is some
-  const char* sound_refused = nullptr;  // why it cannot be decoded
+  std::string sound_codec;                   // of the film's sound, where it was wanted and there is some
+  const char* sound_refused = nullptr;       // why it cannot be decoded
 };
 
 struct PairCounters {

@@ -16,7 +16,7 @@ struct PlayOptions {
   std::string haptic = "sim";
   std::string remote;
   std::string audio;
-  bool software = false;  // no hardware decodes the film
+  bool software = false;    // no hardware decodes the film
   std::string report_path;  // empty: none
   std::string record_path;
   std::string keys_path;  // empty: the usual keys

@@ -62,20 +62,19 @@ Json videoPart(const PlayReport& r) {
 
 Json filmPart(const PlayReport& r) {
   const FilmInfo& f = r.film;
-  return {{"color", {{"codec", f.color_codec},
-            {"decoder", f.color_decoder},
-            {"width", f.color_width},
-            {"height", f.color_height}}},
-          {"depth", f.has_depth ? Json{{"codec", f.depth_codec},
-                                     {"decoder", f.depth_decoder},
-                                     {"width", f.depth_width},
-                                     {"height", f.depth_height}}
-                                : Json(nullptr)},
-          {"packing", name(f.packing)},
-          {"calibration", f.has_depth ? Json(f.calibration.explanation) : Json(nullptr)},
-          {"frame_period_s", rounded(toSeconds(f.frame_period))},
-          {"duration_s", rounded(toSeconds(f.duration))},
-          {"volume_mm", {rounded(r.volume.width_mm, 1e3), rounded(r.volume.height_mm, 1e3), r.volume.depth_mm}}};
+  return {
+      {"color",
+       {{"codec", f.color_codec}, {"decoder", f.color_decoder}, {"width", f.color_width}, {"height", f.color_height}}},
+      {"depth", f.has_depth ? Json{{"codec", f.depth_codec},
+                                   {"decoder", f.depth_decoder},
+                                   {"width", f.depth_width},
+                                   {"height", f.depth_height}}
+                            : Json(nullptr)},
+      {"packing", name(f.packing)},
+      {"calibration", f.has_depth ? Json(f.calibration.explanation) : Json(nullptr)},
+      {"frame_period_s", rounded(toSeconds(f.frame_period))},
+      {"duration_s", rounded(toSeconds(f.duration))},
+      {"volume_mm", {rounded(r.volume.width_mm, 1e3), rounded(r.volume.height_mm, 1e3), r.volume.depth_mm}}};
 }
 
 Json audioPart(const PlayReport& r) {
