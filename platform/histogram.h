@@ -42,6 +42,14 @@ class Histogram {
     return max();
   }
 
+  // Calls `take(middle, count)` for each bucket that is not empty, the shortest first.
+  template <class Take>
+  void forEachBucket(Take&& take) const {
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+      if (const std::uint64_t count = counts_[i].load(std::memory_order_relaxed); count > 0) take(middleOf(i), count);
+    }
+  }
+
  private:
   static constexpr unsigned kSubBits = 3;
   static constexpr unsigned kSub = 1u << kSubBits;

@@ -57,7 +57,7 @@ std::size_t filled(int wanted, std::size_t room) noexcept {
 
 // A line stays a line whatever a file name or a library's message holds: control characters become spaces.
 std::size_t makeOneLine(char* text, std::size_t length) noexcept {
-  std::replace_if(text, text + length, [](char c) { return (c >= 0 && c < ' ') || c == 0x7f; }, ' ');
+  std::replace_if(text, text + length, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 0x7f; }, ' ');
   while (length > 0 && text[length - 1] == ' ') --length;
   return length;
 }

@@ -198,6 +198,8 @@ HapticSummary HapticSession::summary() const {
   s.page_faults = before_.page_faults + cyclic.page_faults;
   s.update = times(counters.update);
   s.wakeup = times(cyclic.wakeup);
+  cyclic.wakeup.forEachBucket(
+      [&](Duration time, std::uint64_t ticks) { s.wakeup_histogram.push_back({time.count(), ticks}); });
   s.max_force_n = counters.max_force_n;
   s.max_scene_slew_n_per_s = counters.max_scene_slew_n_per_s;
   s.plan = plan_;

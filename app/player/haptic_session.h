@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/haptics/haptic_task.h"
 #include "app/haptics/methods.h"
@@ -35,6 +36,11 @@ struct HapticSummary {
   struct Times {
     std::int64_t p50 = 0, p99 = 0, p999 = 0, max = 0;  // ns
   } update, wakeup;
+  struct Bucket {
+    std::int64_t ns = 0;
+    std::uint64_t ticks = 0;
+  };
+  std::vector<Bucket> wakeup_histogram;  // within 6 %, the shortest first
   double max_force_n = 0, max_scene_slew_n_per_s = 0;
   double scene_mj = 0, artefact_mj = 0;
 };

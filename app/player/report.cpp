@@ -92,6 +92,8 @@ Json audioPart(const PlayReport& r) {
 
 Json hapticPart(const PlayReport& r) {
   const HapticSummary& h = r.haptic;
+  Json histogram = Json::array();
+  for (const auto& [ns, ticks] : h.wakeup_histogram) histogram.push_back({ns, ticks});
   return {{"device", h.device},
           {"plan", h.plan},
           {"scheduler", h.scheduler},
@@ -104,7 +106,8 @@ Json hapticPart(const PlayReport& r) {
           {"allocations", h.allocations},
           {"page_faults", h.page_faults},
           {"update_ns", toJson(h.update)},
-          {"wakeup_ns", toJson(h.wakeup)}};
+          {"wakeup_ns", toJson(h.wakeup)},
+          {"wakeup_histogram", histogram}};
 }
 
 Json forcePart(const HapticSummary& h) {

@@ -17,12 +17,12 @@
 #include "app/haptics/workspace_mapping.h"
 #include "drivers/falcon/falcon.h"
 #include "drivers/falcon/link.h"
-#include "tests/support/clip_maker.h"
 #include "tests/support/falcon_model.h"
 #include "tests/support/plugged_usb.h"
 #include "tests/support/process.h"
 #include "tests/support/program.h"
 #include "tests/support/sanitizers.h"
+#include "tests/support/slope.h"
 
 namespace relievo {
 namespace {
@@ -45,11 +45,9 @@ std::vector<Tick> readTicks(const std::string& path) {
   return ticks;
 }
 
-constexpr int kCols = 180, kRows = 120;
-
 WorkspaceMapping filmMapping() {
   MonotonicClock clock;
-  return {makeFalcon({}, clock)->capabilities(), DisplayVolume::forPicture(kCols, kRows)};
+  return {makeFalcon({}, clock)->capabilities(), DisplayVolume::forPicture(test::kSlopeCols, test::kSlopeRows)};
 }
 
 falcon::Words wordsOf(const Tick& tick, const WorkspaceMapping& mapping) {
@@ -67,44 +65,15 @@ std::optional<double> shareOf(const falcon::Words& part, const falcon::Words& wh
   return std::max({off.x, off.y, off.z}) <= 1 ? std::optional(share) : std::nullopt;
 }
 
-// Half-way up the volume in the middle, and 0.15 mm higher for each to the right and 0.1 for each down, so that each
-// leg has another share of the force.
-void makeSlope(const std::string& path) {
-  constexpr int kFps = 25, kSeconds = 8;
-  const auto slope = [](int, int column, int row, int) {
-    return static_cast<std::uint32_t>(32768 + 218 * (column - kCols / 2) + 146 * (row - kRows / 2));
-  };
-  const test::ClipTrack color{.pix_fmt = "yuv420p",
-                              .width = kCols,
-                              .height = kRows,
-                              .fps_num = kFps,
-                              .frames = kFps * kSeconds,
-                              .tags = {{"title", "color"}}};
-  test::ClipTrack depth = color;
-  depth.pix_fmt = "gray16le";
-  depth.sample = slope;
-  depth.tags = {{"title", "depth"}};
-  test::makeClip(path, {color, depth});
-}
-
-// Once it is homed, down into the slope and in circles there.
-void circle(test::FalconModel& model) {
-  model.grip = [&model, homing = model.grip, homed_s = 0.0](double t_s) mutable {
-    if (!model.homed()) return homing(homed_s = t_s);
-    const double t = t_s - homed_s;
-    return glm::dvec3(6 * std::sin(t), 6 * std::cos(t), 150 - 32 * std::min(t / 2, 1.0));
-  };
-}
-
 TEST(PlayerOnAFalcon, WhatTheTaskComputesArrivesAtTheMotors) {
   const test::TemporaryFolder folder;
 
   test::FalconModel model({});
   model.runFirmware();
-  circle(model);
+  test::circle(model);
   const auto usb = test::plugIn(model, falcon::kUsbId);
   if (usb == nullptr) GTEST_SKIP() << test::kNoPlug;
-  makeSlope(folder / "slope.mkv");
+  test::makeSlope(folder / "slope.mkv");
   const auto played = test::runProgram("relievo play " + (folder / "slope.mkv") +
                                            " --display mock --haptic falcon --duration 7 --report " +
                                            (folder / "r.json") + " --record " + (folder / "t.csv"),
@@ -163,13 +132,13 @@ TEST(CalibrateOnAFalcon, IsCalledOffWhileItWaitsForTheUser) {
 TEST(PlayerOnAFalcon, NoSignalThatEndsItLeavesAForce) {
   if (test::machineIsMocked()) GTEST_SKIP() << "umockdev does not stand a program that dies in the middle of a request";
   const test::TemporaryFolder folder;
-  makeSlope(folder / "slope.mkv");
+  test::makeSlope(folder / "slope.mkv");
   for (const int number : {SIGTERM, SIGSEGV, SIGQUIT, SIGUSR1}) {
     if (number == SIGSEGV && kMemorySanitizer) continue;  // it has a handler of its own
     SCOPED_TRACE(::strsignal(number));
     test::FalconModel model({});
     model.runFirmware();
-    circle(model);
+    test::circle(model);
     const auto usb = test::plugIn(model, falcon::kUsbId);
     if (usb == nullptr) GTEST_SKIP() << test::kNoPlug;
     MonotonicClock clock;

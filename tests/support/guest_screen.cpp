@@ -15,10 +15,9 @@ namespace relievo::test {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr const char* kMonitor = "/dev/ttyS1";
-
 UniqueFd openMonitor() {
-  UniqueFd fd(::open(kMonitor, O_RDWR | O_NOCTTY | O_CLOEXEC));
+  const char* const path = std::getenv("RELIEVO_MONITOR");
+  UniqueFd fd(::open(path != nullptr ? path : "/dev/ttyS1", O_RDWR | O_NOCTTY | O_CLOEXEC));
   termios raw{};
   if (!fd.valid() || ::tcgetattr(fd.get(), &raw) != 0) throw std::runtime_error("QEMU's monitor is not there");
   ::cfmakeraw(&raw);
@@ -63,8 +62,8 @@ ScreenDump GuestScreen::dump() {
   static int dumps = 0;  // each has a name of its own: the guest keeps what it has read of the host
   if (!monitor_.valid()) monitor_ = openMonitor();
   const std::string id = "dump-" + std::to_string(::getpid()) + "-" + std::to_string(++dumps) + ".ppm";
+  tell(monitor_.get(), R"("execute": "screendump", "arguments": {"filename": ")" + id + "\"}", id);
   const std::string path = std::string(std::getenv("RELIEVO_SCREENS")) + "/" + id;
-  tell(monitor_.get(), R"("execute": "screendump", "arguments": {"filename": ")" + path + "\"}", id);
   std::ifstream file(path, std::ios::binary);
   std::string magic;
   ScreenDump dump;

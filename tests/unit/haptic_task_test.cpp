@@ -3,12 +3,14 @@
 #include "app/haptics/haptic_task.h"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <glm/geometric.hpp>
 #include <memory>
 #include <vector>
 
 #include "app/haptics/methods.h"
+#include "platform/cyclic_thread.h"
 #include "tests/support/depth_frames.h"
 #include "tests/support/fake_haptic_device.h"
 
@@ -64,6 +66,14 @@ class HapticTaskTest : public testing::Test {
   std::unique_ptr<HapticTask> task_;
   std::uint64_t index_ = 0;
 };
+
+TEST_F(HapticTaskTest, AllThatItHoldsIsUnderAMebibyte) {
+  const std::size_t rings_and_windows = sizeof(HapticTask);
+  const std::size_t method = ::malloc_usable_size(method_.get());  // one object
+  const std::size_t stack = CyclicConfig{}.stack_bytes;
+  RecordProperty("bytes", static_cast<int>(rings_and_windows + method + stack));
+  EXPECT_LT(rings_and_windows + method + stack, 1U << 20U) << rings_and_windows << " " << method << " " << stack;
+}
 
 TEST_F(HapticTaskTest, PutsTheMiddleOfTheWorkspaceInTheMiddleOfTheVolume) {
   device_.position = {1, 2, 3};

@@ -27,6 +27,17 @@ TEST(Histogram, HasNoQuantileWhileEmpty) {
   EXPECT_EQ(histogram.max(), Duration(0));
 }
 
+TEST(Histogram, TellsHowManyOfEachLength) {
+  Histogram histogram;
+  for (const int ns : {3, 1000, 3}) histogram.add(nanoseconds(ns));
+  std::vector<std::pair<Duration, std::uint64_t>> told;
+  histogram.forEachBucket([&](Duration time, std::uint64_t count) { told.emplace_back(time, count); });
+  ASSERT_EQ(told.size(), 2U);
+  EXPECT_EQ(told[0], std::pair(Duration(3), std::uint64_t{2}));
+  EXPECT_EQ(told[1].second, 1U);
+  EXPECT_LT(relativeError(told[1].first, nanoseconds(1000)), 0.06);
+}
+
 TEST(Histogram, GivesQuantilesWithinSixPercentOfTheSortedValues) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> exponent(0.0,

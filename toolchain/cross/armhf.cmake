@@ -1,0 +1,7 @@
+# SPDX-License-Identifier: Apache-2.0
+# ARMv7 with hardware floating point. Debian's compiler takes the oldest such processor; a box's own takes more, such as
+# -DCMAKE_CXX_FLAGS=-mfpu=neon-vfpv4.
+set(CMAKE_SYSTEM_PROCESSOR arm)
+set(RELIEVO_DEBIAN_ARCH armhf)
+set(RELIEVO_TRIPLET arm-linux-gnueabihf)
+include(${CMAKE_CURRENT_LIST_DIR}/debian.cmake)

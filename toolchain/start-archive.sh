@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+# For toolchain/guest and toolchain/appliance, sourced: the archive that a kernel starts from.
+
+# addModules ROOT KERNEL-TREE MODULES..: copies them and what they need to ROOT/mods, and their order to ROOT/mods/order.
+# One that is built into the kernel is no file.
+addModules() {
+  local root=$1 tree module line needed
+  tree=$2/lib/modules/$(ls "$2/lib/modules")
+  mkdir -p "$root/mods"
+  for module in "${@:3}"; do
+    line=$(grep -E "/${module//-/[-_]}\.ko:" "$tree/modules.dep" || true)
+    [[ -n $line ]] || continue
+    for needed in $(tr ' ' '\n' <<<"${line#*:}" | tac) "${line%%:*}"; do
+      [[ -e $root/mods/$(basename "$needed") ]] && continue
+      cp "$tree/$needed" "$root/mods/"
+      basename "$needed" >>"$root/mods/order"
+    done
+  done
+}
+
+# packArchive ROOT FILE
+packArchive() {
+  (cd "$1" && find . | cpio -o -H newc --quiet | gzip -1) >"$2"
+}
