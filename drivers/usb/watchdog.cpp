@@ -9,7 +9,7 @@ Result<void> Watchdog::start(bool own_thread) {
   barked_ = false;
   own_thread_ = own_thread;
   if (!own_thread) return {};
-  const CyclicConfig config{.name = "relievo-watch", .period = kPatience / 4, .priority = 85};
+  const CyclicConfig config{.name = "relievo-watch", .period = kPatience / 4, .priority = kWatchPriority};
   const auto started = thread_.start(config, *this);
   if (!started) return std::unexpected(started.error());
   return {};

@@ -15,6 +15,7 @@ namespace relievo {
 class Watchdog final : private CyclicTask {
  public:
   static constexpr Duration kPatience = std::chrono::milliseconds(20);
+  static constexpr int kWatchPriority = 85;  // of SCHED_FIFO, above the haptic task's
 
   explicit Watchdog(UsbPort& port) : port_(port), thread_(clock_) {}
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "app/player/options.h"
+#include "drivers/usb/watchdog.h"
 #include "platform/cyclic_thread.h"
 #include "tests/support/clip_maker.h"
 
@@ -48,9 +49,10 @@ std::expected<Options, int> parse(const std::string& line) {
                        "evdev keys window script:FILE none", "alsa[:DEVICE] null none"});
 }
 
-TEST(ServiceUnit, GrantsThePriorityThatTheHapticTaskAsksFor) {
+TEST(ServiceUnit, GrantsThePriorityThatTheHapticTaskAndItsWatchdogAskFor) {
   ASSERT_EQ(values("LimitRTPRIO").size(), 1U);
   EXPECT_GE(std::stoi(values("LimitRTPRIO")[0]), CyclicConfig{}.priority);
+  EXPECT_GE(std::stoi(values("LimitRTPRIO")[0]), Watchdog::kWatchPriority);
   EXPECT_THAT(values("RestrictRealtime"), testing::IsEmpty());
 }
 
