@@ -569,6 +569,13 @@ TEST_F(AuthorFilm, OtherPlayersPlayItAsOrdinaryVideo) {
     return process.wait();
   };
   const auto isThere = [&](const std::string& program) { return shell("command -v " + program) == 0; };
+  // Somebody else's program may hang for reasons of its own; not twice.
+  const auto plays = [&](const std::string& command) {
+    constexpr int kTimedOut = 124;
+    const std::string bounded = "timeout 60 " + command + " </dev/null";
+    const int code = shell(bounded);
+    return (code == kTimedOut ? shell(bounded) : code) == 0;
+  };
   if (!isThere("ffprobe")) GTEST_SKIP() << "no ffprobe: toolchain/setup demo";
   for (const char* out : {"out.mkv", "out.mp4", "out.mov", "out.ts", "out.m3u8"}) {
     ASSERT_TRUE(make(source, out).has_value());
@@ -580,12 +587,12 @@ TEST_F(AuthorFilm, OtherPlayersPlayItAsOrdinaryVideo) {
     EXPECT_THAT(textOf(folder_ / "said/out"), testing::StartsWith("h264,yuv420p,30")) << out;
     EXPECT_EQ(textOf(folder_ / "said/errors"), "") << out;
     if (isThere("mpv")) {
-      EXPECT_EQ(shell("mpv --no-config --frames=30 --vo=null --ao=null --untimed " + film), 0) << out;
+      EXPECT_TRUE(plays("mpv --no-config --frames=30 --vo=null --ao=null --untimed " + film)) << out;
     }
     // Its demuxers of transport streams and HLS are in packages of 80 MB.
     const bool plain = film.ends_with(".mkv") || film.ends_with(".mp4") || film.ends_with(".mov");
     if (plain && isThere("gst-launch-1.0")) {
-      EXPECT_EQ(shell("gst-launch-1.0 -q uridecodebin uri=file://" + film + " ! fakesink"), 0)
+      EXPECT_TRUE(plays("gst-launch-1.0 -q uridecodebin uri=file://" + film + " ! fakesink"))
           << out << ": " << textOf(folder_ / "said/errors");
     }
   }
