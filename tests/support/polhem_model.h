@@ -64,7 +64,7 @@ class PolhemModel final : public HapticModel {
   bool calibrated_ = false;
   double calibrated_s_ = 0;
   int calibrated_at_ = 0;  // its place among the commands
-  EncoderCounts zero_{};  // what is added to the true counts
+  EncoderCounts zero_{};   // what is added to the true counts
   EncoderCounts next_zero_{};
   std::optional<MonotonicTime> zero_from_;  // the next one
   polhem::Command command_;
