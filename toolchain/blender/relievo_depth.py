@@ -77,7 +77,10 @@ def main():
     camera = scene.camera.data
     near, far = camera.clip_start * mm_per_unit, min(camera.clip_end * mm_per_unit, LARGEST_CODE)
     set_up(scene, folder, mm_per_unit)
-    bpy.ops.render.render(animation=True)
+    # One by one: an animation would write the scene's own output as well.
+    for frame in range(scene.frame_start, scene.frame_end + 1, scene.frame_step):
+        scene.frame_set(frame)
+        bpy.ops.render.render()
     rate = scene.render.fps / scene.render.fps_base
     print(f"relievo-author --color {folder}/color-%04d.png --depth {folder}/depth-%04d.png --fps {rate:g} "
           f"--calibration unit=1,invalid=0,near={near:.0f},far={far:.0f} -o film.mkv")
