@@ -126,6 +126,7 @@ TEST_F(PlayConfig, EveryOptionCanStandInTheFileAndIsPrintedAsItReadsBack) {
                                                       {"remote", R"("none")"},
                                                       {"audio", R"("null")"},
                                                       {"volume", R"("200x100.5x30")"},
+                                                      {"software", "true"},
                                                       {"loop", "true"},
                                                       {"duration", "12.5"},
                                                       {"resume", "true"},
