@@ -27,8 +27,8 @@ void fuzz(std::string_view line) {
     isOneObject(errorLine(read.id, read.asked.error()));
   } else if (const auto* command = std::get_if<PlayerCommand>(&*read.asked)) {
     const auto again = parseCommand(wordsOf(*command));
-    require(again && again->verb == command->verb && again->url == command->url, "its words mean the same");
-    isOneObject(statusLine(read.id, {}, command->url));
+    require(again && again->verb == command->verb && again->word == command->word, "its words mean the same");
+    isOneObject(statusLine(read.id, {}, command->word));
   }
 }
 
