@@ -52,7 +52,8 @@ struct Drawn {
   [[nodiscard]] std::vector<double> heightsAt(int c, int r) const {
     std::vector<double> heights;
     for (const TexturedVertex& v : vertices) {
-      if (std::abs(v.x - lattice.x(c)) < 1e-4F && std::abs(v.y - lattice.y(r)) < 1e-4F) heights.push_back(v.z);
+      if (std::abs(v.x - lattice.x(c)) < 1e-4F && std::abs(v.y - lattice.y(r)) < 1e-4F)
+        heights.push_back(static_cast<double>(v.z));
     }
     return heights;
   }
