@@ -41,18 +41,15 @@ void ControlGrid::forgetFrame(int slot) RELIEVO_RT {
   for (std::uint8_t& bits : hole_) bits &= keep;
 }
 
-bool ControlGrid::fill(int i, int j, const Frames& frames, std::uint32_t slots) RELIEVO_RT {
+void ControlGrid::fill(int i, int j, const Frames& frames) RELIEVO_RT {
   const std::size_t p = slotOf(i, j);
   if (i_[p] != i || j_[p] != j) {
     i_[p] = i;
     j_[p] = j;
     filled_[p] = hole_[p] = 0;
-    patch_slots_ = 0;
   }
-  const std::uint32_t missing = slots & ~std::uint32_t{filled_[p]};
-  if (missing == 0) return false;
-  read(p, frames, missing);
-  return true;
+  const std::uint32_t missing = frames.wanted & ~std::uint32_t{filled_[p]};
+  if (missing != 0) read(p, frames, missing);
 }
 
 void ControlGrid::read(std::size_t p, const Frames& frames, std::uint32_t missing) RELIEVO_RT {
@@ -100,7 +97,7 @@ void ControlGrid::patch(int i0, int j0, const Frames& frames, Patch& out) RELIEV
     std::uint32_t holes = 0;
     for (int j = j0; j < j0 + 4; ++j) {
       for (int i = i0; i < i0 + 4; ++i) {
-        fill(i, j, frames, frames.wanted);
+        fill(i, j, frames);
         holes |= hole_[slotOf(i, j)] & frames.wanted;
       }
     }

@@ -53,8 +53,6 @@ class ControlGrid {
   };
   // The control points (i0 .. i0+3, j0 .. j0+3) at the moment that `frames` weighs out.
   void patch(int i0, int j0, const Frames& frames, Patch& out) RELIEVO_RT;
-  // Reads what is missing of a point in the slots that are asked for; true when there was something to read.
-  bool fill(int i, int j, const Frames& frames, std::uint32_t slots) RELIEVO_RT;
   // So far, each in each frame.
   [[nodiscard]] std::uint64_t blocksRead() const RELIEVO_RT { return blocks_read_; }
 
@@ -64,6 +62,8 @@ class ControlGrid {
   [[nodiscard]] static std::size_t slotOf(int i, int j) RELIEVO_RT {
     return static_cast<std::size_t>(j & (kSide - 1)) * kSide + static_cast<std::size_t>(i & (kSide - 1));
   }
+  // Reads what is missing of a point.
+  void fill(int i, int j, const Frames& frames) RELIEVO_RT;
   void read(std::size_t point, const Frames& frames, std::uint32_t missing) RELIEVO_RT;
   [[nodiscard]] double meanOrBridged(const HeightField& field, int c, int r, int width, int height) const RELIEVO_RT;
   [[nodiscard]] float withHoles(std::size_t point, const Frames& frames) const RELIEVO_RT;

@@ -19,22 +19,35 @@ constexpr double kMostLeftOver = 0.5;   // share of the change that a displaceme
 
 using Lattice = std::array<float, static_cast<std::size_t>(kSide) * kSide>;  // row by row, y downward
 
-// The height of the highest step between two neighbours in a row or a column.
-float look(const HeightField& field, double x_mm, double y_mm, Lattice& out) RELIEVO_RT {
-  const GridMapping& grid = field.grid();
-  float step = 0;
-  std::size_t k = 0;
-  for (int j = -kHalf; j <= kHalf; ++j) {
-    const int r = std::clamp(static_cast<int>(std::lround(grid.v(y_mm - j * kPitchMm))), 0, field.rows() - 1);
-    for (int i = -kHalf; i <= kHalf; ++i) {
-      const int c = std::clamp(static_cast<int>(std::lround(grid.u(x_mm + i * kPitchMm))), 0, field.cols() - 1);
-      double z = field.heightMm(c, r);
-      if (std::isnan(z)) z = -field.depthMm();  // a hole is a pit
-      out[k] = static_cast<float>(z);
-      if (i > -kHalf) step = std::max(step, std::abs(out[k] - out[k - 1]));
-      if (j > -kHalf) step = std::max(step, std::abs(out[k] - out[k - kSide]));
-      ++k;
+// Where the lattice's columns and rows lie among the samples.
+struct Places {
+  std::array<int, kSide> columns{}, rows{};
+  Places(const HeightField& field, double x_mm, double y_mm) RELIEVO_RT {
+    const GridMapping& grid = field.grid();
+    const auto nearest = [](double place, int size) {
+      return std::clamp(static_cast<int>(std::lround(place)), 0, size - 1);
+    };
+    for (int k = 0; k < kSide; ++k) {
+      const double away = (k - kHalf) * kPitchMm;
+      columns[static_cast<std::size_t>(k)] = nearest(grid.u(x_mm + away), field.cols());
+      rows[static_cast<std::size_t>(k)] = nearest(grid.v(y_mm - away), field.rows());
     }
+  }
+};
+
+// The height of the highest step between two neighbours in a row or a column.
+float look(const HeightField& field, const Places& places, Lattice& out) RELIEVO_RT {
+  float* line = out.data();
+  for (const int r : places.rows) {
+    field.readRow(r, places.columns, line);
+    line += kSide;
+  }
+  const auto pit = static_cast<float>(-field.depthMm());  // a hole is one
+  for (float& z : out) z = std::isnan(z) ? pit : z;
+  float step = 0;
+  for (std::size_t k = kSide; k < out.size(); ++k) step = std::max(step, std::abs(out[k] - out[k - kSide]));
+  for (std::size_t row = 0; row < out.size(); row += kSide) {
+    for (std::size_t k = row + 1; k < row + kSide; ++k) step = std::max(step, std::abs(out[k] - out[k - 1]));
   }
   return step;
 }
@@ -65,8 +78,9 @@ glm::dvec2 edgeMotion(const HeightField& from, const HeightField& to, double x_m
   const glm::dvec2 still(0);
   if (!(std::abs(x_mm) < 1e6 && std::abs(y_mm) < 1e6)) return still;
   Lattice before, after;
-  if (look(from, x_mm, y_mm, before) < static_cast<float>(kLeastStepMm)) return still;
-  static_cast<void>(look(to, x_mm, y_mm, after));
+  const Places places(from, x_mm, y_mm);
+  if (look(from, places, before) < static_cast<float>(kLeastStepMm)) return still;
+  static_cast<void>(look(to, places, after));
 
   double change = 0, sx = 0, sy = 0;
   for (int j = 0; j < kSide; ++j) {

@@ -42,12 +42,12 @@ bool FeltSurface::moment(const SurfaceWindow& window, MediaTime now) RELIEVO_RT 
   if (window.epoch != epoch_ || field.cols() != cols_ || field.rows() != rows_ || slots_.in_use == 0) {
     setPicture(window);
   }
-  if (placeFrames(window)) prepared_ = false;
+  placeFrames(window);
   slots_.window = &window;
   const FrameMoment moment(window, now);
   shot_ = window.frames[static_cast<std::size_t>(moment.present)].shot;
   std::optional<double> since_prepared_s;
-  if (prepared_ && now >= prepared_from_ && now < prepared_until_ &&
+  if (prepared_ && weighedAt(window, moment) == prepared_on_ &&
       std::chrono::abs(now - prepared_for_) <= kPreparedWithin) {
     since_prepared_s = toSeconds(now - prepared_for_);
   }
@@ -62,6 +62,7 @@ bool FeltSurface::moment(const SurfaceWindow& window, MediaTime now) RELIEVO_RT 
 void FeltSurface::setPicture(const SurfaceWindow& window) RELIEVO_RT {
   const HeightField& field = window.frames[0].field;
   epoch_ = window.epoch;
+  prepared_ = false;
   cols_ = field.cols();
   rows_ = field.rows();
   depth_mm_ = field.depthMm();
@@ -78,12 +79,10 @@ void FeltSurface::setPicture(const SurfaceWindow& window) RELIEVO_RT {
 }
 
 // Gives every frame of the window a slot of the caches, the one it had if it had one; those that repeat each other have
-// one slot, which goes by the time of the newest. False: nothing has changed.
-bool FeltSurface::placeFrames(const SurfaceWindow& window) RELIEVO_RT {
+// one slot, which goes by the time of the newest.
+void FeltSurface::placeFrames(const SurfaceWindow& window) RELIEVO_RT {
   const auto last = static_cast<std::size_t>(window.count - 1);
-  if (window.count == count_ && window.frames[0].time == first_time_ && window.frames[last].time == last_time_) {
-    return false;
-  }
+  if (window.count == count_ && window.frames[0].time == first_time_ && window.frames[last].time == last_time_) return;
   count_ = window.count;
   first_time_ = window.frames[0].time;
   last_time_ = window.frames[last].time;
@@ -118,7 +117,6 @@ bool FeltSurface::placeFrames(const SurfaceWindow& window) RELIEVO_RT {
     slots_.frame[slots_.of_frame[f]] = static_cast<std::uint8_t>(f);
     time_of_slot_[slots_.of_frame[f]] = window.frames[f].time;
   }
-  return true;
 }
 
 // On the present frame as the edge has left it, and on the next as it comes.
@@ -179,21 +177,24 @@ void FeltSurface::followEdge(const SurfaceWindow& window, MediaTime next, const 
   if (!to.repeats) edge_way_mm_ = edgeMotion(from.field, to.field, x_mm, y_mm);
 }
 
-void FeltSurface::prepare(const SurfaceWindow& window, MediaTime next, double x_mm, double y_mm,
-                          int points) RELIEVO_RT {
+FeltSurface::Weighed FeltSurface::weighedAt(const SurfaceWindow& window, const FrameMoment& moment) RELIEVO_RT {
+  const auto time = [&](int frame) RELIEVO_RT {
+    return window.frames[static_cast<std::size_t>(std::clamp(frame, moment.first, moment.last))].time;
+  };
+  return {time(moment.present - 2), time(moment.present), time(moment.present + 3)};
+}
+
+void FeltSurface::prepare(const SurfaceWindow& window, MediaTime next, double x_mm, double y_mm) RELIEVO_RT {
   constexpr Duration kStep = kPreparedWithin;
   const FrameMoment moment(window, next), later(window, next + kStep);
-  const auto present = static_cast<std::size_t>(moment.present);
   prepared_ = true;
   prepared_for_ = next;
-  prepared_from_ = present > 0 ? window.frames[present].time : MediaTime::min();
-  prepared_until_ =
-      present + 1 < static_cast<std::size_t>(window.count) ? window.frames[present + 1].time : MediaTime::max();
+  prepared_on_ = weighedAt(window, moment);
   if (two_levels_) followEdge(window, next, moment, x_mm, y_mm);
   // Where a frame begins in between, the later moment tells nothing about how the surface goes on.
   const FrameMoment& comparable = later.present == moment.present ? later : moment;
-  narrow_.prepare(slots_, x_mm, y_mm, points, moment, comparable, toSeconds(kStep));
-  if (two_levels_) wide_.prepare(slots_, x_mm, y_mm, points, moment, comparable, toSeconds(kStep));
+  narrow_.prepare(slots_, x_mm, y_mm, moment, comparable, toSeconds(kStep));
+  if (two_levels_) wide_.prepare(slots_, x_mm, y_mm, moment, comparable, toSeconds(kStep));
 }
 
 }  // namespace relievo

@@ -49,15 +49,15 @@ class FeltSurface {
   }
 
   // After `moment`, on the same window: what can be done ahead of a tick that is likely to come at `next`, with the
-  // proxy near (x, y). Reads at most `points` control points of each level in frames that do not count yet.
-  void prepare(const SurfaceWindow& window, MediaTime next, double x_mm, double y_mm, int points) RELIEVO_RT;
+  // proxy near (x, y). It holds as long as the frames that count are the same, though the window has gone on.
+  void prepare(const SurfaceWindow& window, MediaTime next, double x_mm, double y_mm) RELIEVO_RT;
 
  private:
   [[nodiscard]] SurfacePoint narrowAt(double x_mm, double y_mm) RELIEVO_RT;
   void followEdge(const SurfaceWindow& window, MediaTime next, const FrameMoment& moment, double x_mm,
                   double y_mm) RELIEVO_RT;
   void setPicture(const SurfaceWindow& window) RELIEVO_RT;
-  [[nodiscard]] bool placeFrames(const SurfaceWindow& window) RELIEVO_RT;
+  void placeFrames(const SurfaceWindow& window) RELIEVO_RT;
 
   FeltScale scale_;
   SurfaceLevel narrow_, wide_;
@@ -79,9 +79,18 @@ class FeltSurface {
   bool edge_moves_ = false;  // at this moment
   double share_ = 0;         // of the way, at this moment
 
-  // For which moment the levels are prepared, and between which two frames that lies.
+  // The first and the last frame that have a weight at a moment, and the present one. Frames come in their order: where
+  // these three are the same, so are all between.
+  struct Weighed {
+    MediaTime first, present, last;
+    bool operator==(const Weighed&) const = default;
+  };
+  [[nodiscard]] static Weighed weighedAt(const SurfaceWindow& window, const FrameMoment& moment) RELIEVO_RT;
+
+  // For which moment the levels are prepared, and on which frames.
   bool prepared_ = false;
-  MediaTime prepared_for_, prepared_from_, prepared_until_;
+  MediaTime prepared_for_;
+  Weighed prepared_on_;
 };
 
 }  // namespace relievo

@@ -14,8 +14,6 @@ constexpr int kMostPasses = 4;
 // 128 samples half a pitch apart: 28 mm, a finger that comes back from a gap of 5 ticks at 5 m/s.
 constexpr int kMostSamples = 128;
 constexpr int kBisections = 6;
-// Points of frames to come that are read in one tick's upkeep.
-constexpr int kPointsAhead = 2;
 constexpr Duration kLongestStep = std::chrono::milliseconds(10);
 
 bool isFinite(const glm::dvec3& p) RELIEVO_RT {
@@ -120,7 +118,7 @@ void RelievoMethod::upkeep(const SurfaceWindow& window, MediaTime now) RELIEVO_R
   if (!had_surface_) return;
   // The next tick comes as long after this one as this one after the last; a pause stands still.
   const Duration step = std::clamp(now - now_, Duration(0), kLongestStep);
-  surface_.prepare(window, now + step, ahead_mm_.x, ahead_mm_.y, kPointsAhead);
+  surface_.prepare(window, now + step, ahead_mm_.x, ahead_mm_.y);
   now_ = now;
 }
 

@@ -123,7 +123,7 @@ SurfacePoint SurfaceLevel::pointOn(const Patch& p, const Cell& cell) const RELIE
   return {d(low[0]), d(low[1]) * da, d(low[2]) * db, d(low[3]) * da * da, d(high[0]) * da * db, d(high[1]) * db * db};
 }
 
-void SurfaceLevel::prepare(const FrameSlots& slots, double x_mm, double y_mm, int points, const FrameMoment& next,
+void SurfaceLevel::prepare(const FrameSlots& slots, double x_mm, double y_mm, const FrameMoment& next,
                            const FrameMoment& later, double step_s) RELIEVO_RT {
   const Cell cell = cellOf(x_mm, y_mm);
   prepared_i_ = cell.i;
@@ -139,9 +139,6 @@ void SurfaceLevel::prepare(const FrameSlots& slots, double x_mm, double y_mm, in
       if ((prepared_rate_[j][i] == pit) != (prepared_[j][i] == pit)) prepared_rate_[j][i] = prepared_[j][i];
     }
     prepared_rate_[j] = (prepared_rate_[j] - prepared_[j]) / static_cast<float>(step_s);
-  }
-  for (int k = 0; k < 16 && points > 0; ++k) {
-    if (grid_.fill(cell.i + k % 4, cell.j + k / 4, frames_, slots.in_use)) --points;
   }
 }
 

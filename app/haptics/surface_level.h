@@ -45,10 +45,10 @@ class SurfaceLevel {
   // The same on one frame alone: the present one (0) or the next (1).
   [[nodiscard]] SurfacePoint atFrame(std::size_t which, double x_mm, double y_mm) RELIEVO_RT;
 
-  // Ahead of the moment `next`, for a place: reads the points around it, and of them at most `points` in frames that do
-  // not count yet, and weighs them out for `next` and for `later`, which comes `step_s` after it.
-  void prepare(const FrameSlots& slots, double x_mm, double y_mm, int points, const FrameMoment& next,
-               const FrameMoment& later, double step_s) RELIEVO_RT;
+  // Ahead of the moment `next`, for a place: reads the points around it and weighs them out for `next` and for `later`,
+  // which comes `step_s` after it.
+  void prepare(const FrameSlots& slots, double x_mm, double y_mm, const FrameMoment& next, const FrameMoment& later,
+               double step_s) RELIEVO_RT;
 
  private:
   struct Cell {

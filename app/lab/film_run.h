@@ -54,11 +54,11 @@ struct PlayedTick {
   Duration update{0}, upkeep{0};  // by the monotonic clock, its own cost not taken off
 };
 
-// One method on one film, tick by tick: in the window are the frames from two before the present one to three after
-// it. Times must not go back. `film` and `method` outlive it; the method is reset.
+// One method on one film, tick by tick, with the player's frames in the window. Times must not go back. `film` and
+// `method` outlive it; the method is reset.
 class FilmRun {
  public:
-  static constexpr int kBefore = 2, kAhead = 3;
+  static constexpr int kBefore = SurfaceWindow::kBefore, kAhead = SurfaceWindow::kAhead;
 
   FilmRun(const MemoryFilm& film, TouchMethod& method);
   // `truth` is left to the caller.

@@ -147,7 +147,7 @@ double HeightField::fromHue(const std::uint8_t* pixel) const RELIEVO_RT {
   return std::isnan(hue) ? kHole : fromNormalised(s_offset_ + s_scale_ * hue);
 }
 
-bool HeightField::readRow(int r, std::span<const int> columns, float* heights_mm) const noexcept {
+bool HeightField::readRow(int r, std::span<const int> columns, float* heights_mm) const RELIEVO_RT {
   if (plain_) {
     const std::uint8_t* line = data_ + r * stride_bytes_;
     const auto offset = static_cast<float>(depth_mm_ * s_offset_), scale = static_cast<float>(depth_mm_ * s_scale_);

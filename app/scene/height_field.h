@@ -41,7 +41,7 @@ class HeightField {
   }
 
   // The heights of some samples of a row, in the order asked for. Whether there is a hole among them.
-  bool readRow(int r, std::span<const int> columns, float* heights_mm) const noexcept;
+  bool readRow(int r, std::span<const int> columns, float* heights_mm) const RELIEVO_RT;
 
   // The mean height of the samples in a block that lies inside the picture, of which about `most` are read across and
   // as many down, evenly spread about its centre. Not a number when less than half of those read have a height.
