@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
@@ -95,7 +96,7 @@ std::vector<std::uint8_t> findWide(std::vector<std::uint8_t>& unknown, const Dep
   return wide;
 }
 
-// The nearest known sample in each of eight directions, with its distance.
+// The nearest known sample in each of 32 directions, with its distance.
 class Surroundings {
  public:
   Surroundings(const DepthMap& map, const std::vector<std::uint8_t>& unknown, int c, int r, int farthest) {
@@ -106,17 +107,18 @@ class Surroundings {
         const std::size_t i = map.at(x, y);
         if (unknown[i] != 0) continue;
         codes_[count_] = map.codes[i];
-        weights_[count_++] = 1.0F / (static_cast<float>(d) * (dc != 0 && dr != 0 ? 1.414F : 1.0F));
+        weights_[count_++] = 1.0F / (static_cast<float>(d) * std::sqrt(static_cast<float>(dc * dc + dr * dr)));
         break;
       }
     }
   }
   [[nodiscard]] bool empty() const { return count_ == 0; }
-  // The farthest code, unless at least two more directions see another one.
+  // The farthest code, unless more directions see another one. Where a hole is closed all round one more is enough: it
+  // lies across an edge as it comes. A long one is likely to lie beside something near: there it takes a quarter more.
   [[nodiscard]] float mostSeen(float alike) const {
-    constexpr int kMore = 2;
+    const int more = count_ == static_cast<int>(kDirections.size()) ? 1 : kDirections.size() / 4;
     float best = *std::min_element(begin(), end());
-    int wanted = seen(best, alike) + kMore;
+    int wanted = seen(best, alike) + more;
     for (int i = 0; i < count_; ++i) {
       if (seen(codes_[i], alike) < wanted) continue;
       best = codes_[i];
@@ -136,8 +138,17 @@ class Surroundings {
   }
 
  private:
-  static constexpr std::array<std::pair<int, int>, 8> kDirections{
-      {{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, 1}, {-1, 1}, {1, -1}}};
+  // To the samples within three across and down that no other one hides.
+  static constexpr auto kDirections = [] {
+    std::array<std::pair<int, int>, 32> all{};
+    std::size_t count = 0;
+    for (int dr = -3; dr <= 3; ++dr) {
+      for (int dc = -3; dc <= 3; ++dc) {
+        if (std::gcd(dc, dr) == 1) all[count++] = {dc, dr};
+      }
+    }
+    return all;
+  }();
   [[nodiscard]] int seen(float code, float alike) const {
     return static_cast<int>(
         std::count_if(begin(), end(), [&](float other) { return std::abs(other - code) <= alike; }));
@@ -197,12 +208,16 @@ CleaningCounts fillHoles(DepthMap& map, float noise) {
     for (int c = 0; c < map.cols; ++c) {
       const std::size_t i = map.at(c, r);
       if (unknown[i] == 0) continue;
-      const Surroundings around(map, unknown, c, r, 2 * radius + 1);
-      if (wide[i] == 0 && !around.empty()) {
-        filled.codes[i] = around.meanAround(around.mostSeen(alike), alike);
-        filled.holes[i] = 0;
-        ++counts.filled;
-      } else if (counts.holes > 0) {  // where a picture has none, what nobody can place stays as it is
+      if (wide[i] == 0) {
+        const Surroundings around(map, unknown, c, r, 2 * radius + 1);
+        if (!around.empty()) {
+          filled.codes[i] = around.meanAround(around.mostSeen(alike), alike);
+          filled.holes[i] = 0;
+          ++counts.filled;
+          continue;
+        }
+      }
+      if (counts.holes > 0) {  // where a picture has none, what nobody can place stays as it is
         filled.codes[i] = 0;
         filled.holes[i] = 1;
       }

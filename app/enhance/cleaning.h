@@ -16,8 +16,8 @@ struct CleaningCounts {
 
 // Samples that are like fewer than three of the 24 around them become unknown. What is unknown is filled where it is
 // narrower than a fortieth of the picture's width, and is a hole where it is wider: a guess is no measurement. What is
-// filled goes on as the side does that most of eight directions see, so that an edge goes straight through a hole. Of
-// two sides that are seen about alike it is the farther: beside something near a camera does not see what lies behind.
+// filled goes on as the side does that most directions see, so that an edge goes straight through a hole. Beside a long
+// hole it is the farther of two sides that are seen about alike: behind something near a camera does not see.
 // `noise` is the standard deviation of the codes.
 CleaningCounts fillHoles(DepthMap& map, float noise);
 

@@ -16,6 +16,10 @@ constexpr float kNear = 50000, kFar = 10000;
 
 using test::mapOf;
 
+bool isNear(float code) {
+  return code > 0.5F * (kNear + kFar);
+}
+
 template <class Where>
 std::size_t punch(DepthMap& map, Where&& where) {
   std::size_t count = 0;
@@ -78,6 +82,36 @@ TEST(EnhanceCleaning, LeadsAnEdgeStraightThroughAHole) {
   for (int r = 0; r < map.rows; ++r) {
     for (int c = 0; c < map.cols; ++c) EXPECT_NEAR(map.codes[map.at(c, r)], edge(c, r), 0.1) << c << " " << r;
   }
+}
+
+TEST(EnhanceCleaning, LeadsASlantedEdgeThroughHolesWithinASample) {
+  for (const double slope : {-0.9, -0.5, -0.2, 0.1, 0.35, 0.7, 1.0}) {
+    for (int aside = -3; aside <= 3; ++aside) {
+      const auto edge = [&](int r) { return 360 + slope * (r - 45); };
+      auto map = mapOf(720, 90, [&](int c, int r) { return c < edge(r) ? kNear : kFar; });
+      const DepthMap whole = map;
+      punch(map, [&](int c, int r) { return std::hypot(c - 360 - aside, r - 45) <= 4; });
+      fillHoles(map, 0);
+      for (int r = 0; r < map.rows; ++r) {
+        int off = 0;
+        for (std::size_t i = map.at(0, r); i < map.at(0, r + 1); ++i)
+          off += isNear(map.codes[i]) != isNear(whole.codes[i]) ? 1 : 0;
+        EXPECT_LE(off, 1) << "slope " << slope << ", hole " << aside << " beside the edge, row " << r;
+      }
+    }
+  }
+}
+
+TEST(EnhanceCleaning, FillsASlantedShadowMostlyFromBehind) {
+  const auto edge = [](int r) { return 200 + r / 3; };
+  auto map = mapOf(720, 90, [&](int c, int r) { return c < edge(r) ? kNear : kFar; });
+  const std::size_t holes = punch(map, [&](int c, int r) { return c >= edge(r) && c < edge(r) + 10; });
+  fillHoles(map, 0);
+  std::size_t near = 0;
+  for (int r = 0; r < map.rows; ++r) {
+    for (int c = edge(r); c < edge(r) + 10; ++c) near += isNear(map.codes[map.at(c, r)]) ? 1 : 0;
+  }
+  EXPECT_LT(near, holes / 20);
 }
 
 TEST(EnhanceCleaning, ReplacesSalt) {
