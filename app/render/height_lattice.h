@@ -28,6 +28,10 @@ class HeightLattice {
   [[nodiscard]] int cols() const noexcept { return static_cast<int>(columns_.size()); }  // vertices
   [[nodiscard]] int rows() const noexcept { return static_cast<int>(rows_.size()); }
   [[nodiscard]] std::size_t size() const noexcept { return heights_.size(); }
+  // Of a vertex, counted row by row.
+  [[nodiscard]] int rowOf(std::uint32_t vertex) const noexcept {
+    return static_cast<int>(vertex / static_cast<std::uint32_t>(columns_.size()));
+  }
   [[nodiscard]] const float* heights() const noexcept { return heights_.data(); }  // mm, row by row
   [[nodiscard]] float* heights() noexcept { return heights_.data(); }
   // The sample under a vertex, its place in mm and in the picture, 0 to 1.

@@ -9,28 +9,20 @@ void ReliefTriangles::build(const HeightField& field, const DisplayVolume& volum
   cuts_.find(lattice_, lattice_.jumpMm());
   network_.measure(lattice_, cuts_);
   network_.triangulate(static_cast<float>(detail.error_mm));
-  slots_.assign(lattice_.size(), 0);
   vertices_.clear();
-  indices_.clear();
+  for (const std::uint32_t vertex : network_.vertices()) {
+    const int j = lattice_.rowOf(vertex), i = static_cast<int>(vertex) - j * lattice_.cols();
+    vertices_.push_back({lattice_.x(i), lattice_.y(j), lattice_.heights()[vertex], lattice_.u(i), lattice_.v(j)});
+  }
+  indices_.resize(3 * network_.triangles().size());
+  auto index = indices_.begin();
   for (const auto& [a, b, c] : network_.triangles()) {
-    for (const std::uint32_t vertex : {a, b, c}) indices_.push_back(use(vertex));
+    for (const std::uint32_t place : {a, b, c}) *index++ = place;
   }
   addFrame(volume, static_cast<float>(detail.view.screen_z_mm));
   SilhouetteDrawer silhouettes(lattice_, detail.view, vertices_, indices_);
-  for (const std::uint32_t corner : cuts_.cells()) silhouettes.drawCell(corner, slots_);
+  for (const std::uint32_t corner : cuts_.cells()) silhouettes.drawCell(corner, network_.slots());
   addFloor(volume, static_cast<float>(detail.view.screen_z_mm));
-}
-
-std::uint32_t ReliefTriangles::use(std::uint32_t lattice_vertex) {
-  std::uint32_t& slot = slots_[lattice_vertex];
-  if (slot == 0) {
-    const auto cols = static_cast<std::uint32_t>(lattice_.cols());
-    const auto j = static_cast<int>(lattice_vertex / cols), i = static_cast<int>(lattice_vertex % cols);
-    vertices_.push_back(
-        {lattice_.x(i), lattice_.y(j), lattice_.heights()[lattice_vertex], lattice_.u(i), lattice_.v(j)});
-    slot = static_cast<std::uint32_t>(vertices_.size());
-  }
-  return slot - 1;
 }
 
 // Along each side, from vertex to vertex of those in use, a strip out to the picture's rectangle.
@@ -49,10 +41,9 @@ void ReliefTriangles::addFrame(const DisplayVolume& volume, float screen_z_mm) {
     std::uint32_t before = 0, outside_before = 0;
     bool begun = false;
     for (int k = 0; k <= count; ++k, i += step_i, j += step_j) {
-      const auto vertex = static_cast<std::uint32_t>(j * lattice_.cols() + i);
-      const bool corner = k == 0 || k == count;
-      if (slots_[vertex] == 0 && !corner) continue;
-      const std::uint32_t inner = use(vertex);
+      const std::uint32_t slot = network_.slots()[static_cast<std::size_t>(j * lattice_.cols() + i)];
+      if (slot == 0) continue;  // the corners are among those in use
+      const std::uint32_t inner = slot - 1;
       vertices_.push_back(outer(vertices_[inner], i, j));
       const auto outside = static_cast<std::uint32_t>(vertices_.size() - 1);
       if (begun) {

@@ -38,14 +38,12 @@ class ReliefTriangles {
   [[nodiscard]] std::size_t cutCells() const noexcept { return cuts_.cells().size(); }
 
  private:
-  std::uint32_t use(std::uint32_t lattice_vertex);
   void addFrame(const DisplayVolume& volume, float screen_z_mm);
   void addFloor(const DisplayVolume& volume, float screen_z_mm);
 
   HeightLattice lattice_;
   CutCells cuts_;
   TriangleNetwork network_;
-  std::vector<std::uint32_t> slots_;  // of a lattice vertex: its place among the vertices, and 1
   std::vector<TexturedVertex> vertices_;
   std::vector<std::uint32_t> indices_;
 };

@@ -95,12 +95,14 @@ void TriangleNetwork::measureMiddles(const float* z, int step) {
 void TriangleNetwork::triangulate(float error_mm) {
   error_mm_ = error_mm;
   triangles_.clear();
+  vertices_.clear();
+  slots_.assign(errors_.size(), 0);
   const int depth = 2 * std::countr_zero(static_cast<unsigned>(tile_));
-  const auto vertex = [this](int i, int j) { return static_cast<std::uint32_t>(j * cols_ + i); };
+  const auto vertex = [this](int i, int j) { return use(static_cast<std::uint32_t>(j * cols_ + i)); };
   for (int j = 0; j + 1 < rows_; j += tile_) {
     for (int i = 0; i + 1 < cols_; i += tile_) {
-      const std::uint32_t top_left = vertex(i, j), top_right = vertex(i + tile_, j);
-      const std::uint32_t low_left = vertex(i, j + tile_), low_right = vertex(i + tile_, j + tile_);
+      const Corner top_left = vertex(i, j), top_right = vertex(i + tile_, j);
+      const Corner low_left = vertex(i, j + tile_), low_right = vertex(i + tile_, j + tile_);
       if (((i + j) / tile_ & 1) == 0) {
         split(top_left, low_right, top_right, depth);
         split(low_right, top_left, low_left, depth);
@@ -112,19 +114,29 @@ void TriangleNetwork::triangulate(float error_mm) {
   }
 }
 
-void TriangleNetwork::split(std::uint32_t a, std::uint32_t b, std::uint32_t apex, int depth) {
-  const std::uint32_t middle = (a + b) / 2;
+TriangleNetwork::Corner TriangleNetwork::use(std::uint32_t vertex) {
+  std::uint32_t& slot = slots_[vertex];
+  if (slot == 0) {
+    vertices_.push_back(vertex);
+    slot = static_cast<std::uint32_t>(vertices_.size());
+  }
+  return {vertex, slot - 1};
+}
+
+void TriangleNetwork::split(Corner a, Corner b, Corner apex, int depth) {
+  const std::uint32_t middle = (a.vertex + b.vertex) / 2;
   if (depth > 0 && errors_[middle] > error_mm_) {
-    split(apex, a, middle, depth - 1);
-    split(b, apex, middle, depth - 1);
+    const Corner between = use(middle);
+    split(apex, a, between, depth - 1);
+    split(b, apex, between, depth - 1);
     return;
   }
   if (depth == 0) {
     // Half a cell: a and b are its top left and low right corners, or its top right and low left ones.
-    const std::uint32_t upper = std::min(a, b), apart = std::max(a, b) - upper;
+    const std::uint32_t upper = std::min(a.vertex, b.vertex), apart = std::max(a.vertex, b.vertex) - upper;
     if (cuts_->contains(apart < static_cast<std::uint32_t>(cols_) ? upper - 1 : upper)) return;
   }
-  triangles_.push_back({a, b, apex});
+  triangles_.push_back({a.place, b.place, apex.place});
 }
 
 }  // namespace relievo

@@ -18,7 +18,7 @@ namespace relievo {
 class TriangleNetwork {
  public:
   struct Triangle {
-    std::uint32_t a, b, c;  // vertices of the lattice, counterclockwise to the viewer
+    std::uint32_t a, b, c;  // places in vertices(), counterclockwise to the viewer
   };
 
   // From the fine to the coarse. A cut cell is reached by the finest triangles alone, and none of them covers it. Both
@@ -28,19 +28,28 @@ class TriangleNetwork {
   void triangulate(float error_mm);
 
   [[nodiscard]] const std::vector<Triangle>& triangles() const noexcept { return triangles_; }
+  // Of the lattice: the corners of its tiles, and what triangles were split at.
+  [[nodiscard]] const std::vector<std::uint32_t>& vertices() const noexcept { return vertices_; }
+  // Of each vertex of the lattice its place in vertices(), counted from 1; 0 where it is not among them.
+  [[nodiscard]] const std::vector<std::uint32_t>& slots() const noexcept { return slots_; }
 
  private:
   void markCuts();
   void measureFinest(const float* z);
   void measureSides(const float* z, int step);
   void measureMiddles(const float* z, int step);
-  void split(std::uint32_t a, std::uint32_t b, std::uint32_t apex, int depth);
+  struct Corner {
+    std::uint32_t vertex, place;
+  };
+  Corner use(std::uint32_t vertex);
+  void split(Corner a, Corner b, Corner apex, int depth);
 
   const CutCells* cuts_ = nullptr;
   int cols_ = 0, rows_ = 0, tile_ = 1;
   float error_mm_ = 0;
   std::vector<float> errors_;
   std::vector<Triangle> triangles_;
+  std::vector<std::uint32_t> vertices_, slots_;
 };
 
 }  // namespace relievo

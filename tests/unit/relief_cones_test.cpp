@@ -63,7 +63,9 @@ TEST_F(Cones, NoTriangleLiesAcrossATrueSilhouette) {
   const float jump = 1.01F * jumpPixels();
   EXPECT_LT(jump, 3) << "of 55";
   int across = 0;
-  for (const auto& triangle : network.triangles()) {
+  const auto& vertices = network.vertices();
+  for (const auto& places : network.triangles()) {
+    const TriangleNetwork::Triangle triangle{vertices[places.a], vertices[places.b], vertices[places.c]};
     const int ai = static_cast<int>(triangle.a) % cols, aj = static_cast<int>(triangle.a) / cols;
     const int bi = static_cast<int>(triangle.b) % cols, bj = static_cast<int>(triangle.b) / cols;
     const int ci = static_cast<int>(triangle.c) % cols, cj = static_cast<int>(triangle.c) / cols;

@@ -46,6 +46,11 @@ int area(Point a, Point b, Point c) {
   return (b.i - a.i) * (c.j - a.j) - (c.i - a.i) * (b.j - a.j);
 }
 
+TriangleNetwork::Triangle onLattice(const TriangleNetwork& network, const TriangleNetwork::Triangle& places) {
+  const auto& vertices = network.vertices();
+  return {vertices[places.a], vertices[places.b], vertices[places.c]};
+}
+
 // The largest distance along z between a triangle and the lattice's points in it; how often each point lies inside or
 // on the border of one.
 struct Fit {
@@ -56,7 +61,8 @@ Fit fitOf(const HeightLattice& lattice, const TriangleNetwork& network) {
   Fit fit;
   fit.covered.assign(lattice.size(), 0);
   const auto z = [&](std::size_t vertex) { return static_cast<double>(lattice.heights()[vertex]); };
-  for (const auto& triangle : network.triangles()) {
+  for (const auto& places : network.triangles()) {
+    const auto triangle = onLattice(network, places);
     const Point a = at(lattice, triangle.a), b = at(lattice, triangle.b), c = at(lattice, triangle.c);
     const int whole = area(a, b, c);
     EXPECT_LT(whole, 0) << "turned over";
@@ -79,7 +85,8 @@ Fit fitOf(const HeightLattice& lattice, const TriangleNetwork& network) {
 // a vertex lie on the middle of another triangle's side.
 int openSides(const HeightLattice& lattice, const TriangleNetwork& network) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides;
-  for (const auto& [a, b, c] : network.triangles()) {
+  for (const auto& places : network.triangles()) {
+    const auto [a, b, c] = onLattice(network, places);
     for (const auto& [from, to] : {std::pair{a, b}, {b, c}, {c, a}}) ++sides[{from, to}];
   }
   int open = 0;
@@ -136,7 +143,8 @@ TEST(TriangleNetwork, CoversEveryPointWithoutCracks) {
     EXPECT_EQ(std::count(fit.covered.begin(), fit.covered.end(), 0), 0);
     EXPECT_EQ(openSides(lattice, network), 0);
     int twice_area = 0;
-    for (const auto& [a, b, c] : network.triangles()) {
+    for (const auto& places : network.triangles()) {
+      const auto [a, b, c] = onLattice(network, places);
       twice_area -= area(at(lattice, a), at(lattice, b), at(lattice, c));
     }
     EXPECT_EQ(twice_area, 2 * (lattice.cols() - 1) * (lattice.rows() - 1));
@@ -166,13 +174,15 @@ TEST(TriangleNetwork, NoTriangleLiesAcrossASilhouette) {
   network.measure(lattice, cuts);
   network.triangulate(0.5F);
   const auto isHigh = [&](std::uint32_t vertex) { return lattice.heights()[vertex] > 15; };
-  for (const auto& [a, b, c] : network.triangles()) {
+  for (const auto& places : network.triangles()) {
+    const auto [a, b, c] = onLattice(network, places);
     ASSERT_EQ(isHigh(a), isHigh(b));
     ASSERT_EQ(isHigh(b), isHigh(c));
   }
   EXPECT_LE(fitOf(lattice, network).worst_mm, 0.5);
   int twice_area = 0;
-  for (const auto& [a, b, c] : network.triangles()) {
+  for (const auto& places : network.triangles()) {
+    const auto [a, b, c] = onLattice(network, places);
     twice_area -= area(at(lattice, a), at(lattice, b), at(lattice, c));
   }
   const auto cut = static_cast<int>(cuts.cells().size());
