@@ -41,7 +41,8 @@ void ReliefTriangles::addFrame(const DisplayVolume& volume, float screen_z_mm) {
     std::uint32_t before = 0, outside_before = 0;
     bool begun = false;
     for (int k = 0; k <= count; ++k, i += step_i, j += step_j) {
-      const std::uint32_t slot = network_.slots()[static_cast<std::size_t>(j * lattice_.cols() + i)];
+      const auto vertex = static_cast<std::uint32_t>(j * lattice_.cols() + i);
+      const std::uint32_t slot = network_.slots()[vertex];
       if (slot == 0) continue;  // the corners are among those in use
       const std::uint32_t inner = slot - 1;
       vertices_.push_back(outer(vertices_[inner], i, j));
