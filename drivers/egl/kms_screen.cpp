@@ -227,7 +227,9 @@ Result<void> Screen::finishFlip(Duration longest) {
     if (left <= Duration(0))
       return fail(ErrorCode::Lost, "the screen does not show what it is given; it is opened anew");
     pollfd ready{.fd = card_, .events = POLLIN, .revents = 0};
-    const timespec wait{.tv_sec = left.count() / 1'000'000'000, .tv_nsec = left.count() % 1'000'000'000};
+    timespec wait{};  // its fields are of 32 bits on some machines
+    wait.tv_sec = static_cast<decltype(wait.tv_sec)>(left.count() / 1'000'000'000);
+    wait.tv_nsec = static_cast<decltype(wait.tv_nsec)>(left.count() % 1'000'000'000);
     if (::ppoll(&ready, 1, &wait, nullptr) <= 0) continue;
     if (auto read = readEvents(); !read) return read;
   }
