@@ -10,6 +10,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cerrno>
@@ -95,6 +96,12 @@ class Stack {
   [[nodiscard]] void* bottom() const noexcept { return base_ + guardBytes(); }
   [[nodiscard]] std::size_t bytes() const noexcept { return bytes_; }
   [[nodiscard]] bool locked() const noexcept { return locked_; }
+  // What lies above the lowest byte that is not zero as it was at first. While no thread runs on it.
+  [[nodiscard]] std::size_t used() const noexcept {
+    const auto* const begin = static_cast<const std::byte*>(bottom());
+    return static_cast<std::size_t>(begin + bytes_ -
+                                    std::find_if(begin, begin + bytes_, [](std::byte b) { return b != std::byte{}; }));
+  }
 
  private:
   static std::size_t guardBytes() noexcept { return static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)); }
@@ -263,6 +270,8 @@ Result<Scheduler> CyclicThread::start(const CyclicConfig& config, CyclicTask& ta
   }
   if (error != 0) return fail(ErrorCode::Exhausted, "the system has no room for one more thread", error);
   statistics->scheduler.store(scheduler, std::memory_order_relaxed);
+  statistics->stack_bytes = run->stack.bytes();
+  statistics->other_bytes = sizeof *run + sizeof *statistics;
   statistics_ = std::move(statistics);
   run_ = std::move(run);
   return scheduler;
@@ -272,6 +281,7 @@ void CyclicThread::stop() noexcept {
   if (!running()) return;
   run_->stop.store(true, std::memory_order_release);
   ::pthread_join(run_->thread, nullptr);
+  statistics_->stack_used_bytes = run_->stack.used();
   run_.reset();
 }
 

@@ -47,6 +47,9 @@ struct CyclicStatistics {
   std::atomic<std::uint64_t> page_faults{0};  // of the thread, from the first cycle to the last; set at the end
   std::atomic<std::uint64_t> allocations{0};  // likewise
   std::atomic<Scheduler> scheduler{Scheduler::Other};
+  // Memory that is held for the thread alone, from its start to its end: the stack, and what counts and runs it.
+  std::size_t stack_bytes = 0, other_bytes = 0;
+  std::size_t stack_used_bytes = 0;  // of the stack, at most; set at the end
 };
 
 // The loop itself, on the calling thread: until the task says Stop or `stop` is set. On a ManualClock it runs in

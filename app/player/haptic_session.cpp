@@ -190,6 +190,11 @@ HapticSummary HapticSession::summary() const {
                 : cyclic.scheduler.load() == Scheduler::Fifo ? "SCHED_FIFO"
                                                              : "SCHED_OTHER";
   s.memory_locked = memory_locked_;
+  s.memory = {.task = arena_->capacity(),
+              .method = ::malloc_usable_size(method_.get()),
+              .stack = cyclic.stack_bytes,
+              .counters = cyclic.other_bytes,
+              .stack_used = cyclic.stack_used_bytes};
   s.rate_hz = 1.0 / toSeconds(period_);
   s.ticks = counters.ticks;
   s.contact_ticks = counters.contact_ticks;

@@ -41,6 +41,12 @@ struct HapticSummary {
     std::uint64_t ticks = 0;
   };
   std::vector<Bucket> wakeup_histogram;  // within 6 %, the shortest first
+  // What is held in memory for the ticks: the task with its rings, the method, the thread's stack, its counters. Code
+  // and the film's pictures, which the player has anyway, are not in it.
+  struct Memory {
+    std::size_t task = 0, method = 0, stack = 0, counters = 0;
+    std::size_t stack_used = 0;  // of the stack, at most, in a run that has ended
+  } memory;
   double max_force_n = 0, max_scene_slew_n_per_s = 0;
   double scene_mj = 0, artefact_mj = 0;
 };

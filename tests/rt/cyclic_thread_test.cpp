@@ -107,6 +107,23 @@ TEST_F(CyclicThreadTest, CountsATaskThatTouchesFreshPages) {
   }
 }
 
+TEST_F(CyclicThreadTest, TellsHowMuchOfItsStackWasUsed) {
+  if (kMemorySanitizer) GTEST_SKIP() << "a sanitizer keeps locals elsewhere";
+  constexpr std::size_t kDeep = 40'000;
+  run([](const Cycle&) {});
+  const std::size_t shallow = thread.statistics().stack_used_bytes;
+  EXPECT_GT(shallow, 0u);
+  run([](const Cycle&) {
+    std::array<unsigned char, kDeep> deep;
+    deep.fill(1);
+    asm volatile("" : : "r"(deep.data()) : "memory");
+  });
+  const CyclicStatistics& statistics = thread.statistics();
+  EXPECT_GE(statistics.stack_used_bytes, kDeep);
+  EXPECT_LT(statistics.stack_used_bytes, shallow + 2 * kDeep);
+  EXPECT_LT(statistics.stack_used_bytes, statistics.stack_bytes);
+}
+
 TEST_F(CyclicThreadTest, StartsItsCountsAgainWithEachRun) {
   if (kRealtimeSanitizer) GTEST_SKIP() << "the real-time sanitizer stops at such a task, as it should";
   run([](const Cycle&) {

@@ -112,6 +112,10 @@ TEST_F(PlayerProgram, PlaysAClipThroughTheWholeStackAndReportsIt) {
   EXPECT_GE(r["haptic"]["wakeup_ns"]["max"].get<int>(), r["haptic"]["wakeup_ns"]["p50"].get<int>());
   for (const char* field : {"overruns", "allocations", "page_faults"})
     EXPECT_TRUE(r["haptic"][field].is_number()) << field;
+  const json& memory = r["haptic"]["memory_bytes"];
+  for (const char* part : {"task", "method", "stack", "counters"}) EXPECT_GT(memory[part], 0) << part;
+  EXPECT_LT(memory["stack_used"], memory["stack"]);
+  EXPECT_GT(memory["stack_used"], 0);
   for (const char* field : {"max_n", "max_scene_slew_n_per_s"}) EXPECT_TRUE(r["force"][field].is_number()) << field;
   for (const char* field : {"scene_mj", "artefact_mj"}) EXPECT_TRUE(r["energy"][field].is_number()) << field;
 

@@ -36,6 +36,7 @@ PlayReport example() {
   r.haptic.update = {1000, 2000, 3000, 4000};
   r.haptic.wakeup = {5000, 6000, 7000, 8000};
   r.haptic.wakeup_histogram = {{5000, 3}, {8000, 1}};
+  r.haptic.memory = {.task = 600, .method = 50, .stack = 40, .counters = 30, .stack_used = 7};
   r.haptic.max_force_n = 1.25;
   r.haptic.max_scene_slew_n_per_s = 49.5;
   r.haptic.scene_mj = 2.0;
@@ -62,6 +63,8 @@ TEST(Report, HoldsTheFieldsThatProgramsReadAtTheirPlaces) {
   EXPECT_EQ(j["haptic"]["update_ns"], (json{{"p50", 1000}, {"p99", 2000}, {"p999", 3000}, {"max", 4000}}));
   EXPECT_EQ(j["haptic"]["wakeup_histogram"], (json{{5000, 3}, {8000, 1}}));
   EXPECT_EQ(j["haptic"]["wakeup_ns"], (json{{"p50", 5000}, {"p99", 6000}, {"p999", 7000}, {"max", 8000}}));
+  EXPECT_EQ(j["haptic"]["memory_bytes"],
+            (json{{"task", 600}, {"method", 50}, {"stack", 40}, {"counters", 30}, {"stack_used", 7}}));
   EXPECT_EQ(j["force"], (json{{"max_n", 1.25}, {"max_scene_slew_n_per_s", 49.5}}));
   EXPECT_EQ(j["audio"]["device"], "alsa");
   EXPECT_EQ(j["audio"]["rate_hz"], 48000);
