@@ -63,7 +63,10 @@ ScreenDump GuestScreen::dump() {
   if (!monitor_.valid()) monitor_ = openMonitor();
   const std::string id = "dump-" + std::to_string(::getpid()) + "-" + std::to_string(++dumps) + ".ppm";
   tell(monitor_.get(), R"("execute": "screendump", "arguments": {"filename": ")" + id + "\"}", id);
-  const std::string path = std::string(std::getenv("RELIEVO_SCREENS")) + "/" + id;
+  return readPixels(std::string(std::getenv("RELIEVO_SCREENS")) + "/" + id);
+}
+
+ScreenDump readPixels(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::string magic;
   ScreenDump dump;
@@ -72,7 +75,7 @@ ScreenDump GuestScreen::dump() {
   file.get();
   dump.rgb.resize(static_cast<std::size_t>(dump.width) * dump.height * 3);
   file.read(reinterpret_cast<char*>(dump.rgb.data()), static_cast<std::streamsize>(dump.rgb.size()));
-  if (magic != "P6" || !file) throw std::runtime_error("QEMU dumps no screen into " + path);
+  if (magic != "P6" || !file) throw std::runtime_error("there is no picture in " + path);
   return dump;
 }
 

@@ -25,6 +25,9 @@ struct ScreenDump {
   }
 };
 
+// A file of portable pixels (PPM, P6).
+[[nodiscard]] ScreenDump readPixels(const std::string& path);
+
 class GuestScreen {
  public:
   // Of a card's driver: "virtio", "vkms". Nothing outside the guest.

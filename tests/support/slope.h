@@ -15,10 +15,10 @@ namespace relievo::test {
 inline constexpr int kSlopeCols = 180, kSlopeRows = 120;
 inline constexpr int kSlopePerCol = 218, kSlopePerRow = 146;  // of 65535
 
-// Half-way up the volume in the middle, and 0.15 mm higher for each to the right and 0.1 for each down, so that each
-// leg has another share of the force.
-inline void makeSlope(const std::string& path) {
-  constexpr int kFps = 25, kSeconds = 8;
+// Gray. Half-way up the volume in the middle, and 0.15 mm higher for each to the right and 0.1 for each down, so that
+// each leg has another share of the force.
+inline void makeSlope(const std::string& path, int fps = 25) {
+  constexpr int kSeconds = 8;
   const auto slope = [](int, int column, int row, int) {
     const int right = column - kSlopeCols / 2, down = row - kSlopeRows / 2;
     return static_cast<std::uint32_t>(32768 + kSlopePerCol * right + kSlopePerRow * down);
@@ -26,8 +26,9 @@ inline void makeSlope(const std::string& path) {
   const ClipTrack color{.pix_fmt = "yuv420p",
                         .width = kSlopeCols,
                         .height = kSlopeRows,
-                        .fps_num = kFps,
-                        .frames = kFps * kSeconds,
+                        .fps_num = fps,
+                        .frames = fps * kSeconds,
+                        .sample = [](int component, int, int, int) { return component == 0 ? 180U : 128U; },
                         .tags = {{"title", "color"}}};
   ClipTrack depth = color;
   depth.pix_fmt = "gray16le";
