@@ -52,6 +52,20 @@ void ControlGrid::fill(int i, int j, const Frames& frames) RELIEVO_RT {
   if (missing != 0) read(p, frames, missing);
 }
 
+void ControlGrid::prefetch(int i, int j, const Frames& frames) const RELIEVO_RT {
+  const std::size_t p = slotOf(i, j);
+  std::uint32_t missing = frames.wanted;
+  if (i_[p] == i && j_[p] == j) missing &= ~std::uint32_t{filled_[p]};
+  if (missing == 0) return;
+  const std::int64_t u = std::int64_t{i} * block_cols_, v = std::int64_t{j} * block_rows_;
+  if (u < 0 || v < 0 || u + block_cols_ > cols_ || v + block_rows_ > rows_) return;  // few are at the rim
+  for (; missing != 0; missing &= missing - 1) {
+    const auto slot = static_cast<std::size_t>(__builtin_ctz(missing));
+    frames.window->frames[frames.frame_of_slot[slot]].field.prefetch(static_cast<int>(u), static_cast<int>(v),
+                                                                     block_cols_, block_rows_, most_samples_);
+  }
+}
+
 void ControlGrid::read(std::size_t p, const Frames& frames, std::uint32_t missing) RELIEVO_RT {
   // 64 bits: a finger may be anywhere. The part of the block inside the picture is read.
   const std::int64_t u0 = std::int64_t{i_[p]} * block_cols_, v0 = std::int64_t{j_[p]} * block_rows_;
@@ -94,6 +108,9 @@ float ControlGrid::withHoles(std::size_t p, const Frames& frames) const RELIEVO_
 
 void ControlGrid::patch(int i0, int j0, const Frames& frames, Patch& out) RELIEVO_RT {
   if (i0 != patch_i_ || j0 != patch_j_ || frames.wanted != patch_slots_) {
+    for (int j = j0; j < j0 + 4; ++j) {
+      for (int i = i0; i < i0 + 4; ++i) prefetch(i, j, frames);
+    }
     std::uint32_t holes = 0;
     for (int j = j0; j < j0 + 4; ++j) {
       for (int i = i0; i < i0 + 4; ++i) {

@@ -64,6 +64,7 @@ class ControlGrid {
   }
   // Reads what is missing of a point.
   void fill(int i, int j, const Frames& frames) RELIEVO_RT;
+  void prefetch(int i, int j, const Frames& frames) const RELIEVO_RT;
   void read(std::size_t point, const Frames& frames, std::uint32_t missing) RELIEVO_RT;
   [[nodiscard]] double meanOrBridged(const HeightField& field, int c, int r, int width, int height) const RELIEVO_RT;
   [[nodiscard]] float withHoles(std::size_t point, const Frames& frames) const RELIEVO_RT;

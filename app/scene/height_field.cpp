@@ -142,6 +142,17 @@ double HeightField::meanHeight(int c0, int r0, int width, int height, int most) 
   return 2 * count < across * down ? kHole : sum / count;
 }
 
+void HeightField::prefetch(int c0, int r0, int width, int height, int most) const RELIEVO_RT {
+  const Places h(width, most), v(height, most);
+  const auto at = [&](int c, int r)
+                      RELIEVO_RT { return data_ + r * stride_bytes_ + static_cast<std::ptrdiff_t>(c) * step_bytes_; };
+  for (int j = 0; j < v.count; ++j) {
+    const int r = r0 + v.first + j * v.step;
+    __builtin_prefetch(at(c0 + h.first, r));
+    __builtin_prefetch(at(c0 + h.first + (h.count - 1) * h.step, r));
+  }
+}
+
 double HeightField::fromHue(const std::uint8_t* pixel) const RELIEVO_RT {
   const double hue = hueOf(pixel[red_], pixel[green_], pixel[blue_]);
   return std::isnan(hue) ? kHole : fromNormalised(s_offset_ + s_scale_ * hue);

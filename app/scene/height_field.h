@@ -46,6 +46,8 @@ class HeightField {
   // The mean height of the samples in a block that lies inside the picture, of which about `most` are read across and
   // as many down, evenly spread about its centre. Not a number when less than half of those read have a height.
   [[nodiscard]] double meanHeight(int c0, int r0, int width, int height, int most) const RELIEVO_RT;
+  // Has the processor fetch the samples that `meanHeight` reads: those of several blocks at once come sooner.
+  void prefetch(int c0, int r0, int width, int height, int most) const RELIEVO_RT;
   [[nodiscard]] double depthMm() const RELIEVO_RT { return depth_mm_; }
   // The height of one code, in the mean over the volume.
   [[nodiscard]] double stepMm() const RELIEVO_RT {
