@@ -174,7 +174,7 @@ ChartWords partWords(const Figures& figures) {
         found = c.label;
       }
     }
-    return print("%s: %s (%.3g %%, relievo as it is %.3g %%)", depth.name, found,
+    return print("%s: %s (%.3g %%, relievo %.3g %%)", depth.name, found,
                  overall(figures, found, depth).error->rms_percent,
                  overall(figures, "relievo", depth).error->rms_percent);
   };
