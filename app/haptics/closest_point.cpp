@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "platform/prefetch.h"
+
 namespace relievo {
 namespace {
 
@@ -58,8 +60,8 @@ void taylorStep(Contact& c, const glm::dvec2& step) RELIEVO_RT {
 
 }  // namespace
 
-Contact closestPoint(FeltSurface& surface, double x_mm, double y_mm, const glm::dvec3& hip_mm,
-                     double lowered_mm) RELIEVO_RT {
+RELIEVO_TICK_CODE Contact closestPoint(FeltSurface& surface, double x_mm, double y_mm, const glm::dvec3& hip_mm,
+                                       double lowered_mm) RELIEVO_RT {
   const double longest = 3 * surface.sampleMm();
   Contact best{x_mm, y_mm, surface.at(x_mm, y_mm)};
   Distance distance(best, hip_mm, lowered_mm);
@@ -89,8 +91,8 @@ Contact closestPoint(FeltSurface& surface, double x_mm, double y_mm, const glm::
   }
 }
 
-glm::dvec2 predictedStep(const Contact& contact, const glm::dvec3& hip_mm, const glm::dvec3& moved_mm,
-                         double lowered_mm) RELIEVO_RT {
+RELIEVO_TICK_CODE glm::dvec2 predictedStep(const Contact& contact, const glm::dvec3& hip_mm, const glm::dvec3& moved_mm,
+                                           double lowered_mm) RELIEVO_RT {
   const Distance d(contact, hip_mm, lowered_mm);
   const SurfacePoint& s = contact.surface;
   return d.solve(moved_mm.x + s.zx * moved_mm.z, moved_mm.y + s.zy * moved_mm.z);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "platform/prefetch.h"
+
 namespace relievo {
 namespace {
 
@@ -134,6 +136,10 @@ void ControlGrid::patch(int i0, int j0, const Frames& frames, Patch& out) RELIEV
     if (!patch_holes_) continue;
     for (int i = 0; i < 4; ++i) row[i] = withHoles(slotOf(i0 + i, j0 + j), frames);
   }
+}
+
+void ControlGrid::prefetch() const RELIEVO_RT {
+  relievo::prefetch(this, &i_);
 }
 
 }  // namespace relievo

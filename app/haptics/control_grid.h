@@ -53,6 +53,8 @@ class ControlGrid {
   };
   // The control points (i0 .. i0+3, j0 .. j0+3) at the moment that `frames` weighs out.
   void patch(int i0, int j0, const Frames& frames, Patch& out) RELIEVO_RT;
+  // All but the points.
+  void prefetch() const RELIEVO_RT;
   // So far, each in each frame.
   [[nodiscard]] std::uint64_t blocksRead() const RELIEVO_RT { return blocks_read_; }
 

@@ -7,6 +7,7 @@
 #include <glm/vector_relational.hpp>
 
 #include "app/haptics/edge_motion.h"
+#include "platform/prefetch.h"
 
 namespace relievo {
 namespace {
@@ -36,7 +37,7 @@ FeltSurface::FeltSurface(const FeltScale& scale) noexcept
       wide_(scale.wide_mm, kWideSamples, scale.space, scale.wide_time),
       two_levels_(scale.wide_mm > scale.narrow_mm) {}
 
-bool FeltSurface::moment(const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
+RELIEVO_TICK_CODE bool FeltSurface::moment(const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
   if (window.count == 0) return false;
   const HeightField& field = window.frames[0].field;
   if (window.epoch != epoch_ || field.cols() != cols_ || field.rows() != rows_ || slots_.in_use == 0) {
@@ -80,7 +81,7 @@ void FeltSurface::setPicture(const SurfaceWindow& window) RELIEVO_RT {
 
 // Gives every frame of the window a slot of the caches, the one it had if it had one; those that repeat each other have
 // one slot, which goes by the time of the newest.
-void FeltSurface::placeFrames(const SurfaceWindow& window) RELIEVO_RT {
+RELIEVO_TICK_CODE void FeltSurface::placeFrames(const SurfaceWindow& window) RELIEVO_RT {
   const auto last = static_cast<std::size_t>(window.count - 1);
   if (window.count == count_ && window.frames[0].time == first_time_ && window.frames[last].time == last_time_) return;
   count_ = window.count;
@@ -129,7 +130,7 @@ SurfacePoint FeltSurface::narrowAt(double x_mm, double y_mm) RELIEVO_RT {
   return {mix(a.z, b.z), mix(a.zx, b.zx), mix(a.zy, b.zy), mix(a.zxx, b.zxx), mix(a.zxy, b.zxy), mix(a.zyy, b.zyy)};
 }
 
-SurfacePoint FeltSurface::at(double x_mm, double y_mm) RELIEVO_RT {
+RELIEVO_TICK_CODE SurfacePoint FeltSurface::at(double x_mm, double y_mm) RELIEVO_RT {
   if (!two_levels_) return narrow_.at(x_mm, y_mm);
   const SurfacePoint w = wide_.at(x_mm, y_mm);
   if (!edge_moves_ && std::abs(w.z - narrow_.height(x_mm, y_mm)) <= 0.5 * scale_.clamp_mm) return w;
@@ -145,7 +146,7 @@ SurfacePoint FeltSurface::at(double x_mm, double y_mm) RELIEVO_RT {
           n.zyy + c.slope * (w.zyy - n.zyy) + c.bend * uy * uy};
 }
 
-double FeltSurface::height(double x_mm, double y_mm) RELIEVO_RT {
+RELIEVO_TICK_CODE double FeltSurface::height(double x_mm, double y_mm) RELIEVO_RT {
   const double n = edge_moves_ ? narrowAt(x_mm, y_mm).z : narrow_.height(x_mm, y_mm);
   if (!two_levels_) return n;
   const double w = wide_.height(x_mm, y_mm);
@@ -177,7 +178,8 @@ void FeltSurface::followEdge(const SurfaceWindow& window, MediaTime next, const 
   if (!to.repeats) edge_way_mm_ = edgeMotion(from.field, to.field, x_mm, y_mm);
 }
 
-FeltSurface::Weighed FeltSurface::weighedAt(const SurfaceWindow& window, const FrameMoment& moment) RELIEVO_RT {
+RELIEVO_TICK_CODE FeltSurface::Weighed FeltSurface::weighedAt(const SurfaceWindow& window,
+                                                              const FrameMoment& moment) RELIEVO_RT {
   const auto time = [&](int frame) RELIEVO_RT {
     return window.frames[static_cast<std::size_t>(std::clamp(frame, moment.first, moment.last))].time;
   };
@@ -195,6 +197,13 @@ void FeltSurface::prepare(const SurfaceWindow& window, MediaTime next, double x_
   const FrameMoment& comparable = later.present == moment.present ? later : moment;
   narrow_.prepare(slots_, x_mm, y_mm, moment, comparable, toSeconds(kStep));
   if (two_levels_) wide_.prepare(slots_, x_mm, y_mm, moment, comparable, toSeconds(kStep));
+}
+
+void FeltSurface::prefetch() const RELIEVO_RT {
+  relievo::prefetch(&scale_, &narrow_);
+  narrow_.prefetch();
+  wide_.prefetch();
+  relievo::prefetch(&two_levels_, this + 1);
 }
 
 }  // namespace relievo

@@ -51,6 +51,8 @@ class FeltSurface {
   // After `moment`, on the same window: what can be done ahead of a tick that is likely to come at `next`, with the
   // proxy near (x, y). It holds as long as the frames that count are the same, though the window has gone on.
   void prepare(const SurfaceWindow& window, MediaTime next, double x_mm, double y_mm) RELIEVO_RT;
+  // All but the control points: a tick that was prepared for needs none of them.
+  void prefetch() const RELIEVO_RT;
 
  private:
   [[nodiscard]] SurfacePoint narrowAt(double x_mm, double y_mm) RELIEVO_RT;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "platform/prefetch.h"
+
 namespace relievo {
 namespace {
 
@@ -30,7 +32,7 @@ Taps fitted(double s) RELIEVO_RT {
 
 }  // namespace
 
-FrameMoment::FrameMoment(const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
+RELIEVO_TICK_CODE FrameMoment::FrameMoment(const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
   if (window.count == 0) return;
   const auto frame = [&](int i) -> const TimedSurface& { return window.frames[static_cast<std::size_t>(i)]; };
   present = window.count - 1;

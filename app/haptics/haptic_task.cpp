@@ -73,6 +73,7 @@ LoopControl HapticTask::loop(const Cycle& cycle) RELIEVO_RT {
     publish(state);
     return LoopControl::Continue;
   }
+  method_->prefetch(windows_.front());
   const auto sample = device_.read();
   if (!sample) {
     failed(sample.error(), cycle.woken);

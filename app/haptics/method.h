@@ -20,7 +20,8 @@ struct Touch {
 };
 
 // Pure: no clock, no thread, no allocation after construction. Called on the real-time thread, once a tick: `update`
-// first; `upkeep` when the force is out, with the same window and time, for whatever can wait.
+// first; `upkeep` when the force is out, with the same window and time, for whatever can wait. Before both, when the
+// tick begins and the device has not answered yet, `prefetch`.
 class TouchMethod {
  public:
   virtual ~TouchMethod() = default;
@@ -29,6 +30,8 @@ class TouchMethod {
   // `now`: the film's time. A change of `window.epoch` is a discontinuity: what was remembered does not hold any more.
   [[nodiscard]] virtual Touch update(const glm::dvec3& hip_mm, const SurfaceWindow& window,
                                      MediaTime now) RELIEVO_RT = 0;
+  // Asks for the memory that `update` will look at, and waits for none of it.
+  virtual void prefetch(const SurfaceWindow& /*window*/) const RELIEVO_RT {}
   virtual void upkeep(const SurfaceWindow& /*window*/, MediaTime /*now*/) RELIEVO_RT {}
   // Forgets everything: the finger is free until it has been outside.
   virtual void reset() RELIEVO_RT = 0;

@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include "platform/prefetch.h"
+
 namespace relievo {
 namespace {
 
@@ -30,11 +32,11 @@ double riseBetween(const Contact& from, const Contact& to) RELIEVO_RT {
 
 }  // namespace
 
-glm::dvec3 RelievoMethod::proxy() const RELIEVO_RT {
+RELIEVO_TICK_CODE glm::dvec3 RelievoMethod::proxy() const RELIEVO_RT {
   return {contact_.x_mm, contact_.y_mm, contact_.surface.z - lowered_mm_};
 }
 
-bool RelievoMethod::inside(const glm::dvec3& place_mm) RELIEVO_RT {
+RELIEVO_TICK_CODE bool RelievoMethod::inside(const glm::dvec3& place_mm) RELIEVO_RT {
   return place_mm.z < surface_.height(place_mm.x, place_mm.y) - lowered_mm_;
 }
 
@@ -42,7 +44,8 @@ double RelievoMethod::depthMm() RELIEVO_RT {
   return had_surface_ ? surface_.height(hip_mm_.x, hip_mm_.y) - lowered_mm_ - hip_mm_.z : 0;
 }
 
-Touch RelievoMethod::update(const glm::dvec3& hip_mm, const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
+RELIEVO_TICK_CODE Touch RelievoMethod::update(const glm::dvec3& hip_mm, const SurfaceWindow& window,
+                                              MediaTime now) RELIEVO_RT {
   Touch touch{.proxy_mm = hip_mm};
   if (!surface_.moment(window, now)) {
     had_surface_ = false;  // a surface that comes back is felt as it was before: `force_n_` stays
@@ -122,6 +125,14 @@ void RelievoMethod::upkeep(const SurfaceWindow& window, MediaTime now) RELIEVO_R
   now_ = now;
 }
 
+void RelievoMethod::prefetch(const SurfaceWindow& window) const RELIEVO_RT {
+  prefetchTickCode();
+  relievo::prefetch(&config_, &surface_);
+  surface_.prefetch();
+  relievo::prefetch(&state_, this + 1);
+  relievo::prefetch(&window, &window + 1);
+}
+
 // The finger stays where it is and the scene is another one.
 void RelievoMethod::enterScene(const glm::dvec3& hip_mm) RELIEVO_RT {
   const double depth = surface_.height(hip_mm.x, hip_mm.y) - hip_mm.z;
@@ -142,7 +153,7 @@ void RelievoMethod::enterScene(const glm::dvec3& hip_mm) RELIEVO_RT {
 // A wall that has gone over the finger and on takes the proxy with it, although the way out is by now much shorter
 // elsewhere: straight up. Only where the scene did it: a finger that pushes itself deep into a wall stays at that wall,
 // also when it rests there or is read in every other tick only.
-bool RelievoMethod::sweptAway(const glm::dvec3& hip_mm) RELIEVO_RT {
+RELIEVO_TICK_CODE bool RelievoMethod::sweptAway(const glm::dvec3& hip_mm) RELIEVO_RT {
   constexpr double kFurtherMm = 3, kCarriedMm = 0.5;
   const glm::dvec2 place(contact_.x_mm, contact_.y_mm);
   const double away = glm::distance(proxy(), hip_mm);
@@ -157,12 +168,12 @@ bool RelievoMethod::sweptAway(const glm::dvec3& hip_mm) RELIEVO_RT {
   return up > 0 && away > up + kFurtherMm;
 }
 
-void RelievoMethod::slide(const glm::dvec3& hip_mm) RELIEVO_RT {
+RELIEVO_TICK_CODE void RelievoMethod::slide(const glm::dvec3& hip_mm) RELIEVO_RT {
   contact_ = closestPoint(surface_, contact_.x_mm, contact_.y_mm, hip_mm, lowered_mm_);
 }
 
 // From a place that is on the surface or outside to the finger: in contact if the surface is between them.
-void RelievoMethod::follow(glm::dvec3 from_mm, const glm::dvec3& hip_mm) RELIEVO_RT {
+RELIEVO_TICK_CODE void RelievoMethod::follow(glm::dvec3 from_mm, const glm::dvec3& hip_mm) RELIEVO_RT {
   for (int pass = 0; pass < kMostPasses; ++pass) {
     if (state_ == State::Contact) {
       if (proxy().z > hip_mm.z) return;

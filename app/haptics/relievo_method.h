@@ -36,6 +36,7 @@ class RelievoMethod final : public TouchMethod {
   explicit RelievoMethod(const Config& config) noexcept : config_(config), surface_(config.scale) {}
 
   [[nodiscard]] Touch update(const glm::dvec3& hip_mm, const SurfaceWindow& window, MediaTime now) RELIEVO_RT override;
+  void prefetch(const SurfaceWindow& window) const RELIEVO_RT override;
   void upkeep(const SurfaceWindow& window, MediaTime now) RELIEVO_RT override;
   void reset() RELIEVO_RT override { state_ = State::Unknown; }
 

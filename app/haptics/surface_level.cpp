@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "platform/prefetch.h"
+
 namespace relievo {
 namespace {
 
@@ -47,8 +49,8 @@ void SurfaceLevel::weigh(const FrameSlots& slots, const FrameMoment& moment,
   }
 }
 
-void SurfaceLevel::begin(const FrameSlots& slots, const FrameMoment& moment,
-                         std::optional<double> since_prepared_s) RELIEVO_RT {
+RELIEVO_TICK_CODE void SurfaceLevel::begin(const FrameSlots& slots, const FrameMoment& moment,
+                                           std::optional<double> since_prepared_s) RELIEVO_RT {
   slots_ = &slots;
   moment_ = moment;
   weighed_ = patch_.valid = frame_patch_[0].valid = frame_patch_[1].valid = false;
@@ -56,7 +58,7 @@ void SurfaceLevel::begin(const FrameSlots& slots, const FrameMoment& moment,
   if (since_prepared_s) since_prepared_s_ = static_cast<float>(*since_prepared_s);
 }
 
-SurfaceLevel::Cell SurfaceLevel::cellOf(double x_mm, double y_mm) const RELIEVO_RT {
+RELIEVO_TICK_CODE SurfaceLevel::Cell SurfaceLevel::cellOf(double x_mm, double y_mm) const RELIEVO_RT {
   // Far outside the picture every place is alike, and a number too large for a grid index would be undefined.
   constexpr double kFar = 1e6;
   const double shift = cubic_ ? 0 : 0.5;
@@ -65,7 +67,7 @@ SurfaceLevel::Cell SurfaceLevel::cellOf(double x_mm, double y_mm) const RELIEVO_
   return {static_cast<int>(fa) - 1, static_cast<int>(fb) - 1, static_cast<float>(a - fa), static_cast<float>(b - fb)};
 }
 
-const Patch& SurfaceLevel::patchAt(const Cell& cell) RELIEVO_RT {
+RELIEVO_TICK_CODE const Patch& SurfaceLevel::patchAt(const Cell& cell) RELIEVO_RT {
   if (patch_.isOf(cell)) return patch_.points;
   if (since_prepared_s_ && cell.i == prepared_i_ && cell.j == prepared_j_) {
     for (std::size_t j = 0; j < 4; ++j) patch_.points[j] = prepared_[j] + prepared_rate_[j] * *since_prepared_s_;
@@ -96,7 +98,7 @@ SurfacePoint SurfaceLevel::atFrame(std::size_t which, double x_mm, double y_mm) 
   return pointOn(patch.points, cell);
 }
 
-double SurfaceLevel::height(double x_mm, double y_mm) RELIEVO_RT {
+RELIEVO_TICK_CODE double SurfaceLevel::height(double x_mm, double y_mm) RELIEVO_RT {
   const Cell cell = cellOf(x_mm, y_mm);
   const Patch& p = patchAt(cell);
   const std::array<Float4, 4>& polynomials = cubic_ ? kCubic : kQuadratic;
@@ -105,12 +107,12 @@ double SurfaceLevel::height(double x_mm, double y_mm) RELIEVO_RT {
   return static_cast<double>((row[0] + row[1]) + (row[2] + row[3]));
 }
 
-SurfacePoint SurfaceLevel::at(double x_mm, double y_mm) RELIEVO_RT {
+RELIEVO_TICK_CODE SurfacePoint SurfaceLevel::at(double x_mm, double y_mm) RELIEVO_RT {
   const Cell cell = cellOf(x_mm, y_mm);
   return pointOn(patchAt(cell), cell);
 }
 
-SurfacePoint SurfaceLevel::pointOn(const Patch& p, const Cell& cell) const RELIEVO_RT {
+RELIEVO_TICK_CODE SurfacePoint SurfaceLevel::pointOn(const Patch& p, const Cell& cell) const RELIEVO_RT {
   const std::array<Float4, 4>& polynomials = cubic_ ? kCubic : kQuadratic;
   const Basis h(polynomials, cell.a), v(polynomials, cell.b);
   const Float4 row = p[0] * v.value[0] + p[1] * v.value[1] + p[2] * v.value[2] + p[3] * v.value[3];
@@ -140,6 +142,11 @@ void SurfaceLevel::prepare(const FrameSlots& slots, double x_mm, double y_mm, co
     }
     prepared_rate_[j] = (prepared_rate_[j] - prepared_[j]) / static_cast<float>(step_s);
   }
+}
+
+void SurfaceLevel::prefetch() const RELIEVO_RT {
+  grid_.prefetch();
+  relievo::prefetch(&time_, this + 1);
 }
 
 }  // namespace relievo

@@ -49,6 +49,8 @@ class SurfaceLevel {
   // which comes `step_s` after it.
   void prepare(const FrameSlots& slots, double x_mm, double y_mm, const FrameMoment& next, const FrameMoment& later,
                double step_s) RELIEVO_RT;
+  // All but the control points, which are the most.
+  void prefetch() const RELIEVO_RT;
 
  private:
   struct Cell {

@@ -50,11 +50,13 @@ PlayedTick FilmRun::tick(const HipTick& hip) {
   const MediaTime now = mediaTime(hip.t_s);
   moveWindow(now);
   PlayedTick played{.t_s = hip.t_s, .hip_mm = hip.hip_mm};
+  const MonotonicTime woken = clock_.now();
+  method_.prefetch(window_);
   const MonotonicTime begin = clock_.now();
   played.touch = method_.update(hip.hip_mm, window_, now);
   const MonotonicTime out = clock_.now();
   method_.upkeep(window_, now);
-  played.upkeep = clock_.now() - out;
+  played.upkeep = (clock_.now() - out) + (begin - woken);
   played.update = out - begin;
   return played;
 }

@@ -69,4 +69,14 @@ Spread spreadOf(std::vector<double> samples) {
   return spread;
 }
 
+std::vector<double> mediansOfRounds(std::span<const double> samples, int rounds) {
+  std::vector<double> medians(samples.size() / static_cast<std::size_t>(rounds)), same;
+  for (std::size_t i = 0; i < medians.size(); ++i) {
+    same.clear();
+    for (std::size_t at = i; at < samples.size(); at += medians.size()) same.push_back(samples[at]);
+    medians[i] = spreadOf(same).median;
+  }
+  return medians;
+}
+
 }  // namespace relievo

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 namespace relievo {
@@ -39,5 +40,8 @@ struct Spread {
 
 // By rank, without interpolation; zeros for no samples.
 [[nodiscard]] Spread spreadOf(std::vector<double> samples);
+
+// `samples`: one round after the other, all of the same length. For each place in a round the median over the rounds.
+[[nodiscard]] std::vector<double> mediansOfRounds(std::span<const double> samples, int rounds);
 
 }  // namespace relievo

@@ -14,17 +14,20 @@ class Samples {
     update_us_.push_back(microseconds(tick.update - clock));
     upkeep_us_.push_back(microseconds(tick.upkeep - clock));
   }
-  [[nodiscard]] TickTimes times() const { return {spreadOf(update_us_), spreadOf(upkeep_us_)}; }
+  [[nodiscard]] TickTimes times(int rounds) const {
+    return {spreadOf(update_us_), spreadOf(upkeep_us_), spreadOf(mediansOfRounds(update_us_, rounds)),
+            spreadOf(mediansOfRounds(upkeep_us_, rounds))};
+  }
 
  private:
   static double microseconds(Duration d) { return std::max(0.0, toSeconds(d) * 1e6); }
   std::vector<double> update_us_, upkeep_us_;
 };
 
-std::vector<TickTimes> timesOf(const std::vector<Samples>& samples) {
+std::vector<TickTimes> timesOf(const std::vector<Samples>& samples, int rounds) {
   std::vector<TickTimes> times;
   times.reserve(samples.size());
-  for (const Samples& s : samples) times.push_back(s.times());
+  for (const Samples& s : samples) times.push_back(s.times(rounds));
   return times;
 }
 
@@ -65,7 +68,7 @@ std::vector<TickTimes> timeTicks(std::span<const Contender* const> contenders, c
       }
     }
   }
-  return timesOf(samples);
+  return timesOf(samples, rounds);
 }
 
 std::vector<TickTimes> timeColdTicks(std::span<const Contender* const> contenders, const TimedPath& timed,
@@ -86,7 +89,7 @@ std::vector<TickTimes> timeColdTicks(std::span<const Contender* const> contender
       if (i >= timed.skipped_ticks) samples[m].add(tick, clock);
     }
   }
-  return timesOf(samples);
+  return timesOf(samples, 1);
 }
 
 }  // namespace relievo

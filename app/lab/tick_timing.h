@@ -11,9 +11,12 @@
 
 namespace relievo {
 
-// In microseconds, of all ticks of all rounds, the clock's own cost taken off.
+// In microseconds, the clock's own cost taken off. The spreads are of all ticks of all rounds, with whatever else the
+// machine did meanwhile. `own`: each tick of the path stands for itself, with its median over the rounds; what the
+// method does there it does in every round, and an interruption comes in one.
 struct TickTimes {
   Spread update, upkeep;
+  Spread own_update, own_upkeep;
 };
 
 struct TimedPath {
@@ -29,7 +32,7 @@ struct TimedPath {
 // hits all alike. One entry per contender.
 [[nodiscard]] std::vector<TickTimes> timeTicks(std::span<const Contender* const> contenders, const TimedPath& timed,
                                                int rounds);
-// The same with cold caches: `ticks` ticks, and before each 96 MB are read and written, not timed.
+// The same with cold caches: `ticks` ticks, and before each 96 MB are read and written, not timed; one round.
 [[nodiscard]] std::vector<TickTimes> timeColdTicks(std::span<const Contender* const> contenders, const TimedPath& timed,
                                                    std::size_t ticks);
 

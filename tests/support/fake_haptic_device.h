@@ -11,7 +11,7 @@ class FakeHapticDevice final : public HapticDevice {
   glm::dvec3 position{0, 0, 0};
   glm::dvec3 force{0};
   ErrorCode next_error = ErrorCode::InvalidState;  // of one exchange; InvalidState: none
-  int writes = 0;
+  int reads = 0, writes = 0;
 
   HapticCapabilities capabilities() const noexcept override {
     return {"fake", glm::dvec3(-100, -100, -50), glm::dvec3(100, 100, 50), 4.0, 2.0, 1.0, 1000};
@@ -22,6 +22,7 @@ class FakeHapticDevice final : public HapticDevice {
   Result<void> homeDevice() override { return {}; }
   Result<void> startDevice() override { return {}; }
   Result<HapticSample> readSample() RELIEVO_RT override {
+    ++reads;
     if (next_error != ErrorCode::InvalidState) {
       const ErrorCode code = next_error;
       next_error = ErrorCode::InvalidState;

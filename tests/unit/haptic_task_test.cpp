@@ -165,5 +165,35 @@ TEST_F(HapticTaskTest, HandsEveryTickToTheRecorderInOrder) {
   EXPECT_EQ(task_->counters().ticks.load(), 100u);
 }
 
+// How often the device had been read and written when each part of the method was called.
+class Witness final : public TouchMethod {
+ public:
+  explicit Witness(const test::FakeHapticDevice& device) : device_(device) {}
+  void prefetch(const SurfaceWindow&) const RELIEVO_RT override { prefetch_ = now(); }
+  Touch update(const glm::dvec3& hip_mm, const SurfaceWindow&, MediaTime) RELIEVO_RT override {
+    update_ = now();
+    return {.proxy_mm = hip_mm};
+  }
+  void upkeep(const SurfaceWindow&, MediaTime) RELIEVO_RT override { upkeep_ = now(); }
+  void reset() RELIEVO_RT override {}
+
+  using Exchanges = std::pair<int, int>;
+  mutable Exchanges prefetch_{-1, -1};
+  Exchanges update_{-1, -1}, upkeep_{-1, -1};
+
+ private:
+  [[nodiscard]] Exchanges now() const RELIEVO_RT { return {device_.reads, device_.writes}; }
+  const test::FakeHapticDevice& device_;
+};
+
+TEST_F(HapticTaskTest, FetchesBeforeTheDeviceIsAskedAndKeepsUpWhenTheForceIsOut) {
+  Witness witness(device_);
+  task_ = std::make_unique<HapticTask>(device_, witness, clock_, kVolume, SafetyLimits{}, kStiffness);
+  tick();
+  EXPECT_EQ(witness.prefetch_, Witness::Exchanges(0, 0));
+  EXPECT_EQ(witness.update_, Witness::Exchanges(1, 0));
+  EXPECT_EQ(witness.upkeep_, Witness::Exchanges(1, 1));
+}
+
 }  // namespace
 }  // namespace relievo

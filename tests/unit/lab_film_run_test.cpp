@@ -138,6 +138,8 @@ TEST(TickTiming, CountsTheTicksOfAllRoundsButThoseOfTheWayIn) {
     EXPECT_EQ(t.upkeep.count, 600u);
     EXPECT_LE(t.update.median, t.update.p99);
     EXPECT_LE(t.update.p99, t.update.p999);
+    EXPECT_EQ(t.own_update.count, 200u) << "once for three rounds";
+    EXPECT_EQ(t.own_upkeep.count, 200u);
   }
   EXPECT_EQ(timeColdTicks(two, {film, path, 300}, 3)[1].update.count, 3u);
 }

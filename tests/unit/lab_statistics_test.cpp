@@ -87,5 +87,13 @@ TEST(Spread, IsByRank) {
   EXPECT_EQ(spreadOf({}).count, 0u);
 }
 
+// Three rounds of four: what comes in one round is left out, and what comes in every round stays.
+TEST(MediansOfRounds, LeaveOutWhatComesInOneRoundAlone) {
+  const std::vector<double> samples{1, 2, 9, 4, 50, 2, 9, 5, 2, 2, 8, 70};
+  EXPECT_EQ(mediansOfRounds(samples, 3), (std::vector<double>{2, 2, 9, 5}));
+  EXPECT_EQ(mediansOfRounds(samples, 1), samples);
+  EXPECT_TRUE(mediansOfRounds({}, 3).empty());
+}
+
 }  // namespace
 }  // namespace relievo
