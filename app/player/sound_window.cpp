@@ -21,6 +21,10 @@ MediaTime SoundWindow::timeOf(std::int64_t frame) const noexcept {
   return mediaTime(static_cast<double>(frame) / format_.rate_hz);
 }
 
+std::ptrdiff_t SoundWindow::samplesOf(std::int64_t frames) const noexcept {
+  return static_cast<std::ptrdiff_t>(frames * format_.channels);
+}
+
 void SoundWindow::add(const AudioChunk& chunk) {
   const auto channels = static_cast<std::int64_t>(format_.channels);
   const auto frames = static_cast<std::int64_t>(chunk.samples.size()) / channels;
@@ -33,7 +37,7 @@ void SoundWindow::add(const AudioChunk& chunk) {
     skip = std::max<std::int64_t>(end() - begin, 0);
   }
   if (skip >= frames) return;
-  pieces_.push_back({begin + skip, begin + frames, {chunk.samples.begin() + skip * channels, chunk.samples.end()}});
+  pieces_.push_back({begin + skip, begin + frames, {chunk.samples.begin() + samplesOf(skip), chunk.samples.end()}});
 }
 
 void SoundWindow::dropBefore(std::int64_t frame) {
@@ -48,8 +52,8 @@ std::size_t SoundWindow::read(std::int64_t first, std::span<float> out) const {
   for (const Piece& piece : pieces_) {
     const std::int64_t from = std::max(first, piece.begin), to = std::min(last, piece.end);
     if (from >= to) continue;
-    std::copy(piece.samples.begin() + (from - piece.begin) * channels,
-              piece.samples.begin() + (to - piece.begin) * channels, out.begin() + (from - first) * channels);
+    std::copy(piece.samples.begin() + samplesOf(from - piece.begin),
+              piece.samples.begin() + samplesOf(to - piece.begin), out.begin() + samplesOf(from - first));
   }
   return static_cast<std::size_t>(last - first);
 }

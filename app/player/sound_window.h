@@ -2,6 +2,7 @@
 // The decoded sound around the present moment, by its place on the film's time line.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <span>
@@ -33,6 +34,7 @@ class SoundWindow {
   [[nodiscard]] MediaTime timeOf(std::int64_t frame) const noexcept;
 
  private:
+  [[nodiscard]] std::ptrdiff_t samplesOf(std::int64_t frames) const noexcept;
   struct Piece {
     std::int64_t begin = 0, end = 0;
     std::vector<float> samples;

@@ -13,6 +13,7 @@ namespace relievo {
 // Every vertex stands on a true sample. A picture whose sides are no multiple of the tile has some columns and rows
 // twice, one whose samples are more than are wanted has some left out; both evenly spread. A hole has the height of
 // the farther of its neighbours in the row: its colour is known, and what was not measured is mostly hidden background.
+// What is in a picture as it was in the one before, to the bit, is not read again.
 class HeightLattice {
  public:
   static constexpr int kLargestTile = 32;
@@ -44,15 +45,21 @@ class HeightLattice {
 
  private:
   void lay(const HeightField& field, int most_across);
+  bool readChanged(const HeightField& field, int j, bool follows);
   void fillHoles(int j);
 
   int tile_ = 1;
   float jump_mm_ = 0;
-  int picture_cols_ = 0, picture_rows_ = 0, most_across_ = 0;
-  GridMapping grid_;
+  int most_across_ = 0;
+  HeightField last_;  // its samples may be gone
   std::vector<int> columns_, rows_;
   std::vector<float> xs_, ys_, us_, vs_;
   std::vector<float> heights_;
+  // What was read of the last picture: its bytes, the heights with the holes in them, and in which runs of vertices
+  // there is a hole.
+  std::vector<std::uint8_t> seen_;
+  std::vector<float> read_;
+  std::vector<std::uint8_t> has_hole_;
   std::vector<std::uint8_t> filled_;  // 1 where the row above has a hole
 };
 

@@ -12,98 +12,141 @@ namespace {
 // The corners of a cell, counterclockwise to the viewer from the top left.
 constexpr std::array<int, 4> kRight{0, 0, 1, 1}, kDown{0, 1, 1, 0};
 
-TexturedVertex middle(const TexturedVertex& a, const TexturedVertex& b, float z) noexcept {
-  return {0.5F * (a.x + b.x), 0.5F * (a.y + b.y), z, 0.5F * (a.u + b.u), 0.5F * (a.v + b.v)};
+// At the height of the first.
+TexturedVertex middle(const TexturedVertex& a, const TexturedVertex& b) noexcept {
+  return {0.5F * (a.x + b.x), 0.5F * (a.y + b.y), a.z, 0.5F * (a.u + b.u), 0.5F * (a.v + b.v)};
+}
+
+constexpr int signOf(int sum) noexcept {
+  return (sum > 0) - (sum < 0);
 }
 
 }  // namespace
 
+// What to draw where the corners of `bits` are near: the same for every such cell.
+constexpr SilhouetteDrawer::CellCase SilhouetteDrawer::caseOf(unsigned bits) noexcept {
+  CellCase result;
+  const auto is_near = [bits](std::size_t k) { return (bits >> k & 1U) != 0; };
+  int right = 0, down = 0;  // where the far side lies
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::size_t next = (k + 1) % 4;
+    const auto addNear = [&](std::size_t a, std::size_t b) {
+      result.near[static_cast<std::size_t>(result.near_count++)] = {static_cast<std::uint8_t>(a),
+                                                                    static_cast<std::uint8_t>(b)};
+    };
+    if (is_near(k)) addNear(k, k);
+    if (is_near(k) != is_near(next)) is_near(k) ? addNear(k, next) : addNear(next, k);
+    const int sign = is_near(k) ? -1 : 1;
+    right += sign * (2 * kRight[k] - 1);
+    down += sign * (2 * kDown[k] - 1);
+    if (!is_near(k)) result.far[static_cast<std::size_t>(result.far_count++)] = static_cast<std::uint8_t>(k);
+    const std::size_t beside = 3 - k;  // 0-3 and 1-2 share a row
+    const std::size_t below = k ^ 1U;  // 0-1 and 2-3 a column
+    const std::size_t from = !is_near(k) ? k : !is_near(beside) ? beside : !is_near(below) ? below : (k + 2) % 4;
+    result.far_from[k] = static_cast<std::uint8_t>(from);
+  }
+  result.aside_right = signOf(right);
+  result.aside_down = signOf(down);
+  result.near_right = !is_near(0) && !is_near(1);
+  result.near_left = !is_near(2) && !is_near(3);
+  result.near_below = !is_near(0) && !is_near(3);
+  result.near_above = !is_near(1) && !is_near(2);
+  return result;
+}
+
+constexpr std::array<SilhouetteDrawer::CellCase, 16> SilhouetteDrawer::kCases = [] {
+  std::array<CellCase, 16> cases;
+  for (unsigned bits = 0; bits < 16; ++bits) cases[bits] = caseOf(bits);
+  return cases;
+}();
+
+SilhouetteDrawer::SilhouetteDrawer(const HeightLattice& lattice, const ViewSpan& view,
+                                   std::vector<TexturedVertex>& vertices, std::vector<std::uint32_t>& indices) noexcept
+    : lattice_(lattice), view_(view), vertices_(vertices), indices_(indices) {
+  const int right = lattice.cols() - 1, low = lattice.rows() - 1;
+  u_per_sample_ = 1 / static_cast<float>(lattice.cols());
+  v_per_sample_ = 1 / static_cast<float>(lattice.rows());
+  u_per_mm_ = (lattice.u(right) - lattice.u(0)) / std::max(lattice.x(right) - lattice.x(0), 1e-6F);
+  v_per_mm_ = (lattice.v(low) - lattice.v(0)) / std::max(lattice.y(0) - lattice.y(low), 1e-6F);
+}
+
 void SilhouetteDrawer::drawCell(std::uint32_t corner, const std::vector<std::uint32_t>& slots) {
   const int width = lattice_.cols();
-  const int i = static_cast<int>(corner) % width, j = static_cast<int>(corner) / width;
-  std::array<Corner, 4> corners;
-  float low = HUGE_VALF, high = -HUGE_VALF;
+  const int j = lattice_.rowOf(corner), i = static_cast<int>(corner) - j * width;
+  Cell cell{.i = i, .j = j};
+  const float* z = lattice_.heights() + corner;
+  const float low = std::min({z[0], z[1], z[width], z[width + 1]});
+  const float high = std::max({z[0], z[1], z[width], z[width + 1]});
+  unsigned near = 0;
   for (std::size_t k = 0; k < 4; ++k) {
     const int c = i + kRight[k], r = j + kDown[k];
-    const float z = lattice_.heights()[r * width + c];
-    corners[k].at = {lattice_.x(c), lattice_.y(r), z, lattice_.u(c), lattice_.v(r)};
-    low = std::min(low, z);
-    high = std::max(high, z);
+    const float height = z[kDown[k] * width + kRight[k]];
+    cell.corners[k] = {lattice_.x(c), lattice_.y(r), height, lattice_.u(c), lattice_.v(r)};
+    near |= (height > 0.5F * (low + high) ? 1U : 0U) << k;
   }
-  for (Corner& one : corners) one.is_near = one.at.z > 0.5F * (low + high);
-  drawNear(corners.data());
-  stepAside(corners.data(), corner, slots);
-  drawFar(corners.data(), i, j);
+  const CellCase& what = kCases[near];
+  drawNear(cell, what);
+  stepAside(cell, what, slots);
+  drawFar(cell, what);
 }
 
 // The far corners, and the vertices of the surface there, show the picture a little away from the near ones.
-void SilhouetteDrawer::stepAside(Corner* corners, std::uint32_t corner, const std::vector<std::uint32_t>& slots) {
+void SilhouetteDrawer::stepAside(Cell& cell, const CellCase& what, const std::vector<std::uint32_t>& slots) {
   constexpr float kSamples = 1.5F;
-  int right = 0, down = 0;  // where the far side lies
-  for (std::size_t k = 0; k < 4; ++k) {
-    const int sign = corners[k].is_near ? -1 : 1;
-    right += sign * (2 * kRight[k] - 1);
-    down += sign * (2 * kDown[k] - 1);
-  }
-  const auto toward = [](int sum) { return sum > 0 ? kSamples : sum < 0 ? -kSamples : 0.0F; };
-  const float by_u = toward(right) / static_cast<float>(lattice_.cols());
-  const float by_v = toward(down) / static_cast<float>(lattice_.rows());
-  for (std::size_t k = 0; k < 4; ++k) {
-    if (corners[k].is_near) continue;
-    corners[k].at.u += by_u;
-    corners[k].at.v += by_v;
-    const std::uint32_t slot = slots[corner + static_cast<std::uint32_t>(kDown[k] * lattice_.cols() + kRight[k])];
+  const float by_u = kSamples * static_cast<float>(what.aside_right) * u_per_sample_;
+  const float by_v = kSamples * static_cast<float>(what.aside_down) * v_per_sample_;
+  const std::uint32_t* const place = slots.data() + cell.j * lattice_.cols() + cell.i;
+  for (int n = 0; n < what.far_count; ++n) {
+    const std::size_t k = what.far[static_cast<std::size_t>(n)];
+    TexturedVertex& at = cell.corners[k];
+    at.u += by_u;
+    at.v += by_v;
+    const std::uint32_t slot = place[kDown[k] * lattice_.cols() + kRight[k]];
     if (slot == 0) continue;
-    vertices_[slot - 1].u = corners[k].at.u;
-    vertices_[slot - 1].v = corners[k].at.v;
+    vertices_[slot - 1].u = at.u;
+    vertices_[slot - 1].v = at.v;
   }
 }
 
-void SilhouetteDrawer::drawNear(const Corner* corners) {
+void SilhouetteDrawer::drawNear(const Cell& cell, const CellCase& what) {
   std::array<TexturedVertex, 8> polygon;
-  int count = 0;
-  for (int k = 0; k < 4; ++k) {
-    const Corner& here = corners[k];
-    const Corner& next = corners[(k + 1) % 4];
-    if (here.is_near) polygon[static_cast<std::size_t>(count++)] = here.at;
-    if (here.is_near == next.is_near) continue;
-    const float z = here.is_near ? here.at.z : next.at.z;
-    polygon[static_cast<std::size_t>(count++)] = middle(here.at, next.at, z);
+  for (std::size_t n = 0; n < static_cast<std::size_t>(what.near_count); ++n) {
+    const auto [k, other] = what.near[n];
+    polygon[n] = middle(cell.corners[k], cell.corners[other]);
   }
-  addFan(polygon.data(), count);
+  addFan(polygon.data(), what.near_count);
 }
 
 // A near corner takes the height and the colour of the far one beside it, above or below it, or across.
-void SilhouetteDrawer::drawFar(const Corner* corners, int i, int j) {
-  std::array<TexturedVertex, 4> polygon;
-  const auto is_near = [corners](std::size_t k) { return corners[k].is_near; };
+void SilhouetteDrawer::drawFar(const Cell& cell, const CellCase& what) {
+  std::array<TexturedVertex, 4> polygon = cell.corners;
   for (std::size_t k = 0; k < 4; ++k) {
-    polygon[k] = corners[k].at;
-    if (!is_near(k)) continue;
-    const std::size_t beside = 3 - k;  // 0-3 and 1-2 share a row
-    const std::size_t below = k ^ 1U;  // 0-1 and 2-3 a column
-    const std::size_t from = !is_near(beside) ? beside : !is_near(below) ? below : (k + 2) % 4;
-    polygon[k].z = corners[from].at.z;
-    polygon[k].u = corners[from].at.u;
-    polygon[k].v = corners[from].at.v;
+    const TexturedVertex& from = cell.corners[what.far_from[k]];
+    polygon[k].z = from.z;
+    polygon[k].u = from.u;
+    polygon[k].v = from.v;
   }
-  addFan(polygon.data(), 4);
-  if (!is_near(0) && !is_near(1)) extend(polygon[2], polygon[3], i + 1, j, {1, 0});
-  if (!is_near(2) && !is_near(3)) extend(polygon[0], polygon[1], i, j, {-1, 0});
-  if (!is_near(0) && !is_near(3)) extend(polygon[1], polygon[2], i, j + 1, {0, 1});
-  if (!is_near(1) && !is_near(2)) extend(polygon[3], polygon[0], i, j, {0, -1});
+  const std::uint32_t at = addFan(polygon.data(), 4);
+  const float half_across = 0.5F * (polygon[2].x - polygon[0].x), half_down = 0.5F * (polygon[0].y - polygon[2].y);
+  const int i = cell.i, j = cell.j;
+  if (what.near_right) extend(at + 2, at + 3, half_across, i + 1, j, {1, 0});
+  if (what.near_left) extend(at, at + 1, half_across, i, j, {-1, 0});
+  if (what.near_below) extend(at + 1, at + 2, half_down, i, j + 1, {0, 1});
+  if (what.near_above) extend(at + 3, at, half_down, i, j, {0, -1});
 }
 
-// `first` to `second` is the side of the cell that lies behind the near thing, which begins at vertex (i, j) or beside
-// it: how far some eye sees behind its outline. A round thing hides more than its rim does.
-void SilhouetteDrawer::extend(const TexturedVertex& first, const TexturedVertex& second, int i, int j, Way way) {
+// Vertices `from` to `to` are the side of the cell that lies behind the near thing, which begins at vertex (i, j) or
+// beside it: how far some eye sees behind its outline, of which the cell itself covers `covered_mm`. A round thing
+// hides more than its rim does.
+void SilhouetteDrawer::extend(std::uint32_t from, std::uint32_t to, float covered_mm, int i, int j, Way way) {
+  const TexturedVertex &first = vertices_[from], &second = vertices_[to];
   const float far_z = 0.5F * (first.z + second.z);
   const float near_z = highest(i, j, way);
   const float distance = static_cast<float>(view_.distance_mm + view_.screen_z_mm) - near_z;
   const float outline = way.right != 0 ? static_cast<float>(way.right) * first.x + static_cast<float>(view_.eye_mm)
                                        : static_cast<float>(-way.down) * first.y;
   const float length = (near_z - far_z) * outline / std::max(distance, 1.0F);
-  if (length > 0) addStrip(first, second, way, length);
+  if (length > covered_mm) addStrip(from, to, way, length);
 }
 
 float SilhouetteDrawer::highest(int i, int j, Way way) const noexcept {
@@ -118,29 +161,29 @@ float SilhouetteDrawer::highest(int i, int j, Way way) const noexcept {
   return high;
 }
 
-void SilhouetteDrawer::addStrip(const TexturedVertex& first, const TexturedVertex& second, Way way, float length) {
-  const float mm_across = std::max(lattice_.x(lattice_.cols() - 1) - lattice_.x(0), 1e-6F);
-  const float mm_down = std::max(lattice_.y(0) - lattice_.y(lattice_.rows() - 1), 1e-6F);
-  const float u_per_mm = (lattice_.u(lattice_.cols() - 1) - lattice_.u(0)) / mm_across;
-  const float v_per_mm = (lattice_.v(lattice_.rows() - 1) - lattice_.v(0)) / mm_down;
-  const auto right = static_cast<float>(way.right), down = static_cast<float>(way.down);
+void SilhouetteDrawer::addStrip(std::uint32_t first, std::uint32_t second, Way way, float length) {
+  const float right = static_cast<float>(way.right) * length, down = static_cast<float>(way.down) * length;
   const auto beyond = [&](TexturedVertex at) {
-    at.x += right * length;
-    at.y -= down * length;
-    at.u -= right * length * u_per_mm;  // back into the far side
-    at.v -= down * length * v_per_mm;
+    at.x += right;
+    at.y -= down;
+    at.u -= right * u_per_mm_;  // back into the far side
+    at.v -= down * v_per_mm_;
     return at;
   };
-  const std::array<TexturedVertex, 4> strip{beyond(first), beyond(second), second, first};
-  addFan(strip.data(), 4);
+  const auto there = static_cast<std::uint32_t>(vertices_.size());
+  vertices_.push_back(beyond(vertices_[first]));
+  vertices_.push_back(beyond(vertices_[second]));
+  for (const std::uint32_t vertex : {there, there + 1, second, there, second, first}) indices_.push_back(vertex);
 }
 
-void SilhouetteDrawer::addFan(const TexturedVertex* polygon, int count) {
+// Where the first of its vertices is.
+std::uint32_t SilhouetteDrawer::addFan(const TexturedVertex* polygon, int count) {
   const auto first = static_cast<std::uint32_t>(vertices_.size());
   for (int k = 0; k < count; ++k) vertices_.push_back(polygon[k]);
   for (std::uint32_t k = 2; k < static_cast<std::uint32_t>(count); ++k) {
     for (const std::uint32_t vertex : {first, first + k - 1, first + k}) indices_.push_back(vertex);
   }
+  return first;
 }
 
 }  // namespace relievo

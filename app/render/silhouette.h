@@ -2,6 +2,7 @@
 // What is drawn where one thing ends before another: the near side to its outline, the far side on behind it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -26,34 +27,46 @@ struct ViewSpan {
 class SilhouetteDrawer {
  public:
   SilhouetteDrawer(const HeightLattice& lattice, const ViewSpan& view, std::vector<TexturedVertex>& vertices,
-                   std::vector<std::uint32_t>& indices) noexcept
-      : lattice_(lattice), view_(view), vertices_(vertices), indices_(indices) {}
+                   std::vector<std::uint32_t>& indices) noexcept;
 
   // `corner`: the lattice vertex at the cell's top left. `slots`: of a lattice vertex its place among the vertices,
   // counted from 1; 0 where it is not among them.
   void drawCell(std::uint32_t corner, const std::vector<std::uint32_t>& slots);
 
  private:
-  struct Corner {
-    TexturedVertex at;
-    bool is_near;
+  struct Cell {
+    std::array<TexturedVertex, 4> corners{};  // counterclockwise to the viewer from the top left
+    int i, j;                                 // of the top left vertex
   };
+  // What is drawn of a cell, by which of its corners are near.
+  struct CellCase {
+    // The outline of the near part: corners (k, k), and middles between a near corner and a far one.
+    std::array<std::array<std::uint8_t, 2>, 8> near{};
+    std::array<std::uint8_t, 4> far{};       // its far corners
+    std::array<std::uint8_t, 4> far_from{};  // where each corner of the far side has height and colour from
+    int near_count = 0, far_count = 0;
+    int aside_right = 0, aside_down = 0;  // where the far side lies: -1, 0 or 1
+    bool near_right = false, near_left = false, near_below = false, near_above = false;  // sides that it lies behind
+  };
+  static constexpr CellCase caseOf(unsigned bits) noexcept;
+  static const std::array<CellCase, 16> kCases;
   // From the far to the near side, along one axis of the lattice.
   struct Way {
     int right, down;
   };
-  void stepAside(Corner* corners, std::uint32_t corner, const std::vector<std::uint32_t>& slots);
-  void drawNear(const Corner* corners);
-  void drawFar(const Corner* corners, int i, int j);
-  void extend(const TexturedVertex& first, const TexturedVertex& second, int i, int j, Way way);
+  void stepAside(Cell& cell, const CellCase& what, const std::vector<std::uint32_t>& slots);
+  void drawNear(const Cell& cell, const CellCase& what);
+  void drawFar(const Cell& cell, const CellCase& what);
+  void extend(std::uint32_t first, std::uint32_t second, float covered_mm, int i, int j, Way way);
   [[nodiscard]] float highest(int i, int j, Way way) const noexcept;
-  void addStrip(const TexturedVertex& first, const TexturedVertex& second, Way way, float length);
-  void addFan(const TexturedVertex* polygon, int count);
+  void addStrip(std::uint32_t first, std::uint32_t second, Way way, float length);
+  std::uint32_t addFan(const TexturedVertex* polygon, int count);
 
   const HeightLattice& lattice_;
   ViewSpan view_;
   std::vector<TexturedVertex>& vertices_;
   std::vector<std::uint32_t>& indices_;
+  float u_per_sample_, v_per_sample_, u_per_mm_, v_per_mm_;
 };
 
 }  // namespace relievo

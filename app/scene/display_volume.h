@@ -26,6 +26,7 @@ struct GridMapping {
   double v_per_mm = -1, v_origin = 0;  // v = v_origin + v_per_mm y, v_per_mm < 0: rows go down
 
   GridMapping() = default;
+  bool operator==(const GridMapping&) const = default;
   constexpr GridMapping(const DisplayVolume& volume, int cols, int rows) noexcept
       : u_per_mm(cols / volume.width_mm),
         u_origin(0.5 * cols - 0.5),

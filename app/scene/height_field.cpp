@@ -3,7 +3,6 @@
 #include "app/scene/height_field.h"
 
 #include <cmath>
-#include <cstring>
 #include <optional>
 
 namespace relievo {
@@ -182,17 +181,19 @@ bool HeightField::readRow(int r, std::span<const int> columns, float* heights_mm
   return std::any_of(first, const_cast<const float*>(heights_mm), [](float z) { return std::isnan(z); });
 }
 
+bool HeightField::readsLike(const HeightField& other) const noexcept {
+  HeightField there = other;
+  there.data_ = data_;
+  there.stride_bytes_ = stride_bytes_;
+  return there == *this;
+}
+
 bool HeightField::sameSamples(const HeightField& other) const noexcept {
   if (cols_ != other.cols_ || rows_ != other.rows_ || layout_ != other.layout_ || step_bytes_ != other.step_bytes_) {
     return false;
   }
-  const int of_one = layout_ == Layout::Bytes ? 1 : layout_ == Layout::Words ? 2 : 1 + std::max({red_, green_, blue_});
-  const std::ptrdiff_t row_bytes = static_cast<std::ptrdiff_t>(cols_ - 1) * step_bytes_ + of_one;
   for (int r = 0; r < rows_; ++r) {
-    if (std::memcmp(data_ + r * stride_bytes_, other.data_ + r * other.stride_bytes_,
-                    static_cast<std::size_t>(row_bytes)) != 0) {
-      return false;
-    }
+    if (!std::ranges::equal(rowBytes(r), other.rowBytes(r))) return false;
   }
   return true;
 }

@@ -43,6 +43,14 @@ class HeightField {
   // The heights of some samples of a row, in the order asked for. Whether there is a hole among them.
   bool readRow(int r, std::span<const int> columns, float* heights_mm) const RELIEVO_RT;
 
+  // From a row's first sample to its last.
+  [[nodiscard]] std::span<const std::uint8_t> rowBytes(int r) const noexcept {
+    return {data_ + r * stride_bytes_, static_cast<std::size_t>(cols_ - 1) * step_bytes_ + sampleBytes()};
+  }
+  [[nodiscard]] int stepBytes() const noexcept { return step_bytes_; }
+  // Of the same size and format, so that the same bytes have the same heights.
+  [[nodiscard]] bool readsLike(const HeightField& other) const noexcept;
+
   // The mean height of the samples in a block that lies inside the picture, of which about `most` are read across and
   // as many down, evenly spread about its centre. Not a number when less than half of those read have a height.
   [[nodiscard]] double meanHeight(int c0, int r0, int width, int height, int most) const RELIEVO_RT;
@@ -65,6 +73,7 @@ class HeightField {
   static constexpr double kHole = std::numeric_limits<double>::quiet_NaN();
 
  private:
+  bool operator==(const HeightField&) const = default;
   enum class Layout : std::uint8_t { Bytes, Words, Hue };
   [[nodiscard]] std::uint32_t codeAt(const std::uint8_t* sample) const RELIEVO_RT {
     const std::uint32_t low = sample[0];
@@ -75,6 +84,9 @@ class HeightField {
     s = std::min(std::max(s, 0.0), 1.0);
     if (!inverse_) return depth_mm_ * s;
     return (far_mm_ - 1.0 / (far_inverse_ + s * (near_inverse_ - far_inverse_))) * depth_per_mm_;
+  }
+  [[nodiscard]] int sampleBytes() const noexcept {
+    return layout_ == Layout::Bytes ? 1 : layout_ == Layout::Words ? 2 : 1 + std::max({red_, green_, blue_});
   }
   [[nodiscard]] double fromHue(const std::uint8_t* pixel) const RELIEVO_RT;
   template <class Sample>

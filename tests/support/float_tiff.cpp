@@ -24,8 +24,8 @@ void writeFloatTiff(const std::string& path, const FloatTiff& picture) {
   if (picture.tile == 0) {
     TIFFSetField(file, TIFFTAG_ROWSPERSTRIP, 7);
     for (std::uint32_t r = 0; r < picture.height; ++r) {
-      std::vector<float> row(picture.samples.begin() + std::ptrdiff_t{r} * picture.width,
-                             picture.samples.begin() + std::ptrdiff_t{r + 1} * picture.width);
+      const float* const first = picture.samples.data() + std::size_t{r} * picture.width;
+      std::vector<float> row(first, first + picture.width);
       written = written && TIFFWriteScanline(file, row.data(), r, 0) >= 0;
     }
   } else {
@@ -36,9 +36,8 @@ void writeFloatTiff(const std::string& path, const FloatTiff& picture) {
         std::vector<float> tile(std::size_t{picture.tile} * picture.tile, -1.0F);
         for (std::uint32_t r = y; r < std::min(y + picture.tile, picture.height); ++r) {
           const std::uint32_t end = std::min(x + picture.tile, picture.width);
-          std::copy(picture.samples.begin() + std::ptrdiff_t{r} * picture.width + x,
-                    picture.samples.begin() + std::ptrdiff_t{r} * picture.width + end,
-                    tile.begin() + std::ptrdiff_t{r - y} * picture.tile);
+          const float* const row = picture.samples.data() + std::size_t{r} * picture.width;
+          std::copy(row + x, row + end, tile.data() + std::size_t{r - y} * picture.tile);
         }
         written = written && TIFFWriteTile(file, tile.data(), x, y, 0, 0) >= 0;
       }

@@ -5,8 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <functional>
+#include <tuple>
 
 #include "app/render/cut_cells.h"
 #include "app/render/relief_triangles.h"
@@ -88,6 +91,56 @@ TEST(Silhouette, TheFarSideGoesOnBehindTheNearOne) {
   }
 }
 
+// Bits of the corners, counterclockwise from the top left. High up in the picture an eye sees behind what is above, low
+// down behind what is below.
+class SilhouetteOfCorners : public testing::TestWithParam<std::tuple<unsigned, int>> {};
+INSTANTIATE_TEST_SUITE_P(All, SilhouetteOfCorners, testing::Combine(testing::Range(1U, 15U), testing::Values(4, 27)));
+
+TEST_P(SilhouetteOfCorners, DrawsTheNearPartAndAllOfTheFarOneAndOnBehindIt) {
+  const auto [near, row] = GetParam();
+  const auto is_near = [near](int k) { return (near >> k & 1U) != 0; };
+  const auto height = [&](int c, int r) {
+    const int corner = c == kEdge ? r - row : c == kEdge + 1 ? 3 - (r - row) : -1;
+    return r >= row && r <= row + 1 && corner >= 0 && is_near(corner) ? 39.0 : 5.0;
+  };
+  const Drawn drawn = drawCell(height, kEdge, row);
+  const auto& lattice = drawn.lattice;
+  const float left = lattice.x(kEdge), right = lattice.x(kEdge + 1), top = lattice.y(row), low = lattice.y(row + 1);
+  double of_near = 0, of_far = 0;
+  for (std::size_t i = 0; i < drawn.indices.size(); i += 3) {
+    const auto& a = drawn.vertices[drawn.indices[i]];
+    const auto& b = drawn.vertices[drawn.indices[i + 1]];
+    const auto& c = drawn.vertices[drawn.indices[i + 2]];
+    const double area = 0.5 * static_cast<double>((b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y));
+    EXPECT_GT(area, 0) << "counterclockwise to the viewer";
+    EXPECT_TRUE(std::abs(a.z - b.z) < 0.01F && std::abs(a.z - c.z) < 0.01F) << "from one thing to the other";
+    const float x = (a.x + b.x + c.x) / 3, y = (a.y + b.y + c.y) / 3;
+    if (x < left || x > right || y > top || y < low) continue;  // behind what is beside the cell
+    (a.z > 20 ? of_near : of_far) += area;
+  }
+  const double cell = static_cast<double>((right - left) * (top - low));
+  const std::array<double, 4> share{0, 1.0 / 8, near == 5 || near == 10 ? 3.0 / 4 : 1.0 / 2, 7.0 / 8};
+  EXPECT_NEAR(of_near / cell, share[static_cast<std::size_t>(std::popcount(near))], 1e-4);
+  EXPECT_NEAR(of_far / cell, 1, 1e-4);
+
+  const auto any = [&](auto&& beyond) { return std::ranges::any_of(drawn.vertices, beyond); };
+  const bool far_left = !is_near(0) && !is_near(1), far_right = !is_near(2) && !is_near(3);
+  const bool far_above = !is_near(0) && !is_near(3), far_below = !is_near(1) && !is_near(2);
+  EXPECT_EQ(any([&](auto& v) { return v.x > right + 0.1F; }), far_left);
+  EXPECT_EQ(any([&](auto& v) { return v.x < left - 0.1F; }), far_right);
+  EXPECT_EQ(any([&](auto& v) { return v.y < low - 0.1F; }), far_above && row > kRows / 2);
+  EXPECT_EQ(any([&](auto& v) { return v.y > top + 0.1F; }), far_below && row < kRows / 2);
+
+  // Where the far side lies it shows what is farther away.
+  const int aside_right = (is_near(0) ? -1 : 1) + (is_near(1) ? -1 : 1) - (is_near(2) ? -1 : 1) - (is_near(3) ? -1 : 1);
+  const int aside_down = (is_near(1) ? -1 : 1) + (is_near(2) ? -1 : 1) - (is_near(0) ? -1 : 1) - (is_near(3) ? -1 : 1);
+  const auto toward = [](int sum) { return static_cast<float>((sum > 0) - (sum < 0)); };
+  if (!is_near(0)) {
+    EXPECT_NEAR(drawn.vertices[0].u, lattice.u(kEdge) - 1.5F * toward(aside_right) / kCols, 1e-6) << "of the surface";
+    EXPECT_NEAR(drawn.vertices[0].v, lattice.v(row) + 1.5F * toward(aside_down) / kRows, 1e-6);
+  }
+}
+
 TEST(Silhouette, ACornerBelongsToTheSideThatItIsNearerTo) {
   const auto height = [](int c, int r) { return c >= kEdge ? 30.0 : r > 10 ? 12.0 : 5.0; };
   const Drawn drawn = drawCell(height, kEdge - 1, 10);
@@ -119,6 +172,25 @@ TEST(Silhouette, ReachesAsFarBehindAsSomeEyeSees) {
     if (v.z < 6) reach = std::max(reach, static_cast<double>(v.x));
   }
   EXPECT_NEAR(reach, static_cast<double>(drawn.lattice.x(kEdge)) + length, 0.01);
+}
+
+// The far side goes on half a cell behind the outline as it is: that much needs no strip.
+TEST(Silhouette, DrawsNoStripWhereTheCellItselfReachesFarEnough) {
+  const auto reach = [](double jump_mm) {
+    const Drawn drawn =
+        drawCell([=](int c, int /*r*/) { return c < kEdge ? 5.0 : 5.0 + jump_mm; }, kEdge - 1, 10, ViewSpan{});
+    double right = -1e9;
+    for (const TexturedVertex& v : drawn.vertices) {
+      if (v.z < 5.1F) right = std::max(right, static_cast<double>(v.x - drawn.lattice.x(kEdge)));
+    }
+    return right;
+  };
+  const Drawn drawn = drawCell(step, kEdge - 1, 10);
+  const double half = 0.5 * static_cast<double>(drawn.lattice.x(kEdge) - drawn.lattice.x(kEdge - 1));
+  const double per_mm = (static_cast<double>(drawn.lattice.x(kEdge)) + ViewSpan{}.eye_mm) / 600;  // about
+  const double enough = half / per_mm;
+  EXPECT_NEAR(reach(0.9 * enough), 0, 1e-4);
+  EXPECT_GT(reach(1.1 * enough), half);
 }
 
 TEST(CutCells, AThinThingIsNoSmear) {

@@ -10,6 +10,7 @@
 #include <functional>
 #include <map>
 #include <random>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -249,6 +250,54 @@ TEST(HeightLattice, StandsOnTrueSamplesFromTheFirstToTheLast) {
     const std::size_t middle = lattice.size() / 2;
     const int i = static_cast<int>(middle) % lattice.cols(), j = static_cast<int>(middle) / lattice.cols();
     EXPECT_NEAR(lattice.heights()[middle], wave(grid.x(lattice.column(i)), grid.y(lattice.row(j))), 1e-3);
+  }
+}
+
+// What was filled in above holds back what is filled in below it, and nothing else does.
+TEST(HeightLattice, AHoleUnderAReadingIsFilledAnew) {
+  constexpr std::uint32_t kHole = 0;
+  for (const bool reading_between : {false, true}) {
+    const Frame frame = test::makeGrayFrame(65, 33, 8, MediaTime{}, [&](int c, int r) {
+      if (c == 60 && r == 11) return kHole;  // far from the others, in the row between them
+      const bool in_hole = c >= 20 && c < 24;
+      if (in_hole && (r == 10 || r == 12 || (r == 11 && !reading_between))) return kHole;
+      return r < 12 ? 250U : 10U;
+    });
+    HeightLattice lattice;
+    lattice.read(HeightField::make(frame, {.invalid_code = kHole}, kVolume).value(), 1024);
+    const auto filled = static_cast<double>(lattice.heights()[12 * 65 + 22]);
+    const double anew = 10 * 40 / 255.0, above = 250 * 40 / 255.0;
+    EXPECT_NEAR(filled, reading_between ? anew : above - 0.5 * static_cast<double>(lattice.jumpMm()), 1e-3);
+  }
+}
+
+// A film of which a part changes from frame to frame, with holes that come and go, sharpened by what comes after the
+// reading, and in between told to be something else: each time as if it had never seen another picture.
+TEST(HeightLattice, ReadsAfterOtherPicturesWhatItReadsAtFirst) {
+  std::mt19937 random(11);
+  constexpr std::uint32_t kHole = 7;
+  for (const auto& [cols, rows, most_across] :
+       {std::tuple{90, 70, 1024}, {65, 33, 1024}, {36, 31, 1024}, {200, 90, 96}}) {
+    std::vector<std::uint32_t> codes(static_cast<std::size_t>(cols) * rows, 100), before = codes;
+    HeightLattice lattice;
+    CutCells cuts;
+    for (int frame = 0; frame < 400; ++frame) {
+      const std::size_t begin = random() % codes.size(), count = 1 + random() % (frame % 2 == 0 ? 3 : 60);
+      for (std::size_t k = begin; k < std::min(begin + count, codes.size()); ++k) {
+        codes[k] = frame % 3 == 0 ? kHole : static_cast<std::uint32_t>(60 + random() % 80);
+      }
+      const Frame picture = test::makeGrayFrame(
+          cols, rows, 8, MediaTime{}, [&](int c, int r) { return codes[static_cast<std::size_t>(r) * cols + c]; });
+      const DepthCalibration calibration{
+          .polarity = frame % 10 < 8 ? DepthPolarity::NearIsHigh : DepthPolarity::NearIsLow, .invalid_code = kHole};
+      const auto field = HeightField::make(picture, calibration, kVolume).value();
+      lattice.read(field, most_across);
+      HeightLattice fresh;
+      fresh.read(field, most_across);
+      ASSERT_TRUE(std::equal(lattice.heights(), lattice.heights() + lattice.size(), fresh.heights()))
+          << cols << " columns, frame " << frame;
+      cuts.find(lattice, lattice.jumpMm());
+    }
   }
 }
 
