@@ -198,7 +198,7 @@ ChartWords timeWords(const Figures& figures) {
   const TickTimes own = times("relievo", sd), god = times("god-object", sd), big = times("relievo", largest);
   std::string reading = print(
       "Finger at 1 m/s, %dx%d: relievo %.2g µs and %.2g at p99.9, %.2g and %.2g times the god-object's; its upkeep "
-      "%.2g and %.2g µs (%.2g without this machine's interruptions).",
+      "%.2g and %.2g µs (%.2g without interruptions).",
       sd.cols, sd.rows, own.update.median, own.update.p999, own.update.median / god.update.median,
       own.update.p999 / god.update.p999, own.upkeep.median, own.upkeep.p999, own.own_upkeep.p999);
   if (largest != sd) {
