@@ -51,7 +51,8 @@ struct PlayedTick {
   glm::dvec3 hip_mm{0};
   Touch touch;
   TrueTouch truth;
-  Duration update{0}, upkeep{0};  // by the monotonic clock, its own cost not taken off
+  // By the monotonic clock, its own cost not taken off; the prefetch, before the position is known, counts as upkeep.
+  Duration update{0}, upkeep{0};
 };
 
 // One method on one film, tick by tick, with the player's frames in the window. Times must not go back. `film` and
