@@ -57,7 +57,7 @@ class SilhouetteDrawer {
   void stepAside(Cell& cell, const CellCase& what, const std::vector<std::uint32_t>& slots);
   void drawNear(const Cell& cell, const CellCase& what);
   void drawFar(const Cell& cell, const CellCase& what);
-  void extend(std::uint32_t first, std::uint32_t second, float covered_mm, int i, int j, Way way);
+  void extend(std::uint32_t from, std::uint32_t to, float covered_mm, int i, int j, Way way);
   [[nodiscard]] float highest(int i, int j, Way way) const noexcept;
   void addStrip(std::uint32_t first, std::uint32_t second, Way way, float length);
   std::uint32_t addFan(const TexturedVertex* polygon, int count);
