@@ -46,14 +46,14 @@ RELIEVO_TICK_CODE bool FeltSurface::moment(const SurfaceWindow& window, MediaTim
   placeFrames(window);
   slots_.window = &window;
   const FrameMoment moment(window, now);
-  shot_ = window.frames[static_cast<std::size_t>(moment.present)].shot;
+  present_ = static_cast<std::size_t>(moment.present);
+  shot_ = window.frames[present_].shot;
   std::optional<double> since_prepared_s;
   if (prepared_ && weighedAt(window, moment) == prepared_on_ &&
       std::chrono::abs(now - prepared_for_) <= kPreparedWithin) {
     since_prepared_s = toSeconds(now - prepared_for_);
   }
-  edge_moves_ = two_levels_ && edge_way_mm_ != glm::dvec2(0) &&
-                window.frames[static_cast<std::size_t>(moment.present)].time == edge_from_;
+  edge_moves_ = two_levels_ && edge_way_mm_ != glm::dvec2(0) && window.frames[present_].time == edge_from_;
   share_ = moment.share;
   narrow_.begin(slots_, moment, since_prepared_s);
   if (two_levels_) wide_.begin(slots_, moment, since_prepared_s);
@@ -151,6 +151,13 @@ RELIEVO_TICK_CODE double FeltSurface::height(double x_mm, double y_mm) RELIEVO_R
   if (!two_levels_) return n;
   const double w = wide_.height(x_mm, y_mm);
   return std::abs(w - n) <= 0.5 * scale_.clamp_mm ? w : n + SoftClamp(w - n, scale_.clamp_mm).value;
+}
+
+double FeltSurface::sampleHeight(double x_mm, double y_mm) const RELIEVO_RT {
+  const HeightField& field = slots_.window->frames[present_].field;
+  const double u = field.grid().u(x_mm) + 0.5, v = field.grid().v(y_mm) + 0.5;
+  if (!(u >= 0 && u < cols_ && v >= 0 && v < rows_)) return HeightField::kHole;
+  return field.heightMm(static_cast<int>(u), static_cast<int>(v));
 }
 
 // Looks again for every frame, and when the finger has gone on so far that the edge may be another one; not too often

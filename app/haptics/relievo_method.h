@@ -18,7 +18,8 @@ struct Friction {
 // Contact is a matter of inside and outside, not of crossing: a finger that was outside is in contact in the first tick
 // in which it is inside the solid, whoever of the two moved, and its path within the tick is sampled closer than the
 // surface has crests. So nothing passes through, however fast it rises. In contact the proxy slides to the closest
-// point (see closestPoint) and is free when that point is no longer above the finger.
+// point (see closestPoint) and is free when that point is no longer above the finger, or when the finger has gone out
+// through a wall and no ridge is between them.
 //
 // At a cut, and wherever else the film is not continuous, a finger left inside the new solid is re-seated: the new
 // surface is lowered under it until it is as deep as it was before, so that it feels the new shape at once and at no
@@ -56,6 +57,7 @@ class RelievoMethod final : public TouchMethod {
   void enterScene(const glm::dvec3& hip_mm) RELIEVO_RT;
   void slide(const glm::dvec3& hip_mm) RELIEVO_RT;
   [[nodiscard]] bool sweptAway(const glm::dvec3& hip_mm) RELIEVO_RT;
+  [[nodiscard]] bool offTheEdge() RELIEVO_RT;
   void rub(const glm::dvec3& hip_mm) RELIEVO_RT;
   [[nodiscard]] bool enterOnPath(const glm::dvec3& from_mm, const glm::dvec3& hip_mm) RELIEVO_RT;
   void follow(glm::dvec3 from_mm, const glm::dvec3& hip_mm) RELIEVO_RT;

@@ -97,6 +97,32 @@ TEST_F(RelievoMethodTest, DoesNotPassAThinRidge) {
   EXPECT_TRUE(held);
 }
 
+// A finger 25 mm below the top is swept out through its wall at 100 mm/s, past a rim that stands above the top.
+class SweptOff : public RelievoMethodTest {
+ protected:
+  // How far beyond the edge the force is gone; 20 mm: it is still there.
+  double letGoAt(double rim_mm) {
+    film(0.7, [&](double x, double, double) { return x > 0 ? 2.0 : x > -2 ? 35 + rim_mm : 35.0; });
+    double x = -25;
+    static_cast<void>(tick(0, {x, 0, 36}));
+    for (int i = 1; x < 20; ++i) {
+      x = -25 + 0.1 * i;
+      if (!tick(i * kTick, {x, 0, 10}).contact) return x;
+    }
+    return x;
+  }
+};
+
+TEST_F(SweptOff, AHollowAsDeepAsNoiseDoesNotHoldTheProxyBehindTheEdge) {
+  const double at = letGoAt(0.5);
+  EXPECT_GT(at, -1);
+  EXPECT_LT(at, 1) << "mm; it would hold to 2.8";
+}
+
+TEST_F(SweptOff, ARidgeDoes) {
+  EXPECT_EQ(letGoAt(1.5), 20);
+}
+
 TEST_F(RelievoMethodTest, AFastFingerDoesNotJumpOverARidgeUnseen) {
   film(0.1, [](double x, double, double) { return 10 + 12 * std::exp(-std::pow(x / 0.8, 2)); });
   for (double start = -5; start < -1; start += 0.31) {
