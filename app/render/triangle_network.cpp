@@ -14,11 +14,11 @@ void TriangleNetwork::measure(const HeightLattice& lattice, const CutCells& cuts
   cols_ = lattice.cols();
   rows_ = lattice.rows();
   tile_ = lattice.tile();
-  errors_.assign(lattice.size(), 0.0F);
-  markCuts();
+  errors_.resize(lattice.size());
   for (int step = 1; step < tile_; step *= 2) {
     if (step == 1) {
       measureFinest(lattice.heights());
+      markCuts();
     } else {
       measureSides(lattice.heights(), step);
     }
@@ -46,10 +46,10 @@ void TriangleNetwork::measureFinest(const float* z) {
     const float* line = z + j * width;
     float* error = errors_.data() + j * width;
     if (j % 2 == 0) {
-      for (std::size_t i = 1; i + 1 < width; ++i) error[i] += std::abs(line[i] - 0.5F * (line[i - 1] + line[i + 1]));
+      for (std::size_t i = 1; i + 1 < width; ++i) error[i] = std::abs(line[i] - 0.5F * (line[i - 1] + line[i + 1]));
     } else {
       const float *above = line - width, *below = line + width;
-      for (std::size_t i = 0; i < width; ++i) error[i] += std::abs(line[i] - 0.5F * (above[i] + below[i]));
+      for (std::size_t i = 0; i < width; ++i) error[i] = std::abs(line[i] - 0.5F * (above[i] + below[i]));
     }
   }
 }
@@ -95,8 +95,12 @@ void TriangleNetwork::measureMiddles(const float* z, int step) {
 void TriangleNetwork::triangulate(float error_mm) {
   error_mm_ = error_mm;
   triangles_.clear();
+  if (slots_.size() == errors_.size()) {
+    for (const std::uint32_t vertex : vertices_) slots_[vertex] = 0;
+  } else {
+    slots_.assign(errors_.size(), 0);
+  }
   vertices_.clear();
-  slots_.assign(errors_.size(), 0);
   const int depth = 2 * std::countr_zero(static_cast<unsigned>(tile_));
   const auto vertex = [this](int i, int j) { return use(static_cast<std::uint32_t>(j * cols_ + i)); };
   for (int j = 0; j + 1 < rows_; j += tile_) {
