@@ -21,7 +21,7 @@ void main() {
 )";
 
 template <class Element>
-void replace(GLenum target, const std::vector<Element>& elements) {
+void replace(GLenum target, const OutputArray<Element>& elements) {
   glBufferData(target, static_cast<GLsizeiptr>(elements.size() * sizeof(Element)), elements.data(), GL_STREAM_DRAW);
 }
 

@@ -10,15 +10,18 @@ void ReliefTriangles::build(const HeightField& field, const DisplayVolume& volum
   network_.measure(lattice_, cuts_);
   network_.triangulate(static_cast<float>(detail.error_mm));
   vertices_.clear();
+  TexturedVertex* at = vertices_.room(network_.vertices().size());
   for (const std::uint32_t vertex : network_.vertices()) {
     const int j = lattice_.rowOf(vertex), i = static_cast<int>(vertex) - j * lattice_.cols();
-    vertices_.push_back({lattice_.x(i), lattice_.y(j), lattice_.heights()[vertex], lattice_.u(i), lattice_.v(j)});
+    *at++ = {lattice_.x(i), lattice_.y(j), lattice_.heights()[vertex], lattice_.u(i), lattice_.v(j)};
   }
-  indices_.resize(3 * network_.triangles().size());
-  auto index = indices_.begin();
+  vertices_.endAt(at);
+  indices_.clear();
+  std::uint32_t* index = indices_.room(3 * network_.triangles().size());
   for (const auto& [a, b, c] : network_.triangles()) {
     for (const std::uint32_t place : {a, b, c}) *index++ = place;
   }
+  indices_.endAt(index);
   addFrame(volume, static_cast<float>(detail.view.screen_z_mm));
   SilhouetteDrawer silhouettes(lattice_, detail.view, vertices_, indices_);
   for (const std::uint32_t corner : cuts_.cells()) silhouettes.drawCell(corner, network_.slots());
@@ -45,11 +48,9 @@ void ReliefTriangles::addFrame(const DisplayVolume& volume, float screen_z_mm) {
       const std::uint32_t slot = network_.slots()[vertex];
       if (slot == 0) continue;  // the corners are among those in use
       const std::uint32_t inner = slot - 1;
-      vertices_.push_back(outer(vertices_[inner], i, j));
-      const auto outside = static_cast<std::uint32_t>(vertices_.size() - 1);
-      if (begun) {
-        indices_.insert(indices_.end(), {before, inner, outside, before, outside, outside_before});
-      }
+      const auto outside = static_cast<std::uint32_t>(vertices_.size());
+      vertices_.add({{outer(vertices_[inner], i, j)}});
+      if (begun) indices_.add({{before, inner, outside, before, outside, outside_before}});
       before = inner;
       outside_before = outside;
       begun = true;
@@ -67,10 +68,10 @@ void ReliefTriangles::addFloor(const DisplayVolume& volume, float screen_z_mm) {
   const auto x = static_cast<float>(0.5 * volume.width_mm), y = static_cast<float>(0.5 * volume.height_mm);
   const auto first = static_cast<std::uint32_t>(vertices_.size());
   for (const float z : {-kBelowMm, screen_z_mm}) {
-    vertices_.insert(vertices_.end(), {{-x, y, z, 0, 0}, {-x, -y, z, 0, 1}, {x, -y, z, 1, 1}, {x, y, z, 1, 0}});
+    vertices_.add({{{-x, y, z, 0, 0}, {-x, -y, z, 0, 1}, {x, -y, z, 1, 1}, {x, y, z, 1, 0}}});
   }
   const auto addQuad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
-    for (const std::uint32_t k : {a, b, c, a, c, d}) indices_.push_back(first + k);
+    indices_.add({{first + a, first + b, first + c, first + a, first + c, first + d}});
   };
   addQuad(0, 1, 2, 3);
   for (std::uint32_t k = 0; k < 4; ++k) addQuad(k, k + 4, (k + 1) % 4 + 4, (k + 1) % 4);

@@ -5,10 +5,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "app/render/cut_cells.h"
 #include "app/render/height_lattice.h"
+#include "app/render/output_array.h"
 #include "app/render/silhouette.h"
 #include "app/render/textured_vertex.h"
 #include "app/render/triangle_network.h"
@@ -29,11 +29,11 @@ class ReliefTriangles {
  public:
   void build(const HeightField& field, const DisplayVolume& volume, const ReliefDetail& detail);
 
-  [[nodiscard]] const std::vector<TexturedVertex>& vertices() const noexcept { return vertices_; }
+  [[nodiscard]] const OutputArray<TexturedVertex>& vertices() const noexcept { return vertices_; }
   // Three to a triangle, counterclockwise to the viewer: first the surface, then the frame that joins it to the
   // picture's rectangle in the screen plane, then what is drawn at silhouettes; last a floor under it all, so that
   // where an eye looks past everything it sees the picture's own colours.
-  [[nodiscard]] const std::vector<std::uint32_t>& indices() const noexcept { return indices_; }
+  [[nodiscard]] const OutputArray<std::uint32_t>& indices() const noexcept { return indices_; }
   [[nodiscard]] std::size_t surfaceTriangles() const noexcept { return network_.triangles().size(); }
   [[nodiscard]] std::size_t cutCells() const noexcept { return cuts_.cells().size(); }
 
@@ -44,8 +44,8 @@ class ReliefTriangles {
   HeightLattice lattice_;
   CutCells cuts_;
   TriangleNetwork network_;
-  std::vector<TexturedVertex> vertices_;
-  std::vector<std::uint32_t> indices_;
+  OutputArray<TexturedVertex> vertices_;
+  OutputArray<std::uint32_t> indices_;
 };
 
 }  // namespace relievo

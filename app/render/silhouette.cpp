@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace relievo {
 namespace {
@@ -54,14 +55,11 @@ constexpr SilhouetteDrawer::CellCase SilhouetteDrawer::caseOf(unsigned bits) noe
   return result;
 }
 
-constexpr std::array<SilhouetteDrawer::CellCase, 16> SilhouetteDrawer::kCases = [] {
-  std::array<CellCase, 16> cases;
-  for (unsigned bits = 0; bits < 16; ++bits) cases[bits] = caseOf(bits);
-  return cases;
-}();
+template <unsigned kBits>
+constexpr SilhouetteDrawer::CellCase SilhouetteDrawer::kCase = caseOf(kBits);
 
 SilhouetteDrawer::SilhouetteDrawer(const HeightLattice& lattice, const ViewSpan& view,
-                                   std::vector<TexturedVertex>& vertices, std::vector<std::uint32_t>& indices) noexcept
+                                   OutputArray<TexturedVertex>& vertices, OutputArray<std::uint32_t>& indices) noexcept
     : lattice_(lattice), view_(view), vertices_(vertices), indices_(indices) {
   const int right = lattice.cols() - 1, low = lattice.rows() - 1;
   u_per_sample_ = 1 / static_cast<float>(lattice.cols());
@@ -84,14 +82,13 @@ void SilhouetteDrawer::drawCell(std::uint32_t corner, const std::vector<std::uin
     cell.corners[k] = {lattice_.x(c), lattice_.y(r), height, lattice_.u(c), lattice_.v(r)};
     near |= (height > 0.5F * (low + high) ? 1U : 0U) << k;
   }
-  const CellCase& what = kCases[near];
-  drawNear(cell, what);
-  stepAside(cell, what, slots);
-  drawFar(cell, what);
+  (this->*kCases[near])(cell, slots);
 }
 
 // The far corners, and the vertices of the surface there, show the picture a little away from the near ones.
-void SilhouetteDrawer::stepAside(Cell& cell, const CellCase& what, const std::vector<std::uint32_t>& slots) {
+template <unsigned kBits>
+void SilhouetteDrawer::stepAside(Cell& cell, const std::vector<std::uint32_t>& slots) {
+  constexpr const CellCase& what = kCase<kBits>;
   constexpr float kSamples = 1.5F;
   const float by_u = kSamples * static_cast<float>(what.aside_right) * u_per_sample_;
   const float by_v = kSamples * static_cast<float>(what.aside_down) * v_per_sample_;
@@ -108,45 +105,67 @@ void SilhouetteDrawer::stepAside(Cell& cell, const CellCase& what, const std::ve
   }
 }
 
-void SilhouetteDrawer::drawNear(const Cell& cell, const CellCase& what) {
-  std::array<TexturedVertex, 8> polygon;
-  for (std::size_t n = 0; n < static_cast<std::size_t>(what.near_count); ++n) {
-    const auto [k, other] = what.near[n];
-    polygon[n] = middle(cell.corners[k], cell.corners[other]);
+// A fan over the next `count` vertices, which the caller writes.
+inline void SilhouetteDrawer::addFan(Pen& pen, int count) {
+  for (std::uint32_t k = 2; k < static_cast<std::uint32_t>(count); ++k) {
+    for (const std::uint32_t vertex : {0U, k - 1, k}) *pen.index++ = pen.place + vertex;
   }
-  addFan(polygon.data(), what.near_count);
+  pen.place += static_cast<std::uint32_t>(count);
+}
+
+template <unsigned kBits>
+void SilhouetteDrawer::drawNear(Pen& pen, const Cell& cell) {
+  constexpr const CellCase& what = kCase<kBits>;
+  addFan(pen, what.near_count);
+  for (int n = 0; n < what.near_count; ++n) {
+    const auto [k, other] = what.near[static_cast<std::size_t>(n)];
+    *pen.vertex++ = middle(cell.corners[k], cell.corners[other]);
+  }
 }
 
 // A near corner takes the height and the colour of the far one beside it, above or below it, or across.
-void SilhouetteDrawer::drawFar(const Cell& cell, const CellCase& what) {
-  std::array<TexturedVertex, 4> polygon = cell.corners;
+template <unsigned kBits>
+void SilhouetteDrawer::drawFar(Pen& pen, const Cell& cell) const {
+  constexpr const CellCase& what = kCase<kBits>;
+  const std::uint32_t place = pen.place;
+  const TexturedVertex* const corners = pen.vertex;
+  addFan(pen, 4);
   for (std::size_t k = 0; k < 4; ++k) {
-    const TexturedVertex& from = cell.corners[what.far_from[k]];
-    polygon[k].z = from.z;
-    polygon[k].u = from.u;
-    polygon[k].v = from.v;
+    const TexturedVertex &at = cell.corners[k], &from = cell.corners[what.far_from[k]];
+    *pen.vertex++ = {at.x, at.y, from.z, from.u, from.v};
   }
-  const std::uint32_t at = addFan(polygon.data(), 4);
-  const float half_across = 0.5F * (polygon[2].x - polygon[0].x), half_down = 0.5F * (polygon[0].y - polygon[2].y);
+  const float half_across = 0.5F * (cell.corners[2].x - cell.corners[0].x);
+  const float half_down = 0.5F * (cell.corners[0].y - cell.corners[2].y);
   const int i = cell.i, j = cell.j;
-  if (what.near_right) extend(at + 2, at + 3, half_across, i + 1, j, {1, 0});
-  if (what.near_left) extend(at, at + 1, half_across, i, j, {-1, 0});
-  if (what.near_below) extend(at + 1, at + 2, half_down, i, j + 1, {0, 1});
-  if (what.near_above) extend(at + 3, at, half_down, i, j, {0, -1});
+  if (what.near_right) extend(pen, corners, place, 2, half_across, i + 1, j, {1, 0});
+  if (what.near_left) extend(pen, corners, place, 0, half_across, i, j, {-1, 0});
+  if (what.near_below) extend(pen, corners, place, 1, half_down, i, j + 1, {0, 1});
+  if (what.near_above) extend(pen, corners, place, 3, half_down, i, j, {0, -1});
 }
 
-// Vertices `from` to `to` are the side of the cell that lies behind the near thing, which begins at vertex (i, j) or
-// beside it: how far some eye sees behind its outline, of which the cell itself covers `covered_mm`. A round thing
-// hides more than its rim does.
-void SilhouetteDrawer::extend(std::uint32_t from, std::uint32_t to, float covered_mm, int i, int j, Way way) {
-  const TexturedVertex &first = vertices_[from], &second = vertices_[to];
+// The side of the cell from corner `from` to the next, `place` and on among the vertices, lies behind the near thing,
+// which begins at vertex (i, j) or beside it: how far some eye sees behind its outline, of which the cell itself covers
+// `covered_mm`. A round thing hides more than its rim does.
+inline void SilhouetteDrawer::extend(Pen& pen, const TexturedVertex* corners, std::uint32_t place, std::size_t from,
+                                     float covered_mm, int i, int j, Way way) const {
+  const std::size_t to = (from + 1) % 4;
+  const TexturedVertex &first = corners[from], &second = corners[to];
   const float far_z = 0.5F * (first.z + second.z);
   const float near_z = highest(i, j, way);
   const float distance = static_cast<float>(view_.distance_mm + view_.screen_z_mm) - near_z;
   const float outline = way.right != 0 ? static_cast<float>(way.right) * first.x + static_cast<float>(view_.eye_mm)
                                        : static_cast<float>(-way.down) * first.y;
   const float length = (near_z - far_z) * outline / std::max(distance, 1.0F);
-  if (length > covered_mm) addStrip(from, to, way, length);
+  if (length <= covered_mm) return;
+  const float right = static_cast<float>(way.right) * length, down = static_cast<float>(way.down) * length;
+  const auto beyond = [&](const TexturedVertex& at) {  // back into the far side
+    return TexturedVertex{at.x + right, at.y - down, at.z, at.u - right * u_per_mm_, at.v - down * v_per_mm_};
+  };
+  const auto a = place + static_cast<std::uint32_t>(from), b = place + static_cast<std::uint32_t>(to);
+  for (const std::uint32_t vertex : {pen.place, pen.place + 1, b, pen.place, b, a}) *pen.index++ = vertex;
+  *pen.vertex++ = beyond(first);
+  *pen.vertex++ = beyond(second);
+  pen.place += 2;
 }
 
 float SilhouetteDrawer::highest(int i, int j, Way way) const noexcept {
@@ -161,29 +180,20 @@ float SilhouetteDrawer::highest(int i, int j, Way way) const noexcept {
   return high;
 }
 
-void SilhouetteDrawer::addStrip(std::uint32_t first, std::uint32_t second, Way way, float length) {
-  const float right = static_cast<float>(way.right) * length, down = static_cast<float>(way.down) * length;
-  const auto beyond = [&](TexturedVertex at) {
-    at.x += right;
-    at.y -= down;
-    at.u -= right * u_per_mm_;  // back into the far side
-    at.v -= down * v_per_mm_;
-    return at;
-  };
-  const auto there = static_cast<std::uint32_t>(vertices_.size());
-  vertices_.push_back(beyond(vertices_[first]));
-  vertices_.push_back(beyond(vertices_[second]));
-  for (const std::uint32_t vertex : {there, there + 1, second, there, second, first}) indices_.push_back(vertex);
+template <unsigned kBits>
+void SilhouetteDrawer::drawCase(Cell& cell, const std::vector<std::uint32_t>& slots) {
+  constexpr std::size_t kMostVertices = 8 + 4 + 4 * 2, kMostIndices = 3 * (6 + 2 + 4 * 2);
+  Pen pen{vertices_.room(kMostVertices), indices_.room(kMostIndices), static_cast<std::uint32_t>(vertices_.size())};
+  drawNear<kBits>(pen, cell);
+  stepAside<kBits>(cell, slots);
+  drawFar<kBits>(pen, cell);
+  vertices_.endAt(pen.vertex);
+  indices_.endAt(pen.index);
 }
 
-// Where the first of its vertices is.
-std::uint32_t SilhouetteDrawer::addFan(const TexturedVertex* polygon, int count) {
-  const auto first = static_cast<std::uint32_t>(vertices_.size());
-  for (int k = 0; k < count; ++k) vertices_.push_back(polygon[k]);
-  for (std::uint32_t k = 2; k < static_cast<std::uint32_t>(count); ++k) {
-    for (const std::uint32_t vertex : {first, first + k - 1, first + k}) indices_.push_back(vertex);
-  }
-  return first;
-}
+constexpr std::array<SilhouetteDrawer::DrawCase, 16> SilhouetteDrawer::kCases =
+    []<unsigned... kBits>(std::integer_sequence<unsigned, kBits...>) {
+      return std::array<DrawCase, 16>{&SilhouetteDrawer::drawCase<kBits>...};
+    }(std::make_integer_sequence<unsigned, 16>());
 
 }  // namespace relievo

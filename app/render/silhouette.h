@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/render/height_lattice.h"
+#include "app/render/output_array.h"
 #include "app/render/textured_vertex.h"
 
 namespace relievo {
@@ -26,8 +27,8 @@ struct ViewSpan {
 // colour shines through: there the far side shows what is a little farther away.
 class SilhouetteDrawer {
  public:
-  SilhouetteDrawer(const HeightLattice& lattice, const ViewSpan& view, std::vector<TexturedVertex>& vertices,
-                   std::vector<std::uint32_t>& indices) noexcept;
+  SilhouetteDrawer(const HeightLattice& lattice, const ViewSpan& view, OutputArray<TexturedVertex>& vertices,
+                   OutputArray<std::uint32_t>& indices) noexcept;
 
   // `corner`: the lattice vertex at the cell's top left. `slots`: of a lattice vertex its place among the vertices,
   // counted from 1; 0 where it is not among them.
@@ -38,7 +39,7 @@ class SilhouetteDrawer {
     std::array<TexturedVertex, 4> corners{};  // counterclockwise to the viewer from the top left
     int i, j;                                 // of the top left vertex
   };
-  // What is drawn of a cell, by which of its corners are near.
+  // What is drawn of a cell, by which of its corners are near: bit k for corner k.
   struct CellCase {
     // The outline of the near part: corners (k, k), and middles between a near corner and a far one.
     std::array<std::array<std::uint8_t, 2>, 8> near{};
@@ -49,23 +50,38 @@ class SilhouetteDrawer {
     bool near_right = false, near_left = false, near_below = false, near_above = false;  // sides that it lies behind
   };
   static constexpr CellCase caseOf(unsigned bits) noexcept;
-  static const std::array<CellCase, 16> kCases;
+  template <unsigned kBits>
+  static const CellCase kCase;
+  // A drawer for each case: nothing of it is looked up, or decided, cell by cell.
+  using DrawCase = void (SilhouetteDrawer::*)(Cell& cell, const std::vector<std::uint32_t>& slots);
+  static const std::array<DrawCase, 16> kCases;
+  template <unsigned kBits>
+  void drawCase(Cell& cell, const std::vector<std::uint32_t>& slots);
   // From the far to the near side, along one axis of the lattice.
   struct Way {
     int right, down;
   };
-  void stepAside(Cell& cell, const CellCase& what, const std::vector<std::uint32_t>& slots);
-  void drawNear(const Cell& cell, const CellCase& what);
-  void drawFar(const Cell& cell, const CellCase& what);
-  void extend(std::uint32_t from, std::uint32_t to, float covered_mm, int i, int j, Way way);
+  template <unsigned kBits>
+  void stepAside(Cell& cell, const std::vector<std::uint32_t>& slots);
+  // Where the next vertex and index are written.
+  struct Pen {
+    TexturedVertex* vertex;
+    std::uint32_t* index;
+    std::uint32_t place;  // of the vertex
+  };
+  template <unsigned kBits>
+  static void drawNear(Pen& pen, const Cell& cell);
+  template <unsigned kBits>
+  void drawFar(Pen& pen, const Cell& cell) const;
+  void extend(Pen& pen, const TexturedVertex* corners, std::uint32_t place, std::size_t from, float covered_mm, int i,
+              int j, Way way) const;
   [[nodiscard]] float highest(int i, int j, Way way) const noexcept;
-  void addStrip(std::uint32_t first, std::uint32_t second, Way way, float length);
-  std::uint32_t addFan(const TexturedVertex* polygon, int count);
+  static void addFan(Pen& pen, int count);
 
   const HeightLattice& lattice_;
   ViewSpan view_;
-  std::vector<TexturedVertex>& vertices_;
-  std::vector<std::uint32_t>& indices_;
+  OutputArray<TexturedVertex>& vertices_;
+  OutputArray<std::uint32_t>& indices_;
   float u_per_sample_, v_per_sample_, u_per_mm_, v_per_mm_;
 };
 

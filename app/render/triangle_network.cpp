@@ -3,6 +3,7 @@
 #include "app/render/triangle_network.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -92,55 +93,70 @@ void TriangleNetwork::measureMiddles(const float* z, int step) {
   }
 }
 
+inline TriangleNetwork::Corner TriangleNetwork::use(std::uint32_t vertex) {
+  std::uint32_t& slot = slots_[vertex];
+  if (slot == 0) {
+    *next_vertex_++ = vertex;
+    slot = ++used_;
+  }
+  return {vertex, slot - 1};
+}
+
+// Above the finest triangles, each half of a cell.
+template <int kDepth>
+void TriangleNetwork::split(Corner a, Corner b, Corner apex) {
+  if constexpr (kDepth == 0) {
+    // Half a cell: a and b are its top left and low right corners, or its top right and low left ones.
+    const std::uint32_t upper = std::min(a.vertex, b.vertex), apart = std::max(a.vertex, b.vertex) - upper;
+    if (cuts_->contains(apart < static_cast<std::uint32_t>(cols_) ? upper - 1 : upper)) return;
+  } else {
+    const std::uint32_t middle = (a.vertex + b.vertex) / 2;
+    if (errors_[middle] > error_mm_) {
+      const Corner between = use(middle);
+      split<kDepth - 1>(apex, a, between);
+      split<kDepth - 1>(b, apex, between);
+      return;
+    }
+  }
+  *next_triangle_++ = {a.place, b.place, apex.place};
+}
+
+template <int kDepth>
+void TriangleNetwork::splitTile(int i, int j) {
+  const auto vertex = [&](int across, int down) { return use(static_cast<std::uint32_t>((j + down) * cols_ + i + across)); };
+  const Corner top_left = vertex(0, 0), top_right = vertex(tile_, 0);
+  const Corner low_left = vertex(0, tile_), low_right = vertex(tile_, tile_);
+  if (((i + j) / tile_ & 1) == 0) {
+    split<kDepth>(top_left, low_right, top_right);
+    split<kDepth>(low_right, top_left, low_left);
+  } else {
+    split<kDepth>(low_left, top_right, top_left);
+    split<kDepth>(top_right, low_left, low_right);
+  }
+}
+
 void TriangleNetwork::triangulate(float error_mm) {
   error_mm_ = error_mm;
-  triangles_.clear();
   if (slots_.size() == errors_.size()) {
     for (const std::uint32_t vertex : vertices_) slots_[vertex] = 0;
   } else {
     slots_.assign(errors_.size(), 0);
   }
   vertices_.clear();
-  const int depth = 2 * std::countr_zero(static_cast<unsigned>(tile_));
-  const auto vertex = [this](int i, int j) { return use(static_cast<std::uint32_t>(j * cols_ + i)); };
+  triangles_.clear();
+  next_vertex_ = vertices_.room(errors_.size());
+  next_triangle_ = triangles_.room(2 * errors_.size());
+  used_ = 0;
+  constexpr std::array kSplitTile{&TriangleNetwork::splitTile<0>, &TriangleNetwork::splitTile<2>,
+                                  &TriangleNetwork::splitTile<4>, &TriangleNetwork::splitTile<6>,
+                                  &TriangleNetwork::splitTile<8>, &TriangleNetwork::splitTile<10>};
+  static_assert(HeightLattice::kLargestTile >> kSplitTile.size() == 0);
+  const auto split_tile = kSplitTile[static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(tile_)))];
   for (int j = 0; j + 1 < rows_; j += tile_) {
-    for (int i = 0; i + 1 < cols_; i += tile_) {
-      const Corner top_left = vertex(i, j), top_right = vertex(i + tile_, j);
-      const Corner low_left = vertex(i, j + tile_), low_right = vertex(i + tile_, j + tile_);
-      if (((i + j) / tile_ & 1) == 0) {
-        split(top_left, low_right, top_right, depth);
-        split(low_right, top_left, low_left, depth);
-      } else {
-        split(low_left, top_right, top_left, depth);
-        split(top_right, low_left, low_right, depth);
-      }
-    }
+    for (int i = 0; i + 1 < cols_; i += tile_) (this->*split_tile)(i, j);
   }
-}
-
-TriangleNetwork::Corner TriangleNetwork::use(std::uint32_t vertex) {
-  std::uint32_t& slot = slots_[vertex];
-  if (slot == 0) {
-    vertices_.push_back(vertex);
-    slot = static_cast<std::uint32_t>(vertices_.size());
-  }
-  return {vertex, slot - 1};
-}
-
-void TriangleNetwork::split(Corner a, Corner b, Corner apex, int depth) {
-  const std::uint32_t middle = (a.vertex + b.vertex) / 2;
-  if (depth > 0 && errors_[middle] > error_mm_) {
-    const Corner between = use(middle);
-    split(apex, a, between, depth - 1);
-    split(b, apex, between, depth - 1);
-    return;
-  }
-  if (depth == 0) {
-    // Half a cell: a and b are its top left and low right corners, or its top right and low left ones.
-    const std::uint32_t upper = std::min(a.vertex, b.vertex), apart = std::max(a.vertex, b.vertex) - upper;
-    if (cuts_->contains(apart < static_cast<std::uint32_t>(cols_) ? upper - 1 : upper)) return;
-  }
-  triangles_.push_back({a.place, b.place, apex.place});
+  vertices_.endAt(next_vertex_);
+  triangles_.endAt(next_triangle_);
 }
 
 }  // namespace relievo

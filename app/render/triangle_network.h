@@ -8,6 +8,7 @@
 
 #include "app/render/cut_cells.h"
 #include "app/render/height_lattice.h"
+#include "app/render/output_array.h"
 
 namespace relievo {
 
@@ -27,9 +28,9 @@ class TriangleNetwork {
   // No point of the lattice is farther than `error_mm` from the triangles, along z, but for those of the cut cells.
   void triangulate(float error_mm);
 
-  [[nodiscard]] const std::vector<Triangle>& triangles() const noexcept { return triangles_; }
+  [[nodiscard]] const OutputArray<Triangle>& triangles() const noexcept { return triangles_; }
   // Of the lattice: the corners of its tiles, and what triangles were split at.
-  [[nodiscard]] const std::vector<std::uint32_t>& vertices() const noexcept { return vertices_; }
+  [[nodiscard]] const OutputArray<std::uint32_t>& vertices() const noexcept { return vertices_; }
   // Of each vertex of the lattice its place in vertices(), counted from 1; 0 where it is not among them.
   [[nodiscard]] const std::vector<std::uint32_t>& slots() const noexcept { return slots_; }
 
@@ -42,14 +43,22 @@ class TriangleNetwork {
     std::uint32_t vertex, place;
   };
   Corner use(std::uint32_t vertex);
-  void split(Corner a, Corner b, Corner apex, int depth);
+  // A triangle can be split so many times, one after the other.
+  template <int kDepth>
+  void split(Corner a, Corner b, Corner apex);
+  template <int kDepth>
+  void splitTile(int i, int j);
 
   const CutCells* cuts_ = nullptr;
   int cols_ = 0, rows_ = 0, tile_ = 1;
   float error_mm_ = 0;
   std::vector<float> errors_;
-  std::vector<Triangle> triangles_;
-  std::vector<std::uint32_t> vertices_, slots_;
+  OutputArray<Triangle> triangles_;
+  OutputArray<std::uint32_t> vertices_;
+  std::vector<std::uint32_t> slots_;
+  Triangle* next_triangle_ = nullptr;  // while triangulating
+  std::uint32_t* next_vertex_ = nullptr;
+  std::uint32_t used_ = 0;
 };
 
 }  // namespace relievo
