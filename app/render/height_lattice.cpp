@@ -67,7 +67,7 @@ void HeightLattice::lay(const HeightField& field, int most_across) {
   heights_.resize(columns_.size() * rows_.size());
   read_.resize(heights_.size());
   seen_.resize(field.rowBytes(0).size() * rows_.size());
-  has_hole_.resize(runsOf(columns_.size()) * rows_.size());
+  holes_.resize(runsOf(columns_.size()) * rows_.size());
 }
 
 void HeightLattice::read(const HeightField& field, int most_across) {
@@ -101,21 +101,25 @@ bool HeightLattice::readChanged(const HeightField& field, int j, bool follows) {
   std::uint8_t* const seen = seen_.data() + static_cast<std::size_t>(j) * bytes.size();
   const auto step = static_cast<std::size_t>(field.stepBytes());
   const std::size_t width = columns_.size(), runs = runsOf(width);
-  std::uint8_t* const has_hole = has_hole_.data() + static_cast<std::size_t>(j) * runs;
-  bool changed = false, holes = false;
+  Holes* const holes = holes_.data() + static_cast<std::size_t>(j) * runs;
+  bool changed = false, any = false;
   for (std::size_t run = 0; run < runs; ++run) {
     const std::size_t begin = run * kRun, end = std::min(begin + kRun, width);
     const std::size_t from = static_cast<std::size_t>(columns_[begin]) * step;
     const std::size_t to = std::min((static_cast<std::size_t>(columns_[end - 1]) + 1) * step, bytes.size());
     if (!follows || std::memcmp(bytes.data() + from, seen + from, to - from) != 0) {
       float* const heights = read_.data() + static_cast<std::size_t>(j) * width + begin;
-      has_hole[run] = field.readRow(row(j), std::span(columns_).subspan(begin, end - begin), heights) ? 1 : 0;
+      const bool some = field.readRow(row(j), std::span(columns_).subspan(begin, end - begin), heights);
+      const auto left_open = [](float z) { return std::isnan(z); };
+      holes[run] = !some                                                      ? Holes::None
+                   : std::all_of(heights, heights + (end - begin), left_open) ? Holes::All
+                                                                              : Holes::Some;
       changed = true;
     }
-    holes = holes || has_hole[run] != 0;
+    any = any || holes[run] != Holes::None;
   }
   if (changed) std::copy(bytes.begin(), bytes.end(), seen);
-  return holes;
+  return any;
 }
 
 // From one row to the next what is filled changes by less than a jump, whatever its neighbours do: nothing ends there.
@@ -126,10 +130,10 @@ void HeightLattice::fillHoles(int j) {
   const float most = 0.5F * jump_mm_;
   std::uint8_t* const filled = filled_.data();
   const auto count = static_cast<int>(width);
-  const std::uint8_t* const has_hole = has_hole_.data() + static_cast<std::size_t>(j) * runsOf(columns_.size());
+  const Holes* const holes = holes_.data() + static_cast<std::size_t>(j) * runsOf(columns_.size());
   int i = 0;
   while (i < count) {
-    if (i % kRun == 0 && has_hole[i / kRun] == 0) {
+    if (i % kRun == 0 && holes[i / kRun] == Holes::None) {
       const int end = std::min(i + kRun, count);
       std::fill(filled + i, filled + end, std::uint8_t{0});
       i = end;
@@ -140,19 +144,21 @@ void HeightLattice::fillHoles(int j) {
       continue;
     }
     const int begin = i;
-    while (i < count && std::isnan(line[i])) ++i;
+    while (i < count && std::isnan(line[i])) {
+      i = i % kRun == 0 && holes[i / kRun] == Holes::All ? std::min(i + kRun, count) : i + 1;
+    }
     const float before = begin > 0 ? line[begin - 1] : HUGE_VALF;
     const float behind = i < count ? line[i] : HUGE_VALF;
     float fill = std::min(before, behind);
     if (fill == HUGE_VALF) fill = 0;  // nothing was measured in this row
-    bool even = true;
     for (int k = begin; k < i; ++k) {
       const float followed = std::clamp(fill, above[k] - most, above[k] + most);
       line[k] = filled[k] != 0 ? followed : fill;
       filled[k] = 1;
     }
-    for (int k = begin + 1; k < i; ++k) even = even && std::abs(line[k] - line[k - 1]) <= most;
-    if (even) continue;
+    int jumps = 0;
+    for (int k = begin + 1; k < i; ++k) jumps += std::abs(line[k] - line[k - 1]) > most ? 1 : 0;
+    if (jumps == 0) continue;
     for (int k = begin + 1; k < i; ++k) line[k] = std::clamp(line[k], line[k - 1] - most, line[k - 1] + most);
   }
 }

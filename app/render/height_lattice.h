@@ -59,7 +59,8 @@ class HeightLattice {
   // there is a hole.
   std::vector<std::uint8_t> seen_;
   std::vector<float> read_;
-  std::vector<std::uint8_t> has_hole_;
+  enum class Holes : std::uint8_t { None, Some, All };
+  std::vector<Holes> holes_;
   std::vector<std::uint8_t> filled_;  // 1 where the row above has a hole
 };
 

@@ -55,9 +55,6 @@ constexpr SilhouetteDrawer::CellCase SilhouetteDrawer::caseOf(unsigned bits) noe
   return result;
 }
 
-template <unsigned kBits>
-constexpr SilhouetteDrawer::CellCase SilhouetteDrawer::kCase = caseOf(kBits);
-
 SilhouetteDrawer::SilhouetteDrawer(const HeightLattice& lattice, const ViewSpan& view,
                                    OutputArray<TexturedVertex>& vertices, OutputArray<std::uint32_t>& indices) noexcept
     : lattice_(lattice), view_(view), vertices_(vertices), indices_(indices) {
@@ -88,7 +85,7 @@ void SilhouetteDrawer::drawCell(std::uint32_t corner, const std::vector<std::uin
 // The far corners, and the vertices of the surface there, show the picture a little away from the near ones.
 template <unsigned kBits>
 void SilhouetteDrawer::stepAside(Cell& cell, const std::vector<std::uint32_t>& slots) {
-  constexpr const CellCase& what = kCase<kBits>;
+  static constexpr CellCase what = caseOf(kBits);
   constexpr float kSamples = 1.5F;
   const float by_u = kSamples * static_cast<float>(what.aside_right) * u_per_sample_;
   const float by_v = kSamples * static_cast<float>(what.aside_down) * v_per_sample_;
@@ -115,7 +112,7 @@ inline void SilhouetteDrawer::addFan(Pen& pen, int count) {
 
 template <unsigned kBits>
 void SilhouetteDrawer::drawNear(Pen& pen, const Cell& cell) {
-  constexpr const CellCase& what = kCase<kBits>;
+  static constexpr CellCase what = caseOf(kBits);
   addFan(pen, what.near_count);
   for (int n = 0; n < what.near_count; ++n) {
     const auto [k, other] = what.near[static_cast<std::size_t>(n)];
@@ -126,7 +123,7 @@ void SilhouetteDrawer::drawNear(Pen& pen, const Cell& cell) {
 // A near corner takes the height and the colour of the far one beside it, above or below it, or across.
 template <unsigned kBits>
 void SilhouetteDrawer::drawFar(Pen& pen, const Cell& cell) const {
-  constexpr const CellCase& what = kCase<kBits>;
+  static constexpr CellCase what = caseOf(kBits);
   const std::uint32_t place = pen.place;
   const TexturedVertex* const corners = pen.vertex;
   addFan(pen, 4);

@@ -50,8 +50,6 @@ class SilhouetteDrawer {
     bool near_right = false, near_left = false, near_below = false, near_above = false;  // sides that it lies behind
   };
   static constexpr CellCase caseOf(unsigned bits) noexcept;
-  template <unsigned kBits>
-  static const CellCase kCase;
   // A drawer for each case: nothing of it is looked up, or decided, cell by cell.
   using DrawCase = void (SilhouetteDrawer::*)(Cell& cell, const std::vector<std::uint32_t>& slots);
   static const std::array<DrawCase, 16> kCases;

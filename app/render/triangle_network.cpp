@@ -82,10 +82,10 @@ void TriangleNetwork::measureSides(const float* z, int step) {
 void TriangleNetwork::measureMiddles(const float* z, int step) {
   const std::ptrdiff_t width = cols_, down = step * width;
   for (int j = step; j < rows_; j += 2 * step) {
-    for (int i = step; i < cols_; i += 2 * step) {
+    const bool falling = ((j / step / 2) & 1) == 0;  // the first; then in turns
+    std::ptrdiff_t way = falling ? down + step : down - step;
+    for (int i = step; i < cols_; i += 2 * step, way = 2 * down - way) {
       const std::ptrdiff_t at = j * width + i;
-      const bool falling = (((i - step) / (2 * step) + (j - step) / (2 * step)) & 1) == 0;
-      const std::ptrdiff_t way = falling ? down + step : down - step;
       const float* error = errors_.data() + at;
       const float below = std::max(std::max(error[-step], error[step]), std::max(error[-down], error[down]));
       errors_[static_cast<std::size_t>(at)] = std::abs(z[at] - 0.5F * (z[at - way] + z[at + way])) + below;
@@ -123,7 +123,9 @@ void TriangleNetwork::split(Corner a, Corner b, Corner apex) {
 
 template <int kDepth>
 void TriangleNetwork::splitTile(int i, int j) {
-  const auto vertex = [&](int across, int down) { return use(static_cast<std::uint32_t>((j + down) * cols_ + i + across)); };
+  const auto vertex = [&](int across, int down) {
+    return use(static_cast<std::uint32_t>((j + down) * cols_ + i + across));
+  };
   const Corner top_left = vertex(0, 0), top_right = vertex(tile_, 0);
   const Corner low_left = vertex(0, tile_), low_right = vertex(tile_, tile_);
   if (((i + j) / tile_ & 1) == 0) {

@@ -17,11 +17,11 @@ constexpr int kDarkestReadable = 76;
 inline double hueOf(int red, int green, int blue) noexcept {
   const int high = std::max({red, green, blue});
   const int spread = high - std::min({red, green, blue});
+  if (red + green + blue <= kDarkestReadable) return HeightField::kHole;
   const bool is_red = high == red, is_green = high == green;
   const int ahead = is_red ? green - blue : is_green ? blue - red : red - green;
   const int sixth = is_red ? (ahead < 0 ? 6 : 0) : is_green ? 2 : 4;
-  const double hue = static_cast<double>(sixth * spread + ahead) / (6 * spread);
-  return red + green + blue <= kDarkestReadable ? HeightField::kHole : hue;  // 0/0, gray, is not a number either
+  return static_cast<double>(sixth * spread + ahead) / (6 * spread);  // gray is 0/0, not a number
 }
 
 }  // namespace

@@ -48,8 +48,8 @@ std::vector<std::uint32_t> cutsOf(HeightLattice lattice) {
 
 struct Drawn {
   HeightLattice lattice;
-  std::vector<TexturedVertex> vertices;
-  std::vector<std::uint32_t> indices;
+  OutputArray<TexturedVertex> vertices;
+  OutputArray<std::uint32_t> indices;
 
   // The heights that are drawn at a vertex of the lattice.
   [[nodiscard]] std::vector<double> heightsAt(int c, int r) const {
@@ -71,7 +71,7 @@ Drawn drawCell(const HeightMm& height, int c, int r, const ViewSpan& view = {}) 
   Drawn drawn{.lattice = latticeOf(height), .vertices = {}, .indices = {}};
   const auto corner = static_cast<std::uint32_t>(r * drawn.lattice.cols() + c);
   // The surface has one vertex there, on the far side.
-  drawn.vertices.push_back({drawn.lattice.x(c), drawn.lattice.y(r), 0, drawn.lattice.u(c), drawn.lattice.v(r)});
+  drawn.vertices.add({{{drawn.lattice.x(c), drawn.lattice.y(r), 0, drawn.lattice.u(c), drawn.lattice.v(r)}}});
   std::vector<std::uint32_t> slots(drawn.lattice.size(), 0);
   slots[corner] = 1;
   SilhouetteDrawer(drawn.lattice, view, drawn.vertices, drawn.indices).drawCell(corner, slots);
