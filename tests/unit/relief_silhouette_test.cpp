@@ -64,6 +64,18 @@ struct Drawn {
     const auto all = heightsAt(c, r);
     return std::ranges::any_of(all, [z](double one) { return std::abs(one - z) < 0.01; });
   }
+  // By how many triangles a place is covered; one on a side does not.
+  [[nodiscard]] int timesDrawnAt(float x, float y) const {
+    const auto left_of = [&](const TexturedVertex& from, const TexturedVertex& to) {
+      return (to.x - from.x) * (y - from.y) - (x - from.x) * (to.y - from.y) > 0;
+    };
+    int times = 0;
+    for (std::size_t i = 0; i < indices.size(); i += 3) {
+      const auto &a = vertices[indices[i]], &b = vertices[indices[i + 1]], &c = vertices[indices[i + 2]];
+      if (left_of(a, b) && left_of(b, c) && left_of(c, a)) ++times;
+    }
+    return times;
+  }
 };
 
 // One cell, whose top left corner is (c, r).
@@ -91,6 +103,15 @@ TEST(Silhouette, TheFarSideGoesOnBehindTheNearOne) {
   }
 }
 
+// The cell at (kEdge, row), of whose corners some are near.
+Drawn drawCorners(unsigned near, int row) {
+  const auto height = [&](int c, int r) {
+    const int corner = c == kEdge ? r - row : c == kEdge + 1 ? 3 - (r - row) : -1;
+    return r >= row && r <= row + 1 && corner >= 0 && (near >> corner & 1U) != 0 ? 39.0 : 5.0;
+  };
+  return drawCell(height, kEdge, row);
+}
+
 // Bits of the corners, counterclockwise from the top left. High up in the picture an eye sees behind what is above, low
 // down behind what is below.
 class SilhouetteOfCorners : public testing::TestWithParam<std::tuple<unsigned, int>> {};
@@ -99,11 +120,7 @@ INSTANTIATE_TEST_SUITE_P(All, SilhouetteOfCorners, testing::Combine(testing::Ran
 TEST_P(SilhouetteOfCorners, DrawsTheNearPartAndAllOfTheFarOneAndOnBehindIt) {
   const auto [near, row] = GetParam();
   const auto is_near = [near](int k) { return (near >> k & 1U) != 0; };
-  const auto height = [&](int c, int r) {
-    const int corner = c == kEdge ? r - row : c == kEdge + 1 ? 3 - (r - row) : -1;
-    return r >= row && r <= row + 1 && corner >= 0 && is_near(corner) ? 39.0 : 5.0;
-  };
-  const Drawn drawn = drawCell(height, kEdge, row);
+  const Drawn drawn = drawCorners(near, row);
   const auto& lattice = drawn.lattice;
   const float left = lattice.x(kEdge), right = lattice.x(kEdge + 1), top = lattice.y(row), low = lattice.y(row + 1);
   double of_near = 0, of_far = 0;
@@ -138,6 +155,27 @@ TEST_P(SilhouetteOfCorners, DrawsTheNearPartAndAllOfTheFarOneAndOnBehindIt) {
   if (!is_near(0)) {
     EXPECT_NEAR(drawn.vertices[0].u, lattice.u(kEdge) - 1.5F * toward(aside_right) / kCols, 1e-6) << "of the surface";
     EXPECT_NEAR(drawn.vertices[0].v, lattice.v(row) + 1.5F * toward(aside_down) / kRows, 1e-6);
+  }
+}
+
+TEST_P(SilhouetteOfCorners, WhatGoesOnBehindTheNearPartIsThereOnce) {
+  const auto [near, row] = GetParam();
+  const Drawn drawn = drawCorners(near, row);
+  const auto& lattice = drawn.lattice;
+  const float left = lattice.x(kEdge), right = lattice.x(kEdge + 1), top = lattice.y(row), low = lattice.y(row + 1);
+  float leftmost = left, rightmost = right, lowest = low, topmost = top;
+  for (const TexturedVertex& v : drawn.vertices) {
+    leftmost = std::min(leftmost, v.x), rightmost = std::max(rightmost, v.x);
+    lowest = std::min(lowest, v.y), topmost = std::max(topmost, v.y);
+  }
+  for (const float p : {0.1F, 0.6F, 0.85F}) {
+    for (const float q : {0.2F, 0.7F}) {
+      const float x = std::lerp(left, right, q), y = std::lerp(low, top, q);
+      EXPECT_EQ(drawn.timesDrawnAt(std::lerp(right, rightmost, p), y), rightmost > right ? 1 : 0);
+      EXPECT_EQ(drawn.timesDrawnAt(std::lerp(left, leftmost, p), y), leftmost < left ? 1 : 0);
+      EXPECT_EQ(drawn.timesDrawnAt(x, std::lerp(top, topmost, p)), topmost > top ? 1 : 0);
+      EXPECT_EQ(drawn.timesDrawnAt(x, std::lerp(low, lowest, p)), lowest < low ? 1 : 0);
+    }
   }
 }
 
@@ -218,6 +256,12 @@ TEST(HeightLattice, ARowThatNobodyMeasuredLiesOnTheFarPlane) {
   const HeightLattice lattice = latticeOf([](int, int) { return kHole; });
   EXPECT_EQ(std::count(lattice.heights(), lattice.heights() + lattice.size(), 0.0F),
             static_cast<std::ptrdiff_t>(lattice.size()));
+}
+
+// Samples are read by runs of 16.
+TEST(HeightLattice, AHoleThatIsAWholeRunEndsWhereItEnds) {
+  const HeightLattice lattice = latticeOf([](int c, int) { return c >= 16 && c < 32 ? kHole : c < 16 ? 5.0 : 30.0; });
+  for (int i = 14; i < 35; ++i) EXPECT_NEAR(lattice.heights()[i], i < 32 ? 5 : 30, 0.01) << i;
 }
 
 // The hole of the second row is wider than that of the first and has a lower neighbour.
