@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "platform/prefetch.h"
 
@@ -93,9 +94,14 @@ RELIEVO_TICK_CODE Contact closestPoint(FeltSurface& surface, double x_mm, double
 
 RELIEVO_TICK_CODE glm::dvec2 predictedStep(const Contact& contact, const glm::dvec3& hip_mm, const glm::dvec3& moved_mm,
                                            double lowered_mm) RELIEVO_RT {
+  // Of a finger 5 mm inside a sphere of 6 the closest point goes six times as far as the finger. Where it would be more
+  // the curvature tells nothing about the places that far away.
+  constexpr double kMost = 8;
   const Distance d(contact, hip_mm, lowered_mm);
   const SurfacePoint& s = contact.surface;
-  return d.solve(moved_mm.x + s.zx * moved_mm.z, moved_mm.y + s.zy * moved_mm.z);
+  const glm::dvec2 step = d.solve(moved_mm.x + s.zx * moved_mm.z, moved_mm.y + s.zy * moved_mm.z);
+  const double most2 = kMost * kMost * glm::dot(moved_mm, moved_mm), size2 = squared(step);
+  return size2 <= most2 ? step : step * std::sqrt(most2 / size2);
 }
 
 }  // namespace relievo

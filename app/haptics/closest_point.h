@@ -22,7 +22,7 @@ struct Contact {
 [[nodiscard]] Contact closestPoint(FeltSurface& surface, double x_mm, double y_mm, const glm::dvec3& hip_mm,
                                    double lowered_mm) RELIEVO_RT;
 
-// Where the closest point goes when the finger moves by `moved_mm`, to first order.
+// Where the closest point goes when the finger moves by `moved_mm`, to first order; at most eight times as far.
 [[nodiscard]] glm::dvec2 predictedStep(const Contact& contact, const glm::dvec3& hip_mm, const glm::dvec3& moved_mm,
                                        double lowered_mm) RELIEVO_RT;
 

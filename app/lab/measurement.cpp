@@ -6,6 +6,7 @@
 
 #include "app/lab/bitrate.h"
 #include "app/lab/detail.h"
+#include "app/lab/edges.h"
 #include "app/lab/enhance.h"
 #include "app/lab/smoothness.h"
 #include "app/lab/speed_accuracy.h"
@@ -15,6 +16,7 @@ namespace relievo {
 namespace {
 
 constexpr std::array kSpeedAccuracyCharts{"speed-accuracy", "accuracy-by-scene", "parts", "tick-time"};
+constexpr std::array kEdgesCharts{"edges"};
 constexpr std::array kSmoothnessCharts{"smoothness", "smoothness-hand", "smoothness-peaks"};
 constexpr std::array kStabilityCharts{"stability", "stability-onset"};
 constexpr std::array kDetailCharts{"detail"};
@@ -24,6 +26,7 @@ constexpr std::array kBitrateCharts{"bitrate"};
 constexpr std::array kMeasurements{
     Measurement{"speed-accuracy", "what a tick takes and how far the force is from the true one, by method and parts",
                 kSpeedAccuracyCharts, measureSpeedAndAccuracy},
+    Measurement{"edges", "what smoothing costs at an edge, by width and kind of depth", kEdgesCharts, measureEdges},
     Measurement{"smoothness", "the force's spectrum on a moving face, and what of it is the frame rate",
                 kSmoothnessCharts, measureSmoothness},
     Measurement{"stability", "every method where methods fail, and where closed loops begin to swing", kStabilityCharts,

@@ -165,6 +165,28 @@ TEST_F(LabCharts, HoldingTheFramePeaksAtTheFrameRateFarOverInterpolation) {
   EXPECT_NEAR(value("modified-proxy-graph", "fixed point", "15", "added_latency_ms"), 1000.0 / 15, 0.01);
 }
 
+TEST_F(LabCharts, AnEdgeIsWithinAMillimetreAndLetsGoBeyondIt) {
+  const Csv csv(out("edges.csv"));
+  const auto value = [&](const char* method, const char* depth, const char* speed, const char* deep,
+                         const char* column) {
+    return csv.value({{"method", method}, {"depth", depth}, {"edge_mm_per_s", speed}, {"finger_deep_mm", deep}},
+                     column);
+  };
+  for (const char* depth : {"16-bit", "8-bit", "noise 1 %"}) {
+    for (const char* speed : {"0", "50"}) {
+      for (const char* deep : {"2", "5"}) {
+        const auto of = [&](const char* column) { return value("relievo", depth, speed, deep, column); };
+        const std::string where = std::string(depth) + ", " + speed + " mm/s, " + deep + " mm deep";
+        EXPECT_LE(of("corner_mean_mm"), 0.9) << where;
+        EXPECT_LE(of("fall_off_rms_mm"), 1) << where;
+        EXPECT_LE(of("fall_off_worst_mm"), 1.5) << where;
+      }
+    }
+  }
+  EXPECT_GT(value("god-object", "noise 1 %", "0", "5", "held"), 20) << "of 40 places";
+  EXPECT_GT(value("relievo 0.72", "8-bit", "0", "5", "fall_off_rms_mm"), 1.5) << "what one width costs";
+}
+
 // What is coded finer costs more and is truer, whatever the codec; bits that are not there cannot be felt.
 TEST_F(LabCharts, FinerDepthCostsMoreAndIsTruer) {
   const Csv csv(out("bitrate.csv"));
@@ -262,7 +284,7 @@ TEST_F(LabCharts, ThePageHoldsEveryChartWithItsWordsAndItsFigures) {
     EXPECT_NE(page.find("href=\"" + name + ".csv\""), std::string::npos) << name;
     EXPECT_TRUE(std::filesystem::exists(out(name + ".csv"))) << name;
   }
-  EXPECT_EQ(charts, withoutEgl(result_) ? 12 : 13);
+  EXPECT_EQ(charts, withoutEgl(result_) ? 13 : 14);
   EXPECT_EQ(page.find("nan"), std::string::npos);
 }
 
@@ -280,7 +302,7 @@ TEST_F(LabCharts, AReportRunsOnlyWhatIsMissing) {
 TEST(LabChartsWords, WrongUseAndAFolderThatCannotBeMadeAreOneLineEach) {
   const test::TemporaryFolder folder;
   std::ofstream(folder / "file") << "in the way";
-  for (const char* command : {"speed-accuracy", "smoothness", "stability", "detail", "bitrate", "report"}) {
+  for (const char* command : {"speed-accuracy", "edges", "smoothness", "stability", "detail", "bitrate", "report"}) {
     const auto without = test::runProgram(std::string("relievo-lab ") + command, folder / ".");
     EXPECT_EQ(without.exit_code, 2) << command;
     EXPECT_NE(without.err.find("--out"), std::string::npos) << without.err;

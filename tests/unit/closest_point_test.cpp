@@ -64,5 +64,17 @@ TEST_F(ClosestPointTest, ComesOffACrestThatTheFingerIsDeepUnder) {
   }
 }
 
+// On a cylinder of radius r the closest point goes r/(r - depth) times as far as the finger; where the finger is as deep
+// as the radius, that is anywhere.
+TEST_F(ClosestPointTest, ThePredictedStepIsTheFirstOrderAndNoLeap) {
+  const auto step = [&](double radius_mm, double deep_mm) {
+    const Contact top{.surface = {.z = 20, .zxx = -1 / radius_mm}};
+    return predictedStep(top, {0, 0, 20 - deep_mm}, {0.1, 0, 0}, 0);
+  };
+  EXPECT_NEAR(glm::distance(step(20, 5), glm::dvec2(0.4 / 3, 0)), 0, 1e-9);
+  EXPECT_NEAR(glm::distance(step(6, 5), glm::dvec2(0.6, 0)), 0, 1e-9);
+  EXPECT_NEAR(glm::distance(step(5.3, 5), glm::dvec2(0.8, 0)), 0, 1e-9) << "17 times by the curvature";
+}
+
 }  // namespace
 }  // namespace relievo
