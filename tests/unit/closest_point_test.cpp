@@ -64,8 +64,8 @@ TEST_F(ClosestPointTest, ComesOffACrestThatTheFingerIsDeepUnder) {
   }
 }
 
-// On a cylinder of radius r the closest point goes r/(r - depth) times as far as the finger; where the finger is as deep
-// as the radius, that is anywhere.
+// On a cylinder of radius r the closest point goes r/(r - depth) times as far as the finger; where the finger is as
+// deep as the radius, that is anywhere.
 TEST_F(ClosestPointTest, ThePredictedStepIsTheFirstOrderAndNoLeap) {
   const auto step = [&](double radius_mm, double deep_mm) {
     const Contact top{.surface = {.z = 20, .zxx = -1 / radius_mm}};
