@@ -148,8 +148,9 @@ ChartWords wordsOf(const std::vector<Figures>& all) {
   return {"Edges: what smoothing costs on a step of 15 mm, still and moving",
           print("How far from the edge the felt surface is (in the mean over the places), and a finger that is swept "
                 "off when it has lost half of its force (at worst). relievo as it plans: %s; %s; %s; %s. A width of "
-                "0.72 mm alone, as calm on noise: %s. Two levels are as near as the narrow one of them, and nearer "
-                "where the edge moves: they go with it between the frames, where one width and triangles smear it.",
+                "0.72 mm alone, as calm on noise: %s. Two levels are as near as the narrow one of them and stay so "
+                "where the edge "
+                "moves: they go with it between the frames.",
                 told("relievo", "16-bit").c_str(), told("relievo", "8-bit").c_str(),
                 told("relievo", "H.264 crf 23").c_str(), told("relievo", "noise 1 %").c_str(),
                 told("relievo 0.72", "noise 1 %").c_str())};
