@@ -47,6 +47,7 @@ RELIEVO_TICK_CODE bool FeltSurface::moment(const SurfaceWindow& window, MediaTim
   slots_.window = &window;
   const FrameMoment moment(window, now);
   present_ = static_cast<std::size_t>(moment.present);
+  next_ = static_cast<std::size_t>(std::min(moment.present + 1, moment.last));
   shot_ = window.frames[present_].shot;
   std::optional<double> since_prepared_s;
   if (prepared_ && weighedAt(window, moment) == prepared_on_ &&
@@ -153,11 +154,14 @@ RELIEVO_TICK_CODE double FeltSurface::height(double x_mm, double y_mm) RELIEVO_R
   return std::abs(w - n) <= 0.5 * scale_.clamp_mm ? w : n + SoftClamp(w - n, scale_.clamp_mm).value;
 }
 
-double FeltSurface::sampleHeight(double x_mm, double y_mm) const RELIEVO_RT {
-  const HeightField& field = slots_.window->frames[present_].field;
-  const double u = field.grid().u(x_mm) + 0.5, v = field.grid().v(y_mm) + 0.5;
-  if (!(u >= 0 && u < cols_ && v >= 0 && v < rows_)) return HeightField::kHole;
-  return field.heightMm(static_cast<int>(u), static_cast<int>(v));
+double FeltSurface::lowestSample(double x_mm, double y_mm) const RELIEVO_RT {
+  const HeightField& now = slots_.window->frames[present_].field;
+  const HeightField& next = slots_.window->frames[next_].field;
+  const double u = now.grid().u(x_mm) + 0.5, v = now.grid().v(y_mm) + 0.5;
+  if (!(u >= 0 && u < cols_ && v >= 0 && v < rows_)) return -depth_mm_;
+  const int c = static_cast<int>(u), r = static_cast<int>(v);
+  const double here = now.heightMm(c, r), there = next.heightMm(c, r);
+  return std::isnan(here) || std::isnan(there) ? -depth_mm_ : std::min(here, there);
 }
 
 // Looks again for every frame, and when the finger has gone on so far that the edge may be another one; not too often

@@ -38,8 +38,9 @@ class FeltSurface {
 
   [[nodiscard]] SurfacePoint at(double x_mm, double y_mm) RELIEVO_RT;
   [[nodiscard]] double height(double x_mm, double y_mm) RELIEVO_RT;
-  // The present frame's nearest sample as it is: one look at the picture for dozens. Not a number at a hole or outside.
-  [[nodiscard]] double sampleHeight(double x_mm, double y_mm) const RELIEVO_RT;
+  // The nearest sample as it is, the lower one of the present frame's and the next one's: two looks at the pictures for
+  // hundreds. Below everything at a hole or outside.
+  [[nodiscard]] double lowestSample(double x_mm, double y_mm) const RELIEVO_RT;
 
   // Half the narrow pitch: a path sampled so closely sees every crest that the surface has.
   [[nodiscard]] double sampleMm() const RELIEVO_RT { return sample_mm_; }
@@ -72,7 +73,7 @@ class FeltSurface {
   std::uint32_t epoch_ = 0, shot_ = 0;
   int cols_ = 0, rows_ = 0;
   FrameSlots slots_;
-  std::size_t present_ = 0;  // of the window's frames
+  std::size_t present_ = 0, next_ = 0;  // of the window's frames
   std::array<MediaTime, ControlGrid::kFrames> time_of_slot_{};
   MediaTime first_time_, last_time_;
   int count_ = 0;

@@ -119,7 +119,12 @@ RELIEVO_TICK_CODE Touch RelievoMethod::update(const glm::dvec3& hip_mm, const Su
 
 void RelievoMethod::upkeep(const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
   if (!had_surface_) return;
-  if (offTheEdge()) state_ = State::Free;
+  if (offTheEdge()) {
+    state_ = State::Free;
+    rubbing_ = false;
+    force_n_ = {};
+    ahead_mm_ = {hip_mm_.x, hip_mm_.y};
+  }
   // The next tick comes as long after this one as this one after the last; a pause stands still.
   const Duration step = std::clamp(now - now_, Duration(0), kLongestStep);
   surface_.prepare(window, now + step, ahead_mm_.x, ahead_mm_.y);
@@ -172,12 +177,12 @@ RELIEVO_TICK_CODE bool RelievoMethod::sweptAway(const glm::dvec3& hip_mm) RELIEV
 // A finger pushed out through a wall is off the edge above it, and what still holds its proxy up there may be a hollow
 // of noise. It is no ridge if nothing on the way to the finger rises above the proxy by more than noise is let through.
 bool RelievoMethod::offTheEdge() RELIEVO_RT {
-  if (state_ != State::Contact || surface_.sampleHeight(hip_mm_.x, hip_mm_.y) - lowered_mm_ >= hip_mm_.z) return false;
+  if (state_ != State::Contact || surface_.lowestSample(hip_mm_.x, hip_mm_.y) - lowered_mm_ >= hip_mm_.z) return false;
   const glm::dvec2 from(contact_.x_mm, contact_.y_mm);
   const glm::dvec2 way(hip_mm_.x - from.x, hip_mm_.y - from.y);
-  const double pitch = 2 * surface_.sampleMm();
-  const int steps = static_cast<int>(std::min<double>(glm::length(way) / pitch, kMostSamples));
-  if (steps == 0 || inside(hip_mm_)) return false;
+  const double length = glm::length(way);
+  const int steps = static_cast<int>(std::min<double>(length / surface_.sampleMm(), kMostSamples + 1));
+  if (steps == 0 || steps > kMostSamples || inside(hip_mm_)) return false;
   const double most = contact_.surface.z + config_.scale.clamp_mm;
   for (int k = 1; k <= steps; ++k) {
     const glm::dvec2 place = from + way * (static_cast<double>(k) / (steps + 1));

@@ -110,10 +110,10 @@ bool HeightLattice::readChanged(const HeightField& field, int j, bool follows) {
     if (!follows || std::memcmp(bytes.data() + from, seen + from, to - from) != 0) {
       float* const heights = read_.data() + static_cast<std::size_t>(j) * width + begin;
       const bool some = field.readRow(row(j), std::span(columns_).subspan(begin, end - begin), heights);
-      const auto left_open = [](float z) { return std::isnan(z); };
-      holes[run] = !some                                                      ? Holes::None
-                   : std::all_of(heights, heights + (end - begin), left_open) ? Holes::All
-                                                                              : Holes::Some;
+      const auto is_hole = [](float z) { return std::isnan(z); };
+      holes[run] = !some                                                    ? Holes::None
+                   : std::all_of(heights, heights + (end - begin), is_hole) ? Holes::All
+                                                                            : Holes::Some;
       changed = true;
     }
     any = any || holes[run] != Holes::None;

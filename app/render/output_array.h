@@ -18,17 +18,27 @@ class OutputArray {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_default_constructible_v<T>);
 
  public:
+  OutputArray() = default;
+  OutputArray(OutputArray&& other) noexcept { *this = std::move(other); }
+  OutputArray& operator=(OutputArray&& other) noexcept {
+    data_ = std::move(other.data_);
+    size_ = std::exchange(other.size_, 0);
+    capacity_ = std::exchange(other.capacity_, 0);
+    return *this;
+  }
+
   void clear() noexcept { size_ = 0; }
-  // Behind the last element, with room for `count` more. Elements written there count from `endAt` on.
+  // Behind the last element, with room for `count` more, until the next `room` or `add`. Elements written there count
+  // from `endAt` on.
   [[nodiscard]] T* room(std::size_t count) {
     if (size_ + count > capacity_) grow(size_ + count);
     return data_.get() + size_;
   }
   void endAt(const T* end) noexcept { size_ = static_cast<std::size_t>(end - data_.get()); }
+  // Not of its own elements.
   void add(std::span<const T> elements) { endAt(std::ranges::copy(elements, room(elements.size())).out); }
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
-  [[nodiscard]] T* data() noexcept { return data_.get(); }
   [[nodiscard]] const T* data() const noexcept { return data_.get(); }
   [[nodiscard]] T& operator[](std::size_t i) noexcept { return data_[i]; }
   [[nodiscard]] const T& operator[](std::size_t i) const noexcept { return data_[i]; }

@@ -15,7 +15,7 @@ namespace relievo {
 // W. Evans, D. Kirkpatrick, G. Townsend, "Right-triangulated irregular networks", Algorithmica 30 (2001): a right
 // isosceles triangle is split at the middle of its hypotenuse, both that share it at once, so that no crack opens. Each
 // vertex knows the error of leaving it and all that depend on it out; that follows the moving depth with one pass over
-// the samples, and nothing is kept from frame to frame.
+// the samples, and nothing of one frame is used in the next.
 class TriangleNetwork {
  public:
   struct Triangle {

@@ -173,7 +173,7 @@ TEST_F(LabCharts, AnEdgeIsWithinAMillimetreAndLetsGoBeyondIt) {
                      column);
   };
   for (const char* depth : {"16-bit", "8-bit", "noise 1 %"}) {
-    for (const char* speed : {"0", "50"}) {
+    for (const char* speed : {"0", "50", "-50"}) {
       for (const char* deep : {"2", "5"}) {
         const auto of = [&](const char* column) { return value("relievo", depth, speed, deep, column); };
         const std::string where = std::string(depth) + ", " + speed + " mm/s, " + deep + " mm deep";

@@ -119,8 +119,49 @@ TEST_F(SweptOff, AHollowAsDeepAsNoiseDoesNotHoldTheProxyBehindTheEdge) {
   EXPECT_LT(at, 1) << "mm; it would hold to 2.8";
 }
 
+// Let go of, it meets the low floor in the next tick; the place where friction held it is up on the edge.
+TEST_F(SweptOff, WhatHasFallenOffIsNotDrawnBack) {
+  method_ = RelievoMethod({.stiffness_n_per_mm = kStiffness, .friction = {0.9, 0.9}});
+  film(0.4, [](double x, double, double) { return x > 0 ? 9.0 : 35.0; });
+  // Free for the first time in this tick; the force in it with the finger lower by `dip_mm`.
+  const auto sweep = [&](int until, double dip_mm) {
+    method_.reset();
+    static_cast<void>(tick(0, {-5, 0, 36}));
+    for (int i = 1;; ++i) {
+      const Touch touch = tick(i * kTick, {-5 + 0.1 * i, 0, i == until ? 10 - dip_mm : 10});
+      if (i == until || (i > 1 && !touch.contact)) return std::pair(i, glm::length(touch.force_n));
+    }
+  };
+  const int free = sweep(300, 0).first;
+  ASSERT_LT(free, 300);
+  const double force_n = sweep(free, 1.2).second;
+  EXPECT_GT(force_n, 0);
+  EXPECT_LT(force_n, 0.5) << "of a finger .2 mm deep at the foot of a wall";
+}
+
 TEST_F(SweptOff, ARidgeDoes) {
   EXPECT_EQ(letGoAt(1.5), 20);
+}
+
+// A wall two samples thick, and a finger that has gone through it close below its top.
+TEST_F(RelievoMethodTest, AThinWallHoldsTheFingerAlsoNearItsTop) {
+  for (double middle = 0.3; middle < 1; middle += 0.17) {
+    clear();
+    const auto wall = [&](double x) { return 10 + 12 * std::max(0.0, 1 - std::abs(x - middle) / 0.9); };
+    film(0.6, [&](double x, double, double) { return wall(x); });
+    const SurfaceWindow still = picture([&](double x, double) { return wall(x); });
+    FeltSurface felt{FeltScale{}};
+    ASSERT_TRUE(felt.moment(still, {}));
+    const double top = felt.height(middle, 0);
+    static_cast<void>(tick(0, {-8, 0, top - 2}));
+    double x = -8;
+    for (int i = 1; x < 7; ++i) {
+      x = -8 + 0.03 * i;
+      const Touch touch = tick(i * kTick, {x, 0, top - 2});
+      if (x < middle) continue;
+      ASSERT_TRUE(touch.contact && touch.proxy_mm.x < middle) << middle << ' ' << x;
+    }
+  }
 }
 
 TEST_F(RelievoMethodTest, AFastFingerDoesNotJumpOverARidgeUnseen) {

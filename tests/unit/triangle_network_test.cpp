@@ -110,6 +110,30 @@ TriangleNetwork networkOf(HeightLattice lattice, double error_mm) {
   return network;
 }
 
+// Cut and finer, then whole and coarser, then of another size and back.
+TEST(TriangleNetwork, NothingIsLeftOfAnotherPicture) {
+  const Height step = [](double x, double y) { return wave(x, y) + (x > 0.3 * y ? 9 : 0); };
+  const std::array lattices{latticeOf(129, 65, step), latticeOf(129, 65, wave), latticeOf(65, 129, wave),
+                            latticeOf(97, 33, step), latticeOf(129, 65, step)};
+  TriangleNetwork network;
+  float error_mm = 0.05F;
+  for (HeightLattice lattice : lattices) {
+    CutCells cuts;
+    cuts.find(lattice, lattice.jumpMm());
+    TriangleNetwork fresh;
+    for (TriangleNetwork* each : {&network, &fresh}) {
+      each->measure(lattice, cuts);
+      each->triangulate(error_mm);
+    }
+    EXPECT_TRUE(std::ranges::equal(network.vertices(), fresh.vertices()));
+    EXPECT_TRUE(std::ranges::equal(network.triangles(), fresh.triangles(), [](const auto& a, const auto& b) {
+      return a.a == b.a && a.b == b.b && a.c == b.c;
+    }));
+    EXPECT_EQ(network.slots(), fresh.slots());
+    error_mm *= 1.5F;
+  }
+}
+
 TEST(TriangleNetwork, PlaneTakesTwoTrianglesATile) {
   const HeightLattice lattice = latticeOf(129, 65, [](double x, double y) { return 20 + 0.1 * x - 0.05 * y; });
   ASSERT_EQ(lattice.tile(), 32);

@@ -7,7 +7,7 @@ array TINTS[4] = ["#1e88e5", "#26a69a", "#e08e0b", "#d81b60"]
 LEGEND_Y = 0.915
 @LEGEND
 plot NaN notitle, for [d = 1:4] keyentry with points pt SYMBOL[d] ps 1 lc rgb TINTS[d] title word(DEPTHS, d), \
-     keyentry with points pt 6 ps 1.6 lw 1.5 lc rgb "#5f6b7a" title "edge moving at 50 mm/s"
+     keyentry with points pt 6 ps 1.6 lw 1.5 lc rgb "#5f6b7a" title "edge moving at 50 mm/s, either way"
 @END_LEGEND
 set yrange [9.5:0.5]
 set logscale x
@@ -18,7 +18,7 @@ set ytics () noenhanced
 do for [k = 1:9] { set ytics add (word(KINDS, k) k) }
 row(dummy) = sum [k = 1:9] (strcol("method") eq word(KINDS, k) ? k : 0)
 shown(d, deep, value) = strcol("depth") eq word(DEPTHS, d) && (deep == 0 ? column("finger_deep_mm") == 2 : column("finger_deep_mm") == deep) ? value : NaN
-moved(value) = column("edge_mm_per_s") > 0 ? value : NaN
+moved(value) = column("edge_mm_per_s") != 0 ? value : NaN
 array TITLE[3] = ["the surface is, in the mean", "swept off 2 mm deep, worst", "swept off 5 mm deep, worst"]
 array DEEP[3] = [0, 2, 5]
 figure(p) = p == 1 ? column("corner_mean_mm") : column("fall_off_worst_mm")
