@@ -54,6 +54,7 @@ RELIEVO_TICK_CODE Touch RelievoMethod::update(const glm::dvec3& hip_mm, const Su
   if (!isFinite(hip_mm)) return touch;  // a tick left out: the next one goes on from the last place
   const std::uint32_t shot = surface_.shot();
   const bool other_scene = !had_surface_ || window.epoch != epoch_ || shot != shot_;
+  entered_ = other_scene;
   had_surface_ = true;
   epoch_ = window.epoch;
   shot_ = shot;
@@ -119,6 +120,10 @@ RELIEVO_TICK_CODE Touch RelievoMethod::update(const glm::dvec3& hip_mm, const Su
 
 void RelievoMethod::upkeep(const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
   if (!had_surface_) return;
+  if (entered_) {  // all was new to this tick, and it has read enough: the next one finds that in the caches
+    now_ = now;
+    return;
+  }
   if (offTheEdge()) {
     state_ = State::Free;
     rubbing_ = false;
