@@ -23,13 +23,13 @@ void ControlGrid::setPicture(const HeightField& field) RELIEVO_RT {
   cols_ = field.cols();
   rows_ = field.rows();
   const GridMapping& grid = field.grid();
-  block_cols_ = blockFor(pitch_wanted_mm_, grid.u_per_mm);
-  block_rows_ = blockFor(pitch_wanted_mm_, grid.v_per_mm);
+  block_ =
+      SampledBlock(blockFor(pitch_wanted_mm_, grid.u_per_mm), blockFor(pitch_wanted_mm_, grid.v_per_mm), most_samples_);
   // Block i covers samples i m .. i m + m - 1, so its centre is at u = (i + 1/2) m - 1/2.
-  a_per_mm_ = grid.u_per_mm / block_cols_;
-  a_origin_ = (grid.u_origin + 0.5) / block_cols_ - 0.5;
-  b_per_mm_ = grid.v_per_mm / block_rows_;
-  b_origin_ = (grid.v_origin + 0.5) / block_rows_ - 0.5;
+  a_per_mm_ = grid.u_per_mm / block_.width;
+  a_origin_ = (grid.u_origin + 0.5) / block_.width - 0.5;
+  b_per_mm_ = grid.v_per_mm / block_.height;
+  b_origin_ = (grid.v_origin + 0.5) / block_.height - 0.5;
   pit_mm_ = static_cast<float>(-field.depthMm());
   patch_slots_ = 0;
   filled_.fill(0);
@@ -54,33 +54,50 @@ void ControlGrid::fill(int i, int j, const Frames& frames) RELIEVO_RT {
   if (missing != 0) read(p, frames, missing);
 }
 
-void ControlGrid::prefetch(int i, int j, const Frames& frames) const RELIEVO_RT {
+// The frames, by their slots, in which a point is still to be read.
+std::uint32_t ControlGrid::slotsMissing(int i, int j, const Frames& frames) const RELIEVO_RT {
   const std::size_t p = slotOf(i, j);
-  std::uint32_t missing = frames.wanted;
-  if (i_[p] == i && j_[p] == j) missing &= ~std::uint32_t{filled_[p]};
-  if (missing == 0) return;
-  const std::int64_t u = std::int64_t{i} * block_cols_, v = std::int64_t{j} * block_rows_;
-  if (u < 0 || v < 0 || u + block_cols_ > cols_ || v + block_rows_ > rows_) return;  // few are at the rim
-  for (; missing != 0; missing &= missing - 1) {
-    const auto slot = static_cast<std::size_t>(__builtin_ctz(missing));
+  return i_[p] == i && j_[p] == j ? frames.wanted & ~std::uint32_t{filled_[p]} : frames.wanted;
+}
+
+// What is missing of four points beside each other, of the samples between them as well.
+void ControlGrid::prefetchRow(int i0, int j, const Frames& frames) const RELIEVO_RT {
+  std::uint32_t any = 0;
+  int begin = 4, end = 0;
+  for (int k = 0; k < 4; ++k) {
+    const std::uint32_t slots = slotsMissing(i0 + k, j, frames);
+    if (slots == 0) continue;
+    any |= slots;
+    begin = std::min(begin, k);
+    end = k + 1;
+  }
+  if (any == 0) return;
+  const std::int64_t u = (std::int64_t{i0} + begin) * block_.width, v = std::int64_t{j} * block_.height;
+  if (u < 0 || v < 0 || u + (end - begin) * block_.width > cols_ || v + block_.height > rows_)
+    return;  // few are at the rim
+  for (; any != 0; any &= any - 1) {
+    const auto slot = static_cast<std::size_t>(__builtin_ctz(any));
     frames.window->frames[frames.frame_of_slot[slot]].field.prefetch(static_cast<int>(u), static_cast<int>(v),
-                                                                     block_cols_, block_rows_, most_samples_);
+                                                                     end - begin, block_);
   }
 }
 
 void ControlGrid::read(std::size_t p, const Frames& frames, std::uint32_t missing) RELIEVO_RT {
   // 64 bits: a finger may be anywhere. The part of the block inside the picture is read.
-  const std::int64_t u0 = std::int64_t{i_[p]} * block_cols_, v0 = std::int64_t{j_[p]} * block_rows_;
-  const auto c0 = std::max<std::int64_t>(u0, 0), c1 = std::min<std::int64_t>(u0 + block_cols_, cols_);
-  const auto r0 = std::max<std::int64_t>(v0, 0), r1 = std::min<std::int64_t>(v0 + block_rows_, rows_);
-  const bool outside = c0 >= c1 || r0 >= r1 || 2 * (c1 - c0) * (r1 - r0) < std::int64_t{block_cols_} * block_rows_;
+  const std::int64_t u0 = std::int64_t{i_[p]} * block_.width, v0 = std::int64_t{j_[p]} * block_.height;
+  const auto c0 = std::max<std::int64_t>(u0, 0), c1 = std::min<std::int64_t>(u0 + block_.width, cols_);
+  const auto r0 = std::max<std::int64_t>(v0, 0), r1 = std::min<std::int64_t>(v0 + block_.height, rows_);
+  const auto cols = static_cast<int>(c1 - c0), rows = static_cast<int>(r1 - r0);
+  const bool outside =
+      c0 >= c1 || r0 >= r1 || 2 * std::int64_t{cols} * rows < std::int64_t{block_.width} * block_.height;
+  const bool cut = !outside && (cols < block_.width || rows < block_.height);
+  const SampledBlock block = cut ? SampledBlock(cols, rows, most_samples_) : block_;
   for (; missing != 0; missing &= missing - 1) {
     const auto slot = static_cast<std::size_t>(__builtin_ctz(missing));
     const auto bit = static_cast<std::uint8_t>(1U << slot);
+    const HeightField& field = frames.window->frames[frames.frame_of_slot[slot]].field;
     const double mean =
-        outside ? HeightField::kHole
-                : meanOrBridged(frames.window->frames[frames.frame_of_slot[slot]].field, static_cast<int>(c0),
-                                static_cast<int>(r0), static_cast<int>(c1 - c0), static_cast<int>(r1 - r0));
+        outside ? HeightField::kHole : meanOrBridged(field, static_cast<int>(c0), static_cast<int>(r0), block);
     ++blocks_read_;
     filled_[p] |= bit;
     if (std::isnan(mean)) hole_[p] |= bit;
@@ -89,12 +106,12 @@ void ControlGrid::read(std::size_t p, const Frames& frames, std::uint32_t missin
 }
 
 // A hole that is narrower than the blocks around it, a dead sample, is bridged by what is around it.
-double ControlGrid::meanOrBridged(const HeightField& field, int c, int r, int width, int height) const RELIEVO_RT {
-  const double mean = field.meanHeight(c, r, width, height, most_samples_);
+double ControlGrid::meanOrBridged(const HeightField& field, int c, int r, const SampledBlock& block) const RELIEVO_RT {
+  const double mean = field.meanHeight(c, r, block);
   if (!std::isnan(mean)) return mean;
-  const int left = std::max(c - block_cols_, 0), right = std::min(c + width + block_cols_, cols_);
-  const int top = std::max(r - block_rows_, 0), bottom = std::min(r + height + block_rows_, rows_);
-  return field.meanHeight(left, top, right - left, bottom - top, 3 * most_samples_);
+  const int left = std::max(c - block_.width, 0), right = std::min(c + block.width + block_.width, cols_);
+  const int top = std::max(r - block_.height, 0), bottom = std::min(r + block.height + block_.height, rows_);
+  return field.meanHeight(left, top, SampledBlock(right - left, bottom - top, 3 * most_samples_));
 }
 
 // Holes come and go from frame to frame with a depth camera: as long as most of the weight lies on readings, they tell.
@@ -110,9 +127,7 @@ float ControlGrid::withHoles(std::size_t p, const Frames& frames) const RELIEVO_
 
 void ControlGrid::patch(int i0, int j0, const Frames& frames, Patch& out) RELIEVO_RT {
   if (i0 != patch_i_ || j0 != patch_j_ || frames.wanted != patch_slots_) {
-    for (int j = j0; j < j0 + 4; ++j) {
-      for (int i = i0; i < i0 + 4; ++i) prefetch(i, j, frames);
-    }
+    for (int j = j0; j < j0 + 4; ++j) prefetchRow(i0, j, frames);
     std::uint32_t holes = 0;
     for (int j = j0; j < j0 + 4; ++j) {
       for (int i = i0; i < i0 + 4; ++i) {

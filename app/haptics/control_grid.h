@@ -38,8 +38,8 @@ class ControlGrid {
   [[nodiscard]] double b(double y_mm) const RELIEVO_RT { return b_origin_ + b_per_mm_ * y_mm; }
   [[nodiscard]] double aPerMm() const RELIEVO_RT { return a_per_mm_; }
   [[nodiscard]] double bPerMm() const RELIEVO_RT { return b_per_mm_; }
-  [[nodiscard]] int blockCols() const RELIEVO_RT { return block_cols_; }
-  [[nodiscard]] int blockRows() const RELIEVO_RT { return block_rows_; }
+  [[nodiscard]] int blockCols() const RELIEVO_RT { return block_.width; }
+  [[nodiscard]] int blockRows() const RELIEVO_RT { return block_.height; }
 
   // The height of a point at a hole.
   [[nodiscard]] float pitMm() const RELIEVO_RT { return pit_mm_; }
@@ -66,15 +66,17 @@ class ControlGrid {
   }
   // Reads what is missing of a point.
   void fill(int i, int j, const Frames& frames) RELIEVO_RT;
-  void prefetch(int i, int j, const Frames& frames) const RELIEVO_RT;
+  [[nodiscard]] std::uint32_t slotsMissing(int i, int j, const Frames& frames) const RELIEVO_RT;
+  void prefetchRow(int i0, int j, const Frames& frames) const RELIEVO_RT;
   void read(std::size_t point, const Frames& frames, std::uint32_t missing) RELIEVO_RT;
-  [[nodiscard]] double meanOrBridged(const HeightField& field, int c, int r, int width, int height) const RELIEVO_RT;
+  [[nodiscard]] double meanOrBridged(const HeightField& field, int c, int r,
+                                     const SampledBlock& block) const RELIEVO_RT;
   [[nodiscard]] float withHoles(std::size_t point, const Frames& frames) const RELIEVO_RT;
 
   double pitch_wanted_mm_;
   int most_samples_;
   int cols_ = 0, rows_ = 0;
-  int block_cols_ = 1, block_rows_ = 1;
+  SampledBlock block_;
   double a_per_mm_ = 1, a_origin_ = 0, b_per_mm_ = -1, b_origin_ = 0;
   float pit_mm_ = -40;
   // The last patch: its points are all there as long as nothing was forgotten or replaced since.

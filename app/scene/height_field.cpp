@@ -82,73 +82,76 @@ Result<HeightField> HeightField::make(const Frame& depth, const DepthCalibration
   return field;
 }
 
-template <class Sample>
-double HeightField::meanOfCodes(const std::uint8_t* first, int across, int down, std::ptrdiff_t step,
-                                std::ptrdiff_t stride) const RELIEVO_RT {
+SampledBlock::Places::Places(int length, int most) RELIEVO_RT : count(length) {
+  if (length <= most) return;
+  count = most + ((length ^ most) & 1);  // as even or odd as the length
+  step = length / count;
+  if (count % 2 == 0 && step % 2 == 0) step += (step + 1) * (count - 1) < length ? 1 : -1;
+  first = (length - 1 - step * (count - 1)) / 2;
+}
+
+// kAcross 0: as many as the block says.
+template <class Sample, int kAcross>
+double HeightField::meanOfCodes(int c0, int r0, const SampledBlock& block) const RELIEVO_RT {
+  const int across = kAcross > 0 ? kAcross : block.across.count, down = block.down.count;
+  const std::ptrdiff_t step = static_cast<std::ptrdiff_t>(block.across.step) * step_bytes_;
+  const std::ptrdiff_t stride = block.down.step * stride_bytes_;
+  const std::uint8_t* row = data_ + (r0 + block.down.first) * stride_bytes_ +
+                            static_cast<std::ptrdiff_t>(c0 + block.across.first) * step_bytes_;
   std::uint32_t sum = 0;
-  for (int r = 0; r < down; ++r) {
-    const std::uint8_t* sample = first + r * stride;
-    for (int c = 0; c < across; ++c, sample += step) sum += Sample::code(sample) & mask_;
+  for (int r = 0; r < down; ++r, row += stride) {
+    for (int c = 0; c < across; ++c) sum += Sample::code(row + c * step, mask_);
   }
   return depth_mm_ * (s_offset_ + s_scale_ * static_cast<double>(sum) / (across * down));
 }
 
-namespace {
-
-// The samples to read of `length` in a row: all of them, or about `most` at a steady step, with exactly the same margin
-// on either side. Off centre by half a sample, the mean of a slope would be off by half a sample's rise.
-struct Places {
-  int count, step = 1, first = 0;
-  Places(int length, int most) RELIEVO_RT : count(length) {
-    if (length <= most) return;
-    count = most + ((length ^ most) & 1);  // as even or odd as the length
-    step = length / count;
-    if (count % 2 == 0 && step % 2 == 0) step += (step + 1) * (count - 1) < length ? 1 : -1;
-    first = (length - 1 - step * (count - 1)) / 2;
-  }
-};
-
-}  // namespace
-
-double HeightField::meanHeight(int c0, int r0, int width, int height, int most) const RELIEVO_RT {
+double HeightField::meanHeight(int c0, int r0, const SampledBlock& block) const RELIEVO_RT {
   struct Byte {
-    static std::uint32_t code(const std::uint8_t* s) noexcept { return s[0]; }
+    static std::uint32_t code(const std::uint8_t* s, std::uint32_t) noexcept { return s[0]; }
   };
   struct Word {
-    static std::uint32_t code(const std::uint8_t* s) noexcept {
-      return static_cast<std::uint32_t>(s[0]) | static_cast<std::uint32_t>(s[1]) << 8;
+    static std::uint32_t code(const std::uint8_t* s, std::uint32_t mask) noexcept {
+      return (static_cast<std::uint32_t>(s[0]) | static_cast<std::uint32_t>(s[1]) << 8) & mask;
     }
   };
-  const Places h(width, most), v(height, most);
-  const int across = h.count, down = v.count, step_c = h.step, step_r = v.step;
-  const int c = c0 + h.first, r = r0 + v.first;
   if (plain_) {
-    const std::uint8_t* first = data_ + r * stride_bytes_ + static_cast<std::ptrdiff_t>(c) * step_bytes_;
-    const std::ptrdiff_t step = static_cast<std::ptrdiff_t>(step_c) * step_bytes_, stride = step_r * stride_bytes_;
-    return layout_ == Layout::Bytes ? meanOfCodes<Byte>(first, across, down, step, stride)
-                                    : meanOfCodes<Word>(first, across, down, step, stride);
+    if (layout_ == Layout::Words) return meanOfCodes<Word, 0>(c0, r0, block);
+    switch (block.across.count) {
+      case 3:
+        return meanOfCodes<Byte, 3>(c0, r0, block);
+      case 4:
+        return meanOfCodes<Byte, 4>(c0, r0, block);
+      case 5:
+        return meanOfCodes<Byte, 5>(c0, r0, block);
+      case 6:
+        return meanOfCodes<Byte, 6>(c0, r0, block);
+      default:
+        return meanOfCodes<Byte, 0>(c0, r0, block);
+    }
   }
   double sum = 0;
   int count = 0;
-  for (int j = 0; j < down; ++j) {
-    for (int i = 0; i < across; ++i) {
-      const double z = heightMm(c + i * step_c, r + j * step_r);
+  for (int j = 0; j < block.down.count; ++j) {
+    const int r = r0 + block.down.first + j * block.down.step;
+    for (int i = 0; i < block.across.count; ++i) {
+      const double z = heightMm(c0 + block.across.first + i * block.across.step, r);
       if (std::isnan(z)) continue;
       sum += z;
       ++count;
     }
   }
-  return 2 * count < across * down ? kHole : sum / count;
+  return 2 * count < block.across.count * block.down.count ? kHole : sum / count;
 }
 
-void HeightField::prefetch(int c0, int r0, int width, int height, int most) const RELIEVO_RT {
-  const Places h(width, most), v(height, most);
-  const auto at = [&](int c, int r)
-                      RELIEVO_RT { return data_ + r * stride_bytes_ + static_cast<std::ptrdiff_t>(c) * step_bytes_; };
-  for (int j = 0; j < v.count; ++j) {
-    const int r = r0 + v.first + j * v.step;
-    __builtin_prefetch(at(c0 + h.first, r));
-    __builtin_prefetch(at(c0 + h.first + (h.count - 1) * h.step, r));
+void HeightField::prefetch(int c0, int r0, int blocks, const SampledBlock& block) const RELIEVO_RT {
+  constexpr std::ptrdiff_t kLine = 64;
+  const std::ptrdiff_t margin = block.across.first;
+  const std::ptrdiff_t bytes = (std::ptrdiff_t{blocks} * block.width - 2 * margin - 1) * step_bytes_;
+  const std::ptrdiff_t stride = block.down.step * stride_bytes_;
+  const std::uint8_t* row = data_ + (r0 + block.down.first) * stride_bytes_ + (c0 + margin) * step_bytes_;
+  for (int j = 0; j < block.down.count; ++j, row += stride) {
+    for (std::ptrdiff_t at = 0; at < bytes; at += kLine) __builtin_prefetch(row + at);
+    __builtin_prefetch(row + bytes);
   }
 }
 

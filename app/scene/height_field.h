@@ -17,6 +17,25 @@
 
 namespace relievo {
 
+// Which samples of a block tell its mean: about `most` across and as many down, at a steady step with the same margin
+// on either side, and all of them where there are no more. Off centre by half a sample, the mean of a slope would be
+// off by half a sample's rise.
+struct SampledBlock {
+  struct Places {
+    int count = 1, step = 1, first = 0;
+    Places() = default;
+    Places(int length, int most) RELIEVO_RT;
+  };
+  int width = 1, height = 1;
+  Places across, down;
+
+  SampledBlock() = default;
+  SampledBlock(int block_width, int block_height, int most) RELIEVO_RT : width(block_width),
+                                                                         height(block_height),
+                                                                         across(block_width, most),
+                                                                         down(block_height, most) {}
+};
+
 // Trivially copyable. It does not own the samples: whoever holds the Frame does.
 // The height at a hole (an invalid code, a hue too dark to read) is not a number: no comparison with it holds, so that
 // contact with a hole cannot be found by accident. Every other height is finite, in [0, volume depth].
@@ -51,11 +70,11 @@ class HeightField {
   // Of the same size and format, so that the same bytes have the same heights.
   [[nodiscard]] bool readsLike(const HeightField& other) const noexcept;
 
-  // The mean height of the samples in a block that lies inside the picture, of which about `most` are read across and
-  // as many down, evenly spread about its centre. Not a number when less than half of those read have a height.
-  [[nodiscard]] double meanHeight(int c0, int r0, int width, int height, int most) const RELIEVO_RT;
-  // Has the processor fetch the samples that `meanHeight` reads: those of several blocks at once come sooner.
-  void prefetch(int c0, int r0, int width, int height, int most) const RELIEVO_RT;
+  // The mean height of what is read of a block that begins at sample (c0, r0) and lies inside the picture. Not a number
+  // when less than half of it has a height.
+  [[nodiscard]] double meanHeight(int c0, int r0, const SampledBlock& block) const RELIEVO_RT;
+  // Has the processor fetch what `meanHeight` reads of so many blocks beside each other, the first at (c0, r0).
+  void prefetch(int c0, int r0, int blocks, const SampledBlock& block) const RELIEVO_RT;
   [[nodiscard]] double depthMm() const RELIEVO_RT { return depth_mm_; }
   // The height of one code, in the mean over the volume.
   [[nodiscard]] double stepMm() const RELIEVO_RT {
@@ -89,9 +108,8 @@ class HeightField {
     return layout_ == Layout::Bytes ? 1 : layout_ == Layout::Words ? 2 : 1 + std::max({red_, green_, blue_});
   }
   [[nodiscard]] double fromHue(const std::uint8_t* pixel) const RELIEVO_RT;
-  template <class Sample>
-  [[nodiscard]] double meanOfCodes(const std::uint8_t* first, int across, int down, std::ptrdiff_t step,
-                                   std::ptrdiff_t stride) const RELIEVO_RT;
+  template <class Sample, int kAcross>
+  [[nodiscard]] double meanOfCodes(int c0, int r0, const SampledBlock& block) const RELIEVO_RT;
 
   const std::uint8_t* data_ = nullptr;
   std::ptrdiff_t stride_bytes_ = 0;

@@ -154,20 +154,24 @@ TEST(HeightField, TheMeanOfABlockIsThatOfItsReadings) {
           ++count;
         }
       }
-      EXPECT_NEAR(field.meanHeight(c0, r0, width, height, 5), sum / count, 1e-9) << bits << ' ' << c0;
+      EXPECT_NEAR(field.meanHeight(c0, r0, {width, height, 5}), sum / count, 1e-9) << bits << ' ' << c0;
     }
   }
 }
 
 TEST(HeightField, TheMeanOfAWideBlockIsReadAtAFewPlacesWithTheSameMarginsAllAround) {
   // On a slope only a reading that is centred gives the height in the middle.
-  const Frame frame = test::makeGrayFrame(40, 40, 16, {}, [](int c, int r) { return 1000 + 700 * c + 300 * r; });
-  const auto field = HeightField::make(frame, {.bits = 16}, kVolume).value();
-  for (int width = 1; width <= 33; ++width) {
-    for (int most = 1; most <= 6; ++most) {
-      const int height = 34 - width;
-      const double middle = 40 * (1000 + 700 * (2 + 0.5 * (width - 1)) + 300 * (1 + 0.5 * (height - 1))) / 65535;
-      ASSERT_NEAR(field.meanHeight(2, 1, width, height, most), middle, 1e-9) << width << ' ' << most;
+  for (const int bits : {8, 16}) {
+    const int top = (1 << bits) - 1, begin = top / 25, right = top / 85, down = top / 255;
+    const Frame frame =
+        test::makeGrayFrame(40, 40, bits, {}, [&](int c, int r) { return begin + right * c + down * r; });
+    const auto field = HeightField::make(frame, {.bits = bits}, kVolume).value();
+    for (int width = 1; width <= 33; ++width) {
+      for (int most = 1; most <= 7; ++most) {
+        const int height = 34 - width;
+        const double middle = 40 * (begin + right * (2 + 0.5 * (width - 1)) + down * (1 + 0.5 * (height - 1))) / top;
+        ASSERT_NEAR(field.meanHeight(2, 1, {width, height, most}), middle, 1e-9) << bits << ' ' << width << ' ' << most;
+      }
     }
   }
 }
@@ -175,7 +179,7 @@ TEST(HeightField, TheMeanOfAWideBlockIsReadAtAFewPlacesWithTheSameMarginsAllArou
 TEST(HeightField, ABlockWithReadingsInLessThanHalfOfItIsAHole) {
   const auto mean = [](int holes) {
     const Frame frame = test::makeGrayFrame(4, 4, 8, {}, [&](int c, int r) { return 4 * r + c < holes ? 0 : 51; });
-    return HeightField::make(frame, {.invalid_code = 0}, kVolume).value().meanHeight(0, 0, 4, 4, 4);
+    return HeightField::make(frame, {.invalid_code = 0}, kVolume).value().meanHeight(0, 0, {4, 4, 4});
   };
   EXPECT_DOUBLE_EQ(mean(0), 8);
   EXPECT_DOUBLE_EQ(mean(8), 8);
