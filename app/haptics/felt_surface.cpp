@@ -12,7 +12,6 @@
 namespace relievo {
 namespace {
 
-constexpr int kNarrowSamples = 3, kWideSamples = 5;
 // A tick this much off the time that was prepared for is still on what was prepared.
 constexpr Duration kPreparedWithin = std::chrono::microseconds(500);
 

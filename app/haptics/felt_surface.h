@@ -14,6 +14,9 @@
 
 namespace relievo {
 
+// Samples of a control point's block that each level reads, across and down, at most.
+inline constexpr int kNarrowSamples = 3, kWideSamples = 5;
+
 // How wide the surface looks around; standard deviations of the smoothing.
 struct FeltScale {
   double narrow_mm = 0.28;  // what an edge is seen with

@@ -10,8 +10,6 @@
 namespace relievo {
 namespace {
 
-constexpr double kSigmaPerPitch = 0.645497;  // sqrt(5/12)
-
 // Basis functions of four control points and their first and second derivatives, in units of the pitch: a polynomial
 // in the place within the cell for each control point.
 Float4 basis(const std::array<Float4, 4>& c, float t) RELIEVO_RT {

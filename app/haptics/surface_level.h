@@ -28,8 +28,10 @@ struct FrameSlots {
   std::uint32_t in_use = 0;  // bit per slot
 };
 
-// The standard deviation of its smoothing is 0.645 x the pitch of its control points: a box of one pitch under a cubic
-// B-spline (variances 1/12 and 4/12 pitch^2); 0.577 under a quadratic one.
+// The standard deviation of a level's smoothing, in pitches of its control points: a box of one pitch under a cubic
+// B-spline (variances 1/12 and 4/12 pitch^2). Under a quadratic one it is 0.577.
+inline constexpr double kSigmaPerPitch = 0.645497;  // sqrt(5/12)
+
 class SurfaceLevel {
  public:
   SurfaceLevel(double sigma_mm, int most_samples, SpaceLaw space, TimeLaw time) noexcept;

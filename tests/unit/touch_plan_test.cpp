@@ -8,8 +8,10 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "app/haptics/felt_surface.h"
 #include "tests/support/depth_frames.h"
 
 namespace relievo {
@@ -57,6 +59,37 @@ TEST(TouchPlan, TakesWhatTheClipNeedsAndNoMore) {
   const TimedSurface alone{HeightField::make(black, {.bits = 8}, kVolume).value(), {}, black.owner};
   EXPECT_NEAR(planTouch(measureClip(std::span(&alone, 1))).scale.wide_mm, coarse.scale.wide_mm, 1e-9);
   EXPECT_EQ(measureClip({}).frames, 0);
+}
+
+// What noise leaves of a flat relief's slope is an error of direction, in radians: a share of the force.
+TEST(TouchPlan, TellsWhatNoiseLeavesHoweverFineThePictureIs) {
+  constexpr DisplayVolume kSmall{40, 30, 40};
+  std::mt19937 random(7);
+  for (const auto& [cols, noise_mm] : {std::pair(180, 0.4), {180, 0.12}, {960, 0.4}, {960, 0.12}}) {
+    std::normal_distribution<double> noise(0, noise_mm);
+    SurfaceWindow window;
+    for (TimedSurface& surface : window.frames) {
+      const Frame frame = makeGrayFrame(cols, cols * 3 / 4, 16, mediaTime(window.count++ * kPeriod), [&](int, int) {
+        return std::clamp((20 + noise(random)) / 40, 0.0, 1.0) * 65535 + 0.5;
+      });
+      surface = {HeightField::make(frame, {.bits = 16}, kSmall).value(), frame.pts, frame.owner};
+    }
+    const TouchPlan plan = planTouch(measureClip(window.frames));
+    FeltSurface felt(plan.scale);
+    double sum = 0;
+    int places = 0;
+    for (int k = 0; k < 10; ++k) {
+      ASSERT_TRUE(felt.moment(window, mediaTime((2 + 0.1 * k) * kPeriod)));
+      for (double y = -12; y <= 12; y += 1.5) {
+        for (double x = -16; x <= 16; x += 1.5, ++places) {
+          const SurfacePoint at = felt.at(x, y);
+          sum += at.zx * at.zx + at.zy * at.zy;
+        }
+      }
+    }
+    const double left = std::sqrt(sum / places);
+    EXPECT_NEAR(left, plan.error, 0.3 * plan.error) << cols << ' ' << noise_mm;
+  }
 }
 
 TEST(TouchPlan, TellsNoErrorThatItCannotName) {
