@@ -15,12 +15,16 @@ namespace {
 // A tick this much off the time that was prepared for is still on what was prepared.
 constexpr Duration kPreparedWithin = std::chrono::microseconds(500);
 
-// Where W and N differ by less than half the clamp d, W it is: c(u) = u. Beyond, c goes on to d as a + (d - a) g(s)
-// with a = d/2, s = (|u| - a)/(d - a) and g(s) = s/(1 + s^4)^(1/4): two continuous derivatives, and monotone.
+// Where W and N differ by less than this share of the clamp d, W it is: c(u) = u. The more, the less of N's noise is
+// felt; it leaves the rest of the clamp to turn back in.
+constexpr double kWideAlone = 0.7;
+
+// Beyond that, c goes on to d as a + (d - a) g(s) with a = kWideAlone d, s = (|u| - a)/(d - a) and g(s) = s/(1 +
+// s^4)^(1/4): two continuous derivatives, and monotone.
 struct SoftClamp {
   double value, slope, bend;
   SoftClamp(double u, double d) RELIEVO_RT {
-    const double a = 0.5 * d, s = (std::abs(u) - a) / (d - a), s2 = s * s, base = 1 + s2 * s2;
+    const double a = kWideAlone * d, s = (std::abs(u) - a) / (d - a), s2 = s * s, base = 1 + s2 * s2;
     const double root = std::sqrt(std::sqrt(base));
     slope = 1 / (base * root);
     value = std::copysign(a + (d - a) * s / root, u);
@@ -133,9 +137,9 @@ SurfacePoint FeltSurface::narrowAt(double x_mm, double y_mm) RELIEVO_RT {
 RELIEVO_TICK_CODE SurfacePoint FeltSurface::at(double x_mm, double y_mm) RELIEVO_RT {
   if (!two_levels_) return narrow_.at(x_mm, y_mm);
   const SurfacePoint w = wide_.at(x_mm, y_mm);
-  if (!edge_moves_ && std::abs(w.z - narrow_.height(x_mm, y_mm)) <= 0.5 * scale_.clamp_mm) return w;
+  if (!edge_moves_ && std::abs(w.z - narrow_.height(x_mm, y_mm)) <= kWideAlone * scale_.clamp_mm) return w;
   const SurfacePoint n = narrowAt(x_mm, y_mm);
-  if (std::abs(w.z - n.z) <= 0.5 * scale_.clamp_mm) return w;
+  if (std::abs(w.z - n.z) <= kWideAlone * scale_.clamp_mm) return w;
   const SoftClamp c(w.z - n.z, scale_.clamp_mm);
   const double ux = w.zx - n.zx, uy = w.zy - n.zy;
   return {n.z + c.value,
@@ -150,7 +154,7 @@ RELIEVO_TICK_CODE double FeltSurface::height(double x_mm, double y_mm) RELIEVO_R
   const double n = edge_moves_ ? narrowAt(x_mm, y_mm).z : narrow_.height(x_mm, y_mm);
   if (!two_levels_) return n;
   const double w = wide_.height(x_mm, y_mm);
-  return std::abs(w - n) <= 0.5 * scale_.clamp_mm ? w : n + SoftClamp(w - n, scale_.clamp_mm).value;
+  return std::abs(w - n) <= kWideAlone * scale_.clamp_mm ? w : n + SoftClamp(w - n, scale_.clamp_mm).value;
 }
 
 double FeltSurface::lowestSample(double x_mm, double y_mm) const RELIEVO_RT {

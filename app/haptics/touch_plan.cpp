@@ -131,7 +131,7 @@ TouchPlan planTouch(const ClipMeasure& m) {
   // What the narrow level is off by must fit under the clamp: four standard deviations of its noise, and its steps.
   const double narrow_noise = m.noise_mm * apart(s.narrow_mm, kNarrowSamples) * std::sqrt(through) /
                               (s.narrow_mm * std::sqrt(4 * std::numbers::pi));
-  s.clamp_mm = std::max({0.15, 1.6 * std::min(m.quantum_mm, 0.2), 4 * narrow_noise});
+  s.clamp_mm = std::max({0.15, 1.4 * std::min(m.quantum_mm, 0.2), 4 * narrow_noise});
 
   char depth[120], error[40] = "under 0.1 %";
   std::snprintf(depth, sizeof depth, "steps of %.3f mm, noise %.3f mm, %.0f mm/s%s", m.quantum_mm, m.noise_mm,

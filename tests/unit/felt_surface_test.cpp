@@ -60,7 +60,7 @@ TEST(FeltSurface, ItsDerivativesAreThoseOfItsHeightAlsoAtAnEdge) {
   FeltSurface s({});
   std::mt19937 random(2);
   std::uniform_real_distribution<double> beside(-1.2, 1.2), y(-10, 10);
-  constexpr double kStep = 0.001;
+  constexpr double kStep = 0.0004;
   int off = 0;
   for (int i = 0; i < 2000; ++i) {
     const double py = y(random), px = 10 + 0.3 * py + beside(random);
