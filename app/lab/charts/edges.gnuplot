@@ -12,7 +12,7 @@ plot NaN notitle, for [d = 1:4] keyentry with points pt SYMBOL[d] ps 1 lc rgb TI
 set yrange [9.5:0.5]
 set logscale x
 set xtics (0.1, 0.2, 0.5, 1, 2, 5)
-set tmargin at screen 0.80
+set tmargin at screen 0.78
 set bmargin at screen 0.27
 set ytics () noenhanced
 do for [k = 1:9] { set ytics add (word(KINDS, k) k) }
