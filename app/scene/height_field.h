@@ -108,6 +108,8 @@ class HeightField {
     return layout_ == Layout::Bytes ? 1 : layout_ == Layout::Words ? 2 : 1 + std::max({red_, green_, blue_});
   }
   [[nodiscard]] double fromHue(const std::uint8_t* pixel) const RELIEVO_RT;
+  template <class Sample>
+  [[nodiscard]] double meanOfCodes(int c0, int r0, const SampledBlock& block) const RELIEVO_RT;
   template <class Sample, int kAcross>
   [[nodiscard]] double meanOfCodes(int c0, int r0, const SampledBlock& block) const RELIEVO_RT;
 
