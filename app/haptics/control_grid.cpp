@@ -60,7 +60,7 @@ std::uint32_t ControlGrid::slotsMissing(int i, int j, const Frames& frames) cons
   return i_[p] == i && j_[p] == j ? frames.wanted & ~std::uint32_t{filled_[p]} : frames.wanted;
 }
 
-// What is missing of four points beside each other, of the samples between them as well.
+// What is missing of four points beside each other, and what lies between, in each frame that lacks one.
 void ControlGrid::prefetchRow(int i0, int j, const Frames& frames) const RELIEVO_RT {
   std::uint32_t any = 0;
   int begin = 4, end = 0;
@@ -74,7 +74,7 @@ void ControlGrid::prefetchRow(int i0, int j, const Frames& frames) const RELIEVO
   if (any == 0) return;
   const std::int64_t u = (std::int64_t{i0} + begin) * block_.width, v = std::int64_t{j} * block_.height;
   if (u < 0 || v < 0 || u + (end - begin) * block_.width > cols_ || v + block_.height > rows_)
-    return;  // few are at the rim
+    return;  // few are cut by the rim
   for (; any != 0; any &= any - 1) {
     const auto slot = static_cast<std::size_t>(__builtin_ctz(any));
     frames.window->frames[frames.frame_of_slot[slot]].field.prefetch(static_cast<int>(u), static_cast<int>(v),

@@ -25,7 +25,7 @@ using Patch = std::array<Float4, 4>;
 class ControlGrid {
  public:
   static constexpr int kFrames = SurfaceWindow::kCapacity;
-  // Samples read of a block, across and down, at most: a wider block is read at so many places, evenly spread.
+  // `samples`: about so many are read of a block, across and down (SampledBlock).
   ControlGrid(double pitch_mm, int most_samples) noexcept : pitch_wanted_mm_(pitch_mm), most_samples_(most_samples) {}
 
   // A picture of another shape: forgets everything.

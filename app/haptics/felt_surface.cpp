@@ -15,12 +15,12 @@ namespace {
 // A tick this much off the time that was prepared for is still on what was prepared.
 constexpr Duration kPreparedWithin = std::chrono::microseconds(500);
 
-// Where W and N differ by less than this share of the clamp d, W it is: c(u) = u. The more, the less of N's noise is
-// felt; it leaves the rest of the clamp to turn back in.
+// Where W and N differ by less than this share of the clamp d, W it is: c(u) = u. A larger share lets less of N's noise
+// through; the rest of the clamp is left for c to level off in.
 constexpr double kWideAlone = 0.7;
 
 // Beyond that, c goes on to d as a + (d - a) g(s) with a = kWideAlone d, s = (|u| - a)/(d - a) and g(s) = s/(1 +
-// s^4)^(1/4): two continuous derivatives, and monotone.
+// s^4)^(1/4): four continuous derivatives, and monotone.
 struct SoftClamp {
   double value, slope, bend;
   SoftClamp(double u, double d) RELIEVO_RT {

@@ -14,7 +14,7 @@
 
 namespace relievo {
 
-// Samples of a control point's block that each level reads, across and down, at most.
+// About so many samples of a control point's block are read, across and down, for each level.
 inline constexpr int kNarrowSamples = 3, kWideSamples = 5;
 
 // How wide the surface looks around; standard deviations of the smoothing.

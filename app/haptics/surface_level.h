@@ -32,6 +32,7 @@ struct FrameSlots {
 // B-spline (variances 1/12 and 4/12 pitch^2). Under a quadratic one it is 0.577.
 inline constexpr double kSigmaPerPitch = 0.645497;  // sqrt(5/12)
 
+// The surface of one smoothing: a view of one moment at a time, which is prepared for in the tick before.
 class SurfaceLevel {
  public:
   SurfaceLevel(double sigma_mm, int most_samples, SpaceLaw space, TimeLaw time) noexcept;

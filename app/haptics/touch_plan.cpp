@@ -111,13 +111,14 @@ TouchPlan planTouch(const ClipMeasure& m) {
   if (noisy) s.narrow_time = s.wide_time = TimeLaw::BSpline;
   else s.wide_time = TimeLaw::Fitted;
 
-  // Share of the noise's power that the weights of the frames let through: the mean of their sum of squares.
-  const double through = s.wide_time == TimeLaw::BSpline ? 0.48 : m.still ? 1.0 : 0.75;
+  // Share of the noise's power that the weights of the frames let through: the mean of their sum of squares. Frames
+  // that repeat each other have the same noise.
+  const double through = m.still ? 1.0 : s.wide_time == TimeLaw::BSpline ? 0.48 : 0.75;
   // Error of direction of a Gaussian of width w on white noise s from samples p apart: s p sqrt(g) sqrt(1.2)/(3.54 w^2)
-  // times the square root of 1.2; on steps of q, at the worst slope, q/(7.09 w). Of a block so many samples are read at
-  // most: where the picture has more, those that tell are as far apart as w has it, and finer pictures are no calmer.
+  // times the square root of 1.2; on steps of q, at the worst slope, q/(7.09 w). About so many samples of a block are
+  // read: in a fine picture they lie w/(kSigmaPerPitch x as many) apart, and it is no calmer for being finer.
   const double noise_scale = 1.2 * m.noise_mm * std::sqrt(through) / 3.54;
-  const auto apart = [&](double w, int most) { return std::max(m.sample_mm, w / (kSigmaPerPitch * most)); };
+  const auto apart = [&](double w, int read) { return std::max(m.sample_mm, w / (kSigmaPerPitch * read)); };
   const auto width = [&](double error) {
     return std::max({std::sqrt(noise_scale * m.sample_mm / error),
                      noise_scale / (kSigmaPerPitch * kWideSamples * error), m.quantum_mm / (7.09 * error)});
@@ -128,7 +129,8 @@ TouchPlan planTouch(const ClipMeasure& m) {
   const double of_steps = m.quantum_mm / (7.09 * s.wide_mm);
   plan.error = std::max(of_noise, of_steps);
 
-  // What the narrow level is off by must fit under the clamp: four standard deviations of its noise, and its steps.
+  // What the narrow level is off by must fit under the clamp: four standard deviations of its noise, and a step, within
+  // which the wide level is to tell alone (FeltSurface).
   const double narrow_noise = m.noise_mm * apart(s.narrow_mm, kNarrowSamples) * std::sqrt(through) /
                               (s.narrow_mm * std::sqrt(4 * std::numbers::pi));
   s.clamp_mm = std::max({0.15, 1.4 * std::min(m.quantum_mm, 0.2), 4 * narrow_noise});

@@ -78,7 +78,7 @@ Result<HeightField> HeightField::make(const Frame& depth, const DepthCalibration
   const double s_last = field.s_offset_ + field.s_scale_ * static_cast<double>(field.mask_);
   const auto clamped = [](double s) { return s < -1e-12 || s > 1 + 1e-12; };
   field.plain_ = calibration.code == DepthCode::Luma && !field.inverse_ && !calibration.invalid_code &&
-                 field.shift_ == 0 && !clamped(field.s_offset_) && !clamped(s_last);
+                 field.shift_ == 0 && field.mask_ >= 0xff && !clamped(field.s_offset_) && !clamped(s_last);
   return field;
 }
 
@@ -92,15 +92,15 @@ SampledBlock::Places::Places(int length, int most) RELIEVO_RT : count(length) {
 
 // kAcross 0: as many as the block says.
 template <class Sample, int kAcross>
-double HeightField::meanOfCodes(int c0, int r0, const SampledBlock& block) const RELIEVO_RT {
+double HeightField::meanOfRows(int c0, int r0, const SampledBlock& block) const RELIEVO_RT {
   const int across = kAcross > 0 ? kAcross : block.across.count, down = block.down.count;
   const std::ptrdiff_t step = static_cast<std::ptrdiff_t>(block.across.step) * step_bytes_;
   const std::ptrdiff_t stride = block.down.step * stride_bytes_;
-  const std::uint8_t* row = data_ + (r0 + block.down.first) * stride_bytes_ +
-                            static_cast<std::ptrdiff_t>(c0 + block.across.first) * step_bytes_;
+  const std::uint8_t* first = data_ + (r0 + block.down.first) * stride_bytes_ +
+                              static_cast<std::ptrdiff_t>(c0 + block.across.first) * step_bytes_;
   std::uint32_t sum = 0;
-  for (int r = 0; r < down; ++r, row += stride) {
-    for (int c = 0; c < across; ++c) sum += Sample::code(row + c * step, mask_);
+  for (int r = 0; r < down; ++r) {
+    for (int c = 0; c < across; ++c) sum += Sample::code(first + r * stride + c * step, mask_);
   }
   return depth_mm_ * (s_offset_ + s_scale_ * static_cast<double>(sum) / (across * down));
 }
@@ -110,17 +110,17 @@ template <class Sample>
 double HeightField::meanOfCodes(int c0, int r0, const SampledBlock& block) const RELIEVO_RT {
   switch (block.across.count) {
     case 2:
-      return meanOfCodes<Sample, 2>(c0, r0, block);
+      return meanOfRows<Sample, 2>(c0, r0, block);
     case 3:
-      return meanOfCodes<Sample, 3>(c0, r0, block);
+      return meanOfRows<Sample, 3>(c0, r0, block);
     case 4:
-      return meanOfCodes<Sample, 4>(c0, r0, block);
+      return meanOfRows<Sample, 4>(c0, r0, block);
     case 5:
-      return meanOfCodes<Sample, 5>(c0, r0, block);
+      return meanOfRows<Sample, 5>(c0, r0, block);
     case 6:
-      return meanOfCodes<Sample, 6>(c0, r0, block);
+      return meanOfRows<Sample, 6>(c0, r0, block);
     default:
-      return meanOfCodes<Sample, 0>(c0, r0, block);
+      return meanOfRows<Sample, 0>(c0, r0, block);
   }
 }
 
@@ -155,8 +155,9 @@ void HeightField::prefetch(int c0, int r0, int blocks, const SampledBlock& block
   const std::ptrdiff_t margin = block.across.first;
   const std::ptrdiff_t bytes = (std::ptrdiff_t{blocks} * block.width - 2 * margin - 1) * step_bytes_;
   const std::ptrdiff_t stride = block.down.step * stride_bytes_;
-  const std::uint8_t* row = data_ + (r0 + block.down.first) * stride_bytes_ + (c0 + margin) * step_bytes_;
-  for (int j = 0; j < block.down.count; ++j, row += stride) {
+  const std::uint8_t* first = data_ + (r0 + block.down.first) * stride_bytes_ + (c0 + margin) * step_bytes_;
+  for (int j = 0; j < block.down.count; ++j) {
+    const std::uint8_t* row = first + j * stride;
     for (std::ptrdiff_t at = 0; at < bytes; at += kLine) __builtin_prefetch(row + at);
     __builtin_prefetch(row + bytes);
   }

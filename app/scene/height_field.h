@@ -19,7 +19,7 @@ namespace relievo {
 
 // Which samples of a block tell its mean: about `most` across and as many down, at a steady step with the same margin
 // on either side, and all of them where there are no more. Off centre by half a sample, the mean of a slope would be
-// off by half a sample's rise.
+// off by half a sample's rise. Lengths are in samples, and `most` is at least 1.
 struct SampledBlock {
   struct Places {
     int count = 1, step = 1, first = 0;
@@ -111,7 +111,7 @@ class HeightField {
   template <class Sample>
   [[nodiscard]] double meanOfCodes(int c0, int r0, const SampledBlock& block) const RELIEVO_RT;
   template <class Sample, int kAcross>
-  [[nodiscard]] double meanOfCodes(int c0, int r0, const SampledBlock& block) const RELIEVO_RT;
+  [[nodiscard]] double meanOfRows(int c0, int r0, const SampledBlock& block) const RELIEVO_RT;
 
   const std::uint8_t* data_ = nullptr;
   std::ptrdiff_t stride_bytes_ = 0;
