@@ -133,7 +133,7 @@ TouchPlan planTouch(const ClipMeasure& m) {
   // which the wide level is to tell alone (FeltSurface).
   const double narrow_noise = m.noise_mm * apart(s.narrow_mm, kNarrowSamples) * std::sqrt(through) /
                               (s.narrow_mm * std::sqrt(4 * std::numbers::pi));
-  s.clamp_mm = std::max({0.15, 1.4 * std::min(m.quantum_mm, 0.2), 4 * narrow_noise});
+  s.clamp_mm = std::max({0.15, 1.5 * std::min(m.quantum_mm, 0.2), 4 * narrow_noise});
 
   char depth[120], error[40] = "under 0.1 %";
   std::snprintf(depth, sizeof depth, "steps of %.3f mm, noise %.3f mm, %.0f mm/s%s", m.quantum_mm, m.noise_mm,
