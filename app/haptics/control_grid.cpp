@@ -44,14 +44,15 @@ void ControlGrid::forgetFrame(int slot) RELIEVO_RT {
 }
 
 void ControlGrid::fill(int i, int j, const Frames& frames) RELIEVO_RT {
+  const std::uint32_t missing = slotsMissing(i, j, frames);
+  if (missing == 0) return;
   const std::size_t p = slotOf(i, j);
   if (i_[p] != i || j_[p] != j) {
     i_[p] = i;
     j_[p] = j;
     filled_[p] = hole_[p] = 0;
   }
-  const std::uint32_t missing = frames.wanted & ~std::uint32_t{filled_[p]};
-  if (missing != 0) read(p, frames, missing);
+  read(p, frames, missing);
 }
 
 // The frames, by their slots, in which a point is still to be read.
@@ -73,8 +74,8 @@ void ControlGrid::prefetchRow(int i0, int j, const Frames& frames) const RELIEVO
   }
   if (any == 0) return;
   const std::int64_t u = (std::int64_t{i0} + begin) * block_.width, v = std::int64_t{j} * block_.height;
-  if (u < 0 || v < 0 || u + (end - begin) * block_.width > cols_ || v + block_.height > rows_)
-    return;  // few are cut by the rim
+  const std::int64_t u_end = u + (end - begin) * block_.width, v_end = v + block_.height;
+  if (u < 0 || v < 0 || u_end > cols_ || v_end > rows_) return;  // few are cut by the rim
   for (; any != 0; any &= any - 1) {
     const auto slot = static_cast<std::size_t>(__builtin_ctz(any));
     frames.window->frames[frames.frame_of_slot[slot]].field.prefetch(static_cast<int>(u), static_cast<int>(v),
