@@ -572,7 +572,7 @@ TEST_F(AuthorFilm, OtherPlayersPlayItAsOrdinaryVideo) {
   // Somebody else's program may hang for reasons of its own; not twice.
   const auto plays = [&](const std::string& command) {
     constexpr int kTimedOut = 124;
-    const std::string bounded = "timeout 60 " + command + " </dev/null";
+    const std::string bounded = "timeout 20 " + command + " </dev/null";
     const int code = shell(bounded);
     return (code == kTimedOut ? shell(bounded) : code) == 0;
   };

@@ -7,10 +7,12 @@ KINDS = '"8-bit" "H.264 crf 23"'
 array TINTS[2] = ["#d81b60", "#1e88e5"]
 array SHAPE[2] = [7, 6]
 array DASH[2] = [1, 2]
+K = 1  # a quick run has no coded depth
+stats ARG1 using (K = strcol("depth") eq word(KINDS, 2) ? 2 : K) nooutput
 LEGEND_Y = 0.96
 @LEGEND
 plot NaN notitle, \
-     for [m = 1:2] for [k = 1:2] keyentry with linespoints pt SHAPE[k] ps 1.1 dt DASH[k] lw 1.5 lc rgb TINTS[m] title word(MODELS, m) . ", " . word(KINDS, k), \
+     for [m = 1:2] for [k = 1:K] keyentry with linespoints pt SHAPE[k] ps 1.1 dt DASH[k] lw 1.5 lc rgb TINTS[m] title word(MODELS, m) . ", " . word(KINDS, k), \
      keyentry with points pt 6 ps 2.6 lw 2 lc rgb "black" title "the player's level"
 @END_LEGEND
 
@@ -40,7 +42,7 @@ do for [p = 0:5] {
   set title TITLE[row] offset 0, -0.6
   set ylabel (p % 2 ? "" : row < 3 ? "PSNR, dB" : "force error, %") offset 1
   set xlabel (p % 2 ? "time of a frame, ms" : row < 3 ? "triangles" : "triangles of the face that is felt") offset 0, 0.5
-  plot for [m = 1:2] for [k = 1:2] ARG1 using (mine(m, k, column(abscissa))):(column(value)) \
+  plot for [m = 1:2] for [k = 1:K] ARG1 using (mine(m, k, column(abscissa))):(column(value)) \
          with linespoints pt SHAPE[k] ps 0.8 dt DASH[k] lw 1.5 lc rgb TINTS[m] notitle, \
        ARG1 using (mine(1, 1, column(abscissa))):(column(value)):(coarse(row)) \
          with labels right font ",10" tc rgb TINTS[1] offset -1.4, -0.1 noenhanced notitle, \
@@ -48,7 +50,7 @@ do for [p = 0:5] {
          with labels font ",10" tc rgb TINTS[1] offset 0, 0.8 noenhanced notitle, \
        ARG1 using (mine(2, 1, column(abscissa))):(column(value)):("1:" . strcol("grid_step")) \
          with labels font ",10" tc rgb TINTS[2] offset 0, 0.8 noenhanced notitle, \
-       for [k = 1:2] ARG1 using (column("players") == 1 ? mine(1, k, column(abscissa)) : NaN):(column(value)) \
+       for [k = 1:K] ARG1 using (column("players") == 1 ? mine(1, k, column(abscissa)) : NaN):(column(value)) \
          with points pt 6 ps 2.2 lw 2 lc rgb "black" notitle
   unset label 1
 }
