@@ -62,7 +62,7 @@ void taylorStep(Contact& c, const glm::dvec2& step) RELIEVO_RT {
 }  // namespace
 
 RELIEVO_TICK_CODE Contact closestPoint(FeltSurface& surface, double x_mm, double y_mm, const glm::dvec3& hip_mm,
-                                       double lowered_mm) RELIEVO_RT {
+                                       double lowered_mm, SlideUntil until) RELIEVO_RT {
   const double longest = 3 * surface.sampleMm();
   Contact best{x_mm, y_mm, surface.at(x_mm, y_mm)};
   Distance distance(best, hip_mm, lowered_mm);
@@ -70,14 +70,15 @@ RELIEVO_TICK_CODE Contact closestPoint(FeltSurface& surface, double x_mm, double
   for (int evaluation = 1;; ++evaluation) {
     glm::dvec2 step = scale * distance.solve(-distance.gx, -distance.gy);
     const double size2 = squared(step);
+    const bool last = evaluation >= kMostEvaluations || (until == SlideUntil::MuchRead && surface.hasReadMuch());
     if (size2 < kTaylorMm * kTaylorMm && scale == 1) {
       taylorStep(best, step);
-      if (size2 < kTaylorEndMm * kTaylorEndMm || evaluation >= kMostEvaluations) return best;
+      if (size2 < kTaylorEndMm * kTaylorEndMm || last) return best;
       best.surface = surface.at(best.x_mm, best.y_mm);
       distance = Distance(best, hip_mm, lowered_mm);
       continue;
     }
-    if (size2 < kSettledMm * kSettledMm || evaluation >= kMostEvaluations) return best;
+    if (size2 < kSettledMm * kSettledMm || last) return best;
     if (size2 > longest * longest) step *= longest / std::sqrt(size2);
     Contact next{best.x_mm + step.x, best.y_mm + step.y, {}};
     next.surface = surface.at(next.x_mm, next.y_mm);

@@ -2,6 +2,7 @@
 // Sliding the proxy to the true closest point of a smooth surface, by Newton's method.
 #pragma once
 
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -18,9 +19,11 @@ struct Contact {
 
 // From (x, y) downhill to the local minimum of the distance between (x, y, S(x, y) - lowered) and the finger. Steps are
 // short against the surface's features and must come closer, so that the way leads along the surface and not across it.
-// At most 10 evaluations: bounded time; what is left is made up in the next ticks.
+// At most 10 evaluations, `until` MuchRead none after the surface has read much in this tick: bounded time; what is left
+// is made up in the next ticks.
+enum class SlideUntil : std::uint8_t { Settled, MuchRead };
 [[nodiscard]] Contact closestPoint(FeltSurface& surface, double x_mm, double y_mm, const glm::dvec3& hip_mm,
-                                   double lowered_mm) RELIEVO_RT;
+                                   double lowered_mm, SlideUntil until) RELIEVO_RT;
 
 // Where the closest point goes when the finger moves by `moved_mm`, to first order; at most eight times as far.
 [[nodiscard]] glm::dvec2 predictedStep(const Contact& contact, const glm::dvec3& hip_mm, const glm::dvec3& moved_mm,

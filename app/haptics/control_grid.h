@@ -83,10 +83,10 @@ class ControlGrid {
   int patch_i_ = 0, patch_j_ = 0;
   std::uint32_t patch_slots_ = 0;
   bool patch_holes_ = false;
+  std::uint64_t blocks_read_ = 0;
   // A point each. Bits and heights by slot; 0 at a hole.
   std::array<std::int32_t, kPoints> i_{}, j_{};
   std::array<std::uint8_t, kPoints> filled_{}, hole_{};
-  std::uint64_t blocks_read_ = 0;
   alignas(16) std::array<std::array<float, kFrames>, kPoints> height_{};
 };
 

@@ -42,6 +42,7 @@ FeltSurface::FeltSurface(const FeltScale& scale) noexcept
 
 RELIEVO_TICK_CODE bool FeltSurface::moment(const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
   if (window.count == 0) return false;
+  read_before_ = blocksRead();
   const HeightField& field = window.frames[0].field;
   if (window.epoch != epoch_ || field.cols() != cols_ || field.rows() != rows_ || slots_.in_use == 0) {
     setPicture(window);

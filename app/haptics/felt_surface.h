@@ -17,6 +17,9 @@ namespace relievo {
 // About so many samples of a control point's block are read, across and down, for each level.
 inline constexpr int kNarrowSamples = 3, kWideSamples = 5;
 
+// Of blocks, each in each frame. A tick that has read more leaves to the next ones what can wait.
+inline constexpr std::uint64_t kBlocksOfTick = 256;
+
 // How wide the surface looks around; standard deviations of the smoothing.
 struct FeltScale {
   double narrow_mm = 0.28;  // what an edge is seen with
@@ -53,6 +56,8 @@ class FeltSurface {
   [[nodiscard]] std::uint64_t blocksRead() const RELIEVO_RT {
     return narrow_.grid().blocksRead() + wide_.grid().blocksRead();
   }
+  // More than kBlocksOfTick since `moment`.
+  [[nodiscard]] bool hasReadMuch() const RELIEVO_RT { return blocksRead() - read_before_ > kBlocksOfTick; }
 
   // After `moment`, on the same window: what can be done ahead of a tick that is likely to come at `next`, with the
   // proxy near (x, y). It holds as long as the frames that count are the same, though the window has gone on.
@@ -72,6 +77,7 @@ class FeltSurface {
   bool two_levels_;
   double sample_mm_ = 0.2;
   double depth_mm_ = 40;
+  std::uint64_t read_before_ = 0;  // this moment
 
   std::uint32_t epoch_ = 0, shot_ = 0;
   int cols_ = 0, rows_ = 0;

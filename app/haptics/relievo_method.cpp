@@ -54,7 +54,6 @@ RELIEVO_TICK_CODE Touch RelievoMethod::update(const glm::dvec3& hip_mm, const Su
   if (!isFinite(hip_mm)) return touch;  // a tick left out: the next one goes on from the last place
   const std::uint32_t shot = surface_.shot();
   const bool other_scene = !had_surface_ || window.epoch != epoch_ || shot != shot_;
-  entered_ = other_scene;
   had_surface_ = true;
   epoch_ = window.epoch;
   shot_ = shot;
@@ -75,19 +74,19 @@ RELIEVO_TICK_CODE Touch RelievoMethod::update(const glm::dvec3& hip_mm, const Su
     const glm::dvec2 step = predictedStep(contact_, hip_mm_, moved, lowered_mm_);
     contact_.x_mm += step.x;
     contact_.y_mm += step.y;
-    slide(hip_mm);
+    slide(hip_mm, SlideUntil::MuchRead);
     // A long jump that came out further away than staying would have been has left the finger's side of a ridge.
     if (glm::dot(step, step) > 4 * surface_.sampleMm() * surface_.sampleMm()) {
       const glm::dvec3 stayed(before.x_mm, before.y_mm, before.surface.z - lowered_mm_);
       if (glm::distance(proxy(), hip_mm) > glm::distance(stayed, hip_mm) + surface_.sampleMm()) {
         contact_ = before;
-        slide(hip_mm);
+        slide(hip_mm, SlideUntil::MuchRead);
       }
     }
     if (sweptAway(hip_mm)) {
       contact_.x_mm = hip_mm.x;
       contact_.y_mm = hip_mm.y;
-      slide(hip_mm);
+      slide(hip_mm, SlideUntil::MuchRead);
     }
     follow(proxy(), hip_mm);
   } else {
@@ -120,7 +119,7 @@ RELIEVO_TICK_CODE Touch RelievoMethod::update(const glm::dvec3& hip_mm, const Su
 
 void RelievoMethod::upkeep(const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
   if (!had_surface_) return;
-  if (entered_) {  // all was new to this tick, and it has read enough: the next one finds that in the caches
+  if (surface_.hasReadMuch()) {  // the next tick finds that in the caches
     now_ = now;
     return;
   }
@@ -157,7 +156,7 @@ void RelievoMethod::enterScene(const glm::dvec3& hip_mm) RELIEVO_RT {
   contact_.x_mm = hip_mm.x;
   contact_.y_mm = hip_mm.y;
   state_ = State::Contact;
-  slide(hip_mm);
+  slide(hip_mm, SlideUntil::MuchRead);
   follow(proxy(), hip_mm);
 }
 
@@ -196,8 +195,8 @@ bool RelievoMethod::offTheEdge() RELIEVO_RT {
   return true;
 }
 
-RELIEVO_TICK_CODE void RelievoMethod::slide(const glm::dvec3& hip_mm) RELIEVO_RT {
-  contact_ = closestPoint(surface_, contact_.x_mm, contact_.y_mm, hip_mm, lowered_mm_);
+RELIEVO_TICK_CODE void RelievoMethod::slide(const glm::dvec3& hip_mm, SlideUntil until) RELIEVO_RT {
+  contact_ = closestPoint(surface_, contact_.x_mm, contact_.y_mm, hip_mm, lowered_mm_, until);
 }
 
 // From a place that is on the surface or outside to the finger: in contact if the surface is between them.
@@ -210,7 +209,7 @@ RELIEVO_TICK_CODE void RelievoMethod::follow(glm::dvec3 from_mm, const glm::dvec
     }
     if (!enterOnPath(from_mm, hip_mm)) return;
     state_ = State::Contact;
-    slide(hip_mm);
+    slide(hip_mm, SlideUntil::Settled);
   }
   if (proxy().z > hip_mm.z) return;
   // Still on its way after four times in and out: it is what it is at its end.

@@ -45,6 +45,8 @@ class RelievoMethod final : public TouchMethod {
   // whether it is free because it has been inside from the beginning.
   [[nodiscard]] double depthMm() RELIEVO_RT;
   [[nodiscard]] bool buried() const RELIEVO_RT { return state_ == State::Buried; }
+  // For tests: what all ticks so far have read.
+  [[nodiscard]] std::uint64_t blocksRead() const RELIEVO_RT { return surface_.blocksRead(); }
 
  private:
   enum class State : std::uint8_t {
@@ -55,7 +57,7 @@ class RelievoMethod final : public TouchMethod {
   };
   [[nodiscard]] bool inside(const glm::dvec3& place_mm) RELIEVO_RT;
   void enterScene(const glm::dvec3& hip_mm) RELIEVO_RT;
-  void slide(const glm::dvec3& hip_mm) RELIEVO_RT;
+  void slide(const glm::dvec3& hip_mm, SlideUntil until) RELIEVO_RT;
   [[nodiscard]] bool sweptAway(const glm::dvec3& hip_mm) RELIEVO_RT;
   [[nodiscard]] bool offTheEdge() RELIEVO_RT;
   void rub(const glm::dvec3& hip_mm) RELIEVO_RT;
@@ -69,7 +71,6 @@ class RelievoMethod final : public TouchMethod {
   State state_ = State::Unknown;
   std::uint32_t epoch_ = 0, shot_ = 0;
   bool had_surface_ = false;
-  bool entered_ = false;  // another scene, in this tick
   MediaTime now_;         // of the last upkeep
   glm::dvec3 hip_mm_{0};
   Contact contact_;

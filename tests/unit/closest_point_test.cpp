@@ -43,7 +43,7 @@ TEST_F(ClosestPointTest, NeverEndsFurtherFromTheFingerThanItBegan) {
   for (int i = 0; i < 3000; ++i) {
     const double x = place(random), y = place(random);
     const glm::dvec3 hip(x + aside(random), y + aside(random), surface_.height(x, y) - deep(random));
-    const Contact c = closestPoint(surface_, x, y, hip, 0);
+    const Contact c = closestPoint(surface_, x, y, hip, 0, SlideUntil::Settled);
     // The last, short step is taken without a look.
     ASSERT_LE(distance(c.x_mm, c.y_mm, hip), distance(x, y, hip) + 0.01) << i;
   }
@@ -58,7 +58,7 @@ TEST_F(ClosestPointTest, ComesOffACrestThatTheFingerIsDeepUnder) {
     double nearest = 1e9;
     for (double x = 0; x < 8; x += 0.01) nearest = std::min(nearest, distance(std::copysign(x, side), 3, hip));
     Contact c{.x_mm = 0.5 * side, .y_mm = 3};
-    for (int tick = 0; tick < 6; ++tick) c = closestPoint(surface_, c.x_mm, c.y_mm, hip, 0);
+    for (int tick = 0; tick < 6; ++tick) c = closestPoint(surface_, c.x_mm, c.y_mm, hip, 0, SlideUntil::Settled);
     EXPECT_NEAR(distance(c.x_mm, c.y_mm, hip), nearest, 0.01) << side;
     EXPECT_GT(c.x_mm * side, 0);
   }

@@ -224,6 +224,46 @@ TEST_F(RelievoMethodTest, NoTickTakesTheProxyFurtherAwayThanStayingWouldHave) {
   EXPECT_GT(ticks, 5000);
 }
 
+TEST_F(RelievoMethodTest, AProxyThatHasFarToGoTakesTicksAndNoneIsLong) {
+  // Hills that move, and a finger deep under them that leaps by 12 mm every 40 ticks.
+  const auto hills = [](double x, double y, double t) {
+    return 20 + 4 * std::sin(0.7 * x + 9 * t) * std::cos(0.6 * y - 7 * t);
+  };
+  const auto normalAt = [&](const glm::dvec3& p, double t) {
+    const double h = 1e-4;
+    return glm::normalize(glm::dvec3(hills(p.x - h, p.y, t) - hills(p.x + h, p.y, t),
+                                     hills(p.x, p.y - h, t) - hills(p.x, p.y + h, t), 2 * h));
+  };
+  film(2.1, hills);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> draw(0, 2 * std::numbers::pi);
+  glm::dvec3 hip(0, 0, 26);
+  static_cast<void>(tick(0, hip));
+  hip.z = 14;
+  std::uint64_t most = 0;
+  int cut_short = 0, underway = 0;
+  for (int i = 1; i < 2000; ++i) {
+    if (i % 40 == 0) {
+      const double way = draw(random);
+      hip += glm::dvec3(12 * std::cos(way), 12 * std::sin(way), 0);
+      if (std::max(std::abs(hip.x), std::abs(hip.y)) > 40) hip = {0, 0, 14};
+    }
+    const std::uint64_t before = method_.blocksRead();
+    const Touch touch = tick(i * kTick, hip);
+    const std::uint64_t read = method_.blocksRead() - before;
+    most = std::max(most, read);
+    cut_short += read > kBlocksOfTick ? 1 : 0;
+    ASSERT_TRUE(touch.contact) << i;
+    if (i > 3 && i % 40 > 3) {
+      const double aligned = glm::dot(glm::normalize(touch.force_n), normalAt(touch.proxy_mm, i * kTick));
+      underway += aligned < std::cos(4 * std::numbers::pi / 180) ? 1 : 0;
+    }
+  }
+  EXPECT_LE(underway, 5) << "three ticks after a leap it has arrived; a hill that moves on makes it leap, too";
+  EXPECT_LE(most, 450U) << "the last look, at eight frames, on top of kBlocksOfTick";
+  EXPECT_GT(cut_short, 20) << "or this would show nothing";
+}
+
 TEST_F(RelievoMethodTest, AFingerThatRestsDeepInsideAWallStaysAtThatWall) {
   // 9 mm into the wall's side, 5 mm below its top; nothing moves but the finger, then nothing, and then it strokes
   // along.
