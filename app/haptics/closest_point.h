@@ -19,8 +19,8 @@ struct Contact {
 
 // From (x, y) downhill to the local minimum of the distance between (x, y, S(x, y) - lowered) and the finger. Steps are
 // short against the surface's features and must come closer, so that the way leads along the surface and not across it.
-// At most 10 evaluations, `until` MuchRead none after the surface has read much in this tick: bounded time; what is left
-// is made up in the next ticks.
+// At most 10 evaluations, `until` MuchRead none after the surface has read much in this tick: bounded time; what is
+// left is made up in the next ticks.
 enum class SlideUntil : std::uint8_t { Settled, MuchRead };
 [[nodiscard]] Contact closestPoint(FeltSurface& surface, double x_mm, double y_mm, const glm::dvec3& hip_mm,
                                    double lowered_mm, SlideUntil until) RELIEVO_RT;

@@ -71,7 +71,7 @@ class RelievoMethod final : public TouchMethod {
   State state_ = State::Unknown;
   std::uint32_t epoch_ = 0, shot_ = 0;
   bool had_surface_ = false;
-  MediaTime now_;         // of the last upkeep
+  MediaTime now_;  // of the last upkeep
   glm::dvec3 hip_mm_{0};
   Contact contact_;
   double rise_mm_ = 0;  // of the surface under the proxy in the last tick
