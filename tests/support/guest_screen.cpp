@@ -2,7 +2,6 @@
 #include "tests/support/guest_screen.h"
 
 #include <fcntl.h>
-#include <termios.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -15,14 +14,15 @@ namespace relievo::test {
 namespace {
 
 namespace fs = std::filesystem;
+// The guest's only virtio port, and no terminal: one that is opened echoes QEMU's greeting until it is told not to, and
+// QEMU takes that for a command.
 UniqueFd openMonitor() {
-  const char* const path = std::getenv("RELIEVO_MONITOR");
-  UniqueFd fd(::open(path != nullptr ? path : "/dev/ttyS1", O_RDWR | O_NOCTTY | O_CLOEXEC));
-  termios raw{};
-  if (!fd.valid() || ::tcgetattr(fd.get(), &raw) != 0) throw std::runtime_error("QEMU's monitor is not there");
-  ::cfmakeraw(&raw);
-  ::tcsetattr(fd.get(), TCSANOW, &raw);
-  return fd;
+  std::error_code error;
+  for (const auto& port : fs::directory_iterator("/sys/class/virtio-ports", error)) {
+    UniqueFd fd(::open(("/dev" / port.path().filename()).c_str(), O_RDWR | O_CLOEXEC));
+    if (fd.valid()) return fd;
+  }
+  throw std::runtime_error("QEMU's monitor is not there");
 }
 
 // QMP: an object a line, the answer to one bears its id. It is the host's time that this takes. To be told twice that
@@ -33,7 +33,8 @@ void tell(int monitor, const std::string& command, const std::string& id) {
     throw std::runtime_error("QEMU's monitor does not listen");
   }
   std::string heard;
-  for (char c = 0; heard.find(id) == std::string::npos && ::read(monitor, &c, 1) == 1;) heard += c;
+  for (char c = 0; heard.find(id + "\"}") == std::string::npos && ::read(monitor, &c, 1) == 1;) heard += c;
+  if (heard.find("\"return\": {}, \"id\": \"" + id) == std::string::npos) throw std::runtime_error("QEMU: " + heard);
 }
 
 }  // namespace
