@@ -33,7 +33,7 @@ void tell(int monitor, const std::string& command, const std::string& id) {
     throw std::runtime_error("QEMU's monitor does not listen");
   }
   std::string heard;
-  for (char c = 0; heard.find(id + "\"}") == std::string::npos && ::read(monitor, &c, 1) == 1;) heard += c;
+  for (char c = 0; (heard.find(id) == std::string::npos || c != '\n') && ::read(monitor, &c, 1) == 1;) heard += c;
   if (heard.find("\"return\": {}, \"id\": \"" + id) == std::string::npos) throw std::runtime_error("QEMU: " + heard);
 }
 
