@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
@@ -52,7 +53,9 @@ class MethodStage : public testing::Test {
     seen_ = seen;
     window_.count = static_cast<int>(std::ssize(seen));
     std::copy(seen.begin(), seen.end(), window_.frames.begin());
+    const std::uint64_t before = method_.blocksRead();
     const Touch touch = method_.update(hip, window_, mediaTime(t));
+    read_by_update_ = method_.blocksRead() - before;
     method_.upkeep(window_, mediaTime(t));
     return touch;
   }
@@ -67,6 +70,7 @@ class MethodStage : public testing::Test {
   std::vector<TimedSurface> surfaces_, seen_;
   ShotFinder shots_;
   SurfaceWindow window_;
+  std::uint64_t read_by_update_ = 0;  // blocks, in the last tick
 };
 
 }  // namespace relievo::test
