@@ -13,18 +13,6 @@ namespace {
 
 constexpr std::uint16_t kHole = 0;
 
-DepthCalibration outcomeOf(DepthCalibration c, const DepthCoding& coding) {
-  const bool has_holes = c.invalid_code.has_value() || c.code == DepthCode::Hue;
-  c.polarity = DepthPolarity::NearIsHigh;
-  c.range = ColorRange::Full;
-  c.code = DepthCode::Luma;
-  c.law = coding.law.value_or(c.law);
-  c.bits = coding.bits;
-  c.unit_mm.reset();
-  c.invalid_code = has_holes ? std::optional<std::uint32_t>(kHole) : std::nullopt;
-  return c;
-}
-
 // The normalised code, near high, that has the same height in the other law.
 double inLaw(double s, const DepthCalibration& from, const DepthCalibration& to) {
   if (from.law == to.law) return s;
@@ -43,7 +31,7 @@ const char* nameOf(DepthLaw law) {
 }  // namespace
 
 DepthCoder::DepthCoder(const DepthCalibration& source, const DepthCoding& coding)
-    : source_(source), outcome_(outcomeOf(source, coding)) {
+    : source_(source), outcome_(recoded(source, coding.bits, coding.law)) {
   counts_.bits = coding.bits;
   counts_.of_code.assign(std::size_t{1} << coding.bits, 0);
   if (source.code != DepthCode::Luma) return;

@@ -31,17 +31,6 @@ DepthMap mapOf(const HeightField& field) {
   return map;
 }
 
-DepthCalibration writtenCalibration(const DepthCalibration& source) {
-  const bool has_holes = source.invalid_code.has_value() || source.code == DepthCode::Hue;
-  DepthCalibration written = source;
-  written.polarity = DepthPolarity::NearIsHigh;
-  written.range = ColorRange::Full;
-  written.code = DepthCode::Luma;
-  written.bits = 16;
-  written.invalid_code = has_holes ? std::optional<std::uint32_t>(0) : std::nullopt;
-  return written;
-}
-
 Frame writeDepth(const DepthMap& map, bool may_have_holes, const Frame& like) {
   const auto samples = std::make_shared<std::vector<std::uint16_t>>(map.size());
   const float lowest = may_have_holes ? 1 : 0;

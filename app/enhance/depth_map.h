@@ -16,6 +16,7 @@ namespace relievo {
 // Codes are 65535 s, s being the normalised code (see DepthCalibration) with near high: every code of 8 to 16 bits has
 // one of its own. A level is one of 255, the step of 8-bit depth.
 struct DepthMap {
+  static constexpr int kBits = 16;
   static constexpr float kHighest = 65535;
   static constexpr float kLevel = kHighest / 255;
   // Where neighbours differ by more, one thing ends before another: 80 degrees on a picture 720 samples wide.
@@ -37,10 +38,7 @@ struct DepthMap {
 // Of a relief, by its heights.
 [[nodiscard]] DepthMap mapOf(const HeightField& field);
 
-// What the codes of `writeDepth` mean: 16 bits, full range, near is high, the source's law. Code 0 is the holes' own
-// where the source may have any.
-[[nodiscard]] DepthCalibration writtenCalibration(const DepthCalibration& source);
-// A gray frame of 16 bits with the times and the shape of `like`.
+// A gray frame of 16 bits with the times and the shape of `like`; its codes mean `recoded(source, DepthMap::kBits)`.
 [[nodiscard]] Frame writeDepth(const DepthMap& map, bool may_have_holes, const Frame& like);
 
 }  // namespace relievo

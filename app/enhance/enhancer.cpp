@@ -61,7 +61,7 @@ const char* name(Enhancement how) noexcept {
 DepthEnhancer::DepthEnhancer(Enhancement how, const DepthCalibration& source, double bound_levels)
     : how_(how),
       source_(source),
-      outcome_(writtenCalibration(source)),
+      outcome_(recoded(source, DepthMap::kBits)),
       bound_(static_cast<float>(bound_levels) * DepthMap::kLevel),
       code_step_(static_cast<float>(static_cast<double>(DepthMap::kHighest) / (source.highCode() - source.lowCode()))),
       at_once_(static_cast<std::size_t>(std::max(cv::getNumThreads(), 1))) {}

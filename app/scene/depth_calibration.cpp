@@ -24,6 +24,19 @@ double heightMm(const DepthCalibration& calibration, double s, double volume_dep
   return volume_depth_mm * (calibration.far_mm - distance) / (calibration.far_mm - calibration.near_mm);
 }
 
+DepthCalibration recoded(const DepthCalibration& source, int bits, std::optional<DepthLaw> law) noexcept {
+  const bool has_holes = source.invalid_code.has_value() || source.code == DepthCode::Hue;
+  DepthCalibration written = source;
+  written.law = law.value_or(source.law);
+  written.polarity = DepthPolarity::NearIsHigh;
+  written.range = ColorRange::Full;
+  written.code = DepthCode::Luma;
+  written.bits = bits;
+  written.unit_mm.reset();
+  written.invalid_code = has_holes ? std::optional<std::uint32_t>(0) : std::nullopt;
+  return written;
+}
+
 const char* name(CalibrationOrigin origin) noexcept {
   switch (origin) {
     case CalibrationOrigin::CommandLine:

@@ -43,6 +43,11 @@ struct DepthCalibration {
 // A height for a normalised code, mm above the far plane.
 [[nodiscard]] double heightMm(const DepthCalibration& calibration, double s, double volume_depth_mm) noexcept;
 
+// The meaning of codes that are written anew from `source`: luma of `bits`, full range, near high, in `law` or else the
+// source's, and never distances. Code 0 is reserved for holes where the source may have any.
+[[nodiscard]] DepthCalibration recoded(const DepthCalibration& source, int bits,
+                                       std::optional<DepthLaw> law = std::nullopt) noexcept;
+
 // Where a value came from, in order of precedence.
 enum class CalibrationOrigin : std::uint8_t { CommandLine, SideFile, ContainerTags, StreamSignalling, Default };
 [[nodiscard]] const char* name(CalibrationOrigin origin) noexcept;

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "app/enhance/enhancer.h"
+#include "app/scene/height_field.h"
 #include "tests/support/depth_frames.h"
 
 namespace relievo {
@@ -95,6 +96,31 @@ TEST(EnhanceEnhancer, LeavesLevelDepthAsItIsInSixteenBitsOfOneMeaning) {
     EXPECT_EQ(outcome.range, ColorRange::Full);
     EXPECT_EQ(outcome.polarity, DepthPolarity::NearIsHigh);
     EXPECT_FALSE(outcome.invalid_code.has_value());
+  }
+}
+
+// Distances in mm, with holes: what the outcome's codes mean by the calibration beside them is the relief that went in.
+TEST(EnhanceEnhancer, TheCalibrationBesideTheCodesGivesTheReliefOfTheSource) {
+  const DepthCalibration distances{.polarity = DepthPolarity::NearIsLow,
+                                   .bits = 16,
+                                   .invalid_code = 0,
+                                   .unit_mm = 1,
+                                   .near_mm = 500,
+                                   .far_mm = 4000};
+  const auto film = filmOf(3, 48, 32, 16, [](int c, int r) { return 1000 + 20 * c + 10 * r; });
+  const DisplayVolume box{.width_mm = 48, .height_mm = 32, .depth_mm = 40};
+  const auto before = HeightField::make(film[1], distances, box);
+  ASSERT_TRUE(before.has_value());
+  for (const Enhancement how : kAll) {
+    const auto frames = enhance(how, distances, film).frames;
+    const DepthCalibration outcome = DepthEnhancer(how, distances).outcome();
+    EXPECT_FALSE(outcome.unit_mm.has_value()) << name(how);
+    const auto after = HeightField::make(frames[1], outcome, box);
+    ASSERT_TRUE(after.has_value());
+    for (int r = 4; r < 28;
+         ++r) {  // smoothing may round off the margin, and move a sample by its neighbour's slope, .23 mm
+      for (int c = 4; c < 44; ++c) ASSERT_NEAR(after->heightMm(c, r), before->heightMm(c, r), 0.3) << name(how);
+    }
   }
 }
 
