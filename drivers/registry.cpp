@@ -120,6 +120,11 @@ Outcome<std::unique_ptr<Display>> makeDisplay(std::string_view text) {
   return unknown("--display", text, "no such display; it is one of: " RELIEVO_DISPLAY_NAMES);
 }
 
+std::string captureFile(std::string_view text) {
+  const Spec spec(text);
+  return spec.withArgument("offscreen") ? Capture::parse(*spec.argument).path : std::string();
+}
+
 Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(std::string_view text, Clock& clock,
                                                         const HapticSettings& settings) {
   const Spec spec(text);

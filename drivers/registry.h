@@ -42,6 +42,8 @@ struct HapticSettings {
 // `clock` must outlive what is made. The names with "window" in them are about the one window of the process: its
 // display, its keys and its mouse.
 [[nodiscard]] Outcome<std::unique_ptr<Display>> makeDisplay(std::string_view spec);
+// The file that a display writes; empty where it writes none.
+[[nodiscard]] std::string captureFile(std::string_view display_spec);
 [[nodiscard]] Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(std::string_view spec, Clock& clock,
                                                                       const HapticSettings& settings = {});
 [[nodiscard]] Outcome<std::unique_ptr<RemoteInput>> makeRemoteInput(std::string_view spec, Clock& clock);

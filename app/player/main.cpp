@@ -46,13 +46,6 @@ int finishFiles(const PlayReport& report, AtomicFile* report_file, Recorder* rec
   return result;
 }
 
-// The file of "offscreen:FILE[@FPS]".
-std::string captureFile(const std::string& display) {
-  const std::string prefix = "offscreen:";
-  if (!display.starts_with(prefix)) return "";
-  return display.substr(prefix.size(), display.rfind('@') - prefix.size());
-}
-
 // Of "replay:FILE", "sim:FILE", "script:FILE"; the name of a profile is no file.
 std::string fileOf(const std::string& device) {
   const std::size_t colon = device.find(':');
@@ -92,9 +85,9 @@ int play(PlayOptions options, const FileConfig& config) {
   applyLogLevels(config);
   if (auto completed = complete(options); !completed) return tell(completed.error());
   const SourceOptions& source = options.player.source;
-  if (auto apart =
-          keepApart({options.report_path, options.record_path, options.control_path, captureFile(options.display)},
-                    {source.url, source.depth_url, fileOf(options.haptic), fileOf(options.remote)});
+  if (auto apart = keepApart(
+          {options.report_path, options.record_path, options.control_path, drivers::captureFile(options.display)},
+          {source.url, source.depth_url, fileOf(options.haptic), fileOf(options.remote)});
       !apart) {
     return tell(apart.error());
   }

@@ -12,15 +12,24 @@
 
 namespace relievo {
 
+// Where an off-screen display writes what it shows: "FILE@25" is a file and its frames per second. An @ that no number
+// from .001 to 1000 follows is part of the file's name.
+struct Capture {
+  std::string path;  // empty: nothing is written
+  double rate = 30;
+
+  [[nodiscard]] static Capture parse(std::string word);
+};
+
 // A display without a screen: a framebuffer object of the size asked for, on the surfaceless platform of Mesa or a
 // pbuffer of the default one. It shows a frame at once.
 //
-// With a capture path what is presented is also written to that file, as YUV4MPEG2: 4:2:0, BT.709, limited range. The
-// display does not know how often it will be given a frame, so the file's rate is said by who knows: "FILE.y4m@25",
-// "FILE.y4m@29.97"; without it 30. The file holds that rate by `clock`, which must outlive the display: a frame that
-// is late has the one before it repeated, one more than a period early is left out. `open` begins the file anew, and
-// answers NotFound, PermissionDenied or Io where it cannot be written.
-[[nodiscard]] std::unique_ptr<Display> makeOffscreenDisplay(std::string capture_path, const Clock& clock);
+// With a capture's path what is presented is also written to that file, as YUV4MPEG2: 4:2:0, BT.709, limited range. The
+// display does not know how often it will be given a frame: the word of the capture says the file's rate. The file
+// holds that rate by `clock`, which must outlive the display: a frame that is late has the one before it repeated, one
+// more than a period early is left out. `open` begins the file anew, and answers NotFound, PermissionDenied or Io where
+// it cannot be written.
+[[nodiscard]] std::unique_ptr<Display> makeOffscreenDisplay(std::string capture_word, const Clock& clock);
 
 // A window of the size asked for on the desktop, X11 or Wayland, whose surface follows when the viewer resizes it; F11
 // fills the screen. It is drawn at the pace of the screen where the GL driver can. What it hears of its other keys and

@@ -18,25 +18,6 @@
 namespace relievo {
 namespace {
 
-constexpr double kDefaultRate = 30.0;
-
-struct Capture {
-  std::string path;
-  double rate = kDefaultRate;
-};
-
-// "FILE@25" is a file and a rate; an @ that no sensible number follows is part of the file's name.
-Capture parseCapture(std::string spec) {
-  const std::size_t at = spec.rfind('@');
-  if (at == std::string::npos) return {std::move(spec)};
-  double rate = 0;
-  const char* const end = spec.data() + spec.size();
-  const auto [rest, problem] = std::from_chars(spec.data() + at + 1, end, rate);
-  const bool is_rate = problem == std::errc() && rest == end && rate >= 0.001 && rate <= 1000.0;
-  if (!is_rate) return {std::move(spec)};
-  return {spec.substr(0, at), rate};
-}
-
 // Client extensions can be asked for without a display; where they cannot, the string is null.
 bool hasSurfacelessPlatform() {
   const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
@@ -165,8 +146,19 @@ void OffscreenDisplay::closeDisplay() noexcept {
 
 }  // namespace
 
-std::unique_ptr<Display> makeOffscreenDisplay(std::string capture_path, const Clock& clock) {
-  return std::make_unique<OffscreenDisplay>(parseCapture(std::move(capture_path)), clock);
+Capture Capture::parse(std::string word) {
+  const std::size_t at = word.rfind('@');
+  if (at == std::string::npos) return {std::move(word)};
+  double rate = 0;
+  const char* const end = word.data() + word.size();
+  const auto [rest, problem] = std::from_chars(word.data() + at + 1, end, rate);
+  const bool is_rate = problem == std::errc() && rest == end && rate >= 0.001 && rate <= 1000.0;
+  if (!is_rate) return {std::move(word)};
+  return {word.substr(0, at), rate};
+}
+
+std::unique_ptr<Display> makeOffscreenDisplay(std::string capture_word, const Clock& clock) {
+  return std::make_unique<OffscreenDisplay>(Capture::parse(std::move(capture_word)), clock);
 }
 
 }  // namespace relievo

@@ -260,6 +260,18 @@ TEST_F(PlayerProgram, WhatCannotBeWrittenIsFoundOutBeforePlaying) {
   expectNothingLeft({"film.mkv"});
 }
 
+// An @ that no rate follows is part of the file's name, for the guard as for the display.
+TEST_F(PlayerProgram, ACaptureOntoTheFilmIsRefusedWhateverItsName) {
+  for (const char* film : {"a@b.mkv", "film.mkv"}) {
+    test::makeClip(at(film), {color(3), depth(3)});
+    for (const char* rate : {"", "@25"}) {
+      const auto result = play(at(film), "offscreen:" + at(film) + rate);
+      expectOneLine(result, 2, "written over");
+    }
+    EXPECT_EQ(test::runProgram("relievo probe " + at(film), at("")).exit_code, 0) << "the film is still one";
+  }
+}
+
 TEST_F(PlayerProgram, WrongUseIsCodeTwoAndOneLine) {
   expectOneLine(play("film.mkv --spin"), 2, "--spin");
   expectOneLine(play(""), 2, "SOURCE");
