@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "app/author/depth_coder.h"
-#include "app/author/film_writer.h"
-#include "app/author/sample_scene.h"
+#include "app/author/package/depth_coder.h"
+#include "app/author/package/film_writer.h"
+#include "app/author/sample/sample_scene.h"
 #include "app/enhance/enhancer.h"
 #include "app/media/pair_reader.h"
 #include "platform/failure.h"

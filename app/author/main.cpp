@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "app/author/author.h"
-#include "app/author/output.h"
+#include "app/author/package/output.h"
 #include "app/cli/options.h"
 #include "app/cli/program.h"
 #include "app/cli/text.h"

@@ -12,9 +12,9 @@
 #include "app/cli/options.h"
 #include "app/cli/program.h"
 #include "app/cli/text.h"
-#include "app/lab/measurement.h"
-#include "app/lab/report.h"
-#include "app/lab/trace.h"
+#include "app/lab/chart/report.h"
+#include "app/lab/measure/measurement.h"
+#include "app/lab/trace/trace.h"
 #include "drivers/registry.h"
 
 namespace relievo {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/player/player_control.h"
-#include "app/player/stereo_word.h"
+#include "app/player/control/player_control.h"
+#include "app/player/screen/stereo_word.h"
 #include "platform/log.h"
 
 namespace relievo {

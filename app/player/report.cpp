@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "app/player/text_line.h"
+#include "app/player/screen/text_line.h"
 
 namespace relievo {
 namespace {

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "app/media/pair_reader.h"
-#include "app/player/haptic_session.h"
-#include "app/player/sound.h"
+#include "app/player/film/sound.h"
 #include "app/player/state_table.h"
+#include "app/player/touch/haptic_session.h"
 #include "app/scene/display_volume.h"
 
 namespace relievo {

@@ -13,13 +13,13 @@
 #include <vector>
 
 #include "app/media/pair_reader.h"
-#include "app/render/relief_triangles.h"
-#include "app/render/scene_renderer.h"
-#include "app/render/stereo.h"
+#include "app/render/gl/scene_renderer.h"
+#include "app/render/relief/relief_triangles.h"
+#include "app/render/relief/stereo.h"
 #include "drivers/egl/egl.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "platform/clock.h"
-#include "tests/support/real_depth.h"
+#include "tests/support/film/real_depth.h"
 
 namespace relievo {
 namespace {

@@ -8,9 +8,9 @@
 #include <numbers>
 #include <vector>
 
-#include "app/haptics/methods.h"
+#include "app/haptics/baseline/methods.h"
 #include "platform/histogram.h"
-#include "tests/support/depth_frames.h"
+#include "tests/support/film/depth_frames.h"
 
 namespace relievo {
 namespace {

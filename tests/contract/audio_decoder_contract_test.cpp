@@ -9,8 +9,8 @@
 #include "drivers/mock/mock.h"
 #include "drivers/sample/sample.h"
 #include "tests/contract/state_table.h"
-#include "tests/support/clip_maker.h"
-#include "tests/support/sample_clip.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/film/sample_clip.h"
 
 namespace relievo {
 namespace {

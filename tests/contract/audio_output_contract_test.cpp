@@ -8,7 +8,7 @@
 #include "drivers/mock/mock.h"
 #include "drivers/sample/sample.h"
 #include "tests/contract/state_table.h"
-#include "tests/support/fake_sound_card.h"
+#include "tests/support/machine/fake_sound_card.h"
 
 namespace relievo {
 namespace {

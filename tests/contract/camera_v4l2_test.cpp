@@ -10,8 +10,8 @@
 #include "drivers/v4l2/v4l2.h"
 #include "platform/clock.h"
 #include "tests/contract/state_table.h"
-#include "tests/support/mocked_machine.h"
-#include "tests/support/umockdev_camera.h"
+#include "tests/support/device/mocked_machine.h"
+#include "tests/support/device/umockdev_camera.h"
 
 namespace relievo {
 namespace {

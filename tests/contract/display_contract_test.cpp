@@ -8,8 +8,8 @@
 #include "drivers/mock/mock.h"
 #include "drivers/sample/sample.h"
 #include "tests/contract/state_table.h"
-#include "tests/support/guest_screen.h"
-#include "tests/support/x_screen.h"
+#include "tests/support/machine/guest_screen.h"
+#include "tests/support/machine/x_screen.h"
 
 namespace relievo {
 namespace {

@@ -13,8 +13,8 @@
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/mock/mock.h"
 #include "drivers/sample/sample.h"
-#include "tests/support/clip_maker.h"
-#include "tests/support/sample_clip.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/film/sample_clip.h"
 
 namespace relievo::test {
 

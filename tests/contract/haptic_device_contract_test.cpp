@@ -15,10 +15,10 @@
 #include "drivers/sim/sim.h"
 #include "platform/allocation_counter.h"
 #include "tests/contract/state_table.h"
-#include "tests/support/fake_mouse.h"
-#include "tests/support/falcon_model.h"
-#include "tests/support/model_port.h"
-#include "tests/support/polhem_model.h"
+#include "tests/support/device/fake_mouse.h"
+#include "tests/support/device/falcon_model.h"
+#include "tests/support/device/model_port.h"
+#include "tests/support/device/polhem_model.h"
 
 namespace relievo {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "drivers/pointer/pointer.h"
 #include "platform/allocation_counter.h"
-#include "tests/support/mocked_machine.h"
-#include "tests/support/umockdev_mouse.h"
+#include "tests/support/device/mocked_machine.h"
+#include "tests/support/device/umockdev_mouse.h"
 
 namespace relievo {
 namespace {

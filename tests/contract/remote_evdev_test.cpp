@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "drivers/evdev/evdev.h"
-#include "tests/support/mocked_machine.h"
-#include "tests/support/umockdev_mouse.h"
+#include "tests/support/device/mocked_machine.h"
+#include "tests/support/device/umockdev_mouse.h"
 
 namespace relievo {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "drivers/failover/failover.h"
 #include "drivers/tiff/tiff.h"
-#include "tests/support/float_tiff.h"
+#include "tests/support/film/float_tiff.h"
 
 namespace relievo {
 namespace {

@@ -14,7 +14,7 @@
 #include <optional>
 
 #include "drivers/v4l2/v4l2.h"
-#include "tests/support/clip_maker.h"
+#include "tests/support/film/clip_maker.h"
 
 namespace relievo {
 namespace {

@@ -10,8 +10,8 @@
 #include "drivers/failover/failover.h"
 #include "drivers/v4l2/v4l2.h"
 #include "tests/contract/video_decoder_contract.h"
-#include "tests/support/mocked_machine.h"
-#include "tests/support/umockdev_codec.h"
+#include "tests/support/device/mocked_machine.h"
+#include "tests/support/device/umockdev_codec.h"
 
 namespace relievo {
 namespace {

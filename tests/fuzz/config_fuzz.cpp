@@ -10,8 +10,8 @@
 #include <cstdio>
 #include <string>
 
-#include "app/player/config_file.h"
-#include "app/player/options.h"
+#include "app/player/setup/config_file.h"
+#include "app/player/setup/options.h"
 #include "platform/unique_fd.h"
 #include "tests/fuzz/fuzz_port.h"
 

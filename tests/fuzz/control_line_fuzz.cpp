@@ -6,7 +6,7 @@
 #include <string_view>
 #include <variant>
 
-#include "app/player/control_protocol.h"
+#include "app/player/control/control_protocol.h"
 #include "tests/fuzz/fuzz_port.h"
 
 namespace relievo {

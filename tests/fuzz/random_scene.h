@@ -8,7 +8,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "app/haptics/surface_window.h"
+#include "app/depth_window/surface_window.h"
 #include "app/scene/display_volume.h"
 
 namespace relievo {

@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "app/haptics/methods.h"
-#include "app/haptics/relievo_method.h"
-#include "app/haptics/safety.h"
-#include "app/haptics/shots.h"
+#include "app/depth_window/shots.h"
+#include "app/haptics/baseline/methods.h"
+#include "app/haptics/method/relievo_method.h"
+#include "app/haptics/task/safety.h"
 #include "tests/fuzz/random_scene.h"
 
 namespace relievo {

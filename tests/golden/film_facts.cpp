@@ -6,8 +6,8 @@
 #include <sstream>
 #include <string>
 
-#include "app/haptics/methods.h"
-#include "app/lab/trace.h"
+#include "app/haptics/baseline/methods.h"
+#include "app/lab/trace/trace.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 
 namespace relievo {

@@ -16,11 +16,11 @@
 #include <functional>
 #include <vector>
 
-#include "app/render/scene_renderer.h"
+#include "app/render/gl/scene_renderer.h"
 #include "drivers/egl/egl.h"
 #include "tests/golden/picture_stage.h"
-#include "tests/support/depth_frames.h"
-#include "tests/support/guest_screen.h"
+#include "tests/support/film/depth_frames.h"
+#include "tests/support/machine/guest_screen.h"
 
 namespace relievo {
 namespace {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "drivers/egl/egl.h"
-#include "tests/support/depth_frames.h"
+#include "tests/support/film/depth_frames.h"
 
 namespace relievo::test {
 

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "app/render/scene_renderer.h"
+#include "app/render/gl/scene_renderer.h"
 #include "hal/display.h"
 #include "hal/frame.h"
 #include "platform/clock.h"

@@ -10,7 +10,7 @@
 
 #include "drivers/egl/egl.h"
 #include "tests/golden/picture_stage.h"
-#include "tests/support/depth_frames.h"
+#include "tests/support/film/depth_frames.h"
 
 namespace relievo::test {
 namespace {

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <vector>
 
-#include "app/lab/picture_quality.h"
+#include "app/lab/detail/picture_quality.h"
 #include "tests/golden/picture_stage.h"
-#include "tests/support/depth_frames.h"
+#include "tests/support/film/depth_frames.h"
 
 namespace relievo::test {
 namespace {

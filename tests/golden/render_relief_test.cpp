@@ -8,7 +8,7 @@
 
 #include "app/scene/height_field.h"
 #include "tests/golden/picture_stage.h"
-#include "tests/support/depth_frames.h"
+#include "tests/support/film/depth_frames.h"
 
 namespace relievo::test {
 namespace {

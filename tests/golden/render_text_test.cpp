@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/render/glyphs.h"
+#include "app/render/gl/glyphs.h"
 #include "tests/golden/picture_stage.h"
 
 namespace relievo::test {

@@ -14,7 +14,7 @@
 
 #include "drivers/egl/egl.h"
 #include "drivers/window/window_input.h"
-#include "tests/support/x_screen.h"
+#include "tests/support/machine/x_screen.h"
 
 namespace relievo {
 namespace {

@@ -18,7 +18,7 @@
 #include <thread>
 
 #include "platform/fixed_memory.h"
-#include "tests/support/sanitizers.h"
+#include "tests/support/machine/sanitizers.h"
 
 namespace relievo {
 namespace {

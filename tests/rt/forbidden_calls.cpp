@@ -11,7 +11,7 @@
 
 #include <cstddef>
 
-#include "tests/support/sanitizers.h"
+#include "tests/support/machine/sanitizers.h"
 
 namespace relievo::test {
 namespace {

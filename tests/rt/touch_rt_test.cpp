@@ -13,14 +13,14 @@
 #include <string>
 #include <vector>
 
-#include "app/haptics/haptic_task.h"
-#include "app/haptics/methods.h"
-#include "app/haptics/shots.h"
+#include "app/depth_window/shots.h"
+#include "app/haptics/baseline/methods.h"
+#include "app/haptics/task/haptic_task.h"
 #include "platform/allocation_counter.h"
 #include "tests/rt/forbidden_calls.h"
-#include "tests/support/depth_frames.h"
-#include "tests/support/fake_haptic_device.h"
-#include "tests/support/sanitizers.h"
+#include "tests/support/device/fake_haptic_device.h"
+#include "tests/support/film/depth_frames.h"
+#include "tests/support/machine/sanitizers.h"
 
 namespace relievo {
 namespace {

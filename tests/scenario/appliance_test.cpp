@@ -23,11 +23,11 @@
 
 #include "drivers/falcon/link.h"
 #include "platform/clock.h"
-#include "tests/support/clip_maker.h"
-#include "tests/support/control_client.h"
-#include "tests/support/guest_screen.h"
-#include "tests/support/slope.h"
-#include "tests/support/vhci_usb.h"
+#include "tests/support/device/vhci_usb.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/film/slope.h"
+#include "tests/support/machine/control_client.h"
+#include "tests/support/machine/guest_screen.h"
 
 namespace relievo {
 namespace {

@@ -14,13 +14,13 @@
 #include <vector>
 
 #include "app/author/author.h"
-#include "app/author/output.h"
+#include "app/author/package/output.h"
 #include "app/media/pair_reader.h"
 #include "app/scene/height_field.h"
 #include "drivers/ffmpeg/ffmpeg.h"
-#include "tests/support/clip_maker.h"
-#include "tests/support/process.h"
-#include "tests/support/program.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/machine/process.h"
+#include "tests/support/machine/program.h"
 
 namespace relievo {
 namespace {

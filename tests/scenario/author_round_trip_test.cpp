@@ -7,10 +7,10 @@
 #include <thread>
 #include <vector>
 
-#include "app/author/film_writer.h"
-#include "tests/support/clip_maker.h"
-#include "tests/support/film_ways.h"
-#include "tests/support/loopback.h"
+#include "app/author/package/film_writer.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/film/film_ways.h"
+#include "tests/support/network/loopback.h"
 
 namespace relievo {
 namespace {

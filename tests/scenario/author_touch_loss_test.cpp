@@ -6,13 +6,13 @@
 #include <cstdio>
 #include <vector>
 
-#include "app/author/depth_coder.h"
-#include "app/lab/accuracy.h"
-#include "app/lab/contenders.h"
-#include "app/lab/finger_paths.h"
-#include "app/lab/requantised.h"
-#include "tests/support/clip_maker.h"
-#include "tests/support/film_ways.h"
+#include "app/author/package/depth_coder.h"
+#include "app/lab/film/requantised.h"
+#include "app/lab/finger/finger_paths.h"
+#include "app/lab/measure/accuracy.h"
+#include "app/lab/measure/contenders.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/film/film_ways.h"
 
 namespace relievo {
 namespace {

@@ -12,8 +12,8 @@
 
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "tests/scenario/player_bench.h"
-#include "tests/support/clip_maker.h"
-#include "tests/support/sanitizers.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/machine/sanitizers.h"
 
 namespace relievo {
 namespace {

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/clip_maker.h"
-#include "tests/support/program.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/machine/program.h"
 
 namespace relievo {
 namespace {

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "app/scene/display_volume.h"
-#include "tests/support/clip_maker.h"
-#include "tests/support/program.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/machine/program.h"
 
 namespace relievo {
 namespace {

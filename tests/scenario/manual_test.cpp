@@ -9,8 +9,8 @@
 #include <set>
 #include <sstream>
 
-#include "tests/support/clip_maker.h"
-#include "tests/support/program.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/machine/program.h"
 
 namespace relievo {
 namespace {

@@ -9,11 +9,11 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "tests/support/clip_maker.h"
-#include "tests/support/mocked_machine.h"
-#include "tests/support/process.h"
-#include "tests/support/program.h"
-#include "tests/support/umockdev_camera.h"
+#include "tests/support/device/mocked_machine.h"
+#include "tests/support/device/umockdev_camera.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/machine/process.h"
+#include "tests/support/machine/program.h"
 
 namespace relievo {
 namespace {

@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "app/player/player_control.h"
+#include "app/player/control/player_control.h"
 #include "tests/scenario/player_bench.h"
-#include "tests/support/clip_maker.h"
-#include "tests/support/control_client.h"
-#include "tests/support/notify_socket.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/machine/control_client.h"
+#include "tests/support/machine/notify_socket.h"
 
 namespace relievo {
 namespace {

@@ -14,15 +14,15 @@
 #include <optional>
 #include <sstream>
 
-#include "app/haptics/workspace_mapping.h"
+#include "app/haptics/task/workspace_mapping.h"
 #include "drivers/falcon/falcon.h"
 #include "drivers/falcon/link.h"
-#include "tests/support/falcon_model.h"
-#include "tests/support/plugged_usb.h"
-#include "tests/support/process.h"
-#include "tests/support/program.h"
-#include "tests/support/sanitizers.h"
-#include "tests/support/slope.h"
+#include "tests/support/device/falcon_model.h"
+#include "tests/support/device/plugged_usb.h"
+#include "tests/support/film/slope.h"
+#include "tests/support/machine/process.h"
+#include "tests/support/machine/program.h"
+#include "tests/support/machine/sanitizers.h"
 
 namespace relievo {
 namespace {

@@ -6,10 +6,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "tests/support/clip_maker.h"
-#include "tests/support/mocked_machine.h"
-#include "tests/support/program.h"
-#include "tests/support/umockdev_codec.h"
+#include "tests/support/device/mocked_machine.h"
+#include "tests/support/device/umockdev_codec.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/machine/program.h"
 
 namespace relievo {
 namespace {

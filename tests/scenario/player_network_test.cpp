@@ -12,10 +12,10 @@
 
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "tests/scenario/player_bench.h"
-#include "tests/support/clip_maker.h"
-#include "tests/support/http_server.h"
-#include "tests/support/rtsp_server.h"
-#include "tests/support/udp_sender.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/network/http_server.h"
+#include "tests/support/network/rtsp_server.h"
+#include "tests/support/network/udp_sender.h"
 
 namespace relievo {
 namespace {

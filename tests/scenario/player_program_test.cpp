@@ -14,10 +14,10 @@
 #include <sstream>
 #include <thread>
 
-#include "tests/support/clip_maker.h"
-#include "tests/support/process.h"
-#include "tests/support/program.h"
-#include "tests/support/ts_patch.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/film/ts_patch.h"
+#include "tests/support/machine/process.h"
+#include "tests/support/machine/program.h"
 
 namespace relievo {
 namespace {

@@ -17,8 +17,8 @@
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "hal/key_names.h"
 #include "tests/scenario/player_bench.h"
-#include "tests/support/clip_maker.h"
-#include "tests/support/program.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/machine/program.h"
 
 namespace relievo {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "tests/scenario/player_bench.h"
-#include "tests/support/clip_maker.h"
+#include "tests/support/film/clip_maker.h"
 
 namespace relievo {
 namespace {

@@ -10,10 +10,10 @@
 #include <sstream>
 
 #include "platform/clock.h"
-#include "tests/support/clip_maker.h"
-#include "tests/support/guest_screen.h"
-#include "tests/support/process.h"
-#include "tests/support/program.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/machine/guest_screen.h"
+#include "tests/support/machine/process.h"
+#include "tests/support/machine/program.h"
 
 namespace relievo {
 namespace {

@@ -15,11 +15,11 @@
 #include <thread>
 #include <vector>
 
-#include "tests/support/clip_maker.h"
-#include "tests/support/control_client.h"
-#include "tests/support/notify_socket.h"
-#include "tests/support/process.h"
-#include "tests/support/program.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/machine/control_client.h"
+#include "tests/support/machine/notify_socket.h"
+#include "tests/support/machine/process.h"
+#include "tests/support/machine/program.h"
 
 namespace relievo {
 namespace {

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <glm/geometric.hpp>
 
-#include "app/player/resume.h"
+#include "app/player/film/resume.h"
 #include "tests/scenario/player_bench.h"
 
 namespace relievo {

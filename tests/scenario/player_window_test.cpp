@@ -12,9 +12,9 @@
 #include <sstream>
 #include <thread>
 
-#include "tests/support/clip_maker.h"
-#include "tests/support/process.h"
-#include "tests/support/x_screen.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/machine/process.h"
+#include "tests/support/machine/x_screen.h"
 
 namespace relievo {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "tests/support/clip_maker.h"
-#include "tests/support/program.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/machine/program.h"
 
 namespace relievo {
 namespace {

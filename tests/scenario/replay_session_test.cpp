@@ -6,11 +6,11 @@
 #include <fstream>
 #include <sstream>
 
-#include "app/player/recorder.h"
+#include "app/player/touch/recorder.h"
 #include "drivers/replay/replay.h"
 #include "drivers/sim/profiles.h"
 #include "tests/scenario/player_bench.h"
-#include "tests/support/clip_maker.h"
+#include "tests/support/film/clip_maker.h"
 
 namespace relievo {
 namespace {

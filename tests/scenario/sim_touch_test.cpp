@@ -8,10 +8,10 @@
 #include <memory>
 #include <vector>
 
-#include "app/haptics/haptic_task.h"
-#include "app/haptics/methods.h"
+#include "app/haptics/baseline/methods.h"
+#include "app/haptics/task/haptic_task.h"
 #include "drivers/sim/profiles.h"
-#include "tests/support/depth_frames.h"
+#include "tests/support/film/depth_frames.h"
 
 namespace relievo {
 namespace {

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: Apache-2.0
+// Packages a film: reads pairs, brings their pictures to the encoders' form, writes each picture once.
+#include <unistd.h>
+
+#include <cmath>
+#include <condition_variable>
+#include <cstdio>
+#include <deque>
+#include <mutex>
+#include <thread>
+
+#include "app/author/author.h"
+#include "app/author/package/color_to_420.h"
+#include "app/author/package/film_kind.h"
+#include "app/author/package/key_frames.h"
+#include "app/author/package/output.h"
+#include "app/author/package/preview.h"
+#include "app/depth_window/shots.h"
+#include "app/scene/height_field.h"
+#include "platform/log.h"
+
+namespace relievo {
+namespace {
+
+constexpr Error kCancelled{ErrorCode::Cancelled, 0, "interrupted; nothing was written"};
+
+// Wakes a reader that waits for a disk or a network when the program is to stop.
+class StopWatch {
+ public:
+  StopWatch(PairReader& reader, const std::atomic<bool>& stop)
+      : thread_([&reader, &stop, this](const std::stop_token& done) {
+          std::unique_lock lock(mutex_);
+          while (!done.stop_requested()) {
+            if (stop.load(std::memory_order_relaxed)) return reader.interrupt();
+            wake_.wait_for(lock, done, std::chrono::milliseconds(50), [] { return false; });
+          }
+        }) {}
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable_any wake_;
+  std::jthread thread_;
+};
+
+// What is cut off to the right and below: an odd column or row of what is 4:2:0, and of the other the same share of the
+// view, to half a sample of the depth.
+struct Cut {
+  int color_cols = 0, color_rows = 0, depth_cols = 0, depth_rows = 0;
+
+  Cut() = default;
+  Cut(const Frame& color, const Frame& depth, bool even_depth) {
+    cut(color.width, depth.width, even_depth, color_cols, depth_cols);
+    cut(color.height, depth.height, even_depth, color_rows, depth_rows);
+  }
+
+  // The least that leaves both even where they have to be.
+  static void cut(int color, int depth, bool even_depth, int& off_color, int& off_depth) {
+    const auto isOdd = [&] { return even_depth && (depth - off_depth) % 2 != 0; };
+    for (off_color = color % 2; off_color + 2 < color; off_color += 2) {
+      off_depth = static_cast<int>(std::lround(off_color * static_cast<double>(depth) / color));
+      if (isOdd() && depth > color) ++off_depth;  // less than a sample of the colour
+      if (!isOdd()) return;
+    }
+  }
+  [[nodiscard]] std::string explain() const {
+    char line[160];
+    std::snprintf(line, sizeof line,
+                  "4:2:0 needs even sizes: cut off %d column and %d row of the colour, %d and %d of the depth",
+                  color_cols, color_rows, depth_cols, depth_rows);
+    return color_cols + color_rows + depth_cols + depth_rows == 0 ? "" : line;
+  }
+};
+
+std::optional<std::uint64_t> expectedFrames(const FilmInfo& info) {
+  if (info.duration <= Duration(0) || info.frame_period <= Duration(0)) return std::nullopt;
+  return static_cast<std::uint64_t>(std::llround(toSeconds(info.duration) / toSeconds(info.frame_period)));
+}
+
+// Everything between the reader and the writer.
+class Packager {
+ public:
+  Packager(PairReader& reader, const SourceOptions& source, const OutputOptions& output)
+      : reader_(reader), source_(source), output_(output) {}
+
+  Outcome<void> begin(const FramePair& pair);
+  Outcome<void> write(const FramePair& pair);
+  Outcome<AuthorSummary> finish();
+  [[nodiscard]] bool begun() const { return writer_ != nullptr; }
+
+ private:
+  Outcome<void> writeDepth(const Frame& depth);
+  Outcome<void> writeEnhanced();
+  [[nodiscard]] const DepthCalibration& sourceCalibration() const { return reader_.info().calibration.calibration; }
+  static constexpr std::size_t kRecent = 3;
+  [[nodiscard]] bool beginsShot(const Frame& depth);
+  [[nodiscard]] std::vector<std::string> sourceNotes() const;
+
+  PairReader& reader_;
+  const SourceOptions& source_;
+  const OutputOptions& output_;
+  std::unique_ptr<FilmWriter> writer_;
+  std::optional<DepthEnhancer> enhancer_;
+  DepthCoder coder_{DepthCalibration{}};  // `begin` gives it the film's
+  std::vector<std::string> code_notes_;
+  FilmFormat format_;
+  Cut cut_;
+  KeyFrames key_frames_;
+  std::deque<bool> depth_keys_;      // of the pictures that are not written yet
+  std::deque<TimedSurface> recent_;  // depth pictures, the newest last
+  ShotFinder shots_;
+  std::optional<MediaTime> last_depth_;
+  ColorPicture420 color_;
+  DepthPicture depth_;
+  Preview preview_;
+};
+
+Outcome<void> Packager::begin(const FramePair& pair) {
+  const FilmInfo& info = reader_.info();
+  Frame whole_depth;  // its size alone; the first pair may lie before the depth begins
+  whole_depth.width = info.depth_width;
+  whole_depth.height = info.depth_height;
+  cut_ = Cut(pair.color, whole_depth, output_.depth.flat_chroma);
+  coder_ = DepthCoder(sourceCalibration(), output_.depth);
+  code_notes_ = coder_.explain();
+  if (output_.enhancement) {
+    enhancer_.emplace(*output_.enhancement, sourceCalibration());
+    coder_ = DepthCoder(enhancer_->outcome(), output_.depth);
+  }
+
+  format_.color_width = pair.color.width - cut_.color_cols;
+  format_.color_height = pair.color.height - cut_.color_rows;
+  format_.depth_width = info.depth_width - cut_.depth_cols;
+  format_.depth_height = info.depth_height - cut_.depth_rows;
+  const bool rgb = pair.color.model == ColorModel::Rgb;
+  format_.color_range = rgb ? ColorRange::Limited : pair.color.range;
+  format_.color_matrix = rgb ? ColorMatrix::Bt709 : pair.color.matrix;
+  format_.color_aspect = pair.color.sample_aspect;
+  format_.depth_aspect = pair.depth.sample_aspect;
+  format_.frame_period = info.frame_period;
+  format_.color_crf = output_.color_crf;
+  format_.depth = output_.depth;
+  format_.depth_tags = calibrationTags(coder_.outcome());
+  auto writer = FilmWriter::create(output_.path, format_);
+  if (!writer) return failOn(output_.path, writer.error());
+  writer_ = std::move(*writer);
+  return {};
+}
+
+Outcome<void> Packager::write(const FramePair& pair) {
+  const Frame color = crop(pair.color, 0, 0, pair.color.width - cut_.color_cols, pair.color.height - cut_.color_rows);
+  if (color.width != format_.color_width || color.height != format_.color_height) {
+    return failOn("colour", {ErrorCode::Unsupported, 0, "its pictures change their size; cut the film there"});
+  }
+  const bool depth_is_new = !pair.depth.empty() && (!last_depth_ || pair.depth.pts > *last_depth_);
+  const bool key =
+      key_frames_.isDue(color.pts, depth_is_new || pair.depth.empty(), depth_is_new && beginsShot(pair.depth));
+  if (auto made = toColor420(color, color_); !made) return failOn("colour", made.error());
+  if (auto written = writer_->writeColor(color_, color.pts, key); !written)
+    return failOn(output_.path, written.error());
+  if (!depth_is_new) return {};
+
+  last_depth_ = pair.depth.pts;
+  const Frame depth = crop(pair.depth, 0, 0, pair.depth.width - cut_.depth_cols, pair.depth.height - cut_.depth_rows);
+  if (depth.width != format_.depth_width || depth.height != format_.depth_height) {
+    return failOn("depth", {ErrorCode::Unsupported, 0, "its pictures change their size; cut the film there"});
+  }
+  depth_keys_.push_back(key);
+  if (!output_.preview.empty()) preview_.before(color_, depth, sourceCalibration(), expectedFrames(reader_.info()));
+  if (!enhancer_) return writeDepth(depth);
+  if (auto added = enhancer_->add(depth); !added) return failOn("depth", added.error());
+  return writeEnhanced();
+}
+
+// Pictures that are ready by now, at the times that they had.
+Outcome<void> Packager::writeEnhanced() {
+  while (const auto depth = enhancer_->next()) {
+    if (auto written = writeDepth(*depth); !written) return written;
+  }
+  return {};
+}
+
+Outcome<void> Packager::writeDepth(const Frame& depth) {
+  const bool key = depth_keys_.front();
+  depth_keys_.pop_front();
+  if (!output_.preview.empty()) preview_.after(depth, enhancer_ ? enhancer_->outcome() : sourceCalibration());
+  if (auto coded = coder_.encode(depth, depth_); !coded) return failOn("depth", coded.error());
+  if (auto written = writer_->writeDepth(depth_, depth.pts, key); !written)
+    return failOn(output_.path, written.error());
+  return {};
+}
+
+// As the player finds it: a cut under the finger. What moves fast may look like one, and has a key frame more.
+bool Packager::beginsShot(const Frame& depth) {
+  const auto field =
+      HeightField::make(depth, sourceCalibration(), DisplayVolume::forPicture(depth.width, depth.height));
+  if (!field) return false;  // told by the coder
+  if (recent_.size() == kRecent) recent_.pop_front();
+  recent_.push_back({.field = *field, .time = depth.pts, .owner = depth.owner});
+  shots_.mark(recent_);
+  return recent_.size() > 1 && recent_.back().shot != recent_[recent_.size() - 2].shot;
+}
+
+Outcome<AuthorSummary> Packager::finish() {
+  if (enhancer_) {
+    if (auto ended = enhancer_->finish(); !ended) return failOn("depth", ended.error());
+    if (auto written = writeEnhanced(); !written) return std::unexpected(written.error());
+  }
+  const auto totals = writer_->finish();
+  if (!totals) return failOn(output_.path, totals.error());
+  if (!output_.preview.empty()) {
+    if (auto drawn = preview_.writePng(output_.preview); !drawn) return failOn(output_.preview, drawn.error());
+  }
+  AuthorSummary summary{.format = format_,
+                        .totals = *totals,
+                        .frame_period = format_.frame_period,
+                        .codes = coder_.counts(),
+                        .enhancement = output_.enhancement,
+                        .enhanced = enhancer_ ? enhancer_->summary() : EnhancementSummary{},
+                        .notes = code_notes_};
+  const bool lossy = format_.depth.crf > 0 && format_.depth.codec != VideoCodec::Ffv1;
+  if (coder_.outcome().invalid_code && lossy) {
+    summary.notes.emplace_back("coding moves the edges of holes by a sample here and there; --depth-crf 0 keeps them");
+  }
+  if (auto line = cut_.explain(); !line.empty()) summary.notes.push_back(std::move(line));
+  for (std::string& line : sourceNotes()) summary.notes.push_back(std::move(line));
+  return summary;
+}
+
+// What the film had not, or what was left of it.
+std::vector<std::string> Packager::sourceNotes() const {
+  std::vector<std::string> notes;
+  const PairCounters counters = reader_.counters();
+  const auto tell = [&notes](std::uint64_t count, const char* what) {
+    if (count > 0) notes.push_back(std::to_string(count) + what);
+  };
+  const auto tellMissing = [&notes](const std::string& url, Duration missing) {
+    char line[80];
+    std::snprintf(line, sizeof line, " breaks off %.1f s before its end, cut off or damaged", toSeconds(missing));
+    if (missing > Duration(0)) notes.push_back(url + line);
+  };
+  tellMissing(source_.url, counters.missing);
+  tellMissing(source_.depth_url, counters.depth_missing);
+  tell(counters.without_depth, " pictures of the colour have no depth: its pictures begin later or end earlier");
+  tell(counters.mismatched, " pictures of the colour had no depth of their time; the one before was held");
+  tell(counters.depth_skipped, " pictures of the depth lay between those of the colour and were left out");
+  tell(counters.lost, " pictures were lost between the camera and here");
+  tell(counters.damaged, " packets or pictures were damaged and left out");
+  return notes;
+}
+
+}  // namespace
+
+Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader::Backends& backends,
+                                  const OutputOptions& output, const std::atomic<bool>& stop,
+                                  const ProgressReport& progress) {
+  if (auto ready = checkOutput(output); !ready) return failOn(output.path, ready.error());
+  if (auto ready = checkPreview(output); !ready) return failOn(output.preview, ready.error());
+  PairReader reader(backends);
+  const StopWatch watch(reader, stop);
+  const auto failed = [&](const std::string& thing, const Error& error) {
+    if (stop.load(std::memory_order_relaxed)) return failOn(output.path, kCancelled);
+    return failOn(thing, error);
+  };
+  if (auto opened = reader.open(source); !opened) return failed(reader.failedThing(), opened.error());
+  if (!reader.info().has_depth) {
+    return failOn(source.url, {ErrorCode::NotFound, 0, "there is no depth in it; name its source with --depth"});
+  }
+  Packager packager(reader, source, output);
+  bool live = false;  // ends when it is told to, or when its camera is pulled out; what there is by then is the film
+  for (std::uint64_t done = 1;; ++done) {
+    auto pair = reader.next();
+    if (stop.load(std::memory_order_relaxed)) {
+      if (live || (packager.begun() && filmKindOf(output.path) == FilmKind::Live)) break;
+      return failOn(output.path, kCancelled);
+    }
+    if (!pair && live && reader.lost(pair.error())) {
+      log(LogLevel::Warning, source.url.c_str(), "%s; the film ends there", pair.error().message);
+      break;
+    }
+    if (!pair) return failed(reader.failedThing(), pair.error());
+    if (!*pair) break;
+    live = (*pair)->taken.has_value();
+    if (!packager.begun()) {
+      if (auto begun = packager.begin(**pair); !begun) return failed(begun.error().thing, begun.error().error);
+    }
+    if (auto written = packager.write(**pair); !written) return failed(written.error().thing, written.error().error);
+    progress(done, expectedFrames(reader.info()));
+  }
+  return packager.finish();
+}
+
+}  // namespace relievo

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// Depth codes to depth codes: a table for luma, the player's own reading for hue.
+#include "app/author/package/depth_coder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/cli/text.h"
+#include "app/scene/height_field.h"
+
+namespace relievo {
+namespace {
+
+constexpr std::uint16_t kHole = 0;
+
+// The normalised code, near high, that has the same height in the other law.
+double inLaw(double s, const DepthCalibration& from, const DepthCalibration& to) {
+  if (from.law == to.law) return s;
+  DepthCalibration near_high = from;
+  near_high.polarity = DepthPolarity::NearIsHigh;
+  const double height = heightMm(near_high, s, 1);
+  if (to.law == DepthLaw::Linear) return height;
+  const double distance = to.far_mm - height * (to.far_mm - to.near_mm);
+  return (1 / distance - 1 / to.far_mm) / (1 / to.near_mm - 1 / to.far_mm);
+}
+
+const char* nameOf(DepthLaw law) {
+  return law == DepthLaw::Linear ? "linear" : "inverse";
+}
+
+}  // namespace
+
+DepthCoder::DepthCoder(const DepthCalibration& source, const DepthCoding& coding)
+    : source_(source), outcome_(recoded(source, coding.bits, coding.law)) {
+  counts_.bits = coding.bits;
+  counts_.of_code.assign(std::size_t{1} << coding.bits, 0);
+  if (source.code != DepthCode::Luma) return;
+  const double low = source.lowCode(), high = source.highCode();
+  from_luma_.resize(std::size_t{1} << source.bits);
+  for (std::size_t i = 0; i < from_luma_.size(); ++i) {
+    const double above = std::clamp(static_cast<double>(i), low, high) - low;
+    const double near_high = source.polarity == DepthPolarity::NearIsHigh ? above : (high - low) - above;
+    from_luma_[i] = i == source.invalid_code ? kHole : codeOf(inLaw(near_high / (high - low), source, outcome_));
+  }
+}
+
+// Halves go up, and quotients that are halves on paper come out a little below.
+std::uint16_t DepthCoder::codeOf(double s) const noexcept {
+  constexpr double kRounding = 1e-9;
+  const long code = std::lround(s * outcome_.highCode() * (1 + kRounding));
+  const long lowest = outcome_.invalid_code ? kHole + 1 : 0;
+  return static_cast<std::uint16_t>(std::clamp(code, lowest, static_cast<long>(outcome_.highCode())));
+}
+
+Result<void> DepthCoder::encode(const Frame& depth, DepthPicture& picture) {
+  // A field 1 mm deep, of the linear law, has the normalised codes for heights.
+  DepthCalibration linear = source_;
+  linear.law = DepthLaw::Linear;
+  const auto field = HeightField::make(depth, linear, {.width_mm = 1, .height_mm = 1, .depth_mm = 1});
+  if (!field) return std::unexpected(field.error());
+
+  picture.width = depth.width;
+  picture.height = depth.height;
+  picture.codes.resize(static_cast<std::size_t>(depth.width) * static_cast<std::size_t>(depth.height));
+  const bool has_holes = outcome_.invalid_code.has_value();
+  auto out = picture.codes.begin();
+  for (int r = 0; r < depth.height; ++r) {
+    for (int c = 0; c < depth.width; ++c, ++out) {
+      if (source_.code == DepthCode::Luma) {
+        *out = from_luma_[field->code(c, r) & (from_luma_.size() - 1)];
+      } else {
+        const double s = field->heightMm(c, r);
+        *out = std::isnan(s) ? kHole : codeOf(inLaw(s, source_, outcome_));
+      }
+      ++counts_.of_code[*out];
+    }
+  }
+  counts_.samples += picture.codes.size();
+  if (has_holes) {
+    counts_.holes += counts_.of_code[kHole];
+    counts_.of_code[kHole] = 0;
+  }
+  return {};
+}
+
+std::vector<std::string> DepthCoder::explain() const {
+  std::vector<std::string> lines;
+  if (source_.code == DepthCode::Hue) {
+    lines.push_back(print("hue decoded to %d-bit luma, 1536 hues to %.0f codes", outcome_.bits, outcome_.highCode()));
+  } else if (source_.bits != outcome_.bits) {
+    lines.push_back(print("%d bits rescaled to %d: codes %.0f .. %.0f to 0 .. %.0f, rounded", source_.bits,
+                          outcome_.bits, source_.lowCode(), source_.highCode(), outcome_.highCode()));
+  } else if (source_.range == ColorRange::Limited) {
+    lines.push_back(print("limited range expanded to full: codes %.0f .. %.0f to 0 .. %.0f, rounded", source_.lowCode(),
+                          source_.highCode(), outcome_.highCode()));
+  }
+  if (source_.law != outcome_.law) {
+    lines.push_back(print("%s steps made %s ones, of the same heights", nameOf(source_.law), nameOf(outcome_.law)));
+  }
+  if (source_.polarity == DepthPolarity::NearIsLow) lines.emplace_back("turned round: near was low, near is high now");
+  if (outcome_.invalid_code) lines.emplace_back("holes are code 0, which is theirs alone; valid codes begin at 1");
+  return lines;
+}
+
+}  // namespace relievo

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// Kinds of films, what their muxers share, and the plain file.
+#include "app/author/package/film_place.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <filesystem>
+#include <optional>
+
+#include "platform/atomic_file.h"
+
+namespace relievo {
+namespace {
+
+struct Ending {
+  const char* text;
+  FilmKind kind;
+};
+constexpr std::array kEndings{Ending{".mkv", FilmKind::Matroska},
+                              Ending{".mp4", FilmKind::Mp4},
+                              Ending{".m4v", FilmKind::Mp4},
+                              Ending{".mov", FilmKind::Mov},
+                              Ending{".ts", FilmKind::TransportStream},
+                              Ending{".m3u8", FilmKind::Hls}};
+
+// Matroska and MP4: FFmpeg writes them by their temporary name, back and forth.
+class PlainFile final : public FilmPlace {
+ public:
+  ~PlainFile() override { avio_closep(&file_); }
+
+  Result<void> open(const std::string& path, FilmKind kind) {
+    auto made = AtomicFile::create(path);
+    if (!made) return std::unexpected(made.error());
+    place_ = std::move(*made);
+    matroska_ = kind == FilmKind::Matroska;
+    url_ = "file:" + place_.writtenPath();  // the name may hold a colon
+    return makeMuxer(matroska_ ? "matroska" : kind == FilmKind::Mov ? "mov" : "mp4", url_);
+  }
+
+  Result<void> begin() override {
+    if (const int code = avio_open(&file_, url_.c_str(), AVIO_FLAG_WRITE); code < 0) {
+      return fail(ErrorCode::Io, kCannotWrite, osErrorOf(code));
+    }
+    muxer().pb = file_;
+    AVDictionary* options = nullptr;
+    if (!matroska_) av_dict_set(&options, "movflags", "use_metadata_tags+faststart", 0);
+    return writeHeader(options);
+  }
+
+  Result<std::uint64_t> finish() override {
+    int code = av_write_trailer(&muxer());
+    const int closed = avio_closep(&file_);
+    if (code >= 0) code = closed;
+    if (code < 0) return fail(ErrorCode::Io, kCannotWrite, osErrorOf(code));
+    std::error_code unknown;
+    const std::uintmax_t bytes = std::filesystem::file_size(place_.writtenPath(), unknown);
+    if (auto committed = place_.commit(); !committed) return std::unexpected(committed.error());
+    return unknown ? 0 : bytes;
+  }
+
+ private:
+  AtomicFile place_;
+  std::string url_;
+  AVIOContext* file_ = nullptr;
+  bool matroska_ = false;
+};
+
+}  // namespace
+
+std::optional<FilmKind> filmKindOf(const std::string& path) {
+  if (path.starts_with("udp://")) return FilmKind::Live;
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  const auto known = std::find_if(kEndings.begin(), kEndings.end(), [&](const Ending& e) { return ending == e.text; });
+  return known == kEndings.end() ? std::nullopt : std::optional(known->kind);
+}
+
+bool holds(FilmKind kind, VideoCodec codec) noexcept {
+  return codec != VideoCodec::Ffv1 || kind == FilmKind::Matroska;
+}
+
+std::string segmentFolderOf(const std::string& playlist) {
+  return std::filesystem::path(playlist).replace_extension(".segments").string();
+}
+
+Result<std::unique_ptr<FilmPlace>> FilmPlace::create(const std::string& path, FilmKind kind) {
+  if (kind == FilmKind::Hls) return makeHlsFolder(path);
+  if (kind == FilmKind::TransportStream || kind == FilmKind::Live) {
+    return makeTransportStream(path, kind == FilmKind::Live);
+  }
+  auto file = std::make_unique<PlainFile>();
+  if (auto opened = file->open(path, kind); !opened) return std::unexpected(opened.error());
+  return file;
+}
+
+Result<void> FilmPlace::makeMuxer(const char* format, const std::string& url) {
+  AVFormatContext* made = nullptr;
+  if (avformat_alloc_output_context2(&made, nullptr, format, url.c_str()) < 0) {
+    return fail(ErrorCode::Exhausted, "out of memory for a film", ENOMEM);
+  }
+  muxer_.reset(made);
+  return {};
+}
+
+Result<void> FilmPlace::writeHeader(AVDictionary* options) {
+  const int code = avformat_write_header(muxer_.get(), &options);
+  av_dict_free(&options);
+  if (code < 0) return fail(ErrorCode::Io, kCannotWrite, osErrorOf(code));
+  return {};
+}
+
+}  // namespace relievo

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two encoders, and the place that their packets go to.
+#include "app/author/package/film_writer.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+extern "C" {
+#include <libavutil/log.h>
+}
+
+#include "app/author/package/film_place.h"
+
+namespace relievo {
+namespace {
+
+void setTag(AVDictionary** tags, const std::string& key, const std::string& value) {
+  av_dict_set(tags, key.c_str(), value.c_str(), 0);
+}
+
+// One track of the film.
+struct Track {
+  Result<void> open(AVFormatContext& muxer, const VideoEncoder::Settings& settings, const char* title);
+  Result<void> encode(const VideoEncoder::Planes& planes, MediaTime time, bool key);
+  Result<void> drain() { return encoder.drain(sink()); }
+  VideoEncoder::Sink sink() {
+    return [this](AVPacket& packet) { return write(packet); };
+  }
+  Result<void> write(AVPacket& packet);
+
+  VideoEncoder encoder;
+  AVFormatContext* muxer = nullptr;
+  AVStream* stream = nullptr;
+  TrackTotals totals;
+};
+
+Result<void> Track::open(AVFormatContext& film, const VideoEncoder::Settings& settings, const char* title) {
+  muxer = &film;
+  if (auto opened = encoder.open(settings, (film.oformat->flags & AVFMT_GLOBALHEADER) != 0); !opened) return opened;
+  stream = avformat_new_stream(&film, nullptr);
+  if (stream == nullptr || avcodec_parameters_from_context(stream->codecpar, &encoder.context()) < 0) {
+    return fail(ErrorCode::Exhausted, "out of memory for a track", ENOMEM);
+  }
+  stream->time_base = encoder.context().time_base;
+  stream->avg_frame_rate = encoder.context().framerate;
+  stream->sample_aspect_ratio = encoder.context().sample_aspect_ratio;
+  setTag(&stream->metadata, "title", title);
+  setTag(&stream->metadata, "handler_name", title);
+  return {};
+}
+
+Result<void> Track::encode(const VideoEncoder::Planes& planes, MediaTime time, bool key) {
+  if (auto encoded = encoder.encode(planes, time, key, sink()); !encoded) return encoded;
+  if (totals.frames == 0) totals.first = time;
+  totals.last = time;
+  ++totals.frames;
+  return {};
+}
+
+Result<void> Track::write(AVPacket& packet) {
+  totals.bytes += static_cast<std::uint64_t>(packet.size);
+  packet.stream_index = stream->index;
+  av_packet_rescale_ts(&packet, VideoEncoder::kTimeBase, stream->time_base);
+  const int code = av_interleaved_write_frame(muxer, &packet);
+  if (code < 0) return fail(ErrorCode::Io, kCannotWrite, osErrorOf(code));
+  return {};
+}
+
+}  // namespace
+
+struct FilmWriter::Impl {
+  Result<void> begin(const std::string& path, const FilmFormat& format);
+  Result<void> openTracks(const FilmFormat& format);
+  [[nodiscard]] VideoEncoder::Planes depthPlanes(const DepthPicture& picture);
+
+  FilmKind kind = FilmKind::Matroska;
+  std::unique_ptr<FilmPlace> place;
+  Track color, depth;
+  DepthCoding coding;
+  std::vector<std::uint8_t> bytes;    // of a depth picture of 8 bits
+  std::vector<std::uint16_t> chroma;  // of one that has some
+};
+
+Result<void> FilmWriter::Impl::begin(const std::string& path, const FilmFormat& format) {
+  const auto known = filmKindOf(path);
+  if (!known) return fail(ErrorCode::InvalidArgument, kUnknownKind);
+  if (!holds(*known, format.depth.codec)) return fail(ErrorCode::InvalidArgument, kNotHeld);
+  kind = *known;
+  coding = format.depth;
+  auto made = FilmPlace::create(path, kind);
+  if (!made) return std::unexpected(made.error());
+  place = std::move(*made);
+  if (auto opened = openTracks(format); !opened) return opened;
+  return place->begin();
+}
+
+Result<void> FilmWriter::Impl::openTracks(const FilmFormat& format) {
+  AVFormatContext& muxer = place->muxer();
+  const bool live = kind == FilmKind::Live;
+  auto opened = color.open(muxer,
+                           {.width = format.color_width,
+                            .height = format.color_height,
+                            .live = live,
+                            .range = format.color_range,
+                            .matrix = format.color_matrix,
+                            .sample_aspect = format.color_aspect,
+                            .frame_period = format.frame_period,
+                            .crf = format.color_crf},
+                           "color");
+  if (!opened) return opened;
+  std::string lines;
+  for (const auto& [key, value] : format.depth_tags) lines.append(key).append("=").append(value).append("\n");
+  opened = depth.open(muxer,
+                      {.codec = coding.codec,
+                       .width = format.depth_width,
+                       .height = format.depth_height,
+                       .bits = coding.bits,
+                       .gray = !coding.flat_chroma,
+                       .to_touch = true,
+                       .live = live,
+                       .range = ColorRange::Full,
+                       .sample_aspect = format.depth_aspect,
+                       .frame_period = format.frame_period,
+                       .crf = coding.crf,
+                       .stream_tags = lines},
+                      "depth");
+  if (!opened) return opened;
+  color.stream->disposition = AV_DISPOSITION_DEFAULT;
+  const bool of_file = kind == FilmKind::Mp4 || kind == FilmKind::Mov;
+  AVDictionary** const where = of_file ? &muxer.metadata : &depth.stream->metadata;
+  for (const auto& [key, value] : format.depth_tags) setTag(where, key, value);
+  // As players of Apple's want it: parameter sets in the container alone.
+  const bool mp4 = of_file || kind == FilmKind::Hls;
+  if (mp4 && coding.codec == VideoCodec::Hevc) depth.stream->codecpar->codec_tag = MKTAG('h', 'v', 'c', '1');
+  return {};
+}
+
+VideoEncoder::Planes FilmWriter::Impl::depthPlanes(const DepthPicture& picture) {
+  const std::uint8_t* luma = reinterpret_cast<const std::uint8_t*>(picture.codes.data());
+  if (coding.bits == 8) {
+    bytes.resize(picture.codes.size());
+    std::transform(picture.codes.begin(), picture.codes.end(), bytes.begin(),
+                   [](std::uint16_t code) { return static_cast<std::uint8_t>(code); });
+    luma = bytes.data();
+  }
+  if (!coding.flat_chroma) return {luma, nullptr, nullptr};
+  // The middle, in one byte or two.
+  chroma.assign(picture.codes.size() / 4,
+                static_cast<std::uint16_t>(coding.bits == 8 ? 0x8080 : 1 << (coding.bits - 1)));
+  const auto* const flat = reinterpret_cast<const std::uint8_t*>(chroma.data());
+  return {luma, flat, flat};
+}
+
+FilmWriter::FilmWriter(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+FilmWriter::~FilmWriter() = default;
+
+Result<std::unique_ptr<FilmWriter>> FilmWriter::create(const std::string& path, const FilmFormat& format) {
+  av_log_set_level(AV_LOG_QUIET);  // the program prints its own line
+  auto impl = std::make_unique<Impl>();
+  if (auto begun = impl->begin(path, format); !begun) return std::unexpected(begun.error());
+  return std::unique_ptr<FilmWriter>(new FilmWriter(std::move(impl)));
+}
+
+Result<void> FilmWriter::writeColor(const ColorPicture420& picture, MediaTime time, bool key) {
+  return impl_->color.encode({picture.y.data(), picture.u.data(), picture.v.data()}, time, key);
+}
+
+Result<void> FilmWriter::writeDepth(const DepthPicture& picture, MediaTime time, bool key) {
+  return impl_->depth.encode(impl_->depthPlanes(picture), time, key);
+}
+
+Result<FilmTotals> FilmWriter::finish() {
+  Impl& film = *impl_;
+  if (auto drained = film.color.drain(); !drained) return std::unexpected(drained.error());
+  if (auto drained = film.depth.drain(); !drained) return std::unexpected(drained.error());
+  const auto bytes = film.place->finish();
+  if (!bytes) return std::unexpected(bytes.error());
+  return FilmTotals{film.color.totals, film.depth.totals, *bytes, film.place->latest()};
+}
+
+}  // namespace relievo

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writes one film with a colour and a depth track, which appears whole or not at all, or goes out on a line.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "app/author/package/depth_coding.h"
+#include "app/author/package/picture.h"
+#include "hal/media_time.h"
+#include "platform/error.h"
+
+namespace relievo {
+
+struct FilmFormat {
+  int color_width = 0, color_height = 0;
+  int depth_width = 0, depth_height = 0;
+  ColorRange color_range = ColorRange::Limited;
+  ColorMatrix color_matrix = ColorMatrix::Unspecified;
+  double color_aspect = 1.0, depth_aspect = 1.0;  // width of a sample over its height
+  Duration frame_period{0};                       // for the rate control alone; 0 unknown
+  int color_crf = 18;
+  DepthCoding depth;
+  std::map<std::string, std::string> depth_tags;  // calibrationTags()
+};
+
+struct TrackTotals {
+  std::uint64_t frames = 0;
+  std::uint64_t bytes = 0;
+  MediaTime first, last;
+};
+struct FilmTotals {
+  TrackTotals color, depth;
+  std::uint64_t file_bytes = 0;
+  Duration latest{0};  // of a line: how far sending was behind at most
+};
+
+// Track 0 is the colour, H.264 4:2:0, titled "color"; track 1 is the depth, of full range, titled "depth". Its tags are
+// where the container and the codec keep some:
+//
+//   Matroska           of the track
+//   MP4, QuickTime     of the file; the tracks are named by their handlers
+//   H.264 and HEVC     in the stream, beside each key frame, whatever the container (hal/stream_tags.h)
+//   transport streams  the stream's type besides: auxiliary video
+//
+// One thread; the encoders have threads of their own. A file is written under a temporary name beside the target, which
+// is renamed by `finish`; without that nothing is left. On a line pictures go out at their times: writing waits. Times
+// of a track must rise.
+class FilmWriter {
+ public:
+  // InvalidArgument for a kind of film that is not written (filmKindOf) or does not hold the codec, NotFound for a
+  // folder that is not there, Unsupported without the codec's library.
+  [[nodiscard]] static Result<std::unique_ptr<FilmWriter>> create(const std::string& path, const FilmFormat& format);
+  ~FilmWriter();
+
+  // `key` makes it a key frame; no others are made, apart from the first.
+  [[nodiscard]] Result<void> writeColor(const ColorPicture420& picture, MediaTime time, bool key);
+  [[nodiscard]] Result<void> writeDepth(const DepthPicture& picture, MediaTime time, bool key);
+  [[nodiscard]] Result<FilmTotals> finish();
+
+ private:
+  struct Impl;
+  explicit FilmWriter(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace relievo

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// Words and numbers for the one who runs the program.
+#include "app/author/package/output.h"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/author/package/film_kind.h"
+#include "app/cli/text.h"
+#include "app/scene/display_volume.h"
+
+namespace relievo {
+namespace {
+
+constexpr Duration kLate = std::chrono::milliseconds(500);
+
+std::string sizeText(std::uint64_t bytes) {
+  if (bytes < 1000) return print("%llu bytes", static_cast<unsigned long long>(bytes));
+  if (bytes < 1'000'000) return print("%.1f kB", static_cast<double>(bytes) / 1e3);
+  return print("%.2f MB", static_cast<double>(bytes) / 1e6);
+}
+
+// From the first picture's time to the end of the last one's.
+double seconds(const TrackTotals& track, Duration frame_period) {
+  return toSeconds(track.last - track.first + frame_period);
+}
+
+std::string codingText(const FilmFormat& f) {
+  const std::string text = std::string(name(f.depth.codec)) + (f.depth.flat_chroma ? " 4:2:0" : " 4:0:0");
+  return f.depth.bits == 8 ? text : text + print(", %d bits", f.depth.bits);
+}
+
+std::string trackLine(const char* name, int width, int height, const std::string& coding, int crf,
+                      const TrackTotals& track, Duration frame_period) {
+  const double length = seconds(track, frame_period);
+  const std::string size = std::to_string(width) + "x" + std::to_string(height);
+  const std::string rate =
+      length > 0 ? print("%.0f kbit/s", static_cast<double>(track.bytes) * 8e-3 / length) : std::string("still");
+  const std::string quality = crf > 0 ? print("crf %d", crf) : std::string("lossless");
+  return print("  %-6s %-10s %-21s %-8s %6llu frames  %10s  %12s\n", name, size.c_str(), coding.c_str(),
+               quality.c_str(), static_cast<unsigned long long>(track.frames), sizeText(track.bytes).c_str(),
+               rate.c_str());
+}
+
+std::string codesLine(const DepthCoder::Counts& codes) {
+  int lowest = -1, highest = -1, used = 0;
+  for (int i = 0; i < 1 << codes.bits; ++i) {
+    if (codes.of_code[static_cast<std::size_t>(i)] == 0) continue;
+    if (lowest < 0) lowest = i;
+    highest = i;
+    ++used;
+  }
+  std::string line =
+      used == 0 ? std::string("  depth codes: none, all of it is holes")
+                : print("  depth codes: %d bits, %d .. %d, %d of them used", codes.bits, lowest, highest, used);
+  if (codes.holes > 0) {
+    line += print("; holes %.1f %%", 100.0 * static_cast<double>(codes.holes) / static_cast<double>(codes.samples));
+  }
+  return line + "\n";
+}
+
+// What so many levels of 255 are under a finger.
+double mm(double levels) {
+  return levels * DisplayVolume::kDefaultDepthMm / 255;
+}
+double newtons(double levels) {
+  constexpr double kStiffnessNPerMm = 0.5;  // the player's
+  return mm(levels) * kStiffnessNPerMm;
+}
+
+std::string enhancementLines(Enhancement how, const EnhancementSummary& e) {
+  const auto percent = [&e](std::uint64_t count) {
+    return e.samples > 0 ? 100.0 * static_cast<double>(count) / static_cast<double>(e.samples) : 0;
+  };
+  std::string lines =
+      print("  enhanced (%s): holes %.1f %%, outliers %.2f %%; %.1f %% filled, %.1f %% left as holes\n", name(how),
+            percent(e.holes), percent(e.outliers), percent(e.filled), percent(e.holes + e.outliers - e.filled));
+  lines +=
+      print("    noise from sample to sample: %.2f levels of 255 before, %.2f after\n", e.noise_before, e.noise_after);
+  lines += print("    touch error estimated, away from edges: %.3f mm (%.3f N) before, %.3f mm (%.3f N) after\n",
+                 mm(e.error_before), newtons(e.error_before), mm(e.error_after), newtons(e.error_after));
+  if (e.points > 0) {
+    lines += print("    mesh: %.0f points a picture, %zu at most; no sample farther from it than %.1f levels\n",
+                   e.points, e.most_points, e.bound);
+  }
+  return lines;
+}
+
+Result<void> checkPlace(const std::string& path, bool force) {
+  struct stat status{};
+  if (::stat(path.c_str(), &status) != 0) return {};
+  if (!S_ISREG(status.st_mode)) return fail(ErrorCode::Io, "is there already and no file; choose another name");
+  if (!force) return fail(ErrorCode::Io, "is there already; choose another name, or replace it with --force");
+  return {};
+}
+
+}  // namespace
+
+Result<void> checkOutput(const OutputOptions& output) {
+  const auto kind = filmKindOf(output.path);
+  if (!kind) return fail(ErrorCode::InvalidArgument, kUnknownKind);
+  if (!holds(*kind, output.depth.codec)) return fail(ErrorCode::InvalidArgument, kNotHeld);
+  if (!codes(output.depth.codec, output.depth.bits)) {
+    return fail(ErrorCode::InvalidArgument,
+                "so many bits are not coded so: H.264 has 8 and 10, HEVC 12 too, FFV1 16 too");
+  }
+  if (kind == FilmKind::Live) return {};
+  struct stat status{};
+  if (kind == FilmKind::Hls && !output.force && ::stat(segmentFolderOf(output.path).c_str(), &status) == 0) {
+    return fail(ErrorCode::Io,
+                "its folder of segments is there already; choose another name, or replace it with --force");
+  }
+  return checkPlace(output.path, output.force);
+}
+
+Result<void> checkPreview(const OutputOptions& output) {
+  if (output.preview.empty()) return {};
+  if (!output.preview.ends_with(".png")) return fail(ErrorCode::InvalidArgument, "let its name end in .png");
+  return checkPlace(output.preview, output.force);
+}
+
+std::string progressText(std::uint64_t done, std::optional<std::uint64_t> total, Duration elapsed) {
+  const double spent = toSeconds(elapsed);
+  const double rate = spent > 0 ? static_cast<double>(done) / spent : 0;
+  std::string text = total && *total >= done ? print("%llu/%llu frames", static_cast<unsigned long long>(done),
+                                                     static_cast<unsigned long long>(*total))
+                                             : print("%llu frames", static_cast<unsigned long long>(done));
+  if (rate > 0) text += print(", %.1f frames/s", rate);
+  if (rate > 0 && total && *total >= done) {
+    const auto left = static_cast<long>(std::ceil(static_cast<double>(*total - done) / rate));
+    text += print(", %ld:%02ld left", left / 60, left % 60);
+  }
+  return text;
+}
+
+std::string toText(const std::string& path, const AuthorSummary& summary) {
+  const FilmFormat& f = summary.format;
+  const FilmTotals& totals = summary.totals;
+  std::string text =
+      path + print(": %.2f s, ", seconds(totals.color, summary.frame_period)) + sizeText(totals.file_bytes) + "\n";
+  const int depth_crf = f.depth.codec == VideoCodec::Ffv1 ? 0 : f.depth.crf;
+  text +=
+      trackLine("color", f.color_width, f.color_height, "H.264 4:2:0", f.color_crf, totals.color, summary.frame_period);
+  text +=
+      trackLine("depth", f.depth_width, f.depth_height, codingText(f), depth_crf, totals.depth, summary.frame_period);
+  if (summary.enhancement) text += enhancementLines(*summary.enhancement, summary.enhanced);
+  text += codesLine(summary.codes);
+  const auto tag = [&f](const char* key) {
+    const auto found = f.depth_tags.find(key);
+    return found == f.depth_tags.end() ? std::string("?") : found->second;
+  };
+  text += "  depth means: " + tag("DEPTH_LAW") + " law, near is high, full range";
+  if (tag("DEPTH_LAW") == "inverse") text += ", near " + tag("DEPTH_NEAR") + " mm, far " + tag("DEPTH_FAR") + " mm";
+  text += "\n";
+  if (totals.latest > kLate) {
+    text += print("  note: sent up to %.1f s late: this machine is too slow for the film, take it smaller\n",
+                  toSeconds(totals.latest));
+  }
+  for (const std::string& note : summary.notes) text += "  note: " + note + "\n";
+  return text;
+}
+
+}  // namespace relievo

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// A transport stream in a file or on a line: FFmpeg's muxer, with what it cannot say put in on the way out.
+#include <array>
+#include <cerrno>
+
+#include "app/author/package/film_place.h"
+#include "app/author/package/ts_depth_signal.h"
+#include "app/author/package/ts_pacer.h"
+#include "platform/atomic_file.h"
+
+namespace relievo {
+namespace {
+
+constexpr int kBuffer = 64 * static_cast<int>(TsPacer::kDatagram);  // whole packets
+
+class TransportStream final : public FilmPlace {
+ public:
+  ~TransportStream() override {
+    avio_closep(&out_);
+    freePackets();
+  }
+
+  Result<void> open(const std::string& path, bool live) {
+    live_ = live;
+    url_ = path;
+    if (!live) {
+      auto made = AtomicFile::create(path);
+      if (!made) return std::unexpected(made.error());
+      place_ = std::move(*made);
+      url_ = "file:" + place_.writtenPath();  // the name may hold a colon
+    }
+    return makeMuxer("mpegts", url_);
+  }
+
+  Result<void> begin() override {
+    if (const int code = avio_open(&out_, url_.c_str(), AVIO_FLAG_WRITE); code < 0) {
+      if (!live_) return fail(ErrorCode::Io, kCannotWrite, osErrorOf(code));
+      return fail(ErrorCode::Io, "it cannot be sent to; write udp://HOST:PORT", osErrorOf(code));
+    }
+    auto* const buffer = static_cast<std::uint8_t*>(av_malloc(kBuffer));
+    packets_ = avio_alloc_context(buffer, kBuffer, 1, this, nullptr, takePackets, nullptr);
+    if (packets_ == nullptr) {
+      av_free(buffer);
+      return fail(ErrorCode::Exhausted, "out of memory for a film", ENOMEM);
+    }
+    muxer().pb = packets_;
+    muxer().flags |= AVFMT_FLAG_CUSTOM_IO;
+    if (live_) muxer().flags |= AVFMT_FLAG_FLUSH_PACKETS;
+    AVStream& depth = *muxer().streams[1];
+    depth.id = TsDepthSignal::kDepthPid;
+    signal_ = TsDepthSignal(depth.codecpar->codec_id == AV_CODEC_ID_HEVC ? VideoCodec::Hevc : VideoCodec::H264);
+    AVDictionary* options = nullptr;
+    av_dict_set_int(&options, "mpegts_pmt_start_pid", TsDepthSignal::kMapPid, 0);
+    return writeHeader(options);
+  }
+
+  Result<std::uint64_t> finish() override {
+    int code = av_write_trailer(&muxer());
+    avio_flush(packets_);
+    if (code >= 0) code = packets_->error;
+    if (live_ && code >= 0 && !pacer_.finish()) code = out_->error;
+    const int closed = avio_closep(&out_);
+    if (code >= 0) code = closed;
+    if (code < 0) return fail(ErrorCode::Io, live_ ? kLineFailed : kCannotWrite, osErrorOf(code));
+    if (!live_) {
+      if (auto committed = place_.commit(); !committed) return std::unexpected(committed.error());
+    }
+    return bytes_;
+  }
+
+  [[nodiscard]] Duration latest() const noexcept override { return pacer_.latest(); }
+
+ private:
+  static constexpr const char* kLineFailed = "sending failed; check the network";
+
+  // The library's call-back; its buffer is whole packets, which are its own to change.
+  static int takePackets(void* self, std::uint8_t* data, int bytes) {
+    auto& film = *static_cast<TransportStream*>(self);
+    if (film.take({data, static_cast<std::size_t>(bytes)})) return bytes;
+    return film.out_->error;
+  }
+  bool take(std::span<std::uint8_t> packets) {
+    signal_.rewrite(packets);
+    bytes_ += packets.size();
+    return live_ ? pacer_.add(packets) : send(packets);
+  }
+  // On a line a datagram of its own.
+  bool send(std::span<const std::uint8_t> packets) {
+    avio_write(out_, packets.data(), static_cast<int>(packets.size()));
+    if (live_) avio_flush(out_);
+    return out_->error >= 0;
+  }
+  void freePackets() noexcept {
+    if (packets_ == nullptr) return;
+    av_free(packets_->buffer);
+    avio_context_free(&packets_);
+  }
+
+  bool live_ = false;
+  AtomicFile place_;
+  std::string url_;
+  AVIOContext* out_ = nullptr;
+  AVIOContext* packets_ = nullptr;  // what the muxer writes to
+  TsDepthSignal signal_{VideoCodec::H264};
+  MonotonicClock clock_;
+  TsPacer pacer_{clock_, [this](std::span<const std::uint8_t> datagram) { return send(datagram); }};
+  std::uint64_t bytes_ = 0;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<FilmPlace>> makeTransportStream(const std::string& path, bool live) {
+  auto stream = std::make_unique<TransportStream>();
+  if (auto opened = stream->open(path, live); !opened) return std::unexpected(opened.error());
+  return stream;
+}
+
+}  // namespace relievo

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Walking the proxy over the edges and vertices of the triangulated relief to where it is closest to the finger.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "app/haptics/baseline/segment_search.h"
+#include "app/haptics/baseline/surface_in_time.h"
+#include "platform/realtime.h"
+
+namespace relievo {
+
+// From the triangle that the finger went through, to the local minimum of the distance to `hip_mm` among the points on
+// edges (Walker and Salisbury 2003: the proxy is restricted to edges and vertices). From a point on an edge the walk
+// may go to any edge of the two triangles beside it, from a vertex to any edge of the triangles around it; it goes to
+// the closest, as long as that is closer. At most kMaxSteps steps in a tick; the next tick goes on from there.
+[[nodiscard]] glm::dvec3 walkToClosest(const SurfaceInTime& surface, const Crossing& crossing,
+                                       const glm::dvec3& hip_mm) RELIEVO_RT;
+
+}  // namespace relievo

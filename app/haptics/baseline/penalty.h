@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// The penalty method: depth below the surface along its normal, times stiffness. No proxy, no memory.
+#pragma once
+
+#include "app/depth_window/parts.h"
+#include "app/haptics/baseline/surface_in_time.h"
+#include "app/haptics/method/method.h"
+
+namespace relievo {
+
+// The surface is the triangle straight above the finger; the depth, the distance to that triangle's plane. Where the
+// finger goes below another triangle the force turns with it: thin parts push it out on the wrong side.
+class Penalty final : public TouchMethod {
+ public:
+  Penalty(double stiffness_n_per_mm, TimeLaw time) noexcept : stiffness_(stiffness_n_per_mm), time_(time) {}
+
+  [[nodiscard]] Touch update(const glm::dvec3& hip_mm, const SurfaceWindow& window, MediaTime now) RELIEVO_RT override;
+  void reset() RELIEVO_RT override {}
+
+ private:
+  double stiffness_;
+  TimeLaw time_;
+};
+
+}  // namespace relievo

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Proxy blending (Ruspini 2003; paper, IV-B): one proxy on the old surface, one on the new, and the finger's in
+// between.
+#pragma once
+
+#include "app/haptics/baseline/surface_in_time.h"
+#include "app/haptics/method/method.h"
+#include "hal/media_time.h"
+
+namespace relievo {
+
+// Each proxy is a proxy graph's on a frame as it is. Over the time of one frame the blended proxy goes from the one on
+// the frame before to the one on the present frame: smooth, and about one frame late. Made for surfaces that deform a
+// little: one that rises past the proxy is not noticed.
+class ProxyBlend final : public TouchMethod {
+ public:
+  ProxyBlend(double stiffness_n_per_mm, double jump_threshold_n) noexcept
+      : stiffness_(stiffness_n_per_mm), jump_threshold_n_(jump_threshold_n) {}
+
+  [[nodiscard]] Touch update(const glm::dvec3& hip_mm, const SurfaceWindow& window, MediaTime now) RELIEVO_RT override;
+  void reset() RELIEVO_RT override { primed_ = false; }
+
+ private:
+  double stiffness_;
+  double jump_threshold_n_;
+  bool primed_ = false;
+  std::uint32_t epoch_ = 0;
+  MediaTime present_;  // of the frame that is the new surface
+  Touch on_old_, on_new_, last_;
+};
+
+}  // namespace relievo

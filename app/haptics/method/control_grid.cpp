@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// The toroidal cache of block means, and their sum over the frames.
+#include "app/haptics/method/control_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "platform/prefetch.h"
+
+namespace relievo {
+namespace {
+
+// Less than this share of the weight on frames that have a reading is a hole.
+constexpr float kLeastWeight = 0.5F;
+
+int blockFor(double pitch_mm, double samples_per_mm) RELIEVO_RT {
+  return std::max(1, static_cast<int>(std::lround(pitch_mm * std::abs(samples_per_mm))));
+}
+
+}  // namespace
+
+void ControlGrid::setPicture(const HeightField& field) RELIEVO_RT {
+  cols_ = field.cols();
+  rows_ = field.rows();
+  const GridMapping& grid = field.grid();
+  block_ =
+      SampledBlock(blockFor(pitch_wanted_mm_, grid.u_per_mm), blockFor(pitch_wanted_mm_, grid.v_per_mm), most_samples_);
+  // Block i covers samples i m .. i m + m - 1, so its centre is at u = (i + 1/2) m - 1/2.
+  a_per_mm_ = grid.u_per_mm / block_.width;
+  a_origin_ = (grid.u_origin + 0.5) / block_.width - 0.5;
+  b_per_mm_ = grid.v_per_mm / block_.height;
+  b_origin_ = (grid.v_origin + 0.5) / block_.height - 0.5;
+  pit_mm_ = static_cast<float>(-field.depthMm());
+  patch_slots_ = 0;
+  filled_.fill(0);
+  hole_.fill(0);
+}
+
+void ControlGrid::forgetFrame(int slot) RELIEVO_RT {
+  patch_slots_ = 0;
+  const auto keep = static_cast<std::uint8_t>(~(1U << slot));
+  for (std::uint8_t& bits : filled_) bits &= keep;
+  for (std::uint8_t& bits : hole_) bits &= keep;
+}
+
+void ControlGrid::fill(int i, int j, const Frames& frames) RELIEVO_RT {
+  const std::uint32_t missing = slotsMissing(i, j, frames);
+  if (missing == 0) return;
+  const std::size_t p = slotOf(i, j);
+  if (i_[p] != i || j_[p] != j) {
+    i_[p] = i;
+    j_[p] = j;
+    filled_[p] = hole_[p] = 0;
+  }
+  read(p, frames, missing);
+}
+
+// The frames, by their slots, in which a point is still to be read.
+std::uint32_t ControlGrid::slotsMissing(int i, int j, const Frames& frames) const RELIEVO_RT {
+  const std::size_t p = slotOf(i, j);
+  return i_[p] == i && j_[p] == j ? frames.wanted & ~std::uint32_t{filled_[p]} : frames.wanted;
+}
+
+// What is missing of four points beside each other, and what lies between, in each frame that lacks one.
+void ControlGrid::prefetchRow(int i0, int j, const Frames& frames) const RELIEVO_RT {
+  std::uint32_t any = 0;
+  int begin = 4, end = 0;
+  for (int k = 0; k < 4; ++k) {
+    const std::uint32_t slots = slotsMissing(i0 + k, j, frames);
+    if (slots == 0) continue;
+    any |= slots;
+    begin = std::min(begin, k);
+    end = k + 1;
+  }
+  if (any == 0) return;
+  const std::int64_t u = (std::int64_t{i0} + begin) * block_.width, v = std::int64_t{j} * block_.height;
+  const std::int64_t u_end = u + (end - begin) * block_.width, v_end = v + block_.height;
+  if (u < 0 || v < 0 || u_end > cols_ || v_end > rows_) return;  // few are cut by the rim
+  for (; any != 0; any &= any - 1) {
+    const auto slot = static_cast<std::size_t>(__builtin_ctz(any));
+    frames.window->frames[frames.frame_of_slot[slot]].field.prefetch(static_cast<int>(u), static_cast<int>(v),
+                                                                     end - begin, block_);
+  }
+}
+
+void ControlGrid::read(std::size_t p, const Frames& frames, std::uint32_t missing) RELIEVO_RT {
+  // 64 bits: a finger may be anywhere. The part of the block inside the picture is read.
+  const std::int64_t u0 = std::int64_t{i_[p]} * block_.width, v0 = std::int64_t{j_[p]} * block_.height;
+  const auto c0 = std::max<std::int64_t>(u0, 0), c1 = std::min<std::int64_t>(u0 + block_.width, cols_);
+  const auto r0 = std::max<std::int64_t>(v0, 0), r1 = std::min<std::int64_t>(v0 + block_.height, rows_);
+  const auto cols = static_cast<int>(c1 - c0), rows = static_cast<int>(r1 - r0);
+  const bool outside =
+      c0 >= c1 || r0 >= r1 || 2 * std::int64_t{cols} * rows < std::int64_t{block_.width} * block_.height;
+  const bool cut = !outside && (cols < block_.width || rows < block_.height);
+  const SampledBlock block = cut ? SampledBlock(cols, rows, most_samples_) : block_;
+  for (; missing != 0; missing &= missing - 1) {
+    const auto slot = static_cast<std::size_t>(__builtin_ctz(missing));
+    const auto bit = static_cast<std::uint8_t>(1U << slot);
+    const HeightField& field = frames.window->frames[frames.frame_of_slot[slot]].field;
+    const double mean =
+        outside ? HeightField::kHole : meanOrBridged(field, static_cast<int>(c0), static_cast<int>(r0), block);
+    ++blocks_read_;
+    filled_[p] |= bit;
+    if (std::isnan(mean)) hole_[p] |= bit;
+    height_[p][slot] = std::isnan(mean) ? 0 : static_cast<float>(mean);
+  }
+}
+
+// A hole that is narrower than the blocks around it, a dead sample, is bridged by what is around it.
+double ControlGrid::meanOrBridged(const HeightField& field, int c, int r, const SampledBlock& block) const RELIEVO_RT {
+  const double mean = field.meanHeight(c, r, block);
+  if (!std::isnan(mean)) return mean;
+  const int left = std::max(c - block_.width, 0), right = std::min(c + block.width + block_.width, cols_);
+  const int top = std::max(r - block_.height, 0), bottom = std::min(r + block.height + block_.height, rows_);
+  return field.meanHeight(left, top, SampledBlock(right - left, bottom - top, 3 * most_samples_));
+}
+
+// Holes come and go from frame to frame with a depth camera: as long as most of the weight lies on readings, they tell.
+float ControlGrid::withHoles(std::size_t p, const Frames& frames) const RELIEVO_RT {
+  float sum = 0, readings = 0;
+  for (std::size_t slot = 0; slot < kFrames; ++slot) {
+    if ((hole_[p] >> slot & 1U) != 0) continue;
+    sum += frames.weight[slot] * height_[p][slot];
+    readings += frames.weight[slot];
+  }
+  return readings < kLeastWeight ? pit_mm_ : sum / readings;
+}
+
+void ControlGrid::patch(int i0, int j0, const Frames& frames, Patch& out) RELIEVO_RT {
+  if (i0 != patch_i_ || j0 != patch_j_ || frames.wanted != patch_slots_) {
+    for (int j = j0; j < j0 + 4; ++j) prefetchRow(i0, j, frames);
+    std::uint32_t holes = 0;
+    for (int j = j0; j < j0 + 4; ++j) {
+      for (int i = i0; i < i0 + 4; ++i) {
+        fill(i, j, frames);
+        holes |= hole_[slotOf(i, j)] & frames.wanted;
+      }
+    }
+    patch_i_ = i0;
+    patch_j_ = j0;
+    patch_slots_ = frames.wanted;
+    patch_holes_ = holes != 0;
+  }
+  const Float4 low = load4(frames.weight.data()), high = load4(frames.weight.data() + 4);
+  const auto blend = [&](int i, int j) RELIEVO_RT {
+    const float* height = height_[slotOf(i, j)].data();
+    return load4(height) * low + load4(height + 4) * high;
+  };
+  for (int j = 0; j < 4; ++j) {
+    Float4& row = out[static_cast<std::size_t>(j)];
+    row = sums(blend(i0, j0 + j), blend(i0 + 1, j0 + j), blend(i0 + 2, j0 + j), blend(i0 + 3, j0 + j));
+    if (!patch_holes_) continue;
+    for (int i = 0; i < 4; ++i) row[i] = withHoles(slotOf(i0 + i, j0 + j), frames);
+  }
+}
+
+void ControlGrid::prefetch() const RELIEVO_RT {
+  relievo::prefetch(this, &i_);
+}
+
+}  // namespace relievo

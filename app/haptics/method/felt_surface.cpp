@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two levels, the soft clamp between them, and the frames that they share.
+#include "app/haptics/method/felt_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/vector_relational.hpp>
+
+#include "app/haptics/method/edge_motion.h"
+#include "platform/prefetch.h"
+
+namespace relievo {
+namespace {
+
+// A tick this much off the time that was prepared for is still on what was prepared.
+constexpr Duration kPreparedWithin = std::chrono::microseconds(500);
+
+// Where W and N differ by less than this share of the clamp d, W it is: c(u) = u. A larger share lets less of N's noise
+// through; the rest of the clamp is left for c to level off in.
+constexpr double kWideAlone = 0.7;
+
+// Beyond that, c goes on to d as a + (d - a) g(s) with a = kWideAlone d, s = (|u| - a)/(d - a) and g(s) = s/(1 +
+// s^4)^(1/4): four continuous derivatives, and monotone.
+struct SoftClamp {
+  double value, slope, bend;
+  SoftClamp(double u, double d) RELIEVO_RT {
+    const double a = kWideAlone * d, s = (std::abs(u) - a) / (d - a), s2 = s * s, base = 1 + s2 * s2;
+    const double root = std::sqrt(std::sqrt(base));
+    slope = 1 / (base * root);
+    value = std::copysign(a + (d - a) * s / root, u);
+    bend = std::copysign(5 * s2 * s * slope / (base * (d - a)), -u);
+  }
+};
+
+}  // namespace
+
+FeltSurface::FeltSurface(const FeltScale& scale) noexcept
+    : scale_(scale),
+      narrow_(scale.narrow_mm, kNarrowSamples, scale.space, scale.narrow_time),
+      wide_(scale.wide_mm, kWideSamples, scale.space, scale.wide_time),
+      two_levels_(scale.wide_mm > scale.narrow_mm) {}
+
+RELIEVO_TICK_CODE bool FeltSurface::moment(const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
+  if (window.count == 0) return false;
+  read_before_ = blocksRead();
+  const HeightField& field = window.frames[0].field;
+  if (window.epoch != epoch_ || field.cols() != cols_ || field.rows() != rows_ || slots_.in_use == 0) {
+    setPicture(window);
+  }
+  placeFrames(window);
+  slots_.window = &window;
+  const FrameMoment moment(window, now);
+  present_ = static_cast<std::size_t>(moment.present);
+  next_ = static_cast<std::size_t>(std::min(moment.present + 1, moment.last));
+  shot_ = window.frames[present_].shot;
+  std::optional<double> since_prepared_s;
+  if (prepared_ && weighedAt(window, moment) == prepared_on_ &&
+      std::chrono::abs(now - prepared_for_) <= kPreparedWithin) {
+    since_prepared_s = toSeconds(now - prepared_for_);
+  }
+  edge_moves_ = two_levels_ && edge_way_mm_ != glm::dvec2(0) && window.frames[present_].time == edge_from_;
+  share_ = moment.share;
+  narrow_.begin(slots_, moment, since_prepared_s);
+  if (two_levels_) wide_.begin(slots_, moment, since_prepared_s);
+  return true;
+}
+
+void FeltSurface::setPicture(const SurfaceWindow& window) RELIEVO_RT {
+  const HeightField& field = window.frames[0].field;
+  epoch_ = window.epoch;
+  prepared_ = false;
+  cols_ = field.cols();
+  rows_ = field.rows();
+  depth_mm_ = field.depthMm();
+  slots_.in_use = 0;
+  count_ = 0;
+  edge_from_ = MediaTime::min();
+  ControlGrid& narrow = narrow_.grid();
+  ControlGrid& wide = wide_.grid();
+  narrow.setPicture(field);
+  wide.setPicture(field);
+  two_levels_ = scale_.wide_mm > scale_.narrow_mm &&
+                (wide.blockCols() > narrow.blockCols() || wide.blockRows() > narrow.blockRows());
+  sample_mm_ = 0.5 / std::max(std::abs(narrow.aPerMm()), std::abs(narrow.bPerMm()));
+}
+
+// Gives every frame of the window a slot of the caches, the one it had if it had one; those that repeat each other have
+// one slot, which goes by the time of the newest.
+RELIEVO_TICK_CODE void FeltSurface::placeFrames(const SurfaceWindow& window) RELIEVO_RT {
+  const auto last = static_cast<std::size_t>(window.count - 1);
+  if (window.count == count_ && window.frames[0].time == first_time_ && window.frames[last].time == last_time_) return;
+  count_ = window.count;
+  first_time_ = window.frames[0].time;
+  last_time_ = window.frames[last].time;
+
+  std::uint32_t kept = 0;
+  std::array<bool, ControlGrid::kFrames> placed{};
+  for (std::size_t f = 0; f <= last; ++f) {
+    for (std::size_t s = 0; s < ControlGrid::kFrames; ++s) {
+      if ((slots_.in_use & ~kept & 1U << s) == 0 || time_of_slot_[s] != window.frames[f].time) continue;
+      kept |= 1U << s;
+      slots_.of_frame[f] = static_cast<std::uint8_t>(s);
+      placed[f] = true;
+      break;
+    }
+  }
+  for (std::size_t f = last; f > 0; --f) {
+    if (!window.frames[f].repeats || !placed[f] || placed[f - 1]) continue;
+    slots_.of_frame[f - 1] = slots_.of_frame[f];
+    placed[f - 1] = true;
+  }
+  slots_.in_use = kept;
+  for (std::size_t f = 0; f <= last; ++f) {
+    if (!placed[f] && f > 0 && window.frames[f].repeats) {
+      slots_.of_frame[f] = slots_.of_frame[f - 1];
+    } else if (!placed[f]) {
+      const auto s = static_cast<std::size_t>(__builtin_ctz(~slots_.in_use));
+      slots_.in_use |= 1U << s;
+      slots_.of_frame[f] = static_cast<std::uint8_t>(s);
+      narrow_.grid().forgetFrame(static_cast<int>(s));
+      wide_.grid().forgetFrame(static_cast<int>(s));
+    }
+    slots_.frame[slots_.of_frame[f]] = static_cast<std::uint8_t>(f);
+    time_of_slot_[slots_.of_frame[f]] = window.frames[f].time;
+  }
+}
+
+// On the present frame as the edge has left it, and on the next as it comes.
+SurfacePoint FeltSurface::narrowAt(double x_mm, double y_mm) RELIEVO_RT {
+  if (!edge_moves_) return narrow_.at(x_mm, y_mm);
+  const glm::dvec2 gone = share_ * edge_way_mm_, to_come = edge_way_mm_ - gone;
+  const SurfacePoint a = narrow_.atFrame(0, x_mm - gone.x, y_mm - gone.y);
+  const SurfacePoint b = narrow_.atFrame(1, x_mm + to_come.x, y_mm + to_come.y);
+  const auto mix = [s = share_](double from, double to) { return from + (to - from) * s; };
+  return {mix(a.z, b.z), mix(a.zx, b.zx), mix(a.zy, b.zy), mix(a.zxx, b.zxx), mix(a.zxy, b.zxy), mix(a.zyy, b.zyy)};
+}
+
+RELIEVO_TICK_CODE SurfacePoint FeltSurface::at(double x_mm, double y_mm) RELIEVO_RT {
+  if (!two_levels_) return narrow_.at(x_mm, y_mm);
+  const SurfacePoint w = wide_.at(x_mm, y_mm);
+  if (!edge_moves_ && std::abs(w.z - narrow_.height(x_mm, y_mm)) <= kWideAlone * scale_.clamp_mm) return w;
+  const SurfacePoint n = narrowAt(x_mm, y_mm);
+  if (std::abs(w.z - n.z) <= kWideAlone * scale_.clamp_mm) return w;
+  const SoftClamp c(w.z - n.z, scale_.clamp_mm);
+  const double ux = w.zx - n.zx, uy = w.zy - n.zy;
+  return {n.z + c.value,
+          n.zx + c.slope * ux,
+          n.zy + c.slope * uy,
+          n.zxx + c.slope * (w.zxx - n.zxx) + c.bend * ux * ux,
+          n.zxy + c.slope * (w.zxy - n.zxy) + c.bend * ux * uy,
+          n.zyy + c.slope * (w.zyy - n.zyy) + c.bend * uy * uy};
+}
+
+RELIEVO_TICK_CODE double FeltSurface::height(double x_mm, double y_mm) RELIEVO_RT {
+  const double n = edge_moves_ ? narrowAt(x_mm, y_mm).z : narrow_.height(x_mm, y_mm);
+  if (!two_levels_) return n;
+  const double w = wide_.height(x_mm, y_mm);
+  return std::abs(w - n) <= kWideAlone * scale_.clamp_mm ? w : n + SoftClamp(w - n, scale_.clamp_mm).value;
+}
+
+double FeltSurface::lowestSample(double x_mm, double y_mm) const RELIEVO_RT {
+  const HeightField& now = slots_.window->frames[present_].field;
+  const HeightField& next = slots_.window->frames[next_].field;
+  const double u = now.grid().u(x_mm) + 0.5, v = now.grid().v(y_mm) + 0.5;
+  if (!(u >= 0 && u < cols_ && v >= 0 && v < rows_)) return -depth_mm_;
+  const int c = static_cast<int>(u), r = static_cast<int>(v);
+  const double here = now.heightMm(c, r), there = next.heightMm(c, r);
+  return std::isnan(here) || std::isnan(there) ? -depth_mm_ : std::min(here, there);
+}
+
+// Looks again for every frame, and when the finger has gone on so far that the edge may be another one; not too often
+// for a finger that hurries.
+void FeltSurface::followEdge(const SurfaceWindow& window, MediaTime next, const FrameMoment& moment, double x_mm,
+                             double y_mm) RELIEVO_RT {
+  constexpr double kNearMm = 1.5;
+  constexpr Duration kNotSooner = std::chrono::milliseconds(4);
+  const TimedSurface& from = window.frames[static_cast<std::size_t>(moment.present)];
+  const glm::dvec2 place(x_mm, y_mm), moved = place - edge_place_mm_;
+  if (from.time == edge_from_) {
+    const bool near = std::max(std::abs(moved.x), std::abs(moved.y)) < kNearMm;
+    if (near || std::chrono::abs(next - edge_looked_) < kNotSooner) return;
+  }
+  if (moment.present >= moment.last && moment.present + 1 >= window.count) {
+    edge_way_mm_ = glm::dvec2(0);  // the next frame is not there yet
+    return;
+  }
+  edge_looked_ = next;
+  edge_from_ = from.time;
+  edge_place_mm_ = place;
+  edge_way_mm_ = glm::dvec2(0);
+  if (scale_.narrow_time == TimeLaw::Hold || moment.present >= moment.last) return;
+  const TimedSurface& to = window.frames[static_cast<std::size_t>(moment.present) + 1];
+  if (!to.repeats) edge_way_mm_ = edgeMotion(from.field, to.field, x_mm, y_mm);
+}
+
+RELIEVO_TICK_CODE FeltSurface::Weighed FeltSurface::weighedAt(const SurfaceWindow& window,
+                                                              const FrameMoment& moment) RELIEVO_RT {
+  const auto time = [&](int frame) RELIEVO_RT {
+    return window.frames[static_cast<std::size_t>(std::clamp(frame, moment.first, moment.last))].time;
+  };
+  return {time(moment.present - 2), time(moment.present), time(moment.present + 3)};
+}
+
+void FeltSurface::prepare(const SurfaceWindow& window, MediaTime next, double x_mm, double y_mm) RELIEVO_RT {
+  constexpr Duration kStep = kPreparedWithin;
+  const FrameMoment moment(window, next), later(window, next + kStep);
+  prepared_ = true;
+  prepared_for_ = next;
+  prepared_on_ = weighedAt(window, moment);
+  if (two_levels_) followEdge(window, next, moment, x_mm, y_mm);
+  // Where a frame begins in between, the later moment tells nothing about how the surface goes on.
+  const FrameMoment& comparable = later.present == moment.present ? later : moment;
+  narrow_.prepare(slots_, x_mm, y_mm, moment, comparable, toSeconds(kStep));
+  if (two_levels_) wide_.prepare(slots_, x_mm, y_mm, moment, comparable, toSeconds(kStep));
+}
+
+void FeltSurface::prefetch() const RELIEVO_RT {
+  relievo::prefetch(&scale_, &narrow_);
+  narrow_.prefetch();
+  wide_.prefetch();
+  relievo::prefetch(&two_levels_, this + 1);
+}
+
+}  // namespace relievo

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: Apache-2.0
+// Inside and outside, contact and release, and what happens at a cut.
+#include "app/haptics/method/relievo_method.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include "platform/prefetch.h"
+
+namespace relievo {
+namespace {
+
+constexpr int kMostPasses = 4;
+// 128 samples half a pitch apart: 28 mm, a finger that comes back from a gap of 5 ticks at 5 m/s.
+constexpr int kMostSamples = 128;
+constexpr int kBisections = 6;
+constexpr Duration kLongestStep = std::chrono::milliseconds(10);
+
+bool isFinite(const glm::dvec3& p) RELIEVO_RT {
+  constexpr double kFar = 1e6;  // beyond it a place is a reading gone wrong, and an index out of range
+  return std::abs(p.x) < kFar && std::abs(p.y) < kFar && std::abs(p.z) < kFar;
+}
+
+// How much the surface itself has risen from one contact to the next one.
+double riseBetween(const Contact& from, const Contact& to) RELIEVO_RT {
+  const double dx = to.x_mm - from.x_mm, dy = to.y_mm - from.y_mm;
+  return to.surface.z - from.surface.z -
+         0.5 * ((from.surface.zx + to.surface.zx) * dx + (from.surface.zy + to.surface.zy) * dy);
+}
+
+}  // namespace
+
+RELIEVO_TICK_CODE glm::dvec3 RelievoMethod::proxy() const RELIEVO_RT {
+  return {contact_.x_mm, contact_.y_mm, contact_.surface.z - lowered_mm_};
+}
+
+RELIEVO_TICK_CODE bool RelievoMethod::inside(const glm::dvec3& place_mm) RELIEVO_RT {
+  return place_mm.z < surface_.height(place_mm.x, place_mm.y) - lowered_mm_;
+}
+
+double RelievoMethod::depthMm() RELIEVO_RT {
+  return had_surface_ ? surface_.height(hip_mm_.x, hip_mm_.y) - lowered_mm_ - hip_mm_.z : 0;
+}
+
+RELIEVO_TICK_CODE Touch RelievoMethod::update(const glm::dvec3& hip_mm, const SurfaceWindow& window,
+                                              MediaTime now) RELIEVO_RT {
+  Touch touch{.proxy_mm = hip_mm};
+  if (!surface_.moment(window, now)) {
+    had_surface_ = false;  // a surface that comes back is felt as it was before: `force_n_` stays
+    return touch;
+  }
+  if (!isFinite(hip_mm)) return touch;  // a tick left out: the next one goes on from the last place
+  const std::uint32_t shot = surface_.shot();
+  const bool other_scene = !had_surface_ || window.epoch != epoch_ || shot != shot_;
+  had_surface_ = true;
+  epoch_ = window.epoch;
+  shot_ = shot;
+
+  const Contact before = contact_;
+  const bool continues = state_ == State::Contact && !other_scene;
+  if (state_ == State::Unknown) {
+    lowered_mm_ = 0;
+    state_ = inside(hip_mm) ? State::Buried : State::Free;
+  } else if (other_scene && state_ != State::Buried) {
+    enterScene(hip_mm);
+  } else if (state_ == State::Buried) {
+    if (!inside(hip_mm)) state_ = State::Free;
+  } else if (state_ == State::Contact) {
+    // The finger moves against a surface that rises as it did in the tick before: the guess saves a look at the surface
+    // where that is fast.
+    const glm::dvec3 moved = hip_mm - hip_mm_ - glm::dvec3(0, 0, rise_mm_);
+    const glm::dvec2 step = predictedStep(contact_, hip_mm_, moved, lowered_mm_);
+    contact_.x_mm += step.x;
+    contact_.y_mm += step.y;
+    slide(hip_mm, SlideUntil::MuchRead);
+    // A long jump that came out further away than staying would have been has left the finger's side of a ridge.
+    if (glm::dot(step, step) > 4 * surface_.sampleMm() * surface_.sampleMm()) {
+      const glm::dvec3 stayed(before.x_mm, before.y_mm, before.surface.z - lowered_mm_);
+      if (glm::distance(proxy(), hip_mm) > glm::distance(stayed, hip_mm) + surface_.sampleMm()) {
+        contact_ = before;
+        slide(hip_mm, SlideUntil::MuchRead);
+      }
+    }
+    if (sweptAway(hip_mm)) {
+      contact_.x_mm = hip_mm.x;
+      contact_.y_mm = hip_mm.y;
+      slide(hip_mm, SlideUntil::MuchRead);
+    }
+    follow(proxy(), hip_mm);
+  } else {
+    follow(hip_mm_, hip_mm);
+  }
+
+  if (state_ == State::Contact) {
+    rub(hip_mm);
+    touch.contact = true;
+    touch.proxy_mm = proxy();
+    touch.force_n = config_.stiffness_n_per_mm * (touch.proxy_mm - hip_mm);
+  }
+  rubbing_ = rubbing_ && touch.contact;
+  if (config_.jump_threshold_n > 0 && glm::distance(touch.force_n, force_n_) > config_.jump_threshold_n) {
+    touch = Touch{.proxy_mm = hip_mm};
+    state_ = State::Buried;
+  }
+  force_n_ = touch.force_n;
+  if (lowered_mm_ > 0) settleLowering(hip_mm);
+  const bool sliding = state_ == State::Contact;
+  rise_mm_ = sliding && continues ? riseBetween(before, contact_) : 0;
+  const glm::dvec2 here = sliding ? glm::dvec2(contact_.x_mm, contact_.y_mm) : glm::dvec2(hip_mm.x, hip_mm.y);
+  const glm::dvec2 last = sliding && continues ? glm::dvec2(before.x_mm, before.y_mm)
+                          : sliding            ? here
+                                               : glm::dvec2(hip_mm_.x, hip_mm_.y);
+  ahead_mm_ = 2.0 * here - last;
+  hip_mm_ = hip_mm;
+  return touch;
+}
+
+void RelievoMethod::upkeep(const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
+  if (!had_surface_) return;
+  if (surface_.hasReadMuch()) {  // the next tick finds that in the caches
+    now_ = now;
+    return;
+  }
+  if (offTheEdge()) {
+    state_ = State::Free;
+    rubbing_ = false;
+    force_n_ = {};
+    ahead_mm_ = {hip_mm_.x, hip_mm_.y};
+  }
+  // The next tick comes as long after this one as this one after the last; a pause stands still.
+  const Duration step = std::clamp(now - now_, Duration(0), kLongestStep);
+  surface_.prepare(window, now + step, ahead_mm_.x, ahead_mm_.y);
+  now_ = now;
+}
+
+void RelievoMethod::prefetch(const SurfaceWindow& window) const RELIEVO_RT {
+  prefetchTickCode();
+  relievo::prefetch(&config_, &surface_);
+  surface_.prefetch();
+  relievo::prefetch(&state_, this + 1);
+  relievo::prefetch(&window, &window + 1);
+}
+
+// The finger stays where it is and the scene is another one.
+void RelievoMethod::enterScene(const glm::dvec3& hip_mm) RELIEVO_RT {
+  const double depth = surface_.height(hip_mm.x, hip_mm.y) - hip_mm.z;
+  force_before_cut_n_ = glm::length(force_n_);
+  rubbing_ = false;  // where friction held is a place of the old scene
+  lowered_mm_ = std::max(depth - force_before_cut_n_ / config_.stiffness_n_per_mm, 0.0);
+  if (depth <= 0) {
+    state_ = State::Free;
+    return;
+  }
+  contact_.x_mm = hip_mm.x;
+  contact_.y_mm = hip_mm.y;
+  state_ = State::Contact;
+  slide(hip_mm, SlideUntil::MuchRead);
+  follow(proxy(), hip_mm);
+}
+
+// A wall that has gone over the finger and on takes the proxy with it, although the way out is by now much shorter
+// elsewhere: straight up. Only where the scene did it: a finger that pushes itself deep into a wall stays at that wall,
+// also when it rests there or is read in every other tick only.
+RELIEVO_TICK_CODE bool RelievoMethod::sweptAway(const glm::dvec3& hip_mm) RELIEVO_RT {
+  constexpr double kFurtherMm = 3, kCarriedMm = 0.5;
+  const glm::dvec2 place(contact_.x_mm, contact_.y_mm);
+  const double away = glm::distance(proxy(), hip_mm);
+  const double carried = glm::distance(place, own_place_mm_);
+  if (away < 2 * kFurtherMm || carried <= 2 * glm::distance(hip_mm, own_hip_mm_)) {
+    own_place_mm_ = place;
+    own_hip_mm_ = hip_mm;
+    return false;
+  }
+  if (carried < kCarriedMm) return false;
+  const double up = surface_.height(hip_mm.x, hip_mm.y) - lowered_mm_ - hip_mm.z;
+  return up > 0 && away > up + kFurtherMm;
+}
+
+// A finger pushed out through a wall is off the edge above it, and what still holds its proxy up there may be a hollow
+// of noise. It is no ridge if nothing on the way to the finger rises above the proxy by more than noise is let through.
+bool RelievoMethod::offTheEdge() RELIEVO_RT {
+  if (state_ != State::Contact || surface_.lowestSample(hip_mm_.x, hip_mm_.y) - lowered_mm_ >= hip_mm_.z) return false;
+  const glm::dvec2 from(contact_.x_mm, contact_.y_mm);
+  const glm::dvec2 way(hip_mm_.x - from.x, hip_mm_.y - from.y);
+  const double length = glm::length(way);
+  const int steps = static_cast<int>(std::min<double>(length / surface_.sampleMm(), kMostSamples + 1));
+  if (steps == 0 || steps > kMostSamples || inside(hip_mm_)) return false;
+  const double most = contact_.surface.z + config_.scale.clamp_mm;
+  for (int k = 1; k <= steps; ++k) {
+    const glm::dvec2 place = from + way * (static_cast<double>(k) / (steps + 1));
+    if (surface_.height(place.x, place.y) > most) return false;
+  }
+  return true;
+}
+
+RELIEVO_TICK_CODE void RelievoMethod::slide(const glm::dvec3& hip_mm, SlideUntil until) RELIEVO_RT {
+  contact_ = closestPoint(surface_, contact_.x_mm, contact_.y_mm, hip_mm, lowered_mm_, until);
+}
+
+// From a place that is on the surface or outside to the finger: in contact if the surface is between them.
+RELIEVO_TICK_CODE void RelievoMethod::follow(glm::dvec3 from_mm, const glm::dvec3& hip_mm) RELIEVO_RT {
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    if (state_ == State::Contact) {
+      if (proxy().z > hip_mm.z) return;
+      state_ = State::Free;
+      from_mm = proxy();
+    }
+    if (!enterOnPath(from_mm, hip_mm)) return;
+    state_ = State::Contact;
+    slide(hip_mm, SlideUntil::Settled);
+  }
+  if (proxy().z > hip_mm.z) return;
+  // Still on its way after four times in and out: it is what it is at its end.
+  state_ = State::Free;
+  if (!inside(hip_mm)) return;
+  contact_ = {hip_mm.x, hip_mm.y, surface_.at(hip_mm.x, hip_mm.y)};
+  state_ = State::Contact;
+}
+
+// Sets `contact_` to where the path first goes in.
+bool RelievoMethod::enterOnPath(const glm::dvec3& from_mm, const glm::dvec3& hip_mm) RELIEVO_RT {
+  // The splines stay below the volume's front but for the fitted one's overshoot, of less than a half.
+  if (std::min(from_mm.z, hip_mm.z) > 1.5 * surface_.volumeDepthMm()) return false;
+  const glm::dvec3 way = hip_mm - from_mm;
+  const double length = std::sqrt(way.x * way.x + way.y * way.y);
+  const int samples = std::clamp(static_cast<int>(std::ceil(length / surface_.sampleMm())), 1, kMostSamples);
+  constexpr double kRoundingMm = 1e-6;  // a proxy lies on the surface but for rounding
+  double outside = 0;
+  for (int k = 0; k <= samples; ++k) {
+    double in = static_cast<double>(k) / samples;
+    const double slack = k == 0 ? kRoundingMm : 0;
+    if (!inside(from_mm + way * in + glm::dvec3(0, 0, slack))) {
+      outside = in;
+      continue;
+    }
+    for (int i = 0; i < kBisections && k > 0; ++i) {
+      const double middle = 0.5 * (outside + in);
+      (inside(from_mm + way * middle) ? in : outside) = middle;
+    }
+    const glm::dvec3 entry = from_mm + way * in;
+    contact_ = {entry.x, entry.y, surface_.at(entry.x, entry.y)};
+    return true;
+  }
+  return false;
+}
+
+// Stays where it was while the finger pulls less than static friction holds, and then slides, held back by dynamic
+// friction, until that holds it (Coulomb; the cone around the normal where the proxy was).
+void RelievoMethod::rub(const glm::dvec3& hip_mm) RELIEVO_RT {
+  if (config_.friction.static_coefficient <= 0) return;
+  if (!rubbing_) {
+    rubbing_ = true;
+    sliding_ = false;
+    stuck_ = contact_;
+    return;
+  }
+  const SurfacePoint s = surface_.at(stuck_.x_mm, stuck_.y_mm);
+  const glm::dvec3 place(stuck_.x_mm, stuck_.y_mm, s.z - lowered_mm_);
+  const glm::dvec3 normal = glm::normalize(glm::dvec3(-s.zx, -s.zy, 1));
+  const glm::dvec3 pull = hip_mm - place;
+  const double pressed = -glm::dot(pull, normal);
+  const double aside = glm::length(pull + pressed * normal);
+  const Friction& friction = config_.friction;
+  const double hold = (sliding_ ? friction.dynamic_coefficient : friction.static_coefficient) * pressed;
+  sliding_ = aside > hold;
+  // Of the way to the closest point; dynamic friction holds what is left.
+  const double share = sliding_ ? 1 - std::clamp(friction.dynamic_coefficient * pressed / aside, 0.0, 1.0) : 0;
+  contact_.x_mm = stuck_.x_mm + share * (contact_.x_mm - stuck_.x_mm);
+  contact_.y_mm = stuck_.y_mm + share * (contact_.y_mm - stuck_.y_mm);
+  contact_.surface = surface_.at(contact_.x_mm, contact_.y_mm);
+  stuck_ = contact_;
+}
+
+void RelievoMethod::settleLowering(const glm::dvec3& hip_mm) RELIEVO_RT {
+  if (state_ == State::Contact) {
+    const double rise = config_.rise_mm_per_s * config_.tick_s;
+    const double after = glm::length(force_n_) + config_.stiffness_n_per_mm * rise;
+    if (after <= force_before_cut_n_) lowered_mm_ = std::max(lowered_mm_ - rise, 0.0);
+  } else if (state_ == State::Free) {
+    // The finger is above the lowered surface: that much may come back under it unfelt.
+    lowered_mm_ = std::max(surface_.height(hip_mm.x, hip_mm.y) - hip_mm.z, 0.0);
+  }
+}
+
+}  // namespace relievo

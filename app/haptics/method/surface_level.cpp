@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tensor-product B-splines on 4 x 4 control points.
+#include "app/haptics/method/surface_level.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "platform/prefetch.h"
+
+namespace relievo {
+namespace {
+
+// Basis functions of four control points and their first and second derivatives, in units of the pitch: a polynomial
+// in the place within the cell for each control point.
+Float4 basis(const std::array<Float4, 4>& c, float t) RELIEVO_RT {
+  return ((c[3] * t + c[2]) * t + c[1]) * t + c[0];
+}
+struct Basis {
+  Float4 value, slope, bend;
+  Basis(const std::array<Float4, 4>& c, float t) RELIEVO_RT : value(basis(c, t)),
+                                                              slope((3 * c[3] * t + 2 * c[2]) * t + c[1]),
+                                                              bend(6 * c[3] * t + 2 * c[2]) {}
+};
+// Place 0 .. 1 from the second of the four.
+constexpr std::array<Float4, 4> kCubic{Float4{1.F / 6, 4.F / 6, 1.F / 6, 0}, Float4{-0.5F, 0, 0.5F, 0},
+                                       Float4{0.5F, -1, 0.5F, 0}, Float4{-1.F / 6, 0.5F, -0.5F, 1.F / 6}};
+// Three points, the fourth has no weight; place -1/2 .. 1/2 from the second.
+constexpr std::array<Float4, 4> kQuadratic{Float4{0.125F, 0.75F, 0.125F, 0}, Float4{-0.5F, 0, 0.5F, 0},
+                                           Float4{0.5F, -1, 0.5F, 0}, Float4{0, 0, 0, 0}};
+
+}  // namespace
+
+SurfaceLevel::SurfaceLevel(double sigma_mm, int most_samples, SpaceLaw space, TimeLaw time) noexcept
+    : grid_(sigma_mm / kSigmaPerPitch, most_samples), time_(time), cubic_(space != SpaceLaw::Quadratic) {}
+
+void SurfaceLevel::weigh(const FrameSlots& slots, const FrameMoment& moment,
+                         ControlGrid::Frames& frames) const RELIEVO_RT {
+  const FrameWeights weights = frameWeights(moment, time_);
+  frames.window = slots.window;
+  frames.frame_of_slot = slots.frame;
+  frames.weight.fill(0);
+  frames.wanted = 0;
+  for (std::size_t f = 0; f < static_cast<std::size_t>(slots.window->count); ++f) {
+    if (weights[f] == 0) continue;
+    frames.weight[slots.of_frame[f]] += weights[f];
+    frames.wanted |= 1U << slots.of_frame[f];
+  }
+}
+
+RELIEVO_TICK_CODE void SurfaceLevel::begin(const FrameSlots& slots, const FrameMoment& moment,
+                                           std::optional<double> since_prepared_s) RELIEVO_RT {
+  slots_ = &slots;
+  moment_ = moment;
+  weighed_ = patch_.valid = frame_patch_[0].valid = frame_patch_[1].valid = false;
+  since_prepared_s_.reset();
+  if (since_prepared_s) since_prepared_s_ = static_cast<float>(*since_prepared_s);
+}
+
+RELIEVO_TICK_CODE SurfaceLevel::Cell SurfaceLevel::cellOf(double x_mm, double y_mm) const RELIEVO_RT {
+  // Far outside the picture every place is alike, and a number too large for a grid index would be undefined.
+  constexpr double kFar = 1e6;
+  const double shift = cubic_ ? 0 : 0.5;
+  const double a = grid_.a(std::min(std::max(x_mm, -kFar), kFar)), b = grid_.b(std::min(std::max(y_mm, -kFar), kFar));
+  const double fa = std::floor(a + shift), fb = std::floor(b + shift);
+  return {static_cast<int>(fa) - 1, static_cast<int>(fb) - 1, static_cast<float>(a - fa), static_cast<float>(b - fb)};
+}
+
+RELIEVO_TICK_CODE const Patch& SurfaceLevel::patchAt(const Cell& cell) RELIEVO_RT {
+  if (patch_.isOf(cell)) return patch_.points;
+  if (since_prepared_s_ && cell.i == prepared_i_ && cell.j == prepared_j_) {
+    for (std::size_t j = 0; j < 4; ++j) patch_.points[j] = prepared_[j] + prepared_rate_[j] * *since_prepared_s_;
+  } else {
+    if (!weighed_) weigh(*slots_, moment_, frames_);
+    weighed_ = true;
+    grid_.patch(cell.i, cell.j, frames_, patch_.points);
+  }
+  patch_.i = cell.i;
+  patch_.j = cell.j;
+  patch_.valid = true;
+  return patch_.points;
+}
+
+SurfacePoint SurfaceLevel::atFrame(std::size_t which, double x_mm, double y_mm) RELIEVO_RT {
+  const Cell cell = cellOf(x_mm, y_mm);
+  CellPatch& patch = frame_patch_[which];
+  if (!patch.isOf(cell)) {
+    const int frame = std::min(moment_.present + static_cast<int>(which), moment_.last);
+    const std::uint8_t slot = slots_->of_frame[static_cast<std::size_t>(frame)];
+    ControlGrid::Frames one{.window = slots_->window, .frame_of_slot = slots_->frame, .wanted = 1U << slot};
+    one.weight[slot] = 1;
+    grid_.patch(cell.i, cell.j, one, patch.points);
+    patch.i = cell.i;
+    patch.j = cell.j;
+    patch.valid = true;
+  }
+  return pointOn(patch.points, cell);
+}
+
+RELIEVO_TICK_CODE double SurfaceLevel::height(double x_mm, double y_mm) RELIEVO_RT {
+  const Cell cell = cellOf(x_mm, y_mm);
+  const Patch& p = patchAt(cell);
+  const std::array<Float4, 4>& polynomials = cubic_ ? kCubic : kQuadratic;
+  const Float4 h = basis(polynomials, cell.a), v = basis(polynomials, cell.b);
+  const Float4 row = (p[0] * v[0] + p[1] * v[1] + p[2] * v[2] + p[3] * v[3]) * h;
+  return static_cast<double>((row[0] + row[1]) + (row[2] + row[3]));
+}
+
+RELIEVO_TICK_CODE SurfacePoint SurfaceLevel::at(double x_mm, double y_mm) RELIEVO_RT {
+  const Cell cell = cellOf(x_mm, y_mm);
+  return pointOn(patchAt(cell), cell);
+}
+
+RELIEVO_TICK_CODE SurfacePoint SurfaceLevel::pointOn(const Patch& p, const Cell& cell) const RELIEVO_RT {
+  const std::array<Float4, 4>& polynomials = cubic_ ? kCubic : kQuadratic;
+  const Basis h(polynomials, cell.a), v(polynomials, cell.b);
+  const Float4 row = p[0] * v.value[0] + p[1] * v.value[1] + p[2] * v.value[2] + p[3] * v.value[3];
+  const Float4 row_slope = p[0] * v.slope[0] + p[1] * v.slope[1] + p[2] * v.slope[2] + p[3] * v.slope[3];
+  const Float4 row_bend = p[0] * v.bend[0] + p[1] * v.bend[1] + p[2] * v.bend[2] + p[3] * v.bend[3];
+  const Float4 low = sums(row * h.value, row * h.slope, row_slope * h.value, row * h.bend);
+  const Float4 high = sums(row_slope * h.slope, row_bend * h.value, Float4{}, Float4{});
+  const double da = grid_.aPerMm(), db = grid_.bPerMm();
+  const auto d = [](float f) { return static_cast<double>(f); };
+  return {d(low[0]), d(low[1]) * da, d(low[2]) * db, d(low[3]) * da * da, d(high[0]) * da * db, d(high[1]) * db * db};
+}
+
+void SurfaceLevel::prepare(const FrameSlots& slots, double x_mm, double y_mm, const FrameMoment& next,
+                           const FrameMoment& later, double step_s) RELIEVO_RT {
+  const Cell cell = cellOf(x_mm, y_mm);
+  prepared_i_ = cell.i;
+  prepared_j_ = cell.j;
+  weigh(slots, later, frames_);
+  grid_.patch(cell.i, cell.j, frames_, prepared_rate_);
+  weigh(slots, next, frames_);
+  grid_.patch(cell.i, cell.j, frames_, prepared_);
+  // A point at which a hole opens or closes in between has no rate: it jumps.
+  const float pit = grid_.pitMm();
+  for (std::size_t j = 0; j < 4; ++j) {
+    for (int i = 0; i < 4; ++i) {
+      if ((prepared_rate_[j][i] == pit) != (prepared_[j][i] == pit)) prepared_rate_[j][i] = prepared_[j][i];
+    }
+    prepared_rate_[j] = (prepared_rate_[j] - prepared_[j]) / static_cast<float>(step_s);
+  }
+}
+
+void SurfaceLevel::prefetch() const RELIEVO_RT {
+  grid_.prefetch();
+  relievo::prefetch(&time_, this + 1);
+}
+
+}  // namespace relievo

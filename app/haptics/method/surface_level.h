@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// A smooth surface of one width: B-splines in space on the control points of a grid, weighed over the frames in time.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "app/depth_window/parts.h"
+#include "app/haptics/method/control_grid.h"
+#include "app/haptics/method/frame_weights.h"
+#include "platform/realtime.h"
+
+namespace relievo {
+
+// Height and its derivatives in space at one place and moment; mm, 1, 1/mm.
+struct SurfacePoint {
+  double z = 0;
+  double zx = 0, zy = 0;
+  double zxx = 0, zxy = 0, zyy = 0;
+};
+
+// Which frame of the window lies in which slot of the caches.
+struct FrameSlots {
+  const SurfaceWindow* window = nullptr;
+  std::array<std::uint8_t, ControlGrid::kFrames> of_frame{};
+  std::array<std::uint8_t, ControlGrid::kFrames> frame{};
+  std::uint32_t in_use = 0;  // bit per slot
+};
+
+// The standard deviation of a level's smoothing, in pitches of its control points: a box of one pitch under a cubic
+// B-spline (variances 1/12 and 4/12 pitch^2). Under a quadratic one it is 0.577.
+inline constexpr double kSigmaPerPitch = 0.645497;  // sqrt(5/12)
+
+// The surface of one smoothing: a view of one moment at a time, which is prepared for in the tick before.
+class SurfaceLevel {
+ public:
+  SurfaceLevel(double sigma_mm, int most_samples, SpaceLaw space, TimeLaw time) noexcept;
+
+  [[nodiscard]] ControlGrid& grid() RELIEVO_RT { return grid_; }
+  [[nodiscard]] const ControlGrid& grid() const RELIEVO_RT { return grid_; }
+
+  // A new moment. `since_prepared_s`: how long after the moment that `prepare` was given it is; nothing: what was
+  // prepared does not hold. `slots` must live until the next `begin`.
+  void begin(const FrameSlots& slots, const FrameMoment& moment, std::optional<double> since_prepared_s) RELIEVO_RT;
+  [[nodiscard]] SurfacePoint at(double x_mm, double y_mm) RELIEVO_RT;
+  [[nodiscard]] double height(double x_mm, double y_mm) RELIEVO_RT;
+  // The same on one frame alone: the present one (0) or the next (1).
+  [[nodiscard]] SurfacePoint atFrame(std::size_t which, double x_mm, double y_mm) RELIEVO_RT;
+
+  // Ahead of the moment `next`, for a place: reads the points around it and weighs them out for `next` and for `later`,
+  // which comes `step_s` after it.
+  void prepare(const FrameSlots& slots, double x_mm, double y_mm, const FrameMoment& next, const FrameMoment& later,
+               double step_s) RELIEVO_RT;
+  // All but the control points, which are the most.
+  void prefetch() const RELIEVO_RT;
+
+ private:
+  struct Cell {
+    int i = 0, j = 0;    // of the first of the 4 x 4 control points
+    float a = 0, b = 0;  // place within the cell
+  };
+  [[nodiscard]] Cell cellOf(double x_mm, double y_mm) const RELIEVO_RT;
+  // The control points around a cell, and which cell that is.
+  struct CellPatch {
+    Patch points{};
+    int i = 0, j = 0;
+    bool valid = false;  // at this moment
+    [[nodiscard]] bool isOf(const Cell& cell) const RELIEVO_RT { return valid && cell.i == i && cell.j == j; }
+  };
+  [[nodiscard]] const Patch& patchAt(const Cell& cell) RELIEVO_RT;
+  [[nodiscard]] SurfacePoint pointOn(const Patch& patch, const Cell& cell) const RELIEVO_RT;
+  void weigh(const FrameSlots& slots, const FrameMoment& moment, ControlGrid::Frames& frames) const RELIEVO_RT;
+
+  ControlGrid grid_;
+  TimeLaw time_;
+  bool cubic_;
+
+  const FrameSlots* slots_ = nullptr;
+  FrameMoment moment_;
+  ControlGrid::Frames frames_;
+  bool weighed_ = false;  // `frames_` for `moment_`: done when it is first needed
+  CellPatch patch_;
+  std::array<CellPatch, 2> frame_patch_;  // of the present frame and the next alone
+
+  Patch prepared_{}, prepared_rate_{};  // mm, mm/s
+  int prepared_i_ = 0, prepared_j_ = 0;
+  std::optional<float> since_prepared_s_;
+};
+
+}  // namespace relievo

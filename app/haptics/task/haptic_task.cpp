@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// One tick: read the device, touch the surface, limit the force, write it; then everything that can wait.
+#include "app/haptics/task/haptic_task.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+namespace relievo {
+namespace {
+
+// How far past the newest frame the film may run before the feed counts as stale: the last period and half of it again,
+// but not so short that one late frame of a slow film is taken for a loss.
+constexpr Duration kLeastGrace = std::chrono::milliseconds(50);
+
+bool isStale(const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
+  if (window.count == 0 || window.ended || window.clock.rate == 0) return false;
+  const auto newest = static_cast<std::size_t>(window.count - 1);
+  Duration grace = kLeastGrace;
+  if (newest > 0) grace = std::max(grace, 3 * (window.frames[newest].time - window.frames[newest - 1].time) / 2);
+  return now > window.frames[newest].time + grace;
+}
+
+void raise(std::atomic<double>& highest, double value) RELIEVO_RT {
+  if (value > highest.load(std::memory_order_relaxed)) highest.store(value, std::memory_order_relaxed);
+}
+
+void bump(std::atomic<std::uint64_t>& count) RELIEVO_RT {
+  count.store(count.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+}
+
+}  // namespace
+
+const char* name(HapticFault::Kind kind) noexcept {
+  switch (kind) {
+    case HapticFault::Kind::DeviceLost:
+      return "haptic device lost";
+    case HapticFault::Kind::DeviceError:
+      return "haptic exchange failed";
+    case HapticFault::Kind::FeedStale:
+      return "depth late";
+    case HapticFault::Kind::FeedRecovered:
+      return "depth back";
+  }
+  return "";
+}
+
+HapticTask::HapticTask(HapticDevice& device, TouchMethod& method, const Clock& clock, const DisplayVolume& volume,
+                       const SafetyLimits& limits, double stiffness_n_per_mm) noexcept
+    : device_(device), method_(&method), clock_(clock), mapping_(device.capabilities(), volume) {
+  changeScene(method, volume, limits, stiffness_n_per_mm);
+}
+
+void HapticTask::changeScene(TouchMethod& method, const DisplayVolume& volume, const SafetyLimits& limits,
+                             double stiffness_n_per_mm) noexcept {
+  method_ = &method;
+  mapping_ = WorkspaceMapping(device_.capabilities(), volume);
+  SafetyLimits within_device = limits;
+  within_device.force_n = std::min(limits.force_n, device_.capabilities().peak_force_n);
+  scenes_before_mj_ += safety_.books().sceneMj();
+  artefacts_before_mj_ += safety_.books().artefactMj();
+  safety_ = SafetyFilter(within_device, stiffness_n_per_mm * mapping_.scale());
+  lost_ = false;
+  primed_ = false;
+  stale_ = false;
+}
+
+LoopControl HapticTask::loop(const Cycle& cycle) RELIEVO_RT {
+  bump(counters_.ticks);
+  noteLate(cycle);
+  FingerState state;
+  state.time = cycle.woken;
+  if (lost_) {
+    publish(state);
+    return LoopControl::Continue;
+  }
+  method_->prefetch(windows_.front());
+  const auto sample = device_.read();
+  if (!sample) {
+    failed(sample.error(), cycle.woken);
+    publish(state);
+    return LoopControl::Continue;
+  }
+
+  const MonotonicTime started = clock_.now();
+  windows_.refresh();
+  const SurfaceWindow& window = windows_.front();
+  state.device_present = true;
+  state.device_mm = sample->position_mm;
+  state.buttons = sample->buttons;
+  const WorkspaceMapping::Place place = mapping_.place(*sample);
+  state.hip_mm = place.hip_mm;
+  state.media_time = window.clock.at(cycle.woken);
+  const Touch touch = method_->update(state.hip_mm, window, state.media_time);
+  noteFeed(isStale(window, state.media_time), cycle.woken);
+  const double elapsed = primed_ ? toSeconds(cycle.woken - last_woken_) : 0.0;
+  // Limits and energies are the hand's, in the device's frame.
+  const bool felt = !stale_ && !place.clutched;
+  const glm::dvec3 wanted = place.edge_force_n + (felt ? touch.force_n : glm::dvec3(0));
+  state.force_n = safety_.apply(wanted, sample->position_mm, elapsed);
+  state.proxy_mm = touch.proxy_mm;
+  state.contact = touch.contact;
+  counters_.update.add(clock_.now() - started);
+
+  const auto written = device_.write(state.force_n);
+  if (!written) failed(written.error(), cycle.woken);
+  primed_ = true;
+  last_woken_ = cycle.woken;
+
+  method_->upkeep(window, state.media_time);
+  count(state);
+  publish(state);
+  return LoopControl::Continue;
+}
+
+void HapticTask::noteLate(const Cycle& cycle) RELIEVO_RT {
+  if (cycle.index > next_index_ && next_index_ > 0) {
+    log_.push({.level = LogLevel::Debug,
+               .text = "ticks left out, then one woken late by so many us:",
+               .a = static_cast<double>(cycle.index - next_index_),
+               .b = 1e6 * toSeconds(cycle.woken - cycle.scheduled)});
+  }
+  next_index_ = cycle.index + 1;
+}
+
+// Zero force is the device's own on Lost (see HapticDevice); here the task forgets what it held, so that a device that
+// comes back is faded in from zero.
+void HapticTask::failed(const Error& error, MonotonicTime time) RELIEVO_RT {
+  const bool lost = error.code == ErrorCode::Lost;
+  log_.push({.level = lost ? LogLevel::Info : LogLevel::Debug, .text = error.message});
+  report(lost ? HapticFault::Kind::DeviceLost : HapticFault::Kind::DeviceError, time);
+  if (!lost) return;
+  lost_ = true;
+  primed_ = false;
+  safety_.reset();
+  method_->reset();
+}
+
+void HapticTask::noteFeed(bool stale, MonotonicTime time) RELIEVO_RT {
+  if (stale == stale_) return;
+  stale_ = stale;
+  report(stale ? HapticFault::Kind::FeedStale : HapticFault::Kind::FeedRecovered, time);
+}
+
+void HapticTask::count(const FingerState& state) RELIEVO_RT {
+  if (state.contact) bump(counters_.contact_ticks);
+  raise(counters_.max_force_n, glm::length(state.force_n));
+  raise(counters_.max_scene_slew_n_per_s, safety_.sceneSlew());
+  counters_.scene_energy_mj.store(scenes_before_mj_ + safety_.books().sceneMj(), std::memory_order_relaxed);
+  counters_.artefact_energy_mj.store(artefacts_before_mj_ + safety_.books().artefactMj(), std::memory_order_relaxed);
+}
+
+void HapticTask::publish(const FingerState& state) RELIEVO_RT {
+  finger_.back() = state;
+  finger_.publish();
+  static_cast<void>(ticks_.tryPush(state));  // nobody records, or the recorder is late: the newest tick is dropped
+}
+
+void HapticTask::report(HapticFault::Kind kind, MonotonicTime time) RELIEVO_RT {
+  static_cast<void>(faults_.tryPush({kind, time}));  // 64 faults that nobody has read tell enough
+}
+
+}  // namespace relievo

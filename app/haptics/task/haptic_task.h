@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// The real-time task: finger in, force out, once a tick. Pure but for the device that it is given.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "app/depth_window/surface_window.h"
+#include "app/haptics/method/method.h"
+#include "app/haptics/task/finger_state.h"
+#include "app/haptics/task/safety.h"
+#include "app/haptics/task/workspace_mapping.h"
+#include "app/scene/display_volume.h"
+#include "hal/haptic_device.h"
+#include "platform/cyclic_thread.h"
+#include "platform/log.h"
+#include "platform/spsc_ring.h"
+#include "platform/triple_buffer.h"
+
+namespace relievo {
+
+struct HapticFault {
+  enum class Kind : std::uint8_t {
+    DeviceLost,   // read or write answered Lost: force zero; the ticks leave the device alone until `resume`
+    DeviceError,  // one exchange failed: that tick is left out
+    FeedStale,    // no depth for the present moment: the force is faded
+    FeedRecovered,
+  };
+  Kind kind = Kind::DeviceError;
+  MonotonicTime time;
+};
+[[nodiscard]] const char* name(HapticFault::Kind kind) noexcept;
+
+// Written by the task, readable from any thread.
+struct HapticCounters {
+  std::atomic<std::uint64_t> ticks{0};
+  std::atomic<std::uint64_t> contact_ticks{0};
+  std::atomic<double> max_force_n{0};
+  std::atomic<double> max_scene_slew_n_per_s{0};
+  std::atomic<double> scene_energy_mj{0};     // given to the hand by the surface's own motion
+  std::atomic<double> artefact_energy_mj{0};  // given to the hand by sampling
+  Histogram update;                           // the method and the guards: from position to force
+};
+
+class HapticTask final : public CyclicTask {
+ public:
+  // All are borrowed and must outlive the task. `clock` is read for `counters().update` alone. `stiffness_n_per_mm` is
+  // the method's, of the scene; the device feels the mapping's scale times that.
+  HapticTask(HapticDevice& device, TouchMethod& method, const Clock& clock, const DisplayVolume& volume,
+             const SafetyLimits& limits, double stiffness_n_per_mm) noexcept;
+
+  LoopControl loop(const Cycle& cycle) RELIEVO_RT override;
+
+  // A lost device is back. While no tick runs; the force begins at zero.
+  void resume() noexcept { lost_ = false; }
+  // Another film: its volume, and a method of its own. While no tick runs; the force begins at zero.
+  void changeScene(TouchMethod& method, const DisplayVolume& volume, const SafetyLimits& limits,
+                   double stiffness_n_per_mm) noexcept;
+
+  // The feeder's side, one thread. Fill the whole window, then publish. What a window held before is released when it
+  // is filled again (see TripleBuffer).
+  [[nodiscard]] SurfaceWindow& windowToFill() noexcept { return windows_.back(); }
+  void publishWindow() noexcept { windows_.publish(); }
+
+  // The picture's side, one thread: the newest state, and whether it is newer than the last one taken.
+  [[nodiscard]] bool refreshFinger() noexcept { return finger_.refresh(); }
+  [[nodiscard]] const FingerState& finger() const noexcept { return finger_.front(); }
+
+  // The recorder's side, one thread: every tick in order; nothing when caught up. A reader that falls 4 s behind loses
+  // ticks, not time.
+  [[nodiscard]] std::optional<FingerState> nextTick() noexcept { return ticks_.tryPop(); }
+  [[nodiscard]] std::optional<HapticFault> nextFault() noexcept { return faults_.tryPop(); }
+
+  // The printer's side, one thread: what the task has had to say since, in the area "haptic".
+  void printLog() noexcept { log_.drain(); }
+
+  [[nodiscard]] const HapticCounters& counters() const noexcept { return counters_; }
+
+ private:
+  void noteLate(const Cycle& cycle) RELIEVO_RT;
+  void failed(const Error& error, MonotonicTime time) RELIEVO_RT;
+  void noteFeed(bool stale, MonotonicTime time) RELIEVO_RT;
+  void count(const FingerState& state) RELIEVO_RT;
+  void publish(const FingerState& state) RELIEVO_RT;
+  void report(HapticFault::Kind kind, MonotonicTime time) RELIEVO_RT;
+
+  HapticDevice& device_;
+  TouchMethod* method_;
+  const Clock& clock_;
+  WorkspaceMapping mapping_;
+  SafetyFilter safety_;
+  double scenes_before_mj_ = 0, artefacts_before_mj_ = 0;  // of the scenes before the present one
+  bool stale_ = false;
+  bool lost_ = false;
+  bool primed_ = false;  // there was a tick before this one
+  MonotonicTime last_woken_;
+  std::uint64_t next_index_ = 0;
+  TripleBuffer<SurfaceWindow> windows_;
+  TripleBuffer<FingerState> finger_;
+  SpscRing<FingerState, 4096> ticks_;
+  SpscRing<HapticFault, 64> faults_;
+  RingLog log_{"haptic"};
+  HapticCounters counters_;
+};
+
+}  // namespace relievo

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// The order of the limits: finite, magnitude, the rate at which the scene may act, the artefacts' energy.
+#include "app/haptics/task/safety.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace relievo {
+
+namespace {
+
+// From `from` towards `to`, by `most` at most.
+glm::dvec3 approach(const glm::dvec3& from, const glm::dvec3& to, double most) RELIEVO_RT {
+  const glm::dvec3 change = to - from;
+  const double wished = glm::length(change);
+  return wished > most ? from + change * (most / wished) : to;
+}
+
+}  // namespace
+
+void SafetyFilter::reset() RELIEVO_RT {
+  spring_n_ = sent_n_ = lean_n_ = glm::dvec3(0);
+  primed_ = false;
+  books_.reset();
+}
+
+glm::dvec3 SafetyFilter::apply(const glm::dvec3& wanted_n, const glm::dvec3& hip_mm, double elapsed_s) RELIEVO_RT {
+  glm::dvec3 target = wanted_n;
+  double size = glm::length(target);
+  if (!std::isfinite(size)) {
+    target = glm::dvec3(0);
+    size = 0;
+  }
+  if (size > limits_.force_n) target *= limits_.force_n / size;
+
+  glm::dvec3 moved = primed_ ? hip_mm - hip_mm_ : glm::dvec3(0);
+  if (!std::isfinite(glm::dot(moved, moved))) moved = glm::dvec3(0);
+
+  const double by_hand = stiffness_ * glm::length(moved);
+  const double elapsed = elapsed_s > 0 ? std::min(elapsed_s, 0.1) : 0.0;  // not a number: 0
+  const double allowed = by_hand + limits_.scene_slew_n_per_s * elapsed;
+  const glm::dvec3 spring = approach(spring_n_, target, allowed);
+  if (limits_.limit_energy) lean(spring, moved, elapsed);
+  glm::dvec3 sent = spring + lean_n_;
+  if (glm::length(sent) > limits_.force_n) sent *= limits_.force_n / glm::length(sent);
+  sent = approach(sent_n_, sent, allowed);
+
+  const double beyond_hand = std::max(glm::length(sent - sent_n_) - by_hand, 0.0);
+  scene_slew_ = elapsed > 0 ? beyond_hand / elapsed : 0.0;
+  spring_n_ = spring;
+  sent_n_ = sent;
+  if (std::isfinite(glm::dot(hip_mm, hip_mm))) {
+    primed_ = true;
+    hip_mm_ = hip_mm;
+    books_.tick(hip_mm, spring, target, sent, elapsed);
+  }
+  return sent;
+}
+
+// The way to come is taken to be like the last one: the same motion, the same change of the force.
+void SafetyFilter::lean(const glm::dvec3& spring_n, const glm::dvec3& moved_mm, double elapsed_s) RELIEVO_RT {
+  constexpr double kOverdue = 2.5;  // times the last way's time: positions may come in turns of one tick and two
+  since_moved_s_ += elapsed_s;
+  const double moved2 = glm::dot(moved_mm, moved_mm);
+  if (moved2 <= 0) {
+    if (since_moved_s_ > kOverdue * pace_s_) lean_n_ = glm::dvec3(0);
+    return;
+  }
+  pace_s_ = since_moved_s_ > EnergyBooks::kRestS ? elapsed_s : since_moved_s_;
+  since_moved_s_ = 0;
+  const double coming = 0.5 * glm::dot(spring_n_ - spring_n, moved_mm);
+  const double excess = std::max(books_.openArtefactMj() + coming, 0.0);
+  lean_n_ = -std::min(excess / moved2, stiffness_) * moved_mm;
+}
+
+}  // namespace relievo

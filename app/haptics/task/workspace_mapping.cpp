@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/haptics/task/workspace_mapping.h"
+
+#include <algorithm>
+
+namespace relievo {
+namespace {
+
+constexpr double kEdgeMm = 4;                 // the last of the workspace, device frame
+constexpr double kEdgeStiffnessNPerMm = 0.2;  // 0.8 N where the device's own stop comes
+
+}  // namespace
+
+WorkspaceMapping::WorkspaceMapping(const HapticCapabilities& device, const DisplayVolume& volume) noexcept
+    : min_mm_(device.workspace_min_mm), max_mm_(device.workspace_max_mm) {
+  const glm::dvec3 room = max_mm_ - min_mm_ - glm::dvec3(2 * kEdgeMm);
+  scale_ = std::max({1.0, volume.width_mm / room.x, volume.height_mm / room.y, volume.depth_mm / room.z});
+  offset_mm_ = glm::dvec3(0, 0, 0.5 * volume.depth_mm) - scale_ * 0.5 * (min_mm_ + max_mm_);
+}
+
+WorkspaceMapping::Place WorkspaceMapping::place(const HapticSample& sample) RELIEVO_RT {
+  const glm::dvec3 hip_mm = scale_ * sample.position_mm + offset_mm_;
+  const bool pressed = (sample.buttons & kClutchButton) != 0;
+  if (pressed && !clutched_) held_mm_ = hip_mm;
+  if (pressed) offset_mm_ += held_mm_ - hip_mm;
+  clutched_ = pressed;
+
+  Place place{.hip_mm = pressed ? held_mm_ : hip_mm, .clutched = pressed};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double p = sample.position_mm[axis];
+    const double low = min_mm_[axis] + kEdgeMm - p, high = p - (max_mm_[axis] - kEdgeMm);
+    // Past the end the force stays what it is there.
+    if (low > 0) place.edge_force_n[axis] = kEdgeStiffnessNPerMm * std::min(low, kEdgeMm);
+    if (high > 0) place.edge_force_n[axis] = -kEdgeStiffnessNPerMm * std::min(high, kEdgeMm);
+  }
+  return place;
+}
+
+}  // namespace relievo

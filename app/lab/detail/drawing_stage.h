@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// The player's renderer on a display of the measurement's own, and what it has drawn.
+#pragma once
+
+#include <memory>
+
+#include "app/lab/detail/picture_quality.h"
+#include "app/render/gl/scene_renderer.h"
+#include "hal/display.h"
+#include "platform/failure.h"
+
+namespace relievo {
+
+// Side by side, as on a 3D screen, on the default volume. All verbs on one thread. One stage at a time on a display.
+class DrawingStage {
+ public:
+  // Opens `display`, which outlives the stage and is closed with it.
+  [[nodiscard]] static Outcome<std::unique_ptr<DrawingStage>> open(Display& display, int width, int height);
+  ~DrawingStage();
+
+  // A new picture at a level of detail: takes it in and draws it. Answers how long both took.
+  [[nodiscard]] Outcome<Duration> show(const Frame& color, const Frame& depth, const DetailSettings& detail);
+  // Draws the same once more.
+  [[nodiscard]] Outcome<Duration> again();
+  [[nodiscard]] Picture picture() const;
+  // Of the relief drawn last, silhouettes and all.
+  [[nodiscard]] std::size_t triangles() const { return renderer_->statistics().triangles; }
+
+ private:
+  explicit DrawingStage(Display& display) : display_(display) {}
+
+  Display& display_;
+  DisplaySurface surface_;
+  std::unique_ptr<SceneRenderer> renderer_;
+  MonotonicClock clock_;
+};
+
+}  // namespace relievo

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene of silhouettes as a film of colour and depth, and as two eyes would see it in truth.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "app/lab/detail/picture_quality.h"
+#include "app/render/relief/stereo.h"
+#include "hal/frame.h"
+
+namespace relievo {
+
+struct SilhouetteFilm {
+  static constexpr int kCols = 720, kRows = 486;
+  static constexpr double kFramesPerSecond = 30;
+
+  // 8 bits, linear, near high, full range: DepthCalibration{}.
+  [[nodiscard]] static Frame depth(int index);
+  [[nodiscard]] static Frame color(int index);
+  // Cast line by line, on all processors: `finer` squared of them to a pixel.
+  [[nodiscard]] static Picture seen(int index, const EyeViews& eyes, int width, int height, int finer);
+
+  // A picture to draw on the depth: white, but red within `reach` samples, across or down, of two neighbours whose
+  // heights differ by more than 1 mm, and black at the picture's rim.
+  [[nodiscard]] static Frame marks(const Frame& depth, int reach);
+};
+
+}  // namespace relievo

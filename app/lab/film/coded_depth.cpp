@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// The author's encoder and libavcodec's decoder, back to back. Pictures come back in order; their times stay here.
+#include "app/lab/film/coded_depth.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <memory>
+#include <optional>
+#include <utility>
+
+namespace relievo {
+namespace {
+
+struct Free {
+  void operator()(AVCodecContext* context) const noexcept { avcodec_free_context(&context); }
+  void operator()(AVFrame* frame) const noexcept { av_frame_free(&frame); }
+  void operator()(AVCodecParameters* parameters) const noexcept { avcodec_parameters_free(&parameters); }
+};
+using CodecContext = std::unique_ptr<AVCodecContext, Free>;
+using Picture = std::unique_ptr<AVFrame, Free>;
+
+Result<void> check(std::span<const Frame> frames, int bits) {
+  if (frames.empty()) return fail(ErrorCode::InvalidArgument, "no frames to code");
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const Frame& f = frames[i];
+    if (f.empty() || f.model != ColorModel::Gray || f.components[0].bits != bits ||
+        f.components[0].step_bytes != (bits > 8 ? 2 : 1) || f.width != frames[0].width ||
+        f.height != frames[0].height) {
+      return fail(ErrorCode::InvalidArgument, "depth to code is gray frames of one size and of the coder's bits");
+    }
+    if (i > 0 && f.pts <= frames[i - 1].pts) {
+      return fail(ErrorCode::InvalidArgument, "the times of frames to code must rise");
+    }
+  }
+  return {};
+}
+
+Result<CodecContext> openDecoder(const AVCodecContext& encoder) {
+  const std::unique_ptr<AVCodecParameters, Free> parameters(avcodec_parameters_alloc());
+  const AVCodec* const decoder = avcodec_find_decoder(encoder.codec_id);
+  CodecContext context(decoder == nullptr ? nullptr : avcodec_alloc_context3(decoder));
+  if (!context || !parameters || avcodec_parameters_from_context(parameters.get(), &encoder) < 0 ||
+      avcodec_parameters_to_context(context.get(), parameters.get()) < 0 ||
+      avcodec_open2(context.get(), decoder, nullptr) < 0) {
+    return fail(ErrorCode::Unsupported, "FFmpeg on this machine has no decoder for this codec; install one that has");
+  }
+  return context;
+}
+
+// 4:0:0 may come out as 4:2:0 with flat chroma: only the first plane means anything.
+Frame frameOf(Picture picture, const Frame& original) {
+  Frame frame;
+  frame.pts = original.pts;
+  frame.duration = original.duration;
+  frame.width = picture->width;
+  frame.height = picture->height;
+  frame.model = ColorModel::Gray;
+  frame.range = picture->color_range == AVCOL_RANGE_JPEG ? ColorRange::Full : ColorRange::Unspecified;
+  frame.sample_aspect = original.sample_aspect;
+  frame.plane_count = 1;
+  frame.components[0] = original.components[0];
+  frame.planes[0] = {picture->data[0], picture->linesize[0]};
+  frame.owner = std::shared_ptr<AVFrame>(std::move(picture));
+  return frame;
+}
+
+class RoundTrip {
+ public:
+  explicit RoundTrip(std::span<const Frame> originals) : originals_(originals) {}
+
+  Result<CodedDepth> run(const VideoEncoder::Settings& settings) {
+    if (auto opened = encoder_.open(settings, false); !opened) return std::unexpected(opened.error());
+    auto decoder = openDecoder(encoder_.context());
+    if (!decoder) return std::unexpected(decoder.error());
+    decoder_ = std::move(*decoder);
+    const VideoEncoder::Sink sink = [this](AVPacket& packet) { return decode(packet); };
+    std::optional<MediaTime> last_key;
+    for (const Frame& original : originals_) {
+      const bool key = !last_key || original.pts - *last_key >= std::chrono::seconds(1);
+      if (key) last_key = original.pts;
+      const auto plane = packed(original);
+      if (auto sent = encoder_.encode({plane.data(), nullptr, nullptr}, original.pts, key, sink); !sent) {
+        return std::unexpected(sent.error());
+      }
+    }
+    if (auto drained = encoder_.drain(sink); !drained) return std::unexpected(drained.error());
+    if (avcodec_send_packet(decoder_.get(), nullptr) < 0 || !collectPictures()) return failed();
+    if (coded_.frames.size() != originals_.size()) return failed();
+    return std::move(coded_);
+  }
+
+ private:
+  static std::unexpected<Error> failed() { return fail(ErrorCode::Io, "coding depth in memory failed"); }
+
+  // Without gaps between rows.
+  static std::vector<std::uint8_t> packed(const Frame& frame) {
+    const std::size_t row = static_cast<std::size_t>(frame.width) * frame.components[0].step_bytes;
+    std::vector<std::uint8_t> plane;
+    for (int r = 0; r < frame.height; ++r) {
+      const std::uint8_t* const first = frame.planes[0].data + r * frame.planes[0].stride_bytes;
+      plane.insert(plane.end(), first, first + row);
+    }
+    return plane;
+  }
+
+  Result<void> decode(AVPacket& packet) {
+    coded_.bytes += static_cast<std::uint64_t>(packet.size);
+    if (avcodec_send_packet(decoder_.get(), &packet) < 0 || !collectPictures()) return failed();
+    return {};
+  }
+
+  bool collectPictures() {
+    for (;;) {
+      Picture picture(av_frame_alloc());
+      if (!picture) return false;
+      const int got = avcodec_receive_frame(decoder_.get(), picture.get());
+      if (got == AVERROR(EAGAIN) || got == AVERROR_EOF) return true;
+      const std::size_t index = coded_.frames.size();
+      if (got < 0 || index >= originals_.size()) return false;
+      coded_.frames.push_back(frameOf(std::move(picture), originals_[index]));
+    }
+  }
+
+  std::span<const Frame> originals_;
+  VideoEncoder encoder_;
+  CodecContext decoder_;
+  CodedDepth coded_;
+};
+
+}  // namespace
+
+Result<CodedDepth> codeDepth(std::span<const Frame> frames, VideoEncoder::Settings settings) {
+  if (const auto checked = check(frames, settings.bits); !checked) return std::unexpected(checked.error());
+  settings.width = frames[0].width;
+  settings.height = frames[0].height;
+  settings.gray = true;
+  settings.range = ColorRange::Full;
+  if (frames.size() > 1) settings.frame_period = (frames.back().pts - frames.front().pts) / (frames.size() - 1);
+  return RoundTrip(frames).run(settings);
+}
+
+Result<CodedDepth> codeDepth(std::span<const Frame> frames, int crf) {
+  return codeDepth(frames, {.crf = crf});
+}
+
+}  // namespace relievo

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// A finger that is held on a moving face, as in the paper's section VI: the force that it feels, tick by tick.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "app/lab/film/film_run.h"
+#include "app/lab/finger/hip_path.h"
+
+namespace relievo {
+
+enum class FingerHold : std::uint8_t {
+  FixedPoint,   // 5 mm deep on average, whatever the surface does
+  RestingHand,  // drawn to a point 8 mm deep on average, so that it presses 3 mm deep and gives way
+};
+
+struct HoldPlan {
+  static constexpr double kSettleS = 2;  // the finger comes in and comes to rest: not measured
+  double from_s = 0;                     // of the film; what is measured begins kSettleS later
+  double measured_s = 10;
+};
+
+// On `face-nodding`, on the cheek. The ticks of the measured time, with the oracle's answer for the same finger.
+[[nodiscard]] std::vector<PlayedTick> holdFinger(const TrueSurface& face, const MemoryFilm& film, TouchMethod& method,
+                                                 FingerHold hold, const HoldPlan& plan);
+
+}  // namespace relievo

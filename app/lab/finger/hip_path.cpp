@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Strict reading of numbers: a typing error in a measurement must not become a number.
+#include "app/lab/finger/hip_path.h"
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <string_view>
+
+namespace relievo {
+namespace {
+
+constexpr std::string_view kHeader = "t_s,x_mm,y_mm,z_mm";
+
+std::optional<HipTick> parseRow(std::string_view row) {
+  std::array<double, 4> values{};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto [end, error] = std::from_chars(row.data(), row.data() + row.size(), values[i]);
+    if (error != std::errc() || !std::isfinite(values[i])) return std::nullopt;
+    row.remove_prefix(static_cast<std::size_t>(end - row.data()));
+    const bool last = i + 1 == values.size();
+    if (last != row.empty() || (!last && row.front() != ',')) return std::nullopt;
+    if (!last) row.remove_prefix(1);
+  }
+  return HipTick{values[0], {values[1], values[2], values[3]}};
+}
+
+}  // namespace
+
+Outcome<std::vector<HipTick>> readHipPath(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) return failOn(path, {ErrorCode::NotFound, errno, "cannot be read; check the path"});
+  std::vector<HipTick> ticks;
+  std::string line;
+  for (std::size_t number = 1; std::getline(file, line); ++number) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    const auto here = [&] { return path + ": line " + std::to_string(number); };
+    if (number == 1) {
+      if (line != kHeader) return failOn(here(), {ErrorCode::Corrupt, 0, "the header must be t_s,x_mm,y_mm,z_mm"});
+      continue;
+    }
+    const auto tick = parseRow(line);
+    if (!tick) return failOn(here(), {ErrorCode::Corrupt, 0, "a row is four finite numbers with commas between them"});
+    if (!ticks.empty() && tick->t_s < ticks.back().t_s)
+      return failOn(here(), {ErrorCode::Corrupt, 0, "times must not go back"});
+    ticks.push_back(*tick);
+  }
+  if (ticks.empty())
+    return failOn(path, {ErrorCode::Corrupt, 0, "no row of numbers; the file needs a header and at least one row"});
+  return ticks;
+}
+
+}  // namespace relievo

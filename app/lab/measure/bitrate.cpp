@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// Each scene is rendered once, in 16 bits; every coding begins from that.
+#include "app/lab/measure/bitrate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "app/cli/text.h"
+#include "app/lab/chart/csv_table.h"
+#include "app/lab/film/coded_depth.h"
+#include "app/lab/film/parallel.h"
+#include "app/lab/film/requantised.h"
+#include "app/lab/finger/finger_paths.h"
+#include "app/lab/measure/accuracy.h"
+#include "app/lab/measure/contenders.h"
+
+namespace relievo {
+namespace {
+
+constexpr double kFramesPerSecond = 30;
+
+struct Coding {
+  VideoCodec codec = VideoCodec::H264;
+  int bits = 8;
+  DepthSteps steps = DepthSteps::Even;
+  int crf = 8;  // 0: lossless
+
+  [[nodiscard]] bool isDefault() const {
+    return codec == VideoCodec::H264 && bits == 8 && steps == DepthSteps::Even && crf == 8;
+  }
+};
+
+struct Plan {
+  std::vector<std::string_view> scenes{"plane-heaving", "sphere-sliding", "face-nodding", "shallow-plane"};
+  std::vector<int> qualities{2, 5, 8, 12, 16, 20, 24, 30};
+  std::vector<std::pair<VideoCodec, int>> codecs{{VideoCodec::H264, 8},
+                                                 {VideoCodec::H264, 10},
+                                                 {VideoCodec::Hevc, 8},
+                                                 {VideoCodec::Hevc, 10},
+                                                 {VideoCodec::Hevc, 12}};
+  double duration_s = 2;
+
+  static Plan of(bool quick) {
+    if (!quick) return {};
+    return {.scenes = {"face-nodding"},
+            .qualities = {8, 20},
+            .codecs = {{VideoCodec::H264, 8}, {VideoCodec::H264, 10}, {VideoCodec::Hevc, 10}},
+            .duration_s = 0.5};
+  }
+  [[nodiscard]] std::vector<Coding> codings() const {
+    std::vector<Coding> all;
+    for (const auto& [codec, bits] : codecs) {
+      for (const int crf : qualities) all.push_back({codec, bits, DepthSteps::Even, crf});
+    }
+    for (const DepthSteps steps : {DepthSteps::Dithered, DepthSteps::Disparity}) {
+      for (const int crf : qualities) all.push_back({VideoCodec::H264, 8, steps, crf});
+    }
+    for (const int bits : {8, 10, 12, 16}) all.push_back({VideoCodec::Ffv1, bits, DepthSteps::Even, 0});
+    for (const DepthSteps steps : {DepthSteps::Even, DepthSteps::Dithered, DepthSteps::Disparity}) {
+      all.push_back({VideoCodec::H264, 8, steps, 0});
+    }
+    return all;
+  }
+};
+
+struct Figures {
+  Coding coding;
+  std::uint64_t bytes = 0;
+  ForceErrorSum force;
+  HeightErrorSum heights;
+};
+
+// One film, the way over it and the truth.
+struct Scene {
+  std::vector<Frame> frames;  // 16 bits
+  std::vector<HipTick> path;
+  std::vector<TrueTouch> truth;
+};
+
+Scene makeScene(std::string_view name, double duration_s) {
+  const auto surface = makeTrueSurface(name);
+  Scene scene;
+  scene.frames.resize(static_cast<std::size_t>(std::ceil(duration_s * kFramesPerSecond)) + FilmRun::kAhead + 1);
+  inParallel(scene.frames.size(), [&](std::size_t i) {
+    scene.frames[i] = renderDepth(*surface, {.frames_per_s = kFramesPerSecond, .bits = 16}, static_cast<int>(i));
+  });
+  scene.path = makeFingerPath(*surface, {.duration_s = duration_s});
+  scene.truth = truthAlong(*surface, scene.path);
+  return scene;
+}
+
+Result<void> addScene(const Scene& scene, Figures& figures) {
+  const Coding& coding = figures.coding;
+  std::vector<Frame> steps;
+  steps.reserve(scene.frames.size());
+  for (const Frame& frame : scene.frames) steps.push_back(requantised(frame, coding.bits, coding.steps));
+  auto coded = codeDepth(steps, {.codec = coding.codec, .bits = coding.bits, .to_touch = true, .crf = coding.crf});
+  if (!coded) return std::unexpected(coded.error());
+  figures.bytes += coded->bytes;
+  const DepthCalibration meaning = meaningOf(coding.bits, coding.steps);
+  const auto film = MemoryFilm::of(coded->frames, meaning);
+  if (!film) return std::unexpected(film.error());
+  figures.force.add(
+      forceErrors(playPath(*film, *contender("relievo")->make(*film), scene.path, scene.truth), kSettledS));
+  for (std::size_t i = 0; i < scene.frames.size(); ++i) {
+    const auto truth = HeightField::make(scene.frames[i], {.bits = 16}, TrueSurface::kVolume);
+    if (truth) figures.heights.add(film->frames()[i].field, *truth);
+  }
+  return {};
+}
+
+double kbitPerSecond(const Figures& f, const Plan& plan) {
+  const double frames = std::ceil(plan.duration_s * kFramesPerSecond) + FilmRun::kAhead + 1;
+  return static_cast<double>(f.bytes) * 8e-3 * kFramesPerSecond / (frames * static_cast<double>(plan.scenes.size()));
+}
+
+Outcome<void> write(const std::vector<Figures>& all, const Plan& plan, const std::string& path) {
+  CsvTable table({"codec", "bits", "steps", "crf", "default", "kbit_s", "force_rms_n", "force_rms_percent",
+                  "direction_rms_deg", "height_rms_mm", "height_max_mm", "lost_ticks"});
+  for (const Figures& f : all) {
+    const ForceError force = f.force.result();
+    table.row({name(f.coding.codec), f.coding.bits, name(f.coding.steps), f.coding.crf, f.coding.isDefault() ? 1 : 0,
+               kbitPerSecond(f, plan), force.rms_n, force.rms_percent, force.direction_rms_deg, f.heights.rms(),
+               f.heights.largest(), force.lost_ticks});
+  }
+  return table.write(path);
+}
+
+ChartWords wordsOf(const std::vector<Figures>& all, const Plan& plan) {
+  const auto find = [&](auto&& wanted) {
+    return *std::find_if(all.begin(), all.end(), [&](const Figures& f) { return wanted(f.coding); });
+  };
+  const auto tell = [&](const Figures& f) {
+    return print("%.2g %% of the force at %.0f kbit/s", f.force.result().rms_percent, kbitPerSecond(f, plan));
+  };
+  const Figures own = find([](const Coding& c) { return c.isDefault(); });
+  const auto atDefault = [&](VideoCodec codec, int bits, DepthSteps steps) {
+    return find([&](const Coding& c) { return c.codec == codec && c.bits == bits && c.steps == steps && c.crf == 8; });
+  };
+  const Figures exact = find([](const Coding& c) { return c.codec == VideoCodec::Ffv1 && c.bits == 16; });
+  return {
+      "Bit rate: what the depth's coding costs, and what it does to the force",
+      print("The author's default, H.264 of 8 bits at crf 8: off by %s (%.3f N; heights %.3f mm rms, %.2f at most). At "
+            "the same crf, 10 bits: %s; HEVC of 10 bits: %s; 8 bits dithered: %s; 8 bits by disparity: %s. Lossless "
+            "16 bits (FFV1): %s: what is left then is the touching's own.",
+            tell(own).c_str(), own.force.result().rms_n, own.heights.rms(), own.heights.largest(),
+            tell(atDefault(VideoCodec::H264, 10, DepthSteps::Even)).c_str(),
+            tell(atDefault(VideoCodec::Hevc, 10, DepthSteps::Even)).c_str(),
+            tell(atDefault(VideoCodec::H264, 8, DepthSteps::Dithered)).c_str(),
+            tell(atDefault(VideoCodec::H264, 8, DepthSteps::Disparity)).c_str(), tell(exact).c_str())};
+}
+
+}  // namespace
+
+Outcome<std::vector<ChartWords>> measureBitrate(const MeasureOptions& options) {
+  const Plan plan = Plan::of(options.quick);
+  std::vector<Figures> all;
+  for (const Coding& coding : plan.codings()) all.push_back({.coding = coding});
+  for (const std::string_view name : plan.scenes) {
+    options.tell(print("%s, %zu codings", std::string(name).c_str(), all.size()));
+    const Scene scene = makeScene(name, plan.duration_s);
+    std::vector<Result<void>> added(all.size());
+    inParallel(all.size(), [&](std::size_t i) { added[i] = addScene(scene, all[i]); });
+    const auto failed = std::find_if(added.begin(), added.end(), [](const auto& a) { return !a.has_value(); });
+    if (failed != added.end()) return failOn(std::string(name), failed->error());
+  }
+  if (auto done = write(all, plan, options.out + "/bitrate.csv"); !done) return std::unexpected(done.error());
+  return std::vector{wordsOf(all, plan)};
+}
+
+}  // namespace relievo

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// The list of contenders.
+#include "app/lab/measure/contenders.h"
+
+#include <algorithm>
+#include <array>
+
+#include "app/depth_window/touch_plan.h"
+
+namespace relievo {
+namespace {
+
+constexpr MethodConfig with(std::optional<SpaceLaw> space, std::optional<TimeLaw> time) {
+  return {.space = space, .time = time, .jump_threshold = false};
+}
+
+constexpr MethodConfig onScale(const FeltScale& scale) {
+  MethodConfig config{.jump_threshold = false};
+  config.scale = scale;
+  return config;
+}
+
+constexpr MethodConfig oneWidth(double mm) {
+  return onScale({.narrow_mm = mm, .wide_mm = mm});
+}
+
+constexpr MethodConfig kOwn = with({}, {});
+constexpr bool kPlanned = true, kFixed = true;
+
+constexpr std::array kContenders{
+    Contender{"relievo", "relievo", kOwn, kPlanned},
+    Contender{"god-object", "relievo", with(SpaceLaw::Triangles, {})},
+    Contender{"modified-proxy-graph", "modified-proxy-graph", kOwn},
+    Contender{"proxy-graph", "proxy-graph", kOwn},
+    Contender{"proxy-blend", "proxy-blend", kOwn},
+    Contender{"penalty", "penalty", kOwn},
+
+    Contender{"relievo quadratic", "relievo", with(SpaceLaw::Quadratic, {}), kPlanned, kFixed},
+    Contender{"relievo hold", "relievo", with({}, TimeLaw::Hold), kPlanned, kFixed},
+    Contender{"relievo linear", "relievo", with({}, TimeLaw::Linear), kPlanned, kFixed},
+    Contender{"relievo bspline", "relievo", with({}, TimeLaw::BSpline), kPlanned, kFixed},
+    Contender{"relievo fitted", "relievo", with({}, TimeLaw::Fitted), kPlanned, kFixed},
+    Contender{"relievo 0.28 + 0.72", "relievo", onScale({}), !kPlanned, kFixed},
+    Contender{"relievo 0.14", "relievo", oneWidth(0.14), !kPlanned, kFixed},
+    Contender{"relievo 0.28", "relievo", oneWidth(0.28), !kPlanned, kFixed},
+    Contender{"relievo 0.43", "relievo", oneWidth(0.43), !kPlanned, kFixed},
+    Contender{"relievo 0.72", "relievo", oneWidth(0.72), !kPlanned, kFixed},
+    Contender{"relievo 1.0", "relievo", oneWidth(1.0), !kPlanned, kFixed},
+    Contender{"god-object hold", "relievo", with(SpaceLaw::Triangles, TimeLaw::Hold), !kPlanned, kFixed},
+    Contender{"modified hold", "modified-proxy-graph", with({}, TimeLaw::Hold), !kPlanned, kFixed},
+    Contender{"proxy-graph linear", "proxy-graph", with({}, TimeLaw::Linear), !kPlanned, kFixed},
+};
+
+// As the player does when a film begins.
+FeltScale plannedScale(const MemoryFilm& film) {
+  constexpr std::size_t kLookedAt = FilmRun::kAhead + 1;
+  return planTouch(measureClip(film.frames().first(std::min(film.frames().size(), kLookedAt)))).scale;
+}
+
+MethodConfig configOn(const MemoryFilm& film, const Contender& who) {
+  MethodConfig config = who.config;
+  if (who.planned) config.scale = plannedScale(film);
+  return config;
+}
+
+int lookAhead(TimeLaw law) {
+  return static_cast<int>(law);  // hold 0, linear 1, bspline 2, fitted 3
+}
+
+}  // namespace
+
+std::unique_ptr<TouchMethod> Contender::make(const MemoryFilm& film) const {
+  return makeMethod(method, configOn(film, *this));
+}
+
+ContenderParts Contender::parts(const MemoryFilm& film) const {
+  const MethodParts parts = *partsOf(method, configOn(film, *this));  // the list holds such alone
+  ContenderParts out{.space = name(parts.space), .time = name(parts.time), .look_ahead_frames = lookAhead(parts.time)};
+  if (parts.scale) {
+    out.narrow_mm = parts.scale->narrow_mm;
+    out.wide_mm = parts.scale->wide_mm;
+    out.look_ahead_frames = std::max(out.look_ahead_frames, lookAhead(parts.scale->narrow_time));
+  }
+  return out;
+}
+
+std::span<const Contender> contenders() {
+  return kContenders;
+}
+
+const Contender* contender(std::string_view label) {
+  const auto found =
+      std::find_if(kContenders.begin(), kContenders.end(), [&](const Contender& c) { return label == c.label; });
+  return found == kContenders.end() ? nullptr : &*found;
+}
+
+}  // namespace relievo

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Who is measured against whom: methods and the parts that they can be made of, with their names on the charts.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "app/haptics/baseline/methods.h"
+#include "app/lab/film/film_run.h"
+
+namespace relievo {
+
+// What a contender is made of on a film; widths are those of relievo's smooth surface alone.
+struct ContenderParts {
+  const char* space = "";
+  const char* time = "";  // of the wide level
+  double narrow_mm = std::numeric_limits<double>::quiet_NaN(), wide_mm = narrow_mm;
+  int look_ahead_frames = 0;
+};
+
+struct Contender {
+  const char* label;  // on a chart
+  const char* method;
+  MethodConfig config;        // without the jump threshold: the guard would hide what is measured
+  bool planned = false;       // on the scale that the plan picks for the film, as the player does
+  bool fixed_choice = false;  // one part swapped
+
+  [[nodiscard]] std::unique_ptr<TouchMethod> make(const MemoryFilm& film) const;
+  [[nodiscard]] ContenderParts parts(const MemoryFilm& film) const;
+};
+
+// The methods as they are, `relievo` first; then the same with one part swapped.
+[[nodiscard]] std::span<const Contender> contenders();
+// Null for a label that is not known.
+[[nodiscard]] const Contender* contender(std::string_view label);
+
+}  // namespace relievo

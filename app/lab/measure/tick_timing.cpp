@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// Plain rounds: nothing is thrown away, since a tail is what is looked for.
+#include "app/lab/measure/tick_timing.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace relievo {
+namespace {
+
+class Samples {
+ public:
+  void add(const PlayedTick& tick, Duration clock) {
+    update_us_.push_back(microseconds(tick.update - clock));
+    upkeep_us_.push_back(microseconds(tick.upkeep - clock));
+  }
+  [[nodiscard]] TickTimes times(int rounds) const {
+    return {spreadOf(update_us_), spreadOf(upkeep_us_), spreadOf(mediansOfRounds(update_us_, rounds)),
+            spreadOf(mediansOfRounds(upkeep_us_, rounds))};
+  }
+
+ private:
+  static double microseconds(Duration d) { return std::max(0.0, toSeconds(d) * 1e6); }
+  std::vector<double> update_us_, upkeep_us_;
+};
+
+std::vector<TickTimes> timesOf(const std::vector<Samples>& samples, int rounds) {
+  std::vector<TickTimes> times;
+  times.reserve(samples.size());
+  for (const Samples& s : samples) times.push_back(s.times(rounds));
+  return times;
+}
+
+// Larger than the caches of the machines that this runs on, but for the last level of the largest servers.
+class CacheSweep {
+ public:
+  void operator()() {
+    for (std::uint64_t& word : words_) ++word;
+  }
+
+ private:
+  std::vector<std::uint64_t> words_ = std::vector<std::uint64_t>(std::size_t{96} * 1024 * 1024 / sizeof(std::uint64_t));
+};
+
+}  // namespace
+
+Duration clockCost() {
+  const MonotonicClock clock;
+  std::vector<double> costs(100001);
+  for (double& cost : costs) {
+    const MonotonicTime begin = clock.now();
+    cost = static_cast<double>((clock.now() - begin).count());
+  }
+  return Duration(static_cast<Duration::rep>(spreadOf(std::move(costs)).median));
+}
+
+std::vector<TickTimes> timeTicks(std::span<const Contender* const> contenders, const TimedPath& timed, int rounds) {
+  const Duration clock = clockCost();
+  std::vector<Samples> samples(contenders.size());
+  std::vector<std::unique_ptr<TouchMethod>> methods;
+  for (const Contender* c : contenders) methods.push_back(c->make(timed.film));
+  for (int round = 0; round < rounds; ++round) {
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+      FilmRun run(timed.film, *methods[m]);
+      for (std::size_t i = 0; i < timed.path.size(); ++i) {
+        const PlayedTick tick = run.tick(timed.path[i]);
+        if (i >= timed.skipped_ticks) samples[m].add(tick, clock);
+      }
+    }
+  }
+  return timesOf(samples, rounds);
+}
+
+std::vector<TickTimes> timeColdTicks(std::span<const Contender* const> contenders, const TimedPath& timed,
+                                     std::size_t ticks) {
+  const Duration clock = clockCost();
+  CacheSweep sweep;
+  std::vector<Samples> samples(contenders.size());
+  std::vector<std::unique_ptr<TouchMethod>> methods;
+  std::vector<FilmRun> runs;
+  for (const Contender* c : contenders) methods.push_back(c->make(timed.film));
+  runs.reserve(methods.size());
+  for (const auto& method : methods) runs.emplace_back(timed.film, *method);
+  const std::size_t end = std::min(timed.path.size(), timed.skipped_ticks + ticks);
+  for (std::size_t i = 0; i < end; ++i) {
+    for (std::size_t m = 0; m < runs.size(); ++m) {
+      if (i >= timed.skipped_ticks) sweep();
+      const PlayedTick tick = runs[m].tick(timed.path[i]);
+      if (i >= timed.skipped_ticks) samples[m].add(tick, clock);
+    }
+  }
+  return timesOf(samples, 1);
+}
+
+}  // namespace relievo

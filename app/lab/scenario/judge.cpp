@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Demands, one by one.
+#include "app/lab/scenario/judge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace relievo {
+namespace {
+
+constexpr double kSceneSlewNPerS = 50;
+
+}  // namespace
+
+void Judge::add(bool pass, double figure, double limit, const char* unit, const std::string& why) {
+  const Verdict verdict{pass, figure, unit, limit, why};
+  if (!first_) first_ = verdict;
+  if (!pass && !failed_) failed_ = verdict;
+}
+
+// Written so that what is not a number fails.
+void Judge::atMost(double figure, double limit, const char* unit, const std::string& why) {
+  add(figure <= limit, figure, limit, unit, why);
+}
+
+void Judge::atLeast(double figure, double limit, const char* unit, const std::string& why) {
+  add(figure >= limit, figure, limit, unit, why);
+}
+
+void Judge::bounds(std::span<const StageTick> ticks, double stiffness_n_per_mm, double peak_force_n) {
+  double force = 0, slew = 0;
+  const StageTick* before = nullptr;
+  for (const StageTick& tick : ticks) {
+    if (!tick.exchanged || !std::isfinite(glm::dot(tick.hip_mm, tick.hip_mm))) continue;
+    const double size = glm::length(tick.sent_n);
+    force = std::isfinite(size) ? std::max(force, size) : std::numeric_limits<double>::infinity();
+    if (before != nullptr) {
+      const double by_hand = stiffness_n_per_mm * glm::length(tick.hip_mm - before->hip_mm);
+      slew = std::max(slew, (glm::length(tick.sent_n - before->sent_n) - by_hand) / (tick.t_s - before->t_s));
+    }
+    before = &tick;
+  }
+  atMost(force, peak_force_n * (1 + 1e-9), "N", "largest force");
+  atMost(slew, kSceneSlewNPerS * (1 + 1e-6), "N/s", "fastest change of the force by the scene");
+}
+
+}  // namespace relievo

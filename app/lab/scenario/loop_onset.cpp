@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// A device, a method and nothing in between.
+#include "app/lab/scenario/loop_onset.h"
+
+#include <algorithm>
+#include <array>
+
+#include "app/lab/film/film_feed.h"
+#include "app/lab/film/made_film.h"
+#include "app/lab/scenario/scenario_tools.h"
+
+namespace relievo {
+namespace {
+
+constexpr double kPushN = 1, kOffMm = 0.2;
+constexpr int kTicks = 2000;
+
+// With dry friction or an encoder, a cycle is what is larger than two steps of the encoder; without them, a swing that
+// is larger than it began or does not get smaller.
+bool swings(const Swing& swing, const HandLoopProfile& profile) {
+  if (profile.encoder_step_mm > 0) return swing.last_mm > 2 * profile.encoder_step_mm;
+  return swing.last_mm > 2.2 * kOffMm || (swing.last_mm > 1e-3 && swing.last_mm >= swing.before_mm);
+}
+
+}  // namespace
+
+Swing swingOnWall(const Challenger& challenger, const HandLoopProfile& profile, double stiffness) {
+  const auto film = makeFilm(scenario::plane(20, 0, 0), {}, 0.1);
+  const auto method = challenger.make(stiffness, film);
+  FilmFeed feed(film);
+  SurfaceWindow window;
+  const glm::dvec3 above(0.1, 0.1, 20.5), rest(0.1, 0.1, 20 - kPushN / stiffness);
+  // Comes in from outside, as every method wants it.
+  static_cast<void>(feed.update({}, 0, 0, window));
+  static_cast<void>(method->update(above, window, {}));
+  HandLoop hand(profile, rest + glm::dvec3(0, 0, kOffMm));
+  std::array<glm::dvec2, 4> extremes;  // low and high of each quarter
+  extremes.fill({1e9, -1e9});
+  for (int tick = 0; tick < kTicks; ++tick) {
+    const MediaTime now = mediaTime(1e-3 * (tick + 1));
+    static_cast<void>(feed.update(now, 0, 0, window));
+    const Touch touch = method->update(hand.encoded(), window, now);
+    hand.tick(touch.force_n, rest, {0, 0, -kPushN});
+    method->upkeep(window, now);
+    glm::dvec2& extreme = extremes[static_cast<std::size_t>(tick * 4 / kTicks)];
+    extreme = {std::min(extreme.x, hand.position().z), std::max(extreme.y, hand.position().z)};
+  }
+  return {extremes[2].y - extremes[2].x, extremes[3].y - extremes[3].x};
+}
+
+std::optional<double> loopOnset(const Challenger& challenger, const HandLoopProfile& profile, double most) {
+  if (!swings(swingOnWall(challenger, profile, most), profile)) return std::nullopt;
+  double rests = 0.02 * most, cycles = most;
+  while (cycles - rests > 0.01 * cycles) {
+    const double middle = 0.5 * (rests + cycles);
+    (swings(swingOnWall(challenger, profile, middle), profile) ? cycles : rests) = middle;
+  }
+  return 0.5 * (rests + cycles);
+}
+
+}  // namespace relievo

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the scenarios share: ways of a finger, and what is read off a play.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <initializer_list>
+#include <span>
+#include <vector>
+
+#include "app/lab/film/made_film.h"
+#include "app/lab/finger/touch_stage.h"
+
+namespace relievo::scenario {
+
+inline constexpr double kStiffness = 0.5;  // N/mm
+
+// Straight and steady from one point to the next; at rest before the first and after the last.
+class Way {
+ public:
+  struct Point {
+    double t_s;
+    glm::dvec3 at_mm;
+  };
+  Way(std::initializer_list<Point> points) : points_(points) {}
+  [[nodiscard]] glm::dvec3 at(double t_s) const;
+  // As the finger of a play.
+  [[nodiscard]] std::optional<glm::dvec3> operator()(double t_s, const glm::dvec3& /*held_n*/) const { return at(t_s); }
+
+ private:
+  std::vector<Point> points_;
+};
+
+[[nodiscard]] Relief plane(double z_mm, double slope_x, double slope_y);
+// Goes steadily from 0 at `from_s` to 1 at `until_s`.
+[[nodiscard]] double ramp(double t_s, double from_s, double until_s);
+// Outward unit normal.
+[[nodiscard]] glm::dvec3 normalOf(const Relief& relief, double x_mm, double y_mm, double t_s);
+// Of a finger close under a nearly flat place: stiffness x distance along the normal.
+[[nodiscard]] glm::dvec3 forceOnFlat(const Relief& relief, const glm::dvec3& hip_mm, double t_s);
+
+[[nodiscard]] std::span<const StageTick> between(std::span<const StageTick> ticks, double from_s, double until_s);
+[[nodiscard]] glm::dvec3 meanForce(std::span<const StageTick> ticks);
+[[nodiscard]] double peakForce(std::span<const StageTick> ticks);
+// |measured - true|/|true|, in %.
+[[nodiscard]] double percentOff(const glm::dvec3& measured, const glm::dvec3& truth);
+// The longest time with the finger more than `deep_mm` below the relief, as it is at that moment of the film, and no
+// contact by the method or hardly any force, ms.
+[[nodiscard]] double longestLostMs(std::span<const StageTick> ticks, const Relief& relief, double deep_mm);
+
+}  // namespace relievo::scenario

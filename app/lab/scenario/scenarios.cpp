@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// The list of scenarios.
+#include "app/lab/scenario/scenarios.h"
+
+#include <algorithm>
+#include <array>
+
+#include "app/depth_window/touch_plan.h"
+#include "app/haptics/baseline/methods.h"
+#include "app/lab/film/film_feed.h"
+
+namespace relievo {
+namespace {
+
+constexpr std::array<Scenario, 20> kScenarios{{
+    {"rise-free", "a surface rises to a free finger and past it, 60 mm/s", scenario::riseFree},
+    {"rise-contact", "a dome slides and rises under a pressed finger, 60 mm/s", scenario::riseContact},
+    {"rise-fast", "a surface rises past a free finger at 3 m/s", scenario::riseFast},
+    {"sweep-edge", "a block sweeps sideways over a free finger, 200 mm/s", scenario::sweepEdge},
+    {"cut-up", "a cut raises the scene by 18 mm under a pressed finger", scenario::cutUp},
+    {"cut-down", "a cut lowers the scene by 9 mm under a pressed finger", scenario::cutDown},
+    {"hold-video", "a finger held still on a scene that begins to nod, 15 frames/s", scenario::holdVideo},
+    {"stroke-step", "a finger strokes over a step of 15 mm and comes back at its wall", scenario::strokeStep},
+    {"thin", "a finger pushes sideways at ridges 3 pixels thin", scenario::thin},
+    {"noise", "noise of 1 % of the depth on every pixel and frame", scenario::noise},
+    {"fast-hip", "a finger goes through a ridge and into a floor at 5 m/s", scenario::fastHip},
+    {"stiff-wall", "a hand presses into a crease, at 80 % of the stiffest that the device holds", scenario::stiffWall},
+    {"jitter", "1 to 20 ticks are missed, again and again, while scene and finger move", scenario::jitter},
+    {"frame-drop", "frames are missing or late by up to 80 ms", scenario::frameDrop},
+    {"underrun", "no frame comes for half a second, the scene moves on", scenario::underrun},
+    {"seek", "the film jumps, and its frames come 100 ms later", scenario::seek},
+    {"pause", "the film is paused, steps back by a frame, and goes on", scenario::pause},
+    {"packet-loss", "blocks of the depth are wrong, now and then", scenario::packetLoss},
+    {"energy-loop", "closed paths on a still scene: what they give", scenario::energyLoop},
+    {"device-glitch", "the encoders jump, exchanges fail", scenario::deviceGlitch},
+}};
+
+}  // namespace
+
+Challenger challengerNamed(const std::string& method) {
+  return {method, [method](double stiffness, std::span<const TimedSurface> film) {
+            constexpr std::size_t kLookedAt = FilmFeed::kAhead + 1;
+            const auto begin = film.first(std::min(film.size(), kLookedAt));
+            return makeMethod(method, {.stiffness_n_per_mm = stiffness, .scale = planTouch(measureClip(begin)).scale});
+          }};
+}
+
+std::span<const Scenario> scenarios() {
+  return kScenarios;
+}
+
+const Scenario* findScenario(std::string_view name) {
+  const auto* const found =
+      std::find_if(kScenarios.begin(), kScenarios.end(), [&](const Scenario& s) { return name == s.name; });
+  return found == kScenarios.end() ? nullptr : found;
+}
+
+}  // namespace relievo

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// The places where methods of touch are known to fail, each a small film and a finger, with a verdict.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "app/haptics/method/method.h"
+#include "app/lab/scenario/judge.h"
+
+namespace relievo {
+
+// Who is judged: makes a fresh method for a film.
+struct Challenger {
+  std::string name;
+  std::function<std::unique_ptr<TouchMethod>(double stiffness_n_per_mm, std::span<const TimedSurface> film)> make;
+};
+// A method as the player makes it: `relievo` on the scale that its plan picks when the film begins.
+[[nodiscard]] Challenger challengerNamed(const std::string& method);
+
+// The method runs in the haptic task itself, with all its limits, on virtual time: the same verdict at every run.
+struct Scenario {
+  const char* name;
+  const char* about;
+  Verdict (*judge)(const Challenger& challenger, bool quick);
+};
+
+// In the order of the map.
+[[nodiscard]] std::span<const Scenario> scenarios();
+[[nodiscard]] const Scenario* findScenario(std::string_view name);
+
+namespace scenario {
+
+// The scene is still or moves steadily; the finger is rigid.
+Verdict riseFree(const Challenger& challenger, bool quick);
+Verdict riseContact(const Challenger& challenger, bool quick);
+Verdict riseFast(const Challenger& challenger, bool quick);
+Verdict sweepEdge(const Challenger& challenger, bool quick);
+Verdict strokeStep(const Challenger& challenger, bool quick);
+Verdict thin(const Challenger& challenger, bool quick);
+Verdict noise(const Challenger& challenger, bool quick);
+Verdict fastHip(const Challenger& challenger, bool quick);
+Verdict energyLoop(const Challenger& challenger, bool quick);
+// The film is not one steady shot, or does not come as it should.
+Verdict cutUp(const Challenger& challenger, bool quick);
+Verdict cutDown(const Challenger& challenger, bool quick);
+Verdict holdVideo(const Challenger& challenger, bool quick);
+Verdict frameDrop(const Challenger& challenger, bool quick);
+Verdict underrun(const Challenger& challenger, bool quick);
+Verdict seek(const Challenger& challenger, bool quick);
+Verdict pause(const Challenger& challenger, bool quick);
+Verdict packetLoss(const Challenger& challenger, bool quick);
+// The machine or the device is the trouble.
+Verdict stiffWall(const Challenger& challenger, bool quick);
+Verdict jitter(const Challenger& challenger, bool quick);
+Verdict deviceGlitch(const Challenger& challenger, bool quick);
+
+}  // namespace scenario
+}  // namespace relievo

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// A hand on a real device, a machine that misses ticks, encoders that jump.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include "app/lab/finger/hand_loop.h"
+#include "app/lab/scenario/scenario_tools.h"
+#include "app/lab/scenario/scenarios.h"
+
+namespace relievo::scenario {
+namespace {
+
+constexpr double kBackWithinMs = 200;
+
+struct Rest {
+  double swing_mm = 0;  // in the last half second
+  std::vector<StageTick> ticks;
+};
+
+// A hand comes in and presses on for two seconds.
+Rest pressOn(const Challenger& challenger, const Relief& relief, const MadeFormat& format, double stiffness,
+             const glm::dvec3& from_mm, const glm::dvec3& to_mm) {
+  const HandLoopProfile profile;
+  HandLoop hand(profile, from_mm);
+  const auto film = makeFilm(relief, format, 0.1);
+  const auto method = challenger.make(stiffness, film);
+  glm::dvec3 low(1e9), high(-1e9);
+  const auto finger = [&](double t, const glm::dvec3& held_n) -> std::optional<glm::dvec3> {
+    if (t > 0) hand.tick(held_n, glm::mix(from_mm, to_mm, ramp(t, 0.1, 0.5)));
+    if (t >= 1.5) {
+      low = glm::min(low, hand.position());
+      high = glm::max(high, hand.position());
+    }
+    return hand.encoded();
+  };
+  Rest rest;
+  rest.ticks = playThrough(
+      *method, {.film = film, .duration_s = 2, .stiffness_n_per_mm = stiffness, .peak_force_n = 8.5, .finger = finger});
+  rest.swing_mm = glm::length(high - low);
+  return rest;
+}
+
+}  // namespace
+
+Verdict stiffWall(const Challenger& challenger, bool /*quick*/) {
+  const HandLoopProfile profile;
+  const double stiffness = 0.8 * std::min(profile.viscousBound(), profile.frictionBound());
+  // A crease of 90 degrees, slanted to the grid; and a wall in 8 bits, whose terraces are 2 mm wide.
+  const Relief crease = [](double x, double y, double) { return 12 + std::abs(x - 0.3 * y) * 0.96; };
+  const Rest in_crease = pressOn(challenger, crease, {}, stiffness, {0.9, 0.3, 20}, {0.4, 0.3, 2});
+  const Relief wall = plane(20, 0.07, 0.03);
+  const Rest on_wall = pressOn(challenger, wall, {.bits = 8}, stiffness, {2.2, 1.1, 25}, {2.2, 1.1, 12});
+  const bool crease_worse = in_crease.swing_mm > on_wall.swing_mm;
+  Judge judge;
+  // Two steps of the encoder, there and back.
+  judge.atMost(1e3 * std::max(in_crease.swing_mm, on_wall.swing_mm), 60, "µm",
+               crease_worse ? "swing of a hand that rests in a crease" : "swing of a hand that rests on a wall");
+  judge.atLeast(meanForce(between(in_crease.ticks, 1.5, 2)).z, 1, "N", "that the crease holds up");
+  judge.atLeast(meanForce(between(on_wall.ticks, 1.5, 2)).z, 1, "N", "that the wall holds up");
+  judge.bounds(in_crease.ticks, stiffness, 8.5);
+  judge.bounds(on_wall.ticks, stiffness, 8.5);
+  return judge.verdict();
+}
+
+Verdict jitter(const Challenger& challenger, bool quick) {
+  const double duration = quick ? 2 : 8;
+  const Relief relief = [](double x, double y, double t) {
+    return 20 + 0.15 * x - 0.1 * y + 3 * std::sin(2 * std::numbers::pi * 1.5 * t);
+  };
+  const auto film = makeFilm(relief, {}, duration);
+  // A finger that trembles, always inside.
+  const auto finger = [](double t, const glm::dvec3&) -> std::optional<glm::dvec3> {
+    const double come = 1 - ramp(t, 0, 0.15), tremble = std::sin(2 * std::numbers::pi * 5 * t);
+    return glm::dvec3(1.2, 0.8, 13 + 3 * tremble * (1 - come) + 14 * come);
+  };
+  std::mt19937_64 random(3);  // NOLINT(bugprone-random-generator-seed): the same at every run
+  const auto method = challenger.make(kStiffness, film);
+  Play play{.film = film, .duration_s = duration, .finger = finger};
+  play.ticks_to_next = [&](double t) {
+    return t > 0.3 && random() % 40 == 0 ? 2 + static_cast<int>(random() % 20) : 1;
+  };
+  const auto ticks = playThrough(*method, play);
+  Judge judge;
+  judge.atMost(longestLostMs(ticks, relief, 0.3), kBackWithinMs, "ms", "inside and nothing felt");
+  judge.bounds(ticks, kStiffness);
+  return judge.verdict();
+}
+
+Verdict deviceGlitch(const Challenger& challenger, bool /*quick*/) {
+  constexpr double kEnd = 2.5;
+  const Relief relief = [](double x, double y, double t) {
+    return 20 + 0.15 * x - 0.1 * y + 1.5 * std::sin(2 * std::numbers::pi * 0.5 * t);
+  };
+  const auto film = makeFilm(relief, {}, kEnd);
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  const auto finger = [&](double t, const glm::dvec3&) -> std::optional<glm::dvec3> {
+    const double turn = 2 * std::numbers::pi * 0.5 * t;
+    const double x = 4 * std::sin(turn), y = 3 * std::cos(turn);
+    const glm::dvec3 p(x, y, 20 + 0.15 * x - 0.1 * y - 4 + 8 * (1 - ramp(t, 0, 0.2)));
+    switch (static_cast<int>(std::lround(t * 1e3))) {
+      case 500:
+        return p + glm::dvec3(0, 0, 12);  // outside
+      case 800:
+        return p - glm::dvec3(0, 0, 10);  // deeper
+      case 1100:
+      case 1101:
+        return p + glm::dvec3(60, 0, 0);  // off the picture
+      case 1400:
+      case 1401:
+      case 1402:
+      case 1403:
+      case 1404:
+        return std::nullopt;
+      case 1700:
+        return glm::dvec3(kNaN, 0, 0);
+      case 2000:
+        return p * 1e12;
+      default:
+        return p;
+    }
+  };
+  const auto method = challenger.make(kStiffness, film);
+  const auto ticks = playThrough(*method, {.film = film, .duration_s = kEnd, .finger = finger});
+  // Without contact or without force to speak of.
+  double longest = 0, since = -1;
+  for (const StageTick& tick : between(ticks, 0.4, kEnd)) {
+    const glm::dvec3 truth = forceOnFlat(relief, finger(tick.t_s + 0.0001, {}).value_or(tick.hip_mm), tick.t_s);
+    const bool lost = glm::length(tick.sent_n) < 0.5 * glm::length(truth);
+    if (!lost) since = -1;
+    else if (since < 0) since = tick.t_s;
+    if (lost) longest = std::max(longest, tick.t_s + TouchStage::kTickS - since);
+  }
+  Judge judge;
+  judge.atMost(1e3 * longest, kBackWithinMs, "ms", "inside and less than half of the force");
+  judge.bounds(ticks, kStiffness);
+  return judge.verdict();
+}
+
+}  // namespace relievo::scenario

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene that comes to the finger, from below and from the side.
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "app/lab/scenario/scenario_tools.h"
+#include "app/lab/scenario/scenarios.h"
+
+namespace relievo::scenario {
+namespace {
+
+// A method that holds frames knows the surface of one period ago and may be that much late; no more.
+double latestMs(const MadeFormat& format) {
+  return 1.5e3 / format.frames_per_s;
+}
+
+Verdict riseUnder(const Challenger& challenger, const Relief& relief, const MadeFormat& format, const Way& finger,
+                  double duration_s) {
+  const auto film = makeFilm(relief, format, duration_s);
+  const auto method = challenger.make(kStiffness, film);
+  const auto ticks = playThrough(*method, {.film = film, .duration_s = duration_s, .finger = finger});
+  const auto end = between(ticks, duration_s - 0.05, duration_s);
+  glm::dvec3 truth = forceOnFlat(relief, end.back().hip_mm, duration_s);
+  if (glm::length(truth) > 10) truth *= 10 / glm::length(truth);
+  Judge judge;
+  judge.atMost(longestLostMs(ticks, relief, 0.3), latestMs(format), "ms", "inside and nothing felt");
+  judge.atMost(percentOff(meanForce(end), truth), 5, "%", "force off when all is at rest");
+  judge.bounds(ticks, kStiffness);
+  return judge.verdict();
+}
+
+}  // namespace
+
+Verdict riseFree(const Challenger& challenger, bool /*quick*/) {
+  const Relief relief = [](double x, double y, double t) {
+    return 12 + 0.15 * x + 0.08 * y + 60 * std::clamp(t - 0.2, 0.0, 0.14);
+  };
+  return riseUnder(challenger, relief, {}, Way{{0, {1.3, 0.7, 15}}}, 0.8);
+}
+
+Verdict riseContact(const Challenger& challenger, bool /*quick*/) {
+  // A dome that comes from the side while it rises, and at last lies still.
+  const Relief relief = [](double x, double y, double t) {
+    const double moved = ramp(t, 0.3, 0.4), dx = x - 8 + 6 * moved;
+    return 20 + 6 * moved - 0.01 * (dx * dx + y * y);
+  };
+  const double z = relief(1, 1, 0);
+  const Way finger{{0, {1, 1, z + 2}}, {0.2, {1, 1, z - 2}}};
+  const auto film = makeFilm(relief, {}, 0.8);
+  const auto method = challenger.make(kStiffness, film);
+  const auto ticks = playThrough(*method, {.film = film, .duration_s = 0.8, .finger = finger});
+  // The true closest point of the dome at rest, by Newton's method on the distance.
+  glm::dvec3 p(1, 1, 0);
+  const glm::dvec3 hip = finger.at(0.8);
+  for (int i = 0; i < 200; ++i) {
+    p.z = relief(p.x, p.y, 1);
+    const glm::dvec3 n = normalOf(relief, p.x, p.y, 1), off = hip - p;
+    p += 0.5 * (off - glm::dot(off, n) * n);
+  }
+  p.z = relief(p.x, p.y, 1);
+  Judge judge;
+  judge.atMost(longestLostMs(ticks, relief, 0.3), latestMs({}), "ms", "inside and nothing felt");
+  judge.atMost(percentOff(meanForce(between(ticks, 0.75, 0.8)), kStiffness * (p - hip)), 5, "%",
+               "force off when all is at rest");
+  judge.bounds(ticks, kStiffness);
+  return judge.verdict();
+}
+
+Verdict riseFast(const Challenger& challenger, bool /*quick*/) {
+  const Relief relief = [](double x, double y, double t) {
+    return 8 + 0.05 * x + 0.03 * y + 3000 * std::clamp(t - 0.1, 0.0, 0.008);
+  };
+  return riseUnder(challenger, relief, {.frames_per_s = 240}, Way{{0, {1.3, 0.7, 13}}}, 0.6);
+}
+
+Verdict sweepEdge(const Challenger& challenger, bool /*quick*/) {
+  // The block's front runs from x = -10 to 20.
+  constexpr double kTop = 25, kFloor = 10, kFinger = 18;
+  const Relief relief = [](double x, double y, double t) {
+    return x - 0.3 * y < -10 + 30 * ramp(t, 0.1, 0.25) ? kTop : kFloor;
+  };
+  const auto film = makeFilm(relief, {}, 0.8);
+  const auto method = challenger.make(kStiffness, film);
+  const auto ticks = playThrough(*method, {.film = film, .duration_s = 0.8, .finger = Way{{0, {0.3, 0.4, kFinger}}}});
+  // Out by the top it is 7 mm, by the front 20: whichever way a method takes, it is not less than the top's.
+  const double felt = glm::length(meanForce(between(ticks, 0.7, 0.8))) / (kStiffness * (kTop - kFinger));
+  Judge judge;
+  judge.atMost(longestLostMs(ticks, relief, 0.3), latestMs({}), "ms", "inside and nothing felt");
+  judge.atLeast(100 * felt, 95, "%", "felt of the way out when all is at rest");
+  judge.bounds(ticks, kStiffness);
+  return judge.verdict();
+}
+
+}  // namespace relievo::scenario

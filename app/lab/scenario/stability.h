@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// The map of stability: every method in every scenario; and where closed loops begin to swing, beside theory.
+#pragma once
+
+#include <vector>
+
+#include "app/lab/measure/measurement.h"
+
+namespace relievo {
+
+// Charts: stability (a cell per scenario and method, with the figure that decided it) and stability-onset (stiffness
+// from which a device swings on a wall, over its delay, with the bounds).
+[[nodiscard]] Outcome<std::vector<ChartWords>> measureStability(const MeasureOptions& options);
+
+}  // namespace relievo

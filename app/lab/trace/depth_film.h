@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// A depth film on virtual time: the window of frames around any moment, for as long as time goes forward.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/depth_window/shots.h"
+#include "app/depth_window/surface_window.h"
+#include "app/media/pair_reader.h"
+#include "app/scene/display_volume.h"
+#include "platform/failure.h"
+
+namespace relievo {
+
+struct DepthFilmOptions {
+  SourceOptions source;                 // a source of one plain video track is depth; else as the player reads it
+  std::optional<DisplayVolume> volume;  // nothing: the default one, its height from the picture's shape
+  std::optional<double> frames_per_s;   // for sources without timestamps; nothing: the source's own times
+};
+
+// Reads ahead as far as a window goes and forgets what lies behind it, so that a film of any length fits.
+class DepthFilm {
+ public:
+  DepthFilm(const PairReader::Backends& backends, DepthFilmOptions options);
+  ~DepthFilm();
+
+  [[nodiscard]] Outcome<void> open();
+  // The frames from two before the one at `t_s` to three after it; time 0 is the first frame's. Times must not go back.
+  [[nodiscard]] Outcome<const SurfaceWindow*> windowAt(double t_s);
+  [[nodiscard]] const DisplayVolume& volume() const noexcept { return volume_; }
+
+ private:
+  struct Tracks;
+  [[nodiscard]] Result<std::optional<Frame>> nextFrame();
+  [[nodiscard]] Outcome<bool> append();
+
+  DepthFilmOptions options_;
+  std::unique_ptr<Tracks> tracks_;
+  DisplayVolume volume_;
+  DepthCalibration calibration_;
+  std::deque<TimedSurface> frames_;
+  ShotFinder shots_;
+  std::optional<MediaTime> first_pts_;
+  std::int64_t frame_count_ = 0;
+  bool ended_ = false;
+  SurfaceWindow window_;
+};
+
+}  // namespace relievo

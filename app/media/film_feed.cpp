@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: Apache-2.0
+// The two sides of the feed: requests and a queue under one mutex, which is never held while the film is read.
+#include "app/media/film_feed.h"
+
+#include <chrono>
+#include <utility>
+
+namespace relievo {
+
+FilmFeed::FilmFeed(PairReader::Backends backends, std::size_t capacity)
+    : capacity_(capacity), backends_(std::move(backends)), reader_(backends_) {}
+
+FilmFeed::~FilmFeed() {
+  stop();
+}
+
+void FilmFeed::startThread() {
+  if (!thread_.joinable()) thread_ = std::thread([this] { threadMain(); });
+}
+
+void FilmFeed::stop() noexcept {
+  {
+    std::unique_lock lock(mutex_);
+    if (std::exchange(stopping_, true)) return;
+    wake_.notify_all();
+    // An interrupt that comes just before the reader opens a source does not reach it: so it is repeated.
+    while (thread_.joinable() && !thread_ended_) {
+      lock.unlock();
+      interrupted_ = true;
+      reader_.interrupt();
+      lock.lock();
+      wake_.wait_for(lock, std::chrono::milliseconds(10), [this] { return thread_ended_; });
+    }
+    queue_.clear();
+    forgetSound();
+    state_ = State::Closed;
+  }
+  if (thread_.joinable()) thread_.join();
+  reader_.close();
+}
+
+void FilmFeed::open(SourceOptions options) {
+  const std::scoped_lock lock(mutex_);
+  options_ = std::move(options);
+  begin(State::Opening);
+}
+
+void FilmFeed::close() {
+  const std::scoped_lock lock(mutex_);
+  begin(State::Closed);
+}
+
+void FilmFeed::begin(State state) {
+  ++film_;
+  ++generation_;
+  queue_.clear();
+  forgetSound();
+  target_ = MediaTime{};
+  films_.clear();
+  seek_error_.reset();
+  news_.clear();
+  depth_away_ = false;
+  info_ = {};
+  counters_ = {};
+  state_ = state;
+  interruptStale();
+  wake_.notify_all();
+}
+
+// What the reader does for a film that nobody wants any more. Asked for again and again: an interrupt that comes just
+// before the reader opens that film does not reach it.
+void FilmFeed::interruptStale() const {
+  if (at_work_ == 0 || at_work_ == film_) return;
+  interrupted_ = true;
+  reader_.interrupt();
+}
+
+void FilmFeed::seek(MediaTime target, Duration key_step) {
+  std::deque<FramePair> dropped;  // freed after the lock
+  const std::scoped_lock lock(mutex_);
+  const bool away = state_ == State::Reconnecting;
+  if (!away && state_ != State::Reading && state_ != State::Ended && state_ != State::Seeking) return;
+  target_ = target;
+  key_step_ = key_step;
+  ++generation_;
+  queue_.swap(dropped);
+  forgetSound();
+  (away ? resume_ : state_) = State::Seeking;
+  wake_.notify_all();
+}
+
+void FilmFeed::forgetSound() {
+  sound_.clear();
+  sound_ahead_ = Duration(0);
+  sound_until_.reset();
+  sound_may_come_ = false;
+}
+
+FilmFeed::State FilmFeed::state() const {
+  const std::scoped_lock lock(mutex_);
+  interruptStale();
+  return state_;
+}
+
+std::vector<PlaylistEntry> FilmFeed::films() const {
+  const std::scoped_lock lock(mutex_);
+  return films_;
+}
+
+std::optional<FramePair> FilmFeed::take() {
+  const std::scoped_lock lock(mutex_);
+  if (queue_.empty()) return std::nullopt;
+  std::optional<FramePair> pair(std::move(queue_.front()));
+  queue_.pop_front();
+  wake_.notify_all();
+  return pair;
+}
+
+std::optional<AudioChunk> FilmFeed::takeSound() {
+  const std::scoped_lock lock(mutex_);
+  if (sound_.empty()) return std::nullopt;
+  std::optional<AudioChunk> chunk(std::move(sound_.front()));
+  sound_.pop_front();
+  sound_ahead_ -= lengthOf(*chunk);
+  wake_.notify_all();
+  return chunk;
+}
+
+bool FilmFeed::hasSoundUntil(MediaTime time) const {
+  const std::scoped_lock lock(mutex_);
+  return !wantsSound() || (sound_until_ && *sound_until_ >= time);
+}
+
+FilmInfo FilmFeed::info() const {
+  const std::scoped_lock lock(mutex_);
+  return info_;
+}
+
+PairCounters FilmFeed::counters() const {
+  const std::scoped_lock lock(mutex_);
+  return counters_;
+}
+
+Error FilmFeed::error() const {
+  const std::scoped_lock lock(mutex_);
+  return error_;
+}
+
+std::string FilmFeed::failedThing() const {
+  const std::scoped_lock lock(mutex_);
+  return failed_thing_;
+}
+
+std::optional<Error> FilmFeed::takeSeekError() {
+  const std::scoped_lock lock(mutex_);
+  return std::exchange(seek_error_, std::nullopt);
+}
+
+std::optional<FilmFeed::News> FilmFeed::takeNews() {
+  const std::scoped_lock lock(mutex_);
+  if (news_.empty()) return std::nullopt;
+  const News news = news_.front();
+  news_.pop_front();
+  return news;
+}
+
+bool FilmFeed::hasWork() const {
+  if (state_ == State::Reconnecting) return backends_.clock->now() >= back_off_.next();
+  return state_ == State::Opening || state_ == State::Seeking || (state_ == State::Closed && reader_open_) ||
+         wantsPair() || wantsSound();
+}
+
+bool FilmFeed::wantsSound() const {
+  return sound_may_come_ && sound_ahead_ < kSoundAhead && (state_ == State::Reading || state_ == State::Ended);
+}
+
+Duration FilmFeed::lengthOf(const AudioChunk& chunk) const {
+  const AudioFormat& format = *options_.sound;  // there is no chunk without
+  return fromSeconds(static_cast<double>(chunk.samples.size()) / format.channels / format.rate_hz);
+}
+
+bool FilmFeed::work() {
+  std::unique_lock lock(mutex_);
+  if (stopping_ || !hasWork()) return false;
+  const State task = state_;
+  const std::uint64_t generation = generation_;
+  at_work_ = film_;
+  interrupted_ = false;
+  if (task == State::Opening) {
+    const SourceOptions options = options_;
+    lock.unlock();
+    workOpen(options, generation);
+  } else if (task == State::Seeking) {
+    const MediaTime target = target_;
+    const Duration key_step = key_step_;
+    lock.unlock();
+    workSeek(target, key_step, generation);
+  } else if (task == State::Closed) {
+    reader_open_ = false;
+    lock.unlock();
+    reader_.close();
+  } else if (task == State::Reconnecting) {
+    lock.unlock();
+    workReopen();
+  } else {
+    const bool pair = wantsPair(), sound = wantsSound();
+    lock.unlock();
+    const bool sounded = sound && workSound(!pair, generation);
+    if (pair && !sounded) workRead(generation);
+  }
+  lock.lock();
+  at_work_ = 0;
+  return true;
+}
+
+void FilmFeed::workOpen(const SourceOptions& options, std::uint64_t generation) {
+  auto list = readList(options.url);
+  const auto opened = list && !*list ? reader_.open(options) : Result<void>{};
+  const std::scoped_lock lock(mutex_);
+  reader_open_ = list && !*list && opened;
+  if (generation != generation_) return;  // given up meanwhile
+  if (!list) return failed(list.error().thing, list.error().error);
+  if (!opened) return failed(reader_.failedThing(), opened.error());
+  if (*list) {
+    films_ = std::move(**list);
+    state_ = State::Listed;
+    return;
+  }
+  info_ = reader_.info();
+  sound_may_come_ = hasSound();
+  state_ = State::Reading;
+}
+
+// Nothing for what is a film.
+Outcome<std::optional<std::vector<PlaylistEntry>>> FilmFeed::readList(const std::string& url) {
+  constexpr std::size_t kMostBytes = std::size_t{4} << 20;
+  if (!backends_.read_text || !mayBePlaylist(url)) return std::nullopt;
+  const auto text = backends_.read_text(url, kMostBytes, interrupted_);
+  if (!text) return failOn(url, text.error());
+  if (!isPlaylist(url, *text)) return std::nullopt;
+  auto films = parsePlaylist(*text, url);
+  if (!films) return std::unexpected(films.error());
+  return std::move(*films);
+}
+
+void FilmFeed::workSeek(MediaTime target, Duration key_step, std::uint64_t generation) {
+  const auto sought = reader_.seek(target, key_step);
+  const std::scoped_lock lock(mutex_);
+  if (generation != generation_) return;  // a newer target has come meanwhile
+  if (!sought && loses(sought.error())) return;
+  if (!sought) {
+    seek_error_ = sought.error();
+    target_ = MediaTime{};  // nothing is left out
+  }
+  sound_may_come_ = hasSound();
+  state_ = State::Reading;
+}
+
+void FilmFeed::workRead(std::uint64_t generation) {
+  auto pair = reader_.next();
+  const PairCounters counters = reader_.counters();
+  const auto depth_loss = reader_.depthLoss();
+  const auto restart = reader_.takeRestart();
+  const std::scoped_lock lock(mutex_);
+  if (at_work_ != film_) return;
+  counters_ = counters;
+  noteRestart(restart);
+  noteDepth(depth_loss);
+  if (!pair && loses(pair.error())) return;
+  if (generation != generation_) return;
+  sound_may_come_ = hasSound();
+  if (!pair) return failed(reader_.failedThing(), pair.error());
+  if (!*pair) {
+    state_ = State::Ended;
+    return;
+  }
+  queue_.push_back(std::move(**pair));
+}
+
+// What has been read already is decoded first. False when there is none and the source was not to be read.
+bool FilmFeed::workSound(bool may_read, std::uint64_t generation) {
+  auto chunk = reader_.nextSound();
+  if (!chunk && !may_read) return false;
+  const bool more = chunk || reader_.readAhead();
+  const std::scoped_lock lock(mutex_);
+  if (generation != generation_) return true;
+  sound_may_come_ = more;
+  if (!chunk) return true;
+  const Duration length = lengthOf(*chunk);
+  if (chunk->pts + length <= target_) return true;  // between a seek's key frame and its target
+  sound_ahead_ += length;
+  sound_until_ = chunk->pts + length;
+  sound_.push_back(std::move(*chunk));
+  return true;
+}
+
+void FilmFeed::workReopen() {
+  const auto reopened = reader_.reopen();
+  const PairCounters counters = reader_.counters();
+  const std::scoped_lock lock(mutex_);
+  if (at_work_ != film_) return;
+  counters_ = counters;
+  const MonotonicTime now = backends_.clock->now();
+  if (reopened) {
+    state_ = resume_;
+    sound_may_come_ = hasSound();
+    if (state_ == State::Reading && sound_until_) target_ = *sound_until_;  // no sound twice
+    news_.push_back({News::Kind::ColorBack, "", "", now});
+  } else if (back_off_.away(now) >= kPatience) {
+    failed(options_.url, loss_);
+  } else {
+    back_off_.failed(now);
+  }
+}
+
+// What it goes on with, once it is found again, is what it did.
+bool FilmFeed::loses(const Error& error) {
+  if (backends_.clock == nullptr || !reader_.lost(error)) return false;
+  loss_ = error;
+  resume_ = std::exchange(state_, State::Reconnecting);
+  back_off_.begin(backends_.clock->now());
+  news_.push_back({News::Kind::ColorLost, error.message, "", backends_.clock->now()});
+  return true;
+}
+
+void FilmFeed::noteRestart(const std::optional<VideoDecoder::Restart>& restart) {
+  if (!restart) return;
+  const MonotonicTime now = backends_.clock == nullptr ? MonotonicTime{} : backends_.clock->now();
+  news_.push_back({News::Kind::DecoderRestarted, restart->why, restart->done, now});
+}
+
+void FilmFeed::noteDepth(const std::optional<Error>& loss) {
+  if (loss.has_value() == depth_away_) return;
+  depth_away_ = loss.has_value();
+  const auto kind = loss ? News::Kind::DepthLost : News::Kind::DepthBack;
+  news_.push_back({kind, loss ? loss->message : "", "", backends_.clock->now()});
+}
+
+void FilmFeed::failed(std::string thing, const Error& error) {
+  error_ = error;
+  failed_thing_ = thing.empty() ? options_.url : std::move(thing);
+  state_ = State::Failed;
+}
+
+void FilmFeed::threadMain() {
+  for (;;) {
+    {
+      std::unique_lock lock(mutex_);
+      const auto wanted = [this] { return stopping_ || hasWork(); };
+      if (state_ == State::Reconnecting) {
+        wake_.wait_for(lock, back_off_.next() - backends_.clock->now(), wanted);
+      } else {
+        wake_.wait(lock, wanted);
+      }
+      if (stopping_) break;
+    }
+    work();
+  }
+  const std::scoped_lock lock(mutex_);
+  thread_ended_ = true;
+  wake_.notify_all();
+}
+
+}  // namespace relievo

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Moves pairs from the feed to the screen's side.
+#include "app/media/playhead.h"
+
+#include <utility>
+
+namespace relievo {
+
+bool Playhead::refill(FilmFeed& feed) {
+  // The state first: what came before an end is then in the queue.
+  const FilmFeed::State state = feed.state();
+  while (!filled()) {
+    auto pair = feed.take();
+    if (!pair) {
+      last_ = state == FilmFeed::State::Ended || state == FilmFeed::State::Failed;
+      return !last_;
+    }
+    ahead_.push_back(std::move(*pair));
+  }
+  last_ = false;
+  return true;
+}
+
+std::size_t Playhead::advance(MediaTime position, FilmFeed& feed) {
+  std::size_t steps = 0;
+  for (refill(feed); !ahead_.empty() && ahead_.front().color.pts <= position; refill(feed)) {
+    begin();
+    ++steps;
+  }
+  return steps;
+}
+
+void Playhead::begin() {
+  present_ = std::move(ahead_.front());
+  ahead_.pop_front();
+}
+
+}  // namespace relievo

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// The table of the verbs, and their words both ways.
+#include "app/player/control/command.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "app/player/screen/stereo_word.h"
+#include "app/player/screen/text_line.h"
+
+namespace relievo {
+namespace {
+
+// Step: a number with its sign; Time: also without, or with %; OnOff and Layout may be left away.
+enum class Operand : std::uint8_t { None, Step, Time, Url, OnOff, Layout };
+
+struct Entry {
+  PlayerVerb verb;
+  const char* word;
+  Operand operand;
+  const char* meaning;  // of a Step or a Time: what follows the number
+  bool repeats = false;
+};
+
+// SeekBy, SeekTo and SeekShare share a word: the number's form tells them apart.
+constexpr std::array kEntries{
+    Entry{PlayerVerb::Play, "play", Operand::None, "play"},
+    Entry{PlayerVerb::Pause, "pause", Operand::None, "pause"},
+    Entry{PlayerVerb::PlayPause, "play-pause", Operand::None, "pause, or go on"},
+    Entry{PlayerVerb::Step, "step", Operand::None, "the next picture, and stand", true},
+    Entry{PlayerVerb::Faster, "faster", Operand::None,
+          "faster, up to 16 times; from 2 times on by key frames, without touch"},
+    Entry{PlayerVerb::Slower, "slower", Operand::None, "slower, down to 1/8, with touch"},
+    Entry{PlayerVerb::SeekBy, "seek", Operand::Time, "s", true},
+    Entry{PlayerVerb::SeekTo, "seek", Operand::Time, "s"},
+    Entry{PlayerVerb::SeekShare, "seek", Operand::Time, "%"},
+    Entry{PlayerVerb::Next, "next", Operand::None, "the next film of the list"},
+    Entry{PlayerVerb::Previous, "previous", Operand::None,
+          "this film from its beginning; in its first 3 s the one before"},
+    Entry{PlayerVerb::Loop, "loop", Operand::OnOff, "begin again at the end, or no longer"},
+    Entry{PlayerVerb::Open, "open", Operand::Url, "another film"},
+    Entry{PlayerVerb::Stop, "stop", Operand::None, "end the film"},
+    Entry{PlayerVerb::Quit, "quit", Operand::None, "end the program"},
+    Entry{PlayerVerb::Layout, "layout", Operand::Layout, "the next way to show stereo"},
+    Entry{PlayerVerb::SwapEyes, "swap-eyes", Operand::None, "left eye right, right eye left"},
+    Entry{PlayerVerb::DepthBy, "depth", Operand::Step, "depth for the eyes", true},
+    Entry{PlayerVerb::ScreenBy, "screen", Operand::Step, "mm, the whole scene towards you", true},
+    Entry{PlayerVerb::Info, "info", Operand::None, "what is going on, as text on the screen, or no more"},
+};
+
+const Entry& entryOf(PlayerVerb verb) noexcept {
+  std::size_t i = 0;
+  while (i + 1 < kEntries.size() && kEntries[i].verb != verb) ++i;
+  return kEntries[i];
+}
+
+// The whole text, a finite number of at most a week in seconds.
+std::optional<double> numberIn(std::string_view text) {
+  constexpr double kMost = 7 * 24 * 3600.0;
+  if (text.starts_with('+')) {
+    text.remove_prefix(1);
+    if (text.starts_with('-')) return std::nullopt;  // from_chars takes that one
+  }
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !(std::abs(value) <= kMost)) return std::nullopt;
+  return value;
+}
+
+std::optional<PlayerCommand> timeIn(std::string_view text) {
+  const bool share = text.ends_with('%');
+  if (share) text.remove_suffix(1);
+  const auto value = numberIn(text);
+  if (!value) return std::nullopt;
+  const bool relative = text.starts_with('+') || text.starts_with('-');
+  if (!share) return PlayerCommand{relative ? PlayerVerb::SeekBy : PlayerVerb::SeekTo, *value};
+  if (relative || *value > 100) return std::nullopt;
+  return PlayerCommand{PlayerVerb::SeekShare, *value / 100};
+}
+
+std::optional<PlayerCommand> withOperand(const Entry& entry, std::string_view operand) {
+  switch (entry.operand) {
+    case Operand::None:
+      return operand.empty() ? std::optional(PlayerCommand{entry.verb}) : std::nullopt;
+    case Operand::Time:
+      return timeIn(operand);
+    case Operand::Step: {
+      const auto value = numberIn(operand);
+      return value ? std::optional(PlayerCommand{entry.verb, *value}) : std::nullopt;
+    }
+    case Operand::Url:
+      return operand.empty() ? std::nullopt : std::optional(PlayerCommand{entry.verb, 0, std::string(operand)});
+    case Operand::OnOff:
+      if (operand == "on" || operand == "off") return PlayerCommand{entry.verb, operand == "on" ? 1.0 : -1.0};
+      return operand.empty() ? std::optional(PlayerCommand{entry.verb}) : std::nullopt;
+    case Operand::Layout: {
+      StereoSettings any;
+      const bool known = operand.empty() || parseStereo(operand, any);
+      return known ? std::optional(PlayerCommand{entry.verb, 0, std::string(operand)}) : std::nullopt;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<PlayerCommand> parseCommand(std::string_view words) {
+  const std::size_t space = words.find(' ');
+  const std::string_view word = words.substr(0, space);
+  const std::string_view operand = space == std::string_view::npos ? "" : words.substr(space + 1);
+  if (operand.empty() && word.size() != words.size()) return std::nullopt;
+  for (const Entry& entry : kEntries) {
+    if (word == entry.word) return withOperand(entry, operand);
+  }
+  return std::nullopt;
+}
+
+std::string wordsOf(const PlayerCommand& command) {
+  std::string word = entryOf(command.verb).word;
+  switch (command.verb) {
+    case PlayerVerb::SeekBy:
+    case PlayerVerb::DepthBy:
+    case PlayerVerb::ScreenBy:
+      return word + textLine(" %+.6g", command.value);
+    case PlayerVerb::SeekTo:
+      return word + textLine(" %.6g", command.value);
+    case PlayerVerb::SeekShare:
+      return word + textLine(" %.6g%%", 100 * command.value);
+    case PlayerVerb::Loop:
+      return command.value == 0 ? word : word + (command.value > 0 ? " on" : " off");
+    case PlayerVerb::Open:
+    case PlayerVerb::Layout:
+      return command.word.empty() ? word : word + " " + command.word;
+    default:
+      return word;
+  }
+}
+
+std::string commandWords() {
+  constexpr std::array kOperands{"", " +X|-X", " +S|-S|S|P%", " URL", " [on|off]", " [WORD]"};
+  std::string text;
+  const char* last = "";
+  for (const Entry& entry : kEntries) {
+    if (entry.word == std::string_view(last)) continue;
+    last = entry.word;
+    text += (text.empty() ? "" : ", ") + std::string(entry.word) + kOperands[static_cast<std::size_t>(entry.operand)];
+  }
+  return text;
+}
+
+std::string meaningOf(const PlayerCommand& command) {
+  const Entry& entry = entryOf(command.verb);
+  if (command.verb == PlayerVerb::SeekBy) {
+    return textLine("%.6g s %s", std::abs(command.value), command.value < 0 ? "back" : "forward");
+  }
+  if (command.verb == PlayerVerb::SeekTo) return textLine("to %.6g s", command.value);
+  if (command.verb == PlayerVerb::SeekShare) return textLine("to %.6g %% of the film", 100 * command.value);
+  if (entry.operand == Operand::Step) return textLine("%+.6g %s", command.value, entry.meaning);
+  if (command.verb == PlayerVerb::Loop && command.value != 0) {
+    return command.value > 0 ? "begin again at the end" : "do not begin again at the end";
+  }
+  if (command.verb == PlayerVerb::Layout && !command.word.empty()) return "show stereo as " + command.word;
+  return entry.meaning;
+}
+
+bool repeats(PlayerVerb verb) noexcept {
+  return entryOf(verb).repeats;
+}
+
+}  // namespace relievo

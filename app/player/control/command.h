@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a viewer can ask of the player, in one vocabulary: of keys, of the key file, of the control socket.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace relievo {
+
+enum class PlayerVerb : std::uint8_t {
+  Play,       // at the usual rate
+  Pause,      // the picture stands, and stays touchable
+  PlayPause,  // the other of the two
+  Step,       // the next picture, and stand
+  Faster,     // one up of 1/8 1/4 1/2 1 2 4 8 16; from 2 on by key frames, without touch
+  Slower,     // one down
+  SeekBy,     // seconds
+  SeekTo,     // seconds
+  SeekShare,  // of the film's length, 0 to 1
+  Next,       // film of the list
+  Previous,   // film of the list, or this one from its beginning
+  Loop,       // begins again at the end, or no longer; value 1: does, -1: does not, 0: the other of the two
+  Open,       // another film or list
+  Stop,       // ends the film
+  Quit,       // ends the program
+  Layout,     // another way to show stereo; without its word the next one
+  SwapEyes,
+  DepthBy,   // for the eyes, of 1
+  ScreenBy,  // mm, the whole scene towards the viewer
+  Info,      // text on the screen, or no more
+};
+
+struct PlayerCommand {
+  PlayerVerb verb = PlayerVerb::Play;
+  double value = 0;
+  std::string word;  // of Open its URL, of Layout a stereo word (see app/player/screen/stereo_word.h)
+
+  friend bool operator==(const PlayerCommand&, const PlayerCommand&) = default;
+};
+
+// "pause", "seek +10", "seek 75", "seek 50%", "depth -0.1", "loop on", "layout tab", "open URL", ..; nothing for what
+// is none.
+[[nodiscard]] std::optional<PlayerCommand> parseCommand(std::string_view words);
+// Words that `parseCommand` reads back.
+[[nodiscard]] std::string wordsOf(const PlayerCommand& command);
+// All of them, "play, pause, .., seek +S|-S|S|P%, ..": for a message.
+[[nodiscard]] std::string commandWords();
+// What it does, for the help: "pause, or go on", "10 s forward".
+[[nodiscard]] std::string meaningOf(const PlayerCommand& command);
+// Done again and again while its key is held down.
+[[nodiscard]] bool repeats(PlayerVerb verb) noexcept;
+
+}  // namespace relievo

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// nlohmann's parser keeps its own stack, so that deep nesting costs memory of the line's size and no more.
+#include "app/player/control/control_protocol.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "app/player/screen/stereo_word.h"
+
+namespace relievo {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMostId = 64;
+
+// What came from outside need not be UTF-8, JSON must be.
+std::string lineOf(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+double rounded(double value) {
+  return std::isfinite(value) ? std::round(value * 1e3) / 1e3 : 0.0;
+}
+
+Json answer(const std::string& id, bool ok) {
+  Json json;
+  if (!id.empty()) json["id"] = Json::parse(id, nullptr, false);
+  json["ok"] = ok;
+  return json;
+}
+
+std::optional<std::string> idOf(const Json& id) {
+  const bool taken = id.is_number_integer() || (id.is_string() && id.get_ref<const std::string&>().size() <= kMostId);
+  return taken ? std::optional(lineOf(id)) : std::nullopt;
+}
+
+std::expected<ControlRequest, std::string> requestOf(const std::string& words) {
+  if (words == "status") return StatusRequest{};
+  if (words == "metrics on" || words == "metrics off") return MetricsRequest{words.ends_with("on")};
+  constexpr std::string_view kFault = "fault ";
+  if (words.starts_with(kFault)) {
+    const std::size_t space = words.find(' ', kFault.size());
+    if (space == std::string::npos) return std::unexpected("it is: fault DEVICE WHAT");
+    return FaultRequest{words.substr(kFault.size(), space - kFault.size()), words.substr(space + 1)};
+  }
+  if (auto command = parseCommand(words)) return std::move(*command);
+  return std::unexpected("no such command; it is one of: " + commandWords() +
+                         ", status, metrics on|off, fault DEVICE WHAT");
+}
+
+}  // namespace
+
+ControlLine parseControlLine(std::string_view line) {
+  ControlLine read{"", std::unexpected("a line is one JSON object, such as {\"do\": \"pause\"}")};
+  const Json json = Json::parse(line, nullptr, false);
+  if (!json.is_object()) return read;
+  if (const auto id = json.find("id"); id != json.end()) {
+    auto kept = idOf(*id);
+    if (!kept) {
+      read.asked = std::unexpected("\"id\" is a whole number, or a text of at most 64 bytes");
+      return read;
+    }
+    read.id = std::move(*kept);
+  }
+  const auto words = json.find("do");
+  if (words == json.end() || !words->is_string()) {
+    read.asked = std::unexpected("\"do\" is missing, or is no text; such as {\"do\": \"pause\"}");
+  } else if (json.size() > 1 + (read.id.empty() ? 0U : 1U)) {
+    read.asked = std::unexpected("an object has \"do\" and \"id\", and nothing else");
+  } else {
+    read.asked = requestOf(words->get<std::string>());
+  }
+  return read;
+}
+
+std::string okLine(const std::string& id) {
+  return lineOf(answer(id, true));
+}
+
+std::string errorLine(const std::string& id, const std::string& error) {
+  Json json = answer(id, false);
+  json["error"] = error;
+  return lineOf(json);
+}
+
+std::string statusLine(const std::string& id, const ScreenFacts& facts, const std::string& source) {
+  Json json = answer(id, true);
+  json["state"] = name(facts.state);
+  const bool film = !source.empty();
+  json["source"] = film ? Json(source) : Json(nullptr);
+  json["position_s"] = film ? Json(rounded(facts.position_s)) : Json(nullptr);
+  json["duration_s"] = film && facts.duration_s > 0 ? Json(rounded(facts.duration_s)) : Json(nullptr);
+  json["rate"] = facts.rate;
+  json["loop"] = facts.loop;
+  json["film"] = film ? Json(facts.film) : Json(nullptr);
+  json["films"] = film ? Json(facts.films) : Json(nullptr);
+  json["stereo"] = stereoWord(facts.stereo);
+  json["swap_eyes"] = facts.stereo.swap_eyes;
+  json["depth_strength"] = rounded(facts.stereo.strength);
+  json["has_depth"] = film && facts.has_depth;
+  json["haptic"] = facts.haptic.empty() ? Json(nullptr) : Json(facts.haptic);
+  json["contact"] = facts.contact;
+  return lineOf(json);
+}
+
+std::string stateLine(PlayerState state, double time_s) {
+  return lineOf({{"event", "state"}, {"state", name(state)}, {"time_s", rounded(time_s)}});
+}
+
+std::string faultLine(const FaultEntry& fault) {
+  return lineOf({{"event", "fault"}, {"what", fault.what}, {"done", fault.done}, {"time_s", rounded(fault.time_s)}});
+}
+
+std::string metricsLine(const PlayReport& report) {
+  return "{\"event\":\"metrics\"," + metricsOf(report).substr(1);
+}
+
+}  // namespace relievo

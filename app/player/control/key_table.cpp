@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+// The usual keys, and the reader of tables. CEC keys come as the codes that the kernel's rc-cec map gives them.
+#include "app/player/control/key_table.h"
+
+#include <linux/input-event-codes.h>
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <sstream>
+#include <vector>
+
+#include "app/player/screen/text_line.h"
+#include "hal/key_names.h"
+
+namespace relievo {
+namespace {
+
+constexpr std::string_view kUsual = R"([always]
+PLAY = "play"
+PAUSE = "pause"
+PLAYPAUSE = "play-pause"
+SPACE = "play-pause"
+OK = { press = "play-pause", hold = "info" }
+RIGHT = "seek +10"
+LEFT = "seek -10"
+FORWARD = "seek +10"
+REWIND = "seek -10"
+0 = "seek 0%"
+1 = "seek 10%"
+2 = "seek 20%"
+3 = "seek 30%"
+4 = "seek 40%"
+5 = "seek 50%"
+6 = "seek 60%"
+7 = "seek 70%"
+8 = "seek 80%"
+9 = "seek 90%"
+FASTFORWARD = "faster"
+F = "faster"
+SLOW = "slower"
+D = "slower"
+DOT = "step"
+NEXT = "next"
+CHANNELUP = "next"
+N = "next"
+PREVIOUS = "previous"
+CHANNELDOWN = "previous"
+P = "previous"
+RED = "loop"
+L = "loop"
+STOP = "stop"
+BACK = "stop"
+ESC = "stop"
+POWER = "stop"
+3D_MODE = "layout"
+TAB = "layout"
+S = "layout"
+BLUE = "swap-eyes"
+E = "swap-eyes"
+UP = "depth +0.1"
+DOWN = "depth -0.1"
+PAGEUP = "screen +2"
+PAGEDOWN = "screen -2"
+INFO = "info"
+I = "info"
+
+[paused]
+FASTFORWARD = "step"
+SLOW = "step"
+)";
+
+struct Twin {
+  std::uint16_t code, of;
+};
+constexpr std::array kTwins{
+    Twin{KEY_PLAYCD, KEY_PLAY}, Twin{KEY_PAUSECD, KEY_PAUSE}, Twin{KEY_STOPCD, KEY_STOP},
+    Twin{KEY_ENTER, KEY_OK},    Twin{KEY_SELECT, KEY_OK},     Twin{KEY_KPENTER, KEY_OK},
+    Twin{KEY_EXIT, KEY_BACK},   Twin{KEY_NEXTSONG, KEY_NEXT}, Twin{KEY_PREVIOUSSONG, KEY_PREVIOUS},
+    Twin{KEY_NUMERIC_0, KEY_0}, Twin{KEY_NUMERIC_1, KEY_1},   Twin{KEY_NUMERIC_2, KEY_2},
+    Twin{KEY_NUMERIC_3, KEY_3}, Twin{KEY_NUMERIC_4, KEY_4},   Twin{KEY_NUMERIC_5, KEY_5},
+    Twin{KEY_NUMERIC_6, KEY_6}, Twin{KEY_NUMERIC_7, KEY_7},   Twin{KEY_NUMERIC_8, KEY_8},
+    Twin{KEY_NUMERIC_9, KEY_9},
+};
+
+std::uint16_t twinOf(std::uint16_t code) noexcept {
+  const auto twin = std::ranges::find(kTwins, code, &Twin::code);
+  return twin == kTwins.end() ? code : twin->of;
+}
+
+// The table's index for its name; nothing for what is no state.
+std::optional<std::size_t> tableNamed(std::string_view word) {
+  if (word == "always") return kPlayerStateCount;
+  for (std::size_t i = 0; i < kPlayerStateCount; ++i) {
+    if (word == name(static_cast<PlayerState>(i))) return i;
+  }
+  return std::nullopt;
+}
+
+class Reader {
+ public:
+  explicit Reader(const std::string& file) : file_(file) {}
+
+  Outcome<KeyTable::Binding> binding(const toml::node& node) const {
+    KeyTable::Binding binding;
+    if (node.is_string()) {
+      if (auto read = command(node, binding.press); !read) return std::unexpected(read.error());
+      return binding;
+    }
+    const toml::table* pair = node.as_table();
+    if (pair == nullptr) return wrong(node, "", "a key has a command in quotes, or { press = \"..\", hold = \"..\" }");
+    for (const auto& [word, value] : *pair) {
+      const bool press = word.str() == "press";
+      if (!press && word.str() != "hold") return wrong(value, std::string(word.str()), "is neither press nor hold");
+      if (auto read = command(value, press ? binding.press : binding.hold); !read) {
+        return std::unexpected(read.error());
+      }
+    }
+    return binding;
+  }
+
+  [[nodiscard]] std::unexpected<Failure> wrong(const toml::node& node, const std::string& thing,
+                                               const char* what) const {
+    return wrong(node.source(), thing, what);
+  }
+  [[nodiscard]] std::unexpected<Failure> wrong(const toml::source_region& where, const std::string& thing,
+                                               const char* what) const {
+    const std::string place = file_ + ":" + std::to_string(where.begin.line);
+    return failOn(thing.empty() ? place : place + ": " + thing, {ErrorCode::InvalidArgument, 0, what});
+  }
+
+ private:
+  Outcome<void> command(const toml::node& node, std::optional<PlayerCommand>& into) const {
+    const std::string words = node.value_or(std::string("?"));
+    if (words.empty()) return {};
+    into = parseCommand(words);
+    if (into) return {};
+    return wrong(node, "\"" + words + "\" is no command; the commands are " + commandWords(), "mend this line");
+  }
+
+  const std::string& file_;
+};
+
+}  // namespace
+
+std::string_view KeyTable::usualText() noexcept {
+  return kUsual;
+}
+
+KeyTable KeyTable::usual() {
+  KeyTable table;
+  static_cast<void>(table.add(kUsual, "usual keys"));
+  return table;
+}
+
+Outcome<KeyTable> KeyTable::parse(std::string_view text, const std::string& file) {
+  KeyTable table = usual();
+  if (auto added = table.add(text, file); !added) return std::unexpected(added.error());
+  return table;
+}
+
+Outcome<KeyTable> KeyTable::load(const std::string& path) {
+  const std::ifstream file(path);
+  if (!file) return failOn(path, {ErrorCode::NotFound, errno, "the key table cannot be read; check its path"});
+  std::ostringstream text;
+  text << file.rdbuf();
+  return parse(text.str(), path);
+}
+
+Outcome<void> KeyTable::add(std::string_view text, const std::string& file) {
+  const Reader reader(file);
+  toml::table parsed;
+  try {
+    parsed = toml::parse(text, file);
+  } catch (const toml::parse_error& error) {
+    return reader.wrong(error.source(), "", "this is no TOML; a line is KEY = \"command\" under [always] or a state");
+  }
+  for (const auto& [table_word, node] : parsed) {
+    const auto table = tableNamed(table_word.str());
+    if (!table || !node.is_table()) {
+      return reader.wrong(table_word.source(), std::string(table_word.str()),
+                          "is no state; tables are [always], [playing], [paused], [idle], ..");
+    }
+    for (const auto& [key_word, row] : *node.as_table()) {
+      const std::string word(key_word.str());
+      const auto code = keyCode(word);
+      if (!code) {
+        const std::string nearest(nearestKeyName(word));
+        return reader.wrong(row, nearest.empty() ? word : textLine("%s (%s?)", word.c_str(), nearest.c_str()),
+                            "is no key's name; relievo play --help lists the names");
+      }
+      auto binding = reader.binding(row);
+      if (!binding) return std::unexpected(binding.error());
+      tables_[*table][*code] = std::move(*binding);
+    }
+  }
+  return {};
+}
+
+const KeyTable::Binding* KeyTable::row(std::size_t table, std::uint16_t code) const noexcept {
+  const auto found = tables_[table].find(code);
+  return found == tables_[table].end() ? nullptr : &found->second;
+}
+
+const KeyTable::Binding* KeyTable::find(PlayerState state, std::uint16_t code) const noexcept {
+  for (const std::uint16_t known : {code, twinOf(code)}) {
+    for (const std::size_t table : {static_cast<std::size_t>(state), kAlways}) {
+      if (const Binding* binding = row(table, known)) return binding->press || binding->hold ? binding : nullptr;
+    }
+  }
+  return nullptr;
+}
+
+std::string KeyTable::help() const {
+  constexpr std::size_t kColumn = 30;  // of the meanings
+  std::vector<std::pair<PlayerCommand, std::string>> lines;
+  const auto put = [&lines](const std::optional<PlayerCommand>& command, const std::string& key) {
+    if (!command) return;
+    const auto line = std::ranges::find(lines, *command, [](const auto& each) { return each.first; });
+    if (line == lines.end()) lines.emplace_back(*command, key);
+    else line->second += " " + key;
+  };
+  for (std::size_t t = 0; t <= kPlayerStateCount; ++t) {
+    const std::string when = t == kAlways ? "" : textLine(" (%s)", name(static_cast<PlayerState>(t)));
+    for (const auto& [code, binding] : tables_[t]) {
+      const std::string key(keyName(code));
+      put(binding.press, key + when);
+      put(binding.hold, textLine("%s (held)%s", key.c_str(), when.c_str()));
+    }
+  }
+  std::ranges::stable_sort(lines, {}, [](const auto& line) { return line.first.verb; });
+  std::string text;
+  for (const auto& [command, keys] : lines) {
+    std::string line = "  " + keys;
+    line.resize(std::max(kColumn, line.size() + 2), ' ');
+    text += line + meaningOf(command) + "\n";
+  }
+  return text;
+}
+
+std::optional<PlayerCommand> KeyReader::take(const KeyEvent& key, PlayerState state) {
+  using Action = KeyEvent::Action;
+  if (key.action == Action::Release) {
+    if (!pending_ || pending_->code != key.code) return std::nullopt;
+    return std::exchange(pending_, std::nullopt)->binding.press;
+  }
+  const KeyTable::Binding* binding = table_.find(state, key.code);
+  if (key.action == Action::Press) {
+    pending_.reset();
+    if (binding == nullptr) return std::nullopt;
+    if (!binding->hold) return binding->press;
+    pending_ = Pending{key.code, key.time, *binding};
+    return std::nullopt;
+  }
+  const bool again = binding != nullptr && !binding->hold && binding->press && repeats(binding->press->verb);
+  return again ? binding->press : std::nullopt;
+}
+
+std::optional<PlayerCommand> KeyReader::held(MonotonicTime now) {
+  if (!pending_ || now < pending_->since + kHold) return std::nullopt;
+  return std::exchange(pending_, std::nullopt)->binding.hold;
+}
+
+}  // namespace relievo

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which key of a remote control, a keyboard or CEC means which command, in which state.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "app/player/control/command.h"
+#include "app/player/state_table.h"
+#include "hal/remote_input.h"
+#include "platform/failure.h"
+
+namespace relievo {
+
+// Tables of keys in TOML, named after the player's states; what a state does not say is said by [always]:
+//
+//   [always]
+//   OK = { press = "play-pause", hold = "info" }   # hold: for 0.6 s
+//   RIGHT = "seek +10"
+//   [paused]
+//   RIGHT = "step"
+//   BLUE = ""                                      # means nothing
+//
+// Keys by their names in linux/input-event-codes.h, without KEY_; commands in the words of
+// app/player/control/command.h. Of two codes that remotes send for one word (PLAYCD for PLAY, ENTER and SELECT for OK,
+// EXIT for BACK, ..) one row is enough.
+class KeyTable {
+ public:
+  struct Binding {
+    std::optional<PlayerCommand> press, hold;
+  };
+
+  // The text of the usual table: what a file of one's own begins from.
+  [[nodiscard]] static std::string_view usualText() noexcept;
+  [[nodiscard]] static KeyTable usual();
+  // The usual table with the rows of `text` in place of its own. InvalidArgument names the line of `file`.
+  [[nodiscard]] static Outcome<KeyTable> parse(std::string_view text, const std::string& file);
+  // NotFound when the file cannot be read.
+  [[nodiscard]] static Outcome<KeyTable> load(const std::string& path);
+
+  // Null for a key that means nothing in that state.
+  [[nodiscard]] const Binding* find(PlayerState state, std::uint16_t code) const noexcept;
+  // For the help: a line for each command, with its keys' names.
+  [[nodiscard]] std::string help() const;
+
+ private:
+  Outcome<void> add(std::string_view text, const std::string& file);
+  [[nodiscard]] const Binding* row(std::size_t table, std::uint16_t code) const noexcept;
+
+  static constexpr std::size_t kAlways = kPlayerStateCount;  // after one of each state
+  std::array<std::map<std::uint16_t, Binding>, kPlayerStateCount + 1> tables_;
+};
+
+// Makes commands of what a hand does to the keys. Pure; times must not go back.
+class KeyReader {
+ public:
+  static constexpr Duration kHold = std::chrono::milliseconds(600);
+
+  explicit KeyReader(KeyTable table) : table_(std::move(table)) {}
+  // A key that can be held for another meaning is obeyed when it is let go of; all others when they are pressed.
+  [[nodiscard]] std::optional<PlayerCommand> take(const KeyEvent& key, PlayerState state);
+  // The meaning of a key that has been held long enough, once.
+  [[nodiscard]] std::optional<PlayerCommand> held(MonotonicTime now);
+
+ private:
+  struct Pending {
+    std::uint16_t code;
+    MonotonicTime since;
+    KeyTable::Binding binding;  // as the state was when it was pressed
+  };
+  KeyTable table_;
+  std::optional<Pending> pending_;
+};
+
+}  // namespace relievo

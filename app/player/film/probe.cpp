@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lists the tracks, lets the pair reader find the film in them, and reads the first pairs' depth.
+#include "app/player/film/probe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/player/report.h"
+#include "app/player/screen/text_line.h"
+#include "app/scene/height_field.h"
+
+namespace relievo {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kPairsLookedAt = 8;
+
+Outcome<void> listTracks(const std::string& url, const PairReader::Backends& backends,
+                         std::vector<ProbedTrack>& tracks) {
+  const auto source = backends.make_source(url);
+  if (auto opened = source->open(url); !opened) return failOn(url, opened.error());
+  for (const StreamInfo& stream : source->streams()) tracks.push_back({url, stream});
+  return {};
+}
+
+// Adds one depth frame's samples to what was seen so far.
+struct DepthLook {
+  DepthUse use;
+  std::uint64_t samples = 0, holes = 0;
+
+  void add(const HeightField& field) {
+    for (int r = 0; r < field.rows(); ++r) {
+      for (int c = 0; c < field.cols(); ++c) add(field.code(c, r), field.heightMm(c, r));
+    }
+  }
+  void add(std::uint32_t code, double height_mm) {
+    ++samples;
+    if (std::isnan(height_mm)) {
+      ++holes;
+      return;
+    }
+    const bool first = samples - holes == 1;
+    use.lowest_code = first ? code : std::min(use.lowest_code, code);
+    use.highest_code = first ? code : std::max(use.highest_code, code);
+    use.lowest_mm = first ? height_mm : std::min(use.lowest_mm, height_mm);
+    use.highest_mm = first ? height_mm : std::max(use.highest_mm, height_mm);
+    use.holes = static_cast<double>(holes) / static_cast<double>(samples);
+  }
+};
+
+Outcome<void> lookAtPairs(PairReader& reader, ProbeResult& result) {
+  const FilmInfo& film = result.film;
+  DepthLook look;
+  std::vector<TimedSurface> surfaces;
+  for (int i = 0; i < kPairsLookedAt; ++i) {
+    const auto pair = reader.next();
+    if (!pair) return failOn(reader.failedThing(), pair.error());
+    if (!*pair) break;
+    const Frame& shape = (*pair)->depth.empty() ? (*pair)->color : (*pair)->depth;
+    if (i == 0) result.volume = DisplayVolume::forPicture(shape.width, shape.height, shape.sample_aspect);
+    if ((*pair)->depth.empty()) continue;
+    const auto field = HeightField::make((*pair)->depth, film.calibration.calibration, result.volume);
+    if (!field) return failOn("depth", field.error());
+    look.add(*field);
+    ++look.use.pairs;
+    const MediaTime time = (*pair)->depth.pts;
+    if (surfaces.empty() || time > surfaces.back().time) surfaces.push_back({*field, time, (*pair)->depth.owner});
+  }
+  result.depth = look.use;
+  if (!surfaces.empty()) result.touch = planTouch(measureClip(surfaces));
+  result.pairs = reader.counters();
+  return {};
+}
+
+double framesPerSecond(const FilmInfo& film) {
+  return film.frame_period > Duration(0) ? 1.0 / toSeconds(film.frame_period) : 0.0;
+}
+
+std::vector<std::string> needsOf(const ProbeResult& r) {
+  const FilmInfo& f = r.film;
+  std::vector<std::string> needs;
+  const double pixels = double(f.color_width) * f.color_height + double(f.depth_width) * f.depth_height;
+  needs.push_back(textLine("a decoder for %s%s%s, %.1f million pixels a second; %s is at hand", f.color_codec.c_str(),
+                           f.depth_codec.empty() ? "" : " and ", f.depth_codec.c_str(),
+                           1e-6 * pixels * framesPerSecond(f), r.decoder.c_str()));
+  if (!f.has_depth) {
+    needs.push_back("depth, to be felt: give --depth FILE, or --packing sbs or tb when the picture holds both");
+    return needs;
+  }
+  if (r.depth.pairs == 0) {
+    needs.push_back("depth at its beginning: the first pictures have none");
+    return needs;
+  }
+  if (r.depth.highest_mm - r.depth.lowest_mm < 0.25 * r.volume.depth_mm) {
+    needs.push_back(
+        textLine("more relief: it takes up %.1f of %.0f mm; try --calibration range=.. or law=inverse,near=MM,far=MM",
+                 r.depth.highest_mm - r.depth.lowest_mm, r.volume.depth_mm));
+  }
+  if (r.depth.holes > 0.02) {
+    needs.push_back(textLine("holes filled: %.0f %% of the depth samples are holes, and a hole cannot be touched",
+                             100 * r.depth.holes));
+  }
+  if (r.pairs.mismatched > 0) needs.push_back("depth frames at the colour frames' times: some are missing");
+  return needs;
+}
+
+// What the container calls a track; nothing where that is one of the words that muxers put there by themselves.
+std::string titleOf(const StreamInfo& s) {
+  for (const char* key : {"TITLE", "NAME", "HANDLER_NAME"}) {
+    const auto found = s.tags.find(key);
+    if (found != s.tags.end() && !found->second.ends_with("Handler")) return found->second;
+  }
+  return "";
+}
+
+std::string describe(const StreamInfo& s) {
+  const char* const kind = s.kind == StreamKind::Video ? "video" : s.kind == StreamKind::Audio ? "audio" : "other";
+  std::string text = textLine("%d %s %s", s.index, kind, s.codec.c_str());
+  if (s.kind == StreamKind::Video) text += textLine(" %d x %d", s.width, s.height);
+  if (s.auxiliary) text += ", signalled as depth by its stream type";
+  const std::string title = titleOf(s);
+  return title.empty() ? text : text + " \"" + title + "\"";
+}
+
+Outcome<void> lookAtFilm(const SourceOptions& options, const PairReader::Backends& backends, ProbeResult& result) {
+  PairReader reader(backends);
+  if (auto opened = reader.open(options); !opened) {
+    return failOn(reader.failedThing().empty() ? options.url : reader.failedThing(), opened.error());
+  }
+  result.film = reader.info();
+  result.decoder = result.film.color_decoder;
+  if (auto looked = lookAtPairs(reader, result); !looked) return looked;
+  result.needs = needsOf(result);
+  return {};
+}
+
+std::string trackLines(const ProbeResult& r) {
+  std::string text;
+  for (const ProbedTrack& t : r.tracks) text += "track   " + t.source + " " + describe(t.stream) + "\n";
+  return text;
+}
+
+}  // namespace
+
+Outcome<ProbeResult> probe(const SourceOptions& options, const PairReader::Backends& backends) {
+  ProbeResult result;
+  if (auto listed = listTracks(options.url, backends, result.tracks); !listed) return std::unexpected(listed.error());
+  if (!options.depth_url.empty()) {
+    if (auto listed = listTracks(options.depth_url, backends, result.tracks); !listed) {
+      return std::unexpected(listed.error());
+    }
+  }
+  if (auto looked = lookAtFilm(options, backends, result); !looked) result.failure = looked.error();
+  return result;
+}
+
+std::string probeToText(const ProbeResult& r) {
+  std::string text = trackLines(r);
+  if (r.failure) return text;
+  const FilmInfo& f = r.film;
+  text += textLine("color   %s %d x %d, %.3g frames a second", f.color_codec.c_str(), f.color_width, f.color_height,
+                   framesPerSecond(f));
+  text += f.duration > Duration(0) ? textLine(", %.2f s\n", toSeconds(f.duration)) : std::string(", length unknown\n");
+  if (f.has_depth) {
+    text += textLine("depth   %s %d x %d, packing %s\n", f.depth_codec.c_str(), f.depth_width, f.depth_height,
+                     name(f.packing));
+    text += "meaning " + f.calibration.explanation + "\n";
+    text += textLine("relief  codes %u to %u, %.1f to %.1f mm, %.1f %% holes in the first %d pictures\n",
+                     r.depth.lowest_code, r.depth.highest_code, r.depth.lowest_mm, r.depth.highest_mm,
+                     100 * r.depth.holes, r.depth.pairs);
+    if (r.touch) text += "touch   " + r.touch->reason + "\n";
+  } else {
+    text += "depth   none\n";
+  }
+  text += textLine("volume  %.0f x %.0f x %.0f mm\n", r.volume.width_mm, r.volume.height_mm, r.volume.depth_mm);
+  for (const std::string& need : r.needs) text += "needs   " + need + "\n";
+  return text;
+}
+
+std::string probeToJson(const ProbeResult& r) {
+  const FilmInfo& f = r.film;
+  Json json;
+  json["tracks"] = Json::array();
+  for (const ProbedTrack& t : r.tracks) {
+    json["tracks"].push_back({{"source", t.source},
+                              {"index", t.stream.index},
+                              {"video", t.stream.kind == StreamKind::Video},
+                              {"codec", t.stream.codec},
+                              {"width", t.stream.width},
+                              {"height", t.stream.height},
+                              {"auxiliary", t.stream.auxiliary},
+                              {"duration_s", toSeconds(t.stream.duration)},
+                              {"tags", t.stream.tags}});
+  }
+  if (r.failure) {
+    json["failure"] = r.failure->thing + ": " + r.failure->error.message;
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  }
+  json["color"] = {{"codec", f.color_codec}, {"width", f.color_width}, {"height", f.color_height}};
+  json["depth"] = nullptr;
+  if (f.has_depth) {
+    json["depth"] = {{"codec", f.depth_codec},
+                     {"width", f.depth_width},
+                     {"height", f.depth_height},
+                     {"calibration", f.calibration.explanation},
+                     {"calibration_origin", name(f.calibration.origin)},
+                     {"codes", {r.depth.lowest_code, r.depth.highest_code}},
+                     {"relief_mm", {r.depth.lowest_mm, r.depth.highest_mm}},
+                     {"holes", r.depth.holes}};
+  }
+  json["touch"] = nullptr;
+  if (r.touch) {
+    const ClipMeasure& m = r.touch->measure;
+    json["touch"] = {{"quantum_mm", m.quantum_mm},
+                     {"noise_mm", m.noise_mm},
+                     {"speed_mm_per_s", m.speed_mm_per_s},
+                     {"edges", m.edges},
+                     {"still", m.still},
+                     {"narrow_mm", r.touch->scale.narrow_mm},
+                     {"wide_mm", r.touch->scale.wide_mm},
+                     {"clamp_mm", r.touch->scale.clamp_mm},
+                     {"time", {name(r.touch->scale.narrow_time), name(r.touch->scale.wide_time)}},
+                     {"error", r.touch->error},
+                     {"reason", r.touch->reason}};
+  }
+  json["packing"] = name(f.packing);
+  json["frames_per_s"] = framesPerSecond(f);
+  json["duration_s"] = toSeconds(f.duration);
+  json["volume_mm"] = {r.volume.width_mm, r.volume.height_mm, r.volume.depth_mm};
+  json["decoder"] = r.decoder;
+  json["needs"] = r.needs;
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace relievo

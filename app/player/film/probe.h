@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// A look into a source: what is in it, what its depth means, and what playing it needs.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/depth_window/touch_plan.h"
+#include "app/media/pair_reader.h"
+#include "app/scene/display_volume.h"
+#include "hal/media_source.h"
+#include "platform/failure.h"
+
+namespace relievo {
+
+struct ProbedTrack {
+  std::string source;
+  StreamInfo stream;
+};
+
+// The first pairs, looked at.
+struct DepthUse {
+  int pairs = 0;
+  std::uint32_t lowest_code = 0, highest_code = 0;
+  double lowest_mm = 0, highest_mm = 0;
+  double holes = 0;  // share of the samples
+};
+
+struct ProbeResult {
+  std::vector<ProbedTrack> tracks;
+  std::optional<Failure> failure;  // the tracks are there, but no film was found in them, and the rest is empty
+  FilmInfo film;
+  PairCounters pairs;  // of the first ones
+  DisplayVolume volume;
+  DepthUse depth;
+  std::optional<TouchPlan> touch;  // what the finger needs; nothing without depth
+  std::string decoder;             // VideoDecoder::description
+  std::vector<std::string> needs;  // one line each
+};
+
+// Fails where a source does not open.
+[[nodiscard]] Outcome<ProbeResult> probe(const SourceOptions& options, const PairReader::Backends& backends);
+[[nodiscard]] std::string probeToText(const ProbeResult& result);
+[[nodiscard]] std::string probeToJson(const ProbeResult& result);
+
+}  // namespace relievo

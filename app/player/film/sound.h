@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// The film's sound: keeps the output filled, and makes it the master of the film's clock.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/media/film_feed.h"
+#include "app/player/film/sound_window.h"
+#include "hal/audio_output.h"
+#include "hal/media_clock.h"
+#include "platform/clock.h"
+
+namespace relievo {
+
+// For the report. Offsets are those of the sound against each picture as it comes onto the screen, positive where the
+// sound is ahead; the first fifth of a second after each start, when they are being found out, is left out.
+struct SoundSummary {
+  std::string device;  // "" without one
+  int rate_hz = 0;
+  std::uint64_t underruns = 0;  // silences that were not the film's
+  std::uint64_t realigned = 0;  // times that it was started anew, since it was too far off
+  std::uint64_t pictures = 0;   // that were shown to sound
+  double max_offset_ms = 0, mean_offset_ms = 0;
+  double drift_ppm = 0;  // how much faster than the system's clock the film went at last
+};
+
+// The clock is felt as well as seen, so it never jumps: it is steered by at most MediaClock::kMostSteering. Where the
+// sound is further off than that can mend in time, the sound jumps: it is started anew at the film's present position,
+// earlier by what it was late.
+//
+// A picture comes onto the screen some time after the clock has said so: it has to be drawn, and waits for the refresh.
+// The sound is late by what the pictures are on average.
+//
+// Owner's thread only; the output, if there is one, is borrowed. Nothing waits, but for an output that is opened. One
+// that is refused or goes away is tried again every few seconds; meanwhile the film follows the system's clock.
+class Sound {
+ public:
+  static constexpr Duration kNear = std::chrono::milliseconds(8);  // good enough after a start; steering does the rest
+  static constexpr Duration kFar = std::chrono::milliseconds(50);  // too far to be steered
+
+  Sound(AudioOutput* output, const Clock& clock) noexcept : output_(output), clock_(clock) {}
+  ~Sound() { close(); }
+  Sound(const Sound&) = delete;
+  Sound& operator=(const Sound&) = delete;
+
+  // Before the film: whether the output is there or not, `format` is what the film's sound is wanted in from then on.
+  void open();
+  [[nodiscard]] std::optional<AudioFormat> format() const noexcept { return format_; }
+  // The film is elsewhere.
+  void forget() noexcept;
+  // Once a step, the last thing. `plays`: the film goes at its own pace; else there is silence.
+  void follow(bool plays, MediaClock& clock, FilmFeed& feed);
+  // A picture has come onto the screen.
+  void noteShown(MediaTime picture, const MediaClock& clock);
+  void close() noexcept;
+
+  // What is worth a line in the report, and what was done about it.
+  struct News {
+    std::string what, done;
+  };
+  [[nodiscard]] std::optional<News> takeNews() noexcept { return std::exchange(news_, std::nullopt); }
+  [[nodiscard]] SoundSummary summary() const;
+
+ private:
+  [[nodiscard]] bool ready(MonotonicTime now);
+  void collect(MediaTime position, FilmFeed& feed);
+  void start(MediaTime position);
+  void fill();
+  [[nodiscard]] bool listen(MediaClock& clock, const FilmFeed& feed, MonotonicTime now);
+  [[nodiscard]] bool realign();
+  void stop() noexcept;
+  void lose(const Error& error);
+
+  AudioOutput* output_;
+  const Clock& clock_;
+  std::optional<AudioFormat> format_;
+  std::optional<SoundWindow> window_;
+  std::vector<float> block_;  // on its way into the output
+
+  bool running_ = false;
+  std::int64_t base_ = 0;      // the frame of the film that the output's first one is
+  std::int64_t cursor_ = 0;    // the next one to be written
+  Duration latency_{0};        // from the first frame's writing to its being heard, as far as positions do not tell
+  double picture_late_s_ = 0;  // smoothed
+  int pictures_late_ = 0;      // that this is known of
+  bool heard_ = false;         // since the start
+  AudioPosition last_;         // that was read
+  int readings_ = 0;           // since the start
+  double offset_s_ = 0;        // smoothed
+  bool settled_ = false;
+  int restarts_ = 0;  // without having settled
+  double steering_ = 1;
+  MonotonicTime next_reading_, next_try_;
+  bool gave_up_ = false, lost_ = false, told_ = false;
+
+  std::optional<News> news_;
+  SoundSummary summary_;
+  double sum_offset_ms_ = 0;
+};
+
+}  // namespace relievo

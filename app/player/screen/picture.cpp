@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws, presents, and opens a lost display again.
+#include "app/player/screen/picture.h"
+
+#include <algorithm>
+
+#include "app/player/screen/stereo_word.h"
+
+namespace relievo {
+namespace {
+
+constexpr Duration kRetryPeriod = std::chrono::seconds(1);
+
+}  // namespace
+
+void Picture::close() noexcept {
+  renderer_.reset();  // its GL objects die in the context that made them
+  uploaded_ = false;
+  display_.close();
+}
+
+void Picture::setScene(const DepthCalibration& calibration, const DisplayVolume& volume,
+                       Duration frame_budget) noexcept {
+  calibration_ = calibration;
+  volume_ = volume;
+  frame_budget_ = frame_budget;
+}
+
+void Picture::setPair(const FramePair& pair) {
+  pair_ = pair;
+  uploaded_ = false;
+}
+
+void Picture::clear() noexcept {
+  setPair({});
+  renderer_.reset();
+}
+
+Result<Picture::Shown> Picture::show(const std::optional<FingerMark>& finger, MonotonicTime now) {
+  const bool was_away = away();
+  if (was_away) {
+    if (now < next_retry_) return Shown::NoScreen;
+    next_retry_ = now + kRetryPeriod;
+    if (!display_.open(config_)) return Shown::NoScreen;  // not back yet; it was told when it went
+  }
+  const auto drawn = drawAndPresent(finger);
+  if (drawn) return was_away ? Shown::Back : Shown::OnScreen;
+  if (drawn.error().code != ErrorCode::Lost) return std::unexpected(drawn.error());
+  lose(now);
+  return was_away ? Shown::NoScreen : Shown::Lost;
+}
+
+void Picture::lose(MonotonicTime now) noexcept {
+  close();
+  next_retry_ = now + kRetryPeriod;
+}
+
+Result<bool> Picture::attend(MonotonicTime now) {
+  if (away()) return false;
+  auto attended = display_.attend();
+  if (!attended && attended.error().code == ErrorCode::Lost) lose(now);
+  return attended;
+}
+
+Result<void> Picture::drawAndPresent(const std::optional<FingerMark>& finger) {
+  const auto surface = display_.beginFrame();
+  if (!surface) return std::unexpected(surface.error());
+  width_ = surface->width;
+  height_ = surface->height;
+  fallBack(*surface);
+  if (display_.capabilities().gles) {
+    if (auto drawn = draw(*surface, finger); !drawn) return drawn;
+  }
+  const auto presented = display_.present();
+  if (!presented) return std::unexpected(presented.error());
+  return {};
+}
+
+Result<void> Picture::draw(const DisplaySurface& surface, const std::optional<FingerMark>& finger) {
+  if (renderer_ == nullptr) {
+    auto renderer = SceneRenderer::create(frame_budget_);
+    if (!renderer) return std::unexpected(renderer.error());
+    renderer_ = std::move(*renderer);
+    renderer_->setStereo(stereo_);
+  }
+  if (!uploaded_ && !pair_.color.empty()) {
+    if (auto set = renderer_->setFrame(pair_.color, pair_.depth, calibration_, volume_); !set) return set;
+    uploaded_ = true;
+  }
+  renderer_->setText(text_);
+  if (auto drawn = renderer_->draw(surface, finger); !drawn) return drawn;
+  statistics_ = renderer_->statistics();
+  return {};
+}
+
+// A packed frame that nothing takes was meant for a screen that shows two eyes: side by side such a one mostly can.
+void Picture::fallBack(const DisplaySurface& surface) noexcept {
+  const char* why = refusal(stereo_, surface.width, surface.height);
+  if (why == nullptr) return;
+  refusal_ = why;
+  const bool packed = stereo_.layout == StereoLayout::FramePacking;
+  stereo_.layout = packed && surface.width > 1 ? StereoLayout::SideBySide : StereoLayout::Mono;
+  stereoChanged();
+}
+
+void Picture::nextLayout() noexcept {
+  do {
+    stereo_.layout = static_cast<StereoLayout>((static_cast<int>(stereo_.layout) + 1) % kStereoLayouts);
+  } while (refusal(stereo_, width_, height_) != nullptr);  // mono is never refused
+  stereoChanged();
+}
+
+void Picture::setLayout(std::string_view word) noexcept {
+  if (parseStereo(word, stereo_)) stereoChanged();
+}
+
+void Picture::swapEyes() noexcept {
+  stereo_.swap_eyes = !stereo_.swap_eyes;
+  stereoChanged();
+}
+
+void Picture::changeStrength(double by) noexcept {
+  stereo_.strength = std::clamp(stereo_.strength + by, 0.0, StereoSettings::kMostStrength);
+  stereoChanged();
+}
+
+void Picture::changeScreenPlane(double by_mm) noexcept {
+  stereo_.screen_z_mm = std::clamp(stereo_.screen_z_mm + by_mm, 0.0, volume_.depth_mm);
+  stereoChanged();
+}
+
+void Picture::stereoChanged() noexcept {
+  if (renderer_ != nullptr) renderer_->setStereo(stereo_);
+}
+
+}  // namespace relievo

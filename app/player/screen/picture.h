@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// The way from a pair to the screen: the display, the renderer on it, and what happens when the screen goes away.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/media/pair_reader.h"
+#include "app/render/gl/scene_renderer.h"
+#include "app/render/relief/stereo.h"
+#include "app/scene/depth_calibration.h"
+#include "app/scene/display_volume.h"
+#include "hal/display.h"
+#include "platform/clock.h"
+#include "platform/error.h"
+
+namespace relievo {
+
+// A display without GLES draws nothing, at its own pace. A display that is lost is tried again once a second: film and
+// touch go on meanwhile. Owner's thread only, the GL context's.
+class Picture {
+ public:
+  enum class Shown : std::uint8_t {
+    OnScreen,
+    NoScreen,  // the screen is away
+    Lost,      // it went away just now
+    Back,      // it came back just now, and the picture is on it
+  };
+
+  Picture(Display& display, const DisplayConfig& config, const StereoSettings& stereo) noexcept
+      : display_(display), config_(config), stereo_(stereo) {}
+  ~Picture() { close(); }
+  Picture(const Picture&) = delete;
+  Picture& operator=(const Picture&) = delete;
+
+  [[nodiscard]] Result<void> open() { return display_.open(config_); }
+  void close() noexcept;
+
+  // Known when the film is open. `frame_budget`: how long drawing may take.
+  void setScene(const DepthCalibration& calibration, const DisplayVolume& volume, Duration frame_budget) noexcept;
+  // What `show` shows from now on; a reference is kept, for a screen that comes back.
+  void setPair(const FramePair& pair);
+  // Black, with whatever text there is, from the next `show` on.
+  void clear() noexcept;
+  // What stands at the picture's foot from the next `show` on.
+  void setText(std::vector<std::string> lines) { text_ = std::move(lines); }
+  // Fails for what no retry helps: no renderer, a pixel format that cannot be drawn.
+  [[nodiscard]] Result<Shown> show(const std::optional<FingerMark>& finger, MonotonicTime now);
+  // Between pictures, often. True when the last one should be drawn anew; Lost when the screen has gone just now, and
+  // is tried again from `show`; Cancelled when the viewer has closed it.
+  [[nodiscard]] Result<bool> attend(MonotonicTime now);
+  // The next one that the surface takes.
+  void nextLayout() noexcept;
+  void setLayout(std::string_view word) noexcept;  // see app/player/screen/stereo_word.h
+  void swapEyes() noexcept;
+  void changeStrength(double by) noexcept;  // of the depth, 0 to 2
+  // What lies in the screen plane, in the volume: the rest stands before it or behind it.
+  void changeScreenPlane(double by_mm) noexcept;
+  // Once, when the surface has refused a layout: why. It is shown in another way then.
+  [[nodiscard]] const char* takeRefusal() noexcept { return std::exchange(refusal_, nullptr); }
+
+  [[nodiscard]] bool away() const noexcept { return display_.state() == Display::State::Closed; }
+  [[nodiscard]] DisplayCapabilities capabilities() const noexcept { return display_.capabilities(); }
+  [[nodiscard]] const StereoSettings& stereo() const noexcept { return stereo_; }
+  [[nodiscard]] int width() const noexcept { return width_; }
+  [[nodiscard]] int height() const noexcept { return height_; }
+  [[nodiscard]] const RenderStatistics& statistics() const noexcept { return statistics_; }
+
+ private:
+  void lose(MonotonicTime now) noexcept;
+  [[nodiscard]] Result<void> drawAndPresent(const std::optional<FingerMark>& finger);
+  [[nodiscard]] Result<void> draw(const DisplaySurface& surface, const std::optional<FingerMark>& finger);
+  void fallBack(const DisplaySurface& surface) noexcept;
+  void stereoChanged() noexcept;
+
+  Display& display_;
+  DisplayConfig config_;
+  StereoSettings stereo_;
+  const char* refusal_ = nullptr;
+  DepthCalibration calibration_;
+  DisplayVolume volume_;
+  Duration frame_budget_{0};
+  std::unique_ptr<SceneRenderer> renderer_;
+  FramePair pair_;
+  std::vector<std::string> text_;
+  bool uploaded_ = false;
+  MonotonicTime next_retry_;
+  int width_ = 0, height_ = 0;
+  RenderStatistics statistics_;
+};
+
+}  // namespace relievo

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// Each check asks what a film needs, in the way in which a film asks it.
+#include "app/player/setup/self_test.h"
+
+#include <array>
+#include <atomic>
+
+#include "app/player/player.h"
+#include "app/player/screen/text_line.h"
+#include "app/render/gl/glyphs.h"
+
+namespace relievo {
+namespace {
+
+using Verdict = SelfTestLine::Verdict;
+
+constexpr std::array kPictureCodecs{"h264", "hevc", "vp8", "vp9", "ffv1"};
+constexpr std::array kSoundCodecs{"aac", "ac3", "mp3", "opus", "vorbis"};
+constexpr double kFelt_n = 0.1;
+constexpr double kMost_n = 10;  // of the task's limits
+
+SelfTestLine text() {
+  const auto glyphs = Glyphs::create(24);
+  if (glyphs) return {Verdict::Good, "text", "there is a font"};
+  return {Verdict::Note, "text", glyphs.error().message};
+}
+
+// One line for all of a kind. Without parameter sets a codec that is known may answer that they make no sense.
+template <class Codecs, class Open>
+SelfTestLine decoders(const char* thing, const Codecs& codecs, Open&& open) {
+  std::string there, missing;
+  for (const char* codec : codecs) {
+    const Result<void> opened = open(codec);
+    std::string& words = opened || opened.error().code != ErrorCode::Unsupported ? there : missing;
+    words += (words.empty() ? "" : " ") + std::string(codec);
+  }
+  if (missing.empty()) return {Verdict::Good, thing, there};
+  return {there.empty() ? Verdict::Bad : Verdict::Note, thing, "films with " + missing + " cannot be decoded"};
+}
+
+SelfTestLine pictureDecoders(const PairReader::Backends& backends) {
+  return decoders("pictures", kPictureCodecs, [&](const char* codec) {
+    StreamInfo stream;
+    stream.kind = StreamKind::Video;
+    stream.codec = codec;
+    stream.width = 64, stream.height = 48;
+    return backends.make_decoder(stream)->open(stream);
+  });
+}
+
+SelfTestLine soundDecoders(const PairReader::Backends& backends) {
+  return decoders("sound", kSoundCodecs, [&](const char* codec) {
+    StreamInfo stream;
+    stream.kind = StreamKind::Audio;
+    stream.codec = codec;
+    stream.sample_rate_hz = 48000, stream.channels = 2;
+    return backends.make_audio_decoder()->open(stream, {});
+  });
+}
+
+SelfTestLine display(const PlayReport& report) {
+  if (report.frames_shown == 0) return {Verdict::Bad, "display", "not one picture was shown"};
+  return {Verdict::Good, "display",
+          textLine("%s, %dx%d, %llu pictures, %zu triangles, drawn in %.1f ms", report.display.c_str(),
+                   report.surface_width, report.surface_height, static_cast<unsigned long long>(report.frames_shown),
+                   report.triangles, report.draw_ms)};
+}
+
+SelfTestLine touch(const HapticSummary& haptic) {
+  const std::string said = textLine("%s, %llu ticks, force up to %.2f N, %llu allocations", haptic.device.c_str(),
+                                    static_cast<unsigned long long>(haptic.ticks), haptic.max_force_n,
+                                    static_cast<unsigned long long>(haptic.allocations));
+  if (haptic.ticks == 0) return {Verdict::Bad, "touch", "the haptic task did not run"};
+  const bool good = haptic.max_force_n > kFelt_n && haptic.max_force_n <= kMost_n && haptic.allocations == 0;
+  if (good) return {Verdict::Good, "touch", said};
+  return {Verdict::Bad, "touch", said + "; the force should be felt, stay under 10 N, and nothing be allocated"};
+}
+
+SelfTestLine realTime(const HapticSummary& haptic) {
+  if (haptic.scheduler != "SCHED_FIFO")
+    return {Verdict::Note, "real time",
+            "no right to SCHED_FIFO: touch will be rough under load; as relievo.service "
+            "does, raise LimitRTPRIO (ulimit -r)"};
+  if (!haptic.memory_locked)
+    return {Verdict::Note, "real time", "memory is not locked; raise LimitMEMLOCK (ulimit -l)"};
+  return {Verdict::Good, "real time", "SCHED_FIFO, memory locked"};
+}
+
+}  // namespace
+
+std::vector<SelfTestLine> selfTest(SelfTestParts parts) {
+  std::vector<SelfTestLine> lines{text(), pictureDecoders(parts.backends), soundDecoders(parts.backends)};
+  PlayerConfig config;
+  config.source.url = std::move(parts.film);
+  config.display = {.width = 640, .height = 360};
+  Player player(
+      std::move(config),
+      {.clock = parts.clock, .display = parts.display, .haptic = &parts.haptic, .backends = std::move(parts.backends)});
+  const std::atomic<bool> stop{false};
+  const auto played = player.run(stop);
+  const PlayReport report = player.report();
+  if (!played) lines.push_back({Verdict::Bad, played.error().thing, played.error().error.message});
+  lines.insert(lines.end(), {display(report), touch(report.haptic), realTime(report.haptic)});
+  return lines;
+}
+
+}  // namespace relievo

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// Owns the haptic side of a film: the device's life, fixed memory, the real-time thread, and the way in and out of it.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/depth_window/surface_feeder.h"
+#include "app/haptics/baseline/methods.h"
+#include "app/haptics/task/haptic_task.h"
+#include "app/player/touch/device_keeper.h"
+#include "app/scene/display_volume.h"
+#include "hal/haptic_device.h"
+#include "platform/clock.h"
+#include "platform/cyclic_thread.h"
+#include "platform/error.h"
+#include "platform/fixed_memory.h"
+
+namespace relievo {
+
+// Who runs the ticks: a thread of its own, or `sleepUntil`, for simulated time.
+enum class Ticking : std::uint8_t { Thread, ByHand };
+
+// What the haptic side did, for the report. All zero when it never ran.
+struct HapticSummary {
+  std::string device;     // "" without one
+  std::string plan;       // which parts of the method this film got, and why
+  std::string scheduler;  // "SCHED_FIFO", "SCHED_OTHER", "simulated time", "none"
+  bool memory_locked = false;
+  double rate_hz = 0;
+  std::uint64_t ticks = 0, contact_ticks = 0;
+  std::uint64_t overruns = 0, allocations = 0, page_faults = 0;
+  struct Times {
+    std::int64_t p50 = 0, p99 = 0, p999 = 0, max = 0;  // ns
+  } update, wakeup;
+  struct Bucket {
+    std::int64_t ns = 0;
+    std::uint64_t ticks = 0;
+  };
+  std::vector<Bucket> wakeup_histogram;  // within 6 %, the shortest first
+  // What is held in memory for the ticks: the task with its rings, the method, the thread's stack, its counters. Code
+  // and the film's pictures, which the player has anyway, are not in it.
+  struct Memory {
+    std::size_t task = 0, method = 0, stack = 0, counters = 0;
+    std::size_t stack_used = 0;  // of the stack, at most, in a run that has ended
+  } memory;
+  double max_force_n = 0, max_scene_slew_n_per_s = 0;
+  double scene_mj = 0, artefact_mj = 0;
+};
+
+// Owner's thread only. A device that is not there, or goes away, is looked for every second beside the film.
+class HapticSession {
+ public:
+  // `device` is borrowed and may be null: then every verb does nothing.
+  HapticSession(HapticDevice* device, Clock& clock, Ticking ticking) noexcept;
+  ~HapticSession();
+  HapticSession(const HapticSession&) = delete;
+  HapticSession& operator=(const HapticSession&) = delete;
+
+  // Begins to open and home the device.
+  void begin();
+  // What came of it: why it is refused, that it waits for the user, that it is `waiting` to be started.
+  [[nodiscard]] std::optional<DeviceKeeper::News> poll();
+  // Opened and homed, and not started.
+  [[nodiscard]] bool waiting() const noexcept { return opened_ && !running_; }
+  // Makes the task for this volume in locked memory, or takes the one that a lost device or the last film has left;
+  // gives it the first window and starts it. The force begins at zero. Waiting, else InvalidState. After a failure the
+  // device is looked for anew.
+  [[nodiscard]] Result<void> start(const DisplayVolume& volume, const SurfaceFeeder& first);
+  // Between two films: zero force, and no ticks; the device stays homed. The next `start` is on another scene.
+  void rest() noexcept;
+  // Zero force first; then the thread, the device. Any time.
+  void stop() noexcept;
+
+  [[nodiscard]] bool running() const noexcept { return running_; }
+  // Of the device that was last ready.
+  [[nodiscard]] const HapticCapabilities& capabilities() const noexcept { return capabilities_; }
+  // What it had to start without: memory that stays, a scheduler that is in time. Null where nothing is missing.
+  [[nodiscard]] const char* missingMemory() const noexcept { return missing_memory_; }
+  [[nodiscard]] const char* missingScheduler() const noexcept { return missing_scheduler_; }
+
+  void publish(const SurfaceFeeder& surface) noexcept;
+  // Nothing until the first tick, and without a device.
+  [[nodiscard]] const FingerState* finger() noexcept;
+  [[nodiscard]] std::optional<FingerState> nextTick() noexcept;
+  // After DeviceLost the device has been closed and is looked for.
+  [[nodiscard]] std::optional<HapticFault> nextFault();
+  // What the real-time side has had to say since.
+  void printLog() noexcept;
+
+  // The owner's wait. ByHand, the ticks that are due meanwhile run in it, each at its time.
+  void sleepUntil(MonotonicTime deadline) noexcept;
+
+  [[nodiscard]] HapticSummary summary() const;
+
+ private:
+  [[nodiscard]] Result<void> setScene(const DisplayVolume& volume, const SurfaceWindow& first);
+  [[nodiscard]] Result<void> run();
+  void halt() noexcept;
+
+  HapticDevice* device_;
+  Clock& clock_;
+  const Ticking ticking_;
+  bool opened_ = false;
+  bool running_ = false;
+  bool memory_locked_ = false;
+  const char* missing_memory_ = nullptr;
+  const char* missing_scheduler_ = nullptr;
+  HapticCapabilities capabilities_;
+  Duration period_{0};
+  std::optional<DeviceKeeper> keeper_;
+
+  std::string plan_;
+  std::unique_ptr<TouchMethod> method_;
+  std::optional<FixedArena> arena_;
+  HapticTask* task_ = nullptr;  // in the arena
+  bool new_scene_ = true;
+  CyclicThread thread_;
+  struct {
+    std::uint64_t overruns = 0, allocations = 0, page_faults = 0;
+  } before_;                 // of the threads before the present one, each ended by a lost device
+  MonotonicTime next_tick_;  // ByHand
+  std::uint64_t tick_index_ = 0;
+};
+
+}  // namespace relievo

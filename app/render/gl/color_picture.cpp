@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: Apache-2.0
+// Uploading colour planes and the one pass that turns them into RGB.
+#include "app/render/gl/color_picture.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <glm/gtc/type_ptr.hpp>
+#include <glm/mat3x3.hpp>
+#include <utility>
+
+#include "app/render/gl/dma_import.h"
+
+namespace relievo {
+namespace {
+
+constexpr const char* kVertexShader = R"(
+uniform vec2 chroma_scale;
+out highp vec2 luma_at;
+out highp vec2 chroma_at;
+void main() {
+  luma_at = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0;  // one triangle over the whole target
+  chroma_at = luma_at * chroma_scale;
+  gl_Position = vec4(luma_at * 2.0 - 1.0, 0.0, 1.0);
+}
+)";
+
+constexpr const char* kFragmentShader = R"(
+precision mediump float;
+in highp vec2 luma_at;
+in highp vec2 chroma_at;
+uniform sampler2D plane0;
+uniform sampler2D plane1;
+uniform sampler2D plane2;
+uniform mat4x3 to_rgb;
+uniform vec3 bias;
+out vec4 color;
+void main() {
+  vec3 rgb = clamp(to_rgb * SAMPLE + bias, 0.0, 1.0);
+  color = vec4(rgb, 1.0);
+}
+)";
+
+struct Weights {
+  float red, blue;
+};
+
+// ITU-R BT.601-7, BT.709-6, BT.2020-2. What the stream does not say goes by the picture's size, as players do.
+Weights weightsOf(const Frame& frame) noexcept {
+  ColorMatrix matrix = frame.matrix;
+  if (matrix == ColorMatrix::Unspecified) matrix = frame.height >= 720 ? ColorMatrix::Bt709 : ColorMatrix::Bt601;
+  switch (matrix) {
+    case ColorMatrix::Bt601:
+      return {0.299f, 0.114f};
+    case ColorMatrix::Bt2020:
+      return {0.2627f, 0.0593f};
+    default:
+      return {0.2126f, 0.0722f};
+  }
+}
+
+// Columns: what the first, second and third component add to red, green and blue.
+glm::mat3 rgbFromComponents(const Frame& frame) noexcept {
+  if (frame.model == ColorModel::Gray) return {glm::vec3(1), glm::vec3(0), glm::vec3(0)};
+  if (frame.model == ColorModel::Rgb) return glm::mat3(1);
+  const auto [red, blue] = weightsOf(frame);
+  const float green = 1 - red - blue;
+  return {glm::vec3(1), glm::vec3(0, -2 * blue * (1 - blue) / green, 2 * (1 - blue)),
+          glm::vec3(2 * (1 - red), -2 * red * (1 - red) / green, 0)};
+}
+
+bool limited(const Frame& frame) noexcept {
+  if (frame.range != ColorRange::Unspecified) return frame.range == ColorRange::Limited;
+  return frame.model == ColorModel::Yuv;
+}
+
+}  // namespace
+
+Result<ColorPicture::Arrangement> ColorPicture::arrangementOf(const Frame& frame) noexcept {
+  if (frame.empty() || frame.width < 1 || frame.height < 1) {
+    return fail(ErrorCode::InvalidArgument, "a colour picture without samples");
+  }
+  constexpr auto kUnknown =
+      "this pixel format cannot be drawn; decode to planar or semi-planar YUV, packed RGB or gray";
+  const auto unknown = fail(ErrorCode::Unsupported, kUnknown);
+  const auto& [first, second, third] = frame.components;
+  const int bytes = first.bits > 8 ? 2 : 1;
+  const auto alone = [&](const Component& c) { return c.step_bytes == bytes && c.offset_bytes == 0; };
+  const bool readable = first.bits >= 8 && first.bits <= 16 && (bytes == 2 || first.shift == 0);
+  if (!readable) return unknown;
+  if (frame.model == ColorModel::Gray) {
+    if (alone(first)) return Arrangement::Gray;
+    return unknown;
+  }
+
+  const auto likeFirst = [&](const Component& c) { return c.bits == first.bits && c.shift == first.shift; };
+  if (!likeFirst(second) || !likeFirst(third)) return unknown;
+  if (alone(first) && alone(second) && alone(third)) return Arrangement::Planar;
+
+  const auto isPair = [&](const Component& c) { return c.step_bytes == 2 * bytes && c.offset_bytes <= bytes; };
+  if (alone(first) && isPair(second) && isPair(third) && second.plane == third.plane) return Arrangement::SemiPlanar;
+
+  const int step = first.step_bytes;
+  const auto isPacked = [&](const Component& c) {
+    return c.plane == first.plane && c.step_bytes == step && c.offset_bytes + bytes <= step;
+  };
+  const bool whole = step == 3 * bytes || step == 4 * bytes;
+  const bool subsampled = frame.chroma_shift_x != 0 || frame.chroma_shift_y != 0;
+  if (whole && !subsampled && isPacked(first) && isPacked(second) && isPacked(third)) return Arrangement::Packed;
+  return unknown;
+}
+
+const char* ColorPicture::sampling(Arrangement arrangement) noexcept {
+  switch (arrangement) {
+    case Arrangement::Gray:
+      return "#define SAMPLE vec4(texture(plane0, luma_at).r, 0.0, 0.0, 0.0)\n";
+    case Arrangement::Planar:
+      return "#define SAMPLE vec4(texture(plane0, luma_at).r, texture(plane1, chroma_at).r, "
+             "texture(plane2, chroma_at).r, 0.0)\n";
+    case Arrangement::SemiPlanar:
+      return "#define SAMPLE vec4(texture(plane0, luma_at).r, texture(plane1, chroma_at).rg, 0.0)\n";
+    case Arrangement::Packed:
+      return "#define SAMPLE texture(plane0, luma_at)\n";
+  }
+  return "";
+}
+
+Result<void> ColorPicture::check(const Frame& frame) noexcept {
+  if (auto arrangement = arrangementOf(frame); !arrangement) return std::unexpected(arrangement.error());
+  return {};
+}
+
+Result<void> ColorPicture::setFrame(const Frame& frame) {
+  const auto arrangement = arrangementOf(frame);
+  if (!arrangement) return std::unexpected(arrangement.error());
+  GLint largest = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+  if (std::max(frame.width, frame.height) > largest) {
+    return fail(ErrorCode::Unsupported,
+                "the picture is larger than this GL driver's textures; give it a smaller video");
+  }
+  if (arrangement_ != *arrangement) {
+    auto program = GlProgram::create(sampling(*arrangement), kVertexShader, kFragmentShader);
+    if (!program) return std::unexpected(program.error());
+    program_ = std::move(*program);
+    arrangement_ = *arrangement;
+  }
+  width_ = frame.width;
+  height_ = frame.height;
+  glActiveTexture(GL_TEXTURE0);
+  imported_ = import(frame);
+  if (!imported_) upload(frame);
+  // A last chroma sample that stands for fewer luma samples than the others hangs over the picture's edge.
+  const glm::ivec2 chroma = samplesOf(frame, 1);
+  chroma_scale_ = {static_cast<float>(width_) / static_cast<float>(chroma.x << frame.chroma_shift_x),
+                   static_cast<float>(height_) / static_cast<float>(chroma.y << frame.chroma_shift_y)};
+  frame_ = frame;
+  setColors(frame);
+  converted_ = false;
+  return {};
+}
+
+// Texture i holds the plane of component i.
+std::size_t ColorPicture::textureCount() const noexcept {
+  return arrangement_ == Arrangement::Planar ? 3 : arrangement_ == Arrangement::SemiPlanar ? 2 : 1;
+}
+
+glm::ivec2 ColorPicture::samplesOf(const Frame& frame, std::size_t component) noexcept {
+  if (component == 0) return {frame.width, frame.height};
+  return {(frame.width + (1 << frame.chroma_shift_x) - 1) >> frame.chroma_shift_x,
+          (frame.height + (1 << frame.chroma_shift_y) - 1) >> frame.chroma_shift_y};
+}
+
+// All planes or none: the first that the driver refuses is the last that it is asked for.
+bool ColorPicture::import(const Frame& frame) {
+  const std::size_t count = textureCount();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Component& component = frame.components[i];
+    if (frame.dma_bufs[component.plane].fd < 0 || component.bits > 8 || component.step_bytes > 2) return false;
+  }
+  if (!takes_dma_bufs_) takes_dma_bufs_ = takesDmaBufs();
+  for (std::size_t i = 0; i < count && *takes_dma_bufs_; ++i) {
+    const Component& component = frame.components[i];
+    const glm::ivec2 samples = samplesOf(frame, i);
+    takes_dma_bufs_ =
+        planes_[i].import({.channels = component.step_bytes}, frame.dma_bufs[component.plane],
+                          frame.planes[component.plane].stride_bytes, samples.x, samples.y, frame.dma_modifier);
+  }
+  return *takes_dma_bufs_;
+}
+
+void ColorPicture::upload(const Frame& frame) {
+  const Component& first = frame.components[0];
+  const bool narrow = first.bits > 8;
+  const int narrowing = first.shift + first.bits - 8;
+  for (std::size_t i = 0; i < textureCount(); ++i) {
+    const Component& component = frame.components[i];
+    const Plane& plane = frame.planes[component.plane];
+    const glm::ivec2 samples = samplesOf(frame, i);
+    const auto channels = static_cast<std::uint8_t>(component.step_bytes / (narrow ? 2 : 1));
+    if (narrow) {
+      planes_[i].uploadNarrowed(channels, plane, samples.x, samples.y, narrowing);
+    } else {
+      planes_[i].upload({.channels = channels}, plane, samples.x, samples.y);
+    }
+  }
+}
+
+// Codes arrive as fractions of 255: rgb = sum of column x scale x (fraction - zero point).
+void ColorPicture::setColors(const Frame& frame) noexcept {
+  const glm::mat3 columns = rgbFromComponents(frame);
+  const bool is_limited = limited(frame);
+  const int count = frame.model == ColorModel::Gray ? 1 : 3;
+  to_rgb_ = glm::mat4x3(0);
+  bias_ = glm::vec3(0);
+  for (int i = 0; i < count; ++i) {
+    const Component& component = frame.components[static_cast<std::size_t>(i)];
+    const int channel = component.offset_bytes / (component.bits > 8 ? 2 : 1);
+    const bool chroma = frame.model == ColorModel::Yuv && i > 0;
+    const float span = chroma ? 224.0f : 219.0f;
+    const float scale = is_limited ? 255.0f / span : 1.0f;
+    const float zero = (chroma ? 128.0f : is_limited ? 16.0f : 0.0f) / 255.0f;
+    const int sampled = arrangement_ == Arrangement::Packed                ? channel
+                        : arrangement_ == Arrangement::SemiPlanar && i > 0 ? 1 + channel
+                                                                           : i;
+    to_rgb_[sampled] = scale * columns[i];
+    bias_ -= zero * scale * columns[i];
+  }
+}
+
+void ColorPicture::bind(GLuint unit, int shown_width, int shown_height) {
+  const auto reduced = [](int samples, int shown) { return samples >= 2 * shown ? (samples + 1) / 2 : samples; };
+  const int width = reduced(width_, std::max(shown_width, 1));
+  const int height = reduced(height_, std::max(shown_height, 1));
+  if (width != target_width_ || height != target_height_) {
+    allocateTarget(width, height);
+    converted_ = false;
+  }
+  if (!converted_) convert();
+  converted_ = true;
+  glActiveTexture(GL_TEXTURE0 + unit);
+  glBindTexture(GL_TEXTURE_2D, target_.get());
+}
+
+void ColorPicture::allocateTarget(int width, int height) {
+  target_width_ = width;
+  target_height_ = height;
+  target_ = gl::generate<GlTexture>(glGenTextures);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, target_.get());
+  glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA8, width, height);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  if (framebuffer_.get() == 0) {
+    framebuffer_ = gl::generate<GlFramebuffer>(glGenFramebuffers);
+    no_vertices_ = gl::generate<GlVertexArray>(glGenVertexArrays);
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target_.get(), 0);
+}
+
+void ColorPicture::convert() {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
+  glViewport(0, 0, target_width_, target_height_);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_BLEND);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  program_.use();
+  glUniform2fv(program_.uniform("chroma_scale"), 1, glm::value_ptr(chroma_scale_));
+  glUniformMatrix4x3fv(program_.uniform("to_rgb"), 1, GL_FALSE, glm::value_ptr(to_rgb_));
+  glUniform3fv(program_.uniform("bias"), 1, glm::value_ptr(bias_));
+  const bool as_it_is = target_width_ == width_ && target_height_ == height_;  // each pixel is one luma sample
+  constexpr std::array<const char*, 3> kPlanes{"plane0", "plane1", "plane2"};
+  for (GLuint unit = 0; unit < kPlanes.size(); ++unit) {
+    planes_[unit].bind(unit);
+    const GLint filter = unit == 0 && as_it_is ? GL_NEAREST : GL_LINEAR;
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+    glUniform1i(program_.uniform(kPlanes[unit]), static_cast<GLint>(unit));
+  }
+  glBindVertexArray(no_vertices_.get());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glFlush();  // it is converted while the relief is made
+}
+
+}  // namespace relievo

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// The colour picture of a frame as one RGBA texture, converted from the decoder's planes by the GPU.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/mat4x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "app/render/gl/gl_objects.h"
+#include "app/render/gl/gl_program.h"
+#include "app/render/gl/plane_texture.h"
+#include "hal/frame.h"
+#include "platform/error.h"
+
+namespace relievo {
+
+// Converted once a frame, and the result is what each eye's view samples: sampling three planes for every pixel of both
+// eyes doubled the time of a frame in software rendering.
+class ColorPicture {
+ public:
+  // Planar and semi-planar YUV, packed and planar RGB, gray, of 8 to 16 bits; Unsupported for anything else.
+  [[nodiscard]] static Result<void> check(const Frame& frame) noexcept;
+
+  // Takes the planes of a frame that passes the check: 8 bits as they are, from dma-bufs without a copy where the GL
+  // driver takes them, more cut to the top 8, which is what a display shows. Of the frame a reference is kept until the
+  // next one.
+  [[nodiscard]] Result<void> setFrame(const Frame& frame);
+  // How the planes of the last frame came: without a copy?
+  [[nodiscard]] bool isImported() const noexcept { return imported_; }
+
+  // Converts what was set, if that has not been done, and leaves the texture bound to `unit`, row 0 the top one.
+  // `shown_width` and `shown_height`: about how many pixels large it will be drawn; a picture of twice that or more is
+  // halved on the way, or it would shimmer. Changes the framebuffer and the viewport.
+  void bind(GLuint unit, int shown_width, int shown_height);
+
+ private:
+  enum class Arrangement : std::uint8_t { Gray, Planar, SemiPlanar, Packed };
+  static Result<Arrangement> arrangementOf(const Frame& frame) noexcept;
+  static const char* sampling(Arrangement arrangement) noexcept;
+  [[nodiscard]] std::size_t textureCount() const noexcept;
+  [[nodiscard]] static glm::ivec2 samplesOf(const Frame& frame, std::size_t component) noexcept;
+  [[nodiscard]] bool import(const Frame& frame);
+  void upload(const Frame& frame);
+  void setColors(const Frame& frame) noexcept;
+  void allocateTarget(int width, int height);
+  void convert();
+
+  std::optional<Arrangement> arrangement_;
+  int width_ = 0;
+  int height_ = 0;
+  glm::mat4x3 to_rgb_{0};  // from the four numbers that the shader samples
+  glm::vec3 bias_{0};
+  glm::vec2 chroma_scale_{1};
+  std::array<PlaneTexture, 3> planes_;
+  std::optional<bool> takes_dma_bufs_;  // false from the first refusal on
+  bool imported_ = false;
+  bool converted_ = false;
+  Frame frame_;  // a texture may lie in its memory
+
+  GlProgram program_;
+  GlVertexArray no_vertices_;
+  GlTexture target_;
+  GlFramebuffer framebuffer_;
+  int target_width_ = 0;
+  int target_height_ = 0;
+};
+
+}  // namespace relievo

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+// One frame: the picture converted, then for each eye the relief and the finger.
+#include "app/render/gl/scene_renderer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "app/render/gl/color_picture.h"
+#include "app/render/gl/eye_mixer.h"
+#include "app/render/gl/finger_model.h"
+#include "app/render/gl/gl_objects.h"
+#include "app/render/gl/relief_mesh.h"
+#include "app/render/gl/relief_surface.h"
+#include "app/render/gl/surface_mark.h"
+#include "app/render/gl/text_panel.h"
+#include "app/render/relief/detail_level.h"
+#include "app/render/relief/relief_triangles.h"
+#include "app/scene/height_field.h"
+#include "platform/clock.h"
+
+namespace relievo {
+namespace {
+
+constexpr GLuint kPictureUnit = 3;  // after the codes' and the colour planes'
+constexpr Duration::rep kSmoothing = 8;
+
+constexpr double kShadowSlant = 0.35, kShadowRadiusMm = 4.5, kShadowGrowth = 0.15;
+constexpr double kShadowOpacity = 0.65, kShadowHalfMm = 15;
+constexpr double kGlowRadiusMm = 7.0, kGlowOpacity = 0.35, kGlowPerN = 0.1;
+constexpr glm::vec3 kGlowColor{1.0F, 0.78F, 0.35F};
+
+void smooth(Duration& smoothed, Duration took, bool first) noexcept {
+  smoothed = first ? took : smoothed + (took - smoothed) / kSmoothing;
+}
+
+}  // namespace
+
+struct SceneRenderer::Impl {
+  explicit Impl(Duration frame_budget) : level(frame_budget) {}
+  [[nodiscard]] Result<void> createParts();
+
+  [[nodiscard]] Result<void> drawViews(const DisplaySurface& surface, const std::optional<FingerMark>& mark);
+  void makeTriangles(const EyeViews& eyes);
+  void bindPicture(const PixelArea& area);
+  void drawView(const EyeView& view, const std::optional<FingerMark>& mark);
+  void drawFinger(const EyeView& view, const FingerMark& mark);
+
+  StereoSettings stereo;
+  DetailSettings detail;
+  DisplayVolume volume;
+  Frame depth;  // keeps the samples alive that `field` reads
+  HeightField field;
+
+  ColorPicture picture;
+  ReliefMesh grid;
+  ReliefTriangles triangles;
+  ReliefSurface surface_of_triangles;
+  ReliefDetail made;  // what the triangles were made for
+  bool is_made = false;
+  EyeMixer mixer;
+  SurfaceMark on_surface;
+  FingerModel finger;
+  TextPanel text;
+  DetailLevel level;
+  MonotonicClock clock;
+  bool has_picture = false;
+  std::uint64_t frames = 0, meshes = 0;
+  Duration drawing{0}, meshing{0};  // smoothed
+};
+
+SceneRenderer::SceneRenderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+SceneRenderer::~SceneRenderer() = default;
+
+Result<void> SceneRenderer::Impl::createParts() {
+  const auto take = [](auto& part, auto created) -> Result<void> {
+    if (!created) return std::unexpected(created.error());
+    part = std::move(*created);
+    return {};
+  };
+  if (auto made_grid = take(grid, ReliefMesh::create()); !made_grid) return made_grid;
+  if (auto made_surface = take(surface_of_triangles, ReliefSurface::create()); !made_surface) return made_surface;
+  if (auto made_mixer = take(mixer, EyeMixer::create()); !made_mixer) return made_mixer;
+  if (auto made_mark = take(on_surface, SurfaceMark::create()); !made_mark) return made_mark;
+  if (auto made_text = take(text, TextPanel::create()); !made_text) return made_text;
+  if (auto made_finger = take(finger, FingerModel::create()); !made_finger) return made_finger;
+  return glOutcome();
+}
+
+Result<std::unique_ptr<SceneRenderer>> SceneRenderer::create(Duration frame_budget) {
+  auto impl = std::make_unique<Impl>(frame_budget);
+  if (auto made = impl->createParts(); !made) return std::unexpected(made.error());
+  return std::unique_ptr<SceneRenderer>(new SceneRenderer(std::move(impl)));
+}
+
+void SceneRenderer::setStereo(const StereoSettings& settings) noexcept {
+  impl_->stereo = settings;
+}
+const StereoSettings& SceneRenderer::stereo() const noexcept {
+  return impl_->stereo;
+}
+void SceneRenderer::setDetail(const DetailSettings& settings) noexcept {
+  impl_->detail = settings;
+}
+
+void SceneRenderer::setText(const std::vector<std::string>& lines) {
+  impl_->text.setLines(lines);
+}
+
+Result<void> SceneRenderer::setFrame(const Frame& color, const Frame& depth, const DepthCalibration& calibration,
+                                     const DisplayVolume& volume) {
+  Impl& impl = *impl_;
+  if (auto drawable = ColorPicture::check(color); !drawable) return drawable;
+  if (!depth.empty()) {
+    auto field = HeightField::make(depth, calibration, volume);
+    if (!field) return std::unexpected(field.error());
+    if (impl.detail.grid_step > 0) {
+      if (auto set = impl.grid.setDepth(depth, calibration, volume); !set) return set;
+    }
+    impl.field = *field;
+  }
+  if (auto set = impl.picture.setFrame(color); !set) return set;
+  impl.depth = depth;
+  impl.volume = volume;
+  impl.is_made = false;
+  impl.has_picture = true;
+  return glOutcome();
+}
+
+Result<void> SceneRenderer::draw(const DisplaySurface& surface, const std::optional<FingerMark>& finger) {
+  Impl& impl = *impl_;
+  const MonotonicTime start = impl.clock.now();
+  if (auto drawn = impl.drawViews(surface, finger); !drawn) return drawn;
+  glFinish();
+  const Duration took = impl.clock.now() - start;
+  smooth(impl.drawing, took, impl.frames == 0);
+  ++impl.frames;
+  if (!impl.depth.empty()) impl.level.drew(took);
+  return glOutcome();
+}
+
+RenderStatistics SceneRenderer::statistics() const noexcept {
+  const Impl& impl = *impl_;
+  RenderStatistics result{
+      .frames = impl.frames, .imported = impl.picture.isImported(), .frame_ms = toSeconds(impl.drawing) * 1e3};
+  if (impl.depth.empty()) return result;
+  if (impl.detail.grid_step > 0) {
+    const auto along = [&](int samples) {
+      return static_cast<std::size_t>(ReliefMesh::verticesAlong(samples, impl.detail.grid_step) - 1);
+    };
+    result.triangles = 2 * along(impl.depth.width) * along(impl.depth.height);
+    return result;
+  }
+  result.triangles = impl.triangles.indices().size() / 3;
+  result.cut_cells = impl.triangles.cutCells();
+  result.error_px = impl.detail.error_px * impl.level.factor();
+  result.mesh_ms = toSeconds(impl.meshing) * 1e3;
+  return result;
+}
+
+Result<void> SceneRenderer::Impl::drawViews(const DisplaySurface& surface, const std::optional<FingerMark>& mark) {
+  StereoSettings shown = stereo;
+  if (refusal(shown, surface.width, surface.height) != nullptr) shown.layout = StereoLayout::Mono;
+  const EyeViews eyes = eyeViews(shown, volume, surface.width, surface.height);
+  if (has_picture) {
+    bindPicture(eyes.views[0].area);
+    if (!depth.empty() && detail.grid_step == 0) makeTriangles(eyes);
+  }
+  const auto clear = [] {
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_BLEND);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDepthMask(GL_TRUE);
+    glClearColor(0.0f, 0.0f, 0.0f, 1.0f);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  };
+  glBindFramebuffer(GL_FRAMEBUFFER, surface.framebuffer);
+  clear();
+  if (!has_picture) return {};
+  for (std::size_t i = 0; i < eyes.views.size(); ++i) {
+    if (eyes.mixed) {
+      if (auto bound = mixer.bindEye(i, surface.width, surface.height); !bound) return bound;
+      clear();
+    }
+    drawView(eyes.views[i], mark);
+  }
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  if (eyes.mixed) {
+    glBindFramebuffer(GL_FRAMEBUFFER, surface.framebuffer);
+    mixer.mix(shown);
+  }
+  return {};
+}
+
+// They follow from the picture and from how finely it will be seen.
+void SceneRenderer::Impl::makeTriangles(const EyeViews& eyes) {
+  // Finer than twice a view's pixels nobody sees; and a lattice of this width takes as long as there is time for.
+  constexpr int kLeastAcross = 64, kMostAcross = 1024;
+  double eye_mm = 0;
+  for (const EyeView& view : eyes.views) eye_mm = std::max(eye_mm, std::abs(view.eye_x_mm));
+  const double pixel_mm = heightOfPixelMm(stereo, volume, eyes.pixels_per_mm);
+  const ReliefDetail wanted{
+      .most_across = std::clamp(static_cast<int>(2 * eyes.pixels_per_mm * volume.width_mm), kLeastAcross, kMostAcross),
+      .error_mm = detail.error_px * level.factor() * pixel_mm,
+      .view = {.eye_mm = eye_mm, .distance_mm = stereo.viewing_distance_mm, .screen_z_mm = stereo.screen_z_mm}};
+  if (is_made && wanted == made) return;
+  const MonotonicTime start = clock.now();
+  triangles.build(field, volume, wanted);
+  surface_of_triangles.upload(triangles);
+  smooth(meshing, clock.now() - start, meshes++ == 0);
+  made = wanted;
+  is_made = true;
+}
+
+// The picture's size on the surface is its window's, less the bars.
+void SceneRenderer::Impl::bindPicture(const PixelArea& area) {
+  const double area_aspect = static_cast<double>(area.width) / area.height;
+  const double picture_aspect = volume.width_mm / volume.height_mm;
+  picture.bind(kPictureUnit, static_cast<int>(area.width * std::min(1.0, picture_aspect / area_aspect)),
+               static_cast<int>(area.height * std::min(1.0, area_aspect / picture_aspect)));
+}
+
+void SceneRenderer::Impl::drawView(const EyeView& view, const std::optional<FingerMark>& mark) {
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);  // the surface stays opaque whatever is blended on it
+  glViewport(view.area.x, view.area.y, view.area.width, view.area.height);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  // Nobody sees the relief from below, and the finger's shapes are closed.
+  glEnable(GL_CULL_FACE);
+  glCullFace(GL_BACK);
+  glFrontFace(GL_CCW);
+  const PictureView picture_view{.view_projection = glm::mat4(view.view_projection),
+                                 .screen_z_mm = stereo.screen_z_mm,
+                                 .picture_unit = kPictureUnit};
+  if (depth.empty()) {
+    grid.drawFlat(picture_view, volume);
+  } else if (detail.grid_step > 0) {
+    grid.draw(picture_view, detail.grid_step);
+  } else {
+    surface_of_triangles.draw(picture_view);
+  }
+  if (mark) drawFinger(view, *mark);
+  text.draw(view.view_projection, volume, stereo.screen_z_mm);
+}
+
+// A shadow that falls to the lower right, the farther and the fainter the higher the finger is over the surface; and
+// the glow of a contact, the brighter the harder.
+void SceneRenderer::Impl::drawFinger(const EyeView& view, const FingerMark& mark) {
+  if (!depth.empty()) {
+    const glm::dvec2 under(mark.position_mm);
+    const double gap = std::max(0.0, mark.position_mm.z - SurfaceMark::heightUnder(field, under.x, under.y));
+    on_surface.draw(view.view_projection, field,
+                    {.center_mm = under + glm::dvec2(kShadowSlant, -kShadowSlant) * gap,
+                     .radius_mm = kShadowRadiusMm + kShadowGrowth * gap,
+                     .color = glm::vec3(0),
+                     .opacity = static_cast<float>(kShadowOpacity / (1 + gap / kShadowHalfMm))});
+    const double force = glm::length(mark.force_n);
+    if (mark.contact) {
+      on_surface.draw(view.view_projection, field,
+                      {.center_mm = under,
+                       .radius_mm = kGlowRadiusMm,
+                       .color = kGlowColor,
+                       .opacity = static_cast<float>(std::min(1.0, kGlowOpacity + kGlowPerN * force))});
+    }
+  }
+  finger.draw(view.view_projection, mark);
+}
+
+}  // namespace relievo

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// The cells of the lattice in which one thing ends before another.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "app/render/relief/height_lattice.h"
+
+namespace relievo {
+
+// A cell is cut when two neighbouring corners differ by more than `jump_mm`. Where coding or a sensor has smeared a
+// jump over some samples, those between take the height of that end of the run of jumps that is nearer to theirs: they
+// belong to no thing.
+class CutCells {
+ public:
+  // Changes the heights of what is smeared.
+  void find(HeightLattice& lattice, float jump_mm);
+
+  [[nodiscard]] const std::vector<std::uint32_t>& cells() const noexcept { return cells_; }  // top left vertices
+  [[nodiscard]] bool contains(std::size_t top_left) const noexcept { return cut_[top_left] != 0; }
+
+ private:
+  void scan(const HeightLattice& lattice);
+  void sharpen(HeightLattice& lattice) const;
+  void sharpenRun(float* first, int count, std::ptrdiff_t step) const noexcept;
+  void lookAgain(const HeightLattice& lattice);
+
+  float jump_mm_ = 0;
+  std::vector<std::uint8_t> cut_;  // 1 at the top left vertex of a cut cell
+  std::vector<std::uint32_t> cells_;
+};
+
+}  // namespace relievo

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// The relief as few textured triangles: an irregular network, cut at silhouettes, with the background drawn on behind
+// them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "app/render/relief/cut_cells.h"
+#include "app/render/relief/height_lattice.h"
+#include "app/render/relief/output_array.h"
+#include "app/render/relief/silhouette.h"
+#include "app/render/relief/textured_vertex.h"
+#include "app/render/relief/triangle_network.h"
+#include "app/scene/display_volume.h"
+#include "app/scene/height_field.h"
+
+namespace relievo {
+
+struct ReliefDetail {
+  int most_across = 1024;  // cells in a row
+  double error_mm = 0.5;   // of a height
+  ViewSpan view;
+  bool operator==(const ReliefDetail&) const = default;
+};
+
+// Pure arithmetic on one thread; memory is kept from frame to frame.
+class ReliefTriangles {
+ public:
+  void build(const HeightField& field, const DisplayVolume& volume, const ReliefDetail& detail);
+
+  [[nodiscard]] const OutputArray<TexturedVertex>& vertices() const noexcept { return vertices_; }
+  // Three to a triangle, counterclockwise to the viewer: first the surface, then the frame that joins it to the
+  // picture's rectangle in the screen plane, then what is drawn at silhouettes; last a floor under it all, so that
+  // where an eye looks past everything it sees the picture's own colours.
+  [[nodiscard]] const OutputArray<std::uint32_t>& indices() const noexcept { return indices_; }
+  [[nodiscard]] std::size_t surfaceTriangles() const noexcept { return network_.triangles().size(); }
+  [[nodiscard]] std::size_t cutCells() const noexcept { return cuts_.cells().size(); }
+
+ private:
+  void addFrame(const DisplayVolume& volume, float screen_z_mm);
+  void addFloor(const DisplayVolume& volume, float screen_z_mm);
+
+  HeightLattice lattice_;
+  CutCells cuts_;
+  TriangleNetwork network_;
+  OutputArray<TexturedVertex> vertices_;
+  OutputArray<std::uint32_t> indices_;
+};
+
+}  // namespace relievo

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the eyes stand, through which window they look, and on which part of the surface.
+#include "app/render/relief/stereo.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace relievo {
+namespace {
+
+// What stands out of the volume, a force arrow for instance, is still drawn this far below and, in front, up to a tenth
+// of the way before the eyes.
+constexpr double kBelowMm = 100.0;
+constexpr double kNearestOfDistance = 0.1;
+
+// HDMI 1.4a, frame packing of 1080p and of 720p: two pictures, one above the other, with the lines of a blanking
+// interval between them.
+constexpr int kPacked1080Width = 1920, kPacked1080Height = 2205, kPacked1080Picture = 1080;
+constexpr int kPacked720Width = 1280, kPacked720Height = 1470, kPacked720Picture = 720;
+
+constexpr int kLeastTilePixels = 16;
+
+struct Window {
+  double half_width_mm;
+  double half_height_mm;
+};
+
+Window letterbox(const DisplayVolume& volume, double aspect) noexcept {
+  const double picture_aspect = volume.width_mm / volume.height_mm;
+  const double width = volume.width_mm * std::max(1.0, aspect / picture_aspect);
+  return {0.5 * width, 0.5 * width / aspect};
+}
+
+// An eye at (eye_x, 0, screen_z + distance), looking straight down on the screen plane. The frustum's sides pass
+// through the window there; glm wants them on the near plane, where they are smaller by near/distance.
+glm::dmat4 offAxis(double eye_x_mm, const Window& window, const StereoSettings& settings) {
+  const double distance = settings.viewing_distance_mm;
+  const double nearest = kNearestOfDistance * distance;
+  const double farthest = distance + std::max(settings.screen_z_mm, 0.0) + kBelowMm;
+  const double scale = nearest / distance;
+  const glm::dmat4 projection =
+      glm::frustum(scale * (-window.half_width_mm - eye_x_mm), scale * (window.half_width_mm - eye_x_mm),
+                   -scale * window.half_height_mm, scale * window.half_height_mm, nearest, farthest);
+  return glm::translate(projection, glm::dvec3(-eye_x_mm, 0.0, -(settings.screen_z_mm + distance)));
+}
+
+bool packs1080(int width, int height) noexcept {
+  return width == kPacked1080Width && height == kPacked1080Height;
+}
+bool packs720(int width, int height) noexcept {
+  return width == kPacked720Width && height == kPacked720Height;
+}
+
+// The `index`-th of `count` equal parts of a length, so that together they are the whole.
+struct Part {
+  int first, length;
+};
+Part partOf(int whole, int index, int count) noexcept {
+  const int first = whole * index / count;
+  return {first, whole * (index + 1) / count - first};
+}
+
+std::vector<PixelArea> areasOf(const StereoSettings& settings, int width, int height) {
+  const PixelArea whole{0, 0, width, height};
+  switch (settings.layout) {
+    case StereoLayout::Mono:
+      return {whole};
+    case StereoLayout::SideBySide: {
+      const Part left = partOf(width, 0, 2), right = partOf(width, 1, 2);
+      return {{left.first, 0, left.length, height}, {right.first, 0, right.length, height}};
+    }
+    case StereoLayout::TopBottom: {
+      const Part low = partOf(height, 0, 2), top = partOf(height, 1, 2);
+      return {{0, top.first, width, top.length}, {0, low.first, width, low.length}};
+    }
+    case StereoLayout::FramePacking: {
+      const int picture = packs1080(width, height) ? kPacked1080Picture : kPacked720Picture;
+      return {{0, height - picture, width, picture}, {0, 0, width, picture}};
+    }
+    case StereoLayout::Quilt: {
+      std::vector<PixelArea> tiles;
+      for (int r = 0; r < settings.quilt_rows; ++r) {
+        for (int c = 0; c < settings.quilt_cols; ++c) {
+          const Part across = partOf(width, c, settings.quilt_cols), up = partOf(height, r, settings.quilt_rows);
+          tiles.push_back({across.first, up.first, across.length, up.length});
+        }
+      }
+      return tiles;
+    }
+    case StereoLayout::Rows:
+    case StereoLayout::Columns:
+    case StereoLayout::Anaglyph:
+      return {whole, whole};
+  }
+  return {whole};
+}
+
+// What an area looks like to the viewer: a half that was squeezed is as wide as the whole, and a quilt's tiles are each
+// stretched over the panel.
+double aspectOf(const StereoSettings& settings, const PixelArea& area, int width, int height) noexcept {
+  const bool halves = settings.layout == StereoLayout::SideBySide || settings.layout == StereoLayout::TopBottom;
+  const bool own = (halves && settings.full) || settings.layout == StereoLayout::FramePacking;
+  return own ? static_cast<double>(area.width) / area.height : static_cast<double>(width) / height;
+}
+
+}  // namespace
+
+const char* name(StereoLayout layout) noexcept {
+  switch (layout) {
+    case StereoLayout::Mono:
+      return "mono";
+    case StereoLayout::SideBySide:
+      return "sbs";
+    case StereoLayout::TopBottom:
+      return "tab";
+    case StereoLayout::Rows:
+      return "rows";
+    case StereoLayout::Columns:
+      return "columns";
+    case StereoLayout::Anaglyph:
+      return "anaglyph";
+    case StereoLayout::FramePacking:
+      return "frame-packing";
+    case StereoLayout::Quilt:
+      return "quilt";
+  }
+  return "";
+}
+
+EyeViews eyeViews(const StereoSettings& settings, const DisplayVolume& volume, int width, int height) {
+  EyeViews result;
+  result.mixed = settings.layout == StereoLayout::Rows || settings.layout == StereoLayout::Columns ||
+                 settings.layout == StereoLayout::Anaglyph;
+  const std::vector<PixelArea> areas = areasOf(settings, width, height);
+  const double between = (settings.swap_eyes ? -1 : 1) * settings.strength * settings.eye_distance_mm;
+  // A quilt is looked at from all over a cone: its outermost views stand four eyes' distances apart, 24 degrees.
+  const double spread = settings.layout == StereoLayout::Quilt ? 4.0 * between : between;
+  const auto last = static_cast<double>(areas.size() - 1);
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    const Window window = letterbox(volume, aspectOf(settings, areas[i], width, height));
+    const double eye_x = last > 0 ? spread * (static_cast<double>(i) / last - 0.5) : 0.0;
+    result.views.push_back({offAxis(eye_x, window, settings), areas[i], eye_x});
+    result.pixels_per_mm = areas[i].width / (2 * window.half_width_mm);
+  }
+  return result;
+}
+
+const char* refusal(const StereoSettings& settings, int width, int height) noexcept {
+  switch (settings.layout) {
+    case StereoLayout::FramePacking:
+      if (packs1080(width, height) || packs720(width, height)) return nullptr;
+      return "frame packing needs a surface of 1920x2205 or 1280x1470, a mode that the screen must offer";
+    case StereoLayout::Quilt:
+      if (settings.quilt_cols > 0 && settings.quilt_rows > 0 && width / settings.quilt_cols >= kLeastTilePixels &&
+          height / settings.quilt_rows >= kLeastTilePixels) {
+        return nullptr;
+      }
+      return "the surface is too small for so many views; ask for fewer of them or for a larger surface";
+    default:
+      if (width > 1 && height > 1) return nullptr;
+      return settings.layout == StereoLayout::Mono ? nullptr : "two eyes do not fit on one pixel";
+  }
+}
+
+// The derivative of e h / (d - h) is e d / (d - h)^2, largest for the nearest point. Without eyes apart, the shift
+// against the picture's edge, which is about as large, takes its place.
+double heightOfPixelMm(const StereoSettings& settings, const DisplayVolume& volume, double pixels_per_mm) noexcept {
+  constexpr double kLeastEyes = 63.0;
+  const double eyes = std::max(kLeastEyes, std::abs(settings.strength * settings.eye_distance_mm));
+  const double distance = settings.viewing_distance_mm;
+  const double left = std::max(distance - (volume.depth_mm - settings.screen_z_mm), kNearestOfDistance * distance);
+  return left * left / (eyes * distance * pixels_per_mm);
+}
+
+}  // namespace relievo

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/support/device/plugged_usb.h"
+
+#include "tests/support/device/umockdev_usb.h"
+#include "tests/support/device/vhci_usb.h"
+
+namespace relievo::test {
+
+std::unique_ptr<PluggedUsb> plugIn(UsbModel& model, const UsbDeviceId& id) {
+  if (machineIsMocked()) return std::make_unique<UmockdevUsb>(model, id);
+  if (VhciUsb::available()) return std::make_unique<VhciUsb>(model, id);
+  return nullptr;
+}
+
+}  // namespace relievo::test

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// The requests of <linux/input.h> that libevdev and the driver make.
+#include "tests/support/device/umockdev_mouse.h"
+
+#include <fcntl.h>
+#include <linux/input.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+namespace relievo::test {
+
+UmockdevMouse::Codes UmockdevMouse::mouse() {
+  return {{EV_SYN, {SYN_REPORT}}, {EV_KEY, {BTN_LEFT, BTN_RIGHT, BTN_MIDDLE}}, {EV_REL, {REL_X, REL_Y, REL_WHEEL}}};
+}
+UmockdevMouse::Codes UmockdevMouse::keyboard() {
+  return {{EV_SYN, {SYN_REPORT}}, {EV_KEY, {KEY_A, KEY_B, KEY_ENTER}}};
+}
+UmockdevMouse::Codes UmockdevMouse::remote() {
+  return {{EV_SYN, {SYN_REPORT}}, {EV_KEY, {KEY_OK, KEY_LEFT, KEY_RIGHT, KEY_PLAYPAUSE}}};
+}
+
+UmockdevMouse::UmockdevMouse(UMockdevTestbed* bed, int number, Codes codes)
+    : bed_(bed),
+      node_("/dev/input/event" + std::to_string(number)),
+      device_("/sys/devices/platform/mouse/input/event" + std::to_string(number)),
+      codes_(std::move(codes)),
+      requests_([this](UMockdevIoctlClient* client) {
+        const std::lock_guard guard(lock_);
+        return answer(client);
+      }) {
+  const std::string name = "event" + std::to_string(number);
+  const std::string description = "P: /devices/platform/mouse/input/" + name + "\nN: input/" + name +
+                                  "\nE: DEVNAME=/dev/input/" + name +
+                                  "\nE: MAJOR=13\nE: MINOR=" + std::to_string(64 + number) + "\nE: SUBSYSTEM=input\n\n";
+  umockdev_testbed_add_from_string(bed_, description.c_str(), nullptr);
+  umockdev_testbed_attach_ioctl(bed_, node_.c_str(), requests_.handler(), nullptr);
+}
+
+void UmockdevMouse::say(std::uint16_t type, std::uint16_t code, std::int32_t value) {
+  const input_event event{.type = type, .code = code, .value = value};
+  const int fd = umockdev_testbed_get_dev_fd(bed_, node_.c_str());
+  if (::write(fd, &event, sizeof event) != static_cast<ssize_t>(sizeof event)) ++unknown_;
+}
+
+void UmockdevMouse::unplug() {
+  umockdev_testbed_detach_ioctl(bed_, node_.c_str(), nullptr);
+  // The node is a terminal: when its other end closes, a read fails. The test bed keeps a descriptor to close.
+  const int end = umockdev_testbed_get_dev_fd(bed_, node_.c_str()), nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
+  ::dup2(nothing, end);
+  ::close(nothing);
+  umockdev_testbed_remove_device(bed_, device_.c_str());
+}
+
+void UmockdevMouse::hold(std::uint16_t key, bool down) {
+  const std::lock_guard guard(lock_);
+  std::erase(held_, key);
+  if (down) held_.push_back(key);
+}
+
+bool UmockdevMouse::answer(UMockdevIoctlClient* client) {
+  const auto request = umockdev_ioctl_client_get_request(client);
+  const std::size_t size = _IOC_SIZE(request);
+  const unsigned number = _IOC_NR(request);
+  if (request == EVIOCGRAB) {  // a number for an argument, not a pointer
+    std::uintptr_t wanted = 0;
+    std::memcpy(&wanted, umockdev_ioctl_client_get_arg(client)->data, sizeof wanted);
+    grabbed_ = wanted != 0;
+    umockdev_ioctl_client_complete(client, 0, 0);
+    return true;
+  }
+  UMockdevIoctlData* data = umockdev_ioctl_data_resolve(umockdev_ioctl_client_get_arg(client), 0, size, nullptr);
+  const auto complete = [client](long result, int error = 0) {
+    umockdev_ioctl_client_complete(client, result, error);
+    return true;
+  };
+  // A set of bits, as many bytes as were asked for.
+  const auto bits = [&](const std::vector<std::uint16_t>& set) {
+    std::memset(data->data, 0, size);
+    for (const std::uint16_t bit : set) {
+      if (bit / 8U < size) data->data[bit / 8U] = static_cast<std::uint8_t>(data->data[bit / 8U] | 1U << bit % 8U);
+    }
+    return complete(static_cast<long>(size));
+  };
+  const auto text = [&](const char* words) {
+    std::strncpy(reinterpret_cast<char*>(data->data), words, size);
+    return complete(static_cast<long>(std::strlen(words) + 1));
+  };
+  if (_IOC_TYPE(request) != 'E' || _IOC_DIR(request) != _IOC_READ) {
+    ++unknown_;
+    return complete(-1, ENOTTY);
+  }
+  if (number == _IOC_NR(EVIOCGVERSION)) {
+    const int version = EV_VERSION;
+    std::memcpy(data->data, &version, sizeof version);
+    return complete(0);
+  }
+  if (number == _IOC_NR(EVIOCGID)) {
+    const input_id id{BUS_USB, 0x1234, 0x5678, 1};
+    std::memcpy(data->data, &id, sizeof id);
+    return complete(0);
+  }
+  if (number == _IOC_NR(EVIOCGNAME(0))) return text("A mouse that is not there");
+  if (number == _IOC_NR(EVIOCGPHYS(0)) || number == _IOC_NR(EVIOCGUNIQ(0))) return complete(-1, ENOENT);
+  if (number == _IOC_NR(EVIOCGKEY(0))) return bits(held_);
+  if (number == _IOC_NR(EVIOCGPROP(0)) || number == _IOC_NR(EVIOCGLED(0)) || number == _IOC_NR(EVIOCGSW(0))) {
+    return bits({});
+  }
+  if (number == _IOC_NR(EVIOCGBIT(0, 0))) {
+    std::vector<std::uint16_t> types;
+    for (const auto& [type, codes] : codes_) types.push_back(type);
+    return bits(types);
+  }
+  if (number > _IOC_NR(EVIOCGBIT(0, 0)) && number <= _IOC_NR(EVIOCGBIT(EV_MAX, 0))) {
+    const auto found = codes_.find(static_cast<std::uint16_t>(number - _IOC_NR(EVIOCGBIT(0, 0))));
+    return bits(found == codes_.end() ? std::vector<std::uint16_t>{} : found->second);
+  }
+  ++unknown_;
+  return complete(-1, ENOTTY);
+}
+
+}  // namespace relievo::test

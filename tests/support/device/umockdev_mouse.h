@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Plugs a mouse, or what its codes make it, into this machine: a node of /dev/input that answers evdev's requests and
+// says what a test lets it say.
+// Only under `umockdev-wrapper`.
+#pragma once
+
+#include <umockdev.h>
+
+#include <atomic>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "tests/support/device/request_loop.h"
+
+namespace relievo::test {
+
+class UmockdevMouse {
+ public:
+  // What it is: the codes that it has, by their types.
+  using Codes = std::map<std::uint16_t, std::vector<std::uint16_t>>;
+  static Codes mouse();
+  static Codes keyboard();
+  static Codes remote();
+
+  // /dev/input/eventN.
+  UmockdevMouse(UMockdevTestbed* bed, int number, Codes codes);
+  UmockdevMouse(const UmockdevMouse&) = delete;
+  UmockdevMouse& operator=(const UmockdevMouse&) = delete;
+
+  void say(std::uint16_t type, std::uint16_t code, std::int32_t value);
+  void unplug();
+  // What its keys are, when it is asked.
+  void hold(std::uint16_t key, bool down);
+  [[nodiscard]] bool isGrabbed() const { return grabbed_; }
+  // Requests that were not answered, since nobody taught them here.
+  [[nodiscard]] int unknownRequests() const { return unknown_; }
+
+ private:
+  bool answer(UMockdevIoctlClient* client);
+
+  UMockdevTestbed* bed_;
+  std::string node_, device_;
+  Codes codes_;
+  std::mutex lock_;
+  std::vector<std::uint16_t> held_;
+  std::atomic<bool> grabbed_ = false;
+  int unknown_ = 0;
+  RequestLoop requests_;
+};
+
+}  // namespace relievo::test

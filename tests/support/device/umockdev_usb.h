@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Plugs a model of a USB device into this machine: the real libusb, in this process and in those that it starts, finds
+// it and speaks to it through usbfs. Only where umockdev's library was loaded first.
+#pragma once
+
+#include <umockdev.h>
+
+#include <deque>
+#include <map>
+#include <string>
+
+#include "tests/support/device/plugged_usb.h"
+#include "tests/support/device/request_loop.h"
+
+namespace relievo::test {
+
+class UmockdevUsb final : public PluggedUsb {
+ public:
+  UmockdevUsb(UsbModel& model, const UsbDeviceId& id);
+  ~UmockdevUsb() override;
+  UmockdevUsb(const UmockdevUsb&) = delete;
+  UmockdevUsb& operator=(const UmockdevUsb&) = delete;
+
+  void plug() override;
+  void unplug() override;
+  void unplugAfter(int requests) override;
+  void takesNothing() override;
+  void takesAgain() override;
+  [[nodiscard]] std::mutex& lock() override { return lock_; }
+  [[nodiscard]] int unknownRequests() const override { return unknown_; }
+
+ private:
+  struct Urb {
+    UMockdevIoctlData* urb = nullptr;
+    UMockdevIoctlData* buffer = nullptr;
+  };
+  bool answer(UMockdevIoctlClient* client);
+  [[nodiscard]] bool submit(UMockdevIoctlData* argument);
+  void take(const Urb& urb);
+  void bulk(UMockdevIoctlData* argument, UMockdevIoctlClient* client);
+  bool discard(UMockdevIoctlData* argument);
+  void pump();
+  void finish(const Urb& urb, int status, std::size_t bytes);
+
+  UsbModel& model_;
+  UsbDeviceId id_;
+  UMockdevTestbed* bed_ = nullptr;
+  std::mutex lock_;
+  bool plugged_ = false;
+  int requests_left_ = 0;  // until the cable is pulled; 0: it is not
+  bool deaf_ = false;
+  int unknown_ = 0;
+  std::deque<Urb> waiting_, untaken_, done_;  // IN, OUT, and what may be reaped
+  RequestLoop requests_;
+};
+
+}  // namespace relievo::test

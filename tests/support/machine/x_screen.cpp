@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/support/machine/x_screen.h"
+
+#include <X11/Xlib.h>
+#include <X11/Xutil.h>
+#include <X11/extensions/XTest.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <thread>
+
+namespace relievo::test {
+namespace {
+
+constexpr int kPatienceMs = 20'000;
+
+// The number that a server writes when it is up, or nothing.
+std::string readDisplayNumber(int fd) {
+  std::string number;
+  pollfd ready{.fd = fd, .events = POLLIN, .revents = 0};
+  char c = 0;
+  while (::poll(&ready, 1, kPatienceMs) > 0 && ::read(fd, &c, 1) == 1 && c != '\n') number += c;
+  return c == '\n' ? number : "";
+}
+
+Window childOf(Display* display, Window parent, const std::string& title) {
+  Window root = 0, above = 0, *children = nullptr;
+  unsigned count = 0;
+  if (XQueryTree(display, parent, &root, &above, &children, &count) == 0) return 0;
+  Window found = 0;
+  for (unsigned i = 0; i < count && found == 0; ++i) {
+    char* name = nullptr;
+    XWindowAttributes attributes{};
+    if (XFetchName(display, children[i], &name) != 0 && name == title &&
+        XGetWindowAttributes(display, children[i], &attributes) != 0 && attributes.map_state == IsViewable) {
+      found = children[i];
+    }
+    if (name != nullptr) XFree(name);
+  }
+  if (children != nullptr) XFree(children);
+  return found;
+}
+
+}  // namespace
+
+std::unique_ptr<XScreen> XScreen::start() {
+  int pipe[2] = {};
+  if (::pipe(pipe) != 0) return nullptr;
+  const std::string fd = std::to_string(pipe[1]);
+  const std::string size = std::to_string(kWidth) + "x" + std::to_string(kHeight) + "x24";
+  const pid_t server = ::fork();
+  if (server == 0) {
+    ::close(pipe[0]);
+    const int silent = ::open("/dev/null", O_WRONLY);
+    ::dup2(silent, STDOUT_FILENO);
+    ::dup2(silent, STDERR_FILENO);
+    ::execlp("Xvfb", "Xvfb", "-displayfd", fd.c_str(), "-screen", "0", size.c_str(), "-nolisten", "tcp", "-noreset",
+             nullptr);
+    ::_exit(127);
+  }
+  ::close(pipe[1]);
+  const std::string number = readDisplayNumber(pipe[0]);
+  ::close(pipe[0]);
+  const std::string name = ":" + number;
+  Display* connection = number.empty() ? nullptr : XOpenDisplay(name.c_str());
+  if (connection == nullptr) {
+    ::kill(server, SIGKILL);
+    ::waitpid(server, nullptr, 0);
+    return nullptr;
+  }
+  XSelectInput(connection, DefaultRootWindow(connection), SubstructureNotifyMask);
+  ::setenv("DISPLAY", name.c_str(), 1);
+  ::unsetenv("WAYLAND_DISPLAY");
+  ::setenv("DBUS_SESSION_BUS_ADDRESS", "disabled:", 1);  // there is no session that it could start a bus for
+  return std::unique_ptr<XScreen>(new XScreen(server, connection));
+}
+
+XScreen::~XScreen() {
+  kill();
+  ::unsetenv("DISPLAY");
+}
+
+void XScreen::kill() {
+  if (server_ <= 0) return;
+  XCloseDisplay(connection_);  // first: without its server it would end this program
+  connection_ = nullptr;
+  ::kill(server_, SIGKILL);
+  ::waitpid(server_, nullptr, 0);
+  server_ = 0;
+}
+
+std::array<int, 3> XScreen::pixel(int x, int y) const {
+  XImage* image = XGetImage(connection_, DefaultRootWindow(connection_), x, y, 1, 1, AllPlanes, ZPixmap);
+  if (image == nullptr) return {-1, -1, -1};
+  const unsigned long value = XGetPixel(image, 0, 0);
+  XDestroyImage(image);
+  const auto part = [value](int shift) { return static_cast<int>(value >> shift & 0xff); };
+  return {part(16), part(8), part(0)};
+}
+
+unsigned long XScreen::find(const std::string& title) const {
+  for (int waited_ms = 0; waited_ms < kPatienceMs; waited_ms += 20) {
+    if (const Window window = childOf(connection_, DefaultRootWindow(connection_), title)) return window;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return 0;
+}
+
+std::optional<XScreen::Place> XScreen::place(unsigned long window) const {
+  XWindowAttributes attributes{};
+  if (XGetWindowAttributes(connection_, window, &attributes) == 0) return std::nullopt;
+  return Place{attributes.x, attributes.y, attributes.width, attributes.height};
+}
+
+void XScreen::resize(unsigned long window, int width, int height) const {
+  XResizeWindow(connection_, window, static_cast<unsigned>(width), static_cast<unsigned>(height));
+  XSync(connection_, False);
+}
+
+void XScreen::askToClose(unsigned long window) const {
+  XEvent event{};
+  event.xclient.type = ClientMessage;
+  event.xclient.window = window;
+  event.xclient.message_type = XInternAtom(connection_, "WM_PROTOCOLS", False);
+  event.xclient.format = 32;
+  event.xclient.data.l[0] = static_cast<long>(XInternAtom(connection_, "WM_DELETE_WINDOW", False));
+  XSendEvent(connection_, window, False, NoEventMask, &event);
+  XSync(connection_, False);
+}
+
+void XScreen::focus(unsigned long window) const {
+  XSetInputFocus(connection_, window, RevertToPointerRoot, CurrentTime);
+  XSync(connection_, False);
+}
+
+std::optional<int> XScreen::takeFullScreenWish() const {
+  const Atom state = XInternAtom(connection_, "_NET_WM_STATE", False);
+  const Atom full = XInternAtom(connection_, "_NET_WM_STATE_FULLSCREEN", False);
+  for (XEvent event; XCheckTypedEvent(connection_, ClientMessage, &event) != 0;) {
+    if (event.xclient.message_type != state || static_cast<Atom>(event.xclient.data.l[1]) != full) continue;
+    return static_cast<int>(event.xclient.data.l[0]);
+  }
+  return std::nullopt;
+}
+
+void XScreen::key(const char* name, bool down) const {
+  const KeyCode code = XKeysymToKeycode(connection_, XStringToKeysym(name));
+  XTestFakeKeyEvent(connection_, code, down ? True : False, CurrentTime);
+  XSync(connection_, False);
+}
+
+void XScreen::moveMouse(int x, int y) const {
+  XTestFakeMotionEvent(connection_, 0, x, y, CurrentTime);
+  XSync(connection_, False);
+}
+
+void XScreen::button(unsigned number, bool down) const {
+  XTestFakeButtonEvent(connection_, number, down ? True : False, CurrentTime);
+  XSync(connection_, False);
+}
+
+}  // namespace relievo::test

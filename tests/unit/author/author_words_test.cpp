@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the author puts key frames, and what it says while it works and when it is done.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "app/author/package/key_frames.h"
+#include "app/author/package/output.h"
+
+namespace relievo {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::vector<int> keysOf(int frames, double fps, const std::function<bool(int)>& depth_is_new) {
+  KeyFrames keys;
+  std::vector<int> found;
+  for (int k = 0; k < frames; ++k) {
+    if (keys.isDue(mediaTime(k / fps), depth_is_new(k))) found.push_back(k);
+  }
+  return found;
+}
+
+TEST(AuthorKeyFrames, AreASecondApart) {
+  EXPECT_THAT(keysOf(91, 30, [](int) { return true; }), ElementsAre(0, 30, 60, 90));
+  EXPECT_THAT(keysOf(60, 24, [](int) { return true; }), ElementsAre(0, 24, 48));
+  // 23.976 frames a second: the first picture at or after a second is the 24th.
+  EXPECT_THAT(keysOf(60, 24000.0 / 1001, [](int) { return true; }), ElementsAre(0, 24, 48));
+}
+
+TEST(AuthorKeyFrames, ComeWithTheContainersRounding) {
+  KeyFrames keys;
+  std::vector<int> found;
+  for (int k = 0; k <= 60; ++k) {  // 30 frames a second, times cut to milliseconds: 999 ms at worst
+    const auto ms = std::chrono::milliseconds(static_cast<int>(k * 1000 / 30.0 - 0.3));
+    if (keys.isDue(MediaTime(ms), true)) found.push_back(k);
+  }
+  EXPECT_THAT(found, ElementsAre(0, 30, 60));
+}
+
+TEST(AuthorKeyFrames, WaitForADepthPicture) {
+  // Depth with every fourth picture of the colour: picture 30 has none, 32 has.
+  EXPECT_THAT(keysOf(70, 30, [](int k) { return k % 4 == 0; }), ElementsAre(0, 32, 64));
+}
+
+TEST(AuthorKeyFrames, AreAtCuts) {
+  KeyFrames keys;
+  std::vector<int> found;
+  for (int k = 0; k < 80; ++k) {  // a cut at 40 and one at 50, where there is no depth picture to begin with
+    if (keys.isDue(mediaTime(k / 30.0), k != 50, k == 40 || k == 50)) found.push_back(k);
+  }
+  EXPECT_THAT(found, ElementsAre(0, 30, 40, 70));
+}
+
+TEST(AuthorKeyFrames, DoNotWaitForEver) {
+  EXPECT_THAT(keysOf(125, 30, [](int k) { return k == 0; }), ElementsAre(0, 61, 122));
+}
+
+TEST(AuthorProgress, TellsFramesRateAndTimeLeft) {
+  EXPECT_EQ(progressText(100, 400, std::chrono::seconds(4)), "100/400 frames, 25.0 frames/s, 0:12 left");
+  EXPECT_EQ(progressText(10, 2010, std::chrono::seconds(1)), "10/2010 frames, 10.0 frames/s, 3:20 left");
+}
+
+TEST(AuthorProgress, LeavesOutWhatIsNotKnown) {
+  EXPECT_EQ(progressText(100, std::nullopt, std::chrono::seconds(4)), "100 frames, 25.0 frames/s");
+  EXPECT_EQ(progressText(1, 400, Duration(0)), "1/400 frames");
+  // A container that told too short a length is not believed any more.
+  EXPECT_EQ(progressText(401, 400, std::chrono::seconds(10)), "401 frames, 40.1 frames/s");
+}
+
+TEST(AuthorOutput, IsCheckedBeforeAnyWork) {
+  const auto refused = [](const OutputOptions& output) {
+    const auto checked = checkOutput(output);
+    return checked ? std::string() : std::string(checked.error().message);
+  };
+  for (const char* path : {"no/a.mkv", "no/a.MP4", "no/a.ts", "no/a.m3u8", "udp://127.0.0.1:5000"}) {
+    EXPECT_EQ(refused({.path = path}), "") << path;
+  }
+  EXPECT_THAT(refused({.path = "a.avi"}), HasSubstr(".m3u8"));
+  EXPECT_EQ(refused({.path = "no/a.mkv", .depth = {.codec = VideoCodec::Ffv1, .bits = 16}}), "");
+  EXPECT_THAT(refused({.path = "no/a.ts", .depth = {.codec = VideoCodec::Ffv1}}), HasSubstr("write a .mkv"));
+  EXPECT_THAT(refused({.path = "no/a.mkv", .depth = {.bits = 12}}), HasSubstr("H.264 has 8 and 10"));
+}
+
+TEST(AuthorSummary, TellsTracksCodesAndWhatWasDone) {
+  AuthorSummary summary;
+  summary.format.color_width = 640;
+  summary.format.color_height = 480;
+  summary.format.depth_width = 320;
+  summary.format.depth_height = 240;
+  summary.format.depth.codec = VideoCodec::Hevc;
+  summary.format.depth.bits = 10;
+  summary.format.depth_tags = {{"DEPTH_LAW", "inverse"}, {"DEPTH_NEAR", "500"}, {"DEPTH_FAR", "4000"}};
+  summary.frame_period = std::chrono::milliseconds(40);
+  // 50 pictures of 40 ms are 2 s; 250,000 bytes are 1000 kbit/s.
+  summary.totals.color = {50, 250'000, MediaTime{}, MediaTime(std::chrono::milliseconds(1960))};
+  summary.totals.depth = {50, 25'000, MediaTime{}, MediaTime(std::chrono::milliseconds(1960))};
+  summary.totals.file_bytes = 2'750'000;
+  summary.codes.of_code[3] = 10;
+  summary.codes.of_code[200] = 80;
+  summary.codes.holes = 10;
+  summary.codes.samples = 100;
+  summary.notes = {"16 bits rescaled to 8"};
+
+  const std::string text = toText("film.mkv", summary);
+  EXPECT_THAT(text, HasSubstr("film.mkv: 2.00 s, 2.75 MB"));
+  EXPECT_THAT(text, HasSubstr("640x480"));
+  EXPECT_THAT(text, HasSubstr("320x240"));
+  EXPECT_THAT(text, HasSubstr(" 1000 kbit/s"));
+  EXPECT_THAT(text, HasSubstr(" 100 kbit/s"));
+  EXPECT_THAT(text, HasSubstr("8 bits, 3 .. 200, 2 of them used; holes 10.0 %"));
+  EXPECT_THAT(text, HasSubstr("HEVC 4:0:0, 10 bits"));
+  EXPECT_THAT(text, HasSubstr("inverse law"));
+  EXPECT_THAT(text, HasSubstr("near 500 mm, far 4000 mm"));
+  EXPECT_THAT(text, HasSubstr("note: 16 bits rescaled to 8"));
+}
+
+}  // namespace
+}  // namespace relievo

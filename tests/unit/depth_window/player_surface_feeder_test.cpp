@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which depth frames the haptic side gets to see, and when it is told of a change.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+#include "app/depth_window/surface_feeder.h"
+
+namespace relievo {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+constexpr DisplayVolume kVolume{160, 108, 40};
+
+Frame depthFrame(double pts_s, std::uint8_t code = 0, int width = 4, int height = 3) {
+  const auto samples = std::make_shared<std::vector<std::uint8_t>>(static_cast<std::size_t>(width * height), code);
+  Frame frame;
+  frame.pts = mediaTime(pts_s);
+  frame.width = width;
+  frame.height = height;
+  frame.range = ColorRange::Full;
+  frame.plane_count = 1;
+  frame.planes[0] = {samples->data(), width};
+  frame.owner = samples;
+  return frame;
+}
+
+FramePair pairAt(double color_s, double depth_s) {
+  FramePair pair;
+  pair.color.pts = mediaTime(color_s);
+  pair.depth = depthFrame(depth_s);
+  return pair;
+}
+
+FramePair flatPairAt(double color_s) {
+  FramePair pair;
+  pair.color.pts = mediaTime(color_s);
+  return pair;
+}
+
+class SurfaceFeederTest : public testing::Test {
+ protected:
+  SurfaceFeederTest() { feeder_.setScene(DepthCalibration{}, kVolume); }
+  // The film at `index` of `pairs`, `look_ahead` pairs ahead, `last` when those are the rest.
+  bool at(const std::vector<FramePair>& pairs, std::size_t index, double rate = 1) {
+    std::deque<FramePair> ahead;
+    for (std::size_t i = index + 1; i < pairs.size() && ahead.size() < look_ahead_; ++i) ahead.push_back(pairs[i]);
+    const bool last = index + 1 + ahead.size() == pairs.size();
+    const auto changed = feeder_.update(pairs[index], ahead, last, {mediaTime(0), MonotonicTime{}, rate});
+    EXPECT_TRUE(changed);
+    return changed && *changed;
+  }
+  const SurfaceWindow& window() {
+    feeder_.fill(window_);
+    return window_;
+  }
+  std::vector<double> times() {
+    std::vector<double> found;
+    for (int i = 0; i < window().count; ++i)
+      found.push_back(toSeconds(window().frames[static_cast<std::size_t>(i)].time));
+    return found;
+  }
+
+  std::size_t look_ahead_ = 4;
+  SurfaceFeeder feeder_;
+  SurfaceWindow window_;
+};
+
+std::vector<FramePair> film(int frames) {
+  std::vector<FramePair> pairs;
+  for (int i = 0; i < frames; ++i) pairs.push_back(pairAt(i, i));
+  return pairs;
+}
+
+TEST_F(SurfaceFeederTest, HoldsTwoFramesBeforeThePresentAndFiveAfterIt) {
+  const auto pairs = film(10);
+  at(pairs, 0);
+  EXPECT_THAT(times(), ElementsAre(0, 1, 2, 3, 4));
+  EXPECT_FALSE(window().ended);  // all that lies ahead is in it, but more will come
+  at(pairs, 1);
+  EXPECT_THAT(times(), ElementsAre(0, 1, 2, 3, 4, 5));
+  look_ahead_ = 10;
+  at(pairs, 2);
+  EXPECT_THAT(times(), ElementsAre(0, 1, 2, 3, 4, 5, 6, 7));
+  at(pairs, 3);
+  EXPECT_THAT(times(), ElementsAre(1, 2, 3, 4, 5, 6, 7, 8));
+}
+
+TEST_F(SurfaceFeederTest, HoldsADepthFrameOfALowerRateOnce) {
+  // Depth at a third of the colour's rate: three pairs share a frame.
+  std::vector<FramePair> pairs;
+  for (int i = 0; i < 12; ++i) pairs.push_back(pairAt(i, i - i % 3));
+  at(pairs, 0);
+  EXPECT_THAT(times(), ElementsAre(0, 3));
+  at(pairs, 4);
+  EXPECT_THAT(times(), ElementsAre(0, 3, 6));
+  at(pairs, 5);
+  EXPECT_THAT(times(), ElementsAre(0, 3, 6, 9));
+}
+
+TEST_F(SurfaceFeederTest, KeepsTheTwoBeforeWhenPicturesWereLeftOut) {
+  const auto pairs = film(10);
+  at(pairs, 0);
+  at(pairs, 3);
+  EXPECT_THAT(times(), ElementsAre(1, 2, 3, 4, 5, 6, 7));
+  at(pairs, 9);
+  EXPECT_THAT(times(), ElementsAre(6, 7, 9));
+}
+
+TEST_F(SurfaceFeederTest, SaysWhenNothingChangedSoThatNothingIsPublished) {
+  const auto pairs = film(10);
+  EXPECT_TRUE(at(pairs, 0));
+  EXPECT_FALSE(at(pairs, 0));
+  EXPECT_TRUE(at(pairs, 0, 0.0));  // paused
+  EXPECT_FALSE(at(pairs, 0, 0.0));
+  EXPECT_TRUE(at(pairs, 1));
+}
+
+TEST_F(SurfaceFeederTest, EndsWithTheLastFrameInTheWindow) {
+  look_ahead_ = 10;
+  const auto pairs = film(8);
+  at(pairs, 1);
+  EXPECT_THAT(times(), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_FALSE(window().ended);  // the eighth frame is not in it yet
+  at(pairs, 2);
+  EXPECT_THAT(times(), ElementsAre(1, 2, 3, 4, 5, 6, 7));
+  EXPECT_TRUE(window().ended);
+}
+
+TEST_F(SurfaceFeederTest, IsEmptyWhereThePresentPictureHasNoDepth) {
+  std::vector<FramePair> pairs = film(3);
+  pairs.push_back(flatPairAt(3));
+  pairs.push_back(flatPairAt(4));
+  at(pairs, 2);
+  EXPECT_THAT(times(), ElementsAre(2));
+  EXPECT_FALSE(window().ended);
+  EXPECT_TRUE(at(pairs, 3));
+  EXPECT_THAT(times(), IsEmpty());
+  EXPECT_FALSE(at(pairs, 4));
+}
+
+TEST_F(SurfaceFeederTest, BeginsAnEpochWithoutTheFramesOfTheLastOne) {
+  const auto pairs = film(10);
+  at(pairs, 5);
+  const auto before = window().epoch;
+  feeder_.beginEpoch();
+  at(pairs, 1);
+  EXPECT_THAT(times(), ElementsAre(1, 2, 3, 4, 5));
+  EXPECT_NE(window().epoch, before);
+}
+
+TEST_F(SurfaceFeederTest, AFrameOfAnotherSizeBeginsAnEpochWhenItIsPresent) {
+  auto pairs = film(4);
+  pairs[2].depth = depthFrame(2, 0, 8, 6);
+  pairs[3].depth = depthFrame(3, 0, 8, 6);
+  at(pairs, 1);
+  EXPECT_THAT(times(), ElementsAre(1));
+  const auto before = window().epoch;
+  at(pairs, 2);
+  EXPECT_THAT(times(), ElementsAre(2, 3));
+  EXPECT_NE(window().epoch, before);
+  EXPECT_EQ(window().frames[0].field.cols(), 8);
+}
+
+TEST_F(SurfaceFeederTest, ReadsHeightsByTheCalibration) {
+  FramePair pair;
+  pair.depth = depthFrame(0, 51);  // 51/255 of 40 mm
+  ASSERT_TRUE(feeder_.update(pair, {}, true, {}));
+  EXPECT_NEAR(window().frames[0].field.heightMm(1, 1), 8.0, 1e-12);
+}
+
+TEST_F(SurfaceFeederTest, ReleasesWhatTheWindowHeldBefore) {
+  auto pairs = film(3);
+  at(pairs, 0);
+  EXPECT_EQ(window().count, 3);
+  const std::weak_ptr<const void> newest = window_.frames[2].owner;
+  pairs.clear();
+  feeder_.beginEpoch();
+  EXPECT_FALSE(newest.expired());
+  feeder_.fill(window_);
+  EXPECT_TRUE(newest.expired());
+}
+
+TEST_F(SurfaceFeederTest, RefusesDepthThatCannotBeFeltAndEmptiesTheWindow) {
+  const auto pairs = film(2);
+  at(pairs, 0);
+  FramePair broken = pairAt(5, 5);
+  broken.depth.model = ColorModel::Rgb;  // brightness is asked for
+  EXPECT_FALSE(feeder_.update(broken, {}, false, {}));
+  EXPECT_THAT(times(), IsEmpty());
+}
+
+TEST_F(SurfaceFeederTest, TellsWhichFrameTheSurfaceBeginsFrom) {
+  EXPECT_FALSE(feeder_.frameAt(mediaTime(0)));
+  const auto pairs = film(10);
+  at(pairs, 1);
+  at(pairs, 2);
+  EXPECT_EQ(feeder_.frameAt(mediaTime(2.0)), mediaTime(2));
+  EXPECT_EQ(feeder_.frameAt(mediaTime(2.9)), mediaTime(2));
+  EXPECT_EQ(feeder_.frameAt(mediaTime(3.0)), mediaTime(3));
+  EXPECT_EQ(feeder_.frameAt(mediaTime(0.5)), mediaTime(1));  // before the window: its first
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a clip is measured to be like, and the widths and laws that it gets for it.
+#include "app/depth_window/touch_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "app/haptics/method/felt_surface.h"
+#include "tests/support/film/depth_frames.h"
+
+namespace relievo {
+namespace {
+
+constexpr DisplayVolume kVolume{160, 108, 40};
+constexpr double kPeriod = 1.0 / 30;
+
+using test::makeGrayFrame;
+
+TouchPlan planFor(int bits, double noise_mm, bool moving) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0, noise_mm > 0 ? noise_mm : 1e-9);
+  std::vector<Frame> frames;
+  std::vector<TimedSurface> surfaces;
+  const double top = (1 << bits) - 1;
+  const GridMapping grid(kVolume, 720, 486);
+  for (int k = 0; k < 4; ++k) {
+    frames.push_back(makeGrayFrame(720, 486, bits, mediaTime(k * kPeriod), [&](int c, int r) {
+      const double z = 18 + 0.2 * grid.x(c) + 2 * std::sin(0.2 * grid.y(r)) + (moving ? 0.5 * k : 0) + noise(random);
+      return std::clamp(z / 40, 0.0, 1.0) * top + 0.5;
+    }));
+    surfaces.push_back(
+        {HeightField::make(frames.back(), {.bits = bits}, kVolume).value(), frames.back().pts, frames.back().owner});
+  }
+  return planTouch(measureClip(surfaces));
+}
+
+TEST(TouchPlan, TakesWhatTheClipNeedsAndNoMore) {
+  const TouchPlan fine = planFor(16, 0, true), coarse = planFor(8, 0, true), noisy = planFor(8, 0.4, true),
+                  still = planFor(8, 0, false);
+  EXPECT_LT(fine.scale.wide_mm, 0.3);
+  EXPECT_EQ(fine.scale.wide_time, TimeLaw::Fitted);
+  EXPECT_NEAR(coarse.measure.quantum_mm, 40.0 / 255, 1e-9);
+  EXPECT_EQ(coarse.measure.noise_mm, 0);
+  EXPECT_NEAR(coarse.measure.speed_mm_per_s, 15, 5);
+  EXPECT_GT(coarse.scale.wide_mm, 0.8);
+  EXPECT_NEAR(noisy.measure.noise_mm, 0.4, 0.06);
+  EXPECT_EQ(noisy.scale.wide_time, TimeLaw::BSpline);
+  EXPECT_GT(noisy.scale.clamp_mm, fine.scale.clamp_mm);
+  EXPECT_TRUE(still.measure.still);
+  EXPECT_NE(still.scale.wide_time, TimeLaw::Hold) << "a film that begins still may move later";
+  // A lead-in of black says nothing: what comes after it may be coarse.
+  const Frame black = makeGrayFrame(90, 61, 8, {}, [](int, int) { return 0; });
+  const TimedSurface alone{HeightField::make(black, {.bits = 8}, kVolume).value(), {}, black.owner};
+  EXPECT_NEAR(planTouch(measureClip(std::span(&alone, 1))).scale.wide_mm, coarse.scale.wide_mm, 1e-9);
+  EXPECT_EQ(measureClip({}).frames, 0);
+}
+
+// What noise leaves of a flat relief's slope is an error of direction, in radians: a share of the force.
+TEST(TouchPlan, TellsWhatNoiseLeavesHoweverFineThePictureIs) {
+  constexpr DisplayVolume kSmall{40, 30, 40};
+  std::mt19937 random(7);
+  struct Case {
+    int cols;
+    double noise_mm;
+    bool still;
+  };
+  for (const auto& [cols, noise_mm, still] : {Case{180, 0.4, false},
+                                              {180, 0.12, false},
+                                              {960, 0.4, false},
+                                              {960, 0.12, false},
+                                              {960, 0.8, false},
+                                              {480, 0.12, true}}) {
+    std::normal_distribution<double> noise(0, noise_mm);
+    SurfaceWindow window;
+    for (TimedSurface& surface : window.frames) {
+      if (still) random.seed(7);
+      noise.reset();
+      const Frame frame = makeGrayFrame(cols, cols * 3 / 4, 16, mediaTime(window.count++ * kPeriod), [&](int, int) {
+        return std::clamp((20 + noise(random)) / 40, 0.0, 1.0) * 65535 + 0.5;
+      });
+      surface = {HeightField::make(frame, {.bits = 16}, kSmall).value(), frame.pts, frame.owner};
+    }
+    const TouchPlan plan = planTouch(measureClip(window.frames));
+    FeltSurface felt(plan.scale);
+    double sum = 0;
+    int places = 0;
+    for (int k = 0; k < 10; ++k) {
+      ASSERT_TRUE(felt.moment(window, mediaTime((2 + 0.1 * k) * kPeriod)));
+      for (double y = -9; y <= 9; y += 1.2) {
+        for (double x = -14; x <= 14; x += 1.2, ++places) {
+          const SurfacePoint at = felt.at(x, y);
+          sum += at.zx * at.zx + at.zy * at.zy;
+        }
+      }
+    }
+    const double left = std::sqrt(sum / places);
+    EXPECT_NEAR(left, plan.error, 0.3 * plan.error) << cols << ' ' << noise_mm << ' ' << still;
+    EXPECT_TRUE(plan.error <= 1.001 * kErrorWanted || plan.scale.wide_mm >= 1.2) << cols << ' ' << noise_mm;
+  }
+}
+
+TEST(TouchPlan, TellsNoErrorThatItCannotName) {
+  const auto told = [](const TouchPlan& plan, const char* part) { return plan.reason.find(part) != std::string::npos; };
+  const Frame flat = makeGrayFrame(90, 61, 16, {}, [](int, int) { return 30000; });
+  const TimedSurface alone{HeightField::make(flat, {.bits = 16}, kVolume).value(), {}, flat.owner};
+  const TouchPlan plan = planTouch(measureClip(std::span(&alone, 1)));
+  EXPECT_LT(plan.error, 0.001);
+  EXPECT_TRUE(told(plan, "error of the force under 0.1 %")) << plan.reason;
+  const TouchPlan coarse = planFor(8, 0, true);
+  EXPECT_FALSE(told(coarse, " 0.0 %")) << coarse.reason;
+  EXPECT_TRUE(told(coarse, "error of the force about ")) << coarse.reason;
+  EXPECT_TRUE(told(coarse, describe(coarse.scale).c_str())) << coarse.reason;
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Z buffers as TIFF files, through the source that reads them: every way they are stored, and what is none.
+#include <gtest/gtest.h>
+#include <tiff.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include "app/scene/depth_calibration.h"
+#include "drivers/registry.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/film/float_tiff.h"
+
+namespace relievo {
+namespace {
+
+// A slope of 10 m and the values that are none, in a picture of uneven sides.
+test::FloatTiff zBuffer() {
+  test::FloatTiff z{.width = 53, .height = 37};
+  for (std::uint32_t i = 0; i < z.width * z.height; ++i) z.samples.push_back(0.005F * static_cast<float>(i) + 0.2002F);
+  z.samples[5] = 0;
+  z.samples[6] = -3;
+  z.samples[7] = std::numeric_limits<float>::infinity();
+  z.samples[8] = std::numeric_limits<float>::quiet_NaN();
+  z.samples[9] = 65.536F;
+  z.samples[10] = 65.5351F;
+  return z;
+}
+
+struct Read {
+  StreamInfo stream;
+  std::vector<Frame> frames;
+  std::uint64_t damaged = 0;
+};
+
+Read read(const std::string& url) {
+  Read read;
+  const auto source = drivers::makeMediaSource(url);
+  EXPECT_TRUE(source->open(url));
+  if (source->streams().empty()) return read;
+  read.stream = source->streams()[0];
+  const auto decoder = drivers::makeVideoDecoder(read.stream);
+  EXPECT_TRUE(decoder->open(read.stream));
+  EXPECT_STREQ(decoder->capabilities().name, "tiff");
+  const auto receive = [&] {
+    for (;;) {
+      auto frame = decoder->receive();
+      if (!frame || !*frame) return;
+      read.frames.push_back(std::move(**frame));
+    }
+  };
+  for (;;) {
+    const auto packet = source->read();
+    if (!packet || !*packet) break;
+    EXPECT_EQ(decoder->feed(**packet), Feed::Accepted);
+    receive();
+  }
+  EXPECT_TRUE(decoder->drain());
+  receive();
+  read.damaged = decoder->damaged();
+  return read;
+}
+
+void expectSame(const Frame& frame, const test::FloatTiff& z) {
+  ASSERT_EQ(frame.width, static_cast<int>(z.width));
+  ASSERT_EQ(frame.height, static_cast<int>(z.height));
+  EXPECT_EQ(frame.model, ColorModel::Gray);
+  EXPECT_EQ(frame.range, ColorRange::Full);
+  for (int r = 0; r < frame.height; ++r) {
+    for (int c = 0; c < frame.width; ++c) {
+      const double metres = static_cast<double>(z.samples[static_cast<std::size_t>(r) * z.width + c]);
+      const bool none = !(metres > 0) || metres > 65.5354;
+      ASSERT_EQ(test::sampleAt(frame, 0, c, r), none ? 0u : static_cast<std::uint32_t>(std::lround(metres * 1000)))
+          << c << ", " << r;
+    }
+  }
+}
+
+TEST(TiffDecoder, DistancesInMetresComeAsMillimetresHoweverTheyAreStored) {
+  const test::TemporaryFolder folder;
+  test::FloatTiff plain = zBuffer(), deflated = plain, lzw = plain, tiled = plain;
+  deflated.compression = COMPRESSION_ADOBE_DEFLATE;
+  deflated.predictor = 3;  // of floating point
+  lzw.compression = COMPRESSION_LZW;
+  tiled.compression = COMPRESSION_LZW;
+  tiled.tile = 16;
+  for (const test::FloatTiff& one : {plain, deflated, lzw, tiled}) {
+    SCOPED_TRACE(one.compression + one.tile);
+    test::writeFloatTiff(folder / "z.tif", one);
+    const Read z = read(folder / "z.tif");
+    ASSERT_EQ(z.frames.size(), 1u);
+    expectSame(z.frames[0], one);
+  }
+}
+
+TEST(TiffDecoder, ItsStreamSaysWhatTheCodesMean) {
+  const test::TemporaryFolder folder;
+  test::writeFloatTiff(folder / "z.tif", zBuffer());
+  const CalibrationSettings tags = calibrationFromTags(read(folder / "z.tif").stream.tags);
+  EXPECT_EQ(tags, (CalibrationSettings{{"unit", "1"}, {"invalid", "0"}}));
+}
+
+TEST(TiffDecoder, NumberedFilesAreAFilmWithoutTheDamagedOnes) {
+  const test::TemporaryFolder folder;
+  test::FloatTiff z = zBuffer();
+  for (int i = 1; i <= 5; ++i) {
+    z.samples[0] = static_cast<float>(i);
+    test::writeFloatTiff(folder / ("z" + std::to_string(i) + ".tif"), z);
+  }
+  {
+    std::fstream cut(folder / "z3.tif", std::ios::in | std::ios::out | std::ios::binary);
+    cut.seekp(4);
+    cut.write("\xff\xff\xff\x7f", 4);  // the directory lies beyond the file's end
+  }
+  const Read film = read(folder / "z%d.tif");
+  EXPECT_EQ(film.damaged, 1u);
+  ASSERT_EQ(film.frames.size(), 4u);
+  const Duration period = film.frames[1].pts - film.frames[0].pts;
+  EXPECT_GT(period, Duration(0));
+  EXPECT_EQ(film.frames[2].pts - film.frames[1].pts, 2 * period) << "the lost one's place stays empty";
+  EXPECT_EQ(test::sampleAt(film.frames[3], 0, 0, 0), 5000u);
+}
+
+TEST(TiffDecoder, WholeNumbersOfThatWidthAreNoDistances) {
+  const test::TemporaryFolder folder;
+  test::FloatTiff z = zBuffer();
+  z.sample_format = SAMPLEFORMAT_UINT;
+  test::writeFloatTiff(folder / "z.tif", z);
+  const Read read_back = read(folder / "z.tif");
+  EXPECT_TRUE(read_back.frames.empty());
+  EXPECT_EQ(read_back.damaged, 1u);
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// Block means and what keeps them: the border, holes, weights, and a cache whose places are used again.
+#include "app/haptics/method/control_grid.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "tests/support/film/depth_frames.h"
+
+namespace relievo {
+namespace {
+
+// Four samples to a millimetre: a block of 1 mm is 4 x 4 samples.
+constexpr int kCols = 41, kRows = 42;
+constexpr DisplayVolume kVolume{kCols / 4.0, kRows / 4.0, 40};
+constexpr float kPit = -40;
+
+// Codes are hundredths of a millimetre; 0 is a hole.
+template <class Code>
+TimedSurface picture(double t_s, Code&& code) {
+  const Frame f = test::makeGrayFrame(kCols, kRows, 12, mediaTime(t_s), code);
+  return test::surfaceOf(f, kVolume, {.bits = 12, .invalid_code = 0});
+}
+float height(double code) {
+  return static_cast<float>(40 * code / 4095);
+}
+
+class ControlGridTest : public testing::Test {
+ protected:
+  // The frames lie in the slots of their index.
+  void show(std::vector<TimedSurface> frames, std::vector<float> weights) {
+    frames_ = {};
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      window_.frames[i] = frames[i];
+      frames_.frame_of_slot[i] = static_cast<std::uint8_t>(i);
+      frames_.weight[i] = weights[i];
+      if (weights[i] != 0) frames_.wanted |= 1U << i;
+    }
+    frames_.window = &window_;
+    if (!set_) grid_.setPicture(window_.frames[0].field);
+    set_ = true;
+  }
+  Patch patch(int i, int j) {
+    Patch p;
+    grid_.patch(i, j, frames_, p);
+    return p;
+  }
+  ControlGrid grid_{1.0, 4};
+  SurfaceWindow window_;
+  ControlGrid::Frames frames_;
+  bool set_ = false;
+};
+
+TEST_F(ControlGridTest, APointIsTheMeanOfItsBlock) {
+  show({picture(0, [](int c, int r) { return 100 + c + 10 * r; })}, {1});
+  ASSERT_EQ(grid_.blockCols(), 4);
+  const Patch p = patch(2, 5);
+  for (int j = 0; j < 4; ++j) {
+    for (int i = 0; i < 4; ++i) {
+      EXPECT_NEAR(p[static_cast<std::size_t>(j)][i], height(100 + 4 * (2 + i) + 1.5 + 10 * (4 * (5 + j) + 1.5)), 1e-4);
+    }
+  }
+}
+
+TEST_F(ControlGridTest, ABlockOnTheBorderCountsFromHalfOfItOn) {
+  // 41 columns: of block 10 one column of four is inside; 42 rows: two rows of four are.
+  show({picture(0, [](int, int) { return 1000; })}, {1});
+  const Patch p = patch(8, 8);
+  EXPECT_NEAR(p[0][1], height(1000), 1e-4);
+  EXPECT_EQ(p[0][2], kPit) << "a quarter of it";
+  EXPECT_NEAR(p[2][0], height(1000), 1e-4) << "half of it";
+  EXPECT_EQ(p[3][0], kPit) << "outside";
+  EXPECT_EQ(patch(-2, -2)[1][2], kPit);
+}
+
+TEST_F(ControlGridTest, WhereHalfOfTheWeightHasAReadingTheReadingsTell) {
+  const auto flat = picture(0, [](int, int) { return 1000; });
+  const auto hole = picture(1, [](int, int) { return 0; });
+  show({flat, hole}, {0.6F, 0.4F});
+  EXPECT_NEAR(patch(3, 3)[1][1], height(1000), 1e-3) << "not 0.6 of it";
+  show({flat, hole}, {0.4F, 0.6F});
+  EXPECT_EQ(patch(3, 3)[1][1], kPit);
+}
+
+TEST_F(ControlGridTest, AFrameThatTakesAnothersPlaceBringsItsOwnReadings) {
+  show({picture(0, [](int c, int) { return c < 20 ? 0 : 1000; })}, {1});
+  EXPECT_EQ(patch(3, 3)[0][0], kPit);
+  EXPECT_NEAR(patch(3, 3)[0][3], height(1000), 1e-4);
+  grid_.forgetFrame(0);
+  show({picture(1, [](int, int) { return 2000; })}, {1});
+  for (const int i : {0, 3}) EXPECT_NEAR(patch(3, 3)[0][i], height(2000), 1e-4) << i;
+}
+
+TEST_F(ControlGridTest, APictureOfAnotherShapeIsReadFromTheBeginning) {
+  show({picture(0, [](int c, int) { return c < 20 ? 0 : 1000; })}, {1});
+  EXPECT_NEAR(patch(3, 3)[0][3], height(1000), 1e-4);
+  show({picture(1, [](int, int) { return 2000; })}, {1});
+  grid_.setPicture(window_.frames[0].field);
+  for (const int i : {0, 3}) EXPECT_NEAR(patch(3, 3)[0][i], height(2000), 1e-4) << i;
+}
+
+TEST_F(ControlGridTest, APointThatTakesAnothersPlaceBringsItsOwnReadings) {
+  // Point (20, 0), outside, lies where (4, 0) lay.
+  show({picture(0, [](int c, int) { return c < 20 ? 1000 : 2000; })}, {1});
+  EXPECT_NEAR(patch(4, 0)[0][0], height(1000), 1e-4);
+  EXPECT_EQ(patch(20, 0)[0][0], kPit);
+  EXPECT_NEAR(patch(4, 0)[0][0], height(1000), 1e-4) << "no hole is left behind";
+}
+
+TEST_F(ControlGridTest, WhatWasReadIsNotReadAgain) {
+  show({picture(0, [](int, int) { return 1000; }), picture(1, [](int, int) { return 1100; })}, {0.5F, 0.5F});
+  static_cast<void>(patch(3, 3));
+  EXPECT_EQ(grid_.blocksRead(), 2U * 16);
+  static_cast<void>(patch(4, 3));
+  EXPECT_EQ(grid_.blocksRead(), 2U * 20) << "one column more, in both frames";
+  static_cast<void>(patch(3, 3));
+  EXPECT_EQ(grid_.blocksRead(), 2U * 20);
+}
+
+}  // namespace
+}  // namespace relievo

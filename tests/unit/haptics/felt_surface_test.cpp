@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: Apache-2.0
+// The surface that the default method touches: block means, the two levels and the clamp, and the frames they share.
+#include "app/haptics/method/felt_surface.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/vec2.hpp>
+#include <random>
+#include <span>
+#include <vector>
+
+#include "app/depth_window/shots.h"
+#include "tests/support/film/depth_frames.h"
+
+namespace relievo {
+namespace {
+
+using test::makeGrayFrame;
+using test::makeWindow;
+
+constexpr DisplayVolume kVolume{160, 108, 40};
+constexpr int kCols = 360, kRows = 243;
+constexpr double kPeriod = 1.0 / 30;
+
+template <class Height>
+std::vector<Frame> film(int count, Height&& height, int cols = kCols, int rows = kRows) {
+  return test::makeReliefFilm(count, kPeriod, cols, rows, kVolume, height);
+}
+
+TEST(FeltSurface, GivesAMovingPlaneBackExactly) {
+  const auto frames = film(6, [](double x, double y, double t) { return 20 + 0.2 * x - 0.1 * y + 30 * t; });
+  const SurfaceWindow w = makeWindow(frames, kVolume);
+  for (const SpaceLaw space : {SpaceLaw::BSpline, SpaceLaw::Quadratic}) {
+    FeltSurface s({.space = space});
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> x(-50, 50), y(-40, 40), t(2 * kPeriod, 3 * kPeriod);
+    for (int i = 0; i < 300; ++i) {
+      const double px = x(random), py = y(random), pt = t(random);
+      ASSERT_TRUE(s.moment(w, mediaTime(pt)));
+      const SurfacePoint p = s.at(px, py);
+      ASSERT_NEAR(p.z, 20 + 0.2 * px - 0.1 * py + 30 * pt, 1e-3) << "half a code is 0.0003 mm";
+      ASSERT_NEAR(p.zx, 0.2, 1e-3);
+      ASSERT_NEAR(p.zy, -0.1, 1e-3);
+      ASSERT_NEAR(s.height(px, py), p.z, 1e-5);
+    }
+  }
+}
+
+// Bumps, noise and a step: everything that a derivative could get wrong.
+double rough(double x, double y, double t) {
+  const double step = x > 10 + 0.3 * y ? 12 : 0;
+  return 12 + 3 * std::sin(0.3 * x + 2 * t) * std::cos(0.25 * y) + step + 0.1 * std::sin(57 * x + 91 * y);
+}
+
+TEST(FeltSurface, ItsDerivativesAreThoseOfItsHeightAlsoAtAnEdge) {
+  const auto frames = film(6, rough);
+  const SurfaceWindow w = makeWindow(frames, kVolume);
+  FeltSurface s({});
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> beside(-1.2, 1.2), y(-10, 10);
+  constexpr double kStep = 0.0004;
+  int off = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const double py = y(random), px = 10 + 0.3 * py + beside(random);
+    ASSERT_TRUE(s.moment(w, mediaTime(0.08)));
+    const SurfacePoint p = s.at(px, py), e = s.at(px + kStep, py), o = s.at(px - kStep, py), n = s.at(px, py + kStep),
+                       u = s.at(px, py - kStep);
+    // A cubic's third derivative jumps from cell to cell: a difference across a jump is off.
+    const auto close = [](double exact, double difference) {
+      return std::abs(exact - difference) < 0.02 * (std::abs(exact) + 20);
+    };
+    ASSERT_NEAR(p.zx, (e.z - o.z) / (2 * kStep), 0.02 * (std::abs(p.zx) + 1)) << px << ' ' << py;
+    ASSERT_NEAR(p.zy, (n.z - u.z) / (2 * kStep), 0.02 * (std::abs(p.zy) + 1));
+    off += close(p.zxx, (e.zx - o.zx) / (2 * kStep)) ? 0 : 1;
+    off += close(p.zxy, (n.zx - u.zx) / (2 * kStep)) ? 0 : 1;
+    off += close(p.zyy, (n.zy - u.zy) / (2 * kStep)) ? 0 : 1;
+  }
+  EXPECT_LT(off, 20) << "of 6000";
+}
+
+TEST(FeltSurface, WhatWasPreparedIsWhatWouldHaveBeenComputed) {
+  const auto frames = film(8, rough);
+  const SurfaceWindow w = makeWindow(frames, kVolume);
+  FeltSurface ahead({}), plain({});
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> x(6, 14), y(-10, 10), jitter(-0.0002, 0.0002);
+  double t = 0.07;
+  for (int i = 0; i < 100; ++i) {
+    const double px = x(random), py = y(random), next = t + 0.001;
+    ASSERT_TRUE(ahead.moment(w, mediaTime(t)));
+    ahead.prepare(w, mediaTime(next), px, py);
+    t = next + jitter(random);
+    ASSERT_TRUE(ahead.moment(w, mediaTime(t)));
+    ASSERT_TRUE(plain.moment(w, mediaTime(t)));
+    ASSERT_NEAR(ahead.at(px, py).z, plain.at(px, py).z, 1e-4) << i;
+    ASSERT_NEAR(ahead.at(px, py).zx, plain.at(px, py).zx, 1e-3) << i;
+  }
+}
+
+TEST(FeltSurface, FramesThatComeAndGoAreNotMixedUp) {
+  // A plane that goes up 1 mm a frame for 40 frames, the window moving along, frames left out now and then.
+  const auto frames = film(40, [](double, double, double t) { return 1 + t / kPeriod * 0.9; }, 90, 61);
+  FeltSurface s({});
+  std::mt19937 random(4);
+  for (int k = 2; k + 5 < 40; k += 1 + static_cast<int>(random() % 3)) {
+    const SurfaceWindow w = makeWindow(std::span(frames).subspan(static_cast<std::size_t>(k) - 2, 8), kVolume);
+    for (const double share : {0.0, 0.3, 0.9}) {
+      const double t = (k + share) * kPeriod;
+      ASSERT_TRUE(s.moment(w, mediaTime(t)));
+      ASSERT_NEAR(s.at(1.5 * k, 3).z, 1 + (k + share) * 0.9, 2e-3) << k << ' ' << share;
+      s.prepare(w, mediaTime(t + 0.001), 1.5 * k + 1, 3);
+    }
+  }
+}
+
+TEST(FeltSurface, HolesAndThePicturesOutsideArePitsAndLoneHolesAreNot) {
+  const DepthCalibration holes{.bits = 8, .invalid_code = 0};
+  const auto frame = makeGrayFrame(kCols, kRows, 8, {}, [](int c, int r) {
+    const bool big = c > 200 && c < 240 && r > 100 && r < 140;
+    const bool lone = c == 100 && r == 100;
+    return big || lone ? 0 : 128;
+  });
+  const SurfaceWindow w = makeWindow(std::span(&frame, 1), kVolume, holes);
+  FeltSurface s({});
+  ASSERT_TRUE(s.moment(w, {}));
+  const GridMapping grid(kVolume, kCols, kRows);
+  const double level = 128.0 / 255 * 40;
+  EXPECT_NEAR(s.height(grid.x(220), grid.y(120)), -40, 1e-4) << "in the hole";
+  EXPECT_NEAR(s.height(grid.x(100), grid.y(100)), level, 1e-4) << "a dead pixel";
+  EXPECT_NEAR(s.height(grid.x(150), grid.y(50)), level, 1e-4);
+  EXPECT_NEAR(s.height(90, 0), -40, 1e-4) << "beside the picture";
+  EXPECT_NEAR(s.height(1e9, -1e300), -40, 1e-4) << "far away";
+  for (double x = grid.x(195); x < grid.x(245); x += 0.05) {
+    const double z = s.height(x, grid.y(120));
+    ASSERT_TRUE(z >= -40 - 1e-3 && z <= level + 0.3) << x << ": the rim swings neither up nor down";
+  }
+}
+
+// Distance of the true upper corner of a 15 mm step to the surface, across the edge at (edge, y).
+double cornerError(FeltSurface& s, double edge, double y) {
+  double corner = 1e9;
+  for (double d = -3; d < 3; d += 0.02) {
+    corner = std::min(corner, std::hypot(d / std::hypot(1, 0.3), s.height(edge + d, y) - 25));
+  }
+  return corner;
+}
+
+TEST(FeltSurface, AStepKeepsItsCornerWithinAMillimetreAndFlatGroundIsFlat) {
+  const auto frames = film(6, [](double x, double y, double) { return x > 3.07 + 0.3 * y ? 25.0 : 10.0; }, 720, 486);
+  const SurfaceWindow w = makeWindow(frames, kVolume);
+  FeltSurface s({});
+  ASSERT_TRUE(s.moment(w, mediaTime(0.08)));
+  for (double y = -15; y < 15; y += 0.7) {
+    const double edge = 3.07 + 0.3 * y;
+    ASSERT_LE(cornerError(s, edge, y), 0.9) << y;
+    ASSERT_NEAR(s.height(edge + 3, y), 25, 0.02);
+    ASSERT_NEAR(s.height(edge - 3, y), 10, 0.02);
+  }
+}
+
+TEST(FeltSurface, AnEdgeThatMovesIsInOnePlaceBetweenTheFrames) {
+  for (const double speed : {12.6, 50.0, -50.0}) {
+    const auto edge = [&](double y, double t) { return 3.07 + 0.3 * y + speed * t; };
+    const auto frames = film(6, [&](double x, double y, double t) { return x > edge(y, t) ? 25.0 : 10.0; }, 720, 486);
+    const SurfaceWindow w = makeWindow(frames, kVolume);
+    FeltSurface s({});
+    for (double t = 2.0 * kPeriod; t < 3 * kPeriod; t += 0.0031) {
+      for (const double y : {-7.0, 0.4, 8.0}) {
+        ASSERT_TRUE(s.moment(w, mediaTime(t - 0.001)));
+        s.prepare(w, mediaTime(t), edge(y, t) + 1, y);
+        ASSERT_TRUE(s.moment(w, mediaTime(t)));
+        ASSERT_LE(cornerError(s, edge(y, t), y), 0.9) << speed << " mm/s at " << t;
+      }
+    }
+  }
+}
+
+TEST(FeltSurface, AnotherEpochOrSizeAtTheSameTimesIsAnotherPicture) {
+  const auto flat = [](double z, int cols, int rows) {
+    return film(3, [z](double, double, double) { return z; }, cols, rows);
+  };
+  FeltSurface s({});
+  const auto heightOn = [&](const std::vector<Frame>& frames, std::uint32_t epoch) {
+    SurfaceWindow w = makeWindow(frames, kVolume);
+    w.epoch = epoch;
+    EXPECT_TRUE(s.moment(w, mediaTime(0.04)));
+    return s.height(1, 2);
+  };
+  EXPECT_NEAR(heightOn(flat(10, kCols, kRows), 0), 10, 1e-3);
+  EXPECT_NEAR(heightOn(flat(30, kCols, kRows), 1), 30, 1e-3);
+  EXPECT_NEAR(heightOn(flat(20, kCols, 2 * kRows), 1), 20, 1e-3);
+  EXPECT_NEAR(heightOn(flat(15, kCols / 2, 2 * kRows), 1), 15, 1e-3);
+}
+
+TEST(FeltSurface, WhatWasPreparedDoesNotOutliveItsFrames) {
+  const auto frames = film(6, [](double, double, double t) { return 5 + 200 * t * t / kPeriod; });
+  const SurfaceWindow early = makeWindow(std::span(frames).first(3), kVolume), whole = makeWindow(frames, kVolume);
+  FeltSurface ahead({}), plain({});
+  const double t = 2.5 * kPeriod;
+  ASSERT_TRUE(ahead.moment(early, mediaTime(t - 0.001)));
+  ahead.prepare(early, mediaTime(t), 0, 0);
+  ASSERT_TRUE(ahead.moment(whole, mediaTime(t)));
+  ASSERT_TRUE(plain.moment(whole, mediaTime(t)));
+  EXPECT_NEAR(ahead.height(0, 0), plain.height(0, 0), 1e-5) << "the next frames have come";
+}
+
+// What was prepared goes on in a straight line: a thousandth of a millimetre beside the curve, by which it shows.
+TEST(FeltSurface, WhatWasPreparedHoldsThoughTheWindowGoesOn) {
+  const auto frames = film(9, [](double, double, double t) { return 20 + 15 * std::cos(30 * t); });
+  const SurfaceWindow early = makeWindow(std::span(frames).first(8), kVolume);
+  const SurfaceWindow moved = makeWindow(std::span(frames).subspan(1), kVolume);
+  FeltSurface ahead({}), plain({});
+  const double next = 3 * kPeriod + 0.0005, late = next + 0.00025;
+  ASSERT_TRUE(ahead.moment(early, mediaTime(next - 0.001)));
+  ahead.prepare(early, mediaTime(next), 0, 0);
+  ASSERT_TRUE(ahead.moment(moved, mediaTime(late)));
+  ASSERT_TRUE(plain.moment(moved, mediaTime(late)));
+  const double beside = std::abs(ahead.height(0, 0) - plain.height(0, 0));
+  EXPECT_GT(beside, 1e-4) << "worked out anew";
+  EXPECT_LT(beside, 2e-3);
+}
+
+TEST(FeltSurface, WhatWasPreparedHoldsBetweenTwoFramesOnly) {
+  // Every frame 10 mm higher, held: between 1 and 2 periods it is 20 mm, after that 30.
+  const auto frames = film(4, [](double, double, double t) { return 10 + 10 * std::round(t / kPeriod); });
+  const SurfaceWindow w = makeWindow(frames, kVolume);
+  const double second = 2 * kPeriod;
+  const auto height = [&](double prepared_for, double now) {
+    FeltSurface s({.narrow_time = TimeLaw::Hold, .wide_time = TimeLaw::Hold});
+    EXPECT_TRUE(s.moment(w, mediaTime(prepared_for - 0.001)));
+    s.prepare(w, mediaTime(prepared_for), 0, 0);
+    EXPECT_TRUE(s.moment(w, mediaTime(now)));
+    return s.height(0, 0);
+  };
+  EXPECT_NEAR(height(second - 0.0001, second + 0.0001), 30, 1e-3) << "the next frame's time has come";
+  EXPECT_NEAR(height(second + 0.0001, second - 0.0001), 20, 1e-3) << "the clock was set back";
+  EXPECT_NEAR(height(second - 0.0003, second - 0.0001), 20, 1e-3) << "the next frame says nothing about this one";
+}
+
+TEST(FeltSurface, ATickThatComesLateDoesNotGoByWhatWasPrepared) {
+  const auto frames = film(8, [](double, double, double t) { return 20 + 8 * std::sin(60 * t); });
+  const SurfaceWindow w = makeWindow(frames, kVolume);
+  FeltSurface late({}), plain({});
+  ASSERT_TRUE(late.moment(w, mediaTime(0.101)));
+  late.prepare(w, mediaTime(0.102), 0, 0);
+  ASSERT_TRUE(late.moment(w, mediaTime(0.125)));
+  ASSERT_TRUE(plain.moment(w, mediaTime(0.125)));
+  EXPECT_NEAR(late.height(0, 0), plain.height(0, 0), 1e-5);
+}
+
+// A window as the player hands it out: from two frames before the present one to five after it.
+SurfaceWindow windowAt(std::span<const TimedSurface> film, double t) {
+  const auto now = static_cast<std::size_t>(t / kPeriod + 1e-6);
+  SurfaceWindow w;
+  for (std::size_t f = now - std::min<std::size_t>(now, 2); f < film.size() && f < now + 6; ++f) {
+    w.frames[static_cast<std::size_t>(w.count++)] = film[f];
+  }
+  return w;
+}
+std::vector<TimedSurface> marked(const std::vector<Frame>& frames) {
+  std::vector<TimedSurface> surfaces;
+  for (const Frame& f : frames) surfaces.push_back(test::surfaceOf(f, kVolume));
+  ShotFinder().mark(surfaces);
+  return surfaces;
+}
+// A stroke over the step at x = 10, and then a rest.
+glm::dvec2 strokeAt(double t) {
+  return {6 + 20 * std::min(t, 0.4), 3 * std::sin(5 * std::min(t, 0.4))};
+}
+
+TEST(FeltSurface, AFilmThatStandsStillCostsWhatAPictureDoes) {
+  auto still = marked(film(24, [](double x, double y, double) { return rough(x, y, 0); }));
+  const auto blocksOn = [](std::span<const TimedSurface> frames) {
+    std::vector<std::uint64_t> read;
+    FeltSurface s({});
+    for (double t = 0; t < 0.6; t += 0.001) {
+      const SurfaceWindow w = windowAt(frames, frames.size() == 1 ? 0 : t);
+      const glm::dvec2 here = strokeAt(t), next = strokeAt(t + 0.001);
+      EXPECT_TRUE(s.moment(w, mediaTime(t)));
+      static_cast<void>(s.at(here.x, here.y));
+      s.prepare(w, mediaTime(t + 0.001), next.x, next.y);
+      read.push_back(s.blocksRead());
+    }
+    return read;
+  };
+  const auto of_film = blocksOn(still), of_picture = blocksOn(std::span(still).first(1));
+  EXPECT_EQ(of_film, of_picture) << "tick by tick";
+  for (TimedSurface& f : still) f.repeats = false;
+  EXPECT_GT(blocksOn(still).back(), 5 * of_film.back()) << "or this test would show nothing";
+}
+
+TEST(FeltSurface, AFrameThatIsSaidToRepeatIsNotCompared) {
+  // The second frame's edge is 1 mm further on, but it is said to be the first one's: nothing moves.
+  const auto frames = film(2, [](double x, double, double t) { return x > 3 + t / kPeriod ? 25.0 : 10.0; }, 720, 486);
+  SurfaceWindow w = makeWindow(frames, kVolume);
+  w.frames[1].repeats = true;
+  FeltSurface s({});
+  double first = 0;
+  for (double t = 0.001; t < kPeriod; t += 0.004) {
+    ASSERT_TRUE(s.moment(w, mediaTime(t)));
+    const double here = s.height(3.8, 0);
+    if (t < 0.002) first = here;
+    EXPECT_NEAR(here, first, 1e-4) << t;
+    s.prepare(w, mediaTime(t + 0.004), 3.8, 0);
+  }
+}
+
+TEST(FeltSurface, MotionAfterStillnessIsTheMotionThatItWas) {
+  const auto move = [](double t) { return std::clamp(t - 0.3, 0.0, 0.25); };
+  auto frames =
+      marked(film(24, [&](double x, double y, double t) { return rough(x - 30 * move(t), y, 20 * move(t)); }));
+  ASSERT_TRUE(frames[5].repeats && !frames[12].repeats && frames[20].repeats);
+  auto unmarked = frames;
+  for (TimedSurface& f : unmarked) f.repeats = false;
+  for (const TimeLaw law : {TimeLaw::Linear, TimeLaw::BSpline, TimeLaw::Fitted}) {
+    FeltSurface merged({.narrow_time = law, .wide_time = law}), plain({.narrow_time = law, .wide_time = law});
+    for (double t = 0; t < 0.75; t += 0.001) {
+      const glm::dvec2 here = strokeAt(t), next = strokeAt(t + 0.001);
+      const SurfaceWindow w = windowAt(frames, t), u = windowAt(unmarked, t);
+      ASSERT_TRUE(merged.moment(w, mediaTime(t)));
+      ASSERT_TRUE(plain.moment(u, mediaTime(t)));
+      ASSERT_NEAR(merged.height(here.x, here.y), plain.height(here.x, here.y), 2e-4) << name(law) << ' ' << t;
+      merged.prepare(w, mediaTime(t + 0.001), next.x, next.y);
+      plain.prepare(u, mediaTime(t + 0.001), next.x, next.y);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace relievo

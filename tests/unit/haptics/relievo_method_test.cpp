@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: Apache-2.0
+// The default method: contact with what stands, rises and sinks, and is rubbed against.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include "tests/support/film/method_stage.h"
+
+namespace relievo {
+namespace {
+
+static_assert(sizeof(RelievoMethod) <= 64 * 1024, "the method's own state");
+
+using RelievoMethodTest = test::MethodStage;
+
+TEST_F(RelievoMethodTest, PushesAlongTheNormalWithStiffnessTimesDepth) {
+  film(0.3, [](double x, double, double) { return 20 + 0.25 * x; });
+  const glm::dvec3 normal = glm::normalize(glm::dvec3(-0.25, 0, 1));
+  for (int i = 0; i < 200; ++i) {
+    const double x = -20 + 0.1 * i, depth = std::min(4.0, -1.01 + 0.05 * i);
+    const glm::dvec3 place(x, 0.03 * i, 20 + 0.25 * x);
+    const Touch touch = tick(i * kTick, place - depth * normal);
+    ASSERT_EQ(touch.contact, depth > 0) << i;
+    if (depth > 0) {
+      ASSERT_LT(glm::distance(touch.force_n, kStiffness * depth * normal), 0.002) << i;
+    }
+  }
+}
+
+TEST_F(RelievoMethodTest, SlidesToTheClosestPointOfASphereAtAnySpeed) {
+  const glm::dvec3 centre(0, 0, -20);
+  film(0.3, [&](double x, double y, double) { return centre.z + std::sqrt(std::max(2500 - x * x - y * y, 400.0)); });
+  for (const double speed : {100.0, 1000.0, 5000.0}) {
+    method_.reset();
+    double angle = -0.4;
+    int ticks = 0;
+    double worst = 0;
+    for (int i = 0; i < 250; ++i) {
+      const glm::dvec3 out(std::sin(angle), 0.2 * std::sin(3 * angle), std::cos(angle));
+      const glm::dvec3 direction = glm::normalize(out);
+      const Touch touch = tick(i * kTick, centre + direction * (i < 20 ? 51.0 : 45.0));
+      if (i >= 20) {
+        angle = std::abs(std::remainder(speed * kTick * (i - 20) / 50 + 0.8, 1.6)) - 0.4;  // there and back
+      }
+      if (i < 40) continue;
+      ASSERT_TRUE(touch.contact) << speed << ' ' << i;
+      worst = std::max(worst, glm::distance(touch.force_n, kStiffness * 5 * direction));
+      ++ticks;
+    }
+    EXPECT_GT(ticks, 200);
+    EXPECT_LT(worst, speed < 2000 ? 0.02 : 0.6) << speed << " mm/s: at most one tick's way behind";
+  }
+}
+
+TEST_F(RelievoMethodTest, HoldsContactInEveryTickOfARiseHoweverFast) {
+  for (const double speed : {10.0, 100.0, 1000.0, 3000.0}) {
+    clear();
+    const auto plane = [&](double t) { return 5 + speed * t; };
+    film(0.4, [&](double, double, double t) { return plane(t); }, 1500);
+    const glm::dvec3 hip(3, 4, 5 + 0.1 * speed);
+    for (int i = 0; i < 300; ++i) {
+      const Touch touch = tick(i * kTick, hip);
+      const double depth = plane(i * kTick) - hip.z;
+      if (std::abs(depth) < 0.03) continue;
+      ASSERT_EQ(touch.contact, depth > 0) << speed << " mm/s, tick " << i;
+      if (depth > 0) {
+        ASSERT_NEAR(touch.force_n.z, kStiffness * depth, 0.02) << speed << ' ' << i;
+      }
+    }
+  }
+}
+
+TEST_F(RelievoMethodTest, AFingerThatStartsInsideIsFreeUntilItHasComeOut) {
+  film(0.4, [](double, double, double) { return 20.0; });
+  for (int i = 0; i < 50; ++i) ASSERT_FALSE(tick(i * kTick, {0, 0, 15}).contact);
+  for (int i = 50; i < 60; ++i) ASSERT_FALSE(tick(i * kTick, {0, 0, 21}).contact);
+  EXPECT_TRUE(tick(0.06, {0, 0, 15}).contact);
+}
+
+TEST_F(RelievoMethodTest, DoesNotPassAThinRidge) {
+  // 3 mm wide and 10 mm high; the finger is pressed against its side and then beyond it.
+  film(0.6, [](double x, double, double) { return 10 + 10 * std::exp(-std::pow(x / 1.5, 4)); });
+  static_cast<void>(tick(0, {-8, 0, 14}));
+  bool held = false;
+  for (int i = 1; i <= 400; ++i) {
+    const Touch touch = tick(i * kTick, {-8 + 0.02 * std::min(i, 390), 0, 14});
+    held = held || touch.contact;
+    if (i > 350) {
+      ASSERT_LT(touch.proxy_mm.x, -0.5) << "still on its own side";
+    }
+  }
+  EXPECT_TRUE(held);
+}
+
+// A finger 25 mm below the top is swept out through its wall at 100 mm/s, past a rim that stands above the top.
+class SweptOff : public RelievoMethodTest {
+ protected:
+  // How far beyond the edge the force is gone; 20 mm: it is still there.
+  double letGoAt(double rim_mm) {
+    film(0.7, [&](double x, double, double) { return x > 0 ? 2.0 : x > -2 ? 35 + rim_mm : 35.0; });
+    double x = -25;
+    static_cast<void>(tick(0, {x, 0, 36}));
+    for (int i = 1; x < 20; ++i) {
+      x = -25 + 0.1 * i;
+      if (!tick(i * kTick, {x, 0, 10}).contact) return x;
+    }
+    return x;
+  }
+};
+
+TEST_F(SweptOff, AHollowAsDeepAsNoiseDoesNotHoldTheProxyBehindTheEdge) {
+  const double at = letGoAt(0.5);
+  EXPECT_GT(at, -1);
+  EXPECT_LT(at, 1) << "mm; it would hold to 2.8";
+}
+
+// Let go of, it meets the low floor in the next tick; the place where friction held it is up on the edge.
+TEST_F(SweptOff, WhatHasFallenOffIsNotDrawnBack) {
+  method_ = RelievoMethod({.stiffness_n_per_mm = kStiffness, .friction = {0.9, 0.9}});
+  film(0.4, [](double x, double, double) { return x > 0 ? 9.0 : 35.0; });
+  // Free for the first time in this tick; the force in it with the finger lower by `dip_mm`.
+  const auto sweep = [&](int until, double dip_mm) {
+    method_.reset();
+    static_cast<void>(tick(0, {-5, 0, 36}));
+    for (int i = 1;; ++i) {
+      const Touch touch = tick(i * kTick, {-5 + 0.1 * i, 0, i == until ? 10 - dip_mm : 10});
+      if (i == until || (i > 1 && !touch.contact)) return std::pair(i, glm::length(touch.force_n));
+    }
+  };
+  const int free = sweep(300, 0).first;
+  ASSERT_LT(free, 300);
+  const double force_n = sweep(free, 1.2).second;
+  EXPECT_GT(force_n, 0);
+  EXPECT_LT(force_n, 0.5) << "of a finger .2 mm deep at the foot of a wall";
+}
+
+TEST_F(SweptOff, ARidgeDoes) {
+  EXPECT_EQ(letGoAt(1.5), 20);
+}
+
+// A wall two samples thick, and a finger that has gone through it close below its top.
+TEST_F(RelievoMethodTest, AThinWallHoldsTheFingerAlsoNearItsTop) {
+  for (double middle = 0.3; middle < 1; middle += 0.17) {
+    clear();
+    const auto wall = [&](double x) { return 10 + 12 * std::max(0.0, 1 - std::abs(x - middle) / 0.9); };
+    film(0.6, [&](double x, double, double) { return wall(x); });
+    const SurfaceWindow still = picture([&](double x, double) { return wall(x); });
+    FeltSurface felt{FeltScale{}};
+    ASSERT_TRUE(felt.moment(still, {}));
+    const double top = felt.height(middle, 0);
+    static_cast<void>(tick(0, {-8, 0, top - 2}));
+    double x = -8;
+    for (int i = 1; x < 7; ++i) {
+      x = -8 + 0.03 * i;
+      const Touch touch = tick(i * kTick, {x, 0, top - 2});
+      if (x < middle) continue;
+      ASSERT_TRUE(touch.contact && touch.proxy_mm.x < middle) << middle << ' ' << x;
+    }
+  }
+}
+
+TEST_F(RelievoMethodTest, AFastFingerDoesNotJumpOverARidgeUnseen) {
+  film(0.1, [](double x, double, double) { return 10 + 12 * std::exp(-std::pow(x / 0.8, 2)); });
+  for (double start = -5; start < -1; start += 0.31) {
+    method_.reset();
+    static_cast<void>(tick(0, {start, 0, 14}));
+    EXPECT_TRUE(tick(kTick, {start + 5, 0, start + 5 > -0.5 && start + 5 < 0.5 ? 14 : 13}).contact) << start;
+  }
+}
+
+TEST_F(RelievoMethodTest, ALongGapInTheReadingsDoesNotTakeTheFingerThroughAThinRidge) {
+  // One sample wide and 12 mm high; the finger has gone 40 mm when it is read again.
+  film(0.1, [](double x, double, double) { return std::abs(x - 0.3) < 0.34 ? 22.0 : 10.0; });
+  for (double start = -36; start < -8; start += 0.37) {
+    method_.reset();
+    static_cast<void>(tick(0, {start, 0, 13}));
+    EXPECT_TRUE(tick(kTick, {start + 40, 0, 13}).contact) << start;
+  }
+}
+
+TEST_F(RelievoMethodTest, SkimmingHillsOnItsWayAFingerIsStillCaughtByTheWallBehindThem) {
+  const SurfaceWindow w = picture([](double x, double) {
+    const double hills = x < -3 ? 2 + 2 * std::cos(2 * std::numbers::pi * x / 6) : 0;
+    return x > 0 && x < 3 ? 25.0 : 10 + hills;
+  });
+  for (double start = -38; start < -20; start += 0.37) {
+    method_.reset();
+    static_cast<void>(method_.update({start, 0, 20}, w, {}));
+    static_cast<void>(method_.update({start, 0, 13.7}, w, {}));
+    static_cast<void>(method_.update({4, 0, 13.4}, w, {}));
+    for (int rest = 0; rest < 20; ++rest) static_cast<void>(method_.update({4, 0, 13.4}, w, {}));
+    EXPECT_TRUE(method_.update({4, 0, 13.4}, w, {}).contact) << start;
+  }
+}
+
+TEST_F(RelievoMethodTest, NoTickTakesTheProxyFurtherAwayThanStayingWouldHave) {
+  // Deep under steep hills the guess where the closest point goes is wild.
+  const SurfaceWindow w = picture([](double x, double y) { return 20 + 4 * std::sin(1.1 * x) * std::cos(0.9 * y); });
+  std::mt19937 random(1);
+  const auto draw = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  int ticks = 0;
+  for (int i = 0; i < 1500; ++i) {
+    method_.reset();
+    glm::dvec3 hip(draw(-20, 20), draw(-15, 15), 30);
+    const double deep = draw(8, 19), speed = draw(0.3, 1.5), way = draw(0, 6.3);
+    for (; hip.z > deep; hip.z -= 0.2) static_cast<void>(method_.update(hip, w, {}));
+    Touch before = method_.update(hip, w, {});
+    for (int k = 0; k < 8 && before.contact; ++k) {
+      hip += speed * glm::dvec3(std::cos(way), std::sin(way), 0);
+      const Touch touch = method_.update(hip, w, {});
+      // A sample of the surface's is allowed: half a pitch of the narrow level.
+      if (touch.contact) {
+        ASSERT_LE(glm::distance(touch.proxy_mm, hip), glm::distance(before.proxy_mm, hip) + 0.34) << i << ' ' << k;
+        ++ticks;
+      }
+      before = touch;
+    }
+  }
+  EXPECT_GT(ticks, 5000);
+}
+
+TEST_F(RelievoMethodTest, AProxyThatHasFarToGoTakesTicksAndNoneIsLong) {
+  // Hills that move, and a finger deep under them that leaps by 12 mm every 40 ticks.
+  const auto hills = [](double x, double y, double t) {
+    return 20 + 4 * std::sin(0.7 * x + 9 * t) * std::cos(0.6 * y - 7 * t);
+  };
+  const auto normalAt = [&](const glm::dvec3& p, double t) {
+    const double h = 1e-4;
+    return glm::normalize(glm::dvec3(hills(p.x - h, p.y, t) - hills(p.x + h, p.y, t),
+                                     hills(p.x, p.y - h, t) - hills(p.x, p.y + h, t), 2 * h));
+  };
+  film(2.1, hills);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> draw(0, 2 * std::numbers::pi);
+  glm::dvec3 hip(0, 0, 26);
+  static_cast<void>(tick(0, hip));
+  hip.z = 14;
+  std::uint64_t most = 0;
+  int cut_short = 0, underway = 0;
+  for (int i = 1; i < 2000; ++i) {
+    if (i % 40 == 0) {
+      const double way = draw(random);
+      hip += glm::dvec3(12 * std::cos(way), 12 * std::sin(way), 0);
+      if (std::max(std::abs(hip.x), std::abs(hip.y)) > 40) hip = {0, 0, 14};
+    }
+    const std::uint64_t before = method_.blocksRead();
+    const Touch touch = tick(i * kTick, hip);
+    most = std::max(most, method_.blocksRead() - before);
+    cut_short += read_by_update_ > kBlocksOfTick ? 1 : 0;
+    ASSERT_TRUE(touch.contact) << i;
+    if (i > 3 && i % 40 > 3) {
+      const double aligned = glm::dot(glm::normalize(touch.force_n), normalAt(touch.proxy_mm, i * kTick));
+      underway += aligned < std::cos(4 * std::numbers::pi / 180) ? 1 : 0;
+    }
+  }
+  EXPECT_LE(underway, 5) << "three ticks after a leap it has arrived; a hill that moves on makes it leap, too";
+  EXPECT_LE(most, 450U) << "the last look, at eight frames, on top of kBlocksOfTick; and then no upkeep";
+  EXPECT_GT(cut_short, 10) << "or this would show nothing";
+}
+
+TEST_F(RelievoMethodTest, AFingerThatRestsDeepInsideAWallStaysAtThatWall) {
+  // 9 mm into the wall's side, 5 mm below its top; nothing moves but the finger, then nothing, and then it strokes
+  // along.
+  film(0.5, [](double x, double, double) { return x > 0 ? 30.0 : 10.0; });
+  static_cast<void>(tick(0, {-6, 0, 25}));
+  for (int i = 1; i < 400; ++i) {
+    const Touch touch = tick(i * kTick, {std::min(-6 + 0.1 * i, 9.0), 0.1 * std::max(i - 250, 0), 25});
+    ASSERT_LT(touch.proxy_mm.x, 1) << i << ' ' << touch.proxy_mm.z;
+  }
+}
+
+TEST_F(RelievoMethodTest, AWallThatHasGoneOverTheFingerDoesNotTakeTheProxyAlong) {
+  // A block of 15 mm comes from the left at 80 mm/s and goes on to the right; the finger rests in its way.
+  film(1, [](double x, double y, double t) {
+    const double q = x - 0.3 * y + 45 - 80 * t;
+    return q > -60 && q < 0 ? 25.0 : 10.0;
+  });
+  static_cast<void>(tick(0, {0, 0, 30}));
+  double furthest = 0;
+  int pushed = 0;
+  for (int i = 1; i < 1000; ++i) {
+    const Touch touch = tick(i * kTick, {0, 0, 17});
+    furthest = std::max(furthest, glm::distance(touch.proxy_mm, glm::dvec3(0, 0, 17)));
+    if (touch.contact) ++pushed;
+  }
+  EXPECT_LT(furthest, 8 + 3 + 1) << "up is 8 mm";
+  EXPECT_GT(furthest, 8 + 2) << "but no sooner than that is much the shorter way";
+  EXPECT_GT(pushed, 400) << "and it is pushed all the while that it is inside";
+}
+
+TEST_F(RelievoMethodTest, OneReadingThatIsNoneLeavesTheFingerWhereItWas) {
+  film(0.2, [](double, double, double) { return 20.0; });
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  static_cast<void>(tick(0, {0, 0, 21}));
+  static_cast<void>(tick(0.001, {0, 0, nan}));
+  EXPECT_NEAR(tick(0.002, {0, 0, 15}).force_n.z, 2.5, 1e-3) << "it came in while nobody looked";
+}
+
+TEST_F(RelievoMethodTest, ThePapersGuardCanBePutOnTop) {
+  RelievoMethod guarded({.stiffness_n_per_mm = kStiffness, .jump_threshold_n = 1});
+  const SurfaceWindow w = picture([](double, double) { return 20.0; });
+  static_cast<void>(guarded.update({0, 0, 21}, w, {}));
+  EXPECT_TRUE(guarded.update({0, 0, 18.5}, w, {}).contact) << "0.75 N";
+  EXPECT_FALSE(guarded.update({0, 0, 16}, w, {}).contact) << "1.25 N more";
+  EXPECT_FALSE(guarded.update({0, 0, 16}, w, {}).contact) << "free until it has been outside";
+}
+
+TEST_F(RelievoMethodTest, FrictionHoldsUntilTheConeAndThenDrags) {
+  RelievoMethod rough({.stiffness_n_per_mm = kStiffness, .friction = {0.5, 0.3}});
+  const SurfaceWindow w = picture([](double, double) { return 20.0; });
+  static_cast<void>(rough.update({0, 0, 21}, w, {}));
+  static_cast<void>(rough.update({0, 0, 16}, w, {}));
+  double pull = 0;
+  for (int i = 1; i <= 60; ++i) {
+    const double x = 0.1 * i;
+    pull = -rough.update({x, 0, 16}, w, {}).force_n.x;
+    if (x < 0.5 * 4 - 0.05) {
+      ASSERT_NEAR(pull, kStiffness * x, 1e-3) << "sticks";
+    }
+  }
+  EXPECT_NEAR(pull, 0.3 * 4 * kStiffness, 0.03) << "slides under dynamic friction";
+}
+
+TEST_F(RelievoMethodTest, WhatIsNotAFingerOrNoFilmIsNoContact) {
+  film(0.2, [](double, double, double) { return 20.0; });
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  static_cast<void>(tick(0, {0, 0, 21}));
+  EXPECT_TRUE(tick(0.001, {0, 0, 15}).contact);
+  EXPECT_FALSE(tick(0.002, {nan, 0, 15}).contact);
+  EXPECT_TRUE(std::isfinite(glm::length(tick(0.003, {1e300, -1e300, 15}).force_n)));
+  const SurfaceWindow none;
+  EXPECT_FALSE(method_.update({0, 0, 15}, none, {}).contact);
+  method_.upkeep(none, {});
+}
+
+}  // namespace
+}  // namespace relievo

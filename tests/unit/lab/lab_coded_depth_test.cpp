@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// Depth through H.264 and back: nothing is lost at crf 0, little at 23, and no code is scaled on the way.
+#include "app/lab/film/coded_depth.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
+#include "app/lab/film/depth_rendering.h"
+
+namespace relievo {
+namespace {
+
+std::uint8_t codeAt(const Frame& frame, int c, int r) {
+  return frame.planes[0].data[r * frame.planes[0].stride_bytes + c];
+}
+
+struct Errors {
+  double mean = 0, rms = 0;
+  int worst = 0;
+};
+Errors errorsOf(const std::vector<Frame>& truth, const std::vector<Frame>& coded) {
+  Errors e;
+  double count = 0, sum = 0, squares = 0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    for (int r = 0; r < truth[i].height; ++r) {
+      for (int c = 0; c < truth[i].width; ++c) {
+        const int error = codeAt(coded[i], c, r) - codeAt(truth[i], c, r);
+        sum += error;
+        squares += error * error;
+        e.worst = std::max(e.worst, std::abs(error));
+        ++count;
+      }
+    }
+  }
+  e.mean = sum / count;
+  e.rms = std::sqrt(squares / count);
+  return e;
+}
+
+std::vector<Frame> faceFilm(int cols, int rows) {
+  return renderDepthFilm(*makeTrueSurface("face-nodding"), {.cols = cols, .rows = rows, .frames_per_s = 29.97}, 20);
+}
+
+TEST(CodedDepth, LosesNothingAtCrfZero) {
+  for (const auto& [cols, rows] : {std::pair{240, 162}, {101, 67}}) {
+    const std::vector<Frame> film = faceFilm(cols, rows);
+    const auto coded = codeDepth(film, 0);
+    ASSERT_TRUE(coded) << coded.error().message;
+    ASSERT_EQ(coded->frames.size(), film.size());
+    EXPECT_EQ(errorsOf(film, coded->frames).worst, 0);
+  }
+}
+
+TEST(CodedDepth, FramesComeBackInOrderWithTheirTimesAndOwnTheirSamples) {
+  std::vector<Frame> film = faceFilm(160, 108);
+  auto coded = codeDepth(film, 23);
+  ASSERT_TRUE(coded) << coded.error().message;
+  ASSERT_EQ(coded->frames.size(), film.size());
+  for (std::size_t i = 0; i < film.size(); ++i) {
+    EXPECT_EQ(coded->frames[i].pts, film[i].pts);
+    EXPECT_EQ(coded->frames[i].duration, film[i].duration);
+    EXPECT_EQ(coded->frames[i].width, 160);
+    EXPECT_EQ(coded->frames[i].height, 108);
+    EXPECT_EQ(coded->frames[i].range, ColorRange::Full);
+  }
+  const Frame last = coded->frames.back();
+  coded->frames.clear();
+  EXPECT_LT(errorsOf({film.back()}, {last}).rms, 1.5);
+}
+
+TEST(CodedDepth, CoarserCodingCostsAccuracyAndSavesBytes) {
+  const std::vector<Frame> film = faceFilm(360, 243);
+  double rms = 0;
+  std::uint64_t bytes = codeDepth(film, 0)->bytes;
+  for (const int crf : {18, 23, 28, 40}) {
+    const auto coded = codeDepth(film, crf);
+    ASSERT_TRUE(coded) << coded.error().message;
+    const Errors e = errorsOf(film, coded->frames);
+    EXPECT_GT(e.rms, rms) << crf;
+    EXPECT_LT(coded->bytes, bytes) << crf;
+    if (crf == 23) {
+      EXPECT_GT(e.rms, 0.1);
+      EXPECT_LT(e.rms, 1.5);  // a scaling to limited range would be 10 codes and more
+      EXPECT_LT(std::abs(e.mean), 0.3);
+    }
+    rms = e.rms;
+    bytes = coded->bytes;
+  }
+}
+
+TEST(CodedDepth, RefusesWhatItCannotCode) {
+  const auto s = makeTrueSurface("plane");
+  EXPECT_FALSE(codeDepth({}, 23));
+  EXPECT_FALSE(codeDepth(renderDepthFilm(*s, {.cols = 32, .rows = 32, .bits = 16}, 2), 23));
+  std::vector<Frame> film = renderDepthFilm(*s, {.cols = 32, .rows = 32}, 3);
+  std::swap(film[0], film[1]);
+  EXPECT_FALSE(codeDepth(film, 23));
+  std::vector<Frame> sizes{renderDepth(*s, {.cols = 32, .rows = 32}, 0), renderDepth(*s, {.cols = 64, .rows = 32}, 1)};
+  EXPECT_FALSE(codeDepth(sizes, 23));
+}
+
+}  // namespace
+}  // namespace relievo

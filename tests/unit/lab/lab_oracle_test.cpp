@@ -1,0 +1,367 @@
+// SPDX-License-Identifier: Apache-2.0
+// The laboratory's truth against closed forms and against brute force.
+#include "app/lab/truth/oracle.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+namespace relievo {
+namespace {
+
+constexpr double kTick = 0.001;
+using Path = std::function<glm::dvec3(double t_s)>;
+
+StepWall wallOf(const TrueSurface& s, double t) {
+  return s.wallAt(t).value_or(StepWall{});
+}
+
+glm::dvec3 unitNormal(const TrueSurface& s, double x, double y, double t) {
+  const SurfaceJet j = s.jet(x, y, t);
+  return glm::normalize(glm::dvec3(-j.zx, -j.zy, 1));
+}
+
+// A finger that comes in from 10 mm above within 0.1 s and then wanders `depth` below the surface.
+Path wandering(const TrueSurface& s, double depth, double reach_mm = 22) {
+  return [&s, depth, reach_mm](double t) {
+    const double x = reach_mm * std::sin(5.1 * t), y = reach_mm * std::sin(3.7 * t + 0.4);
+    const double below = std::min(t / 0.1 * (depth + 10) - 10, depth);
+    return glm::dvec3(x, y, s.height(x, y, t)) - below * unitNormal(s, x, y, t);
+  };
+}
+
+struct Moment {
+  double t;
+  glm::dvec3 hip;
+  TrueTouch touch;
+};
+
+std::vector<Moment> follow(const TrueSurface& s, const Path& path, double duration_s, double tick_s = kTick) {
+  Oracle oracle(s);
+  std::vector<Moment> moments;
+  const int ticks = static_cast<int>(std::lround(duration_s / tick_s));
+  for (int i = 0; i <= ticks; ++i) {
+    const double t = i * tick_s;
+    moments.push_back({t, path(t), oracle.update(path(t), t)});
+  }
+  return moments;
+}
+
+// The nearest place within 15 mm of the finger's own, by heights on ever finer grids.
+glm::dvec3 bruteForceNearest(const TrueSurface& s, const glm::dvec3& hip, double t) {
+  glm::dvec3 best = hip;
+  glm::dvec2 middle(hip);
+  double least = std::numeric_limits<double>::infinity();
+  double half = 15;
+  for (int level = 0; level < 9; ++level, half *= 0.1) {
+    constexpr int kSteps = 60;
+    for (int i = -kSteps; i <= kSteps; ++i) {
+      for (int k = -kSteps; k <= kSteps; ++k) {
+        const double x = middle.x + half * i / kSteps, y = middle.y + half * k / kSteps;
+        const glm::dvec3 place(x, y, s.height(x, y, t));
+        if (const double distance = glm::distance(place, hip); distance < least) {
+          least = distance;
+          best = place;
+        }
+      }
+    }
+    middle = glm::dvec2(best);
+  }
+  return best;
+}
+
+TEST(Oracle, OnAPlaneIsTheFootOfThePerpendicular) {
+  for (const char* name : {"plane", "plane-sliding", "plane-heaving", "shallow-plane"}) {
+    const auto s = makeTrueSurface(name);
+    int contacts = 0;
+    for (const auto& [t, hip, touch] : follow(*s, wandering(*s, 5), 2)) {
+      const glm::dvec3 normal = unitNormal(*s, 0, 0, t);
+      const glm::dvec3 foot = hip + normal * (normal.z * (s->height(hip.x, hip.y, t) - hip.z));
+      EXPECT_EQ(touch.contact, glm::dot(foot - hip, normal) > 0) << name << " " << t;
+      if (!touch.contact) continue;
+      ++contacts;
+      ASSERT_LT(glm::distance(touch.proxy_mm, foot), 1e-9) << name << " " << t;
+    }
+    EXPECT_GT(contacts, 1900) << name;
+  }
+}
+
+TEST(Oracle, OnASphereLiesOnTheRayFromItsCentre) {
+  for (const char* name : {"sphere", "sphere-sliding", "sphere-heaving"}) {
+    const auto s = makeTrueSurface(name);
+    int contacts = 0;
+    for (const auto& [t, hip, touch] : follow(*s, wandering(*s, 5, 14), 2)) {
+      if (!touch.contact) continue;
+      ++contacts;
+      const double turn = 2 * std::numbers::pi * t;
+      glm::dvec3 centre(0, 0, -4);
+      if (s->jet(5, 0, 0).zt != 0) {  // it moves
+        const bool slides = std::string_view(name).ends_with("sliding");
+        (slides ? centre.x : centre.z) += slides ? 4 * std::sin(0.53 * turn) : 2 * std::sin(0.67 * turn);
+      }
+      ASSERT_LT(glm::distance(touch.proxy_mm, centre + 40.0 * glm::normalize(hip - centre)), 1e-9) << name << " " << t;
+    }
+    EXPECT_GT(contacts, 1900) << name;
+  }
+}
+
+TEST(Oracle, OnTheFacePointsAlongTheNormalFromAnyDepth) {
+  const auto s = makeTrueSurface("face-nodding");
+  for (const double depth : {0.5, 2.0, 5.0}) {
+    int contacts = 0;
+    for (const auto& [t, hip, touch] : follow(*s, wandering(*s, depth), 2)) {
+      if (!touch.contact) continue;
+      ++contacts;
+      const glm::dvec3& p = touch.proxy_mm;
+      ASSERT_NEAR(p.z, s->height(p.x, p.y, t), 1e-12);
+      ASSERT_LT(glm::length(glm::cross(p - hip, unitNormal(*s, p.x, p.y, t))), 1e-11) << depth << " " << t;
+      ASSERT_NEAR(glm::distance(p, hip), depth, depth * (t < 0.1 ? 1.0 : 1e-9)) << t;
+    }
+    EXPECT_GT(contacts, 1900);
+  }
+}
+
+TEST(Oracle, OnTheFaceIsWhatBruteForceFinds) {
+  const auto s = makeTrueSurface("face-nodding");
+  // Below another place of the face: no normal has gone into the way.
+  const Path path = [&](double t) {
+    const double x = 26 * std::sin(4.3 * t), y = 24 * std::sin(2.9 * t + 1);
+    return glm::dvec3(x, y, s->height(x + 3, y - 2, t) + 10 - std::min(t / 0.1, 1.0) * 13);
+  };
+  int compared = 0;
+  const auto moments = follow(*s, path, 3);
+  for (std::size_t i = 0; i < moments.size(); i += 37) {
+    const auto& [t, hip, touch] = moments[i];
+    if (!touch.contact || s->height(hip.x, hip.y, t) - hip.z > 6) continue;
+    ++compared;
+    const glm::dvec3 brute = bruteForceNearest(*s, hip, t);
+    EXPECT_NEAR(glm::distance(touch.proxy_mm, hip), glm::distance(brute, hip), 1e-9) << t;
+    EXPECT_LT(glm::distance(touch.proxy_mm, brute), 1e-4) << t;
+  }
+  EXPECT_GT(compared, 20);
+}
+
+TEST(Oracle, DoesNotDependOnTheTick) {
+  const auto s = makeTrueSurface("face-nodding");
+  const auto coarse = follow(*s, wandering(*s, 3), 1, 0.001), fine = follow(*s, wandering(*s, 3), 1, 0.00025);
+  for (std::size_t i = 0; i < coarse.size(); ++i) {
+    ASSERT_EQ(coarse[i].touch.contact, fine[4 * i].touch.contact);
+    ASSERT_LT(glm::distance(coarse[i].touch.proxy_mm, fine[4 * i].touch.proxy_mm), 1e-11) << i;
+  }
+}
+
+TEST(Oracle, KeepsAFingerThatARisingPlaneHasReached) {
+  for (const double speed : {5.0, 80.0, 1000.0}) {
+    const auto s = makeTrueSurface("rise", {.speed_mm_per_s = speed});
+    const glm::dvec3 hip(3, -2, 15);
+    int contacts = 0;
+    for (const auto& [t, at, touch] : follow(*s, [&](double) { return hip; }, s->traits().duration_s)) {
+      const bool reached = s->height(hip.x, hip.y, t) > hip.z;
+      ASSERT_EQ(touch.contact, reached) << speed << " " << t;
+      if (!reached) continue;
+      ++contacts;
+      const glm::dvec3 normal = unitNormal(*s, 0, 0, t);
+      ASSERT_LT(glm::length(glm::cross(touch.proxy_mm - hip, normal)), 1e-9);
+    }
+    EXPECT_GT(contacts, 10) << speed;
+  }
+}
+
+TEST(Oracle, LetsGoOutsideAndComesBackIntoContact) {
+  const auto s = makeTrueSurface("face-nodding");
+  const Path path = [&](double t) {
+    const double x = 9 * t, y = 5 - 7 * t;
+    return glm::dvec3(x, y, s->height(x, y, t) + 1.7 * std::cos(40 * t));
+  };
+  int changes = 0;
+  bool before = false;
+  for (const auto& [t, hip, touch] : follow(*s, path, 1)) {
+    ASSERT_EQ(touch.contact, hip.z < s->height(hip.x, hip.y, t)) << t;
+    if (!touch.contact) {
+      ASSERT_EQ(touch.proxy_mm, hip);
+    }
+    changes += touch.contact != before ? 1 : 0;
+    before = touch.contact;
+  }
+  EXPECT_EQ(changes, 13);  // cos(40 t) changes its sign 13 times in a second
+}
+
+TEST(Oracle, LeavesAFingerFreeThatBeginsInsideUntilItHasComeOut) {
+  const auto s = makeTrueSurface("sphere");
+  Oracle oracle(*s);
+  EXPECT_FALSE(oracle.update({0, 0, 30}, 0).contact);
+  EXPECT_FALSE(oracle.update({2, 0, 20}, 0.001).contact);
+  EXPECT_FALSE(oracle.update({2, 0, 38}, 0.002).contact);
+  EXPECT_TRUE(oracle.update({2, 0, 33}, 0.003).contact);
+  oracle.reset();
+  EXPECT_FALSE(oracle.update({2, 0, 33}, 0.004).contact);
+}
+
+TEST(Oracle, BeginsANewAtACut) {
+  const auto up = makeTrueSurface("cut-up", {.cut_s = 0.01}), down = makeTrueSurface("cut-down", {.cut_s = 0.01});
+  for (const auto* s : {up.get(), down.get()}) {
+    Oracle oracle(*s);
+    const double floor = s->height(0, 0, 0), next = s->height(0, 0, 0.02);
+    EXPECT_FALSE(oracle.update({0, 0, floor + 1}, 0).contact);
+    EXPECT_TRUE(oracle.update({0, 0, floor - 1}, 0.009).contact);
+    EXPECT_FALSE(oracle.update({0, 0, floor - 1}, 0.011).contact);
+    EXPECT_FALSE(oracle.update({0, 0, next + 1}, 0.02).contact);
+    EXPECT_TRUE(oracle.update({0, 0, next - 1}, 0.03).contact);
+  }
+}
+
+// Coordinates across the ridge: q from its middle line.
+glm::dvec3 acrossRidge(double q, double z) {
+  return {0.96 * q, -0.28 * q, z};
+}
+
+TEST(Oracle, StaysOnTheSideOfARidgeWhereAFastFingerCameIn) {
+  const auto s = makeTrueSurface("ridge");
+  for (const double side : {-1.0, 1.0}) {
+    Oracle oracle(*s);
+    EXPECT_FALSE(oracle.update(acrossRidge(side * 4.6, 20.6), 0).contact);
+    const glm::dvec3 hip = acrossRidge(side * -0.3, 20.6);  // 4.9 m/s, through the ridge's middle
+    const TrueTouch touch = oracle.update(hip, 0.001);
+    ASSERT_TRUE(touch.contact);
+    EXPECT_GT(side * (0.96 * touch.proxy_mm.x - 0.28 * touch.proxy_mm.y), 0.5);
+    const glm::dvec3 normal = unitNormal(*s, touch.proxy_mm.x, touch.proxy_mm.y, 0);
+    EXPECT_LT(glm::length(glm::cross(touch.proxy_mm - hip, normal)), 1e-11);
+    EXPECT_LT(glm::distance(bruteForceNearest(*s, hip, 0), hip), glm::distance(touch.proxy_mm, hip) - 0.1);
+    // Out on the far side within one tick: free, no matter what lay between.
+    EXPECT_FALSE(oracle.update(acrossRidge(side * -5, 20.6), 0.002).contact);
+  }
+}
+
+TEST(Oracle, KnowsTheLastOfSeveralCrossingsWithinATick) {
+  const auto s = makeTrueSurface("ridge");
+  Oracle oracle(*s);
+  EXPECT_FALSE(oracle.update(acrossRidge(-5, 24.4), 0).contact);
+  // In and out through the ridge, then into the floor behind it.
+  const TrueTouch touch = oracle.update(acrossRidge(5, 19.6), 0.001);
+  ASSERT_TRUE(touch.contact);
+  EXPECT_LT(glm::distance(touch.proxy_mm, acrossRidge(5, 20)), 1e-11);
+}
+
+TEST(Oracle, DoesNotBalanceOnACrest) {
+  const auto s = makeTrueSurface("ridge");
+  Oracle oracle(*s);
+  EXPECT_FALSE(oracle.update({0, 0, 25}, 0).contact);
+  const glm::dvec3 hip(0, 0, 21);  // 3 mm below a crest with a radius of 0.45 mm: the crest is a maximum of distance
+  const TrueTouch touch = oracle.update(hip, 0.01);
+  ASSERT_TRUE(touch.contact);
+  EXPECT_LT(glm::distance(touch.proxy_mm, hip), 2.0);
+  EXPECT_NEAR(glm::distance(touch.proxy_mm, hip), glm::distance(bruteForceNearest(*s, hip, 0), hip), 1e-9);
+}
+
+// The step in section: q in front of the wall, z the height, and a place along it.
+class OnTheStep : public testing::Test {
+ protected:
+  std::unique_ptr<TrueSurface> surface_ = makeTrueSurface("step");
+  StepWall wall_ = wallOf(*surface_, 0);
+  Oracle oracle_{*surface_};
+  int tick_ = 0;
+
+  [[nodiscard]] glm::dvec3 at(double q, double z, double along = 4) const {
+    const glm::dvec2 plan = wall_.normal * (wall_.offset_mm + q) + glm::dvec2(-wall_.normal.y, wall_.normal.x) * along;
+    return {plan, z};
+  }
+  TrueTouch move(double q, double z, double along = 4) { return oracle_.update(at(q, z, along), tick_++ * kTick); }
+  void expectProxy(const TrueTouch& touch, double q, double z, double along = 4) const {
+    EXPECT_TRUE(touch.contact);
+    EXPECT_LT(glm::distance(touch.proxy_mm, at(q, z, along)), 1e-12) << touch.proxy_mm.x << " " << touch.proxy_mm.z;
+  }
+};
+
+TEST_F(OnTheStep, TopWallAndBottomAreTheirNearestPlaces) {
+  move(-6, 30);
+  expectProxy(move(-5, 23), -5, 27.5);
+  expectProxy(move(-0.25, 10, 9), -0.25, 27.5, 9);  // from the top the wall cannot be reached, however near
+  EXPECT_FALSE(move(0.5, 20).contact);
+  expectProxy(move(-3, 21), 0, 21);  // in through the wall
+  expectProxy(move(-9, 14, 1), 0, 14, 1);
+  expectProxy(move(-9, 9, 1), 0, 12.5, 1);  // in the corner
+  expectProxy(move(4, 9), 4, 12.5);         // out of it along the bottom
+  expectProxy(move(-2, 9), 0, 12.5);
+  expectProxy(move(-2, 20), 0, 20);  // up the wall again
+  EXPECT_FALSE(move(-2, 27.5).contact);
+}
+
+TEST_F(OnTheStep, FloorsAreMetFromFarAbove) {
+  move(-6, 39);
+  expectProxy(move(-6, 26), -6, 27.5);
+  move(3, 39);
+  expectProxy(move(3, 12), 3, 12.5);
+}
+
+TEST_F(OnTheStep, FallsFromTheTopWhereTheFingerPassesBelowTheBottom) {
+  move(-1, 30);
+  expectProxy(move(-1, 5), -1, 27.5);
+  expectProxy(move(-0.001, 5), -0.001, 27.5);
+  expectProxy(move(2, 5), 2, 12.5);
+  expectProxy(move(-2, 5), 0, 12.5);
+}
+
+TEST_F(OnTheStep, MeetsTheFirstOfWallTopAndBottomOnAFastWay) {
+  move(4, 25);
+  expectProxy(move(-4, 10), 0, 12.5);  // through the wall at 17.5; 10 is below the corner
+  move(4, 34);
+  EXPECT_FALSE(move(2, 30).contact);
+  expectProxy(move(-4, 15), 0, 15);  // crosses q = 0 at 25
+  move(4, 34);
+  expectProxy(move(-4, 24), -4, 27.5);  // crosses q = 0 at 29, above the top
+  move(2, 20);
+  expectProxy(move(-2, 1), 0, 12.5);  // through the bottom at q = 0.42, then into the corner
+}
+
+TEST(Oracle, IsPushedByAWallThatSweepsOverTheFinger) {
+  const auto s = makeTrueSurface("step-moving", {.speed_mm_per_s = 50});
+  const glm::dvec3 hip(-37, 1, 19);
+  int contacts = 0;
+  for (const auto& [t, at, touch] : follow(*s, [&](double) { return hip; }, 0.3)) {
+    const double q = wallOf(*s, t).distance(hip.x, hip.y);
+    ASSERT_EQ(touch.contact, q < 0) << t;
+    if (!touch.contact) continue;
+    ++contacts;
+    ASSERT_NEAR(wallOf(*s, t).distance(touch.proxy_mm.x, touch.proxy_mm.y), 0, 1e-12);
+    ASSERT_NEAR(touch.proxy_mm.z, 19, 1e-12);
+    ASSERT_NEAR(glm::distance(touch.proxy_mm, hip), -q, 1e-12);
+  }
+  EXPECT_GT(contacts, 200);
+}
+
+TEST(Oracle, SeesTheWallMoveWithinATick) {
+  const auto s = makeTrueSurface("step-moving", {.speed_mm_per_s = 2000});
+  for (const auto& [from_z, to_z, proxy_z] : {std::array{29.0, 25.0, 25.0}, {30.0, 26.0, 27.5}}) {
+    Oracle oracle(*s);
+    const StepWall wall = wallOf(*s, 0.01);
+    const glm::dvec2 plan = wall.normal * (wall.offset_mm + 1);  // the wall goes past it, 1.9 mm in a tick
+    EXPECT_FALSE(oracle.update({plan, from_z}, 0.01).contact);
+    // It arrives when the finger is a little more than half way down: at 26.9 or at 27.9, the top lying at 27.5.
+    EXPECT_EQ(oracle.update({plan, to_z}, 0.011).proxy_mm.z, proxy_z);
+  }
+}
+
+TEST(Oracle, FollowsAFingerThatTheTopIsPulledAwayFrom) {
+  const auto s = makeTrueSurface("step-moving", {.speed_mm_per_s = -50});  // begins at +40 and moves to the left
+  // On the top, 3 mm deep, until the edge has passed: then it hangs in free space.
+  const Path path = [](double t) { return glm::dvec3(35, 0, t < 0.01 ? 30 : 24.5); };
+  bool fell = false;
+  for (const auto& [t, hip, touch] : follow(*s, path, 0.3)) {
+    const double q = wallOf(*s, t).distance(hip.x, hip.y);
+    ASSERT_EQ(touch.contact, t > 0.0095 && q < 0) << t;
+    if (touch.contact) {
+      ASSERT_NEAR(touch.proxy_mm.z, 27.5, 1e-12);
+    }
+    fell = fell || q > 0;
+  }
+  EXPECT_TRUE(fell);
+}
+
+}  // namespace
+}  // namespace relievo

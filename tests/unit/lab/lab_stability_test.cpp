@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+// The judge of stability is judged: what is broken on purpose fails, what is right passes.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "app/haptics/baseline/methods.h"
+#include "app/lab/film/made_film.h"
+#include "app/lab/finger/hand_loop.h"
+#include "app/lab/scenario/loop_onset.h"
+#include "app/lab/scenario/scenario_tools.h"
+#include "app/lab/scenario/scenarios.h"
+
+namespace relievo {
+namespace {
+
+// A method that is one line.
+class Stub final : public TouchMethod {
+ public:
+  using Force = std::function<glm::dvec3(const glm::dvec3& hip, int tick)>;
+  Stub(double stiffness, Force force) : stiffness_(stiffness), force_(std::move(force)) {}
+  Touch update(const glm::dvec3& hip, const SurfaceWindow&, MediaTime) RELIEVO_RT override {
+    const glm::dvec3 force = force_(hip, tick_++);
+    return {hip + force / stiffness_, force, force != glm::dvec3(0)};
+  }
+  void reset() RELIEVO_RT override { tick_ = 0; }
+
+ private:
+  double stiffness_;
+  Force force_;
+  int tick_ = 0;
+};
+
+Challenger stub(const Stub::Force& force) {
+  return {"stub", [force](double stiffness, std::span<const TimedSurface>) {
+            return std::make_unique<Stub>(stiffness, force);
+          }};
+}
+const Challenger kNumb = stub([](const glm::dvec3&, int) { return glm::dvec3(0); });
+const Challenger kKicks =
+    stub([](const glm::dvec3&, int tick) { return glm::dvec3(0, 0, tick / 600 % 2 == 0 ? 9 : 0.1); });
+const Challenger kNoNumber = stub([](const glm::dvec3&, int) { return glm::dvec3(std::nan("")); });
+
+Verdict judge(const char* scenario, const Challenger& challenger) {
+  const Scenario* found = findScenario(scenario);
+  EXPECT_NE(found, nullptr) << scenario;
+  return found->judge(challenger, true);
+}
+
+TEST(Scenarios, AreThoseOfTheDesign) {
+  std::vector<std::string> names;
+  for (const Scenario& s : scenarios()) names.emplace_back(s.name);
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"rise-free", "rise-contact", "rise-fast",   "sweep-edge",  "cut-up",
+                                      "cut-down",  "hold-video",   "stroke-step", "thin",        "noise",
+                                      "fast-hip",  "stiff-wall",   "jitter",      "frame-drop",  "underrun",
+                                      "seek",      "pause",        "packet-loss", "energy-loop", "device-glitch"}));
+  EXPECT_EQ(findScenario("no-such"), nullptr);
+}
+
+TEST(Scenarios, AreFailedByAMethodThatFeelsNothing) {
+  for (const Scenario& s : scenarios()) {
+    EXPECT_FALSE(s.judge(kNumb, true).pass) << s.name;
+    EXPECT_FALSE(s.judge(kNoNumber, true).pass) << s.name;
+  }
+}
+
+TEST(Scenarios, AreFailedByAMethodThatKicks) {
+  for (const Scenario& s : scenarios()) {
+    // A force that is the same everywhere gives nothing over a closed path, and holds a hand anywhere.
+    if (std::string(s.name) == "energy-loop") continue;
+    EXPECT_FALSE(s.judge(kKicks, true).pass) << s.name;
+  }
+}
+
+TEST(Scenarios, EachIsFailedByAtLeastOneMethodOfTheLiterature) {
+  std::map<std::string, int> failed;
+  for (const Scenario& s : scenarios()) {
+    for (const char* method : {"modified-proxy-graph", "proxy-graph", "proxy-blend", "penalty"}) {
+      const Verdict v = s.judge(challengerNamed(method), true);
+      failed[s.name] += v.pass ? 0 : 1;
+      EXPECT_FALSE(v.why.empty());
+      EXPECT_EQ((v.why + v.unit).find(','), std::string::npos) << "a cell of a CSV";
+    }
+    EXPECT_GE(failed[s.name], 1) << s.name << " proves nothing";
+  }
+}
+
+TEST(Scenarios, GiveTheSameVerdictAgain) {
+  for (const char* name : {"noise", "jitter", "packet-loss"}) {
+    EXPECT_EQ(judge(name, challengerNamed("relievo")).figure, judge(name, challengerNamed("relievo")).figure) << name;
+  }
+}
+
+TEST(Scenarios, FailTheMethodsWhereTheLiteratureSaysSo) {
+  // Walker and Salisbury: a surface that rises past the proxy is lost.
+  EXPECT_FALSE(judge("rise-free", challengerNamed("proxy-graph")).pass);
+  // The paper's carry mends that; its threshold lets a fast finger through.
+  EXPECT_TRUE(judge("rise-free", challengerNamed("modified-proxy-graph")).pass);
+  EXPECT_FALSE(judge("fast-hip", challengerNamed("modified-proxy-graph")).pass);
+  EXPECT_TRUE(judge("fast-hip", challengerNamed("proxy-graph")).pass);
+  // A penalty has no memory of its side, and is no gradient of anything.
+  EXPECT_FALSE(judge("thin", challengerNamed("penalty")).pass);
+  EXPECT_FALSE(judge("energy-loop", challengerNamed("penalty")).pass);
+}
+
+TEST(Scenarios, ASwirlGivesEnergyAndIsFoundOut) {
+  const Verdict v =
+      judge("energy-loop", stub([](const glm::dvec3& p, int) { return 0.02 * glm::dvec3(-p.y, p.x, 5); }));
+  EXPECT_FALSE(v.pass);
+  EXPECT_EQ(v.unit, "mJ");
+  EXPECT_GT(v.figure, 1) << "0.02 N/mm round a circle of 5 mm: 2 x 0.02 x its area";
+}
+
+StageTick tickAt(double t, const glm::dvec3& hip, const glm::dvec3& sent) {
+  return {.t_s = t, .hip_mm = hip, .sent_n = sent, .exchanged = true};
+}
+
+TEST(Judge, SeesWhatIsNotWithinBounds) {
+  const auto passes = [](const std::vector<StageTick>& ticks) {
+    Judge judge;
+    judge.bounds(ticks, 0.5);
+    return judge.verdict().pass;
+  };
+  const glm::dvec3 rest(0), nan(std::nan(""));
+  EXPECT_TRUE(passes({tickAt(0, rest, {0, 0, 1}), tickAt(0.001, rest, {0, 0, 1.05})}));
+  EXPECT_FALSE(passes({tickAt(0, rest, {0, 0, 1}), tickAt(0.001, rest, {0, 0, 1.06})})) << "60 N/s";
+  EXPECT_TRUE(passes({tickAt(0, rest, {0, 0, 1}), tickAt(0.001, {0, 0, -1}, {0, 0, 1.5})})) << "the hand's own";
+  EXPECT_TRUE(passes({tickAt(0, rest, {0, 0, 1}), tickAt(0.02, rest, {0, 0, 2})})) << "20 ms: 1 N";
+  EXPECT_FALSE(passes({tickAt(0, rest, {0, 0, 10.1})}));
+  EXPECT_FALSE(passes({tickAt(0, rest, nan), tickAt(0.001, rest, rest)}));
+  EXPECT_TRUE(passes({tickAt(0, rest, rest), tickAt(0.001, nan, rest), tickAt(0.002, rest, rest)}));
+}
+
+TEST(Judge, TheFirstDemandThatIsNotMetDecides) {
+  Judge judge;
+  judge.atMost(1, 2, "mm", "first");
+  EXPECT_EQ(judge.verdict().why, "first");
+  judge.atLeast(1, 2, "N", "second");
+  judge.atMost(9, 2, "s", "third");
+  EXPECT_FALSE(judge.verdict().pass);
+  EXPECT_EQ(judge.verdict().why, "second");
+  EXPECT_EQ(judge.verdict().limit, 2);
+  Judge none;
+  none.atMost(std::nan(""), 2, "mm", "no number");
+  EXPECT_FALSE(none.verdict().pass);
+}
+
+// A wall at z = 20, whatever the depth says.
+Challenger plainSpring() {
+  return {"spring", [](double stiffness, std::span<const TimedSurface>) {
+            return std::make_unique<Stub>(stiffness, [stiffness](const glm::dvec3& p, int) {
+              return glm::dvec3(0, 0, stiffness * std::max(20 - p.z, 0.0));
+            });
+          }};
+}
+
+TEST(LoopOnset, OfAPlainSpringIsThatOfTheory) {
+  for (int delay = 0; delay <= 3; ++delay) {
+    const auto device = HandLoopProfile::deviceAlone(delay);
+    // b = 0.002 N s/mm, T = 1 ms
+    EXPECT_NEAR(device.viscousBound(), 4.0 / (1 + 2 * delay), 1e-12);
+    const auto onset = loopOnset(plainSpring(), device, 4 * device.viscousBound());
+    ASSERT_TRUE(onset.has_value()) << delay;
+    EXPECT_NEAR(*onset, device.viscousBound(), 0.05 * device.viscousBound()) << delay << " ticks of delay";
+  }
+}
+
+TEST(LoopOnset, DryFrictionHoldsADeviceStillUpToItsBound) {
+  HandLoopProfile full = HandLoopProfile::deviceAlone(1);
+  full.coulomb_friction_n = 0.04;
+  full.encoder_step_mm = 0.03;
+  EXPECT_NEAR(full.frictionBound(), 2.667, 0.001);
+  const double bound = std::min(full.viscousBound(), full.frictionBound());
+  EXPECT_LE(swingOnWall(plainSpring(), full, 0.8 * bound).last_mm, 2 * full.encoder_step_mm);
+  EXPECT_GT(swingOnWall(plainSpring(), full, 4 * bound).last_mm, 0.4);
+}
+
+TEST(LoopOnset, OfRelievoOnAWallIsWithinAFifthOfTheory) {
+  for (int delay = 0; delay <= 2; ++delay) {
+    const auto device = HandLoopProfile::deviceAlone(delay);
+    const auto onset = loopOnset(challengerNamed("relievo"), device, 4 * device.viscousBound());
+    ASSERT_TRUE(onset.has_value());
+    EXPECT_NEAR(*onset, device.viscousBound(), 0.2 * device.viscousBound()) << delay;
+  }
+}
+
+TEST(HandLoop, ComesToRestByItsFrictions) {
+  HandLoopProfile device = HandLoopProfile::deviceAlone(0);
+  device.damping_n_s_per_mm = 0;
+  device.coulomb_friction_n = 0.04;
+  HandLoop loop(device, glm::dvec3(0));
+  loop.tick({2, 0, 0}, glm::dvec3(0));  // 2 N for 1 ms on 0.075 kg less 0.04 N: 26.1 mm/s
+  double reached = 0;
+  for (int i = 0; i < 100; ++i) {
+    loop.tick(glm::dvec3(0), glm::dvec3(0));
+    reached = loop.position().x;
+  }
+  // v^2/2a with a = 0.04 N / 0.075 kg = 533 mm/s^2, and 0.013 mm in the first tick.
+  EXPECT_NEAR(reached, 26.133 * 26.133 / (2 * 533.33) + 0.013, 0.01);
+  loop.tick({0.039, 0, 0}, glm::dvec3(0));
+  EXPECT_EQ(loop.position().x, reached) << "less than dry friction moves nothing";
+}
+
+TEST(HandLoop, AForceActsSoManyTicksLate) {
+  HandLoop loop(HandLoopProfile::deviceAlone(2), glm::dvec3(0));
+  loop.tick({1, 0, 0}, glm::dvec3(0));
+  loop.tick(glm::dvec3(0), glm::dvec3(0));
+  EXPECT_EQ(loop.position().x, 0);
+  loop.tick(glm::dvec3(0), glm::dvec3(0));
+  EXPECT_GT(loop.position().x, 0);
+}
+
+TEST(FilmFeed, HoldsTwoFramesBeforeAndThreeAfterThePresentOne) {
+  const auto film = makeFilm(scenario::plane(20, 0, 0), {}, 0.5);
+  FilmFeed feed(film);
+  SurfaceWindow window;
+  ASSERT_TRUE(feed.update(mediaTime(0.21), 0, 0, window));
+  ASSERT_EQ(window.count, 6);
+  EXPECT_EQ(window.frames[0].time, mediaTime(4.0 / 30));
+  EXPECT_EQ(window.frames[5].time, mediaTime(9.0 / 30));
+  EXPECT_FALSE(feed.update(mediaTime(0.22), 0, 0, window));
+  EXPECT_TRUE(feed.update(mediaTime(0.22), 0, 1, window)) << "another epoch";
+  EXPECT_EQ(window.epoch, 1U);
+}
+
+TEST(FilmFeed, AFrameThatComesLateTakesItsPlace) {
+  const auto film = makeFilm(scenario::plane(20, 0, 0), {}, 0.5);
+  FilmFeed feed(film, [](std::size_t i, double t) { return i != 7 || t >= 0.21; });
+  SurfaceWindow window;
+  ASSERT_TRUE(feed.update(mediaTime(0.20), 0.20, 0, window));
+  EXPECT_EQ(window.frames[3].time, mediaTime(8.0 / 30));
+  ASSERT_TRUE(feed.update(mediaTime(0.21), 0.21, 0, window));
+  EXPECT_EQ(window.frames[3].time, mediaTime(7.0 / 30));
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// A file that is whole or not there.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "platform/atomic_file.h"
+#include "platform/unique_fd.h"
+#include "tests/support/film/clip_maker.h"
+
+namespace relievo {
+namespace {
+
+namespace fs = std::filesystem;
+
+class AtomicFileTest : public testing::Test {
+ protected:
+  [[nodiscard]] std::string at(const char* name) const { return folder_ / name; }
+  static std::string textOf(const std::string& path) {
+    std::ifstream file(path);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+  [[nodiscard]] std::ptrdiff_t filesInFolder() const {
+    return std::distance(fs::directory_iterator(at("")), fs::directory_iterator{});
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(AtomicFileTest, AppearsWithItsWholeTextOnCommit) {
+  auto file = AtomicFile::create(at("a.json"));
+  ASSERT_TRUE(file);
+  file->write("one ");
+  file->write("two");
+  EXPECT_FALSE(fs::exists(at("a.json")));
+  ASSERT_TRUE(file->commit());
+  EXPECT_EQ(textOf(at("a.json")), "one two");
+  EXPECT_EQ(filesInFolder(), 1);
+}
+
+TEST_F(AtomicFileTest, LeavesNothingAndTouchesNothingWithoutACommit) {
+  std::ofstream(at("a.json")) << "old";
+  {
+    auto file = AtomicFile::create(at("a.json"));
+    ASSERT_TRUE(file);
+    file->write("new");
+  }
+  EXPECT_EQ(textOf(at("a.json")), "old");
+  EXPECT_EQ(filesInFolder(), 1);
+}
+
+TEST_F(AtomicFileTest, ReplacesAFileAndKeepsItsMode) {
+  std::ofstream(at("a.json")) << "old";
+  ASSERT_EQ(::chmod(at("a.json").c_str(), 0640), 0);
+  auto file = AtomicFile::create(at("a.json"));
+  ASSERT_TRUE(file);
+  file->write("new");
+  ASSERT_TRUE(file->commit());
+  EXPECT_EQ(textOf(at("a.json")), "new");
+  struct stat status{};
+  ASSERT_EQ(::stat(at("a.json").c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777, 0640u);
+}
+
+TEST_F(AtomicFileTest, WritesWhereALinkPointsAndLeavesTheLink) {
+  std::ofstream(at("real.json")) << "old";
+  fs::create_symlink(at("real.json"), at("link.json"));
+  auto file = AtomicFile::create(at("link.json"));
+  ASSERT_TRUE(file);
+  file->write("new");
+  ASSERT_TRUE(file->commit());
+  EXPECT_TRUE(fs::is_symlink(at("link.json")));
+  EXPECT_EQ(textOf(at("real.json")), "new");
+}
+
+TEST_F(AtomicFileTest, SaysBeforehandThatAPathCannotBeWritten) {
+  EXPECT_FALSE(AtomicFile::create(at("missing/a.json")));
+  EXPECT_FALSE(AtomicFile::create(at("")));
+  EXPECT_FALSE(AtomicFile::create(""));
+  EXPECT_EQ(filesInFolder(), 0);
+}
+
+TEST_F(AtomicFileTest, AnotherWriterMayFillItByItsName) {
+  std::ofstream(at("film.mkv")) << "old";
+  auto file = AtomicFile::create(at("film.mkv"));
+  ASSERT_TRUE(file);
+  std::ofstream(file->writtenPath()) << "new";
+  EXPECT_EQ(textOf(at("film.mkv")), "old");
+  ASSERT_TRUE(file->commit());
+  EXPECT_EQ(textOf(at("film.mkv")), "new");
+  EXPECT_EQ(filesInFolder(), 1);
+}
+
+// However a program ends, a file without a name is gone with it.
+TEST_F(AtomicFileTest, HasNoNameUntilTheCommit) {
+  const UniqueFd nameless(::open(at("").c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600));
+  if (!nameless.valid()) GTEST_SKIP() << "this file system has no files without a name";
+  auto file = AtomicFile::create(at("a.json"));
+  ASSERT_TRUE(file);
+  file->write("new");
+  EXPECT_EQ(filesInFolder(), 0);
+  ASSERT_TRUE(file->commit());
+  EXPECT_EQ(textOf(at("a.json")), "new");
+  struct stat status{};
+  ASSERT_EQ(::stat(at("a.json").c_str(), &status), 0);
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  EXPECT_EQ(status.st_mode & 0777, 0666u & ~mask);
+}
+
+TEST_F(AtomicFileTest, SaysThatTheFolderIsNotThere) {
+  const auto file = AtomicFile::create(at("nowhere/a.json"));
+  ASSERT_FALSE(file);
+  EXPECT_EQ(file.error().code, ErrorCode::NotFound);
+  EXPECT_EQ(file.error().os_error, ENOENT);
+}
+
+TEST_F(AtomicFileTest, WritesIntoADeviceWithoutReplacingIt) {
+  auto file = AtomicFile::create("/dev/null");
+  ASSERT_TRUE(file);
+  file->write("gone");
+  EXPECT_TRUE(file->commit());
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST_F(AtomicFileTest, TellsThatTheDiskIsFull) {
+  if (!fs::is_character_file("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  auto file = AtomicFile::create("/dev/full");
+  ASSERT_TRUE(file);
+  file->write("does not fit");
+  const auto committed = file->commit();
+  ASSERT_FALSE(committed);
+  EXPECT_EQ(committed.error().code, ErrorCode::Io);
+  EXPECT_EQ(committed.error().os_error, ENOSPC);
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// The words of the player's commands, both ways.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <set>
+#include <string>
+
+#include "app/player/control/command.h"
+
+namespace relievo {
+namespace {
+
+using V = PlayerVerb;
+
+TEST(Command, EachHasWordsThatReadBackAsItself) {
+  std::set<std::string> all;
+  for (int verb = 0; verb <= static_cast<int>(V::Info); ++verb) {
+    for (const double value : {10.0, -0.5}) {
+      PlayerCommand command{static_cast<V>(verb), 0};
+      const std::set<V> stepped{V::SeekBy, V::DepthBy, V::ScreenBy};
+      if (stepped.contains(command.verb)) command.value = value;
+      if (command.verb == V::SeekTo) command.value = 75.25;
+      if (command.verb == V::SeekShare) command.value = 0.5;
+      if (command.verb == V::Open) command.word = "http://a.b/c d.mkv";
+      const auto read = parseCommand(wordsOf(command));
+      ASSERT_TRUE(read) << wordsOf(command);
+      EXPECT_EQ(*read, command) << wordsOf(command);
+      EXPECT_FALSE(meaningOf(command).empty());
+      all.insert(wordsOf(command));
+    }
+  }
+  EXPECT_EQ(all.size(), 23U);  // no two alike; three with either sign
+}
+
+TEST(Command, ASeeksNumberSaysWhatItCountsFrom) {
+  EXPECT_EQ(parseCommand("seek +10"), (PlayerCommand{V::SeekBy, 10}));
+  EXPECT_EQ(parseCommand("seek -10"), (PlayerCommand{V::SeekBy, -10}));
+  EXPECT_EQ(parseCommand("seek 10"), (PlayerCommand{V::SeekTo, 10}));
+  EXPECT_EQ(parseCommand("seek 50%"), (PlayerCommand{V::SeekShare, 0.5}));
+  EXPECT_EQ(parseCommand("seek 0%"), (PlayerCommand{V::SeekShare, 0}));
+}
+
+TEST(Command, WhatTurnsCanAlsoBeSet) {
+  EXPECT_EQ(parseCommand("loop"), (PlayerCommand{V::Loop}));
+  EXPECT_EQ(parseCommand("loop on"), (PlayerCommand{V::Loop, 1}));
+  EXPECT_EQ(parseCommand("loop off"), (PlayerCommand{V::Loop, -1}));
+  EXPECT_EQ(parseCommand("layout"), (PlayerCommand{V::Layout}));
+  EXPECT_EQ(parseCommand("layout quilt:5x9"), (PlayerCommand{V::Layout, 0, "quilt:5x9"}));
+  for (const char* words : {"loop on", "loop off", "layout tab:full"}) {
+    EXPECT_EQ(wordsOf(*parseCommand(words)), words);
+    EXPECT_NE(meaningOf(*parseCommand(words)),
+              meaningOf(*parseCommand(std::string(words).substr(0, std::string(words).find(' ')))));
+  }
+  for (const char* words : {"loop maybe", "loop ", "layout 3d", "layout quilt:0x9", "layout sbs tab"}) {
+    EXPECT_FALSE(parseCommand(words)) << words;
+  }
+}
+
+TEST(Command, WhatIsNoneIsNone) {
+  for (const char* words :
+       {"",          " ",         "dance",    "Play",      "play now", "play ",    "seek",       "seek ",    "seek x",
+        "seek 1 2",  "seek 101%", "seek -5%", "seek +5%",  "seek nan", "seek inf", "seek 1e300", "seek ++1", "seek +-1",
+        "seek 0x10", "seek 5s",   "depth",    "depth 1,5", "open",     "open ",    "%",          "seek %"}) {
+    EXPECT_FALSE(parseCommand(words)) << "'" << words << "'";
+  }
+}
+
+TEST(Command, TheListOfWordsNamesEachOnce) {
+  const std::string words = commandWords();
+  EXPECT_NE(words.find("seek +S|-S|S|P%"), std::string::npos) << words;
+  EXPECT_NE(words.find("open URL"), std::string::npos) << words;
+  EXPECT_EQ(words.find("seek"), words.rfind("seek")) << words;
+}
+
+}  // namespace
+}  // namespace relievo

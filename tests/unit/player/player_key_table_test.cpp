@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keys, by the numbers that the kernel's input layer and its CEC map use for them; tables from files; long presses.
+#include "app/player/control/key_table.h"
+
+#include <gtest/gtest.h>
+#include <linux/input-event-codes.h>
+
+#include <map>
+#include <sstream>
+#include <string>
+
+#include "hal/key_names.h"
+
+namespace relievo {
+namespace {
+
+using Action = KeyEvent::Action;
+using State = PlayerState;
+
+std::optional<PlayerCommand> pressed(const KeyTable& table, State state, int code) {
+  const KeyTable::Binding* binding = table.find(state, static_cast<std::uint16_t>(code));
+  return binding == nullptr ? std::nullopt : binding->press;
+}
+
+// Numbers, not names: a wrong name in the table shows here.
+TEST(KeyTable, KnowsTheKeysOfRemotesKeyboardsAndCec) {
+  std::map<int, std::string> expected{
+      {207, "play"},         {200, "play"},       {119, "pause"},        {201, "pause"},       {164, "play-pause"},
+      {0x160, "play-pause"}, {28, "play-pause"},  {0x161, "play-pause"}, {57, "play-pause"},   {96, "play-pause"},
+      {106, "seek +10"},     {159, "seek +10"},   {105, "seek -10"},     {168, "seek -10"},    {208, "faster"},
+      {33, "faster"},        {0x199, "slower"},   {32, "slower"},        {52, "step"},         {0x197, "next"},
+      {163, "next"},         {0x192, "next"},     {49, "next"},          {0x19c, "previous"},  {165, "previous"},
+      {0x193, "previous"},   {25, "previous"},    {0x18e, "loop"},       {38, "loop"},         {0x26f, "layout"},
+      {15, "layout"},        {31, "layout"},      {128, "stop"},         {166, "stop"},        {158, "stop"},
+      {174, "stop"},         {1, "stop"},         {116, "stop"},         {0x191, "swap-eyes"}, {18, "swap-eyes"},
+      {103, "depth +0.1"},   {108, "depth -0.1"}, {104, "screen +2"},    {109, "screen -2"},   {0x166, "info"},
+      {23, "info"},
+  };
+  for (int digit = 0; digit <= 9; ++digit) {
+    const std::string words = "seek " + std::to_string(10 * digit) + "%";
+    expected[digit == 0 ? 11 : 1 + digit] = words;
+    expected[0x200 + digit] = words;
+  }
+  const KeyTable table = KeyTable::usual();
+  for (int code = 0; code <= 0x2ff; ++code) {
+    const auto known = expected.find(code);
+    const auto command = pressed(table, State::Playing, code);
+    ASSERT_EQ(command.has_value(), known != expected.end()) << code;
+    if (command) {
+      EXPECT_EQ(wordsOf(*command), known->second) << code;
+    }
+  }
+}
+
+TEST(KeyTable, AStateHasRowsOfItsOwn) {
+  const KeyTable table = KeyTable::usual();
+  EXPECT_EQ(pressed(table, State::Paused, KEY_FASTFORWARD), (PlayerCommand{PlayerVerb::Step}));
+  EXPECT_EQ(pressed(table, State::Playing, KEY_FASTFORWARD), (PlayerCommand{PlayerVerb::Faster}));
+  EXPECT_EQ(pressed(table, State::Paused, KEY_STOP), (PlayerCommand{PlayerVerb::Stop}));
+}
+
+// The names that the help lists are those that a script takes.
+TEST(KeyTable, HelpNamesEveryKeyAsScriptsDo) {
+  std::istringstream help(KeyTable::usual().help());
+  int names = 0;
+  for (std::string line; std::getline(help, line);) {
+    std::istringstream words(line.substr(0, line.find("  ", 2)));
+    for (std::string word; words >> word;) {
+      if (word.starts_with('(')) continue;  // when
+      ASSERT_TRUE(keyCode(word)) << word;
+      ++names;
+    }
+  }
+  EXPECT_EQ(names, 50);
+}
+
+TEST(KeyTable, AFileChangesRowsAndLeavesTheRest) {
+  const auto table = KeyTable::parse(
+      "[always]\nRIGHT = \"seek +30\"\nBLUE = \"\"\nENTER = \"info\"\n"
+      "[playing]\nOK = { press = \"pause\", hold = \"stop\" }\n",
+      "keys.toml");
+  ASSERT_TRUE(table) << table.error().thing;
+  EXPECT_EQ(wordsOf(*pressed(*table, State::Playing, KEY_RIGHT)), "seek +30");
+  EXPECT_EQ(wordsOf(*pressed(*table, State::Playing, KEY_LEFT)), "seek -10");
+  EXPECT_FALSE(pressed(*table, State::Playing, KEY_BLUE));
+  EXPECT_EQ(wordsOf(*pressed(*table, State::Playing, KEY_OK)), "pause");
+  EXPECT_EQ(wordsOf(*pressed(*table, State::Playing, KEY_SELECT)), "pause");  // its twin
+  EXPECT_EQ(wordsOf(*pressed(*table, State::Paused, KEY_OK)), "play-pause");
+  EXPECT_EQ(wordsOf(*pressed(*table, State::Playing, KEY_ENTER)), "info");  // said for itself
+  EXPECT_EQ(table->find(State::Playing, KEY_OK)->hold, (PlayerCommand{PlayerVerb::Stop}));
+}
+
+class KeyTableWrong : public testing::TestWithParam<std::pair<const char*, const char*>> {};
+TEST_P(KeyTableWrong, NamesTheLineAndTheWord) {
+  const auto table = KeyTable::parse(GetParam().first, "k.toml");
+  ASSERT_FALSE(table) << GetParam().first;
+  EXPECT_EQ(table.error().error.code, ErrorCode::InvalidArgument);
+  EXPECT_EQ(table.error().thing.find("k.toml:2"), 0U) << table.error().thing;
+  EXPECT_NE(table.error().thing.find(GetParam().second), std::string::npos) << table.error().thing;
+}
+INSTANTIATE_TEST_SUITE_P(Lines, KeyTableWrong,
+                         testing::Values(std::pair{"[always]\nRIGT = \"stop\"", "RIGHT?"},
+                                         std::pair{"[always]\nRIGHT = \"dance\"", "\"dance\""},
+                                         std::pair{"[always]\nRIGHT = 10", ""},
+                                         std::pair{"[always]\nRIGHT = [\"stop\"]", ""},
+                                         std::pair{"[always]\nRIGHT = { push = \"stop\" }", "push"},
+                                         std::pair{"[always]\nRIGHT = { hold = \"dance\" }", "\"dance\""},
+                                         std::pair{"[always]\nRIGHT stop", ""},
+                                         std::pair{"[paused]\n[asleep]\nRIGHT = \"stop\"", ""},
+                                         std::pair{"\nRIGHT = \"stop\"", "RIGHT"}));
+
+TEST(KeyTable, AMissingFileIsNotFound) {
+  EXPECT_EQ(KeyTable::load("/nonexistent/keys.toml").error().error.code, ErrorCode::NotFound);
+}
+
+TEST(KeyTable, ItsOwnTextReadsBack) {
+  EXPECT_TRUE(KeyTable::parse(KeyTable::usualText(), "usual"));
+}
+
+class KeyReaderTest : public testing::Test {
+ protected:
+  std::string words(const std::optional<PlayerCommand>& command) { return command ? wordsOf(*command) : "-"; }
+  std::string take(int code, Action action, int ms, State state = State::Playing) {
+    return words(reader_.take({static_cast<std::uint16_t>(code), action, at(ms)}, state));
+  }
+  std::string held(int ms) { return words(reader_.held(at(ms))); }
+  static MonotonicTime at(int ms) { return MonotonicTime(std::chrono::milliseconds(ms)); }
+
+  KeyReader reader_{KeyTable::usual()};
+};
+
+TEST_F(KeyReaderTest, AHeldKeySeeksOnAndDoesNothingElse) {
+  EXPECT_EQ(take(KEY_RIGHT, Action::Press, 0), "seek +10");
+  EXPECT_EQ(take(KEY_RIGHT, Action::Repeat, 500), "seek +10");
+  EXPECT_EQ(take(KEY_RIGHT, Action::Release, 700), "-");
+  EXPECT_EQ(take(KEY_PLAYPAUSE, Action::Press, 800), "play-pause");
+  EXPECT_EQ(take(KEY_PLAYPAUSE, Action::Repeat, 1300), "-");
+  EXPECT_EQ(take(KEY_3D_MODE, Action::Repeat, 1400), "-");
+  EXPECT_EQ(held(5000), "-");
+}
+
+TEST_F(KeyReaderTest, AKeyWithTwoMeaningsIsObeyedWhenItIsLetGoOf) {
+  EXPECT_EQ(take(KEY_OK, Action::Press, 0), "-");
+  EXPECT_EQ(held(599), "-");
+  EXPECT_EQ(take(KEY_OK, Action::Release, 599), "play-pause");
+  EXPECT_EQ(held(5000), "-");
+}
+
+TEST_F(KeyReaderTest, HeldLongEnoughItMeansTheOtherOnce) {
+  EXPECT_EQ(take(KEY_OK, Action::Press, 0), "-");
+  EXPECT_EQ(take(KEY_OK, Action::Repeat, 500), "-");
+  EXPECT_EQ(held(600), "info");
+  EXPECT_EQ(take(KEY_OK, Action::Repeat, 650), "-");
+  EXPECT_EQ(held(700), "-");
+  EXPECT_EQ(take(KEY_OK, Action::Release, 800), "-");
+}
+
+TEST_F(KeyReaderTest, AnotherKeyEndsAHold) {
+  EXPECT_EQ(take(KEY_OK, Action::Press, 0), "-");
+  EXPECT_EQ(take(KEY_LEFT, Action::Press, 100), "seek -10");
+  EXPECT_EQ(held(900), "-");
+  EXPECT_EQ(take(KEY_OK, Action::Release, 950), "-");
+}
+
+// The picture may stop while the key is down: it means what it meant when it was pressed.
+TEST_F(KeyReaderTest, AKeyMeansWhatItMeantWhenItWasPressed) {
+  auto table = KeyTable::parse("[playing]\nRED = { press = \"stop\", hold = \"info\" }", "k");
+  ASSERT_TRUE(table);
+  KeyReader reader(std::move(*table));
+  EXPECT_FALSE(reader.take({KEY_RED, Action::Press, at(0)}, State::Playing));
+  EXPECT_EQ(words(reader.take({KEY_RED, Action::Release, at(100)}, State::Paused)), "stop");
+}
+
+}  // namespace
+}  // namespace relievo

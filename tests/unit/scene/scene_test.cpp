@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: Apache-2.0
+// From depth codes to millimetres: grid, laws, ranges, holes, hue, and who decides what a code means.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "app/scene/depth_calibration.h"
+#include "app/scene/height_field.h"
+#include "tests/support/film/depth_frames.h"
+
+namespace relievo {
+namespace {
+
+constexpr DisplayVolume kVolume{160, 108, 40};
+
+double heightOf(std::uint32_t code, int bits, const DepthCalibration& calibration) {
+  const Frame frame = test::makeGrayFrame(1, 1, bits, {}, [&](int, int) { return code; });
+  return HeightField::make(frame, calibration, kVolume).value().heightMm(0, 0);
+}
+
+TEST(GridMapping, PutsPixelCentresWhereTheSceneFrameSays) {
+  const GridMapping grid(kVolume, 720, 486);
+  EXPECT_DOUBLE_EQ(grid.x(0), (0.5 / 720 - 0.5) * 160);
+  EXPECT_DOUBLE_EQ(grid.y(0), (0.5 - 0.5 / 486) * 108);
+  EXPECT_NEAR(grid.x(719), 80 - 160 / 1440.0, 1e-12);
+  EXPECT_NEAR(grid.u(0), 359.5, 1e-12);
+  EXPECT_NEAR(grid.v(grid.y(17)), 17, 1e-12);
+}
+
+TEST(DisplayVolume, TakesItsHeightFromTheShapeOfThePicture) {
+  EXPECT_DOUBLE_EQ(DisplayVolume::forPicture(720, 486).height_mm, 108);
+  EXPECT_DOUBLE_EQ(DisplayVolume::forPicture(288, 512).height_mm, 160 * 512 / 288.0);
+  EXPECT_DOUBLE_EQ(DisplayVolume::forPicture(720, 576, 16.0 / 15).height_mm, 120);
+}
+
+TEST(HeightField, LinearFullRangeSpansTheVolumeForEveryDepthOfBits) {
+  for (const int bits : {8, 10, 12, 16}) {
+    const std::uint32_t top = (1u << bits) - 1;
+    EXPECT_DOUBLE_EQ(heightOf(0, bits, {.bits = bits}), 0);
+    EXPECT_DOUBLE_EQ(heightOf(top, bits, {.bits = bits}), 40);
+    EXPECT_NEAR(heightOf(top / 3, bits, {.bits = bits}), 40.0 * (top / 3) / top, 1e-12);
+  }
+}
+
+TEST(HeightField, LimitedRangeMapsSixteenAndTwoThirtyFiveToTheEndsAndClampsBeyond) {
+  const DepthCalibration limited{.range = ColorRange::Limited};
+  EXPECT_DOUBLE_EQ(heightOf(16, 8, limited), 0);
+  EXPECT_DOUBLE_EQ(heightOf(235, 8, limited), 40);
+  EXPECT_DOUBLE_EQ(heightOf(3, 8, limited), 0);
+  EXPECT_DOUBLE_EQ(heightOf(255, 8, limited), 40);
+  EXPECT_NEAR(heightOf(100, 8, limited), 40.0 * 84 / 219, 1e-12);
+  EXPECT_NEAR(heightOf(400, 10, {.range = ColorRange::Limited, .bits = 10}), 40.0 * 336 / 876, 1e-12);
+}
+
+TEST(HeightField, InverseLawIsLinearInDistanceNotInTheCode) {
+  // near 500, far 1000: half way in disparity is 1/(0.5/500 + 0.5/1000) = 666.67 mm, 2/3 of the way up from far.
+  const DepthCalibration inverse{.law = DepthLaw::Inverse, .bits = 16, .near_mm = 500, .far_mm = 1000};
+  EXPECT_NEAR(heightOf(0, 16, inverse), 0, 1e-9);
+  EXPECT_NEAR(heightOf(65535, 16, inverse), 40, 1e-9);
+  EXPECT_NEAR(heightOf(32768, 16, inverse), 40 * (1000 - 1 / (0.001 + 0.001 * 32768 / 65535.0)) / 500, 1e-9);
+  EXPECT_NEAR(heightMm(inverse, 0.5, 40), 40 * 2 / 3.0, 1e-9);
+}
+
+TEST(HeightField, AgreesWithTheCalibrationFormulaOverEveryCode) {
+  for (const DepthLaw law : {DepthLaw::Linear, DepthLaw::Inverse}) {
+    for (const DepthPolarity polarity : {DepthPolarity::NearIsHigh, DepthPolarity::NearIsLow}) {
+      const DepthCalibration c{.law = law, .polarity = polarity, .range = ColorRange::Limited};
+      for (std::uint32_t code = 0; code < 256; ++code) {
+        const double s = (code - c.lowCode()) / (c.highCode() - c.lowCode());
+        ASSERT_NEAR(heightOf(code, 8, c), heightMm(c, s, 40), 1e-9) << code;
+      }
+    }
+  }
+}
+
+TEST(HeightField, AnInvalidCodeIsAHoleWithWhichNoComparisonHolds) {
+  const double z = heightOf(7, 8, {.invalid_code = 7});
+  EXPECT_TRUE(std::isnan(z));
+  EXPECT_FALSE(z < 1e9 || z >= -1e9);
+  EXPECT_FALSE(std::isnan(heightOf(8, 8, {.invalid_code = 7})));
+}
+
+TEST(HeightField, ReadsPaddedRowsWordsWithShiftAndUpsideDownPictures) {
+  std::vector<std::uint8_t> memory(64, 0xee);
+  Frame frame;
+  frame.width = 2;
+  frame.height = 2;
+  frame.components[0] = {.plane = 0, .offset_bytes = 2, .step_bytes = 4, .shift = 6, .bits = 10};
+  frame.planes[0] = {memory.data(), 24};
+  const auto put = [&](int c, int r, unsigned code) {
+    const unsigned word = code << 6 | 0x2a;  // what lies below the shift is not the sample's
+    memory[static_cast<std::size_t>(r * 24 + 2 + c * 4)] = static_cast<std::uint8_t>(word);
+    memory[static_cast<std::size_t>(r * 24 + 2 + c * 4 + 1)] = static_cast<std::uint8_t>(word >> 8);
+  };
+  put(0, 0, 1023);
+  put(1, 0, 512);
+  put(0, 1, 1);
+  put(1, 1, 0);
+  const auto field = HeightField::make(frame, {.bits = 10}, kVolume).value();
+  EXPECT_EQ(field.code(0, 0), 1023u);
+  EXPECT_EQ(field.code(1, 0), 512u);
+  EXPECT_EQ(field.code(0, 1), 1u);
+  EXPECT_DOUBLE_EQ(field.heightMm(1, 0), 40 * 512 / 1023.0);
+
+  frame.planes[0] = {memory.data() + 24, -24};
+  EXPECT_EQ(HeightField::make(frame, {.bits = 10}, kVolume).value().code(0, 0), 1u);
+}
+
+TEST(HeightField, DecodesHueWithNearAtRedAndHolesWhereItIsDark) {
+  // red 0, yellow 60, green 120, cyan 180, blue 240, magenta 300 degrees; then two that cannot be read.
+  std::vector<std::uint8_t> pixels{255, 0, 0,   0, 255, 255, 0,   0, 0,  255, 0, 0, 0,  255, 255, 0,
+                                   0,   0, 255, 0, 255, 0,   255, 0, 40, 36,  0, 0, 90, 90,  90,  0};
+  Frame frame;
+  frame.width = 8;
+  frame.height = 1;
+  frame.model = ColorModel::Rgb;
+  for (std::uint8_t i = 0; i < 3; ++i) frame.components[i] = {.plane = 0, .offset_bytes = i, .step_bytes = 4};
+  frame.planes[0] = {pixels.data(), 32};
+  const DepthCalibration hue{.polarity = DepthPolarity::NearIsLow, .code = DepthCode::Hue};
+  const auto field = HeightField::make(frame, hue, kVolume).value();
+  for (int c = 0; c < 6; ++c) EXPECT_NEAR(field.heightMm(c, 0), 40 * (1 - c / 6.0), 1e-12) << c;
+  EXPECT_TRUE(std::isnan(field.heightMm(6, 0)));  // the bytes add up to 76: too dark
+  EXPECT_TRUE(std::isnan(field.heightMm(7, 0)));  // gray has no hue
+  pixels[24] = 41;                                // 77: readable
+  EXPECT_FALSE(std::isnan(field.heightMm(6, 0)));
+}
+
+TEST(HeightField, TheMeanOfABlockIsThatOfItsReadings) {
+  // 8 and 16 bits, either polarity, a clamped range, the inverse law, holes: the short cut over codes and the long way.
+  // Where the picture has more bits than the depth, or fewer, the range is clamped at one end alone.
+  const std::pair<int, DepthCalibration> meanings[] = {{8, {}},
+                                                       {16, {.bits = 16}},
+                                                       {8, {.polarity = DepthPolarity::NearIsLow}},
+                                                       {8, {.range = ColorRange::Limited}},
+                                                       {10, {.bits = 8}},
+                                                       {10, {.range = ColorRange::Limited, .bits = 12}},
+                                                       {8, {.law = DepthLaw::Inverse, .near_mm = 500, .far_mm = 1000}},
+                                                       {8, {.invalid_code = 9}}};
+  for (const auto& [bits, meaning] : meanings) {
+    const int top = bits > 8 ? 1019 : 251;
+    const Frame frame = test::makeGrayFrame(20, 15, bits, {}, [&](int c, int r) { return (c * 137 + r * 401) % top; });
+    const auto field = HeightField::make(frame, meaning, kVolume).value();
+    for (const auto& [c0, r0, width, height] : {std::tuple(0, 0, 5, 5), {3, 7, 4, 2}, {15, 10, 5, 5}, {19, 14, 1, 1}}) {
+      double sum = 0;
+      int count = 0;
+      for (int r = r0; r < r0 + height; ++r) {
+        for (int c = c0; c < c0 + width; ++c) {
+          const double z = field.heightMm(c, r);
+          if (std::isnan(z)) continue;
+          sum += z;
+          ++count;
+        }
+      }
+      EXPECT_NEAR(field.meanHeight(c0, r0, {width, height, 5}), sum / count, 1e-9) << bits << ' ' << c0;
+    }
+  }
+}
+
+TEST(HeightField, TheMeanOfAWideBlockIsReadAtAFewPlacesWithTheSameMarginsAllAround) {
+  // On a slope only a reading that is centred gives the height in the middle.
+  for (const int bits : {8, 16}) {
+    const int top = (1 << bits) - 1, begin = top / 25, right = top / 85, down = top / 255;
+    const Frame frame =
+        test::makeGrayFrame(40, 40, bits, {}, [&](int c, int r) { return begin + right * c + down * r; });
+    const auto field = HeightField::make(frame, {.bits = bits}, kVolume).value();
+    for (int width = 1; width <= 33; ++width) {
+      for (int most = 1; most <= 7; ++most) {
+        const int height = 34 - width;
+        const double middle = 40 * (begin + right * (2 + 0.5 * (width - 1)) + down * (1 + 0.5 * (height - 1))) / top;
+        ASSERT_NEAR(field.meanHeight(2, 1, {width, height, most}), middle, 1e-9) << bits << ' ' << width << ' ' << most;
+      }
+    }
+  }
+}
+
+TEST(HeightField, ABlockWithReadingsInLessThanHalfOfItIsAHole) {
+  const auto mean = [](int holes) {
+    const Frame frame = test::makeGrayFrame(4, 4, 8, {}, [&](int c, int r) { return 4 * r + c < holes ? 0 : 51; });
+    return HeightField::make(frame, {.invalid_code = 0}, kVolume).value().meanHeight(0, 0, {4, 4, 4});
+  };
+  EXPECT_DOUBLE_EQ(mean(0), 8);
+  EXPECT_DOUBLE_EQ(mean(8), 8);
+  EXPECT_TRUE(std::isnan(mean(9)));
+}
+
+TEST(HeightField, TellsSamplesApartWhateverLiesBesideThem) {
+  std::vector<std::uint8_t> one(96, 1), other(96, 1);
+  const auto field = [](std::vector<std::uint8_t>& memory, int width) {
+    Frame frame;
+    frame.width = width;
+    frame.height = 3;
+    frame.components[0] = {.plane = 0, .offset_bytes = 2, .step_bytes = 4, .bits = 16};
+    frame.planes[0] = {memory.data(), 32};
+    return HeightField::make(frame, {.bits = 16}, kVolume).value();
+  };
+  const auto same = [&] { return field(one, 5).sameSamples(field(other, 5)); };
+  EXPECT_TRUE(same());
+  EXPECT_FALSE(field(one, 5).sameSamples(field(other, 4)));
+  other[0] = other[2 + 4 * 4 + 2] = other[31] = 7;  // before the first sample of a row and after the last
+  EXPECT_TRUE(same());
+  other[2 * 32 + 2 + 4 * 4 + 1] = 7;  // the last byte of the last sample
+  EXPECT_FALSE(same());
+}
+
+TEST(HeightField, RefusesAPictureThatItsCodeCannotLieIn) {
+  Frame gray = test::makeGrayFrame(2, 2, 8, {}, [](int, int) { return 1; });
+  EXPECT_EQ(HeightField::make(gray, {.code = DepthCode::Hue}, kVolume).error().code, ErrorCode::Unsupported);
+  gray.model = ColorModel::Rgb;
+  EXPECT_EQ(HeightField::make(gray, {}, kVolume).error().code, ErrorCode::Unsupported);
+  EXPECT_EQ(HeightField::make(Frame{}, {}, kVolume).error().code, ErrorCode::InvalidArgument);
+}
+
+TEST(Calibration, ParsesCommandLinesAndSideFilesAndNamesWhatIsWrong) {
+  const auto settings = parseCalibration(" law = inverse # comment\n near=400,far=2e3\n\n");
+  ASSERT_TRUE(settings.has_value());
+  EXPECT_EQ(settings->at("law"), "inverse");
+  EXPECT_EQ(settings->at("far"), "2e3");
+  EXPECT_EQ(settings->size(), 3u);
+  for (const char* bad : {"colour=1", "law=cubic", "bits=7", "bits=17", "near=-1", "near=nan", "invalid=70000", "near",
+                          "near=1e-4", "far=1e10", "near=700,far=600", "bits=10,invalid=1024"}) {
+    EXPECT_EQ(parseCalibration(bad).error().code, ErrorCode::InvalidArgument) << bad;
+  }
+}
+
+TEST(Calibration, TagsComeBackAsTheyWereWritten) {
+  const DepthCalibration c{.law = DepthLaw::Inverse,
+                           .polarity = DepthPolarity::NearIsLow,
+                           .range = ColorRange::Limited,
+                           .bits = 12,
+                           .invalid_code = 0,
+                           .near_mm = 520.7,
+                           .far_mm = 1259.61};
+  Frame frame;
+  frame.components[0].bits = 12;
+  const auto choice = chooseCalibration({.tags = calibrationFromTags(calibrationTags(c))}, frame, DepthCode::Luma);
+  ASSERT_TRUE(choice.has_value());
+  EXPECT_EQ(choice->origin, CalibrationOrigin::ContainerTags);
+  EXPECT_EQ(choice->calibration.law, c.law);
+  EXPECT_EQ(choice->calibration.polarity, c.polarity);
+  EXPECT_EQ(choice->calibration.range, c.range);
+  EXPECT_EQ(choice->calibration.bits, 12);
+  EXPECT_EQ(choice->calibration.invalid_code, 0u);
+  EXPECT_DOUBLE_EQ(choice->calibration.near_mm, 520.7);
+  EXPECT_DOUBLE_EQ(choice->calibration.far_mm, 1259.61);
+}
+
+// (far - Z)/(far - near) of the 40 mm, whatever the law of other codes is.
+TEST(Calibration, CodesThatAreDistancesReachFromNearToFar) {
+  Frame frame;
+  frame.components[0].bits = 16;
+  const CalibrationSettings camera{{"unit", "0.5"}, {"invalid", "0"}, {"near", "400"}, {"far", "2000"}};
+  const auto choice = chooseCalibration({.tags = camera}, frame, DepthCode::Luma);
+  ASSERT_TRUE(choice) << choice.error().message;
+  const DepthCalibration& c = choice->calibration;
+  const struct {
+    std::uint32_t code;
+    double mm;
+  } heights[] = {{800, kVolume.depth_mm},      {4000, 0}, {2400, kVolume.depth_mm / 2}, {100, kVolume.depth_mm},
+                 {3200, kVolume.depth_mm / 4}, {65535, 0}};
+  for (const auto& [code, mm] : heights) EXPECT_NEAR(heightOf(code, 16, c), mm, 1e-9) << code;
+  EXPECT_TRUE(std::isnan(heightOf(0, 16, c)));
+  const auto again = chooseCalibration({.tags = calibrationFromTags(calibrationTags(c))}, frame, DepthCode::Luma);
+  EXPECT_EQ(again->calibration.unit_mm, 0.5);
+  EXPECT_EQ(again->calibration.polarity, DepthPolarity::NearIsLow);
+  EXPECT_EQ(chooseCalibration({.command_line = {{"unit", "none"}}, .tags = camera}, frame, DepthCode::Luma)
+                ->calibration.unit_mm,
+            std::nullopt);
+  EXPECT_EQ(parseCalibration("unit=1,law=inverse").error().code, ErrorCode::InvalidArgument);
+  EXPECT_EQ(parseCalibration("unit=0").error().code, ErrorCode::InvalidArgument);
+  EXPECT_EQ(
+      chooseCalibration({.command_line = {{"law", "inverse"}}, .tags = camera}, frame, DepthCode::Luma).error().code,
+      ErrorCode::InvalidArgument);
+}
+
+TEST(Calibration, TheCommandLineWinsOverTheFileOverTagsOverTheStream) {
+  Frame frame;
+  frame.model = ColorModel::Yuv;
+  CalibrationLayers layers{.command_line = {{"near", "1"}},
+                           .side_file = {{"near", "2"}, {"law", "inverse"}},
+                           .tags = {{"near", "3"}, {"law", "linear"}, {"polarity", "near-low"}}};
+  const auto choice = chooseCalibration(layers, frame, DepthCode::Luma).value();
+  EXPECT_EQ(choice.calibration.near_mm, 1);
+  EXPECT_EQ(choice.calibration.law, DepthLaw::Inverse);
+  EXPECT_EQ(choice.calibration.polarity, DepthPolarity::NearIsLow);
+  EXPECT_EQ(choice.origin, CalibrationOrigin::CommandLine);
+  EXPECT_NE(choice.explanation.find("law=inverse (side file)"), std::string::npos) << choice.explanation;
+  EXPECT_NE(choice.explanation.find("polarity=near-low (container tags)"), std::string::npos);
+  EXPECT_NE(choice.explanation.find("far=5000 (default)"), std::string::npos);
+}
+
+TEST(Calibration, UnsignalledRangeIsLimitedForYuvAndFullForGrayAndFullRangeYuv) {
+  Frame frame;
+  frame.model = ColorModel::Yuv;
+  EXPECT_EQ(chooseCalibration({}, frame, DepthCode::Luma)->calibration.range, ColorRange::Limited);
+  frame.range = ColorRange::Full;
+  EXPECT_EQ(chooseCalibration({}, frame, DepthCode::Luma)->calibration.range, ColorRange::Full);
+  frame.range = ColorRange::Unspecified;
+  frame.model = ColorModel::Gray;
+  EXPECT_EQ(chooseCalibration({}, frame, DepthCode::Luma)->calibration.range, ColorRange::Full);
+  frame.range = ColorRange::Limited;
+  const auto choice = chooseCalibration({}, frame, DepthCode::Luma);
+  EXPECT_EQ(choice->calibration.range, ColorRange::Limited);
+  EXPECT_EQ(choice->origin, CalibrationOrigin::StreamSignalling);
+}
+
+TEST(Calibration, FarMustLieBehindNear) {
+  const auto code = [](const CalibrationLayers& layers) {
+    return chooseCalibration(layers, Frame{}, DepthCode::Luma).error().code;
+  };
+  EXPECT_EQ(code({.command_line = {{"near", "9000"}}}), ErrorCode::InvalidArgument);
+  EXPECT_EQ(code({.command_line = {{"near", "600"}}, .tags = {{"far", "400"}}}), ErrorCode::InvalidArgument);
+  // The words of the command line are not at fault here.
+  EXPECT_EQ(code({.command_line = {{"law", "inverse"}}, .side_file = {{"near", "9000"}}}), ErrorCode::Corrupt);
+  EXPECT_EQ(code({.tags = {{"near", "9000"}}}), ErrorCode::Corrupt);
+}
+
+TEST(Calibration, WhatTheSamplesCannotHoldIsRefusedAndOfTagsLeftOut) {
+  Frame frame;
+  frame.components[0].bits = 8;
+  const auto choose = [&](const CalibrationLayers& layers) {
+    return chooseCalibration(layers, frame, DepthCode::Luma);
+  };
+  EXPECT_EQ(choose({.command_line = {{"invalid", "256"}}}).error().code, ErrorCode::InvalidArgument);
+  EXPECT_EQ(choose({.command_line = {{"bits", "10"}}}).error().code, ErrorCode::InvalidArgument);
+  EXPECT_EQ(choose({.side_file = {{"invalid", "300"}}}).error().code, ErrorCode::Corrupt);
+  EXPECT_EQ(choose({.command_line = {{"invalid", "255"}}})->calibration.invalid_code, 255u);
+  const auto left_out = choose({.tags = {{"bits", "16"}, {"invalid", "65535"}}});
+  ASSERT_TRUE(left_out);
+  EXPECT_EQ(left_out->calibration.bits, 8);
+  EXPECT_FALSE(left_out->calibration.invalid_code);
+  // Twelve bits in samples of sixteen are usual.
+  frame.components[0].bits = 16;
+  EXPECT_EQ(choose({.command_line = {{"bits", "12"}, {"invalid", "4095"}}})->calibration.bits, 12);
+}
+
+}  // namespace
+}  // namespace relievo
