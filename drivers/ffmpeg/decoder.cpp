@@ -103,7 +103,11 @@ class FfmpegDecoder final : public VideoDecoder {
   }
 
   Result<Progress> deliver(Frame& frame, MediaTime pts) {
+#if LIBAVUTIL_VERSION_INT >= AV_VERSION_INT(57, 30, 100)  // FFmpeg 6; before it the other name is the only one
+    const Duration duration(picture_->duration);
+#else
     const Duration duration(picture_->pkt_duration);
+#endif
     FramePtr picture(av_frame_alloc());
     if (!picture) return fail(ErrorCode::Exhausted, kNoMemory, ENOMEM);
     av_frame_move_ref(picture.get(), picture_.get());
