@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/depth_window/touch_plan.h"
+#include "app/haptics/method/relievo_method.h"
 
 namespace relievo {
 namespace {
@@ -53,9 +54,8 @@ Result<void> HapticSession::setScene(const DisplayVolume& volume, const SurfaceW
                            WorkspaceMapping(capabilities_, volume).scale();
   TouchPlan plan = planTouch(measureClip(std::span(first.frames).first(static_cast<std::size_t>(first.count))));
   plan_ = std::move(plan.reason);
-  auto method =
-      makeMethod(kDefaultMethod, {.stiffness_n_per_mm = stiffness, .tick_s = toSeconds(period_), .scale = plan.scale});
-  if (method == nullptr) return fail(ErrorCode::NotFound, "the default method of touch is missing from this build");
+  auto method = std::make_unique<RelievoMethod>(
+      RelievoMethod::Config{.stiffness_n_per_mm = stiffness, .scale = plan.scale, .tick_s = toSeconds(period_)});
   if (task_ == nullptr) {
     auto arena = FixedArena::create(sizeof(HapticTask) + alignof(HapticTask) + 256);
     if (!arena) return std::unexpected(arena.error());

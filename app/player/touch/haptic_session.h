@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "app/depth_window/surface_feeder.h"
-#include "app/haptics/baseline/methods.h"
 #include "app/haptics/task/haptic_task.h"
 #include "app/player/touch/device_keeper.h"
 #include "app/scene/display_volume.h"
