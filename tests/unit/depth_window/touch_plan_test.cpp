@@ -104,6 +104,22 @@ TEST(TouchPlan, TellsWhatNoiseLeavesHoweverFineThePictureIs) {
   }
 }
 
+// Two pictures that stand still, a cut of 20 mm between them: nothing has moved.
+TEST(TouchPlan, ACutIsNoMotion) {
+  std::vector<Frame> frames;
+  std::vector<TimedSurface> surfaces;
+  for (int k = 0; k < 4; ++k) {
+    frames.push_back(
+        makeGrayFrame(90, 61, 8, mediaTime(k * kPeriod), [&](int c, int) { return c + (k < 2 ? 0 : 127); }));
+    surfaces.push_back({HeightField::make(frames.back(), {.bits = 8}, kVolume).value(), frames.back().pts,
+                        frames.back().owner, k < 2 ? 0U : 1U});
+  }
+  EXPECT_EQ(measureClip(surfaces).speed_mm_per_s, 0);
+  EXPECT_TRUE(measureClip(surfaces).still);
+  for (TimedSurface& s : surfaces) s.shot = 0;
+  EXPECT_GT(measureClip(surfaces).speed_mm_per_s, 100) << "without the cut it is a leap";
+}
+
 TEST(TouchPlan, TellsNoErrorThatItCannotName) {
   const auto told = [](const TouchPlan& plan, const char* part) { return plan.reason.find(part) != std::string::npos; };
   const Frame flat = makeGrayFrame(90, 61, 16, {}, [](int, int) { return 30000; });

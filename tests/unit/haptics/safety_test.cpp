@@ -58,6 +58,13 @@ TEST(SafetyFilter, TreatsWhatIsNotFiniteAsZeroForce) {
   }
 }
 
+// 50 N/s for at most .1 s: a task that was away for two seconds may not bring the whole force in one tick.
+TEST(SafetyFilter, AfterALongGapAtMostFiveNewtonsComeInAtOnce) {
+  SafetyFilter filter({.limit_energy = false}, 0.5);
+  static_cast<void>(filter.apply({0, 0, 0}, kRest, kTick));
+  EXPECT_NEAR(filter.apply({0, 0, 9}, kRest, 2.0).z, 5.0, 1e-12);
+}
+
 TEST(SafetyFilter, AReadingThatIsNoneOpensNoLimit) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   SafetyFilter filter({}, 0.5);

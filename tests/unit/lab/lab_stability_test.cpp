@@ -91,6 +91,14 @@ TEST(Scenarios, EachIsFailedByAtLeastOneMethodOfTheLiterature) {
   }
 }
 
+// The figure that decided and its limit are in the message of one that is failed.
+TEST(Scenarios, AreAllPassedByRelievo) {
+  for (const Scenario& s : scenarios()) {
+    const Verdict v = s.judge(challengerNamed("relievo"), true);
+    EXPECT_TRUE(v.pass) << s.name << ": " << v.figure << " " << v.unit << ", limit " << v.limit << ": " << v.why;
+  }
+}
+
 TEST(Scenarios, GiveTheSameVerdictAgain) {
   for (const char* name : {"noise", "jitter", "packet-loss"}) {
     EXPECT_EQ(judge(name, challengerNamed("relievo")).figure, judge(name, challengerNamed("relievo")).figure) << name;

@@ -162,6 +162,14 @@ TEST_F(KeyReaderTest, AnotherKeyEndsAHold) {
   EXPECT_EQ(take(KEY_OK, Action::Release, 950), "-");
 }
 
+TEST_F(KeyReaderTest, TheReleaseOfAnotherKeyLeavesAHoldAsItIs) {
+  EXPECT_EQ(take(KEY_RIGHT, Action::Press, 0), "seek +10");
+  EXPECT_EQ(take(KEY_OK, Action::Press, 100), "-");
+  EXPECT_EQ(take(KEY_RIGHT, Action::Release, 200), "-");
+  EXPECT_EQ(held(699), "-");
+  EXPECT_EQ(held(700), "info") << "OK is still held";
+}
+
 // The picture may stop while the key is down: it means what it meant when it was pressed.
 TEST_F(KeyReaderTest, AKeyMeansWhatItMeantWhenItWasPressed) {
   auto table = KeyTable::parse("[playing]\nRED = { press = \"stop\", hold = \"info\" }", "k");
