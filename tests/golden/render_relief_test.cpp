@@ -267,6 +267,18 @@ bool inHole(int c, int r) {
   return c >= 12 && c < 20 && r >= 5 && r < 13;
 }
 
+// Code 0 is the far plane where no code is invalid: in a grid of all samples as in the network.
+TEST(RenderRelief, APictureOfCodesZeroIsVisibleWithoutAnInvalidCode) {
+  STAGE_OR_SKIP(stage, 640, 360);
+  for (const int grid_step : {0, 1}) {
+    const Scene scene{.color = makeRgbFrame(32, 18, [](int, int) { return Rgb{255, 255, 255}; }),
+                      .depth = makeGrayFrame(32, 18, 8, MediaTime{}, [](int, int) { return 0u; }),
+                      .volume = kVolume,
+                      .detail = {.grid_step = grid_step}};
+    EXPECT_EQ(stage.show(scene).at(320, 180), (Rgb{255, 255, 255})) << grid_step;
+  }
+}
+
 TEST(RenderRelief, HolesStayOpenInAUniformGrid) {
   STAGE_OR_SKIP(stage, 640, 360);
   Scene scene{.color = makeRgbFrame(32, 18, [](int, int) { return Rgb{255, 255, 255}; }),

@@ -10,6 +10,7 @@ class FakeHapticDevice final : public HapticDevice {
  public:
   glm::dvec3 position{0, 0, 0};
   glm::dvec3 force{0};
+  std::uint32_t buttons = 5;
   ErrorCode next_error = ErrorCode::InvalidState;  // of one exchange; InvalidState: none
   int reads = 0, writes = 0;
 
@@ -28,7 +29,7 @@ class FakeHapticDevice final : public HapticDevice {
       next_error = ErrorCode::InvalidState;
       return fail(code, "as asked");
     }
-    return HapticSample{position, 5};
+    return HapticSample{position, buttons};
   }
   Result<void> writeForce(const glm::dvec3& f) RELIEVO_RT override {
     force = f;

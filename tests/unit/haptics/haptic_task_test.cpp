@@ -67,6 +67,17 @@ class HapticTaskTest : public testing::Test {
   std::uint64_t index_ = 0;
 };
 
+// As a mouse is lifted: what is held then is the air.
+TEST_F(HapticTaskTest, TheClutchTakesTheForceAway) {
+  publishPlane(20, 0, true);
+  press(2);
+  tick(50);
+  ASSERT_NEAR(device_.force.z, 1.0, 0.05);
+  device_.buttons |= 2U;
+  tick(100);  // 50 N/s
+  EXPECT_NEAR(glm::length(device_.force), 0, 1e-9);
+}
+
 TEST_F(HapticTaskTest, AllThatItHoldsIsUnderAMebibyte) {
   const std::size_t rings_and_windows = sizeof(HapticTask);
   const std::size_t method = ::malloc_usable_size(method_.get());  // one object
