@@ -103,7 +103,7 @@ std::vector<StageTick> playThrough(TouchMethod& method, const Play& play) {
   TouchStage stage(method, {.volume = MadeFormat::kVolume,
                             .stiffness_n_per_mm = play.stiffness_n_per_mm,
                             .peak_force_n = play.peak_force_n});
-  FilmFeed feed(play.film, play.supply);
+  MemoryFeed feed(play.film, play.supply);
   SurfaceWindow window;
   std::vector<StageTick> ticks;
   glm::dvec3 held(0);

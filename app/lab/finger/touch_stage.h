@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "app/haptics/task/haptic_task.h"
-#include "app/lab/film/film_feed.h"
+#include "app/lab/film/memory_feed.h"
 #include "app/scene/display_volume.h"
 
 namespace relievo {
@@ -73,7 +73,7 @@ struct Play {
     std::uint32_t epoch = 0;
   };
   std::function<Moment(double t_s)> clock = [](double t) { return Moment{.media_s = t}; };
-  FilmFeed::Supply supply;
+  MemoryFeed::Supply supply;
   std::function<int(double t_s)> ticks_to_next = [](double) { return 1; };  // more than 1: ticks are missed
 };
 [[nodiscard]] std::vector<StageTick> playThrough(TouchMethod& method, const Play& play);

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 
-#include "app/lab/film/film_feed.h"
 #include "app/lab/film/made_film.h"
+#include "app/lab/film/memory_feed.h"
 #include "app/lab/scenario/scenario_tools.h"
 
 namespace relievo {
@@ -27,7 +27,7 @@ bool swings(const Swing& swing, const HandLoopProfile& profile) {
 Swing swingOnWall(const Challenger& challenger, const HandLoopProfile& profile, double stiffness) {
   const auto film = makeFilm(scenario::plane(20, 0, 0), {}, 0.1);
   const auto method = challenger.make(stiffness, film);
-  FilmFeed feed(film);
+  MemoryFeed feed(film);
   SurfaceWindow window;
   const glm::dvec3 above(0.1, 0.1, 20.5), rest(0.1, 0.1, 20 - kPushN / stiffness);
   // Comes in from outside, as every method wants it.

@@ -7,7 +7,7 @@
 
 #include "app/depth_window/touch_plan.h"
 #include "app/haptics/baseline/methods.h"
-#include "app/lab/film/film_feed.h"
+#include "app/lab/film/memory_feed.h"
 
 namespace relievo {
 namespace {
@@ -39,7 +39,7 @@ constexpr std::array<Scenario, 20> kScenarios{{
 
 Challenger challengerNamed(const std::string& method) {
   return {method, [method](double stiffness, std::span<const TimedSurface> film) {
-            constexpr std::size_t kLookedAt = FilmFeed::kAhead + 1;
+            constexpr std::size_t kLookedAt = MemoryFeed::kAhead + 1;
             const auto begin = film.first(std::min(film.size(), kLookedAt));
             return makeMethod(method, {.stiffness_n_per_mm = stiffness, .scale = planTouch(measureClip(begin)).scale});
           }};

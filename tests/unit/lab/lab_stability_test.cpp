@@ -224,9 +224,9 @@ TEST(HandLoop, AForceActsSoManyTicksLate) {
   EXPECT_GT(loop.position().x, 0);
 }
 
-TEST(FilmFeed, HoldsTwoFramesBeforeAndThreeAfterThePresentOne) {
+TEST(MemoryFeed, HoldsTwoFramesBeforeAndThreeAfterThePresentOne) {
   const auto film = makeFilm(scenario::plane(20, 0, 0), {}, 0.5);
-  FilmFeed feed(film);
+  MemoryFeed feed(film);
   SurfaceWindow window;
   ASSERT_TRUE(feed.update(mediaTime(0.21), 0, 0, window));
   ASSERT_EQ(window.count, 6);
@@ -237,9 +237,9 @@ TEST(FilmFeed, HoldsTwoFramesBeforeAndThreeAfterThePresentOne) {
   EXPECT_EQ(window.epoch, 1U);
 }
 
-TEST(FilmFeed, AFrameThatComesLateTakesItsPlace) {
+TEST(MemoryFeed, AFrameThatComesLateTakesItsPlace) {
   const auto film = makeFilm(scenario::plane(20, 0, 0), {}, 0.5);
-  FilmFeed feed(film, [](std::size_t i, double t) { return i != 7 || t >= 0.21; });
+  MemoryFeed feed(film, [](std::size_t i, double t) { return i != 7 || t >= 0.21; });
   SurfaceWindow window;
   ASSERT_TRUE(feed.update(mediaTime(0.20), 0.20, 0, window));
   EXPECT_EQ(window.frames[3].time, mediaTime(8.0 / 30));

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The list of frames that are there, and the shots among them.
-#include "app/lab/film/film_feed.h"
+#include "app/lab/film/memory_feed.h"
 
 #include <algorithm>
 
 namespace relievo {
 
-std::vector<std::size_t> FilmFeed::wanted(MediaTime now, double machine_s) const {
+std::vector<std::size_t> MemoryFeed::wanted(MediaTime now, double machine_s) const {
   std::vector<std::size_t> there;
   int ahead = 0;
   for (std::size_t i = 0; i < film_.size() && ahead < kAhead; ++i) {
@@ -20,7 +20,7 @@ std::vector<std::size_t> FilmFeed::wanted(MediaTime now, double machine_s) const
   return there;
 }
 
-bool FilmFeed::update(MediaTime now, double machine_s, std::uint32_t epoch, SurfaceWindow& window) {
+bool MemoryFeed::update(MediaTime now, double machine_s, std::uint32_t epoch, SurfaceWindow& window) {
   std::vector<std::size_t> indices = wanted(now, machine_s);
   if (epoch != epoch_ || first_) {
     held_.clear();

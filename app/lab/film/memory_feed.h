@@ -14,14 +14,15 @@ namespace relievo {
 
 // The window holds the frames from two before the present one to three after it, as far as they have come by then. A
 // frame that comes late takes its place in the order of time; one that is over when it comes is never seen.
-class FilmFeed {
+class MemoryFeed {
  public:
   static constexpr int kBefore = 2, kAhead = 3;
   // Whether a frame of the film can be had, at a time of the machine; nothing: all of them, always.
   using Supply = std::function<bool(std::size_t frame, double machine_s)>;
 
   // `film` outlives it.
-  explicit FilmFeed(std::span<const TimedSurface> film, Supply supply = {}) : film_(film), supply_(std::move(supply)) {}
+  explicit MemoryFeed(std::span<const TimedSurface> film, Supply supply = {})
+      : film_(film), supply_(std::move(supply)) {}
 
   // The frames around `now`; true when they are not those of the last call: then `window` holds them. A new epoch
   // forgets what was there.
