@@ -25,6 +25,7 @@ using Patch = std::array<Float4, 4>;
 class ControlGrid {
  public:
   static constexpr int kFrames = SurfaceWindow::kCapacity;
+  static_assert(kFrames == 8, "a byte holds a bit for each frame, and two Float4 hold their weights and heights");
   // `samples`: about so many are read of a block, across and down (SampledBlock).
   ControlGrid(double pitch_mm, int most_samples) noexcept : pitch_wanted_mm_(pitch_mm), most_samples_(most_samples) {}
 

@@ -250,6 +250,33 @@ TEST(FeltSurface, ATickThatComesLateDoesNotGoByWhatWasPrepared) {
   EXPECT_NEAR(late.height(0, 0), plain.height(0, 0), 1e-5);
 }
 
+// Flat ground beside a hole that opens and closes with each frame; ticks come .4 ms beside the moment that was
+// prepared. A point that is a hole at one end of what was prepared and ground at the other has no rate to go on by.
+TEST(FeltSurface, AHoleThatOpensOrClosesIsNotCarriedOn) {
+  const DepthCalibration holes{.bits = 8, .invalid_code = 0};
+  std::vector<Frame> frames;
+  for (int k = 0; k < 8; ++k) {
+    frames.push_back(makeGrayFrame(kCols, kRows, 8, mediaTime(k * kPeriod), [&](int c, int r) {
+      return k % 2 == 1 && c > 200 && c < 240 && r > 100 && r < 140 ? 0 : 128;
+    }));
+  }
+  const SurfaceWindow w = makeWindow(frames, kVolume, holes);
+  const GridMapping grid(kVolume, kCols, kRows);
+  const double ground = 128.0 / 255 * 40;
+  for (double t = 2 * kPeriod; t < 4 * kPeriod; t += 0.0005) {
+    for (double c = 194; c < 206; c += 1.5) {
+      for (const double beside : {-0.0004, 0.0004}) {
+        FeltSurface s({});
+        ASSERT_TRUE(s.moment(w, mediaTime(t)));
+        s.prepare(w, mediaTime(t + 0.001), grid.x(c), grid.y(120));
+        ASSERT_TRUE(s.moment(w, mediaTime(t + 0.001 + beside)));
+        const double z = s.height(grid.x(c), grid.y(120));
+        ASSERT_TRUE(z >= -40.01 && z <= ground + 0.3) << z << " mm at " << t << " s, sample " << c;
+      }
+    }
+  }
+}
+
 // A window as the player hands it out: from two frames before the present one to five after it.
 SurfaceWindow windowAt(std::span<const TimedSurface> film, double t) {
   const auto now = static_cast<std::size_t>(t / kPeriod + 1e-6);

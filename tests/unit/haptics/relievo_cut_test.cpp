@@ -88,14 +88,19 @@ TEST_F(RelievoCutTest, AStillFingerFeelsNoKickAfterACutToABumpyScene) {
 }
 
 TEST_F(RelievoCutTest, FrictionLetsGoOfTheOldSceneAtACut) {
-  RelievoMethod rough({.stiffness_n_per_mm = kStiffness, .friction = {0.8, 0.6}});
-  SurfaceWindow w = picture([](double, double) { return 12.0; });
-  static_cast<void>(rough.update({0, 0, 13}, w, {}));
-  double before = 0;
-  for (int i = 0; i < 50; ++i) before = glm::length(rough.update({0.05 * i, 0, 9}, w, {}).force_n);
-  w = picture([](double x, double) { return 25 + 0.5 * x; });
-  w.epoch = 1;
-  EXPECT_LE(glm::length(rough.update({2.45, 0, 9}, w, {}).force_n), before + 1e-3);
+  for (const double slope : {0.5, -0.5}) {
+    RelievoMethod rough({.stiffness_n_per_mm = kStiffness, .friction = {0.8, 0.6}});
+    SurfaceWindow w = picture([](double, double) { return 12.0; });
+    static_cast<void>(rough.update({0, 0, 13}, w, {}));
+    double before = 0;
+    for (int i = 0; i < 50; ++i) before = glm::length(rough.update({0.05 * i, 0, 9}, w, {}).force_n);
+    w = picture([slope](double x, double) { return 25 + slope * x; });
+    w.epoch = 1;
+    const Touch touch = rough.update({2.45, 0, 9}, w, {});
+    EXPECT_LE(glm::length(touch.force_n), before + 1e-3) << slope;
+    // The finger has not moved on the new scene: nothing but its normal pushes, (-slope, 0, 1).
+    EXPECT_NEAR(touch.force_n.x, -slope * touch.force_n.z, 0.02) << slope;
+  }
 }
 
 TEST_F(RelievoCutTest, AGapInTheFramesOrInThePositionsEndsInTheForceBeforeIt) {
