@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
+#include "app/depth_window/felt_scale.h"
 #include "app/depth_window/surface_window.h"
-#include "app/haptics/method/felt_surface.h"
 
 namespace relievo {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 
-#include "app/depth_window/parts.h"
+#include "app/depth_window/felt_scale.h"
 #include "app/depth_window/surface_window.h"
 #include "app/haptics/method/surface_level.h"
 #include "hal/media_time.h"
@@ -14,21 +14,8 @@
 
 namespace relievo {
 
-// About so many samples of a control point's block are read, across and down, for each level.
-inline constexpr int kNarrowSamples = 3, kWideSamples = 5;
-
 // Of blocks, each in each frame. A tick that has read more leaves to the next ones what can wait.
 inline constexpr std::uint64_t kBlocksOfTick = 256;
-
-// How wide the surface looks around; standard deviations of the smoothing.
-struct FeltScale {
-  double narrow_mm = 0.28;  // what an edge is seen with
-  double wide_mm = 0.72;    // what all else is seen with; not wider than narrow: one level is enough
-  double clamp_mm = 0.25;   // how far the wide level may leave the narrow one
-  TimeLaw narrow_time = TimeLaw::Linear;
-  TimeLaw wide_time = TimeLaw::Fitted;
-  SpaceLaw space = SpaceLaw::BSpline;  // Quadratic or BSpline
-};
 
 // S = N + c(W - N): N sees edges, W is calm, and c is a soft clamp, so that W may correct N's noise but not round an
 // edge off by more than `clamp_mm`; away from edges S is W. Monotone: c never turns back, or a lip would be left at an

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "app/depth_window/parts.h"
+#include "app/depth_window/felt_scale.h"
 #include "app/haptics/method/control_grid.h"
 #include "app/haptics/method/frame_weights.h"
 #include "platform/realtime.h"
@@ -27,10 +27,6 @@ struct FrameSlots {
   std::array<std::uint8_t, ControlGrid::kFrames> frame{};
   std::uint32_t in_use = 0;  // bit per slot
 };
-
-// The standard deviation of a level's smoothing, in pitches of its control points: a box of one pitch under a cubic
-// B-spline (variances 1/12 and 4/12 pitch^2). Under a quadratic one it is 0.577.
-inline constexpr double kSigmaPerPitch = 0.645497;  // sqrt(5/12)
 
 // The surface of one smoothing: a view of one moment at a time, which is prepared for in the tick before.
 class SurfaceLevel {
