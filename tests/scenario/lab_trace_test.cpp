@@ -76,6 +76,7 @@ class LabTrace : public testing::Test {
               "t_s,hip_x_mm,hip_y_mm,hip_z_mm,proxy_x_mm,proxy_y_mm,proxy_z_mm,force_x_n,force_y_n,force_z_n,contact,"
               "update_ns");
     std::vector<Row> rows;
+    double all_updates_ns = 0;  // one alone may be shorter than a step of the clock
     while (std::getline(file, line)) {
       Row r;
       int contact = 0;
@@ -84,10 +85,11 @@ class LabTrace : public testing::Test {
                                      &r.hip.y, &r.hip.z, &r.proxy.x, &r.proxy.y, &r.proxy.z, &r.force.x, &r.force.y,
                                      &r.force.z, &contact, &update_ns);
       EXPECT_EQ(fields, 12) << line;
-      EXPECT_GT(update_ns, 0);
+      all_updates_ns += update_ns;
       r.contact = contact == 1;
       rows.push_back(r);
     }
+    EXPECT_GT(all_updates_ns, 0);
     return rows;
   }
 

@@ -118,12 +118,8 @@ TEST_F(OnAPlane, HoldingAFrameIsOffByWhatThePlaneHasMovedSince) {
 TEST_F(OnAPlane, TimesAreTakenOfEveryTick) {
   static_cast<void>(errorOf("plane", "relievo", {}));
   Duration sum{0};
-  for (const PlayedTick& tick : ticks_) {
-    ASSERT_GT(tick.update.count(), 0);
-    sum += tick.update;
-  }
+  for (const PlayedTick& tick : ticks_) sum += tick.update;  // one alone may be shorter than a step of the clock
   EXPECT_GT(sum.count(), 0);
-  EXPECT_GT(clockCost().count(), 0);
 }
 
 TEST(TickTiming, CountsTheTicksOfAllRoundsButThoseOfTheWayIn) {
