@@ -138,7 +138,9 @@ void addDepthOptions(CLI::App& app, SourceOptions& source) {
          "What a depth code means, over what the film says; or a file of such lines\n"
          "law=linear|inverse: whether codes are even in distance or in 1/distance;\n"
          "polarity=near-high|near-low, range=full|limited, bits=8..16,\n"
-         "invalid=CODE|none: the code of a hole; unit=MM: codes are distances of so many mm, from near to far;\n"
+         "codes=LOW-HIGH: the codes that are used, where they are not all of them;\n"
+         "invalid=CODE+CODE+LOW-HIGH..|none: codes of holes; unit=MM: codes are distances of so many mm, from near to "
+         "far;\n"
          "near=MM, far=MM: of distances, and of the inverse law")
       ->allow_extra_args(false)
       ->type_name("FILE|KEY=VALUE,..");

@@ -127,7 +127,7 @@ void DepthEnhancer::enhance(std::size_t index) {
   picture.noise_after = noiseOf(map);
   const float moved = std::max(shapeChange(picture.means, map), grain(picture) / kShapeBlock);
   picture.error = std::hypot(picture.noise_after, moved);
-  picture.outcome = writeDepth(map, outcome_.invalid_code.has_value(), picture.source);
+  picture.outcome = writeDepth(map, !outcome_.invalid.empty(), picture.source);
 }
 
 DepthMap DepthEnhancer::steadied(std::size_t index) const {

@@ -13,21 +13,24 @@ namespace relievo {
 namespace {
 
 // In the order in which they are applied: distances (unit) bring a law and a polarity of their own.
-constexpr std::array<const char*, 8> kKeys{"unit", "law", "polarity", "range", "bits", "invalid", "near", "far"};
+constexpr std::array<const char*, 9> kKeys{"unit",  "law",     "polarity", "range", "bits",
+                                           "codes", "invalid", "near",     "far"};
 constexpr const char* kTagPrefix = "DEPTH_";
 
 constexpr const char* kUnknownKey =
-    "unknown calibration key; known are law, polarity, range, bits, invalid, unit, near, far";
+    "unknown calibration key; known are law, polarity, range, bits, codes, invalid, unit, near, far";
 constexpr const char* kBadValue =
     "calibration value out of its range; law=linear|inverse polarity=near-high|near-low range=full|limited "
-    "bits=8..16 invalid=0..65535|none unit (or none), near and far in mm, 1e-3..1e9";
+    "bits=8..16 codes=LOW-HIGH|none invalid=0+65535+2000-2047|none unit (or none), near and far in mm, 1e-3..1e9";
 constexpr const char* kNoValue = "calibration is written KEY=VALUE,KEY=VALUE,..";
 constexpr const char* kFarBeforeNear = "calibration has far <= near; give both in mm, far the larger";
 constexpr const char* kUnitIsLinear =
     "calibration has codes that are distances (unit), but not law=linear; leave one out";
+constexpr const char* kUnitHasCodes =
+    "calibration has codes that are distances (unit), which reach from near to far; leave codes= out";
 constexpr const char* kTooManyBits = "calibration has more bits than the depth's samples; leave bits out";
 constexpr const char* kNoSuchCode =
-    "calibration has an invalid code that the depth's bits cannot hold; give one below 2^bits";
+    "calibration has a code (codes, invalid) that the depth's bits cannot hold; give one below 2^bits";
 constexpr double kNearestMm = 1e-3, kFarthestMm = 1e9;
 
 std::string_view trim(std::string_view text) {
@@ -60,13 +63,13 @@ bool apply(DepthCalibration& c, std::string_view key, std::string_view value) {
     if (!bits || *bits < 8 || *bits > 16) return false;
     c.bits = *bits;
   } else if (key == "invalid") {
-    if (value == "none") {
-      c.invalid_code.reset();
-      return true;
-    }
-    const auto code = number<std::uint32_t>(value);
-    if (!code || *code > 0xffff) return false;
-    c.invalid_code = code;
+    const auto set = CodeSet::parse(value);
+    if (!set) return false;
+    c.invalid = *set;
+  } else if (key == "codes") {
+    const auto range = value == "none" ? std::optional(CodeSet::Range{}) : CodeSet::parseRange(value);
+    if (!range || (value != "none" && range->high == range->low)) return false;
+    c.codes = value == "none" ? std::nullopt : range;
   } else if (key == "unit" && value == "none") {
     c.unit_mm.reset();
   } else {
@@ -89,7 +92,8 @@ std::string written(const DepthCalibration& c, std::string_view key) {
   if (key == "polarity") return c.polarity == DepthPolarity::NearIsHigh ? "near-high" : "near-low";
   if (key == "range") return c.range == ColorRange::Limited ? "limited" : "full";
   if (key == "bits") return std::to_string(c.bits);
-  if (key == "invalid") return c.invalid_code ? std::to_string(*c.invalid_code) : "none";
+  if (key == "invalid") return c.invalid.text();
+  if (key == "codes") return c.codes ? CodeSet(*c.codes).text() : "none";
   if (key == "unit" && !c.unit_mm) return "none";
   const double mm = key == "unit" ? *c.unit_mm : key == "near" ? c.near_mm : c.far_mm;
   const auto end = std::to_chars(text, text + sizeof text, mm).ptr;
@@ -99,7 +103,8 @@ std::string written(const DepthCalibration& c, std::string_view key) {
 // Nothing wrong: null.
 const char* misfit(const DepthCalibration& c, int sample_bits) {
   if (c.bits > sample_bits) return kTooManyBits;
-  if (c.code == DepthCode::Luma && c.invalid_code.value_or(0) >> c.bits != 0) return kNoSuchCode;
+  if (c.code == DepthCode::Luma && std::max(c.invalid.highest(), c.codes ? c.codes->high : 0) >> c.bits != 0)
+    return kNoSuchCode;
   return nullptr;
 }
 
@@ -112,7 +117,8 @@ const char* contradiction(const CalibrationSettings& settings) {
   }
   if (settings.contains("near") && settings.contains("far") && c.far_mm <= c.near_mm) return kFarBeforeNear;
   if (settings.contains("unit") && c.unit_mm && c.law == DepthLaw::Inverse) return kUnitIsLinear;
-  return misfit(c, 16);
+  if (c.unit_mm && c.codes) return kUnitHasCodes;
+  return misfit(c, settings.contains("bits") ? c.bits : 16);
 }
 
 }  // namespace
@@ -209,6 +215,7 @@ Result<CalibrationChoice> chooseCalibration(const CalibrationLayers& layers, con
     choice.explanation += std::string(key) + "=" + written(c, key) + " (" + name(said_by) + ")";
   }
   if (c.unit_mm && c.law == DepthLaw::Inverse) return refuse(choice.origin, kUnitIsLinear);
+  if (c.unit_mm && c.codes) return refuse(choice.origin, kUnitHasCodes);
   if (c.far_mm <= c.near_mm) return refuse(distances_by, kFarBeforeNear);
   return choice;
 }

@@ -8,11 +8,13 @@ namespace relievo {
 
 double DepthCalibration::lowCode() const noexcept {
   if (unit_mm) return near_mm / *unit_mm;
+  if (codes) return codes->low;
   return range == ColorRange::Limited ? 16.0 * (1u << (bits - 8)) : 0.0;
 }
 
 double DepthCalibration::highCode() const noexcept {
   if (unit_mm) return far_mm / *unit_mm;
+  if (codes) return codes->high;
   return range == ColorRange::Limited ? 235.0 * (1u << (bits - 8)) : static_cast<double>((1u << bits) - 1);
 }
 
@@ -25,7 +27,7 @@ double heightMm(const DepthCalibration& calibration, double s, double volume_dep
 }
 
 DepthCalibration recoded(const DepthCalibration& source, int bits, std::optional<DepthLaw> law) noexcept {
-  const bool has_holes = source.invalid_code.has_value() || source.code == DepthCode::Hue;
+  const bool has_holes = !source.invalid.empty() || source.code == DepthCode::Hue;
   DepthCalibration written = source;
   written.law = law.value_or(source.law);
   written.polarity = DepthPolarity::NearIsHigh;
@@ -33,7 +35,8 @@ DepthCalibration recoded(const DepthCalibration& source, int bits, std::optional
   written.code = DepthCode::Luma;
   written.bits = bits;
   written.unit_mm.reset();
-  written.invalid_code = has_holes ? std::optional<std::uint32_t>(0) : std::nullopt;
+  written.invalid = has_holes ? CodeSet(0) : CodeSet();
+  written.codes.reset();
   return written;
 }
 

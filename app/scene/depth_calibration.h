@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "app/scene/code_set.h"
 #include "hal/frame.h"
 #include "platform/error.h"
 
@@ -22,18 +23,20 @@ enum class DepthPolarity : std::uint8_t { NearIsHigh, NearIsLow };
 enum class DepthCode : std::uint8_t { Luma, Hue };
 
 // s is the normalised code: (code - low)/(high - low) clamped to [0, 1], and 1 - that when near is low.
-// Full range is 0 .. 2^bits - 1; limited range is 16 .. 235, times 2^(bits - 8). Codes that are distances, `unit_mm`
-// each, reach from near to far: near is low then, the law is linear and the range is not asked for. A hue code is the
-// hue over 360 degrees: s grows with distance, so its polarity is NearIsLow unless it is said otherwise.
+// Full range is 0 .. 2^bits - 1; limited range is 16 .. 235, times 2^(bits - 8); `codes` says another range. Codes that
+// are distances, `unit_mm` each, reach from near to far: near is low then, the law is linear and the range is not asked
+// for. A hue code is the hue over 360 degrees: s grows with distance, so its polarity is NearIsLow unless it is said
+// otherwise.
 struct DepthCalibration {
   DepthLaw law = DepthLaw::Linear;
   DepthPolarity polarity = DepthPolarity::NearIsHigh;
   ColorRange range = ColorRange::Full;
   DepthCode code = DepthCode::Luma;
   int bits = 8;
-  std::optional<std::uint32_t> invalid_code;  // a sample with this code is a hole
-  std::optional<double> unit_mm;              // a code is so many mm of distance from the camera
-  double near_mm = 500;                       // of distances, and of the inverse law, where far/near alone counts
+  CodeSet invalid;                      // a sample with one of these codes is a hole
+  std::optional<CodeSet::Range> codes;  // what the code reaches from and to, in place of `range`
+  std::optional<double> unit_mm;        // a code is so many mm of distance from the camera
+  double near_mm = 500;                 // of distances, and of the inverse law, where far/near alone counts
   double far_mm = 5000;
 
   [[nodiscard]] double lowCode() const noexcept;
@@ -52,7 +55,8 @@ struct DepthCalibration {
 enum class CalibrationOrigin : std::uint8_t { CommandLine, SideFile, ContainerTags, StreamSignalling, Default };
 [[nodiscard]] const char* name(CalibrationOrigin origin) noexcept;
 
-// Keys: law=linear|inverse  polarity=near-high|near-low  range=full|limited  bits=8..16  invalid=CODE|none
+// Keys: law=linear|inverse  polarity=near-high|near-low  range=full|limited  bits=8..16  codes=LOW-HIGH|none
+// invalid=none, or codes and ranges of codes (0, 0+65535, 0+2000-2047)
 // unit=MM|none  near=MM  far=MM. In container tags the same keys in capitals behind DEPTH_: DEPTH_LAW=inverse,
 // DEPTH_NEAR=500, ..
 using CalibrationSettings = std::map<std::string, std::string>;

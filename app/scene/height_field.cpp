@@ -59,7 +59,7 @@ Result<HeightField> HeightField::make(const Frame& depth, const DepthCalibration
     }
     field.layout_ = first.bits <= 8 ? Layout::Bytes : Layout::Words;
     field.mask_ = (1u << first.bits) - 1;
-    if (calibration.invalid_code) field.invalid_code_ = *calibration.invalid_code;
+    field.invalid_ = calibration.invalid;
     const double low = calibration.lowCode();
     field.s_scale_ = 1.0 / (calibration.highCode() - low);
     field.s_offset_ = -low * field.s_scale_;
@@ -77,7 +77,7 @@ Result<HeightField> HeightField::make(const Frame& depth, const DepthCalibration
   }
   const double s_last = field.s_offset_ + field.s_scale_ * static_cast<double>(field.mask_);
   const auto clamped = [](double s) { return s < -1e-12 || s > 1 + 1e-12; };
-  field.plain_ = calibration.code == DepthCode::Luma && !field.inverse_ && !calibration.invalid_code &&
+  field.plain_ = calibration.code == DepthCode::Luma && !field.inverse_ && calibration.invalid.empty() &&
                  field.shift_ == 0 && field.mask_ >= 0xff && !clamped(field.s_offset_) && !clamped(s_last);
   return field;
 }

@@ -55,7 +55,7 @@ class HeightField {
     const std::uint8_t* sample = data_ + r * stride_bytes_ + static_cast<std::ptrdiff_t>(c) * step_bytes_;
     if (layout_ == Layout::Hue) return fromHue(sample);
     const std::uint32_t code = codeAt(sample);
-    if (code == invalid_code_) return kHole;
+    if (invalid_.contains(code)) return kHole;
     return fromNormalised(s_offset_ + s_scale_ * static_cast<double>(code));
   }
 
@@ -124,7 +124,7 @@ class HeightField {
   bool inverse_ = false;
   bool plain_ = false;  // height = a code x scale + offset, whatever the code: a mean of codes is a mean of heights
   std::uint32_t mask_ = 0xff;
-  std::uint32_t invalid_code_ = ~0u;   // ~0: none
+  CodeSet invalid_;
   double s_scale_ = 1, s_offset_ = 0;  // s = clamp(s_offset + s_scale x code), the polarity taken in
   double depth_mm_ = 0;
   double near_inverse_ = 0, far_inverse_ = 0;  // 1/near, 1/far

@@ -69,7 +69,7 @@ Film cones(const std::string& data) {
   film.pairs = {{.color = (*pair)->color, .depth = test::depthOf(*disparity)}};
   std::ranges::reverse(disparity->pixels);  // and upside down, so that nothing repeats
   film.pairs.push_back({.color = (*pair)->color, .depth = test::depthOf(*disparity)});
-  film.calibration = {.bits = 16, .invalid_code = 0};
+  film.calibration = {.bits = 16, .invalid = 0};
   film.volume = DisplayVolume::forPicture(test::Disparity::kCols, test::Disparity::kRows);
   return film;
 }

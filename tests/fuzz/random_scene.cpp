@@ -86,7 +86,7 @@ TimedSurface RandomFilm::next(double t_s) {
   frame.components[0] = {.step_bytes = static_cast<std::uint8_t>(bytes), .bits = static_cast<std::uint8_t>(bits_)};
   frame.planes[0] = {samples->data(), static_cast<std::ptrdiff_t>(cols_) * bytes};
   TimedSurface surface{.time = frame.pts, .owner = samples};
-  const DepthCalibration calibration{.bits = bits_, .invalid_code = 0};
+  const DepthCalibration calibration{.bits = bits_, .invalid = 0};
   if (const auto field = HeightField::make(frame, calibration, volume_)) surface.field = *field;
   return surface;
 }

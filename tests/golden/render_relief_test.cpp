@@ -283,7 +283,7 @@ TEST(RenderRelief, HolesStayOpenInAUniformGrid) {
   STAGE_OR_SKIP(stage, 640, 360);
   Scene scene{.color = makeRgbFrame(32, 18, [](int, int) { return Rgb{255, 255, 255}; }),
               .depth = makeGrayFrame(32, 18, 8, MediaTime{}, [](int c, int r) { return inHole(c, r) ? 7u : 128u; }),
-              .calibration = {.invalid_code = 7},
+              .calibration = {.invalid = 7},
               .volume = kVolume,
               .detail = {.grid_step = 1}};
   const Image by_code = stage.show(scene);
@@ -310,7 +310,7 @@ TEST(RenderRelief, HoleIsFilledWithTheFartherOfItsSides) {
   });
   const Marker marker{300, 180};  // over the hole: columns 60 to 89 are pixels 240 to 359
   Scene scene = sideBySide(marker, depth);
-  scene.calibration = {.invalid_code = 7};
+  scene.calibration = {.invalid = 7};
   expectMarker(stage.show(scene), marker, 0.0);
 }
 

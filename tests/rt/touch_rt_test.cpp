@@ -39,7 +39,7 @@ std::vector<TimedSurface> movingFilm() {
       const double z = k < kCut ? 15 + 5 * std::sin(0.1 * grid.x(c) + 0.3 * k) : 28 + 0.1 * grid.y(r);
       return z / 40 * 255;
     });
-    film.push_back({HeightField::make(frame, {.invalid_code = 0}, kVolume).value(), frame.pts, frame.owner});
+    film.push_back({HeightField::make(frame, {.invalid = 0}, kVolume).value(), frame.pts, frame.owner});
   }
   ShotFinder().mark(film);
   return film;

@@ -146,7 +146,7 @@ TEST_F(AuthorFilm, KeepsTheHeightsThatTheDepthMeant) {
   EXPECT_EQ(c.law, DepthLaw::Inverse);
   EXPECT_EQ(c.near_mm, 400);
   EXPECT_EQ(c.far_mm, 4000);
-  EXPECT_EQ(c.invalid_code, std::optional<std::uint32_t>(0));
+  EXPECT_EQ(c.invalid, CodeSet(0));
   const auto field = HeightField::make(film.pairs[5].depth, c, DisplayVolume::forPicture(64, 48)).value();
   const DepthCalibration meant{
       .law = DepthLaw::Inverse, .polarity = DepthPolarity::NearIsLow, .bits = 16, .near_mm = 400, .far_mm = 4000};
@@ -538,7 +538,7 @@ TEST_F(AuthorFilm, TakesADepthThatIsAllHoles) {
   const AuthorSummary summary = package(colorTrack(), depthTrack("gray", [](int, int, int) { return 7u; }), source);
   EXPECT_EQ(summary.codes.holes, summary.codes.samples);
   EXPECT_THAT(toText("out.mkv", summary), HasSubstr("none, all of it is holes"));
-  EXPECT_EQ(readFilm(folder_ / "out.mkv").info.calibration.calibration.invalid_code, std::optional<std::uint32_t>(0));
+  EXPECT_EQ(readFilm(folder_ / "out.mkv").info.calibration.calibration.invalid, CodeSet(0));
 }
 
 TEST_F(AuthorFilm, ProgramWritesWhatItsWordsSay) {

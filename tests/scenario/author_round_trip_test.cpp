@@ -62,13 +62,13 @@ void expectMeaning(const FilmInfo& info, const DepthCalibration& meant) {
   EXPECT_EQ(c.polarity, meant.polarity);
   EXPECT_EQ(c.range, ColorRange::Full);
   EXPECT_EQ(c.bits, meant.bits);
-  EXPECT_EQ(c.invalid_code, meant.invalid_code);
+  EXPECT_EQ(c.invalid, meant.invalid);
   EXPECT_EQ(c.near_mm, meant.near_mm);
   EXPECT_EQ(c.far_mm, meant.far_mm);
 }
 
 DepthCalibration meaningOf(const Way& way) {
-  return {.law = DepthLaw::Inverse, .bits = way.bits, .invalid_code = 0, .near_mm = 412.5, .far_mm = 3100};
+  return {.law = DepthLaw::Inverse, .bits = way.bits, .invalid = 0, .near_mm = 412.5, .far_mm = 3100};
 }
 
 class AuthorRoundTrip : public testing::TestWithParam<Way> {

@@ -218,7 +218,7 @@ Outcome<AuthorSummary> Packager::finish() {
                         .enhanced = enhancer_ ? enhancer_->summary() : EnhancementSummary{},
                         .notes = code_notes_};
   const bool lossy = format_.depth.crf > 0 && format_.depth.codec != VideoCodec::Ffv1;
-  if (coder_.outcome().invalid_code && lossy) {
+  if (!coder_.outcome().invalid.empty() && lossy) {
     summary.notes.emplace_back("coding moves the edges of holes by a sample here and there; --depth-crf 0 keeps them");
   }
   if (auto line = cut_.explain(); !line.empty()) summary.notes.push_back(std::move(line));

@@ -40,7 +40,9 @@ DepthCoder::DepthCoder(const DepthCalibration& source, const DepthCoding& coding
   for (std::size_t i = 0; i < from_luma_.size(); ++i) {
     const double above = std::clamp(static_cast<double>(i), low, high) - low;
     const double near_high = source.polarity == DepthPolarity::NearIsHigh ? above : (high - low) - above;
-    from_luma_[i] = i == source.invalid_code ? kHole : codeOf(inLaw(near_high / (high - low), source, outcome_));
+    from_luma_[i] = source.invalid.contains(static_cast<std::uint32_t>(i))
+                        ? kHole
+                        : codeOf(inLaw(near_high / (high - low), source, outcome_));
   }
 }
 
@@ -48,7 +50,7 @@ DepthCoder::DepthCoder(const DepthCalibration& source, const DepthCoding& coding
 std::uint16_t DepthCoder::codeOf(double s) const noexcept {
   constexpr double kRounding = 1e-9;
   const long code = std::lround(s * outcome_.highCode() * (1 + kRounding));
-  const long lowest = outcome_.invalid_code ? kHole + 1 : 0;
+  const long lowest = !outcome_.invalid.empty() ? kHole + 1 : 0;
   return static_cast<std::uint16_t>(std::clamp(code, lowest, static_cast<long>(outcome_.highCode())));
 }
 
@@ -62,7 +64,7 @@ Result<void> DepthCoder::encode(const Frame& depth, DepthPicture& picture) {
   picture.width = depth.width;
   picture.height = depth.height;
   picture.codes.resize(static_cast<std::size_t>(depth.width) * static_cast<std::size_t>(depth.height));
-  const bool has_holes = outcome_.invalid_code.has_value();
+  const bool has_holes = !outcome_.invalid.empty();
   auto out = picture.codes.begin();
   for (int r = 0; r < depth.height; ++r) {
     for (int c = 0; c < depth.width; ++c, ++out) {
@@ -90,6 +92,9 @@ std::vector<std::string> DepthCoder::explain() const {
   } else if (source_.bits != outcome_.bits) {
     lines.push_back(print("%d bits rescaled to %d: codes %.0f .. %.0f to 0 .. %.0f, rounded", source_.bits,
                           outcome_.bits, source_.lowCode(), source_.highCode(), outcome_.highCode()));
+  } else if (source_.codes || source_.unit_mm) {
+    lines.push_back(print("codes %.0f .. %.0f rescaled to 0 .. %.0f, rounded", source_.lowCode(), source_.highCode(),
+                          outcome_.highCode()));
   } else if (source_.range == ColorRange::Limited) {
     lines.push_back(print("limited range expanded to full: codes %.0f .. %.0f to 0 .. %.0f, rounded", source_.lowCode(),
                           source_.highCode(), outcome_.highCode()));
@@ -98,7 +103,7 @@ std::vector<std::string> DepthCoder::explain() const {
     lines.push_back(print("%s steps made %s ones, of the same heights", nameOf(source_.law), nameOf(outcome_.law)));
   }
   if (source_.polarity == DepthPolarity::NearIsLow) lines.emplace_back("turned round: near was low, near is high now");
-  if (outcome_.invalid_code) lines.emplace_back("holes are code 0, which is theirs alone; valid codes begin at 1");
+  if (!outcome_.invalid.empty()) lines.emplace_back("holes are code 0, which is theirs alone; valid codes begin at 1");
   return lines;
 }
 

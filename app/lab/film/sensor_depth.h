@@ -17,7 +17,7 @@ struct SensorModel {
 };
 
 // Codes of 8 bits, full range, near high; 0 is a hole.
-inline const DepthCalibration kSensorCalibration{.bits = 8, .invalid_code = 0};
+inline const DepthCalibration kSensorCalibration{.bits = 8, .invalid = 0};
 
 // `exact` is a gray frame of 16 bits, full range, near high. The same seed, the same picture.
 [[nodiscard]] Frame sensedDepth(const Frame& exact, const SensorModel& sensor, std::uint64_t seed);

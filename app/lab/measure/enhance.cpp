@@ -135,7 +135,7 @@ class Enhance {
           if (!narrow && !kKinds[k]) continue;
           std::vector<Frame> pictures = *wide;
           if (narrow && kKinds[k]) std::transform(pictures.begin(), pictures.end(), pictures.begin(), asEightBits);
-          const auto film = MemoryFilm::of(pictures, {.bits = narrow ? 8 : 16, .invalid_code = 0});
+          const auto film = MemoryFilm::of(pictures, {.bits = narrow ? 8 : 16, .invalid = 0});
           if (!film) return failOn(std::string(scene), film.error());
           inParallel(kFeltBy.size(), [&](std::size_t m) {
             const auto ticks = playPath(*film, *contender(kFeltBy[m])->make(*film), path, truth);
@@ -157,7 +157,7 @@ class Enhance {
       for (std::size_t k = 0; k < kKinds.size(); ++k) {
         const auto pictures = enhanced(seen, kKinds[k]);
         if (!pictures) return failOn(std::string(scene), pictures.error());
-        const auto film = MemoryFilm::of(*pictures, {.bits = kKinds[k] ? 16 : 8, .invalid_code = 0});
+        const auto film = MemoryFilm::of(*pictures, {.bits = kKinds[k] ? 16 : 8, .invalid = 0});
         if (!film) return failOn(std::string(scene), film.error());
         const double share =
             1.0 / static_cast<double>(film->frames().size() * seen.front().height * plan_.edges.size());

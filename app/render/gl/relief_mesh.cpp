@@ -185,7 +185,7 @@ ReliefMesh::Decoding ReliefMesh::decodingOf(const Frame& depth, const DepthCalib
     d.channel = first.offset_bytes / (first.bits > 8 ? 2 : 1);
     d.shift = first.shift;
     d.mask = (1u << first.bits) - 1;
-    d.invalid = calibration.invalid_code.value_or(~0u);
+    d.invalid = calibration.invalid.empty() ? ~0u : calibration.invalid.highest();
     scale = 1.0 / (calibration.highCode() - low);
     offset = -low * scale;
   }

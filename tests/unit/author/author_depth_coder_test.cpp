@@ -69,13 +69,13 @@ TEST(AuthorDepthCoder, TurnsNearLowRound) {
 
 TEST(AuthorDepthCoder, GivesHolesACodeOfTheirOwn) {
   // 16 bits, 0 is a hole: 1 and 128 would be 0 and must not look like holes.
-  const DepthCalibration source{.bits = 16, .invalid_code = 0};
+  const DepthCalibration source{.bits = 16, .invalid = 0};
   EXPECT_EQ(coded(grayRow({0, 1, 128, 386, 65535}, 16), source), (Codes{0, 1, 1, 2, 255}));
 
   DepthCoder coder(source);
   DepthPicture picture;
   ASSERT_TRUE(coder.encode(grayRow({0, 0, 1, 65535}, 16), picture).has_value());
-  EXPECT_EQ(coder.outcome().invalid_code, std::optional<std::uint32_t>(0));
+  EXPECT_EQ(coder.outcome().invalid, CodeSet(0));
   EXPECT_EQ(coder.outcome().bits, 8);
   EXPECT_EQ(coder.counts().holes, 2u);
   EXPECT_EQ(coder.counts().samples, 4u);
@@ -85,12 +85,12 @@ TEST(AuthorDepthCoder, GivesHolesACodeOfTheirOwn) {
 }
 
 TEST(AuthorDepthCoder, MovesAHoleFromAnyCodeToZero) {
-  const DepthCalibration source{.invalid_code = 255};
+  const DepthCalibration source{.invalid = 255};
   EXPECT_EQ(coded(grayRow({0, 7, 254, 255}, 8), source), (Codes{1, 7, 254, 0}));
 }
 
 TEST(AuthorDepthCoder, KeepsZeroForDepthWhereThereAreNoHoles) {
-  EXPECT_FALSE(DepthCoder(DepthCalibration{.bits = 16}).outcome().invalid_code.has_value());
+  EXPECT_TRUE(DepthCoder(DepthCalibration{.bits = 16}).outcome().invalid.empty());
 }
 
 TEST(AuthorDepthCoder, KeepsTheLaw) {
@@ -122,7 +122,7 @@ TEST(AuthorDepthCoder, DecodesHueToLuma) {
   const double expected[] = {255, 212.5, 170, 127.5, 85, 42.5, 233.7};
   for (std::size_t i = 0; i < 7; ++i) EXPECT_NEAR(codes[i], expected[i], 0.5 + 1e-9) << i;
   EXPECT_EQ(codes[7], 0);
-  EXPECT_EQ(DepthCoder({.code = DepthCode::Hue}).outcome().invalid_code, std::optional<std::uint32_t>(0));
+  EXPECT_EQ(DepthCoder({.code = DepthCode::Hue}).outcome().invalid, CodeSet(0));
 }
 
 // 65535 to 4095: 16.004 codes to one; 8 -> 0.4999, 9 -> 0.56, 32768 -> 2047.53. 10 to 12 bits: 4095/1023 = 4.003.
@@ -133,7 +133,7 @@ TEST(AuthorDepthCoder, KeepsAsManyBitsAsAreAskedFor) {
   const DepthCoding sixteen{.codec = VideoCodec::Ffv1, .bits = 16};
   EXPECT_EQ(coded(grayRow({0, 1, 32767, 65535}, 16), {.bits = 16}, sixteen), (Codes{0, 1, 32767, 65535}));
   EXPECT_TRUE(DepthCoder({.bits = 16}, sixteen).explain().empty());
-  DepthCoder coder({.bits = 16, .invalid_code = 0}, twelve);
+  DepthCoder coder({.bits = 16, .invalid = 0}, twelve);
   DepthPicture picture;
   ASSERT_TRUE(coder.encode(grayRow({0, 1, 65535}, 16), picture).has_value());
   EXPECT_EQ(picture.codes, (std::vector<std::uint16_t>{0, 1, 4095}));
@@ -167,7 +167,7 @@ TEST(AuthorDepthCoder, SaysWhatItDid) {
   EXPECT_NE(said({.range = ColorRange::Limited, .bits = 10}).find("codes 64 .. 940"), std::string::npos);
   EXPECT_NE(said({.range = ColorRange::Limited}).find("limited range expanded"), std::string::npos);
   EXPECT_NE(said({.polarity = DepthPolarity::NearIsLow}).find("turned round"), std::string::npos);
-  EXPECT_NE(said({.invalid_code = 3}).find("holes are code 0"), std::string::npos);
+  EXPECT_NE(said({.invalid = 3}).find("holes are code 0"), std::string::npos);
   EXPECT_NE(said({.code = DepthCode::Hue}).find("hue decoded"), std::string::npos);
   EXPECT_NE(DepthCoder({}, {.law = DepthLaw::Inverse}).explain().at(0).find("linear steps made inverse"),
             std::string::npos);

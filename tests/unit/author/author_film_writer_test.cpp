@@ -208,7 +208,7 @@ TEST_P(AuthorFilmWriter, NamesItsTracks) {
 
 TEST_P(AuthorFilmWriter, WritesTheCalibrationWhereAReaderFindsIt) {
   FilmFormat format = formatOf(64, 48);
-  const DepthCalibration meaning{.law = DepthLaw::Inverse, .invalid_code = 0, .near_mm = 412.5, .far_mm = 3100};
+  const DepthCalibration meaning{.law = DepthLaw::Inverse, .invalid = 0, .near_mm = 412.5, .far_mm = 3100};
   format.depth_tags = calibrationTags(meaning);
   writeFilm(
       path(), format, regularTimes(3),

@@ -26,7 +26,7 @@ void show(Preview& preview, int index, int high, std::optional<std::uint64_t> ex
   const auto slope = [high](int c, int r) { return (c < 8 && r < 8) ? 0 : 50 + high + c; };
   const MediaTime time = mediaTime(0.04 * index);
   const auto color = grayColor(static_cast<std::uint8_t>(50 + high));
-  const DepthCalibration calibration{.invalid_code = 0};
+  const DepthCalibration calibration{.invalid = 0};
   preview.before(color, test::makeGrayFrame(kCols, kRows, 8, time, slope), calibration, expected);
   preview.after(test::makeGrayFrame(kCols, kRows, 8, time, [high](int c, int) { return 51 + high + c; }), calibration);
 }
@@ -70,7 +70,7 @@ TEST(AuthorPreview, IsOfTheMiddleWhereThatIsKnownElseOfTheFirst) {
 TEST(AuthorPreview, SaysWhenThereIsNothingToShow) {
   EXPECT_EQ(Preview().draw().error().code, ErrorCode::NotFound);
   Preview preview;  // of holes alone there is a picture, without profiles
-  const DepthCalibration calibration{.invalid_code = 0};
+  const DepthCalibration calibration{.invalid = 0};
   const Frame holes = test::makeGrayFrame(kCols, kRows, 8, mediaTime(0), [](int, int) { return 0; });
   preview.before(grayColor(9), holes, calibration, {});
   EXPECT_EQ(preview.draw().error().code, ErrorCode::NotFound) << "what comes after it is not known yet";

@@ -84,7 +84,7 @@ TEST(ShotFinder, HolesThatStayAreRepeatedToo) {
   for (int k = 0; k < 2; ++k) {
     const Frame f =
         test::makeGrayFrame(kCols, kRows, 8, mediaTime(k * kPeriod), [](int c, int) { return c < 30 ? 0 : c; });
-    frames.push_back(test::surfaceOf(f, kVolume, {.bits = 8, .invalid_code = 0}));
+    frames.push_back(test::surfaceOf(f, kVolume, {.bits = 8, .invalid = 0}));
   }
   ShotFinder().mark(frames);
   EXPECT_TRUE(frames[1].repeats);

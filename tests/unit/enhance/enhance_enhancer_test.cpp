@@ -95,18 +95,14 @@ TEST(EnhanceEnhancer, LeavesLevelDepthAsItIsInSixteenBitsOfOneMeaning) {
     EXPECT_EQ(outcome.bits, 16);
     EXPECT_EQ(outcome.range, ColorRange::Full);
     EXPECT_EQ(outcome.polarity, DepthPolarity::NearIsHigh);
-    EXPECT_FALSE(outcome.invalid_code.has_value());
+    EXPECT_TRUE(outcome.invalid.empty());
   }
 }
 
 // Distances in mm, with holes: what the outcome's codes mean by the calibration beside them is the relief that went in.
 TEST(EnhanceEnhancer, TheCalibrationBesideTheCodesGivesTheReliefOfTheSource) {
-  const DepthCalibration distances{.polarity = DepthPolarity::NearIsLow,
-                                   .bits = 16,
-                                   .invalid_code = 0,
-                                   .unit_mm = 1,
-                                   .near_mm = 500,
-                                   .far_mm = 4000};
+  const DepthCalibration distances{
+      .polarity = DepthPolarity::NearIsLow, .bits = 16, .invalid = 0, .unit_mm = 1, .near_mm = 500, .far_mm = 4000};
   const auto film = filmOf(3, 48, 32, 16, [](int c, int r) { return 1000 + 20 * c + 10 * r; });
   const DisplayVolume box{.width_mm = 48, .height_mm = 32, .depth_mm = 40};
   const auto before = HeightField::make(film[1], distances, box);
@@ -210,19 +206,19 @@ TEST(EnhanceEnhancer, AMovingEdgeStaysSharp) {
 }
 
 TEST(EnhanceEnhancer, HolesComeOutAsCodeZeroAndNothingElseDoes) {
-  const DepthCalibration calibration{.bits = 8, .invalid_code = 255};
+  const DepthCalibration calibration{.bits = 8, .invalid = 255};
   const auto film = filmOf(3, 100, 60, 8, [](int c, int) { return c < 50 ? 255 : 0; });
   for (const Enhancement how : kAll) {
     const Passage run = enhance(how, calibration, film);
     EXPECT_EQ(codeAt(run.frames[1], 20, 30), 0);
     EXPECT_EQ(codeAt(run.frames[1], 70, 30), 1) << "the far end is not a hole";
     EXPECT_EQ(run.summary.holes, 3u * 50 * 60);
-    EXPECT_EQ(DepthEnhancer(how, calibration).outcome().invalid_code, std::optional<std::uint32_t>(0));
+    EXPECT_EQ(DepthEnhancer(how, calibration).outcome().invalid, CodeSet(0));
   }
 }
 
 TEST(EnhanceEnhancer, TakesTheSmallestPicturesAndSuchWithoutDepth) {
-  const DepthCalibration calibration{.bits = 8, .invalid_code = 0};
+  const DepthCalibration calibration{.bits = 8, .invalid = 0};
   for (const auto& [cols, rows] : {std::pair{1, 1}, {2, 2}, {1, 9}, {9, 1}, {40, 30}}) {
     for (const int code : {0, 77}) {
       const auto film = filmOf(4, cols, rows, 8, [&](int, int) { return code; });

@@ -131,7 +131,7 @@ TEST(EnhanceMesh, TakesTheSmallestPictures) {
 TEST(EnhanceMesh, TakesOfARealSceneWhatItsBoundAsksFor) {
   const auto cones = test::readCones(RELIEVO_TEST_DATA);
   if (!cones) GTEST_SKIP() << "no real depth video at " RELIEVO_TEST_DATA;
-  const auto map = readDepth(test::depthOf(*cones), {.bits = 16, .invalid_code = 0}).value();
+  const auto map = readDepth(test::depthOf(*cones), {.bits = 16, .invalid = 0}).value();
   std::size_t before = map.size();
   for (const float levels : {0.5F, 1.0F, 2.0F, 4.0F}) {
     const DepthMesh mesh = meshOf(map, levels * DepthMap::kLevel);

@@ -20,7 +20,7 @@ constexpr float kPit = -40;
 template <class Code>
 TimedSurface picture(double t_s, Code&& code) {
   const Frame f = test::makeGrayFrame(kCols, kRows, 12, mediaTime(t_s), code);
-  return test::surfaceOf(f, kVolume, {.bits = 12, .invalid_code = 0});
+  return test::surfaceOf(f, kVolume, {.bits = 12, .invalid = 0});
 }
 float height(double code) {
   return static_cast<float>(40 * code / 4095);

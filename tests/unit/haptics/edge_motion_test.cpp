@@ -56,7 +56,7 @@ TEST(EdgeMotion, WhatAppearsBesideAnEdgeThatStandsIsNoMotion) {
 }
 
 TEST(EdgeMotion, TheRimOfAHoleIsAnEdge) {
-  const DepthCalibration holes{.bits = 16, .invalid_code = 0};
+  const DepthCalibration holes{.bits = 16, .invalid = 0};
   const auto rim = [](double at) { return frameOf([=](double x, double y) { return x > at + 0.3 * y ? 20.0 : 0.0; }); };
   const glm::dvec2 way = wayBetween(rim(0), rim(1.6), {0.8, 0}, holes);
   EXPECT_LT(glm::length(way - 1.6 / (1 + 0.09) * glm::dvec2(1, -0.3)), 0.25) << way.x;

@@ -116,7 +116,7 @@ TEST(FeltSurface, FramesThatComeAndGoAreNotMixedUp) {
 }
 
 TEST(FeltSurface, HolesAndThePicturesOutsideArePitsAndLoneHolesAreNot) {
-  const DepthCalibration holes{.bits = 8, .invalid_code = 0};
+  const DepthCalibration holes{.bits = 8, .invalid = 0};
   const auto frame = makeGrayFrame(kCols, kRows, 8, {}, [](int c, int r) {
     const bool big = c > 200 && c < 240 && r > 100 && r < 140;
     const bool lone = c == 100 && r == 100;
@@ -253,7 +253,7 @@ TEST(FeltSurface, ATickThatComesLateDoesNotGoByWhatWasPrepared) {
 // Flat ground beside a hole that opens and closes with each frame; ticks come .4 ms beside the moment that was
 // prepared. A point that is a hole at one end of what was prepared and ground at the other has no rate to go on by.
 TEST(FeltSurface, AHoleThatOpensOrClosesIsNotCarriedOn) {
-  const DepthCalibration holes{.bits = 8, .invalid_code = 0};
+  const DepthCalibration holes{.bits = 8, .invalid = 0};
   std::vector<Frame> frames;
   for (int k = 0; k < 8; ++k) {
     frames.push_back(makeGrayFrame(kCols, kRows, 8, mediaTime(k * kPeriod), [&](int c, int r) {

@@ -104,7 +104,7 @@ TEST(SegmentSearch, FindsWhatATestOfEveryTriangleFindsOnRandomReliefsWithHoles) 
     const std::vector<Frame> frames{makeGrayFrame(cols, rows, 8, {}, [&](int, int) {
       return unit(random) < 0.05 ? 0 : 1 + static_cast<int>(unit(random) * 254);
     })};
-    const SurfaceWindow w = makeWindow(frames, kVolume, {.invalid_code = 0});
+    const SurfaceWindow w = makeWindow(frames, kVolume, {.invalid = 0});
     const SurfaceInTime s(w, {}, TimeLaw::Hold);
     const auto point = [&](double z) { return glm::dvec3((unit(random) - 0.5) * 100, (unit(random) - 0.5) * 75, z); };
     const glm::dvec3 from = point(unit(random) * 60 - 5),

@@ -196,7 +196,7 @@ TEST(ModifiedProxyGraph, LetsTheFingerThroughWhereTheForceJumps) {
 TEST(ModifiedProxyGraph, HasNoSurfaceOutsideThePictureNorInHoles) {
   const std::vector<Frame> frames{
       test::makeGrayFrame(kCols, kRows, 8, {}, [](int c, int) { return c < 60 ? 0 : 128; })};
-  const SurfaceWindow w = makeWindow(frames, kVolume, {.invalid_code = 0});
+  const SurfaceWindow w = makeWindow(frames, kVolume, {.invalid = 0});
   const double x_of_hole = GridMapping(kVolume, kCols, kRows).x(30),
                x_of_plane = GridMapping(kVolume, kCols, kRows).x(90);
   for (const glm::dvec3 place : {glm::dvec3(90, 0, 0), glm::dvec3(0, -60, 0), glm::dvec3(x_of_hole, 0, 0)}) {
@@ -233,7 +233,7 @@ TEST(ProxyGraphMethods, AreFiniteAndOnTheSurfaceOverRandomDepthAndAWildFinger) {
         frames.push_back(
             test::makeGrayFrame(40, 30, 8, mediaTime(0.04 * k), [&](int, int) { return unit(random) * 256; }));
       }
-      const SurfaceWindow w = makeWindow(frames, kVolume, {.invalid_code = 3});
+      const SurfaceWindow w = makeWindow(frames, kVolume, {.invalid = 3});
       const auto m = method(name);
       for (int i = 0; i < 200; ++i) {
         const glm::dvec3 hip((unit(random) - 0.5) * 200, (unit(random) - 0.5) * 130, unit(random) * 60 - 10);

@@ -25,7 +25,7 @@ class Cones : public testing::Test {
     disparity_ = test::readCones(RELIEVO_TEST_DATA);
     if (!disparity_) GTEST_SKIP() << "no real depth video at " RELIEVO_TEST_DATA;
     depth_ = test::depthOf(*disparity_);
-    field_ = HeightField::make(depth_, {.bits = 16, .invalid_code = 0}, volume_).value();
+    field_ = HeightField::make(depth_, {.bits = 16, .invalid = 0}, volume_).value();
     lattice_.read(field_, kAcross);
     cuts_.find(lattice_, lattice_.jumpMm());
   }

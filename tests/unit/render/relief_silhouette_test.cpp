@@ -32,7 +32,7 @@ Frame frameOf(const HeightMm& height, int cols = kCols, int rows = kRows) {
   });
 }
 HeightField fieldOf(const Frame& frame) {
-  return HeightField::make(frame, {.bits = 16, .invalid_code = 0}, kVolume).value();
+  return HeightField::make(frame, {.bits = 16, .invalid = 0}, kVolume).value();
 }
 HeightLattice latticeOf(const HeightMm& height, int cols = kCols, int rows = kRows) {
   const Frame frame = frameOf(height, cols, rows);

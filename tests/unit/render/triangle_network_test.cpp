@@ -249,7 +249,7 @@ TEST(CutCells, WhatFillsAHoleIsNotCut) {
     return c < kBorder ? borders[static_cast<std::size_t>(r)] : kHole;
   });
   HeightLattice lattice;
-  lattice.read(HeightField::make(frame, {.bits = 16, .invalid_code = kHole}, kVolume).value(), 1024);
+  lattice.read(HeightField::make(frame, {.bits = 16, .invalid = kHole}, kVolume).value(), 1024);
   CutCells cuts;
   cuts.find(lattice, lattice.jumpMm());
   EXPECT_GT(cuts.cells().size(), 1000U) << "between the rows of the thing";
@@ -288,7 +288,7 @@ TEST(HeightLattice, AHoleUnderAReadingIsFilledAnew) {
       return r < 12 ? 250U : 10U;
     });
     HeightLattice lattice;
-    lattice.read(HeightField::make(frame, {.invalid_code = kHole}, kVolume).value(), 1024);
+    lattice.read(HeightField::make(frame, {.invalid = kHole}, kVolume).value(), 1024);
     const auto filled = static_cast<double>(lattice.heights()[12 * 65 + 22]);
     const double anew = 10 * 40 / 255.0, above = 250 * 40 / 255.0;
     EXPECT_NEAR(filled, reading_between ? anew : above - 0.5 * static_cast<double>(lattice.jumpMm()), 1e-3);
@@ -313,7 +313,7 @@ TEST(HeightLattice, ReadsAfterOtherPicturesWhatItReadsAtFirst) {
       const Frame picture = test::makeGrayFrame(
           cols, rows, 8, MediaTime{}, [&](int c, int r) { return codes[static_cast<std::size_t>(r) * cols + c]; });
       const DepthCalibration calibration{
-          .polarity = frame % 10 < 8 ? DepthPolarity::NearIsHigh : DepthPolarity::NearIsLow, .invalid_code = kHole};
+          .polarity = frame % 10 < 8 ? DepthPolarity::NearIsHigh : DepthPolarity::NearIsLow, .invalid = kHole};
       const auto field = HeightField::make(picture, calibration, kVolume).value();
       lattice.read(field, most_across);
       HeightLattice fresh;

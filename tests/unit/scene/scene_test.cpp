@@ -77,10 +77,10 @@ TEST(HeightField, AgreesWithTheCalibrationFormulaOverEveryCode) {
 }
 
 TEST(HeightField, AnInvalidCodeIsAHoleWithWhichNoComparisonHolds) {
-  const double z = heightOf(7, 8, {.invalid_code = 7});
+  const double z = heightOf(7, 8, {.invalid = 7});
   EXPECT_TRUE(std::isnan(z));
   EXPECT_FALSE(z < 1e9 || z >= -1e9);
-  EXPECT_FALSE(std::isnan(heightOf(8, 8, {.invalid_code = 7})));
+  EXPECT_FALSE(std::isnan(heightOf(8, 8, {.invalid = 7})));
 }
 
 TEST(HeightField, ReadsPaddedRowsWordsWithShiftAndUpsideDownPictures) {
@@ -138,7 +138,7 @@ TEST(HeightField, TheMeanOfABlockIsThatOfItsReadings) {
                                                        {10, {.bits = 8}},
                                                        {10, {.range = ColorRange::Limited, .bits = 12}},
                                                        {8, {.law = DepthLaw::Inverse, .near_mm = 500, .far_mm = 1000}},
-                                                       {8, {.invalid_code = 9}}};
+                                                       {8, {.invalid = 9}}};
   for (const auto& [bits, meaning] : meanings) {
     const int top = bits > 8 ? 1019 : 251;
     const Frame frame = test::makeGrayFrame(20, 15, bits, {}, [&](int c, int r) { return (c * 137 + r * 401) % top; });
@@ -179,7 +179,7 @@ TEST(HeightField, TheMeanOfAWideBlockIsReadAtAFewPlacesWithTheSameMarginsAllArou
 TEST(HeightField, ABlockWithReadingsInLessThanHalfOfItIsAHole) {
   const auto mean = [](int holes) {
     const Frame frame = test::makeGrayFrame(4, 4, 8, {}, [&](int c, int r) { return 4 * r + c < holes ? 0 : 51; });
-    return HeightField::make(frame, {.invalid_code = 0}, kVolume).value().meanHeight(0, 0, {4, 4, 4});
+    return HeightField::make(frame, {.invalid = 0}, kVolume).value().meanHeight(0, 0, {4, 4, 4});
   };
   EXPECT_DOUBLE_EQ(mean(0), 8);
   EXPECT_DOUBLE_EQ(mean(8), 8);
@@ -225,12 +225,48 @@ TEST(Calibration, ParsesCommandLinesAndSideFilesAndNamesWhatIsWrong) {
   }
 }
 
+// Sensors mark what they did not see by several codes: 0 and 65535, or all codes past the range.
+TEST(Calibration, SeveralCodesAndRangesAreHoles) {
+  const auto set = CodeSet::parse("0+2000-2047+65535");
+  ASSERT_TRUE(set);
+  for (const std::uint32_t hole : {0u, 2000u, 2020u, 2047u, 65535u}) EXPECT_TRUE(set->contains(hole)) << hole;
+  for (const std::uint32_t code : {1u, 1999u, 2048u, 65534u}) EXPECT_FALSE(set->contains(code)) << code;
+  EXPECT_EQ(set->text(), "0+2000-2047+65535");
+  EXPECT_EQ(set->highest(), 65535u);
+  EXPECT_EQ(CodeSet::parse("none")->text(), "none");
+  for (const char* bad : {"", "0+", "+0", "9-3", "65536", "0+1+2+3+4", "-1", "0x10", "none+1"}) {
+    EXPECT_FALSE(CodeSet::parse(bad)) << bad;
+  }
+  const auto height = [](std::uint32_t code) { return heightOf(code, 8, {.invalid = *CodeSet::parse("3+250-255")}); };
+  EXPECT_TRUE(std::isnan(height(3)) && std::isnan(height(250)) && std::isnan(height(255)));
+  EXPECT_FALSE(std::isnan(height(2)) || std::isnan(height(4)) || std::isnan(height(249)));
+}
+
+// A sensor of raw disparities uses the codes 400 to 1000 of 2048: the relief reaches from the one to the other.
+TEST(Calibration, CodesSayWhatTheReliefReachesFromAndTo) {
+  const auto settings = parseCalibration("codes=400-1000,law=inverse,polarity=near-low,near=500,far=4000,bits=16");
+  ASSERT_TRUE(settings);
+  Frame frame;
+  frame.components[0].bits = 16;
+  const auto choice = chooseCalibration({.command_line = *settings}, frame, DepthCode::Luma);
+  ASSERT_TRUE(choice) << choice.error().message;
+  // Half way in 1/distance: 1/((1/500 + 1/4000)/2) = 888.9 mm, and (4000 - 888.9)/3500 of the volume.
+  EXPECT_NEAR(heightOf(700, 16, choice->calibration), kVolume.depth_mm * (4000 - 8000.0 / 9) / 3500, 1e-9);
+  EXPECT_NEAR(heightOf(400, 16, choice->calibration), kVolume.depth_mm, 1e-9);
+  EXPECT_NEAR(heightOf(2000, 16, choice->calibration), 0, 1e-9);
+  EXPECT_NE(choice->explanation.find("codes=400-1000 (command line)"), std::string::npos);
+  for (const char* bad : {"codes=5", "codes=9-3", "codes=1-70000", "bits=8,codes=0-256", "unit=1,codes=1-5"}) {
+    EXPECT_EQ(parseCalibration(bad).error().code, ErrorCode::InvalidArgument) << bad;
+  }
+}
+
 TEST(Calibration, TagsComeBackAsTheyWereWritten) {
   const DepthCalibration c{.law = DepthLaw::Inverse,
                            .polarity = DepthPolarity::NearIsLow,
                            .range = ColorRange::Limited,
                            .bits = 12,
-                           .invalid_code = 0,
+                           .invalid = *CodeSet::parse("0+4000-4095"),
+                           .codes = CodeSet::Range{1, 3999},
                            .near_mm = 520.7,
                            .far_mm = 1259.61};
   Frame frame;
@@ -242,7 +278,8 @@ TEST(Calibration, TagsComeBackAsTheyWereWritten) {
   EXPECT_EQ(choice->calibration.polarity, c.polarity);
   EXPECT_EQ(choice->calibration.range, c.range);
   EXPECT_EQ(choice->calibration.bits, 12);
-  EXPECT_EQ(choice->calibration.invalid_code, 0u);
+  EXPECT_EQ(choice->calibration.invalid, c.invalid);
+  EXPECT_EQ(choice->calibration.codes, c.codes);
   EXPECT_DOUBLE_EQ(choice->calibration.near_mm, 520.7);
   EXPECT_DOUBLE_EQ(choice->calibration.far_mm, 1259.61);
 }
@@ -326,11 +363,11 @@ TEST(Calibration, WhatTheSamplesCannotHoldIsRefusedAndOfTagsLeftOut) {
   EXPECT_EQ(choose({.command_line = {{"invalid", "256"}}}).error().code, ErrorCode::InvalidArgument);
   EXPECT_EQ(choose({.command_line = {{"bits", "10"}}}).error().code, ErrorCode::InvalidArgument);
   EXPECT_EQ(choose({.side_file = {{"invalid", "300"}}}).error().code, ErrorCode::Corrupt);
-  EXPECT_EQ(choose({.command_line = {{"invalid", "255"}}})->calibration.invalid_code, 255u);
+  EXPECT_EQ(choose({.command_line = {{"invalid", "255"}}})->calibration.invalid, CodeSet(255));
   const auto left_out = choose({.tags = {{"bits", "16"}, {"invalid", "65535"}}});
   ASSERT_TRUE(left_out);
   EXPECT_EQ(left_out->calibration.bits, 8);
-  EXPECT_FALSE(left_out->calibration.invalid_code);
+  EXPECT_TRUE(left_out->calibration.invalid.empty());
   // Twelve bits in samples of sixteen are usual.
   frame.components[0].bits = 16;
   EXPECT_EQ(choose({.command_line = {{"bits", "12"}, {"invalid", "4095"}}})->calibration.bits, 12);
