@@ -123,13 +123,22 @@ bool parseSizes(std::string_view text, std::span<double> sizes) noexcept {
 void addDepthOptions(CLI::App& app, SourceOptions& source) {
   addChoice(
       app, "--packing", source.packing,
-      {{"auto", Packing::Auto}, {"tracks", Packing::Tracks}, {"sbs", Packing::SideBySide}, {"tb", Packing::TopBottom}},
+      {{"auto", Packing::Auto},
+       {"tracks", Packing::Tracks},
+       {"sbs", Packing::SideBySide},
+       {"tb", Packing::TopBottom},
+       {"sbs-depth-first", Packing::SideBySideDepthFirst},
+       {"tb-depth-first", Packing::TopBottomDepthFirst}},
       "Where the depth is\n"
-      "auto: two tracks or a DEPTH_PACKING tag tell; tracks: two video tracks, or --depth;\n"
-      "sbs: one picture, colour left, depth right; tb: colour on top, depth below");
-  addChoice(app, "--depth-code", source.depth_code, {{"luma", DepthCode::Luma}, {"hue", DepthCode::Hue}},
+      "auto: two tracks, a DEPTH_PACKING tag, or a picture whose halves differ clearly; tracks: two video tracks, or "
+      "--depth;\n"
+      "sbs: one picture, colour left, depth right; tb: colour on top, depth below; ..-depth-first: the other way "
+      "round");
+  addChoice(app, "--depth-code", source.depth_code,
+            {{"auto", std::nullopt}, {"luma", DepthCode::Luma}, {"hue", DepthCode::Hue}},
             "How the depth is coded\n"
-            "luma: as brightness; hue: as colour, red near, round to red far");
+            "auto: hue where half of the picture is pure colour, else luma; luma: as brightness; hue: as colour, red "
+            "near, round to red far");
   app.add_option_function<std::vector<std::string>>(
          "--calibration",
          [&source](const std::vector<std::string>& given) {

@@ -54,11 +54,13 @@ std::optional<Packing> packingTag(const Tags& tags) {
   const std::string value = lowerCase(found->second);
   if (value == "sbs") return Packing::SideBySide;
   if (value == "tb") return Packing::TopBottom;
+  if (value == "sbs-depth-first") return Packing::SideBySideDepthFirst;
+  if (value == "tb-depth-first") return Packing::TopBottomDepthFirst;
   return std::nullopt;
 }
 
 bool isPacked(Packing packing) {
-  return packing == Packing::SideBySide || packing == Packing::TopBottom;
+  return packing != Packing::Auto && packing != Packing::Tracks;
 }
 
 // Luma alone, as a gray picture of the same range.
@@ -102,14 +104,20 @@ Result<TrackPlan> planTracks(const MediaSource& source, Packing packing, bool de
 }
 
 Result<Halves> splitPacked(const Frame& picture, Packing packing, DepthCode code) noexcept {
-  const bool beside = packing == Packing::SideBySide;
+  const bool beside = packing == Packing::SideBySide || packing == Packing::SideBySideDepthFirst;
+  const bool depth_first = packing == Packing::SideBySideDepthFirst || packing == Packing::TopBottomDepthFirst;
   const int whole = beside ? picture.width : picture.height;
   const Frame depth = code == DepthCode::Luma ? lumaOf(picture) : picture;
-  const int start = alignUp(whole - whole / 2, beside ? depth.chroma_shift_x : depth.chroma_shift_y);
+  // The half that is read with its chroma begins at a whole chroma sample.
+  const Frame& second = depth_first ? picture : depth;
+  const int start = alignUp(whole - whole / 2, beside ? second.chroma_shift_x : second.chroma_shift_y);
   const int half = whole - start;
   if (half < 1) return fail(ErrorCode::Unsupported, "the picture is too small to be packed colour and depth");
-  if (beside) return Halves{crop(picture, 0, 0, half, picture.height), crop(depth, start, 0, half, picture.height)};
-  return Halves{crop(picture, 0, 0, picture.width, half), crop(depth, 0, start, picture.width, half)};
+  const auto cut = [&](const Frame& from, bool first) {
+    if (beside) return crop(from, first ? 0 : start, 0, half, from.height);
+    return crop(from, 0, first ? 0 : start, from.width, half);
+  };
+  return Halves{cut(picture, !depth_first), cut(depth, depth_first)};
 }
 
 }  // namespace relievo

@@ -48,6 +48,9 @@ struct PairReader::Impl {
     if (options.frames_per_s) told.frame_period = fromSeconds(1 / *options.frames_per_s);
     return told;
   }
+  void lookForHalves();
+  void lookForHue(const Frame& first);
+  [[nodiscard]] DepthCode depthCode() const noexcept { return options.depth_code.value_or(found_code); }
   [[nodiscard]] bool isPacked() const noexcept { return info.packing != Packing::Tracks; }
   [[nodiscard]] bool isLoss(const Error& error) const noexcept {
     using enum ErrorCode;
@@ -77,6 +80,7 @@ struct PairReader::Impl {
   std::unique_ptr<DepthSource> depth_source;  // of `depth_url`
 
   std::deque<Frame> color_ahead;               // read, not yet handed out
+  DepthCode found_code = DepthCode::Luma;      // of the first picture
   std::optional<std::size_t> depth_track;      // in the colour's source
   const StreamInfo* depth_stream = nullptr;    // likewise; valid while the film is opened
   bool remote = false, live = false;           // the colour's source

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opens a film, finds colour and depth in it, and brings the clocks of two sources together.
 #include <algorithm>
+#include <cstdio>
 #include <utility>
 
+#include "app/media/depth_reading.h"
 #include "app/media/pair_film.h"
+#include "app/media/picture_look.h"
 
 namespace relievo {
 namespace {
@@ -108,10 +111,33 @@ Result<void> PairReader::Impl::selectDepth(const StreamInfo* stream) {
   return {};
 }
 
+// Nobody has said where the depth is, and there is one track alone: the picture may show it.
+void PairReader::Impl::lookForHalves() {
+  if (options.packing != Packing::Auto || !options.depth_url.empty() || depth_stream != nullptr || isPacked()) return;
+  auto found = findPacking(color_ahead[0]);
+  if (!found || options.registration) return;
+  info.packing = found->packing;
+  found_code = found->code;
+  info.reading.push_back(std::move(found->why));
+}
+
+void PairReader::Impl::lookForHue(const Frame& first) {
+  if (options.depth_code || first.model == ColorModel::Gray || found_code == DepthCode::Hue) return;
+  const PictureLook look = lookAt(first);
+  if (!isHue(look)) return;
+  found_code = DepthCode::Hue;
+  char why[96];
+  std::snprintf(why, sizeof why, "%.0f %% of the depth is pure colour: read as hue", 100 * look.vivid);
+  info.reading.emplace_back(why);
+}
+
 Result<void> PairReader::Impl::openDepth(const StreamInfo& color) {
   const MediaSource& source = color_reader->source();
+  lookForHalves();
   if (isPacked()) {
-    const auto halves = splitPacked(color_ahead[0], info.packing, options.depth_code);
+    const auto whole = splitPacked(color_ahead[0], info.packing, DepthCode::Hue);
+    if (whole) lookForHue(whole->depth);
+    const auto halves = splitPacked(color_ahead[0], info.packing, depthCode());
     if (!halves) return failOn(options.url, halves.error());
     info.color_width = halves->color.width;
     info.color_height = halves->color.height;
@@ -159,10 +185,17 @@ Result<void> PairReader::Impl::describeDepth(const Frame& first, const StreamInf
   if (options.registration) {
     tags.insert({{"DEPTH_UNIT", std::to_string(options.registration->unit_mm)}, {"DEPTH_INVALID", "0"}});
   }
-  const CalibrationLayers layers{options.command_line, options.side_file, calibrationFromTags(tags)};
-  auto choice = chooseCalibration(layers, first, options.depth_code);
+  lookForHue(first);
+  CalibrationLayers layers{options.command_line, options.side_file, calibrationFromTags(tags)};
+  if (depthCode() == DepthCode::Luma) {
+    DepthReading reading = readCodes(first, CodeCount(first), layers);
+    layers.pictures = std::move(reading.settings);
+    if (!reading.why.empty()) info.reading.push_back(std::move(reading.why));
+  }
+  auto choice = chooseCalibration(layers, first, depthCode());
   if (!choice) return failOn("calibration", choice.error());
   info.calibration = std::move(*choice);
+  info.doubts = doubtsOf(first, info.calibration.calibration);
   info.has_depth = true;
   info.depth_width = first.width;
   info.depth_height = first.height;

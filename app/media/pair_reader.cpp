@@ -60,7 +60,7 @@ Result<DepthFollower::Supplied> PairReader::Impl::supplyOwnDepth() {
 
 Result<FramePair> PairReader::Impl::pairFor(Frame color) {
   if (isPacked()) {
-    auto halves = splitPacked(color, info.packing, options.depth_code);
+    auto halves = splitPacked(color, info.packing, depthCode());
     if (!halves) return failOn(options.url, halves.error());
     return FramePair{std::move(halves->color), std::move(halves->depth), true, {}};
   }

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/media/packing.h"
 #include "app/media/registration.h"
@@ -23,7 +24,7 @@ struct SourceOptions {
   std::string url;
   std::string depth_url;  // empty: the depth is in `url`
   Packing packing = Packing::Auto;
-  DepthCode depth_code = DepthCode::Luma;
+  std::optional<DepthCode> depth_code;       // nothing: as the picture looks
   CalibrationSettings command_line;          // --calibration KEY=VALUE,..
   CalibrationSettings side_file;             // --calibration FILE
   std::optional<double> frames_per_s;        // of pictures without times, such as numbered files
@@ -44,10 +45,12 @@ struct FilmInfo {
   int color_width = 0, color_height = 0;
   int depth_width = 0, depth_height = 0;
   bool has_depth = false;
-  Packing packing = Packing::Auto;  // the one found; Tracks where there is no depth
-  Duration frame_period{0};         // between the first two times, without their rounding; 0 of a single picture
-  Duration duration{0};             // 0 unknown
-  CalibrationChoice calibration;    // of a film with depth
+  Packing packing = Packing::Auto;   // the one found; Tracks where there is no depth
+  Duration frame_period{0};          // between the first two times, without their rounding; 0 of a single picture
+  Duration duration{0};              // 0 unknown
+  CalibrationChoice calibration;     // of a film with depth
+  std::vector<std::string> reading;  // what was read off the first pictures, and why; one line each
+  std::vector<std::string> doubts;   // what makes that unlikely, and what to type; one line each
   std::string color_codec, depth_codec;
   std::string color_decoder, depth_decoder;  // VideoDecoder::description
   std::string sound_codec;                   // of the film's sound, where it was wanted and there is some

@@ -71,6 +71,8 @@ Json filmPart(const PlayReport& r) {
                                    {"height", f.depth_height}}
                             : Json(nullptr)},
       {"packing", name(f.packing)},
+      {"reading", f.reading},
+      {"doubts", f.doubts},
       {"calibration", f.has_depth ? Json(f.calibration.explanation) : Json(nullptr)},
       {"frame_period_s", rounded(toSeconds(f.frame_period))},
       {"duration_s", rounded(toSeconds(f.duration))},
@@ -149,6 +151,10 @@ const char* name(Packing packing) noexcept {
       return "sbs";
     case Packing::TopBottom:
       return "tb";
+    case Packing::SideBySideDepthFirst:
+      return "sbs-depth-first";
+    case Packing::TopBottomDepthFirst:
+      return "tb-depth-first";
   }
   return "";
 }

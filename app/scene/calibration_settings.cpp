@@ -182,10 +182,11 @@ Result<CalibrationChoice> chooseCalibration(const CalibrationLayers& layers, con
   const bool signalled = depth_frame.range != ColorRange::Unspecified;
   choice.origin = signalled ? CalibrationOrigin::StreamSignalling : CalibrationOrigin::Default;
 
-  const std::array<std::pair<CalibrationOrigin, const CalibrationSettings*>, 3> order{{
+  const std::array<std::pair<CalibrationOrigin, const CalibrationSettings*>, 4> order{{
       {CalibrationOrigin::CommandLine, &layers.command_line},
       {CalibrationOrigin::SideFile, &layers.side_file},
       {CalibrationOrigin::ContainerTags, &layers.tags},
+      {CalibrationOrigin::FirstPicture, &layers.pictures},
   }};
   const auto refuse = [](CalibrationOrigin said_by, const char* wrong) {
     return fail(said_by == CalibrationOrigin::CommandLine ? ErrorCode::InvalidArgument : ErrorCode::Corrupt, wrong);

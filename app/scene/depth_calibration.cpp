@@ -15,6 +15,7 @@ double DepthCalibration::lowCode() const noexcept {
 double DepthCalibration::highCode() const noexcept {
   if (unit_mm) return far_mm / *unit_mm;
   if (codes) return codes->high;
+  if (code == DepthCode::Hue) return kHueSteps;
   return range == ColorRange::Limited ? 235.0 * (1u << (bits - 8)) : static_cast<double>((1u << bits) - 1);
 }
 
@@ -48,6 +49,8 @@ const char* name(CalibrationOrigin origin) noexcept {
       return "side file";
     case CalibrationOrigin::ContainerTags:
       return "container tags";
+    case CalibrationOrigin::FirstPicture:
+      return "first picture";
     case CalibrationOrigin::StreamSignalling:
       return "stream signalling";
     case CalibrationOrigin::Default:

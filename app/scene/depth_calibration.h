@@ -28,6 +28,7 @@ enum class DepthCode : std::uint8_t { Luma, Hue };
 // for. A hue code is the hue over 360 degrees: s grows with distance, so its polarity is NearIsLow unless it is said
 // otherwise.
 struct DepthCalibration {
+  static constexpr int kHueSteps = 6 * 256;  // a hue code is 0 .. 1535, red, yellow, green, ..
   DepthLaw law = DepthLaw::Linear;
   DepthPolarity polarity = DepthPolarity::NearIsHigh;
   ColorRange range = ColorRange::Full;
@@ -52,7 +53,14 @@ struct DepthCalibration {
                                        std::optional<DepthLaw> law = std::nullopt) noexcept;
 
 // Where a value came from, in order of precedence.
-enum class CalibrationOrigin : std::uint8_t { CommandLine, SideFile, ContainerTags, StreamSignalling, Default };
+enum class CalibrationOrigin : std::uint8_t {
+  CommandLine,
+  SideFile,
+  ContainerTags,
+  FirstPicture,
+  StreamSignalling,
+  Default
+};
 [[nodiscard]] const char* name(CalibrationOrigin origin) noexcept;
 
 // Keys: law=linear|inverse  polarity=near-high|near-low  range=full|limited  bits=8..16  codes=LOW-HIGH|none
@@ -84,6 +92,7 @@ struct CalibrationLayers {
   CalibrationSettings command_line;
   CalibrationSettings side_file;
   CalibrationSettings tags;
+  CalibrationSettings pictures = {};  // what the first ones look like
 };
 [[nodiscard]] Result<CalibrationChoice> chooseCalibration(const CalibrationLayers& layers, const Frame& depth_frame,
                                                           DepthCode code);

@@ -3,10 +3,16 @@
 #include "app/scene/height_field.h"
 
 #include <cmath>
+#include <cstring>
 #include <optional>
 
 namespace relievo {
 namespace {
+
+// Coded chroma is coarser than luma: at an edge of depth it is a mean of two hues, which is a hue of neither. Their
+// mean is less pure than both.
+constexpr int kPurest = 256, kLeastPurity = 160;  // of a colour that can be read
+constexpr int kDarkestLit = 64;                   // its strongest component
 
 // Below this sum of the three bytes a pixel has no reading: 0.3 of one channel's full scale. A hue of a dark pixel is
 // noise; footage in this coding marks what the sensor did not see by black.
@@ -43,27 +49,31 @@ Result<HeightField> HeightField::make(const Frame& depth, const DepthCalibration
   field.grid_ = GridMapping(volume, depth.width, depth.height);
   field.depth_mm_ = volume.depth_mm;
   if (calibration.code == DepthCode::Hue) {
-    if (depth.model != ColorModel::Rgb || first.bits != 8 || first.step_bytes < 3) {
-      return fail(ErrorCode::Unsupported, "hue depth needs packed 8-bit RGB; use --depth-code luma for this source");
+    const bool packed_rgb = depth.model == ColorModel::Rgb && first.bits == 8 && first.step_bytes >= 3;
+    if (!packed_rgb && depth.model != ColorModel::Yuv) {
+      return fail(ErrorCode::Unsupported,
+                  "hue depth needs YUV or packed 8-bit RGB; use --depth-code luma for this source");
     }
-    field.layout_ = Layout::Hue;
-    field.data_ = plane.data;
-    field.red_ = first.offset_bytes;
-    field.green_ = depth.components[1].offset_bytes;
-    field.blue_ = depth.components[2].offset_bytes;
-    field.s_scale_ = 1.0;
-    field.s_offset_ = 0.0;
+    if (packed_rgb) {
+      field.layout_ = Layout::Hue;
+      field.data_ = plane.data;
+      field.red_ = first.offset_bytes;
+      field.green_ = depth.components[1].offset_bytes;
+      field.blue_ = depth.components[2].offset_bytes;
+    } else {
+      field.layout_ = Layout::HueYuv;
+      field.chroma_ = chromaOf(depth);
+    }
   } else {
-    if (depth.model == ColorModel::Rgb) {
-      return fail(ErrorCode::Unsupported, "luma depth needs a gray or YUV picture; use --depth-code hue for RGB");
-    }
+    // Gray in RGB has three components that are the same.
+    if (depth.model == ColorModel::Rgb) field.data_ = plane.data + depth.components[1].offset_bytes;
     field.layout_ = first.bits <= 8 ? Layout::Bytes : Layout::Words;
     field.mask_ = (1u << first.bits) - 1;
-    field.invalid_ = calibration.invalid;
-    const double low = calibration.lowCode();
-    field.s_scale_ = 1.0 / (calibration.highCode() - low);
-    field.s_offset_ = -low * field.s_scale_;
   }
+  field.invalid_ = calibration.invalid;
+  const double low = calibration.lowCode();
+  field.s_scale_ = 1.0 / (calibration.highCode() - low);
+  field.s_offset_ = -low * field.s_scale_;
   if (calibration.polarity == DepthPolarity::NearIsLow) {
     field.s_scale_ = -field.s_scale_;
     field.s_offset_ = 1.0 - field.s_offset_;
@@ -163,9 +173,59 @@ void HeightField::prefetch(int c0, int r0, int blocks, const SampledBlock& block
   }
 }
 
-double HeightField::fromHue(const std::uint8_t* pixel) const RELIEVO_RT {
-  const double hue = hueOf(pixel[red_], pixel[green_], pixel[blue_]);
-  return std::isnan(hue) ? kHole : fromNormalised(s_offset_ + s_scale_ * hue);
+HeightField::Chroma HeightField::chromaOf(const Frame& depth) noexcept {
+  const Component &y = depth.components[0], &u = depth.components[1], &v = depth.components[2];
+  Chroma chroma;
+  chroma.u = depth.planes[u.plane].data + u.offset_bytes;
+  chroma.v = depth.planes[v.plane].data + v.offset_bytes;
+  chroma.u_stride_bytes = depth.planes[u.plane].stride_bytes;
+  chroma.v_stride_bytes = depth.planes[v.plane].stride_bytes;
+  chroma.shift_x = depth.chroma_shift_x;
+  chroma.shift_y = depth.chroma_shift_y;
+  chroma.step_bytes = u.step_bytes;
+  chroma.bits = y.bits;
+  chroma.sample_shift = y.shift;
+  const bool full = depth.range == ColorRange::Full;
+  const double kr = depth.matrix == ColorMatrix::Bt709 ? 0.2126 : depth.matrix == ColorMatrix::Bt2020 ? 0.2627 : 0.299;
+  const double kb = depth.matrix == ColorMatrix::Bt709 ? 0.0722 : depth.matrix == ColorMatrix::Bt2020 ? 0.0593 : 0.114;
+  const double kg = 1 - kr - kb, one = 65536, luma = full ? 1 : 255.0 / 219, color = full ? 1 : 255.0 / 224;
+  const auto whole = [](double x) { return static_cast<int>(std::lround(x)); };
+  chroma.luma_offset = full ? 0 : 16;
+  chroma.luma = whole(one * luma);
+  chroma.red_v = whole(one * color * 2 * (1 - kr));
+  chroma.blue_u = whole(one * color * 2 * (1 - kb));
+  chroma.green_u = whole(-one * color * 2 * (1 - kb) * kb / kg);
+  chroma.green_v = whole(-one * color * 2 * (1 - kr) * kr / kg);
+  return chroma;
+}
+
+// Steps of the hue, from 0 up to kHueSteps, or a hole.
+double HeightField::hueAt(int c, int r) const RELIEVO_RT {
+  const std::uint8_t* sample = data_ + r * stride_bytes_ + static_cast<std::ptrdiff_t>(c) * step_bytes_;
+  if (layout_ == Layout::Hue) return kHueSteps * hueOf(sample[red_], sample[green_], sample[blue_]);
+  const Chroma& k = chroma_;
+  // In 1/4 of an 8-bit code, so that 10 bits are read whole.
+  const auto quarters = [&](const std::uint8_t* at) {
+    const int code = k.bits > 8 ? (at[0] | at[1] << 8) >> k.sample_shift : at[0];
+    return k.bits >= 10 ? code >> (k.bits - 10) : code << (10 - k.bits);
+  };
+  const std::ptrdiff_t across = static_cast<std::ptrdiff_t>(c >> k.shift_x) * k.step_bytes;
+  const std::ptrdiff_t down = r >> k.shift_y;
+  const std::int64_t y = std::int64_t{k.luma} * (quarters(sample) - 4 * k.luma_offset);
+  const std::int64_t u = quarters(k.u + down * k.u_stride_bytes + across) - 512;
+  const std::int64_t v = quarters(k.v + down * k.v_stride_bytes + across) - 512;
+  const auto component = [](std::int64_t x) { return static_cast<int>(std::clamp<std::int64_t>(x >> 16, 0, 1020)); };
+  const int red = component(y + k.red_v * v), green = component(y + k.green_u * u + k.green_v * v);
+  const int blue = component(y + k.blue_u * u);
+  const int high = std::max({red, green, blue}), spread = high - std::min({red, green, blue});
+  if (high <= 4 * kDarkestLit || kPurest * spread < kLeastPurity * high) return kHole;
+  return kHueSteps * hueOf(red, green, blue);
+}
+
+double HeightField::fromHue(int c, int r) const RELIEVO_RT {
+  const double hue = hueAt(c, r);
+  if (std::isnan(hue) || invalid_.contains(static_cast<std::uint32_t>(hue))) return kHole;
+  return fromNormalised(s_offset_ + s_scale_ * hue);
 }
 
 bool HeightField::readRow(int r, std::span<const int> columns, float* heights_mm) const RELIEVO_RT {
@@ -181,14 +241,7 @@ bool HeightField::readRow(int r, std::span<const int> columns, float* heights_mm
     return false;
   }
   const float* const first = heights_mm;
-  if (layout_ == Layout::Hue) {
-    const std::uint8_t* line = data_ + r * stride_bytes_;
-    for (const int c : columns) {
-      *heights_mm++ = static_cast<float>(fromHue(line + static_cast<std::ptrdiff_t>(c) * step_bytes_));
-    }
-  } else {
-    for (const int c : columns) *heights_mm++ = static_cast<float>(heightMm(c, r));
-  }
+  for (const int c : columns) *heights_mm++ = static_cast<float>(heightMm(c, r));
   return std::any_of(first, const_cast<const float*>(heights_mm), [](float z) { return std::isnan(z); });
 }
 
@@ -196,6 +249,7 @@ bool HeightField::readsLike(const HeightField& other) const noexcept {
   HeightField there = other;
   there.data_ = data_;
   there.stride_bytes_ = stride_bytes_;
+  there.chroma_ = chroma_;
   return there == *this;
 }
 
@@ -206,14 +260,28 @@ bool HeightField::sameSamples(const HeightField& other) const noexcept {
   for (int r = 0; r < rows_; ++r) {
     if (!std::ranges::equal(rowBytes(r), other.rowBytes(r))) return false;
   }
+  return !readsChroma() || sameChroma(other);
+}
+
+bool HeightField::sameChroma(const HeightField& other) const noexcept {
+  const int cols = (cols_ + (1 << chroma_.shift_x) - 1) >> chroma_.shift_x;
+  const int rows = (rows_ + (1 << chroma_.shift_y) - 1) >> chroma_.shift_y;
+  const auto bytes = static_cast<std::size_t>((cols - 1) * chroma_.step_bytes + (chroma_.bits > 8 ? 2 : 1));
+  for (int r = 0; r < rows; ++r) {
+    const auto same = [&](const std::uint8_t* a, std::ptrdiff_t a_stride, const std::uint8_t* b,
+                          std::ptrdiff_t b_stride) {
+      return std::memcmp(a + r * a_stride, b + r * b_stride, bytes) == 0;
+    };
+    if (!same(chroma_.u, chroma_.u_stride_bytes, other.chroma_.u, other.chroma_.u_stride_bytes)) return false;
+    if (!same(chroma_.v, chroma_.v_stride_bytes, other.chroma_.v, other.chroma_.v_stride_bytes)) return false;
+  }
   return true;
 }
 
 std::uint32_t HeightField::code(int c, int r) const RELIEVO_RT {
-  const std::uint8_t* sample = data_ + r * stride_bytes_ + static_cast<std::ptrdiff_t>(c) * step_bytes_;
-  if (layout_ != Layout::Hue) return codeAt(sample);
-  const double hue = hueOf(sample[red_], sample[green_], sample[blue_]);
-  return std::isnan(hue) ? 0 : static_cast<std::uint32_t>(hue * kHueSteps);
+  if (layout_ < Layout::Hue) return codeAt(data_ + r * stride_bytes_ + static_cast<std::ptrdiff_t>(c) * step_bytes_);
+  const double hue = hueAt(c, r);
+  return std::isnan(hue) ? 0 : static_cast<std::uint32_t>(hue);
 }
 
 }  // namespace relievo

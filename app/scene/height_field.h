@@ -53,7 +53,7 @@ class HeightField {
   // 0 <= c < cols, 0 <= r < rows: not checked.
   [[nodiscard]] double heightMm(int c, int r) const RELIEVO_RT {
     const std::uint8_t* sample = data_ + r * stride_bytes_ + static_cast<std::ptrdiff_t>(c) * step_bytes_;
-    if (layout_ == Layout::Hue) return fromHue(sample);
+    if (layout_ >= Layout::Hue) return fromHue(c, r);
     const std::uint32_t code = codeAt(sample);
     if (invalid_.contains(code)) return kHole;
     return fromNormalised(s_offset_ + s_scale_ * static_cast<double>(code));
@@ -62,6 +62,8 @@ class HeightField {
   // The heights of some samples of a row, in the order asked for. Whether there is a hole among them.
   bool readRow(int r, std::span<const int> columns, float* heights_mm) const RELIEVO_RT;
 
+  // Whether a sample is more than what `rowBytes` holds: then a change of it is not seen there.
+  [[nodiscard]] bool readsChroma() const noexcept { return layout_ == Layout::HueYuv; }
   // From a row's first sample to its last.
   [[nodiscard]] std::span<const std::uint8_t> rowBytes(int r) const noexcept {
     return {data_ + r * stride_bytes_, static_cast<std::size_t>(cols_ - 1) * step_bytes_ + sampleBytes()};
@@ -77,9 +79,7 @@ class HeightField {
   void prefetch(int c0, int r0, int blocks, const SampledBlock& block) const RELIEVO_RT;
   [[nodiscard]] double depthMm() const RELIEVO_RT { return depth_mm_; }
   // The height of one code, in the mean over the volume.
-  [[nodiscard]] double stepMm() const RELIEVO_RT {
-    return depth_mm_ * (layout_ == Layout::Hue ? 1.0 / kHueSteps : std::abs(s_scale_));
-  }
+  [[nodiscard]] double stepMm() const RELIEVO_RT { return depth_mm_ * std::abs(s_scale_); }
 
   // Whether every sample is the same as in another field of the same film. Bytes between the samples count as well:
   // what differs there alone may be told apart. Looks at the whole picture where it is; not for the real-time thread.
@@ -88,12 +88,22 @@ class HeightField {
   // The raw luma code; for a hue 0 .. 1535, six steps of 256, and 0 at one that cannot be read.
   [[nodiscard]] std::uint32_t code(int c, int r) const RELIEVO_RT;
 
-  static constexpr int kHueSteps = 6 * 256;
+  static constexpr int kHueSteps = DepthCalibration::kHueSteps;
   static constexpr double kHole = std::numeric_limits<double>::quiet_NaN();
 
  private:
   bool operator==(const HeightField&) const = default;
-  enum class Layout : std::uint8_t { Bytes, Words, Hue };
+  enum class Layout : std::uint8_t { Bytes, Words, Hue, HueYuv };
+  // Where chroma is read, and the red, green and blue that it makes with the luma, in 1/65536 of an 8-bit code.
+  struct Chroma {
+    const std::uint8_t *u = nullptr, *v = nullptr;
+    std::ptrdiff_t u_stride_bytes = 0, v_stride_bytes = 0;
+    std::uint8_t shift_x = 0, shift_y = 0, step_bytes = 1;
+    std::uint8_t bits = 8, sample_shift = 0;  // of all three components
+    int luma_offset = 0, luma = 65536, red_v = 0, green_u = 0, green_v = 0, blue_u = 0;
+    bool operator==(const Chroma&) const = default;
+  };
+  static Chroma chromaOf(const Frame& depth) noexcept;
   [[nodiscard]] std::uint32_t codeAt(const std::uint8_t* sample) const RELIEVO_RT {
     const std::uint32_t low = sample[0];
     if (layout_ == Layout::Bytes) return (low >> shift_) & mask_;
@@ -105,9 +115,12 @@ class HeightField {
     return (far_mm_ - 1.0 / (far_inverse_ + s * (near_inverse_ - far_inverse_))) * depth_per_mm_;
   }
   [[nodiscard]] int sampleBytes() const noexcept {
+    if (layout_ == Layout::HueYuv) return chroma_.bits > 8 ? 2 : 1;
     return layout_ == Layout::Bytes ? 1 : layout_ == Layout::Words ? 2 : 1 + std::max({red_, green_, blue_});
   }
-  [[nodiscard]] double fromHue(const std::uint8_t* pixel) const RELIEVO_RT;
+  [[nodiscard]] bool sameChroma(const HeightField& other) const noexcept;
+  [[nodiscard]] double hueAt(int c, int r) const RELIEVO_RT;
+  [[nodiscard]] double fromHue(int c, int r) const RELIEVO_RT;
   template <class Sample>
   [[nodiscard]] double meanOfCodes(int c0, int r0, const SampledBlock& block) const RELIEVO_RT;
   template <class Sample, int kAcross>
@@ -130,6 +143,7 @@ class HeightField {
   double near_inverse_ = 0, far_inverse_ = 0;  // 1/near, 1/far
   double far_mm_ = 0, depth_per_mm_ = 0;       // depth_per_mm = D/(far - near)
   GridMapping grid_;
+  Chroma chroma_;
 };
 
 }  // namespace relievo

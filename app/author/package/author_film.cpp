@@ -245,6 +245,9 @@ std::vector<std::string> Packager::sourceNotes() const {
   tell(counters.depth_skipped, " pictures of the depth lay between those of the colour and were left out");
   tell(counters.lost, " pictures were lost between the camera and here");
   tell(counters.damaged, " packets or pictures were damaged and left out");
+  for (const auto& lines : {reader_.info().reading, reader_.info().doubts}) {
+    notes.insert(notes.end(), lines.begin(), lines.end());
+  }
   return notes;
 }
 

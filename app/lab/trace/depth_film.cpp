@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/media/depth_reading.h"
 #include "app/media/track_reader.h"
 #include "app/scene/height_field.h"
 
@@ -71,7 +72,8 @@ Outcome<void> DepthFilm::open() {
     calibration_ = tracks_->pairs.info().calibration.calibration;
     return {};
   }
-  const auto choice = chooseCalibration(layers, frame, source.depth_code);
+  if (!source.depth_code) layers.pictures = readCodes(frame, CodeCount(frame), layers).settings;
+  const auto choice = chooseCalibration(layers, frame, source.depth_code.value_or(DepthCode::Luma));
   if (!choice) return failOn(source.url, choice.error());
   calibration_ = choice->calibration;
   return {};

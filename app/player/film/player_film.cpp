@@ -82,6 +82,8 @@ void Player::opened(MonotonicTime now) {
   backwards_ = false;
   report_.film = feed_.info();
   period_ = report_.film.frame_period > Duration(0) ? report_.film.frame_period : kUnknownPeriod;
+  for (const std::string& line : report_.film.reading) log(LogLevel::Info, "play", "%s", line.c_str());
+  for (const std::string& doubt : report_.film.doubts) log(LogLevel::Warning, "play", "%s", doubt.c_str());
   if (report_.film.has_depth) {
     log(LogLevel::Info, "play", "depth: %s", report_.film.calibration.explanation.c_str());
   } else {

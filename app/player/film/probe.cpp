@@ -166,6 +166,7 @@ std::string probeToText(const ProbeResult& r) {
   if (f.has_depth) {
     text += textLine("depth   %s %d x %d, packing %s\n", f.depth_codec.c_str(), f.depth_width, f.depth_height,
                      name(f.packing));
+    for (const std::string& line : f.reading) text += "looks   " + line + "\n";
     text += "meaning " + f.calibration.explanation + "\n";
     text += textLine("relief  codes %u to %u, %.1f to %.1f mm, %.1f %% holes in the first %d pictures\n",
                      r.depth.lowest_code, r.depth.highest_code, r.depth.lowest_mm, r.depth.highest_mm,
@@ -175,6 +176,7 @@ std::string probeToText(const ProbeResult& r) {
     text += "depth   none\n";
   }
   text += textLine("volume  %.0f x %.0f x %.0f mm\n", r.volume.width_mm, r.volume.height_mm, r.volume.depth_mm);
+  for (const std::string& doubt : f.doubts) text += "doubt   " + doubt + "\n";
   for (const std::string& need : r.needs) text += "needs   " + need + "\n";
   return text;
 }
@@ -230,6 +232,8 @@ std::string probeToJson(const ProbeResult& r) {
   json["duration_s"] = toSeconds(f.duration);
   json["volume_mm"] = {r.volume.width_mm, r.volume.height_mm, r.volume.depth_mm};
   json["decoder"] = r.decoder;
+  json["reading"] = f.reading;
+  json["doubts"] = f.doubts;
   json["needs"] = r.needs;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

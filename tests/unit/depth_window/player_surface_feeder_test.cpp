@@ -189,7 +189,7 @@ TEST_F(SurfaceFeederTest, RefusesDepthThatCannotBeFeltAndEmptiesTheWindow) {
   const auto pairs = film(2);
   at(pairs, 0);
   FramePair broken = pairAt(5, 5);
-  broken.depth.model = ColorModel::Rgb;  // brightness is asked for
+  broken.depth.width = 0;
   EXPECT_FALSE(feeder_.update(broken, {}, false, {}));
   EXPECT_THAT(times(), IsEmpty());
 }

@@ -750,12 +750,13 @@ TEST(PairReaderRealVideo, DeskIsColourOnTopAndHueBelow) {
   EXPECT_NEAR(black / (512.0 * 424.0), 0.67, 0.05);
 }
 
-TEST(PairReaderRealVideo, DeskIsAPlainFilmUnlessItIsSaidToBePacked) {
+TEST(PairReaderRealVideo, DeskIsKnownByItsHalves) {
   RELIEVO_NEEDS("desk/Test.mov");
   PairReader reader(kFfmpeg);
   ASSERT_TRUE(reader.open({.url = data("desk/Test.mov")}).has_value());
-  EXPECT_FALSE(reader.info().has_depth);
-  EXPECT_EQ(reader.info().color_height, 848);
+  EXPECT_EQ(reader.info().packing, Packing::TopBottom);
+  EXPECT_EQ(reader.info().calibration.calibration.code, DepthCode::Hue);
+  EXPECT_EQ(reader.info().color_height, 424);
 }
 
 // The samples were read from the files with another decoder.

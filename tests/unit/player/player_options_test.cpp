@@ -50,7 +50,7 @@ TEST(Options, HaveTheDefaultsOfTheBox) {
   const PlayOptions& play = parsed.options->play;
   EXPECT_EQ(play.player.source.url, "film.mkv");
   EXPECT_EQ(play.player.source.packing, Packing::Auto);
-  EXPECT_EQ(play.player.source.depth_code, DepthCode::Luma);
+  EXPECT_EQ(play.player.source.depth_code, std::nullopt);
   EXPECT_EQ(play.player.stereo.layout, StereoLayout::SideBySide);
   EXPECT_EQ(play.display, "offscreen");
   EXPECT_EQ(play.haptic, "sim");

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/media/picture_look.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace relievo {
+namespace {
+
+constexpr int kAcross = 128, kDown = 96;  // samples that are looked at
+
+// Coding moves the chroma of gray samples by a few codes.
+constexpr float kGraySpread = 0.06F;
+constexpr float kVividSaturation = 0.8F, kDarkValue = 0.15F;
+
+// Sensors: a half is depth when the shares of its kind of samples differ so much from those of the other half.
+constexpr double kAllGray = 0.99, kPhotoGray = 0.7;
+constexpr double kAllVivid = 0.85, kPhotoVivid = 0.3;
+constexpr double kLeastSpread = 0.03;  // an even half is no depth
+constexpr double kMostDark = 0.95;
+
+float sampleOf(const Frame& f, int component, int c, int r) noexcept {
+  const Component& k = f.components[static_cast<std::size_t>(component)];
+  const Plane& plane = f.planes[k.plane];
+  const std::uint8_t* at = plane.data + r * plane.stride_bytes + k.offset_bytes + std::ptrdiff_t{c} * k.step_bytes;
+  const std::uint32_t word = k.bits > 8 ? at[0] | static_cast<std::uint32_t>(at[1]) << 8 : at[0];
+  const std::uint32_t mask = (1u << k.bits) - 1;
+  return static_cast<float>((word >> k.shift) & mask) / static_cast<float>(mask);
+}
+
+struct Weights {
+  float red, blue;  // of the luma
+};
+Weights weightsOf(ColorMatrix matrix) noexcept {
+  if (matrix == ColorMatrix::Bt709) return {0.2126F, 0.0722F};
+  if (matrix == ColorMatrix::Bt2020) return {0.2627F, 0.0593F};
+  return {0.299F, 0.114F};
+}
+
+Rgb fromYuv(float y, float u, float v, const Frame& f) noexcept {
+  const bool full = f.range == ColorRange::Full;
+  y = full ? y : (255 * y - 16) / 219;
+  const float cb = full ? u - 0.5F : (255 * u - 128) / 224, cr = full ? v - 0.5F : (255 * v - 128) / 224;
+  const auto [kr, kb] = weightsOf(f.matrix);
+  const float red = y + 2 * (1 - kr) * cr, blue = y + 2 * (1 - kb) * cb;
+  const float green = (y - kr * red - kb * blue) / (1 - kr - kb);
+  return {std::clamp(red, 0.0F, 1.0F), std::clamp(green, 0.0F, 1.0F), std::clamp(blue, 0.0F, 1.0F)};
+}
+
+float brightness(const Rgb& c) noexcept {
+  return 0.299F * c.red + 0.587F * c.green + 0.114F * c.blue;
+}
+
+// The samples that are looked at, (column, row) in turn.
+template <class Visit>
+void visit(const Frame& picture, Visit&& visit_sample) {
+  const int across = std::min(kAcross, picture.width), down = std::min(kDown, picture.height);
+  for (int j = 0; j < down; ++j) {
+    for (int i = 0; i < across; ++i) {
+      visit_sample((2 * i + 1) * picture.width / (2 * across), (2 * j + 1) * picture.height / (2 * down));
+    }
+  }
+}
+
+struct Sides {
+  Frame first, second;
+};
+// The whole of a picture's two halves, colour and all.
+std::optional<Sides> halvesOf(const Frame& picture, Packing packing) noexcept {
+  auto halves = splitPacked(picture, packing, DepthCode::Hue);
+  if (!halves) return std::nullopt;
+  return Sides{std::move(halves->color), std::move(halves->depth)};
+}
+
+bool isGrayDepth(const PictureLook& half, const PictureLook& other) noexcept {
+  return half.gray >= kAllGray && other.gray <= kPhotoGray && half.spread >= kLeastSpread;
+}
+bool isHueDepth(const PictureLook& half, const PictureLook& other) noexcept {
+  return isHue(half) && other.vivid <= kPhotoVivid;
+}
+
+std::optional<FoundPacking> found(const PictureLook& half, const PictureLook& other, Packing packing,
+                                  const char* where) {
+  const bool gray = isGrayDepth(half, other);
+  if (!gray && !isHueDepth(half, other)) return std::nullopt;
+  char why[160];
+  if (gray) {
+    std::snprintf(why, sizeof why, "%s: %.0f %% of that half is gray, of the other %.0f %%", where, 100 * half.gray,
+                  100 * other.gray);
+  } else {
+    std::snprintf(why, sizeof why, "%s, as hue: %.0f %% of that half is pure colour, of the other %.0f %%", where,
+                  100 * half.vivid, 100 * other.vivid);
+  }
+  return FoundPacking{packing, gray ? DepthCode::Luma : DepthCode::Hue, why};
+}
+
+}  // namespace
+
+Rgb rgbAt(const Frame& f, int c, int r) noexcept {
+  if (f.model == ColorModel::Gray) {
+    const float y = sampleOf(f, 0, c, r);
+    return {y, y, y};
+  }
+  if (f.model == ColorModel::Rgb) return {sampleOf(f, 0, c, r), sampleOf(f, 1, c, r), sampleOf(f, 2, c, r)};
+  const int cc = c >> f.chroma_shift_x, cr = r >> f.chroma_shift_y;
+  return fromYuv(sampleOf(f, 0, c, r), sampleOf(f, 1, cc, cr), sampleOf(f, 2, cc, cr), f);
+}
+
+PictureLook lookAt(const Frame& picture) noexcept {
+  PictureLook look;
+  double count = 0, lit = 0, sum = 0, squares = 0;
+  visit(picture, [&](int c, int r) {
+    const Rgb color = rgbAt(picture, c, r);
+    const float high = std::max({color.red, color.green, color.blue});
+    const float spread = high - std::min({color.red, color.green, color.blue});
+    const double y = brightness(color);
+    ++count;
+    sum += y;
+    squares += y * y;
+    if (spread <= kGraySpread) ++look.gray;
+    if (high <= kDarkValue) {
+      ++look.dark;
+      return;
+    }
+    ++lit;
+    if (spread >= kVividSaturation * high) ++look.vivid;
+  });
+  if (count == 0) return look;
+  look.gray /= count;
+  look.dark /= count;
+  look.vivid = lit > 0 ? look.vivid / lit : 0;
+  look.spread = std::sqrt(std::max(0.0, squares / count - (sum / count) * (sum / count)));
+  return look;
+}
+
+double likeness(const Frame& a, const Frame& b) noexcept {
+  double n = 0, sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
+  visit(a, [&](int c, int r) {
+    const double x = brightness(rgbAt(a, c, r)), y = brightness(rgbAt(b, c, r));
+    ++n, sa += x, sb += y, saa += x * x, sbb += y * y, sab += x * y;
+  });
+  const double va = n * saa - sa * sa, vb = n * sbb - sb * sb;
+  return va > 1e-9 && vb > 1e-9 ? (n * sab - sa * sb) / std::sqrt(va * vb) : 0;
+}
+
+bool isHue(const PictureLook& look) noexcept {
+  return look.vivid >= kAllVivid && look.dark <= kMostDark;
+}
+
+std::optional<FoundPacking> findPacking(const Frame& picture) {
+  if (picture.model == ColorModel::Gray) return std::nullopt;
+  const struct {
+    Packing first, second;
+    const char *first_where, *second_where;
+  } ways[] = {{Packing::SideBySideDepthFirst, Packing::SideBySide, "depth left", "depth right"},
+              {Packing::TopBottomDepthFirst, Packing::TopBottom, "depth above", "depth below"}};
+  for (const auto& way : ways) {
+    const auto halves = halvesOf(picture, way.second);
+    if (!halves) continue;
+    const PictureLook first = lookAt(halves->first), second = lookAt(halves->second);
+    if (auto is = found(second, first, way.second, way.second_where)) return is;
+    if (auto is = found(first, second, way.first, way.first_where)) return is;
+  }
+  return std::nullopt;
+}
+
+}  // namespace relievo

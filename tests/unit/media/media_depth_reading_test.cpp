@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: Apache-2.0
+// Recordings whose codes nobody explains: what is read off their first picture, and what is doubted.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/media/depth_reading.h"
+#include "app/media/pair_reader.h"
+#include "app/media/picture_look.h"
+#include "app/scene/height_field.h"
+#include "drivers/ffmpeg/ffmpeg.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/film/depth_frames.h"
+
+namespace relievo {
+namespace {
+
+using test::ClipTrack;
+using test::makeClip;
+using test::makeGrayFrame;
+using test::TemporaryFolder;
+using testing::AnyOf;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr DisplayVolume kVolume{160, 108, 40};
+constexpr int kCols = 160, kRows = 108;
+
+const PairReader::Backends kFfmpeg{[](const std::string&) { return makeFfmpegSource(); },
+                                   [](const StreamInfo&) { return makeFfmpegDecoder(); }};
+
+// A ball of 200 mm in front of a wall that leans from 1.6 to 2 m; the camera sees nothing in the left tenth.
+double distanceMm(int c, int r) {
+  if (c < kCols / 10) return 0;
+  const double x = 5.0 * (c - kCols / 2), y = 5.0 * (r - kRows / 2);
+  const double square = 200 * 200 - x * x - y * y;
+  return square > 0 ? 1300 - std::sqrt(square) : 1600 + 400.0 * c / kCols;
+}
+
+// A 16-bit picture; code(mm) for what is seen.
+template <class Code>
+Frame picture(std::uint32_t hole, Code&& code) {
+  return makeGrayFrame(kCols, kRows, 16, {}, [&](int c, int r) {
+    const double mm = distanceMm(c, r);
+    return mm == 0 ? hole : static_cast<std::uint32_t>(std::lround(code(mm)));
+  });
+}
+
+DepthCalibration readingOf(const Frame& frame, const CalibrationLayers& said = {}) {
+  CalibrationLayers layers = said;
+  layers.pictures = readCodes(frame, CodeCount(frame), said).settings;
+  return chooseCalibration(layers, frame, DepthCode::Luma).value().calibration;
+}
+
+// The distance that a height stands for, by the definition in app/scene/depth_calibration.h: z = D (far - Z)/(far -
+// near), of both laws.
+double distanceOf(double height_mm, const DepthCalibration& c) {
+  return c.far_mm - height_mm / kVolume.depth_mm * (c.far_mm - c.near_mm);
+}
+
+// Near is high, holes are holes, and every distance is the true one to within `error_mm`.
+void expectTrue(const Frame& frame, double error_mm, const std::string& name) {
+  const DepthCalibration c = readingOf(frame);
+  const HeightField field = HeightField::make(frame, c, kVolume).value();
+  for (int r = 0; r < kRows; ++r) {
+    for (int x = 0; x < kCols; ++x) {
+      const double mm = distanceMm(x, r), height = field.heightMm(x, r);
+      ASSERT_EQ(std::isnan(height), mm == 0) << name << " at " << x << ", " << r;
+      if (mm == 0) continue;
+      ASSERT_NEAR(distanceOf(height, c), mm, error_mm) << name << " at " << x << ", " << r;
+    }
+  }
+}
+
+TEST(DepthReading, SensorsCodesAreDistances) {
+  expectTrue(picture(0, [](double mm) { return mm; }), 0.51, "mm, holes of 0");
+  expectTrue(picture(65535, [](double mm) { return mm; }), 0.51, "mm, holes of 65535");
+  expectTrue(picture(0, [](double mm) { return std::floor(mm) * 8; }), 1.01, "mm, three bits to the left");
+}
+
+// The Kinect's raw disparities of the formula in the header of the reading, inverted: code = 1092.5 - 351300/z.
+TEST(DepthReading, ElevenBitsWithAHoleOf2047AreTheDisparitiesOfAKinect) {
+  const Frame raw = picture(2047, [](double mm) { return 1092.5 - 351300 / mm; });
+  const DepthCalibration c = readingOf(raw);
+  EXPECT_EQ(c.law, DepthLaw::Inverse);
+  EXPECT_EQ(c.polarity, DepthPolarity::NearIsLow);
+  expectTrue(raw, 0.5 * 2000 * 2000 / 351300 + 1, "raw disparities");  // half a code at 2 m
+}
+
+// Five codes a millimetre, as the TUM datasets have them, up to 9.8 m: more than half of the codes, with a gap.
+TEST(DepthReading, DistancesOfAnotherUnitHaveTheSameRelief) {
+  const Frame fine = picture(0, [](double mm) { return 5 * mm + 30000; });
+  const DepthCalibration c = readingOf(fine);
+  EXPECT_EQ(c.unit_mm, 1.0);
+  const HeightField field = HeightField::make(fine, c, kVolume).value();
+  EXPECT_TRUE(std::isnan(field.heightMm(2, 50)));
+  EXPECT_GT(field.heightMm(kCols / 2, kRows / 2), field.heightMm(kCols - 2, 2));
+}
+
+TEST(DepthReading, WhatIsStretchedOverItsBitsIsLeftAsItIs) {
+  const auto settings = [](const Frame& f) { return readCodes(f, CodeCount(f), {}).settings; };
+  const auto slope = [](int bits, std::uint32_t times) {
+    return makeGrayFrame(256, 8, bits, {}, [=](int c, int) { return static_cast<std::uint32_t>(c) * times; });
+  };
+  EXPECT_THAT(settings(slope(16, 257)), IsEmpty());
+  EXPECT_THAT(settings(slope(16, 256)), IsEmpty());
+  EXPECT_THAT(settings(slope(8, 1)), IsEmpty());
+  EXPECT_THAT(settings(slope(12, 16)), IsEmpty());
+}
+
+TEST(DepthReading, WhoHasSaidWhatACodeIsGoesFirst) {
+  const Frame mm = picture(0, [](double z) { return z; });
+  for (const char* key : {"law", "polarity", "range", "codes", "unit"}) {
+    CalibrationLayers layers;
+    layers.tags = {{key, "linear"}};
+    EXPECT_THAT(readCodes(mm, CodeCount(mm), layers).settings, IsEmpty()) << key;
+  }
+  const DepthCalibration c = readingOf(mm, {.command_line = {{"near", "900"}, {"far", "2500"}}});
+  EXPECT_EQ(c.unit_mm, 1.0);
+  EXPECT_EQ(c.near_mm, 900);
+  EXPECT_EQ(c.far_mm, 2500);
+}
+
+TEST(DepthReading, AnUntaggedFilmThatUsesAllOfItsCodesIsOfTheFullRange) {
+  Frame frame = makeGrayFrame(256, 8, 8, {}, [](int c, int) { return c; });
+  frame.model = ColorModel::Yuv;
+  frame.range = ColorRange::Unspecified;
+  EXPECT_EQ(readCodes(frame, CodeCount(frame), {}).settings.at("range"), "full");
+  frame.range = ColorRange::Limited;  // it says so
+  EXPECT_THAT(readCodes(frame, CodeCount(frame), {}).settings, IsEmpty());
+  Frame limited = makeGrayFrame(220, 8, 8, {}, [](int c, int) { return 16 + c; });
+  limited.model = ColorModel::Yuv;
+  limited.range = ColorRange::Unspecified;
+  EXPECT_THAT(readCodes(limited, CodeCount(limited), {}).settings, IsEmpty());
+}
+
+TEST(DepthReading, DoubtsWhatCannotBeRight) {
+  const auto doubts = [](const Frame& f, const DepthCalibration& c) { return doubtsOf(f, c); };
+  const Frame slope = makeGrayFrame(256, 8, 8, {}, [](int c, int) { return c; });
+  EXPECT_THAT(doubts(slope, {}), IsEmpty());
+  const Frame even = makeGrayFrame(256, 8, 8, {}, [](int, int) { return 7; });
+  EXPECT_THAT(doubts(even, {}), Contains(HasSubstr("100 % of the depth is one code")));
+  EXPECT_THAT(doubts(even, {.invalid = 7}), Contains(HasSubstr("all of the depth is holes")));
+  const Frame flat = makeGrayFrame(256, 8, 8, {}, [](int c, int) { return 100 + c % 10; });
+  EXPECT_THAT(doubts(flat, {}), Contains(HasSubstr("takes up 3.5 % of its box")));
+  const Frame clipped = makeGrayFrame(256, 8, 8, {}, [](int c, int) { return std::min(2 * c, 255); });
+  EXPECT_THAT(doubts(clipped, {}), Contains(HasSubstr("50 % of the depth lies at the near end")));
+}
+
+// A pixel's code of component k in limited BT.601, from red, green and blue of 0 to 1.
+std::uint32_t yuv(int k, double red, double green, double blue) {
+  const double y = 0.299 * red + 0.587 * green + 0.114 * blue;
+  const double codes[] = {16 + 219 * y, 128 + 224 * (blue - y) / 1.772, 128 + 224 * (red - y) / 1.402};
+  return static_cast<std::uint32_t>(std::lround(codes[k]));
+}
+// The textbook hexagon, saturation and value 1.
+std::array<double, 3> hueColor(double hue) {
+  const auto ramp = [&](double n) {
+    const double k = std::fmod(n + 6 * hue, 6);
+    return 1 - std::clamp(std::min(k, 4 - k), 0.0, 1.0);
+  };
+  return {ramp(5), ramp(3), ramp(1)};
+}
+std::array<double, 3> photo(int c, int r) {
+  return {0.5 + 0.4 * std::sin(0.3 * c), 0.3 + 0.002 * r, 0.4 + 0.3 * std::cos(0.2 * r)};
+}
+double slopeHue(int c, int width) {
+  return 0.1 + 0.7 * c / width;
+}
+
+// Colour and depth side by side or one above the other in one yuv444p picture of 64 x 48 halves.
+ClipTrack packed(bool beside, bool depth_first, bool hue) {
+  ClipTrack track{.pix_fmt = "yuv444p", .width = beside ? 128 : 64, .height = beside ? 48 : 96, .frames = 3};
+  track.sample = [=](int k, int c, int r, int) {
+    const bool second = beside ? c >= 64 : r >= 48;
+    const int x = c % 64, y = r % 48;
+    if (second == depth_first) {
+      const auto color = photo(x, y);
+      return yuv(k, color[0], color[1], color[2]);
+    }
+    const auto color = hueColor(slopeHue(x, 64));
+    const double gray = 0.2 + 0.6 * x / 64;
+    return hue ? yuv(k, color[0], color[1], color[2]) : yuv(k, gray, gray, gray);
+  };
+  return track;
+}
+
+TEST(DepthReading, HalvesThatDifferClearlyAreFoundWhicheverOneIsTheDepth) {
+  TemporaryFolder folder;
+  const struct {
+    bool beside, depth_first;
+    Packing packing;
+  } ways[] = {{true, false, Packing::SideBySide},
+              {true, true, Packing::SideBySideDepthFirst},
+              {false, false, Packing::TopBottom},
+              {false, true, Packing::TopBottomDepthFirst}};
+  for (const auto& way : ways) {
+    for (const bool hue : {false, true}) {
+      makeClip(folder / "packed.mkv", {packed(way.beside, way.depth_first, hue)});
+      PairReader reader(kFfmpeg);
+      ASSERT_TRUE(reader.open({.url = folder / "packed.mkv"})) << reader.failedThing();
+      const FilmInfo& info = reader.info();
+      EXPECT_EQ(info.packing, way.packing);
+      EXPECT_EQ(info.calibration.calibration.code, hue ? DepthCode::Hue : DepthCode::Luma);
+      EXPECT_FALSE(info.reading.empty());
+      const auto pair = reader.next();
+      ASSERT_TRUE(pair && *pair);
+      const HeightField field = HeightField::make((*pair)->depth, info.calibration.calibration, kVolume).value();
+      // Of a hue s is 1 - hue, since near is low; of a gray it is the brightness.
+      for (const int c : {5, 30, 60}) {
+        const double s = hue ? 1 - slopeHue(c, 64) : 0.2 + 0.6 * c / 64;
+        EXPECT_NEAR(field.heightMm(c, 20), kVolume.depth_mm * s, hue ? 0.25 : 0.1) << c;
+      }
+    }
+  }
+}
+
+TEST(DepthReading, APhotoBesideAPhotoIsNoDepth) {
+  TemporaryFolder folder;
+  ClipTrack stereo{.pix_fmt = "yuv444p", .width = 128, .height = 48, .frames = 3};
+  stereo.sample = [](int k, int c, int r, int) {
+    const auto color = photo(c % 64 + c / 64, r);
+    return yuv(k, color[0], color[1], color[2]);
+  };
+  makeClip(folder / "stereo.mkv", {stereo});
+  PairReader reader(kFfmpeg);
+  ASSERT_TRUE(reader.open({.url = folder / "stereo.mkv"}));
+  EXPECT_FALSE(reader.info().has_depth);
+}
+
+// 4:2:0, 8 and 10 bits, with a step of the hue between two chroma samples: the mean of two hues is a hue of neither.
+TEST(DepthReading, HueOverYuvIsReadAndItsMixedEdgesAreHoles) {
+  TemporaryFolder folder;
+  for (const bool ten : {false, true}) {
+    ClipTrack film{.pix_fmt = ten ? "yuv420p10le" : "yuv420p", .width = 64, .height = 48, .frames = 2};
+    film.sample = [ten](int k, int c, int r, int) {
+      const int column = k == 0 ? c : 2 * c;
+      const auto at = [&](int x) { return hueColor(x < 33 ? 0.15 : 0.65); };  // 33: within a chroma sample
+      auto color = at(column);
+      if (k > 0) {
+        const auto other = at(column + 1);
+        for (std::size_t i = 0; i < 3; ++i) color[i] = 0.5 * (color[i] + other[i]);
+      }
+      (void)r;
+      return yuv(k, color[0], color[1], color[2]) << (ten ? 2 : 0);
+    };
+    makeClip(folder / "color.mkv", {{.pix_fmt = "yuv420p", .frames = 2}});
+    makeClip(folder / "hue.mkv", {film});
+    PairReader reader(kFfmpeg);
+    ASSERT_TRUE(reader.open({.url = folder / "color.mkv", .depth_url = folder / "hue.mkv"}));
+    EXPECT_EQ(reader.info().calibration.calibration.code, DepthCode::Hue);
+    const auto pair = reader.next();
+    ASSERT_TRUE(pair && *pair);
+    const HeightField field = HeightField::make((*pair)->depth, reader.info().calibration.calibration, kVolume).value();
+    for (int c = 0; c < 64; ++c) {
+      const double height = field.heightMm(c, 20);
+      if (c / 2 == 16) {
+        EXPECT_TRUE(std::isnan(height) || std::abs(height - 34) < 1 || std::abs(height - 14) < 1)
+            << c << ": " << height;
+      } else {
+        EXPECT_NEAR(height, c < 33 ? 34 : 14, 0.3) << c;  // 40 (1 - hue)
+      }
+    }
+  }
+}
+
+TEST(DepthReading, GrayInRgbIsReadByItsBrightness) {
+  TemporaryFolder folder;
+  ClipTrack gray{.codec = "png", .pix_fmt = "rgb24", .width = 256, .height = 8, .frames = 1};
+  gray.sample = [](int, int c, int, int) { return static_cast<std::uint32_t>(c); };
+  makeClip(folder / "color.mkv", {{.pix_fmt = "yuv420p", .width = 256, .height = 8, .frames = 1}});
+  makeClip(folder / "gray.mkv", {gray});
+  PairReader reader(kFfmpeg);
+  ASSERT_TRUE(reader.open({.url = folder / "color.mkv", .depth_url = folder / "gray.mkv"}));
+  const auto pair = reader.next();
+  ASSERT_TRUE(pair && *pair);
+  const HeightField field = HeightField::make((*pair)->depth, reader.info().calibration.calibration, kVolume).value();
+  EXPECT_NEAR(field.heightMm(51, 3), 8, 1e-9);
+  EXPECT_THAT(reader.info().doubts, IsEmpty());
+}
+
+}  // namespace
+}  // namespace relievo
