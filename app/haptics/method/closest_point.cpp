@@ -63,8 +63,7 @@ void taylorStep(Contact& c, const glm::dvec2& step) RELIEVO_RT {
 
 RELIEVO_TICK_CODE Contact closestPoint(FeltSurface& surface, double x_mm, double y_mm, const glm::dvec3& hip_mm,
                                        double lowered_mm, SlideUntil until) RELIEVO_RT {
-  const double longest = 3 * surface.sampleMm();
-  Contact best{x_mm, y_mm, surface.at(x_mm, y_mm)};
+  Contact best{x_mm, y_mm, surface.at(x_mm, y_mm), false};
   Distance distance(best, hip_mm, lowered_mm);
   double scale = 1;
   for (int evaluation = 1;; ++evaluation) {
@@ -73,14 +72,18 @@ RELIEVO_TICK_CODE Contact closestPoint(FeltSurface& surface, double x_mm, double
     const bool last = evaluation >= kMostEvaluations || (until == SlideUntil::MuchRead && surface.hasReadMuch());
     if (size2 < kTaylorMm * kTaylorMm && scale == 1) {
       taylorStep(best, step);
-      if (size2 < kTaylorEndMm * kTaylorEndMm || last) return best;
+      best.settled = size2 < kTaylorEndMm * kTaylorEndMm;
+      if (best.settled || last) return best;
       best.surface = surface.at(best.x_mm, best.y_mm);
       distance = Distance(best, hip_mm, lowered_mm);
       continue;
     }
-    if (size2 < kSettledMm * kSettledMm || last) return best;
+    best.settled = size2 < kSettledMm * kSettledMm;
+    if (best.settled || last) return best;
+    const double slope = std::hypot(best.surface.zx, best.surface.zy);
+    const double longest = 3 * surface.sampleMm() / std::max(1.0, slope / kWallSlope);
     if (size2 > longest * longest) step *= longest / std::sqrt(size2);
-    Contact next{best.x_mm + step.x, best.y_mm + step.y, {}};
+    Contact next{best.x_mm + step.x, best.y_mm + step.y, {}, false};
     next.surface = surface.at(next.x_mm, next.y_mm);
     const Distance there(next, hip_mm, lowered_mm);
     if (there.half_squared < distance.half_squared) {

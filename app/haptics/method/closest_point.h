@@ -15,12 +15,17 @@ namespace relievo {
 struct Contact {
   double x_mm = 0, y_mm = 0;
   SurfacePoint surface;
+  bool settled = true;  // false: the search was cut short on its way, and the closest point lies further on
 };
+
+// A surface steeper than this is a wall: less than a sample's width is all of its height, and what slope and curvature
+// say there holds for less than that.
+inline constexpr double kWallSlope = 3;
 
 // From (x, y) downhill to the local minimum of the distance between (x, y, S(x, y) - lowered) and the finger. Steps are
 // short against the surface's features and must come closer, so that the way leads along the surface and not across it.
 // At most 10 evaluations, `until` MuchRead none after the surface has read much in this tick: bounded time; what is
-// left is made up in the next ticks.
+// left is made up in the next ticks, and `settled` says so.
 enum class SlideUntil : std::uint8_t { Settled, MuchRead };
 [[nodiscard]] Contact closestPoint(FeltSurface& surface, double x_mm, double y_mm, const glm::dvec3& hip_mm,
                                    double lowered_mm, SlideUntil until) RELIEVO_RT;

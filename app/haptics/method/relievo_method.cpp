@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
@@ -28,6 +29,10 @@ double riseBetween(const Contact& from, const Contact& to) RELIEVO_RT {
   const double dx = to.x_mm - from.x_mm, dy = to.y_mm - from.y_mm;
   return to.surface.z - from.surface.z -
          0.5 * ((from.surface.zx + to.surface.zx) * dx + (from.surface.zy + to.surface.zy) * dy);
+}
+
+bool isWall(const Contact& c) RELIEVO_RT {
+  return c.surface.zx * c.surface.zx + c.surface.zy * c.surface.zy > kWallSlope * kWallSlope;
 }
 
 }  // namespace
@@ -74,6 +79,8 @@ RELIEVO_TICK_CODE Touch RelievoMethod::update(const glm::dvec3& hip_mm, const Su
     const glm::dvec2 step = predictedStep(contact_, hip_mm_, moved, lowered_mm_);
     contact_.x_mm += step.x;
     contact_.y_mm += step.y;
+    // From a wall's side a guess of more than a sample may lead over its edge.
+    if (isWall(before) && glm::dot(step, step) > surface_.sampleMm() * surface_.sampleMm()) contact_ = before;
     slide(hip_mm, SlideUntil::MuchRead);
     // A long jump that came out further away than staying would have been has left the finger's side of a ridge.
     if (glm::dot(step, step) > 4 * surface_.sampleMm() * surface_.sampleMm()) {
@@ -162,13 +169,16 @@ void RelievoMethod::enterScene(const glm::dvec3& hip_mm) RELIEVO_RT {
 
 // A wall that has gone over the finger and on takes the proxy with it, although the way out is by now much shorter
 // elsewhere: straight up. Only where the scene did it: a finger that pushes itself deep into a wall stays at that wall,
-// also when it rests there or is read in every other tick only.
+// also when it rests there or is read in every other tick only, and when it leaps further than the search goes in a
+// tick: the proxy is on its own way until it has arrived.
 RELIEVO_TICK_CODE bool RelievoMethod::sweptAway(const glm::dvec3& hip_mm) RELIEVO_RT {
   constexpr double kFurtherMm = 3, kCarriedMm = 0.5;
   const glm::dvec2 place(contact_.x_mm, contact_.y_mm);
   const double away = glm::distance(proxy(), hip_mm);
   const double carried = glm::distance(place, own_place_mm_);
-  if (away < 2 * kFurtherMm || carried <= 2 * glm::distance(hip_mm, own_hip_mm_)) {
+  const bool by_finger = carried <= 2 * glm::distance(hip_mm, own_hip_mm_);
+  if (away < 2 * kFurtherMm || by_finger || on_its_way_) {
+    on_its_way_ = !contact_.settled && (by_finger || on_its_way_);
     own_place_mm_ = place;
     own_hip_mm_ = hip_mm;
     return false;

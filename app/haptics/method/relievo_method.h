@@ -78,6 +78,7 @@ class RelievoMethod final : public TouchMethod {
   // Where proxy and finger were when the one had last gone no further than the other explains.
   glm::dvec2 own_place_mm_{0};
   glm::dvec3 own_hip_mm_{0};
+  bool on_its_way_ = false;  // the proxy has not arrived yet where the finger has sent it
   bool rubbing_ = false, sliding_ = false;
   Contact stuck_;          // where friction last held the proxy
   double lowered_mm_ = 0;  // of the surface, after a cut

@@ -274,6 +274,37 @@ TEST_F(RelievoMethodTest, AFingerThatRestsDeepInsideAWallStaysAtThatWall) {
   }
 }
 
+TEST_F(RelievoMethodTest, AFingerThatLeapsInsideARoughWallAndRestsStaysAtThatWall) {
+  // Wavy and grainy walls, the finger 5 mm below the top: it pushes itself 9 mm in, and then leaps along or out and in
+  // again in one tick, by more than the search goes in a tick, and rests.
+  std::mt19937 random(2);
+  const auto draw = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  int thrown = 0;
+  for (int film_number = 0; film_number < 12; ++film_number) {
+    clear();
+    const double wave = draw(0.3, 1.2), grain = draw(0, 0.6), pitch = draw(0.8, 3);
+    const double grains[] = {draw(5, 9), draw(5, 9), draw(0, 6)};
+    film(0.3, [&](double x, double y, double) {
+      const double edge = wave * std::sin(pitch * y) + 0.3 * wave * std::sin(2.7 * pitch * y + 1);
+      const double rough = grain * std::sin(grains[0] * x + grains[2]) * std::sin(grains[1] * y);
+      return (x > edge ? 30.0 : 10.0) + rough;
+    });
+    int i = 0;
+    static_cast<void>(tick(0, {-6, 0, 25}));
+    for (double x = -6; x < 9; x += 0.15) static_cast<void>(tick(++i * kTick, {x, 0, 25}));
+    double y = 0;
+    for (int leap = 0; leap < 5; ++leap) {
+      y += draw(3, 8) * (draw(-1, 1) < 0 && y > -20 ? -1 : 1);
+      for (int rest = 0; rest < 20; ++rest) {
+        const Touch touch = tick(++i * kTick, {9, y, 25});
+        ASSERT_TRUE(touch.contact);
+        if (touch.proxy_mm.z > 29 && touch.proxy_mm.x > 3) ++thrown;
+      }
+    }
+  }
+  EXPECT_EQ(thrown, 0) << "ticks on the top";
+}
+
 TEST_F(RelievoMethodTest, AWallThatHasGoneOverTheFingerDoesNotTakeTheProxyAlong) {
   // A block of 15 mm comes from the left at 80 mm/s and goes on to the right; the finger rests in its way.
   film(1, [](double x, double y, double t) {
