@@ -9,6 +9,7 @@
 #include "app/author/author.h"
 #include "app/author/package/output.h"
 #include "app/cli/options.h"
+#include "app/cli/output_guard.h"
 #include "app/cli/program.h"
 #include "app/cli/text.h"
 #include "drivers/registry.h"
@@ -109,6 +110,10 @@ int run(Arguments& a) {
   }
   if (a.crf >= 0) a.output.color_crf = a.output.depth.crf = a.crf;
   if (a.depth_crf >= 0) a.output.depth.crf = a.depth_crf;
+
+  std::vector<std::string> inputs = a.source.named_files;
+  inputs.insert(inputs.end(), {a.source.url, a.source.depth_url});
+  if (auto apart = keepApart(filesWrittenBy(a.output), inputs); !apart) return tell(apart.error());
 
   const std::atomic<bool>& stop = stopOnSignals();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of the write, told like any other

@@ -8,12 +8,12 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <string>
 
 #include "app/cli/program.h"
 #include "platform/log.h"
+#include "platform/whole_file.h"
 
 namespace relievo {
 namespace {
@@ -22,11 +22,9 @@ constexpr double kLongestMm = 1e5;  // of a side of the volume
 constexpr const char* kNoVolume = "a volume is WIDTHxHEIGHTxDEPTH in mm, such as 160x90x40";
 
 std::string readFile(const std::string& thing, const std::string& path, const char* otherwise) {
-  const std::ifstream file(path);
-  if (!file) throw WordFailure({thing, {ErrorCode::NotFound, errno, otherwise}});
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
+  auto text = readWholeFile(path, FileSize::Settings, otherwise);
+  if (!text) throw WordFailure({thing, text.error()});
+  return std::move(*text);
 }
 
 // A file that is missing or wrong is a failure at run time: the words themselves are not at fault.
@@ -40,6 +38,7 @@ void readCalibration(const std::string& word, SourceOptions& source) {
   const std::string thing = "--calibration " + word;
   if (word.find('=') == std::string::npos) {
     source.side_file = readCalibrationFile(thing, word);
+    source.named_files.push_back(word);
     return;
   }
   const auto settings = parseCalibration(word);
@@ -154,7 +153,11 @@ void addDepthOptions(CLI::App& app, SourceOptions& source) {
       ->allow_extra_args(false)
       ->type_name("FILE|KEY=VALUE,..");
   app.add_option_function<std::string>(
-         "--registration", [&source](const std::string& path) { source.registration = readRegistration(path); },
+         "--registration",
+         [&source](const std::string& path) {
+           source.registration = readRegistration(path);
+           source.named_files.push_back(path);
+         },
          "Where the depth camera stands beside the colour camera: its depth is brought into the colour's view")
       ->type_name("FILE.toml");
 }
@@ -200,28 +203,6 @@ CLI::Validator between(double low, double high) {
     return words.str();
   };
   return {judge, ""};
-}
-
-Outcome<void> keepApart(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
-  const auto same = [](const std::string& a, const std::string& b) {
-    std::error_code none;
-    return !a.empty() && !b.empty() && (a == b || std::filesystem::equivalent(a, b, none));
-  };
-  for (std::size_t i = 0; i < outputs.size(); ++i) {
-    for (const std::string& input : inputs) {
-      if (same(outputs[i], input)) {
-        return failOn(outputs[i],
-                      {ErrorCode::InvalidArgument, 0, "is read from and would be written over; name another file"});
-      }
-    }
-    for (std::size_t j = 0; j < i; ++j) {
-      if (same(outputs[i], outputs[j])) {
-        return failOn(outputs[i],
-                      {ErrorCode::InvalidArgument, 0, "is named for two outputs; name another file for one"});
-      }
-    }
-  }
-  return {};
 }
 
 }  // namespace relievo

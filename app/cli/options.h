@@ -59,8 +59,4 @@ void addVolumeOption(CLI::App& app, std::optional<DisplayVolume>& volume);
 // and when help or the version was asked for, it has printed what there is to say and answers the exit code.
 [[nodiscard]] std::expected<void, int> parseCommandLine(CLI::App& program, int argc, const char* const* argv);
 
-// InvalidArgument for an output that is one of the inputs, or another output: writing it would destroy that. Words that
-// name no file (a URL, an empty one) are passed over.
-[[nodiscard]] Outcome<void> keepApart(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
-
 }  // namespace relievo

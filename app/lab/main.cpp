@@ -10,6 +10,7 @@
 #include <string>
 
 #include "app/cli/options.h"
+#include "app/cli/output_guard.h"
 #include "app/cli/program.h"
 #include "app/cli/text.h"
 #include "app/lab/chart/report.h"
@@ -79,7 +80,9 @@ void addTrace(CLI::App& app, TraceOptions& options) {
 
 int runTraceCommand(const TraceOptions& options) {
   const SourceOptions& source = options.film.source;
-  if (auto apart = keepApart({options.out_path}, {options.hip_path, source.url, source.depth_url}); !apart) {
+  std::vector<std::string> inputs = source.named_files;
+  inputs.insert(inputs.end(), {options.hip_path, source.url, source.depth_url});
+  if (auto apart = keepApart({options.out_path}, inputs); !apart) {
     return tell(apart.error());
   }
   if (auto checked = checkParts(options); !checked) return tell(checked.error());

@@ -27,6 +27,7 @@ struct SourceOptions {
   std::optional<DepthCode> depth_code;       // nothing: as the picture looks
   CalibrationSettings command_line;          // --calibration KEY=VALUE,..
   CalibrationSettings side_file;             // --calibration FILE
+  std::vector<std::string> named_files;      // that side file and registration were read from
   std::optional<double> frames_per_s;        // of pictures without times, such as numbered files
   std::optional<Registration> registration;  // of depth that another camera sees than the colour's; not of packed depth
   std::optional<AudioFormat> sound;          // that the film's sound is wanted in; nothing: it is left out

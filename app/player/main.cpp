@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/cli/options.h"
+#include "app/cli/output_guard.h"
 #include "app/cli/program.h"
 #include "app/player/control/control_socket.h"
 #include "app/player/control/player_control.h"
@@ -85,9 +86,12 @@ int play(PlayOptions options, const FileConfig& config) {
   applyLogLevels(config);
   if (auto completed = complete(options); !completed) return tell(completed.error());
   const SourceOptions& source = options.player.source;
+  std::vector<std::string> inputs = source.named_files;
+  inputs.insert(inputs.end(), {source.url, source.depth_url, fileOf(options.haptic), fileOf(options.remote),
+                               options.keys_path, config.path, config.falcon_firmware.value_or("")});
   if (auto apart = keepApart(
           {options.report_path, options.record_path, options.control_path, drivers::captureFile(options.display)},
-          {source.url, source.depth_url, fileOf(options.haptic), fileOf(options.remote)});
+          inputs);
       !apart) {
     return tell(apart.error());
   }

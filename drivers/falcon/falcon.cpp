@@ -3,7 +3,6 @@
 #include "drivers/falcon/falcon.h"
 
 #include <cerrno>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <iterator>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "drivers/falcon/link.h"
 #include "drivers/falcon/packet.h"
 #include "drivers/usb/force_session.h"
+#include "platform/whole_file.h"
 
 namespace relievo {
 namespace {
@@ -62,9 +62,10 @@ class Falcon final : public HapticDevice {
 
   Result<void> load() {
     if (config_.firmware_path.empty()) return fail(ErrorCode::NotFound, kNoFirmware);
-    std::ifstream file(config_.firmware_path, std::ios::binary);
-    if (!file) return fail(ErrorCode::NotFound, "the Falcon's firmware image cannot be read; check its path", errno);
-    const std::vector<std::uint8_t> image{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    const auto bytes = readWholeFile(config_.firmware_path, FileSize::Settings,
+                                     "the Falcon's firmware image cannot be read; check its path");
+    if (!bytes) return std::unexpected(bytes.error());
+    const std::vector<std::uint8_t> image(bytes->begin(), bytes->end());
     if (image.empty() || image.size() > 64 * 1024) {
       return fail(ErrorCode::Corrupt, "this is no firmware image of the Falcon; one has some 8000 bytes");
     }

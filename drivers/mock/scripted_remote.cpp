@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
-#include <fstream>
 #include <optional>
-#include <sstream>
 
 #include "hal/key_names.h"
+#include "platform/whole_file.h"
 
 namespace relievo {
 namespace {
@@ -127,12 +126,9 @@ Outcome<std::vector<ScriptedKey>> parseKeyScript(std::string_view text, const st
 }
 
 Outcome<std::vector<ScriptedKey>> loadKeyScript(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) return failOn(path, {ErrorCode::NotFound, errno, "the key script cannot be read; check its path"});
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (file.bad()) return failOn(path, {ErrorCode::Io, errno, "reading the key script failed"});
-  return parseKeyScript(text.str(), path);
+  const auto text = readWholeFile(path, FileSize::Settings, "the key script cannot be read; check its path");
+  if (!text) return failOn(path, text.error());
+  return parseKeyScript(*text, path);
 }
 
 std::unique_ptr<RemoteInput> makeScriptedRemote(const std::vector<ScriptedKey>& keys, const Clock& clock) {

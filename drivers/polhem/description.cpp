@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every number has a range: what comes from a file decides how strong the currents are.
 #include "drivers/polhem/description.h"
+#include "platform/whole_file.h"
 
 #include <cerrno>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 
 namespace relievo::polhem {
 namespace {
@@ -97,13 +96,9 @@ Outcome<Description> parseDescription(const std::string& text, const std::string
 }
 
 Outcome<Description> loadDescription(const std::string& path) {
-  std::ifstream file(path);
-  if (!file)
-    return failOn(path, {ErrorCode::NotFound, errno, "the device's description cannot be read; check its path"});
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (file.bad()) return failOn(path, {ErrorCode::Io, errno, "reading the device's description failed"});
-  return parseDescription(text.str(), path);
+  const auto text = readWholeFile(path, FileSize::Settings, "the device's description cannot be read; check its path");
+  if (!text) return failOn(path, text.error());
+  return parseDescription(*text, path);
 }
 
 }  // namespace relievo::polhem

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads the columns that it needs, and says which line is wrong.
 #include "drivers/replay/recording.h"
+#include "platform/whole_file.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 namespace relievo {
@@ -174,12 +173,9 @@ Outcome<Recording> Recording::parse(std::string_view csv, const std::string& nam
 }
 
 Outcome<Recording> Recording::load(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return failOn(path, {ErrorCode::NotFound, errno, "the recording cannot be read; check its path"});
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (file.bad()) return failOn(path, {ErrorCode::Io, errno, "reading the recording failed"});
-  return parse(text.str(), path);
+  const auto text = readWholeFile(path, FileSize::Recording, "the recording cannot be read; check its path");
+  if (!text) return failOn(path, text.error());
+  return parse(*text, path);
 }
 
 }  // namespace relievo

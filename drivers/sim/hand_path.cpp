@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The reader of scripts.
 #include "drivers/sim/hand_path.h"
+#include "platform/whole_file.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 namespace relievo {
 namespace {
@@ -67,12 +66,9 @@ Outcome<HandPath> HandPath::parse(std::string_view csv, const std::string& scrip
 }
 
 Outcome<HandPath> HandPath::load(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) return failOn(path, {ErrorCode::NotFound, errno, "the hand script cannot be read; check its path"});
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (file.bad()) return failOn(path, {ErrorCode::Io, errno, "reading the hand script failed"});
-  return parse(text.str(), path);
+  const auto text = readWholeFile(path, FileSize::Recording, "the hand script cannot be read; check its path");
+  if (!text) return failOn(path, text.error());
+  return parse(*text, path);
 }
 
 HandPoint HandPath::at(double t_s) const RELIEVO_RT {

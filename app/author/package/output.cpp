@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "app/author/package/film_kind.h"
 #include "app/cli/text.h"
@@ -88,6 +89,18 @@ std::string enhancementLines(Enhancement how, const EnhancementSummary& e) {
   return lines;
 }
 
+// --force removes such a folder: it must hold nothing but what a run before has made.
+bool ownSegmentsAlone(const std::string& folder) {
+  std::error_code none;
+  if (!std::filesystem::exists(folder, none)) return true;
+  const auto own = [](const std::filesystem::directory_entry& entry) {
+    const std::string name = entry.path().filename().string();
+    return entry.is_regular_file() && (name == "init.mp4" || name.ends_with(".m4s"));
+  };
+  const std::filesystem::directory_iterator entries(folder, none);
+  return !none && std::all_of(begin(entries), end(entries), own);
+}
+
 Result<void> checkPlace(const std::string& path, bool force) {
   struct stat status{};
   if (::stat(path.c_str(), &status) != 0) return {};
@@ -112,7 +125,20 @@ Result<void> checkOutput(const OutputOptions& output) {
     return fail(ErrorCode::Io,
                 "its folder of segments is there already; choose another name, or replace it with --force");
   }
+  if (kind == FilmKind::Hls && !ownSegmentsAlone(segmentFolderOf(output.path))) {
+    return fail(ErrorCode::Io, "its folder of segments holds what is no segment of such a film; choose another name");
+  }
   return checkPlace(output.path, output.force);
+}
+
+std::vector<std::string> filesWrittenBy(const OutputOptions& output) {
+  std::vector<std::string> files{output.path, output.preview};
+  if (filmKindOf(output.path) != FilmKind::Hls) return files;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(segmentFolderOf(output.path), none)) {
+    files.push_back(entry.path().string());
+  }
+  return files;
 }
 
 Result<void> checkPreview(const OutputOptions& output) {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Strict reading of numbers: a typing error in a measurement must not become a number.
 #include "app/lab/finger/hip_path.h"
+#include "platform/whole_file.h"
 
 #include <array>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <optional>
+#include <sstream>
 #include <string_view>
 
 namespace relievo {
@@ -31,8 +32,9 @@ std::optional<HipTick> parseRow(std::string_view row) {
 }  // namespace
 
 Outcome<std::vector<HipTick>> readHipPath(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) return failOn(path, {ErrorCode::NotFound, errno, "cannot be read; check the path"});
+  const auto text = readWholeFile(path, FileSize::Recording, "cannot be read; check the path");
+  if (!text) return failOn(path, text.error());
+  std::istringstream file(*text);
   std::vector<HipTick> ticks;
   std::string line;
   for (std::size_t number = 1; std::getline(file, line); ++number) {

@@ -8,12 +8,11 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <fstream>
-#include <sstream>
 #include <vector>
 
 #include "app/player/screen/text_line.h"
 #include "hal/key_names.h"
+#include "platform/whole_file.h"
 
 namespace relievo {
 namespace {
@@ -162,11 +161,9 @@ Outcome<KeyTable> KeyTable::parse(std::string_view text, const std::string& file
 }
 
 Outcome<KeyTable> KeyTable::load(const std::string& path) {
-  const std::ifstream file(path);
-  if (!file) return failOn(path, {ErrorCode::NotFound, errno, "the key table cannot be read; check its path"});
-  std::ostringstream text;
-  text << file.rdbuf();
-  return parse(text.str(), path);
+  const auto text = readWholeFile(path, FileSize::Settings, "the key table cannot be read; check its path");
+  if (!text) return failOn(path, text.error());
+  return parse(*text, path);
 }
 
 Outcome<void> KeyTable::add(std::string_view text, const std::string& file) {

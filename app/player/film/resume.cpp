@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "platform/atomic_file.h"
 #include "platform/log.h"
+#include "platform/whole_file.h"
 
 namespace relievo {
 namespace {
@@ -19,8 +19,9 @@ using Json = nlohmann::json;
 // What of the file makes sense.
 std::vector<std::pair<std::string, double>> load(const std::string& path) {
   std::vector<std::pair<std::string, double>> films;
-  std::ifstream file(path);
-  const Json json = Json::parse(file, nullptr, false);
+  const auto text = readWholeFile(path, FileSize::Settings, "");
+  if (!text) return films;
+  const Json json = Json::parse(*text, nullptr, false);
   if (!json.is_array()) return films;
   for (const Json& row : json) {
     if (films.size() == Resume::kMostFilms) break;

@@ -10,11 +10,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include "platform/atomic_file.h"
 #include "platform/log.h"
+#include "platform/whole_file.h"
 
 namespace relievo {
 namespace {
@@ -106,14 +106,10 @@ std::string defaultConfigPath() {
 
 Outcome<FileConfig> loadConfig(const std::string& path) {
   const std::string name = path.empty() ? defaultConfigPath() : path;
-  std::ifstream file(name);
-  if (!file) {
-    if (path.empty() && errno == ENOENT) return FileConfig{};
-    return failOn(name, {ErrorCode::NotFound, errno, "the configuration cannot be read; check its path"});
-  }
-  std::ostringstream text;
-  text << file.rdbuf();
-  return parseConfig(text.str(), name);
+  const auto text = readWholeFile(name, FileSize::Settings, "the configuration cannot be read; check its path");
+  if (text) return parseConfig(*text, name);
+  if (path.empty() && text.error().os_error == ENOENT) return FileConfig{};
+  return failOn(name, text.error());
 }
 
 Outcome<FileConfig> parseConfig(const std::string& text, const std::string& path) {
@@ -205,13 +201,13 @@ std::string withNumber(const std::string& text, const std::string& table, const 
 }
 
 Outcome<void> setNumber(const std::string& path, const std::string& table, const std::string& key, double value) {
-  std::ostringstream text;
-  if (const std::ifstream file(path); file) text << file.rdbuf();
+  const auto text = readWholeFile(path, FileSize::Settings, "cannot be read");
+  if (!text && text.error().os_error != ENOENT) return failOn(path, text.error());
   std::error_code none;
   std::filesystem::create_directories(std::filesystem::path(path).parent_path(), none);
   auto file = AtomicFile::create(path);
   if (!file) return failOn(path, file.error());
-  file->write(withNumber(text.str(), table, key, value));
+  file->write(withNumber(text.value_or(""), table, key, value));
   if (auto written = file->commit(); !written) return failOn(path, written.error());
   return {};
 }

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/cli/output_guard.h"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "platform/whole_file.h"
+
+namespace relievo {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kDeepest = 4;
+constexpr std::size_t kMostFiles = 10'000;
+
+using Inode = std::pair<dev_t, ino_t>;
+std::optional<Inode> inodeOf(const std::string& path) {
+  struct stat status{};
+  if (path.empty() || ::stat(path.c_str(), &status) != 0) return std::nullopt;
+  // A device or a pipe is not destroyed by writing to it: /dev/null may stand for several.
+  if (!S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) return std::nullopt;
+  return Inode{status.st_dev, status.st_ino};
+}
+
+std::string fullName(const std::string& path) {
+  std::error_code failed;
+  const fs::path full = fs::weakly_canonical(fs::absolute(path, failed), failed);
+  return failed ? path : full.string();
+}
+
+// The path in an address; empty for one of another kind.
+std::string pathIn(const std::string& address) {
+  for (const char* start : {"file://", "file:"}) {
+    if (address.starts_with(start)) return address.substr(std::string_view(start).size());
+  }
+  return address.find("://") == std::string::npos ? address : "";
+}
+
+// "picture-%04d.png": where the number stands, and what is before and behind it.
+struct Numbered {
+  std::string before, behind;
+};
+std::optional<Numbered> numbered(const std::string& name) {
+  for (std::size_t at = name.find('%'); at != std::string::npos; at = name.find('%', at + 1)) {
+    std::size_t end = at + 1;
+    while (end < name.size() && std::isdigit(static_cast<unsigned char>(name[end])) != 0) ++end;
+    if (end < name.size() && name[end] == 'd') return Numbered{name.substr(0, at), name.substr(end + 1)};
+  }
+  return std::nullopt;
+}
+
+bool isOf(const Numbered& series, const std::string& name) {
+  const std::size_t around = series.before.size() + series.behind.size();
+  if (name.size() <= around || !name.starts_with(series.before) || !name.ends_with(series.behind)) return false;
+  const std::string_view digits(name.data() + series.before.size(), name.size() - around);
+  return std::all_of(digits.begin(), digits.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+void addSeries(const fs::path& folder, const Numbered& series, std::vector<std::string>& files) {
+  std::error_code failed;
+  for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, failed)) {
+    if (files.size() >= kMostFiles) return;
+    if (isOf(series, entry.path().filename().string())) files.push_back(entry.path().string());
+  }
+}
+
+bool isList(const fs::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending == ".m3u" || ending == ".m3u8" || ending == ".ffconcat" || ending == ".concat";
+}
+
+void addFiles(const std::string& address, int depth, std::vector<std::string>& files);
+
+// What a line of a list may name: the line itself, and what stands in quotes or behind a colon.
+void addNamed(std::string line, const fs::path& folder, int depth, std::vector<std::string>& files) {
+  while (!line.empty() && std::isspace(static_cast<unsigned char>(line.back())) != 0) line.pop_back();
+  std::vector<std::string> names;
+  if (!line.starts_with('#')) names.push_back(line);
+  if (const std::size_t colon = line.find(':'); line.starts_with('#') && colon != std::string::npos) {
+    names.push_back(line.substr(colon + 1));
+  }
+  for (const char quote : {'"', '\''}) {
+    const std::size_t begin = line.find(quote), end = line.rfind(quote);
+    if (begin != std::string::npos && end > begin) names.push_back(line.substr(begin + 1, end - begin - 1));
+  }
+  for (const std::string& name : names) {
+    const std::string path = pathIn(name);
+    if (!path.empty()) addFiles((fs::path(path).is_absolute() ? fs::path(path) : folder / path).string(), depth, files);
+  }
+}
+
+void addFiles(const std::string& address, int depth, std::vector<std::string>& files) {
+  const std::string path = pathIn(address);
+  if (path.empty() || files.size() >= kMostFiles) return;
+  if (inodeOf(path)) {
+    files.push_back(path);
+    if (depth == kDeepest || !isList(path)) return;
+    const auto text = readWholeFile(path, FileSize::Settings, "");
+    for (std::size_t at = 0; text && at < text->size();) {
+      const std::size_t end = std::min(text->find('\n', at), text->size());
+      addNamed(text->substr(at, end - at), fs::path(path).parent_path(), depth + 1, files);
+      at = end + 1;
+    }
+    return;
+  }
+  const fs::path name(path);
+  if (const auto series = numbered(name.filename().string())) addSeries(name.parent_path(), *series, files);
+}
+
+std::unexpected<Failure> refuse(const std::string& output, const char* why) {
+  return failOn(output, {ErrorCode::InvalidArgument, 0, why});
+}
+
+}  // namespace
+
+std::vector<std::string> filesReadBy(const std::string& address) {
+  std::vector<std::string> files;
+  addFiles(address, 0, files);
+  return files;
+}
+
+Outcome<void> keepApart(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
+  std::set<Inode> read, written;
+  std::set<std::string> read_names, written_names;
+  for (const std::string& input : inputs) {
+    if (const std::string path = pathIn(input); !path.empty()) read_names.insert(fullName(path));
+    for (const std::string& file : filesReadBy(input)) {
+      if (const auto inode = inodeOf(file)) read.insert(*inode);
+    }
+  }
+  for (const std::string& output : outputs) {
+    const std::string path = pathIn(output);
+    const auto inode = inodeOf(path);
+    struct stat status{};
+    const bool device = !inode && ::stat(path.c_str(), &status) == 0;
+    if (path.empty() || device) continue;
+    const bool is_read = inode ? read.contains(*inode) : read_names.contains(fullName(path));
+    if (is_read) return refuse(output, "is read from and would be written over; name another file");
+    const bool twice = inode ? !written.insert(*inode).second : !written_names.insert(fullName(path)).second;
+    if (twice) return refuse(output, "is named for two outputs; name another file for one");
+  }
+  return {};
+}
+
+}  // namespace relievo

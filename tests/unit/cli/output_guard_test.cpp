@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// An output is never a file that is read, under whatever name.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "app/cli/output_guard.h"
+#include "platform/whole_file.h"
+#include "tests/support/film/clip_maker.h"
+
+namespace relievo {
+namespace {
+
+namespace fs = std::filesystem;
+
+class OutputGuard : public testing::Test {
+ protected:
+  std::string file(const std::string& name, const std::string& text = "x") {
+    const fs::path path(folder_ / name);
+    fs::create_directories(path.parent_path());
+    std::ofstream(path) << text;
+    return path.string();
+  }
+  static bool refused(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
+    return !keepApart(outputs, inputs).has_value();
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(OutputGuard, KnowsAnInputByEveryNameThatItHas) {
+  const std::string film = file("film.mkv");
+  fs::create_hard_link(film, folder_ / "hard.mkv");
+  fs::create_symlink(film, folder_ / "soft.mkv");
+  fs::create_directory_symlink(folder_ / ".", folder_ / "here");
+  for (const char* name : {"film.mkv", "hard.mkv", "soft.mkv", "./film.mkv", "here/film.mkv"}) {
+    EXPECT_TRUE(refused({folder_ / name}, {film})) << name;
+    EXPECT_TRUE(refused({film}, {folder_ / name})) << name;
+    EXPECT_TRUE(refused({folder_ / name}, {"file:" + film})) << name;
+  }
+  EXPECT_FALSE(refused({file("other.mkv")}, {film}));
+  EXPECT_FALSE(refused({folder_ / "new.mkv"}, {film}));
+  EXPECT_TRUE(refused({folder_ / "new.mkv"}, {folder_ / "./new.mkv"})) << "none of them is there";
+  EXPECT_FALSE(refused({"", "udp://127.0.0.1:5000", "/dev/null", "/dev/null"}, {"", "http://a/b", "/dev/null"}));
+}
+
+TEST_F(OutputGuard, KnowsThePicturesOfASequence) {
+  file("depth-0001.png"), file("depth-0002.png"), file("depth-x.png");
+  EXPECT_TRUE(refused({folder_ / "depth-0002.png"}, {folder_ / "depth-%04d.png"}));
+  EXPECT_FALSE(refused({folder_ / "depth-x.png"}, {folder_ / "depth-%04d.png"}));
+  EXPECT_FALSE(refused({folder_ / "depth-0003.jpg"}, {folder_ / "depth-%04d.png"}));
+}
+
+TEST_F(OutputGuard, KnowsWhatAListNamesAndListsInLists) {
+  const std::string segment = file("hls/film.segments/00001.m4s"), start = file("hls/film.segments/init.mp4");
+  const std::string film = file("a film.mkv"), depth = file("depth.mkv");
+  file("hls/media.m3u8", "#EXTM3U\n#EXT-X-MAP:URI=\"film.segments/init.mp4\"\n#EXTINF:4,\nfilm.segments/00001.m4s\r\n");
+  const std::string master = file("hls/master.m3u8", "#EXTM3U\n#EXT-X-STREAM-INF:BANDWIDTH=1\nmedia.m3u8\n");
+  const std::string list = file("list.m3u", "#RELIEVO-DEPTH:depth.mkv\na film.mkv\nhls/master.m3u8\n");
+  for (const std::string& read : {segment, start, film, depth, master, folder_ / "hls/media.m3u8", list}) {
+    EXPECT_TRUE(refused({read}, {list})) << read;
+  }
+  EXPECT_FALSE(refused({film}, {master}));
+  file("self.m3u8", "#EXTM3U\nself.m3u8\nself.m3u8\n");
+  EXPECT_LE(filesReadBy(folder_ / "self.m3u8").size(), 31u) << "1 + 2 + 4 + 8 + 16: four deep";
+}
+
+TEST_F(OutputGuard, OneFileIsNoTwoOutputs) {
+  EXPECT_TRUE(refused({folder_ / "a.json", folder_ / "./a.json"}, {}));
+  const std::string there = file("b.json");
+  fs::create_hard_link(there, folder_ / "c.json");
+  EXPECT_TRUE(refused({there, folder_ / "c.json"}, {}));
+  EXPECT_FALSE(refused({there, folder_ / "d.json"}, {}));
+}
+
+TEST_F(OutputGuard, OnlyFilesOfABoundedSizeAreReadWhole) {
+  const auto code = [](const std::string& path) { return readWholeFile(path, FileSize::Settings, "no").error().code; };
+  EXPECT_EQ(readWholeFile(file("a.toml", "text"), FileSize::Settings, "no").value(), "text");
+  EXPECT_EQ(code(folder_ / "missing"), ErrorCode::NotFound);
+  EXPECT_EQ(code("/dev/zero"), ErrorCode::Unsupported);
+  EXPECT_EQ(code(folder_ / "."), ErrorCode::Unsupported);
+  ASSERT_EQ(::system(("mkfifo " + (folder_ / "fifo")).c_str()), 0);
+  EXPECT_EQ(code(folder_ / "fifo"), ErrorCode::Unsupported) << "nobody writes to it, and nobody waits";
+  const std::string large = file("large");
+  fs::resize_file(large, (1u << 20) + 1);
+  EXPECT_EQ(code(large), ErrorCode::Exhausted);
+  fs::resize_file(large, 1u << 20);
+  EXPECT_TRUE(readWholeFile(large, FileSize::Settings, "no"));
+  fs::resize_file(large, (256u << 20) + 1);
+  EXPECT_EQ(readWholeFile(large, FileSize::Recording, "no").error().code, ErrorCode::Exhausted);
+}
+
+}  // namespace
+}  // namespace relievo
