@@ -2,7 +2,9 @@
 // The table of protocols.
 #include "drivers/ffmpeg/address.h"
 
+#include <linux/magic.h>
 #include <sys/stat.h>
+#include <sys/statfs.h>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +13,8 @@
 namespace relievo::ffmpeg {
 namespace {
 
+constexpr const char* kDevice =
+    "it is a device or a file of the kernel, not a film; name a file (a camera is v4l2:/dev/videoN)";
 constexpr const char* kUnknown =
     "this kind of address is not opened here; use a file, http, https, rtsp, rtsps, rtp, udp or tcp";
 
@@ -61,12 +65,24 @@ const char* protocolsOf(Way way) noexcept {
   return "";
 }
 
+// What is read from there comes when the kernel likes, and a read of it cannot be given up.
+bool mayNeverEnd(const std::string& path, const struct stat& status) noexcept {
+  if (S_ISCHR(status.st_mode) || S_ISSOCK(status.st_mode)) return true;
+  struct statfs system{};
+  if (!S_ISREG(status.st_mode) || ::statfs(path.c_str(), &system) != 0) return false;
+  constexpr std::array<long, 4> kKernels{PROC_SUPER_MAGIC, SYSFS_MAGIC, DEBUGFS_MAGIC, TRACEFS_MAGIC};
+  return std::find(kKernels.begin(), kKernels.end(), static_cast<long>(system.f_type)) != kKernels.end();
+}
+
 }  // namespace
 
 Result<Address> parseAddress(const std::string& url) {
-  struct stat status{};
-  if (::stat(url.c_str(), &status) == 0) {
-    return Address{S_ISFIFO(status.st_mode) ? url : "file:" + url, S_ISFIFO(status.st_mode) ? Way::Pipe : Way::File};
+  for (const std::string& path : {url, url.starts_with("file:") ? url.substr(5) : std::string()}) {
+    struct stat status{};
+    if (path.empty() || ::stat(path.c_str(), &status) != 0) continue;
+    if (S_ISFIFO(status.st_mode)) return Address{path, Way::Pipe};
+    if (mayNeverEnd(path, status)) return fail(ErrorCode::Unsupported, kDevice);
+    return Address{"file:" + path, Way::File};
   }
   const std::string_view scheme = schemeOf(url);
   if (scheme.empty()) return Address{url, Way::File};

@@ -292,6 +292,18 @@ TEST(FfmpegSource, AFileThatMayNotBeReadIsSaidToBe) {
   EXPECT_EQ(openErrorOf(folder / "a.mkv").code, ErrorCode::PermissionDenied);
 }
 
+// A read of these comes back when the kernel likes: /proc/kmsg held a player for as long as nothing was logged.
+TEST(FfmpegSource, WhatIsNoFileIsRefusedBeforeItIsRead) {
+  for (const char* path : {"/dev/zero", "/dev/ptmx", "/proc/kmsg", "/proc/self/status", "/sys/kernel/uevent_seqnum"}) {
+    for (const std::string start : {"", "file:"}) {
+      if (::access(path, F_OK) != 0) continue;
+      const Error error = openErrorOf(start + path);
+      EXPECT_EQ(error.code, ErrorCode::Unsupported) << start << path;
+      EXPECT_THAT(error.message, testing::HasSubstr("a device or a file of the kernel")) << start << path;
+    }
+  }
+}
+
 TEST(FfmpegSource, ACutFileEndsLikeAWholeOne) {
   TemporaryFolder folder;
   for (const char* name : {"a.mkv", "a.ts", "a.flv"}) {
