@@ -10,11 +10,14 @@
 #include <filesystem>
 #include <utility>
 
+#include "platform/litter.h"
 #include "platform/unique_fd.h"
 
 namespace relievo {
 namespace {
 
+constexpr const char* kThereMeanwhile =
+    "has been written by another program meanwhile, and stays as it is; choose another name";
 constexpr const char* kCannotWrite = "could not be written to the end; is the disk full?";
 
 // mkstemp makes files for the owner alone; a report is as public as any other file.
@@ -41,14 +44,16 @@ UniqueFd openNameless(const std::string& target) {
 }
 
 // A link does not replace: over a file that is there it takes a name for a moment.
-bool linkInto(const std::string& target, const std::string& nameless) {
+bool linkInto(const std::string& target, const std::string& nameless, Existing existing) {
   const auto link = [&](const std::string& name) {
     return ::linkat(AT_FDCWD, nameless.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
   };
   if (link(target)) return true;
+  if (existing == Existing::Keep) return false;
   std::string beside;
   for (int i = 0; errno == EEXIST && i < 100; ++i) {
-    beside = target + "." + std::to_string(::getpid()) + "." + std::to_string(i);
+    beside = litterPattern(target);
+    beside.replace(beside.size() - 6, 6, std::to_string(::getpid()) + "-" + std::to_string(i));
     if (!link(beside)) continue;
     if (std::rename(beside.c_str(), target.c_str()) == 0) return true;
     const int os_error = errno;
@@ -66,6 +71,7 @@ AtomicFile::AtomicFile(AtomicFile&& other) noexcept
       path_(std::move(other.path_)),
       target_(std::move(other.target_)),
       temporary_(std::exchange(other.temporary_, {})),
+      existing_(other.existing_),
       nameless_(other.nameless_) {}
 
 AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
@@ -75,6 +81,7 @@ AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
   path_ = std::move(other.path_);
   target_ = std::move(other.target_);
   temporary_ = std::exchange(other.temporary_, {});
+  existing_ = other.existing_;
   nameless_ = other.nameless_;
   return *this;
 }
@@ -83,14 +90,16 @@ AtomicFile::~AtomicFile() {
   discard();
 }
 
-Result<AtomicFile> AtomicFile::create(const std::string& path) {
+Result<AtomicFile> AtomicFile::create(const std::string& path, Existing existing) {
   AtomicFile made;
+  made.existing_ = existing;
   made.path_ = path;
   made.target_ = path;
   std::error_code missing;
   if (const auto real = std::filesystem::canonical(path, missing); !missing) made.target_ = real.string();
   if (path.empty()) return fail(ErrorCode::InvalidArgument, "an empty file name; give a path", ENOENT);
 
+  removeLitter(made.target_);
   UniqueFd fd;
   struct stat status{};
   const bool exists = ::stat(made.target_.c_str(), &status) == 0;
@@ -101,12 +110,13 @@ Result<AtomicFile> AtomicFile::create(const std::string& path) {
     made.nameless_ = true;
     made.temporary_ = "/proc/self/fd/" + std::to_string(fd.get());
   } else {
-    made.temporary_ = made.target_ + ".XXXXXX";
+    made.temporary_ = litterPattern(made.target_);
     fd.reset(::mkostemp(made.temporary_.data(), O_CLOEXEC));
     if (!fd.valid()) made.temporary_.clear();
   }
   if (!fd.valid()) return cannotCreate(errno);
   if (!made.temporary_.empty()) ::fchmod(fd.get(), exists ? status.st_mode & 0777 : ordinaryMode());
+  if (!made.temporary_.empty()) holdLitter(fd.get());
   made.file_ = ::fdopen(fd.get(), "w");
   if (made.file_ == nullptr) return cannotCreate(errno);
   static_cast<void>(fd.release());
@@ -125,11 +135,14 @@ Result<void> AtomicFile::commit() {
   good = std::fclose(std::exchange(file_, nullptr)) == 0 && good;
   if (good) return {};
   discard();
+  if (os_error == EEXIST) return fail(ErrorCode::Io, kThereMeanwhile, os_error);
   return fail(ErrorCode::Io, kCannotWrite, os_error);
 }
 
 bool AtomicFile::putInPlace() {
-  const bool done = nameless_ ? linkInto(target_, temporary_) : std::rename(temporary_.c_str(), target_.c_str()) == 0;
+  const unsigned how = existing_ == Existing::Keep ? RENAME_NOREPLACE : 0;
+  const bool done = nameless_ ? linkInto(target_, temporary_, existing_)
+                              : ::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), how) == 0;
   if (done) temporary_.clear();
   return done;
 }

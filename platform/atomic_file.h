@@ -2,6 +2,7 @@
 // A file that appears whole or not at all: written without a name, or beside its place, and put into it when done.
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <string>
 #include <string_view>
@@ -10,9 +11,15 @@
 
 namespace relievo {
 
+enum class Existing : std::uint8_t {
+  Replace,
+  Keep,  // a file that is there at the commit stays, and the commit fails: of several writers the first one wins
+};
+
 // Not thread-safe. A path that is a device or a pipe is written to directly, since it cannot be replaced. Where the
 // file system has files without a name (ext4, xfs, btrfs, tmpfs, ..) nothing is left however the program ends;
-// elsewhere the temporary file stays when it is killed.
+// elsewhere the temporary file stays when it is killed,
+// until the next one of that path is made.
 class AtomicFile {
  public:
   AtomicFile() = default;
@@ -21,7 +28,7 @@ class AtomicFile {
   ~AtomicFile();  // without a commit nothing is left
 
   // Makes the temporary file, so that a path that cannot be written is found out before anything else is done.
-  [[nodiscard]] static Result<AtomicFile> create(const std::string& path);
+  [[nodiscard]] static Result<AtomicFile> create(const std::string& path, Existing existing = Existing::Replace);
 
   // Buffered; a failure is kept and told by `commit`.
   void write(std::string_view text) noexcept;
@@ -41,6 +48,7 @@ class AtomicFile {
   std::string path_;       // as it was given
   std::string target_;     // with links followed
   std::string temporary_;  // empty: written to directly
+  Existing existing_ = Existing::Replace;
   bool nameless_ = false;  // `temporary_` is the open file, by /proc
 };
 

@@ -140,7 +140,7 @@ Outcome<void> Packager::begin(const FramePair& pair) {
   format_.color_crf = output_.color_crf;
   format_.depth = output_.depth;
   format_.depth_tags = calibrationTags(coder_.outcome());
-  auto writer = FilmWriter::create(output_.path, format_);
+  auto writer = FilmWriter::create(output_.path, format_, output_.force ? Existing::Replace : Existing::Keep);
   if (!writer) return failOn(output_.path, writer.error());
   writer_ = std::move(*writer);
   return {};

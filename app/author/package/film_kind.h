@@ -20,7 +20,8 @@ inline constexpr const char* kUnknownKind =
 [[nodiscard]] bool holds(FilmKind kind, VideoCodec codec) noexcept;
 inline constexpr const char* kNotHeld =
     "films of this kind do not hold FFV1; write a .mkv, or take another --depth-codec";
-// Where the segments of PLAYLIST.m3u8 lie: PLAYLIST.segments beside it.
+// Where the segments of PLAYLIST.m3u8 lie: PLAYLIST.segments beside it, odd letters replaced: a playlist holds
+// addresses, in which they would mean something else.
 [[nodiscard]] std::string segmentFolderOf(const std::string& playlist);
 
 }  // namespace relievo

@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 #include <cerrno>
+#include <cstdio>
 #include <filesystem>
 #include <optional>
 
@@ -30,8 +31,8 @@ class PlainFile final : public FilmPlace {
  public:
   ~PlainFile() override { avio_closep(&file_); }
 
-  Result<void> open(const std::string& path, FilmKind kind) {
-    auto made = AtomicFile::create(path);
+  Result<void> open(const std::string& path, FilmKind kind, Existing existing) {
+    auto made = AtomicFile::create(path, existing);
     if (!made) return std::unexpected(made.error());
     place_ = std::move(*made);
     matroska_ = kind == FilmKind::Matroska;
@@ -82,16 +83,28 @@ bool holds(FilmKind kind, VideoCodec codec) noexcept {
 }
 
 std::string segmentFolderOf(const std::string& playlist) {
-  return std::filesystem::path(playlist).replace_extension(".segments").string();
+  const std::filesystem::path path(playlist);
+  const std::string stem = path.stem().string();
+  std::string plain = stem;
+  const auto odd = [](unsigned char c) { return std::isalnum(c) == 0 && c != '-' && c != '_' && c != '.'; };
+  std::replace_if(plain.begin(), plain.end(), odd, '_');
+  if (plain != stem) {                // two films of names that differ in such letters alone keep apart
+    std::uint32_t hash = 2166136261;  // FNV-1a
+    for (const unsigned char c : stem) hash = (hash ^ c) * 16777619;
+    std::array<char, 10> text{};
+    std::snprintf(text.data(), text.size(), "-%08x", hash);
+    plain += text.data();
+  }
+  return (path.parent_path() / (plain + ".segments")).string();
 }
 
-Result<std::unique_ptr<FilmPlace>> FilmPlace::create(const std::string& path, FilmKind kind) {
-  if (kind == FilmKind::Hls) return makeHlsFolder(path);
+Result<std::unique_ptr<FilmPlace>> FilmPlace::create(const std::string& path, FilmKind kind, Existing existing) {
+  if (kind == FilmKind::Hls) return makeHlsFolder(path, existing);
   if (kind == FilmKind::TransportStream || kind == FilmKind::Live) {
-    return makeTransportStream(path, kind == FilmKind::Live);
+    return makeTransportStream(path, kind == FilmKind::Live, existing);
   }
   auto file = std::make_unique<PlainFile>();
-  if (auto opened = file->open(path, kind); !opened) return std::unexpected(opened.error());
+  if (auto opened = file->open(path, kind, existing); !opened) return std::unexpected(opened.error());
   return file;
 }
 

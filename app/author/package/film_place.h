@@ -12,6 +12,7 @@ extern "C" {
 
 #include "app/author/package/film_kind.h"
 #include "app/coding/video_encoder.h"
+#include "platform/atomic_file.h"
 #include "platform/clock.h"
 #include "platform/error.h"
 
@@ -24,7 +25,8 @@ inline constexpr const char* kCannotWrite = "it cannot be written; is the disk f
 class FilmPlace {
  public:
   // Io or NotFound where nothing can be written.
-  [[nodiscard]] static Result<std::unique_ptr<FilmPlace>> create(const std::string& path, FilmKind kind);
+  [[nodiscard]] static Result<std::unique_ptr<FilmPlace>> create(const std::string& path, FilmKind kind,
+                                                                 Existing existing);
   virtual ~FilmPlace() = default;
   FilmPlace(const FilmPlace&) = delete;
   FilmPlace& operator=(const FilmPlace&) = delete;
@@ -50,7 +52,8 @@ class FilmPlace {
   std::unique_ptr<AVFormatContext, Free> muxer_;
 };
 
-[[nodiscard]] Result<std::unique_ptr<FilmPlace>> makeTransportStream(const std::string& path, bool live);
-[[nodiscard]] Result<std::unique_ptr<FilmPlace>> makeHlsFolder(const std::string& path);
+[[nodiscard]] Result<std::unique_ptr<FilmPlace>> makeTransportStream(const std::string& path, bool live,
+                                                                     Existing existing);
+[[nodiscard]] Result<std::unique_ptr<FilmPlace>> makeHlsFolder(const std::string& path, Existing existing);
 
 }  // namespace relievo

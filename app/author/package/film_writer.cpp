@@ -72,7 +72,7 @@ Result<void> Track::write(AVPacket& packet) {
 }  // namespace
 
 struct FilmWriter::Impl {
-  Result<void> begin(const std::string& path, const FilmFormat& format);
+  Result<void> begin(const std::string& path, const FilmFormat& format, Existing existing);
   Result<void> openTracks(const FilmFormat& format);
   [[nodiscard]] VideoEncoder::Planes depthPlanes(const DepthPicture& picture);
 
@@ -84,13 +84,13 @@ struct FilmWriter::Impl {
   std::vector<std::uint16_t> chroma;  // of one that has some
 };
 
-Result<void> FilmWriter::Impl::begin(const std::string& path, const FilmFormat& format) {
+Result<void> FilmWriter::Impl::begin(const std::string& path, const FilmFormat& format, Existing existing) {
   const auto known = filmKindOf(path);
   if (!known) return fail(ErrorCode::InvalidArgument, kUnknownKind);
   if (!holds(*known, format.depth.codec)) return fail(ErrorCode::InvalidArgument, kNotHeld);
   kind = *known;
   coding = format.depth;
-  auto made = FilmPlace::create(path, kind);
+  auto made = FilmPlace::create(path, kind, existing);
   if (!made) return std::unexpected(made.error());
   place = std::move(*made);
   if (auto opened = openTracks(format); !opened) return opened;
@@ -157,10 +157,11 @@ VideoEncoder::Planes FilmWriter::Impl::depthPlanes(const DepthPicture& picture) 
 FilmWriter::FilmWriter(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 FilmWriter::~FilmWriter() = default;
 
-Result<std::unique_ptr<FilmWriter>> FilmWriter::create(const std::string& path, const FilmFormat& format) {
+Result<std::unique_ptr<FilmWriter>> FilmWriter::create(const std::string& path, const FilmFormat& format,
+                                                       Existing existing) {
   av_log_set_level(AV_LOG_QUIET);  // the program prints its own line
   auto impl = std::make_unique<Impl>();
-  if (auto begun = impl->begin(path, format); !begun) return std::unexpected(begun.error());
+  if (auto begun = impl->begin(path, format, existing); !begun) return std::unexpected(begun.error());
   return std::unique_ptr<FilmWriter>(new FilmWriter(std::move(impl)));
 }
 

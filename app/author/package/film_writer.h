@@ -10,6 +10,7 @@
 #include "app/author/package/depth_coding.h"
 #include "app/author/package/picture.h"
 #include "hal/media_time.h"
+#include "platform/atomic_file.h"
 #include "platform/error.h"
 
 namespace relievo {
@@ -52,7 +53,8 @@ class FilmWriter {
  public:
   // InvalidArgument for a kind of film that is not written (filmKindOf) or does not hold the codec, NotFound for a
   // folder that is not there, Unsupported without the codec's library.
-  [[nodiscard]] static Result<std::unique_ptr<FilmWriter>> create(const std::string& path, const FilmFormat& format);
+  [[nodiscard]] static Result<std::unique_ptr<FilmWriter>> create(const std::string& path, const FilmFormat& format,
+                                                                  Existing existing = Existing::Replace);
   ~FilmWriter();
 
   // `key` makes it a key frame; no others are made, apart from the first.

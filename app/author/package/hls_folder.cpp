@@ -8,8 +8,11 @@
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <string>
 
 #include "app/author/package/film_place.h"
+#include "platform/litter.h"
 #include "platform/unique_fd.h"
 
 namespace relievo {
@@ -19,11 +22,9 @@ namespace fs = std::filesystem;
 
 constexpr int kSegmentSeconds = 4;  // at least: each begins with a key frame
 
-// In a name that the muxer takes for a pattern.
-std::string withoutPattern(std::string name) {
-  for (std::size_t at = 0; (at = name.find('%', at)) != std::string::npos; at += 2) name.insert(at, 1, '%');
-  return name;
-}
+// The names that the muxer knows: plain ones, whatever the film is called. `openFile` puts the files into their place.
+constexpr const char* kPlaylist = "film.m3u8";
+constexpr const char* kStart = "init.mp4";
 
 bool onDisk(const fs::path& file) {
   const UniqueFd fd(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
@@ -37,26 +38,31 @@ class HlsFolder final : public FilmPlace {
     if (!apart_.empty()) fs::remove_all(apart_, ignored);
   }
 
-  Result<void> open(const std::string& path) {
+  Result<void> open(const std::string& path, Existing existing) {
+    existing_ = existing;
     playlist_ = path;
     segments_ = segmentFolderOf(path);
-    std::string pattern = path + ".XXXXXX";
+    removeLitter(path);
+    std::string pattern = litterPattern(path);
     if (::mkdtemp(pattern.data()) == nullptr) {
       if (errno == ENOENT) return fail(ErrorCode::NotFound, "there is no such folder; make it first", errno);
       return fail(ErrorCode::Io, "it cannot be written there; choose another folder", errno);
     }
     apart_ = pattern;
-    if (::chmod(apart_.c_str(), 0777 & ~mask()) != 0 || ::mkdir((apart_ / segments_.filename()).c_str(), 0777) != 0) {
+    held_.reset(::open(apart_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    holdLitter(held_.get());
+    if (::chmod(apart_.c_str(), 0777 & ~mask()) != 0 || ::mkdir(madeSegments().c_str(), 0777) != 0) {
       return fail(ErrorCode::Io, kCannotWrite, errno);
     }
-    if (auto made = makeMuxer("hls", (apart_ / playlist_.filename()).string()); !made) return made;
+    if (auto made = makeMuxer("hls", kPlaylist); !made) return made;
     muxer().opaque = this;
+    muxer().io_open = openFile;
     muxer().io_close2 = closeFile;
     return {};
   }
 
   Result<void> begin() override {
-    const std::string folder = segments_.filename().string() + "/";
+    const std::string folder = segments_.filename().string() + "/";  // plain, see segmentFolderOf
     AVDictionary* options = nullptr;
     av_dict_set(&options, "hls_segment_type", "fmp4", 0);
     av_dict_set(&options, "hls_playlist_type", "vod", 0);
@@ -64,9 +70,8 @@ class HlsFolder final : public FilmPlace {
     av_dict_set_int(&options, "hls_time", kSegmentSeconds, 0);
     av_dict_set_int(&options, "hls_list_size", 0, 0);
     av_dict_set(&options, "hls_base_url", folder.c_str(), 0);
-    av_dict_set(&options, "hls_fmp4_init_filename", (folder + "init.mp4").c_str(), 0);
-    const std::string names = withoutPattern((apart_ / segments_.filename()).string()) + "/%05d.m4s";
-    av_dict_set(&options, "hls_segment_filename", names.c_str(), 0);
+    av_dict_set(&options, "hls_fmp4_init_filename", (folder + kStart).c_str(), 0);
+    av_dict_set(&options, "hls_segment_filename", "%05d.m4s", 0);
     return writeHeader(options);
   }
 
@@ -75,6 +80,7 @@ class HlsFolder final : public FilmPlace {
       return fail(ErrorCode::Io, kCannotWrite, osErrorOf(code));
     }
     if (error_ < 0) return fail(ErrorCode::Io, kCannotWrite, osErrorOf(error_));
+    if (!namesOnlyWhatIsThere()) return fail(ErrorCode::Io, "a segment is missing; is the disk full?");
     std::error_code failed;
     std::uint64_t bytes = 0;
     for (const auto& entry : fs::recursive_directory_iterator(apart_, failed)) {
@@ -88,6 +94,18 @@ class HlsFolder final : public FilmPlace {
   }
 
  private:
+  [[nodiscard]] fs::path madeSegments() const { return apart_ / segments_.filename(); }
+
+  // Only the last part of a name counts: the muxer's own idea of folders does not.
+  static int openFile(AVFormatContext* muxer, AVIOContext** file, const char* url, int flags, AVDictionary** options) {
+    auto& self = *static_cast<HlsFolder*>(muxer->opaque);
+    const std::string name = fs::path(url).filename().string();
+    const fs::path place = name == kPlaylist ? self.apart_ / name : self.madeSegments() / name;
+    const int code = avio_open2(file, ("file:" + place.string()).c_str(), flags, nullptr, options);
+    if (code < 0 && self.error_ == 0) self.error_ = code;
+    return code;
+  }
+
   // The muxer lets it pass when a segment could not be written.
   static int closeFile(AVFormatContext* muxer, AVIOContext* file) {
     avio_flush(file);
@@ -104,26 +122,56 @@ class HlsFolder final : public FilmPlace {
     return now;
   }
 
-  // The playlist last: who finds it finds all. Older segments change places with the new ones, and go.
+  // Every file that the playlist names, with something in it.
+  [[nodiscard]] bool namesOnlyWhatIsThere() const {
+    std::ifstream list(apart_ / kPlaylist);
+    int named = 0;
+    for (std::string line; std::getline(list, line);) {
+      if (line.empty() || line.starts_with('#')) continue;
+      std::error_code none;
+      const auto bytes = fs::file_size(madeSegments() / fs::path(line).filename(), none);
+      if (none || bytes == 0) return false;
+      ++named;
+    }
+    std::error_code none;
+    return named > 0 && fs::file_size(madeSegments() / kStart, none) > 0 && !none;
+  }
+
+  static bool move(const fs::path& from, const fs::path& to, unsigned how) {
+    return ::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), how) == 0;
+  }
+
+  // The playlist last: who finds it finds all. Older segments change places with the new ones, and go; they change back
+  // where the playlist cannot be put into its place.
   Result<void> putInPlace() const {
-    const fs::path made = apart_ / segments_.filename();
-    const unsigned how = fs::exists(segments_) ? RENAME_EXCHANGE : RENAME_NOREPLACE;
-    const bool moved = ::renameat2(AT_FDCWD, made.c_str(), AT_FDCWD, segments_.c_str(), how) == 0 &&
-                       ::rename((apart_ / playlist_.filename()).c_str(), playlist_.c_str()) == 0;
-    if (!moved) return fail(ErrorCode::Io, "it cannot be put into its place", errno);
-    return {};
+    const bool keeps = existing_ == Existing::Keep;
+    const unsigned how = !keeps && fs::exists(segments_) ? RENAME_EXCHANGE : RENAME_NOREPLACE;
+    bool moved = move(madeSegments(), segments_, how);
+    int os_error = errno;
+    if (moved && !move(apart_ / kPlaylist, playlist_, keeps ? RENAME_NOREPLACE : 0)) {
+      os_error = errno;
+      moved = false;
+      move(segments_, madeSegments(), how);
+    }
+    if (moved) return {};
+    if (os_error == EEXIST) {
+      return fail(ErrorCode::Io, "has been written by another program meanwhile; choose another name", os_error);
+    }
+    return fail(ErrorCode::Io, "it cannot be put into its place", os_error);
   }
 
   fs::path playlist_, segments_;
   fs::path apart_;
+  UniqueFd held_;  // of `apart_`, so that no other run takes it for litter
+  Existing existing_ = Existing::Replace;
   int error_ = 0;  // of the library, the first
 };
 
 }  // namespace
 
-Result<std::unique_ptr<FilmPlace>> makeHlsFolder(const std::string& path) {
+Result<std::unique_ptr<FilmPlace>> makeHlsFolder(const std::string& path, Existing existing) {
   auto folder = std::make_unique<HlsFolder>();
-  if (auto opened = folder->open(path); !opened) return std::unexpected(opened.error());
+  if (auto opened = folder->open(path, existing); !opened) return std::unexpected(opened.error());
   return folder;
 }
 

@@ -20,11 +20,11 @@ class TransportStream final : public FilmPlace {
     freePackets();
   }
 
-  Result<void> open(const std::string& path, bool live) {
+  Result<void> open(const std::string& path, bool live, Existing existing) {
     live_ = live;
     url_ = path;
     if (!live) {
-      auto made = AtomicFile::create(path);
+      auto made = AtomicFile::create(path, existing);
       if (!made) return std::unexpected(made.error());
       place_ = std::move(*made);
       url_ = "file:" + place_.writtenPath();  // the name may hold a colon
@@ -109,9 +109,9 @@ class TransportStream final : public FilmPlace {
 
 }  // namespace
 
-Result<std::unique_ptr<FilmPlace>> makeTransportStream(const std::string& path, bool live) {
+Result<std::unique_ptr<FilmPlace>> makeTransportStream(const std::string& path, bool live, Existing existing) {
   auto stream = std::make_unique<TransportStream>();
-  if (auto opened = stream->open(path, live); !opened) return std::unexpected(opened.error());
+  if (auto opened = stream->open(path, live, existing); !opened) return std::unexpected(opened.error());
   return stream;
 }
 

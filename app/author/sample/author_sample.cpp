@@ -55,7 +55,7 @@ Outcome<AuthorSummary> authorSample(const SampleOptions& sample, const OutputOpt
   summary.format = formatOf(sample, output);
   summary.format.depth_tags = calibrationTags(coder.outcome());
   summary.frame_period = summary.format.frame_period;
-  auto writer = FilmWriter::create(output.path, summary.format);
+  auto writer = FilmWriter::create(output.path, summary.format, output.force ? Existing::Replace : Existing::Keep);
   if (!writer) return failOn(output.path, writer.error());
 
   SamplePicture picture{.cols = sample.cols, .rows = sample.rows, .rgb = {}, .depth = {}};

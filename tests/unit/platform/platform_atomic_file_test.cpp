@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "platform/atomic_file.h"
+#include "platform/litter.h"
 #include "platform/unique_fd.h"
 #include "tests/support/film/clip_maker.h"
 
@@ -114,6 +115,32 @@ TEST_F(AtomicFileTest, HasNoNameUntilTheCommit) {
   const mode_t mask = ::umask(0);
   ::umask(mask);
   EXPECT_EQ(status.st_mode & 0777, 0666u & ~mask);
+}
+
+TEST_F(AtomicFileTest, OfTwoWritersThatReplaceNothingTheFirstOneWins) {
+  auto first = AtomicFile::create(at("a.json"), Existing::Keep);
+  auto second = AtomicFile::create(at("a.json"), Existing::Keep);
+  ASSERT_TRUE(first && second);
+  first->write("first");
+  second->write("second");
+  ASSERT_TRUE(first->commit());
+  const auto late = second->commit();
+  ASSERT_FALSE(late);
+  EXPECT_THAT(late.error().message, testing::HasSubstr("written by another program meanwhile"));
+  EXPECT_EQ(textOf(at("a.json")), "first");
+  EXPECT_EQ(filesInFolder(), 1);
+}
+
+TEST_F(AtomicFileTest, RemovesWhatAKilledWriterHasLeftAndNothingElse) {
+  const UniqueFd held(::open(at("a.json.relievo-111111").c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600));
+  holdLitter(held.get());
+  for (const char* name : {"a.json.relievo-222222", "a.json.backup", "b.json.relievo-222222"}) {
+    std::ofstream(at(name)) << "left";
+  }
+  ASSERT_TRUE(AtomicFile::create(at("a.json")));
+  EXPECT_FALSE(fs::exists(at("a.json.relievo-222222")));
+  EXPECT_TRUE(fs::exists(at("a.json.relievo-111111"))) << "its writer is alive";
+  EXPECT_TRUE(fs::exists(at("a.json.backup")) && fs::exists(at("b.json.relievo-222222")));
 }
 
 TEST_F(AtomicFileTest, SaysThatTheFolderIsNotThere) {
