@@ -3,10 +3,17 @@
 #include "hal/video_decoder.h"
 
 namespace relievo {
+namespace {
+
+constexpr const char* kTooLarge =
+    "its pictures have more than 16.7 million samples (7680 x 2160, 4096 x 4096); scale the film down";
+
+}  // namespace
 
 Result<void> VideoDecoder::open(const StreamInfo& stream) {
   if (state_ != State::Closed) return fail(ErrorCode::InvalidState, "the decoder is open already; close it first");
   if (stream.kind != StreamKind::Video) return fail(ErrorCode::InvalidArgument, "not a video stream");
+  if (std::int64_t{stream.width} * stream.height > kMostSamples) return fail(ErrorCode::Unsupported, kTooLarge);
   damaged_ = 0;
   restart_.reset();
   auto opened = openDecoder(stream);

@@ -34,7 +34,12 @@ class VideoDecoder {
   };
   virtual ~VideoDecoder() = default;
 
-  // Unsupported when the codec is unknown here, Corrupt when its parameters make no sense. Closed only.
+  // Pictures of more samples are neither opened nor decoded: two of UHD beside each other go, and a handful of such
+  // pictures fits a box's memory.
+  static constexpr std::int64_t kMostSamples = std::int64_t{1} << 24;
+
+  // Unsupported when the codec is unknown here or the pictures are too large, Corrupt when its parameters make no
+  // sense. Closed only.
   [[nodiscard]] Result<void> open(const StreamInfo& stream);
   // A packet that is damaged is dropped and counted (`damaged`), not an error. Lost when the decoder has died.
   // Open only.

@@ -13,7 +13,9 @@ namespace {
 
 constexpr Duration kSameClock = std::chrono::seconds(20);   // of one sender: two lines differ by less
 constexpr Duration kLongestWait = std::chrono::seconds(5);  // for the depth of a live film to begin
-constexpr const char* kNoPicture = "not one picture of its video could be decoded; it is empty, damaged or unknown";
+constexpr const char* kNoPicture =
+    "not one picture of its video could be decoded; it is empty, damaged, unknown, or has more than 16.7 million "
+    "samples";
 
 // The difference of two rounded times is off by up to a millisecond; the container's own period, if it says the same to
 // within that, is not.

@@ -63,6 +63,7 @@ class FfmpegDecoder final : public VideoDecoder {
     if (avcodec_parameters_to_context(context_.get(), &parameters) < 0) {
       return fail(ErrorCode::Corrupt, "the video stream's parameters make no sense");
     }
+    context_->max_pixels = kMostSamples;  // of a film whose size changes
     context_->thread_count = kThreads;
     context_->thread_type = FF_THREAD_FRAME | FF_THREAD_SLICE;
     context_->pkt_timebase = kNanosecond;

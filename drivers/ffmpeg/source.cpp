@@ -8,6 +8,7 @@
 #include <deque>
 #include <map>
 #include <thread>
+#include <vector>
 
 #include "drivers/ffmpeg/address.h"
 #include "drivers/ffmpeg/container.h"
@@ -15,6 +16,7 @@
 #include "drivers/ffmpeg/library.h"
 #include "drivers/ffmpeg/stream_tags.h"
 #include "drivers/ffmpeg/watch.h"
+#include "hal/video_decoder.h"
 #include "platform/unique_fd.h"
 
 extern "C" {
@@ -78,7 +80,7 @@ class FfmpegSource final : public MediaSource {
 
     FormatPtr owned(context);
     watch_.begin(kOpenPatience);
-    const int found = avformat_find_stream_info(context, nullptr);
+    const int found = findStreams(*context);
     if (found < 0 || watch_.cancelled()) return std::unexpected(watch_.explain(refusal(*address, found)));
     if (isTextArt(*context)) return std::unexpected(openError(AVERROR_INVALIDDATA));
     timed_ = isTimed(*context);
@@ -92,6 +94,17 @@ class FfmpegSource final : public MediaSource {
     ahead_.clear();
     readStreamTags();
     return {};
+  }
+
+  // The library decodes a picture here and there to know a stream: none that is too large for the decoder.
+  static int findStreams(AVFormatContext& context) {
+    std::vector<AVDictionary*> options(context.nb_streams, nullptr);
+    for (AVDictionary*& of_stream : options) {
+      av_dict_set_int(&of_stream, "max_pixels", VideoDecoder::kMostSamples, 0);
+    }
+    const int found = avformat_find_stream_info(&context, options.empty() ? nullptr : options.data());
+    for (AVDictionary*& of_stream : options) av_dict_free(&of_stream);
+    return found;
   }
 
   // Where the container says nothing of a depth, the streams may: beside their first key frames. What is read for that

@@ -20,7 +20,6 @@ namespace {
 constexpr std::size_t kQueued = 4;
 constexpr int kMaxHeldFrames = 64;
 constexpr std::uint32_t kLongestSide = 16384;
-constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 26;
 constexpr Duration kDefaultPeriod = std::chrono::milliseconds(40);
 
 struct TiffCloser {
@@ -41,7 +40,7 @@ std::optional<Size> sizeOfFloats(TIFF* file) noexcept {
   TIFFGetFieldDefaulted(file, TIFFTAG_SAMPLESPERPIXEL, &components);
   TIFFGetFieldDefaulted(file, TIFFTAG_SAMPLEFORMAT, &format);
   const bool sound = size.width > 0 && size.height > 0 && std::max(size.width, size.height) <= kLongestSide &&
-                     std::uint64_t{size.width} * size.height <= kMostPixels;
+                     std::uint64_t{size.width} * size.height <= std::uint64_t{VideoDecoder::kMostSamples};
   if (!sound || bits != 32 || components != 1 || format != SAMPLEFORMAT_IEEEFP) return std::nullopt;
   return size;
 }

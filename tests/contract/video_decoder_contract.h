@@ -226,6 +226,9 @@ TEST_P(VideoDecoderContract, RefusesWhatItCannotDecodeAndStaysClosed) {
   unknown.kind = StreamKind::Video;
   unknown.codec = "no-such-codec";
   EXPECT_EQ(test::answerOf(decoder->open(unknown)), ErrorCode::Unsupported);
+  StreamInfo huge = stream_;
+  huge.width = 4097, huge.height = 4096;
+  EXPECT_EQ(test::answerOf(decoder->open(huge)), ErrorCode::Unsupported);
   EXPECT_EQ(decoder->state(), State::Closed);
   EXPECT_TRUE(decoder->open(stream_)) << "and goes on as if nothing had been";
 }

@@ -304,6 +304,19 @@ TEST(FfmpegSource, WhatIsNoFileIsRefusedBeforeItIsRead) {
   }
 }
 
+// PNG of 8192 x 8192: the size is known from the first picture alone, which is not decoded for that.
+TEST(FfmpegSource, APictureThatIsTooLargeIsNotDecodedToKnowItsSize) {
+  TemporaryFolder folder;
+  makeClip(folder / "a.png", {{.codec = "png", .pix_fmt = "gray", .width = 8192, .height = 4096, .frames = 1}});
+  const auto source = makeFfmpegSource();
+  ASSERT_TRUE(source->open(folder / "a.png"));
+  EXPECT_EQ(source->streams()[0].width, 0);
+  makeClip(folder / "b.png", {{.codec = "png", .pix_fmt = "gray", .width = 4096, .height = 4096, .frames = 1}});
+  const auto fits = makeFfmpegSource();
+  ASSERT_TRUE(fits->open(folder / "b.png"));
+  EXPECT_EQ(fits->streams()[0].width, 4096);
+}
+
 TEST(FfmpegSource, ACutFileEndsLikeAWholeOne) {
   TemporaryFolder folder;
   for (const char* name : {"a.mkv", "a.ts", "a.flv"}) {
