@@ -8,6 +8,7 @@
 #include <deque>
 #include <map>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "drivers/ffmpeg/address.h"
@@ -36,6 +37,7 @@ constexpr Duration kNap = std::chrono::milliseconds(2);       // between tries w
 constexpr const char* kCannotSeek = "it cannot seek: a live stream or a pipe";
 constexpr std::size_t kTagPackets = 512;      // among which a key frame of each stream is looked for
 constexpr std::size_t kFlowTagPackets = 128;  // of what comes at its own pace: about as many as the opening has brought
+constexpr int kMostOpens = 200;               // of files and addresses, by one opening or one reading
 constexpr int kDamagedReads = 64;             // in a row, until a broken container counts as ended
 // A container's length may count a last picture longer than its packet, or sound that a codec adds at the end.
 constexpr Duration kWholeWithin = std::chrono::milliseconds(250);
@@ -72,6 +74,9 @@ class FfmpegSource final : public MediaSource {
     AVFormatContext* context = avformat_alloc_context();
     if (context == nullptr) return std::unexpected(openError(AVERROR(ENOMEM)));
     context->interrupt_callback = {Watch::callback, &watch_};
+    context->opaque = this;
+    open_file_ = std::exchange(context->io_open, openCounted);
+    opens_ = 0;
     AVDictionary* options = optionsFor(*address);
     const int opened = avformat_open_input(&context, address->url.c_str(), nullptr, &options);
     av_dict_free(&options);
@@ -94,6 +99,14 @@ class FfmpegSource final : public MediaSource {
     ahead_.clear();
     readStreamTags();
     return {};
+  }
+
+  // A playlist that names itself, or a list of lists without end, is asked for no more than so often.
+  static int openCounted(AVFormatContext* context, AVIOContext** file, const char* url, int flags,
+                         AVDictionary** options) {
+    auto& self = *static_cast<FfmpegSource*>(context->opaque);
+    if (++self.opens_ > kMostOpens) return AVERROR(ELOOP);
+    return self.open_file_(context, file, url, flags, options);
   }
 
   // The library decodes a picture here and there to know a stream: none that is too large for the decoder.
@@ -183,6 +196,7 @@ class FfmpegSource final : public MediaSource {
 
   Result<std::optional<Packet>> readPacket() override {
     watch_.begin(address_.flows() ? kFlowPatience : kReadPatience);
+    opens_ = 0;
     PacketPtr packet(av_packet_alloc());
     if (!packet) return fail(ErrorCode::Exhausted, "out of memory for a packet", ENOMEM);
     int damaged_reads = 0;
@@ -303,7 +317,9 @@ class FfmpegSource final : public MediaSource {
   std::string url_;
   Address address_;
   MonotonicTime arrival_;
-  UniqueFd pipe_;  // outlives the context that reads from it
+  decltype(AVFormatContext::io_open) open_file_ = nullptr;  // the library's own
+  int opens_ = 0;                                           // since an opening or a reading began
+  UniqueFd pipe_;                                           // outlives the context that reads from it
   FormatPtr context_;
   bool timed_ = true;
   Duration start_{0};                                              // the container's start time

@@ -440,6 +440,14 @@ TEST_F(Playlists, OfANetworkNameNothingOfThisMachine) {
   EXPECT_EQ(packetsOf(server.url("outer.m3u8")), 0u);
 }
 
+// 180,000 requests a minute and a gigabyte, until the opening gave up by time.
+TEST_F(Playlists, ThatNameThemselvesAreAskedForABoundedNumberOfTimes) {
+  const test::HttpServer server(at(""));
+  writeFile(at("self.m3u8"), "#EXTM3U\n#EXT-X-STREAM-INF:BANDWIDTH=100000\nself.m3u8\n");
+  EXPECT_EQ(packetsOf(server.url("self.m3u8")), 0u);
+  EXPECT_LE(server.requests().size(), 1000u);
+}
+
 // Formats that are lists of addresses, or ask for ports to be opened, are for files alone.
 TEST_F(Playlists, OfOtherKindsAreForFilesAlone) {
   const test::HttpServer server(at(""));
