@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
 #include <string>
 #include <thread>
@@ -26,6 +27,9 @@
 
 namespace relievo {
 namespace {
+
+constexpr Error kNoPicture{ErrorCode::Timeout, 0,
+                           "not one picture came in the time of --duration; is it sent, and is there a picture in it?"};
 
 PairReader::Backends realBackends(bool software = false) {
   return {.make_source = drivers::makeMediaSource,
@@ -76,9 +80,14 @@ Outcome<void> complete(PlayOptions& options) {
     options.player.keys = std::move(*keys);
   }
   if (!options.resume) return {};
-  options.player.resume_path = Resume::defaultPath();
-  if (!options.player.resume_path.empty()) return {};
-  return failOn("--resume", {ErrorCode::NotFound, 0, "there is no home to remember in; set HOME or STATE_DIRECTORY"});
+  const std::string path = options.player.resume_path = Resume::defaultPath();
+  if (path.empty()) {
+    return failOn("--resume", {ErrorCode::NotFound, 0, "there is no home to remember in; set HOME or STATE_DIRECTORY"});
+  }
+  std::error_code none;
+  std::filesystem::create_directories(std::filesystem::path(path).parent_path(), none);
+  if (const auto place = AtomicFile::create(path); !place) return failOn("--resume " + path, place.error());
+  return {};
 }
 
 int play(PlayOptions options, const FileConfig& config) {
@@ -131,6 +140,7 @@ int play(PlayOptions options, const FileConfig& config) {
   }
   PlayerControl control(std::move(socket), drivers::switchFault);
 
+  const bool for_a_time = options.player.duration.has_value();
   Player player(std::move(options.player), {.clock = clock,
                                             .display = **display,
                                             .haptic = haptic->get(),
@@ -144,6 +154,8 @@ int play(PlayOptions options, const FileConfig& config) {
   const int files = finishFiles(report, report_file ? &*report_file : nullptr, recorder ? &*recorder : nullptr);
   if (!played) return tell(played.error());
   std::fputs(toText(report).c_str(), stdout);
+  if (for_a_time && report.frames_shown == 0 && !report.source.empty() && !stop)
+    return tell({report.source, kNoPicture});
   return files;
 }
 

@@ -409,6 +409,16 @@ TEST_F(PlayerProgram, AfterAKillItGoesOnWhereItWas) {
   ::unsetenv("XDG_STATE_HOME");
 }
 
+TEST_F(PlayerProgram, WhatWasAskedForAndDidNotHappenIsAFailure) {
+  const auto silent = play("udp://127.0.0.1:47391 --duration 1");
+  EXPECT_EQ(silent.exit_code, 1);
+  EXPECT_THAT(silent.err, HasSubstr("udp://127.0.0.1:47391: not one picture came in the time of --duration"));
+  test::makeClip(at("film.mkv"), {color(), depth()});
+  ::setenv("XDG_STATE_HOME", at("film.mkv").c_str(), 1);  // a file, where a folder is to be
+  expectOneLine(play(at("film.mkv") + " --resume"), 1, "--resume " + at("film.mkv"));
+  ::unsetenv("XDG_STATE_HOME");
+}
+
 TEST_F(PlayerProgram, AListIsPlayedFilmByFilm) {
   test::makeClip(at("one.mkv"), {color(), depth()});
   test::makeClip(at("two.mkv"), {color(15), depth(15)});
