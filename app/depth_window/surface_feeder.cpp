@@ -12,11 +12,11 @@ void SurfaceFeeder::beginEpoch() noexcept {
   ++epoch_;
 }
 
-Result<bool> SurfaceFeeder::update(const FramePair& present, const std::deque<FramePair>& ahead, bool last,
+Result<bool> SurfaceFeeder::update(const Frame& present, std::span<const Frame> ahead, bool last,
                                    const ClockSample& clock) {
   bool changed = clock.media != clock_.media || clock.monotonic != clock_.monotonic || clock.rate != clock_.rate;
   clock_ = clock;
-  if (present.depth.empty()) {
+  if (present.empty()) {
     changed = changed || !frames_.empty();
     frames_.clear();
     return changed;
@@ -24,36 +24,36 @@ Result<bool> SurfaceFeeder::update(const FramePair& present, const std::deque<Fr
 
   // Of what is over, the newest two frames stay: a surface in time looks back by two.
   const auto now =
-      std::find_if(frames_.begin(), frames_.end(), [&](const TimedSurface& f) { return f.time >= present.depth.pts; });
+      std::find_if(frames_.begin(), frames_.end(), [&](const TimedSurface& f) { return f.time >= present.pts; });
   if (now - frames_.begin() > SurfaceWindow::kBefore) {
     frames_.erase(frames_.begin(), now - SurfaceWindow::kBefore);
     changed = true;
   }
 
   const std::size_t before = frames_.size();
-  auto appended = append(present.depth);
+  auto appended = append(present);
   if (appended && !*appended) {
     beginEpoch();
-    appended = append(present.depth);
+    appended = append(present);
   }
   if (!appended) {
     frames_.clear();
     return std::unexpected(appended.error());
   }
-  const bool ended = appendAhead(present.depth.pts, ahead) && last;
+  const bool ended = appendAhead(present.pts, ahead) && last;
   if (frames_.size() != before) shots_.mark(frames_);
   changed = changed || frames_.size() != before || ended != ended_;
   ended_ = ended;
   return changed;
 }
 
-bool SurfaceFeeder::appendAhead(MediaTime present, const std::deque<FramePair>& ahead) {
+bool SurfaceFeeder::appendAhead(MediaTime present, std::span<const Frame> ahead) {
   auto count = std::count_if(frames_.begin(), frames_.end(), [&](const TimedSurface& f) { return f.time > present; });
-  for (const FramePair& pair : ahead) {
-    if (pair.depth.empty()) return false;
-    if (pair.depth.pts <= frames_.back().time) continue;
+  for (const Frame& depth : ahead) {
+    if (depth.empty()) return false;
+    if (depth.pts <= frames_.back().time) continue;
     if (count == kAhead) return false;
-    const auto appended = append(pair.depth);
+    const auto appended = append(depth);
     if (!appended || !*appended) return false;  // told when it becomes the present one
     ++count;
   }

@@ -3,15 +3,15 @@
 #pragma once
 
 #include <cstddef>
-#include <deque>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "app/depth_window/shots.h"
 #include "app/depth_window/surface_window.h"
-#include "app/media/pair_reader.h"
 #include "app/scene/depth_calibration.h"
 #include "app/scene/display_volume.h"
+#include "hal/frame.h"
 #include "hal/media_clock.h"
 #include "platform/error.h"
 
@@ -31,11 +31,11 @@ class SurfaceFeeder {
   // The film is not continuous here: opened, sought, looped. What follows is a new epoch.
   void beginEpoch() noexcept;
 
-  // `present` is the pair on the screen, `ahead` those after it; `last`: nothing follows `ahead`. A present pair
-  // without depth makes the window empty, one of another size begins an epoch. True when the frames or the clock are
-  // not those of the last call: then `fill` and publish. Fails for a depth format that cannot be felt; the window is
-  // then empty.
-  [[nodiscard]] Result<bool> update(const FramePair& present, const std::deque<FramePair>& ahead, bool last,
+  // `present` is the depth of the picture on the screen, `ahead` that of those after it, an empty frame where there is
+  // none; `last`: nothing follows `ahead`. Without a present depth the window is empty, one of another size begins an
+  // epoch. True when the frames or the clock are not those of the last call: then `fill` and publish. Fails for a depth
+  // format that cannot be felt; the window is then empty.
+  [[nodiscard]] Result<bool> update(const Frame& present, std::span<const Frame> ahead, bool last,
                                     const ClockSample& clock);
   // The whole window; what it held before is released.
   void fill(SurfaceWindow& window) const;
@@ -46,7 +46,7 @@ class SurfaceFeeder {
  private:
   static constexpr std::ptrdiff_t kAhead = SurfaceWindow::kAhead;
   // False when not all of `ahead` went in.
-  bool appendAhead(MediaTime present, const std::deque<FramePair>& ahead);
+  bool appendAhead(MediaTime present, std::span<const Frame> ahead);
   // False when `depth` is of another size than the frames before it.
   [[nodiscard]] Result<bool> append(const Frame& depth);
 

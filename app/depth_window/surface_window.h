@@ -21,11 +21,13 @@ struct TimedSurface {
 };
 
 // Frames in ascending order of time, all of one size. The writer puts in the frames from two before the present one
-// to five after it, as far as there are that many; a reader finds its place by time, so that a writer which comes
-// late by a frame or two does no harm: three frames of look-ahead are left then.
+// to four after it, as far as there are that many. The widest surface in time reads three after the present one; a
+// reader finds its place by time, so that the fourth lets the writer come late by a frame. More would make a live film
+// wait longer before it begins.
 struct SurfaceWindow {
-  static constexpr int kBefore = 2, kAhead = 5;
-  static constexpr int kCapacity = kBefore + 1 + kAhead;
+  static constexpr int kBefore = 2, kAhead = 4;
+  static constexpr int kCapacity = 8;  // a reader's slots are bits of a byte
+  static_assert(kBefore + 1 + kAhead <= kCapacity);
   std::array<TimedSurface, kCapacity> frames{};
   int count = 0;
   std::uint32_t epoch = 0;  // changes where the film is not continuous: opened, sought, looped

@@ -151,4 +151,8 @@ std::string describe(const FeltScale& s) {
   return text;
 }
 
+TouchPlan planFilm(std::span<const TimedSurface> first_frames) {
+  return planTouch(measureClip(first_frames.first(std::min(first_frames.size(), kPlanFrames))));
+}
+
 }  // namespace relievo

@@ -2,6 +2,7 @@
 // Only what a scene needs: measures what a clip's depth is like, and picks the parts of the method for it.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 
@@ -37,6 +38,10 @@ inline constexpr double kErrorWanted = 0.02;
 // The narrowest smoothing with which the error stays under kErrorWanted for a finger that presses 5 mm deep, the widest
 // where none does; and the law of time that noise or its absence asks for.
 [[nodiscard]] TouchPlan planTouch(const ClipMeasure& measure);
+// The plan for a film that begins with these frames, in ascending order and with their shots marked: it is measured on
+// the first four, which are there when a player begins. Player, probe and laboratory all plan so.
+inline constexpr std::size_t kPlanFrames = 4;
+[[nodiscard]] TouchPlan planFilm(std::span<const TimedSurface> first_frames);
 // "levels of 0.28 and 0.72 mm, linear and fitted in time"
 [[nodiscard]] std::string describe(const FeltScale& scale);
 

@@ -12,7 +12,7 @@ namespace relievo {
 
 class Playhead {
  public:
-  static constexpr std::size_t kAhead = 4;  // what a surface in time looks ahead by, and one to spare
+  static constexpr std::size_t kAhead = 4;  // as far as the depth window reaches
 
   // Takes pairs from the feed until there are kAhead. False when no more will come.
   bool refill(FilmFeed& feed);

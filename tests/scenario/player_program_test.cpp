@@ -409,6 +409,23 @@ TEST_F(PlayerProgram, AfterAKillItGoesOnWhereItWas) {
   ::unsetenv("XDG_STATE_HOME");
 }
 
+// A still relief, another one from the third picture on, and from the fifth on it rises fast: the plan is that of the
+// first four pictures, in which nothing moves but at the cut.
+TEST_F(PlayerProgram, ProbeAnnouncesThePlanOfThePlayer) {
+  ClipTrack moving = depth();
+  moving.sample = [](int, int c, int r, int k) {
+    const int wave = k < 2 ? 900 * c : 900 * (63 - c);
+    return static_cast<std::uint32_t>(wave + 40 * r + 500 * std::max(k - 3, 0));
+  };
+  test::makeClip(at("film.mkv"), {color(), moving});
+  const auto probed = test::runProgram("relievo probe --json " + at("film.mkv"), at(""));
+  ASSERT_EQ(probed.exit_code, 0) << probed.err;
+  const json said = json::parse(probed.out);
+  ASSERT_EQ(play(at("film.mkv") + " --report " + at("r.json")).exit_code, 0);
+  EXPECT_EQ(said["touch"]["reason"], reportOf("r.json")["haptic"]["plan"]);
+  EXPECT_EQ(said["touch"]["speed_mm_per_s"], 0) << "a cut is no motion";
+}
+
 TEST_F(PlayerProgram, WhatWasAskedForAndDidNotHappenIsAFailure) {
   const auto silent = play("udp://127.0.0.1:47391 --duration 1");
   EXPECT_EQ(silent.exit_code, 1);

@@ -42,7 +42,7 @@ const std::vector<Room>& rooms() {
       {"app/scene", {}},
       {"app/media", {"app/scene"}},
       {"app/coding", {}},
-      {"app/depth_window", {"app/scene", "app/media"}},
+      {"app/depth_window", {"app/scene"}},
       {"app/haptics/method", {"app/scene", "app/depth_window"}},
       {"app/haptics/task", {"app/scene", "app/depth_window", "app/haptics/method"}},
       {"app/haptics/baseline", {"app/scene", "app/depth_window", "app/haptics/method"}},

@@ -12,11 +12,11 @@
 
 namespace relievo {
 
-// The window holds the frames from two before the present one to three after it, as far as they have come by then. A
+// The window holds the frames from two before the present one to four after it, as far as they have come by then. A
 // frame that comes late takes its place in the order of time; one that is over when it comes is never seen.
 class MemoryFeed {
  public:
-  static constexpr int kBefore = 2, kAhead = 3;
+  static constexpr int kBefore = SurfaceWindow::kBefore, kAhead = SurfaceWindow::kAhead;
   // Whether a frame of the film can be had, at a time of the machine; nothing: all of them, always.
   using Supply = std::function<bool(std::size_t frame, double machine_s)>;
 

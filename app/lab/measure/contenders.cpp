@@ -51,15 +51,9 @@ constexpr std::array kContenders{
     Contender{"proxy-graph linear", "proxy-graph", with({}, TimeLaw::Linear), !kPlanned, kFixed},
 };
 
-// As the player does when a film begins.
-FeltScale plannedScale(const MemoryFilm& film) {
-  constexpr std::size_t kLookedAt = FilmRun::kAhead + 1;
-  return planTouch(measureClip(film.frames().first(std::min(film.frames().size(), kLookedAt)))).scale;
-}
-
 MethodConfig configOn(const MemoryFilm& film, const Contender& who) {
   MethodConfig config = who.config;
-  if (who.planned) config.scale = plannedScale(film);
+  if (who.planned) config.scale = planFilm(film.frames()).scale;
   return config;
 }
 

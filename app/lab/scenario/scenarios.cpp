@@ -39,9 +39,7 @@ constexpr std::array<Scenario, 20> kScenarios{{
 
 Challenger challengerNamed(const std::string& method) {
   return {method, [method](double stiffness, std::span<const TimedSurface> film) {
-            constexpr std::size_t kLookedAt = MemoryFeed::kAhead + 1;
-            const auto begin = film.first(std::min(film.size(), kLookedAt));
-            return makeMethod(method, {.stiffness_n_per_mm = stiffness, .scale = planTouch(measureClip(begin)).scale});
+            return makeMethod(method, {.stiffness_n_per_mm = stiffness, .scale = planFilm(film).scale});
           }};
 }
 

@@ -12,7 +12,6 @@
 namespace relievo {
 namespace {
 
-constexpr int kFramesAhead = 3;
 constexpr const char* kPackingTag = "DEPTH_PACKING";
 
 int countVideo(const std::vector<StreamInfo>& streams) {
@@ -121,7 +120,7 @@ Outcome<const SurfaceWindow*> DepthFilm::windowAt(double t_s) {
   const auto ahead = [&] {
     return std::count_if(frames_.begin(), frames_.end(), [&](const TimedSurface& f) { return f.time > now; });
   };
-  while (!ended_ && ahead() < kFramesAhead) {
+  while (!ended_ && ahead() < SurfaceWindow::kAhead) {
     const auto read = append();
     if (!read) return std::unexpected(read.error());
     changed = true;

@@ -28,7 +28,7 @@ class DepthFilm {
   ~DepthFilm();
 
   [[nodiscard]] Outcome<void> open();
-  // The frames from two before the one at `t_s` to three after it; time 0 is the first frame's. Times must not go back.
+  // The frames from two before the one at `t_s` to four after it; time 0 is the first frame's. Times must not go back.
   [[nodiscard]] Outcome<const SurfaceWindow*> windowAt(double t_s);
   [[nodiscard]] const DisplayVolume& volume() const noexcept { return volume_; }
 

@@ -79,8 +79,7 @@ Outcome<TraceSummary> runTrace(const TraceOptions& options, const PairReader::Ba
 
   const auto first = film.windowAt(0);
   if (!first) return std::unexpected(first.error());
-  const TouchPlan plan =
-      planTouch(measureClip(std::span((*first)->frames).first(static_cast<std::size_t>((*first)->count))));
+  const TouchPlan plan = planFilm(std::span((*first)->frames).first(static_cast<std::size_t>((*first)->count)));
   MethodConfig config{.stiffness_n_per_mm = options.stiffness_n_per_mm,
                       .space = options.space,
                       .time = options.time,

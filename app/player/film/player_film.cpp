@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the player does with the film: waits for the reader, follows the clock, and feeds the eye and the finger.
 #include <algorithm>
+#include <array>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -218,9 +219,13 @@ void Player::followSurface() {
 }
 
 void Player::feedSurface(const ClockSample& clock) {
-  static const FramePair kNothing;  // what is felt of a film that rushes by
-  const FramePair& present = rate_ > 1 ? kNothing : head_.present();
-  const auto changed = surface_.update(present, head_.ahead(), head_.last(), clock);
+  static_assert(Playhead::kAhead == SurfaceWindow::kAhead);
+  const Frame present = rate_ > 1 ? Frame{} : head_.present().depth;  // of a film that rushes by nothing is felt
+  std::array<Frame, Playhead::kAhead> ahead;
+  const std::size_t count = std::min(head_.ahead().size(), ahead.size());
+  for (std::size_t i = 0; i < count; ++i) ahead[i] = head_.ahead()[i].depth;
+  const bool last = head_.last() && count == head_.ahead().size();
+  const auto changed = surface_.update(present, std::span(ahead).first(count), last, clock);
   if (!changed) {
     if (!std::exchange(depth_refused_, true)) {
       note(std::string("depth: ") + changed.error().message, "it plays without force");
@@ -229,7 +234,7 @@ void Player::feedSurface(const ClockSample& clock) {
     return;
   }
   if (*changed) haptic_.publish(surface_);
-  const bool missing = rate_ <= 1 && report_.film.has_depth && present.depth.empty();
+  const bool missing = rate_ <= 1 && report_.film.has_depth && present.empty();
   if (missing && !depth_missing_) note("no depth at this time", "the picture is flat there, without force");
   depth_missing_ = missing;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/depth_window/shots.h"
 #include "app/player/report.h"
 #include "app/player/screen/text_line.h"
 #include "app/scene/height_field.h"
@@ -69,7 +70,9 @@ Outcome<void> lookAtPairs(PairReader& reader, ProbeResult& result) {
     if (surfaces.empty() || time > surfaces.back().time) surfaces.push_back({*field, time, (*pair)->depth.owner});
   }
   result.depth = look.use;
-  if (!surfaces.empty()) result.touch = planTouch(measureClip(surfaces));
+  if (surfaces.size() > kPlanFrames) surfaces.resize(kPlanFrames);  // those on which the player plans, no more
+  ShotFinder().mark(surfaces);
+  if (!surfaces.empty()) result.touch = planFilm(surfaces);
   result.pairs = reader.counters();
   return {};
 }

@@ -52,7 +52,7 @@ Result<void> HapticSession::setScene(const DisplayVolume& volume, const SurfaceW
   // What the hand feels is the mapping's scale times what the scene has.
   const double stiffness = std::min(kStiffnessNPerMm, capabilities_.max_stiffness_n_per_mm) /
                            WorkspaceMapping(capabilities_, volume).scale();
-  TouchPlan plan = planTouch(measureClip(std::span(first.frames).first(static_cast<std::size_t>(first.count))));
+  TouchPlan plan = planFilm(std::span(first.frames).first(static_cast<std::size_t>(first.count)));
   plan_ = std::move(plan.reason);
   auto method = std::make_unique<RelievoMethod>(
       RelievoMethod::Config{.stiffness_n_per_mm = stiffness, .scale = plan.scale, .tick_s = toSeconds(period_)});

@@ -43,8 +43,8 @@ class MethodStage : public testing::Test {
   }
   Touch tick(double t, const glm::dvec3& hip) {
     const auto now = static_cast<std::ptrdiff_t>(t / kPeriod + 1e-6);
-    const std::ptrdiff_t begin = std::max<std::ptrdiff_t>(now - 2, 0);
-    const std::ptrdiff_t end = std::min<std::ptrdiff_t>(now + 4, std::ssize(surfaces_));
+    const std::ptrdiff_t begin = std::max<std::ptrdiff_t>(now - SurfaceWindow::kBefore, 0);
+    const std::ptrdiff_t end = std::min<std::ptrdiff_t>(now + 1 + SurfaceWindow::kAhead, std::ssize(surfaces_));
     std::vector<TimedSurface> seen(surfaces_.begin() + begin, surfaces_.begin() + end);
     for (const TimedSurface& s : seen_) {
       if (!seen.empty() && s.time == seen.front().time) seen.front().shot = s.shot;

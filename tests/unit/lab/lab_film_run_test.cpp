@@ -42,7 +42,7 @@ std::vector<HipTick> ticksFrom(double from_s, double until_s) {
   return ticks;
 }
 
-TEST(FilmRun, ShowsTheFramesFromTwoBeforeThePresentToFiveAfterIt) {
+TEST(FilmRun, ShowsTheFramesFromTwoBeforeThePresentToFourAfterIt) {
   const auto surface = makeTrueSurface("plane");
   const auto film = MemoryFilm::make(*surface, {.cols = 72, .rows = 48, .frames_per_s = 25}, 1.0, 2.0).value();
   Witness witness;
@@ -51,10 +51,10 @@ TEST(FilmRun, ShowsTheFramesFromTwoBeforeThePresentToFiveAfterIt) {
   EXPECT_EQ(witness.resets, 1);
   EXPECT_EQ(witness.upkeeps, static_cast<int>(witness.views.size()));
   for (const auto& view : witness.views) {
-    ASSERT_EQ(view.count, 8);
+    ASSERT_EQ(view.count, 7);
     const double age = toSeconds(view.now - view.first), ahead = toSeconds(view.last - view.now);
     ASSERT_TRUE(age >= 2 * 0.04 && age < 3 * 0.04) << age;
-    ASSERT_TRUE(ahead > 4 * 0.04 && ahead <= 5 * 0.04) << ahead;
+    ASSERT_TRUE(ahead > 3 * 0.04 && ahead <= 4 * 0.04) << ahead;
   }
 }
 
@@ -64,9 +64,9 @@ TEST(FilmRun, BeginsWithTheFirstFrameAndEndsWithTheLast) {
   Witness witness;
   FilmRun run(film, witness);
   for (const HipTick& tick : ticksFrom(0, 0.6)) static_cast<void>(run.tick(tick));
-  EXPECT_EQ(witness.views.front().count, 6);
+  EXPECT_EQ(witness.views.front().count, 5);
   EXPECT_FALSE(witness.views.front().ended);
-  EXPECT_EQ(film.frames().size(), 16u);
+  EXPECT_EQ(film.frames().size(), 15u);
   EXPECT_TRUE(witness.views.back().ended);
   EXPECT_EQ(witness.views.back().last, film.frames().back().time);
 }

@@ -224,14 +224,14 @@ TEST(HandLoop, AForceActsSoManyTicksLate) {
   EXPECT_GT(loop.position().x, 0);
 }
 
-TEST(MemoryFeed, HoldsTwoFramesBeforeAndThreeAfterThePresentOne) {
+TEST(MemoryFeed, HoldsTwoFramesBeforeAndFourAfterThePresentOne) {
   const auto film = makeFilm(scenario::plane(20, 0, 0), {}, 0.5);
   MemoryFeed feed(film);
   SurfaceWindow window;
   ASSERT_TRUE(feed.update(mediaTime(0.21), 0, 0, window));
-  ASSERT_EQ(window.count, 6);
+  ASSERT_EQ(window.count, 7);
   EXPECT_EQ(window.frames[0].time, mediaTime(4.0 / 30));
-  EXPECT_EQ(window.frames[5].time, mediaTime(9.0 / 30));
+  EXPECT_EQ(window.frames[6].time, mediaTime(10.0 / 30));
   EXPECT_FALSE(feed.update(mediaTime(0.22), 0, 0, window));
   EXPECT_TRUE(feed.update(mediaTime(0.22), 0, 1, window)) << "another epoch";
   EXPECT_EQ(window.epoch, 1U);
