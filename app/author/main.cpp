@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // relievo-author: the content maker's program.
 #include <CLI/CLI.hpp>
-#include <csignal>
 #include <cstdio>
 #include <string>
 #include <thread>
@@ -104,6 +103,7 @@ void addOptions(CLI::App& app, Arguments& a) {
 }
 
 int run(Arguments& a) {
+  const std::atomic<bool>& stop = stopOnSignals();
   if (a.scene.empty() && a.source.url.empty()) {
     return tell(
         {"--color", {ErrorCode::InvalidArgument, 0, "missing; name the film's colour, or take --scene sample"}});
@@ -115,8 +115,6 @@ int run(Arguments& a) {
   inputs.insert(inputs.end(), {a.source.url, a.source.depth_url});
   if (auto apart = keepApart(filesWrittenBy(a.output), inputs); !apart) return tell(apart.error());
 
-  const std::atomic<bool>& stop = stopOnSignals();
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of the write, told like any other
   Outcome<AuthorSummary> summary;
   {
     ProgressLine line;

@@ -3,6 +3,7 @@
 #include "app/cli/program.h"
 
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -27,6 +28,13 @@ void onSignal(int number) {
   if (stop_wanted.exchange(true, std::memory_order_relaxed)) endNow(number);
 }
 
+// What was printed may still lie in the buffer.
+int afterOutput(int exit_code) {
+  const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  if (written || exit_code != kExitDone) return exit_code;
+  return tell({"standard output", {ErrorCode::Io, 0, "it cannot be written; is the disk full, or the reader gone?"}});
+}
+
 }  // namespace
 
 const std::atomic<bool>& stopOnSignals(void (*last)() noexcept) noexcept {
@@ -37,8 +45,8 @@ const std::atomic<bool>& stopOnSignals(void (*last)() noexcept) noexcept {
   if (last == nullptr) return stop_wanted;
   std::atexit([] { last_act.load()(); });
   action.sa_handler = endNow;
-  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGSYS, SIGTRAP, SIGXCPU, SIGXFSZ, SIGALRM,
-                           SIGVTALRM, SIGPROF, SIGUSR1, SIGUSR2}) {
+  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGSYS, SIGTRAP, SIGXCPU, SIGALRM, SIGVTALRM,
+                           SIGPROF, SIGUSR1, SIGUSR2}) {
     struct sigaction old{};
     ::sigaction(number, nullptr, &old);
     if (old.sa_handler == SIG_DFL) ::sigaction(number, &action, nullptr);  // a sanitizer has its own
@@ -59,8 +67,9 @@ int tell(const Failure& failure, int exit_code) {
 int runProgram(const char* name, const std::function<int()>& body) noexcept {
   setLogProgram(name);
   std::signal(SIGPIPE, SIG_IGN);  // who no longer listens ends nothing
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of the write, told like any other
   try {
-    return body();
+    return afterOutput(body());
   } catch (const std::exception& error) {
     log(LogLevel::Error, error.what(), "the system gives no more; close other programs and try again");
     return kExitFailed;

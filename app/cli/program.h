@@ -30,7 +30,9 @@ inline int tell(const Failure& failure) {
 [[nodiscard]] const std::atomic<bool>& stopOnSignals(void (*last)() noexcept = nullptr) noexcept;
 
 // The body of a main, which answers its exit code. `name` (a literal) goes before each line on stderr. What is thrown
-// (out of memory, out of threads) becomes a failure like any other.
+// (out of memory, out of threads) becomes a failure like any other, and so
+// does standard output that could not be written. Writes to closed pipes and beyond the file size limit fail instead of
+// ending the program.
 [[nodiscard]] int runProgram(const char* name, const std::function<int()>& body) noexcept;
 
 }  // namespace relievo

@@ -51,6 +51,31 @@ TEST_P(Programs, HelpIsOnStdoutAndNamesTheVersionsOption) {
   EXPECT_EQ(said.err, "");
 }
 
+// The version, printed into `file`; at most so many blocks of it.
+test::ProgramResult printInto(const std::string& program, const std::string& file, const std::string& blocks) {
+  const std::string command =
+      "ulimit -f " + blocks + "; exec " RELIEVO_BIN_DIR "/" + program + " --version 2>&1 >" + file;
+  std::FILE* const pipe = ::popen(command.c_str(), "r");  // NOLINT(bugprone-command-processor): a test's own words
+  test::ProgramResult said;
+  for (int c = 0; (c = std::fgetc(pipe)) != EOF;) said.err += static_cast<char>(c);
+  const int status = ::pclose(pipe);
+  said.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return said;
+}
+
+TEST_P(Programs, FailWhereStandardOutputIsFull) {
+  const auto said = printInto(GetParam(), "/dev/full", "unlimited");
+  EXPECT_EQ(said.exit_code, 1);
+  EXPECT_EQ(std::count(said.err.begin(), said.err.end(), '\n'), 1) << said.err;
+  EXPECT_TRUE(said.err.starts_with(std::string(GetParam()) + ": standard output: ")) << said.err;
+}
+
+TEST_P(Programs, FailInsteadOfDyingWhereAFileMayNotGrow) {
+  const auto said = printInto(GetParam(), folder_ / "out.txt", "0");
+  EXPECT_EQ(said.exit_code, 1);
+  EXPECT_TRUE(said.err.starts_with(std::string(GetParam()) + ": standard output: ")) << said.err;
+}
+
 TEST(ProgramWords, AMissingCommandIsOneLineWithTheCommands) {
   const test::TemporaryFolder folder;
   const auto said = test::runProgram("relievo", folder / ".");
