@@ -29,6 +29,7 @@ struct StreamInfo {
   ColorRange range = ColorRange::Unspecified;
   ColorMatrix matrix = ColorMatrix::Unspecified;
   double sample_aspect = 1.0;  // width of a sample over its height
+  int rotation = 0;            // quarter turns clockwise, 0 to 3, that make its pictures upright
   int sample_rate_hz = 0;      // of sound
   int channels = 0;
   Duration frame_period{0};                 // a hint from the container; the true one comes from the timestamps

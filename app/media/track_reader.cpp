@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/media/turned.h"
+
 namespace relievo {
 namespace {
 
@@ -24,6 +26,7 @@ Result<std::size_t> TrackReader::select(const StreamInfo& stream) {
   if (track_count_ == kMaxTracks) return fail(ErrorCode::Exhausted, "two tracks of a source are chosen already");
   Track track;
   track.stream = stream.index;
+  track.rotation = stream.rotation;
   track.decoder = make_decoder_(stream);
   if (auto opened = track.decoder->open(stream); !opened) return std::unexpected(opened.error());
   tracks_[track_count_] = std::move(track);
@@ -53,9 +56,15 @@ std::optional<VideoDecoder::Restart> TrackReader::takeRestart() noexcept {
   return std::nullopt;
 }
 
+Result<std::optional<Frame>> TrackReader::receiveUpright(Track& track) {
+  auto frame = track.decoder->receive();
+  if (track.rotation == 0 || !frame || !*frame) return frame;
+  return turned(**frame, track.rotation);
+}
+
 Result<std::optional<Frame>> TrackReader::decode(Track& track) {
   for (;;) {
-    auto frame = track.decoder->receive();
+    auto frame = receiveUpright(track);
     if (frame && *frame && &track == tracks_.data()) given_ = (*frame)->pts;
     if (!frame || *frame) return frame;
     if (track.decoder->state() == VideoDecoder::State::Draining) continue;

@@ -43,8 +43,8 @@ class TrackReader {
                                     const AudioFormat& format) {
     return sound_.open(std::move(decoder), stream, format);
   }
-  // The track's next picture in presentation order, or nothing: at its end (`ended`), or for now. Exhausted when the
-  // caller holds more pictures than the decoder allows.
+  // The track's next picture, upright, in presentation order, or nothing: at its end (`ended`), or for now. Exhausted
+  // when the caller holds more pictures than the decoder allows.
   [[nodiscard]] Result<std::optional<Frame>> next(std::size_t track);
   // The next samples among what has been read. Never reads, never fails.
   [[nodiscard]] std::optional<AudioChunk> nextSound() { return sound_.next(); }
@@ -67,6 +67,7 @@ class TrackReader {
  private:
   struct Track {
     int stream = -1;
+    int rotation = 0;  // StreamInfo::rotation
     std::unique_ptr<VideoDecoder> decoder;
     std::deque<Packet> waiting;
     std::size_t waiting_bytes = 0;
@@ -79,6 +80,7 @@ class TrackReader {
   [[nodiscard]] Result<bool> seekOnce(MediaTime from, MediaTime target, Duration key_step);
   [[nodiscard]] bool isWanted(Track& track, const Packet& packet) const;
   [[nodiscard]] Result<std::optional<Frame>> decode(Track& track);
+  [[nodiscard]] static Result<std::optional<Frame>> receiveUpright(Track& track);
   [[nodiscard]] Result<bool> feed(Track& track);
   [[nodiscard]] Result<bool> readOnePacket();
   void keep(Track& track, Packet packet);

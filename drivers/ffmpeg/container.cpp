@@ -5,13 +5,16 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <cmath>
 #include <cstdlib>
 #include <utility>
 
 #include "drivers/ffmpeg/library.h"
 #include "drivers/ffmpeg/picture.h"
+#include "platform/log.h"
 
 extern "C" {
+#include <libavutil/display.h>
 #include <libavutil/opt.h>
 }
 
@@ -27,6 +30,34 @@ Duration framePeriodOf(const AVStream& stream) noexcept {
     if (rate.num > 0 && rate.den > 0) return durationFrom(1, av_inv_q(rate));
   }
   return Duration(0);
+}
+
+// Nine numbers; null where the container asks for no turn.
+const std::int32_t* displayMatrixOf(const AVStream& stream) noexcept {
+#if LIBAVFORMAT_VERSION_INT >= AV_VERSION_INT(60, 15, 100)  // FFmpeg 6.1
+  const AVCodecParameters& parameters = *stream.codecpar;
+  const AVPacketSideData* const data =
+      av_packet_side_data_get(parameters.coded_side_data, parameters.nb_coded_side_data, AV_PKT_DATA_DISPLAYMATRIX);
+  if (data == nullptr || data->size < 9 * sizeof(std::int32_t)) return nullptr;
+  return reinterpret_cast<const std::int32_t*>(data->data);
+#else
+  std::size_t bytes = 0;
+  const std::uint8_t* const data = av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, &bytes);
+  return bytes < 9 * sizeof(std::int32_t) ? nullptr : reinterpret_cast<const std::int32_t*>(data);
+#endif
+}
+
+// StreamInfo::rotation. What is not done is told.
+int rotationOf(const AVStream& stream) noexcept {
+  const std::int32_t* const m = displayMatrixOf(stream);
+  if (m == nullptr) return 0;
+  const double degrees = -av_display_rotation_get(m);  // clockwise; not a number where the matrix is none
+  const bool mirrored = static_cast<double>(m[0]) * m[4] < static_cast<double>(m[1]) * m[3];
+  const double quarters = std::round(degrees / 90);
+  if (!mirrored && std::abs(degrees - 90 * quarters) < 1) return (static_cast<int>(quarters) + 4) % 4;
+  log(LogLevel::Warning, "media", "track %d asks to be %s, which is not done; convert the film to upright pictures",
+      stream.index, mirrored ? "mirrored" : "turned by no quarter turn");
+  return 0;
 }
 
 // Picture size, then bits a second, of a programme's best video.
@@ -133,6 +164,7 @@ Result<StreamInfo> describeStream(const AVStream& stream, bool timed) {
   info.width = parameters.width;
   info.height = parameters.height;
   if (info.kind == StreamKind::Video) describeSignals(info, parameters, stream.sample_aspect_ratio);
+  if (info.kind == StreamKind::Video) info.rotation = rotationOf(stream);
   info.sample_rate_hz = parameters.sample_rate;
   info.channels = parameters.ch_layout.nb_channels;
   info.frame_period = framePeriodOf(stream);

@@ -11,6 +11,7 @@
 #include "tests/support/film/clip_encoder.h"
 
 extern "C" {
+#include <libavutil/display.h>
 #include <libavutil/pixdesc.h>
 }
 
@@ -31,6 +32,18 @@ struct Dictionary {
 
 std::uint32_t movingSlope(int component, int column, int row, int frame) {
   return static_cast<std::uint32_t>(16 + column * 3 + row * 2 + frame * 5 + component * 40);
+}
+
+std::int32_t* newDisplayMatrix(AVStream& stream) {
+  constexpr std::size_t kBytes = 9 * sizeof(std::int32_t);
+#if LIBAVFORMAT_VERSION_INT >= AV_VERSION_INT(60, 15, 100)  // FFmpeg 6.1
+  AVCodecParameters& parameters = *stream.codecpar;
+  AVPacketSideData* const data = av_packet_side_data_new(&parameters.coded_side_data, &parameters.nb_coded_side_data,
+                                                         AV_PKT_DATA_DISPLAYMATRIX, kBytes, 0);
+  return data == nullptr ? nullptr : reinterpret_cast<std::int32_t*>(data->data);
+#else
+  return reinterpret_cast<std::int32_t*>(av_stream_new_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, kBytes));
+#endif
 }
 
 // Pictures on their way into the file.
@@ -64,6 +77,7 @@ class PictureEncoder final : public Encoder {
     stream_->sample_aspect_ratio = context_->sample_aspect_ratio;
     if (track.cover) stream_->disposition |= AV_DISPOSITION_ATTACHED_PIC;
     check(avcodec_parameters_from_context(stream_->codecpar, context_.get()), "parameters");
+    if (track.rotation) av_display_rotation_set(newDisplayMatrix(*stream_), *track.rotation);
     Dictionary tags(track.tags);
     std::swap(stream_->metadata, tags.dictionary);
     packet_.reset(av_packet_alloc());

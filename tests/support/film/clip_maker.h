@@ -26,6 +26,7 @@ struct ClipTrack {
   int b_frames = 0;
   ColorRange range = ColorRange::Unspecified;  // as signalled
   int sample_width = 0, sample_height = 0;     // sample aspect ratio; 0: not signalled
+  std::optional<double> rotation;              // degrees clockwise that a player is to turn it by (MP4, QuickTime)
   bool cover = false;                          // a cover picture, not a film (MP4)
   // (component, column, row, frame): the code of one sample, cut to the format's bits. Default: a slope that moves.
   std::function<std::uint32_t(int, int, int, int)> sample;

@@ -101,6 +101,48 @@ TEST(PairReader, TwoTracksOfOneFileArePairedAndDescribed) {
   EXPECT_EQ(reader.counters().mismatched, 0u);
 }
 
+// The codes tell where a sample was: 100 row + column.
+TEST(PairReader, TracksThatWereTakenOnTheirSideComeUpright) {
+  TemporaryFolder folder;
+  const auto place = [](int, int column, int row, int) { return static_cast<std::uint32_t>(100 * row + column); };
+  ClipTrack c = color(30, 2), d = depth(30, 2);
+  d.sample = place;
+  c.rotation = 90, d.rotation = 90;
+  makeClip(folder / "a.mov", {c, d});
+  c.rotation = -90, d.rotation.reset();
+  makeClip(folder / "color.mov", {c});
+  d.rotation = 180;
+  makeClip(folder / "depth.mov", {d});
+
+  PairReader reader(kFfmpeg);
+  ASSERT_TRUE(reader.open({.url = folder / "a.mov"}).has_value());
+  EXPECT_EQ(reader.info().color_width, 48);
+  EXPECT_EQ(reader.info().depth_height, 64);
+  const Frame quarter = readAll(reader).at(1).depth;
+  EXPECT_EQ(sampleAt(quarter, 0, 47, 0), 0u);  // the left upper corner is the right one now
+  EXPECT_EQ(sampleAt(quarter, 0, 0, 0), 4700u);
+  EXPECT_EQ(sampleAt(quarter, 0, 47, 63), 63u);
+
+  ASSERT_TRUE(reader.open({.url = folder / "color.mov", .depth_url = folder / "depth.mov"}).has_value());
+  EXPECT_EQ(reader.info().color_width, 48);
+  EXPECT_EQ(reader.info().depth_width, 64);
+  EXPECT_EQ(sampleAt(readAll(reader).at(0).depth, 0, 0, 0), 4763u);
+}
+
+TEST(PairReader, ATurnThatIsNoQuarterTurnIsTold) {
+  TemporaryFolder folder;
+  ClipTrack c = color(30, 2);
+  c.rotation = 30;
+  makeClip(folder / "a.mov", {c});
+  PairReader reader(kFfmpeg);
+  testing::internal::CaptureStderr();
+  const auto opened = reader.open({.url = folder / "a.mov"});
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              testing::HasSubstr("turned by no quarter turn, which is not done"));
+  ASSERT_TRUE(opened.has_value());
+  EXPECT_EQ(reader.info().color_width, 64);
+}
+
 TEST(PairReader, TheFramePeriodIsFreeOfTheContainersRounding) {
   TemporaryFolder folder;
   makeClip(folder / "a.mkv", {color(30, 3)});

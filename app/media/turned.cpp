@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// Turns a picture component by component.
+#include "app/media/turned.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <new>
+#include <utility>
+
+namespace relievo {
+namespace {
+
+struct Size {
+  int cols = 0, rows = 0;
+};
+
+Size sizeOf(const Frame& frame, std::size_t component) noexcept {
+  if (frame.model != ColorModel::Yuv || component == 0) return {frame.width, frame.height};
+  const auto part = [](int whole, int shift) { return (whole + (1 << shift) - 1) >> shift; };
+  return {part(frame.width, frame.chroma_shift_x), part(frame.height, frame.chroma_shift_y)};
+}
+
+// One component: the sample at (0, 0) of what comes out, and the ways there to its right and to the one below.
+struct Walk {
+  const std::uint8_t* first;
+  std::ptrdiff_t right, down;
+};
+
+Walk walkOf(const Frame& frame, std::size_t component, int quarter_turns) noexcept {
+  const Component& c = frame.components[component];
+  const Plane& plane = frame.planes[c.plane];
+  const Size size = sizeOf(frame, component);
+  const std::ptrdiff_t col = c.step_bytes, row = plane.stride_bytes;
+  const std::uint8_t* const top_left = plane.data + c.offset_bytes;
+  const std::uint8_t* const bottom_left = top_left + (size.rows - 1) * row;
+  switch (quarter_turns) {
+    case 1:
+      return {bottom_left, -row, col};
+    case 2:
+      return {bottom_left + (size.cols - 1) * col, -col, -row};
+    default:
+      return {top_left + (size.cols - 1) * col, row, -col};
+  }
+}
+
+// In blocks, so that a column that is read as a row stays in the cache.
+template <int kBytes>
+void copyTurned(const Walk& from, Size size, std::uint8_t* to) noexcept {
+  constexpr int kBlock = 32;
+  for (int r0 = 0; r0 < size.rows; r0 += kBlock) {
+    for (int c0 = 0; c0 < size.cols; c0 += kBlock) {
+      for (int r = r0; r < std::min(r0 + kBlock, size.rows); ++r) {
+        const std::uint8_t* in = from.first + r * from.down + c0 * from.right;
+        std::uint8_t* out = to + (std::ptrdiff_t{r} * size.cols + c0) * kBytes;
+        for (int c = c0; c < std::min(c0 + kBlock, size.cols); ++c, in += from.right, out += kBytes) {
+          out[0] = in[0];
+          if constexpr (kBytes == 2) out[1] = in[1];
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Result<Frame> turned(const Frame& frame, int quarter_turns) noexcept {
+  Frame upright = frame;
+  if (quarter_turns % 2 != 0) {
+    std::swap(upright.width, upright.height);
+    std::swap(upright.chroma_shift_x, upright.chroma_shift_y);
+    upright.sample_aspect = 1 / frame.sample_aspect;
+  }
+  upright.planes = {};
+  upright.dma_bufs = {};
+  upright.dma_modifier.reset();
+  upright.plane_count = frame.model == ColorModel::Gray ? 1 : 3;
+
+  const auto bytesOf = [&](std::size_t i) { return frame.components[i].bits > 8 ? 2 : 1; };
+  std::size_t bytes = 0;
+  for (std::size_t i = 0; i < upright.plane_count; ++i) {
+    const Size size = sizeOf(upright, i);
+    upright.planes[i].stride_bytes = std::ptrdiff_t{size.cols} * bytesOf(i);
+    bytes += static_cast<std::size_t>(size.cols) * static_cast<std::size_t>(size.rows * bytesOf(i));
+  }
+  std::shared_ptr<std::uint8_t[]> memory;
+  try {
+    memory = std::make_shared_for_overwrite<std::uint8_t[]>(bytes);
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::Exhausted, "out of memory for an upright picture", ENOMEM);
+  }
+  std::uint8_t* at = memory.get();
+  for (std::size_t i = 0; i < upright.plane_count; ++i) {
+    const Size size = sizeOf(upright, i);
+    const Walk walk = walkOf(frame, i, quarter_turns);
+    if (bytesOf(i) == 2) copyTurned<2>(walk, size, at);
+    else copyTurned<1>(walk, size, at);
+    upright.planes[i].data = at;
+    at += upright.planes[i].stride_bytes * size.rows;
+    Component& c = upright.components[i];
+    c = {.plane = static_cast<std::uint8_t>(i),
+         .offset_bytes = 0,
+         .step_bytes = static_cast<std::uint8_t>(bytesOf(i)),
+         .shift = c.shift,
+         .bits = c.bits};
+  }
+  upright.owner = std::move(memory);
+  return upright;
+}
+
+}  // namespace relievo

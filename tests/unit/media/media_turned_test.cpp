@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures turned by quarter turns, sample by sample.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "app/media/turned.h"
+#include "tests/support/film/clip_maker.h"
+
+namespace relievo {
+namespace {
+
+using test::sampleAt;
+
+// Where the sample at (column, row) of a picture of `cols` x `rows` is found after one quarter turn clockwise.
+std::pair<int, int> afterOne(int column, int row, int rows) {
+  return {rows - 1 - row, column};
+}
+
+void expectTurned(const Frame& before, const Frame& after, int turns, int component, int cols, int rows) {
+  for (int r = 0; r < rows; ++r) {
+    for (int c = 0; c < cols; ++c) {
+      std::pair<int, int> at{c, r};
+      for (int i = 0; i < turns; ++i) at = afterOne(at.first, at.second, i % 2 == 0 ? rows : cols);
+      ASSERT_EQ(sampleAt(after, component, at.first, at.second), sampleAt(before, component, c, r))
+          << turns << " turns, component " << component << ", " << c << " " << r;
+    }
+  }
+}
+
+TEST(Turned, GrayOfTwelveBitsInTwoBytesKeepsEverySample) {
+  constexpr int kCols = 70, kRows = 37;
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(kRows) * 160);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i * 37 + i / 160);
+  Frame frame;
+  frame.width = kCols, frame.height = kRows;
+  frame.sample_aspect = 2;
+  frame.plane_count = 1;
+  frame.components[0] = {.plane = 0, .offset_bytes = 2, .step_bytes = 2, .shift = 4, .bits = 12};
+  frame.planes[0] = {bytes.data(), 160};
+  for (int turns = 1; turns <= 3; ++turns) {
+    const Frame after = turned(frame, turns).value();
+    EXPECT_EQ(after.width, turns == 2 ? kCols : kRows);
+    EXPECT_EQ(after.height, turns == 2 ? kRows : kCols);
+    EXPECT_EQ(after.sample_aspect, turns == 2 ? 2 : 0.5);
+    expectTurned(frame, after, turns, 0, kCols, kRows);
+  }
+}
+
+// YUYV: the three components share a plane, and two columns share their chroma.
+TEST(Turned, PackedColourKeepsItsChroma) {
+  constexpr int kCols = 6, kRows = 4;
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(kCols) * 2 * kRows);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i + 1);
+  Frame frame;
+  frame.width = kCols, frame.height = kRows;
+  frame.model = ColorModel::Yuv;
+  frame.chroma_shift_x = 1;
+  frame.plane_count = 1;
+  frame.components = {Component{.offset_bytes = 0, .step_bytes = 2}, Component{.offset_bytes = 1, .step_bytes = 4},
+                      Component{.offset_bytes = 3, .step_bytes = 4}};
+  frame.planes[0] = {bytes.data() + bytes.size() - kCols * 2, -kCols * 2};  // stored upside down
+  for (int turns = 1; turns <= 3; ++turns) {
+    const Frame after = turned(frame, turns).value();
+    EXPECT_EQ(after.chroma_shift_x, turns == 2 ? 1 : 0);
+    EXPECT_EQ(after.chroma_shift_y, turns == 2 ? 0 : 1);
+    expectTurned(frame, after, turns, 0, kCols, kRows);
+    expectTurned(frame, after, turns, 1, kCols / 2, kRows);
+    expectTurned(frame, after, turns, 2, kCols / 2, kRows);
+  }
+}
+
+}  // namespace
+}  // namespace relievo
