@@ -15,6 +15,7 @@ namespace relievo {
 enum class ColorModel : std::uint8_t { Gray, Yuv, Rgb };
 enum class ColorRange : std::uint8_t { Unspecified, Limited, Full };
 enum class ColorMatrix : std::uint8_t { Unspecified, Bt601, Bt709, Bt2020 };
+inline constexpr std::uint8_t kUnspecifiedColor = 2, kBt709 = 1;  // primaries and transfers of ITU-T H.273
 
 // One memory plane. `stride_bytes` may be larger than a row, and negative for a picture stored upside down.
 struct Plane {
@@ -52,7 +53,9 @@ struct Frame {
   ColorModel model = ColorModel::Gray;
   ColorRange range = ColorRange::Unspecified;
   ColorMatrix matrix = ColorMatrix::Unspecified;
-  double sample_aspect = 1.0;  // width of a sample over its height
+  std::uint8_t primaries = kUnspecifiedColor;  // ITU-T H.273, 8.1: 9 BT.2020, ..
+  std::uint8_t transfer = kUnspecifiedColor;   // likewise, 8.2: 16 PQ, 18 HLG, ..
+  double sample_aspect = 1.0;                  // width of a sample over its height
   std::uint8_t chroma_shift_x = 0;
   std::uint8_t chroma_shift_y = 0;
   std::uint8_t plane_count = 0;

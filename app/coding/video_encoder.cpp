@@ -79,8 +79,6 @@ void signalMatrix(AVCodecContext& codec, ColorMatrix matrix) {
       break;
     case ColorMatrix::Bt709:
       codec.colorspace = AVCOL_SPC_BT709;
-      codec.color_primaries = AVCOL_PRI_BT709;
-      codec.color_trc = AVCOL_TRC_BT709;
       break;
     case ColorMatrix::Bt2020:
       codec.colorspace = AVCOL_SPC_BT2020_NCL;
@@ -124,6 +122,8 @@ void configure(AVCodecContext& codec, const VideoEncoder::Settings& s, bool glob
   codec.sample_aspect_ratio = av_d2q(s.sample_aspect, 10000);
   codec.color_range = rangeOf(s.range);  // unsaid, readers would take full range for limited
   signalMatrix(codec, s.matrix);
+  codec.color_primaries = static_cast<AVColorPrimaries>(s.primaries);
+  codec.color_trc = static_cast<AVColorTransferCharacteristic>(s.transfer);
   codec.log_level_offset = AV_LOG_TRACE;  // libx264 would write its statistics to stderr
   if (global_header) codec.flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
   if (s.codec == VideoCodec::Ffv1) {

@@ -35,6 +35,7 @@ class VideoEncoder {
     bool live = false;      // no picture waits for those after it
     ColorRange range = ColorRange::Unspecified;
     ColorMatrix matrix = ColorMatrix::Unspecified;
+    std::uint8_t primaries = kUnspecifiedColor, transfer = kUnspecifiedColor;  // of ITU-T H.273, as in a Frame
     double sample_aspect = 1.0;
     Duration frame_period{0};  // for the rate control alone; 0 unknown
     int crf = 18;              // 0: lossless, as FFV1 always is

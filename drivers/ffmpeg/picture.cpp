@@ -63,6 +63,11 @@ ColorRange rangeOf(int format, AVColorRange range, ColorModel model) noexcept {
   return model == ColorModel::Yuv ? ColorRange::Unspecified : ColorRange::Full;
 }
 
+// The library counts primaries and transfers as ITU-T H.273 does.
+std::uint8_t h273(int code) noexcept {
+  return code > 0 && code <= 255 ? static_cast<std::uint8_t>(code) : kUnspecifiedColor;
+}
+
 ColorMatrix matrixOf(AVColorSpace space) noexcept {
   switch (space) {
     case AVCOL_SPC_BT709:
@@ -136,6 +141,8 @@ Frame frameOf(FramePtr picture, AVRational sample_aspect) {
   frame.model = modelOf(format);
   frame.range = rangeOf(picture->format, picture->color_range, frame.model);
   frame.matrix = matrixOf(picture->colorspace);
+  frame.primaries = h273(picture->color_primaries);
+  frame.transfer = h273(picture->color_trc);
   frame.sample_aspect = sampleAspectOf(sample_aspect, picture->sample_aspect_ratio);
   if (frame.model == ColorModel::Yuv) {
     frame.chroma_shift_x = format.log2_chroma_w;

@@ -226,6 +226,23 @@ TEST_F(AuthorFilm, WritesADepthOfALowerRateOnceAPicture) {
   }
 }
 
+TEST_F(AuthorFilm, KeepsTheColoursPrimariesAndTransfer) {
+  const auto code = [](int c, int, int) { return static_cast<std::uint32_t>(c); };
+  ClipTrack color = colorTrack();
+  color.codec = "libx264";
+  color.primaries = 9, color.transfer = 14;
+  package(color, depthTrack("gray", code));
+  const Film wide = readFilm(folder_ / "out.mkv");
+  EXPECT_EQ(wide.pairs.at(0).color.primaries, 9);
+  EXPECT_EQ(wide.pairs.at(0).color.transfer, 14);
+
+  makeClip(folder_ / "color.mkv", {{.pix_fmt = "bgr0"}});  // RGB becomes BT.709
+  ASSERT_TRUE(make({.url = folder_ / "color.mkv", .depth_url = folder_ / "depth.mkv"}, "rgb.mkv").has_value());
+  const Film rgb = readFilm(folder_ / "rgb.mkv");
+  EXPECT_EQ(rgb.pairs.at(0).color.primaries, kBt709);
+  EXPECT_EQ(rgb.pairs.at(0).color.transfer, kBt709);
+}
+
 TEST_F(AuthorFilm, ThinsADepthOfAHigherRateAndSaysSo) {
   ClipTrack depth = depthTrack("gray", [](int, int, int k) { return static_cast<std::uint32_t>(4 * k); });
   depth.fps_num = 60;

@@ -134,6 +134,9 @@ Outcome<void> Packager::begin(const FramePair& pair) {
   const bool rgb = pair.color.model == ColorModel::Rgb;
   format_.color_range = rgb ? ColorRange::Limited : pair.color.range;
   format_.color_matrix = rgb ? ColorMatrix::Bt709 : pair.color.matrix;
+  const auto signalled = [rgb](std::uint8_t code) { return rgb && code == kUnspecifiedColor ? kBt709 : code; };
+  format_.color_primaries = signalled(pair.color.primaries);
+  format_.color_transfer = signalled(pair.color.transfer);
   format_.color_aspect = pair.color.sample_aspect;
   format_.depth_aspect = pair.depth.sample_aspect;
   format_.frame_period = info.frame_period;

@@ -106,6 +106,8 @@ Result<void> FilmWriter::Impl::openTracks(const FilmFormat& format) {
                             .live = live,
                             .range = format.color_range,
                             .matrix = format.color_matrix,
+                            .primaries = format.color_primaries,
+                            .transfer = format.color_transfer,
                             .sample_aspect = format.color_aspect,
                             .frame_period = format.frame_period,
                             .crf = format.color_crf},

@@ -20,8 +20,10 @@ struct FilmFormat {
   int depth_width = 0, depth_height = 0;
   ColorRange color_range = ColorRange::Limited;
   ColorMatrix color_matrix = ColorMatrix::Unspecified;
-  double color_aspect = 1.0, depth_aspect = 1.0;  // width of a sample over its height
-  Duration frame_period{0};                       // for the rate control alone; 0 unknown
+  std::uint8_t color_primaries = kUnspecifiedColor,
+               color_transfer = kUnspecifiedColor;  // of ITU-T H.273, as in a Frame
+  double color_aspect = 1.0, depth_aspect = 1.0;    // width of a sample over its height
+  Duration frame_period{0};                         // for the rate control alone; 0 unknown
   int color_crf = 18;
   DepthCoding depth;
   std::map<std::string, std::string> depth_tags;  // calibrationTags()

@@ -39,6 +39,7 @@ FilmFormat formatOf(const SampleOptions& sample, const OutputOptions& output) {
   format.color_width = format.depth_width = sample.cols;
   format.color_height = format.depth_height = sample.rows;
   format.color_matrix = ColorMatrix::Bt709;
+  format.color_primaries = format.color_transfer = kBt709;
   format.frame_period = fromSeconds(1.0 / SampleFilm::kFramesPerSecond);
   format.color_crf = output.color_crf;
   format.depth = output.depth;

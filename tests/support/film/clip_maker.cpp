@@ -65,6 +65,8 @@ class PictureEncoder final : public Encoder {
     if (track.sample_height > 0) context_->sample_aspect_ratio = {track.sample_width, track.sample_height};
     if (track.range == ColorRange::Full) context_->color_range = AVCOL_RANGE_JPEG;
     if (track.range == ColorRange::Limited) context_->color_range = AVCOL_RANGE_MPEG;
+    context_->color_primaries = static_cast<AVColorPrimaries>(track.primaries);
+    context_->color_trc = static_cast<AVColorTransferCharacteristic>(track.transfer);
     if ((file.oformat->flags & AVFMT_GLOBALHEADER) != 0) context_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
     auto options = track.options;
     if (track.codec == "libx264") options.insert({{"preset", "veryfast"}, {"sc_threshold", "0"}});

@@ -24,10 +24,11 @@ struct ClipTrack {
   Duration start{0};  // of the first picture
   int gop = 12;       // key frame distance; codecs of key frames alone (ffv1) take it as well
   int b_frames = 0;
-  ColorRange range = ColorRange::Unspecified;  // as signalled
-  int sample_width = 0, sample_height = 0;     // sample aspect ratio; 0: not signalled
-  std::optional<double> rotation;              // degrees clockwise that a player is to turn it by (MP4, QuickTime)
-  bool cover = false;                          // a cover picture, not a film (MP4)
+  ColorRange range = ColorRange::Unspecified;                                // as signalled
+  std::uint8_t primaries = kUnspecifiedColor, transfer = kUnspecifiedColor;  // likewise
+  int sample_width = 0, sample_height = 0;                                   // sample aspect ratio; 0: not signalled
+  std::optional<double> rotation;  // degrees clockwise that a player is to turn it by (MP4, QuickTime)
+  bool cover = false;              // a cover picture, not a film (MP4)
   // (component, column, row, frame): the code of one sample, cut to the format's bits. Default: a slope that moves.
   std::function<std::uint32_t(int, int, int, int)> sample;
   // The time of frame k, or nothing for one that is left out. Default: start + k / fps, none left out.
