@@ -74,9 +74,15 @@ class TransportStream final : public FilmPlace {
   static constexpr const char* kLineFailed = "sending failed; check the network";
 
   // The library's call-back; its buffer is whole packets, which are its own to change.
-  static int takePackets(void* self, std::uint8_t* data, int bytes) {
+#if LIBAVFORMAT_VERSION_MAJOR >= 61  // FFmpeg 7
+  using PacketBytes = const std::uint8_t;
+#else
+  using PacketBytes = std::uint8_t;
+#endif
+  // The bytes lie in the buffer that `begin` has allocated, so they may be rewritten.
+  static int takePackets(void* self, PacketBytes* data, int bytes) {
     auto& film = *static_cast<TransportStream*>(self);
-    if (film.take({data, static_cast<std::size_t>(bytes)})) return bytes;
+    if (film.take({const_cast<std::uint8_t*>(data), static_cast<std::size_t>(bytes)})) return bytes;
     return film.out_->error;
   }
   bool take(std::span<std::uint8_t> packets) {

@@ -20,13 +20,23 @@ double tone(double seconds, int /*channel*/) {
   return 0.5 * std::sin(2 * std::numbers::pi * 440 * seconds);
 }
 
+AVSampleFormat firstFormat(const AVCodec& codec) {
+#if LIBAVCODEC_VERSION_INT >= AV_VERSION_INT(61, 13, 100)  // FFmpeg 7.1
+  const void* formats = nullptr;
+  check(avcodec_get_supported_config(nullptr, &codec, AV_CODEC_CONFIG_SAMPLE_FORMAT, 0, &formats, nullptr), codec.name);
+  return *static_cast<const AVSampleFormat*>(formats);
+#else
+  return codec.sample_fmts[0];
+#endif
+}
+
 class SoundEncoder final : public Encoder {
  public:
   SoundEncoder(AVFormatContext& file, const ClipSound& sound) : file_(file), sound_(sound) {
     const AVCodec* const codec = avcodec_find_encoder_by_name(sound.codec.c_str());
     if (codec == nullptr) give_up("no encoder " + sound.codec);
     context_.reset(avcodec_alloc_context3(codec));
-    context_->sample_fmt = codec->sample_fmts[0];
+    context_->sample_fmt = firstFormat(*codec);
     context_->sample_rate = sound.rate_hz;
     av_channel_layout_default(&context_->ch_layout, sound.channels);
     context_->time_base = {1, sound.rate_hz};
