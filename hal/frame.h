@@ -55,6 +55,7 @@ struct Frame {
   ColorMatrix matrix = ColorMatrix::Unspecified;
   std::uint8_t primaries = kUnspecifiedColor;  // ITU-T H.273, 8.1: 9 BT.2020, ..
   std::uint8_t transfer = kUnspecifiedColor;   // likewise, 8.2: 16 PQ, 18 HLG, ..
+  bool interlaced = false;                     // its odd and even rows are of two times
   double sample_aspect = 1.0;                  // width of a sample over its height
   std::uint8_t chroma_shift_x = 0;
   std::uint8_t chroma_shift_y = 0;

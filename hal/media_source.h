@@ -16,7 +16,7 @@
 
 namespace relievo {
 
-enum class StreamKind : std::uint8_t { Video, Audio, Other };
+enum class StreamKind : std::uint8_t { Video, Audio, Subtitle, Other };
 
 // Names one stream and describes it as far as the container does.
 struct StreamInfo {

@@ -27,6 +27,7 @@ struct PairReader::Impl {
   Result<void> selectDepth(const StreamInfo* depth);
   Result<void> openDepth(const StreamInfo& color);
   void openSound();
+  void countTracks(const TrackPlan& plan);
   Result<void> describeDepth(const Frame& first, const StreamInfo& stream,
                              const std::map<std::string, std::string>& tags);
   Result<std::optional<Frame>> readColor();

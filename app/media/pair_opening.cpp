@@ -65,6 +65,7 @@ Result<void> PairReader::Impl::openFilm() {
   if (!chosen) return failOn(options.url, chosen.error());
   if (auto selected = selectDepth(plan->depth); !selected) return selected;
   openSound();
+  countTracks(*plan);
   if (auto opened = openColor(*plan->color); !opened) return opened;
   return openDepth(*plan->color);
 }
@@ -167,6 +168,17 @@ Result<void> PairReader::Impl::openDepth(const StreamInfo& color) {
   depth_track.reset();
   depth.reset();
   return {};
+}
+
+void PairReader::Impl::countTracks(const TrackPlan& plan) {
+  const auto& streams = color_reader->source().streams();
+  const auto count = [&](StreamKind kind) {
+    return static_cast<int>(
+        std::count_if(streams.begin(), streams.end(), [&](const StreamInfo& s) { return s.kind == kind; }));
+  };
+  info.sound_tracks = count(StreamKind::Audio);
+  info.subtitle_tracks = count(StreamKind::Subtitle);
+  info.video_tracks_unused = count(StreamKind::Video) - (plan.depth == nullptr ? 1 : 2);
 }
 
 void PairReader::Impl::openSound() {

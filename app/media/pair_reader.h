@@ -55,7 +55,8 @@ struct FilmInfo {
   std::string color_codec, depth_codec;
   std::string color_decoder, depth_decoder;  // VideoDecoder::description
   std::string sound_codec;                   // of the film's sound, where it was wanted and there is some
-  const char* sound_refused = nullptr;       // why it cannot be decoded
+  int sound_tracks = 0, subtitle_tracks = 0, video_tracks_unused = 0;  // of `url`
+  const char* sound_refused = nullptr;                                 // why it cannot be decoded
 };
 
 struct PairCounters {

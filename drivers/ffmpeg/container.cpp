@@ -92,6 +92,8 @@ StreamKind kindOf(const AVStream& stream) noexcept {
       return (stream.disposition & kStills) == 0 ? StreamKind::Video : StreamKind::Other;
     case AVMEDIA_TYPE_AUDIO:
       return StreamKind::Audio;
+    case AVMEDIA_TYPE_SUBTITLE:
+      return StreamKind::Subtitle;
     default:
       return StreamKind::Other;
   }

@@ -63,6 +63,14 @@ ColorRange rangeOf(int format, AVColorRange range, ColorModel model) noexcept {
   return model == ColorModel::Yuv ? ColorRange::Unspecified : ColorRange::Full;
 }
 
+bool isInterlaced(const AVFrame& picture) noexcept {
+#if LIBAVUTIL_VERSION_INT >= AV_VERSION_INT(58, 7, 100)  // FFmpeg 6.1
+  return (picture.flags & AV_FRAME_FLAG_INTERLACED) != 0;
+#else
+  return picture.interlaced_frame != 0;
+#endif
+}
+
 // The library counts primaries and transfers as ITU-T H.273 does.
 std::uint8_t h273(int code) noexcept {
   return code > 0 && code <= 255 ? static_cast<std::uint8_t>(code) : kUnspecifiedColor;
@@ -141,6 +149,7 @@ Frame frameOf(FramePtr picture, AVRational sample_aspect) {
   frame.model = modelOf(format);
   frame.range = rangeOf(picture->format, picture->color_range, frame.model);
   frame.matrix = matrixOf(picture->colorspace);
+  frame.interlaced = isInterlaced(*picture);
   frame.primaries = h273(picture->color_primaries);
   frame.transfer = h273(picture->color_trc);
   frame.sample_aspect = sampleAspectOf(sample_aspect, picture->sample_aspect_ratio);

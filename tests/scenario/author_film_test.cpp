@@ -243,6 +243,45 @@ TEST_F(AuthorFilm, KeepsTheColoursPrimariesAndTransfer) {
   EXPECT_EQ(rgb.pairs.at(0).color.transfer, kBt709);
 }
 
+TEST_F(AuthorFilm, TellsWhatItDoesNotKeep) {
+  ClipTrack color = colorTrack(), third = colorTrack();
+  color.codec = "libx264";
+  color.options = {{"flags", "+ildct+ilme"}};
+  color.primaries = 9, color.transfer = 16;
+  // A quarter of the columns is beyond the codes that are told.
+  const ClipTrack depth =
+      depthTrack("gray", [](int c, int r, int) { return c < 16 ? 255u : 50u + static_cast<unsigned>(r); });
+  makeClip(folder_ / "film.mkv", {color, depth, third}, {}, {{}, {}});
+  const auto summary = make({.url = folder_ / "film.mkv", .command_line = {{"codes", "10-110"}}});
+  ASSERT_TRUE(summary.has_value());
+  for (const char* line : {"2 sound tracks are left out", "1 more video track", "30 pictures are interlaced",
+                           "the colour is HDR (PQ)", "25 % of the depth lay beyond the codes 10 .. 110"}) {
+    EXPECT_THAT(summary->notes, testing::Contains(HasSubstr(line)));
+  }
+
+  color.options.clear();
+  color.transfer = 14;
+  makeClip(folder_ / "wide.mkv", {color, depth});
+  const auto wide = make({.url = folder_ / "wide.mkv"}, "wide-out.mkv");
+  ASSERT_TRUE(wide.has_value());
+  EXPECT_THAT(wide->notes, testing::Contains(HasSubstr("wide primaries")));
+  EXPECT_THAT(wide->notes, testing::Not(testing::Contains(HasSubstr("interlaced"))));
+}
+
+// A film of the disk's that another program gave words below the picture.
+TEST_F(AuthorFilm, TellsThatSubtitlesAreLeftOut) {
+  makeClip(folder_ / "film.mkv",
+           {colorTrack(), depthTrack("gray", [](int, int r, int) { return 50u + static_cast<unsigned>(r); })});
+  std::ofstream(folder_ / "words.srt") << "1\n00:00:00,100 --> 00:00:00,900\nhello\n";
+  const std::string command = "ffmpeg -v error -i " + (folder_ / "film.mkv") + " -i " + (folder_ / "words.srt") +
+                              " -map 0 -map 1 -c copy " + (folder_ / "both.mkv");
+  if (std::system(command.c_str()) != 0)
+    GTEST_SKIP() << "no ffmpeg program here";  // NOLINT(bugprone-command-processor)
+  const auto summary = make({.url = folder_ / "both.mkv"});
+  ASSERT_TRUE(summary.has_value());
+  EXPECT_THAT(summary->notes, ElementsAre(HasSubstr("1 subtitle track is left out")));
+}
+
 TEST_F(AuthorFilm, ThinsADepthOfAHigherRateAndSaysSo) {
   ClipTrack depth = depthTrack("gray", [](int, int, int k) { return static_cast<std::uint32_t>(4 * k); });
   depth.fps_num = 60;

@@ -15,6 +15,7 @@
 #include "app/author/package/key_frames.h"
 #include "app/author/package/output.h"
 #include "app/author/package/preview.h"
+#include "app/author/package/source_notes.h"
 #include "app/depth_window/shots.h"
 #include "app/scene/height_field.h"
 #include "platform/log.h"
@@ -93,7 +94,6 @@ class Packager {
   [[nodiscard]] const DepthCalibration& sourceCalibration() const { return reader_.info().calibration.calibration; }
   static constexpr std::size_t kRecent = 3;
   [[nodiscard]] bool beginsShot(const Frame& depth);
-  [[nodiscard]] std::vector<std::string> sourceNotes() const;
 
   PairReader& reader_;
   const SourceOptions& source_;
@@ -109,6 +109,7 @@ class Packager {
   std::deque<TimedSurface> recent_;  // depth pictures, the newest last
   ShotFinder shots_;
   std::optional<MediaTime> last_depth_;
+  std::uint64_t interlaced_ = 0;  // pictures of the colour
   ColorPicture420 color_;
   DepthPicture depth_;
   Preview preview_;
@@ -154,6 +155,7 @@ Outcome<void> Packager::write(const FramePair& pair) {
   if (color.width != format_.color_width || color.height != format_.color_height) {
     return failOn("colour", {ErrorCode::Unsupported, 0, "its pictures change their size; cut the film there"});
   }
+  if (color.interlaced) ++interlaced_;
   const bool depth_is_new = !pair.depth.empty() && (!last_depth_ || pair.depth.pts > *last_depth_);
   const bool key =
       key_frames_.isDue(color.pts, depth_is_new || pair.depth.empty(), depth_is_new && beginsShot(pair.depth));
@@ -225,33 +227,10 @@ Outcome<AuthorSummary> Packager::finish() {
     summary.notes.emplace_back("coding moves the edges of holes by a sample here and there; --depth-crf 0 keeps them");
   }
   if (auto line = cut_.explain(); !line.empty()) summary.notes.push_back(std::move(line));
-  for (std::string& line : sourceNotes()) summary.notes.push_back(std::move(line));
-  return summary;
-}
-
-// What the film had not, or what was left of it.
-std::vector<std::string> Packager::sourceNotes() const {
-  std::vector<std::string> notes;
-  const PairCounters counters = reader_.counters();
-  const auto tell = [&notes](std::uint64_t count, const char* what) {
-    if (count > 0) notes.push_back(std::to_string(count) + what);
-  };
-  const auto tellMissing = [&notes](const std::string& url, Duration missing) {
-    char line[80];
-    std::snprintf(line, sizeof line, " breaks off %.1f s before its end, cut off or damaged", toSeconds(missing));
-    if (missing > Duration(0)) notes.push_back(url + line);
-  };
-  tellMissing(source_.url, counters.missing);
-  tellMissing(source_.depth_url, counters.depth_missing);
-  tell(counters.without_depth, " pictures of the colour have no depth: its pictures begin later or end earlier");
-  tell(counters.mismatched, " pictures of the colour had no depth of their time; the one before was held");
-  tell(counters.depth_skipped, " pictures of the depth lay between those of the colour and were left out");
-  tell(counters.lost, " pictures were lost between the camera and here");
-  tell(counters.damaged, " packets or pictures were damaged and left out");
-  for (const auto& lines : {reader_.info().reading, reader_.info().doubts}) {
-    notes.insert(notes.end(), lines.begin(), lines.end());
+  for (std::string& line : sourceNotes(source_, reader_, format_, interlaced_, coder_.counts())) {
+    summary.notes.push_back(std::move(line));
   }
-  return notes;
+  return summary;
 }
 
 }  // namespace

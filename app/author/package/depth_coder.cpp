@@ -37,12 +37,14 @@ DepthCoder::DepthCoder(const DepthCalibration& source, const DepthCoding& coding
   if (source.code != DepthCode::Luma) return;
   const double low = source.lowCode(), high = source.highCode();
   from_luma_.resize(std::size_t{1} << source.bits);
+  is_clipped_.resize(from_luma_.size());
   for (std::size_t i = 0; i < from_luma_.size(); ++i) {
     const double above = std::clamp(static_cast<double>(i), low, high) - low;
     const double near_high = source.polarity == DepthPolarity::NearIsHigh ? above : (high - low) - above;
-    from_luma_[i] = source.invalid.contains(static_cast<std::uint32_t>(i))
-                        ? kHole
-                        : codeOf(inLaw(near_high / (high - low), source, outcome_));
+    const bool hole = source.invalid.contains(static_cast<std::uint32_t>(i));
+    const auto code = static_cast<double>(i);
+    is_clipped_[i] = !hole && (code < low || code > high) ? 1 : 0;
+    from_luma_[i] = hole ? kHole : codeOf(inLaw(near_high / (high - low), source, outcome_));
   }
 }
 
@@ -69,7 +71,9 @@ Result<void> DepthCoder::encode(const Frame& depth, DepthPicture& picture) {
   for (int r = 0; r < depth.height; ++r) {
     for (int c = 0; c < depth.width; ++c, ++out) {
       if (source_.code == DepthCode::Luma) {
-        *out = from_luma_[field->code(c, r) & (from_luma_.size() - 1)];
+        const std::size_t code = field->code(c, r) & (from_luma_.size() - 1);
+        *out = from_luma_[code];
+        counts_.clipped += is_clipped_[code];
       } else {
         const double s = field->heightMm(c, r);
         *out = std::isnan(s) ? kHole : codeOf(inLaw(s, source_, outcome_));

@@ -35,6 +35,7 @@ class DepthCoder {
     int bits = 8;
     std::vector<std::uint64_t> of_code = std::vector<std::uint64_t>(256);  // 2^bits; holes are not counted here
     std::uint64_t holes = 0;
+    std::uint64_t clipped = 0;  // codes beyond those that the calibration names
     std::uint64_t samples = 0;
   };
   [[nodiscard]] const Counts& counts() const noexcept { return counts_; }
@@ -45,6 +46,7 @@ class DepthCoder {
   DepthCalibration source_;
   DepthCalibration outcome_;
   std::vector<std::uint16_t> from_luma_;  // by the source's code
+  std::vector<std::uint8_t> is_clipped_;  // likewise
   Counts counts_;
 };
 
