@@ -67,7 +67,7 @@ void touchTick(benchmark::State& state, const char* name, MethodConfig config) {
     const double cycle = std::fmod(kTickS * static_cast<double>(k), 8 * kFramePeriodS);
     const double t = cycle < 4 * kFramePeriodS ? cycle : 8 * kFramePeriodS - cycle;
     const MonotonicTime begin = clock.now();
-    const Touch touch = method->update(path[k], window, mediaTime(t));
+    Touch touch = method->update(path[k], window, mediaTime(t));
     const MonotonicTime done = clock.now();
     method->upkeep(window, mediaTime(t));
     upkeep_times.add(clock.now() - done);

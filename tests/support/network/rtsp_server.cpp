@@ -27,7 +27,12 @@ struct Channel {
   std::uint8_t number = 0;
   bool broken = false;
 
-  static int write(void* self, std::uint8_t* data, int bytes) {
+#if LIBAVFORMAT_VERSION_MAJOR >= 61  // FFmpeg 7
+  using PacketBytes = const std::uint8_t;
+#else
+  using PacketBytes = std::uint8_t;
+#endif
+  static int write(void* self, PacketBytes* data, int bytes) {
     auto& channel = *static_cast<Channel*>(self);
     const bool rtcp = bytes > 1 && data[1] >= 200 && data[1] <= 204;
     std::string frame{'$', static_cast<char>(channel.number + (rtcp ? 1 : 0)), static_cast<char>(bytes >> 8),
