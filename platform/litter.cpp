@@ -37,7 +37,8 @@ void removeLitter(const std::string& target) noexcept try {
     const UniqueFd fd(::open(entry.path().c_str(), O_RDONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC));
     if (fd.valid() && ::flock(fd.get(), LOCK_EX | LOCK_NB) == 0) fs::remove_all(entry.path(), failed);
   }
-} catch (const std::exception&) {  // out of memory: what is left is left
+} catch (const std::exception&) {
+  return;  // out of memory: what is left is left
 }
 
 }  // namespace relievo

@@ -48,8 +48,9 @@ Rgb fromYuv(float y, float u, float v, const Frame& f) noexcept {
   return {std::clamp(red, 0.0F, 1.0F), std::clamp(green, 0.0F, 1.0F), std::clamp(blue, 0.0F, 1.0F)};
 }
 
-float brightness(const Rgb& c) noexcept {
-  return 0.299F * c.red + 0.587F * c.green + 0.114F * c.blue;
+double brightness(const Rgb& c) noexcept {
+  return 0.299 * static_cast<double>(c.red) + 0.587 * static_cast<double>(c.green) +
+         0.114 * static_cast<double>(c.blue);
 }
 
 // The samples that are looked at, (column, row) in turn.
@@ -114,7 +115,7 @@ PictureLook lookAt(const Frame& picture) noexcept {
     const Rgb color = rgbAt(picture, c, r);
     const float high = std::max({color.red, color.green, color.blue});
     const float spread = high - std::min({color.red, color.green, color.blue});
-    const double y = brightness(color);
+    const double y{brightness(color)};
     ++count;
     sum += y;
     squares += y * y;
@@ -137,7 +138,7 @@ PictureLook lookAt(const Frame& picture) noexcept {
 double likeness(const Frame& a, const Frame& b) noexcept {
   double n = 0, sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
   visit(a, [&](int c, int r) {
-    const double x = brightness(rgbAt(a, c, r)), y = brightness(rgbAt(b, c, r));
+    const double x{brightness(rgbAt(a, c, r))}, y{brightness(rgbAt(b, c, r))};
     ++n, sa += x, sb += y, saa += x * x, sbb += y * y, sab += x * y;
   });
   const double va = n * saa - sa * sa, vb = n * sbb - sb * sb;

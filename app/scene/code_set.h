@@ -22,10 +22,10 @@ class CodeSet {
   static constexpr int kMostRanges = 4;
   static constexpr std::uint32_t kHighestCode = 0xffff;
 
-  constexpr CodeSet() = default;
+  constexpr CodeSet() noexcept = default;
   // One code.
-  constexpr CodeSet(std::uint32_t code) : CodeSet(Range{code, code}) {}  // NOLINT(*-explicit-*)
-  constexpr explicit CodeSet(Range range) : ranges_{range}, count_(1) {}
+  constexpr CodeSet(std::uint32_t code) noexcept : CodeSet(Range{code, code}) {}  // NOLINT(*-explicit-*)
+  constexpr explicit CodeSet(Range range) noexcept : ranges_{range}, count_(1) {}
 
   // "0", "0+65535", "0+2000-2047", "none". Nothing for any other text, and for more than four ranges.
   [[nodiscard]] static std::optional<CodeSet> parse(std::string_view text) noexcept;

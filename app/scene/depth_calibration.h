@@ -92,7 +92,7 @@ struct CalibrationLayers {
   CalibrationSettings command_line;
   CalibrationSettings side_file;
   CalibrationSettings tags;
-  CalibrationSettings pictures = {};  // what the first ones look like
+  CalibrationSettings pictures;  // what the first ones look like
 };
 [[nodiscard]] Result<CalibrationChoice> chooseCalibration(const CalibrationLayers& layers, const Frame& depth_frame,
                                                           DepthCode code);

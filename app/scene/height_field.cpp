@@ -266,7 +266,7 @@ bool HeightField::sameSamples(const HeightField& other) const noexcept {
 bool HeightField::sameChroma(const HeightField& other) const noexcept {
   const int cols = (cols_ + (1 << chroma_.shift_x) - 1) >> chroma_.shift_x;
   const int rows = (rows_ + (1 << chroma_.shift_y) - 1) >> chroma_.shift_y;
-  const auto bytes = static_cast<std::size_t>((cols - 1) * chroma_.step_bytes + (chroma_.bits > 8 ? 2 : 1));
+  const auto bytes = static_cast<std::size_t>(cols - 1) * chroma_.step_bytes + (chroma_.bits > 8 ? 2 : 1);
   for (int r = 0; r < rows; ++r) {
     const auto same = [&](const std::uint8_t* a, std::ptrdiff_t a_stride, const std::uint8_t* b,
                           std::ptrdiff_t b_stride) {
