@@ -41,20 +41,6 @@ const double kFalconCountsPerNm = falcon::kDefaultCountsPerNm;
 
 namespace {
 
-// "sim:hand.csv" -> sim, hand.csv. Only the first colon parts them, so that a path may hold more.
-struct Spec {
-  std::string_view name;
-  std::optional<std::string> argument;
-
-  explicit Spec(std::string_view text) : name(text.substr(0, text.find(':'))) {
-    if (name.size() < text.size()) argument = text.substr(name.size() + 1);
-  }
-  [[nodiscard]] bool plain(std::string_view wanted) const { return name == wanted && !argument; }
-  [[nodiscard]] bool withArgument(std::string_view wanted) const {
-    return name == wanted && argument && !argument->empty();
-  }
-};
-
 const std::shared_ptr<WindowInput>& theWindow() {
   static const auto input = std::make_shared<WindowInput>();
   return input;
@@ -103,82 +89,83 @@ Result<void> turn(const std::weak_ptr<Bench>& known, std::atomic<bool> Bench::* 
   return {};
 }
 
-std::unexpected<Failure> unknown(const char* option, std::string_view name, const char* message) {
-  return failOn(option + (" " + std::string(name)), {ErrorCode::InvalidArgument, 0, message});
+std::unexpected<Failure> unknown(const char* option, const BackEndName& name, const char* message) {
+  return failOn(option + (" " + name.text()), {ErrorCode::InvalidArgument, 0, message});
 }
 
 }  // namespace
 
-Outcome<std::unique_ptr<Display>> makeDisplay(std::string_view text) {
+Outcome<std::unique_ptr<Display>> makeDisplay(const BackEndName& name) {
   static MonotonicClock clock;  // has no state
-  const Spec spec(text);
-  if (spec.plain("kms") || spec.withArgument("kms")) return makeKmsDisplay(spec.argument.value_or(""));
-  if (spec.plain("window")) return makeWindowDisplay(theWindow(), clock);
-  if (spec.plain("offscreen")) return makeOffscreenDisplay("", clock);
-  if (spec.withArgument("offscreen")) return makeOffscreenDisplay(*spec.argument, clock);
-  if (spec.plain("mock")) return makeMockDisplay(MockDisplayProfile{}, clock, newBench(display_bench));
-  return unknown("--display", text, "no such display; it is one of: " RELIEVO_DISPLAY_NAMES);
+  if (name.plain("kms") || name.withArgument("kms")) return makeKmsDisplay(name.argument.value_or(""));
+  if (name.plain("window")) return makeWindowDisplay(theWindow(), clock);
+  if (name.plain("offscreen")) return makeOffscreenDisplay({}, clock);
+  if (name.withArgument("offscreen")) return makeOffscreenDisplay(Capture::parse(*name.argument), clock);
+  if (name.plain("mock")) return makeMockDisplay(MockDisplayProfile{}, clock, newBench(display_bench));
+  return unknown("--display", name, "no such display; it is one of: " RELIEVO_DISPLAY_NAMES);
 }
 
-std::string captureFile(std::string_view text) {
-  const Spec spec(text);
-  return spec.withArgument("offscreen") ? Capture::parse(*spec.argument).path : std::string();
-}
-
-Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(std::string_view text, Clock& clock,
+Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(const BackEndName& name, Clock& clock,
                                                         const HapticSettings& settings) {
-  const Spec spec(text);
-  if (spec.plain("falcon") || spec.withArgument("falcon"))
-    return makeFalcon(falconConfig(settings, spec.argument), clock);
-  if (spec.plain("polhem")) return makePolhem({}, clock);
-  if (spec.withArgument("polhem")) {
-    auto description = polhem::loadDescription(*spec.argument);
+  if (name.plain("falcon") || name.withArgument("falcon"))
+    return makeFalcon(falconConfig(settings, name.argument), clock);
+  if (name.plain("polhem")) return makePolhem({}, clock);
+  if (name.withArgument("polhem")) {
+    auto description = polhem::loadDescription(*name.argument);
     if (!description) return std::unexpected(description.error());
     return makePolhem({.description = *description}, clock);
   }
-  if (spec.plain("sim") || spec.withArgument("sim")) {
-    auto setup = parseSim(spec.argument.value_or(""));
+  if (name.plain("sim") || name.withArgument("sim")) {
+    auto setup = parseSim(name.argument.value_or(""));
     if (!setup) return std::unexpected(setup.error());
     return makeSimHaptic(setup->profile, std::move(setup->path), clock);
   }
-  if (text == "pointer:window") return makePointer(theWindow(), clock);
-  if (spec.plain("pointer") || spec.withArgument("pointer")) return makePointer(spec.argument.value_or(""), clock);
-  if (spec.withArgument("replay")) {
-    auto recording = Recording::load(*spec.argument);
+  if (name.with("pointer", "window")) return makePointer(theWindow(), clock);
+  if (name.plain("pointer") || name.withArgument("pointer")) return makePointer(name.argument.value_or(""), clock);
+  if (name.withArgument("replay")) {
+    auto recording = Recording::load(*name.argument);
     if (!recording) return std::unexpected(recording.error());
     return makeReplay(std::move(*recording));
   }
-  if (spec.plain("mock")) return makeMockHaptic(MockHapticProfile{}, clock, newBench(haptic_bench));
-  if (spec.plain("none")) return nullptr;
-  return unknown("--haptic", text, "no such haptic device; it is one of: " RELIEVO_HAPTIC_NAMES);
+  if (name.plain("mock")) return makeMockHaptic(MockHapticProfile{}, clock, newBench(haptic_bench));
+  if (name.plain("none")) return nullptr;
+  return unknown("--haptic", name, "no such haptic device; it is one of: " RELIEVO_HAPTIC_NAMES);
 }
 
-Outcome<std::unique_ptr<RemoteInput>> makeRemoteInput(std::string_view text, Clock& clock) {
-  const Spec spec(text);
-  if (spec.plain("evdev")) return makeEvdevRemote();
-  if (spec.plain("keys")) return makeTerminalRemote();
-  if (spec.plain("window")) return makeWindowRemote(theWindow());
-  if (spec.withArgument("script")) {
-    auto keys = loadKeyScript(*spec.argument);
+Outcome<std::unique_ptr<RemoteInput>> makeRemoteInput(const BackEndName& name, Clock& clock) {
+  if (name.plain("evdev")) return makeEvdevRemote();
+  if (name.plain("keys")) return makeTerminalRemote();
+  if (name.plain("window")) return makeWindowRemote(theWindow());
+  if (name.withArgument("script")) {
+    auto keys = loadKeyScript(*name.argument);
     if (!keys) return std::unexpected(keys.error());
     return makeScriptedRemote(*keys, clock);
   }
-  if (spec.plain("none")) return nullptr;
-  return unknown("--remote", text, "no such remote; it is one of: " RELIEVO_REMOTE_NAMES);
+  if (name.plain("none")) return nullptr;
+  return unknown("--remote", name, "no such remote; it is one of: " RELIEVO_REMOTE_NAMES);
 }
 
-Outcome<std::unique_ptr<AudioOutput>> makeAudioOutput(std::string_view text, const Clock& clock) {
-  const Spec spec(text);
-  if (spec.plain("alsa") || spec.withArgument("alsa")) return makeAlsaOutput(spec.argument.value_or("default"), clock);
-  if (spec.plain("null")) return makeMockAudio({}, clock);
-  if (spec.plain("none")) return nullptr;
-  return unknown("--audio", text, "no such sound output; it is one of: " RELIEVO_AUDIO_NAMES);
+Outcome<std::unique_ptr<AudioOutput>> makeAudioOutput(const BackEndName& name, const Clock& clock) {
+  if (name.plain("alsa") || name.withArgument("alsa")) return makeAlsaOutput(name.argument.value_or("default"), clock);
+  if (name.plain("null")) return makeMockAudio({}, clock);
+  if (name.plain("none")) return nullptr;
+  return unknown("--audio", name, "no such sound output; it is one of: " RELIEVO_AUDIO_NAMES);
+}
+
+NamedFiles filesNamedBy(const BackEndName& name) {
+  if (name.withArgument("offscreen")) return {.written = Capture::parse(*name.argument).path};
+  if (name.withArgument("sim")) return {.read = scriptNamedBy(*name.argument)};
+  for (const char* const reader : {"falcon", "polhem", "replay", "script"}) {
+    if (name.withArgument(reader)) return {.read = *name.argument};
+  }
+  return {};
 }
 
 std::unique_ptr<MediaSource> makeMediaSource(const std::string& url) {
   static MonotonicClock clock;
-  if (url == kMockFilm) return makeMockSource(mockFilm(), clock);
-  return url.starts_with("v4l2:") ? makeV4l2Source() : makeFfmpegSource();
+  const BackEndName name(url);
+  if (name == kMockFilm) return makeMockSource(mockFilm(), clock);
+  return name.word == "v4l2" && name.argument ? makeV4l2Source() : makeFfmpegSource();
 }
 
 std::unique_ptr<VideoDecoder> makeSoftwareDecoder(const StreamInfo& stream) {

@@ -11,6 +11,7 @@
 
 #include "hal/audio_decoder.h"
 #include "hal/audio_output.h"
+#include "hal/back_end_name.h"
 #include "hal/display.h"
 #include "hal/haptic_device.h"
 #include "hal/media_source.h"
@@ -41,13 +42,16 @@ struct HapticSettings {
 // when that is not there (NotFound), or its line when that is wrong (InvalidArgument).
 // `clock` must outlive what is made. The names with "window" in them are about the one window of the process: its
 // display, its keys and its mouse.
-[[nodiscard]] Outcome<std::unique_ptr<Display>> makeDisplay(std::string_view spec);
-// The file that a display writes; empty where it writes none.
-[[nodiscard]] std::string captureFile(std::string_view display_spec);
-[[nodiscard]] Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(std::string_view spec, Clock& clock,
+[[nodiscard]] Outcome<std::unique_ptr<Display>> makeDisplay(const BackEndName& name);
+[[nodiscard]] Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(const BackEndName& name, Clock& clock,
                                                                       const HapticSettings& settings = {});
-[[nodiscard]] Outcome<std::unique_ptr<RemoteInput>> makeRemoteInput(std::string_view spec, Clock& clock);
-[[nodiscard]] Outcome<std::unique_ptr<AudioOutput>> makeAudioOutput(std::string_view spec, const Clock& clock);
+[[nodiscard]] Outcome<std::unique_ptr<RemoteInput>> makeRemoteInput(const BackEndName& name, Clock& clock);
+[[nodiscard]] Outcome<std::unique_ptr<AudioOutput>> makeAudioOutput(const BackEndName& name, const Clock& clock);
+// The files that a back end reads or writes because its name says so, empty where it does not; devices are no files.
+struct NamedFiles {
+  std::string read, written;
+};
+[[nodiscard]] NamedFiles filesNamedBy(const BackEndName& name);
 [[nodiscard]] std::unique_ptr<MediaSource> makeMediaSource(const std::string& url);
 // In software, exactly the same everywhere; or by hardware that takes the stream, with the software behind it in case
 // that it fails.

@@ -51,12 +51,6 @@ int finishFiles(const PlayReport& report, AtomicFile* report_file, Recorder* rec
   return result;
 }
 
-// Of "replay:FILE", "sim:FILE", "script:FILE"; the name of a profile is no file.
-std::string fileOf(const std::string& device) {
-  const std::size_t colon = device.find(':');
-  return colon == std::string::npos ? "" : device.substr(colon + 1);
-}
-
 std::optional<double> askForReading(double asked_n) {
   for (;;) {
     std::printf("It is asked for %.0f N. The scale shows (N): ", asked_n);
@@ -90,20 +84,25 @@ Outcome<void> complete(PlayOptions& options) {
   return {};
 }
 
+Outcome<void> keepOutputsApart(const PlayOptions& options, const FileConfig& config) {
+  const SourceOptions& source = options.player.source;
+  std::vector<std::string> inputs = source.named_files;
+  inputs.insert(inputs.end(),
+                {source.url, source.depth_url, options.keys_path, config.path, config.falcon_firmware.value_or("")});
+  std::vector<std::string> outputs{options.report_path, options.record_path, options.control_path};
+  for (const BackEndName* name : {&options.display, &options.haptic, &options.remote, &options.audio}) {
+    const drivers::NamedFiles files = drivers::filesNamedBy(*name);
+    inputs.push_back(files.read);
+    outputs.push_back(files.written);
+  }
+  return keepApart(outputs, inputs);
+}
+
 int play(PlayOptions options, const FileConfig& config) {
   const std::atomic<bool>& stop = stopOnSignals(drivers::stopAllMotors);
   applyLogLevels(config);
   if (auto completed = complete(options); !completed) return tell(completed.error());
-  const SourceOptions& source = options.player.source;
-  std::vector<std::string> inputs = source.named_files;
-  inputs.insert(inputs.end(), {source.url, source.depth_url, fileOf(options.haptic), fileOf(options.remote),
-                               options.keys_path, config.path, config.falcon_firmware.value_or("")});
-  if (auto apart = keepApart(
-          {options.report_path, options.record_path, options.control_path, drivers::captureFile(options.display)},
-          inputs);
-      !apart) {
-    return tell(apart.error());
-  }
+  if (auto apart = keepOutputsApart(options, config); !apart) return tell(apart.error());
   MonotonicClock clock;
   auto display = drivers::makeDisplay(options.display);
   if (!display) return tell(display.error());

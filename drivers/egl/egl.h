@@ -25,11 +25,11 @@ struct Capture {
 // pbuffer of the default one. It shows a frame at once.
 //
 // With a capture's path what is presented is also written to that file, as YUV4MPEG2: 4:2:0, BT.709, limited range. The
-// display does not know how often it will be given a frame: the word of the capture says the file's rate. The file
+// display does not know how often it will be given a frame: the capture says the file's rate. The file
 // holds that rate by `clock`, which must outlive the display: a frame that is late has the one before it repeated, one
 // more than a period early is left out. `open` begins the file anew, and answers NotFound, PermissionDenied or Io where
 // it cannot be written.
-[[nodiscard]] std::unique_ptr<Display> makeOffscreenDisplay(std::string capture_word, const Clock& clock);
+[[nodiscard]] std::unique_ptr<Display> makeOffscreenDisplay(Capture capture, const Clock& clock);
 
 // A window of the size asked for on the desktop, X11 or Wayland, whose surface follows when the viewer resizes it; F11
 // fills the screen. It is drawn at the pace of the screen where the GL driver can. What it hears of its other keys and

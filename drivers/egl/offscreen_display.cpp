@@ -157,8 +157,8 @@ Capture Capture::parse(std::string word) {
   return {word.substr(0, at), rate};
 }
 
-std::unique_ptr<Display> makeOffscreenDisplay(std::string capture_word, const Clock& clock) {
-  return std::make_unique<OffscreenDisplay>(Capture::parse(std::move(capture_word)), clock);
+std::unique_ptr<Display> makeOffscreenDisplay(Capture capture, const Clock& clock) {
+  return std::make_unique<OffscreenDisplay>(std::move(capture), clock);
 }
 
 }  // namespace relievo

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -64,6 +63,31 @@ std::unexpected<Failure> wrongWord(const std::string& word, const char* what) {
   return failOn("--haptic sim, \"" + word + "\"", {ErrorCode::InvalidArgument, 0, what});
 }
 
+struct SimWords {
+  const SimDeviceName* device = nullptr;
+  const SimHandName* hand = nullptr;
+  std::string script;  // its path
+};
+
+Outcome<SimWords> readWords(const std::string& words) {
+  SimWords read;
+  for (const std::string& word : words.empty() ? std::vector<std::string>{} : partsOf(words)) {
+    if (const auto* named = find(simDevices(), word)) {
+      if (read.device != nullptr) return wrongWord(word, "is a second device; name one");
+      read.device = named;
+    } else if (const auto* held = find(simHands(), word)) {
+      if (read.hand != nullptr) return wrongWord(word, "is a second hand; name one");
+      read.hand = held;
+    } else if (isFile(word) || looksLikePath(word)) {
+      if (!read.script.empty()) return wrongWord(word, "is a second hand script; name one");
+      read.script = word;
+    } else {
+      return wrongWord(word, kUnknown);
+    }
+  }
+  return read;
+}
+
 }  // namespace
 
 std::span<const SimDeviceName> simDevices() {
@@ -100,31 +124,25 @@ std::span<const SimHandName> simHands() {
 }
 
 Outcome<SimSetup> parseSim(const std::string& words) {
-  const SimDeviceName* device = nullptr;
-  const SimHandName* hand = nullptr;
-  std::optional<HandPath> script;
-  for (const std::string& word : words.empty() ? std::vector<std::string>{} : partsOf(words)) {
-    if (const auto* named = find(simDevices(), word)) {
-      if (device != nullptr) return wrongWord(word, "is a second device; name one");
-      device = named;
-    } else if (const auto* held = find(simHands(), word)) {
-      if (hand != nullptr) return wrongWord(word, "is a second hand; name one");
-      hand = held;
-    } else if (isFile(word) || looksLikePath(word)) {
-      if (script) return wrongWord(word, "is a second hand script; name one");
-      auto loaded = HandPath::load(word);
-      if (!loaded) return std::unexpected(loaded.error());
-      script = std::move(*loaded);
-    } else {
-      return wrongWord(word, kUnknown);
-    }
-  }
+  const auto read = readWords(words);
+  if (!read) return std::unexpected(read.error());
   SimSetup setup;
-  if (device != nullptr) setup.profile = device->profile;
-  if (hand != nullptr) setup.profile.hand = hand->hand;
-  const HandMotion motion = hand != nullptr ? hand->motion : HandMotion::Stroking;
-  setup.path = script ? std::move(*script) : HandPath(motion, reachOf(setup.profile));
+  if (read->device != nullptr) setup.profile = read->device->profile;
+  if (read->hand != nullptr) setup.profile.hand = read->hand->hand;
+  if (read->script.empty()) {
+    const HandMotion motion = read->hand != nullptr ? read->hand->motion : HandMotion::Stroking;
+    setup.path = HandPath(motion, reachOf(setup.profile));
+    return setup;
+  }
+  auto loaded = HandPath::load(read->script);
+  if (!loaded) return std::unexpected(loaded.error());
+  setup.path = std::move(*loaded);
   return setup;
+}
+
+std::string scriptNamedBy(const std::string& words) {
+  const auto read = readWords(words);
+  return read ? read->script : std::string();
 }
 
 }  // namespace relievo

@@ -45,5 +45,7 @@ struct SimSetup {
 // "falcon", "polhem,tense", "falcon,hand.csv". With a script, a hand's word says only what hand it is. InvalidArgument
 // for a word that is neither known nor a file; NotFound for a path that is not there.
 [[nodiscard]] Outcome<SimSetup> parseSim(const std::string& words);
+// The path of the hand script among such words; empty without one, or where a word is wrong.
+[[nodiscard]] std::string scriptNamedBy(const std::string& words);
 
 }  // namespace relievo

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "drivers/v4l2/control.h"
+#include "hal/back_end_name.h"
 
 namespace relievo::v4l2 {
 namespace {
@@ -62,9 +63,9 @@ Error openError(int code) noexcept {
 
 Result<Wish> parseAddress(const std::string& url) {
   const auto refuse = [] { return fail(ErrorCode::InvalidArgument, kForm); };
-  std::string_view words = url;
-  if (!words.starts_with("v4l2:")) return refuse();
-  words.remove_prefix(5);
+  const BackEndName name(url);
+  if (!name.withArgument("v4l2")) return refuse();
+  std::string_view words = *name.argument;
   Wish wish;
   if (const std::size_t at = words.rfind('@'); at != words.npos) {
     if (!readNumber(words.substr(at + 1), wish.frames_per_s) || wish.frames_per_s > kFastest) return refuse();

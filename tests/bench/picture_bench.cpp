@@ -119,7 +119,7 @@ void makeTriangles(benchmark::State& state, const Film& film) {
 
 void drawFrames(benchmark::State& state, const Film& film, const DetailSettings& detail) {
   const MonotonicClock clock;
-  const auto display = makeOffscreenDisplay("", clock);
+  const auto display = makeOffscreenDisplay({}, clock);
   if (!display->open({kWidth, kHeight})) return state.SkipWithError("no EGL with GLES 3");
   const auto surface = display->beginFrame();
   {

@@ -35,7 +35,7 @@ std::unique_ptr<Display> makeWindow(ManualClock& clock) {
 
 const Backend kBackends[] = {
     {"mock", [](ManualClock& clock) { return makeMockDisplay({}, clock); }},
-    {"offscreen", [](ManualClock& clock) { return makeOffscreenDisplay("", clock); }},
+    {"offscreen", [](ManualClock& clock) { return makeOffscreenDisplay({}, clock); }},
     {"window", makeWindow},
     {"sample", [](ManualClock&) { return makeSampleDisplay(); }},
     {"kms", [](ManualClock&) { return makeKmsDisplay(); }, false, false},

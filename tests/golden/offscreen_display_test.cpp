@@ -56,7 +56,7 @@ class CaptureFile {
 };
 
 TEST(OffscreenDisplay, GivesTheSizeAskedForAndGles3) {
-  const auto display = makeOffscreenDisplay("", kStill);
+  const auto display = makeOffscreenDisplay({}, kStill);
   EXPECT_TRUE(display->capabilities().gles);
   EXPECT_EQ(display->capabilities().refresh_period, Duration(0));
   OPEN_OR_SKIP(*display, {321, 123});
@@ -76,7 +76,7 @@ TEST(OffscreenDisplay, GivesTheSizeAskedForAndGles3) {
 }
 
 TEST(OffscreenDisplay, OpensAgainAThousandTimes) {
-  const auto display = makeOffscreenDisplay("", kStill);
+  const auto display = makeOffscreenDisplay({}, kStill);
   for (int round = 0; round < 1000; ++round) {
     OPEN_OR_SKIP(*display, {64, 64});
     ASSERT_TRUE(display->beginFrame());
@@ -88,8 +88,8 @@ TEST(OffscreenDisplay, OpensAgainAThousandTimes) {
 }
 
 TEST(OffscreenDisplay, ClosingOneLeavesTheOtherAlone) {
-  const auto first = makeOffscreenDisplay("", kStill);
-  const auto second = makeOffscreenDisplay("", kStill);
+  const auto first = makeOffscreenDisplay({}, kStill);
+  const auto second = makeOffscreenDisplay({}, kStill);
   OPEN_OR_SKIP(*first, {32, 32});
   OPEN_OR_SKIP(*second, {16, 16});
   ASSERT_TRUE(first->beginFrame());
@@ -106,7 +106,7 @@ TEST(OffscreenDisplay, ClosingOneLeavesTheOtherAlone) {
 }
 
 TEST(OffscreenDisplay, GoesWhileOpen) {
-  auto display = makeOffscreenDisplay("", kStill);
+  auto display = makeOffscreenDisplay({}, kStill);
   OPEN_OR_SKIP(*display, {32, 32});
   ASSERT_TRUE(display->beginFrame());
   display.reset();
@@ -116,7 +116,7 @@ TEST(OffscreenDisplay, GoesWhileOpen) {
 TEST(OffscreenDisplay, CapturesWhatWasPresentedInItsOrder) {
   const CaptureFile file("two_frames.y4m");
   ManualClock clock;
-  const auto display = makeOffscreenDisplay(file.path() + "@25", clock);
+  const auto display = makeOffscreenDisplay(Capture::parse(file.path() + "@25"), clock);
   OPEN_OR_SKIP(*display, {4, 4});
   // The upper half red, the lower half green; then all blue.
   ASSERT_TRUE(display->beginFrame());
@@ -146,7 +146,7 @@ TEST(OffscreenDisplay, CapturesWhatWasPresentedInItsOrder) {
 TEST(OffscreenDisplay, CaptureHoldsItsRateWhateverComesLateOrEarly) {
   const CaptureFile file("steady.y4m");
   ManualClock clock;
-  const auto display = makeOffscreenDisplay(file.path() + "@25", clock);
+  const auto display = makeOffscreenDisplay(Capture::parse(file.path() + "@25"), clock);
   OPEN_OR_SKIP(*display, {2, 2});
   const auto show = [&](int after_ms, float red_green, float blue) {
     clock.advance(std::chrono::milliseconds(after_ms));
@@ -172,7 +172,7 @@ TEST(OffscreenDisplay, CaptureHoldsItsRateWhateverComesLateOrEarly) {
 
 TEST(OffscreenDisplay, CaptureOfAnOddSizeRoundsItsChromaUp) {
   const CaptureFile file("odd.y4m");
-  const auto display = makeOffscreenDisplay(file.path(), kStill);
+  const auto display = makeOffscreenDisplay(Capture::parse(file.path()), kStill);
   OPEN_OR_SKIP(*display, {5, 3});
   ASSERT_TRUE(display->beginFrame());
   fill(1, 1, 1);
@@ -184,7 +184,7 @@ TEST(OffscreenDisplay, CaptureOfAnOddSizeRoundsItsChromaUp) {
 
 TEST(OffscreenDisplay, CaptureBeginsAnewWhenOpenedAgain) {
   const CaptureFile file("again.y4m");
-  const auto display = makeOffscreenDisplay(file.path(), kStill);
+  const auto display = makeOffscreenDisplay(Capture::parse(file.path()), kStill);
   std::string first;
   for (int round = 0; round < 2; ++round) {
     OPEN_OR_SKIP(*display, {2, 2});
@@ -199,20 +199,20 @@ TEST(OffscreenDisplay, CaptureBeginsAnewWhenOpenedAgain) {
 
 TEST(OffscreenDisplay, RateIsTheNumberBehindTheLastAt) {
   const CaptureFile with_rate("me@home.y4m");
-  const auto display = makeOffscreenDisplay(with_rate.path() + "@29.97", kStill);
+  const auto display = makeOffscreenDisplay(Capture::parse(with_rate.path() + "@29.97"), kStill);
   OPEN_OR_SKIP(*display, {2, 2});
   display->close();
   EXPECT_EQ(with_rate.content().substr(0, 28), "YUV4MPEG2 W2 H2 F29970:1000 ");
 
   const CaptureFile without("take@2b.y4m");
-  const auto other = makeOffscreenDisplay(without.path(), kStill);
+  const auto other = makeOffscreenDisplay(Capture::parse(without.path()), kStill);
   OPEN_OR_SKIP(*other, {2, 2});
   other->close();
   EXPECT_EQ(without.content().substr(0, 28), "YUV4MPEG2 W2 H2 F30000:1000 ");
 }
 
 TEST(OffscreenDisplay, CaptureThatCannotBeWrittenSaysWhyAndLeavesItClosed) {
-  const auto display = makeOffscreenDisplay("/no/such/folder/film.y4m", kStill);
+  const auto display = makeOffscreenDisplay(Capture::parse("/no/such/folder/film.y4m"), kStill);
   const auto opened = display->open({16, 16});
   ASSERT_FALSE(opened);
   if (opened.error().code == ErrorCode::Unsupported) GTEST_SKIP() << opened.error().message;
@@ -222,7 +222,7 @@ TEST(OffscreenDisplay, CaptureThatCannotBeWrittenSaysWhyAndLeavesItClosed) {
 }
 
 TEST(OffscreenDisplay, FullDiskIsTold) {
-  const auto display = makeOffscreenDisplay("/dev/full", kStill);
+  const auto display = makeOffscreenDisplay(Capture::parse("/dev/full"), kStill);
   OPEN_OR_SKIP(*display, {64, 64});
   ASSERT_TRUE(display->beginFrame());
   const auto presented = display->present();
@@ -231,7 +231,7 @@ TEST(OffscreenDisplay, FullDiskIsTold) {
 }
 
 TEST(OffscreenDisplay, SizeThatGlCannotDrawIsRefused) {
-  const auto display = makeOffscreenDisplay("", kStill);
+  const auto display = makeOffscreenDisplay({}, kStill);
   OPEN_OR_SKIP(*display, {1, 1});
   ASSERT_TRUE(display->beginFrame());
   display->close();

@@ -38,7 +38,7 @@ double Image::meanDifference(const Image& other) const {
 
 std::unique_ptr<Stage> Stage::make(int width, int height) {
   auto stage = std::make_unique<Stage>();
-  stage->display_ = makeOffscreenDisplay("", stage->clock_);
+  stage->display_ = makeOffscreenDisplay({}, stage->clock_);
   auto opened = stage->display_->open({width, height});
   if (!opened && opened.error().code == ErrorCode::Unsupported) return nullptr;
   EXPECT_TRUE(opened) << opened.error().message;

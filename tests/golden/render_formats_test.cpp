@@ -302,7 +302,7 @@ TEST(RenderFormats, WhatNoTextureHoldsIsRefusedAndThePictureBeforeStays) {
 
 TEST(RenderFormats, AThousandRenderersLeaveNoGlObject) {
   const ManualClock clock;
-  const auto display = makeOffscreenDisplay("", clock);
+  const auto display = makeOffscreenDisplay({}, clock);
   if (!display->open({32, 32})) GTEST_SKIP() << "this machine has no EGL with GLES 3";
   const auto surface = display->beginFrame();
   ASSERT_TRUE(surface);

@@ -257,7 +257,7 @@ TEST_F(WindowDisplay, WhatTwoWindowsHearIsNotMixedUp) {
 }
 
 TEST_F(WindowDisplay, DrawsOnWhenAnotherContextWasCurrentMeanwhile) {
-  const auto offscreen = makeOffscreenDisplay("", clock_);
+  const auto offscreen = makeOffscreenDisplay({}, clock_);
   ASSERT_TRUE(offscreen->open({16, 16}));
   drawCorners();
   ASSERT_TRUE(offscreen->beginFrame());

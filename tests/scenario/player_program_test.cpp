@@ -283,6 +283,7 @@ TEST_F(PlayerProgram, WrongUseIsCodeTwoAndOneLine) {
   expectOneLine(play("film.mkv --depth-strength nan"), 2, "--depth-strength: nan");
   expectOneLine(play("film.mkv --depth-strength 2.1"), 2, "--depth-strength: 2.1");
   expectOneLine(play("film.mkv --haptic replay:" + at("t.csv") + " --record " + at("t.csv")), 2, "written over");
+  expectOneLine(play("film.mkv --haptic sim:tense," + at("t.csv") + " --record " + at("t.csv")), 2, "written over");
   expectNothingLeft({});
 }
 

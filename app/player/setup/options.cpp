@@ -124,18 +124,24 @@ Duration readDuration(double seconds) {
   return fromSeconds(seconds);
 }
 
-// The name, without what follows its colon, is one of `names`: words parted by spaces, each with what may follow it in
-// brackets or behind a colon.
-CLI::Validator deviceAmong(const char* kind, const char* names) {
-  const auto judge = [=](const std::string& word) -> std::string {
-    const std::string name = word.substr(0, word.find(':'));
+// An option that names a back end. Its word is one of `names`: those stand parted by spaces, each with what may follow
+// it in brackets or behind a colon.
+CLI::Option* addBackEnd(CLI::App& command, const char* option, BackEndName& chosen, const char* kind, const char* names,
+                        const char* help) {
+  const auto judge = [kind, names](const std::string& given) -> std::string {
+    const BackEndName name(given);
     std::istringstream all(names);
     for (std::string known; all >> known;) {
-      if (!name.empty() && known.substr(0, known.find_first_of(":[")) == name) return "";
+      if (!name.word.empty() && known.substr(0, known.find_first_of(":[")) == name.word) return "";
     }
-    return word + ": no such " + kind + "; it is one of: " + names;
+    return given + ": no such " + kind + "; it is one of: " + names;
   };
-  return {judge, ""};
+  return command
+      .add_option_function<std::string>(
+          option, [&chosen](const std::string& given) { chosen = given; }, std::string(help) + "\n" + names)
+      ->default_str(chosen.text())
+      ->check(CLI::Validator(judge, ""))
+      ->type_name("NAME");
 }
 
 void addConfigOption(CLI::App& command, std::string& path) {
@@ -164,10 +170,7 @@ void addStereoOptions(CLI::App& command, StereoSettings& stereo) {
 
 void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& names) {
   addSourceOptions(command, play.player.source);
-  command.add_option("--display", play.display, std::string("Where the picture goes\n") + names.display)
-      ->capture_default_str()
-      ->check(deviceAmong("display", names.display))
-      ->type_name("NAME");
+  addBackEnd(command, "--display", play.display, "display", names.display, "Where the picture goes");
   command
       .add_option_function<std::string>(
           "--size", [&play](const std::string& word) { play.player.display = readSize(word); },
@@ -175,23 +178,11 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
       ->default_str(textLine("%dx%d", play.player.display.width, play.player.display.height))
       ->type_name("WxH");
   addStereoOptions(command, play.player.stereo);
-  command.add_option("--haptic", play.haptic, std::string("What the finger holds\n") + names.haptic)
-      ->capture_default_str()
-      ->check(deviceAmong("haptic device", names.haptic))
-      ->type_name("NAME");
-  command
-      .add_option(
-          "--remote", play.remote,
-          std::string(
-              "Where keys come from [a window's own; on a whole screen evdev, all remote controls; else none]\n") +
-              names.remote)
-      ->check(deviceAmong("remote", names.remote))
-      ->type_name("NAME");
-  command
-      .add_option("--audio", play.audio,
-                  std::string("Where the sound goes [of a window or a whole screen alsa, else none]\n") + names.audio)
-      ->check(deviceAmong("sound output", names.audio))
-      ->type_name("NAME");
+  addBackEnd(command, "--haptic", play.haptic, "haptic device", names.haptic, "What the finger holds");
+  addBackEnd(command, "--remote", play.remote, "remote", names.remote,
+             "Where keys come from [a window's own; on a whole screen evdev, all remote controls; else none]");
+  addBackEnd(command, "--audio", play.audio, "sound output", names.audio,
+             "Where the sound goes [of a window or a whole screen alsa, else none]");
   command.add_flag("--software", play.software, "Decode without the video hardware, where that shows faults");
   addVolumeOption(command, play.player.volume);
   command.add_flag("--loop", play.player.loop, "Begin again at the end");
@@ -222,16 +213,16 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
 // A window brings its keys and its mouse along; nothing else has them. A whole screen is watched from a sofa. Who sees
 // the film hears it.
 Outcome<void> settleWindow(PlayOptions& play) {
-  const bool window = play.display == "window";
-  const bool whole_screen = play.display == "kms" || play.display.starts_with("kms:");
-  if (play.remote.empty()) play.remote = window ? "window" : whole_screen ? "evdev" : "none";
-  if (play.audio.empty()) play.audio = window || whole_screen ? "alsa" : "none";
-  if (window && play.haptic == "pointer") play.haptic = "pointer:window";
+  const bool window = play.display.plain("window");
+  const bool whole_screen = play.display.word == "kms";
+  if (play.remote.word.empty()) play.remote = window ? "window" : whole_screen ? "evdev" : "none";
+  if (play.audio.word.empty()) play.audio = window || whole_screen ? "alsa" : "none";
+  if (window && play.haptic.plain("pointer")) play.haptic.argument = "window";
   const auto none = [](const std::string& thing) {
     return failOn(thing, {ErrorCode::InvalidArgument, 0, "there is no window; add --display window"});
   };
-  if (!window && play.remote == "window") return none("--remote window");
-  if (!window && play.haptic == "pointer:window") return none("--haptic pointer:window");
+  if (!window && play.remote.plain("window")) return none("--remote window");
+  if (!window && play.haptic.with("pointer", "window")) return none("--haptic pointer:window");
   return {};
 }
 

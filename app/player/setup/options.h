@@ -7,15 +7,16 @@
 
 #include "app/player/player.h"
 #include "app/player/setup/config_file.h"
+#include "hal/back_end_name.h"
 
 namespace relievo {
 
 struct PlayOptions {
   PlayerConfig player;
-  std::string display = "offscreen";
-  std::string haptic = "sim";
-  std::string remote;
-  std::string audio;
+  BackEndName display = "offscreen";
+  BackEndName haptic = "sim";
+  BackEndName remote;
+  BackEndName audio;
   bool software = false;    // no hardware decodes the film
   std::string report_path;  // empty: none
   std::string record_path;

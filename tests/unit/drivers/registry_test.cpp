@@ -47,6 +47,24 @@ TEST_F(Registry, NoneIsNoDeviceAndNoError) {
   EXPECT_EQ(makeAudioOutput("none", clock_).value(), nullptr);
 }
 
+TEST_F(Registry, KnowsTheFilesThatANameSpeaksOf) {
+  const std::string hand = fileWith("registry_hand.csv", "t_s,x_mm,y_mm,z_mm\n0,30,-12,6\n");
+  for (const std::string& sim : {"sim:" + hand, "sim:tense," + hand, "sim:" + hand + ",falcon"}) {
+    EXPECT_EQ(filesNamedBy(sim).read, hand) << sim;
+    EXPECT_EQ(filesNamedBy(sim).written, "");
+  }
+  for (const char* word : {"falcon", "polhem", "replay", "script"}) {
+    EXPECT_EQ(filesNamedBy(std::string(word) + ":/tmp/a:b").read, "/tmp/a:b") << word;
+  }
+  EXPECT_EQ(filesNamedBy("offscreen:a@b.y4m").written, "a@b.y4m");
+  EXPECT_EQ(filesNamedBy("offscreen:a@b.y4m@25").written, "a@b.y4m");
+  EXPECT_EQ(filesNamedBy("offscreen:a.y4m").read, "");
+  for (const char* name : {"", "offscreen", "sim", "sim:tense", "sim:tens", "kms:/dev/dri/card0", "pointer:window",
+                           "alsa:hdmi:CARD=0", "replay", "mock", "none"}) {
+    EXPECT_EQ(filesNamedBy(name).read + filesNamedBy(name).written, "") << name;
+  }
+}
+
 TEST_F(Registry, RefusesOtherNamesAndListsTheRightOnes) {
   for (const char* name : {"", "ofscreen", "offscreen:", "window:", "kms:", "mock:1", "none"}) {
     const auto display = makeDisplay(name);
