@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Drawing 3D at 1280 x 720, side by side: making the relief's few triangles of a depth picture, and drawing frames of
-// them against frames of the uniform grid of all samples. On the sample film (toolchain/demo makes it) and the real
-// depth video beside the project; what is not there is left out, with a word.
+// them. On the sample film (toolchain/demo makes it) and the real depth video beside the project; what is not there is
+// left out, with a word. `relievo-lab detail` draws the uniform grid of all samples beside them.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -26,7 +26,6 @@ namespace {
 
 constexpr int kWidth = 1280, kHeight = 720;
 constexpr int kPictures = 40;
-constexpr double kErrorPx = 0.5;
 
 struct Film {
   std::string name;
@@ -77,7 +76,7 @@ Film cones(const std::string& data) {
 ReliefDetail wanted(const DisplayVolume& volume) {
   const StereoSettings stereo{.layout = StereoLayout::SideBySide};
   const EyeViews eyes = eyeViews(stereo, volume, kWidth, kHeight);
-  return {.error_mm = kErrorPx * heightOfPixelMm(stereo, volume, eyes.pixels_per_mm),
+  return {.error_mm = SceneRenderer::kErrorPx * heightOfPixelMm(stereo, volume, eyes.pixels_per_mm),
           .view = {.eye_mm = std::abs(eyes.views[0].eye_x_mm),
                    .distance_mm = stereo.viewing_distance_mm,
                    .screen_z_mm = stereo.screen_z_mm}};
@@ -117,7 +116,7 @@ void makeTriangles(benchmark::State& state, const Film& film) {
   state.counters["all_samples"] = 2.0 * (depth.width - 1) * (depth.height - 1);
 }
 
-void drawFrames(benchmark::State& state, const Film& film, const DetailSettings& detail) {
+void drawFrames(benchmark::State& state, const Film& film) {
   const MonotonicClock clock;
   const auto display = makeOffscreenDisplay({}, clock);
   if (!display->open({kWidth, kHeight})) return state.SkipWithError("no EGL with GLES 3");
@@ -125,7 +124,6 @@ void drawFrames(benchmark::State& state, const Film& film, const DetailSettings&
   {
     auto renderer = SceneRenderer::create(std::chrono::hours(1)).value();
     renderer->setStereo({.layout = StereoLayout::SideBySide});
-    renderer->setDetail(detail);
     std::size_t i = 0;
     for (auto _ : state) {
       const FramePair& pair = film.pairs[i++ % film.pairs.size()];
@@ -158,14 +156,11 @@ const bool kRegistered = [] {
     films().push_back(std::make_unique<const Film>(std::move(film)));
     const Film& kept = *films().back();
     benchmark::RegisterBenchmark(("make/" + kept.name).c_str(), makeTriangles, kept)->Iterations(1);
-    for (const auto& [name, detail] :
-         {std::pair{"draw/", DetailSettings{}}, {"draw_all_samples/", DetailSettings{.grid_step = 1}}}) {
-      benchmark::RegisterBenchmark((name + kept.name).c_str(), drawFrames, kept, detail)
-          ->MeasureProcessCPUTime()
-          ->UseRealTime()
-          ->Unit(benchmark::kMillisecond)
-          ->MinTime(3);
-    }
+    benchmark::RegisterBenchmark(("draw/" + kept.name).c_str(), drawFrames, kept)
+        ->MeasureProcessCPUTime()
+        ->UseRealTime()
+        ->Unit(benchmark::kMillisecond)
+        ->MinTime(3);
   }
   return true;
 }();

@@ -132,7 +132,7 @@ TEST_F(KmsDisplay, TheReliefOnTheScreenIsThatOfTheOffscreenDisplay) {
   {
     auto renderer = SceneRenderer::create(1h).value();
     renderer->setStereo(scene.stereo);
-    renderer->setDetail(scene.detail);
+    renderer->setError(scene.error_px);
     const auto surface = display_->beginFrame();
     ASSERT_TRUE(surface);
     ASSERT_TRUE(renderer->setFrame(scene.color, scene.depth, scene.calibration, scene.volume));

@@ -59,7 +59,7 @@ Stage::~Stage() {
 
 Result<void> Stage::tryShow(const Scene& scene) {
   renderer_->setStereo(scene.stereo);
-  renderer_->setDetail(scene.detail);
+  renderer_->setError(scene.error_px);
   if (auto set = renderer_->setFrame(scene.color, scene.depth, scene.calibration, scene.volume); !set) return set;
   return renderer_->draw(surface_, scene.finger);
 }

@@ -47,7 +47,7 @@ struct Scene {
   DisplayVolume volume;
   StereoSettings stereo{.layout = StereoLayout::Mono};
   std::optional<FingerMark> finger;
-  DetailSettings detail{.error_px = 0.05};
+  double error_px = 0.05;
 };
 
 class Stage {

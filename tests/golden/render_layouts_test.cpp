@@ -99,7 +99,7 @@ Scene sceneIn(const StereoSettings& stereo) {
           .calibration = {.bits = 16},
           .volume = kVolume,
           .stereo = stereo,
-          .detail = {.error_px = 0.5}};
+          .error_px = 0.5};
 }
 
 // At the picture's rim the relief is joined to the frame: a few pixels there are left out.

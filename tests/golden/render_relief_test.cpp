@@ -140,12 +140,11 @@ TEST(RenderRelief, NearerSurfaceHidesTheFartherForEachEyeOfAnAnaglyph) {
 }
 
 // The height at which the two eyes see the surface, from the disparity of a marker: h = p d / (e + p).
-double heightSeen(Stage& stage, Frame depth, const DepthCalibration& calibration, int grid_step = 0) {
+double heightSeen(Stage& stage, Frame depth, const DepthCalibration& calibration) {
   constexpr double kWideEyes = 400.0;
   Scene scene = sideBySide({320, 180}, std::move(depth));
   scene.calibration = calibration;
   scene.stereo.eye_distance_mm = kWideEyes;
-  scene.detail.grid_step = grid_step;
   const Image image = stage.show(scene);
   const double disparity = image.centroid(0, 0, 640).x - (image.centroid(0, 640, 1280).x - 640);
   const double p = disparity / kPixelsPerMmX;
@@ -208,18 +207,6 @@ TEST(RenderRelief, CodesBetweenOtherSamplesAreFound) {
   EXPECT_NEAR(heightSeen(stage, packed, {}), 16.0, 0.1);  // 102/255 of 40
 }
 
-TEST(RenderRelief, CoarserGridStandsOnTrueSamples) {
-  // Of 720 x 486 every fourth sample and the last: those are at a fifth of the height, all others at none.
-  STAGE_OR_SKIP(stage, kSurfaceWidth, kSurfaceHeight);
-  const auto sieve = makeGrayFrame(720, 486, 8, MediaTime{}, [](int c, int r) {
-    const bool column = c % 4 == 0 || c == 719;
-    const bool row = r % 4 == 0 || r == 485;
-    return column && row ? 51u : 0u;
-  });
-  EXPECT_NEAR(heightSeen(stage, sieve, {}, 4), 8.0, 0.1);
-  EXPECT_EQ(stage.renderer().statistics().triangles, 2U * 180 * 122);
-}
-
 // A hue of the textbook's hexagon for s, as footage in this coding stores it.
 Rgb hueColor(double s) {
   const double sixth = s * 6.0;
@@ -262,44 +249,13 @@ TEST(RenderRelief, HueAndLumaOfTheSameReliefGiveTheSamePicture) {
   EXPECT_GT(by_hue.meanDifference(stage.show(scene)), 2.0);  // and the relief is in the picture
 }
 
-// White all over; the depth's hole is between columns and rows 12 and 20.
-bool inHole(int c, int r) {
-  return c >= 12 && c < 20 && r >= 5 && r < 13;
-}
-
-// Code 0 is the far plane where no code is invalid: in a grid of all samples as in the network.
+// Code 0 is the far plane where no code is invalid.
 TEST(RenderRelief, APictureOfCodesZeroIsVisibleWithoutAnInvalidCode) {
   STAGE_OR_SKIP(stage, 640, 360);
-  for (const int grid_step : {0, 1}) {
-    const Scene scene{.color = makeRgbFrame(32, 18, [](int, int) { return Rgb{255, 255, 255}; }),
-                      .depth = makeGrayFrame(32, 18, 8, MediaTime{}, [](int, int) { return 0u; }),
-                      .volume = kVolume,
-                      .detail = {.grid_step = grid_step}};
-    EXPECT_EQ(stage.show(scene).at(320, 180), (Rgb{255, 255, 255})) << grid_step;
-  }
-}
-
-TEST(RenderRelief, HolesStayOpenInAUniformGrid) {
-  STAGE_OR_SKIP(stage, 640, 360);
-  Scene scene{.color = makeRgbFrame(32, 18, [](int, int) { return Rgb{255, 255, 255}; }),
-              .depth = makeGrayFrame(32, 18, 8, MediaTime{}, [](int c, int r) { return inHole(c, r) ? 7u : 128u; }),
-              .calibration = {.invalid = 7},
-              .volume = kVolume,
-              .detail = {.grid_step = 1}};
-  const Image by_code = stage.show(scene);
-  // z = 128/255 * 40 = 20.08 is the screen plane: 20 pixels to a sample, whose middle is at 20 c + 10. Triangles that
-  // touch a hole are missing, so it reaches from the middle of sample 11 to that of 20, less what single corners leave.
-  EXPECT_EQ(by_code.at(320, 180), (Rgb{0, 0, 0}));
-  EXPECT_EQ(by_code.at(255, 180), (Rgb{0, 0, 0}));
-  EXPECT_EQ(by_code.at(225, 180), (Rgb{255, 255, 255}));
-  EXPECT_EQ(by_code.at(384, 180), (Rgb{0, 0, 0}));
-  EXPECT_EQ(by_code.at(414, 180), (Rgb{255, 255, 255}));
-  EXPECT_EQ(by_code.at(320, 85), (Rgb{255, 255, 255}));
-  EXPECT_EQ(by_code.at(320, 275), (Rgb{255, 255, 255}));
-
-  scene.depth = makeRgbFrame(32, 18, [](int c, int r) { return inHole(c, r) ? Rgb{76, 0, 0} : hueColor(0.498); });
-  scene.calibration = kHue;
-  EXPECT_LT(stage.show(scene).meanDifference(by_code), 1.0);
+  const Scene scene{.color = makeRgbFrame(32, 18, [](int, int) { return Rgb{255, 255, 255}; }),
+                    .depth = makeGrayFrame(32, 18, 8, MediaTime{}, [](int, int) { return 0u; }),
+                    .volume = kVolume};
+  EXPECT_EQ(stage.show(scene).at(320, 180), (Rgb{255, 255, 255}));
 }
 
 TEST(RenderRelief, HoleIsFilledWithTheFartherOfItsSides) {
@@ -343,20 +299,6 @@ TEST(RenderRelief, WhatIsUncoveredBesideANearThingIsTheFarThings) {
     EXPECT_EQ(image.at(x, 360), (Rgb{0, 255, 0})) << x - edge;
   }
   EXPECT_EQ(image.at(edge + 3, 360), (Rgb{255, 0, 0}));
-}
-
-TEST(RenderRelief, TooDarkAHueIsAHoleForTheEyeAsForTheFinger) {
-  STAGE_OR_SKIP(stage, 320, 180);
-  Scene scene{.color = makeRgbFrame(32, 18, [](int, int) { return Rgb{255, 255, 255}; }),
-              .calibration = kHue,
-              .volume = kVolume,
-              .detail = {.grid_step = 1}};
-  for (const Rgb& rgb : {Rgb{0, 76, 0}, Rgb{0, 77, 0}, Rgb{25, 26, 25}, Rgb{90, 90, 90}, Rgb{30, 30, 40}}) {
-    scene.depth = makeRgbFrame(32, 18, [&](int, int) { return rgb; });
-    const double felt = HeightField::make(scene.depth, kHue, kVolume).value().heightMm(16, 9);
-    const bool seen = stage.show(scene).at(160, 90) == Rgb{255, 255, 255};
-    EXPECT_EQ(seen, !std::isnan(felt)) << rgb[0] << " " << rgb[1] << " " << rgb[2];
-  }
 }
 
 TEST(RenderRelief, WithoutDepthThePictureIsFlatAndTheSameForBothEyes) {

@@ -20,7 +20,7 @@ namespace {
 constexpr int kWidth = 1280, kHeight = 720;
 constexpr int kFiner = 3, kFinerTruth = 2;
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr DetailSettings kAllSamples{.grid_step = 1};
+constexpr DrawnLevel kAllSamples{.grid_step = 1};
 
 struct Plan {
   int pictures = 4, apart = 10;  // frames of the film between two of them
@@ -67,7 +67,7 @@ class Detail {
     if (!stage) return std::unexpected(stage.error());
     std::vector<DetailFigures> figures;
     figures.reserve(kDetails.size());
-    for (const DetailSettings& level : kDetails) figures.push_back({.depth = &depth, .level = level});
+    for (const DrawnLevel& level : kDetails) figures.push_back({.depth = &depth, .level = level});
     for (const Shot& shot : *shots) {
       options_.tell(
           print("pictures, %s: %zu of %zu", depth.name, &shot - shots->data() + std::size_t{1}, shots->size()));

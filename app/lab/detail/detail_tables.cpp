@@ -14,7 +14,7 @@ bool isGrid(const DetailFigures& row) {
   return row.level.grid_step > 0;
 }
 bool isPlayers(const DetailFigures& row) {
-  return !isGrid(row) && row.level.error_px == DetailSettings{}.error_px;
+  return !isGrid(row) && row.level.error_px == DrawnLevel{}.error_px;
 }
 
 }  // namespace

@@ -8,19 +8,19 @@
 #include <vector>
 
 #include "app/lab/chart/chart.h"
+#include "app/lab/detail/drawn_level.h"
 #include "app/lab/detail/picture_quality.h"
 #include "app/lab/measure/accuracy.h"
 #include "app/lab/measure/statistics.h"
-#include "app/render/gl/scene_renderer.h"
 
 namespace relievo {
 
 inline constexpr std::array kDetails{
-    DetailSettings{.error_px = 0.125}, DetailSettings{.error_px = 0.25}, DetailSettings{.error_px = 0.5},
-    DetailSettings{.error_px = 1},     DetailSettings{.error_px = 2},    DetailSettings{.error_px = 4},
-    DetailSettings{.grid_step = 1},    DetailSettings{.grid_step = 2},   DetailSettings{.grid_step = 3},
-    DetailSettings{.grid_step = 4},    DetailSettings{.grid_step = 6},   DetailSettings{.grid_step = 8},
-    DetailSettings{.grid_step = 12},
+    DrawnLevel{.error_px = 0.125}, DrawnLevel{.error_px = 0.25}, DrawnLevel{.error_px = 0.5},
+    DrawnLevel{.error_px = 1},     DrawnLevel{.error_px = 2},    DrawnLevel{.error_px = 4},
+    DrawnLevel{.grid_step = 1},    DrawnLevel{.grid_step = 2},   DrawnLevel{.grid_step = 3},
+    DrawnLevel{.grid_step = 4},    DrawnLevel{.grid_step = 6},   DrawnLevel{.grid_step = 8},
+    DrawnLevel{.grid_step = 12},
 };
 inline constexpr std::array kDrawnDepths{&kDepthKinds[1], &kDepthKinds[2]};
 // What a coder smears, and what the grid of all samples stretches. Farther away a stretched triangle is a level's own.
@@ -28,7 +28,7 @@ inline constexpr int kNearSilhouetteSamples = 3;
 
 struct DetailFigures {
   const DepthKind* depth = nullptr;
-  DetailSettings level;
+  DrawnLevel level;
   double triangles = 0;              // of a picture, in the mean
   double frame_ms = 0, draw_ms = 0;  // of a new picture; of the same once more
   PictureError away, whole;          // from the grid of all samples

@@ -20,7 +20,7 @@ Outcome<std::vector<DetailTouch>> touchOfDetails(const DepthKind& depth, double 
   if (!film) return failOn(kScene, film.error());
 
   std::vector<DetailTouch> found;
-  for (const DetailSettings& level : kDetails) {
+  for (const DrawnLevel& level : kDetails) {
     tell(print("touch, %s, level %zu of %zu", depth.name, found.size() + 1, kDetails.size()));
     std::vector<DrawnDepth> drawn(film->frames().size());
     inParallel(drawn.size(), [&](std::size_t i) {

@@ -12,6 +12,7 @@ namespace relievo {
 namespace {
 
 constexpr const char* kThing = "drawing";
+constexpr StereoSettings kStereo{.layout = StereoLayout::SideBySide};
 
 }  // namespace
 
@@ -25,28 +26,43 @@ Outcome<std::unique_ptr<DrawingStage>> DrawingStage::open(Display& display, int 
   auto renderer = SceneRenderer::create(kWithoutHaste);
   if (!renderer) return failOn(kThing, renderer.error());
   stage->renderer_ = std::move(*renderer);
-  stage->renderer_->setStereo({.layout = StereoLayout::SideBySide});
+  stage->renderer_->setStereo(kStereo);
+  auto grid = UniformGrid::create();
+  if (!grid) return failOn(kThing, grid.error());
+  stage->grid_ = std::move(*grid);
   return stage;
 }
 
 DrawingStage::~DrawingStage() {
-  renderer_.reset();  // its GL names go with the display's context
+  grid_.reset();  // their GL names go with the display's context
+  renderer_.reset();
   display_.close();
 }
 
-Outcome<Duration> DrawingStage::show(const Frame& color, const Frame& depth, const DetailSettings& detail) {
-  renderer_->setDetail(detail);
+Outcome<Duration> DrawingStage::show(const Frame& color, const Frame& depth, const DrawnLevel& level) {
+  level_ = level;
   const MonotonicTime start = clock_.now();
-  const auto volume = DisplayVolume::forPicture(depth.width, depth.height);
-  if (auto set = renderer_->setFrame(color, depth, {}, volume); !set) return failOn(kThing, set.error());
-  if (auto drawn = renderer_->draw(surface_, std::nullopt); !drawn) return failOn(kThing, drawn.error());
+  if (auto taken = take(color, depth); !taken) return failOn(kThing, taken.error());
+  if (auto drawn = draw(); !drawn) return failOn(kThing, drawn.error());
   return clock_.now() - start;
 }
 
 Outcome<Duration> DrawingStage::again() {
   const MonotonicTime start = clock_.now();
-  if (auto drawn = renderer_->draw(surface_, std::nullopt); !drawn) return failOn(kThing, drawn.error());
+  if (auto drawn = draw(); !drawn) return failOn(kThing, drawn.error());
   return clock_.now() - start;
+}
+
+Result<void> DrawingStage::take(const Frame& color, const Frame& depth) {
+  const auto volume = DisplayVolume::forPicture(depth.width, depth.height);
+  if (level_.grid_step > 0) return grid_->setFrame(color, depth, volume);
+  renderer_->setError(level_.error_px);
+  return renderer_->setFrame(color, depth, {}, volume);
+}
+
+Result<void> DrawingStage::draw() {
+  return level_.grid_step > 0 ? grid_->draw(surface_, kStereo, level_.grid_step)
+                              : renderer_->draw(surface_, std::nullopt);
 }
 
 Picture DrawingStage::picture() const {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The player's renderer on a display of the measurement's own, and what it has drawn.
+// The player's renderer and the uniform grid on a display of the measurement's own, and what they have drawn.
 #pragma once
 
 #include <memory>
+#include <optional>
 
+#include "app/lab/detail/drawn_level.h"
 #include "app/lab/detail/picture_quality.h"
+#include "app/lab/detail/uniform_grid.h"
 #include "app/render/gl/scene_renderer.h"
 #include "hal/display.h"
 #include "platform/failure.h"
@@ -19,19 +22,25 @@ class DrawingStage {
   ~DrawingStage();
 
   // A new picture at a level of detail: takes it in and draws it. Answers how long both took.
-  [[nodiscard]] Outcome<Duration> show(const Frame& color, const Frame& depth, const DetailSettings& detail);
+  [[nodiscard]] Outcome<Duration> show(const Frame& color, const Frame& depth, const DrawnLevel& level);
   // Draws the same once more.
   [[nodiscard]] Outcome<Duration> again();
   [[nodiscard]] Picture picture() const;
   // Of the relief drawn last, silhouettes and all.
-  [[nodiscard]] std::size_t triangles() const { return renderer_->statistics().triangles; }
+  [[nodiscard]] std::size_t triangles() const {
+    return level_.grid_step > 0 ? grid_->triangles(level_.grid_step) : renderer_->statistics().triangles;
+  }
 
  private:
   explicit DrawingStage(Display& display) : display_(display) {}
+  [[nodiscard]] Result<void> take(const Frame& color, const Frame& depth);
+  [[nodiscard]] Result<void> draw();
 
   Display& display_;
   DisplaySurface surface_;
   std::unique_ptr<SceneRenderer> renderer_;
+  std::optional<UniformGrid> grid_;
+  DrawnLevel level_;
   MonotonicClock clock_;
 };
 

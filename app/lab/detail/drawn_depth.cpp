@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "app/render/gl/relief_mesh.h"
+#include "app/lab/detail/uniform_grid.h"
 #include "app/render/relief/relief_triangles.h"
 
 namespace relievo {
@@ -73,7 +73,7 @@ class Heights {
 };
 
 std::vector<int> samplesOf(int samples, int step) {
-  std::vector<int> kept(ReliefMesh::verticesAlong(samples, step));
+  std::vector<int> kept(UniformGrid::verticesAlong(samples, step));
   for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = std::min(static_cast<int>(i) * step, samples - 1);
   return kept;
 }
@@ -111,12 +111,12 @@ std::size_t coverNetwork(const HeightField& field, const DisplayVolume& volume, 
 
 }  // namespace
 
-DrawnDepth drawnDepth(const HeightField& field, const DisplayVolume& volume, const DetailSettings& detail,
+DrawnDepth drawnDepth(const HeightField& field, const DisplayVolume& volume, const DrawnLevel& level,
                       double pixels_per_mm) {
   Heights heights(field);
-  const double error_mm = detail.error_px * heightOfPixelMm({}, volume, pixels_per_mm);
-  const std::size_t triangles = detail.grid_step > 0 ? coverGrid(field, detail.grid_step, heights)
-                                                     : coverNetwork(field, volume, error_mm, heights);
+  const double error_mm = level.error_px * heightOfPixelMm({}, volume, pixels_per_mm);
+  const std::size_t triangles =
+      level.grid_step > 0 ? coverGrid(field, level.grid_step, heights) : coverNetwork(field, volume, error_mm, heights);
   return {heights.frame(volume.depth_mm), triangles};
 }
 

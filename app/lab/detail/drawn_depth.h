@@ -5,7 +5,7 @@
 
 #include <cstddef>
 
-#include "app/render/gl/scene_renderer.h"
+#include "app/lab/detail/drawn_level.h"
 #include "app/scene/display_volume.h"
 #include "app/scene/height_field.h"
 #include "hal/frame.h"
@@ -17,9 +17,9 @@ struct DrawnDepth {
   std::size_t triangles = 0;
 };
 
-// `field`, without holes, as it is drawn in `volume` with `detail`, on views of `pixels_per_mm`. A cell that is cut
+// `field`, without holes, as it is drawn in `volume` at `level`, on views of `pixels_per_mm`. A cell that is cut
 // keeps the heights of its samples.
-[[nodiscard]] DrawnDepth drawnDepth(const HeightField& field, const DisplayVolume& volume, const DetailSettings& detail,
+[[nodiscard]] DrawnDepth drawnDepth(const HeightField& field, const DisplayVolume& volume, const DrawnLevel& level,
                                     double pixels_per_mm);
 
 }  // namespace relievo

@@ -182,7 +182,7 @@ bool ColorPicture::import(const Frame& frame) {
     const Component& component = frame.components[i];
     const glm::ivec2 samples = samplesOf(frame, i);
     takes_dma_bufs_ =
-        planes_[i].import({.channels = component.step_bytes}, frame.dma_bufs[component.plane],
+        planes_[i].import(component.step_bytes, frame.dma_bufs[component.plane],
                           frame.planes[component.plane].stride_bytes, samples.x, samples.y, frame.dma_modifier);
   }
   return *takes_dma_bufs_;
@@ -200,7 +200,7 @@ void ColorPicture::upload(const Frame& frame) {
     if (narrow) {
       planes_[i].uploadNarrowed(channels, plane, samples.x, samples.y, narrowing);
     } else {
-      planes_[i].upload({.channels = channels}, plane, samples.x, samples.y);
+      planes_[i].upload(channels, plane, samples.x, samples.y);
     }
   }
 }
@@ -227,7 +227,11 @@ void ColorPicture::setColors(const Frame& frame) noexcept {
   }
 }
 
-void ColorPicture::bind(GLuint unit, int shown_width, int shown_height) {
+void ColorPicture::bind(GLuint unit, const PixelArea& area, const DisplayVolume& volume) {
+  const double area_aspect = static_cast<double>(area.width) / area.height;
+  const double picture_aspect = volume.width_mm / volume.height_mm;
+  const int shown_width = static_cast<int>(area.width * std::min(1.0, picture_aspect / area_aspect));
+  const int shown_height = static_cast<int>(area.height * std::min(1.0, area_aspect / picture_aspect));
   const auto reduced = [](int samples, int shown) { return samples >= 2 * shown ? (samples + 1) / 2 : samples; };
   const int width = reduced(width_, std::max(shown_width, 1));
   const int height = reduced(height_, std::max(shown_height, 1));

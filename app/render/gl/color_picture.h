@@ -13,6 +13,8 @@
 #include "app/render/gl/gl_objects.h"
 #include "app/render/gl/gl_program.h"
 #include "app/render/gl/plane_texture.h"
+#include "app/render/relief/stereo.h"
+#include "app/scene/display_volume.h"
 #include "hal/frame.h"
 #include "platform/error.h"
 
@@ -33,9 +35,9 @@ class ColorPicture {
   [[nodiscard]] bool isImported() const noexcept { return imported_; }
 
   // Converts what was set, if that has not been done, and leaves the texture bound to `unit`, row 0 the top one.
-  // `shown_width` and `shown_height`: about how many pixels large it will be drawn; a picture of twice that or more is
+  // It will be drawn on `area`, in the shape of `volume`, less the bars: a picture of twice as many pixels or more is
   // halved on the way, or it would shimmer. Changes the framebuffer and the viewport.
-  void bind(GLuint unit, int shown_width, int shown_height);
+  void bind(GLuint unit, const PixelArea& area, const DisplayVolume& volume);
 
  private:
   enum class Arrangement : std::uint8_t { Gray, Planar, SemiPlanar, Packed };

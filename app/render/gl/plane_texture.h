@@ -12,37 +12,28 @@
 
 namespace relievo {
 
-// What one texel of the texture is: `channels` unsigned numbers of 8 or 16 bits, read in the shader as whole numbers
-// (usampler2D) or, 8-bit ones alone, as fractions of 255 with linear filtering.
-struct TexelLayout {
-  std::uint8_t channels = 1;  // 1 to 4
-  std::uint8_t bytes = 1;     // of a channel, 1 or 2
-  bool whole = false;
-  bool operator==(const TexelLayout&) const = default;
-  [[nodiscard]] int texelBytes() const noexcept { return channels * bytes; }
-};
-
+// A texel is 1 to 4 channels of 8 bits, which the shader reads as fractions of 255 with linear filtering.
 class PlaneTexture {
  public:
   // Leaves the texture bound to the active unit. A stride that GL cannot be told (one that is negative, or neither a
   // whole number of texels nor such a number rounded up to 2, 4 or 8 bytes) costs one copy of the plane.
-  void upload(const TexelLayout& layout, const Plane& plane, int width, int height);
+  void upload(std::uint8_t channels, const Plane& plane, int width, int height);
   // The same from 16-bit words of `plane`, each cut to its top 8 bits: (word >> shift) as a byte.
   void uploadNarrowed(std::uint8_t channels, const Plane& plane, int width, int height, int shift);
 
   // No copy: the texels are those of a dma-buf (importDmaBuf). False where that cannot be, and nothing is changed.
-  [[nodiscard]] bool import(const TexelLayout& layout, const DmaBuf& dma_buf, std::ptrdiff_t stride_bytes, int width,
+  [[nodiscard]] bool import(std::uint8_t channels, const DmaBuf& dma_buf, std::ptrdiff_t stride_bytes, int width,
                             int height, std::optional<std::uint64_t> modifier);
 
   void bind(GLuint unit) const noexcept;
 
  private:
-  void allocate(const TexelLayout& layout, int width, int height);
+  void allocate(std::uint8_t channels, int width, int height);
   void configure() const;
   void send(const void* samples) const;
 
   GlTexture texture_;
-  TexelLayout layout_;
+  std::uint8_t channels_ = 1;
   int width_ = 0;
   int height_ = 0;
   bool imported_ = false;

@@ -2,6 +2,7 @@
 // Upload and drawing of a mesh that is another one each frame.
 #include "app/render/gl/relief_surface.h"
 
+#include <array>
 #include <cstddef>
 #include <glm/gtc/type_ptr.hpp>
 #include <utility>
@@ -21,11 +22,22 @@ void main() {
 )";
 
 template <class Element>
-void replace(GLenum target, const OutputArray<Element>& elements) {
-  glBufferData(target, static_cast<GLsizeiptr>(elements.size() * sizeof(Element)), elements.data(), GL_STREAM_DRAW);
+void send(GLenum target, std::span<const Element> elements) {
+  glBufferData(target, static_cast<GLsizeiptr>(elements.size_bytes()), elements.data(), GL_STREAM_DRAW);
 }
 
 }  // namespace
+
+// Nearly all of a frame's time in software rendering goes by this line: small triangles shade many pixels in vain.
+const char* const kPictureFragmentShader = R"(
+precision mediump float;
+in highp vec2 picture_at;
+uniform sampler2D picture;
+out vec4 color;
+void main() {
+  color = textureLod(picture, picture_at, 0.0);
+}
+)";
 
 Result<ReliefSurface> ReliefSurface::create() {
   ReliefSurface surface;
@@ -47,18 +59,31 @@ Result<ReliefSurface> ReliefSurface::create() {
   return surface;
 }
 
-void ReliefSurface::upload(const ReliefTriangles& triangles) {
+void ReliefSurface::replace(std::span<const TexturedVertex> vertices, std::span<const std::uint32_t> indices) {
   glBindVertexArray(attributes_.get());
   glBindBuffer(GL_ARRAY_BUFFER, vertices_.get());
-  replace(GL_ARRAY_BUFFER, triangles.vertices());
-  replace(GL_ELEMENT_ARRAY_BUFFER, triangles.indices());
-  index_count_ = static_cast<GLsizei>(triangles.indices().size());
+  send(GL_ARRAY_BUFFER, vertices);
+  send(GL_ELEMENT_ARRAY_BUFFER, indices);
+  index_count_ = static_cast<GLsizei>(indices.size());
 }
 
-void ReliefSurface::draw(const PictureView& view) const {
+void ReliefSurface::upload(const ReliefTriangles& triangles) {
+  replace(triangles.vertices(), triangles.indices());
+}
+
+void ReliefSurface::uploadFlat(const DisplayVolume& volume, double z_mm) {
+  const auto right = static_cast<float>(0.5 * volume.width_mm), top = static_cast<float>(0.5 * volume.height_mm);
+  const auto z = static_cast<float>(z_mm);
+  const std::array<TexturedVertex, 4> corners{
+      {{-right, top, z, 0, 0}, {-right, -top, z, 0, 1}, {right, top, z, 1, 0}, {right, -top, z, 1, 1}}};
+  constexpr std::array<std::uint32_t, 6> kTwoTriangles{0, 1, 2, 2, 1, 3};
+  replace(corners, kTwoTriangles);
+}
+
+void ReliefSurface::draw(const glm::mat4& view_projection, GLuint picture_unit) const {
   program_.use();
-  glUniformMatrix4fv(program_.uniform("view_projection"), 1, GL_FALSE, glm::value_ptr(view.view_projection));
-  glUniform1i(program_.uniform("picture"), static_cast<GLint>(view.picture_unit));
+  glUniformMatrix4fv(program_.uniform("view_projection"), 1, GL_FALSE, glm::value_ptr(view_projection));
+  glUniform1i(program_.uniform("picture"), static_cast<GLint>(picture_unit));
   glBindVertexArray(attributes_.get());
   glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
 }

@@ -11,7 +11,6 @@
 #include "app/render/gl/eye_mixer.h"
 #include "app/render/gl/finger_model.h"
 #include "app/render/gl/gl_objects.h"
-#include "app/render/gl/relief_mesh.h"
 #include "app/render/gl/relief_surface.h"
 #include "app/render/gl/surface_mark.h"
 #include "app/render/gl/text_panel.h"
@@ -23,7 +22,7 @@
 namespace relievo {
 namespace {
 
-constexpr GLuint kPictureUnit = 3;  // after the codes' and the colour planes'
+constexpr GLuint kPictureUnit = 3;  // after the colour planes'
 constexpr Duration::rep kSmoothing = 8;
 
 constexpr double kShadowSlant = 0.35, kShadowRadiusMm = 4.5, kShadowGrowth = 0.15;
@@ -43,18 +42,16 @@ struct SceneRenderer::Impl {
 
   [[nodiscard]] Result<void> drawViews(const DisplaySurface& surface, const std::optional<FingerMark>& mark);
   void makeTriangles(const EyeViews& eyes);
-  void bindPicture(const PixelArea& area);
   void drawView(const EyeView& view, const std::optional<FingerMark>& mark);
   void drawFinger(const EyeView& view, const FingerMark& mark);
 
   StereoSettings stereo;
-  DetailSettings detail;
+  double error_px = kErrorPx;
   DisplayVolume volume;
   Frame depth;  // keeps the samples alive that `field` reads
   HeightField field;
 
   ColorPicture picture;
-  ReliefMesh grid;
   ReliefTriangles triangles;
   ReliefSurface surface_of_triangles;
   ReliefDetail made;  // what the triangles were made for
@@ -79,7 +76,6 @@ Result<void> SceneRenderer::Impl::createParts() {
     part = std::move(*created);
     return {};
   };
-  if (auto made_grid = take(grid, ReliefMesh::create()); !made_grid) return made_grid;
   if (auto made_surface = take(surface_of_triangles, ReliefSurface::create()); !made_surface) return made_surface;
   if (auto made_mixer = take(mixer, EyeMixer::create()); !made_mixer) return made_mixer;
   if (auto made_mark = take(on_surface, SurfaceMark::create()); !made_mark) return made_mark;
@@ -100,8 +96,8 @@ void SceneRenderer::setStereo(const StereoSettings& settings) noexcept {
 const StereoSettings& SceneRenderer::stereo() const noexcept {
   return impl_->stereo;
 }
-void SceneRenderer::setDetail(const DetailSettings& settings) noexcept {
-  impl_->detail = settings;
+void SceneRenderer::setError(double pixels) noexcept {
+  impl_->error_px = pixels;
 }
 
 void SceneRenderer::setText(const std::vector<std::string>& lines) {
@@ -115,9 +111,6 @@ Result<void> SceneRenderer::setFrame(const Frame& color, const Frame& depth, con
   if (!depth.empty()) {
     auto field = HeightField::make(depth, calibration, volume);
     if (!field) return std::unexpected(field.error());
-    if (impl.detail.grid_step > 0) {
-      if (auto set = impl.grid.setDepth(depth, calibration, volume); !set) return set;
-    }
     impl.field = *field;
   }
   if (auto set = impl.picture.setFrame(color); !set) return set;
@@ -145,16 +138,9 @@ RenderStatistics SceneRenderer::statistics() const noexcept {
   RenderStatistics result{
       .frames = impl.frames, .imported = impl.picture.isImported(), .frame_ms = toSeconds(impl.drawing) * 1e3};
   if (impl.depth.empty()) return result;
-  if (impl.detail.grid_step > 0) {
-    const auto along = [&](int samples) {
-      return static_cast<std::size_t>(ReliefMesh::verticesAlong(samples, impl.detail.grid_step) - 1);
-    };
-    result.triangles = 2 * along(impl.depth.width) * along(impl.depth.height);
-    return result;
-  }
   result.triangles = impl.triangles.indices().size() / 3;
   result.cut_cells = impl.triangles.cutCells();
-  result.error_px = impl.detail.error_px * impl.level.factor();
+  result.error_px = impl.error_px * impl.level.factor();
   result.mesh_ms = toSeconds(impl.meshing) * 1e3;
   return result;
 }
@@ -164,8 +150,9 @@ Result<void> SceneRenderer::Impl::drawViews(const DisplaySurface& surface, const
   if (refusal(shown, surface.width, surface.height) != nullptr) shown.layout = StereoLayout::Mono;
   const EyeViews eyes = eyeViews(shown, volume, surface.width, surface.height);
   if (has_picture) {
-    bindPicture(eyes.views[0].area);
-    if (!depth.empty() && detail.grid_step == 0) makeTriangles(eyes);
+    picture.bind(kPictureUnit, eyes.views[0].area, volume);
+    if (depth.empty()) surface_of_triangles.uploadFlat(volume, stereo.screen_z_mm);
+    else makeTriangles(eyes);
   }
   const auto clear = [] {
     glDisable(GL_SCISSOR_TEST);
@@ -202,7 +189,7 @@ void SceneRenderer::Impl::makeTriangles(const EyeViews& eyes) {
   const double pixel_mm = heightOfPixelMm(stereo, volume, eyes.pixels_per_mm);
   const ReliefDetail wanted{
       .most_across = std::clamp(static_cast<int>(2 * eyes.pixels_per_mm * volume.width_mm), kLeastAcross, kMostAcross),
-      .error_mm = detail.error_px * level.factor() * pixel_mm,
+      .error_mm = error_px * level.factor() * pixel_mm,
       .view = {.eye_mm = eye_mm, .distance_mm = stereo.viewing_distance_mm, .screen_z_mm = stereo.screen_z_mm}};
   if (is_made && wanted == made) return;
   const MonotonicTime start = clock.now();
@@ -211,14 +198,6 @@ void SceneRenderer::Impl::makeTriangles(const EyeViews& eyes) {
   smooth(meshing, clock.now() - start, meshes++ == 0);
   made = wanted;
   is_made = true;
-}
-
-// The picture's size on the surface is its window's, less the bars.
-void SceneRenderer::Impl::bindPicture(const PixelArea& area) {
-  const double area_aspect = static_cast<double>(area.width) / area.height;
-  const double picture_aspect = volume.width_mm / volume.height_mm;
-  picture.bind(kPictureUnit, static_cast<int>(area.width * std::min(1.0, picture_aspect / area_aspect)),
-               static_cast<int>(area.height * std::min(1.0, area_aspect / picture_aspect)));
 }
 
 void SceneRenderer::Impl::drawView(const EyeView& view, const std::optional<FingerMark>& mark) {
@@ -230,16 +209,7 @@ void SceneRenderer::Impl::drawView(const EyeView& view, const std::optional<Fing
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
   glFrontFace(GL_CCW);
-  const PictureView picture_view{.view_projection = glm::mat4(view.view_projection),
-                                 .screen_z_mm = stereo.screen_z_mm,
-                                 .picture_unit = kPictureUnit};
-  if (depth.empty()) {
-    grid.drawFlat(picture_view, volume);
-  } else if (detail.grid_step > 0) {
-    grid.draw(picture_view, detail.grid_step);
-  } else {
-    surface_of_triangles.draw(picture_view);
-  }
+  surface_of_triangles.draw(glm::mat4(view.view_projection), kPictureUnit);
   if (mark) drawFinger(view, *mark);
   text.draw(view.view_projection, volume, stereo.screen_z_mm);
 }

@@ -25,12 +25,6 @@ struct FingerMark {
   bool contact = false;
 };
 
-// How finely the relief is drawn.
-struct DetailSettings {
-  double error_px = 0.5;  // by which the shift between the eyes may be off; more where the frame budget asks for it
-  int grid_step = 0;      // more than 0: a uniform grid of every so many samples instead, uncut: the charts' baseline
-};
-
 struct RenderStatistics {
   std::uint64_t frames = 0;
   std::size_t triangles = 0;  // of the relief as it is drawn now, silhouettes and all; 0 without depth
@@ -45,6 +39,8 @@ struct RenderStatistics {
 // names die with the display's context, so the renderer goes before the display closes.
 class SceneRenderer {
  public:
+  static constexpr double kErrorPx = 0.5;  // unless setError says otherwise
+
   // `frame_budget`: how long drawing one frame may take; the relief gets coarser until it holds, and finer again when
   // there is room.
   [[nodiscard]] static Result<std::unique_ptr<SceneRenderer>> create(Duration frame_budget);
@@ -53,8 +49,9 @@ class SceneRenderer {
   // A layout that the surface refuses is drawn as mono.
   void setStereo(const StereoSettings& settings) noexcept;
   [[nodiscard]] const StereoSettings& stereo() const noexcept;
-  // Before the frame that it is for.
-  void setDetail(const DetailSettings& settings) noexcept;
+  // By how much the shift between the eyes may be off for the sake of fewer triangles; the frame budget may ask for
+  // more. Before the frame that it is for.
+  void setError(double pixels) noexcept;
   // Shown at the picture's foot from now on, in the screen plane; no lines: nothing is. In the context.
   void setText(const std::vector<std::string>& lines);
 

@@ -31,7 +31,7 @@ double greatestDifference(const Frame& a, const Frame& b) {
   }
   return greatest;
 }
-DrawnDepth drawn(const Frame& depth, const DetailSettings& level) {
+DrawnDepth drawn(const Frame& depth, const DrawnLevel& level) {
   return drawnDepth(fieldOf(depth), kVolume, level, kPixelsPerMm);
 }
 
@@ -47,7 +47,7 @@ TEST(DrawnDepth, OfAllSamplesIsTheDepthItself) {
 
 TEST(DrawnDepth, APlaneStaysWhatItIsAtEveryLevel) {
   const Frame plane = relief([](double x, double y) { return 20 + 0.1 * x - 0.2 * y; });
-  for (const DetailSettings& level : {DetailSettings{.grid_step = 5}, {.grid_step = 12}, {.error_px = 4}}) {
+  for (const DrawnLevel& level : {DrawnLevel{.grid_step = 5}, {.grid_step = 12}, {.error_px = 4}}) {
     EXPECT_LT(greatestDifference(drawn(plane, level).frame, plane), 0.0013) << level.grid_step;  // a code is 0.0006
   }
   EXPECT_LT(drawn(plane, {.error_px = 4}).triangles, 100U);
