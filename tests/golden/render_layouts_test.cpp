@@ -43,8 +43,8 @@ Rgb seen(double eye_x, double x, double y) {
 }
 
 // An eye's picture of the whole window, `width` x `height` pixels.
-Picture view(double eye_x, int width, int height) {
-  Picture picture{width, height, {}};
+DrawnPicture view(double eye_x, int width, int height) {
+  DrawnPicture picture{width, height, {}};
   for (int r = 0; r < height; ++r) {
     for (int c = 0; c < width; ++c) {
       const double x = ((c + 0.5) / width - 0.5) * kVolume.width_mm, y = (0.5 - (r + 0.5) / height) * kVolume.height_mm;
@@ -55,28 +55,28 @@ Picture view(double eye_x, int width, int height) {
   return picture;
 }
 
-void paste(const Picture& part, int x, int y, Picture& whole) {
+void paste(const DrawnPicture& part, int x, int y, DrawnPicture& whole) {
   for (int r = 0; r < part.height; ++r) {
     std::copy_n(part.rgba.begin() + static_cast<std::ptrdiff_t>(r) * part.width * 4, part.width * 4,
                 whole.rgba.begin() + (static_cast<std::ptrdiff_t>(y + r) * whole.width + x) * 4);
   }
 }
 
-Picture black(int width, int height) {
-  Picture picture{width, height, std::vector<std::uint8_t>(static_cast<std::size_t>(width) * height * 4, 0)};
+DrawnPicture black(int width, int height) {
+  DrawnPicture picture{width, height, std::vector<std::uint8_t>(static_cast<std::size_t>(width) * height * 4, 0)};
   for (std::size_t i = 3; i < picture.rgba.size(); i += 4) picture.rgba[i] = 255;
   return picture;
 }
 
 // Pixel by pixel from both eyes.
 template <class Mix>
-Picture mixed(int width, int height, Mix&& mix) {
-  const Picture left = view(-kEyes / 2, width, height), right = view(kEyes / 2, width, height);
-  Picture whole = black(width, height);
+DrawnPicture mixed(int width, int height, Mix&& mix) {
+  const DrawnPicture left = view(-kEyes / 2, width, height), right = view(kEyes / 2, width, height);
+  DrawnPicture whole = black(width, height);
   for (int r = 0; r < height; ++r) {
     for (int c = 0; c < width; ++c) {
       const std::size_t at = (static_cast<std::size_t>(r) * width + c) * 4;
-      const auto of = [at](const Picture& p) {
+      const auto of = [at](const DrawnPicture& p) {
         return std::array<double, 3>{1.0 * p.rgba[at], 1.0 * p.rgba[at + 1], 1.0 * p.rgba[at + 2]};
       };
       const auto color = mix(c, r, of(left), of(right));
@@ -103,7 +103,7 @@ Scene sceneIn(const StereoSettings& stereo) {
 }
 
 // At the picture's rim the relief is joined to the frame: a few pixels there are left out.
-double similarity(const Image& image, const Picture& golden, int rim) {
+double similarity(const Image& image, const DrawnPicture& golden, int rim) {
   std::vector<std::uint8_t> counted(static_cast<std::size_t>(golden.width) * golden.height, 0);
   for (int r = rim; r < golden.height - rim; ++r) {
     for (int c = rim; c < golden.width - rim; ++c) counted[static_cast<std::size_t>(r) * golden.width + c] = 1;
@@ -113,7 +113,7 @@ double similarity(const Image& image, const Picture& golden, int rim) {
   return error.similarity();
 }
 
-void expectLike(const StereoSettings& stereo, const Picture& golden, int rim = 6) {
+void expectLike(const StereoSettings& stereo, const DrawnPicture& golden, int rim = 6) {
   const auto stage = Stage::make(golden.width, golden.height);
   if (!stage) GTEST_SKIP() << "this machine has no EGL with GLES 3";
   const Image image = stage->show(sceneIn(stereo));
@@ -132,28 +132,28 @@ TEST(RenderLayouts, Mono) {
 }
 
 TEST(RenderLayouts, SideBySide) {
-  Picture golden = black(1280, 720);
+  DrawnPicture golden = black(1280, 720);
   paste(view(-kEyes / 2, 640, 720), 0, 0, golden);
   paste(view(kEyes / 2, 640, 720), 640, 0, golden);
   expectLike({.layout = SideBySide}, golden);
 }
 
 TEST(RenderLayouts, SideBySideInFull) {
-  Picture golden = black(1280, 360);
+  DrawnPicture golden = black(1280, 360);
   paste(view(-kEyes / 2, 640, 360), 0, 0, golden);
   paste(view(kEyes / 2, 640, 360), 640, 0, golden);
   expectLike({.layout = SideBySide, .full = true}, golden);
 }
 
 TEST(RenderLayouts, TopBottom) {
-  Picture golden = black(1280, 720);
+  DrawnPicture golden = black(1280, 720);
   paste(view(-kEyes / 2, 1280, 360), 0, 0, golden);
   paste(view(kEyes / 2, 1280, 360), 0, 360, golden);
   expectLike({.layout = TopBottom}, golden);
 }
 
 TEST(RenderLayouts, FramePackingHasItsGap) {
-  Picture golden = black(1280, 1470);
+  DrawnPicture golden = black(1280, 1470);
   paste(view(-kEyes / 2, 1280, 720), 0, 0, golden);
   paste(view(kEyes / 2, 1280, 720), 0, 750, golden);
   expectLike({.layout = FramePacking}, golden);
@@ -200,7 +200,7 @@ TEST(RenderLayouts, AnaglyphByLeastSquares) {
 }
 
 TEST(RenderLayouts, QuiltBeginsAtTheLowerLeft) {
-  Picture golden = black(1280, 720);
+  DrawnPicture golden = black(1280, 720);
   for (int k = 0; k < 4; ++k) paste(view(-126 + 84.0 * k, 640, 360), k % 2 * 640, 360 - k / 2 * 360, golden);
   expectLike({.layout = Quilt, .quilt_cols = 2, .quilt_rows = 2}, golden);
 }

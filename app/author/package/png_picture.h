@@ -11,15 +11,15 @@
 
 namespace relievo {
 
-using Rgb = std::array<std::uint8_t, 3>;
+using RgbPixel = std::array<std::uint8_t, 3>;
 
 struct RgbPicture {
   int width = 0, height = 0;
-  std::vector<Rgb> pixels;  // row by row
+  std::vector<RgbPixel> pixels;  // row by row
 
-  RgbPicture(int cols, int rows, const Rgb& color)
+  RgbPicture(int cols, int rows, const RgbPixel& color)
       : width(cols), height(rows), pixels(static_cast<std::size_t>(cols) * rows, color) {}
-  [[nodiscard]] Rgb& at(int x, int y) { return pixels[static_cast<std::size_t>(y) * width + x]; }
+  [[nodiscard]] RgbPixel& at(int x, int y) { return pixels[static_cast<std::size_t>(y) * width + x]; }
 };
 
 // The bytes of a file.

@@ -17,8 +17,8 @@ extern "C" {
 namespace relievo {
 namespace {
 
-constexpr Rgb kWhite{255, 255, 255}, kPaper{243, 243, 243}, kGrid{222, 222, 222}, kHole{94, 53, 177};
-constexpr Rgb kOfBefore{224, 142, 11}, kOfAfter{30, 136, 229};
+constexpr RgbPixel kWhite{255, 255, 255}, kPaper{243, 243, 243}, kGrid{222, 222, 222}, kHole{94, 53, 177};
+constexpr RgbPixel kOfBefore{224, 142, 11}, kOfAfter{30, 136, 229};
 constexpr int kGap = 12, kPaneRows = 432, kMostCols = 864, kProfileRows = 300;
 
 constexpr double kMmPerCode = DisplayVolume::kDefaultDepthMm / static_cast<double>(DepthMap::kHighest);
@@ -52,7 +52,7 @@ double lightOn(double across, double down) {
   return std::max((-across * kX + down * kUp + kNear) / std::sqrt(across * across + down * down + 1), 0.0);
 }
 
-Rgb reliefAt(const DepthMap& map, int c, int r, double mm_across, double mm_down) {
+RgbPixel reliefAt(const DepthMap& map, int c, int r, double mm_across, double mm_down) {
   if (map.holes[map.at(c, r)] != 0) return kHole;
   const auto height = [&](int x, int y) {
     const std::size_t i = map.at(std::clamp(x, 0, map.cols - 1), std::clamp(y, 0, map.rows - 1));
@@ -76,7 +76,7 @@ void drawRelief(RgbPicture& picture, const Pane& pane, const DepthMap& map, doub
   }
 }
 
-void drawRule(RgbPicture& picture, const Pane& pane, int y, const Rgb& color) {
+void drawRule(RgbPicture& picture, const Pane& pane, int y, const RgbPixel& color) {
   for (int x = 0; x < pane.width; ++x) picture.at(pane.x + x, pane.y + y) = color;
 }
 
@@ -106,7 +106,7 @@ int rowOfWidestSpan(const DepthMap& map) {
 
 // The heights of a row from the side, `low_mm` at the pane's bottom; what lies beyond the pane is cut off.
 void drawProfile(RgbPicture& picture, const Pane& pane, const DepthMap& map, int row, double low_mm, double mm_per_row,
-                 const Rgb& color, int thickness) {
+                 const RgbPixel& color, int thickness) {
   int last = -1;
   for (int x = 0; x < pane.width; ++x) {
     const std::size_t i = map.at(x * map.cols / pane.width, row);

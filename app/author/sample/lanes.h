@@ -12,44 +12,44 @@ constexpr int kLanes = 4;
 using FloatVector = float __attribute__((vector_size(16)));
 using MaskVector = int __attribute__((vector_size(16)));
 
-struct Mask4 {
+struct MaskLanes {
   MaskVector v;
-  friend Mask4 operator&(Mask4 a, Mask4 b) { return {a.v & b.v}; }
-  friend Mask4 operator|(Mask4 a, Mask4 b) { return {a.v | b.v}; }
-  friend Mask4 operator!(Mask4 a) { return {~a.v}; }
+  friend MaskLanes operator&(MaskLanes a, MaskLanes b) { return {a.v & b.v}; }
+  friend MaskLanes operator|(MaskLanes a, MaskLanes b) { return {a.v | b.v}; }
+  friend MaskLanes operator!(MaskLanes a) { return {~a.v}; }
 };
 
-struct Float4 {
+struct FloatLanes {
   FloatVector v;
-  Float4() : v{} {}
-  Float4(FloatVector vector) : v(vector) {}  // NOLINT(google-explicit-constructor): it stands in for a number
-  Float4(double x) : v(FloatVector{} + static_cast<float>(x)) {}  // NOLINT(google-explicit-constructor): likewise
+  FloatLanes() : v{} {}
+  FloatLanes(FloatVector vector) : v(vector) {}  // NOLINT(google-explicit-constructor): it stands in for a number
+  FloatLanes(double x) : v(FloatVector{} + static_cast<float>(x)) {}  // NOLINT(google-explicit-constructor): likewise
   [[nodiscard]] float operator[](int lane) const { return v[lane]; }
-  friend Float4 operator+(Float4 a, Float4 b) { return {a.v + b.v}; }
-  friend Float4 operator-(Float4 a, Float4 b) { return {a.v - b.v}; }
-  friend Float4 operator*(Float4 a, Float4 b) { return {a.v * b.v}; }
-  friend Float4 operator/(Float4 a, Float4 b) { return {a.v / b.v}; }
-  friend Float4 operator-(Float4 a) { return {-a.v}; }
-  friend Mask4 operator<(Float4 a, Float4 b) { return {a.v < b.v}; }
-  friend Mask4 operator>(Float4 a, Float4 b) { return {a.v > b.v}; }
+  friend FloatLanes operator+(FloatLanes a, FloatLanes b) { return {a.v + b.v}; }
+  friend FloatLanes operator-(FloatLanes a, FloatLanes b) { return {a.v - b.v}; }
+  friend FloatLanes operator*(FloatLanes a, FloatLanes b) { return {a.v * b.v}; }
+  friend FloatLanes operator/(FloatLanes a, FloatLanes b) { return {a.v / b.v}; }
+  friend FloatLanes operator-(FloatLanes a) { return {-a.v}; }
+  friend MaskLanes operator<(FloatLanes a, FloatLanes b) { return {a.v < b.v}; }
+  friend MaskLanes operator>(FloatLanes a, FloatLanes b) { return {a.v > b.v}; }
 };
 
-[[nodiscard, gnu::always_inline]] inline Float4 select(Mask4 m, Float4 a, Float4 b) {
+[[nodiscard, gnu::always_inline]] inline FloatLanes select(MaskLanes m, FloatLanes a, FloatLanes b) {
   return {m.v ? a.v : b.v};
 }
-[[nodiscard, gnu::always_inline]] inline Float4 min(Float4 a, Float4 b) {
+[[nodiscard, gnu::always_inline]] inline FloatLanes min(FloatLanes a, FloatLanes b) {
   return {a.v < b.v ? a.v : b.v};
 }
-[[nodiscard, gnu::always_inline]] inline Float4 max(Float4 a, Float4 b) {
+[[nodiscard, gnu::always_inline]] inline FloatLanes max(FloatLanes a, FloatLanes b) {
   return {a.v > b.v ? a.v : b.v};
 }
-[[nodiscard, gnu::always_inline]] inline Float4 abs(Float4 a) {
+[[nodiscard, gnu::always_inline]] inline FloatLanes abs(FloatLanes a) {
   return max(a, -a);
 }
-[[nodiscard, gnu::always_inline]] inline Float4 sqrt(Float4 a) {
+[[nodiscard, gnu::always_inline]] inline FloatLanes sqrt(FloatLanes a) {
   return FloatVector{std::sqrt(a.v[0]), std::sqrt(a.v[1]), std::sqrt(a.v[2]), std::sqrt(a.v[3])};
 }
-[[nodiscard, gnu::always_inline]] inline bool any(Mask4 m) {
+[[nodiscard, gnu::always_inline]] inline bool any(MaskLanes m) {
   return (m.v[0] | m.v[1] | m.v[2] | m.v[3]) != 0;
 }
 
@@ -73,7 +73,7 @@ struct Float4 {
 }
 
 // Lane 0 is `first`, each next lane is `step` more.
-[[nodiscard, gnu::always_inline]] inline Float4 ramp(double first, double step) {
+[[nodiscard, gnu::always_inline]] inline FloatLanes ramp(double first, double step) {
   const auto f = static_cast<float>(first);
   const auto s = static_cast<float>(step);
   return FloatVector{f, f + s, f + 2 * s, f + 3 * s};
@@ -95,15 +95,16 @@ template <class T>
 [[nodiscard, gnu::always_inline]] inline double sine(double x) {
   return std::sin(x);
 }
-[[nodiscard, gnu::always_inline]] inline Float4 sine(Float4 x) {
-  const Float4 turns = x * 0.15915494309189535;
+[[nodiscard, gnu::always_inline]] inline FloatLanes sine(FloatLanes x) {
+  const FloatLanes turns = x * 0.15915494309189535;
   constexpr float kRoundToWhole = 12582912.0F;  // 1.5 * 2^23: adding it leaves no bits for a fraction
   const FloatVector whole = (turns.v + kRoundToWhole) - kRoundToWhole;
-  const Float4 a = (turns - Float4(whole)) * 6.283185307179586;  // in [-pi, pi]
+  const FloatLanes a = (turns - FloatLanes(whole)) * 6.283185307179586;  // in [-pi, pi]
   // sin a = sin(pi - a): folded into [-pi/2, pi/2], where the odd polynomial is good.
-  const Float4 folded = select(abs(a) > 1.5707963267948966,
-                               select(a > 0.0, Float4(3.141592653589793), Float4(-3.141592653589793)) - a, a);
-  const Float4 s = folded * folded;
+  const FloatLanes folded =
+      select(abs(a) > 1.5707963267948966,
+             select(a > 0.0, FloatLanes(3.141592653589793), FloatLanes(-3.141592653589793)) - a, a);
+  const FloatLanes s = folded * folded;
   return folded * (1.0 + s * (-0.16666667 + s * (0.0083333310 + s * (-0.00019840874 + s * 2.7525562e-6))));
 }
 

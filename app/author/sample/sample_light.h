@@ -10,14 +10,14 @@
 
 namespace relievo::sample {
 
-using lanes::Float4;
-using V = Vec3<Float4>;
+using lanes::FloatLanes;
+using V = Vec3<FloatLanes>;
 
 inline V vec(double x, double y, double z) {
   return {x, y, z};
 }
 inline V unit(const V& v) {
-  return v * (Float4(1.0) / lanes::length(v));
+  return v * (FloatLanes(1.0) / lanes::length(v));
 }
 
 inline constexpr Vec3<double> kKey = {-0.479, 0.585, 0.654};  // towards the lamp, length 1
@@ -25,62 +25,62 @@ inline constexpr Vec3<double> kRim = {0.72, 0.42, -0.55};     // towards a windo
 inline constexpr double kLightReachMm = 6;                    // nothing farther darkens a point's sky
 
 struct Light {
-  Float4 key;  // 0 in the lamp's full shadow .. 1
-  Float4 sky;  // share of the sky that the point sees
+  FloatLanes key;  // 0 in the lamp's full shadow .. 1
+  FloatLanes sky;  // share of the sky that the point sees
 };
 
 // The narrowest gap that the ray to the lamp passes, seen from the ray's foot, makes the half-shadow.
 template <class Scene>
-[[nodiscard]] Float4 keyLight(const Scene& scene, const V& foot) {
-  Float4 open = 1.0, s = 0.8;
+[[nodiscard]] FloatLanes keyLight(const Scene& scene, const V& foot) {
+  FloatLanes open = 1.0, s = 0.8;
   for (int i = 0; i < 20; ++i) {
     const V p = foot + vec(kKey.x, kKey.y, kKey.z) * s;
-    const Float4 d = scene.shade(p);
+    const FloatLanes d = scene.shade(p);
     open = lanes::min(open, d * 6.0 / s);
     if (!lanes::any((open > 0.0) & (p.z < scene.front()))) break;
-    s = s + lanes::clamp<Float4>(d, 0.8 + s * 0.06, 9.0);
+    s = s + lanes::clamp<FloatLanes>(d, 0.8 + s * 0.06, 9.0);
   }
   return lanes::smoothStep(open, 0.0, 1.0);
 }
 
 template <class Scene>
 [[nodiscard]] Light lightAt(const Scene& scene, const V& p, const V& n, Parts parts) {
-  Float4 hidden = 0.0;
+  FloatLanes hidden = 0.0;
   double weight = 0.55;
   for (const double s : {0.8, 2.2, 4.6}) {
-    const V q = p + n * Float4(s);
-    const Float4 room = lanes::min(scene.solids(q, parts), (q.z - scene.ground(q.x, q.y)) * 0.8);
-    hidden = hidden + lanes::max(Float4(s) - room, 0.0) * (weight / s);
+    const V q = p + n * FloatLanes(s);
+    const FloatLanes room = lanes::min(scene.solids(q, parts), (q.z - scene.ground(q.x, q.y)) * 0.8);
+    hidden = hidden + lanes::max(FloatLanes(s) - room, 0.0) * (weight / s);
     weight *= 0.75;
   }
-  return {keyLight(scene, p + n * Float4(0.5)), lanes::clamp<Float4>(1.0 - hidden, 0.25, 1.0)};
+  return {keyLight(scene, p + n * FloatLanes(0.5)), lanes::clamp<FloatLanes>(1.0 - hidden, 0.25, 1.0)};
 }
 
 template <class Scene>
 [[nodiscard]] V colorAt(const Scene& scene, const V& p, const V& n, const Light& light, Parts parts) {
   using namespace lanes;
-  const Mask4 on_ground = !(p.z > scene.ground(p.x, p.y) + 1e-4);
-  Look<Float4> look{};
+  const MaskLanes on_ground = !(p.z > scene.ground(p.x, p.y) + 1e-4);
+  Look<FloatLanes> look{};
   if (any(on_ground)) look = scene.groundLook(p.x, p.y);
   if (parts && any(!on_ground)) {
-    const Look<Float4> solid = scene.solidLook(p, parts);
+    const Look<FloatLanes> solid = scene.solidLook(p, parts);
     look = {select(on_ground, look.albedo, solid.albedo), select(on_ground, look.gloss, solid.gloss),
             select(on_ground, look.warmth, solid.warmth)};
   }
   // Skin lets light around its edge, red first.
-  const Float4 facing = dot(n, vec(kKey.x, kKey.y, kKey.z));
-  const Float4 wrap = look.warmth * 0.25;
-  const Float4 direct = max((facing + wrap) / (1.0 + wrap), 0.0) * light.key;
-  const Float4 red = max((facing + wrap * 2.0) / (1.0 + wrap * 2.0), 0.0) * (light.key * 0.85 + 0.15 * look.warmth);
+  const FloatLanes facing = dot(n, vec(kKey.x, kKey.y, kKey.z));
+  const FloatLanes wrap = look.warmth * 0.25;
+  const FloatLanes direct = max((facing + wrap) / (1.0 + wrap), 0.0) * light.key;
+  const FloatLanes red = max((facing + wrap * 2.0) / (1.0 + wrap * 2.0), 0.0) * (light.key * 0.85 + 0.15 * look.warmth);
   const V key = vec(1.62, 1.50, 1.30) * V{max(red, direct), direct, direct};
   const V ambient =
       mix(vec(0.23, 0.17, 0.14), vec(0.36, 0.42, 0.52), n.y * 0.5 + 0.5) * (light.sky * (0.55 + 0.45 * n.z));
-  const Float4 away = 1.0 - clamp<Float4>(n.z, 0.0, 1.0);
-  const Float4 edge = max(dot(n, vec(kRim.x, kRim.y, kRim.z)) + 0.25, 0.0) * away * away * light.sky;
+  const FloatLanes away = 1.0 - clamp<FloatLanes>(n.z, 0.0, 1.0);
+  const FloatLanes edge = max(dot(n, vec(kRim.x, kRim.y, kRim.z)) + 0.25, 0.0) * away * away * light.sky;
   const V diffuse = look.albedo * (key + ambient + vec(0.9, 1.0, 1.25) * edge);
   // Highlight of the lamp, half way between it and the eye.
-  const Float4 h = max(dot(n, unit(vec(kKey.x, kKey.y, kKey.z + 1.0))), 0.0);
-  const Float4 h2 = h * h, h4 = h2 * h2, h8 = h4 * h4, h16 = h8 * h8;
+  const FloatLanes h = max(dot(n, unit(vec(kKey.x, kKey.y, kKey.z + 1.0))), 0.0);
+  const FloatLanes h2 = h * h, h4 = h2 * h2, h8 = h4 * h4, h16 = h8 * h8;
   return diffuse + vec(1.0, 0.96, 0.9) * (look.gloss * light.key * (h16 * 0.10 + h16 * h16 * h16 * 0.28));
 }
 

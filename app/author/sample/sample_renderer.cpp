@@ -13,7 +13,7 @@ namespace relievo {
 namespace {
 
 using namespace sample;
-using lanes::Float4;
+using lanes::FloatLanes;
 using lanes::FloatVector;
 using lanes::Vec3;
 
@@ -50,11 +50,12 @@ class Painter {
     // One ray for each quarter of the tile, stopped before anything in the quarter can be met.
     const double reach = 1.25 * kMiddle * std::hypot(raster_.x(1) - raster_.x(0), raster_.y(1) - raster_.y(0)) + 0.1;
     const double cl = c0 + kMiddle - 0.5, cr = cl + kHalf, rt = r0 + kMiddle - 0.5, rb = rt + kHalf;
-    const Float4 qx = four(raster_.x(cl), raster_.x(cr), raster_.x(cl), raster_.x(cr));
-    const Float4 qy = four(raster_.y(rt), raster_.y(rt), raster_.y(rb), raster_.y(rb));
-    const Float4 start = parts ? march<Float4>(scene_, qx, qy, scene_.front(), 0.0, reach, parts) : Float4(0.0);
+    const FloatLanes qx = four(raster_.x(cl), raster_.x(cr), raster_.x(cl), raster_.x(cr));
+    const FloatLanes qy = four(raster_.y(rt), raster_.y(rt), raster_.y(rb), raster_.y(rb));
+    const FloatLanes start =
+        parts ? march<FloatLanes>(scene_, qx, qy, scene_.front(), 0.0, reach, parts) : FloatLanes(0.0);
     forTile(c0, r0, [&](int c, int r, int count) {
-      const Float4 z0 = static_cast<double>(start[(r >= r0 + kHalf ? 2 : 0) + (c >= c0 + kHalf ? 1 : 0)]);
+      const FloatLanes z0 = static_cast<double>(start[(r >= r0 + kHalf ? 2 : 0) + (c >= c0 + kHalf ? 1 : 0)]);
       const Hit hit = castQuad(lanes::ramp(raster_.x(c), raster_.x(1) - raster_.x(0)), raster_.y(r), z0, parts);
       for (int i = 0; i < count; ++i) {
         const std::size_t at = raster_.at(c + i, r);
@@ -89,8 +90,8 @@ class Painter {
     const Parts parts = scene_.partsNear(box(c0, r0));
     forTile(c0, r0, [&](int c, int r, int count) {
       const Surface s = surfaceAt(c, r, 1);
-      const Vec3<Float4> p = {lanes::ramp(raster_.x(c), raster_.x(1) - raster_.x(0)), raster_.y(r), s.z};
-      const Vec3<Float4> color = colorAt(scene_, p, s.normal, lightOver(lanes::ramp(c, 1), r, s.z), parts);
+      const Vec3<FloatLanes> p = {lanes::ramp(raster_.x(c), raster_.x(1) - raster_.x(0)), raster_.y(r), s.z};
+      const Vec3<FloatLanes> color = colorAt(scene_, p, s.normal, lightOver(lanes::ramp(c, 1), r, s.z), parts);
       for (int i = 0; i < count; ++i) put(c + i, r, color.x[i], color.y[i], color.z[i]);
     });
   }
@@ -114,14 +115,14 @@ class Painter {
     float key, sky, z;
   };
   struct Surface {
-    Float4 z;
-    Vec3<Float4> normal;
+    FloatLanes z;
+    Vec3<FloatLanes> normal;
   };
   struct Hit {
-    Vec3<Float4> p, normal;
+    Vec3<FloatLanes> p, normal;
   };
 
-  static Float4 four(double a, double b, double c, double d) {
+  static FloatLanes four(double a, double b, double c, double d) {
     return FloatVector{static_cast<float>(a), static_cast<float>(b), static_cast<float>(c), static_cast<float>(d)};
   }
   template <class Quad>
@@ -136,24 +137,24 @@ class Painter {
   }
 
   // Four evaluations tell both the last step to the surface and its normal.
-  [[nodiscard]] Hit castQuad(Float4 x, Float4 y, Float4 start, Parts parts) const {
-    const Float4 ground = scene_.ground(x, y);
+  [[nodiscard]] Hit castQuad(FloatLanes x, FloatLanes y, FloatLanes start, Parts parts) const {
+    const FloatLanes ground = scene_.ground(x, y);
     constexpr double e = 0.02;
     Hit hit = {{x, y, ground}, {}};
-    lanes::Mask4 on_ground = {FloatVector{} == FloatVector{}};
+    lanes::MaskLanes on_ground = {FloatVector{} == FloatVector{}};
     if (parts) {
-      const Float4 z = descend<Float4>(scene_, x, y, lanes::max(start, ground), ground - 0.1, parts);
-      const Float4 here = scene_.solids({x, y, z}, parts);
-      const Vec3<Float4> slope = {scene_.solids({x + e, y, z}, parts) - here,
-                                  scene_.solids({x, y + e, z}, parts) - here,
-                                  scene_.solids({x, y, z + e}, parts) - here};
-      const Float4 top = polished<Float4>(z, here, slope.z * (1 / e));
+      const FloatLanes z = descend<FloatLanes>(scene_, x, y, lanes::max(start, ground), ground - 0.1, parts);
+      const FloatLanes here = scene_.solids({x, y, z}, parts);
+      const Vec3<FloatLanes> slope = {scene_.solids({x + e, y, z}, parts) - here,
+                                      scene_.solids({x, y + e, z}, parts) - here,
+                                      scene_.solids({x, y, z + e}, parts) - here};
+      const FloatLanes top = polished<FloatLanes>(z, here, slope.z * (1 / e));
       on_ground = !(top > ground);
       hit.p.z = lanes::select(on_ground, ground, top);
       hit.normal = slope;
     }
     if (lanes::any(on_ground)) {
-      const Vec3<Float4> up = {ground - scene_.ground(x + e, y), ground - scene_.ground(x, y + e), e};
+      const Vec3<FloatLanes> up = {ground - scene_.ground(x + e, y), ground - scene_.ground(x, y + e), e};
       hit.normal = lanes::select(on_ground, up, hit.normal);
     }
     hit.normal = unit(hit.normal);
@@ -169,7 +170,7 @@ class Painter {
   }
 
   // Light between lattice points, from those of them that lie on the same surface.
-  [[nodiscard]] Light lightOver(Float4 cols, Float4 rows, Float4 z) const {
+  [[nodiscard]] Light lightOver(FloatLanes cols, FloatLanes rows, FloatLanes z) const {
     Light light = {0.0, 0.0};
     for (int lane = 0; lane < lanes::kLanes; ++lane) {
       const float u = std::clamp(cols[lane] * 0.5F, 0.0F, static_cast<float>(light_cols_) - 1.001F);
@@ -219,20 +220,20 @@ class Painter {
 
   // A turned square of four rays: no two share a row or a column.
   void shadeEdge(int c, int r, Parts parts) {
-    const Float4 cols = four(c - 0.375, c - 0.125, c + 0.125, c + 0.375);
-    const Float4 rows = four(r + 0.125, r - 0.375, r + 0.375, r - 0.125);
-    const Float4 x = four(raster_.x(c - 0.375), raster_.x(c - 0.125), raster_.x(c + 0.125), raster_.x(c + 0.375));
-    const Float4 y = four(raster_.y(r + 0.125), raster_.y(r - 0.375), raster_.y(r + 0.375), raster_.y(r - 0.125));
+    const FloatLanes cols = four(c - 0.375, c - 0.125, c + 0.125, c + 0.375);
+    const FloatLanes rows = four(r + 0.125, r - 0.375, r + 0.375, r - 0.125);
+    const FloatLanes x = four(raster_.x(c - 0.375), raster_.x(c - 0.125), raster_.x(c + 0.125), raster_.x(c + 0.375));
+    const FloatLanes y = four(raster_.y(r + 0.125), raster_.y(r - 0.375), raster_.y(r + 0.375), raster_.y(r - 0.125));
     float top = 0;
     for (int rr = r - 1; rr <= r + 1; ++rr) {
       for (int cc = c - 1; cc <= c + 1; ++cc) top = std::max(top, heights_[raster_.at(cc, rr)].z);
     }
     const Hit hit = castQuad(x, y, static_cast<double>(top) + 0.5, parts);
-    const Vec3<Float4> color = colorAt(scene_, hit.p, hit.normal, lightOver(cols, rows, hit.p.z), parts);
+    const Vec3<FloatLanes> color = colorAt(scene_, hit.p, hit.normal, lightOver(cols, rows, hit.p.z), parts);
     put(c, r, mean(color.x), mean(color.y), mean(color.z));
   }
 
-  static float mean(Float4 v) { return 0.25F * (v[0] + v[1] + v[2] + v[3]); }
+  static float mean(FloatLanes v) { return 0.25F * (v[0] + v[1] + v[2] + v[3]); }
   void put(int c, int r, float red, float green, float blue) {
     std::uint8_t* pixel = &picture_.rgb[3 * raster_.at(c, r)];
     pixel[0] = curve_(red);
@@ -281,9 +282,9 @@ void renderSample(double t_s, int threads, SamplePicture& picture) {
   picture.depth.resize(pixels);
   const double t = std::clamp(t_s, 0.0, SampleFilm::kSeconds);
   if (t < SampleFilm::kCutSeconds) {
-    paint(Portrait<Float4>(t), threads, picture);
+    paint(Portrait<FloatLanes>(t), threads, picture);
   } else {
-    paint(StillLife<Float4>(t), threads, picture);
+    paint(StillLife<FloatLanes>(t), threads, picture);
   }
 }
 

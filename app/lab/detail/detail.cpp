@@ -36,7 +36,7 @@ struct Plan {
 // One picture of the film, and what it should look like.
 struct Shot {
   Frame color, depth;
-  Picture mesh, truth;
+  DrawnPicture mesh, truth;
   std::vector<std::uint8_t> whole, away;  // the pixels that count
 };
 
@@ -108,7 +108,7 @@ class Detail {
       const Frame marks = SilhouetteFilm::marks(SilhouetteFilm::depth(index), kNearSilhouetteSamples);
       const auto marked = (*stage)->show(marks, shot.depth, kAllSamples);
       if (!marked) return std::unexpected(marked.error());
-      const Picture counted = averagedDown((*stage)->picture(), kFiner);
+      const DrawnPicture counted = averagedDown((*stage)->picture(), kFiner);
       for (std::size_t p = 0; p < counted.rgba.size(); p += 4) {
         shot.whole.push_back(counted.rgba[p] == 255 ? 1 : 0);
         shot.away.push_back(counted.rgba[p + 1] == 255 ? 1 : 0);
@@ -131,7 +131,7 @@ class Detail {
     figures.frame_ms += share * frame_ms;
     figures.draw_ms += share * draw_ms;
     figures.triangles += share * static_cast<double>(stage.triangles());
-    const Picture picture = stage.picture();
+    const DrawnPicture picture = stage.picture();
     const PictureDifference from_mesh = differenceOf(picture, shot.mesh);
     figures.away.add(from_mesh, shot.away);
     figures.whole.add(from_mesh, shot.whole);

@@ -65,8 +65,8 @@ Result<void> DrawingStage::draw() {
                               : renderer_->draw(surface_, std::nullopt);
 }
 
-Picture DrawingStage::picture() const {
-  Picture picture{surface_.width, surface_.height, {}};
+DrawnPicture DrawingStage::picture() const {
+  DrawnPicture picture{surface_.width, surface_.height, {}};
   const std::size_t row_bytes = static_cast<std::size_t>(picture.width) * 4;
   std::vector<std::uint8_t> bottom_up(row_bytes * static_cast<std::size_t>(picture.height));
   glBindFramebuffer(GL_FRAMEBUFFER, surface_.framebuffer);

@@ -25,7 +25,7 @@ class DrawingStage {
   [[nodiscard]] Outcome<Duration> show(const Frame& color, const Frame& depth, const DrawnLevel& level);
   // Draws the same once more.
   [[nodiscard]] Outcome<Duration> again();
-  [[nodiscard]] Picture picture() const;
+  [[nodiscard]] DrawnPicture picture() const;
   // Of the relief drawn last, silhouettes and all.
   [[nodiscard]] std::size_t triangles() const {
     return level_.grid_step > 0 ? grid_->triangles(level_.grid_step) : renderer_->statistics().triangles;

@@ -27,7 +27,7 @@ std::array<float, kTaps> gaussian() {
   return normal;
 }
 
-Plane lumaOf(const Picture& picture) {
+Plane lumaOf(const DrawnPicture& picture) {
   Plane luma(picture.rgba.size() / 4);
   const std::uint8_t* rgba = picture.rgba.data();
   for (std::size_t i = 0; i < luma.size(); ++i, rgba += 4) {
@@ -70,8 +70,8 @@ class WindowMeans {
 
 }  // namespace
 
-Picture averagedDown(const Picture& picture, int factor) {
-  Picture small{picture.width / factor, picture.height / factor, {}};
+DrawnPicture averagedDown(const DrawnPicture& picture, int factor) {
+  DrawnPicture small{picture.width / factor, picture.height / factor, {}};
   small.rgba.reserve(static_cast<std::size_t>(small.width) * small.height * 4);
   const std::size_t row_bytes = static_cast<std::size_t>(picture.width) * 4;
   const int share = factor * factor;
@@ -91,7 +91,7 @@ Picture averagedDown(const Picture& picture, int factor) {
   return small;
 }
 
-PictureDifference differenceOf(const Picture& picture, const Picture& reference) {
+PictureDifference differenceOf(const DrawnPicture& picture, const DrawnPicture& reference) {
   const std::size_t size = reference.rgba.size() / 4;
   PictureDifference result{Plane(size), Plane(size, std::numeric_limits<float>::quiet_NaN())};
   for (std::size_t i = 0; i < size; ++i) {

@@ -10,13 +10,13 @@
 namespace relievo {
 
 // 8 bits a channel; row 0 is the top one. Alpha is not looked at.
-struct Picture {
+struct DrawnPicture {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgba;
 };
 
 // Each pixel is the mean of `factor` x `factor`; the sides are multiples of that.
-[[nodiscard]] Picture averagedDown(const Picture& picture, int factor);
+[[nodiscard]] DrawnPicture averagedDown(const DrawnPicture& picture, int factor);
 
 // Pixel by pixel, row by row.
 struct PictureDifference {
@@ -28,7 +28,7 @@ struct PictureDifference {
 // similarity", IEEE Trans. Image Processing 13 (2004), equation 13, with what section III-C says: luma (here of
 // BT.709), a Gaussian window of 11 x 11 with a standard deviation of 1.5, K1 = 0.01, K2 = 0.03, L = 255. Two pictures
 // of one size.
-[[nodiscard]] PictureDifference differenceOf(const Picture& picture, const Picture& reference);
+[[nodiscard]] PictureDifference differenceOf(const DrawnPicture& picture, const DrawnPicture& reference);
 
 // Over the pixels of any number of pictures.
 class PictureError {

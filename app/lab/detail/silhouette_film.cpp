@@ -83,9 +83,9 @@ Frame SilhouetteFilm::color(int index) {
   });
 }
 
-Picture SilhouetteFilm::seen(int index, const EyeViews& eyes, int width, int height, int finer) {
+DrawnPicture SilhouetteFilm::seen(int index, const EyeViews& eyes, int width, int height, int finer) {
   const SilhouetteScene scene(timeOf(index));
-  Picture picture{width, height, std::vector<std::uint8_t>(static_cast<std::size_t>(width) * height * 4, 255)};
+  DrawnPicture picture{width, height, std::vector<std::uint8_t>(static_cast<std::size_t>(width) * height * 4, 255)};
   for (const EyeView& view : eyes.views) {
     const Sight sight(view);
     inParallel(static_cast<std::size_t>(view.area.height), [&](std::size_t row) {

@@ -19,7 +19,7 @@ struct SilhouetteFilm {
   [[nodiscard]] static Frame depth(int index);
   [[nodiscard]] static Frame color(int index);
   // Cast line by line, on all processors: `finer` squared of them to a pixel.
-  [[nodiscard]] static Picture seen(int index, const EyeViews& eyes, int width, int height, int finer);
+  [[nodiscard]] static DrawnPicture seen(int index, const EyeViews& eyes, int width, int height, int finer);
 
   // A picture to draw on the depth: white, but red within `reach` samples, across or down, of two neighbours whose
   // heights differ by more than 1 mm, and black at the picture's rim.

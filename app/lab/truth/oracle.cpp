@@ -8,7 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "app/lab/truth/closest_point.h"
+#include "app/lab/truth/slide_to_closest.h"
 #include "app/lab/truth/step_section.h"
 
 namespace relievo {

@@ -10,7 +10,7 @@
 namespace relievo {
 namespace {
 
-constexpr Rgb kBefore{224, 142, 11}, kAfter{30, 136, 229}, kHole{94, 53, 177};
+constexpr RgbPixel kBefore{224, 142, 11}, kAfter{30, 136, 229}, kHole{94, 53, 177};
 constexpr int kCols = 64, kRows = 48, kGap = 12, kPaneCols = 576, kPaneRows = 432;
 
 ColorPicture420 grayColor(std::uint8_t luma) {
@@ -31,7 +31,7 @@ void show(Preview& preview, int index, int high, std::optional<std::uint64_t> ex
   preview.after(test::makeGrayFrame(kCols, kRows, 8, time, [high](int c, int) { return 51 + high + c; }), calibration);
 }
 
-long countOf(const RgbPicture& picture, const Rgb& color) {
+long countOf(const RgbPicture& picture, const RgbPixel& color) {
   return std::count(picture.pixels.begin(), picture.pixels.end(), color);
 }
 
@@ -42,19 +42,19 @@ TEST(AuthorPreview, HasThreePanesAndTheProfilesOfBothDepths) {
   ASSERT_TRUE(picture.has_value());
   ASSERT_EQ(picture->width, 3 * kPaneCols + 4 * kGap);
   ASSERT_EQ(picture->height, kPaneRows + 300 + 3 * kGap);
-  EXPECT_EQ(picture->at(kGap + 100, kGap + 50), (Rgb{50, 50, 50})) << "the colour";
+  EXPECT_EQ(picture->at(kGap + 100, kGap + 50), (RgbPixel{50, 50, 50})) << "the colour";
   // The hole is 8 of 64 samples wide and high in the pane before, and nowhere in the one after.
   EXPECT_EQ(countOf(*picture, kHole), (kPaneCols / 8) * (kPaneRows / 6 - 1)) << "the line goes through it";
   EXPECT_EQ(picture->at(2 * kGap + kPaneCols + 5, kGap + 5), kHole);
   // The slope goes up over the whole width, a level higher after than before.
-  const auto top = [&](int x, const Rgb& color) {
+  const auto top = [&](int x, const RgbPixel& color) {
     int y = kPaneRows + 2 * kGap;
     while (y < picture->height && picture->at(x, y) != color) ++y;
     return y;
   };
-  for (const Rgb& color : {kBefore, kAfter}) EXPECT_GT(top(300, color), top(1400, color) + 100);
+  for (const RgbPixel& color : {kBefore, kAfter}) EXPECT_GT(top(300, color), top(1400, color) + 100);
   EXPECT_LT(top(900, kAfter), top(900, kBefore));
-  const Rgb& gray = picture->at(2 * (kGap + kPaneCols) + kGap + 300, kGap + 20);
+  const RgbPixel& gray = picture->at(2 * (kGap + kPaneCols) + kGap + 300, kGap + 20);
   EXPECT_TRUE(gray[0] == gray[1] && gray[1] == gray[2] && gray[0] > 60) << "a lit relief";
 }
 

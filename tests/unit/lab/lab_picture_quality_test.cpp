@@ -13,8 +13,8 @@ constexpr int kWidth = 32, kHeight = 24;
 constexpr double kC1 = 6.5025, kC2 = 58.5225;  // (0.01 x 255)^2, (0.03 x 255)^2
 
 template <class Gray>
-Picture grayPicture(Gray&& gray) {
-  Picture picture{kWidth, kHeight, {}};
+DrawnPicture grayPicture(Gray&& gray) {
+  DrawnPicture picture{kWidth, kHeight, {}};
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       const auto value = static_cast<std::uint8_t>(gray(x, y));
@@ -23,23 +23,23 @@ Picture grayPicture(Gray&& gray) {
   }
   return picture;
 }
-Picture flat(int gray) {
+DrawnPicture flat(int gray) {
   return grayPicture([gray](int, int) { return gray; });
 }
 // Every second pixel is above and every other one as far below 128. In the window its mean is 128 and its variance
 // amplitude^2 to eight digits: the window's weights with alternating signs sum up to 1e-4, in two directions to 1e-8.
-Picture checkers(int amplitude) {
+DrawnPicture checkers(int amplitude) {
   return grayPicture([amplitude](int x, int y) { return 128 + ((x + y) % 2 == 0 ? amplitude : -amplitude); });
 }
 
-PictureError errorOf(const Picture& picture, const Picture& reference) {
+PictureError errorOf(const DrawnPicture& picture, const DrawnPicture& reference) {
   PictureError error;
   error.add(differenceOf(picture, reference), std::vector<std::uint8_t>(reference.rgba.size() / 4, 1));
   return error;
 }
 
 TEST(PictureQuality, TheSamePictureIsWithoutError) {
-  const Picture picture = grayPicture([](int x, int y) { return (x * 37 + y * 101) % 256; });
+  const DrawnPicture picture = grayPicture([](int x, int y) { return (x * 37 + y * 101) % 256; });
   const PictureError error = errorOf(picture, picture);
   EXPECT_TRUE(std::isinf(error.psnrDb()));
   EXPECT_NEAR(error.similarity(), 1, 1e-6);
@@ -47,10 +47,10 @@ TEST(PictureQuality, TheSamePictureIsWithoutError) {
 
 TEST(PictureQuality, PsnrIsOfTheMeanSquareOfAllChannels) {
   EXPECT_NEAR(errorOf(flat(110), flat(100)).psnrDb(), 20 * std::log10(25.5), 1e-6);  // 28.13 dB
-  Picture reddish = flat(100);
+  DrawnPicture reddish = flat(100);
   for (std::size_t i = 0; i < reddish.rgba.size(); i += 4) reddish.rgba[i] = 110;  // a third of the mean square
   EXPECT_NEAR(errorOf(reddish, flat(100)).psnrDb(), 20 * std::log10(25.5) + 10 * std::log10(3.0), 1e-6);
-  Picture clear = flat(100);
+  DrawnPicture clear = flat(100);
   for (std::size_t i = 3; i < clear.rgba.size(); i += 4) clear.rgba[i] = 0;
   EXPECT_TRUE(std::isinf(errorOf(clear, flat(100)).psnrDb()));
 }
@@ -64,7 +64,7 @@ TEST(PictureQuality, SimilarityOfAFainterPatternIsThatOfItsContrast) {
 }
 
 TEST(PictureQuality, SimilarityOfANegativeIsBelowZero) {
-  Picture negative = checkers(40);
+  DrawnPicture negative = checkers(40);
   for (std::uint8_t& value : negative.rgba) value = static_cast<std::uint8_t>(256 - value);
   EXPECT_NEAR(errorOf(negative, checkers(40)).similarity(), (-2 * 1600 + kC2) / (2 * 1600 + kC2), 1e-3);
 }
@@ -72,7 +72,7 @@ TEST(PictureQuality, SimilarityOfANegativeIsBelowZero) {
 // A spot of one pixel on a flat picture, 100 over it. Where the window's weight on it is w = g(dx) g(dy), mean and
 // variance rise by 100 w and 100^2 (w - w^2): at the spot w = 0.26601^2, five to the side 0.26601 x 0.0010284.
 TEST(PictureQuality, TheWindowIsTheGaussianThatWasPublished) {
-  Picture spot = flat(100);
+  DrawnPicture spot = flat(100);
   const std::size_t at = 12 * kWidth + 16;
   for (std::size_t c = 0; c < 3; ++c) spot.rgba[4 * at + c] = 200;
   const PictureDifference difference = differenceOf(spot, flat(100));
@@ -87,7 +87,7 @@ TEST(PictureQuality, TheWindowIsTheGaussianThatWasPublished) {
 }
 
 TEST(PictureQuality, WhatIsNotCountedIsLeftOut) {
-  Picture half = flat(100);
+  DrawnPicture half = flat(100);
   std::vector<std::uint8_t> counted(half.rgba.size() / 4, 1);
   for (std::size_t i = 0; i < counted.size(); ++i) {
     if (i % kWidth < kWidth / 2) continue;
@@ -103,9 +103,9 @@ TEST(PictureQuality, WhatIsNotCountedIsLeftOut) {
 }
 
 TEST(PictureQuality, AveragingDownTakesTheMeanOfEachChannel) {
-  const Picture fine{4, 2, {0, 1, 2, 3, 4, 5, 6,  7,  100, 0, 0, 255, 100, 0, 0, 255,    // above
-                            8, 9, 9, 9, 8, 9, 10, 11, 100, 0, 0, 255, 103, 0, 0, 255}};  // below
-  const Picture small = averagedDown(fine, 2);
+  const DrawnPicture fine{4, 2, {0, 1, 2, 3, 4, 5, 6,  7,  100, 0, 0, 255, 100, 0, 0, 255,    // above
+                                 8, 9, 9, 9, 8, 9, 10, 11, 100, 0, 0, 255, 103, 0, 0, 255}};  // below
+  const DrawnPicture small = averagedDown(fine, 2);
   EXPECT_EQ(small.width, 2);
   EXPECT_EQ(small.height, 1);
   EXPECT_EQ(small.rgba, (std::vector<std::uint8_t>{5, 6, 7, 8, 101, 0, 0, 255}));  // 20/4, 24/4, 27/4, 30/4; 403/4

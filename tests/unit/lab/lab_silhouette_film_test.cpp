@@ -16,19 +16,19 @@ namespace {
 constexpr int kCols = SilhouetteFilm::kCols, kRows = SilhouetteFilm::kRows;
 constexpr DisplayVolume kVolume = DisplayVolume::forPicture(kCols, kRows);
 
-int channel(const Picture& picture, int x, int y, int c) {
+int channel(const DrawnPicture& picture, int x, int y, int c) {
   return picture.rgba[(static_cast<std::size_t>(y) * picture.width + x) * 4 + c];
 }
 
 // Red as nothing but the ball is.
-bool isBall(const Picture& picture, int x, int y) {
+bool isBall(const DrawnPicture& picture, int x, int y) {
   return channel(picture, x, y, 0) > 2 * channel(picture, x, y, 2);
 }
 
 TEST(SilhouetteFilm, FromVeryFarTheEyesSeeTheFrameOfColour) {
   const Frame color = SilhouetteFilm::color(9);
   const EyeViews eyes = eyeViews({.layout = StereoLayout::Mono, .viewing_distance_mm = 1e7}, kVolume, kCols, kRows);
-  const Picture seen = SilhouetteFilm::seen(9, eyes, kCols, kRows, 1);
+  const DrawnPicture seen = SilhouetteFilm::seen(9, eyes, kCols, kRows, 1);
   int different = 0;
   for (int y = 0; y < kRows; ++y) {
     const std::uint8_t* row = color.planes[0].data + y * color.planes[0].stride_bytes;
@@ -44,7 +44,7 @@ TEST(SilhouetteFilm, FromVeryFarTheEyesSeeTheFrameOfColour) {
 // pixels wide and shows 720/486 of 16:9 in the middle.
 TEST(SilhouetteFilm, EachEyeSeesAThingWhereSimilarTrianglesPutIt) {
   const EyeViews eyes = eyeViews({.layout = StereoLayout::SideBySide}, kVolume, 1280, 720);
-  const Picture seen = SilhouetteFilm::seen(0, eyes, 1280, 720, 1);
+  const DrawnPicture seen = SilhouetteFilm::seen(0, eyes, 1280, 720, 1);
   const double grow = 600 / 592.64;
   const int row = static_cast<int>((54 + 26 * grow) * 720 / 108);
   for (const int eye : {0, 1}) {

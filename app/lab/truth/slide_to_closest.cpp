@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Newton's method with the full second derivatives, held to descent by a line search (Nocedal and Wright, Numerical
 // Optimization, 3.4: the Hessian's eigenvalues are made positive where they are not).
-#include "app/lab/truth/closest_point.h"
+#include "app/lab/truth/slide_to_closest.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
