@@ -17,6 +17,37 @@ constexpr double kEdgeMm = 3.0;
 constexpr double kRoundingMm = 1e-6;
 constexpr double kLeastErrorTold = 0.001;
 
+// Measuring a clip. Of a normal deviation, the median of its size is so much; of the second difference of three samples
+// the variance is 1 + 4 + 1 times theirs.
+constexpr double kMedianOfNormal = 0.6745, kBendVariance = 6;
+// What a bend of one step passes for by these two: 1/(0.6745 sqrt(6)) = 0.605 of a step, rounded up, so that nothing of
+// it is taken for noise.
+constexpr double kStepAsNoise = 0.61;
+// A still sample moves by less than this much of its noise from frame to frame at 19 places of 20: 1.96 sqrt(2) = 2.77.
+constexpr double kNoiseAsMotion = 2.8;
+
+// Planning the widths.
+constexpr double kNarrowMm = 0.28, kFineNarrowMm = 0.14, kWidestMm = 1.2;
+constexpr double kTimesTheNarrow = 1.8;  // less is one level twice
+constexpr double kFineMm = 0.02;         // steps and noise that are not felt even through 0.14 mm
+
+// Share of the noise's power that the weights of the frames let through: the mean over the time between two frames of
+// the sum of the weights' squares (frameWeights). Of the cubic B-spline it is 151/315 = 0.479. Of the fitted one it is
+// 0.670; the charts were made with more, which widens by 6 % at most.
+constexpr double kBSplineNoise = 0.48, kFittedNoise = 0.75;
+
+// A Gaussian of width w on white noise s of samples p apart leaves a height of s p/(sqrt(4 pi) w), and each of the two
+// slopes of s p/(sqrt(8 pi) w^2): together s p/(sqrt(4 pi) w^2). To three digits, as the charts were made with.
+constexpr double kRootOf4Pi = 3.54;
+// A level is no Gaussian but block means under a cubic B-spline of pitch h = w sqrt(12/5): of a slope it leaves
+// sqrt(8 pi (5/12)^2 151/315 2/3) = 1.18 times as much, where 151/315 and 2/3 are the integrals of the squares of the
+// B-spline and of its slope. Rounded up.
+constexpr double kLevelOverGaussian = 1.2;
+// A slope that is cut into steps of q is a sawtooth on it. Through the Gaussian the rms of the sawtooth's slope is
+// sqrt(2)/l q sqrt(sum over n of exp(-(2 pi n w/l)^2)), l being the width of a step; it is largest for steps of 7.1 w,
+// where it is q/(4 sqrt(pi) w).
+constexpr double kStepsOverSlope = 7.09;  // 4 sqrt(pi)
+
 // The value below which a share of the list lies; 0 of none.
 double quantile(std::vector<double>& values, double share) {
   if (values.empty()) return 0;
@@ -88,18 +119,15 @@ ClipMeasure measureClip(std::span<const TimedSurface> frames) {
   m.edges = static_cast<double>(edges) / static_cast<double>(bends.size());
   if (std::isfinite(quantum)) m.quantum_mm = quantum;
   // A slope that is cut into steps bends by one step at every other sample: that much is the quantum's.
-  const double deviation = quantile(bends, 0.5) / (0.6745 * std::sqrt(6.0));
-  const double of_quantum = 0.61 * m.quantum_mm;
+  const double deviation = quantile(bends, 0.5) / (kMedianOfNormal * std::sqrt(kBendVariance));
+  const double of_quantum = kStepAsNoise * m.quantum_mm;
   m.noise_mm = std::sqrt(std::max(deviation * deviation - of_quantum * of_quantum, 0.0));
   m.speed_mm_per_s =
-      std::max(quantile(speeds, 0.95) - (m.noise_mm * 2.8 + m.quantum_mm) / std::max(m.period_s, 1e-3), 0.0);
+      std::max(quantile(speeds, 0.95) - (m.noise_mm * kNoiseAsMotion + m.quantum_mm) / std::max(m.period_s, 1e-3), 0.0);
   return m;
 }
 
 TouchPlan planTouch(const ClipMeasure& m) {
-  constexpr double kNarrowMm = 0.28, kFineNarrowMm = 0.14, kWidestMm = 1.2;
-  constexpr double kTimesTheNarrow = 1.8;  // less is one level twice
-  constexpr double kFineMm = 0.02;         // steps and noise that are not felt even through 0.14 mm
   const bool noisy = m.noise_mm > std::max(m.quantum_mm, kFineMm);
   const bool fine = !noisy && m.quantum_mm < kFineMm;
   TouchPlan plan;
@@ -111,22 +139,20 @@ TouchPlan planTouch(const ClipMeasure& m) {
   if (noisy) s.narrow_time = s.wide_time = TimeLaw::BSpline;
   else s.wide_time = TimeLaw::Fitted;
 
-  // Share of the noise's power that the weights of the frames let through: the mean of their sum of squares. Frames
-  // that repeat each other have the same noise.
-  const double through = m.still ? 1.0 : s.wide_time == TimeLaw::BSpline ? 0.48 : 0.75;
-  // Error of direction of a Gaussian of width w on white noise s from samples p apart: s p sqrt(g) sqrt(1.2)/(3.54 w^2)
-  // times the square root of 1.2; on steps of q, at the worst slope, q/(7.09 w). About so many samples of a block are
-  // read: in a fine picture they lie w/(kSigmaPerPitch x as many) apart, and it is no calmer for being finer.
-  const double noise_scale = 1.2 * m.noise_mm * std::sqrt(through) / 3.54;
+  // Frames that repeat each other have the same noise.
+  const double through = m.still ? 1.0 : s.wide_time == TimeLaw::BSpline ? kBSplineNoise : kFittedNoise;
+  // The force is off in direction by as much as the slope. About so many samples of a block are read: in a fine picture
+  // they lie w/(kSigmaPerPitch x as many) apart, and it is no calmer for being finer.
+  const double noise_scale = kLevelOverGaussian * m.noise_mm * std::sqrt(through) / kRootOf4Pi;
   const auto apart = [&](double w, int read) { return std::max(m.sample_mm, w / (kSigmaPerPitch * read)); };
   const auto width = [&](double error) {
     return std::max({std::sqrt(noise_scale * m.sample_mm / error),
-                     noise_scale / (kSigmaPerPitch * kWideSamples * error), m.quantum_mm / (7.09 * error)});
+                     noise_scale / (kSigmaPerPitch * kWideSamples * error), m.quantum_mm / (kStepsOverSlope * error)});
   };
   s.narrow_mm = fine ? kFineNarrowMm : kNarrowMm;
   s.wide_mm = std::clamp(width(kErrorWanted), kTimesTheNarrow * s.narrow_mm, kWidestMm);
   const double of_noise = noise_scale * apart(s.wide_mm, kWideSamples) / (s.wide_mm * s.wide_mm);
-  const double of_steps = m.quantum_mm / (7.09 * s.wide_mm);
+  const double of_steps = m.quantum_mm / (kStepsOverSlope * s.wide_mm);
   plan.error = std::max(of_noise, of_steps);
 
   // What the narrow level is off by must fit under the clamp: four standard deviations of its noise, and a step, within
