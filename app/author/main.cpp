@@ -24,39 +24,38 @@ struct Arguments {
   int crf = -1, depth_crf = -1;
 };
 
-void addOptions(CLI::App& app, Arguments& a) {
-  app.footer(
-      "Examples\n"
-      "  a colour film and a depth film, both of any kind that FFmpeg opens, into one file:\n"
-      "    relievo-author --color street.mp4 --depth street-depth.mkv -o film.mkv\n"
-      "  a renderer's numbered pictures, depth in mm of 16 bits:\n"
-      "    relievo-author --color color-%04d.png --depth depth-%04d.png --fps 24 --calibration unit=1,invalid=0 -o "
-      "film.mkv\n"
-      "  two cameras, until Ctrl-C:\n"
-      "    relievo-author --color v4l2:/dev/video4 --depth v4l2:/dev/video2 --registration rig.toml -o film.mkv\n"
-      "  a depth camera's film, colour above, depth below as hue, with what its depth means:\n"
-      "    relievo-author --color desk.mov --packing tb --depth-code hue --calibration near=520,far=1260 -o desk.mp4\n"
-      "  sent as a transport stream, at its own pace: ffplay or relievo play udp://@:5000 over there\n"
-      "    relievo-author --color street.mp4 --depth street-depth.mkv -o udp://192.168.1.20:5000\n"
-      "\n"
-      "The film holds two tracks: colour (H.264 4:2:0) and depth (H.264 4:0:0 of 8 bits unless asked otherwise, full "
-      "range,\n"
-      "near is high), each picture at the time it had. The depth's meaning is written in its tags, and in the stream "
-      "itself\n"
-      "where a container keeps none. At the end a table says what was done to the depth.");
-  app.add_option("--color", a.source.url,
+constexpr const char* kFooter =
+    "Examples\n"
+    "  a colour film and a depth film, both of any kind that FFmpeg opens, into one file:\n"
+    "    relievo-author --color street.mp4 --depth street-depth.mkv -o film.mkv\n"
+    "  a renderer's numbered pictures, depth in mm of 16 bits:\n"
+    "    relievo-author --color color-%04d.png --depth depth-%04d.png --fps 24 --calibration unit=1,invalid=0 -o "
+    "film.mkv\n"
+    "  two cameras, until Ctrl-C:\n"
+    "    relievo-author --color v4l2:/dev/video4 --depth v4l2:/dev/video2 --registration rig.toml -o film.mkv\n"
+    "  a depth camera's film, colour above, depth below as hue, with what its depth means:\n"
+    "    relievo-author --color desk.mov --packing tb --depth-code hue --calibration near=520,far=1260 -o desk.mp4\n"
+    "  sent as a transport stream, at its own pace: ffplay or relievo play udp://@:5000 over there\n"
+    "    relievo-author --color street.mp4 --depth street-depth.mkv -o udp://192.168.1.20:5000\n"
+    "\n"
+    "The film holds two tracks: colour (H.264 4:2:0) and depth (H.264 4:0:0 of 8 bits unless asked otherwise, full "
+    "range,\n"
+    "near is high), each picture at the time it had. The depth's meaning is written in its tags, and in the stream "
+    "itself\n"
+    "where a container keeps none. At the end a table says what was done to the depth.";
+
+void addSourceOptions(CLI::App& app, SourceOptions& source) {
+  app.add_option("--color", source.url,
                  "Colour: a file, a URL, v4l2:DEVICE; without --depth it holds the depth as well")
       ->type_name("SRC");
-  app.add_option("--depth", a.source.depth_url, "Depth of 8 to 16 bits: a file or a URL")->type_name("SRC");
-  app.add_option("--fps", a.source.frames_per_s,
-                 "Frames a second of pictures without times, such as numbered files [25]")
+  app.add_option("--depth", source.depth_url, "Depth of 8 to 16 bits: a file or a URL")->type_name("SRC");
+  app.add_option("--fps", source.frames_per_s, "Frames a second of pictures without times, such as numbered files [25]")
       ->type_name("F")
       ->check(between(0.01, 10000.0));
-  app.add_option("-o,--output", a.output.path,
-                 "The film to write: .mkv, .mp4, .m4v, .mov, .ts, .m3u8 (HLS) or udp://HOST:PORT")
-      ->required()
-      ->type_name("OUT");
-  addDepthOptions(app, a.source);
+}
+
+// Of both tracks, and of the depth alone.
+void addQualityOptions(CLI::App& app, Arguments& a) {
   app.add_option("--crf", a.crf, "Quality of both tracks, 0 (lossless) to 51 [18 for colour, 8 for depth]")
       ->type_name("N")
       ->check(CLI::Range(0, 51).description(""));
@@ -64,7 +63,10 @@ void addOptions(CLI::App& app, Arguments& a) {
                  "Quality of the depth alone; 0 keeps every code, where hardware can decode it")
       ->type_name("N")
       ->check(CLI::Range(0, 51).description(""));
-  addChoice(app, "--enhance", a.output.enhancement,
+}
+
+void addEnhanceOptions(CLI::App& app, OutputOptions& output) {
+  addChoice(app, "--enhance", output.enhancement,
             {{"none", std::nullopt},
              {"median", Enhancement::Median},
              {"dibm", Enhancement::Dibm},
@@ -72,24 +74,30 @@ void addOptions(CLI::App& app, Arguments& a) {
             "What a sensor did to the depth is undone\nmedian: narrow holes filled, the median of 5 by 5 samples; "
             "dibm: behind that each picture as a\nsmoothed mesh of few points; space-time: behind the median smoothed "
             "over five pictures and a few\nsamples. Edges stay where they are");
-  app.add_option("--preview", a.output.preview,
+  app.add_option("--preview", output.preview,
                  "A picture of what was done, a PNG: colour, depth before and after as lit reliefs, and below the\n"
                  "heights along their line, before in orange, after in blue, a grid line each millimetre")
       ->type_name("PNG");
-  addChoice(app, "--depth-codec", a.output.depth.codec,
+}
+
+void addCodingOptions(CLI::App& app, DepthCoding& depth) {
+  addChoice(app, "--depth-codec", depth.codec,
             {{"h264", VideoCodec::H264}, {"hevc", VideoCodec::Hevc}, {"ffv1", VideoCodec::Ffv1}},
             "Codec of the depth; ffv1, in .mkv alone, is lossless");
-  app.add_option("--depth-bits", a.output.depth.bits,
+  app.add_option("--depth-bits", depth.bits,
                  "Bits of the depth [8]: h264 has 8 and 10, hevc 8, 10 and 12, ffv1 8, 10, 12 and 16")
       ->type_name("N")
       ->check(CLI::IsMember({8, 10, 12, 16}).description(""));
-  addChoice(app, "--depth-chroma", a.output.depth.flat_chroma, {{"none", false}, {"flat", true}},
+  addChoice(app, "--depth-chroma", depth.flat_chroma, {{"none", false}, {"flat", true}},
             "none: depth is 4:0:0; flat: 4:2:0 with gray chroma, for hardware that knows no 4:0:0");
-  addChoice(app, "--depth-law", a.output.depth.law,
+  addChoice(app, "--depth-law", depth.law,
             {{"source", std::nullopt}, {"linear", DepthLaw::Linear}, {"inverse", DepthLaw::Inverse}},
             "Where the depth's steps are fine\nsource: as they are there; linear: evenly; inverse: near the viewer, by "
             "disparity. The heights stay");
-  app.add_option("--scene", a.scene, "Make a film of the project's own instead, with its exact depth")
+}
+
+void addSceneOption(CLI::App& app, std::string& scene) {
+  app.add_option("--scene", scene, "Make a film of the project's own instead, with its exact depth")
       ->type_name("sample")
       ->check(CLI::IsMember({"sample"}).description(""))
       ->excludes("--color")
@@ -99,6 +107,21 @@ void addOptions(CLI::App& app, Arguments& a) {
       ->excludes("--calibration")
       ->excludes("--enhance")
       ->excludes("--preview");
+}
+
+// In the order of the help.
+void addOptions(CLI::App& app, Arguments& a) {
+  app.footer(kFooter);
+  addSourceOptions(app, a.source);
+  app.add_option("-o,--output", a.output.path,
+                 "The film to write: .mkv, .mp4, .m4v, .mov, .ts, .m3u8 (HLS) or udp://HOST:PORT")
+      ->required()
+      ->type_name("OUT");
+  addDepthOptions(app, a.source);
+  addQualityOptions(app, a);
+  addEnhanceOptions(app, a.output);
+  addCodingOptions(app, a.output.depth);
+  addSceneOption(app, a.scene);
   app.add_flag("--force", a.output.force, "Replace OUT if it is there");
 }
 

@@ -16,9 +16,9 @@ namespace relievo {
 // InvalidArgument for an ending that is not written, Io where something is in the way, before any work is done.
 [[nodiscard]] Result<void> checkOutput(const OutputOptions& output);
 // The same for the preview, where one is wanted.
+[[nodiscard]] Result<void> checkPreview(const OutputOptions& output);
 // All files that are made or replaced, older segments of a playlist included.
 [[nodiscard]] std::vector<std::string> filesWrittenBy(const OutputOptions& output);
-[[nodiscard]] Result<void> checkPreview(const OutputOptions& output);
 
 // "  123/360 frames, 41.5 frames/s, 0:06 left"; what is not known is left out.
 [[nodiscard]] std::string progressText(std::uint64_t done, std::optional<std::uint64_t> total, Duration elapsed);
