@@ -43,7 +43,7 @@ bool looksLikePath(const std::string& word) {
 }
 
 // A whole stroke goes 55 mm to either side; it shall end within the workspace.
-double reachOf(const SimDeviceProfile& profile) {
+double reachOf(const DeviceProfile& profile) {
   const double half_width_mm = (profile.workspace_max_mm.x - profile.workspace_min_mm.x) / 2;
   return std::min(1.0, 0.84 * half_width_mm / 55.0);
 }

@@ -22,15 +22,15 @@ namespace relievo {
 //   around its centre. Mass, both frictions, the force for good and two ticks of delay are assumed.
 struct SimDeviceName {
   const char* word;
-  SimDeviceProfile profile;
+  DeviceProfile profile;
 };
 [[nodiscard]] std::span<const SimDeviceName> simDevices();
 
 // A tense hand has 1.5 N/mm, a third of its critical damping and presses with 4 N, all assumed; a relaxed arm was
-// measured at 0.14 N/mm. The others are SimHand's defaults; they differ in what they do.
+// measured at 0.14 N/mm. The others are HandProfile's defaults; they differ in what they do.
 struct SimHandName {
   const char* word;
-  SimHand hand;
+  HandProfile hand;
   HandMotion motion;
 };
 [[nodiscard]] std::span<const SimHandName> simHands();
@@ -38,7 +38,7 @@ struct SimHandName {
 extern const char* const kSimWords;  // "phantom falcon polhem, stroking resting .."
 
 struct SimSetup {
-  SimDeviceProfile profile;
+  DeviceProfile profile;
   HandPath path;
 };
 // Words with commas between, each a device, a hand or a hand script, in any order and each at most once: nothing,

@@ -7,9 +7,8 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
-#include <limits>
 
-#include "drivers/sim/moving_mass.h"
+#include "hal/moving_mass.h"
 
 namespace relievo {
 namespace {
@@ -18,16 +17,16 @@ constexpr Duration kLongestAdvance = std::chrono::milliseconds(20);
 constexpr Duration kWatchdog = std::chrono::milliseconds(20);
 constexpr double kMargin = 0.8;  // of the bounds
 
-std::size_t delayOf(const SimDeviceProfile& profile) RELIEVO_RT {
-  return static_cast<std::size_t>(std::clamp(profile.delay_ticks, 0, SimDeviceProfile::kMaxDelayTicks));
+std::size_t delayOf(const DeviceProfile& profile) RELIEVO_RT {
+  return static_cast<std::size_t>(std::clamp(profile.delay_ticks, 0, DeviceProfile::kMaxDelayTicks));
 }
-double jitterOf(const SimDeviceProfile& profile) RELIEVO_RT {
+double jitterOf(const DeviceProfile& profile) RELIEVO_RT {
   return std::clamp(profile.jitter_ticks, 0.0, 1.0);
 }
 
 class SimHaptic final : public HapticDevice {
  public:
-  SimHaptic(const SimDeviceProfile& profile, HandPath path, const Clock& clock)
+  SimHaptic(const DeviceProfile& profile, HandPath path, const Clock& clock)
       : profile_(profile), path_(std::move(path)), clock_(clock) {}
 
   [[nodiscard]] HapticCapabilities capabilities() const noexcept override {
@@ -104,7 +103,7 @@ class SimHaptic final : public HapticDevice {
     const glm::dvec3 target_step = (goal.position_mm - target_.position_mm) / static_cast<double>(steps);
     const glm::dvec3 target_velocity = target_step / dt_s;
     const glm::dvec3 limit(goal.force_limit_n);
-    const SimHand& hand = profile_.hand;
+    const HandProfile& hand = profile_.hand;
     const glm::dvec3 pull_n = hand.damping_n_s_per_mm * target_velocity;
     // Until the force that is due has come, the one before it acts on.
     const double late_s = jitterOf(profile_) * nextRandom() / profile_.rate_hz;
@@ -135,7 +134,7 @@ class SimHaptic final : public HapticDevice {
     return glm::round(position_mm / step) * step;
   }
 
-  SimDeviceProfile profile_;
+  DeviceProfile profile_;
   HandPath path_;
   const Clock& clock_;
   MonotonicTime now_;  // up to which the simulation has come
@@ -144,22 +143,12 @@ class SimHaptic final : public HapticDevice {
   std::uint64_t random_ = 0;
   HandPoint target_;
   MovingMass mass_;
-  std::array<glm::dvec3, SimDeviceProfile::kMaxDelayTicks + 2> pipeline_{};  // [0] is the newest force
+  std::array<glm::dvec3, DeviceProfile::kMaxDelayTicks + 2> pipeline_{};  // [0] is the newest force
 };
 
 }  // namespace
 
-double SimDeviceProfile::viscousBound() const RELIEVO_RT {
-  const double late_ticks = 0.5 + static_cast<double>(delayOf(*this)) + jitterOf(*this);
-  return damping_n_s_per_mm * rate_hz / late_ticks;
-}
-
-double SimDeviceProfile::frictionBound() const RELIEVO_RT {
-  const bool holds = encoder_step_mm > 0 && coulomb_friction_n > 0;
-  return holds ? 2 * coulomb_friction_n / encoder_step_mm : std::numeric_limits<double>::infinity();
-}
-
-std::unique_ptr<HapticDevice> makeSimHaptic(const SimDeviceProfile& profile, HandPath path, const Clock& clock) {
+std::unique_ptr<HapticDevice> makeSimHaptic(const DeviceProfile& profile, HandPath path, const Clock& clock) {
   return std::make_unique<SimHaptic>(profile, std::move(path), clock);
 }
 

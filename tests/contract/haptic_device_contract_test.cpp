@@ -57,7 +57,7 @@ Rig mock(MockHapticProfile profile, ManualClock& clock) {
 // A mass that nobody holds: if it is pushed it moves, and its damping stops it within some milliseconds when
 // it is not. Brought back to Running for the look.
 Rig sim(ManualClock& clock) {
-  SimDeviceProfile profile;
+  DeviceProfile profile;
   profile.damping_n_s_per_mm = 0.075;  // 1 N moves it by 13 um a tick
   profile.coulomb_friction_n = 0;
   profile.encoder_step_mm = 0;

@@ -25,7 +25,7 @@ struct Felt {
   double artefact_mj = 0;
 };
 
-Felt touchPlane(const SimDeviceProfile& profile, double stiffness, HandMotion motion) {
+Felt touchPlane(const DeviceProfile& profile, double stiffness, HandMotion motion) {
   ManualClock clock;
   const auto device = makeSimHaptic(profile, HandPath(motion, 0.7), clock);
   EXPECT_TRUE(device->open() && device->home() && device->start());
@@ -80,12 +80,12 @@ TEST_P(SimTouch, HoldsWhatTheDevicePromises) {
   const HandMotion motion = GetParam().hand.motion;
   for (const double jitter_ticks : {0.0, 1.0}) {
     SCOPED_TRACE(testing::Message() << "jitter " << jitter_ticks);
-    SimDeviceProfile real = GetParam().device.profile;
+    DeviceProfile real = GetParam().device.profile;
     real.hand = GetParam().hand.hand;
     real.jitter_ticks = jitter_ticks;
     ManualClock clock;
     const double stiffness = makeSimHaptic(real, HandPath(), clock)->capabilities().max_stiffness_n_per_mm;
-    SimDeviceProfile ideal = real;
+    DeviceProfile ideal = real;
     ideal.encoder_step_mm = 0, ideal.delay_ticks = 0, ideal.jitter_ticks = 0, ideal.rate_hz = 8000;
 
     const Felt felt = touchPlane(real, stiffness, motion), wished = touchPlane(ideal, stiffness, motion);

@@ -17,14 +17,14 @@ constexpr int kTicks = 2000;
 
 // With dry friction or an encoder, a cycle is what is larger than two steps of the encoder; without them, a swing that
 // is larger than it began or does not get smaller.
-bool swings(const Swing& swing, const HandLoopProfile& profile) {
+bool swings(const Swing& swing, const DeviceProfile& profile) {
   if (profile.encoder_step_mm > 0) return swing.last_mm > 2 * profile.encoder_step_mm;
   return swing.last_mm > 2.2 * kOffMm || (swing.last_mm > 1e-3 && swing.last_mm >= swing.before_mm);
 }
 
 }  // namespace
 
-Swing swingOnWall(const Challenger& challenger, const HandLoopProfile& profile, double stiffness) {
+Swing swingOnWall(const Challenger& challenger, const DeviceProfile& profile, double stiffness) {
   const auto film = makeFilm(scenario::plane(20, 0, 0), {}, 0.1);
   const auto method = challenger.make(stiffness, film);
   MemoryFeed feed(film);
@@ -48,7 +48,7 @@ Swing swingOnWall(const Challenger& challenger, const HandLoopProfile& profile, 
   return {extremes[2].y - extremes[2].x, extremes[3].y - extremes[3].x};
 }
 
-std::optional<double> loopOnset(const Challenger& challenger, const HandLoopProfile& profile, double most) {
+std::optional<double> loopOnset(const Challenger& challenger, const DeviceProfile& profile, double most) {
   if (!swings(swingOnWall(challenger, profile, most), profile)) return std::nullopt;
   double rests = 0.02 * most, cycles = most;
   while (cycles - rests > 0.01 * cycles) {

@@ -9,14 +9,13 @@ namespace relievo {
 
 // The method's own force, without the limits of the haptic task, on a still and nearly level wall that the device is
 // pushed against with 1 N. Found by halving; stiffness in N/mm, within 1 %. Nothing when it rests even at `most`.
-[[nodiscard]] std::optional<double> loopOnset(const Challenger& challenger, const HandLoopProfile& profile,
+[[nodiscard]] std::optional<double> loopOnset(const Challenger& challenger, const DeviceProfile& profile,
                                               double most_n_per_mm);
 
 // How far the device still swings, mm, after it has been let go 0.2 mm off its rest: in the last quarter of 2 s.
 struct Swing {
   double before_mm = 0, last_mm = 0;  // in the third and in the last quarter
 };
-[[nodiscard]] Swing swingOnWall(const Challenger& challenger, const HandLoopProfile& profile,
-                                double stiffness_n_per_mm);
+[[nodiscard]] Swing swingOnWall(const Challenger& challenger, const DeviceProfile& profile, double stiffness_n_per_mm);
 
 }  // namespace relievo

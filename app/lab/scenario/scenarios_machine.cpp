@@ -24,7 +24,7 @@ struct Rest {
 // A hand comes in and presses on for two seconds.
 Rest pressOn(const Challenger& challenger, const Relief& relief, const MadeFormat& format, double stiffness,
              const glm::dvec3& from_mm, const glm::dvec3& to_mm) {
-  const HandLoopProfile profile;
+  const DeviceProfile profile;
   HandLoop hand(profile, from_mm);
   const auto film = makeFilm(relief, format, 0.1);
   const auto method = challenger.make(stiffness, film);
@@ -47,7 +47,7 @@ Rest pressOn(const Challenger& challenger, const Relief& relief, const MadeForma
 }  // namespace
 
 Verdict stiffWall(const Challenger& challenger, bool /*quick*/) {
-  const HandLoopProfile profile;
+  const DeviceProfile profile;
   const double stiffness = 0.8 * std::min(profile.viscousBound(), profile.frictionBound());
   // A crease of 90 degrees, slanted to the grid; and a wall in 8 bits, whose terraces are 2 mm wide.
   const Relief crease = [](double x, double y, double) { return 12 + std::abs(x - 0.3 * y) * 0.96; };

@@ -20,7 +20,7 @@ constexpr std::array kMethods{"relievo", "modified-proxy-graph", "proxy-graph", 
 struct Onset {
   const char* method;
   const char* profile;
-  HandLoopProfile loop;
+  DeviceProfile loop;
   double bound = 0;
   std::optional<double> found;
 };
@@ -40,11 +40,11 @@ std::vector<Onset> findOnsets(const MeasureOptions& options) {
   std::vector<Onset> onsets;
   for (const char* method : kMethods) {
     for (int delay = 0; delay <= 3; ++delay) {
-      const auto alone = HandLoopProfile::deviceAlone(delay);
+      const auto alone = deviceAlone(delay);
       onsets.push_back({method, "viscous", alone, alone.viscousBound(), {}});
-      HandLoopProfile full = alone;
-      full.coulomb_friction_n = HandLoopProfile{}.coulomb_friction_n;
-      full.encoder_step_mm = HandLoopProfile{}.encoder_step_mm;
+      DeviceProfile full = alone;
+      full.coulomb_friction_n = DeviceProfile{}.coulomb_friction_n;
+      full.encoder_step_mm = DeviceProfile{}.encoder_step_mm;
       onsets.push_back({method, "full", full, std::min(full.viscousBound(), full.frictionBound()), {}});
     }
   }

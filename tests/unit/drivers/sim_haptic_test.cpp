@@ -21,8 +21,8 @@ HandPath stillAt(const glm::dvec3& position_mm) {
 }
 
 // Nobody holds it, nothing rubs, nothing is rounded.
-SimDeviceProfile freeMass() {
-  SimDeviceProfile profile;
+DeviceProfile freeMass() {
+  DeviceProfile profile;
   profile.damping_n_s_per_mm = 0;
   profile.coulomb_friction_n = 0;
   profile.encoder_step_mm = 0;
@@ -33,7 +33,7 @@ SimDeviceProfile freeMass() {
 }
 
 struct Bench {
-  explicit Bench(const SimDeviceProfile& profile, HandPath path = stillAt({0, 0, 20}))
+  explicit Bench(const DeviceProfile& profile, HandPath path = stillAt({0, 0, 20}))
       : device(makeSimHaptic(profile, std::move(path), clock)) {
     EXPECT_TRUE(device->open() && device->home() && device->start());
   }
@@ -55,7 +55,7 @@ struct Bench {
 };
 
 TEST(SimHaptic, TellsWholeEncoderStepsOfTheTruePosition) {
-  SimDeviceProfile exact, coarse;
+  DeviceProfile exact, coarse;
   exact.encoder_step_mm = 0;
   coarse.encoder_step_mm = 0.5;
   Bench a(exact, HandPath()), b(coarse, HandPath());
@@ -76,7 +76,7 @@ class SimHapticDelay : public testing::TestWithParam<int> {};
 
 // One tick of 1 N on 0.075 kg leaves 13.333 mm/s, that is 13.333 um a tick, from the (n+1)th tick on.
 TEST_P(SimHapticDelay, AForceIsHeldForOneTickAfterSoManyTicks) {
-  SimDeviceProfile profile = freeMass();
+  DeviceProfile profile = freeMass();
   profile.delay_ticks = GetParam();
   Bench bench(profile);
   double before = 0;
@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(Ticks, SimHapticDelay, testing::Values(0, 1, 3, 8));
 // 1 N on 0.075 kg for four ticks leaves 53.333 um a tick; it begins late by one share of a tick and ends late by
 // another.
 TEST(SimHaptic, JitterMovesAForceWithinATick) {
-  SimDeviceProfile profile = freeMass();
+  DeviceProfile profile = freeMass();
   profile.delay_ticks = 1;
   profile.jitter_ticks = 1;
   double earliest = 1, latest = 0, shortest = 1, longest = -1;  // ticks
@@ -122,8 +122,8 @@ TEST(SimHaptic, JitterMovesAForceWithinATick) {
 }
 
 TEST(SimHaptic, JitterIsOffByDefaultAndOneSeedIsOneRun) {
-  EXPECT_EQ(SimDeviceProfile{}.jitter_ticks, 0);
-  SimDeviceProfile profile, other;
+  EXPECT_EQ(DeviceProfile{}.jitter_ticks, 0);
+  DeviceProfile profile, other;
   profile.jitter_ticks = other.jitter_ticks = 1;
   other.jitter_seed = 2;
   Bench a(profile, HandPath()), b(profile, HandPath()), c(other, HandPath());
@@ -152,7 +152,7 @@ class SimHapticWall : public testing::TestWithParam<WallCase> {};
 // (w t)^2/6 with w = sqrt(K/m), are under 2 % at the bound.
 TEST_P(SimHapticWall, IsStableBelowTheClassicBoundAndNotAbove) {
   const auto [delay_ticks, of_bound] = GetParam();
-  SimDeviceProfile profile = freeMass();
+  DeviceProfile profile = freeMass();
   profile.damping_n_s_per_mm = 0.002;
   profile.delay_ticks = delay_ticks;
   const double bound_n_per_mm = 2 * 0.002 / ((1 + 2 * delay_ticks) * 0.001);
@@ -185,7 +185,7 @@ INSTANTIATE_TEST_SUITE_P(Bound, SimHapticWall,
 // Spring and mass at rest: the hand's 0.3 N/mm pulled by 0.9 N gives way by 3 mm, less what friction holds
 // (0.04 N / 0.3 N/mm = 0.13 mm).
 TEST(SimHaptic, TheHandGivesWayAsASpring) {
-  Bench bench(SimDeviceProfile{});
+  Bench bench(DeviceProfile{});
   glm::dvec3 position{0};
   for (int i = 0; i < 2000; ++i) position = bench.tick([](const glm::dvec3&) { return glm::dvec3(0, 0.9, 0); });
   EXPECT_NEAR(position.y, 3.0, 0.14 + 0.015);
@@ -194,8 +194,8 @@ TEST(SimHaptic, TheHandGivesWayAsASpring) {
 // A spring and damper to a point that moves steadily pull a mass without other friction along with it, behind by
 // nothing: the damper is at rest. A tick late would be 100 um.
 TEST(SimHaptic, TheHandKeepsUpWithItsPath) {
-  SimDeviceProfile profile = freeMass();
-  profile.hand = SimHand{};
+  DeviceProfile profile = freeMass();
+  profile.hand = HandProfile{};
   Bench bench(profile, HandPath({{0.0, {-50, 0, 20}}, {1.0, {50, 0, 20}}}));
   glm::dvec3 position{0};
   for (int i = 0; i <= 900; ++i) position = bench.tick([](const glm::dvec3&) { return glm::dvec3(0); });
@@ -205,7 +205,7 @@ TEST(SimHaptic, TheHandKeepsUpWithItsPath) {
 class SimHapticTouch : public testing::TestWithParam<double> {};
 
 TEST_P(SimHapticTouch, TheStrokingHandPressesGentlyWhereverTheSurfaceIs) {
-  Bench bench(SimDeviceProfile{}, HandPath());
+  Bench bench(DeviceProfile{}, HandPath());
   double least = 1e9, most = 0, left = 0, right = 0, low = 0, high = 0, last_z = 0;
   for (int i = 0; i < 35'000; ++i) {
     double force = 0;
@@ -233,7 +233,7 @@ TEST_P(SimHapticTouch, TheStrokingHandPressesGentlyWhereverTheSurfaceIs) {
 INSTANTIATE_TEST_SUITE_P(Surfaces, SimHapticTouch, testing::Values(0.0, 20.0, 40.0));
 
 TEST(SimHaptic, RunsAlikeToTheLastBit) {
-  Bench a(SimDeviceProfile{}, HandPath()), b(SimDeviceProfile{}, HandPath());
+  Bench a(DeviceProfile{}, HandPath()), b(DeviceProfile{}, HandPath());
   for (int i = 0; i < 3000; ++i) {
     const auto wall = [](const glm::dvec3& p) { return glm::dvec3(0, 0, std::max(0.0, 20 - p.z)); };
     ASSERT_EQ(a.tick(wall), b.tick(wall));
@@ -241,7 +241,7 @@ TEST(SimHaptic, RunsAlikeToTheLastBit) {
 }
 
 TEST(SimHaptic, AGapMovesItByTwentyMillisecondsAtMost) {
-  Bench late(SimDeviceProfile{}, HandPath()), punctual(SimDeviceProfile{}, HandPath());
+  Bench late(DeviceProfile{}, HandPath()), punctual(DeviceProfile{}, HandPath());
   const auto none = [](const glm::dvec3&) { return glm::dvec3(0); };
   for (int i = 0; i < 1000; ++i) late.tick(none), punctual.tick(none);
   (void)late.read(), (void)punctual.read();
@@ -273,7 +273,7 @@ TEST(SimHaptic, StopsAtTheEndOfItsWorkspace) {
 }
 
 TEST(SimHaptic, ATickAllocatesNothing) {
-  Bench bench(SimDeviceProfile{}, HandPath());
+  Bench bench(DeviceProfile{}, HandPath());
   bench.tick([](const glm::dvec3&) { return glm::dvec3(0); });
   const std::uint64_t before = threadAllocations();
   for (int i = 0; i < 100; ++i) {
@@ -285,7 +285,7 @@ TEST(SimHaptic, ATickAllocatesNothing) {
 }
 
 TEST(SimHaptic, RefusesAProfileThatCannotMove) {
-  SimDeviceProfile profile;
+  DeviceProfile profile;
   profile.moving_mass_kg = 0;
   ManualClock clock;
   const auto opened = makeSimHaptic(profile, HandPath(), clock)->open();

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "drivers/sim/moving_mass.h"
+#include "hal/moving_mass.h"
 
 namespace relievo {
 namespace {

@@ -17,7 +17,7 @@ constexpr double kWallMm = 20, kPushN = 1;
 
 // The heights that the device tells, one a millisecond; the wall pushes with its stiffness times how deep it is told to
 // be.
-std::vector<double> heightsOn(const SimDeviceProfile& profile, double stiffness, HandPath path, double seconds) {
+std::vector<double> heightsOn(const DeviceProfile& profile, double stiffness, HandPath path, double seconds) {
   ManualClock clock;
   const auto device = makeSimHaptic(profile, std::move(path), clock);
   EXPECT_TRUE(device->open() && device->home() && device->start());
@@ -49,21 +49,21 @@ Swing swingOf(const std::vector<double>& heights) {
 
 // The device alone, pushed on the wall with 1 N by a spring that is too soft and too far away to hold it, and let go
 // that far off its rest.
-Swing swingAlone(SimDeviceProfile profile, double stiffness, double off_mm) {
+Swing swingAlone(DeviceProfile profile, double stiffness, double off_mm) {
   profile.hand = {.mass_kg = 0, .stiffness_n_per_mm = kPushN / 100, .damping_n_s_per_mm = 0};
   const double rest_mm = kWallMm - kPushN / stiffness;
   const HandPath path({{0.0, {0, 0, rest_mm + off_mm}}, {0.001, {0, 0, rest_mm - 100}}});
   return swingOf(heightsOn(profile, stiffness, path, 2));
 }
 
-SimDeviceProfile withoutDryFriction(SimDeviceProfile profile) {
+DeviceProfile withoutDryFriction(DeviceProfile profile) {
   profile.coulomb_friction_n = 0;
   profile.encoder_step_mm = 0;
   return profile;
 }
 
 // By halving, to 0.5 %.
-double onsetOf(const SimDeviceProfile& profile) {
+double onsetOf(const DeviceProfile& profile) {
   double rests = 0, swings = 3 * profile.viscousBound();
   while (swings - rests > 0.005 * swings) {
     const double stiffness = 0.5 * (rests + swings);
@@ -83,8 +83,8 @@ struct Loop {
 void PrintTo(const Loop& loop, std::ostream* out) {
   *out << loop.device << " at " << loop.rate_hz << " Hz, " << loop.delay_ticks << " ticks late";
 }
-SimDeviceProfile profileOf(const Loop& loop) {
-  SimDeviceProfile profile;
+DeviceProfile profileOf(const Loop& loop) {
+  DeviceProfile profile;
   for (const SimDeviceName& named : simDevices()) {
     if (std::string_view(named.word) == loop.device) profile = named.profile;
   }
@@ -106,7 +106,7 @@ class SimLoop : public testing::TestWithParam<Loop> {};
 INSTANTIATE_TEST_SUITE_P(Devices, SimLoop, testing::ValuesIn(loops()));
 
 TEST_P(SimLoop, WithoutDryFrictionItSwingsFromTheViscousBoundOn) {
-  const SimDeviceProfile profile = withoutDryFriction(profileOf(GetParam()));
+  const DeviceProfile profile = withoutDryFriction(profileOf(GetParam()));
   const double late_ticks = 0.5 + GetParam().delay_ticks;
   const double bound = profile.damping_n_s_per_mm * GetParam().rate_hz / late_ticks;
   EXPECT_NEAR(profile.viscousBound(), bound, 1e-9);
@@ -117,7 +117,7 @@ TEST_P(SimLoop, WithoutDryFrictionItSwingsFromTheViscousBoundOn) {
 }
 
 TEST_P(SimLoop, WithFrictionAndEncoderItRestsUpToFourFifthsOfTheBounds) {
-  const SimDeviceProfile profile = profileOf(GetParam());
+  const DeviceProfile profile = profileOf(GetParam());
   const double bound = std::min(profile.viscousBound(), 2 * profile.coulomb_friction_n / profile.encoder_step_mm);
   for (const double share : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8}) {
     EXPECT_LE(swingAlone(profile, share * bound, 1.0).last_mm, profile.encoder_step_mm) << share << " of " << bound;
@@ -125,7 +125,7 @@ TEST_P(SimLoop, WithFrictionAndEncoderItRestsUpToFourFifthsOfTheBounds) {
 }
 
 TEST(SimStability, FarAboveTheBoundsItSwings) {
-  const SimDeviceProfile phantom = simDevices()[0].profile;
+  const DeviceProfile phantom = simDevices()[0].profile;
   const double bound = std::min(phantom.viscousBound(), phantom.frictionBound());
   EXPECT_GT(swingAlone(phantom, 2 * bound, 1.0).last_mm, 1.0);
 }
@@ -133,7 +133,7 @@ TEST(SimStability, FarAboveTheBoundsItSwings) {
 // A force that comes up to a tick late, at random, is late by half a tick on average; the bound takes the whole.
 TEST(SimStability, JitterLowersTheOnsetAndTheBoundMore) {
   for (const double jitter_ticks : {0.5, 1.0}) {
-    SimDeviceProfile profile = withoutDryFriction(simDevices()[0].profile);
+    DeviceProfile profile = withoutDryFriction(simDevices()[0].profile);
     profile.jitter_ticks = jitter_ticks;
     const double on_average =
         profile.damping_n_s_per_mm * profile.rate_hz / (0.5 + profile.delay_ticks + jitter_ticks / 2);
@@ -150,13 +150,13 @@ TEST(SimStability, WhatADevicePromisesItHoldsInEveryHand) {
     for (const SimHandName& hand : simHands()) {
       for (const double jitter_ticks : {0.0, 1.0}) {
         SCOPED_TRACE(testing::Message() << device.word << ", " << hand.word << ", jitter " << jitter_ticks);
-        SimDeviceProfile real = device.profile;
+        DeviceProfile real = device.profile;
         real.hand = hand.hand;
         real.jitter_ticks = jitter_ticks;
         ManualClock clock;
         const double stiffness = makeSimHaptic(real, HandPath(), clock)->capabilities().max_stiffness_n_per_mm;
         EXPECT_GE(stiffness, 0.4) << "no less than a touch needs";
-        SimDeviceProfile ideal = real;
+        DeviceProfile ideal = real;
         ideal.encoder_step_mm = 0, ideal.delay_ticks = 0, ideal.jitter_ticks = 0, ideal.rate_hz = 8000;
 
         const auto heights = heightsOn(real, stiffness, HandPath(hand.motion), 6);
@@ -176,7 +176,7 @@ TEST(SimStability, WhatADevicePromisesItHoldsOnAnySpring) {
   for (const SimDeviceName& device : simDevices()) {
     for (const double hand_stiffness : {0.05, 0.3, 1.0, 2.0, 4.0}) {
       SCOPED_TRACE(testing::Message() << device.word << ", " << hand_stiffness);
-      SimDeviceProfile profile = device.profile;
+      DeviceProfile profile = device.profile;
       profile.hand = {.mass_kg = 0.02, .stiffness_n_per_mm = hand_stiffness, .damping_n_s_per_mm = 0};
       ManualClock clock;
       const double stiffness = makeSimHaptic(profile, HandPath(), clock)->capabilities().max_stiffness_n_per_mm;

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "drivers/sim/moving_mass.h"
+#include "hal/moving_mass.h"
 #include "tests/support/device/model_port.h"
 #include "tests/support/device/usb_kinds.h"
 

@@ -170,7 +170,7 @@ Challenger plainSpring() {
 
 TEST(LoopOnset, OfAPlainSpringIsThatOfTheory) {
   for (int delay = 0; delay <= 3; ++delay) {
-    const auto device = HandLoopProfile::deviceAlone(delay);
+    const auto device = deviceAlone(delay);
     // b = 0.002 N s/mm, T = 1 ms
     EXPECT_NEAR(device.viscousBound(), 4.0 / (1 + 2 * delay), 1e-12);
     const auto onset = loopOnset(plainSpring(), device, 4 * device.viscousBound());
@@ -180,7 +180,7 @@ TEST(LoopOnset, OfAPlainSpringIsThatOfTheory) {
 }
 
 TEST(LoopOnset, DryFrictionHoldsADeviceStillUpToItsBound) {
-  HandLoopProfile full = HandLoopProfile::deviceAlone(1);
+  DeviceProfile full = deviceAlone(1);
   full.coulomb_friction_n = 0.04;
   full.encoder_step_mm = 0.03;
   EXPECT_NEAR(full.frictionBound(), 2.667, 0.001);
@@ -191,7 +191,7 @@ TEST(LoopOnset, DryFrictionHoldsADeviceStillUpToItsBound) {
 
 TEST(LoopOnset, OfRelievoOnAWallIsWithinAFifthOfTheory) {
   for (int delay = 0; delay <= 2; ++delay) {
-    const auto device = HandLoopProfile::deviceAlone(delay);
+    const auto device = deviceAlone(delay);
     const auto onset = loopOnset(challengerNamed("relievo"), device, 4 * device.viscousBound());
     ASSERT_TRUE(onset.has_value());
     EXPECT_NEAR(*onset, device.viscousBound(), 0.2 * device.viscousBound()) << delay;
@@ -199,7 +199,7 @@ TEST(LoopOnset, OfRelievoOnAWallIsWithinAFifthOfTheory) {
 }
 
 TEST(HandLoop, ComesToRestByItsFrictions) {
-  HandLoopProfile device = HandLoopProfile::deviceAlone(0);
+  DeviceProfile device = deviceAlone(0);
   device.damping_n_s_per_mm = 0;
   device.coulomb_friction_n = 0.04;
   HandLoop loop(device, glm::dvec3(0));
@@ -216,7 +216,7 @@ TEST(HandLoop, ComesToRestByItsFrictions) {
 }
 
 TEST(HandLoop, AForceActsSoManyTicksLate) {
-  HandLoop loop(HandLoopProfile::deviceAlone(2), glm::dvec3(0));
+  HandLoop loop(deviceAlone(2), glm::dvec3(0));
   loop.tick({1, 0, 0}, glm::dvec3(0));
   loop.tick(glm::dvec3(0), glm::dvec3(0));
   EXPECT_EQ(loop.position().x, 0);
