@@ -3,8 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <string_view>
 
 namespace relievo {
 
@@ -15,8 +13,7 @@ enum class TimeLaw : std::uint8_t {
   BSpline,  // cubic B-spline on the frames: smooth to the second derivative, but a low-pass; 1 more frame ahead
   Fitted,   // cubic spline that stays with the frames to the fourth order (quasi-interpolation); 2 more ahead
 };
-[[nodiscard]] std::optional<TimeLaw> timeLaw(std::string_view name) noexcept;  // hold linear bspline fitted
-[[nodiscard]] const char* name(TimeLaw law) noexcept;
+[[nodiscard]] const char* name(TimeLaw law) noexcept;  // hold linear bspline fitted
 
 // How a surface lies between samples.
 enum class SpaceLaw : std::uint8_t {
@@ -24,7 +21,5 @@ enum class SpaceLaw : std::uint8_t {
   Quadratic,  // quadratic B-spline on block means: continuous slope
   BSpline,    // cubic B-spline on block means: continuous curvature
 };
-[[nodiscard]] std::optional<SpaceLaw> spaceLaw(std::string_view name) noexcept;  // triangles quadratic bspline
-[[nodiscard]] const char* name(SpaceLaw law) noexcept;
 
 }  // namespace relievo

@@ -135,16 +135,6 @@ PictureLook lookAt(const Frame& picture) noexcept {
   return look;
 }
 
-double likeness(const Frame& a, const Frame& b) noexcept {
-  double n = 0, sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
-  visit(a, [&](int c, int r) {
-    const double x{brightness(rgbAt(a, c, r))}, y{brightness(rgbAt(b, c, r))};
-    ++n, sa += x, sb += y, saa += x * x, sbb += y * y, sab += x * y;
-  });
-  const double va = n * saa - sa * sa, vb = n * sbb - sb * sb;
-  return va > 1e-9 && vb > 1e-9 ? (n * sab - sa * sb) / std::sqrt(va * vb) : 0;
-}
-
 bool isHue(const PictureLook& look) noexcept {
   return look.vivid >= kAllVivid && look.dark <= kMostDark;
 }

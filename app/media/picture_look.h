@@ -20,9 +20,6 @@ struct PictureLook {
 // Any thread.
 [[nodiscard]] PictureLook lookAt(const Frame& picture) noexcept;
 
-// The correlation of the brightness of two pictures of one size, -1 to 1; 0 where one of them is even.
-[[nodiscard]] double likeness(const Frame& a, const Frame& b) noexcept;
-
 // Red, green and blue of a sample, 0 to 1.
 struct Rgb {
   float red = 0, green = 0, blue = 0;

@@ -29,6 +29,18 @@ constexpr std::array kRows{
 
 }  // namespace
 
+const char* name(SpaceLaw law) noexcept {
+  switch (law) {
+    case SpaceLaw::Triangles:
+      return "triangles";
+    case SpaceLaw::Quadratic:
+      return "quadratic";
+    case SpaceLaw::BSpline:
+      return "bspline";
+  }
+  return "";
+}
+
 std::optional<MethodParts> partsOf(std::string_view method, const MethodConfig& config) {
   if (method == "relievo" && config.space != SpaceLaw::Triangles) {
     FeltScale scale = config.scale.value_or(FeltScale{});

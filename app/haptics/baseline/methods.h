@@ -24,6 +24,8 @@ struct MethodConfig {
 extern const char* const kMethodNames;    // "relievo modified-proxy-graph .."
 extern const char* const kDefaultMethod;  // what `relievo play` touches with
 
+[[nodiscard]] const char* name(SpaceLaw law) noexcept;  // triangles quadratic bspline
+
 // What a method is made of.
 struct MethodParts {
   SpaceLaw space = SpaceLaw::Triangles;

@@ -93,9 +93,7 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::create(Duration frame_budg
 void SceneRenderer::setStereo(const StereoSettings& settings) noexcept {
   impl_->stereo = settings;
 }
-const StereoSettings& SceneRenderer::stereo() const noexcept {
-  return impl_->stereo;
-}
+
 void SceneRenderer::setError(double pixels) noexcept {
   impl_->error_px = pixels;
 }

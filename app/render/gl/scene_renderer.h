@@ -48,7 +48,6 @@ class SceneRenderer {
 
   // A layout that the surface refuses is drawn as mono.
   void setStereo(const StereoSettings& settings) noexcept;
-  [[nodiscard]] const StereoSettings& stereo() const noexcept;
   // By how much the shift between the eyes may be off for the sake of fewer triangles; the frame budget may ask for
   // more. Before the frame that it is for.
   void setError(double pixels) noexcept;

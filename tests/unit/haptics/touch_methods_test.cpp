@@ -258,9 +258,6 @@ TEST(MakeMethod, KnowsTheNamesThatItListsAndNoOther) {
   EXPECT_NE(makeMethod("proxy-graph", {}), nullptr);
   EXPECT_NE(makeMethod(kDefaultMethod, {}), nullptr);
   EXPECT_EQ(makeMethod("proxy graph", {}), nullptr);
-  EXPECT_EQ(timeLaw("hold"), TimeLaw::Hold);
-  EXPECT_EQ(timeLaw("linear"), TimeLaw::Linear);
-  EXPECT_EQ(timeLaw("cubic"), std::nullopt);
 }
 
 TEST(ProxyGraphMethods, APositionThatIsNoNumberIsOneTickWithoutContactAndNoMore) {
