@@ -28,12 +28,12 @@ Result<std::optional<Packet>> MediaSource::read() {
   if (!*packet) {
     state_ = State::Ended;
   } else {
-    place(**packet);
+    retime(**packet);
   }
   return packet;
 }
 
-void MediaSource::place(Packet& packet) {
+void MediaSource::retime(Packet& packet) {
   const auto& time = packet.dts ? packet.dts : packet.pts;
   if (!time) return;
   const Duration offset = times_.offsetFor(packet.stream, *time);

@@ -95,7 +95,7 @@ class MediaSource {
   [[nodiscard]] std::uint64_t jumps() const noexcept { return times_.jumps(); }
   // Pictures that were taken and never came here, as far as the source can tell (a camera counts them), since
   // construction.
-  [[nodiscard]] std::uint64_t lost() const noexcept { return lost_; }
+  [[nodiscard]] std::uint64_t missedPictures() const noexcept { return missed_; }
   // How much of the duration was not there: the film broke off so long before its end. Ended; 0 of a whole film, where
   // it is unknown, and in the other states.
   [[nodiscard]] Duration missing() const noexcept { return state_ == State::Ended ? missingTime() : Duration(0); }
@@ -113,7 +113,7 @@ class MediaSource {
     Duration duration{0};
     Origin origin;
   };
-  void countLost(std::uint64_t pictures) noexcept { lost_ += pictures; }
+  void countMissed(std::uint64_t pictures) noexcept { missed_ += pictures; }
 
  private:
   virtual Result<Description> openSource(const std::string& url) = 0;
@@ -122,7 +122,7 @@ class MediaSource {
   [[nodiscard]] virtual Duration missingTime() const noexcept { return Duration(0); }
   virtual void closeSource() noexcept = 0;
   virtual void interrupted() noexcept = 0;
-  void place(Packet& packet);
+  void retime(Packet& packet);
 
   State state_ = State::Closed;
   std::vector<StreamInfo> streams_;
@@ -130,7 +130,7 @@ class MediaSource {
   Duration duration_{0};
   Origin origin_;
   ContinuousTime times_;
-  std::uint64_t lost_ = 0;
+  std::uint64_t missed_ = 0;
 };
 
 }  // namespace relievo

@@ -95,7 +95,7 @@ Result<DepthSource::Given> DepthSource::nextHere() {
 Result<void> DepthSource::seek(MediaTime target, Duration key_step) {
   std::unique_lock lock(mutex_);
   queue_.clear();
-  resume_ = target;
+  goes_on_at_ = target;
   key_step_ = key_step;
   ended_ = late_ = false;
   warming_up_ = true;
@@ -168,7 +168,7 @@ void DepthSource::readOne(std::unique_lock<std::mutex>& lock) {
   if (auto restart = reader_->takeRestart()) restart_ = restart;
   if (generation != generation_) return;  // sought meanwhile
   if (!frame) return lose(frame.error());
-  if (*frame) resume_ = (*frame)->pts;
+  if (*frame) goes_on_at_ = (*frame)->pts;
   ended_ = !*frame && ended;
   if (*frame) queue_.push_back({.frame = std::move(**frame), .session = session_});
   ready_.notify_all();
@@ -177,11 +177,11 @@ void DepthSource::readOne(std::unique_lock<std::mutex>& lock) {
 void DepthSource::findAgain(std::unique_lock<std::mutex>& lock) {
   if (!tried_again_ || backends_.clock->now() < back_off_.next()) return;
   before_ = counters_;
-  const MediaTime resume = resume_;
+  const MediaTime target = goes_on_at_;
   const Duration key_step = key_step_;
   lock.unlock();
   auto found = connect();
-  if (found && !reader_->source().live()) found = reader_->seek(resume, key_step);
+  if (found && !reader_->source().live()) found = reader_->seek(target, key_step);
   lock.lock();
   if (!found) return back_off_.failed(backends_.clock->now());
   loss_.reset();
@@ -198,7 +198,7 @@ void DepthSource::lose(const Error& error) {
 void DepthSource::count() {
   counters_.damaged = before_.damaged + reader_->damaged();
   counters_.jumps = before_.jumps + reader_->source().jumps();
-  counters_.lost = before_.lost + reader_->source().lost();
+  counters_.missed_pictures = before_.missed_pictures + reader_->source().missedPictures();
   counters_.missing = reader_->source().missing();
 }
 

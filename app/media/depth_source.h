@@ -62,7 +62,7 @@ class DepthSource {
   // Why it is away, while it is looked for.
   [[nodiscard]] std::optional<Error> loss() const;
   struct Counters {
-    std::uint64_t damaged = 0, jumps = 0, lost = 0, reconnects = 0;
+    std::uint64_t damaged = 0, jumps = 0, missed_pictures = 0, reconnects = 0;
     Duration missing{0};
   };
   [[nodiscard]] Counters counters() const;
@@ -99,7 +99,7 @@ class DepthSource {
   Session session_;
   std::deque<Given> queue_;
   std::optional<MediaTime> target_;  // of a seek
-  MediaTime resume_;                 // where one that can be sought goes on when it is found again
+  MediaTime goes_on_at_;             // where one that can be sought goes on when it is found again
   Duration key_step_{0};             // of the last one
   std::uint64_t generation_ = 0;     // of seeks
   std::optional<VideoDecoder::Restart> restart_;

@@ -85,7 +85,7 @@ void FilmFeed::seek(MediaTime target, Duration key_step) {
   ++generation_;
   queue_.swap(dropped);
   forgetSound();
-  (away ? resume_ : state_) = State::Seeking;
+  (away ? state_before_ : state_) = State::Seeking;
   wake_.notify_all();
 }
 
@@ -302,7 +302,7 @@ void FilmFeed::workReopen() {
   counters_ = counters;
   const MonotonicTime now = backends_.clock->now();
   if (reopened) {
-    state_ = resume_;
+    state_ = state_before_;
     sound_may_come_ = hasSound();
     if (state_ == State::Reading && sound_until_) target_ = *sound_until_;  // no sound twice
     news_.push_back({News::Kind::ColorBack, "", "", now});
@@ -315,9 +315,9 @@ void FilmFeed::workReopen() {
 
 // What it goes on with, once it is found again, is what it did.
 bool FilmFeed::loses(const Error& error) {
-  if (backends_.clock == nullptr || !reader_.lost(error)) return false;
+  if (backends_.clock == nullptr || !reader_.isSourceLost(error)) return false;
   loss_ = error;
-  resume_ = std::exchange(state_, State::Reconnecting);
+  state_before_ = std::exchange(state_, State::Reconnecting);
   back_off_.begin(backends_.clock->now());
   news_.push_back({News::Kind::ColorLost, error.message, "", backends_.clock->now()});
   return true;

@@ -138,8 +138,8 @@ class FilmFeed {
   std::string failed_thing_;
   std::optional<Error> seek_error_;
   BackOff back_off_;
-  Error loss_;                     // while Reconnecting
-  State resume_ = State::Reading;  // after it
+  Error loss_;                           // while Reconnecting
+  State state_before_ = State::Reading;  // and after it
   bool depth_away_ = false;
   std::deque<News> news_;
   bool stopping_ = false;

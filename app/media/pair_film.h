@@ -86,7 +86,7 @@ struct PairReader::Impl {
   const StreamInfo* depth_stream = nullptr;    // likewise; valid while the film is opened
   bool remote = false, live = false;           // the colour's source
   Duration color_shift{0};                     // from the time of its present session to the film's
-  MediaTime resume;                            // the film's time after the last colour picture
+  MediaTime goes_on_at;                        // the film's time after the last colour picture
   Duration depth_shift{0};                     // of `depth_source`
   std::optional<std::uint32_t> depth_session;  // that `depth_shift` is of
   std::optional<DepthFollower> depth;

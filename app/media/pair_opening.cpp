@@ -228,7 +228,7 @@ void PairReader::Impl::meet(const DepthSource::Session& session, MediaTime first
   if (!session.live) return;
   const MediaSource& color = color_reader->source();
   if (!color.live()) {  // what comes now goes with what is shown now
-    depth_shift = resume - first;
+    depth_shift = goes_on_at - first;
     return;
   }
   const Duration by_arrival = session.arrival - color.arrival();

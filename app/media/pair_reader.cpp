@@ -118,7 +118,7 @@ Result<void> PairReader::Impl::seekDepth(MediaTime target) {
 
 // From the picture after the last one; a second source has stayed where it was.
 Result<void> PairReader::Impl::goOn() {
-  const MediaTime target = resume - info.frame_period / 2;  // containers round their times
+  const MediaTime target = goes_on_at - info.frame_period / 2;  // containers round their times
   if (auto sought = color_reader->seek(target, key_step); !sought) return failOn(options.url, sought.error());
   color_ahead.clear();
   if (depth_track) depth->restart();
@@ -129,7 +129,7 @@ Result<void> PairReader::Impl::goOn() {
 void PairReader::Impl::leaveColor() {
   counters.damaged += color_reader->damaged();
   counters.jumps += color_reader->source().jumps();
-  counters.lost += color_reader->source().lost();
+  counters.missed_pictures += color_reader->source().missedPictures();
   color_ahead.clear();
 }
 
@@ -140,7 +140,7 @@ PairCounters& PairCounters::operator+=(const PairCounters& other) noexcept {
   depth_skipped += other.depth_skipped;
   damaged += other.damaged;
   jumps += other.jumps;
-  lost += other.lost;
+  missed_pictures += other.missed_pictures;
   reconnects += other.reconnects;
   depth_reconnects += other.depth_reconnects;
   missing += other.missing;
@@ -171,7 +171,7 @@ Result<std::optional<FramePair>> PairReader::next() {
   if (!*color) return std::nullopt;
   auto pair = impl_->pairFor(std::move(**color));
   if (!pair) return std::unexpected(pair.error());
-  impl_->resume = pair->color.pts + impl_->info.frame_period;
+  impl_->goes_on_at = pair->color.pts + impl_->info.frame_period;
   if (impl_->live) {
     pair->taken = impl_->color_reader->source().arrival() + (pair->color.pts - impl_->color_shift).time_since_epoch();
   }
@@ -192,7 +192,7 @@ Result<void> PairReader::seek(MediaTime target, Duration key_step) {
   return impl_->passTo(target);
 }
 
-bool PairReader::lost(const Error& error) const noexcept {
+bool PairReader::isSourceLost(const Error& error) const noexcept {
   return impl_->isLoss(error) && impl_->failed_thing == impl_->options.url;
 }
 
@@ -204,7 +204,7 @@ Result<void> PairReader::reopen() {
   if (auto opened = film.openFilm(); !opened) return opened;
   ++film.counters.reconnects;
   if (!film.live) return film.goOn();
-  film.color_shift = film.resume - film.color_ahead.front().pts;
+  film.color_shift = film.goes_on_at - film.color_ahead.front().pts;
   for (Frame& frame : film.color_ahead) frame.pts += film.color_shift;
   film.depth_session.reset();  // what it is shifted by has changed
   return {};
@@ -229,7 +229,7 @@ void PairReader::close() noexcept {
   film.depth_session.reset();
   film.color_ahead.clear();
   film.color_shift = film.depth_shift = Duration(0);
-  film.resume = MediaTime{};
+  film.goes_on_at = MediaTime{};
   film.remote = film.live = film.depth_away = film.depth_lost = film.loss_told = false;
   film.counters = {};
   film.key_step = Duration(0);
@@ -261,14 +261,14 @@ PairCounters PairReader::counters() const noexcept {
   if (impl_->color_reader) {
     counters.damaged += impl_->color_reader->damaged();
     counters.jumps += impl_->color_reader->source().jumps();
-    counters.lost += impl_->color_reader->source().lost();
+    counters.missed_pictures += impl_->color_reader->source().missedPictures();
     counters.missing = impl_->color_reader->source().missing();
   }
   if (impl_->depth_source) {
     const DepthSource::Counters depth = impl_->depth_source->counters();
     counters.damaged += depth.damaged;
     counters.jumps += depth.jumps;
-    counters.lost += depth.lost;
+    counters.missed_pictures += depth.missed_pictures;
     counters.depth_reconnects = depth.reconnects;
     counters.depth_missing = depth.missing;
   }

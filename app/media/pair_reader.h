@@ -66,7 +66,7 @@ struct PairCounters {
   std::uint64_t depth_skipped = 0;     // depth frames that no colour frame asked for
   std::uint64_t damaged = 0;           // packets and pictures that the decoders dropped
   std::uint64_t jumps = 0;             // of the containers' times (ContinuousTime)
-  std::uint64_t lost = 0;              // pictures that the sources took and never handed out (MediaSource::lost)
+  std::uint64_t missed_pictures = 0;   // that the sources took and never handed out (MediaSource)
   std::uint64_t reconnects = 0;        // how often the colour's source was lost and found again
   std::uint64_t depth_reconnects = 0;  // of `depth_url`
   // Once a source has been read to its end: how much of its length was not there (MediaSource::missing).
@@ -79,10 +79,10 @@ struct PairCounters {
 // Pairs by timestamp, never by count, as DepthFollower says. Each source's time begins at its own zero, so that two
 // files begin together, whatever start times their containers hold.
 //
-// What fails in the colour is an error; where it is `lost`, `reopen` may find it again, and the film's times go on.
-// What fails in the depth ends the depth, with one warning: the film goes on without, until a seek finds it again, or,
-// where it comes over a network, DepthSource does. Depth that was asked for by name (`depth_url`) has to be there at
-// `open`.
+// What fails in the colour is an error; where `isSourceLost` says so, `reopen` may find the source again, and the
+// film's times go on. What fails in the depth ends the depth, with one warning: the film goes on without, until a seek
+// finds it again, or, where it comes over a network, DepthSource does. Depth that was asked for by name (`depth_url`)
+// has to be there at `open`.
 //
 // Two live sources are brought together by their sender's clock, where that is one; else by their arrival here.
 //
@@ -117,7 +117,7 @@ class PairReader {
   // the depth is nearest before each; such pairs are not counted as mismatched.
   [[nodiscard]] Result<void> seek(MediaTime target, Duration key_step = Duration(0));
   // After an error of a verb above: the colour's source has gone away and may come back.
-  [[nodiscard]] bool lost(const Error& error) const noexcept;
+  [[nodiscard]] bool isSourceLost(const Error& error) const noexcept;
   // Opens the colour's source anew, once. A film goes on where it was; a live one from what comes now, as if nothing
   // had been missed. After a failure only `reopen` and `close` are of use.
   [[nodiscard]] Result<void> reopen();

@@ -45,7 +45,7 @@ Json videoPart(const PlayReport& r) {
           {"pairs_mismatched", r.pairs.mismatched},
           {"pairs_without_depth", r.pairs.without_depth},
           {"pairs_damaged", r.pairs.damaged},
-          {"pictures_lost", r.pairs.lost},
+          {"pictures_lost", r.pairs.missed_pictures},
           {"reconnects", r.pairs.reconnects},
           {"depth_reconnects", r.pairs.depth_reconnects},
           {"time_jumps", r.pairs.jumps},
@@ -214,7 +214,7 @@ std::string toText(const PlayReport& r) {
         "live    seen %.0f ms after it was taken, felt after %.0f ms (medians; at most %.0f and %.0f); %llu pictures "
         "lost on the way\n",
         r.live->picture.p50_ms, r.live->touch.p50_ms, r.live->picture.max_ms, r.live->touch.max_ms,
-        static_cast<unsigned long long>(r.pairs.lost));
+        static_cast<unsigned long long>(r.pairs.missed_pictures));
   }
   if (h.ticks == 0) return text + "touch   none\n";
   text += textLine("touch   %s, %llu ticks at %.0f Hz (%s), %llu late, %.0f %% in contact\n", h.device.c_str(),

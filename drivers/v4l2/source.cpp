@@ -27,7 +27,7 @@ class V4l2Source final : public MediaSource {
     if (!wish) return std::unexpected(wish.error());
     if (auto opened = camera_.open(*wish); !opened) return std::unexpected(opened.error());
     auto first = camera_.take();
-    countLost(camera_.takeLost());
+    countMissed(camera_.takeLost());
     if (!first) return std::unexpected(first.error());
     begin_ = first->taken;
     Description description;
@@ -76,7 +76,7 @@ class V4l2Source final : public MediaSource {
   Result<std::optional<Packet>> readPacket() override {
     if (queue_.empty()) {
       auto picture = camera_.take();
-      countLost(camera_.takeLost());
+      countMissed(camera_.takeLost());
       if (!picture) return std::unexpected(picture.error());
       queue(std::move(*picture));
     }

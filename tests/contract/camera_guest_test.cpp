@@ -71,7 +71,7 @@ TEST_F(CameraGuest, EveryFormatComesWithTimesThatGrowAndNothingIsLost) {
       EXPECT_GT((*frame)->pts, last);
       last = (*frame)->pts;
     }
-    EXPECT_EQ(source->lost(), 0u);
+    EXPECT_EQ(source->missedPictures(), 0u);
   }
 }
 

@@ -147,8 +147,8 @@ TEST_F(CameraV4l2, EveryPictureComesOnceInOrderOrIsCountedAsLost) {
     if (!lost) expected.push_back(number);
   }
   EXPECT_EQ(came, expected);
-  EXPECT_EQ(source->lost(), 8u);
-  EXPECT_EQ(came.size() + source->lost(), camera.taken());
+  EXPECT_EQ(source->missedPictures(), 8u);
+  EXPECT_EQ(came.size() + source->missedPictures(), camera.taken());
 }
 
 // As fast as a real one, held for longer than it has buffers.
@@ -168,8 +168,8 @@ TEST_F(CameraV4l2, AtItsOwnPaceNothingIsLostUnseen) {
     held.push_back(std::move(*frame));
     if (held.size() > 24) held.erase(held.begin());
   }
-  EXPECT_EQ(source->lost(), last + 1 - kPictures) << "what is not there was counted";
-  EXPECT_EQ(source->lost(), camera.starved()) << "and nothing else was";
+  EXPECT_EQ(source->missedPictures(), last + 1 - kPictures) << "what is not there was counted";
+  EXPECT_EQ(source->missedPictures(), camera.starved()) << "and nothing else was";
 }
 
 TEST_F(CameraV4l2, HeldPicturesStayAsTheyAreAndDoNotStopTheCamera) {
@@ -180,7 +180,7 @@ TEST_F(CameraV4l2, HeldPicturesStayAsTheyAreAndDoNotStopTheCamera) {
     Reader depth(*source, 1);
     for (int i = 0; i < 40; ++i) held.push_back(depth.next().value());
   }
-  EXPECT_EQ(source->lost(), 0u);
+  EXPECT_EQ(source->missedPictures(), 0u);
   source->close();
   const auto expectAll = [&] {
     for (std::uint32_t i = 0; i < held.size(); ++i) ASSERT_EQ(numberOf(held[i]), i);

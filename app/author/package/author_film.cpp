@@ -258,7 +258,7 @@ Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader:
       if (live || (packager.begun() && filmKindOf(output.path) == FilmKind::Live)) break;
       return failOn(output.path, kCancelled);
     }
-    if (!pair && live && reader.lost(pair.error())) {
+    if (!pair && live && reader.isSourceLost(pair.error())) {
       log(LogLevel::Warning, source.url.c_str(), "%s; the film ends there", pair.error().message);
       break;
     }

@@ -67,7 +67,7 @@ std::vector<std::string> sourceNotes(const SourceOptions& source, const PairRead
   tell(notes, counters.without_depth, " pictures of the colour have no depth: its pictures begin later or end earlier");
   tell(notes, counters.mismatched, " pictures of the colour had no depth of their time; the one before was held");
   tell(notes, counters.depth_skipped, " pictures of the depth lay between those of the colour and were left out");
-  tell(notes, counters.lost, " pictures were lost between the camera and here");
+  tell(notes, counters.missed_pictures, " pictures were lost between the camera and here");
   tell(notes, counters.damaged, " packets or pictures were damaged and left out");
   tellLeftOut(notes, reader.info());
   tell(notes, interlaced,

@@ -40,7 +40,7 @@ FeltSurface::FeltSurface(const FeltScale& scale) noexcept
       wide_(scale.wide_mm, kWideSamples, scale.space, scale.wide_time),
       two_levels_(scale.wide_mm > scale.narrow_mm) {}
 
-RELIEVO_TICK_CODE bool FeltSurface::moment(const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
+RELIEVO_TICK_CODE bool FeltSurface::moveTo(const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
   if (window.count == 0) return false;
   read_before_ = blocksRead();
   const HeightField& field = window.frames[0].field;

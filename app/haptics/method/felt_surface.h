@@ -27,7 +27,7 @@ class FeltSurface {
   explicit FeltSurface(const FeltScale& scale) noexcept;
 
   // False: there is no frame. Not later than the next call, every frame that was in the window may be gone.
-  bool moment(const SurfaceWindow& window, MediaTime now) RELIEVO_RT;
+  bool moveTo(const SurfaceWindow& window, MediaTime now) RELIEVO_RT;
 
   [[nodiscard]] SurfacePoint at(double x_mm, double y_mm) RELIEVO_RT;
   [[nodiscard]] double height(double x_mm, double y_mm) RELIEVO_RT;
@@ -43,10 +43,10 @@ class FeltSurface {
   [[nodiscard]] std::uint64_t blocksRead() const RELIEVO_RT {
     return narrow_.grid().blocksRead() + wide_.grid().blocksRead();
   }
-  // More than kBlocksOfTick since `moment`.
+  // More than kBlocksOfTick since `moveTo`.
   [[nodiscard]] bool hasReadMuch() const RELIEVO_RT { return blocksRead() - read_before_ > kBlocksOfTick; }
 
-  // After `moment`, on the same window: what can be done ahead of a tick that is likely to come at `next`, with the
+  // After `moveTo`, on the same window: what can be done ahead of a tick that is likely to come at `next`, with the
   // proxy near (x, y). It holds as long as the frames that count are the same, though the window has gone on.
   void prepare(const SurfaceWindow& window, MediaTime next, double x_mm, double y_mm) RELIEVO_RT;
   // All but the control points: a tick that was prepared for needs none of them.

@@ -51,7 +51,7 @@ double RelievoMethod::depthMm() RELIEVO_RT {
 RELIEVO_TICK_CODE Touch RelievoMethod::update(const glm::dvec3& hip_mm, const SurfaceWindow& window,
                                               MediaTime now) RELIEVO_RT {
   Touch touch{.proxy_mm = hip_mm};
-  if (!surface_.moment(window, now)) {
+  if (!surface_.moveTo(window, now)) {
     had_surface_ = false;  // a surface that comes back is felt as it was before: `force_n_` stays
     return touch;
   }

@@ -7,10 +7,10 @@
 
 namespace relievo {
 
-void EnergyBooks::tick(const glm::dvec3& hip_mm, const glm::dvec3& spring_n, const glm::dvec3& wanted_n,
+void EnergyBooks::tick(const glm::dvec3& device_mm, const glm::dvec3& spring_n, const glm::dvec3& wanted_n,
                        const glm::dvec3& sent_n, double elapsed_s) RELIEVO_RT {
   if (primed_) {
-    const glm::dvec3 moved = hip_mm - hip_;
+    const glm::dvec3 moved = device_mm - last_device_mm_;
     // The proxy that the spring's force stands for: h + F/K.
     const glm::dvec3 proxy_moved = moved + (spring_n - spring_) / stiffness_;
     scene_ += 0.5 * glm::dot(spring_ + spring_n, proxy_moved);
@@ -28,7 +28,7 @@ void EnergyBooks::tick(const glm::dvec3& hip_mm, const glm::dvec3& spring_n, con
   } else {
     beginWay(wanted_n);
   }
-  hip_ = hip_mm;
+  last_device_mm_ = device_mm;
   spring_ = spring_n;
   sent_ = sent_n;
   primed_ = true;

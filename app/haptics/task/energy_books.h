@@ -23,8 +23,8 @@ class EnergyBooks {
 
   // Once a tick: the force of the spring as far as the scene may change it, the one that the method wanted, and the one
   // that is sent in its place and held until the next tick. `elapsed_s`: since the last tick.
-  void tick(const glm::dvec3& hip_mm, const glm::dvec3& spring_n, const glm::dvec3& wanted_n, const glm::dvec3& sent_n,
-            double elapsed_s) RELIEVO_RT;
+  void tick(const glm::dvec3& device_mm, const glm::dvec3& spring_n, const glm::dvec3& wanted_n,
+            const glm::dvec3& sent_n, double elapsed_s) RELIEVO_RT;
   void reset() RELIEVO_RT { primed_ = false; }
 
   [[nodiscard]] double sceneMj() const RELIEVO_RT { return scene_; }
@@ -40,7 +40,7 @@ class EnergyBooks {
 
   double stiffness_;
   bool primed_ = false;
-  glm::dvec3 hip_{0};
+  glm::dvec3 last_device_mm_{0};
   glm::dvec3 spring_{0}, sent_{0};
   // Since the position was last another one: what the method wanted there, and what was sent.
   glm::dvec3 wanted_{0}, held_ns_{0};

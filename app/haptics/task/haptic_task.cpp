@@ -59,7 +59,7 @@ void HapticTask::changeScene(TouchMethod& method, const DisplayVolume& volume, c
   scenes_before_mj_ += safety_.books().sceneMj();
   artefacts_before_mj_ += safety_.books().artefactMj();
   safety_ = SafetyFilter(within_device, stiffness_n_per_mm * mapping_.scale());
-  lost_ = false;
+  device_lost_ = false;
   primed_ = false;
   stale_ = false;
 }
@@ -69,7 +69,7 @@ LoopControl HapticTask::loop(const Cycle& cycle) RELIEVO_RT {
   noteLate(cycle);
   FingerState state;
   state.time = cycle.woken;
-  if (lost_) {
+  if (device_lost_) {
     publish(state);
     return LoopControl::Continue;
   }
@@ -87,15 +87,15 @@ LoopControl HapticTask::loop(const Cycle& cycle) RELIEVO_RT {
   state.device_present = true;
   state.device_mm = sample->position_mm;
   state.buttons = sample->buttons;
-  const WorkspaceMapping::Place place = mapping_.place(*sample);
-  state.hip_mm = place.hip_mm;
+  const WorkspaceMapping::Finger finger = mapping_.follow(*sample);
+  state.hip_mm = finger.hip_mm;
   state.media_time = window.clock.at(cycle.woken);
   const Touch touch = method_->update(state.hip_mm, window, state.media_time);
   noteFeed(isStale(window, state.media_time), cycle.woken);
   const double elapsed = primed_ ? toSeconds(cycle.woken - last_woken_) : 0.0;
   // Limits and energies are the hand's, in the device's frame.
-  const bool felt = !stale_ && !place.clutched;
-  const glm::dvec3 wanted = place.edge_force_n + (felt ? touch.force_n : glm::dvec3(0));
+  const bool felt = !stale_ && !finger.clutched;
+  const glm::dvec3 wanted = finger.edge_force_n + (felt ? touch.force_n : glm::dvec3(0));
   state.force_n = safety_.apply(wanted, sample->position_mm, elapsed);
   state.proxy_mm = touch.proxy_mm;
   state.contact = touch.contact;
@@ -129,7 +129,7 @@ void HapticTask::failed(const Error& error, MonotonicTime time) RELIEVO_RT {
   log_.push({.level = lost ? LogLevel::Info : LogLevel::Debug, .text = error.message});
   report(lost ? HapticFault::Kind::DeviceLost : HapticFault::Kind::DeviceError, time);
   if (!lost) return;
-  lost_ = true;
+  device_lost_ = true;
   primed_ = false;
   safety_.reset();
   method_->reset();

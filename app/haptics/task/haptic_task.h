@@ -52,7 +52,7 @@ class HapticTask final : public CyclicTask {
   LoopControl loop(const Cycle& cycle) RELIEVO_RT override;
 
   // A lost device is back. While no tick runs; the force begins at zero.
-  void resume() noexcept { lost_ = false; }
+  void deviceIsBack() noexcept { device_lost_ = false; }
   // Another film: its volume, and a method of its own. While no tick runs; the force begins at zero.
   void changeScene(TouchMethod& method, const DisplayVolume& volume, const SafetyLimits& limits,
                    double stiffness_n_per_mm) noexcept;
@@ -91,7 +91,7 @@ class HapticTask final : public CyclicTask {
   SafetyFilter safety_;
   double scenes_before_mj_ = 0, artefacts_before_mj_ = 0;  // of the scenes before the present one
   bool stale_ = false;
-  bool lost_ = false;
+  bool device_lost_ = false;
   bool primed_ = false;  // there was a tick before this one
   MonotonicTime last_woken_;
   std::uint64_t next_index_ = 0;

@@ -25,7 +25,7 @@ void SafetyFilter::reset() RELIEVO_RT {
   books_.reset();
 }
 
-glm::dvec3 SafetyFilter::apply(const glm::dvec3& wanted_n, const glm::dvec3& hip_mm, double elapsed_s) RELIEVO_RT {
+glm::dvec3 SafetyFilter::apply(const glm::dvec3& wanted_n, const glm::dvec3& device_mm, double elapsed_s) RELIEVO_RT {
   glm::dvec3 target = wanted_n;
   double size = glm::length(target);
   if (!std::isfinite(size)) {
@@ -34,7 +34,7 @@ glm::dvec3 SafetyFilter::apply(const glm::dvec3& wanted_n, const glm::dvec3& hip
   }
   if (size > limits_.force_n) target *= limits_.force_n / size;
 
-  glm::dvec3 moved = primed_ ? hip_mm - hip_mm_ : glm::dvec3(0);
+  glm::dvec3 moved = primed_ ? device_mm - last_device_mm_ : glm::dvec3(0);
   if (!std::isfinite(glm::dot(moved, moved))) moved = glm::dvec3(0);
 
   const double by_hand = stiffness_ * glm::length(moved);
@@ -50,10 +50,10 @@ glm::dvec3 SafetyFilter::apply(const glm::dvec3& wanted_n, const glm::dvec3& hip
   scene_slew_ = elapsed > 0 ? beyond_hand / elapsed : 0.0;
   spring_n_ = spring;
   sent_n_ = sent;
-  if (std::isfinite(glm::dot(hip_mm, hip_mm))) {
+  if (std::isfinite(glm::dot(device_mm, device_mm))) {
     primed_ = true;
-    hip_mm_ = hip_mm;
-    books_.tick(hip_mm, spring, target, sent, elapsed);
+    last_device_mm_ = device_mm;
+    books_.tick(device_mm, spring, target, sent, elapsed);
   }
   return sent;
 }

@@ -33,9 +33,10 @@ class SafetyFilter {
   SafetyFilter(const SafetyLimits& limits, double stiffness_n_per_mm) noexcept
       : limits_(limits), stiffness_(stiffness_n_per_mm), books_(stiffness_n_per_mm) {}
 
-  // The force to send, given what the method asks for. `hip_mm`: where the finger is; `elapsed_s`: since the last tick.
-  // Starts from zero after `reset`.
-  [[nodiscard]] glm::dvec3 apply(const glm::dvec3& wanted_n, const glm::dvec3& hip_mm, double elapsed_s) RELIEVO_RT;
+  // The force to send, given what the method asks for. `device_mm`: where the handle is, in the
+  // device's frame, as the forces are; `elapsed_s`: since the last
+  // tick. Starts from zero after `reset`.
+  [[nodiscard]] glm::dvec3 apply(const glm::dvec3& wanted_n, const glm::dvec3& device_mm, double elapsed_s) RELIEVO_RT;
   void reset() RELIEVO_RT;
 
   // How fast the scene changed the force in the last `apply`: (|change| - stiffness x moved)/elapsed, at least 0.
@@ -50,7 +51,7 @@ class SafetyFilter {
   double stiffness_ = 0;
   EnergyBooks books_;
   bool primed_ = false;  // there was a tick before this one
-  glm::dvec3 hip_mm_{0};
+  glm::dvec3 last_device_mm_{0};
   glm::dvec3 spring_n_{0};  // limited in all but the artefacts' energy
   glm::dvec3 sent_n_{0};
   glm::dvec3 lean_n_{0};

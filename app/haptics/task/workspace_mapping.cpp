@@ -18,22 +18,22 @@ WorkspaceMapping::WorkspaceMapping(const HapticCapabilities& device, const Displ
   offset_mm_ = glm::dvec3(0, 0, 0.5 * volume.depth_mm) - scale_ * 0.5 * (min_mm_ + max_mm_);
 }
 
-WorkspaceMapping::Place WorkspaceMapping::place(const HapticSample& sample) RELIEVO_RT {
+WorkspaceMapping::Finger WorkspaceMapping::follow(const HapticSample& sample) RELIEVO_RT {
   const glm::dvec3 hip_mm = scale_ * sample.position_mm + offset_mm_;
   const bool pressed = (sample.buttons & kClutchButton) != 0;
   if (pressed && !clutched_) held_mm_ = hip_mm;
   if (pressed) offset_mm_ += held_mm_ - hip_mm;
   clutched_ = pressed;
 
-  Place place{.hip_mm = pressed ? held_mm_ : hip_mm, .clutched = pressed};
+  Finger finger{.hip_mm = pressed ? held_mm_ : hip_mm, .clutched = pressed};
   for (int axis = 0; axis < 3; ++axis) {
     const double p = sample.position_mm[axis];
     const double low = min_mm_[axis] + kEdgeMm - p, high = p - (max_mm_[axis] - kEdgeMm);
     // Past the end the force stays what it is there.
-    if (low > 0) place.edge_force_n[axis] = kEdgeStiffnessNPerMm * std::min(low, kEdgeMm);
-    if (high > 0) place.edge_force_n[axis] = -kEdgeStiffnessNPerMm * std::min(high, kEdgeMm);
+    if (low > 0) finger.edge_force_n[axis] = kEdgeStiffnessNPerMm * std::min(low, kEdgeMm);
+    if (high > 0) finger.edge_force_n[axis] = -kEdgeStiffnessNPerMm * std::min(high, kEdgeMm);
   }
-  return place;
+  return finger;
 }
 
 }  // namespace relievo

@@ -24,13 +24,13 @@ class WorkspaceMapping {
   // Scene millimetres per device millimetre, 1 or more.
   [[nodiscard]] double scale() const noexcept { return scale_; }
 
-  struct Place {
+  struct Finger {
     glm::dvec3 hip_mm{0};        // scene frame
     bool clutched = false;       // the finger feels nothing
     glm::dvec3 edge_force_n{0};  // on the hand, where the device nears the end of its workspace
   };
   // Once a tick.
-  [[nodiscard]] Place place(const HapticSample& sample) RELIEVO_RT;
+  [[nodiscard]] Finger follow(const HapticSample& sample) RELIEVO_RT;
   // The device's position for a place of the scene, as the mapping is now.
   [[nodiscard]] glm::dvec3 deviceAt(const glm::dvec3& scene_mm) const noexcept {
     return (scene_mm - offset_mm_) / scale_;

@@ -81,7 +81,7 @@ Result<void> HapticSession::start(const DisplayVolume& volume, const SurfaceFeed
   SurfaceWindow window;
   first.fill(window);
   if (!new_scene_) {
-    task_->resume();
+    task_->deviceIsBack();
   } else if (auto set = setScene(volume, window); !set) {
     stop();  // not the device's doing: another try would fail as well
     return set;

@@ -90,7 +90,7 @@ TEST(TouchPlan, TellsWhatNoiseLeavesHoweverFineThePictureIs) {
     double sum = 0;
     int places = 0;
     for (int k = 0; k < 10; ++k) {
-      ASSERT_TRUE(felt.moment(window, mediaTime((2 + 0.1 * k) * kPeriod)));
+      ASSERT_TRUE(felt.moveTo(window, mediaTime((2 + 0.1 * k) * kPeriod)));
       for (double y = -9; y <= 9; y += 1.2) {
         for (double x = -14; x <= 14; x += 1.2, ++places) {
           const SurfacePoint at = felt.at(x, y);

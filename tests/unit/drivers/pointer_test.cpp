@@ -212,10 +212,10 @@ TEST_F(WindowPointerTest, TheFingerIsThereWhateverThePicturesShape) {
                                       DisplayVolume{160, 284, 40}, DisplayVolume{320, 90, 40}}) {
     const double mm_a_px = std::max(volume.width_mm / 1280, volume.height_mm / 720);
     WorkspaceMapping mapping(device_->capabilities(), volume);
-    const glm::dvec3 hip_mm = mapping.place(sample).hip_mm;
+    const glm::dvec3 hip_mm = mapping.follow(sample).hip_mm;
     EXPECT_NEAR(hip_mm.x, 200 * mm_a_px, 0.05) << volume.width_mm << " x " << volume.height_mm;
     EXPECT_NEAR(hip_mm.y, 100 * mm_a_px, 0.05) << volume.width_mm << " x " << volume.height_mm;
-    EXPECT_EQ(mapping.place(sample).edge_force_n, glm::dvec3(0));
+    EXPECT_EQ(mapping.follow(sample).edge_force_n, glm::dvec3(0));
   }
 }
 

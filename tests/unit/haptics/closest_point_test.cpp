@@ -24,7 +24,7 @@ class ClosestPointTest : public testing::Test {
   void relief(Height&& height) {
     frame_ = test::makeReliefFrame(720, 486, kVolume, {}, height);
     window_ = test::makeWindow(std::span(&frame_, 1), kVolume);
-    ASSERT_TRUE(surface_.moment(window_, {}));
+    ASSERT_TRUE(surface_.moveTo(window_, {}));
   }
   double distance(double x, double y, const glm::dvec3& hip) {
     return glm::distance(glm::dvec3(x, y, surface_.height(x, y)), hip);

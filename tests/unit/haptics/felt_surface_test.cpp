@@ -38,7 +38,7 @@ TEST(FeltSurface, GivesAMovingPlaneBackExactly) {
     std::uniform_real_distribution<double> x(-50, 50), y(-40, 40), t(2 * kPeriod, 3 * kPeriod);
     for (int i = 0; i < 300; ++i) {
       const double px = x(random), py = y(random), pt = t(random);
-      ASSERT_TRUE(s.moment(w, mediaTime(pt)));
+      ASSERT_TRUE(s.moveTo(w, mediaTime(pt)));
       const SurfacePoint p = s.at(px, py);
       ASSERT_NEAR(p.z, 20 + 0.2 * px - 0.1 * py + 30 * pt, 1e-3) << "half a code is 0.0003 mm";
       ASSERT_NEAR(p.zx, 0.2, 1e-3);
@@ -64,7 +64,7 @@ TEST(FeltSurface, ItsDerivativesAreThoseOfItsHeightAlsoAtAnEdge) {
   int off = 0;
   for (int i = 0; i < 2000; ++i) {
     const double py = y(random), px = 10 + 0.3 * py + beside(random);
-    ASSERT_TRUE(s.moment(w, mediaTime(0.08)));
+    ASSERT_TRUE(s.moveTo(w, mediaTime(0.08)));
     const SurfacePoint p = s.at(px, py), e = s.at(px + kStep, py), o = s.at(px - kStep, py), n = s.at(px, py + kStep),
                        u = s.at(px, py - kStep);
     // A cubic's third derivative jumps from cell to cell: a difference across a jump is off.
@@ -89,11 +89,11 @@ TEST(FeltSurface, WhatWasPreparedIsWhatWouldHaveBeenComputed) {
   double t = 0.07;
   for (int i = 0; i < 100; ++i) {
     const double px = x(random), py = y(random), next = t + 0.001;
-    ASSERT_TRUE(ahead.moment(w, mediaTime(t)));
+    ASSERT_TRUE(ahead.moveTo(w, mediaTime(t)));
     ahead.prepare(w, mediaTime(next), px, py);
     t = next + jitter(random);
-    ASSERT_TRUE(ahead.moment(w, mediaTime(t)));
-    ASSERT_TRUE(plain.moment(w, mediaTime(t)));
+    ASSERT_TRUE(ahead.moveTo(w, mediaTime(t)));
+    ASSERT_TRUE(plain.moveTo(w, mediaTime(t)));
     ASSERT_NEAR(ahead.at(px, py).z, plain.at(px, py).z, 1e-4) << i;
     ASSERT_NEAR(ahead.at(px, py).zx, plain.at(px, py).zx, 1e-3) << i;
   }
@@ -108,7 +108,7 @@ TEST(FeltSurface, FramesThatComeAndGoAreNotMixedUp) {
     const SurfaceWindow w = makeWindow(std::span(frames).subspan(static_cast<std::size_t>(k) - 2, 8), kVolume);
     for (const double share : {0.0, 0.3, 0.9}) {
       const double t = (k + share) * kPeriod;
-      ASSERT_TRUE(s.moment(w, mediaTime(t)));
+      ASSERT_TRUE(s.moveTo(w, mediaTime(t)));
       ASSERT_NEAR(s.at(1.5 * k, 3).z, 1 + (k + share) * 0.9, 2e-3) << k << ' ' << share;
       s.prepare(w, mediaTime(t + 0.001), 1.5 * k + 1, 3);
     }
@@ -124,7 +124,7 @@ TEST(FeltSurface, HolesAndThePicturesOutsideArePitsAndLoneHolesAreNot) {
   });
   const SurfaceWindow w = makeWindow(std::span(&frame, 1), kVolume, holes);
   FeltSurface s({});
-  ASSERT_TRUE(s.moment(w, {}));
+  ASSERT_TRUE(s.moveTo(w, {}));
   const GridMapping grid(kVolume, kCols, kRows);
   const double level = 128.0 / 255 * 40;
   EXPECT_NEAR(s.height(grid.x(220), grid.y(120)), -40, 1e-4) << "in the hole";
@@ -151,7 +151,7 @@ TEST(FeltSurface, AStepKeepsItsCornerWithinAMillimetreAndFlatGroundIsFlat) {
   const auto frames = film(6, [](double x, double y, double) { return x > 3.07 + 0.3 * y ? 25.0 : 10.0; }, 720, 486);
   const SurfaceWindow w = makeWindow(frames, kVolume);
   FeltSurface s({});
-  ASSERT_TRUE(s.moment(w, mediaTime(0.08)));
+  ASSERT_TRUE(s.moveTo(w, mediaTime(0.08)));
   for (double y = -15; y < 15; y += 0.7) {
     const double edge = 3.07 + 0.3 * y;
     ASSERT_LE(cornerError(s, edge, y), 0.9) << y;
@@ -168,9 +168,9 @@ TEST(FeltSurface, AnEdgeThatMovesIsInOnePlaceBetweenTheFrames) {
     FeltSurface s({});
     for (double t = 2.0 * kPeriod; t < 3 * kPeriod; t += 0.0031) {
       for (const double y : {-7.0, 0.4, 8.0}) {
-        ASSERT_TRUE(s.moment(w, mediaTime(t - 0.001)));
+        ASSERT_TRUE(s.moveTo(w, mediaTime(t - 0.001)));
         s.prepare(w, mediaTime(t), edge(y, t) + 1, y);
-        ASSERT_TRUE(s.moment(w, mediaTime(t)));
+        ASSERT_TRUE(s.moveTo(w, mediaTime(t)));
         ASSERT_LE(cornerError(s, edge(y, t), y), 0.9) << speed << " mm/s at " << t;
       }
     }
@@ -185,7 +185,7 @@ TEST(FeltSurface, AnotherEpochOrSizeAtTheSameTimesIsAnotherPicture) {
   const auto heightOn = [&](const std::vector<Frame>& frames, std::uint32_t epoch) {
     SurfaceWindow w = makeWindow(frames, kVolume);
     w.epoch = epoch;
-    EXPECT_TRUE(s.moment(w, mediaTime(0.04)));
+    EXPECT_TRUE(s.moveTo(w, mediaTime(0.04)));
     return s.height(1, 2);
   };
   EXPECT_NEAR(heightOn(flat(10, kCols, kRows), 0), 10, 1e-3);
@@ -199,10 +199,10 @@ TEST(FeltSurface, WhatWasPreparedDoesNotOutliveItsFrames) {
   const SurfaceWindow early = makeWindow(std::span(frames).first(3), kVolume), whole = makeWindow(frames, kVolume);
   FeltSurface ahead({}), plain({});
   const double t = 2.5 * kPeriod;
-  ASSERT_TRUE(ahead.moment(early, mediaTime(t - 0.001)));
+  ASSERT_TRUE(ahead.moveTo(early, mediaTime(t - 0.001)));
   ahead.prepare(early, mediaTime(t), 0, 0);
-  ASSERT_TRUE(ahead.moment(whole, mediaTime(t)));
-  ASSERT_TRUE(plain.moment(whole, mediaTime(t)));
+  ASSERT_TRUE(ahead.moveTo(whole, mediaTime(t)));
+  ASSERT_TRUE(plain.moveTo(whole, mediaTime(t)));
   EXPECT_NEAR(ahead.height(0, 0), plain.height(0, 0), 1e-5) << "the next frames have come";
 }
 
@@ -213,10 +213,10 @@ TEST(FeltSurface, WhatWasPreparedHoldsThoughTheWindowGoesOn) {
   const SurfaceWindow moved = makeWindow(std::span(frames).subspan(1), kVolume);
   FeltSurface ahead({}), plain({});
   const double next = 3 * kPeriod + 0.0005, late = next + 0.00025;
-  ASSERT_TRUE(ahead.moment(early, mediaTime(next - 0.001)));
+  ASSERT_TRUE(ahead.moveTo(early, mediaTime(next - 0.001)));
   ahead.prepare(early, mediaTime(next), 0, 0);
-  ASSERT_TRUE(ahead.moment(moved, mediaTime(late)));
-  ASSERT_TRUE(plain.moment(moved, mediaTime(late)));
+  ASSERT_TRUE(ahead.moveTo(moved, mediaTime(late)));
+  ASSERT_TRUE(plain.moveTo(moved, mediaTime(late)));
   const double beside = std::abs(ahead.height(0, 0) - plain.height(0, 0));
   EXPECT_GT(beside, 1e-4) << "worked out anew";
   EXPECT_LT(beside, 2e-3);
@@ -229,9 +229,9 @@ TEST(FeltSurface, WhatWasPreparedHoldsBetweenTwoFramesOnly) {
   const double second = 2 * kPeriod;
   const auto height = [&](double prepared_for, double now) {
     FeltSurface s({.narrow_time = TimeLaw::Hold, .wide_time = TimeLaw::Hold});
-    EXPECT_TRUE(s.moment(w, mediaTime(prepared_for - 0.001)));
+    EXPECT_TRUE(s.moveTo(w, mediaTime(prepared_for - 0.001)));
     s.prepare(w, mediaTime(prepared_for), 0, 0);
-    EXPECT_TRUE(s.moment(w, mediaTime(now)));
+    EXPECT_TRUE(s.moveTo(w, mediaTime(now)));
     return s.height(0, 0);
   };
   EXPECT_NEAR(height(second - 0.0001, second + 0.0001), 30, 1e-3) << "the next frame's time has come";
@@ -243,10 +243,10 @@ TEST(FeltSurface, ATickThatComesLateDoesNotGoByWhatWasPrepared) {
   const auto frames = film(8, [](double, double, double t) { return 20 + 8 * std::sin(60 * t); });
   const SurfaceWindow w = makeWindow(frames, kVolume);
   FeltSurface late({}), plain({});
-  ASSERT_TRUE(late.moment(w, mediaTime(0.101)));
+  ASSERT_TRUE(late.moveTo(w, mediaTime(0.101)));
   late.prepare(w, mediaTime(0.102), 0, 0);
-  ASSERT_TRUE(late.moment(w, mediaTime(0.125)));
-  ASSERT_TRUE(plain.moment(w, mediaTime(0.125)));
+  ASSERT_TRUE(late.moveTo(w, mediaTime(0.125)));
+  ASSERT_TRUE(plain.moveTo(w, mediaTime(0.125)));
   EXPECT_NEAR(late.height(0, 0), plain.height(0, 0), 1e-5);
 }
 
@@ -267,9 +267,9 @@ TEST(FeltSurface, AHoleThatOpensOrClosesIsNotCarriedOn) {
     for (double c = 194; c < 206; c += 1.5) {
       for (const double beside : {-0.0004, 0.0004}) {
         FeltSurface s({});
-        ASSERT_TRUE(s.moment(w, mediaTime(t)));
+        ASSERT_TRUE(s.moveTo(w, mediaTime(t)));
         s.prepare(w, mediaTime(t + 0.001), grid.x(c), grid.y(120));
-        ASSERT_TRUE(s.moment(w, mediaTime(t + 0.001 + beside)));
+        ASSERT_TRUE(s.moveTo(w, mediaTime(t + 0.001 + beside)));
         const double z = s.height(grid.x(c), grid.y(120));
         ASSERT_TRUE(z >= -40.01 && z <= ground + 0.3) << z << " mm at " << t << " s, sample " << c;
       }
@@ -305,7 +305,7 @@ TEST(FeltSurface, AFilmThatStandsStillCostsWhatAPictureDoes) {
     for (double t = 0; t < 0.6; t += 0.001) {
       const SurfaceWindow w = windowAt(frames, frames.size() == 1 ? 0 : t);
       const glm::dvec2 here = strokeAt(t), next = strokeAt(t + 0.001);
-      EXPECT_TRUE(s.moment(w, mediaTime(t)));
+      EXPECT_TRUE(s.moveTo(w, mediaTime(t)));
       static_cast<void>(s.at(here.x, here.y));
       s.prepare(w, mediaTime(t + 0.001), next.x, next.y);
       read.push_back(s.blocksRead());
@@ -326,7 +326,7 @@ TEST(FeltSurface, AFrameThatIsSaidToRepeatIsNotCompared) {
   FeltSurface s({});
   double first = 0;
   for (double t = 0.001; t < kPeriod; t += 0.004) {
-    ASSERT_TRUE(s.moment(w, mediaTime(t)));
+    ASSERT_TRUE(s.moveTo(w, mediaTime(t)));
     const double here = s.height(3.8, 0);
     if (t < 0.002) first = here;
     EXPECT_NEAR(here, first, 1e-4) << t;
@@ -346,8 +346,8 @@ TEST(FeltSurface, MotionAfterStillnessIsTheMotionThatItWas) {
     for (double t = 0; t < 0.75; t += 0.001) {
       const glm::dvec2 here = strokeAt(t), next = strokeAt(t + 0.001);
       const SurfaceWindow w = windowAt(frames, t), u = windowAt(unmarked, t);
-      ASSERT_TRUE(merged.moment(w, mediaTime(t)));
-      ASSERT_TRUE(plain.moment(u, mediaTime(t)));
+      ASSERT_TRUE(merged.moveTo(w, mediaTime(t)));
+      ASSERT_TRUE(plain.moveTo(u, mediaTime(t)));
       ASSERT_NEAR(merged.height(here.x, here.y), plain.height(here.x, here.y), 2e-4) << name(law) << ' ' << t;
       merged.prepare(w, mediaTime(t + 0.001), next.x, next.y);
       plain.prepare(u, mediaTime(t + 0.001), next.x, next.y);

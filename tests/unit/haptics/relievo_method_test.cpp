@@ -151,7 +151,7 @@ TEST_F(RelievoMethodTest, AThinWallHoldsTheFingerAlsoNearItsTop) {
     film(0.6, [&](double x, double, double) { return wall(x); });
     const SurfaceWindow still = picture([&](double x, double) { return wall(x); });
     FeltSurface felt{FeltScale{}};
-    ASSERT_TRUE(felt.moment(still, {}));
+    ASSERT_TRUE(felt.moveTo(still, {}));
     const double top = felt.height(middle, 0);
     static_cast<void>(tick(0, {-8, 0, top - 2}));
     double x = -8;

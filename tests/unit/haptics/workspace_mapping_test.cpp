@@ -19,14 +19,14 @@ HapticCapabilities workspace(const glm::dvec3& min_mm, const glm::dvec3& max_mm)
 TEST(WorkspaceMapping, ADeviceThatIsLargeEnoughIsAsItIs) {
   WorkspaceMapping mapping(workspace({-100, -80, -40}, {100, 80, 80}), kVolume);
   EXPECT_EQ(mapping.scale(), 1);
-  EXPECT_EQ(mapping.place({{10, -20, 30}, 0}).hip_mm, glm::dvec3(10, -20, 30));
+  EXPECT_EQ(mapping.follow({{10, -20, 30}, 0}).hip_mm, glm::dvec3(10, -20, 30));
 }
 
 TEST(WorkspaceMapping, ASmallOneReachesThePicturesCornersBeforeItsSoftEdges) {
   // The Falcon: 100 mm each way, 92 of them free; its z is 75 to 175.
   WorkspaceMapping mapping(workspace({-50, -50, 75}, {50, 50, 175}), kVolume);
   EXPECT_DOUBLE_EQ(mapping.scale(), 160.0 / 92);
-  const auto corner = mapping.place({{46, 46 * 90 / 160.0, 125}, 0});
+  const auto corner = mapping.follow({{46, 46 * 90 / 160.0, 125}, 0});
   EXPECT_NEAR(corner.hip_mm.x, 80, 1e-9);
   EXPECT_NEAR(corner.hip_mm.y, 45, 1e-9);
   EXPECT_NEAR(corner.hip_mm.z, 20, 1e-9) << "the middle of one is the middle of the other";
@@ -36,30 +36,30 @@ TEST(WorkspaceMapping, ASmallOneReachesThePicturesCornersBeforeItsSoftEdges) {
 
 TEST(WorkspaceMapping, TheClutchHoldsTheFingerWhileTheDeviceMoves) {
   WorkspaceMapping mapping(workspace({-50, -50, 75}, {50, 50, 175}), kVolume);
-  const glm::dvec3 before = mapping.place({{40, 0, 125}, 0}).hip_mm;
+  const glm::dvec3 before = mapping.follow({{40, 0, 125}, 0}).hip_mm;
   for (double x = 40; x >= -20; x -= 1) {
-    const auto held = mapping.place({{x, 0, 125}, kClutch});
+    const auto held = mapping.follow({{x, 0, 125}, kClutch});
     ASSERT_TRUE(held.clutched);
     ASSERT_NEAR(glm::distance(held.hip_mm, before), 0, 1e-9);
   }
-  const auto after = mapping.place({{-20, 0, 125}, 0});
+  const auto after = mapping.follow({{-20, 0, 125}, 0});
   EXPECT_FALSE(after.clutched);
   EXPECT_NEAR(glm::distance(after.hip_mm, before), 0, 1e-9) << "no leap when it is let go";
-  EXPECT_NEAR(mapping.place({{-10, 0, 125}, 0}).hip_mm.x - before.x, 10 * mapping.scale(), 1e-9);
-  EXPECT_NEAR(mapping.deviceAt(mapping.place({{5, 6, 99}, 0}).hip_mm).y, 6, 1e-9);
+  EXPECT_NEAR(mapping.follow({{-10, 0, 125}, 0}).hip_mm.x - before.x, 10 * mapping.scale(), 1e-9);
+  EXPECT_NEAR(mapping.deviceAt(mapping.follow({{5, 6, 99}, 0}).hip_mm).y, 6, 1e-9);
 }
 
 TEST(WorkspaceMapping, OtherButtonsAreNoClutch) {
   WorkspaceMapping mapping(workspace({-100, -80, -40}, {100, 80, 80}), kVolume);
-  EXPECT_FALSE(mapping.place({{0, 0, 0}, 1U | 4U | 8U}).clutched);
+  EXPECT_FALSE(mapping.follow({{0, 0, 0}, 1U | 4U | 8U}).clutched);
 }
 
 TEST(WorkspaceMapping, TheEdgesPushBackSoftlyAndNeverMoreThanAtTheEnd) {
   WorkspaceMapping mapping(workspace({-100, -80, -40}, {100, 80, 80}), kVolume);
-  EXPECT_EQ(mapping.place({{95.9, 0, 0}, 0}).edge_force_n, glm::dvec3(0));
-  EXPECT_NEAR(mapping.place({{98, 0, 0}, 0}).edge_force_n.x, -0.4, 1e-12);
-  EXPECT_NEAR(mapping.place({{-99, 0, 0}, 0}).edge_force_n.x, 0.6, 1e-12);
-  EXPECT_NEAR(mapping.place({{0, 0, 300}, 0}).edge_force_n.z, -0.8, 1e-12);
+  EXPECT_EQ(mapping.follow({{95.9, 0, 0}, 0}).edge_force_n, glm::dvec3(0));
+  EXPECT_NEAR(mapping.follow({{98, 0, 0}, 0}).edge_force_n.x, -0.4, 1e-12);
+  EXPECT_NEAR(mapping.follow({{-99, 0, 0}, 0}).edge_force_n.x, 0.6, 1e-12);
+  EXPECT_NEAR(mapping.follow({{0, 0, 300}, 0}).edge_force_n.z, -0.8, 1e-12);
 }
 
 }  // namespace

@@ -635,7 +635,7 @@ TEST(PairReader, TwoLiveSourcesMeetAnewAfterTheColourWasAway) {
   Result<std::optional<FramePair>> pair = reader.next();
   MediaTime last;
   for (; pair; pair = reader.next()) last = (*pair)->color.pts;
-  ASSERT_TRUE(reader.lost(pair.error()));
+  ASSERT_TRUE(reader.isSourceLost(pair.error()));
   clock.advance(milliseconds(1600));
   ASSERT_TRUE(reader.reopen().has_value());
   pair = reader.next();
