@@ -50,20 +50,33 @@ double RelievoMethod::depthMm() RELIEVO_RT {
 
 RELIEVO_TICK_CODE Touch RelievoMethod::update(const glm::dvec3& hip_mm, const SurfaceWindow& window,
                                               MediaTime now) RELIEVO_RT {
-  Touch touch{.proxy_mm = hip_mm};
   if (!surface_.moveTo(window, now)) {
     had_surface_ = false;  // a surface that comes back is felt as it was before: `force_n_` stays
-    return touch;
+    return {.proxy_mm = hip_mm};
   }
-  if (!isFinite(hip_mm)) return touch;  // a tick left out: the next one goes on from the last place
+  if (!isFinite(hip_mm)) return {.proxy_mm = hip_mm};  // a tick left out: the next one goes on from the last place
+  const bool other_scene = isOtherScene(window);
+  const Contact before = contact_;
+  const bool continues = state_ == State::Contact && !other_scene;
+  changeState(hip_mm, other_scene);
+  const Touch touch = touchAt(hip_mm);
+  if (lowered_mm_ > 0) settleLowering(hip_mm);
+  foresee(hip_mm, before, continues);
+  hip_mm_ = hip_mm;
+  return touch;
+}
+
+// Than in the tick before; this one's is noted.
+RELIEVO_TICK_CODE bool RelievoMethod::isOtherScene(const SurfaceWindow& window) RELIEVO_RT {
   const std::uint32_t shot = surface_.shot();
-  const bool other_scene = !had_surface_ || window.epoch != epoch_ || shot != shot_;
+  const bool other = !had_surface_ || window.epoch != epoch_ || shot != shot_;
   had_surface_ = true;
   epoch_ = window.epoch;
   shot_ = shot;
+  return other;
+}
 
-  const Contact before = contact_;
-  const bool continues = state_ == State::Contact && !other_scene;
+RELIEVO_TICK_CODE void RelievoMethod::changeState(const glm::dvec3& hip_mm, bool other_scene) RELIEVO_RT {
   if (state_ == State::Unknown) {
     lowered_mm_ = 0;
     state_ = inside(hip_mm) ? State::Buried : State::Free;
@@ -72,33 +85,43 @@ RELIEVO_TICK_CODE Touch RelievoMethod::update(const glm::dvec3& hip_mm, const Su
   } else if (state_ == State::Buried) {
     if (!inside(hip_mm)) state_ = State::Free;
   } else if (state_ == State::Contact) {
-    // The finger moves against a surface that rises as it did in the tick before: the guess saves a look at the surface
-    // where that is fast.
-    const glm::dvec3 moved = hip_mm - hip_mm_ - glm::dvec3(0, 0, rise_mm_);
-    const glm::dvec2 step = predictedStep(contact_, hip_mm_, moved, lowered_mm_);
-    contact_.x_mm += step.x;
-    contact_.y_mm += step.y;
-    // From a wall's side a guess of more than a sample may lead over its edge.
-    if (isWall(before) && glm::dot(step, step) > surface_.sampleMm() * surface_.sampleMm()) contact_ = before;
-    slide(hip_mm, SlideUntil::MuchRead);
-    // A long jump that came out further away than staying would have been has left the finger's side of a ridge.
-    if (glm::dot(step, step) > 4 * surface_.sampleMm() * surface_.sampleMm()) {
-      const glm::dvec3 stayed(before.x_mm, before.y_mm, before.surface.z - lowered_mm_);
-      if (glm::distance(proxy(), hip_mm) > glm::distance(stayed, hip_mm) + surface_.sampleMm()) {
-        contact_ = before;
-        slide(hip_mm, SlideUntil::MuchRead);
-      }
-    }
-    if (sweptAway(hip_mm)) {
-      contact_.x_mm = hip_mm.x;
-      contact_.y_mm = hip_mm.y;
-      slide(hip_mm, SlideUntil::MuchRead);
-    }
+    slideAlong(hip_mm);
     follow(proxy(), hip_mm);
   } else {
     follow(hip_mm_, hip_mm);
   }
+  if (state_ != State::Contact) on_its_way_ = false;
+}
 
+// The finger moves against a surface that rises as it did in the tick before: a guess where the proxy goes saves a look
+// at the surface where that is fast.
+RELIEVO_TICK_CODE void RelievoMethod::slideAlong(const glm::dvec3& hip_mm) RELIEVO_RT {
+  const Contact before = contact_;
+  const double sample2 = surface_.sampleMm() * surface_.sampleMm();
+  const glm::dvec3 moved = hip_mm - hip_mm_ - glm::dvec3(0, 0, rise_mm_);
+  const glm::dvec2 step = predictedStep(contact_, hip_mm_, moved, lowered_mm_);
+  contact_.x_mm += step.x;
+  contact_.y_mm += step.y;
+  // From a wall's side a guess of more than a sample may lead over its edge.
+  if (isWall(before) && glm::dot(step, step) > sample2) contact_ = before;
+  slide(hip_mm, SlideUntil::MuchRead);
+  // A long jump that came out further away than staying would have been has left the finger's side of a ridge.
+  if (glm::dot(step, step) > 4 * sample2) {
+    const glm::dvec3 stayed(before.x_mm, before.y_mm, before.surface.z - lowered_mm_);
+    if (glm::distance(proxy(), hip_mm) > glm::distance(stayed, hip_mm) + surface_.sampleMm()) {
+      contact_ = before;
+      slide(hip_mm, SlideUntil::MuchRead);
+    }
+  }
+  if (sweptAway(hip_mm)) {
+    contact_.x_mm = hip_mm.x;
+    contact_.y_mm = hip_mm.y;
+    slide(hip_mm, SlideUntil::MuchRead);
+  }
+}
+
+RELIEVO_TICK_CODE Touch RelievoMethod::touchAt(const glm::dvec3& hip_mm) RELIEVO_RT {
+  Touch touch{.proxy_mm = hip_mm};
   if (state_ == State::Contact) {
     rub(hip_mm);
     touch.contact = true;
@@ -111,7 +134,13 @@ RELIEVO_TICK_CODE Touch RelievoMethod::update(const glm::dvec3& hip_mm, const Su
     state_ = State::Buried;
   }
   force_n_ = touch.force_n;
-  if (lowered_mm_ > 0) settleLowering(hip_mm);
+  return touch;
+}
+
+// Where the next tick will look, and how the surface rises there. `before`: the contact of the last tick, if this one
+// continues it.
+RELIEVO_TICK_CODE void RelievoMethod::foresee(const glm::dvec3& hip_mm, const Contact& before,
+                                              bool continues) RELIEVO_RT {
   const bool sliding = state_ == State::Contact;
   rise_mm_ = sliding && continues ? riseBetween(before, contact_) : 0;
   const glm::dvec2 here = sliding ? glm::dvec2(contact_.x_mm, contact_.y_mm) : glm::dvec2(hip_mm.x, hip_mm.y);
@@ -119,8 +148,6 @@ RELIEVO_TICK_CODE Touch RelievoMethod::update(const glm::dvec3& hip_mm, const Su
                           : sliding            ? here
                                                : glm::dvec2(hip_mm_.x, hip_mm_.y);
   ahead_mm_ = 2.0 * here - last;
-  hip_mm_ = hip_mm;
-  return touch;
 }
 
 void RelievoMethod::upkeep(const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
@@ -169,7 +196,7 @@ void RelievoMethod::enterScene(const glm::dvec3& hip_mm) RELIEVO_RT {
 // A wall that has gone over the finger and on takes the proxy with it, although the way out is by now much shorter
 // elsewhere: straight up. Only where the scene did it: a finger that pushes itself deep into a wall stays at that wall,
 // also when it rests there or is read in every other tick only, and when it leaps further than the search goes in a
-// tick: the proxy is on its own way until it has arrived.
+// tick: the proxy is on the way that the finger has sent it until it has arrived.
 RELIEVO_TICK_CODE bool RelievoMethod::sweptAway(const glm::dvec3& hip_mm) RELIEVO_RT {
   constexpr double kFurtherMm = 3, kCarriedMm = 0.5;
   const glm::dvec2 place(contact_.x_mm, contact_.y_mm);

@@ -56,6 +56,11 @@ class RelievoMethod final : public TouchMethod {
     Contact,
   };
   [[nodiscard]] bool inside(const glm::dvec3& place_mm) RELIEVO_RT;
+  [[nodiscard]] bool isOtherScene(const SurfaceWindow& window) RELIEVO_RT;
+  void changeState(const glm::dvec3& hip_mm, bool other_scene) RELIEVO_RT;
+  void slideAlong(const glm::dvec3& hip_mm) RELIEVO_RT;
+  [[nodiscard]] Touch touchAt(const glm::dvec3& hip_mm) RELIEVO_RT;
+  void foresee(const glm::dvec3& hip_mm, const Contact& before, bool continues) RELIEVO_RT;
   void enterScene(const glm::dvec3& hip_mm) RELIEVO_RT;
   void slide(const glm::dvec3& hip_mm, SlideUntil until) RELIEVO_RT;
   [[nodiscard]] bool sweptAway(const glm::dvec3& hip_mm) RELIEVO_RT;

@@ -324,6 +324,26 @@ TEST_F(RelievoMethodTest, AWallThatHasGoneOverTheFingerDoesNotTakeTheProxyAlong)
   EXPECT_GT(pushed, 400) << "and it is pushed all the while that it is inside";
 }
 
+TEST_F(RelievoMethodTest, AWallThatSweepsOverAFingerThatLeapsDoesNotTakeTheProxyAlong) {
+  // The block again, wavy and grainy; every 60 ticks the finger leaps by 5 mm along it, and between the leaps it rests.
+  film(1, [](double x, double y, double t) {
+    const double q = x + 0.8 * std::sin(1.3 * y) + 45 - 80 * t;
+    const double rough = 0.4 * std::sin(7 * x) * std::sin(6 * y);
+    return (q > -60 && q < 0 ? 25.0 : 10.0) + rough;
+  });
+  static_cast<void>(tick(0, {0, 0, 30}));
+  int carried = 0, pushed = 0;
+  for (int i = 1; i < 1000; ++i) {
+    const glm::dvec3 hip(0, i / 60 % 2 == 0 ? 0 : 5, 17);
+    const Touch touch = tick(i * kTick, hip);
+    const bool arrived = i % 60 > 20;
+    if (arrived && glm::distance(touch.proxy_mm, hip) > 8 + 3 + 2) ++carried;
+    if (touch.contact) ++pushed;
+  }
+  EXPECT_EQ(carried, 0) << "ticks with the proxy much further away than straight up";
+  EXPECT_GT(pushed, 400);
+}
+
 TEST_F(RelievoMethodTest, OneReadingThatIsNoneLeavesTheFingerWhereItWas) {
   film(0.2, [](double, double, double) { return 20.0; });
   const double nan = std::numeric_limits<double>::quiet_NaN();
