@@ -53,12 +53,30 @@ void copyTurned(const Walk& from, Size size, std::uint8_t* to) noexcept {
         const std::uint8_t* in = from.first + r * from.down + c0 * from.right;
         std::uint8_t* out = to + (std::ptrdiff_t{r} * size.cols + c0) * kBytes;
         for (int c = c0; c < std::min(c0 + kBlock, size.cols); ++c, in += from.right, out += kBytes) {
-          out[0] = in[0];
-          if constexpr (kBytes == 2) out[1] = in[1];
+          for (int i = 0; i < kBytes; ++i) out[i] = in[i];
         }
       }
     }
   }
+}
+
+void copyTurned(const Walk& from, Size size, int bytes, std::uint8_t* to) noexcept {
+  switch (bytes) {
+    case 1:
+      return copyTurned<1>(from, size, to);
+    case 2:
+      return copyTurned<2>(from, size, to);
+    case 3:
+      return copyTurned<3>(from, size, to);
+    default:
+      return copyTurned<4>(from, size, to);
+  }
+}
+
+// Red, green and blue of 8 bits in pixels of 3 or 4 bytes: they stay together, since hue depth is read from such.
+bool isPackedRgb(const Frame& frame) noexcept {
+  const Component& first = frame.components[0];
+  return frame.model == ColorModel::Rgb && first.bits == 8 && (first.step_bytes == 3 || first.step_bytes == 4);
 }
 
 }  // namespace
@@ -73,9 +91,12 @@ Result<Frame> turned(const Frame& frame, int quarter_turns) noexcept {
   upright.planes = {};
   upright.dma_bufs = {};
   upright.dma_modifier.reset();
-  upright.plane_count = frame.model == ColorModel::Gray ? 1 : 3;
+  const bool packed = isPackedRgb(frame);
+  upright.plane_count = frame.model == ColorModel::Gray || packed ? 1 : 3;
 
-  const auto bytesOf = [&](std::size_t i) { return frame.components[i].bits > 8 ? 2 : 1; };
+  const auto bytesOf = [&](std::size_t i) {
+    return packed ? frame.components[0].step_bytes : frame.components[i].bits > 8 ? 2 : 1;
+  };
   std::size_t bytes = 0;
   for (std::size_t i = 0; i < upright.plane_count; ++i) {
     const Size size = sizeOf(upright, i);
@@ -91,11 +112,12 @@ Result<Frame> turned(const Frame& frame, int quarter_turns) noexcept {
   std::uint8_t* at = memory.get();
   for (std::size_t i = 0; i < upright.plane_count; ++i) {
     const Size size = sizeOf(upright, i);
-    const Walk walk = walkOf(frame, i, quarter_turns);
-    if (bytesOf(i) == 2) copyTurned<2>(walk, size, at);
-    else copyTurned<1>(walk, size, at);
+    Walk walk = walkOf(frame, i, quarter_turns);
+    if (packed) walk.first -= frame.components[i].offset_bytes;  // of a pixel, not of its red
+    copyTurned(walk, size, bytesOf(i), at);
     upright.planes[i].data = at;
     at += upright.planes[i].stride_bytes * size.rows;
+    if (packed) break;
     Component& c = upright.components[i];
     c = {.plane = static_cast<std::uint8_t>(i),
          .offset_bytes = 0,

@@ -8,7 +8,7 @@
 namespace relievo {
 
 // The picture, turned clockwise by so many quarter turns (1 to 3): a copy in memory of its own, a plane for each
-// component, every sample with the value it had. Exhausted without memory.
+// component (packed RGB of 8 bits stays packed), every sample with the value it had. Exhausted without memory.
 [[nodiscard]] Result<Frame> turned(const Frame& frame, int quarter_turns) noexcept;
 
 }  // namespace relievo

@@ -47,6 +47,29 @@ TEST(Turned, GrayOfTwelveBitsInTwoBytesKeepsEverySample) {
   }
 }
 
+// Hue depth is read from pixels of 3 or 4 bytes: BGRA stays what it is.
+TEST(Turned, PackedRgbStaysPacked) {
+  constexpr int kCols = 5, kRows = 3;
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(kCols) * 4 * kRows);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i + 1);
+  Frame frame;
+  frame.width = kCols, frame.height = kRows;
+  frame.model = ColorModel::Rgb;
+  frame.plane_count = 1;
+  for (std::uint8_t i = 0; i < 3; ++i) {
+    frame.components[i] = {.offset_bytes = static_cast<std::uint8_t>(2 - i), .step_bytes = 4};
+  }
+  frame.planes[0] = {bytes.data(), std::ptrdiff_t{4} * kCols};
+  for (int turns = 1; turns <= 3; ++turns) {
+    const Frame after = turned(frame, turns).value();
+    EXPECT_EQ(after.plane_count, 1);
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_EQ(after.components[static_cast<std::size_t>(i)].step_bytes, 4);
+      expectTurned(frame, after, turns, i, kCols, kRows);
+    }
+  }
+}
+
 // YUYV: the three components share a plane, and two columns share their chroma.
 TEST(Turned, PackedColourKeepsItsChroma) {
   constexpr int kCols = 6, kRows = 4;
