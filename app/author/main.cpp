@@ -10,7 +10,7 @@
 #include "app/cli/options.h"
 #include "app/cli/output_guard.h"
 #include "app/cli/program.h"
-#include "app/cli/text.h"
+#include "app/cli/progress_line.h"
 #include "drivers/registry.h"
 #include "platform/clock.h"
 

@@ -12,11 +12,12 @@
 #include "app/cli/options.h"
 #include "app/cli/output_guard.h"
 #include "app/cli/program.h"
-#include "app/cli/text.h"
+#include "app/cli/progress_line.h"
 #include "app/lab/chart/report.h"
 #include "app/lab/measure/measurement.h"
 #include "app/lab/trace/trace.h"
 #include "drivers/registry.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "app/player/screen/text_line.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {
@@ -201,29 +201,29 @@ std::string metricsOf(const PlayReport& r) {
 std::string toText(const PlayReport& r) {
   const HapticSummary& h = r.haptic;
   const auto us = [](std::int64_t ns) { return static_cast<double>(ns) * 1e-3; };
-  std::string text = textLine("film    %.2f s shown in %.2f s, first picture after %.0f ms\n", r.media_s, r.wall_s,
-                              r.first_frame_ms.value_or(0));
-  text += textLine(
+  std::string text = print("film    %.2f s shown in %.2f s, first picture after %.0f ms\n", r.media_s, r.wall_s,
+                           r.first_frame_ms.value_or(0));
+  text += print(
       "video   %llu frames shown, %llu dropped, %llu pairs mismatched; %s, %s, %d x %d, %zu triangles, %.1f "
       "ms a frame\n",
       static_cast<unsigned long long>(r.frames_shown), static_cast<unsigned long long>(r.frames_dropped),
       static_cast<unsigned long long>(r.pairs.mismatched), r.display.c_str(), r.stereo.c_str(), r.surface_width,
       r.surface_height, r.triangles, r.draw_ms);
   if (r.live) {
-    text += textLine(
+    text += print(
         "live    seen %.0f ms after it was taken, felt after %.0f ms (medians; at most %.0f and %.0f); %llu pictures "
         "lost on the way\n",
         r.live->picture.p50_ms, r.live->touch.p50_ms, r.live->picture.max_ms, r.live->touch.max_ms,
         static_cast<unsigned long long>(r.pairs.missed_pictures));
   }
   if (h.ticks == 0) return text + "touch   none\n";
-  text += textLine("touch   %s, %llu ticks at %.0f Hz (%s), %llu late, %.0f %% in contact\n", h.device.c_str(),
-                   static_cast<unsigned long long>(h.ticks), h.rate_hz, h.scheduler.c_str(),
-                   static_cast<unsigned long long>(h.overruns), 100 * share(h.contact_ticks, h.ticks));
+  text += print("touch   %s, %llu ticks at %.0f Hz (%s), %llu late, %.0f %% in contact\n", h.device.c_str(),
+                static_cast<unsigned long long>(h.ticks), h.rate_hz, h.scheduler.c_str(),
+                static_cast<unsigned long long>(h.overruns), 100 * share(h.contact_ticks, h.ticks));
   text += "felt    " + h.plan + "\n";
-  text += textLine("tick    median %.1f us, p99 %.1f us, longest %.1f us; woken late by %.1f us (p99)\n",
-                   us(h.update.p50), us(h.update.p99), us(h.update.max), us(h.wakeup.p99));
-  text += textLine(
+  text += print("tick    median %.1f us, p99 %.1f us, longest %.1f us; woken late by %.1f us (p99)\n", us(h.update.p50),
+                us(h.update.p99), us(h.update.max), us(h.wakeup.p99));
+  text += print(
       "force   at most %.2f N; the scene changed it by at most %.0f N/s; energy %.2f mJ scene, %.2f mJ artefacts\n",
       h.max_force_n, h.max_scene_slew_n_per_s, h.scene_mj, h.artefact_mj);
   return text;

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/cli/text.h"
 #include "app/scene/height_field.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {

@@ -9,8 +9,8 @@
 #include <filesystem>
 
 #include "app/author/package/film_kind.h"
-#include "app/cli/text.h"
 #include "app/scene/display_volume.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Counts and signals of a source as lines for its author.
 #include "app/author/package/source_notes.h"
-
-#include "app/cli/text.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {

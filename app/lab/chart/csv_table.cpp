@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "app/cli/text.h"
 #include "platform/atomic_file.h"
+#include "platform/print.h"
 
 namespace relievo {
 

@@ -8,9 +8,9 @@
 #include <iterator>
 #include <optional>
 
-#include "app/cli/text.h"
 #include "app/lab/chart/chart.h"
 #include "platform/atomic_file.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {

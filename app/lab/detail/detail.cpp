@@ -6,13 +6,13 @@
 #include <limits>
 #include <utility>
 
-#include "app/cli/text.h"
 #include "app/lab/detail/detail_tables.h"
 #include "app/lab/detail/detail_touch.h"
 #include "app/lab/detail/drawing_stage.h"
 #include "app/lab/detail/silhouette_film.h"
 #include "app/lab/film/coded_depth.h"
 #include "app/lab/film/parallel.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "app/cli/text.h"
 #include "app/lab/chart/csv_table.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {

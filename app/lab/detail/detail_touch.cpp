@@ -2,11 +2,11 @@
 // Each level's film is made of the one that came from the coder.
 #include "app/lab/detail/detail_touch.h"
 
-#include "app/cli/text.h"
 #include "app/lab/detail/drawn_depth.h"
 #include "app/lab/film/parallel.h"
 #include "app/lab/finger/finger_paths.h"
 #include "app/lab/measure/contenders.h"
+#include "platform/print.h"
 
 namespace relievo {
 

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <filesystem>
 
-#include "app/cli/text.h"
 #include "app/enhance/depth_map.h"
 #include "app/enhance/depth_mesh.h"
 #include "app/lab/chart/csv_table.h"
 #include "app/lab/film/depth_rendering.h"
 #include "app/lab/film/parallel.h"
 #include "app/lab/trace/depth_film.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {

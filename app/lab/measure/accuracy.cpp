@@ -2,9 +2,9 @@
 // One film per scene and kind of depth serves all contenders.
 #include "app/lab/measure/accuracy.h"
 
-#include "app/cli/text.h"
 #include "app/lab/film/parallel.h"
 #include "app/lab/finger/finger_paths.h"
+#include "platform/print.h"
 
 namespace relievo {
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <string_view>
 
-#include "app/cli/text.h"
 #include "app/lab/chart/csv_table.h"
 #include "app/lab/film/coded_depth.h"
 #include "app/lab/film/parallel.h"
@@ -14,6 +13,7 @@
 #include "app/lab/finger/finger_paths.h"
 #include "app/lab/measure/accuracy.h"
 #include "app/lab/measure/contenders.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {

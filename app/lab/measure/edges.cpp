@@ -10,11 +10,11 @@
 #include <optional>
 #include <string_view>
 
-#include "app/cli/text.h"
 #include "app/lab/chart/csv_table.h"
 #include "app/lab/film/parallel.h"
 #include "app/lab/measure/accuracy.h"
 #include "app/lab/measure/contenders.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {

@@ -8,7 +8,6 @@
 #include <limits>
 #include <optional>
 
-#include "app/cli/text.h"
 #include "app/enhance/enhancer.h"
 #include "app/lab/chart/csv_table.h"
 #include "app/lab/detail/mesh_points.h"
@@ -17,6 +16,7 @@
 #include "app/lab/film/sensor_depth.h"
 #include "app/lab/finger/finger_paths.h"
 #include "app/lab/measure/accuracy.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {

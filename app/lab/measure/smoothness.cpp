@@ -9,13 +9,13 @@
 #include <iterator>
 #include <limits>
 
-#include "app/cli/text.h"
 #include "app/lab/chart/csv_table.h"
 #include "app/lab/film/parallel.h"
 #include "app/lab/finger/finger_paths.h"
 #include "app/lab/finger/held_finger.h"
 #include "app/lab/measure/accuracy.h"
 #include "app/lab/measure/spectrum.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "app/cli/text.h"
 #include "app/lab/finger/finger_paths.h"
 #include "app/lab/measure/speed_accuracy_tables.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "app/cli/text.h"
 #include "app/lab/chart/csv_table.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {

@@ -6,11 +6,11 @@
 #include <array>
 #include <cmath>
 
-#include "app/cli/text.h"
 #include "app/lab/chart/csv_table.h"
 #include "app/lab/film/parallel.h"
 #include "app/lab/scenario/loop_onset.h"
 #include "app/lab/scenario/scenarios.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/media/depth_reading.h"
+#include "app/media/reading/depth_reading.h"
 #include "app/media/track_reader.h"
 #include "app/scene/height_field.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "app/player/screen/stereo_word.h"
-#include "app/player/screen/text_line.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {
@@ -122,11 +122,11 @@ std::string wordsOf(const PlayerCommand& command) {
     case PlayerVerb::SeekBy:
     case PlayerVerb::DepthBy:
     case PlayerVerb::ScreenBy:
-      return word + textLine(" %+.6g", command.value);
+      return word + print(" %+.6g", command.value);
     case PlayerVerb::SeekTo:
-      return word + textLine(" %.6g", command.value);
+      return word + print(" %.6g", command.value);
     case PlayerVerb::SeekShare:
-      return word + textLine(" %.6g%%", 100 * command.value);
+      return word + print(" %.6g%%", 100 * command.value);
     case PlayerVerb::Loop:
       return command.value == 0 ? word : word + (command.value > 0 ? " on" : " off");
     case PlayerVerb::Open:
@@ -152,11 +152,11 @@ std::string commandWords() {
 std::string meaningOf(const PlayerCommand& command) {
   const Entry& entry = entryOf(command.verb);
   if (command.verb == PlayerVerb::SeekBy) {
-    return textLine("%.6g s %s", std::abs(command.value), command.value < 0 ? "back" : "forward");
+    return print("%.6g s %s", std::abs(command.value), command.value < 0 ? "back" : "forward");
   }
-  if (command.verb == PlayerVerb::SeekTo) return textLine("to %.6g s", command.value);
-  if (command.verb == PlayerVerb::SeekShare) return textLine("to %.6g %% of the film", 100 * command.value);
-  if (entry.operand == Operand::Step) return textLine("%+.6g %s", command.value, entry.meaning);
+  if (command.verb == PlayerVerb::SeekTo) return print("to %.6g s", command.value);
+  if (command.verb == PlayerVerb::SeekShare) return print("to %.6g %% of the film", 100 * command.value);
+  if (entry.operand == Operand::Step) return print("%+.6g %s", command.value, entry.meaning);
   if (command.verb == PlayerVerb::Loop && command.value != 0) {
     return command.value > 0 ? "begin again at the end" : "do not begin again at the end";
   }

@@ -10,8 +10,8 @@
 #include <cerrno>
 #include <vector>
 
-#include "app/player/screen/text_line.h"
 #include "hal/key_names.h"
+#include "platform/print.h"
 #include "platform/whole_file.h"
 
 namespace relievo {
@@ -185,7 +185,7 @@ Outcome<void> KeyTable::add(std::string_view text, const std::string& file) {
       const auto code = keyCode(word);
       if (!code) {
         const std::string nearest(nearestKeyName(word));
-        return reader.wrong(row, nearest.empty() ? word : textLine("%s (%s?)", word.c_str(), nearest.c_str()),
+        return reader.wrong(row, nearest.empty() ? word : print("%s (%s?)", word.c_str(), nearest.c_str()),
                             "is no key's name; relievo play --help lists the names");
       }
       auto binding = reader.binding(row);
@@ -220,11 +220,11 @@ std::string KeyTable::help() const {
     else line->second += " " + key;
   };
   for (std::size_t t = 0; t <= kPlayerStateCount; ++t) {
-    const std::string when = t == kAlways ? "" : textLine(" (%s)", name(static_cast<PlayerState>(t)));
+    const std::string when = t == kAlways ? "" : print(" (%s)", name(static_cast<PlayerState>(t)));
     for (const auto& [code, binding] : tables_[t]) {
       const std::string key(keyName(code));
       put(binding.press, key + when);
-      put(binding.hold, textLine("%s (held)%s", key.c_str(), when.c_str()));
+      put(binding.hold, print("%s (held)%s", key.c_str(), when.c_str()));
     }
   }
   std::ranges::stable_sort(lines, {}, [](const auto& line) { return line.first.verb; });

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "app/player/player.h"
-#include "app/player/screen/text_line.h"
 #include "platform/log.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {
@@ -283,7 +283,7 @@ bool Player::draw(MonotonicTime now) {
     return false;
   }
   if (const char* why = picture_.takeRefusal()) {
-    note(std::string("stereo: ") + why, textLine("shown as %s", name(picture_.stereo().layout)));
+    note(std::string("stereo: ") + why, print("shown as %s", name(picture_.stereo().layout)));
   }
   if (*shown == Picture::Shown::Lost) noteLost();
   if (*shown == Picture::Shown::Back) note("display back", "the picture is on it again");

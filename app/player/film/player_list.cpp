@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "app/player/player.h"
-#include "app/player/screen/text_line.h"
 #include "platform/log.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {
@@ -117,13 +117,12 @@ void Player::endOfFilm(MonotonicTime now) {
 void Player::noteMissing() {
   const auto noteOne = [this](const std::string& url, Duration missing, const char* done) {
     if (missing <= Duration(0)) return;
-    note(textLine("%s breaks off %.1f s before its end, cut off or damaged", url.c_str(), toSeconds(missing)), done);
+    note(print("%s breaks off %.1f s before its end, cut off or damaged", url.c_str(), toSeconds(missing)), done);
   };
   const PairCounters pairs = feed_.counters();
   if (pairs.damaged > 0) {
-    note(
-        textLine("%llu pictures of %s are damaged", static_cast<unsigned long long>(pairs.damaged), film().url.c_str()),
-        "what could be decoded was shown");
+    note(print("%llu pictures of %s are damaged", static_cast<unsigned long long>(pairs.damaged), film().url.c_str()),
+         "what could be decoded was shown");
   }
   noteOne(film().url, pairs.missing, "what is there was played");
   noteOne(film().depth_url, pairs.depth_missing, "from there on the picture was flat, without force");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the player tells of sources that are lost and found again, and of decoders that begin anew.
 #include "app/player/player.h"
-#include "app/player/screen/text_line.h"
+#include "platform/print.h"
 
 namespace relievo {
 
@@ -13,7 +13,7 @@ void Player::followSource() {
     switch (news->kind) {
       case Kind::ColorLost:
         note(url + " lost: " + news->why,
-             textLine("it is opened again; after %.0f s without it the film stops", toSeconds(FilmFeed::kPatience)),
+             print("it is opened again; after %.0f s without it the film stops", toSeconds(FilmFeed::kPatience)),
              news->time);
         break;
       case Kind::DepthLost:

@@ -8,8 +8,8 @@
 
 #include "app/depth_window/shots.h"
 #include "app/player/report.h"
-#include "app/player/screen/text_line.h"
 #include "app/scene/height_field.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {
@@ -85,9 +85,9 @@ std::vector<std::string> needsOf(const ProbeResult& r) {
   const FilmInfo& f = r.film;
   std::vector<std::string> needs;
   const double pixels = double(f.color_width) * f.color_height + double(f.depth_width) * f.depth_height;
-  needs.push_back(textLine("a decoder for %s%s%s, %.1f million pixels a second; %s is at hand", f.color_codec.c_str(),
-                           f.depth_codec.empty() ? "" : " and ", f.depth_codec.c_str(),
-                           1e-6 * pixels * framesPerSecond(f), r.decoder.c_str()));
+  needs.push_back(print("a decoder for %s%s%s, %.1f million pixels a second; %s is at hand", f.color_codec.c_str(),
+                        f.depth_codec.empty() ? "" : " and ", f.depth_codec.c_str(), 1e-6 * pixels * framesPerSecond(f),
+                        r.decoder.c_str()));
   if (!f.has_depth) {
     needs.push_back("depth, to be felt: give --depth FILE, or --packing sbs or tb when the picture holds both");
     return needs;
@@ -98,12 +98,12 @@ std::vector<std::string> needsOf(const ProbeResult& r) {
   }
   if (r.depth.highest_mm - r.depth.lowest_mm < 0.25 * r.volume.depth_mm) {
     needs.push_back(
-        textLine("more relief: it takes up %.1f of %.0f mm; try --calibration range=.. or law=inverse,near=MM,far=MM",
-                 r.depth.highest_mm - r.depth.lowest_mm, r.volume.depth_mm));
+        print("more relief: it takes up %.1f of %.0f mm; try --calibration range=.. or law=inverse,near=MM,far=MM",
+              r.depth.highest_mm - r.depth.lowest_mm, r.volume.depth_mm));
   }
   if (r.depth.holes > 0.02) {
-    needs.push_back(textLine("holes filled: %.0f %% of the depth samples are holes, and a hole cannot be touched",
-                             100 * r.depth.holes));
+    needs.push_back(print("holes filled: %.0f %% of the depth samples are holes, and a hole cannot be touched",
+                          100 * r.depth.holes));
   }
   if (r.pairs.mismatched > 0) needs.push_back("depth frames at the colour frames' times: some are missing");
   return needs;
@@ -120,8 +120,8 @@ std::string titleOf(const StreamInfo& s) {
 
 std::string describe(const StreamInfo& s) {
   const char* const kind = s.kind == StreamKind::Video ? "video" : s.kind == StreamKind::Audio ? "audio" : "other";
-  std::string text = textLine("%d %s %s", s.index, kind, s.codec.c_str());
-  if (s.kind == StreamKind::Video) text += textLine(" %d x %d", s.width, s.height);
+  std::string text = print("%d %s %s", s.index, kind, s.codec.c_str());
+  if (s.kind == StreamKind::Video) text += print(" %d x %d", s.width, s.height);
   if (s.auxiliary) text += ", signalled as depth by its stream type";
   const std::string title = titleOf(s);
   return title.empty() ? text : text + " \"" + title + "\"";
@@ -163,22 +163,22 @@ std::string probeToText(const ProbeResult& r) {
   std::string text = trackLines(r);
   if (r.failure) return text;
   const FilmInfo& f = r.film;
-  text += textLine("color   %s %d x %d, %.3g frames a second", f.color_codec.c_str(), f.color_width, f.color_height,
-                   framesPerSecond(f));
-  text += f.duration > Duration(0) ? textLine(", %.2f s\n", toSeconds(f.duration)) : std::string(", length unknown\n");
+  text += print("color   %s %d x %d, %.3g frames a second", f.color_codec.c_str(), f.color_width, f.color_height,
+                framesPerSecond(f));
+  text += f.duration > Duration(0) ? print(", %.2f s\n", toSeconds(f.duration)) : std::string(", length unknown\n");
   if (f.has_depth) {
-    text += textLine("depth   %s %d x %d, packing %s\n", f.depth_codec.c_str(), f.depth_width, f.depth_height,
-                     name(f.packing));
+    text += print("depth   %s %d x %d, packing %s\n", f.depth_codec.c_str(), f.depth_width, f.depth_height,
+                  name(f.packing));
     for (const std::string& line : f.reading) text += "looks   " + line + "\n";
     text += "meaning " + f.calibration.explanation + "\n";
-    text += textLine("relief  codes %u to %u, %.1f to %.1f mm, %.1f %% holes in the first %d pictures\n",
-                     r.depth.lowest_code, r.depth.highest_code, r.depth.lowest_mm, r.depth.highest_mm,
-                     100 * r.depth.holes, r.depth.pairs);
+    text +=
+        print("relief  codes %u to %u, %.1f to %.1f mm, %.1f %% holes in the first %d pictures\n", r.depth.lowest_code,
+              r.depth.highest_code, r.depth.lowest_mm, r.depth.highest_mm, 100 * r.depth.holes, r.depth.pairs);
     if (r.touch) text += "touch   " + r.touch->reason + "\n";
   } else {
     text += "depth   none\n";
   }
-  text += textLine("volume  %.0f x %.0f x %.0f mm\n", r.volume.width_mm, r.volume.height_mm, r.volume.depth_mm);
+  text += print("volume  %.0f x %.0f x %.0f mm\n", r.volume.width_mm, r.volume.height_mm, r.volume.depth_mm);
   for (const std::string& doubt : f.doubts) text += "doubt   " + doubt + "\n";
   for (const std::string& need : r.needs) text += "needs   " + need + "\n";
   return text;

@@ -6,15 +6,15 @@
 #include <utility>
 
 #include "app/player/screen/stereo_word.h"
-#include "app/player/screen/text_line.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {
 
 std::string clockTime(double seconds) {
   const auto whole = static_cast<long>(std::max(0.0, seconds));
-  if (whole >= 3600) return textLine("%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
-  return textLine("%ld:%02ld", whole / 60, whole % 60);
+  if (whole >= 3600) return print("%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
+  return print("%ld:%02ld", whole / 60, whole % 60);
 }
 
 // What there is to say beside the time.
@@ -23,8 +23,8 @@ std::string wordsOf(const ScreenFacts& facts) {
   const auto add = [&words](const std::string& word) { words += "   " + word; };
   if (facts.held) add("paused");
   else if (facts.state != PlayerState::Playing) add(name(facts.state));
-  if (facts.rate != 1) add(facts.rate > 1 ? textLine("%gx", facts.rate) : textLine("1/%gx", 1 / facts.rate));
-  if (facts.films > 1) add(textLine("film %zu of %zu", facts.film, facts.films));
+  if (facts.rate != 1) add(facts.rate > 1 ? print("%gx", facts.rate) : print("1/%gx", 1 / facts.rate));
+  if (facts.films > 1) add(print("film %zu of %zu", facts.film, facts.films));
   if (facts.loop) add("again and again");
   return words;
 }
@@ -33,7 +33,7 @@ std::string stereoLine(const ScreenFacts& facts) {
   std::string line = "3D: " + stereoWord(facts.stereo);
   if (!facts.has_depth) return line + ", flat: the film has no depth";
   if (facts.stereo.swap_eyes) line += ", eyes swapped";
-  if (facts.stereo.strength != 1.0) line += textLine(", depth %.0f %%", 100 * facts.stereo.strength);
+  if (facts.stereo.strength != 1.0) line += print(", depth %.0f %%", 100 * facts.stereo.strength);
   return line;
 }
 

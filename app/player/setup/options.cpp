@@ -12,8 +12,8 @@
 #include "app/cli/program.h"
 #include "app/player/control/key_table.h"
 #include "app/player/screen/stereo_word.h"
-#include "app/player/screen/text_line.h"
 #include "app/player/setup/config_options.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {
@@ -175,7 +175,7 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
       .add_option_function<std::string>(
           "--size", [&play](const std::string& word) { play.player.display = readSize(word); },
           "Pixels of the picture; of kms a mode that the screen has, else its favourite")
-      ->default_str(textLine("%dx%d", play.player.display.width, play.player.display.height))
+      ->default_str(print("%dx%d", play.player.display.width, play.player.display.height))
       ->type_name("WxH");
   addStereoOptions(command, play.player.stereo);
   addBackEnd(command, "--haptic", play.haptic, "haptic device", names.haptic, "What the finger holds");

@@ -6,8 +6,8 @@
 #include <atomic>
 
 #include "app/player/player.h"
-#include "app/player/screen/text_line.h"
 #include "app/render/gl/glyphs.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {
@@ -61,15 +61,15 @@ SelfTestLine soundDecoders(const PairReader::Backends& backends) {
 SelfTestLine display(const PlayReport& report) {
   if (report.frames_shown == 0) return {Verdict::Bad, "display", "not one picture was shown"};
   return {Verdict::Good, "display",
-          textLine("%s, %dx%d, %llu pictures, %zu triangles, drawn in %.1f ms", report.display.c_str(),
-                   report.surface_width, report.surface_height, static_cast<unsigned long long>(report.frames_shown),
-                   report.triangles, report.draw_ms)};
+          print("%s, %dx%d, %llu pictures, %zu triangles, drawn in %.1f ms", report.display.c_str(),
+                report.surface_width, report.surface_height, static_cast<unsigned long long>(report.frames_shown),
+                report.triangles, report.draw_ms)};
 }
 
 SelfTestLine touch(const HapticSummary& haptic) {
-  const std::string said = textLine("%s, %llu ticks, force up to %.2f N, %llu allocations", haptic.device.c_str(),
-                                    static_cast<unsigned long long>(haptic.ticks), haptic.max_force_n,
-                                    static_cast<unsigned long long>(haptic.allocations));
+  const std::string said = print("%s, %llu ticks, force up to %.2f N, %llu allocations", haptic.device.c_str(),
+                                 static_cast<unsigned long long>(haptic.ticks), haptic.max_force_n,
+                                 static_cast<unsigned long long>(haptic.allocations));
   if (haptic.ticks == 0) return {Verdict::Bad, "touch", "the haptic task did not run"};
   const bool good = haptic.max_force_n > kFelt_n && haptic.max_force_n <= kMost_n && haptic.allocations == 0;
   if (good) return {Verdict::Good, "touch", said};

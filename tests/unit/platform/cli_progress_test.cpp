@@ -2,7 +2,7 @@
 // How the programs tell that they are at work, on a terminal and elsewhere, in simulated time.
 #include <gtest/gtest.h>
 
-#include "app/cli/text.h"
+#include "app/cli/progress_line.h"
 #include "platform/clock.h"
 
 namespace relievo {

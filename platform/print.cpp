@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measured first, so that no path is too long.
-#include "app/player/screen/text_line.h"
+#include "platform/print.h"
 
 #include <cstdarg>
 #include <cstdio>
 
 namespace relievo {
 
-std::string textLine(const char* format, ...) {
+std::string print(const char* format, ...) {
   va_list arguments;
   va_start(arguments, format);
   va_list again;

@@ -6,6 +6,6 @@
 
 namespace relievo {
 
-[[gnu::format(printf, 1, 2)]] [[nodiscard]] std::string textLine(const char* format, ...);
+[[gnu::format(printf, 1, 2)]] [[nodiscard]] std::string print(const char* format, ...);
 
 }  // namespace relievo

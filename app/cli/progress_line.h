@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Words for people: formatted text, and a line that tells how far the work is.
+// A line that tells how far the work is.
 #pragma once
 
 #include <unistd.h>
 
-#include <cstdarg>
 #include <cstdio>
 #include <string>
 
@@ -12,16 +11,6 @@
 #include "platform/log.h"
 
 namespace relievo {
-
-// snprintf into a string, at most 1 kB.
-[[gnu::format(printf, 1, 2)]] [[nodiscard]] inline std::string print(const char* format, ...) {
-  char text[1024];
-  std::va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return text;
-}
 
 // How far the work is: on a terminal one line on stderr that is written over and is gone at the end; elsewhere a line
 // of the log every ten seconds, so that a short job says nothing and a long one is seen to live.
