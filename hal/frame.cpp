@@ -1,8 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cropping a frame moves its planes' beginnings, nothing else.
+// Cropping a frame moves its planes' beginnings, nothing else; the weights of its luma.
 #include "hal/frame.h"
 
 namespace relievo {
+
+LumaWeights lumaWeights(const Frame& frame) noexcept {
+  ColorMatrix matrix = frame.matrix;
+  if (matrix == ColorMatrix::Unspecified) matrix = frame.height >= 720 ? ColorMatrix::Bt709 : ColorMatrix::Bt601;
+  switch (matrix) {
+    case ColorMatrix::Bt601:
+      return {0.299, 0.114};
+    case ColorMatrix::Bt2020:
+      return {0.2627, 0.0593};
+    default:
+      return {0.2126, 0.0722};
+  }
+}
 
 Frame crop(const Frame& frame, int x, int y, int width, int height) noexcept {
   Frame part = frame;

@@ -40,6 +40,13 @@ struct Component {
   std::uint8_t bits = 8;
 };
 
+// The code of the sample that begins at `sample`.
+[[nodiscard]] inline std::uint32_t codeAt(const Component& component, const std::uint8_t* sample) noexcept {
+  const std::uint32_t low = sample[0];
+  const std::uint32_t word = component.bits > 8 ? low | static_cast<std::uint32_t>(sample[1]) << 8 : low;
+  return (word >> component.shift) & ((1U << component.bits) - 1);
+}
+
 // Gray: components[0]. Yuv: Y, U, V; U and V have (width >> chroma_shift_x, rounded up) columns, rows likewise.
 // Rgb: R, G, B. This covers planar, semi-planar and packed formats alike; a back end converts what it does not cover.
 //
@@ -68,6 +75,13 @@ struct Frame {
 
   [[nodiscard]] bool empty() const noexcept { return planes[0].data == nullptr; }
 };
+
+// The shares of red and blue in the luma of a YUV frame: ITU-R BT.601-7, BT.709-6, BT.2020-2. What the frame does not
+// say goes by its size, as players do.
+struct LumaWeights {
+  double red = 0.299, blue = 0.114;
+};
+[[nodiscard]] LumaWeights lumaWeights(const Frame& frame) noexcept;
 
 // The part of `frame` that is `width` x `height` samples large and begins at (x, y), as a view of the same memory.
 // x and y must be multiples of the chroma subsampling, and the part must lie inside the frame.

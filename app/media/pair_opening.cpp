@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <utility>
 
-#include "app/media/depth_reading.h"
 #include "app/media/pair_film.h"
-#include "app/media/picture_look.h"
+#include "app/media/reading/depth_reading.h"
+#include "app/media/reading/picture_look.h"
 
 namespace relievo {
 namespace {

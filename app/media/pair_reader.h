@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "app/media/packing.h"
+#include "app/media/reading/packing.h"
 #include "app/media/registration.h"
 #include "app/scene/depth_calibration.h"
 #include "hal/audio_decoder.h"

@@ -46,12 +46,6 @@ struct Target {
   }
 };
 
-std::uint32_t codeAt(const Component& where, const std::uint8_t* sample) noexcept {
-  const std::uint32_t low = sample[0];
-  const std::uint32_t word = where.bits > 8 ? low | static_cast<std::uint32_t>(sample[1]) << 8 : low;
-  return (word >> where.shift) & ((1U << where.bits) - 1);
-}
-
 }  // namespace
 
 Result<Frame> registered(const Frame& depth, const Registration& registration) {

@@ -186,8 +186,7 @@ HeightField::Chroma HeightField::chromaOf(const Frame& depth) noexcept {
   chroma.bits = y.bits;
   chroma.sample_shift = y.shift;
   const bool full = depth.range == ColorRange::Full;
-  const double kr = depth.matrix == ColorMatrix::Bt709 ? 0.2126 : depth.matrix == ColorMatrix::Bt2020 ? 0.2627 : 0.299;
-  const double kb = depth.matrix == ColorMatrix::Bt709 ? 0.0722 : depth.matrix == ColorMatrix::Bt2020 ? 0.0593 : 0.114;
+  const auto [kr, kb] = lumaWeights(depth);
   const double kg = 1 - kr - kb, one = 65536, luma = full ? 1 : 255.0 / 219, color = full ? 1 : 255.0 / 224;
   const auto whole = [](double x) { return static_cast<int>(std::lround(x)); };
   chroma.luma_offset = full ? 0 : 16;

@@ -40,7 +40,8 @@ struct Room {
 const std::vector<Room>& rooms() {
   static const std::vector<Room> all = {
       {"app/scene", {}},
-      {"app/media", {"app/scene"}},
+      {"app/media/reading", {"app/scene"}},  // where the depth is and what it means: of streams and pictures alone
+      {"app/media", {"app/scene", "app/media/reading"}},
       {"app/coding", {}},
       {"app/depth_window", {"app/scene"}},
       {"app/haptics/method", {"app/scene", "app/depth_window"}},

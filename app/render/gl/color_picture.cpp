@@ -40,29 +40,12 @@ void main() {
 }
 )";
 
-struct Weights {
-  float red, blue;
-};
-
-// ITU-R BT.601-7, BT.709-6, BT.2020-2. What the stream does not say goes by the picture's size, as players do.
-Weights weightsOf(const Frame& frame) noexcept {
-  ColorMatrix matrix = frame.matrix;
-  if (matrix == ColorMatrix::Unspecified) matrix = frame.height >= 720 ? ColorMatrix::Bt709 : ColorMatrix::Bt601;
-  switch (matrix) {
-    case ColorMatrix::Bt601:
-      return {0.299f, 0.114f};
-    case ColorMatrix::Bt2020:
-      return {0.2627f, 0.0593f};
-    default:
-      return {0.2126f, 0.0722f};
-  }
-}
-
 // Columns: what the first, second and third component add to red, green and blue.
 glm::mat3 rgbFromComponents(const Frame& frame) noexcept {
   if (frame.model == ColorModel::Gray) return {glm::vec3(1), glm::vec3(0), glm::vec3(0)};
   if (frame.model == ColorModel::Rgb) return glm::mat3(1);
-  const auto [red, blue] = weightsOf(frame);
+  const auto weights = lumaWeights(frame);
+  const auto red = static_cast<float>(weights.red), blue = static_cast<float>(weights.blue);
   const float green = 1 - red - blue;
   return {glm::vec3(1), glm::vec3(0, -2 * blue * (1 - blue) / green, 2 * (1 - blue)),
           glm::vec3(2 * (1 - red), -2 * red * (1 - red) / green, 0)};

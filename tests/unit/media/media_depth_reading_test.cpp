@@ -7,9 +7,9 @@
 #include <array>
 #include <cmath>
 
-#include "app/media/depth_reading.h"
 #include "app/media/pair_reader.h"
-#include "app/media/picture_look.h"
+#include "app/media/reading/depth_reading.h"
+#include "app/media/reading/picture_look.h"
 #include "app/scene/height_field.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "tests/support/film/clip_maker.h"

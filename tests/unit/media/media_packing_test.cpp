@@ -2,7 +2,7 @@
 // Which tracks are colour and depth, and the halves of packed pictures.
 #include <gtest/gtest.h>
 
-#include "app/media/packing.h"
+#include "app/media/reading/packing.h"
 
 namespace relievo {
 namespace {

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/media/depth_reading.h"
+#include "app/media/reading/depth_reading.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <numeric>
 
-#include "app/media/picture_look.h"
+#include "app/media/reading/picture_look.h"
 #include "app/scene/height_field.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {
@@ -29,16 +27,6 @@ constexpr double kRawMm = 351300, kRawOffset = 1092.5;
 
 // Near and far are those of nearly all samples, and a little more: the next pictures may show more.
 constexpr double kOutliers = 0.002, kNearer = 0.9, kFarther = 1.1;
-
-std::string print(const char* format, ...) __attribute__((format(printf, 1, 2)));
-std::string print(const char* format, ...) {
-  std::array<char, 256> text{};
-  va_list values;
-  va_start(values, format);
-  std::vsnprintf(text.data(), text.size(), format, values);
-  va_end(values);
-  return text.data();
-}
 
 bool says(const CalibrationLayers& said, std::initializer_list<const char*> keys) {
   return std::any_of(keys.begin(), keys.end(), [&](const char* key) {
@@ -121,10 +109,7 @@ CodeCount::CodeCount(const Frame& depth) : bits_(std::max<int>(8, depth.componen
   const Plane& plane = depth.planes[k.plane];
   for (int r = 0; r < depth.height; ++r) {
     const std::uint8_t* at = plane.data + r * plane.stride_bytes + k.offset_bytes;
-    for (int c = 0; c < depth.width; ++c, at += k.step_bytes) {
-      const std::uint32_t word = k.bits > 8 ? at[0] | static_cast<std::uint32_t>(at[1]) << 8 : at[0];
-      ++of_code_[(word >> k.shift) & (of_code_.size() - 1)];
-    }
+    for (int c = 0; c < depth.width; ++c, at += k.step_bytes) ++of_code_[codeAt(k, at) & (of_code_.size() - 1)];
   }
   samples_ = static_cast<std::uint64_t>(depth.width) * static_cast<std::uint64_t>(depth.height);
 }

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "app/media/packing.h"
+#include "app/media/reading/packing.h"
 #include "hal/frame.h"
 
 namespace relievo {
@@ -19,14 +19,6 @@ struct PictureLook {
 };
 // Any thread.
 [[nodiscard]] PictureLook lookAt(const Frame& picture) noexcept;
-
-// Red, green and blue of a sample, 0 to 1.
-struct Rgb {
-  float red = 0, green = 0, blue = 0;
-};
-// 0 <= c < width, 0 <= r < height: not checked. YUV is read by the matrix that the frame names, BT.601 where it names
-// none.
-[[nodiscard]] Rgb rgbAt(const Frame& picture, int c, int r) noexcept;
 
 // Nearly every sample that is lit is of a pure colour: depth that is coded as a hue, or as a colour map.
 [[nodiscard]] bool isHue(const PictureLook& look) noexcept;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/media/picture_look.h"
+#include "app/media/reading/picture_look.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,46 +11,45 @@ namespace {
 constexpr int kAcross = 128, kDown = 96;  // samples that are looked at
 
 // Coding moves the chroma of gray samples by a few codes.
-constexpr float kGraySpread = 0.06F;
-constexpr float kVividSaturation = 0.8F, kDarkValue = 0.15F;
+constexpr double kGraySpread = 0.06;
+constexpr double kVividSaturation = 0.8, kDarkValue = 0.15;
 
-// Sensors: a half is depth when the shares of its kind of samples differ so much from those of the other half.
+// A half is depth when the shares of its kind of samples differ so much from those of the other half.
 constexpr double kAllGray = 0.99, kPhotoGray = 0.7;
 constexpr double kAllVivid = 0.85, kPhotoVivid = 0.3;
 constexpr double kLeastSpread = 0.03;  // an even half is no depth
 constexpr double kMostDark = 0.95;
 
-float sampleOf(const Frame& f, int component, int c, int r) noexcept {
+// Red, green and blue, 0 to 1.
+struct Color {
+  double red = 0, green = 0, blue = 0;
+};
+
+double sampleOf(const Frame& f, int component, int c, int r) noexcept {
   const Component& k = f.components[static_cast<std::size_t>(component)];
   const Plane& plane = f.planes[k.plane];
   const std::uint8_t* at = plane.data + r * plane.stride_bytes + k.offset_bytes + std::ptrdiff_t{c} * k.step_bytes;
-  const std::uint32_t word = k.bits > 8 ? at[0] | static_cast<std::uint32_t>(at[1]) << 8 : at[0];
-  const std::uint32_t mask = (1u << k.bits) - 1;
-  return static_cast<float>((word >> k.shift) & mask) / static_cast<float>(mask);
+  return static_cast<double>(codeAt(k, at)) / ((1u << k.bits) - 1);
 }
 
-struct Weights {
-  float red, blue;  // of the luma
-};
-Weights weightsOf(ColorMatrix matrix) noexcept {
-  if (matrix == ColorMatrix::Bt709) return {0.2126F, 0.0722F};
-  if (matrix == ColorMatrix::Bt2020) return {0.2627F, 0.0593F};
-  return {0.299F, 0.114F};
-}
-
-Rgb fromYuv(float y, float u, float v, const Frame& f) noexcept {
+Color fromYuv(double y, double u, double v, const Frame& f) noexcept {
   const bool full = f.range == ColorRange::Full;
   y = full ? y : (255 * y - 16) / 219;
-  const float cb = full ? u - 0.5F : (255 * u - 128) / 224, cr = full ? v - 0.5F : (255 * v - 128) / 224;
-  const auto [kr, kb] = weightsOf(f.matrix);
-  const float red = y + 2 * (1 - kr) * cr, blue = y + 2 * (1 - kb) * cb;
-  const float green = (y - kr * red - kb * blue) / (1 - kr - kb);
-  return {std::clamp(red, 0.0F, 1.0F), std::clamp(green, 0.0F, 1.0F), std::clamp(blue, 0.0F, 1.0F)};
+  const double cb = full ? u - 0.5 : (255 * u - 128) / 224, cr = full ? v - 0.5 : (255 * v - 128) / 224;
+  const auto [kr, kb] = lumaWeights(f);
+  const double red = y + 2 * (1 - kr) * cr, blue = y + 2 * (1 - kb) * cb;
+  const double green = (y - kr * red - kb * blue) / (1 - kr - kb);
+  return {std::clamp(red, 0.0, 1.0), std::clamp(green, 0.0, 1.0), std::clamp(blue, 0.0, 1.0)};
 }
 
-double brightness(const Rgb& c) noexcept {
-  return 0.299 * static_cast<double>(c.red) + 0.587 * static_cast<double>(c.green) +
-         0.114 * static_cast<double>(c.blue);
+Color colorAt(const Frame& f, int c, int r) noexcept {
+  if (f.model == ColorModel::Gray) {
+    const double y = sampleOf(f, 0, c, r);
+    return {y, y, y};
+  }
+  if (f.model == ColorModel::Rgb) return {sampleOf(f, 0, c, r), sampleOf(f, 1, c, r), sampleOf(f, 2, c, r)};
+  const int cc = c >> f.chroma_shift_x, cr = r >> f.chroma_shift_y;
+  return fromYuv(sampleOf(f, 0, c, r), sampleOf(f, 1, cc, cr), sampleOf(f, 2, cc, cr), f);
 }
 
 // The samples that are looked at, (column, row) in turn.
@@ -98,24 +97,14 @@ std::optional<FoundPacking> found(const PictureLook& half, const PictureLook& ot
 
 }  // namespace
 
-Rgb rgbAt(const Frame& f, int c, int r) noexcept {
-  if (f.model == ColorModel::Gray) {
-    const float y = sampleOf(f, 0, c, r);
-    return {y, y, y};
-  }
-  if (f.model == ColorModel::Rgb) return {sampleOf(f, 0, c, r), sampleOf(f, 1, c, r), sampleOf(f, 2, c, r)};
-  const int cc = c >> f.chroma_shift_x, cr = r >> f.chroma_shift_y;
-  return fromYuv(sampleOf(f, 0, c, r), sampleOf(f, 1, cc, cr), sampleOf(f, 2, cc, cr), f);
-}
-
 PictureLook lookAt(const Frame& picture) noexcept {
   PictureLook look;
   double count = 0, lit = 0, sum = 0, squares = 0;
   visit(picture, [&](int c, int r) {
-    const Rgb color = rgbAt(picture, c, r);
-    const float high = std::max({color.red, color.green, color.blue});
-    const float spread = high - std::min({color.red, color.green, color.blue});
-    const double y{brightness(color)};
+    const Color color = colorAt(picture, c, r);
+    const double high = std::max({color.red, color.green, color.blue});
+    const double spread = high - std::min({color.red, color.green, color.blue});
+    const double y = (color.red + color.green + color.blue) / 3;
     ++count;
     sum += y;
     squares += y * y;

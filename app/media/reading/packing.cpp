@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the depth among tracks and in halves.
-#include "app/media/packing.h"
+#include "app/media/reading/packing.h"
 
 #include <algorithm>
 #include <cctype>
