@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the window of depth frames around the present moment that the haptic side looks at.
+// The player's depth window: puts the depth of the pictures on the screen and after it into the frames that are felt.
 #pragma once
 
-#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
 
-#include "app/depth_window/shots.h"
 #include "app/depth_window/surface_window.h"
+#include "app/depth_window/window_frames.h"
 #include "app/scene/depth_calibration.h"
 #include "app/scene/display_volume.h"
 #include "hal/frame.h"
@@ -17,9 +16,8 @@
 
 namespace relievo {
 
-// Depth frames come with every colour frame that they belong to; the window holds each once, at its own time: two from
-// before the present one, the present one, and as many after it as there is room for, since the next window comes late
-// when drawing takes long. A HeightField is made once per depth frame.
+// A depth frame comes with every colour frame that it belongs to; the window holds it once, at its own time. A
+// HeightField is made once per depth frame.
 class SurfaceFeeder {
  public:
   // What depth means in this film, and the box that it fills. Before the first update.
@@ -44,16 +42,14 @@ class SurfaceFeeder {
   [[nodiscard]] std::optional<MediaTime> frameAt(MediaTime now) const noexcept;
 
  private:
-  static constexpr std::ptrdiff_t kAhead = SurfaceWindow::kAhead;
   // False when not all of `ahead` went in.
-  bool appendAhead(MediaTime present, std::span<const Frame> ahead);
-  // False when `depth` is of another size than the frames before it.
-  [[nodiscard]] Result<bool> append(const Frame& depth);
+  bool addAhead(std::span<const Frame> ahead);
+  // False when `depth` is of another size than the frames that are held.
+  [[nodiscard]] Result<bool> add(const Frame& depth);
 
   DepthCalibration calibration_;
   DisplayVolume volume_;
-  std::vector<TimedSurface> frames_;  // ascending, at most SurfaceWindow::kCapacity
-  ShotFinder shots_;
+  WindowFrames frames_;
   std::uint32_t epoch_ = 0;
   ClockSample clock_;
   bool ended_ = false;

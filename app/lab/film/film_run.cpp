@@ -8,6 +8,7 @@
 
 #include "app/depth_window/shots.h"
 #include "app/lab/film/coded_depth.h"
+#include "app/lab/film/memory_feed.h"
 #include "app/lab/film/parallel.h"
 
 namespace relievo {
@@ -18,8 +19,8 @@ Result<MemoryFilm> MemoryFilm::make(const TrueSurface& surface, const Format& fo
                               .frames_per_s = format.frames_per_s,
                               .bits = format.depth.bits,
                               .noise_share = format.depth.noise_share};
-  const int first = std::max(0, static_cast<int>(std::floor(from_s * format.frames_per_s)) - FilmRun::kBefore);
-  const int last = static_cast<int>(std::ceil(until_s * format.frames_per_s)) + FilmRun::kAhead;
+  const int first = std::max(0, static_cast<int>(std::floor(from_s * format.frames_per_s)) - SurfaceWindow::kBefore);
+  const int last = static_cast<int>(std::ceil(until_s * format.frames_per_s)) + SurfaceWindow::kAhead;
   std::vector<Frame> pictures(last - first + 1);
   inParallel(pictures.size(),
              [&](std::size_t i) { pictures[i] = renderDepth(surface, rendering, first + static_cast<int>(i)); });
@@ -39,38 +40,33 @@ Result<MemoryFilm> MemoryFilm::of(std::span<const Frame> pictures, const DepthCa
     film.frames_.push_back({*field, picture.pts, picture.owner});
   }
   ShotFinder().mark(film.frames_);
+  film.windows_.resize(film.frames_.size());
+  MemoryFeed feed(film.frames_);
+  for (std::size_t i = 0; i < film.frames_.size(); ++i) {
+    static_cast<void>(feed.update(film.frames_[i].time, 0, 0, film.windows_[i]));
+  }
   return film;
 }
 
-FilmRun::FilmRun(const MemoryFilm& film, TouchMethod& method) : frames_(film.frames()), method_(method) {
+FilmRun::FilmRun(const MemoryFilm& film, TouchMethod& method) : film_(film), method_(method) {
   method_.reset();
 }
 
 PlayedTick FilmRun::tick(const HipTick& hip) {
   const MediaTime now = mediaTime(hip.t_s);
-  moveWindow(now);
+  const auto frames = film_.frames();
+  while (present_ + 1 < frames.size() && frames[present_ + 1].time <= now) ++present_;
+  const SurfaceWindow& window = film_.windowAt(present_);
   PlayedTick played{.t_s = hip.t_s, .hip_mm = hip.hip_mm};
   const MonotonicTime woken = clock_.now();
-  method_.prefetch(window_);
+  method_.prefetch(window);
   const MonotonicTime begin = clock_.now();
-  played.touch = method_.update(hip.hip_mm, window_, now);
+  played.touch = method_.update(hip.hip_mm, window, now);
   const MonotonicTime out = clock_.now();
-  method_.upkeep(window_, now);
+  method_.upkeep(window, now);
   played.upkeep = (clock_.now() - out) + (begin - woken);
   played.update = out - begin;
   return played;
-}
-
-void FilmRun::moveWindow(MediaTime now) {
-  std::size_t present = present_;
-  while (present + 1 < frames_.size() && frames_[present + 1].time <= now) ++present;
-  if (present == present_ && window_.count > 0) return;
-  present_ = present;
-  const std::size_t first = present < kBefore ? 0 : present - kBefore;
-  const std::size_t end = std::min(frames_.size(), present + kAhead + 1);
-  window_.count = static_cast<int>(end - first);
-  std::copy_n(frames_.begin() + static_cast<std::ptrdiff_t>(first), window_.count, window_.frames.begin());
-  window_.ended = end == frames_.size();
 }
 
 std::vector<TrueTouch> truthAlong(const TrueSurface& surface, std::span<const HipTick> path) {

@@ -24,8 +24,9 @@ struct DepthKind {
   std::optional<int> crf;  // through H.264; 8 bits only
 };
 
-// Every frame that a window from `from_s` to `until_s` asks for, with its shots marked. Immutable; one film serves any
-// number of runs.
+// Every frame that a window from `from_s` to `until_s` asks for, with its shots marked, and the windows themselves,
+// made ahead, so that a run does nothing between its ticks but show the next one. Immutable; one film serves any number
+// of runs.
 class MemoryFilm {
  public:
   struct Format {
@@ -41,9 +42,12 @@ class MemoryFilm {
   [[nodiscard]] static Result<MemoryFilm> of(std::span<const Frame> pictures, const DepthCalibration& calibration);
 
   [[nodiscard]] std::span<const TimedSurface> frames() const { return frames_; }
+  // The window while the frame of that index is the present one.
+  [[nodiscard]] const SurfaceWindow& windowAt(std::size_t frame) const { return windows_[frame]; }
 
  private:
   std::vector<TimedSurface> frames_;
+  std::vector<SurfaceWindow> windows_;  // as many
 };
 
 struct PlayedTick {
@@ -59,20 +63,15 @@ struct PlayedTick {
 // `method` outlive it; the method is reset.
 class FilmRun {
  public:
-  static constexpr int kBefore = SurfaceWindow::kBefore, kAhead = SurfaceWindow::kAhead;
-
   FilmRun(const MemoryFilm& film, TouchMethod& method);
   // `truth` is left to the caller.
   [[nodiscard]] PlayedTick tick(const HipTick& hip);
 
  private:
-  void moveWindow(MediaTime now);
-
-  std::span<const TimedSurface> frames_;
+  const MemoryFilm& film_;
   TouchMethod& method_;
   MonotonicClock clock_;
   std::size_t present_ = 0;
-  SurfaceWindow window_;
 };
 
 // The oracle along a path, which begins outside the solid.

@@ -3,24 +3,24 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <span>
-#include <vector>
+#include <utility>
 
-#include "app/depth_window/shots.h"
 #include "app/depth_window/surface_window.h"
+#include "app/depth_window/window_frames.h"
 
 namespace relievo {
 
-// The window holds the frames from two before the present one to four after it, as far as they have come by then. A
-// frame that comes late takes its place in the order of time; one that is over when it comes is never seen.
+// A frame that comes late takes its place in the order of time; one that the present moment has left behind is not
+// seen.
 class MemoryFeed {
  public:
-  static constexpr int kBefore = SurfaceWindow::kBefore, kAhead = SurfaceWindow::kAhead;
   // Whether a frame of the film can be had, at a time of the machine; nothing: all of them, always.
   using Supply = std::function<bool(std::size_t frame, double machine_s)>;
 
-  // `film` outlives it.
+  // `film`, in ascending order of time, outlives it.
   explicit MemoryFeed(std::span<const TimedSurface> film, Supply supply = {})
       : film_(film), supply_(std::move(supply)) {}
 
@@ -29,13 +29,11 @@ class MemoryFeed {
   [[nodiscard]] bool update(MediaTime now, double machine_s, std::uint32_t epoch, SurfaceWindow& window);
 
  private:
-  [[nodiscard]] std::vector<std::size_t> wanted(MediaTime now, double machine_s) const;
+  bool addFrames(MediaTime now, double machine_s);
 
   std::span<const TimedSurface> film_;
   Supply supply_;
-  ShotFinder shots_;
-  std::vector<TimedSurface> held_;
-  std::vector<std::size_t> indices_;  // of `held_` in the film
+  WindowFrames frames_;
   std::uint32_t epoch_ = 0;
   bool first_ = true;
 };

@@ -81,7 +81,7 @@ struct Scene {
 Scene makeScene(std::string_view name, double duration_s) {
   const auto surface = makeTrueSurface(name);
   Scene scene;
-  scene.frames.resize(static_cast<std::size_t>(std::ceil(duration_s * kFramesPerSecond)) + FilmRun::kAhead + 1);
+  scene.frames.resize(static_cast<std::size_t>(std::ceil(duration_s * kFramesPerSecond)) + SurfaceWindow::kAhead + 1);
   inParallel(scene.frames.size(), [&](std::size_t i) {
     scene.frames[i] = renderDepth(*surface, {.frames_per_s = kFramesPerSecond, .bits = 16}, static_cast<int>(i));
   });
@@ -111,7 +111,7 @@ Result<void> addScene(const Scene& scene, Figures& figures) {
 }
 
 double kbitPerSecond(const Figures& f, const Plan& plan) {
-  const double frames = std::ceil(plan.duration_s * kFramesPerSecond) + FilmRun::kAhead + 1;
+  const double frames = std::ceil(plan.duration_s * kFramesPerSecond) + SurfaceWindow::kAhead + 1;
   return static_cast<double>(f.bytes) * 8e-3 * kFramesPerSecond / (frames * static_cast<double>(plan.scenes.size()));
 }
 

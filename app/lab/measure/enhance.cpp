@@ -126,7 +126,7 @@ class Enhance {
       const auto surface = makeTrueSurface(scene);
       const auto path = makeFingerPath(*surface, {.duration_s = plan_.duration_s});
       const auto truth = truthAlong(*surface, path);
-      const int count = static_cast<int>(std::ceil(plan_.duration_s * 30)) + FilmRun::kAhead + 1;
+      const int count = static_cast<int>(std::ceil(plan_.duration_s * 30)) + SurfaceWindow::kAhead + 1;
       const auto seen = sensedFilm(*surface, sensor, count);
       for (std::size_t k = 0; k < kKinds.size(); ++k) {
         const auto wide = enhanced(seen, kKinds[k]);

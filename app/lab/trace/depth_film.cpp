@@ -86,7 +86,7 @@ Result<std::optional<Frame>> DepthFilm::nextFrame() {
     if (!pair) return std::unexpected(pair.error());
     if (!*pair) return std::nullopt;
     // A depth frame comes with every colour frame that it belongs to: it counts once.
-    const bool repeated = !frames_.empty() && (*pair)->depth.pts - *first_pts_ == frames_.back().time - MediaTime{};
+    const bool repeated = newest_ && (*pair)->depth.pts - *first_pts_ == newest_->time - MediaTime{};
     if (!(*pair)->depth.empty() && (!repeated || options_.frames_per_s)) return std::move((*pair)->depth);
   }
 }
@@ -101,39 +101,28 @@ Outcome<bool> DepthFilm::append() {
   }
   const auto field = HeightField::make(**frame, calibration_, volume_);
   if (!field) return fail_here(field.error());
-  if (!frames_.empty() &&
-      (field->cols() != frames_.back().field.cols() || field->rows() != frames_.back().field.rows())) {
+  if (newest_ && (field->cols() != newest_->field.cols() || field->rows() != newest_->field.rows())) {
     return failOn(options_.source.url, {ErrorCode::Unsupported, 0, "the picture changes its size; cut the film there"});
   }
   if (!first_pts_) first_pts_ = (*frame)->pts;
   MediaTime time{(*frame)->pts - *first_pts_};
   if (options_.frames_per_s) time = mediaTime(static_cast<double>(frame_count_) / *options_.frames_per_s);
   ++frame_count_;
-  if (!frames_.empty() && time <= frames_.back().time) return true;  // a repeated timestamp: the first one counts
-  frames_.push_back({*field, time, (*frame)->owner});
+  if (newest_ && time <= newest_->time) return true;  // a repeated timestamp: the first one counts
+  newest_ = {*field, time, (*frame)->owner};
+  frames_.add(*newest_);
   return true;
 }
 
 Outcome<const SurfaceWindow*> DepthFilm::windowAt(double t_s) {
-  const MediaTime now = mediaTime(t_s);
-  bool changed = window_.count == 0;
-  const auto ahead = [&] {
-    return std::count_if(frames_.begin(), frames_.end(), [&](const TimedSurface& f) { return f.time > now; });
-  };
-  while (!ended_ && ahead() < SurfaceWindow::kAhead) {
+  bool changed = frames_.moveTo(mediaTime(t_s)) || window_.count == 0;
+  while (!ended_ && !frames_.full()) {
     const auto read = append();
     if (!read) return std::unexpected(read.error());
     changed = true;
   }
-  // Two frames from before the present one stay.
-  while (frames_.size() > SurfaceWindow::kBefore + 1 && frames_[SurfaceWindow::kBefore + 1].time <= now) {
-    frames_.pop_front();
-    changed = true;
-  }
   if (!changed) return &window_;
-  shots_.mark(frames_);
-  window_.count = static_cast<int>(std::min<std::size_t>(frames_.size(), SurfaceWindow::kCapacity));
-  std::copy_n(frames_.begin(), window_.count, window_.frames.begin());
+  frames_.fill(window_);
   window_.ended = ended_;
   return &window_;
 }

@@ -2,13 +2,12 @@
 // A depth film on virtual time: the window of frames around any moment, for as long as time goes forward.
 #pragma once
 
-#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
 
-#include "app/depth_window/shots.h"
 #include "app/depth_window/surface_window.h"
+#include "app/depth_window/window_frames.h"
 #include "app/media/pair_reader.h"
 #include "app/scene/display_volume.h"
 #include "platform/failure.h"
@@ -41,8 +40,8 @@ class DepthFilm {
   std::unique_ptr<Tracks> tracks_;
   DisplayVolume volume_;
   DepthCalibration calibration_;
-  std::deque<TimedSurface> frames_;
-  ShotFinder shots_;
+  WindowFrames frames_;
+  std::optional<TimedSurface> newest_;
   std::optional<MediaTime> first_pts_;
   std::int64_t frame_count_ = 0;
   bool ended_ = false;

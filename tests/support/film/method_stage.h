@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "app/depth_window/shots.h"
+#include "app/depth_window/window_frames.h"
 #include "app/haptics/method/relievo_method.h"
 #include "tests/support/film/depth_frames.h"
 
@@ -36,23 +36,17 @@ class MethodStage : public testing::Test {
   // Another film, another seat.
   void clear() {
     surfaces_.clear();
-    seen_.clear();
-    shots_.forget();
+    frames_.clear();
     ++window_.epoch;
     method_.reset();
   }
   Touch tick(double t, const glm::dvec3& hip) {
-    const auto now = static_cast<std::ptrdiff_t>(t / kPeriod + 1e-6);
+    const auto now = std::min(static_cast<std::ptrdiff_t>(t / kPeriod + 1e-6), std::ssize(surfaces_) - 1);
     const std::ptrdiff_t begin = std::max<std::ptrdiff_t>(now - SurfaceWindow::kBefore, 0);
     const std::ptrdiff_t end = std::min<std::ptrdiff_t>(now + 1 + SurfaceWindow::kAhead, std::ssize(surfaces_));
-    std::vector<TimedSurface> seen(surfaces_.begin() + begin, surfaces_.begin() + end);
-    for (const TimedSurface& s : seen_) {
-      if (!seen.empty() && s.time == seen.front().time) seen.front().shot = s.shot;
-    }
-    shots_.mark(seen);
-    seen_ = seen;
-    window_.count = static_cast<int>(std::ssize(seen));
-    std::copy(seen.begin(), seen.end(), window_.frames.begin());
+    frames_.moveTo(surfaces_[static_cast<std::size_t>(now)].time);
+    for (std::ptrdiff_t i = begin; i < end; ++i) frames_.add(surfaces_[static_cast<std::size_t>(i)]);
+    frames_.fill(window_);
     const std::uint64_t before = method_.blocksRead();
     const Touch touch = method_.update(hip, window_, mediaTime(t));
     read_by_update_ = method_.blocksRead() - before;
@@ -67,8 +61,8 @@ class MethodStage : public testing::Test {
   }
 
   RelievoMethod method_{{.stiffness_n_per_mm = kStiffness}};
-  std::vector<TimedSurface> surfaces_, seen_;
-  ShotFinder shots_;
+  std::vector<TimedSurface> surfaces_;
+  WindowFrames frames_;
   SurfaceWindow window_;
   std::uint64_t read_by_update_ = 0;  // blocks, in the last tick
 };
