@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The counting allocator: the C library's own, with a count per thread in front of it.
+// The counting allocator: counts per thread, then calls the C library's allocator.
 //
-// The C library lets a program define malloc and its kin; every library of the process then calls these. They
-// forward to the C library's own allocator by its other names (__libc_malloc and so on), so the heap, and
-// free, stay as they were. operator new is left alone: the C++ library's calls malloc or aligned_alloc and is
-// counted there, once. The definitions stand in the same object file as threadAllocations, so whoever links
-// one has the others.
+// The C library lets a program define malloc and its relatives; every library of the process then calls these.
+// They forward to the C library's allocator by its other names (__libc_malloc and so on), so the heap and free
+// are unchanged. operator new is not replaced: the C++ library's version calls malloc or aligned_alloc and is
+// counted there, once. The definitions are in the same object file as threadAllocations, so linking one links
+// all of them.
 #include "platform/allocation_counter.h"
 
 #include <bit>
@@ -20,16 +20,16 @@
     __has_feature(hwaddress_sanitizer)
 #define RELIEVO_SANITIZER_HEAP 1
 #elif __has_feature(realtime_sanitizer)
-#define RELIEVO_WATCHED_HEAP 1  // it stops at an allocation itself, and needs the malloc that it has put in place
+#define RELIEVO_WATCHED_HEAP 1  // RealtimeSanitizer reports allocations itself and must keep its own malloc
 #endif
 #endif
 
 namespace relievo {
 namespace {
 
-// initial-exec: the variable lies in the thread's static block, so that reading it can never itself allocate.
-// That is why a real-time function may read it, which the compiler would forbid for thread_local variables as
-// such.
+// initial-exec: the variable lies in the thread's static TLS block, so that reading it never allocates and a
+// real-time function may do so. The compiler cannot know this and rejects thread_local variables there; hence
+// the pragma below.
 [[gnu::tls_model("initial-exec")]] constinit thread_local std::uint64_t allocations = 0;
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How often the calling thread has allocated: the proof that a real-time loop does not.
+// Counts the calling thread's allocations, to prove that a real-time loop makes none.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,9 @@
 
 namespace relievo {
 
-// Calls of malloc, calloc, realloc, aligned_alloc and operator new by this thread since it began, from whatever
-// library. The counting allocator stands in for the C library's in every program that links this; under a sanitizer its
-// hooks are used instead.
+// Calls of malloc, calloc, realloc, aligned_alloc and operator new by this thread since it began, from any library.
+// Every program that links this gets the counting allocator in place of the C library's; under a sanitizer, the
+// sanitizer's hooks count instead.
 [[nodiscard]] std::uint64_t threadAllocations() RELIEVO_RT;
 
 }  // namespace relievo

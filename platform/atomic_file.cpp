@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// O_TMPFILE and a link, or mkstemp beside the target; fsync, rename.
+// Writes to an unnamed file (O_TMPFILE) that is linked in place, or to a temporary one that is renamed; with fsync.
 #include "platform/atomic_file.h"
 
 #include <fcntl.h>
@@ -17,10 +17,10 @@ namespace relievo {
 namespace {
 
 constexpr const char* kThereMeanwhile =
-    "has been written by another program meanwhile, and stays as it is; choose another name";
-constexpr const char* kCannotWrite = "could not be written to the end; is the disk full?";
+    "another program created this file meanwhile, so it was not replaced; choose another name";
+constexpr const char* kCannotWrite = "could not be written completely; is the disk full?";
 
-// mkstemp makes files for the owner alone; a report is as public as any other file.
+// mkstemp makes files that only the owner can read; reports get the usual permissions.
 mode_t ordinaryMode() noexcept {
   const mode_t mask = ::umask(0);
   ::umask(mask);
@@ -28,14 +28,14 @@ mode_t ordinaryMode() noexcept {
 }
 
 std::unexpected<Error> cannotCreate(int os_error) noexcept {
-  if (os_error == ENOENT) return fail(ErrorCode::NotFound, "its folder is not there; make it first", os_error);
+  if (os_error == ENOENT) return fail(ErrorCode::NotFound, "its folder does not exist; create it first", os_error);
   if (os_error == EACCES || os_error == EROFS) {
-    return fail(ErrorCode::PermissionDenied, "no right to write there; choose another folder", os_error);
+    return fail(ErrorCode::PermissionDenied, "no permission to write there; choose another folder", os_error);
   }
-  return fail(ErrorCode::Io, "no file can be made there; choose another folder", os_error);
+  return fail(ErrorCode::Io, "cannot create a file there; choose another folder", os_error);
 }
 
-// Not on every file system, and only where /proc is there: it gives the file's one name.
+// Invalid where the file system has no unnamed files, or without /proc, whose path is the file's only name.
 UniqueFd openNameless(const std::string& target) {
   const std::string folder = std::filesystem::path(target).parent_path().string();
   UniqueFd fd(::open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666));
@@ -43,7 +43,7 @@ UniqueFd openNameless(const std::string& target) {
   return fd;
 }
 
-// A link does not replace: over a file that is there it takes a name for a moment.
+// linkat cannot replace an existing file: to do so, link under a temporary name and rename that.
 bool linkInto(const std::string& target, const std::string& nameless, Existing existing) {
   const auto link = [&](const std::string& name) {
     return ::linkat(AT_FDCWD, nameless.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
@@ -97,7 +97,7 @@ Result<AtomicFile> AtomicFile::create(const std::string& path, Existing existing
   made.target_ = path;
   std::error_code missing;
   if (const auto real = std::filesystem::canonical(path, missing); !missing) made.target_ = real.string();
-  if (path.empty()) return fail(ErrorCode::InvalidArgument, "an empty file name; give a path", ENOENT);
+  if (path.empty()) return fail(ErrorCode::InvalidArgument, "the file name is empty; give a path", ENOENT);
 
   removeLitter(made.target_);
   UniqueFd fd;
@@ -124,7 +124,7 @@ Result<AtomicFile> AtomicFile::create(const std::string& path, Existing existing
 }
 
 void AtomicFile::write(std::string_view text) noexcept {
-  if (file_ != nullptr) static_cast<void>(std::fwrite(text.data(), 1, text.size(), file_));  // told by ferror
+  if (file_ != nullptr) static_cast<void>(std::fwrite(text.data(), 1, text.size(), file_));  // commit asks ferror
 }
 
 Result<void> AtomicFile::commit() {

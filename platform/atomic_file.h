@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A file that appears whole or not at all: written without a name, or beside its place, and put into it when done.
+// A file that appears whole or not at all: written unnamed or under a temporary name, and put in place when done.
 #pragma once
 
 #include <cstdint>
@@ -13,31 +13,30 @@ namespace relievo {
 
 enum class Existing : std::uint8_t {
   Replace,
-  Keep,  // a file that is there at the commit stays, and the commit fails: of several writers the first one wins
+  Keep,  // if the file exists at the commit, the commit fails: the first of several writers wins
 };
 
-// Not thread-safe. A path that is a device or a pipe is written to directly, since it cannot be replaced. Where the
-// file system has files without a name (ext4, xfs, btrfs, tmpfs, ..) nothing is left however the program ends;
-// elsewhere the temporary file stays when it is killed,
-// until the next one of that path is made.
+// Not thread-safe. A device or a pipe is written to directly, since it cannot be replaced. Where the file system
+// supports unnamed files (ext4, xfs, btrfs, tmpfs, ..), nothing is left behind however the program ends; elsewhere a
+// killed program leaves its temporary file, which the next `create` for that path removes.
 class AtomicFile {
  public:
   AtomicFile() = default;
   AtomicFile(AtomicFile&& other) noexcept;
   AtomicFile& operator=(AtomicFile&& other) noexcept;
-  ~AtomicFile();  // without a commit nothing is left
+  ~AtomicFile();  // without a commit, discards what was written
 
-  // Makes the temporary file, so that a path that cannot be written is found out before anything else is done.
+  // Creates the temporary file, so that an unwritable path is reported before any work is done.
   [[nodiscard]] static Result<AtomicFile> create(const std::string& path, Existing existing = Existing::Replace);
 
-  // Buffered; a failure is kept and told by `commit`.
+  // Buffered; `commit` reports a failure.
   void write(std::string_view text) noexcept;
-  // On the disk, then in its place. Once.
+  // Syncs the file to disk, then puts it in place. Call once.
   [[nodiscard]] Result<void> commit();
 
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
-  // Where it lies until the commit, for a library that writes files by their names instead of through `write`; it has
-  // closed the file before the commit. A path of this process alone.
+  // The file's path until the commit, for a library that writes to a path instead of through `write`. The library must
+  // close the file before the commit. Valid in this process only.
   [[nodiscard]] const std::string& writtenPath() const noexcept { return temporary_.empty() ? target_ : temporary_; }
 
  private:
@@ -45,11 +44,11 @@ class AtomicFile {
   void discard() noexcept;
 
   std::FILE* file_ = nullptr;
-  std::string path_;       // as it was given
-  std::string target_;     // with links followed
-  std::string temporary_;  // empty: written to directly
+  std::string path_;       // as given
+  std::string target_;     // `path_` with symbolic links resolved
+  std::string temporary_;  // empty: `target_` is written directly
   Existing existing_ = Existing::Replace;
-  bool nameless_ = false;  // `temporary_` is the open file, by /proc
+  bool nameless_ = false;  // `temporary_` is the open file's path in /proc
 };
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two clocks: the kernel's monotonic one, and one that a test turns by hand.
+// The two clocks: the kernel's monotonic one, and one that a test sets.
 #include "platform/clock.h"
 
 #include <cerrno>
@@ -19,11 +19,11 @@ MonotonicTime MonotonicClock::now() const noexcept {
 
 void MonotonicClock::sleepUntil(MonotonicTime deadline) noexcept {
   const Duration::rep ns = deadline.time_since_epoch().count();
-  if (ns <= 0) return;  // before the clock began: the kernel would refuse a negative time
+  if (ns <= 0) return;  // already passed; the kernel would reject a negative time
   timespec ts{};
   ts.tv_sec = static_cast<decltype(ts.tv_sec)>(ns / kNsPerSecond);
   ts.tv_nsec = static_cast<decltype(ts.tv_nsec)>(ns % kNsPerSecond);
-  // The deadline is absolute, so a signal's interruption costs nothing: sleep again until the same time.
+  // The deadline is absolute: after a signal, sleep again until the same time.
   while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &ts, nullptr) == EINTR) {
   }
 }

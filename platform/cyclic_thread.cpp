@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cyclic loop, and its thread: all it needs is mapped, touched and locked before the first cycle.
+// The cyclic loop and its thread, whose memory is mapped, touched and locked before the first cycle.
 #include "platform/cyclic_thread.h"
 
 #include <link.h>
@@ -38,7 +38,7 @@ std::uint64_t missedCycles(MonotonicTime scheduled, MonotonicTime now, Duration 
   return static_cast<std::uint64_t>((late.count() + period.count() - 1) / period.count());  // rounded up
 }
 
-// What a thread has taken from the system since it began.
+// A thread's page faults and allocations since it began.
 struct ThreadUsage {
   std::uint64_t page_faults = 0;
   std::uint64_t allocations = 0;
@@ -59,15 +59,15 @@ int addThreadData(dl_phdr_info* object, std::size_t, void* sum) {
   return 0;  // go on to the next object
 }
 
-// What the C library takes from the top of a thread's stack: the thread_local data of all libraries, at most.
-// It comes on top of what the task is given.
+// An upper bound of what the C library takes from the top of a thread's stack, mainly thread_local data of all
+// libraries. It is added to the stack size that the task asks for.
 std::size_t threadDataBytes() noexcept {
   std::size_t sum = 8 * 1024;  // the thread's descriptor, and the C library's reserve for later libraries
   ::dl_iterate_phdr(addThreadData, &sum);
   return sum;
 }
 
-// A stack of the thread's own, with an inaccessible page below it that stops an overflow.
+// A thread's stack, with a guard page below it that stops an overflow.
 class Stack {
  public:
   Stack() noexcept = default;
@@ -96,7 +96,7 @@ class Stack {
   [[nodiscard]] void* bottom() const noexcept { return base_ + guardBytes(); }
   [[nodiscard]] std::size_t bytes() const noexcept { return bytes_; }
   [[nodiscard]] bool locked() const noexcept { return locked_; }
-  // What lies above the lowest byte that is not zero as it was at first. While no thread runs on it.
+  // Bytes from the lowest nonzero one to the top: the stack starts zeroed. Only while no thread runs on it.
   [[nodiscard]] std::size_t used() const noexcept {
     const auto* const begin = static_cast<const std::byte*>(bottom());
     return static_cast<std::size_t>(begin + bytes_ -
@@ -111,7 +111,7 @@ class Stack {
   bool locked_ = false;
 };
 
-// pthread attributes that are given back.
+// Owns pthread attributes.
 class ThreadAttributes {
  public:
   ThreadAttributes() noexcept { ::pthread_attr_init(&attributes_); }
@@ -130,7 +130,7 @@ class ThreadAttributes {
     CPU_SET(static_cast<std::size_t>(cpu), &set);
     return ::pthread_attr_setaffinity_np(&attributes_, sizeof set, &set);
   }
-  // Explicit: the thread is not to inherit its owner's scheduler.
+  // Explicit: the thread must not inherit its owner's scheduler.
   [[nodiscard]] int setScheduler(Scheduler scheduler, int priority) noexcept {
     const bool fifo = scheduler == Scheduler::Fifo;
     sched_param parameters{};
@@ -146,17 +146,17 @@ class ThreadAttributes {
 
 Result<void> checked(const CyclicConfig& config) noexcept {
   if (config.name == nullptr || ::strnlen(config.name, kNameBytes) == kNameBytes) {
-    return fail(ErrorCode::InvalidArgument, "the name of a cyclic thread has at most 15 characters");
+    return fail(ErrorCode::InvalidArgument, "the name of a cyclic thread must have at most 15 characters");
   }
   if (config.period <= Duration(0)) {
-    return fail(ErrorCode::InvalidArgument, "the period of a cyclic thread is longer than nothing");
+    return fail(ErrorCode::InvalidArgument, "the period of a cyclic thread must be over 0");
   }
-  if (config.priority < 1 || config.priority > 99) {  // Linux's range of SCHED_FIFO
-    return fail(ErrorCode::InvalidArgument, "the priority of a cyclic thread lies between 1 and 99");
+  if (config.priority < 1 || config.priority > 99) {  // SCHED_FIFO on Linux
+    return fail(ErrorCode::InvalidArgument, "the priority of a cyclic thread must be 1 to 99");
   }
-  if (config.cpu >= CPU_SETSIZE) return fail(ErrorCode::InvalidArgument, "no processor has such a number");
+  if (config.cpu >= CPU_SETSIZE) return fail(ErrorCode::InvalidArgument, "there is no processor of that number");
   if (config.stack_bytes < static_cast<std::size_t>(PTHREAD_STACK_MIN)) {
-    return fail(ErrorCode::InvalidArgument, "the stack of a cyclic thread is smaller than the system allows");
+    return fail(ErrorCode::InvalidArgument, "the stack of a cyclic thread must be at least PTHREAD_STACK_MIN");
   }
   return {};
 }
@@ -195,7 +195,7 @@ struct CyclicThread::Run {
   std::atomic<bool> stop{false};
   pthread_t thread{};
 
-  // Zero, or the error number of what the system refused.
+  // Returns 0 or an error number.
   [[nodiscard]] int create(const CyclicConfig& config, Scheduler scheduler) noexcept {
     ThreadAttributes attributes;
     if (const int error = attributes.setStack(stack)) return error;
@@ -204,8 +204,8 @@ struct CyclicThread::Run {
     return ::pthread_create(&thread, attributes.get(), &entry, this);
   }
 
-  // Takes every path of the loop once, so that binding its calls and mapping its pages falls before the
-  // count.
+  // Calls everything that the loop calls once, so that lazy binding and page mapping are over before faults are
+  // counted.
   void warmUp() noexcept {
     Histogram scratch;
     clock.sleepUntil(clock.now());
@@ -237,7 +237,7 @@ CyclicThread::~CyclicThread() {
 }
 
 Result<Scheduler> CyclicThread::start(const CyclicConfig& config, CyclicTask& task) {
-  if (running()) return fail(ErrorCode::InvalidState, "the cyclic thread runs already: stop it first");
+  if (running()) return fail(ErrorCode::InvalidState, "the cyclic thread is running already; stop it first");
   if (const auto good = checked(config); !good) return std::unexpected(good.error());
   auto stack = Stack::create(config.stack_bytes);
   if (!stack) return std::unexpected(stack.error());
@@ -250,7 +250,7 @@ Result<Scheduler> CyclicThread::start(const CyclicConfig& config, CyclicTask& ta
   const bool run_locked = lockAndTouch(run.get(), sizeof *run).has_value();
   const bool statistics_locked = lockAndTouch(statistics.get(), sizeof *statistics).has_value();
   if (!(code_locked && run_locked && statistics_locked && run->stack.locked())) {
-    log(LogLevel::Warning, "cyclic", "%s: memory is touched but not locked: raise LimitMEMLOCK or grant CAP_IPC_LOCK",
+    log(LogLevel::Warning, "cyclic", "%s: memory could not be locked; raise LimitMEMLOCK or grant CAP_IPC_LOCK",
         config.name);
   }
 
@@ -260,15 +260,17 @@ Result<Scheduler> CyclicThread::start(const CyclicConfig& config, CyclicTask& ta
     scheduler = Scheduler::Other;
     error = run->create(config, scheduler);
     if (error == 0) {
-      log(LogLevel::Warning, "cyclic", "%s: runs without real-time priority: grant CAP_SYS_NICE or raise LimitRTPRIO",
+      log(LogLevel::Warning, "cyclic", "%s: runs without real-time priority; grant CAP_SYS_NICE or raise LimitRTPRIO",
           config.name);
     }
   }
   if (error == EINVAL) {
-    return fail(ErrorCode::InvalidArgument, "the cyclic thread's processor is not there, or its stack is too small",
+    return fail(ErrorCode::InvalidArgument, "the cyclic thread's processor does not exist, or its stack is too small",
                 error);
   }
-  if (error != 0) return fail(ErrorCode::Exhausted, "the system has no room for one more thread", error);
+  if (error != 0) {
+    return fail(ErrorCode::Exhausted, "the system cannot create another thread; stop other programs", error);
+  }
   statistics->scheduler.store(scheduler, std::memory_order_relaxed);
   statistics->stack_bytes = run->stack.bytes();
   statistics->other_bytes = sizeof *run + sizeof *statistics;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A thread that runs a task at a fixed rate: SCHED_FIFO, absolute sleep, locked stack, counted lateness.
+// A thread that runs a task at a fixed rate: SCHED_FIFO, absolute sleep, locked stack, lateness statistics.
 #pragma once
 
 #include <atomic>
@@ -17,11 +17,11 @@ enum class LoopControl : std::uint8_t { Continue, Stop };
 
 struct Cycle {
   std::uint64_t index = 0;  // 0, 1, 2, ..; a missed cycle leaves a gap
-  MonotonicTime scheduled;  // when it should have woken
+  MonotonicTime scheduled;  // when the thread should have woken
   MonotonicTime woken;      // when it did
 };
 
-// What a cyclic thread runs. `loop` is called on the real-time thread: no allocation, no lock, no system call.
+// The work of a cyclic thread. `loop` is called on the real-time thread: no allocation, no lock, no system call.
 class CyclicTask {
  public:
   virtual ~CyclicTask() = default;
@@ -35,26 +35,26 @@ struct CyclicConfig {
   Duration period = std::chrono::milliseconds(1);
   int priority = 80;                     // of SCHED_FIFO, 1 to 99
   int cpu = -1;                          // -1: any
-  std::size_t stack_bytes = 128 * 1024;  // locked and touched; the libraries' thread-local data come on top
+  std::size_t stack_bytes = 128 * 1024;  // locked and touched; room for the libraries' thread-local data is added
 };
 
-// Written by the loop, readable from any thread at any time.
+// Written by the loop; readable from any thread at any time.
 struct CyclicStatistics {
   Histogram wakeup;  // woken - scheduled
-  Histogram work;    // from waking to the end of the task's work
+  Histogram work;    // from waking to the return of `loop`
   std::atomic<std::uint64_t> cycles{0};
-  std::atomic<std::uint64_t> overruns{0};     // cycles missed: due before the work of the one before had ended
+  std::atomic<std::uint64_t> overruns{0};     // cycles skipped because an earlier one's work had not ended
   std::atomic<std::uint64_t> page_faults{0};  // of the thread, from the first cycle to the last; set at the end
   std::atomic<std::uint64_t> allocations{0};  // likewise
   std::atomic<Scheduler> scheduler{Scheduler::Other};
-  // Memory that is held for the thread alone, from its start to its end: the stack, and what counts and runs it.
+  // Memory held for the thread while it runs: its stack; its state and statistics.
   std::size_t stack_bytes = 0, other_bytes = 0;
-  std::size_t stack_used_bytes = 0;  // of the stack, at most; set at the end
+  std::size_t stack_used_bytes = 0;  // the most used at any time; set at the end
 };
 
-// The loop itself, on the calling thread: until the task says Stop or `stop` is set. On a ManualClock it runs in
-// simulated time. The first cycle is due at once, cycle n `period` (> 0) times n later. A cycle whose time has passed
-// when the work before it ends is left out and counted, never made up for: the phase is kept.
+// Runs the loop on the calling thread until the task returns Stop or `stop` is set. On a ManualClock it runs in
+// simulated time. The first cycle is due at once, cycle n `period` (> 0) times n later. A cycle that is due before the
+// previous one's work ends is skipped and counted, never made up for: the phase is kept.
 void runCycles(Clock& clock, Duration period, CyclicTask& task, CyclicStatistics& statistics,
                const std::atomic<bool>& stop) noexcept;
 
@@ -66,15 +66,15 @@ class CyclicThread {
   CyclicThread(const CyclicThread&) = delete;
   CyclicThread& operator=(const CyclicThread&) = delete;
 
-  // Starts the task. Where the right to SCHED_FIFO is missing the thread runs all the same, under the ordinary
-  // scheduler; the result says which. InvalidState while it runs, Exhausted when no thread can be made.
+  // Starts the task. Without permission for SCHED_FIFO the thread runs under the ordinary scheduler; the result says
+  // which. InvalidState while it runs, Exhausted when no thread can be created.
   [[nodiscard]] Result<Scheduler> start(const CyclicConfig& config, CyclicTask& task);
 
   // Asks the loop to end and waits for it: at most one period and one cycle's work. Does nothing when not running.
   void stop() noexcept;
 
   [[nodiscard]] bool running() const noexcept { return run_ != nullptr; }
-  // Of the present or the last run; each start makes a new one.
+  // Of the current or the last run; each `start` makes new ones.
   [[nodiscard]] const CyclicStatistics& statistics() const noexcept { return *statistics_; }
 
  private:

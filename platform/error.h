@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one error type of the project: what failed, the system's own number, and one line that helps.
+// The project's only error type: a code, errno, and one line that says what was wrong and what to do.
 #pragma once
 
 #include <cstdint>
@@ -8,24 +8,24 @@
 namespace relievo {
 
 enum class ErrorCode : std::uint8_t {
-  InvalidArgument,   // the caller's words are wrong
-  InvalidState,      // the verb is not allowed in the object's present state
+  InvalidArgument,   // the caller's arguments are wrong
+  InvalidState,      // the call is not allowed in the object's current state
   NotFound,          // no such file, track, device, key
-  Unsupported,       // known, but not by this back end
-  PermissionDenied,  // the right is missing
+  Unsupported,       // this back end cannot do it
+  PermissionDenied,  // the permission is missing
   Io,                // reading or writing failed
   Corrupt,           // the data is not what it says it is
-  Timeout,           // nothing came in time
+  Timeout,           // no answer in time
   Lost,              // the device or the stream has gone away
   Exhausted,         // out of memory, buffers or space
   Cancelled,         // interrupted on request
 };
 
-// Trivially copyable, so that it crosses threads and rings. `message` is a string literal: it says what was wrong and
-// what to do. The thing itself (a path, a device) is named by whoever prints the line, since that one knows it.
+// Trivially copyable, so that it can pass between threads and through rings. `message` is a string literal: it says
+// what was wrong and what to do. The code that prints the line adds the name of the thing (a path, a device).
 struct Error {
   ErrorCode code = ErrorCode::Io;
-  int os_error = 0;  // errno at the failure, 0 where there is none
+  int os_error = 0;  // errno at the failure, or 0
   const char* message = "";
 };
 

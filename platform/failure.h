@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An error together with the thing that it is about: a source, a file, a line of a file, an option.
+// An error together with the name of what it is about: a source, a file, a line of a file, an option.
 #pragma once
 
 #include <expected>
@@ -10,7 +10,7 @@
 
 namespace relievo {
 
-// For where things have names: programs and what works on files. Not for real-time code, since the name allocates.
+// For programs and code that works on files. Not for real-time code, since the name allocates.
 struct Failure {
   std::string thing;
   Error error;

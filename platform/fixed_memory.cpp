@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Locks and touches ranges of memory, the code among them; and the arena that real-time objects live in.
+// Locks and touches ranges of memory, including code; and the arena that holds real-time objects.
 #include "platform/fixed_memory.h"
 
 #include <link.h>
@@ -14,7 +14,7 @@
 namespace relievo {
 namespace {
 
-// A page of code is touched by reading any byte of it, those that a sanitizer forbids included.
+// To touch a page, any of its bytes may be read, even one that a sanitizer would report.
 #define RELIEVO_TOUCHES_ANY_BYTE __attribute__((no_sanitize("address", "thread")))
 
 std::uintptr_t pageSize() noexcept {
@@ -22,7 +22,7 @@ std::uintptr_t pageSize() noexcept {
   return size;
 }
 
-// Whole pages that hold a range.
+// The whole pages that cover a range.
 struct Pages {
   std::uintptr_t begin;
   std::uintptr_t end;
@@ -35,7 +35,7 @@ Pages pagesOf(std::uintptr_t address, std::size_t bytes) noexcept {
 
 Result<void> lock(Pages pages) noexcept {
   if (pages.begin == pages.end) return {};
-  // mlock says EPERM, ENOMEM or EAGAIN according to how far the limit is passed: to the user it is one thing.
+  // mlock fails with EPERM, ENOMEM or EAGAIN depending on the limit; the remedy is the same.
   if (::mlock(reinterpret_cast<void*>(pages.begin), pages.end - pages.begin) == 0) return {};
   return fail(ErrorCode::PermissionDenied,
               "memory cannot be locked: raise LimitMEMLOCK (ulimit -l) or grant CAP_IPC_LOCK", errno);
@@ -47,9 +47,9 @@ RELIEVO_TOUCHES_ANY_BYTE void touchByReading(Pages pages) noexcept {
   }
 }
 
-// Reading would map the shared page of zeros and leave the fault to the first write. A byte of the range
-// itself is put back as it was, by an exchange, so that memory in use can be touched too; its neighbours on
-// the page are not.
+// Reading would map the shared zero page, and the first write would still fault. One byte per page is written with
+// its own value, by an atomic exchange, so that memory in use can be touched too. Bytes of the pages outside of the
+// range are not written.
 void touchByWriting(std::uintptr_t address, std::size_t bytes) noexcept {
   const std::uintptr_t end = address + bytes;
   while (address < end) {
@@ -60,8 +60,8 @@ void touchByWriting(std::uintptr_t address, std::size_t bytes) noexcept {
   }
 }
 
-// What a real-time loop runs: the program (whose entry has no name), the libraries below, the loader. Nothing
-// else: a video player's process maps hundreds of megabytes of codecs and drivers.
+// True for the objects whose code a real-time loop runs: the program (listed with an empty name), the libraries below
+// and the loader. Locking all would be too much: a video player maps hundreds of megabytes of codecs and drivers.
 bool holdsRealTimeCode(std::string_view path) noexcept {
   if (path.empty()) return true;
   constexpr std::array<std::string_view, 5> kNames = {"libc.so.", "libm.so.", "libstdc++.so.", "libgcc_s.so.", "ld-"};
@@ -72,8 +72,8 @@ bool holdsRealTimeCode(std::string_view path) noexcept {
   return false;
 }
 
-// Code and constants, and what became constant when the loader had relocated it: tables of virtual functions
-// and of library calls.
+// Code and constants, and data that is constant once the loader has relocated it (RELRO): tables of virtual
+// functions and of library calls.
 bool isReadOnly(const ElfW(Phdr) & segment) noexcept {
   if (segment.p_type == PT_GNU_RELRO) return true;
   return segment.p_type == PT_LOAD && (segment.p_flags & PF_R) != 0 && (segment.p_flags & PF_W) == 0;
@@ -109,10 +109,11 @@ Result<void> lockAndTouchCode() noexcept {
 }
 
 Result<FixedArena> FixedArena::create(std::size_t bytes) noexcept {
-  if (bytes == 0) return fail(ErrorCode::InvalidArgument, "an arena of no bytes: give the size that the set-up needs");
+  if (bytes == 0)
+    return fail(ErrorCode::InvalidArgument, "the real-time arena has a size of 0; give the size that the set-up needs");
   void* const base = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (base == MAP_FAILED) {
-    return fail(ErrorCode::Exhausted, "no memory for the real-time arena: free some, or ask for less", errno);
+    return fail(ErrorCode::Exhausted, "no memory for the real-time arena; free some or ask for less", errno);
   }
   const bool locked = lockAndTouch(base, bytes).has_value();
   return FixedArena(static_cast<std::byte*>(base), bytes, locked);

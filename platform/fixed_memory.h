@@ -12,19 +12,19 @@
 
 namespace relievo {
 
-// Locks the pages of [address, address + bytes), which must be writable, and touches each of them. Ranges, not
-// mlockall, which would pin a GL driver's hundreds of megabytes. Needs room under RLIMIT_MEMLOCK (or the right to pass
-// it): PermissionDenied without; the range is touched all the same.
+// Locks the pages of [address, address + bytes), which must be writable, and touches each of them. mlockall is not
+// used, since it would pin a GL driver's hundreds of megabytes. PermissionDenied if RLIMIT_MEMLOCK is too low and
+// CAP_IPC_LOCK is missing; the range is touched nevertheless.
 [[nodiscard]] Result<void> lockAndTouch(void* address, std::size_t bytes) noexcept;
 
-// The same for the code and read-only data of this program, the C, C++ and maths libraries and the loader.
+// Does the same for the code and read-only data of this program, the C, C++ and maths libraries and the loader.
 [[nodiscard]] Result<void> lockAndTouchCode() noexcept;
 
-// A block of fixed size in which objects are made before a real-time thread starts and destroyed, in reverse order,
-// when the arena goes. Not thread-safe, not real-time safe: it is for setting up.
+// A block of fixed size in which objects are made before a real-time thread starts. The arena's destructor destroys
+// them in reverse order. For set-up only: not thread-safe, not real-time safe.
 class FixedArena {
  public:
-  // Maps and touches `bytes`. `locked()` tells whether they could be locked as well.
+  // Maps and touches `bytes`. `locked()` says whether they could be locked as well.
   [[nodiscard]] static Result<FixedArena> create(std::size_t bytes) noexcept;
   FixedArena(FixedArena&& other) noexcept;
   FixedArena& operator=(FixedArena&&) = delete;

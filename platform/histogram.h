@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A histogram of durations with fixed memory: eighths of an octave, from 1 ns to 17 s, within 6 % of the true value.
+// A histogram of durations in fixed memory: 8 buckets per octave, from 1 ns to 17 s, within 6 % of the true value.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace relievo {
 
-// One writer (real-time), any number of readers; a reader sees each count at or after its last write.
+// One writer (real-time), any number of readers. A reader may see some counts newer than others.
 class Histogram {
  public:
   void add(Duration value) RELIEVO_RT {
@@ -70,7 +70,7 @@ class Histogram {
     if (bucket < kSub) return Duration(static_cast<Duration::rep>(bucket));
     const auto shift = static_cast<unsigned>(bucket / kSub - 1);
     const std::uint64_t low = kSub + bucket % kSub;
-    // The harmonic mean of the edges is as far, relatively, from the one as from the other: 1/17 at most.
+    // The harmonic mean of the edges has the same relative error to both, 1/17 at most.
     return Duration(static_cast<Duration::rep>(((2 * low * (low + 1)) << shift) / (2 * low + 1)));
   }
 

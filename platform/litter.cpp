@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A lock tells whether the maker still lives.
+// Temporary files: flock tells whether the process that made one is still running.
 #include "platform/litter.h"
 
 #include <fcntl.h>
@@ -38,7 +38,7 @@ void removeLitter(const std::string& target) noexcept try {
     if (fd.valid() && ::flock(fd.get(), LOCK_EX | LOCK_NB) == 0) fs::remove_all(entry.path(), failed);
   }
 } catch (const std::exception&) {
-  return;  // out of memory: what is left is left
+  return;  // out of memory: leave the rest
 }
 
 }  // namespace relievo

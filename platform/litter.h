@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files and folders that are made beside their place: how they are named, and how those of a killed run are found.
+// Temporary files and folders beside their target: their names, and the removal of those that a killed run left.
 #pragma once
 
 #include <string>
 
 namespace relievo {
 
-// Ends in XXXXXX, for mkstemp and mkdtemp. Who makes one holds it by `holdLitter` for as long as it is needed.
+// A name for mkstemp and mkdtemp, ending in XXXXXX. Call `holdLitter` on the result to keep it from removal.
 [[nodiscard]] std::string litterPattern(const std::string& target);
-// `fd`: of the file or folder. The hold ends with the descriptor, however the process ends. Quietly does nothing where
-// the file system knows no locks: then nobody removes it.
+// Protects the file or folder `fd` from `removeLitter` until the descriptor is closed, however the process ends.
+// Without locks in the file system it does nothing, and `removeLitter` removes nothing there.
 void holdLitter(int fd) noexcept;
-// Removes what runs that are gone have left beside `target`.
+// Removes the temporary files that dead processes left beside `target`.
 void removeLitter(const std::string& target) noexcept;
 
 }  // namespace relievo

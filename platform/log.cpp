@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines on stderr, each put together on the stack and written in one call: threads do not interleave.
+// Lines on stderr. Each is composed on the stack and written in one call, so that lines of threads do not mix.
 #include "platform/log.h"
 
 #include <sys/stat.h>
@@ -32,7 +32,7 @@ std::atomic<LogLevel>* levelOf(std::string_view area) noexcept {
   return found == kLogAreas.end() ? nullptr : &of_area[static_cast<std::size_t>(found - kLogAreas.begin())].level;
 }
 
-// $JOURNAL_STREAM names the file that systemd has made stderr (systemd.exec(5)): "DEVICE:INODE".
+// systemd sets $JOURNAL_STREAM to "DEVICE:INODE" of the stream that it connects to the journal (systemd.exec(5)).
 bool stderrIsTheJournal() noexcept {
   const char* const stream = std::getenv("JOURNAL_STREAM");
   struct stat file{};
@@ -50,12 +50,12 @@ const char* priority(LogLevel level) noexcept {
   return wanted ? kPriorities[static_cast<std::size_t>(level)] : "";
 }
 
-// How much of a buffer of `room` bytes snprintf has filled; what did not fit is cut off.
+// How many bytes of a buffer of `room` bytes snprintf has filled; it cuts off the rest.
 std::size_t filled(int wanted, std::size_t room) noexcept {
   return wanted < 0 ? 0 : std::min(static_cast<std::size_t>(wanted), room - 1);
 }
 
-// A line stays a line whatever a file name or a library's message holds: control characters become spaces.
+// Replaces control characters by spaces: file names and messages of libraries may hold line breaks.
 std::size_t makeOneLine(char* text, std::size_t length) noexcept {
   std::replace_if(text, text + length, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 0x7f; }, ' ');
   while (length > 0 && text[length - 1] == ' ') --length;
@@ -66,7 +66,7 @@ void writeAll(const char* bytes, std::size_t count) noexcept {
   while (count > 0) {
     const ssize_t done = ::write(STDERR_FILENO, bytes, count);
     if (done < 0 && errno == EINTR) continue;
-    if (done <= 0) return;  // stderr is closed or full: there is nowhere left to say so
+    if (done <= 0) return;  // stderr is closed or full: the failure cannot be reported anywhere
     bytes += done;
     count -= static_cast<std::size_t>(done);
   }
@@ -102,7 +102,7 @@ void setLogProgram(const char* name) noexcept {
 
 void log(LogLevel level, const char* area, const char* format, ...) noexcept {
   if (level > logLevel(area)) return;
-  const int kept_errno = errno;  // a line is often printed between a failure and its report
+  const int kept_errno = errno;  // callers often log between a failure and reading errno
   char line[kLineBytes];
   constexpr std::size_t kRoom = sizeof line - 1;  // the last byte is the newline's
   const char* const name = program.load(std::memory_order_relaxed);
@@ -129,7 +129,7 @@ void RingLog::drain() noexcept {
     }
   }
   const std::uint32_t lost = lost_.exchange(0, std::memory_order_relaxed);
-  if (lost > 0) log(LogLevel::Warning, area_, "%u lines lost: they came faster than they were printed", lost);
+  if (lost > 0) log(LogLevel::Warning, area_, "%u log lines dropped: they came faster than they were printed", lost);
 }
 
 }  // namespace relievo

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Has the processor fetch memory before it is needed. Between two ticks a decoder has had the caches to itself, and a
-// tick that waits for its own code and state, a line at a time, takes many times as long as its work.
+// Prefetches memory into the caches. Between two ticks a decoder evicts the tick's code and state; a tick that then
+// fetches them one cache line at a time takes many times as long as its work.
 #pragma once
 
 #include <cstdint>
 
 #include "platform/realtime.h"
 
-// Before the definition of a function that a tick runs: its code lies beside that of the others so marked.
+// Marks a function that a tick runs: the linker puts all marked functions side by side.
 #define RELIEVO_TICK_CODE [[gnu::section("relievo_tick")]]
 
-// The linker's, for a section whose name is an identifier.
+// The linker defines these bounds for a section whose name is a C identifier.
 // NOLINTNEXTLINE(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp,readability-identifier-naming)
 extern "C" const char __start_relievo_tick[], __stop_relievo_tick[];
 
 namespace relievo {
 
-// Returns at once; what is asked for comes meanwhile.
+// Returns at once; the memory is fetched in the background.
 inline void prefetch(const void* begin, const void* end) RELIEVO_RT {
   constexpr std::uintptr_t kLine = 64;
   for (auto line = reinterpret_cast<std::uintptr_t>(begin) & ~(kLine - 1); line < reinterpret_cast<std::uintptr_t>(end);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measured first, so that no path is too long.
+// Measures the length first, so that nothing is cut off.
 #include "platform/print.h"
 
 #include <cstdarg>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mark of code that the real-time thread runs: no allocation, no lock, no system call, no exception.
+// RELIEVO_RT marks functions that the real-time thread runs: no allocation, no lock, no system call, no exception.
 #pragma once
 
 #if defined(__clang__) && __clang_major__ >= 20

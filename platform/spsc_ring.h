@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A queue of fixed size from one thread to one other, without a lock: what does not fit is refused, never waited for.
+// A lock-free queue of fixed size from one thread to another: a full queue rejects a value, it never waits.
 #pragma once
 
 #include <array>
@@ -14,11 +14,11 @@ namespace relievo {
 
 template <class T, std::size_t Capacity>
 class SpscRing {
-  static_assert(Capacity > 0 && (Capacity & (Capacity - 1)) == 0, "a power of two");
-  static_assert(std::is_trivially_copyable_v<T>, "a value that a real-time thread may copy");
+  static_assert(Capacity > 0 && (Capacity & (Capacity - 1)) == 0, "Capacity must be a power of two");
+  static_assert(std::is_trivially_copyable_v<T>, "a real-time thread copies T: no constructor may allocate");
 
  public:
-  // Producer's side. False when the ring is full; the value is then the caller's still.
+  // Producer's side. False when the ring is full; nothing is stored then.
   [[nodiscard]] bool tryPush(const T& value) RELIEVO_RT {
     const std::size_t head = head_.load(std::memory_order_relaxed);
     if (head - tail_.load(std::memory_order_acquire) == Capacity) return false;
@@ -27,7 +27,7 @@ class SpscRing {
     return true;
   }
 
-  // Consumer's side. Empty when there is nothing to take.
+  // Consumer's side. nullopt when the ring is empty.
   [[nodiscard]] std::optional<T> tryPop() RELIEVO_RT {
     const std::size_t tail = tail_.load(std::memory_order_relaxed);
     if (tail == head_.load(std::memory_order_acquire)) return std::nullopt;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The newest value from one writer to one reader, without a lock and without a copy: three slots change hands.
+// Passes the newest value from one writer to one reader without a lock or a copy, by exchanging three slots.
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@
 namespace relievo {
 
 // The writer fills `back()` and calls `publish()`; the reader calls `refresh()` and reads `front()`. Each slot belongs
-// to one side at a time, so what a slot owns (a frame's reference) is released by the WRITER when it fills the slot
-// again, never by the reader: a real-time reader frees nothing.
+// to one side at a time. The WRITER releases what a slot owns (a frame's reference) when it fills the slot again; the
+// reader never does, so a real-time reader frees nothing.
 template <class T>
 class TripleBuffer {
  public:
@@ -22,7 +22,7 @@ class TripleBuffer {
     back_ = middle_.exchange(static_cast<std::uint8_t>(back_ | kFresh), std::memory_order_acq_rel) & kIndex;
   }
 
-  // Reader's side. True when a newer value has come since the last call.
+  // Reader's side. True if a newer value was published since the last call.
   bool refresh() RELIEVO_RT {
     if ((middle_.load(std::memory_order_relaxed) & kFresh) == 0) return false;
     front_ = middle_.exchange(front_, std::memory_order_acq_rel) & kIndex;

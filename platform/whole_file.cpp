@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Opens without blocking and checks the kind of file before reading.
 #include "platform/whole_file.h"
 
 #include <fcntl.h>
@@ -17,8 +18,8 @@ constexpr std::size_t kSettingsBytes = std::size_t{1} << 20, kRecordingBytes = s
 
 std::unexpected<Error> tooLarge(FileSize size) noexcept {
   return fail(ErrorCode::Exhausted, size == FileSize::Settings
-                                        ? "is larger than 1 MiB, more than such a file may have; name another file"
-                                        : "is larger than 256 MiB, more than such a file may have; take a part of it");
+                                        ? "is larger than the 1 MiB allowed for such a file; name another file"
+                                        : "is larger than the 256 MiB allowed for such a file; use a part of it");
 }
 
 }  // namespace
@@ -33,10 +34,10 @@ Result<std::string> readWholeFile(const std::string& path, FileSize size, const 
   const std::size_t most = size == FileSize::Settings ? kSettingsBytes : kRecordingBytes;
   std::string text;
   std::array<char, 65536> part{};
-  for (;;) {  // files of /proc say that they have no bytes
+  for (;;) {  // until the end: files of /proc report a size of 0
     const ssize_t got = ::read(fd.get(), part.data(), part.size());
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) return fail(ErrorCode::Io, "reading it failed; check the disk", errno);
+    if (got < 0) return fail(ErrorCode::Io, "reading failed; check the disk", errno);
     if (got == 0) return text;
     text.append(part.data(), static_cast<std::size_t>(got));
     if (text.size() > most) return tooLarge(size);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a small file whole, and nothing else: what has no end, or is no file, is refused.
+// Reads a small regular file whole; refuses folders, devices, pipes and files that are too large.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,15 @@
 
 namespace relievo {
 
-// How large a file may be.
+// The largest size allowed.
 enum class FileSize : std::uint8_t {
   Settings,   // 1 MiB: configurations, key tables, calibrations, scripts
-  Recording,  // 256 MiB: a hand's path, a tick a line
+  Recording,  // 256 MiB: a hand's path, one line per tick
 };
 
-// NotFound with `cannot_read` where the file cannot be opened; Unsupported for a folder, a device or a pipe, which
-// may never end; Exhausted for a file that is too large; Io. Never waits for what is no file. Any thread.
-// `cannot_read` outlives the error.
+// NotFound, with the message `cannot_read`, if the file cannot be opened; Unsupported for a folder, a device or a
+// pipe, which may never end; Exhausted for a file that is too large; Io. Never waits for a pipe or a device. Any
+// thread. `cannot_read` must outlive the error.
 [[nodiscard]] Result<std::string> readWholeFile(const std::string& path, FileSize size, const char* cannot_read);
 
 }  // namespace relievo

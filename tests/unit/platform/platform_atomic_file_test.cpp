@@ -126,7 +126,7 @@ TEST_F(AtomicFileTest, OfTwoWritersThatReplaceNothingTheFirstOneWins) {
   ASSERT_TRUE(first->commit());
   const auto late = second->commit();
   ASSERT_FALSE(late);
-  EXPECT_THAT(late.error().message, testing::HasSubstr("written by another program meanwhile"));
+  EXPECT_THAT(late.error().message, testing::HasSubstr("another program created this file meanwhile"));
   EXPECT_EQ(textOf(at("a.json")), "first");
   EXPECT_EQ(filesInFolder(), 1);
 }
