@@ -5,14 +5,15 @@
 namespace relievo {
 namespace {
 
-constexpr const char* kNotOpen = "the sound decoder is closed; open it first";
+constexpr const char* kNotOpen = "the sound decoder is not open; open it first";
 
 }  // namespace
 
 Result<void> AudioDecoder::open(const StreamInfo& stream, const AudioFormat& format) {
   if (state_ != State::Closed)
     return fail(ErrorCode::InvalidState, "the sound decoder is open already; close it first");
-  if (stream.kind != StreamKind::Audio) return fail(ErrorCode::InvalidArgument, "not a sound stream");
+  if (stream.kind != StreamKind::Audio)
+    return fail(ErrorCode::InvalidArgument, "the stream holds no sound; give an audio stream");
   damaged_ = 0;
   auto opened = openDecoder(stream, format);
   if (!opened) {

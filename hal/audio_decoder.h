@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interface of a sound decoder: coded packets in, samples of the wanted format out.
+// Interface of a sound decoder: coded packets in, samples of the requested format out.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,14 @@
 
 namespace relievo {
 
-// Samples in a row, as in AudioFormat. Empty: none.
+// Consecutive samples, interleaved as in AudioFormat. May be empty.
 struct AudioChunk {
   MediaTime pts;  // of the first frame
   std::vector<float> samples;
 };
 
-// States: Closed -open-> Open; any -close-> Closed. A verb in a state that does not allow it returns InvalidState and
-// changes nothing. Unlike pictures, the sound of a packet is small and comes at once: there is no queue inside.
+// States: Closed -open-> Open; any -close-> Closed. A call in a state that does not allow it returns InvalidState and
+// changes nothing. Unlike a video decoder it has no queue: a packet's sound is small and is returned at once.
 //
 // Thread: one at a time. Blocking: no longer than one packet takes to decode.
 class AudioDecoder {
@@ -27,13 +27,13 @@ class AudioDecoder {
   enum class State : std::uint8_t { Closed, Open };
   virtual ~AudioDecoder() = default;
 
-  // `format` is what comes out, whatever the stream holds: other rates are resampled, more channels mixed down.
-  // Unsupported when the codec is unknown here, Corrupt when its parameters make no sense. Closed only.
+  // The output has `format` whatever the stream holds: rates are resampled, channels mixed down.
+  // Unsupported if the codec is unknown here, Corrupt if its parameters make no sense. Closed only.
   [[nodiscard]] Result<void> open(const StreamInfo& stream, const AudioFormat& format);
-  // What the packet holds; a codec may keep a little of it back for the next. A packet that is damaged yields nothing
-  // and is counted (`damaged`), not an error. Open only.
+  // Returns the packet's sound; a codec may keep a little of it back for the next call. A damaged packet is no error:
+  // it yields nothing and is counted (`damaged`). Open only.
   [[nodiscard]] Result<AudioChunk> decode(const Packet& packet);
-  // Forgets what was kept back, for a seek. Open only.
+  // Discards what was kept back, for a seek. Open only.
   [[nodiscard]] Result<void> flush();
   void close() noexcept;
 

@@ -12,7 +12,7 @@ constexpr const char* kNotOpen = "the sound output is not open; open it first";
 Result<AudioFormat> AudioOutput::open(const AudioFormat& wished) {
   if (state_ != State::Closed) return fail(ErrorCode::InvalidState, "the sound output is open already; close it first");
   if (wished.rate_hz < 1000 || wished.rate_hz > 768'000 || wished.channels < 1 || wished.channels > 8) {
-    return fail(ErrorCode::InvalidArgument, "sound has 1000 to 768000 frames a second and 1 to 8 channels");
+    return fail(ErrorCode::InvalidArgument, "sound must have 1000 to 768000 frames a second and 1 to 8 channels");
   }
   const auto opened = openOutput(wished);
   if (!opened) {
@@ -27,7 +27,8 @@ Result<AudioFormat> AudioOutput::open(const AudioFormat& wished) {
 Result<std::size_t> AudioOutput::write(std::span<const float> samples) {
   if (state_ != State::Open) return fail(ErrorCode::InvalidState, kNotOpen);
   const auto channels = static_cast<std::size_t>(format_.channels);
-  if (samples.size() % channels != 0) return fail(ErrorCode::InvalidArgument, "samples are written in whole frames");
+  if (samples.size() % channels != 0)
+    return fail(ErrorCode::InvalidArgument, "samples must be written in whole frames");
   if (samples.empty()) return std::size_t{0};
   return noteLoss(writeFrames(samples.data(), samples.size() / channels));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interface of a sound output: takes samples ahead, and tells how many of them have been heard and when.
+// Interface of a sound output: buffers samples, and reports how many have been heard and when.
 #pragma once
 
 #include <cstdint>
@@ -19,37 +19,37 @@ struct AudioFormat {
   friend bool operator==(const AudioFormat&, const AudioFormat&) = default;
 };
 
-// "At `time` so many frames had been heard", counted from `open` or the last `flush`: both were sampled together, and
-// what lies in buffers on the way to the ear is not counted.
+// At `time`, `frames` frames had been heard since `open` or the last `flush`. Both were sampled together; frames that
+// are still in buffers are not counted.
 struct AudioPosition {
   std::int64_t frames = 0;
   MonotonicTime time;
 };
 
 // States: Closed -open-> Open; any -close-> Closed. A device that goes away answers Lost, at the latest to a `write`,
-// and is in state Lost until closed. A verb in a state that does not allow it returns InvalidState and changes nothing.
-//
-// Thread: one at a time. Blocking: `open` may take as long as a sound server needs; all others never wait.
-// It begins to play with the first frames after `open`, a `flush` or a pause of its own: one that has run dry is silent
-// until it is given more, and goes on from there. A film that stands flushes, and writes anew when it goes on: not
-// every device can hold what it has.
+// and stays in state Lost until closed. A call in a state that does not allow it returns InvalidState and changes
+// nothing.
+// Thread: one at a time. Blocking: `open` may take as long as a sound server needs; the others never wait.
+// Playback starts with the first frames after `open` or `flush`. After an underrun it is silent and continues with the
+// next frames written. To pause a film, flush, and write the samples again to continue: not every device can pause with
+// samples in its buffer.
 class AudioOutput {
  public:
   enum class State : std::uint8_t { Closed, Open, Lost };
   struct Capabilities {
     const char* name = "";
-    Duration buffer{0};  // that it takes ahead; known from `open` on
+    Duration buffer{0};  // length of its buffer; known from `open` on
   };
   virtual ~AudioOutput() = default;
 
-  // Returns what it really runs at: the nearest to what is wished for that the device can. NotFound, PermissionDenied,
-  // Unsupported, Exhausted (another program has it).
+  // Returns the actual format: the nearest to `wished` that the device supports. NotFound, PermissionDenied,
+  // Unsupported, Exhausted (another program uses the device).
   [[nodiscard]] Result<AudioFormat> open(const AudioFormat& wished);
-  // Takes as many whole frames as there is room for, from the first on, and returns how many. Open only.
+  // Takes as many whole frames as fit, from the first on, and returns their number. Open only.
   [[nodiscard]] Result<std::size_t> write(std::span<const float> samples);
-  // Nothing while it is silent: before the first frame is on its way, and after it has run dry. Open only.
+  // nullopt while silent: before the first frame plays, and after an underrun. Open only.
   [[nodiscard]] Result<std::optional<AudioPosition>> position();
-  // Silent at once: drops what was not heard yet. Open only.
+  // Drops what was not heard yet; silent at once. Open only.
   [[nodiscard]] Result<void> flush();
   void close() noexcept;
 

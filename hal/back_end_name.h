@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A back end as the command line and the configuration name it: a word, and what it is told.
+// A back end's name on the command line and in the configuration: a word and an argument.
 #pragma once
 
 #include <concepts>
@@ -9,14 +9,14 @@
 
 namespace relievo {
 
-// "sim:hand.csv" is the word sim and the argument hand.csv. The first colon alone parts them, so that a path may hold
-// more. What an argument means is the back end's.
+// "sim:hand.csv" has the word sim and the argument hand.csv. The first colon separates them; the argument, a path for
+// example, may hold more. Each back end defines what its argument means.
 struct BackEndName {
-  std::string word;                     // empty: none was named
-  std::optional<std::string> argument;  // empty behind a colon that nothing follows
+  std::string word;                     // empty: no back end named
+  std::optional<std::string> argument;  // an empty string if nothing follows the colon
 
   BackEndName() = default;
-  // Not explicit: a text is a name wherever one is asked for.
+  // Not explicit, so that a string can be passed where a name is expected.
   template <std::convertible_to<std::string_view> Text>
   BackEndName(const Text& text) {
     const std::string_view all(text);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chooses between two offsets, the present one and that of before the last jump.
+// Gives each packet one of two offsets, the current one or that before the last jump.
 #include "hal/continuous_time.h"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace relievo {
 namespace {
 
-constexpr Duration kDisorder = std::chrono::milliseconds(200);  // decoding times do not fall, but for what is rounded
+constexpr Duration kDisorder = std::chrono::milliseconds(200);  // decoding times rise; tolerance for rounding
 
 }  // namespace
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes one time line of a container's times that jump: a counter that wraps, an encoder that was started anew.
+// Makes a container's timestamps continuous where they jump: when a counter wraps or an encoder restarts.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +10,17 @@
 
 namespace relievo {
 
-// A time is believed while its stream goes on by it, and not further than `longest_gap` past all that came before: less
-// is lost data, and the film waits it out. Any other time is a jump: it then follows the stream's last one by the
-// stream's last step, and all streams are moved by as much, so that they keep their distance.
+// A timestamp is accepted while it increases within its stream and is at most `longest_gap` past the latest of all
+// streams: a smaller gap is lost data, which the film waits out. Any other timestamp is a jump: it is moved to one step
+// (the stream's last) after the stream's last time. All streams get the same offset, so that they stay in sync.
 //
-// Streams are interleaved, so that one comes to the jump before another: for so long each packet is put where it goes
-// on best, on this side of the jump or on that. Plain numbers; one thread.
+// Streams are interleaved, so one reaches the jump before another. Until all have passed it, each packet gets the
+// offset, old or new, that continues its stream best. Pure arithmetic; one thread.
 class ContinuousTime {
  public:
-  // Forgets everything: the next packet is the first. `longest_gap` 0: every time is believed.
+  // Resets: the next packet is the first. `longest_gap` 0: every timestamp is accepted.
   void begin(Duration longest_gap) noexcept;
-  // What has to be added to the times of the next packet of `stream`, which is decoded at `time`.
+  // The offset to add to the timestamps of the next packet of `stream`, whose decoding time is `time`.
   [[nodiscard]] Duration offsetFor(int stream, MediaTime time);
   // Since construction.
   [[nodiscard]] std::uint64_t jumps() const noexcept { return jumps_; }
@@ -34,7 +34,7 @@ class ContinuousTime {
 
   Duration longest_gap_{0};
   Duration offset_{0};
-  std::optional<Duration> before_;  // the offset before the last jump, while packets of then may come
+  std::optional<Duration> before_;  // the offset before the last jump, while packets from before it may come
   MediaTime jumped_at_;
   std::optional<MediaTime> latest_;  // of all streams
   std::map<int, Line> lines_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bounds of stability.
+// Bounds of the stiffness that a device renders without oscillating.
 #include "hal/device_profile.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interface of a display: gives a surface to draw a frame on, and shows it.
+// Interface of a display: provides a surface to draw a frame on, and shows it.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace relievo {
 
-// How a screen is told that a picture is of two eyes (HDMI 1.4a, vendor specific infoframe).
+// The stereo layout that is signalled to the screen (HDMI 1.4a, vendor specific infoframe).
 enum class StereoSignal : std::uint8_t { None, SideBySideHalf, TopAndBottom, FramePacking };
 
 struct StereoSignals {
@@ -25,55 +25,55 @@ struct StereoSignals {
 struct DisplayCapabilities {
   const char* name = "";
   bool gles = false;           // a GLES 3 context is current on the opener's thread while open
-  Duration refresh_period{0};  // of the screen, known from `open` on; 0: shows a frame at once, whenever it comes
-  StereoSignals stereo;        // that the screen takes, known from `open` on
+  Duration refresh_period{0};  // of the screen, known from `open` on; 0: shows each frame at once
+  StereoSignals stereo;        // supported by the screen, known from `open` on
 };
 
 struct DisplayConfig {
-  int width = 1280;  // wished for; the surface tells what was given
+  int width = 1280;  // requested; DisplaySurface has the actual size
   int height = 720;
-  StereoSignal stereo = StereoSignal::None;  // to be sent where the screen takes it; the surface tells
+  StereoSignal stereo = StereoSignal::None;  // requested; DisplaySurface has the signal that is sent
 };
 
-// What to draw on between beginFrame and present. `framebuffer` is a GL name (0 is a valid one) when capabilities say
-// gles, and 0 otherwise. The origin is GL's: bottom left.
+// The surface to draw on between beginFrame and present. `framebuffer` is a GL name (0 is a valid one) if the
+// capabilities say gles, else 0. The origin is GL's: bottom left.
 struct DisplaySurface {
   std::uint32_t framebuffer = 0;
   int width = 0;
   int height = 0;
-  StereoSignal stereo = StereoSignal::None;  // that is sent with it
-  // Of frame packing alone, which comes as one tall picture: the left eye's rows on top, these in black, the right
+  StereoSignal stereo = StereoSignal::None;  // sent with the picture
+  // For frame packing only, one tall picture: the left eye's rows on top, then this many black ones, then the right
   // eye's.
   int eye_gap_rows = 0;
 };
 
-// States: Closed -open-> Open -beginFrame-> Drawing -present-> Open; any -close-> Closed; `attend` when Open. A verb in
+// States: Closed -open-> Open -beginFrame-> Drawing -present-> Open; any -close-> Closed; `attend` when Open. A call in
 // a state that does not allow it returns InvalidState and changes nothing.
 //
 // Thread: the one that opened it, since a GL context belongs to a thread. Blocking: `present` may wait for the next
-// refresh; a screen that does not come to it is Lost soon after. Lost: the screen has gone; `close`, then `open` again
-// when it is back.
+// refresh; if that does not come, it soon returns Lost. Lost: the screen has gone; `close`, then `open` again when it
+// is back.
 class Display {
  public:
   enum class State : std::uint8_t { Closed, Open, Drawing };
   virtual ~Display() = default;
 
-  // Unsupported, with the reason, where there is no such display or no GLES 3, and for frame packing that the screen
-  // does not take: no other layout would fit. NotFound where the display is there and no screen is connected to it: try
-  // again.
+  // Unsupported, with the reason, without such a display or GLES 3, and for frame packing on a screen that does not
+  // support it, since no other layout has its size. NotFound if the display exists but no screen is connected: try
+  // again later.
   [[nodiscard]] Result<void> open(const DisplayConfig& config);
   // Makes the GL context current and binds the framebuffer.
   [[nodiscard]] Result<DisplaySurface> beginFrame();
-  // Shows what was drawn. Returns how long after the call it is on the screen (0 for an offscreen one).
+  // Shows what was drawn. Returns the time from the call until it is on the screen (0 for an offscreen one).
   [[nodiscard]] Result<Duration> present();
-  // Between frames, often, also while a picture stands: does what the system wants of a screen meanwhile. True when the
-  // last frame should be drawn anew, since its size has changed or it was covered. Cancelled when the viewer has closed
-  // the window: the film is to end. Never waits.
+  // Handles the window system's or screen's events; call it often between frames, also while the film is paused. True
+  // if the last frame should be drawn again, because its size changed or it was covered. Cancelled if the viewer closed
+  // the window: end the film. Never waits.
   [[nodiscard]] Result<bool> attend();
   void close() noexcept;
 
   [[nodiscard]] State state() const noexcept { return state_; }
-  // But for what is known from `open` on the same in every state.
+  // The same in every state, except for the values known only from `open` on.
   [[nodiscard]] virtual DisplayCapabilities capabilities() const noexcept = 0;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Distances as a renderer writes them, in the whole millimetres of a depth picture.
+// Converts distances from a renderer (metres, floating point) to a depth picture's codes (whole millimetres).
 #pragma once
 
 #include <cmath>
@@ -7,8 +7,8 @@
 
 namespace relievo {
 
-// Of metres along the camera's axis, rounded. 0 for what is none: not a number, not in front of the camera, or beyond
-// 65.535 m. The stream that it is in says so by DEPTH_UNIT=1 and DEPTH_INVALID=0.
+// `metres`: along the camera's axis. The result is rounded; 0 is the invalid code, for what is not a number, not in
+// front of the camera, or beyond 65.535 m. The stream's tags for these codes are DEPTH_UNIT=1 and DEPTH_INVALID=0.
 [[nodiscard]] inline std::uint16_t millimetres(float metres) noexcept {
   constexpr float kMmPerMetre = 1000, kBeyond = 65535.5F;
   const float mm = kMmPerMetre * metres;

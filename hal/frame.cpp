@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cropping a frame moves its planes' beginnings, nothing else; the weights of its luma.
+// Crops a frame by moving the first samples of its planes; chooses the weights of its luma.
 #include "hal/frame.h"
 
 namespace relievo {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A decoded picture by reference: where its samples lie and how to read them, never a copy of them.
+// A reference to a decoded picture: where its samples are and how to read them, never a copy of them.
 #pragma once
 
 #include <array>
@@ -23,14 +23,14 @@ struct Plane {
   std::ptrdiff_t stride_bytes = 0;
 };
 
-// The same plane as devices find it, besides `data`: its first sample is `offset_bytes` into the dma-buf `fd`, which
-// the frame's owner keeps open, in rows of the plane's stride. -1: in memory alone.
+// The same plane as a dma-buf, for other devices: its first sample is at `offset_bytes` in `fd`, which the frame's
+// owner keeps open; rows have the plane's stride. -1: there is no dma-buf.
 struct DmaBuf {
   int fd = -1;
   std::uint32_t offset_bytes = 0;
 };
 
-// Where one component's sample (c, r) lies: planes[plane].data + r * stride_bytes + offset_bytes + c * step_bytes.
+// A component's sample (c, r) is at planes[plane].data + r * stride_bytes + offset_bytes + c * step_bytes.
 // 8 bits or fewer are one byte; 9 to 16 bits are two bytes, little endian. The value is (word >> shift), `bits` wide.
 struct Component {
   std::uint8_t plane = 0;
@@ -48,13 +48,13 @@ struct Component {
 }
 
 // Gray: components[0]. Yuv: Y, U, V; U and V have (width >> chroma_shift_x, rounded up) columns, rows likewise.
-// Rgb: R, G, B. This covers planar, semi-planar and packed formats alike; a back end converts what it does not cover.
+// Rgb: R, G, B. This covers planar, semi-planar and packed formats; back ends convert all other formats.
 //
 // A Frame is a view with shared ownership: copying it copies a reference. The samples do not change while any copy
 // lives. Dropping the last copy may free memory, so a real-time thread never holds one of its own.
 struct Frame {
   MediaTime pts;
-  Duration duration{0};  // 0 where the stream does not tell
+  Duration duration{0};  // 0 if unknown
   int width = 0;
   int height = 0;
   ColorModel model = ColorModel::Gray;
@@ -62,7 +62,7 @@ struct Frame {
   ColorMatrix matrix = ColorMatrix::Unspecified;
   std::uint8_t primaries = kUnspecifiedColor;  // ITU-T H.273, 8.1: 9 BT.2020, ..
   std::uint8_t transfer = kUnspecifiedColor;   // likewise, 8.2: 16 PQ, 18 HLG, ..
-  bool interlaced = false;                     // its odd and even rows are of two times
+  bool interlaced = false;                     // odd and even rows were taken at different times
   double sample_aspect = 1.0;                  // width of a sample over its height
   std::uint8_t chroma_shift_x = 0;
   std::uint8_t chroma_shift_y = 0;
@@ -70,20 +70,20 @@ struct Frame {
   std::array<Component, 3> components{};
   std::array<Plane, 4> planes{};
   std::array<DmaBuf, 4> dma_bufs{};           // one for each plane
-  std::optional<std::uint64_t> dma_modifier;  // how their samples are arranged, if told (drm_fourcc.h)
+  std::optional<std::uint64_t> dma_modifier;  // their memory layout (drm_fourcc.h), if known
   std::shared_ptr<const void> owner;
 
   [[nodiscard]] bool empty() const noexcept { return planes[0].data == nullptr; }
 };
 
-// The shares of red and blue in the luma of a YUV frame: ITU-R BT.601-7, BT.709-6, BT.2020-2. What the frame does not
-// say goes by its size, as players do.
+// The shares of red and blue in the luma of a YUV frame: ITU-R BT.601-7, BT.709-6, BT.2020-2. An unspecified matrix is
+// guessed from the frame's size, as players do.
 struct LumaWeights {
   double red = 0.299, blue = 0.114;
 };
 [[nodiscard]] LumaWeights lumaWeights(const Frame& frame) noexcept;
 
-// The part of `frame` that is `width` x `height` samples large and begins at (x, y), as a view of the same memory.
+// The part of `frame` of `width` x `height` samples that begins at (x, y), as a view of the same memory.
 // x and y must be multiples of the chroma subsampling, and the part must lie inside the frame.
 [[nodiscard]] Frame crop(const Frame& frame, int x, int y, int width, int height) noexcept;
 

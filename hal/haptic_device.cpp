@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// State guards of the haptic device, and the last check of a force before it leaves.
+// State guards of the haptic device, and the last check of a force before it is sent.
 #include "hal/haptic_device.h"
 
 #include <cmath>
@@ -9,7 +9,7 @@ namespace relievo {
 Result<void> HapticDevice::open() {
   if (state_ != State::Closed)
     return fail(ErrorCode::InvalidState, "the haptic device is open already; close it first");
-  if (cancelled_) return fail(ErrorCode::Cancelled, "opening the haptic device was called off");
+  if (cancelled_) return fail(ErrorCode::Cancelled, "opening the haptic device was cancelled");
   auto opened = openDevice();
   if (!opened) {
     closeDevice();
@@ -21,18 +21,18 @@ Result<void> HapticDevice::open() {
 
 Result<void> HapticDevice::home() {
   if (state_ != State::Opened && state_ != State::Ready) {
-    return fail(ErrorCode::InvalidState, "the haptic device homes only when opened and not running");
+    return fail(ErrorCode::InvalidState, "the haptic device can home only when opened and not running");
   }
-  if (cancelled_) return fail(ErrorCode::Cancelled, "homing the haptic device was called off");
+  if (cancelled_) return fail(ErrorCode::Cancelled, "homing the haptic device was cancelled");
   auto homed = homeDevice();
   if (homed) state_ = State::Ready;
-  // A device that was Ready and has failed to home anew does not know its zero any more: it must not start.
+  // A device that was Ready and failed to home again no longer knows its zero: it must not start.
   else state_ = homed.error().code == ErrorCode::Lost ? State::Lost : State::Opened;
   return homed;
 }
 
 Result<void> HapticDevice::start() {
-  if (state_ != State::Ready) return fail(ErrorCode::InvalidState, "the haptic device starts only after homing");
+  if (state_ != State::Ready) return fail(ErrorCode::InvalidState, "the haptic device can start only after homing");
   auto started = startDevice();
   if (started) state_ = State::Running;
   else if (started.error().code == ErrorCode::Lost) state_ = State::Lost;
@@ -57,7 +57,9 @@ Result<void> HapticDevice::write(const glm::dvec3& force_n) RELIEVO_RT {
     if (written.error().code == ErrorCode::Lost) state_ = State::Lost;
     return written;
   }
-  if (!acceptable) return fail(ErrorCode::InvalidArgument, "force not finite or over the device's peak; zero was sent");
+  if (!acceptable)
+    return fail(ErrorCode::InvalidArgument,
+                "the force was not finite or over the device's peak; zero was sent instead");
   return {};
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interface of a haptic device: tells where the finger is, and pushes it.
+// Interface of a haptic device: reports the finger's position and applies a force to it.
 #pragma once
 
 #include <atomic>
@@ -18,7 +18,7 @@ struct HapticCapabilities {
   glm::dvec3 workspace_max_mm{0};
   double peak_force_n = 0;
   double continuous_force_n = 0;
-  double max_stiffness_n_per_mm = 0;  // that it holds at rate_hz
+  double max_stiffness_n_per_mm = 0;  // stable at rate_hz
   double rate_hz = 1000;
 };
 
@@ -28,14 +28,14 @@ struct HapticSample {
 };
 
 // States: Closed -open-> Opened -home-> Ready -start-> Running -stop-> Ready; any -close-> Closed. A device that goes
-// away answers Lost and is in state Lost until closed. A verb in a state that does not allow it returns InvalidState
+// away answers Lost and stays in state Lost until closed. A call in a state that does not allow it returns InvalidState
 // and changes nothing.
 //
-// Thread: `open`, `home`, `start`, `stop`, `close` on the owner's thread while no exchange goes on; `read` and `write`
-// on the real-time thread; `cancel` on any thread. Blocking: `open` may take seconds, and `home` as long as the user
-// takes to move the handle through its range; `read` and `write` never longer than a tick.
+// Thread: `open`, `home`, `start`, `stop`, `close` on the owner's thread, never during a `read` or `write`; `read` and
+// `write` on the real-time thread; `cancel` on any thread. Blocking: `open` may take seconds, and `home` as long as the
+// user takes to move the handle through its range; `read` and `write` never longer than a tick.
 // Safety: the force is zero from `open` to the first `write`, after `stop`, `close` and Lost, and when no `write` comes
-// within the back end's watchdog.
+// within the back end's watchdog time.
 class HapticDevice {
  public:
   enum class State : std::uint8_t { Closed, Opened, Ready, Running, Lost };
@@ -43,18 +43,18 @@ class HapticDevice {
 
   // NotFound, PermissionDenied, Unsupported, Timeout.
   [[nodiscard]] Result<void> open();
-  // Finds the device's zero. Opened or Ready; Opened after a failure, since the zero is not known then.
+  // Finds the device's zero. Opened or Ready. After a failure the state is Opened, since the zero is then unknown.
   [[nodiscard]] Result<void> home();
   [[nodiscard]] Result<void> start();
   // Once a tick, `read` first. Running only.
   [[nodiscard]] Result<HapticSample> read() RELIEVO_RT;
-  // The force on the hand, N, device frame. A value that is not finite or over the peak is refused
-  // (InvalidArgument) and zero is sent in its place. Running only.
+  // The force on the hand, N, device frame. A value that is not finite or over the peak is rejected
+  // (InvalidArgument) and zero is sent instead. Running only.
   [[nodiscard]] Result<void> write(const glm::dvec3& force_n) RELIEVO_RT;
-  // Zero force, then Ready. Running; does nothing in the other states.
+  // Sends zero force, then is Ready. Does nothing unless Running.
   void stop() noexcept;
   void close() noexcept;
-  // An `open` or `home` that is under way, or comes before the next `close`, ends within 100 ms and answers Cancelled.
+  // A running `open` or `home` returns Cancelled within 100 ms; so does each later one until the next `close`.
   void cancel() noexcept { cancelled_ = true; }
 
   [[nodiscard]] State state() const noexcept { return state_; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A table and a linear search: a script is read once.
+// A table of names, searched linearly, since a script is read only once.
 #include "hal/key_names.h"
 
 #include <linux/input-event-codes.h>
@@ -184,7 +184,7 @@ std::string_view withoutPrefix(std::string_view name) noexcept {
   return name;
 }
 
-// Letters and digits alone, in upper case.
+// Keeps letters and digits only, in upper case.
 std::string essence(std::string_view word) {
   std::string kept;
   for (const char c : word) {
@@ -195,7 +195,7 @@ std::string essence(std::string_view word) {
   return kept;
 }
 
-// Letters to put in, take out or change (Levenshtein 1966).
+// The number of letters to insert, delete or change (Levenshtein 1966).
 std::size_t editDistance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -229,7 +229,7 @@ std::string_view keyName(std::uint16_t code) noexcept {
 
 std::string_view nearestKeyName(std::string_view word) {
   const std::string wanted = essence(withoutPrefix(word));
-  std::size_t least = wanted.size() / 3 + 1;  // so many letters may be wrong, less one
+  std::size_t least = wanted.size() / 3 + 1;  // accepted distances are below this
   std::string_view nearest;
   for (const KeyName& key : kKeys) {
     const std::size_t distance = editDistance(wanted, essence(key.name));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The keys of remote controls and keyboards by the names of linux/input-event-codes.h.
+// Names of the keys of remote controls and keyboards, as in linux/input-event-codes.h.
 #pragma once
 
 #include <cstdint>
@@ -8,14 +8,14 @@
 
 namespace relievo {
 
-// With or without "KEY_", in either case. Nothing when no remote or keyboard has such a key.
+// `name`: with or without "KEY_", in upper or lower case. nullopt for an unknown key.
 [[nodiscard]] std::optional<std::uint16_t> keyCode(std::string_view name) noexcept;
 
-// Without "KEY_"; empty for a code that no name here has.
+// Without "KEY_"; empty for an unknown code.
 [[nodiscard]] std::string_view keyName(std::uint16_t code) noexcept;
 
-// The name that is spelt most like `word`, blanks, '-', '_' and case apart: "fast forward" is FASTFORWARD. Empty when
-// none comes near.
+// The name whose spelling is nearest to `word`, ignoring blanks, '-', '_' and case: FASTFORWARD for "fast forward".
+// Empty if none is near.
 [[nodiscard]] std::string_view nearestKeyName(std::string_view word);
 
 }  // namespace relievo

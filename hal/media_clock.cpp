@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The film's clock: every change of rate takes a new pair at the present position, so that time never jumps.
+// The film's clock: every change of rate starts a new pair at the current position, so that time never jumps.
 #include "hal/media_clock.h"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ Result<void> MediaClock::resume(MonotonicTime now) noexcept {
 }
 
 Result<void> MediaClock::setRate(double rate, MonotonicTime now) noexcept {
-  if (!(rate > 0.0 && rate <= 16.0)) return fail(ErrorCode::InvalidArgument, "a rate is over 0 and at most 16");
+  if (!(rate > 0.0 && rate <= 16.0)) return fail(ErrorCode::InvalidArgument, "a rate must be over 0 and at most 16");
   rate_ = rate;
   if (sample_ && !paused_) sample_ = ClockSample{sample_->at(now), now, rate_ * steering_};
   return {};

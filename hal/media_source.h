@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interface of a media source: opens a file or a URL and hands out its coded packets.
+// Interface of a media source: opens a file or a URL and returns its coded packets.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace relievo {
 
 enum class StreamKind : std::uint8_t { Video, Audio, Subtitle, Other };
 
-// Names one stream and describes it as far as the container does.
+// One stream, described as far as the container does.
 struct StreamInfo {
   int index = 0;  // the `stream` of its packets
   StreamKind kind = StreamKind::Other;
@@ -29,18 +29,18 @@ struct StreamInfo {
   ColorRange range = ColorRange::Unspecified;
   ColorMatrix matrix = ColorMatrix::Unspecified;
   double sample_aspect = 1.0;  // width of a sample over its height
-  int rotation = 0;            // quarter turns clockwise, 0 to 3, that make its pictures upright
+  int rotation = 0;            // clockwise quarter turns, 0 to 3, that make its pictures upright
   int sample_rate_hz = 0;      // of sound
   int channels = 0;
-  Duration frame_period{0};                 // a hint from the container; the true one comes from the timestamps
-  Duration duration{0};                     // 0 where unknown
+  Duration frame_period{0};                 // the container's hint; the true one comes from the timestamps
+  Duration duration{0};                     // 0 if unknown
   std::map<std::string, std::string> tags;  // upper-case keys: TITLE, HANDLER_NAME, DEPTH_NEAR, ..
-  bool auxiliary = false;                   // signalled as depth or parallax (ISO/IEC 23002-3), whatever the tags say
+  bool auxiliary = false;                   // signalled as depth or parallax (ISO/IEC 23002-3), besides the tags
   // The source's own description, for a decoder of the same library; null otherwise.
   std::shared_ptr<const void> native;
 };
 
-// Coded data by reference; valid as long as any copy of `owner` lives.
+// A reference to coded data; valid as long as any copy of `owner` lives.
 struct Packet {
   int stream = 0;
   const std::uint8_t* data = nullptr;
@@ -51,13 +51,13 @@ struct Packet {
   std::shared_ptr<const void> owner;
 };
 
-// States: Closed -open-> Open -read to the end-> Ended -seek-> Open; any -close-> Closed. A verb in a state that does
+// States: Closed -open-> Open -read to the end-> Ended -seek-> Open; any -close-> Closed. A call in a state that does
 // not allow it returns InvalidState and changes nothing.
 //
-// Thread: all verbs on one thread, but `interrupt`, which any thread may call. Blocking: `open`, `read` and `seek` may
-// wait for a disk or a network, at most for the back end's time-out; `interrupt` makes them return Cancelled.
-// Times: packets' times are media times, beginning near zero (the container's start time is taken away). Where a
-// container's times may jump, as in broadcasts, they go on nevertheless (ContinuousTime); a seek is by the container's.
+// Thread: all calls on one thread, except `interrupt`, which any thread may call. Blocking: `open`, `read` and `seek`
+// may wait for a disk or a network, at most for the back end's time-out; `interrupt` makes them return Cancelled.
+// Times: packets have media times that begin near zero (the container's start time is subtracted). Where a container's
+// times may jump, as in broadcasts, they are made continuous (ContinuousTime); `seek` uses the container's times.
 class MediaSource {
  public:
   enum class State : std::uint8_t { Closed, Open, Ended };
@@ -65,15 +65,15 @@ class MediaSource {
 
   // NotFound, PermissionDenied, Unsupported (protocol), Corrupt (not media), Timeout, Cancelled. Closed only.
   [[nodiscard]] Result<void> open(const std::string& url);
-  // The next packet of any stream, in the order of the container; nothing at the end. A file that is cut off in the
-  // middle ends like a whole one (see `missing`). Lost or Timeout when the source has gone away: a `remote` one may be
-  // back after `close` and `open`, a live one then with times from zero. Open or Ended (nothing again).
+  // The next packet of any stream, in the container's order; nullopt at the end. A truncated file ends like a whole one
+  // (see `missing`). Lost or Timeout if the source has gone away: a `remote` one may be back after `close` and `open`,
+  // a live one then with times from zero. Open or Ended (nullopt again).
   [[nodiscard]] Result<std::optional<Packet>> read();
-  // To the last key frame at or before `target`; decoders must be flushed by the caller. Open or Ended.
+  // Seeks to the last key frame at or before `target`; the caller must flush the decoders. Open or Ended.
   [[nodiscard]] Result<void> seek(MediaTime target);
   void close() noexcept;
 
-  // Makes a blocked verb return Cancelled, and those to come until the next `open`. Any thread, any state.
+  // Makes a blocked call, and all later ones until the next `open`, return Cancelled. Any thread, any state.
   void interrupt() noexcept { interrupted(); }
 
   [[nodiscard]] State state() const noexcept { return state_; }
@@ -81,23 +81,23 @@ class MediaSource {
   [[nodiscard]] const std::vector<StreamInfo>& streams() const noexcept { return streams_; }
   // Container tags, upper-case keys. Empty while Closed.
   [[nodiscard]] const std::map<std::string, std::string>& tags() const noexcept { return tags_; }
-  // Of the whole film; 0 where unknown (live).
+  // Of the whole film; 0 if unknown (live).
   [[nodiscard]] Duration duration() const noexcept { return duration_; }
-  // It comes over a network or from a camera: it may go away and come back.
+  // True for a network source or a camera, which may go away and come back.
   [[nodiscard]] bool remote() const noexcept { return origin_.remote; }
-  // It cannot be had again: no beginning, no end, no seeking.
+  // True if it cannot be played again: no beginning, no end, no seeking.
   [[nodiscard]] bool live() const noexcept { return remote() && duration_ == Duration(0); }
-  // Where its time 0 is on two other clocks, to bring two live sources together: the machine's, at its arrival (of a
-  // camera: when the picture was taken), and the sender's own, which is nothing where the container does not tell.
+  // Media time 0 on two other clocks, to synchronise two live sources: on this machine's, its arrival (for a camera,
+  // when the picture was taken); on the sender's own, nullopt if the container does not have it.
   [[nodiscard]] MonotonicTime arrival() const noexcept { return origin_.arrival; }
   [[nodiscard]] std::optional<Duration> senderStart() const noexcept { return origin_.sender_start; }
-  // How often its times have jumped, since construction.
+  // The number of jumps of its times since construction.
   [[nodiscard]] std::uint64_t jumps() const noexcept { return times_.jumps(); }
-  // Pictures that were taken and never came here, as far as the source can tell (a camera counts them), since
+  // Pictures that were taken but never arrived, as far as the source knows (a camera numbers them), since
   // construction.
   [[nodiscard]] std::uint64_t missedPictures() const noexcept { return missed_; }
-  // How much of the duration was not there: the film broke off so long before its end. Ended; 0 of a whole film, where
-  // it is unknown, and in the other states.
+  // How long before the film's end the data broke off. 0 for a whole film, if unknown, and in all states but
+  // Ended.
   [[nodiscard]] Duration missing() const noexcept { return state_ == State::Ended ? missingTime() : Duration(0); }
 
  protected:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Media time: the time line of a film, which is not that of the machine.
+// Media time: the time line of a film, a type apart from the machine's time.
 #pragma once
 
 #include <chrono>

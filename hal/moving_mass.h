@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A mass with viscous and dry friction, moved on by one step of integration.
+// A mass with viscous and dry friction, advanced by one step of integration.
 #pragma once
 
 #include <cmath>
@@ -17,12 +17,11 @@ struct MovingMass {
   glm::dvec3 position_mm{0};
   glm::dvec3 velocity_mm_per_s{0};
 
-  // Semi-implicit Euler, with the position moved on by the mean of the old and the new velocity: with the new
-  // one alone every force would act half a step early, which at 16 steps a tick shifts the stable stiffness
-  // by 6 %. Both frictions are taken at the END of the step. For dry friction that is Moreau's time stepping:
-  // how far it can change the velocity in one step is known, and where that is enough to stop the mass, the
-  // mass stops and stays; there is no threshold velocity below which it would creep, and no sign to flip at
-  // rest.
+  // Semi-implicit Euler, except that the position advances by the mean of the old and the new velocity: with the new
+  // one alone every force would act half a step early, which at 16 steps a tick shifts the stable stiffness by 6 %.
+  // Both frictions are evaluated at the END of the step. For dry friction this is Moreau's time stepping: friction can
+  // change the velocity by a known amount per step, and if that suffices to stop the mass, it stops and stays. There
+  // is no threshold velocity below which it would creep, and no sign that would flip at rest.
   void step(const glm::dvec3& force_n, double dt_s) RELIEVO_RT {
     constexpr double kMmPerM = 1e3;  // 1 N moves 1 kg by 1 m/s^2
     const double per_newton = kMmPerM * dt_s / (mass_kg + kMmPerM * dt_s * damping_n_s_per_mm);

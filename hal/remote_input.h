@@ -17,15 +17,15 @@ struct KeyEvent {
   MonotonicTime time;
 };
 
-// States: Closed -open-> Open -close-> Closed. A verb in a state that does not allow it returns InvalidState.
-// Thread: one at a time. Blocking: never. A remote that goes away yields no more keys; the film goes on.
+// States: Closed -open-> Open -close-> Closed. A call in a state that does not allow it returns InvalidState.
+// Thread: one at a time. Blocking: never. A remote that is unplugged yields no more keys; that is no error.
 class RemoteInput {
  public:
   enum class State : std::uint8_t { Closed, Open };
   virtual ~RemoteInput() = default;
 
   [[nodiscard]] Result<void> open();
-  // The next key that was pressed, or nothing. Open only.
+  // The oldest key event not yet returned, or nullopt. Open only.
   [[nodiscard]] Result<std::optional<KeyEvent>> poll(MonotonicTime now);
   void close() noexcept;
   [[nodiscard]] State state() const noexcept { return state_; }

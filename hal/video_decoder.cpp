@@ -6,13 +6,14 @@ namespace relievo {
 namespace {
 
 constexpr const char* kTooLarge =
-    "its pictures have more than 16.7 million samples (7680 x 2160, 4096 x 4096); scale the film down";
+    "its pictures have over 16.7 million samples (the most is 7680 x 2160 or 4096 x 4096); scale the film down";
 
 }  // namespace
 
 Result<void> VideoDecoder::open(const StreamInfo& stream) {
   if (state_ != State::Closed) return fail(ErrorCode::InvalidState, "the decoder is open already; close it first");
-  if (stream.kind != StreamKind::Video) return fail(ErrorCode::InvalidArgument, "not a video stream");
+  if (stream.kind != StreamKind::Video)
+    return fail(ErrorCode::InvalidArgument, "the stream holds no video; give a video stream");
   if (std::int64_t{stream.width} * stream.height > kMostSamples) return fail(ErrorCode::Unsupported, kTooLarge);
   damaged_ = 0;
   restart_.reset();
@@ -26,7 +27,7 @@ Result<void> VideoDecoder::open(const StreamInfo& stream) {
 }
 
 Result<Feed> VideoDecoder::feed(const Packet& packet) {
-  if (state_ != State::Open) return fail(ErrorCode::InvalidState, "the decoder takes packets only while open");
+  if (state_ != State::Open) return fail(ErrorCode::InvalidState, "the decoder accepts packets only while open");
   return feedPacket(packet);
 }
 
@@ -42,7 +43,7 @@ Result<std::optional<Frame>> VideoDecoder::receive() {
 }
 
 Result<void> VideoDecoder::drain() {
-  if (state_ != State::Open) return fail(ErrorCode::InvalidState, "the decoder drains only from open");
+  if (state_ != State::Open) return fail(ErrorCode::InvalidState, "the decoder can drain only while open");
   auto started = startDrain();
   if (started) state_ = State::Draining;
   return started;

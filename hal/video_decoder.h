@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interface of a video decoder: coded packets in, pictures by reference out.
+// Interface of a video decoder: coded packets in, references to pictures out.
 #pragma once
 
 #include <cstdint>
@@ -14,16 +14,16 @@
 namespace relievo {
 
 enum class Feed : std::uint8_t {
-  Accepted,  // the decoder has taken its own reference of the packet
-  Full,      // nothing was taken: receive first, then feed the same packet again
+  Accepted,  // the decoder holds its own reference to the packet
+  Full,      // the packet was not taken: receive first, then feed it again
 };
 
 // States: Closed -open-> Open -drain-> Draining -last frame received-> Ended; Open, Draining or Ended -flush-> Open;
-// any -close-> Closed. A verb in a state that does not allow it returns InvalidState and changes nothing.
+// any -close-> Closed. A call in a state that does not allow it returns InvalidState and changes nothing.
 //
 // Thread: one at a time. Blocking: no longer than one picture takes to decode.
-// Frames come in presentation order and by reference: the decoder's own buffers, no copy. The caller may hold as many
-// as `capabilities().max_held_frames`; holding more may make `feed` answer Full for good.
+// Frames come in presentation order and refer to the decoder's own buffers, without a copy. The caller may hold up to
+// `capabilities().max_held_frames`; if it holds more, `feed` may answer Full forever.
 class VideoDecoder {
  public:
   enum class State : std::uint8_t { Closed, Open, Draining, Ended };
@@ -34,21 +34,21 @@ class VideoDecoder {
   };
   virtual ~VideoDecoder() = default;
 
-  // Pictures of more samples are neither opened nor decoded: two of UHD beside each other go, and a handful of such
-  // pictures fits a box's memory.
+  // Larger pictures are refused by `open` and `receive`. The limit allows two UHD pictures side by side, and a few
+  // pictures of that size fit into a set-top box's memory.
   static constexpr std::int64_t kMostSamples = std::int64_t{1} << 24;
 
-  // Unsupported when the codec is unknown here or the pictures are too large, Corrupt when its parameters make no
+  // Unsupported if the codec is unknown here or the pictures are too large, Corrupt if its parameters make no
   // sense. Closed only.
   [[nodiscard]] Result<void> open(const StreamInfo& stream);
-  // A packet that is damaged is dropped and counted (`damaged`), not an error. Lost when the decoder has died.
+  // A damaged packet is no error: it is dropped and counted (`damaged`). Lost if the decoder has died.
   // Open only.
   [[nodiscard]] Result<Feed> feed(const Packet& packet);
-  // The next picture, or nothing: more packets are needed (Open, Draining) or all pictures are out (Ended).
+  // The next picture, or nullopt: more packets are needed (Open, Draining) or all pictures are out (Ended).
   [[nodiscard]] Result<std::optional<Frame>> receive();
   // No more packets will come: `receive` until Ended. Open only.
   [[nodiscard]] Result<void> drain();
-  // Forgets packets and pictures inside, for a seek. Open, Draining, Ended.
+  // Discards packets and pictures inside, for a seek. Open, Draining, Ended.
   [[nodiscard]] Result<void> flush();
   void close() noexcept;
 
@@ -56,17 +56,17 @@ class VideoDecoder {
   [[nodiscard]] virtual Capabilities capabilities() const noexcept = 0;
   // Packets and pictures dropped because they were damaged, since `open`.
   [[nodiscard]] std::uint64_t damaged() const noexcept { return damaged_; }
-  // For people: what decodes, and why not something better. While open.
+  // For the user: which decoder is used, and why no better one. While open.
   [[nodiscard]] virtual std::string description() const { return capabilities().name; }
-  // It has died and gone on where it was: no picture is missing. The last time, once.
+  // The decoder died and another continued without losing a picture. Returns the last such restart, once.
   struct Restart {
-    const char* why = "";
-    const char* done = "";
+    const char* why = "";   // what failed
+    const char* done = "";  // what was done about it
   };
   [[nodiscard]] std::optional<Restart> takeRestart() noexcept { return std::exchange(restart_, std::nullopt); }
 
  protected:
-  // What a back end answers on `receive`.
+  // A back end's answer to `receive`.
   enum class Progress : std::uint8_t { Picture, NeedsPackets, EndOfStream };
   void countDamaged(std::uint64_t more = 1) noexcept { damaged_ += more; }
   void noteRestart(const Restart& restart) noexcept { restart_ = restart; }
