@@ -12,8 +12,9 @@ constexpr const char* kTooLarge =
 
 Result<void> VideoDecoder::open(const StreamInfo& stream) {
   if (state_ != State::Closed) return fail(ErrorCode::InvalidState, "the decoder is open already; close it first");
-  if (stream.kind != StreamKind::Video)
+  if (stream.kind != StreamKind::Video) {
     return fail(ErrorCode::InvalidArgument, "the stream holds no video; give a video stream");
+  }
   if (std::int64_t{stream.width} * stream.height > kMostSamples) return fail(ErrorCode::Unsupported, kTooLarge);
   damaged_ = 0;
   restart_.reset();

@@ -34,8 +34,8 @@ class VideoDecoder {
   };
   virtual ~VideoDecoder() = default;
 
-  // Larger pictures are refused by `open` and `receive`. The limit allows two UHD pictures side by side, and a few
-  // pictures of that size fit into a set-top box's memory.
+  // `open` refuses larger pictures, and back ends do not decode them. The limit allows two UHD pictures side by side,
+  // and a few pictures of that size fit into a set-top box's memory.
   static constexpr std::int64_t kMostSamples = std::int64_t{1} << 24;
 
   // Unsupported if the codec is unknown here or the pictures are too large, Corrupt if its parameters make no

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The remote controls of a living room: infra-red, CEC and keyboards are all input devices of the kernel.
+// Remote controls (infra-red, CEC) and keyboards as input devices of the kernel.
 #pragma once
 
 #include <memory>
@@ -8,10 +8,10 @@
 
 namespace relievo {
 
-// Every input device that has the keys of a remote control (arrows, and one that confirms or plays), those that come
-// later as well: it looks for new ones once a second. A remote is grabbed, so that its keys reach nobody else; a whole
-// keyboard is not. PermissionDenied where there are devices and none may be read; a box without any is Open all the
-// same, and waits for one.
+// Reads every input device that has the keys of a remote control (arrows, and one that confirms or plays); looks for
+// new ones once a second. A remote is grabbed, so that no other program gets its keys; a full keyboard is not.
+// PermissionDenied if there are devices but none may be read. Without any device it opens all the same and waits for
+// one.
 [[nodiscard]] std::unique_ptr<RemoteInput> makeEvdevRemote();
 
 }  // namespace relievo

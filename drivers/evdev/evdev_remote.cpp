@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finding the devices, and reading them through libevdev, which makes up for what was dropped.
+// Finds the devices and reads them through libevdev, which resynchronises after dropped events.
 #include <fcntl.h>
 #include <libevdev/libevdev.h>
 #include <sys/stat.h>
@@ -34,14 +34,14 @@ bool isRemote(const libevdev* device) {
   return (arrows && confirms) || plays;
 }
 
-// On which somebody writes: what its keys say is meant for others as well.
+// A keyboard for typing, whose keys other programs need as well.
 bool isKeyboard(const libevdev* device) {
   return libevdev_has_event_code(device, EV_KEY, KEY_Q) != 0 && libevdev_has_event_code(device, EV_KEY, KEY_M) != 0;
 }
 
 struct Remote {
   std::string path;
-  UniqueFd fd;  // goes after the device
+  UniqueFd fd;  // declared first, to be closed after the device is freed
   Device device;
   KeyHold keys;
   bool there = true;
@@ -56,8 +56,8 @@ class EvdevRemote final : public RemoteInput {
     looked_.reset();
     if (!look() && remotes_.empty()) {
       return fail(ErrorCode::PermissionDenied,
-                  "the right to read remote controls is missing; add the user to the group that may (sudo usermod -aG "
-                  "input $USER) and log in anew",
+                  "no permission to read remote controls; add the user to the group input (sudo usermod -aG input "
+                  "$USER) and log in again",
                   EACCES);
     }
     return {};
@@ -75,7 +75,7 @@ class EvdevRemote final : public RemoteInput {
       if (!remote.there) remote.keys.letGo(now);
       if (const auto event = remote.keys.poll(now)) return event;
       if (remote.there) continue;
-      log(LogLevel::Info, "remote", "%s has gone", libevdev_get_name(remote.device.get()));
+      log(LogLevel::Info, "remote", "%s was unplugged", libevdev_get_name(remote.device.get()));
       remotes_.erase(remotes_.begin() + static_cast<std::ptrdiff_t>(i--));
     }
     return std::nullopt;
@@ -86,7 +86,7 @@ class EvdevRemote final : public RemoteInput {
     looked_at_.clear();
   }
 
-  // False where a device may not be read.
+  // False if a device may not be read.
   bool look() {
     bool allowed = true;
     std::vector<Node> nodes;
@@ -103,7 +103,7 @@ class EvdevRemote final : public RemoteInput {
       const auto isIts = [&](const Node& node) { return node.path == remote->path; };
       remote->there = remote->there && std::ranges::any_of(nodes, isIts);
     }
-    // A node that is new, or another device of the same number, or one whose rights have changed.
+    // A new node, or another device of the same number, or one whose permissions have changed.
     for (const Node& node : nodes) {
       const bool known = std::ranges::any_of(remotes_, [&](const auto& r) { return r->path == node.path; }) ||
                          std::ranges::find(looked_at_, node) != looked_at_.end();
@@ -122,13 +122,14 @@ class EvdevRemote final : public RemoteInput {
     if (libevdev_new_from_fd(remote->fd.get(), &device) != 0) return true;
     remote->device.reset(device);
     if (!isRemote(device)) return true;
-    if (!isKeyboard(device)) (void)libevdev_grab(device, LIBEVDEV_GRAB);  // another may have it: then both hear
+    if (!isKeyboard(device))
+      (void)libevdev_grab(device, LIBEVDEV_GRAB);  // if another program has it, both get its keys
     log(LogLevel::Info, "remote", "%s (%s)", libevdev_get_name(device), path.c_str());
     remotes_.push_back(std::move(remote));
     return true;
   }
 
-  // False when it has gone.
+  // False if it was unplugged.
   static bool read(Remote& remote, MonotonicTime now) {
     unsigned how = LIBEVDEV_READ_FLAG_NORMAL;
     for (;;) {
@@ -136,7 +137,7 @@ class EvdevRemote final : public RemoteInput {
       const int read = libevdev_next_event(remote.device.get(), how, &event);
       if (read == -EAGAIN && how == LIBEVDEV_READ_FLAG_NORMAL) return true;
       if (read == -EAGAIN) {
-        how = LIBEVDEV_READ_FLAG_NORMAL;  // all that was dropped is made up for
+        how = LIBEVDEV_READ_FLAG_NORMAL;  // resynchronised
         continue;
       }
       if (read < 0) return false;

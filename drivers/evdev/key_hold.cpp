@@ -13,7 +13,7 @@ void KeyHold::take(std::uint16_t code, int value, MonotonicTime now) noexcept {
     held_->heard = now;
     return;
   }
-  if (value != 1) return;  // the repeat of a key that was ended by another
+  if (value != 1) return;  // a repeat of a key that another key has ended
   letGo(now);
   say(code, KeyEvent::Action::Press, now);
   held_ = Held{code, now, now + kDelay};
@@ -28,7 +28,7 @@ std::optional<KeyEvent> KeyHold::poll(MonotonicTime now) noexcept {
   if (held_ && !sends_releases_ && now - held_->heard > kSilence) letGo(now);
   if (held_ && count_ == 0 && now >= held_->next_repeat) {
     say(held_->code, KeyEvent::Action::Repeat, now);
-    // Nobody who looked away for a while gets all repeats at once.
+    // After a long gap between polls, the missed repeats are skipped.
     held_->next_repeat = now + kPeriod;
   }
   if (count_ == 0) return std::nullopt;

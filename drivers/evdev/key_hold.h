@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a hand does to the keys of a remote control, made out from what the remote sends.
+// Turns what a remote control sends for a held key into a press, repeats and a release.
 #pragma once
 
 #include <array>
@@ -11,11 +11,11 @@
 
 namespace relievo {
 
-// Remotes differ in what they send while a key is held. A keyboard: one press, one release, the kernel's repeats
-// between. Infra-red: the same, of which a release may be lost. A television over CEC: press and release; or presses
-// again and again and a release at last; or presses again and again and never a release. Here all become one thing: a
-// press, repeats at this engine's own pace, a release. A key that is not heard of any more is let go of after kSilence,
-// unless this remote is known to send releases.
+// Remotes differ in what they send while a key is held. A keyboard: one press, the kernel's repeats, one release.
+// Infra-red: the same, but the release may get lost. A television over CEC: press and release; or repeated presses and
+// a final release; or repeated presses without any release. All become a press, repeats at a rate of its own, and a
+// release. After kSilence without events a key counts as released, unless this remote has sent a release
+// before.
 //
 // One key at a time: another one ends the first. Pure arithmetic; times must not go back.
 class KeyHold {
@@ -24,24 +24,24 @@ class KeyHold {
   static constexpr Duration kPeriod = std::chrono::milliseconds(150);  // between repeats
   static constexpr Duration kSilence = std::chrono::milliseconds(550);
 
-  // What an input_event of EV_KEY says: 0 release, 1 press, 2 the kernel's repeat.
+  // `value` of an EV_KEY input_event: 0 release, 1 press, 2 repeat by the kernel.
   void take(std::uint16_t code, int value, MonotonicTime now) noexcept;
-  // The remote has gone: nothing is held any more.
+  // The remote was unplugged: releases the held key.
   void letGo(MonotonicTime now) noexcept;
-  // What is next, up to now.
+  // The next event up to `now`.
   [[nodiscard]] std::optional<KeyEvent> poll(MonotonicTime now) noexcept;
 
  private:
   struct Held {
     std::uint16_t code;
-    MonotonicTime heard;        // of it last
-    MonotonicTime next_repeat;  // due then
+    MonotonicTime heard;        // time of its last event
+    MonotonicTime next_repeat;  // when due
   };
   void say(std::uint16_t code, KeyEvent::Action action, MonotonicTime now) noexcept;
 
   std::optional<Held> held_;
   bool sends_releases_ = false;
-  std::array<KeyEvent, 32> said_{};  // a ring; more than a hand can press between two polls
+  std::array<KeyEvent, 32> said_{};  // a ring; holds more than a hand can press between two polls
   std::size_t first_ = 0, count_ = 0;
 };
 

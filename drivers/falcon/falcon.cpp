@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One exchange a tick: the newest reply becomes a position, the force becomes motor words.
+// Each tick converts the newest reply to a position, and the force to motor words.
 #include "drivers/falcon/falcon.h"
 
 #include <cerrno>
@@ -21,12 +21,12 @@ using namespace falcon;
 
 constexpr Duration kTick = 1ms;
 constexpr int kLoads = 10;        // tries to load the firmware
-constexpr int kMostPackets = 16;  // of a tick: a device that floods the bus does not hold it up
+constexpr int kMostPackets = 16;  // per tick, so that a device that floods the bus cannot delay it
 constexpr int kFirmHomed = 3;     // replies in a row that all say "homed"
 
 constexpr const char* kNoFirmware =
-    "the Falcon has no firmware yet; give its image: falcon:FILE (it came with the device's SDK and may not be "
-    "shipped)";
+    "the Falcon has no firmware yet; give its image: falcon:FILE (it is part of the device's SDK; its licence forbids "
+    "shipping it here)";
 
 class Falcon final : public HapticDevice {
  public:
@@ -40,8 +40,8 @@ class Falcon final : public HapticDevice {
   Falcon(const Falcon&) = delete;
   Falcon& operator=(const Falcon&) = delete;
 
-  // The peak is what saturation leaves in the middle of the workspace, cut at what the maker promises. What lasts and
-  // what stiffness it holds are not published: a third, and what HAPI gives it (0.8 N/mm).
+  // The peak is the saturated force in the middle of the workspace, limited to the maker's figure. Its continuous force
+  // and stiffness are not published: a third of the peak is assumed, and HAPI's stiffness for it (0.8 N/mm).
   [[nodiscard]] HapticCapabilities capabilities() const noexcept override {
     return {.name = "Novint Falcon",
             .workspace_min_mm = {-50, -50, 75},
@@ -67,7 +67,8 @@ class Falcon final : public HapticDevice {
     if (!bytes) return std::unexpected(bytes.error());
     const std::vector<std::uint8_t> image(bytes->begin(), bytes->end());
     if (image.empty() || image.size() > 64 * 1024) {
-      return fail(ErrorCode::Corrupt, "this is no firmware image of the Falcon; one has some 8000 bytes");
+      return fail(ErrorCode::Corrupt,
+                  "this is no firmware image of the Falcon, which has about 8000 bytes; check the path");
     }
     Result<void> loaded;
     for (int i = 0; i < kLoads; ++i) {
@@ -83,7 +84,8 @@ class Falcon final : public HapticDevice {
       if (!again) return loaded;
     }
     if (!loaded) return loaded;
-    return fail(ErrorCode::Corrupt, "the Falcon took its firmware but does not run; check the image, plug it in anew");
+    return fail(ErrorCode::Corrupt,
+                "the Falcon took its firmware but does not run it; check the image, and plug the Falcon in again");
   }
 
   Result<void> homeDevice() override {
@@ -94,11 +96,11 @@ class Falcon final : public HapticDevice {
     return homed;
   }
 
-  // The counts jump when a leg finds its index: what is known of the position begins after that.
+  // The counts jump when a leg finds its index; the position is known only after that.
   Result<void> waitForIndex() {
     int firm = 0;
     while (firm < kFirmHomed) {
-      if (cancelled()) return fail(ErrorCode::Cancelled, "homing the Falcon was called off");
+      if (cancelled()) return fail(ErrorCode::Cancelled, "homing the Falcon was cancelled");
       if (auto sent = port_->post(encode(Command{.homing = true, .red = true})); !sent) {
         return std::unexpected(sent.error());
       }
@@ -115,7 +117,7 @@ class Falcon final : public HapticDevice {
 
   Result<void> settle(const Counts& counts) {
     const auto position = forward(anglesOf(counts), kCentreMm);
-    if (!position) return fail(ErrorCode::Corrupt, "the Falcon's encoders tell no pose that it can have; home it anew");
+    if (!position) return fail(ErrorCode::Corrupt, "the Falcon's encoders show an impossible pose; home it again");
     sample_ = {.position_mm = *position};
     gate_.reset(counts);
     return {};
@@ -137,12 +139,12 @@ class Falcon final : public HapticDevice {
     if (!reply) return std::unexpected(reply.error());
     if (*reply) follow(**reply);
     else gate_.skip();
-    if (unhomed_ >= kFirmHomed) return fail(ErrorCode::Lost, "the Falcon has lost its zero; it must be homed anew");
+    if (unhomed_ >= kFirmHomed) return fail(ErrorCode::Lost, "the Falcon has lost its zero; home it again");
     if (auto alive = session_.listened(reply->has_value()); !alive) return std::unexpected(alive.error());
     return sample_;
   }
 
-  // A reply that cannot be so leaves the last position standing for this tick.
+  // An impossible reply leaves the position unchanged for this tick.
   void follow(const Reply& reply) RELIEVO_RT {
     unhomed_ = reply.allHomed() ? 0 : unhomed_ + 1;
     if (unhomed_ > 0) return gate_.skip();
@@ -173,7 +175,7 @@ class Falcon final : public HapticDevice {
       if (!packet) return std::unexpected(packet.error());
       if (packet->bytes == 0) break;
       const UsbBytes payload = payloadOf(*packet);
-      if (payload.empty() && packet->bytes > kStatusBytes) stream_.clear();  // broken: no packet spans it
+      if (payload.empty() && packet->bytes > kStatusBytes) stream_.clear();  // corrupted: no packet continues across it
       stream_.add(payload);
       while (const auto whole = stream_.next()) {
         if (const auto reply = decodeReply(*whole)) newest = reply;
@@ -182,7 +184,7 @@ class Falcon final : public HapticDevice {
     return newest;
   }
 
-  // The main button of the grip is the one in its centre.
+  // The grip's main button is the centre one.
   static std::uint32_t buttonsOf(std::uint8_t wire) RELIEVO_RT {
     return (wire & 4U) >> 2U | (wire & 1U) << 1U | (wire & 8U) >> 1U | (wire & 2U) << 2U;
   }
@@ -196,7 +198,7 @@ class Falcon final : public HapticDevice {
   PacketStream stream_;
   EncoderGate gate_{kGateSlack};
   HapticSample sample_;
-  int unhomed_ = 0;  // replies in a row that say that a leg has not found its index
+  int unhomed_ = 0;  // replies in a row in which a leg has not found its index
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each leg by itself in its own frame; the three gradients together are the Jacobian.
+// Solves each leg in its own frame; the gradients of the three legs form the Jacobian.
 #include "drivers/falcon/kinematics.h"
 
 #include <algorithm>
@@ -51,7 +51,7 @@ std::optional<Leg> solveLeg(const std::array<double, 2>& direction, const glm::d
   leg.theta = std::atan2(w, across) - std::acos(cos_knee);
   const double cos2 = (across - kThighMm * std::cos(leg.theta)) / reach;
   const double sin2 = (w - kThighMm * std::sin(leg.theta)) / reach;
-  // sin(t2 - t1), how far shin and thigh are from one line: zero there.
+  // sin(t2 - t1): zero where shin and thigh are in line, a singular pose.
   const double bend = sin2 * std::cos(leg.theta) - cos2 * std::sin(leg.theta);
   const double denominator = kThighMm * sin3 * bend;
   if (!(std::abs(denominator) > 1e-6 * kThighMm)) return std::nullopt;
@@ -92,7 +92,7 @@ std::optional<glm::dvec3> forward(const glm::dvec3& theta_rad, const glm::dvec3&
   glm::dvec3 p = near_mm;
   for (int i = 0; i < kMostSteps; ++i) {
     const auto pose = inverse(p);
-    if (!pose) {  // beyond the legs' reach, which is convex about the centre
+    if (!pose) {  // beyond the legs' reach, a convex region around the centre
       p = 0.5 * (p + kCentreMm);
       continue;
     }
@@ -101,7 +101,7 @@ std::optional<glm::dvec3> forward(const glm::dvec3& theta_rad, const glm::dvec3&
     const glm::dvec3 step = glm::inverse(rows) * (theta_rad - pose->theta_rad);
     const double length = glm::length(step);
     p += length > kLongestStepMm ? step * (kLongestStepMm / length) : step;
-    // Newton's error is the square of the step's: under a nanometre after a step of a micrometre.
+    // Newton's method converges quadratically: the error is under a nanometre after a step of a micrometre.
     if (length < 1e3 * kAtRestMm) return p;
   }
   return std::nullopt;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The requests of an FT232B (FTDI's SIO protocol) and the steps of the boot loader, restated from libnifalcon (BSD
-// licence).
+// The requests of an FT232B (FTDI's SIO protocol) and the boot loader's protocol, after libnifalcon (BSD licence).
 #include "drivers/falcon/link.h"
 
 #include <algorithm>
@@ -13,7 +12,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Duration kAnswer = 20ms;  // of one look for bytes
+constexpr Duration kAnswer = 20ms;  // time-out of one read
 constexpr Duration kEcho = 100ms;   // for 62 bytes: 4 ms on the line and the latency timer's 16
 
 struct Request {
@@ -33,15 +32,15 @@ Result<void> ask(UsbPort& port, std::initializer_list<Request> requests) {
   return {};
 }
 
-// What comes, until `most` bytes are there or nothing has come for so long. None is no failure.
+// Reads until `most` bytes are there or none has come for `wait`. No bytes at all is no failure.
 Result<std::vector<std::uint8_t>> gather(UsbPort& port, std::size_t most, Duration wait, const Patience& patience) {
   std::vector<std::uint8_t> bytes;
   MonotonicTime news = patience.clock.now();
   while (patience.clock.now() - news < wait && bytes.size() < most) {
-    if (patience.cancelled) return fail(ErrorCode::Cancelled, "opening the Falcon was called off");
+    if (patience.cancelled) return fail(ErrorCode::Cancelled, "opening the Falcon was cancelled");
     const auto packet = port.receive(kAnswer);
     if (!packet && packet.error().code != ErrorCode::Timeout) return std::unexpected(packet.error());
-    // The bridge sends its two bytes whenever its latency timer runs out: those are no news, nor is what is broken.
+    // The bridge sends its two status bytes whenever its latency timer expires; only a payload resets the wait.
     const UsbBytes payload = packet ? payloadOf(*packet) : UsbBytes();
     if (!payload.empty()) news = patience.clock.now();
     bytes.insert(bytes.end(), payload.begin(), payload.end());
@@ -53,7 +52,7 @@ bool endsWith(UsbBytes bytes, UsbBytes wanted) {
   return bytes.size() >= wanted.size() && std::ranges::equal(bytes.last(wanted.size()), wanted);
 }
 
-// The greeting is answered with or without a zero byte before it.
+// The boot loader's answer may have a zero byte before it.
 Result<void> greet(UsbPort& port, const Patience& patience) {
   constexpr std::array<std::uint8_t, 3> kHello{0x0A, 0x43, 0x0D};
   constexpr std::array<std::uint8_t, 4> kWelcome{0x0A, 0x44, 0x2C, 0x0D};
@@ -65,15 +64,17 @@ Result<void> greet(UsbPort& port, const Patience& patience) {
     if (endsWith(*answer, kWelcome)) return {};
   }
   return fail(ErrorCode::Timeout,
-              "the Falcon's boot loader does not answer; check its power adaptor and plug it in anew");
+              "the Falcon's boot loader does not answer; check its power adaptor and plug it in again");
 }
 
 Result<void> sendEchoed(UsbPort& port, UsbBytes bytes, const Patience& patience) {
   if (auto sent = port.send(bytes, kEcho); !sent) return sent;
   const auto echo = gather(port, bytes.size(), kEcho, patience);
   if (!echo) return std::unexpected(echo.error());
-  if (echo->size() < bytes.size()) return fail(ErrorCode::Timeout, "the Falcon's boot loader stopped to echo");
-  if (!std::ranges::equal(*echo, bytes)) return fail(ErrorCode::Corrupt, "the Falcon's boot loader echoed other bytes");
+  if (echo->size() < bytes.size())
+    return fail(ErrorCode::Timeout, "the Falcon's boot loader stopped echoing; plug it in again");
+  if (!std::ranges::equal(*echo, bytes))
+    return fail(ErrorCode::Corrupt, "the Falcon's boot loader echoed wrong bytes; plug it in again");
   return {};
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nibbles into words and back.
+// Encodes words as nibbles and decodes them.
 #include "drivers/falcon/packet.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The 16-byte packets that host and Falcon exchange once its firmware runs, and a parser that finds them in a stream.
+// The 16-byte packets that host and Falcon exchange while its firmware runs, and a parser that finds them in a stream.
 #pragma once
 
 #include <array>
@@ -13,12 +13,12 @@
 
 namespace relievo::falcon {
 
-// '<', three words of four nibbles (least significant first, each + 'A'), a byte of flags + 'A', 'A', '>'. Strictly one
-// reply for each command. (Restated from libnifalcon, BSD licence.)
+// '<', three words of four nibbles (least significant first, each + 'A'), a byte of flags + 'A', 'A', '>'. The device
+// sends exactly one reply for each command. (After libnifalcon, BSD licence.)
 inline constexpr std::size_t kPacketBytes = 16;
 using Packet = std::array<std::uint8_t, kPacketBytes>;
 
-// What the motors take, -kMostWord to kMostWord; the nine packets of the maker's driver that are on record end there.
+// Motor words range from -kMostWord to kMostWord, as in the nine published packets of the maker's driver.
 inline constexpr int kMostWord = 4095;
 using Words = std::array<std::int16_t, 3>;
 
@@ -37,17 +37,17 @@ struct Reply {
 
 [[nodiscard]] Packet encode(const Command& command) RELIEVO_RT;
 [[nodiscard]] Packet encode(const Reply& reply) RELIEVO_RT;  // the device's side
-// Nothing when it is no packet: marks, nibbles and the fixed byte are all looked at.
+// nullopt unless the marks, the nibbles and the fixed byte are all valid.
 [[nodiscard]] std::optional<Reply> decodeReply(std::span<const std::uint8_t, kPacketBytes> bytes) RELIEVO_RT;
 [[nodiscard]] std::optional<Command> decodeCommand(std::span<const std::uint8_t, kPacketBytes> bytes) RELIEVO_RT;
 
-// Finds the packets in a stream that may begin, split and break anywhere: what is not a packet is given up byte by
-// byte, so that the first whole packet after any fault is found.
+// Finds packets in a stream that may begin, be split or be corrupted anywhere. It skips invalid data byte by byte, so
+// it finds the first whole packet after any fault.
 class PacketStream {
  public:
-  // Adds bytes; the oldest are dropped where more come than it holds (eight packets).
+  // Appends bytes; drops the oldest beyond its capacity of eight packets.
   void add(std::span<const std::uint8_t> bytes) RELIEVO_RT;
-  // The next whole packet, checked as a reply; nothing when more bytes are needed.
+  // The next whole packet that is a valid reply; nullopt if more bytes are needed.
   [[nodiscard]] std::optional<Packet> next() RELIEVO_RT;
   void clear() RELIEVO_RT { size_ = 0; }
   [[nodiscard]] std::uint64_t discarded() const RELIEVO_RT { return discarded_; }
@@ -56,7 +56,7 @@ class PacketStream {
   void drop(std::size_t count) RELIEVO_RT;
   std::array<std::uint8_t, 8 * kPacketBytes> bytes_{};
   std::size_t size_ = 0;
-  std::uint64_t discarded_ = 0;  // bytes that were part of no packet
+  std::uint64_t discarded_ = 0;  // bytes that belonged to no packet
 };
 
 }  // namespace relievo::falcon

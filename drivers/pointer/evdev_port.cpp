@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// libevdev says what a device is. The events are read by read(2): libevdev_next_event asks the kernel for the state of
-// every key, axis and slot when events were dropped, and keeps a queue and a log of its own, which a mouse does not
-// need and a tick cannot afford.
+// Uses libevdev to identify mice and read(2) for their events: libevdev_next_event asks the kernel for the state of
+// every key, axis and slot when events were dropped, and keeps its own queue and log, which a mouse does not need and a
+// tick cannot afford.
 #include <fcntl.h>
 #include <libevdev/libevdev.h>
 #include <sys/ioctl.h>
@@ -24,8 +24,8 @@ namespace {
 
 constexpr const char* kFolder = "/dev/input";
 constexpr const char* kNoRight =
-    "the right to read the mouse is missing; add the user to the group that may (sudo usermod -aG input $USER) and log "
-    "in anew";
+    "no permission to read the mouse; add the user to the group input (sudo usermod -aG input $USER) and log in "
+    "again";
 
 bool isMouse(int fd) {
   libevdev* device = nullptr;
@@ -41,7 +41,7 @@ UniqueFd openEvents(const std::string& path) {
   return UniqueFd(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
 }
 
-// N of each eventN, the lowest first.
+// The number N of each eventN, in ascending order.
 std::vector<int> eventNumbers() {
   constexpr std::string_view kBefore = "event";
   std::vector<int> numbers;
@@ -87,10 +87,12 @@ class EvdevPort final : public MousePort {
     fd_ = openEvents(path_);
     const int error = errno;
     if (!fd_.valid() && error == EACCES) return fail(ErrorCode::PermissionDenied, kNoRight, error);
-    if (!fd_.valid()) return fail(ErrorCode::NotFound, "the mouse is not there; see /dev/input for what is", error);
+    if (!fd_.valid())
+      return fail(ErrorCode::NotFound, "there is no such mouse; ls /dev/input lists the devices", error);
     if (isMouse(fd_.get())) return {};
     fd_.reset();
-    return fail(ErrorCode::Unsupported, "this input device is no mouse: it lacks two axes that move or a left button");
+    return fail(ErrorCode::Unsupported,
+                "this input device is no mouse: it lacks relative axes or a left button; choose another");
   }
 
   Result<void> openFirst() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the driver needs of a mouse: events as the kernel tells them. A test fakes it.
+// What the driver needs of a mouse: input events in the kernel's format. Tests fake it.
 #pragma once
 
 #include <linux/input.h>
@@ -17,9 +17,9 @@
 
 namespace relievo {
 
-// One bit each.
+// Bits of `buttonsDown`.
 constexpr std::uint8_t kLeftButton = 1, kRightButton = 2, kMiddleButton = 4;
-// Up and to the right of the middle, where a mouse knows the place that it points at (EV_ABS).
+// The unit of EV_ABS events, for a mouse that reports its position: x to the right, y up, from the middle.
 constexpr double kMmPerAbs = 0.01;
 
 // `open` and `close` on the owner's thread; the others on the real-time thread: one system call each, never waiting.
@@ -27,20 +27,20 @@ class MousePort {
  public:
   virtual ~MousePort() = default;
 
-  // NotFound, PermissionDenied; Unsupported when it is no mouse.
+  // NotFound, PermissionDenied; Unsupported if it is no mouse.
   [[nodiscard]] virtual Result<void> open() = 0;
   virtual void close() noexcept = 0;
-  // How far it points from the middle, right or left, up or down. Known from `open` on.
+  // The greatest distance from the middle that it can point at, horizontally and vertically. Known from `open` on.
   [[nodiscard]] virtual glm::dvec2 reachMm() const noexcept { return {100, 75}; }
-  // The oldest events that wait, how many; 0 when none do. Lost.
+  // Reads the oldest pending events and returns their number, or 0. Lost.
   [[nodiscard]] virtual Result<std::size_t> take(std::span<input_event> events) RELIEVO_RT = 0;
-  // Which buttons are down now. Lost.
+  // The buttons that are down now. Lost.
   [[nodiscard]] virtual Result<std::uint8_t> buttonsDown() RELIEVO_RT = 0;
 };
 
 // `path`: /dev/input/eventN, or empty for the first device that has REL_X, REL_Y and BTN_LEFT.
 [[nodiscard]] std::unique_ptr<MousePort> makeEvdevPort(std::string path);
-// The mouse over a window. NotFound and Lost where there is none.
+// The mouse over the player's window. NotFound or Lost without a window.
 [[nodiscard]] std::unique_ptr<MousePort> makeWindowPort(std::shared_ptr<WindowInput> input);
 
 }  // namespace relievo

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts, or a place in a window, become a place to go to, the left button a press; the finger follows both smoothly.
+// Converts mouse counts, or a position in a window, to the finger's target; the left button presses. The finger follows
+// smoothly.
 #include "drivers/pointer/pointer.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@ namespace relievo {
 namespace {
 
 constexpr double kFarMm = -20, kNearMm = 60;
-constexpr glm::dvec3 kStartMm(0, 0, 46);  // 40 mm is the nearest that a surface of the default volume comes
+constexpr glm::dvec3 kStartMm(0, 0, 46);  // above every surface: the default volume is 40 mm deep
 constexpr double kMmPerCount = 0.1, kMmPerNotch = 2;
 constexpr double kPressMmPerS = 80, kPressN = 2;
 constexpr double kSmoothS = 0.01;
@@ -28,7 +29,7 @@ class Pointer final : public HapticDevice {
   Pointer(const Pointer&) = delete;
   Pointer& operator=(const Pointer&) = delete;
 
-  // The forces are those of a small device, for the picture; what does not push holds any stiffness.
+  // The forces are those of a small device, for the picture; without motors any stiffness is stable.
   [[nodiscard]] HapticCapabilities capabilities() const noexcept override {
     return {.name = "pointer",
             .workspace_min_mm = min_mm_,
@@ -52,7 +53,7 @@ class Pointer final : public HapticDevice {
   }
   Result<void> homeDevice() override { return {}; }
 
-  // What the mouse did until now is not meant for the finger; a place that it points at is.
+  // Discards motion from before the start, but keeps an absolute position.
   Result<void> startDevice() override {
     const glm::dvec3 place = place_mm_;
     for (int i = 0; i < kReadsATick; ++i) {
@@ -95,7 +96,7 @@ class Pointer final : public HapticDevice {
     port_->close();
   }
 
-  // Like a finger of a given strength: what pushes back slows it down, and more of it drives it back.
+  // Like a finger of a given strength: a force against it slows it down, and a stronger one drives it back.
   void press(double elapsed_s) RELIEVO_RT {
     const bool held = (down_ & kLeftButton) != 0;
     const double share = held ? std::clamp(1 - force_z_n_ / kPressN, -1.0, 1.0) : -1.0;
@@ -116,7 +117,7 @@ class Pointer final : public HapticDevice {
     return taken;
   }
 
-  // Where events were dropped the rest of their report is no good, and the buttons are asked for anew (kernel,
+  // After dropped events, ignores the rest of the report and reads the buttons again (kernel,
   // Documentation/input/event-codes.rst, SYN_DROPPED).
   Result<void> follow(const input_event& event) RELIEVO_RT {
     if (event.type == EV_SYN && event.code == SYN_DROPPED) dropped_ = true;
@@ -137,7 +138,7 @@ class Pointer final : public HapticDevice {
 
   void move(std::uint16_t axis, std::int32_t counts) RELIEVO_RT {
     if (axis == REL_X) place_mm_.x += kMmPerCount * counts;
-    if (axis == REL_Y) place_mm_.y -= kMmPerCount * counts;  // a mouse counts toward its user
+    if (axis == REL_Y) place_mm_.y -= kMmPerCount * counts;  // a mouse's y counts toward its user
     if (axis == REL_WHEEL) place_mm_.z -= kMmPerNotch * counts;
     place_mm_ = glm::clamp(place_mm_, min_mm_, max_mm_);
   }
@@ -161,11 +162,11 @@ class Pointer final : public HapticDevice {
   const Clock& clock_;
   glm::dvec3 min_mm_{-port_->reachMm(), kFarMm}, max_mm_{port_->reachMm(), kNearMm};
   glm::dvec3 place_mm_ = kStartMm;  // where mouse and wheel point
-  double pressed_mm_ = 0;           // how far below that the left button has pressed
+  double pressed_mm_ = 0;           // how far below `place_mm_` the left button has pressed
   glm::dvec3 finger_mm_ = kStartMm;
   std::uint8_t down_ = 0;  // buttons of the mouse
-  bool absolute_ = false;  // it tells where it points, not how far it has moved
-  bool dropped_ = false;   // within a report of which a part is missing
+  bool absolute_ = false;  // the mouse reports positions, not motion
+  bool dropped_ = false;   // within a report that lost events
   double force_z_n_ = 0;
   MonotonicTime now_, last_write_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A mouse in place of a haptic device, for who has none: it points, presses and shows what would be felt.
+// A mouse as a stand-in for a haptic device: it points, presses and shows what would be felt.
 #pragma once
 
 #include <memory>
@@ -11,17 +11,16 @@
 
 namespace relievo {
 
-// The picture plane by the mouse, 0.1 mm a count (1000 counts an inch: some four times the hand's way). The wheel moves
-// the finger 2 mm a notch, forward is away from the viewer. The left button, while it is held, presses: the finger goes
-// toward the surface at 80 mm/s, slower the harder it is pushed back, and rests where that is 2 N; let go, it comes
-// back at that speed. The middle button is the device's main button (bit 0), the right one its clutch (bit 1); the left
-// one is none, since it presses. Every step is smoothed with a time constant of 10 ms, about the time between two
-// reports.
+// The mouse moves the finger in the picture plane by 0.1 mm per count (at 1000 counts per inch, about four times the
+// hand's motion). The wheel moves it 2 mm per notch; forward is away from the viewer. Holding the left button presses:
+// the finger moves toward the surface at 80 mm/s, slower the stronger the force against it, and rests at 2 N. After
+// release it returns at that speed. The middle button is the device's main button (bit 0), the right one its clutch
+// (bit 1). Motion is smoothed with a time constant of 10 ms, about the time between two reports.
 //
-// Over a window it points at a place: the finger is where the mouse is, and the picture plane is the window's.
+// Over a window it is absolute: the finger is where the mouse points, and the picture plane is the window's.
 //
-// It cannot push: a force is kept for 20 ms to press against, and nobody feels it. Unplugged it is Lost. The mouse is
-// not taken from a desktop that uses it as well.
+// It has no motors: a force only acts against the press, for 20 ms at most. If unplugged, it is Lost. The mouse is not
+// grabbed, so a desktop can use it as well.
 [[nodiscard]] std::unique_ptr<HapticDevice> makePointer(std::unique_ptr<MousePort> port, const Clock& clock);
 // `path`: see makeEvdevPort.
 [[nodiscard]] std::unique_ptr<HapticDevice> makePointer(std::string path, const Clock& clock);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mouse over a window, told in the kernel's words: what has changed since it was asked last.
+// The mouse over a window, as input events of the kernel's format: the changes since the last call.
 #include <algorithm>
 #include <utility>
 
@@ -8,7 +8,7 @@
 namespace relievo {
 namespace {
 
-// A volume is 160 mm wide where nobody says otherwise, and the last 4 mm of a workspace push back.
+// The default volume is 160 mm wide; the soft edge of a workspace is 4 mm wide.
 constexpr double kHalfWidthMm = 80, kSoftEdgeMm = 4;
 
 constexpr std::uint8_t bitsOf(const WindowMouse& mouse) noexcept {
@@ -22,7 +22,7 @@ class WindowPort final : public MousePort {
 
   Result<void> open() override {
     if (!input_->open) {
-      return fail(ErrorCode::NotFound, "there is no window to point in; it opens with --display window");
+      return fail(ErrorCode::NotFound, "there is no window to point in; add --display window");
     }
     input_->mouse.refresh();
     told_ = input_->mouse.front();
@@ -33,8 +33,9 @@ class WindowPort final : public MousePort {
   }
   void close() noexcept override {}
 
-  // Of the window's shape: the player lets the smallest such workspace cover the picture, as the picture is the largest
-  // of its shape that the window holds. A millimetre here is one there, and the finger is where the mouse points.
+  // Has the window's aspect ratio. The player shows the largest picture that fits into the window, and maps the
+  // smallest workspace that covers the picture; so one millimetre here is one there, and the finger is where the mouse
+  // points.
   glm::dvec2 reachMm() const noexcept override { return {kHalfWidthMm + kSoftEdgeMm, half_height_mm_ + kSoftEdgeMm}; }
 
   Result<std::size_t> take(std::span<input_event> events) RELIEVO_RT override {
@@ -66,7 +67,7 @@ class WindowPort final : public MousePort {
 
  private:
   static std::unexpected<Error> gone() RELIEVO_RT {
-    return fail(ErrorCode::Lost, "the window that the mouse points in has gone");
+    return fail(ErrorCode::Lost, "the window was closed, so the mouse cannot point any more; open a window again");
   }
 
   std::shared_ptr<WindowInput> input_;

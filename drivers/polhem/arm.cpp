@@ -10,7 +10,7 @@
 namespace relievo::polhem {
 namespace {
 
-// From the maker's axes to the device's.
+// Converts a vector from the maker's axes to the device frame.
 glm::dvec3 turned(const std::array<double, 3>& v) {
   return {v[1], v[2], v[0]};
 }
@@ -24,8 +24,8 @@ Arm::Arm(const Description& d)
       origin_mm_(1e3 * turned(d.workspace_origin)) {
   for (std::size_t i = 0; i < 3; ++i) {
     const int axis = static_cast<int>(i);
-    // Angle of the body for one of the motor. A motor whose shaft points along the body's axis turns it backwards, as
-    // the cable crosses over.
+    // The body's angle per angle of the motor. A motor whose shaft points along the body's axis turns the body
+    // backwards, since the cable crosses over.
     const double ratio = (d.motor_and_body_aligned[i] ? -1 : 1) * d.diameter_capstan[i] / d.diameter_body[i];
     rad_per_count_[axis] = ratio * 2 * std::numbers::pi / d.cpr_encoder[i];
     ma_per_nmm_[axis] = ratio / d.torque_constant[i];  // N mm / (N m / A) is mA
@@ -52,7 +52,7 @@ glm::dvec3 Arm::currentsFor(const glm::dvec3& force_n, const glm::dvec3& theta_r
   return ma_per_nmm_ * (force_n * jacobian(theta_rad));  // a row times the matrix: its transpose times the force
 }
 
-// The shoulder, the elbow and the tip are the corners of a triangle in the plane of the arm.
+// Solves the triangle of shoulder, elbow and tip in the plane of the arm.
 glm::dvec3 Arm::anglesInTheMiddle() const {
   const double reach = std::hypot(origin_mm_.x, origin_mm_.z), rise = origin_mm_.y - shoulder_mm_;
   const double span = std::hypot(reach, rise);

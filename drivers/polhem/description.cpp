@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every number has a range: what comes from a file decides how strong the currents are.
+// Checks the range of every number, since the file determines the motor currents.
 #include "drivers/polhem/description.h"
 #include "platform/whole_file.h"
 
@@ -13,8 +13,10 @@ namespace {
 
 using nlohmann::json;
 
-constexpr Error kMissing{ErrorCode::InvalidArgument, 0, "is missing or no number; see the files in drivers/polhem"};
-constexpr Error kRange{ErrorCode::InvalidArgument, 0, "no device has this; SI units: m, N, N/m, N m/A, A, counts"};
+constexpr Error kMissing{ErrorCode::InvalidArgument, 0,
+                         "is missing or not a number; see the examples in drivers/polhem"};
+constexpr Error kRange{ErrorCode::InvalidArgument, 0,
+                       "is out of the range of any device; use SI units: m, N, N/m, N m/A, A, counts"};
 
 struct Range {
   double least, most;
@@ -22,7 +24,7 @@ struct Range {
 constexpr Range kDiameter{0.001, 1}, kLength{0.01, 1}, kTorqueConstant{0.001, 10}, kCounts{100, 1e6};
 constexpr Range kCalibration{-32768, 32767};
 
-// Reads one key after the other until one is wrong.
+// Reads one key after another until one is wrong.
 class Reader {
  public:
   explicit Reader(const json& object) : object_(object) {}
@@ -36,13 +38,13 @@ class Reader {
   double numberOr(double otherwise, const std::string& key, Range range) {
     return object_.contains(key) ? number(key, range) : otherwise;
   }
-  // The maker's writer says true and false; its tables say 1 and 0.
+  // The maker's library writes true and false; its tables have 1 and 0.
   bool flag(const std::string& key) {
     const auto found = object_.find(key);
     if (found != object_.end() && found->is_boolean()) return found->get<bool>();
     return number(key, {0, 1}) != 0;
   }
-  // Three of them, key_a to key_c.
+  // The three numbers key_a, key_b and key_c.
   std::array<double, 3> numbers(const std::string& key, Range range) {
     return {number(key + "_a", range), number(key + "_b", range), number(key + "_c", range)};
   }
@@ -66,7 +68,8 @@ std::int16_t countOf(double value) {
 
 Outcome<Description> parseDescription(const std::string& text, const std::string& name) {
   const json object = json::parse(text, nullptr, false);
-  if (!object.is_object()) return failOn(name, {ErrorCode::Corrupt, 0, "this is no JSON object; it should be one"});
+  if (!object.is_object())
+    return failOn(name, {ErrorCode::Corrupt, 0, "is not a JSON object; see the examples in drivers/polhem"});
   Reader from(object);
   const double variant = from.number("variant", {0, 1e6});
   if (!from.failure() && variant != 0 && variant != 1 && variant != 2) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one device of the Polhem and WoodenHaptics family is like: its lengths, drives and limits, read from JSON.
+// The description of a device of the Polhem and WoodenHaptics family: lengths, drives and limits, read from JSON.
 #pragma once
 
 #include <array>
@@ -11,9 +11,9 @@
 
 namespace relievo::polhem {
 
-// The files are those of the maker's own library (`toJSON` there writes one), SI units, keys as here with the axes'
-// letters: diameter_capstan_a and so on; keys that nothing here needs are left unread. Files for the public devices
-// lie beside this one. The numbers are those of the library's header (BSD licence).
+// The files have the format of the maker's library (its `toJSON` writes one), in SI units. Keys are named as here, with
+// the axis's letter: diameter_capstan_a and so on; other keys are ignored. Files for the published devices are beside
+// this one; their numbers come from the library's header (BSD licence).
 struct Description {
   int variant = 0;                           // of the kinematics; 0, 1 and 2 are the same
   std::array<double, 3> diameter_capstan{};  // m
@@ -22,13 +22,13 @@ struct Description {
   std::array<double, 3> workspace_origin{};  // m, in the maker's frame
   double workspace_radius = 0;               // m
   std::array<double, 3> torque_constant{};   // torque_constant_motor_a: N m / A
-  double current_for_10_v_signal = 0;        // A, the most that the amplifiers are set up for
-  std::array<double, 3> cpr_encoder{};       // counts a turn of the motor
+  double current_for_10_v_signal = 0;        // A, the amplifiers' maximum
+  std::array<double, 3> cpr_encoder{};       // counts per turn of the motor
   double max_linear_force = 0;               // N
   double max_linear_stiffness = 0;           // N/m
-  EncoderCounts calibrate_enc{};             // in the pose in which the device is calibrated
+  EncoderCounts calibrate_enc{};             // in the calibration pose
   std::array<bool, 3> motor_and_body_aligned{};
-  double max_milliamps = 2000;  // no key of the maker's: its library has this number for all devices
+  double max_milliamps = 2000;  // not a key of the file: the maker's library uses this for all devices
 };
 
 // The default: woodenhaptics-2019.json.
@@ -46,10 +46,10 @@ inline constexpr Description kWoodenHaptics2019{.variant = 0,
                                                 .calibrate_enc = {0, 0, 6000},
                                                 .motor_and_body_aligned = {false, false, false}};
 
-// The failure names `name` and the key. Corrupt: no JSON. InvalidArgument: a key is missing or its value is not one
-// that a device can have. Unsupported: variant 3 (Polhem v2 and v3), whose kinematics the maker keeps to itself.
+// The failure names `name` and the key. Corrupt: no JSON. InvalidArgument: a key is missing or its value is impossible.
+// Unsupported: variant 3 (Polhem v2 and v3), whose kinematics are not published.
 [[nodiscard]] Outcome<Description> parseDescription(const std::string& text, const std::string& name);
-// NotFound, Io, and as above.
+// NotFound, Io, and the errors of parseDescription.
 [[nodiscard]] Outcome<Description> loadDescription(const std::string& path);
 
 }  // namespace relievo::polhem

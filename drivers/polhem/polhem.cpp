@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One exchange a tick: the newest report becomes a position, the force becomes currents.
+// Each tick converts the newest report to a position, and the force to currents.
 #include "drivers/polhem/polhem.h"
 
 #include <algorithm>
@@ -18,12 +18,12 @@ using namespace polhem;
 
 constexpr Duration kTick = 1ms;
 constexpr Duration kAnswer = 20ms;
-constexpr Duration kHeldStill = 500ms;  // before it is calibrated
-constexpr Duration kSettled = 20ms;     // after that
-constexpr int kMostPackets = 16;        // of a tick: a device that floods the bus does not hold it up
-constexpr int kStillCounts = 4;         // 0.2 mm: what a hand that rests makes
-// What the windings and amplifiers stand for good is not published for these arms: half of the highest current is
-// taken for it, 1 A of 2 A, where the motors that the torque constants point at are rated for 1.7 A and more.
+constexpr Duration kHeldStill = 500ms;  // before calibration
+constexpr Duration kSettled = 20ms;     // after calibration
+constexpr int kMostPackets = 16;        // per tick, so that a device that floods the bus cannot delay it
+constexpr int kStillCounts = 4;         // 0.2 mm: the motion of a resting hand
+// The continuous current of these arms is not published: half of the highest one is assumed, 1 A of 2 A. The motors
+// with these torque constants are rated for 1.7 A and more.
 constexpr double kLastingShare = 0.5;
 
 class Polhem final : public HapticDevice {
@@ -44,7 +44,7 @@ class Polhem final : public HapticDevice {
   Polhem(const Polhem&) = delete;
   Polhem& operator=(const Polhem&) = delete;
 
-  // The peak is what the currents' limit leaves in every direction, cut at what the maker promises.
+  // The peak is the force that the current limit allows in every direction, limited to the maker's figure.
   [[nodiscard]] HapticCapabilities capabilities() const noexcept override {
     const glm::dvec3 radius_mm(1e3 * config_.description.workspace_radius);
     return {.name = "Polhem",
@@ -57,14 +57,14 @@ class Polhem final : public HapticDevice {
   }
 
  private:
-  // Whole, and below what an int16 and the amplifiers' setting hold.
+  // A whole number, within the amplifiers' maximum and an int16.
   [[nodiscard]] double mostMilliamps() const {
     const Description& d = config_.description;
     return std::floor(std::min({d.max_milliamps, 1e3 * d.current_for_10_v_signal, 32000.0}));
   }
 
-  // The ids are those of many other gadgets: what answers with another kind of report is not this device. The first
-  // answer tells how long the board's reports are.
+  // Many other gadgets have the same USB ids: one that answers with another kind of report is not a Polhem. The length
+  // of the first answer is the length of the board's reports.
   Result<void> openDevice() override {
     if (auto opened = port_->open(); !opened) return opened;
     report_bytes_ = kReportBytes;
@@ -76,13 +76,13 @@ class Polhem final : public HapticDevice {
       if (!packet && packet.error().code != ErrorCode::Timeout) return std::unexpected(packet.error());
       if (!packet) continue;
       if (packet->bytes != kReportBytes && packet->bytes != kPaddedBytes) {
-        return fail(ErrorCode::Unsupported, "another gadget has the Polhem's USB id; unplug it");
+        return fail(ErrorCode::Unsupported, "another device has the Polhem's USB id; unplug it");
       }
       report_bytes_ = packet->bytes;
       return {};
     }
-    if (cancelled()) return fail(ErrorCode::Cancelled, "opening the Polhem was called off");
-    return fail(ErrorCode::Timeout, "the Polhem does not answer; check its power and plug it in anew");
+    if (cancelled()) return fail(ErrorCode::Cancelled, "opening the Polhem was cancelled");
+    return fail(ErrorCode::Timeout, "the Polhem does not answer; check its power and plug it in again");
   }
 
   Result<void> homeDevice() override {
@@ -94,7 +94,7 @@ class Polhem final : public HapticDevice {
 
   Result<void> calibrate() {
     if (auto still = waitUntilStill(kHeldStill); !still) return std::unexpected(still.error());
-    // The grip's joints are not used here; where a board does not know the verb their fields are currents: zero.
+    // The fields for the grip's joints stay 0: a board that does not know Calibrate takes them for currents.
     const Command command{.verb = Verb::Calibrate, .counts = config_.description.calibrate_enc};
     for (auto sent = port_->post(bytesOf(command)); !sent || !*sent; sent = port_->post(bytesOf(command))) {
       if (!sent) return std::unexpected(sent.error());
@@ -113,7 +113,7 @@ class Polhem final : public HapticDevice {
     return {};
   }
 
-  // The counts, raw, once none has moved for so long.
+  // Returns the raw counts once they have not changed for `wanted`.
   Result<EncoderCounts> waitUntilStill(Duration wanted) {
     std::optional<EncoderCounts> first;
     MonotonicTime since = clock_.now();
@@ -155,7 +155,7 @@ class Polhem final : public HapticDevice {
     return sample_;
   }
 
-  // A report that cannot be so leaves the last position standing for this tick.
+  // An impossible report leaves the position unchanged for this tick.
   void follow(const Report& report) RELIEVO_RT {
     sample_.buttons = report.button() ? 1 : 0;
     const EncoderCounts counts = corrected(report.arm);
@@ -189,7 +189,7 @@ class Polhem final : public HapticDevice {
     return newest;
   }
 
-  // Kept until the next call; one thread at a time.
+  // Valid until the next call; one thread at a time.
   UsbBytes bytesOf(const Command& command) RELIEVO_RT {
     outgoing_ = encode(command);
     return UsbBytes(outgoing_).first(report_bytes_);

@@ -13,13 +13,13 @@ namespace relievo {
 
 struct PolhemConfig {
   polhem::Description description = polhem::kWoodenHaptics2019;
-  bool watchdog_thread = true;  // false: `read` looks alone, for simulated time
+  bool watchdog_thread = true;  // false: only `read` checks, for simulated time
 };
 
-// The encoders count from wherever the arm was when its power came on. `home` therefore needs the arm in the pose in
-// which it is calibrated (its rest, as the description's calibrate_enc says; a WoodenHaptics: upper link upright, lower
-// link level, straight ahead), waits until it has been still there for half a second, until `cancel` or Lost, and then
-// tells the board what its encoders should show. A board that does not know that command is corrected here.
+// The encoders count from the arm's pose at power-on. `home` therefore needs the arm in its calibration pose (at rest,
+// where the counts are the description's calibrate_enc; for a WoodenHaptics: upper link upright, lower link level,
+// straight ahead). It waits until the arm has been still there for half a second, or until `cancel` or Lost, then sends
+// these counts to the board. If the board does not know that command, the driver adds the offset itself.
 // The force fades in over half a second after `start`. The button is the grip's.
 // Safety: the watchdog sends zero 20 ms after the last `write`, and the board by itself after 500 ms; so do `stop`,
 // `close`, the destructor and quietenAllUsbDevices(). A device that answers nothing for 100 ms is Lost. Gravity is not
@@ -27,7 +27,7 @@ struct PolhemConfig {
 // Frame: x right, y up, z toward the user, origin in the middle of the workspace (see polhem::Arm).
 [[nodiscard]] std::unique_ptr<HapticDevice> makePolhem(const PolhemConfig& config, std::unique_ptr<UsbPort> port,
                                                        Clock& clock);
-// On the first one that libusb finds, of either board.
+// For the first arm that libusb finds, with either board.
 [[nodiscard]] std::unique_ptr<HapticDevice> makePolhem(const PolhemConfig& config, Clock& clock);
 
 }  // namespace relievo

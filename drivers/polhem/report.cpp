@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Words into bytes and back.
+// Encodes words as bytes and decodes them.
 #include "drivers/polhem/report.h"
 
 namespace relievo::polhem {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the columns that it needs, and says which line is wrong.
+// Reads the columns that it needs; errors name the line.
 #include "drivers/replay/recording.h"
 #include "platform/whole_file.h"
 
@@ -17,8 +17,8 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kAbsent = std::numeric_limits<std::size_t>::max();
 constexpr const char* kNoColumns =
-    "is no recording: it has neither device_x_mm,device_y_mm,device_z_mm with the device's workspace, nor "
-    "hip_x_mm,hip_y_mm,hip_z_mm, nor x_mm,y_mm,z_mm";
+    "is no recording: it needs the columns device_x_mm,device_y_mm,device_z_mm and the device's workspace, or "
+    "hip_x_mm,hip_y_mm,hip_z_mm, or x_mm,y_mm,z_mm";
 
 using Cells = std::vector<std::string_view>;
 
@@ -47,7 +47,7 @@ std::size_t columnOf(const Cells& names, std::string_view name) {
   return found == names.end() ? kAbsent : static_cast<std::size_t>(found - names.begin());
 }
 
-// None where there is no such column, or no number in it.
+// kNone without such a column or without a number in it.
 double numberIn(const Cells& cells, std::size_t column) {
   if (column == kAbsent) return kNone;
   const char* const begin = cells[column].data();
@@ -57,7 +57,7 @@ double numberIn(const Cells& cells, std::size_t column) {
   return error == std::errc{} && last == end ? value : kNone;
 }
 
-// x, y and z of one thing.
+// The columns x, y and z of one position.
 struct Columns {
   std::size_t x = kAbsent, y = kAbsent, z = kAbsent;
   Columns(const Cells& names, const std::string& thing)
@@ -72,7 +72,7 @@ bool isFinite(const glm::dvec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// What the first row says of the device; nothing where it does not say it whole.
+// The device's properties from the first row; nullopt if one is missing or impossible.
 std::optional<HapticCapabilities> deviceIn(const Cells& names, const Cells& cells) {
   const auto number = [&](std::string_view name) { return numberIn(cells, columnOf(names, name)); };
   const HapticCapabilities device{.name = "replay",
@@ -88,7 +88,7 @@ std::optional<HapticCapabilities> deviceIn(const Cells& names, const Cells& cell
   return whole ? std::optional(device) : std::nullopt;
 }
 
-// Its millimetres are the scene's: the middle of its workspace is that of the default volume, and its ends are far.
+// A device whose millimetres are the scene's: its workspace is huge and centred on the default volume.
 HapticCapabilities sceneDevice() {
   constexpr double kFarMm = 1000;
   const glm::dvec3 middle(0, 0, 20);
@@ -117,16 +117,17 @@ class Reader {
   }
   [[nodiscard]] bool finds() const { return position_.all(); }
 
-  // Nothing wrong: null.
+  // Returns what is wrong with the line, or null.
   const char* addRow(std::string_view line) {
     const Cells cells = cellsOf(line);
-    if (cells.size() != names_.size()) return "has not as many cells as the file's first line has names";
+    if (cells.size() != names_.size())
+      return "its number of cells differs from the header's; give one cell for each column";
     RecordedTick tick{.position_mm = position_.in(cells)};
-    if (!isFinite(tick.position_mm)) return "has no number for the position";
+    if (!isFinite(tick.position_mm)) return "its position is not a number; give x, y and z in mm";
     if (buttons_ != kAbsent) {
       const double buttons = numberIn(cells, buttons_);
       if (!(buttons >= 0 && buttons <= 0xFFFFFFFFU && buttons == std::floor(buttons)))
-        return "has no number for buttons";
+        return "its buttons are not a whole number; give 0 for none";
       tick.buttons = static_cast<std::uint32_t>(buttons);
     }
     if (answered_ != kAbsent) tick.answered = numberIn(cells, answered_) != 0;
@@ -137,7 +138,7 @@ class Reader {
     return nullptr;
   }
 
-  // The rate, where the file does not say it: as many ticks as there are in its time, to a whole number.
+  // If the file does not state the rate, it is the number of ticks over the recording's length, rounded.
   [[nodiscard]] Recording finish() && {
     const double rate = std::round(static_cast<double>(recording_.ticks.size() - 1) / (last_s_ - first_s_));
     if (rate >= 1 && rate <= 1e5) recording_.capabilities.rate_hz = rate;
@@ -168,7 +169,7 @@ Outcome<Recording> Recording::parse(std::string_view csv, const std::string& nam
     ++number;
     if (const char* wrong = reader.addRow(takeLine(csv)); wrong != nullptr) return wrongLine(name, number, wrong);
   }
-  if (number == 1) return wrongLine(name, 2, "no row follows; a recording has one for each tick");
+  if (number == 1) return wrongLine(name, 2, "the recording has no rows; it needs one for each tick");
   return std::move(reader).finish();
 }
 

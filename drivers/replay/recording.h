@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A recorded session: where the device was at every tick, and what device it was.
+// A recorded session: the device's position at every tick, and its properties.
 #pragma once
 
 #include <cstdint>
@@ -16,20 +16,19 @@ namespace relievo {
 struct RecordedTick {
   glm::dvec3 position_mm{0};
   std::uint32_t buttons = 0;
-  bool answered = true;  // false: the device did not
+  bool answered = true;  // false: the device did not answer at this tick
 };
 
 struct Recording {
   HapticCapabilities capabilities;
-  std::vector<RecordedTick> ticks;  // one at least
+  std::vector<RecordedTick> ticks;  // at least one
 
-  // CSV by the names of its columns, whatever their order: device_x_mm, _y_mm, _z_mm with buttons, device_present and,
-  // in the first row, the device's workspace, forces, stiffness and rate, as `relievo play --record` writes them. Where
-  // those are missing, hip_x_mm.. or x_mm.. in the scene frame of the default display depth of 40 mm: the device is
-  // then one whose millimetres are the scene's, and that has no end. InvalidArgument otherwise; the failure names the
-  // line.
+  // CSV with named columns in any order: device_x_mm, _y_mm, _z_mm, buttons, device_present and, in the first row, the
+  // device's workspace, forces, stiffness and rate, as `relievo play --record` writes them. Without those,
+  // hip_x_mm.. or x_mm.. in the scene frame of the default display depth of 40 mm: device millimetres are then scene
+  // millimetres, and the workspace is practically unlimited. Otherwise InvalidArgument; the failure names the line.
   [[nodiscard]] static Outcome<Recording> parse(std::string_view csv, const std::string& name);
-  // NotFound when the file cannot be read.
+  // NotFound if the file cannot be read.
   [[nodiscard]] static Outcome<Recording> load(const std::string& path);
 };
 

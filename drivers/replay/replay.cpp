@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One tick of the recording for each one that is asked for.
+// Returns one recorded tick for each `read`.
 #include "drivers/replay/replay.h"
 
 #include <utility>
@@ -15,7 +15,8 @@ class Replay final : public HapticDevice {
 
  private:
   Result<void> openDevice() override {
-    if (recording_.ticks.empty()) return fail(ErrorCode::InvalidArgument, "the recording has no tick");
+    if (recording_.ticks.empty())
+      return fail(ErrorCode::InvalidArgument, "the recording has no ticks; record a longer session");
     next_ = 0;
     return {};
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The motions of a hand as sums of waves and of slopes without corners.
+// The hand's motions as sums of sine waves and smooth ramps.
 #include "drivers/sim/hand_motion.h"
 
 #include <algorithm>
@@ -9,10 +9,10 @@
 namespace relievo {
 namespace {
 
-constexpr double kRestS = 0.5, kDownS = 1.2;       // at most 82 mm/s: contact without a blow
-constexpr double kAboveMm = 48.0, kAimMm = -12.0;  // 40 mm is the nearest that a surface comes
+constexpr double kRestS = 0.5, kDownS = 1.2;       // at most 82 mm/s: a gentle contact
+constexpr double kAboveMm = 48.0, kAimMm = -12.0;  // surfaces are at most 40 mm high
 
-// From 0 at t = 0 to 1 at t = length, without a corner.
+// Rises smoothly from 0 at t = 0 to 1 at t = length.
 double easeIn(double t, double length) RELIEVO_RT {
   const double u = std::clamp(t / length, 0.0, 1.0);
   return u * u * (3.0 - 2.0 * u);
@@ -22,20 +22,19 @@ double wave(double t_s, double period_s) RELIEVO_RT {
   return std::sin(2.0 * std::numbers::pi * t_s / period_s);
 }
 
-// `down` from 0, above everything, to 1, below everything.
+// `down`: from 0, above every surface, to 1, below every surface.
 HandPoint over(double x_mm, double y_mm, double down, double force_limit_n) RELIEVO_RT {
   return {{x_mm, y_mm, kAboveMm + down * (kAimMm - kAboveMm)}, force_limit_n};
 }
 
 HandPoint stroke(double t, double reach) RELIEVO_RT {
   constexpr double kUpS = 1.1;
-  constexpr double kRoundS = 4.0;  // down, stroke, up: it is soon out of what let it through
+  constexpr double kRoundS = 4.0;  // down, stroke, up: a hand that fell through a surface is soon outside again
   const double in_round = std::fmod(t, kRoundS);
   const double down = easeIn(in_round, kDownS) - easeIn(in_round - (kRoundS - kUpS), kUpS);
-  // The first contact is near the middle; what has a hole there is found within half a second more.
+  // The first contact is near the middle; if there is a hole, the stroke leaves it within half a second.
   const double share = reach * easeIn(t - kDownS / 2, kDownS);
-  // At most 31 and 28 mm/s in the end; the periods have no common multiple before 803 s, so that no line is drawn
-  // twice.
+  // At most 31 and 28 mm/s; the common multiple of both periods is 803 s, so that the path does not repeat before.
   return over(-share * 55.0 * wave(t, 11.0), share * 32.0 * wave(t, 7.3), down, 1.5 + 0.5 * wave(t, 3.1));
 }
 

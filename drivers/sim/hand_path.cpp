@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reader of scripts.
+// Reads hand scripts and interpolates their rows.
 #include "drivers/sim/hand_path.h"
 #include "platform/whole_file.h"
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kHeader = "t_s,x_mm,y_mm,z_mm";
 
-// One row of `count` numbers with commas between; false when it is anything else.
+// Reads a row of `count` comma-separated numbers; false if it is anything else.
 bool parseNumbers(std::string_view line, double* numbers, int count) {
   const char* at = line.data();
   const char* const end = line.data() + line.size();
@@ -28,12 +28,12 @@ bool parseNumbers(std::string_view line, double* numbers, int count) {
   return at == end;
 }
 
-// Nothing wrong: null.
+// Returns what is wrong with the line, or null.
 const char* addRow(std::string_view line, std::vector<HandPath::Row>& rows) {
   double n[4] = {};
-  if (!parseNumbers(line, n, 4)) return "is no row of the hand script; a row is four numbers: t_s,x_mm,y_mm,z_mm";
+  if (!parseNumbers(line, n, 4)) return "is not a row of a hand script; a row is four numbers: t_s,x_mm,y_mm,z_mm";
   if (!rows.empty() && n[0] <= rows.back().t_s)
-    return "its time is not after that of the row above; put the rows in order";
+    return "its time is not after that of the row above; sort the rows by time";
   rows.push_back({n[0], {n[1], n[2], n[3]}});
   return nullptr;
 }
@@ -61,7 +61,8 @@ Outcome<HandPath> HandPath::parse(std::string_view csv, const std::string& scrip
     ++number;
     if (const char* wrong = addRow(takeLine(csv), rows); wrong != nullptr) return wrongLine(script_name, number, wrong);
   }
-  if (rows.empty()) return wrongLine(script_name, number, "no row follows; a row is four numbers: t_s,x_mm,y_mm,z_mm");
+  if (rows.empty())
+    return wrongLine(script_name, number, "the script has no rows; a row is four numbers: t_s,x_mm,y_mm,z_mm");
   return HandPath(std::move(rows));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a simulated hand wants to be: a motion of its own, or the path of a script.
+// A simulated hand's target over time: a built-in motion, or the path of a script.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -21,18 +21,18 @@ class HandPath {
     glm::dvec3 position_mm{0};
   };
 
-  // A motion of the hand's own, for ever; `reach` see moveHand.
+  // A built-in motion, without end; for `reach` see moveHand.
   explicit HandPath(HandMotion motion = HandMotion::Stroking, double reach = 1) noexcept
       : motion_(motion), reach_(reach) {}
 
-  // Straight from row to row; before the first row it is there already, and at the last one it stays. The
-  // spring pulls without a limit. The rows' times increase.
+  // Interpolates linearly between rows; stays at the first row before its time and at the last row after it. The
+  // spring pulls without a limit. The rows' times must increase.
   explicit HandPath(std::vector<Row> rows) : rows_(std::move(rows)) {}
 
-  // CSV in the device frame: the line `t_s,x_mm,y_mm,z_mm`, then one row a line. InvalidArgument otherwise,
-  // and the failure names the script's line.
+  // CSV in the device frame: the header `t_s,x_mm,y_mm,z_mm`, then one row per line. Otherwise InvalidArgument,
+  // with the number of the line.
   [[nodiscard]] static Outcome<HandPath> parse(std::string_view csv, const std::string& script_name);
-  // NotFound when the file cannot be read.
+  // NotFound if the file cannot be read.
   [[nodiscard]] static Outcome<HandPath> load(const std::string& path);
 
   [[nodiscard]] HandPoint at(double t_s) const RELIEVO_RT;

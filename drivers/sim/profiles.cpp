@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The figures of devices and hands, and which of them a line of words means.
+// The parameters of devices and hands, and the parser of the words that choose them.
 #include "drivers/sim/profiles.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ const char* const kSimWords = RELIEVO_SIM_WORDS;
 namespace {
 
 constexpr const char* kUnknown =
-    "is neither a file nor a word of the simulated device and hand; those are: " RELIEVO_SIM_WORDS;
+    "is neither a file nor a simulated device or hand; use " RELIEVO_SIM_WORDS " or a hand script";
 
 const std::array kHands = {
     SimHandName{"stroking", {}, HandMotion::Stroking},
@@ -37,12 +37,12 @@ bool isFile(const std::string& path) {
   return std::filesystem::is_regular_file(path, ignored);
 }
 
-// A word with one of these is no name that was mistyped.
+// A word with a dot or a slash is a path, not a mistyped name.
 bool looksLikePath(const std::string& word) {
   return word.find_first_of("./") != std::string::npos;
 }
 
-// A whole stroke goes 55 mm to either side; it shall end within the workspace.
+// A full stroke goes 55 mm to either side; scale it so that it stays within the workspace.
 double reachOf(const DeviceProfile& profile) {
   const double half_width_mm = (profile.workspace_max_mm.x - profile.workspace_min_mm.x) / 2;
   return std::min(1.0, 0.84 * half_width_mm / 55.0);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The device's side of the simulation: encoders, delay, amplifier, end stops, watchdog; and the hand that
-// holds it.
+// Simulates the device (encoders, delay, amplifier, end stops, watchdog) and the hand that holds it.
 #include "drivers/sim/sim.h"
 
 #include <algorithm>
@@ -44,7 +43,7 @@ class SimHaptic final : public HapticDevice {
   Result<void> openDevice() override {
     const bool mass = profile_.moving_mass_kg > 0 && profile_.hand.mass_kg >= 0;
     if (!mass || !(profile_.rate_hz > 0) || profile_.substeps_per_tick < 1) {
-      return fail(ErrorCode::InvalidArgument, "a simulated device has a mass, a rate and at least one step a tick");
+      return fail(ErrorCode::InvalidArgument, "a simulated device needs a mass, a rate and at least one step per tick");
     }
     time_s_ = 0;
     random_ = profile_.jitter_seed;
@@ -93,8 +92,7 @@ class SimHaptic final : public HapticDevice {
     return static_cast<double>((z ^ (z >> 31U)) >> 11U) * 0x1p-53;
   }
 
-  // The path's point moves straight from where it was to where it will be: one look at the path a tick, not
-  // one a step.
+  // Interpolates the hand's target linearly over the tick, so that the path is evaluated once per tick, not per step.
   void advance(double elapsed_s) RELIEVO_RT {
     const auto steps = static_cast<int>(std::ceil(elapsed_s * profile_.rate_hz * profile_.substeps_per_tick - 1e-6));
     const double dt_s = elapsed_s / steps;
@@ -105,7 +103,7 @@ class SimHaptic final : public HapticDevice {
     const glm::dvec3 limit(goal.force_limit_n);
     const HandProfile& hand = profile_.hand;
     const glm::dvec3 pull_n = hand.damping_n_s_per_mm * target_velocity;
-    // Until the force that is due has come, the one before it acts on.
+    // Until the due force arrives, the previous one acts.
     const double late_s = jitterOf(profile_) * nextRandom() / profile_.rate_hz;
     const auto late_steps = static_cast<int>(std::lround(late_s / dt_s));
     const std::size_t due = delayOf(profile_);
@@ -137,7 +135,7 @@ class SimHaptic final : public HapticDevice {
   DeviceProfile profile_;
   HandPath path_;
   const Clock& clock_;
-  MonotonicTime now_;  // up to which the simulation has come
+  MonotonicTime now_;  // the simulation's time
   MonotonicTime last_write_;
   double time_s_ = 0;  // on the hand's path
   std::uint64_t random_ = 0;

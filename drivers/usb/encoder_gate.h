@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps encoder words out that no hand can have caused: the packets carry no checksum.
+// Rejects encoder readings that no hand can have caused, since the packets have no checksum.
 #pragma once
 
 #include <array>
@@ -13,10 +13,10 @@ namespace relievo {
 // Of a device's three motors.
 using EncoderCounts = std::array<std::int16_t, 3>;
 
-// A word may differ from where the last two would lead by so many counts for each tick that has passed: by what an
-// acceleration of kHighestAcceleration does in a tick, and by rounding (2). What differs by less cannot be told from
-// motion by anybody. A word further off is believed when the next one agrees with it, so that a blow against an end
-// stop costs one tick.
+// A reading is accepted if it is within `slack_per_tick` counts, for each tick that has passed, of the extrapolation of
+// the last two. The slack is the counts that kHighestAccelerationMmPerTick2 makes in a tick, plus rounding; a smaller
+// error looks like motion. A reading further off is accepted once the next one confirms it, so that hitting an end stop
+// costs one tick.
 class EncoderGate {
  public:
   static constexpr double kHighestAccelerationMmPerTick2 = 0.15;  // 150 m/s^2 at 1 kHz
@@ -31,10 +31,10 @@ class EncoderGate {
     doubted_ = false;
   }
 
-  // A tick without a word.
+  // Call on a tick without a reading.
   void skip() RELIEVO_RT { waited_ = waited_ < kLongestWait ? waited_ + 1 : waited_; }
 
-  // True: it is the position now. False: it is kept aside.
+  // True: accepted as the current position. False: kept until the next one confirms it.
   bool accept(const EncoderCounts& counts) RELIEVO_RT {
     const int ticks = waited_ + 1;
     bool fits = true;

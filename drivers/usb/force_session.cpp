@@ -32,7 +32,7 @@ Result<void> ForceSession::beginForces(UsbBytes quiet, bool watchdog_thread) {
 void ForceSession::end() noexcept {
   watchdog_.stop();
   if (!exchanging_) return;
-  static_cast<void>(port_.quieten());  // a device that does not take it has gone
+  static_cast<void>(port_.quieten());  // fails only if the device has gone
   port_.stopExchange();
   exchanging_ = false;
 }
@@ -40,7 +40,8 @@ void ForceSession::end() noexcept {
 Result<void> ForceSession::listened(bool answered) RELIEVO_RT {
   const MonotonicTime now = clock_.now();
   if (answered) heard_ = now;
-  if (now - heard_ > kSilence) return fail(ErrorCode::Lost, "the device stopped answering; plug it in anew");
+  if (now - heard_ > kSilence)
+    return fail(ErrorCode::Lost, "the device stopped answering; unplug it and plug it in again");
   if (watchdog_.check(now) || now - heard_ > Watchdog::kPatience) fade_ = 0;
   return {};
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a haptic driver uses its port while forces may flow: faded in, watched, ended with zero, and given up after
-// silence.
+// A haptic driver's use of its USB port while forces may flow: fades the force in, runs the watchdog, ends with zero
+// force, and reports a device that stops answering.
 #pragma once
 
 #include "drivers/usb/usb_port.h"
@@ -19,21 +19,22 @@ class ForceSession {
 
   // Starts the port's exchange; `quiet` is the command that stops the motors. For homing: no force flows.
   [[nodiscard]] Result<void> begin(UsbBytes quiet);
-  // The same, and forces follow. Without a thread of its own the watchdog looks from `listened` alone.
+  // As `begin`, but forces follow. Without a thread of its own the watchdog checks only in `listened`.
   [[nodiscard]] Result<void> beginForces(UsbBytes quiet, bool watchdog_thread);
-  // Zero force, then no exchange. Does nothing when there is none.
+  // Sends zero force and stops the exchange. Does nothing if none is running.
   void end() noexcept;
 
-  // Once a tick, when what has arrived was looked at. Lost after 100 ms without an answer.
+  // Call once a tick, after reading what has arrived. Lost after 100 ms without an answer.
   [[nodiscard]] Result<void> listened(bool answered) RELIEVO_RT;
 
   struct Share {
-    // That may go out: from 0 to 1 within half a second, anew after the watchdog has barked, and none while the device
-    // has not answered for as long as that one waits: where the hand is is not known then.
+    // The fraction of the force to send: rises from 0 to 1 within half a second, again from 0 after the watchdog has
+    // stopped the motors, and is 0 while the hand's position is unknown, that is once the device has not answered for
+    // the watchdog's time.
     double of_force = 0;
-    double elapsed_s = 0;  // since the last one
+    double elapsed_s = 0;  // since the last call
   };
-  // Once for each force.
+  // Call once for each force.
   [[nodiscard]] Share nextShare() RELIEVO_RT;
   [[nodiscard]] Result<void> send(UsbBytes command) RELIEVO_RT;
 

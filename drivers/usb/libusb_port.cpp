@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finding, opening, claiming and setting up by libusb; the exchange of every tick by usbfs on libusb's own descriptor.
+// Uses libusb to find, open, claim and set up the device, and usbfs on libusb's descriptor for each tick's exchange.
 //
-// libusb allocates an array of URBs for every transfer that is submitted and takes its mutexes on the way (submit and
-// completion in its linux_usbfs.c), which a real-time tick may not. Its transfers are therefore used for set-up alone.
-// For the exchange two URBs are allocated once and handed to the kernel directly, with USBDEVFS_SUBMITURB and
-// USBDEVFS_REAPURBNDELAY, two system calls that are the device's own. Nobody handles libusb's events meanwhile, so that
-// no completion is reaped by the wrong one.
+// libusb allocates an array of URBs for every submitted transfer and takes mutexes at submit and completion (its
+// linux_usbfs.c), which a real-time tick must not do. Its transfers are therefore used for set-up only. For the
+// exchange the URBs are allocated once and passed to the kernel directly, with the ioctls USBDEVFS_SUBMITURB and
+// USBDEVFS_REAPURBNDELAY. No thread handles libusb's events meanwhile, so libusb never reaps these URBs.
 #include <fcntl.h>
 #include <libusb.h>
 #include <linux/usbdevice_fs.h>
@@ -26,7 +25,7 @@ namespace relievo {
 namespace {
 
 constexpr const char* kGone = "the USB device has gone away; plug it in again";
-constexpr std::size_t kQueuedReads = 2;  // one is always with the kernel while the other is looked at
+constexpr std::size_t kQueuedReads = 2;  // one is always with the kernel while the other is read
 
 std::unexpected<Error> failUsb(int code) {
   switch (code) {
@@ -37,7 +36,7 @@ std::unexpected<Error> failUsb(int code) {
       return fail(ErrorCode::Timeout, "the USB device did not answer in time; check its power adaptor");
     case LIBUSB_ERROR_ACCESS:
       return fail(ErrorCode::PermissionDenied,
-                  "the right to use the USB device is missing; copy toolchain/udev/70-relievo.rules to "
+                  "no permission to use the USB device; copy toolchain/udev/70-relievo.rules to "
                   "/etc/udev/rules.d and plug it in again");
     default:
       return fail(ErrorCode::Io, "a USB transfer failed; try another port or cable");
@@ -54,7 +53,7 @@ class LibusbPort final : public UsbPort {
   Result<void> open() override {
     if (libusb_init(&context_) != 0) {
       context_ = nullptr;
-      return fail(ErrorCode::Unsupported, "this machine has no USB that libusb can use");
+      return fail(ErrorCode::Unsupported, "libusb cannot use this machine's USB; check /dev/bus/usb");
     }
     auto opened = openDevice();
     if (!opened) close();
@@ -84,7 +83,9 @@ class LibusbPort final : public UsbPort {
   Result<void> send(UsbBytes bytes, Duration timeout) override {
     const auto sent = transfer(id_.out_endpoint, const_cast<std::uint8_t*>(bytes.data()), bytes.size(), timeout);
     if (!sent) return std::unexpected(sent.error());
-    if (*sent != bytes.size()) return fail(ErrorCode::Timeout, "the USB device took only a part of what was sent");
+    if (*sent != bytes.size())
+      return fail(ErrorCode::Timeout,
+                  "the USB device accepted only a part of what was sent; unplug it and plug it in again");
     return {};
   }
 
@@ -142,7 +143,7 @@ class LibusbPort final : public UsbPort {
     for (Transfer* each : {&in_[0], &in_[1], &out_}) {
       if (each->busy) ::ioctl(fd_.get(), USBDEVFS_DISCARDURB, each->urb.get());
     }
-    // A discarded URB still comes back once; until it has, its memory is the kernel's.
+    // A discarded URB must still be reaped; until then the kernel owns its memory.
     while (in_[0].busy || in_[1].busy || out_.busy) {
       void* done = nullptr;
       if (::ioctl(fd_.get(), USBDEVFS_REAPURB, &done) == 0) finished(done);
@@ -155,17 +156,17 @@ class LibusbPort final : public UsbPort {
 
  private:
   struct Transfer {
-    // By pointer: an URB ends in an array without a length, which no other structure may hold.
+    // By pointer: usbdevfs_urb ends in a flexible array member, so no other structure may contain it.
     std::unique_ptr<usbdevfs_urb> urb = std::make_unique<usbdevfs_urb>();
     std::array<std::uint8_t, kUsbPacketBytes> data{};
-    bool busy = false;  // with the kernel
+    bool busy = false;  // the kernel owns it
   };
 
   Result<void> openDevice() {
     libusb_device** list = nullptr;
     const ssize_t count = libusb_get_device_list(context_, &list);
     if (count < 0) return failUsb(static_cast<int>(count));
-    Result<void> result = fail(ErrorCode::NotFound, "no such device is plugged in; check its cable and its power");
+    Result<void> result = fail(ErrorCode::NotFound, "no such device was found; check its cable and its power");
     for (ssize_t i = 0; i < count; ++i) {
       libusb_device_descriptor descriptor{};
       libusb_get_device_descriptor(list[i], &descriptor);
@@ -181,7 +182,7 @@ class LibusbPort final : public UsbPort {
     return result;
   }
 
-  // The node is opened here and lent to libusb, so that both speak to the device through one descriptor.
+  // The node is opened here and passed to libusb, so that both use one descriptor.
   Result<void> claim(libusb_device* device) {
     char node[32];
     std::snprintf(node, sizeof node, "/dev/bus/usb/%03u/%03u", unsigned{libusb_get_bus_number(device)},
@@ -190,7 +191,7 @@ class LibusbPort final : public UsbPort {
     if (opened < 0) {
       const int why = errno;
       if (why == EACCES || why == EPERM) return failUsb(LIBUSB_ERROR_ACCESS);
-      return fail(ErrorCode::NotFound, "the USB device's node cannot be opened", why);
+      return fail(ErrorCode::NotFound, "the USB device's node in /dev cannot be opened; plug the device in again", why);
     }
     fd_.reset(opened);
     if (const int wrapped = libusb_wrap_sys_device(context_, fd_.get(), &handle_); wrapped != 0) {
@@ -202,7 +203,8 @@ class LibusbPort final : public UsbPort {
     if (claimed == 0) return {};
     libusb_close(handle_);
     handle_ = nullptr;
-    if (claimed == LIBUSB_ERROR_BUSY) return fail(ErrorCode::Unsupported, "another program has the device; close it");
+    if (claimed == LIBUSB_ERROR_BUSY)
+      return fail(ErrorCode::Unsupported, "another program uses the device; close that program");
     return failUsb(claimed);
   }
 
@@ -250,14 +252,14 @@ class LibusbPort final : public UsbPort {
   }
 
   std::vector<UsbDeviceId> ids_;
-  UsbDeviceId id_;  // of the device that is open
+  UsbDeviceId id_;  // of the open device
   libusb_context* context_ = nullptr;
   libusb_device_handle* handle_ = nullptr;
   UniqueFd fd_;
   bool exchanging_ = false;
   std::array<Transfer, kQueuedReads> in_;
   Transfer out_;
-  std::size_t next_ = 0;  // of the reads, the one that was queued first
+  std::size_t next_ = 0;  // index of the read that was queued first
   QuietEntry quiet_;
   std::optional<QuietListing> listing_;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits three motors' commands: what saturates keeps its direction, what lasts is turned down before a winding burns.
+// Limits the commands of three motors: saturation keeps the force's direction, and a lasting load is reduced before a
+// winding overheats.
 #pragma once
 
 #include <algorithm>
@@ -13,11 +14,12 @@ namespace relievo {
 
 class MotorLimit {
  public:
-  // Commands from -most to most, a whole number; `lasting` of it is what the windings stand for good.
+  // Commands range from -most to most, a whole number. `lasting`: the fraction of it that the windings can bear
+  // continuously.
   MotorLimit(double most, double lasting) RELIEVO_RT : most_(most), lasting_(lasting* most) {}
 
-  // Whole numbers. All three are scaled together, so that a force that is too much for one motor keeps its direction.
-  // `elapsed_s` since the last call.
+  // Returns whole numbers. All three are scaled together, so that a force that exceeds one motor's limit keeps its
+  // direction. `elapsed_s`: since the last call.
   [[nodiscard]] glm::dvec3 limit(const glm::dvec3& wanted, double elapsed_s) RELIEVO_RT {
     const double highest = std::max({std::abs(wanted.x), std::abs(wanted.y), std::abs(wanted.z)});
     const double limit = most();
@@ -27,9 +29,9 @@ class MotorLimit {
     return given;
   }
 
-  // What the hottest motor still may take. From a mean square (over 20 s, as small windings warm up) of the lasting
-  // command on, the limit falls from the highest one to that, so that a load that lasts settles between it and 1.22
-  // times it.
+  // The limit for the hottest motor. The heat is the mean square of the commands over 20 s, the time in which small
+  // windings warm up. Between 1 and 1.5 times the lasting command's square the limit falls from the highest command to
+  // the lasting one, so that a lasting load settles at 1 to 1.22 times the lasting command.
   [[nodiscard]] double most() const RELIEVO_RT {
     const double hottest = std::max({heat_.x, heat_.y, heat_.z}) / (lasting_ * lasting_);
     return lasting_ + (most_ - lasting_) * std::clamp((1.5 - hottest) / 0.5, 0.0, 1.0);

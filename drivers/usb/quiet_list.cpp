@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plain atomics and one system call: nothing here may need a lock that the dying thread holds.
+// Uses only atomics and ioctl, since a crashed thread may hold any lock.
 #include "drivers/usb/quiet_list.h"
 
 #include <linux/usbdevice_fs.h>
@@ -23,8 +23,8 @@ bool sendQuiet(const QuietEntry& entry) noexcept {
   transfer.ep = entry.endpoint;
   transfer.len = static_cast<unsigned>(entry.bytes);
   transfer.timeout = kTimeoutMs;
-  transfer.data = const_cast<std::uint8_t*>(entry.packet.data());            // read only: the endpoint is an OUT one
-  static_cast<void>(::ioctl(entry.fd, USBDEVFS_DISCARDURB, entry.command));  // there may be none
+  transfer.data = const_cast<std::uint8_t*>(entry.packet.data());            // only read, since this is an OUT endpoint
+  static_cast<void>(::ioctl(entry.fd, USBDEVFS_DISCARDURB, entry.command));  // fails if there is none
   const bool taken = ::ioctl(entry.fd, USBDEVFS_BULK, &transfer) >= 0;
   errno = saved;
   return taken;
@@ -45,13 +45,13 @@ QuietListing::~QuietListing() {
 }
 
 void quietenAllUsbDevices() noexcept {
-  // Twice: a tick that was past its look at `silenced` may have sent its force after the first.
+  // Twice: a tick that had already checked `silenced` may have sent its force after the first round.
   for (int round = 0; round < 2; ++round) {
     for (const auto& place : listed) {
       QuietEntry* entry = place.load();
       if (entry == nullptr) continue;
       entry->silenced = true;
-      static_cast<void>(sendQuiet(*entry));  // a device that does not answer has no motors
+      static_cast<void>(sendQuiet(*entry));  // nothing more can be done for a device that does not answer
     }
   }
 }

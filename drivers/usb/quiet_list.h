@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The devices whose motors must be stopped before the process ends, however it ends.
+// Lists the devices whose motors must be stopped when the process ends or crashes.
 #pragma once
 
 #include <atomic>
@@ -15,14 +15,14 @@ struct QuietEntry {
   std::array<std::uint8_t, kUsbPacketBytes> packet{};
   std::size_t bytes = 0;
   void* command = nullptr;             // the URB that carries the commands
-  std::atomic<bool> silenced = false;  // by quietenAllUsbDevices: no command follows any more
+  std::atomic<bool> silenced = false;  // set by quietenAllUsbDevices: no more commands may be sent
 };
 
-// Takes back the command that the device has not taken yet, then one blocking transfer, 20 ms at most. False when the
-// device did not take it. Async-signal-safe.
+// Discards the command that is still on its way and sends `packet`, blocking 20 ms at most. False if the device did not
+// accept it. Async-signal-safe.
 bool sendQuiet(const QuietEntry& entry) noexcept;
 
-// Listed while it lives. `entry` must outlive the listing. A process has few devices: past the fourth none is listed.
+// Lists `entry` while this object lives; `entry` must outlive it. At most four devices are listed.
 class QuietListing {
  public:
   explicit QuietListing(QuietEntry& entry) noexcept;

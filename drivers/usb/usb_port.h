@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A thin port to one USB device with one interface: what a haptic driver needs of a bus, and no more. A test stands a
-// model of the device behind it.
+// A thin port to one USB device with one interface, with only what a haptic driver needs. Tests put a model of the
+// device behind it.
 #pragma once
 
 #include <array>
@@ -26,50 +26,50 @@ struct UsbDeviceId {
 inline constexpr std::size_t kUsbPacketBytes = 64;  // of a full-speed endpoint
 using UsbBytes = std::span<const std::uint8_t>;
 
-// A packet that arrived: `bytes` of `data`.
+// A received packet: the first `bytes` of `data`.
 struct UsbPacket {
   std::array<std::uint8_t, kUsbPacketBytes> data{};
   std::size_t bytes = 0;
   [[nodiscard]] UsbBytes view() const RELIEVO_RT { return UsbBytes(data).first(bytes); }
 };
 
-// `open` to `close` on the owner's thread. `control`, `send` and `receive` are for set-up and wait; between
-// `startExchange` and `stopExchange` they are not called, and one thread, the real-time one, calls `take` and `post`,
-// which never wait. Every verb answers Lost once the device has gone.
+// Calls are on the owner's thread, except that `take` and `post` are on one real-time thread, only between
+// `startExchange` and `stopExchange`; they never wait. `control`, `send` and `receive` are for set-up, outside of an
+// exchange, and may wait. Every call returns Lost once the device has gone.
 class UsbPort {
  public:
   virtual ~UsbPort() = default;
 
-  // Opens the first device of its ids that nobody else has, and claims interface 0. NotFound, PermissionDenied,
-  // Unsupported (somebody has it).
+  // Opens the first device with one of its ids that no other program uses, and claims interface 0. NotFound,
+  // PermissionDenied, Unsupported (in use).
   [[nodiscard]] virtual Result<void> open() = 0;
   virtual void close() noexcept = 0;
 
-  // A vendor request without data, to the device.
+  // Sends a vendor request without data to the device.
   [[nodiscard]] virtual Result<void> control(std::uint8_t request, std::uint16_t value) = 0;
   [[nodiscard]] virtual Result<void> send(UsbBytes bytes, Duration timeout) = 0;
-  // One packet; Timeout when none came.
+  // Returns one packet; Timeout if none came.
   [[nodiscard]] virtual Result<UsbPacket> receive(Duration timeout) = 0;
 
   // `quiet` is what `quieten` sends: the command that stops the motors.
   [[nodiscard]] virtual Result<void> startExchange(UsbBytes quiet) = 0;
-  // The oldest packet that has arrived and was not taken; empty when there is none.
+  // The oldest received packet not yet taken; empty if there is none.
   [[nodiscard]] virtual Result<UsbPacket> take() RELIEVO_RT = 0;
-  // Sends a packet. False when the one before is still on its way: then this one is not sent.
+  // Sends a packet. False if the previous one is still on its way; this one is then not sent.
   [[nodiscard]] virtual Result<bool> post(UsbBytes bytes) RELIEVO_RT = 0;
   virtual void stopExchange() noexcept = 0;
 
-  // Takes back what was posted and has not gone out, sends the quiet packet and waits for it, 20 ms at most. False when
-  // the device did not take it. Any thread, while an exchange runs.
+  // Discards a posted packet that was not sent yet, sends the quiet packet and waits for it, 20 ms at most. False if
+  // the device did not accept it. Any thread, while an exchange runs.
   virtual bool quieten() noexcept = 0;
 };
 
-// Through libusb, to a device of any of the ids. Allocates nothing and takes no lock between startExchange and
+// A port by libusb to a device with any of the ids. Allocates nothing and takes no lock between startExchange and
 // stopExchange.
 [[nodiscard]] std::unique_ptr<UsbPort> makeLibusbPort(std::vector<UsbDeviceId> ids);
 
-// Quietens every device that is in an exchange, for a handler of a fatal signal: async-signal-safe. Nothing that is
-// posted in that exchange goes out any more, whatever the other threads do until they are gone.
+// Stops the motors of every device that is in an exchange. For handlers of fatal signals: async-signal-safe. Nothing
+// posted later in that exchange is sent, whatever other threads do until the process ends.
 void quietenAllUsbDevices() noexcept;
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Looks four times within its patience.
+// Checks four times within kPatience.
 #include "drivers/usb/watchdog.h"
 
 namespace relievo {
@@ -28,11 +28,11 @@ bool Watchdog::check(MonotonicTime now) RELIEVO_RT {
 void Watchdog::bark(MonotonicTime now) RELIEVO_RT {
   Duration::rep fed = fed_ns_.load(std::memory_order_relaxed);
   if (fed == kQuiet || now.time_since_epoch().count() - fed <= kPatience.count()) return;
-  // Fed again meanwhile: nothing to do.
+  // If it was fed meanwhile, there is nothing to do.
   if (!fed_ns_.compare_exchange_strong(fed, kQuiet, std::memory_order_relaxed)) return;
   barked_.store(true, std::memory_order_relaxed);
   if (port_.quieten()) return;
-  Duration::rep quiet = kQuiet;  // the device did not take it: again at the next look
+  Duration::rep quiet = kQuiet;  // the device did not accept it: try again at the next check
   fed_ns_.compare_exchange_strong(quiet, fed, std::memory_order_relaxed);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stops the motors of a USB device when forces no longer come: the last command would act on for ever.
+// Stops the motors of a USB device when no more forces come, since the last command would otherwise act forever.
 #pragma once
 
 #include <atomic>
@@ -10,8 +10,8 @@
 
 namespace relievo {
 
-// `start` and `stop` on the owner's thread; `feed` and `check` on the real-time one. With a thread of its own it acts
-// also when that one hangs: at a higher priority, on the system's clock.
+// `start` and `stop` on the owner's thread; `feed` and `check` on the real-time one. With a thread of its own, at a
+// higher priority and on the system's clock, it acts even if the real-time thread hangs.
 class Watchdog final : private CyclicTask {
  public:
   static constexpr Duration kPatience = std::chrono::milliseconds(20);
@@ -19,17 +19,17 @@ class Watchdog final : private CyclicTask {
 
   explicit Watchdog(UsbPort& port) : port_(port), thread_(clock_) {}
 
-  // Exhausted when no thread can be made.
+  // Exhausted if no thread can be created.
   [[nodiscard]] Result<void> start(bool own_thread);
   void stop() noexcept { thread_.stop(); }
 
-  // A command is on its way.
+  // Call for each command sent.
   void feed(MonotonicTime now) RELIEVO_RT { fed_ns_.store(now.time_since_epoch().count(), std::memory_order_relaxed); }
-  // True once after each time that the device was quietened; without a thread it is done here.
+  // True once after each time that the watchdog stopped the motors. Without a thread of its own, it checks here.
   bool check(MonotonicTime now) RELIEVO_RT;
 
  private:
-  static constexpr Duration::rep kQuiet = -1;  // in place of a time: nothing to watch
+  static constexpr Duration::rep kQuiet = -1;  // instead of a time: the motors are stopped
   LoopControl loop(const Cycle& cycle) RELIEVO_RT override;
   void bark(MonotonicTime now) RELIEVO_RT;
 

@@ -125,7 +125,7 @@ TEST(CalibrateOnAFalcon, IsCalledOffWhileItWaitsForTheUser) {
   std::ifstream said(folder / "said.txt");
   const std::string text(std::istreambuf_iterator<char>(said), {});
   EXPECT_NE(text.find("pull its grip out"), std::string::npos) << text;
-  EXPECT_NE(text.find("called off"), std::string::npos) << text;
+  EXPECT_NE(text.find("was cancelled"), std::string::npos) << text;
 }
 
 // Once it pushes: asked to end, killed by a fault, by an impatient user, by whatever else ends a process.

@@ -133,7 +133,7 @@ TEST_F(Registry, AMouseIsThePointerByItselfOrByItsPath) {
   EXPECT_FALSE(makeHapticDevice("pointer:", clock_));
   EXPECT_STREQ(makeHapticDevice("pointer:window", clock_).value()->capabilities().name, "pointer");
   EXPECT_STREQ(makeHapticDevice("pointer:window", clock_).value()->open().error().message,
-               "there is no window to point in; it opens with --display window");
+               "there is no window to point in; add --display window");
 }
 
 TEST_F(Registry, ARecordingIsPlayedAgain) {

@@ -67,7 +67,7 @@ TEST(Recording, AWrongFileIsRefusedByItsLine) {
            Wrong{"0,0,0,0\n", "file:1", "is no recording"},
            Wrong{"t_s,x_mm,z_mm\n0,0,0\n", "file:1", "is no recording"},
            Wrong{"t_s,device_x_mm,device_y_mm,device_z_mm\n0,0,0,0\n", "file:1", "is no recording"},
-           Wrong{"t_s,x_mm,y_mm,z_mm\n", "file:2", "no row follows"},
+           Wrong{"t_s,x_mm,y_mm,z_mm\n", "file:2", "has no rows"},
            Wrong{"t_s,x_mm,y_mm,z_mm\n0,0,0,0\n0,0,0\n", "file:3", "cells"},
            Wrong{"t_s,x_mm,y_mm,z_mm\n0,0,0,0\n0,0,0,0,0\n", "file:3", "cells"},
            Wrong{"t_s,x_mm,y_mm,z_mm\n0,0,0,0\n0,0,no,0\n", "file:3", "position"},
