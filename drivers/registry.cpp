@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes back ends by the names of the command line: the only file that knows them all.
+// Creates back ends from their names on the command line; the only file that knows all of them.
 #include "drivers/registry.h"
 
 #include <atomic>
@@ -70,7 +70,7 @@ DeviceState look(const char* name, HapticDevice& device) {
   return {"haptic", name, opened.has_value(), opened ? "ready" : opened.error().message};
 }
 
-// Of the mocks that are there. The main thread's.
+// The benches of existing mocks. Used on the main thread only.
 std::weak_ptr<MockDisplayBench> display_bench;
 std::weak_ptr<MockHapticBench> haptic_bench;
 
@@ -84,7 +84,8 @@ std::shared_ptr<Bench> newBench(std::weak_ptr<Bench>& known) {
 template <class Bench>
 Result<void> turn(const std::weak_ptr<Bench>& known, std::atomic<bool> Bench::* which, bool on) {
   const auto bench = known.lock();
-  if (!bench) return fail(ErrorCode::InvalidState, "that device is no mock; start with --display mock, --haptic mock");
+  if (!bench)
+    return fail(ErrorCode::InvalidState, "that device is no mock; start with --display mock or --haptic mock");
   *bench.*which = on;
   return {};
 }
@@ -198,7 +199,7 @@ Result<void> switchFault(std::string_view device, std::string_view fault) {
     if (device == "haptic") return turn(haptic_bench, &MockHapticBench::unplugged, unplug);
     if (device == "display") return turn(display_bench, &MockDisplayBench::unplugged, unplug);
   }
-  return fail(ErrorCode::InvalidArgument, "no such fault; there are: haptic unplug|plug|glitch, display unplug|plug");
+  return fail(ErrorCode::InvalidArgument, "no such fault; use haptic unplug|plug|glitch or display unplug|plug");
 }
 
 std::vector<DeviceState> lookAtDevices(const HapticSettings& settings, Clock& clock) {

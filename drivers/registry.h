@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The explicit list of back ends, by the names of the command line: real ones first, mock last. For the mains only.
+// The list of back ends by their names on the command line: real ones first, mock last. Only for the main programs.
 #pragma once
 
 #include <atomic>
@@ -22,60 +22,60 @@
 
 namespace relievo::drivers {
 
-// The names that each option takes, for --help and for the message of a wrong one: "kms .. mock".
+// The names that each option takes, for --help and error messages: "kms .. mock".
 extern const char* const kDisplayNames;
 extern const char* const kHapticNames;
 extern const char* const kRemoteNames;
 extern const char* const kAudioNames;
 
-extern const char* const kMockFilm;  // the url of a film of three seconds that is in no file
+extern const char* const kMockFilm;  // the URL of a built-in film of three seconds
 
-extern const double kFalconCountsPerNm;  // where the configuration does not tell
+extern const double kFalconCountsPerNm;  // the default if not configured
 
-// What the haptic back ends are told besides their names; from the configuration.
+// Settings of the haptic back ends from the configuration.
 struct HapticSettings {
-  std::string falcon_firmware;  // empty: only one that runs already will do
+  std::string falcon_firmware;  // path; empty: the device must already run its firmware
   std::optional<double> falcon_counts_per_nm;
 };
 
-// A null pointer means "none". The failure names the option when its word is not known (InvalidArgument), the script
-// when that is not there (NotFound), or its line when that is wrong (InvalidArgument).
-// `clock` must outlive what is made. The names with "window" in them are about the one window of the process: its
-// display, its keys and its mouse.
+// Returns a null pointer for "none". The failure names the option if the name is unknown (InvalidArgument), the script
+// if it does not exist (NotFound), or the script's line if that is wrong (InvalidArgument).
+// `clock` must outlive the result. Names with "window" refer to the process's single window: its display, its keys and
+// its mouse.
 [[nodiscard]] Outcome<std::unique_ptr<Display>> makeDisplay(const BackEndName& name);
 [[nodiscard]] Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(const BackEndName& name, Clock& clock,
                                                                       const HapticSettings& settings = {});
 [[nodiscard]] Outcome<std::unique_ptr<RemoteInput>> makeRemoteInput(const BackEndName& name, Clock& clock);
 [[nodiscard]] Outcome<std::unique_ptr<AudioOutput>> makeAudioOutput(const BackEndName& name, const Clock& clock);
-// The files that a back end reads or writes because its name says so, empty where it does not; devices are no files.
+// The files that a back end's name makes it read or write; empty if none. Devices do not count as files.
 struct NamedFiles {
   std::string read, written;
 };
 [[nodiscard]] NamedFiles filesNamedBy(const BackEndName& name);
 [[nodiscard]] std::unique_ptr<MediaSource> makeMediaSource(const std::string& url);
-// In software, exactly the same everywhere; or by hardware that takes the stream, with the software behind it in case
-// that it fails.
+// makeSoftwareDecoder decodes the same to the bit on every machine. makeVideoDecoder uses hardware that takes the
+// stream and falls back to software if that fails.
 [[nodiscard]] std::unique_ptr<VideoDecoder> makeSoftwareDecoder(const StreamInfo& stream);
 [[nodiscard]] std::unique_ptr<VideoDecoder> makeVideoDecoder(const StreamInfo& stream);
 [[nodiscard]] std::unique_ptr<AudioDecoder> makeAudioDecoder();
-// The text at a path or an address, as makeMediaSource would open it.
+// Reads the text at a path or an address that makeMediaSource could open.
 [[nodiscard]] Result<std::string> readText(const std::string& url, std::size_t most_bytes,
                                            const std::atomic<bool>& cancelled);
 
-// A fault of a mock that this process has made, or its end, while it runs: "haptic" "unplug", "display" "plug". The
-// failure of a wrong word says which there are; InvalidState where that device is no mock.
+// Begins or ends a fault of a running mock of this process: "haptic" "unplug", "display" "plug". InvalidArgument, with
+// a list of the faults, for an unknown one; InvalidState if the device is no mock.
 [[nodiscard]] Result<void> switchFault(std::string_view device, std::string_view fault);
 
-// What is there of each kind of hardware, found out by opening it: takes seconds where a device must be started up.
+// The state of every device of each kind, determined by opening it; takes seconds for a device that must start up.
 struct DeviceState {
   const char* kind = "";  // display, decoder, audio, haptic
   std::string name;       // as on the command line
   bool there = false;
-  std::string state;  // what it is; why not, and what to do
+  std::string state;  // a description; or why it cannot be used, and what to do
 };
 [[nodiscard]] std::vector<DeviceState> lookAtDevices(const HapticSettings& settings, Clock& clock);
 
-// Takes the force from every haptic device of the process; for a handler of a fatal signal.
+// Stops the motors of every haptic device of the process; for handlers of fatal signals.
 void stopAllMotors() noexcept;
 
 }  // namespace relievo::drivers

@@ -29,7 +29,7 @@ Result<std::string> readWholeFile(const std::string& path, FileSize size, const 
   if (!fd.valid()) return fail(ErrorCode::NotFound, cannot_read, errno);
   struct stat status{};
   if (::fstat(fd.get(), &status) != 0) return fail(ErrorCode::NotFound, cannot_read, errno);
-  if (S_ISDIR(status.st_mode)) return fail(ErrorCode::Unsupported, "is a folder; name a file", EISDIR);
+  if (S_ISDIR(status.st_mode)) return fail(ErrorCode::Unsupported, "is a folder; give the name of a file", EISDIR);
   if (!S_ISREG(status.st_mode)) return fail(ErrorCode::Unsupported, "is a device or a pipe; name a file");
   const std::size_t most = size == FileSize::Settings ? kSettingsBytes : kRecordingBytes;
   std::string text;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ALSA in its non-blocking mode: the library counts, recovers and converts; this asks it the right questions.
+// Sound output by ALSA in non-blocking mode.
 #include "drivers/alsa/alsa.h"
 
 #include <alsa/asoundlib.h>
@@ -17,7 +17,7 @@ constexpr unsigned kBufferUs = 500'000;
 constexpr unsigned kPeriodUs = 20'000;
 constexpr std::size_t kConvertedAtOnce = 2048;  // samples
 
-// The library prints to stderr by itself unless told once; the program prints its own line.
+// Keeps alsa-lib from printing to stderr; the program prints its own messages.
 void printNothing(const char* /*file*/, int /*line*/, const char* /*function*/, int /*error*/, const char* /*text*/,
                   ...) {}
 
@@ -26,15 +26,15 @@ Error openError(int code) noexcept {
     case -ENOENT:
     case -ENODEV:
     case -ENXIO:
-      return {ErrorCode::NotFound, -code, "no such sound card is there; `aplay -L` lists those that are"};
+      return {ErrorCode::NotFound, -code, "there is no such sound card; `aplay -L` lists the cards"};
     case -EBUSY:
-      return {ErrorCode::Exhausted, EBUSY,
-              "another program has the sound card; stop that one, or name a shared device"};
+      return {ErrorCode::Exhausted, EBUSY, "another program uses the sound card; stop it, or name a shared device"};
     case -EACCES:
     case -EPERM:
-      return {ErrorCode::PermissionDenied, -code, "no right to the sound card; add the user to the group audio"};
+      return {ErrorCode::PermissionDenied, -code,
+              "no permission to use the sound card; add the user to the group audio"};
     default:
-      return {ErrorCode::Unsupported, std::max(-code, 0), "the sound card does not work; `speaker-test` tells more"};
+      return {ErrorCode::Unsupported, std::max(-code, 0), "the sound card does not work; `speaker-test` shows more"};
   }
 }
 
@@ -58,7 +58,7 @@ class AlsaOutput final : public AudioOutput {
     AudioFormat given = wished;
     if (const int code = configure(given); code < 0) {
       return fail(ErrorCode::Unsupported,
-                  "the sound card takes neither float nor 16 bit samples; name it as plughw:.., which converts", -code);
+                  "the sound card takes neither float nor 16-bit samples; use a converting device, plughw:..", -code);
     }
     written_ = 0;
     return given;
@@ -102,7 +102,7 @@ class AlsaOutput final : public AudioOutput {
     std::size_t done = 0;
     bool recovered = false;
     while (done < frames) {
-      // Asked first: the library does not write less than a period of its own accord.
+      // Ask for the room first, since snd_pcm_writei alone would not write less than a period.
       snd_pcm_sframes_t taken = snd_pcm_avail_update(pcm_);
       if (taken > 0) {
         const std::size_t most = as_float_ ? frames : kConvertedAtOnce / channels;
@@ -114,7 +114,7 @@ class AlsaOutput final : public AudioOutput {
         done += static_cast<std::size_t>(taken);
         continue;
       }
-      // Dry, or the machine has slept: it begins anew.
+      // After an underrun or a suspend, restart the device.
       const bool anew = (taken == -EPIPE || taken == -ESTRPIPE) && !std::exchange(recovered, true);
       if (!anew || snd_pcm_prepare(pcm_) < 0) return std::unexpected(lost(static_cast<int>(taken)));
     }
@@ -130,15 +130,15 @@ class AlsaOutput final : public AudioOutput {
     return converted_.data();
   }
 
-  // The time is read around the library's answer, which is about the moment that it is given in; its own time stamps
-  // are of another clock behind some of its plug-ins.
+  // The time is read before and after the call, and the mean is taken. ALSA's own timestamps are not used: with some of
+  // its plug-ins they come from another clock.
   Result<std::optional<AudioPosition>> samplePosition() override {
     const snd_pcm_state_t state = snd_pcm_state(pcm_);
     if (state == SND_PCM_STATE_DISCONNECTED) return std::unexpected(lost(-ENODEV));
     if (state != SND_PCM_STATE_RUNNING) return std::nullopt;
     snd_pcm_sframes_t available = 0, delay = 0;
     const MonotonicTime before = clock_.now();
-    const int code = snd_pcm_avail_delay(pcm_, &available, &delay);  // the delay alone need not see that it is dry
+    const int code = snd_pcm_avail_delay(pcm_, &available, &delay);  // snd_pcm_delay might not report an underrun
     const MonotonicTime after = clock_.now();
     if (code == -EPIPE || code == -ESTRPIPE) return std::nullopt;
     if (code < 0) return std::unexpected(lost(code));
@@ -157,7 +157,9 @@ class AlsaOutput final : public AudioOutput {
     if (pcm_ != nullptr) snd_pcm_close(std::exchange(pcm_, nullptr));
   }
 
-  static Error lost(int code) noexcept { return {ErrorCode::Lost, std::max(-code, 0), "the sound card has gone away"}; }
+  static Error lost(int code) noexcept {
+    return {ErrorCode::Lost, std::max(-code, 0), "the sound card has gone away; plug it in again"};
+  }
 
   const std::string device_;
   const Clock& clock_;

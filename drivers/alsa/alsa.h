@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sound output on ALSA: a card, or what a sound server has put in its place.
+// Sound output by ALSA, to a card or a sound server.
 #pragma once
 
 #include <memory>
@@ -10,9 +10,9 @@
 
 namespace relievo {
 
-// `device` is a name of `aplay -L`: "default", "hdmi:CARD=vc4hdmi0", "plughw:1". Samples go as float, or as 16 bits
-// where the device takes no other. It keeps half a second, where the device has room for that: longer than any picture
-// takes to draw. After a suspend it goes on by itself. `clock` is the system's, but in tests.
+// `device`: a name of `aplay -L`, such as "default", "hdmi:CARD=vc4hdmi0", "plughw:1". Samples are sent as float, or as
+// 16 bits if the device does not take float. The buffer is half a second if the device allows it, longer than any
+// picture takes to draw. Playback continues after a suspend. `clock`: the system's, except in tests.
 [[nodiscard]] std::unique_ptr<AudioOutput> makeAlsaOutput(std::string device, const Clock& clock);
 
 }  // namespace relievo

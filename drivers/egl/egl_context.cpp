@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Start of an EGL display, and start and end of a context on it.
+// Initialises an EGL display, and creates and destroys a context on it.
 #include "drivers/egl/egl_context.h"
 
 #include <array>
@@ -9,7 +9,7 @@
 namespace relievo {
 namespace {
 
-// A window brings its own depth buffer, and may be without alpha. EGL sorts configs by their sizes, not by the format.
+// The config must have the native format, if one is given: EGL sorts configs by their sizes, not by their format.
 EGLConfig chooseConfig(EGLDisplay display, EGLint surface_type, std::optional<EGLint> native_format) {
   constexpr EGLint kMostConfigs = 256;
   const std::array<EGLint, 15> wanted{EGL_SURFACE_TYPE,
@@ -66,18 +66,19 @@ Result<EglContext> EglContext::createForWindows(EGLDisplay display, EGLint nativ
 Result<EglContext> EglContext::create(EGLDisplay display, EGLint surface_type, std::optional<EGLint> native_format) {
   if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) != EGL_TRUE) {
     return fail(ErrorCode::Unsupported,
-                "EGL does not start here; install a GL driver (Debian: libegl1, libgl1-mesa-dri)");
+                "EGL cannot be started; install a GL driver (Debian: libegl1, libgl1-mesa-dri)");
   }
   EglContext made(display);
   if (eglBindAPI(EGL_OPENGL_ES_API) == EGL_TRUE) made.config_ = chooseConfig(display, surface_type, native_format);
   if (made.config_ == nullptr) {
-    return fail(ErrorCode::Unsupported, "the GL driver offers no GLES 3 with 8-bit colour; a newer driver is needed");
+    return fail(ErrorCode::Unsupported, "the GL driver has no GLES 3 with 8-bit colour; install a newer one");
   }
   constexpr std::array<EGLint, 3> kVersion3{EGL_CONTEXT_CLIENT_VERSION, 3, EGL_NONE};
   made.context_ = eglCreateContext(display, made.config_, EGL_NO_CONTEXT, kVersion3.data());
   if (made.context_ != EGL_NO_CONTEXT) return made;
-  if (eglGetError() == EGL_BAD_ALLOC) return fail(ErrorCode::Exhausted, "no memory left for a GL context");
-  return fail(ErrorCode::Unsupported, "the GL driver refuses a GLES 3 context; a newer driver is needed");
+  if (eglGetError() == EGL_BAD_ALLOC)
+    return fail(ErrorCode::Exhausted, "no memory for a GL context; close other programs");
+  return fail(ErrorCode::Unsupported, "the GL driver cannot make a GLES 3 context; install a newer one");
 }
 
 Result<void> EglContext::makeCurrent(EGLSurface surface) noexcept {
@@ -87,7 +88,7 @@ Result<void> EglContext::makeCurrent(EGLSurface surface) noexcept {
     case EGL_BAD_ACCESS:
       return fail(ErrorCode::InvalidState, "the GL context is current on another thread; use the one that opened it");
     case EGL_BAD_ALLOC:
-      return fail(ErrorCode::Exhausted, "no memory left to make the GL context current");
+      return fail(ErrorCode::Exhausted, "no memory to make the GL context current; close other programs");
     case EGL_CONTEXT_LOST:
       return fail(ErrorCode::Lost, "the GL context is lost; close the display and open it again");
     default:

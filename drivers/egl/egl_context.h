@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A GLES 3 context on an EGL display, given back when it goes.
+// A GLES 3 context on an EGL display, destroyed with its owner.
 #pragma once
 
 #include <EGL/egl.h>
@@ -10,20 +10,20 @@
 
 namespace relievo {
 
-// Owns one context. The EGL display is one per process however often it is asked for, and stays initialised like a
-// library stays loaded: to terminate it would end the other contexts on it, and unload the GL driver, which Mesa's
-// software one does not survive without leaks. Thread: the one that makes it current.
+// Owns one context. The EGL display is shared by the process and never terminated: that would end the other contexts on
+// it and unload the GL driver, and Mesa's software driver leaks when it is unloaded. Thread: the one that makes it
+// current.
 class EglContext {
  public:
-  // Starts `display` and makes a context that can draw on pbuffers, or on windows of a native pixel format (one of
-  // GBM's). Unsupported where there is no EGL or no GLES 3, Exhausted without memory.
+  // Initialises `display` and creates a context that can draw on pbuffers, or on windows of a native pixel format (one
+  // of GBM's). Unsupported without EGL or GLES 3, Exhausted if out of memory.
   [[nodiscard]] static Result<EglContext> createForPbuffers(EGLDisplay display);
   [[nodiscard]] static Result<EglContext> createForWindows(EGLDisplay display, EGLint native_format);
   EglContext(EglContext&& other) noexcept;
   EglContext& operator=(EglContext&&) = delete;
   ~EglContext();
 
-  // Does nothing when it is current already. InvalidState when another thread holds it.
+  // Does nothing if it is current already. InvalidState if it is current on another thread.
   [[nodiscard]] Result<void> makeCurrent(EGLSurface surface) noexcept;
 
   [[nodiscard]] EGLDisplay display() const noexcept { return display_; }

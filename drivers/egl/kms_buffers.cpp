@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Exchanges buffers of a GBM surface, and registers each as a framebuffer of the card once.
 #include "drivers/egl/kms_buffers.h"
 
 #include <EGL/eglext.h>
@@ -13,7 +14,7 @@
 namespace relievo::kms {
 namespace {
 
-// The framebuffer goes with its buffer.
+// Attached to a GBM buffer and removed together with it.
 struct Framebuffer {
   int card = -1;
   std::uint32_t id = 0;
@@ -31,7 +32,7 @@ Result<std::unique_ptr<CardGl>> CardGl::start(int card) {
   const auto get = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
   if (gl->device_ != nullptr && get != nullptr) gl->display_ = get(EGL_PLATFORM_GBM_KHR, gl->device_, nullptr);
   if (gl->display_ != EGL_NO_DISPLAY && eglInitialize(gl->display_, nullptr, nullptr) == EGL_TRUE) return gl;
-  return fail(ErrorCode::Unsupported, "there is no GL driver for this card; install one (Debian: libgl1-mesa-dri)");
+  return fail(ErrorCode::Unsupported, "this card has no GL driver; install one (Debian: libgl1-mesa-dri)");
 }
 
 CardGl::~CardGl() {
@@ -49,7 +50,7 @@ Result<std::unique_ptr<Buffers>> Buffers::make(const CardGl& gl, EGLConfig confi
         gl.display(), config, reinterpret_cast<EGLNativeWindowType>(buffers->surface_of_buffers_), nullptr);
   }
   if (buffers->surface_ != EGL_NO_SURFACE) return buffers;
-  return fail(ErrorCode::Exhausted, "the card gives no buffers of this size; ask for a smaller one");
+  return fail(ErrorCode::Exhausted, "the card cannot allocate buffers of this size; choose a smaller --size");
 }
 
 Buffers::~Buffers() {
@@ -62,11 +63,12 @@ Buffers::~Buffers() {
 
 Result<std::uint32_t> Buffers::swap() {
   if (eglSwapBuffers(gl_.display(), surface_) != EGL_TRUE) {
-    return fail(ErrorCode::Lost, "GL cannot draw on the screen any more; it is opened anew");
+    return fail(ErrorCode::Lost, "GL cannot draw on the screen any more; opening it again");
   }
   gbm_bo* drawn = gbm_surface_lock_front_buffer(surface_of_buffers_);
-  if (drawn == nullptr) return fail(ErrorCode::Exhausted, "the card has no buffer left to draw on");
-  if (next_ != nullptr) gbm_surface_release_buffer(surface_of_buffers_, next_);  // it never came to the screen
+  if (drawn == nullptr)
+    return fail(ErrorCode::Exhausted, "the card has no buffer left to draw on; choose a smaller --size");
+  if (next_ != nullptr) gbm_surface_release_buffer(surface_of_buffers_, next_);  // it was never shown
   next_ = drawn;
   return framebufferOf(drawn);
 }
@@ -94,7 +96,7 @@ Result<std::uint32_t> Buffers::framebufferOf(gbm_bo* buffer) {
   if (drmModeAddFB2WithModifiers(card, gbm_bo_get_width(buffer), gbm_bo_get_height(buffer), kPixelFormat,
                                  handles.data(), strides.data(), offsets.data(), modified ? modifiers.data() : nullptr,
                                  &framebuffer->id, modified ? DRM_MODE_FB_MODIFIERS : 0U) != 0) {
-    return fail(ErrorCode::Io, "the card does not show what GL draws; another GL driver is needed", errno);
+    return fail(ErrorCode::Io, "the card cannot show the GL driver's buffers; install another GL driver", errno);
   }
   const std::uint32_t id = framebuffer->id;
   gbm_bo_set_user_data(buffer, framebuffer.release(), removeFramebuffer);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Buffers that GL draws on and a card's screen shows: GBM's, as a surface of EGL.
+// GBM buffers that GL draws on, through an EGL surface, and that a card's screen shows.
 #pragma once
 
 #include <EGL/egl.h>
@@ -14,7 +14,7 @@ namespace relievo::kms {
 
 inline constexpr std::uint32_t kPixelFormat = GBM_FORMAT_XRGB8888;
 
-// GL on a card. It is made once for a card, since EGL keeps what it knows of it; borrows the card.
+// GL on a card. Make it once for each card, since EGL keeps state for it. The card's descriptor must outlive it.
 class CardGl {
  public:
   [[nodiscard]] static Result<std::unique_ptr<CardGl>> start(int card);
@@ -31,19 +31,21 @@ class CardGl {
   EGLDisplay display_ = EGL_NO_DISPLAY;
 };
 
-// Some buffers that take turns: one is drawn on, one is on its way to the screen, one is on it. It borrows the GL.
+// Buffers used in turn: one is drawn on, one is queued for the screen, one is on the screen. The CardGl must outlive
+// it.
 class Buffers {
  public:
   [[nodiscard]] static Result<std::unique_ptr<Buffers>> make(const CardGl& gl, EGLConfig config, int width, int height);
-  // The screen shows none of them any more, and no context is current on the surface.
+  // Before this, the screen must show none of the buffers, and no context may be current on the surface.
   ~Buffers();
   Buffers(const Buffers&) = delete;
   Buffers& operator=(const Buffers&) = delete;
 
   [[nodiscard]] EGLSurface surface() const noexcept { return surface_; }
-  // What was drawn, as the card's framebuffer. The next frame is drawn on another. Lost with the GL context.
+  // Returns what was drawn as a framebuffer of the card; the next frame is drawn on another buffer. Lost if the GL
+  // context is lost.
   [[nodiscard]] Result<std::uint32_t> swap();
-  // The framebuffer of the last swap is on the screen: the one before it is free to be drawn on.
+  // Call when the framebuffer of the last swap is on the screen: the previous one can then be drawn on again.
   void shown() noexcept;
 
  private:

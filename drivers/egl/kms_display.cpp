@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The display on a screen of its own, by the kernel's mode setting: no desktop is needed and none may be there.
+// The display on a whole screen by the kernel's mode setting; no desktop may run on the same card.
 #include <GLES3/gl3.h>
 
 #include <optional>
@@ -14,11 +14,11 @@
 namespace relievo {
 namespace {
 
-constexpr Duration kBetweenLooks = std::chrono::seconds(1);       // whether the screen is still there
-constexpr Duration kFlipMargin = std::chrono::milliseconds(100);  // over the two refreshes that a flip may take
-constexpr const char* kNoScreen = "no screen is connected, or it is off; it is looked for every second";
+constexpr Duration kBetweenLooks = std::chrono::seconds(1);       // between checks whether the screen is connected
+constexpr Duration kFlipMargin = std::chrono::milliseconds(100);  // beyond the two refreshes that a flip may take
+constexpr const char* kNoScreen = "no screen is connected, or it is off; checking again every second";
 
-// What is there to show on: a card, and one of its connected screens.
+// A card and one of its connected screens.
 struct Found {
   UniqueFd card;
   kms::Connector connector;
@@ -26,7 +26,7 @@ struct Found {
 
 Result<Found> findScreen(const std::string& wanted_path) {
   const auto paths = wanted_path.empty() ? kms::cardPaths() : std::vector{wanted_path};
-  Error why{ErrorCode::Unsupported, 0, "this machine has no display card (/dev/dri/card*)"};
+  Error why{ErrorCode::Unsupported, 0, "this machine has no display card (/dev/dri/card*); use another --display"};
   for (const std::string& path : paths) {
     auto card = kms::openCard(path);
     if (!card) {
@@ -62,11 +62,11 @@ class KmsDisplay final : public Display {
   [[nodiscard]] Duration untilRefresh() const noexcept;
 
   const std::string path_;  // empty: the first card that has a screen
-  // The card stays open with its GL, whatever becomes of its screens.
+  // The card and its GL stay open when screens come and go.
   UniqueFd card_;
   std::unique_ptr<kms::CardGl> gl_;
 
-  MonotonicClock clock_;  // the kernel's: its events are on it
+  MonotonicClock clock_;  // the clock of the kernel's flip events
   std::unique_ptr<kms::Screen> screen_;
   std::unique_ptr<kms::Buffers> buffers_;
   std::optional<EglContext> context_;
@@ -96,7 +96,7 @@ Result<void> KmsDisplay::openDisplay(const DisplayConfig& config) {
   return context_->makeCurrent(buffers_->surface());
 }
 
-// Of the card that is open already, or of another when that has none any more.
+// Finds a connected screen on the open card, else on another card.
 Result<kms::Connector> KmsDisplay::findConnector() {
   if (card_.valid()) {
     for (kms::Connector& connector : kms::readConnectors(card_.get(), true)) {
@@ -118,12 +118,12 @@ Result<void> KmsDisplay::chooseMode(const kms::Connector& connector, DisplayConf
   if (!stereo_signals_.has(config.stereo)) {
     if (config.stereo == StereoSignal::FramePacking) {
       return fail(ErrorCode::Unsupported,
-                  "the screen takes no frame packing; relievo devices tells what it takes, --stereo sbs fits any");
+                  "the screen does not support frame packing; use --stereo sbs, or see relievo devices");
     }
     config.stereo = StereoSignal::None;
   }
   const drmModeModeInfo* mode = kms::chooseMode(connector.modes, config);
-  if (mode == nullptr) return fail(ErrorCode::Unsupported, "the screen has no mode that is not interlaced");
+  if (mode == nullptr) return fail(ErrorCode::Unsupported, "the screen has only interlaced modes; use another screen");
   mode_ = *mode;
   refresh_period_ = kms::refreshPeriod(mode_);
   const kms::ScanOut size = kms::scanOut(mode_);
@@ -141,8 +141,8 @@ Result<DisplaySurface> KmsDisplay::startFrame() {
   return surface_;
 }
 
-// GL has finished before the screen is given the buffer: of a software one the kernel would not know. The renderer has
-// waited for it already.
+// glFinish comes before the flip, since the kernel cannot wait for a software GL driver. It costs nothing: the renderer
+// has waited for GL already.
 Result<Duration> KmsDisplay::showFrame() {
   if (auto current = context_->makeCurrent(buffers_->surface()); !current) return std::unexpected(current.error());
   if (mode_is_set_) {
@@ -167,7 +167,7 @@ Duration KmsDisplay::untilRefresh() const noexcept {
   return refresh_period_ - since % refresh_period_;
 }
 
-// The kernel hears of a screen that comes or goes; to ask it costs next to nothing.
+// The kernel tracks whether the screen is connected; reading that is cheap.
 Result<bool> KmsDisplay::attendScreen() {
   const MonotonicTime now = clock_.now();
   if (now < next_look_) return false;
@@ -176,7 +176,7 @@ Result<bool> KmsDisplay::attendScreen() {
   return fail(ErrorCode::Lost, kNoScreen);
 }
 
-// The screen lets go of the buffers before they do.
+// The screen must be destroyed before the buffers that it shows.
 void KmsDisplay::closeDisplay() noexcept {
   screen_.reset();
   context_.reset();

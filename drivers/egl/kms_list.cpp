@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What this machine's display cards have connected, in words.
+// Describes the screens that are connected to this machine's display cards.
 #include <cstdio>
 
 #include "drivers/egl/egl.h"
@@ -17,12 +17,12 @@ std::string wordsOf(const StereoSignals& stereo) {
   add(stereo.frame_packing, "frame packing");
   add(stereo.side_by_side_half, "side by side");
   add(stereo.top_and_bottom, "top and bottom");
-  return words.empty() ? "takes no 3D signal" : "takes 3D by " + words;
+  return words.empty() ? "no 3D signals" : "3D signals: " + words;
 }
 
 std::string wordsOf(const kms::Connector& connector) {
   const drmModeModeInfo* mode = kms::chooseMode(connector.modes, {.width = 0, .height = 0});
-  if (mode == nullptr) return connector.name + ": no mode that is not interlaced";
+  if (mode == nullptr) return connector.name + ": only interlaced modes, which are not supported";
   char text[80];
   std::snprintf(text, sizeof text, "%dx%d at %.2f Hz, %zu modes; ", mode->hdisplay, mode->vdisplay,
                 1 / toSeconds(kms::refreshPeriod(*mode)), connector.modes.size());

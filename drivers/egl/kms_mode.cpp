@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Ranks a screen's modes by stereo signal, size and preference.
 #include "drivers/egl/kms_mode.h"
 
 namespace relievo::kms {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which of a screen's modes to show in: pure arithmetic on what the kernel lists.
+// Chooses one of the modes that the kernel lists for a screen; pure arithmetic.
 #pragma once
 
 #include <xf86drmMode.h>
@@ -11,20 +11,20 @@
 
 namespace relievo::kms {
 
-// Of its flags: None for an ordinary mode, and for a stereo one that is none of ours.
+// The stereo signal in the mode's flags; None for a 2D mode and for an unsupported stereo mode.
 [[nodiscard]] StereoSignal stereoOf(const drmModeModeInfo& mode) noexcept;
-// What the screen takes, over all its modes.
+// The stereo signals that any of the modes has.
 [[nodiscard]] StereoSignals stereoSignals(std::span<const drmModeModeInfo> modes) noexcept;
 
-// The first mode that sends `config`'s stereo signal and is as large as it wishes; else the screen's favourite of those
-// that send the signal, or their first. Interlaced and doubled modes are passed over. Null when none is left.
+// The first mode with `config`'s stereo signal and size; else the screen's preferred mode with that signal; else the
+// first mode with it. Interlaced and doublescan modes are skipped. Null if none is left.
 [[nodiscard]] const drmModeModeInfo* chooseMode(std::span<const drmModeModeInfo> modes,
                                                 const DisplayConfig& config) noexcept;
 
 [[nodiscard]] Duration refreshPeriod(const drmModeModeInfo& mode) noexcept;
 
-// What is scanned out: with frame packing both eyes' pictures and the blanking between them (HDMI 1.4a, 8.2.3.2), as
-// the kernel lays them out (drm_mode_set_crtcinfo, CRTC_STEREO_DOUBLE).
+// The size that is scanned out: with frame packing both eyes' pictures and the blanking between them (HDMI 1.4a,
+// 8.2.3.2), in the kernel's layout (drm_mode_set_crtcinfo, CRTC_STEREO_DOUBLE).
 struct ScanOut {
   int width = 0, height = 0;
   int eye_gap_rows = 0;

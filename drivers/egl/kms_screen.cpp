@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Atomic commits on one CRTC, and the events that they end with.
+// Atomic commits on one CRTC, and the events that complete them.
 #include "drivers/egl/kms_screen.h"
 
 #include <fcntl.h>
@@ -19,9 +19,9 @@ namespace relievo::kms {
 namespace {
 
 constexpr const char* kFolder = "/dev/dri";
-constexpr const char* kGone = "the screen has gone; it is looked for every second";
+constexpr const char* kGone = "the screen was unplugged; checking again every second";
 constexpr const char* kTaken =
-    "another program shows on this card; end it (sudo systemctl stop display-manager), or use a window";
+    "another program uses this card's screens; end it (sudo systemctl stop display-manager), or use a window";
 
 struct Free {
   void operator()(drmModeRes* all) const noexcept { drmModeFreeResources(all); }
@@ -38,7 +38,7 @@ std::unique_ptr<T, Free> own(T* object) {
 }
 
 struct Property {
-  std::uint32_t id = 0;  // 0: there is none
+  std::uint32_t id = 0;  // 0: none
   std::uint64_t value = 0;
 };
 Property propertyOf(int card, std::uint32_t object, std::uint32_t type, const std::string& name) {
@@ -50,7 +50,7 @@ Property propertyOf(int card, std::uint32_t object, std::uint32_t type, const st
   return {};
 }
 
-// The CRTCs that a connector can be driven by, one bit for each of the card's list.
+// The CRTCs that can drive a connector, as a bit mask over the card's list.
 std::uint32_t possibleCrtcs(int card, const drmModeConnector& connector) {
   std::uint32_t possible = 0;
   for (int i = 0; i < connector.count_encoders; ++i) {
@@ -90,22 +90,23 @@ Result<UniqueFd> openCard(const std::string& path) {
   if (!card.valid() && errno == EACCES) {
     return fail(
         ErrorCode::PermissionDenied,
-        "the right to show on the display card is missing; add the user to the group that may (sudo usermod -aG "
-        "video $USER) and log in anew",
+        "no permission to use the display card; add the user to the group video (sudo usermod -aG video $USER) and "
+        "log in again",
         errno);
   }
-  if (!card.valid()) return fail(ErrorCode::NotFound, "the display card is not there; see /dev/dri for what is", errno);
+  if (!card.valid())
+    return fail(ErrorCode::NotFound, "there is no such display card; ls /dev/dri lists the cards", errno);
   const auto resources = own(drmModeGetResources(card.get()));
   if (resources == nullptr || resources->count_crtcs == 0) {
-    return fail(ErrorCode::Unsupported, "this card draws but has no screens; name another, such as kms:/dev/dri/card1");
+    return fail(ErrorCode::Unsupported, "this card has no screen outputs; name another, such as kms:/dev/dri/card1");
   }
   if (drmSetClientCap(card.get(), DRM_CLIENT_CAP_UNIVERSAL_PLANES, 1) != 0 ||
       drmSetClientCap(card.get(), DRM_CLIENT_CAP_ATOMIC, 1) != 0) {
-    return fail(ErrorCode::Unsupported, "the card's driver has no atomic mode setting; a newer kernel is needed");
+    return fail(ErrorCode::Unsupported, "the card's driver has no atomic mode setting; install a newer kernel");
   }
-  // Where the driver knows no stereo, the connectors list no stereo modes.
+  // Ignored: without stereo support the connectors simply list no stereo modes.
   static_cast<void>(drmSetClientCap(card.get(), DRM_CLIENT_CAP_STEREO_3D, 1));
-  drmDropMaster(card.get());  // which who opens it first becomes
+  drmDropMaster(card.get());  // the first to open a card becomes its master
   return card;
 }
 
@@ -152,19 +153,18 @@ Result<void> Screen::findParts(std::uint32_t connector_id) {
   crtc_active_ = propertyOf(card_, crtc_, DRM_MODE_OBJECT_CRTC, "ACTIVE").id;
   plane_framebuffer_ = propertyOf(card_, plane_, DRM_MODE_OBJECT_PLANE, "FB_ID").id;
   if (plane_ != 0 && connector_crtc_ != 0 && crtc_mode_ != 0 && crtc_active_ != 0 && plane_framebuffer_ != 0) return {};
-  return fail(ErrorCode::Unsupported,
-              "the card has nothing left that could drive this screen; use another of its screens");
+  return fail(ErrorCode::Unsupported, "the card has no free CRTC or plane for this screen; use another of its screens");
 }
 
 Result<void> Screen::setMode(const drmModeModeInfo& mode, std::uint32_t framebuffer) {
   if (mode_blob_ != 0) drmModeDestroyPropertyBlob(card_, std::exchange(mode_blob_, 0U));
   if (drmModeCreatePropertyBlob(card_, &mode, sizeof mode, &mode_blob_) != 0) {
-    return fail(ErrorCode::Exhausted, "the card takes no further mode", errno);
+    return fail(ErrorCode::Exhausted, "the card cannot store the mode; choose another --size", errno);
   }
   const ScanOut size = scanOut(mode);
   const auto width = static_cast<std::uint64_t>(size.width), height = static_cast<std::uint64_t>(size.height);
   const std::unique_ptr<drmModeAtomicReq, Free> request(drmModeAtomicAlloc());
-  if (request == nullptr) return fail(ErrorCode::Exhausted, "no memory left to set the screen's mode");
+  if (request == nullptr) return fail(ErrorCode::Exhausted, "no memory to set the screen's mode; close other programs");
   drmModeAtomicAddProperty(request.get(), connector_, connector_crtc_, crtc_);
   drmModeAtomicAddProperty(request.get(), crtc_, crtc_mode_, mode_blob_);
   drmModeAtomicAddProperty(request.get(), crtc_, crtc_active_, 1);
@@ -181,9 +181,9 @@ Result<void> Screen::setMode(const drmModeModeInfo& mode, std::uint32_t framebuf
 
 Result<void> Screen::flip(std::uint32_t framebuffer) {
   static std::uintptr_t flips = 0;
-  if (flip_ != 0) return fail(ErrorCode::InvalidState, "a flip is under way; wait for its end");
+  if (flip_ != 0) return fail(ErrorCode::InvalidState, "a flip is pending; call finishFlip first");
   const std::unique_ptr<drmModeAtomicReq, Free> request(drmModeAtomicAlloc());
-  if (request == nullptr) return fail(ErrorCode::Exhausted, "no memory left to flip");
+  if (request == nullptr) return fail(ErrorCode::Exhausted, "no memory for a page flip; close other programs");
   drmModeAtomicAddProperty(request.get(), plane_, plane_framebuffer_, framebuffer);
   flip_ = ++flips;
   auto committed = commit(*request, DRM_MODE_ATOMIC_NONBLOCK | DRM_MODE_PAGE_FLIP_EVENT);
@@ -194,12 +194,12 @@ Result<void> Screen::flip(std::uint32_t framebuffer) {
 Result<void> Screen::commit(drmModeAtomicReq& request, std::uint32_t flags) {
   if (drmModeAtomicCommit(card_, &request, flags, reinterpret_cast<void*>(flip_)) == 0) return {};
   const int error = errno;
-  if (error == EACCES) return fail(ErrorCode::Lost, "another program has taken the screen; it is tried again", error);
+  if (error == EACCES) return fail(ErrorCode::Lost, "another program has taken the screen; trying again", error);
   if (error == ENODEV || !connected()) return fail(ErrorCode::Lost, kGone, error);
-  return fail(ErrorCode::Io, "the card refuses the picture; choose another size or stereo layout", error);
+  return fail(ErrorCode::Io, "the card rejects the picture; choose another --size or --stereo", error);
 }
 
-// An event may still be of a screen that was here before: each flip of the process has a number of its own.
+// An event may be for a Screen that was destroyed; so every flip of the process has a number of its own.
 Result<void> Screen::readEvents() {
   alignas(drm_event_vblank) std::array<char, 1024> bytes;
   const ssize_t count = ::read(card_, bytes.data(), bytes.size());
@@ -224,8 +224,7 @@ Result<void> Screen::finishFlip(Duration longest) {
   const MonotonicTime end = clock.now() + longest;
   while (flip_ != 0) {
     const Duration left = end - clock.now();
-    if (left <= Duration(0))
-      return fail(ErrorCode::Lost, "the screen does not show what it is given; it is opened anew");
+    if (left <= Duration(0)) return fail(ErrorCode::Lost, "the screen does not show new pictures; opening it again");
     pollfd ready{.fd = card_, .events = POLLIN, .revents = 0};
     timespec wait{};  // its fields are of 32 bits on some machines
     wait.tv_sec = static_cast<decltype(wait.tv_sec)>(left.count() / 1'000'000'000);
@@ -246,7 +245,7 @@ Screen::~Screen() {
   constexpr Duration kLongestFlip = std::chrono::milliseconds(100);
   [[maybe_unused]] const auto finished = finishFlip(kLongestFlip);
   if (mode_blob_ != 0) {
-    // Without a buffer the CRTC was off.
+    // A CRTC without a buffer was off.
     const bool was_on = before_ != nullptr && before_->mode_valid != 0 && before_->buffer_id != 0;
     drmModeSetCrtc(card_, crtc_, was_on ? before_->buffer_id : 0, was_on ? before_->x : 0, was_on ? before_->y : 0,
                    was_on ? &connector_ : nullptr, was_on ? 1 : 0, was_on ? &before_->mode : nullptr);

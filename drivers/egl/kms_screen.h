@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A card of the kernel's mode setting, and one of its screens: found, set to a mode, flipped, given back.
+// A display card (KMS) and one of its screens: finding it, setting its mode, page flips, restoring it.
 #pragma once
 
 #include <xf86drmMode.h>
@@ -16,10 +16,10 @@
 
 namespace relievo::kms {
 
-// Opened with atomic mode setting, universal planes and stereo modes. Unsupported for a card without a screen's logic
-// (a render-only one) or without atomic mode setting; PermissionDenied, NotFound.
+// Opens a card with atomic mode setting, universal planes and stereo modes. Unsupported for a card without screen
+// outputs (a render-only one) or without atomic mode setting; PermissionDenied, NotFound.
 [[nodiscard]] Result<UniqueFd> openCard(const std::string& path);
-// The cards of this machine by number: "/dev/dri/card0", ..
+// The cards of this machine, sorted by number: "/dev/dri/card0", ..
 [[nodiscard]] std::vector<std::string> cardPaths();
 
 struct Connector {
@@ -28,31 +28,32 @@ struct Connector {
   bool connected = false;
   std::vector<drmModeModeInfo> modes;
 };
-// `probe` asks the screens themselves, which takes them up to a tenth of a second; without it what the kernel knows.
+// With `probe`, the kernel asks the screens, up to a tenth of a second each; without, its last known state is read.
 [[nodiscard]] std::vector<Connector> readConnectors(int card, bool probe);
 
-// The way from a buffer to one screen: connector, CRTC and primary plane, with the ids of their properties. Display's
-// thread. All of it as the kernel's documentation says (gpu/drm-kms.rst, atomic mode setting).
+// The path from a buffer to one screen: connector, CRTC and primary plane, with the ids of their properties (kernel
+// documentation gpu/drm-kms.rst, atomic mode setting). Display's thread only.
 class Screen {
  public:
-  // Becomes the card's master and keeps what it shows now, for the end. PermissionDenied when another program is
-  // master; Unsupported without a free CRTC. `card` is borrowed.
+  // Becomes the card's master and saves its current state. PermissionDenied if another program is master; Unsupported
+  // without a free CRTC. `card` must outlive the screen.
   [[nodiscard]] static Result<std::unique_ptr<Screen>> take(int card, std::uint32_t connector);
-  // Shows what was shown before, and lets the card go.
+  // Restores the saved state and drops the master role.
   ~Screen();
   Screen(const Screen&) = delete;
   Screen& operator=(const Screen&) = delete;
 
-  // The only commit that may blank the screen. Waits until it is done. `framebuffer` is of the mode's scan-out size.
+  // The only commit that may blank the screen; waits until it is done. `framebuffer` must have the mode's scan-out
+  // size.
   [[nodiscard]] Result<void> setMode(const drmModeModeInfo& mode, std::uint32_t framebuffer);
-  // With the next refresh, without waiting. One at a time: InvalidState while one is under way.
+  // Shows `framebuffer` at the next refresh, without waiting. InvalidState while another flip is pending.
   [[nodiscard]] Result<void> flip(std::uint32_t framebuffer);
-  // Waits for a flip that is under way. Lost when it does not come in time.
+  // Waits for a pending flip. Lost if it takes over `longest`.
   [[nodiscard]] Result<void> finishFlip(Duration longest);
-  // When the last flip was done, on CLOCK_MONOTONIC.
+  // The time of the last completed flip, on CLOCK_MONOTONIC.
   [[nodiscard]] MonotonicTime lastFlip() const noexcept { return last_flip_; }
 
-  // By what the kernel knows: not blocking.
+  // The kernel's last known state; does not block.
   [[nodiscard]] bool connected() const;
 
  private:
@@ -72,7 +73,7 @@ class Screen {
   std::uint32_t connector_crtc_ = 0, crtc_mode_ = 0, crtc_active_ = 0, plane_framebuffer_ = 0;  // properties
   std::uint32_t mode_blob_ = 0;
   std::unique_ptr<drmModeCrtc, Free> before_;
-  std::uintptr_t flip_ = 0;  // the number of the one that is under way; 0: none is
+  std::uintptr_t flip_ = 0;  // number of the pending flip; 0: none
   MonotonicTime last_flip_;
 };
 

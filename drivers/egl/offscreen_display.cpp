@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The display without a screen: an FBO, read back after each frame when it is captured.
+// The display without a screen: a framebuffer object, read back after each frame if it is captured.
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <GLES3/gl3.h>
@@ -18,7 +18,7 @@
 namespace relievo {
 namespace {
 
-// Client extensions can be asked for without a display; where they cannot, the string is null.
+// Client extensions can be queried without a display; if not supported, the string is null.
 bool hasSurfacelessPlatform() {
   const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   return extensions != nullptr &&
@@ -70,7 +70,7 @@ Result<void> OffscreenDisplay::openDisplay(const DisplayConfig& config) {
 
   constexpr std::array<EGLint, 5> kOnePixel{EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};
   pbuffer_ = eglCreatePbufferSurface(context_->display(), context_->config(), kOnePixel.data());
-  if (pbuffer_ == EGL_NO_SURFACE) return fail(ErrorCode::Exhausted, "EGL gives no pbuffer; is memory short?");
+  if (pbuffer_ == EGL_NO_SURFACE) return fail(ErrorCode::Exhausted, "EGL cannot create a pbuffer; free some memory");
   if (auto current = makeCurrent(); !current) return current;
 
   surface_ = {.framebuffer = 0, .width = config.width, .height = config.height};
@@ -89,12 +89,13 @@ Result<void> OffscreenDisplay::makeCurrent() noexcept {
   return context_->makeCurrent(pbuffer_);
 }
 
-// The names die with the context.
+// The GL names are deleted with the context.
 Result<void> OffscreenDisplay::createFramebuffer() {
   GLint largest = 0;
   glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
   if (surface_.width > largest || surface_.height > largest) {
-    return fail(ErrorCode::InvalidArgument, "the picture is larger than the GL driver can draw; ask for a smaller one");
+    return fail(ErrorCode::InvalidArgument,
+                "the picture is larger than the GL driver can draw; choose a smaller --size");
   }
   std::array<GLuint, 2> buffers{};
   glGenRenderbuffers(2, buffers.data());
@@ -108,7 +109,7 @@ Result<void> OffscreenDisplay::createFramebuffer() {
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers[1]);
   const bool complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
   if (glGetError() == GL_OUT_OF_MEMORY || !complete) {
-    return fail(ErrorCode::Exhausted, "no memory left for a picture of this size; ask for a smaller one");
+    return fail(ErrorCode::Exhausted, "no memory for a picture of this size; choose a smaller --size");
   }
   return {};
 }
@@ -138,7 +139,7 @@ void OffscreenDisplay::closeDisplay() noexcept {
   writer_.reset();
   readback_ = {};
   if (!context_) return;
-  // Marked first, gone with the context that holds it current.
+  // EGL defers the destruction until the context that is current on it is destroyed.
   if (pbuffer_ != EGL_NO_SURFACE) eglDestroySurface(context_->display(), std::exchange(pbuffer_, EGL_NO_SURFACE));
   context_.reset();
   surface_ = {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The display in a window: SDL opens it and makes the GLES context through EGL, and this listens to it.
+// The display in a window: SDL opens it and makes the GLES context through EGL; this class handles its events.
 #include <EGL/egl.h>
 #include <SDL.h>
 
@@ -14,24 +14,24 @@ namespace relievo {
 namespace {
 
 constexpr const char* kTitle = "relievo";
-constexpr const char* kOwner = "relievo display";  // under which a window knows its display
+constexpr const char* kOwner = "relievo display";  // key of a window's pointer to its display
 constexpr SDL_Scancode kFullScreenKey = SDL_SCANCODE_F11;
 constexpr const char* kNoGles =
-    "the desktop gives no window with GLES 3; install a GL driver (Debian: libegl1, libgl1-mesa-dri)";
+    "the desktop cannot open a window with GLES 3; install a GL driver (Debian: libegl1, libgl1-mesa-dri)";
 
-// SDL's video stays once it is there, and so does the GL driver, like a library stays loaded: Mesa's software one does
-// not survive without leaks. What a user has set in the environment goes before the hints.
+// Initialises SDL's video and GL once for the process; neither is ever shut down, since Mesa's software driver leaks
+// when it is unloaded. The user's environment variables override the hints.
 bool startSdl() {
   if (SDL_WasInit(SDL_INIT_VIDEO) != 0) return true;
-  // The console is the kms display's. Without a Wayland server its library would complain on stderr.
+  // Never the console, which the kms display uses. Without a Wayland server, libwayland would complain on stderr.
   SDL_SetHint(SDL_HINT_VIDEODRIVER, std::getenv("WAYLAND_DISPLAY") != nullptr ? "x11,wayland" : "x11");
-  SDL_SetHint(SDL_HINT_VIDEO_X11_FORCE_EGL, "1");       // not GLX
+  SDL_SetHint(SDL_HINT_VIDEO_X11_FORCE_EGL, "1");       // instead of GLX
   SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");        // the program has its own
-  SDL_SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");  // a press that brings the window forward presses as well
+  SDL_SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");  // the click that focuses the window counts as well
   SDL_SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
   SDL_SetHint(SDL_HINT_APP_NAME, kTitle);
   if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) return false;
-  SDL_StopTextInput();  // no input method between the keys and here
+  SDL_StopTextInput();  // keep input methods from consuming keys
   SDL_GL_ResetAttributes();
   for (const auto& [attribute, value] : {std::pair{SDL_GL_CONTEXT_PROFILE_MASK, int{SDL_GL_CONTEXT_PROFILE_ES}},
                                          {SDL_GL_CONTEXT_MAJOR_VERSION, 3},
@@ -42,7 +42,7 @@ bool startSdl() {
                                          {SDL_GL_DEPTH_SIZE, 24}}) {
     SDL_GL_SetAttribute(attribute, value);
   }
-  SDL_GL_LoadLibrary(nullptr);  // once more than the windows do; what is wrong with it a window tells
+  SDL_GL_LoadLibrary(nullptr);  // keeps the driver loaded; opening a window reports any failure
   return true;
 }
 
@@ -85,7 +85,8 @@ class WindowDisplay final : public Display {
 
 Result<void> WindowDisplay::openDisplay(const DisplayConfig& config) {
   if (!startSdl()) {
-    return fail(ErrorCode::Unsupported, "there is no desktop to open a window on; start it from one (X11 or Wayland)");
+    return fail(ErrorCode::Unsupported,
+                "there is no desktop to open a window on; start relievo from one (X11 or Wayland)");
   }
   window_ = SDL_CreateWindow(kTitle, SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, config.width, config.height,
                              SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
@@ -109,11 +110,11 @@ void WindowDisplay::readRefresh() noexcept {
   refresh_period_ = known ? fromSeconds(1.0 / mode.refresh_rate) : Duration(0);
 }
 
-// SDL remembers what it has made current and does not see what others make so.
+// SDL caches the current context and does not notice when other code makes another one current.
 Result<void> WindowDisplay::makeCurrent() noexcept {
   if (eglGetCurrentContext() != context_) SDL_GL_MakeCurrent(nullptr, nullptr);
   if (SDL_GL_MakeCurrent(window_, context_) == 0) return {};
-  return fail(ErrorCode::Lost, "the window's GL context is gone; it is opened again");
+  return fail(ErrorCode::Lost, "the window's GL context was lost; opening the window again");
 }
 
 Result<DisplaySurface> WindowDisplay::startFrame() {
@@ -123,20 +124,20 @@ Result<DisplaySurface> WindowDisplay::startFrame() {
   return surface;
 }
 
-// Swapping tells nothing but by SDL's last error. A frame is on the screen with the next refresh.
+// SDL_GL_SwapWindow reports failures only by SDL_GetError. A frame is on the screen at the next refresh.
 Result<Duration> WindowDisplay::showFrame() {
   if (auto current = makeCurrent(); !current) return std::unexpected(current.error());
   SDL_ClearError();
   SDL_GL_SwapWindow(window_);
-  if (*SDL_GetError() != '\0')
-    return fail(ErrorCode::Lost, "the window cannot be drawn on any more; it is opened again");
+  if (*SDL_GetError() != '\0') return fail(ErrorCode::Lost, "the window cannot be drawn on any more; opening it again");
   return paced_ ? refresh_period_ : Duration(0);
 }
 
-// The queue is the process's: what another window has heard goes there.
+// SDL has one event queue for the process: events of another window are passed to its display.
 Result<bool> WindowDisplay::attendScreen() {
   for (SDL_Event event; SDL_PollEvent(&event) != 0;) {
-    SDL_Window* window = SDL_GetWindowFromID(event.window.windowID);  // at the same place in each kind of event
+    SDL_Window* window =
+        SDL_GetWindowFromID(event.window.windowID);  // windowID is at the same offset in each kind of event
     if (window == nullptr) continue;
     if (void* owner = SDL_GetWindowData(window, kOwner)) static_cast<WindowDisplay*>(owner)->hear(event);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One table: SDL's scancodes are USB's usages (HID Usage Tables, 10 and 15), their meaning is that of the kernel's
-// hid-input.c.
+// A table from SDL's scancodes, which are USB usages (HID Usage Tables, 10 and 15), to Linux key codes as in the
+// kernel's hid-input.c.
 #include "drivers/egl/window_keys.h"
 
 #include <linux/input-event-codes.h>

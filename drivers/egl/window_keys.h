@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The keys of an SDL window as Linux input codes.
+// Converts the keys of an SDL window to Linux input event codes.
 #pragma once
 
 #include <SDL_scancode.h>
@@ -9,7 +9,7 @@
 
 namespace relievo {
 
-// By the key's place, whatever is printed on it. Nothing for a key that Linux has no code for.
+// By the key's position, whatever is printed on it. nullopt for a key without a Linux code.
 [[nodiscard]] std::optional<std::uint16_t> linuxKey(SDL_Scancode scancode) noexcept;
 
 }  // namespace relievo

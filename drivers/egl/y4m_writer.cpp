@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From bottom-up RGBA to planar BT.709.
+// Converts bottom-up RGBA to planar BT.709 and keeps the file's frame rate.
 #include "drivers/egl/y4m_writer.h"
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 namespace relievo {
 namespace {
 
-// Pictures come with some jitter. A repeated one moves the next from half a period late to half a period early, far
-// enough from being left out for that.
+// Pictures come with some jitter. After a repetition the next picture is half a period early instead of half a period
+// late, which is well below the limit for dropping it.
 constexpr double kLatePeriods = 0.5;
 constexpr double kEarlyPeriods = 1.0;
 
@@ -26,7 +26,7 @@ std::uint8_t luma(const std::uint8_t* p) noexcept {
   return static_cast<std::uint8_t>(16 + ((kYr * p[0] + kYg * p[1] + kYb * p[2] + kHalf) >> kShift));
 }
 
-// Never NotFound: a display that is not there may come, a folder does not.
+// Never NotFound, since the player would then wait for the display to appear.
 ErrorCode codeOf(int os_error) noexcept {
   if (os_error == EACCES || os_error == EROFS) return ErrorCode::PermissionDenied;
   return ErrorCode::Io;
@@ -45,7 +45,7 @@ Y4mWriter::Y4mWriter(std::FILE* file, int width, int height, double rate)
 Result<Y4mWriter> Y4mWriter::create(const std::string& path, int width, int height, double rate) {
   std::FILE* file = std::fopen(path.c_str(), "wbe");
   if (file == nullptr) {
-    return fail(codeOf(errno), "the capture file cannot be written; check its folder and the rights on it", errno);
+    return fail(codeOf(errno), "the capture file cannot be written; check its folder and permissions", errno);
   }
   const long thousandths = std::lround(rate * 1000.0);
   Y4mWriter writer(file, width, height, static_cast<double>(thousandths) / 1000.0);
@@ -58,7 +58,7 @@ Result<Y4mWriter> Y4mWriter::create(const std::string& path, int width, int heig
 
 Result<void> Y4mWriter::write(std::span<const std::uint8_t> rgba, MonotonicTime time) {
   if (written_ == 0) first_ = time;
-  const double due = toSeconds(time - first_) * rate_;  // pictures that belong before this one
+  const double due = toSeconds(time - first_) * rate_;  // the file's number of pictures before this one
   while (static_cast<double>(written_) + kLatePeriods < due) {
     if (auto repeated = append(); !repeated) return repeated;
   }
@@ -101,7 +101,7 @@ Result<void> Y4mWriter::append() {
   if (std::fputs("FRAME\n", file_.get()) < 0 ||
       std::fwrite(picture_.data(), 1, picture_.size(), file_.get()) != picture_.size() ||
       std::fflush(file_.get()) != 0) {
-    return fail(ErrorCode::Io, "the capture file cannot be written on; is the disk full?", errno);
+    return fail(ErrorCode::Io, "the capture file cannot be continued; is the disk full?", errno);
   }
   ++written_;
   return {};

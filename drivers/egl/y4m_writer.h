@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes pictures to a YUV4MPEG2 file at a steady rate: raw 4:2:0 that every video tool reads.
+// Writes pictures to a YUV4MPEG2 file at a constant rate: raw 4:2:0 that every video tool can read.
 #pragma once
 
 #include <cstdint>
@@ -14,16 +14,16 @@
 
 namespace relievo {
 
-// BT.709, limited range, chroma sited between the samples. YUV4MPEG2 can tell the range and the siting but not the
-// matrix; BT.709 is what a reader takes for a picture of 720 lines or more.
+// BT.709, limited range, chroma sited between the samples. YUV4MPEG2 stores the range and the siting but not the
+// matrix; readers assume BT.709 for pictures of 720 lines or more.
 class Y4mWriter {
  public:
-  // Begins the file anew. `rate` in pictures per second.
+  // Truncates the file. `rate`: pictures per second.
   [[nodiscard]] static Result<Y4mWriter> create(const std::string& path, int width, int height, double rate);
 
-  // width x height RGBA pixels of 8 bits, the bottom row first as GL reads them, shown from `time` on. The file's
-  // pictures have no times of their own: where the next one was due half a period ago, the last one is repeated first,
-  // and a picture that comes more than a period early is left out. Blocking: writes to the file.
+  // `rgba`: width x height pixels of 8 bits per channel, the bottom row first as GL reads them, shown from `time` on.
+  // To keep the file's rate, the last picture is repeated if this one is over half a period late, and this one is
+  // dropped if it is over a period early. Blocking: writes to the file.
   [[nodiscard]] Result<void> write(std::span<const std::uint8_t> rgba, MonotonicTime time);
 
  private:
@@ -38,7 +38,7 @@ class Y4mWriter {
   int width_;
   int height_;
   double rate_;
-  std::vector<std::uint8_t> picture_;  // Y, U, V one after the other
+  std::vector<std::uint8_t> picture_;  // planes Y, U, V
   MonotonicTime first_;
   std::uint64_t written_ = 0;
 };

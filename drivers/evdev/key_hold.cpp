@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Key states: one held key, its next repeat, and its release after silence.
 #include "drivers/evdev/key_hold.h"
 
 namespace relievo {

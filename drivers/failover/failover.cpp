@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps what the next decoder will need.
+// Keeps the packets that the next decoder would need.
 #include "drivers/failover/failover.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace relievo {
 namespace {
 
-// A film without key frames for so long goes on at its next one.
+// With more packets between key frames, the next decoder continues only at the next key frame.
 constexpr std::size_t kMostPackets = 1024;
 constexpr std::size_t kMostBytes = std::size_t{48} << 20;
 
@@ -30,7 +30,7 @@ class FailoverDecoder final : public VideoDecoder {
   }
   [[nodiscard]] std::string description() const override {
     const std::string name = decoder().description();
-    return refusal_ == nullptr ? name : name + "; no better one: " + refusal_;
+    return refusal_ == nullptr ? name : name + "; no better decoder: " + refusal_;
   }
 
  private:
@@ -47,7 +47,8 @@ class FailoverDecoder final : public VideoDecoder {
     return openBest();
   }
 
-  // The first that takes the stream, from the present one on. That there is none of a kind is no news.
+  // Opens the first decoder, from the current one on, that takes the stream. Missing hardware (NotFound) is not
+  // reported.
   Result<void> openBest() {
     inner_damaged_ = 0;
     for (;; ++current_) {
@@ -56,7 +57,7 @@ class FailoverDecoder final : public VideoDecoder {
       const Error& error = opened.error();
       if (error.code == ErrorCode::NotFound) continue;
       refusal_ = error.message;
-      log(LogLevel::Info, "media", "%s does not decode %s: %s", decoder().capabilities().name, stream_.codec.c_str(),
+      log(LogLevel::Info, "media", "%s cannot decode %s: %s", decoder().capabilities().name, stream_.codec.c_str(),
           error.message);
     }
   }
@@ -102,18 +103,19 @@ class FailoverDecoder final : public VideoDecoder {
     }
   }
 
-  // Feeds the next of the kept ones again; the decoder has no picture to give.
+  // Feeds the next kept packet again; the decoder has no picture ready.
   Result<void> repeat() {
     const auto fed = decoder().feed(kept_[repeated_]);
     if (!fed) return std::unexpected(fed.error());
-    if (*fed == Feed::Full) return fail(ErrorCode::Timeout, "a video decoder takes no packets and gives no pictures");
+    if (*fed == Feed::Full)
+      return fail(ErrorCode::Timeout, "the video decoder neither takes packets nor returns pictures");
     ++repeated_;
-    if (!repeats() && isLast()) letGo(kept_.size());  // nobody comes after it
-    inner_damaged_ = decoder().damaged();             // of packets that have been counted
+    if (!repeats() && isLast()) letGo(kept_.size());  // there is no next decoder
+    inner_damaged_ = decoder().damaged();             // these packets were counted before
     return {};
   }
 
-  // Before the loss it has been handed out already.
+  // True if the picture was already returned before the failure.
   bool isRepeated(MediaTime pts) noexcept {
     if (!repeated_until_) return false;
     if (pts <= *repeated_until_) return true;
@@ -132,8 +134,8 @@ class FailoverDecoder final : public VideoDecoder {
       ++current_;
     }
     auto opened = openBest();
-    noteRestart({error.message, current_ == before ? "the decoder was begun anew where it was"
-                                                   : "another decoder, in software, goes on where it was"});
+    noteRestart({error.message, current_ == before ? "the decoder was restarted at the same picture"
+                                                   : "another decoder, in software, continues at the same picture"});
     repeated_ = 0;
     repeated_until_ = given_;
     return opened;
@@ -146,7 +148,7 @@ class FailoverDecoder final : public VideoDecoder {
     kept_.push_back(packet);
     kept_bytes_ += packet.bytes;
   }
-  // A picture of this time is out: of what lies before the last key frame until then, nothing more will come.
+  // A picture of this time was returned: packets before the last key frame up to it are no longer needed.
   void letGoBefore(MediaTime time) {
     if (repeats()) return;
     const auto begins = [time](const Packet& p) { return p.keyframe && p.pts && *p.pts <= time; };
@@ -186,14 +188,14 @@ class FailoverDecoder final : public VideoDecoder {
   std::size_t current_ = 0;
   StreamInfo stream_;
   bool began_anew_ = false;
-  const char* refusal_ = nullptr;  // of the last better one
+  const char* refusal_ = nullptr;  // why the last better decoder is not used
   std::deque<Packet> kept_;        // in the order of decoding
   std::size_t kept_bytes_ = 0;
-  std::size_t repeated_ = 0;                 // of them the decoder has so many
-  std::optional<MediaTime> given_;           // the newest picture handed out
-  std::optional<MediaTime> repeated_until_;  // pictures until then are not handed out
+  std::size_t repeated_ = 0;                 // how many of them the decoder has
+  std::optional<MediaTime> given_;           // time of the newest picture returned
+  std::optional<MediaTime> repeated_until_;  // pictures up to this time are dropped
   bool draining_ = false;
-  std::uint64_t inner_damaged_ = 0;  // of the decoder's, those that are counted or repeated
+  std::uint64_t inner_damaged_ = 0;  // of the decoder's damaged ones, those already counted or repeated
 };
 
 }  // namespace

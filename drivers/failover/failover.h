@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A video decoder made of several: where one dies, another goes on at the same picture.
+// A video decoder made of several: if one fails, another continues at the same picture.
 #pragma once
 
 #include <memory>
@@ -9,14 +9,14 @@
 
 namespace relievo {
 
-// The first that takes the stream decodes it, best first; `description` says why not a better one. It keeps the packets
-// since the last key frame that pictures may still be needed of. When a decoder fails, they are fed again and the
-// pictures that have been handed out already are dropped: nothing is missing, nothing comes twice. What hangs (Timeout)
-// or stumbles (Io) is begun anew, once in a film; whoever fails otherwise, or again, is replaced by the next for good.
-// The last one's failure is the caller's. Each is told by `takeRestart`. A `receive` that meets a failure takes as long
-// as what is decoded again.
+// `decoders`: at least one, the best first. The first that takes the stream decodes it; `description` says why no
+// better one does. The packets since the last key frame are kept. After a failure they are fed again, and pictures that
+// were already returned are dropped: none is missing and none comes twice. A decoder that hangs (Timeout) or fails with
+// Io is restarted, once per film; after any other failure, or a second one, the next decoder replaces it for good. The
+// caller gets the failure of the last decoder; `takeRestart` reports all others. A `receive` that meets a failure takes
+// as long as decoding the kept packets again.
 //
-// At least one. Frames outlive the decoder that they are of, as with any decoder.
+// Frames outlive their decoder, as with any decoder.
 [[nodiscard]] std::unique_ptr<VideoDecoder> makeFailoverDecoder(std::vector<std::unique_ptr<VideoDecoder>> decoders);
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of protocols.
+// The allowed protocols and formats, and the time-outs of each kind of address.
 #include "drivers/ffmpeg/address.h"
 
 #include <linux/magic.h>
@@ -14,9 +14,9 @@ namespace relievo::ffmpeg {
 namespace {
 
 constexpr const char* kDevice =
-    "it is a device or a file of the kernel, not a film; name a file (a camera is v4l2:/dev/videoN)";
+    "it is a device or a file of the kernel, not a film; give a film's file (a camera is v4l2:/dev/videoN)";
 constexpr const char* kUnknown =
-    "this kind of address is not opened here; use a file, http, https, rtsp, rtsps, rtp, udp or tcp";
+    "this protocol is not supported; use a file, http, https, rtsp, rtsps, rtp, udp or tcp";
 
 struct Protocol {
   std::string_view name;
@@ -28,7 +28,7 @@ constexpr std::array kProtocols{
     Protocol{"udp", Way::Packets}, Protocol{"tcp", Way::Tcp},
 };
 
-// As the library reads it: "http" of "http://..", "concat" of "concat:a|b", "subfile" of "subfile,,start,1,:a".
+// As FFmpeg parses it: "http" of "http://..", "concat" of "concat:a|b", "subfile" of "subfile,,start,1,:a".
 std::string_view schemeOf(std::string_view url) noexcept {
   constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789+-.";
   const std::size_t end = std::min(url.find_first_not_of(kLetters), url.size());
@@ -36,15 +36,15 @@ std::string_view schemeOf(std::string_view url) noexcept {
   return end < url.size() && (url[end] == ':' || has_options) ? url.substr(0, end) : std::string_view();
 }
 
-// Containers and streams. Not: lists of other addresses (concat), sessions that open ports (sdp), pictures by pattern.
+// Containers and streams. Excluded: lists of other addresses (concat), sessions that open ports (sdp), image sequences.
 constexpr const char* kFilms =
     "mov,mp4,matroska,webm,mpegts,mpeg,flv,live_flv,avi,ogg,asf,nut,ivf,h264,hevc,mpegvideo,m4v,obu,mjpeg,mpjpeg,"
     "yuv4mpegpipe,"
     "aac,ac3,eac3,mp3,flac,wav,webvtt,hls,dash,rtsp,rtp";
 
-constexpr const char* kSilenceUs = "10000000";     // of a connection that yields not one byte
-constexpr const char* kFlowSilenceUs = "3000000";  // of one that never pauses
-constexpr const char* kFlowProbeUs = "1500000";    // of a stream that comes at its own pace: the viewer waits for it
+constexpr const char* kSilenceUs = "10000000";     // the longest wait for a byte
+constexpr const char* kFlowSilenceUs = "3000000";  // the same for a real-time stream
+constexpr const char* kFlowProbeUs = "1500000";    // of a real-time stream, since the viewer waits meanwhile
 constexpr const char* kFlowProbeFrames = "3";
 
 const char* protocolsOf(Way way) noexcept {
@@ -65,7 +65,7 @@ const char* protocolsOf(Way way) noexcept {
   return "";
 }
 
-// What is read from there comes when the kernel likes, and a read of it cannot be given up.
+// Devices, sockets and files of /proc and the like: a read may block forever and cannot be interrupted.
 bool mayNeverEnd(const std::string& path, const struct stat& status) noexcept {
   if (S_ISCHR(status.st_mode) || S_ISSOCK(status.st_mode)) return true;
   struct statfs system{};
@@ -103,11 +103,11 @@ AVDictionary* optionsFor(const Address& address) {
     set("fpsprobesize", kFlowProbeFrames);
   }
   if (address.way == Way::Http) {
-    set("reconnect", "1");  // goes on from where the connection broke: at once or not at all
+    set("reconnect", "1");  // continue where the connection broke, at once or not at all
     set("reconnect_delay_max", "0");
   }
   if (address.way == Way::Rtsp) set("rtsp_flags", "prefer_tcp");  // an address that ends in "?udp" asks for UDP
-  if (address.way == Way::Packets) set("overrun_nonfatal", "1");  // a reader that is late loses packets, not the stream
+  if (address.way == Way::Packets) set("overrun_nonfatal", "1");  // a late reader loses packets but keeps the stream
   return options;
 }
 

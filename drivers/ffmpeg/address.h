@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where an address leads, and what the library may do on the way there.
+// Classifies a source's address, and restricts what FFmpeg may open from there.
 #pragma once
 
 #include <cstdint>
@@ -14,33 +14,34 @@ extern "C" {
 namespace relievo::ffmpeg {
 
 enum class Way : std::uint8_t {
-  File,     // and patterns of numbered pictures
-  Pipe,     // a named one
+  File,     // also patterns of numbered pictures
+  Pipe,     // a named pipe
   Http,     // with or without TLS; HLS and DASH as well
   Rtsp,     // with or without TLS
-  Packets,  // RTP, UDP: whoever sends
+  Packets,  // RTP and UDP, from any sender
   Tcp,
 };
 
 struct Address {
-  std::string url;  // as the library takes it
+  std::string url;  // in FFmpeg's form
   Way way = Way::File;
 
   [[nodiscard]] bool remote() const noexcept { return way != Way::File && way != Way::Pipe; }
-  // Comes at its own pace, once, and has no end that could be told from a broken line.
+  // A real-time stream: sent once, at its own pace, and its end cannot be told from a broken connection.
   [[nodiscard]] bool flows() const noexcept { return remote() && way != Way::Http; }
 };
 
-// An existing file is a file whatever its name looks like ("12:30.mkv"). Unsupported: a protocol that is not in the
-// list, such as those that read several files, parts of files or other processes.
+// The name of an existing file is a file even if it looks like a URL ("12:30.mkv"). Unsupported: a protocol that is not
+// in the list, such as those that read several files, parts of files or other processes.
 [[nodiscard]] Result<Address> parseAddress(const std::string& url);
 
-// What goes with the address into avformat_open_input: which further protocols and formats whatever it names may use,
-// and how long a silent line is waited for. The caller frees it.
+// The options for avformat_open_input: the protocols and formats that anything named by the source may use, and the
+// time-outs. The caller frees them.
 //
-//   a file      files (beside it, as the library sees to), and the network where it is a session description
-//   a network   the same kind of connection alone, and formats that hold a film: never a list of other addresses but
-//               HLS's and DASH's own, never a file of this machine
+//   a file may name      files (FFmpeg limits these to files beside it), and network streams if it is a session
+//                        description
+//   a network source     only the same kind of connection and formats of films: no lists of other addresses except HLS
+//                        and DASH playlists, no local files
 [[nodiscard]] AVDictionary* optionsFor(const Address& address);
 
 }  // namespace relievo::ffmpeg

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sound decoder on libavcodec, and libswresample for rate, layout and sample format.
+// Sound decoder: libavcodec decodes, libswresample converts rate, channel layout and sample format.
 #include <algorithm>
 #include <cerrno>
 
@@ -50,24 +50,24 @@ class FfmpegAudioDecoder final : public AudioDecoder {
   Result<void> openCodec(const AVCodecParameters& parameters) {
     const AVCodec* const codec = avcodec_find_decoder(parameters.codec_id);
     if (codec == nullptr) {
-      return fail(ErrorCode::Unsupported, "FFmpeg here has no decoder for its sound; convert the film");
+      return fail(ErrorCode::Unsupported, "this FFmpeg has no decoder for its sound; convert the film");
     }
     context_.reset(avcodec_alloc_context3(codec));
     if (!context_) return fail(ErrorCode::Exhausted, kNoMemory, ENOMEM);
     if (avcodec_parameters_to_context(context_.get(), &parameters) < 0) {
-      return fail(ErrorCode::Corrupt, "the sound stream's parameters make no sense");
+      return fail(ErrorCode::Corrupt, "the sound stream's parameters are invalid; convert the film");
     }
     context_->thread_count = 1;
     context_->pkt_timebase = kNanosecond;
     if (avcodec_open2(context_.get(), codec, nullptr) < 0) {
-      return fail(ErrorCode::Corrupt, "the sound decoder does not accept the stream's parameters");
+      return fail(ErrorCode::Corrupt, "the sound decoder rejects the stream's parameters; convert the film");
     }
     return {};
   }
 
   Result<AudioChunk> decodePacket(const Packet& packet) override {
     AudioChunk chunk;
-    if (packet.bytes == 0) return chunk;  // the library would take it for the end
+    if (packet.bytes == 0) return chunk;  // FFmpeg would take it for the end
     if (!fillPacket(*packet_, packet, time_base_)) return fail(ErrorCode::Exhausted, kNoMemory, ENOMEM);
     const int sent = avcodec_send_packet(context_.get(), packet_.get());
     av_packet_unref(packet_.get());
@@ -78,19 +78,19 @@ class FfmpegAudioDecoder final : public AudioDecoder {
       if (got == AVERROR(EAGAIN) || got == AVERROR_EOF) return chunk;
       if (got == AVERROR(ENOMEM)) return fail(ErrorCode::Exhausted, kNoMemory, ENOMEM);
       if (got < 0) {
-        countDamaged();  // each try consumes a packet, so this ends
+        countDamaged();  // the loop ends, since each try consumes data
       } else if (auto added = append(chunk); !added) {
         return std::unexpected(added.error());
       }
     }
   }
 
-  // Adds what the library has decoded to the chunk, in the format that is wanted.
+  // Appends the decoded sound to the chunk, in the requested format.
   Result<void> append(AudioChunk& chunk) {
     if (auto ready = prepareResampler(); !ready) return ready;
     const std::int64_t own = sound_->best_effort_timestamp;
     MediaTime pts = own == AV_NOPTS_VALUE ? next_pts_ : MediaTime(Duration(own));
-    pts -= Duration(swr_get_delay(resampler_.get(), kNanosecond.den));  // what is inside comes out first
+    pts -= Duration(swr_get_delay(resampler_.get(), kNanosecond.den));  // samples inside the resampler come out first
     const int room = swr_get_out_samples(resampler_.get(), sound_->nb_samples);
     if (room < 0) return fail(ErrorCode::Exhausted, kNoMemory, ENOMEM);
     const auto channels = static_cast<std::size_t>(format_.channels);
@@ -108,7 +108,7 @@ class FfmpegAudioDecoder final : public AudioDecoder {
     return {};
   }
 
-  // A stream may change its rate, layout or sample format; what the old resampler holds is less than a millisecond.
+  // The stream's rate, layout or sample format may change; the old resampler's rest, under a millisecond, is dropped.
   Result<void> prepareResampler() {
     const bool same = resampler_ && last_->sample_rate == sound_->sample_rate && last_->format == sound_->format &&
                       av_channel_layout_compare(&last_->ch_layout, &sound_->ch_layout) == 0;
@@ -130,7 +130,7 @@ class FfmpegAudioDecoder final : public AudioDecoder {
     av_opt_set_double(context, "rematrix_maxval", 1.0, 0);
     if (swr_init(context) < 0) {
       resampler_.reset();
-      return fail(ErrorCode::Unsupported, "its sound has a layout that cannot be mixed down; convert the film");
+      return fail(ErrorCode::Unsupported, "its sound has a channel layout that cannot be mixed down; convert the film");
     }
     last_->sample_rate = sound_->sample_rate;
     last_->format = sound_->format;
@@ -156,9 +156,9 @@ class FfmpegAudioDecoder final : public AudioDecoder {
 
   CodecContextPtr context_;
   std::unique_ptr<SwrContext, ResamplerDeleter> resampler_;
-  PacketPtr packet_;  // filled and emptied by each packet
+  PacketPtr packet_;  // reused for each packet
   FramePtr sound_;    // likewise
-  FramePtr last_;     // without samples: what the resampler was made for
+  FramePtr last_;     // without samples: the format that the resampler was made for
   AVRational time_base_ = kNanosecond;
   AudioFormat format_;
   MediaTime next_pts_;

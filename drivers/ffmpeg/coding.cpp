@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Streams and packets on their way into libavcodec.
+// Converts streams and packets to libavcodec's types.
 #include "drivers/ffmpeg/coding.h"
 
 #include <cstring>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the two decoders share: a stream's parameters and its packets, as the library wants them.
+// Shared by the two decoders: converts a stream's parameters and its packets to libavcodec's types.
 #pragma once
 
 #include "drivers/ffmpeg/library.h"
@@ -7,11 +7,11 @@
 
 namespace relievo::ffmpeg {
 
-// Parameters of a stream that another back end's source has described. Null without memory.
+// Parameters of a stream from another back end's source. Null if out of memory.
 [[nodiscard]] ParametersPtr parametersFromWords(const StreamInfo& stream, AVMediaType kind);
 
-// By reference where the packet is the library's own; times in ns. `time_base` is that of the source's durations. False
-// without memory.
+// References the packet's data if it is FFmpeg's own, else copies it; times are in ns. `time_base`: of the source's
+// durations. False if out of memory.
 [[nodiscard]] bool fillPacket(AVPacket& out, const Packet& packet, AVRational time_base);
 
 }  // namespace relievo::ffmpeg

@@ -21,8 +21,7 @@ extern "C" {
 namespace relievo::ffmpeg {
 namespace {
 
-// A transport stream's stream type, which the library keeps where a codec's tag is kept elsewhere (ISO/IEC 13818-1,
-// table 2-34).
+// A transport stream's stream type (ISO/IEC 13818-1, table 2-34), which FFmpeg stores as the codec tag.
 constexpr std::uint32_t kAuxiliaryVideo = 0x1e;
 
 Duration framePeriodOf(const AVStream& stream) noexcept {
@@ -32,7 +31,7 @@ Duration framePeriodOf(const AVStream& stream) noexcept {
   return Duration(0);
 }
 
-// Nine numbers; null where the container asks for no turn.
+// Nine numbers; null if the container has no display matrix.
 const std::int32_t* displayMatrixOf(const AVStream& stream) noexcept {
 #if LIBAVFORMAT_VERSION_INT >= AV_VERSION_INT(60, 15, 100)  // FFmpeg 6.1
   const AVCodecParameters& parameters = *stream.codecpar;
@@ -47,20 +46,20 @@ const std::int32_t* displayMatrixOf(const AVStream& stream) noexcept {
 #endif
 }
 
-// StreamInfo::rotation. What is not done is told.
+// StreamInfo::rotation. Warns about a transformation that is not supported.
 int rotationOf(const AVStream& stream) noexcept {
   const std::int32_t* const m = displayMatrixOf(stream);
   if (m == nullptr) return 0;
-  const double degrees = -av_display_rotation_get(m);  // clockwise; not a number where the matrix is none
+  const double degrees = -av_display_rotation_get(m);  // clockwise; NaN for an invalid matrix
   const bool mirrored = static_cast<double>(m[0]) * m[4] < static_cast<double>(m[1]) * m[3];
   const double quarters = std::round(degrees / 90);
   if (!mirrored && std::abs(degrees - 90 * quarters) < 1) return (static_cast<int>(quarters) + 4) % 4;
-  log(LogLevel::Warning, "media", "track %d asks to be %s, which is not done; convert the film to upright pictures",
-      stream.index, mirrored ? "mirrored" : "turned by no quarter turn");
+  log(LogLevel::Warning, "media", "track %d must be %s, which is not supported; convert the film to upright pictures",
+      stream.index, mirrored ? "mirrored" : "turned by an odd angle");
   return 0;
 }
 
-// Picture size, then bits a second, of a programme's best video.
+// Picture size, then bit rate, of a programme's best video.
 std::pair<std::int64_t, std::int64_t> worthOf(const AVFormatContext& context, const AVProgram& programme) noexcept {
   std::int64_t area = 0;
   for (unsigned i = 0; i < programme.nb_stream_indexes; ++i) {
@@ -172,7 +171,7 @@ Result<StreamInfo> describeStream(const AVStream& stream, bool timed) {
   info.frame_period = framePeriodOf(stream);
   if (timed && stream.duration > 0) info.duration = durationFrom(stream.duration, stream.time_base);
   info.tags = tagsOf(stream.metadata);
-  // TIFF of a size that the library cannot tell is of floats.
+  // FFmpeg cannot tell the size of a TIFF picture of floats.
   const bool float_tiff = parameters.codec_id == AV_CODEC_ID_TIFF && parameters.width == 0;
   if (isDistance(parameters.format) || float_tiff) info.tags.insert({{"DEPTH_UNIT", "1"}, {"DEPTH_INVALID", "0"}});
   info.auxiliary = info.kind == StreamKind::Video && parameters.codec_tag == kAuxiliaryVideo;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an opened container holds, in the words of hal/media_source.h.
+// Describes an opened container in the types of hal/media_source.h.
 #pragma once
 
 #include <map>
@@ -14,31 +14,32 @@ extern "C" {
 
 namespace relievo::ffmpeg {
 
-inline constexpr AVRational kMicrosecond{1, AV_TIME_BASE};  // of the times in AVFormatContext
+inline constexpr AVRational kMicrosecond{1, AV_TIME_BASE};  // the time base of AVFormatContext
 
 // Keys in upper case.
 [[nodiscard]] std::map<std::string, std::string> tagsOf(const AVDictionary* dictionary);
 
-// Other for cover pictures, and for what `chooseProgramme` has left out.
+// Other for cover pictures, and for streams that `chooseProgramme` excluded.
 [[nodiscard]] StreamKind kindOf(const AVStream& stream) noexcept;
 
-// Without a duration where the container's times mean nothing (`timed` false). Exhausted without memory.
+// Without a duration if the container has no times (`timed` false). Exhausted if out of memory.
 [[nodiscard]] Result<StreamInfo> describeStream(const AVStream& stream, bool timed);
 
-// The library would show a text file as a film of letters.
+// True for text files, which FFmpeg would render as a video of letters.
 [[nodiscard]] bool isTextArt(const AVFormatContext& context) noexcept;
 
-// A demuxer that asks for a frame rate (pictures, raw streams) has no times of its own; those it makes up are left out.
+// False for demuxers that need a frame rate (pictures, raw streams): their containers have no times, and the times that
+// FFmpeg makes up are ignored.
 [[nodiscard]] bool isTimed(const AVFormatContext& context) noexcept;
 
-// The library keeps the container's start in microseconds; a stream that begins there says it more exactly, and the
-// first picture's time becomes 0, not a fraction of a microsecond beside it.
+// The start time of the stream that begins first. It is more exact than FFmpeg's start of the container, which is in
+// microseconds, so that the first picture's time becomes exactly 0.
 [[nodiscard]] Duration startOf(const AVFormatContext& context) noexcept;
 
-// The leading stream, unless another video stream begins before it.
+// The leading stream, unless another video stream begins earlier.
 [[nodiscard]] int earliestStream(const AVFormatContext& context, int leading) noexcept;
 
-// Of several programmes keeps the one with the best video: the others are other films, or this one at other rates.
+// Keeps only the programme with the best video: the others are other films, or the same one at other bit rates.
 void chooseProgramme(AVFormatContext& context) noexcept;
 
 }  // namespace relievo::ffmpeg

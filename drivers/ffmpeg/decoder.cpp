@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Video decoder on libavcodec: software decoding on few threads, pictures by reference.
+// Video decoder on libavcodec: software decoding on few threads; returns references to pictures.
 #include <cerrno>
 #include <utility>
 
@@ -13,13 +13,13 @@ namespace {
 
 using namespace ffmpeg;
 
-constexpr int kThreads = 2;         // each thread adds one frame of delay; two keep a small box busy enough
-constexpr int kMaxHeldFrames = 64;  // the pool grows with what is held; a bound so that a leak shows
-constexpr Duration kDefaultPeriod = std::chrono::milliseconds(40);  // where neither times nor a rate are known
+constexpr int kThreads = 2;         // each thread adds one frame of delay; two use a small box well enough
+constexpr int kMaxHeldFrames = 64;  // the pool has no limit of its own; this one makes a leak visible
+constexpr Duration kDefaultPeriod = std::chrono::milliseconds(40);  // if neither times nor a rate are known
 
 constexpr const char* kNoMemory = "out of memory in the video decoder";
 
-// Guesses in place of lost data look like a picture, but are none.
+// True if the decoder concealed lost data in the picture by guesses.
 bool isMended(const AVFrame& picture) noexcept {
   return (picture.flags & AV_FRAME_FLAG_CORRUPT) != 0 || picture.decode_error_flags != 0;
 }
@@ -56,26 +56,26 @@ class FfmpegDecoder final : public VideoDecoder {
   Result<void> openCodec(const AVCodecParameters& parameters) {
     const AVCodec* const codec = avcodec_find_decoder(parameters.codec_id);
     if (codec == nullptr) {
-      return fail(ErrorCode::Unsupported, "FFmpeg here has no decoder for this codec; convert the film");
+      return fail(ErrorCode::Unsupported, "this FFmpeg has no decoder for this codec; convert the film");
     }
     context_.reset(avcodec_alloc_context3(codec));
     if (!context_) return fail(ErrorCode::Exhausted, kNoMemory, ENOMEM);
     if (avcodec_parameters_to_context(context_.get(), &parameters) < 0) {
-      return fail(ErrorCode::Corrupt, "the video stream's parameters make no sense");
+      return fail(ErrorCode::Corrupt, "the video stream's parameters are invalid; convert the film");
     }
-    context_->max_pixels = kMostSamples;  // of a film whose size changes
+    context_->max_pixels = kMostSamples;  // also for a film whose size changes
     context_->thread_count = kThreads;
     context_->thread_type = FF_THREAD_FRAME | FF_THREAD_SLICE;
     context_->pkt_timebase = kNanosecond;
-    context_->flags |= AV_CODEC_FLAG_UNALIGNED;  // cropping stays exact to the sample
+    context_->flags |= AV_CODEC_FLAG_UNALIGNED;  // crop exactly to the sample
     if (avcodec_open2(context_.get(), codec, nullptr) < 0) {
-      return fail(ErrorCode::Corrupt, "the video decoder does not accept the stream's parameters");
+      return fail(ErrorCode::Corrupt, "the video decoder rejects the stream's parameters; convert the film");
     }
     return {};
   }
 
   Result<Feed> feedPacket(const Packet& packet) override {
-    if (packet.bytes == 0) return Feed::Accepted;  // the library would take it for the end
+    if (packet.bytes == 0) return Feed::Accepted;  // FFmpeg would take it for the end
     if (!fillPacket(*packet_, packet, time_base_)) return fail(ErrorCode::Exhausted, kNoMemory, ENOMEM);
     const int sent = avcodec_send_packet(context_.get(), packet_.get());
     av_packet_unref(packet_.get());
@@ -90,7 +90,7 @@ class FfmpegDecoder final : public VideoDecoder {
       const int got = avcodec_receive_frame(context_.get(), picture_.get());
       if (got == AVERROR(EAGAIN)) {
         if (!std::exchange(end_pending_, false)) return Progress::NeedsPackets;
-        static_cast<void>(avcodec_send_packet(context_.get(), nullptr));  // fails only when it drains already
+        static_cast<void>(avcodec_send_packet(context_.get(), nullptr));  // fails only if it is draining already
         continue;
       }
       if (got == AVERROR_EOF) return Progress::EndOfStream;
@@ -99,12 +99,12 @@ class FfmpegDecoder final : public VideoDecoder {
         const MediaTime pts = nextTime(picture_->best_effort_timestamp);
         if (!isMended(*picture_)) return deliver(frame, pts);
       }
-      countDamaged();  // each try consumes a packet or a picture, so this ends
+      countDamaged();  // the loop ends, since each try consumes a packet or a picture
     }
   }
 
   Result<Progress> deliver(Frame& frame, MediaTime pts) {
-#if LIBAVUTIL_VERSION_INT >= AV_VERSION_INT(57, 30, 100)  // FFmpeg 6; before it the other name is the only one
+#if LIBAVUTIL_VERSION_INT >= AV_VERSION_INT(57, 30, 100)  // FFmpeg 6; older versions have only pkt_duration
     const Duration duration(picture_->duration);
 #else
     const Duration duration(picture_->pkt_duration);
@@ -123,14 +123,14 @@ class FfmpegDecoder final : public VideoDecoder {
     return Progress::Picture;
   }
 
-  // The picture's own time, or one period after the picture before.
+  // The picture's own time, or one period after the previous picture.
   MediaTime nextTime(std::int64_t own) noexcept {
     const MediaTime pts = own == AV_NOPTS_VALUE ? next_pts_ : MediaTime(Duration(own));
     next_pts_ = pts + period_;
     return pts;
   }
 
-  // The library loses a packet that it holds undecoded when it is told of the end: so that waits until all are taken.
+  // FFmpeg drops packets that it has not decoded yet when the end is signalled, so `receiveFrame` signals it later.
   Result<void> startDrain() override {
     end_pending_ = true;
     return {};
@@ -150,14 +150,14 @@ class FfmpegDecoder final : public VideoDecoder {
   }
 
   CodecContextPtr context_;
-  PacketPtr packet_;  // filled and emptied by each feed
-  FramePtr picture_;  // likewise by each receive
+  PacketPtr packet_;  // reused by each feed
+  FramePtr picture_;  // reused by each receive
   Converter converter_;
   AVRational time_base_ = kNanosecond;  // of the durations in the source's packets
   AVRational sample_aspect_{0, 1};
   Duration period_ = kDefaultPeriod;
   MediaTime next_pts_;
-  bool end_pending_ = false;  // drain was asked for, the library does not know yet
+  bool end_pending_ = false;  // drain was requested but not yet signalled to FFmpeg
 };
 
 }  // namespace

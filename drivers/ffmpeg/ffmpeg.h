@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Media source and decoders on FFmpeg's libraries: any file or URL that they open, decoded in software.
+// Media source and software decoders on FFmpeg's libraries.
 #pragma once
 
 #include <atomic>
@@ -14,37 +14,38 @@
 namespace relievo {
 
 // Files, named pipes, numbered pictures ("frames/%03d.png"), and addresses that begin with http, https (HLS and DASH as
-// well), rtsp, rtsps, rtp, udp or tcp; Unsupported for any other. What one of them names is opened only if it is of the
-// same origin: from a file other files, from the network never a file of this machine (see address.h). RTSP comes over
-// TCP unless the address ends in "?udp".
+// well), rtsp, rtsps, rtp, udp or tcp; Unsupported for any other. A source may refer only to sources of its own kind: a
+// file to other files, a network source never to a local file (see address.h). RTSP uses TCP unless the address ends in
+// "?udp".
 //
-// A read that brings nothing for ten seconds, of a stream at its own pace (rtsp, rtp, udp, tcp) for three, returns
-// Timeout, and so does an opening that takes longer than a minute. `interrupt` ends every wait within a tenth of a
-// second, but that for a name server. A stream at its own pace without a length does not end: it is Lost.
+// A read returns Timeout after ten seconds without data, or after three for a real-time stream (rtsp, rtp, udp, tcp);
+// opening times out after a minute. `interrupt` ends every wait within a tenth of a second, except for a name server. A
+// real-time stream without a duration never ends: when its data stop it is Lost.
 //
-// Of a source with several programmes (a broadcast multiplex, the rates of an adaptive stream) the best one is the
-// film; the streams of the others are listed as Other. So are cover pictures.
+// Of several programmes (a broadcast multiplex, the bit rates of an adaptive stream) the best one is the film; the
+// streams of the others are listed as Other. So are cover pictures.
 //
-// Seeks are by the leading video stream's key frames where the container has an index; transport streams and adaptive
-// streams land near the target, before or after it, so the reader has to look and to try from earlier.
+// If the container has an index, `seek` goes to the leading video stream's key frames. Transport streams and adaptive
+// streams land near the target, before or after it, so the reader must check the time and retry from earlier.
 //
-// What has no times of its own (pictures, raw streams) yields packets without times, which the decoder below numbers by
-// StreamInfo::frame_period; a seek in it goes back to the beginning.
+// Pictures and raw streams have no times: their packets have none either, and the decoder below counts in steps of
+// StreamInfo::frame_period; any seek goes to the beginning.
 [[nodiscard]] std::unique_ptr<MediaSource> makeFfmpegSource();
 
-// Takes the streams of the source above as they are, and those of any other source by codec name and extradata.
-// Pictures whose layout hal/frame.h cannot describe (palettes, single bits, big endian, ..) are converted to the
-// nearest that it can: the one case of a copy, exact for integers of up to 16 bits. Gray in floating point (a
-// renderer's EXR) is taken for distances in metres and becomes whole mm, with calibration tags that say so. A picture
-// that was mended with guesses after an error in its data is dropped and counted: a guessed depth must not be felt.
+// Decodes streams of the source above, and those of any other source by codec name and extradata. Pictures whose layout
+// hal/frame.h cannot describe (palettes, single bits, big endian, ..) are converted to the nearest one that it can.
+// Only these are copied; the conversion is exact for integers of up to 16 bits. Gray in floating point (a renderer's
+// EXR) is interpreted as distances in metres and converted to whole mm, with matching calibration tags. A picture in
+// which the decoder concealed errors by guesses is dropped and counted as damaged, since guessed depth must not be
+// felt.
 [[nodiscard]] std::unique_ptr<VideoDecoder> makeFfmpegDecoder();
 
-// Any codec, rate and layout, which may change in the middle. Mixed down by the layout's own rule, and so that the sum
-// is not clipped.
+// Decodes any codec, rate and channel layout, which may change within the film. Channels are mixed down by their
+// layout's standard rule, scaled so that the sum does not clip.
 [[nodiscard]] std::unique_ptr<AudioDecoder> makeFfmpegAudioDecoder();
 
-// The text at a path or an address (http, https), at most so many bytes, else Corrupt. May wait as long as opening a
-// source; Cancelled soon after the flag is set.
+// Returns the text at a path or an address (http, https); Corrupt if it is longer than `most_bytes`. May wait as long
+// as opening a source; Cancelled soon after the flag is set.
 [[nodiscard]] Result<std::string> readFfmpegText(const std::string& url, std::size_t most_bytes,
                                                  const std::atomic<bool>& cancelled);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Error codes and time units of FFmpeg's libraries, translated.
+// Converts the error codes and time units of FFmpeg's libraries.
 #include "drivers/ffmpeg/library.h"
 
 #include <cerrno>
@@ -26,7 +26,7 @@ Duration durationFrom(std::int64_t ticks, AVRational time_base) noexcept {
 
 int osError(int code) noexcept {
   const int number = AVUNERROR(code);
-  return number > 0 && number < 4096 ? number : 0;  // the library's own codes are far larger
+  return number > 0 && number < 4096 ? number : 0;  // FFmpeg's own codes are far larger
 }
 
 Error openError(int code) noexcept {
@@ -34,17 +34,17 @@ Error openError(int code) noexcept {
     case AVERROR(ENOENT):
       return {ErrorCode::NotFound, ENOENT, "no such file; check the path"};
     case AVERROR_HTTP_NOT_FOUND:
-      return {ErrorCode::NotFound, 0, "the server does not know it; check the address"};
+      return {ErrorCode::NotFound, 0, "the server does not have it; check the address"};
     case AVERROR(EACCES):
     case AVERROR(EPERM):
-      return {ErrorCode::PermissionDenied, osError(code), "no right to read it; check the file's permissions"};
+      return {ErrorCode::PermissionDenied, osError(code), "no permission to read it; check the file's permissions"};
     case AVERROR_HTTP_UNAUTHORIZED:
     case AVERROR_HTTP_FORBIDDEN:
-      return {ErrorCode::PermissionDenied, 0, "the server refuses it; check user name and password in the address"};
+      return {ErrorCode::PermissionDenied, 0, "the server refuses access; check user name and password in the address"};
     case AVERROR_PROTOCOL_NOT_FOUND:
-      return {ErrorCode::Unsupported, 0, "FFmpeg here was built without this protocol; use another address"};
+      return {ErrorCode::Unsupported, 0, "this FFmpeg was built without this protocol; use another address"};
     case AVERROR(EISDIR):
-      return {ErrorCode::Unsupported, EISDIR, "it is a folder; name a file in it"};
+      return {ErrorCode::Unsupported, EISDIR, "it is a folder; give a file in it"};
     case AVERROR(ETIMEDOUT):
       return {ErrorCode::Timeout, ETIMEDOUT, "no answer from the source in time; check the network"};
     case AVERROR(ECONNREFUSED):
@@ -57,7 +57,7 @@ Error openError(int code) noexcept {
     case AVERROR_INVALIDDATA:
     case AVERROR_DEMUXER_NOT_FOUND:
       return {ErrorCode::Corrupt, 0,
-              "not a media file that FFmpeg knows, an empty one, or one cut off before its index was written"};
+              "not a media file that FFmpeg knows, or empty, or cut off before its index was written; check the file"};
     default:
       return {ErrorCode::Io, osError(code), "it cannot be opened; check the path or the address"};
   }

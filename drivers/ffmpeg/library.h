@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the source and the decoder share: owners of the library's objects, time units, errors.
+// Shared by the source and the decoders: owners of FFmpeg's objects, time units, errors.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,7 @@ namespace relievo::ffmpeg {
 
 inline constexpr AVRational kNanosecond{1, 1'000'000'000};
 
-// The types of the deleters tell this back end's objects from those of others behind a shared_ptr<const void>.
+// The deleters' types identify this back end's objects behind a shared_ptr<const void>.
 struct PacketDeleter {
   void operator()(AVPacket* packet) const noexcept { av_packet_free(&packet); }
 };
@@ -36,11 +36,11 @@ using FramePtr = std::unique_ptr<AVFrame, FrameDeleter>;
 using CodecContextPtr = std::unique_ptr<AVCodecContext, CodecContextDeleter>;
 using ParametersPtr = std::unique_ptr<AVCodecParameters, ParametersDeleter>;
 
-// Behind StreamInfo::native.
+// The object behind StreamInfo::native.
 struct NativeStream {
   ParametersPtr parameters;
   AVRational time_base{0, 1};
-  AVRational sample_aspect{0, 1};  // the container's word, which goes before the codec's; 0/1 where it says nothing
+  AVRational sample_aspect{0, 1};  // the container's, which overrides the codec's; 0/1 if unspecified
 };
 struct NativeStreamDeleter {
   void operator()(NativeStream* stream) const noexcept { delete stream; }
@@ -52,15 +52,15 @@ template <class T, class Deleter>
   return std::get_deleter<Deleter>(owner) == nullptr ? nullptr : static_cast<const T*>(owner.get());
 }
 
-// The libraries print to stderr by themselves unless told once; the program prints its own line.
+// Stops FFmpeg from printing to stderr; the program prints its own messages.
 void silenceLibrary() noexcept;
 
 [[nodiscard]] Duration durationFrom(std::int64_t ticks, AVRational time_base) noexcept;
 
-// 0 where a code of the library is not one of the system's.
+// The errno in an FFmpeg error code, or 0 if the code is FFmpeg's own.
 [[nodiscard]] int osError(int code) noexcept;
 
-// Why a source could not be opened, in words for the one who named it.
+// Why a source could not be opened, as a message for the user.
 [[nodiscard]] Error openError(int code) noexcept;
 
 }  // namespace relievo::ffmpeg

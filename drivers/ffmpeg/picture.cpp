@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pixel formats of FFmpeg in the words of hal/frame.h.
+// Describes FFmpeg's pixel formats in the types of hal/frame.h.
 #include "drivers/ffmpeg/picture.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ static_assert(std::endian::native == std::endian::little, "hal/frame.h describes
 constexpr std::uint64_t kOtherLayouts = AV_PIX_FMT_FLAG_BE | AV_PIX_FMT_FLAG_PAL | AV_PIX_FMT_FLAG_BITSTREAM |
                                         AV_PIX_FMT_FLAG_HWACCEL | AV_PIX_FMT_FLAG_FLOAT | AV_PIX_FMT_FLAG_BAYER;
 
-// Alpha, which may follow, is not looked at.
+// Alpha, if any, comes last and is ignored.
 int componentCount(const AVPixFmtDescriptor& format) noexcept {
   return format.nb_components <= 2 ? 1 : 3;
 }
@@ -36,8 +36,8 @@ ColorModel modelOf(const AVPixFmtDescriptor& format) noexcept {
   return componentCount(format) == 1 ? ColorModel::Gray : ColorModel::Yuv;
 }
 
-// One byte holds 8 bits, an aligned word of two up to 16. Fewer bits are old screens' colours: not worth a reader's
-// care.
+// True for 8 bits in a byte, or up to 16 in an aligned two-byte word. Fewer bits occur only in obsolete formats, which
+// are converted.
 bool readableInPlace(const AVComponentDescriptor& c) noexcept {
   if (c.depth <= 8) return c.depth == 8 && c.shift == 0;
   return c.shift + c.depth <= 16 && c.offset % 2 == 0 && c.step % 2 == 0;
@@ -56,7 +56,7 @@ bool isFullRangeYuv(int format) noexcept {
   }
 }
 
-// Gray and RGB are full range unless it is said otherwise; YUV that says nothing stays unspecified.
+// Gray and RGB are full range unless specified otherwise; unspecified YUV stays unspecified.
 ColorRange rangeOf(int format, AVColorRange range, ColorModel model) noexcept {
   if (isFullRangeYuv(format) || range == AVCOL_RANGE_JPEG) return ColorRange::Full;
   if (range == AVCOL_RANGE_MPEG) return ColorRange::Limited;
@@ -71,7 +71,7 @@ bool isInterlaced(const AVFrame& picture) noexcept {
 #endif
 }
 
-// The library counts primaries and transfers as ITU-T H.273 does.
+// FFmpeg numbers primaries and transfers as ITU-T H.273 does.
 std::uint8_t h273(int code) noexcept {
   return code > 0 && code <= 255 ? static_cast<std::uint8_t>(code) : kUnspecifiedColor;
 }
@@ -115,7 +115,7 @@ bool isDistance(int format) noexcept {
 bool describable(int format) noexcept {
   const AVPixFmtDescriptor* const description = av_pix_fmt_desc_get(static_cast<AVPixelFormat>(format));
   if (description == nullptr || (description->flags & kOtherLayouts) != 0) return false;
-  // XYZ is no model of ours; UYYVYY411 has luma at uneven steps, which its description does not tell.
+  // Frame has no XYZ model, and UYYVYY411's luma samples are at uneven steps, which FFmpeg's description does not show.
   if (isXyz(format) || format == AV_PIX_FMT_UYYVYY411) return false;
   for (int i = 0; i < componentCount(*description); ++i) {
     if (!readableInPlace(description->comp[i])) return false;
@@ -196,7 +196,7 @@ Result<FramePtr> Converter::convert(const AVFrame& picture) {
     scaler_ = sws_getCachedContext(scaler_, picture.width, picture.height, from, picture.width, picture.height, to,
                                    SWS_BILINEAR | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INP, nullptr, nullptr, nullptr);
     if (scaler_ == nullptr) {
-      return fail(ErrorCode::Unsupported, "pictures of this pixel format cannot be read; convert the film");
+      return fail(ErrorCode::Unsupported, "its pixel format is not supported; convert the film");
     }
   }
   FramePtr converted(av_frame_alloc());
@@ -212,7 +212,7 @@ Result<FramePtr> Converter::convert(const AVFrame& picture) {
     return converted;
   }
   if (sws_scale(scaler_, picture.data, picture.linesize, 0, picture.height, converted->data, converted->linesize) < 0) {
-    return fail(ErrorCode::Unsupported, "pictures of this pixel format cannot be read; convert the film");
+    return fail(ErrorCode::Unsupported, "its pixel format is not supported; convert the film");
   }
   return converted;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A decoder's picture as a Frame: by reference where hal/frame.h can describe its layout, converted where not.
+// Makes a Frame of a decoded picture: a reference if hal/frame.h can describe its layout, else a converted copy.
 #pragma once
 
 #include <memory>
@@ -13,31 +13,31 @@ struct SwsContext;
 
 namespace relievo::ffmpeg {
 
-// True when samples of this format (an AVPixelFormat) can be read in place through hal/frame.h.
+// True if samples of this format (an AVPixelFormat) can be read in place through hal/frame.h.
 [[nodiscard]] bool describable(int format) noexcept;
 
-// A renderer's distances: gray in floating point, taken for metres along the camera's axis.
+// True for gray in floating point, interpreted as a renderer's distances in metres along the camera's axis.
 [[nodiscard]] bool isDistance(int format) noexcept;
 
-// The format to convert one to that is not: the same bits in native byte order where that is the only difference.
+// The format to convert an undescribable one to; it has the same bits if only the byte order differs.
 [[nodiscard]] int nearestDescribable(int format) noexcept;
 
-// Size, layout, colour signalling and sample aspect; the owner is a reference of the picture. Times are the caller's.
-// `sample_aspect` is the container's word, 0/1 where it has none.
+// Fills in size, layout, colour signalling and sample aspect; the frame owns a reference to the picture. The caller
+// sets the times. `sample_aspect`: the container's, 0/1 if unspecified.
 [[nodiscard]] Frame frameOf(FramePtr picture, AVRational sample_aspect);
 
-// The same of a stream, as far as its parameters tell it.
+// Fills in the same for a stream, as far as its parameters have it.
 void describeSignals(StreamInfo& stream, const AVCodecParameters& parameters, AVRational sample_aspect) noexcept;
 
-// Converts pictures into describable ones; keeps the library's scaler between them.
+// Converts pictures to describable formats; reuses FFmpeg's scaler between pictures.
 class Converter {
  public:
   Converter() noexcept;
   ~Converter();
   Converter(const Converter&) = delete;
   Converter& operator=(const Converter&) = delete;
-  // Distances become whole mm, 0 where there is none or it is beyond 65 m. Unsupported where the library cannot read
-  // the format, Exhausted without memory.
+  // Distances become whole mm, 0 if invalid or beyond 65 m. Unsupported if FFmpeg cannot read the format, Exhausted if
+  // out of memory.
   [[nodiscard]] Result<FramePtr> convert(const AVFrame& picture);
 
  private:

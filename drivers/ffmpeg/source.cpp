@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Media source on libavformat: any file or URL that it opens, interruptible and bounded in its waits.
+// Media source on libavformat: opens files and URLs; every wait is interruptible and has a time-out.
 #include <fcntl.h>
 #include <poll.h>
 
@@ -31,17 +31,17 @@ namespace {
 using namespace ffmpeg;
 
 constexpr Duration kReadPatience = std::chrono::seconds(10);
-constexpr Duration kFlowPatience = std::chrono::seconds(3);   // of what never pauses
-constexpr Duration kOpenPatience = std::chrono::seconds(30);  // an index may be long and the line slow
-constexpr Duration kNap = std::chrono::milliseconds(2);       // between tries where the library says "again"
-constexpr const char* kCannotSeek = "it cannot seek: a live stream or a pipe";
-constexpr std::size_t kTagPackets = 512;      // among which a key frame of each stream is looked for
-constexpr std::size_t kFlowTagPackets = 128;  // of what comes at its own pace: about as many as the opening has brought
-constexpr int kMostOpens = 200;               // of files and addresses, by one opening or one reading
+constexpr Duration kFlowPatience = std::chrono::seconds(3);   // for a real-time stream
+constexpr Duration kOpenPatience = std::chrono::seconds(30);  // an index may be long and the connection slow
+constexpr Duration kNap = std::chrono::milliseconds(2);       // between retries after AVERROR(EAGAIN)
+constexpr const char* kCannotSeek = "a live stream or a pipe cannot seek; save it to a file first";
+constexpr std::size_t kTagPackets = 512;      // searched for a key frame of each stream
+constexpr std::size_t kFlowTagPackets = 128;  // of a real-time stream: about as many as opening has read
+constexpr int kMostOpens = 200;               // files and addresses opened by one `open` or one `read`
 constexpr int kDamagedReads = 64;             // in a row, until a broken container counts as ended
-// A container's length may count a last picture longer than its packet, or sound that a codec adds at the end.
+// A container's duration may include a last picture longer than its packet, or sound that a codec adds at the end.
 constexpr Duration kWholeWithin = std::chrono::milliseconds(250);
-// What lost data leaves open is waited out; of a stream that comes at its own pace that wait is over already.
+// A gap from lost data is waited out; in a real-time stream that time has already passed.
 constexpr Duration kLongestGap = std::chrono::seconds(10);
 constexpr Duration kLongestFlowGap = std::chrono::seconds(2);
 
@@ -63,7 +63,7 @@ class FfmpegSource final : public MediaSource {
     return describe();
   }
 
-  // Leaves what is open as it is when it fails.
+  // If it fails, the previously open context stays open.
   Result<void> openContext() {
     watch_.begin(kOpenPatience);
     auto address = parseAddress(url_);
@@ -101,7 +101,7 @@ class FfmpegSource final : public MediaSource {
     return {};
   }
 
-  // A playlist that names itself, or a list of lists without end, is asked for no more than so often.
+  // Bounds the opens of a playlist that names itself, or of endlessly nested lists.
   static int openCounted(AVFormatContext* context, AVIOContext** file, const char* url, int flags,
                          AVDictionary** options) {
     auto& self = *static_cast<FfmpegSource*>(context->opaque);
@@ -109,7 +109,7 @@ class FfmpegSource final : public MediaSource {
     return self.open_file_(context, file, url, flags, options);
   }
 
-  // The library decodes a picture here and there to know a stream: none that is too large for the decoder.
+  // FFmpeg decodes pictures to analyse a stream: it must skip those that are too large for the decoder.
   static int findStreams(AVFormatContext& context) {
     std::vector<AVDictionary*> options(context.nb_streams, nullptr);
     for (AVDictionary*& of_stream : options) {
@@ -120,8 +120,8 @@ class FfmpegSource final : public MediaSource {
     return found;
   }
 
-  // Where the container says nothing of a depth, the streams may: beside their first key frames. What is read for that
-  // is kept; most of it the library has read already.
+  // If the container has no depth tags, looks for tags at the streams' first key frames. The packets read for that are
+  // kept; FFmpeg has read most of them already.
   void readStreamTags() {
     stream_tags_.clear();
     std::map<int, const AVStream*> wanted;
@@ -135,7 +135,7 @@ class FfmpegSource final : public MediaSource {
     const std::size_t most = address_.flows() ? kFlowTagPackets : kTagPackets;
     while (!wanted.empty() && ahead_.size() < most) {
       PacketPtr packet(av_packet_alloc());
-      if (!packet || av_read_frame(context_.get(), packet.get()) < 0) return;  // `readPacket` meets it again
+      if (!packet || av_read_frame(context_.get(), packet.get()) < 0) return;  // `readPacket` gets the error again
       const auto found = wanted.find(packet->stream_index);
       if (found != wanted.end() && (packet->flags & AV_PKT_FLAG_KEY) != 0) {
         stream_tags_[found->first] = streamTags(*packet, *found->second->codecpar);
@@ -148,7 +148,7 @@ class FfmpegSource final : public MediaSource {
     return av_dict_get(tags, "DEPTH_", nullptr, AV_DICT_IGNORE_SUFFIX) != nullptr;
   }
 
-  // open(2) waits for the pipe's writer, and that wait could not be interrupted.
+  // Opens the pipe without blocking: a blocking open(2) waits for the writer and could not be interrupted.
   Result<void> openPipe(Address& address) {
     pipe_.reset(::open(address.url.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
     if (!pipe_.valid()) return std::unexpected(openError(AVERROR(errno)));
@@ -160,11 +160,12 @@ class FfmpegSource final : public MediaSource {
     return {};
   }
 
-  // The library answers "invalid argument" where the lists of `optionsFor` forbid.
+  // FFmpeg returns EINVAL for what the whitelists of `optionsFor` forbid.
   static Error refusal(const Address& address, int code) noexcept {
     if (code != AVERROR(EINVAL) || !address.remote()) return openError(code);
     return {ErrorCode::Unsupported, 0,
-            "what comes from there is no film, or names what is not opened from a network; check the address"};
+            "it is no film, or a playlist that names files or protocols forbidden to network sources; check the "
+            "address"};
   }
 
   Result<Description> describe() const {
@@ -189,7 +190,7 @@ class FfmpegSource final : public MediaSource {
     if ((context_->iformat->flags & AVFMT_TS_DISCONT) != 0 || address_.flows()) {
       origin.longest_gap = address_.flows() ? kLongestFlowGap : kLongestGap;
     }
-    // A session's times begin anew each time; a transport stream's are the sender's clock.
+    // An RTSP session's times begin at 0 for each client; a transport stream's are the sender's clock.
     if (address_.way != Way::Rtsp && timed_) origin.sender_start = start_;
     return origin;
   }
@@ -204,7 +205,7 @@ class FfmpegSource final : public MediaSource {
       if (watch_.cancelled()) return std::unexpected(watch_.explain({}));
       const int got = readNext(packet);
       if (got >= 0) noteEnd(*packet);
-      if (got >= 0 && context_->pb != nullptr) context_->pb->error = 0;  // got over
+      if (got >= 0 && context_->pb != nullptr) context_->pb->error = 0;  // recovered
       if (got >= 0 && isWanted(*packet)) return packetOf(std::move(packet));
       if (got >= 0) {
         av_packet_unref(packet.get());
@@ -216,7 +217,7 @@ class FfmpegSource final : public MediaSource {
     }
   }
 
-  // A code of the library, as of av_read_frame.
+  // Returns FFmpeg's code, like av_read_frame.
   int readNext(PacketPtr& packet) {
     if (ahead_.empty()) return av_read_frame(context_.get(), packet.get());
     packet = std::move(ahead_.front());
@@ -231,7 +232,7 @@ class FfmpegSource final : public MediaSource {
     latest_end_ = std::max(latest_end_, durationFrom(begin + packet.duration, stream.time_base) - start_);
   }
 
-  // Only what the container itself says of its length is believed, and only of a single film.
+  // Uses only a duration that the container itself states, and only with a single programme.
   Duration missingTime() const noexcept override {
     const bool told = timed_ && context_->nb_programs < 2 && context_->duration > 0 &&
                       context_->duration_estimation_method == AVFMT_DURATION_FROM_STREAM;
@@ -239,20 +240,21 @@ class FfmpegSource final : public MediaSource {
     return missing > kWholeWithin ? missing : Duration(0);
   }
 
-  // Not side data alone, nor what was read of another programme before this one was chosen.
+  // False for packets with only side data, and for those of another programme that were read before this one was
+  // chosen.
   bool isWanted(const AVPacket& packet) const noexcept {
     return packet.size > 0 && context_->streams[packet.stream_index]->discard != AVDISCARD_ALL;
   }
 
-  // The library calls a broken connection the end as well; its I/O context knows better, where there is one. What flows
-  // without a length does not end.
+  // FFmpeg reports a broken connection as the end as well; its I/O context, if any, has the real error. A real-time
+  // stream without a duration does not end.
   Result<std::optional<Packet>> endOrError(int code) const {
     const int io_error = context_->pb == nullptr || context_->pb->error == AVERROR_EOF ? 0 : context_->pb->error;
     const bool endless = address_.flows() && context_->duration <= 0;
     if (io_error == 0 && !endless && (code == AVERROR_EOF || code == AVERROR_INVALIDDATA)) return std::nullopt;
     if (code == AVERROR(ENOMEM)) return fail(ErrorCode::Exhausted, "out of memory for a packet", ENOMEM);
     return std::unexpected(watch_.explain({ErrorCode::Lost, osError(io_error != 0 ? io_error : code),
-                                           "the source has gone away while it was read; check disk or network"}));
+                                           "the source went away during playback; check disk or network"}));
   }
 
   std::optional<Packet> packetOf(PacketPtr packet) const {
@@ -276,16 +278,16 @@ class FfmpegSource final : public MediaSource {
   Result<void> seekTo(MediaTime target) override {
     if (watch_.cancelled()) return std::unexpected(watch_.explain({}));
     if (pipe_.valid()) return fail(ErrorCode::Unsupported, kCannotSeek);
-    if (!timed_) return openContext();  // pictures are counted from the beginning
+    if (!timed_) return openContext();  // pictures without times are counted from the beginning
     watch_.begin(kReadPatience);
     ahead_.clear();
-    latest_end_ = target.time_since_epoch();  // what lies before it is not missing
+    latest_end_ = target.time_since_epoch();  // what is skipped is not missing
     const bool to_beginning = target <= MediaTime{};
     if (to_beginning && seeksByBytes() && av_seek_frame(context_.get(), -1, 0, AVSEEK_FLAG_BYTE) >= 0) return {};
-    // By the leading stream's key frames; to the beginning by those of the stream that begins first.
+    // Seeks by key frames of the leading stream; to the beginning, of the stream that begins first.
     const AVStream& stream = *context_->streams[to_beginning ? earliest_stream_ : leading_stream_];
     int sought = seekToKeyframe(stream, target);
-    if (sought < 0) sought = seekToKeyframe(stream, std::min(target, lastSecond()));  // refused: too near to the end
+    if (sought < 0) sought = seekToKeyframe(stream, std::min(target, lastSecond()));  // failed: too near the end
     if (sought >= 0) return {};
     return std::unexpected(watch_.explain({ErrorCode::Unsupported, osError(sought), kCannotSeek}));
   }
@@ -299,8 +301,8 @@ class FfmpegSource final : public MediaSource {
     return MediaTime(std::max(Duration(0), duration() - std::chrono::seconds(1)));
   }
 
-  // A multiplex without an index is searched by time and loses the picture that it lands in: not good enough for the
-  // first one.
+  // In a multiplex without an index FFmpeg searches by time and loses the picture that it lands in. To keep the first
+  // picture, seek to the beginning by byte position.
   bool seeksByBytes() const noexcept {
     return (context_->iformat->flags & (AVFMT_TS_DISCONT | AVFMT_NO_BYTE_SEEK)) == AVFMT_TS_DISCONT;
   }
@@ -317,15 +319,15 @@ class FfmpegSource final : public MediaSource {
   std::string url_;
   Address address_;
   MonotonicTime arrival_;
-  decltype(AVFormatContext::io_open) open_file_ = nullptr;  // the library's own
-  int opens_ = 0;                                           // since an opening or a reading began
+  decltype(AVFormatContext::io_open) open_file_ = nullptr;  // FFmpeg's own
+  int opens_ = 0;                                           // since the current `open` or `read` began
   UniqueFd pipe_;                                           // outlives the context that reads from it
   FormatPtr context_;
   bool timed_ = true;
   Duration start_{0};                                              // the container's start time
-  Duration latest_end_{0};                                         // of all packets read so far, from the start on
-  std::deque<PacketPtr> ahead_;                                    // read for the tags' sake, not given yet
-  std::map<int, std::map<std::string, std::string>> stream_tags_;  // of the streams that carry some
+  Duration latest_end_{0};                                         // of all packets read so far, from `start_` on
+  std::deque<PacketPtr> ahead_;                                    // read while looking for tags, not returned yet
+  std::map<int, std::map<std::string, std::string>> stream_tags_;  // by stream index
   int leading_stream_ = 0;
   int earliest_stream_ = 0;
 };

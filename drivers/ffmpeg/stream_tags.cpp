@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// NAL units of a packet, messages of a unit, lines of a message (ITU-T H.264 7.3.1, 7.3.2.3; H.265 7.3.1, 7.3.5).
+// Parses a packet's NAL units, a unit's SEI messages, a message's lines (ITU-T H.264 7.3.1, 7.3.2.3;
+// H.265 7.3.1, 7.3.5).
 #include "drivers/ffmpeg/stream_tags.h"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ using Bytes = std::span<const std::uint8_t>;
 using Tags = std::map<std::string, std::string>;
 constexpr unsigned kUserDataUnregistered = 5;
 
-// Of the unit lengths before each unit where the parameter sets lie apart (MP4, Matroska); 0: start codes.
+// Bytes of the length field before each unit (MP4, Matroska); 0: the stream has start codes.
 std::size_t lengthBytes(const AVCodecParameters& parameters) noexcept {
   const Bytes extra(parameters.extradata, static_cast<std::size_t>(std::max(parameters.extradata_size, 0)));
   if (extra.size() < 7 || extra[0] != 1) return 0;
@@ -48,7 +49,7 @@ void eachUnitByStartCode(Bytes data, const std::function<void(Bytes)>& visit) {
   }
 }
 
-// Without its header and the bytes that keep start codes out of it; empty for a unit of another kind.
+// An SEI unit's payload, without its header and the emulation prevention bytes; empty for any other unit.
 std::vector<std::uint8_t> messagesOf(Bytes unit, AVCodecID codec) {
   const bool hevc = codec == AV_CODEC_ID_HEVC;
   const std::size_t header = hevc ? 2 : 1;
@@ -77,7 +78,7 @@ void addLines(std::string_view text, Tags& tags) {
   }
 }
 
-// A number in bytes that are added up, the last of them below 255; false where the data end before it.
+// Reads a number as the sum of bytes, the last of them below 255; false if the data end before that.
 bool takeNumber(Bytes& data, std::size_t& number) noexcept {
   number = 0;
   while (!data.empty()) {
@@ -95,7 +96,7 @@ void addMessages(Bytes data, Tags& tags) {
     const Bytes payload = data.first(size);
     data = data.subspan(size);
     if (kind != kUserDataUnregistered) continue;
-    // libx265 3.5 puts a UUID of its own before what it is given.
+    // libx265 3.5 puts its own UUID before the given one.
     const Bytes uuids = payload.first(std::min(payload.size(), 2 * kStreamTagsUuid.size()));
     const auto own = std::search(uuids.begin(), uuids.end(), kStreamTagsUuid.begin(), kStreamTagsUuid.end());
     if (own == uuids.end()) continue;

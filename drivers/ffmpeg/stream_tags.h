@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the tags that travel in a video stream itself (hal/stream_tags.h).
+// Reads the tags inside a video stream (hal/stream_tags.h).
 #pragma once
 
 #include <map>
@@ -14,7 +14,7 @@ namespace relievo::ffmpeg {
 // Whether streams of this codec may carry tags.
 [[nodiscard]] bool mayCarryTags(AVCodecID codec) noexcept;
 
-// Those beside the picture in `packet`; keys in upper case. Empty for other codecs, and where there are none.
+// The tags in `packet`; keys in upper case. Empty if there are none, and for other codecs.
 [[nodiscard]] std::map<std::string, std::string> streamTags(const AVPacket& packet,
                                                             const AVCodecParameters& parameters);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The text at an address, by libavformat's own protocols.
+// Reads the text at an address through libavformat's protocols.
 #include <array>
 
 #include "drivers/ffmpeg/address.h"
@@ -38,7 +38,7 @@ Result<std::string> readFfmpegText(const std::string& url, std::size_t most_byte
   }
   avio_closep(&file);
   if (got < 0 && got != AVERROR_EOF) return std::unexpected(explain(got));
-  if (text.size() > most_bytes) return fail(ErrorCode::Corrupt, "it is too long for a text; is it one?");
+  if (text.size() > most_bytes) return fail(ErrorCode::Corrupt, "it is too long for a text file; check the address");
   return text;
 }
 

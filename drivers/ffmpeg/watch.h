@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tells the library when to give up a call that waits.
+// Time-out and cancellation of FFmpeg's blocking calls, as its interrupt callback.
 #pragma once
 
 #include <atomic>
@@ -13,7 +13,7 @@ namespace relievo::ffmpeg {
 
 class Watch {
  public:
-  // A new verb begins and may wait for so long.
+  // Starts a call that may wait for `patience`.
   void begin(Duration patience) noexcept {
     expired_ = false;
     deadline_ = clock_.now() + patience;
@@ -29,7 +29,7 @@ class Watch {
   }
   static int callback(void* watch) noexcept { return static_cast<Watch*>(watch)->givesUp() ? 1 : 0; }
 
-  // The error of a call that failed: the watch's own reason first.
+  // The error of a failed call: cancelled or timed out if so, else `otherwise`.
   [[nodiscard]] Error explain(Error otherwise) const noexcept {
     if (cancelled_) return {ErrorCode::Cancelled, 0, "interrupted while waiting for the source"};
     if (expired_) return openError(AVERROR(ETIMEDOUT));
@@ -38,7 +38,7 @@ class Watch {
 
  private:
   MonotonicClock clock_;
-  std::atomic<MonotonicTime> deadline_;  // atomic, since threads of the library ask as well
+  std::atomic<MonotonicTime> deadline_;  // atomic, since FFmpeg's threads read it as well
   std::atomic<bool> expired_{false};
   std::atomic<bool> cancelled_{false};
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sound card that nobody hears: a buffer that empties at the pace of a crystal, a way to the ear, and a bench.
+// A virtual sound card: a buffer that empties at its crystal's rate, a latency to the ear, and a bench for tests.
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -10,7 +10,7 @@
 namespace relievo {
 namespace {
 
-constexpr std::int64_t kHistoryFrames = 48'000;  // that the bench may ask for, at least
+constexpr std::int64_t kHistoryFrames = 48'000;  // the least history that the bench can query
 
 class MockAudio final : public AudioOutput {
  public:
@@ -82,7 +82,7 @@ class MockAudio final : public AudioOutput {
     running_ = false;
   }
 
-  // What has happened until now: it may have run dry, or gone away.
+  // Updates the state to `now`: an underrun or a loss may have happened.
   Result<void> follow(MonotonicTime now) {
     if (bench_->unplugged || played_before_ + left(now) >= static_cast<std::int64_t>(std::min(
                                                                profile_.lose_after_frames, std::uint64_t{1} << 62))) {
@@ -96,13 +96,13 @@ class MockAudio final : public AudioOutput {
     return {};
   }
 
-  // The frame that leaves the buffer at that time, if there are so many.
+  // The frame that leaves the buffer at that time, if it was written by then.
   [[nodiscard]] std::int64_t frameAt(MonotonicTime time) const noexcept {
     return begin_frame_ +
            static_cast<std::int64_t>(std::floor(static_cast<double>((time - begin_).count()) * frames_per_ns_));
   }
 
-  // How many have left the buffer.
+  // The number of frames that have left the buffer.
   [[nodiscard]] std::int64_t left(MonotonicTime now) const noexcept {
     if (!running_ || !profile_.paced) return written_;
     return std::clamp(frameAt(now), begin_frame_, written_);
@@ -122,14 +122,14 @@ class MockAudio final : public AudioOutput {
   double frames_per_ns_ = 0;
   std::int64_t room_ = 0;
   std::uint64_t opens_ = 0;
-  std::int64_t played_before_ = 0;  // since `open`, before the last flush
+  std::int64_t played_before_ = 0;  // frames between `open` and the last flush
 
   std::int64_t written_ = 0;  // since the last flush
   std::deque<float> line_;    // the first channel of frames from line_begin_ to written_
   std::int64_t line_begin_ = 0;
   bool running_ = false;
-  MonotonicTime begin_;           // when it began to run,
-  std::int64_t begin_frame_ = 0;  // and with which frame
+  MonotonicTime begin_;           // when playback began
+  std::int64_t begin_frame_ = 0;  // the first frame played then
   // NOLINTNEXTLINE(bugprone-random-generator-seed): the same in every run
   std::minstd_rand random_{1};
 };

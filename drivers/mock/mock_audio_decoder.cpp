@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sound decoder that plays the tone of the track whose packets it is given, without a seam between two of them.
+// A sound decoder that generates the tone of a mock track, without gaps between packets.
 #include <cmath>
 #include <cstring>
 #include <numbers>

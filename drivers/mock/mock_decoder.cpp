@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A decoder that paints the picture whose number the packet carries, with a queue, a delay and a pool of real
-// size.
+// A decoder that paints the picture whose number is in the packet, with a queue, a delay and a pool of realistic size.
 #include <algorithm>
 #include <cstring>
 #include <deque>
@@ -13,7 +12,7 @@ namespace {
 
 constexpr std::ptrdiff_t kRowPaddingBytes = 16;
 
-// A picture's memory. Counts itself among those outside as long as a copy of the frame lives.
+// A picture's memory. Counts as held as long as a copy of the frame lives.
 class Picture {
  public:
   Picture(std::size_t bytes, std::shared_ptr<std::atomic<int>> outside)
@@ -87,7 +86,7 @@ class MockDecoder final : public VideoDecoder {
  public:
   explicit MockDecoder(const MockDecoderProfile& profile)
       : profile_(profile),
-        // A queue no longer than what is held back would be full before the first picture.
+        // A queue as short as reorder_frames would be full before the first picture.
         capacity_(std::max(profile.queue_packets, static_cast<std::size_t>(std::max(profile.reorder_frames, 0)) + 1)) {}
 
   [[nodiscard]] Capabilities capabilities() const noexcept override {
@@ -101,7 +100,7 @@ class MockDecoder final : public VideoDecoder {
     }
     track_ = std::static_pointer_cast<const MockTrack>(stream.native);
     if (track_->width < 1 || track_->height < 1 || track_->bits < 8 || track_->bits > 16) {
-      return fail(ErrorCode::Corrupt, "a mock track has a size, and 8 to 16 bits");
+      return fail(ErrorCode::Corrupt, "a mock track must have a size and 8 to 16 bits");
     }
     packets_ = 0;
     forget();
@@ -115,7 +114,7 @@ class MockDecoder final : public VideoDecoder {
     MockPacket content;
     const bool whole = packet.data != nullptr && packet.bytes == sizeof content;
     if (whole) std::memcpy(&content, packet.data, sizeof content);
-    // As in a real stream, nothing can be made of what precedes the first key frame.
+    // As in a real stream, packets before the first key frame cannot be decoded.
     if (packet.keyframe) has_key_frame_ = true;
     if (!whole || content.damaged || !has_key_frame_) {
       countDamaged();
@@ -168,7 +167,7 @@ class MockDecoder final : public VideoDecoder {
   std::uint64_t packets_ = 0;
   bool draining_ = false;
   bool has_key_frame_ = false;
-  // Shared with the pictures, which may outlive the decoder.
+  // The number of held pictures; shared with them, since they may outlive the decoder.
   std::shared_ptr<std::atomic<int>> outside_ = std::make_shared<std::atomic<int>>(0);
 };
 

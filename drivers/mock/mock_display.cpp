@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A screen that nobody sees, refreshed at its own pace.
+// A virtual screen with a refresh rate.
 #include "drivers/mock/mock.h"
 
 namespace relievo {
@@ -49,8 +49,7 @@ class MockDisplay final : public Display {
 
   Result<bool> attendScreen() override {
     if (lost()) return fail(ErrorCode::Lost, "the mock screen has gone");
-    if (frames_ >= profile_.close_after_frames)
-      return fail(ErrorCode::Cancelled, "the viewer has closed the mock screen");
+    if (frames_ >= profile_.close_after_frames) return fail(ErrorCode::Cancelled, "the viewer closed the mock screen");
     return false;
   }
 

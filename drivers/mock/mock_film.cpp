@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A film for who has none: a ball on a wall, rolling before the finger.
+// The built-in film: a ball that rolls on a wall, under the finger.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -24,7 +24,7 @@ std::uint16_t depthAt(int frame, int /*component*/, int col, int row) {
   return static_cast<std::uint16_t>(8000 + std::lround(50000 * ballAt(frame, col, row)));
 }
 
-// Luma is lit by height, chroma tells ball from wall.
+// Luma is brighter with height; chroma differs between ball and wall.
 std::uint16_t colorAt(int frame, int component, int col, int row) {
   if (component == 0) return static_cast<std::uint16_t>(60 + std::lround(150 * ballAt(frame, col, row)));
   const bool ball = ballAt(frame, 2 * col, 2 * row) > 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A haptic device that moves as it is told, whatever the force, and shows the force that it was given.
+// A virtual haptic device that follows its profile's path whatever the force, and shows the force on its bench.
 #include <algorithm>
 
 #include "drivers/mock/mock.h"
@@ -73,7 +73,7 @@ class MockHaptic final : public HapticDevice {
 
   [[nodiscard]] bool gone() const RELIEVO_RT { return ticks_ > profile_.lose_after_ticks || bench_->unplugged; }
 
-  // Motors without a cable have no current.
+  // A device without a cable has no force.
   Result<HapticSample> lose() RELIEVO_RT {
     apply(glm::dvec3(0));
     return fail(ErrorCode::Lost, "the mock device has gone away");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a mock packet holds: the one thing that the mock source and the mock decoder agree on.
+// The contents of a mock packet, shared by the mock source and the mock decoders.
 #pragma once
 
 #include <cstdint>

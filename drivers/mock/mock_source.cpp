@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A film without a container: packets that carry nothing but a frame's number, in the order of their times.
+// A film without a container: packets that contain only a frame's number, in the order of their times.
 #include <algorithm>
 #include <cstring>
 
@@ -85,7 +85,7 @@ class MockSource final : public MediaSource {
     return packet;
   }
 
-  // In short sleeps, so that an interruption is noticed.
+  // Sleeps in short steps, so that an interruption is noticed.
   Result<void> stall() {
     const MonotonicTime end = clock_.now() + profile_.stall;
     while (clock_.now() < end) {
@@ -128,7 +128,7 @@ class MockSource final : public MediaSource {
     if (interrupted_) return fail(ErrorCode::Cancelled, "seeking was interrupted");
     if (packets_ >= profile_.lose_after_packets) return fail(ErrorCode::Lost, "the mock source has gone away");
     if (profile_.live) return fail(ErrorCode::Unsupported, "a live source cannot seek");
-    latest_end_ = target;  // what lies before it is not missing
+    latest_end_ = target;  // what is skipped is not missing
     for (Cursor& cursor : tracks_) {
       const MockTrack& track = *cursor.track;
       const auto frame = (target - track.pts(0)) / track.frame_period;
@@ -147,11 +147,11 @@ class MockSource final : public MediaSource {
   void interrupted() noexcept override { interrupted_ = true; }
 
   const std::map<std::string, MockMediaProfile> films_;
-  MockMediaProfile profile_;  // of the one that is open
+  MockMediaProfile profile_;  // of the open film
   Clock& clock_;
   std::vector<Cursor> tracks_;
   std::uint64_t packets_ = 0;
-  MediaTime latest_end_;  // of the packets handed out
+  MediaTime latest_end_;  // of the packets returned
   bool stalled_ = false;
   std::atomic<bool> interrupted_{false};
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the script once; after that a remote is a list and a place in it.
+// Reads the script once and returns its keys by their times.
 #include "drivers/mock/scripted_remote.h"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ std::optional<Duration> parseTime(std::string_view word) {
   return fromSeconds(seconds);
 }
 
-// What is left of a line, without blanks around it.
+// The rest of a line, without surrounding blanks.
 std::string_view restOf(std::string_view line) {
   const auto begin = line.find_first_not_of(kBlanks);
   if (begin == std::string_view::npos) return {};
@@ -49,9 +49,9 @@ Outcome<void> addLine(std::string_view line, const std::string& place, std::vect
   const std::string_view time_word = nextWord(line);
   if (time_word.empty()) return {};
   const auto at = parseTime(time_word);
-  if (!at) return wrong(place, "does not begin with a time; a line is: SECONDS KEYNAME, such as 2.0 PLAYPAUSE");
+  if (!at) return wrong(place, "does not begin with a time; write SECONDS KEYNAME, such as 2.0 PLAYPAUSE");
   if (!keys.empty() && *at < keys.back().at) {
-    return wrong(place, "its time is before that of the line above; put the lines in order");
+    return wrong(place, "its time is before that of the line above; sort the lines by time");
   }
   std::string_view name = restOf(line);
   ScriptedKey key{.at = *at};
@@ -61,12 +61,13 @@ Outcome<void> addLine(std::string_view line, const std::string& place, std::vect
       name = restOf(name.substr(0, blank));
     }
   }
-  if (name.empty()) return wrong(place, "has no key; a line is: SECONDS KEYNAME, such as 2.0 PLAYPAUSE");
+  if (name.empty()) return wrong(place, "has no key; write SECONDS KEYNAME, such as 2.0 PLAYPAUSE");
   const auto code = keyCode(name);
   if (!code) {
     const std::string_view nearest = nearestKeyName(name);
     const std::string hint = nearest.empty() ? "" : " (" + std::string(nearest) + "?)";
-    return wrong(place + ": " + std::string(name) + hint, "is no key's name; relievo play --help lists the names");
+    return wrong(place + ": " + std::string(name) + hint,
+                 "is not the name of a key; relievo play --help lists the names");
   }
   key.code = *code;
   keys.push_back(key);
@@ -84,7 +85,7 @@ class ScriptedRemote final : public RemoteInput {
   }
 
  private:
-  // In order of time; of one time, in the script's order.
+  // Keeps the events sorted by time; at equal times in the script's order.
   void add(const KeyEvent& event) {
     events_.insert(std::ranges::upper_bound(events_, event.time, {}, &KeyEvent::time), event);
   }
@@ -106,7 +107,7 @@ class ScriptedRemote final : public RemoteInput {
 
   void closeRemote() noexcept override {}
 
-  std::vector<KeyEvent> events_;  // their times since `open`
+  std::vector<KeyEvent> events_;  // times are relative to `open`
   const Clock& clock_;
   MonotonicTime opened_;
   std::size_t next_ = 0;

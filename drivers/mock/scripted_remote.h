@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A remote control whose keys are pressed by a script.
+// A remote control whose keys a script presses.
 #pragma once
 
 #include <memory>
@@ -19,22 +19,22 @@ struct ScriptedKey {
   Duration held = std::chrono::milliseconds(50);
 };
 
-// One key a line: seconds and a key's name as in linux/input-event-codes.h, with or without KEY_, in either
-// case; and, of a key that is held down, for how many seconds:
+// One key per line: seconds and a key's name as in linux/input-event-codes.h, with or without KEY_, in upper or lower
+// case; then, optionally, for how many seconds it is held:
 //
 //   # pause the film after two seconds
 //   2.0  PLAYPAUSE
 //   5.0  OK  1.5
 //
-// What follows a '#' is ignored, and so are empty lines; times do not decrease. InvalidArgument otherwise, and
-// the failure names the script's line, and of a name that is not known the nearest one.
+// Text after a '#' and empty lines are ignored; times must not decrease. Otherwise InvalidArgument; the failure names
+// the script's line and, for an unknown key, the nearest known name.
 [[nodiscard]] Outcome<std::vector<ScriptedKey>> parseKeyScript(std::string_view text, const std::string& script_name);
 
-// NotFound when the file cannot be read.
+// NotFound if the file cannot be read.
 [[nodiscard]] Outcome<std::vector<ScriptedKey>> loadKeyScript(const std::string& path);
 
-// Yields each key's Press and its Release when their times have come. `clock` tells when `open` was and must outlive
-// the remote.
+// Yields each key's Press and Release at their times. `clock` gives the time of `open` and must outlive the
+// remote.
 [[nodiscard]] std::unique_ptr<RemoteInput> makeScriptedRemote(const std::vector<ScriptedKey>& keys, const Clock& clock);
 
 }  // namespace relievo

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Kinematics by the formula in the header; forces become currents by virtual work.
 #include "drivers/polhem/arm.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sound decoder: samples as they are, brought to the rate and the channels that are asked for.
+// Sound decoder for uncoded samples; converts them to the requested rate and number of channels.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -16,9 +16,10 @@ class SampleAudioDecoder final : public AudioDecoder {
 
  private:
   Result<void> openDecoder(const StreamInfo& stream, const AudioFormat& format) override {
-    if (stream.codec != kSampleSound) return fail(ErrorCode::Unsupported, "the sample decodes its own films alone");
+    if (stream.codec != kSampleSound)
+      return fail(ErrorCode::Unsupported, "the sample decoder decodes only sample films");
     if (stream.sample_rate_hz < 1 || stream.channels < 1 || stream.channels > 8) {
-      return fail(ErrorCode::Corrupt, "the sound has no rate, or no channels");
+      return fail(ErrorCode::Corrupt, "the sound's rate or number of channels is invalid; check the film");
     }
     rate_hz_ = stream.sample_rate_hz;
     channels_ = static_cast<std::size_t>(stream.channels);
@@ -26,13 +27,13 @@ class SampleAudioDecoder final : public AudioDecoder {
     return {};
   }
 
-  // A packet's samples lie on the film's own time line, at whole numbers of the wanted rate: so two packets meet
-  // without a seam. A codec with a memory also keeps the last samples for the next packet.
+  // Output samples are at multiples of the requested sample period on the film's time line, so that packets join
+  // without a gap. A stateful codec would also keep its last samples for the next packet.
   Result<AudioChunk> decodePacket(const Packet& packet) override {
     std::uint32_t frames = 0;
     if (packet.bytes >= sizeof frames) std::memcpy(&frames, packet.data, sizeof frames);
     if (frames == 0 || !packet.pts || packet.bytes != sizeof frames + 2 * channels_ * std::size_t{frames}) {
-      countDamaged();  // yields nothing, and is no error
+      countDamaged();  // no error: yields nothing
       return AudioChunk{};
     }
     in_.resize(channels_ * frames);
@@ -54,7 +55,7 @@ class SampleAudioDecoder final : public AudioDecoder {
 
   [[nodiscard]] std::int64_t indexAt(double s) const noexcept { return std::llround(s * format_.rate_hz); }
 
-  // All channels' mean, between two frames on the line through them.
+  // The mean of all channels, interpolated linearly between two frames.
   [[nodiscard]] float sampleAt(double place, std::uint32_t frames) const noexcept {
     const auto before = static_cast<std::size_t>(place);
     const std::size_t after = std::min<std::size_t>(before + 1, frames - 1);

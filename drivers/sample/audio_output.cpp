@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sound output: a buffer that empties at the pace of the clock. A card has a buffer of its own; what it tells about
-// that is turned into the same answers.
+// Sound output: a buffer that empties in real time. A driver for a card converts the state of the card's own buffer to
+// the same answers.
 #include <algorithm>
 
 #include "drivers/sample/sample.h"
@@ -8,7 +8,7 @@
 namespace relievo {
 namespace {
 
-constexpr Duration kBuffer = std::chrono::milliseconds(500);  // at least 400: longer than a picture takes to draw
+constexpr Duration kBuffer = std::chrono::milliseconds(500);  // at least 400 ms: longer than a picture takes to draw
 constexpr const char* kGone = "the sound card has gone away; plug it in again";
 
 class SampleAudio final : public AudioOutput {
@@ -18,7 +18,7 @@ class SampleAudio final : public AudioOutput {
   [[nodiscard]] Capabilities capabilities() const noexcept override { return {.name = "sample", .buffer = kBuffer}; }
 
  private:
-  // Answers what it really runs at.
+  // Returns the actual format.
   Result<AudioFormat> openOutput(const AudioFormat& wished) override {
     if (!card_->there) return fail(ErrorCode::NotFound, "there is no such sound card; see relievo devices");
     rate_hz_ = wished.rate_hz;
@@ -26,7 +26,7 @@ class SampleAudio final : public AudioOutput {
     return AudioFormat{.rate_hz = rate_hz_, .channels = 2};
   }
 
-  // As many frames as there is room for, and never waits. What is written first begins to play.
+  // Takes as many frames as fit, without waiting. The first write starts playback.
   Result<std::size_t> writeFrames(const float* /*samples*/, std::size_t frames) override {
     const MonotonicTime now = clock_.now();
     if (!card_->there) return fail(ErrorCode::Lost, kGone);
@@ -40,7 +40,7 @@ class SampleAudio final : public AudioOutput {
     return static_cast<std::size_t>(taken);
   }
 
-  // Frames and time sampled together; nothing in a silence.
+  // Samples frames and time together; nullopt while silent.
   Result<std::optional<AudioPosition>> samplePosition() override {
     const MonotonicTime now = clock_.now();
     if (!card_->there) return fail(ErrorCode::Lost, kGone);
@@ -59,7 +59,7 @@ class SampleAudio final : public AudioOutput {
   [[nodiscard]] std::int64_t framesIn(Duration d) const noexcept {
     return static_cast<std::int64_t>(toSeconds(d) * rate_hz_);
   }
-  // Since the last flush; only when not dry.
+  // Frames heard since the last flush; valid unless in an underrun.
   [[nodiscard]] std::int64_t heardAt(MonotonicTime now) const noexcept { return begin_frame_ + framesIn(now - begin_); }
   [[nodiscard]] bool isDry(MonotonicTime now) const noexcept { return written_ == 0 || heardAt(now) >= written_; }
 
@@ -67,8 +67,8 @@ class SampleAudio final : public AudioOutput {
   const Clock& clock_;
   int rate_hz_ = 48000;
   std::int64_t written_ = 0;      // since the last flush
-  MonotonicTime begin_;           // when it last began to play,
-  std::int64_t begin_frame_ = 0;  // and with which frame
+  MonotonicTime begin_;           // when playback last began
+  std::int64_t begin_frame_ = 0;  // the first frame played then
 };
 
 }  // namespace

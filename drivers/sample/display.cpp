@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Display: a surface that nobody sees. With GL, `openDisplay` makes a GLES 3 context current on its thread, and
-// capabilities say so; without it the player draws nothing, but everything else runs.
+// Display: an invisible surface without GL. With GL, `openDisplay` makes a GLES 3 context current on its thread and the
+// capabilities say gles; without GL the player draws nothing, but everything else runs.
 #include "drivers/sample/sample.h"
 
 namespace relievo {
@@ -8,26 +8,26 @@ namespace {
 
 class SampleDisplay final : public Display {
  public:
-  // 0: no refresh that `present` would wait for. A screen tells its own, from `open` on.
+  // refresh_period 0: `present` does not wait for a refresh. A screen states its own, from `open` on.
   [[nodiscard]] DisplayCapabilities capabilities() const noexcept override {
     return {.name = "sample", .gles = false, .refresh_period = Duration(0), .stereo = {}};
   }
 
  private:
-  // The size is a wish: a screen takes the nearest that it can, and the surface tells.
+  // The size is a request: a screen uses the nearest it has, and the surface has the actual one.
   Result<void> openDisplay(const DisplayConfig& config) override {
     if (config.stereo == StereoSignal::FramePacking) {
-      return fail(ErrorCode::Unsupported, "the sample's screen is flat; take another --stereo");
+      return fail(ErrorCode::Unsupported, "the sample screen has no 3D; choose another --stereo");
     }
     surface_ = {.framebuffer = 0, .width = config.width, .height = config.height};
     return {};
   }
 
-  // Lost from here on when the screen has gone.
+  // A real screen returns Lost from here on if it has gone.
   Result<DisplaySurface> startFrame() override { return surface_; }
-  // How long after the call the picture is on the screen: at most one refresh.
+  // Returns the time from the call until the picture is on the screen: at most one refresh.
   Result<Duration> showFrame() override { return Duration(0); }
-  // A window has its events here: true to have the last frame drawn anew, Cancelled when the viewer has closed it.
+  // A window handles its events here: true to have the last frame drawn again, Cancelled if the viewer closed it.
   Result<bool> attendScreen() override { return false; }
   void closeDisplay() noexcept override {}
 

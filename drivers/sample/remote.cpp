@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Remote control: bytes of a receiver, as the kernel's key codes.
+// Remote control: converts a receiver's bytes to the kernel's key codes.
 #include <linux/input-event-codes.h>
 #include <poll.h>
 #include <unistd.h>
@@ -20,7 +20,7 @@ class SampleRemote final : public RemoteInput {
   explicit SampleRemote(int fd) noexcept : fd_(fd) {}
 
  private:
-  // What was pressed before is not meant for the player.
+  // Discards keys that were pressed before.
   Result<void> openRemote() override {
     while (nextByte()) {
     }
@@ -28,7 +28,7 @@ class SampleRemote final : public RemoteInput {
     return {};
   }
 
-  // Never waits. This receiver tells presses alone: each is followed by its release at once, so that no key seems held.
+  // Never waits. This receiver reports only presses: each is followed by a release at once, so that no key seems held.
   Result<std::optional<KeyEvent>> nextKey(MonotonicTime now) override {
     if (pressed_) {
       return KeyEvent{.code = *std::exchange(pressed_, std::nullopt), .action = KeyEvent::Action::Release, .time = now};
@@ -40,7 +40,7 @@ class SampleRemote final : public RemoteInput {
         return KeyEvent{.code = code, .action = KeyEvent::Action::Press, .time = now};
       }
     }
-    return std::nullopt;  // also when the receiver has gone away: the film goes on
+    return std::nullopt;  // also if the receiver was unplugged: that is no error
   }
 
   void closeRemote() noexcept override {}

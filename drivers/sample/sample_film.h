@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The container that the sample's source reads, and its packets, which the decoders read.
+// The container format of sample films, and their packets.
 #pragma once
 
 #include <array>
@@ -7,9 +7,9 @@
 
 namespace relievo {
 
-// A file is one SampleHeader and then packets, each a SamplePacketHeader and its bytes, to the end; all little endian.
-// Stream 0 is gray pictures of 8 bits, row by row. Stream 1 is sound: the count of its frames (uint32), then samples
-// of 16 bits, interleaved.
+// A file is one SampleHeader, then packets, each a SamplePacketHeader and its bytes; all little endian.
+// Stream 0 has 8-bit gray pictures, row by row. Stream 1 has sound: the number of frames (uint32), then 16-bit samples,
+// interleaved.
 inline constexpr std::array<char, 8> kSampleMagic{'r', 'e', 'l', 's', 'a', 'm', 'p', '1'};
 inline constexpr const char* kSamplePictures = "sample-pictures";  // the codecs
 inline constexpr const char* kSampleSound = "sample-sound";

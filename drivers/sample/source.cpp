@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Media source: a file is indexed when it is opened, so that a seek is a search among packets.
+// Media source: `open` indexes the file's packets, and `seek` searches the index.
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint32_t kLargestSide = 16384;
 
-// The base class keeps the states: each function below is called in none but those that its contract allows.
+// The base class guards the states: it calls each function below only in the states that its contract allows.
 class SampleSource final : public MediaSource {
  private:
   struct Entry {
@@ -24,23 +24,24 @@ class SampleSource final : public MediaSource {
     std::streamoff offset = 0;
   };
 
-  // A failure leaves the source closed: `closeSource` is called then, so that there is nothing to undo here.
+  // After a failure the base class calls `closeSource`, so there is nothing to undo here.
   Result<Description> openSource(const std::string& url) override {
     interrupted_ = false;
     file_.open(url, std::ios::binary);
     if (!file_) return fail(ErrorCode::NotFound, "the film cannot be opened; check its path", errno);
     SampleHeader header;
-    if (!readInto(header) || header.magic != kSampleMagic) return fail(ErrorCode::Corrupt, "this is no sample film");
-    // Nothing that a file says is believed before it was looked at.
+    if (!readInto(header) || header.magic != kSampleMagic)
+      return fail(ErrorCode::Corrupt, "this is no sample film; choose another file");
+    // Check every value from the file before using it.
     if (header.width < 1 || header.width > kLargestSide || header.height < 1 || header.height > kLargestSide ||
         header.frame_period_ns < 1) {
-      return fail(ErrorCode::Corrupt, "the film's header makes no sense");
+      return fail(ErrorCode::Corrupt, "the film's header is invalid; check the file");
     }
     readIndex();
     return describe(header);
   }
 
-  // A file that is cut off in the middle ends with its last whole packet.
+  // A truncated file ends with its last whole packet.
   void readIndex() {
     const std::streamoff begin = file_.tellg();
     const std::streamoff end = file_.seekg(0, std::ios::end).tellg();
@@ -84,10 +85,10 @@ class SampleSource final : public MediaSource {
     if (interrupted_) return fail(ErrorCode::Cancelled, "reading was interrupted");
     if (next_ == index_.size()) return std::nullopt;  // the end: the base class remembers it
     const Entry& entry = index_[next_];
-    // The memory belongs to whoever holds the packet, and outlives the source.
+    // The packet's holder owns the memory, which may outlive the source.
     const auto bytes = std::make_shared<std::vector<std::uint8_t>>(entry.header.bytes);
     if (!file_.seekg(entry.offset).read(reinterpret_cast<char*>(bytes->data()), entry.header.bytes)) {
-      return fail(ErrorCode::Io, "the film cannot be read any further");
+      return fail(ErrorCode::Io, "the film cannot be read any further; check the disk");
     }
     ++next_;
     return Packet{.stream = entry.header.stream,
@@ -113,8 +114,8 @@ class SampleSource final : public MediaSource {
     index_.clear();
   }
 
-  // Comes from another thread, in any state. What waits for a network or a camera has to look at it at least every
-  // 100 ms; a file does not wait.
+  // Called from another thread, in any state. A source that waits for a network or a camera must check it at least
+  // every 100 ms; a file does not wait.
   void interrupted() noexcept override { interrupted_ = true; }
 
   template <class T>

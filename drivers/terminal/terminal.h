@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Remote control on a terminal: for people at a PC, over ssh as well.
+// A terminal's keyboard as a remote control, for use at a PC or over ssh.
 #pragma once
 
 #include <memory>
@@ -8,9 +8,9 @@
 
 namespace relievo {
 
-// The terminal yields its keys one by one and unechoed while the remote is open, and is put back as it was by `close`.
-// Ctrl-C and Ctrl-Z remain the shell's. Unsupported where `fd` is no terminal; in the background there are no keys.
-// A terminal tells presses alone: each is followed by its release at once.
+// While the remote is open, the terminal sends single keys without echo; `close` restores it. Ctrl-C and Ctrl-Z work as
+// usual. Unsupported if `fd` is no terminal; in the background there are no keys. A terminal reports only presses: each
+// is followed by a release at once.
 [[nodiscard]] std::unique_ptr<RemoteInput> makeTerminalRemote(int fd = 0);
 
 }  // namespace relievo

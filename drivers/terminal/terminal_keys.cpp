@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tables of the escape sequences and characters that terminals send for keys.
 #include "drivers/terminal/terminal_keys.h"
 
 #include <linux/input-event-codes.h>
@@ -27,7 +28,7 @@ constexpr Character kCharacters[] = {
     {'.', KEY_DOT},   {',', KEY_COMMA},  {'-', KEY_MINUS},  {'=', KEY_EQUAL}, {'/', KEY_SLASH},
 };
 
-// A sequence ends with its first byte from '@' on.
+// The final byte of a sequence is its first one at or above '@'.
 std::string_view takeSequence(std::string_view& bytes) noexcept {
   const auto last = std::ranges::find_if(bytes, [](char c) { return c >= '@'; });
   const auto length = static_cast<std::size_t>(last - bytes.begin()) + (last == bytes.end() ? 0 : 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a terminal sends for its keys, as Linux input event codes.
+// Converts a terminal's bytes to Linux input event codes.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,9 @@
 
 namespace relievo {
 
-// Takes the first key off `bytes`; nothing for what is none here (its bytes are taken off all the same). Escape
-// sequences as ECMA-48 and xterm have them ("\x1b[C", "\x1bOC", "\x1b[5~"); an escape that nothing follows is the key
-// itself. `bytes` is not empty.
+// Removes the first key's bytes from `bytes`, which must not be empty, and returns its code; nullopt for an unknown
+// key. Understands escape sequences of ECMA-48 and xterm ("\x1b[C", "\x1bOC", "\x1b[5~"); a final escape byte is the
+// escape key.
 [[nodiscard]] std::optional<std::uint16_t> takeTerminalKey(std::string_view& bytes) noexcept;
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads what the terminal has, never waits for it.
+// Reads the terminal's pending bytes without waiting.
 #include <poll.h>
 #include <termios.h>
 #include <unistd.h>
@@ -23,14 +23,14 @@ class TerminalRemote final : public RemoteInput {
  private:
   Result<void> openRemote() override {
     if (::tcgetattr(fd_, &before_) != 0) {
-      return fail(ErrorCode::Unsupported, "standard input is no terminal; take another remote", errno);
+      return fail(ErrorCode::Unsupported, "standard input is no terminal; choose another --remote", errno);
     }
     termios keys = before_;
     keys.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
     keys.c_cc[VMIN] = 0;
     keys.c_cc[VTIME] = 0;
     if (inForeground() && ::tcsetattr(fd_, TCSANOW, &keys) != 0) {
-      return fail(ErrorCode::Io, "the terminal cannot be set to give single keys", errno);
+      return fail(ErrorCode::Io, "the terminal cannot be switched to single keys; choose another --remote", errno);
     }
     return {};
   }
@@ -63,10 +63,11 @@ class TerminalRemote final : public RemoteInput {
     if (inForeground()) ::tcsetattr(fd_, TCSANOW, &before_);
   }
 
-  // The kernel stops a program that reads or sets its terminal from the background.
+  // The kernel stops a background program that reads from or configures its terminal.
   [[nodiscard]] bool inForeground() const noexcept {
     const pid_t group = ::tcgetpgrp(fd_);
-    return group == ::getpgrp() || (group < 0 && errno == ENOTTY);  // not its own terminal: nobody stops it
+    return group == ::getpgrp() ||
+           (group < 0 && errno == ENOTTY);  // not the controlling terminal: the kernel does not stop it
   }
 
   const int fd_;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Reads floats in strips or tiles and converts them to whole millimetres.
 #include "drivers/tiff/tiff.h"
 
 #include <tiffio.h>
@@ -45,7 +46,7 @@ std::optional<Size> sizeOfFloats(TIFF* file) noexcept {
   return size;
 }
 
-// Row by row, or a block of `across` x `down` samples.
+// The two layouts of a TIFF picture: rows, or tiles of `across` x `down` samples.
 bool readStrips(TIFF* file, Size size, std::uint16_t* out) {
   if (TIFFScanlineSize64(file) != std::uint64_t{size.width} * sizeof(float)) return false;
   std::vector<float> row(size.width);
@@ -75,7 +76,7 @@ bool readTiles(TIFF* file, Size size, std::uint16_t* out) {
   return true;
 }
 
-// Nothing for what is no such picture.
+// nullopt unless the packet is a picture of floats.
 std::optional<Frame> pictureOf(const Packet& packet) {
   std::ispanstream bytes(std::span(reinterpret_cast<const char*>(packet.data), packet.bytes));
   const TiffPtr file(TIFFStreamOpen("picture", &bytes));
@@ -99,7 +100,7 @@ std::optional<Frame> pictureOf(const Packet& packet) {
 class TiffDecoder final : public VideoDecoder {
  public:
   TiffDecoder() noexcept {
-    static std::once_flag silenced;  // the library writes to stderr
+    static std::once_flag silenced;  // libtiff would print to stderr
     std::call_once(silenced, [] {
       TIFFSetErrorHandler(nullptr);
       TIFFSetWarningHandler(nullptr);
@@ -111,7 +112,7 @@ class TiffDecoder final : public VideoDecoder {
 
  private:
   Result<void> openDecoder(const StreamInfo& stream) override {
-    if (stream.codec != "tiff") return fail(ErrorCode::Unsupported, "these are no TIFF pictures");
+    if (stream.codec != "tiff") return fail(ErrorCode::Unsupported, "the stream holds no TIFF pictures");
     period_ = stream.frame_period > Duration(0) ? stream.frame_period : kDefaultPeriod;
     forget();
     return {};
@@ -159,7 +160,7 @@ class TiffDecoder final : public VideoDecoder {
 
   Duration period_ = kDefaultPeriod;
   std::deque<Packet> queue_;
-  MediaTime next_pts_;  // of a packet without a time of its own
+  MediaTime next_pts_;  // for a packet without a time
   bool draining_ = false;
 };
 

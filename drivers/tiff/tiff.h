@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// TIFF pictures of floating-point distances, a renderer's Z buffers, on libtiff.
+// Decodes TIFF pictures of floating-point distances (a renderer's Z buffers) by libtiff.
 #pragma once
 
 #include <memory>
@@ -8,11 +8,12 @@
 
 namespace relievo {
 
-// A TIFF stream whose pixels the source below could not tell: floats are such.
+// True for a TIFF stream whose size FFmpeg could not determine, as with floats.
 [[nodiscard]] bool isFloatTiff(const StreamInfo& stream) noexcept;
 
-// A packet is a whole file: one component of 32-bit floats in strips or tiles, compressed by whatever libtiff knows.
-// They are taken for metres along the camera's axis, as hal/distance.h has it. Any other picture is damaged.
+// Each packet is a whole file: one component of 32-bit floats in strips or tiles, in any compression that libtiff
+// supports. The floats are interpreted as metres along the camera's axis (hal/distance.h). Any other picture counts as
+// damaged.
 [[nodiscard]] std::unique_ptr<VideoDecoder> makeTiffDecoder();
 
 }  // namespace relievo

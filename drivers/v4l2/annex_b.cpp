@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// avcC and hvcC (ISO/IEC 14496-15, 5.3.3 and 8.3.3); the beginnings of sequence parameter sets.
+// Parses avcC and hvcC (ISO/IEC 14496-15, 5.3.3 and 8.3.3) and the beginning of sequence parameter sets.
 #include "drivers/v4l2/annex_b.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ using Bytes = std::span<const std::uint8_t>;
 constexpr std::array<std::uint8_t, 4> kStartCode{0, 0, 0, 1};
 constexpr int kAvcSequenceSet = 7, kHevcSequenceSet = 33;  // types of units
 
-// Reads on; whatever is not there is 0, and `ok` is false.
+// Reads bytes in order; beyond the end it returns 0 and sets `ok` to false.
 struct Reader {
   Bytes rest;
   bool ok = true;
@@ -33,7 +33,7 @@ struct Reader {
   }
 };
 
-// Bits of a unit, without the bytes that keep start codes out of it.
+// Reads bits of a unit, skipping its emulation prevention bytes.
 class BitReader {
  public:
   explicit BitReader(Bytes unit) noexcept : unit_(unit) {}
@@ -75,7 +75,7 @@ CodingProfile avcProfile(Bytes set) noexcept {
   BitReader reader(set.subspan(1));
   CodingProfile found{.profile = static_cast<int>(reader.bits(8))};
   static_cast<void>(reader.bits(16));  // constraints, level
-  static_cast<void>(reader.number());  // its number
+  static_cast<void>(reader.number());  // seq_parameter_set_id
   constexpr std::array kPlain{66, 77, 88};
   if (std::find(kPlain.begin(), kPlain.end(), found.profile) != kPlain.end()) {
     found.plain = true;
@@ -107,7 +107,7 @@ Result<AnnexB> AnnexB::make(const StreamInfo& stream) {
   }
   const bool read =
       form.codec_ == Codec::H264 ? form.readAvcDescription(extradata) : form.readHevcDescription(extradata);
-  if (!read) return fail(ErrorCode::Corrupt, "the video stream's parameters make no sense");
+  if (!read) return fail(ErrorCode::Corrupt, "the video stream's parameters are invalid; convert the film");
   return form;
 }
 
@@ -138,7 +138,7 @@ void AnnexB::addUnit(Bytes unit) {
   parameters_.insert(parameters_.end(), unit.begin(), unit.end());
 }
 
-// The first one and what follows it, from its header on; of units with start codes.
+// The first sequence parameter set, from its header on, and all after it. `units` have start codes.
 Bytes AnnexB::sequenceSetIn(Bytes units) const noexcept {
   constexpr std::array<std::uint8_t, 3> kCode{0, 0, 1};
   for (auto at = units.begin();; ++at) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Negotiates with the driver, and takes what it fills.
+// Negotiates format and rate with the camera's driver, and takes filled buffers.
 #include "drivers/v4l2/camera.h"
 
 #include <fcntl.h>
@@ -21,17 +21,17 @@ namespace relievo::v4l2 {
 namespace {
 
 constexpr Duration kPatience = std::chrono::seconds(3);
-constexpr Duration kNap = std::chrono::milliseconds(1);  // where the driver says that there is a picture, and has none
-constexpr std::uint32_t kBuffers = 16;                   // what a player holds, and what the camera fills meanwhile
+constexpr Duration kNap = std::chrono::milliseconds(1);  // after poll(2) announced a picture and there was none
+constexpr std::uint32_t kBuffers = 16;                   // those that a player holds, and those being filled
 constexpr std::uint32_t kLeftToCamera = 4;
 constexpr double kFastest = 1e4;  // frames a second
-constexpr int kFailedTakes = 64;  // in a row, until the camera counts as gone
+constexpr int kFailedTakes = 64;  // failures in a row, until the camera counts as gone
 
 constexpr const char* kForm =
-    "a camera is v4l2:DEVICE[,FORMAT][,WIDTHxHEIGHT][@FPS], such as v4l2:/dev/video0,Z16,640x480@30";
+    "write a camera as v4l2:DEVICE[,FORMAT][,WIDTHxHEIGHT][@FPS], such as v4l2:/dev/video0,Z16,640x480@30";
 constexpr const char* kUnknownFormat =
-    "it has no picture format that is known here: Z16 Y16 Y12 Y10 YUYV UYVY NV12 RGB3 BGR3 GREY MJPG JPEG H264";
-constexpr const char* kGone = "the camera has gone away; is its cable plugged in?";
+    "it has none of the supported formats: Z16 Y16 Y12 Y10 YUYV UYVY NV12 RGB3 BGR3 GREY MJPG JPEG H264";
+constexpr const char* kGone = "the camera has gone away; check its cable";
 
 template <class T>
 bool readNumber(std::string_view text, T& value) noexcept {
@@ -50,10 +50,10 @@ Error openError(int code) noexcept {
     case ENOENT:
     case ENODEV:
     case ENXIO:
-      return {ErrorCode::NotFound, code, "there is no such camera; ls /dev/video* lists them"};
+      return {ErrorCode::NotFound, code, "there is no such camera; ls /dev/video* lists the cameras"};
     case EACCES:
     case EPERM:
-      return {ErrorCode::PermissionDenied, code, "no right to open it; add this user to the group video"};
+      return {ErrorCode::PermissionDenied, code, "no permission to open it; add this user to the group video"};
     default:
       return {ErrorCode::Io, code, "it cannot be opened; is another program using it?"};
   }
@@ -109,12 +109,12 @@ Result<void> Camera::identify(int device) {
   v4l2_capability is{};
   if (control(device, VIDIOC_QUERYCAP, &is) < 0) {
     return fail(errno == ENODEV ? ErrorCode::NotFound : ErrorCode::Unsupported,
-                "it is no camera; ls /dev/video* lists them", errno);
+                "it is no camera; ls /dev/video* lists the cameras", errno);
   }
   const std::uint32_t can = (is.capabilities & V4L2_CAP_DEVICE_CAPS) != 0 ? is.device_caps : is.capabilities;
   if ((can & V4L2_CAP_VIDEO_CAPTURE) == 0 || (can & V4L2_CAP_STREAMING) == 0) {
     return fail(ErrorCode::Unsupported,
-                "it does not stream pictures of one plane; a camera has several nodes, try another /dev/video*");
+                "it does not stream single-plane pictures; a camera has several nodes, try another /dev/video*");
   }
   const auto* const card = reinterpret_cast<const char*>(is.card);
   card_.assign(card, ::strnlen(card, sizeof is.card));
@@ -124,7 +124,8 @@ Result<void> Camera::identify(int device) {
 Result<void> Camera::choose(int device, const Wish& wish) {
   v4l2_format format{};
   format.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-  if (control(device, VIDIOC_G_FMT, &format) < 0) return fail(ErrorCode::Io, "it does not tell its format", errno);
+  if (control(device, VIDIOC_G_FMT, &format) < 0)
+    return fail(ErrorCode::Io, "its driver does not report its format; plug the camera in again", errno);
   v4l2_pix_format& picture = format.fmt.pix;
   const bool known = findFormat(picture.pixelformat) != nullptr;
   const auto fourcc = wish.fourcc ? wish.fourcc : bestFormat(device);
@@ -139,7 +140,7 @@ Result<void> Camera::choose(int device, const Wish& wish) {
   const std::uint32_t wanted = picture.pixelformat;
   if (control(device, VIDIOC_S_FMT, &format) < 0) {
     return fail(errno == EBUSY ? ErrorCode::Io : ErrorCode::Unsupported,
-                "it does not take this format; another program may be using it", errno);
+                "it rejects this format; another program may be using it", errno);
   }
   if (picture.pixelformat != wanted) {
     return fail(ErrorCode::Unsupported, "it has no such format; v4l2-ctl --list-formats-ext lists them");
@@ -149,12 +150,13 @@ Result<void> Camera::choose(int device, const Wish& wish) {
   }
   format_ = findFormat(picture.pixelformat);
   const auto layout = layoutOf(*format_, picture);
-  if (!layout) return fail(ErrorCode::Corrupt, "its driver tells a picture size that makes no sense");
+  if (!layout) return fail(ErrorCode::Corrupt, "its driver reports an impossible picture size; try another format");
   layout_ = *layout;
   return {};
 }
 
-// Z16, or else, where it is set to what is not known here, the first one known. Nothing: as it is set.
+// Z16 if the camera has it; else nullopt, to keep the current format, if that is supported; else the first supported
+// one.
 std::optional<std::uint32_t> Camera::bestFormat(int device) const {
   std::optional<std::uint32_t> first;
   v4l2_format now{};
@@ -171,7 +173,7 @@ std::optional<std::uint32_t> Camera::bestFormat(int device) const {
   return first;
 }
 
-// A rate that it has not becomes the nearest that it has: the pictures' times say what it is.
+// The driver chooses the nearest rate that the camera has; the pictures' times show the actual one.
 void Camera::setRate(int device, double frames_per_s) {
   v4l2_streamparm rate{};
   rate.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
@@ -188,13 +190,13 @@ void Camera::setRate(int device, double frames_per_s) {
 void Camera::interrupt() noexcept {
   interrupted_ = true;
   constexpr std::uint64_t kOne = 1;
-  static_cast<void>(::write(wake_.get(), &kOne, sizeof kOne));  // full means that it is awake
+  static_cast<void>(::write(wake_.get(), &kOne, sizeof kOne));  // fails only if full: it is awake already
 }
 
 void Camera::forgive() noexcept {
   interrupted_ = false;
   std::uint64_t count = 0;
-  static_cast<void>(::read(wake_.get(), &count, sizeof count));  // empty is as well
+  static_cast<void>(::read(wake_.get(), &count, sizeof count));  // fails only if empty already
 }
 
 Result<Picture> Camera::take() {
@@ -204,7 +206,8 @@ Result<Picture> Camera::take() {
     const auto there = waitUntil(deadline);
     if (!there) return std::unexpected(there.error());
     if (!*there)
-      return fail(ErrorCode::Timeout, "the camera has sent no picture for three seconds; unplug and plug it");
+      return fail(ErrorCode::Timeout,
+                  "the camera has sent no picture for three seconds; unplug it and plug it in again");
     Picture picture;
     const auto taken = takeBuffer(picture);
     if (taken && *taken) return picture;
@@ -219,7 +222,7 @@ Result<Picture> Camera::take() {
   }
 }
 
-// False when the time is up.
+// False after the deadline.
 Result<bool> Camera::waitUntil(MonotonicTime deadline) {
   std::array<pollfd, 2> wait{{{memory_->device(), POLLIN, 0}, {wake_.get(), POLLIN, 0}}};
   int ready = 0;
@@ -234,8 +237,8 @@ Result<bool> Camera::waitUntil(MonotonicTime deadline) {
   return ready > 0;
 }
 
-// False for a picture that is not worth having, which is counted as lost; so is what the camera's own count has left
-// out. A driver that does not count leaves it at one number.
+// False for a damaged or out-of-order picture, which is counted as lost. Gaps in the camera's sequence numbers are
+// counted as well; some drivers do not number pictures and always send the same number.
 Result<bool> Camera::takeBuffer(Picture& picture) {
   v4l2_buffer filled{};
   if (const int error = memory_->take(filled); error != 0) return fail(ErrorCode::Lost, kGone, error);

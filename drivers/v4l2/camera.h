@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One camera: what it was asked for, what it agreed to, and its pictures one by one.
+// One camera: the requested format, the negotiated one, and its pictures one by one.
 #pragma once
 
 #include <atomic>
@@ -19,36 +19,36 @@ namespace relievo::v4l2 {
 struct Wish {
   std::string device;
   std::optional<std::uint32_t> fourcc;
-  std::uint32_t width = 0, height = 0;  // 0: whatever it is set to
+  std::uint32_t width = 0, height = 0;  // 0: the camera's current setting
   double frames_per_s = 0;              // likewise
 };
-// InvalidArgument, with the form that is right, for any other words.
+// InvalidArgument, with the correct form, for anything else.
 [[nodiscard]] Result<Wish> parseAddress(const std::string& url);
 
-// A picture by reference, or a copy where the camera has few buffers left.
+// A reference to a picture, or a copy if the camera has few buffers left.
 struct Picture {
-  std::shared_ptr<const void> owner;  // a Held, if by reference
+  std::shared_ptr<const void> owner;  // a Held, if a reference
   const std::uint8_t* data = nullptr;
   std::size_t bytes = 0;
   MonotonicTime taken;
 };
 
-// One thread, but `interrupt` and `forgive`.
+// One thread, except for `interrupt` and `forgive`.
 class Camera {
  public:
   Camera();
 
   [[nodiscard]] Result<void> open(const Wish& wish);
   void close() noexcept;
-  // From `open` on.
+  // Valid from `open` on.
   [[nodiscard]] const Format& format() const noexcept { return *format_; }
   [[nodiscard]] const Layout& layout() const noexcept { return layout_; }
-  [[nodiscard]] Duration period() const noexcept { return period_; }  // 0 where the driver does not tell
+  [[nodiscard]] Duration period() const noexcept { return period_; }  // 0 if unknown
   [[nodiscard]] const std::string& card() const noexcept { return card_; }
 
   // The next picture. Timeout, Lost, Cancelled.
   [[nodiscard]] Result<Picture> take();
-  // How many were lost before the last one taken, since asked.
+  // Returns and resets the number of pictures lost before the last one taken.
   [[nodiscard]] std::uint64_t takeLost() noexcept { return std::exchange(lost_, 0); }
   void interrupt() noexcept;
   void forgive() noexcept;

@@ -14,7 +14,7 @@ namespace relievo::v4l2 {
 namespace {
 
 constexpr std::uint32_t kFewest = 2;
-constexpr const char* kNoBuffers = "the camera gives no buffers; another program may be using it";
+constexpr const char* kNoBuffers = "the camera's driver gives no buffers; another program may be using it";
 
 }  // namespace
 
@@ -100,7 +100,7 @@ void CameraMemory::give(std::uint32_t index) noexcept {
   if (device_.valid() && control(device(), VIDIOC_QBUF, &buffer) == 0) ++with_camera_;
 }
 
-// Without buffers of its own the device can be opened anew, though pictures of before are still held.
+// Frees the device's buffers, so that it can be opened again while old pictures are still held.
 void CameraMemory::close() noexcept {
   const std::scoped_lock lock(mutex_);
   if (!device_.valid()) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The buffers that a camera fills, shared by the camera and by whoever holds its pictures.
+// The buffers that a camera fills, shared by the camera and the holders of its pictures.
 #pragma once
 
 #include <linux/videodev2.h>
@@ -15,8 +15,8 @@
 
 namespace relievo::v4l2 {
 
-// One buffer, held: it goes back to the camera when this dies, on whatever thread that is, unless the camera has been
-// closed; the memory stays as long as any is held.
+// A held buffer. The destructor, on any thread, returns it to the camera unless that was closed. The memory stays
+// mapped as long as any buffer is held.
 class CameraMemory;
 struct Held {
   std::shared_ptr<CameraMemory> memory;
@@ -29,31 +29,31 @@ struct Held {
   Held(const Held&) = delete;
   Held& operator=(const Held&) = delete;
 };
-// Behind Packet::owner; its type tells it from others.
+// Of Packet::owner; the deleter's type identifies this back end's packets.
 struct HeldDeleter {
   void operator()(const Held* held) const noexcept { delete held; }
 };
 
 class CameraMemory {
  public:
-  // Maps the buffers of an open device, exports each where the driver can, and gives all of them to the camera.
+  // Maps the buffers of an open device, exports each as a dma-buf if the driver can, and queues all to the camera.
   [[nodiscard]] static Result<std::shared_ptr<CameraMemory>> make(UniqueFd device, std::uint32_t wanted);
   ~CameraMemory();
   CameraMemory(const CameraMemory&) = delete;
   CameraMemory& operator=(const CameraMemory&) = delete;
 
   [[nodiscard]] int device() const noexcept { return device_.get(); }
-  // Takes a filled buffer out: 0, or errno.
+  // Dequeues a filled buffer. Returns 0 or errno.
   [[nodiscard]] int take(v4l2_buffer& filled) noexcept;
-  // How many the camera still has.
+  // The number of buffers that the camera has.
   [[nodiscard]] std::uint32_t withCamera() const noexcept;
   [[nodiscard]] std::size_t bytes(std::uint32_t index) const noexcept { return buffers_[index].bytes; }
   [[nodiscard]] const std::uint8_t* data(std::uint32_t index) const noexcept { return buffers_[index].data; }
   [[nodiscard]] int dmaBuf(std::uint32_t index) const noexcept { return buffers_[index].dma_buf.get(); }
   [[nodiscard]] std::uint32_t count() const noexcept { return static_cast<std::uint32_t>(buffers_.size()); }
-  // Back to the camera.
+  // Returns a buffer to the camera.
   void give(std::uint32_t index) noexcept;
-  // Stops the camera and lets go of the device.
+  // Stops the camera and closes the device.
   void close() noexcept;
 
  private:
@@ -65,7 +65,7 @@ class CameraMemory {
   explicit CameraMemory(UniqueFd device) noexcept : device_(std::move(device)) {}
   [[nodiscard]] Result<void> map(std::uint32_t index);
 
-  mutable std::mutex mutex_;  // guards the device's life and the count
+  mutable std::mutex mutex_;  // guards device_ and with_camera_
   UniqueFd device_;
   std::uint32_t with_camera_ = 0;
   std::vector<Buffer> buffers_;  // never changes once made

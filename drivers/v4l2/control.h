@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// ioctl(2) for V4L2 devices.
 #pragma once
 
 #include <sys/ioctl.h>
@@ -7,7 +8,7 @@
 
 namespace relievo::v4l2 {
 
-// ioctl(2), again after a signal.
+// ioctl(2), retried after a signal.
 inline int control(int fd, unsigned long request, void* argument) noexcept {
   int answer = 0;
   do {

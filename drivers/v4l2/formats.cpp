@@ -24,7 +24,7 @@ constexpr std::array kFormats{
     Format{V4L2_PIX_FMT_H264, "h264", false, false, 8, false},
 };
 
-// Three components, each with its plane, its offset in bytes and its step.
+// The plane, the offset in bytes and the step of a component.
 struct Place {
   std::uint8_t plane, offset, step;
 };
@@ -76,7 +76,7 @@ void arrange(Frame& frame, const Format& format) noexcept {
   }
 }
 
-// A camera's YUV is of limited range and of standard definition's matrix unless it says otherwise.
+// A camera's YUV has limited range and the BT.601 matrix unless specified otherwise.
 void signal(Frame& frame, const v4l2_pix_format& picture) noexcept {
   const bool told = picture.priv == V4L2_PIX_FMT_PRIV_MAGIC;
   const bool yuv = frame.model == ColorModel::Yuv;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Memory-mapped streaming by either interface (Documentation/userspace-api/media/v4l/mmap.rst, planar-apis.rst).
+// Memory-mapped streaming by the single- or multi-planar interface (Documentation/userspace-api/media/v4l/mmap.rst,
+// planar-apis.rst).
 #include "drivers/v4l2/m2m_buffers.h"
 
 #include <fcntl.h>
@@ -15,10 +16,10 @@ namespace {
 
 using Where = M2mBuffers::Buffer::Where;
 
-constexpr const char* kNoBuffers = "the video hardware gives no buffers; it is busy, or its memory is used up";
+constexpr const char* kNoBuffers = "the video hardware gives no buffers; it is busy or out of memory";
 constexpr std::uint64_t kMicroseconds = 1'000'000;
 
-// A request about one buffer, in whichever form the queue has.
+// An ioctl's argument for one buffer, in the single- or multi-planar form.
 struct Form {
   std::array<v4l2_plane, VIDEO_MAX_PLANES> planes{};
   v4l2_buffer buffer{};
@@ -39,7 +40,7 @@ struct Form {
 Result<void> outcomeOf(int error) noexcept {
   if (error == 0) return {};
   if (error == ENODEV || error == ENXIO) return fail(ErrorCode::Lost, "the video hardware has gone away", error);
-  return fail(ErrorCode::Io, "the video hardware cannot go on", error);
+  return fail(ErrorCode::Io, "the video hardware failed", error);
 }
 
 Result<std::shared_ptr<M2mBuffers>> M2mBuffers::make(std::shared_ptr<const UniqueFd> device, std::uint32_t type,
@@ -170,7 +171,7 @@ void M2mBuffers::lend(std::uint32_t index) noexcept {
 void M2mBuffers::giveBack(std::uint32_t index) noexcept {
   const std::scoped_lock lock(mutex_);
   buffers_[index].where = Where::Here;
-  if (device_) static_cast<void>(queueLocked(index, 0, 0));  // a device that refuses it will be found out elsewhere
+  if (device_) static_cast<void>(queueLocked(index, 0, 0));  // `take` reports a device that fails
 }
 
 void M2mBuffers::release() noexcept {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One of the two buffer queues of a memory-to-memory device: packets to it, or pictures from it.
+// One of the two buffer queues of a memory-to-memory device: packets to the device, or pictures from it.
 #pragma once
 
 #include <linux/videodev2.h>
@@ -17,13 +17,13 @@
 
 namespace relievo::v4l2 {
 
-// Of an errno of the device's: Lost where it has gone, else Io.
+// Converts the device's errno: Lost if the device has gone, else Io.
 [[nodiscard]] Result<void> outcomeOf(int error) noexcept;
 
-// Mapped buffers, each with the device, here, or lent to who holds its picture. Thread: one, but `giveBack`.
+// Mapped buffers. The device has each one, or this queue, or the holder of its picture. Thread: one, except `giveBack`.
 class M2mBuffers {
  public:
-  static constexpr std::size_t kMostPlanes = 3;  // of memory
+  static constexpr std::size_t kMostPlanes = 3;  // memory planes
   struct Memory {
     std::uint8_t* data = nullptr;
     std::size_t bytes = 0;
@@ -33,7 +33,7 @@ class M2mBuffers {
     std::array<Memory, kMostPlanes> planes;
     enum class Where : std::uint8_t { Here, WithDevice, Lent } where = Where::Here;
   };
-  // What the device has done with one.
+  // A buffer that the device has finished.
   struct Done {
     std::uint32_t index = 0;
     std::size_t bytes = 0;  // in the first plane
@@ -41,22 +41,24 @@ class M2mBuffers {
     bool damaged = false, last = false;
   };
 
-  // `type` a V4L2_BUF_TYPE; buffers of pictures are exported as well where the driver can.
+  // `type`: a V4L2_BUF_TYPE. Picture buffers are exported as dma-bufs if the driver can.
   [[nodiscard]] static Result<std::shared_ptr<M2mBuffers>> make(std::shared_ptr<const UniqueFd> device,
                                                                 std::uint32_t type, std::uint32_t wanted);
   ~M2mBuffers();
   M2mBuffers(const M2mBuffers&) = delete;
   M2mBuffers& operator=(const M2mBuffers&) = delete;
 
-  // All below: 0, or errno.
+  // The calls below return 0 or errno.
   [[nodiscard]] int start() noexcept;
-  // All that the device has are here again, undone.
+  // The device returns all its buffers unprocessed.
   int stop() noexcept;
-  // One that is here, with the bytes of its first plane (packets); the device copies the tag from packet to picture.
+  // Gives the device a buffer that is Here. `bytes`: used in its first plane, for packets. The device copies `tag` from
+  // packet to picture.
   [[nodiscard]] int queue(std::uint32_t index, std::size_t bytes, std::uint64_t tag) noexcept;
-  // Afterwards it is here. EAGAIN: none is done; EPIPE: none will be before the device goes on.
+  // Takes a finished buffer, which is then Here. EAGAIN: none is finished; EPIPE: none will be until the device is
+  // restarted.
   [[nodiscard]] int take(Done& done) noexcept;
-  // Every one that is here.
+  // Queues every buffer that is Here.
   [[nodiscard]] int queueAll() noexcept;
 
   [[nodiscard]] std::optional<std::uint32_t> anyHere() const noexcept;
@@ -66,9 +68,9 @@ class M2mBuffers {
     return buffers_[index].planes;
   }
   void lend(std::uint32_t index) noexcept;
-  // To the device, if that is still there. Any thread.
+  // Returns a lent buffer to the device, if that is still open. Any thread.
   void giveBack(std::uint32_t index) noexcept;
-  // The device lets go of them and they of it; the memory stays until this dies.
+  // Frees the device's buffers and lets go of the device; the memory stays mapped until this is destroyed.
   void release() noexcept;
 
  private:
@@ -80,7 +82,7 @@ class M2mBuffers {
 
   const std::uint32_t type_;
   std::size_t plane_count_ = 1;
-  mutable std::mutex mutex_;  // guards the device's life and where the buffers are
+  mutable std::mutex mutex_;  // guards device_ and each buffer's `where`
   std::shared_ptr<const UniqueFd> device_;
   std::vector<Buffer> buffers_;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The states of a stateful decoder (Documentation/userspace-api/media/v4l/dev-decoder.rst; the names of its sequences
-// stand beside them).
+// The states of a stateful decoder (Documentation/userspace-api/media/v4l/dev-decoder.rst; comments in quotes are the
+// names of its sequences).
 #include <poll.h>
 
 #include <algorithm>
@@ -20,16 +20,16 @@ namespace {
 
 using namespace v4l2;
 
-constexpr std::uint32_t kPackets = 6;        // that the driver is ahead by
-constexpr int kMaxHeldFrames = 64;           // those beyond the buffers are copies
-constexpr std::size_t kMostUnanswered = 64;  // packets, until the oldest will have no picture
+constexpr std::uint32_t kPackets = 6;        // buffers for packets
+constexpr int kMaxHeldFrames = 64;           // beyond the driver's buffers, frames are copies
+constexpr std::size_t kMostUnanswered = 64;  // packets without a picture, until the oldest counts as damaged
 constexpr Duration kDefaultPeriod = std::chrono::milliseconds(40);
-// Without a sign of life while there is work; the first time firmware may have to be loaded.
+// How long the driver may do nothing while it has work; the first time it may have to load firmware.
 constexpr Duration kPatience = std::chrono::milliseconds(400), kFirstPatience = std::chrono::seconds(1);
 constexpr Duration kTurn = std::chrono::milliseconds(20);
-constexpr Duration kNap = std::chrono::milliseconds(1);  // where the driver says that it has something, and has not
+constexpr Duration kNap = std::chrono::milliseconds(1);  // after poll(2) announced something and there was nothing
 
-constexpr const char* kHangs = "the video hardware hangs";
+constexpr const char* kHangs = "the video hardware stopped responding";
 
 class M2mDecoder final : public VideoDecoder {
  public:
@@ -51,7 +51,7 @@ class M2mDecoder final : public VideoDecoder {
     auto device = openM2mDevice(stream, profile);
     if (!device) return std::unexpected(device.error());
     if (!profile && stream.codec != "fwht") {
-      return fail(ErrorCode::Unsupported, "the stream does not tell beforehand whether hardware can decode it");
+      return fail(ErrorCode::Unsupported, "the stream's header does not show whether hardware can decode it");
     }
     form_ = std::move(*form);
     stream_ = stream;
@@ -70,12 +70,12 @@ class M2mDecoder final : public VideoDecoder {
 
   Result<Feed> feedPacket(const Packet& packet) override {
     if (packet.bytes == 0) return Feed::Accepted;
-    if (!packet.pts) return fail(ErrorCode::Unsupported, "pictures without times are not decoded by hardware");
+    if (!packet.pts) return fail(ErrorCode::Unsupported, "video hardware cannot decode pictures without timestamps");
     if (auto served = serve(); !served) return std::unexpected(served.error());
     const auto index = packets_->anyHere();
     if (!index) return Feed::Full;
     const M2mBuffers::Memory& room = packets_->memory(*index)[0];
-    const bool decodable = begun_ || packet.keyframe;  // nothing can be made of what precedes the first key frame
+    const bool decodable = begun_ || packet.keyframe;  // packets before the first key frame are not decodable
     const auto bytes = decodable ? form_.write(packet, !begun_, {room.data, room.bytes}) : std::nullopt;
     if (!bytes) {
       countDamaged();
@@ -92,7 +92,7 @@ class M2mDecoder final : public VideoDecoder {
     return Feed::Accepted;
   }
 
-  // "Decoding", and what it may lead to.
+  // "Decoding", and the sequences that it may lead to.
   Result<Progress> receiveFrame(Frame& frame) override {
     idle_ = Duration(0);
     for (;;) {
@@ -102,7 +102,7 @@ class M2mDecoder final : public VideoDecoder {
       const auto got = pictures_.running() ? takePicture(frame) : Result<bool>(false);
       if (!got) return std::unexpected(got.error());
       if (*got) return Progress::Picture;
-      if (stopped_ && !change_due_) {  // the word of a change may have come together with the last picture
+      if (stopped_ && !change_due_) {  // the change's event may have come together with the last picture
         if (auto again = serve(); !again) return std::unexpected(again.error());
       }
       if (stopped_ && !change_due_) {
@@ -117,7 +117,7 @@ class M2mDecoder final : public VideoDecoder {
     }
   }
 
-  // What the driver has to say: events, packets that it has done with, a change that is due.
+  // Handles the driver's events and finished packets, and sets up pictures when a format change is due.
   Result<void> serve() {
     for (v4l2_event event{}; tells_changes_ && control(fd(), VIDIOC_DQEVENT, &event) == 0;) {
       const bool changed =
@@ -139,14 +139,15 @@ class M2mDecoder final : public VideoDecoder {
 
   Result<void> setUpPictures() {
     auto made = pictures_.setUp(*device_, stream_);
-    if (!made && !tells_changes_ && made.error().code == ErrorCode::Io) return {};  // it may not know yet
+    if (!made && !tells_changes_ && made.error().code == ErrorCode::Io)
+      return {};  // the driver may not know the format yet
     if (!made) return made;
     change_due_ = stopped_ = drain_told_ = false;
     progressed();
     return {};
   }
 
-  // False when there is none.
+  // False if there is none.
   Result<bool> takePicture(Frame& frame) {
     for (;;) {
       PictureQueue::Taken taken;
@@ -167,7 +168,7 @@ class M2mDecoder final : public VideoDecoder {
     }
   }
 
-  // Of the packet that it is from; none of before a flush.
+  // The time of the packet with that tag; nullopt if it was fed before a flush.
   std::optional<MediaTime> timeOf(std::uint64_t tag) {
     const auto found = std::find_if(unanswered_.begin(), unanswered_.end(), [&](auto& u) { return u.tag == tag; });
     if (found == unanswered_.end()) return std::nullopt;
@@ -184,20 +185,20 @@ class M2mDecoder final : public VideoDecoder {
     draining_ = true;
     return {};
   }
-  // A driver that is still busy with the last one, or does not know the word, is found out by its silence.
+  // The answer is ignored: if the driver is busy with an earlier command or does not know this one, `wait` times out.
   void tellDrain() {
     if (std::exchange(drain_told_, true)) return;
     v4l2_decoder_cmd stop{};
     stop.cmd = V4L2_DEC_CMD_STOP;
     control(fd(), VIDIOC_DECODER_CMD, &stop);
   }
-  // Of what is left unanswered no picture will come.
+  // The remaining packets will yield no pictures.
   Progress endOfStream() {
     countDamaged(unanswered_.size());
     unanswered_.clear();
     return Progress::EndOfStream;
   }
-  // The stream had a mark of its end in it, and goes on.
+  // Continues after an end-of-stream mark inside the stream.
   Result<void> resume() {
     stopped_ = false;
     v4l2_decoder_cmd go_on{};
@@ -205,11 +206,11 @@ class M2mDecoder final : public VideoDecoder {
     return outcomeOf(control(fd(), VIDIOC_DECODER_CMD, &go_on) < 0 ? errno : 0);
   }
 
-  // "Seek", at once: of both queues.
+  // "Seek", on both queues at once.
   Result<void> flushDecoder() override {
     if (auto served = serve(); !served) return served;
     if (auto stopped = outcomeOf(packets_->stop()); !stopped) return stopped;
-    if (change_due_) pictures_.release();  // the old pictures' end will not come any more
+    if (change_due_) pictures_.release();  // the last picture before the change will not come any more
     if (pictures_.running()) {
       if (auto restarted = pictures_.restart(); !restarted) return restarted;
     }
@@ -234,14 +235,14 @@ class M2mDecoder final : public VideoDecoder {
 
   [[nodiscard]] int fd() const noexcept { return device_->fd->get(); }
 
-  // EINVAL: the queue does not run, as before its set-up.
+  // EINVAL: the queue is not running yet.
   static bool isFatal(int error) noexcept { return error != 0 && error != EAGAIN && error != EPIPE && error != EINVAL; }
 
   void progressed() noexcept {
     idle_ = Duration(0);
     said_ready_ = false;
   }
-  // For the driver; what the machine itself stood still for is not counted against it.
+  // Waits for the driver. Each wait counts at most two turns, so that a stalled machine does not time the driver out.
   Result<void> wait() {
     if (idle_ >= (given_any_ ? kPatience : kFirstPatience)) return fail(ErrorCode::Timeout, kHangs);
     const MonotonicTime begin = clock_.now();
@@ -269,11 +270,11 @@ class M2mDecoder final : public VideoDecoder {
     std::uint64_t tag;
     MediaTime pts;
   };
-  std::deque<Unanswered> unanswered_;  // packets whose picture has not come yet
+  std::deque<Unanswered> unanswered_;  // packets that have no picture yet
   std::uint64_t last_tag_ = 0;
   bool begun_ = false;       // a packet was fed
-  bool change_due_ = false;  // of the pictures' format
-  bool stopped_ = false;     // the last picture before a change, or of a drain, has come
+  bool change_due_ = false;  // the pictures' format changes
+  bool stopped_ = false;     // the last picture before a change or of a drain has come
   bool draining_ = false, drain_told_ = false;
   bool given_any_ = false;
   Duration idle_{0};

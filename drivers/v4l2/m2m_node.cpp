@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Asks the nodes (Documentation/userspace-api/media/v4l/dev-decoder.rst, "Querying Capabilities").
+// Queries the nodes (Documentation/userspace-api/media/v4l/dev-decoder.rst, "Querying Capabilities").
 #include "drivers/v4l2/m2m_node.h"
 
 #include <fcntl.h>
@@ -26,7 +26,7 @@ struct Coding {
   std::uint32_t fourcc;
 };
 constexpr std::array kCodings{Coding{"h264", V4L2_PIX_FMT_H264}, Coding{"hevc", V4L2_PIX_FMT_HEVC},
-                              Coding{"fwht", V4L2_PIX_FMT_FWHT}};  // the last is the kernel's virtual codec's
+                              Coding{"fwht", V4L2_PIX_FMT_FWHT}};  // FWHT: the kernel's virtual codec
 
 std::vector<std::string> codecsOf(int fd, std::uint32_t queue) {
   std::vector<std::string> codecs;
@@ -55,7 +55,7 @@ std::optional<M2mNode> lookAt(const std::string& path, int fd) {
   return node;
 }
 
-// "/dev/videoN" by their numbers.
+// The paths /dev/videoN, sorted by N.
 std::vector<std::string> paths() {
   std::map<int, std::string> found;
   std::error_code failed;
@@ -82,7 +82,7 @@ void visitNodes(Visit&& visit) {
   }
 }
 
-// A driver that does not tell is tried.
+// True also if the driver does not report its sizes.
 bool takesSize(int fd, std::uint32_t fourcc, int width, int height) noexcept {
   v4l2_frmsizeenum sizes{.index = 0, .pixel_format = fourcc};
   if (control(fd, VIDIOC_ENUM_FRAMESIZES, &sizes) < 0 || sizes.type == V4L2_FRMSIZE_TYPE_DISCRETE) return true;
@@ -90,7 +90,7 @@ bool takesSize(int fd, std::uint32_t fourcc, int width, int height) noexcept {
          static_cast<std::uint32_t>(height) <= sizes.stepwise.max_height;
 }
 
-// The kernel's numbers of profiles, in the menus of their controls.
+// The kernel's menu items for profiles.
 int menuItem(const std::string& codec, int profile) noexcept {
   if (codec == "hevc") return profile == 1 ? V4L2_MPEG_VIDEO_HEVC_PROFILE_MAIN : -1;
   switch (profile) {
@@ -107,7 +107,8 @@ int menuItem(const std::string& codec, int profile) noexcept {
   }
 }
 
-// Likewise. One without the item of Baseline still takes it where it is Constrained Baseline, which most is.
+// True also if the driver does not report its profiles. Baseline is accepted with the item of Constrained Baseline,
+// since most Baseline streams are constrained.
 bool takesProfile(int fd, const std::string& codec, int profile) noexcept {
   v4l2_queryctrl menu{};
   menu.id = codec == "hevc" ? V4L2_CID_MPEG_VIDEO_HEVC_PROFILE : V4L2_CID_MPEG_VIDEO_H264_PROFILE;
@@ -146,7 +147,7 @@ Result<void> setPacketFormat(const M2mNode& node, int fd, const StreamInfo& stre
   const int answer = control(fd, VIDIOC_S_FMT, &format);
   if (answer < 0 && errno == EBUSY) return fail(ErrorCode::Io, "the video hardware is busy", errno);
   const std::uint32_t got = node.planes ? format.fmt.pix_mp.pixelformat : format.fmt.pix.pixelformat;
-  if (answer < 0 || got != fourcc) return fail(ErrorCode::Unsupported, "the video hardware refuses the stream", errno);
+  if (answer < 0 || got != fourcc) return fail(ErrorCode::Unsupported, "the video hardware rejects the stream", errno);
   return {};
 }
 
@@ -159,8 +160,8 @@ std::optional<std::uint32_t> packetFormatOf(const std::string& codec) noexcept {
 
 Result<M2mDevice> openM2mDevice(const StreamInfo& stream, const std::optional<CodingProfile>& profile) {
   const auto fourcc = packetFormatOf(stream.codec);
-  if (!fourcc) return fail(ErrorCode::Unsupported, "the video hardware decodes H.264 and HEVC");
-  Result<M2mDevice> found = fail(ErrorCode::NotFound, "there is no video hardware that decodes this codec");
+  if (!fourcc) return fail(ErrorCode::Unsupported, "the video hardware decodes only H.264 and HEVC");
+  Result<M2mDevice> found = fail(ErrorCode::NotFound, "no video hardware here decodes this codec");
   visitNodes([&](M2mDevice device) {
     const M2mNode& node = device.node;
     const int fd = device.fd->get();
@@ -168,7 +169,7 @@ Result<M2mDevice> openM2mDevice(const StreamInfo& stream, const std::optional<Co
     if (!takesSize(fd, *fourcc, stream.width, stream.height)) {
       found = fail(ErrorCode::Unsupported, "the pictures are too large for the video hardware");
     } else if (profile && (!profile->plain || !takesProfile(fd, stream.codec, profile->profile))) {
-      found = fail(ErrorCode::Unsupported, "the video hardware takes 8-bit 4:2:0 of the usual profiles alone");
+      found = fail(ErrorCode::Unsupported, "the video hardware decodes only 8-bit 4:2:0 of common profiles");
     } else if (auto set = setPacketFormat(node, fd, stream, *fourcc); !set) {
       found = std::unexpected(set.error());
     } else {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The nodes of /dev that decode: which there are, what each takes, and one that is free.
+// Finds the decoding nodes of /dev and what each decodes, and opens a free one.
 #pragma once
 
 #include <linux/videodev2.h>
@@ -18,13 +18,13 @@
 
 namespace relievo::v4l2 {
 
-// The fourcc of a codec's packets; nothing for one that is not decoded here.
+// The fourcc of a codec's packets; nullopt for an unsupported codec.
 [[nodiscard]] std::optional<std::uint32_t> packetFormatOf(const std::string& codec) noexcept;
 
 struct M2mNode : V4l2M2mNode {
   bool planes = false;  // it has the multi-planar interface
 
-  // The kinds of its queues: of packets, of pictures.
+  // The V4L2_BUF_TYPE of its two queues.
   [[nodiscard]] std::uint32_t packetQueue() const noexcept {
     return planes ? V4L2_BUF_TYPE_VIDEO_OUTPUT_MPLANE : V4L2_BUF_TYPE_VIDEO_OUTPUT;
   }
@@ -37,8 +37,8 @@ struct M2mDevice {
   M2mNode node;
   std::shared_ptr<const UniqueFd> fd;
 };
-// The first free one that decodes the stream, with its packets' format set. NotFound: there is none at all, or none for
-// this codec. Unsupported: it takes no such pictures, or so large ones. Io: it is busy.
+// Opens the first free node that decodes the stream, and sets its packet format. NotFound: none decodes this codec.
+// Unsupported: it cannot decode such pictures, or they are too large. Io: it is busy.
 [[nodiscard]] Result<M2mDevice> openM2mDevice(const StreamInfo& stream, const std::optional<CodingProfile>& profile);
 
 }  // namespace relievo::v4l2

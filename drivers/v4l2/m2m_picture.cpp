@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// 8-bit 4:2:0 in its arrangements (Documentation/userspace-api/media/v4l/pixfmt-yuv-planar.rst), and gray.
+// The layouts of 8-bit 4:2:0 (Documentation/userspace-api/media/v4l/pixfmt-yuv-planar.rst) and gray.
 #include "drivers/v4l2/m2m_picture.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ const Arrangement* find(std::uint32_t fourcc) noexcept {
   return found == kArrangements.end() ? nullptr : &*found;
 }
 
-// Of both forms of a format.
+// The fields common to the single- and multi-planar forms of a format.
 struct Told {
   std::uint32_t fourcc = 0, width = 0, height = 0;
   std::array<std::uint32_t, 3> strides{};
@@ -105,7 +105,7 @@ std::optional<PictureLayout> layoutOf(const v4l2_format& format, std::optional<v
   const std::uint32_t luma = t.strides[0] == 0 ? t.width : t.strides[0];
   for (std::size_t i = 0; i < a->planes; ++i) {
     const bool chroma = i > 0;
-    const bool apart = chroma && a->planes == 3;  // not U and V by turns
+    const bool apart = chroma && a->planes == 3;  // U and V are not interleaved
     const std::uint32_t across = !chroma ? t.width : (t.width + 1) / 2 * (apart ? 1 : 2);
     const std::uint32_t usual = apart ? luma / 2 : luma;
     const std::uint32_t stride = chroma && a->memories > 1 && t.strides[i] != 0 ? t.strides[i] : usual;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a decoder's pictures lie in its buffers.
+// The layout of a hardware decoder's pictures in its buffers.
 #pragma once
 
 #include <linux/videodev2.h>
@@ -15,24 +15,23 @@
 
 namespace relievo::v4l2 {
 
-// Whether pictures of this fourcc can be read.
+// True if pictures of this fourcc can be read.
 [[nodiscard]] bool isPictureFormat(std::uint32_t fourcc) noexcept;
 
-// A picture but for its memory: each plane is so many bytes into one of the buffer's memories.
+// A picture's layout without its memory: each plane begins at an offset in one of the buffer's memory planes.
 struct PictureLayout {
-  Frame frame;  // of the size that is coded
+  Frame frame;  // of the coded size
   v4l2_rect visible{};
   std::array<std::uint8_t, 3> memory{};
   std::array<std::size_t, 3> offset{};
-  std::array<std::size_t, 3> bytes{};  // of each memory, at least
+  std::array<std::size_t, 3> bytes{};  // the least that each memory plane has
 
   [[nodiscard]] bool fits(const std::array<M2mBuffers::Memory, M2mBuffers::kMostPlanes>& buffer) const noexcept;
-  // `data` and `dma_bufs` (-1: none) of each memory. The visible part alone.
+  // The visible part as a frame. `data`, `dma_bufs` (-1: none): of each memory plane.
   [[nodiscard]] Frame placeAt(const std::array<const std::uint8_t*, 3>& data,
                               const std::array<int, 3>& dma_bufs) const noexcept;
 };
-// Nothing for a format that cannot be read, or an answer that makes no sense. What the stream says of its colours goes
-// before what the driver says.
+// nullopt for an unsupported format or an impossible answer. The stream's colour signalling overrides the driver's.
 [[nodiscard]] std::optional<PictureLayout> layoutOf(const v4l2_format& format, std::optional<v4l2_rect> visible,
                                                     const StreamInfo& stream) noexcept;
 

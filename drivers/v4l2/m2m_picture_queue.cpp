@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Asks what the pictures are like, and lends them.
+// Negotiates the pictures' format and lends their buffers to frames.
 #include "drivers/v4l2/m2m_picture_queue.h"
 
 #include <array>
@@ -11,11 +11,11 @@
 namespace relievo::v4l2 {
 namespace {
 
-constexpr std::uint32_t kPlayersHold = 12;   // pictures beyond those that the driver needs
-constexpr std::uint32_t kUsualPictures = 8;  // that it needs, where it does not tell
-constexpr const char* kUnreadable = "the video hardware's pictures are of a format that is not known here";
+constexpr std::uint32_t kPlayersHold = 12;   // pictures for the player, beyond those that the driver needs
+constexpr std::uint32_t kUsualPictures = 8;  // that the driver needs, if it does not report the number
+constexpr const char* kUnreadable = "the video hardware's picture format is not supported";
 
-// Behind Frame::owner: one buffer, held. It goes back on whatever thread the last reference is dropped.
+// The object behind Frame::owner: a held buffer, which is returned on the thread that drops the last reference.
 struct HeldPicture {
   std::shared_ptr<M2mBuffers> buffers;
   std::uint32_t index;
@@ -27,7 +27,7 @@ struct HeldPicture {
   HeldPicture& operator=(const HeldPicture&) = delete;
 };
 
-// The driver's own choice, else its first that can be read.
+// Keeps the driver's choice if it can be read, else chooses the first format that can.
 Result<void> chooseReadable(int fd, v4l2_format& format) noexcept {
   const bool planes = V4L2_TYPE_IS_MULTIPLANAR(format.type);
   const auto chosen = [&] { return planes ? format.fmt.pix_mp.pixelformat : format.fmt.pix.pixelformat; };
@@ -45,7 +45,7 @@ Result<void> chooseReadable(int fd, v4l2_format& format) noexcept {
   return fail(ErrorCode::Unsupported, kUnreadable);
 }
 
-// Both interfaces are asked by the kind of one plane.
+// VIDIOC_G_SELECTION takes the single-planar type for both interfaces.
 v4l2_rect visiblePart(int fd, const StreamInfo& stream) noexcept {
   v4l2_selection part{};
   part.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pictures' side of a decoding device: set up as the stream says, each picture by reference.
+// The picture queue of a decoding device: set up for the stream, returns references to pictures.
 #pragma once
 
 #include <cstdint>
@@ -14,31 +14,31 @@
 
 namespace relievo::v4l2 {
 
-// One thread; frames may be dropped on any, and outlive the queue.
+// One thread; frames may be dropped on any thread and may outlive the queue.
 class PictureQueue {
  public:
-  // "Capture Setup" of the kernel's document, the first time and after a change of resolution. Unsupported where the
-  // pictures cannot be read.
+  // "Capture Setup" of the kernel's document, initially and after a change of resolution. Unsupported if the picture
+  // format cannot be read.
   [[nodiscard]] Result<void> setUp(const M2mDevice& device, const StreamInfo& stream);
   [[nodiscard]] bool running() const noexcept { return buffers_ != nullptr; }
 
   struct Taken {
-    Frame frame;            // without its times; empty where there is none in it
-    std::uint64_t tag = 0;  // of the packet that it is from
+    Frame frame;            // without its times; empty if the buffer has no picture
+    std::uint64_t tag = 0;  // of the packet that it was decoded from
     bool damaged = false, last = false;
   };
-  // 0, or errno, as of M2mBuffers::take.
+  // Returns 0 or errno, like M2mBuffers::take.
   [[nodiscard]] int take(Taken& taken);
-  // Forgets the pictures that are done but not taken.
+  // Discards the pictures that are finished but not taken.
   [[nodiscard]] Result<void> restart() noexcept;
   void release() noexcept;
 
  private:
   [[nodiscard]] Frame pictureIn(std::uint32_t index) const;
 
-  std::shared_ptr<M2mBuffers> buffers_;  // shared with the pictures that are held
+  std::shared_ptr<M2mBuffers> buffers_;  // shared with held pictures
   PictureLayout layout_;
-  std::uint32_t needed_ = 0;  // that the driver has to have
+  std::uint32_t needed_ = 0;  // buffers that the driver must keep
 };
 
 }  // namespace relievo::v4l2

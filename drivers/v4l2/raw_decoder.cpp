@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Raw pictures: nothing to decode, but for depth that is to be looked at.
+// Passes raw pictures on without decoding; converts depth to a gray picture where it is to be seen.
 #include <algorithm>
 #include <deque>
 #include <utility>
@@ -15,9 +15,9 @@ namespace {
 using namespace v4l2;
 
 constexpr std::size_t kQueued = 4;
-constexpr int kMaxHeldFrames = 64;  // those beyond the camera's buffers are copies
+constexpr int kMaxHeldFrames = 64;  // beyond the camera's buffers, frames are copies
 
-// Of distances: what a room is like, not the film's own range, which is not known here.
+// The distance that is shown black: the size of a room, since the film's own range is not known here.
 constexpr int kBlackMm = 3000;
 
 std::vector<std::uint8_t> brightnessTable(const Format& format) {
@@ -38,7 +38,7 @@ class RawDecoder final : public VideoDecoder {
 
  private:
   Result<void> openDecoder(const StreamInfo& stream) override {
-    if (!isV4l2Raw(stream)) return fail(ErrorCode::Unsupported, "these are no raw pictures of a camera");
+    if (!isV4l2Raw(stream)) return fail(ErrorCode::Unsupported, "the stream holds no raw pictures of a camera");
     stream_ = std::static_pointer_cast<const RawStream>(stream.native);
     brightness_.clear();
     if (stream_->view == RawStream::View::Gray) brightness_ = brightnessTable(stream_->format);
@@ -113,7 +113,7 @@ class RawDecoder final : public VideoDecoder {
   }
 
   std::shared_ptr<const RawStream> stream_;
-  std::vector<std::uint8_t> brightness_;  // by code
+  std::vector<std::uint8_t> brightness_;  // indexed by code
   std::deque<Packet> queue_;
   bool draining_ = false;
 };

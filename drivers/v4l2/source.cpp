@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A camera as a film that goes on for ever.
+// A camera as an endless film.
 #include <deque>
 #include <utility>
 
@@ -12,7 +12,7 @@ namespace {
 
 using namespace v4l2;
 
-// What cameras of distances see well; the viewer knows the scene better.
+// The usual range of depth cameras in mm; the user may set a better one for the scene.
 constexpr const char* kNearMm = "300";
 constexpr const char* kFarMm = "3000";
 
@@ -59,7 +59,7 @@ class V4l2Source final : public MediaSource {
     return stream;
   }
 
-  // The same memory for both tracks of a depth camera.
+  // Both tracks of a depth camera share the same memory.
   void queue(Picture picture) {
     Packet packet;
     packet.data = picture.data;

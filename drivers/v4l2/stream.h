@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the camera's source tells the decoder of its raw pictures: behind StreamInfo::native.
+// The object behind StreamInfo::native, from a camera's source to the decoder of its raw pictures.
 #pragma once
 
 #include <memory>
@@ -10,13 +10,13 @@
 namespace relievo::v4l2 {
 
 struct RawStream {
-  enum class View : std::uint8_t { AsItIs, Gray };  // Gray: depth to look at, near bright
+  enum class View : std::uint8_t { AsItIs, Gray };  // Gray: depth as a visible picture, near is bright
   Format format;
   Layout layout;
   Duration period{0};
   View view = View::AsItIs;
 };
-// Its type tells this back end's streams from others.
+// The deleter's type identifies this back end's streams.
 struct RawStreamDeleter {
   void operator()(const RawStream* stream) const noexcept { delete stream; }
 };

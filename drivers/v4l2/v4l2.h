@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Video4Linux: cameras, of depth and of colour, as a media source; a decoder for their raw pictures; and decoding by
-// hardware.
+// Video4Linux: a media source for depth and colour cameras, a decoder for their raw pictures, and a hardware video
+// decoder.
 #pragma once
 
 #include <memory>
@@ -13,36 +13,35 @@
 namespace relievo {
 
 // A source: opens "v4l2:DEVICE[,FORMAT][,WIDTHxHEIGHT][@FPS]", such as "v4l2:/dev/video0,Z16,640x480@30"; FORMAT is a
-// fourcc. Without one: Z16 where the camera has it, else the one that it is set to, else its first that is known here.
-// What it cannot do it refuses: a picture of another size than was asked for is not taken.
+// fourcc. The default is Z16 if the camera has it, else its current format if supported, else its first supported one.
+// A format or size that the camera does not have is an error.
 //
 //   depth   Z16 (distances: calibration tags say 1 mm, code 0 no value, 300 to 3000 mm), Y16, Y12, Y10
-//   colour  YUYV, UYVY, NV12, RGB3, BGR3, GREY; MJPG, JPEG and H264 go to a decoder by those names
+//   colour  YUYV, UYVY, NV12, RGB3, BGR3, GREY; MJPG, JPEG and H264, which need another decoder
 //
-// A depth camera is a film of two tracks: its depth, signalled as such, and the same as a gray picture, near bright.
-//
-// A live source (`live`), at the camera's own pace: times are the driver's, monotonic; `arrival` is when the first
-// picture was taken. A picture that was lost (a gap in the camera's count, a damaged or short buffer, a time that does
-// not grow) is counted by `lost`. A read that brings no picture for three seconds returns Timeout; a camera that is
-// pulled out is Lost. It cannot seek.
+// A depth camera is a film of two tracks: its depth, signalled as such, and the same depth as a gray picture, near is
+// bright.
+// It is a live source (`live`): times are the driver's, monotonic; `arrival` is when the first picture was taken.
+// `missedPictures` counts lost pictures: gaps in the camera's sequence numbers, damaged or short buffers, times that do
+// not increase. A read returns Timeout after three seconds without a picture; an unplugged camera is Lost. It cannot
+// seek.
 [[nodiscard]] std::unique_ptr<MediaSource> makeV4l2Source();
 
-// Whether a stream is of the source above and raw: for the decoder below.
+// True for a raw stream of the source above, which the decoder below takes.
 [[nodiscard]] bool isV4l2Raw(const StreamInfo& stream) noexcept;
 
-// Hands the camera's own memory on, with its dma-buf where the driver exports one. While few buffers are left to the
-// camera, the source hands out copies instead, so that who holds pictures does not stop it.
+// Frames refer to the camera's own memory, with its dma-buf if the driver exports one. While the camera has few buffers
+// left, the source returns copies instead, so that held pictures do not stop it.
 [[nodiscard]] std::unique_ptr<VideoDecoder> makeV4l2RawDecoder();
 
-// Decodes H.264 and HEVC, 8-bit 4:2:0, by hardware: the first free node of /dev that takes the stream and its size, by
-// the kernel's "Memory-to-memory Stateful Video Decoder Interface". `open` fails where there is none: NotFound without
+// Decodes H.264 and HEVC, 8-bit 4:2:0, in hardware: uses the first free node of /dev that takes the stream and its
+// size, by the kernel's "Memory-to-memory Stateful Video Decoder Interface". `open` fails without one: NotFound without
 // such hardware, else Unsupported or Io.
 //
-// Pictures are the driver's own buffers, with their dma-bufs where it exports them; a copy where it has few left. Those
-// that are held stay as they are whatever becomes of the decoder. Where packets can be fed no more, or are drained,
-// `receive` waits for the hardware: Timeout when it has done nothing for a while that has work, Io when it cannot go on
-// (both may end with a new `open`), Lost when it has gone. A packet without a time is Unsupported: there is nothing to
-// tell its picture by.
+// Frames refer to the driver's own buffers, with dma-bufs if it exports them, or are copies while it has few left. Held
+// frames stay valid whatever happens to the decoder. When no more packets can be fed, or while draining, `receive`
+// waits for the hardware: Timeout if it has work and does nothing, Io if it fails (opening again may help after both),
+// Lost if it has gone. A packet without a time is Unsupported, since its picture could not be identified.
 [[nodiscard]] std::unique_ptr<VideoDecoder> makeV4l2M2mDecoder();
 
 struct V4l2M2mNode {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a window hears of its keys and its mouse, on the way from the display that has the window to who listens.
+// A window's keys and mouse, passed from its display to the remote control and the pointer.
 #pragma once
 
 #include <atomic>
@@ -12,18 +12,18 @@
 namespace relievo {
 
 struct WindowMouse {
-  double right_px = 0, up_px = 0;  // of the window's middle
+  double right_px = 0, up_px = 0;  // from the window's middle
   int width_px = 0, height_px = 0;
-  std::int32_t notches = 0;  // that the wheel was turned forward since the window opened
+  std::int32_t notches = 0;  // of the wheel, forward positive, since the window opened
   bool left = false, middle = false, right = false;
 };
 
-// Filled on the display's thread alone, once for each window. Keys have one listener, on any thread; the mouse has one,
-// which may be the real-time thread. Keys that nobody takes are dropped when the ring is full.
+// Only the display's thread writes it. Keys have one reader, on any thread; the mouse has one, which may be the
+// real-time thread. Keys are dropped while the ring is full.
 struct WindowInput {
   static constexpr std::size_t kMostKeys = 64;
 
-  std::atomic<bool> open{false};  // there is a window
+  std::atomic<bool> open{false};  // the window is open
   SpscRing<KeyEvent, kMostKeys> keys;
   TripleBuffer<WindowMouse> mouse;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Takes the keys as they come.
+// Reads the window's keys from their ring.
 #include "drivers/window/window_remote.h"
 
 #include <utility>

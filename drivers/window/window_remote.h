@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The keyboard of a window as a remote control.
+// A window's keyboard as a remote control.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace relievo {
 
-// What was pressed before `open` is not meant for it.
+// `open` discards keys that were pressed before.
 [[nodiscard]] std::unique_ptr<RemoteInput> makeWindowRemote(std::shared_ptr<WindowInput> input);
 
 }  // namespace relievo

@@ -404,8 +404,8 @@ struct Trouble {
 TEST_F(V4l2M2m, TheFilmGoesOnWhereItWasWithoutAPictureLostOrTwice) {
   const Film film(clip());
   const auto software = bySoftware(film);
-  const std::string anew = "the decoder was begun anew where it was",
-                    other = "another decoder, in software, goes on where it was";
+  const std::string anew = "the decoder was restarted at the same picture",
+                    other = "another decoder, in software, continues at the same picture";
   const Trouble troubles[] = {
       {"hangs once", [](auto& codec) { codec.hangAfter(60, 1); }, 2, {anew}, false},
       {"hangs twice", [](auto& codec) { codec.hangAfter(30, 2); }, 2, {anew, other}, true},
@@ -427,7 +427,7 @@ TEST_F(V4l2M2m, TheFilmGoesOnWhereItWasWithoutAPictureLostOrTwice) {
     EXPECT_EQ(play(*decoder, film, take), software) << trouble.name;
     EXPECT_EQ(codec.openings(), trouble.openings) << trouble.name;
     EXPECT_EQ(told, trouble.told) << trouble.name;
-    EXPECT_EQ(decoder->description().starts_with("ffmpeg; no better one: the video hardware"), trouble.in_software)
+    EXPECT_EQ(decoder->description().starts_with("ffmpeg; no better decoder: the video hardware"), trouble.in_software)
         << decoder->description();
     EXPECT_EQ(decoder->damaged(), 0u);
   }

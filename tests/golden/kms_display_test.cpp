@@ -342,7 +342,7 @@ TEST_F(KmsDisplay, ACardThatAnotherProgramShowsOnIsRefused) {
   const UniqueFd other(::open(screen_->card().c_str(), O_RDWR | O_CLOEXEC));
   ASSERT_EQ(drmSetMaster(other.get()), 0);
   EXPECT_EQ(display_->open({}).error().code, ErrorCode::PermissionDenied);
-  EXPECT_THAT(lookAtKmsScreens().at(0).state, testing::HasSubstr("another program shows on this card"));
+  EXPECT_THAT(lookAtKmsScreens().at(0).state, testing::HasSubstr("another program uses this card's screens"));
   ASSERT_EQ(drmDropMaster(other.get()), 0);
   open({});
   EXPECT_NE(drmSetMaster(other.get()), 0);
@@ -362,7 +362,7 @@ TEST_F(KmsDisplay, IsListedWithItsModesAndWhatItTakes) {
   EXPECT_EQ(screens[0].card, screen_->card());
   EXPECT_TRUE(screens[0].there);
   EXPECT_THAT(screens[0].state, testing::MatchesRegex("Virtual-1: 1280x800 at [67][0-9][.][0-9]+ Hz, [0-9]+ modes; "
-                                                      "takes no 3D signal"));
+                                                      "no 3D signals"));
   screen_->plug(false);
   EXPECT_THAT(lookAtKmsScreens()[0].state, testing::StartsWith("Virtual-1: no screen is connected"));
 }
@@ -439,7 +439,7 @@ TEST_F(PacedKmsDisplay, FramePackingIsSentToAScreenThatTakesIt) {
   drmModeFreeResources(all);
   EXPECT_THAT(lookAtKmsScreens().back().state, testing::HasSubstr("another program"));
   display_->close();
-  EXPECT_THAT(lookAtKmsScreens().back().state, testing::HasSubstr("takes 3D by frame packing"));
+  EXPECT_THAT(lookAtKmsScreens().back().state, testing::HasSubstr("3D signals: frame packing"));
 }
 
 TEST_F(PacedKmsDisplay, SideBySideThatTheScreenIsNotToldOfIsShownAllTheSame) {
@@ -453,7 +453,7 @@ TEST_F(PacedKmsDisplay, SideBySideThatTheScreenIsNotToldOfIsShownAllTheSame) {
 TEST_F(KmsDisplay, FramePackingThatTheScreenDoesNotTakeIsRefused) {
   const auto opened = display_->open({1920, 1080, StereoSignal::FramePacking});
   EXPECT_EQ(opened.error().code, ErrorCode::Unsupported);
-  EXPECT_THAT(opened.error().message, testing::HasSubstr("takes no frame packing"));
+  EXPECT_THAT(opened.error().message, testing::HasSubstr("does not support frame packing"));
 }
 
 }  // namespace

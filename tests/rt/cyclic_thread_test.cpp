@@ -299,9 +299,9 @@ TEST_F(CyclicThreadTest, RunsWithoutTheRightToRealTimeAndSaysSo) {
     std::_Exit(good ? 0 : 1);
   };
   EXPECT_EXIT(child(), testing::ExitedWithCode(0),
-              "^relievo: cyclic: unprivileged: memory is touched but not locked: raise LimitMEMLOCK or grant "
+              "^relievo: cyclic: unprivileged: memory could not be locked; raise LimitMEMLOCK or grant "
               "CAP_IPC_LOCK\n"
-              "relievo: cyclic: unprivileged: runs without real-time priority: grant CAP_SYS_NICE or raise "
+              "relievo: cyclic: unprivileged: runs without real-time priority; grant CAP_SYS_NICE or raise "
               "LimitRTPRIO\n$");
 }
 

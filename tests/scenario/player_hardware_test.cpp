@@ -74,11 +74,12 @@ TEST_F(PlayerOnHardware, AHungDriverIsBegunAnewAndToldOf) {
   UmockdevCodec codec(bed_, 10);
   codec.hangAfter(30, 1);
   const auto report = play();
-  EXPECT_EQ(faultsOf(report),
-            std::vector<std::string>{"the video hardware hangs; the decoder was begun anew where it was"});
+  EXPECT_EQ(
+      faultsOf(report),
+      std::vector<std::string>{"the video hardware stopped responding; the decoder was restarted at the same picture"});
   EXPECT_EQ(codec.openings(), 2);
   EXPECT_EQ(report["video"]["frames_shown"].get<int>() + report["video"]["frames_dropped"].get<int>(), kFrames);
-  EXPECT_EQ(report["film"]["depth"]["decoder"], "ffmpeg; no better one: the video hardware is busy");
+  EXPECT_EQ(report["film"]["depth"]["decoder"], "ffmpeg; no better decoder: the video hardware is busy");
   EXPECT_NE(said_.find("v4l2-m2m does not decode h264: the video hardware is busy"), std::string::npos) << said_;
 }
 
@@ -87,7 +88,7 @@ TEST_F(PlayerOnHardware, WhenItIsGoneTheFilmGoesOnInSoftware) {
   codec.unplugAfter(25);
   const auto report = play();
   EXPECT_EQ(faultsOf(report), std::vector<std::string>{"the video hardware has gone away; another decoder, in "
-                                                       "software, goes on where it was"});
+                                                       "software, continues at the same picture"});
   EXPECT_EQ(report["video"]["frames_shown"].get<int>() + report["video"]["frames_dropped"].get<int>(), kFrames);
 }
 

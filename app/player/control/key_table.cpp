@@ -186,7 +186,7 @@ Outcome<void> KeyTable::add(std::string_view text, const std::string& file) {
       if (!code) {
         const std::string nearest(nearestKeyName(word));
         return reader.wrong(row, nearest.empty() ? word : print("%s (%s?)", word.c_str(), nearest.c_str()),
-                            "is no key's name; relievo play --help lists the names");
+                            "is not the name of a key; relievo play --help lists the names");
       }
       auto binding = reader.binding(row);
       if (!binding) return std::unexpected(binding.error());

@@ -72,7 +72,7 @@ TEST_F(Failover, WhereverOneDiesEveryPictureComesOnceAndInOrder) {
       EXPECT_EQ(play(), times()) << "dead after " << packets << ", " << reorder << " held back";
       EXPECT_EQ(decoder_->state(), VideoDecoder::State::Ended);
       EXPECT_EQ(restarts_, 1);
-      EXPECT_EQ(decoder_->description(), "mock; no better one: the mock decoder has died");
+      EXPECT_EQ(decoder_->description(), "mock; no better decoder: the mock decoder has died");
       EXPECT_EQ(decoder_->damaged(), 0u);
     }
   }

@@ -138,7 +138,7 @@ TEST(PairReader, ATurnThatIsNoQuarterTurnIsTold) {
   testing::internal::CaptureStderr();
   const auto opened = reader.open({.url = folder / "a.mov"});
   EXPECT_THAT(testing::internal::GetCapturedStderr(),
-              testing::HasSubstr("turned by no quarter turn, which is not done"));
+              testing::HasSubstr("turned by an odd angle, which is not supported"));
   ASSERT_TRUE(opened.has_value());
   EXPECT_EQ(reader.info().color_width, 64);
 }
