@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every sound decoder keeps to: states, the format that was asked for, samples at their times without a seam.
+// The contract of every sound decoder: states, the requested format, samples at their times without gaps.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -68,7 +68,7 @@ class AudioDecoderContract : public testing::TestWithParam<Backend> {
     decoder_ = GetParam().make();
   }
   [[nodiscard]] const StreamInfo& stream() const { return source_->streams().back(); }
-  // The sound's next packet; nothing at the end.
+  // The next sound packet; nullopt at the end.
   std::optional<Packet> nextPacket() {
     for (;;) {
       auto packet = source_->read();

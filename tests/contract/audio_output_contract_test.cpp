@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every sound output keeps to: states, whole frames, room, and positions that run at its rate.
+// The contract of every sound output: states, whole frames, room, and positions that advance at its rate.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -55,7 +55,7 @@ class AudioOutputContract : public testing::TestWithParam<Backend> {
  protected:
   void SetUp() override { output_ = GetParam().make(clock_); }
   [[nodiscard]] AudioOutput& audio() const { return *output_.audio; }
-  // How many frames it took of so much sound.
+  // Writes sound of that length and returns how many frames were taken.
   std::int64_t write(Duration length) {
     const AudioFormat& format = audio().format();
     const auto frames = static_cast<std::size_t>(toSeconds(length) * format.rate_hz);
@@ -198,7 +198,7 @@ TEST(AlsaOutput, WritesSixteenBitsWithoutWrappingRound) {
   EXPECT_EQ(test::fakeSoundCard().loudest, 32767);
 }
 
-// The library's own null device takes everything at once.
+// ALSA's own null device takes everything at once.
 TEST(AlsaOutput, OpensTheLibrarysOwnDevices) {
   ManualClock clock;
   static_cast<void>(makeFakeCard(clock, true));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A camera of the kernel's own, vivid, in a virtual machine: real buffers, real dma-bufs, a real cable pulled.
+// The kernel's virtual camera, vivid, in a virtual machine: real buffers, real dma-bufs, a real disconnection.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <linux/dma-buf.h>
@@ -35,7 +35,7 @@ class CameraGuest : public testing::Test {
  protected:
   void SetUp() override {
     const auto found = findVivid();
-    if (!found) GTEST_SKIP() << "no vivid here; it is in toolchain/guest";
+    if (!found) GTEST_SKIP() << "no vivid here; run it by toolchain/guest";
     node_ = *found;
   }
   [[nodiscard]] std::unique_ptr<MediaSource> open(const std::string& options) const {
@@ -91,7 +91,7 @@ TEST_F(CameraGuest, ItsMemoryComesAsADmaBufOfTheSamePicture) {
   ::munmap(other, bytes);
 }
 
-// Pictures of before are still held.
+// Pictures from before are still held.
 TEST_F(CameraGuest, IsOpenedAnewWhilePicturesAreHeld) {
   auto source = open(",Y16,320x180@30");
   const StreamInfo stream = source->streams()[1];
@@ -103,7 +103,7 @@ TEST_F(CameraGuest, IsOpenedAnewWhilePicturesAreHeld) {
   EXPECT_TRUE(open(",Y16,320x180@30")->read());
 }
 
-// The last one: it stays unplugged.
+// Must be the last test: the camera stays unplugged.
 TEST_F(CameraGuest, PulledOutItIsLost) {
   const auto source = open(",Y16,320x180@30");
   ASSERT_TRUE(source->read());

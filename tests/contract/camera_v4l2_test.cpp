@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cameras on nodes of /dev that umockdev plugs into this machine: every picture comes out once, or is counted as lost.
+// Cameras that umockdev simulates as nodes of /dev: every picture is returned once, or is counted as lost.
 #include <gtest/gtest.h>
 #include <linux/videodev2.h>
 
@@ -34,7 +34,7 @@ std::unique_ptr<MediaSource> openCamera(const std::string& url = kUrl) {
   return source;
 }
 
-// The next picture of one track, decoded; nothing after an error, which `error` then holds.
+// Reads and decodes the next picture of one track; nullopt after an error, which is then in `error`.
 class Reader {
  public:
   explicit Reader(MediaSource& source, std::size_t stream)
@@ -121,7 +121,7 @@ TEST_F(CameraV4l2, ADepthCameraIsAFilmOfItsDepthAndOfAPictureOfIt) {
   EXPECT_GT(sampleOf(shown, 0, 0, 1), sampleOf(shown, 0, 0, 15)) << "near is bright";
 }
 
-// Each fault takes one picture away: what came and what was lost is all that the camera took.
+// Each fault removes one picture: returned and lost pictures together are all that the camera took.
 TEST_F(CameraV4l2, EveryPictureComesOnceInOrderOrIsCountedAsLost) {
   UmockdevCamera camera(bed_, 0, depthCamera());
   for (const std::uint32_t number : {10u, 20u, 21u, 22u, 90u}) camera.fault(number, Fault::Dropped);
@@ -151,7 +151,7 @@ TEST_F(CameraV4l2, EveryPictureComesOnceInOrderOrIsCountedAsLost) {
   EXPECT_EQ(came.size() + source->missedPictures(), camera.taken());
 }
 
-// As fast as a real one, held for longer than it has buffers.
+// At a real camera's rate, with more pictures held than it has buffers.
 TEST_F(CameraV4l2, AtItsOwnPaceNothingIsLostUnseen) {
   constexpr int kPictures = 60;
   CameraKind kind = depthCamera();
@@ -186,7 +186,7 @@ TEST_F(CameraV4l2, HeldPicturesStayAsTheyAreAndDoNotStopTheCamera) {
     for (std::uint32_t i = 0; i < held.size(); ++i) ASSERT_EQ(numberOf(held[i]), i);
   };
   expectAll();
-  ASSERT_TRUE(source->open(kUrl)) << "while pictures of before are held";
+  ASSERT_TRUE(source->open(kUrl)) << "while old pictures are held";
   source.reset();
   EXPECT_EQ(held.size(), 40u);
 }
@@ -221,7 +221,7 @@ TEST_F(CameraV4l2, ASilentCameraTimesOutAndAnInterruptionEndsTheWait) {
     EXPECT_FALSE(depth.next());
     EXPECT_EQ(depth.error.code, ErrorCode::Cancelled);
   }
-  EXPECT_EQ(test::answerOf(source->read()), ErrorCode::Cancelled) << "until it is opened anew";
+  EXPECT_EQ(test::answerOf(source->read()), ErrorCode::Cancelled) << "until it is opened again";
   source->close();
   EXPECT_EQ(source->open(kUrl).error().code, ErrorCode::Timeout) << "three seconds later";
 }
@@ -242,7 +242,7 @@ TEST_F(CameraV4l2, ReadsEveryFormatOfDepthInItsOwnBits) {
     const auto source = openCamera("v4l2:/dev/video" + std::to_string(number++));
     const StreamInfo& stream = source->streams()[1];
     EXPECT_EQ(stream.codec, format.name);
-    EXPECT_TRUE(stream.tags.empty()) << "nobody says what its codes mean";
+    EXPECT_TRUE(stream.tags.empty()) << "the meaning of its codes is unknown";
     const Frame exact = Reader(*source, 1).next().value();
     EXPECT_EQ(exact.components[0].bits, format.bits);
     EXPECT_EQ(sampleOf(exact, 0, 1, 1), (1U << format.bits) - 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every display keeps to: states, the surface it promised, and no longer a wait than its refresh.
+// The contract of every display: states, the promised surface, and no wait longer than its refresh.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -20,14 +20,14 @@ using namespace std::chrono_literals;
 struct Backend {
   const char* name;
   std::function<std::unique_ptr<Display>(ManualClock&)> make;
-  bool any_size = true;    // false: what it is asked for is a wish
-  bool any_number = true;  // false: there is one
+  bool any_size = true;    // false: the actual size may differ from the requested one
+  bool any_number = true;  // false: only one can be open
 };
 void PrintTo(const Backend& backend, std::ostream* out) {
   *out << backend.name;
 }
 
-// On an X server of its own where there is one; without, it says that it is not supported.
+// On an X server of its own if Xvfb is installed; else `open` returns Unsupported.
 std::unique_ptr<Display> makeWindow(ManualClock& clock) {
   static const auto screen = test::XScreen::start();
   return makeWindowDisplay(std::make_shared<WindowInput>(), clock);
@@ -132,7 +132,7 @@ TEST_P(DisplayContract, RefusesASizeThatIsNone) {
     EXPECT_EQ(opened.error().code, ErrorCode::InvalidArgument);
     EXPECT_EQ(display->state(), State::Closed);
   }
-  EXPECT_TRUE(display->open({64, 48})) << "and goes on as if nothing had been";
+  EXPECT_TRUE(display->open({64, 48})) << "and works again as before";
 }
 
 TEST_P(DisplayContract, OpensAgainInAnotherSize) {
@@ -163,7 +163,7 @@ TEST(MockDisplay, ShowsAtItsRefreshes) {
   ManualClock clock(MonotonicTime(1h));
   const auto display = makeMockDisplay({.refresh_period = 20ms}, clock);
   ASSERT_TRUE(display->open({64, 48}));
-  // Opened on a refresh; 5 ms later, then on the refresh itself, then 30 ms late.
+  // Opened on a refresh; then presents 5 ms later, on the refresh itself, and 30 ms late.
   const struct {
     Duration wait, shown;
   } frames[] = {{5ms, 15ms}, {0ms, 20ms}, {30ms, 10ms}};

@@ -27,7 +27,7 @@ struct FilmBackend {
   std::unique_ptr<MediaSource> (*make_source)();
   std::unique_ptr<VideoDecoder> (*make_decoder)();
   std::string (*url)();
-  const char* missing_url;  // null where every url is a film
+  const char* missing_url;  // null if every URL is a film
 };
 inline void PrintTo(const FilmBackend& backend, std::ostream* out) {
   *out << backend.name;

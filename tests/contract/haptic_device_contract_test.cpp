@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every haptic device keeps to, whatever it is: states, and a hand that is never pushed unasked.
+// The contract of every haptic device: states, and no force unless one is requested.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,20 +27,20 @@ using State = HapticDevice::State;
 constexpr Duration kTick = std::chrono::milliseconds(1);
 constexpr double kPeakN = 8.5;
 
-// A device on the bench, a way to see from outside whether it pushes, and what the bench itself has allocated.
+// A device under test, a way to observe whether it pushes, and the number of the test's own allocations.
 struct Rig {
   std::shared_ptr<void> bench;
   std::unique_ptr<HapticDevice> device;
   std::function<bool()> pushes;
   std::function<std::uint64_t()> allocations = [] { return std::uint64_t{0}; };
-  int ticks_to_push = 1;  // until a force that has to fade in is there
+  int ticks_to_push = 1;  // until the force has faded in
 };
 
 struct Backend {
   const char* name;
   std::function<Rig(ManualClock&)> make;
-  std::function<Rig(ManualClock&)> make_losing;  // Lost at the first read; null where it cannot be lost
-  bool has_motors = true;                        // false: nobody can be pushed, so that no force arrives either
+  std::function<Rig(ManualClock&)> make_losing;  // Lost at the first read; null if it cannot be lost
+  bool has_motors = true;                        // false: no force is ever observed
 };
 
 void PrintTo(const Backend& backend, std::ostream* out) {
@@ -54,8 +54,8 @@ Rig mock(MockHapticProfile profile, ManualClock& clock) {
   return {bench, std::move(device), [bench] { return bench->force() != glm::dvec3(0); }};
 }
 
-// A mass that nobody holds: if it is pushed it moves, and its damping stops it within some milliseconds when
-// it is not. Brought back to Running for the look.
+// A free mass: it moves when it is pushed, and otherwise its damping stops it within some milliseconds. To observe it,
+// the device is brought back to Running.
 Rig sim(ManualClock& clock) {
   DeviceProfile profile;
   profile.damping_n_s_per_mm = 0.075;  // 1 N moves it by 13 um a tick
@@ -119,7 +119,7 @@ Rig replay() {
   return {nullptr, makeReplay(recording.value()), [] { return false; }};
 }
 
-// The same; calibrated in the middle of the workspace, so that it is inside from the first tick on.
+// Like the Falcon, but calibrated in the middle of the workspace, so that it is inside from the first tick on.
 Rig polhem(ManualClock& clock, bool loses) {
   using relievo::polhem::Description;
   using relievo::polhem::Milliamps;
@@ -145,10 +145,10 @@ Rig polhem(ManualClock& clock, bool loses) {
           [bench] { return bench->cable.model_allocations; }, 600};
 }
 
-// The driver on a wire of our own.
+// The sample driver on a fake wire.
 struct SampleWire {
   glm::dvec3 force_n{0};
-  bool loses = false;  // with the first exchange; plugged in again it is there
+  bool loses = false;  // is lost at the first exchange
 };
 class FakeSamplePort final : public SamplePort {
  public:
@@ -196,7 +196,7 @@ const Backend kBackends[] = {
 
 class HapticDeviceContract : public testing::TestWithParam<Backend> {
  protected:
-  // In that state, or no device where this back end cannot get there.
+  // Returns a device in that state, or none if this back end cannot reach it.
   Rig bring(State state) {
     const auto& make = state == State::Lost ? GetParam().make_losing : GetParam().make;
     if (make == nullptr) return {};
@@ -224,7 +224,7 @@ class HapticDeviceContract : public testing::TestWithParam<Backend> {
   }
 
   ManualClock clock_{MonotonicTime(std::chrono::hours(1))};
-  std::vector<std::shared_ptr<void>> benches_;  // they outlive a device that is handed on
+  std::vector<std::shared_ptr<void>> benches_;  // must outlive the returned devices
 };
 INSTANTIATE_TEST_SUITE_P(Backends, HapticDeviceContract, testing::ValuesIn(kBackends),
                          [](const auto& test) { return std::string(test.param.name); });
@@ -347,7 +347,7 @@ TEST_P(HapticDeviceContract, DoesNotPushAfterClose) {
 
 TEST_P(HapticDeviceContract, DoesNotPushWhenForcesNoLongerCome) {
   const Rig rig = pushing();
-  for (int i = 0; i < 2; ++i) {  // the second second is for what moves to come to rest
+  for (int i = 0; i < 2; ++i) {  // in the second second a moving mass comes to rest
     clock_.advance(std::chrono::seconds(1));
     ASSERT_TRUE(rig.device->read());
   }
@@ -389,7 +389,7 @@ TEST_P(HapticDeviceContract, ALostDeviceIsLostUntilClosedAndPushesNobody) {
 // ---- the guard itself
 // ------------------------------------------------------------------------------------------------
 
-// Writes down what it is asked to do.
+// Records the calls of its private functions.
 class Recorder final : public HapticDevice {
  public:
   explicit Recorder(std::string& asked) : asked_(asked) {}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The drivers of haptic devices over the real libusb and usbfs's requests, on models that are plugged into the machine:
-// by umockdev, and in a guest by the kernel itself.
+// Drivers of haptic devices over the real libusb and usbfs requests, on models that umockdev simulates, or the kernel's
+// virtual host controller in a guest.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -29,11 +29,11 @@ std::ptrdiff_t openDescriptors() {
   return std::distance(begin(all), end(all));
 }
 
-// On a machine with that device plugged in.
+// With a model of that device plugged in.
 class HapticUsb : public testing::TestWithParam<UsbKind> {
  protected:
   HapticUsb() {
-    // To its zero and back ten times a second, so that homing takes as long as it must.
+    // Moves to its zero and back ten times a second, so that homing is fast.
     model().grip = [this, slow = model().grip](double t_s) { return slow(model().homed() ? t_s : 10 * t_s); };
     model().powerOn();
     usb_ = test::plugIn(model(), GetParam().id);
@@ -62,7 +62,7 @@ class HapticUsb : public testing::TestWithParam<UsbKind> {
     }
   }
 
-  // Until it pushes: a busy machine that stands still for a moment makes the driver let go of the hand.
+  // Writes forces until the device pushes. When a busy machine stalls, the driver stops pushing and fades in again.
   void pushUntilFelt(HapticDevice& device) {
     for (int i = 0; i < 100 && !pushes(); ++i) push(device, 50);
     EXPECT_TRUE(pushes());
@@ -99,7 +99,7 @@ TEST_P(HapticUsb, ExchangesACommandForEveryTick) {
   EXPECT_EQ(usb_->unknownRequests(), 0);
 }
 
-// At the first request, the second, the third, the fifth and so on until it runs, and then while it runs.
+// Unplugged at the first request, the second, the third, the fifth and so on until it runs, and then while it runs.
 TEST_P(HapticUsb, UnpluggedAtAnyRequestItIsLostAndComesBack) {
   const auto begin = [](HapticDevice& device) -> Result<void> {
     if (auto opened = device.open(); !opened) return opened;
@@ -107,7 +107,7 @@ TEST_P(HapticUsb, UnpluggedAtAnyRequestItIsLostAndComesBack) {
     return device.start();
   };
   const auto device = bench_.driver_on_libusb(clock_);
-  (void)device->open();  // what libusb keeps for good is there after that
+  (void)device->open();  // makes libusb open what it keeps open forever
   device->close();
   const std::ptrdiff_t descriptors = openDescriptors();
   const auto replug = [&] {
@@ -140,7 +140,7 @@ TEST_P(HapticUsb, UnpluggedAtAnyRequestItIsLostAndComesBack) {
     ASSERT_TRUE(begin(*device)) << later;
   }
   device->close();
-  // The transport's own go a little later.
+  // The transport closes its own descriptors a little later.
   for (int i = 0; i < 100 && openDescriptors() > descriptors; ++i) clock_.sleepUntil(clock_.now() + 10 * kTick);
   EXPECT_LE(openDescriptors(), descriptors);
 }
@@ -161,7 +161,7 @@ TEST_P(HapticUsb, AFatalSignalsHandlerStopsTheMotorsWhateverOtherThreadsDo) {
   pushUntilFelt(*device);
   quietenAllUsbDevices();
   EXPECT_FALSE(pushes());
-  // The task goes on until the process is gone. A device that hears no command may not answer, and is lost.
+  // The task runs on until the process ends. A device that gets no command may not answer, and is then lost.
   for (int i = 0; i < 20; ++i) {
     (void)device->read();
     (void)device->write({0, 0, 2});
@@ -172,7 +172,7 @@ TEST_P(HapticUsb, AFatalSignalsHandlerStopsTheMotorsWhateverOtherThreadsDo) {
   else device->close();
   const int commands = model().commands();
   quietenAllUsbDevices();
-  EXPECT_EQ(model().commands(), commands) << "nobody is listed any more";
+  EXPECT_EQ(model().commands(), commands) << "no device is listed any more";
 }
 
 TEST_P(HapticUsb, ACommandThatTheDeviceDidNotTakeIsTakenBackBeforeTheMotorsAreStopped) {
@@ -180,15 +180,16 @@ TEST_P(HapticUsb, ACommandThatTheDeviceDidNotTakeIsTakenBackBeforeTheMotorsAreSt
   pushUntilFelt(*device);
   usb_->takesNothing();
   push(*device, 2, 4);
-  clock_.sleepUntil(clock_.now() + std::chrono::milliseconds(100));  // the watchdog barks, and is not heard
+  clock_.sleepUntil(clock_.now() +
+                    std::chrono::milliseconds(100));  // the watchdog acts, but the device does not take the command
   const int before = model().pushingCommands();
   usb_->takesAgain();
   clock_.sleepUntil(clock_.now() + std::chrono::milliseconds(100));
   EXPECT_EQ(model().pushingCommands(), before);
-  EXPECT_FALSE(pushes()) << "it barks again";
+  EXPECT_FALSE(pushes()) << "the watchdog tries again";
 }
 
-// Says a number in every packet, one a millisecond.
+// Sends a number in every packet, one per millisecond.
 class Counter final : public test::UsbModel {
  public:
   void control(std::uint8_t, std::uint16_t, MonotonicTime) override {}

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every media source keeps to: states, one end that stays, packets that outlive it, seeking to key
-// frames.
+// The contract of every media source: states, one final end, packets that outlive it, seeking to key frames.
 #include <algorithm>
 #include <cstring>
 
@@ -149,7 +148,7 @@ TEST_P(MediaSourceContract, AnInterruptionHoldsUntilTheNextOpening) {
   EXPECT_EQ(test::answerOf(source->read()), ErrorCode::Cancelled);
   EXPECT_EQ(source->state(), State::Open) << "an interruption is not an end";
   source->close();
-  source->interrupt();  // of nothing
+  source->interrupt();  // while nothing waits
   ASSERT_TRUE(source->open(GetParam().url()));
   EXPECT_EQ(readAll(*source).size(), static_cast<std::size_t>(test::kFilmFrames));
 }
@@ -166,7 +165,7 @@ TEST_P(MediaSourceContract, AFailedOpeningLeavesItClosedAndUsable) {
 // ---- the guard itself
 // ------------------------------------------------------------------------------------------------
 
-// Ends at once, and would begin again if it were asked once more.
+// Ends at once; a second read would begin again.
 class Relapsing final : public MediaSource {
   Result<Description> openSource(const std::string&) override { return Description{}; }
   Result<std::optional<Packet>> readPacket() override {
@@ -199,7 +198,7 @@ MockMediaProfile twoTracks() {
 
 struct MockFilm {
   explicit MockFilm(MockMediaProfile profile) : source(makeMockSource(std::move(profile), clock)) {}
-  // How the reading ended, after so many packets.
+  // Reads to the end; returns the number of packets and how it ended.
   std::pair<std::size_t, test::Answer> readThrough() {
     for (std::size_t count = 0;; ++count) {
       const auto packet = source->read();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pointer on nodes of /dev/input that umockdev plugs into this machine: libevdev finds the mouse, read(2) its
-// events.
+// The pointer on nodes of /dev/input that umockdev simulates: libevdev finds the mouse, read(2) reads its events.
 #include <gtest/gtest.h>
 #include <linux/input.h>
 
@@ -31,7 +30,7 @@ class PointerEvdev : public test::MockedMachine {
     EXPECT_TRUE(started) << started.error().message;
     return device;
   }
-  // A tick of simulated time after the other until it is so: what a node is told takes the kernel a moment.
+  // Ticks in simulated time until the condition holds: an event takes the kernel a moment to deliver.
   static constexpr int kPatience = 5000;
   HapticSample until(HapticDevice& device, const std::function<bool(const HapticSample&)>& so) {
     HapticSample sample;
@@ -45,7 +44,7 @@ class PointerEvdev : public test::MockedMachine {
       MonotonicClock real;
       real.sleepUntil(real.now() + std::chrono::milliseconds(1));
     }
-    ADD_FAILURE() << "it was never so";
+    ADD_FAILURE() << "the condition never held";
     return sample;
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Remote controls on nodes of /dev/input that umockdev plugs into this machine.
+// Remote controls on nodes of /dev/input that umockdev simulates.
 #include <gtest/gtest.h>
 #include <linux/input.h>
 
@@ -22,7 +22,7 @@ class RemoteEvdev : public test::MockedMachine {
     remote.say(EV_KEY, key, value);
     remote.say(EV_SYN, SYN_REPORT, 0);
   }
-  // What a node is told takes the kernel a moment; the remote's own time stands still meanwhile.
+  // Waits, since the kernel takes a moment to deliver an event; the remote's own time does not advance meanwhile.
   std::optional<KeyEvent> next(RemoteInput& remote) {
     MonotonicClock real;
     for (int i = 0; i < 3000; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every remote control keeps to.
+// The contract of every remote control.
 #include <gtest/gtest.h>
 #include <linux/input-event-codes.h>
 #include <poll.h>
@@ -26,7 +26,7 @@ using namespace std::chrono_literals;
 
 struct Remote {
   std::unique_ptr<RemoteInput> input;
-  std::function<void()> press;  // one second after opening; called then
+  std::function<void()> press;  // called one second after opening
   std::uint16_t key = KEY_OK;
 };
 
@@ -40,7 +40,7 @@ struct Terminal {
   void type(std::string_view text) const {
     ASSERT_EQ(::write(outside.get(), text.data(), text.size()), static_cast<ssize_t>(text.size()));
     pollfd wait{.fd = inside.get(), .events = POLLIN, .revents = 0};
-    ASSERT_EQ(::poll(&wait, 1, 5000), 1) << "the kernel hands it on by itself";
+    ASSERT_EQ(::poll(&wait, 1, 5000), 1) << "the kernel delivers it by itself";
   }
   UniqueFd outside, inside;
 };
@@ -102,7 +102,7 @@ TEST_P(RemoteInputContract, EveryVerbInEveryState) {
       {State::Closed, {State::Open, no, State::Closed}},
       {State::Open, {no, State::Open, State::Closed}},
   };
-  std::vector<std::function<void()>> senders;  // a terminal lives on in its own
+  std::vector<std::function<void()>> senders;  // a sender keeps its pseudo-terminal open
   test::expectStateTable(verbs, table, [&](State state) {
     auto [remote, press, key] = GetParam().make(clock_);
     senders.push_back(std::move(press));
@@ -147,7 +147,7 @@ TEST(TerminalKeys, AreThoseOfTheKernel) {
   EXPECT_EQ(keysOf("\x1b[5~\x1b[6~\x1b[H\x1b[4~"), (Keys{KEY_PAGEUP, KEY_PAGEDOWN, KEY_HOME, KEY_END}));
   EXPECT_EQ(keysOf("\x1b"), (Keys{KEY_ESC}));
   EXPECT_EQ(keysOf("\x1b\x1b[A"), (Keys{KEY_ESC, KEY_UP}));
-  // What means nothing here takes nothing with it.
+  // Unknown sequences do not swallow the keys after them.
   EXPECT_EQ(keysOf("\x1b[1;5Cq\x1b[200~\xc3\xa4s\x01"), (Keys{KEY_Q, KEY_S}));
   EXPECT_EQ(keysOf("\x1b[12"), (Keys{}));
 }

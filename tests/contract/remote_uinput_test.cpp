@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A remote control that the kernel itself makes and takes away (uinput): toolchain/guest runs this on a kernel of its
-// own.
+// A remote control that the kernel creates and removes (uinput). toolchain/guest runs this in a virtual machine.
 #include <gtest/gtest.h>
 #include <libevdev/libevdev-uinput.h>
 #include <libevdev/libevdev.h>
@@ -70,7 +69,7 @@ TEST_F(RemoteUinput, IsHeardWheneverItComesAndHoldsNothingWhenItGoes) {
   {
     UinputRemote late;
     EXPECT_FALSE(remote_->poll(clock_.now()).value());
-    clock_.sleepUntil(clock_.now() + 1500ms);  // it is looked for every second
+    clock_.sleepUntil(clock_.now() + 1500ms);  // new devices are searched for every second
     EXPECT_FALSE(remote_->poll(clock_.now()).value());
     late.press(KEY_PLAYPAUSE, 1);
     expectNext(KEY_PLAYPAUSE, KeyEvent::Action::Press);
@@ -82,14 +81,14 @@ TEST_F(RemoteUinput, IsHeardWheneverItComesAndHoldsNothingWhenItGoes) {
   }
   std::optional<KeyEvent> last;
   do last = next();
-  while (last && last->action == KeyEvent::Action::Repeat);  // until it is seen to be gone
+  while (last && last->action == KeyEvent::Action::Repeat);  // until its removal is noticed
   ASSERT_TRUE(last);
   EXPECT_EQ(last->code, KEY_RIGHT);
   EXPECT_EQ(last->action, KeyEvent::Action::Release);
   EXPECT_FALSE(remote_->poll(clock_.now()).value());
 }
 
-// What the film is told, a login behind it is not.
+// The player gets the keys; a login console in the background does not.
 TEST_F(RemoteUinput, IsGrabbedUntilItIsClosed) {
   UinputRemote there;
   clock_.sleepUntil(clock_.now() + 100ms);

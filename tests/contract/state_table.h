@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tries every verb in every state: what an interface's table allows must move on, all else must change
+// Tries every call in every state: a call that the interface's table allows must succeed, any other must change
 // nothing.
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace relievo::test {
 
-// What a verb answered, without its value: nothing, or the error.
+// A call's answer without its value: nullopt, or the error.
 using Answer = std::optional<ErrorCode>;
 
 template <class T>
@@ -38,7 +38,7 @@ struct Row {
   std::vector<std::optional<State>> to;
 };
 
-// `bring(state)` makes a fresh device in that state, or nothing where this back end cannot get there.
+// `bring(state)` makes a fresh device in that state, or null if this back end cannot reach it.
 template <class Device, class State>
 void expectStateTable(const std::vector<Verb<Device>>& verbs, const std::vector<Row<State>>& table,
                       const std::type_identity_t<std::function<std::unique_ptr<Device>(State)>>& bring) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every video decoder keeps to: states, back-pressure that loses nothing, pictures that stay, one end. Included
-// once by each program that names back ends for it.
+// The contract of every video decoder: states, back-pressure without loss, stable pictures, one end. Each test program
+// includes it once and lists its back ends.
 #pragma once
 
 #include "tests/contract/films.h"
@@ -37,7 +37,7 @@ class VideoDecoderContract : public test::FilmContract {
     if (state == State::Ended) (void)receiveAll(*decoder);
     return decoder;
   }
-  // Feeds packets [first, last), receiving whatever comes; hands each picture to `take`.
+  // Feeds packets [first, last) and passes each received picture to `take`.
   template <class Take>
   static void play(VideoDecoder& decoder, const Packet* first, const Packet* last, Take&& take) {
     int tries = 0;
@@ -49,7 +49,7 @@ class VideoDecoderContract : public test::FilmContract {
     }
     ASSERT_EQ(first, last) << "it took no more packets";
   }
-  // All that there is to receive now.
+  // Receives all pictures that are ready.
   static std::vector<Frame> receiveAll(VideoDecoder& decoder) {
     std::vector<Frame> frames;
     for (;;) {
@@ -60,7 +60,7 @@ class VideoDecoderContract : public test::FilmContract {
     }
   }
   [[nodiscard]] const Packet* packets(int from = 0) const { return packets_.data() + from; }
-  // The times of a whole run from `decoder`'s present state, to the end.
+  // Decodes to the end from `decoder`'s current state and returns the pictures' times.
   [[nodiscard]] std::vector<MediaTime> timesOf(VideoDecoder& decoder, int from = 0) const {
     std::vector<MediaTime> times;
     play(decoder, packets(from), packets(test::kFilmFrames), [&](const Frame& f) { times.push_back(f.pts); });
@@ -74,7 +74,7 @@ class VideoDecoderContract : public test::FilmContract {
     for (int i = from; i < test::kFilmFrames; ++i) times.emplace_back(i * test::kFilmPeriod);
     return times;
   }
-  // A number that tells one picture from another.
+  // A hash of the picture's samples.
   static std::uint64_t digest(const Frame& frame) {
     std::uint64_t sum = 1469598103934665603ull;
     for (int r = 0; r < frame.height; ++r) {
@@ -130,7 +130,7 @@ TEST_P(VideoDecoderContract, WhenFullItTakesNothingAndTheSamePacketLater) {
          decoder->feed(packets_[static_cast<std::size_t>(next)]).value() == Feed::Accepted) {
     ++next;
   }
-  ASSERT_LT(next, test::kFilmFrames) << "it never is full";
+  ASSERT_LT(next, test::kFilmFrames) << "it never becomes full";
   for (int i = 0; i < 3; ++i) EXPECT_EQ(decoder->feed(*packets(next)).value(), Feed::Full);
   EXPECT_EQ(packets(next)->owner.use_count(), 1) << "the refused packet is the caller's alone";
   std::vector<MediaTime> times;
@@ -164,7 +164,7 @@ TEST_P(VideoDecoderContract, AFlushForgetsWhatIsInside) {
   play(*decoder, packets(), packets(5), [](const Frame&) {});
   ASSERT_TRUE(decoder->flush());
   EXPECT_EQ(timesOf(*decoder, 2 * test::kFilmKeyInterval), filmTimes(2 * test::kFilmKeyInterval))
-      << "as after a seek: nothing of before, all of after";
+      << "as after a seek: no picture from before, all from after";
   ASSERT_TRUE(decoder->flush());
   EXPECT_EQ(timesOf(*decoder), filmTimes()) << "from the end likewise";
 }
@@ -199,7 +199,7 @@ TEST_P(VideoDecoderContract, ADamagedPacketIsDroppedAndCounted) {
   const std::size_t pictures = timesOf(*decoder).size();
   EXPECT_GT(decoder->damaged(), 0u);
   EXPECT_LT(pictures, static_cast<std::size_t>(test::kFilmFrames));
-  // Whatever hangs on the lost one is lost with it, but nothing beyond the next key frame.
+  // Pictures that depend on the lost one are lost with it, but none beyond the next key frame.
   EXPECT_GE(pictures, static_cast<std::size_t>(test::kFilmFrames - test::kFilmKeyInterval));
   decoder->close();
   ASSERT_TRUE(decoder->open(stream_));
@@ -230,7 +230,7 @@ TEST_P(VideoDecoderContract, RefusesWhatItCannotDecodeAndStaysClosed) {
   huge.width = 4097, huge.height = 4096;
   EXPECT_EQ(test::answerOf(decoder->open(huge)), ErrorCode::Unsupported);
   EXPECT_EQ(decoder->state(), State::Closed);
-  EXPECT_TRUE(decoder->open(stream_)) << "and goes on as if nothing had been";
+  EXPECT_TRUE(decoder->open(stream_)) << "and works again as before";
 }
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The contract over the decoders that need no machine of their own, and what only one with fault switches can show.
+// The contract for decoders that need no special hardware, and tests that need a mock's fault switches.
 #include "tests/contract/video_decoder_contract.h"
 
 #include "drivers/failover/failover.h"
@@ -9,7 +9,7 @@
 namespace relievo {
 namespace {
 
-// One that has died at once, and the one behind it.
+// A decoder that fails at once, and the one that replaces it.
 std::unique_ptr<VideoDecoder> failedOver() {
   std::vector<std::unique_ptr<VideoDecoder>> decoders;
   decoders.push_back(makeMockDecoder());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernel's own virtual codec, vicodec, in a virtual machine: real queues, real events, real dma-bufs. Its packets
-// are FWHT; what its pictures have to be is what another program, v4l2-ctl, gets out of it.
+// The kernel's virtual codec, vicodec, in a virtual machine: real queues, real events, real dma-bufs. Its packets are
+// FWHT; the expected pictures are those that another program, v4l2-ctl, gets from it.
 #include <gtest/gtest.h>
 #include <linux/dma-buf.h>
 #include <sys/ioctl.h>
@@ -78,7 +78,7 @@ class VideoDecoderGuest : public testing::Test {
     large_ = makeFilm(*encoder, *decoder, 800, 400, kFewFrames);
   }
   void SetUp() override {
-    if (!small_) GTEST_SKIP() << "no vicodec here; it is in toolchain/guest";
+    if (!small_) GTEST_SKIP() << "no vicodec here; run it by toolchain/guest";
     ASSERT_EQ(small_->begins.size(), static_cast<std::size_t>(kFrames) + 1);
     ASSERT_EQ(large_->begins.size(), static_cast<std::size_t>(kFewFrames) + 1);
     ASSERT_FALSE(small_->picture(kFrames - 1).empty());
@@ -126,7 +126,7 @@ class VideoDecoderGuest : public testing::Test {
     EXPECT_TRUE(opened) << opened.error().message;
     return decoder;
   }
-  // Feeds packets [from, to) of a film, and compares every picture that comes with the one that is due.
+  // Feeds packets [from, to) of a film, and compares every picture with the expected one.
   struct Due {
     const Film* film;
     int number;

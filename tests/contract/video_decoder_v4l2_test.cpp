@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decoders on nodes of /dev that umockdev plugs into this machine, behind which FFmpeg decodes: the contract, pictures
-// exact to the bit, and what becomes of a film when the driver hangs, stumbles or goes.
+// Hardware decoders that umockdev simulates as nodes of /dev, with FFmpeg doing the decoding: the contract, pictures
+// exact to the bit, and playback when the driver hangs, fails or disappears.
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -22,7 +22,7 @@ using test::UmockdevCodec;
 constexpr int kFrames = 72;  // three key frames, in clips of this file
 constexpr CodecKind kPlanes{.pictures = V4L2_PIX_FMT_NV12M, .planes = true};
 
-// One machine for all of the contract.
+// One simulated machine for the whole contract.
 std::unique_ptr<VideoDecoder> decoderOnMockedMachine() {
   static UmockdevCodec codec(umockdev_testbed_new(), 10);
   return makeV4l2M2mDecoder();
@@ -59,7 +59,7 @@ void PrintTo(const Shown& shown, std::ostream* out) {
   *out << toSeconds(shown.pts) << " s, " << shown.width << " x " << shown.height << ", " << std::hex << shown.digest;
 }
 
-// Of every sample of every component.
+// A digest of every sample of every component.
 Shown shownOf(const Frame& frame) {
   std::uint64_t sum = 1469598103934665603ull;
   for (int i = 0; i < 3; ++i) {
@@ -73,7 +73,7 @@ Shown shownOf(const Frame& frame) {
   return {frame.pts, frame.width, frame.height, sum};
 }
 
-// Feeds packets [from, to) and collects what comes, as a film is read; `each` sees every picture.
+// Feeds packets [from, to) and collects the pictures, as a player does; `each` gets every picture.
 using Each = std::function<void(const Frame&)>;
 Result<void> feedTo(VideoDecoder& decoder, const Film& film, std::size_t from, std::size_t to,
                     std::vector<Shown>& shown, const Each& each = {}) {
@@ -230,7 +230,7 @@ TEST_F(V4l2M2m, ASeekForgetsWhatWasInsideAndGoesOnExactly) {
   EXPECT_EQ(decoder->damaged(), 0u);
 }
 
-// As when one winds: each key frame is drained by itself.
+// As in fast forward: each key frame is drained by itself.
 TEST_F(V4l2M2m, DrainsAgainAndAgain) {
   UmockdevCodec codec(bed_, 10);
   const Film film(clip());
@@ -272,12 +272,12 @@ TEST_F(V4l2M2m, TheResolutionChangesInMidStream) {
               software);
     EXPECT_EQ(codec.openings(), 1);
     for (const Frame& frame : held) {
-      EXPECT_EQ(std::count(software.begin(), software.end(), shownOf(frame)), 1) << "it is not what it was any more";
+      EXPECT_EQ(std::count(software.begin(), software.end(), shownOf(frame)), 1) << "a held picture changed";
     }
   }
 }
 
-// A seek in the middle of a change.
+// A seek during a change of resolution.
 TEST_F(V4l2M2m, ASeekMayLeadToAnotherResolution) {
   (void)makeClip("a.ts", movingClip());
   test::ClipTrack second = movingClip(64, 160);
@@ -301,7 +301,7 @@ TEST_F(V4l2M2m, ASeekMayLeadToAnotherResolution) {
   }
 }
 
-// Beyond the buffers that the driver can spare they are copies, and the film goes on.
+// Beyond the buffers that the driver can spare, pictures are copies, and decoding continues.
 TEST_F(V4l2M2m, AnyNumberOfPicturesMayBeHeldAndTheDriverNeverStarves) {
   UmockdevCodec codec(bed_, 10, {.exports = true});
   const Film film(clip());
@@ -387,7 +387,7 @@ TEST_F(V4l2M2m, AHungDriverIsFoundOutAndAGoneOneToo) {
     EXPECT_GT(shown.size(), 30u);
     decoder->close();
     if (gone) continue;
-    ASSERT_TRUE(decoder->open(film.stream)) << "begun anew it decodes again";
+    ASSERT_TRUE(decoder->open(film.stream)) << "opened again, it decodes again";
     EXPECT_EQ(play(*decoder, film), bySoftware(film));
   }
 }
@@ -400,7 +400,7 @@ struct Trouble {
   bool in_software;
 };
 
-// Pictures are held all the while, as a player does.
+// With some pictures always held, as a player does.
 TEST_F(V4l2M2m, TheFilmGoesOnWhereItWasWithoutAPictureLostOrTwice) {
   const Film film(clip());
   const auto software = bySoftware(film);

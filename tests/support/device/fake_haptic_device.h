@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A haptic device of three lines: is where the test says, remembers the force, fails when told to.
+// A minimal haptic device: its position is set by the test, it remembers the force, and fails on request.
 #pragma once
 
 #include "hal/haptic_device.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A mouse whose events a test makes up.
+// A mouse whose events come from the test.
 #pragma once
 
 #include <algorithm>
@@ -10,13 +10,13 @@
 
 namespace relievo::test {
 
-// What a test sees and does from outside.
+// The test's control of the mouse.
 struct FakeMouse {
   std::deque<input_event> events;
   std::uint8_t down = 0;  // buttons, as the kernel knows them
   bool plugged = true;
   bool comes_back = false;         // it is plugged in again before the next `open`
-  bool goes_when_started = false;  // unplugged when its buttons have been asked for
+  bool goes_when_started = false;  // is unplugged after its buttons were read
   bool open = false;
 
   void say(std::uint16_t type, std::uint16_t code, std::int32_t value) {

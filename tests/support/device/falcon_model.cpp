@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The model's USB bridge, boot loader, firmware and geometry.
 #include "tests/support/device/falcon_model.h"
 
 #include <algorithm>
@@ -15,7 +16,7 @@ using namespace std::chrono_literals;
 
 constexpr std::uint16_t kBootDivisor = 0x4138, kLoadDivisor = 0x0015, kRunDivisor = 0x0002;
 
-// One leg: how far the knee is from the platform's joint has to be what the shin bridges.
+// One leg's thigh angle: the distance from the knee to the platform's joint must be the shin's length.
 double angleOf(double phi_deg, const glm::dvec3& p) {
   const double phi = phi_deg * std::numbers::pi / 180;
   const double u = std::cos(phi) * p.x + std::sin(phi) * p.y - 40.0 + 14.43;
@@ -161,7 +162,7 @@ void FalconModel::say(std::vector<std::uint8_t> bytes, MonotonicTime when) {
   for (const std::uint8_t byte : bytes) to_host_.push_back({byte, when});
 }
 
-// The bridge hands over what it has when its latency timer runs out, and two bytes of its own when it has nothing.
+// The bridge sends its data when its latency timer expires, or only its two status bytes if it has none.
 std::optional<UsbPacket> FalconModel::read(MonotonicTime now) {
   const Duration latency = std::chrono::milliseconds(latency_ms_);
   UsbPacket packet;

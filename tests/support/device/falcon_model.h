@@ -12,12 +12,12 @@
 
 namespace relievo::test {
 
-// In what ways users report that loading fails; each for so many tries.
+// The ways in which users report that loading the firmware fails; each for that many tries.
 struct FalconFaults {
   int silent_loads = 0;                                     // the greeting is never answered
   int wrong_echo_loads = 0;                                 // a byte of the image comes back changed
   int dead_loads = 0;                                       // the image is taken, but does not run
-  bool broken_line = false;                                 // every packet says that bytes of it were lost
+  bool broken_line = false;                                 // every packet reports lost bytes
   bool leading_zero = false;                                // the greeting's answer has a zero byte before it
   std::size_t most_payload = falcon::kPacketBytes * 4 - 2;  // of an IN packet: short reads
 };
@@ -46,7 +46,7 @@ class FalconModel final : public HapticModel {
 
   // The thigh angles of a pose, rad, by bisection.
   [[nodiscard]] static glm::dvec3 anglesAt(const glm::dvec3& position_mm);
-  // The force of these leg torques, N mm, on a hand at that place, N, by virtual work over differences of a micrometre.
+  // The force, N, of these leg torques, N mm, on a hand at that position, by virtual work over differences of 1 um.
   [[nodiscard]] static glm::dvec3 forceOfTorques(const glm::dvec3& torques_nmm, const glm::dvec3& position_mm);
   [[nodiscard]] static glm::dvec3 forceOf(const falcon::Words& words, const glm::dvec3& position_mm,
                                           double counts_per_nm);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A haptic device in software, behind a USB cable: what a test asks of each, whatever its wire looks like.
+// A simulated haptic device on a USB cable: the interface that tests use for every kind of device.
 #pragma once
 
 #include <functional>
@@ -13,21 +13,21 @@ namespace relievo::test {
 
 class HapticModel : public UsbModel {
  public:
-  // Where the hand holds it, mm in the driver's frame, `t_s` after the first command since its power came. Its default
-  // does what homes it, and then rests in one place.
+  // The hand's position, mm in the driver's frame, `t_s` after the first command since power-on. The default makes the
+  // motion that homes the device, and then rests.
   std::function<glm::dvec3(double t_s)> grip;
   // Applied to the bytes of every answer.
   std::function<void(std::vector<std::uint8_t>& bytes)> spoil;
 
-  virtual void powerOn() = 0;  // as after its power came back
-  virtual void silence() = 0;  // it answers nothing any more
+  virtual void powerOn() = 0;  // restarts as after a power failure
+  virtual void silence() = 0;  // it stops answering
   [[nodiscard]] virtual bool homed() const = 0;
-  // What its motors do to a hand at that place, N.
+  // The force of its motors on a hand at that position, N.
   [[nodiscard]] virtual glm::dvec3 forceAt(const glm::dvec3& place_mm, MonotonicTime now) const = 0;
   [[nodiscard]] virtual bool pushes(MonotonicTime now) const = 0;
 
   [[nodiscard]] int commands() const { return commands_; }
-  [[nodiscard]] int pushingCommands() const { return pushing_; }  // of them, with a force
+  [[nodiscard]] int pushingCommands() const { return pushing_; }  // commands with a force
   [[nodiscard]] glm::dvec3 gripNow(MonotonicTime now) const { return grip(began_ ? toSeconds(now - *began_) : 0.0); }
 
  protected:
@@ -35,8 +35,8 @@ class HapticModel : public UsbModel {
   std::optional<MonotonicTime> began_;
 };
 
-// By virtual work over differences of a micrometre: the force of these torques, N mm, about angles that `anglesAt`
-// tells of a place.
+// The force of torques, N mm, about the joint angles that `anglesAt` returns for a position, by virtual work over
+// differences of 1 um.
 template <class AnglesAt>
 glm::dvec3 forceOfTorques(const glm::dvec3& torques_nmm, const glm::dvec3& place_mm, const AnglesAt& anglesAt) {
   constexpr double kStepMm = 1e-3;

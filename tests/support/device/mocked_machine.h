@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A test whose devices are plugged into this machine by umockdev. Only under `umockdev-wrapper`.
+// A test fixture for devices that umockdev simulates. Only under `umockdev-wrapper`.
 #pragma once
 
 #include <gtest/gtest.h>

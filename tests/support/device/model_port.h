@@ -10,16 +10,16 @@
 
 namespace relievo::test {
 
-// What a test sees and does from outside. `verbs_left` counts down with every verb: at zero the cable is pulled, or
-// what the test has in its place is done.
+// The test's control of the cable. `verbs_left` counts down with every call: at zero the cable is unplugged, or the
+// test's own action is done.
 struct Cable {
   std::function<void()> instead;
   bool plugged = true;
-  bool deaf = false;        // the device takes nothing for a while
+  bool deaf = false;        // the device accepts no commands
   bool comes_back = false;  // it is plugged in again before the next `open`
   int verbs_left = std::numeric_limits<int>::max();
   MonotonicTime pulled_at;
-  int exchanges = 0;  // that were started
+  int exchanges = 0;  // the number started
   bool open = false, exchanging = false;
   std::uint64_t model_allocations = 0;  // by the model, on the thread of its caller
 };
@@ -87,7 +87,7 @@ class ModelPort final : public UsbPort {
   }
 
  private:
-  // The model allocates as it likes; the driver's own allocations are what a test is after.
+  // Counts the model's allocations, so that a test can subtract them from the driver's.
   class ModelAllocations {
    public:
     explicit ModelAllocations(Cable& cable) : cable_(cable), before_(threadAllocations()) {}

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Chooses umockdev or the kernel's virtual host controller.
 #include "tests/support/device/plugged_usb.h"
 
 #include "tests/support/device/umockdev_usb.h"

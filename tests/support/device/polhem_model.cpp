@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The model's board and arm.
 #include "tests/support/device/polhem_model.h"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ glm::dvec3 turned(double angle, const glm::dvec3& axis, const glm::dvec3& v) {
 glm::dvec3 originOf(const Description& arm) {
   return {arm.workspace_origin[0], arm.workspace_origin[1], arm.workspace_origin[2]};
 }
-// Turns of the motor for a turn of the body.
+// Turns of the motor per turn of the body.
 double gearOf(const Description& arm, std::size_t i) {
   const double turns = arm.diameter_body[i] / arm.diameter_capstan[i];
   return arm.motor_and_body_aligned[i] ? -turns : turns;
@@ -34,7 +35,7 @@ std::int16_t wrapped(long count) {
 PolhemModel::PolhemModel(const Description& description, PolhemFaults faults)
     : arm_(description), faults_(std::move(faults)) {
   constexpr double kHeldOnS = 0.05;
-  constexpr int kHeldOn = 15;  // commands: a driver that is held up still finds it there
+  constexpr int kHeldOn = 15;  // commands: a delayed driver still finds the arm there
   grip = [this](double t_s) {
     const bool left = calibrated_ && t_s > calibrated_s_ + kHeldOnS && commands_ > calibrated_at_ + kHeldOn;
     return left ? glm::dvec3(0) : placeOf(anglesOf(arm_.calibrate_enc, arm_), arm_);
@@ -50,7 +51,7 @@ glm::dvec3 PolhemModel::placeOf(const glm::dvec3& angles, const Description& arm
   return 1e3 * glm::dvec3(place.y, place.z, place.x);
 }
 
-// Where the circles of the two links about shoulder and tip meet, the upper one of the two places.
+// Intersects the circles of the two links around shoulder and tip; takes the upper intersection.
 glm::dvec3 PolhemModel::anglesAt(const glm::dvec3& place_mm, const Description& arm) {
   const glm::dvec3 tip = 1e-3 * glm::dvec3(place_mm.z, place_mm.x, place_mm.y) + originOf(arm);
   const double r = std::hypot(tip.x, tip.y), z = tip.z - arm.length_body[0];
@@ -110,7 +111,7 @@ polhem::Milliamps PolhemModel::milliamps(MonotonicTime now) const {
   return command_.verb == polhem::Verb::Drive && now - commanded_ < 500ms ? command_.motors : polhem::Milliamps{};
 }
 
-// Whatever comes is answered; what is no command is not obeyed.
+// Answers every packet; obeys only commands.
 void PolhemModel::write(UsbBytes bytes, MonotonicTime now) {
   if (!began_) began_ = now;
   const bool strict = faults_.report_bytes == polhem::kReportBytes;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A WoodenHaptics board and its arm in software: counters, commands, watchdog, motors. The arm is put together from
-// turned bodies and its forces come from differences, so that it shares no formula with the driver.
+// A simulated WoodenHaptics board and its arm: counters, commands, watchdog, motors. The arm is composed of rotated
+// bodies and its forces come from differences, so that it shares no formula with the driver.
 #pragma once
 
 #include <deque>
@@ -14,9 +14,9 @@
 namespace relievo::test {
 
 struct PolhemFaults {
-  std::size_t report_bytes = polhem::kReportBytes;  // what it sends; with kReportBytes it also takes no other length
+  std::size_t report_bytes = polhem::kReportBytes;  // length of its reports; kReportBytes: rejects any other length
   bool deaf_to_calibrate = false;                   // a board that does not know the command
-  Duration calibrates_in{0};                        // a board that takes its time
+  Duration calibrates_in{0};                        // delay of the calibration
 };
 
 class PolhemModel final : public HapticModel {
@@ -27,8 +27,8 @@ class PolhemModel final : public HapticModel {
   void write(UsbBytes bytes, MonotonicTime now) override;
   std::optional<UsbPacket> read(MonotonicTime now) override;
 
-  // The default grip holds the arm where it is calibrated until that is done and a moment longer, then in the middle of
-  // the workspace.
+  // The default grip holds the arm in its calibration pose until a moment after calibration, then in the middle of the
+  // workspace.
   static constexpr Duration kAnswersIn = std::chrono::microseconds(300);
   bool button = false;
 
@@ -41,12 +41,12 @@ class PolhemModel final : public HapticModel {
   [[nodiscard]] polhem::Milliamps milliamps(MonotonicTime now) const;  // that flow: none after half a second
   [[nodiscard]] const std::vector<polhem::Milliamps>& history() const { return history_; }
 
-  // The same for any arm; angles in rad, places in mm in the driver's frame.
+  // The same for any arm; angles in rad, positions in mm in the driver's frame.
   [[nodiscard]] static glm::dvec3 placeOf(const glm::dvec3& angles, const polhem::Description& arm);
   [[nodiscard]] static glm::dvec3 anglesAt(const glm::dvec3& place_mm, const polhem::Description& arm);
   [[nodiscard]] static glm::dvec3 anglesOf(const EncoderCounts& counts, const polhem::Description& arm);
   [[nodiscard]] static EncoderCounts countsAt(const glm::dvec3& place_mm, const polhem::Description& arm);
-  // On a hand there, N, by virtual work over differences of a micrometre.
+  // The force on a hand at that position, N, by virtual work over differences of 1 um.
   [[nodiscard]] static glm::dvec3 forceOf(const glm::dvec3& milliamps, const glm::dvec3& place_mm,
                                           const polhem::Description& arm);
 
@@ -63,8 +63,8 @@ class PolhemModel final : public HapticModel {
   bool silent_ = false;
   bool calibrated_ = false;
   double calibrated_s_ = 0;
-  int calibrated_at_ = 0;  // its place among the commands
-  EncoderCounts zero_{};   // what is added to the true counts
+  int calibrated_at_ = 0;  // index of that command
+  EncoderCounts zero_{};   // offset added to the true counts
   EncoderCounts next_zero_{};
   std::optional<MonotonicTime> zero_from_;  // the next one
   polhem::Command command_;

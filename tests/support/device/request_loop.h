@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A thread that answers the ioctl requests of a node that umockdev has made.
+// A thread that answers the ioctl requests of a node that umockdev simulates.
 #pragma once
 
 #include <umockdev.h>
@@ -9,7 +9,7 @@
 
 namespace relievo::test {
 
-// Runs as long as this lives: the last member of what answers, so that it goes first.
+// Runs as long as this lives. Make it the last member of its owner, so that it is destroyed first.
 class RequestLoop {
  public:
   // `answer` completes the request, or returns false.
@@ -30,7 +30,7 @@ class RequestLoop {
     g_main_loop_unref(loop_);
     g_main_context_unref(context_);
   }
-  // Nothing is answered any more. Told from outside, a loop that does not run yet would run for ever.
+  // Stops answering. The quit runs inside the loop: from outside, a loop that has not started yet would run forever.
   void end() {
     if (!thread_.joinable()) return;
     GSource* const last = g_idle_source_new();

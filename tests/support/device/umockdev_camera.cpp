@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The requests that the driver makes, answered as the kernel's own drivers answer them.
+// Answers the driver's requests as the kernel's own drivers do.
 #include "tests/support/device/umockdev_camera.h"
 
 #include <fcntl.h>
@@ -58,7 +58,7 @@ void UmockdevCamera::plug() {
   if (first) umockdev_testbed_attach_ioctl(bed_, node_.c_str(), requests_.handler(), nullptr);
 }
 
-// What is open answers that the device is gone: its requests still come here.
+// Open descriptors then report that the device is gone: their requests still come here.
 void UmockdevCamera::unplug() {
   {
     const std::lock_guard guard(lock_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plugs a camera into this machine: a node of /dev that answers the requests of <linux/videodev2.h>, and whose pictures
-// bear their number. Only under `umockdev-wrapper`.
+// A simulated camera: a node of /dev that answers the requests of <linux/videodev2.h>, and whose pictures contain their
+// number. Only under `umockdev-wrapper`.
 #pragma once
 
 #include <umockdev.h>
@@ -22,8 +22,8 @@ struct CameraKind {
   std::uint32_t width = 64, height = 48;
   std::uint32_t row_padding = 0;  // bytes
   Duration period = std::chrono::nanoseconds(33'333'333);
-  std::uint32_t buffers = 16;  // that it gives at most
-  // At the machine's own time, or a picture whenever it is asked for one, a period later each.
+  std::uint32_t buffers = 16;  // at most
+  // True: in real time. False: a picture whenever one is requested, each a period later.
   bool paced = false;
   // Two bytes at (number, byte column / 2, row); of every format alike.
   std::function<std::uint16_t(std::uint32_t, int, int)> sample = [](std::uint32_t number, int c, int r) {
@@ -39,18 +39,18 @@ class UmockdevCamera {
   UmockdevCamera(const UmockdevCamera&) = delete;
   UmockdevCamera& operator=(const UmockdevCamera&) = delete;
 
-  // What befalls the picture of a number.
+  // A fault of the picture with a given number.
   enum class Fault : std::uint8_t { Dropped, Damaged, Short, BackInTime };
   void fault(std::uint32_t number, Fault fault);
   void silence();
   void unplug();
   void plug();
 
-  // Pictures taken, whatever became of them.
+  // The number of pictures taken, including lost ones.
   [[nodiscard]] std::uint32_t taken();
-  // Of those, for want of a buffer.
+  // Of those, the number lost for lack of a buffer.
   [[nodiscard]] std::uint32_t starved();
-  // Requests that were not answered, since nobody taught them here.
+  // The number of unsupported requests.
   [[nodiscard]] int unknownRequests();
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Documentation/userspace-api/media/v4l/dev-decoder.rst, from the driver's side.
+// The driver's side of Documentation/userspace-api/media/v4l/dev-decoder.rst.
 #include "tests/support/device/umockdev_codec.h"
 
 #include <fcntl.h>
@@ -19,7 +19,7 @@ extern "C" {
 namespace relievo::test {
 namespace {
 
-constexpr std::size_t kMemoryBytes = std::size_t{1} << 30;  // of a file with holes
+constexpr std::size_t kMemoryBytes = std::size_t{1} << 30;  // of a sparse file
 constexpr std::uint32_t kMostBuffers = 32;
 constexpr std::uint32_t kPage = 4096;
 
@@ -327,7 +327,7 @@ int UmockdevCodec::setFormat(v4l2_format& format) {
   return 0;
 }
 
-// Memory of before stays as it is: it may be held.
+// Old memory stays unchanged, since it may be held.
 int UmockdevCodec::makeBuffers(v4l2_requestbuffers& request) {
   const bool packets = isPackets(request.type);
   auto& offsets = packets ? packet_offsets_ : picture_offsets_;
@@ -378,7 +378,7 @@ void UmockdevCodec::work() {
   if (!hung_) finishDrain();
 }
 
-// False when it has none, or nowhere to put it.
+// False without a picture or without a free buffer for it.
 bool UmockdevCodec::deliver() {
   if (library_->pictures.empty()) return false;
   const AVFrame& picture = *library_->pictures.front();
@@ -405,7 +405,7 @@ void UmockdevCodec::announce(const Size& size) {
   changing_ = true;
 }
 
-// Empty, as most drivers do it.
+// An empty last buffer, as with most drivers.
 void UmockdevCodec::giveLast() {
   if (!pictures_run_ || last_given_ || empty_.empty()) return;
   last_given_ = true;
@@ -413,7 +413,7 @@ void UmockdevCodec::giveLast() {
   empty_.pop_front();
 }
 
-// Only once the pictures of before are out.
+// Only once the earlier pictures are out.
 bool UmockdevCodec::decodeOne() {
   if (!library_->pictures.empty() || packets_.empty() || last_given_) return false;
   const Packet packet = packets_.front();

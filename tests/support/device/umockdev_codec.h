@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plugs a decoder into this machine: a node of /dev that behaves as the kernel's document of stateful decoders says,
-// and behind which FFmpeg decodes. Only under `umockdev-wrapper`.
+// A simulated hardware decoder: a node of /dev that follows the kernel's specification of stateful decoders, with
+// FFmpeg doing the decoding. Only under `umockdev-wrapper`.
 #pragma once
 
 #include <linux/videodev2.h>
@@ -22,7 +22,7 @@ struct CodecKind {
   std::uint32_t packets = V4L2_PIX_FMT_H264;
   std::uint32_t pictures = V4L2_PIX_FMT_NV12;  // or YUV420; with `planes` NV12M
   bool planes = false;                         // the multi-planar interface
-  bool exports = false;                        // dma-bufs, good within this process alone
+  bool exports = false;                        // dma-bufs, valid only in this process
   std::uint32_t needed = 4;                    // buffers of pictures
   std::uint32_t row_padding = 0;               // bytes
   std::uint32_t largest = 4096;                // pixels, across and down
@@ -37,17 +37,17 @@ class UmockdevCodec {
   UmockdevCodec(const UmockdevCodec&) = delete;
   UmockdevCodec& operator=(const UmockdevCodec&) = delete;
 
-  // After so many pictures it does nothing any more until it is closed; `times` in a row.
+  // It hangs after that many pictures until it is closed; `times` in a row.
   void hangAfter(int pictures, int times);
   void unplugAfter(int pictures);
 
-  // Since it was plugged in.
+  // The number of openings since it was plugged in.
   [[nodiscard]] int openings();
   [[nodiscard]] int pictures();
   [[nodiscard]] int drains();
-  // Buffers of pictures that are with it.
+  // The number of picture buffers that it has.
   [[nodiscard]] int empty();
-  // Requests that were not answered, since nobody taught them here.
+  // The number of unsupported requests.
   [[nodiscard]] int unknownRequests();
 
  private:
@@ -56,7 +56,7 @@ class UmockdevCodec {
     std::uint32_t width = 0, height = 0;
     bool operator==(const Size&) const = default;
   };
-  static constexpr Size kUntold{16, 16};  // until the stream tells
+  static constexpr Size kUntold{16, 16};  // until the stream states it
   struct Done {
     std::uint32_t index, bytes, flags;
     std::uint64_t tag;
@@ -94,7 +94,7 @@ class UmockdevCodec {
   std::uint8_t* memory_ = nullptr;
   std::uint32_t next_offset_ = 0;
   std::uint32_t packet_bytes_ = 0;
-  Size size_;  // that was told last
+  Size size_;  // the last one reported
   std::vector<std::uint32_t> packet_offsets_, picture_offsets_;
   std::deque<Packet> packets_;
   std::deque<std::uint32_t> empty_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The requests of <linux/input.h> that libevdev and the driver make.
+// Answers the requests of <linux/input.h> that libevdev and the driver make.
 #include "tests/support/device/umockdev_mouse.h"
 
 #include <fcntl.h>
@@ -78,7 +78,7 @@ bool UmockdevMouse::answer(UMockdevIoctlClient* client) {
     umockdev_ioctl_client_complete(client, result, error);
     return true;
   };
-  // A set of bits, as many bytes as were asked for.
+  // A set of bits, in the requested number of bytes.
   const auto bits = [&](const std::vector<std::uint16_t>& set) {
     std::memset(data->data, 0, size);
     for (const std::uint16_t bit : set) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plugs a mouse, or what its codes make it, into this machine: a node of /dev/input that answers evdev's requests and
-// says what a test lets it say.
-// Only under `umockdev-wrapper`.
+// A simulated mouse, or another input device depending on its codes: a node of /dev/input that answers evdev's requests
+// and sends the test's events. Only under `umockdev-wrapper`.
 #pragma once
 
 #include <umockdev.h>
@@ -19,7 +18,7 @@ namespace relievo::test {
 
 class UmockdevMouse {
  public:
-  // What it is: the codes that it has, by their types.
+  // The codes that the device has, by type; they determine its kind.
   using Codes = std::map<std::uint16_t, std::vector<std::uint16_t>>;
   static Codes mouse();
   static Codes keyboard();
@@ -32,10 +31,10 @@ class UmockdevMouse {
 
   void say(std::uint16_t type, std::uint16_t code, std::int32_t value);
   void unplug();
-  // What its keys are, when it is asked.
+  // Sets the state of a key that the device reports on request.
   void hold(std::uint16_t key, bool down);
   [[nodiscard]] bool isGrabbed() const { return grabbed_; }
-  // Requests that were not answered, since nobody taught them here.
+  // The number of unsupported requests.
   [[nodiscard]] int unknownRequests() const { return unknown_; }
 
  private:

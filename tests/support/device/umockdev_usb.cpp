@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The requests of <linux/usbdevice_fs.h> that libusb and the driver make, answered from the model.
+// Answers the requests of <linux/usbdevice_fs.h> that libusb and the driver make, by the model.
 #include "tests/support/device/umockdev_usb.h"
 
 #include <linux/usbdevice_fs.h>
@@ -123,7 +123,7 @@ bool UmockdevUsb::answer(UMockdevIoctlClient* client) {
   if (requests_left_ > 0 && --requests_left_ == 0) plugged_ = false;
   const bool reaps = request == USBDEVFS_REAPURB || request == USBDEVFS_REAPURBNDELAY;
   if (!plugged_) {
-    // What was with the kernel comes back once; after that there is nothing to reap.
+    // URBs that the kernel had come back once; after that there is nothing to reap.
     for (std::deque<Urb>* queue : {&waiting_, &untaken_}) {
       for (const Urb& urb : *queue) finish(urb, -ESHUTDOWN, 0);
       queue->clear();
@@ -146,7 +146,7 @@ bool UmockdevUsb::answer(UMockdevIoctlClient* client) {
     }
     case USBDEVFS_GET_SPEED:
       return complete(kFullSpeed);
-    case USBDEVFS_CONTROL: {  // libusb asks a device that it was handed for its configuration
+    case USBDEVFS_CONTROL: {  // libusb asks a device that was opened by descriptor for its configuration
       UMockdevIoctlData* data = umockdev_ioctl_data_resolve(argument, 0, sizeof(usbdevfs_ctrltransfer), nullptr);
       const auto& transfer = *reinterpret_cast<const usbdevfs_ctrltransfer*>(data->data);
       constexpr std::uint8_t kGetConfiguration = 8;

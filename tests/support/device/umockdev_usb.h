@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plugs a model of a USB device into this machine: the real libusb, in this process and in those that it starts, finds
-// it and speaks to it through usbfs. Only where umockdev's library was loaded first.
+// Plugs a model of a USB device into a machine that umockdev simulates: the real libusb, in this process and in its
+// children, finds it and uses it through usbfs. Only if umockdev's library is preloaded.
 #pragma once
 
 #include <umockdev.h>
@@ -47,7 +47,7 @@ class UmockdevUsb final : public PluggedUsb {
   UMockdevTestbed* bed_ = nullptr;
   std::mutex lock_;
   bool plugged_ = false;
-  int requests_left_ = 0;  // until the cable is pulled; 0: it is not
+  int requests_left_ = 0;  // until it is unplugged; 0: never
   bool deaf_ = false;
   int unknown_ = 0;
   std::deque<Urb> waiting_, untaken_, done_;  // IN, OUT, and what may be reaped

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Builds the descriptors of a model.
 #include "tests/support/device/plugged_usb.h"
 
 namespace relievo::test {
@@ -6,7 +7,7 @@ namespace relievo::test {
 std::vector<std::uint8_t> deviceDescriptor(const UsbDeviceId& id) {
   const auto low = [](std::uint16_t word) { return static_cast<std::uint8_t>(word & 0xFF); };
   const auto high = [](std::uint16_t word) { return static_cast<std::uint8_t>(word >> 8); };
-  // No strings: nobody asks for a name.
+  // No strings, since no driver reads them.
   return {18, 1, 0, 2, 0, 0, 0, 8, low(id.vendor), high(id.vendor), low(id.product), high(id.product),
           0,  6, 0, 0, 0, 1};
 }

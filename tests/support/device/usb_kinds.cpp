@@ -17,7 +17,7 @@
 namespace relievo::test {
 namespace {
 
-// Its power has just come: the firmware is loaded by whoever opens it.
+// Just powered on: opening it loads the firmware.
 UsbBench falconBench() {
   const auto firmware = std::make_shared<FirmwareFile>(500);
   const auto config = [firmware](bool watchdog_thread) {
@@ -51,7 +51,7 @@ void spoilFalcon(std::vector<std::uint8_t>& bytes, std::vector<std::uint8_t>& la
     case 0:
       bytes[below(random, 16)] = anyByte(random);
       break;
-    case 1:  // another nibble, as a packet may well have it
+    case 1:  // another valid nibble
       bytes[1 + below(random, 12)] = static_cast<std::uint8_t>('A' + below(random, 16));
       break;
     case 2:  // a part is lost
@@ -71,7 +71,7 @@ void spoilFalcon(std::vector<std::uint8_t>& bytes, std::vector<std::uint8_t>& la
 
 void spoilPolhem(std::vector<std::uint8_t>& bytes, std::vector<std::uint8_t>& /*late*/, std::mt19937& random) {
   switch (below(random, 5)) {
-    case 0:  // a byte of those that matter most
+    case 0:  // one of the most important bytes
       bytes[1 + 2 * below(random, 3)] = anyByte(random);
       break;
     case 1:  // a burst
@@ -83,7 +83,7 @@ void spoilPolhem(std::vector<std::uint8_t>& bytes, std::vector<std::uint8_t>& /*
     case 3:
       bytes.clear();
       break;
-    default:  // more than there should be
+    default:  // too many bytes
       bytes.resize(bytes.size() + 1 + below(random, 50), anyByte(random));
   }
 }

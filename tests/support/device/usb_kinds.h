@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The haptic devices over USB that there are drivers of: what must hold for each is tested on each.
+// All haptic devices over USB that have a driver, for tests that run on each of them.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace relievo::test {
 
-// A firmware image of so many bytes in a file of its own, which goes with this.
+// A file with a firmware image of that many bytes, deleted by the destructor.
 class FirmwareFile {
  public:
   explicit FirmwareFile(std::size_t bytes);
@@ -29,8 +29,8 @@ class FirmwareFile {
   std::string path_;
 };
 
-// One of them. The drivers speak to the model through the port that they are given, or through libusb; on a port the
-// watchdog looks from `read` alone.
+// A device's driver and model. The driver uses the model through a given port or through libusb; with a port, only
+// `read` checks the watchdog.
 struct UsbBench {
   std::unique_ptr<HapticModel> model;
   std::function<std::unique_ptr<HapticDevice>(std::unique_ptr<UsbPort>, Clock&)> driver;
@@ -41,9 +41,9 @@ struct UsbKind {
   const char* name;
   UsbDeviceId id;
   UsbBench (*make)();
-  glm::dvec3 rest_mm;   // where the hand is once it is homed
+  glm::dvec3 rest_mm;   // the hand's position after homing
   Duration answers_in;  // after a command, with the place of that time
-  // Makes of the bytes of an answer what a bad cable does; `late` is what comes before the next.
+  // Corrupts an answer's bytes as a bad cable would; bytes put into `late` come before the next answer.
   void (*spoil)(std::vector<std::uint8_t>& bytes, std::vector<std::uint8_t>& late, std::mt19937& random);
 };
 [[nodiscard]] std::span<const UsbKind> usbKinds();

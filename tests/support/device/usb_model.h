@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A USB device in software, spoken to at the level of its transfers: the same model stands behind every transport.
+// A simulated USB device at the level of its transfers: every transport can use the same model.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ class UsbModel {
   virtual ~UsbModel() = default;
   virtual void control(std::uint8_t request, std::uint16_t value, MonotonicTime now) = 0;
   virtual void write(UsbBytes bytes, MonotonicTime now) = 0;
-  // What an IN transfer brings at this moment; nothing: the device has nothing to say yet (it answers NAK).
+  // The result of an IN transfer now; nullopt if the device has no data (it answers NAK).
   virtual std::optional<UsbPacket> read(MonotonicTime now) = 0;
 };
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Answers the kernel's USB/IP requests by the model.
 #include "tests/support/device/vhci_usb.h"
 
 #include <arpa/inet.h>
@@ -24,7 +25,7 @@ constexpr const char* kDetach = "/sys/devices/platform/vhci_hcd.0/detach";
 constexpr std::uint32_t kSubmit = 1, kUnlink = 2, kSubmitted = 3, kUnlinked = 4;
 constexpr int kPipeBroken = -32, kUnlinkedStatus = -104;
 
-// Both ways 48 bytes, all fields big-endian.
+// The header in both directions: 48 bytes, all fields big-endian.
 struct Header {
   std::uint32_t command = 0, sequence = 0, device = 0, in = 0, endpoint = 0;
   std::array<std::uint32_t, 7> rest{};  // of a submit: flags, length, frame, packets, interval, set-up (8 bytes)
@@ -57,8 +58,8 @@ void VhciUsb::plug() {
   constexpr int kPort = 0, kBusAndDevice = 0x10002, kFullSpeed = 2;
   std::ofstream attach(kAttach);
   attach << kPort << ' ' << theirs.get() << ' ' << kBusAndDevice << ' ' << kFullSpeed << std::flush;
-  if (!attach) throw std::runtime_error("vhci_hcd does not take the model");
-  // Until the kernel has asked for its descriptors and made its node.
+  if (!attach) throw std::runtime_error("vhci_hcd rejects the model");
+  // Wait until the kernel has read the descriptors and created the device node.
   std::this_thread::sleep_for(std::chrono::milliseconds(1500));
 }
 
@@ -68,7 +69,7 @@ void VhciUsb::unplug() {
   stopping_ = true;
   thread_.join();
   socket_.reset();
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));  // until the kernel has taken its node away
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));  // until the kernel has removed its node
 }
 
 void VhciUsb::unplugAfter(int requests) {
@@ -98,7 +99,7 @@ void VhciUsb::serve() {
     pollfd ready{socket_.get(), POLLIN, 0};
     const int timeout_ms = waiting_.empty() ? 20 : 1;
     if (::poll(&ready, 1, timeout_ms) > 0 && !takeRequest()) {
-      ::shutdown(socket_.get(), SHUT_RDWR);  // the kernel takes that for a pulled cable
+      ::shutdown(socket_.get(), SHUT_RDWR);  // to the kernel this is an unplugged cable
       return;
     }
     const std::lock_guard guard(lock_);

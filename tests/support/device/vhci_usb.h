@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A model behind the kernel's virtual host controller: the same kernel, the same usbfs as for a real device.
+// A model on the kernel's virtual host controller: the kernel and usbfs treat it as a real device.
 #pragma once
 
 #include <atomic>
@@ -12,8 +12,8 @@
 
 namespace relievo::test {
 
-// Speaks the kernel's USB/IP protocol (Documentation/usb/usbip_protocol.rst) over a pair of sockets, of which
-// vhci_hcd holds one.
+// Uses the kernel's USB/IP protocol (Documentation/usb/usbip_protocol.rst) over a pair of sockets, one of which
+// vhci_hcd holds.
 class VhciUsb final : public PluggedUsb {
  public:
   VhciUsb(UsbModel& model, const UsbDeviceId& id);
@@ -52,7 +52,7 @@ class VhciUsb final : public PluggedUsb {
   std::thread thread_;
   std::atomic<bool> stopping_{false};
   std::mutex lock_;
-  int requests_left_ = 0;  // until the cable is pulled; 0: it is not
+  int requests_left_ = 0;  // until it is unplugged; 0: never
   bool deaf_ = false;
   std::deque<Waiting> waiting_;
   std::deque<Untaken> untaken_;

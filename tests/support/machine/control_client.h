@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A program on the player's control socket, as a test plays one.
+// A client of the player's control socket.
 #pragma once
 
 #include <poll.h>
@@ -23,7 +23,7 @@ class ControlClient {
  public:
   using Json = nlohmann::json;
 
-  // Connects, as soon as there is somebody.
+  // Connects as soon as the player listens.
   explicit ControlClient(const std::string& path, std::chrono::milliseconds patience = std::chrono::seconds(30))
       : patience_(patience) {
     sockaddr_un address{};
@@ -45,8 +45,7 @@ class ControlClient {
   void say(const std::string& words) const { sendBytes(Json{{"do", words}}.dump() + "\n"); }
   void closeSide() const { ::shutdown(fd_.get(), SHUT_WR); }
 
-  // The next line that has come by now; waits for one at most so long. Nothing when there is none or the other side has
-  // gone.
+  // The next line; waits at most `wait` for one. nullopt if none came or the player has closed the connection.
   std::optional<Json> next(std::chrono::milliseconds wait) {
     const auto end = std::chrono::steady_clock::now() + wait;
     for (;;) {
@@ -59,7 +58,7 @@ class ControlClient {
       if (left.count() < 0 || !receive(static_cast<int>(left.count()))) return std::nullopt;
     }
   }
-  // The next line that `wanted` takes; those before it are passed over.
+  // The next line that `wanted` accepts; skips those before it.
   template <class Wanted>
   std::optional<Json> until(Wanted&& wanted) {
     const auto end = std::chrono::steady_clock::now() + patience_;
@@ -73,12 +72,12 @@ class ControlClient {
   std::optional<Json> untilState(const std::string& state) {
     return until([&](const Json& j) { return j.value("event", "") == "state" && j["state"] == state; });
   }
-  // Asks, and waits for the answer.
+  // Sends a command and waits for the answer.
   Json ask(const std::string& words) {
     say(words);
     return until([](const Json& j) { return j.contains("ok"); }).value_or(Json{{"ok", "no answer"}});
   }
-  // Whether the other side has let it go; what comes before that is lost.
+  // True once the player has closed the connection; discards lines that come before that.
   bool isLetGo() {
     while (next(patience_)) {
     }

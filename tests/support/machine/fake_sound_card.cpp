@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plug-in's callbacks. Built as a shared library: the test links it, ALSA loads the same one by its path.
+// The callbacks of an ALSA plug-in. It is a shared library: the test links it, and ALSA loads it by its path.
 #include "tests/support/machine/fake_sound_card.h"
 
 #include <alsa/asoundlib.h>
@@ -90,7 +90,7 @@ void plugFakeSoundCard() {
 
 extern "C" {
 
-// By this name the library looks for a plug-in of the type relievo_fake.
+// ALSA looks this name up for a plug-in of type relievo_fake.
 int _snd_pcm_relievo_fake_open(snd_pcm_t** pcm, const char* name, snd_config_t* /*root*/, snd_config_t* /*config*/,
                                snd_pcm_stream_t direction, int mode) {
   using namespace relievo::test;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sound card for ALSA's library to find: a plug-in of its own kind, that plays at the pace of a test's clock.
+// A simulated sound card: an ALSA plug-in that plays in time with a test's clock.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace relievo::test {
 
-// One card in the process, named "fake"; "null" is the library's own.
+// The process's only card, named "fake"; "null" is ALSA's own.
 struct FakeSoundCard {
   const Clock* clock = nullptr;
   bool unplugged = false;
@@ -19,7 +19,7 @@ struct FakeSoundCard {
 };
 [[nodiscard]] FakeSoundCard& fakeSoundCard() noexcept;
 
-// Before the library is used: it finds these cards, and no others.
+// Call before ALSA is used: it then finds only these cards.
 void plugFakeSoundCard();
 
 }  // namespace relievo::test

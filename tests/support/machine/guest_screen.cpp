@@ -14,8 +14,8 @@ namespace relievo::test {
 namespace {
 
 namespace fs = std::filesystem;
-// The guest's only virtio port, and no terminal: one that is opened echoes QEMU's greeting until it is told not to, and
-// QEMU takes that for a command.
+// Opens the guest's only virtio port, which must not be a terminal: until echo is switched off, a terminal would echo
+// QEMU's greeting, and QEMU would take that for a command.
 UniqueFd openMonitor() {
   std::error_code error;
   for (const auto& port : fs::directory_iterator("/sys/class/virtio-ports", error)) {
@@ -25,8 +25,8 @@ UniqueFd openMonitor() {
   throw std::runtime_error("QEMU's monitor is not there");
 }
 
-// QMP: an object a line, the answer to one bears its id. It is the host's time that this takes. To be told twice that
-// it has begun is an error to QEMU, and none here.
+// Sends a QMP command: one object per line, and the answer has the command's id. It takes the host's time. QEMU's error
+// about a second qmp_capabilities is ignored.
 void tell(int monitor, const std::string& command, const std::string& id) {
   const std::string words = "{\"execute\": \"qmp_capabilities\"}\n{" + command + ", \"id\": \"" + id + "\"}\n";
   if (::write(monitor, words.data(), words.size()) != static_cast<ssize_t>(words.size())) {
@@ -60,7 +60,7 @@ void GuestScreen::plug(bool in) const {
 }
 
 ScreenDump GuestScreen::dump() {
-  static int dumps = 0;  // each has a name of its own: the guest keeps what it has read of the host
+  static int dumps = 0;  // a new name each time, since the guest caches the host's files
   if (!monitor_.valid()) monitor_ = openMonitor();
   const std::string id = "dump-" + std::to_string(::getpid()) + "-" + std::to_string(++dumps) + ".ppm";
   tell(monitor_.get(), R"("execute": "screendump", "arguments": {"filename": ")" + id + "\"}", id);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The screens of toolchain/guest --screens: what one of them shows, and the plug of each.
+// The screens of toolchain/guest --screens: reads back what one shows, and plugs or unplugs each.
 #pragma once
 
 #include <array>
@@ -30,16 +30,16 @@ struct ScreenDump {
 
 class GuestScreen {
  public:
-  // Of a card's driver: "virtio", "vkms". Nothing outside the guest.
+  // `driver`: of the card, "virtio" or "vkms". Null outside of the guest.
   [[nodiscard]] static std::unique_ptr<GuestScreen> find(const std::string& driver);
   ~GuestScreen() { plug(true); }
   GuestScreen(const GuestScreen&) = delete;
   GuestScreen& operator=(const GuestScreen&) = delete;
 
   [[nodiscard]] const std::string& card() const noexcept { return card_; }  // "/dev/dri/card0"
-  // As if the cable was pulled out, or put in: the kernel tells everybody.
+  // Simulates plugging or unplugging the cable; the kernel notifies all programs.
   void plug(bool in) const;
-  // Of virtio alone: what QEMU has on its screen.
+  // The picture on QEMU's screen; only for virtio.
   [[nodiscard]] ScreenDump dump();
 
  private:

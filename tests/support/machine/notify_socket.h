@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// systemd's end of $NOTIFY_SOCKET, for what a test starts or runs while this is there.
+// systemd's end of $NOTIFY_SOCKET, for programs and code that a test runs while this exists.
 #pragma once
 
 #include <poll.h>
@@ -36,7 +36,7 @@ class NotifySocket {
   NotifySocket& operator=(const NotifySocket&) = delete;
 
   [[nodiscard]] bool bound() const { return bound_; }
-  // The next message; empty when none has come in time.
+  // The next message; empty if none came in time.
   [[nodiscard]] std::string next(std::chrono::milliseconds wait = std::chrono::milliseconds(0)) const {
     pollfd polled{.fd = fd_.get(), .events = POLLIN};
     if (::poll(&polled, 1, static_cast<int>(wait.count())) <= 0) return "";
@@ -44,7 +44,7 @@ class NotifySocket {
     const ssize_t got = ::recv(fd_.get(), bytes.data(), bytes.size(), 0);
     return got < 0 ? "" : std::string(bytes.data(), static_cast<std::size_t>(got));
   }
-  // All that have come by now.
+  // All messages so far.
   [[nodiscard]] std::vector<std::string> all() const {
     std::vector<std::string> messages;
     for (std::string each = next(); !each.empty(); each = next()) messages.push_back(each);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One of the built programs as a process of its own, in the way a shell starts one, so that it can be sent signals.
+// Runs one of the built programs as a process, as a shell would, so that a test can send it signals.
 #pragma once
 
 #include <fcntl.h>
@@ -16,7 +16,7 @@ namespace relievo::test {
 
 class Process {
  public:
-  // What it says on either stream goes into `said`.
+  // Both output streams go to the file `said`.
   Process(const std::vector<std::string>& arguments, const std::string& said) {
     std::vector<char*> argv;
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
@@ -37,7 +37,7 @@ class Process {
   Process& operator=(const Process&) = delete;
 
   void send(int number) const { ::kill(pid_, number); }
-  // Whether it has a handler of its own for a signal by now.
+  // True if it has installed a handler for the signal.
   [[nodiscard]] bool catches(int number) const {
     std::ifstream status("/proc/" + std::to_string(pid_) + "/status");
     for (std::string line; std::getline(status, line);) {
@@ -46,7 +46,7 @@ class Process {
     }
     return false;
   }
-  // Two signals that it gets one right after the other, however fast it is: it stands while they are sent.
+  // Sends two signals while the process is stopped, so that it gets both at once.
   void sendBoth(int first, int second) const {
     send(SIGSTOP);
     int status = 0;
@@ -57,7 +57,7 @@ class Process {
     if (!ended_) ended_ = ::waitpid(pid_, &status_, WNOHANG) == pid_;
     return !ended_;
   }
-  // Its exit code; minus the signal's number where one has ended it.
+  // Its exit code, or minus the number of the signal that ended it.
   int wait() {
     if (!ended_) ::waitpid(pid_, &status_, 0);
     ended_ = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs one of the built programs as a user would, and keeps what it said.
+// Runs one of the built programs as a user would, and keeps its output.
 #pragma once
 
 #include <sys/wait.h>
@@ -18,7 +18,7 @@ struct ProgramResult {
   std::string out, err;
 };
 
-// `command_line` as in a shell, the program by its name: "relievo-lab trace ..". `folder` takes the two outputs.
+// `command_line`: as in a shell, such as "relievo-lab trace ..". `folder`: for the two output files.
 inline ProgramResult runProgram(const std::string& command_line, const std::string& folder) {
   const std::string out = folder + "/stdout.txt", err = folder + "/stderr.txt";
   const std::string command =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which sanitizers a test is built with: a few counts do not hold under them.
+// Which sanitizers a test is built with: some counts differ under them.
 #pragma once
 
 #ifdef __has_feature
@@ -16,15 +16,14 @@ inline constexpr bool kThreadSanitizer = true;
 inline constexpr bool kThreadSanitizer = false;
 #endif
 
-// These bring an allocator of their own, and a shadow memory that may fault at any time; their mlock does
-// nothing.
+// These have their own allocator, shadow memory that may fault at any time, and an mlock that does nothing.
 #if defined(__SANITIZE_ADDRESS__) || RELIEVO_HAS_FEATURE(address_sanitizer) || RELIEVO_HAS_FEATURE(memory_sanitizer)
 inline constexpr bool kMemorySanitizer = true;
 #else
 inline constexpr bool kMemorySanitizer = kThreadSanitizer;
 #endif
 
-// It ends the program where a real-time function allocates, and does not count.
+// It ends the program when a real-time function allocates, instead of counting.
 #if RELIEVO_HAS_FEATURE(realtime_sanitizer)
 inline constexpr bool kRealtimeSanitizer = true;
 #else

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Starts Xvfb and drives it by Xlib and XTest.
 #include "tests/support/machine/x_screen.h"
 
 #include <X11/Xlib.h>
@@ -20,7 +21,7 @@ namespace {
 
 constexpr int kPatienceMs = 20'000;
 
-// The number that a server writes when it is up, or nothing.
+// The display number that Xvfb writes when it is ready; empty if it failed.
 std::string readDisplayNumber(int fd) {
   std::string number;
   pollfd ready{.fd = fd, .events = POLLIN, .revents = 0};
@@ -77,7 +78,7 @@ std::unique_ptr<XScreen> XScreen::start() {
   XSelectInput(connection, DefaultRootWindow(connection), SubstructureNotifyMask);
   ::setenv("DISPLAY", name.c_str(), 1);
   ::unsetenv("WAYLAND_DISPLAY");
-  ::setenv("DBUS_SESSION_BUS_ADDRESS", "disabled:", 1);  // there is no session that it could start a bus for
+  ::setenv("DBUS_SESSION_BUS_ADDRESS", "disabled:", 1);  // keeps libraries from starting a session bus
   return std::unique_ptr<XScreen>(new XScreen(server, connection));
 }
 
@@ -88,7 +89,7 @@ XScreen::~XScreen() {
 
 void XScreen::kill() {
   if (server_ <= 0) return;
-  XCloseDisplay(connection_);  // first: without its server it would end this program
+  XCloseDisplay(connection_);  // before the server ends, or Xlib would end this program
   connection_ = nullptr;
   ::kill(server_, SIGKILL);
   ::waitpid(server_, nullptr, 0);

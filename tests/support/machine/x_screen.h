@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An X server of the test's own, without a screen or a desktop: what it shows is read back, keys and a mouse are real
-// to it.
+// A private X server (Xvfb) without a desktop: a test reads back its picture and sends it keys and mouse events.
 #pragma once
 
 #include <sys/types.h>
@@ -15,34 +14,34 @@ struct _XDisplay;
 
 namespace relievo::test {
 
-inline constexpr const char* kNoXServer = "Xvfb does not start here (Debian: xvfb)";
+inline constexpr const char* kNoXServer = "Xvfb cannot be started; install it (Debian: xvfb)";
 
 // 640 x 480, black. While it lives, programs and libraries of this process find it by DISPLAY.
 class XScreen {
  public:
   static constexpr int kWidth = 640, kHeight = 480;
 
-  // Null where there is no Xvfb.
+  // Null without Xvfb.
   [[nodiscard]] static std::unique_ptr<XScreen> start();
   ~XScreen();
   XScreen(const XScreen&) = delete;
   XScreen& operator=(const XScreen&) = delete;
 
-  // Red, green, blue of the whole screen's pixel, from the top left.
+  // Red, green and blue of a pixel of the screen; the origin is at the top left.
   [[nodiscard]] std::array<int, 3> pixel(int x, int y) const;
 
-  // A window of that title, once it is mapped; 0 when none came within some seconds.
+  // A mapped window with that title; 0 if none appears within some seconds.
   [[nodiscard]] unsigned long find(const std::string& title) const;
   struct Place {
     int x = 0, y = 0, width = 0, height = 0;
   };
   [[nodiscard]] std::optional<Place> place(unsigned long window) const;
   void resize(unsigned long window, int width, int height) const;
-  // As a window manager asks when its close button is pressed.
+  // Sends the request of a window manager's close button.
   void askToClose(unsigned long window) const;
   void focus(unsigned long window) const;
-  // Whether a window has asked, since this was called last, to fill the screen (1) or to do so no more (0); there is no
-  // window manager to do it.
+  // The last request of a window since the previous call, to enter (1) or leave (0) full screen; nullopt without one.
+  // There is no window manager to execute it.
   [[nodiscard]] std::optional<int> takeFullScreenWish() const;
 
   // Key symbols as in X11/keysymdef.h by name: "space", "Right", "F11".
@@ -55,7 +54,7 @@ class XScreen {
   // 1 left, 2 middle, 3 right; 4 and 5 are a notch of the wheel, forward and back.
   void button(unsigned number, bool down) const;
 
-  // The server dies, as when a session ends.
+  // Kills the server, as at the end of a session.
   void kill();
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One thread listens, one for each connection answers.
+// One thread accepts connections, and one per connection answers.
 #include "tests/support/network/http_server.h"
 
 #include <algorithm>

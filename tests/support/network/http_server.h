@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A web server of a folder that stalls, breaks off and loses files as it is told.
+// A web server for a folder that stalls, breaks off and loses files on request.
 #pragma once
 
 #include <atomic>
@@ -21,19 +21,19 @@ class HttpServer {
   struct Fault {
     std::size_t after_bytes = 0;  // of the file
     Duration stall{0};            // once
-    Duration away{0};             // once: breaks off, and refuses every connection for so long
+    Duration away{0};             // once: breaks off, and refuses connections for that long
   };
   explicit HttpServer(std::string folder);
   ~HttpServer();
 
-  // Before the first request.
+  // Set these before the first request.
   std::map<std::string, Fault> faults;  // by file
   double bytes_per_s = 0;               // 0: as fast as it goes
 
   [[nodiscard]] std::string url(const std::string& file) const;
-  // "GET /film.ts 200"; of a broken off or refused one nothing.
+  // "GET /film.ts 200"; without those that were broken off or refused.
   [[nodiscard]] std::vector<std::string> requests() const;
-  // When the last fault was over; 0 while there was none.
+  // When the last fault ended; 0 if there was none.
   [[nodiscard]] MonotonicTime faultOver() const { return fault_over_; }
 
  private:

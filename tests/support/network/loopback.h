@@ -25,7 +25,7 @@ namespace relievo::test {
   return address;
 }
 
-// SOCK_STREAM: listens as well. Port 0: any that is free.
+// With SOCK_STREAM it also listens. Port 0: any free one.
 [[nodiscard]] inline UniqueFd bindLoopback(int type, std::uint16_t port = 0) {
   UniqueFd fd(::socket(AF_INET, type | SOCK_CLOEXEC, 0));
   const int yes = 1;
@@ -50,7 +50,7 @@ namespace relievo::test {
   return ::poll(&poll, 1, static_cast<int>(std::chrono::ceil<std::chrono::milliseconds>(wait).count())) > 0;
 }
 
-// False when the other side has gone.
+// False if the other side has closed the connection.
 inline bool sendAll(const UniqueFd& to, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t sent = ::send(to.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
@@ -60,7 +60,7 @@ inline bool sendAll(const UniqueFd& to, std::string_view bytes) {
   return true;
 }
 
-// Up to an empty line; what is there when the other side goes before.
+// Reads up to an empty line, or until the other side closes the connection.
 [[nodiscard]] inline std::string receiveHead(const UniqueFd& from) {
   std::string head;
   for (char c = 0; !head.ends_with("\r\n\r\n") && ::recv(from.get(), &c, 1, 0) == 1;) head += c;

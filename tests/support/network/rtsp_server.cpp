@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The few verbs of RTSP (RFC 2326) that a player needs; FFmpeg's muxer makes the RTP.
+// The RTSP methods (RFC 2326) that a player needs; FFmpeg's muxer makes the RTP.
 #include "tests/support/network/rtsp_server.h"
 
 #include <array>
@@ -20,7 +20,7 @@ namespace {
 constexpr Duration kSlice = std::chrono::milliseconds(10);
 constexpr int kPacketBytes = 1400;
 
-// One track: what the muxer writes goes out in frames of "$", channel, length (RFC 2326, 10.12).
+// One track: sends the muxer's output in frames of "$", channel, length (RFC 2326, 10.12).
 struct Channel {
   AVFormatContext* muxer = nullptr;
   const UniqueFd* viewer = nullptr;
@@ -72,7 +72,7 @@ class Session {
   }
   ~Session() {
     for (Channel& channel : channels_) {
-      av_write_trailer(channel.muxer);  // which alone frees what the header has taken
+      av_write_trailer(channel.muxer);  // needed to free what av_write_header allocated
       av_freep(&channel.muxer->pb->buffer);
       avio_context_free(&channel.muxer->pb);
       avformat_free_context(channel.muxer);
@@ -91,7 +91,7 @@ class Session {
     return text.data();
   }
 
-  // The time of the next packet since the first; nothing at the end.
+  // Gets the time of the next packet since the first; false at the end.
   [[nodiscard]] bool next(Duration& time) {
     av_packet_unref(packet_);
     if (av_read_frame(clip_, packet_) < 0) return false;
@@ -101,7 +101,7 @@ class Session {
     time = Duration(ns - first_ns_);
     return true;
   }
-  // False when the viewer has gone.
+  // False if the viewer has disconnected.
   [[nodiscard]] bool send() {
     Channel& channel = channels_[static_cast<std::size_t>(packet_->stream_index)];
     av_packet_rescale_ts(packet_, clip_->streams[packet_->stream_index]->time_base,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A camera on the network: serves a clip over RTSP at its own pace, interleaved over TCP, until its cable is pulled.
+// A simulated network camera: serves a clip over RTSP in real time, interleaved over TCP, until it is cut off.
 #pragma once
 
 #include <atomic>
@@ -17,9 +17,9 @@ class RtspServer {
   explicit RtspServer(std::string clip);
   ~RtspServer();
   [[nodiscard]] std::string url() const;
-  // The session ends without a word, and nobody is let in for so long. Any thread.
+  // Ends the session without notice and refuses connections for that long. Any thread.
   void cut(Duration away);
-  [[nodiscard]] int sessions() const { return sessions_; }  // that played
+  [[nodiscard]] int sessions() const { return sessions_; }  // sessions that played
   [[nodiscard]] MonotonicTime cutOver() const { return away_until_; }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One thread, one dice.
+// Sends on one thread with one random generator, so that the same seed gives the same faults.
 #include "tests/support/network/udp_sender.h"
 
 #include <fstream>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kPacket = 188;
 
-// The programme clock reference of the packet at `at`, where it has one (ISO/IEC 13818-1, 2.4.3.5).
+// The programme clock reference of the packet at `at`, if it has one (ISO/IEC 13818-1, 2.4.3.5).
 std::optional<Duration> clockReference(const std::string& ts, std::size_t at) {
   const auto byte = [&](std::size_t i) { return static_cast<std::int64_t>(static_cast<std::uint8_t>(ts[at + i])); };
   if ((byte(3) & 0x20) == 0 || byte(4) < 7 || (byte(5) & 0x10) == 0) return std::nullopt;
@@ -24,7 +24,7 @@ std::optional<Duration> clockReference(const std::string& ts, std::size_t at) {
   return Duration(base * 1'000'000 / 90 + ((byte(10) & 1) << 8 | byte(11)) * 1000 / 27);
 }
 
-// When each packet is due: evenly between one reference and the next.
+// Each packet's sending time, interpolated between clock references.
 std::vector<Duration> scheduleOf(const std::string& ts) {
   std::vector<Duration> due(ts.size() / kPacket, Duration(0));
   std::size_t last = 0;
@@ -33,7 +33,7 @@ std::vector<Duration> scheduleOf(const std::string& ts) {
   for (std::size_t i = 0; i < due.size(); ++i) {
     const auto reference = clockReference(ts, i * kPacket);
     if (!reference) {
-      due[i] = last_time;  // of what follows the last reference
+      due[i] = last_time;  // packets after the last reference
       continue;
     }
     if (!first) first = reference;
@@ -45,7 +45,7 @@ std::vector<Duration> scheduleOf(const std::string& ts) {
   return due;
 }
 
-// A port that is free now: taken and let go, for the reader to take.
+// A free port, for the reader to bind.
 std::uint16_t freePort() {
   return portOf(bindLoopback(SOCK_DGRAM));
 }
@@ -78,7 +78,7 @@ void UdpSender::send(const std::string& stream, const Line& line) {
   };
   const MonotonicTime start = clock.now();
   silence_over_ = start + line.silent_at + line.silent_for;
-  std::string held;  // comes after the next one
+  std::string held;  // sent after the next packet
   const std::vector<Duration> schedule = scheduleOf(stream);
   for (std::size_t i = 0; i < schedule.size() && !ending_; ++i) {
     const Duration due = schedule[i];

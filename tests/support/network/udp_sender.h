@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends a transport stream as a broadcaster does, over a line that loses, doubles and mixes up packets.
+// Sends a transport stream like a broadcaster, over a line that loses, duplicates and reorders packets.
 #pragma once
 
 #include <atomic>
@@ -12,22 +12,22 @@
 
 namespace relievo::test {
 
-// What happens to each packet, by the same numbers for the same seed.
+// The line's faults; the same for the same seed.
 struct Line {
   double lost = 0;                       // share
   double doubled = 0;                    // share
-  double mixed_up = 0;                   // share: comes after the next one
-  Duration silent_at{0}, silent_for{0};  // nothing goes through
+  double mixed_up = 0;                   // share: sent after the next packet
+  Duration silent_at{0}, silent_for{0};  // an outage
   unsigned seed = 1;
 };
 
-// Sends the file at the pace of its clock references, each packet in a datagram of its own, once, from construction on.
+// Sends the file once, from construction on, in time with its clock references, with one packet per datagram.
 class UdpSender {
  public:
   UdpSender(const std::string& ts_path, const Line& line);
   ~UdpSender();
   [[nodiscard]] std::string url() const;
-  [[nodiscard]] std::uint64_t sent() const { return sent_; }  // packets, those included that did not arrive
+  [[nodiscard]] std::uint64_t sent() const { return sent_; }  // packets, including lost ones
   [[nodiscard]] std::uint64_t lost() const { return lost_; }
   [[nodiscard]] MonotonicTime silenceOver() const { return silence_over_; }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Packets as containers hold them, byte by byte, and as hardware takes them.
+// Converts packets, byte by byte, from containers' form to the form for hardware.
 #include "drivers/v4l2/annex_b.h"
 
 #include <gtest/gtest.h>
@@ -48,7 +48,7 @@ TEST(AnnexB, WhatHasStartCodesStaysAsItIs) {
   const AnnexB form = formOf("h264", kAvcSets);
   const Bytes packet{0, 0, 1, 0x65, 1, 2};
   EXPECT_EQ(written(form, packet, true, false), packet) << "its key frames have parameters of their own";
-  EXPECT_EQ(written(form, packet, true, true), kAvcSets + packet) << "where decoding begins they are given once more";
+  EXPECT_EQ(written(form, packet, true, true), kAvcSets + packet) << "repeated where decoding begins";
   const Bytes own = Bytes{0, 0, 1, 0x67, 77, 0, 30, 0xff, 0x80} + packet;
   EXPECT_EQ(written(form, own, true, true), own) << "unless it has its own, which may be others";
   EXPECT_EQ(written(formOf("fwht", {1, 2, 3, 4, 5}), packet, true, true), packet);
@@ -91,7 +91,7 @@ struct ProfileCase {
   bool plain;
 };
 
-// Sequence sets up to where they tell: by hand, from 7.3.2.1.1 of ISO/IEC 14496-10 and 7.3.2.2 of 23008-2.
+// The beginning of sequence sets, encoded by hand from 7.3.2.1.1 of ISO/IEC 14496-10 and 7.3.2.2 of 23008-2.
 TEST(AnnexB, TellsPlainPicturesFromOthers) {
   const ProfileCase avc[] = {
       {"Baseline", {0x67, 66, 0, 30, 0xff}, 66, true},
@@ -109,7 +109,7 @@ TEST(AnnexB, TellsPlainPicturesFromOthers) {
   }
   EXPECT_TRUE(formOf("hevc", {0, 0, 1, 0x42, 1, 1, 1, 0x60}).profile()->plain) << "Main";
   EXPECT_FALSE(formOf("hevc", {0, 0, 1, 0x42, 1, 1, 2, 0x20}).profile()->plain) << "Main 10";
-  EXPECT_FALSE(formOf("h264", {}).profile()) << "it does not tell";
+  EXPECT_FALSE(formOf("h264", {}).profile()) << "the stream does not state it";
   EXPECT_FALSE(formOf("h264", {0, 0, 1, 0x68, 1, 2, 3, 4, 5}).profile());
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A decoder behind another: what is fed again after a loss, and what is not shown twice.
+// A decoder that replaces another: which packets are fed again after a failure, and that no picture comes twice.
 #include "drivers/failover/failover.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kFrames = 60, kKeyInterval = 10;
 
-// Films of numbered pictures; each decoder dies where it is told to.
+// Films of numbered pictures; each decoder fails at a given packet.
 class Failover : public testing::Test {
  protected:
   void SetUp() override {
@@ -96,7 +96,7 @@ TEST_F(Failover, AfterASeekNothingOfBeforeIsFedAgain) {
 
 TEST_F(Failover, OneThatDiesInAFlushIsReplacedAsWell) {
   make({{.lose_after_packets = 25}, {}});
-  for (int i = 0; i < 25; ++i) {  // it does not know yet
+  for (int i = 0; i < 25; ++i) {  // the failure is not noticed yet
     ASSERT_EQ(decoder_->feed(packets_[static_cast<std::size_t>(i)]).value(), Feed::Accepted);
     if (i < 24) (void)decoder_->receive();
   }

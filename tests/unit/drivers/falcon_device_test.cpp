@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What only the Falcon's driver does, on a model of the device in simulated time: its firmware, its lights, its words.
+// Tests special to the Falcon's driver, on a model in simulated time: firmware, lights, motor words.
 #include "drivers/falcon/falcon.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ class FalconDevice : public testing::Test {
     return makeFalcon({.firmware_path = std::move(firmware), .watchdog_thread = false},
                       std::make_unique<test::ModelPort>(model, cable_, clock_), clock_);
   }
-  // Running, with the grip where the model has it.
+  // Returns a Running device whose grip is held by the model.
   std::unique_ptr<HapticDevice> run(FalconModel& model) {
     model.runFirmware();
     auto device = make(model);
@@ -140,7 +140,7 @@ TEST_F(FalconDevice, TheForceReachesTheMotorsWithinACount) {
   }
 }
 
-// Its power failed for a moment: it homes anew, and its counts mean nothing.
+// After a short power failure the device needs homing again, and its counts are meaningless.
 TEST_F(FalconDevice, WithoutItsZeroItIsLost) {
   FalconModel model(firmware_.image());
   const auto device = run(model);
@@ -159,7 +159,7 @@ TEST_F(FalconDevice, WithoutItsZeroItIsLost) {
   EXPECT_FALSE(model.pushes(clock_.now()));
 }
 
-// Passes on what a Falcon says, cut in two, with a packet between them that says that bytes of it were lost.
+// Splits each reply of a Falcon in two, with a packet between the parts that reports lost bytes.
 class BrokenLine final : public test::UsbModel {
  public:
   explicit BrokenLine(FalconModel& falcon) : falcon_(falcon) {}

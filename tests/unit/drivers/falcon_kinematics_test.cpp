@@ -16,7 +16,7 @@ namespace {
 
 using test::FalconModel;
 
-// What a user reaches: a cylinder about z, narrower at its ends.
+// The reachable workspace: a cylinder around z, narrower at its ends.
 class Poses {
  public:
   glm::dvec3 next() {
@@ -80,7 +80,7 @@ TEST(FalconKinematics, ForwardFindsTheWholeWorkspaceFromItsMiddle) {
   }
 }
 
-// For scale: libnifalcon's mapping is 8.6 to 11.9 degrees off in the mean, 53 at worst, and up to 54 % in magnitude.
+// For comparison: libnifalcon's force is off by 8.6 to 11.9 degrees on average, 53 at worst, and up to 54 % in size.
 TEST(FalconKinematics, TheForceOfTheTorquesIsTheForceThatWasAsked) {
   Poses poses;
   double worst_angle = 0, worst_magnitude = 0;
@@ -146,9 +146,9 @@ TEST(FalconMotors, ALoadThatLastsIsDeratedAndComesBackAfterRest) {
   Motors motors(1e4);
   const glm::dvec3 full(-1000, 0, 0);
   EXPECT_EQ(motors.wordsFor(full, 0.001)[0], 4095);
-  for (int i = 0; i < 1'000; ++i) EXPECT_EQ(motors.wordsFor(full, 0.001)[0], 4095) << "a second is nothing";
+  for (int i = 0; i < 1'000; ++i) EXPECT_EQ(motors.wordsFor(full, 0.001)[0], 4095) << "no limit within a second";
   for (int i = 0; i < 200'000; ++i) (void)motors.wordsFor(full, 0.001);
-  EXPECT_GE(motors.wordsFor(full, 0.001)[0], 1638) << "what lasts for good: 40 %";
+  EXPECT_GE(motors.wordsFor(full, 0.001)[0], 1638) << "the continuous limit: 40 %";
   EXPECT_LE(motors.wordsFor(full, 0.001)[0], 1998) << "and at most 1.22 times that";
   for (int i = 0; i < 60'000; ++i) (void)motors.wordsFor({0, 0, 0}, 0.001);
   EXPECT_EQ(motors.wordsFor(full, 0.001)[0], 4095);

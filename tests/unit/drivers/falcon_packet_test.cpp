@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The wire of the Falcon: packets on record, a stream that breaks anywhere, and words that no hand has caused.
+// The Falcon's wire format: published packets, streams corrupted anywhere, and impossible encoder readings.
 #include "drivers/falcon/packet.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ constexpr Captured kCaptured[] = {
      {-679, 2529, -1862}},
     {{0x3c, 0x50, 0x4c, 0x50, 0x50, 0x49, 0x49, 0x41, 0x41, 0x42, 0x47, 0x50, 0x50, 0x45, 0x41, 0x3e},
      {-65, 136, -159}},
-    // Its annotation in the source repeats the words of another packet; the bytes say this.
+    // The source's annotation repeats another packet's words; these are from the bytes.
     {{0x3c, 0x42, 0x4c, 0x4a, 0x41, 0x44, 0x47, 0x4e, 0x50, 0x46, 0x47, 0x4a, 0x50, 0x45, 0x41, 0x3e},
      {2481, -669, -1691}},
 };
@@ -124,7 +124,7 @@ TEST(FalconGate, MotionPassesAndALeapDoesNot) {
   EncoderGate gate(kGateSlack);
   gate.reset({0, 0, 0});
   int place = 0;
-  for (int tick = 1; tick < 200; ++tick) {  // accelerates by 3 counts a tick and tick, then stops as softly
+  for (int tick = 1; tick < 200; ++tick) {  // accelerates by 3 counts per tick^2, then slows down as gently
     place += tick < 20 ? 3 * tick : std::max(0, 57 - 3 * (tick - 20));
     ASSERT_TRUE(gate.accept({static_cast<std::int16_t>(place), 0, 0})) << tick;
   }
@@ -159,7 +159,7 @@ TEST(FalconBridge, APacketThatSaysItIsBrokenCarriesNothing) {
     EXPECT_TRUE(payloadOf(packet).empty()) << error;
   }
   packet = {.data = {0x01, 0x60}, .bytes = 2};
-  EXPECT_TRUE(payloadOf(packet).empty()) << "its own two bytes";
+  EXPECT_TRUE(payloadOf(packet).empty()) << "the bridge's two status bytes";
 }
 
 }  // namespace

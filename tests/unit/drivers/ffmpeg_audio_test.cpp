@@ -54,7 +54,7 @@ Decoded decode(MediaSource& source) {
   return decoded;
 }
 
-// The amplitude of a sine of that frequency, and what it is late by against one that begins at 0.
+// The amplitude of a sine of that frequency, and its delay relative to one that begins at 0.
 struct Tone {
   double amplitude = 0, late_s = 0;
 };
@@ -161,7 +161,7 @@ TEST_F(FfmpegAudio, SurroundIsMixedDownAndNotClipped) {
   EXPECT_NEAR(strength(decoded.right, 5), strength(decoded.left, 4), 0.01);
 }
 
-// What begins at a sought place is that place's sound: told by a tone whose pitch rises with the film's time.
+// After a seek the sound belongs to the new position, as shown by a tone whose pitch rises with the film's time.
 TEST_F(FfmpegAudio, AfterASeekTheSoundIsOfItsTime) {
   ClipSound steps{.codec = "aac"};
   steps.sound = [](double t, int) {

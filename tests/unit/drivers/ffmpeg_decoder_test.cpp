@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The FFmpeg decoder: samples exact to the bit, pictures by reference, colour signalling, damage.
+// The FFmpeg decoder: samples exact to the bit, references to pictures, colour signalling, damage.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -225,7 +225,7 @@ TEST(FfmpegDecoder, PicturesAreTheDecodersOwnMemory) {
     ASSERT_EQ(clip.decoder->feed(clip.packets.at(i)).value(), Feed::Accepted);
     frame = clip.decoder->receive().value();
   }
-  // The decoder goes on using it as a reference picture: a copy would have one owner.
+  // The decoder still uses it as a reference picture, so it has several owners; a copy would have one.
   const auto* picture = static_cast<const AVFrame*>(frame->owner.get());
   EXPECT_EQ(frame->planes[0].data, picture->data[0]);
   EXPECT_EQ(frame->planes[0].stride_bytes, picture->linesize[0]);
@@ -305,7 +305,7 @@ TEST(FfmpegDecoder, SampleAspectAndDurationAreTold) {
   EXPECT_EQ(frames[0].duration, std::chrono::milliseconds(40));
 }
 
-// A stream that another back end's source has described: by name and parameter sets, packets in foreign memory.
+// A stream from another back end's source: with a codec name, parameter sets, and packets in foreign memory.
 TEST(FfmpegDecoder, DecodesStreamsThatAnotherSourceDescribes) {
   TemporaryFolder folder;
   makeClip(folder / "a.mp4", {ClipTrack{.codec = "libx264", .pix_fmt = "yuv420p", .frames = 10}});
@@ -337,7 +337,7 @@ TEST(FfmpegDecoder, RefusesACodecThatItDoesNotKnow) {
   EXPECT_EQ(opened.error().code, ErrorCode::Unsupported);
 }
 
-// Writes over the middle of packet k.
+// Overwrites the middle of a packet.
 void damage(Packet& packet) {
   auto bytes = std::make_shared<std::vector<std::uint8_t>>(packet.data, packet.data + packet.bytes);
   for (std::size_t i = bytes->size() / 3; i < bytes->size(); ++i) (*bytes)[i] ^= static_cast<std::uint8_t>(37 * i + 11);
@@ -378,7 +378,7 @@ TEST(FfmpegDecoder, PicturesWithoutTimesAreNumberedByTheFramePeriod) {
   Clip clip(folder / "%02d.png");
   EXPECT_FALSE(clip.packets[0].pts.has_value());
   StreamInfo stream = clip.stream();
-  EXPECT_EQ(stream.frame_period, std::chrono::milliseconds(40));  // what FFmpeg takes for granted
+  EXPECT_EQ(stream.frame_period, std::chrono::milliseconds(40));  // FFmpeg's default
   stream.frame_period = std::chrono::milliseconds(100);
   ASSERT_TRUE(clip.decoder->open(stream).has_value());
   const auto frames = clip.decodeOpen();
@@ -386,7 +386,7 @@ TEST(FfmpegDecoder, PicturesWithoutTimesAreNumberedByTheFramePeriod) {
   for (int k = 0; k < 4; ++k) EXPECT_EQ(frames[static_cast<std::size_t>(k)].pts, MediaTime(k * stream.frame_period));
 }
 
-// Metres to mm, rounded; what is no distance is no value.
+// Metres become mm, rounded; invalid distances become 0.
 TEST(FfmpegDecoder, DistancesInFloatingPointBecomeWholeMillimetres) {
   constexpr float kInfinite = std::numeric_limits<float>::infinity(), kNone = std::numeric_limits<float>::quiet_NaN();
   const std::vector<float> metres{0.5F, 1.2344F, 1.2346F, 65.535F, 65.6F, 0, -1, kInfinite, kNone, 0.0004F};

@@ -205,7 +205,7 @@ TEST(FfmpegSource, SeeksToTheKeyFrameAtOrBefore) {
   EXPECT_EQ(readAll(*source).size(), 48u);
 }
 
-// Nothing of the track that leads lies at or before the target: the film begins with what comes next.
+// The leading track has no packet at or before the target: the seek lands on its first one.
 TEST(FfmpegSource, SeeksWhereTheLeadingTrackHasNotBegun) {
   TemporaryFolder folder;
   ClipTrack late = kH264;
@@ -222,7 +222,7 @@ TEST(FfmpegSource, SeeksWhereTheLeadingTrackHasNotBegun) {
   }
 }
 
-// An adaptive stream refuses what it takes for its end.
+// An adaptive stream rejects seeks near its end.
 TEST(FfmpegSource, ASeekBeyondTheEndLandsNearTheEnd) {
   TemporaryFolder folder;
   ClipTrack track = kH264;
@@ -292,7 +292,7 @@ TEST(FfmpegSource, AFileThatMayNotBeReadIsSaidToBe) {
   EXPECT_EQ(openErrorOf(folder / "a.mkv").code, ErrorCode::PermissionDenied);
 }
 
-// A read of these comes back when the kernel likes: /proc/kmsg held a player for as long as nothing was logged.
+// A read of these may block forever: /proc/kmsg would hold a player until the kernel logs something.
 TEST(FfmpegSource, WhatIsNoFileIsRefusedBeforeItIsRead) {
   for (const char* path : {"/dev/zero", "/dev/ptmx", "/proc/kmsg", "/proc/self/status", "/sys/kernel/uevent_seqnum"}) {
     for (const std::string start : {"", "file:"}) {
@@ -304,7 +304,7 @@ TEST(FfmpegSource, WhatIsNoFileIsRefusedBeforeItIsRead) {
   }
 }
 
-// PNG of 8192 x 8192: the size is known from the first picture alone, which is not decoded for that.
+// FFmpeg determines a PNG's size by decoding the first picture; it must not do so for a picture that is too large.
 TEST(FfmpegSource, APictureThatIsTooLargeIsNotDecodedToKnowItsSize) {
   TemporaryFolder folder;
   makeClip(folder / "a.png", {{.codec = "png", .pix_fmt = "gray", .width = 8192, .height = 4096, .frames = 1}});
@@ -349,13 +349,13 @@ TEST(FfmpegSource, TellsHowMuchOfACutFileIsMissing) {
     ASSERT_TRUE(source->open(folder / name).has_value()) << name;
     EXPECT_EQ(source->missing(), Duration(0)) << name << " is not known before its end";
     const auto packets = readAll(*source);
-    // Of reordered pictures the one that lies farthest ahead comes first.
+    // With reordering, a later picture's packet precedes those of earlier pictures.
     const double there = static_cast<double>(packets.size()) / 24;
     EXPECT_NEAR(toSeconds(source->missing()), 2 - there, 0.25) << name;
   }
 }
 
-// ISO/IEC 23002-3 by the programme map, whatever the order of the streams.
+// ISO/IEC 23002-3, signalled in the programme map, in any order of the streams.
 TEST(FfmpegSource, TellsAuxiliaryVideoOfATransportStream) {
   TemporaryFolder folder;
   for (const int depth : {0, 1}) {
@@ -375,7 +375,7 @@ TEST(FfmpegSource, TellsAuxiliaryVideoOfATransportStream) {
   }
 }
 
-// ---- what may be opened from where
+// ---- what each kind of source may open
 
 TEST(FfmpegSource, OpensNoOtherKindOfAddress) {
   TemporaryFolder folder;
@@ -402,7 +402,7 @@ class Playlists : public testing::Test {
     writeFile(at(file),
               "#EXTM3U\n#EXT-X-VERSION:3\n#EXT-X-TARGETDURATION:2\n#EXTINF:1.6,\n" + part + "\n#EXT-X-ENDLIST\n");
   }
-  // How many packets come of it; 0 where it is not opened.
+  // The number of packets; 0 if it cannot be opened.
   static std::size_t packetsOf(const std::string& url) {
     const auto source = makeFfmpegSource();
     if (!source->open(url)) return 0;
@@ -440,7 +440,7 @@ TEST_F(Playlists, OfANetworkNameNothingOfThisMachine) {
   EXPECT_EQ(packetsOf(server.url("outer.m3u8")), 0u);
 }
 
-// 180,000 requests a minute and a gigabyte, until the opening gave up by time.
+// Without a bound: 180,000 requests a minute and a gigabyte, until opening timed out.
 TEST_F(Playlists, ThatNameThemselvesAreAskedForABoundedNumberOfTimes) {
   const test::HttpServer server(at(""));
   writeFile(at("self.m3u8"), "#EXTM3U\n#EXT-X-STREAM-INF:BANDWIDTH=100000\nself.m3u8\n");
@@ -448,7 +448,7 @@ TEST_F(Playlists, ThatNameThemselvesAreAskedForABoundedNumberOfTimes) {
   EXPECT_LE(server.requests().size(), 1000u);
 }
 
-// Formats that are lists of addresses, or ask for ports to be opened, are for files alone.
+// Formats that are lists of addresses, or that open ports, are allowed only in files.
 TEST_F(Playlists, OfOtherKindsAreForFilesAlone) {
   const test::HttpServer server(at(""));
   writeFile(at("film.ffconcat"), "ffconcat version 1.0\nfile part.ts\n");
@@ -462,7 +462,7 @@ TEST_F(Playlists, OfOtherKindsAreForFilesAlone) {
   EXPECT_THAT(refused.message, HasSubstr("forbidden to network sources"));
 }
 
-// A server on the loopback interface; what it answers is the test's choice.
+// A server on the loopback interface that sends the test's answers.
 struct Server {
   UniqueFd listener{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)};
   std::string url;
@@ -516,7 +516,7 @@ TEST(FfmpegSource, ABrokenConnectionIsTakenUpWhereItBroke) {
     ++packets;
   }
   EXPECT_EQ(packets, 48u);
-  ::shutdown(server.listener.get(), SHUT_RDWR);  // should the second request never come
+  ::shutdown(server.listener.get(), SHUT_RDWR);  // in case the second request never comes
   other.join();
   EXPECT_THAT(second_request, HasSubstr("bytes=" + std::to_string(half) + "-"));
 }
@@ -528,7 +528,7 @@ TEST(FfmpegSource, InterruptEndsTheWaitForASilentServer) {
   const auto source = makeFfmpegSource();
   UniqueFd connection;
   std::thread other([&] {
-    connection = server.accept();  // and never an answer
+    connection = server.accept();  // and never answer
     source->interrupt();
   });
   const auto opened = source->open(server.url);
@@ -537,7 +537,7 @@ TEST(FfmpegSource, InterruptEndsTheWaitForASilentServer) {
   EXPECT_EQ(opened.error().code, ErrorCode::Cancelled);
 }
 
-// A connection that says nothing, a port to which nobody sends.
+// A connection without an answer, a port that receives nothing.
 TEST(FfmpegSource, InterruptEndsEveryWaitSoon) {
   const Server silent;
   const std::string port = silent.url.substr(17, silent.url.rfind('/') - 17);
@@ -548,7 +548,7 @@ TEST(FfmpegSource, InterruptEndsEveryWaitSoon) {
     MonotonicClock clock;
     MonotonicTime interrupted;
     std::thread other([&] {
-      clock.sleepUntil(clock.now() + std::chrono::milliseconds(330));  // it waits by then, or soon will
+      clock.sleepUntil(clock.now() + std::chrono::milliseconds(330));  // by then it waits, or will soon
       interrupted = clock.now();
       source->interrupt();
     });
@@ -569,7 +569,8 @@ TEST(FfmpegSource, InterruptEndsTheWaitForAPipesWriter) {
   const auto source = makeFfmpegSource();
   UniqueFd writer;
   std::thread other([&] {
-    while (!writer.valid()) writer.reset(::open(path.c_str(), O_WRONLY | O_NONBLOCK));  // works once it is read
+    while (!writer.valid())
+      writer.reset(::open(path.c_str(), O_WRONLY | O_NONBLOCK));  // succeeds once a reader has opened it
     source->interrupt();
   });
   const auto opened = source->open(path);

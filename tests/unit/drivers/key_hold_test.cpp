@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whatever a remote sends while a key is held, it becomes a press, repeats at one pace and a release.
+// Whatever a remote sends for a held key becomes a press, repeats at a constant rate and a release.
 #include "drivers/evdev/key_hold.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ struct Raw {
   int value;
 };
 
-// A letter for each thing said: P press, r repeat, R release, with the key's code where it is not the first one's.
+// One letter per event: P press, r repeat, R release, with the key's code if it is not the first key.
 std::string heard(const std::vector<Raw>& sent, int until_ms, int poll_every_ms = 5) {
   KeyHold keys;
   std::string words;
@@ -53,7 +53,7 @@ TEST(KeyHold, PressesAgainAndAgainAreOneThatIsHeld) {
   for (int ms = 0; ms <= 900; ms += 300) sent.push_back({ms, KEY_RIGHT, 1});
   sent.push_back({1000, KEY_RIGHT, 0});
   EXPECT_EQ(heard(sent, 3000), "PrrrrR");
-  sent.pop_back();  // and never a release: let go of 550 ms after the last one, at 1450
+  sent.pop_back();  // without a release: released 550 ms after the last event, at 1450
   EXPECT_EQ(heard(sent, 5000), "PrrrrrrrR");
 }
 

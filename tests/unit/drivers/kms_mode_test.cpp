@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which mode is chosen from what a screen lists; timings of CTA-861-G, table 1.
+// The choice among a screen's modes; timings of CTA-861-G, table 1.
 #include "drivers/egl/kms_mode.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ const drmModeModeInfo kHdPacked = make(1280, 720, 1650, 750, 74'250, DRM_MODE_FL
 const drmModeModeInfo kFullHdHalves = make(1920, 1080, 2200, 1125, 148'500, DRM_MODE_FLAG_3D_SIDE_BY_SIDE_HALF);
 const drmModeModeInfo kHdTopBottom = make(1280, 720, 1650, 750, 74'250, DRM_MODE_FLAG_3D_TOP_AND_BOTTOM);
 const drmModeModeInfo kOtherStereo = make(1280, 720, 1650, 750, 74'250, DRM_MODE_FLAG_3D_L_DEPTH);
-// As a television lists them.
+// Modes in the order of a television.
 const std::vector kTelevision{kFullHdInterlaced, kOtherStereo, kHd,           kHd50,       kFullHd,
                               kFullHdHalves,     kHdPacked,    kFullHdPacked, kHdTopBottom};
 

@@ -20,7 +20,7 @@ class PointerTest : public testing::Test {
  protected:
   void SetUp() override { ASSERT_TRUE(device_->open() && device_->home() && device_->start()); }
 
-  // After so many ticks on which a surface of 0.5 N/mm at that height pushed back.
+  // The sample after that many ticks, on which a surface of 0.5 N/mm at that height pushed back.
   HapticSample after(int ticks, double surface_mm = -1000) {
     HapticSample sample;
     for (int i = 0; i < ticks; ++i) {
@@ -54,7 +54,7 @@ TEST_F(PointerTest, MovesATenthOfAMillimetreACountAndTwoANotch) {
   EXPECT_LT(glm::distance(after(200).position_mm, glm::dvec3(15, 20, 42)), 1e-6);
 }
 
-// One time constant of 10 ms leaves 1/e of the way.
+// After one time constant, 10 ms, 1/e of the distance remains.
 TEST_F(PointerTest, GoesThereSmoothly) {
   mouse_->move(100, 0);
   EXPECT_NEAR(after(10).position_mm.x, 10 * (1 - std::exp(-1.0)), 1e-9);
@@ -91,7 +91,7 @@ TEST_F(PointerTest, AForceThatIsNotRenewedIsForgotten) {
   mouse_->turn(BTN_LEFT, true);
   after(1500, 30);
   const double held = sample_.position_mm.z;
-  for (int i = 0; i < 200; ++i) {  // reads alone
+  for (int i = 0; i < 200; ++i) {  // reads only
     clock_.advance(1ms);
     ASSERT_TRUE(device_->read());
   }
@@ -112,7 +112,7 @@ TEST_F(PointerTest, TheMiddleButtonIsTheMainOneAndTheRightOneTheClutch) {
   EXPECT_EQ(after(1).buttons, 0u);
 }
 
-// The kernel's buffer was full: what is left of that report is no good, and a release may be among what was lost.
+// The kernel's buffer overflowed: the rest of that report is invalid, and a release may have been lost.
 TEST_F(PointerTest, AfterDroppedEventsTheButtonsAreAskedForAnew) {
   mouse_->turn(BTN_MIDDLE, true);
   EXPECT_EQ(after(1).buttons, 1u);
@@ -207,7 +207,7 @@ TEST_F(WindowPointerTest, TheFingerIsThereWhateverThePicturesShape) {
   start();
   point(200, 100);
   const HapticSample sample = after(300);
-  // The picture as large as the window lets it be: so many millimetres of it are a pixel.
+  // Millimetres per pixel of the largest picture that fits into the window.
   for (const DisplayVolume& volume : {DisplayVolume{160, 90, 40}, DisplayVolume{160, 120, 40},
                                       DisplayVolume{160, 284, 40}, DisplayVolume{320, 90, 40}}) {
     const double mm_a_px = std::max(volume.width_mm / 1280, volume.height_mm / 720);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The arm's geometry and drives against bodies that are turned one by one and against virtual work, for every public
-// device, over its whole workspace.
+// The arm's kinematics compared with separately rotated bodies and with virtual work, for every published device, over
+// its whole workspace.
 #include "drivers/polhem/arm.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ Description publicDevice(const std::string& name) {
   return loadDescription(RELIEVO_SOURCE_DIR "/drivers/polhem/" + name + ".json").value();
 }
 
-// In the ball of the workspace, as far as the arm reaches without being straight.
+// Random positions in the spherical workspace that the arm reaches without being straight.
 class Places {
  public:
   explicit Places(const Description& arm) : arm_(arm), radius_mm_(1e3 * arm.workspace_radius) {}
@@ -31,7 +31,7 @@ class Places {
     for (;;) {
       const glm::dvec3 place = radius_mm_ * std::cbrt(unit_(random_)) * direction();
       const glm::dvec3 angles = PolhemModel::anglesAt(place, arm_);
-      const double bend = angles.y + angles.z;  // pi: straight; of what cannot be reached no number
+      const double bend = angles.y + angles.z;  // pi: straight; NaN: unreachable
       if (std::sin(bend) > 0.2) return place;
     }
   }
@@ -157,7 +157,7 @@ TEST(PolhemArmByHand, AMotorThatIsAlignedTurnsBackwards) {
 }
 
 TEST(PolhemArmByHand, TheGateLetsThroughWhatAHandCanDoAndNoMore) {
-  // The finest: 205 mm x 2 pi / 2000 / 16 is 0.040 mm a count, 0.15 mm are 4 of it; and 2 for rounding.
+  // The finest count: 205 mm x 2 pi / 2000 / 16 = 0.040 mm; 0.15 mm are 4 counts, plus 2 for rounding.
   EXPECT_EQ(Arm(kWoodenHaptics2019).gateSlack(), 6);
 }
 

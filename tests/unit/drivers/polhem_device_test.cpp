@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What only the Polhem's driver does, on a model of the device in simulated time: boards, calibration, currents.
+// Tests special to the Polhem's driver, on a model in simulated time: boards, calibration, currents.
 #include "drivers/polhem/polhem.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ class PolhemDevice : public testing::Test {
     return makePolhem({.description = arm, .watchdog_thread = false},
                       std::make_unique<test::ModelPort>(model, cable_, clock_), clock_);
   }
-  // Running, the tip in the middle of the workspace.
+  // Returns a Running device with the tip in the middle of the workspace.
   std::unique_ptr<HapticDevice> run(PolhemModel& model) {
     auto device = make(model);
     EXPECT_TRUE(device->open() && device->home());
@@ -66,7 +66,7 @@ TEST_F(PolhemDevice, AnotherGadgetOfTheSameIdIsRefused) {
 
 TEST_F(PolhemDevice, ABoardThatSaysNothingTimesOut) {
   PolhemModel model;
-  (void)model.read(clock_.now());  // what waits after power-up is fetched
+  (void)model.read(clock_.now());  // reads the report that is ready after power-up
   model.silence();
   EXPECT_EQ(make(model)->open().error().code, ErrorCode::Timeout);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The wire of the Polhem and the files that describe one.
+// The Polhem's wire format and description files.
 #include "drivers/polhem/report.h"
 
 #include <gtest/gtest.h>
@@ -52,7 +52,7 @@ class PolhemDescription : public testing::Test {
     text << std::ifstream(RELIEVO_SOURCE_DIR "/drivers/polhem/" + name).rdbuf();
     return text.str();
   }
-  // With `from` turned into `to`.
+  // The description with `from` replaced by `to`.
   static Outcome<Description> changed(const std::string& from, const std::string& to) {
     std::string text = textOf("woodenhaptics-2019.json");
     const auto at = text.find(from);

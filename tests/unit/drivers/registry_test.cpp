@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The back ends' names on the command line: each gives what it says, any other is refused with the list.
+// The back ends' names on the command line: each makes its back end, any other is rejected with the list.
 #include "drivers/registry.h"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recordings as they are written, older ones, paths of a finger, and files that are none.
+// Recordings in the current and older formats, paths of a finger, and files that are no recordings.
 #include "drivers/replay/replay.h"
 
 #include <gmock/gmock.h>
@@ -38,7 +38,7 @@ TEST(Recording, IsTheDeviceThatWasRecorded) {
   EXPECT_EQ(device.rate_hz, 2000);
 }
 
-// Scene millimetres are device millimetres where the middle of the workspace is (0, 0, 20) and it has room to spare.
+// Scene and device millimetres are the same if the workspace is large and its middle is (0, 0, 20).
 TEST(Recording, WithoutTheDeviceItIsThePathInTheScene) {
   for (const std::string head : {"t_s,hip_x_mm,hip_y_mm,hip_z_mm,proxy_x_mm\n", "t_s,x_mm,y_mm,z_mm,note\n",
                                  "t_s,hip_x_mm,hip_y_mm,hip_z_mm,device_x_mm\n"}) {
@@ -100,7 +100,7 @@ TEST(Replay, AnswersTickByTickAndStaysAtTheEnd) {
     }
     device->stop();
     ASSERT_TRUE(device->start());
-    for (const double x : {3.0, 3.0, 3.0}) EXPECT_EQ(device->read()->position_mm.x, x) << "it goes on where it was";
+    for (const double x : {3.0, 3.0, 3.0}) EXPECT_EQ(device->read()->position_mm.x, x) << "the position stays";
     device->close();
   }
 }

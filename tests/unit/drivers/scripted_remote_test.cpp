@@ -75,7 +75,7 @@ TEST(ScriptedRemote, PressesEachKeyOnceWhenItsTimeHasCome) {
   EXPECT_EQ(second->code, KEY_UP);
   EXPECT_FALSE(remote->poll(clock.now()).value());
 
-  // Each is let go of after its own time.
+  // Each is released after its own time.
   clock.advance(std::chrono::seconds(1));
   const auto third = remote->poll(clock.now()).value();
   ASSERT_TRUE(third);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The paths of the simulated hand: the one it has by itself, and a script's.
+// The paths of the simulated hand: built-in ones, and a script's.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -67,7 +67,7 @@ TEST(SimHandPath, ItsOwnPathRestsInFrontThenComesDownAboutTheMiddleAndLeavesIt) 
   EXPECT_GT(aside(2.2), 45.0) << "whatever hole there is in the middle, it is soon beside it";
 }
 
-// A finger that has passed into the solid is held again only after it has come out of it.
+// The finger must leave the solid regularly, since a finger that fell into it is not held before it is out again.
 TEST(SimHandPath, ItsOwnPathComesOutEveryFourSeconds) {
   const HandPath path;
   for (int round = 1; round < 30; ++round) {

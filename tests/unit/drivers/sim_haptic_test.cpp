@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The simulated device as its user sees it: ticks in, positions out, in simulated time.
+// The simulated device's positions and forces tick by tick, in simulated time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ HandPath stillAt(const glm::dvec3& position_mm) {
   return HandPath({{0.0, position_mm}});
 }
 
-// Nobody holds it, nothing rubs, nothing is rounded.
+// A device without a hand, without friction and with exact positions.
 DeviceProfile freeMass() {
   DeviceProfile profile;
   profile.damping_n_s_per_mm = 0;
@@ -42,7 +42,7 @@ struct Bench {
     EXPECT_TRUE(sample);
     return sample ? sample->position_mm : glm::dvec3(0);
   }
-  // Reads, writes what `force` makes of the position, and lets a tick go by; tells the position read.
+  // Reads the position, writes `force` of it, and advances by a tick; returns the position.
   glm::dvec3 tick(const std::function<glm::dvec3(const glm::dvec3&)>& force) {
     const glm::dvec3 position = read();
     EXPECT_TRUE(device->write(force(position)));
@@ -182,7 +182,7 @@ INSTANTIATE_TEST_SUITE_P(Bound, SimHapticWall,
                                          WallCase{1, 0.5}, WallCase{1, 0.85}, WallCase{1, 1.15}, WallCase{1, 1.5},
                                          WallCase{3, 0.5}, WallCase{3, 0.85}, WallCase{3, 1.15}, WallCase{3, 1.5}));
 
-// Spring and mass at rest: the hand's 0.3 N/mm pulled by 0.9 N gives way by 3 mm, less what friction holds
+// Spring and mass at rest: the hand's 0.3 N/mm pulled by 0.9 N yields by 3 mm, minus what friction absorbs
 // (0.04 N / 0.3 N/mm = 0.13 mm).
 TEST(SimHaptic, TheHandGivesWayAsASpring) {
   Bench bench(DeviceProfile{});
@@ -191,8 +191,8 @@ TEST(SimHaptic, TheHandGivesWayAsASpring) {
   EXPECT_NEAR(position.y, 3.0, 0.14 + 0.015);
 }
 
-// A spring and damper to a point that moves steadily pull a mass without other friction along with it, behind by
-// nothing: the damper is at rest. A tick late would be 100 um.
+// A spring and damper pull a frictionless mass along with a steadily moving point, without lag, since the damper is at
+// rest. One tick of delay would be 100 um.
 TEST(SimHaptic, TheHandKeepsUpWithItsPath) {
   DeviceProfile profile = freeMass();
   profile.hand = HandProfile{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The integration of the simulated device against the closed forms of mechanics.
+// The simulated device's integration compared with closed-form mechanics.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -49,7 +49,7 @@ TEST(SimMovingMass, StaysExactlyWhereItIsBelowCoulombFriction) {
   EXPECT_EQ(mass.velocity_mm_per_s, glm::dvec3(0));
 }
 
-// The friction is that of the whole force, not of each axis: 0.03 N along x and along y are 0.0424 N.
+// Friction acts on the whole force, not on each axis: 0.03 N along x and along y are 0.0424 N.
 TEST(SimMovingMass, MovesAboveCoulombFrictionAlongTheForce) {
   MovingMass mass{.mass_kg = 0.075, .coulomb_friction_n = 0.04};
   run(mass, {0.03, 0.03, 0}, 1.0);

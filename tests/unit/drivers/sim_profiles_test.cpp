@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Simulated devices and hands by their words, and what the hands do of their own.
+// The words for simulated devices and hands, and the hands' built-in motions.
 #include "drivers/sim/profiles.h"
 
 #include <gmock/gmock.h>
@@ -87,7 +87,7 @@ TEST(SimDevices, MoveAboutTheMiddleOfTheDefaultVolume) {
   }
 }
 
-// Half a second above everything, then its own way: below everything, never out of the workspace by the side.
+// Half a second above every surface, then the hand's motion: down below every surface, never out at the sides.
 TEST(SimHands, BeginAtRestInFrontAndStayWithinTheWorkspace) {
   for (const auto& device : simDevices()) {
     for (const auto& hand : simHands()) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The simulated devices on a plain wall, in simulated time: from which stiffness on the loop swings, what theory says
-// to that, and what each device promises to whoever holds it.
+// The simulated devices on a flat wall, in simulated time: the stiffness at which the loop starts to oscillate,
+// compared with theory, and stability in every hand at the stiffness that a device states.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,8 +15,7 @@ namespace {
 
 constexpr double kWallMm = 20, kPushN = 1;
 
-// The heights that the device tells, one a millisecond; the wall pushes with its stiffness times how deep it is told to
-// be.
+// The heights that the device reports, one per millisecond; the wall's force is its stiffness times the reported depth.
 std::vector<double> heightsOn(const DeviceProfile& profile, double stiffness, HandPath path, double seconds) {
   ManualClock clock;
   const auto device = makeSimHaptic(profile, std::move(path), clock);
@@ -33,7 +32,7 @@ std::vector<double> heightsOn(const DeviceProfile& profile, double stiffness, Ha
   return heights;
 }
 
-// How far it still swings in each of the last two quarters.
+// The remaining amplitude in each of the last two quarters.
 struct Swing {
   double before_mm = 0, last_mm = 0;
 };
@@ -47,8 +46,8 @@ Swing swingOf(const std::vector<double>& heights) {
           between(heights.end() - quarter, heights.end())};
 }
 
-// The device alone, pushed on the wall with 1 N by a spring that is too soft and too far away to hold it, and let go
-// that far off its rest.
+// The device alone, pushed onto the wall with 1 N by a long soft spring that does not hold it, and released at a given
+// distance from its rest.
 Swing swingAlone(DeviceProfile profile, double stiffness, double off_mm) {
   profile.hand = {.mass_kg = 0, .stiffness_n_per_mm = kPushN / 100, .damping_n_s_per_mm = 0};
   const double rest_mm = kWallMm - kPushN / stiffness;
@@ -62,7 +61,7 @@ DeviceProfile withoutDryFriction(DeviceProfile profile) {
   return profile;
 }
 
-// By halving, to 0.5 %.
+// By bisection, to 0.5 %.
 double onsetOf(const DeviceProfile& profile) {
   double rests = 0, swings = 3 * profile.viscousBound();
   while (swings - rests > 0.005 * swings) {
@@ -130,7 +129,7 @@ TEST(SimStability, FarAboveTheBoundsItSwings) {
   EXPECT_GT(swingAlone(phantom, 2 * bound, 1.0).last_mm, 1.0);
 }
 
-// A force that comes up to a tick late, at random, is late by half a tick on average; the bound takes the whole.
+// A random delay of up to a tick is half a tick on average; the bound assumes the whole tick.
 TEST(SimStability, JitterLowersTheOnsetAndTheBoundMore) {
   for (const double jitter_ticks : {0.5, 1.0}) {
     DeviceProfile profile = withoutDryFriction(simDevices()[0].profile);
@@ -143,8 +142,8 @@ TEST(SimStability, JitterLowersTheOnsetAndTheBoundMore) {
   }
 }
 
-// With every hand, at the stiffness that the device says it holds: on the way it goes as it would if it had no delay
-// and no encoder, and a hand that is still is still.
+// With every hand, at the stiffness that the device states: in motion it behaves as without delay and encoder, and a
+// hand at rest stays at rest.
 TEST(SimStability, WhatADevicePromisesItHoldsInEveryHand) {
   for (const SimDeviceName& device : simDevices()) {
     for (const SimHandName& hand : simHands()) {
@@ -171,7 +170,7 @@ TEST(SimStability, WhatADevicePromisesItHoldsInEveryHand) {
   }
 }
 
-// The spring of a hand that stiffens adds to the wall's. Held there, not pressed: the hand's own spring is taut.
+// The spring of a stiffening hand adds to the wall's. The hand holds its position instead of pressing.
 TEST(SimStability, WhatADevicePromisesItHoldsOnAnySpring) {
   for (const SimDeviceName& device : simDevices()) {
     for (const double hand_stiffness : {0.05, 0.3, 1.0, 2.0, 4.0}) {

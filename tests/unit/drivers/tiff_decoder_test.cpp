@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Z buffers as TIFF files, through the source that reads them: every way they are stored, and what is none.
+// Z buffers as TIFF files, read through the FFmpeg source: every layout, and files that are no Z buffers.
 #include <gtest/gtest.h>
 #include <tiff.h>
 
@@ -15,7 +15,7 @@
 namespace relievo {
 namespace {
 
-// A slope of 10 m and the values that are none, in a picture of uneven sides.
+// A slope of 10 m and invalid values, in a picture with odd sides.
 test::FloatTiff zBuffer() {
   test::FloatTiff z{.width = 53, .height = 37};
   for (std::uint32_t i = 0; i < z.width * z.height; ++i) z.samples.push_back(0.005F * static_cast<float>(i) + 0.2002F);
@@ -118,7 +118,7 @@ TEST(TiffDecoder, NumberedFilesAreAFilmWithoutTheDamagedOnes) {
   ASSERT_EQ(film.frames.size(), 4u);
   const Duration period = film.frames[1].pts - film.frames[0].pts;
   EXPECT_GT(period, Duration(0));
-  EXPECT_EQ(film.frames[2].pts - film.frames[1].pts, 2 * period) << "the lost one's place stays empty";
+  EXPECT_EQ(film.frames[2].pts - film.frames[1].pts, 2 * period) << "the lost picture leaves a gap";
   EXPECT_EQ(test::sampleAt(film.frames[3], 0, 0, 0), 5000u);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The udev rules give the right to every device that a driver looks for, and to nothing else.
+// The udev rules give access to every device that a driver looks for, and to nothing else.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

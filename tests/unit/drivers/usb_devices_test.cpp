@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What holds for every haptic device over USB, on a model of it in simulated time: whatever its cable does, nobody is
-// pushed by a force that nobody asked for.
+// Tests of every haptic device over USB, on a model in simulated time: whatever happens to the cable, the device
+// applies no force that was not requested.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ class UsbDevice : public testing::TestWithParam<UsbKind> {
   std::unique_ptr<HapticDevice> make() {
     return bench_.driver(std::make_unique<test::ModelPort>(model(), cable_, clock_), clock_);
   }
-  // Running, with the hand at rest.
+  // Returns a Running device with the hand at rest.
   std::unique_ptr<HapticDevice> run() {
     auto device = make();
     EXPECT_TRUE(device->open() && device->home());
@@ -43,12 +43,12 @@ class UsbDevice : public testing::TestWithParam<UsbKind> {
     clock_.advance(kTick);
     return sample;
   }
-  // Faded in, and pushing.
+  // Writes a force until it has faded in.
   void push(HapticDevice& device) {
     for (int i = 0; i < 600; ++i) (void)tick(device, {0, 0, 3});
     EXPECT_TRUE(pushes());
   }
-  // Where the hand was when the last command was answered.
+  // The hand's position when the last command was answered.
   glm::dvec3 whereAnswered() { return model().gripNow(clock_.now() - kTick + GetParam().answers_in); }
   bool pushes() { return model().pushes(clock_.now()); }
   glm::dvec3 felt() { return model().forceAt(GetParam().rest_mm, clock_.now()); }
@@ -60,8 +60,8 @@ class UsbDevice : public testing::TestWithParam<UsbKind> {
 INSTANTIATE_TEST_SUITE_P(Kinds, UsbDevice, testing::ValuesIn(test::usbKinds().begin(), test::usbKinds().end()),
                          [](const auto& test) { return std::string(test.param.name); });
 
-// Called off at the first verb of the port, at the second, and so on while the firmware is loaded, while nobody helps
-// it to home, and once it has nothing to wait for.
+// Cancelled at the first call of the port, at the second, and so on: while the firmware is loaded, while nobody helps
+// it to home, and when there is nothing to wait for.
 TEST_P(UsbDevice, OpeningAndHomingEndSoonWhenTheyAreCalledOff) {
   for (const bool helped : {true, false}) {
     if (!helped) {  // it moves, but not to where its zero is
@@ -82,7 +82,7 @@ TEST_P(UsbDevice, OpeningAndHomingEndSoonWhenTheyAreCalledOff) {
       ASSERT_FALSE(!helped && model().homed()) << moment;
       if (moment % 50 != 1) continue;
       device->close();
-      ASSERT_TRUE(device->open()) << "closing forgets the call";
+      ASSERT_TRUE(device->open()) << "closing resets the cancellation";
     }
   }
 }
@@ -158,8 +158,8 @@ TEST_P(UsbDevice, TheForceFadesInAfterStart) {
   }
 }
 
-// No checksum guards an answer. What is asked: a place where the hand was not is not taken for one, but for what a hand
-// could do as well (see EncoderGate), and no force beyond the device's own goes out.
+// Answers have no checksum. The driver must reject positions that no hand could have reached (see EncoderGate), and
+// must never send a force beyond the device's limit.
 TEST_P(UsbDevice, CorruptSplitAndLostAnswersMakeNoWrongPositionAndNoWildForce) {
   std::mt19937 random(99);
   int spoiled = 0;
@@ -191,7 +191,7 @@ TEST_P(UsbDevice, CorruptSplitAndLostAnswersMakeNoWrongPositionAndNoWildForce) {
     ASSERT_LE(glm::length(model().forceAt(answered.front(), clock_.now())), peak_n + 0.1) << i;
   }
   EXPECT_GT(spoiled, 2000);
-  EXPECT_LT(worst, 0.5) << "0.15 mm a tick, after three in a row without a word";
+  EXPECT_LT(worst, 0.5) << "0.15 mm a tick, after three in a row without an answer";
   EXPECT_LT(held, 4000);
 }
 
@@ -224,7 +224,7 @@ TEST_P(UsbDevice, AForceThatNobodyRenewsEnds) {
   ASSERT_TRUE(device->read());
   EXPECT_FALSE(pushes());
   ASSERT_TRUE(device->write({0, 0, 3}));
-  EXPECT_LT(felt().z, 0.3) << "it fades in anew";
+  EXPECT_LT(felt().z, 0.3) << "it fades in again";
 }
 
 TEST_P(UsbDevice, AHandThatIsNotSeenIsNotPushed) {
@@ -240,7 +240,7 @@ TEST_P(UsbDevice, AHandThatIsNotSeenIsNotPushed) {
   EXPECT_LT(felt().z, 0.03);
   seen = true;
   for (int i = 0; i < 100; ++i) (void)tick(*device, {0, 0, 3});
-  EXPECT_NEAR(felt().z, 0.6, 0.05) << "it fades in anew";
+  EXPECT_NEAR(felt().z, 0.6, 0.05) << "it fades in again";
 }
 
 TEST_P(UsbDevice, WhatDoesNotTakeItsZeroGetsItAgain) {
@@ -249,7 +249,7 @@ TEST_P(UsbDevice, WhatDoesNotTakeItsZeroGetsItAgain) {
   cable_.deaf = true;
   for (int i = 0; i < 30; ++i) (void)tick(*device, {0, 0, 3});
   cable_.deaf = false;
-  EXPECT_TRUE(pushes()) << "it has not heard";
+  EXPECT_TRUE(pushes()) << "the device did not take the command";
   ASSERT_TRUE(device->read());
   EXPECT_FALSE(pushes());
 }
@@ -272,8 +272,8 @@ TEST_P(UsbDevice, ForceIsZeroAfterStopCloseAndTheEnd) {
   EXPECT_FALSE(pushes());
 }
 
-// The cable is pulled at the first verb of the port, then at the second, and so on through the whole life; then it is
-// plugged in and everything works.
+// The cable is unplugged at the first call of the port, then at the second, and so on through a whole session; after
+// plugging it in again everything works.
 TEST_P(UsbDevice, UnpluggedAtAnyMomentItIsCleanAndComesBack) {
   const auto live = [&](HapticDevice& device) -> Result<void> {
     if (auto opened = device.open(); !opened) return opened;
@@ -301,7 +301,7 @@ TEST_P(UsbDevice, UnpluggedAtAnyMomentItIsCleanAndComesBack) {
     device->close();
     ASSERT_EQ(device->state(), State::Closed);
     ASSERT_FALSE(cable_.open || cable_.exchanging) << moment;
-    // Most moments of a wait are like their neighbours: only some of them are tried again whole.
+    // Most moments of a wait are alike, so only some of them are tested fully.
     if (moment % 7 != 0 && moment > 40) continue;
     cable_ = Cable{};
     model().powerOn();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A loop of driver, device and hand on a stiff wall, closed through encoder counts, wire and motor commands, in
-// simulated time: from which stiffness on it swings, and what theory says to that.
+// A loop of driver, device and hand on a stiff wall, through encoder counts, wire format and motor commands, in
+// simulated time: the stiffness at which it starts to oscillate, compared with theory.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using test::UsbKind;
 
 constexpr Duration kTick = std::chrono::milliseconds(1);
 constexpr double kTickS = 0.001;
-constexpr double kPushN = 2, kOffMm = 0.5;  // it does not leave the wall where it does not swing
+constexpr double kPushN = 2, kOffMm = 0.5;  // without oscillation it does not leave the wall
 
 // Of the moving parts and the hand together.
 struct Friction {
@@ -26,7 +26,7 @@ struct Friction {
 
 class Loop {
  public:
-  // It runs, its force has faded in, and its handle is held where it was homed.
+  // The device runs, its force has faded in, and its handle is held where it was homed.
   explicit Loop(const UsbKind& kind) : kind_(kind), bench_(kind.make()) {
     hand_ = bench_.model->grip;
     bench_.model->grip = [this](double t_s) { return hand_(t_s); };
@@ -37,7 +37,7 @@ class Loop {
     for (int i = 0; i < 600; ++i) (void)tick([](const glm::dvec3&) { return glm::dvec3(0); });
   }
 
-  // By how much the told place jumps at most on that way: what a count is there.
+  // The largest jump of the reported position along that path, which is the size of a count there.
   double encoderStep(const glm::dvec3& way) {
     double step_mm = 0, before_mm = 0;
     hand_ = [this, way, moved_mm = 0.0](double) mutable { return kind_.rest_mm + (moved_mm += 1e-3) * way; };
@@ -49,7 +49,7 @@ class Loop {
     return step_mm;
   }
 
-  // Let go that far above where the push holds it in the wall: how far it still swings after one and a half seconds.
+  // Releases the handle kOffMm above its equilibrium in the wall; returns the amplitude after one and a half seconds.
   double swingOn(double stiffness, const glm::dvec3& normal, const Friction& friction) {
     normal_ = normal;
     mass_ = {.mass_kg = 0.15,
@@ -81,7 +81,7 @@ class Loop {
     return sample ? sample->position_mm : glm::dvec3(0);
   }
 
-  // Asked for once for each command, at the time of its answer: until the command the force was that of the one before.
+  // Called once for each command, at the time of its answer; until then the previous command's force acts.
   glm::dvec3 mass(double t_s) {
     const double commanded_s = t_s - toSeconds(kind_.answers_in);
     advanceTo(commanded_s);
@@ -90,7 +90,7 @@ class Loop {
     return mass_.position_mm;
   }
 
-  // Aside from the wall's normal a soft hand holds it.
+  // A soft hand holds it in the directions across the wall's normal.
   void advanceTo(double until_s) {
     constexpr int kSteps = 16;
     constexpr double kAsideNPerMm = 0.05;
@@ -111,8 +111,8 @@ class Loop {
   std::function<glm::dvec3(double t_s)> hand_;
   MovingMass mass_;
   glm::dvec3 normal_{0}, motors_n_{0};
-  std::optional<double> at_s_;            // up to which the mass has moved
-  std::unique_ptr<HapticDevice> device_;  // goes first: its last command is answered
+  std::optional<double> at_s_;            // the time of the mass's state
+  std::unique_ptr<HapticDevice> device_;  // destroyed first, since its last command must be answered
 };
 
 const glm::dvec3 kNormals[] = {{0, 0, 1}, {1, 0, 0}, {-2 / 7.0, 3 / 7.0, 6 / 7.0}};
@@ -122,7 +122,7 @@ class UsbLoop : public testing::TestWithParam<UsbKind> {
   static double swing(double stiffness, const glm::dvec3& normal, const Friction& friction) {
     return Loop(GetParam()).swingOn(stiffness, normal, friction);
   }
-  // 2b / ((1 + 2n) T): a command holds for a tick, and the place that it follows is n ticks old.
+  // 2b / ((1 + 2n) T): a command holds for a tick, and its position is n ticks old.
   static double viscousBound(const Friction& friction) {
     const double n = 1 - toSeconds(GetParam().answers_in) / kTickS;
     return 2 * friction.viscous_n_s_per_mm / ((1 + 2 * n) * kTickS);
@@ -141,7 +141,7 @@ TEST_P(UsbLoop, WithoutDryFrictionItSwingsFromTheViscousBoundOn) {
   }
 }
 
-// One that the delay bounds, and one that the encoders do: 2 f / step. Far above the former it swings all the same.
+// The bound by the delay, and the bound by the encoders: 2 f / step. Far above the former the device oscillates anyway.
 TEST_P(UsbLoop, WithDryFrictionItIsStillUpToFourFifthsOfTheBounds) {
   constexpr Friction kDelayed{.viscous_n_s_per_mm = 0.002, .dry_n = 0.2};
   constexpr Friction kCoarse{.viscous_n_s_per_mm = 0.01, .dry_n = 0.02};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Times that jump, wrap and come out of step between two streams; and times that only look so.
+// Timestamps that jump, wrap or jump at different packets of two streams; and ones that only seem to.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -14,7 +14,7 @@ using namespace std::chrono_literals;
 class ContinuousTimeTest : public testing::Test {
  protected:
   void SetUp() override { time_.begin(2s); }
-  // Where a packet that the container places at `ms` comes to lie, in ms.
+  // The continuous time, in ms, of a packet with the container's time `ms`.
   long long place(int stream, long long ms) {
     const MediaTime own(std::chrono::milliseconds{ms});
     return (own + time_.offsetFor(stream, own)).time_since_epoch() / 1ms;
@@ -55,7 +55,7 @@ TEST_F(ContinuousTimeTest, StreamsKeepTheirDistanceOverAJump) {
   for (long long ms = 0; ms <= 400; ms += 40) place(0, ms), place(1, ms + 10);
   EXPECT_EQ(place(0, 700'000), 440);
   EXPECT_EQ(place(0, 700'040), 480);
-  EXPECT_EQ(place(1, 450), 450);  // of before the jump
+  EXPECT_EQ(place(1, 450), 450);  // from before the jump
   EXPECT_EQ(place(1, 490), 490);
   EXPECT_EQ(place(0, 700'080), 520);
   EXPECT_EQ(place(1, 700'090), 530);
@@ -63,7 +63,7 @@ TEST_F(ContinuousTimeTest, StreamsKeepTheirDistanceOverAJump) {
   EXPECT_EQ(time_.jumps(), 1u);
 }
 
-// A clip of three seconds that is sent in a loop: the jump back is shorter than the gap that would be waited out.
+// A clip of three seconds sent in a loop: the jump back is shorter than longest_gap.
 TEST_F(ContinuousTimeTest, AShortJumpBackIsOneToo) {
   time_.begin(10s);
   for (long long ms = 0; ms < 3000; ms += 40) place(0, ms), place(1, ms);

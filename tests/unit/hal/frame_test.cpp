@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cropping: the part shows the samples of the whole, in each way that a picture may lie in memory, and copies
-// none.
+// Cropping: the part has the samples of the whole, in every memory layout of a picture, without copies.
 #include "hal/frame.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +9,7 @@
 namespace relievo {
 namespace {
 
-// Reads a sample by the words of the header, independently of what the rest of the project uses.
+// Reads a sample as the header specifies, independently of the project's own code.
 int sampleAt(const Frame& frame, int component_index, int c, int r) {
   const Component& component = frame.components[static_cast<std::size_t>(component_index)];
   const Plane& plane = frame.planes[component.plane];
@@ -26,7 +25,7 @@ std::vector<std::uint8_t> pattern() {
   return bytes;
 }
 
-// Every sample of the crop is the whole's at the same place.
+// Every sample of the crop equals the whole's at the same place.
 void expectPartOf(const Frame& whole, int x, int y, int width, int height) {
   const Frame part = crop(whole, x, y, width, height);
   EXPECT_EQ(part.width, width);

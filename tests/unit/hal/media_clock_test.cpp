@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The film's clock: unset until told, never jumping, exact at its own rate.
+// The film's clock: unset until started, continuous, exact at its own rate.
 #include "hal/media_clock.h"
 
 #include <gtest/gtest.h>
@@ -160,8 +160,7 @@ TEST(MediaClock, RefusesARateThatIsNone) {
   EXPECT_EQ(clock.position(machine(2s)), film(2s));
 }
 
-// A hundred changes a second, each at an odd moment: the error of each is under a nanosecond, and so is their
-// sum's mean.
+// A hundred changes a second at odd times: each has a rounding error under a nanosecond, and these do not add up.
 TEST(MediaClock, ManyChangesDoNotAddUp) {
   MediaClock clock;
   clock.start(film(0s), machine(0s));

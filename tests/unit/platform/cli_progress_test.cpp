@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the programs tell that they are at work, on a terminal and elsewhere, in simulated time.
+// Progress messages of the programs, on a terminal and elsewhere, in simulated time.
 #include <gtest/gtest.h>
 
 #include "app/cli/progress_line.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each way to allocate is counted once, on the thread that does it, from whatever library.
+// Every kind of allocation is counted once, on its thread, from any library.
 #include "platform/allocation_counter.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@
 namespace relievo {
 namespace {
 
-// Keeps the compiler from leaving out an allocation whose result is not used.
+// Keeps the compiler from removing an allocation whose result is unused.
 template <class T>
 T* keep(T* pointer) {
   asm volatile("" : "+r"(pointer) : : "memory");
@@ -53,7 +53,7 @@ TEST_F(ThreadAllocations, CountsTheCFunctions) {
 }
 
 TEST_F(ThreadAllocations, CountsTheAlignedCFunctions) {
-  if (kThreadSanitizer) GTEST_SKIP() << "the thread sanitizer does not tell its hooks of these";
+  if (kThreadSanitizer) GTEST_SKIP() << "the thread sanitizer's hooks do not report these";
   EXPECT_EQ(allocationsOf([] { std::free(keep(std::aligned_alloc(64, 128))); }), 1u);
   EXPECT_EQ(allocationsOf([] { std::free(keep(::memalign(64, 100))); }), 1u);
   EXPECT_EQ(allocationsOf([] {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A file that is whole or not there.
+// A file exists whole or not at all.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -100,7 +100,7 @@ TEST_F(AtomicFileTest, AnotherWriterMayFillItByItsName) {
   EXPECT_EQ(filesInFolder(), 1);
 }
 
-// However a program ends, a file without a name is gone with it.
+// An unnamed file disappears with its process, however that ends.
 TEST_F(AtomicFileTest, HasNoNameUntilTheCommit) {
   const UniqueFd nameless(::open(at("").c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600));
   if (!nameless.valid()) GTEST_SKIP() << "this file system has no files without a name";

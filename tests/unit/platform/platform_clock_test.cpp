@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The clock that a test turns by hand, and what holds for the real one however slow the machine is.
+// The clock that a test sets, and properties of the real one that hold on any machine, however slow.
 #include "platform/clock.h"
 
 #include <gtest/gtest.h>

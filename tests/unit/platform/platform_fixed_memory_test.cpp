@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Touched and locked memory as the kernel sees it, and the arena that lies in it.
+// Touched and locked memory as the kernel reports it, and the arena in it.
 #include "platform/fixed_memory.h"
 
 #include <dlfcn.h>
@@ -83,7 +83,7 @@ std::vector<Mapping> mappings() {
   return all;
 }
 
-// Runs `act` in a process that may not lock memory; the process ends well when `act` says true.
+// Runs `act` in a process that may not lock memory; the exit code is 0 if `act` returns true.
 template <class Act>
 void withoutTheRight(Act act) {
   const auto child = [&] {
@@ -140,7 +140,7 @@ TEST(LockAndTouch, SaysWhenTheRightIsMissingAndTouchesAllTheSame) {
 TEST(LockAndTouchCode, LocksTheProgramsAndItsLibrariesCode) {
   if (kMemorySanitizer) GTEST_SKIP() << "a sanitizer's mlock does nothing";
   volatile double argument = 2.0;
-  ASSERT_GT(std::sin(argument), 0.0);  // so that the maths library is there
+  ASSERT_GT(std::sin(argument), 0.0);  // so that the maths library is linked
   const auto locked = lockAndTouchCode();
   if (!locked) GTEST_SKIP() << locked.error().message;
   const std::string program = std::filesystem::read_symlink("/proc/self/exe");
@@ -157,7 +157,7 @@ TEST(LockAndTouchCode, LocksTheProgramsAndItsLibrariesCode) {
 }
 
 TEST(LockAndTouchCode, LeavesOtherLibrariesAlone) {
-  void* const other = ::dlopen("libresolv.so.2", RTLD_NOW);  // the C library's own, and no loop's
+  void* const other = ::dlopen("libresolv.so.2", RTLD_NOW);  // part of the C library, but not used by a loop
   ASSERT_NE(other, nullptr);
   static_cast<void>(lockAndTouchCode());
   int seen = 0;
@@ -253,7 +253,7 @@ TEST(FixedArena, DestroysItsObjectsOnceWhenItIsMoved) {
   EXPECT_EQ(gone, (std::vector<int>{2, 1}));
 }
 
-// The object fits, the note that destroys it does not: no object, rather than one that is never destroyed.
+// The object fits but its clean-up record does not: `make` fails, since the object would never be destroyed.
 TEST(FixedArena, MakesNoObjectThatItCouldNotDestroy) {
   std::vector<int> gone;
   {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The histogram against the sorted values themselves, and at the ends of its range.
+// The histogram compared with the sorted values, and at the ends of its range.
 #include "platform/histogram.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A line is a line: its form, its level, and that threads do not write into each other's.
+// Log lines: their form, their level, and that lines of different threads do not mix.
 #include "platform/log.h"
 
 #include <fcntl.h>
@@ -132,11 +132,11 @@ TEST(RingLog, SaysHowManyRecordsWereLostAndSaysItOnce) {
   RingLog ring("a");
   for (int i = 0; i < 256 + 3; ++i) ring.push({.level = LogLevel::Error, .text = "b"});
   EXPECT_THAT(printedBy([&] { ring.drain(); }),
-              testing::EndsWith("relievo: a: 3 lines lost: they came faster than they were printed\n"));
+              testing::EndsWith("relievo: a: 3 log lines dropped: they came faster than they were printed\n"));
   EXPECT_EQ(printedBy([&] { ring.drain(); }), "");
 }
 
-// What nobody wants to see takes no room from what is wanted.
+// Records below the level take no room in the ring.
 TEST(RingLog, TakesWhatItsAreasLevelLetsThrough) {
   const LevelGuard guard(LogLevel::Error);
   setLogLevel("haptic", LogLevel::Debug);
@@ -162,7 +162,7 @@ TEST(Log, AnAreaHasALevelOfItsOwnUntilAllAreSet) {
   EXPECT_EQ(printedBy(speak), "");
 }
 
-// A line of an area that is not in the list could not be asked for by the configuration.
+// The configuration could not set the level of an area that is missing in the list.
 TEST(Log, EveryAreaThatTheSourcesNameIsInTheList) {
   namespace fs = std::filesystem;
   const std::regex named(R"re((?:log\(LogLevel::(?:Warning|Info|Debug), |RingLog \w+[{(])"([a-z ]+)")re");

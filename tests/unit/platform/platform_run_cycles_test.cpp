@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cyclic loop in simulated time: which cycles run, when, and how many are missed, all derived on paper.
+// The cyclic loop in simulated time: which cycles run, when, and how many are missed, as calculated by hand.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ using testing::ElementsAre;
 constexpr Duration kPeriod = milliseconds(1);
 constexpr MonotonicTime kStart = MonotonicTime{} + milliseconds(5);
 
-// Takes as much of the clock's time as it is told to, and writes down each cycle.
+// Takes a given time of the clock for each cycle, and records the cycles.
 class RecordingTask final : public CyclicTask {
  public:
   using Work = std::function<Duration(const Cycle&)>;
@@ -45,7 +45,7 @@ class RecordingTask final : public CyclicTask {
   std::vector<Cycle> seen_;
 };
 
-// Wakes late, once per given delay, in order; then on time.
+// Wakes late by each of the given delays in turn; then on time.
 class LateClock final : public Clock {
  public:
   explicit LateClock(ManualClock& clock, std::vector<Duration> delays) : clock_(clock), delays_(std::move(delays)) {}
@@ -104,7 +104,7 @@ TEST_F(RunCycles, LeavesOutAndCountsTheCyclesThatHavePassed) {
   expectOnPhase(task.seen());
   for (const Cycle& cycle : task.seen()) EXPECT_EQ(cycle.woken, cycle.scheduled);
   EXPECT_EQ(statistics.cycles, 4u);
-  EXPECT_EQ(statistics.overruns, 6u);  // two after each but the last, which has no next
+  EXPECT_EQ(statistics.overruns, 6u);  // two after each cycle but the last
   EXPECT_EQ(statistics.work.max(), kPeriod * 5 / 2);
 }
 

@@ -39,7 +39,7 @@ TEST(SpscRing, KeepsTheOrderOverManyTurns) {
   SpscRing<int, 8> ring;
   int pushed = 0;
   int popped = 0;
-  for (int turn = 0; turn < 1000; ++turn) {  // five a turn: the ends meet the array's end at each place
+  for (int turn = 0; turn < 1000; ++turn) {  // five per turn: the indices wrap at every position
     for (int i = 0; i < 5; ++i) ASSERT_TRUE(ring.tryPush(pushed++));
     for (int i = 0; i < 5; ++i) ASSERT_EQ(ring.tryPop(), popped++);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The triple buffer: newest wins, nothing torn, and what a slot owns is let go by the writer alone.
+// The triple buffer: the newest value wins, none is torn, and only the writer releases what a slot owns.
 #include "platform/triple_buffer.h"
 
 #include <gtest/gtest.h>
@@ -56,7 +56,7 @@ TEST(TripleBuffer, LeavesTheReadersSlotAloneWhileTheWriterGoesOn) {
   }
 }
 
-// Says on which thread it was destroyed.
+// Records the thread that destroyed it.
 struct Owned {
   Owned(std::atomic<int>& here, std::atomic<int>& elsewhere) : here_(here), elsewhere_(elsewhere) {}
   Owned(const Owned&) = delete;
