@@ -172,7 +172,7 @@ constexpr KeyName kKeys[] = {
 };
 #undef RELIEVO_KEY
 
-// The tables above are in upper case.
+// Compares without regard to case; `upper` is in upper case, like the table above.
 bool equalInUpperCase(std::string_view word, std::string_view upper) noexcept {
   return std::equal(word.begin(), word.end(), upper.begin(), upper.end(),
                     [](char a, char b) { return std::toupper(static_cast<unsigned char>(a)) == b; });

@@ -92,7 +92,7 @@ Result<void> EglContext::makeCurrent(EGLSurface surface) noexcept {
     case EGL_CONTEXT_LOST:
       return fail(ErrorCode::Lost, "the GL context is lost; close the display and open it again");
     default:
-      return fail(ErrorCode::Io, "the GL context cannot be made current");
+      return fail(ErrorCode::Io, "the GL context cannot be made current; start relievo again");
   }
 }
 

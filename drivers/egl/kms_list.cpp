@@ -49,7 +49,8 @@ std::vector<KmsScreen> lookAtKmsScreens() {
       }
     }
   }
-  if (screens.empty()) screens.push_back({"", false, "this machine has no display card (/dev/dri/card*)"});
+  if (screens.empty())
+    screens.push_back({"", false, "this machine has no display card (/dev/dri/card*); use another --display"});
   return screens;
 }
 

@@ -156,7 +156,7 @@ TEST_P(DisplayContract, TwoAtOnceDoNotDisturbEachOther) {
   EXPECT_TRUE(one->present());
 }
 
-// ---- what only a display with fault switches can show
+// ---- tests that need the fault switches of a mock
 // -----------------------------------------------------------------
 
 TEST(MockDisplay, ShowsAtItsRefreshes) {

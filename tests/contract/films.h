@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same short film for every back end of source and decoder: 30 pictures at 25 a second, a key frame every
-// tenth.
+// The same short film for every back end of source and decoder: 30 pictures at 25 a second, every tenth
+// a key frame.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -420,7 +420,7 @@ TEST(HapticDeviceGuard, StopsADeviceThatIsClosedWhileItRuns) {
   EXPECT_EQ(asked, "open home start stop close ");
 }
 
-// ---- what only a device with fault switches can show
+// ---- tests that need the fault switches of a mock
 // ------------------------------------------------------------------
 
 struct MockBench {

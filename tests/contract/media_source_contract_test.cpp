@@ -185,7 +185,7 @@ TEST(MediaSourceGuard, AsksNoMoreAfterTheEnd) {
   EXPECT_FALSE(source.read().value());
 }
 
-// ---- what only a source with fault switches can show
+// ---- tests that need the fault switches of a mock
 // ------------------------------------------------------------------
 
 // Two tracks: 30 pictures every 40 ms, and 15 every 80 ms that begin 10 ms later.

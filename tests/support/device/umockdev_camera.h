@@ -33,7 +33,7 @@ struct CameraKind {
 
 class UmockdevCamera {
  public:
-  // /dev/videoN.
+  // Creates the node /dev/videoN.
   UmockdevCamera(UMockdevTestbed* bed, int number, CameraKind kind);
   ~UmockdevCamera();
   UmockdevCamera(const UmockdevCamera&) = delete;
@@ -72,7 +72,7 @@ class UmockdevCamera {
   const CameraKind kind_;
   MonotonicClock clock_;
 
-  std::mutex lock_;  // guards all below
+  std::mutex lock_;  // guards all members below
   std::uint8_t* memory_ = nullptr;
   std::uint32_t format_ = 0;
   std::deque<std::uint32_t> empty_;

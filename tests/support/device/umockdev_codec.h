@@ -31,7 +31,7 @@ struct CodecKind {
 
 class UmockdevCodec {
  public:
-  // /dev/videoN.
+  // Creates the node /dev/videoN.
   UmockdevCodec(UMockdevTestbed* bed, int number, CodecKind kind = {});
   ~UmockdevCodec();
   UmockdevCodec(const UmockdevCodec&) = delete;
@@ -89,7 +89,7 @@ class UmockdevCodec {
   std::string name_, node_, device_;
   const CodecKind kind_;
 
-  std::mutex lock_;  // guards all below
+  std::mutex lock_;  // guards all members below
   std::unique_ptr<Library> library_;
   std::uint8_t* memory_ = nullptr;
   std::uint32_t next_offset_ = 0;

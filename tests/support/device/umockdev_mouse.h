@@ -24,7 +24,7 @@ class UmockdevMouse {
   static Codes keyboard();
   static Codes remote();
 
-  // /dev/input/eventN.
+  // Creates the node /dev/input/eventN.
   UmockdevMouse(UMockdevTestbed* bed, int number, Codes codes);
   UmockdevMouse(const UmockdevMouse&) = delete;
   UmockdevMouse& operator=(const UmockdevMouse&) = delete;

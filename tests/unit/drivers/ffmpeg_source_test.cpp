@@ -431,7 +431,7 @@ TEST_F(Playlists, OfANetworkNameNothingOfThisMachine) {
     write("film.m3u8", part);
     EXPECT_EQ(packetsOf(server.url("film.m3u8")), 0u) << part;
   }
-  // Nor a list of lists.
+  // A list of lists is not opened either.
   write("inner.m3u8", "part.ts");
   const std::string variant = "#EXTM3U\n#EXT-X-STREAM-INF:BANDWIDTH=100000\n";
   writeFile(at("outer.m3u8"), variant + "inner.m3u8\n");
