@@ -9,7 +9,8 @@
 namespace relievo {
 namespace {
 
-// The config must have the native format, if one is given: EGL sorts configs by their sizes, not by their format.
+// With a native format the surface is a window's: the config needs a depth buffer, may lack alpha, and must have that
+// format, since EGL sorts configs by their sizes, not by their format.
 EGLConfig chooseConfig(EGLDisplay display, EGLint surface_type, std::optional<EGLint> native_format) {
   constexpr EGLint kMostConfigs = 256;
   const std::array<EGLint, 15> wanted{EGL_SURFACE_TYPE,

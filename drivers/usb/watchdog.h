@@ -29,7 +29,7 @@ class Watchdog final : private CyclicTask {
   bool check(MonotonicTime now) RELIEVO_RT;
 
  private:
-  static constexpr Duration::rep kQuiet = -1;  // instead of a time: the motors are stopped
+  static constexpr Duration::rep kQuiet = -1;  // instead of a time: the motors are stopped, nothing to watch
   LoopControl loop(const Cycle& cycle) RELIEVO_RT override;
   void bark(MonotonicTime now) RELIEVO_RT;
 

@@ -66,7 +66,7 @@ class PolhemModel final : public HapticModel {
   int calibrated_at_ = 0;  // index of that command
   EncoderCounts zero_{};   // offset added to the true counts
   EncoderCounts next_zero_{};
-  std::optional<MonotonicTime> zero_from_;  // the next one
+  std::optional<MonotonicTime> zero_from_;  // when next_zero_ takes effect
   polhem::Command command_;
   MonotonicTime commanded_;
   std::vector<polhem::Milliamps> history_;
