@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A calibration's written form (command line, side file, container tags) and the choice between several.
+// Parses and prints calibration settings, and merges the layers (command line, side file, tags, ..) by precedence.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -12,15 +12,15 @@
 namespace relievo {
 namespace {
 
-// In the order in which they are applied: distances (unit) bring a law and a polarity of their own.
+// In order of application: `unit` (codes are distances) presets law and polarity.
 constexpr std::array<const char*, 9> kKeys{"unit",  "law",     "polarity", "range", "bits",
                                            "codes", "invalid", "near",     "far"};
 constexpr const char* kTagPrefix = "DEPTH_";
 
 constexpr const char* kUnknownKey =
-    "unknown calibration key; known are law, polarity, range, bits, codes, invalid, unit, near, far";
+    "unknown calibration key; use law, polarity, range, bits, codes, invalid, unit, near, far";
 constexpr const char* kBadValue =
-    "calibration value out of its range; law=linear|inverse polarity=near-high|near-low range=full|limited "
+    "bad calibration value; use law=linear|inverse polarity=near-high|near-low range=full|limited "
     "bits=8..16 codes=LOW-HIGH|none invalid=0+65535+2000-2047|none unit (or none), near and far in mm, 1e-3..1e9";
 constexpr const char* kNoValue = "calibration is written KEY=VALUE,KEY=VALUE,..";
 constexpr const char* kFarBeforeNear = "calibration has far <= near; give both in mm, far the larger";
@@ -47,7 +47,7 @@ std::optional<T> number(std::string_view text) {
   return value;
 }
 
-// Sets one value; false when it is not one that the key may have.
+// Sets one value; false if the key does not allow it.
 bool apply(DepthCalibration& c, std::string_view key, std::string_view value) {
   if (key == "law") {
     if (value != "linear" && value != "inverse") return false;
@@ -100,7 +100,7 @@ std::string written(const DepthCalibration& c, std::string_view key) {
   return {text, end};
 }
 
-// Nothing wrong: null.
+// The first rule that the calibration breaks, or null.
 const char* misfit(const DepthCalibration& c, int sample_bits) {
   if (c.bits > sample_bits) return kTooManyBits;
   if (c.code == DepthCode::Luma && std::max(c.invalid.highest(), c.codes ? c.codes->high : 0) >> c.bits != 0)
@@ -108,7 +108,7 @@ const char* misfit(const DepthCalibration& c, int sample_bits) {
   return nullptr;
 }
 
-// What the settings say together is wrong whatever the film is.
+// The first contradiction between the settings that holds for any film, or null.
 const char* contradiction(const CalibrationSettings& settings) {
   DepthCalibration c;
   c.bits = 16;
@@ -191,7 +191,7 @@ Result<CalibrationChoice> chooseCalibration(const CalibrationLayers& layers, con
   const auto refuse = [](CalibrationOrigin said_by, const char* wrong) {
     return fail(said_by == CalibrationOrigin::CommandLine ? ErrorCode::InvalidArgument : ErrorCode::Corrupt, wrong);
   };
-  auto distances_by = CalibrationOrigin::Default;  // the highest that said near or far
+  auto distances_by = CalibrationOrigin::Default;  // the highest layer that gave near or far
   for (const char* key : kKeys) {
     const bool from_stream = std::string_view(key) == "bits" || (std::string_view(key) == "range" && signalled);
     CalibrationOrigin said_by = from_stream ? CalibrationOrigin::StreamSignalling : CalibrationOrigin::Default;
@@ -201,7 +201,7 @@ Result<CalibrationChoice> chooseCalibration(const CalibrationLayers& layers, con
       DepthCalibration with = c;
       if (!apply(with, key, found->second)) return refuse(origin, kBadValue);
       if (const char* wrong = misfit(with, sample_bits); wrong != nullptr) {
-        if (origin == CalibrationOrigin::ContainerTags) continue;  // left over from another coding
+        if (origin == CalibrationOrigin::ContainerTags) continue;  // left over from an earlier encoding
         return refuse(origin, wrong);
       }
       c = with;

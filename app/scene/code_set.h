@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The depth codes that stand for "no reading": a few codes or ranges of codes.
+// The depth codes that mean "no reading": a few codes or ranges of codes.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace relievo {
 
-// At most four ranges of codes, both ends included. Trivially copyable; any thread.
+// At most four ranges of codes, both ends included. Trivially copyable; usable from any thread.
 class CodeSet {
  public:
   struct Range {
@@ -27,11 +27,11 @@ class CodeSet {
   constexpr CodeSet(std::uint32_t code) noexcept : CodeSet(Range{code, code}) {}  // NOLINT(*-explicit-*)
   constexpr explicit CodeSet(Range range) noexcept : ranges_{range}, count_(1) {}
 
-  // "0", "0+65535", "0+2000-2047", "none". Nothing for any other text, and for more than four ranges.
+  // Parses "0", "0+65535", "0+2000-2047", "none". Nullopt for other text and for more than four ranges.
   [[nodiscard]] static std::optional<CodeSet> parse(std::string_view text) noexcept;
-  // "7", "1-2047".
+  // Parses "7", "1-2047".
   [[nodiscard]] static std::optional<Range> parseRange(std::string_view text) noexcept;
-  // As `parse` reads it.
+  // The form that `parse` reads.
   [[nodiscard]] std::string text() const;
 
   [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
@@ -41,7 +41,7 @@ class CodeSet {
     }
     return false;
   }
-  // The highest code of the set; 0 where it is empty.
+  // The highest code of the set; 0 if it is empty.
   [[nodiscard]] std::uint32_t highest() const noexcept;
 
   bool operator==(const CodeSet&) const = default;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a normalised code to a height.
+// Converts a normalised code to a height.
 #include "app/scene/depth_calibration.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The box in front of the viewer in which the film stands, and how pixels lie in it.
+// The box in front of the viewer that the film occupies, and the position of pixels in it.
 #pragma once
 
 namespace relievo {
@@ -13,14 +13,14 @@ struct DisplayVolume {
   double height_mm = 108.0;
   double depth_mm = kDefaultDepthMm;
 
-  // The default width and depth, and the height of a picture of this shape.
+  // The default width and depth, and the height that keeps the picture's aspect ratio.
   [[nodiscard]] static constexpr DisplayVolume forPicture(int cols, int rows, double sample_aspect = 1.0) noexcept {
     return {kDefaultWidthMm, kDefaultWidthMm * rows / (cols * sample_aspect), kDefaultDepthMm};
   }
 };
 
 // Depth pixel (c, r) of a cols x rows image lies at x = ((c + 1/2)/cols - 1/2) W, y = (1/2 - (r + 1/2)/rows) H. This
-// maps both ways between scene millimetres and grid units, in which sample (c, r) stands at u = c, v = r.
+// maps between scene millimetres and grid units, in which sample (c, r) is at u = c, v = r.
 struct GridMapping {
   double u_per_mm = 1, u_origin = 0;   // u = u_origin + u_per_mm x
   double v_per_mm = -1, v_origin = 0;  // v = v_origin + v_per_mm y, v_per_mm < 0: rows go down

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Setting up the view of a depth plane, and reading depth that is coded as a hue.
+// Creates the view of a depth plane and decodes depth that is coded as a hue.
 #include "app/scene/height_field.h"
 
 #include <cmath>
@@ -9,17 +9,17 @@
 namespace relievo {
 namespace {
 
-// Coded chroma is coarser than luma: at an edge of depth it is a mean of two hues, which is a hue of neither. Their
-// mean is less pure than both.
-constexpr int kPurest = 256, kLeastPurity = 160;  // of a colour that can be read
-constexpr int kDarkestLit = 64;                   // its strongest component
+// Chroma is subsampled: at a depth edge it is the mean of two hues, which is neither of them and is less saturated than
+// both.
+constexpr int kPurest = 256, kLeastPurity = 160;  // least saturation of a readable colour
+constexpr int kDarkestLit = 64;                   // brightness below which saturation is not judged
 
-// Below this sum of the three bytes a pixel has no reading: 0.3 of one channel's full scale. A hue of a dark pixel is
-// noise; footage in this coding marks what the sensor did not see by black.
+// A pixel whose three bytes sum to less than this has no reading: 0.3 of one channel's full scale. The hue of a dark
+// pixel is noise, and footage in this coding paints black where the sensor saw nothing.
 constexpr int kDarkestReadable = 76;
 
-// Hue over 360 degrees by the textbook hexagon (red 0, yellow 1/6, green 1/3, ..), or a hole at a pixel without a
-// reading. Which channel leads is chosen without a branch: in noise nobody can foretell it.
+// Hue over 360 degrees by the standard hexagon (red 0, yellow 1/6, green 1/3, ..), or a hole at a pixel without a
+// reading. The leading channel is selected without a branch, which noise would make unpredictable.
 inline double hueOf(int red, int green, int blue) noexcept {
   const int high = std::max({red, green, blue});
   const int spread = high - std::min({red, green, blue});
@@ -35,7 +35,7 @@ inline double hueOf(int red, int green, int blue) noexcept {
 Result<HeightField> HeightField::make(const Frame& depth, const DepthCalibration& calibration,
                                       const DisplayVolume& volume) noexcept {
   if (depth.empty() || depth.width < 1 || depth.height < 1) {
-    return fail(ErrorCode::InvalidArgument, "a depth picture without samples");
+    return fail(ErrorCode::InvalidArgument, "the depth picture is empty");
   }
   HeightField field;
   const Component& first = depth.components[0];
@@ -65,7 +65,7 @@ Result<HeightField> HeightField::make(const Frame& depth, const DepthCalibration
       field.chroma_ = chromaOf(depth);
     }
   } else {
-    // Gray in RGB has three components that are the same.
+    // RGB with three equal components holds gray depth.
     if (depth.model == ColorModel::Rgb) field.data_ = plane.data + depth.components[1].offset_bytes;
     field.layout_ = first.bits <= 8 ? Layout::Bytes : Layout::Words;
     field.mask_ = (1u << first.bits) - 1;
@@ -94,13 +94,13 @@ Result<HeightField> HeightField::make(const Frame& depth, const DepthCalibration
 
 SampledBlock::Places::Places(int length, int most) RELIEVO_RT : count(length) {
   if (length <= most) return;
-  count = most + ((length ^ most) & 1);  // as even or odd as the length
+  count = most + ((length ^ most) & 1);  // same parity as the length
   step = length / count;
   if (count % 2 == 0 && step % 2 == 0) step += (step + 1) * (count - 1) < length ? 1 : -1;
   first = (length - 1 - step * (count - 1)) / 2;
 }
 
-// kAcross 0: as many as the block says.
+// kAcross 0: the width is known only at run time.
 template <class Sample, int kAcross>
 double HeightField::meanOfRows(int c0, int r0, const SampledBlock& block) const RELIEVO_RT {
   const int across = kAcross > 0 ? kAcross : block.across.count, down = block.down.count;
@@ -115,7 +115,7 @@ double HeightField::meanOfRows(int c0, int r0, const SampledBlock& block) const 
   return depth_mm_ * (s_offset_ + s_scale_ * static_cast<double>(sum) / (across * down));
 }
 
-// Rows of a known length take half the instructions.
+// With the row length known at compile time this takes half the instructions.
 template <class Sample>
 double HeightField::meanOfCodes(int c0, int r0, const SampledBlock& block) const RELIEVO_RT {
   switch (block.across.count) {
@@ -198,12 +198,12 @@ HeightField::Chroma HeightField::chromaOf(const Frame& depth) noexcept {
   return chroma;
 }
 
-// Steps of the hue, from 0 up to kHueSteps, or a hole.
+// The hue, 0 to kHueSteps, or a hole.
 double HeightField::hueAt(int c, int r) const RELIEVO_RT {
   const std::uint8_t* sample = data_ + r * stride_bytes_ + static_cast<std::ptrdiff_t>(c) * step_bytes_;
   if (layout_ == Layout::Hue) return kHueSteps * hueOf(sample[red_], sample[green_], sample[blue_]);
   const Chroma& k = chroma_;
-  // In 1/4 of an 8-bit code, so that 10 bits are read whole.
+  // In quarters of an 8-bit code, so that 10 bits keep their precision.
   const auto quarters = [&](const std::uint8_t* at) {
     const int code = k.bits > 8 ? (at[0] | at[1] << 8) >> k.sample_shift : at[0];
     return k.bits >= 10 ? code >> (k.bits - 10) : code << (10 - k.bits);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The relief: a view of a decoder's depth plane that reads a height in mm for any sample, without a copy.
+// The relief: a view of the decoder's depth plane that gives the height of any sample in mm, without copying.
 #pragma once
 
 #include <algorithm>
@@ -17,9 +17,9 @@
 
 namespace relievo {
 
-// Which samples of a block tell its mean: about `most` across and as many down, at a steady step with the same margin
-// on either side, and all of them where there are no more. Off centre by half a sample, the mean of a slope would be
-// off by half a sample's rise. Lengths are in samples, and `most` is at least 1.
+// Which samples of a block are averaged: about `most` across and as many down, evenly spaced and centred, or all of
+// them if there are no more. If they were off centre by half a sample, the mean of a slope would be wrong by half a
+// sample's rise. Lengths are in samples; `most` is at least 1.
 struct SampledBlock {
   struct Places {
     int count = 1, step = 1, first = 0;
@@ -36,13 +36,13 @@ struct SampledBlock {
                                                                          down(block_height, most) {}
 };
 
-// Trivially copyable. It does not own the samples: whoever holds the Frame does.
-// The height at a hole (an invalid code, a hue too dark to read) is not a number: no comparison with it holds, so that
-// contact with a hole cannot be found by accident. Every other height is finite, in [0, volume depth].
+// Trivially copyable. Does not own the samples: the holder of the Frame does. The height of a hole (an invalid code, a
+// hue too dark to read) is NaN: every comparison with it is false, so that a hole cannot be touched by accident. Every
+// other height is finite, in [0, volume depth].
 class HeightField {
  public:
   HeightField() = default;
-  // Unsupported for a frame that has neither the luma nor the packed 8-bit RGB that the code asks for.
+  // Unsupported if the frame lacks the luma or packed 8-bit RGB that the calibration's code needs.
   [[nodiscard]] static Result<HeightField> make(const Frame& depth, const DepthCalibration& calibration,
                                                 const DisplayVolume& volume) noexcept;
 
@@ -50,7 +50,7 @@ class HeightField {
   [[nodiscard]] int rows() const noexcept { return rows_; }
   [[nodiscard]] const GridMapping& grid() const noexcept { return grid_; }
 
-  // 0 <= c < cols, 0 <= r < rows: not checked.
+  // Requires 0 <= c < cols, 0 <= r < rows; not checked.
   [[nodiscard]] double heightMm(int c, int r) const RELIEVO_RT {
     const std::uint8_t* sample = data_ + r * stride_bytes_ + static_cast<std::ptrdiff_t>(c) * step_bytes_;
     if (layout_ >= Layout::Hue) return fromHue(c, r);
@@ -59,33 +59,33 @@ class HeightField {
     return fromNormalised(s_offset_ + s_scale_ * static_cast<double>(code));
   }
 
-  // The heights of some samples of a row, in the order asked for. Whether there is a hole among them.
+  // Reads the heights of some samples of a row, in the given order. Returns whether there is a hole among them.
   bool readRow(int r, std::span<const int> columns, float* heights_mm) const RELIEVO_RT;
 
-  // Whether a sample is more than what `rowBytes` holds: then a change of it is not seen there.
+  // True if a sample depends on bytes outside `rowBytes`, so that comparing rows can miss a change.
   [[nodiscard]] bool readsChroma() const noexcept { return layout_ == Layout::HueYuv; }
-  // From a row's first sample to its last.
+  // The bytes of a row from the first sample to the last.
   [[nodiscard]] std::span<const std::uint8_t> rowBytes(int r) const noexcept {
     return {data_ + r * stride_bytes_, static_cast<std::size_t>(cols_ - 1) * step_bytes_ + sampleBytes()};
   }
   [[nodiscard]] int stepBytes() const noexcept { return step_bytes_; }
-  // Of the same size and format, so that the same bytes have the same heights.
+  // True if the other field has the same size and format, so that equal bytes mean equal heights.
   [[nodiscard]] bool readsLike(const HeightField& other) const noexcept;
 
-  // The mean height of what is read of a block that begins at sample (c0, r0) and lies inside the picture. Not a number
-  // when less than half of it has a height.
+  // The mean height of the samples read from a block that begins at sample (c0, r0) and lies inside the picture. NaN if
+  // fewer than half of them have a height.
   [[nodiscard]] double meanHeight(int c0, int r0, const SampledBlock& block) const RELIEVO_RT;
-  // Has the processor fetch what `meanHeight` reads of so many blocks beside each other, the first at (c0, r0).
+  // Prefetches the samples that `meanHeight` reads for `blocks` adjacent blocks, the first at (c0, r0).
   void prefetch(int c0, int r0, int blocks, const SampledBlock& block) const RELIEVO_RT;
   [[nodiscard]] double depthMm() const RELIEVO_RT { return depth_mm_; }
-  // The height of one code, in the mean over the volume.
+  // The height of one code step, averaged over the volume.
   [[nodiscard]] double stepMm() const RELIEVO_RT { return depth_mm_ * std::abs(s_scale_); }
 
-  // Whether every sample is the same as in another field of the same film. Bytes between the samples count as well:
-  // what differs there alone may be told apart. Looks at the whole picture where it is; not for the real-time thread.
+  // Whether every sample equals that of another field of the same film. Compares the bytes between the samples too, so
+  // it may return false for equal samples. Reads the whole picture: not for the real-time thread.
   [[nodiscard]] bool sameSamples(const HeightField& other) const noexcept;
 
-  // The raw luma code; for a hue 0 .. 1535, six steps of 256, and 0 at one that cannot be read.
+  // The raw luma code, or a hue 0 .. 1535 (six steps of 256), 0 if unreadable.
   [[nodiscard]] std::uint32_t code(int c, int r) const RELIEVO_RT;
 
   static constexpr int kHueSteps = DepthCalibration::kHueSteps;
@@ -94,7 +94,7 @@ class HeightField {
  private:
   bool operator==(const HeightField&) const = default;
   enum class Layout : std::uint8_t { Bytes, Words, Hue, HueYuv };
-  // Where chroma is read, and the red, green and blue that it makes with the luma, in 1/65536 of an 8-bit code.
+  // Where the chroma samples are, and the coefficients from YUV to red, green and blue, in 1/65536 of an 8-bit code.
   struct Chroma {
     const std::uint8_t *u = nullptr, *v = nullptr;
     std::ptrdiff_t u_stride_bytes = 0, v_stride_bytes = 0;
@@ -132,13 +132,13 @@ class HeightField {
   int rows_ = 0;
   std::uint8_t step_bytes_ = 1;
   std::uint8_t shift_ = 0;
-  std::uint8_t red_ = 0, green_ = 1, blue_ = 2;  // offsets inside a pixel
+  std::uint8_t red_ = 0, green_ = 1, blue_ = 2;  // byte offsets inside a pixel
   Layout layout_ = Layout::Bytes;
   bool inverse_ = false;
-  bool plain_ = false;  // height = a code x scale + offset, whatever the code: a mean of codes is a mean of heights
+  bool plain_ = false;  // height = code x scale + offset for every code, so the mean of heights is that of codes
   std::uint32_t mask_ = 0xff;
   CodeSet invalid_;
-  double s_scale_ = 1, s_offset_ = 0;  // s = clamp(s_offset + s_scale x code), the polarity taken in
+  double s_scale_ = 1, s_offset_ = 0;  // s = clamp(s_offset + s_scale x code), polarity included
   double depth_mm_ = 0;
   double near_inverse_ = 0, far_inverse_ = 0;  // 1/near, 1/far
   double far_mm_ = 0, depth_per_mm_ = 0;       // depth_per_mm = D/(far - near)
