@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// When to try again what was lost: soon at first, then ever more seldom. Each wait is an eighth of the time that it has
-// been away, so that what comes back is missed by no more than that: one that was away for 5 s is back 0.6 s later.
+// Retry schedule for a lost source: quickly at first, then less often. Each wait is an eighth of the time since the
+// loss, so that a source which returns after 5 s is found at most about 0.6 s later.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ class BackOff {
   static constexpr Duration kFirst = std::chrono::milliseconds(250);
   static constexpr Duration kLongest = std::chrono::seconds(4);
 
-  // It is lost: the first try is due after kFirst.
+  // The source was lost now; the first retry is due after kFirst.
   void begin(MonotonicTime now) noexcept {
     since_ = now;
     next_ = now + kFirst;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pairing by timestamps, and what to make of gaps.
+// Pairs depth with colour by timestamp and decides what a gap in the depth track means.
 #include "app/media/depth_follower.h"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ Result<DepthFollower::Match> DepthFollower::at(MediaTime color) {
 DepthFollower::Match DepthFollower::judge(Duration age) const {
   const Duration usual = period();
   const bool fresh = usual == Duration(0) || age < usual - tolerance();
-  const bool in_step = next_ && next_->pts - current_.pts <= usual * 3 / 2;  // late, but nothing is missing
+  const bool in_step = next_ && next_->pts - current_.pts <= usual * 3 / 2;  // late, but no picture is missing
   if (fresh || in_step) return {current_, true};
   if (!next_ && ended_) return {};
   return {current_, false};
@@ -45,7 +45,7 @@ Result<const Frame*> DepthFollower::peek() {
   return *there ? &*next_ : nullptr;
 }
 
-// True when `next_` holds a picture.
+// True when `next_` now holds a picture.
 Result<bool> DepthFollower::fetch() {
   if (next_) return true;
   if (ended_) return false;
@@ -78,7 +78,7 @@ Duration DepthFollower::period() const noexcept {
   return *middle;
 }
 
-// While the period is not known yet: the most that it can be.
+// Until the frame period is known, the largest tolerance.
 Duration DepthFollower::tolerance() const noexcept {
   return step_count_ == 0 ? kJitter : std::clamp(period() / 8, kRounding, kJitter);
 }

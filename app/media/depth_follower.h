@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Follows a depth track along the times of a colour track: which depth picture belongs to a colour picture.
+// Finds the depth picture that belongs to each colour picture, by timestamp.
 #pragma once
 
 #include <array>
@@ -12,40 +12,41 @@
 
 namespace relievo {
 
-// A depth picture belongs to the colour pictures from its own time, less a tolerance, to the next depth picture's. The
-// tolerance is an eighth of the depth's frame period, but at least 1 ms, since two containers round to milliseconds,
-// and at most 4 ms, the jitter of two clocks. The period is the median of the last time steps, never a nominal one.
+// A depth picture belongs to the colour pictures from its own time, minus a tolerance, up to the next depth picture's.
+// The tolerance is an eighth of the depth's frame period, but at least 1 ms, since two containers round to
+// milliseconds, and at most 4 ms, the jitter of two clocks. The frame period is the median of recent time steps, not
+// the container's nominal one.
 //
-//   depth of a lower rate   held
-//   of a higher rate        thinned; what no colour picture asked for is counted
-//   begins later            no depth before, and no mismatch
-//   ends earlier            the last picture lasts one period, then there is no depth, and no mismatch
-//   of a single picture     a still: lasts for ever
-//   lacks a picture         the older one is held, mismatched once it is as old as the period
+//   depth at a lower rate     each picture is held
+//   at a higher rate          pictures that no colour picture uses are counted as skipped
+//   begins later              no depth before it; not a mismatch
+//   ends earlier              the last picture lasts one period, then there is no depth; not a mismatch
+//   is a single picture       a still: valid for the whole film
+//   lacks a picture           the older one is held, and mismatched once it is older than one period
 class DepthFollower {
  public:
   struct Supplied {
     std::optional<Frame> frame;
-    bool ended = false;  // without a frame: the track has none any more; otherwise: none for now
+    bool ended = false;  // without a frame: true at the end of the track, false if none is available yet
   };
   using Supply = std::function<Result<Supplied>()>;
   struct Match {
-    Frame depth;  // empty: none
+    Frame depth;  // empty: no depth at this time
     bool matched = true;
   };
 
-  // `supply` gives the track's pictures in order.
+  // `supply` returns the track's pictures in order.
   explicit DepthFollower(Supply supply);
 
-  // For colour times that do not fall.
+  // The depth for this colour time. Times must not decrease from call to call.
   [[nodiscard]] Result<Match> at(MediaTime color);
-  // The picture that `at` would look at next, without taking it; null when there is none.
+  // The picture that `at` would examine next, without consuming it; null if there is none.
   [[nodiscard]] Result<const Frame*> peek();
-  // After a seek in the track.
+  // Call after a seek in the track.
   void restart() noexcept;
 
   [[nodiscard]] Duration period() const noexcept;
-  // Pictures that no colour picture asked for, but for those between a seek's key frame and its target.
+  // Depth pictures that no colour picture used, except those between a seek's key frame and its target.
   [[nodiscard]] std::uint64_t skipped() const noexcept { return skipped_; }
 
  private:
@@ -57,11 +58,11 @@ class DepthFollower {
   Supply supply_;
   Frame current_;
   std::optional<Frame> next_;
-  std::optional<MediaTime> last_pts_;  // of the pictures supplied
+  std::optional<MediaTime> last_pts_;  // of the newest picture supplied
   std::array<Duration, kSteps> steps_{};
   std::size_t step_count_ = 0;
   bool ended_ = false;
-  bool asked_for_ = false;  // the current one, by a colour picture
+  bool asked_for_ = false;  // whether a colour picture has used `current_`
   bool catching_up_ = false;
   std::uint64_t skipped_ = 0;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads, loses and finds again; here or in a thread.
+// Reads depth, notices its loss and reopens the source, on the caller's thread or on its own.
 #include "app/media/depth_source.h"
 
 #include <utility>
@@ -7,7 +7,7 @@
 namespace relievo {
 namespace {
 
-constexpr std::size_t kQueued = 8;  // pictures
+constexpr std::size_t kQueued = 8;  // pictures read ahead
 constexpr Duration kPatience = std::chrono::milliseconds(250);
 constexpr Duration kWarmUp = std::chrono::seconds(5);
 
@@ -17,7 +17,7 @@ DepthSource::~DepthSource() {
   if (!thread_.joinable()) return;
   {
     std::unique_lock lock(mutex_);
-    // An interrupt that comes just before the thread opens the source does not reach it: so it is repeated.
+    // Repeated, because an interrupt that arrives just before the thread opens the source has no effect.
     while (!thread_ended_) {
       lock.unlock();
       interrupt();
@@ -105,7 +105,7 @@ Result<void> DepthSource::seek(MediaTime target, Duration key_step) {
     wake_.notify_all();
     return {};
   }
-  if (loss_) return {};  // it is found again at the target
+  if (loss_) return {};  // the reopening will seek to the target
   lock.unlock();
   return reader_->seek(target, key_step);
 }
@@ -166,7 +166,7 @@ void DepthSource::readOne(std::unique_lock<std::mutex>& lock) {
   lock.lock();
   count();
   if (auto restart = reader_->takeRestart()) restart_ = restart;
-  if (generation != generation_) return;  // sought meanwhile
+  if (generation != generation_) return;  // a seek has happened meanwhile
   if (!frame) return lose(frame.error());
   if (*frame) goes_on_at_ = (*frame)->pts;
   ended_ = !*frame && ended;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The depth pictures of a source of their own, which may go away and come back without the colour's waiting for it.
+// Depth from a separate source, which may be lost and reopened while the colour keeps playing.
 #pragma once
 
 #include <condition_variable>
@@ -18,15 +18,15 @@
 
 namespace relievo {
 
-// A file is read by who asks. What comes over a network or from a camera is read ahead by a thread
-// (Backends::own_threads), and is waited for a quarter of a second, longer after an opening or a seek; then there is no
-// depth until it is there again. When it is lost it is opened again, with back-off and for as long as the colour plays
-// (Backends::clock, else it stays lost).
+// A file is read on the caller's thread. A network stream or a camera is read ahead by a thread of its own
+// (Backends::own_threads). `next` waits a quarter of a second for it, longer after an opening or a seek, and then
+// reports no depth until a picture arrives. A lost source is reopened, with back-off, for as long as the colour plays;
+// without a clock (Backends::clock) it stays lost.
 //
-// One thread, but `interrupt`, which any thread may call.
+// Use from one thread, except `interrupt`, which any thread may call.
 class DepthSource {
  public:
-  // From one opening to the next. The times of a live source begin anew with each.
+  // From one opening of the source to the next. The timestamps of a live source start anew with each session.
   struct Session {
     std::uint32_t number = 0;
     bool live = false;
@@ -34,39 +34,39 @@ class DepthSource {
     std::optional<Duration> sender_start;  // MediaSource::senderStart
   };
   struct Given {
-    Frame frame;  // at the session's own time; empty: none
+    Frame frame;  // with the session's own timestamp; empty: none
     Session session;
-    bool ended = false;  // without a frame: no more will come, unless after a seek
-    bool away = false;   // without a frame: it is late or lost
+    bool ended = false;  // if there is no frame: the source has ended; only a seek brings more
+    bool away = false;   // if there is no frame: the source is late or lost
   };
 
-  // `backends` must outlive it. The rate is of pictures without times.
+  // `backends` must outlive it. The rate applies to pictures without timestamps.
   DepthSource(const PairReader::Backends& backends, std::optional<double> frames_per_s)
       : backends_(backends), frames_per_s_(frames_per_s) {}
   ~DepthSource();
   DepthSource(const DepthSource&) = delete;
   DepthSource& operator=(const DepthSource&) = delete;
 
-  // Once. NotFound without a video track.
+  // Call once. NotFound if the source has no video track.
   [[nodiscard]] Result<void> open(const std::string& url);
-  // From `open` on.
+  // Valid after `open`.
   [[nodiscard]] const StreamInfo& stream() const noexcept { return stream_; }
   [[nodiscard]] const std::map<std::string, std::string>& tags() const noexcept { return tags_; }
 
-  // The next picture in order. Fails only where the source is not tried again.
+  // The next picture in order. An error means that the source will not be retried.
   [[nodiscard]] Result<Given> next();
-  // As TrackReader does. Of what is read by a thread, or lost, it is begun and not waited for.
+  // As TrackReader::seek. A source that is read by a thread, or lost, is sought later: this does not wait for it.
   [[nodiscard]] Result<void> seek(MediaTime target, Duration key_step);
   void interrupt() noexcept;
 
-  // Why it is away, while it is looked for.
+  // Why the source is lost, while it is being retried.
   [[nodiscard]] std::optional<Error> loss() const;
   struct Counters {
     std::uint64_t damaged = 0, jumps = 0, missed_pictures = 0, reconnects = 0;
     Duration missing{0};
   };
   [[nodiscard]] Counters counters() const;
-  // Of its decoder.
+  // A restart of its decoder, reported once.
   [[nodiscard]] std::optional<VideoDecoder::Restart> takeRestart() noexcept;
   [[nodiscard]] const std::string& decoder() const noexcept { return decoder_; }
 
@@ -86,28 +86,28 @@ class DepthSource {
   StreamInfo stream_;
   std::string decoder_;
   std::map<std::string, std::string> tags_;
-  bool tried_again_ = false;  // when lost
+  bool tried_again_ = false;  // whether a lost source is reopened
 
-  // The reading side's: the thread's, where there is one.
+  // Used only by the side that reads: the thread if there is one.
   std::size_t track_ = 0;
-  Counters before_;  // of the sessions before
+  Counters before_;  // sum over the earlier sessions
   BackOff back_off_;
 
-  mutable std::mutex mutex_;  // guards all below; not held while the source is read
+  mutable std::mutex mutex_;  // guards everything below; not held while the source is read
   std::condition_variable wake_, ready_;
-  std::unique_ptr<TrackReader> reader_;  // changed by the reading side alone
+  std::unique_ptr<TrackReader> reader_;  // changed only by the side that reads
   Session session_;
   std::deque<Given> queue_;
-  std::optional<MediaTime> target_;  // of a seek
-  MediaTime goes_on_at_;             // where one that can be sought goes on when it is found again
-  Duration key_step_{0};             // of the last one
-  std::uint64_t generation_ = 0;     // of seeks
+  std::optional<MediaTime> target_;  // of a pending seek
+  MediaTime goes_on_at_;             // where a seekable source resumes after a loss
+  Duration key_step_{0};             // of the last seek
+  std::uint64_t generation_ = 0;     // counts seeks
   std::optional<VideoDecoder::Restart> restart_;
   std::optional<Error> loss_;
   Counters counters_;
   bool ended_ = false;
-  bool warming_up_ = true;  // nothing has come since it was opened or sought
-  bool late_ = false;       // it was waited for in vain
+  bool warming_up_ = true;  // no picture yet since the opening or the seek
+  bool late_ = false;       // the last wait for a picture timed out
   bool interrupted_ = false;
   bool thread_ended_ = false;
   std::thread thread_;

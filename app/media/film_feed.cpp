@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two sides of the feed: requests and a queue under one mutex, which is never held while the film is read.
+// Both sides of the feed: requests and a queue under one mutex, which is never held while the film is read.
 #include "app/media/film_feed.h"
 
 #include <chrono>
@@ -23,7 +23,7 @@ void FilmFeed::stop() noexcept {
     std::unique_lock lock(mutex_);
     if (std::exchange(stopping_, true)) return;
     wake_.notify_all();
-    // An interrupt that comes just before the reader opens a source does not reach it: so it is repeated.
+    // Repeated, because an interrupt that arrives just before the reader opens a source has no effect.
     while (thread_.joinable() && !thread_ended_) {
       lock.unlock();
       interrupted_ = true;
@@ -67,8 +67,8 @@ void FilmFeed::begin(State state) {
   wake_.notify_all();
 }
 
-// What the reader does for a film that nobody wants any more. Asked for again and again: an interrupt that comes just
-// before the reader opens that film does not reach it.
+// Interrupts the reader if it still works on a film that has been closed or replaced. Callers repeat this, because an
+// interrupt that arrives just before the reader opens that film has no effect.
 void FilmFeed::interruptStale() const {
   if (at_work_ == 0 || at_work_ == film_) return;
   interrupted_ = true;
@@ -76,7 +76,7 @@ void FilmFeed::interruptStale() const {
 }
 
 void FilmFeed::seek(MediaTime target, Duration key_step) {
-  std::deque<FramePair> dropped;  // freed after the lock
+  std::deque<FramePair> dropped;  // destroyed after the lock is released
   const std::scoped_lock lock(mutex_);
   const bool away = state_ == State::Reconnecting;
   if (!away && state_ != State::Reading && state_ != State::Ended && state_ != State::Seeking) return;
@@ -175,7 +175,7 @@ bool FilmFeed::wantsSound() const {
 }
 
 Duration FilmFeed::lengthOf(const AudioChunk& chunk) const {
-  const AudioFormat& format = *options_.sound;  // there is no chunk without
+  const AudioFormat& format = *options_.sound;  // always set here: without it no sound is decoded
   return fromSeconds(static_cast<double>(chunk.samples.size()) / format.channels / format.rate_hz);
 }
 
@@ -218,7 +218,7 @@ void FilmFeed::workOpen(const SourceOptions& options, std::uint64_t generation) 
   const auto opened = list && !*list ? reader_.open(options) : Result<void>{};
   const std::scoped_lock lock(mutex_);
   reader_open_ = list && !*list && opened;
-  if (generation != generation_) return;  // given up meanwhile
+  if (generation != generation_) return;  // closed or replaced meanwhile
   if (!list) return failed(list.error().thing, list.error().error);
   if (!opened) return failed(reader_.failedThing(), opened.error());
   if (*list) {
@@ -231,7 +231,7 @@ void FilmFeed::workOpen(const SourceOptions& options, std::uint64_t generation) 
   state_ = State::Reading;
 }
 
-// Nothing for what is a film.
+// Returns nullopt if the URL is not a playlist.
 Outcome<std::optional<std::vector<PlaylistEntry>>> FilmFeed::readList(const std::string& url) {
   constexpr std::size_t kMostBytes = std::size_t{4} << 20;
   if (!backends_.read_text || !mayBePlaylist(url)) return std::nullopt;
@@ -246,11 +246,11 @@ Outcome<std::optional<std::vector<PlaylistEntry>>> FilmFeed::readList(const std:
 void FilmFeed::workSeek(MediaTime target, Duration key_step, std::uint64_t generation) {
   const auto sought = reader_.seek(target, key_step);
   const std::scoped_lock lock(mutex_);
-  if (generation != generation_) return;  // a newer target has come meanwhile
+  if (generation != generation_) return;  // a newer seek has replaced this one
   if (!sought && loses(sought.error())) return;
   if (!sought) {
     seek_error_ = sought.error();
-    target_ = MediaTime{};  // nothing is left out
+    target_ = MediaTime{};  // so that no sample is skipped
   }
   sound_may_come_ = hasSound();
   state_ = State::Reading;
@@ -277,7 +277,7 @@ void FilmFeed::workRead(std::uint64_t generation) {
   queue_.push_back(std::move(**pair));
 }
 
-// What has been read already is decoded first. False when there is none and the source was not to be read.
+// Decodes sound that has already been read, and reads more if `may_read`. False when there was nothing to do.
 bool FilmFeed::workSound(bool may_read, std::uint64_t generation) {
   auto chunk = reader_.nextSound();
   if (!chunk && !may_read) return false;
@@ -304,7 +304,7 @@ void FilmFeed::workReopen() {
   if (reopened) {
     state_ = state_before_;
     sound_may_come_ = hasSound();
-    if (state_ == State::Reading && sound_until_) target_ = *sound_until_;  // no sound twice
+    if (state_ == State::Reading && sound_until_) target_ = *sound_until_;  // do not repeat sound that was delivered
     news_.push_back({News::Kind::ColorBack, "", "", now});
   } else if (back_off_.away(now) >= kPatience) {
     failed(options_.url, loss_);
@@ -313,7 +313,7 @@ void FilmFeed::workReopen() {
   }
 }
 
-// What it goes on with, once it is found again, is what it did.
+// Enters Reconnecting if the source may come back; afterwards the previous state is resumed.
 bool FilmFeed::loses(const Error& error) {
   if (backends_.clock == nullptr || !reader_.isSourceLost(error)) return false;
   loss_ = error;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a film ahead of the player: bounded queues of pairs and of sound, filled by a thread of its own.
+// Reads a film ahead of the player: bounded queues of frame pairs and sound, filled by the feed's own thread.
 #pragma once
 
 #include <atomic>
@@ -20,74 +20,75 @@
 
 namespace relievo {
 
-// The player's side (all verbs but `work`) never waits for the film: it asks, and looks at `state`. The reader's side
-// is `work`: a thread does it after `startThread`; without, the caller does, so that a test runs in simulated time.
+// The player's side (every function except `work`) never waits for the film: it makes a request and polls `state`. The
+// reader's side is `work`, which a thread calls after `startThread`. Without that thread the caller calls `work`, so
+// that a test can run in simulated time.
 //
-// States: Closed -open-> Opening -> Reading -> Ended; Reading or Ended -seek-> Seeking -> Reading; Reading or Seeking,
-// when a source on the network is lost -> Reconnecting -> what it was; any but Closed -> Failed; any -open-> Opening;
-// any -close-> Closed. A source that turns out to be a list of films goes from Opening to Listed. Pairs and sound that
-// were read before an end, a loss or a failure can still be taken.
+// States: Closed -open-> Opening -> Reading -> Ended; Reading or Ended -seek-> Seeking -> Reading; Reading or Seeking
+// -> Reconnecting when a network source is lost -> the previous state; any except Closed -> Failed; any -open->
+// Opening; any -close-> Closed. A source that turns out to be a playlist goes from Opening to Listed. Pairs and sound
+// read before an end, a loss or a failure can still be taken.
 //
-// Sound is decoded as long as less than kSoundAhead of it lies in the queue. Pairs go first where something has to be
-// read from the source.
+// Sound is decoded while less than kSoundAhead of it is queued. Pairs take priority when data has to be read from the
+// source.
 class FilmFeed {
  public:
   static constexpr Duration kSoundAhead = std::chrono::milliseconds(500);
   enum class State : std::uint8_t { Closed, Opening, Seeking, Reading, Ended, Failed, Listed, Reconnecting };
-  // A lost colour is looked for so long, at the intervals of BackOff; then the film has failed. The depth is looked for
-  // as long as the film lasts.
+  // How long a lost colour source is retried, at the intervals of BackOff, before the film fails. A lost depth source
+  // is retried for as long as the film plays.
   static constexpr Duration kPatience = std::chrono::seconds(30);
-  // What has happened to a source, or to a decoder.
+  // An event of a source or a decoder.
   struct News {
     enum class Kind : std::uint8_t { ColorLost, ColorBack, DepthLost, DepthBack, DecoderRestarted };
     Kind kind;
-    const char* why = "";   // of a loss or a restart
-    const char* done = "";  // of a restart
+    const char* why = "";   // cause of a loss or a restart
+    const char* done = "";  // what a restart did
     MonotonicTime time;
   };
 
-  // Without a clock among the back ends what is lost has failed.
+  // Without Backends::clock a lost source fails at once.
   FilmFeed(PairReader::Backends backends, std::size_t capacity);
   ~FilmFeed();
   FilmFeed(const FilmFeed&) = delete;
   FilmFeed& operator=(const FilmFeed&) = delete;
 
   void startThread();
-  // Interrupts what the reader waits for, ends the thread and closes the film. Does nothing the second time.
+  // Interrupts any blocking read, ends the thread and closes the film. A second call does nothing.
   void stop() noexcept;
 
-  // What was open, or under way, is given up for it.
+  // Abandons whatever is open or being opened.
   void open(SourceOptions options);
   void close();
-  // Forgets what was read ahead. What is taken once the state has left Seeking lies at or after `target`. A newer
-  // target replaces one that is not reached yet. Reading, Ended, Seeking or Reconnecting (it is sought once it is found
-  // again), else nothing happens. `key_step` as in PairReader::seek.
+  // Discards what was read ahead. Everything taken after the state has left Seeking lies at or after `target`. A newer
+  // target replaces one that has not been reached. Valid in Reading, Ended, Seeking and Reconnecting (where it takes
+  // effect once the source is back); ignored in other states. `key_step` as in PairReader::seek.
   void seek(MediaTime target, Duration key_step = Duration(0));
   [[nodiscard]] State state() const;
-  // The next pair in order; nothing while there is none.
+  // The next pair in order; nullopt if none is ready.
   [[nodiscard]] std::optional<FramePair> take();
-  // The next samples in order; nothing while there are none.
+  // The next samples in order; nullopt if none are ready.
   [[nodiscard]] std::optional<AudioChunk> takeSound();
-  // True when no sound before `time` will come that has not come yet, as far as the film's interleaving tells: it is
-  // there, or the reader would have to go too far for it.
+  // True when no more sound before `time` is to be expected: it is queued, or the film's interleaving puts it too far
+  // ahead to read.
   [[nodiscard]] bool hasSoundUntil(MediaTime time) const;
 
-  // Listed: the films.
+  // The films of the playlist, in state Listed.
   [[nodiscard]] std::vector<PlaylistEntry> films() const;
-  // From Reading on.
+  // Valid from Reading on.
   [[nodiscard]] FilmInfo info() const;
   [[nodiscard]] PairCounters counters() const;
-  // Of the failure; and the source that failed.
+  // The error that led to Failed, and the source that failed.
   [[nodiscard]] Error error() const;
   [[nodiscard]] std::string failedThing() const;
-  // The seek that the source refused, once; the film then goes on from where the source stands.
+  // A seek that the source refused, reported once; playback then continues from the source's position.
   [[nodiscard]] std::optional<Error> takeSeekError();
 
-  // In order, each once.
+  // The events in order, each reported once.
   [[nodiscard]] std::optional<News> takeNews();
 
-  // One piece of the reader's work: opens, seeks, reads one pair or some sound, or tries a lost source again. False
-  // when there is nothing to do now.
+  // One step of the reader: opens, seeks, reads one pair or some sound, or retries a lost source. False when there is
+  // nothing to do.
   bool work();
 
  private:
@@ -113,24 +114,24 @@ class FilmFeed {
 
   const std::size_t capacity_;
   const PairReader::Backends backends_;
-  mutable std::atomic<bool> interrupted_{false};  // while a list is read
-  mutable PairReader reader_;                     // the reader's side only, but for `interrupt`
+  mutable std::atomic<bool> interrupted_{false};  // stops the reading of a playlist
+  mutable PairReader reader_;                     // used by the reader's side only, except `interrupt`
 
-  mutable std::mutex mutex_;  // guards all below
+  mutable std::mutex mutex_;  // guards everything below
   std::condition_variable wake_;
   State state_ = State::Closed;
   SourceOptions options_;
   MediaTime target_;
   Duration key_step_{0};
-  std::uint64_t generation_ = 0;  // of films and seeks: what was read under an older one is dropped
+  std::uint64_t generation_ = 0;  // counts films and seeks; data read under an older generation is dropped
   std::uint64_t film_ = 0;        // counts films
-  std::uint64_t at_work_ = 0;     // the film that the reader is busy with; 0: it is idle
+  std::uint64_t at_work_ = 0;     // the film the reader is working on; 0: idle
   bool reader_open_ = false;
   std::vector<PlaylistEntry> films_;
   std::deque<FramePair> queue_;
   std::deque<AudioChunk> sound_;
-  Duration sound_ahead_{0};               // all that is in it
-  std::optional<MediaTime> sound_until_;  // the end of the newest
+  Duration sound_ahead_{0};               // total length of the queued sound
+  std::optional<MediaTime> sound_until_;  // end of the newest queued sound
   bool sound_may_come_ = false;
   FilmInfo info_;
   PairCounters counters_;
@@ -138,8 +139,8 @@ class FilmFeed {
   std::string failed_thing_;
   std::optional<Error> seek_error_;
   BackOff back_off_;
-  Error loss_;                           // while Reconnecting
-  State state_before_ = State::Reading;  // and after it
+  Error loss_;                           // valid in Reconnecting
+  State state_before_ = State::Reading;  // the state to resume after Reconnecting
   bool depth_away_ = false;
   std::deque<News> news_;
   bool stopping_ = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a pair reader has open: how its film was found (pair_opening.cpp) and how it is read (pair_reader.cpp).
+// The private state of a PairReader, shared by its opening (pair_opening.cpp) and its reading (pair_reader.cpp).
 #pragma once
 
 #include <deque>
@@ -43,7 +43,7 @@ struct PairReader::Impl {
   void leaveColor();
   Result<void> goOn();
 
-  // A stream, with the rate that the user has told.
+  // The stream, with the user's frame rate if one was given.
   [[nodiscard]] StreamInfo asTold(const StreamInfo& stream) const {
     StreamInfo told = stream;
     if (options.frames_per_s) told.frame_period = fromSeconds(1 / *options.frames_per_s);
@@ -57,7 +57,7 @@ struct PairReader::Impl {
     using enum ErrorCode;
     return remote && (error.code == Lost || error.code == Timeout || error.code == Io);
   }
-  // Asked for by name: `open` fails without.
+  // The user named a depth source or packing: `open` fails without depth.
   [[nodiscard]] bool isDepthRequired() const noexcept {
     return !options.depth_url.empty() || options.packing == Packing::Tracks;
   }
@@ -75,22 +75,22 @@ struct PairReader::Impl {
   std::string failed_thing;
   PairCounters counters;
 
-  std::mutex readers_mutex;  // the pointers to the readers and `interrupted`, against `interrupt`
+  std::mutex readers_mutex;  // guards the pointers to the readers, and `interrupted`, against a concurrent `interrupt`
   bool interrupted = false;
   std::unique_ptr<TrackReader> color_reader;
-  std::unique_ptr<DepthSource> depth_source;  // of `depth_url`
+  std::unique_ptr<DepthSource> depth_source;  // reads `depth_url`
 
-  std::deque<Frame> color_ahead;               // read, not yet handed out
-  DepthCode found_code = DepthCode::Luma;      // of the first picture
-  std::optional<std::size_t> depth_track;      // in the colour's source
-  const StreamInfo* depth_stream = nullptr;    // likewise; valid while the film is opened
-  bool remote = false, live = false;           // the colour's source
-  Duration color_shift{0};                     // from the time of its present session to the film's
-  MediaTime goes_on_at;                        // the film's time after the last colour picture
-  Duration depth_shift{0};                     // of `depth_source`
-  std::optional<std::uint32_t> depth_session;  // that `depth_shift` is of
+  std::deque<Frame> color_ahead;               // read, not yet delivered
+  DepthCode found_code = DepthCode::Luma;      // as the first picture shows
+  std::optional<std::size_t> depth_track;      // index in the colour's source
+  const StreamInfo* depth_stream = nullptr;    // likewise; valid while the film is open
+  bool remote = false, live = false;           // of the colour's source
+  Duration color_shift{0};                     // added to the session's timestamps to get the film's
+  MediaTime goes_on_at;                        // film time just after the last colour picture
+  Duration depth_shift{0};                     // the same for `depth_source`
+  std::optional<std::uint32_t> depth_session;  // the session that `depth_shift` applies to
   std::optional<DepthFollower> depth;
-  bool depth_away = false;  // it is late or lost, and looked for
+  bool depth_away = false;  // late or lost, and being retried
   bool depth_lost = false;
   bool loss_told = false;
   Duration key_step{0};  // of the last seek

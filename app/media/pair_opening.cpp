@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens a film, finds colour and depth in it, and brings the clocks of two sources together.
+// Opens a film, finds its colour and depth, and aligns the clocks of two sources.
 #include <algorithm>
 #include <cstdio>
 #include <utility>
@@ -11,14 +11,14 @@
 namespace relievo {
 namespace {
 
-constexpr Duration kSameClock = std::chrono::seconds(20);   // of one sender: two lines differ by less
+constexpr Duration kSameClock = std::chrono::seconds(20);   // two streams of one sender differ by less than this
 constexpr Duration kLongestWait = std::chrono::seconds(5);  // for the depth of a live film to begin
 constexpr const char* kNoPicture =
     "not one picture of its video could be decoded; it is empty, damaged, unknown, or has more than 16.7 million "
     "samples";
 
-// The difference of two rounded times is off by up to a millisecond; the container's own period, if it says the same to
-// within that, is not.
+// The difference of two rounded timestamps is wrong by up to 1 ms. The container's nominal period is exact, and is used
+// if it agrees within that.
 Duration framePeriod(Duration between, Duration nominal) noexcept {
   const bool agree = nominal > Duration(0) && std::chrono::abs(between - nominal) <= std::chrono::milliseconds(1);
   return agree ? nominal : between;
@@ -38,7 +38,7 @@ Result<void> PairReader::Impl::openReader() {
   return {};
 }
 
-// The first time, or again: then the depth of a second source has gone on meanwhile.
+// Opens for the first time or again. In the second case a separate depth source has continued meanwhile.
 Result<void> PairReader::Impl::openFilm() {
   const bool two_sources = !options.depth_url.empty();
   if (two_sources && options.packing != Packing::Auto && options.packing != Packing::Tracks) {
@@ -60,7 +60,7 @@ Result<void> PairReader::Impl::openFilm() {
                                 "registration out"});
   }
 
-  // The colour is the track that leads, so it is chosen first.
+  // The colour track leads, so it is selected first.
   const auto chosen = color_reader->select(asTold(*plan->color));
   if (!chosen) return failOn(options.url, chosen.error());
   if (auto selected = selectDepth(plan->depth); !selected) return selected;
@@ -70,7 +70,7 @@ Result<void> PairReader::Impl::openFilm() {
   return openDepth(*plan->color);
 }
 
-// Two pictures: their times tell the frame period.
+// Decodes two pictures, whose timestamps give the frame period.
 Result<void> PairReader::Impl::openColor(const StreamInfo& color) {
   while (color_ahead.size() < 2) {
     auto frame = readColor();
@@ -114,7 +114,7 @@ Result<void> PairReader::Impl::selectDepth(const StreamInfo* stream) {
   return {};
 }
 
-// Nobody has said where the depth is, and there is one track alone: the picture may show it.
+// If nobody has said where the depth is and there is only one track, the picture itself may show it.
 void PairReader::Impl::lookForHalves() {
   if (options.packing != Packing::Auto || !options.depth_url.empty() || depth_stream != nullptr || isPacked()) return;
   auto found = findPacking(color_ahead[0]);
@@ -147,7 +147,7 @@ Result<void> PairReader::Impl::openDepth(const StreamInfo& color) {
     return describeDepth(halves->depth, color, source.tags());
   }
   if (!depth_track && !depth_source) return {};
-  if (depth) {  // known from the first time
+  if (depth) {  // already known from the first opening
     depth->restart();
     depth_lost = false;
     return {};
@@ -158,7 +158,7 @@ Result<void> PairReader::Impl::openDepth(const StreamInfo& color) {
     if (!depth_source) return describeDepth(**first, *depth_stream, source.tags());
     const MediaTime begins = (*first)->pts;
     auto described = describeDepth(**first, depth_source->stream(), depth_source->tags());
-    // Of two live sources the second is opened later: what the first has brought until then is let go.
+    // With two live sources the second opens later; pictures of the first from before that are dropped.
     const bool later = described && live && begins > MediaTime{} && begins < MediaTime(kLongestWait);
     return later ? passTo(begins) : described;
   }
@@ -194,7 +194,7 @@ void PairReader::Impl::openSound() {
 
 Result<void> PairReader::Impl::describeDepth(const Frame& first, const StreamInfo& stream,
                                              const std::map<std::string, std::string>& container_tags) {
-  auto tags = stream.tags;  // the track's word goes before the container's
+  auto tags = stream.tags;  // the track's tags override the container's
   tags.insert(container_tags.begin(), container_tags.end());
   if (options.registration) {
     tags.insert({{"DEPTH_UNIT", std::to_string(options.registration->unit_mm)}, {"DEPTH_INVALID", "0"}});
@@ -220,14 +220,14 @@ Result<void> PairReader::Impl::describeDepth(const Frame& first, const StreamInf
   return {};
 }
 
-// What a new session of the depth's source has to be shifted by to go with the colour's.
+// Computes the shift that aligns a new session of the depth source with the colour.
 void PairReader::Impl::meet(const DepthSource::Session& session, MediaTime first) {
   if (depth_session) depth->restart();
   depth_session = session.number;
   depth_shift = Duration(0);
   if (!session.live) return;
   const MediaSource& color = color_reader->source();
-  if (!color.live()) {  // what comes now goes with what is shown now
+  if (!color.live()) {  // align what arrives now with what is shown now
     depth_shift = goes_on_at - first;
     return;
   }

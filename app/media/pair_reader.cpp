@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads an open film and brings colour and depth together.
+// Reads an open film and pairs colour with depth.
 #include "app/media/pair_reader.h"
 
 #include <utility>
@@ -14,7 +14,7 @@ constexpr const char* kNotOpen = "no film is open; open one first";
 
 }  // namespace
 
-// At the film's time.
+// The next colour picture, with the film's timestamp.
 Result<std::optional<Frame>> PairReader::Impl::readColor() {
   auto frame = color_reader->next(kColorTrack);
   if (frame && *frame) (*frame)->pts += color_shift;
@@ -32,7 +32,7 @@ Result<std::optional<Frame>> PairReader::Impl::nextColor() {
   return frame;
 }
 
-// Likewise, and in the colour's view.
+// The next depth picture, likewise, registered to the colour's view.
 Result<DepthFollower::Supplied> PairReader::Impl::supplyDepth() {
   auto supplied = supplyOwnDepth();
   if (!options.registration || !supplied || !supplied->frame) return supplied;
@@ -69,16 +69,16 @@ Result<FramePair> PairReader::Impl::pairFor(Frame color) {
   return FramePair{std::move(color), std::move(match->depth), match->matched, {}};
 }
 
-// An error of the depth ends the depth; only an interruption goes to the caller.
+// An error in the depth ends the depth only; just an interruption is returned to the caller.
 Result<DepthFollower::Match> PairReader::Impl::depthAt(MediaTime time) {
   if (!depth || (!depth_track && !depth_source) || depth_lost) return DepthFollower::Match{};
   auto match = depth->at(time);
-  if (match && depth_away) return DepthFollower::Match{};  // flat, rather than with the shape of another moment
+  if (match && depth_away) return DepthFollower::Match{};  // flat, rather than the shape of another moment
   if (match) return match;
   if (match.error().code == ErrorCode::Cancelled) {
     return failOn(depthUrl(), match.error());
   }
-  if (depth_track && isLoss(match.error())) return failOn(depthUrl(), match.error());  // the colour is gone as well
+  if (depth_track && isLoss(match.error())) return failOn(depthUrl(), match.error());  // the colour is lost too
   loseDepth(match.error());
   return DepthFollower::Match{};
 }
@@ -89,7 +89,7 @@ void PairReader::Impl::loseDepth(const Error& error) {
   log(LogLevel::Warning, "media", "%s: no depth from here on: %s", depthUrl().c_str(), error.message);
 }
 
-// Drops the pictures before the target; the depth goes along, so that its packets do not pile up.
+// Drops the colour pictures before the target, and reads the depth along so that its packets do not pile up.
 Result<void> PairReader::Impl::passTo(MediaTime target) {
   for (;;) {
     auto color = nextColor();
@@ -103,7 +103,7 @@ Result<void> PairReader::Impl::passTo(MediaTime target) {
   }
 }
 
-// Colour has been sought already, and the depth with it where both are of one source.
+// The colour has already been sought, and so has a depth track in the same source.
 Result<void> PairReader::Impl::seekDepth(MediaTime target) {
   if (!depth) return {};
   depth->restart();
@@ -116,16 +116,16 @@ Result<void> PairReader::Impl::seekDepth(MediaTime target) {
   return {};
 }
 
-// From the picture after the last one; a second source has stayed where it was.
+// Resumes with the picture after the last one; a separate depth source has kept its position.
 Result<void> PairReader::Impl::goOn() {
-  const MediaTime target = goes_on_at - info.frame_period / 2;  // containers round their times
+  const MediaTime target = goes_on_at - info.frame_period / 2;  // containers round their timestamps
   if (auto sought = color_reader->seek(target, key_step); !sought) return failOn(options.url, sought.error());
   color_ahead.clear();
   if (depth_track) depth->restart();
   return passTo(target);
 }
 
-// What it has counted stays counted.
+// Closes the colour source but keeps its counters.
 void PairReader::Impl::leaveColor() {
   counters.damaged += color_reader->damaged();
   counters.jumps += color_reader->source().jumps();
@@ -206,11 +206,11 @@ Result<void> PairReader::reopen() {
   if (!film.live) return film.goOn();
   film.color_shift = film.goes_on_at - film.color_ahead.front().pts;
   for (Frame& frame : film.color_ahead) frame.pts += film.color_shift;
-  film.depth_session.reset();  // what it is shifted by has changed
+  film.depth_session.reset();  // because the colour's shift has changed
   return {};
 }
 
-// At the film's time.
+// The next sound, with the film's timestamp.
 std::optional<AudioChunk> PairReader::nextSound() {
   auto chunk = impl_->color_reader ? impl_->color_reader->nextSound() : std::nullopt;
   if (chunk) chunk->pts += impl_->color_shift;
@@ -234,7 +234,7 @@ void PairReader::close() noexcept {
   film.counters = {};
   film.key_step = Duration(0);
   film.info = {};
-  std::unique_ptr<DepthSource> depth_source;  // its thread ends without the lock
+  std::unique_ptr<DepthSource> depth_source;  // destroyed outside the lock, because that joins its thread
   const std::scoped_lock lock(film.readers_mutex);
   film.color_reader.reset();
   depth_source.swap(film.depth_source);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a film as pairs of a colour picture and a depth picture, whatever way the two are packed.
+// Reads a film as pairs of a colour picture and a depth picture, however the two are stored.
 #pragma once
 
 #include <atomic>
@@ -24,116 +24,117 @@ struct SourceOptions {
   std::string url;
   std::string depth_url;  // empty: the depth is in `url`
   Packing packing = Packing::Auto;
-  std::optional<DepthCode> depth_code;       // nothing: as the picture looks
+  std::optional<DepthCode> depth_code;       // nullopt: guessed from the picture
   CalibrationSettings command_line;          // --calibration KEY=VALUE,..
   CalibrationSettings side_file;             // --calibration FILE
-  std::vector<std::string> named_files;      // that side file and registration were read from
-  std::optional<double> frames_per_s;        // of pictures without times, such as numbered files
-  std::optional<Registration> registration;  // of depth that another camera sees than the colour's; not of packed depth
-  std::optional<AudioFormat> sound;          // that the film's sound is wanted in; nothing: it is left out
+  std::vector<std::string> named_files;      // files that the side file and the registration were read from
+  std::optional<double> frames_per_s;        // of pictures without timestamps, such as numbered files
+  std::optional<Registration> registration;  // for depth from a camera of its own; not for packed depth
+  std::optional<AudioFormat> sound;          // the format to deliver sound in; nullopt: no sound
 };
 
-// Colour always; depth where there is one: the one that DepthFollower finds for the colour's time. `matched` tells
-// whether it is the right one, or a stand-in for one that is missing.
+// A colour picture, and the depth picture that DepthFollower finds for its time. `matched` is false when that depth
+// picture stands in for a missing one.
 struct FramePair {
   Frame color;
   Frame depth;  // empty: none at this time
   bool matched = true;
-  std::optional<MonotonicTime> taken;  // of a live film: when the colour was taken, or came here
+  std::optional<MonotonicTime> taken;  // live films: when the colour was captured, or else received
 };
 
 struct FilmInfo {
   int color_width = 0, color_height = 0;
   int depth_width = 0, depth_height = 0;
   bool has_depth = false;
-  Packing packing = Packing::Auto;   // the one found; Tracks where there is no depth
-  Duration frame_period{0};          // between the first two times, without their rounding; 0 of a single picture
-  Duration duration{0};              // 0 unknown
+  Packing packing = Packing::Auto;   // the one found; Tracks if there is no depth
+  Duration frame_period{0};          // between the first two timestamps, corrected for rounding; 0 for a single picture
+  Duration duration{0};              // 0: unknown
   CalibrationChoice calibration;     // of a film with depth
-  std::vector<std::string> reading;  // what was read off the first pictures, and why; one line each
-  std::vector<std::string> doubts;   // what makes that unlikely, and what to type; one line each
+  std::vector<std::string> reading;  // what the first pictures revealed, and why; one line each
+  std::vector<std::string> doubts;   // why the calibration looks wrong, and the option to try; one line each
   std::string color_codec, depth_codec;
-  std::string color_decoder, depth_decoder;  // VideoDecoder::description
-  std::string sound_codec;                   // of the film's sound, where it was wanted and there is some
-  int sound_tracks = 0, subtitle_tracks = 0, video_tracks_unused = 0;  // of `url`
-  const char* sound_refused = nullptr;                                 // why it cannot be decoded
+  std::string color_decoder, depth_decoder;                            // VideoDecoder::description
+  std::string sound_codec;                                             // if sound was asked for and the film has some
+  int sound_tracks = 0, subtitle_tracks = 0, video_tracks_unused = 0;  // in `url`
+  const char* sound_refused = nullptr;                                 // why the sound cannot be decoded
 };
 
 struct PairCounters {
   std::uint64_t pairs = 0;
-  std::uint64_t without_depth = 0;     // pairs before the depth begins, after it has ended, or where it was lost
-  std::uint64_t mismatched = 0;        // pairs whose depth frame is missing though its track goes on
-  std::uint64_t depth_skipped = 0;     // depth frames that no colour frame asked for
-  std::uint64_t damaged = 0;           // packets and pictures that the decoders dropped
-  std::uint64_t jumps = 0;             // of the containers' times (ContinuousTime)
-  std::uint64_t missed_pictures = 0;   // that the sources took and never handed out (MediaSource)
-  std::uint64_t reconnects = 0;        // how often the colour's source was lost and found again
-  std::uint64_t depth_reconnects = 0;  // of `depth_url`
-  // Once a source has been read to its end: how much of its length was not there (MediaSource::missing).
+  std::uint64_t without_depth = 0;     // pairs before the depth begins, after its end, or while it is lost
+  std::uint64_t mismatched = 0;        // pairs whose depth frame is missing inside a running depth track
+  std::uint64_t depth_skipped = 0;     // depth frames that no colour frame used
+  std::uint64_t damaged = 0;           // packets and pictures dropped by the decoders
+  std::uint64_t jumps = 0;             // discontinuities of container timestamps (ContinuousTime)
+  std::uint64_t missed_pictures = 0;   // pictures captured but never delivered by the sources (MediaSource)
+  std::uint64_t reconnects = 0;        // times the colour source was lost and reopened
+  std::uint64_t depth_reconnects = 0;  // the same for `depth_url`
+  // Known at a source's end: the part of its announced length that was absent (MediaSource::missing).
   Duration missing{0};
-  Duration depth_missing{0};  // of `depth_url`
+  Duration depth_missing{0};  // the same for `depth_url`
 
   PairCounters& operator+=(const PairCounters& other) noexcept;
 };
 
-// Pairs by timestamp, never by count, as DepthFollower says. Each source's time begins at its own zero, so that two
-// files begin together, whatever start times their containers hold.
+// Pairs by timestamp, never by count (see DepthFollower). Each source's time starts at zero, so that two files begin
+// together whatever start times their containers have.
 //
-// What fails in the colour is an error; where `isSourceLost` says so, `reopen` may find the source again, and the
-// film's times go on. What fails in the depth ends the depth, with one warning: the film goes on without, until a seek
-// finds it again, or, where it comes over a network, DepthSource does. Depth that was asked for by name (`depth_url`)
-// has to be there at `open`.
+// A failure in the colour is an error. If `isSourceLost` is true for it, `reopen` may recover the source, and the
+// film's timestamps continue. A failure in the depth ends the depth with one warning; the film continues without it
+// until a seek finds it again or, for a network source, DepthSource reopens it. Depth that the user named (`depth_url`)
+// must be available at `open`.
 //
-// Two live sources are brought together by their sender's clock, where that is one; else by their arrival here.
+// Two live sources are aligned by their sender's clock if they share one, else by their arrival times.
 //
-// One thread; `interrupt` any thread. `next` blocks while it reads and decodes. A verb that needs an open film returns
-// InvalidState without one.
+// Use from one thread, except `interrupt`, which any thread may call. `next` blocks while it reads and decodes. A
+// function that needs an open film returns InvalidState without one.
 //
-// The sound is the first one of the source that holds the colour. It neither waits for pictures nor makes them wait.
+// The sound is the first sound track of the colour's source. Sound and pictures never wait for each other.
 class PairReader {
  public:
   struct Backends {
     std::function<std::unique_ptr<MediaSource>(const std::string& url)> make_source;
     std::function<std::unique_ptr<VideoDecoder>(const StreamInfo&)> make_decoder;
-    // The text at an address, at most so many bytes of it; gives up when the flag is set. Of lists of films.
+    // Fetches a playlist's text from an address, at most so many bytes; gives up when the flag is set.
     std::function<Result<std::string>(const std::string&, std::size_t, const std::atomic<bool>&)> read_text;
-    std::function<std::unique_ptr<AudioDecoder>()> make_audio_decoder;  // of who wants sound
-    Clock* clock = nullptr;    // for what is lost and tried again; null: it stays lost
-    bool own_threads = false;  // for a depth source that must not hold the colour up
+    std::function<std::unique_ptr<AudioDecoder>()> make_audio_decoder;  // only if sound is wanted
+    Clock* clock = nullptr;    // times the retries of lost sources; null: no retries
+    bool own_threads = false;  // read a separate depth source on its own thread, so that it cannot block the colour
   };
   explicit PairReader(Backends backends);
   ~PairReader();
   PairReader(const PairReader&) = delete;
   PairReader& operator=(const PairReader&) = delete;
 
-  // Opens, decodes the first pictures (so that `info` is known) and keeps them for `next`. What was open is closed
-  // before. On failure `failedThing` names what failed: a source, or "calibration".
+  // Opens the film and decodes its first pictures, so that `info` is known; `next` returns them later. Closes what was
+  // open before. On failure `failedThing` names the cause: a source, or "calibration".
   [[nodiscard]] Result<void> open(const SourceOptions& options);
-  // Nothing at the end of the colour. Depth that ends before the colour yields pairs without depth.
+  // nullopt at the end of the colour. If the depth ends earlier, the remaining pairs have none.
   [[nodiscard]] Result<std::optional<FramePair>> next();
-  // The next pair is the first one at or after `target` (frame-exact: what lies before is decoded and dropped), or
-  // nothing beyond the end. Unsupported where the source cannot seek; the film then goes on where it was.
-  // `key_step` over 0: from there on the colour's key frames alone, at least so far apart, with whatever key frame of
-  // the depth is nearest before each; such pairs are not counted as mismatched.
+  // The next pair will be the first at or after `target` (frame-exact: earlier pictures are decoded and dropped), or
+  // nullopt beyond the end. Unsupported if the source cannot seek; the film then continues from where it was. With
+  // `key_step` over 0, only the colour's key frames follow, at least `key_step` apart, each with the depth key frame
+  // nearest before it; such pairs do not count as mismatched.
   [[nodiscard]] Result<void> seek(MediaTime target, Duration key_step = Duration(0));
-  // After an error of a verb above: the colour's source has gone away and may come back.
+  // Whether this error, returned by one of the functions above, means that the colour's source is gone and may come
+  // back.
   [[nodiscard]] bool isSourceLost(const Error& error) const noexcept;
-  // Opens the colour's source anew, once. A film goes on where it was; a live one from what comes now, as if nothing
-  // had been missed. After a failure only `reopen` and `close` are of use.
+  // Tries once to open the colour's source again. A file resumes where it was; a live film continues with what arrives
+  // now, as if nothing had been missed. After a failure only `reopen` and `close` may be called.
   [[nodiscard]] Result<void> reopen();
-  // The next samples among what has been read, in order; after a seek some may lie before its target. Never reads.
+  // The next samples among the data already read, in order; after a seek some may lie before its target. Never reads.
   [[nodiscard]] std::optional<AudioChunk> nextSound();
-  // Reads one packet more, where sound comes later in the source than its pictures; false when that helps no more.
+  // Reads one more packet, for containers that store sound later than its pictures; false when that cannot help.
   [[nodiscard]] bool readAhead();
   void close() noexcept;
-  // Makes a blocked verb return Cancelled, and those to come until the next `open`.
+  // Makes a blocked call, and all later ones until the next `open`, return Cancelled.
   void interrupt() noexcept;
 
   [[nodiscard]] const FilmInfo& info() const noexcept;
   [[nodiscard]] PairCounters counters() const noexcept;
-  // Why the depth of `depth_url` is away, while it is looked for.
+  // Why `depth_url` is lost, while it is being retried.
   [[nodiscard]] std::optional<Error> depthLoss() const noexcept;
-  // Of a decoder, each once; after a loss of the source none of before.
+  // A decoder's restart, each reported once; restarts from before a loss of the source are forgotten.
   [[nodiscard]] std::optional<VideoDecoder::Restart> takeRestart() noexcept;
   [[nodiscard]] const std::string& failedThing() const noexcept;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Moves pairs from the feed to the screen's side.
+// Takes pairs from the feed and selects the one to show.
 #include "app/media/playhead.h"
 
 #include <utility>
@@ -7,7 +7,7 @@
 namespace relievo {
 
 bool Playhead::refill(FilmFeed& feed) {
-  // The state first: what came before an end is then in the queue.
+  // Read the state first: if it says Ended, all pairs are already in the queue.
   const FilmFeed::State state = feed.state();
   while (!filled()) {
     auto pair = feed.take();

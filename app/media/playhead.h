@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pair on the screen and the few after it: picks by time, never by count.
+// The pair on the screen and the few after it, selected by timestamp.
 #pragma once
 
 #include <deque>
@@ -12,22 +12,22 @@ namespace relievo {
 
 class Playhead {
  public:
-  static constexpr std::size_t kAhead = 4;  // as far as the depth window reaches
+  static constexpr std::size_t kAhead = 4;  // the look-ahead of the depth window
 
-  // Takes pairs from the feed until there are kAhead. False when no more will come.
+  // Takes pairs from the feed until kAhead are buffered. False when no more will come.
   bool refill(FilmFeed& feed);
-  // Makes the newest pair at or before `position` the present one, refilling meanwhile. Returns how many pairs it went
-  // on by: one is the usual, each more is a picture that nobody saw.
+  // Makes the newest pair at or before `position` the present one, refilling as needed. Returns by how many pairs it
+  // advanced: more than one means that pictures were skipped.
   std::size_t advance(MediaTime position, FilmFeed& feed);
-  // The first pair after a start or a seek becomes the present one, whatever its time. Not when there is none.
+  // Makes the first pair after a start or a seek the present one, whatever its time. Does nothing if there is none.
   void begin();
-  // Forgets what lies ahead; the present pair stays.
+  // Drops the buffered pairs; the present pair stays.
   void clear() { ahead_.clear(); }
 
   [[nodiscard]] const FramePair& present() const noexcept { return present_; }
   [[nodiscard]] const std::deque<FramePair>& ahead() const noexcept { return ahead_; }
   [[nodiscard]] bool filled() const noexcept { return ahead_.size() >= kAhead; }
-  // No pair will come after those ahead.
+  // No pair follows the buffered ones.
   [[nodiscard]] bool last() const noexcept { return last_; }
 
  private:

@@ -20,7 +20,7 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-// "http" of "http://..", "concat" of "concat:a|b"; empty for a path. A letter alone is no scheme.
+// "http" for "http://..", "concat" for "concat:a|b"; empty for a path. A single letter is not a scheme.
 std::string schemeOf(std::string_view url) {
   const std::size_t colon = url.find(':');
   if (colon == std::string_view::npos || colon < 2) return {};
@@ -35,13 +35,13 @@ bool isOnNetwork(std::string_view url) {
   return std::ranges::find(kNetwork, schemeOf(url)) != kNetwork.end();
 }
 
-// In lower case, without what follows ? or # of an address.
+// The name in lower case, without an address's ? and # parts.
 std::string nameOf(std::string_view url) {
   return lower(url.substr(0, isOnNetwork(url) ? url.find_first_of("?#") : url.size()));
 }
 
-// A path beside a URL: "//host/a" keeps the scheme, "/a" the host, "a" the folder. What comes after ? or # of the
-// playlist's own address is no folder.
+// Resolves a path relative to a URL: "//host/a" keeps the scheme, "/a" the host, "a" the folder. The ? and # parts of
+// the playlist's address do not count as folders.
 std::string besideUrl(std::string_view path, std::string_view from) {
   from = from.substr(0, from.find_first_of("?#"));
   const std::size_t host = from.find("://") + 3;
@@ -54,7 +54,7 @@ std::string besideUrl(std::string_view path, std::string_view from) {
   return std::string(folder) + "/" + std::string(path);
 }
 
-// The path of file://HOST/PATH, in which %20 is a space.
+// The path of file://HOST/PATH, with %20 decoded.
 std::string pathOf(std::string_view url) {
   url.remove_prefix(std::string_view("file:").size());
   if (url.starts_with("//")) url.remove_prefix(std::min(url.find('/', 2), url.size()));
@@ -91,7 +91,7 @@ class Parser {
     if (line.front() == '#') return {};
     next_.url = address(line);
     if (entries_.size() == kMostEntries) {
-      return failOn(from_, {ErrorCode::Corrupt, 0, "the playlist has more than 10000 entries; make several of it"});
+      return failOn(from_, {ErrorCode::Corrupt, 0, "the playlist has more than 10000 entries; split it"});
     }
     entries_.push_back(std::exchange(next_, {}));
     return {};
@@ -103,7 +103,7 @@ class Parser {
   }
 
  private:
-  // Marks the entry where it may not be opened.
+  // Resolves the address and marks the entry if it may not be opened.
   std::string address(std::string_view text) {
     const std::string scheme = schemeOf(text);
     if (from_network_ && scheme.empty()) return besideUrl(text, from_);
@@ -112,7 +112,7 @@ class Parser {
     if (is_file) return pathOf(text);
     const std::filesystem::path path{std::string(text)};
     if (!scheme.empty() || path.is_absolute()) return std::string(text);
-    // "./" before what has no folder: FFmpeg takes some names for protocols, such as "subfile,,..".
+    // Puts "./" before a bare file name: FFmpeg reads some names as protocols, such as "subfile,,..".
     const auto folder = std::filesystem::path(from_).parent_path();
     return ((folder.empty() ? "." : folder) / path).string();
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Out along the depth camera's rays, across to the other camera, and back onto its picture.
+// Back-projects each depth pixel, transforms it into the colour camera's frame and projects it onto that camera's
+// picture.
 #include "app/media/registration.h"
 
 #include <algorithm>
@@ -9,10 +10,10 @@
 namespace relievo {
 namespace {
 
-constexpr double kNearestMm = 1;  // in front of the colour camera
+constexpr double kNearestMm = 1;  // distance in front of the colour camera
 constexpr std::uint32_t kLargestCode = 0xffff;
 
-// The same camera, of another picture size.
+// The same camera at another picture size.
 PinholeCamera scaled(const PinholeCamera& camera, int cols, int rows) noexcept {
   const double x = cols / camera.cols, y = rows / camera.rows;
   return {.cols = static_cast<double>(cols),
@@ -27,12 +28,12 @@ struct Point {
   double x, y, z;
 };
 
-// The picture that is made.
+// The picture being made.
 struct Target {
   int cols, rows;
   std::vector<std::uint16_t> codes;
 
-  // The pixels whose centres lie in the plate, so that plates side by side leave no pixel out and share none.
+  // Fills the pixels whose centres lie in the plate, so that adjacent plates neither leave gaps nor overlap.
   void cover(double u, double v, double half_width, double half_height, std::uint16_t code) noexcept {
     const auto first = [](double edge) { return static_cast<int>(std::ceil(std::clamp(edge, -1.0, 1e6))); };
     const int c0 = std::max(first(u - half_width), 0), c1 = std::min(first(u + half_width), cols);
@@ -50,7 +51,7 @@ struct Target {
 
 Result<Frame> registered(const Frame& depth, const Registration& registration) {
   if (depth.empty() || depth.model == ColorModel::Rgb || depth.width < 1 || depth.height < 1) {
-    return fail(ErrorCode::Unsupported, "registration needs gray depth of distances");
+    return fail(ErrorCode::Unsupported, "registration needs gray depth whose codes are distances");
   }
   const PinholeCamera from = scaled(registration.depth, depth.width, depth.height);
   Target target{depth.width, 0, {}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Brings the picture of a depth camera into the view of the colour camera beside it.
+// Reprojects a depth camera's picture into the view of the colour camera beside it.
 #pragma once
 
 #include <array>
@@ -10,29 +10,29 @@
 
 namespace relievo {
 
-// A pinhole camera without distortion. Focal lengths and principal point in pixels of a picture of `cols` x `rows`;
-// the centre of the pixel (c, r) is at (c, r). A picture of another size sees the same, scaled.
+// A pinhole camera without distortion. Focal lengths and principal point are in pixels of a picture of `cols` x `rows`;
+// the centre of pixel (c, r) is at (c, r). A picture of another size shows the same view, scaled.
 struct PinholeCamera {
   double cols = 0, rows = 0;
   double focal_x = 0, focal_y = 0;
   double center_x = 0, center_y = 0;
 };
 
-// A point p of the depth camera's frame (x right, y down, z forward, mm) is rotation x p + translation in the colour
-// camera's.
+// Maps a point p of the depth camera's frame (x right, y down, z forward, mm) to rotation x p + translation in the
+// colour camera's frame.
 struct Registration {
   PinholeCamera depth, color;
   std::array<double, 9> rotation{1, 0, 0, 0, 1, 0, 0, 0, 1};  // row by row
   std::array<double, 3> translation_mm{0, 0, 0};
-  double unit_mm = 1;  // of a depth code; 0 is no value
+  double unit_mm = 1;  // per depth code; 0: not given
 };
 
-// TOML: see the readme. InvalidArgument for what is no registration, with the rule that it breaks.
+// Reads the TOML that app/author/README.md describes. InvalidArgument names the rule that the text breaks.
 [[nodiscard]] Result<Registration> parseRegistration(std::string_view toml);
 
-// A picture of distances as the colour camera would see it: as wide as the depth picture, in the shape of the colour's,
-// 16 bits, of the same unit. Every sample is a small plate that faces the camera; where two cover a pixel the nearer
-// one wins, and where none does there is a hole. Unsupported for what is no picture of whole-number codes.
+// The distances as the colour camera would see them: as wide as the depth picture, in the colour's aspect ratio, 16
+// bits, the same unit. Every sample is a small plate that faces the camera; where several cover a pixel the nearest
+// wins, and where none does there is a hole. Unsupported unless the picture holds whole-number codes.
 [[nodiscard]] Result<Frame> registered(const Frame& depth, const Registration& registration);
 
 }  // namespace relievo

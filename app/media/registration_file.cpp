@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A registration's written form.
+// Reads a registration from TOML.
 #include <toml++/toml.h>
 
 #include <cmath>
@@ -10,15 +10,15 @@
 namespace relievo {
 namespace {
 
-constexpr const char* kNoToml = "it is no TOML";
+constexpr const char* kNoToml = "the registration is not valid TOML";
 constexpr const char* kBadCamera =
     "[depth] and [color] each need size = [columns, rows], focal = [x, y] and center = [x, y], in pixels";
 constexpr const char* kBadMotion =
     "[depth_to_color] has rotation = nine numbers, row by row, of a rotation, and translation_mm = three";
-constexpr const char* kBadUnit = "depth.unit_mm is the distance of one depth code, over 0";
-constexpr double kSquareToWithin = 1e-3;  // of a rotation's rows
+constexpr const char* kBadUnit = "depth.unit_mm must be over 0: the distance of one depth code in mm";
+constexpr double kSquareToWithin = 1e-3;  // deviation from an orthonormal matrix
 
-// As many finite numbers as `values` holds.
+// Reads exactly as many finite numbers as `values` holds.
 template <std::size_t N>
 bool read(const toml::node_view<const toml::node>& node, std::array<double, N>& values) {
   const toml::array* const list = node.as_array();

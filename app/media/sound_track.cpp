@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A bounded queue before a decoder.
+// A bounded queue of packets before the sound decoder.
 #include "app/media/sound_track.h"
 
 #include <utility>
@@ -44,7 +44,7 @@ std::optional<AudioChunk> SoundTrack::next() {
 void SoundTrack::restart() {
   waiting_.clear();
   waiting_bytes_ = 0;
-  if (decoder_ != nullptr) static_cast<void>(decoder_->flush());  // an open one does
+  if (decoder_ != nullptr) static_cast<void>(decoder_->flush());  // cannot fail on an open decoder
 }
 
 }  // namespace relievo

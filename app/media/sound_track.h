@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sound that belongs to a film: packets as they are read beside the pictures, decoded when they are asked for.
+// The sound of a film: packets are queued as they are read with the pictures, and decoded on request.
 #pragma once
 
 #include <cstddef>
@@ -13,11 +13,11 @@
 
 namespace relievo {
 
-// One thread. It never makes the pictures wait: what nobody has asked for in time is dropped, the oldest first, and a
-// decoder that fails ends the sound alone.
+// Use from one thread. Sound never delays the pictures: packets that are not requested in time are dropped, the oldest
+// first, and a decoder failure ends the sound alone.
 class SoundTrack {
  public:
-  // A minute and more, of whatever codec; uncompressed sound less.
+  // More than a minute of any compressed codec; less of uncompressed sound.
   static constexpr std::size_t kMaxWaitingPackets = 4096;
   static constexpr std::size_t kMaxWaitingBytes = std::size_t{16} << 20;
 
@@ -27,9 +27,9 @@ class SoundTrack {
   [[nodiscard]] bool open() const noexcept { return decoder_ != nullptr; }
   [[nodiscard]] int stream() const noexcept { return stream_; }
   void keep(Packet packet);
-  // The next samples in order, of what has been kept; nothing while there are none.
+  // The next samples of the queued sound, in order; nullopt if there are none.
   [[nodiscard]] std::optional<AudioChunk> next();
-  // For a seek.
+  // Call after a seek.
   void restart();
   [[nodiscard]] std::uint64_t damaged() const noexcept { return decoder_ == nullptr ? 0 : decoder_->damaged(); }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Packets of one source to the decoders of its tracks, with bounded queues between.
+// Passes packets of one source to the decoders of its tracks, with bounded queues between.
 #include "app/media/track_reader.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ Result<void> TrackReader::open(const std::string& url) {
 }
 
 Result<std::size_t> TrackReader::select(const StreamInfo& stream) {
-  if (track_count_ == kMaxTracks) return fail(ErrorCode::Exhausted, "two tracks of a source are chosen already");
+  if (track_count_ == kMaxTracks) return fail(ErrorCode::Exhausted, "two tracks of this source are already selected");
   Track track;
   track.stream = stream.index;
   track.rotation = stream.rotation;
@@ -78,7 +78,7 @@ Result<std::optional<Frame>> TrackReader::decode(Track& track) {
   }
 }
 
-// Gives the decoder one packet, or the word that there are no more; false when there is neither for now.
+// Gives the decoder one packet or the end of the stream; false if neither is available now.
 Result<bool> TrackReader::feed(Track& track) {
   const bool leads = &track == tracks_.data();
   while (track.waiting.empty()) {
@@ -93,8 +93,8 @@ Result<bool> TrackReader::feed(Track& track) {
   const Packet& packet = track.waiting.front();
   const auto fed = track.decoder->feed(packet);
   if (!fed) return std::unexpected(fed.error());
-  if (*fed == Feed::Full) {  // though it had no picture to give either
-    return fail(ErrorCode::Exhausted, "more pictures are held than the decoder allows; let go of some first");
+  if (*fed == Feed::Full) {  // full, yet it had no picture to return
+    return fail(ErrorCode::Exhausted, "all of the decoder's pictures are held; release some first");
   }
   track.waiting_bytes -= packet.bytes;
   track.waiting.pop_front();
@@ -156,8 +156,8 @@ bool TrackReader::isFull(const Track& track) noexcept {
   return track.waiting.size() >= kMaxWaitingPackets || track.waiting_bytes >= kMaxWaitingBytes;
 }
 
-// A container seeks by one track, and some by decoding time: another track, or this one's reordered pictures, may then
-// begin after the target. So it is tried from ever earlier, at last from the beginning.
+// Containers seek by one track, and some by decoding time, so another track or this track's reordered pictures may then
+// begin after the target. Retries from ever earlier times, finally from the beginning.
 Result<void> TrackReader::seek(MediaTime target, Duration key_step) {
   Duration step_back{0};
   for (;;) {
@@ -169,7 +169,7 @@ Result<void> TrackReader::seek(MediaTime target, Duration key_step) {
   }
 }
 
-// True when every track has a picture at or before the target, or none any more.
+// True when every track has a picture at or before the target, or has ended.
 Result<bool> TrackReader::seekOnce(MediaTime from, MediaTime target, Duration key_step) {
   if (auto sought = source_->seek(from); !sought) return std::unexpected(sought.error());
   key_step_ = key_step;
@@ -186,7 +186,7 @@ Result<bool> TrackReader::seekOnce(MediaTime from, MediaTime target, Duration ke
     Track& track = tracks_[i];
     auto frame = decode(track);
     if (!frame) {
-      // The leading track's trouble ends the seek; the other's comes up again when that one is asked.
+      // An error in the leading track ends the seek; the other track's error is reported when that track is read.
       if (i == 0 || frame.error().code == ErrorCode::Cancelled) return std::unexpected(frame.error());
       continue;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turns a picture component by component.
+// Rotates a picture component by component.
 #include "app/media/turned.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ Size sizeOf(const Frame& frame, std::size_t component) noexcept {
   return {part(frame.width, frame.chroma_shift_x), part(frame.height, frame.chroma_shift_y)};
 }
 
-// One component: the sample at (0, 0) of what comes out, and the ways there to its right and to the one below.
+// One component: the source sample for output (0, 0), and the byte steps for one column and one row of the output.
 struct Walk {
   const std::uint8_t* first;
   std::ptrdiff_t right, down;
@@ -43,7 +43,7 @@ Walk walkOf(const Frame& frame, std::size_t component, int quarter_turns) noexce
   }
 }
 
-// In blocks, so that a column that is read as a row stays in the cache.
+// In blocks, so that a column read as a row stays in the cache.
 template <int kBytes>
 void copyTurned(const Walk& from, Size size, std::uint8_t* to) noexcept {
   constexpr int kBlock = 32;
@@ -73,7 +73,7 @@ void copyTurned(const Walk& from, Size size, int bytes, std::uint8_t* to) noexce
   }
 }
 
-// Red, green and blue of 8 bits in pixels of 3 or 4 bytes: they stay together, since hue depth is read from such.
+// 8-bit red, green and blue in pixels of 3 or 4 bytes: they stay packed, since hue depth is read from such pixels.
 bool isPackedRgb(const Frame& frame) noexcept {
   const Component& first = frame.components[0];
   return frame.model == ColorModel::Rgb && first.bits == 8 && (first.step_bytes == 3 || first.step_bytes == 4);
@@ -113,7 +113,7 @@ Result<Frame> turned(const Frame& frame, int quarter_turns) noexcept {
   for (std::size_t i = 0; i < upright.plane_count; ++i) {
     const Size size = sizeOf(upright, i);
     Walk walk = walkOf(frame, i, quarter_turns);
-    if (packed) walk.first -= frame.components[i].offset_bytes;  // of a pixel, not of its red
+    if (packed) walk.first -= frame.components[i].offset_bytes;  // the start of a pixel, not of its red component
     copyTurned(walk, size, bytesOf(i), at);
     upright.planes[i].data = at;
     at += upright.planes[i].stride_bytes * size.rows;

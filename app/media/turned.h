@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Upright pictures of a track that was taken with the camera on its side or upside down.
+// Turns pictures upright that a camera took on its side or upside down.
 #pragma once
 
 #include "hal/frame.h"
@@ -7,8 +7,8 @@
 
 namespace relievo {
 
-// The picture, turned clockwise by so many quarter turns (1 to 3): a copy in memory of its own, a plane for each
-// component (packed RGB of 8 bits stays packed), every sample with the value it had. Exhausted without memory.
+// The picture rotated clockwise by so many quarter turns (1 to 3): a copy in memory of its own, one plane per component
+// (packed 8-bit RGB stays packed), sample values unchanged. Exhausted if out of memory.
 [[nodiscard]] Result<Frame> turned(const Frame& frame, int quarter_turns) noexcept;
 
 }  // namespace relievo

@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::uint32_t kTop = 0xffff;
 
-// A rendering that is stretched to 16 bits reaches the upper half of its codes; 32 m in millimetres do not.
+// A depth rendering stretched to 16 bits reaches the upper half of the codes; 32 m in millimetres does not.
 constexpr std::uint32_t kStretched = 0x8000;
-// Where more codes are used: a sensor leaves a gap between its holes (0) and what it sees first.
+// Among the codes in use, a sensor leaves a gap between its hole code (0) and its nearest reading.
 constexpr std::uint32_t kLeastGap = 100;
 constexpr double kHolesOfSensor = 0.002;
 
@@ -25,7 +25,7 @@ constexpr double kHolesOfSensor = 0.002;
 constexpr std::uint32_t kRawHole = 2047, kRawLowest = 300, kRawHighest = 1084;
 constexpr double kRawMm = 351300, kRawOffset = 1092.5;
 
-// Near and far are those of nearly all samples, and a little more: the next pictures may show more.
+// Near and far are taken from all samples except outliers, with a margin because later pictures may show more.
 constexpr double kOutliers = 0.002, kNearer = 0.9, kFarther = 1.1;
 
 bool says(const CalibrationLayers& said, std::initializer_list<const char*> keys) {
@@ -41,7 +41,7 @@ std::string number(double value) {
 struct Reach {
   std::uint32_t low = 0, high = 0;
 };
-// Of the codes that are no holes, but for the outliers.
+// The range of the codes between `lowest` and `highest`, without the outliers.
 Reach reachOf(const CodeCount& count, std::uint32_t lowest, std::uint32_t highest) {
   return {count.quantile(kOutliers, lowest, highest), count.quantile(1 - kOutliers, lowest, highest)};
 }
@@ -57,7 +57,7 @@ DepthReading rawKinect(const CodeCount& count) {
                       {"invalid", "0+1085-65535"},
                       {"near", number(mm(low))},
                       {"far", number(mm(high))}};
-  reading.why = print("codes of %u to %u with holes of 2047: raw disparities of a Kinect, %.2f to %.2f m", low, high,
+  reading.why = print("codes of %u to %u with holes of 2047: raw Kinect disparities, %.2f to %.2f m", low, high,
                       1e-3 * mm(low), 1e-3 * mm(high));
   return reading;
 }
@@ -88,13 +88,13 @@ bool isDistances(const CodeCount& count) {
 
 DepthReading readSensor(const CodeCount& count) {
   if (isRawKinect(count)) return rawKinect(count);
-  if (count.step() > 8 || !isDistances(count)) return {};  // fewer bits, stretched
-  if (count.step() == 8) return distances(count, 0.125, "distances in mm, 3 bits to the left");
+  if (count.step() > 8 || !isDistances(count)) return {};  // a format of fewer bits, stretched
+  if (count.step() == 8) return distances(count, 0.125, "distances in mm, shifted left by 3 bits");
   return distances(count, 1, "distances in mm");
 }
 
 DepthReading readRange(const CodeCount& count) {
-  constexpr double kBeyond = 0.005;  // more than coding makes of black and white
+  constexpr double kBeyond = 0.005;  // more than coding errors make of black and white
   const std::uint32_t scale = 1u << (count.bits() - 8);
   const double beyond = count.share(0, 12 * scale) + count.share(240 * scale, 256 * scale - 1);
   if (beyond < kBeyond) return {};
@@ -166,7 +166,7 @@ std::vector<std::string> doubtsOf(const Frame& depth, const DepthCalibration& ca
     }
   }
   if (heights.empty()) {
-    doubts.emplace_back("all of the depth is holes: nothing can be felt; see --calibration invalid=");
+    doubts.emplace_back("the whole depth picture is holes, so nothing can be felt: check --calibration invalid=");
     return doubts;
   }
   const auto count = static_cast<double>(heights.size());
@@ -182,7 +182,7 @@ std::vector<std::string> doubtsOf(const Frame& depth, const DepthCalibration& ca
   if (same > kOneCode) {
     doubts.push_back(print("%.0f %% of the depth is one code: an empty picture, or not depth", 100 * same));
   } else if (relief < kLeastRelief) {
-    doubts.push_back(print("the relief takes up %.1f %% of its box: try %s", 100 * relief, range));
+    doubts.push_back(print("the relief uses only %.1f %% of the box's depth: try %s", 100 * relief, range));
   } else if (const double clipped = static_cast<double>(std::max(bottom, top)) / count; clipped > kClipped) {
     doubts.push_back(print("%.0f %% of the depth lies at the %s end of its range and is flat: try %s", 100 * clipped,
                            top > bottom ? "near" : "far", range));
@@ -190,8 +190,8 @@ std::vector<std::string> doubtsOf(const Frame& depth, const DepthCalibration& ca
   if (calibration.code == DepthCode::Luma && depth.model != ColorModel::Gray) {
     const double colored = 1 - lookAt(depth).gray;
     if (colored > kColored) {
-      doubts.push_back(print("%.0f %% of the depth has a colour, and is read by its brightness: try --depth-code hue",
-                             100 * colored));
+      doubts.push_back(
+          print("%.0f %% of the depth is coloured but read as brightness: try --depth-code hue", 100 * colored));
     }
   }
   return doubts;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the codes of a depth track mean, read off its first picture where nobody has said it; and what looks wrong.
+// Guesses the calibration of a depth track from its first picture if nothing else defines it, and reports what looks
+// wrong.
 #pragma once
 
 #include <cstdint>
@@ -11,20 +12,20 @@
 
 namespace relievo {
 
-// The gray codes of a picture, counted.
+// Histogram of a picture's gray codes.
 class CodeCount {
  public:
-  // All samples of a gray or YUV picture, or of one in RGB whose three components are the same.
+  // Counts all samples of a gray or YUV picture, or of an RGB picture whose three components are equal.
   explicit CodeCount(const Frame& depth);
 
   [[nodiscard]] int bits() const noexcept { return bits_; }
   [[nodiscard]] std::uint64_t samples() const noexcept { return samples_; }
   [[nodiscard]] std::uint64_t of(std::uint32_t code) const { return of_code_[code]; }
-  // In codes from `low` to `high`, both included; share of all samples.
+  // The share of all samples with a code in `low` .. `high`, both included.
   [[nodiscard]] double share(std::uint32_t low, std::uint32_t high) const;
-  // The code below which the share `q` of the samples with a code in `low` .. `high` lies; `low` when there are none.
+  // The quantile `q` of the codes in `low` .. `high`; `low` if there are none.
   [[nodiscard]] std::uint32_t quantile(double q, std::uint32_t low, std::uint32_t high) const;
-  // The greatest number that divides every code that occurs; 0 where only 0 occurs.
+  // The greatest common divisor of the codes that occur; 0 if only code 0 occurs.
   [[nodiscard]] std::uint32_t step() const;
 
  private:
@@ -34,17 +35,16 @@ class CodeCount {
 };
 
 struct DepthReading {
-  CalibrationSettings settings;  // the layer below all that was said
-  std::string why;               // one line; empty where nothing was read off the picture
+  CalibrationSettings settings;  // a calibration layer below everything that was stated
+  std::string why;               // one line; empty if the picture revealed nothing
 };
 
-// 16-bit codes that leave out a large part of their range are no brightness but what a sensor has measured: distances,
-// or the raw disparities of a Kinect. YUV that names no range is of the full one when it uses codes beyond the limited
-// one. `said`: what command line, side file and tags have settled; a picture is not asked where they say what a code
-// is.
+// 16-bit codes that leave out a large part of their range are not brightness but measurements: distances, or a Kinect's
+// raw disparities. YUV that states no range has the full one if it uses codes outside the limited one. `said` holds the
+// settings of command line, side file and tags; if they define what a code is, the picture is not consulted.
 [[nodiscard]] DepthReading readCodes(const Frame& depth, const CodeCount& count, const CalibrationLayers& said);
 
-// What makes it unlikely that the calibration is the right one: one line each, with its share and with what to type.
+// Reasons why the calibration is unlikely to be right: one line each, with the share of samples and the option to try.
 [[nodiscard]] std::vector<std::string> doubtsOf(const Frame& depth, const DepthCalibration& calibration);
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the depth among tracks and in halves.
+// Finds the depth among a source's tracks or in one half of a picture.
 #include "app/media/reading/packing.h"
 
 #include <algorithm>
@@ -63,13 +63,13 @@ bool isPacked(Packing packing) {
   return packing != Packing::Auto && packing != Packing::Tracks;
 }
 
-// Luma alone, as a gray picture of the same range.
+// The luma plane alone, as a gray picture of the same range.
 Frame lumaOf(const Frame& picture) noexcept {
   Frame gray = picture;
   if (picture.model != ColorModel::Yuv) return gray;
   gray.model = ColorModel::Gray;
   gray.chroma_shift_x = gray.chroma_shift_y = 0;
-  if (gray.range == ColorRange::Unspecified) gray.range = ColorRange::Limited;  // what YUV is that says nothing
+  if (gray.range == ColorRange::Unspecified) gray.range = ColorRange::Limited;  // the default for YUV
   return gray;
 }
 
@@ -94,7 +94,8 @@ Result<TrackPlan> planTracks(const MediaSource& source, Packing packing, bool de
   }
   if (tracks.size() == 1) {
     if (!depth_elsewhere && packing == Packing::Tracks) {
-      return fail(ErrorCode::NotFound, "it has one video track only; name the depth's source, or choose sbs or tb");
+      return fail(ErrorCode::NotFound,
+                  "the source has only one video track; give --depth SOURCE, or --packing sbs or tb");
     }
     return TrackPlan{tracks[0], nullptr, Packing::Tracks};
   }
@@ -108,7 +109,7 @@ Result<Halves> splitPacked(const Frame& picture, Packing packing, DepthCode code
   const bool depth_first = packing == Packing::SideBySideDepthFirst || packing == Packing::TopBottomDepthFirst;
   const int whole = beside ? picture.width : picture.height;
   const Frame depth = code == DepthCode::Luma ? lumaOf(picture) : picture;
-  // The half that is read with its chroma begins at a whole chroma sample.
+  // A half that is read with chroma begins at a whole chroma sample.
   const Frame& second = depth_first ? picture : depth;
   const int start = alignUp(whole - whole / 2, beside ? second.chroma_shift_x : second.chroma_shift_y);
   const int half = whole - start;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the colour and the depth of a film are: in two tracks, or in two halves of one picture.
+// Where a film stores colour and depth: in two tracks, or in the two halves of one picture.
 #pragma once
 
 #include <cstdint>
@@ -14,30 +14,30 @@
 namespace relievo {
 
 enum class Packing : std::uint8_t {
-  Auto,                  // what the film says or shows (`planTracks`); a film that does neither is colour alone
-  Tracks,                // colour and depth are two tracks of one file, or two files
+  Auto,                  // as the film's tags or pictures say (`planTracks`); otherwise colour alone
+  Tracks,                // two tracks of one file, or two files
   SideBySide,            // one picture: colour left, depth right
   TopBottom,             // one picture: colour on top, depth below
   SideBySideDepthFirst,  // depth left, colour right
   TopBottomDepthFirst,   // depth on top, colour below
 };
 
-// Which streams to decode, as pointers into the source's list. No depth stream: there is none, or it is packed.
+// Which streams to decode, as pointers into the source's list. A null depth stream means no depth, or packed depth.
 struct TrackPlan {
   const StreamInfo* color = nullptr;
   const StreamInfo* depth = nullptr;
   Packing packing = Packing::Tracks;
 };
 
-// The depth track of a source with two or more video tracks: the one that is signalled as auxiliary; else the one whose
-// TITLE, NAME or HANDLER_NAME speaks of depth, disparity or an auxiliary picture, or that has DEPTH_ tags; else the
-// second. Of one video track: that one. Null without any.
+// The depth track of a source. Of two or more video tracks: the one signalled as auxiliary; else the one that has
+// DEPTH_ tags or whose TITLE, NAME or HANDLER_NAME mentions depth, disparity or an auxiliary picture; else the second.
+// Of one video track: that one. Null if there is none.
 [[nodiscard]] const StreamInfo* findDepthTrack(const MediaSource& source);
 
-// For a source that holds the colour, and the depth too unless `depth_elsewhere`. Auto decides, in this order: by a tag
-// DEPTH_PACKING=sbs|tb|sbs-depth-first|tb-depth-first of the container or the track; by a second video track. A
-// picture's shape decides nothing: a wide film is not taken for a packed one. NotFound where the source has not the
-// tracks that the packing asks for.
+// Plans a source that holds the colour, and the depth too unless `depth_elsewhere`. Auto decides first by a tag
+// DEPTH_PACKING=sbs|tb|sbs-depth-first|tb-depth-first of the container or the track, then by the presence of a second
+// video track. A picture's shape decides nothing: a wide film is not assumed to be packed. NotFound if the source lacks
+// the tracks that the packing needs.
 [[nodiscard]] Result<TrackPlan> planTracks(const MediaSource& source, Packing packing, bool depth_elsewhere);
 
 struct Halves {
@@ -45,10 +45,10 @@ struct Halves {
   Frame depth;
 };
 
-// The halves of a packed picture, by reference; the depth's size is the colour's. Of an odd number of
-// columns (rows) the middle one belongs to neither. Depth that is read from luma (`code`) becomes a gray view, so that
-// it begins at the exact sample; where chroma is read too it begins at a whole chroma sample, at most one pixel late.
-// Unsupported for a picture too small to be halved.
+// The two halves of a packed picture, by reference; the depth is as large as the colour. If the number of columns
+// (rows) is odd, the middle one belongs to neither. Depth read from luma (`code`) becomes a gray view that begins at
+// the exact sample; depth that needs chroma begins at a whole chroma sample, at most one pixel late. Unsupported if the
+// picture is too small to be halved.
 [[nodiscard]] Result<Halves> splitPacked(const Frame& picture, Packing packing, DepthCode code) noexcept;
 
 }  // namespace relievo

@@ -8,19 +8,19 @@
 namespace relievo {
 namespace {
 
-constexpr int kAcross = 128, kDown = 96;  // samples that are looked at
+constexpr int kAcross = 128, kDown = 96;  // samples examined
 
-// Coding moves the chroma of gray samples by a few codes.
+// Coding shifts the chroma of gray samples by a few codes.
 constexpr double kGraySpread = 0.06;
 constexpr double kVividSaturation = 0.8, kDarkValue = 0.15;
 
-// A half is depth when the shares of its kind of samples differ so much from those of the other half.
+// A half is depth if nearly all its samples are gray (or vivid) and clearly fewer of the other half's are.
 constexpr double kAllGray = 0.99, kPhotoGray = 0.7;
 constexpr double kAllVivid = 0.85, kPhotoVivid = 0.3;
-constexpr double kLeastSpread = 0.03;  // an even half is no depth
+constexpr double kLeastSpread = 0.03;  // a half of one brightness is not depth
 constexpr double kMostDark = 0.95;
 
-// Red, green and blue, 0 to 1.
+// Red, green and blue, each 0 to 1.
 struct Color {
   double red = 0, green = 0, blue = 0;
 };
@@ -52,7 +52,7 @@ Color colorAt(const Frame& f, int c, int r) noexcept {
   return fromYuv(sampleOf(f, 0, c, r), sampleOf(f, 1, cc, cr), sampleOf(f, 2, cc, cr), f);
 }
 
-// The samples that are looked at, (column, row) in turn.
+// Visits the (column, row) of each examined sample.
 template <class Visit>
 void visit(const Frame& picture, Visit&& visit_sample) {
   const int across = std::min(kAcross, picture.width), down = std::min(kDown, picture.height);
@@ -66,7 +66,7 @@ void visit(const Frame& picture, Visit&& visit_sample) {
 struct Sides {
   Frame first, second;
 };
-// The whole of a picture's two halves, colour and all.
+// The two complete halves of a picture, with chroma.
 std::optional<Sides> halvesOf(const Frame& picture, Packing packing) noexcept {
   auto halves = splitPacked(picture, packing, DepthCode::Hue);
   if (!halves) return std::nullopt;
@@ -86,11 +86,11 @@ std::optional<FoundPacking> found(const PictureLook& half, const PictureLook& ot
   if (!gray && !isHueDepth(half, other)) return std::nullopt;
   char why[160];
   if (gray) {
-    std::snprintf(why, sizeof why, "%s: %.0f %% of that half is gray, of the other %.0f %%", where, 100 * half.gray,
-                  100 * other.gray);
+    std::snprintf(why, sizeof why, "%s: %.0f %% of that half is gray, against %.0f %% of the other", where,
+                  100 * half.gray, 100 * other.gray);
   } else {
-    std::snprintf(why, sizeof why, "%s, as hue: %.0f %% of that half is pure colour, of the other %.0f %%", where,
-                  100 * half.vivid, 100 * other.vivid);
+    std::snprintf(why, sizeof why, "%s, as hue: %.0f %% of that half is pure colour, against %.0f %% of the other",
+                  where, 100 * half.vivid, 100 * other.vivid);
   }
   return FoundPacking{packing, gray ? DepthCode::Luma : DepthCode::Hue, why};
 }

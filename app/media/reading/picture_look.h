@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a picture looks like: gray, vivid or a photo; and which of its halves is depth.
+// Classifies a picture as gray, vivid or photographic, and finds which of its halves is depth.
 #pragma once
 
 #include <optional>
@@ -10,17 +10,17 @@
 
 namespace relievo {
 
-// Of some ten thousand samples, evenly spread. Shares are from 0 to 1.
+// Statistics of about ten thousand evenly spaced samples. Shares are 0 to 1.
 struct PictureLook {
   double gray = 0;   // share of samples without colour
-  double vivid = 0;  // share of samples, among those that are not dark, whose colour is as strong as it can be
+  double vivid = 0;  // share of the samples that are not dark whose colour is fully saturated
   double dark = 0;
-  double spread = 0;  // standard deviation of the brightness, of full scale
+  double spread = 0;  // standard deviation of the brightness, as a share of full scale
 };
 // Any thread.
 [[nodiscard]] PictureLook lookAt(const Frame& picture) noexcept;
 
-// Nearly every sample that is lit is of a pure colour: depth that is coded as a hue, or as a colour map.
+// True if nearly every lit sample has a pure colour: depth coded as a hue, or through a colour map.
 [[nodiscard]] bool isHue(const PictureLook& look) noexcept;
 
 struct FoundPacking {
@@ -28,8 +28,8 @@ struct FoundPacking {
   DepthCode code = DepthCode::Luma;
   std::string why;  // one line
 };
-// Colour and depth in the two halves of one picture: one half is a photo and the other one has no colour at all, or
-// nothing but the strongest colours, which are hues. Nothing where the halves do not differ so clearly.
+// Finds colour and depth in the two halves of one picture: one half is a photo, the other is gray or consists of pure
+// hues. Nullopt if the halves do not differ that clearly.
 [[nodiscard]] std::optional<FoundPacking> findPacking(const Frame& picture);
 
 }  // namespace relievo

@@ -144,9 +144,9 @@ TEST(DepthReading, DoubtsWhatCannotBeRight) {
   EXPECT_THAT(doubts(slope, {}), IsEmpty());
   const Frame even = makeGrayFrame(256, 8, 8, {}, [](int, int) { return 7; });
   EXPECT_THAT(doubts(even, {}), Contains(HasSubstr("100 % of the depth is one code")));
-  EXPECT_THAT(doubts(even, {.invalid = 7}), Contains(HasSubstr("all of the depth is holes")));
+  EXPECT_THAT(doubts(even, {.invalid = 7}), Contains(HasSubstr("the whole depth picture is holes")));
   const Frame flat = makeGrayFrame(256, 8, 8, {}, [](int c, int) { return 100 + c % 10; });
-  EXPECT_THAT(doubts(flat, {}), Contains(HasSubstr("takes up 3.5 % of its box")));
+  EXPECT_THAT(doubts(flat, {}), Contains(HasSubstr("uses only 3.5 % of the box's depth")));
   const Frame clipped = makeGrayFrame(256, 8, 8, {}, [](int c, int) { return std::min(2 * c, 255); });
   EXPECT_THAT(doubts(clipped, {}), Contains(HasSubstr("50 % of the depth lies at the near end")));
 }
