@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// How wide the felt surface smooths and by which laws: what the plan picks and the method builds on.
+// Widths and interpolation laws of the felt surface: chosen by the plan, used by the method.
 #pragma once
 
 #include "app/depth_window/parts.h"
 
 namespace relievo {
 
-// The standard deviation of a level's smoothing, in pitches of its control points: a box of one pitch under a cubic
-// B-spline (variances 1/12 and 4/12 pitch^2). Under a quadratic one it is 0.577.
+// Standard deviation of a level's smoothing, in pitches of its control points: a box of one pitch convolved with a
+// cubic B-spline (variances 1/12 + 4/12 pitch^2). With a quadratic B-spline it is 0.577.
 inline constexpr double kSigmaPerPitch = 0.645497;  // sqrt(5/12)
 
-// About so many samples of a control point's block are read, across and down, for each level.
+// Approximate number of samples read per control point's block, across and down, for each level.
 inline constexpr int kNarrowSamples = 3, kWideSamples = 5;
 
-// How wide the surface looks around; standard deviations of the smoothing.
+// Widths of the smoothing (standard deviations), and the laws of interpolation.
 struct FeltScale {
-  double narrow_mm = 0.28;  // what an edge is seen with
-  double wide_mm = 0.72;    // what all else is seen with; not wider than narrow: one level is enough
-  double clamp_mm = 0.25;   // how far the wide level may leave the narrow one
+  double narrow_mm = 0.28;  // of the narrow level, which keeps edges
+  double wide_mm = 0.72;   // of the wide level, used away from edges; if not wider than narrow, only one level is built
+  double clamp_mm = 0.25;  // how far the wide level may deviate from the narrow one
   TimeLaw narrow_time = TimeLaw::Linear;
   TimeLaw wide_time = TimeLaw::Fitted;
   SpaceLaw space = SpaceLaw::BSpline;  // Quadratic or BSpline

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names of the parts.
+// Names of the interpolation laws.
 #include "app/depth_window/parts.h"
 
 namespace relievo {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vote of the places, and the comparison of pictures.
+// The vote of the sampled places, and the comparison of pictures.
 #include "app/depth_window/shots.h"
 
 #include <algorithm>
@@ -50,7 +50,7 @@ bool ShotFinder::isCut(const TimedSurface* before, const TimedSurface& last, con
     const double jump = std::abs(next_z[i] - z[i]);
     if (std::isnan(jump)) continue;
     ++readable;
-    // A hole in a neighbouring frame says nothing: fmax passes it over.
+    // A neighbouring frame's hole carries no information: fmax ignores its NaN.
     double motion = 0;
     if (before_z != nullptr) motion = std::fmax(motion, std::abs(z[i] - (*before_z)[i]));
     if (after_z != nullptr) motion = std::fmax(motion, std::abs((*after_z)[i] - next_z[i]));
@@ -62,7 +62,7 @@ bool ShotFinder::isCut(const TimedSurface* before, const TimedSurface& last, con
 bool ShotFinder::repeats(const TimedSurface& last, const TimedSurface& next) {
   Seen& seen = seen_.at(next.time);
   if (seen.compared != last.time) {
-    // By their bits: a hole is like a hole.
+    // Compare bit patterns, so that two holes (NaN) are equal.
     const auto bits = [](double height) { return std::bit_cast<std::uint64_t>(height); };
     seen.repeats = std::ranges::equal(seen_.at(last.time).heights, seen.heights, {}, bits, bits) &&
                    next.field.sameSamples(last.field);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the cuts of a film in its depth, ahead of time, and where it stands still: whether a frame continues the one
-// before it, and whether it only repeats it.
+// Finds cuts and repeated frames in the depth of a film, ahead of playback.
 #pragma once
 
 #include <array>
@@ -12,25 +11,26 @@
 
 namespace relievo {
 
-// Looks at 192 places of the picture, whatever its size. A place votes for a cut between two frames when its height
-// jumps there by more than 2 mm and by more than three times what it moves in the frame before and the frame after: a
-// fast rise moves in both, a cut in neither. A quarter of the places that can be read decide. A pair whose next frame
-// is not there yet is judged without it, and again when it is; after that the verdict stands, or a rise would become a
-// cut when the frame that showed its motion is let go.
-// A frame repeats the one before it when all its samples are the same: where the places differ no more is looked at.
-// The feeder's thread, not the real-time one.
+// Examines 192 places of the picture, whatever its size. A place votes for a cut between two frames if its height jumps
+// by more than 2 mm and by more than three times its motion in the frame before and the frame after: a fast rise shows
+// in both of those, a cut in neither. A quarter of the readable places decides. A pair whose next frame has not arrived
+// is judged without it, and again once it is there. After that the verdict is final; otherwise a rise would turn into a
+// cut when the frame that showed its motion is dropped.
+// A frame repeats the one before it if all samples are equal; the whole picture is compared only if the places are
+// equal.
+// For the feeder's thread, not the real-time one.
 class ShotFinder {
  public:
   void forget() { seen_.clear(); }
 
-  // Numbers the shots of frames in ascending order of time and tells repetitions. The first frame keeps what it has.
+  // Numbers the shots of frames in ascending order of time and marks repetitions. The first frame keeps its number.
   template <class Frames>  // of TimedSurface: random access
   void mark(Frames& frames) {
     if (frames.empty()) return;
     for (const TimedSurface& f : frames) look(f);
     seen_.erase(seen_.begin(), seen_.lower_bound(frames[0].time));
     for (std::size_t i = 1; i < frames.size(); ++i) {
-      // A frame before the last cut says nothing about this shot's motion.
+      // A frame before the previous cut says nothing about the motion in this shot.
       const bool motion_before = i >= 2 && frames[i - 2].shot == frames[i - 1].shot;
       const TimedSurface* before = motion_before ? &frames[i - 2] : nullptr;
       const TimedSurface* after = i + 1 < frames.size() ? &frames[i + 1] : nullptr;
@@ -45,9 +45,9 @@ class ShotFinder {
   struct Seen {
     Places heights;  // mm
     bool cut = false, judged = false;
-    MediaTime last;  // the frame before it when it was judged
+    MediaTime last;  // the frame before it at the time of the judgement
     bool repeats = false;
-    MediaTime compared = MediaTime::min();  // with which frame
+    MediaTime compared = MediaTime::min();  // the frame it was compared with
   };
   void look(const TimedSurface& frame);
   [[nodiscard]] bool beginsShot(const TimedSurface* before, const TimedSurface& last, const TimedSurface& next,

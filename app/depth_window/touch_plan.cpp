@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Robust measures over a lattice of places, and the formulas that turn them into widths.
+// Robust measurements on a lattice of places, and the formulas that turn them into smoothing widths.
 #include "app/depth_window/touch_plan.h"
 
 #include <algorithm>
@@ -17,38 +17,38 @@ constexpr double kEdgeMm = 3.0;
 constexpr double kRoundingMm = 1e-6;
 constexpr double kLeastErrorTold = 0.001;
 
-// Measuring a clip. Of a normal deviation, the median of its size is so much; of the second difference of three samples
-// the variance is 1 + 4 + 1 times theirs.
+// Measuring a clip. For normally distributed noise the median of the magnitude is 0.6745 standard deviations; the
+// second difference of three samples has 1 + 4 + 1 times their variance.
 constexpr double kMedianOfNormal = 0.6745, kBendVariance = 6;
-// What a bend of one step passes for by these two: 1/(0.6745 sqrt(6)) = 0.605 of a step, rounded up, so that nothing of
-// it is taken for noise.
+// The noise that these two factors compute from a second difference of one step: 1/(0.6745 sqrt(6)) = 0.605 of the
+// step, rounded up so that no quantisation counts as noise.
 constexpr double kStepAsNoise = 0.61;
-// A still sample moves by less than this much of its noise from frame to frame at 19 places of 20: 1.96 sqrt(2) = 2.77.
+// A still sample moves by less than this multiple of its noise between frames at 19 of 20 places: 1.96 sqrt(2) = 2.77.
 constexpr double kNoiseAsMotion = 2.8;
 
-// Planning the widths.
+// Choosing the widths.
 constexpr double kNarrowMm = 0.28, kFineNarrowMm = 0.14, kWidestMm = 1.2;
-constexpr double kTimesTheNarrow = 1.8;  // less is one level twice
-constexpr double kFineMm = 0.02;         // steps and noise that are not felt even through 0.14 mm
+constexpr double kTimesTheNarrow = 1.8;  // a smaller ratio would build the same level twice
+constexpr double kFineMm = 0.02;         // steps and noise imperceptible even with a width of 0.14 mm
 
-// Share of the noise's power that the weights of the frames let through: the mean over the time between two frames of
-// the sum of the weights' squares (frameWeights). Of the cubic B-spline it is 151/315 = 0.479. Of the fitted one it is
-// 0.670; the charts were made with more, which widens by 6 % at most.
+// Share of the noise power that the weights of the frames pass: the sum of the squared weights (frameWeights), averaged
+// over the time between two frames. For the cubic B-spline it is 151/315 = 0.479. For the fitted spline it is 0.670;
+// the charts were made with 0.75, which widens the smoothing by at most 6 %.
 constexpr double kBSplineNoise = 0.48, kFittedNoise = 0.75;
 
-// A Gaussian of width w on white noise s of samples p apart leaves a height of s p/(sqrt(4 pi) w), and each of the two
-// slopes of s p/(sqrt(8 pi) w^2): together s p/(sqrt(4 pi) w^2). To three digits, as the charts were made with.
+// A Gaussian of width w over white noise s of samples p apart leaves a height error of s p/(sqrt(4 pi) w), and an error
+// of s p/(sqrt(8 pi) w^2) in each of the two slopes, together s p/(sqrt(4 pi) w^2). sqrt(4 pi) to three digits, as used
+// for the charts.
 constexpr double kRootOf4Pi = 3.54;
-// A level is no Gaussian but block means under a cubic B-spline of pitch h = w sqrt(12/5): of a slope it leaves
-// sqrt(8 pi (5/12)^2 151/315 2/3) = 1.18 times as much, where 151/315 and 2/3 are the integrals of the squares of the
-// B-spline and of its slope. Rounded up.
+// A level is not a Gaussian but block means under a cubic B-spline of pitch h = w sqrt(12/5). Its slope error is sqrt(8
+// pi (5/12)^2 151/315 2/3) = 1.18 times as large, where 151/315 and 2/3 are the integrals of the squared B-spline and
+// of its squared slope. Rounded up.
 constexpr double kLevelOverGaussian = 1.2;
-// A slope that is cut into steps of q is a sawtooth on it. Through the Gaussian the rms of the sawtooth's slope is
-// sqrt(2)/l q sqrt(sum over n of exp(-(2 pi n w/l)^2)), l being the width of a step; it is largest for steps of 7.1 w,
-// where it is q/(4 sqrt(pi) w).
+// Quantising a slope in steps of q adds a sawtooth. After the Gaussian the rms of the sawtooth's slope is sqrt(2)/l q
+// sqrt(sum over n of exp(-(2 pi n w/l)^2)) for steps l wide; its maximum, at l = 7.1 w, is q/(4 sqrt(pi) w).
 constexpr double kStepsOverSlope = 7.09;  // 4 sqrt(pi)
 
-// The value below which a share of the list lies; 0 of none.
+// The quantile of the list; 0 if it is empty.
 double quantile(std::vector<double>& values, double share) {
   if (values.empty()) return 0;
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
@@ -56,7 +56,7 @@ double quantile(std::vector<double>& values, double share) {
   return *at;
 }
 
-// The middle sample of each field of the lattice; the two beside it are inside the picture.
+// Visits the middle sample of each lattice field; its two neighbours are inside the picture.
 template <class Visit>
 void forPlaces(const HeightField& field, Visit&& visit) {
   if (field.cols() < 3 || field.rows() < 1) return;
@@ -68,17 +68,17 @@ void forPlaces(const HeightField& field, Visit&& visit) {
   }
 }
 
-// Across the samples of a row a smooth surface is straight: the second difference is noise, of 6 x its variance, and
-// the median does not see edges.
+// A smooth surface is straight across neighbouring samples of a row, so the second difference is noise with 6 times its
+// variance; the median ignores edges.
 void lookAcross(const HeightField& field, std::vector<double>& bends, std::size_t& edges, double& quantum) {
   forPlaces(field, [&](int c, int r) {
     const double left = field.heightMm(c - 1, r), here = field.heightMm(c, r), right = field.heightMm(c + 1, r);
     const double bend = std::abs(left - 2 * here + right);
-    // What lies at either end of the range is often painted there, and has no noise.
+    // Values at either end of the range are often painted and free of noise.
     if (std::isnan(bend) || here <= 0 || here >= field.depthMm()) return;
     bends.push_back(bend);
     const double step = std::abs(right - here);
-    // On a steep slope every step is more than one quantum; how the steps differ tells.
+    // On a steep slope every step exceeds one quantum, but the differences between steps do not.
     for (const double d : {step, bend}) {
       if (d > kRoundingMm && d < kEdgeMm) quantum = std::min(quantum, d);
     }
@@ -115,10 +115,10 @@ ClipMeasure measureClip(std::span<const TimedSurface> frames) {
   }
   m.sample_mm = 1 / std::abs(frames.front().field.grid().u_per_mm);
   m.quantum_mm = frames.front().field.stepMm();
-  if (bends.empty()) return m;  // nothing but the ends of the range: what it will be like is not known
+  if (bends.empty()) return m;  // every value is at an end of the range, so later values are unknown
   m.edges = static_cast<double>(edges) / static_cast<double>(bends.size());
   if (std::isfinite(quantum)) m.quantum_mm = quantum;
-  // A slope that is cut into steps bends by one step at every other sample: that much is the quantum's.
+  // A quantised slope bends by one step at every other sample: subtract what the quantum explains.
   const double deviation = quantile(bends, 0.5) / (kMedianOfNormal * std::sqrt(kBendVariance));
   const double of_quantum = kStepAsNoise * m.quantum_mm;
   m.noise_mm = std::sqrt(std::max(deviation * deviation - of_quantum * of_quantum, 0.0));
@@ -134,15 +134,16 @@ TouchPlan planTouch(const ClipMeasure& m) {
   plan.measure = m;
   FeltScale& s = plan.scale;
 
-  // A film that begins still may move later: it is treated as one that moves. (A picture costs no work in time under
-  // any law: all the weight lies on its one frame.) Noise is averaged by the smoother law.
+  // A film that has only begun may move later, so it is planned as moving. (A picture costs nothing in time under any
+  // law: all weight lies on its one frame.) The smoother law averages more noise.
   if (noisy) s.narrow_time = s.wide_time = TimeLaw::BSpline;
   else s.wide_time = TimeLaw::Fitted;
 
-  // Frames that repeat each other have the same noise.
+  // Repeated frames carry the same noise, so averaging them does not reduce it.
   const double through = m.still ? 1.0 : s.wide_time == TimeLaw::BSpline ? kBSplineNoise : kFittedNoise;
-  // The force is off in direction by as much as the slope. About so many samples of a block are read: in a fine picture
-  // they lie w/(kSigmaPerPitch x as many) apart, and it is no calmer for being finer.
+  // The error of the force's direction is the error of the slope. In a fine picture only about kNarrowSamples x
+  // kNarrowSamples of a block are read, w/(kSigmaPerPitch x kNarrowSamples) apart, so that a finer picture is no less
+  // noisy.
   const double noise_scale = kLevelOverGaussian * m.noise_mm * std::sqrt(through) / kRootOf4Pi;
   const auto apart = [&](double w, int read) { return std::max(m.sample_mm, w / (kSigmaPerPitch * read)); };
   const auto width = [&](double error) {
@@ -155,8 +156,8 @@ TouchPlan planTouch(const ClipMeasure& m) {
   const double of_steps = m.quantum_mm / (kStepsOverSlope * s.wide_mm);
   plan.error = std::max(of_noise, of_steps);
 
-  // What the narrow level is off by must fit under the clamp: four standard deviations of its noise, and a step, within
-  // which the wide level is to tell alone (FeltSurface).
+  // The narrow level's error must fit under the clamp: four standard deviations of its noise plus one step. Within that
+  // the wide level alone counts (FeltSurface).
   const double narrow_noise = m.noise_mm * apart(s.narrow_mm, kNarrowSamples) * std::sqrt(through) /
                               (s.narrow_mm * std::sqrt(4 * std::numbers::pi));
   s.clamp_mm = std::max({0.15, 1.5 * std::min(m.quantum_mm, 0.2), 4 * narrow_noise});
@@ -165,7 +166,7 @@ TouchPlan planTouch(const ClipMeasure& m) {
   std::snprintf(depth, sizeof depth, "steps of %.3f mm, noise %.3f mm, %.0f mm/s%s", m.quantum_mm, m.noise_mm,
                 m.speed_mm_per_s, m.still ? " (still)" : "");
   if (plan.error >= kLeastErrorTold) std::snprintf(error, sizeof error, "about %.1f %%", 100 * plan.error);
-  plan.reason = std::string(depth) + ": " + describe(s) + "; error of the force " + error;
+  plan.reason = std::string(depth) + ": " + describe(s) + "; expected force error " + error;
   return plan;
 }
 

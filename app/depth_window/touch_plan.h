@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Only what a scene needs: measures what a clip's depth is like, and picks the parts of the method for it.
+// The plan: measures a clip's depth and chooses the least smoothing that it needs.
 #pragma once
 
 #include <cstddef>
@@ -11,35 +11,35 @@
 
 namespace relievo {
 
-// Not the real-time thread: reads some ten thousand samples of a few frames.
+// Reads about ten thousand samples of a few frames; not for the real-time thread.
 struct ClipMeasure {
   int frames = 0;
-  double quantum_mm = 0;      // the smallest step between depth values, as they are used
-  double noise_mm = 0;        // standard deviation from sample to sample, beyond what the quantum explains
-  double speed_mm_per_s = 0;  // of the fastest twentieth of the places that can be read
-  double edges = 0;           // share of the places next to a step of more than 3 mm
+  double quantum_mm = 0;      // smallest step between depth values, in mm
+  double noise_mm = 0;        // standard deviation between samples, beyond what the quantum explains
+  double speed_mm_per_s = 0;  // of the fastest 5 % of the readable places
+  double edges = 0;           // share of the places beside a step of more than 3 mm
   double sample_mm = 0;       // pitch of the samples
   double period_s = 0;        // of the frames
-  bool still = false;         // no sample of those looked at changes
+  bool still = false;         // no sampled place changes
 };
-// Frames in ascending order, all of one size. No frames, no reading: all zero.
+// Frames in ascending order, all of one size. All zero without frames.
 [[nodiscard]] ClipMeasure measureClip(std::span<const TimedSurface> frames);
 
 struct TouchPlan {
   ClipMeasure measure;
   FeltScale scale;
-  double error = 0;    // of the force that is to be expected, as a share of it
+  double error = 0;    // expected error of the force, as a share of it
   std::string reason;  // one line
 };
 
-// The share of a force that its error may take: a third of the 6 % that people can just feel (Jones 2000).
+// Largest acceptable share of force error: a third of the 6 % that people can just feel (Jones 2000).
 inline constexpr double kErrorWanted = 0.02;
 
-// The narrowest smoothing with which the error stays under kErrorWanted for a finger that presses 5 mm deep, the widest
-// where none does; and the law of time that noise or its absence asks for.
+// The narrowest smoothing that keeps the error under kErrorWanted for a finger 5 mm deep, or the widest if none does;
+// and the law of time that suits the noise.
 [[nodiscard]] TouchPlan planTouch(const ClipMeasure& measure);
-// The plan for a film that begins with these frames, in ascending order and with their shots marked: it is measured on
-// the first four, which are there when a player begins. Player, probe and laboratory all plan so.
+// The plan for a film that begins with these frames, in ascending order and with shots marked. It is measured on the
+// first four frames, which a player has when it begins. Player, probe and laboratory all use this function.
 inline constexpr std::size_t kPlanFrames = 4;
 [[nodiscard]] TouchPlan planFilm(std::span<const TimedSurface> first_frames);
 // "levels of 0.28 and 0.72 mm, linear and fitted in time"

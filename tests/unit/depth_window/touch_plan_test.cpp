@@ -126,10 +126,10 @@ TEST(TouchPlan, TellsNoErrorThatItCannotName) {
   const TimedSurface alone{HeightField::make(flat, {.bits = 16}, kVolume).value(), {}, flat.owner};
   const TouchPlan plan = planTouch(measureClip(std::span(&alone, 1)));
   EXPECT_LT(plan.error, 0.001);
-  EXPECT_TRUE(told(plan, "error of the force under 0.1 %")) << plan.reason;
+  EXPECT_TRUE(told(plan, "expected force error under 0.1 %")) << plan.reason;
   const TouchPlan coarse = planFor(8, 0, true);
   EXPECT_FALSE(told(coarse, " 0.0 %")) << coarse.reason;
-  EXPECT_TRUE(told(coarse, "error of the force about ")) << coarse.reason;
+  EXPECT_TRUE(told(coarse, "expected force error about ")) << coarse.reason;
   EXPECT_TRUE(told(coarse, describe(coarse.scale).c_str())) << coarse.reason;
 }
 
