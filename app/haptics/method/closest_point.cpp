@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Newton's method on half the squared distance, with the surface's curvature taken in, held back where it would jump.
+// Newton's method on half the squared distance, including the surface's curvature, with limited steps.
 #include "app/haptics/method/closest_point.h"
 
 #include <algorithm>
@@ -13,11 +13,11 @@ namespace {
 
 constexpr int kMostEvaluations = 10;
 constexpr double kSettledMm = 1e-4;
-// A step shorter than this is taken on the second-order Taylor polynomial, without a look at the place it leads to; one
-// shorter than the second is the last.
+// A step shorter than the first is taken on the second-order Taylor polynomial, without evaluating the surface at its
+// end; one shorter than the second is the last.
 constexpr double kTaylorMm = 0.03, kTaylorEndMm = 0.01;
 
-// Slope and curvature of half the squared distance over (x, y).
+// Gradient and Hessian of half the squared distance over (x, y).
 struct Distance {
   double half_squared, gx, gy, hxx, hxy, hyy;
 
@@ -30,7 +30,8 @@ struct Distance {
     hxx = 1 + s.zx * s.zx + e * s.zxx;
     hxy = s.zx * s.zy + e * s.zxy;
     hyy = 1 + s.zy * s.zy + e * s.zyy;
-    // Where the finger is deeper than the surface's radius the curvature is no bowl: without the bending it is one.
+    // If the finger is deeper than the radius of curvature, the Hessian is not positive definite; without the curvature
+    // term it is.
     const double least = 0.05;
     if (hxx + hyy <= least || hxx * hyy - hxy * hxy <= least * (hxx + hyy)) {
       hxx = 1 + s.zx * s.zx;
@@ -98,8 +99,8 @@ RELIEVO_TICK_CODE Contact closestPoint(FeltSurface& surface, double x_mm, double
 
 RELIEVO_TICK_CODE glm::dvec2 predictedStep(const Contact& contact, const glm::dvec3& hip_mm, const glm::dvec3& moved_mm,
                                            double lowered_mm) RELIEVO_RT {
-  // Of a finger 5 mm inside a sphere of 6 the closest point goes six times as far as the finger. Where it would be more
-  // the curvature tells nothing about the places that far away.
+  // For a finger 5 mm inside a sphere of radius 6 mm, the closest point moves six times as far as the finger. Beyond
+  // this factor the local curvature does not describe places that far away.
   constexpr double kMost = 8;
   const Distance d(contact, hip_mm, lowered_mm);
   const SurfacePoint& s = contact.surface;

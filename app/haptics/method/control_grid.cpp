@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The toroidal cache of block means, and their sum over the frames.
+// The toroidal cache of block means, and their weighted sum over the frames.
 #include "app/haptics/method/control_grid.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace relievo {
 namespace {
 
-// Less than this share of the weight on frames that have a reading is a hole.
+// a point with less weight than this on frames with a reading is a hole
 constexpr float kLeastWeight = 0.5F;
 
 int blockFor(double pitch_mm, double samples_per_mm) RELIEVO_RT {
@@ -55,13 +55,13 @@ void ControlGrid::fill(int i, int j, const Frames& frames) RELIEVO_RT {
   read(p, frames, missing);
 }
 
-// The frames, by their slots, in which a point is still to be read.
+// The slots of the frames in which a point has not been read yet.
 std::uint32_t ControlGrid::slotsMissing(int i, int j, const Frames& frames) const RELIEVO_RT {
   const std::size_t p = slotOf(i, j);
   return i_[p] == i && j_[p] == j ? frames.wanted & ~std::uint32_t{filled_[p]} : frames.wanted;
 }
 
-// What is missing of four points beside each other, and what lies between, in each frame that lacks one.
+// Prefetches, in each frame that lacks one of four adjacent points, the span of its missing points.
 void ControlGrid::prefetchRow(int i0, int j, const Frames& frames) const RELIEVO_RT {
   std::uint32_t any = 0;
   int begin = 4, end = 0;
@@ -75,7 +75,7 @@ void ControlGrid::prefetchRow(int i0, int j, const Frames& frames) const RELIEVO
   if (any == 0) return;
   const std::int64_t u = (std::int64_t{i0} + begin) * block_.width, v = std::int64_t{j} * block_.height;
   const std::int64_t u_end = u + (end - begin) * block_.width, v_end = v + block_.height;
-  if (u < 0 || v < 0 || u_end > cols_ || v_end > rows_) return;  // few are cut by the rim
+  if (u < 0 || v < 0 || u_end > cols_ || v_end > rows_) return;  // blocks cut by the picture's edge are rare
   for (; any != 0; any &= any - 1) {
     const auto slot = static_cast<std::size_t>(__builtin_ctz(any));
     frames.window->frames[frames.frame_of_slot[slot]].field.prefetch(static_cast<int>(u), static_cast<int>(v),
@@ -84,7 +84,7 @@ void ControlGrid::prefetchRow(int i0, int j, const Frames& frames) const RELIEVO
 }
 
 void ControlGrid::read(std::size_t p, const Frames& frames, std::uint32_t missing) RELIEVO_RT {
-  // 64 bits: a finger may be anywhere. The part of the block inside the picture is read.
+  // 64 bits, since a finger may be anywhere. Only the part of the block inside the picture is read.
   const std::int64_t u0 = std::int64_t{i_[p]} * block_.width, v0 = std::int64_t{j_[p]} * block_.height;
   const auto c0 = std::max<std::int64_t>(u0, 0), c1 = std::min<std::int64_t>(u0 + block_.width, cols_);
   const auto r0 = std::max<std::int64_t>(v0, 0), r1 = std::min<std::int64_t>(v0 + block_.height, rows_);
@@ -106,7 +106,7 @@ void ControlGrid::read(std::size_t p, const Frames& frames, std::uint32_t missin
   }
 }
 
-// A hole that is narrower than the blocks around it, a dead sample, is bridged by what is around it.
+// A hole narrower than the blocks around it, such as a dead sample, is filled from the neighbouring blocks.
 double ControlGrid::meanOrBridged(const HeightField& field, int c, int r, const SampledBlock& block) const RELIEVO_RT {
   const double mean = field.meanHeight(c, r, block);
   if (!std::isnan(mean)) return mean;
@@ -115,7 +115,8 @@ double ControlGrid::meanOrBridged(const HeightField& field, int c, int r, const 
   return field.meanHeight(left, top, SampledBlock(right - left, bottom - top, 3 * most_samples_));
 }
 
-// Holes come and go from frame to frame with a depth camera: as long as most of the weight lies on readings, they tell.
+// A depth camera's holes come and go between frames: a point counts as a hole only if less than half its weight has
+// readings.
 float ControlGrid::withHoles(std::size_t p, const Frames& frames) const RELIEVO_RT {
   float sum = 0, readings = 0;
   for (std::size_t slot = 0; slot < kFrames; ++slot) {

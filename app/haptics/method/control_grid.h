@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Control points of a smooth surface: means of blocks of depth samples, read from the frames where the finger is.
+// Control points of a smooth surface: means of blocks of depth samples, read only near the finger.
 #pragma once
 
 #include <array>
@@ -12,29 +12,29 @@
 
 namespace relievo {
 
-// The 4 x 4 control points that a cubic or quadratic patch hangs from: row j, element i.
+// The 4 x 4 control points of a cubic or quadratic patch: row j, element i.
 using Patch = std::array<Float4, 4>;
 
-// Control point (i, j) stands at the centre of the block of block_cols x block_rows samples that begins at sample
-// (i block_cols, j block_rows). Its height is the mean of the block's samples, in each frame by itself; a block of
-// which less than half has a reading, with its neighbours as well, is a hole, and a hole, like all that lies outside
-// the picture, is a pit one volume depth below the far plane: free space with the same rounded rim as any other edge.
+// Control point (i, j) is at the centre of the block of block_cols x block_rows samples that begins at sample (i
+// block_cols, j block_rows). Its height is the mean of the block's samples, separately for each frame. A block is a
+// hole if less than half of it, and of its neighbourhood, has a reading. Holes and everything outside the picture are
+// pits one volume depth below the far plane: free space with the same rounded rim as any other edge.
 //
-// Nothing is built: a block is read when it is first asked for and kept in a toroidal cache of 16 x 16 points for as
-// long as its frame is in the window. 10 KiB, fixed.
+// Nothing is built in advance: a block is read when it is first needed and kept in a toroidal cache of 16 x 16 points
+// while its frame is in the window. 10 KiB, fixed.
 class ControlGrid {
  public:
   static constexpr int kFrames = SurfaceWindow::kCapacity;
   static_assert(kFrames == 8, "a byte holds a bit for each frame, and two Float4 hold their weights and heights");
-  // `samples`: about so many are read of a block, across and down (SampledBlock).
+  // `samples`: approximate number read per block, across and down (SampledBlock).
   ControlGrid(double pitch_mm, int most_samples) noexcept : pitch_wanted_mm_(pitch_mm), most_samples_(most_samples) {}
 
-  // A picture of another shape: forgets everything.
+  // Discards everything, for a picture of another shape.
   void setPicture(const HeightField& field) RELIEVO_RT;
-  // Frame `slot` of the cache is another frame from now on.
+  // Slot `slot` of the cache now holds another frame: discards its heights.
   void forgetFrame(int slot) RELIEVO_RT;
 
-  // Grid units of control points: point i stands at a = i.
+  // From scene mm to control point units: point i is at a = i.
   [[nodiscard]] double a(double x_mm) const RELIEVO_RT { return a_origin_ + a_per_mm_ * x_mm; }
   [[nodiscard]] double b(double y_mm) const RELIEVO_RT { return b_origin_ + b_per_mm_ * y_mm; }
   [[nodiscard]] double aPerMm() const RELIEVO_RT { return a_per_mm_; }
@@ -45,18 +45,18 @@ class ControlGrid {
   // The height of a point at a hole.
   [[nodiscard]] float pitMm() const RELIEVO_RT { return pit_mm_; }
 
-  // The frames of the moment, by their slots in the cache.
+  // The weighted frames of one moment, by cache slot.
   struct Frames {
     const SurfaceWindow* window = nullptr;
     std::array<std::uint8_t, kFrames> frame_of_slot{};
-    std::uint32_t wanted = 0;                         // bit per slot with a weight
+    std::uint32_t wanted = 0;                         // one bit per slot with a weight
     alignas(16) std::array<float, kFrames> weight{};  // by slot
   };
-  // The control points (i0 .. i0+3, j0 .. j0+3) at the moment that `frames` weighs out.
+  // The control points (i0 .. i0+3, j0 .. j0+3), weighted over the frames.
   void patch(int i0, int j0, const Frames& frames, Patch& out) RELIEVO_RT;
-  // All but the points.
+  // Prefetches everything except the points.
   void prefetch() const RELIEVO_RT;
-  // So far, each in each frame.
+  // Total so far, counted per frame.
   [[nodiscard]] std::uint64_t blocksRead() const RELIEVO_RT { return blocks_read_; }
 
  private:
@@ -65,7 +65,7 @@ class ControlGrid {
   [[nodiscard]] static std::size_t slotOf(int i, int j) RELIEVO_RT {
     return static_cast<std::size_t>(j & (kSide - 1)) * kSide + static_cast<std::size_t>(i & (kSide - 1));
   }
-  // Reads what is missing of a point.
+  // Reads the missing frames of a point.
   void fill(int i, int j, const Frames& frames) RELIEVO_RT;
   [[nodiscard]] std::uint32_t slotsMissing(int i, int j, const Frames& frames) const RELIEVO_RT;
   void prefetchRow(int i0, int j, const Frames& frames) const RELIEVO_RT;
@@ -80,12 +80,12 @@ class ControlGrid {
   SampledBlock block_;
   double a_per_mm_ = 1, a_origin_ = 0, b_per_mm_ = -1, b_origin_ = 0;
   float pit_mm_ = -40;
-  // The last patch: its points are all there as long as nothing was forgotten or replaced since.
+  // The last patch: all its points are valid unless something was discarded or replaced since.
   int patch_i_ = 0, patch_j_ = 0;
   std::uint32_t patch_slots_ = 0;
   bool patch_holes_ = false;
   std::uint64_t blocks_read_ = 0;
-  // A point each. Bits and heights by slot; 0 at a hole.
+  // One element per point. Bits and heights by slot; the height of a hole is 0.
   std::array<std::int32_t, kPoints> i_{}, j_{};
   std::array<std::uint8_t, kPoints> filled_{}, hole_{};
   alignas(16) std::array<std::array<float, kFrames>, kPoints> height_{};

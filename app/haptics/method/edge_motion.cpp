@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two lattices of samples, one sum for the slope and one for the change, and a test of the answer.
+// Two lattices of samples, the sums of slope and of change, and a check of the result.
 #include "app/haptics/method/edge_motion.h"
 
 #include <algorithm>
@@ -11,15 +11,16 @@ namespace {
 
 constexpr int kHalf = 8, kSide = 2 * kHalf + 1;
 constexpr double kHalfMm = 6.0, kPitchMm = kHalfMm / kHalf;
-constexpr double kLeastStepMm = 3.0;    // lower ones are slopes
-constexpr double kLeastChangeMm = 1.5;  // of a sample that an edge has passed; less is the surface's own motion
-constexpr double kLeastWayMm = 0.05;    // less is not worth the work
-constexpr double kMostWayMm = 4.0;      // more is out of sight
-constexpr double kMostLeftOver = 0.5;   // share of the change that a displacement may leave unexplained
+constexpr double kLeastStepMm = 3.0;  // smaller steps count as slopes
+// of a sample that the edge has passed; smaller changes are the surface's own motion
+constexpr double kLeastChangeMm = 1.5;
+constexpr double kLeastWayMm = 0.05;   // smaller displacements are ignored
+constexpr double kMostWayMm = 4.0;     // larger displacements leave the lattice
+constexpr double kMostLeftOver = 0.5;  // share of the change that the displacement may leave unexplained
 
 using Lattice = std::array<float, static_cast<std::size_t>(kSide) * kSide>;  // row by row, y downward
 
-// Where the lattice's columns and rows lie among the samples.
+// The sample columns and rows of the lattice.
 struct Places {
   std::array<int, kSide> columns{}, rows{};
   Places(const HeightField& field, double x_mm, double y_mm) RELIEVO_RT {
@@ -35,14 +36,14 @@ struct Places {
   }
 };
 
-// The height of the highest step between two neighbours in a row or a column.
+// Reads the lattice; returns the largest step between two neighbours in a row or a column.
 float look(const HeightField& field, const Places& places, Lattice& out) RELIEVO_RT {
   float* line = out.data();
   for (const int r : places.rows) {
     field.readRow(r, places.columns, line);
     line += kSide;
   }
-  const auto pit = static_cast<float>(-field.depthMm());  // a hole is one
+  const auto pit = static_cast<float>(-field.depthMm());  // a hole counts as a pit
   for (float& z : out) z = std::isnan(z) ? pit : z;
   float step = 0;
   for (std::size_t k = kSide; k < out.size(); ++k) step = std::max(step, std::abs(out[k] - out[k - kSide]));
@@ -56,8 +57,8 @@ float at(const Lattice& f, int i, int j) RELIEVO_RT {
   return f[static_cast<std::size_t>(j) * kSide + static_cast<std::size_t>(i)];
 }
 
-// Whether moving by `way`, in pitches, explains what changes. The test moves by whole pitches: what that rounds off is
-// allowed for.
+// Whether a displacement by `way`, in pitches, explains the change. The check shifts by whole pitches and allows for
+// the rounding.
 bool explains(const glm::dvec2& way, const Lattice& before, const Lattice& after) RELIEVO_RT {
   const double right = std::round(way.x), down = std::round(-way.y);
   const int di = static_cast<int>(right), dj = static_cast<int>(down);
@@ -95,7 +96,7 @@ glm::dvec2 edgeMotion(const HeightField& from, const HeightField& to, double x_m
     const auto d = static_cast<double>(after[k] - before[k]);
     if (std::abs(d) > kLeastChangeMm) change += d;
   }
-  // Sums over the lattice: the slope's is in mm per pitch, so the way comes out in pitches.
+  // Sums over the lattice: slopes are in mm per pitch, so the displacement is in pitches.
   const double slope2 = sx * sx + sy * sy;
   if (slope2 <= 0) return still;
   const glm::dvec2 way = -change / slope2 * glm::dvec2(sx, sy);

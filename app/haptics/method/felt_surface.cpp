@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two levels, the soft clamp between them, and the frames that they share.
+// Two levels, the soft clamp between them, and the frames that both use.
 #include "app/haptics/method/felt_surface.h"
 
 #include <algorithm>
@@ -12,14 +12,14 @@
 namespace relievo {
 namespace {
 
-// A tick this much off the time that was prepared for is still on what was prepared.
+// A tick this close to the predicted time uses what was prepared for it.
 constexpr Duration kPreparedWithin = std::chrono::microseconds(500);
 
-// Where W and N differ by less than this share of the clamp d, W it is: c(u) = u. A larger share lets less of N's noise
-// through; the rest of the clamp is left for c to level off in.
+// If W and N differ by less than this share of the clamp d, S = W, that is c(u) = u. A larger share passes less of N's
+// noise; the rest of the clamp is the range in which c saturates.
 constexpr double kWideAlone = 0.7;
 
-// Beyond that, c goes on to d as a + (d - a) g(s) with a = kWideAlone d, s = (|u| - a)/(d - a) and g(s) = s/(1 +
+// Beyond that, c approaches d as a + (d - a) g(s) with a = kWideAlone d, s = (|u| - a)/(d - a) and g(s) = s/(1 +
 // s^4)^(1/4): four continuous derivatives, and monotone.
 struct SoftClamp {
   double value, slope, bend;
@@ -84,8 +84,8 @@ void FeltSurface::setPicture(const SurfaceWindow& window) RELIEVO_RT {
   sample_mm_ = 0.5 / std::max(std::abs(narrow.aPerMm()), std::abs(narrow.bPerMm()));
 }
 
-// Gives every frame of the window a slot of the caches, the one it had if it had one; those that repeat each other have
-// one slot, which goes by the time of the newest.
+// Assigns every frame of the window a cache slot, its previous one if it had one. Frames that repeat each other share a
+// slot, which is labelled with the newest one's time.
 RELIEVO_TICK_CODE void FeltSurface::placeFrames(const SurfaceWindow& window) RELIEVO_RT {
   const auto last = static_cast<std::size_t>(window.count - 1);
   if (window.count == count_ && window.frames[0].time == first_time_ && window.frames[last].time == last_time_) return;
@@ -125,7 +125,7 @@ RELIEVO_TICK_CODE void FeltSurface::placeFrames(const SurfaceWindow& window) REL
   }
 }
 
-// On the present frame as the edge has left it, and on the next as it comes.
+// The present frame with its edge displaced so far, blended with the next frame before its edge arrives.
 SurfacePoint FeltSurface::narrowAt(double x_mm, double y_mm) RELIEVO_RT {
   if (!edge_moves_) return narrow_.at(x_mm, y_mm);
   const glm::dvec2 gone = share_ * edge_way_mm_, to_come = edge_way_mm_ - gone;
@@ -168,8 +168,8 @@ double FeltSurface::lowestSample(double x_mm, double y_mm) const RELIEVO_RT {
   return std::isnan(here) || std::isnan(there) ? -depth_mm_ : std::min(here, there);
 }
 
-// Looks again for every frame, and when the finger has gone on so far that the edge may be another one; not too often
-// for a finger that hurries.
+// Measures the edge again for each new frame, and when the finger has moved so far that another edge may be near, at a
+// limited rate for a fast finger.
 void FeltSurface::followEdge(const SurfaceWindow& window, MediaTime next, const FrameMoment& moment, double x_mm,
                              double y_mm) RELIEVO_RT {
   constexpr double kNearMm = 1.5;
@@ -181,7 +181,7 @@ void FeltSurface::followEdge(const SurfaceWindow& window, MediaTime next, const 
     if (near || std::chrono::abs(next - edge_looked_) < kNotSooner) return;
   }
   if (moment.present >= moment.last && moment.present + 1 >= window.count) {
-    edge_way_mm_ = glm::dvec2(0);  // the next frame is not there yet
+    edge_way_mm_ = glm::dvec2(0);  // the next frame has not arrived
     return;
   }
   edge_looked_ = next;
@@ -208,7 +208,7 @@ void FeltSurface::prepare(const SurfaceWindow& window, MediaTime next, double x_
   prepared_for_ = next;
   prepared_on_ = weighedAt(window, moment);
   if (two_levels_) followEdge(window, next, moment, x_mm, y_mm);
-  // Where a frame begins in between, the later moment tells nothing about how the surface goes on.
+  // If a new frame begins in between, the later moment does not give the surface's rate of change.
   const FrameMoment& comparable = later.present == moment.present ? later : moment;
   narrow_.prepare(slots_, x_mm, y_mm, moment, comparable, toSeconds(kStep));
   if (two_levels_) wide_.prepare(slots_, x_mm, y_mm, moment, comparable, toSeconds(kStep));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Four floats that are worked on at once, on any machine: a vector extension that GCC and clang share.
+// A vector of four floats on any processor, by a vector extension that GCC and clang share.
 #pragma once
 
 #include <cstring>
@@ -16,7 +16,7 @@ using Float4 = float __attribute__((vector_size(16)));
   return v;
 }
 
-// The sums of the elements of a, of b, of c and of d.
+// The horizontal sums of a, b, c and d.
 [[nodiscard]] inline Float4 sums(const Float4& a, const Float4& b, const Float4& c, const Float4& d) RELIEVO_RT {
   const Float4 ab = __builtin_shufflevector(a, b, 0, 4, 1, 5) + __builtin_shufflevector(a, b, 2, 6, 3, 7);
   const Float4 cd = __builtin_shufflevector(c, d, 0, 4, 1, 5) + __builtin_shufflevector(c, d, 2, 6, 3, 7);

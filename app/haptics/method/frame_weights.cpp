@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Four laws of time as rows of weights on six frames: two before the present one, three after it.
+// Four laws of time as weights of six frames: two before the present one, itself, three after it.
 #include "app/haptics/method/frame_weights.h"
 
 #include <algorithm>
@@ -17,8 +17,8 @@ Taps bspline(double s) RELIEVO_RT {
   return {0, r * r * r / 6, (4 - 6 * s2 + 3 * s3) / 6, (1 + 3 * s + 3 * s2 - 3 * s3) / 6, s3 / 6, 0};
 }
 
-// The same on coefficients c_k = f_k - (f_{k-1} - 2 f_k + f_{k+1})/6, which gives cubics back exactly (de Boor and Fix
-// 1973, spline approximation by quasi-interpolants), written as weights of the frames.
+// The same B-spline on coefficients c_k = f_k - (f_{k-1} - 2 f_k + f_{k+1})/6, which reproduces cubics exactly (de Boor
+// and Fix 1973, spline approximation by quasi-interpolants), expressed as weights of the frames.
 Taps fitted(double s) RELIEVO_RT {
   const Taps b = bspline(s);
   Taps taps{};
@@ -41,7 +41,7 @@ RELIEVO_TICK_CODE FrameMoment::FrameMoment(const SurfaceWindow& window, MediaTim
   while (first > 0 && frame(first - 1).shot == frame(present).shot) --first;
   while (last + 1 < window.count && frame(last + 1).shot == frame(present).shot) ++last;
   if (now <= frame(present).time) return;
-  // After the last frame the spline runs out within one period like the one before, and then holds.
+  // After the last frame the spline settles within one period, as long as the previous one, and then holds.
   const Duration period = present + 1 < window.count ? frame(present + 1).time - frame(present).time
                           : present > 0              ? frame(present).time - frame(present - 1).time
                                                      : Duration(0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface in time: how much each frame of the window counts at a moment.
+// The surface in time: the weight of each frame of the window at a given moment.
 #pragma once
 
 #include <array>
@@ -11,19 +11,19 @@
 
 namespace relievo {
 
-// Where a moment lies among the frames of a window.
+// The position of a moment among the frames of a window.
 struct FrameMoment {
-  int present = -1;         // index of the newest frame whose time has come; -1: no frame at all
-  int first = 0, last = 0;  // of the present frame's shot, inside the window
-  double share = 0;         // of the way to the next frame, 0 .. 1
+  int present = -1;         // index of the newest frame that is due; -1: none
+  int first = 0, last = 0;  // the present frame's shot, within the window
+  double share = 0;         // progress towards the next frame, 0 .. 1
 
   FrameMoment() = default;
   FrameMoment(const SurfaceWindow& window, MediaTime now) RELIEVO_RT;
 };
 
-// S(t) = sum over i of weight[i] x frame i. The weights sum to 1 and are zero but for the frames around the present
-// one, at most six. A frame that the window does not hold, or that lies beyond a cut, is stood in for by the nearest
-// one on this side: the first and the last frame of a shot hold.
+// S(t) = sum over i of weight[i] x frame i. The weights sum to 1; at most six frames around the present one have one. A
+// frame that the window lacks, or that lies beyond a cut, is replaced by the nearest frame on this side: the first and
+// last frame of a shot are held.
 using FrameWeights = std::array<float, SurfaceWindow::kCapacity>;
 [[nodiscard]] FrameWeights frameWeights(const FrameMoment& moment, TimeLaw law) RELIEVO_RT;
 

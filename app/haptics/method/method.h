@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interface of a method of touch: from the finger's position to the proxy that is held on the surface.
+// The interface of a method of touch: from the finger's position to the proxy on the surface.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace relievo {
 
-// What a method answers. The force is stiffness x (proxy - HIP); it is zero without contact, where the proxy is the
+// The result of a tick. The force is stiffness x (proxy - HIP); without contact it is zero and the proxy equals the
 // HIP.
 struct Touch {
   glm::dvec3 proxy_mm{0};  // scene frame
@@ -19,21 +19,21 @@ struct Touch {
   bool contact = false;
 };
 
-// Pure: no clock, no thread, no allocation after construction. Called on the real-time thread, once a tick: `update`
-// first; `upkeep` when the force is out, with the same window and time, for whatever can wait. Before both, when the
-// tick begins and the device has not answered yet, `prefetch`.
+// Pure: no clock, no thread, no allocation after construction. Called on the real-time thread once a tick: `prefetch`
+// at the start, while the device has not answered; then `update`; then, after the force is sent, `upkeep` with the same
+// window and time, for work that can wait.
 class TouchMethod {
  public:
   virtual ~TouchMethod() = default;
 
-  // `hip_mm`: the haptic interface point in the scene frame. `window`: valid for this call only, count may be 0.
-  // `now`: the film's time. A change of `window.epoch` is a discontinuity: what was remembered does not hold any more.
+  // `hip_mm`: the haptic interface point, scene frame. `window`: valid during this call only; its count may be 0.
+  // `now`: the film's time. A changed `window.epoch` is a discontinuity that invalidates remembered state.
   [[nodiscard]] virtual Touch update(const glm::dvec3& hip_mm, const SurfaceWindow& window,
                                      MediaTime now) RELIEVO_RT = 0;
-  // Asks for the memory that `update` will look at, and waits for none of it.
+  // Prefetches the memory that `update` will read, without waiting.
   virtual void prefetch(const SurfaceWindow& /*window*/) const RELIEVO_RT {}
   virtual void upkeep(const SurfaceWindow& /*window*/, MediaTime /*now*/) RELIEVO_RT {}
-  // Forgets everything: the finger is free until it has been outside.
+  // Forgets everything: the finger is free until it has been outside the solid.
   virtual void reset() RELIEVO_RT = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Inside and outside, contact and release, and what happens at a cut.
+// Inside and outside, contact and release, and re-seating at a cut.
 #include "app/haptics/method/relievo_method.h"
 
 #include <algorithm>
@@ -13,17 +13,17 @@ namespace relievo {
 namespace {
 
 constexpr int kMostPasses = 4;
-// 128 samples half a pitch apart: 28 mm, a finger that comes back from a gap of 5 ticks at 5 m/s.
+// 128 samples half a pitch apart: 28 mm, as for a finger at 5 m/s after a gap of 5 ticks.
 constexpr int kMostSamples = 128;
 constexpr int kBisections = 6;
 constexpr Duration kLongestStep = std::chrono::milliseconds(10);
 
 bool isFinite(const glm::dvec3& p) RELIEVO_RT {
-  constexpr double kFar = 1e6;  // beyond it a place is a reading gone wrong, and an index out of range
+  constexpr double kFar = 1e6;  // a coordinate beyond this is a bad reading and would overflow an index
   return std::abs(p.x) < kFar && std::abs(p.y) < kFar && std::abs(p.z) < kFar;
 }
 
-// How much the surface itself has risen from one contact to the next one.
+// How much the surface itself has risen between two contacts.
 double riseBetween(const Contact& from, const Contact& to) RELIEVO_RT {
   const double dx = to.x_mm - from.x_mm, dy = to.y_mm - from.y_mm;
   return to.surface.z - from.surface.z -
@@ -51,10 +51,10 @@ double RelievoMethod::depthMm() RELIEVO_RT {
 RELIEVO_TICK_CODE Touch RelievoMethod::update(const glm::dvec3& hip_mm, const SurfaceWindow& window,
                                               MediaTime now) RELIEVO_RT {
   if (!surface_.moveTo(window, now)) {
-    had_surface_ = false;  // a surface that comes back is felt as it was before: `force_n_` stays
+    had_surface_ = false;  // `force_n_` is kept, so that a surface that returns is felt as before
     return {.proxy_mm = hip_mm};
   }
-  if (!isFinite(hip_mm)) return {.proxy_mm = hip_mm};  // a tick left out: the next one goes on from the last place
+  if (!isFinite(hip_mm)) return {.proxy_mm = hip_mm};  // skip this tick; the next one continues from the last position
   const bool other_scene = isOtherScene(window);
   const Contact before = contact_;
   const bool continues = state_ == State::Contact && !other_scene;
@@ -66,7 +66,7 @@ RELIEVO_TICK_CODE Touch RelievoMethod::update(const glm::dvec3& hip_mm, const Su
   return touch;
 }
 
-// Than in the tick before; this one's is noted.
+// Compares with the previous tick's scene, and stores this tick's.
 RELIEVO_TICK_CODE bool RelievoMethod::isOtherScene(const SurfaceWindow& window) RELIEVO_RT {
   const std::uint32_t shot = surface_.shot();
   const bool other = !had_surface_ || window.epoch != epoch_ || shot != shot_;
@@ -93,8 +93,8 @@ RELIEVO_TICK_CODE void RelievoMethod::changeState(const glm::dvec3& hip_mm, bool
   if (state_ != State::Contact) on_its_way_ = false;
 }
 
-// The finger moves against a surface that rises as it did in the tick before: a guess where the proxy goes saves a look
-// at the surface where that is fast.
+// Extrapolates the finger's motion and the surface's rise from the previous tick: a good first guess saves an
+// evaluation of the surface.
 RELIEVO_TICK_CODE void RelievoMethod::slideAlong(const glm::dvec3& hip_mm) RELIEVO_RT {
   const Contact before = contact_;
   const double sample2 = surface_.sampleMm() * surface_.sampleMm();
@@ -102,10 +102,10 @@ RELIEVO_TICK_CODE void RelievoMethod::slideAlong(const glm::dvec3& hip_mm) RELIE
   const glm::dvec2 step = predictedStep(contact_, hip_mm_, moved, lowered_mm_);
   contact_.x_mm += step.x;
   contact_.y_mm += step.y;
-  // From a wall's side a guess of more than a sample may lead over its edge.
+  // On a wall, a guess of more than one sample may lead over its edge.
   if (isWall(before) && glm::dot(step, step) > sample2) contact_ = before;
   slide(hip_mm, SlideUntil::MuchRead);
-  // A long jump that came out further away than staying would have been has left the finger's side of a ridge.
+  // If a long jump ends further from the finger than staying would have, it has crossed a ridge.
   if (glm::dot(step, step) > 4 * sample2) {
     const glm::dvec3 stayed(before.x_mm, before.y_mm, before.surface.z - lowered_mm_);
     if (glm::distance(proxy(), hip_mm) > glm::distance(stayed, hip_mm) + surface_.sampleMm()) {
@@ -137,8 +137,8 @@ RELIEVO_TICK_CODE Touch RelievoMethod::touchAt(const glm::dvec3& hip_mm) RELIEVO
   return touch;
 }
 
-// Where the next tick will look, and how the surface rises there. `before`: the contact of the last tick, if this one
-// continues it.
+// Predicts where the next tick will evaluate the surface, and how the surface rises there. `before` is the last tick's
+// contact if this one continues it.
 RELIEVO_TICK_CODE void RelievoMethod::foresee(const glm::dvec3& hip_mm, const Contact& before,
                                               bool continues) RELIEVO_RT {
   const bool sliding = state_ == State::Contact;
@@ -152,7 +152,7 @@ RELIEVO_TICK_CODE void RelievoMethod::foresee(const glm::dvec3& hip_mm, const Co
 
 void RelievoMethod::upkeep(const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
   if (!had_surface_) return;
-  if (surface_.hasReadMuch()) {  // the next tick finds that in the caches
+  if (surface_.hasReadMuch()) {  // the next tick will read the rest
     now_ = now;
     return;
   }
@@ -162,7 +162,7 @@ void RelievoMethod::upkeep(const SurfaceWindow& window, MediaTime now) RELIEVO_R
     force_n_ = {};
     ahead_mm_ = {hip_mm_.x, hip_mm_.y};
   }
-  // The next tick comes as long after this one as this one after the last; a pause stands still.
+  // Assume the same interval to the next tick as from the last; while paused it is 0.
   const Duration step = std::clamp(now - now_, Duration(0), kLongestStep);
   surface_.prepare(window, now + step, ahead_mm_.x, ahead_mm_.y);
   now_ = now;
@@ -176,11 +176,11 @@ void RelievoMethod::prefetch(const SurfaceWindow& window) const RELIEVO_RT {
   relievo::prefetch(&window, &window + 1);
 }
 
-// The finger stays where it is and the scene is another one.
+// The finger stays in place and the scene has changed.
 void RelievoMethod::enterScene(const glm::dvec3& hip_mm) RELIEVO_RT {
   const double depth = surface_.height(hip_mm.x, hip_mm.y) - hip_mm.z;
   force_before_cut_n_ = glm::length(force_n_);
-  rubbing_ = false;  // where friction held is a place of the old scene
+  rubbing_ = false;  // the point where friction held belongs to the old scene
   lowered_mm_ = std::max(depth - force_before_cut_n_ / config_.stiffness_n_per_mm, 0.0);
   if (depth <= 0) {
     state_ = State::Free;
@@ -193,10 +193,10 @@ void RelievoMethod::enterScene(const glm::dvec3& hip_mm) RELIEVO_RT {
   follow(proxy(), hip_mm);
 }
 
-// A wall that has gone over the finger and on takes the proxy with it, although the way out is by now much shorter
-// elsewhere: straight up. Only where the scene did it: a finger that pushes itself deep into a wall stays at that wall,
-// also when it rests there or is read in every other tick only, and when it leaps further than the search goes in a
-// tick: the proxy is on the way that the finger has sent it until it has arrived.
+// True if a moving wall has passed over the finger and carried the proxy along, although by now the way straight up is
+// much shorter. This applies only if the scene moved: a finger that pushes itself deep into a wall stays at that wall,
+// even if it rests there, is read only in every other tick, or leaps further than the search follows in one tick; the
+// proxy then still moves towards the place where the finger has sent it.
 RELIEVO_TICK_CODE bool RelievoMethod::sweptAway(const glm::dvec3& hip_mm) RELIEVO_RT {
   constexpr double kFurtherMm = 3, kCarriedMm = 0.5;
   const glm::dvec2 place(contact_.x_mm, contact_.y_mm);
@@ -214,8 +214,9 @@ RELIEVO_TICK_CODE bool RelievoMethod::sweptAway(const glm::dvec3& hip_mm) RELIEV
   return up > 0 && away > up + kFurtherMm;
 }
 
-// A finger pushed out through a wall is off the edge above it, and what still holds its proxy up there may be a hollow
-// of noise. It is no ridge if nothing on the way to the finger rises above the proxy by more than noise is let through.
+// A finger that left through a wall is off the edge above it, but a hollow in the noise may still hold its proxy up
+// there. No ridge separates them if nothing on the path to the finger rises above the proxy by more than the noise that
+// the surface passes.
 bool RelievoMethod::offTheEdge() RELIEVO_RT {
   if (state_ != State::Contact || surface_.lowestSample(hip_mm_.x, hip_mm_.y) - lowered_mm_ >= hip_mm_.z) return false;
   const glm::dvec2 from(contact_.x_mm, contact_.y_mm);
@@ -235,7 +236,7 @@ RELIEVO_TICK_CODE void RelievoMethod::slide(const glm::dvec3& hip_mm, SlideUntil
   contact_ = closestPoint(surface_, contact_.x_mm, contact_.y_mm, hip_mm, lowered_mm_, until);
 }
 
-// From a place that is on the surface or outside to the finger: in contact if the surface is between them.
+// Follows the path from a point on or outside the surface to the finger: in contact if the surface lies between.
 RELIEVO_TICK_CODE void RelievoMethod::follow(glm::dvec3 from_mm, const glm::dvec3& hip_mm) RELIEVO_RT {
   for (int pass = 0; pass < kMostPasses; ++pass) {
     if (state_ == State::Contact) {
@@ -248,21 +249,21 @@ RELIEVO_TICK_CODE void RelievoMethod::follow(glm::dvec3 from_mm, const glm::dvec
     slide(hip_mm, SlideUntil::Settled);
   }
   if (proxy().z > hip_mm.z) return;
-  // Still on its way after four times in and out: it is what it is at its end.
+  // Still entering and leaving after four rounds: the path's end decides.
   state_ = State::Free;
   if (!inside(hip_mm)) return;
   contact_ = {hip_mm.x, hip_mm.y, surface_.at(hip_mm.x, hip_mm.y)};
   state_ = State::Contact;
 }
 
-// Sets `contact_` to where the path first goes in.
+// Sets `contact_` to the first point where the path enters the solid.
 bool RelievoMethod::enterOnPath(const glm::dvec3& from_mm, const glm::dvec3& hip_mm) RELIEVO_RT {
-  // The splines stay below the volume's front but for the fitted one's overshoot, of less than a half.
+  // Splines stay below the volume's front, except for an overshoot of less than half by the fitted one.
   if (std::min(from_mm.z, hip_mm.z) > 1.5 * surface_.volumeDepthMm()) return false;
   const glm::dvec3 way = hip_mm - from_mm;
   const double length = std::sqrt(way.x * way.x + way.y * way.y);
   const int samples = std::clamp(static_cast<int>(std::ceil(length / surface_.sampleMm())), 1, kMostSamples);
-  constexpr double kRoundingMm = 1e-6;  // a proxy lies on the surface but for rounding
+  constexpr double kRoundingMm = 1e-6;  // a proxy is on the surface up to rounding
   double outside = 0;
   for (int k = 0; k <= samples; ++k) {
     double in = static_cast<double>(k) / samples;
@@ -282,8 +283,8 @@ bool RelievoMethod::enterOnPath(const glm::dvec3& from_mm, const glm::dvec3& hip
   return false;
 }
 
-// Stays where it was while the finger pulls less than static friction holds, and then slides, held back by dynamic
-// friction, until that holds it (Coulomb; the cone around the normal where the proxy was).
+// The proxy sticks while the finger pulls less than static friction, then slides against dynamic friction until that
+// holds it (Coulomb; the cone is around the normal at the proxy's previous position).
 void RelievoMethod::rub(const glm::dvec3& hip_mm) RELIEVO_RT {
   if (config_.friction.static_coefficient <= 0) return;
   if (!rubbing_) {
@@ -301,7 +302,7 @@ void RelievoMethod::rub(const glm::dvec3& hip_mm) RELIEVO_RT {
   const Friction& friction = config_.friction;
   const double hold = (sliding_ ? friction.dynamic_coefficient : friction.static_coefficient) * pressed;
   sliding_ = aside > hold;
-  // Of the way to the closest point; dynamic friction holds what is left.
+  // Share of the way to the closest point; dynamic friction holds the rest.
   const double share = sliding_ ? 1 - std::clamp(friction.dynamic_coefficient * pressed / aside, 0.0, 1.0) : 0;
   contact_.x_mm = stuck_.x_mm + share * (contact_.x_mm - stuck_.x_mm);
   contact_.y_mm = stuck_.y_mm + share * (contact_.y_mm - stuck_.y_mm);
@@ -315,7 +316,7 @@ void RelievoMethod::settleLowering(const glm::dvec3& hip_mm) RELIEVO_RT {
     const double after = glm::length(force_n_) + config_.stiffness_n_per_mm * rise;
     if (after <= force_before_cut_n_) lowered_mm_ = std::max(lowered_mm_ - rise, 0.0);
   } else if (state_ == State::Free) {
-    // The finger is above the lowered surface: that much may come back under it unfelt.
+    // The finger is above the lowered surface, which may rise by that much without being felt.
     lowered_mm_ = std::max(surface_.height(hip_mm.x, hip_mm.y) - hip_mm.z, 0.0);
   }
 }

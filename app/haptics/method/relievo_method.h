@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The default method: a proxy on the true closest point of a moving surface at the scale that a finger feels.
+// The default method: a proxy at the closest point of a moving surface, at the scale that a finger feels.
 #pragma once
 
 #include <cstdint>
@@ -15,23 +15,23 @@ struct Friction {
   double static_coefficient = 0, dynamic_coefficient = 0;
 };
 
-// Contact is a matter of inside and outside, not of crossing: a finger that was outside is in contact in the first tick
-// in which it is inside the solid, whoever of the two moved, and its path within the tick is sampled closer than the
-// surface has crests. So nothing passes through, however fast it rises. In contact the proxy slides to the closest
-// point (see closestPoint) and is free when that point is no longer above the finger, or when the finger has gone out
-// through a wall and no ridge is between them.
+// Contact depends on being inside or outside, not on crossing: a finger that was outside makes contact in the first
+// tick in which it is inside the solid, no matter whether the finger or the surface moved. Its path within the tick is
+// sampled more densely than the surface has crests, so that nothing passes through, however fast it rises. In contact
+// the proxy slides to the closest point (see closestPoint). Contact ends when that point is no longer above the finger,
+// or when the finger has left through a wall and no ridge is between them.
 //
-// At a cut, and wherever else the film is not continuous, a finger left inside the new solid is re-seated: the new
-// surface is lowered under it until it is as deep as it was before, so that it feels the new shape at once and at no
-// more force. The lowering leaves as the finger allows: while the force is no more than it was, and when it lifts.
+// At a cut, and at any other discontinuity of the film, a finger left inside the new solid is re-seated: the new
+// surface is lowered under it until the finger is as deep as before, so that it feels the new shape at once and with no
+// more force. The lowering is undone while the force does not exceed its previous value, and when the finger lifts.
 class RelievoMethod final : public TouchMethod {
  public:
   struct Config {
     double stiffness_n_per_mm = 0.5;
     FeltScale scale;
     Friction friction;
-    double jump_threshold_n = 0;   // the paper's guard (IV-C) on top; 0: none, the re-seating needs none
-    double rise_mm_per_s = 100.0;  // how fast a lowered surface comes back: 50 N/s on 0.5 N/mm
+    double jump_threshold_n = 0;   // additionally the paper's guard (IV-C); 0: off, re-seating does not need it
+    double rise_mm_per_s = 100.0;  // rate at which a lowered surface rises back: 50 N/s at 0.5 N/mm
     double tick_s = 0.001;         // the task's period
   };
   explicit RelievoMethod(const Config& config) noexcept : config_(config), surface_(config.scale) {}
@@ -41,17 +41,17 @@ class RelievoMethod final : public TouchMethod {
   void upkeep(const SurfaceWindow& window, MediaTime now) RELIEVO_RT override;
   void reset() RELIEVO_RT override { state_ = State::Unknown; }
 
-  // For tests, between `update` and `upkeep`: how far this tick's finger lies below the surface as it is felt, and
-  // whether it is free because it has been inside from the beginning.
+  // For tests, between `update` and `upkeep`: the finger's depth below the surface as it is felt, and whether the
+  // finger is free because it started inside.
   [[nodiscard]] double depthMm() RELIEVO_RT;
   [[nodiscard]] bool buried() const RELIEVO_RT { return state_ == State::Buried; }
-  // For tests: what all ticks so far have read.
+  // For tests: blocks read in all ticks so far.
   [[nodiscard]] std::uint64_t blocksRead() const RELIEVO_RT { return surface_.blocksRead(); }
 
  private:
   enum class State : std::uint8_t {
     Unknown,  // before the first tick
-    Buried,   // inside from the beginning: free until it has been outside
+    Buried,   // started inside: free until it has been outside
     Free,     // outside
     Contact,
   };
@@ -76,20 +76,20 @@ class RelievoMethod final : public TouchMethod {
   State state_ = State::Unknown;
   std::uint32_t epoch_ = 0, shot_ = 0;
   bool had_surface_ = false;
-  MediaTime now_;  // of the last upkeep
+  MediaTime now_;  // time of the last upkeep
   glm::dvec3 hip_mm_{0};
   Contact contact_;
-  double rise_mm_ = 0;  // of the surface under the proxy in the last tick
-  // Where proxy and finger were when the one had last gone no further than the other explains.
+  double rise_mm_ = 0;  // rise of the surface under the proxy in the last tick
+  // Proxy and finger positions when the finger's motion last explained the proxy's.
   glm::dvec2 own_place_mm_{0};
   glm::dvec3 own_hip_mm_{0};
-  bool on_its_way_ = false;  // the proxy has not arrived yet where the finger has sent it
+  bool on_its_way_ = false;  // the proxy has not yet reached the place where the finger sent it
   bool rubbing_ = false, sliding_ = false;
-  Contact stuck_;          // where friction last held the proxy
-  double lowered_mm_ = 0;  // of the surface, after a cut
+  Contact stuck_;          // the point where friction last held the proxy
+  double lowered_mm_ = 0;  // how far the surface is lowered, after a cut
   double force_before_cut_n_ = 0;
   glm::dvec3 force_n_{0};
-  glm::dvec2 ahead_mm_{0};  // where the proxy, or the free finger, will be in the next tick
+  glm::dvec2 ahead_mm_{0};  // predicted position of the proxy, or of the free finger, in the next tick
 };
 
 }  // namespace relievo

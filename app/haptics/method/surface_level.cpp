@@ -10,8 +10,8 @@
 namespace relievo {
 namespace {
 
-// Basis functions of four control points and their first and second derivatives, in units of the pitch: a polynomial
-// in the place within the cell for each control point.
+// Basis functions of four control points with their first and second derivatives, in units of the pitch: one polynomial
+// in the position within the cell for each control point.
 Float4 basis(const std::array<Float4, 4>& c, float t) RELIEVO_RT {
   return ((c[3] * t + c[2]) * t + c[1]) * t + c[0];
 }
@@ -21,10 +21,10 @@ struct Basis {
                                                               slope((3 * c[3] * t + 2 * c[2]) * t + c[1]),
                                                               bend(6 * c[3] * t + 2 * c[2]) {}
 };
-// Place 0 .. 1 from the second of the four.
+// Position 0 .. 1 from the second of the four points.
 constexpr std::array<Float4, 4> kCubic{Float4{1.F / 6, 4.F / 6, 1.F / 6, 0}, Float4{-0.5F, 0, 0.5F, 0},
                                        Float4{0.5F, -1, 0.5F, 0}, Float4{-1.F / 6, 0.5F, -0.5F, 1.F / 6}};
-// Three points, the fourth has no weight; place -1/2 .. 1/2 from the second.
+// Three points (the fourth has no weight); position -1/2 .. 1/2 from the second.
 constexpr std::array<Float4, 4> kQuadratic{Float4{0.125F, 0.75F, 0.125F, 0}, Float4{-0.5F, 0, 0.5F, 0},
                                            Float4{0.5F, -1, 0.5F, 0}, Float4{0, 0, 0, 0}};
 
@@ -57,7 +57,7 @@ RELIEVO_TICK_CODE void SurfaceLevel::begin(const FrameSlots& slots, const FrameM
 }
 
 RELIEVO_TICK_CODE SurfaceLevel::Cell SurfaceLevel::cellOf(double x_mm, double y_mm) const RELIEVO_RT {
-  // Far outside the picture every place is alike, and a number too large for a grid index would be undefined.
+  // Far outside the picture all places are alike, and a larger number would overflow a grid index.
   constexpr double kFar = 1e6;
   const double shift = cubic_ ? 0 : 0.5;
   const double a = grid_.a(std::min(std::max(x_mm, -kFar), kFar)), b = grid_.b(std::min(std::max(y_mm, -kFar), kFar));
@@ -132,7 +132,7 @@ void SurfaceLevel::prepare(const FrameSlots& slots, double x_mm, double y_mm, co
   grid_.patch(cell.i, cell.j, frames_, prepared_rate_);
   weigh(slots, next, frames_);
   grid_.patch(cell.i, cell.j, frames_, prepared_);
-  // A point at which a hole opens or closes in between has no rate: it jumps.
+  // A point where a hole opens or closes in between jumps and has no rate.
   const float pit = grid_.pitMm();
   for (std::size_t j = 0; j < 4; ++j) {
     for (int i = 0; i < 4; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A smooth surface of one width: B-splines in space on the control points of a grid, weighed over the frames in time.
+// A smooth surface of one width: B-splines in space over a grid's control points, weighted over the frames in time.
 #pragma once
 
 #include <array>
@@ -20,15 +20,15 @@ struct SurfacePoint {
   double zxx = 0, zxy = 0, zyy = 0;
 };
 
-// Which frame of the window lies in which slot of the caches.
+// The cache slot of each frame of the window.
 struct FrameSlots {
   const SurfaceWindow* window = nullptr;
   std::array<std::uint8_t, ControlGrid::kFrames> of_frame{};
   std::array<std::uint8_t, ControlGrid::kFrames> frame{};
-  std::uint32_t in_use = 0;  // bit per slot
+  std::uint32_t in_use = 0;  // one bit per slot
 };
 
-// The surface of one smoothing: a view of one moment at a time, which is prepared for in the tick before.
+// The surface of one smoothing width: a view of one moment, prepared in the tick before.
 class SurfaceLevel {
  public:
   SurfaceLevel(double sigma_mm, int most_samples, SpaceLaw space, TimeLaw time) noexcept;
@@ -36,28 +36,28 @@ class SurfaceLevel {
   [[nodiscard]] ControlGrid& grid() RELIEVO_RT { return grid_; }
   [[nodiscard]] const ControlGrid& grid() const RELIEVO_RT { return grid_; }
 
-  // A new moment. `since_prepared_s`: how long after the moment that `prepare` was given it is; nothing: what was
-  // prepared does not hold. `slots` must live until the next `begin`.
+  // Starts a new moment. `since_prepared_s` is its time after the moment given to `prepare`; nullopt if the preparation
+  // does not apply. `slots` must live until the next `begin`.
   void begin(const FrameSlots& slots, const FrameMoment& moment, std::optional<double> since_prepared_s) RELIEVO_RT;
   [[nodiscard]] SurfacePoint at(double x_mm, double y_mm) RELIEVO_RT;
   [[nodiscard]] double height(double x_mm, double y_mm) RELIEVO_RT;
-  // The same on one frame alone: the present one (0) or the next (1).
+  // The same on a single frame: the present one (0) or the next (1).
   [[nodiscard]] SurfacePoint atFrame(std::size_t which, double x_mm, double y_mm) RELIEVO_RT;
 
-  // Ahead of the moment `next`, for a place: reads the points around it and weighs them out for `next` and for `later`,
-  // which comes `step_s` after it.
+  // Prepares for the moment `next` near a place: reads the control points around it and weights them for `next` and for
+  // `later`, `step_s` after it.
   void prepare(const FrameSlots& slots, double x_mm, double y_mm, const FrameMoment& next, const FrameMoment& later,
                double step_s) RELIEVO_RT;
-  // All but the control points, which are the most.
+  // Prefetches everything except the control points, which are the largest part.
   void prefetch() const RELIEVO_RT;
 
  private:
   struct Cell {
     int i = 0, j = 0;    // of the first of the 4 x 4 control points
-    float a = 0, b = 0;  // place within the cell
+    float a = 0, b = 0;  // position within the cell
   };
   [[nodiscard]] Cell cellOf(double x_mm, double y_mm) const RELIEVO_RT;
-  // The control points around a cell, and which cell that is.
+  // The control points around a cell, and the index of that cell.
   struct CellPatch {
     Patch points{};
     int i = 0, j = 0;
@@ -75,9 +75,9 @@ class SurfaceLevel {
   const FrameSlots* slots_ = nullptr;
   FrameMoment moment_;
   ControlGrid::Frames frames_;
-  bool weighed_ = false;  // `frames_` for `moment_`: done when it is first needed
+  bool weighed_ = false;  // `frames_` are weighted for `moment_`: done on first use
   CellPatch patch_;
-  std::array<CellPatch, 2> frame_patch_;  // of the present frame and the next alone
+  std::array<CellPatch, 2> frame_patch_;  // of the present frame and of the next one
 
   Patch prepared_{}, prepared_rate_{};  // mm, mm/s
   int prepared_i_ = 0, prepared_j_ = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One line of each book per tick.
+// Updates both books once a tick.
 #include "app/haptics/task/energy_books.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ void EnergyBooks::tick(const glm::dvec3& device_mm, const glm::dvec3& spring_n, 
                        const glm::dvec3& sent_n, double elapsed_s) RELIEVO_RT {
   if (primed_) {
     const glm::dvec3 moved = device_mm - last_device_mm_;
-    // The proxy that the spring's force stands for: h + F/K.
+    // The proxy implied by the spring's force: h + F/K.
     const glm::dvec3 proxy_moved = moved + (spring_n - spring_) / stiffness_;
     scene_ += 0.5 * glm::dot(spring_ + spring_n, proxy_moved);
     held_ns_ += sent_ * elapsed_s;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the haptic task tells the others about the finger, once a tick: for the picture, the report and a recording.
+// The finger as the haptic task publishes it every tick: for the picture, the report and a recording.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct FingerState {
   glm::dvec3 device_mm{0};  // device frame
   glm::dvec3 hip_mm{0};     // scene frame
   glm::dvec3 proxy_mm{0};   // scene frame
-  glm::dvec3 force_n{0};    // on the hand, as sent to the device
+  glm::dvec3 force_n{0};    // on the hand, as sent
   std::uint32_t buttons = 0;
   bool contact = false;
   bool device_present = false;

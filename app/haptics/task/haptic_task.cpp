@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One tick: read the device, touch the surface, limit the force, write it; then everything that can wait.
+// One tick: read the device, compute the touch, limit the force, write it; then do the work that can wait.
 #include "app/haptics/task/haptic_task.h"
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 namespace relievo {
 namespace {
 
-// How far past the newest frame the film may run before the feed counts as stale: the last period and half of it again,
-// but not so short that one late frame of a slow film is taken for a loss.
+// How long the film may run past its newest frame before the feed counts as stale: one and a half times the last
+// period, and at least this, so that a late frame of a slow film is not taken for a loss.
 constexpr Duration kLeastGrace = std::chrono::milliseconds(50);
 
 bool isStale(const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
@@ -93,7 +93,7 @@ LoopControl HapticTask::loop(const Cycle& cycle) RELIEVO_RT {
   const Touch touch = method_->update(state.hip_mm, window, state.media_time);
   noteFeed(isStale(window, state.media_time), cycle.woken);
   const double elapsed = primed_ ? toSeconds(cycle.woken - last_woken_) : 0.0;
-  // Limits and energies are the hand's, in the device's frame.
+  // Limits and energies apply to the hand, in the device's frame.
   const bool felt = !stale_ && !finger.clutched;
   const glm::dvec3 wanted = finger.edge_force_n + (felt ? touch.force_n : glm::dvec3(0));
   state.force_n = safety_.apply(wanted, sample->position_mm, elapsed);
@@ -122,8 +122,8 @@ void HapticTask::noteLate(const Cycle& cycle) RELIEVO_RT {
   next_index_ = cycle.index + 1;
 }
 
-// Zero force is the device's own on Lost (see HapticDevice); here the task forgets what it held, so that a device that
-// comes back is faded in from zero.
+// A device that is lost sets its own force to zero (see HapticDevice). The task forgets its held force, so that the
+// force of a device that returns fades in from zero.
 void HapticTask::failed(const Error& error, MonotonicTime time) RELIEVO_RT {
   const bool lost = error.code == ErrorCode::Lost;
   log_.push({.level = lost ? LogLevel::Info : LogLevel::Debug, .text = error.message});
@@ -152,11 +152,11 @@ void HapticTask::count(const FingerState& state) RELIEVO_RT {
 void HapticTask::publish(const FingerState& state) RELIEVO_RT {
   finger_.back() = state;
   finger_.publish();
-  static_cast<void>(ticks_.tryPush(state));  // nobody records, or the recorder is late: the newest tick is dropped
+  static_cast<void>(ticks_.tryPush(state));  // without a reader, or with a late one, the newest tick is dropped
 }
 
 void HapticTask::report(HapticFault::Kind kind, MonotonicTime time) RELIEVO_RT {
-  static_cast<void>(faults_.tryPush({kind, time}));  // 64 faults that nobody has read tell enough
+  static_cast<void>(faults_.tryPush({kind, time}));  // after 64 unread faults further ones are dropped
 }
 
 }  // namespace relievo

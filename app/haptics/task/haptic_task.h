@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The real-time task: finger in, force out, once a tick. Pure but for the device that it is given.
+// The real-time task: finger position in, force out, once a tick. Its only side effect is the exchange with the device.
 #pragma once
 
 #include <atomic>
@@ -21,9 +21,9 @@ namespace relievo {
 
 struct HapticFault {
   enum class Kind : std::uint8_t {
-    DeviceLost,   // read or write answered Lost: force zero; the ticks leave the device alone until `resume`
-    DeviceError,  // one exchange failed: that tick is left out
-    FeedStale,    // no depth for the present moment: the force is faded
+    DeviceLost,   // read or write returned Lost: zero force, and no device access until `deviceIsBack`
+    DeviceError,  // one exchange failed: this tick is skipped
+    FeedStale,    // no depth for the present moment: the force fades
     FeedRecovered,
   };
   Kind kind = Kind::DeviceError;
@@ -31,7 +31,7 @@ struct HapticFault {
 };
 [[nodiscard]] const char* name(HapticFault::Kind kind) noexcept;
 
-// Written by the task, readable from any thread.
+// Written by the task; readable from any thread.
 struct HapticCounters {
   std::atomic<std::uint64_t> ticks{0};
   std::atomic<std::uint64_t> contact_ticks{0};
@@ -39,39 +39,39 @@ struct HapticCounters {
   std::atomic<double> max_scene_slew_n_per_s{0};
   std::atomic<double> scene_energy_mj{0};     // given to the hand by the surface's own motion
   std::atomic<double> artefact_energy_mj{0};  // given to the hand by sampling
-  Histogram update;                           // the method and the guards: from position to force
+  Histogram update;                           // time of the method and the limits, from position to force
 };
 
 class HapticTask final : public CyclicTask {
  public:
-  // All are borrowed and must outlive the task. `clock` is read for `counters().update` alone. `stiffness_n_per_mm` is
-  // the method's, of the scene; the device feels the mapping's scale times that.
+  // Everything is borrowed and must outlive the task. `clock` is only used to time `counters().update`.
+  // `stiffness_n_per_mm` is the method's, in the scene; the device renders the mapping's scale times that.
   HapticTask(HapticDevice& device, TouchMethod& method, const Clock& clock, const DisplayVolume& volume,
              const SafetyLimits& limits, double stiffness_n_per_mm) noexcept;
 
   LoopControl loop(const Cycle& cycle) RELIEVO_RT override;
 
-  // A lost device is back. While no tick runs; the force begins at zero.
+  // Call after a lost device has returned, while no tick runs; the force begins at zero.
   void deviceIsBack() noexcept { device_lost_ = false; }
-  // Another film: its volume, and a method of its own. While no tick runs; the force begins at zero.
+  // Switches to another film with its own volume and method, while no tick runs; the force begins at zero.
   void changeScene(TouchMethod& method, const DisplayVolume& volume, const SafetyLimits& limits,
                    double stiffness_n_per_mm) noexcept;
 
-  // The feeder's side, one thread. Fill the whole window, then publish. What a window held before is released when it
-  // is filled again (see TripleBuffer).
+  // For the feeder's thread: fill the whole window, then publish. The previous contents of a window are released when
+  // it is filled again (see TripleBuffer).
   [[nodiscard]] SurfaceWindow& windowToFill() noexcept { return windows_.back(); }
   void publishWindow() noexcept { windows_.publish(); }
 
-  // The picture's side, one thread: the newest state, and whether it is newer than the last one taken.
+  // For the picture's thread: fetches the newest state; true if it is newer than the last one.
   [[nodiscard]] bool refreshFinger() noexcept { return finger_.refresh(); }
   [[nodiscard]] const FingerState& finger() const noexcept { return finger_.front(); }
 
-  // The recorder's side, one thread: every tick in order; nothing when caught up. A reader that falls 4 s behind loses
-  // ticks, not time.
+  // For the recorder's thread: every tick in order; nullopt when caught up. A reader that falls 4 s behind loses ticks
+  // but not timestamps.
   [[nodiscard]] std::optional<FingerState> nextTick() noexcept { return ticks_.tryPop(); }
   [[nodiscard]] std::optional<HapticFault> nextFault() noexcept { return faults_.tryPop(); }
 
-  // The printer's side, one thread: what the task has had to say since, in the area "haptic".
+  // For the thread that prints: the task's messages since the last call, in the area "haptic".
   void printLog() noexcept { log_.drain(); }
 
   [[nodiscard]] const HapticCounters& counters() const noexcept { return counters_; }
@@ -89,10 +89,10 @@ class HapticTask final : public CyclicTask {
   const Clock& clock_;
   WorkspaceMapping mapping_;
   SafetyFilter safety_;
-  double scenes_before_mj_ = 0, artefacts_before_mj_ = 0;  // of the scenes before the present one
+  double scenes_before_mj_ = 0, artefacts_before_mj_ = 0;  // sums over earlier scenes
   bool stale_ = false;
   bool device_lost_ = false;
-  bool primed_ = false;  // there was a tick before this one
+  bool primed_ = false;  // a previous tick exists
   MonotonicTime last_woken_;
   std::uint64_t next_index_ = 0;
   TripleBuffer<SurfaceWindow> windows_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The order of the limits: finite, magnitude, the rate at which the scene may act, the artefacts' energy.
+// The limits in order: finite, magnitude, slew rate of the scene, energy of the artefacts.
 #include "app/haptics/task/safety.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace relievo {
 
 namespace {
 
-// From `from` towards `to`, by `most` at most.
+// Moves from `from` towards `to` by at most `most`.
 glm::dvec3 approach(const glm::dvec3& from, const glm::dvec3& to, double most) RELIEVO_RT {
   const glm::dvec3 change = to - from;
   const double wished = glm::length(change);
@@ -38,7 +38,7 @@ glm::dvec3 SafetyFilter::apply(const glm::dvec3& wanted_n, const glm::dvec3& dev
   if (!std::isfinite(glm::dot(moved, moved))) moved = glm::dvec3(0);
 
   const double by_hand = stiffness_ * glm::length(moved);
-  const double elapsed = elapsed_s > 0 ? std::min(elapsed_s, 0.1) : 0.0;  // not a number: 0
+  const double elapsed = elapsed_s > 0 ? std::min(elapsed_s, 0.1) : 0.0;  // NaN becomes 0
   const double allowed = by_hand + limits_.scene_slew_n_per_s * elapsed;
   const glm::dvec3 spring = approach(spring_n_, target, allowed);
   if (limits_.limit_energy) lean(spring, moved, elapsed);
@@ -58,9 +58,10 @@ glm::dvec3 SafetyFilter::apply(const glm::dvec3& wanted_n, const glm::dvec3& dev
   return sent;
 }
 
-// The way to come is taken to be like the last one: the same motion, the same change of the force.
+// Assumes that the next movement resembles the last: the same motion, the same change of force.
 void SafetyFilter::lean(const glm::dvec3& spring_n, const glm::dvec3& moved_mm, double elapsed_s) RELIEVO_RT {
-  constexpr double kOverdue = 2.5;  // times the last way's time: positions may come in turns of one tick and two
+  // times the last interval between positions, since these may alternate between one tick and two
+  constexpr double kOverdue = 2.5;
   since_moved_s_ += elapsed_s;
   const double moved2 = glm::dot(moved_mm, moved_mm);
   if (moved2 <= 0) {

@@ -6,8 +6,8 @@
 namespace relievo {
 namespace {
 
-constexpr double kEdgeMm = 4;                 // the last of the workspace, device frame
-constexpr double kEdgeStiffnessNPerMm = 0.2;  // 0.8 N where the device's own stop comes
+constexpr double kEdgeMm = 4;                 // width of the soft margin of the workspace, device frame
+constexpr double kEdgeStiffnessNPerMm = 0.2;  // reaches 0.8 N at the device's own stop
 
 }  // namespace
 
@@ -29,7 +29,7 @@ WorkspaceMapping::Finger WorkspaceMapping::follow(const HapticSample& sample) RE
   for (int axis = 0; axis < 3; ++axis) {
     const double p = sample.position_mm[axis];
     const double low = min_mm_[axis] + kEdgeMm - p, high = p - (max_mm_[axis] - kEdgeMm);
-    // Past the end the force stays what it is there.
+    // Beyond the margin the force stays constant.
     if (low > 0) finger.edge_force_n[axis] = kEdgeStiffnessNPerMm * std::min(low, kEdgeMm);
     if (high > 0) finger.edge_force_n[axis] = -kEdgeStiffnessNPerMm * std::min(high, kEdgeMm);
   }
