@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Uploading colour planes and the one pass that turns them into RGB.
+// Uploads colour planes and converts them to RGB in one pass.
 #include "app/render/gl/color_picture.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ uniform vec2 chroma_scale;
 out highp vec2 luma_at;
 out highp vec2 chroma_at;
 void main() {
-  luma_at = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0;  // one triangle over the whole target
+  luma_at = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0;  // one triangle that covers the whole target
   chroma_at = luma_at * chroma_scale;
   gl_Position = vec4(luma_at * 2.0 - 1.0, 0.0, 1.0);
 }
@@ -40,7 +40,7 @@ void main() {
 }
 )";
 
-// Columns: what the first, second and third component add to red, green and blue.
+// Column k: the contribution of component k to red, green and blue.
 glm::mat3 rgbFromComponents(const Frame& frame) noexcept {
   if (frame.model == ColorModel::Gray) return {glm::vec3(1), glm::vec3(0), glm::vec3(0)};
   if (frame.model == ColorModel::Rgb) return glm::mat3(1);
@@ -60,7 +60,7 @@ bool limited(const Frame& frame) noexcept {
 
 Result<ColorPicture::Arrangement> ColorPicture::arrangementOf(const Frame& frame) noexcept {
   if (frame.empty() || frame.width < 1 || frame.height < 1) {
-    return fail(ErrorCode::InvalidArgument, "a colour picture without samples");
+    return fail(ErrorCode::InvalidArgument, "the colour picture is empty");
   }
   constexpr auto kUnknown =
       "this pixel format cannot be drawn; decode to planar or semi-planar YUV, packed RGB or gray";
@@ -118,8 +118,7 @@ Result<void> ColorPicture::setFrame(const Frame& frame) {
   GLint largest = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
   if (std::max(frame.width, frame.height) > largest) {
-    return fail(ErrorCode::Unsupported,
-                "the picture is larger than this GL driver's textures; give it a smaller video");
+    return fail(ErrorCode::Unsupported, "the picture is larger than this GL driver's textures; use a smaller video");
   }
   if (arrangement_ != *arrangement) {
     auto program = GlProgram::create(sampling(*arrangement), kVertexShader, kFragmentShader);
@@ -132,7 +131,7 @@ Result<void> ColorPicture::setFrame(const Frame& frame) {
   glActiveTexture(GL_TEXTURE0);
   imported_ = import(frame);
   if (!imported_) upload(frame);
-  // A last chroma sample that stands for fewer luma samples than the others hangs over the picture's edge.
+  // If the picture's size is odd, the last chroma sample extends beyond its edge.
   const glm::ivec2 chroma = samplesOf(frame, 1);
   chroma_scale_ = {static_cast<float>(width_) / static_cast<float>(chroma.x << frame.chroma_shift_x),
                    static_cast<float>(height_) / static_cast<float>(chroma.y << frame.chroma_shift_y)};
@@ -153,7 +152,7 @@ glm::ivec2 ColorPicture::samplesOf(const Frame& frame, std::size_t component) no
           (frame.height + (1 << frame.chroma_shift_y) - 1) >> frame.chroma_shift_y};
 }
 
-// All planes or none: the first that the driver refuses is the last that it is asked for.
+// Imports all planes or none: after the first refusal the driver is not asked again.
 bool ColorPicture::import(const Frame& frame) {
   const std::size_t count = textureCount();
   for (std::size_t i = 0; i < count; ++i) {
@@ -258,7 +257,7 @@ void ColorPicture::convert() {
   glUniform2fv(program_.uniform("chroma_scale"), 1, glm::value_ptr(chroma_scale_));
   glUniformMatrix4x3fv(program_.uniform("to_rgb"), 1, GL_FALSE, glm::value_ptr(to_rgb_));
   glUniform3fv(program_.uniform("bias"), 1, glm::value_ptr(bias_));
-  const bool as_it_is = target_width_ == width_ && target_height_ == height_;  // each pixel is one luma sample
+  const bool as_it_is = target_width_ == width_ && target_height_ == height_;  // one luma sample per pixel
   constexpr std::array<const char*, 3> kPlanes{"plane0", "plane1", "plane2"};
   for (GLuint unit = 0; unit < kPlanes.size(); ++unit) {
     planes_[unit].bind(unit);
@@ -269,7 +268,7 @@ void ColorPicture::convert() {
   }
   glBindVertexArray(no_vertices_.get());
   glDrawArrays(GL_TRIANGLES, 0, 3);
-  glFlush();  // it is converted while the relief is made
+  glFlush();  // starts the conversion while the CPU computes the relief
 }
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The colour picture of a frame as one RGBA texture, converted from the decoder's planes by the GPU.
+// A frame's colour picture as one RGBA texture, converted from the decoder's planes by the GPU.
 #pragma once
 
 #include <array>
@@ -20,23 +20,24 @@
 
 namespace relievo {
 
-// Converted once a frame, and the result is what each eye's view samples: sampling three planes for every pixel of both
-// eyes doubled the time of a frame in software rendering.
+// Converted once per frame into a texture that every eye's view samples: sampling three planes for every pixel of both
+// eyes doubled the frame time in software rendering.
 class ColorPicture {
  public:
-  // Planar and semi-planar YUV, packed and planar RGB, gray, of 8 to 16 bits; Unsupported for anything else.
+  // Accepts planar and semi-planar YUV, packed and planar RGB, and gray, of 8 to 16 bits; Unsupported for anything
+  // else.
   [[nodiscard]] static Result<void> check(const Frame& frame) noexcept;
 
-  // Takes the planes of a frame that passes the check: 8 bits as they are, from dma-bufs without a copy where the GL
-  // driver takes them, more cut to the top 8, which is what a display shows. Of the frame a reference is kept until the
+  // Takes the planes of a frame that passes `check`: 8 bits unchanged, from dma-bufs without a copy if the GL driver
+  // allows it; more bits are cut to the top 8, which is what a display shows. Keeps a reference to the frame until the
   // next one.
   [[nodiscard]] Result<void> setFrame(const Frame& frame);
-  // How the planes of the last frame came: without a copy?
+  // Whether the planes of the last frame were used without a copy.
   [[nodiscard]] bool isImported() const noexcept { return imported_; }
 
-  // Converts what was set, if that has not been done, and leaves the texture bound to `unit`, row 0 the top one.
-  // It will be drawn on `area`, in the shape of `volume`, less the bars: a picture of twice as many pixels or more is
-  // halved on the way, or it would shimmer. Changes the framebuffer and the viewport.
+  // Converts the last frame, if that has not been done, and leaves the texture bound to `unit`, row 0 at the top. The
+  // picture will fill `area`, in the aspect ratio of `volume`, minus bars; a picture with twice as many pixels or more
+  // is halved during conversion, to avoid aliasing. Changes the framebuffer and the viewport.
   void bind(GLuint unit, const PixelArea& area, const DisplayVolume& volume);
 
  private:
@@ -58,10 +59,10 @@ class ColorPicture {
   glm::vec3 bias_{0};
   glm::vec2 chroma_scale_{1};
   std::array<PlaneTexture, 3> planes_;
-  std::optional<bool> takes_dma_bufs_;  // false from the first refusal on
+  std::optional<bool> takes_dma_bufs_;  // false after the first refusal
   bool imported_ = false;
   bool converted_ = false;
-  Frame frame_;  // a texture may lie in its memory
+  Frame frame_;  // kept because a texture may use its memory
 
   GlProgram program_;
   GlVertexArray no_vertices_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// EGL_EXT_image_dma_buf_import and its modifiers, a plane at a time: as R8 or GR88 any driver that takes dma-bufs knows
-// them, which cannot be said of whole pictures of YUV.
+// EGL_EXT_image_dma_buf_import and its modifiers extension, one plane at a time: every driver that imports dma-bufs
+// supports R8 and GR88, but not every one supports YUV images.
 #include "app/render/gl/dma_import.h"
 
 #include <EGL/egl.h>
@@ -94,7 +94,7 @@ std::optional<GlTexture> importDmaBuf(const DmaBuf& plane, std::ptrdiff_t stride
   auto texture = gl::generate<GlTexture>(glGenTextures);
   glBindTexture(GL_TEXTURE_2D, texture.get());
   call.to_texture(GL_TEXTURE_2D, image);
-  call.destroy(display, image);  // the texture keeps what it needs
+  call.destroy(display, image);  // the texture keeps its own reference
   if (!glOutcome()) return std::nullopt;
   return texture;
 }

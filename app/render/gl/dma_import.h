@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plane of a dma-buf as a texture, without a copy, where the GL driver can do it.
+// Uses a plane of a dma-buf as a texture, without a copy, if the GL driver can.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,12 @@
 
 namespace relievo {
 
-// Whether the GL context that is current takes dma-bufs: EGL_EXT_image_dma_buf_import and GL_OES_EGL_image.
+// Whether the current GL context accepts dma-bufs: EGL_EXT_image_dma_buf_import and GL_OES_EGL_image.
 [[nodiscard]] bool takesDmaBufs() noexcept;
 
-// A texture of one or two channels of 8 bits whose texels are those of `plane`, now and later: they are to stay as they
-// are until they are drawn. With the modifier first, if one is told, and then without, as older drivers want it. None
-// where the driver refuses, which leaves no GL error behind. On the thread of the GL context; left bound to the unit.
+// A texture of one or two 8-bit channels that shares the memory of `plane`: the memory must not change until it is
+// drawn. Tries the modifier first, if there is one, then none, as older drivers need. Nullopt if the driver refuses; no
+// GL error is left behind. Call on the thread of the GL context; leaves the texture bound to the unit.
 [[nodiscard]] std::optional<GlTexture> importDmaBuf(const DmaBuf& plane, std::ptrdiff_t stride_bytes, int width,
                                                     int height, int channels, std::optional<std::uint64_t> modifier);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One pass over the surface that takes each pixel from the eye, or the eyes, that it belongs to.
+// One pass over the surface that takes each pixel from the eye, or from both, as the layout says.
 #include "app/render/gl/eye_mixer.h"
 
 #include <glm/gtc/type_ptr.hpp>
@@ -9,7 +9,7 @@
 namespace relievo {
 namespace {
 
-constexpr GLint kLeftUnit = 4, kRightUnit = 5;  // behind those of the relief and its picture
+constexpr GLint kLeftUnit = 4, kRightUnit = 5;  // after the units of the relief and its picture
 
 constexpr const char* kVertexShader = R"(
 void main() {
@@ -40,7 +40,7 @@ struct Matrices {
   glm::mat3 left, right;
 };
 
-// Given row by row: what red, green and blue of the mixture take of an eye's.
+// Row k: the weights of an eye's red, green and blue in component k of the mixture.
 constexpr glm::mat3 rows(const glm::vec3& red, const glm::vec3& green, const glm::vec3& blue) {
   return {red.x, green.x, blue.x, red.y, green.y, blue.y, red.z, green.z, blue.z};
 }
@@ -57,7 +57,7 @@ Matrices matricesOf(AnaglyphColors colors) {
       break;
   }
   // E. Dubois, "A projection method to generate anaglyph stereo images", ICASSP 2001: least squares, red-cyan glasses,
-  // on the values as they are coded, as FFmpeg's stereo3d filter does.
+  // applied to gamma-encoded values, as FFmpeg's stereo3d filter does.
   return {rows({0.456F, 0.500F, 0.176F}, {-0.040F, -0.038F, -0.016F}, {-0.015F, -0.021F, -0.005F}),
           rows({-0.043F, -0.088F, -0.002F}, {0.378F, 0.734F, -0.018F}, {-0.072F, -0.113F, 1.226F})};
 }
@@ -87,7 +87,8 @@ Result<void> EyeMixer::bindEye(std::size_t eye, int width, int height) {
   glBindFramebuffer(GL_FRAMEBUFFER, eyes_[eye].framebuffer.get());
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return {};
   width_ = 0;
-  return fail(ErrorCode::Exhausted, "no memory left to draw each eye apart; choose another stereo layout");
+  return fail(ErrorCode::Exhausted,
+              "out of memory for separate pictures of the two eyes; choose another stereo layout");
 }
 
 void EyeMixer::allocate(int width, int height) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two eyes' pictures mixed into one: line by line, column by column, or in the colours of red-cyan glasses.
+// Mixes two eyes' pictures into one: row by row, column by column, or in the colours of red-cyan glasses.
 #pragma once
 
 #include <array>
@@ -11,16 +11,16 @@
 
 namespace relievo {
 
-// GL context's thread. Holds two pictures of the surface's size, once a mixed layout is drawn.
+// For the GL context's thread. Allocates two pictures of the surface's size when a mixed layout is first drawn.
 class EyeMixer {
  public:
   static constexpr int kEyes = 2;
 
   [[nodiscard]] static Result<EyeMixer> create();
 
-  // Binds the framebuffer of an eye, 0 or 1, of this size; what is drawn next is its picture.
+  // Binds the framebuffer of this size for eye 0 or 1; subsequent drawing goes into its picture.
   [[nodiscard]] Result<void> bindEye(std::size_t eye, int width, int height);
-  // Both, into the framebuffer that is bound. A mixed layout.
+  // Mixes both pictures into the framebuffer that is bound. `settings` must have a mixed layout.
   void mix(const StereoSettings& settings) const;
 
  private:

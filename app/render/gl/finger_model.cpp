@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The finger's shapes, their light, and the two passes that draw them.
+// The finger's shapes, their lighting, and the two passes that draw them.
 #include "app/render/gl/finger_model.h"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ uniform mat4 model;
 uniform mat3 normals;
 out mediump float light;
 void main() {
-  // From above on the left, where a viewer expects a lamp; the rest is light from all around.
+  // A lamp from above left, where viewers expect it; the rest is ambient light.
   float lambert = max(dot(normalize(normals * normal), normalize(vec3(-0.4, 0.6, 0.7))), 0.0);
   light = 0.35 + 0.65 * lambert;
   gl_Position = view_projection * (model * vec4(position, 1.0));
@@ -63,7 +63,7 @@ glm::vec3 onCircle(int slice) {
   return {std::cos(angle), std::sin(angle), 0.0f};
 }
 
-// Two triangles, seen counter-clockwise from outside when a -> b runs round the axis and a -> d along it.
+// Two triangles, counter-clockwise seen from outside if a -> b runs around the axis and a -> d along it.
 void addQuad(std::vector<Vertex>& out, const Vertex& a, const Vertex& b, const Vertex& c, const Vertex& d) {
   for (const Vertex& v : {a, b, c, a, c, d}) out.push_back(v);
 }
@@ -82,7 +82,7 @@ void addSphere(std::vector<Vertex>& out) {
   }
 }
 
-// Of length 1 along z and the radii given at both ends, its lower end closed.
+// A cone of length 1 along z with the given radii at its ends; the lower end is closed.
 void addCone(std::vector<Vertex>& out, float lower_radius, float upper_radius) {
   const auto at = [&](int slice, float z) {
     const glm::vec3 side = onCircle(slice);
@@ -133,7 +133,7 @@ Result<FingerModel> FingerModel::create() {
   glBindBuffer(GL_ARRAY_BUFFER, finger.buffer_.get());
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(shapes.size() * sizeof(Vertex)), shapes.data(), GL_STATIC_DRAW);
   glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), nullptr);
-  // GL takes an offset for a pointer here.
+  // GL takes the offset as a pointer.
   const auto* normals = reinterpret_cast<const void*>(offsetof(Vertex, normal));
   glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), normals);
   glEnableVertexAttribArray(0);
@@ -147,7 +147,7 @@ void FingerModel::draw(const glm::dmat4& view_projection, const FingerMark& mark
   const glm::vec3 color = mark.contact ? kContactColor : kFreeColor;
   const auto paint = [&](float opacity) { glUniform4f(program_.uniform("paint"), color.r, color.g, color.b, opacity); };
 
-  // The hidden part first, while the depth buffer holds nothing but the relief.
+  // The hidden part first, while the depth buffer holds only the relief.
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glDepthFunc(GL_GREATER);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The finger in the picture: a sphere where it is, an arrow for the force on it.
+// The finger in the picture: a sphere at its position and an arrow for the force on it.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -19,8 +19,8 @@ class FingerModel {
 
   [[nodiscard]] static Result<FingerModel> create();
 
-  // Against the depth buffer of the relief: solid where it lies before, faint where it is hidden, so that the viewer
-  // never loses it. The arrow begins on the sphere and grows by 5 mm per N.
+  // Tested against the relief's depth buffer: opaque in front of it, faint behind it, so that the finger is always
+  // visible. The arrow starts on the sphere and is 5 mm long per N.
   void draw(const glm::dmat4& view_projection, const FingerMark& mark) const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// GL names with one owner, deleted when the owner goes; and the one place that asks GL what went wrong.
+// Owners of GL names, which delete them on destruction; and the one function that reads GL's errors.
 #pragma once
 
 #include <GLES3/gl3.h>
@@ -10,7 +10,7 @@
 
 namespace relievo {
 
-// Made and deleted on the thread of the GL context. 0 is "none".
+// Created and destroyed on the thread of the GL context. 0 means none.
 template <void (*kDelete)(GLuint)>
 class GlName {
  public:
@@ -70,7 +70,7 @@ using GlFramebuffer = GlName<gl::deleteFramebuffer>;
 using GlShader = GlName<gl::deleteShader>;
 using GlProgramName = GlName<gl::deleteProgram>;
 
-// Takes every error that GL has noted since the last call.
+// Reads and clears all GL errors since the last call.
 [[nodiscard]] inline Result<void> glOutcome() noexcept {
   const GLenum first = glGetError();
   if (first == GL_NO_ERROR) return {};

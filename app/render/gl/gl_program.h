@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A linked pair of shaders.
+// A linked vertex and fragment shader.
 #pragma once
 
 #include <string>
@@ -11,13 +11,13 @@ namespace relievo {
 
 class GlProgram {
  public:
-  GlProgram() noexcept = default;  // of no use until assigned
+  GlProgram() noexcept = default;  // unusable until assigned
 
-  // `defines` is put before both sources, behind the version line. What the driver's compiler says goes to the log.
+  // `defines` is inserted into both sources after the version line. The driver's compiler messages go to the log.
   [[nodiscard]] static Result<GlProgram> create(const std::string& defines, const char* vertex_source,
                                                 const char* fragment_source);
   void use() const noexcept { glUseProgram(name_.get()); }
-  // -1, which every glUniform ignores, for one that the compiler has optimised away.
+  // -1, which glUniform* ignores, if the compiler has removed it.
   [[nodiscard]] GLint uniform(const char* name) const noexcept { return glGetUniformLocation(name_.get(), name); }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finding the font, reading UTF-8, and placing glyphs.
+// Finds the font, decodes UTF-8 and places glyphs.
 #include "app/render/gl/glyphs.h"
 
 #include <fontconfig/fontconfig.h>
@@ -14,7 +14,7 @@
 namespace relievo {
 namespace {
 
-// The next character of `text`, which is not empty, and is shortened by it.
+// Removes the first character from `text`, which must not be empty, and returns it.
 char32_t takeCharacter(std::string_view& text) noexcept {
   constexpr char32_t kBox = 0xFFFD;
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
@@ -109,7 +109,7 @@ Glyphs& Glyphs::operator=(Glyphs&&) noexcept = default;
 Glyphs::~Glyphs() = default;
 
 Result<Glyphs> Glyphs::create(int line_pixels) {
-  constexpr const char* kNoFont = "no font is there to write with; install one (Debian: fonts-dejavu-core)";
+  constexpr const char* kNoFont = "no font found; install one (Debian: fonts-dejavu-core)";
   auto face = std::make_unique<Face>();
   face->line_pixels = line_pixels;
   const std::string path = fontFile();
@@ -117,7 +117,7 @@ Result<Glyphs> Glyphs::create(int line_pixels) {
       FT_New_Face(face->library, path.c_str(), 0, &face->face) != 0) {
     return fail(ErrorCode::NotFound, kNoFont);
   }
-  constexpr double kOfLine = 0.75;  // the rest is the space between two lines
+  constexpr double kOfLine = 0.75;  // of a line's height; the rest is the gap between lines
   if (FT_Set_Pixel_Sizes(face->face, 0, static_cast<FT_UInt>(kOfLine * line_pixels)) != 0) {
     return fail(ErrorCode::NotFound, kNoFont);
   }
@@ -127,10 +127,10 @@ Result<Glyphs> Glyphs::create(int line_pixels) {
 InkPicture Glyphs::draw(const std::vector<std::string>& lines) const {
   InkPicture picture;
   for (const std::string& line : lines) picture.width = std::max(picture.width, face_->widthOf(line));
-  picture.width += 2;  // what hangs over the last advance
+  picture.width += 2;  // room for glyphs wider than the last advance
   picture.height = face_->line_pixels * static_cast<int>(lines.size());
   picture.ink.assign(static_cast<std::size_t>(picture.width) * picture.height, 0);
-  constexpr double kBaseline = 0.75;  // of a line, from its top
+  constexpr double kBaseline = 0.75;  // distance from the top of a line, in line heights
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const int top = face_->line_pixels * static_cast<int>(i);
     face_->drawLine(lines[i], top + static_cast<int>(kBaseline * face_->line_pixels), picture);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines of text as a picture, by FreeType, in whatever font the system has for plain text.
+// Renders lines of text as a picture with FreeType, in the system's sans-serif font.
 #pragma once
 
 #include <cstdint>
@@ -11,22 +11,22 @@
 
 namespace relievo {
 
-// How much of each pixel is ink, 0 to 255; row 0 is the top one.
+// Coverage of each pixel by ink, 0 to 255; row 0 is at the top.
 struct InkPicture {
   int width = 0, height = 0;
   std::vector<std::uint8_t> ink;
 };
 
-// Left to right, a glyph a character: right for the alphabets that need no more.
+// Left to right, one glyph per character: enough for alphabets without ligatures or reordering.
 class Glyphs {
  public:
-  // The font that fontconfig names for "sans". NotFound where there is none.
+  // Uses the font that fontconfig returns for "sans". NotFound if there is none.
   [[nodiscard]] static Result<Glyphs> create(int line_pixels);
   Glyphs(Glyphs&&) noexcept;
   Glyphs& operator=(Glyphs&&) noexcept;
   ~Glyphs();
 
-  // UTF-8; a byte that is none, and a character that the font lacks, is a box. As wide as the longest line.
+  // UTF-8 text; an invalid byte, or a character that the font lacks, becomes a box. As wide as the longest line.
   [[nodiscard]] InkPicture draw(const std::vector<std::string>& lines) const;
 
  private:

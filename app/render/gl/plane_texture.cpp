@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Uploading a plane, by GL's own strides where they can say it.
+// Uploads a plane, using GL's row length and alignment if they can describe its stride.
 #include "app/render/gl/plane_texture.h"
 
 #include <array>
@@ -19,7 +19,7 @@ struct Unpacking {
   GLint alignment;   // bytes
 };
 
-// GL's row is `row_length` texels, rounded up to `alignment` bytes.
+// In GL a row is `row_length` texels, rounded up to `alignment` bytes.
 std::optional<Unpacking> unpackingOf(std::ptrdiff_t stride_bytes, int texel_bytes, int width) noexcept {
   const std::ptrdiff_t row_length = stride_bytes / texel_bytes;
   if (row_length < width) return std::nullopt;

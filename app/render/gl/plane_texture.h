@@ -12,16 +12,16 @@
 
 namespace relievo {
 
-// A texel is 1 to 4 channels of 8 bits, which the shader reads as fractions of 255 with linear filtering.
+// A texel has 1 to 4 channels of 8 bits, which the shader reads as fractions of 255 with linear filtering.
 class PlaneTexture {
  public:
-  // Leaves the texture bound to the active unit. A stride that GL cannot be told (one that is negative, or neither a
-  // whole number of texels nor such a number rounded up to 2, 4 or 8 bytes) costs one copy of the plane.
+  // Leaves the texture bound to the active unit. A stride that GL cannot express (negative, or neither a whole number
+  // of texels nor one rounded up to 2, 4 or 8 bytes) costs one copy of the plane.
   void upload(std::uint8_t channels, const Plane& plane, int width, int height);
-  // The same from 16-bit words of `plane`, each cut to its top 8 bits: (word >> shift) as a byte.
+  // The same from the 16-bit words of `plane`, each reduced to (word >> shift) as a byte.
   void uploadNarrowed(std::uint8_t channels, const Plane& plane, int width, int height, int shift);
 
-  // No copy: the texels are those of a dma-buf (importDmaBuf). False where that cannot be, and nothing is changed.
+  // Without a copy: uses the texels of a dma-buf (importDmaBuf). On failure returns false and changes nothing.
   [[nodiscard]] bool import(std::uint8_t channels, const DmaBuf& dma_buf, std::ptrdiff_t stride_bytes, int width,
                             int height, std::optional<std::uint64_t> modifier);
 

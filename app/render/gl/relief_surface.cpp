@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Upload and drawing of a mesh that is another one each frame.
+// Uploads and draws a mesh that changes every frame.
 #include "app/render/gl/relief_surface.h"
 
 #include <array>
@@ -28,7 +28,8 @@ void send(GLenum target, std::span<const Element> elements) {
 
 }  // namespace
 
-// Nearly all of a frame's time in software rendering goes by this line: small triangles shade many pixels in vain.
+// Most of the frame time in software rendering is spent on this line, since small triangles shade many invisible
+// pixels.
 const char* const kPictureFragmentShader = R"(
 precision mediump float;
 in highp vec2 picture_at;
@@ -51,7 +52,7 @@ Result<ReliefSurface> ReliefSurface::create() {
   glBindBuffer(GL_ARRAY_BUFFER, surface.vertices_.get());
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, surface.indices_.get());
   glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(TexturedVertex), nullptr);
-  // GL takes an offset for a pointer here.
+  // GL takes the offset as a pointer.
   const auto* places = reinterpret_cast<const void*>(offsetof(TexturedVertex, u));
   glVertexAttribPointer(1, 2, GL_FLOAT, GL_FALSE, sizeof(TexturedVertex), places);
   glEnableVertexAttribArray(0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The relief's few triangles on the GPU, with the colour picture on them.
+// The relief's triangles on the GPU, textured with the colour picture.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace relievo {
 
-// A picture on a surface: colour from `picture` at `picture_at`, which the vertex shader gives.
+// Fragment shader of a textured surface: colour from `picture` at `picture_at`, a varying of the vertex shader.
 extern const char* const kPictureFragmentShader;
 
 class ReliefSurface {
@@ -22,9 +22,9 @@ class ReliefSurface {
   [[nodiscard]] static Result<ReliefSurface> create();
 
   void upload(const ReliefTriangles& triangles);
-  // Without depth: the picture's rectangle, flat.
+  // Without depth: the picture's flat rectangle.
   void uploadFlat(const DisplayVolume& volume, double z_mm);
-  // What was uploaded last, with the colour texture that is bound to `picture_unit`.
+  // Draws the last upload with the colour texture bound to `picture_unit`.
   void draw(const glm::mat4& view_projection, GLuint picture_unit) const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One frame: the picture converted, then for each eye the relief and the finger.
+// One frame: converts the picture, then draws the relief and the finger for each eye.
 #include "app/render/gl/scene_renderer.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@
 namespace relievo {
 namespace {
 
-constexpr GLuint kPictureUnit = 3;  // after the colour planes'
+constexpr GLuint kPictureUnit = 3;  // after the colour planes' units
 constexpr Duration::rep kSmoothing = 8;
 
 constexpr double kShadowSlant = 0.35, kShadowRadiusMm = 4.5, kShadowGrowth = 0.15;
@@ -48,13 +48,13 @@ struct SceneRenderer::Impl {
   StereoSettings stereo;
   double error_px = kErrorPx;
   DisplayVolume volume;
-  Frame depth;  // keeps the samples alive that `field` reads
+  Frame depth;  // keeps the samples of `field` alive
   HeightField field;
 
   ColorPicture picture;
   ReliefTriangles triangles;
   ReliefSurface surface_of_triangles;
-  ReliefDetail made;  // what the triangles were made for
+  ReliefDetail made;  // the detail the triangles were made for
   bool is_made = false;
   EyeMixer mixer;
   SurfaceMark on_surface;
@@ -64,7 +64,7 @@ struct SceneRenderer::Impl {
   MonotonicClock clock;
   bool has_picture = false;
   std::uint64_t frames = 0, meshes = 0;
-  Duration drawing{0}, meshing{0};  // smoothed
+  Duration drawing{0}, meshing{0};  // moving averages
 };
 
 SceneRenderer::SceneRenderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -178,9 +178,9 @@ Result<void> SceneRenderer::Impl::drawViews(const DisplaySurface& surface, const
   return {};
 }
 
-// They follow from the picture and from how finely it will be seen.
+// Makes the triangles for the present picture at the resolution of the views.
 void SceneRenderer::Impl::makeTriangles(const EyeViews& eyes) {
-  // Finer than twice a view's pixels nobody sees; and a lattice of this width takes as long as there is time for.
+  // Detail below half a pixel of a view is invisible, and a wider lattice than this takes too long.
   constexpr int kLeastAcross = 64, kMostAcross = 1024;
   double eye_mm = 0;
   for (const EyeView& view : eyes.views) eye_mm = std::max(eye_mm, std::abs(view.eye_x_mm));
@@ -199,11 +199,11 @@ void SceneRenderer::Impl::makeTriangles(const EyeViews& eyes) {
 }
 
 void SceneRenderer::Impl::drawView(const EyeView& view, const std::optional<FingerMark>& mark) {
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);  // the surface stays opaque whatever is blended on it
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);  // keep the surface opaque whatever is blended on it
   glViewport(view.area.x, view.area.y, view.area.width, view.area.height);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
-  // Nobody sees the relief from below, and the finger's shapes are closed.
+  // The relief is never seen from below, and the finger's shapes are closed.
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
   glFrontFace(GL_CCW);
@@ -212,8 +212,8 @@ void SceneRenderer::Impl::drawView(const EyeView& view, const std::optional<Fing
   text.draw(view.view_projection, volume, stereo.screen_z_mm);
 }
 
-// A shadow that falls to the lower right, the farther and the fainter the higher the finger is over the surface; and
-// the glow of a contact, the brighter the harder.
+// A shadow to the lower right, farther away and fainter the higher the finger is above the surface, and a glow at the
+// contact, brighter the larger the force.
 void SceneRenderer::Impl::drawFinger(const EyeView& view, const FingerMark& mark) {
   if (!depth.empty()) {
     const glm::dvec2 under(mark.position_mm);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A little net of triangles that follows the heights, blended over the picture.
+// A small mesh that follows the heights, blended over the picture.
 #include "app/render/gl/surface_mark.h"
 
 #include <algorithm>
@@ -14,14 +14,14 @@
 namespace relievo {
 namespace {
 
-constexpr int kSide = 12;            // cells across
-constexpr float kAboveMm = 0.4F;     // the surface as it is drawn: it is off by about as much
-constexpr double kOtherThing = 2.0;  // of the radius: steps of more are not followed
+constexpr int kSide = 12;            // cells per side
+constexpr float kAboveMm = 0.4F;     // above the drawn surface, whose error is about as large
+constexpr double kOtherThing = 2.0;  // times the radius: larger steps are not followed
 constexpr int kIndices = kSide * kSide * 6;
 
 struct Vertex {
   float x, y, z;
-  float right, up;  // from the middle, in radii
+  float right, up;  // position relative to the middle, in radii
 };
 
 constexpr const char* kVertexShader = R"(
@@ -69,7 +69,7 @@ Result<SurfaceMark> SurfaceMark::create() {
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, mark.indices_.get());
   glBufferData(GL_ELEMENT_ARRAY_BUFFER, sizeof indices, indices.data(), GL_STATIC_DRAW);
   glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), nullptr);
-  // GL takes an offset for a pointer here.
+  // GL takes the offset as a pointer.
   const auto* middles = reinterpret_cast<const void*>(offsetof(Vertex, right));
   glVertexAttribPointer(1, 2, GL_FLOAT, GL_FALSE, sizeof(Vertex), middles);
   glEnableVertexAttribArray(0);
@@ -95,7 +95,8 @@ void SurfaceMark::draw(const glm::dmat4& view_projection, const HeightField& fie
       double right = 2.0 * c / kSide - 1, up = 2.0 * r / kSide - 1;
       const double x = disc.center_mm.x + right * disc.radius_mm, y = disc.center_mm.y + up * disc.radius_mm;
       const double height = heightUnder(field, x, y);
-      if (std::abs(height - middle) > kOtherThing * disc.radius_mm) right = up = 2;  // it lies on another thing
+      // on another object: moved outside the disc, where it is transparent
+      if (std::abs(height - middle) > kOtherThing * disc.radius_mm) right = up = 2;
       const auto z = static_cast<float>(height) + kAboveMm;
       *next++ = {static_cast<float>(x), static_cast<float>(y), z, static_cast<float>(right), static_cast<float>(up)};
     }

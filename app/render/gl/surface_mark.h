@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light and shade that the finger casts on the relief: a soft disc that lies on it.
+// Shadow and glow that the finger casts on the relief: a soft disc that follows the surface.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -21,12 +21,12 @@ class SurfaceMark {
     glm::dvec2 center_mm{0};  // x, y in the scene
     double radius_mm = 0;
     glm::vec3 color{0};
-    float opacity = 1;  // in the middle
+    float opacity = 1;  // at the centre
   };
-  // The relief that is in the depth buffer is that of `field`.
+  // `field` must be the relief that is in the depth buffer.
   void draw(const glm::dmat4& view_projection, const HeightField& field, const Disc& disc);
 
-  // The height of the surface under a point; 0 beside the picture and in a hole.
+  // The height of the surface below a point; 0 outside the picture and in a hole.
   [[nodiscard]] static double heightUnder(const HeightField& field, double x_mm, double y_mm) noexcept;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Upload of the text when it changes, and one rectangle that is blended over the picture.
+// Uploads the text when it changes and blends one rectangle over the picture.
 #include "app/render/gl/text_panel.h"
 
 #include <algorithm>
@@ -12,16 +12,16 @@ namespace relievo {
 namespace {
 
 constexpr int kLinePixels = 40;
-constexpr double kLinesOfPicture = 24;     // so many would fill its height
-constexpr double kMarginOfLine = 0.5;      // around the text, of a line's height
-constexpr double kWidestOfPicture = 0.94;  // a longer line makes the text smaller
+constexpr double kLinesOfPicture = 24;     // text lines per picture height
+constexpr double kMarginOfLine = 0.5;      // margin around the text, in line heights
+constexpr double kWidestOfPicture = 0.94;  // share of the picture's width; a longer line reduces the text size
 constexpr GLint kInkUnit = 6;
 
 constexpr const char* kVertexShader = R"(
 uniform mat4 view_projection;
-uniform vec4 place;  // left, bottom, width, height, mm, of the panel
+uniform vec4 place;  // left, bottom, width and height of the panel, mm
 uniform float z;
-uniform vec4 text;   // in the panel: left, bottom, width, height, as parts of it
+uniform vec4 text;  // left, bottom, width and height of the text, as shares of the panel
 out vec2 ink_at;
 void main() {
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
@@ -65,7 +65,7 @@ void TextPanel::setLines(const std::vector<std::string>& lines) {
     if (glyphs) {
       glyphs_ = std::move(*glyphs);
     } else {
-      log(LogLevel::Warning, "render", "%s; the picture bears no text", glyphs.error().message);
+      log(LogLevel::Warning, "render", "%s; on-screen text is off", glyphs.error().message);
     }
     ink_ = gl::generate<GlTexture>(glGenTextures);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines of text on a dark panel at the foot of the picture, in the screen plane: both eyes see it at the same place.
+// Text on a dark panel at the foot of the picture, in the screen plane, so that both eyes see it at the same place.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -15,7 +15,7 @@
 
 namespace relievo {
 
-// Without a font it stays empty, and says so once in the log.
+// If there is no font it stays empty and logs that once.
 class TextPanel {
  public:
   [[nodiscard]] static Result<TextPanel> create();

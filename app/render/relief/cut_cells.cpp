@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One pass over all cells; the rest looks at the cut ones alone.
+// One pass over all cells; the rest visits only the cut ones.
 #include "app/render/relief/cut_cells.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace relievo {
 namespace {
 
-// The largest step along a side of the cell at the top left vertex `z`.
+// The largest step along a side of the cell whose top left vertex is `z`.
 inline float stepOf(const float* z, std::ptrdiff_t width) noexcept {
   const float across = std::max(std::abs(z[1] - z[0]), std::abs(z[width + 1] - z[width]));
   const float down = std::max(std::abs(z[width] - z[0]), std::abs(z[width + 1] - z[1]));
@@ -28,7 +28,7 @@ void CutCells::find(HeightLattice& lattice, float jump_mm) {
 
 void CutCells::scan(const HeightLattice& lattice) {
   const auto width = static_cast<std::size_t>(lattice.cols());
-  cut_.resize(lattice.size() + sizeof(std::uint64_t));  // read by eights
+  cut_.resize(lattice.size() + sizeof(std::uint64_t));  // padded because it is read 8 bytes at a time
   cells_.clear();
   for (std::size_t j = 0; j + 1 < static_cast<std::size_t>(lattice.rows()); ++j) {
     const float* z = lattice.heights() + j * width;
@@ -48,7 +48,7 @@ void CutCells::scan(const HeightLattice& lattice) {
   }
 }
 
-// A smeared sample has a jump on either side: the cell that has it as a corner is cut, and the one before it.
+// A smeared sample has a jump on both sides, so the cell with it as a corner is cut, and so is the cell before.
 void CutCells::sharpen(HeightLattice& lattice) const {
   const int cols = lattice.cols(), rows = lattice.rows();
   for (const bool across : {true, false}) {
@@ -80,7 +80,7 @@ void CutCells::sharpenRun(float* first, int count, std::ptrdiff_t step) const no
   }
 }
 
-// All cells around a sample that was changed were cut before: none is new.
+// All cells around a changed sample were already cut, so no new ones can appear.
 void CutCells::lookAgain(const HeightLattice& lattice) {
   std::erase_if(cells_, [&](std::uint32_t cell) {
     const bool cut = stepOf(lattice.heights() + cell, lattice.cols()) > jump_mm_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cells of the lattice in which one thing ends before another.
+// The cells of the lattice in which one object ends in front of another.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +10,16 @@
 
 namespace relievo {
 
-// A cell is cut when two neighbouring corners differ by more than `jump_mm`. Where coding or a sensor has smeared a
-// jump over some samples, those between take the height of that end of the run of jumps that is nearer to theirs: they
-// belong to no thing.
+// A cell is cut if two neighbouring corners differ by more than `jump_mm`. If coding or a sensor has smeared a jump
+// over several samples, each sample between takes the height of the nearer end of the run of jumps, since it belongs to
+// neither object.
 class CutCells {
  public:
-  // Changes the heights of what is smeared.
+  // Also replaces the heights of smeared samples.
   void find(HeightLattice& lattice, float jump_mm);
 
-  [[nodiscard]] const std::vector<std::uint32_t>& cells() const noexcept { return cells_; }  // top left vertices
+  // indices of top left vertices
+  [[nodiscard]] const std::vector<std::uint32_t>& cells() const noexcept { return cells_; }
   [[nodiscard]] bool contains(std::size_t top_left) const noexcept { return cut_[top_left] != 0; }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two rules of the level.
+// The two rules that change the level.
 #include "app/render/relief/detail_level.h"
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 namespace relievo {
 namespace {
 
-constexpr int kWarmUpFrames = 3;         // after a change: textures, caches and the driver's compiler settle
-constexpr int kOverFrames = 6;           // after those, before it goes coarser
+constexpr int kWarmUpFrames = 3;  // after a change, until textures, caches and the driver's compiler have settled
+constexpr int kOverFrames = 6;    // frames over budget before the level gets coarser
 constexpr int kLongPatience = 30 * 128;  // two minutes at 30 frames/s
 constexpr Duration::rep kSmoothing = 8;
 
@@ -17,7 +17,7 @@ constexpr Duration::rep kSmoothing = 8;
 
 void DetailLevel::drew(Duration took) noexcept {
   ++frames_at_level_;
-  took = std::min(took, 2 * budget_);  // a frame held up by something else tells little about the relief
+  took = std::min(took, 2 * budget_);  // limit outliers: a frame delayed by something else says little about the relief
   if (frames_at_level_ <= kWarmUpFrames) {
     smoothed_ = took;
     return;

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far the drawn relief may be off, so that drawing keeps within its budget: pure arithmetic.
+// Chooses how coarse the relief may be drawn so that a frame keeps within its budget. Pure arithmetic.
 #pragma once
 
 #include "platform/clock.h"
 
 namespace relievo {
 
-// As fine as is wished for, in steps of the square root of 2 up to 8 times as coarse while the smoothed time passes the
-// budget, and finer again when half of it has been left over for some time. When it had to come back all the same it
-// waits twice as long before it tries again.
+// The error is the one asked for, multiplied in steps of sqrt(2), up to 8 times, while the smoothed frame time exceeds
+// the budget. It gets finer again after half the budget has been unused for some time. If it then has to get coarser
+// again, the next attempt waits twice as long.
 class DetailLevel {
  public:
   static constexpr int kCoarsest = 6;
 
   explicit DetailLevel(Duration budget) noexcept : budget_(budget) {}
 
-  // One frame was drawn with the present error.
+  // Reports the drawing time of a frame with the present factor.
   void drew(Duration took) noexcept;
 
   [[nodiscard]] int level() const noexcept { return level_; }
-  // By how much the error that is wished for is multiplied.
+  // Factor on the error asked for.
   [[nodiscard]] double factor() const noexcept;
 
  private:
@@ -31,9 +31,9 @@ class DetailLevel {
   int level_ = 0;
   Duration smoothed_{0};
   int frames_at_level_ = 0;
-  int room_frames_ = 0;            // in a row that left half of the budget
-  int patience_ = kShortPatience;  // how many of them it takes
-  bool refined_ = false;           // the last change was to a finer level
+  int room_frames_ = 0;            // consecutive frames that left half of the budget
+  int patience_ = kShortPatience;  // how many of these it takes to get finer
+  bool refined_ = false;           // the last change made it finer
 };
 
 }  // namespace relievo

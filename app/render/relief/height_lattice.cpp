@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which samples the lattice stands on, and reading them.
+// Chooses the samples of the lattice and reads them.
 #include "app/render/relief/height_lattice.h"
 
 #include <algorithm>
@@ -19,7 +19,8 @@ constexpr std::size_t runsOf(std::size_t vertices) noexcept {
   return (vertices + kRun - 1) / kRun;
 }
 
-// Vertices on `samples` samples in a line, in whole tiles of at most `most` cells or one tile.
+// Distributes vertices over `samples` samples of a line: whole tiles of together at most `most` cells, at least one
+// tile.
 std::vector<int> spread(int samples, int most, int tile) {
   const int cells = std::clamp(samples - 1, 1, std::max(1, most));
   const int whole = (cells + tile - 1) / tile * tile;
@@ -76,7 +77,7 @@ void HeightLattice::read(const HeightField& field, int most_across) {
   last_ = field;
   const std::size_t width = columns_.size();
   filled_.assign(width, 0);
-  bool has_holes = false;  // the row above
+  bool has_holes = false;  // in the row above
   for (int j = 0; j < rows(); ++j) {
     float* line = heights_.data() + static_cast<std::size_t>(j) * width;
     if (j > 0 && rows_[static_cast<std::size_t>(j)] == rows_[static_cast<std::size_t>(j) - 1]) {
@@ -95,7 +96,7 @@ void HeightLattice::read(const HeightField& field, int most_across) {
   }
 }
 
-// A row into `read_`, run by run where it is not as it was; whether there is a hole in it.
+// Reads a row into `read_`, only the runs that have changed; returns whether there is a hole in it.
 bool HeightLattice::readChanged(const HeightField& field, int j, bool follows) {
   const std::span<const std::uint8_t> bytes = field.rowBytes(row(j));
   std::uint8_t* const seen = seen_.data() + static_cast<std::size_t>(j) * bytes.size();
@@ -122,7 +123,7 @@ bool HeightLattice::readChanged(const HeightField& field, int j, bool follows) {
   return any;
 }
 
-// From one row to the next what is filled changes by less than a jump, whatever its neighbours do: nothing ends there.
+// Between rows a filled value changes by less than a jump, whatever its neighbours do, so that no false edge appears.
 void HeightLattice::fillHoles(int j) {
   const auto width = static_cast<std::ptrdiff_t>(columns_.size());
   float* line = heights_.data() + j * width;
@@ -150,7 +151,7 @@ void HeightLattice::fillHoles(int j) {
     const float before = begin > 0 ? line[begin - 1] : HUGE_VALF;
     const float behind = i < count ? line[i] : HUGE_VALF;
     float fill = std::min(before, behind);
-    if (fill == HUGE_VALF) fill = 0;  // nothing was measured in this row
+    if (fill == HUGE_VALF) fill = 0;  // no reading in this row
     for (int k = begin; k < i; ++k) {
       const float followed = std::clamp(fill, above[k] - most, above[k] + most);
       line[k] = filled[k] != 0 ? followed : fill;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is written anew for every picture, a few elements at a time.
+// An array that is rewritten for every picture, a few elements at a time.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 
 namespace relievo {
 
-// A vector whose writer makes room once for many elements and writes them where they will stand: nothing is filled in
-// before, and nothing is looked at for each. Memory is kept when it is cleared.
+// A vector whose writer reserves room for many elements at once and writes them in place: no element is initialised
+// first and no capacity is checked per element. Clearing keeps the memory.
 template <class T>
 class OutputArray {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_default_constructible_v<T>);
@@ -28,14 +28,14 @@ class OutputArray {
   }
 
   void clear() noexcept { size_ = 0; }
-  // Behind the last element, with room for `count` more, until the next `room` or `add`. Elements written there count
-  // from `endAt` on.
+  // The end of the array, with room for `count` more elements, valid until the next `room` or `add`. Elements written
+  // there count after `endAt`.
   [[nodiscard]] T* room(std::size_t count) {
     if (size_ + count > capacity_) grow(size_ + count);
     return data_.get() + size_;
   }
   void endAt(const T* end) noexcept { size_ = static_cast<std::size_t>(end - data_.get()); }
-  // Not of its own elements.
+  // `elements` must not point into this array.
   void add(std::span<const T> elements) { endAt(std::ranges::copy(elements, room(elements.size())).out); }
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }

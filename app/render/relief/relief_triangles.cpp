@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The network's triangles, the frame around them, and the silhouettes between them.
+// The network's triangles, the frame around them and the silhouettes.
 #include "app/render/relief/relief_triangles.h"
 
 namespace relievo {
@@ -28,7 +28,7 @@ void ReliefTriangles::build(const HeightField& field, const DisplayVolume& volum
   addFloor(volume, static_cast<float>(detail.view.screen_z_mm));
 }
 
-// Along each side, from vertex to vertex of those in use, a strip out to the picture's rectangle.
+// A strip along each side, between its used vertices and the picture's rectangle.
 void ReliefTriangles::addFrame(const DisplayVolume& volume, float screen_z_mm) {
   const int right = lattice_.cols() - 1, low = lattice_.rows() - 1;
   const auto half_width = static_cast<float>(0.5 * volume.width_mm),
@@ -39,14 +39,14 @@ void ReliefTriangles::addFrame(const DisplayVolume& volume, float screen_z_mm) {
     if (j == 0 || j == low) out.y = j == 0 ? half_height : -half_height, out.v = j == 0 ? 0.0F : 1.0F;
     return out;
   };
-  // Clockwise round the picture: the outside lies to the left of the way.
+  // Clockwise around the picture: the outside is on the left.
   const auto walk = [&](int i, int j, int step_i, int step_j, int count) {
     std::uint32_t before = 0, outside_before = 0;
     bool begun = false;
     for (int k = 0; k <= count; ++k, i += step_i, j += step_j) {
       const auto vertex = static_cast<std::uint32_t>(j * lattice_.cols() + i);
       const std::uint32_t slot = network_.slots()[vertex];
-      if (slot == 0) continue;  // the corners are among those in use
+      if (slot == 0) continue;  // corners are always used
       const std::uint32_t inner = slot - 1;
       const auto outside = static_cast<std::uint32_t>(vertices_.size());
       vertices_.add({{outer(vertices_[inner], i, j)}});
@@ -62,7 +62,7 @@ void ReliefTriangles::addFrame(const DisplayVolume& volume, float screen_z_mm) {
   walk(0, low, 0, -1, low);
 }
 
-// A box behind the picture's rectangle, open to the viewer.
+// A box behind the picture's rectangle, open towards the viewer.
 void ReliefTriangles::addFloor(const DisplayVolume& volume, float screen_z_mm) {
   constexpr float kBelowMm = 0.5F;
   const auto x = static_cast<float>(0.5 * volume.width_mm), y = static_cast<float>(0.5 * volume.height_mm);

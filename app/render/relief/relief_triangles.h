@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The relief as few textured triangles: an irregular network, cut at silhouettes, with the background drawn on behind
-// them.
+// The relief as few textured triangles: an irregular network that is cut at silhouettes, with the background extended
+// behind them.
 #pragma once
 
 #include <cstddef>
@@ -18,21 +18,21 @@
 namespace relievo {
 
 struct ReliefDetail {
-  int most_across = 1024;  // cells in a row
-  double error_mm = 0.5;   // of a height
+  int most_across = 1024;  // cells per row
+  double error_mm = 0.5;   // error bound of a height
   ViewSpan view;
   bool operator==(const ReliefDetail&) const = default;
 };
 
-// Pure arithmetic on one thread; memory is kept from frame to frame.
+// Pure arithmetic for one thread; memory is kept from frame to frame.
 class ReliefTriangles {
  public:
   void build(const HeightField& field, const DisplayVolume& volume, const ReliefDetail& detail);
 
   [[nodiscard]] const OutputArray<TexturedVertex>& vertices() const noexcept { return vertices_; }
-  // Three to a triangle, counterclockwise to the viewer: first the surface, then the frame that joins it to the
-  // picture's rectangle in the screen plane, then what is drawn at silhouettes; last a floor under it all, so that
-  // where an eye looks past everything it sees the picture's own colours.
+  // Three indices per triangle, counterclockwise for the viewer: first the surface, then the frame that joins it to the
+  // picture's rectangle in the screen plane, then the silhouettes, last a floor below everything, so that a gaze past
+  // all of them meets the picture's own colours.
   [[nodiscard]] const OutputArray<std::uint32_t>& indices() const noexcept { return indices_; }
   [[nodiscard]] std::size_t surfaceTriangles() const noexcept { return network_.triangles().size(); }
   [[nodiscard]] std::size_t cutCells() const noexcept { return cuts_.cells().size(); }

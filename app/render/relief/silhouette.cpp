@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cell's two polygons, and the strips behind the near one.
+// A cut cell's two polygons, and the strips behind the near one.
 #include "app/render/relief/silhouette.h"
 
 #include <algorithm>
@@ -10,10 +10,10 @@
 namespace relievo {
 namespace {
 
-// The corners of a cell, counterclockwise to the viewer from the top left.
+// The corners of a cell, counterclockwise for the viewer from the top left.
 constexpr std::array<int, 4> kRight{0, 0, 1, 1}, kDown{0, 1, 1, 0};
 
-// At the height of the first.
+// The midpoint, at the height of the first vertex.
 TexturedVertex middle(const TexturedVertex& a, const TexturedVertex& b) noexcept {
   return {0.5F * (a.x + b.x), 0.5F * (a.y + b.y), a.z, 0.5F * (a.u + b.u), 0.5F * (a.v + b.v)};
 }
@@ -24,11 +24,11 @@ constexpr int signOf(int sum) noexcept {
 
 }  // namespace
 
-// What to draw where the corners of `bits` are near: the same for every such cell.
+// The shapes to draw if the corners in `bits` are near: equal for all such cells.
 constexpr SilhouetteDrawer::CellCase SilhouetteDrawer::caseOf(unsigned bits) noexcept {
   CellCase result;
   const auto is_near = [bits](std::size_t k) { return (bits >> k & 1U) != 0; };
-  int right = 0, down = 0;  // where the far side lies
+  int right = 0, down = 0;  // direction of the far side
   for (std::size_t k = 0; k < 4; ++k) {
     const std::size_t next = (k + 1) % 4;
     const auto addNear = [&](std::size_t a, std::size_t b) {
@@ -42,7 +42,7 @@ constexpr SilhouetteDrawer::CellCase SilhouetteDrawer::caseOf(unsigned bits) noe
     down += sign * (2 * kDown[k] - 1);
     if (!is_near(k)) result.far[static_cast<std::size_t>(result.far_count++)] = static_cast<std::uint8_t>(k);
     const std::size_t beside = 3 - k;  // 0-3 and 1-2 share a row
-    const std::size_t below = k ^ 1U;  // 0-1 and 2-3 a column
+    const std::size_t below = k ^ 1U;  // 0-1 and 2-3 share a column
     const std::size_t from = !is_near(k) ? k : !is_near(beside) ? beside : !is_near(below) ? below : (k + 2) % 4;
     result.far_from[k] = static_cast<std::uint8_t>(from);
   }
@@ -82,7 +82,7 @@ void SilhouetteDrawer::drawCell(std::uint32_t corner, const std::vector<std::uin
   (this->*kCases[near])(cell, slots);
 }
 
-// The far corners, and the vertices of the surface there, show the picture a little away from the near ones.
+// The far corners, and the surface vertices there, take their colour from slightly further away from the near corners.
 template <unsigned kBits>
 void SilhouetteDrawer::stepAside(Cell& cell, const std::vector<std::uint32_t>& slots) {
   static constexpr CellCase what = caseOf(kBits);
@@ -102,7 +102,7 @@ void SilhouetteDrawer::stepAside(Cell& cell, const std::vector<std::uint32_t>& s
   }
 }
 
-// A fan over the next `count` vertices, which the caller writes.
+// A triangle fan over the next `count` vertices, which the caller writes.
 inline void SilhouetteDrawer::addFan(Pen& pen, int count) {
   for (std::uint32_t k = 2; k < static_cast<std::uint32_t>(count); ++k) {
     for (const std::uint32_t vertex : {0U, k - 1, k}) *pen.index++ = pen.place + vertex;
@@ -120,7 +120,7 @@ void SilhouetteDrawer::drawNear(Pen& pen, const Cell& cell) {
   }
 }
 
-// A near corner takes the height and the colour of the far one beside it, above or below it, or across.
+// Each near corner takes height and colour from the far corner beside, above or below it, or diagonally opposite.
 template <unsigned kBits>
 void SilhouetteDrawer::drawFar(Pen& pen, const Cell& cell) const {
   static constexpr CellCase what = caseOf(kBits);
@@ -140,9 +140,9 @@ void SilhouetteDrawer::drawFar(Pen& pen, const Cell& cell) const {
   if (what.near_above) extend(pen, corners, place, 3, half_down, i, j, {0, -1});
 }
 
-// The side of the cell from corner `from` to the next, `place` and on among the vertices, lies behind the near thing,
-// which begins at vertex (i, j) or beside it: how far some eye sees behind its outline, of which the cell itself covers
-// `covered_mm`. A round thing hides more than its rim does.
+// Extends the far side behind the near object. The cell side from corner `from` to the next (vertices `place` onwards)
+// lies behind the near object, which begins at or beside vertex (i, j). The extension reaches as far as an eye sees
+// past the outline, minus the `covered_mm` that the cell itself covers. A round object hides more than its rim.
 inline void SilhouetteDrawer::extend(Pen& pen, const TexturedVertex* corners, std::uint32_t place, std::size_t from,
                                      float covered_mm, int i, int j, Way way) const {
   const std::size_t to = (from + 1) % 4;
@@ -155,7 +155,7 @@ inline void SilhouetteDrawer::extend(Pen& pen, const TexturedVertex* corners, st
   const float length = (near_z - far_z) * outline / std::max(distance, 1.0F);
   if (length <= covered_mm) return;
   const float right = static_cast<float>(way.right) * length, down = static_cast<float>(way.down) * length;
-  const auto beyond = [&](const TexturedVertex& at) {  // back into the far side
+  const auto beyond = [&](const TexturedVertex& at) {  // mirrored back into the far side
     return TexturedVertex{at.x + right, at.y - down, at.z, at.u - right * u_per_mm_, at.v - down * v_per_mm_};
   };
   const auto a = place + static_cast<std::uint32_t>(from), b = place + static_cast<std::uint32_t>(to);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is drawn where one thing ends before another: the near side to its outline, the far side on behind it.
+// Draws the silhouettes: the near side up to its outline, and the far side extended behind it.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace relievo {
 
-// From where the relief is seen: eyes at y = 0, x within +-eye_mm, `distance_mm` before the screen plane.
+// The viewing positions: eyes at y = 0, x within +-eye_mm, `distance_mm` in front of the screen plane.
 struct ViewSpan {
   double eye_mm = 31.5;
   double distance_mm = 600;
@@ -20,37 +20,38 @@ struct ViewSpan {
   bool operator==(const ViewSpan&) const = default;
 };
 
-// A cell lies partly on a near and partly on a far thing: its corners are parted by the middle between its lowest and
-// highest. The near corners get the part of the cell up to half way to the far ones, at the near height. The far side
-// gets the whole cell at the far height, and behind the near side as much more as some eye sees past its outline, with
-// the picture beside it mirrored: what is really there nobody has recorded. Right beside the outline the near thing's
-// colour shines through: there the far side shows what is a little farther away.
+// A cut cell lies partly on a near and partly on a far object: its corners are divided at the mean of its lowest and
+// highest. The near part, up to half way to the far corners, is drawn at the near height. The far side gets the whole
+// cell at the far height, and behind the near side as much more as an eye sees past its outline, textured with the
+// mirrored picture beside it, since the hidden part was never recorded. Right beside the outline the near object's
+// colour bleeds into the picture, so the far side takes its colour from slightly further away.
 class SilhouetteDrawer {
  public:
   SilhouetteDrawer(const HeightLattice& lattice, const ViewSpan& view, OutputArray<TexturedVertex>& vertices,
                    OutputArray<std::uint32_t>& indices) noexcept;
 
-  // `corner`: the lattice vertex at the cell's top left. `slots`: of a lattice vertex its place among the vertices,
-  // counted from 1; 0 where it is not among them.
+  // `corner`: the lattice vertex at the cell's top left. `slots`: for each lattice vertex its index in the vertex list
+  // plus 1; 0 if it is not in the list.
   void drawCell(std::uint32_t corner, const std::vector<std::uint32_t>& slots);
 
  private:
   struct Cell {
-    std::array<TexturedVertex, 4> corners{};  // counterclockwise to the viewer from the top left
+    std::array<TexturedVertex, 4> corners{};  // counterclockwise for the viewer from the top left
     int i, j;                                 // of the top left vertex
   };
-  // What is drawn of a cell, by which of its corners are near: bit k for corner k.
+  // The shapes of a cell for one set of near corners: bit k for corner k.
   struct CellCase {
-    // The outline of the near part: corners (k, k), and middles between a near corner and a far one.
+    // The outline of the near part: corners (k, k), and midpoints between a near corner and a far one.
     std::array<std::array<std::uint8_t, 2>, 8> near{};
     std::array<std::uint8_t, 4> far{};       // its far corners
-    std::array<std::uint8_t, 4> far_from{};  // where each corner of the far side has height and colour from
+    std::array<std::uint8_t, 4> far_from{};  // the corner that each corner of the far side takes height and colour from
     int near_count = 0, far_count = 0;
-    int aside_right = 0, aside_down = 0;  // where the far side lies: -1, 0 or 1
-    bool near_right = false, near_left = false, near_below = false, near_above = false;  // sides that it lies behind
+    int aside_right = 0, aside_down = 0;  // direction of the far side: -1, 0 or 1
+    // cell sides that lie behind the near object
+    bool near_right = false, near_left = false, near_below = false, near_above = false;
   };
   static constexpr CellCase caseOf(unsigned bits) noexcept;
-  // A drawer for each case: nothing of it is looked up, or decided, cell by cell.
+  // One drawing function per case, so that nothing is decided cell by cell.
   using DrawCase = void (SilhouetteDrawer::*)(Cell& cell, const std::vector<std::uint32_t>& slots);
   static const std::array<DrawCase, 16> kCases;
   template <unsigned kBits>
@@ -65,7 +66,7 @@ class SilhouetteDrawer {
   struct Pen {
     TexturedVertex* vertex;
     std::uint32_t* index;
-    std::uint32_t place;  // of the vertex
+    std::uint32_t place;  // index of that vertex
   };
   template <unsigned kBits>
   static void drawNear(Pen& pen, const Cell& cell);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the eyes stand, through which window they look, and on which part of the surface.
+// Positions of the eyes, their view windows, and their areas of the surface.
 #include "app/render/relief/stereo.h"
 
 #include <algorithm>
@@ -9,13 +9,13 @@
 namespace relievo {
 namespace {
 
-// What stands out of the volume, a force arrow for instance, is still drawn this far below and, in front, up to a tenth
-// of the way before the eyes.
+// Parts outside the volume, such as a force arrow, are drawn down to this depth below it and, in front, up to a tenth
+// of the viewing distance before the eyes.
 constexpr double kBelowMm = 100.0;
 constexpr double kNearestOfDistance = 0.1;
 
-// HDMI 1.4a, frame packing of 1080p and of 720p: two pictures, one above the other, with the lines of a blanking
-// interval between them.
+// HDMI 1.4a, frame packing of 1080p and 720p: two pictures, one above the other, separated by the lines of a blanking
+// interval.
 constexpr int kPacked1080Width = 1920, kPacked1080Height = 2205, kPacked1080Picture = 1080;
 constexpr int kPacked720Width = 1280, kPacked720Height = 1470, kPacked720Picture = 720;
 
@@ -32,8 +32,8 @@ Window letterbox(const DisplayVolume& volume, double aspect) noexcept {
   return {0.5 * width, 0.5 * width / aspect};
 }
 
-// An eye at (eye_x, 0, screen_z + distance), looking straight down on the screen plane. The frustum's sides pass
-// through the window there; glm wants them on the near plane, where they are smaller by near/distance.
+// An eye at (eye_x, 0, screen_z + distance), looking straight at the screen plane. The sides of the frustum pass
+// through the window there; glm wants them on the near plane, scaled by near/distance.
 glm::dmat4 offAxis(double eye_x_mm, const Window& window, const StereoSettings& settings) {
   const double distance = settings.viewing_distance_mm;
   const double nearest = kNearestOfDistance * distance;
@@ -52,7 +52,7 @@ bool packs720(int width, int height) noexcept {
   return width == kPacked720Width && height == kPacked720Height;
 }
 
-// The `index`-th of `count` equal parts of a length, so that together they are the whole.
+// Part `index` of `count` equal parts of a length; together they cover it exactly.
 struct Part {
   int first, length;
 };
@@ -96,7 +96,7 @@ std::vector<PixelArea> areasOf(const StereoSettings& settings, int width, int he
   return {whole};
 }
 
-// What an area looks like to the viewer: a half that was squeezed is as wide as the whole, and a quilt's tiles are each
+// The aspect ratio that the viewer sees: a squeezed half is displayed as wide as the whole, and each tile of a quilt is
 // stretched over the panel.
 double aspectOf(const StereoSettings& settings, const PixelArea& area, int width, int height) noexcept {
   const bool halves = settings.layout == StereoLayout::SideBySide || settings.layout == StereoLayout::TopBottom;
@@ -134,7 +134,7 @@ EyeViews eyeViews(const StereoSettings& settings, const DisplayVolume& volume, i
                  settings.layout == StereoLayout::Anaglyph;
   const std::vector<PixelArea> areas = areasOf(settings, width, height);
   const double between = (settings.swap_eyes ? -1 : 1) * settings.strength * settings.eye_distance_mm;
-  // A quilt is looked at from all over a cone: its outermost views stand four eyes' distances apart, 24 degrees.
+  // A lenticular panel is viewed within a cone: the outermost views are four eye distances apart, 24 degrees.
   const double spread = settings.layout == StereoLayout::Quilt ? 4.0 * between : between;
   const auto last = static_cast<double>(areas.size() - 1);
   for (std::size_t i = 0; i < areas.size(); ++i) {
@@ -150,7 +150,7 @@ const char* refusal(const StereoSettings& settings, int width, int height) noexc
   switch (settings.layout) {
     case StereoLayout::FramePacking:
       if (packs1080(width, height) || packs720(width, height)) return nullptr;
-      return "frame packing needs a surface of 1920x2205 or 1280x1470, a mode that the screen must offer";
+      return "frame packing needs a surface of 1920x2205 or 1280x1470; choose such a screen mode";
     case StereoLayout::Quilt:
       if (settings.quilt_cols > 0 && settings.quilt_rows > 0 && width / settings.quilt_cols >= kLeastTilePixels &&
           height / settings.quilt_rows >= kLeastTilePixels) {
@@ -163,8 +163,8 @@ const char* refusal(const StereoSettings& settings, int width, int height) noexc
   }
 }
 
-// The derivative of e h / (d - h) is e d / (d - h)^2, largest for the nearest point. Without eyes apart, the shift
-// against the picture's edge, which is about as large, takes its place.
+// The derivative of e h / (d - h) is e d / (d - h)^2, largest at the nearest point. With no distance between the eyes,
+// the similar shift against the picture's edge is used instead.
 double heightOfPixelMm(const StereoSettings& settings, const DisplayVolume& volume, double pixels_per_mm) noexcept {
   constexpr double kLeastEyes = 63.0;
   const double eyes = std::max(kLeastEyes, std::abs(settings.strength * settings.eye_distance_mm));

@@ -3,7 +3,7 @@
 
 namespace relievo {
 
-// A point of the scene frame, mm, and the place in the picture that it shows: 0 to 1, v from the top.
+// A point of the scene frame, mm, and its texture coordinate: 0 to 1, v from the top.
 struct TexturedVertex {
   float x, y, z;
   float u, v;

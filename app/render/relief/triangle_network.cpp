@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The errors of the vertices from the fine to the coarse, and the triangles from the coarse to the fine.
+// Computes vertex errors from fine to coarse, and triangles from coarse to fine.
 #include "app/render/relief/triangle_network.h"
 
 #include <algorithm>
@@ -27,8 +27,8 @@ void TriangleNetwork::measure(const HeightLattice& lattice, const CutCells& cuts
   }
 }
 
-// The smallest triangles have their right angles at the vertices with i + j odd: where those two of a cell are there,
-// so are the two halves of the cell.
+// The smallest triangles have their right angle at vertices with odd i + j: if both of a cell's are used, so are both
+// halves of the cell.
 void TriangleNetwork::markCuts() {
   const auto width = static_cast<std::uint32_t>(cols_);
   for (const std::uint32_t cell : cuts_->cells()) {
@@ -38,9 +38,9 @@ void TriangleNetwork::markCuts() {
   }
 }
 
-// Leaving a vertex out moves the surface at most by what it moves there, and so do those that depend on it: the sum is
-// a bound. First those on the middle of a hypotenuse of two cells, along a row or a column; what is written beside
-// them is written again by the coarser ones.
+// Removing a vertex and its dependents shifts the surface by at most the sum of their errors, which is therefore a
+// bound. First the midpoints of hypotenuses two cells long, along a row or a column; values written for other vertices
+// are overwritten by the coarser passes.
 void TriangleNetwork::measureFinest(const float* z) {
   const auto width = static_cast<std::size_t>(cols_);
   for (std::size_t j = 0; j < static_cast<std::size_t>(rows_); ++j) {
@@ -55,7 +55,7 @@ void TriangleNetwork::measureFinest(const float* z) {
   }
 }
 
-// The middles of hypotenuses of 2 step along an axis; on those depend the four middles beside each.
+// Midpoints of hypotenuses of length 2 step along an axis; four midpoints beside each depend on it.
 void TriangleNetwork::measureSides(const float* z, int step) {
   const auto width = static_cast<std::ptrdiff_t>(cols_);
   const std::ptrdiff_t half = step / 2, half_down = half * width;
@@ -77,12 +77,12 @@ void TriangleNetwork::measureSides(const float* z, int step) {
   }
 }
 
-// The middles of hypotenuses of 2 step along both axes, that fall or rise in turns; on those depend the four beside,
-// above and below each.
+// Midpoints of hypotenuses that span 2 step along both axes, falling and rising alternately; the four beside, above and
+// below each depend on it.
 void TriangleNetwork::measureMiddles(const float* z, int step) {
   const std::ptrdiff_t width = cols_, down = step * width;
   for (int j = step; j < rows_; j += 2 * step) {
-    const bool falling = ((j / step / 2) & 1) == 0;  // the first; then in turns
+    const bool falling = ((j / step / 2) & 1) == 0;  // whether the first one falls; then alternating
     std::ptrdiff_t way = falling ? down + step : down - step;
     for (int i = step; i < cols_; i += 2 * step, way = 2 * down - way) {
       const std::ptrdiff_t at = j * width + i;
@@ -102,11 +102,11 @@ inline TriangleNetwork::Corner TriangleNetwork::use(std::uint32_t vertex) {
   return {vertex, slot - 1};
 }
 
-// Above the finest triangles, each half of a cell.
+// Levels above the finest triangles, which are half cells.
 template <int kDepth>
 void TriangleNetwork::split(Corner a, Corner b, Corner apex) {
   if constexpr (kDepth == 0) {
-    // Half a cell: a and b are its top left and low right corners, or its top right and low left ones.
+    // Half a cell: a and b are its top left and bottom right corners, or its top right and bottom left ones.
     const std::uint32_t upper = std::min(a.vertex, b.vertex), apart = std::max(a.vertex, b.vertex) - upper;
     if (cuts_->contains(apart < static_cast<std::uint32_t>(cols_) ? upper - 1 : upper)) return;
   } else {

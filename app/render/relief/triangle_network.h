@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A right-triangulated irregular network: as few triangles as keep within an error of the lattice's heights.
+// A right-triangulated irregular network: few triangles that stay within an error of the lattice's heights.
 #pragma once
 
 #include <cstddef>
@@ -13,25 +13,25 @@
 namespace relievo {
 
 // W. Evans, D. Kirkpatrick, G. Townsend, "Right-triangulated irregular networks", Algorithmica 30 (2001): a right
-// isosceles triangle is split at the middle of its hypotenuse, both that share it at once, so that no crack opens. Each
-// vertex knows the error of leaving it and all that depend on it out; that follows the moving depth with one pass over
-// the samples, and nothing of one frame is used in the next.
+// isosceles triangle is split at the midpoint of its hypotenuse, together with the other triangle that shares it, so
+// that no crack opens. For each vertex the error of omitting it and its dependents is computed anew for each frame in
+// one pass over the samples.
 class TriangleNetwork {
  public:
   struct Triangle {
-    std::uint32_t a, b, c;  // places in vertices(), counterclockwise to the viewer
+    std::uint32_t a, b, c;  // indices into vertices(), counterclockwise for the viewer
   };
 
-  // From the fine to the coarse. A cut cell is reached by the finest triangles alone, and none of them covers it. Both
-  // are looked at again by `triangulate`.
+  // Computes all errors. A cut cell is reached only by the finest triangles, and none of them covers it. `cuts` must
+  // outlive the following `triangulate`.
   void measure(const HeightLattice& lattice, const CutCells& cuts);
-  // No point of the lattice is farther than `error_mm` from the triangles, along z, but for those of the cut cells.
+  // Every lattice point is within `error_mm` of the triangles along z, except those of cut cells.
   void triangulate(float error_mm);
 
   [[nodiscard]] const OutputArray<Triangle>& triangles() const noexcept { return triangles_; }
-  // Of the lattice: the corners of its tiles, and what triangles were split at.
+  // Lattice indices: the corners of its tiles, and the split points of triangles.
   [[nodiscard]] const OutputArray<std::uint32_t>& vertices() const noexcept { return vertices_; }
-  // Of each vertex of the lattice its place in vertices(), counted from 1; 0 where it is not among them.
+  // For each lattice vertex its index in vertices() plus 1; 0 if it is not in the list.
   [[nodiscard]] const std::vector<std::uint32_t>& slots() const noexcept { return slots_; }
 
  private:
@@ -43,7 +43,7 @@ class TriangleNetwork {
     std::uint32_t vertex, place;
   };
   Corner use(std::uint32_t vertex);
-  // A triangle can be split so many times, one after the other.
+  // kDepth: how many more times a triangle can be split.
   template <int kDepth>
   void split(Corner a, Corner b, Corner apex);
   template <int kDepth>
