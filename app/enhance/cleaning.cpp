@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Few samples are unknown or near a step: those are looked at one by one, all others in whole rows.
+// The few samples that are unknown or near a step are processed one by one, all others in whole rows.
 #include "app/enhance/cleaning.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace relievo {
 namespace {
 
-constexpr int kReach = 2;  // of five by five samples
+constexpr int kReach = 2;  // half width of a window of 5 x 5 samples
 
 cv::Mat viewOf(std::vector<float>& codes, const DepthMap& map) {
   return {map.rows, map.cols, CV_32F, codes.data()};
@@ -21,12 +21,13 @@ cv::Mat viewOf(std::vector<std::uint8_t>& mask, const DepthMap& map) {
   return {map.rows, map.cols, CV_8U, mask.data()};
 }
 
-// How many samples of five by five lie inside the picture, along one axis.
+// The number of the window's samples, along one axis, that lie inside the picture.
 int inside(int at, int size) {
   return std::min(at + kReach, size - 1) - std::max(at - kReach, 0) + 1;
 }
 
-// How many of the eight known samples around each are like it. Each two of them are compared once, in whole rows.
+// For each sample, how many of its eight known neighbours have a similar code. Each pair is compared once, in whole
+// rows.
 std::vector<std::uint8_t> countAlikeNearby(const DepthMap& map, float alike) {
   std::vector<std::uint8_t> counts(map.size());
   const auto compare = [&](std::size_t first, std::ptrdiff_t away, int count) {
@@ -56,7 +57,7 @@ std::vector<std::uint8_t> countAlikeNearby(const DepthMap& map, float alike) {
 
 int countAlike(const DepthMap& map, int c, int r, float alike) {
   const float code = map.codes[map.at(c, r)];
-  int count = -1;  // itself
+  int count = -1;  // minus the sample itself
   for (int y = std::max(r - kReach, 0); y <= std::min(r + kReach, map.rows - 1); ++y) {
     for (int x = std::max(c - kReach, 0); x <= std::min(c + kReach, map.cols - 1); ++x) {
       const std::size_t i = map.at(x, y);
@@ -66,8 +67,8 @@ int countAlike(const DepthMap& map, int c, int r, float alike) {
   return count;
 }
 
-// 1 where a known sample is like too few of the 24 around it. At the picture's corners fewer are enough. The eight
-// nearest are enough to tell of nearly all.
+// 1 where a known sample resembles too few of the 24 around it; at the picture's corners fewer are required. For nearly
+// all samples the eight nearest suffice to decide.
 std::vector<std::uint8_t> findOutliers(const DepthMap& map, float noise) {
   constexpr int kAlike = 3, kOneOf = 4;
   const float alike = DepthMap::kStep + 4 * noise;
@@ -86,7 +87,7 @@ std::vector<std::uint8_t> findOutliers(const DepthMap& map, float noise) {
   return outliers;
 }
 
-// 1 where a disc of `radius` fits into what is unknown.
+// 1 where a disc of `radius` fits into the unknown area.
 std::vector<std::uint8_t> findWide(std::vector<std::uint8_t>& unknown, const DepthMap& map, int radius) {
   std::vector<std::uint8_t> wide(unknown.size());
   const cv::Mat disc = cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1});
@@ -113,8 +114,9 @@ class Surroundings {
     }
   }
   [[nodiscard]] bool empty() const { return count_ == 0; }
-  // The farthest code, unless more directions see another one. Where a hole is closed all round one more is enough: it
-  // lies across an edge as it comes. A long one is likely to lie beside something near: there it takes a quarter more.
+  // The farthest code, unless more directions see another one. In a fully enclosed hole a majority of one is enough,
+  // since such a hole lies across an edge by chance. A long hole probably lies beside a near object, and there a
+  // majority of a quarter of the directions is required.
   [[nodiscard]] float mostSeen(float alike) const {
     const int more = count_ == static_cast<int>(kDirections.size()) ? 1 : kDirections.size() / 4;
     float best = *std::min_element(begin(), end());
@@ -126,7 +128,7 @@ class Surroundings {
     }
     return best;
   }
-  // By distance, of those that go on from `code`.
+  // Inverse-distance mean over the samples that continue `code`.
   [[nodiscard]] float meanAround(float code, float alike) const {
     float sum = 0, weight = 0;
     for (int i = 0; i < count_; ++i) {
@@ -138,7 +140,7 @@ class Surroundings {
   }
 
  private:
-  // To the samples within three across and down that no other one hides.
+  // Directions to the samples within three rows and columns that no other sample hides.
   static constexpr auto kDirections = [] {
     std::array<std::pair<int, int>, 32> all{};
     std::size_t count = 0;
@@ -160,7 +162,7 @@ class Surroundings {
   int count_ = 0;
 };
 
-// The median of the samples around (c, r) that are on its side of a step, if there is one.
+// The median of the samples around (c, r) that lie on its side of a step, if there is one.
 float medianOfSide(const DepthMap& map, int c, int r, float alike) {
   std::array<float, 25> samples{};
   int count = 0;
@@ -174,8 +176,9 @@ float medianOfSide(const DepthMap& map, int c, int r, float alike) {
   auto* last = first + count;
   const auto [low, high] = std::minmax_element(first, last);
   if (*high - *low > alike) {
-    // Its own code has a voice, from -1 to 1, and so has the majority: three parts to ten, so that the corner of a
-    // square (9 of 25) and a line of two samples (10) stay, and what hangs in between goes where most are.
+    // The sample's own code votes with a weight from -1 to 1, and so does the majority, at 3 to 10, so that the corner
+    // of a square (9 of 25) and a line two samples wide (10) survive, and samples between two surfaces join the
+    // majority.
     constexpr float kOwnVoice = 0.3F;
     const float middle = 0.5F * (*low + *high);
     const float own = 2 * (map.codes[map.at(c, r)] - middle) / (*high - *low);
@@ -217,7 +220,7 @@ CleaningCounts fillHoles(DepthMap& map, float noise) {
           continue;
         }
       }
-      if (counts.holes > 0) {  // where a picture has none, what nobody can place stays as it is
+      if (counts.holes > 0) {  // in a picture without holes, samples that fit nowhere keep their code
         filled.codes[i] = 0;
         filled.holes[i] = 1;
       }
@@ -228,7 +231,7 @@ CleaningCounts fillHoles(DepthMap& map, float noise) {
 }
 
 void filterByMedian(DepthMap& map, float noise) {
-  const float alike = DepthMap::kStep + 7 * noise;  // more than 25 samples of one side are apart
+  const float alike = DepthMap::kStep + 7 * noise;  // the spread of more than 25 samples of one side
   const cv::Mat window = cv::getStructuringElement(cv::MORPH_RECT, {2 * kReach + 1, 2 * kReach + 1});
   const cv::Mat codes = viewOf(map.codes, map);
   cv::Mat lowest, highest, median, near_hole;

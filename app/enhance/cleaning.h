@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a sensor does to single samples is undone: holes, salt, samples that hang between two things, noise of a few.
+// Repairs single samples: fills holes, replaces salt and flying samples, and reduces noise by a median.
 #pragma once
 
 #include <cstddef>
@@ -9,20 +9,20 @@
 namespace relievo {
 
 struct CleaningCounts {
-  std::size_t holes = 0;     // of the source
-  std::size_t outliers = 0;  // samples that were like hardly any of their neighbours
-  std::size_t filled = 0;    // of both
+  std::size_t holes = 0;     // in the source
+  std::size_t outliers = 0;  // samples unlike nearly all of their neighbours
+  std::size_t filled = 0;    // of holes and outliers
 };
 
-// Samples that are like fewer than three of the 24 around them become unknown. What is unknown is filled where it is
-// narrower than a fortieth of the picture's width, and is a hole where it is wider: a guess is no measurement. What is
-// filled goes on as the side does that most directions see, so that an edge goes straight through a hole. Beside a long
-// hole it is the farther of two sides that are seen about alike: behind something near a camera does not see.
+// Samples that resemble fewer than three of the 24 around them become unknown. An unknown area is filled if it is
+// narrower than 1/40 of the picture's width; a wider one stays a hole, since a guess is not a measurement. The filling
+// continues the surface that most directions see, so that an edge crosses a hole in a straight line. Beside a long hole
+// it is the farther of two surfaces seen about equally often, because cameras miss what is behind a near object.
 // `noise` is the standard deviation of the codes.
 CleaningCounts fillHoles(DepthMap& map, float noise);
 
-// The median of five by five samples. Near a step only the samples of the same side count, so that the step stays
-// where it is, with its corners, and what hangs in between joins the side that most of them are on.
+// The median of 5 x 5 samples. Near a step only the samples on the same side count, so that the step and its corners
+// stay in place, and a flying sample joins the side that holds most of its neighbours.
 void filterByMedian(DepthMap& map, float noise);
 
 }  // namespace relievo

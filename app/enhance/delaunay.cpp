@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lawson's way: the triangle is split, and edges are flipped until every circle is empty. The newest point is the third
-// corner of every triangle around it, so that the edge to look at is always the first.
+// Lawson's algorithm: split the triangle, then flip edges until every circumcircle is empty. The newest point is the
+// third corner of every triangle around it, so that the edge to check is always the first.
 #include "app/enhance/delaunay.h"
 
 #include <algorithm>
@@ -52,7 +52,7 @@ std::span<const int> Delaunay::insert(const Point& point, int triangle) {
   } else {
     split(triangle, index);
   }
-  // Those that are flipped put another one at the end, to be looked at in turn.
+  // A flip appends another edge, which is checked in turn.
   for (std::size_t i = 0; i < around_.size(); ++i) flipWhereNeeded(around_[i]);
   return around_;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames are read as the player reads them: as a relief, here one that is 65535 mm deep and linear.
+// Reads frames as the player does, as a relief: here linear and 65535 mm deep.
 #include "app/enhance/depth_map.h"
 
 #include <algorithm>

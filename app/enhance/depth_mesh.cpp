@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Garland and Heckbert, Fast Polygonal Approximation of Terrains and Height Fields (1995): after a point only the
-// triangles around it are looked at anew.
+// Garland and Heckbert, Fast Polygonal Approximation of Terrains and Height Fields (1995): after inserting a point,
+// only the triangles around it are measured again.
 #include "app/enhance/depth_mesh.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ constexpr int floorDivide(int a, int b) {
   return a / b - (a % b != 0 && (a < 0) != (b < 0) ? 1 : 0);
 }
 
-// Calls row(r, first, last) for each row of samples inside a triangle or on its rim.
+// Calls row(r, first, last) for each row of samples inside a triangle or on its edge.
 template <class Row>
 void eachRow(const std::array<Point, 3>& corners, Row&& row) {
   const auto [top, bottom] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
@@ -41,7 +41,7 @@ void eachRow(const std::array<Point, 3>& corners, Row&& row) {
   }
 }
 
-// The plane of three points.
+// The plane through three points.
 struct Facet {
   double origin = 0, across = 0, down = 0;
 
@@ -68,10 +68,11 @@ class Growing {
     measure(1);
   }
 
-  // In rounds: of each triangle beyond the bound the worst sample becomes a point, the worst of all first, and only
-  // then are those that have changed measured, once. One point at a time would be a few points less for twice the time.
+  // In rounds: the worst sample of each triangle beyond the bound becomes a point, in order of decreasing error; then
+  // the changed triangles are measured once. Inserting one point at a time would save a few points and take twice the
+  // time.
   DepthMesh grow() {
-    std::vector<int> changed, changed_in;  // the latter by triangle: the round
+    std::vector<int> changed, changed_in;  // by triangle: the round in which it changed
     for (int round = 1; !worst_.empty(); ++round) {
       std::vector<Candidate> candidates = std::exchange(worst_, {});
       std::ranges::sort(candidates, [](const Candidate& a, const Candidate& b) {
@@ -80,7 +81,7 @@ class Growing {
       changed.clear();
       for (const Candidate& next : candidates) {
         changed_in.resize(delaunay_.triangles().size());
-        if (changed_in[next.triangle] == round) continue;  // no longer the triangle that it was
+        if (changed_in[next.triangle] == round) continue;  // its triangle has changed in this round
         codes_.push_back(map_.codes[map_.at(next.point.x, next.point.y)]);
         const auto touched = delaunay_.insert(next.point, next.triangle);
         changed_in.resize(delaunay_.triangles().size());
@@ -100,7 +101,7 @@ class Growing {
     Point point;
   };
 
-  // At a hole that of the nearest known sample.
+  // At a hole, the code of the nearest known sample.
   [[nodiscard]] float cornerCode(const Point& corner) const {
     if (const std::size_t i = map_.at(corner.x, corner.y); map_.holes[i] == 0) return map_.codes[i];
     std::size_t found = 0;
@@ -128,7 +129,7 @@ class Growing {
       const auto step = static_cast<float>(facet.across);
       const auto error = [&](int i) { return std::abs(codes[i] - (begin + step * static_cast<float>(i))); };
       const int count = last - first + 1;
-      int beyond = 0;  // most rows have none: without a branch several samples at a time
+      int beyond = 0;  // usually 0: without a branch the loop is vectorised
       for (int i = 0; i < count; ++i) beyond |= error(i) > worst.error ? 1 : 0;
       if (beyond == 0) return;
       for (int i = 0; i < count; ++i) {
@@ -141,11 +142,11 @@ class Growing {
   }
 
   const DepthMap& map_;
-  std::vector<float> known_;  // codes, not a number at a hole: no error there is more than another
+  std::vector<float> known_;  // codes, NaN at a hole, so that its error never exceeds another
   float bound_;
   Delaunay delaunay_;
   std::vector<float> codes_;
-  std::vector<Candidate> worst_;  // samples of their triangles, beyond the bound
+  std::vector<Candidate> worst_;  // the worst samples beyond the bound, one per triangle
 };
 
 }  // namespace
@@ -153,7 +154,7 @@ class Growing {
 DepthMesh meshOf(const DepthMap& map, float bound) {
   if (map.cols < 2 || map.rows < 2) return {};
   if (std::all_of(map.holes.begin(), map.holes.end(), [](std::uint8_t hole) { return hole != 0; })) return {};
-  // Rounding alone must not make a corner a candidate again.
+  // Rounding must not make a corner a candidate again.
   constexpr float kLeast = 1.0F / 16;
   return Growing(map, std::max(bound, kLeast)).grow();
 }

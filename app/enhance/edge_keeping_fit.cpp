@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Inside a run of samples a fit is a mean, by sums from the row's begin on; near its ends it is worked out.
+// Inside a run of samples the fit is a mean, from prefix sums; near the run's ends it is computed in full.
 #include "app/enhance/edge_keeping_fit.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ class LineFit {
  public:
   LineFit(int length, int reach) : reach_(reach), sums_(length + 1), before_(length) {}
 
-  // A run ends behind each sample that has 1 in `ends`; the last one has.
+  // A run ends after each sample marked 1 in `ends`; the last one always is.
   void row(const std::uint8_t* ends, float* codes, int length) {
     std::copy_n(codes, length, before_.begin());
     for (int begin = 0; begin < length;) {
@@ -26,7 +26,7 @@ class LineFit {
   }
 
  private:
-  // Where as many samples lie before as behind, the line's value is their mean.
+  // If the window is symmetric, the line's value is the mean.
   void run(const float* codes, float* out, int length) {
     const int inner_end = length - reach_;
     for (int i = 0; i < std::min(reach_, length); ++i) out[i] = atEnd(codes, i, length);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures are cleaned each on its own, then finished with a look at their neighbours, several at once in both.
+// Cleans each picture by itself, then finishes it with its neighbours in time; several pictures are processed at once.
 #include "app/enhance/enhancer.h"
 
 #include <algorithm>
@@ -17,10 +17,10 @@
 namespace relievo {
 namespace {
 
-constexpr std::size_t kBefore = 2, kAhead = 2;  // pictures that are looked at
-constexpr float kAfterMedian = 0.3F;            // what the median of 25 leaves of noise
-constexpr float kSmoothing = 5;                 // reach, of a mesh
-constexpr int kReferenceCols = 720;             // reaches are those of a picture so wide
+constexpr std::size_t kBefore = 2, kAhead = 2;  // neighbouring pictures used
+constexpr float kAfterMedian = 0.3F;            // share of the noise that the median of 25 leaves
+constexpr float kSmoothing = 5;                 // reach of the fit, for a mesh
+constexpr int kReferenceCols = 720;             // reaches apply to a picture of this width
 
 template <class Work>
 void inParallel(std::size_t count, Work&& work) {
@@ -33,13 +33,13 @@ int scaled(float reach, int cols) {
   return static_cast<int>(std::lround(reach * static_cast<float>(cols) / kReferenceCols));
 }
 
-// `reach` is that for noise of one level. Noise and the rounding-off of curves cost about the same then, by what the
-// laboratory's surfaces show; five pictures ask for less than one.
+// `reach` applies to noise of one level, where noise and the rounding of curves cause about equal errors on the
+// laboratory's surfaces. Averaging five pictures needs a smaller reach than one picture.
 int reachFor(float reach, float noise, int cols) {
   return scaled(reach * std::cbrt(noise / DepthMap::kLevel), cols);
 }
 
-// What the median and a fit leave of noise.
+// The noise left after the median and a fit.
 float noiseAfterFit(float noise, int reach) {
   return noise * std::min(kAfterMedian, 0.84F / static_cast<float>(2 * reach + 1));
 }
@@ -69,7 +69,7 @@ DepthEnhancer::DepthEnhancer(Enhancement how, const DepthCalibration& source, do
 Result<void> DepthEnhancer::add(const Frame& depth) {
   if (!pictures_.empty() &&
       (depth.width != pictures_.back().source.width || depth.height != pictures_.back().source.height)) {
-    return fail(ErrorCode::Unsupported, "its pictures change their size; cut the film there");
+    return fail(ErrorCode::Unsupported, "the picture size changes; cut the film there");
   }
   pictures_.push_back({.source = depth});
   return pictures_.size() - cleaned_ < at_once_ ? Result<void>{} : work();
@@ -91,7 +91,7 @@ Result<void> DepthEnhancer::work() {
   std::vector<char> read(pictures_.size() - cleaned_);
   inParallel(read.size(), [&](std::size_t i) { read[i] = clean(pictures_[cleaned_ + i]) ? 1 : 0; });
   if (std::find(read.begin(), read.end(), 0) != read.end()) {
-    return fail(ErrorCode::Unsupported, "no depth can be read from this kind of picture");
+    return fail(ErrorCode::Unsupported, "cannot read depth from this kind of picture");
   }
   cleaned_ = pictures_.size();
   const std::size_t ahead = how_ == Enhancement::SpaceTime && !ended_ ? kAhead : 0;
@@ -113,12 +113,12 @@ bool DepthEnhancer::clean(Picture& picture) const {
   picture.counts = fillHoles(picture.map, picture.noise);
   picture.means = blockMeans(picture.map);
   filterByMedian(picture.map, picture.noise);
-  picture.source.owner.reset();  // its size and times are all that is needed from here on
+  picture.source.owner.reset();  // only its size and timestamps are needed from here on
   picture.source.planes = {};
   return true;
 }
 
-// Reads the cleaned pictures around it, writes to its own outcome alone.
+// Reads the cleaned pictures around it; writes only its own result.
 void DepthEnhancer::enhance(std::size_t index) {
   Picture& picture = pictures_[index];
   DepthMap map = how_ == Enhancement::SpaceTime ? steadied(index) : picture.map;
@@ -143,7 +143,7 @@ DepthMap DepthEnhancer::steadied(std::size_t index) const {
   return steadyMean(present.map, std::span(before).first(pairs), std::span(after).first(pairs), alike);
 }
 
-// The noise, or the rounding of the source's codes where that is more: steps of a slope are no feature points.
+// The larger of the noise and the rounding of the source's codes: quantisation steps of a slope are not feature points.
 float DepthEnhancer::grain(const Picture& picture) const {
   constexpr float kOfRounding = 0.289F;  // 1/sqrt(12)
   return std::max(picture.noise, kOfRounding * code_step_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth enhancement: a depth film without its sensor's holes and noise, as smooth as a finger should feel it.
+// Depth enhancement: removes a sensor's holes and noise from a depth film.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@
 namespace relievo {
 
 enum class Enhancement : std::uint8_t {
-  Median,     // holes filled, the median of five by five samples
-  Dibm,       // depth-image-based modelling: behind the median, each picture as the smoothed mesh of its feature points
-  SpaceTime,  // behind the median, means over five pictures and lines fitted over a few samples; neither across a step
+  Median,     // holes filled, then the median of 5 x 5 samples
+  Dibm,       // depth-image-based modelling: after the median, each picture as a smoothed mesh of feature points
+  SpaceTime,  // after the median, means over five pictures and line fits over a few samples; neither crosses a step
 };
 // "median", "dibm", "space-time".
 [[nodiscard]] const char* name(Enhancement how) noexcept;
@@ -24,37 +24,37 @@ enum class Enhancement : std::uint8_t {
 struct EnhancementSummary {
   std::uint64_t pictures = 0, samples = 0;
   std::uint64_t holes = 0, outliers = 0, filled = 0;  // samples
-  double noise_before = 0, noise_after = 0;           // levels of 255: what is new from sample to sample, in the mean
-  double points = 0;                                  // of a mesh, in the mean; 0 without one
+  double noise_before = 0, noise_after = 0;           // levels of 255: mean noise from sample to sample
+  double points = 0;                                  // mean number of mesh points; 0 without a mesh
   std::size_t most_points = 0;
-  double bound = 0;  // levels of 255, in the mean: how far from the mesh the samples are at most
-  // Levels of 255, in the mean: estimates of how far the heights were off and are now, away from edges.
+  double bound = 0;  // levels of 255: mean of the mesh's error bound
+  // Levels of 255: mean estimated height error before and after, away from edges.
   double error_before = 0, error_after = 0;
 };
 
-// One thread; its work on several pictures at once goes to OpenCV's threads. A picture comes out after a few more have
-// gone in, so that memory is flat. Holes are filled first; wide ones stay (see cleaning.h).
+// Use from one thread; OpenCV's threads process several pictures at once. A picture comes out after a few more have
+// gone in, so that memory use is constant. Holes are filled first; wide ones stay (see cleaning.h).
 //
-// The error is estimated without knowing the true depth, from two parts taken as independent: the noise that is left
-// from sample to sample, and how far the means of blocks of samples were moved. The latter counts as an eighth of the
-// noise before at least, as that much is in such a mean itself, and no picture tells it from shape. Before, it is the
-// noise, or the rounding of the source's codes where that is more.
+// The error is estimated without knowing the true depth, from two parts assumed independent: the noise left from sample
+// to sample, and the change of the means over blocks of samples. The second is at least an eighth of the original
+// noise, since the block mean itself carries that much and it cannot be told from shape. The error before enhancement
+// is the larger of the noise and the rounding of the source's codes.
 class DepthEnhancer {
  public:
-  // How far a sample may be from the mesh of `dibm` before smoothing. What the codes cannot tell comes on top: half a
-  // step of the source's, or four times the noise that is left if that is more.
+  // Largest distance of a sample from the mesh of `dibm`, before smoothing. Added to it is the uncertainty of the
+  // codes: half a step of the source's, or four times the remaining noise if that is more.
   static constexpr double kBoundLevels = 0.25;
 
   DepthEnhancer(Enhancement how, const DepthCalibration& source, double bound_levels = kBoundLevels);
 
-  // What the codes of the pictures that come out mean: 16 bits, as smoothing makes codes between those of the source.
+  // The calibration of the output: 16 bits, since smoothing produces codes between those of the source.
   [[nodiscard]] const DepthCalibration& outcome() const noexcept { return outcome_; }
 
-  // The next picture; none after `finish`. Unsupported for a frame that has not what the calibration speaks of, or of
-  // another size than the one before.
+  // Adds the next picture; not after `finish`. Unsupported if the frame lacks the component that the calibration names,
+  // or differs in size from the one before.
   [[nodiscard]] Result<void> add(const Frame& depth);
   [[nodiscard]] Result<void> finish();
-  // In the order in which they went in, with their times. Nothing: the next is not ready yet, or there is none.
+  // The enhanced pictures in order, with their timestamps. Nullopt if the next is not ready, or there is none.
   [[nodiscard]] std::optional<Frame> next();
   [[nodiscard]] EnhancementSummary summary() const;
 
@@ -84,7 +84,7 @@ class DepthEnhancer {
   DepthCalibration source_, outcome_;
   float bound_, code_step_;
   std::size_t at_once_;
-  std::deque<Picture> pictures_;  // done ones that are looked back at, then cleaned ones, then those just gone in
+  std::deque<Picture> pictures_;  // finished ones still needed as neighbours, then cleaned ones, then new ones
   std::size_t done_ = 0, cleaned_ = 0;
   bool ended_ = false;
   std::deque<Frame> ready_;

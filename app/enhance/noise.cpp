@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Immerkaer, Fast Noise Variance Estimation (1996), with the median for the mean: edges are outliers.
+// Immerkaer, Fast Noise Variance Estimation (1996), with the median instead of the mean, since edges are outliers.
 #include "app/enhance/noise.h"
 
 #include <algorithm>
@@ -11,11 +11,11 @@
 namespace relievo {
 
 float noiseOf(const DepthMap& map) {
-  // The mask's weights are 1 -2 1 times 1 -2 1: of noise s it makes 6 s. Half of a normal distribution lies within
-  // 0.6745 of its standard deviation.
+  // The mask is the product of 1 -2 1 across and down: noise s gives a response of standard deviation 6 s. The median
+  // magnitude of a normal distribution is 0.6745 standard deviations.
   constexpr float kPerCode = 6 * 0.6745F;
-  // Some rows are enough. The responses in a histogram: whole numbers of small codes would make the median itself one
-  // of few numbers.
+  // A subset of the rows is enough. A histogram of the responses interpolates the median, which would otherwise be a
+  // whole number for small codes.
   constexpr int kBins = 4096;
   constexpr float kBinsPerCode = 1.0F / 8;
   std::array<std::size_t, kBins> bins{};

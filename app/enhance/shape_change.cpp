@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sums over whole blocks; few of them are left out.
+// Sums over whole blocks; incomplete ones are left out.
 #include "app/enhance/shape_change.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What enhancement did to the shape, told from the depth before and after it alone.
+// Measures how enhancement changed the shape, from the depth before and after it.
 #pragma once
 
 #include <vector>
@@ -8,13 +8,13 @@
 
 namespace relievo {
 
-inline constexpr int kShapeBlock = 8;  // samples across and down: noise is an eighth in the mean over a block
+inline constexpr int kShapeBlock = 8;  // samples across and down: averaging a block divides the noise by 8
 
-// The means of the blocks, row by row; not a number where a block has a hole.
+// The means of the blocks, row by row; NaN if a block has a hole.
 [[nodiscard]] std::vector<float> blockMeans(const DepthMap& map);
 
-// By how many codes the means of the blocks differ from what they were, rms. Blocks with a hole or a step do not count:
-// there samples change sides, which is no matter of height. 0 where none is left.
+// The rms change of the block means, in codes. Blocks with a hole or a step are excluded: there samples change sides,
+// which is not an error of height. 0 if no block remains.
 [[nodiscard]] float shapeChange(const std::vector<float>& means_before, const DepthMap& after);
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Less flicker: a picture and those before and after it as one, where they belong together.
+// Reduces flicker: averages a picture with those before and after it where they agree.
 #pragma once
 
 #include <span>
@@ -8,10 +8,10 @@
 
 namespace relievo {
 
-// Each sample of `present` becomes the mean of itself and of pairs, one sample as long before as the other is after: a
-// surface that moves steadily is where it was, without a lag. A pair counts where its middle is within `alike` of the
-// present sample: not where an edge has passed, nor over a cut. `before` and `after` begin
-// with the nearest; those without a partner do not count. All are of one size.
+// Each sample of `present` becomes the mean of itself and of pairs of samples, one as long before as the other is
+// after, so that a surface in steady motion keeps its position without a lag. A pair counts if its mean is within
+// `alike` of the present sample, which excludes passing edges and cuts. `before` and `after` begin with the nearest
+// picture; unpaired ones are ignored. All have the same size.
 [[nodiscard]] DepthMap steadyMean(const DepthMap& present, std::span<const DepthMap* const> before,
                                   std::span<const DepthMap* const> after, float alike);
 
