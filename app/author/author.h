@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two jobs of the author's program: to package a film's colour and depth, and to make the project's sample film.
+// The two jobs of relievo-author: package a film's colour and depth, and make the sample film.
 #pragma once
 
 #include <atomic>
@@ -19,12 +19,12 @@
 namespace relievo {
 
 struct OutputOptions {
-  std::string path;    // or udp://HOST:PORT: sent at the film's own pace
-  bool force = false;  // to replace a file that is there
+  std::string path;    // or udp://HOST:PORT: sent in real time
+  bool force = false;  // replace an existing file
   int color_crf = 18;
   DepthCoding depth;
-  std::optional<Enhancement> enhancement;  // nothing: the depth as it comes
-  std::string preview;                     // a PNG, see preview.h; empty: none
+  std::optional<Enhancement> enhancement;  // nullopt: no enhancement
+  std::string preview;                     // path of a PNG, see preview.h; empty: none
 };
 
 struct SampleOptions {
@@ -39,18 +39,18 @@ struct AuthorSummary {
   Duration frame_period{0};
   DepthCoder::Counts codes;
   std::optional<Enhancement> enhancement;
-  EnhancementSummary enhanced;     // where it was enhanced
+  EnhancementSummary enhanced;     // if it was enhanced
   std::vector<std::string> notes;  // what was done to the pictures
 };
 
-// Called after every picture of the colour, with the number of them that are done and, where known, that there will be.
+// Called after every colour picture with the number done and, if known, the total.
 using ProgressReport = std::function<void(std::uint64_t done, std::optional<std::uint64_t> total)>;
 
-// Both run until they are done, fail, or find `stop` set, which makes them return Cancelled; nothing is left then.
-// A live film ends at `stop`, and when its source goes away: it is whole then. What goes out on a line may be stopped
-// at any time: it is done then. The film's pictures keep their times. A depth picture is written once, at its own time,
-// however many pictures of the colour it belongs to. Colour of an odd width or height loses its last column or row, and
-// the depth as much of its own as keeps the two in register.
+// Both run until they finish, fail, or find `stop` set, which makes them return Cancelled and leave no file. A live
+// film ends at `stop` or when its source goes away, and is complete then; so is one that is sent over the network.
+// Pictures keep their timestamps. A depth picture is written once, at its own time, however many colour pictures it
+// belongs to. Colour of an odd width or height loses its last column or row, and the depth loses the same share of the
+// view, so that both stay aligned.
 [[nodiscard]] Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader::Backends& backends,
                                                 const OutputOptions& output, const std::atomic<bool>& stop,
                                                 const ProgressReport& progress);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// relievo-author: the content maker's program.
+// The relievo-author program, for content makers.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <string>
@@ -26,78 +26,81 @@ struct Arguments {
 
 constexpr const char* kFooter =
     "Examples\n"
-    "  a colour film and a depth film, both of any kind that FFmpeg opens, into one file:\n"
+    "  combine a colour film and a depth film, in any format that FFmpeg opens:\n"
     "    relievo-author --color street.mp4 --depth street-depth.mkv -o film.mkv\n"
-    "  a renderer's numbered pictures, depth in mm of 16 bits:\n"
+    "  combine a renderer's numbered pictures, depth of 16 bits in mm:\n"
     "    relievo-author --color color-%04d.png --depth depth-%04d.png --fps 24 --calibration unit=1,invalid=0 -o "
     "film.mkv\n"
-    "  two cameras, until Ctrl-C:\n"
+    "  record two cameras until Ctrl-C:\n"
     "    relievo-author --color v4l2:/dev/video4 --depth v4l2:/dev/video2 --registration rig.toml -o film.mkv\n"
-    "  a depth camera's film, colour above, depth below as hue, with what its depth means:\n"
+    "  convert a film with colour above and hue-coded depth below, giving its depth range:\n"
     "    relievo-author --color desk.mov --packing tb --depth-code hue --calibration near=520,far=1260 -o desk.mp4\n"
-    "  sent as a transport stream, at its own pace: ffplay or relievo play udp://@:5000 over there\n"
+    "  send a transport stream in real time; receive it with relievo play udp://@:5000\n"
     "    relievo-author --color street.mp4 --depth street-depth.mkv -o udp://192.168.1.20:5000\n"
     "\n"
     "The film holds two tracks: colour (H.264 4:2:0) and depth (H.264 4:0:0 of 8 bits unless asked otherwise, full "
     "range,\n"
-    "near is high), each picture at the time it had. The depth's meaning is written in its tags, and in the stream "
+    "near is high), pictures keep their timestamps. The calibration is written to the tags, and into the stream "
     "itself\n"
-    "where a container keeps none. At the end a table says what was done to the depth.";
+    "if the container has no tags. At the end a table shows what was done to the depth.";
 
 void addSourceOptions(CLI::App& app, SourceOptions& source) {
   app.add_option("--color", source.url,
-                 "Colour: a file, a URL, v4l2:DEVICE; without --depth it holds the depth as well")
+                 "Colour: a file, a URL, v4l2:DEVICE; without --depth it must also hold the depth")
       ->type_name("SRC");
   app.add_option("--depth", source.depth_url, "Depth of 8 to 16 bits: a file or a URL")->type_name("SRC");
-  app.add_option("--fps", source.frames_per_s, "Frames a second of pictures without times, such as numbered files [25]")
+  app.add_option("--fps", source.frames_per_s,
+                 "Frames per second of pictures without timestamps, such as numbered files [25]")
       ->type_name("F")
       ->check(between(0.01, 10000.0));
 }
 
-// Of both tracks, and of the depth alone.
+// Quality of both tracks, and of the depth alone.
 void addQualityOptions(CLI::App& app, Arguments& a) {
   app.add_option("--crf", a.crf, "Quality of both tracks, 0 (lossless) to 51 [18 for colour, 8 for depth]")
       ->type_name("N")
       ->check(CLI::Range(0, 51).description(""));
-  app.add_option("--depth-crf", a.depth_crf,
-                 "Quality of the depth alone; 0 keeps every code, where hardware can decode it")
+  app.add_option("--depth-crf", a.depth_crf, "Quality of the depth; 0 is lossless, which not all hardware decodes")
       ->type_name("N")
       ->check(CLI::Range(0, 51).description(""));
 }
 
 void addEnhanceOptions(CLI::App& app, OutputOptions& output) {
-  addChoice(app, "--enhance", output.enhancement,
-            {{"none", std::nullopt},
-             {"median", Enhancement::Median},
-             {"dibm", Enhancement::Dibm},
-             {"space-time", Enhancement::SpaceTime}},
-            "What a sensor did to the depth is undone\nmedian: narrow holes filled, the median of 5 by 5 samples; "
-            "dibm: behind that each picture as a\nsmoothed mesh of few points; space-time: behind the median smoothed "
-            "over five pictures and a few\nsamples. Edges stay where they are");
-  app.add_option("--preview", output.preview,
-                 "A picture of what was done, a PNG: colour, depth before and after as lit reliefs, and below the\n"
-                 "heights along their line, before in orange, after in blue, a grid line each millimetre")
+  addChoice(
+      app, "--enhance", output.enhancement,
+      {{"none", std::nullopt},
+       {"median", Enhancement::Median},
+       {"dibm", Enhancement::Dibm},
+       {"space-time", Enhancement::SpaceTime}},
+      "Remove a sensor's noise and holes from the depth\nmedian: fill narrow holes, then the median of 5 x 5 samples; "
+      "dibm: then each picture as a\nsmoothed mesh of few points; space-time: after the median, smoothing "
+      "over five pictures and a few\nsamples. Edges stay in place");
+  app.add_option(
+         "--preview", output.preview,
+         "Write a PNG that shows the result: colour, depth before and after as lit reliefs, and below them the\n"
+         "heights along the marked line, before in orange, after in blue, one grid line per mm")
       ->type_name("PNG");
 }
 
 void addCodingOptions(CLI::App& app, DepthCoding& depth) {
   addChoice(app, "--depth-codec", depth.codec,
             {{"h264", VideoCodec::H264}, {"hevc", VideoCodec::Hevc}, {"ffv1", VideoCodec::Ffv1}},
-            "Codec of the depth; ffv1, in .mkv alone, is lossless");
+            "Codec of the depth; ffv1 is lossless, and only for .mkv");
   app.add_option("--depth-bits", depth.bits,
                  "Bits of the depth [8]: h264 has 8 and 10, hevc 8, 10 and 12, ffv1 8, 10, 12 and 16")
       ->type_name("N")
       ->check(CLI::IsMember({8, 10, 12, 16}).description(""));
   addChoice(app, "--depth-chroma", depth.flat_chroma, {{"none", false}, {"flat", true}},
-            "none: depth is 4:0:0; flat: 4:2:0 with gray chroma, for hardware that knows no 4:0:0");
-  addChoice(app, "--depth-law", depth.law,
-            {{"source", std::nullopt}, {"linear", DepthLaw::Linear}, {"inverse", DepthLaw::Inverse}},
-            "Where the depth's steps are fine\nsource: as they are there; linear: evenly; inverse: near the viewer, by "
-            "disparity. The heights stay");
+            "none: depth is 4:0:0; flat: 4:2:0 with gray chroma, for hardware that cannot decode 4:0:0");
+  addChoice(
+      app, "--depth-law", depth.law,
+      {{"source", std::nullopt}, {"linear", DepthLaw::Linear}, {"inverse", DepthLaw::Inverse}},
+      "How the depth's steps are spaced\nsource: as in the source; linear: evenly; inverse: finest near the viewer, by "
+      "disparity. Heights do not change");
 }
 
 void addSceneOption(CLI::App& app, std::string& scene) {
-  app.add_option("--scene", scene, "Make a film of the project's own instead, with its exact depth")
+  app.add_option("--scene", scene, "Make the built-in sample film, with exact depth, instead")
       ->type_name("sample")
       ->check(CLI::IsMember({"sample"}).description(""))
       ->excludes("--color")
@@ -109,12 +112,12 @@ void addSceneOption(CLI::App& app, std::string& scene) {
       ->excludes("--preview");
 }
 
-// In the order of the help.
+// In the order of the help text.
 void addOptions(CLI::App& app, Arguments& a) {
   app.footer(kFooter);
   addSourceOptions(app, a.source);
   app.add_option("-o,--output", a.output.path,
-                 "The film to write: .mkv, .mp4, .m4v, .mov, .ts, .m3u8 (HLS) or udp://HOST:PORT")
+                 "Output film: .mkv, .mp4, .m4v, .mov, .ts, .m3u8 (HLS) or udp://HOST:PORT")
       ->required()
       ->type_name("OUT");
   addDepthOptions(app, a.source);
@@ -122,14 +125,13 @@ void addOptions(CLI::App& app, Arguments& a) {
   addEnhanceOptions(app, a.output);
   addCodingOptions(app, a.output.depth);
   addSceneOption(app, a.scene);
-  app.add_flag("--force", a.output.force, "Replace OUT if it is there");
+  app.add_flag("--force", a.output.force, "Overwrite OUT if it exists");
 }
 
 int run(Arguments& a) {
   const std::atomic<bool>& stop = stopOnSignals();
   if (a.scene.empty() && a.source.url.empty()) {
-    return tell(
-        {"--color", {ErrorCode::InvalidArgument, 0, "missing; name the film's colour, or take --scene sample"}});
+    return tell({"--color", {ErrorCode::InvalidArgument, 0, "missing; give the film's colour, or use --scene sample"}});
   }
   if (a.crf >= 0) a.output.color_crf = a.output.depth.crf = a.crf;
   if (a.depth_crf >= 0) a.output.depth.crf = a.depth_crf;
@@ -158,7 +160,7 @@ int run(Arguments& a) {
 }
 
 int parseAndRun(int argc, char** argv) {
-  CLI::App app("Brings colour and depth together in one film that can be touched.", "relievo-author");
+  CLI::App app("Packages colour and depth as one film that can be touched.", "relievo-author");
   Arguments arguments;
   addOptions(app, arguments);
   if (const auto parsed = parseCommandLine(app, argc, argv); !parsed) return parsed.error();

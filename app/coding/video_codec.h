@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The codecs that films are written in, and the bits that they take.
+// The video codecs for writing films, and the bit depths that they support.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@ namespace relievo {
 
 enum class VideoCodec : std::uint8_t { H264, Hevc, Ffv1 };
 [[nodiscard]] const char* name(VideoCodec codec) noexcept;  // "H.264"
-// H.264: 8 and 10, HEVC: 8, 10 and 12, FFV1: 8, 10, 12 and 16.
+// H.264: 8 and 10 bits; HEVC: 8, 10 and 12; FFV1: 8, 10, 12 and 16.
 [[nodiscard]] bool codes(VideoCodec codec, int bits) noexcept;
 
 }  // namespace relievo

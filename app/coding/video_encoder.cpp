@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Settings of the encoders, pictures in, packets out.
+// Configures the encoders, sends pictures and receives packets.
 #include "app/coding/video_encoder.h"
 
 #include <algorithm>
@@ -30,18 +30,18 @@ constexpr std::array<Codec, 3> kCodecs{{
     {"H.264",
      "libx264",
      {8, 10},
-     "FFmpeg on this machine has no libx264; install one that has",
-     "libx264 refuses pictures of this size or this quality; choose others"},
+     "this FFmpeg has no libx264 encoder; install one that does",
+     "libx264 rejects this picture size or quality; choose another"},
     {"HEVC",
      "libx265",
      {8, 10, 12},
-     "FFmpeg on this machine has no libx265; install one that has",
-     "libx265 refuses pictures of this size or this quality; choose others"},
+     "this FFmpeg has no libx265 encoder; install one that does",
+     "libx265 rejects this picture size or quality; choose another"},
     {"FFV1",
      "ffv1",
      {8, 10, 12, 16},
-     "FFmpeg on this machine has no FFV1; install one that has",
-     "FFV1 refuses pictures of this size; choose another"},
+     "this FFmpeg has no FFV1 encoder; install one that does",
+     "FFV1 rejects this picture size; choose another"},
 }};
 const Codec& of(VideoCodec codec) {
   return kCodecs.at(static_cast<std::size_t>(codec));
@@ -93,12 +93,12 @@ void set(AVCodecContext& codec, const char* key, const std::string& value) {
 }
 
 void configureH264(AVCodecContext& codec, const VideoEncoder::Settings& s) {
-  // libx264 takes the frame rate, on which its level rests, from the time base unless told.
+  // libx264 derives its level from the frame rate, which it takes from the time base unless set.
   std::string parameters = "fps=" + std::to_string(codec.framerate.num) + "/" + std::to_string(codec.framerate.den) +
                            ":scenecut=0:keyint=infinite";
-  // Without psycho-visual decisions edges are truer (largest error 11 codes instead of 52) at the same size.
+  // Psycho-visual decisions distort edges: without them the largest error is 11 codes instead of 52 at the same size.
   if (s.to_touch) parameters += ":no-psy=1:aq-mode=0";
-  if (s.crf == 0) parameters += ":qp=0";  // a crf of 0 is lossless with 8 bits alone
+  if (s.crf == 0) parameters += ":qp=0";  // crf 0 is lossless only at 8 bits
   set(codec, "preset", s.live ? "veryfast" : "medium");
   set(codec, "x264-params", parameters);
 }
@@ -120,11 +120,11 @@ void configure(AVCodecContext& codec, const VideoEncoder::Settings& s, bool glob
   const Duration period = s.frame_period > Duration(0) ? s.frame_period : std::chrono::milliseconds(40);
   av_reduce(&codec.framerate.num, &codec.framerate.den, 1'000'000'000, period.count(), 1'000'000);
   codec.sample_aspect_ratio = av_d2q(s.sample_aspect, 10000);
-  codec.color_range = rangeOf(s.range);  // unsaid, readers would take full range for limited
+  codec.color_range = rangeOf(s.range);  // unspecified, it would be read as limited
   signalMatrix(codec, s.matrix);
   codec.color_primaries = static_cast<AVColorPrimaries>(s.primaries);
   codec.color_trc = static_cast<AVColorTransferCharacteristic>(s.transfer);
-  codec.log_level_offset = AV_LOG_TRACE;  // libx264 would write its statistics to stderr
+  codec.log_level_offset = AV_LOG_TRACE;  // libx264 would print its statistics to stderr
   if (global_header) codec.flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
   if (s.codec == VideoCodec::Ffv1) {
     codec.level = 3;
@@ -132,7 +132,7 @@ void configure(AVCodecContext& codec, const VideoEncoder::Settings& s, bool glob
     codec.slices = 4;
     return;
   }
-  codec.gop_size = 1 << 20;  // key frames are where `encode` asks for them
+  codec.gop_size = 1 << 20;  // `encode` places the key frames
   if (s.codec == VideoCodec::H264) configureH264(codec, s);
   else configureHevc(codec, s);
   if (s.crf > 0) av_opt_set_double(codec.priv_data, "crf", s.crf, 0);
@@ -160,10 +160,11 @@ Result<void> VideoEncoder::open(const Settings& settings, bool global_header) {
   const AVCodec* const encoder = avcodec_find_encoder_by_name(of(settings.codec).encoder);
   if (encoder == nullptr) return fail(ErrorCode::Unsupported, of(settings.codec).missing);
   if (!codes(settings.codec, settings.bits)) {
-    return fail(ErrorCode::InvalidArgument, "so many bits are not coded so; H.264 has 8 and 10, HEVC 12 as well");
+    return fail(ErrorCode::InvalidArgument,
+                "the codec does not support this bit depth; H.264 has 8 and 10, HEVC also 12");
   }
   if (!settings.gray && (settings.width % 2 != 0 || settings.height % 2 != 0)) {
-    return fail(ErrorCode::InvalidArgument, "pictures in 4:2:0 have an even width and height; cut them");
+    return fail(ErrorCode::InvalidArgument, "4:2:0 needs an even width and height; crop the pictures");
   }
   codec_.reset(avcodec_alloc_context3(encoder));
   frame_.reset(av_frame_alloc());
@@ -181,7 +182,7 @@ Result<void> VideoEncoder::open(const Settings& settings, bool global_header) {
 Result<void> VideoEncoder::encode(const Planes& planes, MediaTime time, bool key, const Sink& sink) {
   const std::int64_t pts = av_rescale_q(time.time_since_epoch().count(), kNanosecond, kTimeBase);
   if (last_pts_ != AV_NOPTS_VALUE && pts <= last_pts_) {
-    return fail(ErrorCode::Corrupt, "the times of its pictures do not rise; give it a frame rate of its own");
+    return fail(ErrorCode::Corrupt, "the timestamps of its pictures do not increase; give it a frame rate");
   }
   const bool first = last_pts_ == AV_NOPTS_VALUE;
   last_pts_ = pts;
@@ -193,7 +194,7 @@ Result<void> VideoEncoder::encode(const Planes& planes, MediaTime time, bool key
   frame_->pts = pts;
   frame_->pict_type = key ? AV_PICTURE_TYPE_I : AV_PICTURE_TYPE_NONE;
   for (std::size_t i = 0; i < format.nb_components; ++i) {
-    frame_->data[i] = const_cast<std::uint8_t*>(planes[i]);  // the encoder copies, it does not write
+    frame_->data[i] = const_cast<std::uint8_t*>(planes[i]);  // the encoder copies and does not write
     frame_->linesize[i] = (i == 0 ? codec_->width : codec_->width / 2) * format.comp[0].step;
   }
   if ((key || first) && !stream_tags_.empty() && !attachTags()) {
@@ -201,7 +202,7 @@ Result<void> VideoEncoder::encode(const Planes& planes, MediaTime time, bool key
   }
   const int code = avcodec_send_frame(codec_.get(), frame_.get());
   av_frame_remove_side_data(frame_.get(), AV_FRAME_DATA_SEI_UNREGISTERED);
-  if (code < 0) return fail(ErrorCode::Io, "the encoder failed at a picture", osErrorOf(code));
+  if (code < 0) return fail(ErrorCode::Io, "the encoder failed on a picture", osErrorOf(code));
   return handOut(sink);
 }
 
@@ -225,7 +226,7 @@ Result<void> VideoEncoder::handOut(const Sink& sink) {
   for (;;) {
     const int code = avcodec_receive_packet(codec_.get(), packet_.get());
     if (code == AVERROR(EAGAIN) || code == AVERROR_EOF) return {};
-    if (code < 0) return fail(ErrorCode::Io, "the encoder failed at a picture", osErrorOf(code));
+    if (code < 0) return fail(ErrorCode::Io, "the encoder failed on a picture", osErrorOf(code));
     if (auto taken = sink(*packet_); !taken) return taken;
     av_packet_unref(packet_.get());
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes the pictures of one video track: libx264, libx265 or FFV1 behind libavcodec.
+// Encodes the pictures of one video track: libx264, libx265 or FFV1 through libavcodec.
 #pragma once
 
 #include <array>
@@ -19,10 +19,10 @@ extern "C" {
 
 namespace relievo {
 
-// The system's number in a code of FFmpeg; 0 where the code is FFmpeg's own.
+// The OS error number inside an FFmpeg error code; 0 if it is FFmpeg's own.
 [[nodiscard]] int osErrorOf(int code) noexcept;
 
-// Key frames are where the caller asks for them, and nowhere else (FFV1: everywhere). One thread; the libraries have
+// Key frames are exactly where the caller asks for them (FFV1: everywhere). Use from one thread; the libraries have
 // threads of their own.
 class VideoEncoder {
  public:
@@ -30,29 +30,30 @@ class VideoEncoder {
     VideoCodec codec = VideoCodec::H264;
     int width = 0, height = 0;
     int bits = 8;
-    bool gray = false;      // 4:0:0, else 4:2:0
-    bool to_touch = false;  // as true as it gets, not as pleasant: what flatters the eye moves the surface
-    bool live = false;      // no picture waits for those after it
+    bool gray = false;  // 4:0:0, else 4:2:0
+    // tune for accurate values instead of appearance: psycho-visual tricks would shift the surface
+    bool to_touch = false;
+    bool live = false;  // no B-frames and no look-ahead
     ColorRange range = ColorRange::Unspecified;
     ColorMatrix matrix = ColorMatrix::Unspecified;
-    std::uint8_t primaries = kUnspecifiedColor, transfer = kUnspecifiedColor;  // of ITU-T H.273, as in a Frame
+    std::uint8_t primaries = kUnspecifiedColor, transfer = kUnspecifiedColor;  // codes of ITU-T H.273, as in a Frame
     double sample_aspect = 1.0;
-    Duration frame_period{0};  // for the rate control alone; 0 unknown
+    Duration frame_period{0};  // for the rate control only; 0: unknown
     int crf = 18;              // 0: lossless, as FFV1 always is
-    std::string stream_tags;   // lines KEY=VALUE beside each key frame (hal/stream_tags.h); none in FFV1
+    std::string stream_tags;   // lines KEY=VALUE stored with each key frame (hal/stream_tags.h); not for FFV1
   };
-  // The clock of MPEG: exact for 24, 25, 30, 50, 60 and for 30000/1001 frames a second.
+  // MPEG's clock: exact for 24, 25, 30, 50, 60 and for 30000/1001 frames a second.
   static constexpr AVRational kTimeBase{1, 90000};
-  // Without gaps between rows; more than 8 bits are two bytes, little endian. Gray has the first alone.
+  // No gaps between rows; more than 8 bits are two bytes, little endian. Gray uses the first plane only.
   using Planes = std::array<const std::uint8_t*, 3>;
-  // Packets with times in kTimeBase; emptied by the caller or afterwards.
+  // Receives packets with times in kTimeBase; whatever it leaves in the packet is freed afterwards.
   using Sink = std::function<Result<void>(AVPacket&)>;
 
-  // Unsupported where FFmpeg has not the library; InvalidArgument for bits, sizes (4:2:0 has even ones) or a quality
-  // that the codec does not take. `global_header`: parameter sets lie in the container, not in the stream.
+  // Unsupported if FFmpeg lacks the library; InvalidArgument for bits, a size (4:2:0 needs even ones) or a quality that
+  // the codec does not support. `global_header`: store parameter sets in the container instead of the stream.
   [[nodiscard]] Result<void> open(const Settings& settings, bool global_header);
   [[nodiscard]] const AVCodecContext& context() const noexcept { return *codec_; }
-  // Corrupt where the times do not rise.
+  // Corrupt if the timestamps do not increase.
   [[nodiscard]] Result<void> encode(const Planes& planes, MediaTime time, bool key, const Sink& sink);
   [[nodiscard]] Result<void> drain(const Sink& sink);
 

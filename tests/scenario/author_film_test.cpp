@@ -255,7 +255,7 @@ TEST_F(AuthorFilm, TellsWhatItDoesNotKeep) {
   const auto summary = make({.url = folder_ / "film.mkv", .command_line = {{"codes", "10-110"}}});
   ASSERT_TRUE(summary.has_value());
   for (const char* line : {"2 sound tracks are left out", "1 more video track", "30 pictures are interlaced",
-                           "the colour is HDR (PQ)", "25 % of the depth lay beyond the codes 10 .. 110"}) {
+                           "the colour is HDR (PQ)", "25 % of the depth was outside the codes 10 .. 110"}) {
     EXPECT_THAT(summary->notes, testing::Contains(HasSubstr(line)));
   }
 
@@ -289,7 +289,7 @@ TEST_F(AuthorFilm, ThinsADepthOfAHigherRateAndSaysSo) {
   const AuthorSummary summary = package(colorTrack(), depth);
   EXPECT_EQ(summary.totals.depth.frames, 30u);
   ASSERT_FALSE(summary.notes.empty());
-  EXPECT_THAT(summary.notes, testing::Contains(HasSubstr("pictures of the depth lay between")));
+  EXPECT_THAT(summary.notes, testing::Contains(HasSubstr("depth pictures matched no colour picture")));
   const Film film = readFilm(folder_ / "out.mkv");
   EXPECT_EQ(film.code(7, 3, 3), 56);  // the depth of the same time: its picture 14
 }
@@ -301,7 +301,7 @@ TEST_F(AuthorFilm, LetsTheDepthEndEarlier) {
   EXPECT_EQ(summary.totals.color.frames, 30u);
   EXPECT_EQ(summary.totals.depth.frames, 10u);
   EXPECT_THAT(summary.notes,
-              ElementsAre(HasSubstr("20 pictures of the colour have no depth"), HasSubstr("of the depth is one code")));
+              ElementsAre(HasSubstr("20 colour pictures have no depth"), HasSubstr("of the depth is one code")));
   const Film film = readFilm(folder_ / "out.mkv");
   EXPECT_FALSE(film.pairs[9].depth.empty());
   EXPECT_TRUE(film.pairs[12].depth.empty());
@@ -316,8 +316,8 @@ TEST_F(AuthorFilm, CountsPicturesWithoutDepthAndThoseWithTheOneBefore) {
   makeClip(folder_ / "film.mkv", {colorTrack(), depth});
   const auto summary = make({.url = folder_ / "film.mkv"});
   ASSERT_TRUE(summary.has_value());
-  EXPECT_THAT(summary->notes, ElementsAre(HasSubstr("3 pictures of the colour have no depth"),
-                                          HasSubstr("4 pictures of the colour had no depth of their time"),
+  EXPECT_THAT(summary->notes, ElementsAre(HasSubstr("3 colour pictures have no depth"),
+                                          HasSubstr("4 colour pictures lacked their depth picture"),
                                           HasSubstr("of the depth is one code")));
 }
 
@@ -464,7 +464,7 @@ TEST_F(AuthorFilm, ProgramSaysWhenThereIsNoDepth) {
   makeClip(folder_ / "color.mkv", {colorTrack()});
   const auto said = run("--color @/color.mkv -o @/out.mkv");
   EXPECT_EQ(said.exit_code, 1);
-  EXPECT_THAT(said.err, HasSubstr("no depth in it; name its source with --depth"));
+  EXPECT_THAT(said.err, HasSubstr("no depth in this source; give --depth SOURCE"));
   EXPECT_TRUE(made().empty());
 }
 
@@ -565,7 +565,7 @@ TEST_F(AuthorFilm, NeverRemovesSegmentsThatAreNotItsOwn) {
   const OutputOptions forced{.path = folder_ / "out.m3u8", .force = true};
   const auto refused = authorFilm({.url = folder_ / "film.mkv"}, kBackends, forced, stop_, kNoReport);
   ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().error.message, HasSubstr("no segment of such a film"));
+  EXPECT_THAT(refused.error().error.message, HasSubstr("contains other files"));
   EXPECT_EQ(textOf(folder_ / "out.segments/thesis.txt"), "four years");
 }
 
@@ -609,7 +609,7 @@ TEST_F(AuthorFilm, ReplacesAnHlsFilmWholeWhenForced) {
   std::filesystem::remove(folder_ / "out.m3u8");
   const auto refused = make(source, "out.m3u8");
   ASSERT_FALSE(refused.has_value());
-  EXPECT_THAT(refused.error().error.message, HasSubstr("segments is there already"));
+  EXPECT_THAT(refused.error().error.message, HasSubstr("segments already exists"));
   ASSERT_TRUE(authorFilm(source, kBackends, {.path = folder_ / "out.m3u8", .force = true}, stop_, kNoReport));
   EXPECT_THAT(made(), ElementsAre("out.m3u8", "out.segments"));
   EXPECT_THAT(filesIn(folder_ / "out.segments"), ElementsAre("00000.m4s", "init.mp4"));
@@ -653,7 +653,7 @@ TEST_F(AuthorFilm, TakesADepthThatIsAllHoles) {
   source.command_line = {{"invalid", "7"}};
   const AuthorSummary summary = package(colorTrack(), depthTrack("gray", [](int, int, int) { return 7u; }), source);
   EXPECT_EQ(summary.codes.holes, summary.codes.samples);
-  EXPECT_THAT(toText("out.mkv", summary), HasSubstr("none, all of it is holes"));
+  EXPECT_THAT(toText("out.mkv", summary), HasSubstr("none, the whole depth is holes"));
   EXPECT_EQ(readFilm(folder_ / "out.mkv").info.calibration.calibration.invalid, CodeSet(0));
 }
 

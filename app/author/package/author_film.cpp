@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Packages a film: reads pairs, brings their pictures to the encoders' form, writes each picture once.
+// Packages a film: reads pairs, converts their pictures for the encoders, and writes each picture once.
 #include <unistd.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ namespace {
 
 constexpr Error kCancelled{ErrorCode::Cancelled, 0, "interrupted; nothing was written"};
 
-// Wakes a reader that waits for a disk or a network when the program is to stop.
+// Interrupts a reader that waits for a disk or a network when the program is to stop.
 class StopWatch {
  public:
   StopWatch(PairReader& reader, const std::atomic<bool>& stop)
@@ -43,8 +43,8 @@ class StopWatch {
   std::jthread thread_;
 };
 
-// What is cut off to the right and below: an odd column or row of what is 4:2:0, and of the other the same share of the
-// view, to half a sample of the depth.
+// What to crop at the right and bottom: the odd column or row of a 4:2:0 picture, and of the other picture the same
+// share of the view, to within half a depth sample.
 struct Cut {
   int color_cols = 0, color_rows = 0, depth_cols = 0, depth_rows = 0;
 
@@ -54,19 +54,19 @@ struct Cut {
     cut(color.height, depth.height, even_depth, color_rows, depth_rows);
   }
 
-  // The least that leaves both even where they have to be.
+  // The least crop after which both sizes are even where required.
   static void cut(int color, int depth, bool even_depth, int& off_color, int& off_depth) {
     const auto isOdd = [&] { return even_depth && (depth - off_depth) % 2 != 0; };
     for (off_color = color % 2; off_color + 2 < color; off_color += 2) {
       off_depth = static_cast<int>(std::lround(off_color * static_cast<double>(depth) / color));
-      if (isOdd() && depth > color) ++off_depth;  // less than a sample of the colour
+      if (isOdd() && depth > color) ++off_depth;  // less than one colour sample
       if (!isOdd()) return;
     }
   }
   [[nodiscard]] std::string explain() const {
     char line[160];
     std::snprintf(line, sizeof line,
-                  "4:2:0 needs even sizes: cut off %d column and %d row of the colour, %d and %d of the depth",
+                  "4:2:0 needs even sizes: cropped %d column and %d row of the colour, %d and %d of the depth",
                   color_cols, color_rows, depth_cols, depth_rows);
     return color_cols + color_rows + depth_cols + depth_rows == 0 ? "" : line;
   }
@@ -100,16 +100,16 @@ class Packager {
   const OutputOptions& output_;
   std::unique_ptr<FilmWriter> writer_;
   std::optional<DepthEnhancer> enhancer_;
-  DepthCoder coder_{DepthCalibration{}};  // `begin` gives it the film's
+  DepthCoder coder_{DepthCalibration{}};  // replaced in `begin` by the film's
   std::vector<std::string> code_notes_;
   FilmFormat format_;
   Cut cut_;
   KeyFrames key_frames_;
-  std::deque<bool> depth_keys_;      // of the pictures that are not written yet
+  std::deque<bool> depth_keys_;      // for pictures not yet written
   std::deque<TimedSurface> recent_;  // depth pictures, the newest last
   ShotFinder shots_;
   std::optional<MediaTime> last_depth_;
-  std::uint64_t interlaced_ = 0;  // pictures of the colour
+  std::uint64_t interlaced_ = 0;  // colour pictures
   ColorPicture420 color_;
   DepthPicture depth_;
   Preview preview_;
@@ -117,7 +117,7 @@ class Packager {
 
 Outcome<void> Packager::begin(const FramePair& pair) {
   const FilmInfo& info = reader_.info();
-  Frame whole_depth;  // its size alone; the first pair may lie before the depth begins
+  Frame whole_depth;  // only its size is used; the first pair may have no depth yet
   whole_depth.width = info.depth_width;
   whole_depth.height = info.depth_height;
   cut_ = Cut(pair.color, whole_depth, output_.depth.flat_chroma);
@@ -153,7 +153,7 @@ Outcome<void> Packager::begin(const FramePair& pair) {
 Outcome<void> Packager::write(const FramePair& pair) {
   const Frame color = crop(pair.color, 0, 0, pair.color.width - cut_.color_cols, pair.color.height - cut_.color_rows);
   if (color.width != format_.color_width || color.height != format_.color_height) {
-    return failOn("colour", {ErrorCode::Unsupported, 0, "its pictures change their size; cut the film there"});
+    return failOn("colour", {ErrorCode::Unsupported, 0, "the picture size changes; cut the film there"});
   }
   if (color.interlaced) ++interlaced_;
   const bool depth_is_new = !pair.depth.empty() && (!last_depth_ || pair.depth.pts > *last_depth_);
@@ -167,7 +167,7 @@ Outcome<void> Packager::write(const FramePair& pair) {
   last_depth_ = pair.depth.pts;
   const Frame depth = crop(pair.depth, 0, 0, pair.depth.width - cut_.depth_cols, pair.depth.height - cut_.depth_rows);
   if (depth.width != format_.depth_width || depth.height != format_.depth_height) {
-    return failOn("depth", {ErrorCode::Unsupported, 0, "its pictures change their size; cut the film there"});
+    return failOn("depth", {ErrorCode::Unsupported, 0, "the picture size changes; cut the film there"});
   }
   depth_keys_.push_back(key);
   if (!output_.preview.empty()) preview_.before(color_, depth, sourceCalibration(), expectedFrames(reader_.info()));
@@ -176,7 +176,7 @@ Outcome<void> Packager::write(const FramePair& pair) {
   return writeEnhanced();
 }
 
-// Pictures that are ready by now, at the times that they had.
+// Writes the pictures that are ready, at their own times.
 Outcome<void> Packager::writeEnhanced() {
   while (const auto depth = enhancer_->next()) {
     if (auto written = writeDepth(*depth); !written) return written;
@@ -194,11 +194,11 @@ Outcome<void> Packager::writeDepth(const Frame& depth) {
   return {};
 }
 
-// As the player finds it: a cut under the finger. What moves fast may look like one, and has a key frame more.
+// Finds cuts in the depth, as the player does. Fast motion may look like a cut and then costs an extra key frame.
 bool Packager::beginsShot(const Frame& depth) {
   const auto field =
       HeightField::make(depth, sourceCalibration(), DisplayVolume::forPicture(depth.width, depth.height));
-  if (!field) return false;  // told by the coder
+  if (!field) return false;  // the coder reports the error
   if (recent_.size() == kRecent) recent_.pop_front();
   recent_.push_back({.field = *field, .time = depth.pts, .owner = depth.owner});
   shots_.mark(recent_);
@@ -224,7 +224,7 @@ Outcome<AuthorSummary> Packager::finish() {
                         .notes = code_notes_};
   const bool lossy = format_.depth.crf > 0 && format_.depth.codec != VideoCodec::Ffv1;
   if (!coder_.outcome().invalid.empty() && lossy) {
-    summary.notes.emplace_back("coding moves the edges of holes by a sample here and there; --depth-crf 0 keeps them");
+    summary.notes.emplace_back("coding shifts some edges of holes by a sample; --depth-crf 0 avoids this");
   }
   if (auto line = cut_.explain(); !line.empty()) summary.notes.push_back(std::move(line));
   for (std::string& line : sourceNotes(source_, reader_, format_, interlaced_, coder_.counts())) {
@@ -248,10 +248,10 @@ Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader:
   };
   if (auto opened = reader.open(source); !opened) return failed(reader.failedThing(), opened.error());
   if (!reader.info().has_depth) {
-    return failOn(source.url, {ErrorCode::NotFound, 0, "there is no depth in it; name its source with --depth"});
+    return failOn(source.url, {ErrorCode::NotFound, 0, "no depth in this source; give --depth SOURCE"});
   }
   Packager packager(reader, source, output);
-  bool live = false;  // ends when it is told to, or when its camera is pulled out; what there is by then is the film
+  bool live = false;  // ends on request or when its camera is unplugged, and is complete then
   for (std::uint64_t done = 1;; ++done) {
     auto pair = reader.next();
     if (stop.load(std::memory_order_relaxed)) {

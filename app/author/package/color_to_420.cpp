@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Conversions of colour, sample by sample, in whole numbers.
+// Converts colour sample by sample, in integer arithmetic.
 #include "app/author/package/color_to_420.h"
 
 #include <algorithm>
@@ -8,12 +8,12 @@
 namespace relievo {
 namespace {
 
-// One component of a frame, read as hal/frame.h says and brought to 8 bits.
+// One component of a frame, read as hal/frame.h describes and reduced to 8 bits.
 class Samples {
  public:
   Samples(const Frame& frame, std::size_t component) : c_(frame.components[component]), plane_(frame.planes[c_.plane]) {
     mask_ = (1 << c_.bits) - 1;
-    // Limited range of n bits is that of 8 bits times 2^(n - 8), full range is not: 255 stands for 2^n - 1.
+    // Limited range scales by 2^(n - 8) from 8 to n bits, full range does not: 255 corresponds to 2^n - 1.
     full_ = frame.range == ColorRange::Full || frame.model == ColorModel::Rgb;
   }
 
@@ -47,7 +47,7 @@ void copyPlane(const Samples& from, int width, int height, std::vector<std::uint
   }
 }
 
-// The mean of the samples that fall into each sample of 4:2:0; coarser chroma than that is repeated.
+// The mean of the samples that fall into each sample of 4:2:0; coarser chroma is repeated.
 void copyChroma(const Samples& from, const Frame& frame, int width, int height, std::vector<std::uint8_t>& to) {
   const int fine_x = frame.chroma_shift_x == 0 ? 2 : 1, fine_y = frame.chroma_shift_y == 0 ? 2 : 1;
   const int coarse_x = std::max(frame.chroma_shift_x - 1, 0), coarse_y = std::max(frame.chroma_shift_y - 1, 0);
@@ -76,7 +76,7 @@ struct Rgb {
 std::uint8_t lumaOf(const Rgb& c) {
   return static_cast<std::uint8_t>((11966 * c.r + 40254 * c.g + 4064 * c.b + (16 << 16) + 32768) >> 16);
 }
-// Of the sum of four.
+// From the sum of four.
 std::uint8_t cbOf(const Rgb& c) {
   return static_cast<std::uint8_t>((-6596 * c.r - 22189 * c.g + 28785 * c.b + 4 * (128 << 16) + 131072) >> 18);
 }
@@ -107,7 +107,7 @@ void convertRgb(const Frame& frame, ColorPicture420& picture) {
 
 Result<void> toColor420(const Frame& frame, ColorPicture420& picture) {
   if (frame.width % 2 != 0 || frame.height % 2 != 0 || frame.width < 2 || frame.height < 2) {
-    return fail(ErrorCode::InvalidArgument, "colour of 4:2:0 has an even width and height; cut the picture");
+    return fail(ErrorCode::InvalidArgument, "4:2:0 needs an even width and height; crop the picture");
   }
   picture.width = frame.width;
   picture.height = frame.height;

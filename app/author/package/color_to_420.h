@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any colour frame as 8-bit 4:2:0.
+// Converts any colour frame to 8-bit 4:2:0.
 #pragma once
 
 #include "app/author/package/picture.h"
@@ -8,9 +8,9 @@
 
 namespace relievo {
 
-// YUV keeps its range and matrix: 8-bit 4:2:0 goes through unchanged, more bits are rounded, finer chroma is averaged
-// over two by two. Gray keeps its range. RGB becomes BT.709 of limited range. InvalidArgument for an odd width or
-// height: the caller cuts it off (chroma of 4:2:0 cannot end in the middle of a sample).
+// YUV keeps its range and matrix: 8-bit 4:2:0 is unchanged, more bits are rounded, finer chroma is averaged over 2 x 2.
+// Gray keeps its range. RGB becomes BT.709 with limited range. InvalidArgument for an odd width or height: the caller
+// must crop first, since chroma of 4:2:0 cannot end within a sample.
 [[nodiscard]] Result<void> toColor420(const Frame& frame, ColorPicture420& picture);
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth codes to depth codes: a table for luma, the player's own reading for hue.
+// Maps depth codes to depth codes: by a table for luma, by the player's own reading for hue.
 #include "app/author/package/depth_coder.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint16_t kHole = 0;
 
-// The normalised code, near high, that has the same height in the other law.
+// The normalised code, near high, that gives the same height under the other law.
 double inLaw(double s, const DepthCalibration& from, const DepthCalibration& to) {
   if (from.law == to.law) return s;
   DepthCalibration near_high = from;
@@ -48,7 +48,7 @@ DepthCoder::DepthCoder(const DepthCalibration& source, const DepthCoding& coding
   }
 }
 
-// Halves go up, and quotients that are halves on paper come out a little below.
+// Rounds halves up, also quotients that should be halves but come out slightly below.
 std::uint16_t DepthCoder::codeOf(double s) const noexcept {
   constexpr double kRounding = 1e-9;
   const long code = std::lround(s * outcome_.highCode() * (1 + kRounding));
@@ -57,7 +57,7 @@ std::uint16_t DepthCoder::codeOf(double s) const noexcept {
 }
 
 Result<void> DepthCoder::encode(const Frame& depth, DepthPicture& picture) {
-  // A field 1 mm deep, of the linear law, has the normalised codes for heights.
+  // In a linear field 1 mm deep, heights are the normalised codes.
   DepthCalibration linear = source_;
   linear.law = DepthLaw::Linear;
   const auto field = HeightField::make(depth, linear, {.width_mm = 1, .height_mm = 1, .depth_mm = 1});
@@ -94,7 +94,7 @@ std::vector<std::string> DepthCoder::explain() const {
   if (source_.code == DepthCode::Hue) {
     lines.push_back(print("hue decoded to %d-bit luma, 1536 hues to %.0f codes", outcome_.bits, outcome_.highCode()));
   } else if (source_.bits != outcome_.bits) {
-    lines.push_back(print("%d bits rescaled to %d: codes %.0f .. %.0f to 0 .. %.0f, rounded", source_.bits,
+    lines.push_back(print("%d bits rescaled to %d bits: codes %.0f .. %.0f to 0 .. %.0f, rounded", source_.bits,
                           outcome_.bits, source_.lowCode(), source_.highCode(), outcome_.highCode()));
   } else if (source_.codes || source_.unit_mm) {
     lines.push_back(print("codes %.0f .. %.0f rescaled to 0 .. %.0f, rounded", source_.lowCode(), source_.highCode(),
@@ -104,10 +104,11 @@ std::vector<std::string> DepthCoder::explain() const {
                           source_.highCode(), outcome_.highCode()));
   }
   if (source_.law != outcome_.law) {
-    lines.push_back(print("%s steps made %s ones, of the same heights", nameOf(source_.law), nameOf(outcome_.law)));
+    lines.push_back(
+        print("%s steps converted to %s ones; heights are unchanged", nameOf(source_.law), nameOf(outcome_.law)));
   }
-  if (source_.polarity == DepthPolarity::NearIsLow) lines.emplace_back("turned round: near was low, near is high now");
-  if (!outcome_.invalid.empty()) lines.emplace_back("holes are code 0, which is theirs alone; valid codes begin at 1");
+  if (source_.polarity == DepthPolarity::NearIsLow) lines.emplace_back("polarity inverted: near was low, is now high");
+  if (!outcome_.invalid.empty()) lines.emplace_back("code 0 is reserved for holes; valid codes begin at 1");
   return lines;
 }
 

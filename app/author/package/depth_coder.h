@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any depth frame as codes of one meaning: full range, near is high; and what was done to get there.
+// Converts any depth frame to codes of one form (full range, near high) and reports what was changed.
 #pragma once
 
 #include <cstdint>
@@ -14,28 +14,28 @@
 
 namespace relievo {
 
-// The normalised code s (see DepthCalibration), near high, becomes round((2^bits - 1) s): codes of as many bits, full
-// range and near high go through unchanged. Where the law is to be another one, s is first that of the same height in
-// it. Where the source may have holes, code 0 is theirs alone (`invalid` of the outcome) and every other code is 1 at
-// least.
+// The normalised code s (see DepthCalibration), near high, becomes round((2^bits - 1) s): codes of the same bits, full
+// range and near high are unchanged. If the law is to change, s is first replaced by that of the same height under the
+// new law. If the source may have holes, code 0 is reserved for them (`invalid` of the outcome) and every other code is
+// at least 1.
 class DepthCoder {
  public:
   explicit DepthCoder(const DepthCalibration& source, const DepthCoding& coding = {});
 
-  // What the codes mean; to be written beside them.
+  // The calibration of the output codes, to be stored with them.
   [[nodiscard]] const DepthCalibration& outcome() const noexcept { return outcome_; }
 
-  // Unsupported for a frame that has not what the calibration speaks of.
+  // Unsupported if the frame lacks the component that the calibration names.
   [[nodiscard]] Result<void> encode(const Frame& depth, DepthPicture& picture);
 
-  // One line for each thing that was done to the codes; empty when they went through unchanged.
+  // One line per change made to the codes; empty if they are unchanged.
   [[nodiscard]] std::vector<std::string> explain() const;
 
   struct Counts {
     int bits = 8;
-    std::vector<std::uint64_t> of_code = std::vector<std::uint64_t>(256);  // 2^bits; holes are not counted here
+    std::vector<std::uint64_t> of_code = std::vector<std::uint64_t>(256);  // size 2^bits; holes are not counted here
     std::uint64_t holes = 0;
-    std::uint64_t clipped = 0;  // codes beyond those that the calibration names
+    std::uint64_t clipped = 0;  // codes outside the range that the calibration gives
     std::uint64_t samples = 0;
   };
   [[nodiscard]] const Counts& counts() const noexcept { return counts_; }
@@ -45,8 +45,8 @@ class DepthCoder {
 
   DepthCalibration source_;
   DepthCalibration outcome_;
-  std::vector<std::uint16_t> from_luma_;  // by the source's code
-  std::vector<std::uint8_t> is_clipped_;  // likewise
+  std::vector<std::uint16_t> from_luma_;  // by source code
+  std::vector<std::uint8_t> is_clipped_;  // by source code
   Counts counts_;
 };
 

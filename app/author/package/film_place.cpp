@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kinds of films, what their muxers share, and the plain file.
+// Destinations of films, what their muxers share, and the plain file.
 #include "app/author/package/film_place.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ constexpr std::array kEndings{Ending{".mkv", FilmKind::Matroska},
                               Ending{".ts", FilmKind::TransportStream},
                               Ending{".m3u8", FilmKind::Hls}};
 
-// Matroska and MP4: FFmpeg writes them by their temporary name, back and forth.
+// Matroska and MP4: FFmpeg writes to the temporary file by name, since it seeks back and forth.
 class PlainFile final : public FilmPlace {
  public:
   ~PlainFile() override { avio_closep(&file_); }
@@ -36,7 +36,7 @@ class PlainFile final : public FilmPlace {
     if (!made) return std::unexpected(made.error());
     place_ = std::move(*made);
     matroska_ = kind == FilmKind::Matroska;
-    url_ = "file:" + place_.writtenPath();  // the name may hold a colon
+    url_ = "file:" + place_.writtenPath();  // the name may contain a colon
     return makeMuxer(matroska_ ? "matroska" : kind == FilmKind::Mov ? "mov" : "mp4", url_);
   }
 
@@ -88,7 +88,7 @@ std::string segmentFolderOf(const std::string& playlist) {
   std::string plain = stem;
   const auto odd = [](unsigned char c) { return std::isalnum(c) == 0 && c != '-' && c != '_' && c != '.'; };
   std::replace_if(plain.begin(), plain.end(), odd, '_');
-  if (plain != stem) {                // two films of names that differ in such letters alone keep apart
+  if (plain != stem) {                // keeps two names apart that differ only in replaced characters
     std::uint32_t hash = 2166136261;  // FNV-1a
     for (const unsigned char c : stem) hash = (hash ^ c) * 16777619;
     std::array<char, 10> text{};

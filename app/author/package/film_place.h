@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a film goes: a file, a folder of segments or a line, each with its muxer; whole or not at all where it stays.
+// The destination of a film with its muxer: a file, a folder of segments or a network address. Files appear whole or
+// not at all.
 #pragma once
 
 #include <cstdint>
@@ -20,11 +21,11 @@ namespace relievo {
 
 inline constexpr const char* kCannotWrite = "it cannot be written; is the disk full?";
 
-// create -> tracks are added to `muxer`, the colour first, then the depth -> begin -> packets -> finish. Without
-// `finish` nothing is left. One thread.
+// Order of calls: create, add tracks to `muxer` (first the colour, then the depth), begin, packets, finish. Without
+// `finish` nothing is left behind. Use from one thread.
 class FilmPlace {
  public:
-  // Io or NotFound where nothing can be written.
+  // Io or NotFound if nothing can be written there.
   [[nodiscard]] static Result<std::unique_ptr<FilmPlace>> create(const std::string& path, FilmKind kind,
                                                                  Existing existing);
   virtual ~FilmPlace() = default;
@@ -34,15 +35,15 @@ class FilmPlace {
   [[nodiscard]] AVFormatContext& muxer() noexcept { return *muxer_; }
   // Writes the header.
   [[nodiscard]] virtual Result<void> begin() = 0;
-  // Writes the end and puts the film into its place; how many bytes it has.
+  // Writes the end and moves the film to its final name; returns its size in bytes.
   [[nodiscard]] virtual Result<std::uint64_t> finish() = 0;
-  // How late packets went out at most, on a line.
+  // The largest delay of a packet sent over the network.
   [[nodiscard]] virtual Duration latest() const noexcept { return Duration(0); }
 
  protected:
   FilmPlace() = default;
   [[nodiscard]] Result<void> makeMuxer(const char* format, const std::string& url);
-  // Takes the options over.
+  // Takes ownership of the options.
   [[nodiscard]] Result<void> writeHeader(AVDictionary* options);
 
  private:

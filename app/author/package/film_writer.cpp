@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two encoders, and the place that their packets go to.
+// Two encoders, and the destination of their packets.
 #include "app/author/package/film_writer.h"
 
 #include <algorithm>
@@ -80,8 +80,8 @@ struct FilmWriter::Impl {
   std::unique_ptr<FilmPlace> place;
   Track color, depth;
   DepthCoding coding;
-  std::vector<std::uint8_t> bytes;    // of a depth picture of 8 bits
-  std::vector<std::uint16_t> chroma;  // of one that has some
+  std::vector<std::uint8_t> bytes;    // of an 8-bit depth picture
+  std::vector<std::uint16_t> chroma;  // of a depth picture with flat chroma
 };
 
 Result<void> FilmWriter::Impl::begin(const std::string& path, const FilmFormat& format, Existing existing) {
@@ -134,7 +134,7 @@ Result<void> FilmWriter::Impl::openTracks(const FilmFormat& format) {
   const bool of_file = kind == FilmKind::Mp4 || kind == FilmKind::Mov;
   AVDictionary** const where = of_file ? &muxer.metadata : &depth.stream->metadata;
   for (const auto& [key, value] : format.depth_tags) setTag(where, key, value);
-  // As players of Apple's want it: parameter sets in the container alone.
+  // Apple's players need the parameter sets in the container only.
   const bool mp4 = of_file || kind == FilmKind::Hls;
   if (mp4 && coding.codec == VideoCodec::Hevc) depth.stream->codecpar->codec_tag = MKTAG('h', 'v', 'c', '1');
   return {};
@@ -149,7 +149,7 @@ VideoEncoder::Planes FilmWriter::Impl::depthPlanes(const DepthPicture& picture) 
     luma = bytes.data();
   }
   if (!coding.flat_chroma) return {luma, nullptr, nullptr};
-  // The middle, in one byte or two.
+  // The middle value, in one byte or two.
   chroma.assign(picture.codes.size() / 4,
                 static_cast<std::uint16_t>(coding.bits == 8 ? 0x8080 : 1 << (coding.bits - 1)));
   const auto* const flat = reinterpret_cast<const std::uint8_t*>(chroma.data());
@@ -161,7 +161,7 @@ FilmWriter::~FilmWriter() = default;
 
 Result<std::unique_ptr<FilmWriter>> FilmWriter::create(const std::string& path, const FilmFormat& format,
                                                        Existing existing) {
-  av_log_set_level(AV_LOG_QUIET);  // the program prints its own line
+  av_log_set_level(AV_LOG_QUIET);  // the program prints its own error line
   auto impl = std::make_unique<Impl>();
   if (auto begun = impl->begin(path, format, existing); !begun) return std::unexpected(begun.error());
   return std::unique_ptr<FilmWriter>(new FilmWriter(std::move(impl)));

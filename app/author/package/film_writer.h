@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes one film with a colour and a depth track, which appears whole or not at all, or goes out on a line.
+// Writes one film with a colour and a depth track: a file that appears whole or not at all, or a network stream.
 #pragma once
 
 #include <cstdint>
@@ -21,9 +21,9 @@ struct FilmFormat {
   ColorRange color_range = ColorRange::Limited;
   ColorMatrix color_matrix = ColorMatrix::Unspecified;
   std::uint8_t color_primaries = kUnspecifiedColor,
-               color_transfer = kUnspecifiedColor;  // of ITU-T H.273, as in a Frame
-  double color_aspect = 1.0, depth_aspect = 1.0;    // width of a sample over its height
-  Duration frame_period{0};                         // for the rate control alone; 0 unknown
+               color_transfer = kUnspecifiedColor;  // codes of ITU-T H.273, as in a Frame
+  double color_aspect = 1.0, depth_aspect = 1.0;    // sample aspect ratio: width over height
+  Duration frame_period{0};                         // for the rate control only; 0: unknown
   int color_crf = 18;
   DepthCoding depth;
   std::map<std::string, std::string> depth_tags;  // calibrationTags()
@@ -37,29 +37,29 @@ struct TrackTotals {
 struct FilmTotals {
   TrackTotals color, depth;
   std::uint64_t file_bytes = 0;
-  Duration latest{0};  // of a line: how far sending was behind at most
+  Duration latest{0};  // network stream: the largest delay of sending
 };
 
-// Track 0 is the colour, H.264 4:2:0, titled "color"; track 1 is the depth, of full range, titled "depth". Its tags are
-// where the container and the codec keep some:
+// Track 0 is the colour, H.264 4:2:0, titled "color"; track 1 is the depth, full range, titled "depth". The depth's
+// tags are stored in each place that container and codec offer:
 //
-//   Matroska           of the track
-//   MP4, QuickTime     of the file; the tracks are named by their handlers
-//   H.264 and HEVC     in the stream, beside each key frame, whatever the container (hal/stream_tags.h)
-//   transport streams  the stream's type besides: auxiliary video
+//   Matroska           tags of the track
+//   MP4, QuickTime     tags of the file; the tracks are named by their handlers
+//   H.264 and HEVC     in the stream, with each key frame, whatever the container (hal/stream_tags.h)
+//   transport streams  additionally the stream's type: auxiliary video
 //
-// One thread; the encoders have threads of their own. A file is written under a temporary name beside the target, which
-// is renamed by `finish`; without that nothing is left. On a line pictures go out at their times: writing waits. Times
-// of a track must rise.
+// Use from one thread; the encoders have threads of their own. A file is written under a temporary name beside the
+// target and renamed by `finish`; without that nothing is left. A network stream is sent in real time: writing blocks.
+// Timestamps of a track must increase.
 class FilmWriter {
  public:
-  // InvalidArgument for a kind of film that is not written (filmKindOf) or does not hold the codec, NotFound for a
-  // folder that is not there, Unsupported without the codec's library.
+  // InvalidArgument for an unknown kind of film (filmKindOf) or one that cannot hold the codec, NotFound if the folder
+  // does not exist, Unsupported without the codec's library.
   [[nodiscard]] static Result<std::unique_ptr<FilmWriter>> create(const std::string& path, const FilmFormat& format,
                                                                   Existing existing = Existing::Replace);
   ~FilmWriter();
 
-  // `key` makes it a key frame; no others are made, apart from the first.
+  // `key` makes it a key frame; apart from the first picture there are no others.
   [[nodiscard]] Result<void> writeColor(const ColorPicture420& picture, MediaTime time, bool key);
   [[nodiscard]] Result<void> writeDepth(const DepthPicture& picture, MediaTime time, bool key);
   [[nodiscard]] Result<FilmTotals> finish();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A playlist and its segments of fragmented MP4 (RFC 8216): made in a folder apart, moved when they are whole.
+// A playlist and its segments of fragmented MP4 (RFC 8216): written in a temporary folder, moved when complete.
 #include <fcntl.h>
 #include <stdlib.h>
 #include <sys/stat.h>
@@ -20,9 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kSegmentSeconds = 4;  // at least: each begins with a key frame
+constexpr int kSegmentSeconds = 4;  // at least: each segment begins with a key frame
 
-// The names that the muxer knows: plain ones, whatever the film is called. `openFile` puts the files into their place.
+// The plain names that the muxer uses for any film. `openFile` maps them to the real paths.
 constexpr const char* kPlaylist = "film.m3u8";
 constexpr const char* kStart = "init.mp4";
 
@@ -62,7 +62,7 @@ class HlsFolder final : public FilmPlace {
   }
 
   Result<void> begin() override {
-    const std::string folder = segments_.filename().string() + "/";  // plain, see segmentFolderOf
+    const std::string folder = segments_.filename().string() + "/";  // without special characters, see segmentFolderOf
     AVDictionary* options = nullptr;
     av_dict_set(&options, "hls_segment_type", "fmp4", 0);
     av_dict_set(&options, "hls_playlist_type", "vod", 0);
@@ -96,7 +96,7 @@ class HlsFolder final : public FilmPlace {
  private:
   [[nodiscard]] fs::path madeSegments() const { return apart_ / segments_.filename(); }
 
-  // Only the last part of a name counts: the muxer's own idea of folders does not.
+  // Only the last part of the URL is used: the muxer's own folders are ignored.
   static int openFile(AVFormatContext* muxer, AVIOContext** file, const char* url, int flags, AVDictionary** options) {
     auto& self = *static_cast<HlsFolder*>(muxer->opaque);
     const std::string name = fs::path(url).filename().string();
@@ -106,7 +106,7 @@ class HlsFolder final : public FilmPlace {
     return code;
   }
 
-  // The muxer lets it pass when a segment could not be written.
+  // The muxer ignores the failure to write a segment, so it is recorded here.
   static int closeFile(AVFormatContext* muxer, AVIOContext* file) {
     avio_flush(file);
     const int code = file->error < 0 ? file->error : 0;
@@ -122,7 +122,7 @@ class HlsFolder final : public FilmPlace {
     return now;
   }
 
-  // Every file that the playlist names, with something in it.
+  // Whether every file that the playlist names exists and is not empty.
   [[nodiscard]] bool namesOnlyWhatIsThere() const {
     std::ifstream list(apart_ / kPlaylist);
     int named = 0;
@@ -141,8 +141,8 @@ class HlsFolder final : public FilmPlace {
     return ::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), how) == 0;
   }
 
-  // The playlist last: who finds it finds all. Older segments change places with the new ones, and go; they change back
-  // where the playlist cannot be put into its place.
+  // The playlist last, so that whoever finds it finds every segment. Older segments are exchanged for the new ones and
+  // deleted, or exchanged back if the playlist cannot be moved into place.
   Result<void> putInPlace() const {
     const bool keeps = existing_ == Existing::Keep;
     const unsigned how = !keeps && fs::exists(segments_) ? RENAME_EXCHANGE : RENAME_NOREPLACE;
@@ -155,16 +155,16 @@ class HlsFolder final : public FilmPlace {
     }
     if (moved) return {};
     if (os_error == EEXIST) {
-      return fail(ErrorCode::Io, "has been written by another program meanwhile; choose another name", os_error);
+      return fail(ErrorCode::Io, "was written by another program in the meantime; choose another name", os_error);
     }
-    return fail(ErrorCode::Io, "it cannot be put into its place", os_error);
+    return fail(ErrorCode::Io, "cannot be moved to its final name", os_error);
   }
 
   fs::path playlist_, segments_;
   fs::path apart_;
-  UniqueFd held_;  // of `apart_`, so that no other run takes it for litter
+  UniqueFd held_;  // lock on `apart_`, so that no other run deletes it as a leftover
   Existing existing_ = Existing::Replace;
-  int error_ = 0;  // of the library, the first
+  int error_ = 0;  // the library's first error
 };
 
 }  // namespace

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where key frames go: about every second, at cuts, and at the same places in both tracks, so that a seek lands in both
-// at once.
+// Places key frames about every second and at cuts, at the same times in both tracks, so that a seek works in both.
 #pragma once
 
 #include <optional>
@@ -14,13 +13,13 @@ class KeyFrames {
   static constexpr Duration kEvery = std::chrono::seconds(1);
   static constexpr Duration kLatest = std::chrono::seconds(2);
 
-  // For each picture of the colour in turn: whether it is a key frame. `depth_is_new` says that a depth picture is
-  // written with it; a held one cannot become a key frame any more, so the next one is waited for, but not for ever.
-  // `cut`: it begins a shot, and so does that depth picture.
+  // Call for each colour picture in turn; returns whether it is a key frame. `depth_is_new` says that a depth picture
+  // is written with it: a held depth picture was written earlier and cannot become a key frame, so this waits for the
+  // next one, within limits. `cut`: the picture begins a shot, and so does its depth picture.
   [[nodiscard]] bool isDue(MediaTime color, bool depth_is_new, bool cut = false) noexcept {
     const bool first = !last_;
     const Duration since = first ? Duration(0) : color - *last_;
-    // Times are rounded by containers: a second less half a millisecond is a second.
+    // Containers round timestamps, so half a millisecond under a second counts as a second.
     const bool due = first || (cut && depth_is_new) || since > kLatest ||
                      (depth_is_new && since > kEvery - std::chrono::microseconds(1500));
     if (due) last_ = color;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Words and numbers for the one who runs the program.
+// Formats the summary and checks the output's name.
 #include "app/author/package/output.h"
 
 #include <sys/stat.h>
@@ -54,7 +54,7 @@ std::string codesLine(const DepthCoder::Counts& codes) {
     ++used;
   }
   std::string line =
-      used == 0 ? std::string("  depth codes: none, all of it is holes")
+      used == 0 ? std::string("  depth codes: none, the whole depth is holes")
                 : print("  depth codes: %d bits, %d .. %d, %d of them used", codes.bits, lowest, highest, used);
   if (codes.holes > 0) {
     line += print("; holes %.1f %%", 100.0 * static_cast<double>(codes.holes) / static_cast<double>(codes.samples));
@@ -62,7 +62,7 @@ std::string codesLine(const DepthCoder::Counts& codes) {
   return line + "\n";
 }
 
-// What so many levels of 255 are under a finger.
+// Converts levels of 255 to the height under a finger.
 double mm(double levels) {
   return levels * DisplayVolume::kDefaultDepthMm / 255;
 }
@@ -76,20 +76,19 @@ std::string enhancementLines(Enhancement how, const EnhancementSummary& e) {
     return e.samples > 0 ? 100.0 * static_cast<double>(count) / static_cast<double>(e.samples) : 0;
   };
   std::string lines =
-      print("  enhanced (%s): holes %.1f %%, outliers %.2f %%; %.1f %% filled, %.1f %% left as holes\n", name(how),
+      print("  enhanced (%s): %.1f %% holes and %.2f %% outliers; %.1f %% filled, %.1f %% left as holes\n", name(how),
             percent(e.holes), percent(e.outliers), percent(e.filled), percent(e.holes + e.outliers - e.filled));
-  lines +=
-      print("    noise from sample to sample: %.2f levels of 255 before, %.2f after\n", e.noise_before, e.noise_after);
-  lines += print("    touch error estimated, away from edges: %.3f mm (%.3f N) before, %.3f mm (%.3f N) after\n",
+  lines += print("    noise between samples: %.2f levels of 255 before, %.2f after\n", e.noise_before, e.noise_after);
+  lines += print("    estimated touch error away from edges: %.3f mm (%.3f N) before, %.3f mm (%.3f N) after\n",
                  mm(e.error_before), newtons(e.error_before), mm(e.error_after), newtons(e.error_after));
   if (e.points > 0) {
-    lines += print("    mesh: %.0f points a picture, %zu at most; no sample farther from it than %.1f levels\n",
-                   e.points, e.most_points, e.bound);
+    lines += print("    mesh: %.0f points per picture, at most %zu; every sample within %.1f levels of it\n", e.points,
+                   e.most_points, e.bound);
   }
   return lines;
 }
 
-// --force removes such a folder: it must hold nothing but what a run before has made.
+// --force deletes such a folder, so it must contain only files of an earlier run.
 bool ownSegmentsAlone(const std::string& folder) {
   std::error_code none;
   if (!std::filesystem::exists(folder, none)) return true;
@@ -104,8 +103,8 @@ bool ownSegmentsAlone(const std::string& folder) {
 Result<void> checkPlace(const std::string& path, bool force) {
   struct stat status{};
   if (::stat(path.c_str(), &status) != 0) return {};
-  if (!S_ISREG(status.st_mode)) return fail(ErrorCode::Io, "is there already and no file; choose another name");
-  if (!force) return fail(ErrorCode::Io, "is there already; choose another name, or replace it with --force");
+  if (!S_ISREG(status.st_mode)) return fail(ErrorCode::Io, "exists and is not a file; choose another name");
+  if (!force) return fail(ErrorCode::Io, "already exists; choose another name, or overwrite it with --force");
   return {};
 }
 
@@ -117,16 +116,16 @@ Result<void> checkOutput(const OutputOptions& output) {
   if (!holds(*kind, output.depth.codec)) return fail(ErrorCode::InvalidArgument, kNotHeld);
   if (!codes(output.depth.codec, output.depth.bits)) {
     return fail(ErrorCode::InvalidArgument,
-                "so many bits are not coded so: H.264 has 8 and 10, HEVC 12 too, FFV1 16 too");
+                "the codec does not support this bit depth; h264 has 8 and 10, hevc also 12, ffv1 also 12 and 16");
   }
   if (kind == FilmKind::Live) return {};
   struct stat status{};
   if (kind == FilmKind::Hls && !output.force && ::stat(segmentFolderOf(output.path).c_str(), &status) == 0) {
     return fail(ErrorCode::Io,
-                "its folder of segments is there already; choose another name, or replace it with --force");
+                "its folder of segments already exists; choose another name, or overwrite it with --force");
   }
   if (kind == FilmKind::Hls && !ownSegmentsAlone(segmentFolderOf(output.path))) {
-    return fail(ErrorCode::Io, "its folder of segments holds what is no segment of such a film; choose another name");
+    return fail(ErrorCode::Io, "its folder of segments contains other files; choose another name");
   }
   return checkPlace(output.path, output.force);
 }
@@ -143,7 +142,7 @@ std::vector<std::string> filesWrittenBy(const OutputOptions& output) {
 
 Result<void> checkPreview(const OutputOptions& output) {
   if (output.preview.empty()) return {};
-  if (!output.preview.ends_with(".png")) return fail(ErrorCode::InvalidArgument, "let its name end in .png");
+  if (!output.preview.ends_with(".png")) return fail(ErrorCode::InvalidArgument, "the name must end in .png");
   return checkPlace(output.preview, output.force);
 }
 
@@ -181,7 +180,7 @@ std::string toText(const std::string& path, const AuthorSummary& summary) {
   if (tag("DEPTH_LAW") == "inverse") text += ", near " + tag("DEPTH_NEAR") + " mm, far " + tag("DEPTH_FAR") + " mm";
   text += "\n";
   if (totals.latest > kLate) {
-    text += print("  note: sent up to %.1f s late: this machine is too slow for the film, take it smaller\n",
+    text += print("  note: sent up to %.1f s late: this machine is too slow for the film; use a smaller picture\n",
                   toSeconds(totals.latest));
   }
   for (const std::string& note : summary.notes) text += "  note: " + note + "\n";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pictures that the author's encoders take: colour of 8 bits in 4:2:0, depth in one plane.
+// The pictures that the encoders take: colour of 8 bits in 4:2:0, depth in one plane.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct ColorPicture420 {
   std::vector<std::uint8_t> y, u, v;
 };
 
-// Codes 0 .. 2^bits - 1 of full range, near is high; the bits are the film's.
+// Codes 0 .. 2^bits - 1, full range, near high; the film's settings give the bits.
 struct DepthPicture {
   int width = 0, height = 0;
   std::vector<std::uint16_t> codes;

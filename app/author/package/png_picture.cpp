@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// By libavcodec's encoder.
+// Encodes a PNG with libavcodec.
 #include "app/author/package/png_picture.h"
 
 #include <cstring>
@@ -22,7 +22,7 @@ struct Free {
 
 Result<std::string> encodePng(const RgbPicture& picture) {
   const AVCodec* const encoder = avcodec_find_encoder(AV_CODEC_ID_PNG);
-  if (encoder == nullptr) return fail(ErrorCode::NotFound, "this FFmpeg writes no PNG");
+  if (encoder == nullptr) return fail(ErrorCode::NotFound, "this FFmpeg has no PNG encoder");
   const std::unique_ptr<AVCodecContext, Free> codec(avcodec_alloc_context3(encoder));
   const std::unique_ptr<AVFrame, Free> frame(av_frame_alloc());
   const std::unique_ptr<AVPacket, Free> packet(av_packet_alloc());
@@ -33,7 +33,7 @@ Result<std::string> encodePng(const RgbPicture& picture) {
   frame->format = AV_PIX_FMT_RGB24;
   codec->time_base = {1, 25};
   if (avcodec_open2(codec.get(), encoder, nullptr) < 0 || av_frame_get_buffer(frame.get(), 0) < 0) {
-    return fail(ErrorCode::Exhausted, "no PNG can be made of this size");
+    return fail(ErrorCode::Exhausted, "cannot encode a PNG of this size");
   }
   const std::size_t row_bytes = 3 * static_cast<std::size_t>(picture.width);
   for (int y = 0; y < picture.height; ++y) {
@@ -42,7 +42,7 @@ Result<std::string> encodePng(const RgbPicture& picture) {
   }
   if (avcodec_send_frame(codec.get(), frame.get()) < 0 || avcodec_send_frame(codec.get(), nullptr) < 0 ||
       avcodec_receive_packet(codec.get(), packet.get()) < 0) {
-    return fail(ErrorCode::Io, "no PNG can be made of it");
+    return fail(ErrorCode::Io, "cannot encode the PNG");
   }
   return std::string(reinterpret_cast<const char*>(packet->data), packet->size);
 }

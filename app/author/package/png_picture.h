@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture to draw into, and its PNG.
+// An RGB picture to draw into, and its PNG encoding.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ struct RgbPicture {
   [[nodiscard]] RgbPixel& at(int x, int y) { return pixels[static_cast<std::size_t>(y) * width + x]; }
 };
 
-// The bytes of a file.
+// The bytes of a PNG file.
 [[nodiscard]] Result<std::string> encodePng(const RgbPicture& picture);
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Three panes beside each other, and a profile as wide as they are.
+// Three panes side by side, and a profile as wide as all of them.
 #include "app/author/package/preview.h"
 
 #include <algorithm>
@@ -46,7 +46,7 @@ void drawColor(RgbPicture& picture, const Pane& pane, const ColorPicture420& col
   sws_scale(scaling.get(), from, from_stride, 0, color.height, to, to_stride);
 }
 
-// Light from above left on a surface of this slope, 1 where it falls straight.
+// Lambert shading by a light from above left; 1 at normal incidence.
 double lightOn(double across, double down) {
   constexpr double kX = -0.5, kUp = 0.5, kNear = 0.70711;
   return std::max((-across * kX + down * kUp + kNear) / std::sqrt(across * across + down * down + 1), 0.0);
@@ -104,7 +104,7 @@ int rowOfWidestSpan(const DepthMap& map) {
   return best;
 }
 
-// The heights of a row from the side, `low_mm` at the pane's bottom; what lies beyond the pane is cut off.
+// The profile of a row, with `low_mm` at the pane's bottom, clipped to the pane.
 void drawProfile(RgbPicture& picture, const Pane& pane, const DepthMap& map, int row, double low_mm, double mm_per_row,
                  const RgbPixel& color, int thickness) {
   int last = -1;
@@ -146,7 +146,7 @@ void Preview::before(const ColorPicture420& color, const Frame& depth, const Dep
   const std::uint64_t index = seen_++;
   if (index != 0 && (!expected || index != *expected / 2)) return;
   auto map = readDepth(depth, calibration);
-  if (!map) return;  // whoever packs it says so
+  if (!map) return;  // the packager reports the error
   before_ = std::move(*map);
   color_ = color;
   time_ = depth.pts;

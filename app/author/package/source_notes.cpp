@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts and signals of a source as lines for its author.
+// Reports a source's counters and signalling as notes for the author.
 #include "app/author/package/source_notes.h"
 #include "platform/print.h"
 
@@ -14,7 +14,7 @@ void tell(Notes& notes, std::uint64_t count, const char* what) {
 
 void tellMissing(Notes& notes, const std::string& url, Duration missing) {
   if (missing <= Duration(0)) return;
-  notes.push_back(url + print(" breaks off %.1f s before its end, cut off or damaged", toSeconds(missing)));
+  notes.push_back(url + print(" ends %.1f s early: truncated or damaged", toSeconds(missing)));
 }
 
 void tellLeftOut(Notes& notes, const FilmInfo& info) {
@@ -24,7 +24,7 @@ void tellLeftOut(Notes& notes, const FilmInfo& info) {
   };
   tracks(info.sound_tracks, "sound", "add with ffmpeg -i OUT -i SRC -map 0 -map 1:a -c copy NEW");
   tracks(info.subtitle_tracks, "subtitle", "add with ffmpeg -i OUT -i SRC -map 0 -map 1:s -c copy NEW");
-  tracks(info.video_tracks_unused, "more video", "where the depth is one of them, save it to a file for --depth");
+  tracks(info.video_tracks_unused, "more video", "if the depth is one of them, save it to a file for --depth");
 }
 
 // ITU-T H.273.
@@ -32,7 +32,7 @@ void tellColor(Notes& notes, const FilmFormat& format) {
   constexpr std::uint8_t kPq = 16, kHlg = 18, kBt2020 = 9, kDciP3 = 11, kDisplayP3 = 12;
   if (format.color_transfer == kPq || format.color_transfer == kHlg) {
     notes.push_back(
-        print("the colour is HDR (%s): 8 bits hold it with visible steps and without its light levels; "
+        print("the colour is HDR (%s): in 8 bits it shows visible steps and loses its brightness metadata; "
               "convert it to SDR first",
               format.color_transfer == kPq ? "PQ" : "HLG"));
     return;
@@ -40,7 +40,7 @@ void tellColor(Notes& notes, const FilmFormat& format) {
   for (const std::uint8_t wide : {kBt2020, kDciP3, kDisplayP3}) {
     if (format.color_primaries == wide) {
       notes.emplace_back(
-          "the colour has wide primaries: the film names them, the player shows them as BT.709, paler; "
+          "the colour has wide primaries: the film signals them, but the player shows them as BT.709, too pale; "
           "convert it to BT.709 first");
     }
   }
@@ -50,8 +50,8 @@ void tellClipped(Notes& notes, const FilmInfo& info, const DepthCoder::Counts& c
   if (codes.clipped == 0) return;
   const DepthCalibration& c = info.calibration.calibration;
   notes.push_back(
-      print("%.2g %% of the depth lay beyond the codes %.0f .. %.0f and was clipped to them; if it means "
-            "something, tell its codes with --calibration",
+      print("%.2g %% of the depth was outside the codes %.0f .. %.0f and was clipped; if that range is "
+            "wrong, give the codes with --calibration",
             100 * static_cast<double>(codes.clipped) / static_cast<double>(codes.samples), c.lowCode(), c.highCode()));
 }
 
@@ -63,14 +63,14 @@ std::vector<std::string> sourceNotes(const SourceOptions& source, const PairRead
   const PairCounters counters = reader.counters();
   tellMissing(notes, source.url, counters.missing);
   tellMissing(notes, source.depth_url, counters.depth_missing);
-  tell(notes, counters.without_depth, " pictures of the colour have no depth: its pictures begin later or end earlier");
-  tell(notes, counters.mismatched, " pictures of the colour had no depth of their time; the one before was held");
-  tell(notes, counters.depth_skipped, " pictures of the depth lay between those of the colour and were left out");
-  tell(notes, counters.missed_pictures, " pictures were lost between the camera and here");
-  tell(notes, counters.damaged, " packets or pictures were damaged and left out");
+  tell(notes, counters.without_depth, " colour pictures have no depth: the depth begins later or ends earlier");
+  tell(notes, counters.mismatched, " colour pictures lacked their depth picture; the previous one was held");
+  tell(notes, counters.depth_skipped, " depth pictures matched no colour picture and were left out");
+  tell(notes, counters.missed_pictures, " camera pictures were lost on the way");
+  tell(notes, counters.damaged, " damaged packets or pictures were left out");
   tellLeftOut(notes, reader.info());
   tell(notes, interlaced,
-       " pictures are interlaced: the film shows their rows as combs; deinterlace the source first, with FFmpeg's "
+       " pictures are interlaced: edges in motion will look combed; deinterlace the source first, with FFmpeg's "
        "bwdif");
   tellColor(notes, format);
   tellClipped(notes, reader.info(), codes);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the author is told of a source: what it had not, and what the film does not keep of it.
+// Notes for the author about a source: what was missing in it, and what the film does not preserve.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace relievo {
 
-// One line each; none where the film is all that the source was.
+// One line each; none if the film preserves everything of the source.
 [[nodiscard]] std::vector<std::string> sourceNotes(const SourceOptions& source, const PairReader& reader,
                                                    const FilmFormat& format, std::uint64_t interlaced,
                                                    const DepthCoder::Counts& codes);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A transport stream in a file or on a line: FFmpeg's muxer, with what it cannot say put in on the way out.
+// A transport stream in a file or over the network: FFmpeg's muxer, with the missing depth signalling added to its
+// output.
 #include <array>
 #include <cerrno>
 
@@ -27,7 +28,7 @@ class TransportStream final : public FilmPlace {
       auto made = AtomicFile::create(path, existing);
       if (!made) return std::unexpected(made.error());
       place_ = std::move(*made);
-      url_ = "file:" + place_.writtenPath();  // the name may hold a colon
+      url_ = "file:" + place_.writtenPath();  // the name may contain a colon
     }
     return makeMuxer("mpegts", url_);
   }
@@ -35,7 +36,7 @@ class TransportStream final : public FilmPlace {
   Result<void> begin() override {
     if (const int code = avio_open(&out_, url_.c_str(), AVIO_FLAG_WRITE); code < 0) {
       if (!live_) return fail(ErrorCode::Io, kCannotWrite, osErrorOf(code));
-      return fail(ErrorCode::Io, "it cannot be sent to; write udp://HOST:PORT", osErrorOf(code));
+      return fail(ErrorCode::Io, "cannot send to this address; write udp://HOST:PORT", osErrorOf(code));
     }
     auto* const buffer = static_cast<std::uint8_t*>(av_malloc(kBuffer));
     packets_ = avio_alloc_context(buffer, kBuffer, 1, this, nullptr, takePackets, nullptr);
@@ -79,7 +80,7 @@ class TransportStream final : public FilmPlace {
 #else
   using PacketBytes = std::uint8_t;
 #endif
-  // The bytes lie in the buffer that `begin` has allocated, so they may be rewritten.
+  // FFmpeg passes the buffer that `begin` allocated, so its bytes may be modified.
   static int takePackets(void* self, PacketBytes* data, int bytes) {
     auto& film = *static_cast<TransportStream*>(self);
     if (film.take({const_cast<std::uint8_t*>(data), static_cast<std::size_t>(bytes)})) return bytes;
@@ -90,7 +91,7 @@ class TransportStream final : public FilmPlace {
     bytes_ += packets.size();
     return live_ ? pacer_.add(packets) : send(packets);
   }
-  // On a line a datagram of its own.
+  // Over the network each call is one datagram.
   bool send(std::span<const std::uint8_t> packets) {
     avio_write(out_, packets.data(), static_cast<int>(packets.size()));
     if (live_) avio_flush(out_);

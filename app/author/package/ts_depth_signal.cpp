@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The programme map, ISO/IEC 13818-1, 2.4.4.8.
+// Edits the programme map, ISO/IEC 13818-1, 2.4.4.8.
 #include "app/author/package/ts_depth_signal.h"
 
 #include <algorithm>
@@ -9,11 +9,11 @@ namespace relievo {
 namespace {
 
 constexpr std::uint8_t kAuxiliaryVideo = 0x1e;
-constexpr std::size_t kHeader = 3, kChecksum = 4;  // of a section: up to its length, and behind all
+constexpr std::size_t kHeader = 3, kChecksum = 4;  // bytes of a section up to its length, and after its content
 
 // Auxiliary_video_stream_descriptor (2.6.74): the coding, then one message of ISO/IEC 23002-3: depth, of whole
-// pictures, not shifted, from 2/16 of the picture's width behind the screen to 8/64 before it. What the codes mean
-// exactly is said in the stream (hal/stream_tags.h).
+// pictures, not shifted, from 2/16 of the picture's width behind the screen to 8/64 in front of it. The exact
+// calibration is in the stream (hal/stream_tags.h).
 constexpr std::array<std::uint8_t, 10> descriptorFor(std::uint8_t coding) {
   return {0x2f, 8, coding, 0 /* depth */, 5, 0x3f, 0, 0, 2, 8};
 }
@@ -22,7 +22,7 @@ std::size_t word(std::span<const std::uint8_t> bytes, std::size_t at) noexcept {
   return static_cast<std::size_t>(bytes[at]) << 8 | bytes[at + 1];
 }
 
-// The lower twelve bits of a word are a length.
+// A length is the lower twelve bits of a word.
 std::size_t length(std::span<const std::uint8_t> bytes, std::size_t at) noexcept {
   return word(bytes, at) & 0xfff;
 }
@@ -49,14 +49,14 @@ void TsDepthSignal::rewrite(std::span<std::uint8_t> packets) const noexcept {
     const bool begins = (packet[1] & 0x40) != 0;
     if (!begins || (word(packet, 1) & 0x1fff) != kMapPid) continue;
     const std::size_t payload = 4 + ((packet[3] & 0x20) != 0 ? 1u + packet[4] : 0u);
-    const std::size_t section = payload + 1 + packet[payload];  // past the pointer field
+    const std::size_t section = payload + 1 + packet[payload];  // after the pointer field
     if (section + kHeader < kPacket) rewriteMap(packet.subspan(section));
   }
 }
 
 void TsDepthSignal::rewriteMap(std::span<std::uint8_t> section) const noexcept {
   const auto descriptor = descriptorFor(coding_);
-  const std::size_t end = kHeader + length(section, 1) - kChecksum;  // of the streams
+  const std::size_t end = kHeader + length(section, 1) - kChecksum;  // end of the list of streams
   if (end + kChecksum + descriptor.size() > section.size()) return;
   std::size_t stream = 12 + length(section, 10);
   while (stream + 5 <= end && (word(section, stream + 1) & 0x1fff) != kDepthPid)

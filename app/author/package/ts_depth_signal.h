@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Says in a transport stream's programme map that a stream is depth, which FFmpeg's muxer has no word for.
+// Marks a stream as depth in a transport stream's programme map, which FFmpeg's muxer cannot do.
 #pragma once
 
 #include <cstddef>
@@ -10,16 +10,16 @@
 
 namespace relievo {
 
-// Each map gives the stream of that PID the type 0x1E, auxiliary video (ISO/IEC 13818-1, table 2-34), and the
-// descriptor that goes with it and names the coding; its checksum is made anew. A map lies in one packet, as it does
-// for a few streams.
+// In each map the stream with this PID gets the type 0x1E, auxiliary video (ISO/IEC 13818-1, table 2-34), and the
+// matching descriptor with its coding; the checksum is recomputed. A map must fit in one packet, as it does with a few
+// streams.
 class TsDepthSignal {
  public:
   static constexpr std::size_t kPacket = 188;
-  static constexpr std::uint16_t kMapPid = 0x1000, kDepthPid = 0x101;  // as the muxer is told
+  static constexpr std::uint16_t kMapPid = 0x1000, kDepthPid = 0x101;  // as set in the muxer
 
   explicit TsDepthSignal(VideoCodec codec) noexcept : coding_(codec == VideoCodec::Hevc ? 0x24 : 0x1b) {}
-  // Whole packets; others than maps stay as they are.
+  // Takes whole packets; changes only maps.
   void rewrite(std::span<std::uint8_t> packets) const noexcept;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Programme clock references, ISO/IEC 13818-1, 2.4.3.5.
+// Reads programme clock references, ISO/IEC 13818-1, 2.4.3.5.
 #include "app/author/package/ts_pacer.h"
 
 #include <algorithm>

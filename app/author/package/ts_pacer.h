@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lets a transport stream out at its own pace, as a broadcaster does.
+// Sends a transport stream in real time, as a broadcaster does.
 #pragma once
 
 #include <cstdint>
@@ -12,18 +12,18 @@
 
 namespace relievo {
 
-// Packets go out evenly between the times of the programme's clock references around them, seven to a datagram. One
-// that comes too late goes out at once.
+// Packets are spaced evenly between the programme clock references around them, seven to a datagram. A late packet is
+// sent at once.
 class TsPacer {
  public:
   static constexpr std::size_t kPacket = 188, kDatagram = 7 * kPacket;
-  using Send = std::function<bool(std::span<const std::uint8_t>)>;  // false: it cannot
+  using Send = std::function<bool(std::span<const std::uint8_t>)>;  // false on failure
 
-  // `clock` outlives it.
+  // `clock` must outlive it.
   TsPacer(Clock& clock, Send send) : clock_(clock), send_(std::move(send)) {}
-  // Whole packets. Waits until all before the last reference among them are out.
+  // Takes whole packets. Blocks until all packets before the last reference among them are sent.
   [[nodiscard]] bool add(std::span<const std::uint8_t> packets);
-  // What is left.
+  // Sends the rest.
   [[nodiscard]] bool finish();
   [[nodiscard]] Duration latest() const noexcept { return latest_; }
   [[nodiscard]] std::uint64_t sent() const noexcept { return sent_; }
@@ -34,8 +34,8 @@ class TsPacer {
   Clock& clock_;
   Send send_;
   std::vector<std::uint8_t> waiting_;
-  std::optional<MonotonicTime> start_;  // of reference 0
-  Duration last_{0};                    // reference
+  std::optional<MonotonicTime> start_;  // the time of reference 0
+  Duration last_{0};                    // the last reference
   Duration latest_{0};
   std::uint64_t sent_ = 0;
 };

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Distance fields of simple solids and their smooth combinations: below zero inside, smooth, never steeper than about
-// one.
+// Distance fields of simple solids and their smooth combinations: negative inside, smooth, with a gradient of at most
+// about 1.
 #pragma once
 
 #include "app/author/sample/lanes.h"
 
 namespace relievo::lanes {
 
-// The field of an ellipsoid: exact on the surface to first order, nowhere more than the distance. Inside, where the
-// slope fades towards the middle, the last term keeps it from growing without bound; on the surface that term is zero.
+// The field of an ellipsoid: exact on the surface to first order, nowhere larger than the distance. Inside, where the
+// gradient vanishes towards the centre, the last term bounds its growth; on the surface that term is zero.
 template <class T>
 [[nodiscard, gnu::always_inline]] inline T ellipsoid(const Vec3<T>& p, const Vec3<T>& center,
                                                      const Vec3<double>& radii) {
@@ -41,12 +41,12 @@ template <class T>
   const T overlap = max(T(width) - abs(a - b), T(0.0));
   return min(a, b) - overlap * overlap * T(0.25 / width);
 }
-// What is in both, with a rounded edge.
+// Intersection with a rounded edge.
 template <class T>
 [[nodiscard, gnu::always_inline]] inline T common(T a, T b, double width) {
   return -blend<T>(-a, -b, width);
 }
-// a without b, with a rounded edge.
+// Difference, a without b, with a rounded edge.
 template <class T>
 [[nodiscard, gnu::always_inline]] inline T carve(T a, T b, double width) {
   return -blend<T>(-a, b, width);

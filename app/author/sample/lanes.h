@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Four pixels at a time: a small vector of floats with the arithmetic that the sample scene needs, and the same names
-// for a plain double, so that one template gives both the fast picture and the exact reference.
+// Four pixels at a time: a small vector of floats with the arithmetic that the sample scene needs, and the same
+// functions for a plain double, so that one template gives both the fast picture and the exact reference.
 #pragma once
 
 #include <algorithm>
@@ -91,7 +91,7 @@ template <class T>
   return s * s * (T(3.0) - T(2.0) * s);
 }
 
-// A sine good to 3e-6 over the few turns that patterns and waves need.
+// Sine with an error under 3e-6 over the few turns that patterns and waves need.
 [[nodiscard, gnu::always_inline]] inline double sine(double x) {
   return std::sin(x);
 }

@@ -9,11 +9,11 @@ namespace relievo::sample {
 
 using lanes::Vec3;
 
-// Where the head is at one time: a turn about its upright axis, a nod and a tilt to the side, in radians.
+// The head's pose at one time: rotation about its upright axis, nod and sideways tilt, in radians.
 struct HeadPose {
   double turn = 0, nod = 0, tilt = 0;
   double eyes_closed = 0;         // 0 open .. 1 shut
-  Vec3<double> gaze = {0, 0, 1};  // where the eyes look, in head coordinates, of length 1
+  Vec3<double> gaze = {0, 0, 1};  // direction of gaze in head coordinates, unit length
 };
 
 // Stage millimetres (see sample_scene.h). Head coordinates: origin between the eyes inside the skull, z out of the
@@ -34,7 +34,7 @@ class Bust {
     kCheeks = 512,
     kBustParts = 1023
   };
-  static constexpr double kFront = 50;  // nothing lies before this
+  static constexpr double kFront = 50;  // nothing is in front of this
 
   explicit Bust(const HeadPose& pose) {
     const double cy = std::cos(pose.turn), sy = std::sin(pose.turn);
@@ -81,7 +81,7 @@ class Bust {
     return d;
   }
 
-  // What throws shadows: a little less than the bust, so that it throws none on itself where it is flat.
+  // The solid that casts shadows: slightly smaller than the bust, so that flat areas do not shadow themselves.
   [[nodiscard]] T shade(const Vec3<T>& p) const {
     using namespace lanes;
     const Vec3<T> h = toHead(p);
@@ -104,7 +104,7 @@ class Bust {
   }
 
  private:
-  // The joint on which the head moves, on the stage and in the head.
+  // The joint that the head rotates about, in stage and in head coordinates.
   static constexpr Vec3<double> kJoint = {0, -14, -1}, kHeadJoint = {0, -18, -8};
   static constexpr Vec3<double> kBun = {0, 33.5, 2};
   static constexpr double kEyeX = 9.8, kEyeZ = 15.6, kEyeRadius = 6.8;
@@ -117,7 +117,7 @@ class Bust {
     const Vec3<T> d = p - at(kJoint.x, kJoint.y, kJoint.z);
     return Vec3<T>{dot(axis_[0], d), dot(axis_[1], d), dot(axis_[2], d)} + at(kHeadJoint.x, kHeadJoint.y, kHeadJoint.z);
   }
-  // Both halves of the face in one; rounded in the middle, where a plain mirror would leave a crease.
+  // Mirrors one half of the face; rounded in the middle, where a plain mirror would leave a crease.
   [[nodiscard]] static Vec3<T> mirrored(const Vec3<T>& h) { return {lanes::sqrt(h.x * h.x + T(1.2)), h.y, h.z}; }
   [[nodiscard]] static Vec3<T> at(double x, double y, double z) { return {T(x), T(y), T(z)}; }
 
@@ -148,7 +148,7 @@ class Bust {
 
   [[nodiscard]] T eye(const Vec3<T>& m) const { return lanes::sphere(m, at(kEyeX, 0, kEyeZ), kEyeRadius); }
 
-  // How far a point of the lids lies above the upper and below the lower edge of the opening.
+  // How far a point of the lids lies above the opening's upper edge, or below its lower edge.
   [[nodiscard]] T aboveUpperLid(const Vec3<T>& e) const {
     return e.y - e.z * (T(0.40) - T(0.72) * lid_) + e.x * e.x * T(0.03);
   }
@@ -244,9 +244,9 @@ class Bust {
     iris.albedo = iris.albedo * (rays * (T(0.6) + r * T(1.6)));
     look.albedo = mix(look.albedo, iris.albedo, T(1.0) - smoothStep(r, 0.36, 0.44));
     paint(look, T(1.0) - smoothStep(r, 0.17, 0.21), 0.005, 0.005, 0.005);
-    const T lid = aboveUpperLid(e * T(kEyeRadius));  // the lid and its lashes throw a shadow
+    const T lid = aboveUpperLid(e * T(kEyeRadius));  // the lid and its lashes cast a shadow
     look.albedo = look.albedo * (T(1.0) - T(0.55) * smoothStep(lid, -2.0, 0.0));
-    // The lamp in the wet of the eye: where the surface faces half way between lamp and viewer.
+    // The lamp's reflection in the eye: where the surface faces half way between lamp and viewer.
     const Vec3<T> half = at(-0.26, 0.32, 0.91);
     const Vec3<T> glint = e - Vec3<T>{dot(axis_[0], half), dot(axis_[1], half), dot(axis_[2], half)};
     paint(look, T(1.0) - smoothStep(length(glint), 0.09, 0.15), 1.6, 1.6, 1.6);

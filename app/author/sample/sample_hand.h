@@ -72,13 +72,13 @@ class Hand {
     return d;
   }
 
-  // What throws shadows: a little less than the hand, so that it throws none on itself where it is flat.
+  // The solid that casts shadows: slightly smaller than the hand, so that flat areas do not shadow themselves.
   [[nodiscard]] T shade(const Vec3<T>& p) const {
     using namespace lanes;
     const Vec3<T> h = toHand(p);
     const T near_hand = length(h - at(-4, 8, -2)) - T(46.0);
     const T arm = rod(h, at(0, -8, -1), at(0, -140, -4), 6.0, 11.0);
-    if (!any(near_hand < T(14.0))) return min(arm, near_hand);  // too far for even a half-shadow
+    if (!any(near_hand < T(14.0))) return min(arm, near_hand);  // too far even for a penumbra
     T d = min(arm, ellipsoid(h, at(0, 3, -1.5), {15, 18.5, 5}));
     for (const Bone& bone : bones_) d = min(d, bone.distance(h) + T(0.3));
     return d;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The curve from light to bytes.
+// The tone curve from light to bytes.
 #include "app/author/sample/sample_light.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the sample film is lit: a warm lamp with soft shadows, a sky, a cool edge, and the curve from light to bytes.
+// Lighting of the sample film: a warm lamp with soft shadows, sky light, a cool rim light, and the tone curve.
 #pragma once
 
 #include <algorithm>
@@ -22,14 +22,14 @@ inline V unit(const V& v) {
 
 inline constexpr Vec3<double> kKey = {-0.479, 0.585, 0.654};  // towards the lamp, length 1
 inline constexpr Vec3<double> kRim = {0.72, 0.42, -0.55};     // towards a window behind
-inline constexpr double kLightReachMm = 6;                    // nothing farther darkens a point's sky
+inline constexpr double kLightReachMm = 6;                    // the range of ambient occlusion
 
 struct Light {
-  FloatLanes key;  // 0 in the lamp's full shadow .. 1
-  FloatLanes sky;  // share of the sky that the point sees
+  FloatLanes key;  // 0 in the lamp's umbra .. 1 fully lit
+  FloatLanes sky;  // share of the sky visible from the point
 };
 
-// The narrowest gap that the ray to the lamp passes, seen from the ray's foot, makes the half-shadow.
+// The penumbra follows from the narrowest gap that the ray to the lamp passes, as an angle from the ray's start.
 template <class Scene>
 [[nodiscard]] FloatLanes keyLight(const Scene& scene, const V& foot) {
   FloatLanes open = 1.0, s = 0.8;
@@ -67,7 +67,7 @@ template <class Scene>
     look = {select(on_ground, look.albedo, solid.albedo), select(on_ground, look.gloss, solid.gloss),
             select(on_ground, look.warmth, solid.warmth)};
   }
-  // Skin lets light around its edge, red first.
+  // Skin scatters light around its terminator, red most.
   const FloatLanes facing = dot(n, vec(kKey.x, kKey.y, kKey.z));
   const FloatLanes wrap = look.warmth * 0.25;
   const FloatLanes direct = max((facing + wrap) / (1.0 + wrap), 0.0) * light.key;
@@ -78,13 +78,13 @@ template <class Scene>
   const FloatLanes away = 1.0 - clamp<FloatLanes>(n.z, 0.0, 1.0);
   const FloatLanes edge = max(dot(n, vec(kRim.x, kRim.y, kRim.z)) + 0.25, 0.0) * away * away * light.sky;
   const V diffuse = look.albedo * (key + ambient + vec(0.9, 1.0, 1.25) * edge);
-  // Highlight of the lamp, half way between it and the eye.
+  // The lamp's highlight, half way between lamp and eye.
   const FloatLanes h = max(dot(n, unit(vec(kKey.x, kKey.y, kKey.z + 1.0))), 0.0);
   const FloatLanes h2 = h * h, h4 = h2 * h2, h8 = h4 * h4, h16 = h8 * h8;
   return diffuse + vec(1.0, 0.96, 0.9) * (look.gloss * light.key * (h16 * 0.10 + h16 * h16 * h16 * 0.28));
 }
 
-// The sRGB curve behind a shoulder that keeps highlights from burning out, as a table over the light.
+// The sRGB curve after a shoulder that keeps highlights from clipping, as a lookup table.
 class FilmCurve {
  public:
   FilmCurve() noexcept;

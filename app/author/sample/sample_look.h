@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the parts of the sample film share: how a surface looks, and which parts may lie under a piece of the picture.
+// Shared by the parts of the sample film: the look of a surface, and which parts may affect a region of the picture.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ template <class T>
 struct Look {
   lanes::Vec3<T> albedo;  // linear light, BT.709 primaries
   T gloss;                // strength of the highlight
-  T warmth;               // how far light seeps through, as in skin
+  T warmth;               // subsurface scattering, as in skin
 };
 
 template <class T>
@@ -23,7 +23,7 @@ template <class T>
 void paint(Look<T>& look, T share, double r, double g, double b) {
   look.albedo = lanes::mix(look.albedo, {T(r), T(g), T(b)}, share);
 }
-// Takes the look of the part that is nearest.
+// Takes the look of the nearest part.
 template <class T>
 void nearest(Look<T>& look, T& distance, T other_distance, const Look<T>& other) {
   const auto closer = other_distance < distance;
@@ -32,8 +32,8 @@ void nearest(Look<T>& look, T& distance, T other_distance, const Look<T>& other)
   distance = lanes::min(distance, other_distance);
 }
 
-// A set of parts of a scene, one bit each. A part that lies farther from a piece of the picture than any fillet or any
-// reach of the shading cannot change it and is left out there.
+// A set of parts of a scene, one bit each. Parts farther from a region of the picture than any fillet or shading effect
+// reaches cannot change it and are skipped there.
 using Parts = std::uint32_t;
 constexpr Parts kAllParts = ~Parts{0};
 

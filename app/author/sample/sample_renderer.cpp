@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Casts one ray a pixel for depth, lights what it meets, and casts four where an edge would be jagged.
+// Casts one ray per pixel for depth, shades the hits, and casts four rays per pixel at edges to smooth them.
 #include "app/author/sample/sample_renderer.h"
 
 #include <atomic>
@@ -29,10 +29,10 @@ struct Raster {
 
 constexpr int kTile = 16;
 constexpr int kHalf = kTile / 2;
-constexpr double kMiddle = 0.5 * kHalf;  // of a quarter
+constexpr double kMiddle = 0.5 * kHalf;  // half the size of a quarter tile
 
-// One picture in five passes over its tiles, each on all threads: cast, gather light on every second pixel, shade, find
-// the edges, smooth them.
+// Five passes over the picture's tiles, each on all threads: cast, gather light on every second pixel, shade, find
+// edges, smooth them.
 template <class Scene>
 class Painter {
  public:
@@ -47,7 +47,7 @@ class Painter {
 
   void cast(int c0, int r0) {
     const Parts parts = scene_.partsNear(box(c0, r0));
-    // One ray for each quarter of the tile, stopped before anything in the quarter can be met.
+    // One ray for each quarter of the tile, stopped before it can hit anything in that quarter.
     const double reach = 1.25 * kMiddle * std::hypot(raster_.x(1) - raster_.x(0), raster_.y(1) - raster_.y(0)) + 0.1;
     const double cl = c0 + kMiddle - 0.5, cr = cl + kHalf, rt = r0 + kMiddle - 0.5, rb = rt + kHalf;
     const FloatLanes qx = four(raster_.x(cl), raster_.x(cr), raster_.x(cl), raster_.x(cr));
@@ -66,7 +66,7 @@ class Painter {
     });
   }
 
-  // The lattice of light has a point on every second pixel of every second row, and one line more at the far edges.
+  // The light lattice has a point on every second pixel of every second row, and one line more at the far edges.
   void gather(int c0, int r0) {
     const Parts parts = scene_.partsNear(box(c0, r0).grown(kLightReachMm));
     const bool last_col = c0 + kTile >= picture_.cols, last_row = r0 + kTile >= picture_.rows;
@@ -136,7 +136,7 @@ class Painter {
     return {raster_.x(c0 - 1), raster_.x(c0 + kTile + 1), raster_.y(r0 + kTile + 1), raster_.y(r0 - 1)};
   }
 
-  // Four evaluations tell both the last step to the surface and its normal.
+  // Four evaluations give both the last step to the surface and its normal.
   [[nodiscard]] Hit castQuad(FloatLanes x, FloatLanes y, FloatLanes start, Parts parts) const {
     const FloatLanes ground = scene_.ground(x, y);
     constexpr double e = 0.02;
@@ -169,7 +169,7 @@ class Painter {
              FloatVector{s[0].nz, s[1].nz, s[2].nz, s[3].nz}}};
   }
 
-  // Light between lattice points, from those of them that lie on the same surface.
+  // Interpolates light from the lattice points on the same surface.
   [[nodiscard]] Light lightOver(FloatLanes cols, FloatLanes rows, FloatLanes z) const {
     Light light = {0.0, 0.0};
     for (int lane = 0; lane < lanes::kLanes; ++lane) {
@@ -205,7 +205,7 @@ class Painter {
     }
   }
 
-  // Where the surface jumps, or the colour does, as between hair and skin.
+  // Where height or colour jumps, as between hair and skin.
   [[nodiscard]] bool isEdge(int c, int r) const {
     constexpr float kJumpMm = 0.8F;
     constexpr int kContrast = 40;
@@ -218,7 +218,7 @@ class Painter {
     return jumps(c - 1, r) || jumps(c + 1, r) || jumps(c, r - 1) || jumps(c, r + 1);
   }
 
-  // A turned square of four rays: no two share a row or a column.
+  // Four rays in a rotated square: no two share a row or a column.
   void shadeEdge(int c, int r, Parts parts) {
     const FloatLanes cols = four(c - 0.375, c - 0.125, c + 0.125, c + 0.375);
     const FloatLanes rows = four(r + 0.125, r - 0.375, r + 0.375, r - 0.125);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of the sample film: colour and exact depth, cast ray by ray on all cores.
+// Renders pictures of the sample film: colour and exact depth, by ray casting on all cores.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@ namespace relievo {
 
 struct SamplePicture {
   int cols = 0, rows = 0;
-  std::vector<std::uint8_t> rgb;    // 3 bytes a pixel, sRGB transfer, BT.709 primaries
-  std::vector<std::uint8_t> depth;  // 1 byte a pixel: round(255 height / 40 mm)
+  std::vector<std::uint8_t> rgb;    // 3 bytes per pixel, sRGB transfer, BT.709 primaries
+  std::vector<std::uint8_t> depth;  // 1 byte per pixel: round(255 height / 40 mm)
 };
 
-// The film at time t. The picture is sized by the caller through cols and rows; its buffers are kept from call to call.
+// Renders the film at time t. The caller sets cols and rows; the buffers are reused from call to call.
 void renderSample(double t_s, int threads, SamplePicture& picture);
 
 }  // namespace relievo

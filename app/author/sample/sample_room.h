@@ -6,7 +6,7 @@
 
 namespace relievo::sample {
 
-// A height field in stage millimetres: no march is needed to find it.
+// A height field in stage millimetres, found without ray marching.
 template <class T>
 class Room {
  public:
@@ -20,7 +20,7 @@ class Room {
     if (any(hump > T(0.0)))
       z = z + hump * hump * (T(4.0) + T(0.8) * cosine32(x / r, y / r));  // the frame and its beads
     if (any(r > T(60.0))) z = z + T(4.2) * rosette(x, y);
-    const T sweep = x * T(1.0 / 80.0);  // the wall comes forward to the sides
+    const T sweep = x * T(1.0 / 80.0);  // the wall comes forward at the sides
     return z + T(3.0) * sweep * sweep * sweep * sweep;
   }
 

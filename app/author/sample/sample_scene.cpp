@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the sample film moves, and its exact height.
+// Motion of the sample film, and its exact height.
 #include "app/author/sample/sample_scene.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ double smooth(double s) {
   return s * s * (3 - 2 * s);
 }
 
-// 0, up to 1 and back within `width` seconds around `middle`.
+// Rises from 0 to 1 and back within `width` seconds around `middle`.
 double blink(double t, double middle, double width) {
   const double s = 1 - std::abs(t - middle) / (0.5 * width);
   return smooth(s);
@@ -30,7 +30,7 @@ constexpr double kHandFrom = 2.1, kHandTo = 5.4;
 }  // namespace
 
 HandPose handPose(double t) noexcept {
-  // Straight across at a steady 74 mm/s, on a low arc, leaning back a little like a hand that waves.
+  // Straight across at a steady 74 mm/s, on a low arc, leaning back a little like a waving hand.
   const double s = (t - kHandFrom) / (kHandTo - kHandFrom);
   const double x = 122 - 244 * s;
   HandPose pose;
@@ -52,7 +52,7 @@ HeadPose headPose(double t) noexcept {
   pose.nod = 0.02 + 0.085 * std::sin(kTurn * 0.55 * t);
   pose.tilt = 0.05 * std::sin(kTurn * 0.27 * t + 0.6) - 0.05 * std::sin(0.6);
   pose.eyes_closed = std::max({blink(t, 1.45, 0.34), blink(t, 4.9, 0.34), blink(t, 7.2, 0.34)});
-  // The eyes hold the viewer and follow the hand while it passes.
+  // The eyes look at the viewer, and follow the hand while it passes.
   const double follow = smooth((t - 2.2) / 0.5) * (1 - smooth((t - 5.0) / 0.5));
   const Vec3<double> hand = handPose(t).palm;
   const Vec3<double> at = Vec3<double>{0, 10, 160} * (1 - follow) + Vec3<double>{hand.x, hand.y + 25, 75} * follow;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The project's own film: what stands where at what time, and its exact height.
+// The sample film: its scene at any time, and its exact height.
 #pragma once
 
 namespace relievo {
@@ -13,8 +13,8 @@ struct SampleFilm {
   static constexpr double kWidthMm = 160.0, kHeightMm = 108.0, kDepthMm = 40.0;
 };
 
-// The height in mm of the surface at (x, y) of the scene frame, |x| <= 80, |y| <= 54, at time t of the film (its first
-// or last moment outside of it). Not quantised: a depth code of the film is round(255 height / 40). Thread-safe.
+// The height in mm of the surface at (x, y) of the scene frame, |x| <= 80, |y| <= 54, at time t of the film (clamped to
+// its length). Not quantised: a depth code of the film is round(255 height / 40). Thread-safe.
 [[nodiscard]] double sampleSceneHeight(double x_mm, double y_mm, double t_s) noexcept;
 
 }  // namespace relievo

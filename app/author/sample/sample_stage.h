@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two scenes of the sample film as solids at one moment, and where a line of sight meets them.
+// The two scenes of the sample film as solids at one moment, and the intersection with a line of sight.
 #pragma once
 
 #include "app/author/sample/sample_bust.h"
@@ -9,16 +9,16 @@
 
 namespace relievo::sample {
 
-// The stage is 64 mm deep and is pressed into the 40 mm of the display volume, as low relief presses what it shows: the
-// light falls on the full shape, the finger feels the relief.
+// The stage is 64 mm deep and is compressed into the 40 mm of the display volume, as in a low relief: lighting uses the
+// full shape, the finger feels the relief.
 constexpr double kStageDepthMm = 64.0;
 constexpr double kReliefMmPerStageMm = 40.0 / kStageDepthMm;
 
 [[nodiscard]] HeadPose headPose(double t_s) noexcept;
 [[nodiscard]] HandPose handPose(double t_s) noexcept;
-[[nodiscard]] bool handIsIn(double t_s) noexcept;  // whether any of it, or of its shadow, is in the picture
+[[nodiscard]] bool handIsIn(double t_s) noexcept;  // whether the hand or its shadow is in the picture
 
-// A head before a wall; a hand passes before both.
+// A head in front of a wall; a hand passes in front of both.
 template <class T>
 class Portrait {
  public:
@@ -57,10 +57,10 @@ class Portrait {
   bool hand_is_in_;
 };
 
-// A line of sight comes down from `z` until it is within `close` of a solid or below the ground.
+// Marches a line of sight down from `z` until it is within `close` of a solid or below the ground.
 template <class T, class Scene>
 [[nodiscard]] T march(const Scene& scene, T x, T y, T z, T ground, T close, Parts parts) {
-  constexpr int kMaxSteps = 100'000;  // a line that grazes needs many
+  constexpr int kMaxSteps = 100'000;  // a grazing line needs many
   for (int i = 0; i < kMaxSteps; ++i) {
     const T d = scene.solids({x, y, z}, parts);
     const auto open = (d > close) & (z > ground);
@@ -70,16 +70,16 @@ template <class T, class Scene>
   return z;
 }
 
-constexpr double kCloseMm = 1e-3;  // from here on a field is as good as straight
+constexpr double kCloseMm = 1e-3;  // closer than this the field is nearly linear
 
-// The same in fewer steps: it goes where a straight line through the last two values points to, no more than `kTrust`
-// beyond the safe step, and comes back when that was too far. Nothing in the film is thinner than that.
+// The same in fewer steps: extrapolates the last two values linearly, by at most `kTrust` beyond the safe step, and
+// steps back after overshooting. Nothing in the film is thinner than that.
 template <class T, class Scene>
 [[nodiscard]] T descend(const Scene& scene, T x, T y, T z, T ground, Parts parts) {
   constexpr int kMaxSteps = 60;
   constexpr double kTrust = 0.25;
   T d = scene.solids({x, y, z}, parts);
-  T per_mm = T(1.0);  // how far down for each millimetre of distance
+  T per_mm = T(1.0);  // step down per millimetre of distance
   for (int i = 0; i < kMaxSteps; ++i) {
     const auto open = (lanes::abs(d) > T(kCloseMm)) & ((z > ground) | (d < T(0.0)));
     if (!lanes::any(open)) break;
@@ -88,7 +88,7 @@ template <class T, class Scene>
     z = z - step;
     const T next = scene.solids({x, y, z}, parts);
     const T fall = d - next;
-    // A line that grazes, or has passed the nearest point, falls hardly or not at all: the longest step.
+    // A grazing line, or one past its nearest point, hardly approaches or not at all: take the longest step.
     const auto falls = fall * step > T(0.02) * step * step;
     per_mm = lanes::select(falls, step / lanes::select(falls, fall, T(1.0)), T(50.0));
     d = next;
@@ -96,8 +96,8 @@ template <class T, class Scene>
   return lanes::select(d > T(2 * kCloseMm), ground, z);
 }
 
-// One step of Newton's method down the line of sight, for a field of `here` that grows by `slope` a millimetre. A line
-// that only grazes has no root nearby and stays where it is.
+// One Newton step down the line of sight, for a field of value `here` that changes by `slope` per millimetre. A grazing
+// line has no root nearby and stays where it is.
 template <class T>
 [[nodiscard]] T polished(T z, T here, T slope) {
   const auto steep = slope > T(0.02);

@@ -13,7 +13,7 @@ using lanes::Vec3;
 template <class T>
 class StillLife {
  public:
-  static constexpr double kFront = 62;  // nothing lies before this
+  static constexpr double kFront = 62;  // nothing is in front of this
   [[nodiscard]] double front() const { return kFront; }
 
   explicit StillLife(double t_s) : t_(t_s) {
@@ -89,7 +89,7 @@ class StillLife {
     const T z = p.z - T(kTableZ);
     return {p.x, p.y * T(kUpZ) - z * T(kUpY), p.y * T(kUpY) + z * T(kUpZ)};
   }
-  // Bowl coordinates: origin in the middle of the sphere that the bowl is cut from.
+  // Bowl coordinates: origin at the centre of the sphere that the bowl is cut from.
   [[nodiscard]] Vec3<T> inBowl(const Vec3<T>& q) const {
     const T x = q.x - T(kBowlX), z = q.z - T(kBowlRadius - 1.0);
     return {x * rock_c_ - z * rock_s_, q.y - T(kBowlY), x * rock_s_ + z * rock_c_};
@@ -150,7 +150,7 @@ class StillLife {
   [[nodiscard]] static Look<T> fruitLook(const Vec3<T>& b) { return peel(b, 0.88, 0.30, 0.03); }
   [[nodiscard]] Look<T> ballLook(const Vec3<T>& q) const {
     using namespace lanes;
-    // It rolls without slipping: stripes turn by the way over the radius.
+    // It rolls without slipping: the rotation angle is the distance over the radius.
     const double turn = roll_ / kBallRadius;
     const Vec3<T> d = q - at(kBallX + roll_, kBallY, kBallRadius - 0.6);
     const T u = d.x * T(std::cos(turn)) - d.z * T(std::sin(turn));

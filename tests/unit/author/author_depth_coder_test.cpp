@@ -167,7 +167,7 @@ TEST(AuthorDepthCoder, SaysWhatItDid) {
   EXPECT_NE(said({.range = ColorRange::Limited, .bits = 10}).find("codes 64 .. 940"), std::string::npos);
   EXPECT_NE(said({.range = ColorRange::Limited}).find("limited range expanded"), std::string::npos);
   EXPECT_NE(said({.polarity = DepthPolarity::NearIsLow}).find("turned round"), std::string::npos);
-  EXPECT_NE(said({.invalid = 3}).find("holes are code 0"), std::string::npos);
+  EXPECT_NE(said({.invalid = 3}).find("reserved for holes"), std::string::npos);
   EXPECT_NE(said({.code = DepthCode::Hue}).find("hue decoded"), std::string::npos);
   EXPECT_NE(DepthCoder({}, {.law = DepthLaw::Inverse}).explain().at(0).find("linear steps made inverse"),
             std::string::npos);
