@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Words are read while CLI11 parses: what is wrong with one is thrown as CLI11's own errors are.
+// Options shared by the programs. Errors in a word are thrown while CLI11 parses, as CLI11's own are.
 #include "app/cli/options.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 namespace relievo {
 namespace {
 
-constexpr double kLongestMm = 1e5;  // of a side of the volume
+constexpr double kLongestMm = 1e5;  // limit for a side of the volume
 constexpr const char* kNoVolume = "a volume is WIDTHxHEIGHTxDEPTH in mm, such as 160x90x40";
 
 std::string readFile(const std::string& thing, const std::string& path, const char* otherwise) {
@@ -27,9 +27,9 @@ std::string readFile(const std::string& thing, const std::string& path, const ch
   return std::move(*text);
 }
 
-// A file that is missing or wrong is a failure at run time: the words themselves are not at fault.
+// A missing or bad file is a failure at run time, not a usage error.
 CalibrationSettings readCalibrationFile(const std::string& thing, const std::string& path) {
-  auto settings = parseCalibration(readFile(thing, path, "cannot be read; give a file's path, or KEY=VALUE,.."));
+  auto settings = parseCalibration(readFile(thing, path, "cannot be read; give the path of a file, or KEY=VALUE,.."));
   if (!settings) throw WordFailure({thing, {ErrorCode::Corrupt, 0, settings.error().message}});
   return std::move(*settings);
 }
@@ -43,41 +43,41 @@ void readCalibration(const std::string& word, SourceOptions& source) {
   }
   const auto settings = parseCalibration(word);
   if (!settings) throw WordFailure({thing, settings.error()});
-  for (const auto& [key, value] : *settings) source.command_line[key] = value;  // over what came before
+  for (const auto& [key, value] : *settings) source.command_line[key] = value;  // overrides earlier ones
 }
 
 Registration readRegistration(const std::string& path) {
   const std::string thing = "--registration " + path;
-  auto registration = parseRegistration(readFile(thing, path, "cannot be read; give a file's path"));
+  auto registration = parseRegistration(readFile(thing, path, "cannot be read; give the path of a file"));
   if (!registration) throw WordFailure({thing, {ErrorCode::Corrupt, 0, registration.error().message}});
   return *registration;
 }
 
-// "relievo play": the program with the command that was given, if any.
+// "relievo play": the program and the command, if one was given.
 std::string commandOf(const CLI::App& program) {
   std::string command = program.get_name();
   for (const CLI::App* given : program.get_subcommands()) command += " " + given->get_name();
   return command;
 }
 
-// CLI11 says of a command that it does not know no more than that one is required.
+// For an unknown command CLI11 only says that a command is required; this names the mistake.
 void tellWrongUse(CLI::App& program, const CLI::ParseError& error) {
   std::string commands;
   for (const CLI::App* known : program.get_subcommands([](const CLI::App*) { return true; })) {
     commands += (commands.empty() ? "" : ", ") + known->get_name();
   }
   if (commands.empty() || !program.get_subcommands().empty()) {
-    log(LogLevel::Error, "wrong use", "%s; see %s --help", error.what(), commandOf(program).c_str());
+    log(LogLevel::Error, "usage error", "%s; see %s --help", error.what(), commandOf(program).c_str());
   } else if (const auto words = program.remaining(); !words.empty()) {
-    log(LogLevel::Error, words.front().c_str(), "no such command; it is one of %s; see %s --help", commands.c_str(),
+    log(LogLevel::Error, words.front().c_str(), "unknown command; use one of %s; see %s --help", commands.c_str(),
         program.get_name().c_str());
   } else {
-    log(LogLevel::Error, "wrong use", "a command is missing; it is one of %s; see %s --help", commands.c_str(),
+    log(LogLevel::Error, "usage error", "missing command; use one of %s; see %s --help", commands.c_str(),
         program.get_name().c_str());
   }
 }
 
-// "--packing auto|tracks|sbs|tb     Where the depth is [auto]"
+// Prints an option as "--packing auto|tracks|sbs|tb     Where the depth is [auto]".
 class Help final : public CLI::Formatter {
  public:
   using CLI::Formatter::Formatter;
@@ -128,28 +128,28 @@ void addDepthOptions(CLI::App& app, SourceOptions& source) {
        {"tb", Packing::TopBottom},
        {"sbs-depth-first", Packing::SideBySideDepthFirst},
        {"tb-depth-first", Packing::TopBottomDepthFirst}},
-      "Where the depth is\n"
+      "Where the film stores its depth\n"
       "auto: two tracks, a DEPTH_PACKING tag, or a picture whose halves differ clearly; tracks: two video tracks, or "
       "--depth;\n"
       "sbs: one picture, colour left, depth right; tb: colour on top, depth below; ..-depth-first: the other way "
       "round");
   addChoice(app, "--depth-code", source.depth_code,
             {{"auto", std::nullopt}, {"luma", DepthCode::Luma}, {"hue", DepthCode::Hue}},
-            "How the depth is coded\n"
-            "auto: hue where half of the picture is pure colour, else luma; luma: as brightness; hue: as colour, red "
+            "How depth is coded\n"
+            "auto: hue if half of the picture is pure colour, else luma; luma: as brightness; hue: as colour, red "
             "near, round to red far");
   app.add_option_function<std::vector<std::string>>(
          "--calibration",
          [&source](const std::vector<std::string>& given) {
            for (const std::string& text : given) readCalibration(text, source);
          },
-         "What a depth code means, over what the film says; or a file of such lines\n"
-         "law=linear|inverse: whether codes are even in distance or in 1/distance;\n"
+         "How to interpret depth codes; overrides the film's tags. Or a FILE with one KEY=VALUE per line\n"
+         "law=linear|inverse: codes are proportional to distance or to 1/distance;\n"
          "polarity=near-high|near-low, range=full|limited, bits=8..16,\n"
-         "codes=LOW-HIGH: the codes that are used, where they are not all of them;\n"
-         "invalid=CODE+CODE+LOW-HIGH..|none: codes of holes; unit=MM: codes are distances of so many mm, from near to "
+         "codes=LOW-HIGH: the range of codes in use, if not all;\n"
+         "invalid=CODE+CODE+LOW-HIGH..|none: codes of holes; unit=MM: codes are distances, MM mm each, from near to "
          "far;\n"
-         "near=MM, far=MM: of distances, and of the inverse law")
+         "near=MM, far=MM: limits for distances and for the inverse law")
       ->allow_extra_args(false)
       ->type_name("FILE|KEY=VALUE,..");
   app.add_option_function<std::string>(
@@ -158,7 +158,7 @@ void addDepthOptions(CLI::App& app, SourceOptions& source) {
            source.registration = readRegistration(path);
            source.named_files.push_back(path);
          },
-         "Where the depth camera stands beside the colour camera: its depth is brought into the colour's view")
+         "TOML file with the poses of the depth and colour cameras; aligns the depth with the colour picture")
       ->type_name("FILE.toml");
 }
 
@@ -172,7 +172,7 @@ void addVolumeOption(CLI::App& app, std::optional<DisplayVolume>& volume) {
            }
            volume = DisplayVolume{mm[0], mm[1], mm[2]};
          },
-         "Box in which the relief stands, mm\n[160 wide, 40 deep, as high as the depth picture's shape says]")
+         "Box that the relief fills, mm\n[160 wide, 40 deep, height from the depth picture's aspect ratio]")
       ->type_name("WxHxD");
 }
 
@@ -186,7 +186,7 @@ std::expected<void, int> parseCommandLine(CLI::App& program, int argc, const cha
     return std::unexpected(tell(failure));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
-      program.exit(error);  // prints the help, or the version
+      program.exit(error);  // prints the help or the version
       return std::unexpected(kExitDone);
     }
     tellWrongUse(program, error);
@@ -199,7 +199,7 @@ CLI::Validator between(double low, double high) {
     double number = 0;
     if (CLI::detail::lexical_cast(word, number) && number >= low && number <= high) return {};
     std::ostringstream words;
-    words << word << " is not from " << low << " to " << high;
+    words << word << " is not between " << low << " and " << high;
     return words.str();
   };
   return {judge, ""};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The words that the programs have in common, and one clean line for a word that is wrong.
+// Options shared by the programs, and the one-line message for a wrong one.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -19,15 +19,15 @@
 
 namespace relievo {
 
-// What a reader of an option's words throws through CLI11; `parseCommandLine` tells it.
+// Thrown through CLI11 by the reader of an option's value; printed by `parseCommandLine`.
 struct WordFailure final : std::exception, Failure {
   explicit WordFailure(Failure failure) : Failure(std::move(failure)) {}
 };
 
-// "160x90x40" into as many positive, finite numbers as `sizes` holds; false when it is anything else.
+// Parses "160x90x40" into as many positive, finite numbers as `sizes` holds; false for anything else.
 [[nodiscard]] bool parseSizes(std::string_view text, std::span<double> sizes) noexcept;
 
-// An option whose word is one of a few. `value` outlives the parsing and holds the default.
+// Adds an option that takes one of a few words. `value` must outlive the parsing and holds the default.
 template <class T>
 CLI::Option* addChoice(CLI::App& app, const char* option, T& value,
                        std::vector<std::pair<std::string, std::type_identity_t<T>>> choices, const char* help) {
@@ -42,21 +42,22 @@ CLI::Option* addChoice(CLI::App& app, const char* option, T& value,
       value = meaning;
       return;
     }
-    throw CLI::ValidationError(option + (" " + word), "it is one of " + words);
+    throw CLI::ValidationError(option + (" " + word), "use one of " + words);
   };
   return app.add_option_function<std::string>(option, choose, help)->type_name(words)->default_str(usual);
 }
 
-// For `check`: a number within bounds. CLI::Range lets through what is not a number.
+// For CLI11's `check`: a number within bounds. Unlike CLI::Range it rejects NaN.
 [[nodiscard]] CLI::Validator between(double low, double high);
 
-// --packing, --depth-code, and --calibration, which may come more than once: a later value of a key goes before.
+// Adds --packing, --depth-code, --registration and --calibration, which may be repeated: a later value of a key
+// overrides an earlier one.
 void addDepthOptions(CLI::App& app, SourceOptions& source);
-// --volume
+// Adds --volume.
 void addVolumeOption(CLI::App& app, std::optional<DisplayVolume>& volume);
 
-// Adds --version; the help tells an option's default, where it has one, after the first line of its text. On wrong use,
-// and when help or the version was asked for, it has printed what there is to say and answers the exit code.
+// Parses the command line. Adds --version; the help shows an option's default after the first line of its text. After a
+// usage error, --help or --version it has printed everything and returns the exit code.
 [[nodiscard]] std::expected<void, int> parseCommandLine(CLI::App& program, int argc, const char* const* argv);
 
 }  // namespace relievo

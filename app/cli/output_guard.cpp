@@ -25,7 +25,7 @@ using Inode = std::pair<dev_t, ino_t>;
 std::optional<Inode> inodeOf(const std::string& path) {
   struct stat status{};
   if (path.empty() || ::stat(path.c_str(), &status) != 0) return std::nullopt;
-  // A device or a pipe is not destroyed by writing to it: /dev/null may stand for several.
+  // Writing to a device or a pipe destroys nothing: several outputs may be /dev/null.
   if (!S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) return std::nullopt;
   return Inode{status.st_dev, status.st_ino};
 }
@@ -36,7 +36,7 @@ std::string fullName(const std::string& path) {
   return failed ? path : full.string();
 }
 
-// The path in an address; empty for one of another kind.
+// The local path that an address names; empty for other addresses.
 std::string pathIn(const std::string& address) {
   for (const char* start : {"file://", "file:"}) {
     if (address.starts_with(start)) return address.substr(std::string_view(start).size());
@@ -44,7 +44,7 @@ std::string pathIn(const std::string& address) {
   return address.find("://") == std::string::npos ? address : "";
 }
 
-// "picture-%04d.png": where the number stands, and what is before and behind it.
+// "picture-%04d.png": the position of the number, and the text before and after it.
 struct Numbered {
   std::string before, behind;
 };
@@ -80,7 +80,7 @@ bool isList(const fs::path& path) {
 
 void addFiles(const std::string& address, int depth, std::vector<std::string>& files);
 
-// What a line of a list may name: the line itself, and what stands in quotes or behind a colon.
+// Collects the names that a line of a list may contain: the line itself, and text in quotes or after a colon.
 void addNamed(std::string line, const fs::path& folder, int depth, std::vector<std::string>& files) {
   while (!line.empty() && std::isspace(static_cast<unsigned char>(line.back())) != 0) line.pop_back();
   std::vector<std::string> names;
@@ -144,9 +144,9 @@ Outcome<void> keepApart(const std::vector<std::string>& outputs, const std::vect
     const bool device = !inode && ::stat(path.c_str(), &status) == 0;
     if (path.empty() || device) continue;
     const bool is_read = inode ? read.contains(*inode) : read_names.contains(fullName(path));
-    if (is_read) return refuse(output, "is read from and would be written over; name another file");
+    if (is_read) return refuse(output, "is also an input and would be overwritten; choose another file");
     const bool twice = inode ? !written.insert(*inode).second : !written_names.insert(fullName(path)).second;
-    if (twice) return refuse(output, "is named for two outputs; name another file for one");
+    if (twice) return refuse(output, "is given for two outputs; choose different files");
   }
   return {};
 }

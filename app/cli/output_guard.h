@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps what a program writes off what it reads: no output may destroy an input.
+// Refuses an output that would overwrite an input.
 #pragma once
 
 #include <string>
@@ -9,14 +9,14 @@
 
 namespace relievo {
 
-// The files that are read when `address` is opened, as far as they are there: the file itself (a `file:` address too),
-// the pictures of a numbered sequence (`%04d`), and what a playlist names, lists in lists included. Empty for what is
-// no file. Bounded: lists of up to 1 MiB, four deep, 10,000 files.
+// The existing files that opening `address` reads: the file itself (also as a `file:` address), the pictures of a
+// numbered sequence (`%04d`), and everything that a playlist names, nested lists included. Empty if it is not a file.
+// Bounded: lists of up to 1 MiB, four levels, 10,000 files.
 [[nodiscard]] std::vector<std::string> filesReadBy(const std::string& address);
 
-// InvalidArgument for an output that is a file which one of the inputs reads (the same file by device and inode, under
-// whatever name or link, or the same name where there is no file yet), or which is another output as well. Words that
-// name no file (a URL, an empty one) are passed over.
+// InvalidArgument if an output is a file that one of the inputs reads (the same device and inode under any name or
+// link, or the same name if it does not exist yet), or if two outputs are the same file. Addresses that are not files
+// (a URL, an empty one) are ignored.
 [[nodiscard]] Outcome<void> keepApart(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The failure's line goes the way of every other line: whole, in one piece, without control characters.
+// Error messages are printed through the log: as one write, without control characters.
 #include "app/cli/program.h"
 
 #include <csignal>
@@ -21,14 +21,14 @@ std::atomic<void (*)() noexcept> last_act{nullptr};
 void endNow(int number) {
   if (auto* const act = last_act.load()) act();
   std::signal(number, SIG_DFL);
-  std::raise(number);  // it comes when this returns
+  std::raise(number);  // delivered when this handler returns
 }
 
 void onSignal(int number) {
   if (stop_wanted.exchange(true, std::memory_order_relaxed)) endNow(number);
 }
 
-// What was printed may still lie in the buffer.
+// Output may still be buffered, so flush it and check for errors.
 int afterOutput(int exit_code) {
   const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
   if (written || exit_code != kExitDone) return exit_code;
@@ -49,7 +49,7 @@ const std::atomic<bool>& stopOnSignals(void (*last)() noexcept) noexcept {
                            SIGPROF, SIGUSR1, SIGUSR2}) {
     struct sigaction old{};
     ::sigaction(number, nullptr, &old);
-    if (old.sa_handler == SIG_DFL) ::sigaction(number, &action, nullptr);  // a sanitizer has its own
+    if (old.sa_handler == SIG_DFL) ::sigaction(number, &action, nullptr);  // a sanitizer installs its own handlers
   }
   return stop_wanted;
 }
@@ -66,12 +66,12 @@ int tell(const Failure& failure, int exit_code) {
 
 int runProgram(const char* name, const std::function<int()>& body) noexcept {
   setLogProgram(name);
-  std::signal(SIGPIPE, SIG_IGN);  // who no longer listens ends nothing
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of the write, told like any other
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is a write error, not the end of the program
+  std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit is a write error too
   try {
     return afterOutput(body());
   } catch (const std::exception& error) {
-    log(LogLevel::Error, error.what(), "the system gives no more; close other programs and try again");
+    log(LogLevel::Error, error.what(), "the system is out of resources; close other programs and try again");
     return kExitFailed;
   }
 }

@@ -40,7 +40,7 @@ TEST_P(Programs, NameTheWordThatTheyDoNotKnow) {
   EXPECT_EQ(std::count(said.err.begin(), said.err.end(), '\n'), 1) << said.err;
   EXPECT_TRUE(said.err.starts_with(std::string(GetParam()) + ": ")) << said.err;
   if (std::string(GetParam()) != "relievo-author") {  // which has no commands: it misses an option first
-    EXPECT_THAT(said.err, HasSubstr(": foo: no such command; it is one of "));
+    EXPECT_THAT(said.err, HasSubstr(": foo: unknown command; use one of "));
   }
 }
 
@@ -80,7 +80,7 @@ TEST(ProgramWords, AMissingCommandIsOneLineWithTheCommands) {
   const test::TemporaryFolder folder;
   const auto said = test::runProgram("relievo", folder / ".");
   EXPECT_EQ(said.exit_code, 2);
-  EXPECT_THAT(said.err, HasSubstr("a command is missing; it is one of play, probe"));
+  EXPECT_THAT(said.err, HasSubstr("missing command; use one of play, probe"));
 }
 
 TEST(ProgramWords, TheChartsGodObjectIsExplained) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Progress messages of the programs, on a terminal and elsewhere, in simulated time.
+// How the programs report progress, on a terminal and elsewhere, in simulated time.
 #include <gtest/gtest.h>
 
 #include "app/cli/progress_line.h"
@@ -23,7 +23,7 @@ TEST(ProgressLine, WithoutATerminalIsALineEveryTenSeconds) {
     ProgressLine line(clock, false);
     for (int i = 0; i < 250; ++i, clock.advance(100ms)) line.say("film " + std::to_string(i));
   });
-  EXPECT_EQ(said, "worker: at work: film 100\nworker: at work: film 200\n");
+  EXPECT_EQ(said, "worker: progress: film 100\nworker: progress: film 200\n");
 }
 
 TEST(ProgressLine, WithoutATerminalAShortJobSaysNothing) {

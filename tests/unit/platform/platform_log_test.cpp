@@ -175,7 +175,7 @@ TEST(Log, EveryAreaThatTheSourcesNameIsInTheList) {
       const std::string words = text.str();
       for (std::sregex_iterator it(words.begin(), words.end(), named), end; it != end; ++it, ++found) {
         const std::string area = (*it)[1];
-        EXPECT_TRUE(area == "at work" || std::ranges::find(kLogAreas, area) != kLogAreas.end())
+        EXPECT_TRUE(area == "progress" || std::ranges::find(kLogAreas, area) != kLogAreas.end())
             << entry.path() << ": " << area;
       }
     }

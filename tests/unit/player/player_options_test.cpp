@@ -146,7 +146,7 @@ TEST(Options, ReadACalibrationFromAFileAsTheSideFile) {
 
 TEST(Options, RefuseWrongWordsInOneLine) {
   expectRefused({"play"}, "SOURCE");
-  expectRefused({"jump"}, "jump: no such command; it is one of play, probe, devices, selftest; see relievo --help");
+  expectRefused({"jump"}, "jump: unknown command; use one of play, probe, devices, selftest; see relievo --help");
   expectRefused({"play", "film.mkv", "--spin"}, "--spin");
   expectRefused({"play", "film.mkv", "--packing", "diagonal"}, "diagonal");
   expectRefused({"play", "film.mkv", "--stereo", "holo"}, "holo");
