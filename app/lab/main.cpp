@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// relievo-lab: the engineer's measurements.
+// The relievo-lab program: measures methods of touch and draws charts.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -32,50 +32,49 @@ std::vector<std::pair<std::string, std::string>> methodChoices() {
 void addTrace(CLI::App& app, TraceOptions& options) {
   app.footer(
       "Examples:\n"
-      "  a finger's path through a 16-bit depth film, by the paper's method, with no limit on the force\n"
+      "  a finger's path through a 16-bit depth film, by the paper's method, with unlimited force\n"
       "    relievo-lab trace --depth plane.mkv --hip finger.csv --out force.csv --method modified-proxy-graph --guard "
       "off\n"
-      "  the same by relievo with one part swapped: the frame held, not interpolated\n"
+      "  the same by relievo with one part replaced: frames held, not interpolated\n"
       "    relievo-lab trace --depth plane.mkv --hip finger.csv --out force.csv --method relievo --time hold\n"
       "HIP.csv has the header t_s,x_mm,y_mm,z_mm and one row per tick, in the scene frame: x right, y up, z toward "
       "the\n"
-      "viewer, origin at the centre of the far plane. Time 0 is the first frame's time. OUT.csv has a row for each: "
+      "viewer, origin at the centre of the far plane. Time 0 is the first frame's time. OUT.csv has a row per tick: "
       "the\n"
-      "finger, the proxy, the force on the hand, whether it is in contact, and the nanoseconds that the tick took.");
+      "finger, the proxy, the force on the hand, contact (0 or 1), and the method's time in ns.");
   SourceOptions& source = options.film.source;
-  app.add_option("--depth", source.url, "Depth film: whatever FFmpeg opens, 8 to 16 bits")
+  app.add_option("--depth", source.url, "Depth film of 8 to 16 bits, in any format that FFmpeg opens")
       ->required()
       ->type_name("SRC");
   addDepthOptions(app, source);
   addVolumeOption(app, options.film.volume);
-  app.add_option("--fps", options.film.frames_per_s, "Frames a second, for a source without timestamps")
+  app.add_option("--fps", options.film.frames_per_s, "Frames per second, for a source without timestamps")
       ->check(between(0.01, 10000.0))
       ->type_name("F");
-  app.add_option("--hip", options.hip_path, "The finger's path")->required()->type_name("HIP.csv");
-  app.add_option("--out", options.out_path, "What came of it, a row per tick")->required()->type_name("OUT.csv");
+  app.add_option("--hip", options.hip_path, "Path of the finger")->required()->type_name("HIP.csv");
+  app.add_option("--out", options.out_path, "Output: one row per tick")->required()->type_name("OUT.csv");
   addChoice(
       app, "--method", options.method, methodChoices(),
-      "Method of touch\nrelievo: the player's own; modified-proxy-graph: the paper's; proxy-graph, proxy-blend: those "
-      "before it;\npenalty: depth alone, no proxy. The charts' god-object is relievo with --space triangles")
+      "Method of touch\nrelievo: the player's own; modified-proxy-graph: the paper's; proxy-graph, proxy-blend: its "
+      "predecessors;\npenalty: penetration depth, no proxy. The charts' god-object is relievo with --space triangles")
       ->required();
-  app.add_option("--stiffness", options.stiffness_n_per_mm, "Stiffness between finger and proxy [0.5]")
+  app.add_option("--stiffness", options.stiffness_n_per_mm, "Stiffness between finger and proxy, N/mm [0.5]")
       ->type_name("N_PER_MM")
       ->check(between(1e-6, 1e3));
-  addChoice(
-      app, "--space", options.space,
-      {{"triangles", SpaceLaw::Triangles}, {"quadratic", SpaceLaw::Quadratic}, {"bspline", SpaceLaw::BSpline}},
-      "The surface between samples [the method's own]\ntriangles: the paper's; quadratic, bspline: a smooth local "
-      "patch, of relievo alone");
+  addChoice(app, "--space", options.space,
+            {{"triangles", SpaceLaw::Triangles}, {"quadratic", SpaceLaw::Quadratic}, {"bspline", SpaceLaw::BSpline}},
+            "The surface between samples [the method's own]\ntriangles: the paper's; quadratic, bspline: smooth local "
+            "patches, only for relievo");
   addChoice(app, "--time", options.time,
             {{"hold", TimeLaw::Hold},
              {"linear", TimeLaw::Linear},
              {"bspline", TimeLaw::BSpline},
              {"fitted", TimeLaw::Fitted}},
-            "The surface between frames [the method's own]\nhold: the newest as it is; linear: the paper's; bspline, "
-            "fitted: smooth splines, of relievo on a smooth patch");
+            "The surface between frames [the method's own]\nhold: the newest frame; linear: the paper's; bspline, "
+            "fitted: splines, only for relievo on smooth patches");
   addChoice(app, "--guard", options.guard,
             {{"off", TraceGuard::Off}, {"threshold", TraceGuard::Threshold}, {"full", TraceGuard::Full}},
-            "What limits the force [the method's own]\noff: nothing; threshold: the paper's; full: all limits of the "
+            "Limits on the force [the method's own]\noff: nothing; threshold: the paper's; full: all limits of the "
             "haptic task");
 }
 
@@ -99,8 +98,8 @@ int runTraceCommand(const TraceOptions& options) {
 
 CLI::App* addMeasurement(CLI::App& app, const char* name, const char* about, MeasureOptions& options) {
   CLI::App* const command = app.add_subcommand(name, about);
-  command->add_flag("--quick", options.quick, "Fewer scenes, rounds and seconds: within a minute");
-  command->add_option("--out", options.out, "Folder for the CSVs and SVGs; made when it is missing")
+  command->add_flag("--quick", options.quick, "Fewer scenes, rounds and seconds: under a minute");
+  command->add_option("--out", options.out, "Output folder for CSV and SVG files; created if missing")
       ->required()
       ->type_name("DIR");
   return command;
@@ -109,15 +108,14 @@ CLI::App* addMeasurement(CLI::App& app, const char* name, const char* about, Mea
 Outcome<void> makeFolder(const std::string& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
-  if (error)
-    return failOn("--out " + path, {ErrorCode::Io, error.value(), "the folder cannot be made; choose another"});
+  if (error) return failOn("--out " + path, {ErrorCode::Io, error.value(), "cannot create the folder; choose another"});
   if (::access(path.c_str(), W_OK) != 0) {
-    return failOn("--out " + path, {ErrorCode::Io, errno, "the folder cannot be written to; choose another"});
+    return failOn("--out " + path, {ErrorCode::Io, errno, "cannot write to the folder; choose another"});
   }
   return {};
 }
 
-// `work` takes the options, with the way to tell how far it is. `files` says what lies in the folder then.
+// Runs `work` with the options and a function that reports progress. `files` describes the output.
 template <class Work>
 int runIntoFolder(MeasureOptions options, Work&& work, const std::string& files) {
   if (const auto made = makeFolder(options.out); !made) return tell(made.error(), kExitFailed);
@@ -139,18 +137,19 @@ int runIntoFolder(MeasureOptions options, Work&& work, const std::string& files)
 std::string chartFiles(const Measurement& measurement) {
   std::string words;
   for (const char* chart : measurement.charts) words += (words.empty() ? "" : ", ") + std::string(chart) + ".svg";
-  return words + "; the figures beside them as .csv";
+  return words + "; data in .csv files of the same names";
 }
 
 int parseAndRun(int argc, char** argv) {
-  CLI::App app("Measures touch on moving depth, and the drawing of it.", "relievo-lab");
+  CLI::App app("Measures methods of touch on moving depth, and the rendering of it.", "relievo-lab");
   app.footer(
       "\nExamples:\n"
-      "  relievo-lab report --quick --out charts      every chart in a few minutes, and charts/index.html over them\n"
+      "  relievo-lab report --quick --out charts      all charts in a few minutes, with charts/index.html as the "
+      "overview\n"
       "  relievo-lab trace --help                     one finger, one film, one method, tick by tick\n"
-      "\nIn the charts `god-object` is the method relievo with triangles in space, the paper's surface: what a "
+      "\nIn the charts `god-object` is the method relievo on triangles, the paper's surface: the result of a "
       "converged\n"
-      "proxy makes of it. Names such as `relievo hold` are a method with one part swapped.\n");
+      "proxy. A name such as `relievo hold` is a method with one part replaced.\n");
   app.require_subcommand(1);
   TraceOptions trace;
   CLI::App* const trace_command =
@@ -161,9 +160,9 @@ int parseAndRun(int argc, char** argv) {
   for (const Measurement& m : measurements()) commands.emplace_back(addMeasurement(app, m.name, m.about, options), &m);
   app.get_subcommand("enhance")
       ->add_option("--depth", options.depth_films,
-                   "Depth films whose first pictures go into the chart of points as well")
+                   "Depth films whose first pictures are added to the chart of mesh points")
       ->type_name("SOURCE");
-  addMeasurement(app, "report", "all of these that DIR has not yet, and one page over them", options);
+  addMeasurement(app, "report", "runs every measurement missing in DIR and writes an overview page", options);
   if (const auto parsed = parseCommandLine(app, argc, argv); !parsed) return parsed.error();
 
   if (trace_command->parsed()) return runTraceCommand(trace);
@@ -176,7 +175,7 @@ int parseAndRun(int argc, char** argv) {
     const auto run = [m = measurement](const MeasureOptions& o) { return runMeasurement(*m, o); };
     return runIntoFolder(options, run, chartFiles(*measurement));
   }
-  return runIntoFolder(options, writeReport, "index.html: every chart; each is beside it as .svg, its figures as .csv");
+  return runIntoFolder(options, writeReport, "index.html shows every chart; charts are .svg, data .csv");
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The author's encoder and libavcodec's decoder, back to back. Pictures come back in order; their times stay here.
+// Runs the author's encoder and libavcodec's decoder back to back. Pictures keep their order; timestamps bypass the
+// codec.
 #include "app/lab/film/coded_depth.h"
 
 #include <algorithm>
@@ -20,16 +21,17 @@ using CodecContext = std::unique_ptr<AVCodecContext, Free>;
 using Picture = std::unique_ptr<AVFrame, Free>;
 
 Result<void> check(std::span<const Frame> frames, int bits) {
-  if (frames.empty()) return fail(ErrorCode::InvalidArgument, "no frames to code");
+  if (frames.empty()) return fail(ErrorCode::InvalidArgument, "no frames to encode");
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const Frame& f = frames[i];
     if (f.empty() || f.model != ColorModel::Gray || f.components[0].bits != bits ||
         f.components[0].step_bytes != (bits > 8 ? 2 : 1) || f.width != frames[0].width ||
         f.height != frames[0].height) {
-      return fail(ErrorCode::InvalidArgument, "depth to code is gray frames of one size and of the coder's bits");
+      return fail(ErrorCode::InvalidArgument,
+                  "depth to encode must be gray frames of one size and the encoder's bit depth");
     }
     if (i > 0 && f.pts <= frames[i - 1].pts) {
-      return fail(ErrorCode::InvalidArgument, "the times of frames to code must rise");
+      return fail(ErrorCode::InvalidArgument, "the timestamps of frames to encode must increase");
     }
   }
   return {};
@@ -42,12 +44,12 @@ Result<CodecContext> openDecoder(const AVCodecContext& encoder) {
   if (!context || !parameters || avcodec_parameters_from_context(parameters.get(), &encoder) < 0 ||
       avcodec_parameters_to_context(context.get(), parameters.get()) < 0 ||
       avcodec_open2(context.get(), decoder, nullptr) < 0) {
-    return fail(ErrorCode::Unsupported, "FFmpeg on this machine has no decoder for this codec; install one that has");
+    return fail(ErrorCode::Unsupported, "this FFmpeg has no decoder for this codec; install one that does");
   }
   return context;
 }
 
-// 4:0:0 may come out as 4:2:0 with flat chroma: only the first plane means anything.
+// 4:0:0 may be decoded as 4:2:0 with flat chroma: only the first plane carries data.
 Frame frameOf(Picture picture, const Frame& original) {
   Frame frame;
   frame.pts = original.pts;
@@ -90,9 +92,9 @@ class RoundTrip {
   }
 
  private:
-  static std::unexpected<Error> failed() { return fail(ErrorCode::Io, "coding depth in memory failed"); }
+  static std::unexpected<Error> failed() { return fail(ErrorCode::Io, "encoding or decoding depth in memory failed"); }
 
-  // Without gaps between rows.
+  // Removes the gaps between rows.
   static std::vector<std::uint8_t> packed(const Frame& frame) {
     const std::size_t row = static_cast<std::size_t>(frame.width) * frame.components[0].step_bytes;
     std::vector<std::uint8_t> plane;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth frames through a coder and back, in memory: what it leaves of them.
+// Encodes and decodes depth frames in memory, to measure what a codec does to them.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,15 @@
 namespace relievo {
 
 struct CodedDepth {
-  std::vector<Frame> frames;  // the decoder's pictures by reference, in order, with the times of those that went in
+  std::vector<Frame> frames;  // decoded pictures, in order, with the timestamps of the input
   std::uint64_t bytes = 0;    // of all packets
 };
 
-// 4:0:0, signalled as full range, with a key frame at every second. Codec, bits, crf and what they are to be good for
-// are the caller's, the rest of `settings` is the frames'. InvalidArgument for no frames, for other than gray frames of
-// one size with that many bits, or for times that do not rise.
+// Encodes as 4:0:0, signalled as full range, with a key frame every second. The caller chooses codec, bits, crf and
+// tuning; the other settings come from the frames. InvalidArgument if there are no frames, if they are not gray frames
+// of one size with that bit depth, or if their timestamps do not increase.
 [[nodiscard]] Result<CodedDepth> codeDepth(std::span<const Frame> frames, VideoEncoder::Settings settings);
-// As a coder does that knows nothing of touch: H.264, 8 bits; crf 0 is lossless, 51 the coarsest.
+// As an encoder that is not tuned for touch: H.264, 8 bits; crf 0 is lossless, 51 the coarsest.
 [[nodiscard]] Result<CodedDepth> codeDepth(std::span<const Frame> frames, int crf);
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A row of heights at a time; heights are all that is asked of the surface.
+// Renders one row of heights at a time.
 #include "app/lab/film/depth_rendering.h"
 
 #include <algorithm>
@@ -48,7 +48,7 @@ void quantise(const std::vector<double>& codes, double highest, std::uint8_t* ro
   auto* out = reinterpret_cast<Sample*>(row);  // aligned: rows begin at multiples of the sample's size
   for (const double code : codes) {
     const double shifted = std::clamp(code, 0.0, highest) + 0.5;
-    *out++ = static_cast<Sample>(shifted);  // rounds what is not negative, and quicker than lround
+    *out++ = static_cast<Sample>(shifted);  // rounds non-negative values; faster than lround
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames are carried in 16 bits; a film of fewer has that many heights.
+// Frames have 16 bits; a film of fewer bits uses only that many different heights.
 #include "app/lab/film/made_film.h"
 
 #include <algorithm>

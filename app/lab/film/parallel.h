@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Work that comes in independent pieces, on all processors.
+// Distributes independent pieces of work over all processors.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 
 namespace relievo {
 
-// Calls work(0) .. work(count - 1), each once, in any order and on several threads. `work` does not throw. `tell` is
-// called on the caller's thread now and then, with the number of pieces that are done.
+// Calls work(0) .. work(count - 1), each once, in any order and on several threads. `work` must not throw. `tell` is
+// called on the caller's thread from time to time with the number of finished pieces.
 template <class Work, class Tell>
 void inParallel(std::size_t count, Work&& work, Tell&& tell) {
   std::atomic<std::size_t> next{0}, done{0};

@@ -23,7 +23,7 @@ double ditherAt(int c, int r) {
   return (rank + 0.5) / 64 - 0.5;
 }
 
-// The normalised code of the inverse law for a height in share of the volume's depth.
+// The normalised code of the inverse law for a height, as a share of the volume's depth.
 double byDisparity(double height) {
   const double distance = kFarMm - height * (kFarMm - kNearMm);
   return (1 / distance - 1 / kFarMm) / (1 / kNearMm - 1 / kFarMm);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exact depth in fewer steps, laid in one way or another; and how far heights are off then.
+// Reduces exact depth to fewer steps, spaced in one of several ways, and measures the height error.
 #pragma once
 
 #include <algorithm>
@@ -15,17 +15,17 @@ namespace relievo {
 
 enum class DepthSteps : std::uint8_t {
   Even,
-  Dithered,   // even, an ordered pattern of 8 by 8 samples added before the rounding
-  Disparity,  // by the inverse law: fine where it is near
+  Dithered,   // evenly spaced, with an 8 x 8 ordered dither pattern added before rounding
+  Disparity,  // spaced by the inverse law: finest near the viewer
 };
 [[nodiscard]] const char* name(DepthSteps steps) noexcept;
 
-// What codes of such steps mean.
+// The calibration of the reduced codes.
 [[nodiscard]] DepthCalibration meaningOf(int bits, DepthSteps steps) noexcept;
 // `depth`: gray of 16 bits, linear, near high, full range.
 [[nodiscard]] Frame requantised(const Frame& depth, int bits, DepthSteps steps);
 
-// Over all samples of pictures of one size.
+// Accumulates over all samples of pictures of one size.
 class HeightErrorSum {
  public:
   void add(const HeightField& felt, const HeightField& truth);

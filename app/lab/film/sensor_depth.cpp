@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What happens in a camera, in its order: edges are mixed, noise is added, codes are rounded, samples fail.
+// Applies a camera's faults in its own order: edges mix, noise is added, codes are rounded, samples fail.
 #include "app/lab/film/sensor_depth.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth as a camera would have seen it: noise, salt, holes, and samples that hang in the air at edges.
+// Simulates depth as a camera sees it: noise, salt, holes, and flying samples at edges.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,18 @@ namespace relievo {
 
 struct SensorModel {
   double noise_levels = 2;  // standard deviation, in codes of 8 bits
-  // Salt: one sample in 500 with any code. Holes: discs of one to four samples across each way, a hundredth of the
-  // picture. Flying: half of the samples beside a step lie anywhere between its two sides.
+  // Salt: one sample in 500 gets a random code. Holes: discs of one to four samples in diameter, 1 % of the picture.
+  // Flying samples: half of those beside a step lie anywhere between its two sides.
   bool faults = false;
 };
 
-// Codes of 8 bits, full range, near high; 0 is a hole.
+// 8-bit codes, full range, near high; 0 is a hole.
 inline const DepthCalibration kSensorCalibration{.bits = 8, .invalid = 0};
 
-// `exact` is a gray frame of 16 bits, full range, near high. The same seed, the same picture.
+// `exact` must be a gray frame of 16 bits, full range, near high. Equal seeds give equal pictures.
 [[nodiscard]] Frame sensedDepth(const Frame& exact, const SensorModel& sensor, std::uint64_t seed);
 
-// 16 bits, code 0 a hole, as 8 bits of the same meaning: what a coder of 8 bits makes of enhanced depth.
+// Reduces 16 bits, code 0 a hole, to 8 bits of the same meaning, as an 8-bit encoder does with enhanced depth.
 [[nodiscard]] Frame asEightBits(const Frame& wide);
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loop of the haptic task without a device, a thread or a fade.
+// The loop of the haptic task without a device, a thread or fades.
 #include "app/lab/trace/trace.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ std::optional<bool> jumpThreshold(TraceGuard guard) {
   return std::nullopt;
 }
 
-// "bspline in space, levels of 0.28 and 0.72 mm, linear and fitted in time"; "triangles in space, hold in time".
+// "bspline in space, levels of 0.28 and 0.72 mm, linear and fitted in time", "triangles in space, hold in time".
 std::string describe(const MethodParts& parts) {
   const std::string space = std::string(name(parts.space)) + " in space, ";
   return space + (parts.scale ? relievo::describe(*parts.scale) : std::string(name(parts.time)) + " in time");
@@ -54,16 +54,17 @@ Outcome<void> checkParts(const TraceOptions& options) {
   const std::string method = "--method " + options.method;
   if (space && !go(space, {})) {
     return refuse(std::string("--space ") + name(*space), method,
-                  "they do not go together; quadratic and bspline are of relievo, the others lie on triangles");
+                  "they cannot be combined; only relievo has quadratic and bspline, the others use triangles");
   }
   if (time && !go({}, time)) {
-    return refuse(std::string("--time ") + name(*time), method,
-                  "they do not go together; bspline and fitted are of relievo, proxy-blend takes hold, the others hold "
-                  "or linear");
+    return refuse(
+        std::string("--time ") + name(*time), method,
+        "they cannot be combined; only relievo has bspline and fitted, proxy-blend uses hold, the others hold "
+        "or linear");
   }
   if (!go(space, time)) {
     return refuse(std::string("--time ") + name(*time), std::string("--space ") + name(*space),
-                  "they do not go together; triangles take hold or linear");
+                  "they cannot be combined; triangles need hold or linear");
   }
   return {};
 }
@@ -85,10 +86,10 @@ Outcome<TraceSummary> runTrace(const TraceOptions& options, const PairReader::Ba
                       .time = options.time,
                       .jump_threshold = jumpThreshold(options.guard),
                       .scale = plan.scale};
-  // The path's own rate: what a method does in time it does so at any.
+  // At the path's own rate, since methods depend on the tick's length.
   if (path->size() > 1) config.tick_s = (path->back().t_s - path->front().t_s) / static_cast<double>(path->size() - 1);
   const auto parts = partsOf(options.method, config);
-  if (!parts) return failOn("--method " + options.method, {ErrorCode::InvalidArgument, 0, "no such method"});
+  if (!parts) return failOn("--method " + options.method, {ErrorCode::InvalidArgument, 0, "unknown method"});
   const auto method = makeMethod(options.method, config);
   SafetyFilter safety({}, options.stiffness_n_per_mm);
   const MonotonicClock clock;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A finger's path through a depth film, tick by tick, on virtual time: what the proxy did and what the hand would feel.
+// Runs a finger's path through a depth film, tick by tick, on virtual time, and records the proxy and the force.
 #pragma once
 
 #include <optional>
@@ -12,8 +12,8 @@
 namespace relievo {
 
 enum class TraceGuard : std::uint8_t {
-  Own,        // as the method has it
-  Off,        // stiffness x (proxy - HIP), whatever it is
+  Own,        // the method's own
+  Off,        // none: stiffness x (proxy - HIP)
   Threshold,  // the paper's force-jump threshold (IV-C)
   Full,       // the method's own, then the safety limits of the haptic task
 };
@@ -32,11 +32,11 @@ struct TraceOptions {
 struct TraceSummary {
   std::size_t ticks = 0, contact_ticks = 0;
   double max_force_n = 0;
-  std::string parts;  // that the method was made of
-  std::string plan;   // of `relievo` with parts of its own: what was picked for this film, and why
+  std::string parts;  // parts that the method used
+  std::string plan;   // `relievo` with its own parts: the plan for this film and its reason
 };
 
-// InvalidArgument for options of which one does not go with another; the failure names the two.
+// InvalidArgument for options that cannot be combined; the failure names both.
 [[nodiscard]] Outcome<void> checkParts(const TraceOptions& options);
 
 // Writes OUT.csv, whole or not at all: one row per row of the path, columns t_s, hip_x_mm .. hip_z_mm, proxy_x_mm ..
