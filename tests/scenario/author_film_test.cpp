@@ -425,7 +425,7 @@ TEST_F(AuthorFilm, ProgramDoesNotReplaceAFileUnlessForced) {
   std::ofstream(folder_ / "out.mkv") << "mine";
   const auto refused = run("--color @/color.mkv --depth @/depth.mkv -o @/out.mkv");
   EXPECT_EQ(refused.exit_code, 1);
-  EXPECT_THAT(refused.err, HasSubstr("out.mkv: is there already"));
+  EXPECT_THAT(refused.err, HasSubstr("out.mkv: already exists"));
   EXPECT_THAT(refused.err, HasSubstr("--force"));
   std::string kept;
   std::ifstream(folder_ / "out.mkv") >> kept;

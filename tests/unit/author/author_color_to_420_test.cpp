@@ -58,7 +58,7 @@ TEST(AuthorColorTo420, LeavesEightBit420AsItIs) {
 }
 
 TEST(AuthorColorTo420, AveragesTheChromaOf444) {
-  // (10 + 20 + 30 + 41)/4 = 25.25; (1 + 2 + 3 + 4)/4 = 2.5, up.
+  // (10 + 20 + 30 + 41)/4 = 25.25; (1 + 2 + 3 + 4)/4 = 2.5, rounded up.
   const Planar film(2, 2, 0, 0, 8, {{{50, 60, 70, 80}, {10, 20, 30, 41}, {1, 2, 3, 4}}});
   const ColorPicture420 picture = converted(film.frame);
   EXPECT_EQ(picture.y, (Bytes{50, 60, 70, 80}));
@@ -70,7 +70,7 @@ TEST(AuthorColorTo420, AveragesTheChromaOf422DownTheColumn) {
   const Planar film(4, 2, 1, 0, 8, {{{0, 0, 0, 0, 0, 0, 0, 0}, {10, 100, 20, 200}, {0, 0, 255, 255}}});
   const ColorPicture420 picture = converted(film.frame);
   EXPECT_EQ(picture.u, (Bytes{15, 150}));
-  EXPECT_EQ(picture.v, (Bytes{128, 128}));  // 127.5, up
+  EXPECT_EQ(picture.v, (Bytes{128, 128}));  // 127.5, rounded up
 }
 
 TEST(AuthorColorTo420, RepeatsTheChromaOf410) {
@@ -79,12 +79,12 @@ TEST(AuthorColorTo420, RepeatsTheChromaOf410) {
 }
 
 TEST(AuthorColorTo420, RoundsTenBitsOfLimitedRangeByFour) {
-  // 64 is black in 10 bits, 16 in 8; 66/4 = 16.5, up; 1023/4 = 255.75 stays in a byte.
+  // 64 is black in 10 bits, 16 in 8; 66/4 = 16.5, rounded up; 1023/4 = 255.75 must fit in a byte.
   const Planar film(2, 2, 1, 1, 10, {{{64, 65, 66, 1023}, {512}, {514}}});
   const ColorPicture420 picture = converted(film.frame);
   EXPECT_EQ(picture.y, (Bytes{16, 16, 17, 255}));
   EXPECT_EQ(picture.u, Bytes{128});
-  EXPECT_EQ(picture.v, Bytes{129});  // 128.5, up
+  EXPECT_EQ(picture.v, Bytes{129});  // 128.5, rounded up
 }
 
 TEST(AuthorColorTo420, RescalesTenBitsOfFullRange) {

@@ -55,7 +55,7 @@ TEST(AuthorDepthCoder, ExpandsLimitedRangeToFull) {
 }
 
 // 10 bits limited: 64 .. 940, 876 steps; 255/876 = 0.291: 65 -> 0.29, 66 -> 0.58, 502 -> 438 x 255/876 = 127.5 exactly,
-// which goes up.
+// rounded up.
 TEST(AuthorDepthCoder, ExpandsLimitedTenBits) {
   const DepthCalibration limited{.range = ColorRange::Limited, .bits = 10};
   EXPECT_EQ(coded(grayRow({0, 64, 65, 66, 502, 940, 1023}, 10), limited), (Codes{0, 0, 0, 1, 128, 255, 255}));
@@ -68,7 +68,7 @@ TEST(AuthorDepthCoder, TurnsNearLowRound) {
 }
 
 TEST(AuthorDepthCoder, GivesHolesACodeOfTheirOwn) {
-  // 16 bits, 0 is a hole: 1 and 128 would be 0 and must not look like holes.
+  // 16 bits, 0 is a hole: 1 and 128 would round to 0 but must not become holes.
   const DepthCalibration source{.bits = 16, .invalid = 0};
   EXPECT_EQ(coded(grayRow({0, 1, 128, 386, 65535}, 16), source), (Codes{0, 1, 1, 2, 255}));
 
@@ -99,7 +99,7 @@ TEST(AuthorDepthCoder, KeepsTheLaw) {
   EXPECT_EQ(outcome.law, DepthLaw::Inverse);
   EXPECT_EQ(outcome.near_mm, 300);
   EXPECT_EQ(outcome.far_mm, 4000);
-  // The code is that of s, whatever the law makes of it: 255 x 1365/4095 = 85.
+  // The code depends on s alone, not on the law: 255 x 1365/4095 = 85.
   EXPECT_EQ(coded(grayRow({1365}, 12), source), Codes{85});
 }
 
@@ -163,13 +163,13 @@ TEST(AuthorDepthCoder, SaysWhatItDid) {
     for (const std::string& line : DepthCoder(c).explain()) all += line + "\n";
     return all;
   };
-  EXPECT_NE(said({.bits = 16}).find("16 bits rescaled to 8: codes 0 .. 65535"), std::string::npos);
+  EXPECT_NE(said({.bits = 16}).find("16 bits rescaled to 8 bits: codes 0 .. 65535"), std::string::npos);
   EXPECT_NE(said({.range = ColorRange::Limited, .bits = 10}).find("codes 64 .. 940"), std::string::npos);
   EXPECT_NE(said({.range = ColorRange::Limited}).find("limited range expanded"), std::string::npos);
-  EXPECT_NE(said({.polarity = DepthPolarity::NearIsLow}).find("turned round"), std::string::npos);
+  EXPECT_NE(said({.polarity = DepthPolarity::NearIsLow}).find("polarity inverted"), std::string::npos);
   EXPECT_NE(said({.invalid = 3}).find("reserved for holes"), std::string::npos);
   EXPECT_NE(said({.code = DepthCode::Hue}).find("hue decoded"), std::string::npos);
-  EXPECT_NE(DepthCoder({}, {.law = DepthLaw::Inverse}).explain().at(0).find("linear steps made inverse"),
+  EXPECT_NE(DepthCoder({}, {.law = DepthLaw::Inverse}).explain().at(0).find("linear steps converted to inverse"),
             std::string::npos);
 }
 

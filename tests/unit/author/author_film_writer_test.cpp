@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The film that is written is the film that is read: codes, times, tags, key frames; and none is left when it fails.
+// A written film reads back with the same codes, timestamps, tags and key frames; a failed write leaves nothing.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -57,7 +57,7 @@ ColorPicture420 colorPicture(int width, int height, int k) {
 struct ReadFilm {
   std::vector<StreamInfo> streams;
   std::map<std::string, std::string> tags;
-  std::map<int, std::vector<MediaTime>> keys;  // of each stream
+  std::map<int, std::vector<MediaTime>> keys;  // by stream
   std::map<int, std::vector<Frame>> frames;
 };
 
@@ -137,8 +137,8 @@ TEST_P(AuthorFilmWriter, LosslessDepthComesBackCodeByCode) {
   }
 }
 
-// Black and white of limited range are 16 and 235: had anything scaled the codes, 0 and 255 would not come back, and
-// the slope would be off by up to 20 codes.
+// Black and white in limited range are 16 and 235: if anything rescaled the codes, 0 and 255 would not come back, and
+// the slope would be wrong by up to 20 codes.
 TEST_P(AuthorFilmWriter, CodedDepthIsNotRescaled) {
   writeFilm(
       path(), formatOf(256, 64), regularTimes(8),
@@ -152,8 +152,8 @@ TEST_P(AuthorFilmWriter, CodedDepthIsNotRescaled) {
   }
 }
 
-// chroma_format_idc of the sequence parameter set is the second Exp-Golomb number behind profile, constraints and
-// level: the first is the set's number, 0, written "1"; 0 (4:0:0) is "1", 1 (4:2:0) is "010".
+// chroma_format_idc of the sequence parameter set is the second Exp-Golomb number after profile, constraints and level:
+// the first is the set's number, 0, coded "1"; 0 (4:0:0) is "1", 1 (4:2:0) is "010".
 TEST_P(AuthorFilmWriter, DepthIsMonochromeAndColourIs420) {
   writeFilm(
       path(), formatOf(64, 48), regularTimes(3),
@@ -166,7 +166,7 @@ TEST_P(AuthorFilmWriter, DepthIsMonochromeAndColourIs420) {
   EXPECT_EQ(film.streams[1].codec, "h264");
   EXPECT_EQ(chromaBits(0), 0b1010);
   EXPECT_EQ(chromaBits(1) >> 2, 0b11);
-  // 12 macroblocks 30 times a second: level 1.0. At the 90,000 ticks a second of the time base it would be 4.2.
+  // 12 macroblocks at 30 pictures/s: level 1.0. At the 90,000 ticks/s of the time base it would be 4.2.
   EXPECT_EQ(film.streams[0].extradata.at(11), 10);
 }
 
@@ -186,7 +186,7 @@ TEST_P(AuthorFilmWriter, KeepsTheTimes) {
       EXPECT_NEAR(toSeconds(frames[k].pts), toSeconds(times[k]), 12e-6) << "stream " << stream << " picture " << k;
     }
   }
-  // Each depth picture is at its own time: the codes tell which it is.
+  // Each depth picture has its own time: the codes identify it.
   for (std::size_t k = 0; k < times.size(); ++k) {
     EXPECT_NEAR(static_cast<double>(test::sampleAt(film.frames.at(1)[k], 0, 30, 20)), 10.0 * static_cast<double>(k), 1);
   }
@@ -198,7 +198,7 @@ TEST_P(AuthorFilmWriter, NamesItsTracks) {
       [](int k) { return k == 0; });
   const ReadFilm film = readFilm(path());
   ASSERT_EQ(film.streams.size(), 2u);
-  // MP4's own title of a track is written too, but this library does not read it.
+  // MP4's own track title is written too, but this library does not read it.
   const char* const key = std::string(GetParam()) == ".mkv" ? "TITLE" : "HANDLER_NAME";
   for (const auto& [stream, name] : {std::pair{0, "color"}, {1, "depth"}}) {
     ASSERT_TRUE(film.streams[static_cast<std::size_t>(stream)].tags.contains(key)) << name;
@@ -236,7 +236,7 @@ TEST_P(AuthorFilmWriter, WritesTheCalibrationWhereAReaderFindsIt) {
 }
 
 TEST_P(AuthorFilmWriter, PutsKeyFramesWhereItIsTold) {
-  // A cut at 40, where an encoder left to itself would put one of its own.
+  // A cut at 40, where an encoder would insert a key frame by itself.
   const auto key = [](int k) { return k % 70 == 0; };
   writeFilm(
       path(), formatOf(64, 48), regularTimes(80),
@@ -292,7 +292,7 @@ TEST(AuthorFilmWriterFile, IsThereWholeOrNotAtAll) {
     auto writer = FilmWriter::create(path, formatOf(64, 48));
     ASSERT_TRUE(writer.has_value());
     EXPECT_FALSE(std::filesystem::exists(path));
-    EXPECT_LE(filesIn(folder / "").size(), 1u);  // the temporary one, where it has a name
+    EXPECT_LE(filesIn(folder / "").size(), 1u);  // the temporary file, if it has a name
     ASSERT_TRUE((*writer)->writeColor(colorPicture(64, 48, 0), MediaTime{}, true).has_value());
   }
   EXPECT_TRUE(filesIn(folder / "").empty());

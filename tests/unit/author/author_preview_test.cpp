@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The picture of what was done to the depth: which film picture it shows, and what is where in it.
+// The preview picture: which film picture it shows, and its layout.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ ColorPicture420 grayColor(std::uint8_t luma) {
   return color;
 }
 
-// A slope of 64 levels, with a hole before the enhancement and none after it; `high` levels above.
+// A slope of 64 levels, raised by `high` levels, with a hole before the enhancement and none after it.
 void show(Preview& preview, int index, int high, std::optional<std::uint64_t> expected) {
   const auto slope = [high](int c, int r) { return (c < 8 && r < 8) ? 0 : 50 + high + c; };
   const MediaTime time = mediaTime(0.04 * index);
@@ -43,10 +43,10 @@ TEST(AuthorPreview, HasThreePanesAndTheProfilesOfBothDepths) {
   ASSERT_EQ(picture->width, 3 * kPaneCols + 4 * kGap);
   ASSERT_EQ(picture->height, kPaneRows + 300 + 3 * kGap);
   EXPECT_EQ(picture->at(kGap + 100, kGap + 50), (RgbPixel{50, 50, 50})) << "the colour";
-  // The hole is 8 of 64 samples wide and high in the pane before, and nowhere in the one after.
+  // The hole is 8 of 64 samples wide and high in the first depth pane, and absent in the second.
   EXPECT_EQ(countOf(*picture, kHole), (kPaneCols / 8) * (kPaneRows / 6 - 1)) << "the line goes through it";
   EXPECT_EQ(picture->at(2 * kGap + kPaneCols + 5, kGap + 5), kHole);
-  // The slope goes up over the whole width, a level higher after than before.
+  // The slope rises over the whole width, one level higher after than before.
   const auto top = [&](int x, const RgbPixel& color) {
     int y = kPaneRows + 2 * kGap;
     while (y < picture->height && picture->at(x, y) != color) ++y;
@@ -69,11 +69,11 @@ TEST(AuthorPreview, IsOfTheMiddleWhereThatIsKnownElseOfTheFirst) {
 
 TEST(AuthorPreview, SaysWhenThereIsNothingToShow) {
   EXPECT_EQ(Preview().draw().error().code, ErrorCode::NotFound);
-  Preview preview;  // of holes alone there is a picture, without profiles
+  Preview preview;  // a film of holes alone has a picture but no profiles
   const DepthCalibration calibration{.invalid = 0};
   const Frame holes = test::makeGrayFrame(kCols, kRows, 8, mediaTime(0), [](int, int) { return 0; });
   preview.before(grayColor(9), holes, calibration, {});
-  EXPECT_EQ(preview.draw().error().code, ErrorCode::NotFound) << "what comes after it is not known yet";
+  EXPECT_EQ(preview.draw().error().code, ErrorCode::NotFound) << "the enhanced picture has not arrived yet";
   preview.after(holes, calibration);
   const auto picture = preview.draw();
   ASSERT_TRUE(picture.has_value());

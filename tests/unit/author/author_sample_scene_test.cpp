@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sample film before coding: its depth is that of its surfaces, its surfaces are where they say, it moves as it
-// should.
+// The sample film before encoding: its depth agrees with its surfaces, its objects are where they should be, and they
+// move as they should.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,8 +33,8 @@ SamplePicture rendered(double t_s, int cols, int rows, int threads = 2) {
 
 class AuthorSampleScene : public testing::TestWithParam<double> {};
 
-// The picture's rays are cast in groups, in single precision, with parts left out that cannot matter; the height is
-// found in double precision from all parts by the plain march. Where a ray only grazes an edge the two may differ.
+// The picture's rays are cast in groups, in single precision, skipping distant parts; the height comes from the plain
+// march in double precision over all parts. At grazed edges the two may differ.
 TEST_P(AuthorSampleScene, DepthIsThatOfTheSurfaceToHalfACode) {
   constexpr int kCols = SampleFilm::kCols, kRows = SampleFilm::kRows;
   const SamplePicture picture = rendered(GetParam(), kCols, kRows);
@@ -57,7 +57,7 @@ TEST_P(AuthorSampleScene, DepthIsThatOfTheSurfaceToHalfACode) {
   EXPECT_LE(off, 7);  // one in two thousand
 }
 
-// By another way: above the height there is nothing, right below it there is something.
+// Independent check: nothing is above the height, and something is right below it.
 TEST_P(AuthorSampleScene, HeightIsTheFirstSurfaceFromTheViewer) {
   const double t = GetParam();
   const auto check = [](const auto& scene, double x, double y, double z) {
@@ -91,7 +91,7 @@ TEST(AuthorSampleFilm, PictureDoesNotDependOnTheThreads) {
 }
 
 TEST(AuthorSampleFilm, BeginsWithAFaceInTheMiddle) {
-  // The nose is what stands out most, and it is within a finger's breadth of the middle.
+  // The nose is the highest point, and within a finger's breadth of the middle.
   double highest = 0, at_x = 0, at_y = 0;
   for (double y = -50; y <= 50; y += 0.5) {
     for (double x = -75; x <= 75; x += 0.5) {
@@ -101,7 +101,7 @@ TEST(AuthorSampleFilm, BeginsWithAFaceInTheMiddle) {
   }
   EXPECT_GT(highest, 18);
   EXPECT_LT(std::hypot(at_x, at_y), 12);
-  // And it stands out from the wall beside it by a good part of the volume.
+  // And it rises from the wall beside it by a large part of the volume.
   EXPECT_GT(sampleSceneHeight(0, 0, 0) - sampleSceneHeight(-38, 0, 0), 15);
 }
 
@@ -125,7 +125,7 @@ TEST(AuthorSampleFilm, HeadMovesSmoothlyAndNoFasterThanAHandCanFollow) {
 }
 
 TEST(AuthorSampleFilm, HandPassesBeforeTheFaceAndIsGoneAgain) {
-  // At the height of its palm: nothing so near before it comes and after it has gone, something in between.
+  // At the height of the palm: nothing so near before the hand comes and after it has gone, something in between.
   const auto nearest = [](double t) {
     double highest = 0;
     for (double x = -78; x <= 78; x += 2) highest = std::max(highest, sampleSceneHeight(x, -14, t));
@@ -141,7 +141,7 @@ TEST(AuthorSampleFilm, HandPassesBeforeTheFaceAndIsGoneAgain) {
 }
 
 struct Changes {
-  std::vector<double> of_depth, of_color;  // mean absolute difference to the picture before
+  std::vector<double> of_depth, of_color;  // mean absolute difference from the previous picture
   int lowest = 255, highest = 0;
 };
 

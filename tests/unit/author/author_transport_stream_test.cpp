@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the author does to a transport stream behind FFmpeg's muxer: the programme map says depth, packets go out in
-// time.
+// The author's changes to the transport stream from FFmpeg's muxer: the programme map marks the depth, and packets are
+// sent in time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,13 +15,13 @@ namespace {
 
 using Packet = std::array<std::uint8_t, TsPacer::kPacket>;
 
-// ISO/IEC 13818-1, annex A; the check value of CRC-32/MPEG-2 in the usual catalogues.
+// ISO/IEC 13818-1, annex A; the published check value of CRC-32/MPEG-2.
 TEST(MpegChecksum, IsThatOfTheStandard) {
   const std::array<std::uint8_t, 9> digits{'1', '2', '3', '4', '5', '6', '7', '8', '9'};
   EXPECT_EQ(mpegChecksum(digits), 0x0376e6e7u);
 }
 
-// A map of two H.264 streams, PIDs 0x100 and 0x101, as FFmpeg writes it; `descriptor` stands with the second.
+// A map of two H.264 streams, PIDs 0x100 and 0x101, as FFmpeg writes it; `descriptor` belongs to the second.
 Packet mapPacket(const std::vector<std::uint8_t>& descriptor = {}) {
   Packet packet;
   packet.fill(0xff);
@@ -32,7 +32,7 @@ Packet mapPacket(const std::vector<std::uint8_t>& descriptor = {}) {
                                   0x1b, 0xe1, 0x00, 0xf0, 0,     // H.264 of PID 0x100
                                   0x1b, 0xe1, 0x01, 0xf0, static_cast<std::uint8_t>(descriptor.size())};
   bytes.insert(bytes.end(), descriptor.begin(), descriptor.end());
-  bytes[7] = static_cast<std::uint8_t>(bytes.size() - 8 + 4);  // from behind the length to the end of the checksum
+  bytes[7] = static_cast<std::uint8_t>(bytes.size() - 8 + 4);  // from after the length to the end of the checksum
   const std::uint32_t sum = mpegChecksum(std::span(bytes).subspan(5));
   for (int shift = 24; shift >= 0; shift -= 8) bytes.push_back(static_cast<std::uint8_t>(sum >> shift));
   std::copy(bytes.begin(), bytes.end(), packet.begin());
@@ -73,7 +73,7 @@ TEST(TsDepthSignal, LeavesOtherPacketsAsTheyAre) {
   Packet other = mapPacket();
   other[2] = 1;  // another PID
   Packet later = mapPacket();
-  later[1] &= 0x0f;  // begins no section
+  later[1] &= 0x0f;  // does not begin a section
   for (const Packet& packet : {other, later}) {
     Packet same = packet;
     TsDepthSignal(VideoCodec::H264).rewrite(same);
@@ -87,7 +87,7 @@ Packet plainPacket() {
   Packet packet{0x47, 0x01, 0x00, 0x10};
   return packet;
 }
-// With a programme clock reference of so many milliseconds, in units of 1/90 ms.
+// With a programme clock reference of `ms`, in units of 1/90 ms.
 Packet timedPacket(std::int64_t ms) {
   Packet packet{0x47, 0x01, 0x00, 0x30, 7, 0x10};
   const std::int64_t base = ms * 90;
@@ -108,7 +108,7 @@ struct Line {
 
 TEST(TsPacer, SpreadsPacketsEvenlyBetweenReferences) {
   Line line;
-  line.add(timedPacket(5000));  // whatever the first reference is: it is now
+  line.add(timedPacket(5000));  // the first reference is sent at once, whatever its value
   for (int i = 0; i < 27; ++i) line.add(plainPacket());
   EXPECT_TRUE(line.sent.empty());
   line.add(timedPacket(5040));
@@ -134,7 +134,7 @@ TEST(TsPacer, SendsAtOnceWhatIsLateAndSaysHowLate) {
   ASSERT_EQ(line.sent.size(), 1u);
   EXPECT_EQ(line.sent[0].first, std::chrono::milliseconds(300));
   EXPECT_EQ(line.pacer.latest(), std::chrono::milliseconds(300));
-  line.add(timedPacket(400));  // due at 100 ms, late as well; from here on it is in time again
+  line.add(timedPacket(400));  // due at 100 ms and late too; after it the pace is in time again
   line.add(timedPacket(500));
   EXPECT_EQ(line.sent[2].first, std::chrono::milliseconds(400));
 }

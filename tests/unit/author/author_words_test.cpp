@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the author puts key frames, and what it says while it works and when it is done.
+// Placement of key frames, and the author's messages during and after its work.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ std::vector<int> keysOf(int frames, double fps, const std::function<bool(int)>& 
 TEST(AuthorKeyFrames, AreASecondApart) {
   EXPECT_THAT(keysOf(91, 30, [](int) { return true; }), ElementsAre(0, 30, 60, 90));
   EXPECT_THAT(keysOf(60, 24, [](int) { return true; }), ElementsAre(0, 24, 48));
-  // 23.976 frames a second: the first picture at or after a second is the 24th.
+  // 23.976 frames/s: the first picture at or after a second is the 24th.
   EXPECT_THAT(keysOf(60, 24000.0 / 1001, [](int) { return true; }), ElementsAre(0, 24, 48));
 }
 
@@ -41,14 +41,14 @@ TEST(AuthorKeyFrames, ComeWithTheContainersRounding) {
 }
 
 TEST(AuthorKeyFrames, WaitForADepthPicture) {
-  // Depth with every fourth picture of the colour: picture 30 has none, 32 has.
+  // Depth with every fourth colour picture: picture 30 has none, 32 has.
   EXPECT_THAT(keysOf(70, 30, [](int k) { return k % 4 == 0; }), ElementsAre(0, 32, 64));
 }
 
 TEST(AuthorKeyFrames, AreAtCuts) {
   KeyFrames keys;
   std::vector<int> found;
-  for (int k = 0; k < 80; ++k) {  // a cut at 40 and one at 50, where there is no depth picture to begin with
+  for (int k = 0; k < 80; ++k) {  // cuts at 40 and at 50; there is no new depth picture at 50
     if (keys.isDue(mediaTime(k / 30.0), k != 50, k == 40 || k == 50)) found.push_back(k);
   }
   EXPECT_THAT(found, ElementsAre(0, 30, 40, 70));
@@ -66,7 +66,7 @@ TEST(AuthorProgress, TellsFramesRateAndTimeLeft) {
 TEST(AuthorProgress, LeavesOutWhatIsNotKnown) {
   EXPECT_EQ(progressText(100, std::nullopt, std::chrono::seconds(4)), "100 frames, 25.0 frames/s");
   EXPECT_EQ(progressText(1, 400, Duration(0)), "1/400 frames");
-  // A container that told too short a length is not believed any more.
+  // A container's length that turned out too short is ignored.
   EXPECT_EQ(progressText(401, 400, std::chrono::seconds(10)), "401 frames, 40.1 frames/s");
 }
 
@@ -81,7 +81,7 @@ TEST(AuthorOutput, IsCheckedBeforeAnyWork) {
   EXPECT_THAT(refused({.path = "a.avi"}), HasSubstr(".m3u8"));
   EXPECT_EQ(refused({.path = "no/a.mkv", .depth = {.codec = VideoCodec::Ffv1, .bits = 16}}), "");
   EXPECT_THAT(refused({.path = "no/a.ts", .depth = {.codec = VideoCodec::Ffv1}}), HasSubstr("write a .mkv"));
-  EXPECT_THAT(refused({.path = "no/a.mkv", .depth = {.bits = 12}}), HasSubstr("H.264 has 8 and 10"));
+  EXPECT_THAT(refused({.path = "no/a.mkv", .depth = {.bits = 12}}), HasSubstr("h264 has 8 and 10"));
 }
 
 TEST(AuthorSummary, TellsTracksCodesAndWhatWasDone) {

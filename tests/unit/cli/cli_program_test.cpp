@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is done last, however a program ends.
+// The last actions of a program, however it ends.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An output is never a file that is read, under whatever name.
+// An output is never a file that is also read, under whatever name.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -82,7 +82,7 @@ TEST_F(OutputGuard, OnlyFilesOfABoundedSizeAreReadWhole) {
   EXPECT_EQ(code("/dev/zero"), ErrorCode::Unsupported);
   EXPECT_EQ(code(folder_ / "."), ErrorCode::Unsupported);
   ASSERT_EQ(::system(("mkfifo " + (folder_ / "fifo")).c_str()), 0);
-  EXPECT_EQ(code(folder_ / "fifo"), ErrorCode::Unsupported) << "nobody writes to it, and nobody waits";
+  EXPECT_EQ(code(folder_ / "fifo"), ErrorCode::Unsupported) << "a pipe without a writer is refused without waiting";
   const std::string large = file("large");
   fs::resize_file(large, (1u << 20) + 1);
   EXPECT_EQ(code(large), ErrorCode::Exhausted);

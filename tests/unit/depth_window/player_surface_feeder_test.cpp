@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which depth frames the haptic side gets to see, and when it is told of a change.
+// The depth frames that the feeder puts into the window, and when it reports a change.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ FramePair flatPairAt(double color_s) {
 class SurfaceFeederTest : public testing::Test {
  protected:
   SurfaceFeederTest() { feeder_.setScene(DepthCalibration{}, kVolume); }
-  // The film at `index` of `pairs`, `look_ahead` pairs ahead, `last` when those are the rest.
+  // Shows pair `index` of `pairs` with the look-ahead; `last` is set when no pairs follow it.
   bool at(const std::vector<FramePair>& pairs, std::size_t index, double rate = 1) {
     std::vector<Frame> ahead;
     for (std::size_t i = index + 1; i < pairs.size() && ahead.size() < look_ahead_; ++i)
@@ -82,7 +82,7 @@ TEST_F(SurfaceFeederTest, HoldsTwoFramesBeforeThePresentAndFourAfterIt) {
   const auto pairs = film(10);
   at(pairs, 0);
   EXPECT_THAT(times(), ElementsAre(0, 1, 2, 3, 4));
-  EXPECT_FALSE(window().ended);  // all that lies ahead is in it, but more will come
+  EXPECT_FALSE(window().ended);  // the window holds everything buffered, but more will come
   at(pairs, 1);
   EXPECT_THAT(times(), ElementsAre(0, 1, 2, 3, 4, 5));
   look_ahead_ = 10;
@@ -127,7 +127,7 @@ TEST_F(SurfaceFeederTest, EndsWithTheLastFrameInTheWindow) {
   const auto pairs = film(7);
   at(pairs, 1);
   EXPECT_THAT(times(), ElementsAre(1, 2, 3, 4, 5));
-  EXPECT_FALSE(window().ended);  // the seventh frame is not in it yet
+  EXPECT_FALSE(window().ended);  // the seventh frame is not in the window yet
   at(pairs, 2);
   EXPECT_THAT(times(), ElementsAre(1, 2, 3, 4, 5, 6));
   EXPECT_TRUE(window().ended);
@@ -204,7 +204,7 @@ TEST_F(SurfaceFeederTest, TellsWhichFrameTheSurfaceBeginsFrom) {
   EXPECT_EQ(feeder_.frameAt(mediaTime(2.0)), mediaTime(2));
   EXPECT_EQ(feeder_.frameAt(mediaTime(2.9)), mediaTime(2));
   EXPECT_EQ(feeder_.frameAt(mediaTime(3.0)), mediaTime(3));
-  EXPECT_EQ(feeder_.frameAt(mediaTime(0.5)), mediaTime(1));  // before the window: its first
+  EXPECT_EQ(feeder_.frameAt(mediaTime(0.5)), mediaTime(1));  // before the window: its first frame
 }
 
 }  // namespace

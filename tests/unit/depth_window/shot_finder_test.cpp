@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a film is cut, and where it stands still.
+// Detection of cuts and of repeated frames.
 #include "app/depth_window/shots.h"
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ TEST(ShotFinder, ARiseThatEndsIsNoCutWhenTheFrameThatShowedItIsLetGo) {
     held.push_back(f);
     if (held.size() > 6) held.erase(held.begin());
     finder.mark(held);
-    // The newest pair may yet be taken for a cut: what follows it is not known.
+    // The newest pair may still be taken for a cut, because the frame after it is missing.
     for (std::size_t i = 0; i + 1 < held.size(); ++i) EXPECT_EQ(held[i].shot, 0U) << toSeconds(f.time) << ' ' << i;
   }
 }
@@ -65,7 +65,7 @@ std::vector<bool> repetitions(const std::vector<TimedSurface>& frames) {
 }
 
 TEST(ShotFinder, AFrameRepeatsTheOneBeforeItOnlyWhenAllItsSamplesAreTheSame) {
-  // Still but for one sample: beside the places that are looked at first, in the first row, at the last sample.
+  // Identical except for one sample: next to a sampled place, in the first row, at the last sample.
   for (const auto& [c, r] : {std::pair(45, 30), std::pair(0, 0), std::pair(kCols - 1, kRows - 1)}) {
     std::vector<TimedSurface> frames;
     for (int k = 0; k < 5; ++k) {
@@ -91,7 +91,7 @@ TEST(ShotFinder, HolesThatStayAreRepeatedToo) {
 }
 
 TEST(ShotFinder, ComparesWithTheFrameThatIsBeforeItNow) {
-  // A, B, A: the last one repeats nothing; with B gone, it repeats the first.
+  // A, B, A: the last frame repeats nothing; without B it repeats the first.
   auto frames = film(3, [](double, double, double t) { return std::abs(t - kPeriod) < 0.01 ? 20.0 : 20.1; });
   ShotFinder finder;
   finder.mark(frames);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a clip is measured to be like, and the widths and laws that it gets for it.
+// Measurements of clips, and the widths and laws planned from them.
 #include "app/depth_window/touch_plan.h"
 
 #include <gtest/gtest.h>
@@ -53,14 +53,15 @@ TEST(TouchPlan, TakesWhatTheClipNeedsAndNoMore) {
   EXPECT_GT(noisy.scale.clamp_mm, fine.scale.clamp_mm);
   EXPECT_TRUE(still.measure.still);
   EXPECT_NE(still.scale.wide_time, TimeLaw::Hold) << "a film that begins still may move later";
-  // A lead-in of black says nothing: what comes after it may be coarse.
+  // A black lead-in carries no information: the depth after it may be coarse.
   const Frame black = makeGrayFrame(90, 61, 8, {}, [](int, int) { return 0; });
   const TimedSurface alone{HeightField::make(black, {.bits = 8}, kVolume).value(), {}, black.owner};
   EXPECT_NEAR(planTouch(measureClip(std::span(&alone, 1))).scale.wide_mm, coarse.scale.wide_mm, 1e-9);
   EXPECT_EQ(measureClip({}).frames, 0);
 }
 
-// What noise leaves of a flat relief's slope is an error of direction, in radians: a share of the force.
+// The error of a flat relief's slope due to noise is an error of the force's direction in radians: a share of the
+// force.
 TEST(TouchPlan, TellsWhatNoiseLeavesHoweverFineThePictureIs) {
   constexpr DisplayVolume kSmall{40, 30, 40};
   std::mt19937 random(7);
@@ -104,7 +105,7 @@ TEST(TouchPlan, TellsWhatNoiseLeavesHoweverFineThePictureIs) {
   }
 }
 
-// Two pictures that stand still, a cut of 20 mm between them: nothing has moved.
+// Two still pictures with a cut of 20 mm between them: nothing has moved.
 TEST(TouchPlan, ACutIsNoMotion) {
   std::vector<Frame> frames;
   std::vector<TimedSurface> surfaces;
@@ -117,7 +118,7 @@ TEST(TouchPlan, ACutIsNoMotion) {
   EXPECT_EQ(measureClip(surfaces).speed_mm_per_s, 0);
   EXPECT_TRUE(measureClip(surfaces).still);
   for (TimedSurface& s : surfaces) s.shot = 0;
-  EXPECT_GT(measureClip(surfaces).speed_mm_per_s, 100) << "without the cut it is a leap";
+  EXPECT_GT(measureClip(surfaces).speed_mm_per_s, 100) << "without the cut it counts as motion";
 }
 
 TEST(TouchPlan, TellsNoErrorThatItCannotName) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Holes, outliers and the median, on pictures small enough to know what has to come out.
+// Holes, outliers and the median, on pictures small enough to know the result.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -48,7 +48,7 @@ TEST(EnhanceCleaning, FillsANarrowHoleInAPlaneWithThePlane) {
   }
 }
 
-// 160 samples wide: a hole may be 4 wide, for a disc of radius 2 does not fit in.
+// 160 samples wide: a hole up to 4 wide is filled, since a disc of radius 2 does not fit in it.
 TEST(EnhanceCleaning, LeavesAWideHoleAndItsRimAsTheyAre) {
   auto map = mapOf(160, 90, [](int, int) { return kFar; });
   const auto wide = [](int c, int r) { return c >= 60 && c < 90 && r >= 20 && r < 60; };
@@ -63,7 +63,7 @@ TEST(EnhanceCleaning, LeavesAWideHoleAndItsRimAsTheyAre) {
   for (int r = 30; r < 33; ++r) EXPECT_EQ(map.holes[map.at(110, r)], 0);
 }
 
-// What a camera does not see beside something near is what lies behind it.
+// The area that a camera cannot see beside a near object belongs to the background.
 TEST(EnhanceCleaning, FillsAShadowBesideSomethingNearFromBehind) {
   auto map = mapOf(160, 90, [](int c, int) { return c < 70 ? kNear : kFar; });
   punch(map, [](int c, int) { return c >= 70 && c < 74; });
@@ -121,7 +121,7 @@ TEST(EnhanceCleaning, ReplacesSalt) {
   for (const float code : map.codes) EXPECT_NEAR(code, kFar, 0.1);
 }
 
-// Whoever has never said that there may be holes gets none.
+// A source without holes gets none.
 TEST(EnhanceCleaning, MakesNoHoleWhereThereWasNone) {
   std::mt19937 random(1);
   std::uniform_real_distribution<float> any(0, 65535);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The triangulation against its definition: no point inside any triangle's circle, and all of the rectangle covered.
+// The triangulation against its definition: no point inside any circumcircle, and the whole rectangle covered.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 using Point = Delaunay::Point;
 
-// Any triangle that has the point inside or on its rim, by trying them all.
+// Any triangle that contains the point, borders included, by trying them all.
 int holderOf(const Delaunay& mesh, const Point& p) {
   const auto& points = mesh.points();
   for (std::size_t t = 0; t < mesh.triangles().size(); ++t) {
@@ -40,7 +40,7 @@ void expectDelaunay(const Delaunay& mesh, int right, int bottom) {
   EXPECT_EQ(mesh.triangles().size(), 2 * points.size() - 2 - static_cast<std::size_t>(rim));  // Euler
 }
 
-// All points of a small grid: every square's corners lie on one circle, every row on one line, many on the rim.
+// All points of a small grid: each square's corners lie on one circle, each row on one line, many points on the border.
 TEST(EnhanceDelaunay, TakesAWholeGridInAnyOrder) {
   constexpr int kRight = 8, kBottom = 5;
   for (unsigned seed = 1; seed <= 20; ++seed) {
@@ -82,7 +82,7 @@ TEST(EnhanceDelaunay, HoldsForScatteredPointsAndTellsWhichTrianglesChanged) {
   expectDelaunay(mesh, kRight, kBottom);
 }
 
-// On the largest picture: a point on the circle through three corners of a square, and those a sample beside it.
+// On the largest picture: a point on the circle through three corners of a square, and those one sample beside it.
 TEST(EnhanceDelaunay, IsExactWhereCoordinatesAreLargest) {
   constexpr int kEnd = 16383;
   const Point a{0, 0}, b{kEnd, 0}, c{kEnd, kEnd};

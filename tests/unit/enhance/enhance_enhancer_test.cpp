@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A film through the enhancer: nothing lost, in order, of the meaning that it says, closer to the truth.
+// A film through the enhancer: complete, in order, with the calibration it announces, and closer to the truth.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -99,7 +99,7 @@ TEST(EnhanceEnhancer, LeavesLevelDepthAsItIsInSixteenBitsOfOneMeaning) {
   }
 }
 
-// Distances in mm, with holes: what the outcome's codes mean by the calibration beside them is the relief that went in.
+// Distances in mm, with holes: the output's codes and calibration give the relief of the source.
 TEST(EnhanceEnhancer, TheCalibrationBesideTheCodesGivesTheReliefOfTheSource) {
   const DepthCalibration distances{
       .polarity = DepthPolarity::NearIsLow, .bits = 16, .invalid = 0, .unit_mm = 1, .near_mm = 500, .far_mm = 4000};
@@ -144,7 +144,7 @@ TEST(EnhanceEnhancer, IsCloserToTheTruthThanWhatItWasGiven) {
   EXPECT_LT(error[Enhancement::SpaceTime], 0.5 * error[Enhancement::Median]);
 }
 
-// Rounding off a bump of this size is most of dibm's error; of noise it is what the median leaves.
+// For this bump, rounding off is most of the error of dibm; the rest is the noise that the median leaves.
 TEST(EnhanceEnhancer, EstimatesTheErrorThatIsLeft) {
   std::mt19937 random(5);
   std::normal_distribution<double> noise(0, 3);
@@ -164,7 +164,7 @@ TEST(EnhanceEnhancer, EstimatesTheErrorThatIsLeft) {
   }
 }
 
-// The steps of 8 bits are rounding, not shape: a picture takes about as many points as in 16 bits.
+// The steps of 8 bits are rounding, not shape: a picture needs about as many points as in 16 bits.
 TEST(EnhanceEnhancer, StepsOfCodesAreNoFeaturePoints) {
   const auto waves = [](int c, int r) {
     return 120 + 40 * std::sin(c * 0.01) + 4 * std::sin(c * 0.1) * std::sin(r * 0.08);
@@ -176,7 +176,7 @@ TEST(EnhanceEnhancer, StepsOfCodesAreNoFeaturePoints) {
   EXPECT_LT(points(8), 1.5 * points(16)) << points(8) << " " << points(16);
 }
 
-// 720 samples wide, as reaches are meant for. Noise moves the corners, which costs a few points.
+// 720 samples wide, the reference size. Noise moves the corners, which costs a few points.
 TEST(EnhanceEnhancer, APlaneTakesFourPointsAndWithNoiseAFewMore) {
   std::mt19937 random(9);
   for (const double sigma : {0.0, 1.0, 4.0}) {
@@ -189,7 +189,7 @@ TEST(EnhanceEnhancer, APlaneTakesFourPointsAndWithNoiseAFewMore) {
   }
 }
 
-// Where an edge goes to and fro between two pictures, no picture takes anything from the other.
+// When an edge alternates between two positions, no picture blends in the other.
 TEST(EnhanceEnhancer, AMovingEdgeStaysSharp) {
   std::vector<Frame> film;
   for (int k = 0; k < 9; ++k) {

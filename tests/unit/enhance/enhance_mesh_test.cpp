@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mesh of a depth picture: within its bound at every sample, and no more points than that takes.
+// The mesh of a depth picture: within its bound at every sample, with few points.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 using test::mapOf;
 
-// Each triangle's plane at each sample inside it or on its rim, by areas: how far it is off a known one, at most.
+// The largest error of the triangles' planes at any known sample, by barycentric coordinates.
 double mostOff(const DepthMesh& mesh, const DepthMap& map) {
   double most = 0;
   std::vector<char> covered(map.size());
@@ -48,7 +48,7 @@ TEST(EnhanceMesh, APlaneTakesFourPoints) {
   EXPECT_LT(mostOff(meshOf(plane, 1), plane), 0.05);
 }
 
-// Rounding moves a corner and a sample by half a step each; opposite ways they are a step apart.
+// Rounding shifts a corner and a sample by half a step each, at most one step relative to each other.
 TEST(EnhanceMesh, APlaneInEightBitsTakesFourPointsWithinAStep) {
   const auto plane = mapOf(160, 120, [](int c, int r) { return 257 * std::round(20 + 0.31 * c + 0.17 * r); });
   EXPECT_EQ(meshOf(plane, 1.001F * DepthMap::kLevel).points.size(), 4u);
@@ -80,7 +80,7 @@ TEST(EnhanceMesh, HoldsItsBoundOnAnySurface) {
   }
 }
 
-// Every sample as it was, for two points a row at most.
+// Every sample is reproduced with at most two points per row.
 TEST(EnhanceMesh, KeepsAStep) {
   const auto upright = mapOf(80, 60, [](int c, int) { return c < 33 ? 50000 : 9000; });
   EXPECT_LE(meshOf(upright, 100).points.size(), 4u + 2 * 60);
@@ -104,7 +104,7 @@ TEST(EnhanceMesh, HolesAskForNothingAndStay) {
   EXPECT_EQ(map.codes[0], 0);
 }
 
-// By areas here as well.
+// By barycentric coordinates here as well.
 TEST(EnhanceMesh, IsRenderedAtEverySample) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> any(0, 60000);
@@ -127,7 +127,7 @@ TEST(EnhanceMesh, TakesTheSmallestPictures) {
   EXPECT_TRUE(meshOf(none, 1).points.empty());
 }
 
-// A still life whose disparity was measured: what its bound asks for, far less than its samples.
+// A still life with measured disparity: the number of points follows the bound, far below the number of samples.
 TEST(EnhanceMesh, TakesOfARealSceneWhatItsBoundAsksFor) {
   const auto cones = test::readCones(RELIEVO_TEST_DATA);
   if (!cones) GTEST_SKIP() << "no real depth video at " RELIEVO_TEST_DATA;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Noise and what is done against it, by closed forms: what a plane, an impulse, a step and a steady motion become.
+// Noise and smoothing against closed forms: the results for a plane, an impulse, a step and a steady motion.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -35,9 +35,7 @@ TEST(EnhanceNoise, IsNoneWhereNothingCanBeTold) {
   EXPECT_EQ(noiseOf(map), 0);
 }
 
-// Two means of n samples in a row make a triangle of weights: the squares' sum is (2 n^2 + 1)/(3 n^3), both ways its
-// square.
-// Half of the picture raised by 100 codes: by the root of a half in the mean of squares.
+// Half of the picture raised by 100 codes: an rms change of 100 sqrt(1/2).
 TEST(EnhanceShapeChange, IsThatOfWholeBlocksWithoutHolesAndSteps) {
   DepthMap map(64, 32);
   std::fill(map.codes.begin(), map.codes.end(), 1000.0F);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Newton's method on the distance: it comes closer, and it comes off a crest that the finger is deep under.
+// Newton's method on the distance: every step reduces it, and it leaves a crest that the finger is deep below.
 #include "app/haptics/method/closest_point.h"
 
 #include <gtest/gtest.h>
@@ -44,14 +44,14 @@ TEST_F(ClosestPointTest, NeverEndsFurtherFromTheFingerThanItBegan) {
     const double x = place(random), y = place(random);
     const glm::dvec3 hip(x + aside(random), y + aside(random), surface_.height(x, y) - deep(random));
     const Contact c = closestPoint(surface_, x, y, hip, 0, SlideUntil::Settled);
-    // The last, short step is taken without a look.
+    // The last, short step is taken without an evaluation.
     ASSERT_LE(distance(c.x_mm, c.y_mm, hip), distance(x, y, hip) + 0.01) << i;
   }
 }
 
 TEST_F(ClosestPointTest, ComesOffACrestThatTheFingerIsDeepUnder) {
-  // The crest's radius is 0.75 mm and the finger lies 6 mm under it, a little to one side: the crest is the furthest
-  // place around, and the way out leads over the side.
+  // The crest's radius is 0.75 mm and the finger is 6 mm below it, slightly to one side: the crest is a maximum of the
+  // distance, and the way out leads down the side.
   relief([](double x, double) { return 8 + 12 * std::exp(-x * x / 18); });
   for (const double side : {-0.4, 0.4}) {
     const glm::dvec3 hip(side, 3, 14);
@@ -64,8 +64,8 @@ TEST_F(ClosestPointTest, ComesOffACrestThatTheFingerIsDeepUnder) {
   }
 }
 
-// On a cylinder of radius r the closest point goes r/(r - depth) times as far as the finger; where the finger is as
-// deep as the radius, that is anywhere.
+// On a cylinder of radius r the closest point moves r/(r - depth) times as far as the finger; at depth r the factor is
+// unbounded.
 TEST_F(ClosestPointTest, ThePredictedStepIsTheFirstOrderAndNoLeap) {
   const auto step = [&](double radius_mm, double deep_mm) {
     const Contact top{.surface = {.z = 20, .zxx = -1 / radius_mm}};
@@ -73,7 +73,7 @@ TEST_F(ClosestPointTest, ThePredictedStepIsTheFirstOrderAndNoLeap) {
   };
   EXPECT_NEAR(glm::distance(step(20, 5), glm::dvec2(0.4 / 3, 0)), 0, 1e-9);
   EXPECT_NEAR(glm::distance(step(6, 5), glm::dvec2(0.6, 0)), 0, 1e-9);
-  EXPECT_NEAR(glm::distance(step(5.3, 5), glm::dvec2(0.8, 0)), 0, 1e-9) << "17 times by the curvature";
+  EXPECT_NEAR(glm::distance(step(5.3, 5), glm::dvec2(0.8, 0)), 0, 1e-9) << "the curvature alone would give 17 times";
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Block means and what keeps them: the border, holes, weights, and a cache whose places are used again.
+// Block means and their cache: the picture's border, holes, weights, and reuse of cache entries.
 #include "app/haptics/method/control_grid.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ float height(double code) {
 
 class ControlGridTest : public testing::Test {
  protected:
-  // The frames lie in the slots of their index.
+  // Frame i is in slot i.
   void show(std::vector<TimedSurface> frames, std::vector<float> weights) {
     frames_ = {};
     for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -64,7 +64,7 @@ TEST_F(ControlGridTest, APointIsTheMeanOfItsBlock) {
 }
 
 TEST_F(ControlGridTest, ABlockOnTheBorderCountsFromHalfOfItOn) {
-  // 41 columns: of block 10 one column of four is inside; 42 rows: two rows of four are.
+  // 41 columns: one of block 10's four columns is inside; 42 rows: two of its four rows are.
   show({picture(0, [](int, int) { return 1000; })}, {1});
   const Patch p = patch(8, 8);
   EXPECT_NEAR(p[0][1], height(1000), 1e-4);
@@ -101,7 +101,7 @@ TEST_F(ControlGridTest, APictureOfAnotherShapeIsReadFromTheBeginning) {
 }
 
 TEST_F(ControlGridTest, APointThatTakesAnothersPlaceBringsItsOwnReadings) {
-  // Point (20, 0), outside, lies where (4, 0) lay.
+  // Point (20, 0), outside the picture, takes the cache entry of (4, 0).
   show({picture(0, [](int c, int) { return c < 20 ? 1000 : 2000; })}, {1});
   EXPECT_NEAR(patch(4, 0)[0][0], height(1000), 1e-4);
   EXPECT_EQ(patch(20, 0)[0][0], kPit);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where an edge near the finger goes from one frame to the next, and what only looks like that.
+// Where an edge near the finger moves from one frame to the next, and changes that only resemble that.
 #include "app/haptics/method/edge_motion.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,8 @@ TEST(EdgeMotion, FindsTheWayOfAnEdgeAcrossItselfAndNoOther) {
     return frameOf([=](double x, double y) { return (x > at + 0.3 * y ? 25.0 : 10.0) + lift + 0.1 * x; });
   };
   const Frame here = step(0, 0), there = step(1.6, 0), lifted = step(0, 1.0), both = step(1.6, 1.0), gone = step(30, 0);
-  const glm::dvec2 across = 1.6 / (1 + 0.09) * glm::dvec2(1, -0.3);  // of a sideways way, the part across the edge
+  // the component of a sideways displacement that is perpendicular to the edge
+  const glm::dvec2 across = 1.6 / (1 + 0.09) * glm::dvec2(1, -0.3);
   for (const glm::dvec2 place : {glm::dvec2(0.8, 0), glm::dvec2(-1.5, 1), glm::dvec2(2.5, -2)}) {
     const auto way = [&](const Frame& to) { return wayBetween(here, to, place); };
     EXPECT_LT(glm::length(way(there) - across), 0.25);
@@ -42,7 +43,7 @@ TEST(EdgeMotion, FindsTheWayOfAnEdgeAcrossItselfAndNoOther) {
 }
 
 TEST(EdgeMotion, WhatAppearsBesideAnEdgeThatStandsIsNoMotion) {
-  // A second wall, 2 mm wide, comes up 2 mm before the first: the swept volume is that of a way of 2 mm.
+  // A second wall, 2 mm wide, appears 2 mm in front of the first: it sweeps the same volume as a displacement of 2 mm.
   const auto wall = [](double from, double to) {
     return frameOf([=](double x, double y) {
       const double q = x - 0.3 * y;

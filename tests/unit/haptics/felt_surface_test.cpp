@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface that the default method touches: block means, the two levels and the clamp, and the frames they share.
+// The surface of the default method: block means, the two levels and the clamp, and the frames they share.
 #include "app/haptics/method/felt_surface.h"
 
 #include <gtest/gtest.h>
@@ -48,7 +48,7 @@ TEST(FeltSurface, GivesAMovingPlaneBackExactly) {
   }
 }
 
-// Bumps, noise and a step: everything that a derivative could get wrong.
+// Bumps, noise and a step: hard cases for derivatives.
 double rough(double x, double y, double t) {
   const double step = x > 10 + 0.3 * y ? 12 : 0;
   return 12 + 3 * std::sin(0.3 * x + 2 * t) * std::cos(0.25 * y) + step + 0.1 * std::sin(57 * x + 91 * y);
@@ -67,7 +67,7 @@ TEST(FeltSurface, ItsDerivativesAreThoseOfItsHeightAlsoAtAnEdge) {
     ASSERT_TRUE(s.moveTo(w, mediaTime(0.08)));
     const SurfacePoint p = s.at(px, py), e = s.at(px + kStep, py), o = s.at(px - kStep, py), n = s.at(px, py + kStep),
                        u = s.at(px, py - kStep);
-    // A cubic's third derivative jumps from cell to cell: a difference across a jump is off.
+    // A cubic's third derivative jumps between cells, so a difference quotient across such a jump is inexact.
     const auto close = [](double exact, double difference) {
       return std::abs(exact - difference) < 0.02 * (std::abs(exact) + 20);
     };
@@ -100,7 +100,7 @@ TEST(FeltSurface, WhatWasPreparedIsWhatWouldHaveBeenComputed) {
 }
 
 TEST(FeltSurface, FramesThatComeAndGoAreNotMixedUp) {
-  // A plane that goes up 1 mm a frame for 40 frames, the window moving along, frames left out now and then.
+  // A plane that rises 1 mm per frame for 40 frames; the window moves along, and some frames are left out.
   const auto frames = film(40, [](double, double, double t) { return 1 + t / kPeriod * 0.9; }, 90, 61);
   FeltSurface s({});
   std::mt19937 random(4);
@@ -138,7 +138,7 @@ TEST(FeltSurface, HolesAndThePicturesOutsideArePitsAndLoneHolesAreNot) {
   }
 }
 
-// Distance of the true upper corner of a 15 mm step to the surface, across the edge at (edge, y).
+// Distance of the true upper corner of a 15 mm step from the surface, across the edge at (edge, y).
 double cornerError(FeltSurface& s, double edge, double y) {
   double corner = 1e9;
   for (double d = -3; d < 3; d += 0.02) {
@@ -206,7 +206,7 @@ TEST(FeltSurface, WhatWasPreparedDoesNotOutliveItsFrames) {
   EXPECT_NEAR(ahead.height(0, 0), plain.height(0, 0), 1e-5) << "the next frames have come";
 }
 
-// What was prepared goes on in a straight line: a thousandth of a millimetre beside the curve, by which it shows.
+// A prepared surface continues in a straight line, 1 um off the curve, which makes it detectable.
 TEST(FeltSurface, WhatWasPreparedHoldsThoughTheWindowGoesOn) {
   const auto frames = film(9, [](double, double, double t) { return 20 + 15 * std::cos(30 * t); });
   const SurfaceWindow early = makeWindow(std::span(frames).first(8), kVolume);
@@ -223,7 +223,7 @@ TEST(FeltSurface, WhatWasPreparedHoldsThoughTheWindowGoesOn) {
 }
 
 TEST(FeltSurface, WhatWasPreparedHoldsBetweenTwoFramesOnly) {
-  // Every frame 10 mm higher, held: between 1 and 2 periods it is 20 mm, after that 30.
+  // Every frame is 10 mm higher, with hold: between 1 and 2 periods the height is 20 mm, after that 30.
   const auto frames = film(4, [](double, double, double t) { return 10 + 10 * std::round(t / kPeriod); });
   const SurfaceWindow w = makeWindow(frames, kVolume);
   const double second = 2 * kPeriod;
@@ -250,8 +250,8 @@ TEST(FeltSurface, ATickThatComesLateDoesNotGoByWhatWasPrepared) {
   EXPECT_NEAR(late.height(0, 0), plain.height(0, 0), 1e-5);
 }
 
-// Flat ground beside a hole that opens and closes with each frame; ticks come .4 ms beside the moment that was
-// prepared. A point that is a hole at one end of what was prepared and ground at the other has no rate to go on by.
+// Flat ground beside a hole that opens and closes with each frame; ticks come 0.4 ms after the prepared moment. A point
+// that is a hole at one end of the preparation and ground at the other has no rate of change.
 TEST(FeltSurface, AHoleThatOpensOrClosesIsNotCarriedOn) {
   const DepthCalibration holes{.bits = 8, .invalid = 0};
   std::vector<Frame> frames;
@@ -277,7 +277,7 @@ TEST(FeltSurface, AHoleThatOpensOrClosesIsNotCarriedOn) {
   }
 }
 
-// A window as the player hands it out: from two frames before the present one to five after it.
+// A window as the player makes it: from two frames before the present one to five after it.
 SurfaceWindow windowAt(std::span<const TimedSurface> film, double t) {
   const auto now = static_cast<std::size_t>(t / kPeriod + 1e-6);
   SurfaceWindow w;
@@ -315,11 +315,11 @@ TEST(FeltSurface, AFilmThatStandsStillCostsWhatAPictureDoes) {
   const auto of_film = blocksOn(still), of_picture = blocksOn(std::span(still).first(1));
   EXPECT_EQ(of_film, of_picture) << "tick by tick";
   for (TimedSurface& f : still) f.repeats = false;
-  EXPECT_GT(blocksOn(still).back(), 5 * of_film.back()) << "or this test would show nothing";
+  EXPECT_GT(blocksOn(still).back(), 5 * of_film.back()) << "otherwise this test would prove nothing";
 }
 
 TEST(FeltSurface, AFrameThatIsSaidToRepeatIsNotCompared) {
-  // The second frame's edge is 1 mm further on, but it is said to be the first one's: nothing moves.
+  // The second frame's edge is 1 mm further on, but it is marked as a repetition of the first: nothing moves.
   const auto frames = film(2, [](double x, double, double t) { return x > 3 + t / kPeriod ? 25.0 : 10.0; }, 720, 486);
   SurfaceWindow w = makeWindow(frames, kVolume);
   w.frames[1].repeats = true;

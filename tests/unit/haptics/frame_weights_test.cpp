@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much each frame counts: between frames, at a cut, before the first one and after the last.
+// The weight of each frame: between frames, at a cut, before the first one and after the last.
 #include "app/haptics/method/frame_weights.h"
 
 #include <gtest/gtest.h>
@@ -62,7 +62,7 @@ TEST(FrameWeights, TheLastFrameIsReachedWithinAPeriodAndThenHolds) {
     EXPECT_NEAR(at(w, TimeLaw::BSpline, k * kPeriod, values), 5, 1e-5) << k;
     EXPECT_NEAR(at(w, TimeLaw::Fitted, k * kPeriod, values), 5 + 3.0 / 36, 1e-5) << "its overshoot stays";
   }
-  // On the way there the spline goes on as it came: half a period on, 1/48 of the frame before is left.
+  // The spline continues on its way there: half a period later 1/48 of the frame before is left.
   EXPECT_NEAR(at(w, TimeLaw::BSpline, 2 * kPeriod, values), 5 - 3.0 / 6, 1e-5);
   EXPECT_NEAR(at(w, TimeLaw::BSpline, 2.5 * kPeriod, values), 5 - 3.0 / 48, 1e-5);
 }

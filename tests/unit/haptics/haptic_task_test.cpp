@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The haptic task in simulated time on a device of three lines: mapping, limits, loss, a feed that stops.
+// The haptic task in simulated time on a minimal device: mapping, limits, loss, a feed that stops.
 #include "app/haptics/task/haptic_task.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ class HapticTaskTest : public testing::Test {
       ASSERT_EQ(task_->loop({index_++, clock_.now(), clock_.now()}), LoopControl::Continue);
     }
   }
-  // From 1 mm outside a plane at 20 mm to `depth` inside, slower than what the method takes for a jump.
+  // From 1 mm outside a plane at 20 mm to `depth` inside, slowly enough not to count as a jump.
   void press(double depth) {
     for (double z = 1; z > -depth; z -= 0.25) {
       device_.position = {0, 0, z};
@@ -67,7 +67,7 @@ class HapticTaskTest : public testing::Test {
   std::uint64_t index_ = 0;
 };
 
-// As a mouse is lifted: what is held then is the air.
+// As when a mouse is lifted: the device moves without touching anything.
 TEST_F(HapticTaskTest, TheClutchTakesTheForceAway) {
   publishPlane(20, 0, true);
   press(2);
@@ -176,7 +176,7 @@ TEST_F(HapticTaskTest, HandsEveryTickToTheRecorderInOrder) {
   EXPECT_EQ(task_->counters().ticks.load(), 100u);
 }
 
-// How often the device had been read and written when each part of the method was called.
+// Records how often the device had been read and written when each function of the method was called.
 class Witness final : public TouchMethod {
  public:
   explicit Witness(const test::FakeHapticDevice& device) : device_(device) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The default method where the film is not continuous: cuts, seeks, gaps, and how a lowered surface comes back.
+// The default method at discontinuities: cuts, seeks, gaps, and how a lowered surface rises back.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ TEST_F(RelievoCutTest, ACutUpIsFeltAtOnceAtNoMoreForceAndComesToItsPlaceAsTheFin
     }
   }
   EXPECT_NEAR(before, 1, 1e-3);
-  // It lifts at 40 mm/s and is pushed no harder on its way; from the true surface on it is the true surface.
+  // The finger lifts at 40 mm/s and is never pushed harder; from the true surface on, the true surface is felt.
   double z = 10;
   for (int i = 500; z < 29; ++i, z += 0.04) ASSERT_LE(glm::length(tick(i * kTick, {0, 0, z}).force_n), before + 1e-6);
   static_cast<void>(tick(1.3, {0, 0, 29}));
@@ -98,7 +98,7 @@ TEST_F(RelievoCutTest, FrictionLetsGoOfTheOldSceneAtACut) {
     w.epoch = 1;
     const Touch touch = rough.update({2.45, 0, 9}, w, {});
     EXPECT_LE(glm::length(touch.force_n), before + 1e-3) << slope;
-    // The finger has not moved on the new scene: nothing but its normal pushes, (-slope, 0, 1).
+    // The finger has not moved on the new scene, so there is no friction: the force is along (-slope, 0, 1).
     EXPECT_NEAR(touch.force_n.x, -slope * touch.force_n.z, 0.02) << slope;
   }
 }
@@ -111,11 +111,11 @@ TEST_F(RelievoCutTest, AGapInTheFramesOrInThePositionsEndsInTheForceBeforeIt) {
   EXPECT_NEAR(before, kStiffness * 2.1, 0.02);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(tick(100 * kTick, {nan, 0, 0}).contact);
-  EXPECT_NEAR(glm::length(tick(101 * kTick, hip).force_n), before, 0.02) << "one position was no number";
+  EXPECT_NEAR(glm::length(tick(101 * kTick, hip).force_n), before, 0.02) << "one position was NaN";
   SurfaceWindow empty;
   empty.epoch = window_.epoch;
   for (int i = 0; i < 50; ++i) EXPECT_FALSE(method_.update(hip, empty, mediaTime(0.11)).contact);
-  ++window_.epoch;  // sought: 12 mm higher there
+  ++window_.epoch;  // a seek: the surface there is 12 mm higher
   shots_.forget();
   EXPECT_NEAR(glm::length(tick(0.3, hip).force_n), before, 0.02);
 }
@@ -135,7 +135,7 @@ TEST_F(RelievoCutTest, ALoweredSurfaceComesBackInTheSameTimeAtAnyRate) {
     };
     static_cast<void>(hold(0, 0.001, 13));
     EXPECT_NEAR(hold(0.001, 0.4, 10), 1, 1e-3) << "as before the cut";
-    // It lifts by 1 mm at once, 0.5 N less; then the scene brings 50 N/s, and no more force than there was.
+    // The finger lifts by 1 mm at once, 0.5 N less; then the scene adds 50 N/s, up to the previous force.
     EXPECT_NEAR(hold(0.4, 0.405, 11), 0.75, 0.051) << tick_s;
     const double back = hold(0.405, 0.43, 11);
     EXPECT_NEAR(back, 1, 0.051) << tick_s;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The default method: contact with what stands, rises and sinks, and is rubbed against.
+// The default method: contact with still, rising and sinking surfaces, and friction.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,7 +45,7 @@ TEST_F(RelievoMethodTest, SlidesToTheClosestPointOfASphereAtAnySpeed) {
       const glm::dvec3 direction = glm::normalize(out);
       const Touch touch = tick(i * kTick, centre + direction * (i < 20 ? 51.0 : 45.0));
       if (i >= 20) {
-        angle = std::abs(std::remainder(speed * kTick * (i - 20) / 50 + 0.8, 1.6)) - 0.4;  // there and back
+        angle = std::abs(std::remainder(speed * kTick * (i - 20) / 50 + 0.8, 1.6)) - 0.4;  // back and forth
       }
       if (i < 40) continue;
       ASSERT_TRUE(touch.contact) << speed << ' ' << i;
@@ -83,7 +83,7 @@ TEST_F(RelievoMethodTest, AFingerThatStartsInsideIsFreeUntilItHasComeOut) {
 }
 
 TEST_F(RelievoMethodTest, DoesNotPassAThinRidge) {
-  // 3 mm wide and 10 mm high; the finger is pressed against its side and then beyond it.
+  // 3 mm wide and 10 mm high; the finger presses against its side and then beyond it.
   film(0.6, [](double x, double, double) { return 10 + 10 * std::exp(-std::pow(x / 1.5, 4)); });
   static_cast<void>(tick(0, {-8, 0, 14}));
   bool held = false;
@@ -97,10 +97,10 @@ TEST_F(RelievoMethodTest, DoesNotPassAThinRidge) {
   EXPECT_TRUE(held);
 }
 
-// A finger 25 mm below the top is swept out through its wall at 100 mm/s, past a rim that stands above the top.
+// A finger 25 mm below the top is carried out by its wall at 100 mm/s, past a rim that rises above the top.
 class SweptOff : public RelievoMethodTest {
  protected:
-  // How far beyond the edge the force is gone; 20 mm: it is still there.
+  // Distance beyond the edge at which the force ends; 20 mm: it has not ended.
   double letGoAt(double rim_mm) {
     film(0.7, [&](double x, double, double) { return x > 0 ? 2.0 : x > -2 ? 35 + rim_mm : 35.0; });
     double x = -25;
@@ -119,11 +119,12 @@ TEST_F(SweptOff, AHollowAsDeepAsNoiseDoesNotHoldTheProxyBehindTheEdge) {
   EXPECT_LT(at, 1) << "mm; it would hold to 2.8";
 }
 
-// Let go of, it meets the low floor in the next tick; the place where friction held it is up on the edge.
+// After its release the finger meets the low floor in the next tick; the point where friction held it is up on the
+// edge.
 TEST_F(SweptOff, WhatHasFallenOffIsNotDrawnBack) {
   method_ = RelievoMethod({.stiffness_n_per_mm = kStiffness, .friction = {0.9, 0.9}});
   film(0.4, [](double x, double, double) { return x > 0 ? 9.0 : 35.0; });
-  // Free for the first time in this tick; the force in it with the finger lower by `dip_mm`.
+  // Sweeps until the first free tick; returns its force with the finger lower by `dip_mm`.
   const auto sweep = [&](int until, double dip_mm) {
     method_.reset();
     static_cast<void>(tick(0, {-5, 0, 36}));
@@ -143,7 +144,7 @@ TEST_F(SweptOff, ARidgeDoes) {
   EXPECT_EQ(letGoAt(1.5), 20);
 }
 
-// A wall two samples thick, and a finger that has gone through it close below its top.
+// A wall two samples thick, and a finger that has pushed through it just below its top.
 TEST_F(RelievoMethodTest, AThinWallHoldsTheFingerAlsoNearItsTop) {
   for (double middle = 0.3; middle < 1; middle += 0.17) {
     clear();
@@ -174,7 +175,7 @@ TEST_F(RelievoMethodTest, AFastFingerDoesNotJumpOverARidgeUnseen) {
 }
 
 TEST_F(RelievoMethodTest, ALongGapInTheReadingsDoesNotTakeTheFingerThroughAThinRidge) {
-  // One sample wide and 12 mm high; the finger has gone 40 mm when it is read again.
+  // One sample wide and 12 mm high; the finger has moved 40 mm between two readings.
   film(0.1, [](double x, double, double) { return std::abs(x - 0.3) < 0.34 ? 22.0 : 10.0; });
   for (double start = -36; start < -8; start += 0.37) {
     method_.reset();
@@ -199,7 +200,7 @@ TEST_F(RelievoMethodTest, SkimmingHillsOnItsWayAFingerIsStillCaughtByTheWallBehi
 }
 
 TEST_F(RelievoMethodTest, NoTickTakesTheProxyFurtherAwayThanStayingWouldHave) {
-  // Deep under steep hills the guess where the closest point goes is wild.
+  // Deep below steep hills the predicted closest point is far off.
   const SurfaceWindow w = picture([](double x, double y) { return 20 + 4 * std::sin(1.1 * x) * std::cos(0.9 * y); });
   std::mt19937 random(1);
   const auto draw = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
@@ -213,7 +214,7 @@ TEST_F(RelievoMethodTest, NoTickTakesTheProxyFurtherAwayThanStayingWouldHave) {
     for (int k = 0; k < 8 && before.contact; ++k) {
       hip += speed * glm::dvec3(std::cos(way), std::sin(way), 0);
       const Touch touch = method_.update(hip, w, {});
-      // A sample of the surface's is allowed: half a pitch of the narrow level.
+      // Half a pitch of the narrow level, the surface's own sampling, is allowed.
       if (touch.contact) {
         ASSERT_LE(glm::distance(touch.proxy_mm, hip), glm::distance(before.proxy_mm, hip) + 0.34) << i << ' ' << k;
         ++ticks;
@@ -225,7 +226,7 @@ TEST_F(RelievoMethodTest, NoTickTakesTheProxyFurtherAwayThanStayingWouldHave) {
 }
 
 TEST_F(RelievoMethodTest, AProxyThatHasFarToGoTakesTicksAndNoneIsLong) {
-  // Hills that move, and a finger deep under them that leaps by 12 mm every 40 ticks.
+  // Moving hills, and a finger deep below them that leaps by 12 mm every 40 ticks.
   const auto hills = [](double x, double y, double t) {
     return 20 + 4 * std::sin(0.7 * x + 9 * t) * std::cos(0.6 * y - 7 * t);
   };
@@ -264,8 +265,7 @@ TEST_F(RelievoMethodTest, AProxyThatHasFarToGoTakesTicksAndNoneIsLong) {
 }
 
 TEST_F(RelievoMethodTest, AFingerThatRestsDeepInsideAWallStaysAtThatWall) {
-  // 9 mm into the wall's side, 5 mm below its top; nothing moves but the finger, then nothing, and then it strokes
-  // along.
+  // 9 mm into the wall's side, 5 mm below its top; only the finger moves, then rests, and then strokes along the wall.
   film(0.5, [](double x, double, double) { return x > 0 ? 30.0 : 10.0; });
   static_cast<void>(tick(0, {-6, 0, 25}));
   for (int i = 1; i < 400; ++i) {
@@ -275,8 +275,8 @@ TEST_F(RelievoMethodTest, AFingerThatRestsDeepInsideAWallStaysAtThatWall) {
 }
 
 TEST_F(RelievoMethodTest, AFingerThatLeapsInsideARoughWallAndRestsStaysAtThatWall) {
-  // Wavy and grainy walls, the finger 5 mm below the top: it pushes itself 9 mm in, and then leaps along or out and in
-  // again in one tick, by more than the search goes in a tick, and rests.
+  // Wavy and grainy walls, the finger 5 mm below the top: it pushes 9 mm in, then leaps along the wall, or out and in
+  // again in one tick, further than the search follows in a tick, and rests.
   std::mt19937 random(2);
   const auto draw = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
   int thrown = 0;
@@ -306,7 +306,7 @@ TEST_F(RelievoMethodTest, AFingerThatLeapsInsideARoughWallAndRestsStaysAtThatWal
 }
 
 TEST_F(RelievoMethodTest, AWallThatHasGoneOverTheFingerDoesNotTakeTheProxyAlong) {
-  // A block of 15 mm comes from the left at 80 mm/s and goes on to the right; the finger rests in its way.
+  // A block of 15 mm moves from left to right at 80 mm/s; the finger rests in its way.
   film(1, [](double x, double y, double t) {
     const double q = x - 0.3 * y + 45 - 80 * t;
     return q > -60 && q < 0 ? 25.0 : 10.0;
@@ -325,7 +325,7 @@ TEST_F(RelievoMethodTest, AWallThatHasGoneOverTheFingerDoesNotTakeTheProxyAlong)
 }
 
 TEST_F(RelievoMethodTest, AWallThatSweepsOverAFingerThatLeapsDoesNotTakeTheProxyAlong) {
-  // The block again, wavy and grainy; every 60 ticks the finger leaps by 5 mm along it, and between the leaps it rests.
+  // The block again, wavy and grainy; every 60 ticks the finger leaps by 5 mm along it, and rests in between.
   film(1, [](double x, double y, double t) {
     const double q = x + 0.8 * std::sin(1.3 * y) + 45 - 80 * t;
     const double rough = 0.4 * std::sin(7 * x) * std::sin(6 * y);

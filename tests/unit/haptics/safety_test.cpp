@@ -30,7 +30,7 @@ TEST(SafetyFilter, FadesInAtTheScenesSlewLimitWhenTheHandStandsStill) {
 TEST(SafetyFilter, LetsTheHandChangeTheForceAsFastAsItMoves) {
   SafetyFilter filter({.limit_energy = false}, 0.5);
   static_cast<void>(filter.apply({0, 0, 0}, {0, 0, 2}, kTick));
-  // 2 mm in one tick is 1 N at 0.5 N/mm: all of it at once, and none of it the scene's doing.
+  // 2 mm in one tick is 1 N at 0.5 N/mm: allowed at once, since the hand caused it.
   EXPECT_NEAR(filter.apply({0, 0, 1}, {0, 0, 0}, kTick).z, 1.0, 1e-12);
   EXPECT_EQ(filter.sceneSlew(), 0);
   EXPECT_NEAR(filter.apply({0, 0, 0}, {0, 0, 2}, kTick).z, 0.0, 1e-12);
@@ -58,7 +58,7 @@ TEST(SafetyFilter, TreatsWhatIsNotFiniteAsZeroForce) {
   }
 }
 
-// 50 N/s for at most .1 s: a task that was away for two seconds may not bring the whole force in one tick.
+// 50 N/s for at most 0.1 s: a task that was suspended for two seconds must not apply the whole force in one tick.
 TEST(SafetyFilter, AfterALongGapAtMostFiveNewtonsComeInAtOnce) {
   SafetyFilter filter({.limit_energy = false}, 0.5);
   static_cast<void>(filter.apply({0, 0, 0}, kRest, kTick));
@@ -78,7 +78,7 @@ TEST(SafetyFilter, StartsFromZeroAfterReset) {
   for (int i = 0; i < 40; ++i) static_cast<void>(filter.apply({0, 0, 1}, kRest, kTick));
   filter.reset();
   EXPECT_NEAR(filter.apply({0, 0, 1}, {5, 5, 5}, kTick).z, 0.05, 1e-12) << "a finger found elsewhere has not moved";
-  // On its way in, in every third tick only: leant against.
+  // On its way in, with a position in every third tick: the force is tilted against the motion.
   for (int i = 0; i <= 30; ++i) {
     const double z = -0.1 * (i - i % 3);
     static_cast<void>(filter.apply({0, 0, -0.5 * z}, {0, 0, z}, kTick));
@@ -121,8 +121,8 @@ TEST(SafetyFilter, LeaningIsWithinTheForceAndTheSlewToo) {
   }
 }
 
-// In and out of a wall of 0.5 N/mm, 5 mm deep, as a cosine of time: a closed path, on which a spring gives nothing. The
-// device has a new position in every n-th tick, or in turns after one tick and after n.
+// In and out of a wall of 0.5 N/mm, 5 mm deep, as a cosine of time: on this closed path a spring does no net work. The
+// device has a new position in every n-th tick, or alternately after one tick and after n.
 struct Readings {
   int every = 1;
   bool in_turns = false;
@@ -207,8 +207,9 @@ TEST(SafetyFilter, LeansAgainstTheMotionByNoMoreThanTheSpringOfTwoTicks) {
 }
 
 TEST(EnergyBooks, AStillWallTakesNothingFromTheSceneAndGivesHalfKDxSquaredPerHeldTick) {
-  // In and out of a wall K = 0.5 N/mm in steps of 0.1 mm, 2 mm deep, without friction. The exact work over the closed
-  // path is zero. Held over the tick, each step in or out gives the hand K dx^2/2: 40 steps, 40 x 0.0025 mJ.
+  // In and out of a wall of K = 0.5 N/mm in steps of 0.1 mm, 2 mm deep, without friction. The exact work over the
+  // closed path is zero. Because the force is held over the tick, each step in or out gives the hand K dx^2/2: 40
+  // steps, 40 x 0.0025 mJ.
   EnergyBooks books(0.5);
   const auto tick = [&](double depth) {
     const glm::dvec3 force(0, 0, 0.5 * depth);
@@ -221,7 +222,7 @@ TEST(EnergyBooks, AStillWallTakesNothingFromTheSceneAndGivesHalfKDxSquaredPerHel
 }
 
 TEST(EnergyBooks, APositionThatComesEveryThirdTickIsAWayOfThreeTicks) {
-  // The finger goes in steadily and is read after each 0.3 mm: what is held on that way is the force of its beginning.
+  // The finger moves in steadily and is read every 0.3 mm: between readings the force of the last reading is held.
   EnergyBooks books(0.5);
   for (int i = 0; i <= 30; ++i) {
     const double depth = 0.1 * (i - i % 3);
@@ -229,7 +230,7 @@ TEST(EnergyBooks, APositionThatComesEveryThirdTickIsAWayOfThreeTicks) {
     books.tick({0, 0, -depth}, force, force, force, kTick);
   }
   EXPECT_NEAR(books.artefactMj(), 10 * 0.5 * 0.5 * 0.09, 1e-9);
-  // What is sent in between counts by the time that it is held.
+  // A force sent in between counts by the time that it is held.
   EnergyBooks leant(0.5);
   const double sent[] = {0.2, 0.4, 0.9};
   for (int i = 0; i <= 3; ++i) {
@@ -239,7 +240,7 @@ TEST(EnergyBooks, APositionThatComesEveryThirdTickIsAWayOfThreeTicks) {
 }
 
 TEST(EnergyBooks, AFingerThatHasRestedHasNotBeenOnItsWay) {
-  // For a second 2 N are sent to a finger that rests, then 0; the 0.1 mm that it moves then are none of the 2 N's work.
+  // For a second 2 N are sent to a resting finger, then 0; the 0.1 mm that it then moves are not work of the 2 N.
   EnergyBooks books(0.5);
   for (int i = 0; i < 1000; ++i) books.tick({0, 0, 0}, {}, {}, {0, 0, i < 960 ? 2.0 : 0.0}, kTick);
   books.tick({0, 0, 0.1}, {}, {}, {}, kTick);
@@ -247,7 +248,7 @@ TEST(EnergyBooks, AFingerThatHasRestedHasNotBeenOnItsWay) {
 }
 
 TEST(EnergyBooks, ARisingSurfaceIsBookedToTheScene) {
-  // The surface rises 2 mm through a finger that stands still: the spring is loaded with K d^2/2 = 1 mJ.
+  // The surface rises 2 mm through a still finger: the spring is loaded with K d^2/2 = 1 mJ.
   EnergyBooks books(0.5);
   for (int i = 0; i <= 200; ++i) {
     const glm::dvec3 force(0, 0, 0.5 * 0.01 * i);

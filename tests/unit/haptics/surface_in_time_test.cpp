@@ -59,7 +59,7 @@ TEST(SurfaceInTime, LinearFollowsTheTimestampsNotANominalRate) {
 }
 
 TEST(SurfaceInTime, ACellIsSplitFromItsUpperLeftToItsLowerRightCorner) {
-  // One cell: corners 0, 40 on top; 0, 0 below. On the diagonal the height is that between (0,0)=0 and (1,1)=0.
+  // One cell: corners 0, 40 on top; 0, 0 below. On the diagonal the height is interpolated between (0,0)=0 and (1,1)=0.
   const std::vector<Frame> frames{makeGrayFrame(2, 2, 8, {}, [](int c, int r) { return c == 1 && r == 0 ? 255 : 0; })};
   const SurfaceWindow w = makeWindow(frames, kVolume, {});
   const SurfaceInTime s(w, {}, TimeLaw::Hold);
@@ -71,7 +71,7 @@ TEST(SurfaceInTime, ACellIsSplitFromItsUpperLeftToItsLowerRightCorner) {
   EXPECT_TRUE(std::isnan(surfaceHeight(s, g.x(0.5), g.y(1.01))));
 }
 
-// The same question answered the slow way: every triangle against the whole segment.
+// Brute force reference: every triangle against the whole segment.
 std::optional<double> bruteForceCrossing(const SurfaceInTime& s, glm::dvec3 from, glm::dvec3 to) {
   const GridMapping& g = s.grid();
   const glm::dvec3 a(g.u(from.x), g.v(from.y), from.z), d = glm::dvec3(g.u(to.x), g.v(to.y), to.z) - a;
@@ -83,7 +83,7 @@ std::optional<double> bruteForceCrossing(const SurfaceInTime& s, glm::dvec3 from
         const double zc = right ? s.vertexHeight(c + 1, r) : s.vertexHeight(c, r + 1);
         const double zu = right ? zc - z00 : z11 - zc, zv = right ? z11 - zc : zc - z00;
         const double h0 = a.z - (z00 + zu * (a.x - c) + zv * (a.y - r)), slope = d.z - zu * d.x - zv * d.y;
-        if (!(slope < 0)) continue;  // from above to below only; not a number at a hole
+        if (!(slope < 0)) continue;  // only from above to below; NaN at a hole
         const double t = h0 / -slope;
         if (!(t >= 0 && t < 1)) continue;
         const double fu = a.x + d.x * t - c, fv = a.y + d.y * t - r, e = 1e-9;
@@ -133,7 +133,7 @@ TEST(SegmentSearch, SeesSegmentsThatRunAlongGridLinesAndThroughVertices) {
   const double z = 40.0 * 128 / 255;
   const auto at = [&](double u, double v, double height) { return glm::dvec3(g.x(u), g.y(v), height); };
   const std::array<std::pair<glm::dvec3, glm::dvec3>, 6> segments{{
-      {at(2, 3, z + 1), at(2, 3, z - 1)},  // straight down on a vertex
+      {at(2, 3, z + 1), at(2, 3, z - 1)},  // straight down onto a vertex
       {at(2, 3, z + 1), at(6, 3, z - 1)},  // along a row
       {at(2, 1, z + 1), at(2, 5, z - 1)},  // along a column
       {at(1, 1, z + 1), at(5, 5, z - 1)},  // along diagonals

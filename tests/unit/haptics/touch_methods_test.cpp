@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The proxy graph and the paper's modified one: where the proxy rests, when contact is kept, and when it is lost.
+// The proxy graph and the paper's modified one: resting position of the proxy, and when contact is kept or lost.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,7 +27,7 @@ std::unique_ptr<TouchMethod> method(std::string_view name, MethodConfig config =
   return makeMethod(name, config);
 }
 
-// Two frames a second apart between which a plane z = z0 + slope x rises by `rise` mm.
+// Two frames a second apart; between them a plane z = z0 + slope x rises by `rise` mm.
 std::vector<Frame> planeFrames(double z0, double slope, double rise) {
   std::vector<Frame> frames;
   for (int k = 0; k < 2; ++k) {
@@ -48,7 +48,7 @@ TEST(GraphWalk, RestsNoFurtherThanHalfACellFromTheClosestPointOfAPlane) {
     const glm::dvec3 foot(x(random), y(random), 0);
     const glm::dvec3 closest(foot.x, foot.y, 20 + 0.25 * foot.x);
     const glm::dvec3 hip = closest - 3.0 * normal;
-    // The walk begins up to 8 mm off, as after a fast move.
+    // The walk begins up to 8 mm away, as after a fast move.
     const glm::dvec3 start(closest.x + away(random), closest.y + away(random), 0);
     const auto t = GridTriangle::under(s.grid().u(start.x), s.grid().v(start.y), kCols, kRows);
     ASSERT_TRUE(t.has_value());
@@ -84,7 +84,7 @@ struct RiseCount {
   int below = 0, touched = 0;
 };
 
-// A finger rests at z = 12; the plane comes up from 10 past it, `per_tick` mm each tick.
+// A finger rests at z = 12; the plane rises from 10 past it by `per_tick` mm each tick.
 RiseCount countContacts(TouchMethod& m, double per_tick) {
   const auto frames = planeFrames(10, 0, 20);  // 20 mm in 1 s; time runs at the speed that is asked for
   const SurfaceWindow w = makeWindow(frames, kVolume);

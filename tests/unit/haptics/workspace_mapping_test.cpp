@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the finger is in the scene, for a device of its own size.
+// The finger's position in the scene, for devices with different workspaces.
 #include "app/haptics/task/workspace_mapping.h"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ TEST(WorkspaceMapping, TheClutchHoldsTheFingerWhileTheDeviceMoves) {
   }
   const auto after = mapping.follow({{-20, 0, 125}, 0});
   EXPECT_FALSE(after.clutched);
-  EXPECT_NEAR(glm::distance(after.hip_mm, before), 0, 1e-9) << "no leap when it is let go";
+  EXPECT_NEAR(glm::distance(after.hip_mm, before), 0, 1e-9) << "no jump when the clutch is released";
   EXPECT_NEAR(mapping.follow({{-10, 0, 125}, 0}).hip_mm.x - before.x, 10 * mapping.scale(), 1e-9);
   EXPECT_NEAR(mapping.deviceAt(mapping.follow({{5, 6, 99}, 0}).hip_mm).y, 6, 1e-9);
 }

@@ -20,11 +20,11 @@ Frame depthAt(double ms) {
   return frame;
 }
 
-// A depth track given by its times, in ms.
+// A depth track with pictures at the given times, in ms.
 struct Track {
   std::vector<double> times;
   std::size_t next = 0;
-  bool dry = false;  // nothing for now
+  bool dry = false;  // returns nothing for now
   std::optional<Error> error;
   DepthFollower follower{[this]() -> Result<DepthFollower::Supplied> {
     if (error) return std::unexpected(*error);
@@ -37,7 +37,7 @@ struct Track {
   Track(const Track&) = delete;
   Track& operator=(const Track&) = delete;
 
-  // The depth's time in ms, -1 for none; mismatched ones are negative less 1000.
+  // The time in ms of the depth found, -1 for none; minus (1000 + time) if it is mismatched.
   double at(double color_ms) {
     const auto match = follower.at(mediaTime(color_ms * 1e-3)).value();
     if (match.depth.empty()) return match.matched ? -1 : -2;
@@ -76,7 +76,7 @@ TEST(DepthFollower, AHigherRateIsThinnedAndCounted) {
   EXPECT_EQ(track.follower.skipped(), 4u);  // 20, 60, 100, 140
 }
 
-// 24 pictures a second on 30: the newest at or before, never older than 33.3 ms. Both meet each 166.7 ms.
+// 24 pictures/s on 30: the newest one at or before, never older than 33.3 ms. Both rates coincide every 166.7 ms.
 TEST(DepthFollower, RatesThatAreNoMultiplesTakeTheNewestAtOrBefore) {
   Track track(every(100.0 / 3, 31));
   const std::vector<int> expected{0, 1, 2, 3, 5, 6, 7, 8, 10};
@@ -85,14 +85,14 @@ TEST(DepthFollower, RatesThatAreNoMultiplesTakeTheNewestAtOrBefore) {
   }
 }
 
-// The other way round: 30 colour pictures a second, 24 of depth; a depth picture is held for one of five.
+// The other way round: 30 colour pictures/s with 24 of depth; one depth picture in four is held.
 TEST(DepthFollower, ASlightlyLowerRateIsNeverAMismatch) {
   Track track(every(125.0 / 3, 25));
   for (int k = 0; k < 30; ++k) EXPECT_GE(track.at(k * 100.0 / 3), 0.0) << k;
 }
 
 TEST(DepthFollower, MillisecondsOfTwoContainersDoNotSeparateWhatBelongsTogether) {
-  // 30 frames/s from 0.4 ms on, rounded, less the rounded start: up to 0.9 ms beside the exact times of an MP4.
+  // 30 frames/s from 0.4 ms on, rounded to ms, minus the rounded start: up to 0.9 ms from the exact times of an MP4.
   Times rounded, exact;
   for (int k = 0; k < 90; ++k) {
     rounded.push_back(std::round(40.4 + k * 100.0 / 3) - 40);
@@ -145,14 +145,14 @@ TEST(DepthFollower, AMissingPictureIsAMismatchForAsLongAsItLacks) {
   EXPECT_EQ(half.at(every(40, 8)), (Times{0, 0, 80, 80, -1080, -1080, 240, 240}));
 }
 
-// Constantly a quarter of a period late: each depth is nearly a period old when the next colour comes, as it should.
+// Always a quarter of a period late: each depth picture is nearly a period old when the next colour picture comes.
 TEST(DepthFollower, AnOffsetIsNoMismatch) {
   Track track(every(40, 20, 10));
   EXPECT_EQ(track.at(0), -1);
   for (int k = 1; k < 19; ++k) EXPECT_EQ(track.at(k * 40), 10 + (k - 1) * 40) << k;
 }
 
-// Now a little more than the tolerance late, now less: the older one is then nearly a period old, but none is missing.
+// The delay alternates around the tolerance: the older picture is then nearly a period old, but none is missing.
 TEST(DepthFollower, JitterAroundTheToleranceIsNoMismatch) {
   Times depth;
   for (int k = 0; k < 20; ++k) depth.push_back(40 * k + (k % 2 == 0 ? 6.5 : 2.5));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recordings whose codes nobody explains: what is read off their first picture, and what is doubted.
+// Recordings without calibration: what is read off their first picture, and which doubts are reported.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ constexpr int kCols = 160, kRows = 108;
 const PairReader::Backends kFfmpeg{[](const std::string&) { return makeFfmpegSource(); },
                                    [](const StreamInfo&) { return makeFfmpegDecoder(); }};
 
-// A ball of 200 mm in front of a wall that leans from 1.6 to 2 m; the camera sees nothing in the left tenth.
+// A ball 200 mm wide in front of a wall inclined from 1.6 to 2 m; the camera sees nothing in the left tenth.
 double distanceMm(int c, int r) {
   if (c < kCols / 10) return 0;
   const double x = 5.0 * (c - kCols / 2), y = 5.0 * (r - kRows / 2);
@@ -41,7 +41,7 @@ double distanceMm(int c, int r) {
   return square > 0 ? 1300 - std::sqrt(square) : 1600 + 400.0 * c / kCols;
 }
 
-// A 16-bit picture; code(mm) for what is seen.
+// A 16-bit picture with code(mm) for each distance.
 template <class Code>
 Frame picture(std::uint32_t hole, Code&& code) {
   return makeGrayFrame(kCols, kRows, 16, {}, [&](int c, int r) {
@@ -56,13 +56,13 @@ DepthCalibration readingOf(const Frame& frame, const CalibrationLayers& said = {
   return chooseCalibration(layers, frame, DepthCode::Luma).value().calibration;
 }
 
-// The distance that a height stands for, by the definition in app/scene/depth_calibration.h: z = D (far - Z)/(far -
-// near), of both laws.
+// The distance of a height, by the definition in app/scene/depth_calibration.h: z = D (far - Z)/(far - near), for both
+// laws.
 double distanceOf(double height_mm, const DepthCalibration& c) {
   return c.far_mm - height_mm / kVolume.depth_mm * (c.far_mm - c.near_mm);
 }
 
-// Near is high, holes are holes, and every distance is the true one to within `error_mm`.
+// Near is high, holes are holes, and every distance is exact to within `error_mm`.
 void expectTrue(const Frame& frame, double error_mm, const std::string& name) {
   const DepthCalibration c = readingOf(frame);
   const HeightField field = HeightField::make(frame, c, kVolume).value();
@@ -79,10 +79,10 @@ void expectTrue(const Frame& frame, double error_mm, const std::string& name) {
 TEST(DepthReading, SensorsCodesAreDistances) {
   expectTrue(picture(0, [](double mm) { return mm; }), 0.51, "mm, holes of 0");
   expectTrue(picture(65535, [](double mm) { return mm; }), 0.51, "mm, holes of 65535");
-  expectTrue(picture(0, [](double mm) { return std::floor(mm) * 8; }), 1.01, "mm, three bits to the left");
+  expectTrue(picture(0, [](double mm) { return std::floor(mm) * 8; }), 1.01, "mm, shifted left by three bits");
 }
 
-// The Kinect's raw disparities of the formula in the header of the reading, inverted: code = 1092.5 - 351300/z.
+// The formula for a Kinect's raw disparities in depth_reading.cpp, inverted: code = 1092.5 - 351300/z.
 TEST(DepthReading, ElevenBitsWithAHoleOf2047AreTheDisparitiesOfAKinect) {
   const Frame raw = picture(2047, [](double mm) { return 1092.5 - 351300 / mm; });
   const DepthCalibration c = readingOf(raw);
@@ -91,7 +91,7 @@ TEST(DepthReading, ElevenBitsWithAHoleOf2047AreTheDisparitiesOfAKinect) {
   expectTrue(raw, 0.5 * 2000 * 2000 / 351300 + 1, "raw disparities");  // half a code at 2 m
 }
 
-// Five codes a millimetre, as the TUM datasets have them, up to 9.8 m: more than half of the codes, with a gap.
+// Five codes per millimetre, as in the TUM datasets, up to 9.8 m: more than half of the codes, with a gap.
 TEST(DepthReading, DistancesOfAnotherUnitHaveTheSameRelief) {
   const Frame fine = picture(0, [](double mm) { return 5 * mm + 30000; });
   const DepthCalibration c = readingOf(fine);
@@ -130,7 +130,7 @@ TEST(DepthReading, AnUntaggedFilmThatUsesAllOfItsCodesIsOfTheFullRange) {
   frame.model = ColorModel::Yuv;
   frame.range = ColorRange::Unspecified;
   EXPECT_EQ(readCodes(frame, CodeCount(frame), {}).settings.at("range"), "full");
-  frame.range = ColorRange::Limited;  // it says so
+  frame.range = ColorRange::Limited;  // signalled
   EXPECT_THAT(readCodes(frame, CodeCount(frame), {}).settings, IsEmpty());
   Frame limited = makeGrayFrame(220, 8, 8, {}, [](int c, int) { return 16 + c; });
   limited.model = ColorModel::Yuv;
@@ -157,7 +157,7 @@ std::uint32_t yuv(int k, double red, double green, double blue) {
   const double codes[] = {16 + 219 * y, 128 + 224 * (blue - y) / 1.772, 128 + 224 * (red - y) / 1.402};
   return static_cast<std::uint32_t>(std::lround(codes[k]));
 }
-// The textbook hexagon, saturation and value 1.
+// The standard hexagon at saturation and value 1.
 std::array<double, 3> hueColor(double hue) {
   const auto ramp = [&](double n) {
     const double k = std::fmod(n + 6 * hue, 6);
@@ -172,7 +172,7 @@ double slopeHue(int c, int width) {
   return 0.1 + 0.7 * c / width;
 }
 
-// Colour and depth side by side or one above the other in one yuv444p picture of 64 x 48 halves.
+// Colour and depth side by side or one above the other in one yuv444p picture with halves of 64 x 48.
 ClipTrack packed(bool beside, bool depth_first, bool hue) {
   ClipTrack track{.pix_fmt = "yuv444p", .width = beside ? 128 : 64, .height = beside ? 48 : 96, .frames = 3};
   track.sample = [=](int k, int c, int r, int) {
@@ -210,7 +210,7 @@ TEST(DepthReading, HalvesThatDifferClearlyAreFoundWhicheverOneIsTheDepth) {
       const auto pair = reader.next();
       ASSERT_TRUE(pair && *pair);
       const HeightField field = HeightField::make((*pair)->depth, info.calibration.calibration, kVolume).value();
-      // Of a hue s is 1 - hue, since near is low; of a gray it is the brightness.
+      // For a hue s is 1 - hue, since near is low; for gray it is the brightness.
       for (const int c : {5, 30, 60}) {
         const double s = hue ? 1 - slopeHue(c, 64) : 0.2 + 0.6 * c / 64;
         EXPECT_NEAR(field.heightMm(c, 20), kVolume.depth_mm * s, hue ? 0.25 : 0.1) << c;
@@ -232,7 +232,7 @@ TEST(DepthReading, APhotoBesideAPhotoIsNoDepth) {
   EXPECT_FALSE(reader.info().has_depth);
 }
 
-// 4:2:0, 8 and 10 bits, with a step of the hue between two chroma samples: the mean of two hues is a hue of neither.
+// 4:2:0, 8 and 10 bits, with a hue step inside a chroma sample: the mean of two hues is neither of them.
 TEST(DepthReading, HueOverYuvIsReadAndItsMixedEdgesAreHoles) {
   TemporaryFolder folder;
   for (const bool ten : {false, true}) {

@@ -109,7 +109,7 @@ TEST(Packing, TheDepthTrackOfADepthSource) {
   EXPECT_EQ(findDepthTrack(ListedSource({}, {})), nullptr);
 }
 
-// A picture whose luma sample (c, r) is at address base + r * 1000 + c, chroma in planes of their own.
+// A picture whose luma sample (c, r) is at address base + r * 1000 + c, with chroma in separate planes.
 Frame picture(int width, int height, ColorModel model) {
   static std::array<std::uint8_t, 1> memory{};
   Frame frame;
@@ -158,7 +158,7 @@ TEST(Packing, TheMiddleOfAnOddPictureIsLeftOut) {
   EXPECT_EQ(cornerOf(tb.depth, whole), (Corner{0, 181, 641, 180}));
 }
 
-// Half of 642 is 321: chroma of 4:2:0 has no sample that begins there, luma has.
+// Half of 642 is 321: no chroma sample of 4:2:0 begins there, but a luma sample does.
 TEST(Packing, LumaBeginsAtTheExactSampleAndHueAtAWholeChromaSample) {
   const Frame whole = picture(642, 362, ColorModel::Yuv);
   EXPECT_EQ(cornerOf(splitPacked(whole, Packing::SideBySide, DepthCode::Luma)->depth, whole),
@@ -171,7 +171,7 @@ TEST(Packing, LumaBeginsAtTheExactSampleAndHueAtAWholeChromaSample) {
   EXPECT_EQ(cornerOf(splitPacked(rgb, Packing::SideBySide, DepthCode::Hue)->depth, rgb), (Corner{321, 0, 321, 362}));
 }
 
-// As a gray view the depth must not lose what an unsignalled YUV picture is: limited.
+// Unsignalled YUV is limited range, and the gray view of its depth must be too.
 TEST(Packing, LumaDepthIsGrayOfTheSameRange) {
   Frame whole = picture(64, 48, ColorModel::Yuv);
   const auto depthRange = [&] { return splitPacked(whole, Packing::TopBottom, DepthCode::Luma)->depth.range; };

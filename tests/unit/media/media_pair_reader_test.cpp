@@ -23,7 +23,7 @@ using test::TemporaryFolder;
 const PairReader::Backends kFfmpeg{[](const std::string&) { return makeFfmpegSource(); },
                                    [](const StreamInfo&) { return makeFfmpegDecoder(); }};
 
-// Every sample of frame k is k: a picture tells which one it is.
+// Every sample of frame k is k, so that a picture identifies its frame.
 std::uint32_t frameNumber(int /*component*/, int /*column*/, int /*row*/, int frame) {
   return static_cast<std::uint32_t>(frame);
 }
@@ -49,7 +49,7 @@ std::vector<FramePair> readAll(PairReader& reader) {
   }
 }
 
-// "colour:depth" of every pair by the frames' numbers, - for no depth, ! for a mismatch.
+// "colour:depth" of every pair by frame number, - for no depth, ! for a mismatch.
 std::string story(const std::vector<FramePair>& pairs) {
   std::string words;
   for (const FramePair& pair : pairs) {
@@ -84,7 +84,7 @@ TEST(PairReader, TwoTracksOfOneFileArePairedAndDescribed) {
   EXPECT_EQ(info.packing, Packing::Tracks);
   EXPECT_EQ(info.frame_period, milliseconds(40));
   EXPECT_EQ(info.duration, std::chrono::seconds(2));
-  EXPECT_EQ(info.calibration.calibration.law, DepthLaw::Inverse);  // the track's word before the container's
+  EXPECT_EQ(info.calibration.calibration.law, DepthLaw::Inverse);  // the track's tag overrides the container's
   EXPECT_EQ(info.calibration.calibration.far_mm, 2500);
   EXPECT_EQ(info.calibration.calibration.bits, 16);
   EXPECT_EQ(info.calibration.origin, CalibrationOrigin::ContainerTags);
@@ -101,7 +101,7 @@ TEST(PairReader, TwoTracksOfOneFileArePairedAndDescribed) {
   EXPECT_EQ(reader.counters().mismatched, 0u);
 }
 
-// The codes tell where a sample was: 100 row + column.
+// Sample codes give their original position: 100 row + column.
 TEST(PairReader, TracksThatWereTakenOnTheirSideComeUpright) {
   TemporaryFolder folder;
   const auto place = [](int, int column, int row, int) { return static_cast<std::uint32_t>(100 * row + column); };
@@ -119,7 +119,7 @@ TEST(PairReader, TracksThatWereTakenOnTheirSideComeUpright) {
   EXPECT_EQ(reader.info().color_width, 48);
   EXPECT_EQ(reader.info().depth_height, 64);
   const Frame quarter = readAll(reader).at(1).depth;
-  EXPECT_EQ(sampleAt(quarter, 0, 47, 0), 0u);  // the left upper corner is the right one now
+  EXPECT_EQ(sampleAt(quarter, 0, 47, 0), 0u);  // the top left corner moves to the top right
   EXPECT_EQ(sampleAt(quarter, 0, 0, 0), 4700u);
   EXPECT_EQ(sampleAt(quarter, 0, 47, 63), 63u);
 
@@ -148,10 +148,10 @@ TEST(PairReader, TheFramePeriodIsFreeOfTheContainersRounding) {
   makeClip(folder / "a.mkv", {color(30, 3)});
   PairReader reader(kFfmpeg);
   ASSERT_TRUE(reader.open({.url = folder / "a.mkv"}).has_value());
-  EXPECT_NEAR(toSeconds(reader.info().frame_period), 1.0 / 30, 1e-8);  // though its times are 0, 33, 67 ms
+  EXPECT_NEAR(toSeconds(reader.info().frame_period), 1.0 / 30, 1e-8);  // though its timestamps are 0, 33, 67 ms
 }
 
-// A renderer's: colour with times, depth without.
+// As from a renderer: colour with timestamps, depth without.
 TEST(PairReader, PicturesWithoutTimesComeAtTheRateThatIsTold) {
   TemporaryFolder folder;
   makeClip(folder / "color.mkv", {color(20, 10)});
@@ -290,7 +290,7 @@ void PrintTo(const SeekCase& c, std::ostream* out) {
 }
 class Seeks : public testing::TestWithParam<SeekCase> {};
 
-// The same pair as when it is read in order, for the time of every frame, between frames and beyond the end.
+// A seek to any time (of a frame, between frames, beyond the end) gives the same pair as reading in order.
 TEST_P(Seeks, LandOnTheFirstPairAtOrAfterTheTarget) {
   TemporaryFolder folder;
   makeClip(folder / GetParam().file, {GetParam().color, GetParam().depth});
@@ -310,7 +310,7 @@ TEST_P(Seeks, LandOnTheFirstPairAtOrAfterTheTarget) {
     EXPECT_EQ(found->matched, pairs[k].matched) << k;
   };
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t k = i * 7 % count;  // to and fro
+    const std::size_t k = i * 7 % count;  // back and forth
     ASSERT_TRUE(reader.seek(pairs[k].color.pts).has_value());
     sameAs(k);
     if (k + 1 < count) sameAs(k + 1);
@@ -432,7 +432,7 @@ TEST(PairReader, ACutFilmPlaysWhatIsThere) {
   }
 }
 
-// Films of the mock back end, which can be made to fail.
+// Films of the mock back end, which can be told to fail.
 struct MockFilm {
   ManualClock clock;
   MockMediaProfile color, depth;
@@ -460,7 +460,7 @@ TEST(PairReader, DepthAskedForByNameHasToBeThere) {
   EXPECT_EQ(film.reader.failedThing(), "depth");
 }
 
-// Two tracks of one film, the second without a picture: it plays flat, and says so.
+// Two tracks of one film, the second without a picture: the film plays flat, with a warning.
 TEST(PairReader, DepthThatIsFoundAndCannotBeReadIsGivenUp) {
   MockFilm film;
   film.color.tracks = {MockTrack{.frames = 5}, MockTrack{.frames = 0}};
@@ -488,7 +488,7 @@ TEST(PairReader, LostDepthEndsTheDepthAndNotTheFilm) {
     EXPECT_TRUE(pair->matched);
     if (!pair->depth.empty()) ++with_depth;
   }
-  ASSERT_TRUE(film.reader.seek(MediaTime{}).has_value());  // does not find it again
+  ASSERT_TRUE(film.reader.seek(MediaTime{}).has_value());  // finds no depth again
   EXPECT_TRUE(film.reader.next().value()->depth.empty());
   const std::string said = testing::internal::GetCapturedStderr();
   EXPECT_EQ(pairs, 30);
@@ -498,7 +498,7 @@ TEST(PairReader, LostDepthEndsTheDepthAndNotTheFilm) {
   EXPECT_THAT(said, testing::HasSubstr("depth: no depth from here on"));
 }
 
-// A source that fails one read and then works again, as a network does.
+// A source that fails one read and then works again, like a network connection.
 class OnceFailingSource final : public MediaSource {
  public:
   OnceFailingSource(std::unique_ptr<MediaSource> source, int good_reads, ErrorCode code)
@@ -521,7 +521,7 @@ class OnceFailingSource final : public MediaSource {
   ErrorCode code_;
 };
 
-// The depth's source fails its eleventh read.
+// The eleventh read of the depth's source fails.
 PairReader::Backends onceFailingDepth(Clock& clock, ErrorCode code) {
   return {[&clock, code, sources = 0](const std::string&) mutable -> std::unique_ptr<MediaSource> {
             auto source = makeMockSource({}, clock);
@@ -565,7 +565,7 @@ MockMediaProfile live(int frames) {
   return profile;
 }
 
-// The source made second is opened so much later.
+// The source made second is opened later.
 PairReader::Backends twoLive(const MockMediaProfile& color, const MockMediaProfile& depth, ManualClock& clock,
                              Duration later) {
   return {.make_source =
@@ -578,13 +578,13 @@ PairReader::Backends twoLive(const MockMediaProfile& color, const MockMediaProfi
           .clock = &clock};
 }
 
-// The slope's motion tells a picture's number.
+// A picture's number, from the motion of its slope.
 int slopeNumber(const Frame& frame) {
   return static_cast<int>(sampleAt(frame, 0, 0, 0)) / 2;
 }
 
-// What comes in at the same time belongs together: the depth's first picture and the colour's 25th, with which the film
-// begins.
+// Pictures that arrive at the same time belong together: the depth's first picture and the colour's 25th, with which
+// the film begins.
 TEST(PairReader, TwoLiveSourcesMeetByTheirArrivalHere) {
   ManualClock clock;
   PairReader reader(twoLive(live(100), live(100), clock, std::chrono::seconds(1)));
@@ -621,7 +621,7 @@ TEST(PairReader, TwoLiveSourcesOfTwoSendersMeetByTheirArrival) {
   EXPECT_EQ(slopeNumber(pair->depth), 0);
 }
 
-// The colour's line breaks after a second and is back half a second later; the depth has gone on meanwhile.
+// The colour's connection breaks after a second and is back half a second later; the depth has continued meanwhile.
 TEST(PairReader, TwoLiveSourcesMeetAnewAfterTheColourWasAway) {
   ManualClock clock;
   MockMediaProfile color = live(100), depth = live(100);
@@ -647,8 +647,8 @@ TEST(PairReader, TwoLiveSourcesMeetAnewAfterTheColourWasAway) {
   EXPECT_EQ(reader.counters().reconnects, 1u);
 }
 
-// On the machine's clock, with the depth's own thread: it stalls for an hour, the colour is read to its end, and the
-// film can be closed.
+// In real time, with the depth's own thread: the depth stalls for an hour, the colour is read to its end, and the film
+// can be closed.
 TEST(PairReader, DepthThatFallsSilentDoesNotHoldTheColourUp) {
   MonotonicClock clock;
   MockMediaProfile color{.tracks = {MockTrack{.frames = 60}}}, depth = live(60);
@@ -781,7 +781,7 @@ TEST(PairReaderRealVideo, DeskIsColourOnTopAndHueBelow) {
   ASSERT_EQ(pairs.size(), 48u);
   EXPECT_EQ(pairs[0].depth.model, ColorModel::Rgb);
   EXPECT_EQ(pairs[47].color.pts, mediaTime(47.0 / 24));
-  // Two thirds of the depth have no reading, black; colour has no such thing.
+  // Two thirds of the depth have no reading and are black; the colour has no such areas.
   int black = 0;
   for (int r = 0; r < 424; ++r) {
     for (int c = 0; c < 512; ++c) {
@@ -801,7 +801,7 @@ TEST(PairReaderRealVideo, DeskIsKnownByItsHalves) {
   EXPECT_EQ(reader.info().color_height, 424);
 }
 
-// The samples were read from the files with another decoder.
+// The expected samples were read with another decoder.
 TEST(PairReaderRealVideo, SixteenBitSurveysAreReadToTheBit) {
   RELIEVO_NEEDS("dome/02.png");
   PairReader reader(kFfmpeg);
@@ -811,7 +811,7 @@ TEST(PairReaderRealVideo, SixteenBitSurveysAreReadToTheBit) {
   EXPECT_EQ(reader.info().calibration.calibration.range, ColorRange::Full);
   const auto pairs = readAll(reader);
   ASSERT_EQ(pairs.size(), 13u);
-  for (const FramePair* pair : {&pairs.front(), &pairs.back()}) {  // the ground outside the crater stands still
+  for (const FramePair* pair : {&pairs.front(), &pairs.back()}) {  // the ground outside the crater does not move
     EXPECT_EQ(sampleAt(pair->depth, 0, 10, 20), 14323u);
     EXPECT_EQ(sampleAt(pair->depth, 0, 150, 221), 17876u);
     EXPECT_EQ(sampleAt(pair->depth, 0, 302, 441), 18490u);

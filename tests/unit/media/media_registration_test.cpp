@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth in the colour camera's view, against numbers worked out on paper.
+// Depth registered to the colour camera's view, against numbers worked out on paper.
 #include "app/media/registration.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ Row rowOf(const Frame& frame, int r) {
   return row;
 }
 
-// 16 x 8, 100 pixels of focal length, the axis through the middle.
+// 16 x 8 pixels, focal length 100 pixels, principal point in the middle.
 PinholeCamera camera() {
   return {.cols = 16, .rows = 8, .focal_x = 100, .focal_y = 100, .center_x = 7.5, .center_y = 3.5};
 }
@@ -46,8 +46,8 @@ TEST(Registration, OfTheSameCameraIsTheSamePicture) {
   EXPECT_EQ(there.components[0].bits, 16);
 }
 
-// A camera 20 mm to the right sees a wall 1000 mm away 100 * 20 / 1000 = 2 pixels further left, and a post before it,
-// 500 mm away, 4 pixels: over the wall, and with a shadow of two pixels behind it.
+// A camera 20 mm to the right sees a wall 1000 mm away shifted left by 100 * 20 / 1000 = 2 pixels, and a post in front
+// of it, 500 mm away, by 4 pixels: over the wall, with a shadow of two pixels on the other side.
 TEST(Registration, ACameraToTheRightSeesNearThingsFurtherLeftAndAShadowBehindThem) {
   const Frame depth = depthOf(16, 8, [](int c, int) { return c >= 8 && c < 11 ? 500 : 1000; });
   const Frame there = registered(depth, {.depth = camera(), .color = camera(), .translation_mm = {-20, 0, 0}}).value();
@@ -64,7 +64,7 @@ TEST(Registration, TheNearerOfTwoWinsWhicheverComesFirst) {
   }
 }
 
-// Nothing has no place.
+// Holes have no position.
 TEST(Registration, HolesStayHoles) {
   const Frame depth = depthOf(16, 8, [](int c, int r) { return c == 5 && r == 2 ? 0 : 800; });
   const Frame there = registered(depth, {.depth = camera(), .color = camera()}).value();
@@ -72,7 +72,7 @@ TEST(Registration, HolesStayHoles) {
   EXPECT_EQ(codeOf(there, 6, 2), 800);
 }
 
-// 1000 mm further back everything is half as large, and its distance is the colour camera's own.
+// From 1000 mm further back everything is half as large, and distances are those from the colour camera.
 TEST(Registration, FromFurtherBackThePictureShrinksAndDistancesGrow) {
   const Frame depth = depthOf(16, 8, [](int, int) { return 1000; });
   const Frame there = registered(depth, {.depth = camera(), .color = camera(), .translation_mm = {0, 0, 1000}}).value();
@@ -90,7 +90,8 @@ TEST(Registration, FromNearerThePictureGrowsWithoutGaps) {
   for (int r = 0; r < 8; ++r) EXPECT_EQ(rowOf(there, r), Row(16, 500)) << r;
 }
 
-// A colour camera of twice the pixels and a wider shape: as wide as the depth, in the colour's shape, without gaps.
+// A colour camera with twice the pixels and a wider aspect ratio: the result is as wide as the depth, in the colour's
+// aspect ratio, without gaps.
 TEST(Registration, IsAsWideAsTheDepthAndOfTheColoursShape) {
   const PinholeCamera wide{.cols = 32, .rows = 24, .focal_x = 200, .focal_y = 200, .center_x = 8.3, .center_y = 11.5};
   const Frame depth = depthOf(16, 8, [](int, int) { return 900; });
@@ -98,11 +99,11 @@ TEST(Registration, IsAsWideAsTheDepthAndOfTheColoursShape) {
   ASSERT_EQ(there.width, 16);
   ASSERT_EQ(there.height, 12);
   for (int r = 0; r < 12; ++r) EXPECT_EQ(codeOf(there, 9, r), r >= 2 && r < 10 ? 900 : 0) << r;
-  // Its axis is (8.3 + 0.5)/2 - 0.5 = 3.9 columns from the left, the depth's 7.5: all is seen 3.6 further left.
+  // Its axis is (8.3 + 0.5)/2 - 0.5 = 3.9 columns from the left, the depth's 7.5: everything moves 3.6 columns left.
   for (int c = 0; c < 16; ++c) EXPECT_EQ(codeOf(there, c, 5), c < 12 ? 900 : 0) << c;
 }
 
-// Turned by a right angle about its axis: columns become rows.
+// Rotated by 90 degrees about its axis: columns become rows.
 TEST(Registration, ATurnedCameraSeesTheSameTurned) {
   const PinholeCamera square{.cols = 8, .rows = 8, .focal_x = 100, .focal_y = 100, .center_x = 3.5, .center_y = 3.5};
   const Frame depth = depthOf(8, 8, [](int c, int r) { return 600 + 20 * c + r; });
@@ -133,7 +134,7 @@ TEST(Registration, RefusesWhatIsNone) {
   const std::string cameras =
       "[depth]\nsize = [640, 480]\nfocal = [600, 600]\ncenter = [320, 240]\n"
       "[color]\nsize = [640, 480]\nfocal = [600, 600]\ncenter = [320, 240]\n";
-  ASSERT_TRUE(parseRegistration(cameras)) << "side by side at one place";
+  ASSERT_TRUE(parseRegistration(cameras)) << "both cameras at one place";
   for (const std::string& text :
        {std::string("[depth"), std::string(), cameras + "[depth_to_color]\nrotation = [1, 0, 0, 0, 1, 0, 0, 0]\n",
         cameras + "[depth_to_color]\nrotation = [1, 0, 0, 0, 1, 0, 0, 0, -1]\n",

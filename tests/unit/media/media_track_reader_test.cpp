@@ -18,8 +18,8 @@ struct Scripted {
   bool keyframe = true;
 };
 
-// Sound is stream 2. Packets in the order of the script. A seek lands on the last key frame of stream 0 at or before
-// the target, `late` packets further on than it should.
+// Sound is stream 2. Packets come in the order of the script. A seek lands `late` packets after the last key frame of
+// stream 0 at or before the target.
 class ScriptedSource final : public MediaSource {
  public:
   explicit ScriptedSource(std::vector<Scripted> script, std::size_t late = 0)
@@ -66,7 +66,7 @@ class ScriptedSource final : public MediaSource {
   std::size_t late_;
 };
 
-// One picture for one packet. Counts those that are held, and refuses more than it allows.
+// One picture per packet. Counts the pictures in use, and refuses more than the limit.
 class OneToOneDecoder final : public VideoDecoder {
  public:
   explicit OneToOneDecoder(int max_held = 1000) : max_held_(max_held) {}
@@ -103,7 +103,7 @@ class OneToOneDecoder final : public VideoDecoder {
   bool draining_ = false;
 };
 
-// A sample a packet, which tells its time in ms.
+// One sample per packet; its value is the time in ms.
 class SampleDecoder final : public AudioDecoder {
  public:
   [[nodiscard]] const char* name() const noexcept override { return "sample"; }
@@ -138,13 +138,13 @@ struct Film {
     EXPECT_TRUE(reader->listen(std::move(decoder), source->streams()[2], {}).has_value());
     return ear;
   }
-  // Times in ms of all the sound that has been read.
+  // Times in ms of all the sound read so far.
   std::vector<int> sound() {
     std::vector<int> times;
     while (const auto chunk = reader->nextSound()) times.push_back(static_cast<int>(chunk->samples[0]));
     return times;
   }
-  // The next picture's time in ms, -1 for nothing.
+  // The next picture's time in ms, -1 for none.
   int next(std::size_t track) {
     const auto frame = reader->next(track).value();
     return frame ? static_cast<int>((*frame).pts.time_since_epoch() / milliseconds(1)) : -1;
@@ -178,7 +178,7 @@ TEST(TrackReader, TakesNoThirdTrack) {
   EXPECT_EQ(third.error().code, ErrorCode::Exhausted);
 }
 
-// Depth that ended long ago must not make the reader swallow the rest of the film.
+// After the depth's end the reader must not search the rest of the film for more of it.
 TEST(TrackReader, ATrackWithNothingToGiveIsGivenUpForNow) {
   std::vector<Scripted> script{{1, 0, true}};
   for (int k = 0; k < 2000; ++k) script.push_back({0, 40 * k, true});
@@ -197,7 +197,7 @@ TEST(TrackReader, LargePacketsAreBoundedByTheirBytes) {
   film.source->packet_bytes = TrackReader::kMaxWaitingBytes / 10;
   EXPECT_EQ(film.next(1), 0);
   EXPECT_EQ(film.next(1), -1);
-  EXPECT_EQ(film.source->position, 1 + 11u);  // the eleventh passes the bound
+  EXPECT_EQ(film.source->position, 1 + 11u);  // the eleventh exceeds the bound
 }
 
 TEST(TrackReader, WhatWasTakenCountsNoLonger) {
@@ -209,7 +209,7 @@ TEST(TrackReader, WhatWasTakenCountsNoLonger) {
   }
 }
 
-// All of the depth's packets lie before the colour's: the colour goes on, depth begins again at a key frame.
+// All depth packets come before the colour's: the colour continues, the depth resumes at a key frame.
 TEST(TrackReader, TheLeadingTrackIsNeverHeldUpByTheOther) {
   std::vector<Scripted> script;
   const int count = static_cast<int>(TrackReader::kMaxWaitingPackets) + 100;
@@ -241,7 +241,8 @@ TEST(TrackReader, ASeekBringsEveryTrackToTheTargetOrBefore) {
   EXPECT_EQ(film.source->seeks, 1);
 }
 
-// Depth's key frames lie elsewhere: from the colour's key frame on, depth cannot be decoded until after the target.
+// The depth's key frames are at other times: from the colour's key frame on, depth cannot be decoded until after the
+// target.
 TEST(TrackReader, ASeekGoesFartherBackForTheOtherTracksKeyFrame) {
   std::vector<Scripted> script;
   for (int k = 0; k < 200; ++k) {
@@ -288,7 +289,7 @@ TEST(TrackReader, SoundComesAlongWithThePictures) {
   EXPECT_EQ(film.sound(), (std::vector{0, 20, 40}));
 }
 
-// The container has it a second later than its pictures: it is fetched, the pictures in between are kept.
+// The container stores sound a second later than its pictures: it is fetched, and the pictures in between are kept.
 TEST(TrackReader, ReadsAheadForSoundThatLiesLate) {
   std::vector<Scripted> script;
   for (int k = 0; k < 100; ++k) {
@@ -296,7 +297,7 @@ TEST(TrackReader, ReadsAheadForSoundThatLiesLate) {
     if (k >= 25) script.push_back({2, 40 * (k - 25)});
   }
   Film film(script);
-  EXPECT_FALSE(film.reader->readAhead()) << "nobody listens";
+  EXPECT_FALSE(film.reader->readAhead()) << "no sound was selected";
   film.listen();
   EXPECT_FALSE(film.reader->readAhead()) << "before the first picture";
   EXPECT_EQ(film.next(0), 0);

@@ -12,7 +12,7 @@ namespace {
 
 using test::sampleAt;
 
-// Where the sample at (column, row) of a picture of `cols` x `rows` is found after one quarter turn clockwise.
+// Position of sample (column, row) of a picture of `cols` x `rows` after a quarter turn clockwise.
 std::pair<int, int> afterOne(int column, int row, int rows) {
   return {rows - 1 - row, column};
 }
@@ -47,7 +47,7 @@ TEST(Turned, GrayOfTwelveBitsInTwoBytesKeepsEverySample) {
   }
 }
 
-// Hue depth is read from pixels of 3 or 4 bytes: BGRA stays what it is.
+// Hue depth is read from pixels of 3 or 4 bytes, so BGRA stays packed.
 TEST(Turned, PackedRgbStaysPacked) {
   constexpr int kCols = 5, kRows = 3;
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(kCols) * 4 * kRows);

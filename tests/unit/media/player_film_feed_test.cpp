@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reader's side by hand, in simulated time; and once with its thread, held up and interrupted.
+// The feed with its reader's side called by hand, in simulated time; and with its thread, stalled and interrupted.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -47,7 +47,7 @@ class FilmFeedTest : public testing::Test {
     while (feed_->work()) ++pieces;
     return pieces;
   }
-  // Times, in frame periods, of all that can be taken without further work.
+  // Times, in frame periods, of all pairs that can be taken without further work.
   std::vector<int> takeAll() {
     std::vector<int> taken;
     while (const auto pair = feed_->take()) {
@@ -103,7 +103,7 @@ TEST_F(FilmFeedTest, TheNewestOfTwoSeeksHolds) {
   EXPECT_THAT(takeAll(), ElementsAre(20, 21, 22, 23));
 }
 
-// The viewer seeks at the very moment in which the reader decodes a picture: done here from inside the decoder.
+// The viewer seeks while the reader decodes a picture: simulated from inside the decoder.
 TEST_F(FilmFeedTest, APictureThatWasUnderWayWhenTheViewerSoughtIsDropped) {
   MockMediaProfile profile = filmOf(100);
   profile.tracks[0].sample = [this](int frame, int, int, int) {
@@ -132,7 +132,7 @@ TEST_F(FilmFeedTest, ASeekThatWasUnderWayWhenANewerCameIsNotTheEndOfSeeking) {
   EXPECT_THAT(takeAll(), ElementsAre(20, 21, 22, 23));
 }
 
-// Of an audio track the pieces are of 20 ms.
+// An audio track comes in chunks of 20 ms.
 class FilmFeedSound : public FilmFeedTest {
  protected:
   static constexpr Duration kPiece = std::chrono::milliseconds(20);
@@ -149,7 +149,7 @@ class FilmFeedSound : public FilmFeedTest {
     feed_->open({.url = "mock", .sound = AudioFormat{}});
     return *feed_;
   }
-  // Numbers of the pieces that can be taken without further work.
+  // Numbers of the chunks that can be taken without further work.
   std::vector<int> takeSound() {
     std::vector<int> taken;
     while (const auto chunk = feed_->takeSound())
@@ -199,7 +199,7 @@ TEST_F(FilmFeedSound, IsSaidToBeThereOrNotToCome) {
   EXPECT_FALSE(takeSound().empty());
   FilmFeed& too_late = openWithSound(1000, std::chrono::seconds(30));
   workAll();
-  EXPECT_TRUE(too_late.hasSoundUntil(mediaTime(0.3))) << "nobody waits for that";
+  EXPECT_TRUE(too_late.hasSoundUntil(mediaTime(0.3))) << "it is too far ahead to wait for";
   EXPECT_TRUE(takeSound().empty());
 }
 
@@ -207,7 +207,7 @@ TEST_F(FilmFeedSound, AfterASeekBeginsAtTheTarget) {
   FilmFeed& feed = openWithSound(200);
   workAll();
   feed.seek(MediaTime(50 * kPeriod));
-  EXPECT_TRUE(takeSound().empty()) << "what was read ahead is forgotten";
+  EXPECT_TRUE(takeSound().empty()) << "what was read ahead is dropped";
   workAll();
   const std::vector<int> taken = takeSound();
   ASSERT_FALSE(taken.empty());
@@ -276,7 +276,7 @@ TEST_F(FilmFeedTest, ASourceThatIsLostFailsAfterWhatWasRead) {
   EXPECT_LE(taken, 7);  // two packets make a pair; the last may lack its depth
 }
 
-// Tried after 0.25 s, and then each time after twice as long, but no more than 4 s.
+// Retried after 0.25 s, then at growing intervals of at most 4 s.
 TEST_F(FilmFeedTest, ALostSourceIsTriedEverMoreSeldomAndNotForEver) {
   std::vector<double> tries;
   PairReader::Backends parts = backends({}, clock_);
@@ -322,7 +322,7 @@ TEST_F(FilmFeedTest, IsClosedAfterAStopAndDoesNoMoreWork) {
   EXPECT_THAT(takeAll(), IsEmpty());
 }
 
-// The reader hangs in a source that stalls for an hour; only an interrupt gets it out.
+// The reader blocks in a source that stalls for an hour; only an interrupt ends that.
 TEST(FilmFeedThread, StopsWhileTheSourceStalls) {
   MonotonicClock clock;
   MockMediaProfile profile = filmOf(100);
@@ -357,7 +357,7 @@ TEST(FilmFeedThread, ReadsTheWholeFilmWhileItIsTaken) {
   feed.startThread();
   int taken = 0;
   for (bool ended = false; !ended;) {
-    ended = feed.state() == State::Ended;  // before taking: what came before the end is then in the queue
+    ended = feed.state() == State::Ended;  // before taking: everything before the end is then queued
     while (const auto pair = feed.take()) {
       EXPECT_EQ(pair->color.pts, MediaTime(taken * kPeriod));
       ++taken;
@@ -407,7 +407,7 @@ TEST_F(PlayheadTest, KnowsThatNothingFollowsOnlyWhenTheLastPairIsTaken) {
   head_.begin();
   head_.begin();
   refill();
-  EXPECT_FALSE(head_.last());  // full: it has not seen that the feed is empty
+  EXPECT_FALSE(head_.last());  // full: it has not yet learnt that the feed has ended
   head_.begin();
   EXPECT_FALSE(refill());
   EXPECT_TRUE(head_.last());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a playlist names, and what it may not.
+// The entries of a playlist, and which of them are refused.
 #include "app/media/playlist.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ TEST(Playlist, NamesFilmsWithTheirTitles) {
 TEST(Playlist, WhatIsRelativeLiesBesideIt) {
   EXPECT_EQ(url("a.mkv", "list.m3u"), "./a.mkv");
   EXPECT_EQ(url("../a.mkv", "films/list.m3u"), "films/../a.mkv");
-  EXPECT_EQ(url("C:a.mkv", "/films/list.m3u"), "/films/C:a.mkv") << "a letter is no scheme";
+  EXPECT_EQ(url("C:a.mkv", "/films/list.m3u"), "/films/C:a.mkv") << "a single letter is not a scheme";
   EXPECT_EQ(url("a.mkv", "http://host/films/list.m3u?who=me/you#top"), "http://host/films/a.mkv");
   EXPECT_EQ(url("/a.mkv", "http://host/films/list.m3u"), "http://host/a.mkv");
   EXPECT_EQ(url("//other/a.mkv", "https://host/list.m3u"), "https://other/a.mkv");
@@ -56,9 +56,9 @@ TEST(Playlist, OneOnTheNetworkOpensTheNetworkAlone) {
     EXPECT_EQ(refused(std::string("ok.mkv\n") + line + "\nok.mkv", from), (Refused{false, true, false})) << line;
     EXPECT_EQ(refused(std::string("#RELIEVO-DEPTH:") + line + "\na.mkv\nb.mkv", from), (Refused{true, false})) << line;
   }
-  EXPECT_EQ(url("/etc/shadow", from), "HTTP://host/etc/shadow") << "of that host";
+  EXPECT_EQ(url("/etc/shadow", from), "HTTP://host/etc/shadow") << "on that host";
   EXPECT_EQ(url("subfile,,start,0,end,9,,:/etc/shadow", from), "HTTP://host/subfile,,start,0,end,9,,:/etc/shadow")
-      << "a comma ends no scheme";
+      << "a scheme does not end at a comma";
   for (const char* line :
        {"http://a/b", "https://a/b", "rtsp://a/b", "rtsps://a/b", "rtp://a:2", "udp://@:1234", "tcp://a:3"}) {
     EXPECT_EQ(entries(line, from), (std::vector<PlaylistEntry>{{.url = line}}));

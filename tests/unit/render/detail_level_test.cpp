@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Drawing keeps within its frame budget, on made-up drawing times.
+// Drawing keeps within its frame budget, with simulated drawing times.
 #include "app/render/relief/detail_level.h"
 
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@ using std::chrono::milliseconds;
 
 constexpr Duration kBudget = milliseconds(24);
 
-// A renderer that takes `fixed_ms`, and `fine_ms` more at the finest level, in proportion to the triangles: as many as
-// one over the error. Returns the level after each frame.
+// A renderer that takes `fixed_ms`, plus `fine_ms` at the finest level in proportion to the triangles, whose number is
+// inversely proportional to the error. Returns the level after each frame.
 std::vector<int> run(DetailLevel& detail, int frames, double fixed_ms, double fine_ms) {
   std::vector<int> levels;
   for (int i = 0; i < frames; ++i) {
@@ -83,7 +83,7 @@ TEST(DetailLevel, TriesAgainMoreAndMoreSeldom) {
     detail.drew(detail.level() >= 2 ? milliseconds(5) : milliseconds(30));
     levels.push_back(detail.level());
   }
-  // Without patience there would be a try each 30 + 9 frames: over 500. With it 30, 60, .. 3840, 3840, ..
+  // Without patience there would be an attempt every 30 + 9 frames: over 500. With it after 30, 60, .. 3840, 3840, ..
   EXPECT_LT(changes(levels), 40);
   EXPECT_GT(changes(levels), 10);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The relief of a still life whose true shape was measured: cut where one thing ends before another, and nowhere else.
+// The relief of a still life whose true shape was measured: cut at the edges of its objects and nowhere else.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,14 +30,13 @@ class Cones : public testing::Test {
     cuts_.find(lattice_, lattice_.jumpMm());
   }
   [[nodiscard]] float disparityAt(int i, int j) const { return disparity_->at(lattice_.column(i), lattice_.row(j)); }
-  // Whether the vertex stands at another height than was measured there: what lies between two jumps, which belongs to
-  // neither thing.
+  // Whether the vertex was moved away from its measured height, as a smeared sample between two objects is.
   [[nodiscard]] bool isMoved(int i, int j) const {
     const double measured_mm = static_cast<double>(disparityAt(i, j) / Disparity::kMost) * volume_.depth_mm;
     const float stands_mm = lattice_.heights()[static_cast<std::size_t>(j) * lattice_.cols() + i];
     return std::abs(static_cast<double>(stands_mm) - measured_mm) > 0.01;
   }
-  // Between two vertices side by side: whether what was measured has one thing end before another there.
+  // Whether the measurement has an object's edge between two adjacent vertices.
   [[nodiscard]] bool trueJump(int i, int j, int right, int down, float pixels) const {
     const float here = disparityAt(i, j), there = disparityAt(i + right, j + down);
     return here > 0 && there > 0 && std::abs(here - there) > pixels;
@@ -59,7 +58,7 @@ TEST_F(Cones, NoTriangleLiesAcrossATrueSilhouette) {
   network.measure(lattice_, cuts_);
   network.triangulate(0.5F);
   const int cols = lattice_.cols();
-  // A hundredth more than a jump: the depth picture's codes are rounded.
+  // 1 % more than a jump, because the depth picture's codes are rounded.
   const float jump = 1.01F * jumpPixels();
   EXPECT_LT(jump, 3) << "of 55";
   int across = 0;
@@ -103,7 +102,7 @@ TEST_F(Cones, HardlyASampleIsMoved) {
   EXPECT_LT(moved, known / 500);
 }
 
-// A cut cell has a true jump at one of its sides, or a corner that nobody could measure.
+// Every cut cell has a true jump at one of its sides, or a corner without a measurement.
 TEST_F(Cones, IsCutAtTrueSilhouettesAlone) {
   const int cols = lattice_.cols();
   int without_reason = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is drawn where one thing ends before another, vertex by vertex; and what stands in holes.
+// The drawing of silhouettes, vertex by vertex, and the filling of holes.
 #include "app/render/relief/silhouette.h"
 
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ struct Drawn {
   OutputArray<TexturedVertex> vertices;
   OutputArray<std::uint32_t> indices;
 
-  // The heights that are drawn at a vertex of the lattice.
+  // The heights drawn at a lattice vertex.
   [[nodiscard]] std::vector<double> heightsAt(int c, int r) const {
     std::vector<double> heights;
     for (const TexturedVertex& v : vertices) {
@@ -64,7 +64,7 @@ struct Drawn {
     const auto all = heightsAt(c, r);
     return std::ranges::any_of(all, [z](double one) { return std::abs(one - z) < 0.01; });
   }
-  // By how many triangles a place is covered; one on a side does not.
+  // The number of triangles that cover a point, borders excluded.
   [[nodiscard]] int timesDrawnAt(float x, float y) const {
     const auto left_of = [&](const TexturedVertex& from, const TexturedVertex& to) {
       return (to.x - from.x) * (y - from.y) - (x - from.x) * (to.y - from.y) > 0;
@@ -103,7 +103,7 @@ TEST(Silhouette, TheFarSideGoesOnBehindTheNearOne) {
   }
 }
 
-// The cell at (kEdge, row), of whose corners some are near.
+// The cell at (kEdge, row) with the given near corners.
 Drawn drawCorners(unsigned near, int row) {
   const auto height = [&](int c, int r) {
     const int corner = c == kEdge ? r - row : c == kEdge + 1 ? 3 - (r - row) : -1;
@@ -112,8 +112,8 @@ Drawn drawCorners(unsigned near, int row) {
   return drawCell(height, kEdge, row);
 }
 
-// Bits of the corners, counterclockwise from the top left. High up in the picture an eye sees behind what is above, low
-// down behind what is below.
+// Bits of the corners, counterclockwise from the top left. High in the picture an eye sees behind objects above, low in
+// the picture behind objects below.
 class SilhouetteOfCorners : public testing::TestWithParam<std::tuple<unsigned, int>> {};
 INSTANTIATE_TEST_SUITE_P(All, SilhouetteOfCorners, testing::Combine(testing::Range(1U, 15U), testing::Values(4, 27)));
 
@@ -148,7 +148,7 @@ TEST_P(SilhouetteOfCorners, DrawsTheNearPartAndAllOfTheFarOneAndOnBehindIt) {
   EXPECT_EQ(any([&](auto& v) { return v.y < low - 0.1F; }), far_above && row > kRows / 2);
   EXPECT_EQ(any([&](auto& v) { return v.y > top + 0.1F; }), far_below && row < kRows / 2);
 
-  // Where the far side lies it shows what is farther away.
+  // The far side takes its colour from further away.
   const int aside_right = (is_near(0) ? -1 : 1) + (is_near(1) ? -1 : 1) - (is_near(2) ? -1 : 1) - (is_near(3) ? -1 : 1);
   const int aside_down = (is_near(1) ? -1 : 1) + (is_near(2) ? -1 : 1) - (is_near(0) ? -1 : 1) - (is_near(3) ? -1 : 1);
   const auto toward = [](int sum) { return static_cast<float>((sum > 0) - (sum < 0)); };
@@ -197,12 +197,12 @@ TEST(Silhouette, BesideTheOutlineTheFarSideShowsWhatIsFartherAway) {
   }
 }
 
-// Behind a thing that rises for some samples the eye sees as far as over its top.
+// Behind an object that rises over several samples, an eye sees as far as over its top.
 TEST(Silhouette, ReachesAsFarBehindAsSomeEyeSees) {
   const auto height = [](int c, int /*r*/) { return c < kEdge ? 5.0 : 20.0 + std::min(2 * (c - kEdge), 20); };
   const ViewSpan view;
   const Drawn drawn = drawCell(height, kEdge - 1, 10, view);
-  const double top = 20 + 2 * 7;  // of the eight samples that are looked at
+  const double top = 20 + 2 * 7;  // the height of the eight samples examined
   const double distance = view.distance_mm + view.screen_z_mm - top;
   const double length = (top - 5) * (static_cast<double>(drawn.lattice.x(kEdge)) + view.eye_mm) / distance;
   double reach = 0;
@@ -212,7 +212,7 @@ TEST(Silhouette, ReachesAsFarBehindAsSomeEyeSees) {
   EXPECT_NEAR(reach, static_cast<double>(drawn.lattice.x(kEdge)) + length, 0.01);
 }
 
-// The far side goes on half a cell behind the outline as it is: that much needs no strip.
+// The far side already extends half a cell behind the outline, which is enough without a strip.
 TEST(Silhouette, DrawsNoStripWhereTheCellItselfReachesFarEnough) {
   const auto reach = [](double jump_mm) {
     const Drawn drawn =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The irregular network against the heights that it stands for: whole, without cracks, and within its error.
+// The irregular network against its heights: complete, without cracks, and within its error.
 #include "app/render/relief/triangle_network.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ Point at(const HeightLattice& lattice, std::uint32_t vertex) {
   return {static_cast<int>(vertex) % lattice.cols(), static_cast<int>(vertex) / lattice.cols()};
 }
 
-// Twice the signed area in cells, y down: negative where the viewer sees it counterclockwise.
+// Twice the signed area in cells, y down: negative if it is counterclockwise for the viewer.
 int area(Point a, Point b, Point c) {
   return (b.i - a.i) * (c.j - a.j) - (c.i - a.i) * (b.j - a.j);
 }
@@ -82,8 +82,8 @@ Fit fitOf(const HeightLattice& lattice, const TriangleNetwork& network) {
   return fit;
 }
 
-// Every side belongs to two triangles, turned against each other, but for those on the lattice's border: nowhere does
-// a vertex lie on the middle of another triangle's side.
+// Every side belongs to two triangles with opposite directions, except on the lattice's border: no vertex lies in the
+// middle of another triangle's side.
 int openSides(const HeightLattice& lattice, const TriangleNetwork& network) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides;
   for (const auto& places : network.triangles()) {
@@ -110,7 +110,7 @@ TriangleNetwork networkOf(HeightLattice lattice, double error_mm) {
   return network;
 }
 
-// Cut and finer, then whole and coarser, then of another size and back.
+// Cut and finer, then whole and coarser, then another size and back.
 TEST(TriangleNetwork, NothingIsLeftOfAnotherPicture) {
   const Height step = [](double x, double y) { return wave(x, y) + (x > 0.3 * y ? 9 : 0); };
   const std::array lattices{latticeOf(129, 65, step), latticeOf(129, 65, wave), latticeOf(65, 129, wave),
@@ -187,8 +187,8 @@ TEST(TriangleNetwork, FinerErrorTakesMoreTriangles) {
   EXPECT_LT(networkOf(lattice, 0.5).triangles().size(), 2U * 719 * 485 / 50);
 }
 
-// A disc 20 mm above its ground: of no triangle does one corner lie on it and another beside it, and what the
-// triangles leave out is exactly the cells between the two.
+// A disc 20 mm above its ground: no triangle has corners on both, and the gaps between the triangles are exactly the
+// cells between the two.
 TEST(TriangleNetwork, NoTriangleLiesAcrossASilhouette) {
   const auto on_disc = [](double x, double y) { return std::hypot(x - 10, y + 5) < 31; };
   HeightLattice lattice =
@@ -237,8 +237,8 @@ TEST(CutCells, SmearedJumpHasNothingBetweenItsSides) {
   }
 }
 
-// A thing whose border rows are of many heights, and beside it nothing that was measured: what is filled in ends
-// nowhere.
+// An object whose border rows have many heights, beside an area without measurements: filling that area creates no
+// edges.
 TEST(CutCells, WhatFillsAHoleIsNotCut) {
   constexpr int kCols = 200, kRows = 120, kBorder = 80;
   constexpr std::uint32_t kHole = 0;
@@ -277,7 +277,7 @@ TEST(HeightLattice, StandsOnTrueSamplesFromTheFirstToTheLast) {
   }
 }
 
-// What was filled in above holds back what is filled in below it, and nothing else does.
+// The filled row above limits the filling below it, and nothing else does.
 TEST(HeightLattice, AHoleUnderAReadingIsFilledAnew) {
   constexpr std::uint32_t kHole = 0;
   for (const bool reading_between : {false, true}) {
@@ -295,8 +295,8 @@ TEST(HeightLattice, AHoleUnderAReadingIsFilledAnew) {
   }
 }
 
-// A film of which a part changes from frame to frame, with holes that come and go, sharpened by what comes after the
-// reading, and in between told to be something else: each time as if it had never seen another picture.
+// A film that changes partly from frame to frame, with changing holes, modified by sharpening after the reading, and
+// with other pictures in between: each reading equals that of a fresh lattice.
 TEST(HeightLattice, ReadsAfterOtherPicturesWhatItReadsAtFirst) {
   std::mt19937 random(11);
   constexpr std::uint32_t kHole = 7;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From depth codes to millimetres: grid, laws, ranges, holes, hue, and who decides what a code means.
+// From depth codes to millimetres: grid, laws, ranges, holes, hue, and the precedence of calibrations.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -56,7 +56,7 @@ TEST(HeightField, LimitedRangeMapsSixteenAndTwoThirtyFiveToTheEndsAndClampsBeyon
 }
 
 TEST(HeightField, InverseLawIsLinearInDistanceNotInTheCode) {
-  // near 500, far 1000: half way in disparity is 1/(0.5/500 + 0.5/1000) = 666.67 mm, 2/3 of the way up from far.
+  // near 500, far 1000: half way in disparity is 1/(0.5/500 + 0.5/1000) = 666.67 mm, 2/3 of the way from far to near.
   const DepthCalibration inverse{.law = DepthLaw::Inverse, .bits = 16, .near_mm = 500, .far_mm = 1000};
   EXPECT_NEAR(heightOf(0, 16, inverse), 0, 1e-9);
   EXPECT_NEAR(heightOf(65535, 16, inverse), 40, 1e-9);
@@ -91,7 +91,7 @@ TEST(HeightField, ReadsPaddedRowsWordsWithShiftAndUpsideDownPictures) {
   frame.components[0] = {.plane = 0, .offset_bytes = 2, .step_bytes = 4, .shift = 6, .bits = 10};
   frame.planes[0] = {memory.data(), 24};
   const auto put = [&](int c, int r, unsigned code) {
-    const unsigned word = code << 6 | 0x2a;  // what lies below the shift is not the sample's
+    const unsigned word = code << 6 | 0x2a;  // bits below the shift do not belong to the sample
     memory[static_cast<std::size_t>(r * 24 + 2 + c * 4)] = static_cast<std::uint8_t>(word);
     memory[static_cast<std::size_t>(r * 24 + 2 + c * 4 + 1)] = static_cast<std::uint8_t>(word >> 8);
   };
@@ -129,8 +129,8 @@ TEST(HeightField, DecodesHueWithNearAtRedAndHolesWhereItIsDark) {
 }
 
 TEST(HeightField, TheMeanOfABlockIsThatOfItsReadings) {
-  // 8 and 16 bits, either polarity, a clamped range, the inverse law, holes: the short cut over codes and the long way.
-  // Where the picture has more bits than the depth, or fewer, the range is clamped at one end alone.
+  // 8 and 16 bits, either polarity, a clamped range, the inverse law, holes: the fast path over codes against the
+  // general one. If the picture has more bits than the depth, or fewer, the range is clamped at one end only.
   const std::pair<int, DepthCalibration> meanings[] = {{8, {}},
                                                        {16, {.bits = 16}},
                                                        {8, {.polarity = DepthPolarity::NearIsLow}},
@@ -160,7 +160,7 @@ TEST(HeightField, TheMeanOfABlockIsThatOfItsReadings) {
 }
 
 TEST(HeightField, TheMeanOfAWideBlockIsReadAtAFewPlacesWithTheSameMarginsAllAround) {
-  // On a slope only a reading that is centred gives the height in the middle.
+  // On a slope only centred sampling gives the height of the middle.
   for (const int bits : {8, 16}) {
     const int top = (1 << bits) - 1, begin = top / 25, right = top / 85, down = top / 255;
     const Frame frame =
@@ -223,7 +223,7 @@ TEST(Calibration, ParsesCommandLinesAndSideFilesAndNamesWhatIsWrong) {
   }
 }
 
-// Sensors mark what they did not see by several codes: 0 and 65535, or all codes past the range.
+// Sensors mark missing readings by several codes: 0 and 65535, or all codes beyond the range.
 TEST(Calibration, SeveralCodesAndRangesAreHoles) {
   const auto set = CodeSet::parse("0+2000-2047+65535");
   ASSERT_TRUE(set);
@@ -240,7 +240,7 @@ TEST(Calibration, SeveralCodesAndRangesAreHoles) {
   EXPECT_FALSE(std::isnan(height(2)) || std::isnan(height(4)) || std::isnan(height(249)));
 }
 
-// A sensor of raw disparities uses the codes 400 to 1000 of 2048: the relief reaches from the one to the other.
+// A sensor of raw disparities uses the codes 400 to 1000 of 2048, which become the ends of the relief.
 TEST(Calibration, CodesSayWhatTheReliefReachesFromAndTo) {
   const auto settings = parseCalibration("codes=400-1000,law=inverse,polarity=near-low,near=500,far=4000,bits=16");
   ASSERT_TRUE(settings);
@@ -282,7 +282,7 @@ TEST(Calibration, TagsComeBackAsTheyWereWritten) {
   EXPECT_DOUBLE_EQ(choice->calibration.far_mm, 1259.61);
 }
 
-// (far - Z)/(far - near) of the 40 mm, whatever the law of other codes is.
+// (far - Z)/(far - near) of the 40 mm, whatever the law of other codes.
 TEST(Calibration, CodesThatAreDistancesReachFromNearToFar) {
   Frame frame;
   frame.components[0].bits = 16;
@@ -347,7 +347,7 @@ TEST(Calibration, FarMustLieBehindNear) {
   };
   EXPECT_EQ(code({.command_line = {{"near", "9000"}}}), ErrorCode::InvalidArgument);
   EXPECT_EQ(code({.command_line = {{"near", "600"}}, .tags = {{"far", "400"}}}), ErrorCode::InvalidArgument);
-  // The words of the command line are not at fault here.
+  // The command line is not at fault here.
   EXPECT_EQ(code({.command_line = {{"law", "inverse"}}, .side_file = {{"near", "9000"}}}), ErrorCode::Corrupt);
   EXPECT_EQ(code({.tags = {{"near", "9000"}}}), ErrorCode::Corrupt);
 }
@@ -366,7 +366,7 @@ TEST(Calibration, WhatTheSamplesCannotHoldIsRefusedAndOfTagsLeftOut) {
   ASSERT_TRUE(left_out);
   EXPECT_EQ(left_out->calibration.bits, 8);
   EXPECT_TRUE(left_out->calibration.invalid.empty());
-  // Twelve bits in samples of sixteen are usual.
+  // Twelve bits in samples of sixteen are common.
   frame.components[0].bits = 16;
   EXPECT_EQ(choose({.command_line = {{"bits", "12"}, {"invalid", "4095"}}})->calibration.bits, 12);
 }
