@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-# For toolchain/guest and toolchain/appliance, sourced: the archive that a kernel starts from.
+# Builds the initial RAM archive of a kernel; sourced by toolchain/guest and toolchain/appliance.
 
 # addModules ROOT KERNEL-TREE MODULES..: copies them and what they need to ROOT/mods, and their order to ROOT/mods/order.
-# One that is built into the kernel is no file.
+# A module built into the kernel has no file.
 addModules() {
   local root=$1 tree module line needed
   tree=$2/lib/modules/$(ls "$2/lib/modules")

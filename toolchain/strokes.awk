@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# A finger's path of four seconds: strokes all over the picture, in and out of it.
+# Prints a finger's path of four seconds: strokes across the picture, in and out of the surface.
 BEGIN {
   print "t_s,x_mm,y_mm,z_mm"
   for (i = 0; i < 4000; ++i) {

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Renders a Blender scene as what relievo-author takes: colour pictures, and depth pictures of 16 bits in millimetres.
+"""Renders a Blender scene as input for relievo-author: colour pictures, and depth pictures of 16 bits in millimetres.
 
     blender -b scene.blend -P relievo_depth.py -- FOLDER [MM_PER_UNIT]
 
-FOLDER gets color-0001.png, depth-0001.png, .. for every frame of the scene. MM_PER_UNIT is what one unit of the scene
-is, 1000 unless it is given (metres). Depth is along the camera's axis; 0 is the sky and whatever is further than
-65 m. At the end the line is printed that makes the film of it.
+FOLDER gets color-0001.png, depth-0001.png, .. for every frame of the scene. MM_PER_UNIT is the size of one
+unit of the scene in mm, by default 1000 (metres). Depth is measured along the camera's axis; 0 marks the sky and everything
+beyond 65 m. At the end the script prints the relievo-author command for the film.
 """
 import os
 import sys
@@ -52,12 +52,12 @@ def set_up(scene, folder, mm_per_unit):
     color = file_output(tree, folder, "color-####", "RGB", "8")
     tree.links.new(layers.outputs["Image"], color.inputs[0])
 
-    # Code = distance in mm, as a share of the 16 bits; what is too far becomes 0.
+    # Code = distance in mm, scaled to 16 bits; distances beyond the range become 0.
     scaled = add(tree, "CompositorNodeMath", "MULTIPLY", mm_per_unit / LARGEST_CODE)
     near_enough = add(tree, "CompositorNodeMath", "LESS_THAN", 1.0)
     code = add(tree, "CompositorNodeMath", "MULTIPLY")
     depth = file_output(tree, folder, "depth-####", "BW", "16")
-    # Numbers, not a picture: no view transform, no gamma.
+    # Raw data: no view transform, no gamma.
     if hasattr(depth, "save_as_render"):
         depth.save_as_render = False
     if hasattr(depth.format, "color_management"):
@@ -77,7 +77,7 @@ def main():
     camera = scene.camera.data
     near, far = camera.clip_start * mm_per_unit, min(camera.clip_end * mm_per_unit, LARGEST_CODE)
     set_up(scene, folder, mm_per_unit)
-    # One by one: an animation would write the scene's own output as well.
+    # Frame by frame, because rendering an animation would also write the scene's own output.
     for frame in range(scene.frame_start, scene.frame_end + 1, scene.frame_step):
         scene.frame_set(frame)
         bpy.ops.render.render()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Debian's cross compiler on a sysroot of Debian's libraries, as toolchain/sysroot makes it; the programs run through
-# qemu-user. A board's own sysroot goes in with -DCMAKE_SYSROOT=FOLDER.
+# qemu-user. For a board's own sysroot use -DCMAKE_SYSROOT=FOLDER.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_CXX_COMPILER ${RELIEVO_TRIPLET}-g++)
 set(CMAKE_LIBRARY_ARCHITECTURE ${RELIEVO_TRIPLET})
@@ -12,7 +12,7 @@ if(NOT EXISTS ${CMAKE_SYSROOT}/usr/lib)
   message(FATAL_ERROR "${CMAKE_SYSROOT} is no sysroot; run toolchain/sysroot ${RELIEVO_DEBIAN_ARCH}")
 endif()
 
-# Programs are of this machine, all else of the other.
+# Programs come from this machine, everything else from the sysroot.
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
 set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)

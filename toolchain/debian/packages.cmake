@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# One Debian package for each program. What is compressed is made without a time of its own, so that a package is the
-# same whenever it is built from the same sources.
+# One Debian package for each program. Compressed files contain no timestamps, so that equal sources give equal packages.
 set(RELIEVO_MAINTAINER "relievo maintainers <maintainers@relievo.invalid>" CACHE STRING "Who stands behind the packages")
 set(made ${CMAKE_CURRENT_BINARY_DIR}/debian)
 configure_file(debian/changelog.in ${made}/changelog @ONLY)
@@ -41,8 +40,8 @@ set(CPACK_DEBIAN_RELIEVO_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
 set(CPACK_DEBIAN_RELIEVO-AUTHOR_PACKAGE_NAME relievo-author)
 set(CPACK_COMPONENT_RELIEVO-AUTHOR_DESCRIPTION "maker of 3D video that can be touched
-relievo-author brings the colour and the depth of a camera or a renderer
-together in one film for relievo, and undoes what the sensor did to the depth.")
+relievo-author packages the colour and depth of a camera or a renderer as
+one film for relievo, and removes noise and holes from the depth.")
 
 set(CPACK_DEBIAN_RELIEVO-LAB_PACKAGE_NAME relievo-lab)
 set(CPACK_COMPONENT_RELIEVO-LAB_DESCRIPTION "measurements of touch on moving depth
