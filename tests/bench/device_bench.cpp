@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The time of a tick of a haptic device's driver, `read` and `write`, without the wire: behind it stands a port that
-// has an answer ready for each command. The finger moves at 0.3 m/s.
+// The time of one tick of a haptic device's driver, `read` and `write`, without USB transfer: the port has an answer
+// ready for each command. The finger moves at 0.3 m/s.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kAnswers = 4096;
 
-// Hands out its answers one after the other, forth and back, one for each command.
+// Returns its answers in order, forwards and backwards, one per command.
 class NullPort final : public UsbPort {
  public:
   explicit NullPort(std::vector<UsbPacket> answers) : answers_(std::move(answers)) {}
@@ -61,7 +61,7 @@ UsbPacket packetOf(const Bytes& bytes, std::size_t header, std::size_t count) {
   return packet;
 }
 
-// A figure of 20 mm and more within the workspace, 0.3 mm a tick.
+// A path of 20 mm and more within the workspace, 0.3 mm per tick.
 glm::dvec3 figure(std::size_t i) {
   const double phase = 0.01 * static_cast<double>(i);
   return {20 * std::sin(phase), 20 * std::sin(0.8 * phase), 20 * std::cos(0.6 * phase)};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Drawing 3D at 1280 x 720, side by side: making the relief's few triangles of a depth picture, and drawing frames of
-// them. On the sample film (toolchain/demo makes it) and the real depth video beside the project; what is not there is
-// left out, with a word. `relievo-lab detail` draws the uniform grid of all samples beside them.
+// Drawing 3D at 1280 x 720, side by side: making the relief's triangles from a depth picture, and drawing frames of
+// them. Uses the sample film (made by toolchain/demo) and the real depth video beside the project; missing files are
+// skipped with a message. `relievo-lab detail` draws the uniform grid of all samples for comparison.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ Film read(std::string name, const SourceOptions& source, int stride) {
   PairReader reader(
       {[](const std::string&) { return makeFfmpegSource(); }, [](const StreamInfo&) { return makeFfmpegDecoder(); }});
   if (!reader.open(source)) {
-    std::fprintf(stderr, "picture_bench: %s is not there; left out\n", source.url.c_str());
+    std::fprintf(stderr, "picture_bench: %s not found; skipped\n", source.url.c_str());
     return film;
   }
   film.calibration = reader.info().calibration.calibration;
@@ -66,7 +66,7 @@ Film cones(const std::string& data) {
   auto pair = reader.next();
   if (!pair || !*pair) return film;
   film.pairs = {{.color = (*pair)->color, .depth = test::depthOf(*disparity)}};
-  std::ranges::reverse(disparity->pixels);  // and upside down, so that nothing repeats
+  std::ranges::reverse(disparity->pixels);  // upside down, so that no row repeats
   film.pairs.push_back({.color = (*pair)->color, .depth = test::depthOf(*disparity)});
   film.calibration = {.bits = 16, .invalid = 0};
   film.volume = DisplayVolume::forPicture(test::Disparity::kCols, test::Disparity::kRows);
@@ -82,8 +82,8 @@ ReliefDetail wanted(const DisplayVolume& volume) {
                    .screen_z_mm = stereo.screen_z_mm}};
 }
 
-// The film several times, of each picture the best: what it takes where nothing else runs. Pictures come after those
-// before them in the film, so that what repeats is what repeats there, or less where some are left out.
+// Plays the film several times and takes the best time of each picture, as on an idle machine. Pictures follow their
+// predecessors in the film, so that reuse between pictures is realistic, or less if some are skipped.
 void makeTriangles(benchmark::State& state, const Film& film) {
   constexpr int kTimes = 8;
   const MonotonicClock clock;
@@ -139,7 +139,7 @@ void drawFrames(benchmark::State& state, const Film& film) {
   display->close();
 }
 
-// Held for as long as the benchmarks run.
+// Kept while the benchmarks run.
 std::vector<std::unique_ptr<const Film>>& films() {
   static std::vector<std::unique_ptr<const Film>> all;
   return all;

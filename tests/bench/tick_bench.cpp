@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The time of one haptic tick, position to force, and of its upkeep: a finger 5 mm deep in moving 8-bit depth, by size,
-// speed and method.
+// The time of one haptic tick, from position to force, and of its upkeep: a finger 5 mm deep in moving 8-bit depth, by
+// picture size, speed and method.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ constexpr double kTickS = 0.001;
 constexpr double kFramePeriodS = 1.0 / 30;
 constexpr std::size_t kTicks = 20000;
 
-// A head of 30 mm, a nose and two eyes on it, nodding by 3 mm at 0.7 Hz.
+// A nodding head of 30 mm with a nose and two eyes: 3 mm at 0.7 Hz.
 double relief(double x, double y, double t) {
   const auto bump = [&](double cx, double cy, double size, double sigma) {
     const double r2 = (x - cx) * (x - cx) + (y - cy) * (y - cy);
@@ -29,7 +29,8 @@ double relief(double x, double y, double t) {
   return 5 + bump(0, nod, 20, 25) + bump(0, nod - 4, 6, 5) + bump(-10, nod + 8, -3, 5) + bump(10, nod + 8, -3, 5);
 }
 
-// The finger's path, at a constant speed along a Lissajous figure, 5 mm under the surface, without the tick's own time.
+// The finger's path at a constant speed along a Lissajous figure 5 mm below the surface; computed before the timing
+// starts.
 std::vector<glm::dvec3> fingerPath(double speed_mm_per_s) {
   std::vector<glm::dvec3> path;
   double phase = 0;
@@ -62,8 +63,8 @@ void touchTick(benchmark::State& state, const char* name, MethodConfig config) {
   std::size_t i = 0;
   for (auto _ : state) {
     const std::size_t k = i++ % kTicks;
-    if (k == 0) static_cast<void>(method->update(path[0] + glm::dvec3(0, 0, 30), window, {}));  // come in from outside
-    // The film goes forth and back over the frames at hand.
+    if (k == 0) static_cast<void>(method->update(path[0] + glm::dvec3(0, 0, 30), window, {}));  // enter from outside
+    // The film runs back and forth over the available frames.
     const double cycle = std::fmod(kTickS * static_cast<double>(k), 8 * kFramePeriodS);
     const double t = cycle < 4 * kFramePeriodS ? cycle : 8 * kFramePeriodS - cycle;
     const MonotonicTime begin = clock.now();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any text as a configuration: it is refused in one line that names its place, or what is printed of it reads back as
+// Any text as a configuration: it is rejected in one line that names the position, or its printed form reads back as
 // the same.
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -20,7 +20,7 @@ namespace {
 
 using test::require;
 
-// A file without a place on the disk.
+// A file in memory.
 class MemoryFile {
  public:
   explicit MemoryFile(const std::string& text) : fd_(::memfd_create("relievo.toml", MFD_CLOEXEC)) {
@@ -38,7 +38,7 @@ class MemoryFile {
   UniqueFd fd_;
 };
 
-// While it is there, what goes to `stream` goes into `file`.
+// While it exists, output to `stream` goes into `file`.
 class Redirected {
  public:
   Redirected(int stream, int file) : stream_(stream), kept_(::dup(stream)) { ::dup2(file, stream_); }
@@ -54,7 +54,7 @@ class Redirected {
   UniqueFd kept_;
 };
 
-// What --print-config says of it; empty when it is refused.
+// The output of --print-config; empty if the text is rejected.
 std::string printed(const std::string& text) {
   const MemoryFile file(text), out(""), err("");
   const std::string path = file.path();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as a line of the control socket: a request, or an answer that says what is wrong, on one line of JSON.
+// Any bytes as a line of the control socket: a valid request, or an error answer on one line of JSON.
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>

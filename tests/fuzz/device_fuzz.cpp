@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The drivers of the Falcon and of the Polhem, whole, on a device that answers anything, used in any order of verbs:
-// the finger is somewhere, no command is beyond the limit, and whoever stops, closes or loses it leaves its motors
-// without a command.
+// The complete drivers of the Falcon and the Polhem, on a device that answers anything, with calls in any order: the
+// position is finite, no command exceeds the limit, and the motors are off after a stop, a close or a loss.
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -41,7 +40,7 @@ void live(FuzzedDataProvider& data, ManualClock& clock, FuzzPort& port, HapticDe
   require(!port.exchanging() && !pushes, "closed is without force");
 }
 
-// Homed, and the grip moves a little.
+// Homed; the grip moves a little.
 std::optional<UsbPacket> falconAnswer(UsbBytes sent, int& tick) {
   if (sent.size() != falcon::kPacketBytes) return std::nullopt;
   const auto step = static_cast<std::int16_t>(20 * std::sin(0.01 * ++tick));

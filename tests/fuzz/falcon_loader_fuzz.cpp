@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loading of the Falcon's firmware against a boot loader that answers anything: it ends, and where it says that the
-// firmware is loaded every byte of the image went out in its order.
+// Loading the Falcon's firmware with a boot loader that answers anything: it terminates, and if it reports success
+// every byte of the image was sent in order.
 #include <algorithm>
 
 #include "drivers/falcon/link.h"
@@ -12,7 +12,7 @@ namespace {
 using test::FuzzPort;
 using test::require;
 
-// The bridge's two bytes, then the answer of a loader in good order: to the greeting a welcome, else an echo.
+// The bridge's two bytes, then a correct loader's answer: a welcome to the greeting, else an echo.
 std::optional<UsbPacket> loader(UsbBytes sent) {
   constexpr std::array<std::uint8_t, 3> kHello{0x0A, 0x43, 0x0D};
   constexpr std::array<std::uint8_t, 4> kWelcome{0x0A, 0x44, 0x2C, 0x0D};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Falcon's wire: any bytes, cut anywhere. A packet that is found is one, the first good one after any garbage is
-// found, and what becomes of its words is a place in reach and words within the motors' limit.
+// The Falcon's protocol: any bytes, split anywhere. Packets that are found are valid, the first valid one after garbage
+// is found, and the decoded position is within reach and motor commands within the limit.
 #include <cmath>
 #include <glm/geometric.hpp>
 

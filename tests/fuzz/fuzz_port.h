@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A USB port whose device answers as it should, as it should not, or not at all: as the fuzzer's bytes say.
+// A USB port whose device answers correctly, wrongly or not at all, as the fuzzer's bytes decide.
 #pragma once
 
 #include <fuzzer/FuzzedDataProvider.h>
@@ -15,7 +15,7 @@
 
 namespace relievo::test {
 
-// A property that does not hold is a crash, which the fuzzer keeps the bytes of.
+// Aborts if a property does not hold, so that the fuzzer keeps the input.
 inline void require(bool holds, const char* what) {
   if (holds) return;
   std::fprintf(stderr, "does not hold: %s\n", what);
@@ -24,13 +24,14 @@ inline void require(bool holds, const char* what) {
 
 class FuzzPort final : public UsbPort {
  public:
-  // `honest` is what a device in good order answers to these bytes; nothing: it has nothing to say.
+  // `honest` returns a correct device's answer to these bytes, or nullopt for none.
   using Honest = std::function<std::optional<UsbPacket>(UsbBytes sent)>;
   FuzzPort(FuzzedDataProvider& data, ManualClock& clock, Honest honest)
       : data_(data), clock_(clock), honest_(std::move(honest)), stubborn_(data.ConsumeBool()) {}
 
   std::function<void(UsbBytes)> on_sent = [](UsbBytes) {};
-  std::function<void()> on_many_verbs = [] {};  // after many of them, and again: whoever waits should be called off
+  // called after many calls and repeatedly from then on, to interrupt a wait
+  std::function<void()> on_many_verbs = [] {};
 
   Result<void> open() override { return count(), trouble(); }
   void close() noexcept override { exchanging_ = false; }
@@ -89,7 +90,7 @@ class FuzzPort final : public UsbPort {
     if (what == 1) return fail(ErrorCode::Io, "the fuzzer's bus is noisy");
     return {};
   }
-  // When the bytes have run out a stubborn device says its last thing for ever.
+  // When the bytes run out, a stubborn device repeats its last answer.
   Result<UsbPacket> answer() {
     count();
     if (auto bad = trouble(); !bad) return std::unexpected(bad.error());
@@ -101,7 +102,7 @@ class FuzzPort final : public UsbPort {
       case 1:
         packet.bytes = data_.ConsumeData(packet.data.data(), data_.ConsumeIntegralInRange<std::size_t>(0, 64));
         break;
-      case 2:  // the right answer, a byte of it wrong, or too short
+      case 2:  // the right answer with one byte changed, or too short
         packet = std::exchange(pending_, std::nullopt).value_or(UsbPacket{});
         packet.data[data_.ConsumeIntegralInRange<std::size_t>(0, 63)] = data_.ConsumeIntegral<std::uint8_t>();
         packet.bytes = std::min(packet.bytes, data_.ConsumeIntegralInRange<std::size_t>(0, 64));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any text as a table of keys: refused by its line, or every command in it reads back.
+// Any text as a key table: rejected with its line number, or every command in it reads back.
 #include <cstdlib>
 #include <string_view>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any text as a list of films: from the network it opens nothing that is not on the network.
+// Any text as a playlist: one from the network names only network addresses.
 #include <algorithm>
 #include <array>
 #include <cstdlib>

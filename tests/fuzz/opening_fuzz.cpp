@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as a film: opened, read, sought, read again. FFmpeg's own code is not instrumented; what it makes of the
-// bytes goes through ours.
+// Any bytes as a film: opened, read, sought, read again. FFmpeg itself is not instrumented; its output passes through
+// our code.
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -22,7 +22,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
     for (int i = 0; i < 4; ++i) {
       const auto pair = reader.next();
       if (!pair || !*pair) return;
-      // What the frames promise is there to be read.
+      // Reads all the memory that the frames announce.
       for (const Frame* frame : {&(*pair)->color, &(*pair)->depth}) {
         if (frame->empty()) continue;
         const volatile std::uint8_t last = frame->planes[0].data[(frame->height - 1) * frame->planes[0].stride_bytes];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any text as a description of a Polhem: it is refused with a reason, or the device that it describes is one.
+// Any text as a description of a Polhem: it is rejected with a reason, or it describes a valid device.
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Made up from a seed: a relief that moves, with what spoils its pictures, and a finger that goes about in it.
+// A scene generated from a seed: a moving relief with faulty pictures, and a finger that moves in it.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace relievo {
 
-// Steele, Lea and Flood 2014: a seed is a whole number, neighbours are independent.
+// Steele, Lea and Flood 2014: any whole number is a seed, and neighbouring seeds are independent.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15 + 1) {}
@@ -32,14 +32,14 @@ class Random {
   std::uint64_t state_;
 };
 
-// Waves, steps, noise, holes, spikes; scenes that change, and pictures that stand still for a while.
+// Waves, steps, noise, holes, spikes; scene changes, and pictures that stand still for a while.
 class RandomFilm {
  public:
   explicit RandomFilm(Random& random);
 
   [[nodiscard]] const DisplayVolume& volume() const { return volume_; }
   [[nodiscard]] double periodS() const { return period_s_; }
-  // Another picture altogether; the finger is not told.
+  // A cut: another scene, while the finger continues.
   void newScene();
   [[nodiscard]] TimedSurface next(double t_s);
 
@@ -57,12 +57,12 @@ class RandomFilm {
   std::array<Wave, 2> waves_{};
   double level_ = 20, slope_x_ = 0, slope_y_ = 0, speed_ = 0, noise_ = 0, holes_ = 0, spikes_ = 0;
   bool block_ = false, white_ = false;
-  int still_ = 0;  // frames to come that are as the last one
+  int still_ = 0;  // number of coming frames that repeat the last one
   std::vector<std::uint8_t> picture_;
 };
 
-// Rests, strokes, darts; presses into whatever is there, and leaves the picture now and then. Some devices have a new
-// position in every second or third tick only.
+// Rests, strokes, darts, presses into the surface, and sometimes leaves the picture. Some devices have a new position
+// only in every second or third tick.
 class RandomFinger {
  public:
   RandomFinger(Random& random, const DisplayVolume& volume)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random depth, random motion, random finger: what must hold in every tick, in every tick.
+// Random depth, motion and finger; the invariants are checked in every tick.
 //   touch_fuzz [SEED [TICKS [METHOD]]]
-// A seed is an episode of 1000 ticks; what fails prints its seed, and `touch_fuzz SEED 1000` shows it again.
+// A seed defines an episode of 1000 ticks; a failure prints its seed, and `touch_fuzz SEED 1000` reproduces it.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -60,14 +60,14 @@ class Episode {
       const int missed = random_.chance(0.005) ? random_.below(20) : 0;
       const double elapsed = kTickS * (1 + missed);
       media += rate * elapsed;
-      if (random_.chance(0.001)) media -= random_.within(0, 0.05);  // a clock that is set right
+      if (random_.chance(0.001)) media -= random_.within(0, 0.05);  // the clock is corrected
       feed(media);
       touch(finger_.next(kTickS), mediaTime(media), elapsed);
     }
   }
 
  private:
-  // Frames come in time, or late, or not; sometimes all are gone.
+  // Frames come in time, late or never; sometimes all are missing.
   void feed(double media) {
     const double ahead = late_ > 0 ? -0.5 * film_.periodS() : 2.5 * film_.periodS();
     late_ = late_ > 0 ? late_ - 1 : (random_.chance(0.002) ? random_.below(150) : 0);
@@ -113,7 +113,7 @@ class Episode {
       fault("not the spring's force", 0);
     const double size = glm::length(sent);
     if (!(size <= 10 * (1 + 1e-9))) fault("over the limit, N", size);
-    // The hand's share is counted from the last position that was one.
+    // The hand's share is measured from the last valid position.
     if (position && had_hip_) {
       const double slew = (glm::distance(sent, sent_) - stiffness_ * glm::distance(hip, hip_)) / elapsed;
       if (!(slew <= 50 * (1 + 1e-6))) fault("slew, N/s", slew);
@@ -170,7 +170,7 @@ class Episode {
 
 int fuzz(std::uint64_t seed, std::uint64_t ticks, const std::string& method) {
   if (makeMethod(method, {}) == nullptr) {
-    std::fprintf(stderr, "touch_fuzz: %s: no such method\n", method.c_str());
+    std::fprintf(stderr, "touch_fuzz: %s: unknown method\n", method.c_str());
     return 2;
   }
   Tally tally;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What this machine makes of a film, for toolchain/cross-check to compare with another machine: FOLDER/frames.txt, a
-// line for each decoded picture, and FOLDER/METHOD.csv, the trace of each method along a finger's path.
+// Writes facts about a film that toolchain/cross-check compares between machines: FOLDER/frames.txt with one line per
+// decoded picture, and FOLDER/METHOD.csv with the trace of each method along a finger's path.
 #include <cinttypes>
 #include <cstdio>
 #include <sstream>
@@ -13,7 +13,7 @@
 namespace relievo {
 namespace {
 
-// FNV-1a of the samples, without what pads their rows.
+// FNV-1a of the samples, without the padding of their rows.
 std::uint64_t hashOf(const Frame& frame) {
   std::uint64_t hash = 0xcbf29ce484222325U;
   for (std::size_t i = 0; i < (frame.model == ColorModel::Gray ? 1U : 3U); ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The display on a whole screen, in a guest that has two: QEMU's, which can be looked at, and one that refreshes in
-// virtual time as a real one does.
+// The full-screen display, in a guest with two screens: QEMU's, which can be captured, and one that refreshes in
+// virtual time like a real screen.
 #include <GLES3/gl3.h>
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -58,7 +58,7 @@ class KmsDisplay : public testing::Test {
     ASSERT_TRUE(shown) << shown.error().message << " " << shown.error().os_error;
     EXPECT_LE(*shown, display_->capabilities().refresh_period);
   }
-  // QEMU draws in the host's time, of which the guest knows nothing.
+  // QEMU updates its picture in host time, which the guest cannot observe.
   bool untilDump(const std::function<bool(const test::ScreenDump&)>& so) {
     MonotonicClock clock;
     for (int tries = 0; tries < 30; ++tries) {
@@ -78,7 +78,7 @@ class KmsDisplay : public testing::Test {
       if (const auto attended = display_->attend(); !attended) return attended.error().code;
       clock.sleepUntil(clock.now() + 10ms);
     }
-    ADD_FAILURE() << "nobody noticed";
+    ADD_FAILURE() << "the loss was not noticed";
     return ErrorCode::InvalidState;
   }
 
@@ -111,7 +111,7 @@ TEST_F(KmsDisplay, OnTheScreenIsWhatWasDrawnLast) {
   }
 }
 
-// What the renderer draws on the screen is what it draws off screen, which the golden tests measure.
+// Compares the renderer's output on the screen with that off screen, which the golden tests check.
 TEST_F(KmsDisplay, TheReliefOnTheScreenIsThatOfTheOffscreenDisplay) {
   const test::Scene scene{
       .color = test::makeRgbFrame(160, 100, [](int x, int y) { return Rgb{x, 2 * y, (x / 8 + y / 8) % 2 * 255}; }),
@@ -121,7 +121,8 @@ TEST_F(KmsDisplay, TheReliefOnTheScreenIsThatOfTheOffscreenDisplay) {
       .volume = {160, 100, 40},
       .stereo = {.layout = StereoLayout::SideBySide},
       .finger = FingerMark{{10, 5, 30}, {0, 0, 2}, true}};
-  // For an offscreen display Mesa opens the cards as well, for good, and who opens one first becomes its master.
+  // For an offscreen display Mesa opens the cards too and keeps them open, and whoever opens a card first becomes its
+  // master.
   std::vector<UniqueFd> masters;
   for (const KmsScreen& each : lookAtKmsScreens()) masters.emplace_back(::open(each.card.c_str(), O_RDWR | O_CLOEXEC));
   STAGE_OR_SKIP(stage, 640, 480);
@@ -139,8 +140,8 @@ TEST_F(KmsDisplay, TheReliefOnTheScreenIsThatOfTheOffscreenDisplay) {
     ASSERT_TRUE(renderer->draw(*surface, scene.finger));
     ASSERT_TRUE(display_->present());
   }
-  // GL draws a window upside down and a framebuffer object not: where an edge goes through the middle of a pixel, that
-  // is drawn by one of them and not by the other.
+  // GL draws a window upside down but not a framebuffer object: a pixel whose middle lies on an edge is drawn in only
+  // one of the two.
   constexpr double kPixels = 640 * 480;
   double other = 0, sum = 0, light = 0;
   untilDump([&](const test::ScreenDump& dump) {
@@ -163,18 +164,19 @@ TEST_F(KmsDisplay, TheReliefOnTheScreenIsThatOfTheOffscreenDisplay) {
   });
   EXPECT_LT(other, 0.001 * kPixels);
   EXPECT_LT(sum, 0.01 * kPixels);
-  EXPECT_GT(light, 30 * kPixels) << "there is something to be seen";
+  EXPECT_GT(light, 30 * kPixels) << "the picture is not black";
 }
 
-// A picture in a buffer that the card has given, as a hardware decoder's is: NV12, a pattern of luma and of chroma.
+// A picture in a buffer allocated by the card, as a hardware decoder makes it: NV12 with a pattern in luma and in
+// chroma.
 class CardPicture {
  public:
   CardPicture(const std::string& card, int width, int height)
       : card_(::open(card.c_str(), O_RDWR | O_CLOEXEC)), width_(width), height_(height) {
-    (void)drmDropMaster(card_.get());  // who opens a card first becomes that; it is the display's to be
+    (void)drmDropMaster(card_.get());  // whoever opens a card first becomes master, but here the display must be
     std::uint32_t pitch = 0;
     std::uint64_t size = 0, offset = 0;
-    // Bytes that lie together, as large as both planes.
+    // Contiguous memory for both planes.
     if (drmModeCreateDumbBuffer(card_.get(), static_cast<std::uint32_t>(width / 4),
                                 static_cast<std::uint32_t>(height * 3 / 2), 32, 0, &handle_, &pitch, &size) != 0 ||
         drmModeMapDumbBuffer(card_.get(), handle_, &offset) != 0) {
@@ -231,7 +233,7 @@ class CardPicture {
   std::uint8_t* bytes_ = nullptr;
 };
 
-// The picture is the one that an upload makes.
+// Drawing from dma-bufs gives the same picture as an upload.
 void expectTheSameFromDmaBufs(Display& display, const std::string& card) {
   const CardPicture picture(card, 256, 160);
   ASSERT_TRUE(picture.made()) << errno;
@@ -367,8 +369,8 @@ TEST_F(KmsDisplay, IsListedWithItsModesAndWhatItTakes) {
   EXPECT_THAT(lookAtKmsScreens()[0].state, testing::StartsWith("Virtual-1: no screen is connected"));
 }
 
-// Frames are shown one refresh after the other, and on it: the kernel's events in virtual time know nothing of how busy
-// this machine is.
+// Frames are shown in consecutive refreshes. The kernel's events are in virtual time and do not depend on the load of
+// this machine.
 TEST_F(PacedKmsDisplay, FramesAreShownWithTheRefresh) {
   open({640, 480});
   const Duration period = display_->capabilities().refresh_period;
@@ -414,7 +416,7 @@ TEST_F(PacedKmsDisplay, ClosedInTheMiddleOfAFlipItLeavesNothingBehind) {
   }
 }
 
-// The guest's vkms is a television of 1280 x 1470: two pictures of 720 rows and 30 between them.
+// The guest's vkms is a television of 1280 x 1470: two pictures of 720 rows with 30 between them.
 TEST_F(PacedKmsDisplay, FramePackingIsSentToAScreenThatTakesIt) {
   open({1280, 720, StereoSignal::FramePacking});
   EXPECT_TRUE(display_->capabilities().stereo.frame_packing);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The offscreen display: opens as often as asked, keeps what it holds apart, and captures what was presented.
+// The offscreen display: reopens any number of times, keeps instances separate, and captures what was presented.
 #include <GLES3/gl3.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -39,7 +39,7 @@ void fill(float red, float green, float blue) {
 
 const ManualClock kStill;
 
-// A file of this process, gone with the test.
+// A temporary file, removed after the test.
 class CaptureFile {
  public:
   explicit CaptureFile(const char* name)
@@ -142,7 +142,7 @@ TEST(OffscreenDisplay, CapturesWhatWasPresentedInItsOrder) {
   EXPECT_EQ(file.content(), expected);
 }
 
-// At 25 a second. What each picture of the file shows is told by its luma: white 235, black 16, blue 32.
+// At 25 frames/s. The luma of each picture in the file identifies it: white 235, black 16, blue 32.
 TEST(OffscreenDisplay, CaptureHoldsItsRateWhateverComesLateOrEarly) {
   const CaptureFile file("steady.y4m");
   ManualClock clock;
@@ -155,11 +155,11 @@ TEST(OffscreenDisplay, CaptureHoldsItsRateWhateverComesLateOrEarly) {
     ASSERT_TRUE(display->present());
   };
   show(0, 1, 1);   // white at 0 ms
-  show(58, 0, 0);  // black, 18 ms late: neither repeated nor left out
+  show(58, 0, 0);  // black, 18 ms late: neither repeated nor dropped
   show(24, 1, 1);  // white at 82 ms, about its time
-  show(78, 0, 1);  // blue at 160 ms: the one at 120 ms was dropped, white stands for it
+  show(78, 0, 1);  // blue at 160 ms: nothing came at 120 ms, so white is repeated
   show(1, 0, 0);   // black at 161 ms, 39 ms early
-  show(1, 1, 1);   // white at 162 ms, two periods early: left out
+  show(1, 1, 1);   // white at 162 ms, two periods early: dropped
   display->close();
 
   const std::string content = file.content();
@@ -216,7 +216,7 @@ TEST(OffscreenDisplay, CaptureThatCannotBeWrittenSaysWhyAndLeavesItClosed) {
   const auto opened = display->open({16, 16});
   ASSERT_FALSE(opened);
   if (opened.error().code == ErrorCode::Unsupported) GTEST_SKIP() << opened.error().message;
-  EXPECT_EQ(opened.error().code, ErrorCode::Io) << "the player does not wait for a folder";
+  EXPECT_EQ(opened.error().code, ErrorCode::Io) << "the error is reported at once";
   EXPECT_NE(opened.error().os_error, 0);
   EXPECT_EQ(display->state(), Display::State::Closed);
 }

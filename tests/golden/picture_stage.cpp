@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Drawing, reading back, measuring.
+// Draws, reads pixels back and measures them.
 #include "tests/golden/picture_stage.h"
 
 #include <GLES3/gl3.h>
@@ -45,7 +45,7 @@ std::unique_ptr<Stage> Stage::make(int width, int height) {
   auto surface = stage->display_->beginFrame();
   EXPECT_TRUE(surface);
   stage->surface_ = *surface;
-  // A budget so large that the relief is never made coarser by a slow machine.
+  // A budget so large that a slow machine never coarsens the relief.
   auto renderer = SceneRenderer::create(std::chrono::hours(1));
   EXPECT_TRUE(renderer) << renderer.error().message;
   stage->renderer_ = std::move(*renderer);

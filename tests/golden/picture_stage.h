@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A renderer on an offscreen display, what it has drawn, and frames made of numbers to draw.
+// A renderer on an offscreen display, the image it has drawn, and synthetic frames to draw.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ struct Spot {
   double weight = 0;    // sum of the channel over 255
 };
 
-// Row 0 is the top one.
+// Row 0 is at the top.
 struct Image {
   int width = 0;
   int height = 0;
@@ -34,9 +34,9 @@ struct Image {
     return rgba[(static_cast<std::size_t>(y) * width + x) * 4 + c];
   }
   [[nodiscard]] Rgb at(int x, int y) const { return {channel(x, y, 0), channel(x, y, 1), channel(x, y, 2)}; }
-  // The centre of what shines in one channel between columns x0 and x1.
+  // The centroid of the light in one channel between columns x0 and x1.
   [[nodiscard]] Spot centroid(int c, int x0, int x1) const;
-  // Of the whole picture, per channel: mean of the absolute difference.
+  // Mean absolute difference over the whole picture and its channels.
   [[nodiscard]] double meanDifference(const Image& other) const;
 };
 
@@ -52,14 +52,14 @@ struct Scene {
 
 class Stage {
  public:
-  // Null where this machine has no EGL with GLES 3.
+  // Null if this machine has no EGL with GLES 3.
   [[nodiscard]] static std::unique_ptr<Stage> make(int width, int height);
   ~Stage();
 
   [[nodiscard]] Result<void> tryShow(const Scene& scene);
-  // Fails the test where the scene cannot be shown.
+  // Fails the test if the scene cannot be shown.
   [[nodiscard]] Image show(const Scene& scene);
-  // Draws what was last set once more.
+  // Draws the last scene again.
   [[nodiscard]] Image again();
   [[nodiscard]] SceneRenderer& renderer() { return *renderer_; }
 
@@ -80,7 +80,7 @@ class Stage {
   ::relievo::test::Stage& stage = *stage##_owner
 // NOLINTEND(bugprone-macro-parentheses)
 
-// Packed RGB, or RGBA, the order of whose bytes is given by the offsets; rows padded to `stride` when that is larger.
+// Packed RGB or RGBA with the given byte offsets; rows are padded to `stride` if that is larger.
 struct PackedLayout {
   int step = 3;
   std::array<int, 3> offsets{0, 1, 2};
@@ -90,7 +90,7 @@ struct PackedLayout {
 [[nodiscard]] Frame makeRgbFrame(int width, int height, const std::function<Rgb(int, int)>& color,
                                  const PackedLayout& layout = {});
 
-// A frame all of one depth code, of 8 bits in bytes or more in words.
+// A frame with a single depth code, in bytes up to 8 bits, in words above.
 [[nodiscard]] Frame makePlane(int cols, int rows, int bits, std::uint32_t code);
 
 }  // namespace relievo::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The finger's sphere stands where it is, before or behind the relief; its arrow is as long as the force.
+// The finger's sphere is at its position, in front of or behind the relief; its arrow is as long as the force.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ constexpr DisplayVolume kVolume{160.0, 90.0, 40.0};
 constexpr double kPixelsPerMm = 8.0;
 constexpr double kEyes = 63.0, kDistance = 600.0, kScreenZ = 20.0;
 
-// Black all over, at one height.
+// A black plane at one height.
 Scene blackPlane(double z, const FingerMark& finger) {
   return {.color = makeRgbFrame(16, 9, [](int, int) { return Rgb{0, 0, 0}; }),
           .depth = makePlane(32, 18, 16, static_cast<std::uint32_t>(z / kVolume.depth_mm * 65535.0)),
@@ -31,7 +31,7 @@ struct Box {
   [[nodiscard]] double width() const { return right + 1 - left; }
 };
 
-// Of all that is not black between two columns.
+// The bounding box of everything not black between two columns.
 Box litBox(const Image& image, int x0, int x1) {
   Box box;
   for (int y = 0; y < image.height; ++y) {
@@ -113,8 +113,8 @@ TEST(RenderFinger, HiddenFingerShowsFaintly) {
 }
 
 TEST(RenderFinger, HalfSunkSphereIsSolidAboveTheSurfaceAndFaintBelow) {
-  // The surface slopes through the sphere's middle: z = 20 + x. Left of it the sphere stands out, right of it it is
-  // under.
+  // The surface slopes through the sphere's centre: z = 20 + x. The sphere's left half is in front of the surface, its
+  // right half behind it.
   STAGE_OR_SKIP(stage, 1280, 720);
   Scene scene = blackPlane(0, {.position_mm = {0, 0, 20}, .contact = true});
   // Two samples 80 mm apart: 0 at x = -40 and 40 at x = 40 would be a slope of a half.
@@ -132,7 +132,7 @@ TEST(RenderFinger, HalfSunkSphereIsSolidAboveTheSurfaceAndFaintBelow) {
   EXPECT_GT(light(image.at(640 + 19, 360)), 0);
 }
 
-// White, 20 high; the darkest spot is the shadow, the finger left out by its colour.
+// A white plane, 20 mm high; the darkest spot is the shadow, with the finger excluded by its colour.
 Spot shadow(const Image& image) {
   Spot spot;
   for (int y = 0; y < image.height; ++y) {
@@ -159,7 +159,7 @@ TEST(RenderFinger, ShadowMovesAwayAndFadesWithTheHeightOverTheSurface) {
     scene.finger = FingerMark{.position_mm = {0, 0, 20 + height}};
     const Image image = stage.show(scene);
     const Spot at = shadow(image);
-    // To the lower right by 0.35 of the height, 8 pixels a mm.
+    // To the lower right by 0.35 of the height, at 8 pixels per mm.
     EXPECT_GT(at.x, 640 + 8 * 0.25 * height);
     EXPECT_GT(at.x, x);
     EXPECT_GT(at.y, y);
@@ -177,7 +177,7 @@ TEST(RenderFinger, ContactGlowsOnTheSurfaceTheMoreTheHarder) {
   const auto glow = [&](bool contact, double force) {
     const FingerMark mark{.position_mm = {0, 0, 20}, .force_n = {0, 0, force}, .contact = contact};
     const Image image = stage.show(blackPlane(20, mark));
-    return image.channel(640 - 32, 360, 0);  // 4 mm beside the middle: past the sphere
+    return image.channel(640 - 32, 360, 0);  // 4 mm from the middle, outside the sphere
   };
   EXPECT_EQ(glow(false, 0), 0);
   EXPECT_GT(glow(true, 0), 20);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every pixel format shows the same colours, whatever its planes, strides and sizes; what cannot be shown says so.
+// Every pixel format shows the same colours, whatever its planes, strides and sizes; unsupported ones are reported.
 #include <GLES3/gl3.h>
 #include <gtest/gtest.h>
 
@@ -17,13 +17,13 @@ namespace {
 
 constexpr DisplayVolume kVolume{160.0, 90.0, 40.0};
 
-// Eight bars from left to right: the corners of the colour cube, a little inside it.
+// Eight bars from left to right: the corners of the colour cube, slightly inset.
 Rgb bar(double fraction) {
   const int i = std::min(static_cast<int>(fraction * 8), 7);
   return {(i & 4) != 0 ? 240 : 20, (i & 2) != 0 ? 230 : 30, (i & 1) != 0 ? 220 : 40};
 }
 
-// The standards' own definition: E'Y = Kr R + Kg G + Kb B, E'Cb = (B - E'Y)/(2 (1 - Kb)), and the same for Cr.
+// The standards' definition: E'Y = Kr R + Kg G + Kb B, E'Cb = (B - E'Y)/(2 (1 - Kb)), and the same for Cr.
 std::array<double, 3> yuvOf(const Rgb& rgb, ColorMatrix matrix, bool limited, int bits) {
   const double kr = matrix == ColorMatrix::Bt601 ? 0.299 : matrix == ColorMatrix::Bt709 ? 0.2126 : 0.2627;
   const double kb = matrix == ColorMatrix::Bt601 ? 0.114 : matrix == ColorMatrix::Bt709 ? 0.0722 : 0.0593;
@@ -46,11 +46,11 @@ struct YuvFormat {
   int chroma_x = 1, chroma_y = 1;
   bool semi_planar = false;
   bool v_first = false;
-  int padding = 0;  // bytes behind each row
+  int padding = 0;  // bytes after each row
   bool upside_down = false;
 };
 
-// Bars of `width` x `height`, one memory plane after another, every byte between the rows a value of no meaning.
+// Bars of `width` x `height`, one memory plane after another; padding bytes have an arbitrary value.
 Frame makeYuvFrame(int width, int height, const YuvFormat& format) {
   Frame frame;
   frame.width = width;
@@ -85,7 +85,7 @@ Frame makeYuvFrame(int width, int height, const YuvFormat& format) {
     return yuvOf(bar(x), format.matrix, limited, format.bits)[static_cast<std::size_t>(component)];
   };
   const auto lumaAt = [&](int c) { return (c + 0.5) / width; };
-  // The middle of the luma samples that it stands for.
+  // The centre of the luma samples that share this chroma sample.
   const auto chromaAt = [&](int c) {
     const int first = c << format.chroma_x;
     return 0.5 * (first + std::min(first + (1 << format.chroma_x), width)) / width;
@@ -155,7 +155,7 @@ INSTANTIATE_TEST_SUITE_P(
         YuvFormat{.name = "ten_bits_upside_down", .bits = 10, .padding = 6, .upside_down = true}),
     [](const auto& one) { return std::string(one.param.name); });
 
-// A descriptor that is no dma-buf is refused by every driver.
+// A descriptor that is not a dma-buf is rejected by every driver.
 TEST(RenderFormats, WhatTheDriverDoesNotImportIsUploaded) {
   STAGE_OR_SKIP(stage, 320, 180);
   for (const YuvFormat& format : {YuvFormat{.name = "i420"}, YuvFormat{.name = "nv12", .semi_planar = true}}) {
@@ -222,7 +222,7 @@ TEST(RenderFormats, GrayIsGrayInItsRange) {
 }
 
 TEST(RenderFormats, WhatTheStreamDoesNotSayIsTakenAsPlayersDo) {
-  // Red of BT.601, limited, unsaid: right at 480 lines. At 720 unsaid is BT.709.
+  // Red of BT.601, limited, unsignalled: correct at 480 lines. At 720 lines unsignalled means BT.709.
   STAGE_OR_SKIP(stage, 320, 180);
   YuvFormat format{.name = ""};
   Frame small = makeYuvFrame(320, 480, format);
@@ -306,7 +306,7 @@ TEST(RenderFormats, AThousandRenderersLeaveNoGlObject) {
   if (!display->open({32, 32})) GTEST_SKIP() << "this machine has no EGL with GLES 3";
   const auto surface = display->beginFrame();
   ASSERT_TRUE(surface);
-  // Names are given in turn, or the lowest that is free.
+  // GL assigns names consecutively or reuses the lowest free one.
   const auto living = [] {
     std::array<int, 6> counts{};
     for (GLuint name = 1; name < 50'000; ++name) {
@@ -322,7 +322,7 @@ TEST(RenderFormats, AThousandRenderersLeaveNoGlObject) {
   const auto before = living();
   for (int round = 0; round < 1000; ++round) {
     auto renderer = SceneRenderer::create(std::chrono::hours(1)).value();
-    if (round % 20 != 0) continue;  // to draw takes longer
+    if (round % 20 != 0) continue;  // drawing takes longer
     renderer->setText({"title"});
     for (const auto layout : {StereoLayout::SideBySide, StereoLayout::Anaglyph}) {
       renderer->setStereo({.layout = layout});
@@ -335,8 +335,8 @@ TEST(RenderFormats, AThousandRenderersLeaveNoGlObject) {
 }
 
 TEST(RenderFormats, LargePictureIsAveragedNotSkipped) {
-  // Columns of black and white, each a pixel wide, drawn two and a half times smaller: gray, where picking single ones
-  // would give bands from black to white.
+  // Columns of black and white, each a pixel wide, drawn two and a half times smaller: gray, where nearest-neighbour
+  // sampling would give black and white bands.
   STAGE_OR_SKIP(stage, 320, 180);
   const auto stripes =
       makeRgbFrame(800, 450, [](int x, int) { return x % 2 == 0 ? Rgb{0, 0, 0} : Rgb{255, 255, 255}; });
@@ -385,7 +385,7 @@ TEST(RenderFormats, WhatCannotBeDrawnIsRefusedAndThePictureBeforeStays) {
   EXPECT_EQ(refusal(stage, {.color = yuyv, .volume = kVolume}), ErrorCode::Unsupported);
 
   EXPECT_EQ(refusal(stage, {.color = Frame{}, .volume = kVolume}), ErrorCode::InvalidArgument);
-  // Hue wants colours: the haptic side refuses gray as well.
+  // Hue needs colours: the haptic side rejects gray as well.
   EXPECT_EQ(refusal(stage, {.color = white,
                             .depth = makePlane(32, 18, 8, 1),
                             .calibration = {.code = DepthCode::Hue},

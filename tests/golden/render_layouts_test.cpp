@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every stereo layout against a picture of its own making: rays from each eye, marched into a relief that is known as a
-// formula, and put together as the layout says. It shares nothing with the renderer.
+// Every stereo layout against an independent reference: rays from each eye are marched into a relief given by a formula
+// and combined as the layout says. It shares no code with the renderer.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,13 +22,13 @@ double relief(double x, double y) {
   return 6 + 26 * std::exp(-((x - 15) * (x - 15) + y * y) / (2 * 28.0 * 28.0)) + 0.03 * x;
 }
 
-// Smooth enough that a shift of a pixel is seen and its edges are no matter of taste.
+// Smooth enough to be insensitive to antialiasing, yet a shift of one pixel is detected.
 Rgb paint(double x, double y) {
   const auto wave = [](double phase) { return static_cast<int>(std::lround(127.5 + 120 * std::sin(phase))); };
   return {wave(1.5 * x + 0.2 * y), wave(1.1 * x - 0.5 * y), wave(0.9 * (x + y) + 2)};
 }
 
-// What an eye at (eye_x, 0, 620) sees through the point (x, y, 20) of the screen plane.
+// The colour that an eye at (eye_x, 0, 620) sees through the point (x, y, 20) of the screen plane.
 Rgb seen(double eye_x, double x, double y) {
   const auto above = [&](double z) {
     const double along = (kDistance + kScreenZ - z) / kDistance;
@@ -68,7 +68,7 @@ DrawnPicture black(int width, int height) {
   return picture;
 }
 
-// Pixel by pixel from both eyes.
+// Combines both eyes pixel by pixel.
 template <class Mix>
 DrawnPicture mixed(int width, int height, Mix&& mix) {
   const DrawnPicture left = view(-kEyes / 2, width, height), right = view(kEyes / 2, width, height);
@@ -102,7 +102,7 @@ Scene sceneIn(const StereoSettings& stereo) {
           .error_px = 0.5};
 }
 
-// At the picture's rim the relief is joined to the frame: a few pixels there are left out.
+// At the picture's edge the relief is joined to the frame, so a few pixels there are ignored.
 double similarity(const Image& image, const DrawnPicture& golden, int rim) {
   std::vector<std::uint8_t> counted(static_cast<std::size_t>(golden.width) * golden.height, 0);
   for (int r = rim; r < golden.height - rim; ++r) {
@@ -122,7 +122,7 @@ void expectLike(const StereoSettings& stereo, const DrawnPicture& golden, int ri
   swapped.swap_eyes = true;
   const double of_swapped = similarity(stage->show(sceneIn(swapped)), golden, rim);
   if (stereo.layout == StereoLayout::Mono) return;
-  EXPECT_LT(of_swapped, 0.96) << "eyes swapped, and it is no other picture";
+  EXPECT_LT(of_swapped, 0.96) << "with swapped eyes the picture must differ";
 }
 
 using enum StereoLayout;

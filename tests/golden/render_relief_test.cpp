@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the relief is drawn: each eye's image of marked points against similar triangles, and the height that the
-// two eyes see against the height that the finger feels.
+// The position of the relief: each eye's image of marked points against similar triangles, and the height that the two
+// eyes see against the height that the finger feels.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ constexpr double kPixelsPerMmX = 4.0, kPixelsPerMmY = 8.0;
 constexpr int kColorWidth = 640, kColorHeight = 360;
 constexpr double kEyes = 63.0, kDistance = 600.0, kScreenZ = 20.0;
 
-// A white square of 9 x 9 pixels on black, and the place of its middle in the scene.
+// A white square of 9 x 9 pixels on black, and the position of its middle in the scene.
 struct Marker {
   int x, y;
   [[nodiscard]] double xMm() const { return ((x + 0.5) / kColorWidth - 0.5) * kVolume.width_mm; }
@@ -34,7 +34,8 @@ Frame markerPicture(const Marker& marker) {
   });
 }
 
-// Where the ray from the eye through (x, y, z) meets the screen plane, in pixels of the eye's half from the top left.
+// The point where the ray from the eye through (x, y, z) meets the screen plane, in pixels of the eye's half from the
+// top left.
 struct Pixel {
   double x, y;
 };
@@ -64,7 +65,7 @@ void expectMarker(const Image& image, const Marker& marker, double z) {
   EXPECT_NEAR(right.x - 640, right_paper.x, 0.25);
   EXPECT_NEAR(left.y, left_paper.y, 0.25);
   EXPECT_NEAR(left.y, right.y, 0.05) << "vertical parallax";
-  // x_left - x_right = e h / (d - h), to the same quarter of a pixel.
+  // x_left - x_right = e h / (d - h), to within a quarter of a pixel.
   const double h = z - kScreenZ;
   EXPECT_NEAR(left.x - (right.x - 640), kPixelsPerMmX * kEyes * h / (kDistance - h), 0.25);
 }
@@ -96,8 +97,8 @@ TEST(RenderRelief, SlopeIsDrawnBetweenItsSamples) {
 
 TEST(RenderRelief, CellsAreSplitFromTopLeftToBottomRight) {
   // Two by two samples, only the top right one raised: the diagonal from top left to bottom right stays down, so its
-  // middle is at 0. Split the other way it would be at half height, in the screen plane. The marker lies across the
-  // fold, and of its upper right half the rise moves it by half a pixel at most.
+  // middle is at 0. Split along the other diagonal it would be at half height, in the screen plane. The marker lies
+  // across the fold, and the rise shifts its upper right half by at most half a pixel.
   STAGE_OR_SKIP(stage, kSurfaceWidth, kSurfaceHeight);
   const auto corner = makeGrayFrame(2, 2, 16, MediaTime{}, [](int c, int r) { return c == 1 && r == 0 ? 65535u : 0u; });
   const Image image = stage.show(sideBySide({320, 180}, corner));
@@ -112,7 +113,7 @@ TEST(RenderRelief, AnaglyphShowsTheLeftEyeInRed) {
   scene.stereo.layout = StereoLayout::Anaglyph;
   scene.stereo.anaglyph = AnaglyphColors::Color;
   const Image image = stage.show(scene);
-  // The whole surface is one view: 8 pixels a mm across as well.
+  // The whole surface is one view: 8 pixels per mm across as well.
   const double left = 2 * onScreen(-kEyes / 2, marker.xMm(), marker.yMm(), 40).x;
   const double right = 2 * onScreen(kEyes / 2, marker.xMm(), marker.yMm(), 40).x;
   EXPECT_NEAR(image.centroid(0, 0, 1280).x, left, 0.25);
@@ -176,7 +177,7 @@ TEST(RenderRelief, HeightsOfKnownCodesAreRightOnPaper) {
   EXPECT_NEAR(heightSeen(stage, makePlane(32, 18, 8, 51), {}), 8.0, 0.1);  // 51/255 = 1/5 of 40
   // Inverse, 500 to 5000 mm: s = 0.2 is Z = 1/(0.2/500 + 0.8/5000) = 1785.7, z = 40 * 3214.3/4500 = 28.571.
   EXPECT_NEAR(heightSeen(stage, makePlane(32, 18, 8, 51), {.law = DepthLaw::Inverse}), 28.571, 0.1);
-  // Limited: (51 - 16)/219 of 40 = 6.393; near is low: the rest.
+  // Limited: (51 - 16)/219 of 40 = 6.393; with near low, 40 minus that.
   EXPECT_NEAR(heightSeen(stage, makePlane(32, 18, 8, 51), {.range = ColorRange::Limited}), 6.393, 0.1);
   EXPECT_NEAR(heightSeen(stage, makePlane(32, 18, 8, 51), {.polarity = DepthPolarity::NearIsLow}), 32.0, 0.1);
 }
@@ -186,7 +187,7 @@ TEST(RenderRelief, DeepCodesAreReadByTheirBitsAndShift) {
   expectHeightFelt(stage, makePlane(32, 18, 10, 300), {.bits = 10});
   expectHeightFelt(stage, makePlane(32, 18, 10, 300), {.range = ColorRange::Limited, .bits = 10});
   expectHeightFelt(stage, makePlane(32, 18, 16, 50'000), {.bits = 16});
-  // P010 keeps its ten bits at the top of the word; what lies below is not part of the code.
+  // P010 keeps its ten bits at the top of the word; the bits below are ignored.
   Frame high = makePlane(32, 18, 16, 300u << 6 | 0x2au);
   high.components[0].bits = 10;
   high.components[0].shift = 6;
@@ -195,7 +196,7 @@ TEST(RenderRelief, DeepCodesAreReadByTheirBitsAndShift) {
 }
 
 TEST(RenderRelief, CodesBetweenOtherSamplesAreFound) {
-  // Luma on every second byte, after one of another kind: the packing of UYVY.
+  // Luma in every second byte, after a chroma byte: the packing of UYVY.
   STAGE_OR_SKIP(stage, kSurfaceWidth, kSurfaceHeight);
   Frame packed = makePlane(64, 18, 8, 0);
   auto bytes = std::make_shared<std::vector<std::uint8_t>>(64 * 18);
@@ -207,7 +208,7 @@ TEST(RenderRelief, CodesBetweenOtherSamplesAreFound) {
   EXPECT_NEAR(heightSeen(stage, packed, {}), 16.0, 0.1);  // 102/255 of 40
 }
 
-// A hue of the textbook's hexagon for s, as footage in this coding stores it.
+// The standard hexagon's hue for s, as footage in this coding stores it.
 Rgb hueColor(double s) {
   const double sixth = s * 6.0;
   const auto ramp = [&](double centre) {
@@ -259,7 +260,7 @@ TEST(RenderRelief, APictureOfCodesZeroIsVisibleWithoutAnInvalidCode) {
 }
 
 TEST(RenderRelief, HoleIsFilledWithTheFartherOfItsSides) {
-  // A wall, 40 high, left of a hole; the floor right of it. What is black in the depth is white in the picture.
+  // A wall, 40 mm high, left of a hole; the floor right of it. The hole is black in the depth and white in the picture.
   STAGE_OR_SKIP(stage, kSurfaceWidth, kSurfaceHeight);
   const auto depth = makeGrayFrame(160, 90, 8, MediaTime{}, [](int c, int) {
     return c < 60 ? 255u : c < 90 ? 7u : 0u;
@@ -271,7 +272,7 @@ TEST(RenderRelief, HoleIsFilledWithTheFartherOfItsSides) {
 }
 
 TEST(RenderRelief, NoGapOpensBesideANearThing) {
-  // A wall 40 high in the middle of a floor, white all over: whatever an eye uncovers beside it is white as well.
+  // A wall 40 mm high in the middle of a floor, all white: whatever an eye uncovers beside it is white too.
   STAGE_OR_SKIP(stage, kSurfaceWidth, kSurfaceHeight);
   Scene scene{.color = makeRgbFrame(32, 18, [](int, int) { return Rgb{255, 255, 255}; }),
               .depth = makeGrayFrame(160, 90, 8, MediaTime{},
@@ -283,8 +284,8 @@ TEST(RenderRelief, NoGapOpensBesideANearThing) {
 }
 
 TEST(RenderRelief, WhatIsUncoveredBesideANearThingIsTheFarThings) {
-  // A red wall at the right, 40 high, before a floor of green: the left eye sees past the wall's edge at x = 40 by
-  // (40 + 31.5) * 40 / 580 = 4.9 mm of floor that is not in the picture, and sees it green.
+  // A red wall at the right, 40 mm high, in front of a green floor: past the wall's edge at x = 40 the left eye sees
+  // (40 + 31.5) * 40 / 580 = 4.9 mm of floor that the picture lacks, and it must appear green.
   STAGE_OR_SKIP(stage, kSurfaceWidth, kSurfaceHeight);
   const Scene scene{.color = makeRgbFrame(kColorWidth, kColorHeight,
                                           [](int x, int) { return x < 480 ? Rgb{0, 255, 0} : Rgb{255, 0, 0}; }),
@@ -323,7 +324,8 @@ TEST(RenderRelief, LetterboxKeepsTheAspect) {
 }
 
 TEST(RenderRelief, LetterboxOfSideBySideIsSqueezedWithTheHalf) {
-  // A picture of 90 x 90 mm on 1280 x 720: 720 wide when the half is stretched to the whole, 360 in it.
+  // A picture of 90 x 90 mm on 1280 x 720: 720 pixels wide once the half is stretched to the full width, 360 in the
+  // half.
   STAGE_OR_SKIP(stage, 1280, 720);
   const Scene scene{.color = makeRgbFrame(20, 20, [](int, int) { return Rgb{255, 255, 255}; }),
                     .volume = {90.0, 90.0, 40.0},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Text on the picture: where it stands for each eye, and that it says something.
+// Text on the picture: its position for each eye, and that it is legible ink.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -74,7 +74,7 @@ TEST(Glyphs, CharactersOfSeveralBytesAreOneGlyphEach) {
   if (!glyphs) GTEST_SKIP() << glyphs.error().message;
   EXPECT_EQ(glyphs->draw({"\xc3\xa9"}).width, glyphs->draw({"e"}).width);  // e acute
   EXPECT_GT(inkOf(glyphs->draw({"\xc3\xa9"})), inkOf(glyphs->draw({"e"})));
-  // What is no UTF-8 neither ends the line nor reads past it.
+  // Invalid UTF-8 neither ends the line nor causes a read past it.
   for (const char* broken : {"\xff", "\xc3", "a\xe2\x82", "\xc3g"})
     EXPECT_GT(inkOf(glyphs->draw({broken})), 20) << broken;
 }

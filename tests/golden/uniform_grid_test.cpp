@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The grid that the player's network is measured against: on true samples, and the same surface.
+// The uniform grid that the player's network is compared with: it uses true samples and gives the same surface.
 #include "app/lab/detail/uniform_grid.h"
 
 #include <gtest/gtest.h>
@@ -38,8 +38,8 @@ class UniformGridDrawing : public testing::Test {
   std::unique_ptr<DrawingStage> stage_;
 };
 
-// Of 720 x 486 every fourth sample and the last: those are at a fifth of the height, all others at none. The shift of a
-// white square between the eyes is e h / (d - h) for a height of h over the screen plane.
+// Every fourth sample of 720 x 486, and the last one, are at a fifth of the height, all others at zero. A white square
+// at height h above the screen plane is shifted between the eyes by e h / (d - h).
 TEST_F(UniformGridDrawing, StandsOnEveryFourthSampleAndTheLast) {
   const auto sieve = makeGrayFrame(720, 486, 8, MediaTime{}, [](int c, int r) {
     const bool column = c % 4 == 0 || c == 719;
@@ -64,7 +64,7 @@ TEST_F(UniformGridDrawing, OfAllSamplesIsTheSurfaceThatThePlayerDraws) {
   const auto color = makeRgbFrame(160, 108, [](int x, int y) { return Rgb{x, 255 - x, (x / 8 + y / 8) % 2 * 255}; });
   const Image grid = show(color, hills, {.grid_step = 1});
   EXPECT_LT(grid.meanDifference(show(color, hills, {.error_px = 0.02})), 0.3);
-  EXPECT_GT(grid.meanDifference(show(color, hills, {.grid_step = 40})), 1.0);  // and a coarse one is another
+  EXPECT_GT(grid.meanDifference(show(color, hills, {.grid_step = 40})), 1.0);  // a coarse grid must differ
 }
 
 TEST_F(UniformGridDrawing, RefusesWhatItDoesNotRead) {

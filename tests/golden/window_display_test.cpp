@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The display in a window, on an X server of the test's own: what is drawn is on the screen, and what a viewer does to
-// the window, its keys and its mouse arrives.
+// The window display on a private X server: drawings reach the screen, and the viewer's actions on window, keys and
+// mouse arrive.
 #include <EGL/egl.h>
 #include <GLES3/gl3.h>
 #include <SDL.h>
@@ -30,7 +30,7 @@ void fill(int x, int y, int width, int height, float red, float green, float blu
   glClear(GL_COLOR_BUFFER_BIT);
 }
 
-// First, while nothing has been opened.
+// Runs first, before any display has been opened.
 TEST(WindowDisplayMade, StartsNothingBeforeItIsOpened) {
   const ManualClock clock;
   const auto input = std::make_shared<WindowInput>();
@@ -57,7 +57,7 @@ class WindowDisplay : public testing::Test {
     redraw_ = false;
   }
 
-  // A corner in its own colour each, upper left first: red, green, blue, white.
+  // Each corner in its own colour, upper left first: red, green, blue, white.
   void drawCorners() {
     const auto surface = display_->beginFrame();
     ASSERT_TRUE(surface);
@@ -71,7 +71,7 @@ class WindowDisplay : public testing::Test {
     ASSERT_TRUE(shown);
     EXPECT_LE(*shown, display_->capabilities().refresh_period);
   }
-  // What X and SDL tell one another takes them a moment.
+  // Polls, because X and SDL exchange messages asynchronously.
   bool until(const std::function<bool()>& so) {
     for (int tries = 0; tries < 2000; ++tries) {
       if (so()) return true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The real thread: what it runs as, where, and what it takes from the system. Counts only; no time is judged.
+// The real thread: its scheduling, its processor and its use of the system. Checks counts only, never times.
 #include "platform/cyclic_thread.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::uint64_t kCycles = 200;
 
-// Runs `Work` in each of kCycles cycles, then says that it has ended.
+// Runs `Work` in each of kCycles cycles, then signals the end.
 template <class Work>
 class CountedTask final : public CyclicTask {
  public:
@@ -46,7 +46,7 @@ void waitForTheEnd(const CyclicThread& thread) {
 
 class CyclicThreadTest : public testing::Test {
  protected:
-  // The whole run of a task that does `work` kCycles times.
+  // A complete run of a task that does `work` kCycles times.
   template <class Work>
   void run(Work work, const CyclicConfig& config = {}) {
     CountedTask task(work);
@@ -75,7 +75,7 @@ TEST_F(CyclicThreadTest, TakesNeitherMemoryNorPagesWhileItRuns) {
     EXPECT_EQ(statistics.page_faults, 0u);
   }
   EXPECT_EQ(early, 0u);
-  EXPECT_EQ(last_index, kCycles - 1 + statistics.overruns);  // each gap is a counted one
+  EXPECT_EQ(last_index, kCycles - 1 + statistics.overruns);  // each gap is a counted overrun
   EXPECT_EQ(statistics.wakeup.count(), kCycles);
   EXPECT_EQ(statistics.work.count(), kCycles);
 }
@@ -179,7 +179,7 @@ TEST_F(CyclicThreadTest, GivesTheTaskItsWholeStackWhateverThreadLocalDataThereIs
       {.stack_bytes = kStack});
 }
 
-// The stack's own mapping in /proc/self/smaps and the permissions of what lies just below it.
+// The stack's mapping in /proc/self/smaps, and the permissions of the mapping just below it.
 struct StackMapping {
   std::uint64_t bytes = 0;
   bool locked = false;
@@ -278,7 +278,7 @@ TEST_F(CyclicThreadTest, RefusesWhatCannotBe) {
   EXPECT_EQ(codeOf({.priority = 0}), ErrorCode::InvalidArgument);
   EXPECT_EQ(codeOf({.priority = 100}), ErrorCode::InvalidArgument);
   EXPECT_EQ(codeOf({.cpu = CPU_SETSIZE}), ErrorCode::InvalidArgument);
-  EXPECT_EQ(codeOf({.cpu = CPU_SETSIZE - 1}), ErrorCode::InvalidArgument);  // a processor that is not there
+  EXPECT_EQ(codeOf({.cpu = CPU_SETSIZE - 1}), ErrorCode::InvalidArgument);  // a processor that does not exist
   EXPECT_EQ(codeOf({.stack_bytes = 1024}), ErrorCode::InvalidArgument);
   EXPECT_FALSE(thread.running());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Locks with a count in front of the C library's own, and a seccomp filter of four instructions.
+// Lock functions that count and then call the C library's, and a seccomp filter of four instructions.
 #include "tests/rt/forbidden_calls.h"
 
 #include <dlfcn.h>
@@ -44,7 +44,7 @@ namespace {
 template <class Lock>
 using Taker = int (*)(Lock*);
 
-// Counts and goes on to the C library's function of that name; `real` is looked up once.
+// Counts, then calls the C library's function of that name; `real` is looked up once.
 template <class Lock>
 int countedLock(Lock* lock, Taker<Lock>& real, const char* name) noexcept {
   ++relievo::test::locks;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The haptic task's tick allocates nothing, takes no lock and does not call the system, with every method and whatever
-// comes: motion, cuts, holes, gaps, a finger that darts.
+// A tick of the haptic task allocates nothing, takes no lock and makes no system call, with every method and under
+// motion, cuts, holes, gaps and a darting finger.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -29,7 +29,7 @@ constexpr DisplayVolume kVolume{160, 108, 40};
 constexpr double kPeriodS = 1.0 / 30, kTickS = 0.001;
 constexpr int kFrames = 40, kCut = 20;
 
-// A wave that runs, with a hole in it, and another scene from the cut on.
+// A moving wave with a hole in it, and another scene after the cut.
 std::vector<TimedSurface> movingFilm() {
   const GridMapping grid(kVolume, 180, 122);
   std::vector<TimedSurface> film;
@@ -49,7 +49,7 @@ struct Taken {
   std::uint64_t allocations = 0, locks = 0, contact_ticks = 0;
 };
 
-// The whole task in simulated time, on a device and a film made of numbers.
+// The complete task in simulated time, with a simulated device and a synthetic film.
 class Stage {
  public:
   explicit Stage(const std::string& method) : method_(makeMethod(method, {})) {
@@ -61,7 +61,7 @@ class Stage {
     Taken taken;
     for (int tick = 0; tick < 1300; ++tick) {
       show(tick);
-      // Comes in from outside again and again; strokes, then darts at 5 m/s. The volume's centre is the device's.
+      // Repeatedly comes in from outside; strokes, then darts at 5 m/s. The volume's centre is the device's.
       const double press = 20 * std::max(0.0, std::sin(0.02 * tick));
       device_.position = {60 * std::sin((tick > 700 ? 0.08 : 0.003) * tick), 20 * std::cos(0.01 * tick), 14 - press};
       if (tick % 500 == 250) device_.position.x = std::numeric_limits<double>::quiet_NaN();

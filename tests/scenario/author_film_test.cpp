@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The author's program from end to end: what goes in as colour and depth comes out as one film, or nothing does.
+// relievo-author from end to end: colour and depth become one film, or no film.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -49,7 +49,7 @@ ClipTrack depthTrack(const char* pix_fmt, std::function<std::uint32_t(int, int, 
 struct Film {
   FilmInfo info;
   std::vector<FramePair> pairs;
-  // The code in the depth plane, as it was coded.
+  // The depth plane's code, as it was encoded.
   [[nodiscard]] int code(std::size_t pair, int c, int r) const {
     return static_cast<int>(test::sampleAt(pairs.at(pair).depth, 0, c, r));
   }
@@ -81,7 +81,7 @@ class AuthorFilm : public testing::Test {
     return authorFilm(source, kBackends, {.path = folder_ / out, .color_crf = 18, .depth = {.crf = 0}}, stop_,
                       kNoReport);
   }
-  // Colour and depth as two files, into out.mkv.
+  // Packages colour and depth from two files into out.mkv.
   AuthorSummary package(const ClipTrack& color, const ClipTrack& depth, SourceOptions source = {}) {
     makeClip(folder_ / "color.mkv", {color});
     makeClip(folder_ / "depth.mkv", {depth});
@@ -91,7 +91,7 @@ class AuthorFilm : public testing::Test {
     EXPECT_TRUE(summary.has_value()) << (summary ? "" : summary.error().thing + ": " + summary.error().error.message);
     return summary.value_or(AuthorSummary{});
   }
-  // `relievo-author ARGUMENTS`, in which @ stands for the folder.
+  // Runs `relievo-author ARGUMENTS`, where @ stands for the folder.
   test::ProgramResult run(std::string arguments) {
     const std::string folder = (folder_ / "");
     for (std::size_t at = arguments.find('@'); at != std::string::npos; at = arguments.find('@', at)) {
@@ -100,7 +100,7 @@ class AuthorFilm : public testing::Test {
     return test::runProgram("relievo-author " + arguments, folder_ / "said");
   }
   void SetUp() override { std::filesystem::create_directory(folder_ / "said"); }
-  // What is in the folder, but for the inputs and the outputs of the program's talk.
+  // The files in the folder, except the inputs and the captured output.
   [[nodiscard]] std::vector<std::string> made() const {
     std::vector<std::string> names = filesIn(folder_ / "");
     std::erase_if(names, [](const std::string& n) { return n == "said" || n == "color.mkv" || n == "depth.mkv"; });
@@ -129,8 +129,7 @@ TEST_F(AuthorFilm, BringsTwoFilesTogetherWithTheirCodesAndTimes) {
   }
 }
 
-// The whole way: 16 bits with holes and a law of its own, near low, to a height in mm that is the same within half a
-// code.
+// End to end: 16 bits with holes, inverse law and near low give the same heights in mm to within half a code.
 TEST_F(AuthorFilm, KeepsTheHeightsThatTheDepthMeant) {
   const auto code = [](int c, int r, int) {
     return r == 0 && c < 8 ? 0u : static_cast<std::uint32_t>(1000 * c + 10 * r + 1);
@@ -248,7 +247,7 @@ TEST_F(AuthorFilm, TellsWhatItDoesNotKeep) {
   color.codec = "libx264";
   color.options = {{"flags", "+ildct+ilme"}};
   color.primaries = 9, color.transfer = 16;
-  // A quarter of the columns is beyond the codes that are told.
+  // A quarter of the columns is outside the given codes.
   const ClipTrack depth =
       depthTrack("gray", [](int c, int r, int) { return c < 16 ? 255u : 50u + static_cast<unsigned>(r); });
   makeClip(folder_ / "film.mkv", {color, depth, third}, {}, {{}, {}});
@@ -268,7 +267,7 @@ TEST_F(AuthorFilm, TellsWhatItDoesNotKeep) {
   EXPECT_THAT(wide->notes, testing::Not(testing::Contains(HasSubstr("interlaced"))));
 }
 
-// A film of the disk's that another program gave words below the picture.
+// A film from disk whose packets another program has damaged.
 TEST_F(AuthorFilm, TellsThatSubtitlesAreLeftOut) {
   makeClip(folder_ / "film.mkv",
            {colorTrack(), depthTrack("gray", [](int, int r, int) { return 50u + static_cast<unsigned>(r); })});
@@ -371,7 +370,7 @@ TEST_F(AuthorFilm, LeavesNothingWhenItIsInterrupted) {
   std::uint64_t reached = 0;
   const auto stopAtFive = [&](std::uint64_t done, std::optional<std::uint64_t> total) {
     EXPECT_EQ(total, std::optional<std::uint64_t>(30));
-    EXPECT_LE(made().size(), 1u);  // the temporary one, where it has a name
+    EXPECT_LE(made().size(), 1u);  // the temporary file, if it has a name
     reached = done;
     if (done == 5) stop_ = true;
   };
@@ -399,7 +398,7 @@ TEST_F(AuthorFilm, SampleIsAFilmLikeAnyOther) {
   const Film film = readFilm(folder_ / "out.mp4");
   ASSERT_EQ(film.pairs.size(), 40u);
   EXPECT_EQ(film.info.calibration.origin, CalibrationOrigin::ContainerTags);
-  // In the middle of a smooth part: the exact height, in codes.
+  // In a smooth area: the exact height, in codes.
   const double x = ((80 + 0.5) / 160 - 0.5) * 160, y = (0.5 - (54 + 0.5) / 108) * 108;
   EXPECT_NEAR(film.code(33, 80, 54), 255.0 / 40 * sampleSceneHeight(x, y, 33 / 30.0), 0.51);
 }
@@ -495,7 +494,7 @@ TEST_F(AuthorFilm, ProgramLeavesNothingOnASignal) {
   }
 }
 
-// What is made apart may be left where files without a name are unknown, and of HLS; never a film that is not whole.
+// A killed run may leave temporary files where unnamed files are not supported, and for HLS; never an incomplete film.
 TEST_F(AuthorFilm, ProgramLeavesNoFilmWhenItIsKilled) {
   for (const char* out : {"out.mkv", "out.mp4", "out.ts", "out.m3u8"}) {
     Process process({std::string(RELIEVO_BIN_DIR) + "/relievo-author", "--scene", "sample", "-o", folder_ / out},
@@ -520,7 +519,7 @@ TEST_F(AuthorFilm, ProgramEndsAtOnceOnASecondSignalAndLeavesNothing) {
 }
 
 TEST_F(AuthorFilm, ProgramLeavesNothingOnAFullDisk) {
-  // A file may grow to 16 blocks of 1 KiB: stands for a disk that fills up.
+  // Files are limited to 16 blocks of 1 KiB, which simulates a full disk.
   ClipTrack color = colorTrack(320, 240);
   color.sample = [](int, int c, int r, int k) {
     return static_cast<std::uint32_t>((c * 7919 + r * 104729 + k * 1299709) >> 3);
@@ -539,7 +538,7 @@ TEST_F(AuthorFilm, ProgramLeavesNothingOnAFullDisk) {
   }
 }
 
-// A playlist names its segments by plain letters: a name in it is an address, where these would mean something else.
+// A playlist contains URLs, so its segments get names without special characters.
 TEST_F(AuthorFilm, WritesAnHlsFilmOfAnyNameThatOthersCanRead) {
   makeClip(folder_ / "color.mkv", {colorTrack()});
   makeClip(folder_ / "depth.mkv", {depthTrack("gray", [](int, int, int k) { return 8u * static_cast<unsigned>(k); })});
@@ -586,7 +585,7 @@ TEST_F(AuthorFilm, OfThreeAuthorsOfOneNameOneWins) {
   }
 }
 
-// Stands for a run that was killed: its folder is there and nobody holds it.
+// Simulates a killed run: its folder exists and nobody holds the lock.
 TEST_F(AuthorFilm, RemovesWhatAKilledRunOfTheSameNameHasLeft) {
   makeClip(folder_ / "film.mkv", {colorTrack(), depthTrack("gray", [](int, int, int) { return 9u; })});
   for (const char* left : {"out.m3u8.relievo-Ab3dE6/film.segments", "other.m3u8.relievo-Ab3dE6/film.segments"}) {
@@ -675,7 +674,7 @@ TEST_F(AuthorFilm, ProgramWritesWhatItsWordsSay) {
   EXPECT_EQ(film.info.depth_codec, "hevc");
 }
 
-// Others play it as ordinary video: every picture of the colour, and the depth is not taken for it.
+// Other players treat it as ordinary video: they show every colour picture and ignore the depth.
 TEST_F(AuthorFilm, OtherPlayersPlayItAsOrdinaryVideo) {
   makeClip(folder_ / "color.mkv", {colorTrack()});
   makeClip(folder_ / "depth.mkv", {depthTrack("gray", [](int, int, int k) { return 8u * static_cast<unsigned>(k); })});
@@ -685,7 +684,7 @@ TEST_F(AuthorFilm, OtherPlayersPlayItAsOrdinaryVideo) {
     return process.wait();
   };
   const auto isThere = [&](const std::string& program) { return shell("command -v " + program) == 0; };
-  // Somebody else's program may hang for reasons of its own; not twice.
+  // The other program may hang for its own reasons, so one retry.
   const auto plays = [&](const std::string& command) {
     constexpr int kTimedOut = 124;
     const std::string bounded = "timeout 20 " + command + " </dev/null";

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A film through every container and codec that the author offers: what went in is what the player reads, code by code,
-// time by time.
+// A film through every container and codec of the author: the player reads the same codes and timestamps that went in.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -27,7 +26,7 @@ constexpr Duration kPeriod = std::chrono::nanoseconds(1'000'000'000 / 30);
 
 constexpr int kCols = test::kWayCols, kRows = test::kWayRows;
 
-// The whole range in every picture, without pattern (a multiplicative hash); the first sample tells which it is.
+// The full range in every picture, without pattern (a multiplicative hash); the first sample identifies the picture.
 std::uint32_t scattered(int c, int r, int k, int bits) {
   if (c == 0 && r == 0) return static_cast<std::uint32_t>(k & 255);
   if (c == 1 && r == 0) return 0;
@@ -107,7 +106,7 @@ TEST_P(AuthorRoundTrip, BringsBackCodesTimesAndMeaning) {
 
 INSTANTIATE_TEST_SUITE_P(Ways, AuthorRoundTrip, testing::ValuesIn(kWays));
 
-// On a line a reader may come at any time: it begins with a key frame, and knows what the codes mean.
+// A receiver may join a network stream at any time: it begins with a key frame and knows the calibration.
 class AuthorLine : public testing::TestWithParam<Way> {};
 
 TEST_P(AuthorLine, ReachesWhoComesLater) {
@@ -139,7 +138,7 @@ TEST_P(AuthorLine, ReachesWhoComesLater) {
     const int k = static_cast<int>(test::sampleAt(depth, 0, 0, 0));
     EXPECT_NEAR(toSeconds(depth.pts - film.pairs[0].color.pts), toSeconds(kPeriod) * static_cast<double>(i), 1e-4) << i;
     for (const auto& [c, r] : {std::pair{1, 0}, {2, 0}, {95, 63}, {40, 20}}) {
-      // The first sample tells k up to multiples of 256.
+      // The first sample gives k modulo 256.
       const auto code = test::sampleAt(depth, 0, c, r);
       bool found = false;
       for (int turn = 0; turn < 8 && !found; ++turn) found = code == scattered(c, r, k + 256 * turn, way.bits);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the author's coding at its usual quality does under a finger, by every container and codec: heights in mm, force
+// The effect of the author's coding at its default quality on touch, by container and codec: heights in mm, and force
 // in N against the oracle.
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ class AuthorTouchLoss : public testing::TestWithParam<Way> {
   [[nodiscard]] std::string path() const { return folder_ / (std::string("film") + GetParam().ending); }
 };
 
-// A nodding face at the usual quality: heights of every sample, and the force on a finger that strokes it.
+// A nodding face at the default quality: the height of every sample, and the force on a finger that strokes it.
 TEST_P(AuthorTouchLoss, IsSmallAndTold) {
   constexpr double kLengthS = 0.7;
   constexpr int kFaceCols = 240, kFaceRows = 162;
@@ -76,11 +76,11 @@ TEST_P(AuthorTouchLoss, IsSmallAndTold) {
       "%-5s %-5s %2d bits%-5s heights off by %.4f mm rms, %.3f mm at most; force by %.4f N (%.2f %%), before %.4f N\n",
       way.ending, name(way.codec), way.bits, way.flat ? " flat" : "", heights.rms(), heights.largest(), after.rms_n,
       after.rms_percent, before.rms_n);
-  // People tell forces apart that differ by a tenth.
+  // People distinguish forces that differ by 10 %.
   EXPECT_LT(heights.rms(), 0.1);
   EXPECT_LT(after.rms_percent, 5);
   if (way.bits == 16) {
-    EXPECT_NEAR(after.rms_n, before.rms_n, 1e-3);  // but for times in whole milliseconds
+    EXPECT_NEAR(after.rms_n, before.rms_n, 1e-3);  // timestamps are rounded to whole milliseconds
   }
   EXPECT_EQ(after.lost_ticks, 0u);
 }

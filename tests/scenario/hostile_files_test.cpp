@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Damaged films: five hundred files, each played in a process of its own. It ends with a clean error or plays; it never
-// crashes, hangs or takes the machine's memory.
+// Five hundred damaged films, each played in its own process: it plays or ends with a clean error; it never crashes,
+// hangs or exhausts the memory.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -28,8 +28,8 @@ std::string bytesOf(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// Bits flipped, bytes overwritten, pieces cut out, doubled or moved, the end cut off; the head more often than the
-// rest, since there the sizes and the tables are.
+// Bits flipped, bytes overwritten, pieces removed, doubled or moved, the end cut off; more often in the head of the
+// file, which holds sizes and tables.
 std::string damaged(std::string bytes, std::mt19937& random) {
   const auto place = [&random](std::size_t size) {
     const std::size_t reach = random() % 2 == 0 ? std::min<std::size_t>(size, 1024) : size;
@@ -62,7 +62,7 @@ std::string damaged(std::string bytes, std::mt19937& random) {
   return bytes;
 }
 
-// How the process ended that played `film`: its exit status, and what it took at most.
+// Exit status of the process that played `film`, and its peak memory.
 struct End {
   int status = 0;
   rusage used{};
@@ -72,7 +72,7 @@ End playApart(const std::string& film) {
   if (child == 0) {
     const rlimit cpu{.rlim_cur = kMostCpuS, .rlim_max = kMostCpuS};
     ::setrlimit(RLIMIT_CPU, &cpu);
-    ::alarm(100);  // of a wait for ever
+    ::alarm(100);  // limits a hang
     PlayerBench bench;
     bench.make_source = makeFfmpegSource;
     bench.make_decoder = makeFfmpegDecoder;
@@ -80,7 +80,7 @@ End playApart(const std::string& film) {
     bench.config.duration = std::chrono::seconds(3);
     bench.press(0.5, 106);  // right: a seek
     const auto played = bench.run();
-    ::_exit(played ? kPlayed : kRefused);  // not 1: that is a sanitizer's
+    ::_exit(played ? kPlayed : kRefused);  // not 1, which a sanitizer uses
   }
   End end;
   ::wait4(child, &end.status, 0, &end.used);
@@ -114,7 +114,7 @@ TEST_P(HostileFiles, PlayOrFailCleanly) {
     }
     played += code == kPlayed ? 1 : 0;
   }
-  // Neither all nor none: else the damage is too little or too much to say anything.
+  // If all or none of the films played, the damage would be too little or too much to test anything.
   EXPECT_GT(played, kFilesOfAKind / 10);
   EXPECT_LT(played, kFilesOfAKind);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the paper claims of its method, on depth films whose true surface is known: relievo-lab trace as a user runs it.
+// The paper's claims about its method, on depth films with a known surface, through relievo-lab trace.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -76,7 +76,7 @@ class LabTrace : public testing::Test {
               "t_s,hip_x_mm,hip_y_mm,hip_z_mm,proxy_x_mm,proxy_y_mm,proxy_z_mm,force_x_n,force_y_n,force_z_n,contact,"
               "update_ns");
     std::vector<Row> rows;
-    double all_updates_ns = 0;  // one alone may be shorter than a step of the clock
+    double all_updates_ns = 0;  // summed, because a single one may be shorter than the clock's resolution
     while (std::getline(file, line)) {
       Row r;
       int contact = 0;
@@ -96,7 +96,7 @@ class LabTrace : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
-// z = 20 + 0.3 x + 0.15 y. The finger comes in along the normal to 3 mm under it, then slides at 60 mm/s.
+// z = 20 + 0.3 x + 0.15 y. The finger comes in along the normal to 3 mm below the surface, then slides at 60 mm/s.
 TEST_F(LabTrace, TheForceOnATiltedPlaneIsStiffnessTimesTheDistanceAlongTheNormal) {
   makeFilm(720, 486, 30, 30, [](double x, double y, double) { return 20 + 0.3 * x + 0.15 * y; });
   const glm::dvec3 normal = glm::normalize(glm::dvec3(-0.3, -0.15, 1));
@@ -134,7 +134,7 @@ TEST_P(Rise, ModifiedProxyGraphKeepsContactWhereProxyGraphMissesIt) {
   const glm::dvec3 rest(3.1, -4.7, 20.3);
   const auto count = [&](const std::string& method) {
     int above = 0, touched = 0;
-    // The film's surface between its frames is the line between theirs.
+    // Between frames the film's surface is interpolated linearly.
     const auto between = [&](double t) {
       const double k = std::floor(t * kFps + 1e-9);
       const double w = t * kFps - k;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The manual's pages and the completion tell what the programs take, all of it and nothing else.
+// The manual pages and completions list all options of the programs and nothing else.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ std::string outputOf(const std::string& command) {
   return text;
 }
 
-// What bash would offer behind these words, the last of them unfinished.
+// What bash offers to complete for these words, the last of them unfinished.
 Words offered(const std::string& words) {
   const std::string program = words.substr(0, words.find(' '));
   std::string function = "_" + program;
@@ -57,7 +57,7 @@ class Manual : public testing::TestWithParam<const char*> {
     if (list == std::string::npos) return {};
     return found(help.substr(list, help.find("\n\n", list + 14) - list), std::regex("\n  ([a-z-]+)"));
   }
-  // A command and all below it.
+  // A command and all its subcommands.
   void walk(const std::string& command, const std::function<void(const std::string&)>& visit) const {
     visit(command);
     for (const std::string& below : commandsIn(helpOf(command))) walk(command + " " + below, visit);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the three programs have in common on their command lines.
+// Behaviour of the command line that the three programs share.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ TEST_P(Programs, NameTheWordThatTheyDoNotKnow) {
   EXPECT_EQ(said.exit_code, 2);
   EXPECT_EQ(std::count(said.err.begin(), said.err.end(), '\n'), 1) << said.err;
   EXPECT_TRUE(said.err.starts_with(std::string(GetParam()) + ": ")) << said.err;
-  if (std::string(GetParam()) != "relievo-author") {  // which has no commands: it misses an option first
+  if (std::string(GetParam()) != "relievo-author") {  // has no commands: a missing option is reported first
     EXPECT_THAT(said.err, HasSubstr(": foo: unknown command; use one of "));
   }
 }
@@ -51,7 +51,7 @@ TEST_P(Programs, HelpIsOnStdoutAndNamesTheVersionsOption) {
   EXPECT_EQ(said.err, "");
 }
 
-// The version, printed into `file`; at most so many blocks of it.
+// Prints the version into `file`, which may hold at most `blocks` blocks.
 test::ProgramResult printInto(const std::string& program, const std::string& file, const std::string& blocks) {
   const std::string command =
       "ulimit -f " + blocks + "; exec " RELIEVO_BIN_DIR "/" + program + " --version 2>&1 >" + file;
