@@ -38,11 +38,10 @@ constexpr const char* kFooter =
     "  send a transport stream in real time; receive it with relievo play udp://@:5000\n"
     "    relievo-author --color street.mp4 --depth street-depth.mkv -o udp://192.168.1.20:5000\n"
     "\n"
-    "The film holds two tracks: colour (H.264 4:2:0) and depth (H.264 4:0:0 of 8 bits unless asked otherwise, full "
-    "range,\n"
-    "near is high), pictures keep their timestamps. The calibration is written to the tags, and into the stream "
-    "itself\n"
-    "if the container has no tags. At the end a table shows what was done to the depth.";
+    "The film has two tracks: colour (H.264 4:2:0) and depth (by default H.264 4:0:0 of 8 bits), full range, near "
+    "high.\n"
+    "Pictures keep their timestamps. The calibration is written to the container's tags and into the H.264 or HEVC\n"
+    "stream. At the end a table shows what was done to the depth.";
 
 void addSourceOptions(CLI::App& app, SourceOptions& source) {
   app.add_option("--color", source.url,

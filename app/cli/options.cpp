@@ -136,8 +136,8 @@ void addDepthOptions(CLI::App& app, SourceOptions& source) {
   addChoice(app, "--depth-code", source.depth_code,
             {{"auto", std::nullopt}, {"luma", DepthCode::Luma}, {"hue", DepthCode::Hue}},
             "How depth is coded\n"
-            "auto: hue if half of the picture is pure colour, else luma; luma: as brightness; hue: as colour, red "
-            "near, round to red far");
+            "auto: hue if half of the picture is pure colour, else luma; luma: as brightness; hue: from red (near) "
+            "through the colours back to red (far)");
   app.add_option_function<std::vector<std::string>>(
          "--calibration",
          [&source](const std::vector<std::string>& given) {

@@ -133,7 +133,7 @@ int runIntoFolder(MeasureOptions options, Work&& work, const std::string& files)
   return kExitDone;
 }
 
-// "smoothness.svg, smoothness-hand.svg; their figures beside them as CSV"
+// "smoothness.svg, smoothness-hand.svg; data in .csv files of the same names"
 std::string chartFiles(const Measurement& measurement) {
   std::string words;
   for (const char* chart : measurement.charts) words += (words.empty() ? "" : ", ") + std::string(chart) + ".svg";
@@ -152,8 +152,8 @@ int parseAndRun(int argc, char** argv) {
       "proxy. A name such as `relievo hold` is a method with one part replaced.\n");
   app.require_subcommand(1);
   TraceOptions trace;
-  CLI::App* const trace_command =
-      app.add_subcommand("trace", "a finger's path through a depth film, tick by tick, on virtual time");
+  CLI::App* const trace_command = app.add_subcommand(
+      "trace", "runs one method along a finger's path through a depth film, tick by tick, on virtual time");
   addTrace(*trace_command, trace);
   MeasureOptions options;
   std::vector<std::pair<const CLI::App*, const Measurement*>> commands;

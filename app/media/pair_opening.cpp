@@ -42,8 +42,10 @@ Result<void> PairReader::Impl::openReader() {
 Result<void> PairReader::Impl::openFilm() {
   const bool two_sources = !options.depth_url.empty();
   if (two_sources && options.packing != Packing::Auto && options.packing != Packing::Tracks) {
-    return failOn(options.depth_url, {ErrorCode::InvalidArgument, 0,
-                                      "depth cannot be packed into the picture and come from a second source as well"});
+    return failOn(options.depth_url,
+                  {ErrorCode::InvalidArgument, 0,
+                   "depth cannot be packed into the picture and come from a second source as well; leave out "
+                   "--packing or --depth"});
   }
   if (auto opened = openReader(); !opened) return opened;
   const MediaSource& source = color_reader->source();

@@ -161,7 +161,8 @@ class Bust {
   }
 
   [[nodiscard]] static Vec3<T> smiling(const Vec3<T>& m) {
-    return {m.x, m.y - m.x * m.x * T(0.031), m.z + m.x * m.x * T(0.032)};  // corners up, and around the jaw
+    return {m.x, m.y - m.x * m.x * T(0.031),
+            m.z + m.x * m.x * T(0.032)};  // corners of the mouth raised and bent around the jaw
   }
   [[nodiscard]] static T upperLip(const Vec3<T>& s) {
     return lanes::ellipsoid(s, at(2.6, -17.2, 22.2), {4.7, 1.8, 2.3});

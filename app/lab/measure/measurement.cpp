@@ -24,18 +24,20 @@ constexpr std::array kEnhanceCharts{"enhance", "enhance-points"};
 constexpr std::array kBitrateCharts{"bitrate"};
 
 constexpr std::array kMeasurements{
-    Measurement{"speed-accuracy", "what a tick takes and how far the force is from the true one, by method and parts",
+    Measurement{"speed-accuracy", "time of a tick against the error of the force, by method and parts",
                 kSpeedAccuracyCharts, measureSpeedAndAccuracy},
-    Measurement{"edges", "what smoothing costs at an edge, by width and kind of depth", kEdgesCharts, measureEdges},
-    Measurement{"smoothness", "the force's spectrum on a moving face, and what of it is the frame rate",
+    Measurement{"edges", "error of the felt surface at edges, by smoothing width and kind of depth", kEdgesCharts,
+                measureEdges},
+    Measurement{"smoothness", "spectrum of the force on a moving face, and its peak at the frame rate",
                 kSmoothnessCharts, measureSmoothness},
-    Measurement{"stability", "every method where methods fail, and where closed loops begin to swing", kStabilityCharts,
-                measureStability},
-    Measurement{"detail", "what a level of detail of the drawn relief costs, and how far picture and touch are off",
+    Measurement{"stability",
+                "every method in scenarios where methods fail, and the stiffness at which closed loops oscillate",
+                kStabilityCharts, measureStability},
+    Measurement{"detail", "cost of the drawn relief by level of detail, against the errors of picture and touch",
                 kDetailCharts, measureDetail},
-    Measurement{"enhance", "what enhancement of a camera's depth does for force and edges, and what a mesh takes",
+    Measurement{"enhance", "effect of depth enhancement on force and edges, and the points that a mesh needs",
                 kEnhanceCharts, measureEnhancement},
-    Measurement{"bitrate", "what the depth's codec, bits and quality cost, and how far the force is off with them",
+    Measurement{"bitrate", "bit rate of the depth by codec, bits and quality, against the error of the force",
                 kBitrateCharts, measureBitrate},
 };
 
