@@ -6,17 +6,13 @@
 #include <utility>
 
 #include "app/player/control/player_control.h"
-#include "app/player/screen/stereo_word.h"
-#include "platform/log.h"
 
 namespace relievo {
 namespace {
 
-constexpr std::size_t kQueuedPairs = 4;                          // beyond those that the playhead holds
 constexpr Duration kLongestWait = std::chrono::milliseconds(5);  // a key is heard after this at most
 constexpr Duration kIdleWait = std::chrono::milliseconds(20);    // without a film
 constexpr Duration kReaderWait = std::chrono::milliseconds(2);   // while the picture waits for the reader
-constexpr std::size_t kMostStates = 10'000;                      // of a film that loops for months
 
 PairReader::Backends backendsOf(const PlayerParts& parts, bool own_threads) {
   PairReader::Backends backends = parts.backends;
@@ -25,9 +21,14 @@ PairReader::Backends backendsOf(const PlayerParts& parts, bool own_threads) {
   return backends;
 }
 
-LiveLatency::Times times(const Histogram& histogram) {
-  const auto ms = [](Duration d) { return 1e3 * toSeconds(d); };
-  return {ms(histogram.quantile(0.5)), ms(histogram.quantile(0.99)), ms(histogram.max())};
+// The last part of a path or an address, without what follows a question mark.
+std::string titleOf(const std::string& url) {
+  const std::string path = url.substr(0, url.find('?'));
+  const std::size_t end = path.find_last_not_of('/');
+  if (end == std::string::npos) return url;
+  const std::size_t slash = path.rfind('/', end);
+  const std::size_t begin = slash == std::string::npos ? 0 : slash + 1;
+  return path.substr(begin, end + 1 - begin);
 }
 
 }  // namespace
@@ -35,63 +36,60 @@ LiveLatency::Times times(const Histogram& histogram) {
 Player::Player(PlayerConfig config, PlayerParts parts)
     : config_(std::move(config)),
       parts_(std::move(parts)),
-      feed_(backendsOf(parts_, config_.own_threads), kQueuedPairs),
-      picture_(parts_.display, config_.display, config_.stereo),
-      haptic_(parts_.haptic, parts_.clock, config_.own_threads ? Ticking::Thread : Ticking::ByHand),
-      sound_(parts_.audio, parts_.clock),
+      journal_(parts_.clock,
+               [this](const FaultEntry& fault, MonotonicTime when, bool fresh) {
+                 if (parts_.control != nullptr) parts_.control->happened(fault);
+                 if (fresh) screen_.tell(fault.what, when);
+               }),
+      programme_(config_.resume_path, config_.loop),
+      film_(backendsOf(parts_, config_.own_threads), parts_.audio, parts_.clock, journal_),
+      touch_(parts_.haptic, parts_.recorder, parts_.clock, config_.own_threads ? Ticking::Thread : Ticking::ByHand,
+             journal_),
+      screen_(parts_.display, config_.display, config_.stereo, parts_.clock, journal_),
       keys_(config_.keys) {
-  report_.states.push_back(state_);
-  if (!config_.resume_path.empty()) resume_.emplace(config_.resume_path);
+  journal_.stateChanged(state_);
 }
 
 Player::~Player() {
-  haptic_.stop();
+  touch_.stop();
 }
 
 bool Player::apply(PlayerEvent event) {
   const auto next = nextState(state_, event);
   if (!next) return false;
-  const bool changed = *next != state_;
-  if (changed && report_.states.size() < kMostStates) report_.states.push_back(*next);
-  state_ = *next;
-  if (changed && parts_.control != nullptr) {
-    parts_.control->stateChanged(state_, toSeconds(parts_.clock.now() - started_));
-  }
+  if (std::exchange(state_, *next) == *next) return true;
+  journal_.stateChanged(state_);
+  if (parts_.control != nullptr) parts_.control->stateChanged(state_, journal_.sinceBegin(parts_.clock.now()));
   return true;
 }
 
-void Player::note(const std::string& what, const std::string& done, std::optional<MonotonicTime> when) {
-  const MonotonicTime time = when.value_or(parts_.clock.now());
-  if (parts_.control != nullptr) parts_.control->happened({toSeconds(time - started_), what, done});
-  if (report_.addFault(toSeconds(time - started_), what, done)) {
-    log(LogLevel::Warning, "play", "%s; %s", what.c_str(), done.c_str());
-    text_.tell(what, time);
-  }
-}
-
-void Player::fail(std::string thing, const Error& error) {
+void Player::failFilm(const std::string& thing, const Error& error) {
   if (!apply(PlayerEvent::Fail)) return;
-  closeSegment(parts_.clock.now());
-  const double time_s = toSeconds(parts_.clock.now() - started_);
-  report_.addFault(time_s, thing + ": " + error.message, "stopped");
-  if (parts_.control != nullptr) parts_.control->happened({time_s, thing + ": " + error.message, "stopped"});
-  failure_ = Failure{std::move(thing), error};
+  film_.countPlayed(parts_.clock.now());
+  journal_.noteStop(thing + ": " + error.message);
+  failure_ = Failure{thing, error};
 }
 
 void Player::failDisplay(const Error& error) {
-  hopeless_ = true;
-  fail(std::string("display ") + picture_.capabilities().name, error);
+  display_failed_ = true;
+  failFilm(std::string("display ") + screen_.capabilities().name, error);
+}
+
+// What cannot be drawn is the film's fault, not the display's.
+void Player::failDrawing(const Error& error) {
+  if (error.code == ErrorCode::Unsupported) failFilm(programme_.film().url, error);
+  else failDisplay(error);
 }
 
 Outcome<void> Player::run(const std::atomic<bool>& stop) {
-  started_ = parts_.clock.now();
+  journal_.begin();
   boot();
   while (alive()) {
     const MonotonicTime now = parts_.clock.now();
-    const bool time_is_up = config_.duration && now - started_ >= *config_.duration;
+    const bool time_is_up = config_.duration && now - journal_.began() >= *config_.duration;
     if (time_is_up || stop.load(std::memory_order_relaxed)) break;
     step(now);
-    if (alive()) haptic_.sleepUntil(nextWake(parts_.clock.now()));
+    if (alive()) touch_.sleepUntil(nextWake(parts_.clock.now()));
   }
   finish(parts_.clock.now());
   if (failure_) return std::unexpected(*failure_);
@@ -104,42 +102,35 @@ bool Player::alive() const noexcept {
 }
 
 void Player::boot() {
-  auto opened = picture_.open();
-  if (!opened && opened.error().code == ErrorCode::NotFound) {
-    note(std::string("display: ") + opened.error().message, "film and touch go on without it");
-  } else if (!opened) {
-    return failDisplay(opened.error());
-  }
+  if (auto opened = screen_.open(); !opened) return failDisplay(opened.error());
   if (parts_.remote != nullptr) {
     if (auto heard = parts_.remote->open(); !heard) {
-      note(std::string("remote: ") + heard.error().message, "the film plays without one");
+      journal_.note(std::string("remote: ") + heard.error().message, "the film plays without one");
       parts_.remote = nullptr;
     }
   }
-  sound_.open();
-  config_.source.sound = sound_.format();
-  haptic_.begin();
+  film_.begin();
+  touch_.begin();
   apply(PlayerEvent::Ready);
   if (parts_.control != nullptr) parts_.control->ready();
-  if (config_.own_threads) feed_.startThread();
-  if (!config_.source.url.empty()) openList(config_.source.url, config_.source.depth_url, started_);
+  if (!config_.source.url.empty()) openList(config_.source.url, config_.source.depth_url, journal_.began());
 }
 
 void Player::step(MonotonicTime now) {
-  if (!config_.own_threads) {
-    while (feed_.work()) {
-    }
+  film_.read();
+  if (const auto attended = screen_.attend(now); !attended) {
+    if (attended.error().code == ErrorCode::Cancelled) quitting_ = true;  // the viewer has closed the window
+    else failDisplay(attended.error());
   }
-  attendScreen(now);
   readRemote(now);
   followDevice();
-  followSource();
+  film_.noteNews();
   followReader(now);
   followClock(now);
-  followSound();
-  keepPosition(now);
-  drainTouch();
-  writeText(now);
+  film_.followSound(state_ == PlayerState::Playing);
+  programme_.keep(film_.placeToKeep(now), now);
+  touch_.drain(seeks_);
+  screen_.write(facts(), film_.nextPicture(now), now);
   followFault(now);
   if (parts_.control != nullptr) parts_.control->attend(*this, now);
 }
@@ -147,57 +138,102 @@ void Player::step(MonotonicTime now) {
 // Until the next picture, but so often that keys are heard.
 MonotonicTime Player::nextWake(MonotonicTime now) const {
   if (state_ == PlayerState::Idle) return now + kIdleWait;
-  if (state_ == PlayerState::Playing) return std::min(nextPicture(now), now + kLongestWait);
+  if (state_ == PlayerState::Playing) return std::min(film_.nextPicture(now), now + kLongestWait);
   return now + (state_ == PlayerState::Paused ? kLongestWait : kReaderWait);
 }
 
 void Player::finish(MonotonicTime now) {
-  haptic_.stop();  // zero force before anything else
-  sound_.close();
+  touch_.stop();  // zero force before anything else
+  film_.silence();
   if (parts_.control != nullptr) parts_.control->stopping();
-  drainTouch();
+  touch_.drain(seeks_);
   leaveFilm(now);
   if (state_ != PlayerState::Fault) apply(PlayerEvent::Stop);
   ended_ = parts_.clock.now();
-  feed_.stop();
-  picture_.close();
+  film_.stop();
+  screen_.close();
   if (parts_.remote != nullptr) parts_.remote->close();
 }
 
+void Player::readRemote(MonotonicTime now) {
+  while (parts_.remote != nullptr) {
+    const auto key = parts_.remote->poll(now);
+    if (!key) {
+      journal_.note(std::string("remote: ") + key.error().message, "the film goes on without one");
+      parts_.remote->close();
+      parts_.remote = nullptr;
+      return;
+    }
+    if (!*key) break;
+    if (const auto command = keys_.take(**key, state_)) obey(*command, now);
+  }
+  if (const auto command = keys_.held(now)) obey(*command, now);
+}
+
+void Player::obey(const PlayerCommand& command, MonotonicTime now) {
+  screen_.wake(now);
+  switch (command.verb) {
+    case PlayerVerb::Quit:
+      quitting_ = true;
+      return;
+    case PlayerVerb::Open:
+      return openList(command.word, "", now);
+    case PlayerVerb::Stop:
+      return stopFilm(now);
+    case PlayerVerb::Loop:
+      return programme_.setLoop(command.value == 0 ? !programme_.loops() : command.value > 0);
+    default:
+      break;
+  }
+  screen_.obey(command);
+  const Situation situation{.state = state_,
+                            .held = film_.held(),
+                            .rate = film_.rate(),
+                            .here = film_.goal(now),
+                            .length = film_.info().duration,
+                            .film = programme_.present(),
+                            .films = programme_.size(),
+                            .film_asked = programme_.asked()};
+  for (const Deed& deed : deedsFor(command, situation)) carryOut(deed, now);
+}
+
 PlayReport Player::report() const {
-  PlayReport report = report_;
-  report.wall_s = toSeconds(ended_.value_or(parts_.clock.now()) - started_);
-  if (film_open_) report.pairs += feed_.counters();
+  PlayReport report = journal_.written();
+  report.wall_s = journal_.sinceBegin(ended_.value_or(parts_.clock.now()));
   report.source = config_.source.url;
   report.depth_source = config_.source.depth_url;
-  report.volume = volume_;
-  report.media_s = toSeconds(played_);
-  report.display = picture_.capabilities().name;
-  report.stereo = stereoWord(picture_.stereo());
-  report.surface_width = picture_.width();
-  report.surface_height = picture_.height();
-  report.imported = picture_.statistics().imported;
-  report.triangles = picture_.statistics().triangles;
-  report.picture_error_px = picture_.statistics().error_px;
-  report.mesh_ms = picture_.statistics().mesh_ms;
-  report.draw_ms = picture_.statistics().frame_ms;
-  if (picture_latency_.count() > 0) report.live = {times(picture_latency_), times(touch_latency_)};
-  report.haptic = haptic_.summary();
-  report.sound = sound_.summary();
+  report.pairs = film_.pairs();
+  report.media_s = toSeconds(film_.played());
+  report.live = film_.live();
+  report.sound = film_.sound();
+  report.seeks = seeks_.entries();
+  report.volume = touch_.volume();
+  report.haptic = touch_.summary();
+  screen_.describe(report);
+  const auto msSinceBegin = [this](std::optional<MonotonicTime> time) {
+    return time ? std::optional(1e3 * journal_.sinceBegin(*time)) : std::nullopt;
+  };
+  report.first_frame_ms = msSinceBegin(screen_.firstShown());
+  report.first_touch_ms = msSinceBegin(touch_.firstTick());
   return report;
 }
 
-void Player::attendScreen(MonotonicTime now) {
-  const auto redraw = picture_.attend(now);
-  if (redraw) {
-    redraw_ = redraw_ || *redraw;
-  } else if (redraw.error().code == ErrorCode::Cancelled) {
-    quitting_ = true;  // the viewer has closed it
-  } else if (redraw.error().code == ErrorCode::Lost) {
-    noteLost();
-  } else {
-    failDisplay(redraw.error());
-  }
+ScreenFacts Player::facts() const {
+  const PlaylistEntry& film = programme_.film();
+  const MediaTime position = film_.place(parts_.clock.now()).value_or(film_.picture().color.pts);
+  return {.title = film.title.empty() ? titleOf(film.url) : film.title,
+          .position_s = toSeconds(position),
+          .duration_s = toSeconds(film_.info().duration),
+          .state = state_,
+          .held = film_.held(),
+          .rate = film_.rate(),
+          .loop = programme_.loops(),
+          .film = programme_.present() + 1,
+          .films = programme_.size(),
+          .stereo = screen_.stereo(),
+          .has_depth = film_.info().has_depth,
+          .haptic = touch_.device(),
+          .contact = screen_.contact()};
 }
 
 }  // namespace relievo

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "app/media/pair_reader.h"
+#include "app/player/film/live_times.h"
+#include "app/player/film/seek_times.h"
 #include "app/player/film/sound.h"
 #include "app/player/state_table.h"
 #include "app/player/touch/haptic_session.h"
@@ -22,22 +24,6 @@ struct FaultEntry {
   std::string what;
   std::string done;
   std::uint64_t count = 1;
-};
-
-// The first picture after a seek, and the depth frame that the first touch after it was on: the two sides agree when
-// they are equal. Nothing where there was none.
-struct SeekEntry {
-  double target_s = 0;
-  std::optional<double> picture_s;
-  std::optional<double> surface_s;
-  std::optional<double> picture_ms, surface_ms;  // from the wish to the picture, to the touch
-};
-
-// Of a live film: how long ago was taken what is seen and felt.
-struct LiveLatency {
-  struct Times {
-    double p50_ms = 0, p99_ms = 0, max_ms = 0;
-  } picture, touch;
 };
 
 struct PlayReport {

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Commands to deeds.
+#include "app/player/control/wishes.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace relievo {
+namespace {
+
+constexpr std::array kRates{0.125, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0};
+constexpr Duration kBeginning = std::chrono::seconds(3);  // so near to it "previous" means the film before
+
+using Deeds = std::vector<Deed>;
+
+// The next rate up (1) or down (-1) the ladder.
+double rateBeside(double rate, int step) noexcept {
+  const auto at = std::ranges::find(kRates, rate) - kRates.begin();
+  return kRates[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(at + step, 0, kRates.size() - 1))];
+}
+
+Deed seek(MediaTime target, bool by_viewer) {
+  return {.kind = Deed::Kind::Seek, .target = target, .by_viewer = by_viewer};
+}
+
+Deed open(std::size_t film, bool back = false) {
+  return {.kind = Deed::Kind::OpenFilm, .film = film, .back = back};
+}
+
+Deed note(const char* what, const char* done) {
+  return {.kind = Deed::Kind::Note, .what = what, .done = done};
+}
+
+// Into and out of key frames, the film is sought to where it is.
+Deeds changeRate(double rate, const Situation& s) {
+  if (rate == s.rate || !nextState(s.state, PlayerEvent::Rate)) return {};
+  if (rate > 1 && s.length <= Duration(0)) return {note("a live film cannot be wound forward", "it plays on")};
+  Deeds deeds{{.kind = Deed::Kind::Rate, .rate = rate}};
+  if (rate > 1 || s.rate > 1) deeds.push_back(seek(s.here, false));
+  return deeds;
+}
+
+// While a film is opened, read ahead or sought, the wish is heard, and holds from the next picture on.
+Deeds play(Situation s) {
+  if (s.state == PlayerState::Idle) return s.film_asked ? Deeds{open(s.film)} : Deeds{};
+  Deeds deeds{{.kind = Deed::Kind::GoOn}};
+  s.state = nextState(s.state, PlayerEvent::Play).value_or(s.state);
+  for (const Deed& deed : changeRate(1, s)) deeds.push_back(deed);
+  return deeds;
+}
+
+Deeds pause(const Situation& s) {
+  Deeds deeds = s.rate > 1 ? changeRate(1, s) : Deeds{};  // so that the picture that stands can be touched
+  deeds.push_back({.kind = Deed::Kind::Stand});
+  return deeds;
+}
+
+Deeds seekShare(double share, const Situation& s) {
+  if (s.length > Duration(0)) return {seek(mediaTime(share * toSeconds(s.length)), true)};
+  if (!nextState(s.state, PlayerEvent::Seek)) return {};
+  return {note("this film's length is not known", "there is no share of it to seek to")};
+}
+
+Deeds previous(const Situation& s) {
+  if (s.here < MediaTime(kBeginning) && s.film > 0) return {open(s.film - 1, true)};
+  return {seek(MediaTime{}, true)};
+}
+
+}  // namespace
+
+std::vector<Deed> deedsFor(const PlayerCommand& command, const Situation& s) {
+  switch (command.verb) {
+    case PlayerVerb::Play:
+      return play(s);
+    case PlayerVerb::Pause:
+      return pause(s);
+    case PlayerVerb::PlayPause:
+      return s.held || s.rate > 1 || s.state == PlayerState::Idle ? play(s) : pause(s);
+    case PlayerVerb::Step:
+      return s.rate > 1 ? pause(s) : Deeds{{.kind = Deed::Kind::StepOn}};
+    case PlayerVerb::Faster:
+      return changeRate(rateBeside(s.rate, 1), s);
+    case PlayerVerb::Slower:
+      return changeRate(rateBeside(s.rate, -1), s);
+    case PlayerVerb::SeekBy:
+      return {seek(s.here + fromSeconds(command.value), true)};
+    case PlayerVerb::SeekTo:
+      return {seek(mediaTime(command.value), true)};
+    case PlayerVerb::SeekShare:
+      return seekShare(command.value, s);
+    case PlayerVerb::Next:
+      return s.film + 1 < s.films ? Deeds{open(s.film + 1)} : Deeds{};
+    case PlayerVerb::Previous:
+      return previous(s);
+    default:
+      return {};
+  }
+}
+
+}  // namespace relievo

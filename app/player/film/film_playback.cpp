@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+// From the reader to the present picture, by the film's clock.
+#include "app/player/film/film_playback.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "platform/log.h"
+
+namespace relievo {
+namespace {
+
+constexpr std::size_t kQueuedPairs = 4;  // beyond those that the playhead holds
+constexpr Duration kUnknownPeriod = std::chrono::milliseconds(40);
+constexpr Duration kSoundFirst = std::chrono::milliseconds(300);  // that has to be there when the film begins
+constexpr double kRushStepS = 0.1;  // of the machine's time, between two pictures of a film that rushes by
+
+}  // namespace
+
+FilmPlayback::FilmPlayback(PairReader::Backends backends, AudioOutput* output, const Clock& clock, Journal& journal)
+    : clock_source_(clock),
+      journal_(journal),
+      own_threads_(backends.own_threads),
+      feed_(std::move(backends), kQueuedPairs),
+      sound_(output, clock) {}
+
+void FilmPlayback::begin() {
+  sound_.open();
+  if (own_threads_) feed_.startThread();
+}
+
+void FilmPlayback::read() {
+  while (!own_threads_ && feed_.work()) {
+  }
+}
+
+void FilmPlayback::open(SourceOptions source) {
+  url_ = source.url;
+  depth_url_ = source.depth_url;
+  source.sound = sound_.format();
+  feed_.open(std::move(source));
+}
+
+void FilmPlayback::close(MonotonicTime now) {
+  countPlayed(now);
+  pairs_before_ += feed_.counters();
+  feed_.close();
+  clock_.reset();
+  setRate(1, now);
+  head_ = {};
+  sound_.forget();
+  info_ = {};
+  held_ = begun_ = starved_ = false;
+  jumped_ = true;
+  target_.reset();
+  dry_since_.reset();
+}
+
+FilmPlayback::Opening FilmPlayback::opening() const {
+  switch (feed_.state()) {
+    case FilmFeed::State::Opening:
+      return Opening::Waits;
+    case FilmFeed::State::Listed:
+      return Opening::IsList;
+    case FilmFeed::State::Failed:
+      return Opening::Failed;
+    default:
+      return Opening::Opened;
+  }
+}
+
+const FilmInfo& FilmPlayback::opened() {
+  info_ = feed_.info();
+  for (const std::string& line : info_.reading) log(LogLevel::Info, "play", "%s", line.c_str());
+  for (const std::string& doubt : info_.doubts) log(LogLevel::Warning, "play", "%s", doubt.c_str());
+  if (info_.has_depth) log(LogLevel::Info, "play", "depth: %s", info_.calibration.explanation.c_str());
+  else journal_.note("no depth in this film", "it plays flat, without force");
+  if (info_.sound_refused != nullptr) {
+    journal_.note(std::string("sound: ") + info_.sound_refused, "the film plays without");
+  }
+  return info_;
+}
+
+Duration FilmPlayback::period() const noexcept {
+  return info_.frame_period > Duration(0) ? info_.frame_period : kUnknownPeriod;
+}
+
+FilmPlayback::Progress FilmPlayback::overOrFailed() const {
+  return feed_.state() == FilmFeed::State::Failed ? Progress::Failed : Progress::Over;
+}
+
+FilmPlayback::Progress FilmPlayback::filling() {
+  head_.refill(feed_);
+  if (!head_.filled() && !head_.last()) return Progress::Goes;
+  if (head_.ahead().empty()) return overOrFailed();
+  const bool sounds = rate_ != 1 || feed_.hasSoundUntil(head_.ahead().front().color.pts + kSoundFirst);
+  return sounds ? Progress::Ready : Progress::Goes;
+}
+
+bool FilmPlayback::takeFirst() {
+  head_.begin();
+  return !std::exchange(begun_, true);
+}
+
+Result<void> FilmPlayback::start(MonotonicTime now) {
+  const MediaTime first = picture().color.pts;
+  starved_ = false;
+  target_.reset();
+  clock_.reset();
+  clock_.start(first, now);
+  if (held_) return clock_.pause(now);
+  played_.begin(first);
+  return {};
+}
+
+std::size_t FilmPlayback::advance(MonotonicTime now) {
+  return head_.advance(clock_.position(now).value_or(MediaTime{}), feed_);
+}
+
+// A pair that is late by less than a period is shown late; after that the film waits for the reader. Counted from the
+// moment when it was missed, not from the picture: the reader is not to blame for a picture that took long to draw.
+FilmPlayback::Progress FilmPlayback::going(MonotonicTime now) {
+  if (!head_.ahead().empty()) {
+    dry_since_.reset();
+    return Progress::Goes;
+  }
+  if (head_.last()) {
+    const bool shown = clock_.position(now).value_or(MediaTime{}) >= picture().color.pts + period();
+    return shown ? overOrFailed() : Progress::Goes;
+  }
+  if (!dry_since_) dry_since_ = now;
+  if (now < *dry_since_ + 2 * period()) return Progress::Goes;
+  dry_since_.reset();
+  starved_ = true;
+  countPlayed(now);
+  return Progress::Starved;
+}
+
+void FilmPlayback::seek(MediaTime target, MonotonicTime now) {
+  countPlayed(now);
+  clock_.reset();
+  head_.clear();
+  sound_.forget();
+  target_ = target;
+  feed_.seek(target, rushes() ? fromSeconds(kRushStepS * rate_) : Duration(0));
+  jumped_ = true;
+}
+
+bool FilmPlayback::arriving(MonotonicTime now) {
+  if (feed_.state() == FilmFeed::State::Seeking) return false;
+  if (const auto refused = feed_.takeSeekError()) {
+    journal_.note(std::string("seek: ") + refused->message, "the film goes on from where it stands");
+    setRate(1, now);
+  }
+  return true;
+}
+
+Result<void> FilmPlayback::pause(MonotonicTime now) {
+  held_ = true;
+  countPlayed(now);
+  return clock_.pause(now);
+}
+
+Result<void> FilmPlayback::resume(MonotonicTime now) {
+  held_ = false;
+  auto resumed = clock_.resume(now);
+  if (const auto here = clock_.position(now)) played_.begin(*here);
+  return resumed;
+}
+
+bool FilmPlayback::stepOn(MonotonicTime now) {
+  head_.refill(feed_);
+  if (head_.ahead().empty()) return false;
+  head_.begin();
+  clock_.start(picture().color.pts, now);  // it stands there
+  return true;
+}
+
+void FilmPlayback::setRate(double rate, MonotonicTime now) {
+  rate_ = rate;
+  static_cast<void>(clock_.setRate(rate, now));  // none of the ladder is refused
+}
+
+void FilmPlayback::countPlayed(MonotonicTime now) {
+  const auto here = clock_.position(now);
+  played_.end(here ? std::optional(std::min(*here, picture().color.pts + period())) : std::nullopt);
+}
+
+void FilmPlayback::followSound(bool playing) {
+  sound_.follow(playing && rate_ == 1, clock_, feed_);
+  if (const auto news = sound_.takeNews()) journal_.note(news->what, news->done);
+}
+
+// The surface under the finger is that of the clock's time, between this picture and the next.
+void FilmPlayback::noteShown() {
+  sound_.noteShown(picture().color.pts, clock_);
+  if (!picture().taken) return;
+  const MonotonicTime now = clock_source_.now();
+  const Duration since_shown = clock_.position(now).value_or(picture().color.pts) - picture().color.pts;
+  live_.add(now - *picture().taken, now - (*picture().taken + since_shown));
+}
+
+DepthAround FilmPlayback::depth() const {
+  DepthAround around;
+  if (!rushes()) around.present = picture().depth;
+  around.expected = !rushes() && info_.has_depth;
+  around.ahead_count = std::min(head_.ahead().size(), around.ahead.size());
+  for (std::size_t i = 0; i < around.ahead_count; ++i) around.ahead[i] = head_.ahead()[i].depth;
+  around.last = head_.last() && around.ahead_count == head_.ahead().size();
+  return around;
+}
+
+MonotonicTime FilmPlayback::nextPicture(MonotonicTime now) const {
+  const auto sample = clock_.sample();
+  if (!sample || sample->rate <= 0) return MonotonicTime::max();
+  if (head_.ahead().empty()) return now + period();
+  return sample->when(head_.ahead().front().color.pts);
+}
+
+// While the picture stands for want of the next one, the clock goes on: what is felt fades by it.
+std::optional<MediaTime> FilmPlayback::place(MonotonicTime now) const {
+  const auto position = clock_.position(now);
+  return position && starved_ ? picture().color.pts : position;
+}
+
+MediaTime FilmPlayback::goal(MonotonicTime now) const {
+  return target_ ? *target_ : place(now).value_or(MediaTime{});
+}
+
+std::optional<MediaTime> FilmPlayback::placeToKeep(MonotonicTime now) const {
+  return target_ || info_.duration <= Duration(0) ? std::nullopt : place(now);
+}
+
+PairCounters FilmPlayback::pairs() const {
+  PairCounters pairs = pairs_before_;
+  if (isOpen()) pairs += feed_.counters();
+  return pairs;
+}
+
+}  // namespace relievo

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// Forward, back, past what cannot be played, and round again.
+#include "app/player/film/programme.h"
+
+#include <algorithm>
+
+namespace relievo {
+
+Programme::Programme(const std::string& resume_path, bool loop) : loop_(loop) {
+  if (!resume_path.empty()) resume_.emplace(resume_path);
+}
+
+void Programme::begin(const PlaylistEntry& film) {
+  films_ = {film};
+  present_ = 0;
+  lists_ = 0;
+  seen_one_ = false;
+  asked_ = true;
+}
+
+Result<std::size_t> Programme::spread(const std::vector<PlaylistEntry>& films) {
+  if (++lists_ > kMostLists) {
+    return fail(ErrorCode::Unsupported, "lists within lists without an end; one of them names itself");
+  }
+  const auto at = films_.erase(films_.begin() + static_cast<std::ptrdiff_t>(present_));
+  films_.insert(at, films.begin(), films.end());
+  const auto last = resume_ && lists_ == 1 ? resume_->last() : std::nullopt;
+  if (!last) return present_;
+  const auto is_last = [&](const PlaylistEntry& entry) { return Resume::keyOf(entry.url) == *last; };
+  const auto seen = std::ranges::find_if(films_, is_last);
+  return seen == films_.end() ? present_ : static_cast<std::size_t>(seen - films_.begin());
+}
+
+void Programme::choose(std::size_t film, Way way) noexcept {
+  present_ = film;
+  way_ = way;
+}
+
+std::optional<std::size_t> Programme::afterEnd() const noexcept {
+  if (present_ + 1 < films_.size()) return present_ + 1;
+  return loop_ ? std::optional<std::size_t>(0) : std::nullopt;
+}
+
+std::optional<std::size_t> Programme::afterFault() const noexcept {
+  if (way_ == Way::Back && present_ > 0) return present_ - 1;
+  if (present_ + 1 < films_.size()) return present_ + 1;
+  return loop_ && seen_one_ ? std::optional<std::size_t>(0) : std::nullopt;
+}
+
+Programme::Way Programme::passOver(std::size_t other) noexcept {
+  if (other == 0) seen_one_ = false;
+  return way_ == Way::Back && other < present_ ? Way::Back : Way::Forward;
+}
+
+std::optional<MediaTime> Programme::whereLeft(Duration length) const {
+  if (!resume_ || length <= Duration(0)) return std::nullopt;
+  const auto left = resume_->find(film().url);
+  return left && left->time_since_epoch() < length ? left : std::nullopt;
+}
+
+void Programme::keep(std::optional<MediaTime> place, MonotonicTime now) {
+  if (now >= keep_due_) keepAtOnce(place, now);
+}
+
+void Programme::keepAtOnce(std::optional<MediaTime> place, MonotonicTime now) {
+  if (!resume_ || !place) return;
+  keep_due_ = now + kKeepPeriod;
+  resume_->keep(film().url, *place);
+}
+
+void Programme::forgetPlace() {
+  if (resume_) resume_->forget(film().url);
+}
+
+}  // namespace relievo

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// From the key to the picture, from the picture to the touch.
+#include "app/player/film/seek_times.h"
+
+namespace relievo {
+
+void SeekTimes::asked(MediaTime target, bool by_viewer, MonotonicTime now) {
+  waits_ = by_viewer ? Waits::Picture : Waits::Nothing;
+  asked_ = now;
+  if (by_viewer) entries_.push_back({toSeconds(target), {}, {}, {}, {}});
+}
+
+void SeekTimes::shown(MediaTime picture, MonotonicTime now, MonotonicTime touch_from) {
+  if (waits_ != Waits::Picture) return;
+  entries_.back().picture_s = toSeconds(picture);
+  entries_.back().picture_ms = 1e3 * toSeconds(now - asked_);
+  touch_from_ = touch_from;
+  waits_ = Waits::Touch;
+}
+
+void SeekTimes::felt(MonotonicTime tick, std::optional<MediaTime> frame) {
+  if (!waitsForTouch(tick)) return;
+  if (frame) entries_.back().surface_s = toSeconds(*frame);
+  entries_.back().surface_ms = 1e3 * toSeconds(tick - asked_);
+  waits_ = Waits::Nothing;
+}
+
+}  // namespace relievo

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// What goes into the report, and who hears of it at once.
+#include "app/player/journal.h"
+
+#include "platform/log.h"
+
+namespace relievo {
+namespace {
+
+constexpr std::size_t kMostStates = 10'000;  // enough for a look at a film that loops for months
+
+}  // namespace
+
+void Journal::stateChanged(PlayerState state) {
+  if (report_.states.size() < kMostStates) report_.states.push_back(state);
+}
+
+void Journal::note(const std::string& what, const std::string& done, std::optional<MonotonicTime> when) {
+  const MonotonicTime time = when.value_or(clock_.now());
+  const bool fresh = report_.addFault(sinceBegin(time), what, done);
+  if (fresh) log(LogLevel::Warning, "play", "%s; %s", what.c_str(), done.c_str());
+  if (listener_) listener_({sinceBegin(time), what, done}, time, fresh);
+}
+
+void Journal::noteStop(const std::string& what) {
+  const MonotonicTime now = clock_.now();
+  report_.addFault(sinceBegin(now), what, "stopped");
+  if (listener_) listener_({sinceBegin(now), what, "stopped"}, now, false);
+}
+
+void Journal::noteQuietly(const std::string& what, const std::string& done) {
+  report_.addFault(sinceBegin(clock_.now()), what, done);
+}
+
+}  // namespace relievo

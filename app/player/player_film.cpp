@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the player does within a film: carries the viewer's wishes out, waits for the reader, and follows the clock.
+#include <algorithm>
+
+#include "app/player/player.h"
+#include "platform/log.h"
+
+namespace relievo {
+
+void Player::carryOut(const Deed& deed, MonotonicTime now) {
+  switch (deed.kind) {
+    case Deed::Kind::GoOn:
+      return goOn(now);
+    case Deed::Kind::Stand:
+      return stand(now);
+    case Deed::Kind::StepOn:
+      return stepOn(now);
+    case Deed::Kind::Rate:
+      if (apply(PlayerEvent::Rate)) film_.setRate(deed.rate, now);
+      return;
+    case Deed::Kind::Seek:
+      return seek(deed.target, PlayerEvent::Seek, deed.by_viewer, now);
+    case Deed::Kind::OpenFilm:
+      return openFilm(deed.film, deed.back ? Programme::Way::Back : Programme::Way::Forward, now);
+    case Deed::Kind::Note:
+      return journal_.note(deed.what, deed.done);
+  }
+}
+
+void Player::goOn(MonotonicTime now) {
+  if (!apply(PlayerEvent::Play)) return;
+  film_.wishHeld(false);
+  if (state_ != PlayerState::Playing) return;
+  if (auto resumed = film_.resume(now); !resumed) failFilm("the film's clock", resumed.error());
+}
+
+void Player::stand(MonotonicTime now) {
+  if (!apply(PlayerEvent::Pause)) return;
+  film_.wishHeld(true);
+  if (state_ != PlayerState::Paused) return;
+  if (auto paused = film_.pause(now); !paused) failFilm("the film's clock", paused.error());
+}
+
+void Player::stepOn(MonotonicTime now) {
+  if (!apply(PlayerEvent::Step)) return;
+  if (!film_.held()) {
+    if (auto paused = film_.pause(now); !paused) return failFilm("the film's clock", paused.error());
+  }
+  if (!film_.stepOn(now)) return;
+  feedTouch();
+  showPicture(now);
+}
+
+void Player::seek(MediaTime target, PlayerEvent why, bool by_viewer, MonotonicTime now) {
+  if (!apply(why)) return;
+  target = std::max(target, MediaTime{});
+  // As the picture stands until the new one comes, so does the surface: what is seen is what is felt.
+  if (const auto clock = film_.clock()) touch_.feed(film_.depth(), {clock->at(now), now, 0});
+  seeks_.asked(target, by_viewer, now);
+  film_.seek(target, now);
+}
+
+void Player::followReader(MonotonicTime now) {
+  if (state_ == PlayerState::Opening) followOpening(now);
+  if (state_ == PlayerState::Seeking && film_.arriving(now)) apply(PlayerEvent::Sought);
+  if (state_ == PlayerState::Buffering) followFilling(now);
+}
+
+void Player::followOpening(MonotonicTime now) {
+  switch (film_.opening()) {
+    case FilmPlayback::Opening::Waits:
+      return;
+    case FilmPlayback::Opening::Failed:
+      return failFilm();
+    case FilmPlayback::Opening::IsList: {
+      const auto first = programme_.spread(film_.listed());
+      if (!first) return failFilm(programme_.film().url, first.error());
+      journal_.filmIsList();
+      return openFilm(*first, programme_.way(), now);
+    }
+    case FilmPlayback::Opening::Opened:
+      break;
+  }
+  apply(PlayerEvent::Opened);
+  failure_.reset();
+  programme_.opened();
+  journal_.filmOpened(film_.opened());
+  const auto left = programme_.whereLeft(film_.info().duration);
+  if (!left) return;
+  log(LogLevel::Info, "play", "goes on where it was left, at %.1f s", toSeconds(*left));
+  seek(*left, PlayerEvent::Seek, false, now);
+}
+
+void Player::followFilling(MonotonicTime now) {
+  switch (film_.filling()) {
+    case FilmPlayback::Progress::Ready:
+      return begin(now);
+    case FilmPlayback::Progress::Failed:
+      return failFilm();
+    case FilmPlayback::Progress::Over:
+      return endFilm(now);
+    default:
+      return;
+  }
+}
+
+// The first pair after a start, a seek or an underrun is on the screen before its clock starts: whatever the first
+// drawing takes, nothing is late by it.
+void Player::begin(MonotonicTime now) {
+  if (film_.takeFirst()) {
+    const Frame& shape = film_.picture().depth.empty() ? film_.picture().color : film_.picture().depth;
+    const DisplayVolume volume =
+        config_.volume.value_or(DisplayVolume::forPicture(shape.width, shape.height, shape.sample_aspect));
+    const DepthCalibration& calibration = film_.info().calibration.calibration;
+    touch_.setScene(calibration, volume);
+    screen_.setScene(calibration, volume, film_.period(), now);
+  }
+  if (film_.takeJump()) touch_.beginEpoch();
+  const MediaTime first = film_.picture().color.pts;
+  showPicture(now);
+  if (state_ == PlayerState::Fault) return;
+  if (touch_.waiting()) {  // at a stand, so that the force fades in on something that is there
+    touch_.feed(film_.depth(), {first, parts_.clock.now(), 0});
+    touch_.start();
+  }
+
+  now = parts_.clock.now();
+  if (auto started = film_.start(now); !started) return failFilm("the film's clock", started.error());
+  apply(film_.held() ? PlayerEvent::FilledHeld : PlayerEvent::Filled);
+  feedTouch();
+  seeks_.shown(first, now, parts_.clock.now());
+}
+
+void Player::followClock(MonotonicTime now) {
+  if (state_ != PlayerState::Playing && state_ != PlayerState::Paused) return;
+  const std::size_t pictures = film_.advance(now);
+  feedTouch();
+  if (pictures > 0) {
+    screen_.skip(pictures - 1);
+    showPicture(now);
+  } else if (auto drawn = screen_.redraw(touch_.mark(), film_.nextPicture(now), now); !drawn) {
+    failDrawing(drawn.error());
+  }
+  if (state_ != PlayerState::Playing) return;
+  switch (film_.going(now)) {
+    case FilmPlayback::Progress::Starved:
+      apply(PlayerEvent::Starved);
+      return journal_.note("the film came too slowly, or this machine is too slow for it",
+                           "the picture stands until it is read ahead again");
+    case FilmPlayback::Progress::Failed:
+      return failFilm();
+    case FilmPlayback::Progress::Over:
+      return endFilm(now);
+    default:
+      return;
+  }
+}
+
+// A device may come, or come back, at any time.
+void Player::followDevice() {
+  const bool waits = touch_.followDevice();
+  if (!waits || (state_ != PlayerState::Playing && state_ != PlayerState::Paused)) return;
+  feedTouch();
+  touch_.start();
+}
+
+void Player::showPicture(MonotonicTime now) {
+  const auto seen = screen_.show(film_.picture(), touch_.mark(), now);
+  if (!seen) failDrawing(seen.error());
+  else if (*seen) film_.noteShown();
+}
+
+void Player::feedTouch() {
+  if (const auto clock = film_.clock()) touch_.feed(film_.depth(), *clock);
+}
+
+}  // namespace relievo

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the player does from film to film: begins, leaves, ends, and passes over what cannot be played.
+#include <utility>
+
+#include "app/player/player.h"
+#include "platform/log.h"
+
+namespace relievo {
+
+void Player::openList(const std::string& url, const std::string& depth_url, MonotonicTime now) {
+  if (!nextState(state_, PlayerEvent::Open)) return;
+  leaveFilm(now);
+  programme_.begin({.url = url, .depth_url = depth_url, .title = ""});
+  openFilm(0, Programme::Way::Forward, now);
+}
+
+void Player::openFilm(std::size_t film, Programme::Way way, MonotonicTime now) {
+  if (!apply(PlayerEvent::Open)) return;
+  leaveFilm(now);
+  programme_.choose(film, way);
+  const PlaylistEntry& entry = programme_.film();
+  journal_.filmAsked(entry.url);
+  if (entry.refused) {
+    return failFilm(entry.url, {ErrorCode::Unsupported, 0,
+                                "a list may not name this: http, https, rtsp, rtp, udp, tcp and, in a file, paths"});
+  }
+  SourceOptions source = config_.source;
+  source.url = entry.url;
+  source.depth_url = entry.depth_url;
+  film_.open(std::move(source));
+}
+
+// Force to zero first; then all that belongs to the film is forgotten.
+void Player::leaveFilm(MonotonicTime now) {
+  if (!film_.isOpen()) return;
+  touch_.rest();
+  programme_.keepAtOnce(film_.placeToKeep(now), now);
+  programme_.left(film_.begun());
+  seeks_.forget();
+  film_.close(now);
+}
+
+void Player::stopFilm(MonotonicTime now) {
+  if (!nextState(state_, PlayerEvent::Stop)) return;
+  leaveFilm(now);
+  apply(PlayerEvent::Stop);
+  if (!config_.stays) return;
+  if (auto cleared = screen_.clear(touch_.mark(), now); !cleared) failDrawing(cleared.error());
+}
+
+void Player::endFilm(MonotonicTime now) {
+  film_.countPlayed(now);
+  film_.noteMissing();
+  apply(PlayerEvent::EndOfFilm);
+  programme_.forgetPlace();
+  const auto next = programme_.afterEnd();
+  if (next == programme_.present()) return seek(MediaTime{}, PlayerEvent::Loop, false, now);
+  film_.forgetPlace();
+  if (next) return openFilm(*next, Programme::Way::Forward, now);
+  stopFilm(now);
+}
+
+// Another film of the list in the place of one that cannot go on. A list of which something was seen has not failed.
+void Player::followFault(MonotonicTime now) {
+  if (state_ != PlayerState::Fault || display_failed_) return;
+  const auto other = programme_.afterFault();
+  if (!other && !config_.stays && !programme_.seenOne()) return;  // it ends with that failure
+  const std::string what = failure_->thing + ": " + failure_->error.message;
+  log(LogLevel::Error, "play", "%s; %s", what.c_str(), other ? "another film is played" : "it is stopped");
+  screen_.tell(what, now);
+  if (other) return openFilm(*other, programme_.passOver(*other), now);
+  failure_.reset();
+  stopFilm(now);
+}
+
+}  // namespace relievo

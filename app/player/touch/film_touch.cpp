@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Surface in, ticks and faults out.
+#include "app/player/touch/film_touch.h"
+
+#include <span>
+#include <utility>
+
+namespace relievo {
+namespace {
+
+const char* answerTo(HapticFault::Kind kind) noexcept {
+  switch (kind) {
+    case HapticFault::Kind::DeviceLost:
+      return "force zero; the film plays on, and the device is looked for";
+    case HapticFault::Kind::DeviceError:
+      return "the tick was left out";
+    case HapticFault::Kind::FeedStale:
+      return "force faded";
+    case HapticFault::Kind::FeedRecovered:
+      return "force faded in again";
+  }
+  return "";
+}
+
+}  // namespace
+
+void FilmTouch::rest() noexcept {
+  session_.rest();
+  surface_.beginEpoch();
+  missing_ = refused_ = false;
+}
+
+void FilmTouch::setScene(const DepthCalibration& calibration, const DisplayVolume& volume) noexcept {
+  volume_ = volume;
+  surface_.setScene(calibration, volume);
+}
+
+void FilmTouch::feed(const DepthAround& depth, const ClockSample& clock) {
+  const auto ahead = std::span(depth.ahead).first(depth.ahead_count);
+  const auto changed = surface_.update(depth.present, ahead, depth.last, clock);
+  if (!changed) {
+    if (!std::exchange(refused_, true)) {
+      journal_.note(std::string("depth: ") + changed.error().message, "it plays without force");
+    }
+    session_.publish(surface_);
+    return;
+  }
+  if (*changed) session_.publish(surface_);
+  const bool missing = depth.expected && depth.present.empty();
+  if (missing && !missing_) journal_.note("no depth at this time", "the picture is flat there, without force");
+  missing_ = missing;
+}
+
+bool FilmTouch::followDevice() {
+  using Kind = DeviceKeeper::News::Kind;
+  while (const auto news = session_.poll()) {
+    if (news->kind == Kind::Refused) {
+      journal_.note(std::string("haptic device: ") + news->error.message,
+                    "the film plays without force; it is looked for anew");
+    } else if (news->kind == Kind::Homing) {
+      journal_.note("haptic device: it does not know its zero; move the handle through its whole range",
+                    "no force until then");
+    } else if (was_lost_) {
+      journal_.note("haptic device back", "the force fades in");
+    }
+  }
+  return waiting();
+}
+
+void FilmTouch::start() {
+  if (auto started = session_.start(volume_, surface_); !started) {
+    journal_.note(std::string("haptic device: ") + started.error().message, "the film plays without force");
+    return;
+  }
+  if (recorder_ != nullptr) recorder_->setDevice(session_.capabilities());
+  // The real-time thread logs these itself.
+  for (const char* missing : {session_.missingMemory(), session_.missingScheduler()}) {
+    if (missing != nullptr) journal_.noteQuietly(std::string("haptic: ") + missing, "ticks may come late");
+  }
+}
+
+void FilmTouch::drain(SeekTimes& seeks) {
+  while (const auto tick = session_.nextTick()) {
+    if (recorder_ != nullptr) recorder_->add(*tick);
+    if (!first_tick_ && tick->device_present) first_tick_ = tick->time;
+    if (seeks.waitsForTouch(tick->time)) seeks.felt(tick->time, surface_.frameAt(tick->media_time));
+  }
+  session_.printLog();
+  while (const auto fault = session_.nextFault()) {
+    was_lost_ = was_lost_ || fault->kind == HapticFault::Kind::DeviceLost;
+    journal_.note(name(fault->kind), answerTo(fault->kind), fault->time);
+  }
+}
+
+std::optional<FingerMark> FilmTouch::mark() noexcept {
+  const FingerState* finger = session_.finger();
+  if (finger == nullptr) return std::nullopt;
+  return FingerMark{finger->proxy_mm, finger->force_n, finger->contact};
+}
+
+}  // namespace relievo
