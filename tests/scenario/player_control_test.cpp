@@ -201,6 +201,25 @@ TEST_F(PlayerAndPrograms, WithoutAFilmItWaitsForOne) {
   EXPECT_EQ(bench_.states(), "boot idle opening buffering playing idle");
 }
 
+TEST_F(PlayerAndPrograms, AStatusTellsNothingOfTheFilmBeforeWhileTheNextOneOpens) {
+  bench_.config.source.url = "list.m3u";
+  bench_.texts["list.m3u"] = "film\nother\n";
+  bench_.sources["other"] = PlayerBench::film(50);  // 2 s
+  at(1, "next");
+  at(1, "status");  // in the same round: the source has not been opened yet
+  at(2, "status");
+  play();
+  ASSERT_EQ(answers().size(), 3U);
+  const json opening = answers()[1], open = answers()[2];
+  EXPECT_EQ(opening["state"], "opening");
+  EXPECT_EQ(opening["source"], "other");
+  EXPECT_EQ(opening["position_s"], 0.0);
+  EXPECT_TRUE(opening["duration_s"].is_null()) << opening;
+  EXPECT_EQ(opening["has_depth"], false);
+  EXPECT_EQ(open["duration_s"], 2.0);
+  EXPECT_EQ(open["has_depth"], true);
+}
+
 TEST_F(PlayerAndPrograms, NonsenseIsAnsweredAndDoesNoHarm) {
   at(1, "dance");
   play({"", std::string(5000, 'x')});

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// The screen alone: when it draws, what it counts and what it notes, on a display that shows nothing.
+#include "app/player/screen/film_screen.h"
+
+#include <gtest/gtest.h>
+
+#include "drivers/mock/mock.h"
+#include "platform/log.h"
+
+namespace relievo {
+namespace {
+
+constexpr auto kMs = std::chrono::milliseconds(1);
+
+class FilmScreenTest : public testing::Test {
+ protected:
+  FilmScreenTest() { setLogLevel(LogLevel::Error); }
+  void make() {
+    profile_.refresh_period = Duration(0);
+    profile_.shown = [this] { ++presented_; };
+    display_ = makeMockDisplay(profile_, clock_, cable_);
+    screen_.emplace(*display_, DisplayConfig{}, StereoSettings{}, clock_, journal_);
+    ASSERT_TRUE(screen_->open());
+  }
+  bool show() { return screen_->show({}, std::nullopt, clock_.now()).value_or(false); }
+  // How many pictures are presented when it is asked to draw again, `later` than before.
+  int redraw(const std::optional<FingerMark>& finger, Duration later, MonotonicTime next = MonotonicTime::max()) {
+    clock_.sleepUntil(clock_.now() + later);
+    const int before = presented_;
+    EXPECT_TRUE(screen_->redraw(finger, next, clock_.now()));
+    return presented_ - before;
+  }
+  [[nodiscard]] PlayReport report() const {
+    PlayReport report;
+    screen_->describe(report);
+    return report;
+  }
+  [[nodiscard]] bool noted(const std::string& part) const {
+    for (const FaultEntry& fault : journal_.written().faults) {
+      if (fault.what.find(part) != std::string::npos) return true;
+    }
+    return false;
+  }
+
+  ManualClock clock_;
+  Journal journal_{clock_};
+  MockDisplayProfile profile_;
+  std::shared_ptr<MockDisplayBench> cable_ = std::make_shared<MockDisplayBench>();
+  std::unique_ptr<Display> display_;
+  std::optional<FilmScreen> screen_;
+  int presented_ = 0;
+};
+
+TEST_F(FilmScreenTest, CountsWhatWasSeenAndWhatWasNot) {
+  make();
+  EXPECT_EQ(screen_->firstShown(), std::nullopt);
+  clock_.sleepUntil(clock_.now() + 5 * kMs);
+  EXPECT_TRUE(show());
+  EXPECT_EQ(screen_->firstShown(), clock_.now());
+  cable_->unplugged = true;
+  EXPECT_FALSE(show());
+  EXPECT_TRUE(noted("display lost"));
+  cable_->unplugged = false;
+  clock_.sleepUntil(clock_.now() + 1100 * kMs);
+  EXPECT_TRUE(show());
+  EXPECT_TRUE(noted("display back"));
+  screen_->skip(3);
+  EXPECT_EQ(report().frames_shown, 2U);
+  EXPECT_EQ(report().frames_dropped, 4U);
+}
+
+TEST_F(FilmScreenTest, WithoutAScreenItGoesOnAndSaysSo) {
+  cable_->unplugged = true;
+  make();
+  EXPECT_TRUE(noted("display: "));
+  EXPECT_FALSE(show());
+  EXPECT_EQ(report().frames_dropped, 1U);
+}
+
+TEST_F(FilmScreenTest, DrawsAgainForAFingerThatMovesVisiblyAndOnlyWhereThereIsTime) {
+  make();
+  ASSERT_TRUE(show());
+  const FingerMark finger{{0, 0, 10}, {0, 0, 0}, false};
+  EXPECT_EQ(redraw(finger, 40 * kMs), 1) << "it has come";
+  EXPECT_EQ(redraw(finger, 40 * kMs), 0) << "it rests";
+  EXPECT_EQ(redraw(FingerMark{{0, 0, 10.1}, {0, 0, 0}, false}, 40 * kMs), 0) << "less than is seen";
+  EXPECT_EQ(redraw(FingerMark{{0, 0, 11}, {0, 0, 0}, false}, 40 * kMs, clock_.now() + 50 * kMs), 0)
+      << "the next picture comes in 10 ms";
+  EXPECT_EQ(redraw(FingerMark{{0, 0, 11}, {0, 0, 0}, false}, 40 * kMs), 1);
+  EXPECT_EQ(redraw(FingerMark{{0, 0, 14}, {0, 0, 0}, false}, 10 * kMs), 0) << "too soon";
+  EXPECT_EQ(redraw(FingerMark{{0, 0, 11}, {0, 0, 0}, true}, 40 * kMs), 1) << "it touches";
+  EXPECT_TRUE(screen_->contact());
+}
+
+TEST_F(FilmScreenTest, ANewTextOnAStandingPictureIsDrawnAtOnce) {
+  make();
+  const ScreenFacts facts{.title = "film", .state = PlayerState::Paused, .held = true};
+  screen_->write(facts, MonotonicTime::max(), clock_.now());
+  EXPECT_EQ(redraw(std::nullopt, kMs), 0) << "no picture yet";
+  ASSERT_TRUE(show());
+  screen_->write(facts, MonotonicTime::max(), clock_.now());
+  EXPECT_EQ(redraw(std::nullopt, kMs), 1);
+  screen_->write(facts, MonotonicTime::max(), clock_.now());
+  EXPECT_EQ(redraw(std::nullopt, kMs), 0) << "the same text";
+}
+
+TEST_F(FilmScreenTest, CarriesTheCommandsOutThatAreItsOwn) {
+  make();
+  ASSERT_TRUE(show());
+  screen_->obey({.verb = PlayerVerb::SwapEyes, .value = 0, .word = ""});
+  EXPECT_TRUE(screen_->stereo().swap_eyes);
+  screen_->obey({.verb = PlayerVerb::Layout, .value = 0, .word = "tab"});
+  EXPECT_EQ(screen_->stereo().layout, StereoLayout::TopBottom);
+  screen_->obey({.verb = PlayerVerb::DepthBy, .value = -0.25, .word = ""});
+  EXPECT_DOUBLE_EQ(screen_->stereo().strength, 0.75);
+  EXPECT_EQ(redraw(std::nullopt, kMs), 1);
+  screen_->obey({.verb = PlayerVerb::Pause, .value = 0, .word = ""});
+  EXPECT_EQ(redraw(std::nullopt, kMs), 0);
+}
+
+TEST_F(FilmScreenTest, AWindowThatTheViewerClosesIsNoFault) {
+  profile_.close_after_frames = 1;
+  make();
+  ASSERT_TRUE(screen_->attend(clock_.now()));
+  ASSERT_TRUE(show());
+  const auto attended = screen_->attend(clock_.now());
+  ASSERT_FALSE(attended);
+  EXPECT_EQ(attended.error().code, ErrorCode::Cancelled);
+  EXPECT_TRUE(journal_.written().faults.empty());
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// The film under the finger alone: depth by hand, ticks in simulated time, no film and no screen.
+#include "app/player/touch/film_touch.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "drivers/mock/mock.h"
+#include "platform/log.h"
+#include "tests/support/film/depth_frames.h"
+
+namespace relievo {
+namespace {
+
+using testing::IsEmpty;
+
+// A plane at half of the volume's depth, 20 mm up.
+DepthAround planeAt(double time_s) {
+  DepthAround around{.present = test::makeGrayFrame(32, 24, 8, mediaTime(time_s), [](int, int) { return 128U; }),
+                     .last = true,
+                     .expected = true};
+  return around;
+}
+
+class FilmTouchTest : public testing::Test {
+ protected:
+  FilmTouchTest() {
+    setLogLevel(LogLevel::Error);
+    profile_.position_mm = [](double) { return glm::dvec3(0, 0, 15); };  // 5 mm under the plane, once it is touched
+  }
+  void make() {
+    device_ = makeMockHaptic(profile_, clock_, bench_);
+    touch_.emplace(device_.get(), nullptr, clock_, Ticking::ByHand, journal_);
+    touch_->begin();
+  }
+  void startOn(const DepthAround& depth) {
+    touch_->setScene({}, DisplayVolume{});
+    touch_->feed(depth, standing(depth));
+    ASSERT_TRUE(touch_->followDevice());
+    touch_->start();
+  }
+  [[nodiscard]] ClockSample standing(const DepthAround& depth) const { return {depth.present.pts, clock_.now(), 0}; }
+  void goOn(int ms) {
+    touch_->sleepUntil(clock_.now() + std::chrono::milliseconds(ms));
+    touch_->drain(seeks_);
+  }
+  [[nodiscard]] std::uint64_t noted(const std::string& part) const {
+    std::uint64_t count = 0;
+    for (const FaultEntry& fault : journal_.written().faults) {
+      count += fault.what.find(part) == std::string::npos ? 0 : fault.count;
+    }
+    return count;
+  }
+
+  ManualClock clock_;
+  Journal journal_{clock_};
+  SeekTimes seeks_;
+  MockHapticProfile profile_;
+  std::shared_ptr<MockHapticBench> bench_ = std::make_shared<MockHapticBench>();
+  std::unique_ptr<HapticDevice> device_;
+  std::optional<FilmTouch> touch_;
+};
+
+TEST_F(FilmTouchTest, TheDeviceTicksFromStartToRest) {
+  make();
+  EXPECT_EQ(touch_->device(), "");
+  startOn(planeAt(1));
+  EXPECT_EQ(touch_->device(), "mock");
+  goOn(100);
+  EXPECT_NEAR(static_cast<double>(touch_->summary().ticks), 100, 1);
+  EXPECT_TRUE(touch_->firstTick());
+  EXPECT_TRUE(touch_->mark());
+  touch_->rest();
+  const auto ticks = touch_->summary().ticks;
+  goOn(100);
+  EXPECT_EQ(touch_->summary().ticks, ticks);
+  EXPECT_EQ(bench_->force(), glm::dvec3(0));
+  EXPECT_TRUE(touch_->waiting()) << "homed, for the next film";
+  EXPECT_THAT(journal_.written().faults, IsEmpty());
+}
+
+TEST_F(FilmTouchTest, TheFirstTickAfterASeekTellsWhichFrameIsFelt) {
+  make();
+  startOn(planeAt(1));
+  goOn(10);
+  seeks_.asked(mediaTime(5), true, clock_.now());
+  touch_->beginEpoch();
+  const DepthAround sought = planeAt(5);
+  touch_->feed(sought, standing(sought));
+  seeks_.shown(mediaTime(5), clock_.now(), clock_.now());
+  goOn(10);
+  ASSERT_EQ(seeks_.entries().size(), 1U);
+  EXPECT_EQ(seeks_.entries()[0].surface_s, 5);
+}
+
+TEST_F(FilmTouchTest, DepthThatIsMissingIsNotedOnceUntilItIsBack) {
+  make();
+  touch_->setScene({}, DisplayVolume{});
+  const DepthAround there = planeAt(1);
+  DepthAround missing = there;
+  missing.present = {};
+  for (int round = 0; round < 2; ++round) {
+    touch_->feed(there, standing(there));
+    touch_->feed(missing, standing(there));
+    touch_->feed(missing, standing(there));
+  }
+  EXPECT_EQ(noted("no depth at this time"), 2U);
+  missing.expected = false;  // the film rushes by
+  touch_->feed(there, standing(there));
+  touch_->feed(missing, standing(there));
+  EXPECT_EQ(noted("no depth at this time"), 2U);
+}
+
+TEST_F(FilmTouchTest, ADeviceThatGoesAwayIsLookedForAndComesBack) {
+  make();
+  startOn(planeAt(1));
+  goOn(10);
+  bench_->unplugged = true;
+  goOn(10);
+  EXPECT_EQ(noted("haptic device lost"), 1U);
+  EXPECT_FALSE(touch_->mark());
+  EXPECT_FALSE(touch_->followDevice());
+  bench_->unplugged = false;
+  goOn(2000);
+  EXPECT_TRUE(touch_->followDevice());
+  EXPECT_EQ(noted("haptic device back"), 1U);
+}
+
+TEST_F(FilmTouchTest, WithoutADeviceTheFilmIsFollowedAndNothingIsFelt) {
+  touch_.emplace(nullptr, nullptr, clock_, Ticking::ByHand, journal_);
+  touch_->begin();
+  touch_->setScene({}, DisplayVolume{});
+  touch_->feed(planeAt(1), standing(planeAt(1)));
+  EXPECT_FALSE(touch_->followDevice());
+  goOn(10);
+  EXPECT_FALSE(touch_->mark());
+  EXPECT_EQ(touch_->device(), "");
+  EXPECT_THAT(journal_.written().faults, IsEmpty());
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a command asks for in each situation: the deeds in their order, without a player.
+#include "app/player/control/wishes.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "platform/print.h"
+
+namespace relievo {
+namespace {
+
+// "rate 1, seek 20, stand".
+std::string words(const std::vector<Deed>& deeds) {
+  std::string text;
+  for (const Deed& deed : deeds) {
+    text += text.empty() ? "" : ", ";
+    switch (deed.kind) {
+      case Deed::Kind::GoOn:
+        text += "go on";
+        break;
+      case Deed::Kind::Stand:
+        text += "stand";
+        break;
+      case Deed::Kind::StepOn:
+        text += "step";
+        break;
+      case Deed::Kind::Rate:
+        text += print("rate %g", deed.rate);
+        break;
+      case Deed::Kind::Seek:
+        text += print("seek %g%s", toSeconds(deed.target), deed.by_viewer ? " wished" : "");
+        break;
+      case Deed::Kind::OpenFilm:
+        text += print("film %zu%s", deed.film, deed.back ? " back" : "");
+        break;
+      case Deed::Kind::Note:
+        text += std::string("note ") + deed.what;
+        break;
+    }
+  }
+  return text;
+}
+
+std::string asked(PlayerVerb verb, const Situation& situation, double value = 0) {
+  return words(deedsFor({.verb = verb, .value = value, .word = ""}, situation));
+}
+
+// 20 s into the middle one of three films of 100 s.
+Situation playing() {
+  return {.state = PlayerState::Playing,
+          .here = mediaTime(20),
+          .length = std::chrono::seconds(100),
+          .film = 1,
+          .films = 3,
+          .film_asked = true};
+}
+
+TEST(Wishes, OneKeyPausesAndGoesOn) {
+  Situation s = playing();
+  EXPECT_EQ(asked(PlayerVerb::PlayPause, s), "stand");
+  s.held = true;
+  EXPECT_EQ(asked(PlayerVerb::PlayPause, s), "go on");
+  EXPECT_EQ(asked(PlayerVerb::Pause, s), "stand");
+}
+
+TEST(Wishes, WithoutAFilmPlayOpensTheOneBefore) {
+  Situation s = playing();
+  s.state = PlayerState::Idle;
+  EXPECT_EQ(asked(PlayerVerb::Play, s), "film 1");
+  EXPECT_EQ(asked(PlayerVerb::PlayPause, s), "film 1");
+  s.film_asked = false;
+  EXPECT_EQ(asked(PlayerVerb::Play, s), "");
+}
+
+TEST(Wishes, TheRateGoesUpAndDownTheLadderAndStaysOnIt) {
+  Situation s = playing();
+  EXPECT_EQ(asked(PlayerVerb::Slower, s), "rate 0.5") << "every picture: no seek";
+  EXPECT_EQ(asked(PlayerVerb::Faster, s), "rate 2, seek 20") << "from here on by key frames";
+  s.rate = 16;
+  EXPECT_EQ(asked(PlayerVerb::Faster, s), "");
+  s.rate = 0.125;
+  EXPECT_EQ(asked(PlayerVerb::Slower, s), "");
+}
+
+TEST(Wishes, AFilmThatRushesStandsAtTheUsualRate) {
+  Situation s = playing();
+  s.rate = 4;
+  EXPECT_EQ(asked(PlayerVerb::Pause, s), "rate 1, seek 20, stand");
+  EXPECT_EQ(asked(PlayerVerb::Step, s), "rate 1, seek 20, stand");
+  EXPECT_EQ(asked(PlayerVerb::PlayPause, s), "go on, rate 1, seek 20");
+}
+
+TEST(Wishes, PlayInSlowMotionGoesBackToTheUsualRate) {
+  Situation s = playing();
+  s.rate = 0.25;
+  EXPECT_EQ(asked(PlayerVerb::Play, s), "go on, rate 1");
+  s.state = PlayerState::Paused;  // the rate cannot be changed there, but once it plays it can
+  EXPECT_EQ(asked(PlayerVerb::Play, s), "go on, rate 1");
+}
+
+TEST(Wishes, ALiveFilmGoesNoFasterThanItComes) {
+  Situation s = playing();
+  s.length = Duration(0);
+  EXPECT_EQ(asked(PlayerVerb::Faster, s), "note a live film cannot be wound forward");
+  EXPECT_EQ(asked(PlayerVerb::SeekShare, s, 0.5), "note this film's length is not known");
+  EXPECT_EQ(asked(PlayerVerb::Slower, s), "rate 0.5");
+}
+
+TEST(Wishes, SeeksCountFromHereFromZeroOrByTheLength) {
+  const Situation s = playing();
+  EXPECT_EQ(asked(PlayerVerb::SeekBy, s, -5), "seek 15 wished");
+  EXPECT_EQ(asked(PlayerVerb::SeekTo, s, 75), "seek 75 wished");
+  EXPECT_EQ(asked(PlayerVerb::SeekShare, s, 0.5), "seek 50 wished");
+}
+
+TEST(Wishes, WhatTheStateDoesNotAllowIsNotEvenNoted) {
+  Situation s = playing();
+  s.state = PlayerState::Opening;
+  s.length = Duration(0);
+  EXPECT_EQ(asked(PlayerVerb::Faster, s), "");
+  EXPECT_EQ(asked(PlayerVerb::SeekShare, s, 0.5), "");
+}
+
+TEST(Wishes, PreviousIsTheFilmBeforeOrThisOneFromItsBeginning) {
+  Situation s = playing();
+  EXPECT_EQ(asked(PlayerVerb::Previous, s), "seek 0 wished");
+  s.here = mediaTime(2.9);
+  EXPECT_EQ(asked(PlayerVerb::Previous, s), "film 0 back");
+  s.film = 0;
+  EXPECT_EQ(asked(PlayerVerb::Previous, s), "seek 0 wished");
+}
+
+TEST(Wishes, NextEndsWithTheList) {
+  Situation s = playing();
+  EXPECT_EQ(asked(PlayerVerb::Next, s), "film 2");
+  s.film = 2;
+  EXPECT_EQ(asked(PlayerVerb::Next, s), "");
+}
+
+}  // namespace
+}  // namespace relievo
