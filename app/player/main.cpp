@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -98,59 +100,84 @@ Outcome<void> keepOutputsApart(const PlayOptions& options, const FileConfig& con
   return keepApart(outputs, inputs);
 }
 
+// What a film is played on. Null: there is none.
+struct Devices {
+  std::unique_ptr<Display> display;
+  std::unique_ptr<HapticDevice> haptic;
+  std::unique_ptr<RemoteInput> remote;
+  std::unique_ptr<AudioOutput> audio;
+};
+
+Outcome<Devices> makeDevices(const PlayOptions& options, const FileConfig& config, Clock& clock) {
+  auto display = drivers::makeDisplay(options.display);
+  if (!display) return std::unexpected(display.error());
+  auto haptic = drivers::makeHapticDevice(options.haptic, clock, settingsOf(config));
+  if (!haptic) return std::unexpected(haptic.error());
+  if (*haptic == nullptr && !options.record_path.empty()) {
+    return failOn("--record " + options.record_path,
+                  {ErrorCode::InvalidArgument, 0, "there is no finger to record with --haptic none; leave one out"});
+  }
+  auto remote = drivers::makeRemoteInput(options.remote, clock);
+  if (!remote) return std::unexpected(remote.error());
+  auto audio = drivers::makeAudioOutput(options.audio, clock);
+  if (!audio) return std::unexpected(audio.error());
+  return Devices{std::move(*display), std::move(*haptic), std::move(*remote), std::move(*audio)};
+}
+
+// What is written besides the picture and the sound. Empty: it was not asked for.
+struct Outputs {
+  std::optional<AtomicFile> report;
+  std::optional<Recorder> recorder;
+  std::unique_ptr<ControlSocket> socket;
+};
+
+// An output that cannot be written is found out before the film begins.
+Outcome<Outputs> makeOutputs(const PlayOptions& options) {
+  Outputs outputs;
+  if (!options.report_path.empty()) {
+    auto created = AtomicFile::create(options.report_path);
+    if (!created) return failOn(options.report_path, created.error());
+    outputs.report = std::move(*created);
+  }
+  if (!options.record_path.empty()) {
+    auto created = Recorder::create(options.record_path);
+    if (!created) return failOn(options.record_path, created.error());
+    outputs.recorder = std::move(*created);
+  }
+  if (!options.control_path.empty()) {
+    auto listening = ControlSocket::listen(options.control_path);
+    if (!listening) return std::unexpected(listening.error());
+    outputs.socket = std::move(*listening);
+  }
+  return outputs;
+}
+
 int play(PlayOptions options, const FileConfig& config) {
   const std::atomic<bool>& stop = stopOnSignals(drivers::stopAllMotors);
   applyLogLevels(config);
   if (auto completed = complete(options); !completed) return tell(completed.error());
   if (auto apart = keepOutputsApart(options, config); !apart) return tell(apart.error());
   MonotonicClock clock;
-  auto display = drivers::makeDisplay(options.display);
-  if (!display) return tell(display.error());
-  auto haptic = drivers::makeHapticDevice(options.haptic, clock, settingsOf(config));
-  if (!haptic) return tell(haptic.error());
-  if (*haptic == nullptr && !options.record_path.empty()) {
-    return tell({"--record " + options.record_path,
-                 {ErrorCode::InvalidArgument, 0, "there is no finger to record with --haptic none; leave one out"}});
-  }
-  auto remote = drivers::makeRemoteInput(options.remote, clock);
-  if (!remote) return tell(remote.error());
-  auto audio = drivers::makeAudioOutput(options.audio, clock);
-  if (!audio) return tell(audio.error());
-
-  // What cannot be written is found out before the film begins.
-  std::optional<AtomicFile> report_file;
-  if (!options.report_path.empty()) {
-    auto created = AtomicFile::create(options.report_path);
-    if (!created) return tell({options.report_path, created.error()});
-    report_file = std::move(*created);
-  }
-  std::optional<Recorder> recorder;
-  if (!options.record_path.empty()) {
-    auto created = Recorder::create(options.record_path);
-    if (!created) return tell({options.record_path, created.error()});
-    recorder = std::move(*created);
-  }
-
-  std::unique_ptr<ControlSocket> socket;
-  if (!options.control_path.empty()) {
-    auto listening = ControlSocket::listen(options.control_path);
-    if (!listening) return tell(listening.error());
-    socket = std::move(*listening);
-  }
-  PlayerControl control(std::move(socket), drivers::switchFault);
+  const auto devices = makeDevices(options, config, clock);
+  if (!devices) return tell(devices.error());
+  auto outputs = makeOutputs(options);
+  if (!outputs) return tell(outputs.error());
+  PlayerControl control(std::move(outputs->socket), drivers::switchFault);
+  AtomicFile* const report_file = outputs->report ? &*outputs->report : nullptr;
+  Recorder* const recorder = outputs->recorder ? &*outputs->recorder : nullptr;
 
   const bool for_a_time = options.player.duration.has_value();
   Player player(std::move(options.player), {.clock = clock,
-                                            .display = **display,
-                                            .haptic = haptic->get(),
-                                            .remote = remote->get(),
-                                            .audio = audio->get(),
-                                            .recorder = recorder ? &*recorder : nullptr,
+                                            .display = *devices->display,
+                                            .haptic = devices->haptic.get(),
+                                            .remote = devices->remote.get(),
+                                            .audio = devices->audio.get(),
+                                            .recorder = recorder,
                                             .control = &control,
                                             .backends = realBackends(options.software)});
   const auto played = player.run(stop);
   const PlayReport report = player.report();
-  const int files = finishFiles(report, report_file ? &*report_file : nullptr, recorder ? &*recorder : nullptr);
+  const int files = finishFiles(report, report_file, recorder);
   if (!played) return tell(played.error());
   std::fputs(toText(report).c_str(), stdout);
   if (for_a_time && report.frames_shown == 0 && !report.source.empty() && !stop)
