@@ -51,7 +51,7 @@ TEST_F(RelievoCutTest, AfterASeekTheFingerIsReSeated) {
   static_cast<void>(tick(0, {0, 0, 13}));
   EXPECT_NEAR(tick(kTick, {0, 0, 10}).force_n.z, 1, 1e-3);
   ++window_.epoch;
-  shots_.forget();
+  frames_.clear();
   const Touch touch = tick(0.4, {0, 0, 10});
   EXPECT_TRUE(touch.contact);
   EXPECT_NEAR(touch.force_n.z, 1, 1e-2);
@@ -116,7 +116,7 @@ TEST_F(RelievoCutTest, AGapInTheFramesOrInThePositionsEndsInTheForceBeforeIt) {
   empty.epoch = window_.epoch;
   for (int i = 0; i < 50; ++i) EXPECT_FALSE(method_.update(hip, empty, mediaTime(0.11)).contact);
   ++window_.epoch;  // a seek: the surface there is 12 mm higher
-  shots_.forget();
+  frames_.clear();
   EXPECT_NEAR(glm::length(tick(0.3, hip).force_n), before, 0.02);
 }
 
