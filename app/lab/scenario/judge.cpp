@@ -14,19 +14,17 @@ constexpr double kSceneSlewNPerS = 50;
 
 }  // namespace
 
-void Judge::add(bool pass, double figure, double limit, const char* unit, const std::string& why) {
-  const Verdict verdict{pass, figure, unit, limit, why};
+void Judge::add(const Verdict& verdict) {
   if (!first_) first_ = verdict;
-  if (!pass && !failed_) failed_ = verdict;
+  if (!verdict.pass && !failed_) failed_ = verdict;
 }
 
-// Written so that what is not a number fails.
-void Judge::atMost(double figure, double limit, const char* unit, const std::string& why) {
-  add(figure <= limit, figure, limit, unit, why);
+void Judge::atMost(double figure, const Limit& limit, const std::string& why) {
+  add({figure <= limit.value, figure, limit, why});
 }
 
-void Judge::atLeast(double figure, double limit, const char* unit, const std::string& why) {
-  add(figure >= limit, figure, limit, unit, why);
+void Judge::atLeast(double figure, const Limit& limit, const std::string& why) {
+  add({figure >= limit.value, figure, limit, why});
 }
 
 void Judge::bounds(std::span<const StageTick> ticks, double stiffness_n_per_mm, double peak_force_n) {
@@ -42,8 +40,9 @@ void Judge::bounds(std::span<const StageTick> ticks, double stiffness_n_per_mm, 
     }
     before = &tick;
   }
-  atMost(force, peak_force_n * (1 + 1e-9), "N", "largest force");
-  atMost(slew, kSceneSlewNPerS * (1 + 1e-6), "N/s", "fastest change of the force by the scene");
+  atMost(force, {peak_force_n * (1 + 1e-9), "N", "derived: what the haptic task promises"}, "largest force");
+  atMost(slew, {kSceneSlewNPerS * (1 + 1e-6), "N/s", "derived: what the haptic task promises"},
+         "fastest change of the force by the scene");
 }
 
 }  // namespace relievo

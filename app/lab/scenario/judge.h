@@ -10,28 +10,35 @@
 
 namespace relievo {
 
+struct Limit {
+  double value = 0;
+  const char* unit = "";
+  // Why this value: "derived: ..", "cited: .." or, for a value that was picked to tell methods apart, "chosen: ..".
+  // Without a comma, since it is a cell of a CSV.
+  const char* origin = "";
+};
+
 struct Verdict {
   bool pass = true;
   double figure = 0;  // what decided
-  std::string unit;
-  double limit = 0;
+  Limit limit;
   std::string why;  // what the figure is, one line
 };
 
 // Demands in the order of their weight: the first that is not met decides; if all are met, the first of all.
 class Judge {
  public:
-  void atMost(double figure, double limit, const char* unit, const std::string& why);
-  void atLeast(double figure, double limit, const char* unit, const std::string& why);
-  // What holds in every scenario: finite, within the peak, and the scene no faster than its slew. Told by the forces
-  // as they were sent, not by the filter that made them.
+  // A figure that is not a number fails.
+  void atMost(double figure, const Limit& limit, const std::string& why);
+  void atLeast(double figure, const Limit& limit, const std::string& why);
+  // What holds in every scenario: finite, within the peak, and the scene no faster than its slew. Reads the forces that
+  // were sent, not the filter that limited them.
   void bounds(std::span<const StageTick> ticks, double stiffness_n_per_mm, double peak_force_n = 10);
+  void add(const Verdict& verdict);
 
   [[nodiscard]] const Verdict& verdict() const { return *(failed_ ? failed_ : first_); }
 
  private:
-  void add(bool pass, double figure, double limit, const char* unit, const std::string& why);
-
   std::optional<Verdict> first_, failed_;
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 namespace relievo::scenario {
 
@@ -30,6 +31,18 @@ glm::dvec3 normalOf(const Relief& relief, double x, double y, double t) {
   const double zx = (relief(x + kStep, y, t) - relief(x - kStep, y, t)) / (2 * kStep);
   const double zy = (relief(x, y + kStep, t) - relief(x, y - kStep, t)) / (2 * kStep);
   return glm::normalize(glm::dvec3(-zx, -zy, 1));
+}
+
+// A damped walk along the tangent plane; each step halves what is left on a plane.
+glm::dvec3 closestOn(const Relief& relief, const glm::dvec3& hip, double t) {
+  glm::dvec3 p = hip;
+  for (int i = 0; i < 200; ++i) {
+    p.z = relief(p.x, p.y, t);
+    const glm::dvec3 n = normalOf(relief, p.x, p.y, t), off = hip - p;
+    p += 0.5 * (off - glm::dot(off, n) * n);
+  }
+  p.z = relief(p.x, p.y, t);
+  return p;
 }
 
 glm::dvec3 forceOnFlat(const Relief& relief, const glm::dvec3& hip, double t) {
@@ -58,6 +71,11 @@ double peakForce(std::span<const StageTick> ticks) {
 
 double percentOff(const glm::dvec3& measured, const glm::dvec3& truth) {
   return 100 * glm::distance(measured, truth) / glm::length(truth);
+}
+
+double degreesBetween(const glm::dvec3& a, const glm::dvec3& b) {
+  const double cosine = glm::dot(a, b) / (glm::length(a) * glm::length(b));
+  return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
 }
 
 constexpr double kFelt = 0.3;  // share of the force straight up from which on a surface counts as felt

@@ -31,11 +31,20 @@ class Way {
   std::vector<Point> points_;
 };
 
+// An edge that is slanted to the grid, x = kEdgeSlant y.
+inline constexpr double kEdgeSlant = 0.3, kEdgeLength = 1.0440306508910550;  // sqrt(1 + kEdgeSlant^2)
+// Distance from it, in the plane.
+[[nodiscard]] inline double across(double x_mm, double y_mm) {
+  return (x_mm - kEdgeSlant * y_mm) / kEdgeLength;
+}
+
 [[nodiscard]] Relief plane(double z_mm, double slope_x, double slope_y);
 // Goes steadily from 0 at `from_s` to 1 at `until_s`.
 [[nodiscard]] double ramp(double t_s, double from_s, double until_s);
 // Outward unit normal.
 [[nodiscard]] glm::dvec3 normalOf(const Relief& relief, double x_mm, double y_mm, double t_s);
+// The point of a gently curved relief that is closest to the finger.
+[[nodiscard]] glm::dvec3 closestOn(const Relief& relief, const glm::dvec3& hip_mm, double t_s);
 // Of a finger close under a nearly flat place: stiffness x distance along the normal.
 [[nodiscard]] glm::dvec3 forceOnFlat(const Relief& relief, const glm::dvec3& hip_mm, double t_s);
 
@@ -44,6 +53,8 @@ class Way {
 [[nodiscard]] double peakForce(std::span<const StageTick> ticks);
 // |measured - true|/|true|, in %.
 [[nodiscard]] double percentOff(const glm::dvec3& measured, const glm::dvec3& truth);
+// Not a number when one of them is 0.
+[[nodiscard]] double degreesBetween(const glm::dvec3& a, const glm::dvec3& b);
 // The longest time with the finger more than `deep_mm` below the relief, as it is at that moment of the film, and no
 // contact by the method or hardly any force, ms.
 [[nodiscard]] double longestLostMs(std::span<const StageTick> ticks, const Relief& relief, double deep_mm);

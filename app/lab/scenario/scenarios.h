@@ -42,6 +42,7 @@ Verdict strokeStep(const Challenger& challenger, bool quick);
 Verdict thin(const Challenger& challenger, bool quick);
 Verdict noise(const Challenger& challenger, bool quick);
 Verdict fastHip(const Challenger& challenger, bool quick);
+// Closed paths.
 Verdict energyLoop(const Challenger& challenger, bool quick);
 // The film is not one steady shot, or does not come as it should.
 Verdict cutUp(const Challenger& challenger, bool quick);

@@ -6,16 +6,12 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "app/lab/scenario/limits.h"
 #include "app/lab/scenario/scenario_tools.h"
 #include "app/lab/scenario/scenarios.h"
 
 namespace relievo::scenario {
 namespace {
-
-double degreesBetween(const glm::dvec3& a, const glm::dvec3& b) {
-  const double cosine = glm::dot(a, b) / (glm::length(a) * glm::length(b));
-  return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
-}
 
 Relief cutBetween(const Relief& before, const Relief& after, double cut_s) {
   return [=](double x, double y, double t) { return t < cut_s ? before(x, y, t) : after(x, y, t); };
@@ -36,6 +32,10 @@ double swingAt(std::span<const StageTick> ticks, double hz) {
 }
 
 constexpr glm::dvec2 kPlace{2.1, 1.3};
+
+// 10 um at the finger on the spring. Verrillo, Effect of contactor area on the vibrotactile threshold (1963).
+constexpr Limit kUnfeltSwing{
+    5, "mN", "derived: 10 µm is about the threshold of vibration at 15 Hz (Verrillo 1963); times the stiffness"};
 
 glm::dvec3 below(const Relief& relief, double deep_mm) {
   return {kPlace, relief(kPlace.x, kPlace.y, 0) - deep_mm};
@@ -58,13 +58,13 @@ Verdict cutUp(const Challenger& challenger, bool /*quick*/) {
   const double pressed = glm::length(meanForce(between(ticks, 0.35, 0.45)));
   const glm::dvec3 soon = meanForce(between(ticks, kCut + 0.05, kCut + 0.07));
   Judge judge;
-  judge.atMost(100 * peakForce(between(ticks, 0.45, kLift)) / pressed, 102, "%",
+  judge.atMost(100 * peakForce(between(ticks, 0.45, kLift)) / pressed, kNothingAdded,
                "of the force before: peak at the cut");
-  judge.atLeast(100 * glm::length(soon) / pressed, 50, "%", "of the force before is felt 50 ms after the cut");
-  judge.atMost(degreesBetween(soon, normalOf(after, kPlace.x, kPlace.y, 0)), 10, "deg",
+  judge.atLeast(100 * glm::length(soon) / pressed, kHalfIsFelt, "of the force before is felt 50 ms after the cut");
+  judge.atMost(degreesBetween(soon, normalOf(after, kPlace.x, kPlace.y, 0)), kDirectionMatches,
                "from the new shape 50 ms after the cut");
-  judge.atMost(percentOff(meanForce(between(ticks, kEnd - 0.1, kEnd)), forceOnFlat(after, finger.at(kEnd), 0)), 5, "%",
-               "force off for a finger that comes from outside");
+  judge.atMost(percentOff(meanForce(between(ticks, kEnd - 0.1, kEnd)), forceOnFlat(after, finger.at(kEnd), 0)),
+               kForceMatches, "force off for a finger that comes from outside");
   judge.bounds(ticks, kStiffness);
   return judge.verdict();
 }
@@ -87,11 +87,12 @@ Verdict cutDown(const Challenger& challenger, bool /*quick*/) {
     if (tick.t_s > kCut && share > 0.1) late = std::max(late, tick.t_s - kCut);
   }
   Judge judge;
-  judge.atMost(1e3 * early, 20, "ms", "that the old scene is left before the cut");
-  judge.atMost(1e3 * late, 50, "ms", "that the old scene is felt after the cut");
-  judge.atMost(100 * peakForce(between(ticks, 0.4, kDown)) / pressed, 102, "%", "of the force before: peak at the cut");
-  judge.atMost(percentOff(meanForce(between(ticks, kEnd - 0.1, kEnd)), forceOnFlat(after, finger.at(kEnd), 0)), 5, "%",
-               "force off for a finger that comes from outside");
+  judge.atMost(1e3 * early, kDelayUnnoticed, "that the old scene is left before the cut");
+  judge.atMost(1e3 * late, kDelayUnnoticed, "that the old scene is felt after the cut");
+  judge.atMost(100 * peakForce(between(ticks, 0.4, kDown)) / pressed, kNothingAdded,
+               "of the force before: peak at the cut");
+  judge.atMost(percentOff(meanForce(between(ticks, kEnd - 0.1, kEnd)), forceOnFlat(after, finger.at(kEnd), 0)),
+               kForceMatches, "force off for a finger that comes from outside");
   judge.bounds(ticks, kStiffness);
   return judge.verdict();
 }
@@ -118,9 +119,8 @@ Verdict holdVideo(const Challenger& challenger, bool quick) {
     }
   }
   Judge judge;
-  // 10 um at the finger, about what is felt at 15 Hz, on the spring.
-  judge.atMost(1e3 * largest, 5, "mN", "swing of the force at the frame rate");
-  judge.atMost(longestLostMs(ticks, relief, 2), 100, "ms", "inside and nothing felt");
+  judge.atMost(1e3 * largest, kUnfeltSwing, "swing of the force at the frame rate");
+  judge.atMost(longestLostMs(ticks, relief, 2), lostForFrames(kFps), "inside and nothing felt");
   judge.bounds(ticks, kStiffness);
   return judge.verdict();
 }
@@ -147,10 +147,11 @@ Verdict seek(const Challenger& challenger, bool /*quick*/) {
   const double pressed = glm::length(meanForce(between(ticks, 0.35, 0.45)));
   const glm::dvec3 settled = meanForce(between(ticks, kThere + 0.2, kThere + 0.25));
   Judge judge;
-  judge.atLeast(100 * glm::length(settled) / pressed, 50, "%",
+  judge.atLeast(100 * glm::length(settled) / pressed, kHalfIsFelt,
                 "of the force before is felt 200 ms after the picture is there");
-  judge.atMost(100 * peakForce(between(ticks, 0.45, kEnd)) / pressed, 102, "%", "of the force before at most");
-  judge.atMost(degreesBetween(settled, normalOf(after, kPlace.x, kPlace.y, 0)), 10, "deg", "from the new shape");
+  judge.atMost(100 * peakForce(between(ticks, 0.45, kEnd)) / pressed, kNothingAdded, "of the force before at most");
+  judge.atMost(degreesBetween(settled, normalOf(after, kPlace.x, kPlace.y, 0)), kDirectionMatches,
+               "from the new shape");
   judge.bounds(ticks, kStiffness);
   return judge.verdict();
 }
@@ -181,8 +182,8 @@ Verdict pause(const Challenger& challenger, bool /*quick*/) {
     worst = std::max(worst, percentOff(tick.sent_n, forceOnFlat(relief, tick.hip_mm, toSeconds(tick.media))));
   }
   Judge judge;
-  judge.atMost(worst, 5, "%", "force off on the still picture at worst");
-  judge.atMost(longestLostMs(ticks, relief, 2.5), 50, "ms", "inside and nothing felt");
+  judge.atMost(worst, kForceMatches, "force off on the still picture at worst");
+  judge.atMost(longestLostMs(ticks, relief, 2.5), lostForFrames(30), "inside and nothing felt");
   judge.bounds(ticks, kStiffness);
   return judge.verdict();
 }

@@ -8,13 +8,16 @@
 #include <random>
 
 #include "app/lab/finger/hand_loop.h"
+#include "app/lab/scenario/limits.h"
 #include "app/lab/scenario/scenario_tools.h"
 #include "app/lab/scenario/scenarios.h"
 
 namespace relievo::scenario {
 namespace {
 
-constexpr double kBackWithinMs = 200;
+// Two steps of the encoder, there and back.
+constexpr Limit kSwing{60, "µm", "derived: a device at rest may flip between two steps of its encoder (30 µm)"};
+constexpr Limit kHoldsUp{1, "N", "chosen: methods that hold up have 1.9 N or more"};
 
 struct Rest {
   double swing_mm = 0;  // in the last half second
@@ -44,6 +47,18 @@ Rest pressOn(const Challenger& challenger, const Relief& relief, const MadeForma
   return rest;
 }
 
+// What the device says of a finger at `p` at a tick; nothing: the exchange fails.
+std::optional<glm::dvec3> asEncoded(const glm::dvec3& p, int tick) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  if (tick == 500) return p + glm::dvec3(0, 0, 12);                   // outside
+  if (tick == 800) return p - glm::dvec3(0, 0, 10);                   // deeper
+  if (tick == 1100 || tick == 1101) return p + glm::dvec3(60, 0, 0);  // off the picture
+  if (tick >= 1400 && tick <= 1404) return std::nullopt;
+  if (tick == 1700) return glm::dvec3(kNaN, 0, 0);
+  if (tick == 2000) return p * 1e12;
+  return p;
+}
+
 }  // namespace
 
 Verdict stiffWall(const Challenger& challenger, bool /*quick*/) {
@@ -56,11 +71,10 @@ Verdict stiffWall(const Challenger& challenger, bool /*quick*/) {
   const Rest on_wall = pressOn(challenger, wall, {.bits = 8}, stiffness, {2.2, 1.1, 25}, {2.2, 1.1, 12});
   const bool crease_worse = in_crease.swing_mm > on_wall.swing_mm;
   Judge judge;
-  // Two steps of the encoder, there and back.
-  judge.atMost(1e3 * std::max(in_crease.swing_mm, on_wall.swing_mm), 60, "µm",
+  judge.atMost(1e3 * std::max(in_crease.swing_mm, on_wall.swing_mm), kSwing,
                crease_worse ? "swing of a hand that rests in a crease" : "swing of a hand that rests on a wall");
-  judge.atLeast(meanForce(between(in_crease.ticks, 1.5, 2)).z, 1, "N", "that the crease holds up");
-  judge.atLeast(meanForce(between(on_wall.ticks, 1.5, 2)).z, 1, "N", "that the wall holds up");
+  judge.atLeast(meanForce(between(in_crease.ticks, 1.5, 2)).z, kHoldsUp, "that the crease holds up");
+  judge.atLeast(meanForce(between(on_wall.ticks, 1.5, 2)).z, kHoldsUp, "that the wall holds up");
   judge.bounds(in_crease.ticks, stiffness, 8.5);
   judge.bounds(on_wall.ticks, stiffness, 8.5);
   return judge.verdict();
@@ -85,7 +99,7 @@ Verdict jitter(const Challenger& challenger, bool quick) {
   };
   const auto ticks = playThrough(*method, play);
   Judge judge;
-  judge.atMost(longestLostMs(ticks, relief, 0.3), kBackWithinMs, "ms", "inside and nothing felt");
+  judge.atMost(longestLostMs(ticks, relief, 0.3), kDelayUnnoticed, "inside and nothing felt");
   judge.bounds(ticks, kStiffness);
   return judge.verdict();
 }
@@ -96,32 +110,11 @@ Verdict deviceGlitch(const Challenger& challenger, bool /*quick*/) {
     return 20 + 0.15 * x - 0.1 * y + 1.5 * std::sin(2 * std::numbers::pi * 0.5 * t);
   };
   const auto film = makeFilm(relief, {}, kEnd);
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  const auto finger = [&](double t, const glm::dvec3&) -> std::optional<glm::dvec3> {
+  const auto finger = [](double t, const glm::dvec3&) -> std::optional<glm::dvec3> {
     const double turn = 2 * std::numbers::pi * 0.5 * t;
     const double x = 4 * std::sin(turn), y = 3 * std::cos(turn);
     const glm::dvec3 p(x, y, 20 + 0.15 * x - 0.1 * y - 4 + 8 * (1 - ramp(t, 0, 0.2)));
-    switch (static_cast<int>(std::lround(t * 1e3))) {
-      case 500:
-        return p + glm::dvec3(0, 0, 12);  // outside
-      case 800:
-        return p - glm::dvec3(0, 0, 10);  // deeper
-      case 1100:
-      case 1101:
-        return p + glm::dvec3(60, 0, 0);  // off the picture
-      case 1400:
-      case 1401:
-      case 1402:
-      case 1403:
-      case 1404:
-        return std::nullopt;
-      case 1700:
-        return glm::dvec3(kNaN, 0, 0);
-      case 2000:
-        return p * 1e12;
-      default:
-        return p;
-    }
+    return asEncoded(p, static_cast<int>(std::lround(t * 1e3)));
   };
   const auto method = challenger.make(kStiffness, film);
   const auto ticks = playThrough(*method, {.film = film, .duration_s = kEnd, .finger = finger});
@@ -135,7 +128,7 @@ Verdict deviceGlitch(const Challenger& challenger, bool /*quick*/) {
     if (lost) longest = std::max(longest, tick.t_s + TouchStage::kTickS - since);
   }
   Judge judge;
-  judge.atMost(1e3 * longest, kBackWithinMs, "ms", "inside and less than half of the force");
+  judge.atMost(1e3 * longest, kDelayUnnoticed, "inside and less than half of the force");
   judge.bounds(ticks, kStiffness);
   return judge.verdict();
 }

@@ -4,16 +4,12 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "app/lab/scenario/limits.h"
 #include "app/lab/scenario/scenario_tools.h"
 #include "app/lab/scenario/scenarios.h"
 
 namespace relievo::scenario {
 namespace {
-
-// A method that holds frames knows the surface of one period ago and may be that much late; no more.
-double latestMs(const MadeFormat& format) {
-  return 1.5e3 / format.frames_per_s;
-}
 
 Verdict riseUnder(const Challenger& challenger, const Relief& relief, const MadeFormat& format, const Way& finger,
                   double duration_s) {
@@ -24,8 +20,8 @@ Verdict riseUnder(const Challenger& challenger, const Relief& relief, const Made
   glm::dvec3 truth = forceOnFlat(relief, end.back().hip_mm, duration_s);
   if (glm::length(truth) > 10) truth *= 10 / glm::length(truth);
   Judge judge;
-  judge.atMost(longestLostMs(ticks, relief, 0.3), latestMs(format), "ms", "inside and nothing felt");
-  judge.atMost(percentOff(meanForce(end), truth), 5, "%", "force off when all is at rest");
+  judge.atMost(longestLostMs(ticks, relief, 0.3), lostForFrames(format.frames_per_s), "inside and nothing felt");
+  judge.atMost(percentOff(meanForce(end), truth), kForceMatches, "force off when all is at rest");
   judge.bounds(ticks, kStiffness);
   return judge.verdict();
 }
@@ -50,19 +46,11 @@ Verdict riseContact(const Challenger& challenger, bool /*quick*/) {
   const auto film = makeFilm(relief, {}, 0.8);
   const auto method = challenger.make(kStiffness, film);
   const auto ticks = playThrough(*method, {.film = film, .duration_s = 0.8, .finger = finger});
-  // The true closest point of the dome at rest, by Newton's method on the distance.
-  glm::dvec3 p(1, 1, 0);
   const glm::dvec3 hip = finger.at(0.8);
-  for (int i = 0; i < 200; ++i) {
-    p.z = relief(p.x, p.y, 1);
-    const glm::dvec3 n = normalOf(relief, p.x, p.y, 1), off = hip - p;
-    p += 0.5 * (off - glm::dot(off, n) * n);
-  }
-  p.z = relief(p.x, p.y, 1);
   Judge judge;
-  judge.atMost(longestLostMs(ticks, relief, 0.3), latestMs({}), "ms", "inside and nothing felt");
-  judge.atMost(percentOff(meanForce(between(ticks, 0.75, 0.8)), kStiffness * (p - hip)), 5, "%",
-               "force off when all is at rest");
+  judge.atMost(longestLostMs(ticks, relief, 0.3), lostForFrames(30), "inside and nothing felt");
+  judge.atMost(percentOff(meanForce(between(ticks, 0.75, 0.8)), kStiffness * (closestOn(relief, hip, 1) - hip)),
+               kForceMatches, "force off when all is at rest");
   judge.bounds(ticks, kStiffness);
   return judge.verdict();
 }
@@ -86,8 +74,8 @@ Verdict sweepEdge(const Challenger& challenger, bool /*quick*/) {
   // Out by the top it is 7 mm, by the front 20: whichever way a method takes, it is not less than the top's.
   const double felt = glm::length(meanForce(between(ticks, 0.7, 0.8))) / (kStiffness * (kTop - kFinger));
   Judge judge;
-  judge.atMost(longestLostMs(ticks, relief, 0.3), latestMs({}), "ms", "inside and nothing felt");
-  judge.atLeast(100 * felt, 95, "%", "felt of the way out when all is at rest");
+  judge.atMost(longestLostMs(ticks, relief, 0.3), lostForFrames(30), "inside and nothing felt");
+  judge.atLeast(100 * felt, kForceNotBelow, "felt of the way out when all is at rest");
   judge.bounds(ticks, kStiffness);
   return judge.verdict();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the scenarios on all processors and writes the tables.
+// Three charts of one measurement.
 #include "app/lab/scenario/stability.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include "app/lab/chart/csv_table.h"
 #include "app/lab/film/parallel.h"
 #include "app/lab/scenario/loop_onset.h"
-#include "app/lab/scenario/scenarios.h"
+#include "app/lab/scenario/verdict_table.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -25,15 +25,10 @@ struct Onset {
   std::optional<double> found;
 };
 
-std::vector<Verdict> judgeAll(const MeasureOptions& options) {
-  const auto all = scenarios();
-  std::vector<Verdict> verdicts(all.size() * kMethods.size());
-  const auto judge = [&](std::size_t i) {
-    verdicts[i] = all[i / kMethods.size()].judge(challengerNamed(kMethods[i % kMethods.size()]), options.quick);
-  };
-  inParallel(verdicts.size(), judge,
-             [&](std::size_t done) { options.tell(print("methods in scenarios, %zu of %zu", done, verdicts.size())); });
-  return verdicts;
+std::vector<Challenger> challengers() {
+  std::vector<Challenger> all;
+  for (const char* method : kMethods) all.push_back(challengerNamed(method));
+  return all;
 }
 
 std::vector<Onset> findOnsets(const MeasureOptions& options) {
@@ -57,16 +52,6 @@ std::vector<Onset> findOnsets(const MeasureOptions& options) {
   return onsets;
 }
 
-Outcome<void> writeMap(const std::string& folder, const std::vector<Verdict>& verdicts) {
-  CsvTable table({"scenario", "method", "pass", "figure", "unit", "limit", "why"});
-  for (std::size_t i = 0; i < verdicts.size(); ++i) {
-    const Verdict& v = verdicts[i];
-    table.row({scenarios()[i / kMethods.size()].name, kMethods[i % kMethods.size()], v.pass ? 1 : 0, v.figure, v.unit,
-               v.limit, v.why});
-  }
-  return table.write(folder + "/stability.csv");
-}
-
 Outcome<void> writeOnsets(const std::string& folder, const std::vector<Onset>& onsets) {
   CsvTable table({"method", "profile", "delay_ticks", "bound_n_per_mm", "onset_n_per_mm"});
   for (const Onset& o : onsets) {
@@ -75,15 +60,13 @@ Outcome<void> writeOnsets(const std::string& folder, const std::vector<Onset>& o
   return table.write(folder + "/stability-onset.csv");
 }
 
-ChartWords mapWords(const std::vector<Verdict>& verdicts) {
+ChartWords mapWords(const VerdictTable& map) {
   std::string reading = "Scenarios passed:";
   for (std::size_t m = 0; m < kMethods.size(); ++m) {
-    std::size_t passed = 0;
-    for (std::size_t i = m; i < verdicts.size(); i += kMethods.size()) passed += verdicts[i].pass ? 1 : 0;
-    reading += print("%s %s %zu of %zu", m > 0 ? "," : "", kMethods[m], passed, scenarios().size());
+    reading += print("%s %s %zu of %zu", m > 0 ? "," : "", kMethods[m], map.passed(m), scenarios().size());
   }
   return {"Where methods of touch fail",
-          reading + ". A cell holds the figure that decided, whatever the limits did to the force."};
+          reading + ". A cell holds the figure that decided. The scenarios were made harder until a method failed."};
 }
 
 ChartWords onsetWords(const std::vector<Onset>& onsets) {
@@ -104,12 +87,13 @@ ChartWords onsetWords(const std::vector<Onset>& onsets) {
 
 Outcome<std::vector<ChartWords>> measureStability(const MeasureOptions& options) {
   options.tell("methods in scenarios");
-  const auto verdicts = judgeAll(options);
-  if (const auto written = writeMap(options.out, verdicts); !written) return std::unexpected(written.error());
+  const VerdictTable map(challengers(), options);
+  if (const auto written = map.write(options.out + "/stability.csv", "method"); !written)
+    return std::unexpected(written.error());
   options.tell("closed loops");
   const auto onsets = findOnsets(options);
   if (const auto written = writeOnsets(options.out, onsets); !written) return std::unexpected(written.error());
-  return std::vector{mapWords(verdicts), onsetWords(onsets)};
+  return std::vector{mapWords(map), onsetWords(onsets)};
 }
 
 }  // namespace relievo

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Closed paths on a still scene: the energy that a finger gains on them.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <numbers>
+#include <random>
+
+#include "app/lab/scenario/limits.h"
+#include "app/lab/scenario/scenario_tools.h"
+#include "app/lab/scenario/scenarios.h"
+
+namespace relievo::scenario {
+namespace {
+
+constexpr int kLeadTicks = 40;  // the finger comes in
+
+struct Scene {
+  Relief finger;  // whose height the finger follows
+  std::vector<TimedSurface> film;
+};
+
+// Wide hills; steep ones with a step; wide ones under noise. 8 bits.
+std::array<Scene, 3> hillScenes() {
+  const auto hills = [](double x, double y) { return 18 + 3 * std::sin(0.2 * x) * std::cos(0.17 * y); };
+  const Relief wide = [=](double x, double y, double) { return hills(x, y); };
+  const Relief steep = [=](double x, double y, double) {
+    return hills(x, y) + 1.2 * std::sin(0.9 * x + 0.5 * y) + (across(x, y) < 3 ? 2 : 0);
+  };
+  // Smooth over the step: a finger that jumped with the step would be faster than the scenario says.
+  const Relief under_steep = [=](double x, double y, double) {
+    return hills(x, y) + 1.2 * std::sin(0.9 * x + 0.5 * y) + 1 - std::tanh(across(x, y) - 3);
+  };
+  return {{{wide, makeFilm(wide, {.bits = 8}, 0.1)},
+           {under_steep, makeFilm(steep, {.bits = 8}, 0.1)},
+           {wide, makeFilm(wide, {.bits = 8, .noise_share = 0.01}, 0)}}};
+}
+
+// A circle that bobs up and down twice a lap.
+struct Loop {
+  double radius_mm = 0, deep_mm = 0, swing_mm = 0, phase = 0;
+  glm::dvec2 centre_mm{0};
+  int lap_ticks = 0;  // a whole number of ticks: the path is closed to the last bit
+
+  Loop(std::mt19937_64& random, double mm_per_s) {
+    const auto draw = [&](double low, double high) {
+      return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    radius_mm = draw(2, 8), deep_mm = draw(2.5, 4.5), swing_mm = draw(0, 0.5), phase = draw(0, 6);
+    centre_mm.y = draw(-4, 4), centre_mm.x = draw(-9, 9);
+    lap_ticks = std::max(20, static_cast<int>(std::lround(2e3 * std::numbers::pi * radius_mm / mm_per_s)));
+  }
+
+  [[nodiscard]] glm::dvec3 at(double t_s, const Relief& relief) const {
+    const int tick = static_cast<int>(std::lround(t_s * 1e3)) - kLeadTicks;
+    const double turn = 2 * std::numbers::pi * std::max(tick, 0) / lap_ticks;
+    const glm::dvec2 p = centre_mm + radius_mm * glm::dvec2(std::cos(turn + phase), std::sin(turn + phase));
+    const double above = tick < 0 ? -0.2 * tick : 0;
+    return {p, relief(p.x, p.y, 0) - deep_mm - swing_mm * std::sin(2 * turn) + above};
+  }
+};
+
+std::vector<StageTick> runTwoLaps(const Challenger& challenger, const Scene& scene, const Loop& loop) {
+  const auto method = challenger.make(kStiffness, scene.film);
+  const auto finger = [&](double t, const glm::dvec3&) -> std::optional<glm::dvec3> {
+    return loop.at(t, scene.finger);
+  };
+  return playThrough(
+      *method, {.film = scene.film, .duration_s = 1e-3 * (kLeadTicks + 2 * loop.lap_ticks + 1), .finger = finger});
+}
+
+struct Gain {
+  double field_mj = -1e9;  // by the force field
+  double held_mj = -1e9;   // by the force as it is held over each tick
+
+  void raiseTo(const Gain& other) {
+    field_mj = std::max(field_mj, other.field_mj);
+    held_mj = std::max(held_mj, other.held_mj);
+  }
+};
+
+// On the second lap: the first one may begin from elsewhere.
+Gain gainOfSecondLap(std::span<const StageTick> ticks, const Loop& loop) {
+  Gain gain{0, 0};
+  const std::size_t lap = static_cast<std::size_t>(loop.lap_ticks), begin = kLeadTicks + lap;
+  for (std::size_t i = begin; i < begin + lap; ++i) {
+    const glm::dvec3 moved = ticks[i + 1].hip_mm - ticks[i].hip_mm;
+    gain.field_mj += 0.5 * glm::dot(ticks[i].asked.force_n + ticks[i + 1].asked.force_n, moved);
+    gain.held_mj += glm::dot(ticks[i].sent_n, moved);
+  }
+  return gain;
+}
+
+struct Speed {
+  double mm_per_s;
+  Gain gain;
+};
+
+constexpr Limit kGain{0.05, "mJ",
+                      "derived: a tenth of the 0.5 mJ that dry friction of 0.04 N takes on the shortest path"};
+constexpr Limit kPathTouched{90, "%",
+                             "chosen: a method that feels nothing gains nothing; the others feel 98 % or more"};
+
+}  // namespace
+
+Verdict energyLoop(const Challenger& challenger, bool quick) {
+  const auto scenes = hillScenes();
+  std::mt19937_64 random(7);  // NOLINT(bugprone-random-generator-seed): the same at every run
+  std::array speeds{Speed{100, {}}, Speed{500, {}}};
+  Judge judge, bounds;
+  const int loops = quick ? 12 : 60;
+  double touched = 0, counted = 0;
+  for (Speed& speed : speeds) {
+    for (int i = 0; i < loops; ++i) {
+      const Loop loop(random, speed.mm_per_s);
+      const auto ticks = runTwoLaps(challenger, scenes[static_cast<std::size_t>(i) % scenes.size()], loop);
+      speed.gain.raiseTo(gainOfSecondLap(ticks, loop));
+      for (const StageTick& tick : between(ticks, 1e-3 * kLeadTicks, 10))
+        touched += glm::length(tick.asked.force_n) > 0 ? 1 : 0;
+      counted += 2 * loop.lap_ticks + 1;
+      bounds.bounds(ticks, kStiffness);
+    }
+  }
+  for (const Speed& speed : speeds) {
+    const std::string at = " that a closed path at " + std::to_string(static_cast<int>(speed.mm_per_s)) + " mm/s gives";
+    judge.atMost(std::max(speed.gain.field_mj, 0.0), kGain, "most" + at + " by the force field");
+    judge.atMost(std::max(speed.gain.held_mj, 0.0), kGain, "most" + at + " by the force as it is held over each tick");
+  }
+  judge.atLeast(100 * touched / counted, kPathTouched, "of the paths with a force");
+  judge.add(bounds.verdict());
+  return judge.verdict();
+}
+
+}  // namespace relievo::scenario
