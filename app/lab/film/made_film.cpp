@@ -10,7 +10,7 @@
 namespace relievo {
 namespace {
 
-TimedSurface toSurface(std::vector<std::uint16_t> codes, MediaTime time) {
+TimedSurface toSurface(std::vector<std::uint16_t> codes, MediaTime time, const DepthCalibration& calibration) {
   const auto samples = std::make_shared<const std::vector<std::uint16_t>>(std::move(codes));
   Frame frame;
   frame.pts = time;
@@ -22,7 +22,7 @@ TimedSurface toSurface(std::vector<std::uint16_t> codes, MediaTime time) {
   frame.planes[0] = {reinterpret_cast<const std::uint8_t*>(samples->data()), MadeFormat::kCols * 2};
   frame.owner = samples;
   TimedSurface surface{.time = time, .owner = samples};
-  if (const auto field = HeightField::make(frame, {.bits = 16}, MadeFormat::kVolume)) {
+  if (const auto field = HeightField::make(frame, calibration, MadeFormat::kVolume)) {
     surface.field = *field;
   }
   return surface;
@@ -34,6 +34,8 @@ std::vector<TimedSurface> makeFilm(const Relief& relief, const MadeFormat& forma
                                    const Damage& damage) {
   const GridMapping grid(MadeFormat::kVolume, MadeFormat::kCols, MadeFormat::kRows);
   const double highest = std::exp2(format.bits) - 1, carried = 65535;
+  DepthCalibration calibration{.bits = 16};
+  if (format.zero_is_hole) calibration.invalid = 0;
   std::mt19937_64 random(format.seed);
   std::normal_distribution<double> noise(0, 1);
   std::vector<TimedSurface> film;
@@ -51,7 +53,7 @@ std::vector<TimedSurface> makeFilm(const Relief& relief, const MadeFormat& forma
       }
     }
     if (damage) damage(i, codes);
-    film.push_back(toSurface(std::move(codes), time));
+    film.push_back(toSurface(std::move(codes), time, calibration));
   }
   return film;
 }

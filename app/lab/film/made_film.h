@@ -23,6 +23,7 @@ struct MadeFormat {
   int bits = 16;
   double noise_share = 0;  // standard deviation of the noise of every sample, as a share of full scale
   std::uint64_t seed = 1;
+  bool zero_is_hole = false;  // code 0, which only `Damage` makes of a relief above the far plane
 };
 
 // Alters the codes of a frame before it is used: row by row, `kCols` wide.

@@ -12,7 +12,7 @@
 namespace relievo {
 namespace {
 
-constexpr std::array<Scenario, 20> kScenarios{{
+constexpr std::array<Scenario, 25> kScenarios{{
     {"rise-free", "a surface rises to a free finger and past it, 60 mm/s", scenario::riseFree},
     {"rise-contact", "a dome slides and rises under a pressed finger, 60 mm/s", scenario::riseContact},
     {"rise-fast", "a surface rises past a free finger at 3 m/s", scenario::riseFast},
@@ -33,6 +33,11 @@ constexpr std::array<Scenario, 20> kScenarios{{
     {"packet-loss", "blocks of the depth are wrong, now and then", scenario::packetLoss},
     {"energy-loop", "closed paths on a still scene: what they give", scenario::energyLoop},
     {"device-glitch", "the encoders jump, exchanges fail", scenario::deviceGlitch},
+    {"flicker", "each frame is scaled and shifted at random, as by a depth estimator", scenario::flicker, true},
+    {"dropout", "holes of 4 mm open and close at a resting finger", scenario::dropout, true},
+    {"pass-before", "a hand passes before the dome that a finger rests on", scenario::passBefore, true},
+    {"coarse-steps", "a slow stroke up a shallow slope in 6 bits", scenario::coarseSteps, true},
+    {"camera-move", "the camera pans and zooms, at a frame rate that changes", scenario::cameraMove, true},
 }};
 
 }  // namespace

@@ -66,7 +66,9 @@ ChartWords mapWords(const VerdictTable& map) {
     reading += print("%s %s %zu of %zu", m > 0 ? "," : "", kMethods[m], map.passed(m), scenarios().size());
   }
   return {"Where methods of touch fail",
-          reading + ". A cell holds the figure that decided. The scenarios were made harder until a method failed."};
+          reading +
+              ". A cell holds the figure that decided. The last five scenarios were written down before any method was "
+              "run on them; the others were made harder until a method failed."};
 }
 
 ChartWords onsetWords(const std::vector<Onset>& onsets) {

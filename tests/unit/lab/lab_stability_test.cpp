@@ -2,6 +2,7 @@
 // The judge of stability is judged: what is broken on purpose fails, what is right passes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -56,10 +57,11 @@ TEST(Scenarios, AreThoseOfTheDesign) {
   std::vector<std::string> names;
   for (const Scenario& s : scenarios()) names.emplace_back(s.name);
   EXPECT_EQ(names,
-            (std::vector<std::string>{"rise-free", "rise-contact", "rise-fast",   "sweep-edge",  "cut-up",
-                                      "cut-down",  "hold-video",   "stroke-step", "thin",        "noise",
-                                      "fast-hip",  "stiff-wall",   "jitter",      "frame-drop",  "underrun",
-                                      "seek",      "pause",        "packet-loss", "energy-loop", "device-glitch"}));
+            (std::vector<std::string>{"rise-free", "rise-contact", "rise-fast",   "sweep-edge",   "cut-up",
+                                      "cut-down",  "hold-video",   "stroke-step", "thin",         "noise",
+                                      "fast-hip",  "stiff-wall",   "jitter",      "frame-drop",   "underrun",
+                                      "seek",      "pause",        "packet-loss", "energy-loop",  "device-glitch",
+                                      "flicker",   "dropout",      "pass-before", "coarse-steps", "camera-move"}));
   EXPECT_EQ(findScenario("no-such"), nullptr);
 }
 
@@ -96,12 +98,29 @@ TEST(Scenarios, EachIsFailedByAtLeastOneMethodOfTheLiterature) {
 }
 
 // The figure that decided and its limit are in the message of one that is failed.
-TEST(Scenarios, AreAllPassedByRelievo) {
+TEST(Scenarios, AreAllPassedByRelievoButFlicker) {
   for (const Scenario& s : scenarios()) {
+    if (std::string(s.name) == "flicker") continue;
     const Verdict v = s.judge(challengerNamed("relievo"), true);
     EXPECT_TRUE(v.pass) << s.name << ": " << v.figure << " " << v.limit.unit << ", limit " << v.limit.value << ": "
                         << v.why;
   }
+}
+
+// What is scaled and shifted as a whole is followed and not averaged: 7.9 %, where people notice 6. The triangles of
+// the literature feel twice as much.
+TEST(Scenarios, FlickerIsFeltThroughRelievoHalfAsMuchAsThroughThePapersMethod) {
+  const Verdict own = judge("flicker", challengerNamed("relievo"));
+  EXPECT_FALSE(own.pass) << "it is mended: move it to the test above";
+  EXPECT_LE(own.figure, 8);
+  EXPECT_GE(judge("flicker", challengerNamed("modified-proxy-graph")).figure, 1.5 * own.figure);
+}
+
+TEST(Scenarios, TheLastFiveWereWrittenFirst) {
+  int written_first = 0;
+  for (const Scenario& s : scenarios()) written_first += s.written_first ? 1 : 0;
+  EXPECT_EQ(written_first, 5);
+  for (const Scenario& s : scenarios().last(5)) EXPECT_TRUE(s.written_first) << s.name;
 }
 
 TEST(Scenarios, GiveTheSameVerdictAgain) {
