@@ -284,8 +284,20 @@ TEST_F(LabCharts, ThePageHoldsEveryChartWithItsWordsAndItsFigures) {
     EXPECT_NE(page.find("href=\"" + name + ".csv\""), std::string::npos) << name;
     EXPECT_TRUE(std::filesystem::exists(out(name + ".csv"))) << name;
   }
-  EXPECT_EQ(charts, withoutEgl(result_) ? 13 : 14);
+  EXPECT_EQ(charts, withoutEgl(result_) ? 14 : 15);
   EXPECT_EQ(page.find("nan"), std::string::npos);
+}
+
+TEST_F(LabCharts, TheMapSaysWhereEachLimitIsFromAndTheGuardsThresholdThatItUses) {
+  const Csv map(out("stability.csv")), guard(out("guard-sensitivity.csv"));
+  for (const CsvRow& row : map.rows()) {
+    const std::string origin = row.at("origin").substr(0, row.at("origin").find(':'));
+    EXPECT_TRUE(origin == "derived" || origin == "cited" || origin == "chosen") << row.at("scenario");
+    if (row.at("method") != "modified-proxy-graph") continue;
+    EXPECT_EQ(guard.value({{"scenario", row.at("scenario")}, {"threshold_n", "8"}}, "pass"),
+              std::strtod(row.at("pass").c_str(), nullptr));
+  }
+  EXPECT_NE(textOf(out("guard-sensitivity.svg")).find("uses 8 N"), std::string::npos);
 }
 
 TEST_F(LabCharts, AReportRunsOnlyWhatIsMissing) {

@@ -18,7 +18,7 @@ namespace {
 constexpr std::array kSpeedAccuracyCharts{"speed-accuracy", "accuracy-by-scene", "parts", "tick-time"};
 constexpr std::array kEdgesCharts{"edges"};
 constexpr std::array kSmoothnessCharts{"smoothness", "smoothness-hand", "smoothness-peaks"};
-constexpr std::array kStabilityCharts{"stability", "stability-onset"};
+constexpr std::array kStabilityCharts{"stability", "guard-sensitivity", "stability-onset"};
 constexpr std::array kDetailCharts{"detail"};
 constexpr std::array kEnhanceCharts{"enhance", "enhance-points"};
 constexpr std::array kBitrateCharts{"bitrate"};

@@ -8,6 +8,7 @@
 
 #include "app/lab/chart/csv_table.h"
 #include "app/lab/film/parallel.h"
+#include "app/lab/scenario/guard_sensitivity.h"
 #include "app/lab/scenario/loop_onset.h"
 #include "app/lab/scenario/verdict_table.h"
 #include "platform/print.h"
@@ -92,10 +93,13 @@ Outcome<std::vector<ChartWords>> measureStability(const MeasureOptions& options)
   const VerdictTable map(challengers(), options);
   if (const auto written = map.write(options.out + "/stability.csv", "method"); !written)
     return std::unexpected(written.error());
+  options.tell("thresholds of the guard");
+  const auto guard = measureGuardSensitivity(options);
+  if (!guard) return std::unexpected(guard.error());
   options.tell("closed loops");
   const auto onsets = findOnsets(options);
   if (const auto written = writeOnsets(options.out, onsets); !written) return std::unexpected(written.error());
-  return std::vector{mapWords(map), onsetWords(onsets)};
+  return std::vector{mapWords(map), *guard, onsetWords(onsets)};
 }
 
 }  // namespace relievo

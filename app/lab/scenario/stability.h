@@ -8,8 +8,9 @@
 
 namespace relievo {
 
-// Charts: stability (a cell per scenario and method, with the figure that decided it) and stability-onset (stiffness
-// from which a device swings on a wall, over its delay, with the bounds).
+// Charts: stability (a cell per scenario and method, with the figure that decided it), guard-sensitivity (the paper's
+// method by the threshold of its guard) and stability-onset (stiffness from which a device swings on a wall, over its
+// delay, with the bounds).
 [[nodiscard]] Outcome<std::vector<ChartWords>> measureStability(const MeasureOptions& options);
 
 }  // namespace relievo
