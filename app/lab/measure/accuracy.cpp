@@ -46,8 +46,9 @@ Outcome<AccuracyTable> measureAccuracy(std::span<const Contender> contenders, co
                  options.scenes.size() * kDepthKinds.size(), scene.c_str(), kDepthKinds[d].name));
       const auto film = MemoryFilm::make(*surface, {.depth = kDepthKinds[d]}, 0, options.duration_s);
       if (!film) return failOn("depth of " + scene, film.error());
+      const FilmViews views(*film);
       inParallel(contenders.size(), [&](std::size_t c) {
-        const auto ticks = playPath(*film, *contenders[c].make(*film), path, truth);
+        const auto ticks = playPath(views, contenders[c], path, truth);
         table[c][d][s] = {forceErrors(ticks, kSettledS), contenders[c].parts(*film)};
       });
     }

@@ -6,6 +6,8 @@
 #include <array>
 
 #include "app/depth_window/touch_plan.h"
+#include "app/lab/rival/bullet_proxy.h"
+#include "app/lab/rival/smoothed_film.h"
 
 namespace relievo {
 namespace {
@@ -25,11 +27,15 @@ constexpr MethodConfig oneWidth(double mm) {
 }
 
 constexpr MethodConfig kOwn = with({}, {});
-constexpr bool kPlanned = true, kFixed = true;
+constexpr bool kPlanned = true, kFixed = true, kSmoothed = true;
+constexpr const char* kBullet = "bullet";  // no name of makeMethod
 
 constexpr std::array kContenders{
     Contender{"relievo", "relievo", kOwn, kPlanned},
     Contender{"god-object", "relievo", with(SpaceLaw::Triangles, {})},
+    Contender{"god-object-smoothed", "relievo", with(SpaceLaw::Triangles, {}), !kPlanned, !kFixed, kSmoothed},
+    Contender{"bullet", kBullet, kOwn},
+    Contender{"bullet-smoothed", kBullet, kOwn, !kPlanned, !kFixed, kSmoothed},
     Contender{"modified-proxy-graph", "modified-proxy-graph", kOwn},
     Contender{"proxy-graph", "proxy-graph", kOwn},
     Contender{"proxy-blend", "proxy-blend", kOwn},
@@ -47,6 +53,7 @@ constexpr std::array kContenders{
     Contender{"relievo 0.72", "relievo", oneWidth(0.72), !kPlanned, kFixed},
     Contender{"relievo 1.0", "relievo", oneWidth(1.0), !kPlanned, kFixed},
     Contender{"god-object hold", "relievo", with(SpaceLaw::Triangles, TimeLaw::Hold), !kPlanned, kFixed},
+    Contender{"smoothed hold", "relievo", with(SpaceLaw::Triangles, TimeLaw::Hold), !kPlanned, kFixed, kSmoothed},
     Contender{"modified hold", "modified-proxy-graph", with({}, TimeLaw::Hold), !kPlanned, kFixed},
     Contender{"proxy-graph linear", "proxy-graph", with({}, TimeLaw::Linear), !kPlanned, kFixed},
 };
@@ -57,6 +64,16 @@ MethodConfig configOn(const MemoryFilm& film, const Contender& who) {
   return config;
 }
 
+bool isBullet(const Contender& who) {
+  return who.method == std::string_view(kBullet);
+}
+
+std::vector<Contender> thoseAtHand() {
+  std::vector<Contender> all(kContenders.begin(), kContenders.end());
+  if (makeBulletProxy(1) == nullptr) std::erase_if(all, isBullet);
+  return all;
+}
+
 int lookAhead(TimeLaw law) {
   return static_cast<int>(law);  // hold 0, linear 1, bspline 2, fitted 3
 }
@@ -64,12 +81,18 @@ int lookAhead(TimeLaw law) {
 }  // namespace
 
 std::unique_ptr<TouchMethod> Contender::make(const MemoryFilm& film) const {
+  if (isBullet(*this)) return makeBulletProxy(config.stiffness_n_per_mm);
   return makeMethod(method, configOn(film, *this));
 }
 
 ContenderParts Contender::parts(const MemoryFilm& film) const {
+  const double width = smoothed ? planFilm(film.frames()).scale.wide_mm : std::numeric_limits<double>::quiet_NaN();
+  if (isBullet(*this)) return {.space = "triangles", .time = "linear", .wide_mm = width, .look_ahead_frames = 1};
   const MethodParts parts = *partsOf(method, configOn(film, *this));  // the list holds such alone
-  ContenderParts out{.space = name(parts.space), .time = name(parts.time), .look_ahead_frames = lookAhead(parts.time)};
+  ContenderParts out{.space = name(parts.space),
+                     .time = name(parts.time),
+                     .wide_mm = width,
+                     .look_ahead_frames = lookAhead(parts.time)};
   if (parts.scale) {
     out.narrow_mm = parts.scale->narrow_mm;
     out.wide_mm = parts.scale->wide_mm;
@@ -78,14 +101,23 @@ ContenderParts Contender::parts(const MemoryFilm& film) const {
   return out;
 }
 
+FilmViews::FilmViews(const MemoryFilm& film)
+    : raw_(film), sigma_mm_(planFilm(film.frames()).scale.wide_mm), smoothed_(smoothedFilm(film, sigma_mm_)) {}
+
+std::vector<PlayedTick> playPath(const FilmViews& film, const Contender& who, std::span<const HipTick> path,
+                                 std::span<const TrueTouch> truth) {
+  return playPath(film.of(who), *who.make(film.raw()), path, truth);
+}
+
 std::span<const Contender> contenders() {
-  return kContenders;
+  static const std::vector<Contender> all = thoseAtHand();
+  return all;
 }
 
 const Contender* contender(std::string_view label) {
-  const auto found =
-      std::find_if(kContenders.begin(), kContenders.end(), [&](const Contender& c) { return label == c.label; });
-  return found == kContenders.end() ? nullptr : &*found;
+  const auto all = contenders();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Contender& c) { return label == c.label; });
+  return found == all.end() ? nullptr : &*found;
 }
 
 }  // namespace relievo

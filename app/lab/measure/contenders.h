@@ -6,13 +6,15 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "app/haptics/baseline/methods.h"
 #include "app/lab/film/film_run.h"
 
 namespace relievo {
 
-// What a contender is made of on a film; widths are those of relievo's smooth surface alone.
+// What a contender is made of on a film; widths are those of relievo's smooth surface, and that of depth smoothed per
+// frame is `wide_mm`.
 struct ContenderParts {
   const char* space = "";
   const char* time = "";  // of the wide level
@@ -26,12 +28,34 @@ struct Contender {
   MethodConfig config;        // without the jump threshold: the guard would hide what is measured
   bool planned = false;       // on the scale that the plan picks for the film, as the player does
   bool fixed_choice = false;  // one part swapped
+  bool smoothed = false;      // on depth smoothed per frame (FilmViews)
 
+  // `film` as it is, whatever the contender feels of it.
   [[nodiscard]] std::unique_ptr<TouchMethod> make(const MemoryFilm& film) const;
   [[nodiscard]] ContenderParts parts(const MemoryFilm& film) const;
 };
 
-// The methods as they are, `relievo` first; then the same with one part swapped.
+// A film and the same with every frame smoothed by the wide width that the plan picks for it (smoothedFilm), which
+// takes a while.
+class FilmViews {
+ public:
+  explicit FilmViews(const MemoryFilm& film);
+  [[nodiscard]] const MemoryFilm& raw() const { return raw_; }
+  [[nodiscard]] const MemoryFilm& of(const Contender& who) const { return who.smoothed ? smoothed_ : raw_; }
+  [[nodiscard]] double sigmaMm() const { return sigma_mm_; }
+
+ private:
+  MemoryFilm raw_;
+  double sigma_mm_;
+  MemoryFilm smoothed_;
+};
+
+// One contender along a whole path.
+[[nodiscard]] std::vector<PlayedTick> playPath(const FilmViews& film, const Contender& who,
+                                               std::span<const HipTick> path, std::span<const TrueTouch> truth);
+
+// The methods as they are, `relievo` first; then the same with one part swapped. Those on Bullet's height field are
+// left out where relievo-lab was built without that library.
 [[nodiscard]] std::span<const Contender> contenders();
 // Null for a label that is not known.
 [[nodiscard]] const Contender* contender(std::string_view label);

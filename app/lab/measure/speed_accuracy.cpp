@@ -81,15 +81,16 @@ class SpeedAccuracy {
     const auto surface = makeTrueSurface(kTimedScene);
     const auto film = MemoryFilm::make(*surface, {depth, size.cols, size.rows}, 0, plan_.duration_s);
     if (!film) return failOn("depth of " + what, film.error());
+    const FilmViews views(*film);
     for (const double speed : plan_.speeds_m_per_s) {
       if (speed != kSlowMPerS && &depth != &kEightBits) continue;
       options_.tell(film_of + print(", %g m/s", speed));
       const auto path = makeFingerPath(*surface, {.speed_mm_per_s = 1000 * speed, .duration_s = plan_.duration_s});
       const auto truth = truthAlong(*surface, path);
-      const TimedPath timed{*film, path, static_cast<std::size_t>(kSettledS / FingerPathOptions::kTickS)};
+      const TimedPath timed{views, path, static_cast<std::size_t>(kSettledS / FingerPathOptions::kTickS)};
       const auto times = timeTicks(all_, timed, plan_.rounds);
       for (std::size_t c = 0; c < all_.size(); ++c) {
-        const auto error = forceErrors(playPath(*film, *all_[c]->make(*film), path, truth), kSettledS).result();
+        const auto error = forceErrors(playPath(views, *all_[c], path, truth), kSettledS).result();
         addTimed({all_[c], &depth, kTimedScene, size, speed, false, all_[c]->parts(*film), error, times[c]});
       }
       if (speed == kSlowMPerS && &depth == &kEightBits) {
@@ -113,11 +114,12 @@ class SpeedAccuracy {
 
   void addColdTimes(const PictureSize& size, const TimedPath& timed) {
     if (size != plan_.sizes.front() && size != plan_.sizes.back()) return;
-    const std::vector<const Contender*> two{contender("relievo"), contender("god-object")};
-    const auto times = timeColdTicks(two, timed, plan_.cold_ticks);
-    for (std::size_t c = 0; c < two.size(); ++c) {
+    const std::vector<const Contender*> some{contender("relievo"), contender("god-object"),
+                                             contender("god-object-smoothed")};
+    const auto times = timeColdTicks(some, timed, plan_.cold_ticks);
+    for (std::size_t c = 0; c < some.size(); ++c) {
       figures_.rows.push_back(
-          {.who = two[c], .size = size, .cold = true, .parts = two[c]->parts(timed.film), .times = times[c]});
+          {.who = some[c], .size = size, .cold = true, .parts = some[c]->parts(timed.film.raw()), .times = times[c]});
     }
   }
 

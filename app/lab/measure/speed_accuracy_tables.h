@@ -45,7 +45,7 @@ struct SpeedAccuracyFigures {
 
 // One CSV per chart: speed-accuracy, accuracy-by-scene, parts, tick-time.
 [[nodiscard]] Outcome<void> writeTables(const SpeedAccuracyFigures& figures, const std::string& folder);
-// In the same order. Needs the rows of relievo, god-object and modified-proxy-graph on 720x486 at both 0.1 and 1 m/s.
+// In the same order. Needs the rows of all contenders on 720x486 at both 0.1 and 1 m/s.
 [[nodiscard]] std::vector<ChartWords> chartWords(const SpeedAccuracyFigures& figures);
 
 }  // namespace relievo

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "app/lab/rival/smoothed_film.h"
+
 namespace relievo {
 namespace {
 
@@ -13,15 +15,21 @@ class Samples {
   void add(const PlayedTick& tick, Duration clock) {
     update_us_.push_back(microseconds(tick.update - clock));
     upkeep_us_.push_back(microseconds(tick.upkeep - clock));
+    whole_us_.push_back(update_us_.back() + upkeep_us_.back());
   }
   [[nodiscard]] TickTimes times(int rounds) const {
-    return {spreadOf(update_us_), spreadOf(upkeep_us_), spreadOf(mediansOfRounds(update_us_, rounds)),
-            spreadOf(mediansOfRounds(upkeep_us_, rounds))};
+    const auto own = [rounds](const std::vector<double>& us) { return spreadOf(mediansOfRounds(us, rounds)); };
+    return {.update = spreadOf(update_us_),
+            .upkeep = spreadOf(upkeep_us_),
+            .whole = spreadOf(whole_us_),
+            .own_update = own(update_us_),
+            .own_upkeep = own(upkeep_us_),
+            .own_whole = own(whole_us_)};
   }
 
  private:
   static double microseconds(Duration d) { return std::max(0.0, toSeconds(d) * 1e6); }
-  std::vector<double> update_us_, upkeep_us_;
+  std::vector<double> update_us_, upkeep_us_, whole_us_;
 };
 
 std::vector<TickTimes> timesOf(const std::vector<Samples>& samples, int rounds) {
@@ -29,6 +37,15 @@ std::vector<TickTimes> timesOf(const std::vector<Samples>& samples, int rounds) 
   times.reserve(samples.size());
   for (const Samples& s : samples) times.push_back(s.times(rounds));
   return times;
+}
+
+double ticksOfAFrame(const TimedPath& timed) {
+  const auto frames = timed.film.raw().frames();
+  const double period_s = toSeconds(frames.back().time - frames.front().time) /
+                          static_cast<double>(std::max<std::size_t>(frames.size(), 2) - 1);
+  const double tick_s = (timed.path.back().t_s - timed.path.front().t_s) /
+                        static_cast<double>(std::max<std::size_t>(timed.path.size(), 2) - 1);
+  return period_s / tick_s;
 }
 
 // Larger than the caches of the machines that this runs on, but for the last level of the largest servers.
@@ -58,17 +75,25 @@ std::vector<TickTimes> timeTicks(std::span<const Contender* const> contenders, c
   const Duration clock = clockCost();
   std::vector<Samples> samples(contenders.size());
   std::vector<std::unique_ptr<TouchMethod>> methods;
-  for (const Contender* c : contenders) methods.push_back(c->make(timed.film));
+  for (const Contender* c : contenders) methods.push_back(c->make(timed.film.raw()));
+  FrameStopwatch blur(timed.film.raw(), timed.film.sigmaMm());
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t m = 0; m < methods.size(); ++m) {
-      FilmRun run(timed.film, *methods[m]);
+      FilmRun run(timed.film.of(*contenders[m]), *methods[m]);
       for (std::size_t i = 0; i < timed.path.size(); ++i) {
         const PlayedTick tick = run.tick(timed.path[i]);
         if (i >= timed.skipped_ticks) samples[m].add(tick, clock);
       }
     }
+    blur.timeOne();
   }
-  return timesOf(samples, rounds);
+  std::vector<TickTimes> times = timesOf(samples, rounds);
+  for (std::size_t m = 0; m < times.size(); ++m) {
+    if (!contenders[m]->smoothed) continue;
+    times[m].frame_ms = blur.medianMs();
+    times[m].frame_us_per_tick = 1e3 * blur.medianMs() / ticksOfAFrame(timed);
+  }
+  return times;
 }
 
 std::vector<TickTimes> timeColdTicks(std::span<const Contender* const> contenders, const TimedPath& timed,
@@ -78,9 +103,9 @@ std::vector<TickTimes> timeColdTicks(std::span<const Contender* const> contender
   std::vector<Samples> samples(contenders.size());
   std::vector<std::unique_ptr<TouchMethod>> methods;
   std::vector<FilmRun> runs;
-  for (const Contender* c : contenders) methods.push_back(c->make(timed.film));
+  for (const Contender* c : contenders) methods.push_back(c->make(timed.film.raw()));
   runs.reserve(methods.size());
-  for (const auto& method : methods) runs.emplace_back(timed.film, *method);
+  for (std::size_t m = 0; m < methods.size(); ++m) runs.emplace_back(timed.film.of(*contenders[m]), *methods[m]);
   const std::size_t end = std::min(timed.path.size(), timed.skipped_ticks + ticks);
   for (std::size_t i = 0; i < end; ++i) {
     for (std::size_t m = 0; m < runs.size(); ++m) {

@@ -8,6 +8,7 @@
 #include "app/depth_window/touch_plan.h"
 #include "app/haptics/baseline/methods.h"
 #include "app/lab/film/memory_feed.h"
+#include "app/lab/rival/smoothed_film.h"
 
 namespace relievo {
 namespace {
@@ -44,7 +45,12 @@ constexpr std::array<Scenario, 25> kScenarios{{
 
 Challenger challengerNamed(const std::string& method) {
   return {method, [method](double stiffness, std::span<const TimedSurface> film) {
-            return makeMethod(method, {.stiffness_n_per_mm = stiffness, .scale = planFilm(film).scale});
+            const FeltScale scale = planFilm(film).scale;
+            if (!method.starts_with("god-object")) {
+              return makeMethod(method, {.stiffness_n_per_mm = stiffness, .scale = scale});
+            }
+            auto proxy = makeMethod("relievo", {.stiffness_n_per_mm = stiffness, .space = SpaceLaw::Triangles});
+            return method == "god-object" ? std::move(proxy) : onSmoothedDepth(std::move(proxy), film, scale.wide_mm);
           }};
 }
 

@@ -17,7 +17,8 @@ struct Challenger {
   std::string name;
   std::function<std::unique_ptr<TouchMethod>(double stiffness_n_per_mm, std::span<const TimedSurface> film)> make;
 };
-// A method as the player makes it: `relievo` on the scale that its plan picks when the film begins.
+// A method as the player makes it: `relievo` on the scale that its plan picks when the film begins; `god-object`, and
+// `god-object-smoothed` on every frame smoothed by the wide width of that plan.
 [[nodiscard]] Challenger challengerNamed(const std::string& method);
 
 // The method runs in the haptic task itself, with all its limits, on virtual time: the same verdict at every run.

@@ -16,7 +16,8 @@
 namespace relievo {
 namespace {
 
-constexpr std::array kMethods{"relievo", "modified-proxy-graph", "proxy-graph", "proxy-blend", "penalty"};
+constexpr std::array kMethods{"relievo",     "god-object", "god-object-smoothed", "modified-proxy-graph", "proxy-graph",
+                              "proxy-blend", "penalty"};
 
 struct Onset {
   const char* method;
@@ -61,6 +62,22 @@ Outcome<void> writeOnsets(const std::string& folder, const std::vector<Onset>& o
   return table.write(folder + "/stability-onset.csv");
 }
 
+// What smoothing every frame mends of the god-object, and what it spoils.
+std::string smoothedWords(const VerdictTable& map) {
+  const auto column = [](std::string_view method) {
+    return static_cast<std::size_t>(std::find(kMethods.begin(), kMethods.end(), method) - kMethods.begin());
+  };
+  std::string mended, spoiled;
+  for (std::size_t s = 0; s < scenarios().size(); ++s) {
+    const bool raw = map.passes(s, column("god-object")), smoothed = map.passes(s, column("god-object-smoothed"));
+    if (raw == smoothed) continue;
+    std::string& list = smoothed ? mended : spoiled;
+    list += (list.empty() ? "" : ", ") + std::string(scenarios()[s].name);
+  }
+  return " Smoothing every frame lets the god-object pass " + (mended.empty() ? "nothing more" : mended) +
+         " and makes it fail " + (spoiled.empty() ? "nothing more" : spoiled) + ".";
+}
+
 ChartWords mapWords(const VerdictTable& map) {
   std::string reading = "Scenarios passed:";
   for (std::size_t m = 0; m < kMethods.size(); ++m) {
@@ -69,7 +86,8 @@ ChartWords mapWords(const VerdictTable& map) {
   return {"Where methods of touch fail",
           reading +
               ". A cell holds the figure that decided. The last five scenarios were written down before any method was "
-              "run on them; the others were made harder until a method failed."};
+              "run on them; the others were made harder until a method failed." +
+              smoothedWords(map)};
 }
 
 ChartWords onsetWords(const std::vector<Onset>& onsets) {

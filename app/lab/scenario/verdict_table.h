@@ -16,6 +16,9 @@ class VerdictTable {
   // On all processors.
   VerdictTable(std::vector<Challenger> challengers, const MeasureOptions& options);
 
+  [[nodiscard]] bool passes(std::size_t scenario, std::size_t challenger) const {
+    return verdicts_[scenario * challengers_.size() + challenger].pass;
+  }
   [[nodiscard]] std::size_t passed(std::size_t challenger) const;
   // A row for each scenario and challenger; `who`: the column of the challengers' names.
   [[nodiscard]] Outcome<void> write(const std::string& path, const char* who) const;

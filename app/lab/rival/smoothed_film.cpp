@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// Smoothed heights travel as pictures of gray, so that whatever reads depth reads them.
+#include "app/lab/rival/smoothed_film.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <thread>
+
+#include "app/lab/film/parallel.h"
+#include "app/lab/measure/statistics.h"
+#include "platform/clock.h"
+
+namespace relievo {
+namespace {
+
+struct SmoothedPictures {
+  std::vector<Frame> pictures;
+  DepthCalibration calibration{.bits = 16};
+};
+
+Frame grayOf(std::shared_ptr<const std::vector<std::uint16_t>> codes, int cols, int rows, MediaTime time) {
+  Frame frame;
+  frame.pts = time;
+  frame.width = cols;
+  frame.height = rows;
+  frame.range = ColorRange::Full;
+  frame.plane_count = 1;
+  frame.components[0] = {.step_bytes = 2, .bits = 16};
+  frame.planes[0] = {reinterpret_cast<const std::uint8_t*>(codes->data()), std::ptrdiff_t{2} * cols};
+  frame.owner = std::move(codes);
+  return frame;
+}
+
+SmoothedPictures smoothAll(std::span<const TimedSurface> frames, double sigma_mm) {
+  SmoothedPictures done;
+  done.pictures.resize(frames.size());
+  std::atomic<bool> hole = false;
+  const std::size_t parts = std::max(1U, std::thread::hardware_concurrency());
+  inParallel(parts, [&](std::size_t part) {
+    if (frames.empty()) return;
+    DepthSmoother smoother(frames.front().field, sigma_mm);
+    for (std::size_t i = part; i < frames.size(); i += parts) {
+      if (frames[i].repeats && i > 0) continue;
+      const auto codes = std::make_shared<std::vector<std::uint16_t>>(static_cast<std::size_t>(smoother.cols()) *
+                                                                      static_cast<std::size_t>(smoother.rows()));
+      if (smoother.smooth(frames[i].field, *codes)) hole = true;
+      done.pictures[i] = grayOf(codes, smoother.cols(), smoother.rows(), frames[i].time);
+    }
+  });
+  for (std::size_t i = 1; i < frames.size(); ++i) {
+    if (!frames[i].repeats) continue;
+    done.pictures[i] = done.pictures[i - 1];
+    done.pictures[i].pts = frames[i].time;
+  }
+  if (hole) done.calibration.invalid = DepthSmoother::kHole;
+  return done;
+}
+
+DisplayVolume volumeOf(const HeightField& field) {
+  return {field.cols() / field.grid().u_per_mm, -field.rows() / field.grid().v_per_mm, field.depthMm()};
+}
+
+class OnSmoothedDepth final : public TouchMethod {
+ public:
+  OnSmoothedDepth(std::unique_ptr<TouchMethod> method, std::span<const TimedSurface> film, double sigma_mm)
+      : method_(std::move(method)) {
+    const SmoothedPictures smoothed = smoothAll(film, sigma_mm);
+    for (std::size_t i = 0; i < film.size(); ++i) {
+      TimedSurface frame = film[i];
+      const Frame& picture = smoothed.pictures[i];
+      if (const auto field = HeightField::make(picture, smoothed.calibration, volumeOf(film[i].field))) {
+        frame.field = *field;
+        frame.owner = picture.owner;
+      }
+      film_.push_back(std::move(frame));
+    }
+  }
+
+  [[nodiscard]] Touch update(const glm::dvec3& hip_mm, const SurfaceWindow& window, MediaTime now) RELIEVO_RT override {
+    window_.count = window.count;
+    window_.epoch = window.epoch;
+    window_.clock = window.clock;
+    window_.ended = window.ended;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(window.count); ++i) {
+      TimedSurface& frame = window_.frames[i];  // without the owner, which is the film's here
+      frame.time = window.frames[i].time;
+      frame.shot = window.frames[i].shot;
+      frame.repeats = window.frames[i].repeats;
+      frame.field = smoothedAt(frame.time);
+    }
+    return method_->update(hip_mm, window_, now);
+  }
+  void upkeep(const SurfaceWindow& /*window*/, MediaTime now) RELIEVO_RT override { method_->upkeep(window_, now); }
+  void reset() RELIEVO_RT override { method_->reset(); }
+
+ private:
+  // Of the film's last frame at or before this time; all that are shown are in it.
+  [[nodiscard]] const HeightField& smoothedAt(MediaTime time) const RELIEVO_RT {
+    std::size_t i = film_.size() - 1;
+    while (i > 0 && film_[i].time > time) --i;
+    return film_[i].field;
+  }
+
+  std::unique_ptr<TouchMethod> method_;
+  std::vector<TimedSurface> film_;
+  SurfaceWindow window_;
+};
+
+}  // namespace
+
+MemoryFilm smoothedFilm(const MemoryFilm& film, double sigma_mm) {
+  const SmoothedPictures smoothed = smoothAll(film.frames(), sigma_mm);
+  return *MemoryFilm::of(smoothed.pictures, smoothed.calibration);  // gray pictures are always readable
+}
+
+std::unique_ptr<TouchMethod> onSmoothedDepth(std::unique_ptr<TouchMethod> method, std::span<const TimedSurface> film,
+                                             double sigma_mm) {
+  return std::make_unique<OnSmoothedDepth>(std::move(method), film, sigma_mm);
+}
+
+FrameStopwatch::FrameStopwatch(const MemoryFilm& film, double sigma_mm)
+    : frames_(film.frames()),
+      smoother_(frames_.front().field, sigma_mm),
+      codes_(static_cast<std::size_t>(smoother_.cols()) * static_cast<std::size_t>(smoother_.rows())) {}
+
+void FrameStopwatch::timeOne() {
+  const MonotonicClock clock;
+  const MonotonicTime begin = clock.now();
+  static_cast<void>(smoother_.smooth(frames_[times_ms_.size() % frames_.size()].field, codes_));
+  times_ms_.push_back(1e3 * toSeconds(clock.now() - begin));
+}
+
+double FrameStopwatch::medianMs() const {
+  return spreadOf(times_ms_).median;
+}
+
+}  // namespace relievo
