@@ -5,10 +5,13 @@
 #include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btRaycastCallback.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
+#include <span>
+#include <utility>
 
 #include "app/haptics/baseline/surface_in_time.h"
 
@@ -17,7 +20,7 @@ namespace {
 
 constexpr int kMostRays = 32;     // of a tick
 constexpr double kLiftMm = 5e-4;  // the proxy rests so far above the surface: more than single precision rounds
-constexpr double kArrivedMm = 1e-4;
+constexpr double kArrivedMm = 1e-3;
 
 struct Plane {
   glm::dvec3 normal{0, 0, 1};
@@ -119,6 +122,11 @@ class Constraints {
     return *closestOn({&newest, 1}, hip);
   }
 
+  [[nodiscard]] bool hold(const Plane& plane) const {
+    return std::any_of(planes_.begin(), planes_.begin() + count_,
+                       [&](const Plane& p) { return glm::dot(p.normal, plane.normal) > 1 - 1e-10; });
+  }
+
  private:
   std::array<Plane, 3> planes_;
   int count_ = 1;
@@ -139,8 +147,8 @@ class BulletProxy final : public TouchMethod {
     if (surface.empty()) return last_ = {.proxy_mm = hip};
     if (!terrain_ || !terrain_->fits(surface)) terrain_.emplace(window.frames[0].field);
     terrain_->show(surface);
-    last_ = follow(carried(), hip);
-    height_mm_ = heightAt(last_.proxy_mm);
+    last_ = follow(carried(surface), hip);
+    height_mm_ = surfaceHeight(surface, last_.proxy_mm.x, last_.proxy_mm.y);
     return last_;
   }
   void reset() RELIEVO_RT override { primed_ = false; }
@@ -158,23 +166,27 @@ class BulletProxy final : public TouchMethod {
     const glm::dvec3 place = from + static_cast<double>(hit.m_hitFraction) * (to - from) + kLiftMm * normal;
     return Hit{place, {normal, glm::dot(normal, place)}};
   }
-  // By a ray straight down; not a number at a hole.
-  [[nodiscard]] double heightAt(const glm::dvec3& place) const {
-    const double high = 2 * terrain_->middleMm() + 1;
-    const auto hit = ray({place.x, place.y, high}, {place.x, place.y, -1});
-    return hit ? hit->place_mm.z - kLiftMm * hit->plane.normal.z : HeightField::kHole;
-  }
   // A hole in either tick compares false.
-  [[nodiscard]] glm::dvec3 carried() const {
-    const double risen = heightAt(last_.proxy_mm) - height_mm_;
+  [[nodiscard]] glm::dvec3 carried(const SurfaceInTime& surface) const {
+    const double risen = surfaceHeight(surface, last_.proxy_mm.x, last_.proxy_mm.y) - height_mm_;
     return last_.proxy_mm + glm::dvec3(0, 0, risen > 0 ? risen : 0);
+  }
+  // A ray costs by the cells that it crosses, and the surface is near most of the time.
+  [[nodiscard]] std::optional<Hit> rayTowards(const glm::dvec3& from, const glm::dvec3& hip) const {
+    constexpr double kNearMm = 0.3;
+    const double length = glm::distance(from, hip);
+    if (length > 2 * kNearMm) {
+      if (const auto hit = ray(from, from + kNearMm / length * (hip - from))) return hit;
+    }
+    return ray(from, hip);
   }
   // Each round goes to the goal that the planes allow, and looks from there what is between it and the finger.
   [[nodiscard]] Touch follow(const glm::dvec3& from, const glm::dvec3& hip) const {
-    auto hit = ray(from, hip);
+    auto hit = rayTowards(from, hip);
     if (!hit) return {.proxy_mm = hip};
-    glm::dvec3 proxy = hit->place_mm, arrived = proxy;
+    glm::dvec3 proxy = hit->place_mm;
     Constraints constraints(hit->plane);
+    Hit last = *hit, earlier = last;
     for (int rays = 1; rays < kMostRays; ++rays) {
       const glm::dvec3 goal = constraints.goalWith(hit->plane, hip);
       hit = ray(proxy, goal);
@@ -183,12 +195,23 @@ class BulletProxy final : public TouchMethod {
         continue;
       }
       proxy = goal;
-      hit = ray(proxy, hip);
-      if (!hit || glm::distance(hit->place_mm, arrived) < kArrivedMm) break;
-      arrived = proxy = hit->place_mm;
+      hit = rayTowards(proxy, hip);
+      // Arrived: what is below is the triangle that the goal was set by, or the place that the round has begun at.
+      if (!hit || isAt(*hit, constraints.hold(hit->plane) ? goal : last.place_mm)) break;
+      // To and fro over a ridge: it is the line that both planes have in common.
+      if (isAt(*hit, earlier.place_mm)) {
+        const auto ridge = closestOn(std::array{last.plane, hit->plane}, hip);
+        if (ridge && !ray(proxy, *ridge)) proxy = *ridge;
+        break;
+      }
+      proxy = hit->place_mm;
       constraints = Constraints(hit->plane);
+      earlier = std::exchange(last, *hit);
     }
     return {.proxy_mm = proxy, .force_n = stiffness_ * (proxy - hip), .contact = true};
+  }
+  [[nodiscard]] static bool isAt(const Hit& hit, const glm::dvec3& place) {
+    return glm::distance(hit.place_mm, place) < kArrivedMm;
   }
 
   double stiffness_;
