@@ -6,6 +6,7 @@
 #include <malloc.h>
 
 #include <glm/geometric.hpp>
+#include <initializer_list>
 #include <memory>
 #include <vector>
 
@@ -33,11 +34,28 @@ class HapticTaskTest : public testing::Test {
     for (const double t : {0.0, 0.04}) {
       frames.push_back(test::makeReliefFrame(40, 30, kVolume, mediaTime(t), [&](double, double) { return height; }));
     }
+    publish(frames, {.media = {}, .monotonic = clock_.now(), .rate = rate}, ended);
+  }
+  void publish(const std::vector<Frame>& frames, const ClockSample& clock, bool ended = false) {
     SurfaceWindow& w = task_->windowToFill();
     w = test::makeWindow(frames, kVolume);
-    w.clock = {.media = {}, .monotonic = clock_.now(), .rate = rate};
+    w.clock = clock;
     w.ended = ended;
     task_->publishWindow();
+  }
+  // How many ticks pass until the feed counts as late, when the film begins now and has these frames.
+  int ticksUntilLate(std::initializer_list<double> times_s) {
+    std::vector<Frame> frames;
+    for (const double t : times_s) {
+      frames.push_back(test::makeReliefFrame(40, 30, kVolume, mediaTime(t), [](double, double) { return 20.0; }));
+    }
+    publish(frames, {.media = {}, .monotonic = clock_.now(), .rate = 1});
+    for (int ticks = 1; ticks < 2000; ++ticks) {
+      tick();
+      const auto told = faults();
+      if (told == std::vector{HapticFault::Kind::FeedStale}) return ticks;
+    }
+    return 0;
   }
   void tick(int n = 1) {
     for (int i = 0; i < n; ++i) {
@@ -76,6 +94,19 @@ TEST_F(HapticTaskTest, TheClutchTakesTheForceAway) {
   device_.buttons |= 2U;
   tick(100);  // 50 N/s
   EXPECT_NEAR(glm::length(device_.force), 0, 1e-9);
+}
+
+// The hand goes to where the device ends while it is clutched, and while the depth is late: it is stopped softly there.
+TEST_F(HapticTaskTest, TheEndsOfTheWorkspacePushAlsoWhereNothingIsFelt) {
+  device_.position = {0, 0, -48};  // 2 mm into the last 4 of 50: 0.2 N/mm
+  device_.buttons = 2U;
+  tick(50);
+  EXPECT_NEAR(device_.force.z, 0.4, 1e-9) << "clutched";
+  device_.buttons = 0;
+  publishPlane(20);
+  tick(200);
+  ASSERT_EQ(faults(), std::vector{HapticFault::Kind::FeedStale});
+  EXPECT_NEAR(device_.force.z, 0.4, 1e-9) << "depth is late";
 }
 
 TEST_F(HapticTaskTest, AllThatItHoldsIsUnderAMebibyte) {
@@ -155,6 +186,33 @@ TEST_F(HapticTaskTest, AFeedThatStopsFadesTheForceAndOneThatComesBackBringsItBac
   EXPECT_NEAR(device_.force.z, held, 0.01);
 }
 
+// One and a half periods after the newest frame, but not within 50 ms of it.
+TEST_F(HapticTaskTest, AFeedIsLateWhenAFrameAndAHalfAreMissingAndNotSoonerThanIn50Milliseconds) {
+  EXPECT_EQ(ticksUntilLate({0}), 51);
+  publishPlane(20);
+  tick();
+  ASSERT_EQ(faults(), std::vector{HapticFault::Kind::FeedRecovered});
+  EXPECT_EQ(ticksUntilLate({0, 0.01}), 10 + 51);
+  publishPlane(20);
+  tick();
+  ASSERT_EQ(faults(), std::vector{HapticFault::Kind::FeedRecovered});
+  EXPECT_EQ(ticksUntilLate({0, 0.2}), 200 + 301);
+}
+
+// The film has run beyond its newest frame, and then stands: the surface is that of the newest frame.
+TEST_F(HapticTaskTest, AFilmThatIsPausedWhileItsDepthIsLateIsTouchableAgain) {
+  publishPlane(20);
+  press(1);
+  tick(200);
+  ASSERT_EQ(faults(), std::vector{HapticFault::Kind::FeedStale});
+  ASSERT_EQ(device_.force.z, 0);
+  const std::vector frames{test::makeReliefFrame(40, 30, kVolume, {}, [](double, double) { return 20.0; })};
+  publish(frames, {.media = mediaTime(0.2), .monotonic = clock_.now(), .rate = 0});
+  tick(30);
+  EXPECT_EQ(faults(), std::vector{HapticFault::Kind::FeedRecovered});
+  EXPECT_NEAR(device_.force.z, 0.5, 0.01);
+}
+
 TEST_F(HapticTaskTest, APausedOrEndedFilmStaysTouchable) {
   for (const bool ended : {false, true}) {
     publishPlane(20, ended ? 1 : 0, ended);
@@ -174,6 +232,117 @@ TEST_F(HapticTaskTest, HandsEveryTickToTheRecorderInOrder) {
   }
   EXPECT_FALSE(task_->nextTick().has_value());
   EXPECT_EQ(task_->counters().ticks.load(), 100u);
+}
+
+TEST_F(HapticTaskTest, AForceThatCouldNotBeWrittenIsTold) {
+  tick(3);
+  device_.next_write_error = ErrorCode::Io;
+  tick(3);
+  EXPECT_EQ(device_.writes, 5);
+  EXPECT_EQ(faults(), std::vector{HapticFault::Kind::DeviceError});
+  device_.next_write_error = ErrorCode::Lost;
+  tick(3);
+  EXPECT_EQ(device_.writes, 5) << "the ticks leave it alone";
+  EXPECT_EQ(faults(), std::vector{HapticFault::Kind::DeviceLost});
+}
+
+// Pushes with 1 N, wherever the finger is.
+class Pusher final : public TouchMethod {
+ public:
+  Touch update(const glm::dvec3& hip_mm, const SurfaceWindow&, MediaTime) RELIEVO_RT override {
+    return {.proxy_mm = hip_mm + glm::dvec3(0, 0, 1 / kStiffness), .force_n = {0, 0, 1}, .contact = true};
+  }
+  void reset() RELIEVO_RT override { ++resets; }
+  int resets = 0;
+};
+
+class PushedTaskTest : public HapticTaskTest {
+ protected:
+  void SetUp() override {
+    HapticTaskTest::SetUp();
+    task_ = std::make_unique<HapticTask>(device_, pusher_, clock_, kVolume, kLimits, kStiffness);
+  }
+  // While no tick runs, as the player does: two seconds.
+  void plugInAgain() {
+    device_.close();
+    ASSERT_TRUE(device_.open() && device_.home() && device_.start());
+    clock_.advance(2s);
+  }
+  static constexpr SafetyLimits kLimits{.limit_energy = false};
+  Pusher pusher_;
+};
+
+TEST_F(PushedTaskTest, ADeviceThatIsBackIsPushedFromZeroOnAtTheScenesRate) {
+  tick(50);
+  ASSERT_NEAR(device_.force.z, 1, 1e-9);
+  device_.next_error = ErrorCode::Lost;
+  tick();
+  EXPECT_EQ(pusher_.resets, 1) << "what the method remembers is not so any more";
+  plugInAgain();
+  task_->deviceIsBack();
+  for (int i = 0; i <= 20; ++i) {
+    tick();
+    ASSERT_NEAR(device_.force.z, 0.05 * i, 1e-9) << i << ": 50 N/s";
+  }
+}
+
+TEST_F(PushedTaskTest, AnotherFilmIsPushedFromZeroOnAlsoOnADeviceThatWasLost) {
+  for (const bool lost : {false, true}) {
+    if (lost) device_.next_error = ErrorCode::Lost;
+    tick(50);
+    plugInAgain();
+    Pusher other;
+    task_->changeScene(other, kVolume, kLimits, kStiffness);
+    for (int i = 0; i <= 20; ++i) {
+      tick();
+      ASSERT_NEAR(device_.force.z, 0.05 * i, 1e-9) << lost << ' ' << i;
+    }
+    task_->changeScene(pusher_, kVolume, kLimits, kStiffness);
+  }
+}
+
+// The spring is loaded with F^2/2K = 1 mJ by each film; 1 N that is held for the 0.1 mm before the finger is where
+// nothing was wanted would be an artefact, and is one of the first film alone.
+TEST_F(PushedTaskTest, TheEnergyBooksGoOnFromFilmToFilm) {
+  tick(50);
+  const double first = task_->counters().scene_energy_mj.load();
+  EXPECT_NEAR(first, 1, 1e-9);
+  task_->changeScene(pusher_, kVolume, kLimits, kStiffness);
+  tick(2);
+  device_.position.z = 1;  // the force lags: it is 0.05 of the 1 N
+  tick();
+  const double artefact = task_->counters().artefact_energy_mj.load();
+  EXPECT_NEAR(artefact, 0.05 - 1, 0.03);
+  tick(50);
+  const double second = task_->counters().scene_energy_mj.load();
+  EXPECT_GT(second, first + 0.5);
+  task_->changeScene(pusher_, kVolume, kLimits, kStiffness);
+  tick(50);
+  EXPECT_NEAR(task_->counters().scene_energy_mj.load(), second + 1, 1e-9);
+  EXPECT_NEAR(task_->counters().artefact_energy_mj.load(), artefact, 1e-9);
+}
+
+TEST_F(PushedTaskTest, AnotherFilmHasABoxOfItsOwnAndAHandThatIsToldByIt) {
+  // 192 mm of the device are free: a picture of 384 is reached at two scene millimetres for one.
+  task_->changeScene(pusher_, {.width_mm = 384, .height_mm = 108, .depth_mm = 40}, kLimits, kStiffness);
+  device_.position = {10, 0, 0};
+  tick();
+  ASSERT_TRUE(task_->refreshFinger());
+  EXPECT_NEAR(task_->finger().hip_mm.x, 20, 1e-9);
+  // A wall of K is felt as one of 2 K: the hand's 0.5 mm may change the force by 0.5 N, the scene by 0.05 more.
+  device_.position = {10.5, 0, 0};
+  tick();
+  EXPECT_NEAR(device_.force.z, 0.55, 1e-9);
+}
+
+TEST_F(PushedTaskTest, WhatWasLateOfOneFilmIsNotToldOfTheNext) {
+  publishPlane(20);
+  tick(200);
+  ASSERT_EQ(faults(), std::vector{HapticFault::Kind::FeedStale});
+  task_->changeScene(pusher_, kVolume, kLimits, kStiffness);
+  publishPlane(20);
+  tick();
+  EXPECT_TRUE(faults().empty());
 }
 
 // Records how often the device had been read and written when each function of the method was called.
