@@ -58,6 +58,17 @@ TEST(SafetyFilter, TreatsWhatIsNotFiniteAsZeroForce) {
   }
 }
 
+// For a second the scene asks for far more than the limit. What is asked for then is there at the scene's rate: nothing
+// of the rest has been saved up.
+TEST(SafetyFilter, AForceOverTheLimitIsNotRememberedBeyondIt) {
+  SafetyFilter filter({.force_n = 5, .limit_energy = false}, 0.5);
+  for (int i = 0; i < 1000; ++i) static_cast<void>(filter.apply({0, 0, 100}, kRest, kTick));
+  EXPECT_NEAR(filter.apply({0, 0, 0}, kRest, kTick).z, 4.95, 1e-9);
+  double last = 0;
+  for (int i = 1; i < 100; ++i) last = filter.apply({0, 0, 0}, kRest, kTick).z;
+  EXPECT_NEAR(last, 0, 1e-9) << "5 N at 50 N/s are a tenth of a second";
+}
+
 // 50 N/s for at most 0.1 s: a task that was suspended for two seconds must not apply the whole force in one tick.
 TEST(SafetyFilter, AfterALongGapAtMostFiveNewtonsComeInAtOnce) {
   SafetyFilter filter({.limit_energy = false}, 0.5);
@@ -245,6 +256,33 @@ TEST(EnergyBooks, AFingerThatHasRestedHasNotBeenOnItsWay) {
   for (int i = 0; i < 1000; ++i) books.tick({0, 0, 0}, {}, {}, {0, 0, i < 960 ? 2.0 : 0.0}, kTick);
   books.tick({0, 0, 0.1}, {}, {}, {}, kTick);
   EXPECT_EQ(books.artefactMj(), 0);
+}
+
+// 5 N that nobody wants over 10 mm are 50 mJ. So much is not asked back of the hand.
+TEST(EnergyBooks, OfAJumpsEnergyNoMoreThanAMillijouleStaysOpen) {
+  EnergyBooks books(0.5);
+  books.tick({0, 0, 0}, {}, {}, {0, 0, 5}, kTick);
+  books.tick({0, 0, 10}, {}, {}, {}, kTick);
+  EXPECT_NEAR(books.artefactMj(), 50, 1e-9);
+  EXPECT_NEAR(books.openArtefactMj(), EnergyBooks::kMostOpenMj, 1e-12);
+}
+
+TEST(EnergyBooks, AWayOfNoTimeIsBookedWithTheForceThatWasSent) {
+  EnergyBooks books(0.5);
+  books.tick({0, 0, 0}, {}, {}, {0, 0, 2}, kTick);
+  books.tick({0, 0, 0.1}, {}, {}, {}, 0);
+  EXPECT_NEAR(books.artefactMj(), 0.2, 1e-12);
+}
+
+// What was wanted before the reset is not what the way after it begins with.
+TEST(EnergyBooks, TheFirstTickAfterAResetBeginsAWay) {
+  EnergyBooks books(0.5);
+  const glm::dvec3 push(0, 0, 1), none(0);
+  books.tick({0, 0, 0}, none, none, none, kTick);
+  books.reset();
+  books.tick({0, 0, 0}, push, push, push, kTick);
+  books.tick({0, 0, 0.1}, push, push, push, kTick);
+  EXPECT_NEAR(books.artefactMj(), 0, 1e-12) << "1 N was wanted, sent and held";
 }
 
 TEST(EnergyBooks, ARisingSurfaceIsBookedToTheScene) {

@@ -34,6 +34,14 @@ TEST(WorkspaceMapping, ASmallOneReachesThePicturesCornersBeforeItsSoftEdges) {
   EXPECT_NEAR(glm::distance(mapping.deviceAt(corner.hip_mm), {46, 25.875, 125}), 0, 1e-9);
 }
 
+TEST(WorkspaceMapping, AFlatOneReachesTheWholeDepth) {
+  // 20 mm deep, 12 of them free.
+  WorkspaceMapping mapping(workspace({-100, -100, -10}, {100, 100, 10}), kVolume);
+  EXPECT_DOUBLE_EQ(mapping.scale(), 40.0 / 12);
+  EXPECT_NEAR(mapping.follow({{0, 0, -6}, 0}).hip_mm.z, 0, 1e-9);
+  EXPECT_NEAR(mapping.follow({{0, 0, 6}, 0}).hip_mm.z, 40, 1e-9);
+}
+
 TEST(WorkspaceMapping, TheClutchHoldsTheFingerWhileTheDeviceMoves) {
   WorkspaceMapping mapping(workspace({-50, -50, 75}, {50, 50, 175}), kVolume);
   const glm::dvec3 before = mapping.follow({{40, 0, 125}, 0}).hip_mm;
@@ -60,6 +68,7 @@ TEST(WorkspaceMapping, TheEdgesPushBackSoftlyAndNeverMoreThanAtTheEnd) {
   EXPECT_NEAR(mapping.follow({{98, 0, 0}, 0}).edge_force_n.x, -0.4, 1e-12);
   EXPECT_NEAR(mapping.follow({{-99, 0, 0}, 0}).edge_force_n.x, 0.6, 1e-12);
   EXPECT_NEAR(mapping.follow({{0, 0, 300}, 0}).edge_force_n.z, -0.8, 1e-12);
+  EXPECT_NEAR(mapping.follow({{0, -300, 0}, 0}).edge_force_n.y, 0.8, 1e-12);
 }
 
 }  // namespace
