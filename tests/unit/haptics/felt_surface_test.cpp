@@ -194,6 +194,20 @@ TEST(FeltSurface, AnotherEpochOrSizeAtTheSameTimesIsAnotherPicture) {
   EXPECT_NEAR(heightOn(flat(15, kCols / 2, 2 * kRows), 1), 15, 1e-3);
 }
 
+// Sought back to the same moment of another film: the times are alike, the pictures are not.
+TEST(FeltSurface, WhatWasPreparedDoesNotOutliveItsEpoch) {
+  const auto flat = [](double z) { return film(3, [z](double, double, double) { return z; }); };
+  const auto low = flat(10), high = flat(30);
+  const SurfaceWindow before = makeWindow(low, kVolume);
+  SurfaceWindow after = makeWindow(high, kVolume);
+  after.epoch = 1;
+  FeltSurface s({});
+  ASSERT_TRUE(s.moveTo(before, mediaTime(0.039)));
+  s.prepare(before, mediaTime(0.04), 1, 2);
+  ASSERT_TRUE(s.moveTo(after, mediaTime(0.04)));
+  EXPECT_NEAR(s.height(1, 2), 30, 1e-3);
+}
+
 TEST(FeltSurface, WhatWasPreparedDoesNotOutliveItsFrames) {
   const auto frames = film(6, [](double, double, double t) { return 5 + 200 * t * t / kPeriod; });
   const SurfaceWindow early = makeWindow(std::span(frames).first(3), kVolume), whole = makeWindow(frames, kVolume);

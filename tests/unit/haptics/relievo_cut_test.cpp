@@ -103,6 +103,87 @@ TEST_F(RelievoCutTest, FrictionLetsGoOfTheOldSceneAtACut) {
   }
 }
 
+// The surface is felt at 12 mm and lies at 28. Friction is a share of what presses on what is felt, 2 mm deep: 1 N.
+TEST_F(RelievoCutTest, FrictionOnALoweredSurfaceIsThatOfTheForceThatIsFelt) {
+  RelievoMethod rough({.stiffness_n_per_mm = kStiffness, .friction = {0.5, 0.3}});
+  SurfaceWindow w = picture([](double, double) { return 12.0; });
+  static_cast<void>(rough.update({0, 0, 13}, w, {}));
+  static_cast<void>(rough.update({0, 0, 10}, w, {}));
+  w = picture([](double, double) { return 28.0; });
+  w.epoch = 1;
+  Touch touch;
+  for (int i = 0; i <= 40; ++i) touch = rough.update({0.1 * i, 0, 10}, w, {});
+  EXPECT_NEAR(touch.force_n.z, 1, 0.01);
+  EXPECT_NEAR(-touch.force_n.x, 0.3, 0.03);
+}
+
+// At the second cut the finger feels 0.5 N, and no more after it: what it felt at the first one is over.
+TEST_F(RelievoCutTest, ASecondCutEndsInTheForceBeforeItAndNotInThatBeforeTheFirst) {
+  const auto flat = [](double z) { return picture([z](double, double) { return z; }); };
+  SurfaceWindow w = flat(12);
+  static_cast<void>(method_.update({0, 0, 13}, w, {}));
+  EXPECT_NEAR(method_.update({0, 0, 8}, w, {}).force_n.z, 2, 1e-3);
+  w = flat(28);
+  w.epoch = 1;
+  EXPECT_NEAR(method_.update({0, 0, 8}, w, {}).force_n.z, 2, 1e-3);
+  EXPECT_NEAR(method_.update({0, 0, 11}, w, {}).force_n.z, 0.5, 1e-3) << "lifted: the surface is felt at 12 mm";
+  w = flat(34);
+  w.epoch = 2;
+  for (int i = 0; i < 50; ++i) ASSERT_NEAR(method_.update({0, 0, 11}, w, {}).force_n.z, 0.5, 0.051) << i;
+}
+
+// 16 mm of lowering belong to the scene that ends.
+TEST_F(RelievoCutTest, ACutBackToWhereTheFingerWasIsFeltAsItIs) {
+  const auto flat = [](double z) { return picture([z](double, double) { return z; }); };
+  SurfaceWindow w = flat(12);
+  static_cast<void>(method_.update({0, 0, 13}, w, {}));
+  static_cast<void>(method_.update({0, 0, 10}, w, {}));
+  w = flat(28);
+  w.epoch = 1;
+  EXPECT_NEAR(method_.update({0, 0, 10}, w, {}).force_n.z, 1, 1e-3);
+  w = flat(12);
+  w.epoch = 2;
+  const Touch touch = method_.update({0, 0, 10}, w, {});
+  EXPECT_TRUE(touch.contact);
+  EXPECT_NEAR(touch.force_n.z, 1, 1e-3);
+}
+
+TEST_F(RelievoCutTest, AFingerThatHasBeenInsideFromTheBeginningStaysFreeOverACut) {
+  const double cut = 3 * kPeriod;
+  film(0.4, [&](double, double, double t) { return t < cut - 1e-6 ? 12.0 : 28.0; });
+  for (int i = 0; i < 200; ++i) {
+    const Touch touch = tick(i * kTick, {0, 0, i < 150 ? 10 : 9});
+    ASSERT_FALSE(touch.contact) << i;
+    ASSERT_EQ(touch.force_n, glm::dvec3(0)) << i;
+  }
+  static_cast<void>(tick(0.2, {0, 0, 29}));
+  EXPECT_NEAR(tick(0.201, {0, 0, 26}).force_n.z, 1, 1e-3) << "it has been outside";
+}
+
+// The surface was felt at 12 mm. After the reset it is where it is, at 28, and a finger at 20 is inside of it.
+TEST_F(RelievoCutTest, AResetTakesTheLoweringBack) {
+  const double cut = 3 * kPeriod;
+  film(0.4, [&](double, double, double t) { return t < cut - 1e-6 ? 12.0 : 28.0; });
+  static_cast<void>(tick(0, {0, 0, 13}));
+  for (int i = 1; i < 150; ++i) static_cast<void>(tick(i * kTick, {0, 0, 10}));
+  method_.reset();
+  for (int i = 150; i < 200; ++i) ASSERT_FALSE(tick(i * kTick, {0, 0, 20 - 0.1 * (i - 150)}).contact) << i;
+}
+
+// 0.35 mm come back by 0.1 mm a tick, and not by 0.4.
+TEST_F(RelievoCutTest, ALoweredSurfaceComesBackToWhereItIsAndNoFurther) {
+  const auto flat = [](double z) { return picture([z](double, double) { return z; }); };
+  SurfaceWindow w = flat(12);
+  static_cast<void>(method_.update({0, 0, 13}, w, {}));
+  EXPECT_NEAR(method_.update({0, 0, 10}, w, {}).force_n.z, 1, 1e-3);
+  w = flat(12.35);
+  w.epoch = 1;
+  EXPECT_NEAR(method_.update({0, 0, 10}, w, {}).force_n.z, 1, 1e-3);
+  double force = 0;
+  for (int i = 0; i < 20; ++i) force = method_.update({0, 0, 11}, w, {}).force_n.z;
+  EXPECT_NEAR(force, kStiffness * 1.35, 1e-3);
+}
+
 TEST_F(RelievoCutTest, AGapInTheFramesOrInThePositionsEndsInTheForceBeforeIt) {
   film(0.5, [](double x, double, double t) { return t < 0.25 ? 12 + 0.1 * x : 24 - 0.1 * x; });
   double before = 0;

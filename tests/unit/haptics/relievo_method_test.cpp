@@ -358,7 +358,10 @@ TEST_F(RelievoMethodTest, ThePapersGuardCanBePutOnTop) {
   static_cast<void>(guarded.update({0, 0, 21}, w, {}));
   EXPECT_TRUE(guarded.update({0, 0, 18.5}, w, {}).contact) << "0.75 N";
   EXPECT_FALSE(guarded.update({0, 0, 16}, w, {}).contact) << "1.25 N more";
-  EXPECT_FALSE(guarded.update({0, 0, 16}, w, {}).contact) << "free until it has been outside";
+  EXPECT_FALSE(guarded.update({0, 0, 16}, w, {}).contact);
+  EXPECT_FALSE(guarded.update({0, 0, 19}, w, {}).contact) << "0.5 N, but it has not been outside yet";
+  EXPECT_FALSE(guarded.update({0, 0, 21}, w, {}).contact);
+  EXPECT_TRUE(guarded.update({0, 0, 19}, w, {}).contact);
 }
 
 TEST_F(RelievoMethodTest, FrictionHoldsUntilTheConeAndThenDrags) {
@@ -375,6 +378,36 @@ TEST_F(RelievoMethodTest, FrictionHoldsUntilTheConeAndThenDrags) {
     }
   }
   EXPECT_NEAR(pull, 0.3 * 4 * kStiffness, 0.03) << "slides under dynamic friction";
+}
+
+TEST_F(RelievoMethodTest, AFingerThatComesDownElsewhereIsNotDraggedBackToWhereFrictionHeldIt) {
+  RelievoMethod rough({.stiffness_n_per_mm = kStiffness, .friction = {0.5, 0.3}});
+  const SurfaceWindow w = picture([](double, double) { return 20.0; });
+  for (const glm::dvec3& hip : {glm::dvec3(0, 0, 21), {0, 0, 16}, {0, 0, 16}, {0, 0, 21}, {10, 0, 21}}) {
+    static_cast<void>(rough.update(hip, w, {}));
+  }
+  EXPECT_NEAR(rough.update({10, 0, 16}, w, {}).force_n.x, 0, 1e-3);
+  EXPECT_NEAR(rough.update({10, 0, 16}, w, {}).force_n.x, 0, 1e-3);
+}
+
+// 4 mm deep the static cone ends at 2 mm and the dynamic one at 1.2.
+TEST_F(RelievoMethodTest, AFingerThatHasSlidIsHeldByStaticFrictionWhenItComesDownAgain) {
+  RelievoMethod rough({.stiffness_n_per_mm = kStiffness, .friction = {0.5, 0.3}});
+  const SurfaceWindow w = picture([](double, double) { return 20.0; });
+  static_cast<void>(rough.update({0, 0, 21}, w, {}));
+  for (int i = 0; i <= 60; ++i) static_cast<void>(rough.update({0.1 * i, 0, 16}, w, {}));
+  static_cast<void>(rough.update({0, 0, 21}, w, {}));
+  static_cast<void>(rough.update({0, 0, 16}, w, {}));
+  EXPECT_NEAR(-rough.update({1.6, 0, 16}, w, {}).force_n.x, kStiffness * 1.6, 1e-3) << "sticks";
+}
+
+// The box ends at 40 mm; the finger was above it by more than any overshoot of the surface.
+TEST_F(RelievoMethodTest, AFingerThatComesFromFarAboveTheBoxInOneTickIsInContact) {
+  film(0.1, [](double, double, double) { return 20.0; });
+  static_cast<void>(tick(0, {0, 0, 70}));
+  const Touch touch = tick(kTick, {0, 0, 18});
+  EXPECT_TRUE(touch.contact);
+  EXPECT_NEAR(touch.force_n.z, 1, 1e-3);
 }
 
 TEST_F(RelievoMethodTest, WhatIsNotAFingerOrNoFilmIsNoContact) {
