@@ -10,7 +10,9 @@
 namespace relievo {
 namespace {
 
-constexpr std::size_t kColumns = 125;  // of a reading under a chart
+constexpr std::size_t kColumns = 125;     // of a reading under a chart
+constexpr std::ptrdiff_t kRoomLines = 2;  // for which the scripts leave room
+constexpr int kLinePixels = 20;
 
 struct Element {
   std::size_t begin = 0, end = 0;  // of what is between the tags
@@ -57,6 +59,27 @@ std::string wrapped(std::string text) {
   return text;
 }
 
+// What stands in the SVG as PREFIX and a number becomes so much more.
+void enlarge(std::string& svg, std::string_view prefix, int pixels) {
+  const std::size_t at = svg.find(prefix);
+  if (at == std::string::npos) return;
+  const std::size_t begin = svg.find_first_not_of(' ', at + prefix.size());
+  std::size_t end = begin;
+  int number = 0;
+  for (; end < svg.size() && svg[end] >= '0' && svg[end] <= '9'; ++end) number = 10 * number + (svg[end] - '0');
+  svg.replace(begin, end - begin, std::to_string(number + pixels));
+}
+
+// The picture's and its background's height: the lines of a long reading go on below.
+void makeRoom(std::string& svg, int pixels) {
+  const std::size_t box = svg.find("viewBox=\"0 0 ");
+  if (box == std::string::npos) return;
+  const std::size_t width = box + std::string_view("viewBox=\"0 0 ").size();
+  const std::string columns = svg.substr(width, svg.find(' ', width) - width);
+  enlarge(svg, "viewBox=\"0 0 " + columns, pixels);
+  enlarge(svg, "<rect x=\"0\" y=\"0\" width=\"" + columns + "\" height=\"", pixels);
+}
+
 }  // namespace
 
 std::string escaped(std::string_view text) {
@@ -74,8 +97,11 @@ std::string escaped(std::string_view text) {
 }
 
 Outcome<void> drawChart(const std::string& folder, const std::string& name, const ChartWords& words) {
-  auto svg = runGnuplot(chartScript(name), {folder + "/" + name + ".csv", words.title, wrapped(words.reading)});
+  const std::string reading = wrapped(words.reading);
+  const auto lines = std::max(std::count(reading.begin(), reading.end(), '\n') + 1, kRoomLines);
+  auto svg = runGnuplot(chartScript(name), {folder + "/" + name + ".csv", words.title, reading, std::to_string(lines)});
   if (!svg) return std::unexpected(svg.error());
+  makeRoom(*svg, kLinePixels * static_cast<int>(lines - kRoomLines));
   replace(*svg, "title", words.title);
   replace(*svg, "desc", words.reading);
   const std::string path = folder + "/" + name + ".svg";

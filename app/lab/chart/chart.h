@@ -14,8 +14,8 @@ struct ChartWords {
   std::string title, reading;
 };
 
-// Draws FOLDER/NAME.svg from FOLDER/NAME.csv by the script of that name (app/lab/charts). The words are drawn, and are
-// the SVG's own title and description. NotFound without gnuplot on the PATH.
+// Draws FOLDER/NAME.svg from FOLDER/NAME.csv by the script of that name (app/lab/chart/scripts). The words are drawn,
+// whatever their length, and are the SVG's own title and description. NotFound without gnuplot on the PATH.
 [[nodiscard]] Outcome<void> drawChart(const std::string& folder, const std::string& name, const ChartWords& words);
 
 // Read back from an SVG's text; nothing when it has none.
@@ -24,7 +24,7 @@ struct ChartWords {
 // Text in HTML and SVG.
 [[nodiscard]] std::string escaped(std::string_view text);
 
-// The script of a chart, app/lab/charts/NAME.gnuplot, behind what all scripts begin with.
+// The script of a chart, app/lab/chart/scripts/NAME.gnuplot, behind what all scripts begin with.
 [[nodiscard]] std::string chartScript(std::string_view name);
 
 }  // namespace relievo

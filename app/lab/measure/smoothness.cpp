@@ -27,7 +27,7 @@ constexpr double kPeakHalfWidthHz = 2;  // the scene's own movements stand besid
 
 struct CurveKind {
   const char* contender;
-  const char* hold;  // the same surface with the frame held
+  const char* hold;  // the same surface in space with the frame held
 };
 constexpr std::array kCurves{
     CurveKind{"relievo", "relievo hold"},
@@ -39,8 +39,7 @@ constexpr std::array kCurves{
     CurveKind{"modified hold", "modified hold"},
     CurveKind{"proxy-blend", "modified hold"},
     CurveKind{"proxy-graph", "modified hold"},
-    CurveKind{"god-object", "god-object hold"},
-    CurveKind{"god-object hold", "god-object hold"},
+    CurveKind{"god-object", "modified hold"},
     CurveKind{"god-object-smoothed", "smoothed hold"},
     CurveKind{"smoothed hold", "smoothed hold"},
 };

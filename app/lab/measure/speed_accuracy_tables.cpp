@@ -163,6 +163,11 @@ std::string listed(std::string list, const std::string& item) {
   return std::move(list) + (list.empty() ? "" : "; ") + item;
 }
 
+// Two digits, and no exponent however long it takes.
+std::string told(double us) {
+  return us < 100 ? print("%.2g", us) : print("%.0f", us);
+}
+
 // Where smoothing every frame does as well as relievo, and where it does not: errors over all scenes.
 std::string smoothingWords(const Figures& figures) {
   std::string as_exact, less_exact;
@@ -188,14 +193,16 @@ ChartWords mainWords(const Figures& figures) {
   std::string reading;
   for (const char* label : {"relievo", "god-object", "god-object-smoothed", "modified-proxy-graph"}) {
     const Row& row = overall(figures, label, kEightBits);
-    reading = listed(reading, print("%s %.2g %% (%.2g°) at %.2g and %.2g µs", label, row.error->rms_percent,
-                                    row.error->direction_rms_deg, row.times->update.median, row.times->medianUs()));
+    reading = listed(reading, print("%s %.2g %% (%.2g°) at %s and %s µs", label, row.error->rms_percent,
+                                    row.error->direction_rms_deg, told(row.times->update.median).c_str(),
+                                    told(row.times->medianUs()).c_str()));
   }
   const TickTimes& smoothed = *overall(figures, "god-object-smoothed", kEightBits).times;
   return {"Speed against accuracy: what a tick takes, and the error of the force",
           "On 8-bit moving depth: error, and the median of the time to force and of the whole tick: " + reading +
-              print(". The whole tick has the upkeep in it, and the blur of a frame (%.2g ms) spread over its ticks.",
-                    smoothed.frame_ms) +
+              print(". The whole tick has the upkeep in it, and the blur of a frame (%.2g ms) spread over its ticks; "
+                    "without the blur god-object-smoothed's takes %s µs.",
+                    smoothed.frame_ms, told(smoothed.whole.median).c_str()) +
               smoothingWords(figures) + bulletWords()};
 }
 
@@ -252,9 +259,9 @@ ChartWords timeWords(const Figures& figures) {
   std::string force, whole;
   for (const char* label : {"relievo", "god-object", "god-object-smoothed"}) {
     const TickTimes t = times(label, sd);
-    force = listed(force, print("%s %.2g and %.2g", label, t.update.median, t.update.p999));
-    whole = listed(whole, print("%s %.2g and %.2g (%.2g)", label, t.medianUs(), t.p999Us(),
-                                t.own_whole.p999 + t.frame_us_per_tick));
+    force = listed(force, print("%s %s and %s", label, told(t.update.median).c_str(), told(t.update.p999).c_str()));
+    whole = listed(whole, print("%s %s and %s (%s)", label, told(t.medianUs()).c_str(), told(t.p999Us()).c_str(),
+                                told(t.own_whole.p999 + t.frame_us_per_tick).c_str()));
   }
   std::string reading = print(
       "Finger at 1 m/s, %dx%d, median and p99.9 in µs, from position to force: %s. The whole "

@@ -90,8 +90,8 @@ std::vector<TickTimes> timeTicks(std::span<const Contender* const> contenders, c
   std::vector<TickTimes> times = timesOf(samples, rounds);
   for (std::size_t m = 0; m < times.size(); ++m) {
     if (!contenders[m]->smoothed) continue;
-    times[m].frame_ms = blur.medianMs();
-    times[m].frame_us_per_tick = 1e3 * blur.medianMs() / ticksOfAFrame(timed);
+    times[m].frame_ms = blur.leastMs();
+    times[m].frame_us_per_tick = 1e3 * blur.leastMs() / ticksOfAFrame(timed);
   }
   return times;
 }

@@ -18,7 +18,7 @@ namespace relievo {
 struct TickTimes {
   Spread update, upkeep, whole;
   Spread own_update, own_upkeep, own_whole;
-  double frame_ms = 0;           // that the method needs for every frame of depth before a tick can use it: the median
+  double frame_ms = 0;  // that the method needs for every frame of depth before a tick can use it: the quickest
   double frame_us_per_tick = 0;  // the same, spread over the ticks of a frame
 
   // What a tick costs in all.

@@ -8,7 +8,6 @@
 #include <thread>
 
 #include "app/lab/film/parallel.h"
-#include "app/lab/measure/statistics.h"
 #include "platform/clock.h"
 
 namespace relievo {
@@ -127,12 +126,8 @@ FrameStopwatch::FrameStopwatch(const MemoryFilm& film, double sigma_mm)
 void FrameStopwatch::timeOne() {
   const MonotonicClock clock;
   const MonotonicTime begin = clock.now();
-  static_cast<void>(smoother_.smooth(frames_[times_ms_.size() % frames_.size()].field, codes_));
-  times_ms_.push_back(1e3 * toSeconds(clock.now() - begin));
-}
-
-double FrameStopwatch::medianMs() const {
-  return spreadOf(times_ms_).median;
+  static_cast<void>(smoother_.smooth(frames_[count_++ % frames_.size()].field, codes_));
+  least_ms_ = std::min(least_ms_, 1e3 * toSeconds(clock.now() - begin));
 }
 
 }  // namespace relievo

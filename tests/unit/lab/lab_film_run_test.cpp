@@ -125,7 +125,7 @@ TEST_F(OnAPlane, TimesAreTakenOfEveryTick) {
 TEST(TickTiming, CountsTheTicksOfAllRoundsButThoseOfTheWayIn) {
   const auto surface = makeTrueSurface("plane");
   const auto path = makeFingerPath(*surface, {.duration_s = 0.5});
-  const auto film = MemoryFilm::make(*surface, {}, 0, 0.5).value();
+  const FilmViews film(MemoryFilm::make(*surface, {}, 0, 0.5).value());
   const std::vector<const Contender*> two{contender("relievo"), contender("penalty")};
   const auto times = timeTicks(two, {film, path, 300}, 3);
   ASSERT_EQ(times.size(), 2u);

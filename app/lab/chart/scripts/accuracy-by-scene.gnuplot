@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 set terminal svg size 1000,900 dynamic enhanced font "sans-serif,13" background "#ffffff"
 set multiplot title ARG2 noenhanced font ",16"
-set label 1 ARG3 at screen 0.5, 0.035 center noenhanced
+set label 1 ARG3 at screen 0.5, 0.035 center noenhanced offset 0, DOWN
+@SEE_METHODS
 LEGEND_Y = 0.955
 @LEGEND
-plot NaN notitle, for [m = 1:6] keyentry with points pt 7 ps 1.2 lc rgb COLOUR[m] title word(METHODS, m), \
+plot NaN notitle, for [m = 1:M] keyentry with points pt 7 ps 1.2 lc rgb word(COLOUR, m) title word(METHODS, m), \
      keyentry with points pt 6 lw 2 ps 1.1 lc rgb "black" title LOST
 @END_LEGEND
 
@@ -26,9 +27,9 @@ do for [d = 1:4] {
   set bmargin at screen top(d) - 0.28
   set title word(DEPTHS, d) noenhanced offset 0, -0.6
   set ylabel (d % 2 ? "force error rms, %" : "") offset 1
-  plot for [m = 6:1:-1] ARG1 using (int(column(0)) % SCENES + 0.09 * (m - 3.5)):(mine(m, d, column("force_rms_percent"))) \
-         with points pt 7 ps 0.7 lc rgb COLOUR[m], \
-       for [m = 6:1:-1] ARG1 using (int(column(0)) % SCENES + 0.09 * (m - 3.5)):(lost(mine(m, d, column("force_rms_percent")))) \
+  plot for [m = M:1:-1] ARG1 using (int(column(0)) % SCENES + 0.08 * (m - 0.5 * (M + 1))):(mine(m, d, column("force_rms_percent"))) \
+         with points pt 7 ps 0.7 lc rgb word(COLOUR, m), \
+       for [m = M:1:-1] ARG1 using (int(column(0)) % SCENES + 0.08 * (m - 0.5 * (M + 1))):(lost(mine(m, d, column("force_rms_percent")))) \
          with points pt 7 ps 0.35 lc rgb "#ffffff", \
        ARG1 using (int(column(0)) % SCENES):(NaN):xtic(strcol("scene")) with dots
 }

@@ -1,13 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
 set terminal svg size 1000,700 dynamic enhanced font "sans-serif,13" background "#ffffff"
 set multiplot title ARG2 noenhanced font ",16"
-set label 1 ARG3 at screen 0.5, 0.125 center noenhanced
+set label 1 ARG3 at screen 0.5, 0.125 center noenhanced offset 0, DOWN
 KINDS = '"H.264 8 even" "H.264 10 even" "HEVC 8 even" "HEVC 10 even" "HEVC 12 even" "FFV1" "H.264 8 dithered" "H.264 8 disparity"'
 NAMES = '"H.264 8 bits" "H.264 10 bits" "HEVC 8 bits" "HEVC 10 bits" "HEVC 12 bits" "FFV1 8, 10, 12, 16 bits" "8 bits dithered" "8 bits by disparity"'
-array TINTS[8] = ["#d81b60", "#e08e0b", "#26a69a", "#1e88e5", "#5d4db3", "#8a8f98", "#7cb342", "#c2a878"]
+array TINTS[8] = ["#d81b60", "#e08e0b", "#26c6da", "#7986cb", "#5d4db3", "#8a8f98", "#7cb342", "#c2a878"]
+# What others make of the same films.
+OTHERS = "god-object god-object-smoothed"
+FIGURES = "god_object_rms_percent god_object_smoothed_rms_percent"
+array OTHER_TINTS[2] = ["#1e88e5", "#00897b"]
 LEGEND_Y = 0.915
 @LEGEND
 plot NaN notitle, for [k = 1:8] keyentry with linespoints pt 7 ps 1 lw 1.5 lc rgb TINTS[k] title word(NAMES, k), \
+     for [o = 1:2] keyentry with lines lw 1.5 dt 2 lc rgb OTHER_TINTS[o] title "H.264 8 bits, " . word(OTHERS, o), \
      keyentry with points pt 6 ps 2 lw 2 lc rgb "black" title "the author's default"
 @END_LEGEND
 kind(dummy) = strcol("codec") eq "FFV1" ? "FFV1" : strcol("codec") . " " . strcol("bits") . " " . strcol("steps")
@@ -23,8 +28,9 @@ array TITLE[2] = ["Codecs and bits", "Where the steps of 8 bits lie, H.264"]
 array FROM[2] = [1, 7]
 array TO[2] = [6, 8]
 stats ARG1 using (column("force_rms_percent")) name "Y" nooutput
+stats ARG1 using (column("god_object_rms_percent")) name "WORST" nooutput
 stats ARG1 using (column("kbit_s")) name "X" nooutput
-set yrange [Y_min * 0.8 : Y_max * 1.3]
+set yrange [Y_min * 0.8 : (Y_max > WORST_max ? Y_max : WORST_max) * 1.3]
 set xrange [X_min * 0.6 : X_max * 1.7]
 do for [p = 1:2] {
   set lmargin at screen 0.08 + 0.48 * (p - 1)
@@ -33,6 +39,8 @@ do for [p = 1:2] {
   set ylabel (p == 1 ? "force error against the oracle, %" : "")
   plot for [k = FROM[p]:TO[p]] ARG1 using (mine(k, column("kbit_s"))):(column("force_rms_percent")) \
          with linespoints pt 7 ps 0.7 lw 1.5 lc rgb TINTS[k] notitle, \
+       for [o = 1:2] ARG1 using (p == 1 ? mine(1, column("kbit_s")) : NaN):(column(word(FIGURES, o))) \
+         with lines lw 1.5 dt 2 lc rgb OTHER_TINTS[o] notitle, \
        ARG1 using (p == 2 ? mine(1, column("kbit_s")) : NaN):(column("force_rms_percent")) \
          with linespoints pt 7 ps 0.7 lw 1.5 lc rgb TINTS[1] notitle, \
        for [i = 1:3] ARG1 using (p == 2 ? lossless(SHOWN[i], column("kbit_s")) : NaN):(column("force_rms_percent")):("lossless") \

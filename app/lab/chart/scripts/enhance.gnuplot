@@ -1,40 +1,40 @@
 # SPDX-License-Identifier: Apache-2.0
-set terminal svg size 1000,980 dynamic enhanced font "sans-serif,13" background "#ffffff"
+set terminal svg size 1000,1360 dynamic enhanced font "sans-serif,13" background "#ffffff"
 set multiplot title ARG2 noenhanced font ",16"
-set label 1 ARG3 at screen 0.5, 0.07 center noenhanced
+set label 1 ARG3 at screen 0.5, 0.045 center noenhanced offset 0, DOWN
 KINDS = "none median dibm space-time"
-FELT = "modified-proxy-graph relievo"
+FELT = "modified-proxy-graph god-object god-object-smoothed relievo"
 array TINTS[4] = ["#8a8f98", "#e08e0b", "#1e88e5", "#d81b60"]
+array BITS[2] = ["8", "16"]
 array DASH[2] = [1, 2]
 array SHAPE[2] = [7, 6]
-LEGEND_Y = 0.955
+LEGEND_Y = 0.968
 @LEGEND
 plot NaN notitle, for [k = 1:4] keyentry with lines lw 2.5 lc rgb TINTS[k] title word(KINDS, k), \
-     for [m = 1:2] keyentry with linespoints pt SHAPE[m] dt DASH[m] lc rgb "black" title "felt by " . word(FELT, m), \
+     for [b = 1:2] keyentry with linespoints pt SHAPE[b] dt DASH[b] lc rgb "black" title (b == 1 ? "coded with 8 bits" : "as enhanced, 16 bits"), \
      keyentry with points pt 7 ps 0.35 lc rgb "black" title "inside a mark: contact lost"
 @END_LEGEND
 
 array WHAT[2] = ["noise alone", "with salt, holes and flying pixels"]
-array DEPTH[2] = ["8", "16"]
 set datafile missing NaN
 set xrange [0.7:4.3]
 set xtics 1
 of(figure, faults, k, value) = (strcol("figure") eq figure && column("faults") == faults && strcol("enhancement") eq word(KINDS, k)) ? value : NaN
-felt(b, m, value) = (strcol("method") eq word(FELT, m) && (strcol("bits") eq DEPTH[b] || strcol("enhancement") eq "none")) ? value : NaN
-do for [row = 1:3] {
+felt(m, b, value) = (strcol("method") eq word(FELT, m) && strcol("bits") eq BITS[b]) ? value : NaN
+do for [row = 1:5] {
   do for [f = 0:1] {
     set lmargin at screen 0.075 + 0.49 * f
     set rmargin at screen 0.075 + 0.49 * f + 0.41
-    set tmargin at screen 0.87 - 0.26 * (row - 1)
-    set bmargin at screen 0.87 - 0.26 * (row - 1) - 0.185
-    if (row < 3) {
+    set tmargin at screen 0.905 - 0.168 * (row - 1)
+    set bmargin at screen 0.905 - 0.168 * (row - 1) - 0.122
+    if (row < 5) {
       set logscale y; set format y "%g"; set yrange [0.8:500]
-      set title (row == 1 ? "coded with 8 bits, " : "as enhanced, 16 bits, ") . WHAT[f + 1] offset 0, -0.6
+      set title "felt by " . word(FELT, row) . ", " . WHAT[f + 1] noenhanced offset 0, -0.6
       set ylabel (f ? "" : "force error rms, %") offset 1
       unset xlabel
-      plot for [k = 1:4] for [m = 1:2] ARG1 using (column("noise_levels")):(felt(row, m, of("force", f, k, column("force_rms_percent")))) \
-             with linespoints pt SHAPE[m] ps 0.8 dt DASH[m] lw 1.8 lc rgb TINTS[k] notitle, \
-           for [k = 1:4] for [m = 1:2] ARG1 using (column("noise_levels")):(lost(felt(row, m, of("force", f, k, column("force_rms_percent"))))) \
+      plot for [k = 1:4] for [b = 1:2] ARG1 using (column("noise_levels")):(felt(row, b, of("force", f, k, column("force_rms_percent")))) \
+             with linespoints pt SHAPE[b] ps 0.8 dt DASH[b] lw 1.8 lc rgb TINTS[k] notitle, \
+           for [k = 1:4] for [b = 1:2] ARG1 using (column("noise_levels")):(lost(felt(row, b, of("force", f, k, column("force_rms_percent"))))) \
              with points pt 7 ps 0.35 lc rgb "black" notitle
     } else {
       unset logscale y; set format y "%g"; set yrange [-0.2:11]

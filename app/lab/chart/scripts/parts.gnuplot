@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-set terminal svg size 1000,720 dynamic enhanced font "sans-serif,13" background "#ffffff"
+set terminal svg size 1000,800 dynamic enhanced font "sans-serif,13" background "#ffffff"
 set multiplot title ARG2 noenhanced font ",16"
-set label 1 ARG3 at screen 0.5, 0.06 center noenhanced
+set label 1 ARG3 at screen 0.5, 0.06 center noenhanced offset 0, DOWN
 stats ARG1 using (1) nooutput
 set yrange [STATS_records - 0.5 : -0.5]
 set logscale x
@@ -16,9 +16,12 @@ percent(d) = column("percent_" . COLUMN[d])
 lostOf(d) = column("contact_lost_" . COLUMN[d]) == 1 ? percent(d) : NaN
 set lmargin at screen left(0)
 set rmargin at screen left(0) + 0.15
-set title "tick, median to p99.9" offset 0, -0.6
-set xlabel "µs"
-plot ARG1 using (column("update_median_us")):0:(column("update_median_us")):(column("update_p999_us")):ytic(strcol("method")) \
+set title "to force ●, whole tick ◇" offset 0, -0.6
+set xlabel "µs, median to p99.9"
+whole(name) = column(name) + column("frame_us_per_tick")
+plot ARG1 using (whole("whole_median_us")):(column(0) + 0.25):(whole("whole_median_us")):(whole("whole_p999_us")) \
+     with xerrorbars pt 12 ps 0.8 lc rgb "#a8b0ba", \
+     ARG1 using (column("update_median_us")):0:(column("update_median_us")):(column("update_p999_us")):ytic(strcol("method")) \
      with xerrorbars pt 7 ps 0.8 lc rgb "#5f6b7a"
 unset label 1
 set label 2 LOST at screen 0.98, 0.94 right

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 set terminal svg size 1000,520 dynamic enhanced font "sans-serif,13" background "#ffffff"
 set multiplot title ARG2 noenhanced font ",16"
-set label 1 ARG3 at screen 0.5, 0.06 center noenhanced
-NAMES = "relievo modified-proxy-graph proxy-graph proxy-blend penalty"
+set label 1 ARG3 at screen 0.5, 0.06 center noenhanced offset 0, DOWN
+NAMES = "relievo god-object god-object-smoothed modified-proxy-graph proxy-graph proxy-blend penalty"
 PROFILES = "viscous full"
 array PANEL[2] = ["without dry friction: 2b/((1+2n)T)", "with dry friction and encoder: the lesser of that and 2f_c/step"]
-array TINTS[5] = ["#d81b60", "#e08e0b", "#7cb342", "#8e5cc2", "#8a8f98"]
+array TINTS[7] = ["#d81b60", "#1e88e5", "#00897b", "#e08e0b", "#7cb342", "#8e5cc2", "#8a8f98"]
 LEGEND_Y = 0.925
 @LEGEND
 plot NaN notitle, keyentry with lines lw 2 lc rgb "black" title "bound", \
-     for [m = 1:5] keyentry with points pt 7 ps 1.2 lc rgb TINTS[m] title word(NAMES, m)
+     for [m = 1:7] keyentry with points pt 7 ps 1.2 lc rgb TINTS[m] title word(NAMES, m)
 @END_LEGEND
 set logscale y
 set format y "%g"
@@ -26,7 +26,7 @@ do for [p = 1:2] {
   set title PANEL[p] offset 0, -0.6
   set ylabel (p == 1 ? "stiffness, N/mm" : "")
   plot ARG1 using (mine(1, p, column("delay_ticks")) - 0.3):(column("bound_n_per_mm")):(0.6):(0) with vectors nohead lw 2 lc rgb "black" notitle, \
-       for [m = 5:1:-1] ARG1 using (mine(m, p, column("delay_ticks")) + 0.08 * (m - 3)):(column("onset_n_per_mm")) \
+       for [m = 7:1:-1] ARG1 using (mine(m, p, column("delay_ticks")) + 0.07 * (m - 4)):(column("onset_n_per_mm")) \
          with points pt 7 ps 0.9 lc rgb TINTS[m] notitle
 }
 unset multiplot

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-set terminal svg size 1240,560 dynamic enhanced font "sans-serif,13" background "#ffffff"
+set terminal svg size 1240,640 dynamic enhanced font "sans-serif,13" background "#ffffff"
 set title ARG2 noenhanced font ",16" offset -4, 0.3
-set label 1 ARG3 at screen 0.5, 0.12 center noenhanced
-NAMES = "relievo modified-proxy-graph proxy-graph proxy-blend penalty"
+set label 1 ARG3 at screen 0.5, 0.065 center noenhanced offset 0, DOWN
+NAMES = "relievo god-object god-object-smoothed modified-proxy-graph proxy-graph proxy-blend penalty"
 # The rows of a scenario stand together, in the order of the names.
 ROWS = words(NAMES)
 x(i) = int(i) / ROWS
@@ -19,8 +19,8 @@ set ytics noenhanced
 set border 0
 set lmargin at screen 0.135
 set rmargin at screen 0.99
-set tmargin at screen 0.86
-set bmargin at screen 0.32
+set tmargin at screen 0.89
+set bmargin at screen 0.23
 unset key
 set style fill solid border lc rgb "#ffffff"
 size(v) = abs(v) < 0.0005 ? "0" : abs(v) < 0.995 ? sprintf("%.2g", v) : abs(v) < 9.95 ? sprintf("%.1f", v) : sprintf("%.0f", v)
