@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every pixel format shows the same colours, whatever its planes, strides and sizes; unsupported ones are reported.
 #include <GLES3/gl3.h>
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +12,7 @@
 #include <utility>
 
 #include "drivers/egl/egl.h"
+#include "platform/unique_fd.h"
 #include "tests/golden/picture_stage.h"
 #include "tests/support/film/depth_frames.h"
 
@@ -155,14 +159,18 @@ INSTANTIATE_TEST_SUITE_P(
         YuvFormat{.name = "ten_bits_upside_down", .bits = 10, .padding = 6, .upside_down = true}),
     [](const auto& one) { return std::string(one.param.name); });
 
-// A descriptor that is not a dma-buf is rejected by every driver.
+// A descriptor without memory, and memory that ends within the picture: not every driver refuses them.
 TEST(RenderFormats, WhatTheDriverDoesNotImportIsUploaded) {
-  STAGE_OR_SKIP(stage, 320, 180);
+  const UniqueFd nothing(open("/dev/null", O_RDONLY | O_CLOEXEC)), half(memfd_create("half a picture", MFD_CLOEXEC));
+  ASSERT_EQ(ftruncate(half.get(), 320 * 90), 0);
   for (const YuvFormat& format : {YuvFormat{.name = "i420"}, YuvFormat{.name = "nv12", .semi_planar = true}}) {
-    Frame frame = makeYuvFrame(320, 180, format);
-    for (DmaBuf& each : frame.dma_bufs) each = {.fd = 0};
-    expectBars(stage.show({.color = frame, .volume = kVolume}), 3);
-    EXPECT_FALSE(stage.renderer().statistics().imported);
+    for (const int fd : {nothing.get(), half.get()}) {
+      STAGE_OR_SKIP(stage, 320, 180);  // a renderer asks no more after a refusal
+      Frame frame = makeYuvFrame(320, 180, format);
+      for (DmaBuf& each : frame.dma_bufs) each = {.fd = fd};
+      expectBars(stage.show({.color = frame, .volume = kVolume}), 3);
+      EXPECT_FALSE(stage.renderer().statistics().imported);
+    }
   }
 }
 

@@ -7,6 +7,7 @@
 #include <EGL/eglext.h>
 #include <GLES2/gl2.h>
 #include <GLES2/gl2ext.h>
+#include <unistd.h>
 
 #include <array>
 #include <string_view>
@@ -49,6 +50,12 @@ bool displayHas(std::string_view name) noexcept {
   return display != EGL_NO_DISPLAY && has(eglQueryString(display, EGL_EXTENSIONS), name);
 }
 
+// Whether the buffer holds `bytes` from the plane's first on. Mesa 25's software driver takes one that does not, and
+// crashes when it draws.
+bool holds(const DmaBuf& plane, std::ptrdiff_t bytes) noexcept {
+  return lseek(plane.fd, 0, SEEK_END) >= static_cast<off_t>(plane.offset_bytes) + bytes;
+}
+
 }  // namespace
 
 bool takesDmaBufs() noexcept {
@@ -86,6 +93,8 @@ std::optional<GlTexture> importDmaBuf(const DmaBuf& plane, std::ptrdiff_t stride
     return call.create(display, EGL_NO_CONTEXT, EGL_LINUX_DMA_BUF_EXT, nullptr, words.data());
   };
   if (stride_bytes <= 0 || channels < 1 || channels > 2) return std::nullopt;
+  const bool linear = modifier.value_or(0) == 0;  // other layouts need a size of their own
+  if (!holds(plane, linear ? stride_bytes * (height - 1) + width * channels : 1)) return std::nullopt;
   EGLImageKHR image = EGL_NO_IMAGE_KHR;
   if (modifier && displayHas("EGL_EXT_image_dma_buf_import_modifiers")) image = create(true);
   if (image == EGL_NO_IMAGE_KHR) image = create(false);
