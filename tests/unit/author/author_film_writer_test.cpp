@@ -145,6 +145,7 @@ TEST_P(AuthorFilmWriter, CodedDepthIsNotRescaled) {
       [](int) { return depthPicture(256, 64, [](int c, int) { return static_cast<std::uint8_t>(c); }); },
       [](int k) { return k == 0; });
   const ReadFilm film = readFilm(path());
+  ASSERT_EQ(film.frames.at(1).size(), 8u);
   for (const Frame& frame : film.frames.at(1)) {
     for (int c = 0; c < 256; ++c) ASSERT_NEAR(static_cast<double>(test::sampleAt(frame, 0, c, 30)), c, 3);
     EXPECT_LE(test::sampleAt(frame, 0, 0, 30), 1u);

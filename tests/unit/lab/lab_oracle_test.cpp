@@ -150,6 +150,8 @@ TEST(Oracle, OnTheFaceIsWhatBruteForceFinds) {
 TEST(Oracle, DoesNotDependOnTheTick) {
   const auto s = makeTrueSurface("face-nodding");
   const auto coarse = follow(*s, wandering(*s, 3), 1, 0.001), fine = follow(*s, wandering(*s, 3), 1, 0.00025);
+  ASSERT_GE(coarse.size(), 1000u);
+  ASSERT_GT(fine.size(), 4 * (coarse.size() - 1));
   for (std::size_t i = 0; i < coarse.size(); ++i) {
     ASSERT_EQ(coarse[i].touch.contact, fine[4 * i].touch.contact);
     ASSERT_LT(glm::distance(coarse[i].touch.proxy_mm, fine[4 * i].touch.proxy_mm), 1e-11) << i;

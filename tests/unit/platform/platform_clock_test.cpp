@@ -3,6 +3,9 @@
 #include "platform/clock.h"
 
 #include <gtest/gtest.h>
+#include <sys/time.h>
+
+#include <csignal>
 
 namespace relievo {
 namespace {
@@ -57,6 +60,23 @@ TEST(MonotonicClock, NeverGoesBack) {
   }
 }
 
+// Not before the deadline either when signals come in between.
+TEST(MonotonicClock, SleepsUntilTheDeadlineThroughSignals) {
+  struct sigaction heard{}, before{};
+  heard.sa_handler = [](int) {};
+  ASSERT_EQ(::sigaction(SIGALRM, &heard, &before), 0);
+  const itimerval often{.it_interval = {0, 500}, .it_value = {0, 500}};
+  ASSERT_EQ(::setitimer(ITIMER_REAL, &often, nullptr), 0);
+  MonotonicClock clock;
+  const MonotonicTime deadline = clock.now() + milliseconds(5);
+  clock.sleepUntil(deadline);
+  EXPECT_GE(clock.now(), deadline);
+  const itimerval never{};
+  ::setitimer(ITIMER_REAL, &never, nullptr);
+  ::sigaction(SIGALRM, &before, nullptr);
+}
+
+// A deadline that is waited for although it has passed leaves the test hanging, until CTest's limit ends it.
 TEST(MonotonicClock, ReturnsFromDeadlinesThatHavePassed) {
   MonotonicClock clock;
   clock.sleepUntil(MonotonicTime{});
