@@ -326,7 +326,7 @@ TEST_F(AuthorFilm, SaysThatASourceBreaksOff) {
   const auto summary = make({.url = folder_ / "film.mkv"});
   ASSERT_TRUE(summary.has_value());
   ASSERT_FALSE(summary->notes.empty());
-  EXPECT_THAT(summary->notes[0], HasSubstr("film.mkv breaks off "));
+  EXPECT_THAT(summary->notes[0], HasSubstr("film.mkv ends "));
 }
 
 TEST_F(AuthorFilm, PutsKeyFramesAtTheSamePlacesOfBothTracks) {
@@ -665,7 +665,7 @@ TEST_F(AuthorFilm, ProgramWritesWhatItsWordsSay) {
           "--depth-law inverse --calibration near=500,far=2000");
   EXPECT_EQ(said.exit_code, 0) << said.err;
   EXPECT_THAT(said.out, HasSubstr("HEVC 4:2:0, 12 bits"));
-  EXPECT_THAT(said.out, HasSubstr("linear steps made inverse ones"));
+  EXPECT_THAT(said.out, HasSubstr("linear steps converted to inverse ones"));
   EXPECT_EQ(said.err, "");
   const Film film = readFilm(folder_ / "out.ts");
   EXPECT_EQ(film.info.calibration.calibration.law, DepthLaw::Inverse);

@@ -408,7 +408,7 @@ TEST(PairReader, SaysWhichThingFailedAndWhy) {
   EXPECT_EQ(thing, none);
   EXPECT_THAT(failureOf({.url = film, .depth_url = none}, thing), testing::HasSubstr("no such file"));
   EXPECT_EQ(thing, none);
-  EXPECT_THAT(failureOf({.url = film, .packing = Packing::Tracks}, thing), testing::HasSubstr("one video track only"));
+  EXPECT_THAT(failureOf({.url = film, .packing = Packing::Tracks}, thing), testing::HasSubstr("only one video track"));
   EXPECT_EQ(thing, film);
   EXPECT_THAT(failureOf({.url = film, .depth_url = film, .packing = Packing::TopBottom}, thing),
               testing::HasSubstr("cannot be packed"));
