@@ -80,7 +80,7 @@ TEST_F(PlayerOnHardware, AHungDriverIsBegunAnewAndToldOf) {
   EXPECT_EQ(codec.openings(), 2);
   EXPECT_EQ(report["video"]["frames_shown"].get<int>() + report["video"]["frames_dropped"].get<int>(), kFrames);
   EXPECT_EQ(report["film"]["depth"]["decoder"], "ffmpeg; no better decoder: the video hardware is busy");
-  EXPECT_NE(said_.find("v4l2-m2m does not decode h264: the video hardware is busy"), std::string::npos) << said_;
+  EXPECT_NE(said_.find("v4l2-m2m cannot decode h264: the video hardware is busy"), std::string::npos) << said_;
 }
 
 TEST_F(PlayerOnHardware, WhenItIsGoneTheFilmGoesOnInSoftware) {
