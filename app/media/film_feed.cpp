@@ -32,7 +32,7 @@ void FilmFeed::stop() noexcept {
       wake_.wait_for(lock, std::chrono::milliseconds(10), [this] { return thread_ended_; });
     }
     queue_.clear();
-    forgetSound();
+    sound_.forget();
     state_ = State::Closed;
   }
   if (thread_.joinable()) thread_.join();
@@ -41,7 +41,7 @@ void FilmFeed::stop() noexcept {
 
 void FilmFeed::open(SourceOptions options) {
   const std::scoped_lock lock(mutex_);
-  options_ = std::move(options);
+  request_.options = std::move(options);
   begin(State::Opening);
 }
 
@@ -51,11 +51,11 @@ void FilmFeed::close() {
 }
 
 void FilmFeed::begin(State state) {
-  ++film_;
-  ++generation_;
+  ++counts_.film;
+  ++counts_.generation;
   queue_.clear();
-  forgetSound();
-  target_ = MediaTime{};
+  sound_.forget();
+  request_.target = MediaTime{};
   films_.clear();
   seek_error_.reset();
   news_.clear();
@@ -70,7 +70,7 @@ void FilmFeed::begin(State state) {
 // Interrupts the reader if it still works on a film that has been closed or replaced. Callers repeat this, because an
 // interrupt that arrives just before the reader opens that film has no effect.
 void FilmFeed::interruptStale() const {
-  if (at_work_ == 0 || at_work_ == film_) return;
+  if (counts_.at_work == 0 || counts_.at_work == counts_.film) return;
   interrupted_ = true;
   reader_.interrupt();
 }
@@ -80,20 +80,13 @@ void FilmFeed::seek(MediaTime target, Duration key_step) {
   const std::scoped_lock lock(mutex_);
   const bool away = state_ == State::Reconnecting;
   if (!away && state_ != State::Reading && state_ != State::Ended && state_ != State::Seeking) return;
-  target_ = target;
-  key_step_ = key_step;
-  ++generation_;
+  request_.target = target;
+  request_.key_step = key_step;
+  ++counts_.generation;
   queue_.swap(dropped);
-  forgetSound();
-  (away ? state_before_ : state_) = State::Seeking;
+  sound_.forget();
+  (away ? loss_.before : state_) = State::Seeking;
   wake_.notify_all();
-}
-
-void FilmFeed::forgetSound() {
-  sound_.clear();
-  sound_ahead_ = Duration(0);
-  sound_until_.reset();
-  sound_may_come_ = false;
 }
 
 FilmFeed::State FilmFeed::state() const {
@@ -118,17 +111,14 @@ std::optional<FramePair> FilmFeed::take() {
 
 std::optional<AudioChunk> FilmFeed::takeSound() {
   const std::scoped_lock lock(mutex_);
-  if (sound_.empty()) return std::nullopt;
-  std::optional<AudioChunk> chunk(std::move(sound_.front()));
-  sound_.pop_front();
-  sound_ahead_ -= lengthOf(*chunk);
-  wake_.notify_all();
+  auto chunk = sound_.take(request_.options.sound);
+  if (chunk) wake_.notify_all();
   return chunk;
 }
 
 bool FilmFeed::hasSoundUntil(MediaTime time) const {
   const std::scoped_lock lock(mutex_);
-  return !wantsSound() || (sound_until_ && *sound_until_ >= time);
+  return !wantsSound() || (sound_.until() && *sound_.until() >= time);
 }
 
 FilmInfo FilmFeed::info() const {
@@ -143,12 +133,12 @@ PairCounters FilmFeed::counters() const {
 
 Error FilmFeed::error() const {
   const std::scoped_lock lock(mutex_);
-  return error_;
+  return failure_.error;
 }
 
 std::string FilmFeed::failedThing() const {
   const std::scoped_lock lock(mutex_);
-  return failed_thing_;
+  return failure_.thing;
 }
 
 std::optional<Error> FilmFeed::takeSeekError() {
@@ -165,34 +155,29 @@ std::optional<FilmFeed::News> FilmFeed::takeNews() {
 }
 
 bool FilmFeed::hasWork() const {
-  if (state_ == State::Reconnecting) return backends_.clock->now() >= back_off_.next();
+  if (state_ == State::Reconnecting) return backends_.clock->now() >= loss_.back_off.next();
   return state_ == State::Opening || state_ == State::Seeking || (state_ == State::Closed && reader_open_) ||
          wantsPair() || wantsSound();
 }
 
 bool FilmFeed::wantsSound() const {
-  return sound_may_come_ && sound_ahead_ < kSoundAhead && (state_ == State::Reading || state_ == State::Ended);
-}
-
-Duration FilmFeed::lengthOf(const AudioChunk& chunk) const {
-  const AudioFormat& format = *options_.sound;  // always set here: without it no sound is decoded
-  return fromSeconds(static_cast<double>(chunk.samples.size()) / format.channels / format.rate_hz);
+  return sound_.may_come && sound_.ahead() < kSoundAhead && (state_ == State::Reading || state_ == State::Ended);
 }
 
 bool FilmFeed::work() {
   std::unique_lock lock(mutex_);
   if (stopping_ || !hasWork()) return false;
   const State task = state_;
-  const std::uint64_t generation = generation_;
-  at_work_ = film_;
+  const std::uint64_t generation = counts_.generation;
+  counts_.at_work = counts_.film;
   interrupted_ = false;
   if (task == State::Opening) {
-    const SourceOptions options = options_;
+    const SourceOptions options = request_.options;
     lock.unlock();
     workOpen(options, generation);
   } else if (task == State::Seeking) {
-    const MediaTime target = target_;
-    const Duration key_step = key_step_;
+    const MediaTime target = request_.target;
+    const Duration key_step = request_.key_step;
     lock.unlock();
     workSeek(target, key_step, generation);
   } else if (task == State::Closed) {
@@ -209,7 +194,7 @@ bool FilmFeed::work() {
     if (pair && !sounded) workRead(generation);
   }
   lock.lock();
-  at_work_ = 0;
+  counts_.at_work = 0;
   return true;
 }
 
@@ -218,7 +203,7 @@ void FilmFeed::workOpen(const SourceOptions& options, std::uint64_t generation) 
   const auto opened = list && !*list ? reader_.open(options) : Result<void>{};
   const std::scoped_lock lock(mutex_);
   reader_open_ = list && !*list && opened;
-  if (generation != generation_) return;  // closed or replaced meanwhile
+  if (generation != counts_.generation) return;  // closed or replaced meanwhile
   if (!list) return failed(list.error().thing, list.error().error);
   if (!opened) return failed(reader_.failedThing(), opened.error());
   if (*list) {
@@ -227,7 +212,7 @@ void FilmFeed::workOpen(const SourceOptions& options, std::uint64_t generation) 
     return;
   }
   info_ = reader_.info();
-  sound_may_come_ = hasSound();
+  sound_.may_come = hasSound();
   state_ = State::Reading;
 }
 
@@ -246,13 +231,13 @@ Outcome<std::optional<std::vector<PlaylistEntry>>> FilmFeed::readList(const std:
 void FilmFeed::workSeek(MediaTime target, Duration key_step, std::uint64_t generation) {
   const auto sought = reader_.seek(target, key_step);
   const std::scoped_lock lock(mutex_);
-  if (generation != generation_) return;  // a newer seek has replaced this one
+  if (generation != counts_.generation) return;  // a newer seek has replaced this one
   if (!sought && loses(sought.error())) return;
   if (!sought) {
     seek_error_ = sought.error();
-    target_ = MediaTime{};  // so that no sample is skipped
+    request_.target = MediaTime{};  // so that no sample is skipped
   }
-  sound_may_come_ = hasSound();
+  sound_.may_come = hasSound();
   state_ = State::Reading;
 }
 
@@ -262,13 +247,13 @@ void FilmFeed::workRead(std::uint64_t generation) {
   const auto depth_loss = reader_.depthLoss();
   const auto restart = reader_.takeRestart();
   const std::scoped_lock lock(mutex_);
-  if (at_work_ != film_) return;
+  if (counts_.at_work != counts_.film) return;
   counters_ = counters;
   noteRestart(restart);
   noteDepth(depth_loss);
   if (!pair && loses(pair.error())) return;
-  if (generation != generation_) return;
-  sound_may_come_ = hasSound();
+  if (generation != counts_.generation) return;
+  sound_.may_come = hasSound();
   if (!pair) return failed(reader_.failedThing(), pair.error());
   if (!*pair) {
     state_ = State::Ended;
@@ -283,14 +268,12 @@ bool FilmFeed::workSound(bool may_read, std::uint64_t generation) {
   if (!chunk && !may_read) return false;
   const bool more = chunk || reader_.readAhead();
   const std::scoped_lock lock(mutex_);
-  if (generation != generation_) return true;
-  sound_may_come_ = more;
+  if (generation != counts_.generation) return true;
+  sound_.may_come = more;
   if (!chunk) return true;
-  const Duration length = lengthOf(*chunk);
-  if (chunk->pts + length <= target_) return true;  // between a seek's key frame and its target
-  sound_ahead_ += length;
-  sound_until_ = chunk->pts + length;
-  sound_.push_back(std::move(*chunk));
+  const AudioFormat& format = *request_.options.sound;  // always set here: without it no sound is decoded
+  const MediaTime end = chunk->pts + SoundQueue::lengthOf(*chunk, format);
+  if (end > request_.target) sound_.add(std::move(*chunk), format);  // else it lies before a seek's target
   return true;
 }
 
@@ -298,27 +281,28 @@ void FilmFeed::workReopen() {
   const auto reopened = reader_.reopen();
   const PairCounters counters = reader_.counters();
   const std::scoped_lock lock(mutex_);
-  if (at_work_ != film_) return;
+  if (counts_.at_work != counts_.film) return;
   counters_ = counters;
   const MonotonicTime now = backends_.clock->now();
   if (reopened) {
-    state_ = state_before_;
-    sound_may_come_ = hasSound();
-    if (state_ == State::Reading && sound_until_) target_ = *sound_until_;  // do not repeat sound that was delivered
+    state_ = loss_.before;
+    sound_.may_come = hasSound();
+    if (state_ == State::Reading && sound_.until())
+      request_.target = *sound_.until();  // do not repeat sound that was delivered
     news_.push_back({News::Kind::ColorBack, "", "", now});
-  } else if (back_off_.away(now) >= kPatience) {
-    failed(options_.url, loss_);
+  } else if (loss_.back_off.away(now) >= kPatience) {
+    failed(request_.options.url, loss_.error);
   } else {
-    back_off_.failed(now);
+    loss_.back_off.failed(now);
   }
 }
 
 // Enters Reconnecting if the source may come back; afterwards the previous state is resumed.
 bool FilmFeed::loses(const Error& error) {
   if (backends_.clock == nullptr || !reader_.isSourceLost(error)) return false;
-  loss_ = error;
-  state_before_ = std::exchange(state_, State::Reconnecting);
-  back_off_.begin(backends_.clock->now());
+  loss_.error = error;
+  loss_.before = std::exchange(state_, State::Reconnecting);
+  loss_.back_off.begin(backends_.clock->now());
   news_.push_back({News::Kind::ColorLost, error.message, "", backends_.clock->now()});
   return true;
 }
@@ -337,8 +321,7 @@ void FilmFeed::noteDepth(const std::optional<Error>& loss) {
 }
 
 void FilmFeed::failed(std::string thing, const Error& error) {
-  error_ = error;
-  failed_thing_ = thing.empty() ? options_.url : std::move(thing);
+  failure_ = {thing.empty() ? request_.options.url : std::move(thing), error};
   state_ = State::Failed;
 }
 
@@ -348,7 +331,7 @@ void FilmFeed::threadMain() {
       std::unique_lock lock(mutex_);
       const auto wanted = [this] { return stopping_ || hasWork(); };
       if (state_ == State::Reconnecting) {
-        wake_.wait_for(lock, back_off_.next() - backends_.clock->now(), wanted);
+        wake_.wait_for(lock, loss_.back_off.next() - backends_.clock->now(), wanted);
       } else {
         wake_.wait(lock, wanted);
       }

@@ -15,6 +15,7 @@
 #include "app/media/back_off.h"
 #include "app/media/pair_reader.h"
 #include "app/media/playlist.h"
+#include "app/media/sound_queue.h"
 #include "hal/media_time.h"
 #include "platform/failure.h"
 
@@ -96,8 +97,6 @@ class FilmFeed {
   [[nodiscard]] bool wantsPair() const { return state_ == State::Reading && queue_.size() < capacity_; }
   [[nodiscard]] bool wantsSound() const;
   [[nodiscard]] bool hasSound() const { return !info_.sound_codec.empty() && info_.sound_refused == nullptr; }
-  [[nodiscard]] Duration lengthOf(const AudioChunk& chunk) const;
-  void forgetSound();
   void workOpen(const SourceOptions& options, std::uint64_t generation);
   [[nodiscard]] Outcome<std::optional<std::vector<PlaylistEntry>>> readList(const std::string& url);
   void workSeek(MediaTime target, Duration key_step, std::uint64_t generation);
@@ -120,27 +119,32 @@ class FilmFeed {
   mutable std::mutex mutex_;  // guards everything below
   std::condition_variable wake_;
   State state_ = State::Closed;
-  SourceOptions options_;
-  MediaTime target_;
-  Duration key_step_{0};
-  std::uint64_t generation_ = 0;  // counts films and seeks; data read under an older generation is dropped
-  std::uint64_t film_ = 0;        // counts films
-  std::uint64_t at_work_ = 0;     // the film the reader is working on; 0: idle
+  struct Request {
+    SourceOptions options;
+    MediaTime target;
+    Duration key_step{0};
+  };
+  Request request_;  // what was asked for last
+  struct Counts {
+    std::uint64_t generation = 0;  // films and seeks; data read under an older generation is dropped
+    std::uint64_t film = 0;        // films
+    std::uint64_t at_work = 0;     // the film the reader is working on; 0: idle
+  };
+  Counts counts_;
   bool reader_open_ = false;
   std::vector<PlaylistEntry> films_;
   std::deque<FramePair> queue_;
-  std::deque<AudioChunk> sound_;
-  Duration sound_ahead_{0};               // total length of the queued sound
-  std::optional<MediaTime> sound_until_;  // end of the newest queued sound
-  bool sound_may_come_ = false;
+  SoundQueue sound_;
   FilmInfo info_;
   PairCounters counters_;
-  Error error_;
-  std::string failed_thing_;
+  Failure failure_;  // valid in Failed
   std::optional<Error> seek_error_;
-  BackOff back_off_;
-  Error loss_;                           // valid in Reconnecting
-  State state_before_ = State::Reading;  // the state to resume after Reconnecting
+  struct Loss {
+    Error error;
+    State before = State::Reading;  // the state to resume
+    BackOff back_off;
+  };
+  Loss loss_;  // valid in Reconnecting
   bool depth_away_ = false;
   std::deque<News> news_;
   bool stopping_ = false;

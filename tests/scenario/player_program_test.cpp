@@ -266,7 +266,7 @@ TEST_F(PlayerProgram, ACaptureOntoTheFilmIsRefusedWhateverItsName) {
     test::makeClip(at(film), {color(3), depth(3)});
     for (const char* rate : {"", "@25"}) {
       const auto result = play(at(film), "offscreen:" + at(film) + rate);
-      expectOneLine(result, 2, "written over");
+      expectOneLine(result, 2, "would be overwritten");
     }
     EXPECT_EQ(test::runProgram("relievo probe " + at(film), at("")).exit_code, 0) << "the film is still one";
   }
@@ -282,8 +282,8 @@ TEST_F(PlayerProgram, WrongUseIsCodeTwoAndOneLine) {
   expectOneLine(play("film.mkv --haptic none --record " + at("t.csv")), 2, "--record");
   expectOneLine(play("film.mkv --depth-strength nan"), 2, "--depth-strength: nan");
   expectOneLine(play("film.mkv --depth-strength 2.1"), 2, "--depth-strength: 2.1");
-  expectOneLine(play("film.mkv --haptic replay:" + at("t.csv") + " --record " + at("t.csv")), 2, "written over");
-  expectOneLine(play("film.mkv --haptic sim:tense," + at("t.csv") + " --record " + at("t.csv")), 2, "written over");
+  expectOneLine(play("film.mkv --haptic replay:" + at("t.csv") + " --record " + at("t.csv")), 2, "would be overwritten");
+  expectOneLine(play("film.mkv --haptic sim:tense," + at("t.csv") + " --record " + at("t.csv")), 2, "would be overwritten");
   expectNothingLeft({});
 }
 

@@ -25,6 +25,27 @@ struct LineFamily {
   }
 };
 
+// The part of a way that lies over the grid, from 0 to 1 of it; empty, with the end before the begin, if none does.
+struct Stretch {
+  double begin = 0, end = 1;
+};
+void clip(Stretch& way, double from, double delta, double last) RELIEVO_RT {
+  if (delta == 0) {
+    if (from < 0 || from > last) way.end = -1;
+    return;
+  }
+  const double a = (0 - from) / delta, b = (last - from) / delta;
+  way.begin = std::max(way.begin, std::min(a, b));
+  way.end = std::min(way.end, std::max(a, b));
+}
+// Clipped first, so that a finger far away costs no more than one nearby.
+Stretch overGrid(double u, double du, double last_u, double v, double dv, double last_v) RELIEVO_RT {
+  Stretch way;
+  clip(way, u, du, last_u);
+  clip(way, v, dv, last_v);
+  return way;
+}
+
 }  // namespace
 
 std::optional<Crossing> firstCrossing(const SurfaceInTime& surface, const glm::dvec3& from_mm,
@@ -35,19 +56,7 @@ std::optional<Crossing> firstCrossing(const SurfaceInTime& surface, const glm::d
   const double du = grid.u(to_mm.x) - u0, dv = grid.v(to_mm.y) - v0, dz = to_mm.z - z0;
   if (!std::isfinite(du + dv + dz)) return std::nullopt;  // the walk along it would never end
 
-  // Only the part over the grid counts: clip it first, so that a finger far away costs no more than one nearby.
-  double s = 0, end = 1;
-  const auto clip = [&](double from, double delta, double last) {
-    if (delta == 0) {
-      if (from < 0 || from > last) end = -1;
-      return;
-    }
-    const double a = (0 - from) / delta, b = (last - from) / delta;
-    s = std::max(s, std::min(a, b));
-    end = std::min(end, std::max(a, b));
-  };
-  clip(u0, du, surface.cols() - 1);
-  clip(v0, dv, surface.rows() - 1);
+  auto [s, end] = overGrid(u0, du, surface.cols() - 1, v0, dv, surface.rows() - 1);
   if (!(s <= end) || surface.cols() < 2 || surface.rows() < 2) return std::nullopt;
 
   LineFamily columns(u0, u0 + du), rows(v0, v0 + dv), diagonals(u0 - v0, u0 - v0 + du - dv);

@@ -28,6 +28,48 @@ const char* caches(const Row& row) {
   return row.cold ? "cold" : "warm";
 }
 
+void addAllFigures(CsvTable& table, const Row& r, int clock_ns) {
+  const ForceError e = r.error.value_or(ForceError{kNothing, kNothing, kNothing, kNothing});
+  const double lost = r.error ? (e.contactLost() ? 1 : 0) : kNothing;
+  const Spread none{kNothing, kNothing, kNothing};
+  const TickTimes t = r.times.value_or(TickTimes{none, none, none, none, none, none, kNothing, kNothing});
+  table.row({r.who->label,
+             r.who->method,
+             r.parts.space,
+             r.parts.time,
+             r.parts.narrow_mm,
+             r.parts.wide_mm,
+             r.depth->name,
+             r.scene,
+             r.size.cols,
+             r.size.rows,
+             r.speed_m_per_s,
+             caches(r),
+             e.rms_n,
+             e.rms_percent,
+             e.direction_rms_deg,
+             e.magnitude_rms_percent,
+             e.ticks,
+             e.lost_ticks,
+             lost,
+             t.update.median,
+             t.update.p99,
+             t.update.p999,
+             t.upkeep.median,
+             t.upkeep.p99,
+             t.upkeep.p999,
+             t.own_update.p999,
+             t.own_upkeep.p999,
+             t.whole.median,
+             t.whole.p99,
+             t.whole.p999,
+             t.own_whole.p999,
+             t.frame_ms,
+             t.frame_us_per_tick,
+             t.update.count,
+             clock_ns});
+}
+
 Outcome<void> writeAll(const Figures& figures, const std::string& path) {
   CsvTable table({"method",
                   "of",
@@ -64,47 +106,7 @@ Outcome<void> writeAll(const Figures& figures, const std::string& path) {
                   "frame_us_per_tick",
                   "timed_ticks",
                   "clock_cost_ns"});
-  for (const Row& r : figures.rows) {
-    const ForceError e = r.error.value_or(ForceError{kNothing, kNothing, kNothing, kNothing});
-    const double lost = r.error ? (e.contactLost() ? 1 : 0) : kNothing;
-    const Spread none{kNothing, kNothing, kNothing};
-    const TickTimes t = r.times.value_or(TickTimes{none, none, none, none, none, none, kNothing, kNothing});
-    table.row({r.who->label,
-               r.who->method,
-               r.parts.space,
-               r.parts.time,
-               r.parts.narrow_mm,
-               r.parts.wide_mm,
-               r.depth->name,
-               r.scene,
-               r.size.cols,
-               r.size.rows,
-               r.speed_m_per_s,
-               caches(r),
-               e.rms_n,
-               e.rms_percent,
-               e.direction_rms_deg,
-               e.magnitude_rms_percent,
-               e.ticks,
-               e.lost_ticks,
-               lost,
-               t.update.median,
-               t.update.p99,
-               t.update.p999,
-               t.upkeep.median,
-               t.upkeep.p99,
-               t.upkeep.p999,
-               t.own_update.p999,
-               t.own_upkeep.p999,
-               t.whole.median,
-               t.whole.p99,
-               t.whole.p999,
-               t.own_whole.p999,
-               t.frame_ms,
-               t.frame_us_per_tick,
-               t.update.count,
-               figures.clock_ns});
-  }
+  for (const Row& r : figures.rows) addAllFigures(table, r, figures.clock_ns);
   return table.write(path);
 }
 

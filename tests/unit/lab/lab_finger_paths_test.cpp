@@ -76,7 +76,7 @@ TEST(FingerPath, GoesAtConstantSpeedOverTheWholeMiddle) {
 TEST(FingerPath, HeldFingerStaysAtItsPlaceOnTheSurface) {
   const auto s = makeTrueSurface("plane-heaving");
   const auto path = makeFingerPath(*s, {.speed_mm_per_s = 0, .duration_s = 1});
-  ASSERT_GE(path.size(), kIn + 1000);
+  ASSERT_GT(path.size(), kIn + 100);
   const glm::dvec3 first = path[kIn].hip_mm - glm::dvec3(0, 0, s->height(0, 0, path[kIn].t_s));
   for (std::size_t i = kIn; i < path.size(); ++i) {
     const glm::dvec3 now = path[i].hip_mm - glm::dvec3(0, 0, s->height(0, 0, path[i].t_s));
