@@ -204,15 +204,16 @@ TEST_F(PlayerAndPrograms, WithoutAFilmItWaitsForOne) {
 TEST_F(PlayerAndPrograms, AStatusTellsNothingOfTheFilmBeforeWhileTheNextOneOpens) {
   bench_.config.source.url = "list.m3u";
   bench_.texts["list.m3u"] = "film\nother\n";
-  bench_.sources["other"] = PlayerBench::film(50);  // 2 s
+  bench_.sources["./film"] = PlayerBench::film(250);  // 10 s
+  bench_.sources["./other"] = PlayerBench::film(50);  // 2 s
   at(1, "next");
-  at(1, "status");  // in the same round: the source has not been opened yet
-  at(2, "status");
+  at(1, "status");    // in the same round: the source has not been opened yet
+  at(1.5, "status");  // counted anew, from the touch of the second film
   play();
   ASSERT_EQ(answers().size(), 3U);
   const json opening = answers()[1], open = answers()[2];
   EXPECT_EQ(opening["state"], "opening");
-  EXPECT_EQ(opening["source"], "other");
+  EXPECT_EQ(opening["source"], "./other");
   EXPECT_EQ(opening["position_s"], 0.0);
   EXPECT_TRUE(opening["duration_s"].is_null()) << opening;
   EXPECT_EQ(opening["has_depth"], false);
