@@ -131,6 +131,49 @@ TEST_F(LabCharts, RelievoIsManyTimesAsExactOnEightBitsAsThePapersMethod) {
   }
 }
 
+// What smoothing every frame buys and costs.
+TEST_F(LabCharts, TheSmoothedGodObjectIsExactOnSmoothScenesAndPaysForEveryFrame) {
+  const Csv csv(out("speed-accuracy.csv"));
+  const auto value = [&](const char* method, const char* depth, const char* column) {
+    return csv.value({{"method", method}, {"depth", depth}, {"scene", "all"}}, column);
+  };
+  EXPECT_LT(value("god-object-smoothed", "8-bit", "force_rms_percent"),
+            value("god-object", "8-bit", "force_rms_percent") / 10);
+  EXPECT_LT(value("god-object-smoothed", "noise 1 %", "force_rms_percent"), 5);
+  EXPECT_GT(value("god-object-smoothed", "8-bit", "frame_ms"), 0);
+  for (const char* method : {"relievo", "god-object", "penalty"}) EXPECT_EQ(value(method, "8-bit", "frame_ms"), 0);
+  const Csv edges(out("edges.csv"));
+  const auto corner = [&](const char* method) {
+    return edges.value({{"method", method}, {"depth", "8-bit"}, {"edge_mm_per_s", "0"}, {"finger_deep_mm", "2"}},
+                       "corner_mean_mm");
+  };
+  EXPECT_GT(corner("god-object-smoothed"), 2 * corner("relievo"));
+  EXPECT_LT(
+      Csv(out("enhance.csv"))
+          .value({{"figure", "force"}, {"faults", "0"}, {"enhancement", "none"}, {"method", "god-object-smoothed"}},
+                 "force_rms_percent"),
+      5);
+}
+
+TEST_F(LabCharts, TheMapHoldsEveryMethodInEveryScenario) {
+  std::map<std::string, int> methods;
+  const Csv map(out("stability.csv"));
+  for (const CsvRow& row : map.rows()) ++methods[row.at("method")];
+  EXPECT_EQ(methods.size(), 7u);
+  for (const char* method : {"relievo", "god-object", "god-object-smoothed", "modified-proxy-graph"}) {
+    EXPECT_EQ(methods[method], static_cast<int>(map.rows().size() / 7)) << method;
+    EXPECT_NE(textOf(out("stability.svg")).find(">" + std::string(method) + "<"), std::string::npos) << method;
+  }
+}
+
+// A legend is of what is drawn: these lose the moving face, and have no spectrum.
+TEST_F(LabCharts, AMethodWithoutACurveIsNotInTheLegend) {
+  const std::string svg = textOf(out("smoothness.svg"));
+  EXPECT_NE(svg.find(">god-object-smoothed, 1 ahead<"), std::string::npos);
+  EXPECT_EQ(svg.find(">proxy-graph<"), std::string::npos);
+  EXPECT_EQ(textOf(out("bitrate.svg")).find(">HEVC 12 bits<"), std::string::npos) << "not in a quick run";
+}
+
 TEST_F(LabCharts, EveryTimedRowHasItsTimesInOrder) {
   const Csv csv(out("tick-time.csv"));
   ASSERT_FALSE(csv.rows().empty());
@@ -139,6 +182,8 @@ TEST_F(LabCharts, EveryTimedRowHasItsTimesInOrder) {
     EXPECT_GT(number("update_median_us"), 0) << row.at("method");
     EXPECT_LE(number("update_median_us"), number("update_p99_us"));
     EXPECT_LE(number("update_p99_us"), number("update_p999_us"));
+    EXPECT_GE(number("whole_median_us"), number("update_median_us"));
+    EXPECT_GT(number("whole_own_p999_us"), 0) << "for all or for none";
   }
   EXPECT_GT(csv.value({{"method", "relievo"}, {"speed_m_per_s", "0.1"}, {"caches", "cold"}}, "update_median_us"), 0);
 }
@@ -279,6 +324,11 @@ TEST_F(LabCharts, ThePageHoldsEveryChartWithItsWordsAndItsFigures) {
     ++charts;
     const std::string name = entry.path().stem(), svg = textOf(entry.path());
     EXPECT_EQ(svg.find("Produced by GNUPLOT"), std::string::npos) << name;
+    // The reading's last words are drawn as well, however long it is.
+    const std::size_t reading = svg.find("<desc>") + 6;
+    const std::string words = svg.substr(reading, svg.find("</desc>") - reading);
+    const std::string last = words.substr(words.rfind(' ', words.size() - 12) + 1);
+    EXPECT_NE(svg.find(last + "<", svg.find("</desc>") + 7), std::string::npos) << name << ": " << last;
     const std::size_t title = svg.find("<title>") + 7;
     EXPECT_NE(page.find("<h2>" + svg.substr(title, svg.find("</title>") - title) + "</h2>"), std::string::npos) << name;
     EXPECT_NE(page.find("href=\"" + name + ".csv\""), std::string::npos) << name;

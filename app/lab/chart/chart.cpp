@@ -3,16 +3,21 @@
 #include "app/lab/chart/chart.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <span>
+#include <sstream>
+#include <vector>
 
 #include "app/lab/chart/gnuplot.h"
 #include "platform/atomic_file.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {
 
-constexpr std::size_t kColumns = 125;     // of a reading under a chart
-constexpr std::ptrdiff_t kRoomLines = 2;  // for which the scripts leave room
-constexpr int kLinePixels = 20;
+constexpr std::size_t kColumns = 125;  // of a reading under a chart
+constexpr std::size_t kRoomLines = 2;  // which the scripts draw
+constexpr int kLinePixels = 20, kFirstBelow = 4;
 
 struct Element {
   std::size_t begin = 0, end = 0;  // of what is between the tags
@@ -70,14 +75,32 @@ void enlarge(std::string& svg, std::string_view prefix, int pixels) {
   svg.replace(begin, end - begin, std::to_string(number + pixels));
 }
 
-// The picture's and its background's height: the lines of a long reading go on below.
-void makeRoom(std::string& svg, int pixels) {
-  const std::size_t box = svg.find("viewBox=\"0 0 ");
-  if (box == std::string::npos) return;
-  const std::size_t width = box + std::string_view("viewBox=\"0 0 ").size();
-  const std::string columns = svg.substr(width, svg.find(' ', width) - width);
-  enlarge(svg, "viewBox=\"0 0 " + columns, pixels);
-  enlarge(svg, "<rect x=\"0\" y=\"0\" width=\"" + columns + "\" height=\"", pixels);
+// Lines in the middle below the picture, which is made so much higher, its background as well.
+void writeBelow(std::string& svg, std::span<const std::string> lines) {
+  constexpr std::string_view kBox = "viewBox=\"0 0 ";
+  int width = 0, height = 0;
+  const std::size_t box = svg.find(kBox), end = svg.rfind("</svg>");
+  if (lines.empty() || box == std::string::npos || end == std::string::npos) return;
+  if (std::sscanf(svg.c_str() + box + kBox.size(), "%d %d", &width, &height) != 2) return;
+  std::string text;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    text += print(
+                "<text x=\"%d\" y=\"%d\" text-anchor=\"middle\" font-family=\"sans-serif\" font-size=\"13\" "
+                "fill=\"black\">",
+                width / 2, height + kFirstBelow + kLinePixels * static_cast<int>(i)) +
+            escaped(lines[i]) + "</text>\n";
+  }
+  svg.insert(end, text);
+  const int more = kLinePixels * static_cast<int>(lines.size());
+  enlarge(svg, print("<rect x=\"0\" y=\"0\" width=\"%d\" height=\"", width), more);
+  enlarge(svg, std::string(kBox) + std::to_string(width), more);
+}
+
+std::vector<std::string> linesOf(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
 }
 
 }  // namespace
@@ -97,11 +120,13 @@ std::string escaped(std::string_view text) {
 }
 
 Outcome<void> drawChart(const std::string& folder, const std::string& name, const ChartWords& words) {
-  const std::string reading = wrapped(words.reading);
-  const auto lines = std::max(std::count(reading.begin(), reading.end(), '\n') + 1, kRoomLines);
-  auto svg = runGnuplot(chartScript(name), {folder + "/" + name + ".csv", words.title, reading, std::to_string(lines)});
+  const std::vector<std::string> lines = linesOf(wrapped(words.reading));
+  const std::size_t first = std::min(lines.size(), kRoomLines);
+  std::string reading;
+  for (std::size_t i = 0; i < first; ++i) reading += (i > 0 ? "\n" : "") + lines[i];
+  auto svg = runGnuplot(chartScript(name), {folder + "/" + name + ".csv", words.title, reading});
   if (!svg) return std::unexpected(svg.error());
-  makeRoom(*svg, kLinePixels * static_cast<int>(lines - kRoomLines));
+  writeBelow(*svg, std::span(lines).subspan(first));
   replace(*svg, "title", words.title);
   replace(*svg, "desc", words.reading);
   const std::string path = folder + "/" + name + ".svg";

@@ -53,7 +53,6 @@ constexpr std::array kContenders{
     Contender{"relievo 0.72", "relievo", oneWidth(0.72), !kPlanned, kFixed},
     Contender{"relievo 1.0", "relievo", oneWidth(1.0), !kPlanned, kFixed},
     Contender{"god-object hold", "relievo", with(SpaceLaw::Triangles, TimeLaw::Hold), !kPlanned, kFixed},
-    Contender{"smoothed hold", "relievo", with(SpaceLaw::Triangles, TimeLaw::Hold), !kPlanned, kFixed, kSmoothed},
     Contender{"modified hold", "modified-proxy-graph", with({}, TimeLaw::Hold), !kPlanned, kFixed},
     Contender{"proxy-graph linear", "proxy-graph", with({}, TimeLaw::Linear), !kPlanned, kFixed},
 };

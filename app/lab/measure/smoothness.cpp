@@ -27,7 +27,7 @@ constexpr double kPeakHalfWidthHz = 2;  // the scene's own movements stand besid
 
 struct CurveKind {
   const char* contender;
-  const char* hold;  // the same surface in space with the frame held
+  const char* hold;  // whose peak its own is compared with: a surface much like it, the frame held
 };
 constexpr std::array kCurves{
     CurveKind{"relievo", "relievo hold"},
@@ -40,8 +40,7 @@ constexpr std::array kCurves{
     CurveKind{"proxy-blend", "modified hold"},
     CurveKind{"proxy-graph", "modified hold"},
     CurveKind{"god-object", "modified hold"},
-    CurveKind{"god-object-smoothed", "smoothed hold"},
-    CurveKind{"smoothed hold", "smoothed hold"},
+    CurveKind{"god-object-smoothed", "relievo hold"},
 };
 
 struct Setting {

@@ -2,6 +2,13 @@
 // Rays against the terrain, and planes between them.
 #include "app/lab/rival/bullet_proxy.h"
 
+// Without the library there is no such method.
+#if !__has_include(<BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>)
+std::unique_ptr<relievo::TouchMethod> relievo::makeBulletProxy(double /*stiffness_n_per_mm*/) {
+  return nullptr;
+}
+#else
+
 #include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btRaycastCallback.h>
 
@@ -229,3 +236,5 @@ std::unique_ptr<TouchMethod> makeBulletProxy(double stiffness_n_per_mm) {
 }
 
 }  // namespace relievo
+
+#endif

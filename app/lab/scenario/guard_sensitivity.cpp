@@ -29,6 +29,7 @@ Challenger guardedAt(double threshold_n) {
 
 Outcome<ChartWords> measureGuardSensitivity(const MeasureOptions& options) {
   std::vector<Challenger> challengers;
+  challengers.reserve(kThresholdsN.size());
   for (const double threshold : kThresholdsN) challengers.push_back(guardedAt(threshold));
   const VerdictTable table(challengers, options);
   if (const auto written = table.write(options.out + "/guard-sensitivity.csv", "threshold_n"); !written)

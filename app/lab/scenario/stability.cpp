@@ -29,6 +29,7 @@ struct Onset {
 
 std::vector<Challenger> challengers() {
   std::vector<Challenger> all;
+  all.reserve(kMethods.size());
   for (const char* method : kMethods) all.push_back(challengerNamed(method));
   return all;
 }

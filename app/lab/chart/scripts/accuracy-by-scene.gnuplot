@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 set terminal svg size 1000,900 dynamic enhanced font "sans-serif,13" background "#ffffff"
 set multiplot title ARG2 noenhanced font ",16"
-set label 1 ARG3 at screen 0.5, 0.035 center noenhanced offset 0, DOWN
+set label 1 ARG3 at @READING
 @SEE_METHODS
 LEGEND_Y = 0.955
 @LEGEND

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-# What every chart begins with. ARG1: the CSV; ARG2: the title; ARG3: the reading, ARG4 lines.
+# What every chart begins with. ARG1: the CSV; ARG2: the title; ARG3: the reading's first two lines.
 set datafile separator ","
 set datafile columnheaders
 set encoding utf8
 set grid lc rgb "#d8dbe0"
 set border lc rgb "black"
-# The reading's label stands where two lines have room; more of them go on below, where chart.cpp makes room.
-DOWN = -0.5 * (ARG4 - 2)
+set macros
+# The foot of the picture; chart.cpp goes on below.
+READING = "screen 0.5, 0 center noenhanced offset 0, 1.5"
 # SEE_METHODS: METHODS are those of which the table has rows, M of them, each with its COLOUR.
 ALL_METHODS = "relievo god-object god-object-smoothed bullet bullet-smoothed modified-proxy-graph proxy-graph proxy-blend penalty"
 ALL_COLOURS = "#d81b60 #1e88e5 #00897b #6d4c41 #c2a878 #e08e0b #7cb342 #8e5cc2 #8a8f98"
@@ -26,7 +27,6 @@ LOST = "hollow: contact lost"
 # A value where a cell of the row is the wanted text.
 where(name, text, value) = (strcol(name) eq text) ? value : NaN
 # An empty plot over the whole width that holds the legend of several panels: macros around its key entries.
-set macros
 LEGEND = "set lmargin at screen 0.02; set rmargin at screen 0.98; set tmargin at screen 0.9; set bmargin at screen 0.5; \
   unset border; unset tics; unset xlabel; unset ylabel; set xrange [0:1]; set yrange [0:1]; \
   set key at screen 0.5, LEGEND_Y center top horizontal maxrows 2 Left reverse noenhanced samplen 1.2 width 1"

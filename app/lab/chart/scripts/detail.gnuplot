@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 set terminal svg size 1000,1060 dynamic enhanced font "sans-serif,13" background "#ffffff"
 set multiplot title ARG2 noenhanced font ",16"
-set label 1 ARG3 at screen 0.5, 0.075 center noenhanced offset 0, DOWN
+set label 1 ARG3 at @READING
 MODELS = "network grid"
 KINDS = '"8-bit" "H.264 crf 23"'
 array TINTS[2] = ["#d81b60", "#1e88e5"]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 set terminal svg size 1000,690 dynamic enhanced font "sans-serif,13" background "#ffffff"
 set multiplot title ARG2 noenhanced font ",16"
-set label 1 ARG3 at screen 0.5, 0.12 center noenhanced offset 0, DOWN
+set label 1 ARG3 at @READING
 KINDS = '"relievo" "relievo 0.14" "relievo 0.28" "relievo 0.43" "relievo 0.72" "relievo 1.0" "relievo 0.28 + 0.72" "god-object" "god-object-smoothed" "modified-proxy-graph"'
 array TINTS[4] = ["#1e88e5", "#26a69a", "#e08e0b", "#d81b60"]
 LEGEND_Y = 0.915

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 set terminal svg size 1000,520 dynamic enhanced font "sans-serif,13" background "#ffffff"
 set multiplot title ARG2 noenhanced font ",16"
-set label 1 ARG3 at screen 0.5, 0.06 center noenhanced offset 0, DOWN
+set label 1 ARG3 at @READING
 SCENES = ""
 stats ARG1 using (strstrt(SCENES." ", " ".strcol("scene")." ") ? 0 : (SCENES = SCENES." ".strcol("scene"), 0)) nooutput
 array TINTS[8] = ["#8a8f98", "#1e88e5", "#d81b60", "#7cb342", "#fb8c00", "#5e35b1", "#00897b", "#6d4c41"]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 set terminal svg size 1000,1360 dynamic enhanced font "sans-serif,13" background "#ffffff"
 set multiplot title ARG2 noenhanced font ",16"
-set label 1 ARG3 at screen 0.5, 0.045 center noenhanced offset 0, DOWN
+set label 1 ARG3 at @READING
 KINDS = "none median dibm space-time"
 FELT = "modified-proxy-graph god-object god-object-smoothed relievo"
 array TINTS[4] = ["#8a8f98", "#e08e0b", "#1e88e5", "#d81b60"]

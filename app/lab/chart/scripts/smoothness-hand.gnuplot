@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 set terminal svg size 1000,880 dynamic enhanced font "sans-serif,13" background "#ffffff"
 set multiplot title ARG2 noenhanced font ",16"
-set label 1 ARG3 at screen 0.5, 0.045 center noenhanced offset 0, DOWN
+set label 1 ARG3 at @READING
 rate(i) = i < 2 ? "15" : "30"
 depth(i) = i % 2 ? "16-bit" : "8-bit"
 named(curve, i) = curve . " " . rate(i) . "/s " . depth(i)

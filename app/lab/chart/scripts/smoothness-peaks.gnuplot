@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 set terminal svg size 1000,680 dynamic enhanced font "sans-serif,13" background "#ffffff"
 set multiplot title ARG2 noenhanced font ",16"
-set label 1 ARG3 at screen 0.5, 0.065 center noenhanced offset 0, DOWN
+set label 1 ARG3 at @READING
 KINDS = '"15 8-bit" "15 16-bit" "30 8-bit" "30 16-bit"'
 array SHAPE[4] = [7, 6, 5, 4]
 do for [c = 1:words(ALL_CURVES)] {

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 set terminal svg size 1000,520 dynamic enhanced font "sans-serif,13" background "#ffffff"
 set multiplot title ARG2 noenhanced font ",16"
-set label 1 ARG3 at screen 0.5, 0.06 center noenhanced offset 0, DOWN
+set label 1 ARG3 at @READING
 NAMES = "relievo god-object god-object-smoothed modified-proxy-graph proxy-graph proxy-blend penalty"
 PROFILES = "viscous full"
 array PANEL[2] = ["without dry friction: 2b/((1+2n)T)", "with dry friction and encoder: the lesser of that and 2f_c/step"]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 set terminal svg size 1240,640 dynamic enhanced font "sans-serif,13" background "#ffffff"
 set title ARG2 noenhanced font ",16" offset -4, 0.3
-set label 1 ARG3 at screen 0.5, 0.065 center noenhanced offset 0, DOWN
+set label 1 ARG3 at @READING
 NAMES = "relievo god-object god-object-smoothed modified-proxy-graph proxy-graph proxy-blend penalty"
 # The rows of a scenario stand together, in the order of the names.
 ROWS = words(NAMES)
