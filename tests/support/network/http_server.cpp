@@ -46,7 +46,11 @@ void HttpServer::serve() {
   while (!ending_) {
     if (!readable(listener_, kSlice)) continue;
     UniqueFd connection(::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC));
-    if (clock_.now() < away_until_.load()) continue;  // closed at once
+    if (const Duration away = away_.exchange(Duration(0)); away > Duration(0)) {
+      away_until_ = clock_.now() + away;
+      fault_over_ = away_until_;
+    }
+    if (clock_.now() < away_until_) continue;  // closed at once
     answers_.emplace_back([this, to = std::move(connection)]() mutable { answer(std::move(to)); });
   }
 }
@@ -90,7 +94,7 @@ bool HttpServer::sendBody(const UniqueFd& to, const std::string& file, const std
       if (found != faults.end() && at >= found->second.after_bytes) fault = faults.extract(found).mapped();
     }
     if (fault.away > Duration(0)) {
-      away_until_ = fault_over_ = clock_.now() + fault.away;
+      away_ = fault.away;
       return false;
     }
     if (fault.stall > Duration(0)) {

@@ -21,7 +21,7 @@ class HttpServer {
   struct Fault {
     std::size_t after_bytes = 0;  // of the file
     Duration stall{0};            // once
-    Duration away{0};             // once: breaks off, and refuses connections for that long
+    Duration away{0};             // once: breaks off, and refuses the next connection and all within this time of it
   };
   explicit HttpServer(std::string folder);
   ~HttpServer();
@@ -46,7 +46,8 @@ class HttpServer {
   std::uint16_t port_ = 0;
   MonotonicClock clock_;
   std::atomic<bool> ending_{false};
-  std::atomic<MonotonicTime> away_until_{MonotonicTime{}};
+  std::atomic<Duration> away_{Duration(0)};  // from the next connection on
+  MonotonicTime away_until_{};
   std::atomic<MonotonicTime> fault_over_{MonotonicTime{}};
   mutable std::mutex mutex_;  // guards the two below and `faults`
   std::vector<std::string> requests_;
