@@ -58,6 +58,37 @@ TEST(ShotFinder, ARiseThatEndsIsNoCutWhenTheFrameThatShowedItIsLetGo) {
   }
 }
 
+// Four or five frames of 8 bits; code 0 is a hole.
+template <class Code>
+std::vector<std::uint32_t> shotsWithHoles(int count, Code&& code) {
+  std::vector<TimedSurface> frames;
+  for (int k = 0; k < count; ++k) {
+    const Frame f = test::makeGrayFrame(kCols, kRows, 8, mediaTime(k * kPeriod),
+                                        [&](int c, int) { return static_cast<std::uint32_t>(code(k, c)); });
+    frames.push_back(test::surfaceOf(f, kVolume, {.bits = 8, .invalid = 0}));
+  }
+  ShotFinder().mark(frames);
+  std::vector<std::uint32_t> numbers;
+  for (const TimedSurface& f : frames) numbers.push_back(f.shot);
+  return numbers;
+}
+
+using Shots = std::vector<std::uint32_t>;
+
+TEST(ShotFinder, APictureOfNothingButHolesIsNoCut) {
+  EXPECT_EQ(shotsWithHoles(4, [](int k, int) { return k == 2 ? 0 : 100; }), (Shots{0, 0, 0, 0}));
+}
+
+// Four fifths of the picture are holes. What can be read jumps by 14 mm.
+TEST(ShotFinder, WhatCanBeReadDecidesHoweverLittleItIs) {
+  EXPECT_EQ(shotsWithHoles(4, [](int k, int c) { return c > kCols / 5 ? 0 : k < 2 ? 100 : 190; }), (Shots{0, 0, 1, 1}));
+}
+
+// A rise of 6 mm a frame is one in the frame before; that the sensor sees nothing in the frame after says nothing.
+TEST(ShotFinder, ARiseIsNoCutWhereTheFrameAfterItIsAllHoles) {
+  EXPECT_EQ(shotsWithHoles(4, [](int k, int) { return k == 3 ? 0 : 20 + 40 * k; }), (Shots{0, 0, 0, 0}));
+}
+
 std::vector<bool> repetitions(const std::vector<TimedSurface>& frames) {
   std::vector<bool> found;
   for (const TimedSurface& f : frames) found.push_back(f.repeats);

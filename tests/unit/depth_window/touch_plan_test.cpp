@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -103,6 +104,36 @@ TEST(TouchPlan, TellsWhatNoiseLeavesHoweverFineThePictureIs) {
     EXPECT_NEAR(left, plan.error, 0.3 * plan.error) << cols << ' ' << noise_mm << ' ' << still;
     EXPECT_TRUE(plan.error <= 1.001 * kErrorWanted || plan.scale.wide_mm >= 1.2) << cols << ' ' << noise_mm;
   }
+}
+
+// Half of the picture is painted far and a quarter near, without noise; the rest has noise of 0.4 mm.
+TEST(TouchPlan, WhatIsPaintedAtTheEndsOfTheRangeHasNoSay) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0, 0.4);
+  const Frame frame = makeGrayFrame(400, 300, 16, {}, [&](int c, int) {
+    return c < 200 ? 0.0 : c < 300 ? 65535.0 : (20 + noise(random)) / 40 * 65535;
+  });
+  const TimedSurface alone{HeightField::make(frame, {.bits = 16}, kVolume).value(), {}, frame.owner};
+  EXPECT_NEAR(measureClip(std::span(&alone, 1)).noise_mm, 0.4, 0.06);
+}
+
+TEST(TouchPlan, OfAFilmItsFirstFourFramesTell) {
+  std::vector<TimedSurface> surfaces;
+  for (int k = 0; k < 8; ++k) {
+    const Frame frame =
+        makeGrayFrame(90, 61, 8, mediaTime(k * kPeriod), [&](int c, int) { return c + (k < 4 ? 0 : k); });
+    surfaces.push_back({HeightField::make(frame, {.bits = 8}, kVolume).value(), frame.pts, frame.owner});
+  }
+  EXPECT_TRUE(planFilm(surfaces).measure.still);
+  EXPECT_FALSE(planTouch(measureClip(surfaces)).measure.still);
+}
+
+// Noise below one step of the codes is no noise that the smoother law would be worth; and however coarse the codes are,
+// the wide level leaves the narrow one by 0.3 mm at most.
+TEST(TouchPlan, NoiseIsWhatIsMoreThanAStep) {
+  const ClipMeasure coarse{.frames = 4, .quantum_mm = 0.6, .noise_mm = 0.03, .sample_mm = 0.5, .period_s = kPeriod};
+  EXPECT_EQ(planTouch(coarse).scale.wide_time, TimeLaw::Fitted);
+  EXPECT_NEAR(planTouch(coarse).scale.clamp_mm, 0.3, 1e-9);
 }
 
 // Two still pictures with a cut of 20 mm between them: nothing has moved.

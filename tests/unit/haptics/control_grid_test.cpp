@@ -83,6 +83,30 @@ TEST_F(ControlGridTest, WhereHalfOfTheWeightHasAReadingTheReadingsTell) {
   EXPECT_EQ(patch(3, 3)[1][1], kPit);
 }
 
+// A hole in the last block of a row or in the first one: what lies beyond the rim in memory, the other end of the row
+// beside it, is much lower.
+TEST_F(ControlGridTest, AHoleAtTheRimIsBridgedByWhatIsInsideThePicture) {
+  const auto hole_at = [](int begin) {
+    return picture(0, [begin](int c, int) { return c >= begin && c < begin + 4 ? 0 : c < 3 || c >= 37 ? 500 : 3000; });
+  };
+  show({hole_at(36)}, {1});
+  EXPECT_NEAR(patch(9, 4)[0][0], height((4 * 3000 + 500) / 5.0), 1e-3) << "columns 32 to 35, and 40";
+  grid_.forgetFrame(0);
+  show({hole_at(0)}, {1});
+  EXPECT_NEAR(patch(0, 4)[0][0], height(3000), 1e-3) << "columns 4 to 7";
+}
+
+TEST_F(ControlGridTest, AnotherFilmsHolesAreAsDeepAsItsBox) {
+  show({picture(0, [](int, int) { return 0; })}, {1});
+  EXPECT_EQ(patch(3, 3)[0][0], kPit);
+  DisplayVolume flatter = kVolume;
+  flatter.depth_mm = 20;
+  const Frame other = test::makeGrayFrame(kCols, kRows, 12, {}, [](int, int) { return 0; });
+  window_.frames[0] = test::surfaceOf(other, flatter, {.bits = 12, .invalid = 0});
+  grid_.setPicture(window_.frames[0].field);
+  EXPECT_EQ(patch(3, 3)[0][0], -20);
+}
+
 TEST_F(ControlGridTest, AFrameThatTakesAnothersPlaceBringsItsOwnReadings) {
   show({picture(0, [](int c, int) { return c < 20 ? 0 : 1000; })}, {1});
   EXPECT_EQ(patch(3, 3)[0][0], kPit);

@@ -177,6 +177,96 @@ TEST(FeltSurface, AnEdgeThatMovesIsInOnePlaceBetweenTheFrames) {
   }
 }
 
+double edgeAt(double edge_mm, double x) {
+  return x < edge_mm ? 30 : 10;
+}
+
+// An edge goes to the right from frame to frame, far or by less than a control point's pitch. Tick by tick, with a
+// window that goes on, it is felt where one who has seen no tick before finds it.
+TEST(FeltSurface, WhatIsLeftOfATickDoesNotShowWhereAnEdgeMoves) {
+  constexpr double kPixelMm = kVolume.width_mm / kCols;
+  for (const double way_mm : {3.0, 0.2}) {
+    const auto frames = film(9, [&](double x, double, double t) {
+      const double edge = way_mm * (t / kPeriod - 3);
+      return 10 + 20 * std::clamp((edge - x) / kPixelMm + 0.5, 0.0, 1.0);
+    });
+    const auto around = [&](double t) {
+      const auto present = static_cast<std::size_t>(t / kPeriod + 1e-6), first = present < 2 ? 0 : present - 2;
+      return makeWindow(std::span(frames).subspan(first, std::min(present + 5, frames.size()) - first), kVolume);
+    };
+    FeltSurface walked({});
+    int beside_the_edge = 0;
+    for (double t = kPeriod; t < 5 * kPeriod; t += 0.001) {
+      const SurfaceWindow window = around(t), next = around(t + 0.001);
+      ASSERT_TRUE(walked.moveTo(window, mediaTime(t)));
+      walked.prepare(window, mediaTime(t + 0.001), 0.3, 0);
+      ASSERT_TRUE(walked.moveTo(next, mediaTime(t + 0.001)));
+      FeltSurface fresh({});
+      ASSERT_TRUE(fresh.moveTo(next, mediaTime(t)));
+      fresh.prepare(next, mediaTime(t + 0.001), 0.3, 0);
+      ASSERT_TRUE(fresh.moveTo(next, mediaTime(t + 0.001)));
+      const double z = fresh.height(0.3, 0);
+      ASSERT_NEAR(walked.height(0.3, 0), z, 0.01) << way_mm << ' ' << t / kPeriod;
+      beside_the_edge += z > 11 && z < 29 ? 1 : 0;
+    }
+    EXPECT_GT(beside_the_edge, 2) << way_mm;
+  }
+}
+
+// The frame has the time of one whose edge moved; this one's stands.
+TEST(FeltSurface, TheMotionOfAnEdgeEndsWithItsEpoch) {
+  const auto moving = film(5, [](double x, double, double t) { return edgeAt(-6 + 3 * t / kPeriod, x); });
+  const auto standing = film(5, [](double x, double, double) { return edgeAt(0, x); });
+  const SurfaceWindow before = makeWindow(moving, kVolume);
+  SurfaceWindow after = makeWindow(standing, kVolume);
+  after.epoch = 1;
+  const double t = 2.5 * kPeriod;
+  FeltSurface s({}), fresh({});
+  ASSERT_TRUE(s.moveTo(before, mediaTime(t - 0.001)));
+  s.prepare(before, mediaTime(t), 0, 0);
+  ASSERT_TRUE(s.moveTo(after, mediaTime(t)));
+  ASSERT_TRUE(fresh.moveTo(after, mediaTime(t)));
+  for (const double x : {-1.5, -0.5, 0.0, 0.5, 1.5}) EXPECT_NEAR(s.height(x, 0), fresh.height(x, 0), 1e-4) << x;
+}
+
+// Beyond the cut there is an edge 2 mm further on: not where this one goes.
+TEST(FeltSurface, AnEdgeDoesNotMoveOverACut) {
+  const auto frames = film(5, [](double x, double, double t) { return edgeAt(t < 2.5 * kPeriod ? 0 : 2, x); });
+  SurfaceWindow window = makeWindow(frames, kVolume);
+  window.frames[3].shot = window.frames[4].shot = 1;
+  const double t = 2.5 * kPeriod;
+  FeltSurface s({}), plain({});
+  ASSERT_TRUE(s.moveTo(window, mediaTime(t - 0.001)));
+  s.prepare(window, mediaTime(t), 0, 0);
+  ASSERT_TRUE(s.moveTo(window, mediaTime(t)));
+  ASSERT_TRUE(plain.moveTo(window, mediaTime(t)));
+  for (const double x : {-1.0, 0.0, 0.5, 1.0, 2.0}) EXPECT_NEAR(s.height(x, 0), plain.height(x, 0), 1e-3) << x;
+}
+
+// Pixel 180 of 360 reaches from 0 to 0.444 mm.
+TEST(FeltSurface, TheLowestSampleIsTheNearestOneOfThePresentFrameAndTheNext) {
+  const auto lowest = [](auto&& now, auto&& next, double x, std::uint32_t next_shot = 0) {
+    std::vector<Frame> frames;
+    frames.push_back(makeGrayFrame(kCols, kRows, 8, mediaTime(0), [&](int c, int) { return now(c); }));
+    frames.push_back(makeGrayFrame(kCols, kRows, 8, mediaTime(kPeriod), [&](int c, int) { return next(c); }));
+    SurfaceWindow w = makeWindow(frames, kVolume, {.bits = 8, .invalid = 0});
+    w.frames[1].shot = next_shot;
+    FeltSurface s({});
+    EXPECT_TRUE(s.moveTo(w, mediaTime(0.01)));
+    return s.lowestSample(x, 0);
+  };
+  const auto flat = [](int code) { return [code](int) { return code; }; };
+  const auto step = [](int c) { return c < 180 ? 51 : 102; };
+  EXPECT_NEAR(lowest(flat(102), flat(51), 1), 8, 1e-9);
+  EXPECT_NEAR(lowest(flat(51), flat(102), 1), 8, 1e-9);
+  EXPECT_NEAR(lowest(flat(102), flat(51), 1, 1), 16, 1e-9) << "the next one is another scene";
+  EXPECT_EQ(lowest(flat(102), flat(0), 1), -40) << "a hole";
+  EXPECT_EQ(lowest(flat(0), flat(102), 1), -40);
+  EXPECT_EQ(lowest(flat(102), flat(102), 81), -40) << "outside";
+  EXPECT_NEAR(lowest(step, step, -0.01), 8, 1e-9);
+  EXPECT_NEAR(lowest(step, step, 0.01), 16, 1e-9);
+}
+
 TEST(FeltSurface, AnotherEpochOrSizeAtTheSameTimesIsAnotherPicture) {
   const auto flat = [](double z, int cols, int rows) {
     return film(3, [z](double, double, double) { return z; }, cols, rows);
@@ -209,15 +299,18 @@ TEST(FeltSurface, WhatWasPreparedDoesNotOutliveItsEpoch) {
 }
 
 TEST(FeltSurface, WhatWasPreparedDoesNotOutliveItsFrames) {
-  const auto frames = film(6, [](double, double, double t) { return 5 + 200 * t * t / kPeriod; });
-  const SurfaceWindow early = makeWindow(std::span(frames).first(3), kVolume), whole = makeWindow(frames, kVolume);
-  FeltSurface ahead({}), plain({});
-  const double t = 2.5 * kPeriod;
-  ASSERT_TRUE(ahead.moveTo(early, mediaTime(t - 0.001)));
-  ahead.prepare(early, mediaTime(t), 0, 0);
-  ASSERT_TRUE(ahead.moveTo(whole, mediaTime(t)));
-  ASSERT_TRUE(plain.moveTo(whole, mediaTime(t)));
-  EXPECT_NEAR(ahead.height(0, 0), plain.height(0, 0), 1e-5) << "the next frames have come";
+  const auto frames = film(6, [](double, double, double t) { return 5 + 40 * t * t / kPeriod; });
+  const SurfaceWindow whole = makeWindow(frames, kVolume);
+  for (const std::size_t there : {3U, 4U, 5U}) {
+    const SurfaceWindow early = makeWindow(std::span(frames).first(there), kVolume);
+    FeltSurface ahead({}), plain({});
+    const double t = 2.5 * kPeriod;
+    ASSERT_TRUE(ahead.moveTo(early, mediaTime(t - 0.001)));
+    ahead.prepare(early, mediaTime(t), 0, 0);
+    ASSERT_TRUE(ahead.moveTo(whole, mediaTime(t)));
+    ASSERT_TRUE(plain.moveTo(whole, mediaTime(t)));
+    EXPECT_NEAR(ahead.height(0, 0), plain.height(0, 0), 1e-5) << "those after " << there << " have come";
+  }
 }
 
 // A prepared surface continues in a straight line, 1 um off the curve, which makes it detectable.

@@ -65,6 +65,14 @@ TEST(DepthFollower, EqualTimesBelongTogether) {
   EXPECT_EQ(track.follower.skipped(), 0u);
 }
 
+// An eighth of the period, but no less than 1 ms and no more than 4.
+TEST(DepthFollower, ADepthThatIsToComeIsNotTakenForThePresentOne) {
+  Track slow(every(200, 4));
+  EXPECT_EQ(slow.at(Times{0, 195, 197}), (Times{0, 0, 200}));
+  Track fast(every(4, 6));
+  EXPECT_EQ(fast.at(Times{0, 2.8, 3.2}), (Times{0, 0, 4}));
+}
+
 TEST(DepthFollower, ALowerRateIsHeld) {
   Track track(every(80, 3));
   EXPECT_EQ(track.at(every(40, 6)), (Times{0, 0, 80, 80, 160, 160}));

@@ -374,5 +374,34 @@ TEST(TrackReader, SeeksBackAfterTheEnd) {
   EXPECT_EQ(film.next(1), 0);
 }
 
+// Key frames lie 200 ms apart. Each is decoded by itself, so that its decoder comes to an end with each.
+TEST(TrackReader, KeyStepsGiveKeyFramesSoFarApartAlsoAfterTheEndAndBackwards) {
+  const auto expectSteps = [](Film& film, int from) {
+    ASSERT_TRUE(film.reader->seek(MediaTime(milliseconds(from)), milliseconds(300)).has_value());
+    for (int k = 0; k < 3; ++k) {
+      for (const std::size_t track : {0U, 1U}) EXPECT_EQ(film.next(track), from + 400 * k) << track;
+    }
+  };
+  Film film(interleaved(60, 5));
+  while (film.next(0) >= 0) {
+  }
+  expectSteps(film, 0);
+  expectSteps(film, 1200);
+  expectSteps(film, 400);
+  ASSERT_TRUE(film.reader->seek(MediaTime{}).has_value());
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(film.next(0), 40 * k) << "all pictures again";
+}
+
+TEST(TrackReader, WhatWasWaitingBeforeASeekTakesNoRoomAfterIt) {
+  Film film(interleaved(20, 1));
+  film.source->packet_bytes = TrackReader::kMaxWaitingBytes / 4;
+  for (int round = 0; round < 3; ++round) {
+    ASSERT_TRUE(film.reader->seek(MediaTime{}).has_value());
+    for (int k = 0; k < 4; ++k) EXPECT_EQ(film.next(0), 40 * k);
+  }
+  EXPECT_EQ(film.next(1), 0);
+  EXPECT_EQ(film.next(1), 40);
+}
+
 }  // namespace
 }  // namespace relievo

@@ -258,6 +258,23 @@ TEST(HeightLattice, ARowThatNobodyMeasuredLiesOnTheFarPlane) {
             static_cast<std::ptrdiff_t>(lattice.size()));
 }
 
+TEST(HeightLattice, AHoleTakesTheHeightOfItsFartherSideWhicheverThatIs) {
+  for (const bool left_is_far : {false, true}) {
+    const HeightLattice lattice = latticeOf([&](int c, int) {
+      return c >= 20 && c < 24 ? kHole : (c < 20) == left_is_far ? 5.0 : 30.0;
+    });
+    for (int i = 20; i < 24; ++i) EXPECT_NEAR(lattice.heights()[i], 5, 0.01) << left_is_far << ' ' << i;
+  }
+}
+
+// Four times the pitch of the samples, along the side that has more than one; and never below a millimetre.
+TEST(HeightLattice, AJumpIsFourTimesAsSteepAsWideAndAMillimetreAtLeast) {
+  const auto flat = [](int, int) { return 5.0; };
+  EXPECT_NEAR(latticeOf(flat, 41, 1).jumpMm(), 4 * 160.0 / 41, 1e-3);
+  EXPECT_NEAR(latticeOf(flat, 1, 9).jumpMm(), 4 * 80.0 / 9, 1e-3);
+  EXPECT_NEAR(latticeOf(flat, 1601, 17).jumpMm(), 1, 1e-6);
+}
+
 // Samples are read by runs of 16.
 TEST(HeightLattice, AHoleThatIsAWholeRunEndsWhereItEnds) {
   const HeightLattice lattice = latticeOf([](int c, int) { return c >= 16 && c < 32 ? kHole : c < 16 ? 5.0 : 30.0; });

@@ -129,6 +129,12 @@ TEST(Stereo, ViewsOfAQuiltStandEvenlyFromLeftToRight) {
   for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(eyes.views[i].eye_x_mm, -126.0 + 63.0 * static_cast<double>(i), 1e-9);
 }
 
+TEST(Stereo, SwappedEyesTurnAQuiltRoundAsWell) {
+  const StereoSettings swapped{.layout = StereoLayout::Quilt, .quilt_cols = 5, .quilt_rows = 1, .swap_eyes = true};
+  const EyeViews eyes = eyeViews(swapped, kVolume, 800, 90);
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(eyes.views[i].eye_x_mm, 126.0 - 63.0 * static_cast<double>(i), 1e-9);
+}
+
 TEST(Stereo, HalvesAreSqueezedAndFullOnesAreNot) {
   // 160 x 90 on 1280 x 360: two halves of 640 x 360 fit it as they are; squeezed, each is to look 32:9 wide.
   const StereoSettings full{.layout = StereoLayout::SideBySide, .full = true};
@@ -149,6 +155,8 @@ TEST(Stereo, RefusesWhatTheSurfaceCannotShowAndSaysWhatWould) {
   EXPECT_NE(std::string(refusal(packed, 1920, 1080)).find("1920x2205"), std::string::npos);
   EXPECT_NE(refusal({.layout = StereoLayout::Quilt}, 100, 720), nullptr);
   EXPECT_EQ(refusal({.layout = StereoLayout::Quilt}, 1280, 720), nullptr);
+  EXPECT_NE(refusal({.layout = StereoLayout::Quilt}, 1280, 90), nullptr) << "rows of 15 pixels";
+  EXPECT_NE(refusal({.layout = StereoLayout::Quilt, .quilt_cols = 8, .quilt_rows = 0}, 1280, 720), nullptr);
   EXPECT_NE(refusal({.layout = StereoLayout::Rows}, 1, 1), nullptr);
   EXPECT_EQ(refusal({.layout = StereoLayout::Mono}, 1, 1), nullptr);
 }
@@ -161,6 +169,9 @@ TEST(Stereo, StrengthIsAFactorOfTheDisparity) {
 TEST(Stereo, HeightOfAPixelShiftsTheNearestPointByOne) {
   // At h = 20: 8 pixels a mm, e d / (d - h)^2 = 63 * 600 / 580^2 = 0.112366 mm of shift a mm: 1.1124 mm of height.
   EXPECT_NEAR(heightOfPixelMm({}, kVolume, 8.0), 1.112434, 1e-5);
+  EXPECT_NEAR(heightOfPixelMm({.strength = -3}, kVolume, 8.0), 1.112434 / 3, 1e-5) << "deeper, and turned inside out";
+  // A box that reaches behind the eyes: a tenth of the way is as near as anything is drawn.
+  EXPECT_NEAR(heightOfPixelMm({}, {160, 90, 900}, 8.0), 60.0 * 60 / (63 * 600 * 8), 1e-5);
 }
 
 TEST(Stereo, SwappedEyesTurnTheDisparityRound) {

@@ -2,6 +2,7 @@
 // From depth codes to millimetres: grid, laws, ranges, holes, hue, and the precedence of calibrations.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <tuple>
 #include <utility>
@@ -205,10 +206,120 @@ TEST(HeightField, TellsSamplesApartWhateverLiesBesideThem) {
   EXPECT_FALSE(same());
 }
 
+// What a chroma sample shows alone: U and V in planes of their own, of an odd picture whose last column and row have
+// half a chroma sample each.
+TEST(HeightField, TellsTheChromaOfHueApartToItsLastSample) {
+  const auto field = [](const std::vector<std::uint8_t>& luma, const std::vector<std::uint8_t>& u,
+                        const std::vector<std::uint8_t>& v) {
+    Frame frame;
+    frame.width = 5;
+    frame.height = 3;
+    frame.model = ColorModel::Yuv;
+    frame.range = ColorRange::Full;
+    frame.chroma_shift_x = frame.chroma_shift_y = 1;
+    for (std::uint8_t i = 0; i < 3; ++i) frame.components[i] = {.plane = i, .step_bytes = 1, .bits = 8};
+    frame.planes[0] = {luma.data(), 5};
+    frame.planes[1] = {u.data(), 4};
+    frame.planes[2] = {v.data(), 4};
+    return HeightField::make(frame, {.polarity = DepthPolarity::NearIsLow, .code = DepthCode::Hue}, kVolume).value();
+  };
+  const std::vector<std::uint8_t> luma(15, 100), one(8, 90);
+  std::vector<std::uint8_t> other = one;
+  EXPECT_TRUE(field(luma, one, one).sameSamples(field(luma, other, other)));
+  other[3] = other[7] = 7;  // behind the three samples of either row
+  EXPECT_TRUE(field(luma, one, one).sameSamples(field(luma, other, other)));
+  other[6] = 7;  // the last sample of the last row
+  EXPECT_FALSE(field(luma, one, one).sameSamples(field(luma, other, one)));
+  EXPECT_FALSE(field(luma, one, one).sameSamples(field(luma, one, other)));
+}
+
+// Words whose sample lies above other bits (P010), or below them: the mean of a block is that of its samples.
+TEST(HeightField, TheMeanOfABlockOfTenBitsIsThatOfTheSamplesWhereverTheyLieInTheirWords) {
+  for (const int shift : {0, 6}) {
+    std::vector<std::uint16_t> words;
+    double sum = 0;
+    for (unsigned k = 0; k < 16; ++k) {
+      const unsigned code = 37 * k, beside = shift == 0 ? 0xfc00U : 0x2aU;
+      words.push_back(static_cast<std::uint16_t>(code << shift | beside));
+      sum += 40.0 * code / 1023;
+    }
+    Frame frame;
+    frame.width = frame.height = 4;
+    frame.components[0] = {.step_bytes = 2, .shift = static_cast<std::uint8_t>(shift), .bits = 10};
+    frame.planes[0] = {reinterpret_cast<const std::uint8_t*>(words.data()), 8};
+    const auto field = HeightField::make(frame, {.bits = 10}, kVolume).value();
+    EXPECT_NEAR(field.meanHeight(0, 0, {4, 4, 4}), sum / 16, 1e-9) << shift;
+  }
+}
+
+// A pixel of YUV, its luma and chroma in words of 16 bits of which the upper 10 count (P010), or in bytes.
+double hueHeightMm(std::array<int, 3> yuv, ColorRange range, bool upper_ten, const DepthCalibration& calibration) {
+  std::vector<std::uint8_t> bytes;
+  for (const int code : yuv) {
+    const int word = code << 8 | (upper_ten ? 0x2a : 0);  // what lies below the ten bits is not the sample's
+    if (upper_ten) bytes.push_back(static_cast<std::uint8_t>(word & 0x3f));
+    bytes.push_back(static_cast<std::uint8_t>(code));
+  }
+  Frame frame;
+  frame.width = frame.height = 1;
+  frame.model = ColorModel::Yuv;
+  frame.range = range;
+  frame.matrix = ColorMatrix::Bt601;
+  const int step = upper_ten ? 2 : 1;
+  for (std::uint8_t i = 0; i < 3; ++i) {
+    frame.components[i] = {.plane = i,
+                           .step_bytes = static_cast<std::uint8_t>(step),
+                           .shift = static_cast<std::uint8_t>(upper_ten ? 6 : 0),
+                           .bits = static_cast<std::uint8_t>(upper_ten ? 10 : 8)};
+    frame.planes[i] = {bytes.data() + step * i, step};
+  }
+  return HeightField::make(frame, calibration, kVolume).value().heightMm(0, 0);
+}
+
+// Green of BT.601 is (150, 44, 21) in full range and (145, 54, 34) in limited range: a third of the way round.
+TEST(HeightField, HueOverYuvIsReadInItsRangeAndInTenBitsOfSixteen) {
+  const DepthCalibration hue{.polarity = DepthPolarity::NearIsLow, .code = DepthCode::Hue};
+  for (const bool upper_ten : {false, true}) {
+    EXPECT_NEAR(hueHeightMm({150, 44, 21}, ColorRange::Full, upper_ten, hue), 40 * 2 / 3.0, 0.2) << upper_ten;
+    EXPECT_NEAR(hueHeightMm({145, 54, 34}, ColorRange::Limited, upper_ten, hue), 40 * 2 / 3.0, 0.2) << upper_ten;
+  }
+  // As dark as its brightest component of 60, and as pale as half of it: no reading, though its hue is green.
+  EXPECT_TRUE(std::isnan(hueHeightMm({35, 108, 103}, ColorRange::Full, false, hue))) << "(0, 60, 0)";
+  EXPECT_TRUE(std::isnan(hueHeightMm({202, 86, 74}, ColorRange::Full, false, hue))) << "(127, 255, 128)";
+}
+
+// Red is code 0, yellow 256, green 512. Holes of several codes and ranges may be named for a hue as well, beyond what 8
+// bits hold.
+TEST(HeightField, ACodeOfAHueMayBeAHole) {
+  std::vector<std::uint8_t> pixels{255, 0, 0, 255, 255, 0, 0, 255, 0, 9, 9, 9};
+  Frame frame;
+  frame.width = 4;
+  frame.height = 1;
+  frame.model = ColorModel::Rgb;
+  for (std::uint8_t i = 0; i < 3; ++i)
+    frame.components[i] = {.plane = 0, .offset_bytes = i, .step_bytes = 3, .bits = 8};
+  frame.planes[0] = {pixels.data(), 12};
+  const auto choice = chooseCalibration({.command_line = {{"invalid", "0+500-520"}}}, frame, DepthCode::Hue);
+  ASSERT_TRUE(choice) << choice.error().message;
+  const auto field = HeightField::make(frame, choice->calibration, kVolume).value();
+  EXPECT_TRUE(std::isnan(field.heightMm(0, 0)));
+  EXPECT_NEAR(field.heightMm(1, 0), 40 * 5 / 6.0, 1e-9);
+  EXPECT_TRUE(std::isnan(field.heightMm(2, 0)));
+  EXPECT_EQ(field.code(1, 0), 256u);
+  EXPECT_EQ(field.code(3, 0), 0u) << "gray has no hue";
+}
+
 TEST(HeightField, RefusesAPictureThatItsCodeCannotLieIn) {
   Frame gray = test::makeGrayFrame(2, 2, 8, {}, [](int, int) { return 1; });
   EXPECT_EQ(HeightField::make(gray, {.code = DepthCode::Hue}, kVolume).error().code, ErrorCode::Unsupported);
   EXPECT_EQ(HeightField::make(Frame{}, {}, kVolume).error().code, ErrorCode::InvalidArgument);
+  // RGB whose components lie in planes of their own, or have 16 bits.
+  Frame rgb = gray;
+  rgb.model = ColorModel::Rgb;
+  for (auto& component : rgb.components) component = {.step_bytes = 1, .bits = 8};
+  EXPECT_EQ(HeightField::make(rgb, {.code = DepthCode::Hue}, kVolume).error().code, ErrorCode::Unsupported);
+  for (auto& component : rgb.components) component = {.step_bytes = 6, .bits = 16};
+  EXPECT_EQ(HeightField::make(rgb, {.code = DepthCode::Hue}, kVolume).error().code, ErrorCode::Unsupported);
 }
 
 TEST(Calibration, ParsesCommandLinesAndSideFilesAndNamesWhatIsWrong) {
@@ -231,6 +342,7 @@ TEST(Calibration, SeveralCodesAndRangesAreHoles) {
   for (const std::uint32_t code : {1u, 1999u, 2048u, 65534u}) EXPECT_FALSE(set->contains(code)) << code;
   EXPECT_EQ(set->text(), "0+2000-2047+65535");
   EXPECT_EQ(set->highest(), 65535u);
+  EXPECT_EQ(CodeSet::parse("65535+3+2000-2047+0")->highest(), 65535u) << "four of them, in any order";
   EXPECT_EQ(CodeSet::parse("none")->text(), "none");
   for (const char* bad : {"", "0+", "+0", "9-3", "65536", "0+1+2+3+4", "-1", "0x10", "none+1"}) {
     EXPECT_FALSE(CodeSet::parse(bad)) << bad;
@@ -256,6 +368,50 @@ TEST(Calibration, CodesSayWhatTheReliefReachesFromAndTo) {
   for (const char* bad : {"codes=5", "codes=9-3", "codes=1-70000", "bits=8,codes=0-256", "unit=1,codes=1-5"}) {
     EXPECT_EQ(parseCalibration(bad).error().code, ErrorCode::InvalidArgument) << bad;
   }
+}
+
+TEST(Calibration, OfOnesThatExcludeEachOtherTheWholeIsRefused) {
+  Frame frame;
+  frame.components[0].bits = 16;
+  const CalibrationSettings camera{{"unit", "1"}, {"near", "400"}, {"far", "2000"}};
+  const auto chosen = [&](const CalibrationSettings& command_line, const CalibrationSettings& tags) {
+    return chooseCalibration({.command_line = command_line, .tags = tags}, frame, DepthCode::Luma);
+  };
+  const auto isRefused = [](const Result<CalibrationChoice>& choice) {
+    return !choice && choice.error().code == ErrorCode::InvalidArgument;
+  };
+  EXPECT_TRUE(isRefused(chosen({{"codes", "1-900"}}, camera)));
+  EXPECT_TRUE(isRefused(chosen({{"near", "700"}, {"far", "700"}}, {})));
+  EXPECT_TRUE(parseCalibration("near=9000")) << "the film may say a larger far";
+  frame.components[0].bits = 8;
+  EXPECT_TRUE(isRefused(chosen({{"codes", "1-256"}}, {})));
+}
+
+// A hue is read from 0 to 1535 whatever range its luma has.
+TEST(Calibration, AHueHasNoLimitedRange) {
+  Frame frame;
+  frame.model = ColorModel::Yuv;
+  frame.range = ColorRange::Limited;
+  const auto choice = chooseCalibration({}, frame, DepthCode::Hue);
+  ASSERT_TRUE(choice);
+  EXPECT_EQ(choice->calibration.lowCode(), 0);
+  EXPECT_EQ(choice->calibration.highCode(), 1536);
+}
+
+// What is written anew has codes of its own, whatever the source's were.
+TEST(Calibration, WhatIsWrittenAnewKeepsNeitherUnitNorCodesNorTheSourcesHoles) {
+  const DepthCalibration kinect{.bits = 16, .invalid = *CodeSet::parse("0+2047"), .codes = CodeSet::Range{400, 1000}};
+  const DepthCalibration sensor{.polarity = DepthPolarity::NearIsLow, .bits = 16, .unit_mm = 0.5};
+  const DepthCalibration hue{.polarity = DepthPolarity::NearIsLow, .code = DepthCode::Hue};
+  for (const DepthCalibration& source : {kinect, sensor, hue}) {
+    const DepthCalibration written = recoded(source, 10);
+    EXPECT_EQ(written.lowCode(), 0);
+    EXPECT_EQ(written.highCode(), 1023);
+    EXPECT_EQ(written.polarity, DepthPolarity::NearIsHigh);
+  }
+  EXPECT_EQ(recoded(kinect, 10).invalid, CodeSet(0));
+  EXPECT_EQ(recoded(hue, 10).invalid, CodeSet(0)) << "dark pixels are holes";
+  EXPECT_TRUE(recoded(sensor, 10).invalid.empty());
 }
 
 TEST(Calibration, TagsComeBackAsTheyWereWritten) {
