@@ -3,9 +3,10 @@
 #include "app/lab/chart/chart.h"
 
 #include <algorithm>
-#include <cstdio>
+#include <charconv>
 #include <span>
 #include <sstream>
+#include <system_error>
 #include <vector>
 
 #include "app/lab/chart/gnuplot.h"
@@ -81,7 +82,9 @@ void writeBelow(std::string& svg, std::span<const std::string> lines) {
   int width = 0, height = 0;
   const std::size_t box = svg.find(kBox), end = svg.rfind("</svg>");
   if (lines.empty() || box == std::string::npos || end == std::string::npos) return;
-  if (std::sscanf(svg.c_str() + box + kBox.size(), "%d %d", &width, &height) != 2) return;
+  const char* const svg_end = svg.data() + svg.size();
+  const auto first = std::from_chars(svg.data() + box + kBox.size(), svg_end, width);
+  if (first.ec != std::errc{} || std::from_chars(first.ptr + 1, svg_end, height).ec != std::errc{}) return;
   std::string text;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     text += print(
