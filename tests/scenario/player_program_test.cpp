@@ -282,8 +282,10 @@ TEST_F(PlayerProgram, WrongUseIsCodeTwoAndOneLine) {
   expectOneLine(play("film.mkv --haptic none --record " + at("t.csv")), 2, "--record");
   expectOneLine(play("film.mkv --depth-strength nan"), 2, "--depth-strength: nan");
   expectOneLine(play("film.mkv --depth-strength 2.1"), 2, "--depth-strength: 2.1");
-  expectOneLine(play("film.mkv --haptic replay:" + at("t.csv") + " --record " + at("t.csv")), 2, "would be overwritten");
-  expectOneLine(play("film.mkv --haptic sim:tense," + at("t.csv") + " --record " + at("t.csv")), 2, "would be overwritten");
+  expectOneLine(play("film.mkv --haptic replay:" + at("t.csv") + " --record " + at("t.csv")), 2,
+                "would be overwritten");
+  expectOneLine(play("film.mkv --haptic sim:tense," + at("t.csv") + " --record " + at("t.csv")), 2,
+                "would be overwritten");
   expectNothingLeft({});
 }
 
