@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kColumns = 125;  // of a reading under a chart
 constexpr std::size_t kRoomLines = 2;  // which the scripts draw
-constexpr int kLinePixels = 20, kFirstBelow = 4;
+constexpr int kLinePixels = 20, kFirstBelow = 15;
 
 struct Element {
   std::size_t begin = 0, end = 0;  // of what is between the tags
@@ -94,7 +94,7 @@ void writeBelow(std::string& svg, std::span<const std::string> lines) {
             escaped(lines[i]) + "</text>\n";
   }
   svg.insert(end, text);
-  const int more = kLinePixels * static_cast<int>(lines.size());
+  const int more = kFirstBelow + kLinePixels * static_cast<int>(lines.size());
   enlarge(svg, print("<rect x=\"0\" y=\"0\" width=\"%d\" height=\"", width), more);
   enlarge(svg, std::string(kBox) + std::to_string(width), more);
 }

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 set terminal svg size 1240,420 dynamic enhanced font "sans-serif,13" background "#ffffff"
 set title ARG2 noenhanced font ",16" offset -4, 0.3
-set label 1 ARG3 at screen 0.5, 0.07 center noenhanced
+set label 1 ARG3 at @READING
 NAMES = "0.25 0.5 1 2 4 8 off"
 ROWS = words(NAMES)
 x(i) = int(i) / ROWS
