@@ -184,11 +184,12 @@ double edgeAt(double edge_mm, double x) {
 // An edge goes to the right from frame to frame, far or by less than a control point's pitch. Tick by tick, with a
 // window that goes on, it is felt where one who has seen no tick before finds it.
 TEST(FeltSurface, WhatIsLeftOfATickDoesNotShowWhereAnEdgeMoves) {
-  constexpr double kPixelMm = kVolume.width_mm / kCols;
+  constexpr double kRampMm = 2;
+  constexpr double kX = 0.45;  // from 0.25 to 0.65 mm it hangs from the same control points
   for (const double way_mm : {3.0, 0.2}) {
     const auto frames = film(9, [&](double x, double, double t) {
       const double edge = way_mm * (t / kPeriod - 3);
-      return 10 + 20 * std::clamp((edge - x) / kPixelMm + 0.5, 0.0, 1.0);
+      return 10 + 20 * std::clamp((edge - x) / kRampMm + 0.5, 0.0, 1.0);
     });
     const auto around = [&](double t) {
       const auto present = static_cast<std::size_t>(t / kPeriod + 1e-6), first = present < 2 ? 0 : present - 2;
@@ -199,14 +200,14 @@ TEST(FeltSurface, WhatIsLeftOfATickDoesNotShowWhereAnEdgeMoves) {
     for (double t = kPeriod; t < 5 * kPeriod; t += 0.001) {
       const SurfaceWindow window = around(t), next = around(t + 0.001);
       ASSERT_TRUE(walked.moveTo(window, mediaTime(t)));
-      walked.prepare(window, mediaTime(t + 0.001), 0.3, 0);
+      walked.prepare(window, mediaTime(t + 0.001), kX, 0);
       ASSERT_TRUE(walked.moveTo(next, mediaTime(t + 0.001)));
       FeltSurface fresh({});
       ASSERT_TRUE(fresh.moveTo(next, mediaTime(t)));
-      fresh.prepare(next, mediaTime(t + 0.001), 0.3, 0);
+      fresh.prepare(next, mediaTime(t + 0.001), kX, 0);
       ASSERT_TRUE(fresh.moveTo(next, mediaTime(t + 0.001)));
-      const double z = fresh.height(0.3, 0);
-      ASSERT_NEAR(walked.height(0.3, 0), z, 0.01) << way_mm << ' ' << t / kPeriod;
+      const double z = fresh.height(kX, 0);
+      ASSERT_NEAR(walked.height(kX, 0), z, 0.01) << way_mm << ' ' << t / kPeriod;
       beside_the_edge += z > 11 && z < 29 ? 1 : 0;
     }
     EXPECT_GT(beside_the_edge, 2) << way_mm;
