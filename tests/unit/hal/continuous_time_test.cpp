@@ -82,6 +82,39 @@ TEST_F(ContinuousTimeTest, OneStreamThatIsMissedForLongIsNoJump) {
   EXPECT_EQ(time_.jumps(), 0u);
 }
 
+// Decoding times may fall a little where they are rounded: the next step is not that one.
+TEST_F(ContinuousTimeTest, AfterALittleDisorderAJumpContinuesByTheStepBeforeIt) {
+  place(0, 0);
+  EXPECT_EQ(place(0, 40), 40);
+  EXPECT_EQ(place(0, 30), 30);
+  EXPECT_EQ(place(0, 900'000), 70);
+  EXPECT_EQ(time_.jumps(), 1u);
+}
+
+// The bound counts from the latest of all streams, also when another one has come last.
+TEST_F(ContinuousTimeTest, AStreamThatIsBehindDoesNotMakeAGapOfTheOther) {
+  place(0, 3000);
+  place(0, 5000);
+  EXPECT_EQ(place(1, 3200), 3200);
+  EXPECT_EQ(place(0, 6900), 6900);
+  EXPECT_EQ(time_.jumps(), 0u);
+}
+
+TEST_F(ContinuousTimeTest, AStreamThatBeginsFartherBehindThanTheBoundBeginsWithTheLatest) {
+  place(0, 5000);
+  EXPECT_EQ(place(1, 0), 5000);
+  EXPECT_EQ(time_.jumps(), 1u);
+}
+
+TEST_F(ContinuousTimeTest, ASeekBackIsNoJumpOfAnyStream) {
+  place(0, 10'000);
+  place(1, 10'000);
+  time_.begin(2s);
+  EXPECT_EQ(place(0, 1000), 1000);
+  EXPECT_EQ(place(1, 1000), 1000);
+  EXPECT_EQ(time_.jumps(), 0u);
+}
+
 TEST_F(ContinuousTimeTest, WithoutABoundEveryTimeIsBelieved) {
   time_.begin(0s);
   for (const long long ms : {0, 40, 900'000, 3}) EXPECT_EQ(place(0, ms), ms);

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace relievo {
@@ -88,6 +90,40 @@ TEST(Registration, FromNearerThePictureGrowsWithoutGaps) {
   const Frame depth = depthOf(16, 8, [](int, int) { return 1000; });
   const Frame there = registered(depth, {.depth = camera(), .color = camera(), .translation_mm = {0, 0, -500}}).value();
   for (int r = 0; r < 8; ++r) EXPECT_EQ(rowOf(there, r), Row(16, 500)) << r;
+}
+
+// In units of 0.25 mm: the distance from the other camera is told in the same unit.
+TEST(Registration, DistancesKeepTheirUnitAndThePictureItsTime) {
+  Frame depth = depthOf(16, 8, [](int, int) { return 4000; });
+  depth.pts = mediaTime(1.5);
+  depth.duration = std::chrono::milliseconds(40);
+  const Registration further{.depth = camera(), .color = camera(), .translation_mm = {0, 0, 1000}, .unit_mm = 0.25};
+  const Frame there = registered(depth, further).value();
+  EXPECT_EQ(codeOf(there, 8, 4), 8000);
+  EXPECT_EQ(there.pts, mediaTime(1.5));
+  EXPECT_EQ(there.duration, std::chrono::milliseconds(40));
+}
+
+// What lies behind the colour camera, or in its plane, is not in its picture; nor is what its codes cannot tell, nor a
+// hole, wherever the camera stands.
+TEST(Registration, WhatTheOtherCameraCannotSeeOrTellIsAHole) {
+  const auto seen = [](int code, double forward_mm) {
+    const Frame depth = depthOf(16, 8, [code](int, int) { return code; });
+    return registered(depth, {.depth = camera(), .color = camera(), .translation_mm = {0, 0, forward_mm}}).value();
+  };
+  for (const auto& [code, forward_mm] : {std::pair{1000, -1500.0}, {1000, -1000.0}, {60'000, 10'000.0}, {0, 1000.0}}) {
+    const Frame there = seen(code, forward_mm);
+    for (int r = 0; r < 8; ++r) EXPECT_EQ(rowOf(there, r), Row(16, 0)) << code << ' ' << forward_mm;
+  }
+  EXPECT_EQ(codeOf(seen(60'000, 5000), 8, 4), 65'000);
+}
+
+// Its axis is (8.3 + 0.5)/2 - 0.5 = 3.9 rows from the top, the depth's 3.5: not half a row.
+TEST(Registration, ThePrincipalPointOfAnotherSizeIsThatOfPixelCentres) {
+  const PinholeCamera tall{.cols = 32, .rows = 24, .focal_x = 200, .focal_y = 200, .center_x = 15.5, .center_y = 8.3};
+  const Frame there =
+      registered(depthOf(16, 8, [](int, int) { return 900; }), {.depth = camera(), .color = tall}).value();
+  for (int r = 0; r < 12; ++r) EXPECT_EQ(codeOf(there, 8, r), r < 8 ? 900 : 0) << r;
 }
 
 // A colour camera with twice the pixels and a wider aspect ratio: the result is as wide as the depth, in the colour's
