@@ -109,6 +109,13 @@ INSTANTIATE_TEST_SUITE_P(Lines, KeyTableWrong,
                                          std::pair{"[paused]\n[asleep]\nRIGHT = \"stop\"", ""},
                                          std::pair{"\nRIGHT = \"stop\"", "RIGHT"}));
 
+TEST(KeyTable, AKeyThatMeansNothingInAStateMeansNothingThere) {
+  const auto table = KeyTable::parse("[paused]\nRIGHT = \"\"\n", "k");
+  ASSERT_TRUE(table);
+  EXPECT_EQ(pressed(*table, State::Paused, KEY_RIGHT), std::nullopt) << "though it has a meaning in [always]";
+  EXPECT_TRUE(pressed(*table, State::Playing, KEY_RIGHT));
+}
+
 TEST(KeyTable, AMissingFileIsNotFound) {
   EXPECT_EQ(KeyTable::load("/nonexistent/keys.toml").error().error.code, ErrorCode::NotFound);
 }
@@ -168,6 +175,15 @@ TEST_F(KeyReaderTest, TheReleaseOfAnotherKeyLeavesAHoldAsItIs) {
   EXPECT_EQ(take(KEY_RIGHT, Action::Release, 200), "-");
   EXPECT_EQ(held(699), "-");
   EXPECT_EQ(held(700), "info") << "OK is still held";
+}
+
+TEST_F(KeyReaderTest, AKeyThatIsHeldForItsOtherMeaningDoesNotRepeatTheFirst) {
+  auto table = KeyTable::parse("[always]\nRIGHT = { press = \"seek +10\", hold = \"info\" }", "k");
+  ASSERT_TRUE(table);
+  KeyReader reader(std::move(*table));
+  EXPECT_FALSE(reader.take({KEY_RIGHT, Action::Press, at(0)}, State::Playing));
+  EXPECT_FALSE(reader.take({KEY_RIGHT, Action::Repeat, at(500)}, State::Playing));
+  EXPECT_EQ(words(reader.held(at(600))), "info");
 }
 
 // The picture may stop while the key is down: it means what it meant when it was pressed.
