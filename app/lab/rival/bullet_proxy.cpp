@@ -173,10 +173,13 @@ class BulletProxy final : public TouchMethod {
     const glm::dvec3 place = from + static_cast<double>(hit.m_hitFraction) * (to - from) + kLiftMm * normal;
     return Hit{place, {normal, glm::dot(normal, place)}};
   }
-  // A hole in either tick compares false.
+  // A proxy that is held never begins below the surface. A hole in either tick compares false.
   [[nodiscard]] glm::dvec3 carried(const SurfaceInTime& surface) const {
-    const double risen = surfaceHeight(surface, last_.proxy_mm.x, last_.proxy_mm.y) - height_mm_;
-    return last_.proxy_mm + glm::dvec3(0, 0, risen > 0 ? risen : 0);
+    const glm::dvec3& proxy = last_.proxy_mm;
+    const double ground = surfaceHeight(surface, proxy.x, proxy.y), risen = ground - height_mm_;
+    double z = proxy.z + (risen > 0 ? risen : 0);
+    if (last_.contact && z < ground + kLiftMm) z = ground + kLiftMm;
+    return {proxy.x, proxy.y, z};
   }
   // A ray costs by the cells that it crosses, and the surface is near most of the time.
   [[nodiscard]] std::optional<Hit> rayTowards(const glm::dvec3& from, const glm::dvec3& hip) const {
