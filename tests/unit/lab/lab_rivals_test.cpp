@@ -154,6 +154,10 @@ TEST(DepthSmoother, ForgetsTheHolesOfThePictureBefore) {
   EXPECT_TRUE(smoother.smooth(holed.field(), codes));
   EXPECT_FALSE(smoother.smooth(whole.field(), codes));
   for (const std::uint16_t code : codes) ASSERT_NEAR(code * kVolumeDepthMm / 65535, 30, kRoundedMm);
+  const Picture pierced(64, 64, [](int c, int r) { return c == 32 && r == 33 ? std::nan("") : 30.0; });
+  EXPECT_TRUE(smoother.smooth(holed.field(), codes));
+  EXPECT_FALSE(smoother.smooth(pierced.field(), codes)) << "rows beside the hole had holes before";
+  for (const std::uint16_t code : codes) ASSERT_NEAR(code * kVolumeDepthMm / 65535, 30, kRoundedMm);
 }
 
 class OnASphere : public testing::Test {
