@@ -13,7 +13,7 @@ set logscale y
 set format y "%g"
 set xtics rotate by -35 noenhanced
 left(d) = 0.075 + 0.49 * ((d - 1) % 2)
-top(d) = 0.87 - 0.415 * ((d - 1) / 2)
+top(d) = 0.85 - 0.405 * ((d - 1) / 2)
 # The rows of a kind of depth and a method stand one after the other, a row per scene.
 mine(m, d, value) = (strcol("method") eq word(METHODS, m)) ? where("depth", word(DEPTHS, d), value) : NaN
 stats ARG1 using (strcol("method") eq "relievo" && strcol("depth") eq "8-bit" ? 1 : NaN) nooutput

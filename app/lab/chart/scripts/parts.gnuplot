@@ -18,6 +18,8 @@ set lmargin at screen left(0)
 set rmargin at screen left(0) + 0.15
 set title "to force ●, whole tick ◇" offset 0, -0.6
 set xlabel "µs, median to p99.9"
+set xrange [0.03:300]
+set xtics (0.1, 1, 10, 100)
 whole(name) = column(name) + column("frame_us_per_tick")
 plot ARG1 using (whole("whole_median_us")):(column(0) + 0.25):(whole("whole_median_us")):(whole("whole_p999_us")) \
      with xerrorbars pt 12 ps 0.8 lc rgb "#a8b0ba", \
