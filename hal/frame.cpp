@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Crops a frame by moving the first samples of its planes; chooses the weights of its luma.
+// Makes gray frames; crops a frame by moving the first samples of its planes; chooses the weights of its luma.
 #include "hal/frame.h"
+
+#include <utility>
 
 namespace relievo {
 
@@ -15,6 +17,18 @@ LumaWeights lumaWeights(const Frame& frame) noexcept {
     default:
       return {0.2126, 0.0722};
   }
+}
+
+Frame grayFrame(std::shared_ptr<const std::vector<std::uint16_t>> samples, int cols, int rows) noexcept {
+  Frame frame;
+  frame.width = cols;
+  frame.height = rows;
+  frame.range = ColorRange::Full;
+  frame.plane_count = 1;
+  frame.components[0] = {.step_bytes = 2, .bits = 16};
+  frame.planes[0] = {reinterpret_cast<const std::uint8_t*>(samples->data()), std::ptrdiff_t{2} * cols};
+  frame.owner = std::move(samples);
+  return frame;
 }
 
 Frame crop(const Frame& frame, int x, int y, int width, int height) noexcept {

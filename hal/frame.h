@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "hal/media_time.h"
 
@@ -82,6 +83,10 @@ struct LumaWeights {
   double red = 0.299, blue = 0.114;
 };
 [[nodiscard]] LumaWeights lumaWeights(const Frame& frame) noexcept;
+
+// A full-range gray frame of 16-bit samples, row by row without padding, at time 0. It owns `samples`, which hold
+// cols x rows.
+[[nodiscard]] Frame grayFrame(std::shared_ptr<const std::vector<std::uint16_t>> samples, int cols, int rows) noexcept;
 
 // The part of `frame` of `width` x `height` samples that begins at (x, y), as a view of the same memory.
 // x and y must be multiples of the chroma subsampling, and the part must lie inside the frame.

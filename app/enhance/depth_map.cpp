@@ -38,18 +38,10 @@ Frame writeDepth(const DepthMap& map, bool may_have_holes, const Frame& like) {
     const float code = std::clamp(map.codes[i], lowest, DepthMap::kHighest);
     (*samples)[i] = map.holes[i] != 0 ? std::uint16_t{0} : static_cast<std::uint16_t>(std::lround(code));
   }
-  Frame frame;
+  Frame frame = grayFrame(samples, map.cols, map.rows);
   frame.pts = like.pts;
   frame.duration = like.duration;
-  frame.width = map.cols;
-  frame.height = map.rows;
-  frame.model = ColorModel::Gray;
-  frame.range = ColorRange::Full;
   frame.sample_aspect = like.sample_aspect;
-  frame.plane_count = 1;
-  frame.components[0] = {.step_bytes = 2, .bits = 16};
-  frame.planes[0] = {reinterpret_cast<const std::uint8_t*>(samples->data()), static_cast<std::ptrdiff_t>(map.cols) * 2};
-  frame.owner = samples;
   return frame;
 }
 

@@ -84,17 +84,10 @@ Result<Frame> registered(const Frame& depth, const Registration& registration) {
     }
   }
 
-  const auto codes = std::make_shared<std::vector<std::uint16_t>>(std::move(target.codes));
-  Frame frame;
+  Frame frame =
+      grayFrame(std::make_shared<const std::vector<std::uint16_t>>(std::move(target.codes)), target.cols, target.rows);
   frame.pts = depth.pts;
   frame.duration = depth.duration;
-  frame.width = target.cols;
-  frame.height = target.rows;
-  frame.range = ColorRange::Full;
-  frame.plane_count = 1;
-  frame.components[0] = {.step_bytes = 2, .bits = 16};
-  frame.planes[0] = {reinterpret_cast<const std::uint8_t*>(codes->data()), 2 * std::ptrdiff_t{target.cols}};
-  frame.owner = codes;
   return frame;
 }
 

@@ -48,15 +48,7 @@ class Heights {
     for (const double z : z_) {
       codes->push_back(static_cast<std::uint16_t>(std::lround(std::clamp(z / depth_mm, 0.0, 1.0) * 65535)));
     }
-    Frame frame;
-    frame.width = cols_;
-    frame.height = rows_;
-    frame.range = ColorRange::Full;
-    frame.plane_count = 1;
-    frame.components[0] = {.step_bytes = 2, .bits = 16};
-    frame.planes[0] = {reinterpret_cast<const std::uint8_t*>(codes->data()), std::ptrdiff_t{2} * cols_};
-    frame.owner = codes;
-    return frame;
+    return grayFrame(codes, cols_, rows_);
   }
 
  private:

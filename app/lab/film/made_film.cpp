@@ -12,15 +12,7 @@ namespace {
 
 TimedSurface toSurface(std::vector<std::uint16_t> codes, MediaTime time, const DepthCalibration& calibration) {
   const auto samples = std::make_shared<const std::vector<std::uint16_t>>(std::move(codes));
-  Frame frame;
-  frame.pts = time;
-  frame.width = MadeFormat::kCols;
-  frame.height = MadeFormat::kRows;
-  frame.range = ColorRange::Full;
-  frame.plane_count = 1;
-  frame.components[0] = {.step_bytes = 2, .bits = 16};
-  frame.planes[0] = {reinterpret_cast<const std::uint8_t*>(samples->data()), MadeFormat::kCols * 2};
-  frame.owner = samples;
+  const Frame frame = grayFrame(samples, MadeFormat::kCols, MadeFormat::kRows);
   TimedSurface surface{.time = time, .owner = samples};
   if (const auto field = HeightField::make(frame, calibration, MadeFormat::kVolume)) {
     surface.field = *field;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Smoothed heights travel as pictures of gray, so that whatever reads depth reads them.
+// Smoothed heights are stored as gray frames, so that every method can read them.
 #include "app/lab/rival/smoothed_film.h"
 
 #include <algorithm>
@@ -18,19 +18,6 @@ struct SmoothedPictures {
   DepthCalibration calibration{.bits = 16};
 };
 
-Frame grayOf(std::shared_ptr<const std::vector<std::uint16_t>> codes, int cols, int rows, MediaTime time) {
-  Frame frame;
-  frame.pts = time;
-  frame.width = cols;
-  frame.height = rows;
-  frame.range = ColorRange::Full;
-  frame.plane_count = 1;
-  frame.components[0] = {.step_bytes = 2, .bits = 16};
-  frame.planes[0] = {reinterpret_cast<const std::uint8_t*>(codes->data()), std::ptrdiff_t{2} * cols};
-  frame.owner = std::move(codes);
-  return frame;
-}
-
 SmoothedPictures smoothAll(std::span<const TimedSurface> frames, double sigma_mm) {
   SmoothedPictures done;
   done.pictures.resize(frames.size());
@@ -44,7 +31,8 @@ SmoothedPictures smoothAll(std::span<const TimedSurface> frames, double sigma_mm
       const auto codes = std::make_shared<std::vector<std::uint16_t>>(static_cast<std::size_t>(smoother.cols()) *
                                                                       static_cast<std::size_t>(smoother.rows()));
       if (smoother.smooth(frames[i].field, *codes)) hole = true;
-      done.pictures[i] = grayOf(codes, smoother.cols(), smoother.rows(), frames[i].time);
+      done.pictures[i] = grayFrame(codes, smoother.cols(), smoother.rows());
+      done.pictures[i].pts = frames[i].time;
     }
   });
   for (std::size_t i = 1; i < frames.size(); ++i) {
@@ -82,7 +70,7 @@ class OnSmoothedDepth final : public TouchMethod {
     window_.clock = window.clock;
     window_.ended = window.ended;
     for (std::size_t i = 0; i < static_cast<std::size_t>(window.count); ++i) {
-      TimedSurface& frame = window_.frames[i];  // without the owner, which is the film's here
+      TimedSurface& frame = window_.frames[i];  // without an owner: `film_` keeps the samples
       frame.time = window.frames[i].time;
       frame.shot = window.frames[i].shot;
       frame.repeats = window.frames[i].repeats;
@@ -94,7 +82,7 @@ class OnSmoothedDepth final : public TouchMethod {
   void reset() RELIEVO_RT override { method_->reset(); }
 
  private:
-  // Of the film's last frame at or before this time; all that are shown are in it.
+  // The film's last frame at or before this time.
   [[nodiscard]] const HeightField& smoothedAt(MediaTime time) const RELIEVO_RT {
     std::size_t i = film_.size() - 1;
     while (i > 0 && film_[i].time > time) --i;

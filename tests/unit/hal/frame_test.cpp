@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cropping: the part has the samples of the whole, in every memory layout of a picture, without copies.
+// Gray frames; cropping: the part has the samples of the whole, in every memory layout of a picture, without copies.
 #include "hal/frame.h"
 
 #include <gtest/gtest.h>
@@ -133,6 +133,18 @@ TEST(FrameCrop, KeepsThePictureAlive) {
   EXPECT_EQ(owner.use_count(), 2);
   part = Frame{};
   EXPECT_EQ(owner.use_count(), 1);
+}
+
+TEST(GrayFrame, HasTheSamplesRowByRowAndKeepsThemAlive) {
+  auto samples = std::make_shared<std::vector<std::uint16_t>>();
+  for (int i = 0; i < 3 * 2; ++i) samples->push_back(static_cast<std::uint16_t>(10'000 * i + 7));
+  const Frame frame = grayFrame(samples, 3, 2);
+  EXPECT_EQ(samples.use_count(), 2);
+  EXPECT_EQ(frame.model, ColorModel::Gray);
+  EXPECT_EQ(frame.range, ColorRange::Full);
+  for (int r = 0; r < 2; ++r) {
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(sampleAt(frame, 0, c, r), 10'000 * (3 * r + c) + 7) << c << " " << r;
+  }
 }
 
 }  // namespace

@@ -24,27 +24,24 @@ constexpr double kVolumeDepthMm = 40;
 // A picture of codes of 16 bits, 0 a hole, samples of 0.2 by 0.2 mm.
 struct Picture {
   int cols, rows;
-  std::vector<std::uint16_t> codes;
+  std::shared_ptr<const std::vector<std::uint16_t>> codes;  // the field is a view of them
 
   template <class Height>
   Picture(int width, int height, Height&& mm) : cols(width), rows(height) {
+    std::vector<std::uint16_t> row_by_row;
     for (int r = 0; r < rows; ++r) {
       for (int c = 0; c < cols; ++c) {
         const double z = mm(c, r);
-        codes.push_back(std::isnan(z) ? std::uint16_t{0}
-                                      : static_cast<std::uint16_t>(std::lround(z / kVolumeDepthMm * 65535)));
+        row_by_row.push_back(std::isnan(z) ? std::uint16_t{0}
+                                           : static_cast<std::uint16_t>(std::lround(z / kVolumeDepthMm * 65535)));
       }
     }
+    codes = std::make_shared<const std::vector<std::uint16_t>>(std::move(row_by_row));
   }
   [[nodiscard]] HeightField field() const {
-    Frame frame;
-    frame.width = cols;
-    frame.height = rows;
-    frame.range = ColorRange::Full;
-    frame.plane_count = 1;
-    frame.components[0] = {.step_bytes = 2, .bits = 16};
-    frame.planes[0] = {reinterpret_cast<const std::uint8_t*>(codes.data()), std::ptrdiff_t{2} * cols};
-    return HeightField::make(frame, {.bits = 16, .invalid = 0}, {0.2 * cols, 0.2 * rows, kVolumeDepthMm}).value();
+    return HeightField::make(grayFrame(codes, cols, rows), {.bits = 16, .invalid = 0},
+                             {0.2 * cols, 0.2 * rows, kVolumeDepthMm})
+        .value();
   }
 };
 
