@@ -131,14 +131,9 @@ PairCounters FilmFeed::counters() const {
   return counters_;
 }
 
-Error FilmFeed::error() const {
+Failure FilmFeed::failure() const {
   const std::scoped_lock lock(mutex_);
-  return failure_.error;
-}
-
-std::string FilmFeed::failedThing() const {
-  const std::scoped_lock lock(mutex_);
-  return failure_.thing;
+  return failure_;
 }
 
 std::optional<Error> FilmFeed::takeSeekError() {

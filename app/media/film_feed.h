@@ -80,8 +80,7 @@ class FilmFeed {
   [[nodiscard]] FilmInfo info() const;
   [[nodiscard]] PairCounters counters() const;
   // The error that led to Failed, and the source that failed.
-  [[nodiscard]] Error error() const;
-  [[nodiscard]] std::string failedThing() const;
+  [[nodiscard]] Failure failure() const;
   // A seek that the source refused, reported once; playback then continues from the source's position.
   [[nodiscard]] std::optional<Error> takeSeekError();
 

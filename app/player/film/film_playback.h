@@ -21,103 +21,104 @@
 
 namespace relievo {
 
-// One thread; nothing waits for the film. One object plays one film after the other. It knows no screen, no device and
-// no state of the player: `opening`, `arriving`, `filling` and `going` say what the player may do next.
+// One thread; no call blocks on the film. One object plays one film after another. It does not know the screen, the
+// device or the player's state: `opening`, `arriving`, `filling` and `going` tell the player what it may do next.
 //
-// It goes: open; `opening` until Opened, then `opened`; `filling` until Ready, then `takeFirst`, show, `start`; then
-// `advance` and `going` until something else is due. After a seek `arriving` until true, then `filling` again.
+// Order of calls: `open`; `opening` until Opened, then `opened`; `filling` until Ready, then `takeFirst`, show the
+// picture, `start`; then `advance` and `going` in every round. After `seek`: `arriving` until true, then `filling`
+// again.
 class FilmPlayback {
  public:
-  // `output` may be null. Without threads of its own, `read` does the reader's work.
+  // `output` may be null. If `backends` has no threads of its own, call `read` to do the reader's work.
   FilmPlayback(PairReader::Backends backends, AudioOutput* output, const Clock& clock, Journal& journal);
 
   void begin();
-  // Without a thread: reads all that is wanted now.
+  // Without a reader thread: reads everything that is wanted now.
   void read();
   void silence() noexcept { sound_.close(); }
   void stop() noexcept { feed_.stop(); }
 
-  // The source's sound is asked for in what the output takes.
+  // Opens a film; its sound is decoded to the output's format.
   void open(SourceOptions source);
-  // All that belongs to the film is forgotten.
+  // Closes the film and forgets everything about it.
   void close(MonotonicTime now);
   [[nodiscard]] bool isOpen() const { return feed_.state() != FilmFeed::State::Closed; }
 
   enum class Opening : std::uint8_t { Waits, Opened, IsList, Failed };
   [[nodiscard]] Opening opening() const;
-  // IsList: its films.
+  // The entries of the list; in IsList.
   [[nodiscard]] std::vector<PlaylistEntry> listed() const { return feed_.films(); }
-  // Opened: what the film is, for log and journal as well.
+  // Reads the film's description and logs it; call once, in Opened.
   const FilmInfo& opened();
-  // Failed: what, and why.
-  [[nodiscard]] Failure failure() const { return {feed_.failedThing(), feed_.error()}; }
+  // The source that failed and the error; in Failed.
+  [[nodiscard]] Failure failure() const { return feed_.failure(); }
 
   enum class Progress : std::uint8_t {
-    Goes,     // or waits: there is nothing to do
-    Ready,    // enough is read to start
-    Starved,  // nothing has come in time: the picture stands
-    Over,     // the last picture has had its time
+    Goes,     // playing or waiting: nothing to do
+    Ready,    // enough is buffered to start
+    Starved,  // the next picture has not arrived in time: the picture stops
+    Over,     // the last picture was shown for its whole time
     Failed,
   };
   [[nodiscard]] Progress filling();
-  // The first picture after a start, a seek or an underrun becomes the present one. True: it is the film's first.
+  // Makes the first picture after a start, a seek or an underrun the present one. True if it is the film's first.
   bool takeFirst();
-  // That picture is on the screen, and its clock begins; held, it stands there.
+  // Starts the clock at the present picture, which is on the screen; paused if the film is held.
   [[nodiscard]] Result<void> start(MonotonicTime now);
-  // Goes on to the picture of this time; returns by how many pictures.
+  // Makes the picture of this time the present one; returns how many pictures it moved on.
   [[nodiscard]] std::size_t advance(MonotonicTime now);
   [[nodiscard]] Progress going(MonotonicTime now);
 
-  // From `target` on, by key frames where it rushes.
+  // Continues from `target`; by key frames at a rate over 1.
   void seek(MediaTime target, MonotonicTime now);
-  // The seek is carried out, or refused: then it goes on from where it stands, at the usual rate.
+  // True when the seek has been carried out or refused. After a refusal the film continues from where it is, at rate 1.
   [[nodiscard]] bool arriving(MonotonicTime now);
 
-  // The viewer wants it paused from the next `start` on, or not.
+  // Whether the next `start` leaves the film paused.
   void wishHeld(bool held) noexcept { held_ = held; }
   [[nodiscard]] bool held() const noexcept { return held_; }
-  // Started: it stands at once, goes on at once.
+  // Pause and resume at once; after `start`.
   [[nodiscard]] Result<void> pause(MonotonicTime now);
   [[nodiscard]] Result<void> resume(MonotonicTime now);
-  // Paused: the next picture. False where there is none, or none is read yet.
+  // Makes the next picture the present one; while paused. False if there is none or it is not buffered yet.
   [[nodiscard]] bool stepOn(MonotonicTime now);
   void setRate(double rate, MonotonicTime now);
   [[nodiscard]] double rate() const noexcept { return rate_; }
   [[nodiscard]] bool rushes() const noexcept { return rate_ > 1; }
-  // It goes no further: what was played is counted up to here.
+  // Adds the time played since the last start or resume to `played`.
   void countPlayed(MonotonicTime now);
-  // It is over, and another one follows or none: where it ended is not where the viewer left it.
+  // The film has ended: its end is not kept as the place where the viewer left it.
   void forgetPlace() noexcept { clock_.reset(); }
 
-  // Once a round: the sound follows; what was lost or found is noted.
+  // Once a round: feeds the sound output, and notes losses and recoveries in the journal.
   void followSound(bool playing);
   void noteNews();
-  // The film has ended: what of it was not there.
+  // Notes which parts of the film were missing; after its end.
   void noteMissing();
-  // The present picture has come onto the screen.
+  // The present picture is now on the screen.
   void noteShown();
 
   [[nodiscard]] const FramePair& picture() const noexcept { return head_.present(); }
-  // It was shown, or is about to be.
+  // The film's first picture was shown or is about to be.
   [[nodiscard]] bool begun() const noexcept { return begun_; }
-  // Whether the present picture does not continue the one before it. Told once.
+  // True once after the film was opened or sought: the present picture does not continue the one before it.
   [[nodiscard]] bool takeJump() noexcept { return std::exchange(jumped_, false); }
-  // For the hand: nothing of a film that rushes by.
+  // The depth for touch; empty at a rate over 1.
   [[nodiscard]] DepthAround depth() const;
   [[nodiscard]] std::optional<ClockSample> clock() const noexcept { return clock_.sample(); }
-  // When the next picture is due: never, while the film stands.
+  // When the next picture is due; MonotonicTime::max() while the film is paused.
   [[nodiscard]] MonotonicTime nextPicture(MonotonicTime now) const;
-  // Where the picture is; nothing before the first one.
+  // The playing position; nullopt before the first picture.
   [[nodiscard]] std::optional<MediaTime> place(MonotonicTime now) const;
-  // Where it is, or is sought to: several presses of a key add up.
+  // The target of a pending seek, else `place`, so that several presses of a seek key add up.
   [[nodiscard]] MediaTime goal(MonotonicTime now) const;
-  // `place` where it is worth keeping: in a film of known length, and not on the way elsewhere.
+  // `place` if it should be kept for later: the film has a known length and no seek is pending.
   [[nodiscard]] std::optional<MediaTime> placeToKeep(MonotonicTime now) const;
 
-  // Of the film that is open: empty until `opened`.
+  // The open film's description; empty until `opened`.
   [[nodiscard]] const FilmInfo& info() const noexcept { return info_; }
   [[nodiscard]] Duration period() const noexcept;
-  // Of all films so far, for the report.
+  // Totals over all films, for the report.
   [[nodiscard]] PairCounters pairs() const;
   [[nodiscard]] Duration played() const noexcept { return played_.total(); }
   [[nodiscard]] std::optional<LiveLatency> live() const { return live_.summary(); }
@@ -140,11 +141,11 @@ class FilmPlayback {
   bool held_ = false;
   double rate_ = 1;  // over 1: by key frames, without touch
   bool jumped_ = true;
-  std::optional<MediaTime> target_;         // of a seek that has shown no picture yet
-  std::optional<MonotonicTime> dry_since_;  // nothing has lain ahead since then
-  bool starved_ = false;                    // the picture stands, though the clock goes on
+  std::optional<MediaTime> target_;         // of a seek whose first picture has not been shown yet
+  std::optional<MonotonicTime> dry_since_;  // since when no picture has been buffered
+  bool starved_ = false;                    // the picture has stopped while the clock runs on
 
-  PairCounters pairs_before_;  // of the films before
+  PairCounters pairs_before_;  // of earlier films
   PlayedTime played_;
   LiveTimes live_;
 };

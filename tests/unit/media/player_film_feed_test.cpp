@@ -258,8 +258,8 @@ TEST_F(FilmFeedTest, NamesTheSourceThatDoesNotOpen) {
   FilmFeed& feed = open(profile);
   workAll();
   EXPECT_EQ(feed.state(), State::Failed);
-  EXPECT_EQ(feed.error().code, ErrorCode::NotFound);
-  EXPECT_EQ(feed.failedThing(), "mock");
+  EXPECT_EQ(feed.failure().error.code, ErrorCode::NotFound);
+  EXPECT_EQ(feed.failure().thing, "mock");
 }
 
 TEST_F(FilmFeedTest, ASourceThatIsLostFailsAfterWhatWasRead) {
@@ -271,7 +271,7 @@ TEST_F(FilmFeedTest, ASourceThatIsLostFailsAfterWhatWasRead) {
     while (feed.take()) ++taken;
   }
   EXPECT_EQ(feed.state(), State::Failed);
-  EXPECT_EQ(feed.error().code, ErrorCode::Lost);
+  EXPECT_EQ(feed.failure().error.code, ErrorCode::Lost);
   EXPECT_GE(taken, 1);
   EXPECT_LE(taken, 7);  // two packets make a pair; the last may lack its depth
 }
@@ -299,7 +299,7 @@ TEST_F(FilmFeedTest, ALostSourceIsTriedEverMoreSeldomAndNotForEver) {
     }
     clock_.advance(std::chrono::milliseconds(10));
   }
-  EXPECT_EQ(feed.error().code, ErrorCode::Lost);
+  EXPECT_EQ(feed.failure().error.code, ErrorCode::Lost);
   ASSERT_EQ(tries.size(), 31u);
   EXPECT_NEAR(tries[0], 0.25, 0.02);
   for (std::size_t i = 1; i < tries.size(); ++i) {
