@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plays films: the loop that goes round the parts, and the state that its table leads from one to the next.
+// Plays films: the loop over the player's parts, and the state, which changes by state_table alone.
 #pragma once
 
 #include <atomic>
@@ -50,10 +50,10 @@ struct PlayerParts {
   PairReader::Backends backends;
 };
 
-// One thread, the display's. Never waits for the film or the finger, only for the display's refresh.
+// Runs on one thread, the display's. Waits only for the display's refresh, never for the film or the device.
 //
-// Which state comes next, the table says; what is true of the film, of the list, of the screen and of the touch, their
-// parts know, and none of them knows another. The player asks one and tells the next.
+// The state table decides which state comes next. Film, list, screen and touch are parts that keep their own facts and
+// do not know each other; the player passes on what one part needs from another.
 class Player {
  public:
   Player(PlayerConfig config, PlayerParts parts);
@@ -62,13 +62,13 @@ class Player {
   // Plays until the end, a stop or a failure. `stop` may be set by a signal handler. Once. Fails for a lost display and
   // when the last film could not be played, not for one before it in a list: that is in the report.
   [[nodiscard]] Outcome<void> run(const std::atomic<bool>& stop);
-  // Carries a viewer's command out. Within `run`, on its thread. One that the present state does not allow changes
-  // nothing.
+  // Carries out a viewer's command; within `run`, on its thread. A command that the present state does not allow
+  // changes nothing.
   void obey(const PlayerCommand& command, MonotonicTime now);
   // What has happened so far. On its thread.
   [[nodiscard]] PlayReport report() const;
 
-  // What is going on, and of which film; empty: none. On its thread.
+  // What is going on, and the URL of the film; empty if there is none. On its thread.
   [[nodiscard]] ScreenFacts facts() const;
   [[nodiscard]] std::string source() const { return film_.isOpen() ? programme_.film().url : ""; }
 
@@ -86,7 +86,7 @@ class Player {
   void finish(MonotonicTime now);
   void readRemote(MonotonicTime now);
 
-  // player_film.cpp: from event to event within a film
+  // player_film.cpp: within a film
   void carryOut(const Deed& deed, MonotonicTime now);
   void goOn(MonotonicTime now);
   void stand(MonotonicTime now);
@@ -94,7 +94,7 @@ class Player {
   void seek(MediaTime target, PlayerEvent why, bool by_viewer, MonotonicTime now);
   void followReader(MonotonicTime now);
   void followOpening(MonotonicTime now);
-  void followFilling(MonotonicTime now);
+  void followProgress(FilmPlayback::Progress progress, MonotonicTime now);
   void begin(MonotonicTime now);
   void followClock(MonotonicTime now);
   void followDevice();
@@ -120,8 +120,8 @@ class Player {
   KeyReader keys_;
 
   PlayerState state_ = PlayerState::Boot;
-  std::optional<Failure> failure_;  // of the film that could not go on, until another one opens
-  bool display_failed_ = false;     // no other film would go better
+  std::optional<Failure> failure_;  // of a film that could not be played, until another one opens
+  bool display_failed_ = false;     // no other film can be played either
   bool quitting_ = false;
   std::optional<MonotonicTime> ended_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the player does within a film: carries the viewer's wishes out, waits for the reader, and follows the clock.
+// What the player does within a film: carries out commands, waits for the reader, and follows the clock.
 #include <algorithm>
 
 #include "app/player/player.h"
@@ -54,7 +54,7 @@ void Player::stepOn(MonotonicTime now) {
 void Player::seek(MediaTime target, PlayerEvent why, bool by_viewer, MonotonicTime now) {
   if (!apply(why)) return;
   target = std::max(target, MediaTime{});
-  // As the picture stands until the new one comes, so does the surface: what is seen is what is felt.
+  // The picture stays until the new one comes, and so does the surface, so that both agree.
   if (const auto clock = film_.clock()) touch_.feed(film_.depth(), {clock->at(now), now, 0});
   seeks_.asked(target, by_viewer, now);
   film_.seek(target, now);
@@ -63,7 +63,7 @@ void Player::seek(MediaTime target, PlayerEvent why, bool by_viewer, MonotonicTi
 void Player::followReader(MonotonicTime now) {
   if (state_ == PlayerState::Opening) followOpening(now);
   if (state_ == PlayerState::Seeking && film_.arriving(now)) apply(PlayerEvent::Sought);
-  if (state_ == PlayerState::Buffering) followFilling(now);
+  if (state_ == PlayerState::Buffering) followProgress(film_.filling(), now);
 }
 
 void Player::followOpening(MonotonicTime now) {
@@ -87,25 +87,29 @@ void Player::followOpening(MonotonicTime now) {
   journal_.filmOpened(film_.opened());
   const auto left = programme_.whereLeft(film_.info().duration);
   if (!left) return;
-  log(LogLevel::Info, "play", "goes on where it was left, at %.1f s", toSeconds(*left));
+  log(LogLevel::Info, "play", "resumes at %.1f s, where it was left", toSeconds(*left));
   seek(*left, PlayerEvent::Seek, false, now);
 }
 
-void Player::followFilling(MonotonicTime now) {
-  switch (film_.filling()) {
+void Player::followProgress(FilmPlayback::Progress progress, MonotonicTime now) {
+  switch (progress) {
+    case FilmPlayback::Progress::Goes:
+      return;
     case FilmPlayback::Progress::Ready:
       return begin(now);
-    case FilmPlayback::Progress::Failed:
-      return failFilm();
+    case FilmPlayback::Progress::Starved:
+      apply(PlayerEvent::Starved);
+      return journal_.note("buffering: the source or this computer is too slow",
+                           "the picture stops until enough is buffered");
     case FilmPlayback::Progress::Over:
       return endFilm(now);
-    default:
-      return;
+    case FilmPlayback::Progress::Failed:
+      return failFilm();
   }
 }
 
-// The first pair after a start, a seek or an underrun is on the screen before its clock starts: whatever the first
-// drawing takes, nothing is late by it.
+// The first pair after a start, a seek or an underrun is on the screen before its clock starts, so that a slow first
+// drawing delays nothing.
 void Player::begin(MonotonicTime now) {
   if (film_.takeFirst()) {
     const Frame& shape = film_.picture().depth.empty() ? film_.picture().color : film_.picture().depth;
@@ -119,7 +123,7 @@ void Player::begin(MonotonicTime now) {
   const MediaTime first = film_.picture().color.pts;
   showPicture(now);
   if (state_ == PlayerState::Fault) return;
-  if (touch_.waiting()) {  // at a stand, so that the force fades in on something that is there
+  if (touch_.waiting()) {  // with a still clock, so that the force fades in on a surface at rest
     touch_.feed(film_.depth(), {first, parts_.clock.now(), 0});
     touch_.start();
   }
@@ -141,22 +145,10 @@ void Player::followClock(MonotonicTime now) {
   } else if (auto drawn = screen_.redraw(touch_.mark(), film_.nextPicture(now), now); !drawn) {
     failDrawing(drawn.error());
   }
-  if (state_ != PlayerState::Playing) return;
-  switch (film_.going(now)) {
-    case FilmPlayback::Progress::Starved:
-      apply(PlayerEvent::Starved);
-      return journal_.note("the film came too slowly, or this machine is too slow for it",
-                           "the picture stands until it is read ahead again");
-    case FilmPlayback::Progress::Failed:
-      return failFilm();
-    case FilmPlayback::Progress::Over:
-      return endFilm(now);
-    default:
-      return;
-  }
+  if (state_ == PlayerState::Playing) followProgress(film_.going(now), now);
 }
 
-// A device may come, or come back, at any time.
+// A device may be connected, or reconnected, at any time.
 void Player::followDevice() {
   const bool waits = touch_.followDevice();
   if (!waits || (state_ != PlayerState::Playing && state_ != PlayerState::Paused)) return;
