@@ -13,7 +13,7 @@ namespace relievo {
 
 class SoundQueue {
  public:
-  // The film has been closed or sought: what comes next does not continue this.
+  // Drops everything: the film has been closed or sought.
   void forget() {
     chunks_.clear();
     ahead_ = Duration(0);

@@ -10,7 +10,7 @@
 namespace relievo {
 namespace {
 
-constexpr Duration kLongestWait = std::chrono::milliseconds(5);  // a key is heard after this at most
+constexpr Duration kLongestWait = std::chrono::milliseconds(5);  // the most that a key waits
 constexpr Duration kIdleWait = std::chrono::milliseconds(20);    // without a film
 constexpr Duration kReaderWait = std::chrono::milliseconds(2);   // while the picture waits for the reader
 
@@ -21,7 +21,7 @@ PairReader::Backends backendsOf(const PlayerParts& parts, bool own_threads) {
   return backends;
 }
 
-// The last part of a path or an address, without what follows a question mark.
+// The last part of a path or URL, without a query.
 std::string titleOf(const std::string& url) {
   const std::string path = url.substr(0, url.find('?'));
   const std::size_t end = path.find_last_not_of('/');
@@ -75,7 +75,7 @@ void Player::failDisplay(const Error& error) {
   failFilm(std::string("display ") + screen_.capabilities().name, error);
 }
 
-// What cannot be drawn is the film's fault, not the display's.
+// A picture that cannot be drawn (Unsupported) is the film's fault, other errors are the display's.
 void Player::failDrawing(const Error& error) {
   if (error.code == ErrorCode::Unsupported) failFilm(programme_.film().url, error);
   else failDisplay(error);
@@ -135,7 +135,7 @@ void Player::step(MonotonicTime now) {
   if (parts_.control != nullptr) parts_.control->attend(*this, now);
 }
 
-// Until the next picture, but so often that keys are heard.
+// The next picture, but soon enough for keys.
 MonotonicTime Player::nextWake(MonotonicTime now) const {
   if (state_ == PlayerState::Idle) return now + kIdleWait;
   if (state_ == PlayerState::Playing) return std::min(film_.nextPicture(now), now + kLongestWait);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the player does from film to film: begins, leaves, ends, and passes over what cannot be played.
+// What the player does from film to film: opens, leaves, ends, and skips what cannot be played.
 #include <utility>
 
 #include "app/player/player.h"
@@ -21,8 +21,10 @@ void Player::openFilm(std::size_t film, Programme::Way way, MonotonicTime now) {
   const PlaylistEntry& entry = programme_.film();
   journal_.filmAsked(entry.url);
   if (entry.refused) {
-    return failFilm(entry.url, {ErrorCode::Unsupported, 0,
-                                "a list may not name this: http, https, rtsp, rtp, udp, tcp and, in a file, paths"});
+    return failFilm(
+        entry.url,
+        {ErrorCode::Unsupported, 0,
+         "not allowed in a playlist; allowed are http, https, rtsp, rtp, udp, tcp and, in a local file, paths"});
   }
   SourceOptions source = config_.source;
   source.url = entry.url;
@@ -30,7 +32,7 @@ void Player::openFilm(std::size_t film, Programme::Way way, MonotonicTime now) {
   film_.open(std::move(source));
 }
 
-// Force to zero first; then all that belongs to the film is forgotten.
+// Zero force first; then the film and everything about it is forgotten.
 void Player::leaveFilm(MonotonicTime now) {
   if (!film_.isOpen()) return;
   touch_.rest();
@@ -60,7 +62,7 @@ void Player::endFilm(MonotonicTime now) {
   stopFilm(now);
 }
 
-// Another film of the list in the place of one that cannot go on. A list of which something was seen has not failed.
+// Opens another film of the list after one that failed. A list of which a film was seen has not failed.
 void Player::followFault(MonotonicTime now) {
   if (state_ != PlayerState::Fault || display_failed_) return;
   const auto other = programme_.afterFault();

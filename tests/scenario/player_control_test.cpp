@@ -172,7 +172,7 @@ TEST_F(PlayerAndPrograms, FaultsGoInAndComeOutAsEvents) {
   const auto faults = events(overheard_, "fault");
   ASSERT_GE(faults.size(), 1U);
   EXPECT_EQ(faults[0]["what"], "haptic device lost");
-  EXPECT_THAT(faults[0]["done"].get<std::string>(), HasSubstr("force zero"));
+  EXPECT_THAT(faults[0]["done"].get<std::string>(), HasSubstr("zero force"));
   EXPECT_EQ(bench_.hand->force(), glm::dvec3(0));
 }
 

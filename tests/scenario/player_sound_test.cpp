@@ -296,7 +296,7 @@ TEST_F(PlayerSound, AnOutputThatKeepsNoTimeDoesNotLeadTheFilm) {
   film(500);
   bench_.audio->paced = false;
   playsWell();
-  EXPECT_EQ(bench_.faults("the sound output keeps no time"), 1u);
+  EXPECT_EQ(bench_.faults("the sound output reports no position"), 1u);
   EXPECT_NEAR(bench_.report.wall_s, 20.0, 0.1);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Gaussian blur of whole depth pictures, as fast and as exact as one would write it who smooths every frame.
+// A Gaussian blur of whole depth pictures, optimised as by someone who smooths every frame.
 #pragma once
 
 #include <cstdint>
@@ -11,15 +11,16 @@
 
 namespace relievo {
 
-// Blurs pictures of one size, one after the other; keeps its memory between them.
+// Blurs pictures of one size and reuses its memory between them.
 //
 // - The kernel is separable, a Gaussian of `sigma_mm` in both directions, cut off at 3.5 standard deviations. Where a
 //   standard deviation spans six samples or more, the mean of a block of samples is taken first, so that three samples
 //   or more are left in it; the kernel is the narrower by the block's own variance. So a fine picture costs little more
 //   than reading it. The picture that comes out is the smaller by whole factors; it covers the same volume.
-// - Holes pull no height: the mean is over the samples that have one (normalised convolution). Where they have less
-//   than half of the weight there is a hole, by the rule of HeightField::meanHeight.
-// - Beyond the border the outermost samples go on.
+// - Holes do not affect heights: the mean is over the samples that are not holes (normalised convolution). If these
+// have
+//   less than half of the weight, the result is a hole, as in HeightField::meanHeight.
+// - Beyond the border the outermost samples are repeated.
 class DepthSmoother {
  public:
   DepthSmoother(const HeightField& like, double sigma_mm);
@@ -27,12 +28,12 @@ class DepthSmoother {
   [[nodiscard]] int cols() const { return across_.size; }
   [[nodiscard]] int rows() const { return down_.size; }
 
-  // Codes of 16 bits over the volume's depth, near high: `kHole` at a hole and nowhere else. `field` is of the size of
-  // `like`, `out` of cols x rows. Answers whether there is a hole.
+  // Writes codes of 16 bits over the volume's depth, near high; `kHole` at holes only. `field` has the size of `like`,
+  // `out` holds cols x rows. Returns whether there is a hole.
   static constexpr std::uint16_t kHole = 0;
   bool smooth(const HeightField& field, std::span<std::uint16_t> out);
 
-  // The samples on either side of the kernel's centre, as far from it as the tap's number.
+  // The samples at the same distance before and after the kernel's centre.
   struct Pair {
     const float *before, *after;
   };

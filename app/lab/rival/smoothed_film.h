@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Films whose depth was smoothed frame by frame, for methods that feel it so.
+// Films whose depth is smoothed frame by frame, and methods that run on them.
 #pragma once
 
 #include <cstdint>
@@ -15,12 +15,12 @@
 
 namespace relievo {
 
-// The film, every frame blurred by a Gaussian of this standard deviation (DepthSmoother), in 16 bits. A frame that
-// repeats the one before it is not blurred again. On all processors.
+// The film with every frame blurred by a Gaussian of this standard deviation (DepthSmoother), in 16 bits. A frame that
+// repeats the previous one is not blurred again. Uses all processors.
 [[nodiscard]] MemoryFilm smoothedFilm(const MemoryFilm& film, double sigma_mm);
 
-// A method that is given the frames of a film as they were smoothed when the film was opened, whenever and in whatever
-// order a feed hands them on. `film` has all the frames that it will be shown.
+// A method that runs on the smoothed frames in place of those in its window. The frames of `film` are smoothed here;
+// `film` must contain every frame that the windows will show, in any order.
 [[nodiscard]] std::unique_ptr<TouchMethod> onSmoothedDepth(std::unique_ptr<TouchMethod> method,
                                                            std::span<const TimedSurface> film, double sigma_mm);
 
@@ -28,9 +28,9 @@ namespace relievo {
 class FrameStopwatch {
  public:
   FrameStopwatch(const MemoryFilm& film, double sigma_mm);
-  // Blurs the film's next frame; after the last one the first.
+  // Blurs the film's next frame, starting over after the last one.
   void timeOne();
-  // Of the quickest: what else the machine does can only add to it.
+  // The shortest time: other work on the machine can only add to it.
   [[nodiscard]] double leastMs() const { return least_ms_; }
 
  private:

@@ -37,7 +37,7 @@ constexpr std::array kEntries{
     Entry{PlayerVerb::SeekShare, "seek", Operand::Time, "%"},
     Entry{PlayerVerb::Next, "next", Operand::None, "the next film of the list"},
     Entry{PlayerVerb::Previous, "previous", Operand::None,
-          "this film from its beginning; in its first 3 s the one before"},
+          "this film from the beginning; within its first 3 s, the previous film"},
     Entry{PlayerVerb::Loop, "loop", Operand::OnOff, "begin again at the end, or no longer"},
     Entry{PlayerVerb::Open, "open", Operand::Url, "another film"},
     Entry{PlayerVerb::Stop, "stop", Operand::None, "end the film"},
@@ -158,7 +158,7 @@ std::string meaningOf(const PlayerCommand& command) {
   if (command.verb == PlayerVerb::SeekShare) return print("to %.6g %% of the film", 100 * command.value);
   if (entry.operand == Operand::Step) return print("%+.6g %s", command.value, entry.meaning);
   if (command.verb == PlayerVerb::Loop && command.value != 0) {
-    return command.value > 0 ? "begin again at the end" : "do not begin again at the end";
+    return command.value > 0 ? "begin again at the end" : "do not restart at the end";
   }
   if (command.verb == PlayerVerb::Layout && !command.word.empty()) return "show stereo as " + command.word;
   return entry.meaning;

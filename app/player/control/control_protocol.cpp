@@ -46,7 +46,7 @@ std::expected<ControlRequest, std::string> requestOf(const std::string& words) {
     return FaultRequest{words.substr(kFault.size(), space - kFault.size()), words.substr(space + 1)};
   }
   if (auto command = parseCommand(words)) return std::move(*command);
-  return std::unexpected("no such command; it is one of: " + commandWords() +
+  return std::unexpected("unknown command; known are: " + commandWords() +
                          ", status, metrics on|off, fault DEVICE WHAT");
 }
 
@@ -66,7 +66,7 @@ ControlLine parseControlLine(std::string_view line) {
   }
   const auto words = json.find("do");
   if (words == json.end() || !words->is_string()) {
-    read.asked = std::unexpected("\"do\" is missing, or is no text; such as {\"do\": \"pause\"}");
+    read.asked = std::unexpected("\"do\" is missing or not text; for example {\"do\": \"pause\"}");
   } else if (json.size() > 1 + (read.id.empty() ? 0U : 1U)) {
     read.asked = std::unexpected("an object has \"do\" and \"id\", and nothing else");
   } else {

@@ -19,7 +19,7 @@
 namespace relievo {
 namespace {
 
-constexpr const char* kTooLong = "a socket's path has at most 100 characters; name a shorter one";
+constexpr const char* kTooLong = "a socket path may have at most 100 characters; choose a shorter one";
 constexpr std::size_t kMostPath = 100;  // of the 107 that fit; the rest is for the name that it has at first
 
 sockaddr_un addressOf(const std::string& path) noexcept {
@@ -39,7 +39,7 @@ UniqueFd newSocket() noexcept {
 }
 
 std::unexpected<Failure> cannot(const std::string& path) {
-  return failOn(path, {ErrorCode::Io, errno, "no socket can be made there; check its folder"});
+  return failOn(path, {ErrorCode::Io, errno, "no socket can be created there; check the folder"});
 }
 
 // Nothing there, or a socket that nobody listens on.
@@ -47,12 +47,12 @@ Outcome<void> mayReplace(const std::string& path) {
   struct stat file{};
   if (::lstat(path.c_str(), &file) != 0) return {};
   if (!S_ISSOCK(file.st_mode)) {
-    return failOn(path, {ErrorCode::InvalidArgument, 0, "is no socket and stays as it is; name another path"});
+    return failOn(path, {ErrorCode::InvalidArgument, 0, "is not a socket and is left alone; choose another path"});
   }
   const UniqueFd probe = newSocket();
   if (!probe.valid()) return cannot(path);
   if (callOn(::connect, probe.get(), path) != 0 && errno == ECONNREFUSED) return {};
-  return failOn(path, {ErrorCode::InvalidState, 0, "another program listens there; end it, or name another path"});
+  return failOn(path, {ErrorCode::InvalidState, 0, "another program listens there; stop it or choose another path"});
 }
 
 }  // namespace
@@ -164,7 +164,7 @@ void ControlSocket::put(Client& client, std::string_view line) {
   client.out.append(line).push_back('\n');
   flush(client);
   if (client.out.size() <= kMostUnread) return;
-  log(LogLevel::Warning, "control", "a client that does not read what it is sent was let go");
+  log(LogLevel::Warning, "control", "a client that did not read its messages was disconnected");
   client.gone = true;
 }
 

@@ -136,7 +136,7 @@ class Reader {
     if (words.empty()) return {};
     into = parseCommand(words);
     if (into) return {};
-    return wrong(node, "\"" + words + "\" is no command; the commands are " + commandWords(), "mend this line");
+    return wrong(node, "\"" + words + "\" is not a command; the commands are " + commandWords(), "mend this line");
   }
 
   const std::string& file_;
@@ -172,13 +172,13 @@ Outcome<void> KeyTable::add(std::string_view text, const std::string& file) {
   try {
     parsed = toml::parse(text, file);
   } catch (const toml::parse_error& error) {
-    return reader.wrong(error.source(), "", "this is no TOML; a line is KEY = \"command\" under [always] or a state");
+    return reader.wrong(error.source(), "", "not valid TOML; a line is KEY = \"command\" under [always] or a state");
   }
   for (const auto& [table_word, node] : parsed) {
     const auto table = tableNamed(table_word.str());
     if (!table || !node.is_table()) {
       return reader.wrong(table_word.source(), std::string(table_word.str()),
-                          "is no state; tables are [always], [playing], [paused], [idle], ..");
+                          "is not a state; tables are [always], [playing], [paused], [idle], ..");
     }
     for (const auto& [key_word, row] : *node.as_table()) {
       const std::string word(key_word.str());

@@ -18,7 +18,7 @@ void PlayerControl::attend(Player& player, MonotonicTime now) {
   service_.wentRound(now);
   if (std::exchange(status_changed_, false)) tellStatus(player);
   if (socket_ == nullptr) return;
-  static const std::string kRefusal = errorLine("", "there are 8 programs already; one has to go first");
+  static const std::string kRefusal = errorLine("", "8 programs are connected already; disconnect one first");
   socket_->attend(kRefusal);
   for (int i = 0; i < kLinesARound; ++i) {
     const auto line = socket_->next();
@@ -29,7 +29,7 @@ void PlayerControl::attend(Player& player, MonotonicTime now) {
 }
 
 void PlayerControl::answer(Player& player, const ControlSocket::Line& line, MonotonicTime now) {
-  const std::string said = line.too_long ? errorLine("", "the line is too long; it may have 4096 bytes")
+  const std::string said = line.too_long ? errorLine("", "the line is too long; the limit is 4096 bytes")
                                          : carryOut(player, parseControlLine(line.text), line.client, now);
   socket_->send(line.client, said);
 }

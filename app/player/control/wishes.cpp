@@ -10,7 +10,7 @@ namespace relievo {
 namespace {
 
 constexpr std::array kRates{0.125, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0};
-constexpr Duration kBeginning = std::chrono::seconds(3);  // so near to it "previous" means the film before
+constexpr Duration kBeginning = std::chrono::seconds(3);  // up to here "previous" goes to the previous film
 
 using Deeds = std::vector<Deed>;
 
@@ -32,16 +32,16 @@ Deed note(const char* what, const char* done) {
   return {.kind = Deed::Kind::Note, .what = what, .done = done};
 }
 
-// Into and out of key frames, the film is sought to where it is.
+// Entering and leaving key-frame playback needs a seek to the present position.
 Deeds changeRate(double rate, const Situation& s) {
   if (rate == s.rate || !nextState(s.state, PlayerEvent::Rate)) return {};
-  if (rate > 1 && s.length <= Duration(0)) return {note("a live film cannot be wound forward", "it plays on")};
+  if (rate > 1 && s.length <= Duration(0)) return {note("a live film has no fast forward", "it plays on")};
   Deeds deeds{{.kind = Deed::Kind::Rate, .rate = rate}};
   if (rate > 1 || s.rate > 1) deeds.push_back(seek(s.here, false));
   return deeds;
 }
 
-// While a film is opened, read ahead or sought, the wish is heard, and holds from the next picture on.
+// While a film is being opened, buffered or sought, the command takes effect from the next picture on.
 Deeds play(Situation s) {
   if (s.state == PlayerState::Idle) return s.film_asked ? Deeds{open(s.film)} : Deeds{};
   Deeds deeds{{.kind = Deed::Kind::GoOn}};
@@ -51,7 +51,7 @@ Deeds play(Situation s) {
 }
 
 Deeds pause(const Situation& s) {
-  Deeds deeds = s.rate > 1 ? changeRate(1, s) : Deeds{};  // so that the picture that stands can be touched
+  Deeds deeds = s.rate > 1 ? changeRate(1, s) : Deeds{};  // so that the paused picture can be touched
   deeds.push_back({.kind = Deed::Kind::Stand});
   return deeds;
 }
@@ -59,7 +59,7 @@ Deeds pause(const Situation& s) {
 Deeds seekShare(double share, const Situation& s) {
   if (s.length > Duration(0)) return {seek(mediaTime(share * toSeconds(s.length)), true)};
   if (!nextState(s.state, PlayerEvent::Seek)) return {};
-  return {note("this film's length is not known", "there is no share of it to seek to")};
+  return {note("this film's length is not known", "a percentage cannot be sought")};
 }
 
 Deeds previous(const Situation& s) {

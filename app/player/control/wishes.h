@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a viewer's command asks of the player in the present situation. Pure: who is asked decides by the state table.
+// Translates a viewer's command into what the player has to do in the present situation. Pure; the player then checks
+// each deed against its state table.
 #pragma once
 
 #include <cstddef>
@@ -16,22 +17,22 @@ namespace relievo {
 struct Situation {
   PlayerState state = PlayerState::Idle;
   bool held = false;   // the viewer wants the film paused
-  double rate = 1;     // over 1: it rushes by, by key frames
-  MediaTime here;      // where the film is, or is sought to
-  Duration length{0};  // of the film; 0: not known, or live
+  double rate = 1;     // over 1: key frames only
+  MediaTime here;      // the position, or the target of a pending seek
+  Duration length{0};  // of the film; 0: unknown or live
   std::size_t film = 0, films = 1;
-  bool film_asked = false;  // since the player runs
+  bool film_asked = false;  // a film has been opened since the player started
 };
 
 struct Deed {
   enum class Kind : std::uint8_t {
-    GoOn,      // play
+    GoOn,      // resume
     Stand,     // pause
-    StepOn,    // the next picture, and stand
+    StepOn,    // show the next picture, paused
     Rate,      // at `rate`
-    Seek,      // to `target`; `by_viewer`: for the report
-    OpenFilm,  // `film` of the list; `back`: the viewer goes back through it
-    Note,      // it cannot be done: `what`, and what is done instead
+    Seek,      // to `target`; `by_viewer`: it is reported
+    OpenFilm,  // entry `film` of the list; `back`: the viewer moves backwards
+    Note,      // `what` is impossible, `done` happens instead
   };
   Kind kind = Kind::GoOn;
   double rate = 1;
@@ -43,8 +44,8 @@ struct Deed {
   const char* done = "";
 };
 
-// The deeds in their order. For the commands about how the film goes and which one of the list is played; none for the
-// others, and for what means nothing in this situation.
+// The deeds, in order, of commands that control playback or choose a film of the list. Empty for other commands and for
+// those that have no effect in this situation.
 [[nodiscard]] std::vector<Deed> deedsFor(const PlayerCommand& command, const Situation& situation);
 
 }  // namespace relievo

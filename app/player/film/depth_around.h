@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The depth around the present picture, as the film hands it to the hand.
+// The depth of the present picture and of those after it, from the film to touch.
 #pragma once
 
 #include <array>
@@ -11,11 +11,11 @@
 namespace relievo {
 
 struct DepthAround {
-  Frame present;  // the depth of the picture on the screen; empty: there is none, or it may not be felt
+  Frame present;  // of the picture on the screen; empty if it has none or touch is off
   std::array<Frame, SurfaceWindow::kAhead> ahead;
   std::size_t ahead_count = 0;
-  bool last = false;      // no picture comes after those ahead
-  bool expected = false;  // the film has depth and it may be felt: an empty `present` is worth a word
+  bool last = false;      // no picture follows those ahead
+  bool expected = false;  // the film has depth and touch is on: an empty `present` is a fault
 };
 
 }  // namespace relievo

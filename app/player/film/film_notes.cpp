@@ -12,13 +12,12 @@ void FilmPlayback::noteNews() {
     const std::string& url = color || depth_url_.empty() ? url_ : depth_url_;
     switch (news->kind) {
       case Kind::ColorLost:
-        journal_.note(
-            url + " lost: " + news->why,
-            print("it is opened again; after %.0f s without it the film stops", toSeconds(FilmFeed::kPatience)),
-            news->time);
+        journal_.note(url + " lost: " + news->why,
+                      print("reconnecting; the film stops after %.0f s without it", toSeconds(FilmFeed::kPatience)),
+                      news->time);
         break;
       case Kind::DepthLost:
-        journal_.note(url + " lost: " + news->why, "the film goes on flat, without force; it is opened again",
+        journal_.note(url + " lost: " + news->why, "the film plays on without depth and force; reconnecting",
                       news->time);
         break;
       case Kind::ColorBack:
@@ -38,17 +37,16 @@ void FilmPlayback::noteNews() {
 void FilmPlayback::noteMissing() {
   const auto noteOne = [this](const std::string& url, Duration missing, const char* done) {
     if (missing <= Duration(0)) return;
-    journal_.note(print("%s breaks off %.1f s before its end, cut off or damaged", url.c_str(), toSeconds(missing)),
-                  done);
+    journal_.note(print("%s ends %.1f s too early: truncated or damaged", url.c_str(), toSeconds(missing)), done);
   };
   const PairCounters pairs = feed_.counters();
   if (pairs.damaged > 0) {
     journal_.note(
         print("%llu pictures of %s are damaged", static_cast<unsigned long long>(pairs.damaged), url_.c_str()),
-        "what could be decoded was shown");
+        "the decodable parts were shown");
   }
-  noteOne(url_, pairs.missing, "what is there was played");
-  noteOne(depth_url_, pairs.depth_missing, "from there on the picture was flat, without force");
+  noteOne(url_, pairs.missing, "the part that exists was played");
+  noteOne(depth_url_, pairs.depth_missing, "the rest was shown without depth and force");
 }
 
 }  // namespace relievo

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t kQueuedPairs = 4;  // beyond those that the playhead holds
 constexpr Duration kUnknownPeriod = std::chrono::milliseconds(40);
-constexpr Duration kSoundFirst = std::chrono::milliseconds(300);  // that has to be there when the film begins
-constexpr double kRushStepS = 0.1;  // of the machine's time, between two pictures of a film that rushes by
+constexpr Duration kSoundFirst = std::chrono::milliseconds(300);  // that must be buffered when the film starts
+constexpr double kRushStepS = 0.1;  // of the machine's time, between two pictures at a rate over 1
 
 }  // namespace
 
@@ -117,8 +117,8 @@ std::size_t FilmPlayback::advance(MonotonicTime now) {
   return head_.advance(clock_.position(now).value_or(MediaTime{}), feed_);
 }
 
-// A pair that is late by less than a period is shown late; after that the film waits for the reader. Counted from the
-// moment when it was missed, not from the picture: the reader is not to blame for a picture that took long to draw.
+// A pair that is less than a period late is shown late; after that the film waits for the reader. The delay counts from
+// the moment when the pair was missed, not from the last picture, which may have taken long to draw.
 FilmPlayback::Progress FilmPlayback::going(MonotonicTime now) {
   if (!head_.ahead().empty()) {
     dry_since_.reset();
@@ -172,13 +172,13 @@ bool FilmPlayback::stepOn(MonotonicTime now) {
   head_.refill(feed_);
   if (head_.ahead().empty()) return false;
   head_.begin();
-  clock_.start(picture().color.pts, now);  // it stands there
+  clock_.start(picture().color.pts, now);  // stays paused
   return true;
 }
 
 void FilmPlayback::setRate(double rate, MonotonicTime now) {
   rate_ = rate;
-  static_cast<void>(clock_.setRate(rate, now));  // none of the ladder is refused
+  static_cast<void>(clock_.setRate(rate, now));  // the clock accepts all rates of the player
 }
 
 void FilmPlayback::countPlayed(MonotonicTime now) {
@@ -191,7 +191,7 @@ void FilmPlayback::followSound(bool playing) {
   if (const auto news = sound_.takeNews()) journal_.note(news->what, news->done);
 }
 
-// The surface under the finger is that of the clock's time, between this picture and the next.
+// The surface under the finger is interpolated to the clock's time, between this picture and the next.
 void FilmPlayback::noteShown() {
   sound_.noteShown(picture().color.pts, clock_);
   if (!picture().taken) return;
@@ -217,7 +217,7 @@ MonotonicTime FilmPlayback::nextPicture(MonotonicTime now) const {
   return sample->when(head_.ahead().front().color.pts);
 }
 
-// While the picture stands for want of the next one, the clock goes on: what is felt fades by it.
+// While the picture has stopped for lack of the next one, the clock runs on, so that the force fades.
 std::optional<MediaTime> FilmPlayback::place(MonotonicTime now) const {
   const auto position = clock_.position(now);
   return position && starved_ ? picture().color.pts : position;

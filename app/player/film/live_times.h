@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures how old the pictures of a live film are when they are seen and felt. Pure.
+// Measures the delay of a live film from camera to screen and finger. Pure.
 #pragma once
 
 #include <optional>
@@ -17,12 +17,12 @@ struct LiveLatency {
 
 class LiveTimes {
  public:
-  // A picture that was `picture` old came onto the screen; the surface under the finger was `touch` old.
+  // The age of a picture when it came onto the screen, and of the surface under the finger then.
   void add(Duration picture, Duration touch) noexcept {
     picture_.add(picture);
     touch_.add(touch);
   }
-  // Nothing of a film that is not live.
+  // Nullopt if no picture was counted: the film is not live.
   [[nodiscard]] std::optional<LiveLatency> summary() const {
     if (picture_.count() == 0) return std::nullopt;
     return LiveLatency{times(picture_), times(touch_)};

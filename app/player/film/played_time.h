@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds up how much of the films was shown, without the pauses. Pure.
+// Adds up the media time that was played, without pauses. Pure.
 #pragma once
 
 #include <optional>
@@ -12,9 +12,9 @@ namespace relievo {
 
 class PlayedTime {
  public:
-  // The film goes on from here.
+  // Playing starts or resumes at `here`.
   void begin(MediaTime here) noexcept { begin_ = here; }
-  // It stands, is sought or ends here; nothing: it had no clock. Does nothing while it does not go.
+  // Playing stops at `here` (nullopt: position unknown, not counted). Does nothing if it has stopped already.
   void end(std::optional<MediaTime> here) noexcept {
     const auto begin = std::exchange(begin_, std::nullopt);
     if (begin && here) total_ += *here - *begin;

@@ -89,7 +89,7 @@ std::vector<std::string> needsOf(const ProbeResult& r) {
                         f.depth_codec.empty() ? "" : " and ", f.depth_codec.c_str(), 1e-6 * pixels * framesPerSecond(f),
                         r.decoder.c_str()));
   if (!f.has_depth) {
-    needs.push_back("depth, to be felt: give --depth FILE, or --packing sbs or tb when the picture holds both");
+    needs.push_back("depth for touch: give --depth FILE, or --packing sbs or tb if one picture holds both");
     return needs;
   }
   if (r.depth.pairs == 0) {

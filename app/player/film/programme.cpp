@@ -20,7 +20,7 @@ void Programme::begin(const PlaylistEntry& film) {
 
 Result<std::size_t> Programme::spread(const std::vector<PlaylistEntry>& films) {
   if (++lists_ > kMostLists) {
-    return fail(ErrorCode::Unsupported, "lists within lists without an end; one of them names itself");
+    return fail(ErrorCode::Unsupported, "playlists nested too deeply; one of them may contain itself");
   }
   const auto at = films_.erase(films_.begin() + static_cast<std::ptrdiff_t>(present_));
   films_.insert(at, films.begin(), films.end());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which film is played, which comes before and after it, and where the viewer left each. Pure, but for the file of
-// places.
+// The list of films: which one is played, which ones come before and after it, and where the viewer left each. Does no
+// I/O but for the file of positions (Resume).
 #pragma once
 
 #include <cstddef>
@@ -21,59 +21,59 @@ class Programme {
  public:
   static constexpr int kMostLists = 20;  // a list may hold lists, but not without end
   static constexpr Duration kKeepPeriod = std::chrono::seconds(2);
-  enum class Way : std::uint8_t { Forward, Back };  // which neighbour is tried where a film cannot be played
+  enum class Way : std::uint8_t { Forward, Back };  // which neighbour is tried if a film cannot be played
 
-  // The file of places; empty: each film begins at its beginning.
+  // `resume_path`: the file of positions; if empty, each film starts from the beginning.
   Programme(const std::string& resume_path, bool loop);
 
-  // Another film or list, alone in the programme.
+  // Replaces the whole list by one film or list.
   void begin(const PlaylistEntry& film);
-  // The present film is a list: its films take its place. Returns the one to open first: the one that the viewer saw
-  // last, else the first of the list. Fails for lists within lists without end.
+  // Replaces the present entry, which is a list, by the list's entries. Returns the entry to open first: the one that
+  // the viewer saw last, else the list's first. Unsupported if lists are nested too deeply.
   [[nodiscard]] Result<std::size_t> spread(const std::vector<PlaylistEntry>& films);
 
-  // The present film becomes this one of the programme.
+  // Makes this entry the present one.
   void choose(std::size_t film, Way way) noexcept;
-  // The present film is open: the viewer has arrived, on whatever way.
+  // The present film has been opened: a later failure is passed over forwards.
   void opened() noexcept { way_ = Way::Forward; }
-  // The present film is left. `seen`: at least one of its pictures was shown.
+  // The present film is being closed. `seen`: at least one of its pictures was shown.
   void left(bool seen) noexcept { seen_one_ = seen_one_ || seen; }
 
-  // The film after the present one has ended; the present one itself where a single film loops. Nothing: it is over.
+  // What to play when the present film has ended; the present one itself if a single film loops. Nullopt: nothing.
   [[nodiscard]] std::optional<std::size_t> afterEnd() const noexcept;
-  // The film after the present one has failed: the next one on the viewer's way. Nothing: there is none.
+  // What to play when the present film has failed: the next one in the viewer's direction. Nullopt: nothing.
   [[nodiscard]] std::optional<std::size_t> afterFault() const noexcept;
-  // The present film has failed and `other` is tried: returns the way to it. From the first film on nothing counts as
-  // seen any more, so that a list that loops ends once no film of it can be played.
+  // The present film has failed and `other` is tried: returns the direction to it. Going round to the first film
+  // forgets that a film was seen, so that a looping list ends once none of its films can be played.
   [[nodiscard]] Way passOver(std::size_t other) noexcept;
 
   [[nodiscard]] const PlaylistEntry& film() const noexcept { return films_[present_]; }
   [[nodiscard]] std::size_t present() const noexcept { return present_; }
   [[nodiscard]] std::size_t size() const noexcept { return films_.size(); }
   [[nodiscard]] Way way() const noexcept { return way_; }
-  // Something of this programme was shown: it has not failed as a whole.
+  // A film of this list was shown: the list as a whole has not failed.
   [[nodiscard]] bool seenOne() const noexcept { return seen_one_; }
-  // A film has been asked for, played or not.
+  // `begin` has been called.
   [[nodiscard]] bool asked() const noexcept { return asked_; }
   [[nodiscard]] bool loops() const noexcept { return loop_; }
   void setLoop(bool loop) noexcept { loop_ = loop; }
 
-  // Where the viewer left the present film, `length` long; nothing: nowhere, or the length is not known.
+  // Where the viewer left the present film, whose length is `length`; nullopt if unknown or if the film has no length.
   [[nodiscard]] std::optional<MediaTime> whereLeft(Duration length) const;
-  // The viewer is there now. Kept every kKeepPeriod; nothing: the place is not known.
+  // Keeps the viewer's position, at most every kKeepPeriod. Nullopt: unknown, nothing is kept.
   void keep(std::optional<MediaTime> place, MonotonicTime now);
-  // Likewise, and kept at once: the film is left.
+  // Keeps it at once, when the film is closed.
   void keepAtOnce(std::optional<MediaTime> place, MonotonicTime now);
-  // The viewer has seen the present film to its end.
+  // The viewer has seen the present film to its end: it starts from the beginning next time.
   void forgetPlace();
 
  private:
   std::optional<Resume> resume_;
   bool loop_;
   bool asked_ = false;
-  std::vector<PlaylistEntry> films_ = std::vector<PlaylistEntry>(1);  // one without a name until one is asked for
+  std::vector<PlaylistEntry> films_ = std::vector<PlaylistEntry>(1);  // an empty entry until `begin`
   std::size_t present_ = 0;
-  int lists_ = 0;  // that were spread since `begin`
+  int lists_ = 0;  // spread since `begin`
   Way way_ = Way::Forward;
   bool seen_one_ = false;
   MonotonicTime keep_due_;

@@ -107,7 +107,7 @@ void Resume::write(const Films& films) {
     written = file->commit();
   }
   if (written || std::exchange(told_, true)) return;
-  log(LogLevel::Warning, "play", "%s: %s; films will begin at their beginning", path_.c_str(), written.error().message);
+  log(LogLevel::Warning, "play", "%s: %s; films will start from the beginning", path_.c_str(), written.error().message);
 }
 
 void Resume::threadMain() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the key to the picture, from the picture to the touch.
+// The measurement waits for the picture, then for the touch.
 #include "app/player/film/seek_times.h"
 
 namespace relievo {

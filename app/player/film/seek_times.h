@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures what the viewer's seeks led to: the first picture after each, and the first touch. Pure.
+// Measures how long after each of the viewer's seeks the first picture and the first touch come. Pure.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace relievo {
 
-// The first picture after a seek, and the depth frame under the first touch after that picture. Eye and hand agree when
-// the two are equal. Empty where there was none.
+// A seek, the first picture after it, and the depth frame of the first touch after that picture. Eye and hand agree if
+// both times are equal. Nullopt if there was none.
 struct SeekEntry {
   double target_s = 0;
   std::optional<double> picture_s;
@@ -22,14 +22,13 @@ struct SeekEntry {
 
 class SeekTimes {
  public:
-  // A seek to `target` begins. One that the viewer did not ask for ends the measurement before it and gets no entry.
+  // A seek to `target` begins. A seek that the viewer did not ask for ends a running measurement and gets no entry.
   void asked(MediaTime target, bool by_viewer, MonotonicTime now);
-  // The picture at `picture` was on the screen at `now`. Touch counts from `touch_from` on: earlier ticks were on the
-  // surface before.
+  // The picture of time `picture` was on the screen at `now`. Ticks before `touch_from` still felt the old surface.
   void shown(MediaTime picture, MonotonicTime now, MonotonicTime touch_from);
-  // The device ticked at `tick`, on the depth frame of the time `frame`; nothing: on no frame.
+  // The device ticked at `tick`, on the depth frame of time `frame` (nullopt: on none).
   void felt(MonotonicTime tick, std::optional<MediaTime> frame);
-  // Another film begins: nothing is waited for.
+  // Ends a running measurement: another film begins.
   void forget() noexcept { waits_ = Waits::Nothing; }
 
   // Whether `felt` at this time would be counted.

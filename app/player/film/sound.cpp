@@ -134,7 +134,7 @@ bool Sound::listen(MediaClock& clock, const FilmFeed& feed, MonotonicTime now) {
 bool Sound::realign() {
   ++summary_.realigned;
   if (++restarts_ > kMostRestarts) {
-    lose({ErrorCode::Unsupported, 0, "the sound output keeps no time"});
+    lose({ErrorCode::Unsupported, 0, "the sound output reports no position"});
     gave_up_ = true;
     return true;
   }
@@ -162,7 +162,7 @@ bool Sound::ready(MonotonicTime now) {
   output_->close();
   if (!lost_ && !std::exchange(told_, true)) {
     news_ = News{std::string("sound: ") + (opened ? "the output has changed its rate" : opened.error().message),
-                 "the film plays without; it is tried again"};
+                 "the film plays without sound; the player tries again"};
   }
   return false;
 }

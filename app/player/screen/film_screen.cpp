@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is drawn, and when.
+// Decides when to draw.
 #include "app/player/screen/film_screen.h"
 
 #include <glm/geometric.hpp>
@@ -10,9 +10,9 @@
 namespace relievo {
 namespace {
 
-constexpr double kDrawShare = 0.6;  // of the film's frame period; the rest is the decoder's and the finger's
-constexpr Duration kRedrawPeriod = std::chrono::milliseconds(33);  // of a standing picture in which the finger moves
-constexpr double kMovedMm = 0.2;                                   // less is not seen
+constexpr double kDrawShare = 0.6;  // of the film's frame period; the rest is left for decoding and touch
+constexpr Duration kRedrawPeriod = std::chrono::milliseconds(33);  // of a paused picture while the finger moves
+constexpr double kMovedMm = 0.2;                                   // smaller movements are invisible
 
 bool movedVisibly(const std::optional<FingerMark>& a, const std::optional<FingerMark>& b) {
   if (a.has_value() != b.has_value()) return true;
@@ -73,7 +73,7 @@ Result<void> FilmScreen::clear(const std::optional<FingerMark>& finger, Monotoni
   return drawn ? Result<void>{} : std::unexpected(drawn.error());
 }
 
-// False when nobody sees it.
+// False if the screen is lost.
 Result<bool> FilmScreen::draw(const std::optional<FingerMark>& finger, MonotonicTime now) {
   drawn_finger_ = finger;
   drawn_at_ = now;
@@ -84,7 +84,7 @@ Result<bool> FilmScreen::draw(const std::optional<FingerMark>& finger, Monotonic
     journal_.note(std::string("stereo: ") + why, print("shown as %s", name(picture_.stereo().layout)));
   }
   if (*shown == Picture::Shown::Lost) noteLost();
-  if (*shown == Picture::Shown::Back) journal_.note("display back", "the picture is on it again");
+  if (*shown == Picture::Shown::Back) journal_.note("display back", "the picture is shown again");
   return *shown == Picture::Shown::OnScreen || *shown == Picture::Shown::Back;
 }
 
@@ -94,7 +94,7 @@ void FilmScreen::write(const ScreenFacts& facts, MonotonicTime next_picture, Mon
   if (lines == written_) return;
   written_ = lines;
   picture_.setText(std::move(lines));
-  if (next_picture > now + 2 * kRedrawPeriod) redraw_ = true;  // else the next picture bears it
+  if (next_picture > now + 2 * kRedrawPeriod) redraw_ = true;  // else the next picture shows it
 }
 
 void FilmScreen::obey(const PlayerCommand& command) {
@@ -111,7 +111,7 @@ void FilmScreen::obey(const PlayerCommand& command) {
     case PlayerVerb::DepthBy:
       picture_.changeStrength(command.value);
       break;
-    case PlayerVerb::ScreenBy:  // what is higher in the volume than the plane stands before the screen
+    case PlayerVerb::ScreenBy:  // parts above the screen plane appear in front of the screen
       picture_.changeScreenPlane(-command.value);
       break;
     default:
@@ -136,7 +136,7 @@ void FilmScreen::describe(PlayReport& report) const {
 }
 
 void FilmScreen::noteLost() {
-  journal_.note("display lost", "film and touch go on; it is tried again every second");
+  journal_.note("display lost", "film and touch continue; the display is tried again every second");
 }
 
 }  // namespace relievo

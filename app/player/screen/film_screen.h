@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The film on the screen: when a picture is drawn, when it is drawn again for the finger or the text, and what of it
-// was seen.
+// The film on the screen: draws pictures, redraws them for the finger or the text, and counts those shown and dropped.
 #pragma once
 
 #include <cstdint>
@@ -22,48 +21,48 @@
 
 namespace relievo {
 
-// The player's thread only, the display's. It waits for nothing but the display's refresh. A verb that draws fails for
-// what no retry helps: Unsupported is the film's fault, any other error the display's.
+// The player's thread only, the display's. Blocks only for the display's refresh. A function that draws fails only with
+// errors that no retry helps: Unsupported is the film's fault, any other error the display's.
 class FilmScreen {
  public:
   FilmScreen(Display& display, const DisplayConfig& config, const StereoSettings& stereo, const Clock& clock,
              Journal& journal) noexcept
       : picture_(display, config, stereo), clock_(clock), journal_(journal) {}
 
-  // NotFound: it goes on without a screen, which is noted and no failure.
+  // A missing screen (NotFound) is noted and is no failure.
   [[nodiscard]] Result<void> open();
   void close() noexcept { picture_.close(); }
-  // Once a round: Cancelled when the viewer has closed the window.
+  // Once a round. Cancelled if the viewer has closed the window.
   [[nodiscard]] Result<void> attend(MonotonicTime now);
 
-  // The first picture of a film is there, the next one comes after `period`.
+  // A film begins: how to read its depth, the volume that it fills, and its frame period.
   void setScene(const DepthCalibration& calibration, const DisplayVolume& volume, Duration period, MonotonicTime now);
-  // A picture of the film. True: it was seen; false: the screen is away, and the picture counts as dropped.
+  // Draws a picture of the film. False if the screen is lost: the picture counts as dropped.
   [[nodiscard]] Result<bool> show(const FramePair& pair, const std::optional<FingerMark>& finger, MonotonicTime now);
-  // `pictures` had their time without being shown.
+  // Counts pictures that were never shown.
   void skip(std::uint64_t pictures) noexcept { dropped_ += pictures; }
-  // Between two pictures of the film: draws the present one again where it looks different by now and there is time
+  // Between two pictures of the film: draws the present one again if finger or text have changed and there is time
   // until `next_picture`.
   [[nodiscard]] Result<void> redraw(const std::optional<FingerMark>& finger, MonotonicTime next_picture,
                                     MonotonicTime now);
-  // No film: black.
+  // Draws a black picture: there is no film.
   [[nodiscard]] Result<void> clear(const std::optional<FingerMark>& finger, MonotonicTime now);
-  // The text of this moment, from the first picture on.
+  // Updates the on-screen text; from the first picture on.
   void write(const ScreenFacts& facts, MonotonicTime next_picture, MonotonicTime now);
 
-  // The viewer has done something: the text shows.
+  // The viewer has pressed a key: the text is shown for a while.
   void wake(MonotonicTime now) noexcept { text_.wake(now); }
   void tell(const std::string& why, MonotonicTime now) { text_.tell(why, now); }
-  // Layout, SwapEyes, DepthBy, ScreenBy, Info; other verbs do nothing here.
+  // Handles Layout, SwapEyes, DepthBy, ScreenBy and Info; ignores other commands.
   void obey(const PlayerCommand& command);
 
   [[nodiscard]] const StereoSettings& stereo() const noexcept { return picture_.stereo(); }
   [[nodiscard]] DisplayCapabilities capabilities() const noexcept { return picture_.capabilities(); }
-  // The finger, as it was drawn last, touches.
+  // Whether the finger, as drawn last, is in contact.
   [[nodiscard]] bool contact() const noexcept { return drawn_finger_ && drawn_finger_->contact; }
-  // When the first picture was seen.
+  // When the first picture was shown.
   [[nodiscard]] std::optional<MonotonicTime> firstShown() const noexcept { return first_shown_; }
-  // The screen's share of the report.
+  // Fills in the screen's part of the report.
   void describe(PlayReport& report) const;
 
  private:
@@ -77,7 +76,7 @@ class FilmScreen {
   MonotonicTime drawn_at_;
   std::optional<FingerMark> drawn_finger_;
   std::vector<std::string> written_;
-  bool redraw_ = false;  // whatever the finger does
+  bool redraw_ = false;  // even if the finger has not moved
   std::uint64_t shown_ = 0, dropped_ = 0;
   std::optional<MonotonicTime> first_shown_;
 };

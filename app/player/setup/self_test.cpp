@@ -59,7 +59,7 @@ SelfTestLine soundDecoders(const PairReader::Backends& backends) {
 }
 
 SelfTestLine display(const PlayReport& report) {
-  if (report.frames_shown == 0) return {Verdict::Bad, "display", "not one picture was shown"};
+  if (report.frames_shown == 0) return {Verdict::Bad, "display", "no picture was shown"};
   return {Verdict::Good, "display",
           print("%s, %dx%d, %llu pictures, %zu triangles, drawn in %.1f ms", report.display.c_str(),
                 report.surface_width, report.surface_height, static_cast<unsigned long long>(report.frames_shown),
@@ -79,7 +79,7 @@ SelfTestLine touch(const HapticSummary& haptic) {
 SelfTestLine realTime(const HapticSummary& haptic) {
   if (haptic.scheduler != "SCHED_FIFO")
     return {Verdict::Note, "real time",
-            "no right to SCHED_FIFO: touch will be rough under load; as relievo.service "
+            "no permission for SCHED_FIFO: touch will be rough under load; as relievo.service "
             "does, raise LimitRTPRIO (ulimit -r)"};
   if (!haptic.memory_locked)
     return {Verdict::Note, "real time", "memory is not locked; raise LimitMEMLOCK (ulimit -l)"};

@@ -82,8 +82,8 @@ Result<double> measureStrength(HapticDevice& device, const ReadScale& readScale,
       (void)held.loop({});
     }
     const auto shown_n = readScale(asked_n);
-    if (held.lost()) return fail(ErrorCode::Lost, "the haptic device went away while it was measured");
-    if (!shown_n) return fail(ErrorCode::Cancelled, "calibrating was called off; nothing has changed");
+    if (held.lost()) return fail(ErrorCode::Lost, "the haptic device was lost during the measurement");
+    if (!shown_n) return fail(ErrorCode::Cancelled, "calibration cancelled; nothing was changed");
     if (!(*shown_n > 0.1 * asked_n && *shown_n < 10 * asked_n)) {
       return fail(ErrorCode::InvalidArgument, "the scale cannot show that; type newtons, such as 2.7");
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Surface in, ticks and faults out.
+// Publishes surfaces; drains ticks and faults.
 #include "app/player/touch/film_touch.h"
 
 #include <span>
@@ -11,7 +11,7 @@ namespace {
 const char* answerTo(HapticFault::Kind kind) noexcept {
   switch (kind) {
     case HapticFault::Kind::DeviceLost:
-      return "force zero; the film plays on, and the device is looked for";
+      return "zero force; the film plays on, and the player looks for the device";
     case HapticFault::Kind::DeviceError:
       return "the tick was left out";
     case HapticFault::Kind::FeedStale:
@@ -56,10 +56,9 @@ bool FilmTouch::followDevice() {
   while (const auto news = session_.poll()) {
     if (news->kind == Kind::Refused) {
       journal_.note(std::string("haptic device: ") + news->error.message,
-                    "the film plays without force; it is looked for anew");
+                    "the film plays without force; the player tries again");
     } else if (news->kind == Kind::Homing) {
-      journal_.note("haptic device: it does not know its zero; move the handle through its whole range",
-                    "no force until then");
+      journal_.note("haptic device: not calibrated; move the handle through its whole range", "no force until then");
     } else if (was_lost_) {
       journal_.note("haptic device back", "the force fades in");
     }

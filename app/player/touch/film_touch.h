@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The film under the finger: the surface that the device gets, the device's coming and going, and what its ticks tell.
+// The touch of a film: feeds the surface to the haptic session, follows the device, and collects its ticks and faults.
 #pragma once
 
 #include <optional>
@@ -20,41 +20,41 @@
 
 namespace relievo {
 
-// The player's thread only. Nothing waits for the device.
+// The player's thread only. No call blocks on the device.
 class FilmTouch {
  public:
-  // `device` and `recorder` are borrowed and may be null: without a device the film is followed, and nothing is felt.
+  // `device` and `recorder` are borrowed and may be null.
   FilmTouch(HapticDevice* device, Recorder* recorder, Clock& clock, Ticking ticking, Journal& journal) noexcept
       : session_(device, clock, ticking), recorder_(recorder), journal_(journal) {}
 
-  // Begins to open and home the device.
+  // Starts opening and homing the device.
   void begin() { session_.begin(); }
-  // Zero force first; then the thread and the device.
+  // Zero force first; then stops the thread and the device.
   void stop() noexcept { session_.stop(); }
-  // Likewise zero force, between two films; the device stays homed.
+  // Zero force between two films; the device stays homed.
   void rest() noexcept;
 
-  // The first picture of a film is there: what its depth means, and the box that it fills.
+  // How to read this film's depth, and the display volume that it fills.
   void setScene(const DepthCalibration& calibration, const DisplayVolume& volume) noexcept;
   [[nodiscard]] const DisplayVolume& volume() const noexcept { return volume_; }
-  // The next depth does not continue the last one.
+  // The next depth does not continue the last one: after an opening or a seek.
   void beginEpoch() noexcept { surface_.beginEpoch(); }
-  // The surface from now on.
+  // Publishes the surface to the haptic task.
   void feed(const DepthAround& depth, const ClockSample& clock);
 
-  // Notes what became of the device since the last call. True: it is ready, and waits for `start`.
+  // Notes the device's losses and recoveries. True if it is ready and waits for `start`.
   [[nodiscard]] bool followDevice();
   [[nodiscard]] bool waiting() const noexcept { return session_.waiting(); }
-  // On the surface fed last. The force begins at zero.
+  // Starts the haptic task on the surface fed last. The force fades in from zero.
   void start();
-  // The ticks since the last call: recorded, and counted for the seek that waits for one. Then the faults among them.
+  // Records the ticks since the last call, reports the first one after a seek to `seeks`, and notes faults.
   void drain(SeekTimes& seeks);
-  // The owner's wait: without a thread the ticks run in it.
+  // Sleeps; without a haptic thread, the ticks run meanwhile.
   void sleepUntil(MonotonicTime deadline) noexcept { session_.sleepUntil(deadline); }
 
-  // Where the finger is; nothing without a device.
+  // Where the finger is; nullopt without a device.
   [[nodiscard]] std::optional<FingerMark> mark() noexcept;
-  // The device that is felt now; empty: none.
+  // The name of the running device; empty if there is none.
   [[nodiscard]] std::string device() const { return session_.running() ? session_.capabilities().name : ""; }
   // The first tick with a device.
   [[nodiscard]] std::optional<MonotonicTime> firstTick() const noexcept { return first_tick_; }
@@ -66,9 +66,9 @@ class FilmTouch {
   Journal& journal_;
   SurfaceFeeder surface_;
   DisplayVolume volume_;
-  bool was_lost_ = false;  // the device was there once and went away
-  bool missing_ = false;   // the film has no depth at this time
-  bool refused_ = false;   // its depth cannot be felt; noted once
+  bool was_lost_ = false;  // the device has been lost at least once
+  bool missing_ = false;   // the present picture has no depth
+  bool refused_ = false;   // the film's depth format cannot be felt; noted once
   std::optional<MonotonicTime> first_tick_;
 };
 

@@ -77,7 +77,7 @@ Result<void> HapticSession::setScene(const DisplayVolume& volume, const SurfaceW
 }
 
 Result<void> HapticSession::start(const DisplayVolume& volume, const SurfaceFeeder& first) {
-  if (!waiting()) return fail(ErrorCode::InvalidState, "the haptic side starts on a device that is homed and at rest");
+  if (!waiting()) return fail(ErrorCode::InvalidState, "the haptic task needs a device that is homed and stopped");
   SurfaceWindow window;
   first.fill(window);
   if (!new_scene_) {
@@ -114,7 +114,7 @@ Result<void> HapticSession::run() {
   const auto scheduler = thread_.start(config, *task_);
   if (!scheduler) return std::unexpected(scheduler.error());
   if (*scheduler == Scheduler::Other) {
-    missing_scheduler_ = "no right to SCHED_FIFO; grant CAP_SYS_NICE or raise LimitRTPRIO (ulimit -r)";
+    missing_scheduler_ = "no permission for SCHED_FIFO; grant CAP_SYS_NICE or raise LimitRTPRIO (ulimit -r)";
   }
   return {};
 }

@@ -103,7 +103,7 @@ TEST(Wishes, PlayInSlowMotionGoesBackToTheUsualRate) {
 TEST(Wishes, ALiveFilmGoesNoFasterThanItComes) {
   Situation s = playing();
   s.length = Duration(0);
-  EXPECT_EQ(asked(PlayerVerb::Faster, s), "note a live film cannot be wound forward");
+  EXPECT_EQ(asked(PlayerVerb::Faster, s), "note a live film has no fast forward");
   EXPECT_EQ(asked(PlayerVerb::SeekShare, s, 0.5), "note this film's length is not known");
   EXPECT_EQ(asked(PlayerVerb::Slower, s), "rate 0.5");
 }
