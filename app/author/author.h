@@ -23,6 +23,7 @@ struct OutputOptions {
   bool force = false;  // replace an existing file
   int color_crf = 18;
   DepthCoding depth;
+  KeptWishes keep;
   std::optional<Enhancement> enhancement;  // nullopt: no enhancement
   std::string preview;                     // path of a PNG, see preview.h; empty: none
 };
@@ -40,6 +41,7 @@ struct AuthorSummary {
   DepthCoder::Counts codes;
   std::optional<Enhancement> enhancement;
   EnhancementSummary enhanced;     // if it was enhanced
+  std::vector<std::string> kept;   // sound, subtitles, chapters; see KeptTracks
   std::vector<std::string> notes;  // what was done to the pictures
 };
 

@@ -41,7 +41,8 @@ constexpr const char* kFooter =
     "The film has two tracks: colour (H.264 4:2:0) and depth (by default H.264 4:0:0 of 8 bits), full range, near "
     "high.\n"
     "Pictures keep their timestamps. The calibration is written to the container's tags and into the H.264 or HEVC\n"
-    "stream. At the end a table shows what was done to the depth.";
+    "stream. Sound, subtitles, languages, chapters and titles of the colour's file are copied; a line names what the\n"
+    "film's container cannot hold. At the end a table shows what was done to the depth.";
 
 void addSourceOptions(CLI::App& app, SourceOptions& source) {
   app.add_option("--color", source.url,
@@ -111,6 +112,13 @@ void addSceneOption(CLI::App& app, std::string& scene) {
       ->excludes("--preview");
 }
 
+void addKeepOptions(CLI::App& app, KeptWishes& keep) {
+  app.add_flag_callback(
+      "--no-audio", [&keep] { keep.sound = false; },
+      "Leave the sound out; otherwise it is copied from the colour's file");
+  app.add_flag_callback("--no-subtitles", [&keep] { keep.subtitles = false; }, "Leave subtitles and their fonts out");
+}
+
 // In the order of the help text.
 void addOptions(CLI::App& app, Arguments& a) {
   app.footer(kFooter);
@@ -124,6 +132,7 @@ void addOptions(CLI::App& app, Arguments& a) {
   addEnhanceOptions(app, a.output);
   addCodingOptions(app, a.output.depth);
   addSceneOption(app, a.scene);
+  addKeepOptions(app, a.output.keep);
   app.add_flag("--force", a.output.force, "Overwrite OUT if it exists");
 }
 

@@ -53,6 +53,7 @@ Result<void> PairReader::Impl::openFilm() {
   if (!plan) return failOn(options.url, plan.error());
   info.packing = plan->packing;
   info.duration = source.duration();
+  info.container_start = source.senderStart().value_or(Duration(0));
   remote = source.remote();
   live = source.live();
 

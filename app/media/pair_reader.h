@@ -49,6 +49,7 @@ struct FilmInfo {
   Packing packing = Packing::Auto;   // the one found; Tracks if there is no depth
   Duration frame_period{0};          // between the first two timestamps, corrected for rounding; 0 for a single picture
   Duration duration{0};              // 0: unknown
+  Duration container_start{0};       // of the colour: the container's time of media time 0
   CalibrationChoice calibration;     // of a film with depth
   std::vector<std::string> reading;  // what the first pictures revealed, and why; one line each
   std::vector<std::string> doubts;   // why the calibration looks wrong, and the option to try; one line each

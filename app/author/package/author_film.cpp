@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <cstdio>
 #include <deque>
+#include <filesystem>
 #include <mutex>
 #include <thread>
 
@@ -91,6 +92,7 @@ class Packager {
  private:
   Outcome<void> writeDepth(const Frame& depth);
   Outcome<void> writeEnhanced();
+  [[nodiscard]] std::unique_ptr<KeptTracks> keptTracks() const;
   [[nodiscard]] const DepthCalibration& sourceCalibration() const { return reader_.info().calibration.calibration; }
   static constexpr std::size_t kRecent = 3;
   [[nodiscard]] bool beginsShot(const Frame& depth);
@@ -144,10 +146,21 @@ Outcome<void> Packager::begin(const FramePair& pair) {
   format_.color_crf = output_.color_crf;
   format_.depth = output_.depth;
   format_.depth_tags = calibrationTags(coder_.outcome());
-  auto writer = FilmWriter::create(output_.path, format_, output_.force ? Existing::Replace : Existing::Keep);
+  auto writer =
+      FilmWriter::create(output_.path, format_, output_.force ? Existing::Replace : Existing::Keep, keptTracks());
   if (!writer) return failOn(output_.path, writer.error());
   writer_ = std::move(*writer);
   return {};
+}
+
+// Sound and subtitles are read from files alone: a camera or a stream cannot be opened twice.
+std::unique_ptr<KeptTracks> Packager::keptTracks() const {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(source_.url, none)) return nullptr;
+  auto kept = KeptTracks::open(source_.url, reader_.info().container_start, output_.keep);
+  if (kept) return std::move(*kept);
+  log(LogLevel::Warning, source_.url.c_str(), "%s; the film is made without", kept.error().message);
+  return nullptr;
 }
 
 Outcome<void> Packager::write(const FramePair& pair) {
@@ -229,6 +242,12 @@ Outcome<AuthorSummary> Packager::finish() {
   if (auto line = cut_.explain(); !line.empty()) summary.notes.push_back(std::move(line));
   for (std::string& line : sourceNotes(source_, reader_, format_, interlaced_, coder_.counts())) {
     summary.notes.push_back(std::move(line));
+  }
+  if (const KeptTracks* const kept = writer_->kept()) {
+    summary.kept = kept->kept();
+    summary.notes.insert(summary.notes.end(), kept->leftOut().begin(), kept->leftOut().end());
+  } else {
+    for (std::string& line : notKept(reader_.info(), output_.keep)) summary.notes.push_back(std::move(line));
   }
   return summary;
 }

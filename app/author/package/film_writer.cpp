@@ -17,6 +17,8 @@ extern "C" {
 namespace relievo {
 namespace {
 
+constexpr std::int64_t kLongestHeldUs = 500'000;  // of a live film: pictures that wait for a subtitle
+
 void setTag(AVDictionary** tags, const std::string& key, const std::string& value) {
   av_dict_set(tags, key.c_str(), value.c_str(), 0);
 }
@@ -78,6 +80,7 @@ struct FilmWriter::Impl {
 
   FilmKind kind = FilmKind::Matroska;
   std::unique_ptr<FilmPlace> place;
+  std::unique_ptr<KeptTracks> kept;
   Track color, depth;
   DepthCoding coding;
   std::vector<std::uint8_t> bytes;    // of an 8-bit depth picture
@@ -94,6 +97,10 @@ Result<void> FilmWriter::Impl::begin(const std::string& path, const FilmFormat& 
   if (!made) return std::unexpected(made.error());
   place = std::move(*made);
   if (auto opened = openTracks(format); !opened) return opened;
+  if (kind == FilmKind::Live) place->muxer().max_interleave_delta = kLongestHeldUs;
+  if (kept) {
+    if (auto added = kept->addTo(place->muxer(), kind); !added) return added;
+  }
   return place->begin();
 }
 
@@ -160,15 +167,19 @@ FilmWriter::FilmWriter(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 FilmWriter::~FilmWriter() = default;
 
 Result<std::unique_ptr<FilmWriter>> FilmWriter::create(const std::string& path, const FilmFormat& format,
-                                                       Existing existing) {
+                                                       Existing existing, std::unique_ptr<KeptTracks> kept) {
   av_log_set_level(AV_LOG_QUIET);  // the program prints its own error line
   auto impl = std::make_unique<Impl>();
+  impl->kept = std::move(kept);
   if (auto begun = impl->begin(path, format, existing); !begun) return std::unexpected(begun.error());
   return std::unique_ptr<FilmWriter>(new FilmWriter(std::move(impl)));
 }
 
 Result<void> FilmWriter::writeColor(const ColorPicture420& picture, MediaTime time, bool key) {
-  return impl_->color.encode({picture.y.data(), picture.u.data(), picture.v.data()}, time, key);
+  if (auto coded = impl_->color.encode({picture.y.data(), picture.u.data(), picture.v.data()}, time, key); !coded) {
+    return coded;
+  }
+  return impl_->kept ? impl_->kept->writeUntil(time) : Result<void>{};
 }
 
 Result<void> FilmWriter::writeDepth(const DepthPicture& picture, MediaTime time, bool key) {
@@ -179,9 +190,16 @@ Result<FilmTotals> FilmWriter::finish() {
   Impl& film = *impl_;
   if (auto drained = film.color.drain(); !drained) return std::unexpected(drained.error());
   if (auto drained = film.depth.drain(); !drained) return std::unexpected(drained.error());
+  if (film.kept) {
+    if (auto written = film.kept->writeRest(); !written) return std::unexpected(written.error());
+  }
   const auto bytes = film.place->finish();
   if (!bytes) return std::unexpected(bytes.error());
   return FilmTotals{film.color.totals, film.depth.totals, *bytes, film.place->latest()};
+}
+
+const KeptTracks* FilmWriter::kept() const noexcept {
+  return impl_->kept.get();
 }
 
 }  // namespace relievo

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "app/author/package/depth_coding.h"
+#include "app/author/package/kept_tracks.h"
 #include "app/author/package/picture.h"
 #include "hal/media_time.h"
 #include "platform/atomic_file.h"
@@ -48,6 +49,8 @@ struct FilmTotals {
 //   H.264 and HEVC     in the stream, with each key frame, whatever the container (hal/stream_tags.h)
 //   transport streams  additionally the stream's type: auxiliary video
 //
+// After them come the kept tracks, if there are any.
+//
 // Use from one thread; the encoders have threads of their own. A file is written under a temporary name beside the
 // target and renamed by `finish`; without that nothing is left. A network stream is sent in real time: writing blocks.
 // Timestamps of a track must increase.
@@ -56,13 +59,16 @@ class FilmWriter {
   // InvalidArgument for an unknown kind of film (filmKindOf) or one that cannot hold the codec, NotFound if the folder
   // does not exist, Unsupported without the codec's library.
   [[nodiscard]] static Result<std::unique_ptr<FilmWriter>> create(const std::string& path, const FilmFormat& format,
-                                                                  Existing existing = Existing::Replace);
+                                                                  Existing existing = Existing::Replace,
+                                                                  std::unique_ptr<KeptTracks> kept = nullptr);
   ~FilmWriter();
 
   // `key` makes it a key frame; apart from the first picture there are no others.
   [[nodiscard]] Result<void> writeColor(const ColorPicture420& picture, MediaTime time, bool key);
   [[nodiscard]] Result<void> writeDepth(const DepthPicture& picture, MediaTime time, bool key);
   [[nodiscard]] Result<FilmTotals> finish();
+  // Null: none.
+  [[nodiscard]] const KeptTracks* kept() const noexcept;
 
  private:
   struct Impl;

@@ -45,6 +45,12 @@ std::string trackLine(const char* name, int width, int height, const std::string
                rate.c_str());
 }
 
+std::string joined(const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& word : words) line += (line.empty() ? "" : ", ") + word;
+  return line;
+}
+
 std::string codesLine(const DepthCoder::Counts& codes) {
   int lowest = -1, highest = -1, used = 0;
   for (int i = 0; i < 1 << codes.bits; ++i) {
@@ -172,6 +178,7 @@ std::string toText(const std::string& path, const AuthorSummary& summary) {
       trackLine("depth", f.depth_width, f.depth_height, codingText(f), depth_crf, totals.depth, summary.frame_period);
   if (summary.enhancement) text += enhancementLines(*summary.enhancement, summary.enhanced);
   text += codesLine(summary.codes);
+  if (!summary.kept.empty()) text += "  kept: " + joined(summary.kept) + "\n";
   const auto tag = [&f](const char* key) {
     const auto found = f.depth_tags.find(key);
     return found == f.depth_tags.end() ? std::string("?") : found->second;

@@ -17,16 +17,6 @@ void tellMissing(Notes& notes, const std::string& url, Duration missing) {
   notes.push_back(url + print(" ends %.1f s early: truncated or damaged", toSeconds(missing)));
 }
 
-void tellLeftOut(Notes& notes, const FilmInfo& info) {
-  const auto tracks = [&notes](int count, const char* kind, const char* advice) {
-    if (count > 0)
-      notes.push_back(print("%d %s %s left out; %s", count, kind, count == 1 ? "track is" : "tracks are", advice));
-  };
-  tracks(info.sound_tracks, "sound", "add with ffmpeg -i OUT -i SRC -map 0 -map 1:a -c copy NEW");
-  tracks(info.subtitle_tracks, "subtitle", "add with ffmpeg -i OUT -i SRC -map 0 -map 1:s -c copy NEW");
-  tracks(info.video_tracks_unused, "more video", "if the depth is one of them, save it to a file for --depth");
-}
-
 // ITU-T H.273.
 void tellColor(Notes& notes, const FilmFormat& format) {
   constexpr std::uint8_t kPq = 16, kHlg = 18, kBt2020 = 9, kDciP3 = 11, kDisplayP3 = 12;
@@ -57,6 +47,18 @@ void tellClipped(Notes& notes, const FilmInfo& info, const DepthCoder::Counts& c
 
 }  // namespace
 
+std::vector<std::string> notKept(const FilmInfo& info, const KeptWishes& keep) {
+  Notes notes;
+  const auto tracks = [&notes](int count, const char* kind) {
+    if (count == 0) return;
+    notes.push_back(print("%d %s %s left out: only a file's are kept; record the source to a file first", count, kind,
+                          count == 1 ? "track is" : "tracks are"));
+  };
+  if (keep.sound) tracks(info.sound_tracks, "sound");
+  if (keep.subtitles) tracks(info.subtitle_tracks, "subtitle");
+  return notes;
+}
+
 std::vector<std::string> sourceNotes(const SourceOptions& source, const PairReader& reader, const FilmFormat& format,
                                      std::uint64_t interlaced, const DepthCoder::Counts& codes) {
   Notes notes;
@@ -68,7 +70,10 @@ std::vector<std::string> sourceNotes(const SourceOptions& source, const PairRead
   tell(notes, counters.depth_skipped, " depth pictures matched no colour picture and were left out");
   tell(notes, counters.missed_pictures, " camera pictures were lost on the way");
   tell(notes, counters.damaged, " damaged packets or pictures were left out");
-  tellLeftOut(notes, reader.info());
+  if (const int more = reader.info().video_tracks_unused; more > 0) {
+    notes.push_back(print("%d more video %s left out; if the depth is one of them, save it to a file for --depth", more,
+                          more == 1 ? "track is" : "tracks are"));
+  }
   tell(notes, interlaced,
        " pictures are interlaced: edges in motion will look combed; deinterlace the source first, with FFmpeg's "
        "bwdif");

@@ -17,4 +17,7 @@ namespace relievo {
                                                    const FilmFormat& format, std::uint64_t interlaced,
                                                    const DepthCoder::Counts& codes);
 
+// Of a source whose sound and subtitles cannot be kept, though they are wished for.
+[[nodiscard]] std::vector<std::string> notKept(const FilmInfo& info, const KeptWishes& keep);
+
 }  // namespace relievo

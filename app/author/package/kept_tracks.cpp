@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: Apache-2.0
+// A second demuxer on the colour's file, and copies of its streams in the film's muxer.
+#include "app/author/package/kept_tracks.h"
+
+#include <strings.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <span>
+#include <utility>
+
+#include "app/author/package/film_place.h"
+
+namespace relievo {
+namespace {
+
+constexpr AVRational kNanosecond{1, 1'000'000'000};
+constexpr Error kNoMemory{ErrorCode::Exhausted, ENOMEM, "out of memory for a track"};
+
+// Codecs that a transport stream, or a segment of HLS, holds for the players of this world.
+constexpr std::array kInTransport{AV_CODEC_ID_MP1,          AV_CODEC_ID_MP2,
+                                  AV_CODEC_ID_MP3,          AV_CODEC_ID_AAC,
+                                  AV_CODEC_ID_AAC_LATM,     AV_CODEC_ID_AC3,
+                                  AV_CODEC_ID_EAC3,         AV_CODEC_ID_DTS,
+                                  AV_CODEC_ID_TRUEHD,       AV_CODEC_ID_OPUS,
+                                  AV_CODEC_ID_S302M,        AV_CODEC_ID_DVB_SUBTITLE,
+                                  AV_CODEC_ID_DVB_TELETEXT, AV_CODEC_ID_HDMV_PGS_SUBTITLE};
+constexpr std::array kInSegments{AV_CODEC_ID_AAC,  AV_CODEC_ID_AC3,  AV_CODEC_ID_EAC3, AV_CODEC_ID_MP3,
+                                 AV_CODEC_ID_FLAC, AV_CODEC_ID_OPUS, AV_CODEC_ID_ALAC};
+
+bool isTransport(FilmKind kind) noexcept {
+  return kind == FilmKind::TransportStream || kind == FilmKind::Live;
+}
+
+bool isMp4(FilmKind kind) noexcept {
+  return kind == FilmKind::Mp4 || kind == FilmKind::Mov || kind == FilmKind::Hls;
+}
+
+bool canHold(const AVFormatContext& film, FilmKind kind, AVCodecID codec) {
+  if (isTransport(kind)) return std::ranges::find(kInTransport, codec) != kInTransport.end();
+  if (kind == FilmKind::Hls) return std::ranges::find(kInSegments, codec) != kInSegments.end();
+  return avformat_query_codec(film.oformat, codec, FF_COMPLIANCE_NORMAL) == 1;
+}
+
+// The text coding of films of this kind; NONE if they have none.
+AVCodecID textOf(FilmKind kind) noexcept {
+  if (kind == FilmKind::Matroska) return AV_CODEC_ID_SUBRIP;
+  return isMp4(kind) && kind != FilmKind::Hls ? AV_CODEC_ID_MOV_TEXT : AV_CODEC_ID_NONE;
+}
+
+const char* nameOf(FilmKind kind) noexcept {
+  if (isTransport(kind)) return "a transport stream";
+  if (kind == FilmKind::Hls) return "an HLS film";
+  return kind == FilmKind::Matroska ? "Matroska" : "MP4";
+}
+
+const char* tag(const AVDictionary* tags, const char* key) noexcept {
+  const AVDictionaryEntry* const found = av_dict_get(tags, key, nullptr, 0);
+  return found == nullptr ? "" : found->value;
+}
+
+// "sound aac eng "Commentary"".
+std::string describe(const AVStream& stream) {
+  std::string text = stream.codecpar->codec_type == AVMEDIA_TYPE_AUDIO        ? "sound "
+                     : stream.codecpar->codec_type == AVMEDIA_TYPE_ATTACHMENT ? "font "
+                                                                              : "subtitles ";
+  if (stream.codecpar->codec_type == AVMEDIA_TYPE_ATTACHMENT) return text + tag(stream.metadata, "filename");
+  text += avcodec_get_name(stream.codecpar->codec_id);
+  const std::string language = tag(stream.metadata, "language"), title = tag(stream.metadata, "title");
+  if (!language.empty() && language != "und") text += " " + language;
+  if (!title.empty()) text += " \"" + title + "\"";
+  return text;
+}
+
+// Not what a muxer writes itself, and not the meaning of the source's depth: the film has its own.
+void copyTags(AVDictionary** to, const AVDictionary* from) {
+  constexpr std::array kOwn{"major_brand", "minor_version", "compatible_brands", "encoder", "DURATION"};
+  const AVDictionaryEntry* entry = nullptr;
+  while ((entry = av_dict_get(from, "", entry, AV_DICT_IGNORE_SUFFIX)) != nullptr) {
+    const bool own = std::ranges::any_of(kOwn, [&](const char* word) { return ::strcasecmp(entry->key, word) == 0; });
+    if (own || ::strncasecmp(entry->key, "DEPTH_", 6) == 0) continue;
+    av_dict_set(to, entry->key, entry->value, AV_DICT_DONT_OVERWRITE);
+  }
+}
+
+// Of several programmes only the picture's own.
+bool isOfProgramme(AVFormatContext& file, int stream) {
+  const int picture = av_find_best_stream(&file, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
+  const AVProgram* const programme = picture < 0 ? nullptr : av_find_program_from_stream(&file, nullptr, picture);
+  if (programme == nullptr) return true;
+  const std::span<const unsigned> own(programme->stream_index, programme->nb_stream_indexes);
+  return std::ranges::find(own, static_cast<unsigned>(stream)) != own.end();
+}
+
+}  // namespace
+
+Result<std::unique_ptr<KeptTracks>> KeptTracks::open(const std::string& file, Duration start,
+                                                     const KeptWishes& wishes) {
+  auto tracks = std::make_unique<KeptTracks>();
+  AVDictionary* options = nullptr;
+  av_dict_set(&options, "protocol_whitelist", "file,crypto,data", 0);
+  AVFormatContext* opened = nullptr;
+  const int code = avformat_open_input(&opened, ("file:" + file).c_str(), nullptr, &options);
+  av_dict_free(&options);
+  tracks->file_.reset(opened);
+  if (code < 0 || avformat_find_stream_info(opened, nullptr) < 0) {
+    return fail(ErrorCode::Corrupt, "it cannot be read a second time for its sound", osErrorOf(code));
+  }
+  tracks->start_ = start;
+  tracks->wishes_ = wishes;
+  return tracks;
+}
+
+bool KeptTracks::isWished(const AVStream& stream) const noexcept {
+  switch (stream.codecpar->codec_type) {
+    case AVMEDIA_TYPE_AUDIO:
+      return wishes_.sound;
+    case AVMEDIA_TYPE_SUBTITLE:
+      return wishes_.subtitles;
+    case AVMEDIA_TYPE_ATTACHMENT:  // fonts, in Matroska alone
+      return wishes_.subtitles && kind_ == FilmKind::Matroska;
+    default:
+      return false;
+  }
+}
+
+Result<void> KeptTracks::addTo(AVFormatContext& film, FilmKind kind) {
+  film_ = &film;
+  kind_ = kind;
+  for (unsigned i = 0; i < file_->nb_streams; ++i) {
+    AVStream& stream = *file_->streams[i];
+    stream.discard = AVDISCARD_ALL;
+    if (!isWished(stream) || !isOfProgramme(*file_, stream.index)) continue;
+    if (auto added = addStream(stream); !added) return added;
+    if (copies_.contains(stream.index)) stream.discard = AVDISCARD_DEFAULT;
+  }
+  addTitles();
+  return addChapters();
+}
+
+Result<void> KeptTracks::addStream(const AVStream& stream) {
+  const AVCodecID codec = stream.codecpar->codec_id;
+  const bool held = stream.codecpar->codec_type == AVMEDIA_TYPE_ATTACHMENT || canHold(*film_, kind_, codec);
+  Copy copy;
+  if (!held && isTextSubtitle(codec) && textOf(kind_) != AV_CODEC_ID_NONE) {
+    auto converter = TextSubtitles::create(*stream.codecpar, stream.time_base, textOf(kind_));
+    if (converter) copy.converter = std::move(*converter);
+  }
+  if (!held && !copy.converter) {
+    left_out_.push_back(describe(stream) + ": left out, since " + nameOf(kind_) + " cannot hold it" +
+                        (kind_ == FilmKind::Matroska ? "" : "; a .mkv can"));
+    return {};
+  }
+  copy.stream = avformat_new_stream(film_, nullptr);
+  if (copy.stream == nullptr || avcodec_parameters_copy(copy.stream->codecpar, stream.codecpar) < 0) {
+    return std::unexpected(kNoMemory);
+  }
+  copy.stream->codecpar->codec_tag = 0;  // the film's container has its own
+  if (copy.converter) {
+    if (auto described = copy.converter->describe(*copy.stream->codecpar); !described) return described;
+  }
+  copy.stream->time_base = stream.time_base;
+  copy.stream->disposition = stream.disposition;
+  copyTags(&copy.stream->metadata, stream.metadata);
+  // MP4 has no titles of tracks; players show the handler's name.
+  const std::string title = tag(stream.metadata, "title");
+  if (isMp4(kind_) && !title.empty()) av_dict_set(&copy.stream->metadata, "handler_name", title.c_str(), 0);
+  kept_.push_back(describe(stream) + (copy.converter ? std::string(" as ") + avcodec_get_name(textOf(kind_)) : ""));
+  copies_.emplace(stream.index, std::move(copy));
+  return {};
+}
+
+void KeptTracks::addTitles() {
+  copyTags(&film_->metadata, file_->metadata);
+  if (const std::string title = tag(file_->metadata, "title"); !title.empty())
+    kept_.push_back("title \"" + title + "\"");
+}
+
+Result<void> KeptTracks::addChapters() {
+  if (file_->nb_chapters == 0) return {};
+  const std::string count = std::to_string(file_->nb_chapters) + (file_->nb_chapters == 1 ? " chapter" : " chapters");
+  if (isTransport(kind_) || kind_ == FilmKind::Hls) {
+    left_out_.push_back(count + ": left out, since " + nameOf(kind_) + " cannot hold them; a .mkv or .mp4 can");
+    return {};
+  }
+  for (unsigned i = 0; i < file_->nb_chapters; ++i) {
+    const AVChapter& from = *file_->chapters[i];
+    auto* const chapter = static_cast<AVChapter*>(av_mallocz(sizeof(AVChapter)));
+    int added = static_cast<int>(film_->nb_chapters);
+    if (chapter != nullptr) av_dynarray_add(&film_->chapters, &added, chapter);
+    if (chapter == nullptr || film_->chapters == nullptr) return std::unexpected(kNoMemory);
+    film_->nb_chapters = static_cast<unsigned>(added);  // the muxer frees them
+    const std::int64_t shift = av_rescale_q(start_.count(), kNanosecond, from.time_base);
+    chapter->id = from.id;
+    chapter->time_base = from.time_base;
+    chapter->start = std::max<std::int64_t>(from.start - shift, 0);
+    chapter->end = std::max(from.end - shift, chapter->start);
+    copyTags(&chapter->metadata, from.metadata);
+  }
+  kept_.push_back(count);
+  return {};
+}
+
+// Null at the end. An unreadable rest counts as the end, as it does for the pictures.
+Result<KeptTracks::PacketPtr> KeptTracks::next() {
+  if (waiting_ || ended_) return std::move(waiting_);
+  for (;;) {
+    PacketPtr packet(av_packet_alloc());
+    if (!packet) return std::unexpected(kNoMemory);
+    if (av_read_frame(file_.get(), packet.get()) < 0) {
+      ended_ = true;
+      return nullptr;
+    }
+    if (packet->size > 0 && copies_.contains(packet->stream_index)) return packet;
+  }
+}
+
+MediaTime KeptTracks::begins(const AVPacket& packet) const noexcept {
+  const std::int64_t ticks = packet.dts != AV_NOPTS_VALUE ? packet.dts : packet.pts;
+  if (ticks == AV_NOPTS_VALUE) return MediaTime{};
+  const AVRational base = file_->streams[packet.stream_index]->time_base;
+  return MediaTime(Duration(av_rescale_q(ticks, base, kNanosecond)) - start_);
+}
+
+Result<void> KeptTracks::writeUntil(MediaTime time) {
+  while (!copies_.empty()) {
+    auto packet = next();
+    if (!packet) return std::unexpected(packet.error());
+    if (!*packet) return {};
+    if (begins(**packet) >= time) {
+      waiting_ = std::move(*packet);
+      return {};
+    }
+    if (auto written = write(std::move(*packet)); !written) return written;
+  }
+  return {};
+}
+
+Result<void> KeptTracks::write(PacketPtr packet) {
+  Copy& copy = copies_.at(packet->stream_index);
+  const AVRational base = file_->streams[packet->stream_index]->time_base;
+  if (copy.converter) {
+    const auto converted = copy.converter->convert(*packet);
+    if (!converted) return std::unexpected(converted.error());
+    if (!*converted) return {};
+  }
+  const std::int64_t shift = av_rescale_q(start_.count(), kNanosecond, base);
+  if (packet->pts != AV_NOPTS_VALUE) packet->pts -= shift;
+  if (packet->dts != AV_NOPTS_VALUE) packet->dts -= shift;
+  av_packet_rescale_ts(packet.get(), base, copy.stream->time_base);
+  const bool strict = (film_->oformat->flags & AVFMT_TS_NONSTRICT) == 0;
+  if (packet->dts != AV_NOPTS_VALUE && copy.last_dts != AV_NOPTS_VALUE) {
+    // A source whose times jump back: what comes before its time again is left out.
+    if (packet->dts < copy.last_dts || (strict && packet->dts == copy.last_dts)) return {};
+  }
+  copy.last_dts = packet->dts;
+  packet->stream_index = copy.stream->index;
+  packet->pos = -1;
+  const int code = av_interleaved_write_frame(film_, packet.get());
+  if (code < 0) return fail(ErrorCode::Io, kCannotWrite, osErrorOf(code));
+  return {};
+}
+
+}  // namespace relievo

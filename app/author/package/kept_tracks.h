@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a film has besides colour and depth: sound, subtitles, fonts, chapters and titles. Copied as they are coded.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+extern "C" {
+#include <libavformat/avformat.h>
+}
+
+#include "app/author/package/film_kind.h"
+#include "app/author/package/text_subtitles.h"
+#include "hal/media_time.h"
+#include "platform/error.h"
+
+namespace relievo {
+
+struct KeptWishes {
+  bool sound = true;
+  bool subtitles = true;
+};
+
+// Reads the colour's file a second time, without its pictures. Text subtitles are converted if the film's container has
+// another form of text; what it cannot hold is left out, and said. Use from one thread.
+class KeptTracks {
+ public:
+  // `start`: the time of the file that is media time 0. NotFound, Corrupt.
+  [[nodiscard]] static Result<std::unique_ptr<KeptTracks>> open(const std::string& file, Duration start,
+                                                                const KeptWishes& wishes);
+  // Adds tracks, chapters and titles to the film: after the tracks of its pictures, before its header.
+  [[nodiscard]] Result<void> addTo(AVFormatContext& film, FilmKind kind);
+  // Writes what begins before `time`.
+  [[nodiscard]] Result<void> writeUntil(MediaTime time);
+  [[nodiscard]] Result<void> writeRest() { return writeUntil(MediaTime::max()); }
+
+  // "sound aac eng", "3 chapters"; in order.
+  [[nodiscard]] const std::vector<std::string>& kept() const noexcept { return kept_; }
+  // What is left out, and why; a sentence each.
+  [[nodiscard]] const std::vector<std::string>& leftOut() const noexcept { return left_out_; }
+
+ private:
+  struct Close {
+    void operator()(AVFormatContext* file) const noexcept { avformat_close_input(&file); }
+  };
+  struct FreePacket {
+    void operator()(AVPacket* packet) const noexcept { av_packet_free(&packet); }
+  };
+  using PacketPtr = std::unique_ptr<AVPacket, FreePacket>;
+  struct Copy {
+    AVStream* stream = nullptr;  // of the film
+    std::int64_t last_dts = AV_NOPTS_VALUE;
+    std::unique_ptr<TextSubtitles> converter;
+  };
+
+  [[nodiscard]] bool isWished(const AVStream& stream) const noexcept;
+  [[nodiscard]] Result<void> addStream(const AVStream& stream);
+  [[nodiscard]] Result<void> addChapters();
+  void addTitles();
+  [[nodiscard]] Result<PacketPtr> next();
+  [[nodiscard]] MediaTime begins(const AVPacket& packet) const noexcept;
+  [[nodiscard]] Result<void> write(PacketPtr packet);
+
+  std::unique_ptr<AVFormatContext, Close> file_;
+  Duration start_{0};
+  KeptWishes wishes_;
+  AVFormatContext* film_ = nullptr;
+  FilmKind kind_ = FilmKind::Matroska;
+  std::map<int, Copy> copies_;  // by the file's stream
+  PacketPtr waiting_;           // read, but not due yet
+  bool ended_ = false;
+  std::vector<std::string> kept_, left_out_;
+};
+
+}  // namespace relievo

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sound, subtitles, languages, chapters and titles through relievo-author: sources made by the ffmpeg program, films
+// judged by ffprobe.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/machine/program.h"
+
+namespace relievo {
+namespace {
+
+using test::ClipTrack;
+using test::TemporaryFolder;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::ElementsAreArray;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::SizeIs;
+
+std::string say(const std::string& command) {
+  std::string text;
+  FILE* const pipe = ::popen(command.c_str(), "r");  // NOLINT(bugprone-command-processor): a test's own words
+  if (pipe == nullptr) return text;
+  std::array<char, 4096> some{};
+  while (const std::size_t bytes = std::fread(some.data(), 1, some.size(), pipe)) text.append(some.data(), bytes);
+  ::pclose(pipe);
+  return text;
+}
+
+std::vector<std::string> linesOf(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) {
+    if (!line.empty()) lines.push_back(line);
+  }
+  return lines;
+}
+
+// Times in s of one stream's packets.
+std::vector<double> timesOf(const std::string& film, const std::string& stream) {
+  std::vector<double> times;
+  const std::string probe =
+      "ffprobe -v error -select_streams " + stream + " -show_entries packet=pts_time -of default=nk=1:nw=1 " + film;
+  for (const std::string& line : linesOf(say(probe))) times.push_back(std::strtod(line.c_str(), nullptr));
+  return times;
+}
+
+// The text and the times of a subtitle track, as an .srt.
+std::string wordsOf(const std::string& film, int track) {
+  return say("ffmpeg -v error -i " + film + " -map 0:s:" + std::to_string(track) + " -f srt -");
+}
+
+// "aac|eng|Director" for each sound or subtitle track.
+std::vector<std::string> tracksOf(const std::string& film, const std::string& kind) {
+  std::vector<std::string> tracks;
+  for (const std::string& line :
+       linesOf(say("ffprobe -v error -select_streams " + kind +
+                   " -show_entries stream=codec_name:stream_tags=language,title -of compact=p=0:nk=1 " + film))) {
+    const bool of_programme = line.find('|') == std::string::npos;  // of a transport stream: told twice
+    if (!of_programme) tracks.push_back(line);
+  }
+  return tracks;
+}
+
+class AuthorKeeps : public testing::Test {
+ protected:
+  // A film of 2 s: two languages of sound, the second longer than the picture; two of text; three chapters; a title.
+  void SetUp() override {
+    if (std::system("command -v ffmpeg ffprobe >/dev/null") != 0) GTEST_SKIP() << "no ffmpeg program here";
+    ClipTrack color{.pix_fmt = "yuv420p", .width = 64, .height = 48, .fps_num = 25, .frames = 50};
+    ClipTrack depth = color;
+    depth.pix_fmt = "gray";
+    test::makeClip(folder_ / "pictures.mkv", {color, depth});
+    std::ofstream(folder_ / "en.srt") << "1\n00:00:00,200 --> 00:00:00,900\nHello there\n\n"
+                                         "2\n00:00:01,100 --> 00:00:01,700\n<i>Second</i> line\n\n";
+    std::ofstream(folder_ / "ja.srt") << "1\n00:00:00,400 --> 00:00:01,300\nこんにちは\n\n";
+    std::ofstream(folder_ / "meta") << ";FFMETADATA1\ntitle=A walk\n"
+                                       "[CHAPTER]\nTIMEBASE=1/1000\nSTART=0\nEND=700\ntitle=Start\n"
+                                       "[CHAPTER]\nTIMEBASE=1/1000\nSTART=700\nEND=1400\ntitle=Middle\n"
+                                       "[CHAPTER]\nTIMEBASE=1/1000\nSTART=1400\nEND=2000\ntitle=End\n";
+    const std::string make =
+        "ffmpeg -v error -y -i @/pictures.mkv -f lavfi -i sine=440:d=2 -f lavfi -i sine=880:d=3 -i @/en.srt -i @/ja.srt"
+        " -i @/meta -map 0:0 -map 0:1 -map 1 -map 2 -map 3 -map 4 -map_metadata 5 -map_chapters 5 -c copy"
+        " -c:a aac -metadata:s:a:0 language=eng -metadata:s:a:1 language=jpn -metadata:s:a:1 title=Director"
+        " -metadata:s:s:0 language=eng -metadata:s:s:1 language=jpn @/film.mkv";
+    ASSERT_EQ(std::system(inFolder(make).c_str()), 0);
+    film_ = folder_ / "film.mkv";
+  }
+  [[nodiscard]] std::string inFolder(std::string words) const {
+    std::string folder = folder_ / "";
+    folder.pop_back();
+    for (std::size_t at = words.find('@'); at != std::string::npos; at = words.find('@', at)) {
+      words.replace(at, 1, folder);
+    }
+    return words;
+  }
+  // What it said.
+  std::string author(const std::string& options, const std::string& source = "@/film.mkv") {
+    const auto ran = test::runProgram(inFolder("relievo-author --color " + source + " " + options), folder_ / "");
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    return ran.out;
+  }
+  // Every packet of sound track `track` lies at its distance from the first picture.
+  void expectSameSound(const std::string& made, int track) const {
+    const std::string stream = "a:" + std::to_string(track);
+    const std::vector<double> before = timesOf(film_, stream), after = timesOf(made, stream);
+    ASSERT_EQ(before.size(), after.size());
+    ASSERT_FALSE(before.empty());
+    const double begins = timesOf(film_, "v:0").front(), begins_made = timesOf(made, "v:0").front();
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      EXPECT_NEAR(before[i] - begins, after[i] - begins_made, 1.1e-3) << "packet " << i;
+    }
+  }
+
+  TemporaryFolder folder_;
+  std::string film_;
+};
+
+TEST_F(AuthorKeeps, EverythingInMatroska) {
+  const std::string said = author("-o @/out.mkv");
+  EXPECT_THAT(said, HasSubstr("kept: sound aac eng, sound aac jpn \"Director\", subtitles subrip eng, subtitles subrip "
+                              "jpn, title \"A walk\", 3 chapters"));
+  const std::string out = folder_ / "out.mkv";
+  EXPECT_THAT(tracksOf(out, "a"), ElementsAreArray(tracksOf(film_, "a")));
+  EXPECT_THAT(tracksOf(out, "s"), ElementsAreArray(tracksOf(film_, "s")));
+  for (const int track : {0, 1}) {
+    expectSameSound(out, track);
+    EXPECT_EQ(wordsOf(out, track), wordsOf(film_, track));
+  }
+  EXPECT_THAT(wordsOf(out, 1), HasSubstr("こんにちは"));
+  const std::string chapters = "ffprobe -v error -show_chapters -of compact ";
+  EXPECT_EQ(say(chapters + out), say(chapters + film_));
+  EXPECT_THAT(linesOf(say(chapters + out)), SizeIs(3));
+  EXPECT_THAT(say("ffprobe -v error -show_entries format_tags=title -of default=nk=1:nw=1 " + out), "A walk\n");
+}
+
+TEST_F(AuthorKeeps, TextBecomesTheTextOfMp4) {
+  const std::string said = author("-o @/out.mp4");
+  EXPECT_THAT(said, HasSubstr("subtitles subrip eng as mov_text"));
+  const std::string out = folder_ / "out.mp4";
+  EXPECT_THAT(tracksOf(out, "a"), ElementsAre("aac|eng", "aac|jpn"));
+  EXPECT_THAT(say("ffprobe -v error -select_streams a:1 -show_entries stream_tags=handler_name -of csv " + out),
+              HasSubstr("Director"));
+  EXPECT_THAT(tracksOf(out, "s"), ElementsAre("mov_text|eng", "mov_text|jpn"));
+  for (const int track : {0, 1}) {
+    expectSameSound(out, track);
+    EXPECT_EQ(wordsOf(out, track), wordsOf(film_, track));
+  }
+  EXPECT_THAT(say("ffprobe -v error -show_chapters -of compact " + out), HasSubstr("Middle"));
+  EXPECT_THAT(say("ffprobe -v error -show_entries format_tags=title -of default=nk=1:nw=1 " + out), "A walk\n");
+
+  // And back: Matroska has no mov_text.
+  author("-o @/back.mkv", "@/out.mp4");
+  EXPECT_EQ(wordsOf(folder_ / "back.mkv", 0), wordsOf(film_, 0));
+}
+
+TEST_F(AuthorKeeps, SoundInATransportStreamAndSaysWhatItCannotHold) {
+  const std::string said = author("-o @/out.ts");
+  const std::string out = folder_ / "out.ts";
+  EXPECT_THAT(tracksOf(out, "a"), ElementsAre("aac|eng", "aac|jpn"));
+  expectSameSound(out, 0);
+  expectSameSound(out, 1);
+  EXPECT_THAT(said, HasSubstr("note: subtitles subrip eng: left out, since a transport stream cannot hold it"));
+  EXPECT_THAT(said, HasSubstr("note: 3 chapters: left out"));
+}
+
+TEST_F(AuthorKeeps, SoundInHls) {
+  author("-o @/out.m3u8");
+  const std::string out = folder_ / "out.m3u8";
+  EXPECT_THAT(tracksOf(folder_ / "out.segments/init.mp4", "a"), ElementsAre("aac|eng", "aac|jpn"));
+  const double begins = timesOf(out, "v:0").front();
+  EXPECT_NEAR(timesOf(out, "a:0").front() - begins, timesOf(film_, "a:0").front() - timesOf(film_, "v:0").front(),
+              0.03);
+}
+
+// The transport stream's clock begins at 1.4 s; its sound comes with headers that other containers do not want.
+TEST_F(AuthorKeeps, SoundOfATransportStreamInMatroska) {
+  author("-o @/way.ts");
+  author("-o @/out.mkv", "@/way.ts");
+  EXPECT_THAT(tracksOf(folder_ / "out.mkv", "a"), ElementsAre("aac|eng", "aac|jpn"));
+  expectSameSound(folder_ / "out.mkv", 0);
+}
+
+TEST_F(AuthorKeeps, NothingThatIsNotWished) {
+  const std::string said = author("--no-audio --no-subtitles -o @/out.mkv");
+  EXPECT_THAT(tracksOf(folder_ / "out.mkv", "a"), IsEmpty());
+  EXPECT_THAT(tracksOf(folder_ / "out.mkv", "s"), IsEmpty());
+  EXPECT_THAT(said, Not(HasSubstr("note:")));
+  EXPECT_THAT(said, HasSubstr("kept: title \"A walk\", 3 chapters"));
+}
+
+}  // namespace
+}  // namespace relievo
