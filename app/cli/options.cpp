@@ -19,7 +19,7 @@ namespace relievo {
 namespace {
 
 constexpr double kLongestMm = 1e5;  // limit for a side of the volume
-constexpr const char* kNoVolume = "a volume is WIDTHxHEIGHTxDEPTH in mm, such as 160x90x40";
+constexpr const char* kNoVolume = "a box is WIDTHxHEIGHTxDEPTH in mm, such as 160x90x40";
 
 std::string readFile(const std::string& thing, const std::string& path, const char* otherwise) {
   auto text = readWholeFile(path, FileSize::Settings, otherwise);
@@ -162,13 +162,13 @@ void addDepthOptions(CLI::App& app, SourceOptions& source) {
       ->type_name("FILE.toml");
 }
 
-void addVolumeOption(CLI::App& app, std::optional<DisplayVolume>& volume) {
+void addBoxOption(CLI::App& app, std::optional<DisplayVolume>& volume) {
   app.add_option_function<std::string>(
-         "--volume",
+         "--box",
          [&volume](const std::string& text) {
            std::array<double, 3> mm{};
            if (!parseSizes(text, mm) || *std::max_element(mm.begin(), mm.end()) > kLongestMm) {
-             throw WordFailure({"--volume " + text, {ErrorCode::InvalidArgument, 0, kNoVolume}});
+             throw WordFailure({"--box " + text, {ErrorCode::InvalidArgument, 0, kNoVolume}});
            }
            volume = DisplayVolume{mm[0], mm[1], mm[2]};
          },

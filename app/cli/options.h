@@ -53,8 +53,8 @@ CLI::Option* addChoice(CLI::App& app, const char* option, T& value,
 // Adds --packing, --depth-code, --registration and --calibration, which may be repeated: a later value of a key
 // overrides an earlier one.
 void addDepthOptions(CLI::App& app, SourceOptions& source);
-// Adds --volume.
-void addVolumeOption(CLI::App& app, std::optional<DisplayVolume>& volume);
+// Adds --box.
+void addBoxOption(CLI::App& app, std::optional<DisplayVolume>& volume);
 
 // Parses the command line. Adds --version; the help shows an option's default after the first line of its text. After a
 // usage error, --help or --version it has printed everything and returns the exit code.

@@ -75,6 +75,10 @@ Outcome<void> complete(PlayOptions& options) {
     if (!keys) return std::unexpected(keys.error());
     options.player.keys = std::move(*keys);
   }
+  options.player.sound_device = options.audio.text();
+  if (const std::string state = Resume::defaultPath(); !state.empty()) {
+    options.player.volume_path = (std::filesystem::path(state).parent_path() / "volume.json").string();
+  }
   if (!options.resume) return {};
   const std::string path = options.player.resume_path = Resume::defaultPath();
   if (path.empty()) {

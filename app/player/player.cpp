@@ -2,10 +2,16 @@
 // The player's life: boot, the loop, the end.
 #include "app/player/player.h"
 
+#include <linux/input-event-codes.h>
+
 #include <algorithm>
+#include <array>
+#include <glm/geometric.hpp>
 #include <utility>
 
 #include "app/player/control/player_control.h"
+#include "app/player/screen/notices.h"
+#include "hal/key_names.h"
 
 namespace relievo {
 namespace {
@@ -39,14 +45,17 @@ Player::Player(PlayerConfig config, PlayerParts parts)
       journal_(parts_.clock,
                [this](const FaultEntry& fault, MonotonicTime when, bool fresh) {
                  if (parts_.control != nullptr) parts_.control->happened(fault);
-                 if (fresh) screen_.tell(fault.what, when);
+                 if (fresh) screen_.text().tell(fault.what, when);
                }),
       programme_(config_.resume_path, config_.loop),
       film_(backendsOf(parts_, config_.own_threads), parts_.audio, parts_.clock, journal_),
       touch_(parts_.haptic, parts_.recorder, parts_.clock, config_.own_threads ? Ticking::Thread : Ticking::ByHand,
              journal_),
-      screen_(parts_.display, config_.display, config_.stereo, parts_.clock, journal_),
-      keys_(config_.keys) {
+      screen_(parts_.display, config_.display, config_.stereo, config_.osd, parts_.clock, journal_),
+      keys_(config_.keys),
+      loudness_(config_.volume_path, config_.sound_device) {
+  if (config_.volume_percent) loudness_.set(*config_.volume_percent);
+  film_.soundOutput().setGain(loudness_.gain());
   journal_.stateChanged(state_);
 }
 
@@ -130,6 +139,7 @@ void Player::step(MonotonicTime now) {
   film_.followSound(state_ == PlayerState::Playing);
   programme_.keep(film_.placeToKeep(now), now);
   touch_.drain(seeks_);
+  followStatistics(now);
   screen_.write(facts(), film_.nextPicture(now), now);
   followFault(now);
   if (parts_.control != nullptr) parts_.control->attend(*this, now);
@@ -145,6 +155,7 @@ MonotonicTime Player::nextWake(MonotonicTime now) const {
 void Player::finish(MonotonicTime now) {
   touch_.stop();  // zero force before anything else
   film_.silence();
+  loudness_.keep();
   if (parts_.control != nullptr) parts_.control->stopping();
   touch_.drain(seeks_);
   leaveFilm(now);
@@ -166,12 +177,28 @@ void Player::readRemote(MonotonicTime now) {
     }
     if (!*key) break;
     if (const auto command = keys_.take(**key, state_)) obey(*command, now);
+    else noteUnbound(**key, now);
   }
   if (const auto command = keys_.held(now)) obey(*command, now);
 }
 
+// A key that means nothing says so once. Keys that only change the meaning of others are silent.
+void Player::noteUnbound(const KeyEvent& key, MonotonicTime now) {
+  constexpr std::array<std::uint16_t, 8> kSilent{KEY_LEFTSHIFT, KEY_RIGHTSHIFT, KEY_LEFTCTRL, KEY_RIGHTCTRL,
+                                                 KEY_LEFTALT,   KEY_RIGHTALT,   KEY_LEFTMETA, KEY_RIGHTMETA};
+  if (key.action != KeyEvent::Action::Press || config_.keys.find(state_, key.code) != nullptr) return;
+  if (std::ranges::find(kSilent, key.code) != kSilent.end() || !unbound_.insert(key.code).second) return;
+  screen_.text().notice({std::string(keyName(key.code)) + " has no meaning here", std::nullopt}, now);
+}
+
+// The report is long: it is made once a second, and only to be seen.
+void Player::followStatistics(MonotonicTime now) {
+  if (!screen_.wantsStatistics() || !statistics_.isDue(now)) return;
+  const auto& finger = screen_.finger();
+  screen_.setStatistics(statistics_.rows(report(), finger ? glm::length(finger->force_n) : 0.0, now));
+}
+
 void Player::obey(const PlayerCommand& command, MonotonicTime now) {
-  screen_.wake(now);
   switch (command.verb) {
     case PlayerVerb::Quit:
       quitting_ = true;
@@ -181,10 +208,19 @@ void Player::obey(const PlayerCommand& command, MonotonicTime now) {
     case PlayerVerb::Stop:
       return stopFilm(now);
     case PlayerVerb::Loop:
-      return programme_.setLoop(command.value == 0 ? !programme_.loops() : command.value > 0);
+      programme_.setLoop(command.value == 0 ? !programme_.loops() : command.value > 0);
+      break;
+    case PlayerVerb::Keys:
+      return screen_.text().toggleKeys(config_.keys.rowsIn(state_));
     default:
       break;
   }
+  if (!obeySound(command)) obeyPicture(command, now);
+  if (auto notice = noticeOf(command, facts())) screen_.text().notice(std::move(*notice), now);
+  else screen_.wake(now);
+}
+
+void Player::obeyPicture(const PlayerCommand& command, MonotonicTime now) {
   screen_.obey(command);
   const Situation situation{.state = state_,
                             .held = film_.held(),
@@ -218,12 +254,23 @@ PlayReport Player::report() const {
   return report;
 }
 
+std::optional<MediaTime> Player::seekTargetAt(double x, double y) const {
+  const auto share = screen_.seekTargetAt(x, y);
+  return share ? std::optional(MediaTime(fromSeconds(*share * toSeconds(film_.info().duration)))) : std::nullopt;
+}
+
 ScreenFacts Player::facts() const {
   const PlaylistEntry& film = programme_.film();
+  const auto& finger = screen_.finger();
+  const DisplayVolume& volume = screen_.volume();
+  const auto share = [&](double mm, double whole_mm) {
+    return finger && whole_mm > 0 ? std::optional(mm / whole_mm) : std::nullopt;
+  };
   const MediaTime position = film_.place(parts_.clock.now()).value_or(film_.picture().color.pts);
   return {.title = film.title.empty() ? titleOf(film.url) : film.title,
           .position_s = toSeconds(position),
           .duration_s = toSeconds(film_.info().duration),
+          .buffered_s = toSeconds(film_.bufferedUntil()),
           .state = state_,
           .held = film_.held(),
           .rate = film_.rate(),
@@ -233,7 +280,13 @@ ScreenFacts Player::facts() const {
           .stereo = screen_.stereo(),
           .has_depth = film_.info().has_depth,
           .haptic = touch_.device(),
-          .contact = screen_.contact()};
+          .contact = finger && finger->contact,
+          .force_n = finger ? glm::length(finger->force_n) : 0.0,
+          .volume_percent = loudness_.percent(),
+          .muted = loudness_.muted(),
+          .aspect = screen_.aspectWord(),
+          .finger_across = share(finger ? finger->position_mm.x : 0.0, volume.width_mm),
+          .finger_up = share(finger ? finger->position_mm.y : 0.0, volume.height_mm)};
 }
 
 }  // namespace relievo

@@ -3,19 +3,22 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "app/player/control/command.h"
 #include "app/player/control/key_table.h"
 #include "app/player/control/wishes.h"
 #include "app/player/film/film_playback.h"
+#include "app/player/film/loudness.h"
 #include "app/player/film/programme.h"
 #include "app/player/film/seek_times.h"
 #include "app/player/journal.h"
 #include "app/player/report.h"
 #include "app/player/screen/film_screen.h"
-#include "app/player/screen/screen_text.h"
+#include "app/player/screen/statistics.h"
 #include "app/player/state_table.h"
 #include "app/player/touch/film_touch.h"
 #include "hal/remote_input.h"
@@ -32,6 +35,10 @@ struct PlayerConfig {
   std::optional<DisplayVolume> volume;  // nothing: the default one of the picture's shape
   KeyTable keys = KeyTable::usual();
   bool loop = false;
+  bool osd = true;           // bar, keys and notices over the picture
+  std::string volume_path;   // the volume of each sound output is kept there; empty: each run begins at 100 %
+  std::string sound_device;  // what it is kept by
+  std::optional<double> volume_percent;
   bool stays = false;       // without a film it waits for the next one, until it is asked to quit
   std::string resume_path;  // where each film was left is kept there; empty: every film begins at its beginning
   std::optional<Duration> duration;  // of the machine's time
@@ -70,6 +77,9 @@ class Player {
 
   // What is going on, and the URL of the film; empty if there is none. On its thread.
   [[nodiscard]] ScreenFacts facts() const;
+  // The time of the film that a point of the surface (pixels from its top left) stands for on the bar; nullopt where no
+  // bar is shown.
+  [[nodiscard]] std::optional<MediaTime> seekTargetAt(double x, double y) const;
   [[nodiscard]] std::string source() const { return film_.isOpen() ? programme_.film().url : ""; }
 
  private:
@@ -84,7 +94,10 @@ class Player {
   [[nodiscard]] bool alive() const noexcept;
   [[nodiscard]] MonotonicTime nextWake(MonotonicTime now) const;
   void finish(MonotonicTime now);
+  void obeyPicture(const PlayerCommand& command, MonotonicTime now);
   void readRemote(MonotonicTime now);
+  void noteUnbound(const KeyEvent& key, MonotonicTime now);
+  void followStatistics(MonotonicTime now);
 
   // player_film.cpp: within a film
   void carryOut(const Deed& deed, MonotonicTime now);
@@ -100,6 +113,11 @@ class Player {
   void followDevice();
   void showPicture(MonotonicTime now);
   void feedTouch();
+
+  // player_sound.cpp: sound and words
+  [[nodiscard]] bool obeySound(const PlayerCommand& command);
+  void setVolume(double percent);
+  void mute(bool muted);
 
   // player_list.cpp: from film to film
   void openList(const std::string& url, const std::string& depth_url, MonotonicTime now);
@@ -118,6 +136,9 @@ class Player {
   FilmScreen screen_;
   SeekTimes seeks_;
   KeyReader keys_;
+  std::set<std::uint16_t> unbound_;  // keys without a meaning that were told
+  Loudness loudness_;
+  Statistics statistics_;
 
   PlayerState state_ = PlayerState::Boot;
   std::optional<Failure> failure_;  // of a film that could not be played, until another one opens

@@ -118,6 +118,10 @@ void Player::begin(MonotonicTime now) {
     const DepthCalibration& calibration = film_.info().calibration.calibration;
     touch_.setScene(calibration, volume);
     screen_.setScene(calibration, volume, film_.period(), now);
+    if (journal_.written().films.size() == 1) {
+      screen_.text().hint(parts_.haptic == nullptr ? "H: all keys" : "Press into the picture to feel it.  H: all keys",
+                          now);
+    }
   }
   if (film_.takeJump()) touch_.beginEpoch();
   const MediaTime first = film_.picture().color.pts;

@@ -69,7 +69,7 @@ void Player::followFault(MonotonicTime now) {
   if (!other && !config_.stays && !programme_.seenOne()) return;  // it ends with that failure
   const std::string what = failure_->thing + ": " + failure_->error.message;
   log(LogLevel::Error, "play", "%s; %s", what.c_str(), other ? "another film is played" : "it is stopped");
-  screen_.tell(what, now);
+  screen_.text().tell(what, now);
   if (other) return openFilm(*other, programme_.passOver(*other), now);
   failure_.reset();
   stopFilm(now);

@@ -331,7 +331,9 @@ TEST(RenderFormats, AThousandRenderersLeaveNoGlObject) {
   for (int round = 0; round < 1000; ++round) {
     auto renderer = SceneRenderer::create(std::chrono::hours(1)).value();
     if (round % 20 != 0) continue;  // drawing takes longer
-    renderer->setText({"title"});
+    const TextPicture dot{.x = 2, .y = 2, .width = 1, .height = 1, .cols = 1, .rows = 1, .rgba = {255, 255, 255, 255}};
+    renderer->setText({.width = 64, .height = 36}, {dot});
+    renderer->setSubtitles({.width = 64, .height = 36}, {dot});
     for (const auto layout : {StereoLayout::SideBySide, StereoLayout::Anaglyph}) {
       renderer->setStereo({.layout = layout});
       ASSERT_TRUE(renderer->setFrame(makeYuvFrame(64, 36, {.name = ""}), makePlane(64, 36, 8, 128), {}, kVolume));

@@ -1,82 +1,153 @@
 // SPDX-License-Identifier: Apache-2.0
-// Text on the picture: its position for each eye, and that it is legible ink.
+// Text over the picture: its position for each eye and in depth, and that it is legible ink.
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
-#include "app/render/gl/glyphs.h"
+#include "app/render/text/ass_text.h"
 #include "tests/golden/picture_stage.h"
 
 namespace relievo::test {
 namespace {
 
 constexpr DisplayVolume kVolume{160.0, 90.0, 40.0};
+constexpr const char* kHead = "[Script Info]\nPlayResX: 1280\nPlayResY: 720\nWrapStyle: 2\n";
 
 Scene blackScene(const StereoSettings& stereo) {
   return {.color = makeRgbFrame(32, 18, [](int, int) { return Rgb{0, 0, 0}; }), .volume = kVolume, .stereo = stereo};
 }
 
-TEST(RenderText, StandsInTheScreenPlaneForBothEyes) {
+// White words at the foot, a little left of the middle.
+std::vector<TextPicture> words(AssText& text, const TextFrame& frame, const std::string& said = "what is going on") {
+  text.begin(kHead);
+  text.add("0,0,Default,,0,0,0,,{\\an1\\pos(400,690)\\fs40\\bord0\\shad0}" + said, Duration(0),
+           std::chrono::seconds(9));
+  std::vector<TextPicture> pictures;
+  text.draw(frame, Duration(0), pictures);
+  return pictures;
+}
+
+#define TEXT_OR_SKIP(text)                                       \
+  auto text##_made = AssText::create();                          \
+  if (!text##_made) GTEST_SKIP() << text##_made.error().message; \
+  AssText& text = *text##_made
+
+TEST(RenderText, IsAtTheSamePlaceForBothEyes) {
   STAGE_OR_SKIP(stage, 1280, 720);
-  stage.renderer().setText({"what is going on", "and why"});
+  TEXT_OR_SKIP(text);
+  const TextFrame half{.width = 640, .height = 720, .aspect = 16.0 / 9};
+  stage.renderer().setText(half, words(text, half));
   for (const double screen_z : {20.0, 5.0}) {
     const Image image =
         stage.show(blackScene({.layout = StereoLayout::SideBySide, .strength = 2, .screen_z_mm = screen_z}));
     const Spot left = image.centroid(1, 0, 640), right = image.centroid(1, 640, 1280);
     EXPECT_GT(left.weight, 100);
-    EXPECT_NEAR(left.x, right.x - 640, 0.05);
-    EXPECT_NEAR(left.y, right.y, 0.05);
-    EXPECT_LT(left.x, 320) << "at the left";
-    EXPECT_GT(left.y, 600) << "at the foot";
+    EXPECT_NEAR(left.x, right.x - 640, 1e-6);
+    EXPECT_NEAR(left.y, right.y, 1e-6);
   }
 }
 
-TEST(RenderText, StaysInsideThePictureHoweverLongItIs) {
-  STAGE_OR_SKIP(stage, 640, 360);
-  stage.renderer().setText({std::string(400, 'M')});
-  const Image image = stage.show(blackScene({.layout = StereoLayout::Mono}));
-  EXPECT_GT(image.centroid(0, 0, 640).weight, 10);
-  EXPECT_EQ(image.centroid(0, 0, 8).weight, 0);
-  EXPECT_EQ(image.centroid(0, 632, 640).weight, 0);
+// A view of half the width shows the words half as wide: the viewer's screen stretches them again.
+TEST(RenderText, KeepsItsShapeForTheViewer) {
+  TEXT_OR_SKIP(text);
+  const auto whole = words(text, {.width = 1280, .height = 720, .aspect = 16.0 / 9});
+  const auto squeezed = words(text, {.width = 640, .height = 720, .aspect = 16.0 / 9});
+  ASSERT_EQ(whole.size(), 1u);
+  ASSERT_EQ(squeezed.size(), 1u);
+  EXPECT_NEAR(squeezed[0].width, 0.5 * whole[0].width, 0.04 * whole[0].width) << "letters keep to whole pixels";
+  EXPECT_NEAR(squeezed[0].height, whole[0].height, 2);
+  EXPECT_NEAR(squeezed[0].x, 0.5 * whole[0].x, 2);
 }
 
 TEST(RenderText, GoesWithoutATrace) {
   STAGE_OR_SKIP(stage, 640, 360);
+  TEXT_OR_SKIP(text);
   const Scene scene = blackScene({.layout = StereoLayout::Mono});
-  stage.renderer().setText({"here"});
+  const TextFrame frame{.width = 640, .height = 360};
+  stage.renderer().setText(frame, words(text, frame));
   EXPECT_GT(stage.show(scene).centroid(0, 0, 640).weight, 10);
-  stage.renderer().setText({});
+  stage.renderer().setText(frame, {});
   EXPECT_EQ(stage.show(scene).centroid(0, 0, 640).weight, 0);
 }
 
-int inkOf(const InkPicture& picture) {
+// The picture on the screen is libass's, to the bit of an opaque pixel.
+TEST(RenderText, ShowsWhatLibassDraws) {
+  STAGE_OR_SKIP(stage, 640, 360);
+  TEXT_OR_SKIP(text);
+  const TextFrame frame{.width = 640, .height = 360};
+  const auto pictures = words(text, frame);
+  ASSERT_EQ(pictures.size(), 1u);
+  stage.renderer().setText(frame, pictures);
+  const Image image = stage.show(blackScene({.layout = StereoLayout::Mono}));
+  const TextPicture& picture = pictures[0];
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const int ink = picture.rgba[4 * (static_cast<std::size_t>(y) * picture.width + x)];
+      ASSERT_NEAR(image.channel(picture.x + x, picture.y + y, 0), ink, 1) << x << " " << y;
+    }
+  }
+}
+
+// A wall 35 mm high: 15 mm in front of the screen plane, which is 8 * 63 * 15 / 585 px / 2 in a squeezed half.
+TEST(RenderText, SubtitlesStandInFrontOfTheReliefBehindThem) {
+  STAGE_OR_SKIP(stage, 1280, 720);
+  TEXT_OR_SKIP(text);
+  const TextFrame half{.width = 640, .height = 720, .aspect = 16.0 / 9};
+  stage.renderer().setSubtitles(half, words(text, half));
+  Scene scene = blackScene({.layout = StereoLayout::SideBySide, .screen_z_mm = 20});
+  scene.calibration.bits = 16;
+  scene.depth = makePlane(64, 36, 16, 65535 * 35 / 40);
+  const Image image = stage.show(scene);
+  const Spot left = image.centroid(1, 0, 640), right = image.centroid(1, 640, 1280);
+  const double wall_px = 4 * 63.0 * 15 / 585, in_front_px = 0.002 * 640;
+  EXPECT_NEAR(left.x - (right.x - 640), wall_px + in_front_px, 0.1);
+  EXPECT_NEAR(stage.renderer().statistics().behind_words_px, wall_px, 0.05);
+  EXPECT_NEAR(left.y, right.y, 0.05);
+}
+
+int inkOf(const std::vector<TextPicture>& pictures) {
   int ink = 0;
-  for (const auto value : picture.ink) ink += value > 128;
+  for (const TextPicture& picture : pictures) {
+    for (std::size_t i = 3; i < picture.rgba.size(); i += 4) ink += picture.rgba[i] > 128;
+  }
   return ink;
 }
 
-TEST(Glyphs, LettersAreLetters) {
-  auto glyphs = Glyphs::create(40);
-  if (!glyphs) GTEST_SKIP() << glyphs.error().message;
-  const InkPicture one = glyphs->draw({"l"}), wide = glyphs->draw({"M"}), two = glyphs->draw({"l", "M"});
-  EXPECT_EQ(one.height, 40);
-  EXPECT_EQ(two.height, 80);
-  EXPECT_EQ(two.width, wide.width);
-  EXPECT_GT(wide.width, one.width);
-  EXPECT_GT(inkOf(one), 20);
-  EXPECT_EQ(inkOf(two), inkOf(one) + inkOf(wide));
-  EXPECT_EQ(inkOf(glyphs->draw({" "})), 0);
+TEST(AssText, LettersAreLetters) {
+  TEXT_OR_SKIP(text);
+  const TextFrame frame{.width = 1280, .height = 720};
+  const int one = inkOf(words(text, frame, "l")), wide = inkOf(words(text, frame, "M"));
+  EXPECT_GT(one, 20);
+  EXPECT_GT(wide, one);
+  EXPECT_EQ(inkOf(words(text, frame, " ")), 0);
+  EXPECT_GT(inkOf(words(text, frame, AssText::escaped("{l}"))), one) << "braces are letters too";
 }
 
-TEST(Glyphs, CharactersOfSeveralBytesAreOneGlyphEach) {
-  auto glyphs = Glyphs::create(40);
-  if (!glyphs) GTEST_SKIP() << glyphs.error().message;
-  EXPECT_EQ(glyphs->draw({"\xc3\xa9"}).width, glyphs->draw({"e"}).width);  // e acute
-  EXPECT_GT(inkOf(glyphs->draw({"\xc3\xa9"})), inkOf(glyphs->draw({"e"})));
-  // Invalid UTF-8 neither ends the line nor causes a read past it.
-  for (const char* broken : {"\xff", "\xc3", "a\xe2\x82", "\xc3g"})
-    EXPECT_GT(inkOf(glyphs->draw({broken})), 20) << broken;
+// Joined letters take less room than those letters apart: the font shapes them.
+TEST(AssText, ArabicIsJoined) {
+  TEXT_OR_SKIP(text);
+  const TextFrame frame{.width = 1280, .height = 720};
+  const auto joined = words(text, frame, "\u0628\u0628\u0628"),
+             apart = words(text, frame, "\u0628\u200c\u0628\u200c\u0628");
+  ASSERT_EQ(joined.size(), 1u);
+  ASSERT_FALSE(apart.empty());
+  int apart_width = 0;
+  for (const TextPicture& picture : apart) apart_width = std::max(apart_width, picture.x + picture.width - apart[0].x);
+  EXPECT_LT(joined[0].width, apart_width);
+}
+
+TEST(AssText, SaysWhetherItHasChanged) {
+  TEXT_OR_SKIP(text);
+  text.begin(kHead);
+  text.add("0,0,Default,,0,0,0,,one", Duration(0), std::chrono::seconds(1));
+  std::vector<TextPicture> pictures;
+  const TextFrame frame{.width = 640, .height = 360};
+  EXPECT_TRUE(text.draw(frame, Duration(0), pictures));
+  EXPECT_FALSE(text.draw(frame, std::chrono::milliseconds(500), pictures));
+  EXPECT_FALSE(pictures.empty());
+  EXPECT_TRUE(text.draw(frame, std::chrono::seconds(2), pictures));
+  EXPECT_TRUE(pictures.empty());
 }
 
 }  // namespace

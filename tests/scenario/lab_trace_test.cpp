@@ -61,7 +61,7 @@ class LabTrace : public testing::Test {
     }
     path.close();
     const auto result =
-        test::runProgram("relievo-lab trace --volume 160x108x40 --depth " + (folder_ / "film.mkv") + " --hip " +
+        test::runProgram("relievo-lab trace --box 160x108x40 --depth " + (folder_ / "film.mkv") + " --hip " +
                              (folder_ / "hip.csv") + " --out " + (folder_ / "out.csv") + " " + options,
                          folder_ / ".");
     EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -285,8 +285,8 @@ TEST_F(LabTrace, OptionsThatDoNotGoTogetherAreNamedBoth) {
 
 TEST_F(LabTrace, WrongWordsAreOneLineAndCodeTwo) {
   const std::string whole = "relievo-lab trace --depth none.mkv --hip none.csv --out none.csv --method proxy-graph ";
-  for (const char* words : {"--packing diagonal", "--depth-code smell", "--time later", "--guard dog",
-                            "--volume 160x108", "--volume 1e9x1x1", "--calibration law=steep", "--spin"}) {
+  for (const char* words : {"--packing diagonal", "--depth-code smell", "--time later", "--guard dog", "--box 160x108",
+                            "--box 1e9x1x1", "--calibration law=steep", "--spin"}) {
     const auto result = test::runProgram(whole + words, folder_ / ".");
     EXPECT_EQ(result.exit_code, 2) << result.err;
     EXPECT_TRUE(result.err.starts_with("relievo-lab: ")) << result.err;

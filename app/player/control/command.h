@@ -29,7 +29,22 @@ enum class PlayerVerb : std::uint8_t {
   SwapEyes,
   DepthBy,   // for the eyes, of 1
   ScreenBy,  // mm, the whole scene towards the viewer
-  Info,      // text on the screen, or no more
+  ZoomBy,    // of 1, the picture in its view
+  Aspect,    // the shape that the picture is shown with: "film", "16:9", "4:3", "2.35:1"; without its word the next one
+  Info,      // the bar on the screen, or no more
+  Statistics,
+  Keys,             // what each key means now, on the screen
+  Screenshot,       // a PNG of the picture
+  VolumeBy,         // percent
+  VolumeTo,         // percent
+  Mute,             // on, off, or the other of the two, as Loop
+  AudioTrack,       // value: its number, from 1 on; 0: the next one
+  AudioDelayBy,     // seconds
+  SubtitleTrack,    // value: its number, from 1 on, -1: none, 0: the next one, or none after the last
+  ShowSubtitles,    // on, off, or the other of the two, as Loop
+  SubtitleDelayBy,  // seconds
+  ChapterBy,        // chapters; -1: this one's beginning, or the one before it
+  LoopAB,           // first the beginning of what is repeated, then its end, then no more
 };
 
 struct PlayerCommand {

@@ -64,7 +64,17 @@ DOWN = "depth -0.1"
 PAGEUP = "screen +2"
 PAGEDOWN = "screen -2"
 INFO = "info"
-I = "info"
+O = "info"
+I = "statistics"
+H = "keys"
+F1 = "keys"
+HELP = "keys"
+VOLUMEUP = "volume +5"
+VOLUMEDOWN = "volume -5"
+MUTE = "mute"
+M = "mute"
+W = "zoom -0.1"
+A = "aspect"
 
 [paused]
 FASTFORWARD = "step"
@@ -142,6 +152,24 @@ class Reader {
   const std::string& file_;
 };
 
+// The keys of each command, in the order of the commands.
+class CommandKeys {
+ public:
+  void put(const std::optional<PlayerCommand>& command, const std::string& key) {
+    if (!command) return;
+    const auto line = std::ranges::find(lines_, *command, [](const auto& each) { return each.first; });
+    if (line == lines_.end()) lines_.emplace_back(*command, key);
+    else line->second += " " + key;
+  }
+  [[nodiscard]] const std::vector<std::pair<PlayerCommand, std::string>>& sorted() {
+    std::ranges::stable_sort(lines_, {}, [](const auto& line) { return line.first.verb; });
+    return lines_;
+  }
+
+ private:
+  std::vector<std::pair<PlayerCommand, std::string>> lines_;
+};
+
 }  // namespace
 
 std::string_view KeyTable::usualText() noexcept {
@@ -210,26 +238,34 @@ const KeyTable::Binding* KeyTable::find(PlayerState state, std::uint16_t code) c
   return nullptr;
 }
 
+std::vector<std::pair<std::string, std::string>> KeyTable::rowsIn(PlayerState state) const {
+  CommandKeys lines;
+  for (const std::size_t t : {static_cast<std::size_t>(state), kAlways}) {
+    for (const auto& [code, binding] : tables_[t]) {
+      if (find(state, code) != &binding) continue;  // the state's own row holds
+      const std::string key(keyName(code));
+      lines.put(binding.press, key);
+      lines.put(binding.hold, key + " (held)");
+    }
+  }
+  std::vector<std::pair<std::string, std::string>> rows;
+  for (const auto& [command, keys] : lines.sorted()) rows.emplace_back(keys, meaningOf(command));
+  return rows;
+}
+
 std::string KeyTable::help() const {
   constexpr std::size_t kColumn = 30;  // of the meanings
-  std::vector<std::pair<PlayerCommand, std::string>> lines;
-  const auto put = [&lines](const std::optional<PlayerCommand>& command, const std::string& key) {
-    if (!command) return;
-    const auto line = std::ranges::find(lines, *command, [](const auto& each) { return each.first; });
-    if (line == lines.end()) lines.emplace_back(*command, key);
-    else line->second += " " + key;
-  };
+  CommandKeys lines;
   for (std::size_t t = 0; t <= kPlayerStateCount; ++t) {
     const std::string when = t == kAlways ? "" : print(" (%s)", name(static_cast<PlayerState>(t)));
     for (const auto& [code, binding] : tables_[t]) {
       const std::string key(keyName(code));
-      put(binding.press, key + when);
-      put(binding.hold, print("%s (held)%s", key.c_str(), when.c_str()));
+      lines.put(binding.press, key + when);
+      lines.put(binding.hold, print("%s (held)%s", key.c_str(), when.c_str()));
     }
   }
-  std::ranges::stable_sort(lines, {}, [](const auto& line) { return line.first.verb; });
   std::string text;
-  for (const auto& [command, keys] : lines) {
+  for (const auto& [command, keys] : lines.sorted()) {
     std::string line = "  " + keys;
     line.resize(std::max(kColumn, line.size() + 2), ' ');
     text += line + meaningOf(command) + "\n";

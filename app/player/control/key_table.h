@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "app/player/control/command.h"
 #include "app/player/state_table.h"
@@ -45,6 +46,8 @@ class KeyTable {
 
   // Null for a key that means nothing in that state.
   [[nodiscard]] const Binding* find(PlayerState state, std::uint16_t code) const noexcept;
+  // The keys that hold in a state and their meaning: a row for each command.
+  [[nodiscard]] std::vector<std::pair<std::string, std::string>> rowsIn(PlayerState state) const;
   // For the help: a line for each command, with its keys' names.
   [[nodiscard]] std::string help() const;
 

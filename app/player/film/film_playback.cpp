@@ -125,8 +125,10 @@ FilmPlayback::Progress FilmPlayback::going(MonotonicTime now) {
     return Progress::Goes;
   }
   if (head_.last()) {
-    const bool shown = clock_.position(now).value_or(MediaTime{}) >= picture().color.pts + period();
-    return shown ? overOrFailed() : Progress::Goes;
+    const MediaTime position = clock_.position(now).value_or(MediaTime{});
+    const bool shown = position >= picture().color.pts + period();
+    const bool sounds = rate_ == 1 && sound_.end() > position;  // longer than the picture
+    return shown && !sounds ? overOrFailed() : Progress::Goes;
   }
   if (!dry_since_) dry_since_ = now;
   if (now < *dry_since_ + 2 * period()) return Progress::Goes;
@@ -183,7 +185,9 @@ void FilmPlayback::setRate(double rate, MonotonicTime now) {
 
 void FilmPlayback::countPlayed(MonotonicTime now) {
   const auto here = clock_.position(now);
-  played_.end(here ? std::optional(std::min(*here, picture().color.pts + period())) : std::nullopt);
+  const MediaTime end = picture().color.pts + period();
+  const bool last = head_.last() && head_.ahead().empty();
+  played_.end(here ? std::optional(std::min(*here, last ? std::max(end, sound_.end()) : end)) : std::nullopt);
 }
 
 void FilmPlayback::followSound(bool playing) {
@@ -225,6 +229,10 @@ std::optional<MediaTime> FilmPlayback::place(MonotonicTime now) const {
 
 MediaTime FilmPlayback::goal(MonotonicTime now) const {
   return target_ ? *target_ : place(now).value_or(MediaTime{});
+}
+
+MediaTime FilmPlayback::bufferedUntil() const {
+  return head_.ahead().empty() ? picture().color.pts : head_.ahead().back().color.pts;
 }
 
 std::optional<MediaTime> FilmPlayback::placeToKeep(MonotonicTime now) const {

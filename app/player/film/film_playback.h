@@ -90,6 +90,7 @@ class FilmPlayback {
   // The film has ended: its end is not kept as the place where the viewer left it.
   void forgetPlace() noexcept { clock_.reset(); }
 
+  [[nodiscard]] Sound& soundOutput() noexcept { return sound_; }
   // Once a round: feeds the sound output, and notes losses and recoveries in the journal.
   void followSound(bool playing);
   void noteNews();
@@ -112,6 +113,8 @@ class FilmPlayback {
   [[nodiscard]] std::optional<MediaTime> place(MonotonicTime now) const;
   // The target of a pending seek, else `place`, so that several presses of a seek key add up.
   [[nodiscard]] MediaTime goal(MonotonicTime now) const;
+  // Up to here pictures are decoded.
+  [[nodiscard]] MediaTime bufferedUntil() const;
   // `place` if it should be kept for later: the film has a known length and no seek is pending.
   [[nodiscard]] std::optional<MediaTime> placeToKeep(MonotonicTime now) const;
 

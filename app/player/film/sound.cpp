@@ -23,6 +23,7 @@ constexpr int kMostRestarts = 5;
 constexpr Duration kMostLate = std::chrono::milliseconds(100);  // of a picture; more is a hitch
 constexpr int kLatenessPictures = 64;                           // that are averaged
 constexpr std::size_t kBlockFrames = 4096;
+constexpr double kFadeS = 0.01;  // from one gain to another
 
 }  // namespace
 
@@ -54,7 +55,8 @@ SoundSummary Sound::summary() const {
 void Sound::follow(bool plays, MediaClock& clock, FilmFeed& feed) {
   if (!window_) return;
   const MonotonicTime now = clock_.now();
-  const auto position = clock.position(now);
+  auto position = clock.position(now);
+  if (position) *position -= delay_;
   if (position) collect(*position, feed);
   if (!plays || !position) stop();
   if (running_ && !listen(clock, feed, now)) stop();
@@ -93,11 +95,38 @@ void Sound::fill() {
   while (running_) {
     const std::size_t there = window_->read(cursor_, block_);
     if (there == 0) return;
+    const double before = gain_;
+    amplify(there * channels);
     const auto taken = output_->write({block_.data(), there * channels});
     if (!taken) return lose(taken.error());
+    if (*taken < there) gain_ = before + (gain_ - before) * static_cast<double>(*taken) / static_cast<double>(there);
     cursor_ += static_cast<std::int64_t>(*taken);
     if (*taken < there) return;
   }
+}
+
+// Louder than whole is cut off at the whole.
+void Sound::amplify(std::size_t samples) noexcept {
+  if (gain_ == 1 && wished_gain_ == 1) return;
+  const auto channels = static_cast<std::size_t>(format_->channels);
+  const double step = 1 / (kFadeS * format_->rate_hz);
+  for (std::size_t i = 0; i < samples; i += channels) {
+    gain_ += std::clamp(wished_gain_ - gain_, -step, step);
+    for (std::size_t c = 0; c < channels; ++c) {
+      const double louder = static_cast<double>(block_[i + c]) * gain_;
+      block_[i + c] = static_cast<float>(std::clamp(louder, -1.0, 1.0));
+    }
+  }
+}
+
+void Sound::setDelay(Duration delay) noexcept {
+  delay_ = delay;
+  stop();  // it starts anew at its new place
+}
+
+MediaTime Sound::end() const noexcept {
+  const bool sounds = running_ && window_ && !window_->empty();
+  return sounds ? window_->timeOf(window_->end()) + delay_ : MediaTime{};
 }
 
 // False when it has to be started anew, or is over.
@@ -117,7 +146,7 @@ bool Sound::listen(MediaClock& clock, const FilmFeed& feed, MonotonicTime now) {
   }
   heard_ = true;
   last_ = **heard;
-  const MediaTime film = clock.position(last_.time).value_or(MediaTime{});  // it plays: there is one
+  const MediaTime film = clock.position(last_.time).value_or(MediaTime{}) - delay_;  // it plays: there is one
   const double offset_s = toSeconds(window_->timeOf(base_ + last_.frames) - film) + picture_late_s_;
   ++readings_;
   offset_s_ += (offset_s - offset_s_) * std::max(1.0 / readings_, kSmoothing);
@@ -182,7 +211,7 @@ void Sound::noteShown(MediaTime picture, const MediaClock& clock) {
   pictures_late_ = std::min(pictures_late_ + 1, kLatenessPictures);
   picture_late_s_ += (toSeconds(late) - picture_late_s_) / pictures_late_;
   if (!settled_) return;
-  const MediaTime sound = window_->timeOf(base_ + last_.frames) + (now - last_.time);
+  const MediaTime sound = window_->timeOf(base_ + last_.frames) + (now - last_.time) + delay_;
   const double offset_ms = 1e3 * toSeconds(sound - picture);
   ++summary_.pictures;
   sum_offset_ms_ += offset_ms;

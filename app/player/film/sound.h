@@ -50,6 +50,13 @@ class Sound {
   // Before the film: whether the output is there or not, `format` is what the film's sound is wanted in from then on.
   void open();
   [[nodiscard]] std::optional<AudioFormat> format() const noexcept { return format_; }
+  // The factor on the samples, from the next ones on; it changes without a click.
+  void setGain(double gain) noexcept { wished_gain_ = gain; }
+  // The sound is heard so much later than the film's times say.
+  void setDelay(Duration delay) noexcept;
+  [[nodiscard]] Duration delay() const noexcept { return delay_; }
+  // Where the sound that is heard, and has been decoded, ends; the beginning of time in silence.
+  [[nodiscard]] MediaTime end() const noexcept;
   // The film is elsewhere.
   void forget() noexcept;
   // Once a step, the last thing. `plays`: the film goes at its own pace; else there is silence.
@@ -70,6 +77,7 @@ class Sound {
   void collect(MediaTime position, FilmFeed& feed);
   void start(MediaTime position);
   void fill();
+  void amplify(std::size_t samples) noexcept;
   [[nodiscard]] bool listen(MediaClock& clock, const FilmFeed& feed, MonotonicTime now);
   [[nodiscard]] bool realign();
   void stop() noexcept;
@@ -80,6 +88,8 @@ class Sound {
   std::optional<AudioFormat> format_;
   std::optional<SoundWindow> window_;
   std::vector<float> block_;  // on its way into the output
+  double gain_ = 1, wished_gain_ = 1;
+  Duration delay_{0};
 
   bool running_ = false;
   std::int64_t base_ = 0;      // the frame of the film that the output's first one is

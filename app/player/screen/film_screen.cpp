@@ -2,8 +2,10 @@
 // Decides when to draw.
 #include "app/player/screen/film_screen.h"
 
+#include <array>
 #include <glm/geometric.hpp>
 
+#include "app/player/screen/screen_script.h"
 #include "app/player/screen/stereo_word.h"
 #include "platform/print.h"
 
@@ -89,18 +91,26 @@ Result<bool> FilmScreen::draw(const std::optional<FingerMark>& finger, Monotonic
 }
 
 void FilmScreen::write(const ScreenFacts& facts, MonotonicTime next_picture, MonotonicTime now) {
-  if (!first_shown_) return;
-  auto lines = text_.lines(facts, now);
-  if (lines == written_) return;
-  written_ = lines;
-  picture_.setText(std::move(lines));
+  if (!first_shown_ || !osd_) return;
+  auto content = text_.content(facts, statistics_, now);
+  if (content == written_) return;
+  written_ = content;
+  picture_.setText(std::move(content));
   if (next_picture > now + 2 * kRedrawPeriod) redraw_ = true;  // else the next picture shows it
 }
 
 void FilmScreen::obey(const PlayerCommand& command) {
   switch (command.verb) {
     case PlayerVerb::Info:
-      return text_.toggle();
+      return text_.toggleBar();
+    case PlayerVerb::Statistics:
+      return text_.toggleStatistics();
+    case PlayerVerb::ZoomBy:
+      picture_.changeZoom(command.value);
+      break;
+    case PlayerVerb::Aspect:
+      changeAspect(command.word);
+      break;
     case PlayerVerb::Layout:
       if (command.word.empty()) picture_.nextLayout();
       else picture_.setLayout(command.word);
@@ -118,6 +128,18 @@ void FilmScreen::obey(const PlayerCommand& command) {
       return;
   }
   redraw_ = true;
+}
+
+void FilmScreen::changeAspect(const std::string& word) {
+  constexpr std::array kWords{"film", "16:9", "4:3", "2.35:1"};
+  aspect_word_ = word.empty() ? kWords[++next_aspect_ % kWords.size()] : word;
+  picture_.setAspect(parseAspect(aspect_word_).value_or(0));
+}
+
+std::optional<double> FilmScreen::seekTargetAt(double x, double y) const {
+  if (!written_.bar || !written_.bar->has_length) return std::nullopt;
+  const auto point = picture_.viewPoint(x, y);
+  return point ? barShareAt(point->across, point->down, point->aspect) : std::nullopt;
 }
 
 void FilmScreen::describe(PlayReport& report) const {

@@ -25,9 +25,10 @@ namespace relievo {
 // errors that no retry helps: Unsupported is the film's fault, any other error the display's.
 class FilmScreen {
  public:
-  FilmScreen(Display& display, const DisplayConfig& config, const StereoSettings& stereo, const Clock& clock,
+  // `osd`: whether anything is written over the picture.
+  FilmScreen(Display& display, const DisplayConfig& config, const StereoSettings& stereo, bool osd, const Clock& clock,
              Journal& journal) noexcept
-      : picture_(display, config, stereo), clock_(clock), journal_(journal) {}
+      : picture_(display, config, stereo), osd_(osd), clock_(clock), journal_(journal) {}
 
   // A missing screen (NotFound) is noted and is no failure.
   [[nodiscard]] Result<void> open();
@@ -47,19 +48,27 @@ class FilmScreen {
                                     MonotonicTime now);
   // Draws a black picture: there is no film.
   [[nodiscard]] Result<void> clear(const std::optional<FingerMark>& finger, MonotonicTime now);
-  // Updates the on-screen text; from the first picture on.
+  // Updates what is written over the picture; from the first picture on.
   void write(const ScreenFacts& facts, MonotonicTime next_picture, MonotonicTime now);
+  // The statistics, if they are wished for.
+  [[nodiscard]] bool wantsStatistics() const noexcept { return text_.showsStatistics(); }
+  void setStatistics(ScreenRows rows) { statistics_ = std::move(rows); }
+  // The film's place, 0 to 1, that a point of the surface (pixels from its top left) stands for on the bar; nullopt
+  // where no bar is shown.
+  [[nodiscard]] std::optional<double> seekTargetAt(double x, double y) const;
 
   // The viewer has pressed a key: the text is shown for a while.
   void wake(MonotonicTime now) noexcept { text_.wake(now); }
-  void tell(const std::string& why, MonotonicTime now) { text_.tell(why, now); }
-  // Handles Layout, SwapEyes, DepthBy, ScreenBy and Info; ignores other commands.
+  [[nodiscard]] ScreenText& text() noexcept { return text_; }
+  // Handles Layout, SwapEyes, DepthBy, ScreenBy, ZoomBy, Aspect, Info and Statistics; ignores other commands.
   void obey(const PlayerCommand& command);
 
   [[nodiscard]] const StereoSettings& stereo() const noexcept { return picture_.stereo(); }
+  [[nodiscard]] const std::string& aspectWord() const noexcept { return aspect_word_; }
   [[nodiscard]] DisplayCapabilities capabilities() const noexcept { return picture_.capabilities(); }
-  // Whether the finger, as drawn last, is in contact.
-  [[nodiscard]] bool contact() const noexcept { return drawn_finger_ && drawn_finger_->contact; }
+  // As drawn last.
+  [[nodiscard]] const std::optional<FingerMark>& finger() const noexcept { return drawn_finger_; }
+  [[nodiscard]] const DisplayVolume& volume() const noexcept { return picture_.volume(); }
   // When the first picture was shown.
   [[nodiscard]] std::optional<MonotonicTime> firstShown() const noexcept { return first_shown_; }
   // Fills in the screen's part of the report.
@@ -67,15 +76,20 @@ class FilmScreen {
 
  private:
   [[nodiscard]] Result<bool> draw(const std::optional<FingerMark>& finger, MonotonicTime now);
+  void changeAspect(const std::string& word);
   void noteLost();
 
   Picture picture_;
   ScreenText text_;
+  const bool osd_;
   const Clock& clock_;
   Journal& journal_;
   MonotonicTime drawn_at_;
   std::optional<FingerMark> drawn_finger_;
-  std::vector<std::string> written_;
+  ScreenContent written_;
+  ScreenRows statistics_;
+  std::string aspect_word_ = "film";
+  std::size_t next_aspect_ = 0;
   bool redraw_ = false;  // even if the finger has not moved
   std::uint64_t shown_ = 0, dropped_ = 0;
   std::optional<MonotonicTime> first_shown_;

@@ -10,6 +10,12 @@ namespace relievo {
 namespace {
 
 constexpr Duration kRetryPeriod = std::chrono::seconds(1);
+constexpr double kMostZoom = 4;
+
+TextFrame textFrame(const EyeViews& eyes) {
+  const PixelArea& area = eyes.views[0].area;
+  return {area.width, area.height, eyes.aspect, eyes.margin_x, eyes.margin_y};
+}
 
 }  // namespace
 
@@ -77,17 +83,20 @@ Result<void> Picture::drawAndPresent(const std::optional<FingerMark>& finger) {
 }
 
 Result<void> Picture::draw(const DisplaySurface& surface, const std::optional<FingerMark>& finger) {
+  bool renewed = false;
   if (renderer_ == nullptr) {
     auto renderer = SceneRenderer::create(frame_budget_);
     if (!renderer) return std::unexpected(renderer.error());
     renderer_ = std::move(*renderer);
     renderer_->setStereo(stereo_);
+    renewed = true;
   }
   if (!uploaded_ && !pair_.color.empty()) {
     if (auto set = renderer_->setFrame(pair_.color, pair_.depth, calibration_, volume_); !set) return set;
     uploaded_ = true;
   }
-  renderer_->setText(text_);
+  const TextFrame frame = textFrame(eyeViews(stereo_, volume_, surface.width, surface.height));
+  if (words_.draw(text_, frame) || renewed) renderer_->setText(frame, words_.pictures());
   if (auto drawn = renderer_->draw(surface, finger); !drawn) return drawn;
   statistics_ = renderer_->statistics();
   return {};
@@ -127,6 +136,27 @@ void Picture::changeStrength(double by) noexcept {
 void Picture::changeScreenPlane(double by_mm) noexcept {
   stereo_.screen_z_mm = std::clamp(stereo_.screen_z_mm + by_mm, 0.0, volume_.depth_mm);
   stereoChanged();
+}
+
+void Picture::changeZoom(double by) noexcept {
+  stereo_.zoom = std::clamp(stereo_.zoom + by, 1.0, kMostZoom);
+  stereoChanged();
+}
+
+void Picture::setAspect(double aspect) noexcept {
+  stereo_.stretch = aspect > 0 ? aspect * volume_.height_mm / volume_.width_mm : 1.0;
+  stereoChanged();
+}
+
+std::optional<Picture::ViewPoint> Picture::viewPoint(double x, double y) const {
+  if (width_ <= 0 || height_ <= 0) return std::nullopt;
+  const EyeViews eyes = eyeViews(stereo_, volume_, width_, height_);
+  for (const EyeView& view : eyes.views) {
+    const double across = (x - view.area.x) / view.area.width;
+    const double down = (y - (height_ - view.area.y - view.area.height)) / view.area.height;
+    if (across >= 0 && across < 1 && down >= 0 && down < 1) return ViewPoint{across, down, eyes.aspect};
+  }
+  return std::nullopt;
 }
 
 void Picture::stereoChanged() noexcept {

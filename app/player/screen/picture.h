@@ -4,11 +4,11 @@
 
 #include <memory>
 #include <optional>
-#include <string>
+#include <string_view>
 #include <utility>
-#include <vector>
 
 #include "app/media/pair_reader.h"
+#include "app/player/screen/screen_words.h"
 #include "app/render/gl/scene_renderer.h"
 #include "app/render/relief/stereo.h"
 #include "app/scene/depth_calibration.h"
@@ -45,8 +45,8 @@ class Picture {
   void setPair(const FramePair& pair);
   // Black, with whatever text there is, from the next `show` on.
   void clear() noexcept;
-  // What stands at the picture's foot from the next `show` on.
-  void setText(std::vector<std::string> lines) { text_ = std::move(lines); }
+  // What stands over the picture from the next `show` on.
+  void setText(ScreenContent content) { text_ = std::move(content); }
   // Fails for what no retry helps: no renderer, a pixel format that cannot be drawn.
   [[nodiscard]] Result<Shown> show(const std::optional<FingerMark>& finger, MonotonicTime now);
   // Between pictures, often. True when the last one should be drawn anew; Lost when the screen has gone just now, and
@@ -59,14 +59,26 @@ class Picture {
   void changeStrength(double by) noexcept;  // of the depth, 0 to 2
   // What lies in the screen plane, in the volume: the rest stands before it or behind it.
   void changeScreenPlane(double by_mm) noexcept;
+  // Of the picture in its view, 1 to 4.
+  void changeZoom(double by) noexcept;
+  // The width over the height that the picture is shown with; 0: its own.
+  void setAspect(double aspect) noexcept;
   // Once, when the surface has refused a layout: why. It is shown in another way then.
   [[nodiscard]] const char* takeRefusal() noexcept { return std::exchange(refusal_, nullptr); }
 
   [[nodiscard]] bool away() const noexcept { return display_.state() == Display::State::Closed; }
   [[nodiscard]] DisplayCapabilities capabilities() const noexcept { return display_.capabilities(); }
   [[nodiscard]] const StereoSettings& stereo() const noexcept { return stereo_; }
+  [[nodiscard]] const DisplayVolume& volume() const noexcept { return volume_; }
   [[nodiscard]] int width() const noexcept { return width_; }
   [[nodiscard]] int height() const noexcept { return height_; }
+  // Where a point of the surface, from its top left, lies in the view that it is over, in shares of the view; nullopt
+  // beside all views.
+  struct ViewPoint {
+    double across = 0, down = 0;
+    double aspect = 1;  // of the view
+  };
+  [[nodiscard]] std::optional<ViewPoint> viewPoint(double x, double y) const;
   [[nodiscard]] const RenderStatistics& statistics() const noexcept { return statistics_; }
 
  private:
@@ -85,7 +97,8 @@ class Picture {
   Duration frame_budget_{0};
   std::unique_ptr<SceneRenderer> renderer_;
   FramePair pair_;
-  std::vector<std::string> text_;
+  ScreenContent text_;
+  ScreenWords words_;
   bool uploaded_ = false;
   MonotonicTime next_retry_;
   int width_ = 0, height_ = 0;

@@ -2,8 +2,8 @@
 // The words of the screen.
 #include "app/player/screen/screen_text.h"
 
+#include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "app/player/screen/stereo_word.h"
 #include "platform/print.h"
@@ -11,36 +11,51 @@
 namespace relievo {
 namespace {
 
+constexpr double kBarSteps = 2000;    // that the bar's length is rounded to
+constexpr double kFingerSteps = 200;  // likewise the finger's place
+constexpr double kForceStepsPerN = 20;
+
 std::string clockTime(double seconds) {
   const auto whole = static_cast<long>(std::max(0.0, seconds));
   if (whole >= 3600) return print("%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
   return print("%ld:%02ld", whole / 60, whole % 60);
 }
 
-// What there is to say beside the time.
-std::string wordsOf(const ScreenFacts& facts) {
-  std::string words;
-  const auto add = [&words](const std::string& word) { words += "   " + word; };
+std::string timesOf(const ScreenFacts& facts) {
+  std::string times = clockTime(facts.position_s);
+  if (facts.duration_s > 0) times += " / " + clockTime(facts.duration_s);
+  const auto add = [&times](const std::string& word) { times += "   " + word; };
   if (facts.held) add("paused");
   else if (facts.state != PlayerState::Playing) add(name(facts.state));
   if (facts.rate != 1) add(facts.rate > 1 ? print("%gx", facts.rate) : print("1/%gx", 1 / facts.rate));
   if (facts.films > 1) add(print("film %zu of %zu", facts.film, facts.films));
   if (facts.loop) add("again and again");
+  return times;
+}
+
+std::string stereoWords(const ScreenFacts& facts) {
+  std::string words = "3D: " + stereoWord(facts.stereo);
+  if (!facts.has_depth) return words + ", flat: the film has no depth";
+  if (facts.stereo.swap_eyes) words += ", eyes swapped";
+  if (facts.stereo.strength != 1.0) words += print(", depth %.0f %%", 100 * facts.stereo.strength);
   return words;
 }
 
-std::string stereoLine(const ScreenFacts& facts) {
-  std::string line = "3D: " + stereoWord(facts.stereo);
-  if (!facts.has_depth) return line + ", flat: the film has no depth";
-  if (facts.stereo.swap_eyes) line += ", eyes swapped";
-  if (facts.stereo.strength != 1.0) line += print(", depth %.0f %%", 100 * facts.stereo.strength);
-  return line;
-}
-
-std::string hapticLine(const ScreenFacts& facts) {
+std::string hapticWords(const ScreenFacts& facts) {
   if (facts.haptic.empty()) return "touch: no device";
   if (!facts.has_depth) return "touch: " + facts.haptic + ", nothing to feel";
   return "touch: " + facts.haptic + (facts.contact ? ", in contact" : "");
+}
+
+double rounded(double value, double steps) noexcept {
+  return std::round(value * steps) / steps;
+}
+
+std::optional<FingerBeside> fingerOf(const ScreenFacts& facts) {
+  if (!facts.finger_across || !facts.finger_up) return std::nullopt;
+  const FingerBeside finger{rounded(*facts.finger_across, kFingerSteps), rounded(*facts.finger_up, kFingerSteps)};
+  const bool inside = std::abs(finger.across) <= 0.5 && std::abs(finger.up) <= 0.5;
+  return inside ? std::nullopt : std::optional(finger);
 }
 
 }  // namespace
@@ -51,17 +66,52 @@ void ScreenText::tell(std::string why, MonotonicTime now) {
   wake(now);
 }
 
-bool ScreenText::shown(const ScreenFacts& facts, MonotonicTime now) const noexcept {
-  return wished_ || facts.held || now < awake_until_ || now < told_until_;
+void ScreenText::notice(ScreenNotice notice, MonotonicTime now) {
+  notice_ = std::move(notice);
+  noticed_until_ = now + kNotice;
 }
 
-std::vector<std::string> ScreenText::lines(const ScreenFacts& facts, MonotonicTime now) const {
-  if (!shown(facts, now)) return {};
-  std::string first = facts.title + "   " + clockTime(facts.position_s);
-  if (facts.duration_s > 0) first += " / " + clockTime(facts.duration_s);
-  std::vector<std::string> lines{first + wordsOf(facts), stereoLine(facts), hapticLine(facts)};
-  if (now < told_until_) lines.push_back(why_);
-  return lines;
+void ScreenText::hint(std::string words, MonotonicTime now) {
+  hint_ = std::move(words);
+  hinted_until_ = now + kNotice;
+}
+
+bool ScreenText::showsBar(const ScreenFacts& facts, MonotonicTime now) const noexcept {
+  return bar_ || facts.held || now < awake_until_ || now < told_until_;
+}
+
+ScreenBar ScreenText::bar(const ScreenFacts& facts) const {
+  ScreenBar bar{.title = facts.title,
+                .times = timesOf(facts),
+                .status = stereoWords(facts) + "   " + hapticWords(facts),
+                .has_length = facts.duration_s > 0};
+  if (!bar.has_length) return bar;
+  const auto share = [&](double seconds) {
+    return rounded(std::clamp(seconds / facts.duration_s, 0.0, 1.0), kBarSteps);
+  };
+  bar.position = share(facts.position_s);
+  bar.buffered = std::max(bar.position, share(facts.buffered_s));
+  for (const double start : chapters_s_) bar.chapters.push_back(share(start));
+  if (facts.loop_from_s) bar.loop_from = share(*facts.loop_from_s);
+  if (facts.loop_to_s) bar.loop_to = share(*facts.loop_to_s);
+  return bar;
+}
+
+ScreenContent ScreenText::content(const ScreenFacts& facts, const ScreenRows& statistics, MonotonicTime now) const {
+  ScreenContent content;
+  if (now < noticed_until_) content.notice = notice_;
+  content.keys = keys_;
+  if (!keys_.empty()) return content;
+  content.finger = fingerOf(facts);
+  const bool shows_bar = showsBar(facts, now);
+  if (shows_bar) content.bar = bar(facts);
+  if (shows_bar && facts.has_depth && !facts.haptic.empty()) {
+    content.force_n = rounded(facts.force_n, kForceStepsPerN);
+  }
+  if (now < told_until_) content.warning = why_;
+  if (now < hinted_until_) content.hint = hint_;
+  if (statistics_) content.statistics = statistics;
+  return content;
 }
 
 }  // namespace relievo

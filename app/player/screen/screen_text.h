@@ -1,52 +1,93 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the player writes on the screen, and for how long: pure.
+// What the player shows over the picture, and for how long: pure.
 #pragma once
 
-#include <cstddef>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "app/player/state_table.h"
-#include "app/render/relief/stereo.h"
+#include "app/player/screen/screen_facts.h"
 #include "platform/clock.h"
 
 namespace relievo {
 
-// What there is to tell of a moment.
-struct ScreenFacts {
+// In the film's order; times in shares of its length.
+struct ScreenBar {
   std::string title;
-  double position_s = 0, duration_s = 0;  // duration 0: unknown
-  PlayerState state = PlayerState::Boot;
-  bool held = false;
-  double rate = 1;
-  bool loop = false;
-  std::size_t film = 1, films = 1;  // the how manieth of the list
-  StereoSettings stereo;
-  bool has_depth = false;
-  std::string haptic;  // the device's name; empty: none
-  bool contact = false;
+  std::string times;   // "1:23 / 1:02:05   4x"
+  std::string status;  // "3D: sbs   touch: Novint Falcon"
+  double position = 0, buffered = 0;
+  bool has_length = false;
+  std::vector<double> chapters;
+  std::optional<double> loop_from, loop_to;
+  bool operator==(const ScreenBar&) const = default;
 };
 
-// Shown for some seconds after the viewer has done something, when something goes wrong, and at the start; as long as
-// the film stands; and on wish until it is wished away.
+// What a key has changed: words, and where there is one a level between 0 and 1.
+struct ScreenNotice {
+  std::string words;
+  std::optional<double> level;
+  bool operator==(const ScreenNotice&) const = default;
+};
+
+// The finger beside the picture, in shares from the picture's middle, right and up.
+struct FingerBeside {
+  double across = 0, up = 0;
+  bool operator==(const FingerBeside&) const = default;
+};
+
+// Two columns: keys and their meaning, or a part of the player and its figures.
+using ScreenRows = std::vector<std::pair<std::string, std::string>>;
+
+struct ScreenContent {
+  std::optional<ScreenBar> bar;
+  std::optional<double> force_n;
+  std::optional<FingerBeside> finger;
+  std::optional<ScreenNotice> notice;
+  std::string warning, hint;
+  ScreenRows statistics, keys;
+
+  [[nodiscard]] bool empty() const { return *this == ScreenContent{}; }
+  bool operator==(const ScreenContent&) const = default;
+};
+
+// The bar is shown for some seconds after the viewer has done something, when something goes wrong, and at the start;
+// as long as the film stands; and on wish until it is wished away. A notice stands for two seconds, and so does the
+// hint at the start.
 class ScreenText {
  public:
-  void wake(MonotonicTime now) noexcept { awake_until_ = now + kAwake; }
-  void toggle() noexcept { wished_ = !wished_; }
-  // Why something is off: it is told once with the rest.
-  void tell(std::string why, MonotonicTime now);
+  static constexpr Duration kAwake = std::chrono::seconds(4);
+  static constexpr Duration kNotice = std::chrono::seconds(2);
 
-  [[nodiscard]] bool shown(const ScreenFacts& facts, MonotonicTime now) const noexcept;
-  // Nothing while it is not shown. It changes at most once a second by itself.
-  [[nodiscard]] std::vector<std::string> lines(const ScreenFacts& facts, MonotonicTime now) const;
+  void wake(MonotonicTime now) noexcept { awake_until_ = now + kAwake; }
+  void toggleBar() noexcept { bar_ = !bar_; }
+  void toggleStatistics() noexcept { statistics_ = !statistics_; }
+  // Shows these keys, or no longer.
+  void toggleKeys(ScreenRows keys) { keys_ = keys_.empty() ? std::move(keys) : ScreenRows{}; }
+  // Why something is off.
+  void tell(std::string why, MonotonicTime now);
+  // What a key has done.
+  void notice(ScreenNotice notice, MonotonicTime now);
+  void hint(std::string words, MonotonicTime now);
+  void setChapters(std::vector<double> starts_s) { chapters_s_ = std::move(starts_s); }
+
+  [[nodiscard]] bool showsBar(const ScreenFacts& facts, MonotonicTime now) const noexcept;
+  [[nodiscard]] bool showsStatistics() const noexcept { return statistics_; }
+  // Rounded, so that it changes only when something visible does. `statistics` is shown if it was wished for; nothing
+  // but a notice is shown beside the keys.
+  [[nodiscard]] ScreenContent content(const ScreenFacts& facts, const ScreenRows& statistics, MonotonicTime now) const;
 
  private:
-  static constexpr Duration kAwake = std::chrono::seconds(4);
+  [[nodiscard]] ScreenBar bar(const ScreenFacts& facts) const;
 
-  bool wished_ = false;
+  bool bar_ = false, statistics_ = false;
+  ScreenRows keys_;
   MonotonicTime awake_until_;
-  std::string why_;
-  MonotonicTime told_until_;
+  std::string why_, hint_;
+  ScreenNotice notice_;
+  MonotonicTime told_until_, noticed_until_, hinted_until_;
+  std::vector<double> chapters_s_;
 };
 
 }  // namespace relievo

@@ -184,7 +184,13 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
   addBackEnd(command, "--audio", play.audio, "sound output", names.audio,
              "Where the sound goes [of a window or a whole screen alsa, else none]");
   command.add_flag("--software", play.software, "Decode without the video hardware, where that shows faults");
-  addVolumeOption(command, play.player.volume);
+  addBoxOption(command, play.player.volume);
+  command
+      .add_option("--volume", play.player.volume_percent,
+                  "Loudness, in percent [as it was left on this sound output, else 100]")
+      ->check(between(0.0, Loudness::kMostPercent))
+      ->type_name("P");
+  command.add_flag("--osd", play.osd, "Write bar, keys and notices over an off-screen picture too");
   command.add_flag("--loop", play.player.loop, "Begin again at the end");
   command
       .add_option_function<double>(
@@ -236,6 +242,7 @@ Outcome<ConfigLines> readConfig(CLI::App& play, const std::string& path, FileCon
 Outcome<void> settlePlay(PlayOptions& play) {
   if (play.print_keys || play.print_states) return {};
   play.player.stays = !play.control_path.empty();
+  play.player.osd = play.osd || play.display.word != "offscreen";  // never in a capture unasked
   if (play.player.source.url.empty() && !play.player.stays) {
     return failOn("SOURCE", {ErrorCode::InvalidArgument, 0,
                              "is missing; name a film, or with --control a socket to be told one; see relievo play "

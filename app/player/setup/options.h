@@ -22,6 +22,7 @@ struct PlayOptions {
   std::string record_path;
   std::string keys_path;  // empty: the usual keys
   bool resume = false;
+  bool osd = false;  // also off screen
   bool print_keys = false, print_states = false;
   std::string control_path;  // empty: no control socket
 };

@@ -6,7 +6,7 @@
 #include <atomic>
 
 #include "app/player/player.h"
-#include "app/render/gl/glyphs.h"
+#include "app/render/text/ass_text.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -20,9 +20,9 @@ constexpr double kFelt_n = 0.1;
 constexpr double kMost_n = 10;  // of the task's limits
 
 SelfTestLine text() {
-  const auto glyphs = Glyphs::create(24);
-  if (glyphs) return {Verdict::Good, "text", "there is a font"};
-  return {Verdict::Note, "text", glyphs.error().message};
+  const auto words = AssText::create();
+  if (words) return {Verdict::Good, "text", "there is a font"};
+  return {Verdict::Note, "text", words.error().message};
 }
 
 // One line for all of a kind. Without parameter sets a codec that is known may answer that they make no sense.

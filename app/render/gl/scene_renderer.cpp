@@ -11,11 +11,12 @@
 #include "app/render/gl/eye_mixer.h"
 #include "app/render/gl/finger_model.h"
 #include "app/render/gl/gl_objects.h"
+#include "app/render/gl/overlay.h"
 #include "app/render/gl/relief_surface.h"
 #include "app/render/gl/surface_mark.h"
-#include "app/render/gl/text_panel.h"
 #include "app/render/relief/detail_level.h"
 #include "app/render/relief/relief_triangles.h"
+#include "app/render/relief/words_place.h"
 #include "app/scene/height_field.h"
 #include "platform/clock.h"
 
@@ -29,6 +30,18 @@ constexpr double kShadowSlant = 0.35, kShadowRadiusMm = 4.5, kShadowGrowth = 0.1
 constexpr double kShadowOpacity = 0.65, kShadowHalfMm = 15;
 constexpr double kGlowRadiusMm = 7.0, kGlowOpacity = 0.35, kGlowPerN = 0.1;
 constexpr glm::vec3 kGlowColor{1.0F, 0.78F, 0.35F};
+
+// The rectangle around all pictures, in shares of the view's width and height, from its middle; y up.
+std::optional<WordsBox> boxOf(const TextFrame& frame, const std::vector<TextPicture>& pictures) {
+  if (pictures.empty()) return std::nullopt;
+  int left = frame.width, top = frame.height, right = 0, bottom = 0;
+  for (const TextPicture& picture : pictures) {
+    left = std::min(left, picture.x), top = std::min(top, picture.y);
+    right = std::max(right, picture.x + picture.width), bottom = std::max(bottom, picture.y + picture.height);
+  }
+  const double width = frame.width, height = frame.height;
+  return WordsBox{left / width - 0.5, 0.5 - bottom / height, right / width - 0.5, 0.5 - top / height};
+}
 
 void smooth(Duration& smoothed, Duration took, bool first) noexcept {
   smoothed = first ? took : smoothed + (took - smoothed) / kSmoothing;
@@ -44,6 +57,7 @@ struct SceneRenderer::Impl {
   void makeTriangles(const EyeViews& eyes);
   void drawView(const EyeView& view, const std::optional<FingerMark>& mark);
   void drawFinger(const EyeView& view, const FingerMark& mark);
+  void placeWords(const EyeViews& eyes);
 
   StereoSettings stereo;
   double error_px = kErrorPx;
@@ -56,10 +70,13 @@ struct SceneRenderer::Impl {
   ReliefSurface surface_of_triangles;
   ReliefDetail made;  // the detail the triangles were made for
   bool is_made = false;
+  bool words_due = false;  // a picture has come since they were placed
   EyeMixer mixer;
   SurfaceMark on_surface;
   FingerModel finger;
-  TextPanel text;
+  Overlay text, subtitles;
+  std::optional<WordsBox> words_box;  // in the screen plane, as shares of the view: see setSubtitles
+  WordsPlace words;
   DetailLevel level;
   MonotonicClock clock;
   bool has_picture = false;
@@ -79,7 +96,8 @@ Result<void> SceneRenderer::Impl::createParts() {
   if (auto made_surface = take(surface_of_triangles, ReliefSurface::create()); !made_surface) return made_surface;
   if (auto made_mixer = take(mixer, EyeMixer::create()); !made_mixer) return made_mixer;
   if (auto made_mark = take(on_surface, SurfaceMark::create()); !made_mark) return made_mark;
-  if (auto made_text = take(text, TextPanel::create()); !made_text) return made_text;
+  if (auto made_text = take(text, Overlay::create()); !made_text) return made_text;
+  if (auto made_words = take(subtitles, Overlay::create()); !made_words) return made_words;
   if (auto made_finger = take(finger, FingerModel::create()); !made_finger) return made_finger;
   return glOutcome();
 }
@@ -98,8 +116,21 @@ void SceneRenderer::setError(double pixels) noexcept {
   impl_->error_px = pixels;
 }
 
-void SceneRenderer::setText(const std::vector<std::string>& lines) {
-  impl_->text.setLines(lines);
+void SceneRenderer::setText(const TextFrame& frame, const std::vector<TextPicture>& pictures) {
+  impl_->text.set(frame, pictures);
+}
+
+void SceneRenderer::setSubtitles(const TextFrame& frame, const std::vector<TextPicture>& pictures) {
+  Impl& impl = *impl_;
+  impl.subtitles.set(frame, pictures);
+  const auto box = boxOf(frame, pictures);
+  if (box != impl.words_box) impl.words.begin();
+  impl.words_box = box;
+  impl.words_due = true;
+}
+
+void SceneRenderer::cut() noexcept {
+  impl_->words.begin();
 }
 
 Result<void> SceneRenderer::setFrame(const Frame& color, const Frame& depth, const DepthCalibration& calibration,
@@ -115,6 +146,7 @@ Result<void> SceneRenderer::setFrame(const Frame& color, const Frame& depth, con
   impl.depth = depth;
   impl.volume = volume;
   impl.is_made = false;
+  impl.words_due = true;
   impl.has_picture = true;
   return glOutcome();
 }
@@ -133,8 +165,12 @@ Result<void> SceneRenderer::draw(const DisplaySurface& surface, const std::optio
 
 RenderStatistics SceneRenderer::statistics() const noexcept {
   const Impl& impl = *impl_;
-  RenderStatistics result{
-      .frames = impl.frames, .imported = impl.picture.isImported(), .frame_ms = toSeconds(impl.drawing) * 1e3};
+  RenderStatistics result{.frames = impl.frames,
+                          .imported = impl.picture.isImported(),
+                          .frame_ms = toSeconds(impl.drawing) * 1e3,
+                          .words_px = impl.words.disparity(),
+                          .behind_words_px = impl.words.behind(),
+                          .words_lifted = impl.words.lifted()};
   if (impl.depth.empty()) return result;
   result.triangles = impl.triangles.indices().size() / 3;
   result.cut_cells = impl.triangles.cutCells();
@@ -151,6 +187,7 @@ Result<void> SceneRenderer::Impl::drawViews(const DisplaySurface& surface, const
     picture.bind(kPictureUnit, eyes.views[0].area, volume);
     if (depth.empty()) surface_of_triangles.uploadFlat(volume, stereo.screen_z_mm);
     else makeTriangles(eyes);
+    placeWords(eyes);
   }
   const auto clear = [] {
     glDisable(GL_SCISSOR_TEST);
@@ -209,7 +246,22 @@ void SceneRenderer::Impl::drawView(const EyeView& view, const std::optional<Fing
   glFrontFace(GL_CCW);
   surface_of_triangles.draw(glm::mat4(view.view_projection), kPictureUnit);
   if (mark) drawFinger(view, *mark);
-  text.draw(view.view_projection, volume, stereo.screen_z_mm);
+  glDisable(GL_CULL_FACE);
+  subtitles.draw(words.shiftPx(view.eye_x_mm, stereo) * subtitles.frame().width / view.area.width);
+  text.draw(0);
+}
+
+// Once for each picture, so that a redrawn one shows the words where they were.
+void SceneRenderer::Impl::placeWords(const EyeViews& eyes) {
+  if (!std::exchange(words_due, false) || !words_box) return;
+  if (depth.empty()) return words.stayInScreen();
+  const double width_mm = eyes.views[0].area.width / eyes.pixels_per_mm;
+  const double height_mm = width_mm * stereo.stretch / eyes.aspect;
+  const WordsBox box{words_box->left * width_mm, words_box->bottom * height_mm, words_box->right * width_mm,
+                     words_box->top * height_mm};
+  words.follow({triangles.vertices().data(), triangles.vertices().size()},
+               {triangles.indices().data(), 3 * triangles.surfaceTriangles()}, box, stereo, eyes.views[0].area.width,
+               eyes.pixels_per_mm);
 }
 
 // A shadow to the lower right, farther away and fainter the higher the finger is above the surface, and a glow at the

@@ -7,10 +7,10 @@
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "app/render/relief/stereo.h"
+#include "app/render/text/text_picture.h"
 #include "app/scene/depth_calibration.h"
 #include "app/scene/display_volume.h"
 #include "hal/display.h"
@@ -27,12 +27,15 @@ struct FingerMark {
 
 struct RenderStatistics {
   std::uint64_t frames = 0;
-  std::size_t triangles = 0;  // of the relief as drawn now, silhouettes included; 0 without depth
-  std::size_t cut_cells = 0;  // cells cut at silhouettes
-  bool imported = false;      // the colour planes are read from the decoder's memory (dma-buf), not uploaded
-  double error_px = 0;        // error bound in effect, pixels
-  double mesh_ms = 0;         // making the triangles of one picture; moving average
-  double frame_ms = 0;        // drawing one frame with all views, making the triangles included; moving average
+  std::size_t triangles = 0;   // of the relief as drawn now, silhouettes included; 0 without depth
+  std::size_t cut_cells = 0;   // cells cut at silhouettes
+  bool imported = false;       // the colour planes are read from the decoder's memory (dma-buf), not uploaded
+  double error_px = 0;         // error bound in effect, pixels
+  double mesh_ms = 0;          // making the triangles of one picture; moving average
+  double frame_ms = 0;         // drawing one frame with all views, making the triangles included; moving average
+  double words_px = 0;         // disparity of the subtitles; see WordsPlace
+  double behind_words_px = 0;  // disparity of the nearest relief under them
+  std::uint64_t words_lifted = 0;
 };
 
 // All functions, and the destructor, run on the thread of the display's GL context, between its beginFrame and present.
@@ -51,8 +54,13 @@ class SceneRenderer {
   // Allowed error of the shift between the eyes, traded for fewer triangles; the frame budget may enlarge it. Call
   // before the frame it applies to.
   void setError(double pixels) noexcept;
-  // Text shown at the foot of the picture from now on, in the screen plane; empty: none. Needs the GL context.
-  void setText(const std::vector<std::string>& lines);
+  // Shown over the picture from now on, in the screen plane: each view has them at the same place. Needs the GL
+  // context.
+  void setText(const TextFrame& frame, const std::vector<TextPicture>& pictures);
+  // Shown just in front of the relief behind them (WordsPlace). Needs the GL context.
+  void setSubtitles(const TextFrame& frame, const std::vector<TextPicture>& pictures);
+  // The next picture does not continue the last one: the subtitles need not move smoothly.
+  void cut() noexcept;
 
   // Uploads a pair; keeps a reference to the depth until the next one. Empty depth shows the colour as a flat picture
   // in the screen plane. Unsupported if the pixel format cannot be uploaded; the previous pair then stays.

@@ -26,10 +26,10 @@ struct Window {
   double half_height_mm;
 };
 
-Window letterbox(const DisplayVolume& volume, double aspect) noexcept {
-  const double picture_aspect = volume.width_mm / volume.height_mm;
-  const double width = volume.width_mm * std::max(1.0, aspect / picture_aspect);
-  return {0.5 * width, 0.5 * width / aspect};
+Window letterbox(const DisplayVolume& volume, double aspect, const StereoSettings& settings) noexcept {
+  const double picture_aspect = settings.stretch * volume.width_mm / volume.height_mm;
+  const double width = volume.width_mm * std::max(1.0, aspect / picture_aspect) / settings.zoom;
+  return {0.5 * width, 0.5 * width * settings.stretch / aspect};
 }
 
 // An eye at (eye_x, 0, screen_z + distance), looking straight at the screen plane. The sides of the frustum pass
@@ -104,6 +104,10 @@ double aspectOf(const StereoSettings& settings, const PixelArea& area, int width
   return own ? static_cast<double>(area.width) / area.height : static_cast<double>(width) / height;
 }
 
+int marginOf(int pixels, double picture_mm, double window_mm) noexcept {
+  return static_cast<int>(std::lround(0.5 * pixels * (1 - picture_mm / window_mm)));
+}
+
 }  // namespace
 
 const char* name(StereoLayout layout) noexcept {
@@ -138,10 +142,13 @@ EyeViews eyeViews(const StereoSettings& settings, const DisplayVolume& volume, i
   const double spread = settings.layout == StereoLayout::Quilt ? 4.0 * between : between;
   const auto last = static_cast<double>(areas.size() - 1);
   for (std::size_t i = 0; i < areas.size(); ++i) {
-    const Window window = letterbox(volume, aspectOf(settings, areas[i], width, height));
+    result.aspect = aspectOf(settings, areas[i], width, height);
+    const Window window = letterbox(volume, result.aspect, settings);
     const double eye_x = last > 0 ? spread * (static_cast<double>(i) / last - 0.5) : 0.0;
     result.views.push_back({offAxis(eye_x, window, settings), areas[i], eye_x});
     result.pixels_per_mm = areas[i].width / (2 * window.half_width_mm);
+    result.margin_x = marginOf(areas[i].width, volume.width_mm, 2 * window.half_width_mm);
+    result.margin_y = marginOf(areas[i].height, volume.height_mm, 2 * window.half_height_mm);
   }
   return result;
 }

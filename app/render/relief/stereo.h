@@ -43,6 +43,8 @@ struct StereoSettings {
   double viewing_distance_mm = 600;  // from the eyes to the screen plane
   double screen_z_mm = 20.0;         // the scene depth that lies in the screen plane: zero parallax
   bool swap_eyes = false;
+  double zoom = 1.0;     // of the picture in its view; over 1 its edges are cut off
+  double stretch = 1.0;  // factor on the picture's width over its height, for a film with the wrong shape
 };
 
 // A rectangle of a surface, from its bottom left as in GL.
@@ -69,6 +71,9 @@ struct EyeViews {
   // Rows, columns and anaglyph: each view is drawn over the whole surface, then both are mixed.
   bool mixed = false;
   double pixels_per_mm = 1;  // horizontal resolution of a view in the screen plane
+  double aspect = 1;         // a view's width over its height as the viewer sees it
+  // Pixels of a view beside the picture's rectangle, at each side; negative if its edges are cut off.
+  int margin_x = 0, margin_y = 0;
 };
 [[nodiscard]] EyeViews eyeViews(const StereoSettings& settings, const DisplayVolume& volume, int width, int height);
 

@@ -15,12 +15,13 @@ using V = PlayerVerb;
 
 TEST(Command, EachHasWordsThatReadBackAsItself) {
   std::set<std::string> all;
-  for (int verb = 0; verb <= static_cast<int>(V::Info); ++verb) {
+  for (int verb = 0; verb <= static_cast<int>(V::LoopAB); ++verb) {
     for (const double value : {10.0, -0.5}) {
       PlayerCommand command{static_cast<V>(verb), 0};
-      const std::set<V> stepped{V::SeekBy, V::DepthBy, V::ScreenBy};
+      const std::set<V> stepped{V::SeekBy,   V::DepthBy,      V::ScreenBy,        V::ZoomBy,
+                                V::VolumeBy, V::AudioDelayBy, V::SubtitleDelayBy, V::ChapterBy};
       if (stepped.contains(command.verb)) command.value = value;
-      if (command.verb == V::SeekTo) command.value = 75.25;
+      if (command.verb == V::SeekTo || command.verb == V::VolumeTo) command.value = 75.25;
       if (command.verb == V::SeekShare) command.value = 0.5;
       if (command.verb == V::Open) command.word = "http://a.b/c d.mkv";
       const auto read = parseCommand(wordsOf(command));
@@ -30,7 +31,7 @@ TEST(Command, EachHasWordsThatReadBackAsItself) {
       all.insert(wordsOf(command));
     }
   }
-  EXPECT_EQ(all.size(), 23U);  // no two alike; three with either sign
+  EXPECT_EQ(all.size(), 43U);  // no two alike; eight with either sign
 }
 
 TEST(Command, ASeeksNumberSaysWhatItCountsFrom) {
@@ -53,6 +54,30 @@ TEST(Command, WhatTurnsCanAlsoBeSet) {
               meaningOf(*parseCommand(std::string(words).substr(0, std::string(words).find(' ')))));
   }
   for (const char* words : {"loop maybe", "loop ", "layout 3d", "layout quilt:0x9", "layout sbs tab"}) {
+    EXPECT_FALSE(parseCommand(words)) << words;
+  }
+}
+
+TEST(Command, TracksAreNumberedAndSubtitlesCanBeOff) {
+  EXPECT_EQ(parseCommand("audio"), (PlayerCommand{V::AudioTrack}));
+  EXPECT_EQ(parseCommand("audio 2"), (PlayerCommand{V::AudioTrack, 2}));
+  EXPECT_EQ(parseCommand("subtitles off"), (PlayerCommand{V::SubtitleTrack, -1}));
+  EXPECT_EQ(wordsOf({V::SubtitleTrack, -1}), "subtitles off");
+  for (const char* words : {"audio off", "audio 0", "audio 1.5", "subtitles -2", "audio 1000"}) {
+    EXPECT_FALSE(parseCommand(words)) << words;
+  }
+}
+
+TEST(Command, AVolumesSignSaysWhetherItIsAChange) {
+  EXPECT_EQ(parseCommand("volume +5"), (PlayerCommand{V::VolumeBy, 5}));
+  EXPECT_EQ(parseCommand("volume 80"), (PlayerCommand{V::VolumeTo, 80}));
+  EXPECT_EQ(meaningOf({V::VolumeBy, -5}), "5 % quieter");
+}
+
+TEST(Command, AShapeIsAWordOrTwoNumbers) {
+  EXPECT_EQ(parseCommand("aspect 16:9"), (PlayerCommand{V::Aspect, 0, "16:9"}));
+  EXPECT_EQ(parseCommand("aspect film"), (PlayerCommand{V::Aspect, 0, "film"}));
+  for (const char* words : {"aspect wide", "aspect 16", "aspect 16:0", "aspect 1:100"}) {
     EXPECT_FALSE(parseCommand(words)) << words;
   }
 }

@@ -19,7 +19,7 @@ class FilmScreenTest : public testing::Test {
     profile_.refresh_period = Duration(0);
     profile_.shown = [this] { ++presented_; };
     display_ = makeMockDisplay(profile_, clock_, cable_);
-    screen_.emplace(*display_, DisplayConfig{}, StereoSettings{}, clock_, journal_);
+    screen_.emplace(*display_, DisplayConfig{}, StereoSettings{}, true, clock_, journal_);
     ASSERT_TRUE(screen_->open());
   }
   bool show() { return screen_->show({}, std::nullopt, clock_.now()).value_or(false); }
@@ -89,7 +89,7 @@ TEST_F(FilmScreenTest, DrawsAgainForAFingerThatMovesVisiblyAndOnlyWhereThereIsTi
   EXPECT_EQ(redraw(FingerMark{{0, 0, 11}, {0, 0, 0}, false}, 40 * kMs), 1);
   EXPECT_EQ(redraw(FingerMark{{0, 0, 14}, {0, 0, 0}, false}, 10 * kMs), 0) << "too soon";
   EXPECT_EQ(redraw(FingerMark{{0, 0, 11}, {0, 0, 0}, true}, 40 * kMs), 1) << "it touches";
-  EXPECT_TRUE(screen_->contact());
+  EXPECT_TRUE(screen_->finger()->contact);
 }
 
 TEST_F(FilmScreenTest, ANewTextOnAStandingPictureIsDrawnAtOnce) {

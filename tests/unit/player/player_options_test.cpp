@@ -70,7 +70,7 @@ TEST(Options, TakeEveryWordOfPlay) {
                                "--display",    "mock",       "--stereo",      "anaglyph",
                                "--haptic",     "none",       "--remote",      "script:keys.txt",
                                "--loop",       "--duration", "12.5",          "--report",
-                               "r.json",       "--record",   "t.csv",         "--volume",
+                               "r.json",       "--record",   "t.csv",         "--box",
                                "200x100.5x30", "--size",     "640x360"});
   ASSERT_TRUE(parsed.options) << parsed.err;
   const PlayOptions& play = parsed.options->play;
@@ -158,9 +158,9 @@ TEST(Options, RefuseWrongWordsInOneLine) {
   expectRefused({"play", "film.mkv", "--size", "640x360x2"}, "--size");
   expectRefused({"play", "film.mkv", "--size", "0x360"}, "--size");
   expectRefused({"play", "film.mkv", "--size", "99999x360"}, "--size");
-  expectRefused({"play", "film.mkv", "--volume", "160x90"}, "--volume");
-  expectRefused({"play", "film.mkv", "--volume", "160x90x-4"}, "--volume");
-  expectRefused({"play", "film.mkv", "--volume", "160x90xnan"}, "--volume");
+  expectRefused({"play", "film.mkv", "--box", "160x90"}, "--box");
+  expectRefused({"play", "film.mkv", "--box", "160x90x-4"}, "--box");
+  expectRefused({"play", "film.mkv", "--box", "160x90xnan"}, "--box");
   expectRefused({"play", "film.mkv", "--calibration", "colour=blue"}, "colour=blue");
   expectRefused({"play", "film.mkv", "--calibration", "near=900,far=500"}, "near=900,far=500");
   expectRefused({"play", "film.mkv", "--calibration", "bits=8,invalid=300"}, "invalid=300");

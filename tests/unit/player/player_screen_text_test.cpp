@@ -22,13 +22,21 @@ ScreenFacts playing() {
           .contact = true};
 }
 
-using Lines = std::vector<std::string>;
+const ScreenRows kNone;
+
+ScreenContent at(const ScreenText& text, const ScreenFacts& facts, MonotonicTime now = kStart) {
+  return text.content(facts, kNone, now);
+}
 
 TEST(ScreenText, TellsTitleTimeStereoAndTouch) {
   ScreenText text;
   text.wake(kStart);
-  EXPECT_EQ(text.lines(playing(), kStart),
-            (Lines{"film.mkv   1:23 / 1:02:05", "3D: tab", "touch: Novint Falcon, in contact"}));
+  const auto bar = at(text, playing()).bar;
+  ASSERT_TRUE(bar);
+  EXPECT_EQ(bar->title, "film.mkv");
+  EXPECT_EQ(bar->times, "1:23 / 1:02:05");
+  EXPECT_EQ(bar->status, "3D: tab   touch: Novint Falcon, in contact");
+  EXPECT_NEAR(bar->position, 83.9 / 3725, 1e-3);
 }
 
 TEST(ScreenText, TellsSpeedAndPlaceInTheList) {
@@ -38,40 +46,40 @@ TEST(ScreenText, TellsSpeedAndPlaceInTheList) {
   facts.rate = 4;
   facts.film = 2;
   facts.films = 5;
-  EXPECT_EQ(text.lines(facts, kStart)[0], "film.mkv   1:23 / 1:02:05   4x   film 2 of 5");
+  EXPECT_EQ(at(text, facts).bar->times, "1:23 / 1:02:05   4x   film 2 of 5");
   facts = playing();
   facts.rate = 0.125;
   facts.loop = true;
-  EXPECT_EQ(text.lines(facts, kStart)[0], "film.mkv   1:23 / 1:02:05   1/8x   again and again");
+  EXPECT_EQ(at(text, facts).bar->times, "1:23 / 1:02:05   1/8x   again and again");
 }
 
 TEST(ScreenText, FallsSilentFourSecondsAfterTheLastKey) {
   ScreenText text;
-  EXPECT_TRUE(text.lines(playing(), kStart).empty());
+  EXPECT_TRUE(at(text, playing()).empty());
   text.wake(kStart);
-  EXPECT_FALSE(text.lines(playing(), kStart + seconds(3)).empty());
-  EXPECT_TRUE(text.lines(playing(), kStart + seconds(4)).empty());
+  EXPECT_FALSE(at(text, playing(), kStart + seconds(3)).empty());
+  EXPECT_TRUE(at(text, playing(), kStart + seconds(4)).empty());
 }
 
 TEST(ScreenText, StaysWhileTheFilmIsHeldAndOnWish) {
   ScreenText text;
   ScreenFacts facts = playing();
   facts.held = true;
-  ASSERT_FALSE(text.lines(facts, kStart).empty());
-  EXPECT_EQ(text.lines(facts, kStart)[0], "film.mkv   1:23 / 1:02:05   paused");
-  text.toggle();
-  EXPECT_FALSE(text.lines(playing(), kStart).empty());
-  text.toggle();
-  EXPECT_TRUE(text.lines(playing(), kStart).empty());
+  ASSERT_TRUE(at(text, facts).bar);
+  EXPECT_EQ(at(text, facts).bar->times, "1:23 / 1:02:05   paused");
+  text.toggleBar();
+  EXPECT_TRUE(at(text, playing()).bar);
+  text.toggleBar();
+  EXPECT_FALSE(at(text, playing()).bar);
 }
 
 TEST(ScreenText, TellsOnceWhatWentWrong) {
   ScreenText text;
   text.tell("device lost", kStart);
-  EXPECT_EQ(text.lines(playing(), kStart + seconds(7)).back(), "device lost");
-  EXPECT_TRUE(text.lines(playing(), kStart + seconds(8)).empty());
+  EXPECT_EQ(at(text, playing(), kStart + seconds(7)).warning, "device lost");
+  EXPECT_TRUE(at(text, playing(), kStart + seconds(8)).empty());
   text.wake(kStart + seconds(9));
-  EXPECT_EQ(text.lines(playing(), kStart + seconds(9)).back(), "touch: Novint Falcon, in contact");
+  EXPECT_EQ(at(text, playing(), kStart + seconds(9)).warning, "");
 }
 
 TEST(ScreenText, TellsWhyThereIsNothingToSeeOrFeel) {
@@ -82,14 +90,60 @@ TEST(ScreenText, TellsWhyThereIsNothingToSeeOrFeel) {
   facts.duration_s = 0;
   facts.has_depth = false;
   facts.stereo = {.layout = StereoLayout::Mono};
-  EXPECT_EQ(text.lines(facts, kStart), (Lines{"film.mkv   1:23   buffering", "3D: mono, flat: the film has no depth",
-                                              "touch: Novint Falcon, nothing to feel"}));
+  const auto bar = at(text, facts).bar;
+  EXPECT_EQ(bar->times, "1:23   buffering");
+  EXPECT_EQ(bar->status, "3D: mono, flat: the film has no depth   touch: Novint Falcon, nothing to feel");
+  EXPECT_FALSE(bar->has_length);
+  EXPECT_FALSE(at(text, facts).force_n) << "nothing is felt";
   facts.haptic.clear();
   facts.has_depth = true;
   facts.stereo.swap_eyes = true;
   facts.stereo.strength = 0.7;
-  EXPECT_EQ(text.lines(facts, kStart)[1], "3D: mono, eyes swapped, depth 70 %");
-  EXPECT_EQ(text.lines(facts, kStart)[2], "touch: no device");
+  EXPECT_EQ(at(text, facts).bar->status, "3D: mono, eyes swapped, depth 70 %   touch: no device");
+}
+
+TEST(ScreenText, ANoticeAndTheHintStandForTwoSeconds) {
+  ScreenText text;
+  text.notice({"Volume 80 %", 0.6}, kStart);
+  text.hint("press", kStart);
+  EXPECT_EQ(at(text, playing(), kStart + seconds(1)).notice->words, "Volume 80 %");
+  EXPECT_EQ(at(text, playing(), kStart + seconds(1)).hint, "press");
+  EXPECT_FALSE(at(text, playing(), kStart + seconds(1)).bar) << "a value needs no bar";
+  EXPECT_TRUE(at(text, playing(), kStart + seconds(2)).empty());
+}
+
+TEST(ScreenText, ForceChaptersAndBufferAreSharesOfWhatIsShown) {
+  ScreenText text;
+  text.wake(kStart);
+  text.setChapters({0, 931.25});
+  ScreenFacts facts = playing();
+  facts.force_n = 1.234;
+  facts.buffered_s = 186.25;
+  const ScreenContent content = at(text, facts);
+  EXPECT_NEAR(*content.force_n, 1.25, 1e-9);
+  EXPECT_NEAR(content.bar->buffered, 0.05, 1e-9);
+  EXPECT_EQ(content.bar->chapters, (std::vector<double>{0, 0.25}));
+}
+
+TEST(ScreenText, MarksAFingerBesideThePictureAlone) {
+  const ScreenText text;
+  ScreenFacts facts = playing();
+  facts.finger_across = 0.49, facts.finger_up = -0.5;
+  EXPECT_FALSE(at(text, facts).finger);
+  facts.finger_across = 0.6;
+  EXPECT_EQ(at(text, facts).finger, (FingerBeside{0.6, -0.5}));
+}
+
+TEST(ScreenText, KeysAndStatisticsComeAndGo) {
+  ScreenText text;
+  text.toggleKeys({{"SPACE", "pause"}});
+  text.toggleStatistics();
+  EXPECT_EQ(text.content(playing(), {{"tick", "1 kHz"}}, kStart).statistics.size(), 0u) << "the keys stand alone";
+  EXPECT_EQ(at(text, playing()).keys.front().first, "SPACE");
+  text.toggleKeys({{"SPACE", "pause"}});
+  EXPECT_EQ(text.content(playing(), {{"tick", "1 kHz"}}, kStart).statistics.front().second, "1 kHz");
+  text.toggleStatistics();
+  EXPECT_TRUE(text.content(playing(), {{"tick", "1 kHz"}}, kStart).empty());
 }
 
 }  // namespace

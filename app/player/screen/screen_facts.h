@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// What there is to tell of a moment of playing.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/player/state_table.h"
+#include "app/render/relief/stereo.h"
+
+namespace relievo {
+
+struct ScreenFacts {
+  std::string title;
+  double position_s = 0, duration_s = 0;  // duration 0: unknown
+  double buffered_s = 0;                  // up to here pictures are decoded
+  PlayerState state = PlayerState::Boot;
+  bool held = false;
+  double rate = 1;
+  bool loop = false;
+  std::size_t film = 1, films = 1;  // the how manieth of the list
+  StereoSettings stereo;
+  bool has_depth = false;
+  std::string haptic;  // the device's name; empty: none
+  bool contact = false;
+  double force_n = 0;
+  double volume_percent = 100;
+  bool muted = false;
+  std::string sound_track, subtitle_track;  // "2 of 3, jpn, Director"; "off"
+  double sound_delay_s = 0, subtitle_delay_s = 0;
+  std::string aspect;                            // the shape's word
+  std::optional<double> loop_from_s, loop_to_s;  // of an A-B loop
+  // Where the finger is in the picture, in shares from its middle, right and up: inside within 0.5.
+  std::optional<double> finger_across, finger_up;
+};
+
+}  // namespace relievo

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// The screen's display as a script that libass draws, and where its bar is. Pure.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/player/screen/screen_text.h"
+
+namespace relievo {
+
+// The script's own units: the view is 720 of them high, whatever its pixels, and as wide as the viewer sees it.
+constexpr double kScreenRows = 720;
+
+// Of a view `aspect` as wide as high.
+[[nodiscard]] std::string screenHead(double aspect);
+// Lines as AssText takes them.
+[[nodiscard]] std::vector<std::string> screenLines(const ScreenContent& content, double aspect);
+
+// Where in the bar a point of the view lies, 0 to 1; nullopt beside the bar. `across` and `down` in shares of the view.
+[[nodiscard]] std::optional<double> barShareAt(double across, double down, double aspect) noexcept;
+
+}  // namespace relievo

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws a script of one moment.
+#include "app/player/screen/screen_words.h"
+
+#include "app/player/screen/screen_script.h"
+#include "platform/log.h"
+
+namespace relievo {
+
+bool ScreenWords::ready() {
+  if (text_ || gave_up_) return text_.has_value();
+  auto text = AssText::create();
+  if (text) {
+    text_.emplace(std::move(*text));
+    return true;
+  }
+  gave_up_ = true;
+  log(LogLevel::Warning, "play", "%s; on-screen text is off", text.error().message);
+  return false;
+}
+
+bool ScreenWords::draw(const ScreenContent& content, const TextFrame& frame) {
+  if (content == drawn_ && frame_ == frame) return false;
+  if (content.empty() && pictures_.empty()) return false;
+  if (!ready()) return false;
+  if (aspect_ != frame.aspect) text_->begin(screenHead(frame.aspect));
+  aspect_ = frame.aspect;
+  text_->removeLines();
+  for (const std::string& line : screenLines(content, aspect_)) text_->add(line, Duration(0), std::chrono::hours(1));
+  drawn_ = content;
+  frame_ = frame;
+  TextFrame whole = frame;  // the display has the margins beside the picture as well
+  whole.margin_x = whole.margin_y = 0;
+  return text_->draw(whole, Duration(0), pictures_);
+}
+
+}  // namespace relievo

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// The screen's display as pictures.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "app/player/screen/screen_text.h"
+#include "app/render/text/ass_text.h"
+
+namespace relievo {
+
+// For one thread. Without a font it stays empty and logs that once.
+class ScreenWords {
+ public:
+  // True if the pictures differ from the last ones.
+  bool draw(const ScreenContent& content, const TextFrame& frame);
+  [[nodiscard]] const std::vector<TextPicture>& pictures() const noexcept { return pictures_; }
+
+ private:
+  [[nodiscard]] bool ready();
+
+  std::optional<AssText> text_;
+  bool gave_up_ = false;
+  double aspect_ = 0;  // of the script
+  ScreenContent drawn_;
+  std::optional<TextFrame> frame_;
+  std::vector<TextPicture> pictures_;
+};
+
+}  // namespace relievo

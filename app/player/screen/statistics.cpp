@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// One row for each part of the player.
+#include "app/player/screen/statistics.h"
+
+#include "platform/print.h"
+
+namespace relievo {
+namespace {
+
+constexpr Duration kPeriod = std::chrono::seconds(1);
+
+unsigned long long count(std::uint64_t value) noexcept {
+  return value;
+}
+
+}  // namespace
+
+ScreenRows Statistics::rows(const PlayReport& report, double force_n, MonotonicTime now) {
+  const double seconds = last_ == MonotonicTime{} ? 0 : toSeconds(now - last_);
+  const double rate = seconds > 0 ? static_cast<double>(report.frames_shown - shown_) / seconds : 0;
+  shown_ = report.frames_shown;
+  last_ = now;
+  next_ = now + kPeriod;
+  const FilmInfo& film = report.film;
+  const double nominal = film.frame_period > Duration(0) ? 1 / toSeconds(film.frame_period) : 0;
+  ScreenRows rows{
+      {"rate", print("%.1f of %.2f frames/s, %llu dropped", rate, nominal, count(report.frames_dropped))},
+      {"picture", print("%dx%d %s, depth %dx%d %s", film.color_width, film.color_height, film.color_codec.c_str(),
+                        film.depth_width, film.depth_height, film.has_depth ? film.depth_codec.c_str() : "none")},
+      {"decoder", film.color_decoder},
+      {"drawing",
+       print("%.1f ms, %zu triangles, error %.2f px", report.draw_ms, report.triangles, report.picture_error_px)}};
+  const HapticSummary& haptic = report.haptic;
+  if (haptic.ticks > 0) {
+    rows.emplace_back("tick", print("%.0f Hz, %.1f us, 99.9 %% under %.1f us, %llu late", haptic.rate_hz,
+                                    static_cast<double>(haptic.update.p50) * 1e-3,
+                                    static_cast<double>(haptic.update.p999) * 1e-3, count(haptic.overruns)));
+    rows.emplace_back("force", print("%.2f N, at most %.2f N", force_n, haptic.max_force_n));
+    rows.emplace_back("felt", haptic.plan);
+  }
+  if (!report.sound.device.empty()) {
+    rows.emplace_back("sound", print("%s, %.1f ms off at most, %llu gaps", report.sound.device.c_str(),
+                                     report.sound.max_offset_ms, count(report.sound.underruns)));
+  }
+  return rows;
+}
+
+}  // namespace relievo

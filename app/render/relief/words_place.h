@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far in front of the screen subtitles stand: just in front of what is behind them. Pure arithmetic.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "app/render/relief/stereo.h"
+#include "app/render/relief/textured_vertex.h"
+
+namespace relievo {
+
+// A rectangle in the screen plane, scene frame, mm.
+struct WordsBox {
+  double left = 0, bottom = 0, right = 0, top = 0;
+  bool operator==(const WordsBox&) const = default;
+};
+
+// Disparities are in pixels of a view: where the left eye sees a thing minus where the right eye sees it, positive in
+// front of the screen.
+//
+// The words follow the nearest relief under their box. Relief beside the box counts less the farther away it is, so
+// that a thing that comes from the side at up to kFastest lifts the words before it is under them: their disparity
+// changes by at most kStep a picture. A thing that comes faster, or rises faster, lifts them at once, since words
+// behind a thing that they cover hurt the eyes; `lifted` counts that.
+class WordsPlace {
+ public:
+  static constexpr double kStep = 1.0;          // px a picture
+  static constexpr double kSink = 0.25;         // px a picture, back towards the relief
+  static constexpr double kFastest = 1.0 / 80;  // of the picture's width a picture
+  static constexpr double kInFront = 0.002;     // of the picture's width: the disparity from the relief to the words
+
+  // Other words, or a cut: they may stand anywhere.
+  void begin() noexcept { begins_ = true; }
+  // For the next picture. `indices`: three for each triangle of the surface.
+  void follow(std::span<const TexturedVertex> vertices, std::span<const std::uint32_t> indices, const WordsBox& box,
+              const StereoSettings& stereo, double width_px, double pixels_per_mm);
+  // The picture is flat.
+  void stayInScreen() noexcept { disparity_ = behind_ = 0; }
+
+  [[nodiscard]] double disparity() const noexcept { return disparity_; }
+  // Of the nearest relief under the box, in the last picture.
+  [[nodiscard]] double behind() const noexcept { return behind_; }
+  [[nodiscard]] std::uint64_t lifted() const noexcept { return lifted_; }
+  // The shift to the right of the words in the view of the eye at `eye_x_mm`.
+  [[nodiscard]] double shiftPx(double eye_x_mm, const StereoSettings& stereo) const noexcept;
+
+ private:
+  double disparity_ = 0, behind_ = 0;
+  bool begins_ = true;
+  std::uint64_t lifted_ = 0;
+};
+
+}  // namespace relievo

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// libass returns bitmaps of one colour each; those that touch are blended into one picture.
+#include "app/render/text/ass_text.h"
+
+#include <ass/ass.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+namespace relievo {
+namespace {
+
+constexpr Error kNoFont{ErrorCode::NotFound, 0, "no font found; install one (Debian: fonts-dejavu-core)"};
+constexpr int kMostGlyphs = 2000, kMostBitmapsMb = 24;
+
+struct FreeLibrary {
+  void operator()(ASS_Library* library) const noexcept { ass_library_done(library); }
+};
+struct FreeRenderer {
+  void operator()(ASS_Renderer* renderer) const noexcept { ass_renderer_done(renderer); }
+};
+struct FreeTrack {
+  void operator()(ASS_Track* track) const noexcept { ass_free_track(track); }
+};
+
+long long milliseconds(Duration time) noexcept {
+  return std::chrono::duration_cast<std::chrono::milliseconds>(time).count();
+}
+
+struct Box {
+  int left, top, right, bottom;
+  [[nodiscard]] bool touches(const Box& other) const noexcept {
+    return left <= other.right && other.left <= right && top <= other.bottom && other.top <= bottom;
+  }
+  void take(const Box& other) noexcept {
+    left = std::min(left, other.left), top = std::min(top, other.top);
+    right = std::max(right, other.right), bottom = std::max(bottom, other.bottom);
+  }
+};
+
+// With a clear pixel around, so that a picture between two pixels of the screen keeps its edges.
+Box boxOf(const ASS_Image& image) noexcept {
+  return {image.dst_x - 1, image.dst_y - 1, image.dst_x + image.w + 1, image.dst_y + image.h + 1};
+}
+
+// The boxes of groups of images that touch one another.
+std::vector<Box> groupsOf(const ASS_Image* images) {
+  std::vector<Box> groups;
+  for (const ASS_Image* image = images; image != nullptr; image = image->next) {
+    if (image->w == 0 || image->h == 0) continue;
+    Box box = boxOf(*image);
+    for (bool grows = true; grows;) {  // a box that has grown may touch others
+      const auto touched = std::ranges::find_if(groups, [&](const Box& group) { return group.touches(box); });
+      grows = touched != groups.end();
+      if (!grows) break;
+      box.take(*touched);
+      groups.erase(touched);
+    }
+    groups.push_back(box);
+  }
+  return groups;
+}
+
+void blend(const ASS_Image& image, TextPicture& picture) noexcept {
+  const std::uint32_t opacity = 255 - (image.color & 0xff);
+  const std::uint32_t color[3] = {image.color >> 24, image.color >> 16 & 0xff, image.color >> 8 & 0xff};
+  for (int r = 0; r < image.h; ++r) {
+    const std::uint8_t* const cover = image.bitmap + static_cast<std::ptrdiff_t>(r) * image.stride;
+    std::uint8_t* out =
+        picture.rgba.data() +
+        4 * (static_cast<std::ptrdiff_t>(image.dst_y - picture.y + r) * picture.width + image.dst_x - picture.x);
+    for (int c = 0; c < image.w; ++c, out += 4) {
+      const std::uint32_t share = cover[c] * opacity;  // of 255 x 255
+      if (share == 0) continue;
+      constexpr std::uint32_t kWhole = 255 * 255;
+      for (int k = 0; k < 3; ++k) {
+        out[k] = static_cast<std::uint8_t>((color[k] * share + out[k] * (kWhole - share) + kWhole / 2) / kWhole);
+      }
+      out[3] = static_cast<std::uint8_t>((255 * share + out[3] * (kWhole - share) + kWhole / 2) / kWhole);
+    }
+  }
+}
+
+// Without any font libass draws nothing.
+bool drawsLetters(AssText& text) {
+  text.begin("[Script Info]\nPlayResX: 64\nPlayResY: 64\n");
+  text.add("0,0,Default,,0,0,0,,M", Duration(0), std::chrono::seconds(1));
+  std::vector<TextPicture> pictures;
+  text.draw({.width = 64, .height = 64, .aspect = 1}, Duration(0), pictures);
+  return !pictures.empty();
+}
+
+}  // namespace
+
+struct AssText::Parts {
+  std::unique_ptr<ASS_Library, FreeLibrary> library;
+  std::unique_ptr<ASS_Renderer, FreeRenderer> renderer;
+  std::unique_ptr<ASS_Track, FreeTrack> track;
+  std::optional<TextFrame> frame;
+};
+
+AssText::AssText(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+AssText::AssText(AssText&&) noexcept = default;
+AssText& AssText::operator=(AssText&&) noexcept = default;
+AssText::~AssText() = default;
+
+Result<AssText> AssText::create() {
+  auto parts = std::make_unique<Parts>();
+  parts->library.reset(ass_library_init());
+  if (!parts->library) return fail(ErrorCode::Exhausted, "out of memory for text");
+  ass_set_message_cb(parts->library.get(), [](int, const char*, va_list, void*) {}, nullptr);
+  parts->renderer.reset(ass_renderer_init(parts->library.get()));
+  if (!parts->renderer) return fail(ErrorCode::Exhausted, "out of memory for text");
+  ass_set_fonts(parts->renderer.get(), nullptr, "sans-serif", ASS_FONTPROVIDER_AUTODETECT, nullptr, 1);
+  ass_set_cache_limits(parts->renderer.get(), kMostGlyphs, kMostBitmapsMb);
+  AssText text(std::move(parts));
+  if (!drawsLetters(text)) return std::unexpected(kNoFont);
+  return text;
+}
+
+void AssText::begin(std::string_view head) {
+  parts_->track.reset(ass_new_track(parts_->library.get()));
+  if (!parts_->track) return;
+  std::string copy(head);
+  ass_process_codec_private(parts_->track.get(), copy.data(), static_cast<int>(copy.size()));
+  ass_set_check_readorder(parts_->track.get(), 0);
+  ass_track_set_feature(parts_->track.get(), ASS_FEATURE_WRAP_UNICODE, 1);
+}
+
+void AssText::add(std::string_view line, Duration begin, Duration length) {
+  if (!parts_->track) return;
+  std::string copy(line);
+  ass_process_chunk(parts_->track.get(), copy.data(), static_cast<int>(copy.size()), milliseconds(begin),
+                    milliseconds(length));
+}
+
+void AssText::removeLines() {
+  if (parts_->track) ass_flush_events(parts_->track.get());
+}
+
+bool AssText::draw(const TextFrame& frame, Duration time, std::vector<TextPicture>& pictures) {
+  if (!parts_->track) return std::exchange(pictures, {}).size() != 0;
+  ASS_Renderer* const renderer = parts_->renderer.get();
+  if (parts_->frame != frame) {
+    ass_set_frame_size(renderer, frame.width, frame.height);
+    ass_set_margins(renderer, frame.margin_y, frame.margin_y, frame.margin_x, frame.margin_x);
+    ass_set_pixel_aspect(renderer, static_cast<double>(frame.width) / frame.height / frame.aspect);
+  }
+  int changed = 0;
+  const ASS_Image* const images = ass_render_frame(renderer, parts_->track.get(), milliseconds(time), &changed);
+  if (changed == 0 && parts_->frame == frame) return false;
+  parts_->frame = frame;
+  pictures.clear();
+  for (const Box& box : groupsOf(images)) {
+    const int width = box.right - box.left, height = box.bottom - box.top;
+    TextPicture picture{box.left, box.top, width, height, width, height, {}};
+    picture.rgba.resize(4 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
+    for (const ASS_Image* image = images; image != nullptr; image = image->next) {
+      if (image->w > 0 && image->h > 0 && box.touches(boxOf(*image))) blend(*image, picture);
+    }
+    pictures.push_back(std::move(picture));
+  }
+  return true;
+}
+
+// libass gives a backslash no meaning where a word joiner follows it.
+std::string AssText::escaped(std::string_view text) {
+  std::string safe;
+  for (const char c : text) {
+    if (c == '{') safe += "\\{";
+    else if (c == '\\') safe += "\\\xe2\x81\xa0";
+    else if (c == '\n') safe += "\\N";
+    else if (static_cast<unsigned char>(c) >= ' ') safe += c;
+  }
+  return safe;
+}
+
+}  // namespace relievo

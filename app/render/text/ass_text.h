@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Text and shapes drawn by libass: fonts through fontconfig, shaping by HarfBuzz, order of mixed scripts by FriBidi.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/render/text/text_picture.h"
+#include "platform/clock.h"
+#include "platform/error.h"
+
+namespace relievo {
+
+// A script in the form of Advanced SubStation: a head with styles, and lines with times. For one thread.
+class AssText {
+ public:
+  // NotFound if there is no font.
+  [[nodiscard]] static Result<AssText> create();
+  AssText(AssText&&) noexcept;
+  AssText& operator=(AssText&&) noexcept;
+  ~AssText();
+
+  // Begins a new script without lines.
+  void begin(std::string_view head);
+  // "ReadOrder,Layer,Style,Name,MarginL,MarginR,MarginV,Effect,Text"; shown from `begin` on for `length`.
+  void add(std::string_view line, Duration begin, Duration length);
+  void removeLines();
+
+  // What is shown at `time`, as few pictures that do not overlap, in `pictures`. False if they are the same as the last
+  // time: nothing is changed then.
+  bool draw(const TextFrame& frame, Duration time, std::vector<TextPicture>& pictures);
+
+  // Text as it is, without any meaning of braces and backslashes.
+  [[nodiscard]] static std::string escaped(std::string_view text);
+
+ private:
+  struct Parts;
+  explicit AssText(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace relievo

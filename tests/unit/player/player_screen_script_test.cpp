@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Long words in short lines, and the bar's place.
+#include "app/player/screen/screen_script.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/player/screen/fold.h"
+
+namespace relievo {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::SizeIs;
+
+TEST(Fold, KeepsShortTextAndBreaksLongTextAtSpaces) {
+  EXPECT_THAT(folded("a short name", 40, 2), ElementsAre("a short name"));
+  EXPECT_THAT(folded("one two three four five", 12, 3), ElementsAre("one two ", "three four ", "five"));
+  EXPECT_THAT(folded("", 40, 2), SizeIs(0));
+}
+
+TEST(Fold, ShowsBeginningAndEndOfAFileNameThatIsTooLong) {
+  const std::string name = "begin_" + std::string(200, 'x') + "_end.mkv";
+  const auto lines = folded(name, 40, 2);
+  ASSERT_THAT(lines, SizeIs(2));
+  EXPECT_TRUE(lines[0].starts_with("begin_"));
+  EXPECT_TRUE(lines[1].ends_with("_end.mkv"));
+  EXPECT_THAT(lines[1], HasSubstr("…"));
+  EXPECT_LE(lines[1].size(), 42u) << "40 cells, one of them of three bytes";
+}
+
+TEST(Fold, WideLettersTakeTwoCells) {
+  EXPECT_THAT(folded("日本語の映画", 6, 2), ElementsAre("日本語", "の映画"));
+  EXPECT_THAT(folded("فيلم", 4, 1), ElementsAre("فيلم"));
+}
+
+TEST(Fold, BrokenBytesAreNeitherLostNorReadPast) {
+  for (const char* broken : {"\xff", "\xc3", "a\xe2\x82", "\xf0\x9f"}) {
+    EXPECT_THAT(folded(broken, 10, 1), ElementsAre(broken));
+  }
+}
+
+TEST(ScreenScript, WordsHaveNoMeaningOfTheirOwn) {
+  ScreenContent content;
+  content.hint = "{\\fs200}\\N";
+  const auto lines = screenLines(content, 16.0 / 9);
+  ASSERT_THAT(lines, SizeIs(1));
+  EXPECT_THAT(lines[0], HasSubstr("}\\{\\\u2060fs200}"));
+}
+
+TEST(ScreenScript, TheBarIsWhereItIsDrawn) {
+  constexpr double kAspect = 16.0 / 9, kDown = 664.0 / 720;
+  EXPECT_NEAR(*barShareAt(0.5, kDown, kAspect), 0.5, 1e-9);
+  EXPECT_NEAR(*barShareAt(40.0 / 1280, kDown, kAspect), 0, 1e-9);
+  EXPECT_NEAR(*barShareAt(1240.0 / 1280, kDown, kAspect), 1, 1e-9);
+  EXPECT_NEAR(*barShareAt(1250.0 / 1280, kDown, kAspect), 1, 1e-9) << "a little beside its end";
+  EXPECT_FALSE(barShareAt(0.5, 0.5, kAspect));
+}
+
+}  // namespace
+}  // namespace relievo
