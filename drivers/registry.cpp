@@ -192,6 +192,10 @@ std::unique_ptr<AudioDecoder> makeAudioDecoder() {
   return makeFfmpegAudioDecoder();
 }
 
+std::unique_ptr<SubtitleDecoder> makeSubtitleDecoder() {
+  return makeFfmpegSubtitleDecoder();
+}
+
 Result<void> switchFault(std::string_view device, std::string_view fault) {
   const bool unplug = fault == "unplug";
   if (device == "haptic" && fault == "glitch") return turn(haptic_bench, &MockHapticBench::glitch, true);

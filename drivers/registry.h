@@ -16,6 +16,7 @@
 #include "hal/haptic_device.h"
 #include "hal/media_source.h"
 #include "hal/remote_input.h"
+#include "hal/subtitle_decoder.h"
 #include "hal/video_decoder.h"
 #include "platform/clock.h"
 #include "platform/failure.h"
@@ -58,6 +59,7 @@ struct NamedFiles {
 [[nodiscard]] std::unique_ptr<VideoDecoder> makeSoftwareDecoder(const StreamInfo& stream);
 [[nodiscard]] std::unique_ptr<VideoDecoder> makeVideoDecoder(const StreamInfo& stream);
 [[nodiscard]] std::unique_ptr<AudioDecoder> makeAudioDecoder();
+[[nodiscard]] std::unique_ptr<SubtitleDecoder> makeSubtitleDecoder();
 // Reads the text at a path or an address that makeMediaSource could open.
 [[nodiscard]] Result<std::string> readText(const std::string& url, std::size_t most_bytes,
                                            const std::atomic<bool>& cancelled);

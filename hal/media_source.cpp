@@ -13,6 +13,7 @@ Result<void> MediaSource::open(const std::string& url) {
   }
   streams_ = std::move(description->streams);
   tags_ = std::move(description->tags);
+  chapters_ = std::move(description->chapters);
   duration_ = description->duration;
   origin_ = description->origin;
   times_.begin(origin_.longest_gap);
@@ -55,6 +56,7 @@ void MediaSource::close() noexcept {
   closeSource();
   streams_.clear();
   tags_.clear();
+  chapters_.clear();
   duration_ = Duration(0);
   origin_ = {};
   state_ = State::Closed;

@@ -35,9 +35,15 @@ struct StreamInfo {
   Duration frame_period{0};                 // the container's hint; the true one comes from the timestamps
   Duration duration{0};                     // 0 if unknown
   std::map<std::string, std::string> tags;  // upper-case keys: TITLE, HANDLER_NAME, DEPTH_NEAR, ..
+  bool by_default = false, forced = false;  // of sound and subtitles: the film's own marks
   bool auxiliary = false;                   // signalled as depth or parallax (ISO/IEC 23002-3), besides the tags
   // The source's own description, for a decoder of the same library; null otherwise.
   std::shared_ptr<const void> native;
+};
+
+struct Chapter {
+  MediaTime begin;
+  std::string title;
 };
 
 // A reference to coded data; valid as long as any copy of `owner` lives.
@@ -81,6 +87,8 @@ class MediaSource {
   [[nodiscard]] const std::vector<StreamInfo>& streams() const noexcept { return streams_; }
   // Container tags, upper-case keys. Empty while Closed.
   [[nodiscard]] const std::map<std::string, std::string>& tags() const noexcept { return tags_; }
+  // In order of time. Empty while Closed.
+  [[nodiscard]] const std::vector<Chapter>& chapters() const noexcept { return chapters_; }
   // Of the whole film; 0 if unknown (live).
   [[nodiscard]] Duration duration() const noexcept { return duration_; }
   // True for a network source or a camera, which may go away and come back.
@@ -110,6 +118,7 @@ class MediaSource {
   struct Description {
     std::vector<StreamInfo> streams;
     std::map<std::string, std::string> tags;
+    std::vector<Chapter> chapters;
     Duration duration{0};
     Origin origin;
   };
@@ -127,6 +136,7 @@ class MediaSource {
   State state_ = State::Closed;
   std::vector<StreamInfo> streams_;
   std::map<std::string, std::string> tags_;
+  std::vector<Chapter> chapters_;
   Duration duration_{0};
   Origin origin_;
   ContinuousTime times_;

@@ -55,6 +55,8 @@ void FilmFeed::begin(State state) {
   ++counts_.generation;
   queue_.clear();
   sound_.forget();
+  words_.clear();
+  request_.tracks_due = false;
   request_.target = MediaTime{};
   films_.clear();
   seek_error_.reset();
@@ -116,6 +118,23 @@ std::optional<AudioChunk> FilmFeed::takeSound() {
   return chunk;
 }
 
+std::optional<Subtitle> FilmFeed::takeSubtitle() {
+  const std::scoped_lock lock(mutex_);
+  if (words_.empty()) return std::nullopt;
+  std::optional<Subtitle> subtitle(std::move(words_.front()));
+  words_.pop_front();
+  return subtitle;
+}
+
+void FilmFeed::chooseTracks(std::optional<std::size_t> sound, std::optional<std::size_t> words) {
+  const std::scoped_lock lock(mutex_);
+  request_.sound = sound;
+  request_.words = words;
+  request_.tracks_due = true;
+  words_.clear();
+  wake_.notify_all();
+}
+
 bool FilmFeed::hasSoundUntil(MediaTime time) const {
   const std::scoped_lock lock(mutex_);
   return !wantsSound() || (sound_.until() && *sound_.until() >= time);
@@ -151,8 +170,8 @@ std::optional<FilmFeed::News> FilmFeed::takeNews() {
 
 bool FilmFeed::hasWork() const {
   if (state_ == State::Reconnecting) return backends_.clock->now() >= loss_.back_off.next();
-  return state_ == State::Opening || state_ == State::Seeking || (state_ == State::Closed && reader_open_) ||
-         wantsPair() || wantsSound();
+  return tracksDue() || state_ == State::Opening || state_ == State::Seeking ||
+         (state_ == State::Closed && reader_open_) || wantsPair() || wantsSound();
 }
 
 bool FilmFeed::wantsSound() const {
@@ -166,7 +185,12 @@ bool FilmFeed::work() {
   const std::uint64_t generation = counts_.generation;
   counts_.at_work = counts_.film;
   interrupted_ = false;
-  if (task == State::Opening) {
+  if (tracksDue()) {
+    request_.tracks_due = false;
+    const auto sound = request_.sound, words = request_.words;
+    lock.unlock();
+    workChoose(sound, words);
+  } else if (task == State::Opening) {
     const SourceOptions options = request_.options;
     lock.unlock();
     workOpen(options, generation);
@@ -207,8 +231,32 @@ void FilmFeed::workOpen(const SourceOptions& options, std::uint64_t generation) 
     return;
   }
   info_ = reader_.info();
+  takeWords(readWords());
   sound_.may_come = hasSound();
   state_ = State::Reading;
+}
+
+void FilmFeed::workChoose(std::optional<std::size_t> sound, std::optional<std::size_t> words) {
+  reader_.chooseTracks(sound, words);
+  auto read = readWords();
+  const std::scoped_lock lock(mutex_);
+  if (counts_.at_work != counts_.film) return;
+  info_ = reader_.info();
+  sound_.forget();
+  sound_.may_come = hasSound();
+  takeWords(std::move(read));
+}
+
+std::deque<Subtitle> FilmFeed::readWords() {
+  std::deque<Subtitle> words;
+  while (auto subtitle = reader_.nextSubtitle()) words.push_back(std::move(*subtitle));
+  return words;
+}
+
+// Those of a track that has been given up meanwhile are dropped.
+void FilmFeed::takeWords(std::deque<Subtitle> words) {
+  if (request_.tracks_due) return;
+  for (Subtitle& subtitle : words) words_.push_back(std::move(subtitle));
 }
 
 // Returns nullopt if the URL is not a playlist.
@@ -238,12 +286,14 @@ void FilmFeed::workSeek(MediaTime target, Duration key_step, std::uint64_t gener
 
 void FilmFeed::workRead(std::uint64_t generation) {
   auto pair = reader_.next();
+  auto words = readWords();
   const PairCounters counters = reader_.counters();
   const auto depth_loss = reader_.depthLoss();
   const auto restart = reader_.takeRestart();
   const std::scoped_lock lock(mutex_);
   if (counts_.at_work != counts_.film) return;
   counters_ = counters;
+  takeWords(std::move(words));
   noteRestart(restart);
   noteDepth(depth_loss);
   if (!pair && loses(pair.error())) return;
@@ -262,7 +312,9 @@ bool FilmFeed::workSound(bool may_read, std::uint64_t generation) {
   auto chunk = reader_.nextSound();
   if (!chunk && !may_read) return false;
   const bool more = chunk || reader_.readAhead();
+  auto words = readWords();
   const std::scoped_lock lock(mutex_);
+  if (counts_.at_work == counts_.film) takeWords(std::move(words));
   if (generation != counts_.generation) return true;
   sound_.may_come = more;
   if (!chunk) return true;

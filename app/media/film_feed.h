@@ -70,6 +70,10 @@ class FilmFeed {
   [[nodiscard]] std::optional<FramePair> take();
   // The next samples in order; nullopt if none are ready.
   [[nodiscard]] std::optional<AudioChunk> takeSound();
+  // The next subtitle that has been read; nullopt if there is none. After a seek some come again.
+  [[nodiscard]] std::optional<Subtitle> takeSubtitle();
+  // Other tracks, by their places in FilmInfo; follow it by a seek, so that what has been read of them is not missed.
+  void chooseTracks(std::optional<std::size_t> sound, std::optional<std::size_t> words);
   // True when no more sound before `time` is to be expected: it is queued, or the film's interleaving puts it too far
   // ahead to read.
   [[nodiscard]] bool hasSoundUntil(MediaTime time) const;
@@ -93,6 +97,9 @@ class FilmFeed {
 
  private:
   [[nodiscard]] bool hasWork() const;
+  [[nodiscard]] bool tracksDue() const {
+    return request_.tracks_due && (state_ == State::Reading || state_ == State::Ended || state_ == State::Seeking);
+  }
   [[nodiscard]] bool wantsPair() const { return state_ == State::Reading && queue_.size() < capacity_; }
   [[nodiscard]] bool wantsSound() const;
   [[nodiscard]] bool hasSound() const { return !info_.sound_codec.empty() && info_.sound_refused == nullptr; }
@@ -101,6 +108,9 @@ class FilmFeed {
   void workSeek(MediaTime target, Duration key_step, std::uint64_t generation);
   void workRead(std::uint64_t generation);
   void workReopen();
+  void workChoose(std::optional<std::size_t> sound, std::optional<std::size_t> words);
+  void takeWords(std::deque<Subtitle> words);
+  [[nodiscard]] std::deque<Subtitle> readWords();
   [[nodiscard]] bool loses(const Error& error);
   void noteRestart(const std::optional<VideoDecoder::Restart>& restart);
   void noteDepth(const std::optional<Error>& loss);
@@ -122,6 +132,8 @@ class FilmFeed {
     SourceOptions options;
     MediaTime target;
     Duration key_step{0};
+    bool tracks_due = false;
+    std::optional<std::size_t> sound, words;
   };
   Request request_;  // what was asked for last
   struct Counts {
@@ -134,6 +146,7 @@ class FilmFeed {
   std::vector<PlaylistEntry> films_;
   std::deque<FramePair> queue_;
   SoundQueue sound_;
+  std::deque<Subtitle> words_;
   FilmInfo info_;
   PairCounters counters_;
   Failure failure_;  // valid in Failed

@@ -27,6 +27,9 @@ struct PairReader::Impl {
   Result<void> selectDepth(const StreamInfo* depth);
   Result<void> openDepth(const StreamInfo& color);
   void openSound();
+  void openWords();
+  void readWordsOf(const std::string& path);
+  [[nodiscard]] const StreamInfo* streamOf(const FilmTrack& track) const;
   void countTracks(const TrackPlan& plan);
   Result<void> describeDepth(const Frame& first, const StreamInfo& stream,
                              const std::map<std::string, std::string>& tags);
@@ -81,6 +84,7 @@ struct PairReader::Impl {
   std::unique_ptr<DepthSource> depth_source;  // reads `depth_url`
 
   std::deque<Frame> color_ahead;               // read, not yet delivered
+  std::deque<Subtitle> words_ahead;            // of a subtitle file
   DepthCode found_code = DepthCode::Luma;      // as the first picture shows
   std::optional<std::size_t> depth_track;      // index in the colour's source
   const StreamInfo* depth_stream = nullptr;    // likewise; valid while the film is open

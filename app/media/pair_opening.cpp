@@ -67,8 +67,9 @@ Result<void> PairReader::Impl::openFilm() {
   const auto chosen = color_reader->select(asTold(*plan->color));
   if (!chosen) return failOn(options.url, chosen.error());
   if (auto selected = selectDepth(plan->depth); !selected) return selected;
-  openSound();
   countTracks(*plan);
+  openSound();
+  openWords();
   if (auto opened = openColor(*plan->color); !opened) return opened;
   return openDepth(*plan->color);
 }
@@ -179,20 +180,17 @@ void PairReader::Impl::countTracks(const TrackPlan& plan) {
     return static_cast<int>(
         std::count_if(streams.begin(), streams.end(), [&](const StreamInfo& s) { return s.kind == kind; }));
   };
+  info.chapters = color_reader->source().chapters();
+  if (info.sounds.empty() && info.subtitles.empty()) {  // not when the source is opened again
+    info.sounds = tracksOf(streams, StreamKind::Audio);
+    info.subtitles = tracksOf(streams, StreamKind::Subtitle);
+    for (FilmTrack& file : subtitleFilesOf(options.url)) info.subtitles.push_back(std::move(file));
+    info.sound = chooseSound(info.sounds, options.sound_languages);
+    info.words = chooseSubtitles(info.subtitles, options.subtitle_languages);
+  }
   info.sound_tracks = count(StreamKind::Audio);
   info.subtitle_tracks = count(StreamKind::Subtitle);
   info.video_tracks_unused = count(StreamKind::Video) - (plan.depth == nullptr ? 1 : 2);
-}
-
-void PairReader::Impl::openSound() {
-  if (!options.sound || !backends.make_audio_decoder) return;
-  const auto& streams = color_reader->source().streams();
-  const auto first =
-      std::find_if(streams.begin(), streams.end(), [](const StreamInfo& s) { return s.kind == StreamKind::Audio; });
-  if (first == streams.end()) return;
-  info.sound_codec = first->codec;
-  const auto opened = color_reader->listen(backends.make_audio_decoder(), *first, *options.sound);
-  if (!opened) info.sound_refused = opened.error().message;
 }
 
 Result<void> PairReader::Impl::describeDepth(const Frame& first, const StreamInfo& stream,

@@ -217,6 +217,25 @@ std::optional<AudioChunk> PairReader::nextSound() {
   return chunk;
 }
 
+std::optional<Subtitle> PairReader::nextSubtitle() {
+  if (!impl_->words_ahead.empty()) {
+    std::optional<Subtitle> subtitle(std::move(impl_->words_ahead.front()));
+    impl_->words_ahead.pop_front();
+    return subtitle;
+  }
+  auto subtitle = impl_->color_reader ? impl_->color_reader->nextWords() : std::nullopt;
+  if (!subtitle) return subtitle;
+  subtitle->begin += impl_->color_shift;
+  if (subtitle->end) *subtitle->end += impl_->color_shift;
+  return subtitle;
+}
+
+void PairReader::chooseTracks(std::optional<std::size_t> sound, std::optional<std::size_t> words) {
+  if (!impl_->color_reader) return;
+  if (std::exchange(impl_->info.sound, sound) != sound) impl_->openSound();
+  if (std::exchange(impl_->info.words, words) != words) impl_->openWords();
+}
+
 bool PairReader::readAhead() {
   return impl_->color_reader && impl_->color_reader->readAhead();
 }
@@ -228,6 +247,7 @@ void PairReader::close() noexcept {
   film.depth_stream = nullptr;
   film.depth_session.reset();
   film.color_ahead.clear();
+  film.words_ahead.clear();
   film.color_shift = film.depth_shift = Duration(0);
   film.goes_on_at = MediaTime{};
   film.remote = film.live = film.depth_away = film.depth_lost = film.loss_told = false;

@@ -9,12 +9,14 @@
 #include <string>
 #include <vector>
 
+#include "app/media/film_tracks.h"
 #include "app/media/reading/packing.h"
 #include "app/media/registration.h"
 #include "app/scene/depth_calibration.h"
 #include "hal/audio_decoder.h"
 #include "hal/frame.h"
 #include "hal/media_source.h"
+#include "hal/subtitle_decoder.h"
 #include "hal/video_decoder.h"
 #include "platform/error.h"
 
@@ -24,13 +26,14 @@ struct SourceOptions {
   std::string url;
   std::string depth_url;  // empty: the depth is in `url`
   Packing packing = Packing::Auto;
-  std::optional<DepthCode> depth_code;       // nullopt: guessed from the picture
-  CalibrationSettings command_line;          // --calibration KEY=VALUE,..
-  CalibrationSettings side_file;             // --calibration FILE
-  std::vector<std::string> named_files;      // files that the side file and the registration were read from
-  std::optional<double> frames_per_s;        // of pictures without timestamps, such as numbered files
-  std::optional<Registration> registration;  // for depth from a camera of its own; not for packed depth
-  std::optional<AudioFormat> sound;          // the format to deliver sound in; nullopt: no sound
+  std::optional<DepthCode> depth_code;              // nullopt: guessed from the picture
+  CalibrationSettings command_line;                 // --calibration KEY=VALUE,..
+  CalibrationSettings side_file;                    // --calibration FILE
+  std::vector<std::string> named_files;             // files that the side file and the registration were read from
+  std::optional<double> frames_per_s;               // of pictures without timestamps, such as numbered files
+  std::optional<Registration> registration;         // for depth from a camera of its own; not for packed depth
+  std::optional<AudioFormat> sound;                 // the format to deliver sound in; nullopt: no sound
+  std::string sound_languages, subtitle_languages;  // "jpn,en": the first that is there; see film_tracks.h
 };
 
 // A colour picture, and the depth picture that DepthFollower finds for its time. `matched` is false when that depth
@@ -54,8 +57,11 @@ struct FilmInfo {
   std::vector<std::string> reading;  // what the first pictures revealed, and why; one line each
   std::vector<std::string> doubts;   // why the calibration looks wrong, and the option to try; one line each
   std::string color_codec, depth_codec;
-  std::string color_decoder, depth_decoder;                            // VideoDecoder::description
-  std::string sound_codec;                                             // if sound was asked for and the film has some
+  std::string color_decoder, depth_decoder;  // VideoDecoder::description
+  std::string sound_codec;                   // if sound was asked for and the film has some
+  std::vector<FilmTrack> sounds, subtitles;  // in `url`, then the subtitle files beside it
+  std::optional<std::size_t> sound, words;   // chosen of those
+  std::vector<Chapter> chapters;
   int sound_tracks = 0, subtitle_tracks = 0, video_tracks_unused = 0;  // in `url`
   const char* sound_refused = nullptr;                                 // why the sound cannot be decoded
 };
@@ -90,7 +96,8 @@ struct PairCounters {
 // Use from one thread, except `interrupt`, which any thread may call. `next` blocks while it reads and decodes. A
 // function that needs an open film returns InvalidState without one.
 //
-// The sound is the first sound track of the colour's source. Sound and pictures never wait for each other.
+// Sound and subtitles are those of the colour's source that SourceOptions and `chooseTracks` choose. Sound and pictures
+// never wait for each other.
 class PairReader {
  public:
   struct Backends {
@@ -98,7 +105,8 @@ class PairReader {
     std::function<std::unique_ptr<VideoDecoder>(const StreamInfo&)> make_decoder;
     // Fetches a playlist's text from an address, at most so many bytes; gives up when the flag is set.
     std::function<Result<std::string>(const std::string&, std::size_t, const std::atomic<bool>&)> read_text;
-    std::function<std::unique_ptr<AudioDecoder>()> make_audio_decoder;  // only if sound is wanted
+    std::function<std::unique_ptr<AudioDecoder>()> make_audio_decoder;        // only if sound is wanted
+    std::function<std::unique_ptr<SubtitleDecoder>()> make_subtitle_decoder;  // only if subtitles are wanted
     Clock* clock = nullptr;    // times the retries of lost sources; null: no retries
     bool own_threads = false;  // read a separate depth source on its own thread, so that it cannot block the colour
   };
@@ -125,6 +133,11 @@ class PairReader {
   [[nodiscard]] Result<void> reopen();
   // The next samples among the data already read, in order; after a seek some may lie before its target. Never reads.
   [[nodiscard]] std::optional<AudioChunk> nextSound();
+  // The next subtitle among the data already read; the film's times.
+  [[nodiscard]] std::optional<Subtitle> nextSubtitle();
+  // Other tracks from now on, by their places in FilmInfo; nullopt for no subtitles. What has been read of them before
+  // is missed, until a seek. Sound that cannot be decoded is told in FilmInfo::sound_refused.
+  void chooseTracks(std::optional<std::size_t> sound, std::optional<std::size_t> words);
   // Reads one more packet, for containers that store sound later than its pictures; false when that cannot help.
   [[nodiscard]] bool readAhead();
   void close() noexcept;

@@ -10,6 +10,9 @@ namespace relievo {
 
 Result<void> SoundTrack::open(std::unique_ptr<AudioDecoder> decoder, const StreamInfo& stream,
                               const AudioFormat& format) {
+  restart();
+  decoder_.reset();
+  stream_ = -1;
   if (auto opened = decoder->open(stream, format); !opened) return opened;
   decoder_ = std::move(decoder);
   stream_ = stream.index;

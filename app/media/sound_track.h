@@ -21,7 +21,7 @@ class SoundTrack {
   static constexpr std::size_t kMaxWaitingPackets = 4096;
   static constexpr std::size_t kMaxWaitingBytes = std::size_t{16} << 20;
 
-  // Opens the decoder for `stream`.
+  // Opens the decoder for `stream`, in place of the last one.
   [[nodiscard]] Result<void> open(std::unique_ptr<AudioDecoder> decoder, const StreamInfo& stream,
                                   const AudioFormat& format);
   [[nodiscard]] bool open() const noexcept { return decoder_ != nullptr; }

@@ -113,6 +113,10 @@ Result<bool> TrackReader::readOnePacket() {
     sound_.keep(std::move(**packet));
     return true;
   }
+  if (read.stream == words_.stream()) {
+    words_.keep(std::move(**packet));
+    return true;
+  }
   if (read.stream == tracks_[0].stream) read_ = read.dts ? read.dts : read.pts;
   for (std::size_t i = 0; i < track_count_; ++i) {
     if (tracks_[i].stream == (*packet)->stream) keep(tracks_[i], std::move(**packet));
@@ -174,6 +178,7 @@ Result<bool> TrackReader::seekOnce(MediaTime from, MediaTime target, Duration ke
   if (auto sought = source_->seek(from); !sought) return std::unexpected(sought.error());
   key_step_ = key_step;
   sound_.restart();
+  words_.restart();
   given_.reset();
   read_.reset();
   for (std::size_t i = 0; i < track_count_; ++i) {

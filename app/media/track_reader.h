@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "app/media/sound_track.h"
+#include "app/media/subtitle_track.h"
 #include "hal/media_source.h"
 #include "hal/video_decoder.h"
 #include "platform/error.h"
@@ -40,11 +41,18 @@ class TrackReader {
   // Selects a stream for decoding; returns the track number for `next`. If the caller sets a frame period in `stream`,
   // pictures without timestamps are numbered by it. Exhausted when two are already selected.
   [[nodiscard]] Result<std::size_t> select(const StreamInfo& stream);
-  // Selects the sound, once; before the first `next`, so that none is missed.
+  // Selects the sound. What has been read before is missed, until a seek.
   [[nodiscard]] Result<void> listen(std::unique_ptr<AudioDecoder> decoder, const StreamInfo& stream,
                                     const AudioFormat& format) {
     return sound_.open(std::move(decoder), stream, format);
   }
+  // Selects the subtitles, likewise.
+  [[nodiscard]] Result<void> readWords(std::unique_ptr<SubtitleDecoder> decoder, const StreamInfo& stream) {
+    return words_.open(std::move(decoder), stream);
+  }
+  void ignoreWords() noexcept { words_.close(); }
+  // The next subtitle among the data already read. Never reads, never fails.
+  [[nodiscard]] std::optional<Subtitle> nextWords() { return words_.next(); }
   // The track's next picture, upright, in presentation order; nullopt at the end of the track (`ended`) or if none is
   // available now. Exhausted when the caller holds more pictures than the decoder allows.
   [[nodiscard]] Result<std::optional<Frame>> next(std::size_t track);
@@ -95,6 +103,7 @@ class TrackReader {
   std::size_t track_count_ = 0;
   Duration key_step_{0};
   SoundTrack sound_;
+  SubtitleTrack words_;
   std::optional<MediaTime> given_, read_;  // the leading track's newest picture and newest packet
 };
 

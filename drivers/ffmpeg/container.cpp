@@ -98,6 +98,18 @@ StreamKind kindOf(const AVStream& stream) noexcept {
   }
 }
 
+std::vector<Chapter> chaptersOf(const AVFormatContext& context, Duration start) {
+  std::vector<Chapter> chapters;
+  for (unsigned i = 0; i < context.nb_chapters; ++i) {
+    const AVChapter& chapter = *context.chapters[i];
+    const AVDictionaryEntry* const title = av_dict_get(chapter.metadata, "title", nullptr, 0);
+    const Duration begin = durationFrom(chapter.start, chapter.time_base) - start;
+    chapters.push_back({MediaTime(std::max(begin, Duration(0))), title == nullptr ? "" : title->value});
+  }
+  std::ranges::sort(chapters, {}, &Chapter::begin);
+  return chapters;
+}
+
 bool isTextArt(const AVFormatContext& context) noexcept {
   if (context.nb_streams != 1) return false;
   switch (context.streams[0]->codecpar->codec_id) {
@@ -174,6 +186,8 @@ Result<StreamInfo> describeStream(const AVStream& stream, bool timed) {
   // FFmpeg cannot tell the size of a TIFF picture of floats.
   const bool float_tiff = parameters.codec_id == AV_CODEC_ID_TIFF && parameters.width == 0;
   if (isDistance(parameters.format) || float_tiff) info.tags.insert({{"DEPTH_UNIT", "1"}, {"DEPTH_INVALID", "0"}});
+  info.by_default = (stream.disposition & AV_DISPOSITION_DEFAULT) != 0;
+  info.forced = (stream.disposition & AV_DISPOSITION_FORCED) != 0;
   info.auxiliary = info.kind == StreamKind::Video && parameters.codec_tag == kAuxiliaryVideo;
 
   auto native = std::make_unique<NativeStream>();

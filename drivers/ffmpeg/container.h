@@ -4,6 +4,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 extern "C" {
 #include <libavformat/avformat.h>
@@ -24,6 +25,9 @@ inline constexpr AVRational kMicrosecond{1, AV_TIME_BASE};  // the time base of 
 
 // Without a duration if the container has no times (`timed` false). Exhausted if out of memory.
 [[nodiscard]] Result<StreamInfo> describeStream(const AVStream& stream, bool timed);
+
+// Their media times: `start` is the container's time of 0.
+[[nodiscard]] std::vector<Chapter> chaptersOf(const AVFormatContext& context, Duration start);
 
 // True for text files, which FFmpeg would render as a video of letters.
 [[nodiscard]] bool isTextArt(const AVFormatContext& context) noexcept;

@@ -8,6 +8,7 @@
 
 #include "hal/audio_decoder.h"
 #include "hal/media_source.h"
+#include "hal/subtitle_decoder.h"
 #include "hal/video_decoder.h"
 #include "platform/error.h"
 
@@ -43,6 +44,10 @@ namespace relievo {
 // Decodes any codec, rate and channel layout, which may change within the film. Channels are mixed down by their
 // layout's standard rule, scaled so that the sum does not clip.
 [[nodiscard]] std::unique_ptr<AudioDecoder> makeFfmpegAudioDecoder();
+
+// Decodes every coding of text (SubRip, WebVTT, mov_text, ..) to lines of Advanced SubStation, and pictures of words
+// (PGS, DVB, DVD). Text that is no UTF-8 is taken for Latin-1.
+[[nodiscard]] std::unique_ptr<SubtitleDecoder> makeFfmpegSubtitleDecoder();
 
 // Returns the text at a path or an address (http, https); Corrupt if it is longer than `most_bytes`. May wait as long
 // as opening a source; Cancelled soon after the flag is set.

@@ -172,6 +172,7 @@ class FfmpegSource final : public MediaSource {
     Description description;
     description.tags = tagsOf(context_->metadata);
     if (timed_ && context_->duration > 0) description.duration = durationFrom(context_->duration, kMicrosecond);
+    description.chapters = chaptersOf(*context_, start_);
     description.origin = origin();
     for (unsigned i = 0; i < context_->nb_streams; ++i) {
       auto stream = describeStream(*context_->streams[i], timed_);

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// Subtitles of a film and beside it: files written by hand, and tracks that the ffmpeg program has muxed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "app/media/pair_reader.h"
+#include "drivers/ffmpeg/ffmpeg.h"
+#include "tests/support/film/clip_maker.h"
+
+namespace relievo {
+namespace {
+
+using test::TemporaryFolder;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+PairReader::Backends backends() {
+  return {.make_source = [](const std::string&) { return makeFfmpegSource(); },
+          .make_decoder = [](const StreamInfo&) { return makeFfmpegDecoder(); },
+          .make_subtitle_decoder = makeFfmpegSubtitleDecoder};
+}
+
+// "0.5-1.5 text", as far as it has been read; the text without the fields before it.
+std::vector<std::string> takeWords(PairReader& reader) {
+  std::vector<std::string> words;
+  while (const auto subtitle = reader.nextSubtitle()) {
+    for (const std::string& line : subtitle->lines) {
+      std::size_t at = 0;
+      for (int field = 0; field < 8; ++field) at = line.find(',', at) + 1;
+      char times[64];
+      std::snprintf(times, sizeof times, "%.3g-%.3g ", toSeconds(subtitle->begin),
+                    subtitle->end ? toSeconds(*subtitle->end) : -1);
+      words.push_back(times + line.substr(at));
+    }
+  }
+  return words;
+}
+
+class FilmWords : public testing::Test {
+ protected:
+  void SetUp() override {
+    test::makeClip(folder_ / "film.mkv", {{.pix_fmt = "yuv420p", .fps_num = 25, .frames = 100}});
+    source_ = {.url = folder_ / "film.mkv"};
+  }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+  std::vector<std::string> wordsBeside() {
+    PairReader reader(backends());
+    EXPECT_TRUE(reader.open(source_));
+    return takeWords(reader);
+  }
+  // Reads to the end.
+  static std::vector<std::string> readAll(PairReader& reader) {
+    std::vector<std::string> words = takeWords(reader);
+    while (reader.next().value()) {
+      for (std::string& more : takeWords(reader)) words.push_back(std::move(more));
+    }
+    return words;
+  }
+
+  TemporaryFolder folder_;
+  SourceOptions source_;
+};
+
+TEST_F(FilmWords, SrtBesideTheFilmKeepsItsTimes) {
+  write(
+      "film.srt",
+      "1\r\n00:00:01,500 --> 00:00:02,500\r\nHello <i>there</i>\r\n\r\n2\r\n00:00:03,000 --> 00:00:03,250\r\nBye\r\n");
+  EXPECT_THAT(wordsBeside(), ElementsAre("1.5-2.5 Hello {\\i1}there{\\i0}", "3-3.25 Bye"));
+}
+
+TEST_F(FilmWords, WebVttAndAss) {
+  write("film.vtt", "WEBVTT\n\n00:01.000 --> 00:02.000\nこんにちは\n");
+  EXPECT_THAT(wordsBeside(), ElementsAre("1-2 こんにちは"));
+  std::filesystem::remove(folder_ / "film.vtt");
+  write("film.ass",
+        "[Script Info]\nScriptType: v4.00+\n[V4+ Styles]\nFormat: Name, Fontname\nStyle: Big,Sans\n[Events]\n"
+        "Format: Layer, Start, End, Style, Name, MarginL, MarginR, MarginV, Effect, Text\n"
+        "Dialogue: 0,0:00:00.50,0:00:01.00,Big,,0,0,0,,{\\b1}Bold, with a comma\n");
+  EXPECT_THAT(wordsBeside(), ElementsAre("0.5-1 {\\b1}Bold, with a comma"));
+}
+
+TEST_F(FilmWords, OldFilesInLatin1AreRead) {
+  write("film.srt", "1\n00:00:01,000 --> 00:00:02,000\nGr\xfc\xdf\n");
+  EXPECT_THAT(wordsBeside(), ElementsAre("1-2 Grüß"));
+}
+
+TEST_F(FilmWords, AFileThatIsNoneIsLeftOut) {
+  write("film.srt", "nothing of the kind");
+  EXPECT_THAT(wordsBeside(), IsEmpty());
+}
+
+TEST_F(FilmWords, TracksChaptersAndLanguagesInTheFilm) {
+  write("a.srt", "1\n00:00:00,400 --> 00:00:00,800\nOne\n\n2\n00:00:03,000 --> 00:00:03,500\nTwo\n");
+  write("b.srt", "1\n00:00:00,600 --> 00:00:01,000\nUn\n\n2\n00:00:03,200 --> 00:00:03,600\nDeux\n");
+  write("meta",
+        ";FFMETADATA1\n[CHAPTER]\nTIMEBASE=1/1000\nSTART=0\nEND=2000\ntitle=First\n"
+        "[CHAPTER]\nTIMEBASE=1/1000\nSTART=2000\nEND=4000\ntitle=Second\n");
+  const std::string folder = folder_ / "";
+  const std::string command =
+      "cd " + folder +
+      " && ffmpeg -v error -i film.mkv -i a.srt -i b.srt -i meta -map 0 -map 1 -map 2 "
+      "-map_chapters 3 -c copy -disposition:s 0 -metadata:s:s:0 language=eng -metadata:s:s:1 language=fre all.mkv";
+  if (std::system(command.c_str()) != 0)
+    GTEST_SKIP() << "no ffmpeg program here";  // NOLINT(bugprone-command-processor)
+  PairReader reader(backends());
+  ASSERT_TRUE(reader.open({.url = folder_ / "all.mkv", .subtitle_languages = "fr"}));
+  const FilmInfo& info = reader.info();
+  ASSERT_EQ(info.subtitles.size(), 2u);
+  EXPECT_EQ(info.subtitles[0].language, "eng");
+  EXPECT_EQ(info.words, 1u);
+  ASSERT_EQ(info.chapters.size(), 2u);
+  EXPECT_EQ(info.chapters[1].title, "Second");
+  EXPECT_EQ(info.chapters[1].begin, mediaTime(2));
+  EXPECT_THAT(readAll(reader), ElementsAre("0.6-1 Un", "3.2-3.6 Deux"));
+
+  // The other track, from a place in the film.
+  reader.chooseTracks(info.sound, 0);
+  ASSERT_TRUE(reader.seek(mediaTime(1)));
+  EXPECT_THAT(readAll(reader), testing::Contains("3-3.5 Two"));
+  reader.chooseTracks(info.sound, std::nullopt);
+  ASSERT_TRUE(reader.seek(mediaTime(0)));
+  EXPECT_THAT(readAll(reader), IsEmpty());
+}
+
+}  // namespace
+}  // namespace relievo
