@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -191,6 +192,19 @@ TEST_F(AuthorKeeps, SoundOfATransportStreamInMatroska) {
   author("-o @/out.mkv", "@/way.ts");
   EXPECT_THAT(tracksOf(folder_ / "out.mkv", "a"), ElementsAre("aac|eng", "aac|jpn"));
   expectSameSound(folder_ / "out.mkv", 0);
+}
+
+// Two broadcasts one after the other: the times begin again in the middle.
+TEST_F(AuthorKeeps, SoundGoesOnWhereATransportStreamsTimesJump) {
+  author("--no-subtitles -o @/way.ts");
+  ASSERT_EQ(std::system(inFolder("cat @/way.ts @/way.ts > @/twice.ts").c_str()), 0);
+  author("-o @/out.mkv", "@/twice.ts");
+  const std::vector<double> once = timesOf(film_, "a:0"), twice = timesOf(folder_ / "out.mkv", "a:0");
+  const std::vector<double> pictures = timesOf(folder_ / "out.mkv", "v:0");
+  EXPECT_NEAR(static_cast<double>(twice.size()), 2.0 * static_cast<double>(once.size()), 4);
+  EXPECT_EQ(pictures.size(), 100u);
+  EXPECT_NEAR(twice.back(), pictures.back(), 0.3);
+  EXPECT_TRUE(std::ranges::is_sorted(twice));
 }
 
 TEST_F(AuthorKeeps, NothingThatIsNotWished) {

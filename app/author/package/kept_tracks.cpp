@@ -16,6 +16,7 @@ namespace relievo {
 namespace {
 
 constexpr AVRational kNanosecond{1, 1'000'000'000};
+constexpr Duration kLongestGap = std::chrono::seconds(10);  // as the reader of files has it, see ContinuousTime
 constexpr Error kNoMemory{ErrorCode::Exhausted, ENOMEM, "out of memory for a track"};
 
 // Codecs that a transport stream, or a segment of HLS, holds for the players of this world.
@@ -108,6 +109,7 @@ Result<std::unique_ptr<KeptTracks>> KeptTracks::open(const std::string& file, Du
     return fail(ErrorCode::Corrupt, "it cannot be read a second time for its sound", osErrorOf(code));
   }
   tracks->start_ = start;
+  if (tracks->jumps()) tracks->times_.begin(kLongestGap);
   tracks->wishes_ = wishes;
   return tracks;
 }
@@ -130,7 +132,7 @@ Result<void> KeptTracks::addTo(AVFormatContext& film, FilmKind kind) {
   kind_ = kind;
   for (unsigned i = 0; i < file_->nb_streams; ++i) {
     AVStream& stream = *file_->streams[i];
-    stream.discard = AVDISCARD_ALL;
+    stream.discard = jumps() ? AVDISCARD_DEFAULT : AVDISCARD_ALL;  // a jump is seen by all streams together
     if (!isWished(stream) || !isOfProgramme(*file_, stream.index)) continue;
     if (auto added = addStream(stream); !added) return added;
     if (copies_.contains(stream.index)) stream.discard = AVDISCARD_DEFAULT;
@@ -212,8 +214,18 @@ Result<KeptTracks::PacketPtr> KeptTracks::next() {
       ended_ = true;
       return nullptr;
     }
+    makeContinuous(*packet);
     if (packet->size > 0 && copies_.contains(packet->stream_index)) return packet;
   }
+}
+
+// As the pictures' reader does, so that sound and pictures stay together where a broadcast's times jump.
+void KeptTracks::makeContinuous(AVPacket& packet) {
+  if (!jumps() || (packet.dts == AV_NOPTS_VALUE && packet.pts == AV_NOPTS_VALUE)) return;
+  const Duration offset = times_.offsetFor(packet.stream_index, begins(packet));
+  const std::int64_t ticks = av_rescale_q(offset.count(), kNanosecond, file_->streams[packet.stream_index]->time_base);
+  if (packet.pts != AV_NOPTS_VALUE) packet.pts += ticks;
+  if (packet.dts != AV_NOPTS_VALUE) packet.dts += ticks;
 }
 
 MediaTime KeptTracks::begins(const AVPacket& packet) const noexcept {

@@ -14,6 +14,7 @@ extern "C" {
 
 #include "app/author/package/film_kind.h"
 #include "app/author/package/text_subtitles.h"
+#include "hal/continuous_time.h"
 #include "hal/media_time.h"
 #include "platform/error.h"
 
@@ -56,16 +57,20 @@ class KeptTracks {
     std::unique_ptr<TextSubtitles> converter;
   };
 
+  // Whether the container's times may jump.
+  [[nodiscard]] bool jumps() const noexcept { return (file_->iformat->flags & AVFMT_TS_DISCONT) != 0; }
   [[nodiscard]] bool isWished(const AVStream& stream) const noexcept;
   [[nodiscard]] Result<void> addStream(const AVStream& stream);
   [[nodiscard]] Result<void> addChapters();
   void addTitles();
   [[nodiscard]] Result<PacketPtr> next();
+  void makeContinuous(AVPacket& packet);
   [[nodiscard]] MediaTime begins(const AVPacket& packet) const noexcept;
   [[nodiscard]] Result<void> write(PacketPtr packet);
 
   std::unique_ptr<AVFormatContext, Close> file_;
   Duration start_{0};
+  ContinuousTime times_;
   KeptWishes wishes_;
   AVFormatContext* film_ = nullptr;
   FilmKind kind_ = FilmKind::Matroska;
