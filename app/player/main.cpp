@@ -37,7 +37,8 @@ PairReader::Backends realBackends(bool software = false) {
   return {.make_source = drivers::makeMediaSource,
           .make_decoder = software ? drivers::makeSoftwareDecoder : drivers::makeVideoDecoder,
           .read_text = drivers::readText,
-          .make_audio_decoder = drivers::makeAudioDecoder};
+          .make_audio_decoder = drivers::makeAudioDecoder,
+          .make_subtitle_decoder = drivers::makeSubtitleDecoder};
 }
 
 // One that cannot be written costs the other nothing.

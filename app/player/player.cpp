@@ -37,6 +37,10 @@ std::string titleOf(const std::string& url) {
   return path.substr(begin, end + 1 - begin);
 }
 
+std::optional<double> secondsOf(std::optional<MediaTime> time) {
+  return time ? std::optional(toSeconds(*time)) : std::nullopt;
+}
+
 }  // namespace
 
 Player::Player(PlayerConfig config, PlayerParts parts)
@@ -136,6 +140,8 @@ void Player::step(MonotonicTime now) {
   film_.noteNews();
   followReader(now);
   followClock(now);
+  followLoopAB(now);
+  while (auto subtitle = film_.takeSubtitle()) screen_.subtitles().add(std::move(*subtitle));
   film_.followSound(state_ == PlayerState::Playing);
   programme_.keep(film_.placeToKeep(now), now);
   touch_.drain(seeks_);
@@ -210,12 +216,14 @@ void Player::obey(const PlayerCommand& command, MonotonicTime now) {
     case PlayerVerb::Loop:
       programme_.setLoop(command.value == 0 ? !programme_.loops() : command.value > 0);
       break;
+    case PlayerVerb::Screenshot:
+      return screen_.saveScreenshot(facts().title);
     case PlayerVerb::Keys:
       return screen_.text().toggleKeys(config_.keys.rowsIn(state_));
     default:
       break;
   }
-  if (!obeySound(command)) obeyPicture(command, now);
+  if (!obeySound(command, now)) obeyPicture(command, now);
   if (auto notice = noticeOf(command, facts())) screen_.text().notice(std::move(*notice), now);
   else screen_.wake(now);
 }
@@ -227,6 +235,7 @@ void Player::obeyPicture(const PlayerCommand& command, MonotonicTime now) {
                             .rate = film_.rate(),
                             .here = film_.goal(now),
                             .length = film_.info().duration,
+                            .chapters = film_.info().chapters,
                             .film = programme_.present(),
                             .films = programme_.size(),
                             .film_asked = programme_.asked()};
@@ -284,7 +293,13 @@ ScreenFacts Player::facts() const {
           .force_n = finger ? glm::length(finger->force_n) : 0.0,
           .volume_percent = loudness_.percent(),
           .muted = loudness_.muted(),
+          .sound_track = describeTrack(film_.info().sounds, film_.info().sound),
+          .subtitle_track = describeTrack(film_.info().subtitles, words_shown_ ? film_.info().words : std::nullopt),
+          .sound_delay_s = toSeconds(film_.soundDelay()),
+          .subtitle_delay_s = toSeconds(subtitle_delay_),
           .aspect = screen_.aspectWord(),
+          .loop_from_s = secondsOf(loop_from_),
+          .loop_to_s = secondsOf(loop_to_),
           .finger_across = share(finger ? finger->position_mm.x : 0.0, volume.width_mm),
           .finger_up = share(finger ? finger->position_mm.y : 0.0, volume.height_mm)};
 }

@@ -115,7 +115,13 @@ class Player {
   void feedTouch();
 
   // player_sound.cpp: sound and words
-  [[nodiscard]] bool obeySound(const PlayerCommand& command);
+  [[nodiscard]] bool obeySound(const PlayerCommand& command, MonotonicTime now);
+  void chooseTracks(std::optional<std::size_t> sound, std::optional<std::size_t> words, MonotonicTime now);
+  void nextWords(double number, MonotonicTime now);
+  void showWords(bool shown, MonotonicTime now);
+  void beginWords();
+  void setLoopAB(MonotonicTime now);
+  void followLoopAB(MonotonicTime now);
   void setVolume(double percent);
   void mute(bool muted);
 
@@ -139,6 +145,9 @@ class Player {
   std::set<std::uint16_t> unbound_;  // keys without a meaning that were told
   Loudness loudness_;
   Statistics statistics_;
+  bool words_shown_ = true;
+  Duration subtitle_delay_{0};
+  std::optional<MediaTime> loop_from_, loop_to_;  // of an A-B loop
 
   PlayerState state_ = PlayerState::Boot;
   std::optional<Failure> failure_;  // of a film that could not be played, until another one opens

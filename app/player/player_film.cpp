@@ -58,6 +58,7 @@ void Player::seek(MediaTime target, PlayerEvent why, bool by_viewer, MonotonicTi
   if (const auto clock = film_.clock()) touch_.feed(film_.depth(), {clock->at(now), now, 0});
   seeks_.asked(target, by_viewer, now);
   film_.seek(target, now);
+  screen_.jump();
 }
 
 void Player::followReader(MonotonicTime now) {
@@ -85,6 +86,7 @@ void Player::followOpening(MonotonicTime now) {
   failure_.reset();
   programme_.opened();
   journal_.filmOpened(film_.opened());
+  beginWords();
   const auto left = programme_.whereLeft(film_.info().duration);
   if (!left) return;
   log(LogLevel::Info, "play", "resumes at %.1f s, where it was left", toSeconds(*left));

@@ -39,6 +39,7 @@ void Player::leaveFilm(MonotonicTime now) {
   programme_.keepAtOnce(film_.placeToKeep(now), now);
   programme_.left(film_.begun());
   seeks_.forget();
+  screen_.subtitles().forget();
   film_.close(now);
 }
 

@@ -5,7 +5,7 @@
 namespace relievo {
 
 // False for a command that is none of these.
-bool Player::obeySound(const PlayerCommand& command) {
+bool Player::obeySound(const PlayerCommand& command, MonotonicTime now) {
   switch (command.verb) {
     case PlayerVerb::VolumeBy:
       setVolume(loudness_.percent() + command.value);
@@ -15,6 +15,30 @@ bool Player::obeySound(const PlayerCommand& command) {
       return true;
     case PlayerVerb::Mute:
       mute(command.value == 0 ? !loudness_.muted() : command.value > 0);
+      return true;
+    case PlayerVerb::AudioTrack: {
+      const std::size_t count = film_.info().sounds.size();
+      const std::size_t next = film_.info().sound.value_or(count) + 1;
+      if (count == 0) return true;
+      chooseTracks(command.value > 0 ? static_cast<std::size_t>(command.value) - 1 : next % count, film_.info().words,
+                   now);
+      return true;
+    }
+    case PlayerVerb::AudioDelayBy:
+      film_.soundOutput().setDelay(film_.soundOutput().delay() + fromSeconds(command.value));
+      return true;
+    case PlayerVerb::SubtitleTrack:
+      nextWords(command.value, now);
+      return true;
+    case PlayerVerb::ShowSubtitles:
+      showWords(command.value == 0 ? !words_shown_ || !film_.info().words : command.value > 0, now);
+      return true;
+    case PlayerVerb::SubtitleDelayBy:
+      subtitle_delay_ += fromSeconds(command.value);
+      screen_.delaySubtitles(subtitle_delay_);
+      return true;
+    case PlayerVerb::LoopAB:
+      setLoopAB(now);
       return true;
     default:
       return false;
@@ -27,8 +51,67 @@ void Player::setVolume(double percent) {
 }
 
 void Player::mute(bool muted) {
+  const bool changes = loudness_.muted() != muted;
   loudness_.mute(muted);
-  film_.soundOutput().setGain(loudness_.gain());
+  film_.soundOutput().setGain(loudness_.gain(), changes);
+}
+
+// What has been read ahead is of the old tracks: the film is read again from where it is. A live one goes on.
+void Player::chooseTracks(std::optional<std::size_t> sound, std::optional<std::size_t> words, MonotonicTime now) {
+  const FilmInfo& info = film_.info();
+  if (sound && *sound >= info.sounds.size()) return;
+  if (words && *words >= info.subtitles.size()) return;
+  if (sound == info.sound && words == info.words) return;
+  if (words != info.words) screen_.subtitles().forget();
+  film_.chooseTracks(sound, words);
+  if (info.duration > Duration(0)) seek(film_.goal(now), PlayerEvent::Seek, false, now);
+}
+
+// After the last track comes none.
+void Player::nextWords(double number, MonotonicTime now) {
+  const FilmInfo& info = film_.info();
+  std::optional<std::size_t> next;
+  if (number > 0) next = static_cast<std::size_t>(number) - 1;
+  else if (number == 0 && !info.words && !info.subtitles.empty()) next = 0;
+  else if (number == 0 && info.words && *info.words + 1 < info.subtitles.size()) next = *info.words + 1;
+  chooseTracks(info.sound, next, now);
+  words_shown_ = next.has_value();
+  screen_.subtitles().show(words_shown_);
+}
+
+void Player::showWords(bool shown, MonotonicTime now) {
+  if (shown && !film_.info().words) return nextWords(0, now);
+  words_shown_ = shown;
+  screen_.subtitles().show(shown);
+}
+
+// A film begins.
+void Player::beginWords() {
+  words_shown_ = film_.info().words.has_value();
+  screen_.subtitles().show(words_shown_);
+  loop_from_.reset();
+  loop_to_.reset();
+  std::vector<double> starts;
+  for (const Chapter& chapter : film_.info().chapters) starts.push_back(toSeconds(chapter.begin));
+  screen_.text().setChapters(std::move(starts));
+}
+
+void Player::setLoopAB(MonotonicTime now) {
+  const auto here = film_.place(now);
+  if (loop_to_ || !here) {
+    loop_from_.reset();
+    loop_to_.reset();
+  } else if (!loop_from_) {
+    loop_from_ = here;
+  } else if (*here > *loop_from_) {
+    loop_to_ = here;
+  }
+}
+
+void Player::followLoopAB(MonotonicTime now) {
+  if (state_ != PlayerState::Playing || !loop_to_) return;
+  const auto here = film_.place(now);
+  if (here && *here >= *loop_to_) seek(*loop_from_, PlayerEvent::Seek, false, now);
 }
 
 }  // namespace relievo

@@ -91,6 +91,62 @@ TEST_F(PlayerSound, IsHeardWithItsPicturesFromTheFirstToTheLast) {
   EXPECT_THAT(bench_.report.faults, IsEmpty());
 }
 
+TEST_F(PlayerSound, TheVolumeIsAFactorOnEverySample) {
+  bench_.config.volume_percent = 50;  // an eighth
+  film(50);
+  playsWell();
+  for (std::size_t k = 5; k < 50; ++k) {
+    ASSERT_TRUE(moments_[k].heard_s) << k;
+    EXPECT_NEAR(*moments_[k].heard_s, 0.125 * 0.04 * static_cast<double>(k), 0.125e-3) << k;
+  }
+}
+
+TEST_F(PlayerSound, MutedIsSilentInTimeAndComesBackInTime) {
+  bench_.config.keys = KeyTable::parse("[always]\nM = \"mute\"\n", "keys").value();
+  film(100);
+  bench_.press(1.0, KEY_M);
+  bench_.press(2.0, KEY_M);
+  playsWell();
+  for (std::size_t k = 27; k < 50; ++k) EXPECT_EQ(moments_[k].heard_s.value_or(0), 0) << k;
+  EXPECT_LT(worstOffsetMs(60, 100), 1.0);
+  EXPECT_EQ(bench_.report.sound.realigned, 0u);
+}
+
+TEST_F(PlayerSound, ADelayMovesTheSoundAlone) {
+  bench_.config.keys = KeyTable::parse("[always]\nA = \"audio-delay +0.2\"\n", "keys").value();
+  film(150);
+  bench_.press(1.0, KEY_A);
+  playsWell();
+  EXPECT_LT(worstOffsetMs(1, 25), 1.0);
+  for (std::size_t k = 75; k < 150; ++k) EXPECT_NEAR(offsetMs(k), -200, 2) << k;
+}
+
+TEST_F(PlayerSound, AnotherTrackIsHeardFromWhereTheFilmIs) {
+  bench_.config.keys = KeyTable::parse("[always]\nA = \"audio\"\n", "keys").value();
+  film(150);
+  MockTrack other = PlayerBench::soundTrack(150);
+  other.sound = [](double seconds, int) { return static_cast<float>(0.5 + seconds * 1e-3); };  // 500 s ahead
+  bench_.sources["film"].tracks.push_back(other);
+  bench_.press(2.0, KEY_A);
+  const auto played = bench_.run();
+  ASSERT_TRUE(played);
+  ASSERT_GE(moments_.size(), 140u);
+  const Moment& last = moments_[moments_.size() - 5];
+  ASSERT_TRUE(last.heard_s);
+  EXPECT_NEAR(*last.heard_s - 500, 0.04 * 145, 0.05);
+  EXPECT_EQ(bench_.report.sound.underruns, 0u);
+}
+
+TEST_F(PlayerSound, SoundThatIsLongerThanThePicturePlaysToItsEnd) {
+  bench_.sources["film"] = PlayerBench::film(25);
+  bench_.sources["film"].tracks.push_back(PlayerBench::soundTrack(75));
+  playsWell();
+  EXPECT_EQ(moments_.size(), 25u);
+  EXPECT_NEAR(bench_.report.media_s, 3.0, 0.1);
+  EXPECT_EQ(bench_.report.sound.underruns, 0u);
+  EXPECT_THAT(bench_.report.faults, IsEmpty());
+}
+
 // Ten minutes on a card whose crystal is off by 200 ppm: unled, that is 120 ms.
 class PlayerSoundDrift : public PlayerSound, public testing::WithParamInterface<double> {};
 INSTANTIATE_TEST_SUITE_P(Ppm, PlayerSoundDrift, testing::Values(200.0, -200.0),

@@ -67,6 +67,16 @@ Deeds previous(const Situation& s) {
   return {seek(MediaTime{}, true)};
 }
 
+// Back goes to this chapter's beginning, near that to the one before it. After the last chapter comes nothing.
+Deeds seekChapter(int by, const Situation& s) {
+  if (s.chapters.empty()) return {note("this film has no chapters", "it plays on")};
+  const MediaTime from = by < 0 ? s.here - kBeginning : s.here;
+  const auto next = std::ranges::upper_bound(s.chapters, from, {}, &Chapter::begin);
+  const auto wished = (next - s.chapters.begin()) + (by > 0 ? by - 1 : by);
+  if (wished >= std::ssize(s.chapters)) return {};
+  return {seek(s.chapters[static_cast<std::size_t>(std::max<std::ptrdiff_t>(wished, 0))].begin, true)};
+}
+
 }  // namespace
 
 std::vector<Deed> deedsFor(const PlayerCommand& command, const Situation& s) {
@@ -89,6 +99,8 @@ std::vector<Deed> deedsFor(const PlayerCommand& command, const Situation& s) {
       return {seek(mediaTime(command.value), true)};
     case PlayerVerb::SeekShare:
       return seekShare(command.value, s);
+    case PlayerVerb::ChapterBy:
+      return seekChapter(static_cast<int>(command.value), s);
     case PlayerVerb::Next:
       return s.film + 1 < s.films ? Deeds{open(s.film + 1)} : Deeds{};
     case PlayerVerb::Previous:

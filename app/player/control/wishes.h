@@ -5,10 +5,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "app/player/control/command.h"
 #include "app/player/state_table.h"
+#include "hal/media_source.h"
 #include "hal/media_time.h"
 #include "platform/clock.h"
 
@@ -20,6 +22,7 @@ struct Situation {
   double rate = 1;     // over 1: key frames only
   MediaTime here;      // the position, or the target of a pending seek
   Duration length{0};  // of the film; 0: unknown or live
+  std::span<const Chapter> chapters;
   std::size_t film = 0, films = 1;
   bool film_asked = false;  // a film has been opened since the player started
 };

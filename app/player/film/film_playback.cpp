@@ -231,6 +231,13 @@ MediaTime FilmPlayback::goal(MonotonicTime now) const {
   return target_ ? *target_ : place(now).value_or(MediaTime{});
 }
 
+void FilmPlayback::chooseTracks(std::optional<std::size_t> sound, std::optional<std::size_t> words) {
+  info_.sound = sound;
+  info_.words = words;
+  sound_.forget();
+  feed_.chooseTracks(sound, words);
+}
+
 MediaTime FilmPlayback::bufferedUntil() const {
   return head_.ahead().empty() ? picture().color.pts : head_.ahead().back().color.pts;
 }

@@ -90,7 +90,12 @@ class FilmPlayback {
   // The film has ended: its end is not kept as the place where the viewer left it.
   void forgetPlace() noexcept { clock_.reset(); }
 
+  // The next subtitle that has been read.
+  [[nodiscard]] std::optional<Subtitle> takeSubtitle() { return feed_.takeSubtitle(); }
+  // Other tracks, by their places in `info`; follow it by a seek to where the film is.
+  void chooseTracks(std::optional<std::size_t> sound, std::optional<std::size_t> words);
   [[nodiscard]] Sound& soundOutput() noexcept { return sound_; }
+  [[nodiscard]] Duration soundDelay() const noexcept { return sound_.delay(); }
   // Once a round: feeds the sound output, and notes losses and recoveries in the journal.
   void followSound(bool playing);
   void noteNews();

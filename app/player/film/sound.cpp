@@ -99,19 +99,30 @@ void Sound::fill() {
     amplify(there * channels);
     const auto taken = output_->write({block_.data(), there * channels});
     if (!taken) return lose(taken.error());
-    if (*taken < there) gain_ = before + (gain_ - before) * static_cast<double>(*taken) / static_cast<double>(there);
+    gain_ = gainAfter(before, *taken);  // the rest is written, and faded, again
     cursor_ += static_cast<std::int64_t>(*taken);
     if (*taken < there) return;
   }
+}
+
+double Sound::gainAfter(double before, std::size_t frames) const noexcept {
+  const double most = static_cast<double>(frames) / (kFadeS * format_->rate_hz);
+  return before + std::clamp(wished_gain_ - before, -most, most);
+}
+
+void Sound::setGain(double gain, bool at_once) noexcept {
+  wished_gain_ = gain;
+  if (!at_once) return;
+  gain_ = gain;
+  stop();
 }
 
 // Louder than whole is cut off at the whole.
 void Sound::amplify(std::size_t samples) noexcept {
   if (gain_ == 1 && wished_gain_ == 1) return;
   const auto channels = static_cast<std::size_t>(format_->channels);
-  const double step = 1 / (kFadeS * format_->rate_hz);
   for (std::size_t i = 0; i < samples; i += channels) {
-    gain_ += std::clamp(wished_gain_ - gain_, -step, step);
+    gain_ = gainAfter(gain_, 1);
     for (std::size_t c = 0; c < channels; ++c) {
       const double louder = static_cast<double>(block_[i + c]) * gain_;
       block_[i + c] = static_cast<float>(std::clamp(louder, -1.0, 1.0));

@@ -50,8 +50,9 @@ class Sound {
   // Before the film: whether the output is there or not, `format` is what the film's sound is wanted in from then on.
   void open();
   [[nodiscard]] std::optional<AudioFormat> format() const noexcept { return format_; }
-  // The factor on the samples, from the next ones on; it changes without a click.
-  void setGain(double gain) noexcept { wished_gain_ = gain; }
+  // The factor on the samples, from the next ones on; it changes without a click. `at_once`: what the output holds is
+  // dropped, so that nothing of it is heard with the old one.
+  void setGain(double gain, bool at_once = false) noexcept;
   // The sound is heard so much later than the film's times say.
   void setDelay(Duration delay) noexcept;
   [[nodiscard]] Duration delay() const noexcept { return delay_; }
@@ -78,6 +79,7 @@ class Sound {
   void start(MediaTime position);
   void fill();
   void amplify(std::size_t samples) noexcept;
+  [[nodiscard]] double gainAfter(double before, std::size_t frames) const noexcept;
   [[nodiscard]] bool listen(MediaClock& clock, const FilmFeed& feed, MonotonicTime now);
   [[nodiscard]] bool realign();
   void stop() noexcept;

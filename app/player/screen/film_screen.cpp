@@ -3,10 +3,14 @@
 #include "app/player/screen/film_screen.h"
 
 #include <array>
+#include <cstdlib>
+#include <filesystem>
 #include <glm/geometric.hpp>
 
+#include "app/player/screen/png_file.h"
 #include "app/player/screen/screen_script.h"
 #include "app/player/screen/stereo_word.h"
+#include "platform/log.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -19,6 +23,22 @@ constexpr double kMovedMm = 0.2;                                   // smaller mo
 bool movedVisibly(const std::optional<FingerMark>& a, const std::optional<FingerMark>& b) {
   if (a.has_value() != b.has_value()) return true;
   return a && (a->contact != b->contact || glm::distance(a->position_mm, b->position_mm) > kMovedMm);
+}
+
+// A free name in the pictures' folder of the desktop, or here.
+std::string screenshotPath(const std::string& title) {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  fs::path folder = ".";
+  const char* const told = std::getenv("XDG_PICTURES_DIR");
+  const char* const home = std::getenv("HOME");
+  if (told != nullptr && fs::is_directory(told, none)) folder = told;
+  else if (home != nullptr && fs::is_directory(fs::path(home) / "Pictures", none)) folder = fs::path(home) / "Pictures";
+  const std::string stem = "relievo-" + fs::path(title).filename().stem().string();
+  for (int number = 1;; ++number) {
+    const fs::path path = folder / (stem + print("-%04d.png", number));
+    if (!fs::exists(path, none)) return path.string();
+  }
 }
 
 }  // namespace
@@ -43,12 +63,15 @@ Result<void> FilmScreen::attend(MonotonicTime now) {
 
 void FilmScreen::setScene(const DepthCalibration& calibration, const DisplayVolume& volume, Duration period,
                           MonotonicTime now) {
+  calibration_ = calibration;
+  jump();
   picture_.setScene(calibration, volume, fromSeconds(kDrawShare * toSeconds(period)));
   text_.wake(now);
 }
 
 Result<bool> FilmScreen::show(const FramePair& pair, const std::optional<FingerMark>& finger, MonotonicTime now) {
   picture_.setPair(pair);
+  noteCut(pair);
   const auto seen = draw(finger, now);
   if (!seen || !*seen) {
     ++dropped_;
@@ -82,6 +105,7 @@ Result<bool> FilmScreen::draw(const std::optional<FingerMark>& finger, Monotonic
   redraw_ = false;
   const auto shown = picture_.show(finger, now);
   if (!shown) return std::unexpected(shown.error());
+  writeScreenshot(now);
   if (const char* why = picture_.takeRefusal()) {
     journal_.note(std::string("stereo: ") + why, print("shown as %s", name(picture_.stereo().layout)));
   }
@@ -97,6 +121,44 @@ void FilmScreen::write(const ScreenFacts& facts, MonotonicTime next_picture, Mon
   written_ = content;
   picture_.setText(std::move(content));
   if (next_picture > now + 2 * kRedrawPeriod) redraw_ = true;  // else the next picture shows it
+}
+
+void FilmScreen::jump() {
+  recent_.clear();
+  shots_.forget();
+  picture_.cut();
+}
+
+void FilmScreen::delaySubtitles(Duration delay) {
+  picture_.delaySubtitles(delay);
+  redraw_ = true;
+}
+
+// At a cut the subtitles may stand at another depth at once.
+void FilmScreen::noteCut(const FramePair& pair) {
+  constexpr std::size_t kRecent = 3;
+  if (subtitles().pictures().empty() || pair.depth.empty()) return jump();
+  const auto field = HeightField::make(pair.depth, calibration_, picture_.volume());
+  if (!field || (!recent_.empty() && recent_.back().time >= pair.depth.pts)) return;
+  if (recent_.size() == kRecent) recent_.pop_front();
+  recent_.push_back({.field = *field, .time = pair.depth.pts, .owner = pair.depth.owner});
+  shots_.mark(recent_);
+  if (recent_.size() > 1 && recent_.back().shot != recent_[recent_.size() - 2].shot) picture_.cut();
+}
+
+void FilmScreen::saveScreenshot(const std::string& title) {
+  screenshot_ = screenshotPath(title);
+  picture_.capture();
+  redraw_ = true;
+}
+
+void FilmScreen::writeScreenshot(MonotonicTime now) {
+  const auto capture = picture_.takeCapture();
+  if (!capture) return;
+  const auto written = writePng(screenshot_, capture->width, capture->height, capture->rgb);
+  const std::string what = written ? "Saved " + screenshot_ : screenshot_ + ": " + written.error().message;
+  log(written ? LogLevel::Info : LogLevel::Warning, "play", "%s", what.c_str());
+  text_.notice({what, std::nullopt}, now);
 }
 
 void FilmScreen::obey(const PlayerCommand& command) {

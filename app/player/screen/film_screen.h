@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/depth_window/shots.h"
 #include "app/media/pair_reader.h"
 #include "app/player/control/command.h"
 #include "app/player/journal.h"
@@ -40,6 +42,13 @@ class FilmScreen {
   void setScene(const DepthCalibration& calibration, const DisplayVolume& volume, Duration period, MonotonicTime now);
   // Draws a picture of the film. False if the screen is lost: the picture counts as dropped.
   [[nodiscard]] Result<bool> show(const FramePair& pair, const std::optional<FingerMark>& finger, MonotonicTime now);
+  // The subtitles of a film; see Picture.
+  [[nodiscard]] SubtitleWords& subtitles() noexcept { return picture_.subtitles(); }
+  void delaySubtitles(Duration delay);
+  // The film goes on elsewhere: after an opening or a seek.
+  void jump();
+  // Saves the picture that is shown, without what is written over it. `title`: of the file's name.
+  void saveScreenshot(const std::string& title);
   // Counts pictures that were never shown.
   void skip(std::uint64_t pictures) noexcept { dropped_ += pictures; }
   // Between two pictures of the film: draws the present one again if finger or text have changed and there is time
@@ -76,10 +85,16 @@ class FilmScreen {
 
  private:
   [[nodiscard]] Result<bool> draw(const std::optional<FingerMark>& finger, MonotonicTime now);
+  void noteCut(const FramePair& pair);
+  void writeScreenshot(MonotonicTime now);
   void changeAspect(const std::string& word);
   void noteLost();
 
   Picture picture_;
+  DepthCalibration calibration_;
+  std::deque<TimedSurface> recent_;  // depth pictures, the newest last
+  ShotFinder shots_;
+  std::string screenshot_;  // the path of the one that is due; empty: none
   ScreenText text_;
   const bool osd_;
   const Clock& clock_;

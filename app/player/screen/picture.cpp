@@ -96,9 +96,23 @@ Result<void> Picture::draw(const DisplaySurface& surface, const std::optional<Fi
     uploaded_ = true;
   }
   const TextFrame frame = textFrame(eyeViews(stereo_, volume_, surface.width, surface.height));
+  if (subtitles_.draw(frame, pair_.color.pts - subtitle_delay_) || renewed) {
+    renderer_->setSubtitles(frame, subtitles_.pictures());
+  }
+  if (std::exchange(cut_, false)) renderer_->cut();
+  if (auto captured = captureFrom(surface, finger); !captured) return captured;
   if (words_.draw(text_, frame) || renewed) renderer_->setText(frame, words_.pictures());
   if (auto drawn = renderer_->draw(surface, finger); !drawn) return drawn;
   statistics_ = renderer_->statistics();
+  return {};
+}
+
+Result<void> Picture::captureFrom(const DisplaySurface& surface, const std::optional<FingerMark>& finger) {
+  if (!std::exchange(capture_due_, false)) return {};
+  renderer_->setText({.width = 1, .height = 1}, {});
+  if (auto drawn = renderer_->draw(surface, finger); !drawn) return drawn;
+  captured_ = Capture{surface.width, surface.height, SceneRenderer::read(surface)};
+  words_.forget();
   return {};
 }
 

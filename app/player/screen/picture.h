@@ -6,9 +6,11 @@
 #include <optional>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "app/media/pair_reader.h"
 #include "app/player/screen/screen_words.h"
+#include "app/player/screen/subtitle_words.h"
 #include "app/render/gl/scene_renderer.h"
 #include "app/render/relief/stereo.h"
 #include "app/scene/depth_calibration.h"
@@ -47,6 +49,18 @@ class Picture {
   void clear() noexcept;
   // What stands over the picture from the next `show` on.
   void setText(ScreenContent content) { text_ = std::move(content); }
+  // Shown with the pictures of their times, `delay` later.
+  [[nodiscard]] SubtitleWords& subtitles() noexcept { return subtitles_; }
+  void delaySubtitles(Duration delay) noexcept { subtitle_delay_ = delay; }
+  // The next picture does not continue this one.
+  void cut() noexcept { cut_ = true; }
+  // The next `show` keeps what it shows, without the display over it, for `takeCapture`.
+  struct Capture {
+    int width = 0, height = 0;
+    std::vector<std::uint8_t> rgb;
+  };
+  void capture() noexcept { capture_due_ = true; }
+  [[nodiscard]] std::optional<Capture> takeCapture() noexcept { return std::exchange(captured_, std::nullopt); }
   // Fails for what no retry helps: no renderer, a pixel format that cannot be drawn.
   [[nodiscard]] Result<Shown> show(const std::optional<FingerMark>& finger, MonotonicTime now);
   // Between pictures, often. True when the last one should be drawn anew; Lost when the screen has gone just now, and
@@ -85,6 +99,7 @@ class Picture {
   void lose(MonotonicTime now) noexcept;
   [[nodiscard]] Result<void> drawAndPresent(const std::optional<FingerMark>& finger);
   [[nodiscard]] Result<void> draw(const DisplaySurface& surface, const std::optional<FingerMark>& finger);
+  [[nodiscard]] Result<void> captureFrom(const DisplaySurface& surface, const std::optional<FingerMark>& finger);
   void fallBack(const DisplaySurface& surface) noexcept;
   void stereoChanged() noexcept;
 
@@ -99,6 +114,10 @@ class Picture {
   FramePair pair_;
   ScreenContent text_;
   ScreenWords words_;
+  SubtitleWords subtitles_;
+  Duration subtitle_delay_{0};
+  bool cut_ = false, capture_due_ = false;
+  std::optional<Capture> captured_;
   bool uploaded_ = false;
   MonotonicTime next_retry_;
   int width_ = 0, height_ = 0;

@@ -17,7 +17,7 @@ constexpr double kMargin = 40;
 constexpr double kBarTop = 658, kBarHeight = 12, kBarReach = 14;  // so far above and below the bar a click is on it
 constexpr double kTitleSize = 30, kTitleLine = 38, kTimesSize = 24, kTimesTop = 680;
 constexpr double kLetterOfSize = 0.52;  // the mean width of a letter
-constexpr double kGaugeTop = 330, kGaugeHeight = 200, kGaugeWidth = 16, kGaugeNewtons = 10;
+constexpr double kGaugeTop = 280, kGaugeHeight = 200, kGaugeWidth = 16, kGaugeNewtons = 10;
 constexpr double kEdge = 30;  // of the mark for a finger beside the picture
 constexpr double kMostKeyRows = 24;
 

@@ -22,6 +22,7 @@ bool ScreenWords::ready() {
 bool ScreenWords::draw(const ScreenContent& content, const TextFrame& frame) {
   if (content == drawn_ && frame_ == frame) return false;
   if (content.empty() && pictures_.empty()) return false;
+  const bool anew = !frame_.has_value();
   if (!ready()) return false;
   if (aspect_ != frame.aspect) text_->begin(screenHead(frame.aspect));
   aspect_ = frame.aspect;
@@ -31,7 +32,7 @@ bool ScreenWords::draw(const ScreenContent& content, const TextFrame& frame) {
   frame_ = frame;
   TextFrame whole = frame;  // the display has the margins beside the picture as well
   whole.margin_x = whole.margin_y = 0;
-  return text_->draw(whole, Duration(0), pictures_);
+  return text_->draw(whole, Duration(0), pictures_, anew);
 }
 
 }  // namespace relievo

@@ -43,6 +43,12 @@ std::optional<WordsBox> boxOf(const TextFrame& frame, const std::vector<TextPict
   return WordsBox{left / width - 0.5, 0.5 - bottom / height, right / width - 0.5, 0.5 - top / height};
 }
 
+// Words that move, or lines that follow one another at the same place, move on in depth from where they were.
+bool continues(const std::optional<WordsBox>& last, const std::optional<WordsBox>& next) noexcept {
+  return last && next && last->left < next->right && next->left < last->right && last->bottom < next->top &&
+         next->bottom < last->top;
+}
+
 void smooth(Duration& smoothed, Duration took, bool first) noexcept {
   smoothed = first ? took : smoothed + (took - smoothed) / kSmoothing;
 }
@@ -124,7 +130,7 @@ void SceneRenderer::setSubtitles(const TextFrame& frame, const std::vector<TextP
   Impl& impl = *impl_;
   impl.subtitles.set(frame, pictures);
   const auto box = boxOf(frame, pictures);
-  if (box != impl.words_box) impl.words.begin();
+  if (!continues(impl.words_box, box)) impl.words.begin();
   impl.words_box = box;
   impl.words_due = true;
 }
@@ -161,6 +167,19 @@ Result<void> SceneRenderer::draw(const DisplaySurface& surface, const std::optio
   ++impl.frames;
   if (!impl.depth.empty()) impl.level.drew(took);
   return glOutcome();
+}
+
+std::vector<std::uint8_t> SceneRenderer::read(const DisplaySurface& surface) {
+  const auto width = static_cast<std::size_t>(surface.width), height = static_cast<std::size_t>(surface.height);
+  std::vector<std::uint8_t> rgba(4 * width * height), rgb(3 * width * height);
+  glBindFramebuffer(GL_FRAMEBUFFER, surface.framebuffer);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, surface.width, surface.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  for (std::size_t y = 0; y < height; ++y) {
+    const std::uint8_t* from = rgba.data() + 4 * width * (height - 1 - y);
+    for (std::size_t x = 0; x < width; ++x) std::copy_n(from + 4 * x, 3, rgb.data() + 3 * (y * width + x));
+  }
+  return rgb;
 }
 
 RenderStatistics SceneRenderer::statistics() const noexcept {

@@ -70,6 +70,8 @@ class SceneRenderer {
   // Draws the last pair into `surface`, black if there is none. Blocks until the GPU has finished, so that the time can
   // be measured.
   [[nodiscard]] Result<void> draw(const DisplaySurface& surface, const std::optional<FingerMark>& finger);
+  // What `draw` has drawn into `surface`, before it is presented: rows from the top, three bytes a pixel.
+  [[nodiscard]] static std::vector<std::uint8_t> read(const DisplaySurface& surface);
   [[nodiscard]] RenderStatistics statistics() const noexcept;
 
  private:

@@ -139,7 +139,7 @@ void AssText::removeLines() {
   if (parts_->track) ass_flush_events(parts_->track.get());
 }
 
-bool AssText::draw(const TextFrame& frame, Duration time, std::vector<TextPicture>& pictures) {
+bool AssText::draw(const TextFrame& frame, Duration time, std::vector<TextPicture>& pictures, bool anew) {
   if (!parts_->track) return std::exchange(pictures, {}).size() != 0;
   ASS_Renderer* const renderer = parts_->renderer.get();
   if (parts_->frame != frame) {
@@ -149,7 +149,7 @@ bool AssText::draw(const TextFrame& frame, Duration time, std::vector<TextPictur
   }
   int changed = 0;
   const ASS_Image* const images = ass_render_frame(renderer, parts_->track.get(), milliseconds(time), &changed);
-  if (changed == 0 && parts_->frame == frame) return false;
+  if (changed == 0 && parts_->frame == frame && !anew) return false;
   parts_->frame = frame;
   pictures.clear();
   for (const Box& box : groupsOf(images)) {

@@ -29,8 +29,8 @@ class AssText {
   void removeLines();
 
   // What is shown at `time`, as few pictures that do not overlap, in `pictures`. False if they are the same as the last
-  // time: nothing is changed then.
-  bool draw(const TextFrame& frame, Duration time, std::vector<TextPicture>& pictures);
+  // time: nothing is changed then, unless it is made `anew`.
+  bool draw(const TextFrame& frame, Duration time, std::vector<TextPicture>& pictures, bool anew = false);
 
   // Text as it is, without any meaning of braces and backslashes.
   [[nodiscard]] static std::string escaped(std::string_view text);

@@ -57,6 +57,19 @@ Situation playing() {
           .film_asked = true};
 }
 
+TEST(Wishes, ChaptersAreSoughtByTheirBeginnings) {
+  const std::vector<Chapter> chapters{{mediaTime(0), ""}, {mediaTime(18), ""}, {mediaTime(60), ""}};
+  Situation situation = playing();
+  EXPECT_EQ(asked(PlayerVerb::ChapterBy, situation, 1), "note this film has no chapters");
+  situation.chapters = chapters;
+  EXPECT_EQ(asked(PlayerVerb::ChapterBy, situation, 1), "seek 60 wished");
+  EXPECT_EQ(asked(PlayerVerb::ChapterBy, situation, -1), "seek 0 wished") << "near the beginning of the second";
+  situation.here = mediaTime(30);
+  EXPECT_EQ(asked(PlayerVerb::ChapterBy, situation, -1), "seek 18 wished");
+  situation.here = mediaTime(70);
+  EXPECT_EQ(asked(PlayerVerb::ChapterBy, situation, 1), "");
+}
+
 TEST(Wishes, OneKeyPausesAndGoesOn) {
   Situation s = playing();
   EXPECT_EQ(asked(PlayerVerb::PlayPause, s), "stand");

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// Text goes to libass, pictures are scaled to the film's place in the view.
+#include "app/player/screen/subtitle_words.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "platform/log.h"
+
+namespace relievo {
+namespace {
+
+constexpr Duration kUnknownLength = std::chrono::seconds(5);
+constexpr std::size_t kMostWithPictures = 64;
+
+// Behind the first comma of a line is what does not depend on when it was read.
+std::string_view withoutOrder(std::string_view line) noexcept {
+  const std::size_t comma = line.find(',');
+  return comma == std::string_view::npos ? line : line.substr(comma + 1);
+}
+
+TextPicture placed(const SubtitlePicture& picture, const Subtitle& subtitle, const TextFrame& frame) {
+  const double width = frame.width - 2 * frame.margin_x, height = frame.height - 2 * frame.margin_y;
+  const double across = subtitle.canvas_width > 0 ? width / subtitle.canvas_width : 1.0;
+  const double down = subtitle.canvas_height > 0 ? height / subtitle.canvas_height : 1.0;
+  const auto pixels = [](double value) { return static_cast<int>(std::lround(value)); };
+  return {frame.margin_x + pixels(picture.x * across),
+          frame.margin_y + pixels(picture.y * down),
+          std::max(pixels(picture.width * across), 1),
+          std::max(pixels(picture.height * down), 1),
+          picture.width,
+          picture.height,
+          picture.rgba};
+}
+
+}  // namespace
+
+bool SubtitleWords::ready() {
+  if (text_ || gave_up_) return text_.has_value();
+  auto text = AssText::create();
+  if (text) {
+    text_.emplace(std::move(*text));
+    return true;
+  }
+  gave_up_ = true;
+  log(LogLevel::Warning, "play", "%s; subtitles are off", text.error().message);
+  return false;
+}
+
+void SubtitleWords::add(Subtitle subtitle) {
+  if (!subtitle.lines.empty()) return addLines(subtitle);
+  const auto after = std::ranges::upper_bound(with_pictures_, subtitle.begin, {}, &Subtitle::begin);
+  if (after != with_pictures_.begin() && std::prev(after)->begin == subtitle.begin) return;  // again, after a seek
+  with_pictures_.insert(after, std::move(subtitle));
+  if (with_pictures_.size() > kMostWithPictures) with_pictures_.pop_front();
+}
+
+void SubtitleWords::addLines(const Subtitle& subtitle) {
+  if (!ready()) return;
+  if (styles_ != subtitle.styles) {
+    styles_ = subtitle.styles;
+    seen_.clear();
+    text_->begin(styles_ ? *styles_ : "");
+  }
+  const Duration begin = subtitle.begin.time_since_epoch();
+  const Duration length = subtitle.end ? *subtitle.end - subtitle.begin : kUnknownLength;
+  for (const std::string& line : subtitle.lines) {
+    const std::string_view words = withoutOrder(line);
+    if (!seen_.emplace(begin.count(), words).second) continue;
+    text_->add(std::to_string(seen_.size()) + "," + std::string(words), begin, length);
+  }
+}
+
+void SubtitleWords::forget() {
+  styles_.reset();
+  seen_.clear();
+  with_pictures_.clear();
+  if (text_) text_->begin("");
+}
+
+const Subtitle* SubtitleWords::pictureAt(MediaTime time) const noexcept {
+  const auto after = std::ranges::upper_bound(with_pictures_, time, {}, &Subtitle::begin);
+  if (after == with_pictures_.begin()) return nullptr;
+  const Subtitle& last = *std::prev(after);
+  return !last.pictures.empty() && (!last.end || *last.end > time) ? &last : nullptr;
+}
+
+bool SubtitleWords::drawPictures(const TextFrame& frame, MediaTime time) {
+  const Subtitle* const now = pictureAt(time);
+  if (now == nullptr) {
+    drawn_.reset();
+    return !std::exchange(pictures_, {}).empty();
+  }
+  if (drawn_ == std::pair(now->begin, frame)) return false;
+  drawn_ = {now->begin, frame};
+  pictures_.clear();
+  for (const SubtitlePicture& picture : now->pictures) pictures_.push_back(placed(picture, *now, frame));
+  return true;
+}
+
+bool SubtitleWords::draw(const TextFrame& frame, MediaTime time) {
+  const bool appears = shown_ && !std::exchange(was_shown_, shown_);
+  if (!shown_) {
+    drawn_.reset();
+    return !std::exchange(pictures_, {}).empty();
+  }
+  if (!with_pictures_.empty()) return drawPictures(frame, time);
+  if (!text_) return false;
+  return text_->draw(frame, time.time_since_epoch(), pictures_, appears);
+}
+
+}  // namespace relievo

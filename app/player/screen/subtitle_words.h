@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// The subtitles of a moment as pictures.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/render/text/ass_text.h"
+#include "hal/subtitle_decoder.h"
+
+namespace relievo {
+
+// For one thread. Lines that come again after a seek are shown once. Without a font text stays away, and the log says
+// so once.
+class SubtitleWords {
+ public:
+  void add(Subtitle subtitle);
+  // Another track or film.
+  void forget();
+  void show(bool shown) noexcept { shown_ = shown; }
+  // True if the pictures differ from the last ones.
+  bool draw(const TextFrame& frame, MediaTime time);
+  [[nodiscard]] const std::vector<TextPicture>& pictures() const noexcept { return pictures_; }
+
+ private:
+  void addLines(const Subtitle& subtitle);
+  [[nodiscard]] bool ready();
+  [[nodiscard]] const Subtitle* pictureAt(MediaTime time) const noexcept;
+  bool drawPictures(const TextFrame& frame, MediaTime time);
+
+  bool shown_ = true, was_shown_ = true;
+  std::optional<AssText> text_;
+  bool gave_up_ = false;
+  std::shared_ptr<const std::string> styles_;             // of the script in `text_`
+  std::set<std::pair<std::int64_t, std::string>> seen_;   // begin, line
+  std::deque<Subtitle> with_pictures_;                    // ascending
+  std::optional<std::pair<MediaTime, TextFrame>> drawn_;  // the one with pictures that is shown
+  std::vector<TextPicture> pictures_;
+};
+
+}  // namespace relievo

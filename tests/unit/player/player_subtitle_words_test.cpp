@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// Subtitles at their times, each once; and the file of a screenshot.
+#include "app/player/screen/subtitle_words.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "app/player/screen/png_file.h"
+#include "tests/support/film/clip_maker.h"
+
+namespace relievo {
+namespace {
+
+using std::chrono::seconds;
+
+constexpr TextFrame kFrame{.width = 640, .height = 360};
+
+Subtitle said(const std::string& words, double begin_s, double end_s) {
+  static const auto styles = std::make_shared<const std::string>("[Script Info]\nPlayResX: 640\nPlayResY: 360\n");
+  return {.begin = mediaTime(begin_s),
+          .end = mediaTime(end_s),
+          .lines = {"0,0,Default,,0,0,0,," + words},
+          .styles = styles};
+}
+
+int inkAt(SubtitleWords& words, double time_s) {
+  words.draw(kFrame, mediaTime(time_s));
+  int ink = 0;
+  for (const TextPicture& picture : words.pictures()) {
+    for (std::size_t i = 3; i < picture.rgba.size(); i += 4) ink += picture.rgba[i] > 128;
+  }
+  return ink;
+}
+
+#define FONT_OR_SKIP() \
+  if (!AssText::create()) GTEST_SKIP() << "no font here"
+
+TEST(SubtitleWords, AreShownAtTheirTimesAlone) {
+  FONT_OR_SKIP();
+  SubtitleWords words;
+  words.add(said("hello", 1, 2));
+  EXPECT_EQ(inkAt(words, 0.99), 0);
+  EXPECT_GT(inkAt(words, 1), 50);
+  EXPECT_GT(inkAt(words, 1.99), 50);
+  EXPECT_EQ(inkAt(words, 2), 0);
+  words.show(false);
+  EXPECT_EQ(inkAt(words, 1.5), 0);
+  words.show(true);
+  EXPECT_GT(inkAt(words, 1.5), 50);
+}
+
+TEST(SubtitleWords, ALineThatComesAgainAfterASeekIsShownOnce) {
+  FONT_OR_SKIP();
+  SubtitleWords words;
+  words.add(said("hello", 1, 2));
+  const int once = inkAt(words, 1.5);
+  words.add(said("hello", 1, 2));
+  EXPECT_EQ(inkAt(words, 1.5), once);
+  words.add(said("two lines", 1, 2));
+  EXPECT_GT(inkAt(words, 1.5), once);
+  words.forget();
+  EXPECT_EQ(inkAt(words, 1.5), 0);
+}
+
+TEST(SubtitleWords, PicturesOfWordsLieOnTheFilmsPictureUntilTheNext) {
+  SubtitleWords words;
+  const SubtitlePicture picture{
+      .x = 100, .y = 400, .width = 200, .height = 50, .rgba = std::vector<std::uint8_t>(40000, 255)};
+  words.add({.begin = mediaTime(1), .pictures = {picture}, .canvas_width = 1280, .canvas_height = 720});
+  words.add({.begin = mediaTime(3)});
+  const TextFrame boxed{.width = 640, .height = 480, .aspect = 4.0 / 3, .margin_y = 60};
+  EXPECT_TRUE(words.draw(boxed, mediaTime(2)));
+  EXPECT_FALSE(words.draw(boxed, mediaTime(2.5))) << "the same";
+  ASSERT_EQ(words.pictures().size(), 1u);
+  const TextPicture& placed = words.pictures()[0];
+  EXPECT_EQ(placed.x, 50);
+  EXPECT_EQ(placed.y, 60 + 200);
+  EXPECT_EQ(placed.width, 100);
+  EXPECT_EQ(placed.cols, 200);
+  EXPECT_TRUE(words.draw(boxed, mediaTime(3)));
+  EXPECT_TRUE(words.pictures().empty());
+}
+
+// ffmpeg reads what was written.
+TEST(PngFile, OtherProgramsReadItToTheBit) {
+  const test::TemporaryFolder folder;
+  constexpr int kWidth = 301, kHeight = 97;  // more than one block of 65535 bytes
+  std::vector<std::uint8_t> rgb;
+  for (int i = 0; i < 3 * kWidth * kHeight; ++i) rgb.push_back(static_cast<std::uint8_t>(i * 7 + i / 256));
+  ASSERT_TRUE(writePng(folder / "a.png", kWidth, kHeight, rgb));
+  EXPECT_FALSE(writePng(folder / "a.png", kWidth, kHeight, rgb)) << "it replaces none";
+  const std::string command =
+      "ffmpeg -v error -i " + (folder / "a.png") + " -f rawvideo -pix_fmt rgb24 " + (folder / "raw");
+  if (std::system(command.c_str()) != 0)
+    GTEST_SKIP() << "no ffmpeg program here";  // NOLINT(bugprone-command-processor)
+  std::ifstream raw(folder / "raw", std::ios::binary);
+  const std::vector<std::uint8_t> read((std::istreambuf_iterator<char>(raw)), {});
+  EXPECT_EQ(read, rgb);
+}
+
+}  // namespace
+}  // namespace relievo
