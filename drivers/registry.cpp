@@ -17,6 +17,9 @@
 #include "drivers/pointer/pointer.h"
 #include "drivers/polhem/polhem.h"
 #include "drivers/replay/replay.h"
+#ifdef RELIEVO_ROSBAG
+#include "drivers/rosbag/rosbag.h"
+#endif
 #include "drivers/sim/profiles.h"
 #include "drivers/terminal/terminal.h"
 #include "drivers/tiff/tiff.h"
@@ -166,6 +169,9 @@ std::unique_ptr<MediaSource> makeMediaSource(const std::string& url) {
   static MonotonicClock clock;
   const BackEndName name(url);
   if (name == kMockFilm) return makeMockSource(mockFilm(), clock);
+#ifdef RELIEVO_ROSBAG
+  if (isRosbag(url)) return makeRosbagSource();
+#endif
   return name.word == "v4l2" && name.argument ? makeV4l2Source() : makeFfmpegSource();
 }
 

@@ -23,6 +23,7 @@ struct StreamInfo {
   int index = 0;  // the `stream` of its packets
   StreamKind kind = StreamKind::Other;
   std::string codec;                    // "h264", "hevc", "vp8", .., lower case
+  std::string pixel_format;             // of codec "rawvideo", rows without padding: FFmpeg's name, "gray16le", ..
   std::vector<std::uint8_t> extradata;  // parameter sets as the container holds them
   int width = 0;
   int height = 0;
