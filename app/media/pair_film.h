@@ -49,6 +49,7 @@ struct PairReader::Impl {
     if (options.frames_per_s) told.frame_period = fromSeconds(1 / *options.frames_per_s);
     return told;
   }
+  void lookForRegistration(const StreamInfo& color);
   void lookForHalves();
   void lookForHue(const Frame& first);
   [[nodiscard]] DepthCode depthCode() const noexcept { return options.depth_code.value_or(found_code); }
@@ -90,7 +91,8 @@ struct PairReader::Impl {
   Duration depth_shift{0};                     // the same for `depth_source`
   std::optional<std::uint32_t> depth_session;  // the session that `depth_shift` applies to
   std::optional<DepthFollower> depth;
-  bool depth_away = false;  // late or lost, and being retried
+  std::optional<Registrar> registrar;  // the user's, or the film's own
+  bool depth_away = false;             // late or lost, and being retried
   bool depth_lost = false;
   bool loss_told = false;
   Duration key_step{0};  // of the last seek

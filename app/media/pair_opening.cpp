@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "app/media/own_registration.h"
 #include "app/media/pair_film.h"
 #include "app/media/reading/depth_reading.h"
 #include "app/media/reading/picture_look.h"
@@ -126,6 +127,17 @@ void PairReader::Impl::lookForHalves() {
   info.reading.push_back(std::move(found->why));
 }
 
+// A recording of two cameras may say how they stand to each other.
+void PairReader::Impl::lookForRegistration(const StreamInfo& color) {
+  if (options.registration) {
+    registrar.emplace(*options.registration);
+  } else if (const auto own =
+                 depth_track ? ownRegistration(color_reader->source(), color, *depth_stream) : std::nullopt) {
+    registrar.emplace(*own);
+    info.reading.emplace_back("the recording describes both cameras: its depth is moved to the colour's view");
+  }
+}
+
 void PairReader::Impl::lookForHue(const Frame& first) {
   if (options.depth_code || first.model == ColorModel::Gray || found_code == DepthCode::Hue) return;
   const PictureLook look = lookAt(first);
@@ -154,6 +166,7 @@ Result<void> PairReader::Impl::openDepth(const StreamInfo& color) {
     depth_lost = false;
     return {};
   }
+  lookForRegistration(color);
   depth.emplace([this] { return supplyDepth(); });
   const auto first = depth->peek();
   if (first && *first != nullptr) {
@@ -198,8 +211,8 @@ Result<void> PairReader::Impl::describeDepth(const Frame& first, const StreamInf
                                              const std::map<std::string, std::string>& container_tags) {
   auto tags = stream.tags;  // the track's tags override the container's
   tags.insert(container_tags.begin(), container_tags.end());
-  if (options.registration) {
-    tags.insert({{"DEPTH_UNIT", std::to_string(options.registration->unit_mm)}, {"DEPTH_INVALID", "0"}});
+  if (registrar) {
+    tags.insert({{"DEPTH_UNIT", std::to_string(registrar->registration().unit_mm)}, {"DEPTH_INVALID", "0"}});
   }
   lookForHue(first);
   CalibrationLayers layers{options.command_line, options.side_file, calibrationFromTags(tags)};

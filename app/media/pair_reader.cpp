@@ -35,8 +35,8 @@ Result<std::optional<Frame>> PairReader::Impl::nextColor() {
 // The next depth picture, likewise, registered to the colour's view.
 Result<DepthFollower::Supplied> PairReader::Impl::supplyDepth() {
   auto supplied = supplyOwnDepth();
-  if (!options.registration || !supplied || !supplied->frame) return supplied;
-  auto frame = registered(*supplied->frame, *options.registration);
+  if (!registrar || !supplied || !supplied->frame) return supplied;
+  auto frame = registrar->registered(*supplied->frame);
   if (!frame) return std::unexpected(frame.error());
   supplied->frame = std::move(*frame);
   return supplied;
@@ -224,6 +224,7 @@ bool PairReader::readAhead() {
 void PairReader::close() noexcept {
   Impl& film = *impl_;
   film.depth.reset();
+  film.registrar.reset();
   film.depth_track.reset();
   film.depth_stream = nullptr;
   film.depth_session.reset();
