@@ -153,10 +153,11 @@ const Range& BagFile::content(std::uint32_t chunk) {
                      .bytes = std::min<std::uint64_t>(record->data_bytes, file_.bytes - record->data_begin),
                      .memory = nullptr};
   if (record->compression == "none") return unpacked_ = packed;
-  if (record->size > kMostChunk) return unpacked_;
+  if (record->size > std::min<std::uint64_t>(kMostChunk, budget_)) return unpacked_;
   std::vector<std::uint8_t> plain;
   if (record->compression == "lz4") plain = unpackLz4(packed, record->size);
   if (record->compression == "bz2") plain = unpackBz2(packed, record->size);
+  budget_ -= plain.size();
   unpacked_.bytes = plain.size();
   unpacked_.memory = std::make_shared<const std::vector<std::uint8_t>>(std::move(plain));
   return unpacked_;

@@ -15,8 +15,9 @@
 
 namespace relievo::rosbag {
 
-inline constexpr std::size_t kMostMessage = std::size_t{64} << 20;  // bytes
-inline constexpr std::size_t kMostChunk = std::size_t{128} << 20;   // bytes, unpacked
+inline constexpr std::size_t kMostMessage = std::size_t{64} << 20;      // bytes
+inline constexpr std::size_t kMostChunk = std::size_t{128} << 20;       // bytes, unpacked
+inline constexpr std::uint64_t kMostSearched = std::uint64_t{1} << 30;  // bytes unpacked to find out what is in the bag
 
 // A topic of one publisher.
 struct Connection {
@@ -33,8 +34,14 @@ class BagFile {
   void close() noexcept { *this = BagFile(); }
 
   [[nodiscard]] const std::map<std::uint32_t, Connection>& connections() const noexcept { return connections_; }
-  // The content of a chunk; the last one unpacked is kept. A chunk that cannot be unpacked is empty.
+  // The content of a chunk; the last one unpacked is kept. A chunk that cannot be unpacked is empty; so are all, once
+  // kMostSearched bytes have been unpacked, until `endSearch`.
   [[nodiscard]] const Range& content(std::uint32_t chunk);
+  // What the film is has been found out.
+  void endSearch() noexcept {
+    budget_ = ~std::uint64_t{0};
+    unpacked_chunk_.reset();
+  }
 
  private:
   [[nodiscard]] bool readIndex(const Record& header, const std::atomic<bool>& cancelled);
@@ -49,7 +56,8 @@ class BagFile {
   Range file_;
   std::vector<std::uint64_t> chunks_;  // where their records begin
   std::map<std::uint32_t, Connection> connections_;
-  std::size_t entries_ = 0;  // of all connections' lists of chunks
+  std::size_t entries_ = 0;               // of all connections' lists of chunks
+  std::uint64_t budget_ = kMostSearched;  // bytes to unpack
   std::optional<std::uint32_t> unpacked_chunk_;
   Range unpacked_;
 };

@@ -62,7 +62,9 @@ class RosbagSource final : public MediaSource {
     chooseClock(film);
     chooseChunks(film);
     place_ = {};
-    return describe(film);
+    auto description = describe(film);
+    bag_.endSearch();
+    return description;
   }
 
   // Stamps, unless one is absent or they come from two clocks.

@@ -6,6 +6,7 @@
 #include <lz4frame.h>
 
 #include <concepts>
+#include <fstream>
 #include <stdexcept>
 #include <utility>
 
@@ -111,11 +112,23 @@ std::string BagWriter::pack(const std::string& plain) const {
   return packed;
 }
 
+void BagWriter::writeHole(std::uint32_t connection, std::int64_t time_ns, std::uint32_t bytes) {
+  write(connection, time_ns, "");
+  const std::string length = ByteWriter().add(bytes).bytes();
+  chunk_.replace(chunk_.size() - length.size(), length.size(), length);
+  hole_ = bytes;
+  endChunk();
+}
+
 void BagWriter::endChunk() {
   if (chunk_.empty()) return;
-  infos_.push_back({file_.size(), counts_});
-  file_ += record(op(5) + field("compression", compression_) + field("size", static_cast<std::uint32_t>(chunk_.size())),
-                  pack(chunk_));
+  infos_.push_back({position(), counts_});
+  const std::string packed = pack(chunk_);
+  const std::string header =
+      op(5) + field("compression", compression_) + field("size", static_cast<std::uint32_t>(chunk_.size() + hole_));
+  file_ += ByteWriter().text(header).add(static_cast<std::uint32_t>(packed.size() + hole_)).raw(packed).bytes();
+  if (hole_ > 0) holes_.emplace_back(file_.size(), hole_);
+  skipped_ += std::exchange(hole_, 0);
   for (const auto& [connection, entries] : index_) {
     file_ +=
         record(op(4) + field("ver", std::uint32_t{1}) + field("conn", connection) + field("count", counts_[connection]),
@@ -128,7 +141,7 @@ void BagWriter::endChunk() {
 
 std::string BagWriter::finish(bool indexed) {
   endChunk();
-  const std::uint64_t index_pos = indexed ? file_.size() : 0;
+  const std::uint64_t index_pos = indexed ? position() : 0;
   for (const std::string& connection : connections_) {
     if (indexed) file_ += connection;
   }
@@ -147,6 +160,18 @@ std::string BagWriter::finish(bool indexed) {
   const std::string padding(kBagHeader - header.size() - 2 * sizeof(std::uint32_t), ' ');
   file_.replace(13, kBagHeader, record(header, padding));
   return file_;
+}
+
+void BagWriter::save(const std::string& path, bool indexed) {
+  const std::string bytes = finish(indexed);
+  std::ofstream file(path, std::ios::binary);
+  std::size_t written = 0;
+  for (const auto& [place, length] : holes_) {
+    file.write(bytes.data() + written, static_cast<std::streamsize>(place - written));
+    file.seekp(length, std::ios::cur);
+    written = place;
+  }
+  file.write(bytes.data() + written, static_cast<std::streamsize>(bytes.size() - written));
 }
 
 }  // namespace relievo::test

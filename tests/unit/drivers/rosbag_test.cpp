@@ -8,6 +8,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "app/media/registration.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "tests/support/film/bag_writer.h"
 #include "tests/support/film/clip_maker.h"
@@ -314,6 +315,89 @@ TEST_F(RosbagSource, StampsOfTwoClocksGiveWayToTheTimesOfRecording) {
   for (int i = 0; i < kPictures; ++i) EXPECT_EQ(frames[static_cast<std::size_t>(i)].pts, MediaTime(i * 33ms));
 }
 
+constexpr double kHalf = 0.70710678118654752;  // sine and cosine of 45 degrees
+constexpr std::array<double, 4> kUpright{0, 0, 0, 1}, kQuarterTurn{0, 0, kHalf, kHalf};
+
+const test::BagCamera kDepthCamera{
+    .cols = kCols, .rows = kRows, .focal_x = 30, .focal_y = 31, .center_x = 11, .center_y = 8};
+test::BagCamera colorCamera(const std::string& model) {
+  return {.cols = 2 * kCols,
+          .rows = 2 * kRows,
+          .focal_x = 60,
+          .focal_y = 61,
+          .center_x = 23,
+          .center_y = 16,
+          .model = model,
+          .distortion = {0.1, -0.2, 0.001, 0.002, 0.03}};
+}
+
+// Points of a reference go to the depth camera by 10 mm, to the colour camera by a quarter turn and (50, 20, 0) mm:
+// from depth to colour by the turn and (50, 20, 0) - turned (10, 0, 0).
+TEST_F(RosbagSource, RealSensesCamerasRegisterTheDepth) {
+  for (const char* const reference : {"0", "1"}) {
+    BagWriter bag;
+    const std::string depth = "/device_0/sensor_0/Depth_0", color = "/device_0/sensor_1/Color_0";
+    BagImage z = depthImage(0);
+    z.encoding = "mono16";
+    z.unit_m = 0.0005F;
+    bag.write(bag.connect(depth + "/image/data", "sensor_msgs/Image"), 1, test::bagImage(z));
+    bag.write(bag.connect(color + "/image/data", "sensor_msgs/Image"), 1, test::bagImage(colorImage(0)));
+    bag.write(bag.connect(depth + "/info/camera_info", "sensor_msgs/CameraInfo"), 1, test::bagCameraInfo(kDepthCamera));
+    bag.write(bag.connect(color + "/info/camera_info", "sensor_msgs/CameraInfo"), 1,
+              test::bagCameraInfo(colorCamera("Inverse Brown Conrady")));
+    bag.write(bag.connect(depth + "/tf/0", "geometry_msgs/Transform"), 1, test::bagTransform({0.01, 0, 0}, kUpright));
+    bag.write(bag.connect(color + "/tf/" + reference, "geometry_msgs/Transform"), 1,
+              test::bagTransform({0.05, 0.02, 0}, kQuarterTurn));
+    const auto source = open(bag.finish());
+    const auto& tags = streamOf(*source, depth + "/image/data")->tags;
+    const bool related = *reference == '0';
+    ASSERT_EQ(tags.contains("DEPTH_REGISTRATION"), related) << "each camera's own reference relates nothing";
+    if (!related) continue;
+    const auto read = parseRegistration(tags.at("DEPTH_REGISTRATION"));
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->depth.cols, kCols);
+    EXPECT_EQ(read->depth.focal_y, 31);
+    EXPECT_EQ(read->color.center_x, 23);
+    EXPECT_EQ(read->color.distortion, (Lens::Coefficients{0.1, -0.2, 0.001, 0.002, 0.03, 0, 0, 0}));
+    EXPECT_EQ(read->unit_mm, 0.5);
+    EXPECT_NEAR(read->rotation[1], -1, 1e-9);
+    EXPECT_NEAR(read->rotation[3], 1, 1e-9);
+    EXPECT_NEAR(read->translation_mm[0], 50, 1e-6);
+    EXPECT_NEAR(read->translation_mm[1], 10, 1e-6);
+  }
+}
+
+// Both cameras hang on a base: the depth camera 100 mm to the right, the colour camera there and 30 mm lower, with a
+// quarter turn.
+TEST_F(RosbagSource, RosFramesRegisterTheDepth) {
+  const auto tagsOf = [&](const std::string& lens, const std::string& color_frame) {
+    BagWriter bag;
+    BagImage z = depthImage(0), picture = colorImage(0);
+    z.frame = "depth_optical";
+    picture.frame = color_frame;
+    bag.write(bag.connect("/cam/depth/image_raw", "sensor_msgs/Image"), 1, test::bagImage(z));
+    bag.write(bag.connect("/cam/rgb/image_raw", "sensor_msgs/Image"), 1, test::bagImage(picture));
+    bag.write(bag.connect("/cam/depth/camera_info", "sensor_msgs/CameraInfo"), 1, test::bagCameraInfo(kDepthCamera));
+    bag.write(bag.connect("/cam/rgb/camera_info", "sensor_msgs/CameraInfo"), 1, test::bagCameraInfo(colorCamera(lens)));
+    const auto frames = bag.connect("/tf_static", "tf2_msgs/TFMessage");
+    bag.write(frames, 1, test::bagFrameMotion("base", "depth_optical", test::bagTransform({0.1, 0, 0}, kUpright)));
+    bag.write(frames, 1,
+              test::bagFrameMotion("base", "/color_optical", test::bagTransform({0.1, 0.03, 0}, kQuarterTurn)));
+    return streamOf(*open(bag.finish()), "/cam/depth/image_raw")->tags;
+  };
+  const auto tags = tagsOf("plumb_bob", "color_optical");
+  ASSERT_TRUE(tags.contains("DEPTH_REGISTRATION"));
+  const auto read = parseRegistration(tags.at("DEPTH_REGISTRATION"));
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_NEAR(read->rotation[1], 1, 1e-9);
+  EXPECT_NEAR(read->rotation[3], -1, 1e-9);
+  EXPECT_NEAR(read->translation_mm[0], -30, 1e-6);
+  EXPECT_NEAR(read->translation_mm[1], 0, 1e-6);
+  EXPECT_FALSE(tagsOf("equidistant", "color_optical").contains("DEPTH_REGISTRATION")) << "another lens model";
+  EXPECT_FALSE(tagsOf("plumb_bob", "elsewhere").contains("DEPTH_REGISTRATION"));
+  EXPECT_FALSE(tagsOf("plumb_bob", "depth_optical").contains("DEPTH_REGISTRATION")) << "in the colour's view already";
+}
+
 TEST_F(RosbagSource, OfTwoCamerasDepthAndColourAreOfTheSame) {
   BagWriter bag;
   const auto left_color = bag.connect("/left/rgb/image", "sensor_msgs/Image");
@@ -347,6 +431,41 @@ TEST_F(RosbagSource, RefusesBagsWithoutPicturesAndOtherVersionsInOneLine) {
 
   EXPECT_EQ(openingOf("#ROSBAG V1.2\n").error().code, ErrorCode::Unsupported);
   EXPECT_EQ(openingOf(BagWriter().finish()).error().code, ErrorCode::Corrupt) << "empty";
+}
+
+// What the process has read from files, in bytes.
+std::uint64_t bytesRead() {
+  std::ifstream io("/proc/self/io");
+  std::string name;
+  std::uint64_t count = 0;
+  io >> name >> count;
+  return count;
+}
+
+// 128 chunks of 16 MiB, in which a picture stands before a message of another kind.
+TEST_F(RosbagSource, ALargeBagIsNeverReadWhole) {
+  if (bytesRead() == 0) GTEST_SKIP() << "the kernel does not count what is read";
+  constexpr int kChunks = 128;
+  for (const bool indexed : {true, false}) {
+    BagWriter bag;
+    const auto depth = bag.connect("/depth", "sensor_msgs/Image");
+    const auto points = bag.connect("/points", "sensor_msgs/PointCloud2");
+    for (int i = 0; i < kChunks; ++i) {
+      bag.write(depth, kFirstStamp + i * kPeriod, test::bagImage(depthImage(i)));
+      bag.writeHole(points, kFirstStamp, 16 << 20);
+    }
+    const std::string path = folder_ / "large.bag";
+    bag.save(path, indexed);
+    ASSERT_GE(std::filesystem::file_size(path), std::uint64_t{2} << 30);
+    const std::uint64_t before = bytesRead();
+    const auto source = makeRosbagSource();
+    ASSERT_TRUE(source->open(path));
+    ASSERT_TRUE(source->seek(MediaTime(Duration(100 * kPeriod))));
+    const auto packet = source->read();
+    ASSERT_TRUE(packet && *packet);
+    EXPECT_EQ((*packet)->pts, MediaTime(Duration(100 * kPeriod)));
+    EXPECT_LT(bytesRead() - before, std::uint64_t{1} << 20);
+  }
 }
 
 TEST_F(RosbagSource, IsToldByItsFirstBytes) {
