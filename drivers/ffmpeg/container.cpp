@@ -24,6 +24,9 @@ namespace {
 // A transport stream's stream type (ISO/IEC 13818-1, table 2-34), which FFmpeg stores as the codec tag.
 constexpr std::uint32_t kAuxiliaryVideo = 0x1e;
 
+// Azure Kinect's code for 16-bit gray in big endian, which FFmpeg takes for RGB of 15 bits.
+constexpr std::uint32_t kGray16Big = MKTAG('b', '1', '6', 'g');
+
 Duration framePeriodOf(const AVStream& stream) noexcept {
   for (const AVRational rate : {stream.avg_frame_rate, stream.r_frame_rate}) {
     if (rate.num > 0 && rate.den > 0) return durationFrom(1, av_inv_q(rate));
@@ -68,6 +71,19 @@ std::pair<std::int64_t, std::int64_t> worthOf(const AVFormatContext& context, co
   }
   const AVDictionaryEntry* const rate = av_dict_get(programme.metadata, "variant_bitrate", nullptr, 0);
   return {area, rate == nullptr ? 0 : std::strtoll(rate->value, nullptr, 10)};
+}
+
+void becomeGray16Big(AVCodecParameters& parameters) noexcept {
+  parameters.codec_id = AV_CODEC_ID_RAWVIDEO;
+  parameters.codec_tag = 0;  // it would override the format
+  parameters.format = AV_PIX_FMT_GRAY16BE;
+  parameters.bits_per_coded_sample = 16;
+}
+
+// The recorder writes infrared in the same format.
+bool isKinectDepth(const StreamInfo& info) {
+  const auto title = info.tags.find("TITLE");
+  return info.tags.contains("K4A_DEPTH_TRACK") || (title != info.tags.end() && title->second == "DEPTH");
 }
 
 }  // namespace
@@ -174,6 +190,9 @@ Result<StreamInfo> describeStream(const AVStream& stream, bool timed) {
   // FFmpeg cannot tell the size of a TIFF picture of floats.
   const bool float_tiff = parameters.codec_id == AV_CODEC_ID_TIFF && parameters.width == 0;
   if (isDistance(parameters.format) || float_tiff) info.tags.insert({{"DEPTH_UNIT", "1"}, {"DEPTH_INVALID", "0"}});
+  if (parameters.codec_tag == kGray16Big && isKinectDepth(info)) {
+    info.tags.insert({{"DEPTH_UNIT", "1"}, {"DEPTH_INVALID", "0"}});
+  }
   info.auxiliary = info.kind == StreamKind::Video && parameters.codec_tag == kAuxiliaryVideo;
 
   auto native = std::make_unique<NativeStream>();
@@ -181,6 +200,7 @@ Result<StreamInfo> describeStream(const AVStream& stream, bool timed) {
   if (!native->parameters || avcodec_parameters_copy(native->parameters.get(), &parameters) < 0) {
     return std::unexpected(openError(AVERROR(ENOMEM)));
   }
+  if (parameters.codec_tag == kGray16Big) becomeGray16Big(*native->parameters);
   native->time_base = stream.time_base;
   native->sample_aspect = stream.sample_aspect_ratio;
   info.native = std::shared_ptr<NativeStream>(native.release(), NativeStreamDeleter{});

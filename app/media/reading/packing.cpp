@@ -48,6 +48,19 @@ const StreamInfo* depthAmong(const std::vector<const StreamInfo*>& tracks) {
   return tracks.size() > 1 ? tracks[1] : tracks[0];
 }
 
+bool speaksOfInfrared(const StreamInfo& track) {
+  const auto title = track.tags.find("TITLE");
+  return track.tags.contains("K4A_IR_TRACK") || (title != track.tags.end() && title->second == "IR");
+}
+
+// The first track that is neither the depth nor, unless there is no other, infrared.
+const StreamInfo* colorAmong(const std::vector<const StreamInfo*>& tracks, const StreamInfo* depth) {
+  const auto fits = [&](auto* track) { return track != depth && !speaksOfInfrared(*track); };
+  const auto found = std::find_if(tracks.begin(), tracks.end(), fits);
+  if (found != tracks.end()) return *found;
+  return depth == tracks[0] ? tracks[1] : tracks[0];
+}
+
 std::optional<Packing> packingTag(const Tags& tags) {
   const auto found = tags.find(kPackingTag);
   if (found == tags.end()) return std::nullopt;
@@ -100,7 +113,7 @@ Result<TrackPlan> planTracks(const MediaSource& source, Packing packing, bool de
     return TrackPlan{tracks[0], nullptr, Packing::Tracks};
   }
   const StreamInfo* const depth = depthAmong(tracks);
-  const StreamInfo* const color = depth == tracks[0] ? tracks[1] : tracks[0];
+  const StreamInfo* const color = colorAmong(tracks, depth);
   return TrackPlan{color, depth_elsewhere ? nullptr : depth, Packing::Tracks};
 }
 
