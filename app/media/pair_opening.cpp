@@ -24,6 +24,16 @@ Duration framePeriod(Duration between, Duration nominal) noexcept {
   return agree ? nominal : between;
 }
 
+// Pictures whose names are from one clock or one count keep their distance if most of the shorter series lies within
+// the other; else the two begin together.
+Duration distanceByName(const MediaSource& color, const DepthSource::Session& depth) {
+  const bool known = color.namedStart() && depth.named_start && color.duration() > Duration(0);
+  if (!known || depth.duration == Duration(0)) return Duration(0);
+  const Duration distance = *depth.named_start - *color.namedStart();
+  const Duration common = std::min(color.duration(), distance + depth.duration) - std::max(Duration(0), distance);
+  return 2 * common >= std::min(color.duration(), depth.duration) ? distance : Duration(0);
+}
+
 }  // namespace
 
 Result<void> PairReader::Impl::openReader() {
@@ -34,7 +44,8 @@ Result<void> PairReader::Impl::openReader() {
     color_reader.swap(reader);
   }
   reader.reset();
-  if (auto opened = color_reader->open(options.url); !opened) return failOn(options.url, opened.error());
+  if (auto opened = color_reader->open(options.url, options.frames_per_s); !opened)
+    return failOn(options.url, opened.error());
   return {};
 }
 
@@ -53,6 +64,7 @@ Result<void> PairReader::Impl::openFilm() {
   if (!plan) return failOn(options.url, plan.error());
   info.packing = plan->packing;
   info.duration = source.duration();
+  info.notes = source.notes();
   remote = source.remote();
   live = source.live();
 
@@ -66,6 +78,7 @@ Result<void> PairReader::Impl::openFilm() {
   const auto chosen = color_reader->select(asTold(*plan->color));
   if (!chosen) return failOn(options.url, chosen.error());
   if (auto selected = selectDepth(plan->depth); !selected) return selected;
+  if (depth_source) info.notes.insert(info.notes.end(), depth_source->notes().begin(), depth_source->notes().end());
   openSound();
   countTracks(*plan);
   if (auto opened = openColor(*plan->color); !opened) return opened;
@@ -226,9 +239,9 @@ Result<void> PairReader::Impl::describeDepth(const Frame& first, const StreamInf
 void PairReader::Impl::meet(const DepthSource::Session& session, MediaTime first) {
   if (depth_session) depth->restart();
   depth_session = session.number;
-  depth_shift = Duration(0);
-  if (!session.live) return;
   const MediaSource& color = color_reader->source();
+  depth_shift = session.live ? Duration(0) : distanceByName(color, session);
+  if (!session.live) return;
   if (!color.live()) {  // align what arrives now with what is shown now
     depth_shift = goes_on_at - first;
     return;

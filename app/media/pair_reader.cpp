@@ -109,7 +109,7 @@ Result<void> PairReader::Impl::seekDepth(MediaTime target) {
   depth->restart();
   depth_lost = false;
   if (!depth_source) return {};
-  const auto sought = depth_source->seek(target, key_step);
+  const auto sought = depth_source->seek(target - depth_shift, key_step);
   if (sought) return {};
   if (sought.error().code == ErrorCode::Cancelled) return failOn(depthUrl(), sought.error());
   loseDepth(sought.error());

@@ -28,7 +28,7 @@ struct SourceOptions {
   CalibrationSettings command_line;          // --calibration KEY=VALUE,..
   CalibrationSettings side_file;             // --calibration FILE
   std::vector<std::string> named_files;      // files that the side file and the registration were read from
-  std::optional<double> frames_per_s;        // of pictures without timestamps, such as numbered files
+  std::optional<double> frames_per_s;        // of pictures that have numbers but no times
   std::optional<Registration> registration;  // for depth from a camera of its own; not for packed depth
   std::optional<AudioFormat> sound;          // the format to deliver sound in; nullopt: no sound
 };
@@ -51,6 +51,7 @@ struct FilmInfo {
   Duration duration{0};              // 0: unknown
   CalibrationChoice calibration;     // of a film with depth
   std::vector<std::string> reading;  // what the first pictures revealed, and why; one line each
+  std::vector<std::string> notes;    // what the sources found out about themselves; one line each
   std::vector<std::string> doubts;   // why the calibration looks wrong, and the option to try; one line each
   std::string color_codec, depth_codec;
   std::string color_decoder, depth_decoder;                            // VideoDecoder::description

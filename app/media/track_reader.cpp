@@ -18,7 +18,8 @@ TrackReader::TrackReader(std::unique_ptr<MediaSource> source,
                          std::function<std::unique_ptr<VideoDecoder>(const StreamInfo&)> make_decoder)
     : source_(std::move(source)), make_decoder_(std::move(make_decoder)) {}
 
-Result<void> TrackReader::open(const std::string& url) {
+Result<void> TrackReader::open(const std::string& url, std::optional<double> frames_per_s) {
+  source_->setPictureRate(frames_per_s);
   return source_->open(url);
 }
 

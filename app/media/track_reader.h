@@ -36,7 +36,8 @@ class TrackReader {
   TrackReader(std::unique_ptr<MediaSource> source,
               std::function<std::unique_ptr<VideoDecoder>(const StreamInfo&)> make_decoder);
 
-  [[nodiscard]] Result<void> open(const std::string& url);
+  // `frames_per_s`: MediaSource::setPictureRate.
+  [[nodiscard]] Result<void> open(const std::string& url, std::optional<double> frames_per_s = std::nullopt);
   // Selects a stream for decoding; returns the track number for `next`. If the caller sets a frame period in `stream`,
   // pictures without timestamps are numbered by it. Exhausted when two are already selected.
   [[nodiscard]] Result<std::size_t> select(const StreamInfo& stream);

@@ -74,7 +74,7 @@ std::vector<std::string> sourceNotes(const SourceOptions& source, const PairRead
        "bwdif");
   tellColor(notes, format);
   tellClipped(notes, reader.info(), codes);
-  for (const auto& lines : {reader.info().reading, reader.info().doubts}) {
+  for (const auto& lines : {reader.info().notes, reader.info().reading, reader.info().doubts}) {
     notes.insert(notes.end(), lines.begin(), lines.end());
   }
   return notes;

@@ -179,6 +179,7 @@ std::string probeToText(const ProbeResult& r) {
     text += "depth   none\n";
   }
   text += print("volume  %.0f x %.0f x %.0f mm\n", r.volume.width_mm, r.volume.height_mm, r.volume.depth_mm);
+  for (const std::string& note : f.notes) text += "note    " + note + "\n";
   for (const std::string& doubt : f.doubts) text += "doubt   " + doubt + "\n";
   for (const std::string& need : r.needs) text += "needs   " + need + "\n";
   return text;
@@ -236,6 +237,7 @@ std::string probeToJson(const ProbeResult& r) {
   json["volume_mm"] = {r.volume.width_mm, r.volume.height_mm, r.volume.depth_mm};
   json["decoder"] = r.decoder;
   json["reading"] = f.reading;
+  json["notes"] = f.notes;
   json["doubts"] = f.doubts;
   json["needs"] = r.needs;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
