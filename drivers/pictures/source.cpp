@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "drivers/pictures/layouts.h"
@@ -45,6 +46,14 @@ Result<std::shared_ptr<Bytes>> readPicture(const std::string& path) {
   return bytes;
 }
 
+// A folder's name.
+std::string titleOf(const std::string& url) {
+  std::error_code failed;
+  std::filesystem::path path = std::filesystem::absolute(pictures::pathOf(url), failed).lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();
+  return std::filesystem::is_directory(path, failed) ? path.filename().string() : "";
+}
+
 // A picture in the order of reading.
 struct Entry {
   int stream = 0;
@@ -76,6 +85,7 @@ class PicturesSource final : public MediaSource {
     }
     std::ranges::stable_sort(entries_, {}, &Entry::time);
     description.notes = recording_.notes;
+    if (const std::string title = titleOf(url); !title.empty()) description.tags["TITLE"] = title;
     description.origin.named_start = recording_.start;
     return description;
   }

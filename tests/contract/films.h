@@ -28,6 +28,7 @@ struct FilmBackend {
   std::unique_ptr<VideoDecoder> (*make_decoder)();
   std::string (*url)();
   const char* missing_url;  // null if every URL is a film
+  Duration key_step = std::chrono::milliseconds(400);
 };
 inline void PrintTo(const FilmBackend& backend, std::ostream* out) {
   *out << backend.name;

@@ -43,5 +43,19 @@ TEST_F(FilmFolder, ASeriesOfPicturesAndARecordingAreNone) {
   EXPECT_EQ(filmsIn(folder_ / ""), std::nullopt) << "a recording";
 }
 
+TEST_F(FilmFolder, PicturesThatAShellHasListedAreOneFilm) {
+  files({"f-1.png", "f-2.png", "f-10.png", "g-1.png", "f-1.jpg"});
+  const auto path = [&](const char* name) { return folder_ / name; };
+  EXPECT_EQ(seriesOf({path("f-1.png"), path("f-10.png"), path("f-2.png")}), folder_ / "f-*.png");
+  EXPECT_EQ(seriesOf({path("f-1.png"), path("f-2.png")}), std::nullopt) << "not all that the pattern names";
+  EXPECT_EQ(seriesOf({path("f-1.png"), path("f-1.jpg")}), std::nullopt);
+  EXPECT_EQ(seriesOf({path("f-1.png")}), std::nullopt);
+  EXPECT_EQ(seriesOf({path("f-1.png"), path("a.mkv")}), std::nullopt);
+  std::filesystem::create_directory(folder_ / "a");
+  std::filesystem::create_directory(folder_ / "b");
+  files({"a/1.png", "b/1.png"});
+  EXPECT_EQ(seriesOf({path("a/1.png"), path("b/1.png")}), std::nullopt);
+}
+
 }  // namespace
 }  // namespace relievo
