@@ -25,7 +25,8 @@ struct Ratio {
   friend bool operator==(const Ratio&, const Ratio&) = default;
 };
 
-enum class FieldOrder : std::uint8_t { Unknown, Progressive, TopFirst, BottomFirst };
+// Of interlaced video: the field that is coded first, then the one that is shown first.
+enum class FieldOrder : std::uint8_t { Unknown, Progressive, TopTop, BottomBottom, TopBottom, BottomTop };
 
 // One stream, described as far as the container does.
 struct StreamInfo {

@@ -199,6 +199,7 @@ void DepthSource::lose(const Error& error) {
 
 void DepthSource::count() {
   counters_.damaged = before_.damaged + reader_->damaged();
+  counters_.deinterlaced = before_.deinterlaced + reader_->deinterlaced();
   counters_.jumps = before_.jumps + reader_->source().jumps();
   counters_.missed_pictures = before_.missed_pictures + reader_->source().missedPictures();
   counters_.missing = reader_->source().missing();

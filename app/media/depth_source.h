@@ -65,7 +65,7 @@ class DepthSource {
   // Why the source is lost, while it is being retried.
   [[nodiscard]] std::optional<Error> loss() const;
   struct Counters {
-    std::uint64_t damaged = 0, jumps = 0, missed_pictures = 0, reconnects = 0;
+    std::uint64_t damaged = 0, deinterlaced = 0, jumps = 0, missed_pictures = 0, reconnects = 0;
     Duration missing{0};
   };
   [[nodiscard]] Counters counters() const;

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "app/media/frame_rate.h"
 #include "app/media/pair_film.h"
 #include "app/media/reading/depth_reading.h"
 #include "app/media/reading/picture_look.h"
@@ -16,13 +17,6 @@ constexpr Duration kLongestWait = std::chrono::seconds(5);  // for the depth of 
 constexpr const char* kNoPicture =
     "not one picture of its video could be decoded; it is empty, damaged, unknown, or has more than 16.7 million "
     "samples";
-
-// The difference of two rounded timestamps is wrong by up to 1 ms. The container's nominal period is exact, and is used
-// if it agrees within that.
-Duration framePeriod(Duration between, Duration nominal) noexcept {
-  const bool agree = nominal > Duration(0) && std::chrono::abs(between - nominal) <= std::chrono::milliseconds(1);
-  return agree ? nominal : between;
-}
 
 // Pictures whose names are from one clock or one count keep their distance if most of the shorter series lies within
 // the other; else the two begin together.
@@ -96,11 +90,13 @@ Result<void> PairReader::Impl::openColor(const StreamInfo& color) {
   if (color_ahead.empty()) return failOn(options.url, {ErrorCode::Corrupt, 0, kNoPicture});
   info.color_width = color_ahead[0].width;
   info.color_height = color_ahead[0].height;
+  info.color_stream = color.index;
   info.color_codec = color.codec;
   info.color_decoder = color_reader->decoder(kColorTrack);
-  if (color_ahead.size() == 2) {
-    info.frame_period = framePeriod(color_ahead[1].pts - color_ahead[0].pts, color.frame_period);
-  }
+  if (color_ahead.size() == 2) info.frame_period = framePeriod(color_ahead[1].pts - color_ahead[0].pts, color);
+  info.interlaced = color_reader->deinterlaced() > 0;
+  info.color_primaries = color_ahead[0].primaries;
+  info.color_transfer = color_ahead[0].transfer;
   return {};
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/media/deinterlaced.h"
 #include "app/media/turned.h"
 
 namespace relievo {
@@ -57,15 +58,19 @@ std::optional<VideoDecoder::Restart> TrackReader::takeRestart() noexcept {
   return std::nullopt;
 }
 
-Result<std::optional<Frame>> TrackReader::receiveUpright(Track& track) {
+Result<std::optional<Frame>> TrackReader::receiveWhole(Track& track) {
   auto frame = track.decoder->receive();
+  if (frame && *frame && (*frame)->interlaced) {
+    frame = relievo::deinterlaced(**frame);
+    ++deinterlaced_;
+  }
   if (track.rotation == 0 || !frame || !*frame) return frame;
   return turned(**frame, track.rotation);
 }
 
 Result<std::optional<Frame>> TrackReader::decode(Track& track) {
   for (;;) {
-    auto frame = receiveUpright(track);
+    auto frame = receiveWhole(track);
     if (frame && *frame && &track == tracks_.data()) given_ = (*frame)->pts;
     if (!frame || *frame) return frame;
     if (track.decoder->state() == VideoDecoder::State::Draining) continue;

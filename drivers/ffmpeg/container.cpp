@@ -3,6 +3,7 @@
 #include "drivers/ffmpeg/container.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <cmath>
@@ -29,6 +30,12 @@ Duration framePeriodOf(const AVStream& stream) noexcept {
     if (rate.num > 0 && rate.den > 0) return durationFrom(1, av_inv_q(rate));
   }
   return Duration(0);
+}
+
+std::string layoutOf(const AVChannelLayout& layout) {
+  std::array<char, 64> text{};
+  const bool known = layout.nb_channels > 0 && av_channel_layout_describe(&layout, text.data(), text.size()) > 0;
+  return known ? text.data() : "";
 }
 
 // Nine numbers; null if the container has no display matrix.
@@ -81,6 +88,18 @@ std::map<std::string, std::string> tagsOf(const AVDictionary* dictionary) {
     tags[key] = entry->value;
   }
   return tags;
+}
+
+std::vector<Chapter> chaptersOf(const AVFormatContext& context, Duration start) {
+  std::vector<Chapter> chapters;
+  for (unsigned i = 0; i < context.nb_chapters; ++i) {
+    const AVChapter& chapter = *context.chapters[i];
+    const AVDictionaryEntry* const title = av_dict_get(chapter.metadata, "title", nullptr, 0);
+    chapters.push_back({.begin = durationFrom(chapter.start, chapter.time_base) - start,
+                        .end = durationFrom(chapter.end, chapter.time_base) - start,
+                        .title = title == nullptr ? "" : title->value});
+  }
+  return chapters;
 }
 
 StreamKind kindOf(const AVStream& stream) noexcept {
@@ -168,7 +187,10 @@ Result<StreamInfo> describeStream(const AVStream& stream, bool timed) {
   if (info.kind == StreamKind::Video) info.rotation = rotationOf(stream);
   info.sample_rate_hz = parameters.sample_rate;
   info.channels = parameters.ch_layout.nb_channels;
+  info.channel_layout = layoutOf(parameters.ch_layout);
   info.frame_period = framePeriodOf(stream);
+  if (timed) info.average_rate = {stream.avg_frame_rate.num, stream.avg_frame_rate.den};
+  if (timed) info.base_rate = {stream.r_frame_rate.num, stream.r_frame_rate.den};
   if (timed && stream.duration > 0) info.duration = durationFrom(stream.duration, stream.time_base);
   info.tags = tagsOf(stream.metadata);
   // FFmpeg cannot tell the size of a TIFF picture of floats.

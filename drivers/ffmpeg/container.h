@@ -4,6 +4,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 extern "C" {
 #include <libavformat/avformat.h>
@@ -18,6 +19,9 @@ inline constexpr AVRational kMicrosecond{1, AV_TIME_BASE};  // the time base of 
 
 // Keys in upper case.
 [[nodiscard]] std::map<std::string, std::string> tagsOf(const AVDictionary* dictionary);
+
+// With media times: `start` is the container's (startOf).
+[[nodiscard]] std::vector<Chapter> chaptersOf(const AVFormatContext& context, Duration start);
 
 // Other for cover pictures, and for streams that `chooseProgramme` excluded.
 [[nodiscard]] StreamKind kindOf(const AVStream& stream) noexcept;

@@ -173,6 +173,7 @@ class FfmpegSource final : public MediaSource {
     description.tags = tagsOf(context_->metadata);
     if (timed_ && context_->duration > 0) description.duration = durationFrom(context_->duration, kMicrosecond);
     description.origin = origin();
+    description.chapters = chaptersOf(*context_, start_);
     for (unsigned i = 0; i < context_->nb_streams; ++i) {
       auto stream = describeStream(*context_->streams[i], timed_);
       if (!stream) return std::unexpected(stream.error());

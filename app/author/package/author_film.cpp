@@ -109,7 +109,6 @@ class Packager {
   std::deque<TimedSurface> recent_;  // depth pictures, the newest last
   ShotFinder shots_;
   std::optional<MediaTime> last_depth_;
-  std::uint64_t interlaced_ = 0;  // colour pictures
   ColorPicture420 color_;
   DepthPicture depth_;
   Preview preview_;
@@ -155,7 +154,6 @@ Outcome<void> Packager::write(const FramePair& pair) {
   if (color.width != format_.color_width || color.height != format_.color_height) {
     return failOn("colour", {ErrorCode::Unsupported, 0, "the picture size changes; cut the film there"});
   }
-  if (color.interlaced) ++interlaced_;
   const bool depth_is_new = !pair.depth.empty() && (!last_depth_ || pair.depth.pts > *last_depth_);
   const bool key =
       key_frames_.isDue(color.pts, depth_is_new || pair.depth.empty(), depth_is_new && beginsShot(pair.depth));
@@ -227,7 +225,7 @@ Outcome<AuthorSummary> Packager::finish() {
     summary.notes.emplace_back("coding shifts some edges of holes by a sample; --depth-crf 0 avoids this");
   }
   if (auto line = cut_.explain(); !line.empty()) summary.notes.push_back(std::move(line));
-  for (std::string& line : sourceNotes(source_, reader_, format_, interlaced_, coder_.counts())) {
+  for (std::string& line : sourceNotes(source_, reader_, format_, coder_.counts())) {
     summary.notes.push_back(std::move(line));
   }
   return summary;
