@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
+#include <string_view>
 #include <utility>
 
 #include "drivers/ffmpeg/library.h"
@@ -146,6 +147,21 @@ Duration startOf(const AVFormatContext& context) noexcept {
     if (std::chrono::abs(exact - start) <= std::chrono::microseconds(1)) return exact;
   }
   return start;
+}
+
+Duration lengthOf(const AVFormatContext& context, Duration start) noexcept {
+  if (context.duration <= 0) return Duration(0);
+  const Duration stated = durationFrom(context.duration, kMicrosecond);
+  if (context.duration_estimation_method != AVFMT_DURATION_FROM_STREAM || start <= Duration(0)) return stated;
+  Duration end{0};
+  for (unsigned i = 0; i < context.nb_streams; ++i) {
+    const AVStream& stream = *context.streams[i];
+    if (stream.start_time == AV_NOPTS_VALUE || stream.duration <= 0) continue;
+    end = std::max(end, durationFrom(stream.start_time + stream.duration, stream.time_base));
+  }
+  if (end > start) return std::min(stated, end - start);
+  const bool from_zero = std::string_view(context.iformat->name).starts_with("matroska");
+  return from_zero && stated > start ? stated - start : stated;
 }
 
 int earliestStream(const AVFormatContext& context, int leading) noexcept {

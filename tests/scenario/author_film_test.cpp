@@ -19,6 +19,7 @@
 #include "app/scene/height_field.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/film/mkv_patch.h"
 #include "tests/support/machine/process.h"
 #include "tests/support/machine/program.h"
 
@@ -262,6 +263,19 @@ TEST_F(AuthorFilm, AnInterlacedFilmHasNoCombs) {
     EXPECT_NEAR(left, test::sampleAt(film.pairs.at(3).color, 0, 24, 20), 30) << r << ": of one field";
   }
   EXPECT_FALSE(film.pairs.at(3).color.interlaced);
+}
+
+TEST_F(AuthorFilm, TimesThatJumpBackAreMended) {
+  ClipTrack color = colorTrack(64, 48, 5, 75);
+  color.codec = "libx264";
+  ClipTrack depth = depthTrack("gray", [](int, int r, int) { return 50u + static_cast<unsigned>(r); });
+  depth.fps_num = 5, depth.frames = 75;
+  makeClip(folder_ / "film.mkv", {color, depth});
+  ASSERT_GT(test::moveClustersBack(folder_ / "film.mkv", 6000, 4000), 0);
+  const auto summary = make({.url = folder_ / "film.mkv"});
+  ASSERT_TRUE(summary.has_value()) << summary.error().thing << summary.error().error.message;
+  EXPECT_EQ(summary->totals.color.frames, 75u);
+  EXPECT_NEAR(toSeconds(summary->totals.color.last - summary->totals.color.first), 14.8, 0.3);
 }
 
 TEST_F(AuthorFilm, TellsWhatItDoesNotKeep) {
