@@ -14,6 +14,7 @@
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/mock/mock.h"
 #include "drivers/mock/scripted_remote.h"
+#include "drivers/pictures/pictures.h"
 #include "drivers/pointer/pointer.h"
 #include "drivers/polhem/polhem.h"
 #include "drivers/replay/replay.h"
@@ -91,6 +92,15 @@ Result<void> turn(const std::weak_ptr<Bench>& known, std::atomic<bool> Bench::* 
     return fail(ErrorCode::InvalidState, "that device is no mock; start with --display mock or --haptic mock");
   *bench.*which = on;
   return {};
+}
+
+Result<StreamInfo> describePicture(const std::string& path) {
+  const auto source = makeFfmpegSource();
+  if (auto opened = source->open(path); !opened) return std::unexpected(opened.error());
+  for (const StreamInfo& stream : source->streams()) {
+    if (stream.kind == StreamKind::Video) return stream;
+  }
+  return fail(ErrorCode::Corrupt, "is no picture; check the file");
 }
 
 std::unexpected<Failure> unknown(const char* option, const BackEndName& name, const char* message) {
@@ -172,7 +182,8 @@ std::unique_ptr<MediaSource> makeMediaSource(const std::string& url) {
 #ifdef RELIEVO_ROSBAG
   if (isRosbag(url)) return makeRosbagSource();
 #endif
-  return name.word == "v4l2" && name.argument ? makeV4l2Source() : makeFfmpegSource();
+  if (name.word == "v4l2" && name.argument) return makeV4l2Source();
+  return isPictures(url) ? makePicturesSource(describePicture) : makeFfmpegSource();
 }
 
 std::unique_ptr<VideoDecoder> makeSoftwareDecoder(const StreamInfo& stream) {

@@ -162,6 +162,14 @@ void addDepthOptions(CLI::App& app, SourceOptions& source) {
       ->type_name("FILE.toml");
 }
 
+void addRateOption(CLI::App& app, SourceOptions& source) {
+  app.add_option("--fps", source.frames_per_s,
+                 "Frames per second of pictures that have numbers but no times [25; 30 if colour and depth are in one "
+                 "folder]")
+      ->type_name("F")
+      ->check(between(0.01, 10000.0));
+}
+
 void addVolumeOption(CLI::App& app, std::optional<DisplayVolume>& volume) {
   app.add_option_function<std::string>(
          "--volume",

@@ -53,6 +53,8 @@ CLI::Option* addChoice(CLI::App& app, const char* option, T& value,
 // Adds --packing, --depth-code, --registration and --calibration, which may be repeated: a later value of a key
 // overrides an earlier one.
 void addDepthOptions(CLI::App& app, SourceOptions& source);
+// Adds --fps.
+void addRateOption(CLI::App& app, SourceOptions& source);
 // Adds --volume.
 void addVolumeOption(CLI::App& app, std::optional<DisplayVolume>& volume);
 

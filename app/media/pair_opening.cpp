@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "app/media/frame_rate.h"
 #include "app/media/own_registration.h"
 #include "app/media/pair_film.h"
 #include "app/media/reading/depth_reading.h"
@@ -18,11 +19,14 @@ constexpr const char* kNoPicture =
     "not one picture of its video could be decoded; it is empty, damaged, unknown, or has more than 16.7 million "
     "samples";
 
-// The difference of two rounded timestamps is wrong by up to 1 ms. The container's nominal period is exact, and is used
-// if it agrees within that.
-Duration framePeriod(Duration between, Duration nominal) noexcept {
-  const bool agree = nominal > Duration(0) && std::chrono::abs(between - nominal) <= std::chrono::milliseconds(1);
-  return agree ? nominal : between;
+// Pictures whose names are from one clock or one count keep their distance if most of the shorter series lies within
+// the other; else the two begin together.
+Duration distanceByName(const MediaSource& color, const DepthSource::Session& depth) {
+  const bool known = color.namedStart() && depth.named_start && color.duration() > Duration(0);
+  if (!known || depth.duration == Duration(0)) return Duration(0);
+  const Duration distance = *depth.named_start - *color.namedStart();
+  const Duration common = std::min(color.duration(), distance + depth.duration) - std::max(Duration(0), distance);
+  return 2 * common >= std::min(color.duration(), depth.duration) ? distance : Duration(0);
 }
 
 }  // namespace
@@ -35,7 +39,8 @@ Result<void> PairReader::Impl::openReader() {
     color_reader.swap(reader);
   }
   reader.reset();
-  if (auto opened = color_reader->open(options.url); !opened) return failOn(options.url, opened.error());
+  if (auto opened = color_reader->open(options.url, options.frames_per_s); !opened)
+    return failOn(options.url, opened.error());
   return {};
 }
 
@@ -54,6 +59,7 @@ Result<void> PairReader::Impl::openFilm() {
   if (!plan) return failOn(options.url, plan.error());
   info.packing = plan->packing;
   info.duration = source.duration();
+  info.notes = source.notes();
   remote = source.remote();
   live = source.live();
 
@@ -67,6 +73,7 @@ Result<void> PairReader::Impl::openFilm() {
   const auto chosen = color_reader->select(asTold(*plan->color));
   if (!chosen) return failOn(options.url, chosen.error());
   if (auto selected = selectDepth(plan->depth); !selected) return selected;
+  if (depth_source) info.notes.insert(info.notes.end(), depth_source->notes().begin(), depth_source->notes().end());
   openSound();
   countTracks(*plan);
   if (auto opened = openColor(*plan->color); !opened) return opened;
@@ -84,11 +91,13 @@ Result<void> PairReader::Impl::openColor(const StreamInfo& color) {
   if (color_ahead.empty()) return failOn(options.url, {ErrorCode::Corrupt, 0, kNoPicture});
   info.color_width = color_ahead[0].width;
   info.color_height = color_ahead[0].height;
+  info.color_stream = color.index;
   info.color_codec = color.codec;
   info.color_decoder = color_reader->decoder(kColorTrack);
-  if (color_ahead.size() == 2) {
-    info.frame_period = framePeriod(color_ahead[1].pts - color_ahead[0].pts, color.frame_period);
-  }
+  if (color_ahead.size() == 2) info.frame_period = framePeriod(color_ahead[1].pts - color_ahead[0].pts, color);
+  info.interlaced = color_reader->deinterlaced() > 0;
+  info.color_primaries = color_ahead[0].primaries;
+  info.color_transfer = color_ahead[0].transfer;
   return {};
 }
 
@@ -239,9 +248,9 @@ Result<void> PairReader::Impl::describeDepth(const Frame& first, const StreamInf
 void PairReader::Impl::meet(const DepthSource::Session& session, MediaTime first) {
   if (depth_session) depth->restart();
   depth_session = session.number;
-  depth_shift = Duration(0);
-  if (!session.live) return;
   const MediaSource& color = color_reader->source();
+  depth_shift = session.live ? Duration(0) : distanceByName(color, session);
+  if (!session.live) return;
   if (!color.live()) {  // align what arrives now with what is shown now
     depth_shift = goes_on_at - first;
     return;

@@ -109,7 +109,7 @@ Result<void> PairReader::Impl::seekDepth(MediaTime target) {
   depth->restart();
   depth_lost = false;
   if (!depth_source) return {};
-  const auto sought = depth_source->seek(target, key_step);
+  const auto sought = depth_source->seek(target - depth_shift, key_step);
   if (sought) return {};
   if (sought.error().code == ErrorCode::Cancelled) return failOn(depthUrl(), sought.error());
   loseDepth(sought.error());
@@ -128,6 +128,7 @@ Result<void> PairReader::Impl::goOn() {
 // Closes the colour source but keeps its counters.
 void PairReader::Impl::leaveColor() {
   counters.damaged += color_reader->damaged();
+  counters.deinterlaced += color_reader->deinterlaced();
   counters.jumps += color_reader->source().jumps();
   counters.missed_pictures += color_reader->source().missedPictures();
   color_ahead.clear();
@@ -139,6 +140,7 @@ PairCounters& PairCounters::operator+=(const PairCounters& other) noexcept {
   mismatched += other.mismatched;
   depth_skipped += other.depth_skipped;
   damaged += other.damaged;
+  deinterlaced += other.deinterlaced;
   jumps += other.jumps;
   missed_pictures += other.missed_pictures;
   reconnects += other.reconnects;
@@ -261,6 +263,7 @@ PairCounters PairReader::counters() const noexcept {
   if (impl_->depth) counters.depth_skipped = impl_->depth->skipped();
   if (impl_->color_reader) {
     counters.damaged += impl_->color_reader->damaged();
+    counters.deinterlaced += impl_->color_reader->deinterlaced();
     counters.jumps += impl_->color_reader->source().jumps();
     counters.missed_pictures += impl_->color_reader->source().missedPictures();
     counters.missing = impl_->color_reader->source().missing();
@@ -268,6 +271,7 @@ PairCounters PairReader::counters() const noexcept {
   if (impl_->depth_source) {
     const DepthSource::Counters depth = impl_->depth_source->counters();
     counters.damaged += depth.damaged;
+    counters.deinterlaced += depth.deinterlaced;
     counters.jumps += depth.jumps;
     counters.missed_pictures += depth.missed_pictures;
     counters.depth_reconnects = depth.reconnects;

@@ -72,6 +72,7 @@ Json filmPart(const PlayReport& r) {
                             : Json(nullptr)},
       {"packing", name(f.packing)},
       {"reading", f.reading},
+      {"notes", f.notes},
       {"doubts", f.doubts},
       {"calibration", f.has_depth ? Json(f.calibration.explanation) : Json(nullptr)},
       {"frame_period_s", rounded(toSeconds(f.frame_period))},

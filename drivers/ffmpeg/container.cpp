@@ -3,10 +3,12 @@
 #include "drivers/ffmpeg/container.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
+#include <string_view>
 #include <utility>
 
 #include "drivers/ffmpeg/library.h"
@@ -32,6 +34,12 @@ Duration framePeriodOf(const AVStream& stream) noexcept {
     if (rate.num > 0 && rate.den > 0) return durationFrom(1, av_inv_q(rate));
   }
   return Duration(0);
+}
+
+std::string layoutOf(const AVChannelLayout& layout) {
+  std::array<char, 64> text{};
+  const bool known = layout.nb_channels > 0 && av_channel_layout_describe(&layout, text.data(), text.size()) > 0;
+  return known ? text.data() : "";
 }
 
 // Nine numbers; null if the container has no display matrix.
@@ -99,6 +107,18 @@ std::map<std::string, std::string> tagsOf(const AVDictionary* dictionary) {
   return tags;
 }
 
+std::vector<Chapter> chaptersOf(const AVFormatContext& context, Duration start) {
+  std::vector<Chapter> chapters;
+  for (unsigned i = 0; i < context.nb_chapters; ++i) {
+    const AVChapter& chapter = *context.chapters[i];
+    const AVDictionaryEntry* const title = av_dict_get(chapter.metadata, "title", nullptr, 0);
+    chapters.push_back({.begin = durationFrom(chapter.start, chapter.time_base) - start,
+                        .end = durationFrom(chapter.end, chapter.time_base) - start,
+                        .title = title == nullptr ? "" : title->value});
+  }
+  return chapters;
+}
+
 StreamKind kindOf(const AVStream& stream) noexcept {
   if (stream.discard == AVDISCARD_ALL) return StreamKind::Other;
   constexpr int kStills = AV_DISPOSITION_ATTACHED_PIC | AV_DISPOSITION_TIMED_THUMBNAILS;
@@ -145,6 +165,21 @@ Duration startOf(const AVFormatContext& context) noexcept {
   return start;
 }
 
+Duration lengthOf(const AVFormatContext& context, Duration start) noexcept {
+  if (context.duration <= 0) return Duration(0);
+  const Duration stated = durationFrom(context.duration, kMicrosecond);
+  if (context.duration_estimation_method != AVFMT_DURATION_FROM_STREAM || start <= Duration(0)) return stated;
+  Duration end{0};
+  for (unsigned i = 0; i < context.nb_streams; ++i) {
+    const AVStream& stream = *context.streams[i];
+    if (stream.start_time == AV_NOPTS_VALUE || stream.duration <= 0) continue;
+    end = std::max(end, durationFrom(stream.start_time + stream.duration, stream.time_base));
+  }
+  if (end > start) return std::min(stated, end - start);
+  const bool from_zero = std::string_view(context.iformat->name).starts_with("matroska");
+  return from_zero && stated > start ? stated - start : stated;
+}
+
 int earliestStream(const AVFormatContext& context, int leading) noexcept {
   int earliest = leading;
   const auto begins = [&](int i) {
@@ -184,7 +219,10 @@ Result<StreamInfo> describeStream(const AVStream& stream, bool timed) {
   if (info.kind == StreamKind::Video) info.rotation = rotationOf(stream);
   info.sample_rate_hz = parameters.sample_rate;
   info.channels = parameters.ch_layout.nb_channels;
+  info.channel_layout = layoutOf(parameters.ch_layout);
   info.frame_period = framePeriodOf(stream);
+  if (timed) info.average_rate = {stream.avg_frame_rate.num, stream.avg_frame_rate.den};
+  if (timed) info.base_rate = {stream.r_frame_rate.num, stream.r_frame_rate.den};
   if (timed && stream.duration > 0) info.duration = durationFrom(stream.duration, stream.time_base);
   info.tags = tagsOf(stream.metadata);
   // FFmpeg cannot tell the size of a TIFF picture of floats.

@@ -71,6 +71,14 @@ bool isInterlaced(const AVFrame& picture) noexcept {
 #endif
 }
 
+bool isTopFieldFirst(const AVFrame& picture) noexcept {
+#if LIBAVUTIL_VERSION_INT >= AV_VERSION_INT(58, 7, 100)  // FFmpeg 6.1
+  return (picture.flags & AV_FRAME_FLAG_TOP_FIELD_FIRST) != 0;
+#else
+  return picture.top_field_first != 0;
+#endif
+}
+
 // FFmpeg numbers primaries and transfers as ITU-T H.273 does.
 std::uint8_t h273(int code) noexcept {
   return code > 0 && code <= 255 ? static_cast<std::uint8_t>(code) : kUnspecifiedColor;
@@ -88,6 +96,23 @@ ColorMatrix matrixOf(AVColorSpace space) noexcept {
       return ColorMatrix::Bt2020;
     default:
       return ColorMatrix::Unspecified;
+  }
+}
+
+FieldOrder fieldsOf(AVFieldOrder order) noexcept {
+  switch (order) {
+    case AV_FIELD_PROGRESSIVE:
+      return FieldOrder::Progressive;
+    case AV_FIELD_TT:
+      return FieldOrder::TopTop;
+    case AV_FIELD_BB:
+      return FieldOrder::BottomBottom;
+    case AV_FIELD_TB:
+      return FieldOrder::TopBottom;
+    case AV_FIELD_BT:
+      return FieldOrder::BottomTop;
+    default:
+      return FieldOrder::Unknown;
   }
 }
 
@@ -150,6 +175,7 @@ Frame frameOf(FramePtr picture, AVRational sample_aspect) {
   frame.range = rangeOf(picture->format, picture->color_range, frame.model);
   frame.matrix = matrixOf(picture->colorspace);
   frame.interlaced = isInterlaced(*picture);
+  frame.top_field_first = isTopFieldFirst(*picture);
   frame.primaries = h273(picture->color_primaries);
   frame.transfer = h273(picture->color_trc);
   frame.sample_aspect = sampleAspectOf(sample_aspect, picture->sample_aspect_ratio);
@@ -175,12 +201,18 @@ Frame frameOf(FramePtr picture, AVRational sample_aspect) {
   return frame;
 }
 
-void describeSignals(StreamInfo& stream, const AVCodecParameters& parameters, AVRational sample_aspect) noexcept {
+void describeSignals(StreamInfo& stream, const AVCodecParameters& parameters, AVRational sample_aspect) {
   const AVPixFmtDescriptor* const format = av_pix_fmt_desc_get(static_cast<AVPixelFormat>(parameters.format));
   const ColorModel model = format == nullptr ? ColorModel::Yuv : modelOf(*format);
   stream.range = rangeOf(parameters.format, parameters.color_range, model);
   stream.matrix = matrixOf(parameters.color_space);
   stream.sample_aspect = sampleAspectOf(sample_aspect, parameters.sample_aspect_ratio);
+  stream.primaries = h273(parameters.color_primaries);
+  stream.transfer = h273(parameters.color_trc);
+  stream.fields = fieldsOf(parameters.field_order);
+  if (format == nullptr) return;
+  stream.pixel_format = av_get_pix_fmt_name(static_cast<AVPixelFormat>(parameters.format));
+  stream.bits = parameters.bits_per_raw_sample > 0 ? parameters.bits_per_raw_sample : format->comp[0].depth;
 }
 
 Converter::Converter() noexcept = default;

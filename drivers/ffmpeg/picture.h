@@ -27,7 +27,7 @@ namespace relievo::ffmpeg {
 [[nodiscard]] Frame frameOf(FramePtr picture, AVRational sample_aspect);
 
 // Fills in the same for a stream, as far as its parameters have it.
-void describeSignals(StreamInfo& stream, const AVCodecParameters& parameters, AVRational sample_aspect) noexcept;
+void describeSignals(StreamInfo& stream, const AVCodecParameters& parameters, AVRational sample_aspect);
 
 // Converts pictures to describable formats; reuses FFmpeg's scaler between pictures.
 class Converter {

@@ -2,7 +2,9 @@
 // The contract of every media source: states, one final end, packets that outlive it, seeking to key frames.
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 
+#include "drivers/pictures/pictures.h"
 #include "tests/contract/films.h"
 #include "tests/contract/state_table.h"
 #ifdef RELIEVO_ROSBAG
@@ -16,14 +18,39 @@ namespace {
 using State = MediaSource::State;
 using namespace std::chrono_literals;
 
+Result<StreamInfo> describePicture(const std::string& path) {
+  const auto source = makeFfmpegSource();
+  if (auto opened = source->open(path); !opened) return std::unexpected(opened.error());
+  return source->streams().at(0);
+}
+
+// A folder of pictures, each of which is a key frame.
+std::string folderOfPictures() {
+  static const test::TemporaryFolder folder;
+  static const std::string path = [] {
+    std::filesystem::create_directory(folder / "film");
+    test::makeClip(folder / "film/%02d.png",
+                   {{.codec = "png", .pix_fmt = "gray", .fps_num = 25, .frames = test::kFilmFrames}});
+    return folder / "film";
+  }();
+  return path;
+}
+const test::FilmBackend kPictures{"pictures",
+                                  [] { return makePicturesSource(describePicture); },
+                                  makeFfmpegDecoder,
+                                  folderOfPictures,
+                                  "/nonexistent/%d.png",
+                                  test::kFilmPeriod};
+
 class MediaSourceContract : public test::FilmContract {};
-INSTANTIATE_TEST_SUITE_P(Backends, MediaSourceContract, testing::ValuesIn(test::kFilmBackends),
-                         [](const auto& test) { return std::string(test.param.name); });
+const auto kNameOf = [](const auto& test) { return std::string(test.param.name); };
+INSTANTIATE_TEST_SUITE_P(Backends, MediaSourceContract, testing::ValuesIn(test::kFilmBackends), kNameOf);
+INSTANTIATE_TEST_SUITE_P(Pictures, MediaSourceContract, testing::Values(kPictures), kNameOf);
 #ifdef RELIEVO_ROSBAG
 INSTANTIATE_TEST_SUITE_P(Bags, MediaSourceContract,
                          testing::Values(test::FilmBackend{"rosbag", makeRosbagSource, makeFfmpegDecoder, test::bagFilm,
-                                                           "/nonexistent/film.bag", 1, false}),
-                         [](const auto& test) { return std::string(test.param.name); });
+                                                           "/nonexistent/film.bag", test::kFilmPeriod, false}),
+                         kNameOf);
 #endif
 
 TEST_P(MediaSourceContract, EveryVerbInEveryState) {
@@ -127,9 +154,9 @@ TEST_P(MediaSourceContract, PacketsOutliveTheSource) {
 
 TEST_P(MediaSourceContract, SeeksToTheKeyFrameAtOrBeforeTheTarget) {
   const auto source = openSource();
-  const Duration step = GetParam().key_interval * test::kFilmPeriod;
-  for (const Duration target : {500ms, 400ms, 399ms, 0ms, -1000ms, 1100ms}) {
-    const Duration key = std::max(Duration(0), target) / step * step;
+  for (const Duration at : {500ms, 400ms, 399ms, 0ms, -1000ms, 1100ms}) {
+    const MediaTime target(at);
+    const MediaTime key(std::max(Duration(0), at / GetParam().key_step * GetParam().key_step));
     SCOPED_TRACE(toSeconds(target));
     ASSERT_TRUE(source->seek(MediaTime(target)));
     const auto packet = source->read();

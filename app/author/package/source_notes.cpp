@@ -58,7 +58,7 @@ void tellClipped(Notes& notes, const FilmInfo& info, const DepthCoder::Counts& c
 }  // namespace
 
 std::vector<std::string> sourceNotes(const SourceOptions& source, const PairReader& reader, const FilmFormat& format,
-                                     std::uint64_t interlaced, const DepthCoder::Counts& codes) {
+                                     const DepthCoder::Counts& codes) {
   Notes notes;
   const PairCounters counters = reader.counters();
   tellMissing(notes, source.url, counters.missing);
@@ -69,12 +69,13 @@ std::vector<std::string> sourceNotes(const SourceOptions& source, const PairRead
   tell(notes, counters.missed_pictures, " camera pictures were lost on the way");
   tell(notes, counters.damaged, " damaged packets or pictures were left out");
   tellLeftOut(notes, reader.info());
-  tell(notes, interlaced,
-       " pictures are interlaced: edges in motion will look combed; deinterlace the source first, with FFmpeg's "
-       "bwdif");
+  tell(
+      notes, counters.deinterlaced,
+      " pictures were interlaced: each was made of its first field; for more detail deinterlace the source first, with "
+      "FFmpeg's bwdif");
   tellColor(notes, format);
   tellClipped(notes, reader.info(), codes);
-  for (const auto& lines : {reader.info().reading, reader.info().doubts}) {
+  for (const auto& lines : {reader.info().notes, reader.info().reading, reader.info().doubts}) {
     notes.insert(notes.end(), lines.begin(), lines.end());
   }
   return notes;

@@ -14,7 +14,6 @@ namespace relievo {
 
 // One line each; none if the film preserves everything of the source.
 [[nodiscard]] std::vector<std::string> sourceNotes(const SourceOptions& source, const PairReader& reader,
-                                                   const FilmFormat& format, std::uint64_t interlaced,
-                                                   const DepthCoder::Counts& codes);
+                                                   const FilmFormat& format, const DepthCoder::Counts& codes);
 
 }  // namespace relievo

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/player/film/film_changes.h"
 #include "platform/log.h"
 
 namespace relievo {
@@ -71,6 +72,8 @@ FilmPlayback::Opening FilmPlayback::opening() const {
 
 const FilmInfo& FilmPlayback::opened() {
   info_ = feed_.info();
+  for (const std::string& line : info_.notes) log(LogLevel::Info, "play", "%s", line.c_str());
+  for (const std::string& change : changesOf(info_)) log(LogLevel::Warning, "play", "%s", change.c_str());
   for (const std::string& line : info_.reading) log(LogLevel::Info, "play", "%s", line.c_str());
   for (const std::string& doubt : info_.doubts) log(LogLevel::Warning, "play", "%s", doubt.c_str());
   if (info_.has_depth) log(LogLevel::Info, "play", "depth: %s", info_.calibration.explanation.c_str());

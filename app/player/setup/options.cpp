@@ -98,14 +98,17 @@ constexpr const char* kNoStereo =
 constexpr const char* kNoDuration = "a duration is more than 0 and at most a billion seconds";
 
 CLI::Option* addSourceOptions(CLI::App& command, SourceOptions& source) {
-  CLI::Option* url = command
-                         .add_option("SOURCE", source.url,
-                                     "A file, or an address: http, https (HLS as well), rtsp, rtp, udp, tcp; "
-                                     "v4l2:DEVICE; mock:, which needs no file")
-                         ->type_name(" ");
+  CLI::Option* url =
+      command
+          .add_option("SOURCE", source.url,
+                      "A film, a folder of films or pictures, pictures (\"a/%06d.png\", \"a/*.png\"), "
+                      "associations.txt, a playlist, or an address: http, https (HLS as well), rtsp, rtp, udp, tcp; "
+                      "v4l2:DEVICE; mock:, which needs no file")
+          ->type_name(" ");
   command.add_option("--depth", source.depth_url, "A second file or address that holds the depth")
       ->type_name("SOURCE2");
   addDepthOptions(command, source);
+  addRateOption(command, source);
   return url;
 }
 
