@@ -12,6 +12,7 @@
 #include "drivers/failover/failover.h"
 #include "drivers/falcon/falcon.h"
 #include "drivers/ffmpeg/ffmpeg.h"
+#include "drivers/floats/floats.h"
 #include "drivers/mock/mock.h"
 #include "drivers/mock/scripted_remote.h"
 #include "drivers/pointer/pointer.h"
@@ -90,6 +91,15 @@ Result<void> turn(const std::weak_ptr<Bench>& known, std::atomic<bool> Bench::* 
   return {};
 }
 
+// The project's own reader of the stream's pictures; nullopt if FFmpeg decodes them.
+std::optional<PictureFormat> pictureFormat(const StreamInfo& stream) {
+  if (isFloatTiff(stream)) return kTiff;
+  for (const PictureFormat& format : {kPfm, kNpy}) {
+    if (stream.codec == format.codec) return format;
+  }
+  return std::nullopt;
+}
+
 std::unexpected<Failure> unknown(const char* option, const BackEndName& name, const char* message) {
   return failOn(option + (" " + name.text()), {ErrorCode::InvalidArgument, 0, message});
 }
@@ -166,17 +176,19 @@ std::unique_ptr<MediaSource> makeMediaSource(const std::string& url) {
   static MonotonicClock clock;
   const BackEndName name(url);
   if (name == kMockFilm) return makeMockSource(mockFilm(), clock);
-  return name.word == "v4l2" && name.argument ? makeV4l2Source() : makeFfmpegSource();
+  if (name.word == "v4l2" && name.argument) return makeV4l2Source();
+  return isNpyFile(url) ? makeNpySource() : makeFfmpegSource();
 }
 
 std::unique_ptr<VideoDecoder> makeSoftwareDecoder(const StreamInfo& stream) {
   if (isMock(stream)) return makeMockDecoder({.max_held_frames = 32});
   if (isV4l2Raw(stream)) return makeV4l2RawDecoder();
-  return isFloatTiff(stream) ? makeTiffDecoder() : makeFfmpegDecoder();
+  const auto format = pictureFormat(stream);
+  return format ? makePictureFileDecoder(*format) : makeFfmpegDecoder();
 }
 
 std::unique_ptr<VideoDecoder> makeVideoDecoder(const StreamInfo& stream) {
-  const bool own = isMock(stream) || isV4l2Raw(stream) || isFloatTiff(stream);
+  const bool own = isMock(stream) || isV4l2Raw(stream) || pictureFormat(stream);
   if (own || lookAtV4l2M2mNodes().empty()) return makeSoftwareDecoder(stream);
   std::vector<std::unique_ptr<VideoDecoder>> decoders;
   decoders.push_back(makeV4l2M2mDecoder());

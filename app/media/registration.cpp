@@ -60,6 +60,7 @@ Result<Frame> registered(const Frame& depth, const Registration& registration) {
   target.codes.resize(static_cast<std::size_t>(target.cols) * static_cast<std::size_t>(target.rows));
   const PinholeCamera to = scaled(registration.color, target.cols, target.rows);
 
+  const double unit_mm = registration.unit_mm * (depth.value_per_code == 0 ? 1 : std::abs(depth.value_per_code));
   const auto& m = registration.rotation;
   const auto& t = registration.translation_mm;
   const Component& where = depth.components[0];
@@ -70,12 +71,12 @@ Result<Frame> registered(const Frame& depth, const Registration& registration) {
     for (int c = 0; c < depth.width; ++c, sample += where.step_bytes) {
       const std::uint32_t code = codeAt(where, sample);
       if (code == 0) continue;
-      const double z = code * registration.unit_mm;
+      const double z = code * unit_mm;
       const double x = (c - from.center_x) / from.focal_x;
       const Point p{z * (m[0] * x + m[1] * y + m[2]) + t[0], z * (m[3] * x + m[4] * y + m[5]) + t[1],
                     z * (m[6] * x + m[7] * y + m[8]) + t[2]};
       if (p.z < kNearestMm) continue;
-      const double there = std::round(p.z / registration.unit_mm);
+      const double there = std::round(p.z / unit_mm);
       if (there < 1 || there > kLargestCode) continue;
       const double shrinks = z / p.z / 2;
       target.cover(to.focal_x * p.x / p.z + to.center_x, to.focal_y * p.y / p.z + to.center_y,
@@ -86,6 +87,7 @@ Result<Frame> registered(const Frame& depth, const Registration& registration) {
 
   Frame frame =
       grayFrame(std::make_shared<const std::vector<std::uint16_t>>(std::move(target.codes)), target.cols, target.rows);
+  frame.value_per_code = depth.value_per_code;
   frame.pts = depth.pts;
   frame.duration = depth.duration;
   return frame;

@@ -24,7 +24,7 @@ struct Registration {
   PinholeCamera depth, color;
   std::array<double, 9> rotation{1, 0, 0, 0, 1, 0, 0, 0, 1};  // row by row
   std::array<double, 3> translation_mm{0, 0, 0};
-  double unit_mm = 1;  // per depth code; 0: not given
+  double unit_mm = 1;  // per depth code, or per unit of floating-point depth (Frame::value_per_code); 0: not given
 };
 
 // Reads the TOML that app/author/README.md describes. InvalidArgument names the rule that the text breaks.

@@ -171,9 +171,6 @@ Result<StreamInfo> describeStream(const AVStream& stream, bool timed) {
   info.frame_period = framePeriodOf(stream);
   if (timed && stream.duration > 0) info.duration = durationFrom(stream.duration, stream.time_base);
   info.tags = tagsOf(stream.metadata);
-  // FFmpeg cannot tell the size of a TIFF picture of floats.
-  const bool float_tiff = parameters.codec_id == AV_CODEC_ID_TIFF && parameters.width == 0;
-  if (isDistance(parameters.format) || float_tiff) info.tags.insert({{"DEPTH_UNIT", "1"}, {"DEPTH_INVALID", "0"}});
   info.auxiliary = info.kind == StreamKind::Video && parameters.codec_tag == kAuxiliaryVideo;
 
   auto native = std::make_unique<NativeStream>();
