@@ -10,11 +10,18 @@
 #include "drivers/egl/egl.h"
 #include "drivers/evdev/evdev.h"
 #include "drivers/failover/failover.h"
+#ifdef RELIEVO_EXR
+#include "drivers/exr/exr.h"
+#endif
 #include "drivers/falcon/falcon.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/floats/floats.h"
+#ifdef RELIEVO_HEIF
+#include "drivers/heif/heif.h"
+#endif
 #include "drivers/mock/mock.h"
 #include "drivers/mock/scripted_remote.h"
+#include "drivers/photo/photo.h"
 #include "drivers/pointer/pointer.h"
 #include "drivers/polhem/polhem.h"
 #include "drivers/replay/replay.h"
@@ -94,11 +101,30 @@ Result<void> turn(const std::weak_ptr<Bench>& known, std::atomic<bool> Bench::* 
 // The project's own reader of the stream's pictures; nullopt if FFmpeg decodes them.
 std::optional<PictureFormat> pictureFormat(const StreamInfo& stream) {
   if (isFloatTiff(stream)) return kTiff;
-  for (const PictureFormat& format : {kPfm, kNpy}) {
+  const PictureFormat formats[] = {
+      kPfm,       kNpy,
+#ifdef RELIEVO_EXR
+      kExr,       kExrColor,
+#endif
+#ifdef RELIEVO_HEIF
+      kHeifColor, kHeifDepth,
+#endif
+  };
+  for (const PictureFormat& format : formats) {
     if (stream.codec == format.codec) return format;
   }
   return std::nullopt;
 }
+
+const PhotoKind kPhotoKinds[] = {
+    kDepthJpeg,
+#ifdef RELIEVO_EXR
+    kExrWithDepth,
+#endif
+#ifdef RELIEVO_HEIF
+    kHeif,
+#endif
+};
 
 std::unexpected<Failure> unknown(const char* option, const BackEndName& name, const char* message) {
   return failOn(option + (" " + name.text()), {ErrorCode::InvalidArgument, 0, message});
@@ -177,7 +203,8 @@ std::unique_ptr<MediaSource> makeMediaSource(const std::string& url) {
   const BackEndName name(url);
   if (name == kMockFilm) return makeMockSource(mockFilm(), clock);
   if (name.word == "v4l2" && name.argument) return makeV4l2Source();
-  return isNpyFile(url) ? makeNpySource() : makeFfmpegSource();
+  if (isNpyFile(url)) return makeNpySource();
+  return isPhoto(url, kPhotoKinds) ? makePhotoSource(kPhotoKinds) : makeFfmpegSource();
 }
 
 std::unique_ptr<VideoDecoder> makeSoftwareDecoder(const StreamInfo& stream) {

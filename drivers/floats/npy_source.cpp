@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Media source of a npy file: reads one picture of the array at a time.
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -121,6 +122,8 @@ class NpySource final : public MediaSource {
 }  // namespace
 
 bool isNpyFile(const std::string& path) {
+  struct stat status{};
+  if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return false;  // opening a pipe disturbs it
   const UniqueFd file = openFile(path);
   return file.valid() && npy::isNpy(beginningOf(file.get(), 16));
 }

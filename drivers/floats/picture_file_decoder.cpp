@@ -122,6 +122,7 @@ class PictureFileDecoder final : public VideoDecoder {
   }
 
   Frame frameOf(const FilePicture& picture) {
+    if (!picture.frame.empty()) return picture.frame;
     if (!reading_) reading_ = readingOf(picture);
     if (!reading_->gray && picture.components == 3) return colorFrame(picture);
     const auto step = static_cast<std::size_t>(picture.components);

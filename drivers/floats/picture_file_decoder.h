@@ -20,6 +20,7 @@ struct FilePicture {
   int components = 1;  // 1; or 3: red, green, blue, interleaved
   int whole_bits = 0;  // 8 or 16: whole numbers of so many bits, from 0 on; 0: any numbers
   std::vector<float> samples;
+  Frame frame;  // instead of samples, if it is not empty: whole numbers that need no conversion
 };
 
 // A format: its name in StreamInfo::codec, and its reader. The reader returns nullopt for a damaged file, or one whose

@@ -9,11 +9,9 @@
 #include <fstream>
 #include <limits>
 
-#include "app/media/pair_reader.h"
 #include "app/media/reading/float_reading.h"
-#include "app/scene/height_field.h"
-#include "drivers/registry.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/film/opened_film.h"
 
 namespace relievo {
 namespace {
@@ -24,9 +22,6 @@ using testing::HasSubstr;
 
 constexpr int kCols = 64, kRows = 48;
 constexpr float kHole = std::numeric_limits<float>::infinity();
-
-const PairReader::Backends kDrivers{[](const std::string& url) { return drivers::makeMediaSource(url); },
-                                    [](const StreamInfo& stream) { return drivers::makeSoftwareDecoder(stream); }};
 
 // A floor that comes nearer towards the bottom, with nothing in the top left corner.
 double metresAt(int c, int r) {
@@ -45,43 +40,16 @@ void writePfm(const std::string& path, Value&& value) {
   }
 }
 
-struct Opened {
-  FilmInfo info;
-  FramePair pair;
-  // Where a sample lies between the far (0) and the near end (1) of the box; NaN for a hole.
-  [[nodiscard]] double heightAt(int c, int r) const {
-    const auto field =
-        HeightField::make(pair.depth, info.calibration.calibration, {.width_mm = 1, .height_mm = 1, .depth_mm = 1});
-    return field ? field->heightMm(c, r) : -1;
-  }
-};
-Opened open(const SourceOptions& options) {
-  PairReader reader(kDrivers);
-  const auto opened = reader.open(options);
-  EXPECT_TRUE(opened) << (opened ? "" : opened.error().message);
-  if (!opened) return {};
-  Opened film{reader.info(), {}};
-  auto pair = reader.next();
-  if (pair && *pair) film.pair = std::move(**pair);
-  return film;
-}
-
-// The distance of a height, by the definition in app/scene/depth_calibration.h: z = D (far - Z)/(far - near).
-double distanceOf(const Opened& film, double height) {
-  const DepthCalibration& c = film.info.calibration.calibration;
-  return c.far_mm - height * (c.far_mm - c.near_mm);
-}
-
 // Each distance is the true one times the same number, holes are holes.
-void expectDistances(const Opened& film) {
+void expectDistances(const test::OpenedFilm& film) {
   ASSERT_TRUE(film.info.has_depth);
-  const double scale = distanceOf(film, film.heightAt(30, 20)) / metresAt(30, 20);
+  const double scale = film.distanceAt(30, 20) / metresAt(30, 20);
   for (int r = 0; r < kRows; r += 3) {
     for (int c = 0; c < kCols; c += 5) {
-      const double height = film.heightAt(c, r);
-      ASSERT_EQ(std::isnan(height), metresAt(c, r) == 0) << c << ", " << r;
-      if (std::isnan(height)) continue;
-      ASSERT_NEAR(distanceOf(film, height) / scale, metresAt(c, r), 0.002) << c << ", " << r;
+      const bool hole = std::isnan(film.heightAt(c, r));
+      ASSERT_EQ(hole, metresAt(c, r) == 0) << c << ", " << r;
+      if (hole) continue;
+      ASSERT_NEAR(film.distanceAt(c, r) / scale, metresAt(c, r), 0.002) << c << ", " << r;
     }
   }
 }
@@ -94,12 +62,12 @@ TEST(FloatReading, MetresMillimetresAndDisparitiesComeOutAlike) {
   writePfm(folder / "0006.pfm", [](double m) { return 900 / m; });  // PFM is mostly disparity
   for (const char* name : {"depth.pfm", "depth-mm.pfm", "disp.pfm", "0006.pfm"}) {
     SCOPED_TRACE(name);
-    expectDistances(open({.url = folder / name}));
+    expectDistances(test::openFilm({.url = folder / name}));
   }
-  const auto& metres = open({.url = folder / "depth.pfm"}).info.calibration.calibration;
+  const auto& metres = test::openFilm({.url = folder / "depth.pfm"}).info.calibration.calibration;
   EXPECT_NEAR(metres.near_mm, 0.9 * 1650, 20);
   EXPECT_NEAR(metres.far_mm, 1.1 * 4060, 20);
-  const auto& mm = open({.url = folder / "depth-mm.pfm"}).info.calibration.calibration;
+  const auto& mm = test::openFilm({.url = folder / "depth-mm.pfm"}).info.calibration.calibration;
   EXPECT_NEAR(mm.near_mm, metres.near_mm, 1);
 }
 
@@ -108,20 +76,20 @@ TEST(FloatReading, TheCommandLineSpeaksOfTheFilesNumbers) {
   writePfm(folder / "0006.pfm", [](double m) { return 10 * m; });  // decimetres
   SourceOptions options{.url = folder / "0006.pfm"};
   options.command_line = {{"unit", "100"}};
-  const Opened film = open(options);
+  const test::OpenedFilm film = test::openFilm(options);
   expectDistances(film);
-  EXPECT_NEAR(distanceOf(film, film.heightAt(30, 20)), 1000 * metresAt(30, 20), 4);
+  EXPECT_NEAR(film.distanceAt(30, 20), 1000 * metresAt(30, 20), 4);
 
   writePfm(folder / "depth.pfm", [](double m) { return 900 / m; });
   SourceOptions inverse{.url = folder / "depth.pfm"};
   inverse.command_line = {{"law", "inverse"}};
-  expectDistances(open(inverse));
+  expectDistances(test::openFilm(inverse));
 }
 
 TEST(FloatReading, RelativeDisparitiesThatBeginAtZeroAreLinear) {
   const TemporaryFolder folder;
   writePfm(folder / "disp.pfm", [](double m) { return (4.06 - m) / 2; });
-  const Opened film = open({.url = folder / "disp.pfm"});
+  const test::OpenedFilm film = test::openFilm({.url = folder / "disp.pfm"});
   EXPECT_EQ(film.info.calibration.calibration.law, DepthLaw::Linear);
   EXPECT_GT(film.heightAt(30, 40), film.heightAt(30, 10) + 0.5);
 }
@@ -129,7 +97,7 @@ TEST(FloatReading, RelativeDisparitiesThatBeginAtZeroAreLinear) {
 TEST(FloatReading, DepthWithoutColourIsFeltAndShownAsGray) {
   const TemporaryFolder folder;
   writePfm(folder / "depth.pfm", [](double m) { return m; });
-  const Opened film = open({.url = folder / "depth.pfm"});
+  const test::OpenedFilm film = test::openFilm({.url = folder / "depth.pfm"});
   EXPECT_EQ(film.info.packing, Packing::DepthAlone);
   EXPECT_EQ(film.pair.color.model, ColorModel::Gray);
   EXPECT_EQ(test::sampleAt(film.pair.color, 0, 2, 2), 0u) << "a hole is black";
