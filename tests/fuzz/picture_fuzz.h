@@ -15,7 +15,7 @@ namespace relievo {
 inline void fuzzPicture(const PictureFormat& format, std::span<const std::uint8_t> bytes) {
   setLogLevel(LogLevel::Error);
   const auto decoder = makePictureFileDecoder(format);
-  if (!decoder->open({.codec = format.codec})) std::abort();
+  if (!decoder->open({.kind = StreamKind::Video, .codec = format.codec})) std::abort();
   if (!decoder->feed({.data = bytes.data(), .bytes = bytes.size()})) std::abort();
   const auto frame = decoder->receive();
   if (!frame || !*frame) return;
