@@ -18,8 +18,9 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <utility>
+
+#include "drivers/exr/exr_header.h"
 
 namespace relievo {
 namespace {
@@ -27,47 +28,6 @@ namespace {
 constexpr int kLongestSide = 32768;
 constexpr float kHalfMax = 65504;  // a half that holds it was clipped there
 constexpr std::array<std::uint8_t, 4> kMagic{0x76, 0x2f, 0x31, 0x01};
-
-std::uint32_t number32(std::span<const std::uint8_t> file, std::size_t at) noexcept {
-  std::uint32_t value = 0;
-  std::memcpy(&value, file.data() + at, sizeof value);
-  return value;
-}
-
-// The place behind the zero that ends a text, 0 if the file ends before.
-std::size_t behindText(std::span<const std::uint8_t> file, std::size_t at) noexcept {
-  const auto end = std::find(file.begin() + static_cast<std::ptrdiff_t>(std::min(at, file.size())), file.end(), 0);
-  return end == file.end() ? 0 : static_cast<std::size_t>(end - file.begin()) + 1;
-}
-
-// Whether all attributes, and the chunks that they announce, fit into the file: the library allocates what a size says
-// before it reads ("OpenEXR File Layout").
-bool fitsItsHeaders(std::span<const std::uint8_t> file) noexcept {
-  constexpr std::uint32_t kMultipart = 0x1000;
-  constexpr std::size_t kBegin = 8;
-  if (file.size() < kBegin) return false;
-  const bool multipart = (number32(file, 4) & kMultipart) != 0;
-  std::size_t at = kBegin;
-  for (bool begins = true; at < file.size();) {
-    if (file[at] == 0) {  // the end of a header; in a file of parts an empty one ends them all
-      ++at;
-      if (!multipart || begins) return true;
-      begins = true;
-      continue;
-    }
-    begins = false;
-    const std::string_view name(reinterpret_cast<const char*>(file.data()) + at, file.size() - at);
-    const std::size_t type = behindText(file, at), size = type == 0 ? 0 : behindText(file, type);
-    if (size == 0 || size + 4 > file.size()) return false;
-    const std::size_t bytes = number32(file, size);
-    if (bytes > file.size() - size - 4) return false;
-    if (name.starts_with(std::string_view("chunkCount\0", 11)) && bytes == 4 &&
-        number32(file, size + 4) > file.size() / 8)
-      return false;
-    at = size + 4 + bytes;
-  }
-  return false;
-}
 
 // The library reads from it; its errors are exceptions.
 class Bytes final : public Imf::IStream {
@@ -197,7 +157,7 @@ Choice choosePart(const Imf::MultiPartInputFile& file, Choose&& choose) {
 
 template <class Choose>
 std::optional<FilePicture> readFile(std::span<const std::uint8_t> file, Choose&& choose) {
-  if (!fitsItsHeaders(file)) return std::nullopt;
+  if (!exr::fitsItsHeaders(file)) return std::nullopt;
   try {
     Bytes bytes(file);
     Imf::Header::setMaxImageSize(kLongestSide, kLongestSide);
@@ -240,7 +200,7 @@ bool beginsLikeExr(std::span<const std::uint8_t> bytes) {
 }
 
 std::vector<PhotoPart> partsOf(const PhotoBytes& file) {
-  if (!fitsItsHeaders(*file)) return {};
+  if (!exr::fitsItsHeaders(*file)) return {};
   try {
     Bytes bytes(*file);
     const Imf::MultiPartInputFile parts(bytes, 0);
