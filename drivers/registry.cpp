@@ -10,10 +10,18 @@
 #include "drivers/egl/egl.h"
 #include "drivers/evdev/evdev.h"
 #include "drivers/failover/failover.h"
+#ifdef RELIEVO_EXR
+#include "drivers/exr/exr.h"
+#endif
 #include "drivers/falcon/falcon.h"
 #include "drivers/ffmpeg/ffmpeg.h"
+#include "drivers/floats/floats.h"
+#ifdef RELIEVO_HEIF
+#include "drivers/heif/heif.h"
+#endif
 #include "drivers/mock/mock.h"
 #include "drivers/mock/scripted_remote.h"
+#include "drivers/photo/photo.h"
 #include "drivers/pictures/pictures.h"
 #include "drivers/pointer/pointer.h"
 #include "drivers/polhem/polhem.h"
@@ -95,13 +103,41 @@ Result<void> turn(const std::weak_ptr<Bench>& known, std::atomic<bool> Bench::* 
 }
 
 Result<StreamInfo> describePicture(const std::string& path) {
-  const auto source = makeFfmpegSource();
+  const auto source = isNpyFile(path) ? makeNpySource() : makeFfmpegSource();
   if (auto opened = source->open(path); !opened) return std::unexpected(opened.error());
   for (const StreamInfo& stream : source->streams()) {
     if (stream.kind == StreamKind::Video) return stream;
   }
   return fail(ErrorCode::Corrupt, "is no picture; check the file");
 }
+
+// The project's own reader of the stream's pictures; nullopt if FFmpeg decodes them.
+std::optional<PictureFormat> pictureFormat(const StreamInfo& stream) {
+  if (isFloatTiff(stream)) return kTiff;
+  const PictureFormat formats[] = {
+      kPfm,       kNpy,
+#ifdef RELIEVO_EXR
+      kExr,       kExrColor,
+#endif
+#ifdef RELIEVO_HEIF
+      kHeifColor, kHeifDepth,
+#endif
+  };
+  for (const PictureFormat& format : formats) {
+    if (stream.codec == format.codec) return format;
+  }
+  return std::nullopt;
+}
+
+const PhotoKind kPhotoKinds[] = {
+    kDepthJpeg,
+#ifdef RELIEVO_EXR
+    kExrWithDepth,
+#endif
+#ifdef RELIEVO_HEIF
+    kHeif,
+#endif
+};
 
 std::unexpected<Failure> unknown(const char* option, const BackEndName& name, const char* message) {
   return failOn(option + (" " + name.text()), {ErrorCode::InvalidArgument, 0, message});
@@ -183,17 +219,20 @@ std::unique_ptr<MediaSource> makeMediaSource(const std::string& url) {
   if (isRosbag(url)) return makeRosbagSource();
 #endif
   if (name.word == "v4l2" && name.argument) return makeV4l2Source();
+  if (isNpyFile(url)) return makeNpySource();
+  if (isPhoto(url, kPhotoKinds)) return makePhotoSource(kPhotoKinds);
   return isPictures(url) ? makePicturesSource(describePicture) : makeFfmpegSource();
 }
 
 std::unique_ptr<VideoDecoder> makeSoftwareDecoder(const StreamInfo& stream) {
   if (isMock(stream)) return makeMockDecoder({.max_held_frames = 32});
   if (isV4l2Raw(stream)) return makeV4l2RawDecoder();
-  return isFloatTiff(stream) ? makeTiffDecoder() : makeFfmpegDecoder();
+  const auto format = pictureFormat(stream);
+  return format ? makePictureFileDecoder(*format) : makeFfmpegDecoder();
 }
 
 std::unique_ptr<VideoDecoder> makeVideoDecoder(const StreamInfo& stream) {
-  const bool own = isMock(stream) || isV4l2Raw(stream) || isFloatTiff(stream);
+  const bool own = isMock(stream) || isV4l2Raw(stream) || pictureFormat(stream);
   if (own || lookAtV4l2M2mNodes().empty()) return makeSoftwareDecoder(stream);
   std::vector<std::unique_ptr<VideoDecoder>> decoders;
   decoders.push_back(makeV4l2M2mDecoder());

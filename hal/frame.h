@@ -66,6 +66,7 @@ struct Frame {
   bool interlaced = false;                     // odd and even rows were taken at different times,
   bool top_field_first = true;                 // even rows (from 0) before odd ones
   double sample_aspect = 1.0;                  // width of a sample over its height
+  double value_per_code = 0;  // of floating-point samples: hal/float_codes.h; 0: codes are all there is
   std::uint8_t chroma_shift_x = 0;
   std::uint8_t chroma_shift_y = 0;
   std::uint8_t plane_count = 0;

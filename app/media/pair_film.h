@@ -51,6 +51,7 @@ struct PairReader::Impl {
   }
   void lookForRegistration(const StreamInfo& color);
   void lookForHalves();
+  [[nodiscard]] bool isDepthAlone(const Frame& first) const;
   void lookForHue(const Frame& first);
   [[nodiscard]] DepthCode depthCode() const noexcept { return options.depth_code.value_or(found_code); }
   [[nodiscard]] bool isPacked() const noexcept { return info.packing != Packing::Tracks; }

@@ -8,6 +8,7 @@
 #include "app/media/own_registration.h"
 #include "app/media/pair_film.h"
 #include "app/media/reading/depth_reading.h"
+#include "app/media/reading/float_reading.h"
 #include "app/media/reading/picture_look.h"
 
 namespace relievo {
@@ -126,9 +127,20 @@ Result<void> PairReader::Impl::selectDepth(const StreamInfo* stream) {
   return {};
 }
 
+// Numbers, or the codes of a sensor, are no colour.
+bool PairReader::Impl::isDepthAlone(const Frame& first) const {
+  if (first.value_per_code != 0) return true;
+  return first.model == ColorModel::Gray && !readCodes(first, CodeCount(first), {}).settings.empty();
+}
+
 // If nobody has said where the depth is and there is only one track, the picture itself may show it.
 void PairReader::Impl::lookForHalves() {
   if (options.packing != Packing::Auto || !options.depth_url.empty() || depth_stream != nullptr || isPacked()) return;
+  if (isDepthAlone(color_ahead[0])) {
+    info.packing = Packing::DepthAlone;
+    info.reading.emplace_back("depth without colour: it is shown as gray");
+    return;
+  }
   auto found = findPacking(color_ahead[0]);
   if (!found || options.registration) return;
   info.packing = found->packing;
@@ -160,6 +172,7 @@ void PairReader::Impl::lookForHue(const Frame& first) {
 Result<void> PairReader::Impl::openDepth(const StreamInfo& color) {
   const MediaSource& source = color_reader->source();
   lookForHalves();
+  if (info.packing == Packing::DepthAlone) return describeDepth(color_ahead[0], color, source.tags());
   if (isPacked()) {
     const auto whole = splitPacked(color_ahead[0], info.packing, DepthCode::Hue);
     if (whole) lookForHue(whole->depth);
@@ -226,7 +239,7 @@ Result<void> PairReader::Impl::describeDepth(const Frame& first, const StreamInf
   lookForHue(first);
   CalibrationLayers layers{options.command_line, options.side_file, calibrationFromTags(tags)};
   if (depthCode() == DepthCode::Luma) {
-    DepthReading reading = readCodes(first, CodeCount(first), layers);
+    DepthReading reading = readDepth(first, stream.codec, depthUrl(), layers);
     layers.pictures = std::move(reading.settings);
     if (!reading.why.empty()) info.reading.push_back(std::move(reading.why));
   }

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "app/media/depth_picture.h"
 #include "app/media/pair_film.h"
 #include "platform/log.h"
 
@@ -59,6 +60,10 @@ Result<DepthFollower::Supplied> PairReader::Impl::supplyOwnDepth() {
 }
 
 Result<FramePair> PairReader::Impl::pairFor(Frame color) {
+  if (info.packing == Packing::DepthAlone) {
+    Frame gray = depthPicture(color, info.calibration.calibration);
+    return FramePair{std::move(gray), std::move(color), true, {}};
+  }
   if (isPacked()) {
     auto halves = splitPacked(color, info.packing, depthCode());
     if (!halves) return failOn(options.url, halves.error());

@@ -99,7 +99,7 @@ void Registrar::see(const Frame& depth, const RigCamera& to) {
   const double overlap = depth_lens_.bends() || color_lens_.bends() ? kOverlap : 0;
   const auto& m = registration_.rotation;
   const auto& t = registration_.translation_mm;
-  const double unit_mm = registration_.unit_mm;
+  const double unit_mm = registration_.unit_mm * (depth.value_per_code == 0 ? 1 : std::abs(depth.value_per_code));
   const Component& where = depth.components[0];
   const Plane& plane = depth.planes[where.plane];
   seen_.assign(rays_.size(), {});
@@ -164,6 +164,7 @@ Result<Frame> Registrar::registered(const Frame& depth) {
   }
   Frame frame =
       grayFrame(std::make_shared<const std::vector<std::uint16_t>>(std::move(target.codes)), target.cols, target.rows);
+  frame.value_per_code = depth.value_per_code;
   frame.pts = depth.pts;
   frame.duration = depth.duration;
   return frame;

@@ -27,7 +27,7 @@ struct Registration {
   RigCamera depth, color;
   std::array<double, 9> rotation{1, 0, 0, 0, 1, 0, 0, 0, 1};  // row by row
   std::array<double, 3> translation_mm{0, 0, 0};
-  double unit_mm = 1;  // per depth code
+  double unit_mm = 1;  // per depth code, or per unit of floating-point depth (Frame::value_per_code); 0: not given
 };
 
 // Whether nine numbers, row by row, are a rotation, to within a thousandth.

@@ -102,6 +102,7 @@ void Player::followProgress(FilmPlayback::Progress progress, MonotonicTime now) 
       return journal_.note("buffering: the source or this computer is too slow",
                            "the picture stops until enough is buffered");
     case FilmPlayback::Progress::Over:
+      if (film_.isStill() && programme_.size() == 1) return;  // a photo stands until something else is asked for
       return endFilm(now);
     case FilmPlayback::Progress::Failed:
       return failFilm();

@@ -154,6 +154,8 @@ const char* name(Packing packing) noexcept {
       return "tb";
     case Packing::SideBySideDepthFirst:
       return "sbs-depth-first";
+    case Packing::DepthAlone:
+      return "depth-alone";
     case Packing::TopBottomDepthFirst:
       return "tb-depth-first";
   }

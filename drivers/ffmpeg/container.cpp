@@ -225,9 +225,6 @@ Result<StreamInfo> describeStream(const AVStream& stream, bool timed) {
   if (timed) info.base_rate = {stream.r_frame_rate.num, stream.r_frame_rate.den};
   if (timed && stream.duration > 0) info.duration = durationFrom(stream.duration, stream.time_base);
   info.tags = tagsOf(stream.metadata);
-  // FFmpeg cannot tell the size of a TIFF picture of floats.
-  const bool float_tiff = parameters.codec_id == AV_CODEC_ID_TIFF && parameters.width == 0;
-  if (isDistance(parameters.format) || float_tiff) info.tags.insert({{"DEPTH_UNIT", "1"}, {"DEPTH_INVALID", "0"}});
   if (parameters.codec_tag == kGray16Big && isKinectDepth(info)) {
     info.tags.insert({{"DEPTH_UNIT", "1"}, {"DEPTH_INVALID", "0"}});
   }

@@ -6,8 +6,6 @@
 #include <bit>
 #include <cerrno>
 
-#include "hal/distance.h"
-
 extern "C" {
 #include <libavutil/error.h>
 #include <libavutil/pixdesc.h>
@@ -123,17 +121,27 @@ double sampleAspectOf(AVRational container, AVRational own) noexcept {
   return 1.0;
 }
 
-void toMillimetres(const AVFrame& metres, const AVFrame& mm) noexcept {
-  for (int r = 0; r < metres.height; ++r) {
-    const auto* const from = reinterpret_cast<const float*>(metres.data[0] + std::ptrdiff_t{r} * metres.linesize[0]);
-    auto* const to = reinterpret_cast<std::uint16_t*>(mm.data[0] + std::ptrdiff_t{r} * mm.linesize[0]);
-    std::transform(from, from + metres.width, to, millimetres);
+const float* floatsOf(const AVFrame& picture, int row) noexcept {
+  return reinterpret_cast<const float*>(picture.data[0] + std::ptrdiff_t{row} * picture.linesize[0]);
+}
+
+FloatCodes scaleFor(const AVFrame& picture) {
+  const auto cols = static_cast<std::size_t>(picture.width);
+  const auto sample = [&](std::size_t i) { return floatsOf(picture, static_cast<int>(i / cols))[i % cols]; };
+  return FloatCodes::chosenFor(sample, cols * static_cast<std::size_t>(picture.height));
+}
+
+void toCodes(const AVFrame& picture, const FloatCodes& scale, const AVFrame& codes) noexcept {
+  for (int r = 0; r < picture.height; ++r) {
+    const float* const from = floatsOf(picture, r);
+    auto* const to = reinterpret_cast<std::uint16_t*>(codes.data[0] + std::ptrdiff_t{r} * codes.linesize[0]);
+    std::transform(from, from + picture.width, to, [&](float value) { return scale.codeOf(value); });
   }
 }
 
 }  // namespace
 
-bool isDistance(int format) noexcept {
+bool isGrayFloat(int format) noexcept {
   return format == AV_PIX_FMT_GRAYF32LE;
 }
 
@@ -221,10 +229,10 @@ Converter::~Converter() {
 }
 
 Result<FramePtr> Converter::convert(const AVFrame& picture) {
-  const bool distance = isDistance(picture.format);
+  const bool floats = isGrayFloat(picture.format);
   const auto from = static_cast<AVPixelFormat>(picture.format);
   const auto to = static_cast<AVPixelFormat>(nearestDescribable(picture.format));
-  if (!distance) {
+  if (!floats) {
     scaler_ = sws_getCachedContext(scaler_, picture.width, picture.height, from, picture.width, picture.height, to,
                                    SWS_BILINEAR | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INP, nullptr, nullptr, nullptr);
     if (scaler_ == nullptr) {
@@ -239,8 +247,9 @@ Result<FramePtr> Converter::convert(const AVFrame& picture) {
   if (av_frame_get_buffer(converted.get(), 0) < 0 || av_frame_copy_props(converted.get(), &picture) < 0) {
     return fail(ErrorCode::Exhausted, "out of memory for a picture", ENOMEM);
   }
-  if (distance) {
-    toMillimetres(picture, *converted);
+  if (floats) {
+    if (!codes_) codes_ = scaleFor(picture);
+    toCodes(picture, *codes_, *converted);
     return converted;
   }
   if (sws_scale(scaler_, picture.data, picture.linesize, 0, picture.height, converted->data, converted->linesize) < 0) {

@@ -309,11 +309,27 @@ TEST_F(PlayerScenario, AFilmThatDoesNotOpenIsAFault) {
   EXPECT_EQ(bench_.states(), "boot idle opening fault");
 }
 
-TEST_F(PlayerScenario, AFilmOfOnePicturePlays) {
+TEST_F(PlayerScenario, APhotoStandsAndStaysTouchableUntilItIsLeft) {
   bench_.sources["film"] = PlayerBench::film(1);
+  bench_.haptic.path_mm = comingDown();
+  bench_.press(20.0, KEY_STOP);
+  bench_.config.duration = std::chrono::seconds(30);
   playsWell();
-  EXPECT_EQ(bench_.states(), kWholeFilm);
+  EXPECT_EQ(bench_.states(), "boot idle opening buffering playing idle");
   EXPECT_EQ(bench_.report.frames_shown, 1u);
+  EXPECT_NEAR(bench_.report.wall_s, 20.0, 0.1);
+  EXPECT_GT(bench_.report.haptic.contact_ticks, 19'000u);
+  EXPECT_EQ(bench_.faults("depth late"), 0u);
+}
+
+TEST_F(PlayerScenario, InAListAPhotoGivesWayToTheNextFilm) {
+  bench_.config.source.url = "list.m3u";
+  bench_.texts["list.m3u"] = "photo\nother\n";
+  bench_.sources["./photo"] = PlayerBench::film(1);
+  bench_.sources["./other"] = PlayerBench::film(25);
+  playsWell();
+  EXPECT_EQ(bench_.report.frames_shown, 26u);
+  EXPECT_NEAR(bench_.report.wall_s, 6.0, 0.1) << "five seconds and one";
 }
 
 // ---- sources over a network

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/media/reading/depth_reading.h"
+#include "app/media/reading/float_reading.h"
 #include "app/media/track_reader.h"
 #include "app/scene/height_field.h"
 
@@ -44,6 +44,7 @@ Outcome<void> DepthFilm::open() {
   tracks_->paired = countVideo(streams) > 1 || source.packing != Packing::Auto || tagged;
 
   CalibrationLayers layers{source.command_line, source.side_file, {}};
+  std::string codec;
   if (tracks_->paired) {
     if (const auto opened = tracks_->pairs.open(source); !opened) {
       return failOn(tracks_->pairs.failedThing(), opened.error());
@@ -56,6 +57,7 @@ Outcome<void> DepthFilm::open() {
     if (video == streams.end()) return failOn(source.url, {ErrorCode::NotFound, 0, "no video in this source"});
     layers.tags = calibrationFromTags(tracks_->single.source().tags());
     layers.tags.merge(calibrationFromTags(video->tags));
+    codec = video->codec;
     const auto selected = tracks_->single.select(*video);
     if (!selected) return failOn(source.url, selected.error());
     tracks_->track = *selected;
@@ -71,7 +73,7 @@ Outcome<void> DepthFilm::open() {
     calibration_ = tracks_->pairs.info().calibration.calibration;
     return {};
   }
-  if (!source.depth_code) layers.pictures = readCodes(frame, CodeCount(frame), layers).settings;
+  if (!source.depth_code) layers.pictures = readDepth(frame, codec, source.url, layers).settings;
   const auto choice = chooseCalibration(layers, frame, source.depth_code.value_or(DepthCode::Luma));
   if (!choice) return failOn(source.url, choice.error());
   calibration_ = choice->calibration;

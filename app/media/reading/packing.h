@@ -20,6 +20,7 @@ enum class Packing : std::uint8_t {
   TopBottom,             // one picture: colour on top, depth below
   SideBySideDepthFirst,  // depth left, colour right
   TopBottomDepthFirst,   // depth on top, colour below
+  DepthAlone,            // one picture: depth without colour
 };
 
 // Which streams to decode, as pointers into the source's list. A null depth stream means no depth, or packed depth.

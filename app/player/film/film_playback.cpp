@@ -14,6 +14,7 @@ namespace {
 constexpr std::size_t kQueuedPairs = 4;  // beyond those that the playhead holds
 constexpr Duration kUnknownPeriod = std::chrono::milliseconds(40);
 constexpr Duration kSoundFirst = std::chrono::milliseconds(300);  // that must be buffered when the film starts
+constexpr Duration kStillStands = std::chrono::seconds(5);
 constexpr double kRushStepS = 0.1;  // of the machine's time, between two pictures at a rate over 1
 
 }  // namespace
@@ -88,6 +89,10 @@ Duration FilmPlayback::period() const noexcept {
   return info_.frame_period > Duration(0) ? info_.frame_period : kUnknownPeriod;
 }
 
+bool FilmPlayback::isStill() const noexcept {
+  return info_.frame_period == Duration(0) && info_.sound_codec.empty();
+}
+
 FilmPlayback::Progress FilmPlayback::overOrFailed() const {
   return feed_.state() == FilmFeed::State::Failed ? Progress::Failed : Progress::Over;
 }
@@ -128,7 +133,8 @@ FilmPlayback::Progress FilmPlayback::going(MonotonicTime now) {
     return Progress::Goes;
   }
   if (head_.last()) {
-    const bool shown = clock_.position(now).value_or(MediaTime{}) >= picture().color.pts + period();
+    const Duration stands = isStill() ? kStillStands : period();
+    const bool shown = clock_.position(now).value_or(MediaTime{}) >= picture().color.pts + stands;
     return shown ? overOrFailed() : Progress::Goes;
   }
   if (!dry_since_) dry_since_ = now;
