@@ -74,9 +74,8 @@ std::vector<std::string> sourceNotes(const SourceOptions& source, const PairRead
        "bwdif");
   tellColor(notes, format);
   tellClipped(notes, reader.info(), codes);
-  for (const auto& lines : {reader.info().reading, reader.info().doubts}) {
-    notes.insert(notes.end(), lines.begin(), lines.end());
-  }
+  const FilmInfo& info = reader.info();
+  notes.insert(notes.end(), info.reading.doubts.begin(), info.reading.doubts.end());
   return notes;
 }
 
