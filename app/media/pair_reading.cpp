@@ -172,6 +172,7 @@ void PairReader::Impl::takeTags(const StreamInfo& stream) {
 Result<void> PairReader::Impl::describe(const Frame& first, const Frame& look, const Frame& color,
                                         const StreamInfo& stream) {
   clues.packing = info.packing;
+  clues.live = !isFile(depthUrl());
   takeTags(stream);
   if (options.registration) {
     clues.tags.insert({{"DEPTH_UNIT", print("%.9g", options.registration->unit_mm)}, {"DEPTH_INVALID", "0"}});

@@ -85,6 +85,10 @@ Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind,
   } else {
     read = readCodes(look, CodeCount(look), layers, kind);
   }
+  if (clues.live && read.kind == nullptr) {
+    read.settings.erase("near");
+    read.settings.erase("far");
+  }
   layers.pictures = clues.pictures;
   layers.pictures.merge(read.settings);
   auto choice = chooseCalibration(layers, look, clues.code);

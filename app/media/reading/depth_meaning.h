@@ -25,6 +25,7 @@ struct DepthClues {
   CalibrationOrigin code_by = CalibrationOrigin::Default;
   CalibrationSettings pictures;       // what the pictures have shown so far
   std::vector<std::string> why;       // likewise, in words
+  bool live = false;                  // a camera or a network: what comes next may be nearer than the first picture
   std::vector<CalibrationPart> more;  // registration, rotation
 };
 

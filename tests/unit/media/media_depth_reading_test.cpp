@@ -9,6 +9,7 @@
 
 #include "app/media/pair_reader.h"
 #include "app/media/reading/depth_doubts.h"
+#include "app/media/reading/depth_meaning.h"
 #include "app/media/reading/depth_reading.h"
 #include "app/media/reading/picture_look.h"
 #include "app/scene/height_field.h"
@@ -124,6 +125,16 @@ TEST(DepthReading, WhoHasSaidWhatACodeIsGoesFirst) {
   EXPECT_EQ(c.unit_mm, 1.0);
   EXPECT_EQ(c.near_mm, 900);
   EXPECT_EQ(c.far_mm, 2500);
+}
+
+// What a camera shows next may be nearer than its first picture.
+TEST(DepthReading, NearAndFarOfACameraAreNotReadOffItsFirstPicture) {
+  const Frame mm = picture(0, [](double z) { return z; });
+  DepthClues clues{.tags = {{"DEPTH_UNIT", "1"}, {"DEPTH_INVALID", "0"}}};
+  const auto nearOf = [&] { return readMeaning(clues, kindOf(clues, mm), mm).value().calibration.calibration.near_mm; };
+  EXPECT_NEAR(nearOf(), 0.9 * 1100, 15);
+  clues.live = true;
+  EXPECT_EQ(nearOf(), 500);
 }
 
 TEST(DepthReading, AnUntaggedFilmThatUsesAllOfItsCodesIsOfTheFullRange) {
