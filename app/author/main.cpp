@@ -101,6 +101,7 @@ void addSceneOption(CLI::App& app, std::string& scene) {
       ->check(CLI::IsMember({"sample"}).description(""))
       ->excludes("--color")
       ->excludes("--depth")
+      ->excludes("--as")
       ->excludes("--packing")
       ->excludes("--depth-code")
       ->excludes("--calibration")

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -77,6 +78,9 @@ void tellWrongUse(CLI::App& program, const CLI::ParseError& error) {
   }
 }
 
+// Thrown by --as help.
+struct KindsAsked final : std::exception {};
+
 // Prints an option as "--packing auto|tracks|sbs|tb     Where the depth is [auto]".
 class Help final : public CLI::Formatter {
  public:
@@ -119,7 +123,25 @@ bool parseSizes(std::string_view text, std::span<double> sizes) noexcept {
   return at == end;
 }
 
+namespace {
+
+void addKindOption(CLI::App& app, SourceOptions& source) {
+  app.add_option_function<std::string>(
+         "--as",
+         [&source](const std::string& word) {
+           if (word == "help") throw KindsAsked();
+           source.as = findKind(word);
+           if (source.as == nullptr) throw CLI::ValidationError("--as " + word, "unknown kind; see --as help");
+         },
+         "Kind of recording, where it is not recognised: tum, kitti, sun, record3d, ..; --as help lists them\n"
+         "Sets packing, code and calibration at once; --packing, --depth-code and --calibration override it")
+      ->type_name("KIND");
+}
+
+}  // namespace
+
 void addDepthOptions(CLI::App& app, SourceOptions& source) {
+  addKindOption(app, source);
   addChoice(
       app, "--packing", source.packing,
       {{"auto", Packing::Auto},
@@ -190,6 +212,9 @@ std::expected<void, int> parseCommandLine(CLI::App& program, int argc, const cha
   try {
     program.parse(argc, argv);
     return {};
+  } catch (const KindsAsked&) {
+    std::fputs(kindsText().c_str(), stdout);
+    return std::unexpected(kExitDone);
   } catch (const WordFailure& failure) {
     return std::unexpected(tell(failure));
   } catch (const CLI::ParseError& error) {

@@ -50,7 +50,7 @@ CLI::Option* addChoice(CLI::App& app, const char* option, T& value,
 // For CLI11's `check`: a number within bounds. Unlike CLI::Range it rejects NaN.
 [[nodiscard]] CLI::Validator between(double low, double high);
 
-// Adds --packing, --depth-code, --registration and --calibration, which may be repeated: a later value of a key
+// Adds --as, --packing, --depth-code, --registration and --calibration, which may be repeated: a later value of a key
 // overrides an earlier one.
 void addDepthOptions(CLI::App& app, SourceOptions& source);
 // Adds --fps.

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opens a film, finds its colour and depth, and aligns the clocks of two sources.
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
 #include "app/media/frame_rate.h"
 #include "app/media/own_registration.h"
 #include "app/media/pair_film.h"
-#include "app/media/reading/depth_reading.h"
-#include "app/media/reading/float_reading.h"
-#include "app/media/reading/picture_look.h"
 
 namespace relievo {
 namespace {
@@ -48,7 +44,7 @@ Result<void> PairReader::Impl::openReader() {
 // Opens for the first time or again. In the second case a separate depth source has continued meanwhile.
 Result<void> PairReader::Impl::openFilm() {
   const bool two_sources = !options.depth_url.empty();
-  if (two_sources && options.packing != Packing::Auto && options.packing != Packing::Tracks) {
+  if (two_sources && relievo::isPacked(options.packing)) {
     return failOn(options.depth_url,
                   {ErrorCode::InvalidArgument, 0,
                    "depth cannot be packed into the picture and come from a second source as well; leave out "
@@ -56,7 +52,8 @@ Result<void> PairReader::Impl::openFilm() {
   }
   if (auto opened = openReader(); !opened) return opened;
   const MediaSource& source = color_reader->source();
-  const auto plan = planTracks(source, options.packing, two_sources);
+  if (!depth) lookAround();
+  const auto plan = planFilm();
   if (!plan) return failOn(options.url, plan.error());
   info.packing = plan->packing;
   info.duration = source.duration();
@@ -127,27 +124,6 @@ Result<void> PairReader::Impl::selectDepth(const StreamInfo* stream) {
   return {};
 }
 
-// Numbers, or the codes of a sensor, are no colour.
-bool PairReader::Impl::isDepthAlone(const Frame& first) const {
-  if (first.value_per_code != 0) return true;
-  return first.model == ColorModel::Gray && !readCodes(first, CodeCount(first), {}).settings.empty();
-}
-
-// If nobody has said where the depth is and there is only one track, the picture itself may show it.
-void PairReader::Impl::lookForHalves() {
-  if (options.packing != Packing::Auto || !options.depth_url.empty() || depth_stream != nullptr || isPacked()) return;
-  if (isDepthAlone(color_ahead[0])) {
-    info.packing = Packing::DepthAlone;
-    info.reading.emplace_back("depth without colour: it is shown as gray");
-    return;
-  }
-  auto found = findPacking(color_ahead[0]);
-  if (!found || options.registration) return;
-  info.packing = found->packing;
-  found_code = found->code;
-  info.reading.push_back(std::move(found->why));
-}
-
 // A recording of two cameras may say how they stand to each other.
 void PairReader::Impl::lookForRegistration(const StreamInfo& color) {
   if (options.registration) {
@@ -155,33 +131,16 @@ void PairReader::Impl::lookForRegistration(const StreamInfo& color) {
   } else if (const auto own =
                  depth_track ? ownRegistration(color_reader->source(), color, *depth_stream) : std::nullopt) {
     registrar.emplace(*own);
-    info.reading.emplace_back("the recording describes both cameras: its depth is moved to the colour's view");
+    clues.why.emplace_back("the recording describes both cameras: its depth is moved to the colour's view");
   }
-}
-
-void PairReader::Impl::lookForHue(const Frame& first) {
-  if (options.depth_code || first.model == ColorModel::Gray || found_code == DepthCode::Hue) return;
-  const PictureLook look = lookAt(first);
-  if (!isHue(look)) return;
-  found_code = DepthCode::Hue;
-  char why[96];
-  std::snprintf(why, sizeof why, "%.0f %% of the depth is pure colour: read as hue", 100 * look.vivid);
-  info.reading.emplace_back(why);
 }
 
 Result<void> PairReader::Impl::openDepth(const StreamInfo& color) {
-  const MediaSource& source = color_reader->source();
-  lookForHalves();
-  if (info.packing == Packing::DepthAlone) return describeDepth(color_ahead[0], color, source.tags());
-  if (isPacked()) {
-    const auto whole = splitPacked(color_ahead[0], info.packing, DepthCode::Hue);
-    if (whole) lookForHue(whole->depth);
-    const auto halves = splitPacked(color_ahead[0], info.packing, depthCode());
-    if (!halves) return failOn(options.url, halves.error());
-    info.color_width = halves->color.width;
-    info.color_height = halves->color.height;
-    return describeDepth(halves->depth, color, source.tags());
+  lookForHalves(color);
+  if (info.packing == Packing::DepthAlone) {
+    return describe(color_ahead[0], tellingPicture(color_ahead[0], options.url, color.index), {}, color);
   }
+  if (isPacked()) return describeHalves(color);
   if (!depth_track && !depth_source) return {};
   if (depth) {  // already known from the first opening
     depth->restart();
@@ -190,11 +149,11 @@ Result<void> PairReader::Impl::openDepth(const StreamInfo& color) {
   }
   lookForRegistration(color);
   depth.emplace([this] { return supplyDepth(); });
-  const auto first = depth->peek();
+  const auto first = firstDepth();
   if (first && *first != nullptr) {
-    if (!depth_source) return describeDepth(**first, *depth_stream, source.tags());
+    if (!depth_source) return describeTrack(**first);
     const MediaTime begins = (*first)->pts;
-    auto described = describeDepth(**first, depth_source->stream(), depth_source->tags());
+    auto described = describeTrack(**first);
     // With two live sources the second opens later; pictures of the first from before that are dropped.
     const bool later = described && live && begins > MediaTime{} && begins < MediaTime(kLongestWait);
     return later ? passTo(begins) : described;
@@ -227,34 +186,6 @@ void PairReader::Impl::openSound() {
   info.sound_codec = first->codec;
   const auto opened = color_reader->listen(backends.make_audio_decoder(), *first, *options.sound);
   if (!opened) info.sound_refused = opened.error().message;
-}
-
-Result<void> PairReader::Impl::describeDepth(const Frame& first, const StreamInfo& stream,
-                                             const std::map<std::string, std::string>& container_tags) {
-  auto tags = stream.tags;  // the track's tags override the container's
-  tags.insert(container_tags.begin(), container_tags.end());
-  if (registrar) {
-    tags.insert({{"DEPTH_UNIT", std::to_string(registrar->registration().unit_mm)}, {"DEPTH_INVALID", "0"}});
-  }
-  lookForHue(first);
-  CalibrationLayers layers{options.command_line, options.side_file, calibrationFromTags(tags)};
-  if (depthCode() == DepthCode::Luma) {
-    DepthReading reading = readDepth(first, stream.codec, depthUrl(), layers);
-    layers.pictures = std::move(reading.settings);
-    if (!reading.why.empty()) info.reading.push_back(std::move(reading.why));
-  }
-  auto choice = chooseCalibration(layers, first, depthCode());
-  if (!choice) return failOn("calibration", choice.error());
-  info.calibration = std::move(*choice);
-  info.doubts = doubtsOf(first, info.calibration.calibration);
-  info.has_depth = true;
-  info.depth_width = first.width;
-  info.depth_height = first.height;
-  info.depth_codec = stream.codec;
-  info.depth_decoder = isPacked()     ? info.color_decoder
-                       : depth_source ? depth_source->decoder()
-                                      : color_reader->decoder(*depth_track);
-  return {};
 }
 
 // Computes the shift that aligns a new session of the depth source with the colour.

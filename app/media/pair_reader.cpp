@@ -33,17 +33,20 @@ Result<std::optional<Frame>> PairReader::Impl::nextColor() {
   return frame;
 }
 
-// The next depth picture, likewise, registered to the colour's view.
+// The next depth picture, likewise, its samples in order, registered to the colour's view.
 Result<DepthFollower::Supplied> PairReader::Impl::supplyDepth() {
   auto supplied = supplyOwnDepth();
-  if (!registrar || !supplied || !supplied->frame) return supplied;
-  auto frame = registrar->registered(*supplied->frame);
+  if (!supplied || !supplied->frame) return supplied;
+  if (order == SampleOrder::AsStored && !registrar) return supplied;
+  auto frame = inOrder(*supplied->frame, order);
+  if (frame && registrar) frame = registrar->registered(*frame);
   if (!frame) return std::unexpected(frame.error());
   supplied->frame = std::move(*frame);
   return supplied;
 }
 
 Result<DepthFollower::Supplied> PairReader::Impl::supplyOwnDepth() {
+  if (told_again) return DepthFollower::Supplied{std::exchange(told_again, std::nullopt), false};
   if (!depth_source) {
     auto frame = color_reader->next(*depth_track);
     if (!frame) return std::unexpected(frame.error());
@@ -65,7 +68,7 @@ Result<FramePair> PairReader::Impl::pairFor(Frame color) {
     return FramePair{std::move(gray), std::move(color), true, {}};
   }
   if (isPacked()) {
-    auto halves = splitPacked(color, info.packing, depthCode());
+    auto halves = splitPacked(color, info.packing, clues.code, gray);
     if (!halves) return failOn(options.url, halves.error());
     return FramePair{std::move(halves->color), std::move(halves->depth), true, {}};
   }
@@ -234,6 +237,7 @@ void PairReader::close() noexcept {
   film.registrar.reset();
   film.depth_track.reset();
   film.depth_stream = nullptr;
+  film.told_again.reset();
   film.depth_session.reset();
   film.color_ahead.clear();
   film.color_shift = film.depth_shift = Duration(0);

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "app/media/reading/film_reading.h"
+#include "app/media/reading/known_kind.h"
 #include "app/media/reading/packing.h"
 #include "app/media/registration.h"
 #include "app/scene/depth_calibration.h"
@@ -25,6 +27,7 @@ struct SourceOptions {
   std::string depth_url;  // empty: the depth is in `url`
   Packing packing = Packing::Auto;
   std::optional<DepthCode> depth_code;       // nullopt: guessed from the picture
+  const KnownKind* as = nullptr;             // --as KIND
   CalibrationSettings command_line;          // --calibration KEY=VALUE,..
   CalibrationSettings side_file;             // --calibration FILE
   std::vector<std::string> named_files;      // files that the side file and the registration were read from
@@ -53,9 +56,8 @@ struct FilmInfo {
   std::uint8_t color_primaries = kUnspecifiedColor, color_transfer = kUnspecifiedColor;  // as in a Frame
   Duration duration{0};                                                                  // 0: unknown
   CalibrationChoice calibration;                                                         // of a film with depth
-  std::vector<std::string> reading;  // what the first pictures revealed, and why; one line each
-  std::vector<std::string> notes;    // what the sources found out about themselves; one line each
-  std::vector<std::string> doubts;   // why the calibration looks wrong, and the option to try; one line each
+  FilmReading reading;             // how that calibration and the packing were found
+  std::vector<std::string> notes;  // what the sources found out about themselves; one line each
   std::string color_codec, depth_codec;
   std::string color_decoder, depth_decoder;                            // VideoDecoder::description
   std::string sound_codec;                                             // if sound was asked for and the film has some

@@ -71,9 +71,9 @@ Json filmPart(const PlayReport& r) {
                                    {"height", f.depth_height}}
                             : Json(nullptr)},
       {"packing", name(f.packing)},
-      {"reading", f.reading},
+      {"reading", f.has_depth ? Json(plainLine(f.reading, f.calibration.calibration)) : Json(nullptr)},
       {"notes", f.notes},
-      {"doubts", f.doubts},
+      {"doubts", f.reading.doubts},
       {"calibration", f.has_depth ? Json(f.calibration.explanation) : Json(nullptr)},
       {"frame_period_s", rounded(toSeconds(f.frame_period))},
       {"duration_s", rounded(toSeconds(f.duration))},
@@ -140,26 +140,6 @@ bool PlayReport::addFault(double time_s, std::string what, std::string done) {
   const bool known = std::any_of(faults.begin(), faults.end(), [&](const FaultEntry& f) { return f.what == what; });
   faults.push_back({time_s, std::move(what), std::move(done)});
   return !known;
-}
-
-const char* name(Packing packing) noexcept {
-  switch (packing) {
-    case Packing::Auto:
-      return "auto";
-    case Packing::Tracks:
-      return "tracks";
-    case Packing::SideBySide:
-      return "sbs";
-    case Packing::TopBottom:
-      return "tb";
-    case Packing::SideBySideDepthFirst:
-      return "sbs-depth-first";
-    case Packing::DepthAlone:
-      return "depth-alone";
-    case Packing::TopBottomDepthFirst:
-      return "tb-depth-first";
-  }
-  return "";
 }
 
 std::string toJson(const PlayReport& r) {

@@ -57,7 +57,6 @@ struct PlayReport {
   bool addFault(double time_s, std::string what, std::string done);
 };
 
-[[nodiscard]] const char* name(Packing packing) noexcept;  // auto tracks sbs tb
 [[nodiscard]] std::string toJson(const PlayReport& report);
 [[nodiscard]] std::string toText(const PlayReport& report);
 // The report's counters and times alone, as JSON in one line, while the film plays.

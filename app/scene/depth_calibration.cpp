@@ -47,8 +47,14 @@ const char* name(CalibrationOrigin origin) noexcept {
       return "command line";
     case CalibrationOrigin::SideFile:
       return "side file";
+    case CalibrationOrigin::StatedKind:
+      return "--as";
     case CalibrationOrigin::ContainerTags:
       return "container tags";
+    case CalibrationOrigin::FileBeside:
+      return "file beside it";
+    case CalibrationOrigin::Name:
+      return "name";
     case CalibrationOrigin::FirstPicture:
       return "first picture";
     case CalibrationOrigin::StreamSignalling:

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/scene/code_set.h"
 #include "hal/frame.h"
@@ -54,8 +55,11 @@ struct DepthCalibration {
 // Where a value came from, highest precedence first.
 enum class CalibrationOrigin : std::uint8_t {
   CommandLine,
-  SideFile,
-  ContainerTags,
+  SideFile,       // --calibration FILE
+  StatedKind,     // --as KIND
+  ContainerTags,  // of the film, or of another program
+  FileBeside,     // a file that the recording's own program left beside it
+  Name,           // the names of files and folders
   FirstPicture,
   StreamSignalling,
   Default
@@ -77,22 +81,42 @@ using CalibrationSettings = std::map<std::string, std::string>;
 // The calibration as tags to write.
 [[nodiscard]] std::map<std::string, std::string> calibrationTags(const DepthCalibration& calibration);
 
+// One value of a calibration, and which layer set it.
+struct CalibrationPart {
+  std::string key, value;
+  CalibrationOrigin origin = CalibrationOrigin::Default;
+};
+
 struct CalibrationChoice {
   DepthCalibration calibration;
   CalibrationOrigin origin = CalibrationOrigin::Default;  // the highest layer that set a value
-  std::string explanation;                                // one line: each value and its origin
+  std::vector<CalibrationPart> parts;                     // one for each key
+  std::string explanation;                                // the parts in one line
 };
 
-// The settings by layer, highest precedence first. Values that no layer sets come from the frame's own signalling
-// (bits; range: full for gray and full-range formats, limited for other YUV), then from the defaults. A result that is
-// invalid (far <= near, more bits than the samples have, an invalid code beyond them) is InvalidArgument if the command
-// line caused it, Corrupt if a file did; bad bits and invalid codes from tags are dropped instead.
+// The settings by layer, highest precedence first.
 struct CalibrationLayers {
-  CalibrationSettings command_line;
-  CalibrationSettings side_file;
-  CalibrationSettings tags;
-  CalibrationSettings pictures;  // read off the first pictures
+  CalibrationSettings command_line{};
+  CalibrationSettings side_file{};
+  CalibrationSettings stated_kind{};
+  CalibrationSettings tags{};
+  CalibrationSettings beside{};
+  CalibrationSettings names{};
+  CalibrationSettings pictures{};  // read off the first pictures
+
+  struct Layer {
+    CalibrationOrigin origin;
+    const CalibrationSettings* settings;
+  };
+  [[nodiscard]] std::array<Layer, 7> order() const noexcept;
+  // The value of the highest layer that sets `key`; null if none does.
+  [[nodiscard]] const std::string* find(const std::string& key) const;
 };
+
+// Values that no layer sets come from the frame's own signalling (bits; range: full for gray and full-range formats,
+// limited for other YUV), then from the defaults. A result that is invalid (far <= near, distances as hue, more bits
+// than the samples have, an invalid code beyond them) is InvalidArgument if the command line caused it, Corrupt if a
+// file did; bad bits and invalid codes from tags are dropped instead.
 [[nodiscard]] Result<CalibrationChoice> chooseCalibration(const CalibrationLayers& layers, const Frame& depth_frame,
                                                           DepthCode code);
 

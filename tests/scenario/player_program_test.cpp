@@ -323,6 +323,23 @@ TEST_F(PlayerProgram, AScriptThatIsMissingOrWrongIsOneLine) {
   expectOneLine(play("film.mkv --haptic sim:" + at("hand.csv")), 2, "hand.csv:2: ");
 }
 
+TEST_F(PlayerProgram, KindsOfRecordingsAreListedAndStated) {
+  const auto listed = test::runProgram("relievo play --as help", at(""));
+  EXPECT_EQ(listed.exit_code, 0) << listed.err;
+  for (const char* kind : {"\ntum ", "\nkitti ", "\nrecord3d ", "\nsun "}) EXPECT_THAT(listed.out, HasSubstr(kind));
+  expectOneLine(test::runProgram("relievo probe --as nothing film.mkv", at("")), 2, "unknown kind; see --as help");
+  expectOneLine(test::runProgram("relievo probe --calibration unit=1,polarity=near-high film.mkv", at("")), 2,
+                "polarity=near-high; leave one out");
+
+  ClipTrack slope = depth(3);
+  slope.sample = [](int, int c, int, int) { return 5000u + 100u * static_cast<unsigned>(c); };
+  test::makeClip(at("film.mkv"), {color(3), slope});
+  const auto stated = test::runProgram("relievo probe --as tum " + at("film.mkv"), at(""));
+  EXPECT_EQ(stated.exit_code, 0) << stated.err;
+  EXPECT_THAT(stated.out, HasSubstr("reading depth distances, 5000 codes a metre, 0.90 to 2.49 m"));
+  EXPECT_THAT(stated.out, HasSubstr("unit=0.2: --as, said"));
+}
+
 TEST_F(PlayerProgram, ProbeTellsWhatIsInASource) {
   ClipTrack plane = depth(5);
   plane.sample = [](int, int c, int, int) { return c < 32 ? 1000u : 65000u; };
@@ -330,7 +347,7 @@ TEST_F(PlayerProgram, ProbeTellsWhatIsInASource) {
   test::makeClip(at("film.mkv"), {color(5), plane});
   const auto text = test::runProgram("relievo probe " + at("film.mkv"), at(""));
   EXPECT_EQ(text.exit_code, 0) << text.err;
-  EXPECT_THAT(text.out, HasSubstr("law=inverse (container tags)"));
+  EXPECT_THAT(text.out, HasSubstr("law=inverse: container tags, said"));
   EXPECT_THAT(text.out, HasSubstr("codes 1000 to 65000"));
   const auto as_json = test::runProgram("relievo probe --json " + at("film.mkv"), at(""));
   const json j = json::parse(as_json.out, nullptr, false);

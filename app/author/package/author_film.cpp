@@ -146,6 +146,7 @@ Outcome<void> Packager::begin(const FramePair& pair) {
   format_.color_crf = output_.color_crf;
   format_.depth = output_.depth;
   format_.depth_tags = calibrationTags(coder_.outcome());
+  format_.depth_tags["DEPTH_READ_AS"] = plainLine(info.reading, sourceCalibration());
   auto writer = FilmWriter::create(output_.path, format_, output_.force ? Existing::Replace : Existing::Keep);
   if (!writer) return failOn(output_.path, writer.error());
   writer_ = std::move(*writer);
@@ -227,7 +228,11 @@ Outcome<AuthorSummary> Packager::finish() {
                         .codes = coder_.counts(),
                         .enhancement = output_.enhancement,
                         .enhanced = enhancer_ ? enhancer_->summary() : EnhancementSummary{},
+                        .read_as = plainLine(reader_.info().reading, sourceCalibration()),
+                        .read_because = reader_.info().reading.why,
                         .notes = code_notes_};
+  const auto& offers = reader_.info().reading.offers;
+  summary.read_because.insert(summary.read_because.end(), offers.begin(), offers.end());
   const bool lossy = format_.depth.crf > 0 && format_.depth.codec != VideoCodec::Ffv1;
   if (!coder_.outcome().invalid.empty() && lossy) {
     summary.notes.emplace_back("coding shifts some edges of holes by a sample; --depth-crf 0 avoids this");

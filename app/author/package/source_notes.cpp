@@ -75,9 +75,9 @@ std::vector<std::string> sourceNotes(const SourceOptions& source, const PairRead
       "FFmpeg's bwdif");
   tellColor(notes, format);
   tellClipped(notes, reader.info(), codes);
-  for (const auto& lines : {reader.info().notes, reader.info().reading, reader.info().doubts}) {
-    notes.insert(notes.end(), lines.begin(), lines.end());
-  }
+  const FilmInfo& info = reader.info();
+  notes.insert(notes.end(), info.notes.begin(), info.notes.end());
+  notes.insert(notes.end(), info.reading.doubts.begin(), info.reading.doubts.end());
   return notes;
 }
 

@@ -100,6 +100,22 @@ std::string lowerCase(std::string_view text) {
   return lower;
 }
 
+void scale(CalibrationSettings& settings, double value) {
+  const auto unit = settings.find("unit");
+  double mm = 0;
+  if (unit != settings.end()) {
+    const std::string& text = unit->second;
+    if (std::from_chars(text.data(), text.data() + text.size(), mm).ec == std::errc()) {
+      unit->second = print("%.9g", std::max(kLeastMm, mm * value));
+    }
+  }
+  const auto codes = settings.find("codes");
+  if (codes == settings.end()) return;
+  if (const auto range = CodeSet::parseRange(codes->second)) {
+    codes->second = codeRange(range->low / value, range->high / value);
+  }
+}
+
 }  // namespace
 
 bool namesDisparity(std::string_view codec, std::string_view path) {
@@ -127,29 +143,9 @@ DepthReading readFloats(const Frame& depth, const CodeCount& count, bool dispari
   return told || (disparity && !unit) ? disparities(reach, value, said) : distances(reach, value, unit);
 }
 
-DepthReading readDepth(const Frame& first, std::string_view codec, std::string_view path, CalibrationLayers& said) {
-  if (first.value_per_code == 0) return readCodes(first, CodeCount(first), said);
-  for (CalibrationSettings* layer : {&said.command_line, &said.side_file, &said.tags}) {
-    scaleToCodes(*layer, first.value_per_code);
-  }
-  return readFloats(first, CodeCount(first), namesDisparity(codec, path), said);
-}
-
-void scaleToCodes(CalibrationSettings& settings, double value_per_code) {
+void scaleToCodes(CalibrationLayers& said, double value_per_code) {
   const double value = std::abs(value_per_code);
-  const auto unit = settings.find("unit");
-  double mm = 0;
-  if (unit != settings.end()) {
-    const std::string& text = unit->second;
-    if (std::from_chars(text.data(), text.data() + text.size(), mm).ec == std::errc()) {
-      unit->second = print("%.9g", std::max(kLeastMm, mm * value));
-    }
-  }
-  const auto codes = settings.find("codes");
-  if (codes == settings.end()) return;
-  if (const auto range = CodeSet::parseRange(codes->second)) {
-    codes->second = codeRange(range->low / value, range->high / value);
-  }
+  for (CalibrationSettings* layer : {&said.command_line, &said.side_file, &said.tags}) scale(*layer, value);
 }
 
 }  // namespace relievo

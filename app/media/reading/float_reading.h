@@ -18,12 +18,7 @@ namespace relievo {
 [[nodiscard]] DepthReading readFloats(const Frame& depth, const CodeCount& count, bool disparity,
                                       const CalibrationLayers& said);
 
-// The settings as the first picture shows them, by readFloats or readCodes. `codec` and `path` are those of the depth;
-// what `said` states for a float's numbers is scaled to its codes.
-[[nodiscard]] DepthReading readDepth(const Frame& first, std::string_view codec, std::string_view path,
-                                     CalibrationLayers& said);
-
-// The same settings for codes: `unit` and `codes`, which users state for the file's numbers, divided by the scale.
-void scaleToCodes(CalibrationSettings& settings, double value_per_code);
+// `unit` and `codes`, which users state for the file's numbers, divided by the scale.
+void scaleToCodes(CalibrationLayers& said, double value_per_code);
 
 }  // namespace relievo

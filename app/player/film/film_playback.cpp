@@ -73,12 +73,15 @@ FilmPlayback::Opening FilmPlayback::opening() const {
 
 const FilmInfo& FilmPlayback::opened() {
   info_ = feed_.info();
+  if (info_.has_depth) {
+    const std::string line = plainLine(info_.reading, info_.calibration.calibration);
+    log(LogLevel::Info, "play", "%s", line.c_str());
+  }
   for (const std::string& line : info_.notes) log(LogLevel::Info, "play", "%s", line.c_str());
   for (const std::string& change : changesOf(info_)) log(LogLevel::Warning, "play", "%s", change.c_str());
-  for (const std::string& line : info_.reading) log(LogLevel::Info, "play", "%s", line.c_str());
-  for (const std::string& doubt : info_.doubts) log(LogLevel::Warning, "play", "%s", doubt.c_str());
-  if (info_.has_depth) log(LogLevel::Info, "play", "depth: %s", info_.calibration.explanation.c_str());
-  else journal_.note("no depth in this film", "it plays flat, without force");
+  for (const std::string& offer : info_.reading.offers) log(LogLevel::Info, "play", "%s", offer.c_str());
+  for (const std::string& doubt : info_.reading.doubts) log(LogLevel::Warning, "play", "%s", doubt.c_str());
+  if (!info_.has_depth) journal_.note("no depth in this film", "it plays flat, without force");
   if (info_.sound_refused != nullptr) {
     journal_.note(std::string("sound: ") + info_.sound_refused, "the film plays without");
   }

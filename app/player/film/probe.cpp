@@ -150,8 +150,10 @@ std::string probeToText(const ProbeResult& r) {
   if (f.has_depth) {
     text += print("depth   %s %d x %d, packing %s\n", f.depth_codec.c_str(), f.depth_width, f.depth_height,
                   name(f.packing));
-    for (const std::string& line : f.reading) text += "looks   " + line + "\n";
-    text += "meaning " + f.calibration.explanation + "\n";
+    text += "reading " + plainLine(f.reading, f.calibration.calibration) + "\n";
+    for (const std::string& line : f.reading.why) text += "because " + line + "\n";
+    for (const std::string& line : partLines(f.reading)) text += "        " + line + "\n";
+    for (const std::string& line : f.reading.offers) text += "or      " + line + "\n";
     text +=
         print("relief  codes %u to %u, %.1f to %.1f mm, %.1f %% holes in the first %d pictures\n", r.depth.lowest_code,
               r.depth.highest_code, r.depth.lowest_mm, r.depth.highest_mm, 100 * r.depth.holes, r.depth.pairs);
@@ -163,10 +165,26 @@ std::string probeToText(const ProbeResult& r) {
   for (const auto& notes : {f.notes, changesOf(f)}) {
     for (const std::string& note : notes) text += "note    " + note + "\n";
   }
-  for (const std::string& doubt : f.doubts) text += "doubt   " + doubt + "\n";
+  for (const std::string& doubt : f.reading.doubts) text += "doubt   " + doubt + "\n";
   for (const std::string& need : r.needs) text += "needs   " + need + "\n";
   return text;
 }
+
+namespace {
+
+Json readingToJson(const FilmInfo& f) {
+  Json parts = Json::array();
+  for (const CalibrationPart& part : f.reading.parts) {
+    parts.push_back({{"part", part.key},
+                     {"value", part.value},
+                     {"by", name(part.origin)},
+                     {"certainty", name(certaintyOf(part.origin))}});
+  }
+  const std::string line = f.has_depth ? plainLine(f.reading, f.calibration.calibration) : "no depth";
+  return {{"line", line}, {"why", f.reading.why}, {"offers", f.reading.offers}, {"parts", parts}};
+}
+
+}  // namespace
 
 std::string probeToJson(const ProbeResult& r) {
   const FilmInfo& f = r.film;
@@ -214,10 +232,10 @@ std::string probeToJson(const ProbeResult& r) {
   json["duration_s"] = toSeconds(f.duration);
   json["volume_mm"] = {r.volume.width_mm, r.volume.height_mm, r.volume.depth_mm};
   json["decoder"] = r.decoder;
-  json["reading"] = f.reading;
+  json["reading"] = readingToJson(f);
   json["notes"] = f.notes;
   json["changes"] = changesOf(f);
-  json["doubts"] = f.doubts;
+  json["doubts"] = f.reading.doubts;
   json["needs"] = r.needs;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Azure Kinect's recordings, written element by element: which track is depth, what its codes are, and the registration
 // of its attachment.
+#include <algorithm>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -76,6 +77,10 @@ std::string calibration(double x_mm, const std::string& model = "BrownConrady") 
 
 class KinectRecording : public testing::Test {
  protected:
+  [[nodiscard]] bool describesBothCameras() const {
+    const auto& why = reader_.info().reading.why;
+    return std::any_of(why.begin(), why.end(), [](const std::string& line) { return line.contains("both cameras"); });
+  }
   Result<void> open(const std::vector<KinectTrack>& tracks, const std::string& calibration,
                     SourceOptions options = {}) {
     options.url = folder_ / "film.mkv";
@@ -137,8 +142,7 @@ TEST_F(KinectRecording, ColourIsTheRightWayUp) {
 TEST_F(KinectRecording, ItsAttachmentRegistersTheDepth) {
   const auto wall = depthTrack([](int c, int r, int) { return r == 60 ? 900 : c < kHole ? 0 : 1000; });
   ASSERT_TRUE(open({colorTrack(), wall}, calibration(100)));
-  ASSERT_EQ(reader_.info().reading.size(), 1u);
-  EXPECT_NE(reader_.info().reading[0].find("both cameras"), std::string::npos);
+  EXPECT_TRUE(describesBothCameras());
   const FramePair pair = next();
   ASSERT_EQ(pair.depth.width, 320);
   ASSERT_EQ(pair.depth.height, 180);
@@ -154,14 +158,14 @@ TEST_F(KinectRecording, TheUsersRegistrationOverridesTheFilms) {
   SourceOptions options;
   options.registration = Registration{.depth = camera, .color = camera};
   ASSERT_TRUE(open({colorTrack(), depthTrack()}, calibration(100), options));
-  EXPECT_TRUE(reader_.info().reading.empty());
+  EXPECT_FALSE(describesBothCameras());
   EXPECT_EQ(codeOf(next().depth, kHole, 9), 1018);
 }
 
 TEST_F(KinectRecording, ACalibrationThatCannotBeUsedIsLeftOut) {
   for (const std::string& text : {std::string("{"), calibration(100, "Theta"), calibration(100).substr(0, 300)}) {
     ASSERT_TRUE(open({colorTrack(), depthTrack()}, text));
-    EXPECT_TRUE(reader_.info().reading.empty());
+    EXPECT_FALSE(describesBothCameras());
     EXPECT_EQ(codeOf(next().depth, kHole, 9), 1018);
   }
 }

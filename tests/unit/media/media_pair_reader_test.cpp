@@ -273,7 +273,7 @@ TEST(PairReader, HalvesOfAPackedPictureAreExact) {
   EXPECT_EQ(reader.info().color_width, 64);
   EXPECT_EQ(reader.info().depth_width, 64);
   EXPECT_EQ(reader.info().depth_height, 33);
-  EXPECT_EQ(reader.info().calibration.calibration.range, ColorRange::Limited);
+  EXPECT_EQ(reader.info().calibration.calibration.range, ColorRange::Full) << "the codes lie below limited black";
   const auto pairs = readAll(reader);
   ASSERT_EQ(pairs.size(), 3u);
   for (int k = 0; k < 3; ++k) {
