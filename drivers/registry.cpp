@@ -2,6 +2,10 @@
 // Creates back ends from their names on the command line; the only file that knows all of them.
 #include "drivers/registry.h"
 
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <optional>
 #include <utility>
@@ -11,15 +15,19 @@
 #include "drivers/evdev/evdev.h"
 #include "drivers/failover/failover.h"
 #include "drivers/falcon/falcon.h"
+#include "drivers/falcon/link.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/mock/mock.h"
 #include "drivers/mock/scripted_remote.h"
 #include "drivers/pointer/pointer.h"
 #include "drivers/polhem/polhem.h"
+#include "drivers/polhem/report.h"
 #include "drivers/replay/replay.h"
 #include "drivers/sim/profiles.h"
+#include "drivers/terminal/joined_remote.h"
 #include "drivers/terminal/terminal.h"
 #include "drivers/tiff/tiff.h"
+#include "drivers/usb/usb_port.h"
 #include "drivers/v4l2/v4l2.h"
 #include "drivers/window/window_remote.h"
 
@@ -68,6 +76,11 @@ DeviceState look(const char* name, HapticDevice& device) {
   const auto opened = device.open();
   device.close();
   return {"haptic", name, opened.has_value(), opened ? "ready" : opened.error().message};
+}
+
+DeviceState windowsMouse(bool desktop) {
+  return {"haptic", "pointer:window", desktop,
+          desktop ? "ready: the mouse over the window" : "there is no desktop to open a window on"};
 }
 
 // The benches of existing mocks. Used on the main thread only.
@@ -136,7 +149,10 @@ Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(const BackEndName& name,
 Outcome<std::unique_ptr<RemoteInput>> makeRemoteInput(const BackEndName& name, Clock& clock) {
   if (name.plain("evdev")) return makeEvdevRemote();
   if (name.plain("keys")) return makeTerminalRemote();
-  if (name.plain("window")) return makeWindowRemote(theWindow());
+  if (name.plain("window")) {
+    auto keys = makeWindowRemote(theWindow());
+    return terminalIsThere() ? makeJoinedRemote(std::move(keys), makeTerminalRemote()) : std::move(keys);
+  }
   if (name.withArgument("script")) {
     auto keys = loadKeyScript(*name.argument);
     if (!keys) return std::unexpected(keys.error());
@@ -202,6 +218,23 @@ Result<void> switchFault(std::string_view device, std::string_view fault) {
   return fail(ErrorCode::InvalidArgument, "no such fault; use haptic unplug|plug|glitch or display unplug|plug");
 }
 
+bool desktopIsThere() {
+  return relievo::desktopIsThere();
+}
+
+bool screenIsThere() {
+  return std::ranges::any_of(lookAtKmsScreens(), &KmsScreen::there);
+}
+
+std::string pluggedHaptic() {
+  if (usbDeviceIsThere(std::array{falcon::kUsbId})) return "falcon";
+  return usbDeviceIsThere(std::array{polhem::kMbedId, polhem::kTeensyId}) ? "polhem" : "";
+}
+
+bool terminalIsThere() {
+  return ::isatty(STDIN_FILENO) == 1;
+}
+
 std::vector<DeviceState> lookAtDevices(const HapticSettings& settings, Clock& clock) {
   std::vector<DeviceState> states;
   for (const KmsScreen& screen : lookAtKmsScreens()) {
@@ -213,10 +246,11 @@ std::vector<DeviceState> lookAtDevices(const HapticSettings& settings, Clock& cl
     states.push_back({"decoder", node.path, true, node.card + ":" + codecs});
   }
   states.push_back(look("window", *makeWindowDisplay(theWindow(), clock)));
-  states.insert(states.end(),
-                {look("alsa", *makeAlsaOutput("default", clock)),
-                 look("falcon", *makeFalcon(falconConfig(settings, std::nullopt), clock)),
-                 look("polhem", *makePolhem({}, clock)), look("pointer", *makePointer(std::string(), clock))});
+  const bool desktop = states.back().there;
+  states.insert(states.end(), {look("alsa", *makeAlsaOutput("default", clock)),
+                               look("falcon", *makeFalcon(falconConfig(settings, std::nullopt), clock)),
+                               look("polhem", *makePolhem({}, clock)),
+                               look("pointer", *makePointer(std::string(), clock)), windowsMouse(desktop)});
   return states;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/player/film/depth_sentence.h"
 #include "platform/log.h"
 
 namespace relievo {
@@ -73,8 +74,12 @@ const FilmInfo& FilmPlayback::opened() {
   info_ = feed_.info();
   for (const std::string& line : info_.reading) log(LogLevel::Info, "play", "%s", line.c_str());
   for (const std::string& doubt : info_.doubts) log(LogLevel::Warning, "play", "%s", doubt.c_str());
-  if (info_.has_depth) log(LogLevel::Info, "play", "depth: %s", info_.calibration.explanation.c_str());
-  else journal_.note("no depth in this film", "it plays flat, without force");
+  if (info_.has_depth) {
+    log(LogLevel::Info, "play", "depth: %s", depthSentence(info_.calibration.calibration).c_str());
+    log(LogLevel::Debug, "play", "depth: %s", info_.calibration.explanation.c_str());
+  } else {
+    journal_.note("no depth in this film", "it plays flat, without force");
+  }
   if (info_.sound_refused != nullptr) {
     journal_.note(std::string("sound: ") + info_.sound_refused, "the film plays without");
   }
