@@ -264,14 +264,12 @@ bool has(const std::function<bool()>& thing) {
 void settleDisplay(PlayOptions& play, const Machine& machine) {
   if (!play.display.word.empty()) return;
   play.display = has(machine.desktop) ? "window" : has(machine.screen) ? "kms" : "offscreen";
-  if (play.display.word == "offscreen") {
-    log(LogLevel::Info, "play", "there is no desktop and no screen here: it plays off screen; see --display");
-  }
 }
 
 // A window brings its keys and its mouse along; nothing else has them. A whole screen is watched from a sofa. Who sees
 // the film hears it, and feels it with what is at hand.
 Outcome<void> settleDevices(PlayOptions& play, const Machine& machine) {
+  const bool chosen = !play.display.word.empty();
   settleDisplay(play, machine);
   const bool window = play.display.plain("window");
   const bool seen = window || play.display.word == "kms";
@@ -288,6 +286,9 @@ Outcome<void> settleDevices(PlayOptions& play, const Machine& machine) {
   };
   if (!window && play.remote.plain("window")) return none("--remote window");
   if (!window && play.haptic.with("pointer", "window")) return none("--haptic pointer:window");
+  if (!chosen && !seen) {
+    log(LogLevel::Info, "play", "there is no desktop and no screen here: it plays off screen; see --display");
+  }
   return {};
 }
 
