@@ -2,6 +2,10 @@
 // Creates back ends from their names on the command line; the only file that knows all of them.
 #include "drivers/registry.h"
 
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <optional>
 #include <utility>
@@ -14,6 +18,7 @@
 #include "drivers/exr/exr.h"
 #endif
 #include "drivers/falcon/falcon.h"
+#include "drivers/falcon/link.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/floats/floats.h"
 #ifdef RELIEVO_HEIF
@@ -25,13 +30,16 @@
 #include "drivers/pictures/pictures.h"
 #include "drivers/pointer/pointer.h"
 #include "drivers/polhem/polhem.h"
+#include "drivers/polhem/report.h"
 #include "drivers/replay/replay.h"
 #ifdef RELIEVO_ROSBAG
 #include "drivers/rosbag/rosbag.h"
 #endif
 #include "drivers/sim/profiles.h"
+#include "drivers/terminal/joined_remote.h"
 #include "drivers/terminal/terminal.h"
 #include "drivers/tiff/tiff.h"
+#include "drivers/usb/usb_port.h"
 #include "drivers/v4l2/v4l2.h"
 #include "drivers/window/window_remote.h"
 
@@ -80,6 +88,11 @@ DeviceState look(const char* name, HapticDevice& device) {
   const auto opened = device.open();
   device.close();
   return {"haptic", name, opened.has_value(), opened ? "ready" : opened.error().message};
+}
+
+DeviceState windowsMouse(bool desktop) {
+  return {"haptic", "pointer:window", desktop,
+          desktop ? "ready: the mouse over the window" : "there is no desktop to open a window on"};
 }
 
 // The benches of existing mocks. Used on the main thread only.
@@ -185,7 +198,10 @@ Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(const BackEndName& name,
 Outcome<std::unique_ptr<RemoteInput>> makeRemoteInput(const BackEndName& name, Clock& clock) {
   if (name.plain("evdev")) return makeEvdevRemote();
   if (name.plain("keys")) return makeTerminalRemote();
-  if (name.plain("window")) return makeWindowRemote(theWindow());
+  if (name.plain("window")) {
+    auto keys = makeWindowRemote(theWindow());
+    return terminalIsThere() ? makeJoinedRemote(std::move(keys), makeTerminalRemote()) : std::move(keys);
+  }
   if (name.withArgument("script")) {
     auto keys = loadKeyScript(*name.argument);
     if (!keys) return std::unexpected(keys.error());
@@ -258,6 +274,23 @@ Result<void> switchFault(std::string_view device, std::string_view fault) {
   return fail(ErrorCode::InvalidArgument, "no such fault; use haptic unplug|plug|glitch or display unplug|plug");
 }
 
+bool desktopIsThere() {
+  return relievo::desktopIsThere();
+}
+
+bool screenIsThere() {
+  return std::ranges::any_of(lookAtKmsScreens(), &KmsScreen::there);
+}
+
+std::string pluggedHaptic() {
+  if (usbDeviceIsThere(std::array{falcon::kUsbId})) return "falcon";
+  return usbDeviceIsThere(std::array{polhem::kMbedId, polhem::kTeensyId}) ? "polhem" : "";
+}
+
+bool terminalIsThere() {
+  return ::isatty(STDIN_FILENO) == 1;
+}
+
 std::vector<DeviceState> lookAtDevices(const HapticSettings& settings, Clock& clock) {
   std::vector<DeviceState> states;
   for (const KmsScreen& screen : lookAtKmsScreens()) {
@@ -269,10 +302,11 @@ std::vector<DeviceState> lookAtDevices(const HapticSettings& settings, Clock& cl
     states.push_back({"decoder", node.path, true, node.card + ":" + codecs});
   }
   states.push_back(look("window", *makeWindowDisplay(theWindow(), clock)));
-  states.insert(states.end(),
-                {look("alsa", *makeAlsaOutput("default", clock)),
-                 look("falcon", *makeFalcon(falconConfig(settings, std::nullopt), clock)),
-                 look("polhem", *makePolhem({}, clock)), look("pointer", *makePointer(std::string(), clock))});
+  const bool desktop = states.back().there;
+  states.insert(states.end(), {look("alsa", *makeAlsaOutput("default", clock)),
+                               look("falcon", *makeFalcon(falconConfig(settings, std::nullopt), clock)),
+                               look("polhem", *makePolhem({}, clock)),
+                               look("pointer", *makePointer(std::string(), clock)), windowsMouse(desktop)});
   return states;
 }
 

@@ -33,7 +33,6 @@ struct StreamInfo {
   int index = 0;  // the `stream` of its packets
   StreamKind kind = StreamKind::Other;
   std::string codec;                    // "h264", "hevc", "vp8", .., lower case
-  std::string pixel_format;             // of codec "rawvideo", rows without padding: FFmpeg's name, "gray16le", ..
   std::vector<std::uint8_t> extradata;  // parameter sets as the container holds them
   int width = 0;
   int height = 0;
@@ -41,7 +40,7 @@ struct StreamInfo {
   ColorMatrix matrix = ColorMatrix::Unspecified;
   double sample_aspect = 1.0;  // width of a sample over its height
   int rotation = 0;            // clockwise quarter turns, 0 to 3, that make its pictures upright
-  std::string pixel_format;    // the decoder's name for it: "yuv420p", "gray16le", ..
+  std::string pixel_format;    // FFmpeg's name: "yuv420p", "gray16le", ..; rows of codec "rawvideo" have no padding
   int bits = 0;                // of a sample
   std::uint8_t primaries = kUnspecifiedColor, transfer = kUnspecifiedColor;  // as in a Frame
   FieldOrder fields = FieldOrder::Unknown;

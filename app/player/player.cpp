@@ -3,6 +3,7 @@
 #include "app/player/player.h"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <utility>
 
 #include "app/player/control/player_control.h"
@@ -113,7 +114,10 @@ void Player::boot() {
   touch_.begin();
   apply(PlayerEvent::Ready);
   if (parts_.control != nullptr) parts_.control->ready();
-  if (!config_.source.url.empty()) openList(config_.source.url, config_.source.depth_url, journal_.began());
+  if (config_.source.url.empty()) return;
+  std::vector<PlaylistEntry> films{{.url = config_.source.url, .depth_url = config_.source.depth_url, .title = ""}};
+  for (const std::string& url : config_.more) films.push_back({.url = url, .depth_url = "", .title = ""});
+  openList(films, journal_.began());
 }
 
 void Player::step(MonotonicTime now) {
@@ -122,6 +126,7 @@ void Player::step(MonotonicTime now) {
     if (attended.error().code == ErrorCode::Cancelled) quitting_ = true;  // the viewer has closed the window
     else failDisplay(attended.error());
   }
+  followDrops(now);
   readRemote(now);
   followDevice();
   film_.noteNews();
@@ -132,7 +137,14 @@ void Player::step(MonotonicTime now) {
   touch_.drain(seeks_);
   screen_.write(facts(), film_.nextPicture(now), now);
   followFault(now);
+  tellStatus(now);
   if (parts_.control != nullptr) parts_.control->attend(*this, now);
+}
+
+void Player::tellStatus(MonotonicTime now) {
+  if (parts_.status == nullptr || !parts_.status->isDue(now) || !film_.isOpen()) return;
+  const auto finger = touch_.mark();
+  parts_.status->show(facts(), report(), finger ? glm::length(finger->force_n) : 0, now);
 }
 
 // The next picture, but soon enough for keys.
@@ -145,6 +157,7 @@ MonotonicTime Player::nextWake(MonotonicTime now) const {
 void Player::finish(MonotonicTime now) {
   touch_.stop();  // zero force before anything else
   film_.silence();
+  if (parts_.status != nullptr) parts_.status->clear();
   if (parts_.control != nullptr) parts_.control->stopping();
   touch_.drain(seeks_);
   leaveFilm(now);
@@ -177,7 +190,7 @@ void Player::obey(const PlayerCommand& command, MonotonicTime now) {
       quitting_ = true;
       return;
     case PlayerVerb::Open:
-      return openList(command.word, "", now);
+      return openList({{.url = command.word, .depth_url = "", .title = ""}}, now);
     case PlayerVerb::Stop:
       return stopFilm(now);
     case PlayerVerb::Loop:
@@ -191,6 +204,8 @@ void Player::obey(const PlayerCommand& command, MonotonicTime now) {
                             .rate = film_.rate(),
                             .here = film_.goal(now),
                             .length = film_.info().duration,
+                            .picture = film_.picture().color.pts,
+                            .period = film_.period(),
                             .film = programme_.present(),
                             .films = programme_.size(),
                             .film_asked = programme_.asked()};

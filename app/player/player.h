@@ -5,6 +5,7 @@
 #include <atomic>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/player/control/command.h"
 #include "app/player/control/key_table.h"
@@ -17,6 +18,7 @@
 #include "app/player/screen/film_screen.h"
 #include "app/player/screen/screen_text.h"
 #include "app/player/state_table.h"
+#include "app/player/status_line.h"
 #include "app/player/touch/film_touch.h"
 #include "hal/remote_input.h"
 #include "platform/failure.h"
@@ -26,7 +28,8 @@ namespace relievo {
 class PlayerControl;
 
 struct PlayerConfig {
-  SourceOptions source;  // a film or a list of films; its url may be empty for one that stays
+  SourceOptions source;           // a film or a list of films; its url may be empty for one that stays
+  std::vector<std::string> more;  // films or lists to play after it
   DisplayConfig display;
   StereoSettings stereo;
   std::optional<DisplayVolume> volume;  // nothing: the default one of the picture's shape
@@ -47,6 +50,7 @@ struct PlayerParts {
   AudioOutput* audio = nullptr;
   Recorder* recorder = nullptr;
   PlayerControl* control = nullptr;
+  StatusLine* status = nullptr;
   PairReader::Backends backends;
 };
 
@@ -85,6 +89,7 @@ class Player {
   [[nodiscard]] MonotonicTime nextWake(MonotonicTime now) const;
   void finish(MonotonicTime now);
   void readRemote(MonotonicTime now);
+  void tellStatus(MonotonicTime now);
 
   // player_film.cpp: within a film
   void carryOut(const Deed& deed, MonotonicTime now);
@@ -96,13 +101,15 @@ class Player {
   void followOpening(MonotonicTime now);
   void followProgress(FilmPlayback::Progress progress, MonotonicTime now);
   void begin(MonotonicTime now);
+  void announce(const DisplayVolume& volume);
   void followClock(MonotonicTime now);
   void followDevice();
   void showPicture(MonotonicTime now);
   void feedTouch();
 
   // player_list.cpp: from film to film
-  void openList(const std::string& url, const std::string& depth_url, MonotonicTime now);
+  void openList(const std::vector<PlaylistEntry>& films, MonotonicTime now);
+  void followDrops(MonotonicTime now);
   void openFilm(std::size_t film, Programme::Way way, MonotonicTime now);
   void leaveFilm(MonotonicTime now);
   void stopFilm(MonotonicTime now);

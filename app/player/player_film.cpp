@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the player does within a film: carries out commands, waits for the reader, and follows the clock.
 #include <algorithm>
+#include <cmath>
 
 #include "app/player/player.h"
 #include "platform/log.h"
@@ -119,6 +120,7 @@ void Player::begin(MonotonicTime now) {
     const DepthCalibration& calibration = film_.info().calibration.calibration;
     touch_.setScene(calibration, volume);
     screen_.setScene(calibration, volume, film_.period(), now);
+    announce(volume);
   }
   if (film_.takeJump()) touch_.beginEpoch();
   const MediaTime first = film_.picture().color.pts;
@@ -134,6 +136,11 @@ void Player::begin(MonotonicTime now) {
   apply(film_.held() ? PlayerEvent::FilledHeld : PlayerEvent::Filled);
   feedTouch();
   seeks_.shown(first, now, parts_.clock.now());
+}
+
+void Player::announce(const DisplayVolume& volume) {
+  const int height = film_.picture().color.height;
+  screen_.announce({facts().title, static_cast<int>(std::lround(height * volume.width_mm / volume.height_mm)), height});
 }
 
 void Player::followClock(MonotonicTime now) {

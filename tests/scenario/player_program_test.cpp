@@ -187,12 +187,12 @@ TEST_F(PlayerProgram, RefusesAnAddressThatReadsWhatItIsNotToReadInOneLine) {
 
 TEST_F(PlayerProgram, ObeysAScriptedRemote) {
   test::makeClip(at("film.mkv"), {color(600), depth(600)});
-  std::ofstream(at("keys.txt")) << "1.0 RIGHT\n1.3 PAUSE\n1.6 LEFT\n1.9 PLAY\n2.0 3D_MODE\n2.3 STOP\n";
+  std::ofstream(at("keys.txt")) << "1.0 FORWARD\n1.3 PAUSE\n1.6 REWIND\n1.9 PLAY\n2.0 3D_MODE\n2.3 STOP\n";
   const auto result = play(at("film.mkv") + " --remote script:" + at("keys.txt") + " --report " + at("r.json"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json r = reportOf("r.json");
   EXPECT_EQ(r["states"].back(), "idle");
-  EXPECT_EQ(r["video"]["stereo"], "tab");
+  EXPECT_EQ(r["video"]["stereo"], "sbs");
   ASSERT_EQ(r["seeks"].size(), 2u);
   for (const json& seek : r["seeks"]) {
     EXPECT_TRUE(seek["picture_s"].is_null() || seek["picture_s"] == seek["surface_s"]) << seek;

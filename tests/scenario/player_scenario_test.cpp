@@ -87,9 +87,9 @@ TEST_F(PlayerScenario, AfterEachSeekThePictureAndTheSurfaceAreOfTheSameTime) {
   bench_.sources["film"] = PlayerBench::film(1000);
   bench_.sources["film"].tracks[0].keyframe_interval = 12;
   bench_.sources["film"].tracks[1].keyframe_interval = 7;
-  bench_.press(2.0, KEY_RIGHT);
+  bench_.press(2.0, KEY_FORWARD);
   bench_.press(3.0, KEY_FORWARD);
-  bench_.press(4.0, KEY_LEFT);
+  bench_.press(4.0, KEY_REWIND);
   bench_.press(5.0, KEY_STOP);
   playsWell();
   EXPECT_EQ(bench_.states(),
@@ -115,7 +115,7 @@ TEST_F(PlayerScenario, AfterEachSeekThePictureAndTheSurfaceAreOfTheSameTime) {
 
 TEST_F(PlayerScenario, PressesInARowAddUpToOneSeek) {
   bench_.sources["film"] = PlayerBench::film(2000);
-  for (int i = 0; i < 3; ++i) bench_.press(2.0, KEY_RIGHT);
+  for (int i = 0; i < 3; ++i) bench_.press(2.0, KEY_FORWARD);
   bench_.press(3.0, KEY_STOP);
   playsWell();
   ASSERT_THAT(bench_.report.seeks, SizeIs(3));
@@ -125,7 +125,7 @@ TEST_F(PlayerScenario, PressesInARowAddUpToOneSeek) {
 }
 
 TEST_F(PlayerScenario, ASeekBeforeTheBeginningGoesToTheBeginning) {
-  bench_.press(2.0, KEY_LEFT);
+  bench_.press(2.0, KEY_REWIND);
   playsWell();
   ASSERT_THAT(bench_.report.seeks, SizeIs(1));
   EXPECT_EQ(bench_.report.seeks[0].target_s, 0.0);
@@ -134,7 +134,7 @@ TEST_F(PlayerScenario, ASeekBeforeTheBeginningGoesToTheBeginning) {
 }
 
 TEST_F(PlayerScenario, ASeekBeyondTheEndEndsTheFilm) {
-  bench_.press(2.0, KEY_RIGHT);
+  bench_.press(2.0, KEY_FORWARD);
   playsWell();
   EXPECT_EQ(bench_.states(), "boot idle opening buffering playing seeking buffering ended idle");
   EXPECT_THAT(bench_.report.seeks, SizeIs(1));
@@ -145,7 +145,7 @@ TEST_F(PlayerScenario, ASeekBeyondTheEndEndsTheFilm) {
 TEST_F(PlayerScenario, ASeekWhilePausedShowsItsPictureAndStaysPaused) {
   bench_.sources["film"] = PlayerBench::film(1000);
   bench_.press(1.0, KEY_PAUSE);
-  bench_.press(2.0, KEY_RIGHT);
+  bench_.press(2.0, KEY_FORWARD);
   bench_.press(4.0, KEY_STOP);
   playsWell();
   EXPECT_EQ(bench_.states(), "boot idle opening buffering playing paused seeking buffering paused idle");
@@ -162,7 +162,7 @@ TEST_F(PlayerScenario, UntilTheSoughtPictureComesTheSurfaceStandsAsThePictureDoe
   ASSERT_TRUE(recorder);
   bench_.recorder = &*recorder;
   bench_.sources["film"] = PlayerBench::film(1000);
-  bench_.press(1.0, KEY_RIGHT);
+  bench_.press(1.0, KEY_FORWARD);
   bench_.press(2.0, KEY_STOP);
   playsWell();
   ASSERT_TRUE(recorder->finish());
@@ -186,7 +186,7 @@ TEST_F(PlayerScenario, UntilTheSoughtPictureComesTheSurfaceStandsAsThePictureDoe
 
 TEST_F(PlayerScenario, ASeekThatTheSourceRefusesGoesOn) {
   bench_.sources["film"].live = true;
-  bench_.press(1.0, KEY_RIGHT);
+  bench_.press(1.0, KEY_FORWARD);
   playsWell();
   EXPECT_EQ(bench_.states(), "boot idle opening buffering playing seeking buffering playing ended idle");
   EXPECT_EQ(bench_.faults("seek"), 1u);
@@ -466,7 +466,7 @@ TEST_F(PlayerScenario, ASeekWhileAServerIsAwayIsCarriedOutOnceItIsBack) {
   away.remote = true;
   bench_.found_again = {away, away, away};
   bench_.found_again[0].fail_open = bench_.found_again[1].fail_open = ErrorCode::Io;
-  bench_.press(1.8, KEY_RIGHT);
+  bench_.press(1.8, KEY_FORWARD);
   bench_.press(5.0, KEY_STOP);
   playsWell();
   ASSERT_THAT(bench_.report.seeks, SizeIs(1));
@@ -664,7 +664,7 @@ TEST_F(PlayerScenario, ADisplayTooSlowForTheFilmDropsPicturesAndKeepsTheTime) {
 
 TEST_F(PlayerScenario, TheSameFilmHandAndKeysGiveTheSameRun) {
   bench_.haptic.path_mm = comingDown();
-  bench_.press(1.0, KEY_LEFT);
+  bench_.press(1.0, KEY_REWIND);
   playsWell();
   const PlayReport first = bench_.report;
   PlayerBench again;

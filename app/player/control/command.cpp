@@ -12,8 +12,9 @@
 namespace relievo {
 namespace {
 
-// Step: a number with its sign; Time: also without, or with %; OnOff and Layout may be left away.
-enum class Operand : std::uint8_t { None, Step, Time, Url, OnOff, Layout };
+// Step: a number with its sign; Time: also without, or with %; Level: also without; Track: a number from 1 on, or off.
+// OnOff, Layout, Shape and Track may be left away.
+enum class Operand : std::uint8_t { None, Step, Time, Url, OnOff, Layout, Level, Track, Shape };
 
 struct Entry {
   PlayerVerb verb;
@@ -29,9 +30,11 @@ constexpr std::array kEntries{
     Entry{PlayerVerb::Pause, "pause", Operand::None, "pause"},
     Entry{PlayerVerb::PlayPause, "play-pause", Operand::None, "pause, or go on"},
     Entry{PlayerVerb::Step, "step", Operand::None, "the next picture, and stand", true},
+    Entry{PlayerVerb::StepBack, "step-back", Operand::None, "the picture before, and stand", true},
     Entry{PlayerVerb::Faster, "faster", Operand::None,
           "faster, up to 16 times; from 2 times on by key frames, without touch"},
     Entry{PlayerVerb::Slower, "slower", Operand::None, "slower, down to 1/8, with touch"},
+    Entry{PlayerVerb::NormalSpeed, "normal-speed", Operand::None, "the usual speed again"},
     Entry{PlayerVerb::SeekBy, "seek", Operand::Time, "s", true},
     Entry{PlayerVerb::SeekTo, "seek", Operand::Time, "s"},
     Entry{PlayerVerb::SeekShare, "seek", Operand::Time, "%"},
@@ -43,10 +46,26 @@ constexpr std::array kEntries{
     Entry{PlayerVerb::Stop, "stop", Operand::None, "end the film"},
     Entry{PlayerVerb::Quit, "quit", Operand::None, "end the program"},
     Entry{PlayerVerb::Layout, "layout", Operand::Layout, "the next way to show stereo"},
+    Entry{PlayerVerb::FullScreen, "full-screen", Operand::OnOff, "the whole screen, or a window again"},
     Entry{PlayerVerb::SwapEyes, "swap-eyes", Operand::None, "left eye right, right eye left"},
     Entry{PlayerVerb::DepthBy, "depth", Operand::Step, "depth for the eyes", true},
     Entry{PlayerVerb::ScreenBy, "screen", Operand::Step, "mm, the whole scene towards you", true},
-    Entry{PlayerVerb::Info, "info", Operand::None, "what is going on, as text on the screen, or no more"},
+    Entry{PlayerVerb::ZoomBy, "zoom", Operand::Step, "zoom", true},
+    Entry{PlayerVerb::Aspect, "aspect", Operand::Shape, "another shape of the picture"},
+    Entry{PlayerVerb::Info, "info", Operand::None, "the bar with title and times, or no more"},
+    Entry{PlayerVerb::Statistics, "statistics", Operand::None, "statistics, or no more"},
+    Entry{PlayerVerb::Keys, "keys", Operand::None, "these keys, or no more"},
+    Entry{PlayerVerb::Screenshot, "screenshot", Operand::None, "save the picture as a PNG"},
+    Entry{PlayerVerb::VolumeBy, "volume", Operand::Level, "% louder", true},
+    Entry{PlayerVerb::VolumeTo, "volume", Operand::Level, "% volume"},
+    Entry{PlayerVerb::Mute, "mute", Operand::OnOff, "sound off, or on again"},
+    Entry{PlayerVerb::AudioTrack, "audio", Operand::Track, "the next sound track"},
+    Entry{PlayerVerb::AudioDelayBy, "audio-delay", Operand::Step, "s, sound later", true},
+    Entry{PlayerVerb::SubtitleTrack, "subtitles", Operand::Track, "the next subtitles, or none"},
+    Entry{PlayerVerb::ShowSubtitles, "show-subtitles", Operand::OnOff, "subtitles on or off"},
+    Entry{PlayerVerb::SubtitleDelayBy, "subtitle-delay", Operand::Step, "s, subtitles later", true},
+    Entry{PlayerVerb::ChapterBy, "chapter", Operand::Step, "chapter"},
+    Entry{PlayerVerb::LoopAB, "ab-loop", Operand::None, "repeat from here; again: to here; again: no more"},
 };
 
 const Entry& entryOf(PlayerVerb verb) noexcept {
@@ -79,6 +98,23 @@ std::optional<PlayerCommand> timeIn(std::string_view text) {
   return PlayerCommand{PlayerVerb::SeekShare, *value / 100};
 }
 
+// Of the audio and subtitle tracks.
+std::optional<PlayerCommand> trackIn(PlayerVerb verb, std::string_view text) {
+  constexpr double kMostTracks = 100;
+  if (text.empty()) return PlayerCommand{verb};
+  if (text == "off" && verb == PlayerVerb::SubtitleTrack) return PlayerCommand{verb, -1};
+  const auto number = numberIn(text);
+  const bool good = number && *number >= 1 && *number <= kMostTracks && *number == std::floor(*number);
+  return good ? std::optional(PlayerCommand{verb, *number}) : std::nullopt;
+}
+
+std::optional<PlayerCommand> levelIn(std::string_view text) {
+  const auto value = numberIn(text);
+  if (!value) return std::nullopt;
+  const bool relative = text.starts_with('+') || text.starts_with('-');
+  return PlayerCommand{relative ? PlayerVerb::VolumeBy : PlayerVerb::VolumeTo, *value};
+}
+
 std::optional<PlayerCommand> withOperand(const Entry& entry, std::string_view operand) {
   switch (entry.operand) {
     case Operand::None:
@@ -89,6 +125,13 @@ std::optional<PlayerCommand> withOperand(const Entry& entry, std::string_view op
       const auto value = numberIn(operand);
       return value ? std::optional(PlayerCommand{entry.verb, *value}) : std::nullopt;
     }
+    case Operand::Level:
+      return levelIn(operand);
+    case Operand::Track:
+      return trackIn(entry.verb, operand);
+    case Operand::Shape:
+      if (!operand.empty() && !parseAspect(operand)) return std::nullopt;
+      return PlayerCommand{entry.verb, 0, std::string(operand)};
     case Operand::Url:
       return operand.empty() ? std::nullopt : std::optional(PlayerCommand{entry.verb, 0, std::string(operand)});
     case Operand::OnOff:
@@ -122,15 +165,29 @@ std::string wordsOf(const PlayerCommand& command) {
     case PlayerVerb::SeekBy:
     case PlayerVerb::DepthBy:
     case PlayerVerb::ScreenBy:
+    case PlayerVerb::ZoomBy:
+    case PlayerVerb::VolumeBy:
+    case PlayerVerb::AudioDelayBy:
+    case PlayerVerb::SubtitleDelayBy:
+    case PlayerVerb::ChapterBy:
       return word + print(" %+.6g", command.value);
+    case PlayerVerb::AudioTrack:
+    case PlayerVerb::SubtitleTrack:
+      if (command.value == 0) return word;
+      return word + (command.value < 0 ? std::string(" off") : print(" %.0f", command.value));
     case PlayerVerb::SeekTo:
+    case PlayerVerb::VolumeTo:
       return word + print(" %.6g", command.value);
     case PlayerVerb::SeekShare:
       return word + print(" %.6g%%", 100 * command.value);
     case PlayerVerb::Loop:
+    case PlayerVerb::FullScreen:
+    case PlayerVerb::Mute:
+    case PlayerVerb::ShowSubtitles:
       return command.value == 0 ? word : word + (command.value > 0 ? " on" : " off");
     case PlayerVerb::Open:
     case PlayerVerb::Layout:
+    case PlayerVerb::Aspect:
       return command.word.empty() ? word : word + " " + command.word;
     default:
       return word;
@@ -138,7 +195,8 @@ std::string wordsOf(const PlayerCommand& command) {
 }
 
 std::string commandWords() {
-  constexpr std::array kOperands{"", " +X|-X", " +S|-S|S|P%", " URL", " [on|off]", " [WORD]"};
+  constexpr std::array kOperands{"",        " +X|-X",   " +S|-S|S|P%", " URL",  " [on|off]",
+                                 " [WORD]", " +P|-P|P", " [N|off]",    " [W:H]"};
   std::string text;
   const char* last = "";
   for (const Entry& entry : kEntries) {
@@ -156,9 +214,25 @@ std::string meaningOf(const PlayerCommand& command) {
   }
   if (command.verb == PlayerVerb::SeekTo) return print("to %.6g s", command.value);
   if (command.verb == PlayerVerb::SeekShare) return print("to %.6g %% of the film", 100 * command.value);
+  if (command.verb == PlayerVerb::ChapterBy && std::abs(command.value) == 1) {
+    return command.value < 0 ? "this chapter from its beginning, or the one before" : "the next chapter";
+  }
+  if (command.verb == PlayerVerb::VolumeBy)
+    return print("%.6g %% %s", std::abs(command.value), command.value < 0 ? "quieter" : "louder");
+  if (command.verb == PlayerVerb::VolumeTo) return print("%.6g %s", command.value, entry.meaning);
+  if (entry.operand == Operand::Track && command.value > 0) return print("%s %.0f", entry.word, command.value);
+  if (entry.operand == Operand::Track && command.value < 0) return "no subtitles";
+  if (command.verb == PlayerVerb::Mute && command.value != 0) return command.value > 0 ? "sound off" : "sound on";
+  if (command.verb == PlayerVerb::ShowSubtitles && command.value != 0) {
+    return command.value > 0 ? "subtitles on" : "subtitles off";
+  }
+  if (command.verb == PlayerVerb::Aspect && !command.word.empty()) return "show the picture as " + command.word;
   if (entry.operand == Operand::Step) return print("%+.6g %s", command.value, entry.meaning);
   if (command.verb == PlayerVerb::Loop && command.value != 0) {
     return command.value > 0 ? "begin again at the end" : "do not restart at the end";
+  }
+  if (command.verb == PlayerVerb::FullScreen && command.value != 0) {
+    return command.value > 0 ? "the whole screen" : "out of full screen";
   }
   if (command.verb == PlayerVerb::Layout && !command.word.empty()) return "show stereo as " + command.word;
   return entry.meaning;

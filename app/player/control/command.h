@@ -14,22 +14,40 @@ enum class PlayerVerb : std::uint8_t {
   Pause,      // the picture stands, and stays touchable
   PlayPause,  // the other of the two
   Step,       // the next picture, and stand
+  StepBack,   // the previous picture, and stand
   Faster,     // one up of 1/8 1/4 1/2 1 2 4 8 16; from 2 on by key frames, without touch
   Slower,     // one down
-  SeekBy,     // seconds
-  SeekTo,     // seconds
-  SeekShare,  // of the film's length, 0 to 1
-  Next,       // film of the list
-  Previous,   // film of the list, or this one from its beginning
-  Loop,       // begins again at the end, or no longer; value 1: does, -1: does not, 0: the other of the two
-  Open,       // another film or list
-  Stop,       // ends the film
-  Quit,       // ends the program
-  Layout,     // another way to show stereo; without its word the next one
+  NormalSpeed,
+  SeekBy,      // seconds
+  SeekTo,      // seconds
+  SeekShare,   // of the film's length, 0 to 1
+  Next,        // film of the list
+  Previous,    // film of the list, or this one from its beginning
+  Loop,        // begins again at the end, or no longer; value 1: does, -1: does not, 0: the other of the two
+  Open,        // another film or list
+  Stop,        // ends the film
+  Quit,        // ends the program
+  Layout,      // another way to show stereo; without its word the next one
+  FullScreen,  // on, off, or the other of the two, as Loop: of a window
   SwapEyes,
   DepthBy,   // for the eyes, of 1
   ScreenBy,  // mm, the whole scene towards the viewer
-  Info,      // text on the screen, or no more
+  ZoomBy,    // of 1, the picture in its view
+  Aspect,    // the shape that the picture is shown with: "film", "16:9", "4:3", "2.35:1"; without its word the next one
+  Info,      // the bar on the screen, or no more
+  Statistics,
+  Keys,             // what each key means now, on the screen
+  Screenshot,       // a PNG of the picture
+  VolumeBy,         // percent
+  VolumeTo,         // percent
+  Mute,             // on, off, or the other of the two, as Loop
+  AudioTrack,       // value: its number, from 1 on; 0: the next one
+  AudioDelayBy,     // seconds
+  SubtitleTrack,    // value: its number, from 1 on, -1: none, 0: the next one, or none after the last
+  ShowSubtitles,    // on, off, or the other of the two, as Loop
+  SubtitleDelayBy,  // seconds
+  ChapterBy,        // chapters; -1: this one's beginning, or the one before it
+  LoopAB,           // first the beginning of what is repeated, then its end, then no more
 };
 
 struct PlayerCommand {

@@ -56,6 +56,13 @@ Deeds pause(const Situation& s) {
   return deeds;
 }
 
+// A seek arrives at the first picture from its target on.
+Deeds stepBack(const Situation& s) {
+  if (s.rate > 1) return pause(s);
+  if (!nextState(s.state, PlayerEvent::Step)) return {};
+  return {{.kind = Deed::Kind::Stand}, seek(s.picture - s.period * 3 / 2, false)};
+}
+
 Deeds seekShare(double share, const Situation& s) {
   if (s.length > Duration(0)) return {seek(mediaTime(share * toSeconds(s.length)), true)};
   if (!nextState(s.state, PlayerEvent::Seek)) return {};
@@ -79,6 +86,10 @@ std::vector<Deed> deedsFor(const PlayerCommand& command, const Situation& s) {
       return s.held || s.rate > 1 || s.state == PlayerState::Idle ? play(s) : pause(s);
     case PlayerVerb::Step:
       return s.rate > 1 ? pause(s) : Deeds{{.kind = Deed::Kind::StepOn}};
+    case PlayerVerb::StepBack:
+      return stepBack(s);
+    case PlayerVerb::NormalSpeed:
+      return changeRate(1, s);
     case PlayerVerb::Faster:
       return changeRate(rateBeside(s.rate, 1), s);
     case PlayerVerb::Slower:

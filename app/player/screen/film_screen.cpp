@@ -101,6 +101,10 @@ void FilmScreen::obey(const PlayerCommand& command) {
   switch (command.verb) {
     case PlayerVerb::Info:
       return text_.toggle();
+    case PlayerVerb::FullScreen:
+      return picture_.fillScreen(command.value == 0  ? FullScreen::Toggle
+                                 : command.value > 0 ? FullScreen::On
+                                                     : FullScreen::Off);
     case PlayerVerb::Layout:
       if (command.word.empty()) picture_.nextLayout();
       else picture_.setLayout(command.word);

@@ -37,6 +37,9 @@ class FilmScreen {
 
   // A film begins: how to read its depth, the volume that it fills, and its frame period.
   void setScene(const DepthCalibration& calibration, const DisplayVolume& volume, Duration period, MonotonicTime now);
+  void announce(const AnnouncedFilm& film) { picture_.announce(film); }
+  // What the viewer has dropped on the window since the last call.
+  [[nodiscard]] std::vector<std::string> takeDropped() { return picture_.takeDropped(); }
   // Draws a picture of the film. False if the screen is lost: the picture counts as dropped.
   [[nodiscard]] Result<bool> show(const FramePair& pair, const std::optional<FingerMark>& finger, MonotonicTime now);
   // Counts pictures that were never shown.
@@ -53,7 +56,7 @@ class FilmScreen {
   // The viewer has pressed a key: the text is shown for a while.
   void wake(MonotonicTime now) noexcept { text_.wake(now); }
   void tell(const std::string& why, MonotonicTime now) { text_.tell(why, now); }
-  // Handles Layout, SwapEyes, DepthBy, ScreenBy and Info; ignores other commands.
+  // Handles FullScreen, Layout, SwapEyes, DepthBy, ScreenBy and Info; ignores other commands.
   void obey(const PlayerCommand& command);
 
   [[nodiscard]] const StereoSettings& stereo() const noexcept { return picture_.stereo(); }

@@ -11,12 +11,6 @@
 namespace relievo {
 namespace {
 
-std::string clockTime(double seconds) {
-  const auto whole = static_cast<long>(std::max(0.0, seconds));
-  if (whole >= 3600) return print("%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
-  return print("%ld:%02ld", whole / 60, whole % 60);
-}
-
 // What there is to say beside the time.
 std::string wordsOf(const ScreenFacts& facts) {
   std::string words;
@@ -44,6 +38,12 @@ std::string hapticLine(const ScreenFacts& facts) {
 }
 
 }  // namespace
+
+std::string clockTime(double seconds) {
+  const auto whole = static_cast<long>(std::max(0.0, seconds));
+  if (whole >= 3600) return print("%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
+  return print("%ld:%02ld", whole / 60, whole % 60);
+}
 
 void ScreenText::tell(std::string why, MonotonicTime now) {
   why_ = std::move(why);

@@ -27,6 +27,9 @@ struct ScreenFacts {
   bool contact = false;
 };
 
+// "1:02:05", "0:07".
+[[nodiscard]] std::string clockTime(double seconds);
+
 // Shown for some seconds after the viewer has done something, when something goes wrong, and at the start; as long as
 // the film stands; and on wish until it is wished away.
 class ScreenText {

@@ -68,4 +68,16 @@ std::string stereoWord(const StereoSettings& settings) {
   }
 }
 
+std::optional<double> parseAspect(std::string_view word) {
+  if (word == "film") return 0;
+  double width = 0, height = 0;
+  const char* const end = word.data() + word.size();
+  const auto [colon, no_width] = std::from_chars(word.data(), end, width);
+  if (no_width != std::errc() || colon == end || *colon != ':') return std::nullopt;
+  const auto [rest, no_height] = std::from_chars(colon + 1, end, height);
+  if (no_height != std::errc() || rest != end || !(height > 0)) return std::nullopt;
+  const double aspect = width / height;
+  return aspect >= 0.1 && aspect <= 10 ? std::optional(aspect) : std::nullopt;
+}
+
 }  // namespace relievo

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A stereo layout by its word on the command line.
+// A stereo layout by its word on the command line, and a picture's shape.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -14,5 +15,8 @@ namespace relievo {
 [[nodiscard]] bool parseStereo(std::string_view word, StereoSettings& settings);
 // The other way.
 [[nodiscard]] std::string stereoWord(const StereoSettings& settings);
+
+// "16:9", "2.35:1": the width over the height, 0.1 to 10. "film": 0, the picture's own. Nothing for another word.
+[[nodiscard]] std::optional<double> parseAspect(std::string_view word);
 
 }  // namespace relievo

@@ -15,12 +15,13 @@ using V = PlayerVerb;
 
 TEST(Command, EachHasWordsThatReadBackAsItself) {
   std::set<std::string> all;
-  for (int verb = 0; verb <= static_cast<int>(V::Info); ++verb) {
+  for (int verb = 0; verb <= static_cast<int>(V::LoopAB); ++verb) {
     for (const double value : {10.0, -0.5}) {
       PlayerCommand command{static_cast<V>(verb), 0};
-      const std::set<V> stepped{V::SeekBy, V::DepthBy, V::ScreenBy};
+      const std::set<V> stepped{V::SeekBy,   V::DepthBy,      V::ScreenBy,        V::ZoomBy,
+                                V::VolumeBy, V::AudioDelayBy, V::SubtitleDelayBy, V::ChapterBy};
       if (stepped.contains(command.verb)) command.value = value;
-      if (command.verb == V::SeekTo) command.value = 75.25;
+      if (command.verb == V::SeekTo || command.verb == V::VolumeTo) command.value = 75.25;
       if (command.verb == V::SeekShare) command.value = 0.5;
       if (command.verb == V::Open) command.word = "http://a.b/c d.mkv";
       const auto read = parseCommand(wordsOf(command));
@@ -30,7 +31,7 @@ TEST(Command, EachHasWordsThatReadBackAsItself) {
       all.insert(wordsOf(command));
     }
   }
-  EXPECT_EQ(all.size(), 23U);  // no two alike; three with either sign
+  EXPECT_EQ(all.size(), 46U);  // no two alike; eight with either sign
 }
 
 TEST(Command, ASeeksNumberSaysWhatItCountsFrom) {
@@ -47,12 +48,14 @@ TEST(Command, WhatTurnsCanAlsoBeSet) {
   EXPECT_EQ(parseCommand("loop off"), (PlayerCommand{V::Loop, -1}));
   EXPECT_EQ(parseCommand("layout"), (PlayerCommand{V::Layout}));
   EXPECT_EQ(parseCommand("layout quilt:5x9"), (PlayerCommand{V::Layout, 0, "quilt:5x9"}));
-  for (const char* words : {"loop on", "loop off", "layout tab:full"}) {
+  for (const char* words : {"loop on", "loop off", "layout tab:full", "full-screen on", "full-screen off", "mute on",
+                            "show-subtitles off", "subtitles 2", "subtitles off", "audio 1", "aspect 16:9"}) {
     EXPECT_EQ(wordsOf(*parseCommand(words)), words);
     EXPECT_NE(meaningOf(*parseCommand(words)),
               meaningOf(*parseCommand(std::string(words).substr(0, std::string(words).find(' ')))));
   }
-  for (const char* words : {"loop maybe", "loop ", "layout 3d", "layout quilt:0x9", "layout sbs tab"}) {
+  for (const char* words : {"loop maybe", "loop ", "layout 3d", "layout quilt:0x9", "layout sbs tab", "audio off",
+                            "audio 0", "audio 1.5", "subtitles -1", "aspect 16", "volume", "full-screen 1"}) {
     EXPECT_FALSE(parseCommand(words)) << words;
   }
 }

@@ -88,7 +88,7 @@ TEST_F(PlayConfig, TheCommandLineGoesBeforeTheFileAndTheFileBeforeTheDefault) {
   EXPECT_EQ(options.haptic, "mock");
   EXPECT_EQ(options.display, "mock");
   EXPECT_EQ(options.player.stereo.strength, 0.5);
-  EXPECT_EQ(options.player.stereo.layout, StereoLayout::SideBySide);
+  EXPECT_EQ(options.player.stereo.layout, StereoLayout::Mono);
   EXPECT_EQ(play(file, {}).player.source.url, "file.mkv");
 }
 

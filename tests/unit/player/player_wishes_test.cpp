@@ -52,6 +52,8 @@ Situation playing() {
   return {.state = PlayerState::Playing,
           .here = mediaTime(20),
           .length = std::chrono::seconds(100),
+          .picture = mediaTime(19.96),
+          .period = std::chrono::milliseconds(40),
           .film = 1,
           .films = 3,
           .film_asked = true};
@@ -90,6 +92,26 @@ TEST(Wishes, AFilmThatRushesStandsAtTheUsualRate) {
   EXPECT_EQ(asked(PlayerVerb::Pause, s), "rate 1, seek 20, stand");
   EXPECT_EQ(asked(PlayerVerb::Step, s), "rate 1, seek 20, stand");
   EXPECT_EQ(asked(PlayerVerb::PlayPause, s), "go on, rate 1, seek 20");
+}
+
+// A seek finds the first picture from its target on: 19.92 s, the one before.
+TEST(Wishes, AStepBackSeeksBetweenTheTwoPicturesBeforeAndStands) {
+  Situation s = playing();
+  EXPECT_EQ(asked(PlayerVerb::StepBack, s), "stand, seek 19.9");
+  s.state = PlayerState::Seeking;
+  EXPECT_EQ(asked(PlayerVerb::StepBack, s), "") << "the picture before is on its way";
+  s = playing();
+  s.rate = 4;
+  EXPECT_EQ(asked(PlayerVerb::StepBack, s), "rate 1, seek 20, stand");
+}
+
+TEST(Wishes, TheUsualSpeedIsOneKeyAway) {
+  Situation s = playing();
+  EXPECT_EQ(asked(PlayerVerb::NormalSpeed, s), "");
+  s.rate = 0.25;
+  EXPECT_EQ(asked(PlayerVerb::NormalSpeed, s), "rate 1");
+  s.rate = 8;
+  EXPECT_EQ(asked(PlayerVerb::NormalSpeed, s), "rate 1, seek 20");
 }
 
 TEST(Wishes, PlayInSlowMotionGoesBackToTheUsualRate) {
