@@ -63,6 +63,7 @@ std::string commandOf(const CLI::App& program) {
 
 std::vector<std::string> namesOf(const std::vector<CLI::App*>& commands) {
   std::vector<std::string> names;
+  names.reserve(commands.size());
   for (const CLI::App* command : commands) names.push_back(command->get_name());
   return names;
 }
@@ -74,9 +75,9 @@ std::string joined(const std::vector<std::string>& words) {
 }
 
 // The given command, its own command, ..
-const CLI::App& innermost(const CLI::App& program) {
-  const auto given = program.get_subcommands();
-  return given.empty() ? program : innermost(*given.back());
+const CLI::App* innermost(const CLI::App* program) {
+  const auto given = program->get_subcommands();
+  return given.empty() ? program : innermost(given.back());
 }
 
 std::vector<std::string> optionsOf(const CLI::App& command) {
@@ -91,7 +92,7 @@ std::vector<std::string> optionsOf(const CLI::App& command) {
 void tellUnexpected(const CLI::App& program, const std::string& word) {
   const std::string option = word.substr(0, word.find('='));
   log(LogLevel::Error, word.c_str(), "%s%s; see %s --help", word.starts_with('-') ? "no such option" : "one too many",
-      meant(option, optionsOf(innermost(program))).c_str(), commandOf(program).c_str());
+      meant(option, optionsOf(*innermost(&program))).c_str(), commandOf(program).c_str());
 }
 
 void tellWrongUse(CLI::App& program, const CLI::ParseError& error) {

@@ -42,6 +42,7 @@ std::optional<std::vector<PlaylistEntry>> filmsIn(const std::string& url) {
   if (!isListOfFilms(names.size(), pictures)) return std::nullopt;
   std::ranges::sort(names, naturalLess);
   std::vector<std::string> depths;
+  depths.reserve(names.size());
   for (const std::string& name : names) depths.push_back(depthOf(name, names));
   std::vector<PlaylistEntry> films;
   for (std::size_t i = 0; i < names.size(); ++i) {

@@ -59,7 +59,7 @@ FrameRate frameRateOf(const StreamInfo& stream, std::vector<MediaTime> times, bo
 std::string rateText(const FrameRate& rate) {
   if (rate.still) return "one picture";
   if (rate.average <= 0) return "rate unknown";
-  const std::string text = print("%.4g frames a second", rate.average);
+  std::string text = print("%.4g frames a second", rate.average);
   if (!rate.varies()) return text;
   return text + print(" on average, variable from %.3g to %.3g", rate.lowest, rate.highest);
 }

@@ -20,7 +20,9 @@ Lens::Lens(const Coefficients& coefficients) noexcept
   bends_ = std::ranges::any_of(c_, [](double value) { return value != 0; });
   if (!bends_) return;
   double r = 0;
-  for (double next = kRadiusStep; next <= kLargestRadius; next += kRadiusStep) {
+  constexpr int kRadii = static_cast<int>(kLargestRadius / kRadiusStep);
+  for (int i = 1; i <= kRadii; ++i) {
+    const double next = i * kRadiusStep;
     const Radial there = radial(next * next);
     const double growth = there.factor + 2 * next * next * there.slope;
     if (!(growth > 0) || !(there.factor > 0) || !std::isfinite(growth)) break;

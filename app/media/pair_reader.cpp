@@ -64,8 +64,8 @@ Result<DepthFollower::Supplied> PairReader::Impl::supplyOwnDepth() {
 
 Result<FramePair> PairReader::Impl::pairFor(Frame color) {
   if (info.packing == Packing::DepthAlone) {
-    Frame gray = depthPicture(color, info.calibration.calibration);
-    return FramePair{std::move(gray), std::move(color), true, {}};
+    Frame shown = depthPicture(color, info.calibration.calibration);
+    return FramePair{std::move(shown), std::move(color), true, {}};
   }
   if (isPacked()) {
     auto halves = splitPacked(color, info.packing, clues.code, gray);

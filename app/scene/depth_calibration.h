@@ -96,13 +96,13 @@ struct CalibrationChoice {
 
 // The settings by layer, highest precedence first.
 struct CalibrationLayers {
-  CalibrationSettings command_line{};
-  CalibrationSettings side_file{};
-  CalibrationSettings stated_kind{};
-  CalibrationSettings tags{};
-  CalibrationSettings beside{};
-  CalibrationSettings names{};
-  CalibrationSettings pictures{};  // read off the first pictures
+  CalibrationSettings command_line;
+  CalibrationSettings side_file;
+  CalibrationSettings stated_kind;
+  CalibrationSettings tags;
+  CalibrationSettings beside;
+  CalibrationSettings names;
+  CalibrationSettings pictures;  // read off the first pictures
 
   struct Layer {
     CalibrationOrigin origin;

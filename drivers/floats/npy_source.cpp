@@ -44,7 +44,7 @@ std::vector<std::uint8_t> beginningOf(int file, std::size_t bytes) {
 
 // A npy file's bytes before its numbers, for one picture of a film.
 std::string headerFor(const npy::Header& h) {
-  std::string text =
+  const std::string text =
       print("{'descr': '%c%c%d', 'fortran_order': %s, 'shape': (%llu, %llu, %llu), }\n", h.type.swapped ? '>' : '<',
             h.type.kind, h.type.bytes, h.fortran ? "True" : "False", static_cast<unsigned long long>(h.rows),
             static_cast<unsigned long long>(h.cols), static_cast<unsigned long long>(h.components));

@@ -45,7 +45,7 @@ constexpr std::array<Encoding, 25> kEncodings{{
 }};
 
 constexpr std::size_t kDepthHeader = 12;  // compressed_depth_image_transport: a format, and two floats
-constexpr const char* kMetres = "1";      // floats are handed over as mm
+constexpr const char* kMetres = "1000";   // mm for a value of 1
 
 bool has(std::string_view text, std::string_view part) {
   return text.find(part) != text.npos;

@@ -232,7 +232,8 @@ TEST_F(PlayerProgram, SaysInOneLineWhatIsWrongWithASource) {
   expectOneLine(play(at("text.mkv")), 1, "text.mkv");
   std::ofstream(at("empty.mkv")).flush();
   expectOneLine(play(at("empty.mkv")), 1, "empty.mkv");
-  expectOneLine(play(at("")), 1, at(""));
+  fs::create_directory(at("none"));
+  expectOneLine(play(at("none")), 1, at("none"));
   test::makeClip(at("film.mkv"), {color(3), depth(3)});
   expectOneLine(play(at("film.mkv") + " --depth " + at("missing.mkv")), 1, "missing.mkv");
   expectOneLine(play(at("film.mkv") + " --depth " + at("text.mkv")), 1, "text.mkv");
@@ -360,8 +361,8 @@ TEST_F(PlayerProgram, ProbeTellsWhatIsInASource) {
   // The tracks are listed whatever is wrong with the film in them.
   const auto refused = test::runProgram("relievo probe --calibration bits=8,near=9000 " + at("film.mkv"), at(""));
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.out, HasSubstr("0 video ffv1 64 x 48 \"color\""));
-  EXPECT_THAT(refused.out, HasSubstr("1 video ffv1 64 x 48 \"depth\""));
+  EXPECT_THAT(refused.out, HasSubstr("0 video ffv1 64 x 48, yuv420p of 8 bits, 30 frames a second \"color\""));
+  EXPECT_THAT(refused.out, HasSubstr("1 video ffv1 64 x 48, gray16le of 16 bits, 30 frames a second \"depth\""));
   EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
 
   test::makeClip(at("flat.mkv"), {color(5)});

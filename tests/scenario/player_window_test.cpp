@@ -120,7 +120,7 @@ TEST_F(PlayerWindow, AFileAloneOpensAWindowOfItsSizeAndTheMouseIsTheFinger) {
   EXPECT_EQ(r["haptic"]["device"], "pointer");
   EXPECT_GT(r["force"]["max_n"].get<double>(), 0.5);
   EXPECT_EQ(textOf("said.txt").find("unit="), std::string::npos) << "a developer's line: " << textOf("said.txt");
-  EXPECT_THAT(textOf("said.txt"), testing::HasSubstr("depth: brighter is nearer"));
+  EXPECT_THAT(textOf("said.txt"), testing::HasSubstr("near bright"));
 }
 
 TEST_F(PlayerWindow, FFillsTheScreenAndEscapeLeavesItButNotTheFilm) {

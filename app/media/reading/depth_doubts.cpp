@@ -39,7 +39,7 @@ struct Relief {
   [[nodiscard]] double quantile(double q) {
     const auto nth = heights.begin() + static_cast<std::ptrdiff_t>(q * (count() - 1));
     std::nth_element(heights.begin(), nth, heights.end());
-    return *nth;
+    return static_cast<double>(*nth);
   }
   [[nodiscard]] double share(double height) const {
     return static_cast<double>(std::count(heights.begin(), heights.end(), static_cast<float>(height))) / count();

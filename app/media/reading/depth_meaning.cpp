@@ -36,7 +36,7 @@ HueSpan takeSpan(CalibrationSettings& settings) {
   const auto take = [&settings](const char* key, double& mm) {
     const auto found = settings.find(key);
     if (found == settings.end()) return;
-    mm = std::atof(found->second.c_str());
+    mm = std::strtod(found->second.c_str(), nullptr);
     settings.erase(found);
   };
   take("near", span.near_mm);

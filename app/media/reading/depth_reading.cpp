@@ -162,7 +162,7 @@ DepthReading readReach(const CodeCount& count, const CalibrationLayers& said, co
     return readInverse(count, *kind, holes);
   }
   if (unit == nullptr || *unit == "none" || says(said, {"near", "far"})) return {};
-  const double unit_mm = std::atof(unit->c_str());
+  const double unit_mm = std::strtod(unit->c_str(), nullptr);
   return readDistances(count, unit_mm, holes,
                        kind != nullptr ? kind->what : print("distances of %g mm a code", unit_mm).c_str());
 }
@@ -194,8 +194,11 @@ const KnownKind* sensorKind(const Frame& depth, const CodeCount& count) {
 DepthReading readCodes(const Frame& depth, const CodeCount& count, const CalibrationLayers& said,
                        const KnownKind* kind) {
   if (definesCodes(said)) {
-    DepthReading reading = says(said, {"unit"}) || kind != nullptr ? readReach(count, said, kind) : DepthReading{};
-    return reading.settings.empty() && depth.model == ColorModel::Yuv ? readShades(depth, count, said) : reading;
+    if (says(said, {"unit"}) || kind != nullptr) {
+      DepthReading reading = readReach(count, said, kind);
+      if (!reading.settings.empty() || depth.model != ColorModel::Yuv) return reading;
+    }
+    return depth.model == ColorModel::Yuv ? readShades(depth, count, said) : DepthReading{};
   }
   if (kind == nullptr || !definesCodes({.pictures = settingsOf(*kind)})) kind = sensorKind(depth, count);
   if (kind == nullptr) return readShades(depth, count, said);

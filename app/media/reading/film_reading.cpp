@@ -75,6 +75,7 @@ std::string plainLine(const FilmReading& reading, const DepthCalibration& c) {
 
 std::vector<std::string> partLines(const FilmReading& reading) {
   std::vector<std::string> lines;
+  lines.reserve(reading.parts.size());
   for (const CalibrationPart& part : reading.parts) {
     lines.push_back(print("%s=%s: %s, %s", part.key.c_str(), part.value.c_str(), name(part.origin),
                           name(certaintyOf(part.origin))));

@@ -158,7 +158,7 @@ RecordingPlace lookAtPlace(const std::string& url, const std::string& depth_url)
   const std::string& depth = depth_url.empty() ? url : depth_url;
   if (depth.find("://") != std::string::npos || depth.starts_with("v4l2:")) return {};
   std::error_code error;
-  fs::path path = fs::absolute(depth, error);
+  const fs::path path = fs::absolute(depth, error);
   if (error) return {};
   const fs::path folder = fs::is_directory(path, error) ? path : path.parent_path();
   if (auto depthkit = lookForDepthkit(path); depthkit.kind != nullptr) return depthkit;

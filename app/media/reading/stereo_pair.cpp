@@ -44,6 +44,10 @@ Reduced reduce(const Frame& f) {
   return reduced;
 }
 
+std::size_t at(int c, int r) {
+  return static_cast<std::size_t>(r) * kCols + static_cast<std::size_t>(c);
+}
+
 struct Moments {
   double mean = 0, deviation = 0;
 };
@@ -51,7 +55,7 @@ Moments momentsOf(const Reduced& a, int c0, int r0) {
   double sum = 0, squares = 0;
   for (int r = r0; r < r0 + kBlock; ++r) {
     for (int c = c0; c < c0 + kBlock; ++c) {
-      const double x = a[static_cast<std::size_t>(r * kCols + c)];
+      const double x = a[at(c, r)];
       sum += x;
       squares += x * x;
     }
@@ -67,7 +71,7 @@ double textureOf(const Reduced& a, int c0, int r0, const Moments& moments) {
   double across = 0, down = 0;
   for (int r = 0; r < kBlock; ++r) {
     for (int c = 0; c < kBlock; ++c) {
-      const double x = a[static_cast<std::size_t>((r0 + r) * kCols + c0 + c)];
+      const double x = a[at(c0 + c, r0 + r)];
       across += (c - kMiddle) * x / kCount;
       down += (r - kMiddle) * x / kCount;
     }
@@ -82,8 +86,7 @@ double correlation(const Reduced& a, int ca, int ra, const Moments& of_a, const 
   double sum = 0;
   for (int r = 0; r < kBlock; ++r) {
     for (int c = 0; c < kBlock; ++c) {
-      sum += (a[static_cast<std::size_t>((ra + r) * kCols + ca + c)] - of_a.mean) *
-             (b[static_cast<std::size_t>((rb + r) * kCols + cb + c)] - of_b.mean);
+      sum += (a[at(ca + c, ra + r)] - of_a.mean) * (b[at(cb + c, rb + r)] - of_b.mean);
     }
   }
   return sum / (kBlock * kBlock) / (of_a.deviation * of_b.deviation);

@@ -123,7 +123,8 @@ constexpr const char* kNoStereo =
 constexpr const char* kNoDuration = "a duration is more than 0 and at most a billion seconds";
 
 constexpr const char* kSourceHelp =
-    "A film, a folder of films or pictures, pictures (\"a/%06d.png\", \"a/*.png\"), associations.txt, a playlist, or an "
+    "A film, a folder of films or pictures, pictures (\"a/%06d.png\", \"a/*.png\"), associations.txt, a playlist, or "
+    "an "
     "address: http, https (HLS as well), rtsp, rtp, udp, tcp; v4l2:DEVICE; mock:, which needs no file";
 
 void addDepthSource(CLI::App& command, SourceOptions& source) {

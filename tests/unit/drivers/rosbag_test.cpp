@@ -259,13 +259,14 @@ TEST_F(RosbagSource, FloatsAreMetres) {
             test::bagImage({.stamp_ns = 5, .cols = 2, .rows = 2, .step = 8, .encoding = "32FC1", .data = data}));
   const auto source = open(bag.finish());
   const auto tags = source->streams()[0].tags;
-  EXPECT_EQ(tags.at("DEPTH_UNIT"), "1");
+  EXPECT_EQ(tags.at("DEPTH_UNIT"), "1000");
   EXPECT_EQ(tags.at("DEPTH_INVALID"), "0");
   const auto frames = framesOf(*source, StreamInfo(source->streams()[0]));
   ASSERT_EQ(frames.size(), 1u);
-  EXPECT_EQ(sample(frames[0], 0, 0), 500u);
+  const double value = frames[0].value_per_code;
+  EXPECT_NEAR(value * sample(frames[0], 0, 0), 0.5, 1e-3);
   EXPECT_EQ(sample(frames[0], 1, 0), 0u);
-  EXPECT_EQ(sample(frames[0], 0, 1), 2250u);
+  EXPECT_NEAR(value * sample(frames[0], 0, 1), 2.2504, 1e-3);
   EXPECT_EQ(sample(frames[0], 1, 1), 0u);
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Azure Kinect's recordings, written element by element: which track is depth, what its codes are, and the registration
 // of its attachment.
-#include <algorithm>
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <fstream>
 

@@ -114,6 +114,8 @@ TEST_F(PlayConfig, EveryOptionCanStandInTheFileAndIsPrintedAsItReadsBack) {
   const std::map<std::string, std::string> samples = {{"source", R"("a \"b\" c.mkv")"},
                                                       {"depth", R"("d.mkv")"},
                                                       {"packing", R"("tb")"},
+                                                      {"as", R"("tum")"},
+                                                      {"fps", "24"},
                                                       {"depth-code", R"("hue")"},
                                                       {"calibration", R"(["near=100", "far=2000"])"},
                                                       {"registration", "\"" + rig + "\""},
