@@ -64,6 +64,7 @@ ColorCurve::ColorCurve(std::span<const std::uint32_t> knots) : closed_(knots.fro
     const float per = 1 / dot(along, along);
     pieces_.push_back({from, along, {along.y * per, along.u * per, along.v * per}});
   }
+  per_piece_ = 1 / static_cast<float>(pieces_.size());
   constexpr float kStep = 1.0F / kSide;
   std::size_t cell = 0;
   for (int y = 0; y < kSide; ++y) {
@@ -106,8 +107,16 @@ ColorCurve::Point ColorCurve::nearest(const YuvColor& color) const RELIEVO_RT {
     k = beside;
     place = there;
   }
-  const float s = (static_cast<float>(k) + std::clamp(place.t, 0.0F, 1.0F)) / static_cast<float>(count);
+  const float s = (static_cast<float>(k) + std::clamp(place.t, 0.0F, 1.0F)) * per_piece_;
   return {s, std::sqrt(place.distance)};
+}
+
+YuvColor ColorCurve::at(double s) const noexcept {
+  const double place = std::clamp(s, 0.0, 1.0) * static_cast<double>(pieces_.size());
+  const std::size_t k = std::min(static_cast<std::size_t>(place), pieces_.size() - 1);
+  const Piece& piece = pieces_[k];
+  const auto t = static_cast<float>(place - static_cast<double>(k));
+  return {piece.from.y + t * piece.along.y, piece.from.u + t * piece.along.u, piece.from.v + t * piece.along.v};
 }
 
 const ColorCurve& curveOf(DepthCode code) {

@@ -32,6 +32,8 @@ class ColorCurve {
   explicit ColorCurve(std::span<const std::uint32_t> knots);
 
   [[nodiscard]] Point nearest(const YuvColor& color) const RELIEVO_RT;
+  // The colour at s, 0 to 1.
+  [[nodiscard]] YuvColor at(double s) const noexcept;
   [[nodiscard]] bool closed() const RELIEVO_RT { return closed_; }
 
  private:
@@ -45,6 +47,7 @@ class ColorCurve {
   [[nodiscard]] Place placeOn(const Piece& piece, const YuvColor& color) const RELIEVO_RT;
 
   std::vector<Piece> pieces_;
+  float per_piece_ = 0;  // of s
   bool closed_ = false;
   std::array<std::uint8_t, kSide * kSide * kSide> nearest_piece_{};
 };
