@@ -195,6 +195,13 @@ void addKindOption(CLI::App& app, SourceOptions& source) {
       ->type_name("KIND");
 }
 
+// The words of --depth-code.
+std::vector<std::pair<std::string, std::optional<DepthCode>>> depthCodes() {
+  std::vector<std::pair<std::string, std::optional<DepthCode>>> words{{"auto", std::nullopt}};
+  for (const DepthCode code : kDepthCodes) words.emplace_back(name(code), code);
+  return words;
+}
+
 }  // namespace
 
 void addDepthOptions(CLI::App& app, SourceOptions& source) {
@@ -212,11 +219,11 @@ void addDepthOptions(CLI::App& app, SourceOptions& source) {
       "--depth;\n"
       "sbs: one picture, colour left, depth right; tb: colour on top, depth below; ..-depth-first: the other way "
       "round");
-  addChoice(app, "--depth-code", source.depth_code,
-            {{"auto", std::nullopt}, {"luma", DepthCode::Luma}, {"hue", DepthCode::Hue}},
+  addChoice(app, "--depth-code", source.depth_code, depthCodes(),
             "How depth is coded\n"
             "auto: hue if half of the picture is pure colour, else luma; luma: as brightness; hue: from red (near) "
-            "through the colours back to red (far)");
+            "through the colours back to red (far), also as RealSense and Record3D write it;\n"
+            "others: colour maps; spectral: from blue to red, kinect: black (no depth), blue, cyan, white");
   app.add_option_function<std::vector<std::string>>(
          "--calibration",
          [&source](const std::vector<std::string>& given) {

@@ -4,6 +4,7 @@
 
 #include "app/media/pair_film.h"
 #include "app/media/reading/code_count.h"
+#include "app/media/reading/color_map_fit.h"
 #include "app/media/reading/depth_doubts.h"
 #include "app/media/reading/depth_reading.h"
 #include "app/media/reading/picture_look.h"
@@ -122,10 +123,14 @@ void PairReader::Impl::lookForHalves(const StreamInfo& color) {
 void PairReader::Impl::lookForCode(const Frame& look) {
   if (clues.code_by != CalibrationOrigin::Default || look.model == ColorModel::Gray) return;
   const PictureLook seen = lookAt(look);
-  if (!isHue(seen) || isRedAlone(seen)) return;
-  clues.code = DepthCode::Hue;
+  if (isRedAlone(seen)) return;
+  const auto map = bestColorMap(look);
+  if (!map && !isHue(seen)) return;
+  clues.code = map ? map->code : DepthCode::Hue;
   clues.code_by = CalibrationOrigin::FirstPicture;
-  clues.why.push_back(print("%.0f %% of the depth is pure colour: read as hue", 100 * seen.vivid));
+  clues.why.push_back(clues.code == DepthCode::Hue
+                          ? print("%.0f %% of the depth is pure colour: read as hue", 100 * seen.vivid)
+                          : print("%.0f %% of the depth lies on the colour map %s", 100 * map->share, name(map->code)));
 }
 
 // The first depth picture, its samples in order; the order may be found out only by looking at it.

@@ -36,6 +36,7 @@ constexpr const char* kUnitIsLuma =
 constexpr const char* kTooManyBits = "calibration has more bits than the depth's samples; leave bits out";
 constexpr const char* kNoSuchCode =
     "calibration has a code (codes, invalid) that the depth's bits cannot hold; give one below 2^bits";
+constexpr std::uint32_t kDarkestKinect = 8;  // a ramp's black (no depth), with what coding adds
 constexpr double kNearestMm = 1e-3, kFarthestMm = 1e9;
 
 std::string_view trim(std::string_view text) {
@@ -206,10 +207,9 @@ Result<CalibrationChoice> chooseCalibration(const CalibrationLayers& layers, con
   const int sample_bits = c.bits = std::max<int>(8, depth_frame.components[0].bits);
   const bool limited_by_nature = depth_frame.model == ColorModel::Yuv && depth_frame.range != ColorRange::Full;
   c.range = limited_by_nature || depth_frame.range == ColorRange::Limited ? ColorRange::Limited : ColorRange::Full;
-  if (code == DepthCode::Hue) {
-    c.polarity = DepthPolarity::NearIsLow;
-    c.range = ColorRange::Full;
-  }
+  if (code != DepthCode::Luma) c.range = ColorRange::Full;
+  if (code == DepthCode::Hue) c.polarity = DepthPolarity::NearIsLow;
+  if (code == DepthCode::Kinect) c.invalid = CodeSet(CodeSet::Range{0, kDarkestKinect});
   const bool signalled = depth_frame.range != ColorRange::Unspecified;
   choice.origin = signalled ? CalibrationOrigin::StreamSignalling : CalibrationOrigin::Default;
 

@@ -21,14 +21,34 @@ enum class DepthLaw : std::uint8_t {
   Inverse,  // Z = 1/(s/near + (1 - s)/far), z = D (far - Z)/(far - near): disparity, near high
 };
 enum class DepthPolarity : std::uint8_t { NearIsHigh, NearIsLow };
-enum class DepthCode : std::uint8_t { Luma, Hue };
+// What a sample's code is: its brightness, its hue, or its place in a colour map.
+enum class DepthCode : std::uint8_t {
+  Luma,
+  Hue,
+  Turbo,
+  Jet,
+  Inferno,
+  Magma,
+  Viridis,
+  Plasma,
+  Rainbow,
+  Spectral,  // from blue to red
+  Kinect     // black (no depth), blue, cyan, white
+};
+inline constexpr std::array kDepthCodes{DepthCode::Luma,    DepthCode::Hue,      DepthCode::Turbo,   DepthCode::Jet,
+                                        DepthCode::Inferno, DepthCode::Magma,    DepthCode::Viridis, DepthCode::Plasma,
+                                        DepthCode::Rainbow, DepthCode::Spectral, DepthCode::Kinect};
+// The word on the command line.
+[[nodiscard]] const char* name(DepthCode code) noexcept;
 
 // s is the normalised code: (code - low)/(high - low) clamped to [0, 1], and 1 minus that if near is low. Full range is
 // 0 .. 2^bits - 1; limited range is 16 .. 235, times 2^(bits - 8); `codes` sets another range. Codes that are
 // distances, `unit_mm` each, span near to far: then near is low, the law is linear and the range is ignored. A hue code
-// is the hue over 360 degrees: s grows with distance, so its polarity is NearIsLow unless stated otherwise.
+// is the hue over 360 degrees: s grows with distance, so its polarity is NearIsLow unless stated otherwise. The code of
+// a colour map is its entry, 0 to 255.
 struct DepthCalibration {
   static constexpr int kHueSteps = 6 * 256;  // a hue code is 0 .. 1535, red, yellow, green, ..
+  static constexpr int kMapHighest = 255;
   DepthLaw law = DepthLaw::Linear;
   DepthPolarity polarity = DepthPolarity::NearIsHigh;
   ColorRange range = ColorRange::Full;

@@ -126,7 +126,7 @@ std::vector<TimedPicture> timed(const PictureFiles& files, const Series& series,
   std::vector<TimedPicture> pictures;
   for (const Valued& each : series) {
     if (each.value < first) continue;
-    const auto ns = std::llround(static_cast<long double>(each.value - first) * period_ns);
+    const auto ns = std::llround(static_cast<long double>(each.value - first) * static_cast<long double>(period_ns));
     pictures.push_back({files.folder + files.names[each.place], Duration(ns)});
   }
   return pictures;
@@ -167,7 +167,7 @@ Recording recordingOf(const FoundPictures& found, std::optional<double> frames_p
   recording.period = counted ? Duration(std::llround(period_ns)) : usualStep(leading);
   if (leading.size() < 2) recording.period = Duration(0);
   if (timing.kind != NameKind::Ranks) {
-    recording.start = Duration(std::llround(static_cast<long double>(first) * period_ns));
+    recording.start = Duration(std::llround(static_cast<long double>(first) * static_cast<long double>(period_ns)));
   }
   recording.numbered = counted;
   recording.notes = std::move(timing.notes);

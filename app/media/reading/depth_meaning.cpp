@@ -60,10 +60,6 @@ HueSpan addKind(const DepthClues& clues, const KnownKind* kind, CalibrationLayer
   return span;
 }
 
-const char* nameOf(DepthCode code) {
-  return code == DepthCode::Hue ? "hue" : "luma";
-}
-
 }  // namespace
 
 const KnownKind* kindOf(const DepthClues& clues, const Frame& stored) {
@@ -84,6 +80,8 @@ Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind,
       read = readHues(look, layers, findKind("record3d"), span);
       read.kind = findKind("record3d");
     }
+  } else if (clues.code != DepthCode::Luma) {
+    read = {};  // an entry of a colour map says nothing of its own
   } else if (look.value_per_code != 0) {
     scaleToCodes(layers, look.value_per_code);
     read = readFloats(look, CodeCount(look), namesDisparity(clues.codec, clues.path), layers);
@@ -102,7 +100,7 @@ Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind,
   DepthMeaning meaning{.calibration = std::move(*choice), .reading = {}};
   FilmReading& reading = meaning.reading;
   reading.parts.push_back({"packing", name(clues.packing), clues.packing_by});
-  reading.parts.push_back({"code", nameOf(clues.code), clues.code_by});
+  reading.parts.push_back({"code", name(clues.code), clues.code_by});
   const bool placed = kind != nullptr && clues.place.kind == kind;
   if (kind == nullptr) kind = read.kind;
   if (kind != nullptr) {

@@ -26,9 +26,12 @@ std::string where(const FilmReading& reading) {
 std::string what(const FilmReading& reading, const DepthCalibration& c) {
   if (const CalibrationPart* const kind = find(reading, "kind")) return kind->value;
   if (c.unit_mm) return print("distances of %g mm a code", *c.unit_mm);
-  const std::string code = c.code == DepthCode::Hue ? "hue" : "brightness";
+  const std::string code = c.code == DepthCode::Luma  ? "brightness"
+                           : c.code == DepthCode::Hue ? "hue"
+                                                      : print("colour map %s", name(c.code));
   const bool near_high = c.polarity == DepthPolarity::NearIsHigh;
   if (c.code == DepthCode::Hue) return code + (near_high ? ", red far" : ", red near");
+  if (c.code != DepthCode::Luma) return code + (near_high ? ", near at its end" : ", near at its beginning");
   return code + (near_high ? ", near bright" : ", near dark");
 }
 

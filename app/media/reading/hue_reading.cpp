@@ -7,7 +7,8 @@
 #include <string_view>
 
 #include "app/media/reading/depth_reading.h"
-#include "app/scene/height_field.h"
+#include "app/scene/color_curve.h"
+#include "app/scene/color_samples.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -15,6 +16,7 @@ namespace {
 
 constexpr int kSteps = DepthCalibration::kHueSteps;
 constexpr int kRed = 32, kBeside = 64;  // steps of hue around red, which coding smears
+constexpr float kOffHues = 0.06F;
 constexpr double kRedShare = 0.005;
 constexpr double kOutliers = 0.01, kNearer = 0.9, kFarther = 1.1;
 
@@ -22,11 +24,15 @@ struct HueCount {
   std::array<std::uint64_t, kSteps + 1> of{};
   std::uint64_t lit = 0;
 
-  explicit HueCount(const HeightField& field) {
-    for (int r = 0; r < field.rows(); ++r) {
-      for (int c = 0; c < field.cols(); ++c) {
-        if (std::isnan(field.heightMm(c, r))) continue;
-        ++of[std::min<std::size_t>(field.code(c, r), kSteps)];
+  // Red counts too, although a relief has holes there.
+  explicit HueCount(const Frame& depth) {
+    const ColorSamples colors(depth);
+    const ColorCurve& curve = curveOf(DepthCode::Hue);
+    for (int r = 0; r < depth.height; ++r) {
+      for (int c = 0; c < depth.width; ++c) {
+        const ColorCurve::Point point = curve.nearest(colors.at(c, r));
+        if (point.distance > kOffHues) continue;
+        ++of[static_cast<std::size_t>(kSteps * point.s)];
         ++lit;
       }
     }
@@ -64,11 +70,8 @@ void readReach(const HueCount& count, HueSpan span, DepthReading& reading) {
 }  // namespace
 
 DepthReading readHues(const Frame& depth, const CalibrationLayers& said, const KnownKind* kind, HueSpan span) {
-  DepthCalibration hue;
-  hue.code = DepthCode::Hue;
-  const auto field = HeightField::make(depth, hue, {.width_mm = 1, .height_mm = 1, .depth_mm = 1});
-  if (!field) return {};
-  const HueCount count(*field);
+  if (depth.model == ColorModel::Gray) return {};
+  const HueCount count(depth);
   const std::uint64_t red = count.red(kRed), beside = count.red(kBeside) - red;
   const bool record3d = kind != nullptr && kind->name == std::string_view("record3d");
   const bool apart = static_cast<double>(red) > kRedShare * static_cast<double>(count.lit) && 10 * beside < red;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/media/reading/code_count.h"
+#include "app/media/reading/color_map_fit.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -86,8 +87,9 @@ bool isRedDepth(const PictureLook& half, const PictureLook& other) noexcept {
   return isRedAlone(half) && other.red <= kPhotoVivid && half.spread >= kLeastSpread;
 }
 
-std::optional<FoundPacking> found(const PictureLook& half, const PictureLook& other, Packing packing,
-                                  const char* where) {
+// Whether `picture`, not the half beside it, is depth.
+std::optional<FoundPacking> found(const Frame& picture, const Frame& beside, Packing packing, const char* where) {
+  const PictureLook half = lookAt(picture), other = lookAt(beside);
   if (isRedDepth(half, other)) {
     return FoundPacking{packing, DepthCode::Luma, GrayFrom::Red,
                         print("%s, in red alone: %.0f %% of that half is shades of red, against %.0f %% of the other",
@@ -97,6 +99,12 @@ std::optional<FoundPacking> found(const PictureLook& half, const PictureLook& ot
     return FoundPacking{packing, DepthCode::Luma, GrayFrom::Luma,
                         print("%s: %.0f %% of that half is gray, against %.0f %% of the other", where, 100 * half.gray,
                               100 * other.gray)};
+  }
+  const auto map = bestColorMap(picture);
+  if (map && map->code != DepthCode::Hue && other.vivid <= kPhotoVivid && !bestColorMap(beside)) {
+    return FoundPacking{
+        packing, map->code, GrayFrom::Luma,
+        print("%s, as colour map %s: %.0f %% of that half lies on it", where, name(map->code), 100 * map->share)};
   }
   if (!isHueDepth(half, other)) return std::nullopt;
   return FoundPacking{packing, DepthCode::Hue, GrayFrom::Luma,
@@ -165,9 +173,8 @@ std::optional<FoundPacking> findPacking(const Frame& picture) {
   for (const auto& way : ways) {
     const auto halves = halvesOf(picture, way.second);
     if (!halves) continue;
-    const PictureLook first = lookAt(halves->first), second = lookAt(halves->second);
-    if (auto is = found(second, first, way.second, way.second_where)) return is;
-    if (auto is = found(first, second, way.first, way.first_where)) return is;
+    if (auto is = found(halves->second, halves->first, way.second, way.second_where)) return is;
+    if (auto is = found(halves->first, halves->second, way.first, way.first_where)) return is;
   }
   return std::nullopt;
 }

@@ -234,7 +234,7 @@ TEST(DepthReading, APhotoBesideAPhotoIsNoDepth) {
 }
 
 // 4:2:0, 8 and 10 bits, with a hue step inside a chroma sample: the mean of two hues is neither of them.
-TEST(DepthReading, HueOverYuvIsReadAndItsMixedEdgesAreHoles) {
+TEST(DepthReading, HueOverYuvIsReadAndItsMixedEdgesAreOneSideOrTheOther) {
   TemporaryFolder folder;
   for (const bool ten : {false, true}) {
     ClipTrack film{.pix_fmt = ten ? "yuv420p10le" : "yuv420p", .width = 64, .height = 48, .frames = 2};
@@ -260,8 +260,7 @@ TEST(DepthReading, HueOverYuvIsReadAndItsMixedEdgesAreHoles) {
     for (int c = 0; c < 64; ++c) {
       const double height = field.heightMm(c, 20);
       if (c / 2 == 16) {
-        EXPECT_TRUE(std::isnan(height) || std::abs(height - 34) < 1 || std::abs(height - 14) < 1)
-            << c << ": " << height;
+        EXPECT_TRUE(std::abs(height - 34) < 1 || std::abs(height - 14) < 1) << c << ": " << height;
       } else {
         EXPECT_NEAR(height, c < 33 ? 34 : 14, 0.3) << c;  // 40 (1 - hue)
       }
