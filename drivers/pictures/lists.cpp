@@ -44,7 +44,7 @@ std::optional<std::vector<ListedPicture>> lineOf(const std::vector<std::string_v
 
 }  // namespace
 
-Result<PictureList> parsePictureList(std::string_view text, int pictures) {
+Result<PictureList> parsePictureList(std::string_view text, std::size_t pictures) {
   PictureList list{.numbers = true, .lines = {}};
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <numeric>
 
 #include "drivers/pictures/layouts.h"
@@ -31,6 +32,7 @@ Series inOrder(const std::vector<std::int64_t>& values) {
 struct Candidate {
   std::int64_t distance = 0;
   std::size_t color = 0, depth = 0;
+  auto operator<=>(const Candidate&) const = default;
 };
 
 // Moves depth to the times of the colour pictures that it belongs to; returns how many do.
@@ -43,7 +45,7 @@ std::size_t moveToNearest(const Series& color, Series& depth) {
       candidates.push_back({std::abs(depth[d].value - color[c].value), c, d});
     }
   }
-  std::ranges::stable_sort(candidates, {}, &Candidate::distance);
+  std::ranges::sort(candidates);
   std::vector<bool> color_used(color.size()), depth_used(depth.size());
   Series moved = depth;
   std::size_t pairs = 0;
