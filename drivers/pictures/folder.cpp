@@ -135,25 +135,32 @@ bool sortByFolder(const std::string& folder, const Listing& listing, FoundPictur
   return !found.color.names.empty() || !found.depth.names.empty();
 }
 
-std::optional<PictureList> readList(const std::string& path, int pictures) {
+std::optional<PictureList> readList(const std::string& path, std::size_t pictures) {
   const auto text = readWholeFile(path, FileSize::Recording, kNoList);
   const auto list = text ? parsePictureList(*text, pictures) : Result<PictureList>(std::unexpected(text.error()));
   return list ? std::optional(*list) : std::nullopt;
 }
 
-// The time of a pair is that of its colour. Of two lines with one time the first counts.
+// Lines in the order of the times in a column. Of two lines with one time the first counts.
+std::map<std::int64_t, std::vector<ListedPicture>> byTime(PictureList list, std::size_t column) {
+  std::map<std::int64_t, std::vector<ListedPicture>> lines;
+  for (auto& line : list.lines) {
+    const std::int64_t time = line[column].value;
+    lines.try_emplace(time, std::move(line));
+  }
+  return lines;
+}
+
+// The time of a pair is that of its colour.
 FoundPictures fromAssociations(const std::string& folder, PictureList list) {
   const std::size_t color = roleOf(list.lines.front().front().name) == Role::Depth ? 1 : 0;
-  std::ranges::stable_sort(list.lines, {}, [color](const auto& line) { return line[color].value; });
   FoundPictures found{.color = {folder, {}}, .depth = {folder, {}}};
   found.listed_numbers = list.numbers;
   found.paired = true;
-  for (auto& line : list.lines) {
-    const std::int64_t value = line[color].value;
-    if (!found.color_values.empty() && found.color_values.back() == value) continue;
+  for (auto& [time, line] : byTime(std::move(list), color)) {
     found.color.names.push_back(std::move(line[color].name));
     found.depth.names.push_back(std::move(line[1 - color].name));
-    found.color_values.push_back(value);
+    found.color_values.push_back(time);
   }
   found.depth_values = found.color_values;
   return found;
@@ -165,12 +172,10 @@ std::optional<FoundPictures> fromTwoLists(const std::string& folder) {
   if (!color || !depth || color->numbers != depth->numbers) return std::nullopt;
   FoundPictures found{.color = {folder, {}}, .depth = {folder, {}}};
   found.listed_numbers = color->numbers;
-  const auto take = [](PictureList list, PictureFiles& files, std::vector<std::int64_t>& values) {
-    std::ranges::stable_sort(list.lines, {}, [](const auto& line) { return line[0].value; });
-    for (auto& line : list.lines) {
-      if (!values.empty() && values.back() == line[0].value) continue;
+  const auto take = [](const PictureList& list, PictureFiles& files, std::vector<std::int64_t>& values) {
+    for (auto& [time, line] : byTime(list, 0)) {
       files.names.push_back(std::move(line[0].name));
-      values.push_back(line[0].value);
+      values.push_back(time);
     }
   };
   take(*color, found.color, found.color_values);

@@ -31,8 +31,8 @@ bool isWhole(std::string_view time) {
   return dot == time.npos || time.find_first_not_of('0', dot + 1) == time.npos;
 }
 
-std::optional<std::vector<ListedPicture>> lineOf(const std::vector<std::string_view>& words, int pictures) {
-  if (words.size() != static_cast<std::size_t>(2 * pictures)) return std::nullopt;
+std::optional<std::vector<ListedPicture>> lineOf(const std::vector<std::string_view>& words, std::size_t pictures) {
+  if (words.size() != 2 * pictures) return std::nullopt;
   std::vector<ListedPicture> line;
   for (std::size_t i = 0; i < words.size(); i += 2) {
     const auto time = nanosecondsIn(words[i]);
@@ -44,7 +44,7 @@ std::optional<std::vector<ListedPicture>> lineOf(const std::vector<std::string_v
 
 }  // namespace
 
-Result<PictureList> parsePictureList(std::string_view text, int pictures) {
+Result<PictureList> parsePictureList(std::string_view text, std::size_t pictures) {
   PictureList list{.numbers = true, .lines = {}};
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());

@@ -2,6 +2,7 @@
 // Text files that name pictures with their times: associations.txt, rgb.txt and depth.txt of the TUM layout.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -22,6 +23,6 @@ struct PictureList {
 
 // Lines of "TIME PICTURE" (`pictures` 1) or "TIME PICTURE TIME PICTURE" (2), parted by blanks, tabs or commas; # begins
 // a comment. Corrupt with the format if a line is anything else, or if there is none; Exhausted beyond a million lines.
-[[nodiscard]] Result<PictureList> parsePictureList(std::string_view text, int pictures);
+[[nodiscard]] Result<PictureList> parsePictureList(std::string_view text, std::size_t pictures);
 
 }  // namespace relievo::pictures

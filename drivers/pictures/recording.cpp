@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <numeric>
 
 #include "drivers/pictures/layouts.h"
@@ -31,6 +32,7 @@ Series inOrder(const std::vector<std::int64_t>& values) {
 struct Candidate {
   std::int64_t distance = 0;
   std::size_t color = 0, depth = 0;
+  auto operator<=>(const Candidate&) const = default;
 };
 
 // Moves depth to the times of the colour pictures that it belongs to; returns how many do.
@@ -43,7 +45,7 @@ std::size_t moveToNearest(const Series& color, Series& depth) {
       candidates.push_back({std::abs(depth[d].value - color[c].value), c, d});
     }
   }
-  std::ranges::stable_sort(candidates, {}, &Candidate::distance);
+  std::ranges::sort(candidates);
   std::vector<bool> color_used(color.size()), depth_used(depth.size());
   Series moved = depth;
   std::size_t pairs = 0;
@@ -126,7 +128,7 @@ std::vector<TimedPicture> timed(const PictureFiles& files, const Series& series,
   std::vector<TimedPicture> pictures;
   for (const Valued& each : series) {
     if (each.value < first) continue;
-    const auto ns = std::llround(static_cast<long double>(each.value - first) * period_ns);
+    const auto ns = std::llround(static_cast<long double>(each.value - first) * static_cast<long double>(period_ns));
     pictures.push_back({files.folder + files.names[each.place], Duration(ns)});
   }
   return pictures;
@@ -167,7 +169,7 @@ Recording recordingOf(const FoundPictures& found, std::optional<double> frames_p
   recording.period = counted ? Duration(std::llround(period_ns)) : usualStep(leading);
   if (leading.size() < 2) recording.period = Duration(0);
   if (timing.kind != NameKind::Ranks) {
-    recording.start = Duration(std::llround(static_cast<long double>(first) * period_ns));
+    recording.start = Duration(std::llround(static_cast<long double>(first) * static_cast<long double>(period_ns)));
   }
   recording.numbered = counted;
   recording.notes = std::move(timing.notes);

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cmath>
+#include <compare>
 #include <filesystem>
 #include <utility>
 
@@ -56,9 +57,10 @@ std::string titleOf(const std::string& url) {
 
 // A picture in the order of reading.
 struct Entry {
+  Duration time{0};
   int stream = 0;
   std::size_t place = 0;
-  Duration time{0};
+  auto operator<=>(const Entry&) const = default;
 };
 
 class PicturesSource final : public MediaSource {
@@ -83,7 +85,7 @@ class PicturesSource final : public MediaSource {
       description.duration = std::max(description.duration, stream->duration);
       description.streams.push_back(std::move(*stream));
     }
-    std::ranges::stable_sort(entries_, {}, &Entry::time);
+    std::ranges::sort(entries_);
     description.notes = recording_.notes;
     if (const std::string title = titleOf(url); !title.empty()) description.tags["TITLE"] = title;
     description.origin.named_start = recording_.start;
@@ -118,7 +120,7 @@ class PicturesSource final : public MediaSource {
   }
 
   void addEntries(const std::vector<TimedPicture>& pictures, int stream) {
-    for (std::size_t i = 0; i < pictures.size(); ++i) entries_.push_back({stream, i, pictures[i].time});
+    for (std::size_t i = 0; i < pictures.size(); ++i) entries_.push_back({pictures[i].time, stream, i});
   }
 
   [[nodiscard]] const std::string& pathOf(const Entry& entry) const {
