@@ -75,7 +75,7 @@ class ProbeAgrees : public testing::Test {
         ++compared;
       }
       if (other.contains("bits_per_raw_sample") && own.contains("bits")) {
-        EXPECT_EQ(std::to_string(own["bits"].get<int>()), other["bits_per_raw_sample"]) << path;
+        EXPECT_EQ(std::to_string(own["bits"].get<int>()), other["bits_per_raw_sample"].get<std::string>()) << path;
       }
       if (other.contains("tags") && other["tags"].contains("language")) {
         EXPECT_EQ(own["language"], other["tags"]["language"]) << path;
