@@ -2,6 +2,10 @@
 // Creates back ends from their names on the command line; the only file that knows all of them.
 #include "drivers/registry.h"
 
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <optional>
 #include <utility>
@@ -10,16 +14,32 @@
 #include "drivers/egl/egl.h"
 #include "drivers/evdev/evdev.h"
 #include "drivers/failover/failover.h"
+#ifdef RELIEVO_EXR
+#include "drivers/exr/exr.h"
+#endif
 #include "drivers/falcon/falcon.h"
+#include "drivers/falcon/link.h"
 #include "drivers/ffmpeg/ffmpeg.h"
+#include "drivers/floats/floats.h"
+#ifdef RELIEVO_HEIF
+#include "drivers/heif/heif.h"
+#endif
 #include "drivers/mock/mock.h"
 #include "drivers/mock/scripted_remote.h"
+#include "drivers/photo/photo.h"
+#include "drivers/pictures/pictures.h"
 #include "drivers/pointer/pointer.h"
 #include "drivers/polhem/polhem.h"
+#include "drivers/polhem/report.h"
 #include "drivers/replay/replay.h"
+#ifdef RELIEVO_ROSBAG
+#include "drivers/rosbag/rosbag.h"
+#endif
 #include "drivers/sim/profiles.h"
+#include "drivers/terminal/joined_remote.h"
 #include "drivers/terminal/terminal.h"
 #include "drivers/tiff/tiff.h"
+#include "drivers/usb/usb_port.h"
 #include "drivers/v4l2/v4l2.h"
 #include "drivers/window/window_remote.h"
 
@@ -70,6 +90,11 @@ DeviceState look(const char* name, HapticDevice& device) {
   return {"haptic", name, opened.has_value(), opened ? "ready" : opened.error().message};
 }
 
+DeviceState windowsMouse(bool desktop) {
+  return {"haptic", "pointer:window", desktop,
+          desktop ? "ready: the mouse over the window" : "there is no desktop to open a window on"};
+}
+
 // The benches of existing mocks. Used on the main thread only.
 std::weak_ptr<MockDisplayBench> display_bench;
 std::weak_ptr<MockHapticBench> haptic_bench;
@@ -89,6 +114,43 @@ Result<void> turn(const std::weak_ptr<Bench>& known, std::atomic<bool> Bench::* 
   *bench.*which = on;
   return {};
 }
+
+Result<StreamInfo> describePicture(const std::string& path) {
+  const auto source = isNpyFile(path) ? makeNpySource() : makeFfmpegSource();
+  if (auto opened = source->open(path); !opened) return std::unexpected(opened.error());
+  for (const StreamInfo& stream : source->streams()) {
+    if (stream.kind == StreamKind::Video) return stream;
+  }
+  return fail(ErrorCode::Corrupt, "is no picture; check the file");
+}
+
+// The project's own reader of the stream's pictures; nullopt if FFmpeg decodes them.
+std::optional<PictureFormat> pictureFormat(const StreamInfo& stream) {
+  if (isFloatTiff(stream)) return kTiff;
+  const PictureFormat formats[] = {
+      kPfm,       kNpy,
+#ifdef RELIEVO_EXR
+      kExr,       kExrColor,
+#endif
+#ifdef RELIEVO_HEIF
+      kHeifColor, kHeifDepth,
+#endif
+  };
+  for (const PictureFormat& format : formats) {
+    if (stream.codec == format.codec) return format;
+  }
+  return std::nullopt;
+}
+
+const PhotoKind kPhotoKinds[] = {
+    kDepthJpeg,
+#ifdef RELIEVO_EXR
+    kExrWithDepth,
+#endif
+#ifdef RELIEVO_HEIF
+    kHeif,
+#endif
+};
 
 std::unexpected<Failure> unknown(const char* option, const BackEndName& name, const char* message) {
   return failOn(option + (" " + name.text()), {ErrorCode::InvalidArgument, 0, message});
@@ -136,7 +198,10 @@ Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(const BackEndName& name,
 Outcome<std::unique_ptr<RemoteInput>> makeRemoteInput(const BackEndName& name, Clock& clock) {
   if (name.plain("evdev")) return makeEvdevRemote();
   if (name.plain("keys")) return makeTerminalRemote();
-  if (name.plain("window")) return makeWindowRemote(theWindow());
+  if (name.plain("window")) {
+    auto keys = makeWindowRemote(theWindow());
+    return terminalIsThere() ? makeJoinedRemote(std::move(keys), makeTerminalRemote()) : std::move(keys);
+  }
   if (name.withArgument("script")) {
     auto keys = loadKeyScript(*name.argument);
     if (!keys) return std::unexpected(keys.error());
@@ -166,17 +231,24 @@ std::unique_ptr<MediaSource> makeMediaSource(const std::string& url) {
   static MonotonicClock clock;
   const BackEndName name(url);
   if (name == kMockFilm) return makeMockSource(mockFilm(), clock);
-  return name.word == "v4l2" && name.argument ? makeV4l2Source() : makeFfmpegSource();
+#ifdef RELIEVO_ROSBAG
+  if (isRosbag(url)) return makeRosbagSource();
+#endif
+  if (name.word == "v4l2" && name.argument) return makeV4l2Source();
+  if (isNpyFile(url)) return makeNpySource();
+  if (isPhoto(url, kPhotoKinds)) return makePhotoSource(kPhotoKinds);
+  return isPictures(url) ? makePicturesSource(describePicture) : makeFfmpegSource();
 }
 
 std::unique_ptr<VideoDecoder> makeSoftwareDecoder(const StreamInfo& stream) {
   if (isMock(stream)) return makeMockDecoder({.max_held_frames = 32});
   if (isV4l2Raw(stream)) return makeV4l2RawDecoder();
-  return isFloatTiff(stream) ? makeTiffDecoder() : makeFfmpegDecoder();
+  const auto format = pictureFormat(stream);
+  return format ? makePictureFileDecoder(*format) : makeFfmpegDecoder();
 }
 
 std::unique_ptr<VideoDecoder> makeVideoDecoder(const StreamInfo& stream) {
-  const bool own = isMock(stream) || isV4l2Raw(stream) || isFloatTiff(stream);
+  const bool own = isMock(stream) || isV4l2Raw(stream) || pictureFormat(stream);
   if (own || lookAtV4l2M2mNodes().empty()) return makeSoftwareDecoder(stream);
   std::vector<std::unique_ptr<VideoDecoder>> decoders;
   decoders.push_back(makeV4l2M2mDecoder());
@@ -206,6 +278,23 @@ Result<void> switchFault(std::string_view device, std::string_view fault) {
   return fail(ErrorCode::InvalidArgument, "no such fault; use haptic unplug|plug|glitch or display unplug|plug");
 }
 
+bool desktopIsThere() {
+  return relievo::desktopIsThere();
+}
+
+bool screenIsThere() {
+  return std::ranges::any_of(lookAtKmsScreens(), &KmsScreen::there);
+}
+
+std::string pluggedHaptic() {
+  if (usbDeviceIsThere(std::array{falcon::kUsbId})) return "falcon";
+  return usbDeviceIsThere(std::array{polhem::kMbedId, polhem::kTeensyId}) ? "polhem" : "";
+}
+
+bool terminalIsThere() {
+  return ::isatty(STDIN_FILENO) == 1;
+}
+
 std::vector<DeviceState> lookAtDevices(const HapticSettings& settings, Clock& clock) {
   std::vector<DeviceState> states;
   for (const KmsScreen& screen : lookAtKmsScreens()) {
@@ -217,10 +306,11 @@ std::vector<DeviceState> lookAtDevices(const HapticSettings& settings, Clock& cl
     states.push_back({"decoder", node.path, true, node.card + ":" + codecs});
   }
   states.push_back(look("window", *makeWindowDisplay(theWindow(), clock)));
-  states.insert(states.end(),
-                {look("alsa", *makeAlsaOutput("default", clock)),
-                 look("falcon", *makeFalcon(falconConfig(settings, std::nullopt), clock)),
-                 look("polhem", *makePolhem({}, clock)), look("pointer", *makePointer(std::string(), clock))});
+  const bool desktop = states.back().there;
+  states.insert(states.end(), {look("alsa", *makeAlsaOutput("default", clock)),
+                               look("falcon", *makeFalcon(falconConfig(settings, std::nullopt), clock)),
+                               look("polhem", *makePolhem({}, clock)),
+                               look("pointer", *makePointer(std::string(), clock)), windowsMouse(desktop)});
   return states;
 }
 

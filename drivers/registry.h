@@ -68,6 +68,12 @@ struct NamedFiles {
 // a list of the faults, for an unknown one; InvalidState if the device is no mock.
 [[nodiscard]] Result<void> switchFault(std::string_view device, std::string_view fault);
 
+// What an option that is not given can take; nothing is opened but the desktop's connection.
+[[nodiscard]] bool desktopIsThere();
+[[nodiscard]] bool screenIsThere();
+[[nodiscard]] std::string pluggedHaptic();  // "falcon", "polhem"; empty without one
+[[nodiscard]] bool terminalIsThere();       // standard input is one
+
 // The state of every device of each kind, determined by opening it; takes seconds for a device that must start up.
 struct DeviceState {
   const char* kind = "";  // display, decoder, audio, haptic

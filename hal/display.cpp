@@ -36,6 +36,18 @@ Result<bool> Display::attend() {
   return attendScreen();
 }
 
+void Display::announce(const AnnouncedFilm& film) {
+  if (state_ == State::Open) nameFilm(film);
+}
+
+void Display::setViews(const SceneViews& views) {
+  if (state_ != State::Closed) showViews(views);
+}
+
+void Display::fillScreen(FullScreen wish) {
+  if (state_ == State::Open) setFullScreen(wish);
+}
+
 void Display::close() noexcept {
   if (state_ == State::Closed) return;
   closeDisplay();

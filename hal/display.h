@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "platform/clock.h"
 #include "platform/error.h"
@@ -33,7 +35,32 @@ struct DisplayConfig {
   int width = 1280;  // requested; DisplaySurface has the actual size
   int height = 720;
   StereoSignal stereo = StereoSignal::None;  // requested; DisplaySurface has the signal that is sent
+  bool film_size = false;                    // a window takes the size of each film instead (see `announce`)
 };
+
+// The film that a window is for.
+struct AnnouncedFilm {
+  std::string title;
+  int width = 0, height = 0;  // of one picture, in square pixels
+  bool operator==(const AnnouncedFilm&) const = default;
+};
+
+// A part of the surface in which one eye sees the scene: what a mouse over a window points at.
+struct SceneView {
+  double left = 0, top = 0, right = 1, bottom = 1;  // shares of the surface's width and height, from its top left
+  double eye_x_mm = 0;                              // x of the eye, scene frame
+  double half_width_mm = 0, half_height_mm = 0;     // of the part, in the screen plane
+  bool operator==(const SceneView&) const = default;
+};
+struct SceneViews {
+  std::vector<SceneView> views;
+  double screen_z_mm = 0;          // of the screen plane, scene frame
+  double viewing_distance_mm = 1;  // from the eyes to the screen plane
+  double depth_mm = 0;             // of the display volume
+  bool operator==(const SceneViews&) const = default;
+};
+
+enum class FullScreen : std::uint8_t { Off, On, Toggle };
 
 // The surface to draw on between beginFrame and present. `framebuffer` is a GL name (0 is a valid one) if the
 // capabilities say gles, else 0. The origin is GL's: bottom left.
@@ -72,6 +99,15 @@ class Display {
   [[nodiscard]] Result<bool> attend();
   void close() noexcept;
 
+  // The rest concerns windows; other displays ignore it, and so does a closed one.
+  // A film begins: the window's title, and its size if the configuration said `film_size`.
+  void announce(const AnnouncedFilm& film);
+  // How the surface shows the scene from now on.
+  void setViews(const SceneViews& views);
+  void fillScreen(FullScreen wish);
+  // The files and addresses that the viewer has dropped on the window since the last call.
+  [[nodiscard]] std::vector<std::string> takeDropped() { return droppedOnIt(); }
+
   [[nodiscard]] State state() const noexcept { return state_; }
   // The same in every state, except for the values known only from `open` on.
   [[nodiscard]] virtual DisplayCapabilities capabilities() const noexcept = 0;
@@ -81,6 +117,10 @@ class Display {
   virtual Result<DisplaySurface> startFrame() = 0;
   virtual Result<Duration> showFrame() = 0;
   virtual Result<bool> attendScreen() { return false; }
+  virtual void nameFilm(const AnnouncedFilm& /*film*/) {}
+  virtual void showViews(const SceneViews& /*views*/) {}
+  virtual void setFullScreen(FullScreen /*wish*/) {}
+  virtual std::vector<std::string> droppedOnIt() { return {}; }
   virtual void closeDisplay() noexcept = 0;
 
   State state_ = State::Closed;

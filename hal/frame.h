@@ -63,8 +63,10 @@ struct Frame {
   ColorMatrix matrix = ColorMatrix::Unspecified;
   std::uint8_t primaries = kUnspecifiedColor;  // ITU-T H.273, 8.1: 9 BT.2020, ..
   std::uint8_t transfer = kUnspecifiedColor;   // likewise, 8.2: 16 PQ, 18 HLG, ..
-  bool interlaced = false;                     // odd and even rows were taken at different times
+  bool interlaced = false;                     // odd and even rows were taken at different times,
+  bool top_field_first = true;                 // even rows (from 0) before odd ones
   double sample_aspect = 1.0;                  // width of a sample over its height
+  double value_per_code = 0;  // of floating-point samples: hal/float_codes.h; 0: codes are all there is
   std::uint8_t chroma_shift_x = 0;
   std::uint8_t chroma_shift_y = 0;
   std::uint8_t plane_count = 0;

@@ -20,6 +20,7 @@ struct HapticCapabilities {
   double continuous_force_n = 0;
   double max_stiffness_n_per_mm = 0;  // stable at rate_hz
   double rate_hz = 1000;
+  bool in_scene = false;  // its frame is the scene's: it points at the picture
 };
 
 struct HapticSample {

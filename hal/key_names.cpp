@@ -6,10 +6,9 @@
 
 #include <algorithm>
 #include <cctype>
-#include <numeric>
 #include <string>
-#include <utility>
-#include <vector>
+
+#include "platform/near_words.h"
 
 namespace relievo {
 namespace {
@@ -154,7 +153,10 @@ constexpr KeyName kKeys[] = {
     RELIEVO_KEY(LEFTBRACE),
     RELIEVO_KEY(RIGHTBRACE),
     RELIEVO_KEY(SLASH),
+    RELIEVO_KEY(QUESTION),
     RELIEVO_KEY(KPENTER),
+    RELIEVO_KEY(KPASTERISK),
+    RELIEVO_KEY(KPSLASH),
     RELIEVO_KEY(KPPLUS),
     RELIEVO_KEY(KPMINUS),
     RELIEVO_KEY(F1),
@@ -195,21 +197,6 @@ std::string essence(std::string_view word) {
   return kept;
 }
 
-// The number of letters to insert, delete or change (Levenshtein 1966).
-std::size_t editDistance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i);
-    for (std::size_t k = 1; k <= b.size(); ++k) {
-      const std::size_t changed = diagonal + (a[i - 1] == b[k - 1] ? 0 : 1);
-      diagonal = row[k];
-      row[k] = std::min({changed, row[k] + 1, row[k - 1] + 1});
-    }
-  }
-  return row.back();
-}
-
 }  // namespace
 
 std::optional<std::uint16_t> keyCode(std::string_view name) noexcept {
@@ -229,7 +216,7 @@ std::string_view keyName(std::uint16_t code) noexcept {
 
 std::string_view nearestKeyName(std::string_view word) {
   const std::string wanted = essence(withoutPrefix(word));
-  std::size_t least = wanted.size() / 3 + 1;  // accepted distances are below this
+  std::size_t least = leastDifference(wanted);
   std::string_view nearest;
   for (const KeyName& key : kKeys) {
     const std::size_t distance = editDistance(wanted, essence(key.name));

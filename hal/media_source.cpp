@@ -14,6 +14,7 @@ Result<void> MediaSource::open(const std::string& url) {
   streams_ = std::move(description->streams);
   tags_ = std::move(description->tags);
   chapters_ = std::move(description->chapters);
+  notes_ = std::move(description->notes);
   duration_ = description->duration;
   origin_ = description->origin;
   times_.begin(origin_.longest_gap);
@@ -57,6 +58,7 @@ void MediaSource::close() noexcept {
   streams_.clear();
   tags_.clear();
   chapters_.clear();
+  notes_.clear();
   duration_ = Duration(0);
   origin_ = {};
   state_ = State::Closed;

@@ -18,6 +18,16 @@ namespace relievo {
 
 enum class StreamKind : std::uint8_t { Video, Audio, Subtitle, Other };
 
+// num / den; unknown if `num` is 0.
+struct Ratio {
+  int num = 0, den = 1;
+  [[nodiscard]] bool known() const noexcept { return num > 0 && den > 0; }
+  friend bool operator==(const Ratio&, const Ratio&) = default;
+};
+
+// Of interlaced video: the field that is coded first, then the one that is shown first.
+enum class FieldOrder : std::uint8_t { Unknown, Progressive, TopTop, BottomBottom, TopBottom, BottomTop };
+
 // One stream, described as far as the container does.
 struct StreamInfo {
   int index = 0;  // the `stream` of its packets
@@ -30,8 +40,15 @@ struct StreamInfo {
   ColorMatrix matrix = ColorMatrix::Unspecified;
   double sample_aspect = 1.0;  // width of a sample over its height
   int rotation = 0;            // clockwise quarter turns, 0 to 3, that make its pictures upright
-  int sample_rate_hz = 0;      // of sound
+  std::string pixel_format;    // FFmpeg's name: "yuv420p", "gray16le", ..; rows of codec "rawvideo" have no padding
+  int bits = 0;                // of a sample
+  std::uint8_t primaries = kUnspecifiedColor, transfer = kUnspecifiedColor;  // as in a Frame
+  FieldOrder fields = FieldOrder::Unknown;
+  Ratio average_rate;      // frames per second over the whole stream
+  Ratio base_rate;         // the lowest rate whose period divides every step of the timestamps, as far as it was read
+  int sample_rate_hz = 0;  // of sound
   int channels = 0;
+  std::string channel_layout;               // "stereo", "5.1", ..
   Duration frame_period{0};                 // the container's hint; the true one comes from the timestamps
   Duration duration{0};                     // 0 if unknown
   std::map<std::string, std::string> tags;  // upper-case keys: TITLE, HANDLER_NAME, DEPTH_NEAR, ..
@@ -42,7 +59,7 @@ struct StreamInfo {
 };
 
 struct Chapter {
-  MediaTime begin;
+  Duration begin{0}, end{0};  // media times
   std::string title;
 };
 
@@ -69,6 +86,8 @@ class MediaSource {
   enum class State : std::uint8_t { Closed, Open, Ended };
   virtual ~MediaSource() = default;
 
+  // The frames per second of pictures that have numbers but no times; nullopt: the back end's default. Before `open`.
+  void setPictureRate(std::optional<double> frames_per_s) noexcept { picture_rate_ = frames_per_s; }
   // NotFound, PermissionDenied, Unsupported (protocol), Corrupt (not media), Timeout, Cancelled. Closed only.
   [[nodiscard]] Result<void> open(const std::string& url);
   // The next packet of any stream, in the container's order; nullopt at the end. A truncated file ends like a whole one
@@ -87,8 +106,10 @@ class MediaSource {
   [[nodiscard]] const std::vector<StreamInfo>& streams() const noexcept { return streams_; }
   // Container tags, upper-case keys. Empty while Closed.
   [[nodiscard]] const std::map<std::string, std::string>& tags() const noexcept { return tags_; }
-  // In order of time. Empty while Closed.
+  // Empty while Closed, or if the container has none.
   [[nodiscard]] const std::vector<Chapter>& chapters() const noexcept { return chapters_; }
+  // What the source found out about itself and a user may want to know, one line each. Empty while Closed.
+  [[nodiscard]] const std::vector<std::string>& notes() const noexcept { return notes_; }
   // Of the whole film; 0 if unknown (live).
   [[nodiscard]] Duration duration() const noexcept { return duration_; }
   // True for a network source or a camera, which may go away and come back.
@@ -99,6 +120,8 @@ class MediaSource {
   // when the picture was taken); on the sender's own, nullopt if the container does not have it.
   [[nodiscard]] MonotonicTime arrival() const noexcept { return origin_.arrival; }
   [[nodiscard]] std::optional<Duration> senderStart() const noexcept { return origin_.sender_start; }
+  // Media time 0 of pictures on the clock or the count that their names are from, which another source may share.
+  [[nodiscard]] std::optional<Duration> namedStart() const noexcept { return origin_.named_start; }
   // The number of jumps of its times since construction.
   [[nodiscard]] std::uint64_t jumps() const noexcept { return times_.jumps(); }
   // Pictures that were taken but never arrived, as far as the source knows (a camera numbers them), since
@@ -114,14 +137,17 @@ class MediaSource {
     Duration longest_gap{0};  // see ContinuousTime
     MonotonicTime arrival;
     std::optional<Duration> sender_start;
+    std::optional<Duration> named_start;
   };
   struct Description {
     std::vector<StreamInfo> streams;
     std::map<std::string, std::string> tags;
-    std::vector<Chapter> chapters;
     Duration duration{0};
     Origin origin;
+    std::vector<Chapter> chapters;
+    std::vector<std::string> notes;
   };
+  [[nodiscard]] std::optional<double> pictureRate() const noexcept { return picture_rate_; }
   void countMissed(std::uint64_t pictures) noexcept { missed_ += pictures; }
 
  private:
@@ -137,6 +163,8 @@ class MediaSource {
   std::vector<StreamInfo> streams_;
   std::map<std::string, std::string> tags_;
   std::vector<Chapter> chapters_;
+  std::vector<std::string> notes_;
+  std::optional<double> picture_rate_;
   Duration duration_{0};
   Origin origin_;
   ContinuousTime times_;

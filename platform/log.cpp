@@ -26,6 +26,8 @@ struct AreaLevel {
 };
 std::array<AreaLevel, kLogAreas.size()> of_area;
 std::atomic<const char*> program{"relievo"};
+std::atomic<bool> status_shown{false};
+constexpr const char* kEraseLine = "\r\033[K";
 
 std::atomic<LogLevel>* levelOf(std::string_view area) noexcept {
   const auto* const found = std::ranges::find(kLogAreas, area);
@@ -106,15 +108,24 @@ void log(LogLevel level, const char* area, const char* format, ...) noexcept {
   char line[kLineBytes];
   constexpr std::size_t kRoom = sizeof line - 1;  // the last byte is the newline's
   const char* const name = program.load(std::memory_order_relaxed);
-  std::size_t length = filled(std::snprintf(line, kRoom, "%s%s: %s: ", priority(level), name, area), kRoom);
+  const char* const erase = status_shown.exchange(false) ? kEraseLine : "";
+  const std::size_t before = std::strlen(erase);
+  std::size_t length = filled(std::snprintf(line, kRoom, "%s%s%s: %s: ", erase, priority(level), name, area), kRoom);
   va_list arguments;
   va_start(arguments, format);
   length += filled(std::vsnprintf(line + length, kRoom - length, format, arguments), kRoom - length);
   va_end(arguments);
-  length = makeOneLine(line, length);
+  length = before + makeOneLine(line + before, length - before);
   line[length++] = '\n';
   writeAll(line, length);
   errno = kept_errno;
+}
+
+void showStatusLine(std::string_view text) noexcept {
+  if (!status_shown.exchange(!text.empty()) && text.empty()) return;
+  char line[kLineBytes];
+  const int wanted = std::snprintf(line, sizeof line, "%s%.*s", kEraseLine, static_cast<int>(text.size()), text.data());
+  writeAll(line, filled(wanted, sizeof line));
 }
 
 void RingLog::drain() noexcept {

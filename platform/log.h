@@ -36,6 +36,10 @@ void setLogProgram(const char* name) noexcept;
 // Prints one line "PROGRAM: area: text". Thread-safe, not real-time safe.
 [[gnu::format(printf, 3, 4)]] void log(LogLevel level, const char* area, const char* format, ...) noexcept;
 
+// A line at the foot of a terminal, without a line break: the next call overwrites it, and so does a line of the log,
+// which then stands above the next one. `text` empty: removes it. One thread.
+void showStatusLine(std::string_view text) noexcept;
+
 // One record from the real-time thread, which does no formatting: a string literal and up to two numbers. It is printed
 // as "text a b"; a number that is NaN is left out.
 struct LogRecord {

@@ -40,9 +40,11 @@ struct AuthorSummary {
   Duration frame_period{0};
   DepthCoder::Counts codes;
   std::optional<Enhancement> enhancement;
-  EnhancementSummary enhanced;     // if it was enhanced
-  std::vector<std::string> kept;   // sound, subtitles, chapters; see KeptTracks
-  std::vector<std::string> notes;  // what was done to the pictures
+  EnhancementSummary enhanced;            // if it was enhanced
+  std::vector<std::string> kept;          // sound, subtitles, chapters; see KeptTracks
+  std::string read_as;                    // what the source's depth means, for a person; empty for the sample film
+  std::vector<std::string> read_because;  // why, and what else it may be
+  std::vector<std::string> notes;         // what was done to the pictures
 };
 
 // Called after every colour picture with the number done and, if known, the total.

@@ -49,10 +49,7 @@ void addSourceOptions(CLI::App& app, SourceOptions& source) {
                  "Colour: a file, a URL, v4l2:DEVICE; without --depth it must also hold the depth")
       ->type_name("SRC");
   app.add_option("--depth", source.depth_url, "Depth of 8 to 16 bits: a file or a URL")->type_name("SRC");
-  app.add_option("--fps", source.frames_per_s,
-                 "Frames per second of pictures without timestamps, such as numbered files [25]")
-      ->type_name("F")
-      ->check(between(0.01, 10000.0));
+  addRateOption(app, source);
 }
 
 // Quality of both tracks, and of the depth alone.
@@ -105,6 +102,7 @@ void addSceneOption(CLI::App& app, std::string& scene) {
       ->check(CLI::IsMember({"sample"}).description(""))
       ->excludes("--color")
       ->excludes("--depth")
+      ->excludes("--as")
       ->excludes("--packing")
       ->excludes("--depth-code")
       ->excludes("--calibration")

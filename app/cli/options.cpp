@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -41,7 +42,7 @@ void readCalibration(const std::string& word, SourceOptions& source) {
     source.named_files.push_back(word);
     return;
   }
-  const auto settings = parseCalibration(word);
+  const auto settings = parseCalibration(inSmallLetters(word));
   if (!settings) throw WordFailure({thing, settings.error()});
   for (const auto& [key, value] : *settings) source.command_line[key] = value;  // overrides earlier ones
 }
@@ -60,30 +61,84 @@ std::string commandOf(const CLI::App& program) {
   return command;
 }
 
-// For an unknown command CLI11 only says that a command is required; this names the mistake.
-void tellWrongUse(CLI::App& program, const CLI::ParseError& error) {
-  std::string commands;
-  for (const CLI::App* known : program.get_subcommands([](const CLI::App*) { return true; })) {
-    commands += (commands.empty() ? "" : ", ") + known->get_name();
+std::vector<std::string> namesOf(const std::vector<CLI::App*>& commands) {
+  std::vector<std::string> names;
+  names.reserve(commands.size());
+  for (const CLI::App* command : commands) names.push_back(command->get_name());
+  return names;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+// The given command, its own command, ..
+const CLI::App* innermost(const CLI::App* program) {
+  const auto given = program->get_subcommands();
+  return given.empty() ? program : innermost(given.back());
+}
+
+std::vector<std::string> optionsOf(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options([](const CLI::Option*) { return true; })) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   }
-  if (commands.empty() || !program.get_subcommands().empty()) {
+  return names;
+}
+
+// CLI11 says that an argument "was not expected"; this names what was meant, too.
+void tellUnexpected(const CLI::App& program, const std::string& word) {
+  const std::string option = word.substr(0, word.find('='));
+  log(LogLevel::Error, word.c_str(), "%s%s; see %s --help", word.starts_with('-') ? "no such option" : "one too many",
+      meant(option, optionsOf(*innermost(&program))).c_str(), commandOf(program).c_str());
+}
+
+void tellWrongUse(CLI::App& program, const CLI::ParseError& error) {
+  const auto commands = namesOf(program.get_subcommands([](const CLI::App*) { return true; }));
+  const auto words = program.remaining(true);
+  const bool known = commands.empty() || !program.get_subcommands().empty();
+  if (known && !words.empty() && dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+    tellUnexpected(program, words.front());
+  } else if (known) {
     log(LogLevel::Error, "usage error", "%s; see %s --help", error.what(), commandOf(program).c_str());
-  } else if (const auto words = program.remaining(); !words.empty()) {
-    log(LogLevel::Error, words.front().c_str(), "unknown command; use one of %s; see %s --help", commands.c_str(),
-        program.get_name().c_str());
+  } else if (!words.empty()) {
+    log(LogLevel::Error, words.front().c_str(), "unknown command%s; use one of %s; see %s --help",
+        meant(words.front(), commands).c_str(), joined(commands).c_str(), program.get_name().c_str());
   } else {
-    log(LogLevel::Error, "usage error", "missing command; use one of %s; see %s --help", commands.c_str(),
+    log(LogLevel::Error, "usage error", "missing command; use one of %s; see %s --help", joined(commands).c_str(),
         program.get_name().c_str());
   }
 }
+
+// Thrown by --as help.
+struct KindsAsked final : std::exception {};
 
 // Prints an option as "--packing auto|tracks|sbs|tb     Where the depth is [auto]".
 class Help final : public CLI::Formatter {
  public:
   using CLI::Formatter::Formatter;
 
+  std::string make_description(const CLI::App* app) const override {
+    const std::string text = app->get_description();
+    return text.substr(0, text.find('\n')) + "\n";
+  }
+  std::string make_usage(const CLI::App* app, std::string name) const override {
+    const std::string text = app->get_description();
+    const std::size_t end = text.find('\n');
+    return CLI::Formatter::make_usage(app, std::move(name)) +
+           (end == std::string::npos ? "" : text.substr(end + 1) + "\n");
+  }
+  std::string make_subcommand(const CLI::App* command) const override {
+    std::stringstream out;
+    const std::string text = command->get_description();
+    CLI::detail::format_help(out, command->get_name(), text.substr(0, text.find('\n')), get_column_width());
+    return out.str();
+  }
   std::string make_option_opts(const CLI::Option* option) const override {
-    const std::string type = option->get_type_size() == 0 ? "" : option->get_type_name();
+    const bool named = option->get_type_size() != 0 && option->get_type_name() != " ";
+    const std::string type = named ? option->get_type_name() : "";
     const bool many = option->get_expected_max() == CLI::detail::expected_max_vector_size;
     return (type.empty() ? "" : " " + type) + (many ? " ..." : "") +
            (option->get_required() ? " " + get_label("REQUIRED") : "");
@@ -97,12 +152,18 @@ class Help final : public CLI::Formatter {
   }
 };
 
-void setHelp(CLI::App& app) {
+void setHelp(CLI::App& app, const std::string& version) {
   app.formatter(std::make_shared<Help>());
-  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) setHelp(*command);
+  app.set_version_flag("-V,--version", version, "Print the version and exit")->configurable(false);
+  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) setHelp(*command, version);
 }
 
 }  // namespace
+
+std::string meant(std::string_view wanted, std::span<const std::string> words) {
+  const std::string near = nearestWord(wanted, words);
+  return near.empty() ? "" : "; did you mean " + near + "?";
+}
 
 bool parseSizes(std::string_view text, std::span<double> sizes) noexcept {
   const char* at = text.data();
@@ -119,7 +180,32 @@ bool parseSizes(std::string_view text, std::span<double> sizes) noexcept {
   return at == end;
 }
 
+namespace {
+
+void addKindOption(CLI::App& app, SourceOptions& source) {
+  app.add_option_function<std::string>(
+         "--as",
+         [&source](const std::string& word) {
+           if (word == "help") throw KindsAsked();
+           source.as = findKind(word);
+           if (source.as == nullptr) throw CLI::ValidationError("--as " + word, "unknown kind; see --as help");
+         },
+         "Kind of recording, where it is not recognised: tum, kitti, sun, record3d, ..; --as help lists them\n"
+         "Sets packing, code and calibration at once; --packing, --depth-code and --calibration override it")
+      ->type_name("KIND");
+}
+
+// The words of --depth-code.
+std::vector<std::pair<std::string, std::optional<DepthCode>>> depthCodes() {
+  std::vector<std::pair<std::string, std::optional<DepthCode>>> words{{"auto", std::nullopt}};
+  for (const DepthCode code : kDepthCodes) words.emplace_back(name(code), code);
+  return words;
+}
+
+}  // namespace
+
 void addDepthOptions(CLI::App& app, SourceOptions& source) {
+  addKindOption(app, source);
   addChoice(
       app, "--packing", source.packing,
       {{"auto", Packing::Auto},
@@ -133,11 +219,11 @@ void addDepthOptions(CLI::App& app, SourceOptions& source) {
       "--depth;\n"
       "sbs: one picture, colour left, depth right; tb: colour on top, depth below; ..-depth-first: the other way "
       "round");
-  addChoice(app, "--depth-code", source.depth_code,
-            {{"auto", std::nullopt}, {"luma", DepthCode::Luma}, {"hue", DepthCode::Hue}},
+  addChoice(app, "--depth-code", source.depth_code, depthCodes(),
             "How depth is coded\n"
             "auto: hue if half of the picture is pure colour, else luma; luma: as brightness; hue: from red (near) "
-            "through the colours back to red (far)");
+            "through the colours back to red (far), also as RealSense and Record3D write it;\n"
+            "others: colour maps; spectral: from blue to red, kinect: black (no depth), blue, cyan, white");
   app.add_option_function<std::vector<std::string>>(
          "--calibration",
          [&source](const std::vector<std::string>& given) {
@@ -162,6 +248,14 @@ void addDepthOptions(CLI::App& app, SourceOptions& source) {
       ->type_name("FILE.toml");
 }
 
+void addRateOption(CLI::App& app, SourceOptions& source) {
+  app.add_option("--fps", source.frames_per_s,
+                 "Frames per second of pictures that have numbers but no times [25; 30 if colour and depth are in one "
+                 "folder]")
+      ->type_name("F")
+      ->check(between(0.01, 10000.0));
+}
+
 void addBoxOption(CLI::App& app, std::optional<DisplayVolume>& volume) {
   app.add_option_function<std::string>(
          "--box",
@@ -177,11 +271,13 @@ void addBoxOption(CLI::App& app, std::optional<DisplayVolume>& volume) {
 }
 
 std::expected<void, int> parseCommandLine(CLI::App& program, int argc, const char* const* argv) {
-  program.set_version_flag("--version", program.get_name() + " " RELIEVO_VERSION, "Print the version and exit");
-  setHelp(program);
+  setHelp(program, program.get_name() + " " RELIEVO_VERSION);
   try {
     program.parse(argc, argv);
     return {};
+  } catch (const KindsAsked&) {
+    std::fputs(kindsText().c_str(), stdout);
+    return std::unexpected(kExitDone);
   } catch (const WordFailure& failure) {
     return std::unexpected(tell(failure));
   } catch (const CLI::ParseError& error) {

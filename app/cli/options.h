@@ -16,6 +16,7 @@
 #include "app/media/pair_reader.h"
 #include "app/scene/display_volume.h"
 #include "platform/failure.h"
+#include "platform/near_words.h"
 
 namespace relievo {
 
@@ -27,22 +28,28 @@ struct WordFailure final : std::exception, Failure {
 // Parses "160x90x40" into as many positive, finite numbers as `sizes` holds; false for anything else.
 [[nodiscard]] bool parseSizes(std::string_view text, std::span<double> sizes) noexcept;
 
-// Adds an option that takes one of a few words. `value` must outlive the parsing and holds the default.
+// "; did you mean NEAR?" if one of the words is near, else "".
+[[nodiscard]] std::string meant(std::string_view wanted, std::span<const std::string> words);
+
+// Adds an option that takes one of a few words, in small or capital letters. `value` must outlive the parsing and holds
+// the default.
 template <class T>
 CLI::Option* addChoice(CLI::App& app, const char* option, T& value,
                        std::vector<std::pair<std::string, std::type_identity_t<T>>> choices, const char* help) {
   std::string words, usual;
+  std::vector<std::string> all;
   for (const auto& choice : choices) {
     words += (words.empty() ? "" : "|") + choice.first;
+    all.push_back(choice.first);
     if (choice.second == value) usual = choice.first;
   }
-  const auto choose = [&value, option, choices = std::move(choices), words](const std::string& word) {
+  const auto choose = [&value, option, choices = std::move(choices), words, all](const std::string& word) {
     for (const auto& [known, meaning] : choices) {
-      if (word != known) continue;
+      if (inSmallLetters(word) != known) continue;
       value = meaning;
       return;
     }
-    throw CLI::ValidationError(option + (" " + word), "use one of " + words);
+    throw CLI::ValidationError(option + (" " + word), "use one of " + words + meant(word, all));
   };
   return app.add_option_function<std::string>(option, choose, help)->type_name(words)->default_str(usual);
 }
@@ -50,14 +57,17 @@ CLI::Option* addChoice(CLI::App& app, const char* option, T& value,
 // For CLI11's `check`: a number within bounds. Unlike CLI::Range it rejects NaN.
 [[nodiscard]] CLI::Validator between(double low, double high);
 
-// Adds --packing, --depth-code, --registration and --calibration, which may be repeated: a later value of a key
+// Adds --as, --packing, --depth-code, --registration and --calibration, which may be repeated: a later value of a key
 // overrides an earlier one.
 void addDepthOptions(CLI::App& app, SourceOptions& source);
+// Adds --fps.
+void addRateOption(CLI::App& app, SourceOptions& source);
 // Adds --box.
 void addBoxOption(CLI::App& app, std::optional<DisplayVolume>& volume);
 
-// Parses the command line. Adds --version; the help shows an option's default after the first line of its text. After a
-// usage error, --help or --version it has printed everything and returns the exit code.
+// Parses the command line. Adds --version, to every command; the help shows an option's default after the first line of
+// its text, and the first line of a description before the usage, the others after it. After a usage error, --help or
+// --version it has printed everything and returns the exit code.
 [[nodiscard]] std::expected<void, int> parseCommandLine(CLI::App& program, int argc, const char* const* argv);
 
 }  // namespace relievo

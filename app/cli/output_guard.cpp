@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kDeepest = 4;
-constexpr std::size_t kMostFiles = 10'000;
+constexpr std::size_t kMostFiles = 200'000;
 
 using Inode = std::pair<dev_t, ino_t>;
 std::optional<Inode> inodeOf(const std::string& path) {
@@ -64,9 +64,13 @@ bool isOf(const Numbered& series, const std::string& name) {
   return std::all_of(digits.begin(), digits.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
+fs::path folderOf(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : ".";
+}
+
 void addSeries(const fs::path& folder, const Numbered& series, std::vector<std::string>& files) {
   std::error_code failed;
-  for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, failed)) {
+  for (const auto& entry : fs::directory_iterator(folder, failed)) {
     if (files.size() >= kMostFiles) return;
     if (isOf(series, entry.path().filename().string())) files.push_back(entry.path().string());
   }
@@ -98,11 +102,23 @@ void addNamed(std::string line, const fs::path& folder, int depth, std::vector<s
   }
 }
 
+// A folder of pictures, and its folders of colour and depth.
+void addFolder(const fs::path& folder, int depth, std::vector<std::string>& files) {
+  std::error_code failed;
+  if (depth >= 2 || !fs::is_directory(folder, failed)) return;
+  for (const auto& entry : fs::directory_iterator(folder, failed)) {
+    if (files.size() >= kMostFiles) return;
+    files.push_back(entry.path().string());
+    addFolder(entry.path(), depth + 1, files);
+  }
+}
+
 void addFiles(const std::string& address, int depth, std::vector<std::string>& files) {
   const std::string path = pathIn(address);
   if (path.empty() || files.size() >= kMostFiles) return;
   if (inodeOf(path)) {
     files.push_back(path);
+    addFolder(path, depth, files);
     if (depth == kDeepest || !isList(path)) return;
     const auto text = readWholeFile(path, FileSize::Settings, "");
     for (std::size_t at = 0; text && at < text->size();) {
@@ -113,7 +129,8 @@ void addFiles(const std::string& address, int depth, std::vector<std::string>& f
     return;
   }
   const fs::path name(path);
-  if (const auto series = numbered(name.filename().string())) addSeries(name.parent_path(), *series, files);
+  if (name.filename().string().find_first_of("*?") != std::string::npos) addFolder(folderOf(name), 1, files);
+  if (const auto series = numbered(name.filename().string())) addSeries(folderOf(name), *series, files);
 }
 
 std::unexpected<Failure> refuse(const std::string& output, const char* why) {

@@ -34,6 +34,7 @@ Result<void> DepthSource::open(const std::string& url) {
   const MediaSource& source = reader_->source();
   stream_ = *findDepthTrack(source);
   tags_ = source.tags();
+  notes_ = source.notes();
   tried_again_ = source.remote() && backends_.clock != nullptr;
   if (tried_again_ && backends_.own_threads) thread_ = std::thread([this] { threadMain(); });
   return {};
@@ -47,7 +48,7 @@ Result<void> DepthSource::connect() {
     reader_.swap(reader);
   }
   reader.reset();
-  if (auto opened = reader_->open(url_); !opened) return opened;
+  if (auto opened = reader_->open(url_, frames_per_s_); !opened) return opened;
   const MediaSource& source = reader_->source();
   const StreamInfo* const stream = findDepthTrack(source);
   if (stream == nullptr) return fail(ErrorCode::NotFound, "there is no video in it");
@@ -58,7 +59,8 @@ Result<void> DepthSource::connect() {
   track_ = *track;
   decoder_ = reader_->decoder(track_);
   const std::scoped_lock lock(mutex_);
-  session_ = {session_.number + 1, source.live(), source.arrival(), source.senderStart()};
+  session_ = {session_.number + 1,  source.live(),       source.arrival(),
+              source.senderStart(), source.namedStart(), source.duration()};
   return {};
 }
 
@@ -197,6 +199,7 @@ void DepthSource::lose(const Error& error) {
 
 void DepthSource::count() {
   counters_.damaged = before_.damaged + reader_->damaged();
+  counters_.deinterlaced = before_.deinterlaced + reader_->deinterlaced();
   counters_.jumps = before_.jumps + reader_->source().jumps();
   counters_.missed_pictures = before_.missed_pictures + reader_->source().missedPictures();
   counters_.missing = reader_->source().missing();

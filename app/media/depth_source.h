@@ -32,6 +32,8 @@ class DepthSource {
     bool live = false;
     MonotonicTime arrival;                 // MediaSource::arrival
     std::optional<Duration> sender_start;  // MediaSource::senderStart
+    std::optional<Duration> named_start;   // MediaSource::namedStart
+    Duration duration{0};                  // MediaSource::duration
   };
   struct Given {
     Frame frame;  // with the session's own timestamp; empty: none
@@ -52,6 +54,7 @@ class DepthSource {
   // Valid after `open`.
   [[nodiscard]] const StreamInfo& stream() const noexcept { return stream_; }
   [[nodiscard]] const std::map<std::string, std::string>& tags() const noexcept { return tags_; }
+  [[nodiscard]] const std::vector<std::string>& notes() const noexcept { return notes_; }
 
   // The next picture in order. An error means that the source will not be retried.
   [[nodiscard]] Result<Given> next();
@@ -62,7 +65,7 @@ class DepthSource {
   // Why the source is lost, while it is being retried.
   [[nodiscard]] std::optional<Error> loss() const;
   struct Counters {
-    std::uint64_t damaged = 0, jumps = 0, missed_pictures = 0, reconnects = 0;
+    std::uint64_t damaged = 0, deinterlaced = 0, jumps = 0, missed_pictures = 0, reconnects = 0;
     Duration missing{0};
   };
   [[nodiscard]] Counters counters() const;
@@ -86,6 +89,7 @@ class DepthSource {
   StreamInfo stream_;
   std::string decoder_;
   std::map<std::string, std::string> tags_;
+  std::vector<std::string> notes_;
   bool tried_again_ = false;  // whether a lost source is reopened
 
   // Used only by the side that reads: the thread if there is one.

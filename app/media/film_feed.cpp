@@ -5,6 +5,8 @@
 #include <chrono>
 #include <utility>
 
+#include "app/media/film_folder.h"
+
 namespace relievo {
 
 FilmFeed::FilmFeed(PairReader::Backends backends, std::size_t capacity)
@@ -262,6 +264,7 @@ void FilmFeed::takeWords(std::deque<Subtitle> words) {
 // Returns nullopt if the URL is not a playlist.
 Outcome<std::optional<std::vector<PlaylistEntry>>> FilmFeed::readList(const std::string& url) {
   constexpr std::size_t kMostBytes = std::size_t{4} << 20;
+  if (auto films = filmsIn(url)) return films;
   if (!backends_.read_text || !mayBePlaylist(url)) return std::nullopt;
   const auto text = backends_.read_text(url, kMostBytes, interrupted_);
   if (!text) return failOn(url, text.error());

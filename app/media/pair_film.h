@@ -12,6 +12,8 @@
 #include "app/media/depth_follower.h"
 #include "app/media/depth_source.h"
 #include "app/media/pair_reader.h"
+#include "app/media/reading/code_count.h"
+#include "app/media/reading/depth_meaning.h"
 #include "app/media/track_reader.h"
 
 namespace relievo {
@@ -31,8 +33,18 @@ struct PairReader::Impl {
   void readWordsOf(const std::string& path);
   [[nodiscard]] const StreamInfo* streamOf(const FilmTrack& track) const;
   void countTracks(const TrackPlan& plan);
-  Result<void> describeDepth(const Frame& first, const StreamInfo& stream,
-                             const std::map<std::string, std::string>& tags);
+  // In pair_reading.cpp: what the depth means.
+  void lookAround();
+  Result<TrackPlan> planFilm();
+  void lookForRegistration(const StreamInfo& color);
+  void lookForHalves(const StreamInfo& color);
+  void lookForCode(const Frame& first);
+  Result<const Frame*> firstDepth();
+  Result<void> describeHalves(const StreamInfo& color);
+  Result<void> describeTrack(const Frame& first);
+  void takeTags(const StreamInfo& stream);
+  Result<void> describe(const Frame& first, const Frame& look, const Frame& color, const StreamInfo& stream);
+  Frame tellingPicture(const Frame& first, const std::string& url, int stream);
   Result<std::optional<Frame>> readColor();
   Result<std::optional<Frame>> nextColor();
   Result<DepthFollower::Supplied> supplyDepth();
@@ -52,9 +64,6 @@ struct PairReader::Impl {
     if (options.frames_per_s) told.frame_period = fromSeconds(1 / *options.frames_per_s);
     return told;
   }
-  void lookForHalves();
-  void lookForHue(const Frame& first);
-  [[nodiscard]] DepthCode depthCode() const noexcept { return options.depth_code.value_or(found_code); }
   [[nodiscard]] bool isPacked() const noexcept { return info.packing != Packing::Tracks; }
   [[nodiscard]] bool isLoss(const Error& error) const noexcept {
     using enum ErrorCode;
@@ -85,7 +94,11 @@ struct PairReader::Impl {
 
   std::deque<Frame> color_ahead;               // read, not yet delivered
   std::deque<Subtitle> words_ahead;            // of a subtitle file
-  DepthCode found_code = DepthCode::Luma;      // as the first picture shows
+  DepthClues clues;                            // of the depth, as far as they were looked at
+  GrayFrom gray = GrayFrom::Luma;              // of packed depth
+  SampleOrder order = SampleOrder::AsStored;   // of depth of its own
+  const KnownKind* reordered = nullptr;        // the kind that the picture showed before it was put in that order
+  std::optional<Frame> told_again;             // a depth picture that was supplied in another order
   std::optional<std::size_t> depth_track;      // index in the colour's source
   const StreamInfo* depth_stream = nullptr;    // likewise; valid while the film is open
   bool remote = false, live = false;           // of the colour's source
@@ -94,7 +107,8 @@ struct PairReader::Impl {
   Duration depth_shift{0};                     // the same for `depth_source`
   std::optional<std::uint32_t> depth_session;  // the session that `depth_shift` applies to
   std::optional<DepthFollower> depth;
-  bool depth_away = false;  // late or lost, and being retried
+  std::optional<Registrar> registrar;  // the user's, or the film's own
+  bool depth_away = false;             // late or lost, and being retried
   bool depth_lost = false;
   bool loss_told = false;
   Duration key_step{0};  // of the last seek

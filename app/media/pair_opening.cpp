@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opens a film, finds its colour and depth, and aligns the clocks of two sources.
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
+#include "app/media/frame_rate.h"
+#include "app/media/own_registration.h"
 #include "app/media/pair_film.h"
-#include "app/media/reading/depth_reading.h"
-#include "app/media/reading/picture_look.h"
 
 namespace relievo {
 namespace {
@@ -17,11 +16,14 @@ constexpr const char* kNoPicture =
     "not one picture of its video could be decoded; it is empty, damaged, unknown, or has more than 16.7 million "
     "samples";
 
-// The difference of two rounded timestamps is wrong by up to 1 ms. The container's nominal period is exact, and is used
-// if it agrees within that.
-Duration framePeriod(Duration between, Duration nominal) noexcept {
-  const bool agree = nominal > Duration(0) && std::chrono::abs(between - nominal) <= std::chrono::milliseconds(1);
-  return agree ? nominal : between;
+// Pictures whose names are from one clock or one count keep their distance if most of the shorter series lies within
+// the other; else the two begin together.
+Duration distanceByName(const MediaSource& color, const DepthSource::Session& depth) {
+  const bool known = color.namedStart() && depth.named_start && color.duration() > Duration(0);
+  if (!known || depth.duration == Duration(0)) return Duration(0);
+  const Duration distance = *depth.named_start - *color.namedStart();
+  const Duration common = std::min(color.duration(), distance + depth.duration) - std::max(Duration(0), distance);
+  return 2 * common >= std::min(color.duration(), depth.duration) ? distance : Duration(0);
 }
 
 }  // namespace
@@ -34,14 +36,15 @@ Result<void> PairReader::Impl::openReader() {
     color_reader.swap(reader);
   }
   reader.reset();
-  if (auto opened = color_reader->open(options.url); !opened) return failOn(options.url, opened.error());
+  if (auto opened = color_reader->open(options.url, options.frames_per_s); !opened)
+    return failOn(options.url, opened.error());
   return {};
 }
 
 // Opens for the first time or again. In the second case a separate depth source has continued meanwhile.
 Result<void> PairReader::Impl::openFilm() {
   const bool two_sources = !options.depth_url.empty();
-  if (two_sources && options.packing != Packing::Auto && options.packing != Packing::Tracks) {
+  if (two_sources && relievo::isPacked(options.packing)) {
     return failOn(options.depth_url,
                   {ErrorCode::InvalidArgument, 0,
                    "depth cannot be packed into the picture and come from a second source as well; leave out "
@@ -49,11 +52,13 @@ Result<void> PairReader::Impl::openFilm() {
   }
   if (auto opened = openReader(); !opened) return opened;
   const MediaSource& source = color_reader->source();
-  const auto plan = planTracks(source, options.packing, two_sources);
+  if (!depth) lookAround();
+  const auto plan = planFilm();
   if (!plan) return failOn(options.url, plan.error());
   info.packing = plan->packing;
   info.duration = source.duration();
   info.container_start = source.senderStart().value_or(Duration(0));
+  info.notes = source.notes();
   remote = source.remote();
   live = source.live();
 
@@ -67,6 +72,7 @@ Result<void> PairReader::Impl::openFilm() {
   const auto chosen = color_reader->select(asTold(*plan->color));
   if (!chosen) return failOn(options.url, chosen.error());
   if (auto selected = selectDepth(plan->depth); !selected) return selected;
+  if (depth_source) info.notes.insert(info.notes.end(), depth_source->notes().begin(), depth_source->notes().end());
   countTracks(*plan);
   openSound();
   openWords();
@@ -85,11 +91,13 @@ Result<void> PairReader::Impl::openColor(const StreamInfo& color) {
   if (color_ahead.empty()) return failOn(options.url, {ErrorCode::Corrupt, 0, kNoPicture});
   info.color_width = color_ahead[0].width;
   info.color_height = color_ahead[0].height;
+  info.color_stream = color.index;
   info.color_codec = color.codec;
   info.color_decoder = color_reader->decoder(kColorTrack);
-  if (color_ahead.size() == 2) {
-    info.frame_period = framePeriod(color_ahead[1].pts - color_ahead[0].pts, color.frame_period);
-  }
+  if (color_ahead.size() == 2) info.frame_period = framePeriod(color_ahead[1].pts - color_ahead[0].pts, color);
+  info.interlaced = color_reader->deinterlaced() > 0;
+  info.color_primaries = color_ahead[0].primaries;
+  info.color_transfer = color_ahead[0].transfer;
   return {};
 }
 
@@ -118,50 +126,36 @@ Result<void> PairReader::Impl::selectDepth(const StreamInfo* stream) {
   return {};
 }
 
-// If nobody has said where the depth is and there is only one track, the picture itself may show it.
-void PairReader::Impl::lookForHalves() {
-  if (options.packing != Packing::Auto || !options.depth_url.empty() || depth_stream != nullptr || isPacked()) return;
-  auto found = findPacking(color_ahead[0]);
-  if (!found || options.registration) return;
-  info.packing = found->packing;
-  found_code = found->code;
-  info.reading.push_back(std::move(found->why));
-}
-
-void PairReader::Impl::lookForHue(const Frame& first) {
-  if (options.depth_code || first.model == ColorModel::Gray || found_code == DepthCode::Hue) return;
-  const PictureLook look = lookAt(first);
-  if (!isHue(look)) return;
-  found_code = DepthCode::Hue;
-  char why[96];
-  std::snprintf(why, sizeof why, "%.0f %% of the depth is pure colour: read as hue", 100 * look.vivid);
-  info.reading.emplace_back(why);
+// A recording of two cameras may say how they stand to each other.
+void PairReader::Impl::lookForRegistration(const StreamInfo& color) {
+  if (options.registration) {
+    registrar.emplace(*options.registration);
+  } else if (const auto own =
+                 depth_track ? ownRegistration(color_reader->source(), color, *depth_stream) : std::nullopt) {
+    registrar.emplace(*own);
+    clues.why.emplace_back("the recording describes both cameras: its depth is moved to the colour's view");
+  }
 }
 
 Result<void> PairReader::Impl::openDepth(const StreamInfo& color) {
-  const MediaSource& source = color_reader->source();
-  lookForHalves();
-  if (isPacked()) {
-    const auto whole = splitPacked(color_ahead[0], info.packing, DepthCode::Hue);
-    if (whole) lookForHue(whole->depth);
-    const auto halves = splitPacked(color_ahead[0], info.packing, depthCode());
-    if (!halves) return failOn(options.url, halves.error());
-    info.color_width = halves->color.width;
-    info.color_height = halves->color.height;
-    return describeDepth(halves->depth, color, source.tags());
+  lookForHalves(color);
+  if (info.packing == Packing::DepthAlone) {
+    return describe(color_ahead[0], tellingPicture(color_ahead[0], options.url, color.index), {}, color);
   }
+  if (isPacked()) return describeHalves(color);
   if (!depth_track && !depth_source) return {};
   if (depth) {  // already known from the first opening
     depth->restart();
     depth_lost = false;
     return {};
   }
+  lookForRegistration(color);
   depth.emplace([this] { return supplyDepth(); });
-  const auto first = depth->peek();
+  const auto first = firstDepth();
   if (first && *first != nullptr) {
-    if (!depth_source) return describeDepth(**first, *depth_stream, source.tags());
+    if (!depth_source) return describeTrack(**first);
     const MediaTime begins = (*first)->pts;
-    auto described = describeDepth(**first, depth_source->stream(), depth_source->tags());
+    auto described = describeTrack(**first);
     // With two live sources the second opens later; pictures of the first from before that are dropped.
     const bool later = described && live && begins > MediaTime{} && begins < MediaTime(kLongestWait);
     return later ? passTo(begins) : described;
@@ -181,6 +175,7 @@ void PairReader::Impl::countTracks(const TrackPlan& plan) {
         std::count_if(streams.begin(), streams.end(), [&](const StreamInfo& s) { return s.kind == kind; }));
   };
   info.chapters = color_reader->source().chapters();
+  std::ranges::sort(info.chapters, {}, &Chapter::begin);
   if (info.sounds.empty() && info.subtitles.empty()) {  // not when the source is opened again
     info.sounds = tracksOf(streams, StreamKind::Audio);
     info.subtitles = tracksOf(streams, StreamKind::Subtitle);
@@ -193,41 +188,13 @@ void PairReader::Impl::countTracks(const TrackPlan& plan) {
   info.video_tracks_unused = count(StreamKind::Video) - (plan.depth == nullptr ? 1 : 2);
 }
 
-Result<void> PairReader::Impl::describeDepth(const Frame& first, const StreamInfo& stream,
-                                             const std::map<std::string, std::string>& container_tags) {
-  auto tags = stream.tags;  // the track's tags override the container's
-  tags.insert(container_tags.begin(), container_tags.end());
-  if (options.registration) {
-    tags.insert({{"DEPTH_UNIT", std::to_string(options.registration->unit_mm)}, {"DEPTH_INVALID", "0"}});
-  }
-  lookForHue(first);
-  CalibrationLayers layers{options.command_line, options.side_file, calibrationFromTags(tags)};
-  if (depthCode() == DepthCode::Luma) {
-    DepthReading reading = readCodes(first, CodeCount(first), layers);
-    layers.pictures = std::move(reading.settings);
-    if (!reading.why.empty()) info.reading.push_back(std::move(reading.why));
-  }
-  auto choice = chooseCalibration(layers, first, depthCode());
-  if (!choice) return failOn("calibration", choice.error());
-  info.calibration = std::move(*choice);
-  info.doubts = doubtsOf(first, info.calibration.calibration);
-  info.has_depth = true;
-  info.depth_width = first.width;
-  info.depth_height = first.height;
-  info.depth_codec = stream.codec;
-  info.depth_decoder = isPacked()     ? info.color_decoder
-                       : depth_source ? depth_source->decoder()
-                                      : color_reader->decoder(*depth_track);
-  return {};
-}
-
 // Computes the shift that aligns a new session of the depth source with the colour.
 void PairReader::Impl::meet(const DepthSource::Session& session, MediaTime first) {
   if (depth_session) depth->restart();
   depth_session = session.number;
-  depth_shift = Duration(0);
-  if (!session.live) return;
   const MediaSource& color = color_reader->source();
+  depth_shift = session.live ? Duration(0) : distanceByName(color, session);
+  if (!session.live) return;
   if (!color.live()) {  // align what arrives now with what is shown now
     depth_shift = goes_on_at - first;
     return;

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "app/media/depth_picture.h"
 #include "app/media/pair_film.h"
 #include "platform/log.h"
 
@@ -32,17 +33,20 @@ Result<std::optional<Frame>> PairReader::Impl::nextColor() {
   return frame;
 }
 
-// The next depth picture, likewise, registered to the colour's view.
+// The next depth picture, likewise, its samples in order, registered to the colour's view.
 Result<DepthFollower::Supplied> PairReader::Impl::supplyDepth() {
   auto supplied = supplyOwnDepth();
-  if (!options.registration || !supplied || !supplied->frame) return supplied;
-  auto frame = registered(*supplied->frame, *options.registration);
+  if (!supplied || !supplied->frame) return supplied;
+  if (order == SampleOrder::AsStored && !registrar) return supplied;
+  auto frame = inOrder(*supplied->frame, order);
+  if (frame && registrar) frame = registrar->registered(*frame);
   if (!frame) return std::unexpected(frame.error());
   supplied->frame = std::move(*frame);
   return supplied;
 }
 
 Result<DepthFollower::Supplied> PairReader::Impl::supplyOwnDepth() {
+  if (told_again) return DepthFollower::Supplied{std::exchange(told_again, std::nullopt), false};
   if (!depth_source) {
     auto frame = color_reader->next(*depth_track);
     if (!frame) return std::unexpected(frame.error());
@@ -59,8 +63,12 @@ Result<DepthFollower::Supplied> PairReader::Impl::supplyOwnDepth() {
 }
 
 Result<FramePair> PairReader::Impl::pairFor(Frame color) {
+  if (info.packing == Packing::DepthAlone) {
+    Frame shown = depthPicture(color, info.calibration.calibration);
+    return FramePair{std::move(shown), std::move(color), true, {}};
+  }
   if (isPacked()) {
-    auto halves = splitPacked(color, info.packing, depthCode());
+    auto halves = splitPacked(color, info.packing, clues.code, gray);
     if (!halves) return failOn(options.url, halves.error());
     return FramePair{std::move(halves->color), std::move(halves->depth), true, {}};
   }
@@ -109,7 +117,7 @@ Result<void> PairReader::Impl::seekDepth(MediaTime target) {
   depth->restart();
   depth_lost = false;
   if (!depth_source) return {};
-  const auto sought = depth_source->seek(target, key_step);
+  const auto sought = depth_source->seek(target - depth_shift, key_step);
   if (sought) return {};
   if (sought.error().code == ErrorCode::Cancelled) return failOn(depthUrl(), sought.error());
   loseDepth(sought.error());
@@ -128,6 +136,7 @@ Result<void> PairReader::Impl::goOn() {
 // Closes the colour source but keeps its counters.
 void PairReader::Impl::leaveColor() {
   counters.damaged += color_reader->damaged();
+  counters.deinterlaced += color_reader->deinterlaced();
   counters.jumps += color_reader->source().jumps();
   counters.missed_pictures += color_reader->source().missedPictures();
   color_ahead.clear();
@@ -139,6 +148,7 @@ PairCounters& PairCounters::operator+=(const PairCounters& other) noexcept {
   mismatched += other.mismatched;
   depth_skipped += other.depth_skipped;
   damaged += other.damaged;
+  deinterlaced += other.deinterlaced;
   jumps += other.jumps;
   missed_pictures += other.missed_pictures;
   reconnects += other.reconnects;
@@ -243,8 +253,10 @@ bool PairReader::readAhead() {
 void PairReader::close() noexcept {
   Impl& film = *impl_;
   film.depth.reset();
+  film.registrar.reset();
   film.depth_track.reset();
   film.depth_stream = nullptr;
+  film.told_again.reset();
   film.depth_session.reset();
   film.color_ahead.clear();
   film.words_ahead.clear();
@@ -280,6 +292,7 @@ PairCounters PairReader::counters() const noexcept {
   if (impl_->depth) counters.depth_skipped = impl_->depth->skipped();
   if (impl_->color_reader) {
     counters.damaged += impl_->color_reader->damaged();
+    counters.deinterlaced += impl_->color_reader->deinterlaced();
     counters.jumps += impl_->color_reader->source().jumps();
     counters.missed_pictures += impl_->color_reader->source().missedPictures();
     counters.missing = impl_->color_reader->source().missing();
@@ -287,6 +300,7 @@ PairCounters PairReader::counters() const noexcept {
   if (impl_->depth_source) {
     const DepthSource::Counters depth = impl_->depth_source->counters();
     counters.damaged += depth.damaged;
+    counters.deinterlaced += depth.deinterlaced;
     counters.jumps += depth.jumps;
     counters.missed_pictures += depth.missed_pictures;
     counters.depth_reconnects = depth.reconnects;

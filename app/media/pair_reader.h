@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "app/media/film_tracks.h"
+#include "app/media/reading/film_reading.h"
+#include "app/media/reading/known_kind.h"
 #include "app/media/reading/packing.h"
 #include "app/media/registration.h"
 #include "app/scene/depth_calibration.h"
@@ -26,13 +28,14 @@ struct SourceOptions {
   std::string url;
   std::string depth_url;  // empty: the depth is in `url`
   Packing packing = Packing::Auto;
-  std::optional<DepthCode> depth_code;              // nullopt: guessed from the picture
-  CalibrationSettings command_line;                 // --calibration KEY=VALUE,..
-  CalibrationSettings side_file;                    // --calibration FILE
-  std::vector<std::string> named_files;             // files that the side file and the registration were read from
-  std::optional<double> frames_per_s;               // of pictures without timestamps, such as numbered files
-  std::optional<Registration> registration;         // for depth from a camera of its own; not for packed depth
-  std::optional<AudioFormat> sound;                 // the format to deliver sound in; nullopt: no sound
+  std::optional<DepthCode> depth_code;       // nullopt: guessed from the picture
+  const KnownKind* as = nullptr;             // --as KIND
+  CalibrationSettings command_line;          // --calibration KEY=VALUE,..
+  CalibrationSettings side_file;             // --calibration FILE
+  std::vector<std::string> named_files;      // files that the side file and the registration were read from
+  std::optional<double> frames_per_s;        // of pictures that have numbers but no times
+  std::optional<Registration> registration;  // for depth from a camera of its own; not for packed depth
+  std::optional<AudioFormat> sound;          // the format to deliver sound in; nullopt: no sound
   std::string sound_languages, subtitle_languages;  // "jpn,en": the first that is there; see film_tracks.h
 };
 
@@ -46,16 +49,19 @@ struct FramePair {
 };
 
 struct FilmInfo {
+  int color_stream = 0;  // StreamInfo::index
   int color_width = 0, color_height = 0;
   int depth_width = 0, depth_height = 0;
   bool has_depth = false;
-  Packing packing = Packing::Auto;   // the one found; Tracks if there is no depth
-  Duration frame_period{0};          // between the first two timestamps, corrected for rounding; 0 for a single picture
-  Duration duration{0};              // 0: unknown
-  Duration container_start{0};       // of the colour: the container's time of media time 0
-  CalibrationChoice calibration;     // of a film with depth
-  std::vector<std::string> reading;  // what the first pictures revealed, and why; one line each
-  std::vector<std::string> doubts;   // why the calibration looks wrong, and the option to try; one line each
+  Packing packing = Packing::Auto;  // the one found; Tracks if there is no depth
+  Duration frame_period{0};         // the usual step between pictures (frame_rate.h); 0 for a single picture
+  bool interlaced = false;          // the first pictures; they are deinterlaced
+  std::uint8_t color_primaries = kUnspecifiedColor, color_transfer = kUnspecifiedColor;  // as in a Frame
+  Duration duration{0};                                                                  // 0: unknown
+  Duration container_start{0};  // of the colour: the container's time of media time 0
+  CalibrationChoice calibration;                                                         // of a film with depth
+  FilmReading reading;             // how that calibration and the packing were found
+  std::vector<std::string> notes;  // what the sources found out about themselves; one line each
   std::string color_codec, depth_codec;
   std::string color_decoder, depth_decoder;  // VideoDecoder::description
   std::string sound_codec;                   // if sound was asked for and the film has some
@@ -72,6 +78,7 @@ struct PairCounters {
   std::uint64_t mismatched = 0;        // pairs whose depth frame is missing inside a running depth track
   std::uint64_t depth_skipped = 0;     // depth frames that no colour frame used
   std::uint64_t damaged = 0;           // packets and pictures dropped by the decoders
+  std::uint64_t deinterlaced = 0;      // pictures that were interlaced, colour and depth
   std::uint64_t jumps = 0;             // discontinuities of container timestamps (ContinuousTime)
   std::uint64_t missed_pictures = 0;   // pictures captured but never delivered by the sources (MediaSource)
   std::uint64_t reconnects = 0;        // times the colour source was lost and reopened

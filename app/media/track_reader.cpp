@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/media/deinterlaced.h"
 #include "app/media/turned.h"
 
 namespace relievo {
@@ -18,7 +19,8 @@ TrackReader::TrackReader(std::unique_ptr<MediaSource> source,
                          std::function<std::unique_ptr<VideoDecoder>(const StreamInfo&)> make_decoder)
     : source_(std::move(source)), make_decoder_(std::move(make_decoder)) {}
 
-Result<void> TrackReader::open(const std::string& url) {
+Result<void> TrackReader::open(const std::string& url, std::optional<double> frames_per_s) {
+  source_->setPictureRate(frames_per_s);
   return source_->open(url);
 }
 
@@ -56,15 +58,19 @@ std::optional<VideoDecoder::Restart> TrackReader::takeRestart() noexcept {
   return std::nullopt;
 }
 
-Result<std::optional<Frame>> TrackReader::receiveUpright(Track& track) {
+Result<std::optional<Frame>> TrackReader::receiveWhole(Track& track) {
   auto frame = track.decoder->receive();
+  if (frame && *frame && (*frame)->interlaced) {
+    frame = relievo::deinterlaced(**frame);
+    ++deinterlaced_;
+  }
   if (track.rotation == 0 || !frame || !*frame) return frame;
   return turned(**frame, track.rotation);
 }
 
 Result<std::optional<Frame>> TrackReader::decode(Track& track) {
   for (;;) {
-    auto frame = receiveUpright(track);
+    auto frame = receiveWhole(track);
     if (frame && *frame && &track == tracks_.data()) given_ = (*frame)->pts;
     if (!frame || *frame) return frame;
     if (track.decoder->state() == VideoDecoder::State::Draining) continue;

@@ -37,7 +37,8 @@ class TrackReader {
   TrackReader(std::unique_ptr<MediaSource> source,
               std::function<std::unique_ptr<VideoDecoder>(const StreamInfo&)> make_decoder);
 
-  [[nodiscard]] Result<void> open(const std::string& url);
+  // `frames_per_s`: MediaSource::setPictureRate.
+  [[nodiscard]] Result<void> open(const std::string& url, std::optional<double> frames_per_s = std::nullopt);
   // Selects a stream for decoding; returns the track number for `next`. If the caller sets a frame period in `stream`,
   // pictures without timestamps are numbered by it. Exhausted when two are already selected.
   [[nodiscard]] Result<std::size_t> select(const StreamInfo& stream);
@@ -53,8 +54,8 @@ class TrackReader {
   void ignoreWords() noexcept { words_.close(); }
   // The next subtitle among the data already read. Never reads, never fails.
   [[nodiscard]] std::optional<Subtitle> nextWords() { return words_.next(); }
-  // The track's next picture, upright, in presentation order; nullopt at the end of the track (`ended`) or if none is
-  // available now. Exhausted when the caller holds more pictures than the decoder allows.
+  // The track's next picture, upright and deinterlaced, in presentation order; nullopt at the end of the track
+  // (`ended`) or if none is available now. Exhausted when the caller holds more pictures than the decoder allows.
   [[nodiscard]] Result<std::optional<Frame>> next(std::size_t track);
   // The next samples among the data already read. Never reads, never fails.
   [[nodiscard]] std::optional<AudioChunk> nextSound() { return sound_.next(); }
@@ -71,6 +72,8 @@ class TrackReader {
   [[nodiscard]] const MediaSource& source() const noexcept { return *source_; }
   // Packets and pictures dropped by the decoders.
   [[nodiscard]] std::uint64_t damaged() const noexcept;
+  // Pictures that came interlaced.
+  [[nodiscard]] std::uint64_t deinterlaced() const noexcept { return deinterlaced_; }
   [[nodiscard]] std::optional<VideoDecoder::Restart> takeRestart() noexcept;
   [[nodiscard]] std::string decoder(std::size_t track) const { return tracks_[track].decoder->description(); }
 
@@ -90,7 +93,7 @@ class TrackReader {
   [[nodiscard]] Result<bool> seekOnce(MediaTime from, MediaTime target, Duration key_step);
   [[nodiscard]] bool isWanted(Track& track, const Packet& packet) const;
   [[nodiscard]] Result<std::optional<Frame>> decode(Track& track);
-  [[nodiscard]] static Result<std::optional<Frame>> receiveUpright(Track& track);
+  [[nodiscard]] Result<std::optional<Frame>> receiveWhole(Track& track);
   [[nodiscard]] Result<bool> feed(Track& track);
   [[nodiscard]] Result<bool> readOnePacket();
   void keep(Track& track, Packet packet);
@@ -101,6 +104,7 @@ class TrackReader {
   std::function<std::unique_ptr<VideoDecoder>(const StreamInfo&)> make_decoder_;
   std::array<Track, kMaxTracks> tracks_;
   std::size_t track_count_ = 0;
+  std::uint64_t deinterlaced_ = 0;
   Duration key_step_{0};
   SoundTrack sound_;
   SubtitleTrack words_;

@@ -26,6 +26,7 @@
 #include "drivers/registry.h"
 #include "platform/atomic_file.h"
 #include "platform/clock.h"
+#include "platform/log.h"
 
 namespace relievo {
 namespace {
@@ -160,6 +161,7 @@ Outcome<Outputs> makeOutputs(const PlayOptions& options) {
 int play(PlayOptions options, const FileConfig& config) {
   const std::atomic<bool>& stop = stopOnSignals(drivers::stopAllMotors);
   applyLogLevels(config);
+  if (options.verbose) setLogLevel(LogLevel::Debug);
   if (auto completed = complete(options); !completed) return tell(completed.error());
   if (auto apart = keepOutputsApart(options, config); !apart) return tell(apart.error());
   MonotonicClock clock;
@@ -172,6 +174,7 @@ int play(PlayOptions options, const FileConfig& config) {
   Recorder* const recorder = outputs->recorder ? &*outputs->recorder : nullptr;
 
   const bool for_a_time = options.player.duration.has_value();
+  StatusLine status;
   Player player(std::move(options.player), {.clock = clock,
                                             .display = *devices->display,
                                             .haptic = devices->haptic.get(),
@@ -179,12 +182,13 @@ int play(PlayOptions options, const FileConfig& config) {
                                             .audio = devices->audio.get(),
                                             .recorder = recorder,
                                             .control = &control,
+                                            .status = &status,
                                             .backends = realBackends(options.software)});
   const auto played = player.run(stop);
   const PlayReport report = player.report();
   const int files = finishFiles(report, report_file, recorder);
   if (!played) return tell(played.error());
-  std::fputs(toText(report).c_str(), stdout);
+  std::fputs(toText(report, options.verbose).c_str(), stdout);
   if (for_a_time && report.frames_shown == 0 && !report.source.empty() && !stop)
     return tell({report.source, kNoPicture});
   return files;
@@ -204,8 +208,8 @@ int listDevices(const FileConfig& config) {
     std::printf("%-7s %-20s %-6s %s\n", each.kind, each.name.c_str(), each.there ? "there" : "-", each.state.c_str());
     any = any || each.there;
   }
-  std::puts(any ? "To feel with one of them: relievo play FILM --haptic NAME"
-                : "None is needed to begin with: relievo play FILM holds a simulated one in a simulated hand.");
+  std::puts(any ? "`relievo FILM` takes a haptic device that is there, else the mouse; --haptic NAME chooses one."
+                : "None is needed to begin with: relievo FILM --haptic sim holds a simulated one in a simulated hand.");
   return kExitDone;
 }
 
@@ -260,7 +264,11 @@ int parseAndRun(int argc, char** argv) {
                                     {.display = drivers::kDisplayNames,
                                      .haptic = drivers::kHapticNames,
                                      .remote = drivers::kRemoteNames,
-                                     .audio = drivers::kAudioNames});
+                                     .audio = drivers::kAudioNames},
+                                    {.desktop = drivers::desktopIsThere,
+                                     .screen = drivers::screenIsThere,
+                                     .haptic = drivers::pluggedHaptic,
+                                     .terminal = drivers::terminalIsThere});
   if (!options) return options.error();
   switch (options->command) {
     case Options::Command::Probe:

@@ -126,7 +126,10 @@ void Player::boot() {
   touch_.begin();
   apply(PlayerEvent::Ready);
   if (parts_.control != nullptr) parts_.control->ready();
-  if (!config_.source.url.empty()) openList(config_.source.url, config_.source.depth_url, journal_.began());
+  if (config_.source.url.empty()) return;
+  std::vector<PlaylistEntry> films{{.url = config_.source.url, .depth_url = config_.source.depth_url, .title = ""}};
+  for (const std::string& url : config_.more) films.push_back({.url = url, .depth_url = "", .title = ""});
+  openList(films, journal_.began());
 }
 
 void Player::step(MonotonicTime now) {
@@ -135,6 +138,7 @@ void Player::step(MonotonicTime now) {
     if (attended.error().code == ErrorCode::Cancelled) quitting_ = true;  // the viewer has closed the window
     else failDisplay(attended.error());
   }
+  followDrops(now);
   readRemote(now);
   followDevice();
   film_.noteNews();
@@ -148,7 +152,14 @@ void Player::step(MonotonicTime now) {
   followStatistics(now);
   screen_.write(facts(), film_.nextPicture(now), now);
   followFault(now);
+  tellStatus(now);
   if (parts_.control != nullptr) parts_.control->attend(*this, now);
+}
+
+void Player::tellStatus(MonotonicTime now) {
+  if (parts_.status == nullptr || !parts_.status->isDue(now) || !film_.isOpen()) return;
+  const auto finger = touch_.mark();
+  parts_.status->show(facts(), report(), finger ? glm::length(finger->force_n) : 0, now);
 }
 
 // The next picture, but soon enough for keys.
@@ -162,6 +173,7 @@ void Player::finish(MonotonicTime now) {
   touch_.stop();  // zero force before anything else
   film_.silence();
   loudness_.keep();
+  if (parts_.status != nullptr) parts_.status->clear();
   if (parts_.control != nullptr) parts_.control->stopping();
   touch_.drain(seeks_);
   leaveFilm(now);
@@ -210,7 +222,7 @@ void Player::obey(const PlayerCommand& command, MonotonicTime now) {
       quitting_ = true;
       return;
     case PlayerVerb::Open:
-      return openList(command.word, "", now);
+      return openList({{.url = command.word, .depth_url = "", .title = ""}}, now);
     case PlayerVerb::Stop:
       return stopFilm(now);
     case PlayerVerb::Loop:
@@ -236,6 +248,8 @@ void Player::obeyPicture(const PlayerCommand& command, MonotonicTime now) {
                             .here = film_.goal(now),
                             .length = film_.info().duration,
                             .chapters = film_.info().chapters,
+                            .picture = film_.picture().color.pts,
+                            .period = film_.period(),
                             .film = programme_.present(),
                             .films = programme_.size(),
                             .film_asked = programme_.asked()};

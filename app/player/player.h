@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "app/player/control/command.h"
 #include "app/player/control/key_table.h"
@@ -20,6 +21,7 @@
 #include "app/player/screen/film_screen.h"
 #include "app/player/screen/statistics.h"
 #include "app/player/state_table.h"
+#include "app/player/status_line.h"
 #include "app/player/touch/film_touch.h"
 #include "hal/remote_input.h"
 #include "platform/failure.h"
@@ -29,7 +31,8 @@ namespace relievo {
 class PlayerControl;
 
 struct PlayerConfig {
-  SourceOptions source;  // a film or a list of films; its url may be empty for one that stays
+  SourceOptions source;           // a film or a list of films; its url may be empty for one that stays
+  std::vector<std::string> more;  // films or lists to play after it
   DisplayConfig display;
   StereoSettings stereo;
   std::optional<DisplayVolume> volume;  // nothing: the default one of the picture's shape
@@ -54,6 +57,7 @@ struct PlayerParts {
   AudioOutput* audio = nullptr;
   Recorder* recorder = nullptr;
   PlayerControl* control = nullptr;
+  StatusLine* status = nullptr;
   PairReader::Backends backends;
 };
 
@@ -98,6 +102,7 @@ class Player {
   void readRemote(MonotonicTime now);
   void noteUnbound(const KeyEvent& key, MonotonicTime now);
   void followStatistics(MonotonicTime now);
+  void tellStatus(MonotonicTime now);
 
   // player_film.cpp: within a film
   void carryOut(const Deed& deed, MonotonicTime now);
@@ -109,6 +114,7 @@ class Player {
   void followOpening(MonotonicTime now);
   void followProgress(FilmPlayback::Progress progress, MonotonicTime now);
   void begin(MonotonicTime now);
+  void announce(const DisplayVolume& volume);
   void followClock(MonotonicTime now);
   void followDevice();
   void showPicture(MonotonicTime now);
@@ -126,7 +132,8 @@ class Player {
   void mute(bool muted);
 
   // player_list.cpp: from film to film
-  void openList(const std::string& url, const std::string& depth_url, MonotonicTime now);
+  void openList(const std::vector<PlaylistEntry>& films, MonotonicTime now);
+  void followDrops(MonotonicTime now);
   void openFilm(std::size_t film, Programme::Way way, MonotonicTime now);
   void leaveFilm(MonotonicTime now);
   void stopFilm(MonotonicTime now);

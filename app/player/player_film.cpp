@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the player does within a film: carries out commands, waits for the reader, and follows the clock.
 #include <algorithm>
+#include <cmath>
 
 #include "app/player/player.h"
 #include "platform/log.h"
@@ -104,6 +105,7 @@ void Player::followProgress(FilmPlayback::Progress progress, MonotonicTime now) 
       return journal_.note("buffering: the source or this computer is too slow",
                            "the picture stops until enough is buffered");
     case FilmPlayback::Progress::Over:
+      if (film_.isStill() && programme_.size() == 1) return;  // a photo stands until something else is asked for
       return endFilm(now);
     case FilmPlayback::Progress::Failed:
       return failFilm();
@@ -120,6 +122,7 @@ void Player::begin(MonotonicTime now) {
     const DepthCalibration& calibration = film_.info().calibration.calibration;
     touch_.setScene(calibration, volume);
     screen_.setScene(calibration, volume, film_.period(), now);
+    announce(volume);
     if (journal_.written().films.size() == 1) {
       screen_.text().hint(parts_.haptic == nullptr ? "H: all keys" : "Press into the picture to feel it.  H: all keys",
                           now);
@@ -139,6 +142,11 @@ void Player::begin(MonotonicTime now) {
   apply(film_.held() ? PlayerEvent::FilledHeld : PlayerEvent::Filled);
   feedTouch();
   seeks_.shown(first, now, parts_.clock.now());
+}
+
+void Player::announce(const DisplayVolume& volume) {
+  const int height = film_.picture().color.height;
+  screen_.announce({facts().title, static_cast<int>(std::lround(height * volume.width_mm / volume.height_mm)), height});
 }
 
 void Player::followClock(MonotonicTime now) {

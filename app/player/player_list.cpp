@@ -7,11 +7,18 @@
 
 namespace relievo {
 
-void Player::openList(const std::string& url, const std::string& depth_url, MonotonicTime now) {
+void Player::openList(const std::vector<PlaylistEntry>& films, MonotonicTime now) {
   if (!nextState(state_, PlayerEvent::Open)) return;
   leaveFilm(now);
-  programme_.begin({.url = url, .depth_url = depth_url, .title = ""});
+  programme_.begin(films);
   openFilm(0, Programme::Way::Forward, now);
+}
+
+// What is dropped on the window is played instead of the present film.
+void Player::followDrops(MonotonicTime now) {
+  std::vector<PlaylistEntry> films;
+  for (std::string& url : screen_.takeDropped()) films.push_back({.url = std::move(url), .depth_url = "", .title = ""});
+  if (!films.empty()) openList(films, now);
 }
 
 void Player::openFilm(std::size_t film, Programme::Way way, MonotonicTime now) {

@@ -71,8 +71,9 @@ Json filmPart(const PlayReport& r) {
                                    {"height", f.depth_height}}
                             : Json(nullptr)},
       {"packing", name(f.packing)},
-      {"reading", f.reading},
-      {"doubts", f.doubts},
+      {"reading", f.has_depth ? Json(plainLine(f.reading, f.calibration.calibration)) : Json(nullptr)},
+      {"notes", f.notes},
+      {"doubts", f.reading.doubts},
       {"calibration", f.has_depth ? Json(f.calibration.explanation) : Json(nullptr)},
       {"frame_period_s", rounded(toSeconds(f.frame_period))},
       {"duration_s", rounded(toSeconds(f.duration))},
@@ -141,24 +142,6 @@ bool PlayReport::addFault(double time_s, std::string what, std::string done) {
   return !known;
 }
 
-const char* name(Packing packing) noexcept {
-  switch (packing) {
-    case Packing::Auto:
-      return "auto";
-    case Packing::Tracks:
-      return "tracks";
-    case Packing::SideBySide:
-      return "sbs";
-    case Packing::TopBottom:
-      return "tb";
-    case Packing::SideBySideDepthFirst:
-      return "sbs-depth-first";
-    case Packing::TopBottomDepthFirst:
-      return "tb-depth-first";
-  }
-  return "";
-}
-
 std::string toJson(const PlayReport& r) {
   Json json;
   json["source"] = r.source;
@@ -198,34 +181,52 @@ std::string metricsOf(const PlayReport& r) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-std::string toText(const PlayReport& r) {
+namespace {
+
+std::string liveText(const PlayReport& r) {
+  return print(
+      "live    seen %.0f ms after it was taken, felt after %.0f ms (medians; at most %.0f and %.0f); %llu pictures "
+      "lost on the way\n",
+      r.live->picture.p50_ms, r.live->touch.p50_ms, r.live->picture.max_ms, r.live->touch.max_ms,
+      static_cast<unsigned long long>(r.pairs.missed_pictures));
+}
+
+std::string pictureFigures(const PlayReport& r) {
+  return print("picture %s, %s, %d x %d, %zu triangles, %.1f ms a frame; %llu pairs mismatched\n", r.display.c_str(),
+               r.stereo.c_str(), r.surface_width, r.surface_height, r.triangles, r.draw_ms,
+               static_cast<unsigned long long>(r.pairs.mismatched));
+}
+
+std::string touchText(const PlayReport& r) {
+  const HapticSummary& h = r.haptic;
+  if (h.ticks == 0) return "touch   none\n";
+  if (!r.film.has_depth) return "touch   nothing to feel: the film has no depth\n";
+  return print("touch   %s, %.0f %% of the time in contact, at most %.2f N, %llu of %llu ticks late\n",
+               h.device.c_str(), 100 * share(h.contact_ticks, h.ticks), h.max_force_n,
+               static_cast<unsigned long long>(h.overruns), static_cast<unsigned long long>(h.ticks));
+}
+
+std::string touchFigures(const PlayReport& r) {
   const HapticSummary& h = r.haptic;
   const auto us = [](std::int64_t ns) { return static_cast<double>(ns) * 1e-3; };
+  std::string text = r.film.has_depth ? "felt    " + h.plan + "\n" : "";
+  text += print("tick    %.0f Hz (%s), median %.1f us, p99 %.1f us, longest %.1f us; woken late by %.1f us (p99)\n",
+                h.rate_hz, h.scheduler.c_str(), us(h.update.p50), us(h.update.p99), us(h.update.max), us(h.wakeup.p99));
+  return text + print("force   the scene changed it by at most %.0f N/s; energy %.2f mJ scene, %.2f mJ artefacts\n",
+                      h.max_scene_slew_n_per_s, h.scene_mj, h.artefact_mj);
+}
+
+}  // namespace
+
+std::string toText(const PlayReport& r, bool verbose) {
   std::string text = print("film    %.2f s shown in %.2f s, first picture after %.0f ms\n", r.media_s, r.wall_s,
                            r.first_frame_ms.value_or(0));
-  text += print(
-      "video   %llu frames shown, %llu dropped, %llu pairs mismatched; %s, %s, %d x %d, %zu triangles, %.1f "
-      "ms a frame\n",
-      static_cast<unsigned long long>(r.frames_shown), static_cast<unsigned long long>(r.frames_dropped),
-      static_cast<unsigned long long>(r.pairs.mismatched), r.display.c_str(), r.stereo.c_str(), r.surface_width,
-      r.surface_height, r.triangles, r.draw_ms);
-  if (r.live) {
-    text += print(
-        "live    seen %.0f ms after it was taken, felt after %.0f ms (medians; at most %.0f and %.0f); %llu pictures "
-        "lost on the way\n",
-        r.live->picture.p50_ms, r.live->touch.p50_ms, r.live->picture.max_ms, r.live->touch.max_ms,
-        static_cast<unsigned long long>(r.pairs.missed_pictures));
-  }
-  if (h.ticks == 0) return text + "touch   none\n";
-  text += print("touch   %s, %llu ticks at %.0f Hz (%s), %llu late, %.0f %% in contact\n", h.device.c_str(),
-                static_cast<unsigned long long>(h.ticks), h.rate_hz, h.scheduler.c_str(),
-                static_cast<unsigned long long>(h.overruns), 100 * share(h.contact_ticks, h.ticks));
-  text += "felt    " + h.plan + "\n";
-  text += print("tick    median %.1f us, p99 %.1f us, longest %.1f us; woken late by %.1f us (p99)\n", us(h.update.p50),
-                us(h.update.p99), us(h.update.max), us(h.wakeup.p99));
-  text += print(
-      "force   at most %.2f N; the scene changed it by at most %.0f N/s; energy %.2f mJ scene, %.2f mJ artefacts\n",
-      h.max_force_n, h.max_scene_slew_n_per_s, h.scene_mj, h.artefact_mj);
+  text += print("video   %llu frames shown, %llu dropped\n", static_cast<unsigned long long>(r.frames_shown),
+                static_cast<unsigned long long>(r.frames_dropped));
+  if (verbose) text += pictureFigures(r);
+  if (r.live) text += liveText(r);
+  text += touchText(r);
+  if (verbose && r.haptic.ticks > 0) text += touchFigures(r);
   return text;
 }
 

@@ -57,9 +57,9 @@ struct PlayReport {
   bool addFault(double time_s, std::string what, std::string done);
 };
 
-[[nodiscard]] const char* name(Packing packing) noexcept;  // auto tracks sbs tb
 [[nodiscard]] std::string toJson(const PlayReport& report);
-[[nodiscard]] std::string toText(const PlayReport& report);
+// A few lines for a viewer; `verbose`: for a developer.
+[[nodiscard]] std::string toText(const PlayReport& report, bool verbose = false);
 // The report's counters and times alone, as JSON in one line, while the film plays.
 [[nodiscard]] std::string metricsOf(const PlayReport& report);
 

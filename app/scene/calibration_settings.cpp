@@ -28,9 +28,15 @@ constexpr const char* kUnitIsLinear =
     "calibration has codes that are distances (unit), but not law=linear; leave one out";
 constexpr const char* kUnitHasCodes =
     "calibration has codes that are distances (unit), which reach from near to far; leave codes= out";
+constexpr const char* kUnitIsNearLow =
+    "calibration has codes that are distances (unit), which are low where near, but polarity=near-high; leave one out";
+constexpr const char* kUnitIsLuma =
+    "calibration has codes that are distances (unit), but the depth is coded as a hue, which reaches from near to far; "
+    "give near and far instead of unit";
 constexpr const char* kTooManyBits = "calibration has more bits than the depth's samples; leave bits out";
 constexpr const char* kNoSuchCode =
     "calibration has a code (codes, invalid) that the depth's bits cannot hold; give one below 2^bits";
+constexpr std::uint32_t kDarkestKinect = 8;  // a ramp's black (no depth), with what coding adds
 constexpr double kNearestMm = 1e-3, kFarthestMm = 1e9;
 
 std::string_view trim(std::string_view text) {
@@ -108,6 +114,15 @@ const char* misfit(const DepthCalibration& c, int sample_bits) {
   return nullptr;
 }
 
+// The first rule that codes which are distances break, or null.
+const char* distanceMisfit(const DepthCalibration& c) {
+  if (!c.unit_mm) return nullptr;
+  if (c.code == DepthCode::Hue) return kUnitIsLuma;
+  if (c.law == DepthLaw::Inverse) return kUnitIsLinear;
+  if (c.polarity == DepthPolarity::NearIsHigh) return kUnitIsNearLow;
+  return c.codes ? kUnitHasCodes : nullptr;
+}
+
 // The first contradiction between the settings that holds for any film, or null.
 const char* contradiction(const CalibrationSettings& settings) {
   DepthCalibration c;
@@ -116,8 +131,7 @@ const char* contradiction(const CalibrationSettings& settings) {
     if (const auto said = settings.find(key); said != settings.end()) apply(c, key, said->second);
   }
   if (settings.contains("near") && settings.contains("far") && c.far_mm <= c.near_mm) return kFarBeforeNear;
-  if (settings.contains("unit") && c.unit_mm && c.law == DepthLaw::Inverse) return kUnitIsLinear;
-  if (c.unit_mm && c.codes) return kUnitHasCodes;
+  if (const char* wrong = distanceMisfit(c); wrong != nullptr) return wrong;
   return misfit(c, settings.contains("bits") ? c.bits : 16);
 }
 
@@ -168,6 +182,24 @@ std::map<std::string, std::string> calibrationTags(const DepthCalibration& calib
   return tags;
 }
 
+std::array<CalibrationLayers::Layer, 7> CalibrationLayers::order() const noexcept {
+  using enum CalibrationOrigin;
+  return {{{CommandLine, &command_line},
+           {SideFile, &side_file},
+           {StatedKind, &stated_kind},
+           {ContainerTags, &tags},
+           {FileBeside, &beside},
+           {Name, &names},
+           {FirstPicture, &pictures}}};
+}
+
+const std::string* CalibrationLayers::find(const std::string& key) const {
+  for (const Layer& layer : order()) {
+    if (const auto found = layer.settings->find(key); found != layer.settings->end()) return &found->second;
+  }
+  return nullptr;
+}
+
 Result<CalibrationChoice> chooseCalibration(const CalibrationLayers& layers, const Frame& depth_frame, DepthCode code) {
   CalibrationChoice choice;
   DepthCalibration& c = choice.calibration;
@@ -175,19 +207,12 @@ Result<CalibrationChoice> chooseCalibration(const CalibrationLayers& layers, con
   const int sample_bits = c.bits = std::max<int>(8, depth_frame.components[0].bits);
   const bool limited_by_nature = depth_frame.model == ColorModel::Yuv && depth_frame.range != ColorRange::Full;
   c.range = limited_by_nature || depth_frame.range == ColorRange::Limited ? ColorRange::Limited : ColorRange::Full;
-  if (code == DepthCode::Hue) {
-    c.polarity = DepthPolarity::NearIsLow;
-    c.range = ColorRange::Full;
-  }
+  if (code != DepthCode::Luma) c.range = ColorRange::Full;
+  if (code == DepthCode::Hue) c.polarity = DepthPolarity::NearIsLow;
+  if (code == DepthCode::Kinect) c.invalid = CodeSet(CodeSet::Range{0, kDarkestKinect});
   const bool signalled = depth_frame.range != ColorRange::Unspecified;
   choice.origin = signalled ? CalibrationOrigin::StreamSignalling : CalibrationOrigin::Default;
 
-  const std::array<std::pair<CalibrationOrigin, const CalibrationSettings*>, 4> order{{
-      {CalibrationOrigin::CommandLine, &layers.command_line},
-      {CalibrationOrigin::SideFile, &layers.side_file},
-      {CalibrationOrigin::ContainerTags, &layers.tags},
-      {CalibrationOrigin::FirstPicture, &layers.pictures},
-  }};
   const auto refuse = [](CalibrationOrigin said_by, const char* wrong) {
     return fail(said_by == CalibrationOrigin::CommandLine ? ErrorCode::InvalidArgument : ErrorCode::Corrupt, wrong);
   };
@@ -195,7 +220,7 @@ Result<CalibrationChoice> chooseCalibration(const CalibrationLayers& layers, con
   for (const char* key : kKeys) {
     const bool from_stream = std::string_view(key) == "bits" || (std::string_view(key) == "range" && signalled);
     CalibrationOrigin said_by = from_stream ? CalibrationOrigin::StreamSignalling : CalibrationOrigin::Default;
-    for (const auto& [origin, settings] : order) {
+    for (const auto& [origin, settings] : layers.order()) {
       const auto found = settings->find(key);
       if (found == settings->end()) continue;
       DepthCalibration with = c;
@@ -212,11 +237,11 @@ Result<CalibrationChoice> chooseCalibration(const CalibrationLayers& layers, con
     if (std::string_view(key) == "near" || std::string_view(key) == "far") {
       distances_by = std::min(distances_by, said_by);
     }
+    choice.parts.push_back({key, written(c, key), said_by});
     if (!choice.explanation.empty()) choice.explanation += ", ";
     choice.explanation += std::string(key) + "=" + written(c, key) + " (" + name(said_by) + ")";
   }
-  if (c.unit_mm && c.law == DepthLaw::Inverse) return refuse(choice.origin, kUnitIsLinear);
-  if (c.unit_mm && c.codes) return refuse(choice.origin, kUnitHasCodes);
+  if (const char* wrong = distanceMisfit(c); wrong != nullptr) return refuse(choice.origin, wrong);
   if (c.far_mm <= c.near_mm) return refuse(distances_by, kFarBeforeNear);
   return choice;
 }

@@ -9,13 +9,14 @@ namespace relievo {
 double DepthCalibration::lowCode() const noexcept {
   if (unit_mm) return near_mm / *unit_mm;
   if (codes) return codes->low;
+  if (code != DepthCode::Luma) return 0;
   return range == ColorRange::Limited ? 16.0 * (1u << (bits - 8)) : 0.0;
 }
 
 double DepthCalibration::highCode() const noexcept {
   if (unit_mm) return far_mm / *unit_mm;
   if (codes) return codes->high;
-  if (code == DepthCode::Hue) return kHueSteps;
+  if (code != DepthCode::Luma) return code == DepthCode::Hue ? kHueSteps : kMapHighest;
   return range == ColorRange::Limited ? 235.0 * (1u << (bits - 8)) : static_cast<double>((1u << bits) - 1);
 }
 
@@ -28,7 +29,7 @@ double heightMm(const DepthCalibration& calibration, double s, double volume_dep
 }
 
 DepthCalibration recoded(const DepthCalibration& source, int bits, std::optional<DepthLaw> law) noexcept {
-  const bool has_holes = !source.invalid.empty() || source.code == DepthCode::Hue;
+  const bool has_holes = !source.invalid.empty() || source.code != DepthCode::Luma;
   DepthCalibration written = source;
   written.law = law.value_or(source.law);
   written.polarity = DepthPolarity::NearIsHigh;
@@ -41,14 +42,27 @@ DepthCalibration recoded(const DepthCalibration& source, int bits, std::optional
   return written;
 }
 
+const char* name(DepthCode code) noexcept {
+  static constexpr std::array kNames{"luma",    "hue",    "turbo",   "jet",      "inferno", "magma",
+                                     "viridis", "plasma", "rainbow", "spectral", "kinect"};
+  static_assert(kNames.size() == kDepthCodes.size());
+  return kNames.at(static_cast<std::size_t>(code));
+}
+
 const char* name(CalibrationOrigin origin) noexcept {
   switch (origin) {
     case CalibrationOrigin::CommandLine:
       return "command line";
     case CalibrationOrigin::SideFile:
       return "side file";
+    case CalibrationOrigin::StatedKind:
+      return "--as";
     case CalibrationOrigin::ContainerTags:
       return "container tags";
+    case CalibrationOrigin::FileBeside:
+      return "file beside it";
+    case CalibrationOrigin::Name:
+      return "name";
     case CalibrationOrigin::FirstPicture:
       return "first picture";
     case CalibrationOrigin::StreamSignalling:

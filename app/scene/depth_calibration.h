@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/scene/code_set.h"
 #include "hal/frame.h"
@@ -20,14 +21,34 @@ enum class DepthLaw : std::uint8_t {
   Inverse,  // Z = 1/(s/near + (1 - s)/far), z = D (far - Z)/(far - near): disparity, near high
 };
 enum class DepthPolarity : std::uint8_t { NearIsHigh, NearIsLow };
-enum class DepthCode : std::uint8_t { Luma, Hue };
+// What a sample's code is: its brightness, its hue, or its place in a colour map.
+enum class DepthCode : std::uint8_t {
+  Luma,
+  Hue,
+  Turbo,
+  Jet,
+  Inferno,
+  Magma,
+  Viridis,
+  Plasma,
+  Rainbow,
+  Spectral,  // from blue to red
+  Kinect     // black (no depth), blue, cyan, white
+};
+inline constexpr std::array kDepthCodes{DepthCode::Luma,    DepthCode::Hue,      DepthCode::Turbo,   DepthCode::Jet,
+                                        DepthCode::Inferno, DepthCode::Magma,    DepthCode::Viridis, DepthCode::Plasma,
+                                        DepthCode::Rainbow, DepthCode::Spectral, DepthCode::Kinect};
+// The word on the command line.
+[[nodiscard]] const char* name(DepthCode code) noexcept;
 
 // s is the normalised code: (code - low)/(high - low) clamped to [0, 1], and 1 minus that if near is low. Full range is
 // 0 .. 2^bits - 1; limited range is 16 .. 235, times 2^(bits - 8); `codes` sets another range. Codes that are
 // distances, `unit_mm` each, span near to far: then near is low, the law is linear and the range is ignored. A hue code
-// is the hue over 360 degrees: s grows with distance, so its polarity is NearIsLow unless stated otherwise.
+// is the hue over 360 degrees: s grows with distance, so its polarity is NearIsLow unless stated otherwise. The code of
+// a colour map is its entry, 0 to 255.
 struct DepthCalibration {
   static constexpr int kHueSteps = 6 * 256;  // a hue code is 0 .. 1535, red, yellow, green, ..
+  static constexpr int kMapHighest = 255;
   DepthLaw law = DepthLaw::Linear;
   DepthPolarity polarity = DepthPolarity::NearIsHigh;
   ColorRange range = ColorRange::Full;
@@ -54,8 +75,11 @@ struct DepthCalibration {
 // Where a value came from, highest precedence first.
 enum class CalibrationOrigin : std::uint8_t {
   CommandLine,
-  SideFile,
-  ContainerTags,
+  SideFile,       // --calibration FILE
+  StatedKind,     // --as KIND
+  ContainerTags,  // of the film, or of another program
+  FileBeside,     // a file that the recording's own program left beside it
+  Name,           // the names of files and folders
   FirstPicture,
   StreamSignalling,
   Default
@@ -77,22 +101,42 @@ using CalibrationSettings = std::map<std::string, std::string>;
 // The calibration as tags to write.
 [[nodiscard]] std::map<std::string, std::string> calibrationTags(const DepthCalibration& calibration);
 
+// One value of a calibration, and which layer set it.
+struct CalibrationPart {
+  std::string key, value;
+  CalibrationOrigin origin = CalibrationOrigin::Default;
+};
+
 struct CalibrationChoice {
   DepthCalibration calibration;
   CalibrationOrigin origin = CalibrationOrigin::Default;  // the highest layer that set a value
-  std::string explanation;                                // one line: each value and its origin
+  std::vector<CalibrationPart> parts;                     // one for each key
+  std::string explanation;                                // the parts in one line
 };
 
-// The settings by layer, highest precedence first. Values that no layer sets come from the frame's own signalling
-// (bits; range: full for gray and full-range formats, limited for other YUV), then from the defaults. A result that is
-// invalid (far <= near, more bits than the samples have, an invalid code beyond them) is InvalidArgument if the command
-// line caused it, Corrupt if a file did; bad bits and invalid codes from tags are dropped instead.
+// The settings by layer, highest precedence first.
 struct CalibrationLayers {
   CalibrationSettings command_line;
   CalibrationSettings side_file;
+  CalibrationSettings stated_kind;
   CalibrationSettings tags;
+  CalibrationSettings beside;
+  CalibrationSettings names;
   CalibrationSettings pictures;  // read off the first pictures
+
+  struct Layer {
+    CalibrationOrigin origin;
+    const CalibrationSettings* settings;
+  };
+  [[nodiscard]] std::array<Layer, 7> order() const noexcept;
+  // The value of the highest layer that sets `key`; null if none does.
+  [[nodiscard]] const std::string* find(const std::string& key) const;
 };
+
+// Values that no layer sets come from the frame's own signalling (bits; range: full for gray and full-range formats,
+// limited for other YUV), then from the defaults. A result that is invalid (far <= near, distances as hue, more bits
+// than the samples have, an invalid code beyond them) is InvalidArgument if the command line caused it, Corrupt if a
+// file did; bad bits and invalid codes from tags are dropped instead.
 [[nodiscard]] Result<CalibrationChoice> chooseCalibration(const CalibrationLayers& layers, const Frame& depth_frame,
                                                           DepthCode code);
 

@@ -9,36 +9,25 @@
 #include <limits>
 #include <span>
 
+#include "app/scene/color_samples.h"
 #include "app/scene/depth_calibration.h"
 #include "app/scene/display_volume.h"
+#include "app/scene/sampled_block.h"
 #include "hal/frame.h"
 #include "platform/error.h"
 #include "platform/realtime.h"
 
 namespace relievo {
 
-// Which samples of a block are averaged: about `most` across and as many down, evenly spaced and centred, or all of
-// them if there are no more. If they were off centre by half a sample, the mean of a slope would be wrong by half a
-// sample's rise. Lengths are in samples; `most` is at least 1.
-struct SampledBlock {
-  struct Places {
-    int count = 1, step = 1, first = 0;
-    Places() = default;
-    Places(int length, int most) RELIEVO_RT;
-  };
-  int width = 1, height = 1;
-  Places across, down;
-
-  SampledBlock() = default;
-  SampledBlock(int block_width, int block_height, int most) RELIEVO_RT : width(block_width),
-                                                                         height(block_height),
-                                                                         across(block_width, most),
-                                                                         down(block_height, most) {}
-};
-
 // Trivially copyable. Does not own the samples: the holder of the Frame does. The height of a hole (an invalid code, a
-// hue too dark to read) is NaN: every comparison with it is false, so that a hole cannot be touched by accident. Every
-// other height is finite, in [0, volume depth].
+// colour that stands for no depth) is NaN: every comparison with it is false, so that a hole cannot be touched by
+// accident. Every other height is finite, in [0, volume depth].
+//
+// Depth in colours is the point of the code's ColorCurve that is nearest to the colour. Subsampled chroma mixes the two
+// sides of a depth edge to a colour off the curve. Such a sample takes the reading of the near sample whose brightness
+// is most like its own, since brightness is not subsampled; if that one is black or red, it is a hole. If no near sample
+// is on the curve, its own reading counts if it is not far off. Red, where both ends of the depth meet on the circle of
+// hues, is a hole in YUV unless a surface beside it ends there.
 class HeightField {
  public:
   HeightField() = default;
@@ -53,7 +42,7 @@ class HeightField {
   // Requires 0 <= c < cols, 0 <= r < rows; not checked.
   [[nodiscard]] double heightMm(int c, int r) const RELIEVO_RT {
     const std::uint8_t* sample = data_ + r * stride_bytes_ + static_cast<std::ptrdiff_t>(c) * step_bytes_;
-    if (layout_ >= Layout::Hue) return fromHue(c, r);
+    if (layout_ >= Layout::Hue) return fromColor(c, r);
     const std::uint32_t code = codeAt(sample);
     if (invalid_.contains(code)) return kHole;
     return fromNormalised(s_offset_ + s_scale_ * static_cast<double>(code));
@@ -63,7 +52,7 @@ class HeightField {
   bool readRow(int r, std::span<const int> columns, float* heights_mm) const RELIEVO_RT;
 
   // True if a sample depends on bytes outside `rowBytes`, so that comparing rows can miss a change.
-  [[nodiscard]] bool readsChroma() const noexcept { return layout_ == Layout::HueYuv; }
+  [[nodiscard]] bool readsBeside() const noexcept { return layout_ == Layout::Curve; }
   // The bytes of a row from the first sample to the last.
   [[nodiscard]] std::span<const std::uint8_t> rowBytes(int r) const noexcept {
     return {data_ + r * stride_bytes_, static_cast<std::size_t>(cols_ - 1) * step_bytes_ + sampleBytes()};
@@ -85,25 +74,14 @@ class HeightField {
   // it may return false for equal samples. Reads the whole picture: not for the real-time thread.
   [[nodiscard]] bool sameSamples(const HeightField& other) const noexcept;
 
-  // The raw luma code, or a hue 0 .. 1535 (six steps of 256), 0 if unreadable.
+  // The raw luma code, a hue 0 .. 1535 (six steps of 256) or the entry 0 .. 255 of a colour map; 0 if unreadable.
   [[nodiscard]] std::uint32_t code(int c, int r) const RELIEVO_RT;
 
-  static constexpr int kHueSteps = DepthCalibration::kHueSteps;
   static constexpr double kHole = std::numeric_limits<double>::quiet_NaN();
 
  private:
   bool operator==(const HeightField&) const = default;
-  enum class Layout : std::uint8_t { Bytes, Words, Hue, HueYuv };
-  // Where the chroma samples are, and the coefficients from YUV to red, green and blue, in 1/65536 of an 8-bit code.
-  struct Chroma {
-    const std::uint8_t *u = nullptr, *v = nullptr;
-    std::ptrdiff_t u_stride_bytes = 0, v_stride_bytes = 0;
-    std::uint8_t shift_x = 0, shift_y = 0, step_bytes = 1;
-    std::uint8_t bits = 8, sample_shift = 0;  // of all three components
-    int luma_offset = 0, luma = 65536, red_v = 0, green_u = 0, green_v = 0, blue_u = 0;
-    bool operator==(const Chroma&) const = default;
-  };
-  static Chroma chromaOf(const Frame& depth) noexcept;
+  enum class Layout : std::uint8_t { Bytes, Words, Hue, Curve };
   [[nodiscard]] std::uint32_t codeAt(const std::uint8_t* sample) const RELIEVO_RT {
     const std::uint32_t low = sample[0];
     if (layout_ == Layout::Bytes) return (low >> shift_) & mask_;
@@ -115,12 +93,19 @@ class HeightField {
     return (far_mm_ - 1.0 / (far_inverse_ + s * (near_inverse_ - far_inverse_))) * depth_per_mm_;
   }
   [[nodiscard]] int sampleBytes() const noexcept {
-    if (layout_ == Layout::HueYuv) return chroma_.bits > 8 ? 2 : 1;
-    return layout_ == Layout::Bytes ? 1 : layout_ == Layout::Words ? 2 : 1 + std::max({red_, green_, blue_});
+    if (layout_ == Layout::Bytes) return 1;
+    return layout_ == Layout::Words || step_bytes_ == 2 ? 2
+           : step_bytes_ == 1                           ? 1
+                                                        : 1 + std::max({red_, green_, blue_});
   }
-  [[nodiscard]] bool sameChroma(const HeightField& other) const noexcept;
-  [[nodiscard]] double hueAt(int c, int r) const RELIEVO_RT;
-  [[nodiscard]] double fromHue(int c, int r) const RELIEVO_RT;
+  void readColors(const Frame& depth, DepthCode code) noexcept;
+  [[nodiscard]] double colorCodeAt(int c, int r) const RELIEVO_RT;
+  [[nodiscard]] double shareAt(int c, int r) const RELIEVO_RT;
+  [[nodiscard]] bool isSure(const ColorCurve::Point& point) const RELIEVO_RT;
+  [[nodiscard]] double shareBeside(int c, int r, const YuvColor& own,
+                                   const ColorCurve::Point& reading) const RELIEVO_RT;
+  [[nodiscard]] double fromColor(int c, int r) const RELIEVO_RT;
+  [[nodiscard]] double meanOfColors(int c0, int r0, const SampledBlock& block) const RELIEVO_RT;
   template <class Sample>
   [[nodiscard]] double meanOfCodes(int c0, int r0, const SampledBlock& block) const RELIEVO_RT;
   template <class Sample, int kAcross>
@@ -143,7 +128,9 @@ class HeightField {
   double near_inverse_ = 0, far_inverse_ = 0;  // 1/near, 1/far
   double far_mm_ = 0, depth_per_mm_ = 0;       // depth_per_mm = D/(far - near)
   GridMapping grid_;
-  Chroma chroma_;
+  ColorSamples colors_;
+  const ColorCurve* curve_ = nullptr;
+  double steps_ = 0;  // codes from the curve's first colour to its last
 };
 
 }  // namespace relievo

@@ -30,10 +30,14 @@ struct Capture {
 // cannot be written.
 [[nodiscard]] std::unique_ptr<Display> makeOffscreenDisplay(Capture capture, const Clock& clock);
 
-// A window of the requested size on the desktop, X11 or Wayland. The viewer may resize it; F11 toggles full screen. It
-// is synchronised to the screen's refresh if the GL driver can. `attend` puts its other keys and its mouse into
-// `input`; the keys' times come from `clock`, which must outlive the display. The first `open` starts SDL.
+// A window of the requested size on the desktop, X11 or Wayland; with `film_size` it appears with the first frame. The
+// viewer may resize it, and then it keeps that size; a double click toggles full screen. It is synchronised to the
+// screen's refresh if the GL driver can. `attend` puts its keys and its mouse into `input`; the keys' times come from
+// `clock`, which must outlive the display. The first `open` starts SDL.
 [[nodiscard]] std::unique_ptr<Display> makeWindowDisplay(std::shared_ptr<WindowInput> input, const Clock& clock);
+
+// Whether a window can be opened: starts SDL.
+[[nodiscard]] bool desktopIsThere();
 
 // A whole screen without a desktop, by the kernel's mode setting (KMS), on the card `path` ("/dev/dri/card0"), or on
 // the first card that has a screen. The mode is the one of the requested size, else the screen's preferred one. The

@@ -3,9 +3,13 @@
 #include <EGL/egl.h>
 #include <SDL.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "drivers/egl/egl.h"
 #include "drivers/egl/window_keys.h"
@@ -15,7 +19,6 @@ namespace {
 
 constexpr const char* kTitle = "relievo";
 constexpr const char* kOwner = "relievo display";  // key of a window's pointer to its display
-constexpr SDL_Scancode kFullScreenKey = SDL_SCANCODE_F11;
 constexpr const char* kNoGles =
     "the desktop cannot open a window with GLES 3; install a GL driver (Debian: libegl1, libgl1-mesa-dri)";
 
@@ -61,9 +64,15 @@ class WindowDisplay final : public Display {
   Result<Duration> showFrame() override;
   Result<bool> attendScreen() override;
   void closeDisplay() noexcept override;
+  void nameFilm(const AnnouncedFilm& film) override;
+  void showViews(const SceneViews& views) override;
+  void setFullScreen(FullScreen wish) override;
+  std::vector<std::string> droppedOnIt() override { return std::exchange(dropped_, {}); }
 
   Result<void> makeCurrent() noexcept;
   void readRefresh() noexcept;
+  void takeSize(int width, int height) noexcept;
+  [[nodiscard]] bool fillsScreen() const noexcept { return (SDL_GetWindowFlags(window_) & SDL_WINDOW_FULLSCREEN) != 0; }
 
   void hear(const SDL_Event& event);
   void hearWindow(const SDL_WindowEvent& event);
@@ -71,14 +80,19 @@ class WindowDisplay final : public Display {
   void hearButton(const SDL_MouseButtonEvent& event);
   void moveMouse(int x, int y) noexcept;
   void publishMouse() noexcept;
+  void hearDrop(const SDL_DropEvent& event);
 
   std::shared_ptr<WindowInput> input_;
   const Clock& clock_;
   SDL_Window* window_ = nullptr;
   SDL_GLContext context_ = nullptr;
   Duration refresh_period_{0};
-  bool paced_ = false;  // swapping waits for the refresh
+  bool paced_ = false;      // swapping waits for the refresh
+  bool film_size_ = false;  // the window takes each film's size
+  SceneViews views_;
   WindowMouse mouse_;
+  int mouse_x_ = 0, mouse_y_ = 0;
+  std::vector<std::string> dropped_;
   bool redraw_ = false;
   bool closed_by_viewer_ = false;
 };
@@ -88,8 +102,10 @@ Result<void> WindowDisplay::openDisplay(const DisplayConfig& config) {
     return fail(ErrorCode::Unsupported,
                 "there is no desktop to open a window on; start relievo from one (X11 or Wayland)");
   }
+  film_size_ = config.film_size;
   window_ = SDL_CreateWindow(kTitle, SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, config.width, config.height,
-                             SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
+                             SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI |
+                                 (film_size_ ? SDL_WINDOW_HIDDEN : SDL_WINDOW_SHOWN));
   if (window_ == nullptr) return fail(ErrorCode::Unsupported, kNoGles);
   SDL_SetWindowData(window_, kOwner, this);
   context_ = SDL_GL_CreateContext(window_);
@@ -99,6 +115,7 @@ Result<void> WindowDisplay::openDisplay(const DisplayConfig& config) {
 
   redraw_ = closed_by_viewer_ = false;
   mouse_ = {};
+  views_ = {};
   publishMouse();
   input_->open = true;
   return {};
@@ -127,6 +144,7 @@ Result<DisplaySurface> WindowDisplay::startFrame() {
 // SDL_GL_SwapWindow reports failures only by SDL_GetError. A frame is on the screen at the next refresh.
 Result<Duration> WindowDisplay::showFrame() {
   if (auto current = makeCurrent(); !current) return std::unexpected(current.error());
+  SDL_ShowWindow(window_);  // the first frame of a film's own size
   SDL_ClearError();
   SDL_GL_SwapWindow(window_);
   if (*SDL_GetError() != '\0') return fail(ErrorCode::Lost, "the window cannot be drawn on any more; opening it again");
@@ -136,8 +154,12 @@ Result<Duration> WindowDisplay::showFrame() {
 // SDL has one event queue for the process: events of another window are passed to its display.
 Result<bool> WindowDisplay::attendScreen() {
   for (SDL_Event event; SDL_PollEvent(&event) != 0;) {
+    if (event.type == SDL_DROPFILE || event.type == SDL_DROPTEXT) {
+      hearDrop(event.drop);
+      continue;
+    }
     SDL_Window* window =
-        SDL_GetWindowFromID(event.window.windowID);  // windowID is at the same offset in each kind of event
+        SDL_GetWindowFromID(event.window.windowID);  // windowID is at the same offset in the other kinds of event
     if (window == nullptr) continue;
     if (void* owner = SDL_GetWindowData(window, kOwner)) static_cast<WindowDisplay*>(owner)->hear(event);
   }
@@ -168,21 +190,21 @@ void WindowDisplay::hear(const SDL_Event& event) {
 void WindowDisplay::hearWindow(const SDL_WindowEvent& event) {
   if (event.event == SDL_WINDOWEVENT_CLOSE) closed_by_viewer_ = true;
   if (event.event == SDL_WINDOWEVENT_EXPOSED) redraw_ = true;
+  if (event.event == SDL_WINDOWEVENT_RESIZED && !fillsScreen()) film_size_ = false;  // by the viewer, or the desktop
   if (event.event != SDL_WINDOWEVENT_SIZE_CHANGED) return;
   redraw_ = true;
   publishMouse();
 }
 
+void WindowDisplay::hearDrop(const SDL_DropEvent& event) {
+  if (event.file == nullptr) return;
+  dropped_.emplace_back(event.file);
+  SDL_free(event.file);
+}
+
 void WindowDisplay::hearKey(const SDL_KeyboardEvent& event) {
   const bool down = event.state == SDL_PRESSED;
-  if (event.keysym.scancode == kFullScreenKey) {
-    if (!down || event.repeat != 0) return;
-    const bool full = (SDL_GetWindowFlags(window_) & SDL_WINDOW_FULLSCREEN) != 0;
-    SDL_SetWindowFullscreen(window_, full ? 0U : Uint32{SDL_WINDOW_FULLSCREEN_DESKTOP});
-    SDL_ShowCursor(full ? SDL_ENABLE : SDL_DISABLE);
-    return;
-  }
-  const auto code = linuxKey(event.keysym.scancode);
+  const auto code = linuxKey(event.keysym);
   if (!code) return;
   using Action = KeyEvent::Action;
   const Action action = !down ? Action::Release : event.repeat != 0 ? Action::Repeat : Action::Press;
@@ -195,20 +217,56 @@ void WindowDisplay::hearButton(const SDL_MouseButtonEvent& event) {
   if (event.button == SDL_BUTTON_MIDDLE) mouse_.middle = down;
   if (event.button == SDL_BUTTON_RIGHT) mouse_.right = down;
   moveMouse(event.x, event.y);
+  if (down && event.button == SDL_BUTTON_LEFT && event.clicks == 2) setFullScreen(FullScreen::Toggle);
 }
 
 void WindowDisplay::moveMouse(int x, int y) noexcept {
-  int width = 0, height = 0;
-  SDL_GetWindowSize(window_, &width, &height);
-  mouse_.right_px = x + 0.5 - 0.5 * width;
-  mouse_.up_px = 0.5 * height - (y + 0.5);
+  mouse_x_ = x;
+  mouse_y_ = y;
   publishMouse();
 }
 
+// Where no eye sees the scene, the mouse points where it pointed last.
 void WindowDisplay::publishMouse() noexcept {
-  SDL_GetWindowSize(window_, &mouse_.width_px, &mouse_.height_px);
+  int width = 0, height = 0;
+  SDL_GetWindowSize(window_, &width, &height);
+  const auto share = [](int pixel, int of) {
+    return (std::clamp(pixel, 0, std::max(of - 1, 0)) + 0.5) / std::max(of, 1);
+  };
+  if (const auto ray = rayThrough(views_, share(mouse_x_, width), share(mouse_y_, height))) mouse_.ray = ray;
   input_->mouse.back() = mouse_;
   input_->mouse.publish();
+}
+
+void WindowDisplay::showViews(const SceneViews& views) {
+  if (views == views_) return;
+  views_ = views;
+  publishMouse();
+}
+
+void WindowDisplay::setFullScreen(FullScreen wish) {
+  const bool fill = wish == FullScreen::Toggle ? !fillsScreen() : wish == FullScreen::On;
+  if (fill == fillsScreen()) return;
+  SDL_SetWindowFullscreen(window_, fill ? Uint32{SDL_WINDOW_FULLSCREEN_DESKTOP} : 0U);
+  SDL_ShowCursor(fill ? SDL_DISABLE : SDL_ENABLE);
+}
+
+void WindowDisplay::nameFilm(const AnnouncedFilm& film) {
+  SDL_SetWindowTitle(window_, film.title.empty() ? kTitle : (film.title + " - " + kTitle).c_str());
+  if (film_size_ && film.width > 0 && film.height > 0) takeSize(film.width, film.height);
+}
+
+// Smaller in its own shape where the desktop has not so much room; a frame around the window takes some of it.
+void WindowDisplay::takeSize(int width, int height) noexcept {
+  constexpr double kRoom = 0.95;
+  SDL_Rect room{};
+  if (SDL_GetDisplayUsableBounds(SDL_GetWindowDisplayIndex(window_), &room) == 0) {
+    const double scale = std::min({1.0, kRoom * room.w / width, kRoom * room.h / height});
+    width = std::max(1, static_cast<int>(std::lround(scale * width)));
+    height = std::max(1, static_cast<int>(std::lround(scale * height)));
+  }
+  SDL_SetWindowSize(window_, width, height);
+  SDL_SetWindowPosition(window_, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED);
 }
 
 void WindowDisplay::closeDisplay() noexcept {
@@ -218,6 +276,11 @@ void WindowDisplay::closeDisplay() noexcept {
 }
 
 }  // namespace
+
+bool desktopIsThere() {
+  const bool named = std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
+  return named && startSdl();
+}
 
 std::unique_ptr<Display> makeWindowDisplay(std::shared_ptr<WindowInput> input, const Clock& clock) {
   return std::make_unique<WindowDisplay>(std::move(input), clock);

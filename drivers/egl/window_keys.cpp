@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A table from SDL's scancodes, which are USB usages (HID Usage Tables, 10 and 15), to Linux key codes as in the
-// kernel's hid-input.c.
+// Tables: from SDL's symbols to the codes of what is printed on a key, and from its scancodes, which are USB usages
+// (HID Usage Tables, 10 and 15), to Linux key codes as in the kernel's hid-input.c.
 #include "drivers/egl/window_keys.h"
 
 #include <linux/input-event-codes.h>
+
+#include <span>
 
 namespace relievo {
 namespace {
@@ -140,13 +142,62 @@ constexpr KeyPair kKeys[] = {
     {SDL_SCANCODE_SLEEP, KEY_SLEEP},
 };
 
-}  // namespace
+struct SignPair {
+  SDL_Keycode sign;
+  std::uint16_t code;
+};
+// The signs that no key of the USA has without shift.
+constexpr SignPair kSigns[] = {
+    {SDLK_HASH, KEY_NUMERIC_POUND}, {SDLK_QUESTION, KEY_QUESTION}, {SDLK_LESS, KEY_PREVIOUS},
+    {SDLK_GREATER, KEY_NEXT},       {SDLK_PLUS, KEY_KPPLUS},       {SDLK_ASTERISK, KEY_KPASTERISK},
+};
+// With shift, on the keys of the USA.
+constexpr SignPair kShifted[] = {
+    {SDLK_3, KEY_NUMERIC_POUND}, {SDLK_SLASH, KEY_QUESTION}, {SDLK_COMMA, KEY_PREVIOUS}, {SDLK_PERIOD, KEY_NEXT}};
 
-std::optional<std::uint16_t> linuxKey(SDL_Scancode scancode) noexcept {
+std::optional<std::uint16_t> codeOf(std::span<const SignPair> pairs, SDL_Keycode sign) noexcept {
+  for (const SignPair& pair : pairs) {
+    if (pair.sign == sign) return pair.code;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::uint16_t> codeOf(SDL_Scancode scancode) noexcept {
   for (const KeyPair& key : kKeys) {
     if (key.scancode == scancode) return key.code;
   }
   return std::nullopt;
+}
+
+// SDL's scancodes of the letters are in the order of the alphabet, and so are its symbols.
+SDL_Scancode positionInUsa(const SDL_Keysym& key) noexcept {
+  if (key.sym >= SDLK_a && key.sym <= SDLK_z) return static_cast<SDL_Scancode>(SDL_SCANCODE_A + (key.sym - SDLK_a));
+  switch (key.sym) {
+    case SDLK_COMMA:
+      return SDL_SCANCODE_COMMA;
+    case SDLK_PERIOD:
+      return SDL_SCANCODE_PERIOD;
+    case SDLK_MINUS:
+      return SDL_SCANCODE_MINUS;
+    case SDLK_EQUALS:
+      return SDL_SCANCODE_EQUALS;
+    case SDLK_LEFTBRACKET:
+      return SDL_SCANCODE_LEFTBRACKET;
+    case SDLK_RIGHTBRACKET:
+      return SDL_SCANCODE_RIGHTBRACKET;
+    default:
+      return key.scancode;
+  }
+}
+
+}  // namespace
+
+std::optional<std::uint16_t> linuxKey(const SDL_Keysym& key) noexcept {
+  if ((key.mod & KMOD_SHIFT) != 0) {
+    if (const auto code = codeOf(kShifted, key.sym)) return code;
+  }
+  if (const auto code = codeOf(kSigns, key.sym)) return code;
+  return codeOf(positionInUsa(key));
 }
 
 }  // namespace relievo

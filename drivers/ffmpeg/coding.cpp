@@ -7,6 +7,7 @@
 extern "C" {
 #include <libavcodec/codec_desc.h>
 #include <libavutil/channel_layout.h>
+#include <libavutil/pixdesc.h>
 }
 
 namespace relievo::ffmpeg {
@@ -26,6 +27,7 @@ ParametersPtr parametersFromWords(const StreamInfo& stream, AVMediaType kind) {
   parameters->codec_id = codec == nullptr ? AV_CODEC_ID_NONE : codec->id;
   parameters->width = stream.width;
   parameters->height = stream.height;
+  if (!stream.pixel_format.empty()) parameters->format = av_get_pix_fmt(stream.pixel_format.c_str());
   parameters->sample_rate = stream.sample_rate_hz;
   if (stream.channels > 0) av_channel_layout_default(&parameters->ch_layout, stream.channels);
   if (stream.extradata.empty()) return parameters;

@@ -3,10 +3,12 @@
 #include "drivers/ffmpeg/container.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
+#include <string_view>
 #include <utility>
 
 #include "drivers/ffmpeg/library.h"
@@ -24,11 +26,20 @@ namespace {
 // A transport stream's stream type (ISO/IEC 13818-1, table 2-34), which FFmpeg stores as the codec tag.
 constexpr std::uint32_t kAuxiliaryVideo = 0x1e;
 
+// Azure Kinect's code for 16-bit gray in big endian, which FFmpeg takes for RGB of 15 bits.
+constexpr std::uint32_t kGray16Big = MKTAG('b', '1', '6', 'g');
+
 Duration framePeriodOf(const AVStream& stream) noexcept {
   for (const AVRational rate : {stream.avg_frame_rate, stream.r_frame_rate}) {
     if (rate.num > 0 && rate.den > 0) return durationFrom(1, av_inv_q(rate));
   }
   return Duration(0);
+}
+
+std::string layoutOf(const AVChannelLayout& layout) {
+  std::array<char, 64> text{};
+  const bool known = layout.nb_channels > 0 && av_channel_layout_describe(&layout, text.data(), text.size()) > 0;
+  return known ? text.data() : "";
 }
 
 // Nine numbers; null if the container has no display matrix.
@@ -70,6 +81,19 @@ std::pair<std::int64_t, std::int64_t> worthOf(const AVFormatContext& context, co
   return {area, rate == nullptr ? 0 : std::strtoll(rate->value, nullptr, 10)};
 }
 
+void becomeGray16Big(AVCodecParameters& parameters) noexcept {
+  parameters.codec_id = AV_CODEC_ID_RAWVIDEO;
+  parameters.codec_tag = 0;  // it would override the format
+  parameters.format = AV_PIX_FMT_GRAY16BE;
+  parameters.bits_per_coded_sample = 16;
+}
+
+// The recorder writes infrared in the same format.
+bool isKinectDepth(const StreamInfo& info) {
+  const auto title = info.tags.find("TITLE");
+  return info.tags.contains("K4A_DEPTH_TRACK") || (title != info.tags.end() && title->second == "DEPTH");
+}
+
 }  // namespace
 
 std::map<std::string, std::string> tagsOf(const AVDictionary* dictionary) {
@@ -81,6 +105,18 @@ std::map<std::string, std::string> tagsOf(const AVDictionary* dictionary) {
     tags[key] = entry->value;
   }
   return tags;
+}
+
+std::vector<Chapter> chaptersOf(const AVFormatContext& context, Duration start) {
+  std::vector<Chapter> chapters;
+  for (unsigned i = 0; i < context.nb_chapters; ++i) {
+    const AVChapter& chapter = *context.chapters[i];
+    const AVDictionaryEntry* const title = av_dict_get(chapter.metadata, "title", nullptr, 0);
+    chapters.push_back({.begin = durationFrom(chapter.start, chapter.time_base) - start,
+                        .end = durationFrom(chapter.end, chapter.time_base) - start,
+                        .title = title == nullptr ? "" : title->value});
+  }
+  return chapters;
 }
 
 StreamKind kindOf(const AVStream& stream) noexcept {
@@ -96,18 +132,6 @@ StreamKind kindOf(const AVStream& stream) noexcept {
     default:
       return StreamKind::Other;
   }
-}
-
-std::vector<Chapter> chaptersOf(const AVFormatContext& context, Duration start) {
-  std::vector<Chapter> chapters;
-  for (unsigned i = 0; i < context.nb_chapters; ++i) {
-    const AVChapter& chapter = *context.chapters[i];
-    const AVDictionaryEntry* const title = av_dict_get(chapter.metadata, "title", nullptr, 0);
-    const Duration begin = durationFrom(chapter.start, chapter.time_base) - start;
-    chapters.push_back({MediaTime(std::max(begin, Duration(0))), title == nullptr ? "" : title->value});
-  }
-  std::ranges::sort(chapters, {}, &Chapter::begin);
-  return chapters;
 }
 
 bool isTextArt(const AVFormatContext& context) noexcept {
@@ -139,6 +163,21 @@ Duration startOf(const AVFormatContext& context) noexcept {
     if (std::chrono::abs(exact - start) <= std::chrono::microseconds(1)) return exact;
   }
   return start;
+}
+
+Duration lengthOf(const AVFormatContext& context, Duration start) noexcept {
+  if (context.duration <= 0) return Duration(0);
+  const Duration stated = durationFrom(context.duration, kMicrosecond);
+  if (context.duration_estimation_method != AVFMT_DURATION_FROM_STREAM || start <= Duration(0)) return stated;
+  Duration end{0};
+  for (unsigned i = 0; i < context.nb_streams; ++i) {
+    const AVStream& stream = *context.streams[i];
+    if (stream.start_time == AV_NOPTS_VALUE || stream.duration <= 0) continue;
+    end = std::max(end, durationFrom(stream.start_time + stream.duration, stream.time_base));
+  }
+  if (end > start) return std::min(stated, end - start);
+  const bool from_zero = std::string_view(context.iformat->name).starts_with("matroska");
+  return from_zero && stated > start ? stated - start : stated;
 }
 
 int earliestStream(const AVFormatContext& context, int leading) noexcept {
@@ -180,12 +219,15 @@ Result<StreamInfo> describeStream(const AVStream& stream, bool timed) {
   if (info.kind == StreamKind::Video) info.rotation = rotationOf(stream);
   info.sample_rate_hz = parameters.sample_rate;
   info.channels = parameters.ch_layout.nb_channels;
+  info.channel_layout = layoutOf(parameters.ch_layout);
   info.frame_period = framePeriodOf(stream);
+  if (timed) info.average_rate = {stream.avg_frame_rate.num, stream.avg_frame_rate.den};
+  if (timed) info.base_rate = {stream.r_frame_rate.num, stream.r_frame_rate.den};
   if (timed && stream.duration > 0) info.duration = durationFrom(stream.duration, stream.time_base);
   info.tags = tagsOf(stream.metadata);
-  // FFmpeg cannot tell the size of a TIFF picture of floats.
-  const bool float_tiff = parameters.codec_id == AV_CODEC_ID_TIFF && parameters.width == 0;
-  if (isDistance(parameters.format) || float_tiff) info.tags.insert({{"DEPTH_UNIT", "1"}, {"DEPTH_INVALID", "0"}});
+  if (parameters.codec_tag == kGray16Big && isKinectDepth(info)) {
+    info.tags.insert({{"DEPTH_UNIT", "1"}, {"DEPTH_INVALID", "0"}});
+  }
   info.by_default = (stream.disposition & AV_DISPOSITION_DEFAULT) != 0;
   info.forced = (stream.disposition & AV_DISPOSITION_FORCED) != 0;
   info.auxiliary = info.kind == StreamKind::Video && parameters.codec_tag == kAuxiliaryVideo;
@@ -195,6 +237,7 @@ Result<StreamInfo> describeStream(const AVStream& stream, bool timed) {
   if (!native->parameters || avcodec_parameters_copy(native->parameters.get(), &parameters) < 0) {
     return std::unexpected(openError(AVERROR(ENOMEM)));
   }
+  if (parameters.codec_tag == kGray16Big) becomeGray16Big(*native->parameters);
   native->time_base = stream.time_base;
   native->sample_aspect = stream.sample_aspect_ratio;
   info.native = std::shared_ptr<NativeStream>(native.release(), NativeStreamDeleter{});

@@ -20,14 +20,14 @@ inline constexpr AVRational kMicrosecond{1, AV_TIME_BASE};  // the time base of 
 // Keys in upper case.
 [[nodiscard]] std::map<std::string, std::string> tagsOf(const AVDictionary* dictionary);
 
+// With media times: `start` is the container's (startOf).
+[[nodiscard]] std::vector<Chapter> chaptersOf(const AVFormatContext& context, Duration start);
+
 // Other for cover pictures, and for streams that `chooseProgramme` excluded.
 [[nodiscard]] StreamKind kindOf(const AVStream& stream) noexcept;
 
 // Without a duration if the container has no times (`timed` false). Exhausted if out of memory.
 [[nodiscard]] Result<StreamInfo> describeStream(const AVStream& stream, bool timed);
-
-// Their media times: `start` is the container's time of 0.
-[[nodiscard]] std::vector<Chapter> chaptersOf(const AVFormatContext& context, Duration start);
 
 // True for text files, which FFmpeg would render as a video of letters.
 [[nodiscard]] bool isTextArt(const AVFormatContext& context) noexcept;
@@ -39,6 +39,10 @@ inline constexpr AVRational kMicrosecond{1, AV_TIME_BASE};  // the time base of 
 // The start time of the stream that begins first. It is more exact than FFmpeg's start of the container, which is in
 // microseconds, so that the first picture's time becomes exactly 0.
 [[nodiscard]] Duration startOf(const AVFormatContext& context) noexcept;
+
+// How long the film is, by the container; 0 if unknown. Matroska and QuickTime may count from time 0, `start` is
+// where the film begins.
+[[nodiscard]] Duration lengthOf(const AVFormatContext& context, Duration start) noexcept;
 
 // The leading stream, unless another video stream begins earlier.
 [[nodiscard]] int earliestStream(const AVFormatContext& context, int leading) noexcept;

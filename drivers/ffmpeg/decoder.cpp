@@ -42,6 +42,7 @@ class FfmpegDecoder final : public VideoDecoder {
     period_ = stream.frame_period > Duration(0) ? stream.frame_period : kDefaultPeriod;
     next_pts_ = MediaTime{};
     end_pending_ = false;
+    converter_.forgetScale();
 
     if (const auto* described = native<NativeStream, NativeStreamDeleter>(stream.native)) {
       time_base_ = described->time_base;
@@ -112,12 +113,14 @@ class FfmpegDecoder final : public VideoDecoder {
     FramePtr picture(av_frame_alloc());
     if (!picture) return fail(ErrorCode::Exhausted, kNoMemory, ENOMEM);
     av_frame_move_ref(picture.get(), picture_.get());
+    const bool floats = isGrayFloat(picture->format);
     if (!describable(picture->format)) {
       auto converted = converter_.convert(*picture);
       if (!converted) return std::unexpected(converted.error());
       picture = std::move(*converted);
     }
     frame = frameOf(std::move(picture), sample_aspect_);
+    if (floats) frame.value_per_code = converter_.valuePerCode();
     frame.pts = pts;
     frame.duration = duration;
     return Progress::Picture;

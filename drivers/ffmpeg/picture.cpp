@@ -6,8 +6,6 @@
 #include <bit>
 #include <cerrno>
 
-#include "hal/distance.h"
-
 extern "C" {
 #include <libavutil/error.h>
 #include <libavutil/pixdesc.h>
@@ -71,6 +69,14 @@ bool isInterlaced(const AVFrame& picture) noexcept {
 #endif
 }
 
+bool isTopFieldFirst(const AVFrame& picture) noexcept {
+#if LIBAVUTIL_VERSION_INT >= AV_VERSION_INT(58, 7, 100)  // FFmpeg 6.1
+  return (picture.flags & AV_FRAME_FLAG_TOP_FIELD_FIRST) != 0;
+#else
+  return picture.top_field_first != 0;
+#endif
+}
+
 // FFmpeg numbers primaries and transfers as ITU-T H.273 does.
 std::uint8_t h273(int code) noexcept {
   return code > 0 && code <= 255 ? static_cast<std::uint8_t>(code) : kUnspecifiedColor;
@@ -91,6 +97,23 @@ ColorMatrix matrixOf(AVColorSpace space) noexcept {
   }
 }
 
+FieldOrder fieldsOf(AVFieldOrder order) noexcept {
+  switch (order) {
+    case AV_FIELD_PROGRESSIVE:
+      return FieldOrder::Progressive;
+    case AV_FIELD_TT:
+      return FieldOrder::TopTop;
+    case AV_FIELD_BB:
+      return FieldOrder::BottomBottom;
+    case AV_FIELD_TB:
+      return FieldOrder::TopBottom;
+    case AV_FIELD_BT:
+      return FieldOrder::BottomTop;
+    default:
+      return FieldOrder::Unknown;
+  }
+}
+
 double sampleAspectOf(AVRational container, AVRational own) noexcept {
   for (const AVRational aspect : {container, own}) {
     if (aspect.num > 0 && aspect.den > 0) return av_q2d(aspect);
@@ -98,17 +121,27 @@ double sampleAspectOf(AVRational container, AVRational own) noexcept {
   return 1.0;
 }
 
-void toMillimetres(const AVFrame& metres, const AVFrame& mm) noexcept {
-  for (int r = 0; r < metres.height; ++r) {
-    const auto* const from = reinterpret_cast<const float*>(metres.data[0] + std::ptrdiff_t{r} * metres.linesize[0]);
-    auto* const to = reinterpret_cast<std::uint16_t*>(mm.data[0] + std::ptrdiff_t{r} * mm.linesize[0]);
-    std::transform(from, from + metres.width, to, millimetres);
+const float* floatsOf(const AVFrame& picture, int row) noexcept {
+  return reinterpret_cast<const float*>(picture.data[0] + std::ptrdiff_t{row} * picture.linesize[0]);
+}
+
+FloatCodes scaleFor(const AVFrame& picture) {
+  const auto cols = static_cast<std::size_t>(picture.width);
+  const auto sample = [&](std::size_t i) { return floatsOf(picture, static_cast<int>(i / cols))[i % cols]; };
+  return FloatCodes::chosenFor(sample, cols * static_cast<std::size_t>(picture.height));
+}
+
+void toCodes(const AVFrame& picture, const FloatCodes& scale, const AVFrame& codes) noexcept {
+  for (int r = 0; r < picture.height; ++r) {
+    const float* const from = floatsOf(picture, r);
+    auto* const to = reinterpret_cast<std::uint16_t*>(codes.data[0] + std::ptrdiff_t{r} * codes.linesize[0]);
+    std::transform(from, from + picture.width, to, [&](float value) { return scale.codeOf(value); });
   }
 }
 
 }  // namespace
 
-bool isDistance(int format) noexcept {
+bool isGrayFloat(int format) noexcept {
   return format == AV_PIX_FMT_GRAYF32LE;
 }
 
@@ -150,6 +183,7 @@ Frame frameOf(FramePtr picture, AVRational sample_aspect) {
   frame.range = rangeOf(picture->format, picture->color_range, frame.model);
   frame.matrix = matrixOf(picture->colorspace);
   frame.interlaced = isInterlaced(*picture);
+  frame.top_field_first = isTopFieldFirst(*picture);
   frame.primaries = h273(picture->color_primaries);
   frame.transfer = h273(picture->color_trc);
   frame.sample_aspect = sampleAspectOf(sample_aspect, picture->sample_aspect_ratio);
@@ -175,12 +209,18 @@ Frame frameOf(FramePtr picture, AVRational sample_aspect) {
   return frame;
 }
 
-void describeSignals(StreamInfo& stream, const AVCodecParameters& parameters, AVRational sample_aspect) noexcept {
+void describeSignals(StreamInfo& stream, const AVCodecParameters& parameters, AVRational sample_aspect) {
   const AVPixFmtDescriptor* const format = av_pix_fmt_desc_get(static_cast<AVPixelFormat>(parameters.format));
   const ColorModel model = format == nullptr ? ColorModel::Yuv : modelOf(*format);
   stream.range = rangeOf(parameters.format, parameters.color_range, model);
   stream.matrix = matrixOf(parameters.color_space);
   stream.sample_aspect = sampleAspectOf(sample_aspect, parameters.sample_aspect_ratio);
+  stream.primaries = h273(parameters.color_primaries);
+  stream.transfer = h273(parameters.color_trc);
+  stream.fields = fieldsOf(parameters.field_order);
+  if (format == nullptr) return;
+  stream.pixel_format = av_get_pix_fmt_name(static_cast<AVPixelFormat>(parameters.format));
+  stream.bits = parameters.bits_per_raw_sample > 0 ? parameters.bits_per_raw_sample : format->comp[0].depth;
 }
 
 Converter::Converter() noexcept = default;
@@ -189,10 +229,10 @@ Converter::~Converter() {
 }
 
 Result<FramePtr> Converter::convert(const AVFrame& picture) {
-  const bool distance = isDistance(picture.format);
+  const bool floats = isGrayFloat(picture.format);
   const auto from = static_cast<AVPixelFormat>(picture.format);
   const auto to = static_cast<AVPixelFormat>(nearestDescribable(picture.format));
-  if (!distance) {
+  if (!floats) {
     scaler_ = sws_getCachedContext(scaler_, picture.width, picture.height, from, picture.width, picture.height, to,
                                    SWS_BILINEAR | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INP, nullptr, nullptr, nullptr);
     if (scaler_ == nullptr) {
@@ -207,8 +247,9 @@ Result<FramePtr> Converter::convert(const AVFrame& picture) {
   if (av_frame_get_buffer(converted.get(), 0) < 0 || av_frame_copy_props(converted.get(), &picture) < 0) {
     return fail(ErrorCode::Exhausted, "out of memory for a picture", ENOMEM);
   }
-  if (distance) {
-    toMillimetres(picture, *converted);
+  if (floats) {
+    if (!codes_) codes_ = scaleFor(picture);
+    toCodes(picture, *codes_, *converted);
     return converted;
   }
   if (sws_scale(scaler_, picture.data, picture.linesize, 0, picture.height, converted->data, converted->linesize) < 0) {

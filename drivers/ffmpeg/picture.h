@@ -3,8 +3,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "drivers/ffmpeg/library.h"
+#include "hal/float_codes.h"
 #include "hal/frame.h"
 #include "hal/media_source.h"
 #include "platform/error.h"
@@ -16,8 +18,8 @@ namespace relievo::ffmpeg {
 // True if samples of this format (an AVPixelFormat) can be read in place through hal/frame.h.
 [[nodiscard]] bool describable(int format) noexcept;
 
-// True for gray in floating point, interpreted as a renderer's distances in metres along the camera's axis.
-[[nodiscard]] bool isDistance(int format) noexcept;
+// True for gray in floating point.
+[[nodiscard]] bool isGrayFloat(int format) noexcept;
 
 // The format to convert an undescribable one to; it has the same bits if only the byte order differs.
 [[nodiscard]] int nearestDescribable(int format) noexcept;
@@ -27,7 +29,7 @@ namespace relievo::ffmpeg {
 [[nodiscard]] Frame frameOf(FramePtr picture, AVRational sample_aspect);
 
 // Fills in the same for a stream, as far as its parameters have it.
-void describeSignals(StreamInfo& stream, const AVCodecParameters& parameters, AVRational sample_aspect) noexcept;
+void describeSignals(StreamInfo& stream, const AVCodecParameters& parameters, AVRational sample_aspect);
 
 // Converts pictures to describable formats; reuses FFmpeg's scaler between pictures.
 class Converter {
@@ -36,12 +38,17 @@ class Converter {
   ~Converter();
   Converter(const Converter&) = delete;
   Converter& operator=(const Converter&) = delete;
-  // Distances become whole mm, 0 if invalid or beyond 65 m. Unsupported if FFmpeg cannot read the format, Exhausted if
-  // out of memory.
+  // Gray in floating point becomes codes on the scale of the first such picture (hal/float_codes.h). Unsupported if
+  // FFmpeg cannot read the format, Exhausted if out of memory.
   [[nodiscard]] Result<FramePtr> convert(const AVFrame& picture);
+  // Of the last converted picture: Frame::value_per_code.
+  [[nodiscard]] double valuePerCode() const noexcept { return codes_ ? codes_->valuePerCode() : 0; }
+  // For another film.
+  void forgetScale() noexcept { codes_.reset(); }
 
  private:
   SwsContext* scaler_ = nullptr;
+  std::optional<FloatCodes> codes_;
 };
 
 }  // namespace relievo::ffmpeg

@@ -18,6 +18,7 @@
 #include "drivers/ffmpeg/stream_tags.h"
 #include "drivers/ffmpeg/watch.h"
 #include "hal/video_decoder.h"
+#include "platform/log.h"
 #include "platform/unique_fd.h"
 
 extern "C" {
@@ -44,6 +45,8 @@ constexpr Duration kWholeWithin = std::chrono::milliseconds(250);
 // A gap from lost data is waited out; in a real-time stream that time has already passed.
 constexpr Duration kLongestGap = std::chrono::seconds(10);
 constexpr Duration kLongestFlowGap = std::chrono::seconds(2);
+constexpr Duration kReordering = std::chrono::seconds(1);  // behind a jump FFmpeg gives out decoding times that fall
+constexpr Duration kAnyGap = std::chrono::hours(24 * 365);
 
 struct FormatCloser {
   void operator()(AVFormatContext* context) const noexcept { avformat_close_input(&context); }
@@ -91,6 +94,7 @@ class FfmpegSource final : public MediaSource {
     timed_ = isTimed(*context);
     start_ = startOf(*context);
     latest_end_ = Duration(0);
+    expectFirstPacket();
     chooseProgramme(*context);
     leading_stream_ = std::max(av_find_default_stream_index(context), 0);
     earliest_stream_ = earliestStream(*context, leading_stream_);
@@ -99,6 +103,12 @@ class FfmpegSource final : public MediaSource {
     ahead_.clear();
     readStreamTags();
     return {};
+  }
+
+  void expectFirstPacket() noexcept {
+    continuous_.begin(kAnyGap);
+    highest_.clear();
+    mended_by_ = Duration(0);
   }
 
   // Bounds the opens of a playlist that names itself, or of endlessly nested lists.
@@ -171,9 +181,9 @@ class FfmpegSource final : public MediaSource {
   Result<Description> describe() const {
     Description description;
     description.tags = tagsOf(context_->metadata);
-    if (timed_ && context_->duration > 0) description.duration = durationFrom(context_->duration, kMicrosecond);
-    description.chapters = chaptersOf(*context_, start_);
+    if (timed_) description.duration = lengthOf(*context_, start_);
     description.origin = origin();
+    description.chapters = chaptersOf(*context_, start_);
     for (unsigned i = 0; i < context_->nb_streams; ++i) {
       auto stream = describeStream(*context_->streams[i], timed_);
       if (!stream) return std::unexpected(stream.error());
@@ -205,7 +215,6 @@ class FfmpegSource final : public MediaSource {
     for (;;) {
       if (watch_.cancelled()) return std::unexpected(watch_.explain({}));
       const int got = readNext(packet);
-      if (got >= 0) noteEnd(*packet);
       if (got >= 0 && context_->pb != nullptr) context_->pb->error = 0;  // recovered
       if (got >= 0 && isWanted(*packet)) return packetOf(std::move(packet));
       if (got >= 0) {
@@ -226,18 +235,37 @@ class FfmpegSource final : public MediaSource {
     return 0;
   }
 
-  void noteEnd(const AVPacket& packet) noexcept {
-    const std::int64_t begin = packet.pts != AV_NOPTS_VALUE ? packet.pts : packet.dts;
-    if (begin == AV_NOPTS_VALUE) return;
-    const AVStream& stream = *context_->streams[packet.stream_index];
-    latest_end_ = std::max(latest_end_, durationFrom(begin + packet.duration, stream.time_base) - start_);
+  // A file's decoding times never fall, whatever its gaps. Where they do, as in files that were cut together without
+  // care, the film continues where it was. Pictures without a decoding time may be reordered and judge nothing.
+  void mend(Packet& packet) {
+    if (origin().longest_gap > Duration(0)) return;
+    if (packet.dts) {
+      const auto [known, first] = highest_.try_emplace(packet.stream, *packet.dts);
+      if (first || *packet.dts > known->second || *packet.dts < known->second - kReordering)
+        known->second = *packet.dts;
+      const Duration offset = continuous_.offsetFor(packet.stream, known->second);
+      if (offset > mended_by_) {
+        log(LogLevel::Warning, "media", "%s: its times jump back by %.1f s at %.1f s; they are made continuous",
+            url_.c_str(), toSeconds(offset - mended_by_), toSeconds(*packet.dts + offset));
+      }
+      mended_by_ = std::max(mended_by_, offset);
+      *packet.dts += offset;
+      if (packet.pts) *packet.pts += offset;
+    } else if (packet.pts) {
+      *packet.pts += mended_by_;
+    }
+  }
+
+  void noteEnd(const Packet& packet, Duration length) noexcept {
+    const auto begin = packet.pts ? packet.pts : packet.dts;
+    if (begin) latest_end_ = std::max(latest_end_, begin->time_since_epoch() + length);
   }
 
   // Uses only a duration that the container itself states, and only with a single programme.
   Duration missingTime() const noexcept override {
     const bool told = timed_ && context_->nb_programs < 2 && context_->duration > 0 &&
                       context_->duration_estimation_method == AVFMT_DURATION_FROM_STREAM;
-    const Duration missing = told ? durationFrom(context_->duration, kMicrosecond) - latest_end_ : Duration(0);
+    const Duration missing = told ? lengthOf(*context_, start_) - latest_end_ : Duration(0);
     return missing > kWholeWithin ? missing : Duration(0);
   }
 
@@ -258,7 +286,7 @@ class FfmpegSource final : public MediaSource {
                                            "the source went away during playback; check disk or network"}));
   }
 
-  std::optional<Packet> packetOf(PacketPtr packet) const {
+  std::optional<Packet> packetOf(PacketPtr packet) {
     const AVStream& stream = *context_->streams[packet->stream_index];
     Packet out;
     out.stream = packet->stream_index;
@@ -266,6 +294,8 @@ class FfmpegSource final : public MediaSource {
     out.bytes = static_cast<std::size_t>(packet->size);
     out.pts = timeOf(packet->pts, stream);
     out.dts = timeOf(packet->dts, stream);
+    mend(out);
+    noteEnd(out, durationFrom(packet->duration, stream.time_base));
     out.keyframe = (packet->flags & AV_PKT_FLAG_KEY) != 0;
     out.owner = std::shared_ptr<AVPacket>(std::move(packet));
     return out;
@@ -282,6 +312,7 @@ class FfmpegSource final : public MediaSource {
     if (!timed_) return openContext();  // pictures without times are counted from the beginning
     watch_.begin(kReadPatience);
     ahead_.clear();
+    expectFirstPacket();
     latest_end_ = target.time_since_epoch();  // what is skipped is not missing
     const bool to_beginning = target <= MediaTime{};
     if (to_beginning && seeksByBytes() && av_seek_frame(context_.get(), -1, 0, AVSEEK_FLAG_BYTE) >= 0) return {};
@@ -327,6 +358,9 @@ class FfmpegSource final : public MediaSource {
   bool timed_ = true;
   Duration start_{0};                                              // the container's start time
   Duration latest_end_{0};                                         // of all packets read so far, from `start_` on
+  std::map<int, MediaTime> highest_;                               // decoding time of each stream since its last jump
+  ContinuousTime continuous_;                                      // of a file
+  Duration mended_by_{0};                                          // added to its times, since its beginning or a seek
   std::deque<PacketPtr> ahead_;                                    // read while looking for tags, not returned yet
   std::map<int, std::map<std::string, std::string>> stream_tags_;  // by stream index
   int leading_stream_ = 0;

@@ -55,6 +55,16 @@ class MockDisplay final : public Display {
 
   void closeDisplay() noexcept override {}
 
+  std::vector<std::string> droppedOnIt() override {
+    return profile_.dropped ? profile_.dropped() : std::vector<std::string>();
+  }
+  void nameFilm(const AnnouncedFilm& film) override {
+    if (profile_.announced) profile_.announced(film);
+  }
+  void setFullScreen(FullScreen wish) override {
+    if (profile_.filled) profile_.filled(wish);
+  }
+
   [[nodiscard]] bool lost() const noexcept { return frames_ >= profile_.lose_after_frames || bench_->unplugged; }
 
   MockDisplayProfile profile_;

@@ -19,9 +19,6 @@ namespace relievo {
 
 // Bits of `buttonsDown`.
 constexpr std::uint8_t kLeftButton = 1, kRightButton = 2, kMiddleButton = 4;
-// The unit of EV_ABS events, for a mouse that reports its position: x to the right, y up, from the middle.
-constexpr double kMmPerAbs = 0.01;
-
 // `open` and `close` on the owner's thread; the others on the real-time thread: one system call each, never waiting.
 class MousePort {
  public:
@@ -32,6 +29,10 @@ class MousePort {
   virtual void close() noexcept = 0;
   // The greatest distance from the middle that it can point at, horizontally and vertically. Known from `open` on.
   [[nodiscard]] virtual glm::dvec2 reachMm() const noexcept { return {100, 75}; }
+  // A mouse over a picture points along a line of sight, instead of telling how far it has moved.
+  [[nodiscard]] virtual bool overPicture() const noexcept { return false; }
+  // That line, as of the last `take`; null if it points at nothing yet.
+  [[nodiscard]] virtual const SceneRay* ray() const RELIEVO_RT { return nullptr; }
   // Reads the oldest pending events and returns their number, or 0. Lost.
   [[nodiscard]] virtual Result<std::size_t> take(std::span<input_event> events) RELIEVO_RT = 0;
   // The buttons that are down now. Lost.

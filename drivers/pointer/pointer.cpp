@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts mouse counts, or a position in a window, to the finger's target; the left button presses. The finger follows
-// smoothly.
+// Converts mouse counts, or what a mouse over a window points at, to the finger's target; the left button presses. The
+// finger follows smoothly.
 #include "drivers/pointer/pointer.h"
 
 #include <algorithm>
@@ -13,7 +13,9 @@ namespace relievo {
 namespace {
 
 constexpr double kFarMm = -20, kNearMm = 60;
-constexpr glm::dvec3 kStartMm(0, 0, 46);  // above every surface: the default volume is 40 mm deep
+constexpr double kAboveMm = 6;  // of the finger over the display volume
+constexpr double kUsualDepthMm = 40;
+constexpr glm::dvec3 kStartMm(0, 0, kUsualDepthMm + kAboveMm);
 constexpr double kMmPerCount = 0.1, kMmPerNotch = 2;
 constexpr double kPressMmPerS = 80, kPressN = 2;
 constexpr double kSmoothS = 0.01;
@@ -37,14 +39,15 @@ class Pointer final : public HapticDevice {
             .peak_force_n = 8,
             .continuous_force_n = 8,
             .max_stiffness_n_per_mm = 1,
-            .rate_hz = 1000};
+            .rate_hz = 1000,
+            .in_scene = port_->overPicture()};
   }
 
  private:
   Result<void> openDevice() override {
     place_mm_ = finger_mm_ = kStartMm;
     pressed_mm_ = 0;
-    absolute_ = false;
+    depth_mm_ = kUsualDepthMm;
     if (auto opened = port_->open(); !opened) return opened;
     const glm::dvec2 reach_mm = port_->reachMm();
     min_mm_ = {-reach_mm, kFarMm};
@@ -53,7 +56,7 @@ class Pointer final : public HapticDevice {
   }
   Result<void> homeDevice() override { return {}; }
 
-  // Discards motion from before the start, but keeps an absolute position.
+  // Discards motion from before the start.
   Result<void> startDevice() override {
     const glm::dvec3 place = place_mm_;
     for (int i = 0; i < kReadsATick; ++i) {
@@ -62,7 +65,7 @@ class Pointer final : public HapticDevice {
     const auto down = port_->buttonsDown();
     if (!down) return std::unexpected(down.error());
     down_ = *down;
-    place_mm_ = absolute_ ? glm::dvec3(place_mm_.x, place_mm_.y, place.z) : place;
+    place_mm_ = place;
     force_z_n_ = 0;
     now_ = last_write_ = clock_.now();
     return {};
@@ -79,6 +82,7 @@ class Pointer final : public HapticDevice {
       if (*taken < kEventsARead) break;
     }
     press(elapsed_s);
+    if (const SceneRay* ray = port_->ray()) follow(*ray);
     const glm::dvec3 goal_mm(place_mm_.x, place_mm_.y, place_mm_.z - pressed_mm_);
     finger_mm_ += (1 - std::exp(-elapsed_s / kSmoothS)) * (goal_mm - finger_mm_);
     return HapticSample{.position_mm = glm::clamp(finger_mm_, min_mm_, max_mm_), .buttons = buttons()};
@@ -128,25 +132,26 @@ class Pointer final : public HapticDevice {
       down_ = *down;
     } else if (!dropped_ && event.type == EV_REL) {
       move(event.code, event.value);
-    } else if (!dropped_ && event.type == EV_ABS) {
-      point(event.code, event.value);
     } else if (!dropped_ && event.type == EV_KEY) {
       turn(event.code, event.value != 0);
     }
     return {};
   }
 
+  // The finger is on the line of sight, at its own height, which goes with a deeper volume.
+  void follow(const SceneRay& ray) RELIEVO_RT {
+    max_mm_.z += ray.depth_mm - depth_mm_;
+    place_mm_.z += ray.depth_mm - depth_mm_;
+    depth_mm_ = ray.depth_mm;
+    const glm::dvec2 at_mm = ray.at(place_mm_.z - pressed_mm_);
+    place_mm_.x = at_mm.x;
+    place_mm_.y = at_mm.y;
+  }
+
   void move(std::uint16_t axis, std::int32_t counts) RELIEVO_RT {
     if (axis == REL_X) place_mm_.x += kMmPerCount * counts;
     if (axis == REL_Y) place_mm_.y -= kMmPerCount * counts;  // a mouse's y counts toward its user
     if (axis == REL_WHEEL) place_mm_.z -= kMmPerNotch * counts;
-    place_mm_ = glm::clamp(place_mm_, min_mm_, max_mm_);
-  }
-
-  void point(std::uint16_t axis, std::int32_t value) RELIEVO_RT {
-    absolute_ = true;
-    if (axis == ABS_X) place_mm_.x = kMmPerAbs * value;
-    if (axis == ABS_Y) place_mm_.y = kMmPerAbs * value;
     place_mm_ = glm::clamp(place_mm_, min_mm_, max_mm_);
   }
 
@@ -161,11 +166,11 @@ class Pointer final : public HapticDevice {
   std::unique_ptr<MousePort> port_;
   const Clock& clock_;
   glm::dvec3 min_mm_{-port_->reachMm(), kFarMm}, max_mm_{port_->reachMm(), kNearMm};
-  glm::dvec3 place_mm_ = kStartMm;  // where mouse and wheel point
-  double pressed_mm_ = 0;           // how far below `place_mm_` the left button has pressed
+  glm::dvec3 place_mm_ = kStartMm;   // where mouse and wheel point
+  double depth_mm_ = kUsualDepthMm;  // of the display volume
+  double pressed_mm_ = 0;            // how far below `place_mm_` the left button has pressed
   glm::dvec3 finger_mm_ = kStartMm;
   std::uint8_t down_ = 0;  // buttons of the mouse
-  bool absolute_ = false;  // the mouse reports positions, not motion
   bool dropped_ = false;   // within a report that lost events
   double force_z_n_ = 0;
   MonotonicTime now_, last_write_;

@@ -16,16 +16,21 @@ struct Sequence {
   std::uint16_t code;
 };
 constexpr Sequence kSequences[] = {
-    {"A", KEY_UP},  {"B", KEY_DOWN},  {"C", KEY_RIGHT}, {"D", KEY_LEFT},    {"H", KEY_HOME},
-    {"F", KEY_END}, {"1~", KEY_HOME}, {"4~", KEY_END},  {"5~", KEY_PAGEUP}, {"6~", KEY_PAGEDOWN},
+    {"A", KEY_UP},   {"B", KEY_DOWN},  {"C", KEY_RIGHT}, {"D", KEY_LEFT},    {"H", KEY_HOME},
+    {"F", KEY_END},  {"1~", KEY_HOME}, {"4~", KEY_END},  {"5~", KEY_PAGEUP}, {"6~", KEY_PAGEDOWN},
+    {"P", KEY_F1},   {"Q", KEY_F2},    {"R", KEY_F3},    {"S", KEY_F4},      {"11~", KEY_F1},
+    {"12~", KEY_F2}, {"13~", KEY_F3},  {"14~", KEY_F4},  {"15~", KEY_F5},    {"17~", KEY_F6},
 };
 struct Character {
   char character;
   std::uint16_t code;
 };
 constexpr Character kCharacters[] = {
-    {' ', KEY_SPACE}, {'\r', KEY_ENTER}, {'\n', KEY_ENTER}, {'\t', KEY_TAB},  {'\x7f', KEY_BACKSPACE},
-    {'.', KEY_DOT},   {',', KEY_COMMA},  {'-', KEY_MINUS},  {'=', KEY_EQUAL}, {'/', KEY_SLASH},
+    {' ', KEY_SPACE},         {'\r', KEY_ENTER},     {'\n', KEY_ENTER},     {'\t', KEY_TAB},
+    {'\x7f', KEY_BACKSPACE},  {'.', KEY_DOT},        {',', KEY_COMMA},      {'-', KEY_MINUS},
+    {'=', KEY_EQUAL},         {'/', KEY_SLASH},      {'[', KEY_LEFTBRACE},  {']', KEY_RIGHTBRACE},
+    {'#', KEY_NUMERIC_POUND}, {'?', KEY_QUESTION},   {'<', KEY_PREVIOUS},   {'>', KEY_NEXT},
+    {'+', KEY_KPPLUS},        {'*', KEY_KPASTERISK}, {'\b', KEY_BACKSPACE},
 };
 
 // The final byte of a sequence is its first one at or above '@'.

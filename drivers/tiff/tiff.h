@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes TIFF pictures of floating-point distances (a renderer's Z buffers) by libtiff.
+// Reads TIFF pictures of numbers (a renderer's Z buffers, disparities) by libtiff.
 #pragma once
 
-#include <memory>
-
-#include "hal/video_decoder.h"
+#include "drivers/floats/picture_file_decoder.h"
 
 namespace relievo {
 
+// Floats of 16, 32 and 64 bits and whole numbers of 8 to 64 bits, of one component or three, in strips or tiles, in any
+// compression that libtiff supports.
+extern const PictureFormat kTiff;
+
 // True for a TIFF stream whose size FFmpeg could not determine, as with floats.
 [[nodiscard]] bool isFloatTiff(const StreamInfo& stream) noexcept;
-
-// Each packet is a whole file: one component of 32-bit floats in strips or tiles, in any compression that libtiff
-// supports. The floats are interpreted as metres along the camera's axis (hal/distance.h). Any other picture counts as
-// damaged.
-[[nodiscard]] std::unique_ptr<VideoDecoder> makeTiffDecoder();
 
 }  // namespace relievo

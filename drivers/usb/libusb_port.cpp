@@ -266,6 +266,24 @@ class LibusbPort final : public UsbPort {
 
 }  // namespace
 
+bool usbDeviceIsThere(std::span<const UsbDeviceId> ids) {
+  libusb_context* context = nullptr;
+  if (libusb_init(&context) != 0) return false;
+  libusb_device** list = nullptr;
+  const ssize_t count = libusb_get_device_list(context, &list);
+  bool there = false;
+  for (ssize_t i = 0; i < count && !there; ++i) {
+    libusb_device_descriptor descriptor{};
+    libusb_get_device_descriptor(list[i], &descriptor);
+    there = std::ranges::any_of(ids, [&](const UsbDeviceId& id) {
+      return descriptor.idVendor == id.vendor && descriptor.idProduct == id.product;
+    });
+  }
+  if (count >= 0) libusb_free_device_list(list, 1);
+  libusb_exit(context);
+  return there;
+}
+
 std::unique_ptr<UsbPort> makeLibusbPort(std::vector<UsbDeviceId> ids) {
   return std::make_unique<LibusbPort>(std::move(ids));
 }

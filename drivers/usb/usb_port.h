@@ -68,6 +68,9 @@ class UsbPort {
 // stopExchange.
 [[nodiscard]] std::unique_ptr<UsbPort> makeLibusbPort(std::vector<UsbDeviceId> ids);
 
+// Whether a device with one of the ids is plugged in; it is not opened.
+[[nodiscard]] bool usbDeviceIsThere(std::span<const UsbDeviceId> ids);
+
 // Stops the motors of every device that is in an exchange. For handlers of fatal signals: async-signal-safe. Nothing
 // posted later in that exchange is sent, whatever other threads do until the process ends.
 void quietenAllUsbDevices() noexcept;

@@ -4,7 +4,9 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 
+#include "drivers/window/scene_ray.h"
 #include "hal/remote_input.h"
 #include "platform/spsc_ring.h"
 #include "platform/triple_buffer.h"
@@ -12,9 +14,8 @@
 namespace relievo {
 
 struct WindowMouse {
-  double right_px = 0, up_px = 0;  // from the window's middle
-  int width_px = 0, height_px = 0;
-  std::int32_t notches = 0;  // of the wheel, forward positive, since the window opened
+  std::optional<SceneRay> ray;  // what it points at; nullopt until it has been over the picture
+  std::int32_t notches = 0;     // of the wheel, forward positive, since the window opened
   bool left = false, middle = false, right = false;
 };
 

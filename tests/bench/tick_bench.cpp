@@ -43,7 +43,40 @@ std::vector<glm::dvec3> fingerPath(double speed_mm_per_s) {
   return path;
 }
 
-void touchTick(benchmark::State& state, const char* name, MethodConfig config) {
+// The depth of a gray picture as hues, 4:2:0 of full range.
+Frame asHue(const Frame& gray) {
+  const auto samples = std::make_shared<std::vector<std::uint8_t>>();
+  const auto part = [&](int c, int r, int n) {
+    const double s = 0.03 + 0.94 * gray.planes[0].data[r * gray.planes[0].stride_bytes + c] / 255.0;
+    return std::clamp(std::abs(std::fmod(6 * s + n, 6) - 3) - 1, 0.0, 1.0);
+  };
+  const auto put = [&](int c, int r, int component) {
+    const double red = part(c, r, 0), green = part(c, r, 4), blue = part(c, r, 2);
+    const double y = 0.299 * red + 0.587 * green + 0.114 * blue;
+    const double share[] = {y, (blue - y) / 1.772 + 0.5, (red - y) / 1.402 + 0.5};
+    samples->push_back(static_cast<std::uint8_t>(std::lround(255 * share[component])));
+  };
+  Frame hue = gray;
+  hue.model = ColorModel::Yuv;
+  hue.matrix = ColorMatrix::Bt601;
+  hue.chroma_shift_x = hue.chroma_shift_y = 1;
+  std::size_t begins[3] = {};
+  for (std::uint8_t k = 0; k < 3; ++k) {
+    const int step = k == 0 ? 1 : 2;
+    begins[k] = samples->size();
+    for (int r = 0; r < gray.height; r += step) {
+      for (int c = 0; c < gray.width; c += step) put(c, r, k);
+    }
+    hue.components[k] = {.plane = k};
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    hue.planes[k] = {samples->data() + begins[k], k == 0 ? gray.width : (gray.width + 1) / 2};
+  }
+  hue.owner = samples;
+  return hue;
+}
+
+void touchTick(benchmark::State& state, const char* name, MethodConfig config, DepthCode code = DepthCode::Luma) {
   const int cols = static_cast<int>(state.range(0)), rows = static_cast<int>(state.range(1));
   const double speed = static_cast<double>(state.range(2));
   const auto volume = DisplayVolume::forPicture(cols, rows);
@@ -53,8 +86,9 @@ void touchTick(benchmark::State& state, const char* name, MethodConfig config) {
     frames.push_back(test::makeGrayFrame(cols, rows, 8, mediaTime(kFramePeriodS * k), [&](int c, int r) {
       return relief(grid.x(c), grid.y(r), kFramePeriodS * k) / volume.depth_mm * 255 + 0.5;
     }));
+    if (code == DepthCode::Hue) frames.back() = asHue(frames.back());
   }
-  const SurfaceWindow window = test::makeWindow(frames, volume, {});
+  const SurfaceWindow window = test::makeWindow(frames, volume, {.code = code});
   const std::vector<glm::dvec3> path = fingerPath(speed);
   config.jump_threshold = false;
   const auto method = makeMethod(name, config);
@@ -91,6 +125,7 @@ void sizesAndSpeeds(benchmark::internal::Benchmark* bench) {
 }
 
 BENCHMARK_CAPTURE(touchTick, relievo, "relievo", MethodConfig{})->Apply(sizesAndSpeeds);
+BENCHMARK_CAPTURE(touchTick, relievo_on_hue, "relievo", MethodConfig{}, DepthCode::Hue)->Apply(sizesAndSpeeds);
 BENCHMARK_CAPTURE(touchTick, god_object, "relievo", MethodConfig{.space = SpaceLaw::Triangles})->Apply(sizesAndSpeeds);
 BENCHMARK_CAPTURE(touchTick, modified_proxy_graph, "modified-proxy-graph", MethodConfig{})->Apply(sizesAndSpeeds);
 BENCHMARK_CAPTURE(touchTick, proxy_graph, "proxy-graph", MethodConfig{})->Apply(sizesAndSpeeds);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The contract of every remote control.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <linux/input-event-codes.h>
 #include <poll.h>
@@ -12,6 +13,7 @@
 
 #include "drivers/mock/scripted_remote.h"
 #include "drivers/sample/sample.h"
+#include "drivers/terminal/joined_remote.h"
 #include "drivers/terminal/terminal.h"
 #include "drivers/terminal/terminal_keys.h"
 #include "drivers/window/window_remote.h"
@@ -75,6 +77,13 @@ const Backend kBackends[] = {
      [](ManualClock&) {
        const auto terminal = std::make_shared<Terminal>();
        return Remote{makeTerminalRemote(terminal->inside.get()), [terminal] { terminal->type("\r"); }, KEY_ENTER};
+     }},
+    {"joined",
+     [](ManualClock&) {
+       const auto terminal = std::make_shared<Terminal>();
+       auto window = makeWindowRemote(std::make_shared<WindowInput>());
+       return Remote{makeJoinedRemote(std::move(window), makeTerminalRemote(terminal->inside.get())),
+                     [terminal] { terminal->type("\r"); }, KEY_ENTER};
      }},
     {"sample",
      [](ManualClock&) {
@@ -147,6 +156,9 @@ TEST(TerminalKeys, AreThoseOfTheKernel) {
   EXPECT_EQ(keysOf("\x1b[5~\x1b[6~\x1b[H\x1b[4~"), (Keys{KEY_PAGEUP, KEY_PAGEDOWN, KEY_HOME, KEY_END}));
   EXPECT_EQ(keysOf("\x1b"), (Keys{KEY_ESC}));
   EXPECT_EQ(keysOf("\x1b\x1b[A"), (Keys{KEY_ESC, KEY_UP}));
+  EXPECT_EQ(keysOf("[]#?<>+"),
+            (Keys{KEY_LEFTBRACE, KEY_RIGHTBRACE, KEY_NUMERIC_POUND, KEY_QUESTION, KEY_PREVIOUS, KEY_NEXT, KEY_KPPLUS}));
+  EXPECT_EQ(keysOf("\x1bOP\x1bOR\x1b[15~"), (Keys{KEY_F1, KEY_F3, KEY_F5}));
   // Unknown sequences do not swallow the keys after them.
   EXPECT_EQ(keysOf("\x1b[1;5Cq\x1b[200~\xc3\xa4s\x01"), (Keys{KEY_Q, KEY_S}));
   EXPECT_EQ(keysOf("\x1b[12"), (Keys{}));
@@ -180,6 +192,27 @@ TEST(TerminalRemote, AfterAHangUpThereAreNoMoreKeys) {
   terminal.outside.reset();
   const auto key = remote->poll(MonotonicTime(1h));
   EXPECT_TRUE(key && !*key);
+}
+
+TEST(JoinedRemote, HasTheKeysOfBothAndDoesWithoutTheSecond) {
+  const Terminal terminal;
+  const auto window = std::make_shared<WindowInput>();
+  const auto both = makeJoinedRemote(makeWindowRemote(window), makeTerminalRemote(terminal.inside.get()));
+  ASSERT_TRUE(both->open());
+  terminal.type("q");
+  ASSERT_TRUE(window->keys.tryPush({.code = KEY_SPACE}));
+  std::vector<std::uint16_t> codes;
+  while (const auto key = both->poll(MonotonicTime(1h)).value()) {
+    if (key->action == KeyEvent::Action::Press) codes.push_back(key->code);
+  }
+  EXPECT_EQ(codes, (std::vector<std::uint16_t>{KEY_SPACE, KEY_Q}));
+
+  const UniqueFd nothing(::open("/dev/null", O_RDONLY));
+  const auto one = makeJoinedRemote(makeWindowRemote(window), makeTerminalRemote(nothing.get()));
+  ASSERT_TRUE(one->open());
+  ASSERT_TRUE(window->keys.tryPush({.code = KEY_F}));
+  EXPECT_EQ(one->poll(MonotonicTime(1h)).value().value().code, KEY_F);
+  EXPECT_FALSE(one->poll(MonotonicTime(1h)).value());
 }
 
 TEST(WindowRemote, WhatWasPressedBeforeItListenedIsNotMeantForIt) {

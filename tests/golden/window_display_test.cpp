@@ -9,6 +9,9 @@
 
 #include <array>
 #include <functional>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -94,6 +97,11 @@ class WindowDisplay : public testing::Test {
     return input_->mouse.front();
   }
 
+  bool pointsAt(double x_mm, double y_mm) {
+    const auto& ray = mouse().ray;
+    return ray && glm::distance(ray->screen_mm, glm::dvec2(x_mm, y_mm)) < 1e-9;
+  }
+
   static std::unique_ptr<test::XScreen> screen_;
   ManualClock clock_{MonotonicTime(1h)};
   std::shared_ptr<WindowInput> input_ = std::make_shared<WindowInput>();
@@ -141,8 +149,6 @@ TEST_F(WindowDisplay, TheSurfaceFollowsTheWindow) {
   drawCorners();
   EXPECT_TRUE(untilPixel(299, 149, {255, 255, 255}));
   EXPECT_EQ(screen_->pixel(place_.x + 149, place_.y + 0), (Rgb{255, 0, 0}));
-  EXPECT_TRUE(until([&] { return mouse().width_px == 300 && mouse().height_px == 150; }))
-      << "so does the mouse's place";
 }
 
 TEST_F(WindowDisplay, UncoveredItIsToBeDrawnAnew) {
@@ -171,6 +177,8 @@ TEST_F(WindowDisplay, KeysArriveWithTheCodesOfLinux) {
               {"KP_Enter", KEY_KPENTER},
               {"0", KEY_0},
               {"Page_Up", KEY_PAGEUP},
+              {"bracketleft", KEY_LEFTBRACE},
+              {"period", KEY_DOT},
               {"XF86AudioPlay", KEY_PLAYPAUSE}};
   for (const auto& [symbol, code] : keys) {
     clock_.advance(1s);
@@ -181,6 +189,21 @@ TEST_F(WindowDisplay, KeysArriveWithTheCodesOfLinux) {
     EXPECT_EQ(down.time, clock_.now());
     EXPECT_EQ(up.code, code) << symbol;
     EXPECT_EQ(up.action, Action::Release) << symbol;
+  }
+}
+
+// On a keyboard of the USA: shift and 3, /, comma.
+TEST_F(WindowDisplay, SignsArriveAsWhatIsPrinted) {
+  screen_->focus(window_);
+  for (const auto& [symbol, code] :
+       {std::pair{"3", KEY_NUMERIC_POUND}, {"slash", KEY_QUESTION}, {"comma", KEY_PREVIOUS}}) {
+    screen_->key("Shift_L", true);
+    EXPECT_EQ(nextKey().code, KEY_LEFTSHIFT);
+    screen_->tap(symbol);
+    EXPECT_EQ(nextKey().code, code) << symbol;
+    EXPECT_EQ(nextKey().code, code) << symbol;
+    screen_->key("Shift_L", false);
+    EXPECT_EQ(nextKey().code, KEY_LEFTSHIFT);
   }
 }
 
@@ -198,12 +221,18 @@ TEST_F(WindowDisplay, AHeldKeyRepeatsUntilItIsLetGo) {
   }));
 }
 
-TEST_F(WindowDisplay, TheMouseIsToldFromTheMiddleUpAndToTheRight) {
+// One millimetre a pixel.
+TEST_F(WindowDisplay, TheMouseIsToldByWhatItPointsAt) {
+  EXPECT_FALSE(mouse().ray) << "there is no picture yet";
+  display_->setViews({.views = {{.half_width_mm = 100, .half_height_mm = 60}}, .screen_z_mm = 20, .depth_mm = 40});
   screen_->moveMouse(place_.x + 150, place_.y + 20);
-  EXPECT_TRUE(until([&] { return mouse().right_px == 50.5; }));
-  EXPECT_EQ(mouse().up_px, 39.5);
-  EXPECT_EQ(mouse().width_px, kWidth);
-  EXPECT_EQ(mouse().height_px, kHeight);
+  EXPECT_TRUE(until([&] { return pointsAt(50.5, 39.5); }));
+  EXPECT_EQ(mouse().ray->screen_z_mm, 20);
+  display_->setViews({.views = {{.half_width_mm = 200, .half_height_mm = 120}}});
+  EXPECT_TRUE(pointsAt(101, 79)) << "the mouse has not moved, the picture has";
+  screen_->resize(window_, 300, 150);
+  EXPECT_TRUE(until([&] { return pointsAt(400 * (150.5 / 300 - 0.5), 240 * (0.5 - 20.5 / 150)); }))
+      << mouse().ray->screen_mm.x << " " << mouse().ray->screen_mm.y;
   for (const unsigned wheel : {4u, 4u, 4u, 5u}) {
     screen_->button(wheel, true);
     screen_->button(wheel, false);
@@ -221,13 +250,66 @@ TEST_F(WindowDisplay, TheMouseIsToldFromTheMiddleUpAndToTheRight) {
   }
 }
 
-TEST_F(WindowDisplay, F11AsksForTheWholeScreenAndGivesItBack) {
-  for (const int wish : {1, 0, 1}) {
-    screen_->focus(window_);
-    screen_->tap("F11");
+TEST_F(WindowDisplay, FillsTheScreenAndGivesItBack) {
+  screen_->focus(window_);
+  for (const auto& [asked, wish] :
+       {std::pair{FullScreen::Toggle, 1}, {FullScreen::Off, 0}, {FullScreen::On, 1}, {FullScreen::Toggle, 0}}) {
+    display_->fillScreen(asked);
     EXPECT_TRUE(until([&] { return screen_->takeFullScreenWish() == wish; })) << wish;
   }
-  EXPECT_FALSE(input_->keys.tryPop()) << "the key is the window's own";
+  display_->fillScreen(FullScreen::Off);
+  EXPECT_FALSE(until([&, tries = 0]() mutable { return screen_->takeFullScreenWish() || ++tries > 20; }) &&
+               screen_->takeFullScreenWish())
+      << "it is off already";
+}
+
+TEST_F(WindowDisplay, ADoubleClickAsksForTheWholeScreen) {
+  screen_->focus(window_);
+  screen_->moveMouse(place_.x + 50, place_.y + 50);
+  for (int click = 0; click < 2; ++click) {
+    EXPECT_EQ(screen_->takeFullScreenWish(), std::nullopt);
+    screen_->button(1, true);
+    EXPECT_TRUE(until([&] { return mouse().left; }));
+    screen_->button(1, false);
+    EXPECT_TRUE(until([&] { return !mouse().left; }));
+  }
+  EXPECT_TRUE(until([&] { return screen_->takeFullScreenWish() == 1; }));
+}
+
+TEST_F(WindowDisplay, WithAFilmsSizeItComesUpWithTheFirstFrame) {
+  const auto other = makeWindowDisplay(std::make_shared<WindowInput>(), clock_);
+  ASSERT_TRUE(other->open({.width = 64, .height = 64, .film_size = true}));
+  other->announce({"a long film.mkv", 240, 100});
+  ASSERT_TRUE(other->beginFrame());
+  ASSERT_TRUE(other->present());
+  const unsigned long window = screen_->find("a long film.mkv - relievo");
+  ASSERT_NE(window, 0u);
+  EXPECT_TRUE(until([&] { return screen_->place(window)->width == 240 && screen_->place(window)->height == 100; }));
+  other->announce({"larger than the screen", 6400, 3200});
+  EXPECT_TRUE(until([&] { return screen_->place(window)->width == 608 && screen_->place(window)->height == 304; }))
+      << screen_->place(window)->width;
+  screen_->resize(window, 300, 200);
+  EXPECT_TRUE(until([&] {
+    const auto surface = other->beginFrame();
+    const bool now = surface && surface->width == 300;
+    EXPECT_TRUE(other->present());
+    return now && other->attend();
+  }));
+  other->announce({"the next film", 240, 100});
+  EXPECT_NE(screen_->find("the next film - relievo"), 0u);
+  EXPECT_EQ(screen_->place(window)->width, 300) << "as the viewer has made it";
+}
+
+TEST_F(WindowDisplay, WhatIsDroppedOnItIsTold) {
+  EXPECT_TRUE(display_->takeDropped().empty());
+  for (const char* path : {"/films/a b.mkv", "/films/c.mkv"}) {
+    SDL_Event event{};
+    event.drop = {.type = SDL_DROPFILE, .timestamp = 0, .file = SDL_strdup(path), .windowID = 1};
+    ASSERT_EQ(SDL_PushEvent(&event), 1);
+  }
+  ASSERT_TRUE(display_->attend());
+  EXPECT_EQ(display_->takeDropped(), (std::vector<std::string>{"/films/a b.mkv", "/films/c.mkv"}));
+  EXPECT_TRUE(display_->takeDropped().empty());
 }
 
 TEST_F(WindowDisplay, TheCloseButtonIsTheViewersWord) {

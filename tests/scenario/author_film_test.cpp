@@ -19,6 +19,7 @@
 #include "app/scene/height_field.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/film/mkv_patch.h"
 #include "tests/support/machine/process.h"
 #include "tests/support/machine/program.h"
 
@@ -242,6 +243,41 @@ TEST_F(AuthorFilm, KeepsTheColoursPrimariesAndTransfer) {
   EXPECT_EQ(rgb.pairs.at(0).color.transfer, kBt709);
 }
 
+// Every row of the odd field shows the square further right.
+TEST_F(AuthorFilm, AnInterlacedFilmHasNoCombs) {
+  ClipTrack color = colorTrack();
+  color.codec = "libx264";
+  color.options = {{"flags", "+ildct+ilme"}, {"crf", "1"}};
+  color.sample = [](int component, int c, int r, int) {
+    const int left = r % 2 == 0 ? 16 : 32;
+    return component > 0 ? 128u : c >= left && c < left + 16 ? 200u : 40u;
+  };
+  makeClip(folder_ / "film.mkv",
+           {color, depthTrack("gray", [](int, int r, int) { return 50u + static_cast<unsigned>(r); })});
+  ASSERT_TRUE(make({.url = folder_ / "film.mkv"}).has_value());
+  const Film film = readFilm(folder_ / "out.mkv");
+  for (int r = 4; r < 44; ++r) {
+    const auto left = static_cast<int>(test::sampleAt(film.pairs.at(3).color, 0, 24, r));
+    const auto right = static_cast<int>(test::sampleAt(film.pairs.at(3).color, 0, 40, r));
+    EXPECT_NEAR(left + right, 240, 30) << r << ": one square";
+    EXPECT_NEAR(left, test::sampleAt(film.pairs.at(3).color, 0, 24, 20), 30) << r << ": of one field";
+  }
+  EXPECT_FALSE(film.pairs.at(3).color.interlaced);
+}
+
+TEST_F(AuthorFilm, TimesThatJumpBackAreMended) {
+  ClipTrack color = colorTrack(64, 48, 5, 75);
+  color.codec = "libx264";
+  ClipTrack depth = depthTrack("gray", [](int, int r, int) { return 50u + static_cast<unsigned>(r); });
+  depth.fps_num = 5, depth.frames = 75;
+  makeClip(folder_ / "film.mkv", {color, depth});
+  ASSERT_GT(test::moveClustersBack(folder_ / "film.mkv", 6000, 4000), 0);
+  const auto summary = make({.url = folder_ / "film.mkv"});
+  ASSERT_TRUE(summary.has_value()) << summary.error().thing << summary.error().error.message;
+  EXPECT_EQ(summary->totals.color.frames, 75u);
+  EXPECT_NEAR(toSeconds(summary->totals.color.last - summary->totals.color.first), 14.8, 0.3);
+}
+
 TEST_F(AuthorFilm, TellsWhatItDoesNotKeep) {
   ClipTrack color = colorTrack(), third = colorTrack();
   color.codec = "libx264";
@@ -253,7 +289,7 @@ TEST_F(AuthorFilm, TellsWhatItDoesNotKeep) {
   makeClip(folder_ / "film.mkv", {color, depth, third}, {}, {{}, {}});
   const auto summary = make({.url = folder_ / "film.mkv", .command_line = {{"codes", "10-110"}}});
   ASSERT_TRUE(summary.has_value());
-  for (const char* line : {"1 more video track", "30 pictures are interlaced", "the colour is HDR (PQ)",
+  for (const char* line : {"1 more video track", "30 pictures were interlaced", "the colour is HDR (PQ)",
                            "25 % of the depth was outside the codes 10 .. 110"}) {
     EXPECT_THAT(summary->notes, testing::Contains(HasSubstr(line)));
   }

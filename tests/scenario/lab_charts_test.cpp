@@ -249,6 +249,14 @@ TEST_F(LabCharts, FinerDepthCostsMoreAndIsTruer) {
   EXPECT_EQ(value("H.264", "8", "0", "height_rms_mm"), value("FFV1", "8", "0", "height_rms_mm"));
   EXPECT_LT(value("FFV1", "16", "0", "force_rms_percent"), value("FFV1", "8", "0", "force_rms_percent"));
   EXPECT_NE(textOf(out("bitrate.svg")).find("default"), std::string::npos);
+  for (const char* steps : {"hue", "hue-disparity", "turbo"}) {
+    for (const char* crf : {"18", "23"}) {
+      const double off =
+          csv.value({{"codec", "H.264"}, {"bits", "8"}, {"steps", steps}, {"crf", crf}}, "height_rms_mm");
+      EXPECT_GT(off, 0.005) << steps << crf;
+      EXPECT_LT(off, 0.4) << steps << crf << ": a hundredth of the box";
+    }
+  }
 }
 
 // One run of this chart alone.

@@ -76,7 +76,9 @@ TEST_P(Manual, TheCompletionOffersTheOptionsAndCommandsOfTheHelp) {
     SCOPED_TRACE(command);
     const std::string help = helpOf(command);
     EXPECT_GE(optionsIn(help).size(), 1u);
-    EXPECT_EQ(offered(command + " --"), optionsIn(help));
+    Words options = optionsIn(help);
+    if (command == "relievo") options.merge(optionsIn(helpOf("relievo play")));  // a film may follow
+    EXPECT_EQ(offered(command + " --"), options);
     EXPECT_EQ(offered(command + " \"\""), commandsIn(help));
   });
 }
@@ -99,6 +101,30 @@ TEST(Completion, KnowsTheWordsOfAChoiceAndTheNamesOfDevices) {
   EXPECT_EQ(offered("relievo play --haptic p"), (Words{"polhem", "pointer"}));
   EXPECT_EQ(offered("relievo-lab trace --method p"), (Words{"penalty", "proxy-graph", "proxy-blend"}));
   EXPECT_EQ(offered("relievo play film"), Words{}) << "a file is bash's to complete";
+  EXPECT_EQ(offered("relievo film.mkv --stereo t"), Words{"tab"}) << "without the command play";
+  EXPECT_EQ(offered("relievo --haptic p"), (Words{"polhem", "pointer"}));
+  EXPECT_EQ(offered("relievo devices calibrate --l"), Words{}) << "that is an option of play";
+}
+
+// What zsh would offer: its own functions are replaced by some that print.
+Words offeredByZsh(const std::string& words, int current, const std::string& prefix) {
+  std::istringstream text(outputOf(
+      "zsh -f -c 'compadd() { shift; print -l -- $@ }; _describe() { print -l -- ${(P)${@[-1]}%%:*} }; _files() {}; "
+      "words=(" +
+      words + "); CURRENT=" + std::to_string(current) + "; PREFIX=" + prefix +
+      "; complete_it() { . " RELIEVO_MANUAL_DIR "/relievo.zsh }; complete_it'"));
+  return {std::istream_iterator<std::string>(text), {}};
+}
+
+TEST(Completion, OfZshOffersTheSame) {
+  if (std::system("command -v zsh >/dev/null") != 0) GTEST_SKIP() << "zsh is not here";
+  for (const char* line :
+       {"relievo", "relievo play", "relievo devices", "relievo devices calibrate", "relievo probe"}) {
+    const int words = static_cast<int>(std::ranges::count(std::string(line), ' ')) + 1;
+    EXPECT_EQ(offeredByZsh(line, words + 1, "-"), offered(std::string(line) + " --")) << line;
+  }
+  EXPECT_EQ(offeredByZsh("relievo", 2, "\"\""), (Words{"play", "probe", "devices", "selftest"}));
+  EXPECT_EQ(offeredByZsh("relievo film.mkv --stereo", 4, "\"\""), offered("relievo film.mkv --stereo \"\""));
 }
 
 }  // namespace

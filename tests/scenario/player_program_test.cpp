@@ -172,7 +172,7 @@ TEST_F(PlayerProgram, TellsTheDepthOfABroadcastByItsStreamType) {
   ASSERT_GT(test::signalAsDepth(at("film.ts"), 0), 0);
   const auto text = test::runProgram("relievo probe " + at("film.ts"), at(""));
   ASSERT_EQ(text.exit_code, 0) << text.err;
-  EXPECT_THAT(text.out, HasSubstr("0 video h264 64 x 48, signalled as depth by its stream type\n"));
+  EXPECT_THAT(text.out, HasSubstr("0 video h264 64 x 48, signalled as depth by its stream type, "));
   const auto result = test::runProgram("relievo probe --json " + at("film.ts"), at(""));
   const json r = json::parse(result.out, nullptr, false);
   ASSERT_FALSE(r.is_discarded());
@@ -187,12 +187,12 @@ TEST_F(PlayerProgram, RefusesAnAddressThatReadsWhatItIsNotToReadInOneLine) {
 
 TEST_F(PlayerProgram, ObeysAScriptedRemote) {
   test::makeClip(at("film.mkv"), {color(600), depth(600)});
-  std::ofstream(at("keys.txt")) << "1.0 RIGHT\n1.3 PAUSE\n1.6 LEFT\n1.9 PLAY\n2.0 3D_MODE\n2.3 STOP\n";
+  std::ofstream(at("keys.txt")) << "1.0 FORWARD\n1.3 PAUSE\n1.6 REWIND\n1.9 PLAY\n2.0 3D_MODE\n2.3 STOP\n";
   const auto result = play(at("film.mkv") + " --remote script:" + at("keys.txt") + " --report " + at("r.json"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json r = reportOf("r.json");
   EXPECT_EQ(r["states"].back(), "idle");
-  EXPECT_EQ(r["video"]["stereo"], "tab");
+  EXPECT_EQ(r["video"]["stereo"], "sbs");
   ASSERT_EQ(r["seeks"].size(), 2u);
   for (const json& seek : r["seeks"]) {
     EXPECT_TRUE(seek["picture_s"].is_null() || seek["picture_s"] == seek["surface_s"]) << seek;
@@ -232,7 +232,8 @@ TEST_F(PlayerProgram, SaysInOneLineWhatIsWrongWithASource) {
   expectOneLine(play(at("text.mkv")), 1, "text.mkv");
   std::ofstream(at("empty.mkv")).flush();
   expectOneLine(play(at("empty.mkv")), 1, "empty.mkv");
-  expectOneLine(play(at("")), 1, at(""));
+  fs::create_directory(at("none"));
+  expectOneLine(play(at("none")), 1, at("none"));
   test::makeClip(at("film.mkv"), {color(3), depth(3)});
   expectOneLine(play(at("film.mkv") + " --depth " + at("missing.mkv")), 1, "missing.mkv");
   expectOneLine(play(at("film.mkv") + " --depth " + at("text.mkv")), 1, "text.mkv");
@@ -323,6 +324,23 @@ TEST_F(PlayerProgram, AScriptThatIsMissingOrWrongIsOneLine) {
   expectOneLine(play("film.mkv --haptic sim:" + at("hand.csv")), 2, "hand.csv:2: ");
 }
 
+TEST_F(PlayerProgram, KindsOfRecordingsAreListedAndStated) {
+  const auto listed = test::runProgram("relievo play --as help", at(""));
+  EXPECT_EQ(listed.exit_code, 0) << listed.err;
+  for (const char* kind : {"\ntum ", "\nkitti ", "\nrecord3d ", "\nsun "}) EXPECT_THAT(listed.out, HasSubstr(kind));
+  expectOneLine(test::runProgram("relievo probe --as nothing film.mkv", at("")), 2, "unknown kind; see --as help");
+  expectOneLine(test::runProgram("relievo probe --calibration unit=1,polarity=near-high film.mkv", at("")), 2,
+                "polarity=near-high; leave one out");
+
+  ClipTrack slope = depth(3);
+  slope.sample = [](int, int c, int, int) { return 5000u + 100u * static_cast<unsigned>(c); };
+  test::makeClip(at("film.mkv"), {color(3), slope});
+  const auto stated = test::runProgram("relievo probe --as tum " + at("film.mkv"), at(""));
+  EXPECT_EQ(stated.exit_code, 0) << stated.err;
+  EXPECT_THAT(stated.out, HasSubstr("reading depth distances, 5000 codes a metre, 0.90 to 2.49 m"));
+  EXPECT_THAT(stated.out, HasSubstr("unit=0.2: --as, said"));
+}
+
 TEST_F(PlayerProgram, ProbeTellsWhatIsInASource) {
   ClipTrack plane = depth(5);
   plane.sample = [](int, int c, int, int) { return c < 32 ? 1000u : 65000u; };
@@ -330,7 +348,7 @@ TEST_F(PlayerProgram, ProbeTellsWhatIsInASource) {
   test::makeClip(at("film.mkv"), {color(5), plane});
   const auto text = test::runProgram("relievo probe " + at("film.mkv"), at(""));
   EXPECT_EQ(text.exit_code, 0) << text.err;
-  EXPECT_THAT(text.out, HasSubstr("law=inverse (container tags)"));
+  EXPECT_THAT(text.out, HasSubstr("law=inverse: container tags, said"));
   EXPECT_THAT(text.out, HasSubstr("codes 1000 to 65000"));
   const auto as_json = test::runProgram("relievo probe --json " + at("film.mkv"), at(""));
   const json j = json::parse(as_json.out, nullptr, false);
@@ -343,8 +361,8 @@ TEST_F(PlayerProgram, ProbeTellsWhatIsInASource) {
   // The tracks are listed whatever is wrong with the film in them.
   const auto refused = test::runProgram("relievo probe --calibration bits=8,near=9000 " + at("film.mkv"), at(""));
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.out, HasSubstr("0 video ffv1 64 x 48 \"color\""));
-  EXPECT_THAT(refused.out, HasSubstr("1 video ffv1 64 x 48 \"depth\""));
+  EXPECT_THAT(refused.out, HasSubstr("0 video ffv1 64 x 48, yuv420p of 8 bits, 30 frames a second \"color\""));
+  EXPECT_THAT(refused.out, HasSubstr("1 video ffv1 64 x 48, gray16le of 16 bits, 30 frames a second \"depth\""));
   EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
 
   test::makeClip(at("flat.mkv"), {color(5)});

@@ -87,9 +87,9 @@ TEST_F(PlayerScenario, AfterEachSeekThePictureAndTheSurfaceAreOfTheSameTime) {
   bench_.sources["film"] = PlayerBench::film(1000);
   bench_.sources["film"].tracks[0].keyframe_interval = 12;
   bench_.sources["film"].tracks[1].keyframe_interval = 7;
-  bench_.press(2.0, KEY_RIGHT);
+  bench_.press(2.0, KEY_FORWARD);
   bench_.press(3.0, KEY_FORWARD);
-  bench_.press(4.0, KEY_LEFT);
+  bench_.press(4.0, KEY_REWIND);
   bench_.press(5.0, KEY_STOP);
   playsWell();
   EXPECT_EQ(bench_.states(),
@@ -115,7 +115,7 @@ TEST_F(PlayerScenario, AfterEachSeekThePictureAndTheSurfaceAreOfTheSameTime) {
 
 TEST_F(PlayerScenario, PressesInARowAddUpToOneSeek) {
   bench_.sources["film"] = PlayerBench::film(2000);
-  for (int i = 0; i < 3; ++i) bench_.press(2.0, KEY_RIGHT);
+  for (int i = 0; i < 3; ++i) bench_.press(2.0, KEY_FORWARD);
   bench_.press(3.0, KEY_STOP);
   playsWell();
   ASSERT_THAT(bench_.report.seeks, SizeIs(3));
@@ -125,7 +125,7 @@ TEST_F(PlayerScenario, PressesInARowAddUpToOneSeek) {
 }
 
 TEST_F(PlayerScenario, ASeekBeforeTheBeginningGoesToTheBeginning) {
-  bench_.press(2.0, KEY_LEFT);
+  bench_.press(2.0, KEY_REWIND);
   playsWell();
   ASSERT_THAT(bench_.report.seeks, SizeIs(1));
   EXPECT_EQ(bench_.report.seeks[0].target_s, 0.0);
@@ -134,7 +134,7 @@ TEST_F(PlayerScenario, ASeekBeforeTheBeginningGoesToTheBeginning) {
 }
 
 TEST_F(PlayerScenario, ASeekBeyondTheEndEndsTheFilm) {
-  bench_.press(2.0, KEY_RIGHT);
+  bench_.press(2.0, KEY_FORWARD);
   playsWell();
   EXPECT_EQ(bench_.states(), "boot idle opening buffering playing seeking buffering ended idle");
   EXPECT_THAT(bench_.report.seeks, SizeIs(1));
@@ -145,7 +145,7 @@ TEST_F(PlayerScenario, ASeekBeyondTheEndEndsTheFilm) {
 TEST_F(PlayerScenario, ASeekWhilePausedShowsItsPictureAndStaysPaused) {
   bench_.sources["film"] = PlayerBench::film(1000);
   bench_.press(1.0, KEY_PAUSE);
-  bench_.press(2.0, KEY_RIGHT);
+  bench_.press(2.0, KEY_FORWARD);
   bench_.press(4.0, KEY_STOP);
   playsWell();
   EXPECT_EQ(bench_.states(), "boot idle opening buffering playing paused seeking buffering paused idle");
@@ -162,7 +162,7 @@ TEST_F(PlayerScenario, UntilTheSoughtPictureComesTheSurfaceStandsAsThePictureDoe
   ASSERT_TRUE(recorder);
   bench_.recorder = &*recorder;
   bench_.sources["film"] = PlayerBench::film(1000);
-  bench_.press(1.0, KEY_RIGHT);
+  bench_.press(1.0, KEY_FORWARD);
   bench_.press(2.0, KEY_STOP);
   playsWell();
   ASSERT_TRUE(recorder->finish());
@@ -186,7 +186,7 @@ TEST_F(PlayerScenario, UntilTheSoughtPictureComesTheSurfaceStandsAsThePictureDoe
 
 TEST_F(PlayerScenario, ASeekThatTheSourceRefusesGoesOn) {
   bench_.sources["film"].live = true;
-  bench_.press(1.0, KEY_RIGHT);
+  bench_.press(1.0, KEY_FORWARD);
   playsWell();
   EXPECT_EQ(bench_.states(), "boot idle opening buffering playing seeking buffering playing ended idle");
   EXPECT_EQ(bench_.faults("seek"), 1u);
@@ -309,11 +309,27 @@ TEST_F(PlayerScenario, AFilmThatDoesNotOpenIsAFault) {
   EXPECT_EQ(bench_.states(), "boot idle opening fault");
 }
 
-TEST_F(PlayerScenario, AFilmOfOnePicturePlays) {
+TEST_F(PlayerScenario, APhotoStandsAndStaysTouchableUntilItIsLeft) {
   bench_.sources["film"] = PlayerBench::film(1);
+  bench_.haptic.path_mm = comingDown();
+  bench_.press(20.0, KEY_STOP);
+  bench_.config.duration = std::chrono::seconds(30);
   playsWell();
-  EXPECT_EQ(bench_.states(), kWholeFilm);
+  EXPECT_EQ(bench_.states(), "boot idle opening buffering playing idle");
   EXPECT_EQ(bench_.report.frames_shown, 1u);
+  EXPECT_NEAR(bench_.report.wall_s, 20.0, 0.1);
+  EXPECT_GT(bench_.report.haptic.contact_ticks, 19'000u);
+  EXPECT_EQ(bench_.faults("depth late"), 0u);
+}
+
+TEST_F(PlayerScenario, InAListAPhotoGivesWayToTheNextFilm) {
+  bench_.config.source.url = "list.m3u";
+  bench_.texts["list.m3u"] = "photo\nother\n";
+  bench_.sources["./photo"] = PlayerBench::film(1);
+  bench_.sources["./other"] = PlayerBench::film(25);
+  playsWell();
+  EXPECT_EQ(bench_.report.frames_shown, 26u);
+  EXPECT_NEAR(bench_.report.wall_s, 6.0, 0.1) << "five seconds and one";
 }
 
 // ---- sources over a network
@@ -450,7 +466,7 @@ TEST_F(PlayerScenario, ASeekWhileAServerIsAwayIsCarriedOutOnceItIsBack) {
   away.remote = true;
   bench_.found_again = {away, away, away};
   bench_.found_again[0].fail_open = bench_.found_again[1].fail_open = ErrorCode::Io;
-  bench_.press(1.8, KEY_RIGHT);
+  bench_.press(1.8, KEY_FORWARD);
   bench_.press(5.0, KEY_STOP);
   playsWell();
   ASSERT_THAT(bench_.report.seeks, SizeIs(1));
@@ -648,7 +664,7 @@ TEST_F(PlayerScenario, ADisplayTooSlowForTheFilmDropsPicturesAndKeepsTheTime) {
 
 TEST_F(PlayerScenario, TheSameFilmHandAndKeysGiveTheSameRun) {
   bench_.haptic.path_mm = comingDown();
-  bench_.press(1.0, KEY_LEFT);
+  bench_.press(1.0, KEY_REWIND);
   playsWell();
   const PlayReport first = bench_.report;
   PlayerBench again;

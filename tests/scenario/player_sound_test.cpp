@@ -212,7 +212,7 @@ TEST_F(PlayerSound, APauseIsSilentAtOnceAndSoundGoesOnWhereThePictureDoes) {
 TEST_F(PlayerSound, AfterASeekItIsThatOfTheNewPlace) {
   film(1000);
   bench_.sources["film"].tracks[0].keyframe_interval = 12;
-  bench_.press(5.02, KEY_RIGHT);
+  bench_.press(5.02, KEY_FORWARD);
   bench_.press(8.0, KEY_STOP);
   playsWell();
   ASSERT_EQ(bench_.report.seeks.size(), 1u);

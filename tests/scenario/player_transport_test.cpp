@@ -121,6 +121,61 @@ TEST_F(PlayerTransport, AFilmIsFeltByItsOwnCalibration) {
   EXPECT_LT(hardest_n, 3.0) << "2.1 mm inside, not 25";
 }
 
+TEST_F(PlayerTransport, WhatIsDroppedOnTheWindowIsPlayedInstead) {
+  bench_.sources = {{"film", PlayerBench::film(100)}, {"b", PlayerBench::film(25)}, {"c", PlayerBench::film(25)}};
+  std::vector<std::string> drop{"b", "c"};
+  bench_.display.dropped = [&] {
+    const bool now = bench_.clock.now().time_since_epoch() > std::chrono::seconds(1);
+    return now ? std::exchange(drop, {}) : std::vector<std::string>();
+  };
+  std::vector<std::string> titles;
+  bench_.display.announced = [&](const AnnouncedFilm& film) { titles.push_back(film.title); };
+  playsWell();
+  EXPECT_THAT(bench_.report.films, testing::ElementsAre("film", "b", "c"));
+  EXPECT_EQ(titles, (std::vector<std::string>{"film", "b", "c"}));
+  EXPECT_NEAR(static_cast<double>(bench_.report.frames_shown), 25 + 25 + 25, 2);
+}
+
+TEST_F(PlayerTransport, SeveralSourcesArePlayedOneAfterTheOther) {
+  bench_.sources = {{"film", PlayerBench::film(25)}, {"b", PlayerBench::film(25)}, {"c", PlayerBench::film(25)}};
+  bench_.config.more = {"b", "c"};
+  playsWell();
+  EXPECT_THAT(bench_.report.films, testing::ElementsAre("film", "b", "c"));
+}
+
+// 32 x 24 pixels in a box that is twice as wide as high.
+TEST_F(PlayerTransport, TheWindowIsToldThePicturesSizeInTheShapeOfItsBox) {
+  std::vector<AnnouncedFilm> told;
+  bench_.display.announced = [&](const AnnouncedFilm& film) { told.push_back(film); };
+  playsWell();
+  bench_.config.volume = DisplayVolume{160, 80, 40};
+  bench_.config.source.url = "/films/a film.mkv";
+  bench_.sources["/films/a film.mkv"] = PlayerBench::film(25);
+  playsWell();
+  EXPECT_EQ(told, (std::vector<AnnouncedFilm>{{"film", 32, 24}, {"a film.mkv", 48, 24}}));
+}
+
+TEST_F(PlayerTransport, FullScreenIsTheWindowsAndEscapeLeavesTheFilmPlaying) {
+  std::vector<FullScreen> wishes;
+  bench_.display.filled = [&](FullScreen wish) { wishes.push_back(wish); };
+  bench_.press(0.5, KEY_F);
+  bench_.press(1.0, KEY_ESC);
+  playsWell();
+  EXPECT_EQ(wishes, (std::vector{FullScreen::Toggle, FullScreen::Off}));
+  EXPECT_EQ(bench_.report.frames_shown, 100u);
+}
+
+TEST_F(PlayerTransport, AStepBackShowsThePictureBeforeAndStands) {
+  bench_.press(1.0, KEY_PAUSE);
+  for (int i = 0; i < 3; ++i) bench_.press(2.0 + i, KEY_COMMA);
+  bench_.press(6.0, KEY_DOT);
+  bench_.press(7.0, KEY_STOP);
+  playsWell();
+  EXPECT_THAT(bench_.states(), testing::HasSubstr("paused seeking buffering paused seeking buffering paused"));
+  ASSERT_THAT(bench_.report.seeks, SizeIs(0)) << "it is no seek of the viewer's";
+  EXPECT_NEAR(static_cast<double>(bench_.report.frames_shown), 25 + 3 + 1, 1);
+}
+
 TEST_F(PlayerTransport, WhereNothingIsPlayedTheDeviceIsAtRest) {
   bench_.config.stays = true;
   bench_.config.duration = std::chrono::seconds(8);

@@ -44,7 +44,7 @@ class PlayerWindow : public testing::Test {
                  {std::string(RELIEVO_BIN_DIR) + "/relievo", "play", folder_ / "film.mkv", "--loop", "--display",
                   "window", "--size", "320x240", "--stereo", "mono", "--report", folder_ / "r.json"});
     auto player = std::make_unique<test::Process>(words, folder_ / "said.txt");
-    window_ = screen_->find("relievo");
+    window_ = screen_->find("film.mkv - relievo");
     EXPECT_NE(window_, 0u) << textOf("said.txt");
     place_ = screen_->place(window_).value_or(test::XScreen::Place{});
     screen_->focus(window_);
@@ -79,7 +79,7 @@ class PlayerWindow : public testing::Test {
 TEST_F(PlayerWindow, ShowsTheFilmAndItsKeysAreTheRemote) {
   const auto player = play({"--haptic", "none"});
   EXPECT_TRUE(until([&] { return shows(); }));
-  for (const char* key : {"space", "s", "space", "Escape"}) {
+  for (const char* key : {"space", "Tab", "space", "Escape", "q"}) {
     screen_->tap(key);
     std::this_thread::sleep_for(50ms);  // the same key twice within 2 ms is taken for its repeat
   }
@@ -91,11 +91,58 @@ TEST_F(PlayerWindow, ShowsTheFilmAndItsKeysAreTheRemote) {
   EXPECT_EQ(r["video"]["surface"], (json{kWidth, kHeight}));
 }
 
+// No option: what a desktop's viewer types first.
+TEST_F(PlayerWindow, AFileAloneOpensAWindowOfItsSizeAndTheMouseIsTheFinger) {
+  test::ClipTrack color{.pix_fmt = "yuv420p", .width = 400, .height = 240, .frames = 60, .tags = {{"title", "color"}}};
+  color.sample = [](int component, int, int, int) { return component == 0 ? 180U : 128U; };
+  test::ClipTrack depth{.pix_fmt = "gray", .width = 400, .height = 240, .frames = 60, .tags = {{"title", "depth"}}};
+  depth.sample = [](int, int, int, int) { return 128U; };
+  test::makeClip(folder_ / "wide film.mkv", {color, depth});
+  test::Process player(
+      {RELIEVO_BIN_DIR "/relievo", folder_ / "wide film.mkv", "--loop", "--report", folder_ / "r.json"},
+      folder_ / "said.txt");
+  window_ = screen_->find("wide film.mkv - relievo");
+  ASSERT_NE(window_, 0u) << textOf("said.txt");
+  place_ = screen_->place(window_).value_or(test::XScreen::Place{});
+  EXPECT_EQ(place_.width, 400);
+  EXPECT_EQ(place_.height, 240);
+  EXPECT_TRUE(until([&] { return shows(); }));
+  screen_->focus(window_);
+  screen_->moveMouse(place_.x + 300, place_.y + 60);
+  screen_->button(1, true);
+  std::this_thread::sleep_for(1500ms);
+  screen_->button(1, false);
+  screen_->tap("q");
+  EXPECT_EQ(player.wait(), 0) << textOf("said.txt");
+  const json r = report();
+  EXPECT_EQ(r["video"]["display"], "window");
+  EXPECT_EQ(r["video"]["stereo"], "mono");
+  EXPECT_EQ(r["haptic"]["device"], "pointer");
+  EXPECT_GT(r["force"]["max_n"].get<double>(), 0.5);
+  EXPECT_EQ(textOf("said.txt").find("unit="), std::string::npos) << "a developer's line: " << textOf("said.txt");
+  EXPECT_THAT(textOf("said.txt"), testing::HasSubstr("near bright"));
+}
+
+TEST_F(PlayerWindow, FFillsTheScreenAndEscapeLeavesItButNotTheFilm) {
+  const auto player = play({"--haptic", "none"});
+  EXPECT_TRUE(until([&] { return shows(); }));
+  for (const auto& [key, wish] : {std::pair{"f", 1}, {"Escape", 0}, {"F11", 1}, {"f", 0}}) {
+    screen_->tap(key);
+    EXPECT_TRUE(until([&] { return screen_->takeFullScreenWish() == wish; })) << key;
+    screen_->focus(window_);
+  }
+  screen_->tap("Escape");
+  std::this_thread::sleep_for(300ms);
+  EXPECT_TRUE(player->isRunning());
+  screen_->tap("q");
+  EXPECT_EQ(player->wait(), 0) << textOf("said.txt");
+}
+
 TEST_F(PlayerWindow, ItsCloseButtonEndsThePausedFilmWhateverTheRemoteIs) {
   std::ofstream(folder_ / "keys.txt") << "0.5 PAUSE\n0.9 PAUSE\n";  // the first may come too early
   const auto player = play({"--haptic", "none", "--remote", "script:" + folder_ / "keys.txt"});
   EXPECT_TRUE(until([&] { return shows(); }));
-  screen_->tap("Escape");  // not the remote's
+  screen_->tap("q");  // not the remote's
   std::this_thread::sleep_for(1s);
   EXPECT_TRUE(player->isRunning());
   screen_->askToClose(window_);
@@ -116,7 +163,7 @@ TEST_F(PlayerWindow, ThePausedPictureFollowsTheWindow) {
     const auto [red, green, blue] = screen_->pixel(place_.x + 440, place_.y + 320);
     return red > 100 && red == green && green == blue;
   })) << "where there was no window before";
-  screen_->tap("Escape");
+  screen_->tap("q");
   EXPECT_EQ(player->wait(), 0) << textOf("said.txt");
   EXPECT_EQ(report()["video"]["surface"], (json{480, 360}));
 }
@@ -129,7 +176,7 @@ TEST_F(PlayerWindow, ItsMouseIsTheFinger) {
   screen_->button(1, true);
   std::this_thread::sleep_for(1500ms);  // 26 mm at 80 mm/s
   screen_->button(1, false);
-  screen_->tap("Escape");
+  screen_->tap("q");
   EXPECT_EQ(player->wait(), 0) << textOf("said.txt");
   EXPECT_GT(report()["force"]["max_n"].get<double>(), 0.5) << textOf("said.txt");
   std::istringstream csv(textOf("t.csv"));

@@ -85,8 +85,9 @@ bool mayInclude(std::string_view path, std::string_view included) {
   if (isUnder(path, "hal")) return false;
   if (isUnder(included, "hal")) return true;
   if (isRegistry(path)) return isUnder(included, "drivers");
-  if (isUnder(path, "drivers")) {  // a bus and what a window hears, not back ends
-    return isUnder(included, "drivers/usb") || isUnder(included, "drivers/window");
+  if (isUnder(path, "drivers")) {  // a bus, what a window hears, what kinds of pictures share
+    return isUnder(included, "drivers/usb") || isUnder(included, "drivers/window") ||
+           isUnder(included, "drivers/floats") || isUnder(included, "drivers/photo");
   }
   if (path.ends_with("/main.cpp") && included == "drivers/registry.h") return true;
   const Room* const room = roomOf(path);

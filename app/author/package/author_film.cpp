@@ -20,10 +20,12 @@
 #include "app/depth_window/shots.h"
 #include "app/scene/height_field.h"
 #include "platform/log.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {
 
+constexpr Duration kLeastStep = std::chrono::nanoseconds(11'112);  // one tick of a film's 90 kHz clock
 constexpr Error kCancelled{ErrorCode::Cancelled, 0, "interrupted; nothing was written"};
 
 // Interrupts a reader that waits for a disk or a network when the program is to stop.
@@ -110,8 +112,8 @@ class Packager {
   std::deque<bool> depth_keys_;      // for pictures not yet written
   std::deque<TimedSurface> recent_;  // depth pictures, the newest last
   ShotFinder shots_;
-  std::optional<MediaTime> last_depth_;
-  std::uint64_t interlaced_ = 0;  // colour pictures
+  std::optional<MediaTime> last_color_, last_depth_;
+  std::uint64_t not_later_ = 0;  // colour pictures whose time is not after that of the one before
   ColorPicture420 color_;
   DepthPicture depth_;
   Preview preview_;
@@ -146,6 +148,7 @@ Outcome<void> Packager::begin(const FramePair& pair) {
   format_.color_crf = output_.color_crf;
   format_.depth = output_.depth;
   format_.depth_tags = calibrationTags(coder_.outcome());
+  format_.depth_tags["DEPTH_READ_AS"] = plainLine(info.reading, sourceCalibration());
   auto writer =
       FilmWriter::create(output_.path, format_, output_.force ? Existing::Replace : Existing::Keep, keptTracks());
   if (!writer) return failOn(output_.path, writer.error());
@@ -164,12 +167,16 @@ std::unique_ptr<KeptTracks> Packager::keptTracks() const {
 }
 
 Outcome<void> Packager::write(const FramePair& pair) {
+  if (last_color_ && pair.color.pts < *last_color_ + kLeastStep) {
+    ++not_later_;
+    return {};
+  }
+  last_color_ = pair.color.pts;
   const Frame color = crop(pair.color, 0, 0, pair.color.width - cut_.color_cols, pair.color.height - cut_.color_rows);
   if (color.width != format_.color_width || color.height != format_.color_height) {
     return failOn("colour", {ErrorCode::Unsupported, 0, "the picture size changes; cut the film there"});
   }
-  if (color.interlaced) ++interlaced_;
-  const bool depth_is_new = !pair.depth.empty() && (!last_depth_ || pair.depth.pts > *last_depth_);
+  const bool depth_is_new = !pair.depth.empty() && (!last_depth_ || pair.depth.pts >= *last_depth_ + kLeastStep);
   const bool key =
       key_frames_.isDue(color.pts, depth_is_new || pair.depth.empty(), depth_is_new && beginsShot(pair.depth));
   if (auto made = toColor420(color, color_); !made) return failOn("colour", made.error());
@@ -234,13 +241,21 @@ Outcome<AuthorSummary> Packager::finish() {
                         .codes = coder_.counts(),
                         .enhancement = output_.enhancement,
                         .enhanced = enhancer_ ? enhancer_->summary() : EnhancementSummary{},
+                        .read_as = plainLine(reader_.info().reading, sourceCalibration()),
+                        .read_because = reader_.info().reading.why,
                         .notes = code_notes_};
+  const auto& offers = reader_.info().reading.offers;
+  summary.read_because.insert(summary.read_because.end(), offers.begin(), offers.end());
   const bool lossy = format_.depth.crf > 0 && format_.depth.codec != VideoCodec::Ffv1;
   if (!coder_.outcome().invalid.empty() && lossy) {
     summary.notes.emplace_back("coding shifts some edges of holes by a sample; --depth-crf 0 avoids this");
   }
+  if (not_later_ > 0) {
+    summary.notes.push_back(source_.url + print(": %llu pictures whose times do not increase were left out",
+                                                static_cast<unsigned long long>(not_later_)));
+  }
   if (auto line = cut_.explain(); !line.empty()) summary.notes.push_back(std::move(line));
-  for (std::string& line : sourceNotes(source_, reader_, format_, interlaced_, coder_.counts())) {
+  for (std::string& line : sourceNotes(source_, reader_, format_, coder_.counts())) {
     summary.notes.push_back(std::move(line));
   }
   if (const KeptTracks* const kept = writer_->kept()) {

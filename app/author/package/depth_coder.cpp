@@ -91,8 +91,10 @@ Result<void> DepthCoder::encode(const Frame& depth, DepthPicture& picture) {
 
 std::vector<std::string> DepthCoder::explain() const {
   std::vector<std::string> lines;
-  if (source_.code == DepthCode::Hue) {
-    lines.push_back(print("hue decoded to %d-bit luma, 1536 hues to %.0f codes", outcome_.bits, outcome_.highCode()));
+  if (source_.code != DepthCode::Luma) {
+    lines.push_back(print("%s decoded to %d-bit luma, %d %s to %.0f codes", name(source_.code), outcome_.bits,
+                          source_.code == DepthCode::Hue ? DepthCalibration::kHueSteps : 256,
+                          source_.code == DepthCode::Hue ? "hues" : "colours", outcome_.highCode()));
   } else if (source_.bits != outcome_.bits) {
     lines.push_back(print("%d bits rescaled to %d bits: codes %.0f .. %.0f to 0 .. %.0f, rounded", source_.bits,
                           outcome_.bits, source_.lowCode(), source_.highCode(), outcome_.highCode()));

@@ -177,6 +177,8 @@ std::string toText(const std::string& path, const AuthorSummary& summary) {
   text +=
       trackLine("depth", f.depth_width, f.depth_height, codingText(f), depth_crf, totals.depth, summary.frame_period);
   if (summary.enhancement) text += enhancementLines(*summary.enhancement, summary.enhanced);
+  if (!summary.read_as.empty()) text += "  read as: " + summary.read_as + "\n";
+  for (const std::string& line : summary.read_because) text += "    " + line + "\n";
   text += codesLine(summary.codes);
   if (!summary.kept.empty()) text += "  kept: " + joined(summary.kept) + "\n";
   const auto tag = [&f](const char* key) {

@@ -60,7 +60,7 @@ std::vector<std::string> notKept(const FilmInfo& info, const KeptWishes& keep) {
 }
 
 std::vector<std::string> sourceNotes(const SourceOptions& source, const PairReader& reader, const FilmFormat& format,
-                                     std::uint64_t interlaced, const DepthCoder::Counts& codes) {
+                                     const DepthCoder::Counts& codes) {
   Notes notes;
   const PairCounters counters = reader.counters();
   tellMissing(notes, source.url, counters.missing);
@@ -74,14 +74,15 @@ std::vector<std::string> sourceNotes(const SourceOptions& source, const PairRead
     notes.push_back(print("%d more video %s left out; if the depth is one of them, save it to a file for --depth", more,
                           more == 1 ? "track is" : "tracks are"));
   }
-  tell(notes, interlaced,
-       " pictures are interlaced: edges in motion will look combed; deinterlace the source first, with FFmpeg's "
-       "bwdif");
+  tell(
+      notes, counters.deinterlaced,
+      " pictures were interlaced: each was made of its first field; for more detail deinterlace the source first, with "
+      "FFmpeg's bwdif");
   tellColor(notes, format);
   tellClipped(notes, reader.info(), codes);
-  for (const auto& lines : {reader.info().reading, reader.info().doubts}) {
-    notes.insert(notes.end(), lines.begin(), lines.end());
-  }
+  const FilmInfo& info = reader.info();
+  notes.insert(notes.end(), info.notes.begin(), info.notes.end());
+  notes.insert(notes.end(), info.reading.doubts.begin(), info.reading.doubts.end());
   return notes;
 }
 

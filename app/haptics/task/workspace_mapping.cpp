@@ -12,13 +12,15 @@ constexpr double kEdgeStiffnessNPerMm = 0.2;  // reaches 0.8 N at the device's o
 }  // namespace
 
 WorkspaceMapping::WorkspaceMapping(const HapticCapabilities& device, const DisplayVolume& volume) noexcept
-    : min_mm_(device.workspace_min_mm), max_mm_(device.workspace_max_mm) {
+    : min_mm_(device.workspace_min_mm), max_mm_(device.workspace_max_mm), in_scene_(device.in_scene) {
+  if (in_scene_) return;
   const glm::dvec3 room = max_mm_ - min_mm_ - glm::dvec3(2 * kEdgeMm);
   scale_ = std::max({1.0, volume.width_mm / room.x, volume.height_mm / room.y, volume.depth_mm / room.z});
   offset_mm_ = glm::dvec3(0, 0, 0.5 * volume.depth_mm) - scale_ * 0.5 * (min_mm_ + max_mm_);
 }
 
 WorkspaceMapping::Finger WorkspaceMapping::follow(const HapticSample& sample) RELIEVO_RT {
+  if (in_scene_) return {.hip_mm = sample.position_mm};
   const glm::dvec3 hip_mm = scale_ * sample.position_mm + offset_mm_;
   const bool pressed = (sample.buttons & kClutchButton) != 0;
   if (pressed && !clutched_) held_mm_ = hip_mm;

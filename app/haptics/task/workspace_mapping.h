@@ -12,7 +12,7 @@ namespace relievo {
 
 // The centres of workspace and volume coincide until the clutch moves them. If the workspace is smaller than the
 // picture, one device millimetre maps to more scene millimetres, just enough to reach the whole picture. A wall of
-// stiffness K is then felt as scale x K.
+// stiffness K is then felt as scale x K. A device that points at the picture is taken as it is.
 class WorkspaceMapping {
  public:
   // While held, the device moves and the finger stays, as when a mouse is lifted.
@@ -42,6 +42,7 @@ class WorkspaceMapping {
   glm::dvec3 min_mm_{0}, max_mm_{0};
   glm::dvec3 held_mm_{0};  // scene frame; the finger's position while clutched
   bool clutched_ = false;
+  bool in_scene_ = false;
 };
 
 }  // namespace relievo

@@ -17,9 +17,9 @@ struct CodedDepth {
   std::uint64_t bytes = 0;    // of all packets
 };
 
-// Encodes as 4:0:0, signalled as full range, with a key frame every second. The caller chooses codec, bits, crf and
-// tuning; the other settings come from the frames. InvalidArgument if there are no frames, if they are not gray frames
-// of one size with that bit depth, or if their timestamps do not increase.
+// Encodes gray as 4:0:0, signalled as full range, and YUV as 4:2:0, with a key frame every second. The caller chooses
+// codec, bits, crf and tuning; the other settings come from the frames. InvalidArgument if there are no frames, if they
+// are not gray or 4:2:0 frames of one size with that bit depth, or if their timestamps do not increase.
 [[nodiscard]] Result<CodedDepth> codeDepth(std::span<const Frame> frames, VideoEncoder::Settings settings);
 // As an encoder that is not tuned for touch: H.264, 8 bits; crf 0 is lossless, 51 the coarsest.
 [[nodiscard]] Result<CodedDepth> codeDepth(std::span<const Frame> frames, int crf);

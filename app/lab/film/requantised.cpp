@@ -3,8 +3,11 @@
 #include "app/lab/film/requantised.h"
 
 #include <array>
+#include <cmath>
 #include <memory>
 #include <vector>
+
+#include "app/lab/film/colored_depth.h"
 
 namespace relievo {
 namespace {
@@ -39,16 +42,28 @@ const char* name(DepthSteps steps) noexcept {
       return "dithered";
     case DepthSteps::Disparity:
       return "disparity";
+    case DepthSteps::Hue:
+      return "hue";
+    case DepthSteps::HueDisparity:
+      return "hue-disparity";
+    case DepthSteps::Turbo:
+      return "turbo";
   }
   return "";
 }
 
 DepthCalibration meaningOf(int bits, DepthSteps steps) noexcept {
+  if (steps == DepthSteps::Turbo) return {.code = DepthCode::Turbo};
+  if (steps == DepthSteps::Hue) return {.polarity = DepthPolarity::NearIsLow, .code = DepthCode::Hue};
+  if (steps == DepthSteps::HueDisparity) {
+    return {.law = DepthLaw::Inverse, .code = DepthCode::Hue, .near_mm = kNearMm, .far_mm = kFarMm};
+  }
   if (steps != DepthSteps::Disparity) return {.bits = bits};
   return {.law = DepthLaw::Inverse, .bits = bits, .near_mm = kNearMm, .far_mm = kFarMm};
 }
 
 Frame requantised(const Frame& depth, int bits, DepthSteps steps) {
+  if (steps >= DepthSteps::Hue) return colored(depth, meaningOf(bits, steps));
   const std::size_t bytes = bits > 8 ? 2 : 1;
   const std::size_t stride = static_cast<std::size_t>(depth.width) * bytes;
   const auto samples = std::make_shared<std::vector<std::uint8_t>>(stride * static_cast<std::size_t>(depth.height));
@@ -76,6 +91,7 @@ void HeightErrorSum::add(const HeightField& felt, const HeightField& truth) {
   for (int r = 0; r < truth.rows(); ++r) {
     for (int c = 0; c < truth.cols(); ++c) {
       const double error = std::abs(felt.heightMm(c, r) - truth.heightMm(c, r));
+      if (std::isnan(error)) continue;  // a hole
       squares_ += error * error;
       largest_ = std::max(largest_, error);
     }

@@ -15,8 +15,11 @@ namespace relievo {
 
 enum class DepthSteps : std::uint8_t {
   Even,
-  Dithered,   // evenly spaced, with an 8 x 8 ordered dither pattern added before rounding
-  Disparity,  // spaced by the inverse law: finest near the viewer
+  Dithered,      // evenly spaced, with an 8 x 8 ordered dither pattern added before rounding
+  Disparity,     // spaced by the inverse law: finest near the viewer
+  Hue,           // 4:2:0 in colours, as recorders paint depth: red nearest
+  HueDisparity,  // hue of the inverse law, red farthest, as RealSense paints it
+  Turbo
 };
 [[nodiscard]] const char* name(DepthSteps steps) noexcept;
 

@@ -20,6 +20,9 @@ namespace {
 
 constexpr double kFramesPerSecond = 30;
 
+// How recorders paint depth, coded as films are.
+constexpr DepthSteps kColored[] = {DepthSteps::Hue, DepthSteps::HueDisparity, DepthSteps::Turbo};
+
 struct Coding {
   VideoCodec codec = VideoCodec::H264;
   int bits = 8;
@@ -55,6 +58,9 @@ struct Plan {
     }
     for (const DepthSteps steps : {DepthSteps::Dithered, DepthSteps::Disparity}) {
       for (const int crf : qualities) all.push_back({VideoCodec::H264, 8, steps, crf});
+    }
+    for (const DepthSteps steps : kColored) {
+      for (const int crf : {18, 23}) all.push_back({VideoCodec::H264, 8, steps, crf});
     }
     for (const int bits : {8, 10, 12, 16}) all.push_back({VideoCodec::Ffv1, bits, DepthSteps::Even, 0});
     for (const DepthSteps steps : {DepthSteps::Even, DepthSteps::Dithered, DepthSteps::Disparity}) {
@@ -96,7 +102,9 @@ Result<void> addScene(const Scene& scene, Figures& figures) {
   std::vector<Frame> steps;
   steps.reserve(scene.frames.size());
   for (const Frame& frame : scene.frames) steps.push_back(requantised(frame, coding.bits, coding.steps));
-  auto coded = codeDepth(steps, {.codec = coding.codec, .bits = coding.bits, .to_touch = true, .crf = coding.crf});
+  auto coded = codeDepth(
+      steps,
+      {.codec = coding.codec, .bits = coding.bits, .to_touch = coding.steps < DepthSteps::Hue, .crf = coding.crf});
   if (!coded) return std::unexpected(coded.error());
   figures.bytes += coded->bytes;
   const DepthCalibration meaning = meaningOf(coding.bits, coding.steps);
@@ -133,6 +141,35 @@ Outcome<void> write(const std::vector<Figures>& all, const Plan& plan, const std
   return table.write(path);
 }
 
+// The force error of plain 8-bit H.264 at a bit rate, between its measured qualities; at their ends, that of the end.
+double evenPercentAt(double kbit_s, const std::vector<Figures>& all, const Plan& plan) {
+  const Figures *below = nullptr, *above = nullptr;
+  for (const Figures& f : all) {
+    const Coding& c = f.coding;
+    if (c.codec != VideoCodec::H264 || c.bits != 8 || c.steps != DepthSteps::Even || c.crf == 0) continue;
+    const double rate = kbitPerSecond(f, plan);
+    if (rate <= kbit_s && (below == nullptr || rate > kbitPerSecond(*below, plan))) below = &f;
+    if (rate >= kbit_s && (above == nullptr || rate < kbitPerSecond(*above, plan))) above = &f;
+  }
+  if (below == nullptr || above == nullptr) return (below == nullptr ? above : below)->force.result().rms_percent;
+  const double from = kbitPerSecond(*below, plan), to = kbitPerSecond(*above, plan);
+  const double share = to > from ? std::log(kbit_s / from) / std::log(to / from) : 0;
+  const double a = below->force.result().rms_percent, b = above->force.result().rms_percent;
+  return a * std::pow(b / a, share);
+}
+
+std::string tellColored(const std::vector<Figures>& all, const Plan& plan) {
+  std::string text;
+  for (const Figures& f : all) {
+    if (f.coding.steps < DepthSteps::Hue) continue;
+    const double rate = kbitPerSecond(f, plan);
+    text += print("%s%s at crf %d %.2g %% at %.0f kbit/s (brightness %.2g %%)",
+                  text.empty() ? " In colours, 4:2:0: " : "; ", name(f.coding.steps), f.coding.crf,
+                  f.force.result().rms_percent, rate, evenPercentAt(rate, all, plan));
+  }
+  return text + ".";
+}
+
 ChartWords wordsOf(const std::vector<Figures>& all, const Plan& plan) {
   const auto find = [&](auto&& wanted) {
     return *std::find_if(all.begin(), all.end(), [&](const Figures& f) { return wanted(f.coding); });
@@ -158,7 +195,8 @@ ChartWords wordsOf(const std::vector<Figures>& all, const Plan& plan) {
             tell(atDefault(VideoCodec::H264, 8, DepthSteps::Dithered)).c_str(),
             tell(atDefault(VideoCodec::H264, 8, DepthSteps::Disparity)).c_str(), tell(exact).c_str(),
             own.raw.result().rms_percent, own.smoothed.result().rms_percent, exact.raw.result().rms_percent,
-            exact.smoothed.result().rms_percent)};
+            exact.smoothed.result().rms_percent) +
+          tellColored(all, plan)};
 }
 
 }  // namespace

@@ -13,7 +13,8 @@ namespace relievo {
 // - `god_object_rms_percent`, `god_object_smoothed_rms_percent`: of the same finger with these methods.
 // - `height_rms_mm`, `height_max_mm`: of all samples, against depth of 16 bits.
 // - `steps`: even; "disparity": by the inverse law, far four times as far as near; "dithered": even, with an ordered
-//   pattern of half a step either way before they are rounded.
+//   pattern of half a step either way before they are rounded; "hue", "hue-disparity", "turbo": in colours, 4:2:0, as
+//   recorders paint depth. A hole has no height error.
 // A quick run is of one scene and few qualities.
 [[nodiscard]] Outcome<std::vector<ChartWords>> measureBitrate(const MeasureOptions& options);
 

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/media/reading/depth_reading.h"
+#include "app/media/reading/code_count.h"
+#include "app/media/reading/depth_meaning.h"
 #include "app/media/track_reader.h"
 #include "app/scene/height_field.h"
 
@@ -43,7 +44,8 @@ Outcome<void> DepthFilm::open() {
   const bool tagged = tracks_->single.source().tags().contains(kPackingTag);
   tracks_->paired = countVideo(streams) > 1 || source.packing != Packing::Auto || tagged;
 
-  CalibrationLayers layers{source.command_line, source.side_file, {}};
+  DepthClues clues{.command_line = source.command_line, .side_file = source.side_file, .as = source.as, .place = {}};
+  clues.path = source.url;
   if (tracks_->paired) {
     if (const auto opened = tracks_->pairs.open(source); !opened) {
       return failOn(tracks_->pairs.failedThing(), opened.error());
@@ -54,8 +56,9 @@ Outcome<void> DepthFilm::open() {
     const auto video =
         std::find_if(streams.begin(), streams.end(), [](const StreamInfo& s) { return s.kind == StreamKind::Video; });
     if (video == streams.end()) return failOn(source.url, {ErrorCode::NotFound, 0, "no video in this source"});
-    layers.tags = calibrationFromTags(tracks_->single.source().tags());
-    layers.tags.merge(calibrationFromTags(video->tags));
+    clues.codec = video->codec;
+    clues.tags = tracks_->single.source().tags();
+    clues.tags.insert(video->tags.begin(), video->tags.end());
     const auto selected = tracks_->single.select(*video);
     if (!selected) return failOn(source.url, selected.error());
     tracks_->track = *selected;
@@ -71,16 +74,27 @@ Outcome<void> DepthFilm::open() {
     calibration_ = tracks_->pairs.info().calibration.calibration;
     return {};
   }
-  if (!source.depth_code) layers.pictures = readCodes(frame, CodeCount(frame), layers).settings;
-  const auto choice = chooseCalibration(layers, frame, source.depth_code.value_or(DepthCode::Luma));
-  if (!choice) return failOn(source.url, choice.error());
-  calibration_ = choice->calibration;
+  clues.place = lookAtPlace(source.url, "");
+  const auto stated = source.as != nullptr ? source.as->code : std::nullopt;
+  clues.code = source.depth_code.value_or(stated.value_or(DepthCode::Luma));
+  const KnownKind* const kind = kindOf(clues, frame);
+  order_ = kind != nullptr ? kind->order : SampleOrder::AsStored;
+  const auto ordered = inOrder(frame, order_);
+  if (!ordered) return failOn(source.url, ordered.error());
+  tracks_->first = *ordered;
+  const auto meaning = readMeaning(clues, kind, *ordered);
+  if (!meaning) return failOn(source.url, meaning.error());
+  calibration_ = meaning->calibration.calibration;
   return {};
 }
 
 Result<std::optional<Frame>> DepthFilm::nextFrame() {
   if (tracks_->first) return std::exchange(tracks_->first, std::nullopt);
-  if (!tracks_->paired) return tracks_->single.next(tracks_->track);
+  if (!tracks_->paired) {
+    auto frame = tracks_->single.next(tracks_->track);
+    if (!frame || !*frame || order_ == SampleOrder::AsStored) return frame;
+    return inOrder(**frame, order_);
+  }
   for (;;) {
     auto pair = tracks_->pairs.next();
     if (!pair) return std::unexpected(pair.error());

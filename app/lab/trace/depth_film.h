@@ -40,6 +40,7 @@ class DepthFilm {
   std::unique_ptr<Tracks> tracks_;
   DisplayVolume volume_;
   DepthCalibration calibration_;
+  SampleOrder order_ = SampleOrder::AsStored;  // of a single track
   WindowFrames frames_;
   std::optional<TimedSurface> newest_;
   std::optional<MediaTime> first_pts_;

@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <cstdlib>
+#include <initializer_list>
 
-#include "app/media/reading/picture_look.h"
-#include "app/scene/height_field.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -14,24 +13,25 @@ namespace {
 
 constexpr std::uint32_t kTop = 0xffff;
 
-// A depth rendering stretched to 16 bits reaches the upper half of the codes; 32 m in millimetres does not.
-constexpr std::uint32_t kStretched = 0x8000;
-// Among the codes in use, a sensor leaves a gap between its hole code (0) and its nearest reading.
-constexpr std::uint32_t kLeastGap = 100;
+// A depth rendering stretched to 16 bits reaches the upper quarter of the codes; 32 m in mm, or 10 m at 5000 codes a
+// metre, do not.
+constexpr std::uint32_t kStretched = 0xc000;
+// A rendering that reaches only the upper half is told by what a sensor leaves between its hole code (0) and its
+// nearest reading: a gap.
+constexpr std::uint32_t kMaybeStretched = 0x8000, kLeastGap = 100;
 constexpr double kHolesOfSensor = 0.002;
 
-// A Kinect's raw disparity: 11 bits, 2047 for a hole, z = 351.3 / (1092.5 - code) m (Stowers, Hayes and
-// Bainbridge-Smith, "Altitude control of a quadrotor helicopter using depth map from Microsoft Kinect sensor", 2011).
 constexpr std::uint32_t kRawHole = 2047, kRawLowest = 300, kRawHighest = 1084;
-constexpr double kRawMm = 351300, kRawOffset = 1092.5;
+
+// Most sensors see less than 12 m and half of a scene within 5 m; most scenes lie beyond 0.6 m: 3000 codes at 5000 a
+// metre.
+constexpr std::uint32_t kFarthestMm = 12000, kMiddleMm = 5000, kNearestOfFine = 3000;
 
 // Near and far are taken from all samples except outliers, with a margin because later pictures may show more.
 constexpr double kOutliers = 0.002, kNearer = 0.9, kFarther = 1.1;
 
 bool says(const CalibrationLayers& said, std::initializer_list<const char*> keys) {
-  return std::any_of(keys.begin(), keys.end(), [&](const char* key) {
-    return said.command_line.contains(key) || said.side_file.contains(key) || said.tags.contains(key);
-  });
+  return std::any_of(keys.begin(), keys.end(), [&](const char* key) { return said.find(key) != nullptr; });
 }
 
 std::string number(double value) {
@@ -46,51 +46,77 @@ Reach reachOf(const CodeCount& count, std::uint32_t lowest, std::uint32_t highes
   return {count.quantile(kOutliers, lowest, highest), count.quantile(1 - kOutliers, lowest, highest)};
 }
 
-DepthReading rawKinect(const CodeCount& count) {
-  const Reach reach = reachOf(count, kRawLowest, kRawHighest);
-  const auto mm = [](double code) { return kRawMm / (kRawOffset - code); };
-  const std::uint32_t low = reach.low, high = std::max(reach.high, reach.low + 1);
-  DepthReading reading;
-  reading.settings = {{"law", "inverse"},
-                      {"polarity", "near-low"},
-                      {"codes", std::to_string(low) + "-" + std::to_string(high)},
-                      {"invalid", "0+1085-65535"},
-                      {"near", number(mm(low))},
-                      {"far", number(mm(high))}};
-  reading.why = print("codes of %u to %u with holes of 2047: raw Kinect disparities, %.2f to %.2f m", low, high,
-                      1e-3 * mm(low), 1e-3 * mm(high));
-  return reading;
+std::string holesText(double share) {
+  return share == 0 ? "" : print(" with %.1f %% holes", 100 * share);
 }
 
-DepthReading distances(const CodeCount& count, double unit_mm, const char* what) {
-  const Reach reach = reachOf(count, 1, kTop - 1);
+// Codes that are distances: near and far from those in use.
+DepthReading readDistances(const CodeCount& count, double unit_mm, const CodeSet& invalid, const char* what) {
+  const CodeCount valid = count.without(invalid);
+  if (valid.samples() == 0) return {};
+  const Reach reach = reachOf(valid, 0, kTop);
   const double near = std::max(1.0, std::floor(kNearer * unit_mm * reach.low));
   const double far = std::max(near + 1, std::ceil(kFarther * unit_mm * reach.high));
   DepthReading reading;
-  reading.settings = {{"unit", number(unit_mm)}, {"invalid", "0+65535"}, {"near", number(near)}, {"far", number(far)}};
-  const double holes = 100 * (count.share(0, 0) + count.share(kTop, kTop));
-  reading.why = print("codes of %u to %u with %.1f %% holes: %s, %.2f to %.2f m", reach.low, reach.high, holes, what,
-                      1e-3 * unit_mm * reach.low, 1e-3 * unit_mm * reach.high);
+  reading.settings = {{"near", number(near)}, {"far", number(far)}};
+  reading.why =
+      print("codes of %u to %u%s: %s, %.2f to %.2f m", reach.low, reach.high, holesText(count.share(invalid)).c_str(),
+            what, 1e-3 * unit_mm * reach.low, 1e-3 * unit_mm * reach.high);
+  return reading;
+}
+
+// Codes that are inversely proportional to the distance: the range in use, and its distances.
+DepthReading readInverse(const CodeCount& count, const KnownKind& kind, const CodeSet& invalid) {
+  const CodeCount valid = count.without(invalid);
+  if (valid.samples() == 0) return {};
+  const bool raw = kind.inverse.offset > 0;
+  const auto lowest = raw ? kRawLowest : 1;
+  const Reach reach = reachOf(valid, lowest, raw ? kRawHighest : kTop);
+  const std::uint32_t low = reach.low, high = std::max(reach.high, reach.low + 1);
+  const auto mm = [&](double code) { return kind.inverse.mm / (raw ? kind.inverse.offset - code : code); };
+  const double near = mm(raw ? low : high), far = mm(raw ? high : low);
+  DepthReading reading;
+  reading.settings = {{"codes", print("%u-%u", low, high)}, {"near", number(near)}, {"far", number(far)}};
+  reading.why = print("codes of %u to %u%s: %s, %.2f to %.2f m", low, high, holesText(count.share(invalid)).c_str(),
+                      kind.what, 1e-3 * near, 1e-3 * far);
   return reading;
 }
 
 bool isRawKinect(const CodeCount& count) {
   const double outside = count.share(1, kRawLowest - 1) + count.share(kRawHighest + 1, kRawHole - 1);
-  return count.share(kRawHole + 1, kTop) == 0 && count.of(kRawHole) > 0 && outside < kOutliers &&
+  return count.share(kRawHole + 1, kTop) == 0 && count.of(kRawHole) > 0 && outside < kHolesOfSensor &&
          count.share(kRawLowest, kRawHighest) > 0.05;
+}
+
+bool hasGapAtZero(const CodeCount& count, std::uint32_t gap) {
+  return count.share(0, 0) > kHolesOfSensor && count.share(1, gap) == 0;
 }
 
 bool isDistances(const CodeCount& count) {
   if (count.share(1, kTop - 1) == 0) return false;
-  if (count.quantile(1 - kOutliers, 1, kTop - 1) < kStretched) return true;
-  return count.share(0, 0) > kHolesOfSensor && count.share(1, kLeastGap) == 0;
+  const std::uint32_t highest = count.quantile(1 - kOutliers, 1, kTop - 1);
+  if (highest >= kStretched) return false;
+  return highest < kMaybeStretched || hasGapAtZero(count, kLeastGap);
 }
 
-DepthReading readSensor(const CodeCount& count) {
-  if (isRawKinect(count)) return rawKinect(count);
-  if (count.step() > 8 || !isDistances(count)) return {};  // a format of fewer bits, stretched
-  if (count.step() == 8) return distances(count, 0.125, "distances in mm, shifted left by 3 bits");
-  return distances(count, 1, "distances in mm");
+// A sensor's picture holds many different codes.
+bool isMeasured(const CodeCount& count) {
+  constexpr int kLeastCodes = 100;
+  return count.kinds() >= kLeastCodes;
+}
+
+// Bits rotated left by three: multiples of 8 up to 8.19 m, one more up to 16.38 m.
+bool isRotated(const CodeCount& count) {
+  constexpr double kMost = 0.95;
+  return count.remainders(8, 1) >= kMost && count.remainders(16, 0) < kMost;
+}
+
+// What else distances may be. The relief is the same; its depth in mm is not.
+std::string otherUnit(const KnownKind& kind, const CodeCount& count) {
+  const bool fine = count.quantile(0.5, 1, kTop - 1) > kNearestOfFine;
+  if (kind.name == std::string_view("tum")) return "if a code is 1 mm: --as mm";
+  if (kind.name == std::string_view("mm") && fine) return "if there are 5000 codes a metre: --as tum";
+  return kind.name == std::string_view("kitti") ? "if a code is 1 mm: --as mm" : "";
 }
 
 DepthReading readRange(const CodeCount& count) {
@@ -98,103 +124,91 @@ DepthReading readRange(const CodeCount& count) {
   const std::uint32_t scale = 1u << (count.bits() - 8);
   const double beyond = count.share(0, 12 * scale) + count.share(240 * scale, 256 * scale - 1);
   if (beyond < kBeyond) return {};
-  return {{{"range", "full"}}, print("%.1f %% of the codes lie outside of 16 to 235: full range", 100 * beyond)};
+  return {{{"range", "full"}},
+          nullptr,
+          print("%.1f %% of the codes lie outside of 16 to 235: full range", 100 * beyond),
+          ""};
+}
+
+// Gray that is not coded with loss and leaves codes out above 0: black is no shade but a hole.
+void readBlack(const CodeCount& count, const CalibrationLayers& said, DepthReading& reading) {
+  constexpr int kShades = 32;
+  const std::uint32_t gap = (1u << count.bits()) / 128;
+  if (says(said, {"invalid"}) || count.kinds() < kShades || !hasGapAtZero(count, gap)) return;
+  reading.settings["invalid"] = "0";
+  reading.why = print("%.1f %% black, apart from the other shades: holes", 100 * count.share(0, 0));
+  reading.offer = "if black is far away: --calibration invalid=none";
+}
+
+DepthReading readShades(const Frame& depth, const CodeCount& count, const CalibrationLayers& said) {
+  DepthReading reading;
+  if (depth.model == ColorModel::Yuv && depth.range == ColorRange::Unspecified && !says(said, {"range", "codes"})) {
+    reading = readRange(count);
+  }
+  if (depth.model != ColorModel::Yuv) readBlack(count, said, reading);
+  if (!says(said, {"polarity", "unit", "law"})) {
+    if (!reading.offer.empty()) reading.offer += "; ";
+    reading.offer += "near is taken to be bright; if it is dark: --calibration polarity=near-low";
+  }
+  return reading;
+}
+
+// Near, far and the codes in use of codes whose meaning is known.
+DepthReading readReach(const CodeCount& count, const CalibrationLayers& said, const KnownKind* kind) {
+  const std::string* const unit = said.find("unit");
+  const std::string* const invalid = said.find("invalid");
+  const CodeSet holes = invalid != nullptr ? CodeSet::parse(*invalid).value_or(CodeSet()) : CodeSet();
+  if (kind != nullptr && kind->inverse.mm > 0 && !says(said, {"codes", "near", "far"})) {
+    return readInverse(count, *kind, holes);
+  }
+  if (unit == nullptr || *unit == "none" || says(said, {"near", "far"})) return {};
+  const double unit_mm = std::strtod(unit->c_str(), nullptr);
+  return readDistances(count, unit_mm, holes,
+                       kind != nullptr ? kind->what : print("distances of %g mm a code", unit_mm).c_str());
 }
 
 }  // namespace
 
-CodeCount::CodeCount(const Frame& depth) : bits_(std::max<int>(8, depth.components[0].bits)) {
-  of_code_.assign(std::size_t{1} << bits_, 0);
-  const Component& k = depth.components[depth.model == ColorModel::Rgb ? 1 : 0];
-  const Plane& plane = depth.planes[k.plane];
-  for (int r = 0; r < depth.height; ++r) {
-    const std::uint8_t* at = plane.data + r * plane.stride_bytes + k.offset_bytes;
-    for (int c = 0; c < depth.width; ++c, at += k.step_bytes) ++of_code_[codeAt(k, at) & (of_code_.size() - 1)];
+bool definesCodes(const CalibrationLayers& said) {
+  return says(said, {"law", "polarity", "range", "codes", "unit"});
+}
+
+const KnownKind* sensorKind(const Frame& depth, const CodeCount& count) {
+  if (depth.model != ColorModel::Gray || count.bits() != 16) return nullptr;
+  if (isSwapped(depth)) {
+    const auto ordered = inOrder(depth, SampleOrder::Swapped);
+    if (!ordered) return nullptr;
+    const CodeCount of_ordered(*ordered);
+    if (isRawKinect(of_ordered)) return findKind("nyu-raw");
+    if (isMeasured(of_ordered) && isDistances(of_ordered)) return findKind("mm-swapped");
   }
-  samples_ = static_cast<std::uint64_t>(depth.width) * static_cast<std::uint64_t>(depth.height);
+  if (isRawKinect(count)) return findKind("kinect-raw");
+  if (isMeasured(count) && isRotated(count)) return findKind("sun");
+  if (count.step() > 8 || !isDistances(count)) return nullptr;  // a format of fewer bits, stretched
+  if (count.share(0, 0) > 0.5 && isScattered(depth)) return findKind("kitti");
+  const bool fine =
+      count.quantile(1 - kOutliers, 1, kTop - 1) > kFarthestMm || count.quantile(0.5, 1, kTop - 1) > kMiddleMm;
+  return findKind(fine ? "tum" : "mm");
 }
 
-double CodeCount::share(std::uint32_t low, std::uint32_t high) const {
-  high = std::min<std::uint32_t>(high, static_cast<std::uint32_t>(of_code_.size()) - 1);
-  if (low > high || samples_ == 0) return 0;
-  const auto sum = std::accumulate(of_code_.begin() + low, of_code_.begin() + high + 1, std::uint64_t{0});
-  return static_cast<double>(sum) / static_cast<double>(samples_);
-}
-
-std::uint32_t CodeCount::quantile(double q, std::uint32_t low, std::uint32_t high) const {
-  high = std::min<std::uint32_t>(high, static_cast<std::uint32_t>(of_code_.size()) - 1);
-  double left = q * share(low, high) * static_cast<double>(samples_);
-  for (std::uint32_t code = low; code <= high; ++code) {
-    if (of_code_[code] == 0) continue;
-    left -= static_cast<double>(of_code_[code]);
-    if (left <= 0) return code;
-  }
-  return low;
-}
-
-std::uint32_t CodeCount::step() const {
-  std::uint32_t step = 0;
-  for (std::uint32_t code = 0; code < of_code_.size(); ++code) {
-    if (of_code_[code] > 0 && code != kTop) step = std::gcd(step, code);
-  }
-  return step;
-}
-
-DepthReading readCodes(const Frame& depth, const CodeCount& count, const CalibrationLayers& said) {
-  if (depth.model == ColorModel::Yuv && depth.range == ColorRange::Unspecified) {
-    return says(said, {"range", "unit", "codes"}) ? DepthReading{} : readRange(count);
-  }
-  const bool settled = says(said, {"law", "polarity", "range", "codes", "unit"});
-  if (depth.model != ColorModel::Gray || count.bits() != 16 || settled) return {};
-  return readSensor(count);
-}
-
-std::vector<std::string> doubtsOf(const Frame& depth, const DepthCalibration& calibration) {
-  constexpr double kLeastRelief = 0.05, kOneCode = 0.95, kClipped = 0.1, kColored = 0.2;
-  const auto field = HeightField::make(depth, calibration, {.width_mm = 1, .height_mm = 1, .depth_mm = 1});
-  std::vector<std::string> doubts;
-  if (!field) return doubts;
-  std::vector<float> heights;
-  std::uint64_t bottom = 0, top = 0;
-  for (int r = 0; r < field->rows(); ++r) {
-    for (int c = 0; c < field->cols(); ++c) {
-      const double height = field->heightMm(c, r);
-      if (std::isnan(height)) continue;
-      heights.push_back(static_cast<float>(height));
-      bottom += height <= 0 ? 1 : 0;
-      top += height >= 1 ? 1 : 0;
+DepthReading readCodes(const Frame& depth, const CodeCount& count, const CalibrationLayers& said,
+                       const KnownKind* kind) {
+  if (definesCodes(said)) {
+    if (says(said, {"unit"}) || kind != nullptr) {
+      DepthReading reading = readReach(count, said, kind);
+      if (!reading.settings.empty() || depth.model != ColorModel::Yuv) return reading;
     }
+    return depth.model == ColorModel::Yuv ? readShades(depth, count, said) : DepthReading{};
   }
-  if (heights.empty()) {
-    doubts.emplace_back("the whole depth picture is holes, so nothing can be felt: check --calibration invalid=");
-    return doubts;
-  }
-  const auto count = static_cast<double>(heights.size());
-  const auto at = [&](double q) {
-    const auto nth = heights.begin() + static_cast<std::ptrdiff_t>(q * (count - 1));
-    std::nth_element(heights.begin(), nth, heights.end());
-    return static_cast<double>(*nth);
-  };
-  const double relief = at(0.995) - at(0.005), median = at(0.5);
-  const double same =
-      static_cast<double>(std::count(heights.begin(), heights.end(), static_cast<float>(median))) / count;
-  const char* const range = "--calibration codes=LOW-HIGH, or unit=MM,near=MM,far=MM for distances";
-  if (same > kOneCode) {
-    doubts.push_back(print("%.0f %% of the depth is one code: an empty picture, or not depth", 100 * same));
-  } else if (relief < kLeastRelief) {
-    doubts.push_back(print("the relief uses only %.1f %% of the box's depth: try %s", 100 * relief, range));
-  } else if (const double clipped = static_cast<double>(std::max(bottom, top)) / count; clipped > kClipped) {
-    doubts.push_back(print("%.0f %% of the depth lies at the %s end of its range and is flat: try %s", 100 * clipped,
-                           top > bottom ? "near" : "far", range));
-  }
-  if (calibration.code == DepthCode::Luma && depth.model != ColorModel::Gray) {
-    const double colored = 1 - lookAt(depth).gray;
-    if (colored > kColored) {
-      doubts.push_back(
-          print("%.0f %% of the depth is coloured but read as brightness: try --depth-code hue", 100 * colored));
-    }
-  }
-  return doubts;
+  if (kind == nullptr || !definesCodes({.pictures = settingsOf(*kind)})) kind = sensorKind(depth, count);
+  if (kind == nullptr) return readShades(depth, count, said);
+  CalibrationLayers with = said;
+  with.pictures = settingsOf(*kind);
+  DepthReading reading = readReach(count, with, kind);
+  reading.kind = kind;
+  reading.offer = otherUnit(*kind, count);
+  reading.settings.merge(with.pictures);
+  return reading;
 }
 
 }  // namespace relievo

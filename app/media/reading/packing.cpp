@@ -48,6 +48,19 @@ const StreamInfo* depthAmong(const std::vector<const StreamInfo*>& tracks) {
   return tracks.size() > 1 ? tracks[1] : tracks[0];
 }
 
+bool speaksOfInfrared(const StreamInfo& track) {
+  const auto title = track.tags.find("TITLE");
+  return track.tags.contains("K4A_IR_TRACK") || (title != track.tags.end() && title->second == "IR");
+}
+
+// The first track that is neither the depth nor, unless there is no other, infrared.
+const StreamInfo* colorAmong(const std::vector<const StreamInfo*>& tracks, const StreamInfo* depth) {
+  const auto fits = [&](auto* track) { return track != depth && !speaksOfInfrared(*track); };
+  const auto found = std::find_if(tracks.begin(), tracks.end(), fits);
+  if (found != tracks.end()) return *found;
+  return depth == tracks[0] ? tracks[1] : tracks[0];
+}
+
 std::optional<Packing> packingTag(const Tags& tags) {
   const auto found = tags.find(kPackingTag);
   if (found == tags.end()) return std::nullopt;
@@ -57,10 +70,6 @@ std::optional<Packing> packingTag(const Tags& tags) {
   if (value == "sbs-depth-first") return Packing::SideBySideDepthFirst;
   if (value == "tb-depth-first") return Packing::TopBottomDepthFirst;
   return std::nullopt;
-}
-
-bool isPacked(Packing packing) {
-  return packing != Packing::Auto && packing != Packing::Tracks;
 }
 
 // The luma plane alone, as a gray picture of the same range.
@@ -73,14 +82,46 @@ Frame lumaOf(const Frame& picture) noexcept {
   return gray;
 }
 
+// A gray view of one component of RGB.
+Frame componentOf(const Frame& picture, std::size_t component) noexcept {
+  Frame gray = picture;
+  gray.model = ColorModel::Gray;
+  gray.components[0] = picture.components[component];
+  return gray;
+}
+
 int alignUp(int value, int shift) noexcept {
   return ((value + (1 << shift) - 1) >> shift) << shift;
 }
 
 }  // namespace
 
+bool isMarkedAsDepth(const StreamInfo& track) {
+  return track.auxiliary || speaksOfDepth(track);
+}
+
 const StreamInfo* findDepthTrack(const MediaSource& source) {
   return depthAmong(videoTracks(source));
+}
+
+const char* name(Packing packing) noexcept {
+  switch (packing) {
+    case Packing::Auto:
+      return "auto";
+    case Packing::Tracks:
+      return "tracks";
+    case Packing::SideBySide:
+      return "sbs";
+    case Packing::TopBottom:
+      return "tb";
+    case Packing::SideBySideDepthFirst:
+      return "sbs-depth-first";
+    case Packing::TopBottomDepthFirst:
+      return "tb-depth-first";
+    case Packing::DepthAlone:
+      return "depth-alone";
+  }
+  return "";
 }
 
 Result<TrackPlan> planTracks(const MediaSource& source, Packing packing, bool depth_elsewhere) {
@@ -90,7 +131,7 @@ Result<TrackPlan> planTracks(const MediaSource& source, Packing packing, bool de
   if (!depth_elsewhere && packing == Packing::Auto) {
     auto tagged = packingTag(tracks[0]->tags);
     if (!tagged) tagged = packingTag(source.tags());
-    if (tagged) return TrackPlan{tracks[0], nullptr, *tagged};
+    if (tagged) return TrackPlan{tracks[0], nullptr, *tagged, true};
   }
   if (tracks.size() == 1) {
     if (!depth_elsewhere && packing == Packing::Tracks) {
@@ -100,15 +141,16 @@ Result<TrackPlan> planTracks(const MediaSource& source, Packing packing, bool de
     return TrackPlan{tracks[0], nullptr, Packing::Tracks};
   }
   const StreamInfo* const depth = depthAmong(tracks);
-  const StreamInfo* const color = depth == tracks[0] ? tracks[1] : tracks[0];
+  const StreamInfo* const color = colorAmong(tracks, depth);
   return TrackPlan{color, depth_elsewhere ? nullptr : depth, Packing::Tracks};
 }
 
-Result<Halves> splitPacked(const Frame& picture, Packing packing, DepthCode code) noexcept {
+Result<Halves> splitPacked(const Frame& picture, Packing packing, DepthCode code, GrayFrom gray) noexcept {
   const bool beside = packing == Packing::SideBySide || packing == Packing::SideBySideDepthFirst;
   const bool depth_first = packing == Packing::SideBySideDepthFirst || packing == Packing::TopBottomDepthFirst;
   const int whole = beside ? picture.width : picture.height;
-  const Frame depth = code == DepthCode::Luma ? lumaOf(picture) : picture;
+  const bool red = gray == GrayFrom::Red && picture.model == ColorModel::Rgb;
+  const Frame depth = code != DepthCode::Luma ? picture : red ? componentOf(picture, 0) : lumaOf(picture);
   // A half that is read with chroma begins at a whole chroma sample.
   const Frame& second = depth_first ? picture : depth;
   const int start = alignUp(whole - whole / 2, beside ? second.chroma_shift_x : second.chroma_shift_y);

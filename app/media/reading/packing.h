@@ -20,6 +20,7 @@ enum class Packing : std::uint8_t {
   TopBottom,             // one picture: colour on top, depth below
   SideBySideDepthFirst,  // depth left, colour right
   TopBottomDepthFirst,   // depth on top, colour below
+  DepthAlone,            // one picture: depth without colour
 };
 
 // Which streams to decode, as pointers into the source's list. A null depth stream means no depth, or packed depth.
@@ -27,7 +28,14 @@ struct TrackPlan {
   const StreamInfo* color = nullptr;
   const StreamInfo* depth = nullptr;
   Packing packing = Packing::Tracks;
+  bool by_tag = false;  // DEPTH_PACKING
 };
+[[nodiscard]] const char* name(Packing packing) noexcept;
+[[nodiscard]] constexpr bool isPacked(Packing packing) noexcept {
+  return packing != Packing::Auto && packing != Packing::Tracks;
+}
+// Whether the track itself says that it is depth: signalled as auxiliary, DEPTH_ tags, or its name.
+[[nodiscard]] bool isMarkedAsDepth(const StreamInfo& track);
 
 // The depth track of a source. Of two or more video tracks: the one signalled as auxiliary; else the one that has
 // DEPTH_ tags or whose TITLE, NAME or HANDLER_NAME mentions depth, disparity or an auxiliary picture; else the second.
@@ -40,6 +48,9 @@ struct TrackPlan {
 // the tracks that the packing needs.
 [[nodiscard]] Result<TrackPlan> planTracks(const MediaSource& source, Packing packing, bool depth_elsewhere);
 
+// Which component of a colour picture holds brightness.
+enum class GrayFrom : std::uint8_t { Luma, Red };
+
 struct Halves {
   Frame color;
   Frame depth;
@@ -47,8 +58,9 @@ struct Halves {
 
 // The two halves of a packed picture, by reference; the depth is as large as the colour. If the number of columns
 // (rows) is odd, the middle one belongs to neither. Depth read from luma (`code`) becomes a gray view that begins at
-// the exact sample; depth that needs chroma begins at a whole chroma sample, at most one pixel late. Unsupported if the
-// picture is too small to be halved.
-[[nodiscard]] Result<Halves> splitPacked(const Frame& picture, Packing packing, DepthCode code) noexcept;
+// the exact sample; depth that needs chroma begins at a whole chroma sample, at most one pixel late. `gray`: red is
+// read from RGB as it is, and from YUV as luma. Unsupported if the picture is too small to be halved.
+[[nodiscard]] Result<Halves> splitPacked(const Frame& picture, Packing packing, DepthCode code,
+                                         GrayFrom gray = GrayFrom::Luma) noexcept;
 
 }  // namespace relievo

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "app/media/reading/code_count.h"
+#include "app/media/reading/color_map_fit.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {
@@ -13,6 +16,7 @@ constexpr int kAcross = 128, kDown = 96;  // samples examined
 // Coding shifts the chroma of gray samples by a few codes.
 constexpr double kGraySpread = 0.06;
 constexpr double kVividSaturation = 0.8, kDarkValue = 0.15;
+constexpr double kRedAlone = 0.25, kBright = 0.9;  // hues of full saturation are brighter
 
 // A half is depth if nearly all its samples are gray (or vivid) and clearly fewer of the other half's are.
 constexpr double kAllGray = 0.99, kPhotoGray = 0.7;
@@ -79,20 +83,33 @@ bool isGrayDepth(const PictureLook& half, const PictureLook& other) noexcept {
 bool isHueDepth(const PictureLook& half, const PictureLook& other) noexcept {
   return isHue(half) && other.vivid <= kPhotoVivid;
 }
+bool isRedDepth(const PictureLook& half, const PictureLook& other) noexcept {
+  return isRedAlone(half) && other.red <= kPhotoVivid && half.spread >= kLeastSpread;
+}
 
-std::optional<FoundPacking> found(const PictureLook& half, const PictureLook& other, Packing packing,
-                                  const char* where) {
-  const bool gray = isGrayDepth(half, other);
-  if (!gray && !isHueDepth(half, other)) return std::nullopt;
-  char why[160];
-  if (gray) {
-    std::snprintf(why, sizeof why, "%s: %.0f %% of that half is gray, against %.0f %% of the other", where,
-                  100 * half.gray, 100 * other.gray);
-  } else {
-    std::snprintf(why, sizeof why, "%s, as hue: %.0f %% of that half is pure colour, against %.0f %% of the other",
-                  where, 100 * half.vivid, 100 * other.vivid);
+// Whether `picture`, not the half beside it, is depth.
+std::optional<FoundPacking> found(const Frame& picture, const Frame& beside, Packing packing, const char* where) {
+  const PictureLook half = lookAt(picture), other = lookAt(beside);
+  if (isRedDepth(half, other)) {
+    return FoundPacking{packing, DepthCode::Luma, GrayFrom::Red,
+                        print("%s, in red alone: %.0f %% of that half is shades of red, against %.0f %% of the other",
+                              where, 100 * half.red, 100 * other.red)};
   }
-  return FoundPacking{packing, gray ? DepthCode::Luma : DepthCode::Hue, why};
+  if (isGrayDepth(half, other)) {
+    return FoundPacking{packing, DepthCode::Luma, GrayFrom::Luma,
+                        print("%s: %.0f %% of that half is gray, against %.0f %% of the other", where, 100 * half.gray,
+                              100 * other.gray)};
+  }
+  const auto map = bestColorMap(picture);
+  if (map && map->code != DepthCode::Hue && other.vivid <= kPhotoVivid && !bestColorMap(beside)) {
+    return FoundPacking{
+        packing, map->code, GrayFrom::Luma,
+        print("%s, as colour map %s: %.0f %% of that half lies on it", where, name(map->code), 100 * map->share)};
+  }
+  if (!isHueDepth(half, other)) return std::nullopt;
+  return FoundPacking{packing, DepthCode::Hue, GrayFrom::Luma,
+                      print("%s, as hue: %.0f %% of that half is pure colour, against %.0f %% of the other", where,
+                            100 * half.vivid, 100 * other.vivid)};
 }
 
 }  // namespace
@@ -115,17 +132,35 @@ PictureLook lookAt(const Frame& picture) noexcept {
     }
     ++lit;
     if (spread >= kVividSaturation * high) ++look.vivid;
+    if (std::max(color.green, color.blue) <= kRedAlone * color.red) ++look.red;
+    if (high < kBright) ++look.pale;
   });
   if (count == 0) return look;
   look.gray /= count;
   look.dark /= count;
-  look.vivid = lit > 0 ? look.vivid / lit : 0;
+  for (double* share : {&look.vivid, &look.red, &look.pale}) *share = lit > 0 ? *share / lit : 0;
   look.spread = std::sqrt(std::max(0.0, squares / count - (sum / count) * (sum / count)));
   return look;
 }
 
 bool isHue(const PictureLook& look) noexcept {
   return look.vivid >= kAllVivid && look.dark <= kMostDark;
+}
+
+bool isRedAlone(const PictureLook& look) noexcept {
+  constexpr double kAllRed = 0.95, kPale = 0.3;
+  return look.red >= kAllRed && look.pale >= kPale && look.dark <= kMostDark;
+}
+
+bool isBlank(const Frame& picture) noexcept {
+  constexpr double kEven = 0.012, kDark = 0.9, kOneCode = 0.98;
+  if (picture.model != ColorModel::Gray) {
+    const PictureLook look = lookAt(picture);
+    return look.spread < kEven || look.dark > kDark;
+  }
+  const CodeCount count(picture);
+  const std::uint32_t median = count.quantile(0.5, 0, 0xffff);
+  return count.share(median, median) > kOneCode;
 }
 
 std::optional<FoundPacking> findPacking(const Frame& picture) {
@@ -138,9 +173,8 @@ std::optional<FoundPacking> findPacking(const Frame& picture) {
   for (const auto& way : ways) {
     const auto halves = halvesOf(picture, way.second);
     if (!halves) continue;
-    const PictureLook first = lookAt(halves->first), second = lookAt(halves->second);
-    if (auto is = found(second, first, way.second, way.second_where)) return is;
-    if (auto is = found(first, second, way.first, way.first_where)) return is;
+    if (auto is = found(halves->second, halves->first, way.second, way.second_where)) return is;
+    if (auto is = found(halves->first, halves->second, way.first, way.first_where)) return is;
   }
   return std::nullopt;
 }

@@ -15,6 +15,8 @@ struct PictureLook {
   double gray = 0;   // share of samples without colour
   double vivid = 0;  // share of the samples that are not dark whose colour is fully saturated
   double dark = 0;
+  double red = 0;     // share of the samples that are not dark that are red alone, of any brightness
+  double pale = 0;    // share of the samples that are not dark and less than nine tenths bright
   double spread = 0;  // standard deviation of the brightness, as a share of full scale
 };
 // Any thread.
@@ -22,10 +24,15 @@ struct PictureLook {
 
 // True if nearly every lit sample has a pure colour: depth coded as a hue, or through a colour map.
 [[nodiscard]] bool isHue(const PictureLook& look) noexcept;
+// True if the picture is one of red shades: brightness in the red component alone.
+[[nodiscard]] bool isRedAlone(const PictureLook& look) noexcept;
+// True if it is dark or even, as before a fade-in or behind a cap: it tells nothing.
+[[nodiscard]] bool isBlank(const Frame& picture) noexcept;
 
 struct FoundPacking {
   Packing packing = Packing::Tracks;
   DepthCode code = DepthCode::Luma;
+  GrayFrom gray = GrayFrom::Luma;
   std::string why;  // one line
 };
 // Finds colour and depth in the two halves of one picture: one half is a photo, the other is gray or consists of pure

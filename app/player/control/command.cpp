@@ -30,9 +30,11 @@ constexpr std::array kEntries{
     Entry{PlayerVerb::Pause, "pause", Operand::None, "pause"},
     Entry{PlayerVerb::PlayPause, "play-pause", Operand::None, "pause, or go on"},
     Entry{PlayerVerb::Step, "step", Operand::None, "the next picture, and stand", true},
+    Entry{PlayerVerb::StepBack, "step-back", Operand::None, "the picture before, and stand", true},
     Entry{PlayerVerb::Faster, "faster", Operand::None,
           "faster, up to 16 times; from 2 times on by key frames, without touch"},
     Entry{PlayerVerb::Slower, "slower", Operand::None, "slower, down to 1/8, with touch"},
+    Entry{PlayerVerb::NormalSpeed, "normal-speed", Operand::None, "the usual speed again"},
     Entry{PlayerVerb::SeekBy, "seek", Operand::Time, "s", true},
     Entry{PlayerVerb::SeekTo, "seek", Operand::Time, "s"},
     Entry{PlayerVerb::SeekShare, "seek", Operand::Time, "%"},
@@ -44,6 +46,7 @@ constexpr std::array kEntries{
     Entry{PlayerVerb::Stop, "stop", Operand::None, "end the film"},
     Entry{PlayerVerb::Quit, "quit", Operand::None, "end the program"},
     Entry{PlayerVerb::Layout, "layout", Operand::Layout, "the next way to show stereo"},
+    Entry{PlayerVerb::FullScreen, "full-screen", Operand::OnOff, "the whole screen, or a window again"},
     Entry{PlayerVerb::SwapEyes, "swap-eyes", Operand::None, "left eye right, right eye left"},
     Entry{PlayerVerb::DepthBy, "depth", Operand::Step, "depth for the eyes", true},
     Entry{PlayerVerb::ScreenBy, "screen", Operand::Step, "mm, the whole scene towards you", true},
@@ -178,6 +181,7 @@ std::string wordsOf(const PlayerCommand& command) {
     case PlayerVerb::SeekShare:
       return word + print(" %.6g%%", 100 * command.value);
     case PlayerVerb::Loop:
+    case PlayerVerb::FullScreen:
     case PlayerVerb::Mute:
     case PlayerVerb::ShowSubtitles:
       return command.value == 0 ? word : word + (command.value > 0 ? " on" : " off");
@@ -226,6 +230,9 @@ std::string meaningOf(const PlayerCommand& command) {
   if (entry.operand == Operand::Step) return print("%+.6g %s", command.value, entry.meaning);
   if (command.verb == PlayerVerb::Loop && command.value != 0) {
     return command.value > 0 ? "begin again at the end" : "do not restart at the end";
+  }
+  if (command.verb == PlayerVerb::FullScreen && command.value != 0) {
+    return command.value > 0 ? "the whole screen" : "out of full screen";
   }
   if (command.verb == PlayerVerb::Layout && !command.word.empty()) return "show stereo as " + command.word;
   return entry.meaning;

@@ -14,18 +14,21 @@ enum class PlayerVerb : std::uint8_t {
   Pause,      // the picture stands, and stays touchable
   PlayPause,  // the other of the two
   Step,       // the next picture, and stand
+  StepBack,   // the previous picture, and stand
   Faster,     // one up of 1/8 1/4 1/2 1 2 4 8 16; from 2 on by key frames, without touch
   Slower,     // one down
-  SeekBy,     // seconds
-  SeekTo,     // seconds
-  SeekShare,  // of the film's length, 0 to 1
-  Next,       // film of the list
-  Previous,   // film of the list, or this one from its beginning
-  Loop,       // begins again at the end, or no longer; value 1: does, -1: does not, 0: the other of the two
-  Open,       // another film or list
-  Stop,       // ends the film
-  Quit,       // ends the program
-  Layout,     // another way to show stereo; without its word the next one
+  NormalSpeed,
+  SeekBy,      // seconds
+  SeekTo,      // seconds
+  SeekShare,   // of the film's length, 0 to 1
+  Next,        // film of the list
+  Previous,    // film of the list, or this one from its beginning
+  Loop,        // begins again at the end, or no longer; value 1: does, -1: does not, 0: the other of the two
+  Open,        // another film or list
+  Stop,        // ends the film
+  Quit,        // ends the program
+  Layout,      // another way to show stereo; without its word the next one
+  FullScreen,  // on, off, or the other of the two, as Loop: of a window
   SwapEyes,
   DepthBy,   // for the eyes, of 1
   ScreenBy,  // mm, the whole scene towards the viewer

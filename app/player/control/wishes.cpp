@@ -56,6 +56,13 @@ Deeds pause(const Situation& s) {
   return deeds;
 }
 
+// A seek arrives at the first picture from its target on.
+Deeds stepBack(const Situation& s) {
+  if (s.rate > 1) return pause(s);
+  if (!nextState(s.state, PlayerEvent::Step)) return {};
+  return {{.kind = Deed::Kind::Stand}, seek(s.picture - s.period * 3 / 2, false)};
+}
+
 Deeds seekShare(double share, const Situation& s) {
   if (s.length > Duration(0)) return {seek(mediaTime(share * toSeconds(s.length)), true)};
   if (!nextState(s.state, PlayerEvent::Seek)) return {};
@@ -67,14 +74,18 @@ Deeds previous(const Situation& s) {
   return {seek(MediaTime{}, true)};
 }
 
+MediaTime beginOf(const Chapter& chapter) {
+  return std::max(MediaTime(chapter.begin), MediaTime{});
+}
+
 // Back goes to this chapter's beginning, near that to the one before it. After the last chapter comes nothing.
 Deeds seekChapter(int by, const Situation& s) {
   if (s.chapters.empty()) return {note("this film has no chapters", "it plays on")};
   const MediaTime from = by < 0 ? s.here - kBeginning : s.here;
-  const auto next = std::ranges::upper_bound(s.chapters, from, {}, &Chapter::begin);
+  const auto next = std::ranges::upper_bound(s.chapters, from, {}, beginOf);
   const auto wished = (next - s.chapters.begin()) + (by > 0 ? by - 1 : by);
   if (wished >= std::ssize(s.chapters)) return {};
-  return {seek(s.chapters[static_cast<std::size_t>(std::max<std::ptrdiff_t>(wished, 0))].begin, true)};
+  return {seek(beginOf(s.chapters[static_cast<std::size_t>(std::max<std::ptrdiff_t>(wished, 0))]), true)};
 }
 
 }  // namespace
@@ -89,6 +100,10 @@ std::vector<Deed> deedsFor(const PlayerCommand& command, const Situation& s) {
       return s.held || s.rate > 1 || s.state == PlayerState::Idle ? play(s) : pause(s);
     case PlayerVerb::Step:
       return s.rate > 1 ? pause(s) : Deeds{{.kind = Deed::Kind::StepOn}};
+    case PlayerVerb::StepBack:
+      return stepBack(s);
+    case PlayerVerb::NormalSpeed:
+      return changeRate(1, s);
     case PlayerVerb::Faster:
       return changeRate(rateBeside(s.rate, 1), s);
     case PlayerVerb::Slower:

@@ -23,6 +23,8 @@ struct Situation {
   MediaTime here;      // the position, or the target of a pending seek
   Duration length{0};  // of the film; 0: unknown or live
   std::span<const Chapter> chapters;
+  MediaTime picture;   // the time of the picture that is shown
+  Duration period{0};  // from picture to picture
   std::size_t film = 0, films = 1;
   bool film_asked = false;  // a film has been opened since the player started
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/player/film/film_changes.h"
 #include "platform/log.h"
 
 namespace relievo {
@@ -13,6 +14,7 @@ namespace {
 constexpr std::size_t kQueuedPairs = 4;  // beyond those that the playhead holds
 constexpr Duration kUnknownPeriod = std::chrono::milliseconds(40);
 constexpr Duration kSoundFirst = std::chrono::milliseconds(300);  // that must be buffered when the film starts
+constexpr Duration kStillStands = std::chrono::seconds(5);
 constexpr double kRushStepS = 0.1;  // of the machine's time, between two pictures at a rate over 1
 
 }  // namespace
@@ -71,10 +73,15 @@ FilmPlayback::Opening FilmPlayback::opening() const {
 
 const FilmInfo& FilmPlayback::opened() {
   info_ = feed_.info();
-  for (const std::string& line : info_.reading) log(LogLevel::Info, "play", "%s", line.c_str());
-  for (const std::string& doubt : info_.doubts) log(LogLevel::Warning, "play", "%s", doubt.c_str());
-  if (info_.has_depth) log(LogLevel::Info, "play", "depth: %s", info_.calibration.explanation.c_str());
-  else journal_.note("no depth in this film", "it plays flat, without force");
+  if (info_.has_depth) {
+    const std::string line = plainLine(info_.reading, info_.calibration.calibration);
+    log(LogLevel::Info, "play", "%s", line.c_str());
+  }
+  for (const std::string& line : info_.notes) log(LogLevel::Info, "play", "%s", line.c_str());
+  for (const std::string& change : changesOf(info_)) log(LogLevel::Warning, "play", "%s", change.c_str());
+  for (const std::string& offer : info_.reading.offers) log(LogLevel::Info, "play", "%s", offer.c_str());
+  for (const std::string& doubt : info_.reading.doubts) log(LogLevel::Warning, "play", "%s", doubt.c_str());
+  if (!info_.has_depth) journal_.note("no depth in this film", "it plays flat, without force");
   if (info_.sound_refused != nullptr) {
     journal_.note(std::string("sound: ") + info_.sound_refused, "the film plays without");
   }
@@ -83,6 +90,10 @@ const FilmInfo& FilmPlayback::opened() {
 
 Duration FilmPlayback::period() const noexcept {
   return info_.frame_period > Duration(0) ? info_.frame_period : kUnknownPeriod;
+}
+
+bool FilmPlayback::isStill() const noexcept {
+  return info_.frame_period == Duration(0) && info_.sound_codec.empty();
 }
 
 FilmPlayback::Progress FilmPlayback::overOrFailed() const {
@@ -126,7 +137,7 @@ FilmPlayback::Progress FilmPlayback::going(MonotonicTime now) {
   }
   if (head_.last()) {
     const MediaTime position = clock_.position(now).value_or(MediaTime{});
-    const bool shown = position >= picture().color.pts + period();
+    const bool shown = position >= picture().color.pts + (isStill() ? kStillStands : period());
     const bool sounds = rate_ == 1 && sound_.end() > position;  // longer than the picture
     return shown && !sounds ? overOrFailed() : Progress::Goes;
   }

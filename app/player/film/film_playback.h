@@ -57,7 +57,7 @@ class FilmPlayback {
     Goes,     // playing or waiting: nothing to do
     Ready,    // enough is buffered to start
     Starved,  // the next picture has not arrived in time: the picture stops
-    Over,     // the last picture was shown for its whole time
+    Over,     // the last picture was shown for its whole time, a photo for some seconds
     Failed,
   };
   [[nodiscard]] Progress filling();
@@ -126,6 +126,8 @@ class FilmPlayback {
   // The open film's description; empty until `opened`.
   [[nodiscard]] const FilmInfo& info() const noexcept { return info_; }
   [[nodiscard]] Duration period() const noexcept;
+  // A film of one picture, without sound.
+  [[nodiscard]] bool isStill() const noexcept;
   // Totals over all films, for the report.
   [[nodiscard]] PairCounters pairs() const;
   [[nodiscard]] Duration played() const noexcept { return played_.total(); }

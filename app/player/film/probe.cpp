@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/depth_window/shots.h"
+#include "app/player/film/film_changes.h"
 #include "app/player/report.h"
 #include "app/scene/height_field.h"
 #include "platform/print.h"
@@ -17,14 +18,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kPairsLookedAt = 8;
-
-Outcome<void> listTracks(const std::string& url, const PairReader::Backends& backends,
-                         std::vector<ProbedTrack>& tracks) {
-  const auto source = backends.make_source(url);
-  if (auto opened = source->open(url); !opened) return failOn(url, opened.error());
-  for (const StreamInfo& stream : source->streams()) tracks.push_back({url, stream});
-  return {};
-}
 
 // Adds one depth frame's samples to what was seen so far.
 struct DepthLook {
@@ -77,16 +70,12 @@ Outcome<void> lookAtPairs(PairReader& reader, ProbeResult& result) {
   return {};
 }
 
-double framesPerSecond(const FilmInfo& film) {
-  return film.frame_period > Duration(0) ? 1.0 / toSeconds(film.frame_period) : 0.0;
-}
-
 std::vector<std::string> needsOf(const ProbeResult& r) {
   const FilmInfo& f = r.film;
   std::vector<std::string> needs;
   const double pixels = double(f.color_width) * f.color_height + double(f.depth_width) * f.depth_height;
   needs.push_back(print("a decoder for %s%s%s, %.1f million pixels a second; %s is at hand", f.color_codec.c_str(),
-                        f.depth_codec.empty() ? "" : " and ", f.depth_codec.c_str(), 1e-6 * pixels * framesPerSecond(f),
+                        f.depth_codec.empty() ? "" : " and ", f.depth_codec.c_str(), 1e-6 * pixels * r.rate.average,
                         r.decoder.c_str()));
   if (!f.has_depth) {
     needs.push_back("depth for touch: give --depth FILE, or --packing sbs or tb if one picture holds both");
@@ -109,22 +98,11 @@ std::vector<std::string> needsOf(const ProbeResult& r) {
   return needs;
 }
 
-// What the container calls a track; nothing where that is one of the words that muxers put there by themselves.
-std::string titleOf(const StreamInfo& s) {
-  for (const char* key : {"TITLE", "NAME", "HANDLER_NAME"}) {
-    const auto found = s.tags.find(key);
-    if (found != s.tags.end() && !found->second.ends_with("Handler")) return found->second;
-  }
-  return "";
-}
-
-std::string describe(const StreamInfo& s) {
-  const char* const kind = s.kind == StreamKind::Video ? "video" : s.kind == StreamKind::Audio ? "audio" : "other";
-  std::string text = print("%d %s %s", s.index, kind, s.codec.c_str());
-  if (s.kind == StreamKind::Video) text += print(" %d x %d", s.width, s.height);
-  if (s.auxiliary) text += ", signalled as depth by its stream type";
-  const std::string title = titleOf(s);
-  return title.empty() ? text : text + " \"" + title + "\"";
+// A live source's from its first pictures.
+FrameRate colorRate(const ProbeResult& r) {
+  FrameRate rate = r.tracks.at(static_cast<std::size_t>(r.film.color_stream)).rate;
+  if (rate.average <= 0 && r.film.frame_period > Duration(0)) rate.average = 1 / toSeconds(r.film.frame_period);
+  return rate;
 }
 
 Outcome<void> lookAtFilm(const SourceOptions& options, const PairReader::Backends& backends, ProbeResult& result) {
@@ -135,13 +113,15 @@ Outcome<void> lookAtFilm(const SourceOptions& options, const PairReader::Backend
   result.film = reader.info();
   result.decoder = result.film.color_decoder;
   if (auto looked = lookAtPairs(reader, result); !looked) return looked;
+  result.rate = colorRate(result);
   result.needs = needsOf(result);
   return {};
 }
 
 std::string trackLines(const ProbeResult& r) {
   std::string text;
-  for (const ProbedTrack& t : r.tracks) text += "track   " + t.source + " " + describe(t.stream) + "\n";
+  for (const ProbedTrack& t : r.tracks) text += "track   " + trackText(t) + "\n";
+  for (const Chapter& chapter : r.chapters) text += "chapter " + chapterText(chapter) + "\n";
   return text;
 }
 
@@ -149,11 +129,12 @@ std::string trackLines(const ProbeResult& r) {
 
 Outcome<ProbeResult> probe(const SourceOptions& options, const PairReader::Backends& backends) {
   ProbeResult result;
-  if (auto listed = listTracks(options.url, backends, result.tracks); !listed) return std::unexpected(listed.error());
-  if (!options.depth_url.empty()) {
-    if (auto listed = listTracks(options.depth_url, backends, result.tracks); !listed) {
-      return std::unexpected(listed.error());
-    }
+  for (const std::string& url : {options.url, options.depth_url}) {
+    if (url.empty()) continue;
+    auto probed = readTracks(url, options.frames_per_s, backends);
+    if (!probed) return std::unexpected(probed.error());
+    result.tracks.insert(result.tracks.end(), probed->tracks.begin(), probed->tracks.end());
+    if (result.chapters.empty()) result.chapters = std::move(probed->chapters);
   }
   if (auto looked = lookAtFilm(options, backends, result); !looked) result.failure = looked.error();
   return result;
@@ -163,14 +144,16 @@ std::string probeToText(const ProbeResult& r) {
   std::string text = trackLines(r);
   if (r.failure) return text;
   const FilmInfo& f = r.film;
-  text += print("color   %s %d x %d, %.3g frames a second", f.color_codec.c_str(), f.color_width, f.color_height,
-                framesPerSecond(f));
-  text += f.duration > Duration(0) ? print(", %.2f s\n", toSeconds(f.duration)) : std::string(", length unknown\n");
+  text += print("color   %s %d x %d, ", f.color_codec.c_str(), f.color_width, f.color_height) + rateText(r.rate);
+  if (!r.rate.still) text += f.duration > Duration(0) ? print(", %.2f s", toSeconds(f.duration)) : ", length unknown";
+  text += "\n";
   if (f.has_depth) {
     text += print("depth   %s %d x %d, packing %s\n", f.depth_codec.c_str(), f.depth_width, f.depth_height,
                   name(f.packing));
-    for (const std::string& line : f.reading) text += "looks   " + line + "\n";
-    text += "meaning " + f.calibration.explanation + "\n";
+    text += "reading " + plainLine(f.reading, f.calibration.calibration) + "\n";
+    for (const std::string& line : f.reading.why) text += "because " + line + "\n";
+    for (const std::string& line : partLines(f.reading)) text += "        " + line + "\n";
+    for (const std::string& line : f.reading.offers) text += "or      " + line + "\n";
     text +=
         print("relief  codes %u to %u, %.1f to %.1f mm, %.1f %% holes in the first %d pictures\n", r.depth.lowest_code,
               r.depth.highest_code, r.depth.lowest_mm, r.depth.highest_mm, 100 * r.depth.holes, r.depth.pairs);
@@ -179,25 +162,38 @@ std::string probeToText(const ProbeResult& r) {
     text += "depth   none\n";
   }
   text += print("volume  %.0f x %.0f x %.0f mm\n", r.volume.width_mm, r.volume.height_mm, r.volume.depth_mm);
-  for (const std::string& doubt : f.doubts) text += "doubt   " + doubt + "\n";
+  for (const auto& notes : {f.notes, changesOf(f)}) {
+    for (const std::string& note : notes) text += "note    " + note + "\n";
+  }
+  for (const std::string& doubt : f.reading.doubts) text += "doubt   " + doubt + "\n";
   for (const std::string& need : r.needs) text += "needs   " + need + "\n";
   return text;
 }
+
+namespace {
+
+Json readingToJson(const FilmInfo& f) {
+  Json parts = Json::array();
+  for (const CalibrationPart& part : f.reading.parts) {
+    parts.push_back({{"part", part.key},
+                     {"value", part.value},
+                     {"by", name(part.origin)},
+                     {"certainty", name(certaintyOf(part.origin))}});
+  }
+  const std::string line = f.has_depth ? plainLine(f.reading, f.calibration.calibration) : "no depth";
+  return {{"line", line}, {"why", f.reading.why}, {"offers", f.reading.offers}, {"parts", parts}};
+}
+
+}  // namespace
 
 std::string probeToJson(const ProbeResult& r) {
   const FilmInfo& f = r.film;
   Json json;
   json["tracks"] = Json::array();
-  for (const ProbedTrack& t : r.tracks) {
-    json["tracks"].push_back({{"source", t.source},
-                              {"index", t.stream.index},
-                              {"video", t.stream.kind == StreamKind::Video},
-                              {"codec", t.stream.codec},
-                              {"width", t.stream.width},
-                              {"height", t.stream.height},
-                              {"auxiliary", t.stream.auxiliary},
-                              {"duration_s", toSeconds(t.stream.duration)},
-                              {"tags", t.stream.tags}});
+  for (const ProbedTrack& t : r.tracks) json["tracks"].push_back(trackJson(t));
+  json["chapters"] = Json::array();
+  for (const Chapter& c : r.chapters) {
+    json["chapters"].push_back({{"begin_s", toSeconds(c.begin)}, {"end_s", toSeconds(c.end)}, {"title", c.title}});
   }
   if (r.failure) {
     json["failure"] = r.failure->thing + ": " + r.failure->error.message;
@@ -231,12 +227,15 @@ std::string probeToJson(const ProbeResult& r) {
                      {"reason", r.touch->reason}};
   }
   json["packing"] = name(f.packing);
-  json["frames_per_s"] = framesPerSecond(f);
+  json["frames_per_s"] = r.rate.average;
+  json["rate"] = rateJson(r.rate);
   json["duration_s"] = toSeconds(f.duration);
   json["volume_mm"] = {r.volume.width_mm, r.volume.height_mm, r.volume.depth_mm};
   json["decoder"] = r.decoder;
-  json["reading"] = f.reading;
-  json["doubts"] = f.doubts;
+  json["reading"] = readingToJson(f);
+  json["notes"] = f.notes;
+  json["changes"] = changesOf(f);
+  json["doubts"] = f.reading.doubts;
   json["needs"] = r.needs;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -8,17 +8,14 @@
 #include <vector>
 
 #include "app/depth_window/touch_plan.h"
+#include "app/media/frame_rate.h"
 #include "app/media/pair_reader.h"
+#include "app/player/film/probe_tracks.h"
 #include "app/scene/display_volume.h"
 #include "hal/media_source.h"
 #include "platform/failure.h"
 
 namespace relievo {
-
-struct ProbedTrack {
-  std::string source;
-  StreamInfo stream;
-};
 
 // The first pairs, looked at.
 struct DepthUse {
@@ -30,8 +27,10 @@ struct DepthUse {
 
 struct ProbeResult {
   std::vector<ProbedTrack> tracks;
+  std::vector<Chapter> chapters;   // of the colour's source
   std::optional<Failure> failure;  // the tracks are there, but no film was found in them, and the rest is empty
   FilmInfo film;
+  FrameRate rate;      // of the colour
   PairCounters pairs;  // of the first ones
   DisplayVolume volume;
   DepthUse depth;

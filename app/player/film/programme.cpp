@@ -3,6 +3,7 @@
 #include "app/player/film/programme.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace relievo {
 
@@ -10,8 +11,8 @@ Programme::Programme(const std::string& resume_path, bool loop) : loop_(loop) {
   if (!resume_path.empty()) resume_.emplace(resume_path);
 }
 
-void Programme::begin(const PlaylistEntry& film) {
-  films_ = {film};
+void Programme::begin(std::vector<PlaylistEntry> films) {
+  films_ = std::move(films);
   present_ = 0;
   lists_ = 0;
   seen_one_ = false;

@@ -26,8 +26,8 @@ class Programme {
   // `resume_path`: the file of positions; if empty, each film starts from the beginning.
   Programme(const std::string& resume_path, bool loop);
 
-  // Replaces the whole list by one film or list.
-  void begin(const PlaylistEntry& film);
+  // Replaces the whole list by these films or lists, at least one.
+  void begin(std::vector<PlaylistEntry> films);
   // Replaces the present entry, which is a list, by the list's entries. Returns the entry to open first: the one that
   // the viewer saw last, else the list's first. Unsupported if lists are nested too deeply.
   [[nodiscard]] Result<std::size_t> spread(const std::vector<PlaylistEntry>& films);

@@ -164,6 +164,10 @@ void FilmScreen::writeScreenshot(MonotonicTime now) {
 void FilmScreen::obey(const PlayerCommand& command) {
   switch (command.verb) {
     case PlayerVerb::Info:
+    case PlayerVerb::FullScreen:
+      return picture_.fillScreen(command.value == 0  ? FullScreen::Toggle
+                                 : command.value > 0 ? FullScreen::On
+                                                     : FullScreen::Off);
       return text_.toggleBar();
     case PlayerVerb::Statistics:
       return text_.toggleStatistics();

@@ -40,6 +40,9 @@ class FilmScreen {
 
   // A film begins: how to read its depth, the volume that it fills, and its frame period.
   void setScene(const DepthCalibration& calibration, const DisplayVolume& volume, Duration period, MonotonicTime now);
+  void announce(const AnnouncedFilm& film) { picture_.announce(film); }
+  // What the viewer has dropped on the window since the last call.
+  [[nodiscard]] std::vector<std::string> takeDropped() { return picture_.takeDropped(); }
   // Draws a picture of the film. False if the screen is lost: the picture counts as dropped.
   [[nodiscard]] Result<bool> show(const FramePair& pair, const std::optional<FingerMark>& finger, MonotonicTime now);
   // The subtitles of a film; see Picture.
@@ -69,7 +72,7 @@ class FilmScreen {
   // The viewer has pressed a key: the text is shown for a while.
   void wake(MonotonicTime now) noexcept { text_.wake(now); }
   [[nodiscard]] ScreenText& text() noexcept { return text_; }
-  // Handles Layout, SwapEyes, DepthBy, ScreenBy, ZoomBy, Aspect, Info and Statistics; ignores other commands.
+  // Handles FullScreen, Layout, SwapEyes, DepthBy, ScreenBy, ZoomBy, Aspect, Info and Statistics; ignores other commands.
   void obey(const PlayerCommand& command);
 
   [[nodiscard]] const StereoSettings& stereo() const noexcept { return picture_.stereo(); }

@@ -32,6 +32,11 @@ void Picture::setScene(const DepthCalibration& calibration, const DisplayVolume&
   frame_budget_ = frame_budget;
 }
 
+void Picture::announce(const AnnouncedFilm& film) {
+  film_ = film;
+  display_.announce(film);
+}
+
 void Picture::setPair(const FramePair& pair) {
   pair_ = pair;
   uploaded_ = false;
@@ -48,6 +53,7 @@ Result<Picture::Shown> Picture::show(const std::optional<FingerMark>& finger, Mo
     if (now < next_retry_) return Shown::NoScreen;
     next_retry_ = now + kRetryPeriod;
     if (!display_.open(config_)) return Shown::NoScreen;  // not back yet; it was told when it went
+    display_.announce(film_);
   }
   const auto drawn = drawAndPresent(finger);
   if (drawn) return was_away ? Shown::Back : Shown::OnScreen;
@@ -74,6 +80,7 @@ Result<void> Picture::drawAndPresent(const std::optional<FingerMark>& finger) {
   width_ = surface->width;
   height_ = surface->height;
   fallBack(*surface);
+  display_.setViews(sceneViews(stereo_, volume_, width_, height_));
   if (display_.capabilities().gles) {
     if (auto drawn = draw(*surface, finger); !drawn) return drawn;
   }

@@ -43,6 +43,10 @@ class Picture {
 
   // Known when the film is open. `frame_budget`: how long drawing may take.
   void setScene(const DepthCalibration& calibration, const DisplayVolume& volume, Duration frame_budget) noexcept;
+  // A film begins: for the window's title and size.
+  void announce(const AnnouncedFilm& film);
+  void fillScreen(FullScreen wish) { display_.fillScreen(wish); }
+  [[nodiscard]] std::vector<std::string> takeDropped() { return display_.takeDropped(); }
   // What `show` shows from now on; a reference is kept, for a screen that comes back.
   void setPair(const FramePair& pair);
   // Black, with whatever text there is, from the next `show` on.
@@ -105,6 +109,7 @@ class Picture {
 
   Display& display_;
   DisplayConfig config_;
+  AnnouncedFilm film_;
   StereoSettings stereo_;
   const char* refusal_ = nullptr;
   DepthCalibration calibration_;

@@ -15,12 +15,6 @@ constexpr double kBarSteps = 2000;    // that the bar's length is rounded to
 constexpr double kFingerSteps = 200;  // likewise the finger's place
 constexpr double kForceStepsPerN = 20;
 
-std::string clockTime(double seconds) {
-  const auto whole = static_cast<long>(std::max(0.0, seconds));
-  if (whole >= 3600) return print("%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
-  return print("%ld:%02ld", whole / 60, whole % 60);
-}
-
 std::string timesOf(const ScreenFacts& facts) {
   std::string times = clockTime(facts.position_s);
   if (facts.duration_s > 0) times += " / " + clockTime(facts.duration_s);
@@ -59,6 +53,12 @@ std::optional<FingerBeside> fingerOf(const ScreenFacts& facts) {
 }
 
 }  // namespace
+
+std::string clockTime(double seconds) {
+  const auto whole = static_cast<long>(std::max(0.0, seconds));
+  if (whole >= 3600) return print("%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
+  return print("%ld:%02ld", whole / 60, whole % 60);
+}
 
 void ScreenText::tell(std::string why, MonotonicTime now) {
   why_ = std::move(why);

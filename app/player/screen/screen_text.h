@@ -52,6 +52,9 @@ struct ScreenContent {
   bool operator==(const ScreenContent&) const = default;
 };
 
+// "1:02:05", "0:07".
+[[nodiscard]] std::string clockTime(double seconds);
+
 // The bar is shown for some seconds after the viewer has done something, when something goes wrong, and at the start;
 // as long as the film stands; and on wish until it is wished away. A notice stands for two seconds, and so does the
 // hint at the start.

@@ -71,8 +71,9 @@ std::string stereoWord(const StereoSettings& settings) {
 std::optional<double> parseAspect(std::string_view word) {
   if (word == "film") return 0;
   double width = 0, height = 0;
-  const char* const end = word.data() + word.size();
-  const auto [colon, no_width] = std::from_chars(word.data(), end, width);
+  const char* const begin = word.data();
+  const char* const end = begin + word.size();
+  const auto [colon, no_width] = std::from_chars(begin, end, width);
   if (no_width != std::errc() || colon == end || *colon != ':') return std::nullopt;
   const auto [rest, no_height] = std::from_chars(colon + 1, end, height);
   if (no_height != std::errc() || rest != end || !(height > 0)) return std::nullopt;

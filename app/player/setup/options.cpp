@@ -6,28 +6,55 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <sstream>
+#include <string_view>
+#include <system_error>
+#include <vector>
 
 #include "app/cli/options.h"
 #include "app/cli/program.h"
+#include "app/media/film_folder.h"
 #include "app/player/control/key_table.h"
 #include "app/player/screen/stereo_word.h"
 #include "app/player/setup/config_options.h"
+#include "platform/log.h"
+#include "platform/near_words.h"
 #include "platform/print.h"
 
 namespace relievo {
 namespace {
 
 constexpr const char* kAbout =
-    "relievo: 3D video you can touch. Plays colour + depth video; a force-feedback device feels its relief.";
+    "relievo: 3D video you can touch. Plays colour + depth video; a force-feedback device feels its relief.\n";
+constexpr const char* kProgramAbout =
+    "\n  relievo film.mkv          plays it: in a window on a desktop, else on the screen\n"
+    "  relievo help COMMAND      tells what a command takes; `relievo help play` begins with what people do most\n";
 constexpr const char* kProgramFooter =
     "\nExamples:\n"
-    "  relievo play film.mkv                          colour and depth are two tracks of one file\n"
+    "  relievo film.mkv                               in a window; press into the picture with the mouse to feel it\n"
     "  relievo probe scan.mov --packing tb --depth-code hue\n"
     "                                                 what is in it: colour on top, depth as hue below\n"
     "  relievo devices                                what hardware is there, and why a thing is refused\n"
     "  relievo selftest                               whether it works here, without any hardware\n"
-    "\n`relievo play --help` and `relievo probe --help` tell the rest, `relievo-author --help` how to make a film.\n";
+    "\nA file that is named like a command is reached by its path, as ./play. `relievo-author --help` tells how to "
+    "make "
+    "a film.\n";
+constexpr const char* kPlayAbout =
+    "Play a film: shown in stereo, felt by the finger\n"
+    "\n  relievo film.mkv                         in a window; press into the picture with the mouse to feel it\n"
+    "  relievo one.mkv two.mkv films/           one film after the other, and those of a folder; --loop: again and "
+    "again\n"
+    "  relievo color.mp4 --depth depth.mkv      colour and depth are two files\n"
+    "  relievo scan.mov --packing tb            colour on top, depth below in one picture; sbs: side by side\n"
+    "  relievo film.mkv --stereo anaglyph       for red-cyan glasses; sbs, tab: for a 3D screen\n"
+    "  relievo film.mkv --display kms           on a whole screen without a desktop\n"
+    "  relievo film.mkv --haptic falcon         felt with a force-feedback device\n"
+    "  relievo film.mkv --resume                from where it was left\n"
+    "  relievo https://example.org/film.m3u8    from the network\n"
+    "  relievo v4l2:/dev/video0 --calibration near=400,far=1500\n"
+    "                                           a depth camera, live\n"
+    "\nKeys: space pauses, arrows seek, f fills the screen, h shows all keys, q ends it.";
 constexpr const char* kProbeFooter =
     "\nExamples:\n"
     "  relievo probe film.mkv                         its tracks, what its depth means, what a finger will feel of it\n"
@@ -37,10 +64,10 @@ constexpr const char* kProbeFooter =
     "heights in\n"
     "use; `touch`: the widths that the finger will feel the relief through, and the error that is left; `needs`: what "
     "the\n"
-    "film asks for or lacks, and the option to try. Exit code: 0 done, 1 failed at run time, 2 wrong use.\n";
+    "film asks for or lacks, and the option to try. Exit code: 0 done, 1 failed at run time, 2 usage error.\n";
 constexpr const char* kPlayFooter =
     "\nExamples:\n"
-    "  relievo play color.webm --depth depth.webm --report run.json\n"
+    "  relievo color.webm --depth depth.webm --display offscreen --report run.json\n"
     "      two files, shown off screen, touched by the simulated hand; the figures go to run.json\n"
     "  relievo play scan.mov --packing tb --depth-code hue --stereo anaglyph --loop --duration 60\n"
     "      one file with colour on top and depth as hue below, for red-cyan glasses, again and again for a minute\n"
@@ -48,8 +75,6 @@ constexpr const char* kPlayFooter =
     "      the picture into a file that ffmpeg reads, finger and keys by scripts\n"
     "  relievo play film.mkv --display kms --size 1920x1080 --haptic falcon\n"
     "      on a whole screen of the box, without a desktop\n"
-    "  relievo play film.mkv --display window --haptic pointer\n"
-    "      in a window on the desktop: its keys are the remote, its mouse is the finger; F11 fills the screen\n"
     "  relievo play evening.m3u --loop --resume\n"
     "      the films of a list, from where they were left\n"
     "  relievo play --control /run/user/1000/relievo\n"
@@ -81,8 +106,8 @@ constexpr const char* kSelfTestFooter =
     "\nIt looks for a font and the decoders, and plays a film of its own for three seconds off screen, touched by the\n"
     "simulated hand. Each line begins with `good`, `note` (it goes without, less well) or `bad`. Exit code: 0 nothing "
     "is\n"
-    "bad, 1 something is, 2 wrong use.\n";
-constexpr const char* kExitCodes = "\nExit code: 0 done, 1 failed at run time, 2 wrong use.\n";
+    "bad, 1 something is, 2 usage error.\n";
+constexpr const char* kExitCodes = "\nExit code: 0 done, 1 failed at run time, 2 usage error.\n";
 
 constexpr double kLongestDurationS = 1e9;
 constexpr double kMostPixels = 16384;  // of a display, across and down
@@ -97,16 +122,29 @@ constexpr const char* kNoStereo =
     "quilt[:COLSxROWS]";
 constexpr const char* kNoDuration = "a duration is more than 0 and at most a billion seconds";
 
-CLI::Option* addSourceOptions(CLI::App& command, SourceOptions& source) {
-  CLI::Option* url = command
-                         .add_option("SOURCE", source.url,
-                                     "A file, or an address: http, https (HLS as well), rtsp, rtp, udp, tcp; "
-                                     "v4l2:DEVICE; mock:, which needs no file")
-                         ->type_name(" ");
+constexpr const char* kSourceHelp =
+    "A film, a folder of films or pictures, pictures (\"a/%06d.png\", \"a/*.png\"), associations.txt, a playlist, or "
+    "an "
+    "address: http, https (HLS as well), rtsp, rtp, udp, tcp; v4l2:DEVICE; mock:, which needs no file";
+
+void addDepthSource(CLI::App& command, SourceOptions& source) {
   command.add_option("--depth", source.depth_url, "A second file or address that holds the depth")
       ->type_name("SOURCE2");
   addDepthOptions(command, source);
-  return url;
+  addRateOption(command, source);
+}
+
+void addSources(CLI::App& command, PlayOptions& play) {
+  const auto take = [&player = play.player](const std::vector<std::string>& sources) {
+    if (auto series = seriesOf(sources)) {
+      player.source.url = std::move(*series);
+      return;
+    }
+    player.source.url = sources.front();
+    player.more.assign(sources.begin() + 1, sources.end());
+  };
+  command.add_option_function<std::vector<std::string>>("SOURCE", take, kSourceHelp)->type_name(" ");
+  addDepthSource(command, play.player.source);
 }
 
 DisplayConfig readSize(const std::string& word) {
@@ -129,16 +167,23 @@ Duration readDuration(double seconds) {
 CLI::Option* addBackEnd(CLI::App& command, const char* option, BackEndName& chosen, const char* kind, const char* names,
                         const char* help) {
   const auto judge = [kind, names](const std::string& given) -> std::string {
-    const BackEndName name(given);
+    const std::string word = inSmallLetters(BackEndName(given).word);
     std::istringstream all(names);
+    std::vector<std::string> words;
     for (std::string known; all >> known;) {
-      if (!name.word.empty() && known.substr(0, known.find_first_of(":[")) == name.word) return "";
+      words.push_back(known.substr(0, known.find_first_of(":[")));
+      if (words.back() == word) return "";
     }
-    return given + ": no such " + kind + "; it is one of: " + names;
+    return given + ": no such " + kind + "; it is one of: " + names + meant(word, words);
   };
   return command
       .add_option_function<std::string>(
-          option, [&chosen](const std::string& given) { chosen = given; }, std::string(help) + "\n" + names)
+          option,
+          [&chosen](const std::string& given) {
+            chosen = given;
+            chosen.word = inSmallLetters(chosen.word);
+          },
+          std::string(help) + "\n" + names)
       ->default_str(chosen.text())
       ->check(CLI::Validator(judge, ""))
       ->type_name("NAME");
@@ -154,7 +199,8 @@ void addConfigOption(CLI::App& command, std::string& path) {
 
 void addStereoOptions(CLI::App& command, StereoSettings& stereo) {
   const auto readStereo = [&stereo](const std::string& word) {
-    if (!parseStereo(word, stereo)) throw WordFailure({"--stereo " + word, {ErrorCode::InvalidArgument, 0, kNoStereo}});
+    if (!parseStereo(inSmallLetters(word), stereo))
+      throw WordFailure({"--stereo " + word, {ErrorCode::InvalidArgument, 0, kNoStereo}});
   };
   command.add_option_function<std::string>("--stereo", readStereo, kStereoHelp)
       ->type_name("mono|sbs|tab|rows|columns|anaglyph|frame-packing|quilt")
@@ -169,18 +215,24 @@ void addStereoOptions(CLI::App& command, StereoSettings& stereo) {
 }
 
 void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& names) {
-  addSourceOptions(command, play.player.source);
-  addBackEnd(command, "--display", play.display, "display", names.display, "Where the picture goes");
+  play.player.stereo.layout = StereoLayout::Mono;
+  play.player.display.film_size = true;
+  addSources(command, play);
+  addBackEnd(command, "--display", play.display, "display", names.display,
+             "Where the picture goes [a window on a desktop, else the screen, else off screen]");
   command
       .add_option_function<std::string>(
           "--size", [&play](const std::string& word) { play.player.display = readSize(word); },
-          "Pixels of the picture; of kms a mode that the screen has, else its favourite")
-      ->default_str(print("%dx%d", play.player.display.width, play.player.display.height))
+          "Pixels of the picture [a window: the film's; else 1280x720]; of kms a mode that the screen has, else its\n"
+          "favourite")
       ->type_name("WxH");
   addStereoOptions(command, play.player.stereo);
-  addBackEnd(command, "--haptic", play.haptic, "haptic device", names.haptic, "What the finger holds");
-  addBackEnd(command, "--remote", play.remote, "remote", names.remote,
-             "Where keys come from [a window's own; on a whole screen evdev, all remote controls; else none]");
+  addBackEnd(command, "--haptic", play.haptic, "haptic device", names.haptic,
+             "What the finger holds [the device that is plugged in, else the mouse; off screen sim]");
+  addBackEnd(
+      command, "--remote", play.remote, "remote", names.remote,
+      "Where keys come from [of a window its own and the terminal's; of a screen evdev, all remote controls; else "
+      "keys, the terminal's]");
   addBackEnd(command, "--audio", play.audio, "sound output", names.audio,
              "Where the sound goes [of a window or a whole screen alsa, else none]");
   command.add_flag("--software", play.software, "Decode without the video hardware, where that shows faults");
@@ -210,6 +262,9 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
   command
       .add_flag("--print-states", play.print_states, "Print the player's states as a drawing: | dot -Tsvg > states.svg")
       ->configurable(false);
+  command
+      .add_flag("-v,--verbose", play.verbose, "Say more: where each value of the depth is from, figures of the ticks")
+      ->configurable(false);
   command.add_option("--report", play.report_path, "Write what happened, as JSON")->type_name("FILE");
   command.add_option("--record", play.record_path, "Write every tick of the finger, as CSV")->type_name("FILE");
   command
@@ -221,19 +276,38 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
   command.footer(kPlayFooter + KeyTable::usual().help() + kExitCodes);
 }
 
+bool has(const std::function<bool()>& thing) {
+  return thing && thing();
+}
+
+void settleDisplay(PlayOptions& play, const Machine& machine) {
+  if (!play.display.word.empty()) return;
+  play.display = has(machine.desktop) ? "window" : has(machine.screen) ? "kms" : "offscreen";
+}
+
 // A window brings its keys and its mouse along; nothing else has them. A whole screen is watched from a sofa. Who sees
-// the film hears it.
-Outcome<void> settleWindow(PlayOptions& play) {
+// the film hears it, and feels it with what is at hand.
+Outcome<void> settleDevices(PlayOptions& play, const Machine& machine) {
+  const bool chosen = !play.display.word.empty();
+  settleDisplay(play, machine);
   const bool window = play.display.plain("window");
-  const bool whole_screen = play.display.word == "kms";
-  if (play.remote.word.empty()) play.remote = window ? "window" : whole_screen ? "evdev" : "none";
-  if (play.audio.word.empty()) play.audio = window || whole_screen ? "alsa" : "none";
+  const bool seen = window || play.display.word == "kms";
+  if (play.haptic.word.empty()) {
+    play.haptic = !seen ? "sim" : machine.haptic ? machine.haptic() : "";
+    if (play.haptic.word.empty()) play.haptic = "pointer";
+  }
+  if (play.remote.word.empty())
+    play.remote = window ? "window" : seen ? "evdev" : has(machine.terminal) ? "keys" : "none";
+  if (play.audio.word.empty()) play.audio = seen ? "alsa" : "none";
   if (window && play.haptic.plain("pointer")) play.haptic.argument = "window";
   const auto none = [](const std::string& thing) {
     return failOn(thing, {ErrorCode::InvalidArgument, 0, "there is no window; add --display window"});
   };
   if (!window && play.remote.plain("window")) return none("--remote window");
   if (!window && play.haptic.with("pointer", "window")) return none("--haptic pointer:window");
+  if (!chosen && !seen) {
+    log(LogLevel::Info, "play", "there is no desktop and no screen here: it plays off screen; see --display");
+  }
   return {};
 }
 
@@ -244,28 +318,60 @@ Outcome<ConfigLines> readConfig(CLI::App& play, const std::string& path, FileCon
   return play.parsed() ? applyConfig(play, config) : ConfigLines{};
 }
 
-Outcome<void> settlePlay(PlayOptions& play) {
+Outcome<void> settlePlay(PlayOptions& play, const Machine& machine) {
   if (play.print_keys || play.print_states) return {};
   play.player.stays = !play.control_path.empty();
   play.player.osd = play.osd || play.display.word != "offscreen";  // never in a capture unasked
   if (play.player.source.url.empty() && !play.player.stays) {
     return failOn("SOURCE", {ErrorCode::InvalidArgument, 0,
-                             "is missing; name a film, or with --control a socket to be told one; see relievo play "
-                             "--help"});
+                             "is missing; name a film, as in relievo film.mkv; see relievo --help"});
   }
-  return settleWindow(play);
+  return settleDevices(play, machine);
+}
+
+// "relievo film.mkv" and "relievo --loop film.mkv" as "relievo play ..", "relievo help play" as "relievo play --help".
+std::vector<const char*> withCommand(const CLI::App& program, int argc, const char* const* argv) {
+  std::vector<const char*> words(argv, argv + argc);
+  const std::string first = argc > 1 ? argv[1] : "";
+  const auto isCommand = [&program](const std::string& word) {
+    const auto commands = program.get_subcommands([](const CLI::App*) { return true; });
+    return std::ranges::any_of(commands, [&word](const CLI::App* each) { return each->get_name() == word; });
+  };
+  if (first == "help") {
+    words.erase(words.begin() + 1);
+    words.push_back("--help");
+    return words;
+  }
+  if (argc == 2 && first == "-v") return {argv[0], "--version"};
+  constexpr std::array<std::string_view, 4> kOwn{"-h", "--help", "-V", "--version"};
+  if (!isCommand(first) && std::ranges::find(kOwn, first) == kOwn.end()) words.insert(words.begin() + 1, "play");
+  return words;
+}
+
+// A misspelt command would be taken for a film.
+Outcome<void> refuseMisspeltCommand(const CLI::App& program, const std::string& word) {
+  std::vector<std::string> commands;
+  for (const CLI::App* each : program.get_subcommands([](const CLI::App*) { return true; })) {
+    commands.push_back(each->get_name());
+  }
+  const std::string near = nearestWord(word, commands);
+  if (near.empty() || near == word || word.find_first_of("./:") != std::string::npos) return {};
+  if (std::error_code none; std::filesystem::exists(word, none)) return {};
+  return failOn(word + " (" + near + "?)",
+                {ErrorCode::InvalidArgument, 0, "is neither a file nor a command; see relievo --help"});
 }
 
 }  // namespace
 
-std::expected<Options, int> parseOptions(int argc, const char* const* argv, const DeviceNames& names) {
+std::expected<Options, int> parseOptions(int argc, const char* const* argv, const DeviceNames& names,
+                                         const Machine& machine) {
   Options options;
   std::string config_path;
   bool print_config = false;
-  CLI::App program(kAbout, "relievo");
+  CLI::App program(std::string(kAbout) + kProgramAbout, "relievo");
   program.footer(kProgramFooter);
   program.require_subcommand(1);
-  CLI::App& play = *program.add_subcommand("play", "Play a film: shown in stereo, felt by the finger");
+  CLI::App& play = *program.add_subcommand("play", kPlayAbout);
   CLI::App& probe = *program.add_subcommand("probe", "Tell what is in a source, and what it needs");
   CLI::App& devices = *program.add_subcommand("devices", "Tell what hardware is there, and why a thing is refused");
   CLI::App& self_test = *program.add_subcommand("selftest", "Tell whether it works here, without any hardware");
@@ -276,7 +382,8 @@ std::expected<Options, int> parseOptions(int argc, const char* const* argv, cons
   play.add_flag("--print-config", print_config,
                 "Print what would be in use, as a configuration, and where each value is from")
       ->configurable(false);
-  addSourceOptions(probe, options.probe.source)->required();
+  probe.add_option("SOURCE", options.probe.source.url, kSourceHelp)->type_name(" ")->required();
+  addDepthSource(probe, options.probe.source);
   probe.add_flag("--json", options.probe.json, "For programs");
   probe.footer(kProbeFooter);
   addConfigOption(devices, config_path);
@@ -284,7 +391,12 @@ std::expected<Options, int> parseOptions(int argc, const char* const* argv, cons
   calibrate.fallthrough();  // --config may come after it
   calibrate.footer(kCalibrateFooter);
 
-  if (auto parsed = parseCommandLine(program, argc, argv); !parsed) return std::unexpected(parsed.error());
+  const auto words = withCommand(program, argc, argv);
+  const std::string first = argc > 1 ? argv[1] : "";
+  if (auto spelt = refuseMisspeltCommand(program, first); !spelt) return std::unexpected(tell(spelt.error()));
+  if (auto parsed = parseCommandLine(program, static_cast<int>(words.size()), words.data()); !parsed) {
+    return std::unexpected(parsed.error());
+  }
   options.command = probe.parsed()       ? Options::Command::Probe
                     : devices.parsed()   ? Options::Command::Devices
                     : self_test.parsed() ? Options::Command::SelfTest
@@ -299,7 +411,7 @@ std::expected<Options, int> parseOptions(int argc, const char* const* argv, cons
     return std::unexpected(kExitDone);
   }
   if (play.parsed()) {
-    if (auto settled = settlePlay(options.play); !settled) return std::unexpected(tell(settled.error()));
+    if (auto settled = settlePlay(options.play, machine); !settled) return std::unexpected(tell(settled.error()));
   }
   return options;
 }

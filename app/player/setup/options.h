@@ -3,6 +3,7 @@
 #pragma once
 
 #include <expected>
+#include <functional>
 #include <string>
 
 #include "app/player/player.h"
@@ -13,8 +14,8 @@ namespace relievo {
 
 struct PlayOptions {
   PlayerConfig player;
-  BackEndName display = "offscreen";
-  BackEndName haptic = "sim";
+  BackEndName display;  // not named: what the machine has; see Machine
+  BackEndName haptic;
   BackEndName remote;
   BackEndName audio;
   bool software = false;    // no hardware decodes the film
@@ -24,6 +25,7 @@ struct PlayOptions {
   bool resume = false;
   bool osd = false;  // also off screen
   bool print_keys = false, print_states = false;
+  bool verbose = false;      // a developer's lines and figures, too
   std::string control_path;  // empty: no control socket
 };
 
@@ -49,8 +51,21 @@ struct DeviceNames {
   const char* audio = "";
 };
 
-// Options are the command line's, then the configuration's, then the defaults. On wrong use, and when help or the
-// configuration was asked for, it has printed what there is to say and answers the exit code.
-[[nodiscard]] std::expected<Options, int> parseOptions(int argc, const char* const* argv, const DeviceNames& names);
+// What there is to play on, for what the options do not name. Each is asked only where its answer is needed; an empty
+// one is a no.
+struct Machine {
+  std::function<bool()> desktop;        // a window can be opened
+  std::function<bool()> screen;         // kms can show a picture
+  std::function<std::string()> haptic;  // the name of a force-feedback device that is plugged in; empty without
+  std::function<bool()> terminal;       // the keys of standard input's terminal can be read
+};
+
+// A first word that is no command is a film: "relievo FILM.." is "relievo play FILM..".
+//
+// Options are the command line's, then the configuration's, then the machine's: a window on a desktop, else the screen,
+// else off screen; in a window, and on a screen, the force-feedback device that is plugged in, else the mouse. On wrong
+// use, and when help or the configuration was asked for, it has printed what there is to say and answers the exit code.
+[[nodiscard]] std::expected<Options, int> parseOptions(int argc, const char* const* argv, const DeviceNames& names,
+                                                       const Machine& machine = {});
 
 }  // namespace relievo

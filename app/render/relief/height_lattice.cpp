@@ -72,7 +72,7 @@ void HeightLattice::lay(const HeightField& field, int most_across) {
 }
 
 void HeightLattice::read(const HeightField& field, int most_across) {
-  const bool follows = !field.readsChroma() && field.readsLike(last_) && most_across == most_across_;
+  const bool follows = !field.readsBeside() && field.readsLike(last_) && most_across == most_across_;
   if (!follows) lay(field, most_across);
   last_ = field;
   const std::size_t width = columns_.size();

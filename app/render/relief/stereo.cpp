@@ -145,10 +145,31 @@ EyeViews eyeViews(const StereoSettings& settings, const DisplayVolume& volume, i
     result.aspect = aspectOf(settings, areas[i], width, height);
     const Window window = letterbox(volume, result.aspect, settings);
     const double eye_x = last > 0 ? spread * (static_cast<double>(i) / last - 0.5) : 0.0;
-    result.views.push_back({offAxis(eye_x, window, settings), areas[i], eye_x});
+    result.views.push_back(
+        {offAxis(eye_x, window, settings), areas[i], eye_x, window.half_width_mm, window.half_height_mm});
     result.pixels_per_mm = areas[i].width / (2 * window.half_width_mm);
     result.margin_x = marginOf(areas[i].width, volume.width_mm, 2 * window.half_width_mm);
     result.margin_y = marginOf(areas[i].height, volume.height_mm, 2 * window.half_height_mm);
+  }
+  return result;
+}
+
+SceneViews sceneViews(const StereoSettings& settings, const DisplayVolume& volume, int width, int height) {
+  SceneViews result{.views = {},
+                    .screen_z_mm = settings.screen_z_mm,
+                    .viewing_distance_mm = settings.viewing_distance_mm,
+                    .depth_mm = volume.depth_mm};
+  const EyeViews eyes = eyeViews(settings, volume, width, height);
+  for (const EyeView& view : eyes.views) {
+    const PixelArea& area = view.area;
+    result.views.push_back({.left = static_cast<double>(area.x) / width,
+                            .top = 1 - static_cast<double>(area.y + area.height) / height,
+                            .right = static_cast<double>(area.x + area.width) / width,
+                            .bottom = 1 - static_cast<double>(area.y) / height,
+                            .eye_x_mm = eyes.mixed ? 0 : view.eye_x_mm,
+                            .half_width_mm = view.half_width_mm,
+                            .half_height_mm = view.half_height_mm});
+    if (eyes.mixed) break;  // both cover the whole surface
   }
   return result;
 }

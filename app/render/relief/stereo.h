@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/scene/display_volume.h"
+#include "hal/display.h"
 
 namespace relievo {
 
@@ -56,7 +57,8 @@ struct PixelArea {
 struct EyeView {
   glm::dmat4 view_projection{1};
   PixelArea area;
-  double eye_x_mm = 0;  // x of the eye
+  double eye_x_mm = 0;                           // x of the eye
+  double half_width_mm = 0, half_height_mm = 0;  // of the camera's window
 };
 
 // The views of a layout, the left eye's first; mono is seen from between the eyes. The window of each camera is the
@@ -76,6 +78,10 @@ struct EyeViews {
   int margin_x = 0, margin_y = 0;
 };
 [[nodiscard]] EyeViews eyeViews(const StereoSettings& settings, const DisplayVolume& volume, int width, int height);
+
+// What the parts of such a surface show, for a mouse that points at it. In a mixed layout that is what the middle
+// between the eyes sees.
+[[nodiscard]] SceneViews sceneViews(const StereoSettings& settings, const DisplayVolume& volume, int width, int height);
 
 // Why this surface cannot show the layout, and what would help; null if it can.
 [[nodiscard]] const char* refusal(const StereoSettings& settings, int width, int height) noexcept;

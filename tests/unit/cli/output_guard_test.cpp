@@ -53,6 +53,14 @@ TEST_F(OutputGuard, KnowsThePicturesOfASequence) {
   EXPECT_FALSE(refused({folder_ / "depth-0003.jpg"}, {folder_ / "depth-%04d.png"}));
 }
 
+TEST_F(OutputGuard, KnowsThePicturesOfAFolder) {
+  const std::string color = file("tum/rgb/1.5.png"), depth = file("tum/depth/1.5.png"),
+                    list = file("tum/associations.txt");
+  for (const std::string& read : {color, depth, list}) EXPECT_TRUE(refused({read}, {folder_ / "tum"})) << read;
+  EXPECT_TRUE(refused({color}, {folder_ / "tum/rgb/*.png"}));
+  EXPECT_FALSE(refused({folder_ / "tum/new.mkv"}, {folder_ / "tum"}));
+}
+
 TEST_F(OutputGuard, KnowsWhatAListNamesAndListsInLists) {
   const std::string segment = file("hls/film.segments/00001.m4s"), start = file("hls/film.segments/init.mp4");
   const std::string film = file("a film.mkv"), depth = file("depth.mkv");

@@ -386,11 +386,12 @@ TEST(FfmpegDecoder, PicturesWithoutTimesAreNumberedByTheFramePeriod) {
   for (int k = 0; k < 4; ++k) EXPECT_EQ(frames[static_cast<std::size_t>(k)].pts, MediaTime(k * stream.frame_period));
 }
 
-// Metres become mm, rounded; invalid distances become 0.
-TEST(FfmpegDecoder, DistancesInFloatingPointBecomeWholeMillimetres) {
+// Numbers become codes on a scale of their own; what is no distance becomes 0.
+TEST(FfmpegDecoder, FloatingPointBecomesCodesWithTheirScale) {
   constexpr float kInfinite = std::numeric_limits<float>::infinity(), kNone = std::numeric_limits<float>::quiet_NaN();
-  const std::vector<float> metres{0.5F, 1.2344F, 1.2346F, 65.535F, 65.6F, 0, -1, kInfinite, kNone, 0.0004F};
-  const std::vector<std::uint16_t> mm{500, 1234, 1235, 65535, 0, 0, 0, 0, 0, 0};
+  const std::vector<float> metres{0.5F, 1.2344F, 1.2346F, 655.35F, 140.2F, 0, -1, kInfinite, kNone, 0.004F};
+  const double per_code = 0.05;  // 655.35 is an outlier of 20 samples, yet the largest: 655.35/32767 rounded up
+  const std::vector<std::uint16_t> mm{10, 25, 25, 13107, 2804, 0, 0, 0, 0, 1};
   ffmpeg::FramePtr picture(av_frame_alloc());
   picture->format = AV_PIX_FMT_GRAYF32LE;
   picture->width = static_cast<int>(metres.size());
@@ -399,8 +400,10 @@ TEST(FfmpegDecoder, DistancesInFloatingPointBecomeWholeMillimetres) {
   for (int r = 0; r < 2; ++r) {
     std::memcpy(picture->data[0] + r * picture->linesize[0], metres.data(), metres.size() * sizeof(float));
   }
-  const auto converted = ffmpeg::Converter().convert(*picture);
+  ffmpeg::Converter converter;
+  const auto converted = converter.convert(*picture);
   ASSERT_TRUE(converted.has_value());
+  EXPECT_DOUBLE_EQ(converter.valuePerCode(), per_code);
   EXPECT_EQ((*converted)->format, AV_PIX_FMT_GRAY16LE);
   const auto* const row = reinterpret_cast<const std::uint16_t*>((*converted)->data[0] + (*converted)->linesize[0]);
   EXPECT_EQ(std::vector<std::uint16_t>(row, row + mm.size()), mm);

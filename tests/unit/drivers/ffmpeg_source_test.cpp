@@ -17,6 +17,7 @@
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "platform/unique_fd.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/film/mkv_patch.h"
 #include "tests/support/film/ts_patch.h"
 #include "tests/support/network/http_server.h"
 
@@ -352,6 +353,62 @@ TEST(FfmpegSource, TellsHowMuchOfACutFileIsMissing) {
     // With reordering, a later picture's packet precedes those of earlier pictures.
     const double there = static_cast<double>(packets.size()) / 24;
     EXPECT_NEAR(toSeconds(source->missing()), 2 - there, 0.25) << name;
+  }
+}
+
+// 90 pictures are 3 s. The containers state a length from time 0, or from the first picture.
+TEST(FfmpegSource, AFilmThatBeginsLateIsWholeAndIsSoughtByItsOwnTime) {
+  TemporaryFolder folder;
+  for (const char* name : {"a.mkv", "a.mp4", "a.mov", "a.flv", "a.ts"}) {
+    ClipTrack late = kH264;
+    late.frames = 90;
+    late.start = std::chrono::seconds(100);
+    makeClip(folder / name, {late});
+    const auto source = makeFfmpegSource();
+    ASSERT_TRUE(source->open(folder / name).has_value()) << name;
+    EXPECT_NEAR(toSeconds(source->duration()), 3, 0.05) << name;
+    EXPECT_EQ(readAll(*source).size(), 90u) << name;
+    EXPECT_EQ(source->missing(), Duration(0)) << name;
+    ASSERT_TRUE(source->seek(mediaTime(2.5)).has_value()) << name;
+    const auto packets = readAll(*source);
+    ASSERT_FALSE(packets.empty()) << name;
+    EXPECT_GT(packets[0].pts.value(), mediaTime(1)) << name;
+    EXPECT_EQ(source->missing(), Duration(0)) << name;
+  }
+  cutFile(folder / "a.mkv", 0.6);
+  const auto cut = makeFfmpegSource();
+  ASSERT_TRUE(cut->open(folder / "a.mkv").has_value());
+  const auto there = static_cast<double>(readAll(*cut).size()) / 30;
+  EXPECT_NEAR(toSeconds(cut->missing()), 3 - there, 0.3);
+}
+
+TEST(FfmpegSource, TimesThatJumpBackGoOnWhereTheyWere) {
+  TemporaryFolder folder;
+  const std::string path = folder / "a.mkv";
+  makeClip(path,
+           {ClipTrack{.codec = "libx264", .pix_fmt = "yuv420p", .fps_num = 5, .frames = 75, .gop = 5, .b_frames = 2}},
+           {}, {{.length = std::chrono::seconds(15)}});
+  const auto times = [&] {
+    const auto source = makeFfmpegSource();
+    EXPECT_TRUE(source->open(path).has_value());
+    std::vector<MediaTime> all;
+    for (const Packet& packet : readAll(*source)) {
+      if (packet.stream == 0) all.push_back(packet.pts.value());
+    }
+    EXPECT_EQ(source->missing(), Duration(0));
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  const auto before = times();
+  ASSERT_GT(test::moveClustersBack(path, 6000, 4000), 0);
+  testing::internal::CaptureStderr();
+  const auto after = times();
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              testing::AllOf(HasSubstr("a.mkv: its times jump back by"), HasSubstr("made continuous")));
+  ASSERT_EQ(after.size(), 75u);
+  for (std::size_t k = 0; k < after.size(); ++k) {
+    EXPECT_LE(std::chrono::abs(after[k] - before[k]), std::chrono::milliseconds(250)) << k;
+    EXPECT_TRUE(k == 0 || after[k] > after[k - 1]) << k;
   }
 }
 

@@ -161,9 +161,8 @@ TEST_F(PointerTest, AMouseThatGoesBeforeTheStartIsLost) {
 
 class WindowPointerTest : public testing::Test {
  protected:
-  void point(double right_px, double up_px) {
-    mouse_.right_px = right_px;
-    mouse_.up_px = up_px;
+  void point(const SceneRay& ray) {
+    mouse_.ray = ray;
     publish();
   }
   void publish() {
@@ -187,44 +186,50 @@ class WindowPointerTest : public testing::Test {
   }
 
   ManualClock clock_{MonotonicTime(1h)};
-  WindowMouse mouse_{.width_px = 1280, .height_px = 720};
+  WindowMouse mouse_;
   std::shared_ptr<WindowInput> window_ = std::make_shared<WindowInput>();
   std::unique_ptr<HapticDevice> device_ = makePointer(window_, clock_);
 };
 
-// The volume of a picture of the window's shape is 160 mm x 90 mm: an eighth of a millimetre a pixel.
-TEST_F(WindowPointerTest, TheFingerIsWhereTheMousePoints) {
-  point(320, -80);
+// An eye 600 mm before the screen plane, which is at 20 mm: at 46 mm the line has come 26/600 of its way to the eye.
+TEST_F(WindowPointerTest, TheFingerIsOnTheLineOfSightThroughTheMouse) {
+  point({.screen_mm = {60, -30}, .screen_z_mm = 20, .viewing_distance_mm = 600, .depth_mm = 40});
   start();
-  EXPECT_LT(glm::distance(after(300).position_mm, glm::dvec3(40, -10, 46)), 0.01) << "where it was when it began, too";
-  point(-640, 360);
-  EXPECT_LT(glm::distance(after(300).position_mm, glm::dvec3(-80, 45, 46)), 0.01) << "the window's corner";
-  point(-5000, 0);
-  EXPECT_NEAR(after(300).position_mm.x, device_->capabilities().workspace_min_mm.x, 1e-6);
+  const double share = 1 - 26.0 / 600;
+  EXPECT_LT(glm::distance(after(300).position_mm, glm::dvec3(60 * share, -30 * share, 46)), 1e-6);
+  point({.screen_mm = {60, -30}, .eye_x_mm = -31.5, .screen_z_mm = 20, .viewing_distance_mm = 600, .depth_mm = 40});
+  EXPECT_LT(glm::distance(after(300).position_mm, glm::dvec3(-31.5 + 91.5 * share, -30 * share, 46)), 1e-6);
 }
 
-TEST_F(WindowPointerTest, TheFingerIsThereWhateverThePicturesShape) {
+TEST_F(WindowPointerTest, ThePressedFingerStaysOnTheLine) {
+  point({.screen_mm = {60, -30}, .screen_z_mm = 20, .viewing_distance_mm = 600, .depth_mm = 40});
   start();
-  point(200, 100);
+  mouse_.left = true;
+  publish();
+  after(500);
+  const glm::dvec3 place = after(1).position_mm;
+  EXPECT_LT(place.z, 15);
+  EXPECT_NEAR(place.x, 60 * (1 - (place.z - 20) / 600), 0.1);
+}
+
+TEST_F(WindowPointerTest, TheFingerIsAboveADeeperVolumeAsWell) {
+  start();
+  point({.screen_mm = {0, 0}, .screen_z_mm = 20, .viewing_distance_mm = 600, .depth_mm = 100});
+  EXPECT_NEAR(after(300).position_mm.z, 106, 1e-6);
+  point({.screen_mm = {0, 0}, .screen_z_mm = 20, .viewing_distance_mm = 600, .depth_mm = 40});
+  EXPECT_NEAR(after(300).position_mm.z, 46, 1e-6);
+}
+
+TEST_F(WindowPointerTest, ItsPlaceIsTheScenesWhateverTheVolume) {
+  point({.screen_mm = {60, -30}, .screen_z_mm = 20, .viewing_distance_mm = 600, .depth_mm = 40});
+  start();
   const HapticSample sample = after(300);
-  // Millimetres per pixel of the largest picture that fits into the window.
-  for (const DisplayVolume& volume : {DisplayVolume{160, 90, 40}, DisplayVolume{160, 120, 40},
-                                      DisplayVolume{160, 284, 40}, DisplayVolume{320, 90, 40}}) {
-    const double mm_a_px = std::max(volume.width_mm / 1280, volume.height_mm / 720);
+  for (const DisplayVolume& volume : {DisplayVolume{160, 90, 40}, DisplayVolume{4000, 90, 100}}) {
     WorkspaceMapping mapping(device_->capabilities(), volume);
-    const glm::dvec3 hip_mm = mapping.follow(sample).hip_mm;
-    EXPECT_NEAR(hip_mm.x, 200 * mm_a_px, 0.05) << volume.width_mm << " x " << volume.height_mm;
-    EXPECT_NEAR(hip_mm.y, 100 * mm_a_px, 0.05) << volume.width_mm << " x " << volume.height_mm;
+    EXPECT_EQ(mapping.scale(), 1);
+    EXPECT_EQ(mapping.follow(sample).hip_mm, sample.position_mm);
     EXPECT_EQ(mapping.follow(sample).edge_force_n, glm::dvec3(0));
   }
-}
-
-TEST_F(WindowPointerTest, TheFingerStaysUnderTheMouseWhenTheWindowGrows) {
-  start();
-  mouse_.width_px = 2560;
-  mouse_.height_px = 1440;
-  point(640, 160);
-  EXPECT_LT(glm::distance(after(300).position_mm, glm::dvec3(40, 10, 46)), 0.01);
 }
 
 TEST_F(WindowPointerTest, WheelAndButtonsAreThoseOfAMouse) {

@@ -7,7 +7,6 @@
 #include <fstream>
 #include <limits>
 
-#include "app/scene/depth_calibration.h"
 #include "drivers/registry.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/float_tiff.h"
@@ -15,7 +14,7 @@
 namespace relievo {
 namespace {
 
-// A slope of 10 m and invalid values, in a picture with odd sides.
+// A slope of 10 m and values that are none, in a picture with odd sides.
 test::FloatTiff zBuffer() {
   test::FloatTiff z{.width = 53, .height = 37};
   for (std::uint32_t i = 0; i < z.width * z.height; ++i) z.samples.push_back(0.005F * static_cast<float>(i) + 0.2002F);
@@ -23,8 +22,7 @@ test::FloatTiff zBuffer() {
   z.samples[6] = -3;
   z.samples[7] = std::numeric_limits<float>::infinity();
   z.samples[8] = std::numeric_limits<float>::quiet_NaN();
-  z.samples[9] = 65.536F;
-  z.samples[10] = 65.5351F;
+  z.samples[9] = 1e10F;
   return z;
 }
 
@@ -67,17 +65,18 @@ void expectSame(const Frame& frame, const test::FloatTiff& z) {
   ASSERT_EQ(frame.height, static_cast<int>(z.height));
   EXPECT_EQ(frame.model, ColorModel::Gray);
   EXPECT_EQ(frame.range, ColorRange::Full);
+  EXPECT_LE(frame.value_per_code, 0.0005);
   for (int r = 0; r < frame.height; ++r) {
     for (int c = 0; c < frame.width; ++c) {
-      const double metres = static_cast<double>(z.samples[static_cast<std::size_t>(r) * z.width + c]);
-      const bool none = !(metres > 0) || metres > 65.5354;
-      ASSERT_EQ(test::sampleAt(frame, 0, c, r), none ? 0u : static_cast<std::uint32_t>(std::lround(metres * 1000)))
-          << c << ", " << r;
+      const double value = static_cast<double>(z.samples[static_cast<std::size_t>(r) * z.width + c]);
+      const bool none = !(value > 0) || value > 1e9;
+      const double read = test::sampleAt(frame, 0, c, r) * frame.value_per_code;
+      ASSERT_NEAR(read, none ? 0 : value, 0.5001 * frame.value_per_code) << c << ", " << r;
     }
   }
 }
 
-TEST(TiffDecoder, DistancesInMetresComeAsMillimetresHoweverTheyAreStored) {
+TEST(TiffDecoder, NumbersKeepTheirValuesHoweverTheyAreStored) {
   const test::TemporaryFolder folder;
   test::FloatTiff plain = zBuffer(), deflated = plain, lzw = plain, tiled = plain;
   deflated.compression = COMPRESSION_ADOBE_DEFLATE;
@@ -94,11 +93,15 @@ TEST(TiffDecoder, DistancesInMetresComeAsMillimetresHoweverTheyAreStored) {
   }
 }
 
-TEST(TiffDecoder, ItsStreamSaysWhatTheCodesMean) {
+TEST(TiffDecoder, LargeNumbersAreNoHoles) {
   const test::TemporaryFolder folder;
-  test::writeFloatTiff(folder / "z.tif", zBuffer());
-  const CalibrationSettings tags = calibrationFromTags(read(folder / "z.tif").stream.tags);
-  EXPECT_EQ(tags, (CalibrationSettings{{"unit", "1"}, {"invalid", "0"}}));
+  test::FloatTiff z = zBuffer();
+  for (float& sample : z.samples) sample *= sample < 1e9F ? 40 : 1;  // disparities of 8 to 400
+  test::writeFloatTiff(folder / "z.tif", z);
+  const Read disparities = read(folder / "z.tif");
+  ASSERT_EQ(disparities.frames.size(), 1u);
+  const Frame& frame = disparities.frames[0];
+  EXPECT_NEAR(test::sampleAt(frame, 0, 52, 36) * frame.value_per_code, static_cast<double>(z.samples.back()), 0.02);
 }
 
 TEST(TiffDecoder, NumberedFilesAreAFilmWithoutTheDamagedOnes) {
@@ -119,17 +122,7 @@ TEST(TiffDecoder, NumberedFilesAreAFilmWithoutTheDamagedOnes) {
   const Duration period = film.frames[1].pts - film.frames[0].pts;
   EXPECT_GT(period, Duration(0));
   EXPECT_EQ(film.frames[2].pts - film.frames[1].pts, 2 * period) << "the lost picture leaves a gap";
-  EXPECT_EQ(test::sampleAt(film.frames[3], 0, 0, 0), 5000u);
-}
-
-TEST(TiffDecoder, WholeNumbersOfThatWidthAreNoDistances) {
-  const test::TemporaryFolder folder;
-  test::FloatTiff z = zBuffer();
-  z.sample_format = SAMPLEFORMAT_UINT;
-  test::writeFloatTiff(folder / "z.tif", z);
-  const Read read_back = read(folder / "z.tif");
-  EXPECT_TRUE(read_back.frames.empty());
-  EXPECT_EQ(read_back.damaged, 1u);
+  EXPECT_NEAR(test::sampleAt(film.frames[3], 0, 0, 0) * film.frames[3].value_per_code, 5, 0.001);
 }
 
 }  // namespace

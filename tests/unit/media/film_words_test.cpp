@@ -114,7 +114,7 @@ TEST_F(FilmWords, TracksChaptersAndLanguagesInTheFilm) {
   EXPECT_EQ(info.words, 1u);
   ASSERT_EQ(info.chapters.size(), 2u);
   EXPECT_EQ(info.chapters[1].title, "Second");
-  EXPECT_EQ(info.chapters[1].begin, mediaTime(2));
+  EXPECT_EQ(info.chapters[1].begin, fromSeconds(2));
   EXPECT_THAT(readAll(reader), ElementsAre("0.6-1 Un", "3.2-3.6 Deux"));
 
   // The other track, from a place in the film.

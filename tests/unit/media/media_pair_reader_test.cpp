@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <tuple>
 
 #include "app/media/pair_reader.h"
 #include "drivers/ffmpeg/ffmpeg.h"
@@ -129,6 +130,33 @@ TEST(PairReader, TracksThatWereTakenOnTheirSideComeUpright) {
   EXPECT_EQ(sampleAt(readAll(reader).at(0).depth, 0, 0, 0), 4763u);
 }
 
+// Left half 100 row + column, right half 10,000 more; every turn keeps the halves of the upright picture.
+TEST(PairReader, APackedFilmIsHalvedUprightInEveryTurn) {
+  TemporaryFolder folder;
+  for (int turns = 0; turns < 4; ++turns) {
+    const int across = turns % 2 == 0 ? 64 : 48, down = turns % 2 == 0 ? 48 : 64;  // upright
+    ClipTrack packed = depth(30, 2);
+    packed.sample = [&](int, int column, int row, int) {
+      int c = column, r = row, cols = 64, rows = 48;
+      for (int i = 0; i < turns; ++i) {  // a quarter turn clockwise
+        std::tie(c, r) = std::pair(rows - 1 - r, c);
+        std::swap(cols, rows);
+      }
+      return static_cast<std::uint32_t>(100 * r + c + (c >= cols / 2 ? 10'000 : 0));
+    };
+    packed.rotation = 90 * turns;
+    makeClip(folder / "a.mov", {packed});
+    PairReader reader(kFfmpeg);
+    ASSERT_TRUE(reader.open({.url = folder / "a.mov", .packing = Packing::SideBySide}).has_value());
+    const FramePair pair = readAll(reader).at(0);
+    EXPECT_EQ(pair.color.width, across / 2);
+    EXPECT_EQ(pair.depth.height, down);
+    EXPECT_EQ(sampleAt(pair.color, 0, 0, 0), 0u) << turns;
+    EXPECT_EQ(sampleAt(pair.color, 0, 3, down - 1), static_cast<unsigned>(100 * (down - 1) + 3)) << turns;
+    EXPECT_EQ(sampleAt(pair.depth, 0, 0, 0), static_cast<unsigned>(10'000 + across / 2)) << turns;
+  }
+}
+
 TEST(PairReader, ATurnThatIsNoQuarterTurnIsTold) {
   TemporaryFolder folder;
   ClipTrack c = color(30, 2);
@@ -245,7 +273,7 @@ TEST(PairReader, HalvesOfAPackedPictureAreExact) {
   EXPECT_EQ(reader.info().color_width, 64);
   EXPECT_EQ(reader.info().depth_width, 64);
   EXPECT_EQ(reader.info().depth_height, 33);
-  EXPECT_EQ(reader.info().calibration.calibration.range, ColorRange::Limited);
+  EXPECT_EQ(reader.info().calibration.calibration.range, ColorRange::Full) << "the codes lie below limited black";
   const auto pairs = readAll(reader);
   ASSERT_EQ(pairs.size(), 3u);
   for (int k = 0; k < 3; ++k) {

@@ -37,8 +37,12 @@ Row rowOf(const Frame& frame, int r) {
 }
 
 // 16 x 8 pixels, focal length 100 pixels, principal point in the middle.
-PinholeCamera camera() {
+RigCamera camera() {
   return {.cols = 16, .rows = 8, .focal_x = 100, .focal_y = 100, .center_x = 7.5, .center_y = 3.5};
+}
+
+Result<Frame> registered(const Frame& depth, const Registration& registration) {
+  return Registrar(registration).registered(depth);
 }
 
 TEST(Registration, OfTheSameCameraIsTheSamePicture) {
@@ -120,7 +124,7 @@ TEST(Registration, WhatTheOtherCameraCannotSeeOrTellIsAHole) {
 
 // Its axis is (8.3 + 0.5)/2 - 0.5 = 3.9 rows from the top, the depth's 3.5: not half a row.
 TEST(Registration, ThePrincipalPointOfAnotherSizeIsThatOfPixelCentres) {
-  const PinholeCamera tall{.cols = 32, .rows = 24, .focal_x = 200, .focal_y = 200, .center_x = 15.5, .center_y = 8.3};
+  const RigCamera tall{.cols = 32, .rows = 24, .focal_x = 200, .focal_y = 200, .center_x = 15.5, .center_y = 8.3};
   const Frame there =
       registered(depthOf(16, 8, [](int, int) { return 900; }), {.depth = camera(), .color = tall}).value();
   for (int r = 0; r < 12; ++r) EXPECT_EQ(codeOf(there, 8, r), r < 8 ? 900 : 0) << r;
@@ -129,7 +133,7 @@ TEST(Registration, ThePrincipalPointOfAnotherSizeIsThatOfPixelCentres) {
 // A colour camera with twice the pixels and a wider aspect ratio: the result is as wide as the depth, in the colour's
 // aspect ratio, without gaps.
 TEST(Registration, IsAsWideAsTheDepthAndOfTheColoursShape) {
-  const PinholeCamera wide{.cols = 32, .rows = 24, .focal_x = 200, .focal_y = 200, .center_x = 8.3, .center_y = 11.5};
+  const RigCamera wide{.cols = 32, .rows = 24, .focal_x = 200, .focal_y = 200, .center_x = 8.3, .center_y = 11.5};
   const Frame depth = depthOf(16, 8, [](int, int) { return 900; });
   const Frame there = registered(depth, {.depth = camera(), .color = wide}).value();
   ASSERT_EQ(there.width, 16);
@@ -141,7 +145,7 @@ TEST(Registration, IsAsWideAsTheDepthAndOfTheColoursShape) {
 
 // Rotated by 90 degrees about its axis: columns become rows.
 TEST(Registration, ATurnedCameraSeesTheSameTurned) {
-  const PinholeCamera square{.cols = 8, .rows = 8, .focal_x = 100, .focal_y = 100, .center_x = 3.5, .center_y = 3.5};
+  const RigCamera square{.cols = 8, .rows = 8, .focal_x = 100, .focal_y = 100, .center_x = 3.5, .center_y = 3.5};
   const Frame depth = depthOf(8, 8, [](int c, int r) { return 600 + 20 * c + r; });
   // x' = -y, y' = x: (c, r) goes to (7 - r, c).
   const Frame there =

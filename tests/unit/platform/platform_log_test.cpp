@@ -54,6 +54,20 @@ TEST(Log, LeavesOutWhatIsAboveItsLevel) {
             "relievo: a: shown\nrelievo: a: shown too\n");
 }
 
+TEST(Log, ALineTakesThePlaceOfTheStatusLineOnce) {
+  EXPECT_EQ(printedBy([] {
+              showStatusLine("playing 0:01");
+              showStatusLine("playing 0:02");
+              log(LogLevel::Warning, "a", "one");
+              log(LogLevel::Warning, "a", "two");
+              showStatusLine("playing 0:03");
+              showStatusLine({});
+              showStatusLine({});
+            }),
+            "\r\033[Kplaying 0:01\r\033[Kplaying 0:02\r\033[Krelievo: a: one\nrelievo: a: two\n"
+            "\r\033[Kplaying 0:03\r\033[K");
+}
+
 TEST(Log, MakesOneLineOfATextWithLineBreaks) {
   EXPECT_EQ(printedBy([] { log(LogLevel::Info, "a", "one\ntwo\tthree\x1b[2J\r\n"); }),
             "relievo: a: one two three [2J\n");

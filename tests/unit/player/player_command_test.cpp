@@ -31,7 +31,7 @@ TEST(Command, EachHasWordsThatReadBackAsItself) {
       all.insert(wordsOf(command));
     }
   }
-  EXPECT_EQ(all.size(), 43U);  // no two alike; eight with either sign
+  EXPECT_EQ(all.size(), 46U);  // no two alike; eight with either sign
 }
 
 TEST(Command, ASeeksNumberSaysWhatItCountsFrom) {
@@ -48,12 +48,14 @@ TEST(Command, WhatTurnsCanAlsoBeSet) {
   EXPECT_EQ(parseCommand("loop off"), (PlayerCommand{V::Loop, -1}));
   EXPECT_EQ(parseCommand("layout"), (PlayerCommand{V::Layout}));
   EXPECT_EQ(parseCommand("layout quilt:5x9"), (PlayerCommand{V::Layout, 0, "quilt:5x9"}));
-  for (const char* words : {"loop on", "loop off", "layout tab:full"}) {
+  for (const char* words : {"loop on", "loop off", "layout tab:full", "full-screen on", "full-screen off", "mute on",
+                            "show-subtitles off", "subtitles 2", "subtitles off", "audio 1", "aspect 16:9"}) {
     EXPECT_EQ(wordsOf(*parseCommand(words)), words);
     EXPECT_NE(meaningOf(*parseCommand(words)),
               meaningOf(*parseCommand(std::string(words).substr(0, std::string(words).find(' ')))));
   }
-  for (const char* words : {"loop maybe", "loop ", "layout 3d", "layout quilt:0x9", "layout sbs tab"}) {
+  for (const char* words : {"loop maybe", "loop ", "layout 3d", "layout quilt:0x9", "layout sbs tab", "audio off",
+                            "audio 0", "audio 1.5", "subtitles -1", "aspect 16", "volume", "full-screen 1"}) {
     EXPECT_FALSE(parseCommand(words)) << words;
   }
 }

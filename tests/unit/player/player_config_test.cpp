@@ -88,7 +88,7 @@ TEST_F(PlayConfig, TheCommandLineGoesBeforeTheFileAndTheFileBeforeTheDefault) {
   EXPECT_EQ(options.haptic, "mock");
   EXPECT_EQ(options.display, "mock");
   EXPECT_EQ(options.player.stereo.strength, 0.5);
-  EXPECT_EQ(options.player.stereo.layout, StereoLayout::SideBySide);
+  EXPECT_EQ(options.player.stereo.layout, StereoLayout::Mono);
   EXPECT_EQ(play(file, {}).player.source.url, "file.mkv");
 }
 
@@ -114,6 +114,8 @@ TEST_F(PlayConfig, EveryOptionCanStandInTheFileAndIsPrintedAsItReadsBack) {
   const std::map<std::string, std::string> samples = {{"source", R"("a \"b\" c.mkv")"},
                                                       {"depth", R"("d.mkv")"},
                                                       {"packing", R"("tb")"},
+                                                      {"as", R"("tum")"},
+                                                      {"fps", "24"},
                                                       {"depth-code", R"("hue")"},
                                                       {"calibration", R"(["near=100", "far=2000"])"},
                                                       {"registration", "\"" + rig + "\""},

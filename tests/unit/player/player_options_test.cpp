@@ -21,7 +21,7 @@ struct Parsed {
   std::string out, err;
 };
 
-Parsed parse(const std::vector<const char*>& arguments) {
+Parsed parse(const std::vector<const char*>& arguments, const Machine& machine = {}) {
   std::vector<const char*> words{"relievo"};
   words.insert(words.end(), arguments.begin(), arguments.end());
   testing::internal::CaptureStdout();
@@ -29,7 +29,8 @@ Parsed parse(const std::vector<const char*>& arguments) {
   auto options =
       parseOptions(static_cast<int>(words.size()), words.data(),
                    {"kms[:CARD] window offscreen[:FILE] mock", "falcon sim[:HAND] pointer replay:FILE mock none",
-                    "evdev keys window script:FILE none", "alsa[:DEVICE] null none"});
+                    "evdev keys window script:FILE none", "alsa[:DEVICE] null none"},
+                   machine);
   std::string out = testing::internal::GetCapturedStdout();
   std::string err = testing::internal::GetCapturedStderr();
   return {std::move(options), std::move(out), std::move(err)};
@@ -37,31 +38,147 @@ Parsed parse(const std::vector<const char*>& arguments) {
 
 void expectRefused(const std::vector<const char*>& words, const char* part) {
   const Parsed parsed = parse(words);
-  ASSERT_FALSE(parsed.options) << words.back();
+  ASSERT_FALSE(parsed.options) << (words.empty() ? "" : words.back());
   EXPECT_EQ(parsed.options.error(), 2);
   EXPECT_THAT(parsed.err, StartsWith("relievo: "));
   EXPECT_THAT(parsed.err, HasSubstr(part));
   EXPECT_EQ(std::count(parsed.err.begin(), parsed.err.end(), '\n'), 1) << parsed.err;
 }
 
-TEST(Options, HaveTheDefaultsOfTheBox) {
+Machine machineWith(bool desktop, bool screen, const std::string& haptic = "", bool terminal = false) {
+  return {.desktop = [=] { return desktop; },
+          .screen = [=] { return screen; },
+          .haptic = [=] { return haptic; },
+          .terminal = [=] { return terminal; }};
+}
+
+std::string devicesOf(const PlayOptions& play) {
+  return play.display.text() + " " + play.haptic.text() + " " + play.remote.text() + " " + play.audio.text();
+}
+
+TEST(Options, WithoutADesktopOrAScreenItPlaysOffScreenAndSaysSo) {
   const Parsed parsed = parse({"play", "film.mkv"});
   ASSERT_TRUE(parsed.options);
   const PlayOptions& play = parsed.options->play;
   EXPECT_EQ(play.player.source.url, "film.mkv");
   EXPECT_EQ(play.player.source.packing, Packing::Auto);
   EXPECT_EQ(play.player.source.depth_code, std::nullopt);
-  EXPECT_EQ(play.player.stereo.layout, StereoLayout::SideBySide);
-  EXPECT_EQ(play.display, "offscreen");
-  EXPECT_EQ(play.haptic, "sim");
-  EXPECT_EQ(play.remote, "none");
-  EXPECT_EQ(play.audio, "none");
+  EXPECT_EQ(play.player.stereo.layout, StereoLayout::Mono);
+  EXPECT_EQ(devicesOf(play), "offscreen sim none none");
   EXPECT_EQ(play.player.display.width, 1280);
   EXPECT_EQ(play.player.display.height, 720);
   EXPECT_FALSE(play.player.duration);
   EXPECT_FALSE(play.player.volume);
   EXPECT_FALSE(play.player.loop);
   EXPECT_TRUE(play.player.own_threads);
+  EXPECT_THAT(parsed.err, HasSubstr("there is no desktop and no screen here: it plays off screen"));
+  EXPECT_EQ(std::count(parsed.err.begin(), parsed.err.end(), '\n'), 1) << parsed.err;
+  EXPECT_EQ(parse({"play", "film.mkv", "--display", "offscreen"}).err, "");
+  EXPECT_EQ(parse({"film.mkv"}, machineWith(false, false, "", true)).options->play.remote, "keys");
+}
+
+TEST(Options, OnADesktopItTakesAWindowOfTheFilmsSizeAndTheMouse) {
+  const Parsed parsed = parse({"film.mkv"}, machineWith(true, true));
+  ASSERT_TRUE(parsed.options) << parsed.err;
+  EXPECT_EQ(parsed.err, "");
+  EXPECT_EQ(devicesOf(parsed.options->play), "window pointer:window window alsa");
+  EXPECT_TRUE(parsed.options->play.player.display.film_size);
+  EXPECT_FALSE(
+      parse({"film.mkv", "--size", "640x360"}, machineWith(true, true)).options->play.player.display.film_size);
+}
+
+TEST(Options, WithoutADesktopItTakesTheScreen) {
+  EXPECT_EQ(devicesOf(parse({"film.mkv"}, machineWith(false, true)).options->play), "kms pointer evdev alsa");
+}
+
+TEST(Options, AForceFeedbackDeviceThatIsPluggedInGoesBeforeTheMouse) {
+  EXPECT_EQ(devicesOf(parse({"film.mkv"}, machineWith(true, true, "falcon")).options->play),
+            "window falcon window alsa");
+  EXPECT_EQ(devicesOf(parse({"film.mkv"}, machineWith(false, true, "polhem")).options->play), "kms polhem evdev alsa");
+  EXPECT_EQ(devicesOf(parse({"film.mkv"}, machineWith(false, false, "falcon")).options->play),
+            "offscreen sim none none");
+}
+
+TEST(Options, WhatIsNamedIsNotLookedFor) {
+  const Machine nobody{.desktop =
+                           [] {
+                             ADD_FAILURE();
+                             return true;
+                           },
+                       .screen =
+                           [] {
+                             ADD_FAILURE();
+                             return true;
+                           },
+                       .haptic =
+                           [] {
+                             ADD_FAILURE();
+                             return std::string("falcon");
+                           },
+                       .terminal =
+                           [] {
+                             ADD_FAILURE();
+                             return true;
+                           }};
+  EXPECT_TRUE(parse({"film.mkv", "--display", "window", "--haptic", "none", "--remote", "none"}, nobody).options);
+  EXPECT_TRUE(parse({"probe", "film.mkv"}, nobody).options);
+  EXPECT_TRUE(parse({"play", "--print-keys"}, nobody).options);
+}
+
+TEST(Options, AFirstWordThatIsNoCommandIsAFilm) {
+  EXPECT_EQ(parse({"film.mkv"}).options->play.player.source.url, "film.mkv");
+  EXPECT_EQ(parse({"--loop", "film.mkv"}).options->play.player.loop, true);
+  EXPECT_EQ(parse({"./play"}).options->play.player.source.url, "./play");
+  EXPECT_EQ(parse({"probe", "film.mkv"}).options->command, Options::Command::Probe);
+  const Parsed three = parse({"a.mkv", "b.m3u", "--loop", "films/"});
+  ASSERT_TRUE(three.options) << three.err;
+  EXPECT_EQ(three.options->play.player.source.url, "a.mkv");
+  EXPECT_EQ(three.options->play.player.more, (std::vector<std::string>{"b.m3u", "films/"}));
+}
+
+TEST(Options, HelpAndVersionAreAnsweredEverywhere) {
+  for (const std::vector<const char*>& words : {std::vector<const char*>{"help"}, {"--help"}, {"-h"}}) {
+    EXPECT_THAT(parse(words).out, HasSubstr("relievo film.mkv")) << words[0];
+  }
+  EXPECT_EQ(parse({"help", "play"}).out, parse({"play", "--help"}).out);
+  EXPECT_EQ(parse({"help", "devices"}).out, parse({"devices", "--help"}).out);
+  const std::string version = parse({"--version"}).out;
+  EXPECT_THAT(version, StartsWith("relievo "));
+  for (const std::vector<const char*>& words : {std::vector<const char*>{"-v"},
+                                                {"-V"},
+                                                {"play", "--version"},
+                                                {"film.mkv", "--version"},
+                                                {"probe", "-V"},
+                                                {"devices", "--version"}}) {
+    const Parsed parsed = parse(words);
+    EXPECT_EQ(parsed.out, version) << words[0];
+    EXPECT_TRUE(!parsed.options && parsed.options.error() == 0);
+  }
+  EXPECT_TRUE(parse({"film.mkv", "-v"}).options->play.verbose);
+}
+
+TEST(Options, TakeAnyCase) {
+  const Parsed parsed = parse({"film.mkv", "--display", "OffScreen:A.y4m", "--stereo", "SBS:Full", "--haptic", "None",
+                               "--packing", "TB", "--depth-code", "HUE", "--calibration", "Law=Inverse,near=3,FAR=40"});
+  ASSERT_TRUE(parsed.options) << parsed.err;
+  const PlayOptions& play = parsed.options->play;
+  EXPECT_EQ(play.display, "offscreen:A.y4m") << "a file's name keeps its case";
+  EXPECT_EQ(play.haptic, "none");
+  EXPECT_EQ(play.player.stereo.layout, StereoLayout::SideBySide);
+  EXPECT_TRUE(play.player.stereo.full);
+  EXPECT_EQ(play.player.source.packing, Packing::TopBottom);
+  EXPECT_EQ(play.player.source.depth_code, DepthCode::Hue);
+  EXPECT_EQ(play.player.source.command_line.at("far"), "40");
+}
+
+TEST(Options, SayWhatWasMeant) {
+  expectRefused({"film.mkv", "--sterio", "sbs"}, "--sterio: no such option; did you mean --stereo?");
+  expectRefused({"film.mkv", "--full-screen"}, "--full-screen: no such option; see relievo play --help");
+  expectRefused({"film.mkv", "--display", "windo"}, "did you mean window?");
+  expectRefused({"film.mkv", "--packing", "trakcs"}, "did you mean tracks?");
+  expectRefused({"probe", "film.mkv", "--jsn"}, "--jsn: no such option; did you mean --json?");
+  expectRefused({"prob", "film.mkv"}, "prob (probe?): is neither a file nor a command");
+  expectRefused({"devices", "calibrat"}, "calibrat: one too many");
 }
 
 TEST(Options, TakeEveryWordOfPlay) {
@@ -104,7 +221,8 @@ TEST(Options, AWindowBringsItsKeysAndItsMouseAlong) {
   EXPECT_EQ(parsedPlay({"--display", "kms:/dev/dri/card1"}).audio, "alsa");
   EXPECT_EQ(parsedPlay({"--display", "window", "--audio", "none"}).audio, "none");
   EXPECT_EQ(parsedPlay({"--audio", "alsa:hdmi:CARD=vc4hdmi0"}).audio, "alsa:hdmi:CARD=vc4hdmi0");
-  EXPECT_EQ(parsedPlay({"--display", "window"}).haptic, "sim");
+  EXPECT_EQ(parsedPlay({"--display", "window"}).haptic, "pointer:window");
+  EXPECT_EQ(parsedPlay({"--display", "mock"}).haptic, "sim");
   EXPECT_EQ(parsedPlay({"--display", "window", "--haptic", "pointer"}).haptic, "pointer:window");
   EXPECT_EQ(parsedPlay({"--display", "window", "--haptic", "pointer:/dev/input/event3"}).haptic,
             "pointer:/dev/input/event3");
@@ -146,7 +264,7 @@ TEST(Options, ReadACalibrationFromAFileAsTheSideFile) {
 
 TEST(Options, RefuseWrongWordsInOneLine) {
   expectRefused({"play"}, "SOURCE");
-  expectRefused({"jump"}, "jump: unknown command; use one of play, probe, devices, selftest; see relievo --help");
+  expectRefused({}, "name a film, as in relievo film.mkv");
   expectRefused({"play", "film.mkv", "--spin"}, "--spin");
   expectRefused({"play", "film.mkv", "--packing", "diagonal"}, "diagonal");
   expectRefused({"play", "film.mkv", "--stereo", "holo"}, "holo");
@@ -166,7 +284,7 @@ TEST(Options, RefuseWrongWordsInOneLine) {
   expectRefused({"play", "film.mkv", "--calibration", "bits=8,invalid=300"}, "invalid=300");
   expectRefused({"play", "film.mkv", "--calibration", "near=1e-9"}, "near=1e-9");
   expectRefused({"play", "film.mkv", "--calibration", "far=1e300"}, "far=1e300");
-  expectRefused({"play", "one.mkv", "two.mkv"}, "two.mkv");
+  expectRefused({"probe", "one.mkv", "two.mkv"}, "two.mkv: one too many");
 }
 
 TEST(Options, ACalibrationFileThatIsMissingIsAFailureNotWrongUse) {

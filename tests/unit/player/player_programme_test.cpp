@@ -22,7 +22,7 @@ std::vector<PlaylistEntry> films(const std::vector<std::string>& urls) {
 
 // A list of these films, at the first of them.
 void begin(Programme& programme, const std::vector<std::string>& urls) {
-  programme.begin(films({"list"})[0]);
+  programme.begin(films({"list"}));
   programme.choose(programme.spread(films(urls)).value_or(99), Way::Forward);
 }
 
@@ -30,7 +30,7 @@ TEST(Programme, IsOneNamelessFilmUntilOneIsAskedFor) {
   Programme programme("", false);
   EXPECT_FALSE(programme.asked());
   EXPECT_EQ(programme.film().url, "");
-  programme.begin(films({"a"})[0]);
+  programme.begin(films({"a"}));
   EXPECT_TRUE(programme.asked());
   EXPECT_EQ(programme.film().url, "a");
   EXPECT_EQ(programme.afterEnd(), std::nullopt);
@@ -51,7 +51,7 @@ TEST(Programme, AListTakesThePlaceOfItsEntry) {
 
 TEST(Programme, AListThatNamesItselfEnds) {
   Programme programme("", false);
-  programme.begin(films({"list"})[0]);
+  programme.begin(films({"list"}));
   int lists = 0;
   while (lists < 100 && programme.spread(films({"list"}))) ++lists;
   EXPECT_EQ(lists, Programme::kMostLists);
@@ -69,7 +69,7 @@ TEST(Programme, AfterTheLastFilmItEndsOrBeginsAgain) {
 
 TEST(Programme, ASingleFilmThatLoopsFollowsItself) {
   Programme programme("", true);
-  programme.begin(films({"a"})[0]);
+  programme.begin(films({"a"}));
   EXPECT_EQ(programme.afterEnd(), programme.present());
 }
 
@@ -115,7 +115,7 @@ class ProgrammeWithPlaces : public testing::Test {
 
 TEST_F(ProgrammeWithPlaces, AFilmGoesOnWhereItWasLeftUnlessItIsOver) {
   Programme programme(path_, false);
-  programme.begin(films({"http://a"})[0]);
+  programme.begin(films({"http://a"}));
   programme.keepAtOnce(mediaTime(30), kStart);
   EXPECT_EQ(programme.whereLeft(std::chrono::seconds(60)), mediaTime(30));
   EXPECT_EQ(programme.whereLeft(std::chrono::seconds(30)), std::nullopt) << "beyond its end";
@@ -126,7 +126,7 @@ TEST_F(ProgrammeWithPlaces, AFilmGoesOnWhereItWasLeftUnlessItIsOver) {
 
 TEST_F(ProgrammeWithPlaces, APlaceIsKeptNowAndThenAndAtOnceWhereTheFilmIsLeft) {
   Programme programme(path_, false);
-  programme.begin(films({"http://a"})[0]);
+  programme.begin(films({"http://a"}));
   const Duration length = std::chrono::seconds(60);
   programme.keep(mediaTime(10), kStart);
   programme.keep(mediaTime(11), kStart + Programme::kKeepPeriod - Duration(1));
@@ -141,11 +141,11 @@ TEST_F(ProgrammeWithPlaces, APlaceIsKeptNowAndThenAndAtOnceWhereTheFilmIsLeft) {
 TEST_F(ProgrammeWithPlaces, AListBeginsWithTheFilmSeenLast) {
   {
     Programme before(path_, false);
-    before.begin(films({"http://b"})[0]);
+    before.begin(films({"http://b"}));
     before.keepAtOnce(mediaTime(30), kStart);
   }
   Programme programme(path_, false);
-  programme.begin(films({"list"})[0]);
+  programme.begin(films({"list"}));
   EXPECT_EQ(programme.spread(films({"http://a", "http://b", "http://c"})), 1U);
 }
 

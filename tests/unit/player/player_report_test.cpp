@@ -104,10 +104,21 @@ TEST(Report, IsJsonWhateverItIsGiven) {
 }
 
 TEST(Report, TellsPeopleTheSameFigures) {
-  const std::string text = toText(example());
+  PlayReport r = example();
+  r.film.has_depth = true;
+  const std::string text = toText(r);
   EXPECT_THAT(text, HasSubstr("58 frames shown, 2 dropped"));
-  EXPECT_THAT(text, HasSubstr("25 % in contact"));
-  EXPECT_THAT(text, HasSubstr("p99 2.0 us"));
+  EXPECT_THAT(text, HasSubstr("25 % of the time in contact"));
+  EXPECT_THAT(text, testing::Not(HasSubstr("p99"))) << "a developer's";
+  EXPECT_THAT(toText(r, true), HasSubstr("p99 2.0 us"));
+}
+
+TEST(Report, AFilmWithoutDepthHasNothingToFeel) {
+  PlayReport r = example();
+  r.film.has_depth = false;
+  r.haptic.plan = "error of the force under 0.1 %";
+  EXPECT_THAT(toText(r, true), testing::Not(HasSubstr("0.1 %")));
+  EXPECT_THAT(toText(r), HasSubstr("nothing to feel: the film has no depth"));
 }
 
 TEST(Recorder, WritesALinePerTickFromTheFirstTicksTimeAndTheDeviceOnce) {

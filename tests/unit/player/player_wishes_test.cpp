@@ -52,13 +52,16 @@ Situation playing() {
   return {.state = PlayerState::Playing,
           .here = mediaTime(20),
           .length = std::chrono::seconds(100),
+          .picture = mediaTime(19.96),
+          .period = std::chrono::milliseconds(40),
           .film = 1,
           .films = 3,
           .film_asked = true};
 }
 
 TEST(Wishes, ChaptersAreSoughtByTheirBeginnings) {
-  const std::vector<Chapter> chapters{{mediaTime(0), ""}, {mediaTime(18), ""}, {mediaTime(60), ""}};
+  const std::vector<Chapter> chapters{
+      {fromSeconds(0), fromSeconds(18), ""}, {fromSeconds(18), fromSeconds(60), ""}, {fromSeconds(60), fromSeconds(90), ""}};
   Situation situation = playing();
   EXPECT_EQ(asked(PlayerVerb::ChapterBy, situation, 1), "note this film has no chapters");
   situation.chapters = chapters;
@@ -103,6 +106,26 @@ TEST(Wishes, AFilmThatRushesStandsAtTheUsualRate) {
   EXPECT_EQ(asked(PlayerVerb::Pause, s), "rate 1, seek 20, stand");
   EXPECT_EQ(asked(PlayerVerb::Step, s), "rate 1, seek 20, stand");
   EXPECT_EQ(asked(PlayerVerb::PlayPause, s), "go on, rate 1, seek 20");
+}
+
+// A seek finds the first picture from its target on: 19.92 s, the one before.
+TEST(Wishes, AStepBackSeeksBetweenTheTwoPicturesBeforeAndStands) {
+  Situation s = playing();
+  EXPECT_EQ(asked(PlayerVerb::StepBack, s), "stand, seek 19.9");
+  s.state = PlayerState::Seeking;
+  EXPECT_EQ(asked(PlayerVerb::StepBack, s), "") << "the picture before is on its way";
+  s = playing();
+  s.rate = 4;
+  EXPECT_EQ(asked(PlayerVerb::StepBack, s), "rate 1, seek 20, stand");
+}
+
+TEST(Wishes, TheUsualSpeedIsOneKeyAway) {
+  Situation s = playing();
+  EXPECT_EQ(asked(PlayerVerb::NormalSpeed, s), "");
+  s.rate = 0.25;
+  EXPECT_EQ(asked(PlayerVerb::NormalSpeed, s), "rate 1");
+  s.rate = 8;
+  EXPECT_EQ(asked(PlayerVerb::NormalSpeed, s), "rate 1, seek 20");
 }
 
 TEST(Wishes, PlayInSlowMotionGoesBackToTheUsualRate) {

@@ -461,6 +461,9 @@ TEST(Calibration, CodesThatAreDistancesReachFromNearToFar) {
             std::nullopt);
   EXPECT_EQ(parseCalibration("unit=1,law=inverse").error().code, ErrorCode::InvalidArgument);
   EXPECT_EQ(parseCalibration("unit=0").error().code, ErrorCode::InvalidArgument);
+  EXPECT_EQ(parseCalibration("unit=1,polarity=near-high").error().code, ErrorCode::InvalidArgument);
+  EXPECT_EQ(chooseCalibration({.command_line = {{"unit", "1"}}}, frame, DepthCode::Hue).error().code,
+            ErrorCode::InvalidArgument);
   EXPECT_EQ(
       chooseCalibration({.command_line = {{"law", "inverse"}}, .tags = camera}, frame, DepthCode::Luma).error().code,
       ErrorCode::InvalidArgument);

@@ -2,13 +2,13 @@
 set terminal svg size 1000,740 dynamic enhanced font "sans-serif,13" background "#ffffff"
 set multiplot title ARG2 noenhanced font ",16"
 set label 1 ARG3 at @READING
-KINDS = '"H.264 8 even" "H.264 10 even" "HEVC 8 even" "HEVC 10 even" "HEVC 12 even" "FFV1" "H.264 8 dithered" "H.264 8 disparity"'
-NAMES = '"H.264 8 bits" "H.264 10 bits" "HEVC 8 bits" "HEVC 10 bits" "HEVC 12 bits" "FFV1 8 to 16 bits" "8 bits dithered" "8 bits by disparity"'
-array TINTS[8] = ["#d81b60", "#e08e0b", "#26c6da", "#7986cb", "#5d4db3", "#8a8f98", "#7cb342", "#c2a878"]
+KINDS = '"H.264 8 even" "H.264 10 even" "HEVC 8 even" "HEVC 10 even" "HEVC 12 even" "FFV1" "H.264 8 dithered" "H.264 8 disparity" "H.264 8 hue" "H.264 8 hue-disparity" "H.264 8 turbo"'
+NAMES = '"H.264 8 bits" "H.264 10 bits" "HEVC 8 bits" "HEVC 10 bits" "HEVC 12 bits" "FFV1 8 to 16 bits" "8 bits dithered" "8 bits by disparity" "hue 4:2:0" "hue of disparity 4:2:0" "turbo 4:2:0"'
+array TINTS[11] = ["#d81b60", "#e08e0b", "#26c6da", "#7986cb", "#5d4db3", "#8a8f98", "#7cb342", "#c2a878", "#d84315", "#ab47bc", "#00acc1"]
 kind(dummy) = strcol("codec") eq "FFV1" ? "FFV1" : strcol("codec") . " " . strcol("bits") . " " . strcol("steps")
 stats ARG1 using (see(kind(0))) nooutput
 PRESENT = ""
-do for [k = 1:8] { PRESENT = PRESENT . (seen(word(KINDS, k)) ? " " . k : "") }
+do for [k = 1:11] { PRESENT = PRESENT . (seen(word(KINDS, k)) ? " " . k : "") }
 # What others make of the films of H.264 in 8 bits.
 OTHERS = "god-object god-object-smoothed"
 FIGURES = "god_object_rms_percent god_object_smoothed_rms_percent"
@@ -29,7 +29,7 @@ set bmargin at screen 0.2
 set xlabel "depth, kbit/s"
 array TITLE[2] = ["Codecs and bits", "Where the steps of 8 bits lie, H.264"]
 array FROM[2] = [1, 7]
-array TO[2] = [6, 8]
+array TO[2] = [6, 11]
 stats ARG1 using (column("force_rms_percent")) name "Y" nooutput
 stats ARG1 using (column("god_object_rms_percent")) name "WORST" nooutput
 stats ARG1 using (column("kbit_s")) name "X" nooutput

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/media/film_folder.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "hal/media_names.h"
+
+namespace relievo {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string stemOf(const std::string& name) {
+  return name.substr(0, name.rfind('.'));
+}
+
+// The film in `names` that holds the depth of `film`; empty if there is none.
+std::string depthOf(const std::string& film, const std::vector<std::string>& names) {
+  for (const char* mark : {"-depth", "_depth", ".depth"}) {
+    const auto found = std::ranges::find(names, stemOf(film) + mark, stemOf);
+    if (found != names.end()) return *found;
+  }
+  return "";
+}
+
+}  // namespace
+
+std::optional<std::vector<PlaylistEntry>> filmsIn(const std::string& url) {
+  std::error_code failed;
+  const fs::path folder(url);
+  if (!fs::is_directory(folder, failed) || fs::is_directory(folder / "depth", failed)) return std::nullopt;
+  std::vector<std::string> names;
+  std::size_t pictures = 0;
+  fs::directory_iterator entries(folder, failed);
+  for (; !failed && entries != fs::directory_iterator(); entries.increment(failed)) {
+    const std::string name = entries->path().filename().string();
+    const MediaKind kind = name.starts_with('.') ? MediaKind::Neither : mediaKindOf(name);
+    pictures += kind == MediaKind::Picture ? 1 : 0;
+    if (kind == MediaKind::Film && names.size() < kMostEntries) names.push_back(name);
+  }
+  if (!isListOfFilms(names.size(), pictures)) return std::nullopt;
+  std::ranges::sort(names, naturalLess);
+  std::vector<std::string> depths;
+  depths.reserve(names.size());
+  for (const std::string& name : names) depths.push_back(depthOf(name, names));
+  std::vector<PlaylistEntry> films;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (std::ranges::find(depths, names[i]) != depths.end()) continue;
+    films.push_back({.url = folder / names[i],
+                     .depth_url = depths[i].empty() ? "" : (folder / depths[i]).string(),
+                     .title = stemOf(names[i])});
+  }
+  return films;
+}
+
+std::optional<std::string> seriesOf(const std::vector<std::string>& sources) {
+  const auto isSpecial = [](const std::string& s) { return s.find_first_of("*?[\\") != s.npos; };
+  const auto isPicture = [&](const std::string& s) {
+    return mediaKindOf(s) == MediaKind::Picture && endingOf(s) == endingOf(sources.front());
+  };
+  if (sources.size() < 2 || !std::ranges::all_of(sources, isPicture)) return std::nullopt;
+  if (std::ranges::any_of(sources, isSpecial)) return std::nullopt;
+  std::string before = sources.front(), behind = sources.front();
+  for (const std::string& source : sources) {
+    const auto at = std::ranges::mismatch(before, source).in1;
+    before.erase(at, before.end());
+    const auto from = std::ranges::mismatch(behind.rbegin(), behind.rend(), source.rbegin(), source.rend()).in1;
+    behind.erase(behind.begin(), from.base());
+  }
+  const std::string folder = before.substr(0, before.rfind('/') + 1);
+  std::size_t named = 0;
+  std::error_code failed;
+  fs::directory_iterator entries(folder.empty() ? "." : folder, failed);
+  for (; !failed && entries != fs::directory_iterator(); entries.increment(failed)) {
+    const std::string path = folder + entries->path().filename().string();
+    const bool long_enough = path.size() >= before.size() + behind.size();
+    if (long_enough && path.starts_with(before) && path.ends_with(behind)) ++named;
+  }
+  const bool one_folder = behind.find('/') == behind.npos;
+  return one_folder && named == sources.size() ? std::optional(before + "*" + behind) : std::nullopt;
+}
+
+}  // namespace relievo

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds out where a film's depth is and what it means, while the film is opened.
+#include <algorithm>
+
+#include "app/media/pair_film.h"
+#include "app/media/reading/code_count.h"
+#include "app/media/reading/color_map_fit.h"
+#include "app/media/reading/depth_doubts.h"
+#include "app/media/reading/depth_reading.h"
+#include "app/media/reading/picture_look.h"
+#include "app/media/reading/stereo_pair.h"
+#include "platform/print.h"
+
+namespace relievo {
+namespace {
+
+constexpr double kMostlyGray = 0.9;
+constexpr const char* kViews = "two views of one scene (stereo), no depth";
+constexpr const char* kWhatToDo = "it plays flat; give its depth with --depth FILE, or --packing if a half is depth";
+
+// A source that can be opened a second time at no cost to others.
+bool isFile(const std::string& url) {
+  return url.find("://") == std::string::npos && !url.starts_with("v4l2:");
+}
+
+bool isStereo(const StreamInfo& track) {
+  const auto mode = track.tags.find("STEREO_MODE");
+  return mode != track.tags.end() && mode->second != "mono" && mode->second != "0";
+}
+
+// Numbers, or the codes of a sensor, are no colour.
+bool isDepthAlone(const Frame& picture) {
+  if (picture.value_per_code != 0) return true;
+  return picture.model == ColorModel::Gray && sensorKind(picture, CodeCount(picture)) != nullptr;
+}
+
+// The luma of shades of red alone: from black to the share of red in white.
+CalibrationSettings redAsLuma(const Frame& picture) {
+  if (picture.model != ColorModel::Yuv) return {};
+  const bool full = picture.range == ColorRange::Full;
+  const double scale = 1 << (picture.components[0].bits - 8);
+  const double low = full ? 0 : 16 * scale, reach = (full ? 255 : 219) * scale * lumaWeights(picture).red;
+  return {{"codes", print("%.0f-%.0f", low, low + reach)}};
+}
+
+}  // namespace
+
+// What was said, and what the place of the recording tells.
+void PairReader::Impl::lookAround() {
+  const MediaSource& source = color_reader->source();
+  clues = {.command_line = options.command_line, .side_file = options.side_file, .as = options.as, .place = {}};
+  gray = GrayFrom::Luma;
+  reordered = nullptr;
+  clues.place = lookAtTags(source.tags());
+  if (clues.place.kind == nullptr) clues.place = lookAtPlace(options.url, options.depth_url);
+  order = options.as != nullptr ? options.as->order : SampleOrder::AsStored;
+  info.reading = {};
+  if (options.depth_code) {
+    clues.code = *options.depth_code;
+    clues.code_by = CalibrationOrigin::CommandLine;
+  } else if (options.as != nullptr && options.as->code) {
+    clues.code = *options.as->code;
+    clues.code_by = CalibrationOrigin::StatedKind;
+  }
+}
+
+Result<TrackPlan> PairReader::Impl::planFilm() {
+  using enum CalibrationOrigin;
+  const MediaSource& source = color_reader->source();
+  const bool two_sources = !options.depth_url.empty();
+  const KnownKind *const as = options.as, *const place = clues.place.kind;
+  auto plan = planTracks(source, options.packing, two_sources);
+  if (!plan) return plan;
+  clues.packing_by = options.packing != Packing::Auto || two_sources ? CommandLine
+                     : plan->by_tag                                  ? ContainerTags
+                                                                     : StreamSignalling;
+  if (options.packing != Packing::Auto || two_sources || plan->depth != nullptr || plan->by_tag) return plan;
+  if (as != nullptr && relievo::isPacked(as->packing)) {
+    plan->packing = as->packing;
+    clues.packing_by = StatedKind;
+  } else if (as == nullptr && place != nullptr && clues.place.origin != Name && relievo::isPacked(place->packing)) {
+    plan->packing = place->packing;
+    clues.packing_by = clues.place.origin;
+  }
+  return plan;
+}
+
+// If nobody has said where the depth is and there is only one track, the picture itself may show it.
+void PairReader::Impl::lookForHalves(const StreamInfo& color) {
+  if (options.packing != Packing::Auto || !options.depth_url.empty() || depth_stream != nullptr || isPacked()) return;
+  if (options.registration) return;
+  if (isStereo(color)) {
+    info.reading.doubts.push_back(print("the film's tags say %s; %s", kViews, kWhatToDo));
+    return;
+  }
+  const Frame look = tellingPicture(color_ahead[0], options.url, color.index);
+  if (isDepthAlone(look)) {
+    info.packing = Packing::DepthAlone;
+    clues.packing_by = CalibrationOrigin::FirstPicture;
+    clues.why.emplace_back("depth without colour: it is shown as gray");
+    return;
+  }
+  auto found = findPacking(look);
+  if (!found) {
+    if (const auto views = findViews(look)) {
+      info.reading.doubts.push_back(print("the %s halves are %s; %s",
+                                          *views == Packing::SideBySide ? "left and right" : "upper and lower", kViews,
+                                          kWhatToDo));
+    }
+    return;
+  }
+  info.packing = found->packing;
+  clues.packing_by = CalibrationOrigin::FirstPicture;
+  if (clues.code_by == CalibrationOrigin::Default) {
+    clues.code = found->code;
+    clues.code_by = CalibrationOrigin::FirstPicture;
+    gray = found->gray;
+    if (gray == GrayFrom::Red) clues.pictures.merge(redAsLuma(look));
+  }
+  clues.why.push_back(std::move(found->why));
+}
+
+void PairReader::Impl::lookForCode(const Frame& look) {
+  if (clues.code_by != CalibrationOrigin::Default || look.model == ColorModel::Gray) return;
+  const PictureLook seen = lookAt(look);
+  if (isRedAlone(seen)) return;
+  const auto map = bestColorMap(look);
+  if (!map && !isHue(seen)) return;
+  clues.code = map ? map->code : DepthCode::Hue;
+  clues.code_by = CalibrationOrigin::FirstPicture;
+  clues.why.push_back(clues.code == DepthCode::Hue
+                          ? print("%.0f %% of the depth is pure colour: read as hue", 100 * seen.vivid)
+                          : print("%.0f %% of the depth lies on the colour map %s", 100 * map->share, name(map->code)));
+}
+
+// The first depth picture, its samples in order; the order may be found out only by looking at it.
+Result<const Frame*> PairReader::Impl::firstDepth() {
+  auto first = depth->peek();
+  if (!first || *first == nullptr || order != SampleOrder::AsStored || registrar) return first;
+  const StreamInfo& stream = depth_source ? depth_source->stream() : *depth_stream;
+  takeTags(stream);
+  const KnownKind* const kind = kindOf(clues, tellingPicture(**first, depthUrl(), stream.index));
+  if (kind == nullptr || kind->order == SampleOrder::AsStored) return first;
+  reordered = kind;
+  order = kind->order;
+  told_again = **first;
+  depth.emplace([this] { return supplyDepth(); });
+  return depth->peek();
+}
+
+Result<void> PairReader::Impl::describeHalves(const StreamInfo& color) {
+  const Frame look = tellingPicture(color_ahead[0], options.url, color.index);
+  const auto whole = splitPacked(look, info.packing, DepthCode::Hue);
+  if (whole) lookForCode(whole->depth);
+  const auto seen = splitPacked(look, info.packing, clues.code, gray);
+  const auto halves = splitPacked(color_ahead[0], info.packing, clues.code, gray);
+  if (!halves || !seen) return failOn(options.url, halves ? seen.error() : halves.error());
+  info.color_width = halves->color.width;
+  info.color_height = halves->color.height;
+  // A half of YUV as it is still has its signalling and its chroma.
+  const bool in_yuv = whole && look.model == ColorModel::Yuv && gray == GrayFrom::Luma;
+  const Frame& depth_look = in_yuv ? whole->depth : seen->depth;
+  return describe(halves->depth, depth_look, seen->color, color);
+}
+
+Result<void> PairReader::Impl::describeTrack(const Frame& first) {
+  const StreamInfo& stream = depth_source ? depth_source->stream() : *depth_stream;
+  auto look = registrar ? Result<Frame>(first) : tellingPicture(first, depthUrl(), stream.index);
+  // Of a later picture the samples are as stored.
+  if (look && look->pts != first.pts) look = inOrder(*look, order);
+  if (!look) return failOn(depthUrl(), look.error());
+  const bool guessed = !depth_source && options.packing == Packing::Auto && !isMarkedAsDepth(stream);
+  const bool colored = look->model != ColorModel::Gray && lookAt(*look).gray < kMostlyGray;
+  if (guessed && options.as == nullptr && colored && areViews(color_ahead[0], *look)) {
+    info.reading.doubts.push_back(print("the film's two tracks are %s; %s", kViews, kWhatToDo));
+    depth_track.reset();
+    depth.reset();
+    return {};
+  }
+  lookForCode(*look);
+  return describe(first, *look, color_ahead[0], stream);
+}
+
+// What the tags of the depth's track and container say.
+void PairReader::Impl::takeTags(const StreamInfo& stream) {
+  clues.tags = stream.tags;  // the track's tags override the container's
+  const auto& container_tags = depth_source ? depth_source->tags() : color_reader->source().tags();
+  clues.tags.insert(container_tags.begin(), container_tags.end());
+}
+
+Result<void> PairReader::Impl::describe(const Frame& first, const Frame& look, const Frame& color,
+                                        const StreamInfo& stream) {
+  clues.packing = info.packing;
+  clues.live = !isFile(depthUrl());
+  clues.codec = stream.codec;
+  clues.path = depthUrl();
+  takeTags(stream);
+  if (registrar) {
+    clues.tags.insert({{"DEPTH_UNIT", print("%.9g", registrar->registration().unit_mm)}, {"DEPTH_INVALID", "0"}});
+    const auto by = options.registration ? CalibrationOrigin::SideFile : CalibrationOrigin::ContainerTags;
+    clues.more.push_back({"registration", "to the colour's view", by});
+  }
+  if (stream.rotation != 0) {
+    clues.more.push_back({"rotation", print("%d degrees", 90 * stream.rotation), CalibrationOrigin::StreamSignalling});
+  }
+  auto meaning = readMeaning(clues, reordered != nullptr ? reordered : kindOf(clues, look), look);
+  if (!meaning) return failOn("calibration", meaning.error());
+  info.calibration = std::move(meaning->calibration);
+  info.reading = std::move(meaning->reading);
+  info.reading.doubts = doubtsOf(look, info.calibration.calibration, color.empty() ? nullptr : &color);
+  info.has_depth = true;
+  info.depth_width = first.width;
+  info.depth_height = first.height;
+  info.depth_codec = stream.codec;
+  info.depth_decoder = isPacked()     ? info.color_decoder
+                       : depth_source ? depth_source->decoder()
+                                      : color_reader->decoder(*depth_track);
+  return {};
+}
+
+// `first`, or if it is blank a later picture of the same stream.
+Frame PairReader::Impl::tellingPicture(const Frame& first, const std::string& url, int stream) {
+  constexpr int kMostPictures = 40;
+  constexpr std::array kLater{2, 5, 10, 20, 40};  // seconds
+  if (remote || !isFile(url) || !isBlank(first)) return first;
+  TrackReader scout(backends.make_source(url), backends.make_decoder);
+  if (!scout.open(url)) return first;
+  const auto& streams = scout.source().streams();
+  const auto same =
+      std::find_if(streams.begin(), streams.end(), [&](const StreamInfo& s) { return s.index == stream; });
+  if (same == streams.end() || !scout.select(asTold(*same))) return first;
+  for (int i = 0; i < kMostPictures; ++i) {
+    const auto picture = scout.next(0);
+    if (!picture || !*picture) break;
+    if (!isBlank(**picture)) return **picture;
+  }
+  for (const int seconds : kLater) {
+    if (!scout.seek(mediaTime(seconds))) break;
+    const auto picture = scout.next(0);
+    if (!picture || !*picture) break;
+    if (!isBlank(**picture)) return **picture;
+  }
+  return first;
+}
+
+}  // namespace relievo

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Histogram of a depth picture's codes, and what the codes of neighbouring samples tell.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "app/media/reading/known_kind.h"
+#include "app/scene/code_set.h"
+#include "hal/frame.h"
+
+namespace relievo {
+
+class CodeCount {
+ public:
+  // Counts all samples of a gray or YUV picture, or of an RGB picture whose three components are equal.
+  explicit CodeCount(const Frame& depth);
+
+  [[nodiscard]] int bits() const noexcept { return bits_; }
+  [[nodiscard]] std::uint64_t samples() const noexcept { return samples_; }
+  [[nodiscard]] std::uint64_t of(std::uint32_t code) const { return of_code_[code]; }
+  // The share of all samples with a code in `low` .. `high`, both included.
+  [[nodiscard]] double share(std::uint32_t low, std::uint32_t high) const;
+  [[nodiscard]] double share(const CodeSet& set) const;
+  // The quantile `q` of the codes in `low` .. `high`; `low` if there are none.
+  [[nodiscard]] std::uint32_t quantile(double q, std::uint32_t low, std::uint32_t high) const;
+  // The greatest common divisor of the codes that occur; 0 if only code 0 occurs.
+  [[nodiscard]] std::uint32_t step() const;
+  // The share, among the samples whose code is neither 0 nor 65535, of those that leave at most `most` when divided.
+  [[nodiscard]] double remainders(std::uint32_t divisor, std::uint32_t most) const;
+  // How many different codes occur.
+  [[nodiscard]] int kinds() const;
+  // The same samples without those of the codes `set`.
+  [[nodiscard]] CodeCount without(const CodeSet& set) const;
+
+ private:
+  int bits_ = 8;
+  std::uint64_t samples_ = 0;
+  std::vector<std::uint64_t> of_code_;
+};
+
+// True for a picture of 16-bit gray whose neighbouring samples are alike only after their bytes are swapped.
+[[nodiscard]] bool isSwapped(const Frame& depth);
+// True if most samples with a reading have none beside, above and below: the points of a laser scanner.
+[[nodiscard]] bool isScattered(const Frame& depth);
+
+// The picture with its 16-bit gray codes put in order: a copy; other pictures, and those as stored, by reference.
+// Exhausted if out of memory.
+[[nodiscard]] Result<Frame> inOrder(const Frame& depth, SampleOrder order);
+
+}  // namespace relievo

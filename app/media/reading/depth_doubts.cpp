@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/media/reading/depth_doubts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "app/media/reading/depth_reading.h"
+#include "app/media/reading/picture_look.h"
+#include "app/media/reading/stereo_pair.h"
+#include "app/scene/height_field.h"
+#include "platform/print.h"
+
+namespace relievo {
+namespace {
+
+constexpr const char* kRange = "--calibration codes=LOW-HIGH, or unit=MM,near=MM,far=MM for distances";
+
+// Heights in a box 1 mm deep.
+struct Relief {
+  std::vector<float> heights;  // without holes
+  double at_bottom = 0, at_top = 0;
+
+  explicit Relief(const HeightField& field) {
+    for (int r = 0; r < field.rows(); ++r) {
+      for (int c = 0; c < field.cols(); ++c) {
+        const double height = field.heightMm(c, r);
+        if (std::isnan(height)) continue;
+        heights.push_back(static_cast<float>(height));
+        at_bottom += height <= 0 ? 1 : 0;
+        at_top += height >= 1 ? 1 : 0;
+      }
+    }
+    if (heights.empty()) return;
+    at_bottom /= count();
+    at_top /= count();
+  }
+  [[nodiscard]] double count() const { return static_cast<double>(heights.size()); }
+  [[nodiscard]] double quantile(double q) {
+    const auto nth = heights.begin() + static_cast<std::ptrdiff_t>(q * (count() - 1));
+    std::nth_element(heights.begin(), nth, heights.end());
+    return static_cast<double>(*nth);
+  }
+  [[nodiscard]] double share(double height) const {
+    return static_cast<double>(std::count(heights.begin(), heights.end(), static_cast<float>(height))) / count();
+  }
+};
+
+// The option for codes that are distances although they were said to be shades.
+std::string likelyKind(const Frame& depth, const DepthCalibration& calibration) {
+  if (calibration.unit_mm || calibration.code != DepthCode::Luma) return kRange;
+  const KnownKind* const kind = sensorKind(depth, CodeCount(depth));
+  if (kind == nullptr) return kRange;
+  return print("--as %s; the codes look like %s", kind->name, kind->what);
+}
+
+std::string doubtRelief(const Frame& depth, const DepthCalibration& calibration) {
+  constexpr double kLeastRelief = 0.05, kOneCode = 0.95, kClipped = 0.1;
+  const auto field = HeightField::make(depth, calibration, {.width_mm = 1, .height_mm = 1, .depth_mm = 1});
+  if (!field) return "";
+  Relief relief(*field);
+  if (relief.heights.empty()) {
+    return "the whole depth picture is holes, so nothing can be felt: check --calibration invalid=";
+  }
+  const double same = relief.share(relief.quantile(0.5));
+  if (same > kOneCode) {
+    return print("%.0f %% of the depth is one code: an empty picture, or not depth", 100 * same);
+  }
+  if (const double used = relief.quantile(0.995) - relief.quantile(0.005); used < kLeastRelief) {
+    return print("the relief uses only %.1f %% of the box's depth: try %s", 100 * used,
+                 likelyKind(depth, calibration).c_str());
+  }
+  const double clipped = std::max(relief.at_bottom, relief.at_top);
+  if (clipped <= kClipped) return "";
+  return print("%.0f %% of the depth lies at the %s end of its range and is flat: try %s", 100 * clipped,
+               relief.at_top > relief.at_bottom ? "near" : "far", likelyKind(depth, calibration).c_str());
+}
+
+// Depth has no colours; a photo has, and a colour map.
+std::string doubtColor(const Frame& depth, const DepthCalibration& calibration, const Frame* color) {
+  constexpr double kColored = 0.2, kGray = 0.99;
+  if (calibration.code != DepthCode::Luma || depth.model == ColorModel::Gray) return "";
+  const double colored = 1 - lookAt(depth).gray;
+  if (colored <= kColored) return "";
+  if (color != nullptr && lookAt(*color).gray >= kGray) {
+    return print(
+        "%.0f %% of the depth is coloured and the colour is gray: they look exchanged; give the other as --depth",
+        100 * colored);
+  }
+  return print("%.0f %% of the depth is coloured but read as brightness: try --depth-code hue", 100 * colored);
+}
+
+double aspectOf(const Frame& frame) {
+  return frame.width * frame.sample_aspect / frame.height;
+}
+
+std::string doubtShape(const Frame& depth, const Frame& color) {
+  constexpr double kSame = 0.03;
+  const double ratio = aspectOf(depth) / aspectOf(color);
+  if (std::abs(ratio - 1) <= kSame) return "";
+  return print(
+      "the colour is %.2f times as wide as high, the depth %.2f: the depth is stretched onto the colour; crop "
+      "one of them, or give --registration",
+      aspectOf(color), aspectOf(depth));
+}
+
+}  // namespace
+
+std::vector<std::string> doubtsOf(const Frame& depth, const DepthCalibration& calibration, const Frame* color) {
+  std::vector<std::string> doubts;
+  const auto add = [&doubts](std::string doubt) {
+    if (!doubt.empty()) doubts.push_back(std::move(doubt));
+  };
+  add(doubtRelief(depth, calibration));
+  if (color != nullptr && calibration.code == DepthCode::Luma && areViews(*color, depth)) {
+    add("colour and depth show the same picture: two views or a copy, not depth; check --depth");
+  } else {
+    add(doubtColor(depth, calibration, color));
+  }
+  if (color != nullptr) add(doubtShape(depth, *color));
+  return doubts;
+}
+
+}  // namespace relievo

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/media/reading/depth_meaning.h"
+
+#include <cstdlib>
+#include <string_view>
+
+#include "app/media/reading/code_count.h"
+#include "app/media/reading/depth_reading.h"
+#include "app/media/reading/float_reading.h"
+
+namespace relievo {
+namespace {
+
+// What was said about the codes themselves, above what names and pictures show.
+CalibrationLayers saidLayers(const DepthClues& clues) {
+  CalibrationLayers layers;
+  layers.command_line = clues.command_line;
+  layers.side_file = clues.side_file;
+  layers.tags = calibrationFromTags(clues.tags);
+  return layers;
+}
+
+// The pictures are of the form that the kind has.
+bool fits(const KnownKind& kind, DepthCode code, const Frame& frame) {
+  if (kind.code) return *kind.code == code;
+  return frame.model == ColorModel::Gray && frame.components[0].bits == 16;
+}
+
+bool isRecord3d(const KnownKind* kind) {
+  return kind != nullptr && kind->name == std::string_view("record3d");
+}
+
+// Record3D states what the whole circle of hues covers, of which a film uses a part.
+HueSpan takeSpan(CalibrationSettings& settings) {
+  HueSpan span;
+  const auto take = [&settings](const char* key, double& mm) {
+    const auto found = settings.find(key);
+    if (found == settings.end()) return;
+    mm = std::strtod(found->second.c_str(), nullptr);
+    settings.erase(found);
+  };
+  take("near", span.near_mm);
+  take("far", span.far_mm);
+  return span;
+}
+
+// Adds the kind's own settings, and those that were read beside the recording, each in the layer of who said them.
+HueSpan addKind(const DepthClues& clues, const KnownKind* kind, CalibrationLayers& layers) {
+  if (kind == nullptr) return {};
+  if (clues.as != nullptr) layers.stated_kind = settingsOf(*clues.as);
+  if (clues.place.kind != kind) return {};
+  CalibrationSettings found = clues.place.settings;
+  const HueSpan span = isRecord3d(kind) ? takeSpan(found) : HueSpan{};
+  const bool named = clues.place.origin == CalibrationOrigin::Name;
+  CalibrationSettings& layer = named                                                    ? layers.names
+                               : clues.place.origin == CalibrationOrigin::ContainerTags ? layers.tags
+                                                                                        : layers.beside;
+  layer.merge(found);
+  if (clues.as == nullptr) layer.merge(settingsOf(*kind));
+  return span;
+}
+
+}  // namespace
+
+const KnownKind* kindOf(const DepthClues& clues, const Frame& stored) {
+  if (clues.as != nullptr) return clues.as;
+  if (stored.value_per_code != 0 || definesCodes(saidLayers(clues))) return nullptr;
+  if (clues.place.kind != nullptr && fits(*clues.place.kind, clues.code, stored)) return clues.place.kind;
+  return clues.code == DepthCode::Luma ? sensorKind(stored, CodeCount(stored)) : nullptr;
+}
+
+Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind, const Frame& look) {
+  CalibrationLayers layers = saidLayers(clues);
+  const HueSpan span = addKind(clues, kind, layers);
+  DepthReading read;
+  if (clues.code == DepthCode::Hue) {
+    read = readHues(look, layers, kind, span);
+    const bool like_record3d = kind == nullptr && clues.packing == Packing::SideBySideDepthFirst;
+    if (like_record3d && !read.settings.empty()) {
+      read = readHues(look, layers, findKind("record3d"), span);
+      read.kind = findKind("record3d");
+    }
+  } else if (clues.code != DepthCode::Luma) {
+    read = {};  // an entry of a colour map says nothing of its own
+  } else if (look.value_per_code != 0) {
+    scaleToCodes(layers, look.value_per_code);
+    read = readFloats(look, CodeCount(look), namesDisparity(clues.codec, clues.path), layers);
+  } else {
+    read = readCodes(look, CodeCount(look), layers, kind);
+  }
+  if (clues.live && read.kind == nullptr) {
+    read.settings.erase("near");
+    read.settings.erase("far");
+  }
+  layers.pictures = clues.pictures;
+  layers.pictures.merge(read.settings);
+  auto choice = chooseCalibration(layers, look, clues.code);
+  if (!choice) return std::unexpected(choice.error());
+
+  DepthMeaning meaning{.calibration = std::move(*choice), .reading = {}};
+  FilmReading& reading = meaning.reading;
+  reading.parts.push_back({"packing", name(clues.packing), clues.packing_by});
+  reading.parts.push_back({"code", name(clues.code), clues.code_by});
+  const bool placed = kind != nullptr && clues.place.kind == kind;
+  if (kind == nullptr) kind = read.kind;
+  if (kind != nullptr) {
+    const auto by = clues.as != nullptr ? CalibrationOrigin::StatedKind
+                    : placed            ? clues.place.origin
+                                        : CalibrationOrigin::FirstPicture;
+    reading.parts.push_back({"kind", kind->what, by});
+  }
+  reading.parts.insert(reading.parts.end(), clues.more.begin(), clues.more.end());
+  reading.parts.insert(reading.parts.end(), meaning.calibration.parts.begin(), meaning.calibration.parts.end());
+  reading.why = clues.why;
+  if (placed) reading.why.push_back(clues.place.why);
+  if (!read.why.empty()) reading.why.push_back(std::move(read.why));
+  if (!read.offer.empty()) reading.offers.push_back(std::move(read.offer));
+  return meaning;
+}
+
+}  // namespace relievo

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Makes a film's reading of all that is known about its depth: what was said, files, tags, names and pictures.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "app/media/reading/film_reading.h"
+#include "app/media/reading/known_kind.h"
+#include "app/media/reading/recording_place.h"
+#include "app/scene/depth_calibration.h"
+#include "hal/frame.h"
+
+namespace relievo {
+
+struct DepthClues {
+  CalibrationSettings command_line, side_file;
+  const KnownKind* as = nullptr;  // --as
+  RecordingPlace place;
+  std::map<std::string, std::string> tags;  // of track and container
+  std::string codec, path;                  // of the depth
+  Packing packing = Packing::Tracks;
+  CalibrationOrigin packing_by = CalibrationOrigin::StreamSignalling;
+  DepthCode code = DepthCode::Luma;
+  CalibrationOrigin code_by = CalibrationOrigin::Default;
+  CalibrationSettings pictures;       // what the pictures have shown so far
+  std::vector<std::string> why;       // likewise, in words
+  bool live = false;                  // a camera or a network: what comes next may be nearer than the first picture
+  std::vector<CalibrationPart> more;  // registration, rotation
+};
+
+struct DepthMeaning {
+  CalibrationChoice calibration;
+  FilmReading reading;  // without doubts
+};
+
+// The recording's kind: stated, else told by its place if its pictures are of that form, else shown by the picture,
+// whose samples are as stored. Null if none is known or the codes' meaning was said.
+[[nodiscard]] const KnownKind* kindOf(const DepthClues& clues, const Frame& stored);
+
+// `kind`: kindOf; `look`: a depth picture that is not blank, its samples in the kind's order. Errors as
+// chooseCalibration.
+[[nodiscard]] Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind, const Frame& look);
+
+}  // namespace relievo

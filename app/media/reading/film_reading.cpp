@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/media/reading/film_reading.h"
+
+#include <algorithm>
+
+#include "platform/print.h"
+
+namespace relievo {
+namespace {
+
+const CalibrationPart* find(const FilmReading& reading, const char* key) {
+  const auto part =
+      std::find_if(reading.parts.begin(), reading.parts.end(), [&](const CalibrationPart& p) { return p.key == key; });
+  return part == reading.parts.end() ? nullptr : &*part;
+}
+
+std::string where(const FilmReading& reading) {
+  const CalibrationPart* const packing = find(reading, "packing");
+  if (packing == nullptr) return "";
+  if (packing->value == "sbs") return "right of the colour, ";
+  if (packing->value == "tb") return "below the colour, ";
+  if (packing->value == "sbs-depth-first") return "left of the colour, ";
+  return packing->value == "tb-depth-first" ? "above the colour, " : "";
+}
+
+std::string what(const FilmReading& reading, const DepthCalibration& c) {
+  if (const CalibrationPart* const kind = find(reading, "kind")) return kind->value;
+  if (c.unit_mm) return print("distances of %g mm a code", *c.unit_mm);
+  const std::string code = c.code == DepthCode::Luma  ? "brightness"
+                           : c.code == DepthCode::Hue ? "hue"
+                                                      : print("colour map %s", name(c.code));
+  const bool near_high = c.polarity == DepthPolarity::NearIsHigh;
+  if (c.code == DepthCode::Hue) return code + (near_high ? ", red far" : ", red near");
+  if (c.code != DepthCode::Luma) return code + (near_high ? ", near at its end" : ", near at its beginning");
+  return code + (near_high ? ", near bright" : ", near dark");
+}
+
+}  // namespace
+
+const char* name(Certainty certainty) noexcept {
+  switch (certainty) {
+    case Certainty::Said:
+      return "said";
+    case Certainty::Likely:
+      return "likely";
+    case Certainty::Assumed:
+      return "assumed";
+  }
+  return "";
+}
+
+Certainty certaintyOf(CalibrationOrigin origin) noexcept {
+  switch (origin) {
+    case CalibrationOrigin::Name:
+    case CalibrationOrigin::FirstPicture:
+      return Certainty::Likely;
+    case CalibrationOrigin::Default:
+      return Certainty::Assumed;
+    default:
+      return Certainty::Said;
+  }
+}
+
+std::string plainLine(const FilmReading& reading, const DepthCalibration& c) {
+  std::string line = "depth " + where(reading) + what(reading, c);
+  const CalibrationPart* const near = find(reading, "near");
+  if (near != nullptr && near->origin != CalibrationOrigin::Default) {
+    line += print(", %.2f to %.2f m", 1e-3 * c.near_mm, 1e-3 * c.far_mm);
+  }
+  line += c.invalid.empty() ? "" : ", holes " + c.invalid.text();
+  const CalibrationPart* const kind = find(reading, "kind");
+  auto best = kind != nullptr ? kind->origin : CalibrationOrigin::Default;
+  for (const CalibrationPart& part : reading.parts) {
+    if (kind == nullptr && (part.key == "unit" || part.key == "polarity")) best = std::min(best, part.origin);
+  }
+  return line + " (" + (best == CalibrationOrigin::Default ? "assumed" : name(best)) + ")";
+}
+
+std::vector<std::string> partLines(const FilmReading& reading) {
+  std::vector<std::string> lines;
+  lines.reserve(reading.parts.size());
+  for (const CalibrationPart& part : reading.parts) {
+    lines.push_back(print("%s=%s: %s, %s", part.key.c_str(), part.value.c_str(), name(part.origin),
+                          name(certaintyOf(part.origin))));
+  }
+  return lines;
+}
+
+}  // namespace relievo

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a film's depth means, part by part: who said it, and how sure that is.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/scene/depth_calibration.h"
+
+namespace relievo {
+
+enum class Certainty : std::uint8_t {
+  Said,    // by the user, a file or the stream
+  Likely,  // names or pictures show it
+  Assumed  // nothing shows it
+};
+[[nodiscard]] const char* name(Certainty certainty) noexcept;
+[[nodiscard]] Certainty certaintyOf(CalibrationOrigin origin) noexcept;
+
+// The parts are packing, code, kind, registration and rotation, where the film has them, and the calibration's keys.
+struct FilmReading {
+  std::vector<CalibrationPart> parts;
+  std::vector<std::string> why;     // what names, tags and pictures revealed; one line each
+  std::vector<std::string> offers;  // other readings that are as likely, with the option to type; one line each
+  std::vector<std::string> doubts;  // why the reading looks wrong, and the option to try; one line each
+};
+
+// For a viewer: "depth right of the colour as brightness, near bright, no holes".
+[[nodiscard]] std::string plainLine(const FilmReading& reading, const DepthCalibration& calibration);
+// One line for each part: name, value, who said it, how sure that is.
+[[nodiscard]] std::vector<std::string> partLines(const FilmReading& reading);
+
+}  // namespace relievo

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/media/reading/float_reading.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "platform/print.h"
+
+namespace relievo {
+namespace {
+
+constexpr std::uint32_t kTop = 0xffff;
+constexpr double kOutliers = 0.002, kNearer = 0.9, kFarther = 1.1;
+constexpr double kMmPerMetre = 1000;
+constexpr double kFarthestMetres = 200;  // half of the samples beyond: millimetres
+constexpr double kLeastMm = 1e-3, kMostMm = 1e9;
+// Disparities whose largest is so many times their smallest are relative: their zero is no infinite distance.
+constexpr double kMostRatio = 64;
+constexpr double kNearMm = 500;  // of disparities, whose scale is unknown
+constexpr int kNames = 3;        // of a path, from its end
+
+bool has(const CalibrationLayers& said, const char* key) {
+  return said.command_line.contains(key) || said.side_file.contains(key) || said.tags.contains(key);
+}
+
+std::optional<double> unitIn(const CalibrationLayers& said) {
+  for (const CalibrationSettings* layer : {&said.command_line, &said.side_file, &said.tags}) {
+    const auto found = layer->find("unit");
+    if (found == layer->end()) continue;
+    double unit = 0;
+    const std::string& text = found->second;
+    const auto read = std::from_chars(text.data(), text.data() + text.size(), unit);
+    return read.ec == std::errc() && unit > 0 ? std::optional(unit) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+// The codes in use, without outliers.
+struct Reach {
+  double low = 0, median = 0, high = 0, holes = 0;
+};
+Reach reachOf(const CodeCount& count) {
+  const auto at = [&](double q) { return static_cast<double>(count.quantile(q, 1, kTop)); };
+  return {at(kOutliers), at(0.5), at(1 - kOutliers), count.share(0, 0)};
+}
+
+std::string codeRange(double low, double high) {
+  const auto first = static_cast<int>(std::clamp(std::floor(low), 1.0, kTop - 1.0));
+  const auto last = static_cast<int>(std::clamp(std::ceil(high), first + 1.0, static_cast<double>(kTop)));
+  return std::to_string(first) + "-" + std::to_string(last);
+}
+
+std::string described(const Reach& reach, double value) {
+  return print("numbers of %.4g to %.4g with %.1f %% holes", value * reach.low, value * reach.high, 100 * reach.holes);
+}
+
+DepthReading distances(const Reach& reach, double value, std::optional<double> stated_unit_mm) {
+  const bool metres = value * reach.median < kFarthestMetres;
+  const double unit_mm = stated_unit_mm.value_or(value * (metres ? kMmPerMetre : 1));
+  const double near = kNearer * unit_mm * reach.low, far = kFarther * unit_mm * std::max(reach.high, reach.low + 1);
+  DepthReading reading;
+  if (std::min(unit_mm, near) < kLeastMm || far > kMostMm) {
+    reading.settings = {
+        {"polarity", "near-low"}, {"codes", codeRange(kNearer * reach.low, kFarther * reach.high)}, {"invalid", "0"}};
+    reading.why = described(reach, value) + ": distances without a known unit";
+    return reading;
+  }
+  reading.settings = {
+      {"unit", print("%.9g", unit_mm)}, {"invalid", "0"}, {"near", print("%.6g", near)}, {"far", print("%.6g", far)}};
+  const char* const unit = stated_unit_mm ? "" : metres ? " in m" : " in mm";
+  reading.why = described(reach, value) + ": distances" + unit;
+  if (!stated_unit_mm) reading.why += "; if they are disparities, give --calibration law=inverse";
+  return reading;
+}
+
+DepthReading disparities(const Reach& reach, double value, const CalibrationLayers& said) {
+  const double low = kNearer * reach.low, high = kFarther * std::max(reach.high, reach.low + 1);
+  DepthReading reading;
+  reading.settings = {{"polarity", "near-high"}, {"codes", codeRange(low, high)}, {"invalid", "0"}};
+  const bool relative = high > kMostRatio * low;
+  reading.settings["law"] = relative ? "linear" : "inverse";
+  if (!relative && !has(said, "near") && !has(said, "far")) {
+    reading.settings["near"] = print("%.6g", kNearMm);
+    reading.settings["far"] = print("%.6g", kNearMm * high / low);
+  }
+  reading.why = described(reach, value) + (relative ? ": relative disparities" : ": disparities");
+  if (!has(said, "law") && !has(said, "polarity")) {
+    reading.why += "; if they are distances, give --calibration unit=1000 (metres) or unit=1 (millimetres)";
+  }
+  return reading;
+}
+
+std::string lowerCase(std::string_view text) {
+  std::string lower(text);
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+  return lower;
+}
+
+void scale(CalibrationSettings& settings, double value) {
+  const auto unit = settings.find("unit");
+  double mm = 0;
+  if (unit != settings.end()) {
+    const std::string& text = unit->second;
+    if (std::from_chars(text.data(), text.data() + text.size(), mm).ec == std::errc()) {
+      unit->second = print("%.9g", std::max(kLeastMm, mm * value));
+    }
+  }
+  const auto codes = settings.find("codes");
+  if (codes == settings.end()) return;
+  if (const auto range = CodeSet::parseRange(codes->second)) {
+    codes->second = codeRange(range->low / value, range->high / value);
+  }
+}
+
+}  // namespace
+
+bool namesDisparity(std::string_view codec, std::string_view path) {
+  const std::string lower = lowerCase(path);
+  std::string_view rest = lower;
+  const auto names = [](std::string_view name, auto words) {
+    return std::any_of(words.begin(), words.end(), [&](const char* word) { return name.find(word) != name.npos; });
+  };
+  for (int i = 0; i < kNames && !rest.empty(); ++i) {
+    const std::size_t slash = rest.rfind('/');
+    const std::string_view name = slash == rest.npos ? rest : rest.substr(slash + 1);
+    rest = slash == rest.npos ? std::string_view() : rest.substr(0, slash);
+    if (names(name, std::array{"disp", "parallax"})) return true;
+    if (names(name, std::array{"depth", "dist", "zbuf"})) return false;
+  }
+  return codec == "pfm";
+}
+
+DepthReading readFloats(const Frame& depth, const CodeCount& count, bool disparity, const CalibrationLayers& said) {
+  if (count.share(1, kTop) == 0) return {};
+  const Reach reach = reachOf(count);
+  const double value = std::abs(depth.value_per_code);
+  const auto unit = unitIn(said);
+  const bool told = !unit && (has(said, "law") || has(said, "polarity"));
+  return told || (disparity && !unit) ? disparities(reach, value, said) : distances(reach, value, unit);
+}
+
+void scaleToCodes(CalibrationLayers& said, double value_per_code) {
+  const double value = std::abs(value_per_code);
+  for (CalibrationSettings* layer : {&said.command_line, &said.side_file, &said.tags}) scale(*layer, value);
+}
+
+}  // namespace relievo

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Guesses what a film's floating-point numbers are: distances or disparities.
+#pragma once
+
+#include <string_view>
+
+#include "app/media/reading/depth_reading.h"
+
+namespace relievo {
+
+// True if the path's last three names say disparity ("disp", "parallax"), false if they say distance ("depth", "dist",
+// "zbuf"); otherwise as is usual for the codec: PFM holds disparities, all others hold distances.
+[[nodiscard]] bool namesDisparity(std::string_view codec, std::string_view path);
+
+// For codes that stand for floats (Frame::value_per_code). Distances are metres, or millimetres if half of them are
+// beyond 200. Disparities follow the inverse law unless their range shows that they begin at an arbitrary zero. What
+// `said` states overrides the guess: unit= makes them distances, law= or polarity= disparities.
+[[nodiscard]] DepthReading readFloats(const Frame& depth, const CodeCount& count, bool disparity,
+                                      const CalibrationLayers& said);
+
+// `unit` and `codes`, which users state for the file's numbers, divided by the scale.
+void scaleToCodes(CalibrationLayers& said, double value_per_code);
+
+}  // namespace relievo

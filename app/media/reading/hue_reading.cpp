@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads depth that is coded as a hue: red is both ends of the circle, so that it is a hole where other hues keep away
+// from it.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "app/media/reading/depth_reading.h"
+#include "app/scene/color_curve.h"
+#include "app/scene/color_samples.h"
+#include "platform/print.h"
+
+namespace relievo {
+namespace {
+
+constexpr int kSteps = DepthCalibration::kHueSteps;
+constexpr int kRed = 32, kBeside = 64;  // steps of hue around red, which coding smears
+constexpr float kOffHues = 0.06F;
+constexpr double kRedShare = 0.005;
+constexpr double kOutliers = 0.01, kNearer = 0.9, kFarther = 1.1;
+
+struct HueCount {
+  std::array<std::uint64_t, kSteps + 1> of{};
+  std::uint64_t lit = 0;
+
+  // Red counts too, although a relief has holes there.
+  explicit HueCount(const Frame& depth) {
+    const ColorSamples colors(depth);
+    const ColorCurve& curve = curveOf(DepthCode::Hue);
+    for (int r = 0; r < depth.height; ++r) {
+      for (int c = 0; c < depth.width; ++c) {
+        const ColorCurve::Point point = curve.nearest(colors.at(c, r));
+        if (point.distance > kOffHues) continue;
+        ++of[static_cast<std::size_t>(kSteps * point.s)];
+        ++lit;
+      }
+    }
+  }
+  [[nodiscard]] std::uint64_t within(int low, int high) const {
+    std::uint64_t sum = 0;
+    for (int code = low; code <= high; ++code) sum += of[static_cast<std::size_t>(code)];
+    return sum;
+  }
+  // Within `steps` of red.
+  [[nodiscard]] std::uint64_t red(int steps) const { return within(0, steps) + within(kSteps - steps, kSteps); }
+  // The quantile `q` of the hues that are not red.
+  [[nodiscard]] int quantile(double q) const {
+    double left = q * static_cast<double>(lit - red(kRed));
+    for (int code = kRed + 1; code < kSteps - kRed; ++code) {
+      left -= static_cast<double>(of[static_cast<std::size_t>(code)]);
+      if (left <= 0) return code;
+    }
+    return kSteps - kRed;
+  }
+};
+
+// The hues in use fill the box; near and far become theirs.
+void readReach(const HueCount& count, HueSpan span, DepthReading& reading) {
+  const int low = std::max(kRed + 1, static_cast<int>(kNearer * count.quantile(kOutliers)));
+  const int high = std::min(kSteps - kRed - 1, static_cast<int>(std::ceil(kFarther * count.quantile(1 - kOutliers))));
+  if (high <= low) return;
+  const auto mm = [&](int code) { return span.near_mm + (span.far_mm - span.near_mm) * code / kSteps; };
+  reading.settings["codes"] = print("%d-%d", low, high);
+  reading.settings["near"] = print("%.6g", mm(low));
+  reading.settings["far"] = print("%.6g", mm(high));
+  reading.why += print("; hues of %.2f to %.2f m", 1e-3 * mm(low), 1e-3 * mm(high));
+}
+
+}  // namespace
+
+DepthReading readHues(const Frame& depth, const CalibrationLayers& said, const KnownKind* kind, HueSpan span) {
+  if (depth.model == ColorModel::Gray) return {};
+  const HueCount count(depth);
+  const std::uint64_t red = count.red(kRed), beside = count.red(kBeside) - red;
+  const bool record3d = kind != nullptr && kind->name == std::string_view("record3d");
+  const bool apart = static_cast<double>(red) > kRedShare * static_cast<double>(count.lit) && 10 * beside < red;
+  DepthReading reading;
+  if (count.lit == red || (!record3d && !apart) || said.find("invalid") != nullptr) return reading;
+  reading.settings["invalid"] = print("0-%d+%d-%d", kRed, kSteps - kRed, kSteps);
+  reading.why = print("%.1f %% red, apart from the other hues: holes",
+                      100 * static_cast<double>(red) / static_cast<double>(count.lit));
+  const bool reach_said = said.find("codes") != nullptr || said.find("near") != nullptr || said.find("far") != nullptr;
+  if (record3d && !reach_said) readReach(count, span, reading);
+  return reading;
+}
+
+}  // namespace relievo

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/media/reading/known_kind.h"
+
+#include <algorithm>
+
+#include "platform/print.h"
+
+namespace relievo {
+namespace {
+
+// A Kinect's raw disparity: 11 bits, 2047 for a hole, z = 351.3 / (1092.5 - code) m (Stowers, Hayes and
+// Bainbridge-Smith, "Altitude control of a quadrotor helicopter using depth map from Microsoft Kinect sensor", 2011).
+constexpr InverseCodes kKinect{351300, 1092.5};
+constexpr const char* kKinectCodes = "law=inverse,polarity=near-low,invalid=0+1085-65535";
+// KITTI: 256 codes a pixel of disparity; a focal length of 721 pixels and a baseline of 0.54 m.
+constexpr InverseCodes kKitti{256 * 721 * 540.0, 0};
+
+constexpr const char* kMillimetres = "unit=1,invalid=0+65535";
+constexpr const char* kFiveThousand = "unit=0.2,invalid=0+65535";
+
+constexpr KnownKind kKinds[] = {
+    {"mm", "distances in mm", "16 bits: RealSense, Kinect, 7-Scenes, Redwood, NYU, ScanNet, most sensors",
+     kMillimetres},
+    {"scannet", "distances in mm", "ScanNet's exported pictures", kMillimetres},
+    {"tum", "distances, 5000 codes a metre", "TUM RGB-D", kFiveThousand},
+    {"icl", "distances, 5000 codes a metre", "ICL-NUIM", kFiveThousand},
+    {"bop", "BOP's distances", "with the depth_scale of scene_camera.json, or in mm", "invalid=0"},
+    {"kitti", "distances, 256 codes a metre", "KITTI depth, from a laser scanner", "unit=3.90625,invalid=0"},
+    {.name = "kitti-disparity",
+     .what = "disparities, 256 codes a pixel",
+     .help = "KITTI stereo",
+     .calibration = "law=inverse,polarity=near-high,invalid=0",
+     .inverse = kKitti},
+    {.name = "sun",
+     .what = "distances in mm, rotated left by three bits",
+     .help = "SUN RGB-D, SUN3D",
+     .calibration = kMillimetres,
+     .order = SampleOrder::RotatedLeft3},
+    {.name = "mm-swapped",
+     .what = "distances in mm, bytes swapped",
+     .help = "16-bit pictures that were written in the other byte order",
+     .calibration = kMillimetres,
+     .order = SampleOrder::Swapped},
+    {.name = "kinect-raw",
+     .what = "raw Kinect disparities",
+     .help = "11 bits of a first Kinect, 2047 for a hole",
+     .calibration = kKinectCodes,
+     .inverse = kKinect},
+    {.name = "nyu-raw",
+     .what = "raw Kinect disparities, bytes swapped",
+     .help = "the raw PGM pictures of NYU Depth",
+     .calibration = kKinectCodes,
+     .order = SampleOrder::Swapped,
+     .inverse = kKinect},
+    {.name = "record3d",
+     .what = "Record3D's hue over 3 m",
+     .help = "RGBD video of an iPhone, depth left, red for holes",
+     .calibration = "polarity=near-low",
+     .packing = Packing::SideBySideDepthFirst,
+     .code = DepthCode::Hue},
+    {.name = "realsense",
+     .what = "hue, red near",
+     .help = "RealSense's colouring by distance; add --calibration near=MM,far=MM",
+     .calibration = "law=linear,polarity=near-low",
+     .code = DepthCode::Hue},
+    {.name = "realsense-disparity",
+     .what = "hue of 1/distance, red far",
+     .help = "RealSense's colouring by disparity; add --calibration near=MM,far=MM",
+     .calibration = "law=inverse,polarity=near-high",
+     .code = DepthCode::Hue},
+    {.name = "depthkit",
+     .what = "Depthkit's hue from near to far",
+     .help = "below the colour, black for holes; near and far are read from the .txt or .json beside it",
+     .calibration = "polarity=near-low",
+     .packing = Packing::TopBottom,
+     .code = DepthCode::Hue},
+    {.name = "looking-glass",
+     .what = "brightness, near bright",
+     .help = "right of the colour: RGB-D pictures and films of Looking Glass",
+     .calibration = "polarity=near-high",
+     .packing = Packing::SideBySide,
+     .code = DepthCode::Luma},
+    {.name = "near-bright",
+     .what = "brightness, near bright",
+     .help = "disparity or inverse depth: MiDaS, Depth Anything, phones, Middlebury",
+     .calibration = "polarity=near-high",
+     .code = DepthCode::Luma},
+    {.name = "near-dark",
+     .what = "brightness, near dark",
+     .help = "distance as brightness: renderers, ZoeDepth, Marigold",
+     .calibration = "polarity=near-low",
+     .code = DepthCode::Luma},
+};
+
+}  // namespace
+
+std::span<const KnownKind> knownKinds() noexcept {
+  return kKinds;
+}
+
+const KnownKind* findKind(std::string_view name) noexcept {
+  const auto kind =
+      std::find_if(std::begin(kKinds), std::end(kKinds), [&](const KnownKind& k) { return name == k.name; });
+  return kind == std::end(kKinds) ? nullptr : kind;
+}
+
+CalibrationSettings settingsOf(const KnownKind& kind) {
+  return parseCalibration(kind.calibration).value_or(CalibrationSettings{});
+}
+
+std::string kindsText() {
+  std::string text;
+  for (const KnownKind& kind : kKinds) text += print("%-20s %s: %s\n", kind.name, kind.what, kind.help);
+  return text;
+}
+
+}  // namespace relievo

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Kinds of recordings: what each stores, in words for the user and as settings.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "app/media/reading/packing.h"
+#include "app/scene/depth_calibration.h"
+
+namespace relievo {
+
+// How a recording stores the bits of its 16-bit codes.
+enum class SampleOrder : std::uint8_t {
+  AsStored,
+  RotatedLeft3,  // SUN RGB-D: the upper three bits are the lowest
+  Swapped,       // big and little endian are confused
+};
+
+// Codes that are inversely proportional to the distance: mm / (offset - code) for a positive offset, else mm / code.
+struct InverseCodes {
+  double mm = 0;  // 0: the codes are none
+  double offset = 0;
+};
+
+struct KnownKind {
+  const char* name;  // of --as
+  const char* what;  // for a user: "distances in mm"
+  const char* help;  // where such recordings come from
+  const char* calibration;
+  Packing packing = Packing::Auto;
+  std::optional<DepthCode> code = std::nullopt;
+  SampleOrder order = SampleOrder::AsStored;
+  InverseCodes inverse = {};
+};
+
+// In the order in which they are listed.
+[[nodiscard]] std::span<const KnownKind> knownKinds() noexcept;
+// Null for an unknown name.
+[[nodiscard]] const KnownKind* findKind(std::string_view name) noexcept;
+[[nodiscard]] CalibrationSettings settingsOf(const KnownKind& kind);
+
+// One line for each kind: its name, what its codes are, where it comes from.
+[[nodiscard]] std::string kindsText();
+
+}  // namespace relievo

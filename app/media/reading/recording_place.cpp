@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/media/reading/recording_place.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
+
+#include "platform/print.h"
+#include "platform/whole_file.h"
+
+namespace relievo {
+namespace {
+
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+std::string lowerCase(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+std::string number(double value) {
+  return print("%.6g", value);
+}
+
+bool isFile(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
+std::optional<Json> readJson(const fs::path& path) {
+  if (!isFile(path)) return std::nullopt;
+  const auto text = readWholeFile(path.string(), FileSize::Settings, "cannot be read");
+  if (!text) return std::nullopt;
+  Json json = Json::parse(*text, nullptr, false);
+  return json.is_object() ? std::optional(std::move(json)) : std::nullopt;
+}
+
+std::optional<double> numberIn(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
+}
+
+// BOP: {"0": {"cam_K": [..], "depth_scale": 0.1}, "1": ..}, or one camera.json for all of a data set.
+std::optional<double> depthScale(const Json& json) {
+  if (const auto scale = numberIn(json, "depth_scale")) return scale;
+  for (const Json& picture : json) {
+    if (!picture.is_object()) continue;
+    if (const auto scale = numberIn(picture, "depth_scale")) return scale;
+  }
+  return std::nullopt;
+}
+
+RecordingPlace lookForScale(const fs::path& folder) {
+  constexpr int kFoldersUp = 4;
+  fs::path at = folder;
+  for (int i = 0; i < kFoldersUp; ++i) {
+    for (const char* name : {"scene_camera.json", "camera.json"}) {
+      const auto json = readJson(at / name);
+      const auto scale = json ? depthScale(*json) : std::nullopt;
+      if (!scale || *scale <= 0) continue;
+      return {findKind("bop"),
+              CalibrationOrigin::FileBeside,
+              {{"unit", number(*scale)}},
+              print("%s says depth_scale %g mm", (at / name).c_str(), *scale)};
+    }
+    if (!at.has_parent_path() || at.parent_path() == at) break;
+    at = at.parent_path();
+  }
+  return {};
+}
+
+// Depthkit gives metres, of the whole clip or of its first camera.
+RecordingPlace lookForDepthkit(const fs::path& film) {
+  for (const char* extension : {".txt", ".json"}) {
+    fs::path beside = film;
+    beside.replace_extension(extension);
+    const auto json = readJson(beside);
+    if (!json) continue;
+    const auto cameras = json->find("perspectives");
+    const bool listed =
+        cameras != json->end() && cameras->is_array() && !cameras->empty() && cameras->at(0).is_object();
+    const Json& camera = listed ? cameras->at(0) : *json;
+    const auto near = numberIn(camera, "nearClip"), far = numberIn(camera, "farClip");
+    if (!near || !far || *near <= 0 || *far <= *near) continue;
+    return {findKind("depthkit"),
+            CalibrationOrigin::FileBeside,
+            {{"near", number(1000 * *near)}, {"far", number(1000 * *far)}},
+            print("%s says %.3g to %.3g m", beside.c_str(), *near, *far)};
+  }
+  return {};
+}
+
+bool hasDigits(std::string_view text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+// "1305031102.175304": seconds with a fraction.
+bool isSeconds(std::string_view stem) {
+  const std::size_t dot = stem.find('.');
+  return dot != std::string_view::npos && dot >= 9 && hasDigits(stem.substr(0, dot)) && hasDigits(stem.substr(dot + 1));
+}
+
+// "d-1294886360.208451-2996770081"
+bool isRawNyu(std::string_view stem) {
+  return stem.starts_with("d-") && isSeconds(stem.substr(2, stem.rfind('-') - 2));
+}
+
+bool isTum(const fs::path& path, const fs::path& folder) {
+  const fs::path above = folder.parent_path();
+  return isSeconds(path.stem().string()) || isFile(above / "associations.txt") ||
+         (isFile(above / "depth.txt") && isFile(above / "rgb.txt"));
+}
+
+RecordingPlace named(const char* kind, const char* sign) {
+  return {findKind(kind), CalibrationOrigin::Name, {}, print("the name has %s", sign)};
+}
+
+// In this order: the more particular sign first.
+RecordingPlace lookAtNames(const fs::path& path, const fs::path& folder) {
+  struct Sign {
+    const char *word, *kind;
+  };
+  constexpr Sign kSigns[] = {
+      {"disp_occ", "kitti-disparity"},
+      {"disp_noc", "kitti-disparity"},
+      {"proj_depth", "kitti"},
+      {"velodyne_raw", "kitti"},
+      {"depth_selection", "kitti"},
+      {"kitti", "kitti"},
+      {"sunrgbd", "sun"},
+      {"sun3d", "sun"},
+      {"depth_bfx", "sun"},
+      {"living_room_traj", "icl"},
+      {"office_room_traj", "icl"},
+      {"icl-nuim", "icl"},
+      {"icl_nuim", "icl"},
+      {"rgbd_dataset_freiburg", "tum"},
+      {".depth.png", "mm"},
+      {"scannet", "scannet"},
+      {"record3d", "record3d"},
+  };
+  if (isRawNyu(path.stem().string())) return named("nyu-raw", "NYU's form d-SECONDS-TICKS");
+  const std::string words = lowerCase(path.string());
+  for (const Sign& sign : kSigns) {
+    if (words.find(sign.word) != std::string::npos) return named(sign.kind, sign.word);
+  }
+  if (isTum(path, folder)) return {findKind("tum"), CalibrationOrigin::Name, {}, "names and lists as TUM's"};
+  return {};
+}
+
+}  // namespace
+
+RecordingPlace lookAtPlace(const std::string& url, const std::string& depth_url) {
+  const std::string& depth = depth_url.empty() ? url : depth_url;
+  if (depth.find("://") != std::string::npos || depth.starts_with("v4l2:")) return {};
+  std::error_code error;
+  const fs::path path = fs::absolute(depth, error);
+  if (error) return {};
+  const fs::path folder = fs::is_directory(path, error) ? path : path.parent_path();
+  if (auto depthkit = lookForDepthkit(path); depthkit.kind != nullptr) return depthkit;
+  if (auto scale = lookForScale(folder); scale.kind != nullptr) return scale;
+  return lookAtNames(path, folder);
+}
+
+RecordingPlace lookAtTags(const std::map<std::string, std::string>& tags) {
+  for (const auto& [key, value] : tags) {
+    if (!value.starts_with('{')) continue;
+    const Json json = Json::parse(value, nullptr, false);
+    if (!json.is_object() || !json.contains("intrinsicMatrix")) continue;
+    double near = 0, far = 3;
+    const auto range = json.find("rangeOfEncodedDepth");
+    if (range != json.end() && range->is_array() && range->size() == 2 && (*range)[0].is_number() &&
+        (*range)[1].is_number()) {
+      near = (*range)[0];
+      far = (*range)[1];
+    }
+    if (!(near >= 0 && far > near && far < 1e6)) continue;
+    return {findKind("record3d"),
+            CalibrationOrigin::ContainerTags,
+            {{"near", number(std::max(1e-3, 1000 * near))}, {"far", number(1000 * far)}},
+            print("the tag %s has the camera of Record3D, hue over %g to %g m", key.c_str(), near, far)};
+  }
+  return {};
+}
+
+}  // namespace relievo

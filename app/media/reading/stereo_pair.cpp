@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/media/reading/stereo_pair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace relievo {
+namespace {
+
+constexpr int kCols = 168, kRows = 96;  // of the reduced pictures
+constexpr int kBlock = 12;              // both divide evenly
+constexpr int kFarthest = kCols / 7;    // shift in the reduced picture
+constexpr double kTexture = 0.02;       // least standard deviation in a block, of full scale
+constexpr double kAlike = 0.85;         // correlation of a block that was found
+constexpr double kFound = 0.6;          // share of the blocks in a stereo pair; of colour and depth 0.15
+constexpr int kLeastBlocks = 12;        // a picture with less texture tells nothing
+
+using Reduced = std::vector<double>;
+
+double brightnessAt(const Frame& f, int c, int r) noexcept {
+  const Component& k = f.components[f.model == ColorModel::Rgb ? 1 : 0];
+  const Plane& plane = f.planes[k.plane];
+  const std::uint8_t* at = plane.data + r * plane.stride_bytes + k.offset_bytes + std::ptrdiff_t{c} * k.step_bytes;
+  return static_cast<double>(codeAt(k, at)) / ((1u << k.bits) - 1);
+}
+
+// Each value is the mean of up to 4 x 4 samples of its cell.
+Reduced reduce(const Frame& f) {
+  constexpr int kTaken = 4;
+  Reduced reduced;
+  reduced.reserve(std::size_t{kCols} * kRows);
+  for (int r = 0; r < kRows; ++r) {
+    for (int c = 0; c < kCols; ++c) {
+      double sum = 0;
+      for (int i = 0; i < kTaken * kTaken; ++i) {
+        const int x = (c * kTaken + i % kTaken) * f.width / (kCols * kTaken);
+        const int y = (r * kTaken + i / kTaken) * f.height / (kRows * kTaken);
+        sum += brightnessAt(f, x, y);
+      }
+      reduced.push_back(sum / (kTaken * kTaken));
+    }
+  }
+  return reduced;
+}
+
+std::size_t at(int c, int r) {
+  return static_cast<std::size_t>(r) * kCols + static_cast<std::size_t>(c);
+}
+
+struct Moments {
+  double mean = 0, deviation = 0;
+};
+Moments momentsOf(const Reduced& a, int c0, int r0) {
+  double sum = 0, squares = 0;
+  for (int r = r0; r < r0 + kBlock; ++r) {
+    for (int c = c0; c < c0 + kBlock; ++c) {
+      const double x = a[at(c, r)];
+      sum += x;
+      squares += x * x;
+    }
+  }
+  constexpr double kCount = kBlock * kBlock;
+  const double mean = sum / kCount;
+  return {mean, std::sqrt(std::max(0.0, squares / kCount - mean * mean))};
+}
+
+// The standard deviation of what a plane leaves over: a mere slope is no texture.
+double textureOf(const Reduced& a, int c0, int r0, const Moments& moments) {
+  constexpr double kMiddle = 0.5 * (kBlock - 1), kSpread = (kBlock * kBlock - 1) / 12.0, kCount = kBlock * kBlock;
+  double across = 0, down = 0;
+  for (int r = 0; r < kBlock; ++r) {
+    for (int c = 0; c < kBlock; ++c) {
+      const double x = a[at(c0 + c, r0 + r)];
+      across += (c - kMiddle) * x / kCount;
+      down += (r - kMiddle) * x / kCount;
+    }
+  }
+  const double of_plane = (across * across + down * down) / kSpread;
+  return std::sqrt(std::max(0.0, moments.deviation * moments.deviation - of_plane));
+}
+
+double correlation(const Reduced& a, int ca, int ra, const Moments& of_a, const Reduced& b, int cb, int rb) {
+  const Moments of_b = momentsOf(b, cb, rb);
+  if (of_b.deviation < kTexture / 2) return 0;
+  double sum = 0;
+  for (int r = 0; r < kBlock; ++r) {
+    for (int c = 0; c < kBlock; ++c) {
+      sum += (a[at(ca + c, ra + r)] - of_a.mean) * (b[at(cb + c, rb + r)] - of_b.mean);
+    }
+  }
+  return sum / (kBlock * kBlock) / (of_a.deviation * of_b.deviation);
+}
+
+bool isFound(const Reduced& a, int c0, int r0, const Moments& moments, const Reduced& b) {
+  for (int c = std::max(0, c0 - kFarthest); c <= std::min(kCols - kBlock, c0 + kFarthest); ++c) {
+    for (int r = std::max(0, r0 - 1); r <= std::min(kRows - kBlock, r0 + 1); ++r) {
+      if (correlation(a, c0, r0, moments, b, c, r) >= kAlike) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+bool areViews(const Frame& first, const Frame& second) {
+  const Reduced a = reduce(first), b = reduce(second);
+  int textured = 0, found = 0;
+  for (int r = 0; r < kRows; r += kBlock) {
+    for (int c = 0; c < kCols; c += kBlock) {
+      const Moments moments = momentsOf(a, c, r);
+      if (textureOf(a, c, r, moments) < kTexture) continue;
+      ++textured;
+      found += isFound(a, c, r, moments, b) ? 1 : 0;
+    }
+  }
+  return textured >= kLeastBlocks && found >= kFound * textured;
+}
+
+std::optional<Packing> findViews(const Frame& picture) {
+  for (const Packing packing : {Packing::SideBySide, Packing::TopBottom}) {
+    const auto halves = splitPacked(picture, packing, DepthCode::Hue);
+    if (halves && areViews(halves->color, halves->depth)) return packing;
+  }
+  return std::nullopt;
+}
+
+}  // namespace relievo

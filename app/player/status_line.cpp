@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Composes the line and cuts it to the terminal's width, so that it never wraps.
+#include "app/player/status_line.h"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <string_view>
+
+#include "platform/log.h"
+#include "platform/print.h"
+
+namespace relievo {
+namespace {
+
+constexpr std::size_t kUsualColumns = 80;
+
+std::size_t columnsOfTerminal() noexcept {
+  winsize size{};
+  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : kUsualColumns;
+}
+
+std::string timesOf(const ScreenFacts& facts) {
+  std::string text = clockTime(facts.position_s);
+  if (facts.duration_s <= 0) return text;
+  return text + " / " + clockTime(facts.duration_s) + print(" (%.0f %%)", 100 * facts.position_s / facts.duration_s);
+}
+
+}  // namespace
+
+std::string statusText(const ScreenFacts& facts, const PlayReport& report, double force_n, std::size_t columns) {
+  std::string text = std::string(name(facts.state)) + " " + timesOf(facts);
+  if (facts.rate != 1) text += print("  %gx", facts.rate);
+  if (facts.films > 1) text += print("  film %zu of %zu", facts.film, facts.films);
+  text += print("  dropped %llu", static_cast<unsigned long long>(report.frames_dropped));
+  if (report.haptic.ticks > 0) {
+    text += print("  force %.2f N  late ticks %llu", force_n, static_cast<unsigned long long>(report.haptic.overruns));
+  }
+  return text.substr(0, columns > 0 ? columns - 1 : 0);
+}
+
+StatusLine::StatusLine() : on_terminal_(::isatty(STDERR_FILENO) == 1) {
+  const char* const kind = std::getenv("TERM");
+  if (kind == nullptr || std::string_view(kind) == "dumb") on_terminal_ = false;
+}
+
+void StatusLine::show(const ScreenFacts& facts, const PlayReport& report, double force_n, MonotonicTime now) {
+  due_ = now + kPeriod;
+  showStatusLine(statusText(facts, report, force_n, columnsOfTerminal()));
+}
+
+void StatusLine::clear() noexcept {
+  showStatusLine({});
+}
+
+}  // namespace relievo

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// The line at the foot of the terminal while a film plays.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "app/player/report.h"
+#include "app/player/screen/screen_text.h"
+#include "platform/clock.h"
+
+namespace relievo {
+
+// "playing 0:12 / 1:30 (13 %)  2x  dropped 0  force 1.25 N  late ticks 0", at most `columns` long.
+[[nodiscard]] std::string statusText(const ScreenFacts& facts, const PlayReport& report, double force_n,
+                                     std::size_t columns);
+
+// On standard error, if that is a terminal. The player's thread only.
+class StatusLine {
+ public:
+  static constexpr Duration kPeriod = std::chrono::milliseconds(500);
+
+  StatusLine();
+  ~StatusLine() { clear(); }
+  StatusLine(const StatusLine&) = delete;
+  StatusLine& operator=(const StatusLine&) = delete;
+
+  // False on what is no terminal, and too soon after the last one.
+  [[nodiscard]] bool isDue(MonotonicTime now) const noexcept { return on_terminal_ && now >= due_; }
+  void show(const ScreenFacts& facts, const PlayReport& report, double force_n, MonotonicTime now);
+  void clear() noexcept;
+
+ private:
+  bool on_terminal_;
+  MonotonicTime due_;
+};
+
+}  // namespace relievo

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// A curve through the colours that stand for depth (the circle of hues, or a colour map), and its inverse: the point of
+// the curve that is nearest to a colour.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "app/scene/depth_calibration.h"
+#include "platform/realtime.h"
+
+namespace relievo {
+
+// A colour as luma (0 to 1) and chroma (-1/2 to 1/2) of BT.709. Codecs add their errors in such coordinates.
+struct YuvColor {
+  float y = 0, u = 0, v = 0;
+};
+[[nodiscard]] YuvColor toYuv(double red, double green, double blue) noexcept;
+
+// Straight pieces of equal length in s. The piece nearest to a colour is looked up in a cube of 32 x 32 x 32 cells;
+// then the colour is projected on that piece or on one beside it.
+class ColorCurve {
+ public:
+  struct Point {
+    float s = 0;         // 0 at the first knot, 1 at the last
+    float distance = 0;  // of the colour from the curve
+  };
+
+  // Knots are 0xRRGGBB, 2 to 53 of them. If the last is the first, the curve is closed.
+  explicit ColorCurve(std::span<const std::uint32_t> knots);
+
+  [[nodiscard]] Point nearest(const YuvColor& color) const RELIEVO_RT;
+  // The colour at s, 0 to 1.
+  [[nodiscard]] YuvColor at(double s) const noexcept;
+  [[nodiscard]] bool closed() const RELIEVO_RT { return closed_; }
+
+ private:
+  static constexpr int kSide = 32;
+  struct Piece {
+    YuvColor from, along, per_length;  // per_length = along / |along|^2
+  };
+  struct Place {
+    float t = 0, distance = 0;
+  };
+  [[nodiscard]] Place placeOn(const Piece& piece, const YuvColor& color) const RELIEVO_RT;
+
+  std::vector<Piece> pieces_;
+  float per_piece_ = 0;  // of s
+  bool closed_ = false;
+  std::array<std::uint8_t, kSide * kSide * kSide> nearest_piece_{};
+};
+
+// The curve of a code other than luma. It is made at the first call, which a real-time thread must not make, and stays.
+[[nodiscard]] const ColorCurve& curveOf(DepthCode code);
+
+}  // namespace relievo

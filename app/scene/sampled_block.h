@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which samples of a block stand for all of them.
+#pragma once
+
+#include "platform/realtime.h"
+
+namespace relievo {
+
+// Which samples of a block are averaged: about `most` across and as many down, evenly spaced and centred, or all of
+// them if there are no more. If they were off centre by half a sample, the mean of a slope would be wrong by half a
+// sample's rise. Lengths are in samples; `most` is at least 1.
+struct SampledBlock {
+  struct Places {
+    int count = 1, step = 1, first = 0;
+    Places() = default;
+    Places(int length, int most) RELIEVO_RT;
+  };
+  int width = 1, height = 1;
+  Places across, down;
+
+  SampledBlock() = default;
+  SampledBlock(int block_width, int block_height, int most) RELIEVO_RT : width(block_width),
+                                                                         height(block_height),
+                                                                         across(block_width, most),
+                                                                         down(block_height, most) {}
+};
+
+}  // namespace relievo

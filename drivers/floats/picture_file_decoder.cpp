@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// Queues files, reads them one by one, and converts their numbers to codes on the first picture's scale.
+#include "drivers/floats/picture_file_decoder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <utility>
+
+#include "hal/float_codes.h"
+#include "platform/log.h"
+
+namespace relievo {
+namespace {
+
+constexpr std::size_t kQueued = 4;
+constexpr int kMaxHeldFrames = 64;
+constexpr std::uint64_t kLongestSide = 32768;
+constexpr Duration kDefaultPeriod = std::chrono::milliseconds(40);
+constexpr float kStretch = 257;  // 8 bits to 16
+constexpr double kTop = 65535;
+
+using Codes = std::vector<std::uint16_t>;
+
+bool isGrayRgb(const FilePicture& picture) noexcept {
+  for (std::size_t i = 0; i + 2 < picture.samples.size(); i += 3) {
+    const auto same = [&](float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+    if (!same(picture.samples[i], picture.samples[i + 1]) || !same(picture.samples[i], picture.samples[i + 2]))
+      return false;
+  }
+  return true;
+}
+
+// IEC 61966-2-1: light, 0 to 1, as a screen's code, 0 to 1.
+double encoded(double light) noexcept {
+  light = std::clamp(light, 0.0, 1.0);
+  return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
+}
+
+std::uint16_t colorCode(float sample, const FilePicture& picture) noexcept {
+  if (std::isnan(sample)) return 0;
+  const double scale = picture.whole_bits == 8 ? static_cast<double>(kStretch) : 1;
+  const double code =
+      picture.whole_bits > 0 ? scale * static_cast<double>(sample) : kTop * encoded(static_cast<double>(sample));
+  return static_cast<std::uint16_t>(std::lround(std::clamp(code, 0.0, kTop)));
+}
+
+Frame colorFrame(const FilePicture& picture) {
+  Codes codes(picture.samples.size());
+  std::transform(picture.samples.begin(), picture.samples.end(), codes.begin(),
+                 [&](float sample) { return colorCode(sample, picture); });
+  Frame frame = grayFrame(std::make_shared<const Codes>(std::move(codes)), picture.width, picture.height);
+  frame.model = ColorModel::Rgb;
+  frame.planes[0].stride_bytes = std::ptrdiff_t{6} * picture.width;
+  for (std::size_t k = 0; k < 3; ++k) {
+    frame.components[k] = {.offset_bytes = static_cast<std::uint8_t>(2 * k), .step_bytes = 6, .bits = 16};
+  }
+  return frame;
+}
+
+class PictureFileDecoder final : public VideoDecoder {
+ public:
+  explicit PictureFileDecoder(PictureFormat format) noexcept : format_(format) {}
+  [[nodiscard]] Capabilities capabilities() const noexcept override {
+    return {.name = format_.codec, .max_held_frames = kMaxHeldFrames, .hardware = false};
+  }
+
+ private:
+  // How the film's pictures are converted, as its first one decides.
+  struct Reading {
+    bool gray = true;
+    float stretch = 1;
+    bool plain = false;  // the codes are all there is
+    FloatCodes codes = FloatCodes::identity();
+    bool said_beyond = false;
+  };
+
+  Result<void> openDecoder(const StreamInfo& stream) override {
+    if (stream.codec != format_.codec) return fail(ErrorCode::Unsupported, "the stream holds no pictures of this kind");
+    period_ = stream.frame_period > Duration(0) ? stream.frame_period : kDefaultPeriod;
+    reading_.reset();
+    forget();
+    return {};
+  }
+
+  Result<Feed> feedPacket(const Packet& packet) override {
+    if (queue_.size() >= kQueued) return Feed::Full;
+    queue_.push_back(packet);
+    return Feed::Accepted;
+  }
+
+  Result<Progress> receiveFrame(Frame& frame) override {
+    while (!queue_.empty()) {
+      const Packet packet = std::move(queue_.front());
+      queue_.pop_front();
+      const MediaTime pts = packet.pts.value_or(next_pts_);
+      next_pts_ = pts + period_;
+      const auto picture = format_.read({packet.data, packet.bytes});
+      if (!picture) {
+        countDamaged();
+        continue;
+      }
+      frame = frameOf(*picture);
+      frame.pts = pts;
+      frame.duration = period_;
+      return Progress::Picture;
+    }
+    return draining_ ? Progress::EndOfStream : Progress::NeedsPackets;
+  }
+
+  static Reading readingOf(const FilePicture& first) {
+    Reading reading;
+    reading.gray = first.components == 1 || isGrayRgb(first);
+    const auto step = static_cast<std::size_t>(first.components);
+    reading.plain = first.whole_bits > 0;
+    if (first.whole_bits == 8) reading.stretch = kStretch;
+    if (!reading.plain && reading.gray) {
+      reading.codes =
+          FloatCodes::chosenFor([&](std::size_t i) { return first.samples[i * step]; }, first.samples.size() / step);
+    }
+    return reading;
+  }
+
+  Frame frameOf(const FilePicture& picture) {
+    if (!picture.frame.empty()) return picture.frame;
+    if (!reading_) reading_ = readingOf(picture);
+    if (!reading_->gray && picture.components == 3) return colorFrame(picture);
+    const auto step = static_cast<std::size_t>(picture.components);
+    Codes codes(picture.samples.size() / step);
+    bool beyond = false;
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+      const float value = picture.samples[i * step] * reading_->stretch;
+      codes[i] = reading_->codes.codeOf(value);
+      beyond = beyond || reading_->codes.isBeyond(value);
+    }
+    if (beyond) sayBeyond();
+    Frame frame = grayFrame(std::make_shared<const Codes>(std::move(codes)), picture.width, picture.height);
+    if (!reading_->plain) frame.value_per_code = reading_->codes.valuePerCode();
+    return frame;
+  }
+
+  void sayBeyond() {
+    if (std::exchange(reading_->said_beyond, true)) return;
+    log(LogLevel::Warning, "media", "values beyond %g, the scale of the film's first picture, are read as that",
+        kTop * std::abs(reading_->codes.valuePerCode()));
+  }
+
+  Result<void> startDrain() override {
+    draining_ = true;
+    return {};
+  }
+  Result<void> flushDecoder() override {
+    forget();
+    return {};
+  }
+  void closeDecoder() noexcept override { forget(); }
+  void forget() noexcept {
+    queue_.clear();
+    draining_ = false;
+    next_pts_ = MediaTime{};
+  }
+
+  const PictureFormat format_;
+  std::optional<Reading> reading_;
+  Duration period_ = kDefaultPeriod;
+  std::deque<Packet> queue_;
+  MediaTime next_pts_;  // for a packet without a time
+  bool draining_ = false;
+};
+
+}  // namespace
+
+bool isSoundSize(std::uint64_t width, std::uint64_t height) noexcept {
+  return width > 0 && height > 0 && width <= kLongestSide && height <= kLongestSide &&
+         width * height <= std::uint64_t{VideoDecoder::kMostSamples};
+}
+
+int wholeBits(const NumberType& type, std::span<const float> samples) noexcept {
+  if (type.kind == 'f') return 0;
+  if (type.bytes == 1) return type.kind == 'u' ? 8 : 0;
+  const auto fits = [](float value) { return value <= static_cast<float>(kTop); };
+  return std::all_of(samples.begin(), samples.end(), fits) ? 16 : 0;
+}
+
+std::unique_ptr<VideoDecoder> makePictureFileDecoder(PictureFormat format) {
+  return std::make_unique<PictureFileDecoder>(format);
+}
+
+}  // namespace relievo

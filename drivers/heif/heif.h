@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// HEIF photos with depth (portraits of phones) by libheif.
+#pragma once
+
+#include "drivers/floats/picture_file_decoder.h"
+#include "drivers/photo/photo.h"
+
+namespace relievo {
+
+// The primary picture and its depth map, an auxiliary picture: both upright. The depth's meaning comes from its
+// representation info (ISO/IEC 23008-2, G.14.2) or, without that, from the XMP metadata that phones attach.
+extern const PhotoKind kHeif;
+
+// The decoders of the two streams.
+extern const PictureFormat kHeifColor, kHeifDepth;
+
+}  // namespace relievo

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Media source of a photo that holds colour and depth in one file.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hal/media_source.h"
+
+namespace relievo {
+
+using PhotoBytes = std::shared_ptr<const std::vector<std::uint8_t>>;
+
+// One picture of a photo: its stream, and its coded bytes (a part of `owner`).
+struct PhotoPart {
+  StreamInfo stream;
+  std::span<const std::uint8_t> coded;
+  PhotoBytes owner;
+};
+
+// A kind of photo: whether a file that begins with these bytes (64, or all of it) may be one; and its pictures, colour
+// first, or none if the file is of another kind or holds no depth.
+struct PhotoKind {
+  bool (*begins)(std::span<const std::uint8_t> first_bytes) = nullptr;
+  std::vector<PhotoPart> (*parts)(const PhotoBytes& file) = nullptr;
+};
+
+// JPEG with a depth map in its XMP metadata (GDepth, standard or extended) or behind the picture (Dynamic Depth).
+extern const PhotoKind kDepthJpeg;
+
+// True if the path is a file of at most 256 MiB that one of the kinds takes. Reads it if it begins like one.
+[[nodiscard]] bool isPhoto(const std::string& path, std::span<const PhotoKind> kinds);
+
+// One stream for each picture, with one packet at time 0. `kinds` must outlive it.
+[[nodiscard]] std::unique_ptr<MediaSource> makePhotoSource(std::span<const PhotoKind> kinds);
+
+}  // namespace relievo

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <atomic>
+#include <fstream>
+
+#include "drivers/photo/photo.h"
+
+namespace relievo {
+namespace {
+
+constexpr std::int64_t kMostBytes = std::int64_t{256} << 20, kFirstBytes = 64;
+
+// Empty unless it is a regular file of a photo's size that begins like one of the kinds.
+PhotoBytes bytesOf(const std::string& path, std::span<const PhotoKind> kinds) {
+  struct stat status{};
+  auto bytes = std::make_shared<std::vector<std::uint8_t>>();
+  if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode) || status.st_size > kMostBytes) return bytes;
+  std::ifstream file(path, std::ios::binary);
+  const auto readTo = [&](std::int64_t end) {
+    const auto begin = static_cast<std::int64_t>(bytes->size());
+    bytes->resize(static_cast<std::size_t>(end));
+    file.read(reinterpret_cast<char*>(bytes->data()) + begin, end - begin);
+    bytes->resize(static_cast<std::size_t>(begin + file.gcount()));
+  };
+  readTo(std::min<std::int64_t>(kFirstBytes, status.st_size));
+  if (std::any_of(kinds.begin(), kinds.end(), [&](const PhotoKind& kind) { return kind.begins(*bytes); })) {
+    readTo(status.st_size);
+  } else {
+    bytes->clear();
+  }
+  return bytes;
+}
+
+std::vector<PhotoPart> partsOf(const std::string& path, std::span<const PhotoKind> kinds) {
+  const PhotoBytes file = bytesOf(path, kinds);
+  for (const PhotoKind& kind : kinds) {
+    if (!kind.begins(*file)) continue;
+    if (auto parts = kind.parts(file); !parts.empty()) return parts;
+  }
+  return {};
+}
+
+class PhotoSource final : public MediaSource {
+ public:
+  explicit PhotoSource(std::span<const PhotoKind> kinds) noexcept : kinds_(kinds) {}
+  ~PhotoSource() override { close(); }
+
+ private:
+  Result<Description> openSource(const std::string& url) override {
+    interrupted_ = false;
+    parts_ = partsOf(url, kinds_);
+    next_ = 0;
+    if (parts_.empty()) return fail(ErrorCode::Corrupt, "is no photo with depth; check the file");
+    Description description;
+    for (PhotoPart& part : parts_) {
+      part.stream.index = static_cast<int>(description.streams.size());
+      part.stream.kind = StreamKind::Video;
+      description.streams.push_back(part.stream);
+    }
+    return description;
+  }
+
+  Result<std::optional<Packet>> readPacket() override {
+    if (interrupted_) return fail(ErrorCode::Cancelled, "interrupted");
+    if (next_ == parts_.size()) return std::nullopt;
+    const PhotoPart& part = parts_[next_++];
+    return Packet{.stream = part.stream.index,
+                  .data = part.coded.data(),
+                  .bytes = part.coded.size(),
+                  .pts = MediaTime{},
+                  .dts = MediaTime{},
+                  .keyframe = true,
+                  .owner = part.owner};
+  }
+
+  Result<void> seekTo(MediaTime) override {
+    next_ = 0;
+    return {};
+  }
+  void closeSource() noexcept override { parts_.clear(); }
+  void interrupted() noexcept override { interrupted_ = true; }
+
+  const std::span<const PhotoKind> kinds_;
+  std::atomic<bool> interrupted_ = false;
+  std::vector<PhotoPart> parts_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+bool isPhoto(const std::string& path, std::span<const PhotoKind> kinds) {
+  return !partsOf(path, kinds).empty();
+}
+
+std::unique_ptr<MediaSource> makePhotoSource(std::span<const PhotoKind> kinds) {
+  return std::make_unique<PhotoSource>(kinds);
+}
+
+}  // namespace relievo

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drivers/pictures/folder.h"
+
+#include <fnmatch.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <map>
+#include <string_view>
+#include <utility>
+
+#include "drivers/pictures/lists.h"
+#include "drivers/pictures/roles.h"
+#include "hal/media_names.h"
+#include "platform/whole_file.h"
+
+namespace relievo::pictures {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 4> kAssociations{"associations.txt", "associate.txt", "association.txt",
+                                                        "assoc.txt"};
+constexpr const char* kNoPictures = "there is no picture in this folder; name a folder of pictures or a film";
+constexpr const char* kHasFilms =
+    "this folder is a list of films; name one of them, or play them all with relievo play";
+constexpr const char* kNoMatch = "no picture has a name of this pattern; check the folder and the pattern";
+constexpr const char* kNoList = "cannot be read; name a list of pictures such as associations.txt";
+
+bool isFolder(const std::string& path) {
+  std::error_code failed;
+  return fs::is_directory(path, failed);
+}
+bool isFile(const std::string& path) {
+  std::error_code failed;
+  return fs::is_regular_file(path, failed);
+}
+
+struct Path {
+  std::string folder, name;
+  explicit Path(const std::string& path) {
+    const std::size_t slash = path.rfind('/');
+    folder = slash == path.npos ? "" : path.substr(0, slash + 1);
+    name = path.substr(folder.size());
+  }
+};
+
+// "b%06d.png": the text around the number and the least number of its digits.
+struct Pattern {
+  std::string before, behind;
+  std::size_t digits = 1;
+};
+std::optional<Pattern> patternOf(const std::string& name) {
+  for (std::size_t at = name.find('%'); at != name.npos; at = name.find('%', at + 1)) {
+    std::size_t end = at + 1;
+    while (end < name.size() && std::isdigit(static_cast<unsigned char>(name[end])) != 0) ++end;
+    if (end == name.size() || name[end] != 'd' || end - at > 4) continue;
+    const std::string width = name.substr(at + 1, end - at - 1);
+    return Pattern{name.substr(0, at), name.substr(end + 1), width.empty() ? 1 : std::max(std::stoul(width), 1UL)};
+  }
+  return std::nullopt;
+}
+bool isPattern(const std::string& name) {
+  return mediaKindOf(name) == MediaKind::Picture && (patternOf(name) || name.find_first_of("*?") != name.npos);
+}
+
+bool matches(const Pattern& pattern, const std::string& name) {
+  const std::size_t around = pattern.before.size() + pattern.behind.size();
+  if (name.size() < around + pattern.digits) return false;
+  if (!name.starts_with(pattern.before) || !name.ends_with(pattern.behind)) return false;
+  const auto digits = std::string_view(name).substr(pattern.before.size(), name.size() - around);
+  return std::ranges::all_of(digits, [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+// What is in a folder: pictures, sub-folders and the rest.
+struct Listing {
+  std::vector<std::string> pictures, folders;
+  std::size_t films = 0;
+};
+Listing listingOf(const std::string& folder) {
+  Listing listing;
+  std::error_code failed;
+  fs::directory_iterator entries(folder.empty() ? "." : folder, failed);
+  for (; !failed && entries != fs::directory_iterator(); entries.increment(failed)) {
+    const std::string name = entries->path().filename().string();
+    if (name.starts_with('.')) continue;
+    const MediaKind kind = mediaKindOf(name);
+    std::error_code unknown;
+    if (kind == MediaKind::Picture) listing.pictures.push_back(name);
+    else if (kind == MediaKind::Film) ++listing.films;
+    else if (entries->is_directory(unknown)) listing.folders.push_back(name);
+  }
+  return listing;
+}
+
+// Keeps the names with the most frequent ending; counts the others.
+std::vector<std::string> oneKind(std::vector<std::string> names, std::size_t& left_out) {
+  std::map<std::string, std::size_t> count;
+  for (const std::string& name : names) ++count[endingOf(name)];
+  if (count.size() < 2) return names;
+  const std::string most = std::ranges::max_element(count, {}, [](const auto& entry) { return entry.second; })->first;
+  left_out += std::erase_if(names, [&](const std::string& name) { return endingOf(name) != most; });
+  return names;
+}
+
+// Pictures of one folder by the words in their names. Names that say neither are colour beside those that say depth.
+void sortByRole(const std::string& folder, const std::vector<std::string>& names, FoundPictures& found) {
+  std::map<Role, std::vector<std::string>> by_role;
+  for (const std::string& name : names) by_role[roleOf(name)].push_back(name);
+  const auto& depth = by_role[Role::Depth];
+  if (depth.empty()) {
+    found.color = {folder, oneKind(names, found.left_out)};
+    return;
+  }
+  const auto& color = by_role[Role::Color].empty() ? by_role[Role::Unsaid] : by_role[Role::Color];
+  found.left_out += names.size() - depth.size() - color.size();
+  found.depth = {folder, oneKind(depth, found.left_out)};
+  found.color = {folder, oneKind(color, found.left_out)};
+}
+
+bool sortByFolder(const std::string& folder, const Listing& listing, FoundPictures& found) {
+  const auto open = [&](Role role) -> PictureFiles {
+    const std::string name = bestOf(listing.folders, role);
+    if (name.empty()) return {};
+    return {folder + name + "/", oneKind(listingOf(folder + name).pictures, found.left_out)};
+  };
+  found.color = open(Role::Color);
+  found.depth = open(Role::Depth);
+  if (found.color.names.empty() && !found.depth.names.empty()) {
+    found.color = {folder, oneKind(listing.pictures, found.left_out)};
+  }
+  return !found.color.names.empty() || !found.depth.names.empty();
+}
+
+std::optional<PictureList> readList(const std::string& path, std::size_t pictures) {
+  const auto text = readWholeFile(path, FileSize::Recording, kNoList);
+  const auto list = text ? parsePictureList(*text, pictures) : Result<PictureList>(std::unexpected(text.error()));
+  return list ? std::optional(*list) : std::nullopt;
+}
+
+// Lines in the order of the times in a column. Of two lines with one time the first counts.
+std::map<std::int64_t, std::vector<ListedPicture>> byTime(PictureList list, std::size_t column) {
+  std::map<std::int64_t, std::vector<ListedPicture>> lines;
+  for (auto& line : list.lines) {
+    const std::int64_t time = line[column].value;
+    lines.try_emplace(time, std::move(line));
+  }
+  return lines;
+}
+
+// The time of a pair is that of its colour.
+FoundPictures fromAssociations(const std::string& folder, PictureList list) {
+  const std::size_t color = roleOf(list.lines.front().front().name) == Role::Depth ? 1 : 0;
+  FoundPictures found{.color = {folder, {}}, .depth = {folder, {}}};
+  found.listed_numbers = list.numbers;
+  found.paired = true;
+  for (auto& [time, line] : byTime(std::move(list), color)) {
+    found.color.names.push_back(std::move(line[color].name));
+    found.depth.names.push_back(std::move(line[1 - color].name));
+    found.color_values.push_back(time);
+  }
+  found.depth_values = found.color_values;
+  return found;
+}
+
+// rgb.txt and depth.txt.
+std::optional<FoundPictures> fromTwoLists(const std::string& folder) {
+  const auto color = readList(folder + "rgb.txt", 1), depth = readList(folder + "depth.txt", 1);
+  if (!color || !depth || color->numbers != depth->numbers) return std::nullopt;
+  FoundPictures found{.color = {folder, {}}, .depth = {folder, {}}};
+  found.listed_numbers = color->numbers;
+  const auto take = [](const PictureList& list, PictureFiles& files, std::vector<std::int64_t>& values) {
+    for (auto& [time, line] : byTime(list, 0)) {
+      files.names.push_back(std::move(line[0].name));
+      values.push_back(time);
+    }
+  };
+  take(*color, found.color, found.color_values);
+  take(*depth, found.depth, found.depth_values);
+  return found;
+}
+
+Result<FoundPictures> findInFolder(const std::string& folder) {
+  for (const std::string_view name : kAssociations) {
+    if (const auto list = readList(folder + std::string(name), 2)) return fromAssociations(folder, *list);
+  }
+  if (auto found = fromTwoLists(folder)) return *std::move(found);
+  const Listing listing = listingOf(folder);
+  FoundPictures found;
+  if (sortByFolder(folder, listing, found)) return found;
+  if (isListOfFilms(listing.films, listing.pictures.size())) return fail(ErrorCode::NotFound, kHasFilms);
+  if (listing.pictures.empty()) return fail(ErrorCode::NotFound, kNoPictures);
+  sortByRole(folder, listing.pictures, found);
+  return found;
+}
+
+Result<FoundPictures> findByPattern(const Path& path) {
+  const auto pattern = patternOf(path.name);
+  FoundPictures found{.color = {path.folder, {}}};
+  for (std::string& name : listingOf(path.folder).pictures) {
+    const bool wanted = pattern ? matches(*pattern, name) : ::fnmatch(path.name.c_str(), name.c_str(), FNM_PERIOD) == 0;
+    if (wanted) found.color.names.push_back(std::move(name));
+  }
+  if (found.color.names.empty()) return fail(ErrorCode::NotFound, kNoMatch);
+  return found;
+}
+
+}  // namespace
+
+std::string pathOf(const std::string& url) {
+  if (!url.starts_with("file:") || isFile(url) || isFolder(url)) return url;
+  return url.substr(url.starts_with("file:///") ? 7 : 5);
+}
+
+bool namesPictures(const std::string& url) {
+  const std::string path = pathOf(url);
+  if (isFolder(path)) return true;
+  if (isFile(path)) return mediaKindOf(path) == MediaKind::Picture || endingOf(path) == "txt";
+  return isPattern(Path(path).name) && url.find("://") == url.npos;
+}
+
+Result<FoundPictures> findPictures(const std::string& url) {
+  const std::string path = pathOf(url);
+  if (isFolder(path)) return findInFolder(path.ends_with('/') ? path : path + "/");
+  const Path parts(path);
+  if (!isFile(path)) return findByPattern(parts);
+  if (endingOf(path) != "txt") return FoundPictures{.color = {parts.folder, {parts.name}}};
+  const auto text = readWholeFile(path, FileSize::Recording, kNoList);
+  if (!text) return std::unexpected(text.error());
+  const auto list = parsePictureList(*text, 2);
+  if (!list) return std::unexpected(list.error());
+  return fromAssociations(parts.folder, *list);
+}
+
+}  // namespace relievo::pictures

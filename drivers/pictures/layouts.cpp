@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drivers/pictures/layouts.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "hal/media_names.h"
+#include "platform/print.h"
+#include "platform/whole_file.h"
+
+namespace relievo::pictures {
+namespace {
+
+// "a/b/rgb/1.png": "rgb" is the folder, "a/b/" the place.
+std::string_view folderIn(std::string_view path) {
+  path = path.substr(0, std::min(path.rfind('/'), path.size()));
+  return path.substr(path.rfind('/') + 1);
+}
+std::string placeOf(const std::string& path) {
+  return path.substr(0, path.rfind('/') - folderIn(path).size());
+}
+
+// The first depth_scale in scene_camera.json; 0 if there is none.
+double bopScaleMm(const std::string& place) {
+  const auto text = readWholeFile(place + "scene_camera.json", FileSize::Recording, "");
+  constexpr std::string_view kKey = "\"depth_scale\":";
+  const std::size_t at = text ? text->find(kKey) : std::string::npos;
+  if (at == std::string::npos) return 0;
+  const std::size_t number = text->find_first_not_of(" \t\n", at + kKey.size());
+  double scale = 0;
+  if (number != std::string::npos) std::from_chars(text->data() + number, text->data() + text->size(), scale);
+  return std::isfinite(scale) && scale > 0 && scale < 1e4 ? scale : 0;
+}
+
+// Where the samples of a binary PGM of 16 bits begin; 0 if it is none.
+std::size_t samplesOf(const std::vector<std::uint8_t>& pgm) {
+  constexpr std::size_t kLongestHeader = 256;
+  const std::string_view text(reinterpret_cast<const char*>(pgm.data()), std::min(pgm.size(), kLongestHeader));
+  if (!text.starts_with("P5")) return 0;
+  std::size_t at = 2;
+  int most = 0;
+  for (int number = 0; number < 3; ++number) {
+    at = text.find_first_of("0123456789", at);
+    if (at == text.npos) return 0;
+    at = static_cast<std::size_t>(std::from_chars(text.data() + at, text.data() + text.size(), most).ptr - text.data());
+  }
+  return most > 255 ? at + 1 : 0;
+}
+
+}  // namespace
+
+std::map<std::string, std::string> depthTagsOf(const std::string& color, const std::string& depth, bool timed) {
+  if (folderIn(depth) != "depth" || folderIn(color) != "rgb" || endingOf(depth) != "png") return {};
+  if (timed) return {{"DEPTH_UNIT", "0.2"}, {"DEPTH_INVALID", "0"}};
+  const double scale = bopScaleMm(placeOf(depth));
+  if (scale == 0) return {};
+  return {{"DEPTH_UNIT", print("%.9g", scale)}, {"DEPTH_INVALID", "0"}};
+}
+
+bool isNyuDepth(const std::string& path) {
+  const std::string_view name = std::string_view(path).substr(path.rfind('/') + 1);
+  return name.starts_with("d-") && endingOf(name) == "pgm";
+}
+
+void mendByteOrder(std::vector<std::uint8_t>& pgm) {
+  constexpr int kMost = 2047;
+  const std::size_t begin = samplesOf(pgm);
+  if (begin == 0) return;
+  bool as_is = true, swapped = true;
+  for (std::size_t i = begin; i + 1 < pgm.size(); i += 2) {
+    as_is = as_is && (pgm[i] << 8 | pgm[i + 1]) <= kMost;
+    swapped = swapped && (pgm[i + 1] << 8 | pgm[i]) <= kMost;
+  }
+  if (as_is || !swapped) return;
+  for (std::size_t i = begin; i + 1 < pgm.size(); i += 2) std::swap(pgm[i], pgm[i + 1]);
+}
+
+}  // namespace relievo::pictures

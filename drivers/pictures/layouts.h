@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the known layouts of recordings say about their depth.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace relievo::pictures {
+
+// Tags of the depth's meaning, by the first pictures' paths.
+//   TUM, ICL-NUIM   rgb/ and depth/ with times or a list (`timed`), PNG: 5000 codes a metre, 0 is a hole
+//   BOP             scene_camera.json beside rgb/ and depth/: its depth_scale, in mm
+[[nodiscard]] std::map<std::string, std::string> depthTagsOf(const std::string& color, const std::string& depth,
+                                                             bool timed);
+
+// "d-1294886362.665769-3143787185.pgm": NYU's raw depth.
+[[nodiscard]] bool isNyuDepth(const std::string& path);
+
+// A PGM of 16 bits holds its high bytes first; NYU's files hold the low ones first. Swaps them if only then all codes
+// are those of a Kinect, at most 2047.
+void mendByteOrder(std::vector<std::uint8_t>& pgm);
+
+}  // namespace relievo::pictures

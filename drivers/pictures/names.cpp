@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drivers/pictures/names.h"
+
+#include <algorithm>
+#include <charconv>
+#include <numeric>
+#include <set>
+
+#include "hal/media_names.h"
+
+namespace relievo::pictures {
+namespace {
+
+constexpr std::size_t kLeastUnixDigits = 9;
+
+// A run of digits, or of anything else.
+struct Run {
+  bool digits = false;
+  std::string_view text;
+};
+
+std::vector<Run> runsOf(std::string_view text) {
+  const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
+  std::vector<Run> runs;
+  while (!text.empty()) {
+    const bool digits = isDigit(text.front());
+    std::size_t end = 1;
+    while (end < text.size() && isDigit(text[end]) == digits) ++end;
+    runs.push_back({digits, text.substr(0, end)});
+    text.remove_prefix(end);
+  }
+  return runs;
+}
+
+std::string_view stemOf(std::string_view name) {
+  return name.substr(0, name.rfind('.'));
+}
+
+std::optional<std::int64_t> integer(std::string_view text) noexcept {
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
+}
+
+std::optional<std::int64_t> scaled(std::string_view digits, std::int64_t ns) noexcept {
+  const auto value = integer(digits);
+  constexpr std::int64_t kMost = std::int64_t{9'000'000'000} * 1'000'000'000;
+  return value && *value <= kMost / ns ? std::optional(*value * ns) : std::nullopt;
+}
+
+std::optional<std::int64_t> secondsIn(const std::vector<Run>& runs) noexcept {
+  for (std::size_t i = 0; i + 2 < runs.size(); ++i) {
+    if (!runs[i].digits || runs[i + 1].text != "." || !runs[i + 2].digits) continue;
+    if (runs.size() != 3 && runs[i].text.size() < kLeastUnixDigits) continue;
+    return nanosecondsIn({runs[i].text.data(), runs[i].text.size() + 1 + runs[i + 2].text.size()});
+  }
+  return std::nullopt;
+}
+
+std::optional<std::int64_t> timeIn(std::string_view stem) {
+  const std::vector<Run> runs = runsOf(stem);
+  if (const auto seconds = secondsIn(runs)) return seconds;
+  if (runs.size() == 1 && runs[0].digits) {
+    switch (stem.size()) {
+      case 19:
+        return scaled(stem, 1);
+      case 16:
+        return scaled(stem, 1000);
+      case 13:
+        return scaled(stem, 1'000'000);
+      default:
+        return std::nullopt;
+    }
+  }
+  constexpr std::size_t kRedwoodDigits = 12;
+  const bool redwood = runs.size() == 3 && runs[0].digits && runs[1].text == "-" && runs[2].digits;
+  return redwood && runs[2].text.size() == kRedwoodDigits ? scaled(runs[2].text, 1000) : std::nullopt;
+}
+
+bool allDiffer(const std::vector<std::int64_t>& values) {
+  return std::set<std::int64_t>(values.begin(), values.end()).size() == values.size();
+}
+
+template <class Read>
+std::optional<std::vector<std::int64_t>> readAll(const std::vector<std::string>& names, const Read& read) {
+  std::vector<std::int64_t> values;
+  for (const std::string& name : names) {
+    const auto value = read(stemOf(name));
+    if (!value) return std::nullopt;
+    values.push_back(*value);
+  }
+  return allDiffer(values) ? std::optional(std::move(values)) : std::nullopt;
+}
+
+// The place of the only run that differs; nullopt if none or several do, or if it is no number.
+std::optional<std::size_t> countingRun(const std::vector<std::string>& names) {
+  const std::vector<Run> first = runsOf(stemOf(names.front()));
+  std::optional<std::size_t> found;
+  for (const std::string& name : names) {
+    const std::vector<Run> runs = runsOf(stemOf(name));
+    if (runs.size() != first.size()) return std::nullopt;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      if (runs[i].text == first[i].text) continue;
+      if (!runs[i].digits || !first[i].digits || (found && *found != i)) return std::nullopt;
+      found = i;
+    }
+  }
+  return found;
+}
+
+// A single name counts by its last run of digits.
+std::optional<std::vector<std::int64_t>> numbersIn(const std::vector<std::string>& names) {
+  auto place = countingRun(names);
+  if (names.size() == 1) {
+    const std::vector<Run> runs = runsOf(stemOf(names.front()));
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      if (runs[i].digits) place = i;
+    }
+  }
+  if (!place) return std::nullopt;
+  return readAll(names, [&](std::string_view stem) { return integer(runsOf(stem)[*place].text); });
+}
+
+std::vector<std::int64_t> ranksOf(const std::vector<std::string>& names) {
+  std::vector<std::size_t> order(names.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return naturalLess(names[a], names[b]); });
+  std::vector<std::int64_t> ranks(names.size());
+  for (std::size_t i = 0; i < order.size(); ++i) ranks[order[i]] = static_cast<std::int64_t>(i);
+  return ranks;
+}
+
+}  // namespace
+
+std::optional<std::int64_t> nanosecondsIn(std::string_view seconds) noexcept {
+  constexpr std::size_t kNsDigits = 9;
+  const std::size_t dot = std::min(seconds.find('.'), seconds.size());
+  const auto whole = scaled(seconds.substr(0, dot), 1'000'000'000);
+  if (!whole || *whole < 0) return std::nullopt;
+  std::string_view part = dot < seconds.size() ? seconds.substr(dot + 1) : "0";
+  if (part.empty() || part.find_first_not_of("0123456789") != part.npos) return std::nullopt;
+  part = part.substr(0, kNsDigits);
+  std::int64_t ns = *integer(part);
+  for (std::size_t i = part.size(); i < kNsDigits; ++i) ns *= 10;
+  return *whole + ns;
+}
+
+NameValues valuesOf(const std::vector<std::string>& names) {
+  if (names.empty()) return {};
+  if (auto times = readAll(names, timeIn)) return {NameKind::Seconds, std::move(*times)};
+  if (auto numbers = numbersIn(names)) return {NameKind::Numbers, std::move(*numbers)};
+  return {NameKind::Ranks, ranksOf(names)};
+}
+
+}  // namespace relievo::pictures

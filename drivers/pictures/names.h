@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads from pictures' names when each was taken.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace relievo::pictures {
+
+// "1305031102.1753" -> nanoseconds, exactly: no floating point. nullopt for anything else, and beyond 9e9 seconds.
+[[nodiscard]] std::optional<std::int64_t> nanosecondsIn(std::string_view seconds) noexcept;
+
+enum class NameKind : std::uint8_t {
+  Seconds,  // times, in ns
+  Numbers,  // numbers that count the pictures
+  Ranks,    // neither: the place in natural order
+};
+struct NameValues {
+  NameKind kind = NameKind::Ranks;
+  std::vector<std::int64_t> values;  // one for each name, all different
+};
+
+// `names` are file names without folders, of one series. Times are
+//   1305031102.175304.png            seconds: the whole name, or nine digits and more with a fraction anywhere in it
+//   1403636579763555584.png          19 digits are ns, 16 us, 13 ms since 1970
+//   0000012-000000400431.png         a number and 12 digits of us (Redwood)
+// A number is the only run of digits that differs between names that are otherwise alike.
+[[nodiscard]] NameValues valuesOf(const std::vector<std::string>& names);
+
+}  // namespace relievo::pictures

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Media source of single pictures: folders, patterns, lists, and a picture alone.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "hal/media_source.h"
+#include "platform/error.h"
+
+namespace relievo {
+
+// Describes the video of one picture's file, as a source that opens it would: codec, size, signalling.
+using DescribePicture = std::function<Result<StreamInfo>(const std::string& path)>;
+
+// Whether makePicturesSource opens `url`: a folder, a picture or a list of pictures (.txt) that exists, or a pattern of
+// names ("a/%06d.png", "a/*.png"). Reads no file.
+[[nodiscard]] bool isPictures(const std::string& url);
+
+// One packet for each file, whole, with its exact time (drivers/pictures/recording.h); every packet is a key frame, and
+// a seek finds the picture by index. A recording of colour and depth has two streams, colour first; the depth has the
+// tag TITLE=depth. A folder is listed but only the first picture of each stream is opened before it is read. A picture
+// that cannot be opened any more is passed over and counted (`missedPictures`).
+[[nodiscard]] std::unique_ptr<MediaSource> makePicturesSource(DescribePicture describe);
+
+}  // namespace relievo

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drivers/pictures/recording.h"
+
+#include <algorithm>
+#include <cmath>
+#include <compare>
+#include <numeric>
+
+#include "drivers/pictures/layouts.h"
+#include "drivers/pictures/names.h"
+#include "platform/print.h"
+
+namespace relievo::pictures {
+namespace {
+
+constexpr double kUsualRate = 25, kSensorRate = 30;
+constexpr std::int64_t kNearest = 20'000'000;  // ns between colour and depth
+
+struct Valued {
+  std::int64_t value = 0;
+  std::size_t place = 0;  // among the names
+};
+using Series = std::vector<Valued>;
+
+Series inOrder(const std::vector<std::int64_t>& values) {
+  Series series(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) series[i] = {values[i], i};
+  std::ranges::sort(series, {}, &Valued::value);
+  return series;
+}
+
+struct Candidate {
+  std::int64_t distance = 0;
+  std::size_t color = 0, depth = 0;
+  auto operator<=>(const Candidate&) const = default;
+};
+
+// Moves depth to the times of the colour pictures that it belongs to; returns how many do.
+std::size_t moveToNearest(const Series& color, Series& depth) {
+  std::vector<Candidate> candidates;
+  std::size_t first = 0;
+  for (std::size_t c = 0; c < color.size(); ++c) {
+    while (first < depth.size() && depth[first].value <= color[c].value - kNearest) ++first;
+    for (std::size_t d = first; d < depth.size() && depth[d].value < color[c].value + kNearest; ++d) {
+      candidates.push_back({std::abs(depth[d].value - color[c].value), c, d});
+    }
+  }
+  std::ranges::sort(candidates);
+  std::vector<bool> color_used(color.size()), depth_used(depth.size());
+  Series moved = depth;
+  std::size_t pairs = 0;
+  for (const Candidate& near : candidates) {
+    if (color_used[near.color] || depth_used[near.depth]) continue;
+    color_used[near.color] = depth_used[near.depth] = true;
+    moved[near.depth].value = color[near.color].value;
+    ++pairs;
+  }
+  // A picture without a partner is dropped where a neighbour was moved past it.
+  Series kept;
+  for (std::size_t d = 0; d < moved.size(); ++d) {
+    while (depth_used[d] && !kept.empty() && kept.back().value >= moved[d].value) kept.pop_back();
+    if (kept.empty() || kept.back().value < moved[d].value) kept.push_back(moved[d]);
+  }
+  depth = std::move(kept);
+  return pairs;
+}
+
+bool overlap(const Series& a, const Series& b) {
+  return a.front().value <= b.back().value && b.front().value <= a.back().value;
+}
+
+void countByRank(Series& series) {
+  for (std::size_t i = 0; i < series.size(); ++i) series[i].value = static_cast<std::int64_t>(i);
+}
+
+Duration usualStep(const std::vector<TimedPicture>& pictures) {
+  std::vector<Duration> steps;
+  for (std::size_t i = 1; i < pictures.size(); ++i) steps.push_back(pictures[i].time - pictures[i - 1].time);
+  if (steps.empty()) return Duration(0);
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::ranges::nth_element(steps, middle);
+  return *middle;
+}
+
+// Both series of a recording, and what is said of them.
+struct Timing {
+  NameKind kind = NameKind::Ranks;
+  Series color, depth;
+  std::vector<std::string> notes;
+
+  void align(NameKind depth_kind, bool paired);
+  void noteGaps();
+};
+
+void Timing::align(NameKind depth_kind, bool paired) {
+  if (color.empty() || depth.empty()) {
+    if (color.empty()) kind = depth_kind;
+    return;
+  }
+  const bool comparable = kind == depth_kind && kind != NameKind::Ranks && overlap(color, depth);
+  if (!comparable) {
+    notes.emplace_back("the names of colour and depth do not correspond: they are paired in their order");
+    if (kind != NameKind::Seconds || color.size() != depth.size()) countByRank(color), kind = NameKind::Ranks;
+    for (std::size_t i = 0; i < depth.size(); ++i) {
+      depth[i].value = kind == NameKind::Seconds ? color[i].value : static_cast<std::int64_t>(i);
+    }
+    return;
+  }
+  if (kind != NameKind::Seconds || paired) return;
+  const std::size_t pairs = moveToNearest(color, depth);
+  if (pairs < color.size()) {
+    notes.push_back(print("%zu of %zu colour pictures have no depth within 20 ms", color.size() - pairs, color.size()));
+  }
+}
+
+void Timing::noteGaps() {
+  const Series& leading = color.empty() ? depth : color;
+  if (kind != NameKind::Numbers || leading.size() < 2) return;
+  const std::int64_t all = leading.back().value - leading.front().value + 1;
+  const std::int64_t absent = all - static_cast<std::int64_t>(leading.size());
+  if (absent == 0) return;
+  notes.push_back(print("%lld of the numbers %lld to %lld are absent: the picture before each stays for its time",
+                        static_cast<long long>(absent), static_cast<long long>(leading.front().value),
+                        static_cast<long long>(leading.back().value)));
+}
+
+std::vector<TimedPicture> timed(const PictureFiles& files, const Series& series, std::int64_t first, double period_ns) {
+  std::vector<TimedPicture> pictures;
+  for (const Valued& each : series) {
+    if (each.value < first) continue;
+    const auto ns = std::llround(static_cast<long double>(each.value - first) * static_cast<long double>(period_ns));
+    pictures.push_back({files.folder + files.names[each.place], Duration(ns)});
+  }
+  return pictures;
+}
+
+Timing timingOf(const FoundPictures& found) {
+  Timing timing;
+  if (!found.color_values.empty()) {
+    timing.kind = found.listed_numbers ? NameKind::Numbers : NameKind::Seconds;
+    timing.color = inOrder(found.color_values);
+    timing.depth = inOrder(found.depth_values);
+    timing.align(timing.kind, found.paired);
+    return timing;
+  }
+  const NameValues color = valuesOf(found.color.names), depth = valuesOf(found.depth.names);
+  timing.kind = color.kind;
+  timing.color = inOrder(color.values);
+  timing.depth = inOrder(depth.values);
+  timing.align(depth.kind, false);
+  return timing;
+}
+
+}  // namespace
+
+Recording recordingOf(const FoundPictures& found, std::optional<double> frames_per_s) {
+  Timing timing = timingOf(found);
+  timing.noteGaps();
+  const bool both = !timing.color.empty() && !timing.depth.empty();
+  const bool counted = timing.kind != NameKind::Seconds;
+  const double rate = frames_per_s.value_or(both ? kSensorRate : kUsualRate);
+  const std::int64_t first = (timing.color.empty() ? timing.depth : timing.color).front().value;
+  const double period_ns = counted ? 1e9 / rate : 1;
+
+  Recording recording;
+  recording.color = timed(found.color, timing.color, first, period_ns);
+  recording.depth = timed(found.depth, timing.depth, first, period_ns);
+  const auto& leading = recording.color.empty() ? recording.depth : recording.color;
+  recording.period = counted ? Duration(std::llround(period_ns)) : usualStep(leading);
+  if (leading.size() < 2) recording.period = Duration(0);
+  if (timing.kind != NameKind::Ranks) {
+    recording.start = Duration(std::llround(static_cast<long double>(first) * static_cast<long double>(period_ns)));
+  }
+  recording.numbered = counted;
+  recording.notes = std::move(timing.notes);
+  if (counted && !frames_per_s && leading.size() > 1) {
+    recording.notes.push_back(
+        print("the names tell no times: %.0f pictures a second assumed; --fps F changes that", rate));
+  }
+  if (both)
+    recording.depth_tags =
+        depthTagsOf(recording.color.front().path, recording.depth.front().path, !counted || found.paired);
+  if (found.left_out > 0) recording.notes.push_back(print("%zu other pictures are left out", found.left_out));
+  return recording;
+}
+
+}  // namespace relievo::pictures

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drivers/pictures/roles.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <tuple>
+
+#include "hal/media_names.h"
+
+namespace relievo::pictures {
+namespace {
+
+constexpr std::array<std::string_view, 6> kDepth{"depth", "depths", "disparity", "disparities", "disp", "depthmap"};
+constexpr std::array<std::string_view, 8> kColor{"rgb", "color", "colour", "image", "images", "img", "colors", "im"};
+constexpr std::array<std::string_view, 17> kOther{"mask",  "masks",  "maskcrop", "normal",     "normals", "seg",
+                                                  "label", "labels", "instance", "infrared",   "ir",      "pose",
+                                                  "thumb", "cover",  "preview",  "confidence", "conf"};
+
+std::vector<std::string> wordsOf(std::string_view name) {
+  std::vector<std::string> words(1);
+  for (const unsigned char c : name) {
+    if (std::isalpha(c) != 0) words.back() += static_cast<char>(std::tolower(c));
+    else if (!words.back().empty()) words.emplace_back();
+  }
+  if (words.back().empty()) words.pop_back();
+  return words;
+}
+
+template <std::size_t N>
+bool holdsOne(const std::vector<std::string>& words, const std::array<std::string_view, N>& known) {
+  return std::ranges::any_of(words, [&](const auto& word) { return std::ranges::find(known, word) != known.end(); });
+}
+
+// NYU's raw files: "d-1294886362.665769-3143787185.pgm".
+bool beginsWith(std::string_view name, char letter) {
+  return name.size() > 2 && name[0] == letter && name[1] == '-' &&
+         std::isdigit(static_cast<unsigned char>(name[2])) != 0;
+}
+
+}  // namespace
+
+Role roleOf(std::string_view name) {
+  const std::vector<std::string> words = wordsOf(name);
+  if (holdsOne(words, kOther)) return Role::Other;
+  if (holdsOne(words, kDepth) || beginsWith(name, 'd')) return Role::Depth;
+  return holdsOne(words, kColor) || beginsWith(name, 'r') ? Role::Color : Role::Unsaid;
+}
+
+std::string bestOf(const std::vector<std::string>& names, Role role) {
+  std::vector<std::string> found;
+  std::ranges::copy_if(names, std::back_inserter(found), [role](const auto& name) { return roleOf(name) == role; });
+  if (found.empty()) return "";
+  return *std::ranges::min_element(found, [](const std::string& a, const std::string& b) {
+    const std::size_t words_a = wordsOf(a).size(), words_b = wordsOf(b).size();
+    return words_a != words_b ? words_a < words_b : naturalLess(a, b);
+  });
+}
+
+}  // namespace relievo::pictures

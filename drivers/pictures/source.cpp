@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+// Hands out the files of a recording as packets, in order of time.
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cmath>
+#include <compare>
+#include <filesystem>
+#include <utility>
+
+#include "drivers/pictures/layouts.h"
+#include "drivers/pictures/pictures.h"
+#include "drivers/pictures/recording.h"
+#include "platform/unique_fd.h"
+
+namespace relievo {
+namespace {
+
+using namespace pictures;
+
+constexpr std::size_t kMostBytes = std::size_t{1} << 29;  // of a file
+constexpr std::size_t kMostTries = 8;                     // damaged pictures at the beginning
+constexpr const char* kGone = "the disk failed during playback; check it";
+
+using Bytes = std::vector<std::uint8_t>;
+
+Result<std::shared_ptr<Bytes>> readPicture(const std::string& path) {
+  const UniqueFd fd(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
+  struct stat status{};
+  if (!fd.valid() || ::fstat(fd.get(), &status) != 0) return fail(ErrorCode::NotFound, "cannot be opened", errno);
+  if (!S_ISREG(status.st_mode)) return fail(ErrorCode::Unsupported, "is no file");
+  if (static_cast<std::uint64_t>(status.st_size) > kMostBytes) return fail(ErrorCode::Exhausted, "is too large");
+  auto bytes = std::make_shared<Bytes>(static_cast<std::size_t>(status.st_size));
+  std::size_t done = 0;
+  while (done < bytes->size()) {
+    const ssize_t got = ::read(fd.get(), bytes->data() + done, bytes->size() - done);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return fail(ErrorCode::Lost, kGone, errno);
+    if (got == 0) break;
+    done += static_cast<std::size_t>(got);
+  }
+  bytes->resize(done);
+  return bytes;
+}
+
+// A folder's name.
+std::string titleOf(const std::string& url) {
+  std::error_code failed;
+  std::filesystem::path path = std::filesystem::absolute(pictures::pathOf(url), failed).lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();
+  return std::filesystem::is_directory(path, failed) ? path.filename().string() : "";
+}
+
+// A picture in the order of reading.
+struct Entry {
+  Duration time{0};
+  int stream = 0;
+  std::size_t place = 0;
+  auto operator<=>(const Entry&) const = default;
+};
+
+class PicturesSource final : public MediaSource {
+ public:
+  explicit PicturesSource(DescribePicture describe) : describe_(std::move(describe)) {}
+  ~PicturesSource() override { close(); }
+
+ private:
+  Result<Description> openSource(const std::string& url) override {
+    cancelled_ = false;
+    const auto found = findPictures(url);
+    if (!found) return std::unexpected(found.error());
+    recording_ = recordingOf(*found, pictureRate());
+    Description description;
+    for (const bool depth : {false, true}) {
+      const auto& pictures = depth ? recording_.depth : recording_.color;
+      if (pictures.empty()) continue;
+      auto stream = describeStream(pictures, depth);
+      if (!stream) return std::unexpected(stream.error());
+      stream->index = static_cast<int>(description.streams.size());
+      addEntries(pictures, stream->index);
+      description.duration = std::max(description.duration, stream->duration);
+      description.streams.push_back(std::move(*stream));
+    }
+    std::ranges::sort(entries_);
+    description.notes = recording_.notes;
+    if (const std::string title = titleOf(url); !title.empty()) description.tags["TITLE"] = title;
+    description.origin.named_start = recording_.start;
+    return description;
+  }
+
+  // As the first picture that can be described.
+  Result<StreamInfo> describeStream(const std::vector<TimedPicture>& pictures, bool depth) {
+    Result<StreamInfo> stream = fail(ErrorCode::Corrupt, "");
+    for (std::size_t i = 0; i < std::min(pictures.size(), kMostTries) && !stream; ++i) {
+      if (cancelled_) return fail(ErrorCode::Cancelled, "interrupted while opening pictures");
+      stream = describe_(pictures[i].path);
+    }
+    if (!stream) return stream;
+    stream->kind = StreamKind::Video;
+    stream->frame_period = recording_.period;
+    stream->average_rate = rateOf(pictures);
+    stream->base_rate = recording_.numbered ? stream->average_rate : Ratio{};
+    stream->duration = pictures.size() > 1 ? pictures.back().time + recording_.period : Duration(0);
+    if (depth) stream->tags.insert(recording_.depth_tags.begin(), recording_.depth_tags.end());
+    if (depth && !recording_.color.empty()) stream->tags["TITLE"] = "depth";
+    return stream;
+  }
+
+  // In thousandths.
+  [[nodiscard]] Ratio rateOf(const std::vector<TimedPicture>& pictures) const {
+    if (pictures.size() < 2) return {};
+    const double seconds = toSeconds(pictures.back().time - pictures.front().time);
+    const double rate =
+        recording_.numbered ? 1 / toSeconds(recording_.period) : static_cast<double>(pictures.size() - 1) / seconds;
+    return {static_cast<int>(std::lround(std::min(rate, 1e6) * 1000)), 1000};
+  }
+
+  void addEntries(const std::vector<TimedPicture>& pictures, int stream) {
+    for (std::size_t i = 0; i < pictures.size(); ++i) entries_.push_back({pictures[i].time, stream, i});
+  }
+
+  [[nodiscard]] const std::string& pathOf(const Entry& entry) const {
+    const bool depth = entry.stream == 1 || recording_.color.empty();
+    return (depth ? recording_.depth : recording_.color)[entry.place].path;
+  }
+
+  Entry takeNext() {
+    if (reached_.empty()) return entries_[next_++];
+    const Entry entry = reached_.back();
+    reached_.pop_back();
+    return entry;
+  }
+
+  Result<std::optional<Packet>> readPacket() override {
+    while (!reached_.empty() || next_ < entries_.size()) {
+      if (cancelled_) return fail(ErrorCode::Cancelled, "interrupted while reading pictures");
+      const Entry entry = takeNext();
+      auto bytes = readPicture(pathOf(entry));
+      if (!bytes && bytes.error().code == ErrorCode::Lost) return std::unexpected(bytes.error());
+      if (!bytes || (*bytes)->empty()) {
+        countMissed(1);
+        continue;
+      }
+      if (isNyuDepth(pathOf(entry))) mendByteOrder(**bytes);
+      Packet packet{.stream = entry.stream, .data = (*bytes)->data(), .bytes = (*bytes)->size()};
+      packet.pts = packet.dts = MediaTime(entry.time);
+      packet.keyframe = true;
+      packet.owner = std::move(*bytes);
+      return packet;
+    }
+    return std::nullopt;
+  }
+
+  // The last picture of each stream at or before the target comes first, then what follows the target.
+  Result<void> seekTo(MediaTime target) override {
+    if (cancelled_) return fail(ErrorCode::Cancelled, "interrupted while seeking");
+    const auto after = std::ranges::upper_bound(entries_, target.time_since_epoch(), {}, &Entry::time);
+    next_ = static_cast<std::size_t>(after - entries_.begin());
+    reached_.clear();
+    for (int stream = 1; stream >= 0; --stream) {
+      const auto last = std::find_if(std::make_reverse_iterator(after), entries_.rend(),
+                                     [stream](const Entry& entry) { return entry.stream == stream; });
+      if (last != entries_.rend()) reached_.push_back(*last);
+    }
+    return {};
+  }
+
+  void closeSource() noexcept override {
+    recording_ = {};
+    entries_.clear();
+    reached_.clear();
+    next_ = 0;
+  }
+  void interrupted() noexcept override { cancelled_ = true; }
+
+  DescribePicture describe_;
+  std::atomic<bool> cancelled_{false};
+  Recording recording_;
+  std::vector<Entry> entries_;
+  std::vector<Entry> reached_;  // by a seek, the next one last
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+bool isPictures(const std::string& url) {
+  return namesPictures(url);
+}
+
+std::unique_ptr<MediaSource> makePicturesSource(DescribePicture describe) {
+  return std::make_unique<PicturesSource>(std::move(describe));
+}
+
+}  // namespace relievo

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads serialised messages by their published definitions.
+#include "drivers/rosbag/messages.h"
+
+#include <cmath>
+
+namespace relievo::rosbag {
+namespace {
+
+// std_msgs/Header
+struct Header {
+  Duration stamp{0};
+  std::string frame;
+};
+Header readHeader(ByteReader& reader) {
+  static_cast<void>(reader.value<std::uint32_t>());  // a counter
+  const Duration stamp = reader.time();
+  return {stamp, std::string(reader.text())};
+}
+
+constexpr double kLengthToWithin = 1e-2;  // of a quaternion
+
+}  // namespace
+
+std::optional<Duration> parseStamp(Bytes message) {
+  ByteReader reader(message);
+  static_cast<void>(reader.value<std::uint32_t>());
+  const Duration stamp = reader.time();
+  return reader.ok() ? std::optional(stamp) : std::nullopt;
+}
+
+std::optional<PictureMessage> parsePicture(Bytes message, bool compressed) {
+  ByteReader reader(message);
+  const Header header = readHeader(reader);
+  PictureMessage picture{.stamp = header.stamp, .frame = header.frame, .encoding = {}, .compressed = compressed};
+  if (!compressed) {
+    picture.rows = reader.value<std::uint32_t>();
+    picture.cols = reader.value<std::uint32_t>();
+  }
+  picture.encoding = reader.text();
+  if (!compressed) {
+    picture.big_endian = reader.value<std::uint8_t>() != 0;
+    picture.step_bytes = reader.value<std::uint32_t>();
+  }
+  picture.data_bytes = reader.block().size();
+  picture.data_begin = reader.position() - picture.data_bytes;
+  if (!reader.ok()) return std::nullopt;
+  // RealSense writes "1" instead of a frame's name, and the unit of depth behind the picture.
+  if (!compressed && header.frame == "1" && reader.left() == sizeof(float)) picture.unit_m = reader.value<float>();
+  return picture;
+}
+
+std::optional<CameraMessage> parseCamera(Bytes message) {
+  ByteReader reader(message);
+  static_cast<void>(readHeader(reader));
+  CameraMessage camera;
+  camera.rows = reader.value<std::uint32_t>();
+  camera.cols = reader.value<std::uint32_t>();
+  camera.model = reader.text();
+  const auto count = reader.value<std::uint32_t>();
+  constexpr std::uint32_t kMostCoefficients = 64;
+  if (count > kMostCoefficients) return std::nullopt;
+  for (std::uint32_t i = 0; i < count; ++i) camera.distortion.push_back(reader.value<double>());
+  for (double& value : camera.intrinsics) value = reader.value<double>();
+  return reader.ok() ? std::optional(camera) : std::nullopt;
+}
+
+Motion inverse(const Motion& motion) noexcept {
+  const auto& m = motion.rotation;
+  Motion back{.rotation = {m[0], m[3], m[6], m[1], m[4], m[7], m[2], m[5], m[8]}};
+  const auto& t = motion.translation_m;
+  for (std::size_t i = 0; i < 3; ++i) {
+    back.translation_m[i] =
+        -(back.rotation[3 * i] * t[0] + back.rotation[3 * i + 1] * t[1] + back.rotation[3 * i + 2] * t[2]);
+  }
+  return back;
+}
+
+Motion chain(const Motion& first, const Motion& second) noexcept {
+  Motion both;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double* const row = &second.rotation[3 * i];
+    for (std::size_t j = 0; j < 3; ++j) {
+      both.rotation[3 * i + j] =
+          row[0] * first.rotation[j] + row[1] * first.rotation[3 + j] + row[2] * first.rotation[6 + j];
+    }
+    const auto& t = first.translation_m;
+    both.translation_m[i] = row[0] * t[0] + row[1] * t[1] + row[2] * t[2] + second.translation_m[i];
+  }
+  return both;
+}
+
+std::optional<Motion> parseTransform(ByteReader& reader) {
+  Motion motion;
+  for (double& value : motion.translation_m) value = reader.value<double>();
+  std::array<double, 4> q{};
+  for (double& value : q) value = reader.value<double>();
+  const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  if (!reader.ok() || !(std::abs(length - 1) < kLengthToWithin)) return std::nullopt;
+  const double x = q[0] / length, y = q[1] / length, z = q[2] / length, w = q[3] / length;
+  motion.rotation = {1 - 2 * (y * y + z * z), 2 * (x * y - z * w),     2 * (x * z + y * w),
+                     2 * (x * y + z * w),     1 - 2 * (x * x + z * z), 2 * (y * z - x * w),
+                     2 * (x * z - y * w),     2 * (y * z + x * w),     1 - 2 * (x * x + y * y)};
+  return motion;
+}
+
+std::vector<FrameMotion> parseFrameMotions(Bytes message) {
+  ByteReader reader(message);
+  std::vector<FrameMotion> motions;
+  const auto count = reader.value<std::uint32_t>();
+  for (std::uint32_t i = 0; i < count && reader.ok(); ++i) {
+    FrameMotion motion;
+    motion.parent = readHeader(reader).frame;
+    motion.child = reader.text();
+    const auto moved = parseTransform(reader);
+    if (!moved) break;
+    motion.motion = *moved;
+    motions.push_back(std::move(motion));
+  }
+  return motions;
+}
+
+}  // namespace relievo::rosbag

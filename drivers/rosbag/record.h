@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// Records of the bag format 2.0: a header of named fields, and data.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/media_time.h"
+
+namespace relievo::rosbag {
+
+using Bytes = std::span<const std::uint8_t>;
+
+// Reads little-endian values one after another. Once a value does not fit, this one and all later ones are zero or
+// empty, and `ok` is false.
+class ByteReader {
+ public:
+  explicit ByteReader(Bytes bytes) noexcept : bytes_(bytes) {}
+
+  template <class T>
+  [[nodiscard]] T value() noexcept {
+    T value{};
+    const Bytes bytes = take(sizeof value);
+    if (!bytes.empty()) std::memcpy(&value, bytes.data(), sizeof value);
+    return value;
+  }
+  [[nodiscard]] Bytes take(std::size_t count) noexcept {
+    if (!ok_ || count > bytes_.size() - at_) {
+      ok_ = false;
+      return {};
+    }
+    at_ += count;
+    return bytes_.subspan(at_ - count, count);
+  }
+  // A length of 32 bits, and as many bytes.
+  [[nodiscard]] Bytes block() noexcept { return take(value<std::uint32_t>()); }
+  [[nodiscard]] std::string_view text() noexcept {
+    const Bytes bytes = block();
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+  }
+  // Seconds and nanoseconds since 1970, or since whatever the recorder counts from.
+  [[nodiscard]] Duration time() noexcept {
+    const auto seconds = value<std::uint32_t>();
+    return std::chrono::seconds(seconds) + Duration(value<std::uint32_t>());
+  }
+  [[nodiscard]] std::size_t position() const noexcept { return at_; }
+  [[nodiscard]] std::size_t left() const noexcept { return bytes_.size() - at_; }
+  [[nodiscard]] bool ok() const noexcept { return ok_; }
+
+ private:
+  Bytes bytes_;
+  std::size_t at_ = 0;
+  bool ok_ = true;
+};
+
+// A part of the file, or a chunk that was unpacked into memory.
+struct Range {
+  int fd = -1;
+  std::uint64_t begin = 0, bytes = 0;
+  std::shared_ptr<const std::vector<std::uint8_t>> memory;  // instead of the file
+
+  // The number of bytes read; fewer than asked for at the end of the range, or if the file cannot be read.
+  [[nodiscard]] std::size_t read(std::uint64_t at, std::span<std::uint8_t> out) const noexcept;
+  // The errno if the file cannot be read at `at`, else 0.
+  [[nodiscard]] int errorAt(std::uint64_t at) const noexcept;
+};
+
+enum class Op : std::uint8_t {
+  None,
+  Message = 2,
+  BagHeader = 3,
+  Index = 4,
+  Chunk = 5,
+  ChunkInfo = 6,
+  Connection = 7,
+};
+
+// The fields that a header may have; zero or empty if it has not.
+struct Record {
+  Op op = Op::None;
+  std::uint32_t connection = 0;
+  std::uint32_t size = 0;  // of a chunk, unpacked
+  std::uint32_t chunk_count = 0;
+  std::uint64_t index_pos = 0;
+  std::uint64_t chunk_pos = 0;
+  Duration time{0};
+  std::string topic, compression;
+  std::uint64_t data_begin = 0;  // in the range
+  std::uint32_t data_bytes = 0;
+  [[nodiscard]] std::uint64_t end() const noexcept { return data_begin + data_bytes; }
+};
+
+// The record that begins at `at`; its data may reach beyond the range. Nullopt if the header is damaged or not whole.
+[[nodiscard]] std::optional<Record> readRecord(const Range& range, std::uint64_t at);
+
+// Nullopt unless all of the data lies in the range and is at most `most_bytes` long.
+[[nodiscard]] std::optional<std::vector<std::uint8_t>> readData(const Range& range, const Record& record,
+                                                                std::size_t most_bytes);
+
+}  // namespace relievo::rosbag

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// The keys of two remotes as those of one: of a window and of the terminal that it was started from.
+#pragma once
+
+#include <memory>
+
+#include "hal/remote_input.h"
+
+namespace relievo {
+
+// Opens and fails with the first; the second is left out where it cannot be opened.
+[[nodiscard]] std::unique_ptr<RemoteInput> makeJoinedRemote(std::unique_ptr<RemoteInput> first,
+                                                            std::unique_ptr<RemoteInput> second);
+
+}  // namespace relievo

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Converts a depth picture's floating-point samples (distances, disparities, in any unit) to 16-bit codes.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+namespace relievo {
+
+// One scale for a whole film, chosen from its first picture: a code stands for 1, 2 or 5 times a power of ten, and the
+// picture's largest value uses a quarter to a half of the codes. Code 0 is a hole: what is not a number, not positive,
+// or so large that it means "nothing there" (1e9 and more, or one value that lies alone, ten times beyond all
+// others). A film whose values are mostly negative, as some disparities are, has its sign turned. A later value beyond
+// the scale gets the highest code.
+class FloatCodes {
+ public:
+  static constexpr float kNothingThere = 1e9F;
+  static constexpr std::uint16_t kHole = 0, kHighest = 0xffff;
+
+  // `sample(i)` returns the first picture's sample `i` of `count`.
+  [[nodiscard]] static FloatCodes chosenFor(const std::function<float(std::size_t)>& sample, std::size_t count);
+  // Whole numbers up to 65535 that are codes already.
+  [[nodiscard]] static FloatCodes identity() noexcept { return {1, kNothingThere}; }
+
+  [[nodiscard]] std::uint16_t codeOf(float value) const noexcept;
+  // What one code stands for, in the unit of the file; negative if the sign was turned.
+  [[nodiscard]] double valuePerCode() const noexcept { return value_per_code_; }
+  // True if the value is no hole but lies beyond the highest code.
+  [[nodiscard]] bool isBeyond(float value) const noexcept;
+
+ private:
+  FloatCodes(double value_per_code, float nothing_from) noexcept
+      : value_per_code_(value_per_code), nothing_from_(nothing_from) {}
+  [[nodiscard]] bool isHole(float positive) const noexcept { return !(positive > 0 && positive < nothing_from_); }
+  [[nodiscard]] float positive(float value) const noexcept { return value_per_code_ < 0 ? -value : value; }
+
+  double value_per_code_;
+  float nothing_from_;
+};
+
+}  // namespace relievo

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a file's name says: a film, a picture or neither; and the order of numbered names.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace relievo {
+
+enum class MediaKind : std::uint8_t { Film, Picture, Neither };
+
+// By the ending alone, in upper or lower case.
+[[nodiscard]] MediaKind mediaKindOf(std::string_view name) noexcept;
+
+// "png" of "a/B.PNG": in lower case; empty if the name has no ending.
+[[nodiscard]] std::string endingOf(std::string_view name);
+
+// Whether a folder with so many films and pictures is a list of films; else it is a series of pictures.
+[[nodiscard]] constexpr bool isListOfFilms(std::size_t films, std::size_t pictures) noexcept {
+  constexpr std::size_t kCovers = 10;  // pictures beside each film
+  return films > 0 && pictures <= kCovers * films;
+}
+
+// True if `a` comes before `b` when runs of digits count as numbers: "2.png" before "10.png".
+[[nodiscard]] bool naturalLess(std::string_view a, std::string_view b) noexcept;
+
+}  // namespace relievo

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a misspelt word was meant to be.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace relievo {
+
+// The number of letters to insert, delete or change (Levenshtein 1966).
+[[nodiscard]] std::size_t editDistance(std::string_view a, std::string_view b);
+// A word is near `wanted` if its distance is below this.
+[[nodiscard]] constexpr std::size_t leastDifference(std::string_view wanted) noexcept {
+  return wanted.size() / 3 + 1;
+}
+// The nearest of `words`, without regard to case; empty if none is near.
+[[nodiscard]] std::string nearestWord(std::string_view wanted, std::span<const std::string> words);
+// A to Z in small letters.
+[[nodiscard]] std::string inSmallLetters(std::string_view text);
+
+}  // namespace relievo

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// ROS 1 bags (format 2.0), byte by byte, and the messages in them, for tests.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace relievo::test {
+
+// Little-endian values one after another.
+class ByteWriter {
+ public:
+  template <class T>
+  ByteWriter& add(T value) {
+    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+    return *this;
+  }
+  ByteWriter& raw(std::string_view bytes) { return bytes_.append(bytes), *this; }
+  // With its length in front.
+  ByteWriter& text(std::string_view text) { return add(static_cast<std::uint32_t>(text.size())).raw(text); }
+  ByteWriter& time(std::int64_t ns) {
+    return add(static_cast<std::uint32_t>(ns / 1'000'000'000)).add(static_cast<std::uint32_t>(ns % 1'000'000'000));
+  }
+  // std_msgs/Header
+  ByteWriter& header(std::int64_t ns, std::string_view frame) { return add(std::uint32_t{7}).time(ns).text(frame); }
+  [[nodiscard]] const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+};
+
+struct BagImage {
+  std::int64_t stamp_ns = 0;
+  std::string frame = "camera";
+  std::uint32_t cols = 0, rows = 0, step = 0;
+  std::string encoding;
+  bool big_endian = false;
+  std::string data;
+  float unit_m = 0;  // over 0: behind the picture, as RealSense writes it
+};
+[[nodiscard]] std::string bagImage(const BagImage& image);
+[[nodiscard]] std::string bagCompressedImage(std::int64_t stamp_ns, std::string_view format, std::string_view data);
+struct BagCamera {
+  std::uint32_t cols = 0, rows = 0;
+  double focal_x = 0, focal_y = 0, center_x = 0, center_y = 0;
+  std::string model = "plumb_bob";
+  std::vector<double> distortion = std::vector<double>(5);
+};
+[[nodiscard]] std::string bagCameraInfo(const BagCamera& camera);
+// geometry_msgs/Transform; rotation: x, y, z, w.
+[[nodiscard]] std::string bagTransform(const std::array<double, 3>& translation_m,
+                                       const std::array<double, 4>& rotation);
+// tf2_msgs/TFMessage with one transform.
+[[nodiscard]] std::string bagFrameMotion(std::string_view parent, std::string_view child, std::string_view transform);
+
+class BagWriter {
+ public:
+  explicit BagWriter(std::string compression = "none");
+  std::uint32_t connect(const std::string& topic, const std::string& type);
+  void write(std::uint32_t connection, std::int64_t time_ns, const std::string& message);
+  void endChunk();
+  // Ends the chunk with a message of so many zeros, which take no room on the disk (`save`). Only in plain chunks.
+  void writeHole(std::uint32_t connection, std::int64_t time_ns, std::uint32_t bytes);
+  // The whole bag; without an index as a recorder leaves it that was killed.
+  [[nodiscard]] std::string finish(bool indexed = true);
+  // The same, of a bag with holes, as a file.
+  void save(const std::string& path, bool indexed = true);
+
+ private:
+  struct Info {
+    std::uint64_t begin = 0;
+    std::map<std::uint32_t, std::uint32_t> counts;
+  };
+  [[nodiscard]] std::uint64_t position() const { return file_.size() + skipped_; }
+  [[nodiscard]] std::string pack(const std::string& plain) const;
+
+  std::string compression_;
+  std::string file_, chunk_;
+  std::vector<std::string> connections_;           // their records
+  std::map<std::uint32_t, ByteWriter> index_;      // of the chunk
+  std::map<std::uint32_t, std::uint32_t> counts_;  // likewise
+  std::vector<bool> introduced_;                   // whose record is in a chunk
+  std::vector<Info> infos_;
+  std::uint32_t hole_ = 0;                                    // bytes behind the chunk
+  std::vector<std::pair<std::size_t, std::uint32_t>> holes_;  // where in `file_`, and how long
+  std::uint64_t skipped_ = 0;                                 // bytes of all holes
+};
+
+}  // namespace relievo::test

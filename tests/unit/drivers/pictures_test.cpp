@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: Apache-2.0
+// Folders, patterns and lists of pictures: which pictures they name, when each was taken, which depth belongs to which
+// colour.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "drivers/pictures/layouts.h"
+#include "drivers/pictures/lists.h"
+#include "drivers/pictures/names.h"
+#include "drivers/pictures/pictures.h"
+#include "tests/support/film/clip_maker.h"
+
+namespace relievo {
+namespace {
+
+using namespace std::chrono_literals;
+using pictures::NameKind;
+using pictures::valuesOf;
+using test::TemporaryFolder;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TEST(PictureNames, SecondsAreExact) {
+  const auto tum = valuesOf({"1305031102.175304.png", "1305031102.2.png"});
+  EXPECT_EQ(tum.kind, NameKind::Seconds);
+  EXPECT_THAT(tum.values, ElementsAre(1305031102175304000, 1305031102200000000));
+  const auto nyu = valuesOf({"d-1294886362.665769-3143787185.pgm", "d-1294886362.793814-3151264321.pgm"});
+  EXPECT_EQ(nyu.kind, NameKind::Seconds);
+  EXPECT_THAT(nyu.values, ElementsAre(1294886362665769000, 1294886362793814000));
+  EXPECT_THAT(valuesOf({"1403636579763555584.png"}).values, ElementsAre(1403636579763555584));
+  EXPECT_THAT(valuesOf({"1403636579763555.png"}).values, ElementsAre(1403636579763555000));
+  EXPECT_THAT(valuesOf({"1403636579763.png"}).values, ElementsAre(1403636579763000000));
+  const auto redwood = valuesOf({"0000002-000000033369.jpg", "0000001-000000000000.jpg"});
+  EXPECT_EQ(redwood.kind, NameKind::Seconds);
+  EXPECT_THAT(redwood.values, ElementsAre(33369000, 0));
+}
+
+TEST(PictureNames, TheOnlyRunOfDigitsThatDiffersIsTheNumber) {
+  const auto scene = valuesOf({"scene_1_10.png", "scene_1_9.png"});
+  EXPECT_EQ(scene.kind, NameKind::Numbers);
+  EXPECT_THAT(scene.values, ElementsAre(10, 9));
+  EXPECT_THAT(valuesOf({"frame-000005.color.png"}).values, ElementsAre(5));
+  const auto mixed = valuesOf({"b10.png", "a.png", "b9.png"});
+  EXPECT_EQ(mixed.kind, NameKind::Ranks);
+  EXPECT_THAT(mixed.values, ElementsAre(2, 0, 1)) << "in natural order";
+  EXPECT_EQ(valuesOf({"1.png", "01.png"}).kind, NameKind::Ranks) << "one number twice";
+}
+
+TEST(PictureLists, OrderCommentsAndWhatIsNone) {
+  const auto list = pictures::parsePictureList("# a comment\n\n2.5 depth/a.png 2.625 rgb/a.png # more\r\n", 2);
+  ASSERT_TRUE(list);
+  EXPECT_FALSE(list->numbers);
+  ASSERT_EQ(list->lines.size(), 1u);
+  EXPECT_EQ(list->lines[0][0].name, "depth/a.png");
+  EXPECT_EQ(list->lines[0][1].value, 2625000000);
+  const auto icl = pictures::parsePictureList("1 depth/1.png 1 rgb/1.png\n2 depth/2.png 2 rgb/2.png\n", 2);
+  ASSERT_TRUE(icl);
+  EXPECT_TRUE(icl->numbers);
+  EXPECT_EQ(icl->lines[1][0].value, 2);
+  for (const char* none :
+       {"", "# nothing\n", "1 a.png\n", "1 a.png 2 b.txt\n", "x a.png 2 b.png\n", "-1 a.png 2 b.png\n",
+        "1 a.png 2 b.png 3\n", "1e3 a.png 2 b.png\n", "99999999999 a.png 2 b.png\n", "1. a.png 1. b.png\n"}) {
+    EXPECT_FALSE(pictures::parsePictureList(none, 2)) << none;
+  }
+}
+
+TEST(PictureLayouts, NyusBytesAreSwappedOnlyIfThatMakesThemSound) {
+  std::vector<std::uint8_t> pgm{'P', '5', '\n', '2',  ' ',  '1',  '\n', '6', '5',
+                                '5', '3', '5',  '\n', 0x2c, 0x01, 0xff, 0x07};
+  auto mended = pgm;
+  pictures::mendByteOrder(mended);  // 300 and 2047
+  EXPECT_THAT(std::vector(mended.end() - 4, mended.end()), ElementsAre(0x01, 0x2c, 0x07, 0xff));
+  const auto again = mended;
+  pictures::mendByteOrder(mended);
+  EXPECT_EQ(mended, again);
+  EXPECT_TRUE(pictures::isNyuDepth("a/d-1.5-2.pgm"));
+  EXPECT_FALSE(pictures::isNyuDepth("a/r-1.5-2.ppm"));
+}
+
+// Files whose content is their name, so that a packet tells which file it is.
+class Pictures : public testing::Test {
+ protected:
+  std::string file(const std::string& name, const std::string& text = "") const {
+    const std::filesystem::path path = folder_ / name;
+    std::filesystem::create_directories(path.parent_path());
+    std::ofstream(path) << (text.empty() ? name : text);
+    return path;
+  }
+  static Result<StreamInfo> describe(const std::string& path) {
+    StreamInfo stream;
+    stream.codec = std::filesystem::path(path).extension().string();
+    return stream;
+  }
+  struct Film {
+    std::vector<std::string> color, depth;  // "ms name"
+    std::vector<std::string> notes;
+    std::vector<StreamInfo> streams;
+    Duration duration{0};
+    std::optional<Error> error;
+  };
+  [[nodiscard]] std::string line(const Packet& packet) const {
+    char ms[32];
+    std::snprintf(ms, sizeof ms, "%.6g ", 1e3 * toSeconds(*packet.pts));
+    return ms + std::string(reinterpret_cast<const char*>(packet.data), packet.bytes);
+  }
+  [[nodiscard]] Film read(const std::string& url, std::optional<double> rate = std::nullopt,
+                          std::optional<MediaTime> from = std::nullopt) const {
+    const auto source = makePicturesSource(describe);
+    source->setPictureRate(rate);
+    Film film;
+    if (auto opened = source->open(url); !opened) {
+      film.error = opened.error();
+      return film;
+    }
+    if (from) {
+      EXPECT_TRUE(source->seek(*from));
+    }
+    film.notes = source->notes();
+    film.streams = source->streams();
+    film.duration = source->duration();
+    for (auto packet = source->read(); packet && *packet; packet = source->read()) {
+      EXPECT_TRUE((*packet)->keyframe);
+      ((*packet)->stream == 0 ? film.color : film.depth).push_back(line(**packet));
+    }
+    return film;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Pictures, APatternHasAnyFirstNumberAndGapsAreTime) {
+  for (const char* name :
+       {"p00100.png", "p00099.png", "p00102.png", "q00101.png", "p00101.jpg", "p0x101.png", "p7.png"}) {
+    file(name);
+  }
+  const Film film = read(folder_ / "p%05d.png", 50);
+  EXPECT_THAT(film.color, ElementsAre("0 p00099.png", "20 p00100.png", "60 p00102.png"));
+  EXPECT_EQ(film.duration, 80ms);
+  EXPECT_EQ(film.streams.at(0).frame_period, 20ms);
+  EXPECT_THAT(film.notes, ElementsAre(HasSubstr("1 of the numbers 99 to 102")));
+  EXPECT_EQ(read(folder_ / "p*.png", 25).color.size(), 5u);
+  EXPECT_EQ(read(folder_ / "x%05d.png").error->code, ErrorCode::NotFound);
+}
+
+TEST_F(Pictures, ANumbersTimeIsExactHoweverFarItIs) {
+  file("1.png"), file("100001.png");
+  const Film film = read(folder_ / "%d.png", 30);
+  EXPECT_THAT(film.color.back(), "3.33333e+06 100001.png");
+  const auto source = makePicturesSource(describe);
+  source->setPictureRate(30);
+  ASSERT_TRUE(source->open(folder_ / "%d.png"));
+  ASSERT_TRUE(source->read());
+  EXPECT_EQ((*source->read())->pts, MediaTime(3'333'333'333'333ns)) << "100,000 / 30 s, not 100,000 rounded periods";
+}
+
+TEST_F(Pictures, NaturalOrderWhereNamesAreNoNumbers) {
+  file("a-2.png"), file("a-10.png"), file("cover.png"), file("b.png");
+  EXPECT_THAT(read(folder_ / "", 10).color, ElementsAre("0 a-2.png", "100 a-10.png", "200 b.png", "300 cover.png"));
+}
+
+TEST_F(Pictures, DepthGoesToTheNearestColourWithin20Ms) {
+  // associate.py of the TUM tools pairs 0.100 with 0.095 and 0.133 with 0.130, and leaves 0.200 and 0.225 alone.
+  for (const char* name : {"rgb/10.100.png", "rgb/10.133.png", "rgb/10.200.png", "depth/10.095.png", "depth/10.112.png",
+                           "depth/10.130.png", "depth/10.225.png"}) {
+    file("tum/" + std::string(name));
+  }
+  const Film film = read(folder_ / "tum");
+  EXPECT_THAT(film.color, ElementsAre("0 tum/rgb/10.100.png", "33 tum/rgb/10.133.png", "100 tum/rgb/10.200.png"));
+  EXPECT_THAT(film.depth, ElementsAre("0 tum/depth/10.095.png", "12 tum/depth/10.112.png", "33 tum/depth/10.130.png",
+                                      "125 tum/depth/10.225.png"));
+  EXPECT_THAT(film.notes, ElementsAre("1 of 3 colour pictures have no depth within 20 ms"));
+  ASSERT_EQ(film.streams.size(), 2u);
+  EXPECT_EQ(film.streams[1].tags.at("DEPTH_UNIT"), "0.2");
+  EXPECT_EQ(film.streams[1].tags.at("TITLE"), "depth");
+}
+
+TEST_F(Pictures, AListSaysWhatBelongsTogether) {
+  file("t/rgb/1.jpg"), file("t/rgb/2.jpg"), file("t/rgb/3.jpg"), file("t/depth/1.png"), file("t/depth/2.png");
+  const std::string list = file("t/associations.txt",
+                                "# depth first\n5.01 depth/1.png 5.0 rgb/2.jpg\n"
+                                "5.2 depth/2.png 5.25 rgb/3.jpg\n");
+  for (const std::string& url : {list, folder_ / "t", "file:" + list}) {
+    const Film film = read(url);
+    EXPECT_THAT(film.color, ElementsAre("0 t/rgb/2.jpg", "250 t/rgb/3.jpg")) << url;
+    EXPECT_THAT(film.depth, ElementsAre("0 t/depth/1.png", "250 t/depth/2.png")) << url;
+  }
+  EXPECT_EQ(read(file("no.txt", "1 a\n")).error->code, ErrorCode::Corrupt);
+}
+
+TEST_F(Pictures, NumbersPairColourAndDepthInOneFolderAndInTwo) {
+  for (const char* name :
+       {"frame-000006.color.jpg", "frame-000005.color.jpg", "frame-000006.depth.png", "frame-000007.depth.png",
+        "frame-000004.depth.png", "frame-000005.pose.txt", "frame-000005.mask.png"}) {
+    file("seven/" + std::string(name));
+  }
+  const Film seven = read(folder_ / "seven", 10);
+  EXPECT_THAT(seven.color, ElementsAre("0 seven/frame-000005.color.jpg", "100 seven/frame-000006.color.jpg"));
+  EXPECT_THAT(seven.depth, ElementsAre("100 seven/frame-000006.depth.png", "200 seven/frame-000007.depth.png"));
+  EXPECT_EQ(seven.streams.at(1).tags.count("DEPTH_UNIT"), 0u) << "mm, as its first picture shows";
+  file("scan/color/9.jpg"), file("scan/color/10.jpg"), file("scan/depth/10.png"), file("scan/depth/9.png");
+  const Film scan = read(folder_ / "scan");
+  EXPECT_THAT(scan.color, ElementsAre("0 scan/color/9.jpg", "33.3333 scan/color/10.jpg"));
+  EXPECT_THAT(scan.depth, ElementsAre("0 scan/depth/9.png", "33.3333 scan/depth/10.png"));
+  EXPECT_THAT(scan.notes, ElementsAre(HasSubstr("30 pictures a second assumed")));
+}
+
+TEST_F(Pictures, NamesThatDoNotCorrespondArePairedInTheirOrder) {
+  file("s/image/NYU0001.jpg"), file("s/depth/kv7.png");
+  const Film film = read(folder_ / "s");
+  EXPECT_THAT(film.color, ElementsAre("0 s/image/NYU0001.jpg"));
+  EXPECT_THAT(film.depth, ElementsAre("0 s/depth/kv7.png"));
+  EXPECT_THAT(film.notes, ElementsAre(HasSubstr("paired in their order")));
+}
+
+TEST_F(Pictures, ASeekBeginsWithThePicturesAtTheTarget) {
+  for (int k = 0; k < 9; ++k) file("r/rgb/" + std::to_string(k) + ".png");
+  file("r/depth/0.png"), file("r/depth/6.png");
+  const Film film = read(folder_ / "r", 10, MediaTime(450ms));
+  EXPECT_THAT(film.color, ElementsAre("400 r/rgb/4.png", "500 r/rgb/5.png", "600 r/rgb/6.png", "700 r/rgb/7.png",
+                                      "800 r/rgb/8.png"));
+  EXPECT_THAT(film.depth, ElementsAre("0 r/depth/0.png", "600 r/depth/6.png"));
+  EXPECT_THAT(read(folder_ / "r", 10, MediaTime(1h)).color, ElementsAre("800 r/rgb/8.png"));
+}
+
+TEST_F(Pictures, OneThatHasGoneIsPassedOverAndCounted) {
+  file("1.png"), file("2.png"), file("3.png");
+  const auto source = makePicturesSource(describe);
+  ASSERT_TRUE(source->open(folder_ / "%d.png"));
+  std::filesystem::remove(folder_ / "2.png");
+  EXPECT_EQ(line(**source->read()), "0 1.png");
+  EXPECT_EQ(line(**source->read()), "80 3.png");
+  EXPECT_EQ(source->missedPictures(), 1u);
+  EXPECT_FALSE(*source->read());
+}
+
+TEST_F(Pictures, ALargeFolderIsListedNotRead) {
+  for (int k = 0; k < 10'000; ++k) std::ofstream(folder_ / (std::to_string(k) + ".png")) << k;
+  int described = 0;
+  const auto source = makePicturesSource([&](const std::string& path) {
+    ++described;
+    return describe(path);
+  });
+  ASSERT_TRUE(source->open(folder_ / ""));
+  EXPECT_EQ(described, 1);
+  ASSERT_TRUE(source->seek(MediaTime(320s)));
+  EXPECT_EQ(line(**source->read()), "320000 8000");
+}
+
+TEST_F(Pictures, SaysWhatAFolderLacks) {
+  std::filesystem::create_directory(folder_ / "empty");
+  EXPECT_THAT(read(folder_ / "empty").error->message, HasSubstr("no picture"));
+  file("films/a.mkv"), file("films/poster.jpg");
+  EXPECT_THAT(read(folder_ / "films").error->message, HasSubstr("list of films"));
+}
+
+TEST_F(Pictures, WhatTheyAreIsToldFromNamesAlone) {
+  const std::string one = file("a.png"), film = file("b.mkv"), odd = file("50%d.png"), list = file("l.txt");
+  for (const std::string& url : {one, odd, list, folder_ / "", folder_ / "%d.png", folder_ / "*.jpg", "file:" + one}) {
+    EXPECT_TRUE(isPictures(url)) << url;
+  }
+  for (const std::string& url :
+       {film, folder_ / "none.png", folder_ / "*.mkv", std::string("http://a/*.png"), std::string("mock:")}) {
+    EXPECT_FALSE(isPictures(url)) << url;
+  }
+  EXPECT_THAT(read(odd).color, ElementsAre("0 50%d.png")) << "a file is a file whatever its name looks like";
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which folder is a list of films, and in which order.
+#include "app/media/film_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/support/film/clip_maker.h"
+
+namespace relievo {
+namespace {
+
+class FilmFolder : public testing::Test {
+ protected:
+  void files(const std::vector<std::string>& names) const {
+    for (const std::string& name : names) std::ofstream(folder_ / name) << "x";
+  }
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(FilmFolder, ListsItsFilmsInNaturalOrderWithTheirDepth) {
+  files({"10.mkv", "9.mp4", "cup.mov", "cup-depth.mkv", "cover.jpg", "notes.txt", ".hidden.mkv"});
+  const std::vector<PlaylistEntry> expected{{folder_ / "9.mp4", "", "9"},
+                                            {folder_ / "10.mkv", "", "10"},
+                                            {folder_ / "cup.mov", folder_ / "cup-depth.mkv", "cup"}};
+  const auto films = filmsIn(std::filesystem::path(folder_ / "x").parent_path());
+  ASSERT_TRUE(films);
+  EXPECT_EQ(*films, expected);
+}
+
+TEST_F(FilmFolder, ASeriesOfPicturesAndARecordingAreNone) {
+  EXPECT_EQ(filmsIn(folder_ / "none"), std::nullopt);
+  EXPECT_EQ(filmsIn(folder_ / ""), std::nullopt) << "an empty folder";
+  files({"preview.mp4"});
+  EXPECT_TRUE(filmsIn(folder_ / ""));
+  for (int k = 0; k < 11; ++k) files({std::to_string(k) + ".png"});
+  EXPECT_EQ(filmsIn(folder_ / ""), std::nullopt) << "eleven pictures beside one film";
+  files({"other.mp4"});
+  EXPECT_TRUE(filmsIn(folder_ / ""));
+  std::filesystem::create_directory(folder_ / "depth");
+  EXPECT_EQ(filmsIn(folder_ / ""), std::nullopt) << "a recording";
+}
+
+TEST_F(FilmFolder, PicturesThatAShellHasListedAreOneFilm) {
+  files({"f-1.png", "f-2.png", "f-10.png", "g-1.png", "f-1.jpg"});
+  const auto path = [&](const char* name) { return folder_ / name; };
+  EXPECT_EQ(seriesOf({path("f-1.png"), path("f-10.png"), path("f-2.png")}), folder_ / "f-*.png");
+  EXPECT_EQ(seriesOf({path("f-1.png"), path("f-2.png")}), std::nullopt) << "not all that the pattern names";
+  EXPECT_EQ(seriesOf({path("f-1.png"), path("f-1.jpg")}), std::nullopt);
+  EXPECT_EQ(seriesOf({path("f-1.png")}), std::nullopt);
+  EXPECT_EQ(seriesOf({path("f-1.png"), path("a.mkv")}), std::nullopt);
+  std::filesystem::create_directory(folder_ / "a");
+  std::filesystem::create_directory(folder_ / "b");
+  files({"a/1.png", "b/1.png"});
+  EXPECT_EQ(seriesOf({path("a/1.png"), path("b/1.png")}), std::nullopt);
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which colour map a coded picture shows, and that photos, gray and noise show none; and the depth read from it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <random>
+
+#include "app/media/pair_reader.h"
+#include "app/media/reading/color_map_fit.h"
+#include "app/scene/height_field.h"
+#include "drivers/ffmpeg/ffmpeg.h"
+#include "tests/support/film/clip_maker.h"
+
+namespace relievo {
+namespace {
+
+using test::ClipTrack;
+using test::makeClip;
+using test::TemporaryFolder;
+using Rgb = std::array<double, 3>;
+
+const PairReader::Backends kFfmpeg{[](const std::string&) { return makeFfmpegSource(); },
+                                   [](const StreamInfo&) { return makeFfmpegDecoder(); }};
+
+constexpr int kCols = 160, kRows = 112;
+constexpr DisplayVolume kUnit{160, 112, 1};
+
+// A slope behind a disc.
+double depthAt(int c, int r) {
+  const double x = c - 70.0, y = r - 50.0;
+  return x * x + y * y < 900 ? 0.8 - 0.0002 * x * x : 0.15 + 0.3 * c / kCols;
+}
+
+Rgb hue(double s) {
+  const auto part = [&](double n) { return std::clamp(std::abs(std::fmod(6 * s + n, 6) - 3) - 1, 0.0, 1.0); };
+  return {part(0), part(4), part(2)};
+}
+Rgb jet(double s) {
+  const auto part = [&](double middle) { return std::clamp(1.5 - std::abs(4 * s - middle), 0.0, 1.0); };
+  return {part(3), part(2), part(1)};
+}
+Rgb rainbow(double s) {
+  return {std::min(1.0, std::abs(2 * s - 0.5)), std::sin(std::numbers::pi * s), std::cos(std::numbers::pi * s / 2)};
+}
+
+// Limited BT.601, as a small picture is taken to be; chroma is that of the sample at the left and above.
+ClipTrack coded(const std::function<Rgb(int, int)>& color, const char* crf) {
+  ClipTrack track{.codec = "libx264", .pix_fmt = "yuv420p", .width = kCols, .height = kRows, .frames = 2};
+  track.options = {{"crf", crf}};
+  track.sample = [color](int k, int c, int r, int) {
+    const Rgb at = k == 0 ? color(c, r) : color(2 * c, 2 * r);
+    const double y = 0.299 * at[0] + 0.587 * at[1] + 0.114 * at[2];
+    const double codes[] = {16 + 219 * y, 128 + 224 * (at[2] - y) / 1.772, 128 + 224 * (at[0] - y) / 1.402};
+    return static_cast<std::uint32_t>(std::lround(codes[k]));
+  };
+  return track;
+}
+
+// The first depth picture of a clip of this depth.
+Frame firstPicture(const ClipTrack& track, DepthCode code) {
+  TemporaryFolder folder;
+  makeClip(folder / "color.mkv", {{.pix_fmt = "yuv420p", .frames = 2}});
+  makeClip(folder / "depth.mkv", {track});
+  PairReader reader(kFfmpeg);
+  if (!reader.open({.url = folder / "color.mkv", .depth_url = folder / "depth.mkv", .depth_code = code})) return {};
+  auto pair = reader.next();
+  return pair && *pair ? (*pair)->depth : Frame{};
+}
+
+TEST(ColorMapFit, FindsTheMapOfACodedPictureAndReadsItsDepth) {
+  const struct {
+    DepthCode code;
+    Rgb (*color)(double);
+  } maps[] = {{DepthCode::Hue, hue}, {DepthCode::Jet, jet}, {DepthCode::Rainbow, rainbow}};
+  for (const auto& map : maps) {
+    for (const char* crf : {"18", "23"}) {
+      const Frame picture = firstPicture(coded([&](int c, int r) { return map.color(depthAt(c, r)); }, crf), map.code);
+      ASSERT_FALSE(picture.empty());
+      const auto fit = bestColorMap(picture);
+      ASSERT_TRUE(fit) << name(map.code) << " crf " << crf;
+      EXPECT_EQ(fit->code, map.code) << name(fit->code) << ", not " << name(map.code);
+      EXPECT_LT(fit->residual, 0.02);
+      EXPECT_GT(fit->share, 0.9);
+
+      const auto field = HeightField::make(picture, {.code = map.code}, kUnit).value();
+      int off = 0, far_off = 0;
+      for (int r = 0; r < kRows; ++r) {
+        for (int c = 0; c < kCols; ++c) {
+          const double error = std::abs(field.heightMm(c, r) - depthAt(c, r));
+          off += error < 0.03 ? 0 : 1;
+          far_off += error < 0.4 ? 0 : 1;  // a wall, a hole
+        }
+      }
+      EXPECT_LT(off, kCols * kRows / 50) << name(map.code) << " crf " << crf;
+      EXPECT_LT(far_off, kCols * kRows / 300) << name(map.code) << " crf " << crf;
+    }
+  }
+}
+
+TEST(ColorMapFit, RefusesPhotosGrayNoiseBlackAndOneColour) {
+  std::minstd_rand random(1);
+  std::uniform_real_distribution<double> any(0, 1);
+  const std::pair<const char*, std::function<Rgb(int, int)>> pictures[] = {
+      {"photo",
+       [](int c, int r) { return Rgb{0.5 + 0.4 * std::sin(0.3 * c), 0.3 + 0.002 * r, 0.4 + 0.3 * std::cos(0.2 * r)}; }},
+      {"gray slope", [](int c, int r) { return Rgb{depthAt(c, r), depthAt(c, r), depthAt(c, r)}; }},
+      {"noise", [&](int, int) { return Rgb{any(random), any(random), any(random)}; }},
+      {"black", [](int, int) { return Rgb{}; }},
+      {"green", [](int, int) { return Rgb{0, 1, 0}; }}};
+  for (const auto& [what, color] : pictures) {
+    const Frame picture = firstPicture(coded(color, "18"), DepthCode::Luma);
+    ASSERT_FALSE(picture.empty()) << what;
+    EXPECT_FALSE(bestColorMap(picture)) << what;
+  }
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// Depth in floating point, opened without any option: what it is taken for, and the distances that come out.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include "app/media/reading/float_reading.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/film/opened_film.h"
+
+namespace relievo {
+namespace {
+
+using test::TemporaryFolder;
+using testing::Contains;
+using testing::HasSubstr;
+
+constexpr int kCols = 64, kRows = 48;
+constexpr float kHole = std::numeric_limits<float>::infinity();
+
+// A floor that comes nearer towards the bottom, with nothing in the top left corner.
+double metresAt(int c, int r) {
+  return c < 8 && r < 8 ? 0 : 4.0 - 0.05 * r + 0.001 * c;
+}
+
+template <class Value>
+void writePfm(const std::string& path, Value&& value) {
+  std::ofstream file(path, std::ios::binary);
+  file << "Pf\n" << kCols << ' ' << kRows << "\n-1\n";
+  for (int r = kRows - 1; r >= 0; --r) {
+    for (int c = 0; c < kCols; ++c) {
+      const float sample = metresAt(c, r) == 0 ? kHole : static_cast<float>(value(metresAt(c, r)));
+      file.write(reinterpret_cast<const char*>(&sample), sizeof sample);
+    }
+  }
+}
+
+// Each distance is the true one times the same number, holes are holes.
+void expectDistances(const test::OpenedFilm& film) {
+  ASSERT_TRUE(film.info.has_depth);
+  const double scale = film.distanceAt(30, 20) / metresAt(30, 20);
+  for (int r = 0; r < kRows; r += 3) {
+    for (int c = 0; c < kCols; c += 5) {
+      const bool hole = std::isnan(film.heightAt(c, r));
+      ASSERT_EQ(hole, metresAt(c, r) == 0) << c << ", " << r;
+      if (hole) continue;
+      ASSERT_NEAR(film.distanceAt(c, r) / scale, metresAt(c, r), 0.002) << c << ", " << r;
+    }
+  }
+}
+
+TEST(FloatReading, MetresMillimetresAndDisparitiesComeOutAlike) {
+  const TemporaryFolder folder;
+  writePfm(folder / "depth.pfm", [](double m) { return m; });
+  writePfm(folder / "depth-mm.pfm", [](double m) { return 1000 * m; });
+  writePfm(folder / "disp.pfm", [](double m) { return 900 / m; });
+  writePfm(folder / "0006.pfm", [](double m) { return 900 / m; });  // PFM is mostly disparity
+  for (const char* name : {"depth.pfm", "depth-mm.pfm", "disp.pfm", "0006.pfm"}) {
+    SCOPED_TRACE(name);
+    expectDistances(test::openFilm({.url = folder / name}));
+  }
+  const auto& metres = test::openFilm({.url = folder / "depth.pfm"}).info.calibration.calibration;
+  EXPECT_NEAR(metres.near_mm, 0.9 * 1650, 20);
+  EXPECT_NEAR(metres.far_mm, 1.1 * 4060, 20);
+  const auto& mm = test::openFilm({.url = folder / "depth-mm.pfm"}).info.calibration.calibration;
+  EXPECT_NEAR(mm.near_mm, metres.near_mm, 1);
+}
+
+TEST(FloatReading, TheCommandLineSpeaksOfTheFilesNumbers) {
+  const TemporaryFolder folder;
+  writePfm(folder / "0006.pfm", [](double m) { return 10 * m; });  // decimetres
+  SourceOptions options{.url = folder / "0006.pfm"};
+  options.command_line = {{"unit", "100"}};
+  const test::OpenedFilm film = test::openFilm(options);
+  expectDistances(film);
+  EXPECT_NEAR(film.distanceAt(30, 20), 1000 * metresAt(30, 20), 4);
+
+  writePfm(folder / "depth.pfm", [](double m) { return 900 / m; });
+  SourceOptions inverse{.url = folder / "depth.pfm"};
+  inverse.command_line = {{"law", "inverse"}};
+  expectDistances(test::openFilm(inverse));
+}
+
+TEST(FloatReading, RelativeDisparitiesThatBeginAtZeroAreLinear) {
+  const TemporaryFolder folder;
+  writePfm(folder / "disp.pfm", [](double m) { return (4.06 - m) / 2; });
+  const test::OpenedFilm film = test::openFilm({.url = folder / "disp.pfm"});
+  EXPECT_EQ(film.info.calibration.calibration.law, DepthLaw::Linear);
+  EXPECT_GT(film.heightAt(30, 40), film.heightAt(30, 10) + 0.5);
+}
+
+TEST(FloatReading, DepthWithoutColourIsFeltAndShownAsGray) {
+  const TemporaryFolder folder;
+  writePfm(folder / "depth.pfm", [](double m) { return m; });
+  const test::OpenedFilm film = test::openFilm({.url = folder / "depth.pfm"});
+  EXPECT_EQ(film.info.packing, Packing::DepthAlone);
+  EXPECT_EQ(film.pair.color.model, ColorModel::Gray);
+  EXPECT_EQ(test::sampleAt(film.pair.color, 0, 2, 2), 0u) << "a hole is black";
+  EXPECT_GT(test::sampleAt(film.pair.color, 0, 30, 40), test::sampleAt(film.pair.color, 0, 30, 10) + 50);
+  EXPECT_THAT(film.info.reading.why,
+              Contains(HasSubstr("distances in m; if they are disparities, give --calibration")));
+}
+
+TEST(FloatReading, NamesTellWhatTheNumbersAre) {
+  EXPECT_TRUE(namesDisparity("tiff", "a/Disparity/left/7.tif"));
+  EXPECT_TRUE(namesDisparity("npy", "disp0.npy"));
+  EXPECT_FALSE(namesDisparity("pfm", "disp/depth_map_7.pfm")) << "the file's own name first";
+  EXPECT_FALSE(namesDisparity("tiff", "disp/a/b/c.tif")) << "the last three names only";
+  EXPECT_TRUE(namesDisparity("pfm", "7.pfm"));
+  EXPECT_FALSE(namesDisparity("exr", "7.exr"));
+}
+
+}  // namespace
+}  // namespace relievo

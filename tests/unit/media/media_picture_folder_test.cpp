@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// Recordings of single pictures, opened as the programs open them and read as pairs.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "app/media/pair_reader.h"
+#include "drivers/registry.h"
+#include "tests/support/film/clip_maker.h"
+
+namespace relievo {
+namespace {
+
+using namespace std::chrono_literals;
+using test::sampleAt;
+using test::TemporaryFolder;
+
+const PairReader::Backends kReal{.make_source = drivers::makeMediaSource, .make_decoder = drivers::makeSoftwareDecoder};
+
+class PictureFolder : public testing::Test {
+ protected:
+  // A PNM written by hand, every sample of which is `value`: 8 bits RGB, or 16 bits gray.
+  void picture(const std::string& name, int value) const {
+    const std::filesystem::path path = folder_ / name;
+    std::filesystem::create_directories(path.parent_path());
+    std::ofstream file(path, std::ios::binary);
+    const bool color = path.extension() == ".ppm";
+    file << (color ? "P6\n8 6\n255\n" : "P5\n8 6\n65535\n");
+    for (int i = 0; i < 48; ++i) {
+      if (color) file.put(static_cast<char>(value)).put(static_cast<char>(value)).put(static_cast<char>(value));
+      else file.put(static_cast<char>(value >> 8)).put(static_cast<char>(value & 255));
+    }
+  }
+  // "ms colour:depth" of every pair.
+  [[nodiscard]] std::string story(const SourceOptions& options, std::optional<MediaTime> from = std::nullopt) const {
+    PairReader reader(kReal);
+    if (auto opened = reader.open(options); !opened) return opened.error().message;
+    if (from && !reader.seek(*from)) return "no seek";
+    std::string text;
+    for (auto pair = reader.next(); pair && *pair; pair = reader.next()) {
+      char words[64];
+      const Frame& depth = (*pair)->depth;
+      std::snprintf(words, sizeof words, "%s%.6g %u:%d", text.empty() ? "" : ", ", 1e3 * toSeconds((*pair)->color.pts),
+                    sampleAt((*pair)->color, 0, 3, 3), depth.empty() ? -1 : static_cast<int>(sampleAt(depth, 0, 3, 3)));
+      text += words;
+    }
+    return text;
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(PictureFolder, SecondsInNamesAreTheFilmsTimesAndPairIt) {
+  picture("t/rgb/1305031102.175304.ppm", 1), picture("t/rgb/1305031102.211214.ppm", 2),
+      picture("t/rgb/1305031102.243211.ppm", 3);
+  picture("t/depth/1305031102.160407.pgm", 1001), picture("t/depth/1305031102.226738.pgm", 1002),
+      picture("t/depth/1305031102.262886.pgm", 1003);
+  EXPECT_EQ(story({.url = folder_ / "t"}), "0 1:1001, 35.91 2:1002, 67.907 3:1003");
+}
+
+TEST_F(PictureFolder, AGapInTheNumbersIsTimeAndSeeksFindEveryPicture) {
+  for (const int k : {5, 6, 9, 10})
+    picture("frame-" + std::to_string(k) + ".color.ppm", k),
+        picture("frame-" + std::to_string(k) + ".depth.pgm", 1000 + k);
+  const SourceOptions options{.url = folder_ / ".", .frames_per_s = 10};
+  EXPECT_EQ(story(options), "0 5:1005, 100 6:1006, 400 9:1009, 500 10:1010");
+  EXPECT_EQ(story(options, MediaTime(100ms)), "100 6:1006, 400 9:1009, 500 10:1010");
+  EXPECT_EQ(story(options, MediaTime(101ms)), "400 9:1009, 500 10:1010");
+}
+
+TEST_F(PictureFolder, TwoFoldersWhoseNamesAreFromOneClockKeepTheirDistance) {
+  for (int k = 0; k < 5; ++k)
+    picture("c/" + std::to_string(k + 2) + ".ppm", k + 2), picture("d/" + std::to_string(k) + ".pgm", 1000 + k);
+  const SourceOptions options{.url = folder_ / "c", .depth_url = folder_ / "d", .frames_per_s = 10};
+  EXPECT_EQ(story(options), "0 2:1002, 100 3:1003, 200 4:1004, 300 5:-1, 400 6:-1");
+  EXPECT_EQ(story(options, MediaTime(100ms)), "100 3:1003, 200 4:1004, 300 5:-1, 400 6:-1");
+  // Too far apart to be one count: they begin together.
+  EXPECT_EQ(story({.url = folder_ / "c/*.ppm", .depth_url = folder_ / "d/%d.pgm", .frames_per_s = 10}), story(options));
+  picture("e/100.pgm", 1), picture("e/101.pgm", 2);
+  EXPECT_EQ(story({.url = folder_ / "c", .depth_url = folder_ / "e", .frames_per_s = 10}),
+            "0 2:1, 100 3:2, 200 4:-1, 300 5:-1, 400 6:-1");
+}
+
+TEST_F(PictureFolder, NyusRawDepthIsReadAsItWasMeant) {
+  picture("n/r-1294886362.665769-31.ppm", 9), picture("n/r-1294886363.665769-32.ppm", 9);
+  picture("n/d-1294886362.660000-41.pgm", 0x2c01), picture("n/d-1294886363.660000-42.pgm", 0xff07);  // bytes swapped
+  EXPECT_EQ(story({.url = folder_ / "n"}), "0 9:300, 1000 9:2047");
+}
+
+TEST_F(PictureFolder, ADamagedFirstPictureHidesNoOther) {
+  std::ofstream(folder_ / "1.ppm") << "P6";
+  picture("2.ppm", 2), picture("3.ppm", 3);
+  EXPECT_EQ(story({.url = folder_ / "%d.ppm", .frames_per_s = 10}), "100 2:-1, 200 3:-1");
+}
+
+}  // namespace
+}  // namespace relievo

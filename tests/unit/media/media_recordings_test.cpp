@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: Apache-2.0
+// Recordings as other programs leave them: opened without any option, the reader finds shape, scale, polarity and
+// holes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+
+#include "app/media/pair_reader.h"
+#include "app/scene/height_field.h"
+#include "drivers/ffmpeg/ffmpeg.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/film/recorded_scene.h"
+
+namespace relievo {
+namespace {
+
+using test::ClipTrack;
+using test::distanceMm;
+using test::hueColor;
+using test::kSceneCols;
+using test::kSceneRows;
+using test::makeClip;
+using test::photoOf;
+using test::TemporaryFolder;
+using test::yuvCode;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr DisplayVolume kVolume{160, 108, 40};
+const PairReader::Backends kFfmpeg{[](const std::string&) { return makeFfmpegSource(); },
+                                   [](const StreamInfo&) { return makeFfmpegDecoder(); }};
+
+ClipTrack photo(int frames = 2) {
+  ClipTrack track{.pix_fmt = "yuv444p", .width = kSceneCols, .height = kSceneRows, .frames = frames};
+  track.sample = [](int k, int c, int r, int) { return yuvCode(k, photoOf(c, r)); };
+  return track;
+}
+
+// Sixteen bits of gray in numbered PNG pictures: code(mm), where mm is 0 for a hole.
+using Code = std::function<std::uint32_t(double mm, int c, int r)>;
+ClipTrack coded(const Code& code, int frames = 2) {
+  ClipTrack track{.codec = "png", .pix_fmt = "gray16be", .width = kSceneCols, .height = kSceneRows, .frames = frames};
+  track.sample = [code](int, int c, int r, int) { return code(distanceMm(c, r), c, r); };
+  return track;
+}
+
+std::uint32_t rounded(double x) {
+  return static_cast<std::uint32_t>(std::lround(x));
+}
+
+struct Seen {
+  FilmInfo info;
+  Frame depth;
+  std::string failure;
+};
+Seen open(const SourceOptions& options) {
+  PairReader reader(kFfmpeg);
+  if (const auto opened = reader.open(options); !opened) return {.failure = opened.error().message};
+  auto pair = reader.next();
+  if (!pair || !*pair) return {.failure = "no pair"};
+  return {reader.info(), (*pair)->depth, ""};
+}
+
+// The distances of the samples that are no holes, by the definition in app/scene/depth_calibration.h, and the holes'
+// share.
+struct Distances {
+  double median = 0, holes = 0;
+};
+Distances measure(const Seen& seen) {
+  const DepthCalibration& c = seen.info.calibration.calibration;
+  const HeightField field = HeightField::make(seen.depth, c, kVolume).value();
+  std::vector<double> mm;
+  for (int r = 0; r < field.rows(); ++r) {
+    for (int x = 0; x < field.cols(); ++x) {
+      const double height = field.heightMm(x, r);
+      if (!std::isnan(height)) mm.push_back(c.far_mm - height / kVolume.depth_mm * (c.far_mm - c.near_mm));
+    }
+  }
+  const double all = static_cast<double>(field.rows()) * field.cols();
+  std::nth_element(mm.begin(), mm.begin() + static_cast<std::ptrdiff_t>(mm.size() / 2), mm.end());
+  return {mm.empty() ? 0 : mm[mm.size() / 2], 1 - static_cast<double>(mm.size()) / all};
+}
+
+// The same of the scene itself, of the samples that `is_seen` leaves.
+Distances truth(double scale = 1, const std::function<bool(int, int)>& is_seen = {}) {
+  std::vector<double> mm;
+  for (int r = 0; r < kSceneRows; ++r) {
+    for (int c = 0; c < kSceneCols; ++c) {
+      if (distanceMm(c, r) > 0 && (!is_seen || is_seen(c, r))) mm.push_back(scale * distanceMm(c, r));
+    }
+  }
+  std::nth_element(mm.begin(), mm.begin() + static_cast<std::ptrdiff_t>(mm.size() / 2), mm.end());
+  return {mm[mm.size() / 2], 1 - static_cast<double>(mm.size()) / (kSceneRows * kSceneCols)};
+}
+
+void expectSame(const Seen& seen, const Distances& true_ones, double step_mm, const std::string& name) {
+  ASSERT_EQ(seen.failure, "") << name;
+  ASSERT_TRUE(seen.info.has_depth) << name;
+  const Distances found = measure(seen);
+  EXPECT_NEAR(found.median, true_ones.median, std::max(0.005 * true_ones.median, step_mm)) << name;
+  EXPECT_NEAR(found.holes, true_ones.holes, 0.005) << name;
+  // The ball is nearer than the wall.
+  const HeightField field = HeightField::make(seen.depth, seen.info.calibration.calibration, kVolume).value();
+  const auto mean = [&](int column, int row) {
+    double sum = 0, count = 0;
+    for (int i = 0; i < 100; ++i) {
+      const double height = field.heightMm(column + i % 10, row + i / 10);
+      if (std::isnan(height)) continue;
+      sum += height;
+      ++count;
+    }
+    return sum / count;
+  };
+  EXPECT_GT(mean(field.cols() / 2 - 5, field.rows() / 2 - 5), mean(field.cols() - 12, 2) + 1) << name;
+}
+
+// One recording: its depth pictures' path below the folder, and its codes.
+struct Recording {
+  const char* depth;
+  Code code;
+  const char* kind;
+  double scale = 1, step_mm = 1;
+};
+
+TEST(Recordings, PicturesOfSixteenBitsAreReadAsTheyCome) {
+  const auto or_hole = [](std::uint32_t hole, const std::function<double(double)>& code) {
+    return [=](double mm, int, int) { return mm == 0 ? hole : rounded(code(mm)); };
+  };
+  const auto mm = [](double z) { return z; };
+  const auto kinect = [](double z) { return 1092.5 - 351300 / z; };
+  const Recording recordings[] = {
+      {"a/depth/%04d.png", or_hole(0, mm), "mm"},
+      {"b/depth/%04d.png", or_hole(65535, mm), "mm"},
+      {"c/depth/%04d.png", [](double z, int c, int) { return z == 0 ? c % 2 * 65535u : rounded(z); }, "mm"},
+      {"seq-01/frame-%06d.depth.png", or_hole(65535, mm), "mm"},
+      {"rgbd_dataset_freiburg1_desk/depth/%04d.png", or_hole(0, [](double z) { return 5 * z; }), "tum", 1, 0.2},
+      {"d/depth/%04d.png", or_hole(0, [](double z) { return 15 * z; }), "tum", 3, 0.2},
+      {"living_room_traj0/depth/%d.png", or_hole(0, [](double z) { return 5 * z; }), "icl", 1, 0.2},
+      {"proj_depth/image_02/%010d.png", or_hole(0, [](double z) { return 256 * 8e-3 * z; }), "kitti", 8, 4},
+      {"sunrgbd/depth/%04d.png", or_hole(0, [](double z) { return 8 * std::round(z); }), "sun"},
+      {"e/depth/%04d.png",
+       [](double z, int, int) {
+         const std::uint32_t code = rounded(5.5 * z);  // the farthest beyond 8.19 m
+         return (code << 3 | code >> 13) & 0xffff;
+       },
+       "sun", 5.5},
+      {"f/depth/%04d.png", or_hole(2047, kinect), "kinect-raw", 1, 8},
+      {"g/depth/%04d.png",
+       [=](double z, int, int) {
+         const std::uint32_t code = z == 0 ? 2047 : rounded(kinect(z));
+         return code >> 8 | (code & 0xff) << 8;
+       },
+       "nyu-raw", 1, 8},
+      {"h/depth/%04d.png", [](double z, int, int) { return rounded(z) >> 8 | (rounded(z) & 0xff) << 8; }, "mm-swapped"},
+      {"kitti/disp_occ_0/%06d_10.png", or_hole(0, [](double z) { return 256 * 721 * 540 / (8 * z); }),
+       "kitti-disparity", 8, 8},
+  };
+  TemporaryFolder folder;
+  makeClip(folder / "color.mkv", {photo()});
+  for (const Recording& each : recordings) {
+    const std::string path = folder / each.depth;
+    std::filesystem::create_directories(std::filesystem::path(path).parent_path());
+    makeClip(path, {coded(each.code)});
+    const Seen seen = open({.url = folder / "color.mkv", .depth_url = path});
+    expectSame(seen, truth(each.scale), each.step_mm, each.depth);
+    EXPECT_THAT(seen.info.reading.doubts, IsEmpty()) << each.depth;
+    // Stated, it is the same.
+    const Seen stated = open({.url = folder / "color.mkv", .depth_url = path, .as = findKind(each.kind)});
+    expectSame(stated, truth(each.scale), each.step_mm, each.kind);
+  }
+}
+
+// Five sixths of the points of a laser scanner are missing, between the others.
+TEST(Recordings, PointsOfALaserScannerAreDistancesWithHolesBetween) {
+  const auto is_seen = [](int c, int r) { return (c * 7 + r * 13) % 6 == 0; };
+  TemporaryFolder folder;
+  makeClip(folder / "color.mkv", {photo()});
+  makeClip(folder / "%04d.png",
+           {coded([=](double mm, int c, int r) { return is_seen(c, r) ? rounded(256 * 8e-3 * mm) : 0; })});
+  const Seen seen = open({.url = folder / "color.mkv", .depth_url = folder / "%04d.png"});
+  expectSame(seen, truth(8, is_seen), 4, "sparse");
+  EXPECT_THAT(seen.info.reading.offers, Contains(HasSubstr("--as mm")));
+}
+
+TEST(Recordings, AFileBesideThePicturesGivesTheirScale) {
+  TemporaryFolder folder;
+  makeClip(folder / "color.mkv", {photo()});
+  std::filesystem::create_directories(folder / "000001/depth");
+  std::ofstream(folder / "000001/scene_camera.json") << R"({"0": {"cam_K": [1, 0, 0], "depth_scale": 0.1}})";
+  makeClip(folder / "000001/depth/%06d.png", {coded([](double mm, int, int) { return rounded(10 * mm); })});
+  const Seen seen = open({.url = folder / "color.mkv", .depth_url = folder / "000001/depth/%06d.png"});
+  expectSame(seen, truth(), 0.1, "BOP");
+  EXPECT_THAT(seen.info.reading.why, Contains(HasSubstr("scene_camera.json")));
+  // Damaged, it tells nothing, and the codes are read as they look.
+  std::ofstream(folder / "000001/scene_camera.json") << R"({"0": {"cam_K": [1, 0, 0], "depth_sc)";
+  expectSame(open({.url = folder / "color.mkv", .depth_url = folder / "000001/depth/%06d.png"}), truth(2), 0.2, "none");
+}
+
+TEST(Recordings, TheFirstPictureThatShowsSomethingIsLookedAt) {
+  TemporaryFolder folder;
+  makeClip(folder / "color.mkv", {photo(6)});
+  ClipTrack late = coded([](double mm, int, int) { return rounded(mm); }, 6);
+  late.sample = [](int, int c, int r, int k) { return k < 3 ? 0 : rounded(distanceMm(c, r)); };
+  makeClip(folder / "%04d.png", {late});
+  const Seen seen = open({.url = folder / "color.mkv", .depth_url = folder / "%04d.png"});
+  ASSERT_EQ(seen.failure, "");
+  EXPECT_EQ(seen.info.calibration.calibration.unit_mm, 1.0);
+  EXPECT_THAT(seen.info.reading.doubts, IsEmpty());
+}
+
+// Two halves in one picture, in H.264 4:2:0.
+struct Half {
+  std::function<std::array<double, 3>(int c, int r)> color;
+};
+void makeHalves(const std::string& path, bool beside, const Half& first, const Half& second,
+                const std::map<std::string, std::string>& tags = {}, int dark_frames = 0) {
+  ClipTrack film{.codec = "libx264",
+                 .pix_fmt = "yuv420p",
+                 .width = beside ? 2 * kSceneCols : kSceneCols,
+                 .height = beside ? kSceneRows : 2 * kSceneRows,
+                 .frames = 2 + dark_frames,
+                 .options = {{"crf", "8"}}};
+  film.sample = [=](int k, int c, int r, int frame) {
+    const int x = k == 0 ? c : 2 * c, y = k == 0 ? r : 2 * r;
+    if (frame < dark_frames) return k == 0 ? 16u : 128u;
+    const bool is_first = beside ? x < kSceneCols : y < kSceneRows;
+    return yuvCode(k, (is_first ? first : second).color(x % kSceneCols, y % kSceneRows));
+  };
+  makeClip(path, {film}, tags);
+}
+
+const Half kPhoto{photoOf};
+
+TEST(Recordings, Record3DIsToldByItsTagAndByItsLayout) {
+  const Half hue{[](int c, int r) { return hueColor(distanceMm(c, r) / 3000); }};
+  TemporaryFolder folder;
+  const std::map<std::string, std::string> tags{
+      {"comment", R"({"intrinsicMatrix":[400,0,0,0,400,0,80,54,1],"rangeOfEncodedDepth":[0,3]})"}};
+  makeHalves(folder / "tagged.mp4", true, hue, kPhoto, tags);
+  makeHalves(folder / "plain.mp4", true, hue, kPhoto);
+  makeHalves(folder / "late.mp4", true, hue, kPhoto, {}, 3);
+  for (const char* name : {"tagged.mp4", "plain.mp4"}) {
+    const Seen seen = open({.url = folder / name});
+    ASSERT_EQ(seen.failure, "");
+    EXPECT_EQ(seen.info.packing, Packing::SideBySideDepthFirst);
+    const Distances found = measure(seen);
+    EXPECT_NEAR(found.median, truth().median, 0.01 * truth().median) << name;
+    EXPECT_NEAR(found.holes, truth().holes, 0.02) << name;  // chroma mixes the columns at an edge
+    EXPECT_THAT(plainLine(seen.info.reading, seen.info.calibration.calibration), HasSubstr("Record3D"));
+  }
+  EXPECT_EQ(open({.url = folder / "late.mp4"}).info.packing, Packing::SideBySideDepthFirst);
+}
+
+TEST(Recordings, DepthkitsFileGivesNearAndFar) {
+  const Half hue{[](int c, int r) {
+    const double mm = distanceMm(c, r);
+    return mm == 0 ? std::array<double, 3>{0, 0, 0} : hueColor((mm - 900) / 1500);
+  }};
+  TemporaryFolder folder;
+  makeHalves(folder / "clip.mp4", false, kPhoto, hue);
+  std::ofstream(folder / "clip.txt")
+      << R"({"format": "perpixel", "perspectives": [{"nearClip": 0.9, "farClip": 2.4}]})";
+  const Seen seen = open({.url = folder / "clip.mp4"});
+  ASSERT_EQ(seen.failure, "");
+  EXPECT_EQ(seen.info.packing, Packing::TopBottom);
+  EXPECT_NEAR(measure(seen).median, truth().median, 0.01 * truth().median);
+  EXPECT_NEAR(measure(seen).holes, truth().holes, 0.02);
+}
+
+// Looking Glass: brightness in three components or in red alone.
+TEST(Recordings, BrightnessBesideThePhotoIsFoundInGrayAndInRed) {
+  const auto near_bright = [](int c, int r) {
+    return distanceMm(c, r) == 0 ? 0.02 : std::clamp((2100 - distanceMm(c, r)) / 1000, 0.0, 1.0);
+  };
+  const Half gray{[=](int c, int r) { return std::array{near_bright(c, r), near_bright(c, r), near_bright(c, r)}; }};
+  const Half red{[=](int c, int r) { return std::array{near_bright(c, r), 0.0, 0.0}; }};
+  TemporaryFolder folder;
+  makeHalves(folder / "gray.mp4", true, kPhoto, gray);
+  makeHalves(folder / "red.mp4", true, kPhoto, red);
+  for (const char* name : {"gray.mp4", "red.mp4"}) {
+    const Seen seen = open({.url = folder / name});
+    ASSERT_EQ(seen.failure, "");
+    EXPECT_EQ(seen.info.packing, Packing::SideBySide) << name;
+    EXPECT_EQ(seen.info.calibration.calibration.code, DepthCode::Luma) << name;
+    const HeightField field = HeightField::make(seen.depth, seen.info.calibration.calibration, kVolume).value();
+    EXPECT_NEAR(field.heightMm(kSceneCols / 2, kSceneRows / 2), 40 * 0.9999, 1.0) << name;
+    EXPECT_NEAR(field.heightMm(kSceneCols - 4, 50), 40 * near_bright(kSceneCols - 4, 50), 1.0) << name;
+    EXPECT_THAT(seen.info.reading.offers, Contains(HasSubstr("polarity=near-low"))) << name;
+  }
+}
+
+TEST(Recordings, TwoViewsAreToldAndNeverFelt) {
+  const Half left{photoOf};
+  const Half right{[](int c, int r) { return photoOf(c + 4 + (r > 50 ? 3 : 0), r); }};
+  TemporaryFolder folder;
+  makeHalves(folder / "sbs.mp4", true, left, right);
+  makeHalves(folder / "tb.mp4", false, left, right);
+  ClipTrack second = photo();
+  second.sample = [](int k, int c, int r, int) { return yuvCode(k, photoOf(c + 5, r)); };
+  makeClip(folder / "tracks.mkv", {photo(), second});
+  for (const char* name : {"sbs.mp4", "tb.mp4", "tracks.mkv"}) {
+    const Seen seen = open({.url = folder / name});
+    ASSERT_EQ(seen.failure, "") << name;
+    EXPECT_FALSE(seen.info.has_depth) << name;
+    EXPECT_TRUE(seen.depth.empty()) << name;
+    EXPECT_THAT(seen.info.reading.doubts, Contains(HasSubstr("two views"))) << name;
+  }
+  EXPECT_THAT(open({.url = folder / "sbs.mp4", .packing = Packing::SideBySide}).info.reading.doubts,
+              Contains(HasSubstr("the same picture")));
+}
+
+TEST(Recordings, OrdinaryFilmsAreNeitherDepthNorViews) {
+  const Half mirrored{[](int c, int r) { return photoOf(kSceneCols - 1 - c, r); }};
+  const Half upside_down{[](int c, int r) { return photoOf(c, kSceneRows - 1 - r); }};
+  const Half gray{[](int c, int r) {
+    const double y = photoOf(c, r)[0];
+    return std::array{y, y, y};
+  }};
+  const Half other_gray{[](int c, int r) {
+    const double y = photoOf(c + 300, r + 500)[1];
+    return std::array{y, y, y};
+  }};
+  const Half sky{[](int, int r) { return std::array{0.3 + 0.003 * r, 0.4 + 0.003 * r, 0.8}; }};
+  TemporaryFolder folder;
+  const struct {
+    const Half &first, &second;
+  } films[] = {{kPhoto, mirrored}, {kPhoto, upside_down}, {gray, other_gray}, {sky, sky}, {sky, kPhoto}};
+  for (const auto& film : films) {
+    for (const bool beside : {true, false}) {
+      makeHalves(folder / "film.mp4", beside, film.first, film.second);
+      const Seen seen = open({.url = folder / "film.mp4"});
+      EXPECT_FALSE(seen.info.has_depth) << &film - films << beside;
+      EXPECT_THAT(seen.info.reading.doubts, IsEmpty()) << &film - films << beside;
+    }
+  }
+}
+
+TEST(Recordings, ExchangedInputsAndOtherShapesAreTold) {
+  TemporaryFolder folder;
+  makeClip(folder / "color.mkv", {photo()});
+  makeClip(folder / "depth.mkv", {ClipTrack{.pix_fmt = "gray", .width = 160, .height = 108, .frames = 2}});
+  makeClip(folder / "wide.mkv", {ClipTrack{.pix_fmt = "gray", .width = 192, .height = 108, .frames = 2}});
+  EXPECT_THAT(open({.url = folder / "depth.mkv", .depth_url = folder / "color.mkv"}).info.reading.doubts,
+              Contains(HasSubstr("exchanged")));
+  EXPECT_THAT(open({.url = folder / "color.mkv", .depth_url = folder / "wide.mkv"}).info.reading.doubts,
+              Contains(HasSubstr("stretched")));
+  EXPECT_THAT(open({.url = folder / "color.mkv", .depth_url = folder / "depth.mkv"}).info.reading.doubts, IsEmpty());
+}
+
+TEST(Recordings, MillimetresThatWereSaidToBeShadesAreDoubted) {
+  TemporaryFolder folder;
+  makeClip(folder / "color.mkv", {photo()});
+  makeClip(folder / "%04d.png", {coded([](double mm, int, int) { return rounded(mm); })});
+  const Seen seen = open({.url = folder / "color.mkv",
+                          .depth_url = folder / "%04d.png",
+                          .command_line = {{"polarity", "near-high"}, {"invalid", "0"}}});
+  EXPECT_THAT(seen.info.reading.doubts, Contains(HasSubstr("--as mm")));
+}
+
+TEST(Recordings, EveryPartSaysWhoSaidIt) {
+  TemporaryFolder folder;
+  makeClip(folder / "color.mkv", {photo()});
+  makeClip(folder / "%04d.png", {coded([](double mm, int, int) { return rounded(mm); })});
+  const Seen seen = open({.url = folder / "color.mkv",
+                          .depth_url = folder / "%04d.png",
+                          .as = findKind("tum"),
+                          .command_line = {{"near", "200"}, {"far", "500"}}});
+  const auto lines = partLines(seen.info.reading);
+  for (const char* line : {"packing=tracks: command line, said", "code=luma: default, assumed",
+                           "kind=distances, 5000 codes a metre: --as, said", "unit=0.2: --as, said",
+                           "near=200: command line, said", "bits=16: stream signalling, said"}) {
+    EXPECT_THAT(lines, Contains(line));
+  }
+  // Without a word the picture shows it.
+  const Seen shown = open({.url = folder / "color.mkv", .depth_url = folder / "%04d.png"});
+  EXPECT_THAT(partLines(shown.info.reading), Contains("unit=1: first picture, likely"));
+}
+
+// A hue reaches from near to far and has no unit.
+TEST(Recordings, AUnitOfHuesIsRefused) {
+  TemporaryFolder folder;
+  makeHalves(folder / "hue.mp4", true, {[](int c, int) { return hueColor(0.2 + 0.6 * c / kSceneCols); }}, kPhoto);
+  EXPECT_THAT(open({.url = folder / "hue.mp4", .command_line = {{"unit", "1"}}}).failure, HasSubstr("hue"));
+}
+
+}  // namespace
+}  // namespace relievo

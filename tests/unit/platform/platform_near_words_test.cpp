@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a misspelt word was meant to be.
+#include "platform/near_words.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace relievo {
+namespace {
+
+TEST(NearWords, CountTheLettersToChange) {
+  EXPECT_EQ(editDistance("kitten", "sitting"), 3U);
+  EXPECT_EQ(editDistance("", "abc"), 3U);
+  EXPECT_EQ(editDistance("same", "same"), 0U);
+}
+
+TEST(NearWords, FindTheNearestWhateverItsCaseAndNoneThatIsFar) {
+  const std::vector<std::string> words{"--stereo", "--resume", "--report"};
+  EXPECT_EQ(nearestWord("--Sterio", words), "--stereo");
+  EXPECT_EQ(nearestWord("--repot", words), "--report");
+  EXPECT_EQ(nearestWord("--window", words), "");
+  EXPECT_EQ(nearestWord("x", {}), "");
+  EXPECT_EQ(inSmallLetters("SBS:Full-1\xc3\x84"), "sbs:full-1\xc3\x84");
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+// Colours to depth: entries of colour maps, hues over subsampled chroma at edges, holes and the circle's seam.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "app/scene/color_curve.h"
+#include "app/scene/height_field.h"
+#include "hal/frame.h"
+
+namespace relievo {
+namespace {
+
+constexpr DisplayVolume kBox{160, 108, 255};  // a height is an entry
+using Rgb = std::array<double, 3>;
+
+// Entries 7, 88, 163 and 232 of 256, as matplotlib 3.6 prints them; none is a knot of the curve.
+struct Map {
+  DepthCode code;
+  std::array<Rgb, 4> entries;
+};
+const Map kMaps[] = {
+    {DepthCode::Turbo, {{{56, 39, 109}, {31, 233, 175}, {242, 201, 58}, {190, 33, 2}}}},
+    {DepthCode::Inferno, {{{3, 2, 16}, {125, 30, 109}, {231, 94, 46}, {245, 219, 76}}}},
+    {DepthCode::Magma, {{{3, 3, 15}, {118, 33, 129}, {234, 86, 97}, {254, 211, 149}}}},
+    {DepthCode::Viridis, {{{70, 11, 94}, {47, 107, 142}, {44, 177, 126}, {194, 223, 35}}}},
+    {DepthCode::Plasma, {{{32, 6, 143}, {160, 26, 156}, {232, 112, 89}, {252, 210, 37}}}},
+    {DepthCode::Rainbow, {{{114, 22, 255}, {48, 225, 218}, {198, 231, 137}, {255, 71, 36}}}},
+    {DepthCode::Spectral, {{{82, 95, 169}, {198, 232, 159}, {254, 204, 123}, {208, 56, 78}}}},
+    // Jet, worked out from red min(4x - 3/2, 9/2 - 4x), green min(4x - 1/2, 7/2 - 4x), blue min(4x + 1/2, 5/2 - 4x).
+    {DepthCode::Jet, {{{0, 0, 155.5}, {0, 224.5, 255}, {255, 240.5, 0}, {219.5, 0, 0}}}},
+    // The sum of the three is three times the entry.
+    {DepthCode::Kinect, {{{0, 0, 21}, {0, 9, 255}, {0, 234, 255}, {186, 255, 255}}}},
+};
+
+Frame rgbRow(const std::vector<Rgb>& colors) {
+  auto bytes = std::make_shared<std::vector<std::uint8_t>>();
+  for (const Rgb& color : colors) {
+    for (const double part : color) bytes->push_back(static_cast<std::uint8_t>(std::lround(part)));
+  }
+  Frame frame;
+  frame.width = static_cast<int>(colors.size());
+  frame.height = 1;
+  frame.model = ColorModel::Rgb;
+  frame.planes[0] = {bytes->data(), static_cast<std::ptrdiff_t>(bytes->size())};
+  for (std::uint8_t i = 0; i < 3; ++i) frame.components[i] = {.offset_bytes = i, .step_bytes = 3};
+  frame.owner = bytes;
+  return frame;
+}
+
+TEST(ColorMaps, AnEntryIsReadToLessThanACode) {
+  constexpr double kEntries[] = {7, 88, 163, 232};
+  for (const Map& map : kMaps) {
+    const Frame frame = rgbRow({map.entries.begin(), map.entries.end()});
+    const auto field = HeightField::make(frame, {.code = map.code}, kBox).value();
+    for (int i = 0; i < 4; ++i) {
+      EXPECT_NEAR(field.heightMm(i, 0), kEntries[i], 0.75) << name(map.code);
+    }
+  }
+}
+
+TEST(ColorMaps, AColourFarOffTheMapIsAHole) {
+  const Frame frame = rgbRow({{255, 255, 255}, {128, 128, 128}, {0, 255, 0}});
+  const auto field = HeightField::make(frame, {.code = DepthCode::Inferno}, kBox).value();
+  for (const int c : {1, 2}) EXPECT_TRUE(std::isnan(field.heightMm(c, 0))) << c;
+}
+
+// Full range of BT.709, 4:2:0: chroma is the mean of four samples, rounded.
+struct Film {
+  int cols = 48, rows = 32;
+  std::function<Rgb(int, int)> color;
+
+  [[nodiscard]] Frame frame() const {
+    const auto samples = std::make_shared<std::vector<std::uint8_t>>();
+    const auto put = [&](double x) {
+      samples->push_back(static_cast<std::uint8_t>(std::min(255L, std::lround(255 * x))));
+    };
+    const auto luma = [&](const Rgb& k) { return 0.2126 * k[0] + 0.7152 * k[1] + 0.0722 * k[2]; };
+    for (int r = 0; r < rows; ++r) {
+      for (int c = 0; c < cols; ++c) put(luma(color(c, r)));
+    }
+    for (const std::size_t part : {2U, 0U}) {
+      const double span = part == 2 ? 1.8556 : 1.5748;
+      for (int r = 0; r < rows; r += 2) {
+        for (int c = 0; c < cols; c += 2) {
+          double sum = 0;
+          for (int k = 0; k < 4; ++k) {
+            const Rgb at = color(c + k % 2, r + k / 2);
+            sum += (at[part] - luma(at)) / span / 4;
+          }
+          put(sum + 128.0 / 255);
+        }
+      }
+    }
+    Frame frame;
+    frame.width = cols;
+    frame.height = rows;
+    frame.model = ColorModel::Yuv;
+    frame.range = ColorRange::Full;
+    frame.matrix = ColorMatrix::Bt709;
+    frame.chroma_shift_x = frame.chroma_shift_y = 1;
+    const int luma_size = cols * rows;
+    for (std::uint8_t i = 0; i < 3; ++i) {
+      frame.components[i] = {.plane = i};
+      const int begin = i == 0 ? 0 : luma_size + (i - 1) * luma_size / 4;
+      frame.planes[i] = {samples->data() + begin, i == 0 ? cols : cols / 2};
+    }
+    frame.owner = samples;
+    return frame;
+  }
+};
+
+Rgb hue(double s) {
+  const auto part = [&](double n) { return std::clamp(std::abs(std::fmod(6 * s + n, 6) - 3) - 1, 0.0, 1.0); };
+  return {part(0), part(4), part(2)};
+}
+
+constexpr DepthCalibration kHue{.polarity = DepthPolarity::NearIsHigh, .code = DepthCode::Hue};
+constexpr DisplayVolume kUnit{160, 108, 1};  // a height is a hue
+
+// Pairs of hues whose mean is gray, or another hue. The step lies within a chroma sample in both directions.
+TEST(HueOverYuv, EverySampleAtAnEdgeIsOneSideOrTheOther) {
+  for (const auto& [left, right] : {std::pair(0.1, 0.6), {0.6, 0.1}, {0.05, 0.9}, {0.75, 0.2}}) {
+    const auto is_right = [](int c, int r) { return c >= 17 || r >= 21; };
+    const Film film{.color = [&](int c, int r) { return hue(is_right(c, r) ? right : left); }};
+    const Frame frame = film.frame();
+    const auto field = HeightField::make(frame, kHue, kUnit).value();
+    int wrong_side = 0, holes = 0;
+    for (int r = 0; r < 32; ++r) {
+      for (int c = 0; c < 48; ++c) {
+        const double height = field.heightMm(c, r), own = is_right(c, r) ? right : left;
+        const double other = is_right(c, r) ? left : right;
+        if (std::isnan(height)) {
+          ++holes;
+          continue;
+        }
+        EXPECT_LT(std::min(std::abs(height - own), std::abs(height - other)), 0.04)
+            << left << ' ' << right << " at " << c << ' ' << r << ": " << height;
+        if (std::abs(height - own) > 0.04) ++wrong_side;
+      }
+    }
+    EXPECT_LE(holes, 1) << left << ' ' << right << ": in the corner";
+    EXPECT_LE(wrong_side, 8) << left << ' ' << right << ": brightness tells the sides apart";
+  }
+}
+
+// The mean of two hues that are close is between them, a slope and not a wall.
+TEST(HueOverYuv, AMixtureOfCloseHuesIsBetweenThem) {
+  const Film film{.color = [](int c, int) { return hue(c >= 17 ? 0.45 : 0.3); }};
+  const Frame frame = film.frame();
+  const auto field = HeightField::make(frame, kHue, kUnit).value();
+  for (int c = 0; c < 48; ++c) {
+    const double height = field.heightMm(c, 10);
+    EXPECT_GT(height, 0.295) << c;
+    EXPECT_LT(height, 0.455) << c;
+  }
+}
+
+TEST(HueOverYuv, BlackIsAHoleWithASharpEdge) {
+  const Film film{.color = [](int c, int) { return c >= 17 ? Rgb{} : hue(0.2); }};
+  const Frame frame = film.frame();
+  const auto field = HeightField::make(frame, kHue, kUnit).value();
+  for (int c = 0; c < 48; ++c) {
+    const double height = field.heightMm(c, 10);
+    if (c >= 17) {
+      EXPECT_TRUE(std::isnan(height)) << c << ": " << height;
+    } else {
+      EXPECT_NEAR(height, 0.2, 0.02) << c;
+    }
+  }
+}
+
+// Coding moves a hue at the seam from one end of the depth to the other: red alone is no depth, beside a surface it is
+// the surface's end.
+TEST(HueOverYuv, TheSeamIsNoWall) {
+  const Film film{.color = [](int c, int) { return hue(c < 24 ? 0.02 : (c % 2 == 0 ? 0.0005 : 0.9995)); }};
+  const Frame frame = film.frame();
+  const auto field = HeightField::make(frame, kHue, kUnit).value();
+  for (int c = 0; c < 48; ++c) {
+    const double height = field.heightMm(c, 10);
+    if (c < 28) {
+      EXPECT_NEAR(height, 0.02, 0.015) << c;
+    } else {
+      EXPECT_TRUE(std::isnan(height)) << c << ": " << height;
+    }
+  }
+}
+
+// A hole that is painted red keeps its border, though the surface beside it may be as bright.
+TEST(HueOverYuv, RedIsAHoleUpToItsEdge) {
+  for (const double beside : {0.15, 0.55, 0.8}) {
+    const Film film{.color = [&](int c, int) { return hue(c >= 17 ? 0 : beside); }};
+    const Frame frame = film.frame();
+    const auto field = HeightField::make(frame, kHue, kUnit).value();
+    for (int c = 0; c < 48; ++c) {
+      const double height = field.heightMm(c, 10);
+      if (c >= 18) {
+        EXPECT_TRUE(std::isnan(height)) << beside << ' ' << c << ": " << height;
+      }
+      if (c < 16) {
+        EXPECT_NEAR(height, beside, 0.02) << c;
+      }
+    }
+  }
+}
+
+// A film whose colours are all a little paler than pure is read all the same.
+TEST(HueOverYuv, PaleHuesAreReadWhereNoneIsPure) {
+  const Film film{.color = [](int c, int) {
+    Rgb color = hue(0.1 + 0.005 * c);
+    for (double& part : color) part = 0.08 + 0.84 * part;
+    return color;
+  }};
+  const Frame frame = film.frame();
+  const auto field = HeightField::make(frame, kHue, kUnit).value();
+  for (int c = 0; c < 48; ++c) EXPECT_NEAR(field.heightMm(c, 10), 0.1 + 0.005 * c, 0.04) << c;
+}
+
+}  // namespace
+}  // namespace relievo
