@@ -133,7 +133,8 @@ std::string list(const char* key, const std::array<double, N>& values) {
     const auto end = std::to_chars(number.data(), number.data() + number.size(), value, std::chars_format::scientific);
     text += std::string(number.data(), end.ptr) + ", ";
   }
-  return text + "]\n";
+  text += "]\n";  // GCC 12 warns of text + ..
+  return text;
 }
 
 std::string table(const char* name, const CameraMessage& camera, const std::array<double, kLensCoefficients>& lens) {
