@@ -133,8 +133,7 @@ std::string list(const char* key, const std::array<double, N>& values) {
     const auto end = std::to_chars(number.data(), number.data() + number.size(), value, std::chars_format::scientific);
     text += std::string(number.data(), end.ptr) + ", ";
   }
-  text += "]\n";  // GCC 12 warns of text + ..
-  return text;
+  return text + "]\n";
 }
 
 std::string table(const char* name, const CameraMessage& camera, const std::array<double, kLensCoefficients>& lens) {
