@@ -138,7 +138,8 @@ int runIntoFolder(MeasureOptions options, Work&& work, const std::string& files)
 // "smoothness.svg, smoothness-hand.svg; data in .csv files of the same names"
 std::string chartFiles(const Measurement& measurement) {
   std::string words;
-  for (const char* chart : measurement.charts) words += (words.empty() ? "" : ", ") + std::string(chart) + ".svg";
+  for (const ChartEntry& chart : measurement.charts)
+    words += (words.empty() ? "" : ", ") + std::string(chart.name) + ".svg";
   return words + "; data in .csv files of the same names";
 }
 

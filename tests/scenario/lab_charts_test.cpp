@@ -340,6 +340,11 @@ TEST_F(LabCharts, ThePageHoldsEveryChartWithItsWordsAndItsFigures) {
     const std::size_t title = svg.find("<title>") + 7;
     EXPECT_NE(page.find("<h2>" + svg.substr(title, svg.find("</title>") - title) + "</h2>"), std::string::npos) << name;
     EXPECT_NE(page.find("href=\"" + name + ".csv\""), std::string::npos) << name;
+    EXPECT_NE(page.find("<li><a href=\"#" + name + "\">"), std::string::npos) << name;
+    EXPECT_NE(words.find(" Better: "), std::string::npos) << name;
+    const std::size_t section = page.find("<section id=\"" + name + "\""), drawing = page.find("</desc>", section);
+    EXPECT_EQ(page.substr(drawing, page.find("</section>", drawing) - drawing).find(last + "<"), std::string::npos)
+        << name << ": the page prints the reading as text already";
     EXPECT_TRUE(std::filesystem::exists(out(name + ".csv"))) << name;
   }
   EXPECT_EQ(charts, withoutEgl(result_) ? 14 : 15);

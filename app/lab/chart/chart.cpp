@@ -140,6 +140,12 @@ Outcome<void> drawChart(const std::string& folder, const std::string& name, cons
   return {};
 }
 
+std::vector<std::string> drawnLines(const ChartWords& words) {
+  std::vector<std::string> lines = linesOf(wrapped(words.reading));
+  lines.insert(lines.begin(), words.title);
+  return lines;
+}
+
 std::optional<ChartWords> wordsOf(std::string_view svg) {
   const auto title = find(svg, "title"), reading = find(svg, "desc");
   if (!title || !reading) return std::nullopt;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "platform/failure.h"
 
@@ -20,6 +21,9 @@ struct ChartWords {
 
 // Read back from an SVG's text; nothing when it has none.
 [[nodiscard]] std::optional<ChartWords> wordsOf(std::string_view svg);
+
+// As they are drawn: the title, then each line of the reading.
+[[nodiscard]] std::vector<std::string> drawnLines(const ChartWords& words);
 
 // Text in HTML and SVG.
 [[nodiscard]] std::string escaped(std::string_view text);

@@ -27,14 +27,23 @@ constexpr const char* kHead = R"html(<!doctype html>
   :root { --paper: #15181c; --ink: #e6e8eb; --faint: #9aa1ab; --line: #3a4048; --link: #8ab8ff; }
 }
 body { background: var(--paper); color: var(--ink); font: 16px/1.5 system-ui, sans-serif; margin: 0 auto;
-       max-width: 68rem; padding: 1.5rem; }
+       max-width: 68rem; padding: 1rem; }
 h1 { font-size: 1.6rem; margin: 0; }
 h2 { font-size: 1.2rem; margin: 0 0 .3rem; }
 a { color: var(--link); }
 .about { color: var(--faint); margin: .2rem 0 2rem; }
 section { border-top: 1px solid var(--line); margin: 2rem 0 0; padding: 1.5rem 0 0; }
 section p { margin: 0 0 .6rem; }
-svg { display: block; height: auto; width: 100%; }
+dt { font-weight: 600; }
+dd { margin: 0 0 .4rem; }
+.chart { overflow-x: auto; }
+svg { display: block; height: auto; min-width: 48rem; width: 100%; }
+@media print {
+  :root { color-scheme: light; --paper: #fff; --ink: #000; --faint: #444; --line: #ccc; --link: #000; }
+  body { max-width: none; padding: 0; }
+  section { break-inside: avoid; }
+  svg { min-width: 0; }
+}
 svg > g > rect[fill="#ffffff"] { fill: var(--paper); }
 svg [color="#FFFFFF"] { color: var(--paper); }
 svg [color="black"], svg [color="rgb(  0,   0,   0)"] { color: var(--ink); }
@@ -42,6 +51,26 @@ svg [stroke="black"], svg [stroke="rgb(  0,   0,   0)"] { stroke: var(--ink); }
 svg [fill="black"], svg [fill="rgb(0,0,0)"] { fill: var(--ink); }
 svg [stroke="rgb(216, 219, 224)"] { stroke: var(--line); }
 </style>
+)html";
+
+constexpr const char* kWords = R"html(<h2 id="words">Words</h2>
+<dl>
+<dt>16-bit, 8-bit, H.264 crf 23, noise 1 %</dt>
+<dd>How the depth of the same scene is stored: exact to 1/65535 or 1/255 of its range, compressed, or with a camera's noise.</dd>
+<dt>force error</dt>
+<dd>The difference between a method's force and the force of the exact surface (the oracle), in percent of that force.</dd>
+<dt>god-object, proxy</dt>
+<dd>The point on the surface that stands for a finger inside it. The force pulls the finger towards that point.</dd>
+<dt>median, p99.9</dt>
+<dd>Half of the ticks are faster than the median; one tick in a thousand is slower than p99.9.</dd>
+<dt>rms</dt>
+<dd>Root of the mean square: large errors count more than small ones.</dd>
+<dt>tick</dt>
+<dd>One round of the haptic task, a millisecond: read the finger, compute the force, write the force. The time to force ends
+there; the upkeep prepares the next tick.</dd>
+<dt>whole tick</dt>
+<dd>Time to force and upkeep together, with a method's work per frame spread over the frame's ticks.</dd>
+</dl>
 )html";
 
 std::optional<std::string> readText(const std::string& path) {
@@ -65,6 +94,17 @@ std::string today() {
   return print("%04d-%02d-%02d", date.tm_year + 1900, date.tm_mon + 1, date.tm_mday);
 }
 
+// A drawing holds its title and reading for those who see it alone; the page prints them as text.
+std::string withoutWords(std::string svg, const ChartWords& words) {
+  const std::size_t drawing = svg.find("</desc>");
+  for (const std::string& line : drawnLines(words)) {
+    const std::string text = ">" + escaped(line) + "<";
+    const std::size_t at = svg.find(text, std::min(drawing, svg.size()));
+    if (at != std::string::npos) svg.erase(at + 1, text.size() - 2);
+  }
+  return svg;
+}
+
 std::string sectionOf(const std::string& folder, const std::string& chart) {
   const auto svg = readText(folder + "/" + chart + ".svg");
   const std::string csv = "<a href=\"" + chart + ".csv\">" + chart + ".csv</a>";
@@ -73,12 +113,26 @@ std::string sectionOf(const std::string& folder, const std::string& chart) {
   const ChartWords words = wordsOf(*svg).value_or(ChartWords{chart, ""});
   const std::size_t begin = std::min(svg->find("<svg"), svg->size());  // behind the XML declaration
   return "<section id=\"" + chart + "\">\n<h2>" + escaped(words.title) + "</h2>\n<p>" + escaped(words.reading) + " " +
-         csv + "</p>\n" + svg->substr(begin) + "</section>\n";
+         csv + "</p>\n<div class=\"chart\">\n" + withoutWords(svg->substr(begin), words) + "</div>\n</section>\n";
+}
+
+// A link to each section, by its heading.
+std::string contentsOf(const std::string& sections) {
+  constexpr std::string_view kSection = "<section id=\"", kHeading = "<h2>";
+  std::string list = "<h2>Contents</h2>\n<ul>\n<li><a href=\"#words\">Words</a></li>\n";
+  for (std::size_t at = 0; (at = sections.find(kSection, at)) != std::string::npos;) {
+    at += kSection.size();
+    const std::size_t heading = sections.find(kHeading, at) + kHeading.size();
+    list += "<li><a href=\"#" + sections.substr(at, sections.find('"', at) - at) + "\">" +
+            sections.substr(heading, sections.find("</h2>", heading) - heading) + "</a></li>\n";
+  }
+  return list + "</ul>\n";
 }
 
 bool isComplete(const Measurement& measurement, const std::string& folder) {
-  return std::all_of(measurement.charts.begin(), measurement.charts.end(), [&](const char* chart) {
-    return std::ifstream(folder + "/" + chart + ".svg").good() && std::ifstream(folder + "/" + chart + ".csv").good();
+  return std::all_of(measurement.charts.begin(), measurement.charts.end(), [&](const ChartEntry& chart) {
+    const std::string path = folder + "/" + chart.name;
+    return std::ifstream(path + ".svg").good() && std::ifstream(path + ".csv").good();
   });
 }
 
@@ -89,6 +143,7 @@ Outcome<void> writeReport(const MeasureOptions& options) {
   std::string page = kHead;
   page += "<h1>relievo: measurements of touch</h1>\n<p class=\"about\">" + escaped(processorName()) + ", " + today() +
           (options.quick ? ", quick run" : "") + "</p>\n";
+  std::string sections;
   const auto all = measurements();
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Measurement& measurement = all[i];
@@ -100,9 +155,9 @@ Outcome<void> writeReport(const MeasureOptions& options) {
       const auto done = runMeasurement(measurement, part);
       if (!done && first_failure) first_failure = done;
     }
-    for (const char* chart : measurement.charts) page += sectionOf(options.out, chart);
+    for (const ChartEntry& chart : measurement.charts) sections += sectionOf(options.out, chart.name);
   }
-  page += "</html>\n";
+  page += contentsOf(sections) + kWords + sections + "</html>\n";
 
   const std::string path = options.out + "/index.html";
   auto file = AtomicFile::create(path);

@@ -15,13 +15,26 @@
 namespace relievo {
 namespace {
 
-constexpr std::array kSpeedAccuracyCharts{"speed-accuracy", "accuracy-by-scene", "parts", "tick-time"};
-constexpr std::array kEdgesCharts{"edges"};
-constexpr std::array kSmoothnessCharts{"smoothness", "smoothness-hand", "smoothness-peaks"};
-constexpr std::array kStabilityCharts{"stability", "guard-sensitivity", "stability-onset"};
-constexpr std::array kDetailCharts{"detail"};
-constexpr std::array kEnhanceCharts{"enhance", "enhance-points"};
-constexpr std::array kBitrateCharts{"bitrate"};
+constexpr std::array kSpeedAccuracyCharts{
+    ChartEntry{"speed-accuracy", "lower left"},
+    ChartEntry{"accuracy-by-scene", "lower"},
+    ChartEntry{"parts", "to the left"},
+    ChartEntry{"tick-time", "lower"},
+};
+constexpr std::array kEdgesCharts{ChartEntry{"edges", "lower"}};
+constexpr std::array kSmoothnessCharts{
+    ChartEntry{"smoothness", "lower"},
+    ChartEntry{"smoothness-hand", "lower"},
+    ChartEntry{"smoothness-peaks", "lower right"},
+};
+constexpr std::array kStabilityCharts{
+    ChartEntry{"stability", "a row without a failure"},
+    ChartEntry{"guard-sensitivity", "a row without a failure"},
+    ChartEntry{"stability-onset", "higher"},
+};
+constexpr std::array kDetailCharts{ChartEntry{"detail", "to the left; higher for PSNR, lower for the force error"}};
+constexpr std::array kEnhanceCharts{ChartEntry{"enhance", "lower"}, ChartEntry{"enhance-points", "lower left"}};
+constexpr std::array kBitrateCharts{ChartEntry{"bitrate", "lower left"}};
 
 constexpr std::array kMeasurements{
     Measurement{"speed-accuracy", "time of a tick against the error of the force, by method and parts",
@@ -53,9 +66,11 @@ Outcome<void> runMeasurement(const Measurement& measurement, const MeasureOption
   const auto words = measurement.measure(own);
   if (!words) return std::unexpected(words.error());
   for (std::size_t i = 0; i < measurement.charts.size(); ++i) {
-    const std::string name = measurement.charts[i];
-    own.tell("drawing " + name);
-    if (auto drawn = drawChart(options.out, name, words->at(i)); !drawn) return drawn;
+    const auto& [name, better] = measurement.charts[i];
+    own.tell(std::string("drawing ") + name);
+    const ChartWords& told = words->at(i);
+    const ChartWords whole{told.title, told.reading + " Better: " + better + "."};
+    if (auto drawn = drawChart(options.out, name, whole); !drawn) return drawn;
   }
   return {};
 }

@@ -23,11 +23,16 @@ struct MeasureOptions {
   std::function<void(const std::string&)> tell = [](const std::string&) {};  // what it is at, in a few words
 };
 
-// One chart of a measurement: FOLDER/NAME.svg, drawn from FOLDER/NAME.csv.
+// FOLDER/NAME.svg, drawn from FOLDER/NAME.csv.
+struct ChartEntry {
+  const char* name;
+  const char* better;  // where in the chart the better results are
+};
+
 struct Measurement {
   const char* name;  // the command: relievo-lab NAME
   const char* about;
-  std::span<const char* const> charts;
+  std::span<const ChartEntry> charts;
   // Writes every CSV before the first chart is drawn, so that the figures are there without gnuplot too. Answers the
   // charts' words in the order of `charts`.
   Outcome<std::vector<ChartWords>> (*measure)(const MeasureOptions& options);

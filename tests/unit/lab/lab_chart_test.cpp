@@ -73,7 +73,7 @@ TEST(Chart, EachMeasurementsChartHasAScript) {
   const std::string common = chartScript("no such chart");
   EXPECT_FALSE(common.empty());
   for (const Measurement& m : measurements()) {
-    for (const char* chart : m.charts) EXPECT_GT(chartScript(chart).size(), common.size()) << chart;
+    for (const ChartEntry& chart : m.charts) EXPECT_GT(chartScript(chart.name).size(), common.size()) << chart.name;
   }
 }
 
