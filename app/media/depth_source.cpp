@@ -32,9 +32,9 @@ Result<void> DepthSource::open(const std::string& url) {
   url_ = url;
   if (auto connected = connect(); !connected) return connected;
   const MediaSource& source = reader_->source();
-  stream_ = *findDepthTrack(source);
-  tags_ = source.tags();
-  notes_ = source.notes();
+  facts_.stream = *findDepthTrack(source);
+  facts_.tags = source.tags();
+  facts_.notes = source.notes();
   tried_again_ = source.remote() && backends_.clock != nullptr;
   if (tried_again_ && backends_.own_threads) thread_ = std::thread([this] { threadMain(); });
   return {};
@@ -57,7 +57,7 @@ Result<void> DepthSource::connect() {
   const auto track = reader_->select(told);
   if (!track) return std::unexpected(track.error());
   track_ = *track;
-  decoder_ = reader_->decoder(track_);
+  facts_.decoder = reader_->decoder(track_);
   const std::scoped_lock lock(mutex_);
   session_ = {session_.number + 1,  source.live(),       source.arrival(),
               source.senderStart(), source.namedStart(), source.duration()};
@@ -98,12 +98,12 @@ Result<void> DepthSource::seek(MediaTime target, Duration key_step) {
   std::unique_lock lock(mutex_);
   queue_.clear();
   goes_on_at_ = target;
-  key_step_ = key_step;
+  seek_.key_step = key_step;
   ended_ = late_ = false;
   warming_up_ = true;
   if (thread_.joinable()) {
-    target_ = target;
-    ++generation_;
+    seek_.target = target;
+    ++seek_.number;
     wake_.notify_all();
     return {};
   }
@@ -141,7 +141,7 @@ void DepthSource::threadMain() {
     if (loss_) {
       wake_.wait_for(lock, back_off_.next() - backends_.clock->now(), [this] { return interrupted_; });
     } else {
-      wake_.wait(lock, [this] { return interrupted_ || target_ || (!ended_ && queue_.size() < kQueued); });
+      wake_.wait(lock, [this] { return interrupted_ || seek_.target || (!ended_ && queue_.size() < kQueued); });
     }
     if (!interrupted_) work(lock);
   }
@@ -151,9 +151,9 @@ void DepthSource::threadMain() {
 
 void DepthSource::work(std::unique_lock<std::mutex>& lock) {
   if (loss_) return findAgain(lock);
-  if (!target_) return readOne(lock);
-  const MediaTime target = *std::exchange(target_, std::nullopt);
-  const Duration key_step = key_step_;
+  if (!seek_.target) return readOne(lock);
+  const MediaTime target = *std::exchange(seek_.target, std::nullopt);
+  const Duration key_step = seek_.key_step;
   lock.unlock();
   const auto sought = reader_->seek(target, key_step);
   lock.lock();
@@ -161,14 +161,14 @@ void DepthSource::work(std::unique_lock<std::mutex>& lock) {
 }
 
 void DepthSource::readOne(std::unique_lock<std::mutex>& lock) {
-  const std::uint64_t generation = generation_;
+  const std::uint64_t generation = seek_.number;
   lock.unlock();
   auto frame = reader_->next(track_);
   const bool ended = reader_->ended(track_);
   lock.lock();
   count();
   if (auto restart = reader_->takeRestart()) restart_ = restart;
-  if (generation != generation_) return;  // a seek has happened meanwhile
+  if (generation != seek_.number) return;  // a seek has happened meanwhile
   if (!frame) return lose(frame.error());
   if (*frame) goes_on_at_ = (*frame)->pts;
   ended_ = !*frame && ended;
@@ -180,14 +180,14 @@ void DepthSource::findAgain(std::unique_lock<std::mutex>& lock) {
   if (!tried_again_ || backends_.clock->now() < back_off_.next()) return;
   before_ = counters_;
   const MediaTime target = goes_on_at_;
-  const Duration key_step = key_step_;
+  const Duration key_step = seek_.key_step;
   lock.unlock();
   auto found = connect();
   if (found && !reader_->source().live()) found = reader_->seek(target, key_step);
   lock.lock();
   if (!found) return back_off_.failed(backends_.clock->now());
   loss_.reset();
-  target_.reset();
+  seek_.target.reset();
   ++counters_.reconnects;
 }
 

@@ -52,9 +52,9 @@ class DepthSource {
   // Call once. NotFound if the source has no video track.
   [[nodiscard]] Result<void> open(const std::string& url);
   // Valid after `open`.
-  [[nodiscard]] const StreamInfo& stream() const noexcept { return stream_; }
-  [[nodiscard]] const std::map<std::string, std::string>& tags() const noexcept { return tags_; }
-  [[nodiscard]] const std::vector<std::string>& notes() const noexcept { return notes_; }
+  [[nodiscard]] const StreamInfo& stream() const noexcept { return facts_.stream; }
+  [[nodiscard]] const std::map<std::string, std::string>& tags() const noexcept { return facts_.tags; }
+  [[nodiscard]] const std::vector<std::string>& notes() const noexcept { return facts_.notes; }
 
   // The next picture in order. An error means that the source will not be retried.
   [[nodiscard]] Result<Given> next();
@@ -71,7 +71,7 @@ class DepthSource {
   [[nodiscard]] Counters counters() const;
   // A restart of its decoder, reported once.
   [[nodiscard]] std::optional<VideoDecoder::Restart> takeRestart() noexcept;
-  [[nodiscard]] const std::string& decoder() const noexcept { return decoder_; }
+  [[nodiscard]] const std::string& decoder() const noexcept { return facts_.decoder; }
 
  private:
   [[nodiscard]] Result<void> connect();
@@ -86,10 +86,13 @@ class DepthSource {
   const PairReader::Backends& backends_;
   const std::optional<double> frames_per_s_;
   std::string url_;
-  StreamInfo stream_;
-  std::string decoder_;
-  std::map<std::string, std::string> tags_;
-  std::vector<std::string> notes_;
+  struct Facts {
+    StreamInfo stream;
+    std::string decoder;
+    std::map<std::string, std::string> tags;
+    std::vector<std::string> notes;
+  };
+  Facts facts_;               // from `open` on
   bool tried_again_ = false;  // whether a lost source is reopened
 
   // Used only by the side that reads: the thread if there is one.
@@ -102,10 +105,13 @@ class DepthSource {
   std::unique_ptr<TrackReader> reader_;  // changed only by the side that reads
   Session session_;
   std::deque<Given> queue_;
-  std::optional<MediaTime> target_;  // of a pending seek
-  MediaTime goes_on_at_;             // where a seekable source resumes after a loss
-  Duration key_step_{0};             // of the last seek
-  std::uint64_t generation_ = 0;     // counts seeks
+  struct Seek {
+    std::uint64_t number = 0;         // of the last one
+    std::optional<MediaTime> target;  // while it is pending
+    Duration key_step{0};
+  };
+  Seek seek_;
+  MediaTime goes_on_at_;  // where a seekable source resumes after a loss
   std::optional<VideoDecoder::Restart> restart_;
   std::optional<Error> loss_;
   Counters counters_;

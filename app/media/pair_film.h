@@ -92,25 +92,31 @@ struct PairReader::Impl {
   std::unique_ptr<TrackReader> color_reader;
   std::unique_ptr<DepthSource> depth_source;  // reads `depth_url`
 
-  std::deque<Frame> color_ahead;               // read, not yet delivered
-  std::deque<Subtitle> words_ahead;            // of a subtitle file
-  DepthClues clues;                            // of the depth, as far as they were looked at
-  GrayFrom gray = GrayFrom::Luma;              // of packed depth
-  SampleOrder order = SampleOrder::AsStored;   // of depth of its own
-  const KnownKind* reordered = nullptr;        // the kind that the picture showed before it was put in that order
-  std::optional<Frame> told_again;             // a depth picture that was supplied in another order
-  std::optional<std::size_t> depth_track;      // index in the colour's source
-  const StreamInfo* depth_stream = nullptr;    // likewise; valid while the film is open
-  bool remote = false, live = false;           // of the colour's source
-  Duration color_shift{0};                     // added to the session's timestamps to get the film's
-  MediaTime goes_on_at;                        // film time just after the last colour picture
-  Duration depth_shift{0};                     // the same for `depth_source`
-  std::optional<std::uint32_t> depth_session;  // the session that `depth_shift` applies to
+  std::deque<Frame> color_ahead;     // read, not yet delivered
+  std::deque<Subtitle> words_ahead;  // of a subtitle file
+  DepthClues clues;                  // of the depth, as far as they were looked at
+  GrayFrom gray = GrayFrom::Luma;    // of packed depth
+  // Depth of its own whose samples are put in another order.
+  struct Reordering {
+    SampleOrder order = SampleOrder::AsStored;
+    const KnownKind* kind = nullptr;  // that the picture showed before it was put in order
+    std::optional<Frame> again;       // a picture that was supplied before the order was known
+  };
+  Reordering reordering;
+  std::optional<std::size_t> depth_track;    // index in the colour's source
+  const StreamInfo* depth_stream = nullptr;  // likewise; valid while the film is open
+  bool remote = false, live = false;         // of the colour's source
+  Duration color_shift{0};                   // added to the session's timestamps to get the film's
+  MediaTime goes_on_at;                      // film time just after the last colour picture
   std::optional<DepthFollower> depth;
   std::optional<Registrar> registrar;  // the user's, or the film's own
-  bool depth_away = false;             // late or lost, and being retried
-  bool depth_lost = false;
-  bool loss_told = false;
+  struct OwnDepth {
+    Duration shift{0};                     // added to the session's timestamps to get the film's
+    std::optional<std::uint32_t> session;  // the session that `shift` applies to
+    bool away = false;                     // late or lost, and being retried
+    bool lost = false, loss_told = false;
+  };
+  OwnDepth own;          // of `depth_source`
   Duration key_step{0};  // of the last seek
 };
 

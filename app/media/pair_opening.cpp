@@ -130,9 +130,9 @@ Result<void> PairReader::Impl::selectDepth(const StreamInfo* stream) {
 void PairReader::Impl::lookForRegistration(const StreamInfo& color) {
   if (options.registration) {
     registrar.emplace(*options.registration);
-  } else if (const auto own =
+  } else if (const auto recorded =
                  depth_track ? ownRegistration(color_reader->source(), color, *depth_stream) : std::nullopt) {
-    registrar.emplace(*own);
+    registrar.emplace(*recorded);
     clues.why.emplace_back("the recording describes both cameras: its depth is moved to the colour's view");
   }
 }
@@ -146,7 +146,7 @@ Result<void> PairReader::Impl::openDepth(const StreamInfo& color) {
   if (!depth_track && !depth_source) return {};
   if (depth) {  // already known from the first opening
     depth->restart();
-    depth_lost = false;
+    own.lost = false;
     return {};
   }
   lookForRegistration(color);
@@ -190,13 +190,13 @@ void PairReader::Impl::countTracks(const TrackPlan& plan) {
 
 // Computes the shift that aligns a new session of the depth source with the colour.
 void PairReader::Impl::meet(const DepthSource::Session& session, MediaTime first) {
-  if (depth_session) depth->restart();
-  depth_session = session.number;
+  if (own.session) depth->restart();
+  own.session = session.number;
   const MediaSource& color = color_reader->source();
-  depth_shift = session.live ? Duration(0) : distanceByName(color, session);
+  own.shift = session.live ? Duration(0) : distanceByName(color, session);
   if (!session.live) return;
   if (!color.live()) {  // align what arrives now with what is shown now
-    depth_shift = goes_on_at - first;
+    own.shift = goes_on_at - first;
     return;
   }
   const Duration by_arrival = session.arrival - color.arrival();
@@ -205,7 +205,7 @@ void PairReader::Impl::meet(const DepthSource::Session& session, MediaTime first
     const Duration by_sender = *session.sender_start - *color.senderStart();
     if (std::chrono::abs(by_sender - by_arrival) < kSameClock) distance = by_sender;
   }
-  depth_shift = distance + color_shift;
+  own.shift = distance + color_shift;
 }
 
 }  // namespace relievo

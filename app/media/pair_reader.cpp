@@ -37,8 +37,8 @@ Result<std::optional<Frame>> PairReader::Impl::nextColor() {
 Result<DepthFollower::Supplied> PairReader::Impl::supplyDepth() {
   auto supplied = supplyOwnDepth();
   if (!supplied || !supplied->frame) return supplied;
-  if (order == SampleOrder::AsStored && !registrar) return supplied;
-  auto frame = inOrder(*supplied->frame, order);
+  if (reordering.order == SampleOrder::AsStored && !registrar) return supplied;
+  auto frame = inOrder(*supplied->frame, reordering.order);
   if (frame && registrar) frame = registrar->registered(*frame);
   if (!frame) return std::unexpected(frame.error());
   supplied->frame = std::move(*frame);
@@ -46,7 +46,7 @@ Result<DepthFollower::Supplied> PairReader::Impl::supplyDepth() {
 }
 
 Result<DepthFollower::Supplied> PairReader::Impl::supplyOwnDepth() {
-  if (told_again) return DepthFollower::Supplied{std::exchange(told_again, std::nullopt), false};
+  if (reordering.again) return DepthFollower::Supplied{std::exchange(reordering.again, std::nullopt), false};
   if (!depth_source) {
     auto frame = color_reader->next(*depth_track);
     if (!frame) return std::unexpected(frame.error());
@@ -55,10 +55,10 @@ Result<DepthFollower::Supplied> PairReader::Impl::supplyOwnDepth() {
   }
   auto given = depth_source->next();
   if (!given) return std::unexpected(given.error());
-  depth_away = given->away;
+  own.away = given->away;
   if (given->frame.empty()) return DepthFollower::Supplied{std::nullopt, given->ended};
-  if (depth_session != given->session.number) meet(given->session, given->frame.pts);
-  given->frame.pts += depth_shift;
+  if (own.session != given->session.number) meet(given->session, given->frame.pts);
+  given->frame.pts += own.shift;
   return DepthFollower::Supplied{std::move(given->frame), false};
 }
 
@@ -79,9 +79,9 @@ Result<FramePair> PairReader::Impl::pairFor(Frame color) {
 
 // An error in the depth ends the depth only; just an interruption is returned to the caller.
 Result<DepthFollower::Match> PairReader::Impl::depthAt(MediaTime time) {
-  if (!depth || (!depth_track && !depth_source) || depth_lost) return DepthFollower::Match{};
+  if (!depth || (!depth_track && !depth_source) || own.lost) return DepthFollower::Match{};
   auto match = depth->at(time);
-  if (match && depth_away) return DepthFollower::Match{};  // flat, rather than the shape of another moment
+  if (match && own.away) return DepthFollower::Match{};  // flat, rather than the shape of another moment
   if (match) return match;
   if (match.error().code == ErrorCode::Cancelled) {
     return failOn(depthUrl(), match.error());
@@ -92,8 +92,8 @@ Result<DepthFollower::Match> PairReader::Impl::depthAt(MediaTime time) {
 }
 
 void PairReader::Impl::loseDepth(const Error& error) {
-  depth_lost = true;
-  if (std::exchange(loss_told, true)) return;
+  own.lost = true;
+  if (std::exchange(own.loss_told, true)) return;
   log(LogLevel::Warning, "media", "%s: no depth from here on: %s", depthUrl().c_str(), error.message);
 }
 
@@ -115,9 +115,9 @@ Result<void> PairReader::Impl::passTo(MediaTime target) {
 Result<void> PairReader::Impl::seekDepth(MediaTime target) {
   if (!depth) return {};
   depth->restart();
-  depth_lost = false;
+  own.lost = false;
   if (!depth_source) return {};
-  const auto sought = depth_source->seek(target - depth_shift, key_step);
+  const auto sought = depth_source->seek(target - own.shift, key_step);
   if (sought) return {};
   if (sought.error().code == ErrorCode::Cancelled) return failOn(depthUrl(), sought.error());
   loseDepth(sought.error());
@@ -216,7 +216,7 @@ Result<void> PairReader::reopen() {
   if (!film.live) return film.goOn();
   film.color_shift = film.goes_on_at - film.color_ahead.front().pts;
   for (Frame& frame : film.color_ahead) frame.pts += film.color_shift;
-  film.depth_session.reset();  // because the colour's shift has changed
+  film.own.session.reset();  // because the colour's shift has changed
   return {};
 }
 
@@ -256,13 +256,13 @@ void PairReader::close() noexcept {
   film.registrar.reset();
   film.depth_track.reset();
   film.depth_stream = nullptr;
-  film.told_again.reset();
-  film.depth_session.reset();
+  film.reordering = {};
+  film.own = {};
   film.color_ahead.clear();
   film.words_ahead.clear();
-  film.color_shift = film.depth_shift = Duration(0);
+  film.color_shift = Duration(0);
   film.goes_on_at = MediaTime{};
-  film.remote = film.live = film.depth_away = film.depth_lost = film.loss_told = false;
+  film.remote = film.live = false;
   film.counters = {};
   film.key_step = Duration(0);
   film.info = {};

@@ -50,10 +50,10 @@ void PairReader::Impl::lookAround() {
   const MediaSource& source = color_reader->source();
   clues = {.command_line = options.command_line, .side_file = options.side_file, .as = options.as, .place = {}};
   gray = GrayFrom::Luma;
-  reordered = nullptr;
+  reordering.kind = nullptr;
   clues.place = lookAtTags(source.tags());
   if (clues.place.kind == nullptr) clues.place = lookAtPlace(options.url, options.depth_url);
-  order = options.as != nullptr ? options.as->order : SampleOrder::AsStored;
+  reordering.order = options.as != nullptr ? options.as->order : SampleOrder::AsStored;
   info.reading = {};
   if (options.depth_code) {
     clues.code = *options.depth_code;
@@ -136,14 +136,14 @@ void PairReader::Impl::lookForCode(const Frame& look) {
 // The first depth picture, its samples in order; the order may be found out only by looking at it.
 Result<const Frame*> PairReader::Impl::firstDepth() {
   auto first = depth->peek();
-  if (!first || *first == nullptr || order != SampleOrder::AsStored || registrar) return first;
+  if (!first || *first == nullptr || reordering.order != SampleOrder::AsStored || registrar) return first;
   const StreamInfo& stream = depth_source ? depth_source->stream() : *depth_stream;
   takeTags(stream);
   const KnownKind* const kind = kindOf(clues, tellingPicture(**first, depthUrl(), stream.index));
   if (kind == nullptr || kind->order == SampleOrder::AsStored) return first;
-  reordered = kind;
-  order = kind->order;
-  told_again = **first;
+  reordering.kind = kind;
+  reordering.order = kind->order;
+  reordering.again = **first;
   depth.emplace([this] { return supplyDepth(); });
   return depth->peek();
 }
@@ -167,7 +167,7 @@ Result<void> PairReader::Impl::describeTrack(const Frame& first) {
   const StreamInfo& stream = depth_source ? depth_source->stream() : *depth_stream;
   auto look = registrar ? Result<Frame>(first) : tellingPicture(first, depthUrl(), stream.index);
   // Of a later picture the samples are as stored.
-  if (look && look->pts != first.pts) look = inOrder(*look, order);
+  if (look && look->pts != first.pts) look = inOrder(*look, reordering.order);
   if (!look) return failOn(depthUrl(), look.error());
   const bool guessed = !depth_source && options.packing == Packing::Auto && !isMarkedAsDepth(stream);
   const bool colored = look->model != ColorModel::Gray && lookAt(*look).gray < kMostlyGray;
@@ -203,7 +203,7 @@ Result<void> PairReader::Impl::describe(const Frame& first, const Frame& look, c
   if (stream.rotation != 0) {
     clues.more.push_back({"rotation", print("%d degrees", 90 * stream.rotation), CalibrationOrigin::StreamSignalling});
   }
-  auto meaning = readMeaning(clues, reordered != nullptr ? reordered : kindOf(clues, look), look);
+  auto meaning = readMeaning(clues, reordering.kind != nullptr ? reordering.kind : kindOf(clues, look), look);
   if (!meaning) return failOn("calibration", meaning.error());
   info.calibration = std::move(meaning->calibration);
   info.reading = std::move(meaning->reading);

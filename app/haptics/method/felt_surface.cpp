@@ -58,8 +58,8 @@ RELIEVO_TICK_CODE bool FeltSurface::moveTo(const SurfaceWindow& window, MediaTim
       std::chrono::abs(now - prepared_for_) <= kPreparedWithin) {
     since_prepared_s = toSeconds(now - prepared_for_);
   }
-  edge_moves_ = two_levels_ && edge_way_mm_ != glm::dvec2(0) && window.frames[present_].time == edge_from_;
-  share_ = moment.share;
+  edge_.moves = two_levels_ && edge_.way_mm != glm::dvec2(0) && window.frames[present_].time == edge_.from;
+  edge_.share = moment.share;
   narrow_.begin(slots_, moment, since_prepared_s);
   if (two_levels_) wide_.begin(slots_, moment, since_prepared_s);
   return true;
@@ -74,7 +74,7 @@ void FeltSurface::setPicture(const SurfaceWindow& window) RELIEVO_RT {
   depth_mm_ = field.depthMm();
   slots_.in_use = 0;
   count_ = 0;
-  edge_from_ = MediaTime::min();
+  edge_.from = MediaTime::min();
   ControlGrid& narrow = narrow_.grid();
   ControlGrid& wide = wide_.grid();
   narrow.setPicture(field);
@@ -127,18 +127,18 @@ RELIEVO_TICK_CODE void FeltSurface::placeFrames(const SurfaceWindow& window) REL
 
 // The present frame with its edge displaced so far, blended with the next frame before its edge arrives.
 SurfacePoint FeltSurface::narrowAt(double x_mm, double y_mm) RELIEVO_RT {
-  if (!edge_moves_) return narrow_.at(x_mm, y_mm);
-  const glm::dvec2 gone = share_ * edge_way_mm_, to_come = edge_way_mm_ - gone;
+  if (!edge_.moves) return narrow_.at(x_mm, y_mm);
+  const glm::dvec2 gone = edge_.share * edge_.way_mm, to_come = edge_.way_mm - gone;
   const SurfacePoint a = narrow_.atFrame(0, x_mm - gone.x, y_mm - gone.y);
   const SurfacePoint b = narrow_.atFrame(1, x_mm + to_come.x, y_mm + to_come.y);
-  const auto mix = [s = share_](double from, double to) { return from + (to - from) * s; };
+  const auto mix = [s = edge_.share](double from, double to) { return from + (to - from) * s; };
   return {mix(a.z, b.z), mix(a.zx, b.zx), mix(a.zy, b.zy), mix(a.zxx, b.zxx), mix(a.zxy, b.zxy), mix(a.zyy, b.zyy)};
 }
 
 RELIEVO_TICK_CODE SurfacePoint FeltSurface::at(double x_mm, double y_mm) RELIEVO_RT {
   if (!two_levels_) return narrow_.at(x_mm, y_mm);
   const SurfacePoint w = wide_.at(x_mm, y_mm);
-  if (!edge_moves_ && std::abs(w.z - narrow_.height(x_mm, y_mm)) <= kWideAlone * scale_.clamp_mm) return w;
+  if (!edge_.moves && std::abs(w.z - narrow_.height(x_mm, y_mm)) <= kWideAlone * scale_.clamp_mm) return w;
   const SurfacePoint n = narrowAt(x_mm, y_mm);
   if (std::abs(w.z - n.z) <= kWideAlone * scale_.clamp_mm) return w;
   const SoftClamp c(w.z - n.z, scale_.clamp_mm);
@@ -152,7 +152,7 @@ RELIEVO_TICK_CODE SurfacePoint FeltSurface::at(double x_mm, double y_mm) RELIEVO
 }
 
 RELIEVO_TICK_CODE double FeltSurface::height(double x_mm, double y_mm) RELIEVO_RT {
-  const double n = edge_moves_ ? narrowAt(x_mm, y_mm).z : narrow_.height(x_mm, y_mm);
+  const double n = edge_.moves ? narrowAt(x_mm, y_mm).z : narrow_.height(x_mm, y_mm);
   if (!two_levels_) return n;
   const double w = wide_.height(x_mm, y_mm);
   return std::abs(w - n) <= kWideAlone * scale_.clamp_mm ? w : n + SoftClamp(w - n, scale_.clamp_mm).value;
@@ -175,22 +175,22 @@ void FeltSurface::followEdge(const SurfaceWindow& window, MediaTime next, const 
   constexpr double kNearMm = 1.5;
   constexpr Duration kNotSooner = std::chrono::milliseconds(4);
   const TimedSurface& from = window.frames[static_cast<std::size_t>(moment.present)];
-  const glm::dvec2 place(x_mm, y_mm), moved = place - edge_place_mm_;
-  if (from.time == edge_from_) {
+  const glm::dvec2 place(x_mm, y_mm), moved = place - edge_.place_mm;
+  if (from.time == edge_.from) {
     const bool near = std::max(std::abs(moved.x), std::abs(moved.y)) < kNearMm;
-    if (near || std::chrono::abs(next - edge_looked_) < kNotSooner) return;
+    if (near || std::chrono::abs(next - edge_.looked) < kNotSooner) return;
   }
   if (moment.present >= moment.last && moment.present + 1 >= window.count) {
-    edge_way_mm_ = glm::dvec2(0);  // the next frame has not arrived
+    edge_.way_mm = glm::dvec2(0);  // the next frame has not arrived
     return;
   }
-  edge_looked_ = next;
-  edge_from_ = from.time;
-  edge_place_mm_ = place;
-  edge_way_mm_ = glm::dvec2(0);
+  edge_.looked = next;
+  edge_.from = from.time;
+  edge_.place_mm = place;
+  edge_.way_mm = glm::dvec2(0);
   if (scale_.narrow_time == TimeLaw::Hold || moment.present >= moment.last) return;
   const TimedSurface& to = window.frames[static_cast<std::size_t>(moment.present) + 1];
-  if (!to.repeats) edge_way_mm_ = edgeMotion(from.field, to.field, x_mm, y_mm);
+  if (!to.repeats) edge_.way_mm = edgeMotion(from.field, to.field, x_mm, y_mm);
 }
 
 RELIEVO_TICK_CODE FeltSurface::Weighed FeltSurface::weighedAt(const SurfaceWindow& window,

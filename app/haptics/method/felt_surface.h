@@ -75,11 +75,14 @@ class FeltSurface {
   int count_ = 0;
 
   // How the edge near a place moves from one frame to the next, and the narrow level with it.
-  glm::dvec2 edge_way_mm_{0}, edge_place_mm_{0};
-  MediaTime edge_from_ = MediaTime::min();  // time of the frame it starts from
-  MediaTime edge_looked_;
-  bool edge_moves_ = false;  // at this moment
-  double share_ = 0;         // of the displacement, at this moment
+  struct FollowedEdge {
+    glm::dvec2 way_mm{0}, place_mm{0};
+    MediaTime from = MediaTime::min();  // time of the frame it starts from
+    MediaTime looked;
+    bool moves = false;  // at this moment
+    double share = 0;    // of the displacement, at this moment
+  };
+  FollowedEdge edge_;
 
   // The first and last frame with a weight at a moment, and the present one. Since frames are in order, equality of
   // these three implies that all frames between are equal.

@@ -23,7 +23,6 @@ constexpr int kMostRestarts = 5;
 constexpr Duration kMostLate = std::chrono::milliseconds(100);  // of a picture; more is a hitch
 constexpr int kLatenessPictures = 64;                           // that are averaged
 constexpr std::size_t kBlockFrames = 4096;
-constexpr double kFadeS = 0.01;  // from one gain to another
 
 }  // namespace
 
@@ -41,7 +40,7 @@ void Sound::forget() noexcept {
 
 void Sound::close() noexcept {
   if (output_ != nullptr) output_->close();
-  running_ = false;
+  run_.reset();
 }
 
 SoundSummary Sound::summary() const {
@@ -59,12 +58,12 @@ void Sound::follow(bool plays, MediaClock& clock, FilmFeed& feed) {
   if (position) *position -= delay_;
   if (position) collect(*position, feed);
   if (!plays || !position) stop();
-  if (running_ && !listen(clock, feed, now)) stop();
+  if (run_ && !listen(clock, feed, now)) stop();
   if (plays && position && !window_->empty() && ready(now)) {
-    if (!running_) start(*position);
+    if (!run_) start(*position);
     fill();
   }
-  clock.steer(running_ ? steering_ : 1.0, now);
+  clock.steer(run_ ? run_->steering : 1.0, now);
 }
 
 // Takes what is near enough to be written, and drops what is over.
@@ -81,53 +80,29 @@ void Sound::collect(MediaTime position, FilmFeed& feed) {
 }
 
 void Sound::start(MediaTime position) {
-  base_ = cursor_ = window_->frameAt(position + latency_ - fromSeconds(picture_late_s_));
-  readings_ = 0;
-  offset_s_ = 0;
-  heard_ = settled_ = false;
-  next_reading_ = {};
-  steering_ = 1;
-  running_ = window_->end() > cursor_;
+  const std::int64_t first = window_->frameAt(position + latency_ - fromSeconds(picture_late_s_));
+  if (window_->end() > first) run_ = Run{.base = first, .cursor = first};
 }
 
 void Sound::fill() {
   const auto channels = static_cast<std::size_t>(format_->channels);
-  while (running_) {
-    const std::size_t there = window_->read(cursor_, block_);
+  while (run_) {
+    const std::size_t there = window_->read(run_->cursor, block_);
     if (there == 0) return;
-    const double before = gain_;
-    amplify(there * channels);
-    const auto taken = output_->write({block_.data(), there * channels});
+    const std::span<float> samples{block_.data(), there * channels};
+    const double began_with = gain_.amplify(samples, *format_);
+    const auto taken = output_->write(samples);
     if (!taken) return lose(taken.error());
-    gain_ = gainAfter(before, *taken);  // the rest is written, and faded, again
-    cursor_ += static_cast<std::int64_t>(*taken);
+    gain_.endAfter(*taken, began_with, *format_);  // the rest is amplified and written again
+    run_->cursor += static_cast<std::int64_t>(*taken);
     if (*taken < there) return;
   }
 }
 
-double Sound::gainAfter(double before, std::size_t frames) const noexcept {
-  const double most = static_cast<double>(frames) / (kFadeS * format_->rate_hz);
-  return before + std::clamp(wished_gain_ - before, -most, most);
-}
-
 void Sound::setGain(double gain, bool at_once) noexcept {
-  wished_gain_ = gain;
-  if (!at_once) return;
-  gain_ = gain;
+  if (!at_once) return gain_.set(gain);
+  gain_.setAtOnce(gain);
   stop();
-}
-
-// Louder than whole is cut off at the whole.
-void Sound::amplify(std::size_t samples) noexcept {
-  if (gain_ == 1 && wished_gain_ == 1) return;
-  const auto channels = static_cast<std::size_t>(format_->channels);
-  for (std::size_t i = 0; i < samples; i += channels) {
-    gain_ = gainAfter(gain_, 1);
-    for (std::size_t c = 0; c < channels; ++c) {
-      const double louder = static_cast<double>(block_[i + c]) * gain_;
-      block_[i + c] = static_cast<float>(std::clamp(louder, -1.0, 1.0));
-    }
-  }
 }
 
 void Sound::setDelay(Duration delay) noexcept {
@@ -136,36 +111,36 @@ void Sound::setDelay(Duration delay) noexcept {
 }
 
 MediaTime Sound::end() const noexcept {
-  const bool sounds = running_ && window_ && !window_->empty();
+  const bool sounds = run_ && window_ && !window_->empty();
   return sounds ? window_->timeOf(window_->end()) + delay_ : MediaTime{};
 }
 
 // False when it has to be started anew, or is over.
 bool Sound::listen(MediaClock& clock, const FilmFeed& feed, MonotonicTime now) {
-  if (now < next_reading_) return true;
-  next_reading_ = now + kReadingPeriod;
+  if (now < run_->next_reading) return true;
+  run_->next_reading = now + kReadingPeriod;
   const auto heard = output_->position();
   if (!heard) {
     lose(heard.error());
     return true;
   }
   if (!*heard) {
-    if (!heard_) return true;
-    const bool more = !window_->empty() && window_->end() > cursor_;
-    if (more || !feed.hasSoundUntil(window_->timeOf(cursor_ + 1))) ++summary_.underruns;
+    if (!run_->heard) return true;
+    const bool more = !window_->empty() && window_->end() > run_->cursor;
+    if (more || !feed.hasSoundUntil(window_->timeOf(run_->cursor + 1))) ++summary_.underruns;
     return false;
   }
-  heard_ = true;
-  last_ = **heard;
-  const MediaTime film = clock.position(last_.time).value_or(MediaTime{}) - delay_;  // it plays: there is one
-  const double offset_s = toSeconds(window_->timeOf(base_ + last_.frames) - film) + picture_late_s_;
-  ++readings_;
-  offset_s_ += (offset_s - offset_s_) * std::max(1.0 / readings_, kSmoothing);
-  if (readings_ < kSettledAfter) return true;
-  if (std::abs(offset_s_) > toSeconds(settled_ ? kFar : kNear)) return realign();
-  settled_ = true;
+  run_->heard = true;
+  run_->last = **heard;
+  const MediaTime film = clock.position(run_->last.time).value_or(MediaTime{}) - delay_;  // it plays: there is one
+  const double offset_s = toSeconds(window_->timeOf(run_->base + run_->last.frames) - film) + picture_late_s_;
+  ++run_->readings;
+  run_->offset_s += (offset_s - run_->offset_s) * std::max(1.0 / run_->readings, kSmoothing);
+  if (run_->readings < kSettledAfter) return true;
+  if (std::abs(run_->offset_s) > toSeconds(run_->settled ? kFar : kNear)) return realign();
+  run_->settled = true;
   restarts_ = 0;
-  steering_ = 1 + std::round(kGainPerS * offset_s_ / kSteeringStep) * kSteeringStep;
+  run_->steering = 1 + std::round(kGainPerS * run_->offset_s / kSteeringStep) * kSteeringStep;
   summary_.drift_ppm = 1e6 * (clock.sample()->rate - 1);
   return true;
 }
@@ -178,12 +153,13 @@ bool Sound::realign() {
     gave_up_ = true;
     return true;
   }
-  latency_ = std::clamp(latency_ - fromSeconds(offset_s_), Duration(0), kMostLatency);
+  latency_ = std::clamp(latency_ - fromSeconds(run_->offset_s), Duration(0), kMostLatency);
   return false;
 }
 
 void Sound::stop() noexcept {
-  if (!std::exchange(running_, false)) return;
+  if (!run_) return;
+  run_.reset();
   static_cast<void>(output_->flush());  // one that is lost is found out by the next write
 }
 
@@ -209,7 +185,7 @@ bool Sound::ready(MonotonicTime now) {
 
 void Sound::lose(const Error& error) {
   output_->close();
-  running_ = false;
+  run_.reset();
   lost_ = true;
   next_try_ = clock_.now() + kRetryPeriod;
   news_ = News{std::string("sound: ") + error.message, "the film goes on by the system's clock"};
@@ -217,12 +193,12 @@ void Sound::lose(const Error& error) {
 
 void Sound::noteShown(MediaTime picture, const MediaClock& clock) {
   const MonotonicTime now = clock_.now();
-  if (!running_) return;
+  if (!run_) return;
   const Duration late = std::clamp(clock.position(now).value_or(picture) - picture, Duration(0), kMostLate);
   pictures_late_ = std::min(pictures_late_ + 1, kLatenessPictures);
   picture_late_s_ += (toSeconds(late) - picture_late_s_) / pictures_late_;
-  if (!settled_) return;
-  const MediaTime sound = window_->timeOf(base_ + last_.frames) + (now - last_.time) + delay_;
+  if (!run_->settled) return;
+  const MediaTime sound = window_->timeOf(run_->base + run_->last.frames) + (now - run_->last.time) + delay_;
   const double offset_ms = 1e3 * toSeconds(sound - picture);
   ++summary_.pictures;
   sum_offset_ms_ += offset_ms;

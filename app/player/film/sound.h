@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/media/film_feed.h"
+#include "app/player/film/sound_gain.h"
 #include "app/player/film/sound_window.h"
 #include "hal/audio_output.h"
 #include "hal/media_clock.h"
@@ -78,8 +79,6 @@ class Sound {
   void collect(MediaTime position, FilmFeed& feed);
   void start(MediaTime position);
   void fill();
-  void amplify(std::size_t samples) noexcept;
-  [[nodiscard]] double gainAfter(double before, std::size_t frames) const noexcept;
   [[nodiscard]] bool listen(MediaClock& clock, const FilmFeed& feed, MonotonicTime now);
   [[nodiscard]] bool realign();
   void stop() noexcept;
@@ -90,23 +89,27 @@ class Sound {
   std::optional<AudioFormat> format_;
   std::optional<SoundWindow> window_;
   std::vector<float> block_;  // on its way into the output
-  double gain_ = 1, wished_gain_ = 1;
+  SoundGain gain_;
   Duration delay_{0};
 
-  bool running_ = false;
-  std::int64_t base_ = 0;      // the frame of the film that the output's first one is
-  std::int64_t cursor_ = 0;    // the next one to be written
+  // From a start of the output to its stop.
+  struct Run {
+    std::int64_t base = 0;    // the film's frame that the output began with
+    std::int64_t cursor = 0;  // the film's frame to be written next
+    bool heard = false;       // the output has told a position
+    AudioPosition last;       // the position read last
+    int readings = 0;         // of the position
+    double offset_s = 0;      // of the sound to the film, smoothed
+    bool settled = false;     // the offset is known, and small
+    double steering = 1;      // the clock's rate
+    MonotonicTime next_reading;
+  };
+  std::optional<Run> run_;
   Duration latency_{0};        // from the first frame's writing to its being heard, as far as positions do not tell
   double picture_late_s_ = 0;  // smoothed
   int pictures_late_ = 0;      // that this is known of
-  bool heard_ = false;         // since the start
-  AudioPosition last_;         // that was read
-  int readings_ = 0;           // since the start
-  double offset_s_ = 0;        // smoothed
-  bool settled_ = false;
-  int restarts_ = 0;  // without having settled
-  double steering_ = 1;
-  MonotonicTime next_reading_, next_try_;
+  int restarts_ = 0;           // without having settled
+  MonotonicTime next_try_;
   bool gave_up_ = false, lost_ = false, told_ = false;
 
   std::optional<News> news_;

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The factor on the sound's samples. It changes over a hundredth of a second, so that no click is heard.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "hal/audio_output.h"
+
+namespace relievo {
+
+// One thread; nothing blocks or allocates.
+class SoundGain {
+ public:
+  void set(double gain) noexcept { wished_ = gain; }
+  // The samples that are amplified next begin with it.
+  void setAtOnce(double gain) noexcept { now_ = wished_ = gain; }
+  // Multiplies whole frames, limited to the full scale, and continues from the last call. The result is the gain that
+  // they began with, for `endAfter`.
+  double amplify(std::span<float> samples, const AudioFormat& format) noexcept;
+  // Only the first `frames` of the last call were used: the next call continues from there.
+  void endAfter(std::size_t frames, double began_with, const AudioFormat& format) noexcept;
+
+ private:
+  [[nodiscard]] double after(double before, std::size_t frames, const AudioFormat& format) const noexcept;
+
+  double now_ = 1, wished_ = 1;
+};
+
+}  // namespace relievo
