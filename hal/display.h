@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "platform/clock.h"
@@ -60,6 +62,14 @@ struct SceneViews {
   bool operator==(const SceneViews&) const = default;
 };
 
+// A mouse over a window; `across` and `down` in shares of its surface, from the top left.
+struct SurfaceMouse {
+  double across = 0, down = 0;
+  bool pressed = false;  // the left button
+};
+// True if what is drawn there takes the press: until the button is released, the press does not reach the finger.
+using MouseListener = std::function<bool(const SurfaceMouse&)>;
+
 enum class FullScreen : std::uint8_t { Off, On, Toggle };
 
 // The surface to draw on between beginFrame and present. `framebuffer` is a GL name (0 is a valid one) if the
@@ -105,12 +115,17 @@ class Display {
   // How the surface shows the scene from now on.
   void setViews(const SceneViews& views);
   void fillScreen(FullScreen wish);
+  // `attend` calls it for every press of the left button and every move of the mouse. Empty: nobody listens.
+  void hearMouse(MouseListener listener) { mouse_listener_ = std::move(listener); }
   // The files and addresses that the viewer has dropped on the window since the last call.
   [[nodiscard]] std::vector<std::string> takeDropped() { return droppedOnIt(); }
 
   [[nodiscard]] State state() const noexcept { return state_; }
   // The same in every state, except for the values known only from `open` on.
   [[nodiscard]] virtual DisplayCapabilities capabilities() const noexcept = 0;
+
+ protected:
+  [[nodiscard]] bool tellMouse(const SurfaceMouse& mouse) const { return mouse_listener_ && mouse_listener_(mouse); }
 
  private:
   virtual Result<void> openDisplay(const DisplayConfig& config) = 0;
@@ -124,6 +139,7 @@ class Display {
   virtual void closeDisplay() noexcept = 0;
 
   State state_ = State::Closed;
+  MouseListener mouse_listener_;
 };
 
 }  // namespace relievo

@@ -60,11 +60,13 @@ Player::Player(PlayerConfig config, PlayerParts parts)
       loudness_(config_.volume_path, config_.sound_device) {
   if (config_.volume_percent) loudness_.set(*config_.volume_percent);
   film_.soundOutput().setGain(loudness_.gain());
+  parts_.display.hearMouse([this](const SurfaceMouse& mouse) { return hearMouse(mouse); });
   journal_.stateChanged(state_);
 }
 
 Player::~Player() {
   touch_.stop();
+  parts_.display.hearMouse({});
 }
 
 bool Player::apply(PlayerEvent event) {
@@ -139,6 +141,7 @@ void Player::step(MonotonicTime now) {
     else failDisplay(attended.error());
   }
   followDrops(now);
+  followMouse(now);
   readRemote(now);
   followDevice();
   film_.noteNews();
@@ -198,6 +201,19 @@ void Player::readRemote(MonotonicTime now) {
     else noteUnbound(**key, now);
   }
   if (const auto command = keys_.held(now)) obey(*command, now);
+}
+
+// Within the display's `attend`.
+bool Player::hearMouse(const SurfaceMouse& mouse) {
+  const auto share = screen_.barAt(mouse, parts_.clock.now());
+  if (share && mouse.pressed) dragged_to_ = share;
+  return share.has_value();
+}
+
+// While one seek is under way the mouse may move on; the last place counts.
+void Player::followMouse(MonotonicTime now) {
+  if (!dragged_to_ || state_ == PlayerState::Seeking) return;
+  obey({PlayerVerb::SeekShare, *std::exchange(dragged_to_, std::nullopt)}, now);
 }
 
 // A key that means nothing says so once. Keys that only change the meaning of others are silent.
@@ -275,11 +291,6 @@ PlayReport Player::report() const {
   report.first_frame_ms = msSinceBegin(screen_.firstShown());
   report.first_touch_ms = msSinceBegin(touch_.firstTick());
   return report;
-}
-
-std::optional<MediaTime> Player::seekTargetAt(double x, double y) const {
-  const auto share = screen_.seekTargetAt(x, y);
-  return share ? std::optional(MediaTime(fromSeconds(*share * toSeconds(film_.info().duration)))) : std::nullopt;
 }
 
 ScreenFacts Player::facts() const {

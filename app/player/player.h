@@ -81,9 +81,6 @@ class Player {
 
   // What is going on, and the URL of the film; empty if there is none. On its thread.
   [[nodiscard]] ScreenFacts facts() const;
-  // The time of the film that a point of the surface (pixels from its top left) stands for on the bar; nullopt where no
-  // bar is shown.
-  [[nodiscard]] std::optional<MediaTime> seekTargetAt(double x, double y) const;
   [[nodiscard]] std::string source() const { return film_.isOpen() ? programme_.film().url : ""; }
 
  private:
@@ -100,6 +97,8 @@ class Player {
   void finish(MonotonicTime now);
   void obeyPicture(const PlayerCommand& command, MonotonicTime now);
   void readRemote(MonotonicTime now);
+  [[nodiscard]] bool hearMouse(const SurfaceMouse& mouse);
+  void followMouse(MonotonicTime now);
   void noteUnbound(const KeyEvent& key, MonotonicTime now);
   void followStatistics(MonotonicTime now);
   void tellStatus(MonotonicTime now);
@@ -152,6 +151,7 @@ class Player {
   std::set<std::uint16_t> unbound_;  // keys without a meaning that were told
   Loudness loudness_;
   Statistics statistics_;
+  std::optional<double> dragged_to_;  // the film's place, 0 to 1, that the mouse has pressed on the bar
   bool words_shown_ = true;
   Duration subtitle_delay_{0};
   std::optional<MediaTime> loop_from_, loop_to_;  // of an A-B loop

@@ -49,6 +49,11 @@ bool startSdl() {
   return true;
 }
 
+// The middle of the pixel, as a share of the pixels; the nearest one's outside.
+double shareOf(int pixel, int pixels) noexcept {
+  return (std::clamp(pixel, 0, std::max(pixels - 1, 0)) + 0.5) / std::max(pixels, 1);
+}
+
 class WindowDisplay final : public Display {
  public:
   WindowDisplay(std::shared_ptr<WindowInput> input, const Clock& clock) : input_(std::move(input)), clock_(clock) {}
@@ -79,6 +84,7 @@ class WindowDisplay final : public Display {
   void hearKey(const SDL_KeyboardEvent& event);
   void hearButton(const SDL_MouseButtonEvent& event);
   void moveMouse(int x, int y) noexcept;
+  [[nodiscard]] bool tellMouse(bool pressed) const;
   void publishMouse() noexcept;
   void hearDrop(const SDL_DropEvent& event);
 
@@ -92,6 +98,7 @@ class WindowDisplay final : public Display {
   SceneViews views_;
   WindowMouse mouse_;
   int mouse_x_ = 0, mouse_y_ = 0;
+  bool press_taken_ = false;  // by what is drawn over the picture
   std::vector<std::string> dropped_;
   bool redraw_ = false;
   bool closed_by_viewer_ = false;
@@ -175,7 +182,9 @@ void WindowDisplay::hear(const SDL_Event& event) {
     case SDL_KEYUP:
       return hearKey(event.key);
     case SDL_MOUSEMOTION:
-      return moveMouse(event.motion.x, event.motion.y);
+      moveMouse(event.motion.x, event.motion.y);
+      static_cast<void>(tellMouse(press_taken_));
+      return;
     case SDL_MOUSEBUTTONDOWN:
     case SDL_MOUSEBUTTONUP:
       return hearButton(event.button);
@@ -213,11 +222,22 @@ void WindowDisplay::hearKey(const SDL_KeyboardEvent& event) {
 
 void WindowDisplay::hearButton(const SDL_MouseButtonEvent& event) {
   const bool down = event.state == SDL_PRESSED;
-  if (event.button == SDL_BUTTON_LEFT) mouse_.left = down;
   if (event.button == SDL_BUTTON_MIDDLE) mouse_.middle = down;
   if (event.button == SDL_BUTTON_RIGHT) mouse_.right = down;
+  if (event.button == SDL_BUTTON_LEFT) {
+    mouse_x_ = event.x;
+    mouse_y_ = event.y;
+    press_taken_ = down && tellMouse(true);
+    mouse_.left = down && !press_taken_;
+  }
   moveMouse(event.x, event.y);
-  if (down && event.button == SDL_BUTTON_LEFT && event.clicks == 2) setFullScreen(FullScreen::Toggle);
+  if (mouse_.left && event.button == SDL_BUTTON_LEFT && event.clicks == 2) setFullScreen(FullScreen::Toggle);
+}
+
+bool WindowDisplay::tellMouse(bool pressed) const {
+  int width = 0, height = 0;
+  SDL_GetWindowSize(window_, &width, &height);
+  return Display::tellMouse({shareOf(mouse_x_, width), shareOf(mouse_y_, height), pressed});
 }
 
 void WindowDisplay::moveMouse(int x, int y) noexcept {
@@ -230,10 +250,7 @@ void WindowDisplay::moveMouse(int x, int y) noexcept {
 void WindowDisplay::publishMouse() noexcept {
   int width = 0, height = 0;
   SDL_GetWindowSize(window_, &width, &height);
-  const auto share = [](int pixel, int of) {
-    return (std::clamp(pixel, 0, std::max(of - 1, 0)) + 0.5) / std::max(of, 1);
-  };
-  if (const auto ray = rayThrough(views_, share(mouse_x_, width), share(mouse_y_, height))) mouse_.ray = ray;
+  if (const auto ray = rayThrough(views_, shareOf(mouse_x_, width), shareOf(mouse_y_, height))) mouse_.ray = ray;
   input_->mouse.back() = mouse_;
   input_->mouse.publish();
 }

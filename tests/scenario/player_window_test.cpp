@@ -192,6 +192,30 @@ TEST_F(PlayerWindow, ItsMouseIsTheFinger) {
   EXPECT_NEAR(place[2], 40 * 0.5, 0.5) << touching;
 }
 
+// The bar comes when the mouse is near its place; it is pressed, dragged and let go, and no finger feels that.
+TEST_F(PlayerWindow, ItsBarIsPressedAndDragged) {
+  const auto player = play({"--haptic", "pointer"});
+  EXPECT_TRUE(until([&] { return shows(); }));
+  const int height = place_.y + static_cast<int>(664.0 / 720 * kHeight);
+  screen_->moveMouse(place_.x + 240, height);
+  std::this_thread::sleep_for(300ms);
+  screen_->button(1, true);
+  std::this_thread::sleep_for(300ms);
+  screen_->moveMouse(place_.x + 160, height);
+  std::this_thread::sleep_for(300ms);
+  screen_->button(1, false);
+  screen_->moveMouse(place_.x + 60, height);  // no longer held
+  std::this_thread::sleep_for(300ms);
+  screen_->tap("q");
+  EXPECT_EQ(player->wait(), 0) << textOf("said.txt");
+  const json r = report();
+  ASSERT_EQ(r["seeks"].size(), 2u) << r["seeks"];
+  constexpr double kMargin = 40.0 / 720 * kHeight, kLength = 2.4;
+  EXPECT_NEAR(r["seeks"][0]["target_s"].get<double>(), (240.5 - kMargin) / (kWidth - 2 * kMargin) * kLength, 0.05);
+  EXPECT_NEAR(r["seeks"][1]["target_s"].get<double>(), (160.5 - kMargin) / (kWidth - 2 * kMargin) * kLength, 0.05);
+  EXPECT_EQ(r["force"]["max_n"].get<double>(), 0) << "the press is the bar's, not the finger's";
+}
+
 TEST_F(PlayerWindow, WithoutADesktopItSaysSoInOneLine) {
   ::unsetenv("DISPLAY");
   test::Process player({std::string(RELIEVO_BIN_DIR) + "/relievo", "play", folder_ / "film.mkv", "--display", "window"},

@@ -202,10 +202,13 @@ void FilmScreen::changeAspect(const std::string& word) {
   picture_.setAspect(parseAspect(aspect_word_).value_or(0));
 }
 
-std::optional<double> FilmScreen::seekTargetAt(double x, double y) const {
+std::optional<double> FilmScreen::barAt(const SurfaceMouse& mouse, MonotonicTime now) {
+  constexpr double kNear = 0.8;  // of the view's height
+  const auto point = osd_ ? picture_.viewPoint(mouse.across, mouse.down) : std::nullopt;
+  if (!point) return std::nullopt;
+  if (point->down > kNear) text_.wake(now);
   if (!written_.bar || !written_.bar->has_length) return std::nullopt;
-  const auto point = picture_.viewPoint(x, y);
-  return point ? barShareAt(point->across, point->down, point->aspect) : std::nullopt;
+  return barShareAt(point->across, point->down, point->aspect);
 }
 
 void FilmScreen::describe(PlayReport& report) const {

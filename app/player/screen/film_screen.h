@@ -65,14 +65,15 @@ class FilmScreen {
   // The statistics, if they are wished for.
   [[nodiscard]] bool wantsStatistics() const noexcept { return text_.showsStatistics(); }
   void setStatistics(ScreenRows rows) { statistics_ = std::move(rows); }
-  // The film's place, 0 to 1, that a point of the surface (pixels from its top left) stands for on the bar; nullopt
-  // where no bar is shown.
-  [[nodiscard]] std::optional<double> seekTargetAt(double x, double y) const;
+  // The film's place, 0 to 1, that the mouse is over on the bar; nullopt where no bar is. A mouse near its place shows
+  // it.
+  [[nodiscard]] std::optional<double> barAt(const SurfaceMouse& mouse, MonotonicTime now);
 
   // The viewer has pressed a key: the text is shown for a while.
   void wake(MonotonicTime now) noexcept { text_.wake(now); }
   [[nodiscard]] ScreenText& text() noexcept { return text_; }
-  // Handles FullScreen, Layout, SwapEyes, DepthBy, ScreenBy, ZoomBy, Aspect, Info and Statistics; ignores other commands.
+  // Handles FullScreen, Layout, SwapEyes, DepthBy, ScreenBy, ZoomBy, Aspect, Info and Statistics; ignores other
+  // commands.
   void obey(const PlayerCommand& command);
 
   [[nodiscard]] const StereoSettings& stereo() const noexcept { return picture_.stereo(); }

@@ -169,13 +169,14 @@ void Picture::setAspect(double aspect) noexcept {
   stereoChanged();
 }
 
-std::optional<Picture::ViewPoint> Picture::viewPoint(double x, double y) const {
+std::optional<Picture::ViewPoint> Picture::viewPoint(double across, double down) const {
   if (width_ <= 0 || height_ <= 0) return std::nullopt;
+  const double x = across * width_, y = down * height_;
   const EyeViews eyes = eyeViews(stereo_, volume_, width_, height_);
   for (const EyeView& view : eyes.views) {
-    const double across = (x - view.area.x) / view.area.width;
-    const double down = (y - (height_ - view.area.y - view.area.height)) / view.area.height;
-    if (across >= 0 && across < 1 && down >= 0 && down < 1) return ViewPoint{across, down, eyes.aspect};
+    const double right = (x - view.area.x) / view.area.width;
+    const double below = (y - (height_ - view.area.y - view.area.height)) / view.area.height;
+    if (right >= 0 && right < 1 && below >= 0 && below < 1) return ViewPoint{right, below, eyes.aspect};
   }
   return std::nullopt;
 }

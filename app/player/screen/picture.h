@@ -90,13 +90,13 @@ class Picture {
   [[nodiscard]] const DisplayVolume& volume() const noexcept { return volume_; }
   [[nodiscard]] int width() const noexcept { return width_; }
   [[nodiscard]] int height() const noexcept { return height_; }
-  // Where a point of the surface, from its top left, lies in the view that it is over, in shares of the view; nullopt
-  // beside all views.
+  // Where a point of the surface (in shares, from its top left) lies in the view that it is over, in shares of the
+  // view; nullopt beside all views.
   struct ViewPoint {
     double across = 0, down = 0;
     double aspect = 1;  // of the view
   };
-  [[nodiscard]] std::optional<ViewPoint> viewPoint(double x, double y) const;
+  [[nodiscard]] std::optional<ViewPoint> viewPoint(double across, double down) const;
   [[nodiscard]] const RenderStatistics& statistics() const noexcept { return statistics_; }
 
  private:
