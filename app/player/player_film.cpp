@@ -124,7 +124,7 @@ void Player::begin(MonotonicTime now) {
     screen_.setScene(calibration, volume, film_.period(), now);
     announce(volume);
     if (journal_.written().films.size() == 1) {
-      screen_.text().hint(parts_.haptic == nullptr ? "H: all keys" : "Press into the picture to feel it.  H: all keys",
+      screen_.text().hint(parts_.haptic == nullptr ? "h: all keys" : "Press into the picture to feel it.  h: all keys",
                           now);
     }
   }
