@@ -28,14 +28,14 @@ struct SourceOptions {
   std::string url;
   std::string depth_url;  // empty: the depth is in `url`
   Packing packing = Packing::Auto;
-  std::optional<DepthCode> depth_code;       // nullopt: guessed from the picture
-  const KnownKind* as = nullptr;             // --as KIND
-  CalibrationSettings command_line;          // --calibration KEY=VALUE,..
-  CalibrationSettings side_file;             // --calibration FILE
-  std::vector<std::string> named_files;      // files that the side file and the registration were read from
-  std::optional<double> frames_per_s;        // of pictures that have numbers but no times
-  std::optional<Registration> registration;  // for depth from a camera of its own; not for packed depth
-  std::optional<AudioFormat> sound;          // the format to deliver sound in; nullopt: no sound
+  std::optional<DepthCode> depth_code;              // nullopt: guessed from the picture
+  const KnownKind* as = nullptr;                    // --as KIND
+  CalibrationSettings command_line;                 // --calibration KEY=VALUE,..
+  CalibrationSettings side_file;                    // --calibration FILE
+  std::vector<std::string> named_files;             // files that the side file and the registration were read from
+  std::optional<double> frames_per_s;               // of pictures that have numbers but no times
+  std::optional<Registration> registration;         // for depth from a camera of its own; not for packed depth
+  std::optional<AudioFormat> sound;                 // the format to deliver sound in; nullopt: no sound
   std::string sound_languages, subtitle_languages;  // "jpn,en": the first that is there; see film_tracks.h
 };
 
@@ -58,8 +58,8 @@ struct FilmInfo {
   bool interlaced = false;          // the first pictures; they are deinterlaced
   std::uint8_t color_primaries = kUnspecifiedColor, color_transfer = kUnspecifiedColor;  // as in a Frame
   Duration duration{0};                                                                  // 0: unknown
-  Duration container_start{0};  // of the colour: the container's time of media time 0
-  CalibrationChoice calibration;                                                         // of a film with depth
+  Duration container_start{0};     // of the colour: the container's time of media time 0
+  CalibrationChoice calibration;   // of a film with depth
   FilmReading reading;             // how that calibration and the packing were found
   std::vector<std::string> notes;  // what the sources found out about themselves; one line each
   std::string color_codec, depth_codec;

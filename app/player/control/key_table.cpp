@@ -195,13 +195,14 @@ class CommandKeys {
   void put(const std::optional<PlayerCommand>& command, const std::string& key) {
     if (!command) return;
     const auto line = std::ranges::find(lines_, *command, [](const auto& each) { return each.first; });
-    if (line == lines_.end()) lines_.emplace_back(*command, key);
-    else line->second += " " + key;
+    if (line != lines_.end()) {
+      line->second += " " + key;
+      return;
+    }
+    const auto verb = [](const auto& each) { return each.first.verb; };
+    lines_.emplace(std::ranges::upper_bound(lines_, command->verb, {}, verb), *command, key);
   }
-  [[nodiscard]] const std::vector<std::pair<PlayerCommand, std::string>>& sorted() {
-    std::ranges::stable_sort(lines_, {}, [](const auto& line) { return line.first.verb; });
-    return lines_;
-  }
+  [[nodiscard]] const std::vector<std::pair<PlayerCommand, std::string>>& lines() const noexcept { return lines_; }
 
  private:
   std::vector<std::pair<PlayerCommand, std::string>> lines_;
@@ -286,7 +287,7 @@ std::vector<std::pair<std::string, std::string>> KeyTable::rowsIn(PlayerState st
     }
   }
   std::vector<std::pair<std::string, std::string>> rows;
-  for (const auto& [command, keys] : lines.sorted()) rows.emplace_back(keys, meaningOf(command));
+  for (const auto& [command, keys] : lines.lines()) rows.emplace_back(keys, meaningOf(command));
   return rows;
 }
 
@@ -302,7 +303,7 @@ std::string KeyTable::help() const {
     }
   }
   std::string text;
-  for (const auto& [command, keys] : lines.sorted()) {
+  for (const auto& [command, keys] : lines.lines()) {
     std::string line = "  " + keys;
     line.resize(std::max(kColumn, line.size() + 2), ' ');
     text += line + meaningOf(command) + "\n";

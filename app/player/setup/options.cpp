@@ -242,10 +242,13 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
                   "Loudness, in percent [as it was left on this sound output, else 100]")
       ->check(between(0.0, Loudness::kMostPercent))
       ->type_name("P");
-  command.add_option("--alang", play.player.source.sound_languages, "Sound in the first of these languages that the film has, such as jpn,en")
+  command
+      .add_option("--alang", play.player.source.sound_languages,
+                  "Sound in the first of these languages that the film has, such as jpn,en")
       ->type_name("LANG,..");
-  command.add_option("--slang", play.player.source.subtitle_languages,
-                     "Subtitles likewise [those beside the film, or that it marks as its default]")
+  command
+      .add_option("--slang", play.player.source.subtitle_languages,
+                  "Subtitles likewise [those beside the film, or that it marks as its default]")
       ->type_name("LANG,..");
   command.add_flag("--osd", play.osd, "Write bar, keys and notices over an off-screen picture too");
   command.add_flag("--loop", play.player.loop, "Begin again at the end");

@@ -60,8 +60,9 @@ Situation playing() {
 }
 
 TEST(Wishes, ChaptersAreSoughtByTheirBeginnings) {
-  const std::vector<Chapter> chapters{
-      {fromSeconds(0), fromSeconds(18), ""}, {fromSeconds(18), fromSeconds(60), ""}, {fromSeconds(60), fromSeconds(90), ""}};
+  const std::vector<Chapter> chapters{{fromSeconds(0), fromSeconds(18), ""},
+                                      {fromSeconds(18), fromSeconds(60), ""},
+                                      {fromSeconds(60), fromSeconds(90), ""}};
   Situation situation = playing();
   EXPECT_EQ(asked(PlayerVerb::ChapterBy, situation, 1), "note this film has no chapters");
   situation.chapters = chapters;
