@@ -11,7 +11,7 @@ namespace relievo {
 inline constexpr double kSigmaPerPitch = 0.645497;  // sqrt(5/12)
 
 // Approximate number of samples read per control point's block, across and down, for each level.
-inline constexpr int kNarrowSamples = 3, kWideSamples = 5;
+inline constexpr int kNarrowSamples = 3, kWideSamples = 15;
 
 // Widths of the smoothing (standard deviations), and the laws of interpolation.
 struct FeltScale {

@@ -32,11 +32,7 @@ struct TouchPlan {
   std::string reason;  // one line
 };
 
-// Largest acceptable share of force error: a third of the 6 % that people can just feel (Jones 2000).
-inline constexpr double kErrorWanted = 0.02;
-
-// The narrowest smoothing that keeps the error under kErrorWanted for a finger 5 mm deep, or the widest if none does;
-// and the law of time that suits the noise.
+// The smoothing with the least expected error for a finger 5 mm deep, and the law of time that suits the noise.
 [[nodiscard]] TouchPlan planTouch(const ClipMeasure& measure);
 // The plan for a film that begins with these frames, in ascending order and with shots marked. It is measured on the
 // first four frames, which a player has when it begins. Player, probe and laboratory all use this function.

@@ -31,16 +31,18 @@ void ControlGrid::setPicture(const HeightField& field) RELIEVO_RT {
   b_per_mm_ = grid.v_per_mm / block_.height;
   b_origin_ = (grid.v_origin + 0.5) / block_.height - 0.5;
   pit_mm_ = static_cast<float>(-field.depthMm());
-  patch_slots_ = 0;
+  patch_slots_ = ahead_slots_ = 0;
   filled_.fill(0);
   hole_.fill(0);
+  complete_.fill(0);
 }
 
 void ControlGrid::forgetFrame(int slot) RELIEVO_RT {
-  patch_slots_ = 0;
+  patch_slots_ = ahead_slots_ = 0;
   const auto keep = static_cast<std::uint8_t>(~(1U << slot));
   for (std::uint8_t& bits : filled_) bits &= keep;
   for (std::uint8_t& bits : hole_) bits &= keep;
+  for (std::uint8_t& bits : complete_) bits &= keep;
 }
 
 void ControlGrid::fill(int i, int j, const Frames& frames) RELIEVO_RT {
@@ -50,7 +52,7 @@ void ControlGrid::fill(int i, int j, const Frames& frames) RELIEVO_RT {
   if (i_[p] != i || j_[p] != j) {
     i_[p] = i;
     j_[p] = j;
-    filled_[p] = hole_[p] = 0;
+    filled_[p] = hole_[p] = complete_[p] = 0;
   }
   read(p, frames, missing);
 }
@@ -61,11 +63,11 @@ std::uint32_t ControlGrid::slotsMissing(int i, int j, const Frames& frames) cons
   return i_[p] == i && j_[p] == j ? frames.wanted & ~std::uint32_t{filled_[p]} : frames.wanted;
 }
 
-// Prefetches, in each frame that lacks one of four adjacent points, the span of its missing points.
-void ControlGrid::prefetchRow(int i0, int j, const Frames& frames) const RELIEVO_RT {
+// Prefetches, in each frame that lacks one of `count` adjacent points, the span of its missing points.
+void ControlGrid::prefetchRow(int i0, int count, int j, const Frames& frames) const RELIEVO_RT {
   std::uint32_t any = 0;
-  int begin = 4, end = 0;
-  for (int k = 0; k < 4; ++k) {
+  int begin = count, end = 0;
+  for (int k = 0; k < count; ++k) {
     const std::uint32_t slots = slotsMissing(i0 + k, j, frames);
     if (slots == 0) continue;
     any |= slots;
@@ -102,7 +104,41 @@ void ControlGrid::read(std::size_t p, const Frames& frames, std::uint32_t missin
     ++blocks_read_;
     filled_[p] |= bit;
     if (std::isnan(mean)) hole_[p] |= bit;
-    height_[p][slot] = std::isnan(mean) ? 0 : static_cast<float>(mean);
+    mean_[p][slot] = std::isnan(mean) ? 0 : static_cast<float>(mean);
+  }
+}
+
+void ControlGrid::complete(int i, int j, const Frames& frames) RELIEVO_RT {
+  fill(i, j, frames);
+  const std::size_t p = slotOf(i, j);
+  const std::uint32_t missing = frames.wanted & ~std::uint32_t{complete_[p]};
+  if (missing == 0) return;
+  if (bend_ > 0) {
+    for (const int side : {-1, 1}) {
+      fill(i + side, j, frames);
+      fill(i, j + side, frames);
+    }
+  }
+  complete_[p] |= static_cast<std::uint8_t>(missing);
+  keepCurvature(p, {slotOf(i - 1, j), slotOf(i + 1, j), slotOf(i, j - 1), slotOf(i, j + 1)}, missing);
+}
+
+// A direction in which a neighbour is a hole counts as straight.
+void ControlGrid::keepCurvature(std::size_t p, const std::array<std::size_t, 4>& around,
+                                std::uint32_t missing) RELIEVO_RT {
+  const auto [left, right, above, below] = around;
+  const std::uint32_t across_hole = hole_[p] | hole_[left] | hole_[right];
+  const std::uint32_t down_hole = hole_[p] | hole_[above] | hole_[below];
+  for (; missing != 0; missing &= missing - 1) {
+    const auto slot = static_cast<std::size_t>(__builtin_ctz(missing));
+    const float mean = mean_[p][slot];
+    const auto bent = [&](std::size_t before, std::size_t after, std::uint32_t holes) RELIEVO_RT {
+      if ((holes >> slot & 1U) != 0) return 0.F;
+      const float bend = mean_[before][slot] - 2 * mean + mean_[after][slot];
+      return std::min(std::max(bend, -kMostBendMm), kMostBendMm);
+    };
+    const float bends = bend_ > 0 ? bent(left, right, across_hole) + bent(above, below, down_hole) : 0;
+    height_[p][slot] = mean - bend_ * bends;
   }
 }
 
@@ -129,11 +165,12 @@ float ControlGrid::withHoles(std::size_t p, const Frames& frames) const RELIEVO_
 
 void ControlGrid::patch(int i0, int j0, const Frames& frames, Patch& out) RELIEVO_RT {
   if (i0 != patch_i_ || j0 != patch_j_ || frames.wanted != patch_slots_) {
-    for (int j = j0; j < j0 + 4; ++j) prefetchRow(i0, j, frames);
+    const int rim = bend_ > 0 ? 1 : 0;
+    for (int j = j0 - rim; j < j0 + 4 + rim; ++j) prefetchRow(i0 - rim, 4 + 2 * rim, j, frames);
     std::uint32_t holes = 0;
     for (int j = j0; j < j0 + 4; ++j) {
       for (int i = i0; i < i0 + 4; ++i) {
-        fill(i, j, frames);
+        complete(i, j, frames);
         holes |= hole_[slotOf(i, j)] & frames.wanted;
       }
     }
@@ -153,6 +190,21 @@ void ControlGrid::patch(int i0, int j0, const Frames& frames, Patch& out) RELIEV
     if (!patch_holes_) continue;
     for (int i = 0; i < 4; ++i) row[i] = withHoles(slotOf(i0 + i, j0 + j), frames);
   }
+}
+
+void ControlGrid::readAhead(int i0, int j0, const Frames& frames, int most) RELIEVO_RT {
+  if (i0 == ahead_i_ && j0 == ahead_j_ && frames.wanted == ahead_slots_) return;
+  ahead_slots_ = 0;
+  const std::uint64_t until = blocks_read_ + static_cast<std::uint64_t>(most);
+  for (int j = j0; j < j0 + 4; ++j) {
+    for (int i = i0; i < i0 + 4; ++i) {
+      if (blocks_read_ >= until) return;
+      complete(i, j, frames);
+    }
+  }
+  ahead_i_ = i0;
+  ahead_j_ = j0;
+  ahead_slots_ = frames.wanted;
 }
 
 void ControlGrid::prefetch() const RELIEVO_RT {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Control points of a smooth surface: means of blocks of depth samples, read only near the finger.
+// Control points of a smooth surface: from means of blocks of depth samples, read only near the finger.
 #pragma once
 
 #include <array>
@@ -16,18 +16,25 @@ namespace relievo {
 using Patch = std::array<Float4, 4>;
 
 // Control point (i, j) is at the centre of the block of block_cols x block_rows samples that begins at sample (i
-// block_cols, j block_rows). Its height is the mean of the block's samples, separately for each frame. A block is a
+// block_cols, j block_rows). Each frame has its own heights. A mean over a curved patch lies below the patch's top, and
+// so does a B-spline on such means; a point's height therefore is the mean of its block minus `bend` times the second
+// differences to the four blocks around it, so that the surface is exact to the third order (de Boor and Fix 1973,
+// quasi- interpolants). A second difference counts as at most kMostBendMm, since an edge is no curvature. A block is a
 // hole if less than half of it, and of its neighbourhood, has a reading. Holes and everything outside the picture are
 // pits one volume depth below the far plane: free space with the same rounded rim as any other edge.
 //
 // Nothing is built in advance: a block is read when it is first needed and kept in a toroidal cache of 16 x 16 points
-// while its frame is in the window. 10 KiB, fixed.
+// while its frame is in the window. 18 KiB, fixed.
 class ControlGrid {
  public:
   static constexpr int kFrames = SurfaceWindow::kCapacity;
   static_assert(kFrames == 8, "a byte holds a bit for each frame, and two Float4 hold their weights and heights");
-  // `samples`: approximate number read per block, across and down (SampledBlock).
-  ControlGrid(double pitch_mm, int most_samples) noexcept : pitch_wanted_mm_(pitch_mm), most_samples_(most_samples) {}
+  // `samples`: approximate number read per block, across and down (SampledBlock). `bend`: 5/24 keeps the curvature
+  // under a cubic B-spline, 1/6 under a quadratic one (half the variance of block and spline); 0 takes the means as
+  // they are.
+  ControlGrid(double pitch_mm, int most_samples, float bend) noexcept
+      : pitch_wanted_mm_(pitch_mm), most_samples_(most_samples), bend_(bend) {}
+  static constexpr float kMostBendMm = 3;
 
   // Discards everything, for a picture of another shape.
   void setPicture(const HeightField& field) RELIEVO_RT;
@@ -54,6 +61,9 @@ class ControlGrid {
   };
   // The control points (i0 .. i0+3, j0 .. j0+3), weighted over the frames.
   void patch(int i0, int j0, const Frames& frames, Patch& out) RELIEVO_RT;
+  // Reads points around the same place of frames that will be weighted soon; stops once it has read `most` blocks, or
+  // those of one point.
+  void readAhead(int i0, int j0, const Frames& frames, int most) RELIEVO_RT;
   // Prefetches everything except the points.
   void prefetch() const RELIEVO_RT;
   // Total so far, counted per frame.
@@ -65,10 +75,13 @@ class ControlGrid {
   [[nodiscard]] static std::size_t slotOf(int i, int j) RELIEVO_RT {
     return static_cast<std::size_t>(j & (kSide - 1)) * kSide + static_cast<std::size_t>(i & (kSide - 1));
   }
-  // Reads the missing frames of a point.
+  // Reads the missing frames of a point's block.
   void fill(int i, int j, const Frames& frames) RELIEVO_RT;
+  // The same, and the blocks around it that its height needs.
+  void complete(int i, int j, const Frames& frames) RELIEVO_RT;
+  void keepCurvature(std::size_t point, const std::array<std::size_t, 4>& around, std::uint32_t missing) RELIEVO_RT;
   [[nodiscard]] std::uint32_t slotsMissing(int i, int j, const Frames& frames) const RELIEVO_RT;
-  void prefetchRow(int i0, int j, const Frames& frames) const RELIEVO_RT;
+  void prefetchRow(int i0, int count, int j, const Frames& frames) const RELIEVO_RT;
   void read(std::size_t point, const Frames& frames, std::uint32_t missing) RELIEVO_RT;
   [[nodiscard]] double meanOrBridged(const HeightField& field, int c, int r,
                                      const SampledBlock& block) const RELIEVO_RT;
@@ -76,6 +89,7 @@ class ControlGrid {
 
   double pitch_wanted_mm_;
   int most_samples_;
+  float bend_;
   int cols_ = 0, rows_ = 0;
   SampledBlock block_;
   double a_per_mm_ = 1, a_origin_ = 0, b_per_mm_ = -1, b_origin_ = 0;
@@ -84,11 +98,14 @@ class ControlGrid {
   int patch_i_ = 0, patch_j_ = 0;
   std::uint32_t patch_slots_ = 0;
   bool patch_holes_ = false;
+  // The place and the frames whose points `readAhead` has read.
+  int ahead_i_ = 0, ahead_j_ = 0;
+  std::uint32_t ahead_slots_ = 0;
   std::uint64_t blocks_read_ = 0;
-  // One element per point. Bits and heights by slot; the height of a hole is 0.
+  // One element per point. Bits, means and heights by slot; those of a hole are 0.
   std::array<std::int32_t, kPoints> i_{}, j_{};
-  std::array<std::uint8_t, kPoints> filled_{}, hole_{};
-  alignas(16) std::array<std::array<float, kFrames>, kPoints> height_{};
+  std::array<std::uint8_t, kPoints> filled_{}, hole_{}, complete_{};
+  alignas(16) std::array<std::array<float, kFrames>, kPoints> mean_{}, height_{};
 };
 
 }  // namespace relievo

@@ -36,8 +36,8 @@ struct SoftClamp {
 
 FeltSurface::FeltSurface(const FeltScale& scale) noexcept
     : scale_(scale),
-      narrow_(scale.narrow_mm, kNarrowSamples, scale.space, scale.narrow_time),
-      wide_(scale.wide_mm, kWideSamples, scale.space, scale.wide_time),
+      narrow_(scale.narrow_mm, kNarrowSamples, scale.space, scale.narrow_time, SurfaceLevel::Curvature::Flattened),
+      wide_(scale.wide_mm, kWideSamples, scale.space, scale.wide_time, SurfaceLevel::Curvature::Kept),
       two_levels_(scale.wide_mm > scale.narrow_mm) {}
 
 RELIEVO_TICK_CODE bool FeltSurface::moveTo(const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
@@ -211,7 +211,10 @@ void FeltSurface::prepare(const SurfaceWindow& window, MediaTime next, double x_
   // If a new frame begins in between, the later moment does not give the surface's rate of change.
   const FrameMoment& comparable = later.present == moment.present ? later : moment;
   narrow_.prepare(slots_, x_mm, y_mm, moment, comparable, toSeconds(kStep));
-  if (two_levels_) wide_.prepare(slots_, x_mm, y_mm, moment, comparable, toSeconds(kStep));
+  narrow_.readAhead(slots_, x_mm, y_mm, moment);
+  if (!two_levels_) return;
+  wide_.prepare(slots_, x_mm, y_mm, moment, comparable, toSeconds(kStep));
+  wide_.readAhead(slots_, x_mm, y_mm, moment);
 }
 
 void FeltSurface::prefetch() const RELIEVO_RT {

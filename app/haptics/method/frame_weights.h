@@ -26,5 +26,9 @@ struct FrameMoment {
 // last frame of a shot are held.
 using FrameWeights = std::array<float, SurfaceWindow::kCapacity>;
 [[nodiscard]] FrameWeights frameWeights(const FrameMoment& moment, TimeLaw law) RELIEVO_RT;
+// How many frames after the present one have a weight, at most.
+[[nodiscard]] constexpr int framesAhead(TimeLaw law) RELIEVO_RT {
+  return static_cast<int>(law);  // hold 0, linear 1, bspline 2, fitted 3
+}
 
 }  // namespace relievo

@@ -30,8 +30,14 @@ constexpr std::array<Float4, 4> kQuadratic{Float4{0.125F, 0.75F, 0.125F, 0}, Flo
 
 }  // namespace
 
-SurfaceLevel::SurfaceLevel(double sigma_mm, int most_samples, SpaceLaw space, TimeLaw time) noexcept
-    : grid_(sigma_mm / kSigmaPerPitch, most_samples), time_(time), cubic_(space != SpaceLaw::Quadratic) {}
+SurfaceLevel::SurfaceLevel(double sigma_mm, int most_samples, SpaceLaw space, TimeLaw time,
+                           Curvature curvature) noexcept
+    : grid_(sigma_mm / kSigmaPerPitch, most_samples,
+            curvature == Curvature::Flattened ? 0
+            : space == SpaceLaw::Quadratic    ? 1.F / 6
+                                              : 5.F / 24),
+      time_(time),
+      cubic_(space != SpaceLaw::Quadratic) {}
 
 void SurfaceLevel::weigh(const FrameSlots& slots, const FrameMoment& moment,
                          ControlGrid::Frames& frames) const RELIEVO_RT {
@@ -140,6 +146,16 @@ void SurfaceLevel::prepare(const FrameSlots& slots, double x_mm, double y_mm, co
     }
     prepared_rate_[j] = (prepared_rate_[j] - prepared_[j]) / static_cast<float>(step_s);
   }
+}
+
+void SurfaceLevel::readAhead(const FrameSlots& slots, double x_mm, double y_mm, const FrameMoment& next) RELIEVO_RT {
+  constexpr int kBlocksAtOnce = 2;
+  const int frame = next.present + framesAhead(time_) + 1;
+  if (frame > next.last) return;
+  const std::uint8_t slot = slots.of_frame[static_cast<std::size_t>(frame)];
+  const ControlGrid::Frames one{.window = slots.window, .frame_of_slot = slots.frame, .wanted = 1U << slot};
+  const Cell cell = cellOf(x_mm, y_mm);
+  grid_.readAhead(cell.i, cell.j, one, kBlocksAtOnce);
 }
 
 void SurfaceLevel::prefetch() const RELIEVO_RT {

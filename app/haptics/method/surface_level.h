@@ -31,7 +31,9 @@ struct FrameSlots {
 // The surface of one smoothing width: a view of one moment, prepared in the tick before.
 class SurfaceLevel {
  public:
-  SurfaceLevel(double sigma_mm, int most_samples, SpaceLaw space, TimeLaw time) noexcept;
+  // Whether the surface keeps the depth's curvature (ControlGrid), or takes the means of blocks as they are.
+  enum class Curvature : std::uint8_t { Flattened, Kept };
+  SurfaceLevel(double sigma_mm, int most_samples, SpaceLaw space, TimeLaw time, Curvature curvature) noexcept;
 
   [[nodiscard]] ControlGrid& grid() RELIEVO_RT { return grid_; }
   [[nodiscard]] const ControlGrid& grid() const RELIEVO_RT { return grid_; }
@@ -48,6 +50,9 @@ class SurfaceLevel {
   // `later`, `step_s` after it.
   void prepare(const FrameSlots& slots, double x_mm, double y_mm, const FrameMoment& next, const FrameMoment& later,
                double step_s) RELIEVO_RT;
+  // Reads a little of the frame that follows those that have a weight at `next`, so that its points need not all be
+  // read in the tick in which it gets one.
+  void readAhead(const FrameSlots& slots, double x_mm, double y_mm, const FrameMoment& next) RELIEVO_RT;
   // Prefetches everything except the control points, which are the largest part.
   void prefetch() const RELIEVO_RT;
 

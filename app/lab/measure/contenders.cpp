@@ -6,6 +6,7 @@
 #include <array>
 
 #include "app/depth_window/touch_plan.h"
+#include "app/haptics/method/frame_weights.h"
 #include "app/lab/rival/bullet_proxy.h"
 #include "app/lab/rival/smoothed_film.h"
 
@@ -73,10 +74,6 @@ std::vector<Contender> thoseAtHand() {
   return all;
 }
 
-int lookAhead(TimeLaw law) {
-  return static_cast<int>(law);  // hold 0, linear 1, bspline 2, fitted 3
-}
-
 }  // namespace
 
 std::unique_ptr<TouchMethod> Contender::make(const MemoryFilm& film) const {
@@ -85,23 +82,24 @@ std::unique_ptr<TouchMethod> Contender::make(const MemoryFilm& film) const {
 }
 
 ContenderParts Contender::parts(const MemoryFilm& film) const {
-  const double width = smoothed ? planFilm(film.frames()).scale.wide_mm : std::numeric_limits<double>::quiet_NaN();
+  const double width =
+      smoothed ? blurWidthMm(planFilm(film.frames()).measure) : std::numeric_limits<double>::quiet_NaN();
   if (isBullet(*this)) return {.space = "triangles", .time = "linear", .wide_mm = width, .look_ahead_frames = 1};
   const MethodParts parts = *partsOf(method, configOn(film, *this));  // the list holds such alone
   ContenderParts out{.space = name(parts.space),
                      .time = name(parts.time),
                      .wide_mm = width,
-                     .look_ahead_frames = lookAhead(parts.time)};
+                     .look_ahead_frames = framesAhead(parts.time)};
   if (parts.scale) {
     out.narrow_mm = parts.scale->narrow_mm;
     out.wide_mm = parts.scale->wide_mm;
-    out.look_ahead_frames = std::max(out.look_ahead_frames, lookAhead(parts.scale->narrow_time));
+    out.look_ahead_frames = std::max(out.look_ahead_frames, framesAhead(parts.scale->narrow_time));
   }
   return out;
 }
 
 FilmViews::FilmViews(const MemoryFilm& film)
-    : raw_(film), sigma_mm_(planFilm(film.frames()).scale.wide_mm), smoothed_(smoothedFilm(film, sigma_mm_)) {}
+    : raw_(film), sigma_mm_(blurWidthMm(planFilm(film.frames()).measure)), smoothed_(smoothedFilm(film, sigma_mm_)) {}
 
 std::vector<PlayedTick> playPath(const FilmViews& film, const Contender& who, std::span<const HipTick> path,
                                  std::span<const TrueTouch> truth) {

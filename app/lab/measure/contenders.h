@@ -35,7 +35,7 @@ struct Contender {
   [[nodiscard]] ContenderParts parts(const MemoryFilm& film) const;
 };
 
-// A film and the same with every frame smoothed by the wide width that the plan picks for it (smoothedFilm), which
+// A film and the same with every frame smoothed by the width that suits it best (blurWidthMm, smoothedFilm), which
 // takes a while.
 class FilmViews {
  public:

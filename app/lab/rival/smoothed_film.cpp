@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <thread>
 
 #include "app/lab/film/parallel.h"
@@ -95,6 +96,17 @@ class OnSmoothedDepth final : public TouchMethod {
 };
 
 }  // namespace
+
+double blurWidthMm(const ClipMeasure& clip) {
+  constexpr double kLeastMm = 0.14, kMostMm = 2.5, kFlattening = 0.012, kNoise = 0.282, kSteps = 2 * 7.09;
+  const auto error = [&](double w) {
+    return std::hypot(kNoise * clip.noise_mm * clip.sample_mm / (w * w), clip.quantum_mm / (kSteps * w),
+                      kFlattening * w * w);
+  };
+  double width = kLeastMm;
+  for (double wider = width * 1.02; wider <= kMostMm && error(wider) < error(width); wider *= 1.02) width = wider;
+  return width;
+}
 
 MemoryFilm smoothedFilm(const MemoryFilm& film, double sigma_mm) {
   const SmoothedPictures smoothed = smoothAll(film.frames(), sigma_mm);

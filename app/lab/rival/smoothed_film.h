@@ -9,11 +9,18 @@
 #include <vector>
 
 #include "app/depth_window/surface_window.h"
+#include "app/depth_window/touch_plan.h"
 #include "app/haptics/method/method.h"
 #include "app/lab/film/film_run.h"
 #include "app/lab/rival/depth_smoother.h"
 
 namespace relievo {
+
+// The blur with the least expected error of the force, as TouchPlan's for a kernel that flattens with the square of its
+// width: a Gaussian leaves noise x sample / (sqrt(4 pi) w^2) of white noise in the slope, half of step / (7.09 w) of
+// the codes' steps, and takes 1.2 % of the force on a bump of 8 mm curvature radius for 1 mm of width (as measured, 16
+// bits).
+[[nodiscard]] double blurWidthMm(const ClipMeasure& clip);
 
 // The film with every frame blurred by a Gaussian of this standard deviation (DepthSmoother), in 16 bits. A frame that
 // repeats the previous one is not blurred again. Uses all processors.

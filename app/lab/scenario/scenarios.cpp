@@ -45,12 +45,13 @@ constexpr std::array<Scenario, 25> kScenarios{{
 
 Challenger challengerNamed(const std::string& method) {
   return {method, [method](double stiffness, std::span<const TimedSurface> film) {
-            const FeltScale scale = planFilm(film).scale;
+            const TouchPlan plan = planFilm(film);
             if (!method.starts_with("god-object")) {
-              return makeMethod(method, {.stiffness_n_per_mm = stiffness, .scale = scale});
+              return makeMethod(method, {.stiffness_n_per_mm = stiffness, .scale = plan.scale});
             }
             auto proxy = makeMethod("relievo", {.stiffness_n_per_mm = stiffness, .space = SpaceLaw::Triangles});
-            return method == "god-object" ? std::move(proxy) : onSmoothedDepth(std::move(proxy), film, scale.wide_mm);
+            return method == "god-object" ? std::move(proxy)
+                                          : onSmoothedDepth(std::move(proxy), film, blurWidthMm(plan.measure));
           }};
 }
 

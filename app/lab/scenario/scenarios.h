@@ -18,7 +18,7 @@ struct Challenger {
   std::function<std::unique_ptr<TouchMethod>(double stiffness_n_per_mm, std::span<const TimedSurface> film)> make;
 };
 // A method as the player makes it: `relievo` on the scale that its plan picks when the film begins; `god-object`, and
-// `god-object-smoothed` on every frame smoothed by the wide width of that plan.
+// `god-object-smoothed` on every frame blurred by the width that suits the film best (blurWidthMm).
 [[nodiscard]] Challenger challengerNamed(const std::string& method);
 
 // The method runs in the haptic task itself, with all its limits, on virtual time: the same verdict at every run.

@@ -46,7 +46,16 @@ class ControlGridTest : public testing::Test {
     grid_.patch(i, j, frames_, p);
     return p;
   }
-  ControlGrid grid_{1.0, 4};
+  ControlGrid grid_{1.0, 4, 0};
+  // The points (i .. i+3, j ..) of a grid that keeps curvature.
+  Patch curvedPatch(int i, int j) {
+    curved_.setPicture(window_.frames[0].field);
+    Patch p;
+    curved_.patch(i, j, frames_, p);
+    return p;
+  }
+  static constexpr float kBend = 5.0F / 24;
+  ControlGrid curved_{1.0, 4, kBend};
   SurfaceWindow window_;
   ControlGrid::Frames frames_;
   bool set_ = false;
@@ -61,6 +70,44 @@ TEST_F(ControlGridTest, APointIsTheMeanOfItsBlock) {
       EXPECT_NEAR(p[static_cast<std::size_t>(j)][i], height(100 + 4 * (2 + i) + 1.5 + 10 * (4 * (5 + j) + 1.5)), 1e-4);
     }
   }
+}
+
+// The mean of c^2 over block i is (4 i + 1.5)^2 + 1.25; its second difference is 2 x 4^2.
+TEST_F(ControlGridTest, AHeightKeepsTheCurvature) {
+  show({picture(0, [](int c, int r) { return 100 + c * c + 2 * r; })}, {1});
+  const Patch p = curvedPatch(2, 5);
+  for (int i = 0; i < 4; ++i) {
+    const double middle = 4 * (2 + i) + 1.5, mean = 100 + middle * middle + 1.25 + 2 * (4 * 6 + 1.5);
+    EXPECT_NEAR(p[1][i], height(mean - 32 * static_cast<double>(kBend)), 1e-3) << i;
+  }
+}
+
+TEST_F(ControlGridTest, AnEdgeIsNoCurvature) {
+  show({picture(0, [](int c, int) { return c < 20 ? 100 : 3000; })}, {1});
+  const Patch p = curvedPatch(3, 5);
+  EXPECT_NEAR(p[0][0], height(100), 1e-4) << "flat on both sides";
+  EXPECT_NEAR(p[0][1], height(100) - kBend * ControlGrid::kMostBendMm, 1e-4);
+  EXPECT_NEAR(p[0][2], height(3000) + kBend * ControlGrid::kMostBendMm, 1e-4);
+}
+
+TEST_F(ControlGridTest, BesideAHoleTheDepthCountsAsStraight) {
+  show({picture(0, [](int c, int) { return c < 8 ? 0 : 100 + c * c; })}, {1});
+  EXPECT_NEAR(curvedPatch(2, 5)[0][0], height(100 + 9.5 * 9.5 + 1.25), 1e-3);
+  EXPECT_EQ(curvedPatch(1, 5)[0][0], kPit);
+}
+
+TEST_F(ControlGridTest, WhatWasReadAheadIsNotReadAgain) {
+  show({picture(0, [](int c, int r) { return 100 + c + r; })}, {1});
+  curved_.setPicture(window_.frames[0].field);
+  for (int tick = 0; tick < 40; ++tick) {
+    const std::uint64_t before = curved_.blocksRead();
+    curved_.readAhead(2, 5, frames_, 2);
+    EXPECT_LE(curved_.blocksRead() - before, 2U + 4U) << tick;
+  }
+  EXPECT_EQ(curved_.blocksRead(), 32U) << "6 x 6 blocks without the corners";
+  Patch p;
+  curved_.patch(2, 5, frames_, p);
+  EXPECT_EQ(curved_.blocksRead(), 32U);
 }
 
 TEST_F(ControlGridTest, ABlockOnTheBorderCountsFromHalfOfItOn) {
