@@ -36,10 +36,14 @@ constexpr double kFineMm = 0.02;         // steps and noise imperceptible even w
 // the charts were made with 0.75, which widens the smoothing by at most 6 %.
 constexpr double kBSplineNoise = 0.48, kFittedNoise = 0.75;
 
-// White noise s of samples p apart leaves an error of kNoiseOverSlope s p/w^2 in the slope, and a height error of
-// kNoiseOverHeight s p/w: the integrals of the squared transfer function of block means under a cubic B-spline that
-// keeps curvature (ControlGrid), pitch h = w sqrt(12/5), and of that function times the frequency. The narrow level
-// does not keep curvature; its height error is that of a Gaussian, 1/sqrt(4 pi).
+// The B-spline in time flattens a motion: where its acceleration is a and a frame lasts T, the surface is off by a
+// T^2/6, the spline's variance in time being T^2/3. A face that nods by 5 mm once a second has 200 mm/s^2. At 30 frames
+// a second that is .04 mm; at 15 it is .15 mm, as much as a step of 8 bits, which the spline is to smooth.
+constexpr double kNodMmPerS2 = 200;
+
+// White noise s of samples p apart leaves an error of kNoiseOverSlope s p/w^2 in the slope: the integral of the squared
+// transfer function, times the frequency, of block means under a cubic B-spline that keeps curvature (ControlGrid),
+// pitch h = w sqrt(12/5).
 constexpr double kNoiseOverSlope = 0.578;
 // Quantising a slope in steps of q adds a sawtooth whose first harmonic has a slope of sqrt(2) q/l for steps l wide.
 // The transfer function T leaves of it at most q/(5.06 w), where T(f) f is largest, at l = 5.3 w. Few slopes are the
@@ -139,12 +143,13 @@ TouchPlan planTouch(const ClipMeasure& m) {
   // A film that has only begun may move later, so it is planned as moving. (A picture costs nothing in time under any
   // law: all weight lies on its one frame.) The smoother law averages more noise.
   if (noisy) s.narrow_time = TimeLaw::BSpline;
-  s.wide_time = fine ? TimeLaw::Fitted : TimeLaw::BSpline;
+  const bool slow_frames = kNodMmPerS2 * m.period_s * m.period_s / 6 > m.quantum_mm / 2;
+  s.wide_time = noisy || (!fine && !slow_frames) ? TimeLaw::BSpline : TimeLaw::Fitted;
 
   // Repeated frames carry the same noise, so averaging them does not reduce it.
   const double through = std::sqrt(m.still ? 1.0 : s.wide_time == TimeLaw::BSpline ? kBSplineNoise : kFittedNoise);
-  // In a fine picture only about kNarrowSamples x kNarrowSamples of a block are read, w/(kSigmaPerPitch x
-  // kNarrowSamples) apart, so that a finer picture is no less noisy.
+  // In a fine picture only about `read` x `read` samples of a block are read, w/(kSigmaPerPitch x read) apart, so that
+  // a finer picture is no less noisy.
   const auto apart = [&](double w, int read) { return std::max(m.sample_mm, w / (kSigmaPerPitch * read)); };
   // The error of the force's direction is the error of the slope.
   const auto errorOf = [&](double w) {

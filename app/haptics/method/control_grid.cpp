@@ -30,6 +30,8 @@ void ControlGrid::setPicture(const HeightField& field) RELIEVO_RT {
   a_origin_ = (grid.u_origin + 0.5) / block_.width - 0.5;
   b_per_mm_ = grid.v_per_mm / block_.height;
   b_origin_ = (grid.v_origin + 0.5) / block_.height - 0.5;
+  const double pitch2 = 1 / std::abs(a_per_mm_ * b_per_mm_);  // a parabola of radius R bends by pitch^2/R
+  most_bend_mm_ = static_cast<float>(std::min(pitch2 / kSharpestMm, kMostBendMm));
   pit_mm_ = static_cast<float>(-field.depthMm());
   patch_slots_ = ahead_slots_ = 0;
   filled_.fill(0);
@@ -135,7 +137,8 @@ void ControlGrid::keepCurvature(std::size_t p, const std::array<std::size_t, 4>&
     const auto bent = [&](std::size_t before, std::size_t after, std::uint32_t holes) RELIEVO_RT {
       if ((holes >> slot & 1U) != 0) return 0.F;
       const float bend = mean_[before][slot] - 2 * mean + mean_[after][slot];
-      return std::min(std::max(bend, -kMostBendMm), kMostBendMm);
+      const float size = std::abs(bend);
+      return std::copysign(std::max(std::min(size, 2 * most_bend_mm_ - size), 0.F), bend);
     };
     const float bends = bend_ > 0 ? bent(left, right, across_hole) + bent(above, below, down_hole) : 0;
     height_[p][slot] = mean - bend_ * bends;

@@ -19,12 +19,13 @@ using Patch = std::array<Float4, 4>;
 // block_cols, j block_rows). Each frame has its own heights. A mean over a curved patch lies below the patch's top, and
 // so does a B-spline on such means; a point's height therefore is the mean of its block minus `bend` times the second
 // differences to the four blocks around it, so that the surface is exact to the third order (de Boor and Fix 1973,
-// quasi- interpolants). A second difference counts as at most kMostBendMm, since an edge is no curvature. A block is a
-// hole if less than half of it, and of its neighbourhood, has a reading. Holes and everything outside the picture are
-// pits one volume depth below the far plane: free space with the same rounded rim as any other edge.
+// quasi-interpolants). An edge is no curvature, and to correct for it would give it a lip: a second difference that
+// only a radius under kSharpestMm explains counts less, and one twice as large not at all. A block is a hole if less
+// than half of it, and of its neighbourhood, has a reading. Holes and everything outside the picture are pits one
+// volume depth below the far plane: free space with the same rounded rim as any other edge.
 //
 // Nothing is built in advance: a block is read when it is first needed and kept in a toroidal cache of 16 x 16 points
-// while its frame is in the window. 18 KiB, fixed.
+// while its frame is in the window. 19 KiB, fixed.
 class ControlGrid {
  public:
   static constexpr int kFrames = SurfaceWindow::kCapacity;
@@ -34,7 +35,7 @@ class ControlGrid {
   // they are.
   ControlGrid(double pitch_mm, int most_samples, float bend) noexcept
       : pitch_wanted_mm_(pitch_mm), most_samples_(most_samples), bend_(bend) {}
-  static constexpr float kMostBendMm = 3;
+  static constexpr double kSharpestMm = 5, kMostBendMm = 3;
 
   // Discards everything, for a picture of another shape.
   void setPicture(const HeightField& field) RELIEVO_RT;
@@ -90,6 +91,7 @@ class ControlGrid {
   double pitch_wanted_mm_;
   int most_samples_;
   float bend_;
+  float most_bend_mm_ = 0;  // of a second difference that counts in full
   int cols_ = 0, rows_ = 0;
   SampledBlock block_;
   double a_per_mm_ = 1, a_origin_ = 0, b_per_mm_ = -1, b_origin_ = 0;

@@ -116,6 +116,16 @@ TEST(TouchPlan, WhatIsPaintedAtTheEndsOfTheRangeHasNoSay) {
   EXPECT_NEAR(measureClip(std::span(&alone, 1)).noise_mm, 0.4, 0.06);
 }
 
+// A spline in time flattens a nod by the square of the frame period.
+TEST(TouchPlan, SmoothsStepsInTimeWhereFramesAreQuick) {
+  ClipMeasure steps{.frames = 4, .quantum_mm = 40.0 / 255, .sample_mm = 0.22, .period_s = kPeriod};
+  EXPECT_EQ(planTouch(steps).scale.wide_time, TimeLaw::BSpline);
+  steps.period_s = 1.0 / 15;
+  EXPECT_EQ(planTouch(steps).scale.wide_time, TimeLaw::Fitted);
+  steps.noise_mm = 0.4;
+  EXPECT_EQ(planTouch(steps).scale.wide_time, TimeLaw::BSpline) << "noise is worse";
+}
+
 TEST(TouchPlan, OfAFilmItsFirstFourFramesTell) {
   std::vector<TimedSurface> surfaces;
   for (int k = 0; k < 8; ++k) {

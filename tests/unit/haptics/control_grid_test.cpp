@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "tests/support/film/depth_frames.h"
@@ -72,27 +73,38 @@ TEST_F(ControlGridTest, APointIsTheMeanOfItsBlock) {
   }
 }
 
-// The mean of c^2 over block i is (4 i + 1.5)^2 + 1.25; its second difference is 2 x 4^2.
+// The mean of c^2 over block i is (4 i + 1.5)^2 + 1.25; its second difference is 2 x 4^2 codes, .31 mm.
+double meanOfSquares(int i) {
+  return std::pow(4 * i + 1.5, 2) + 1.25;
+}
+
 TEST_F(ControlGridTest, AHeightKeepsTheCurvature) {
-  show({picture(0, [](int c, int r) { return 100 + c * c + 2 * r; })}, {1});
+  show({picture(0, [](int c, int r) { return 100 + (c * c + c) / 2 + 2 * r; })}, {1});
   const Patch p = curvedPatch(2, 5);
   for (int i = 0; i < 4; ++i) {
-    const double middle = 4 * (2 + i) + 1.5, mean = 100 + middle * middle + 1.25 + 2 * (4 * 6 + 1.5);
-    EXPECT_NEAR(p[1][i], height(mean - 32 * static_cast<double>(kBend)), 1e-3) << i;
+    const double mean = 100 + (meanOfSquares(2 + i) + 4 * (2 + i) + 1.5) / 2 + 2 * (4 * 6 + 1.5);
+    EXPECT_NEAR(p[1][i], height(mean - 16 * static_cast<double>(kBend)), 1e-3) << i;
   }
+}
+
+// Points are 1 mm apart, so that a bend of 1/kSharpestMm counts in full and twice that not at all: .31 mm are between.
+TEST_F(ControlGridTest, ABendSharperThanThatOfAFaceCountsLess) {
+  show({picture(0, [](int c, int) { return 100 + c * c; })}, {1});
+  const Patch p = curvedPatch(2, 5);
+  const float bend = height(32), counts = static_cast<float>(2 / ControlGrid::kSharpestMm) - bend;
+  ASSERT_TRUE(counts > 0 && counts < bend);
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(p[1][i], height(100 + meanOfSquares(2 + i)) - kBend * counts, 1e-3) << i;
 }
 
 TEST_F(ControlGridTest, AnEdgeIsNoCurvature) {
   show({picture(0, [](int c, int) { return c < 20 ? 100 : 3000; })}, {1});
   const Patch p = curvedPatch(3, 5);
-  EXPECT_NEAR(p[0][0], height(100), 1e-4) << "flat on both sides";
-  EXPECT_NEAR(p[0][1], height(100) - kBend * ControlGrid::kMostBendMm, 1e-4);
-  EXPECT_NEAR(p[0][2], height(3000) + kBend * ControlGrid::kMostBendMm, 1e-4);
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(p[0][i], height(i < 2 ? 100 : 3000), 1e-4) << i;
 }
 
 TEST_F(ControlGridTest, BesideAHoleTheDepthCountsAsStraight) {
-  show({picture(0, [](int c, int) { return c < 8 ? 0 : 100 + c * c; })}, {1});
-  EXPECT_NEAR(curvedPatch(2, 5)[0][0], height(100 + 9.5 * 9.5 + 1.25), 1e-3);
+  show({picture(0, [](int c, int) { return c < 8 ? 0 : 10 + 2 * c; })}, {1});
+  EXPECT_NEAR(curvedPatch(2, 5)[0][0], height(10 + 2 * 9.5), 1e-3);
   EXPECT_EQ(curvedPatch(1, 5)[0][0], kPit);
 }
 
