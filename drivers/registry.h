@@ -9,15 +9,15 @@
 #include <string_view>
 #include <vector>
 
-#include "hal/audio_decoder.h"
 #include "hal/audio_output.h"
 #include "hal/back_end_name.h"
 #include "hal/display.h"
 #include "hal/haptic_device.h"
-#include "hal/media_source.h"
+#include "hal/media/audio_decoder.h"
+#include "hal/media/media_source.h"
+#include "hal/media/subtitle_decoder.h"
+#include "hal/media/video_decoder.h"
 #include "hal/remote_input.h"
-#include "hal/subtitle_decoder.h"
-#include "hal/video_decoder.h"
 #include "platform/clock.h"
 #include "platform/failure.h"
 

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <initializer_list>
 
-#include "hal/stream_tags.h"
+#include "hal/media/stream_tags.h"
 
 extern "C" {
 #include <libavutil/opt.h>

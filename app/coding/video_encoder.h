@@ -13,8 +13,8 @@ extern "C" {
 }
 
 #include "app/coding/video_codec.h"
-#include "hal/frame.h"
-#include "hal/media_time.h"
+#include "hal/media/frame.h"
+#include "hal/media/media_time.h"
 #include "platform/error.h"
 
 namespace relievo {
@@ -40,7 +40,7 @@ class VideoEncoder {
     double sample_aspect = 1.0;
     Duration frame_period{0};  // for the rate control only; 0: unknown
     int crf = 18;              // 0: lossless, as FFV1 always is
-    std::string stream_tags;   // lines KEY=VALUE stored with each key frame (hal/stream_tags.h); not for FFV1
+    std::string stream_tags;   // lines KEY=VALUE stored with each key frame (hal/media/stream_tags.h); not for FFV1
   };
   // MPEG's clock: exact for 24, 25, 30, 50, 60 and for 30000/1001 frames a second.
   static constexpr AVRational kTimeBase{1, 90000};

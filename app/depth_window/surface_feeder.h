@@ -10,8 +10,8 @@
 #include "app/depth_window/window_frames.h"
 #include "app/scene/depth_calibration.h"
 #include "app/scene/display_volume.h"
-#include "hal/frame.h"
-#include "hal/media_clock.h"
+#include "hal/media/frame.h"
+#include "hal/media/media_clock.h"
 #include "platform/error.h"
 
 namespace relievo {

@@ -7,8 +7,8 @@
 #include <memory>
 
 #include "app/scene/height_field.h"
-#include "hal/media_clock.h"
-#include "hal/media_time.h"
+#include "hal/media/media_clock.h"
+#include "hal/media/media_time.h"
 
 namespace relievo {
 

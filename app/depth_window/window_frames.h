@@ -7,7 +7,7 @@
 
 #include "app/depth_window/shots.h"
 #include "app/depth_window/surface_window.h"
-#include "hal/media_time.h"
+#include "hal/media/media_time.h"
 
 namespace relievo {
 

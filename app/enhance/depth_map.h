@@ -8,7 +8,7 @@
 
 #include "app/scene/depth_calibration.h"
 #include "app/scene/height_field.h"
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 #include "platform/error.h"
 
 namespace relievo {

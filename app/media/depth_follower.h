@@ -7,7 +7,7 @@
 #include <functional>
 #include <optional>
 
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 #include "platform/error.h"
 
 namespace relievo {

@@ -14,7 +14,7 @@
 
 #include "app/media/back_off.h"
 #include "app/media/pair_reader.h"
-#include "app/media/track_reader.h"
+#include "app/media/tracks/track_reader.h"
 
 namespace relievo {
 

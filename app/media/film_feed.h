@@ -15,8 +15,8 @@
 #include "app/media/back_off.h"
 #include "app/media/pair_reader.h"
 #include "app/media/playlist.h"
-#include "app/media/sound_queue.h"
-#include "hal/media_time.h"
+#include "app/media/tracks/sound_queue.h"
+#include "hal/media/media_time.h"
 #include "platform/failure.h"
 
 namespace relievo {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "hal/media_names.h"
+#include "hal/media/media_names.h"
 
 namespace relievo {
 namespace {

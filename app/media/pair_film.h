@@ -14,7 +14,7 @@
 #include "app/media/pair_reader.h"
 #include "app/media/reading/code_count.h"
 #include "app/media/reading/depth_meaning.h"
-#include "app/media/track_reader.h"
+#include "app/media/tracks/track_reader.h"
 
 namespace relievo {
 

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "app/media/frame_rate.h"
-#include "app/media/own_registration.h"
 #include "app/media/pair_film.h"
+#include "app/media/registration/own_registration.h"
 
 namespace relievo {
 namespace {

@@ -9,17 +9,17 @@
 #include <string>
 #include <vector>
 
-#include "app/media/film_tracks.h"
 #include "app/media/reading/film_reading.h"
 #include "app/media/reading/known_kind.h"
 #include "app/media/reading/packing.h"
-#include "app/media/registration.h"
+#include "app/media/registration/registration.h"
+#include "app/media/tracks/film_tracks.h"
 #include "app/scene/depth_calibration.h"
-#include "hal/audio_decoder.h"
-#include "hal/frame.h"
-#include "hal/media_source.h"
-#include "hal/subtitle_decoder.h"
-#include "hal/video_decoder.h"
+#include "hal/media/audio_decoder.h"
+#include "hal/media/frame.h"
+#include "hal/media/media_source.h"
+#include "hal/media/subtitle_decoder.h"
+#include "hal/media/video_decoder.h"
 #include "platform/error.h"
 
 namespace relievo {

@@ -6,7 +6,7 @@
 
 #include "app/media/film_feed.h"
 #include "app/media/pair_reader.h"
-#include "hal/media_time.h"
+#include "hal/media/media_time.h"
 
 namespace relievo {
 

@@ -9,7 +9,7 @@
 
 #include "app/scene/color_curve.h"
 #include "app/scene/sampled_block.h"
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 #include "platform/realtime.h"
 
 namespace relievo {

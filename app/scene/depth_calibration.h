@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "app/scene/code_set.h"
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 #include "platform/error.h"
 
 namespace relievo {

@@ -13,7 +13,7 @@
 #include "app/scene/depth_calibration.h"
 #include "app/scene/display_volume.h"
 #include "app/scene/sampled_block.h"
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 #include "platform/error.h"
 #include "platform/realtime.h"
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "hal/video_decoder.h"
+#include "hal/media/video_decoder.h"
 
 namespace relievo {
 

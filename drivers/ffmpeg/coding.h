@@ -3,7 +3,7 @@
 #pragma once
 
 #include "drivers/ffmpeg/library.h"
-#include "hal/media_source.h"
+#include "hal/media/media_source.h"
 
 namespace relievo::ffmpeg {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Describes an opened container in the types of hal/media_source.h.
+// Describes an opened container in the types of hal/media/media_source.h.
 #pragma once
 
 #include <map>
@@ -10,7 +10,7 @@ extern "C" {
 #include <libavformat/avformat.h>
 }
 
-#include "hal/media_source.h"
+#include "hal/media/media_source.h"
 #include "platform/error.h"
 
 namespace relievo::ffmpeg {

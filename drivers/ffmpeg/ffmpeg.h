@@ -6,10 +6,10 @@
 #include <memory>
 #include <string>
 
-#include "hal/audio_decoder.h"
-#include "hal/media_source.h"
-#include "hal/subtitle_decoder.h"
-#include "hal/video_decoder.h"
+#include "hal/media/audio_decoder.h"
+#include "hal/media/media_source.h"
+#include "hal/media/subtitle_decoder.h"
+#include "hal/media/video_decoder.h"
 #include "platform/error.h"
 
 namespace relievo {
@@ -34,11 +34,11 @@ namespace relievo {
 [[nodiscard]] std::unique_ptr<MediaSource> makeFfmpegSource();
 
 // Decodes streams of the source above, and those of any other source by codec name and extradata. Pictures whose layout
-// hal/frame.h cannot describe (palettes, single bits, big endian, ..) are converted to the nearest one that it can.
-// Only these are copied; the conversion is exact for integers of up to 16 bits. Gray in floating point (a renderer's
-// EXR) is interpreted as distances in metres and converted to whole mm, with matching calibration tags. A picture in
-// which the decoder concealed errors by guesses is dropped and counted as damaged, since guessed depth must not be
-// felt.
+// hal/media/frame.h cannot describe (palettes, single bits, big endian, ..) are converted to the nearest one that it
+// can. Only these are copied; the conversion is exact for integers of up to 16 bits. Gray in floating point (a
+// renderer's EXR) is interpreted as distances in metres and converted to whole mm, with matching calibration tags. A
+// picture in which the decoder concealed errors by guesses is dropped and counted as damaged, since guessed depth must
+// not be felt.
 [[nodiscard]] std::unique_ptr<VideoDecoder> makeFfmpegDecoder();
 
 // Decodes any codec, rate and channel layout, which may change within the film. Channels are mixed down by their

@@ -11,7 +11,7 @@ extern "C" {
 #include <libavutil/frame.h>
 }
 
-#include "hal/media_time.h"
+#include "hal/media/media_time.h"
 #include "platform/error.h"
 
 namespace relievo::ffmpeg {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Describes FFmpeg's pixel formats in the types of hal/frame.h.
+// Describes FFmpeg's pixel formats in the types of hal/media/frame.h.
 #include "drivers/ffmpeg/picture.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ extern "C" {
 namespace relievo::ffmpeg {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "hal/frame.h describes little-endian samples");
+static_assert(std::endian::native == std::endian::little, "hal/media/frame.h describes little-endian samples");
 
 constexpr std::uint64_t kOtherLayouts = AV_PIX_FMT_FLAG_BE | AV_PIX_FMT_FLAG_PAL | AV_PIX_FMT_FLAG_BITSTREAM |
                                         AV_PIX_FMT_FLAG_HWACCEL | AV_PIX_FMT_FLAG_FLOAT | AV_PIX_FMT_FLAG_BAYER;

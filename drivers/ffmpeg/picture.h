@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a Frame of a decoded picture: a reference if hal/frame.h can describe its layout, else a converted copy.
+// Makes a Frame of a decoded picture: a reference if hal/media/frame.h can describe its layout, else a converted copy.
 #pragma once
 
 #include <memory>
 #include <optional>
 
 #include "drivers/ffmpeg/library.h"
-#include "hal/float_codes.h"
-#include "hal/frame.h"
-#include "hal/media_source.h"
+#include "hal/media/float_codes.h"
+#include "hal/media/frame.h"
+#include "hal/media/media_source.h"
 #include "platform/error.h"
 
 struct SwsContext;
 
 namespace relievo::ffmpeg {
 
-// True if samples of this format (an AVPixelFormat) can be read in place through hal/frame.h.
+// True if samples of this format (an AVPixelFormat) can be read in place through hal/media/frame.h.
 [[nodiscard]] bool describable(int format) noexcept;
 
 // True for gray in floating point.
@@ -38,8 +38,8 @@ class Converter {
   ~Converter();
   Converter(const Converter&) = delete;
   Converter& operator=(const Converter&) = delete;
-  // Gray in floating point becomes codes on the scale of the first such picture (hal/float_codes.h). Unsupported if
-  // FFmpeg cannot read the format, Exhausted if out of memory.
+  // Gray in floating point becomes codes on the scale of the first such picture (hal/media/float_codes.h). Unsupported
+  // if FFmpeg cannot read the format, Exhausted if out of memory.
   [[nodiscard]] Result<FramePtr> convert(const AVFrame& picture);
   // Of the last converted picture: Frame::value_per_code.
   [[nodiscard]] double valuePerCode() const noexcept { return codes_ ? codes_->valuePerCode() : 0; }

@@ -17,7 +17,7 @@
 #include "drivers/ffmpeg/library.h"
 #include "drivers/ffmpeg/stream_tags.h"
 #include "drivers/ffmpeg/watch.h"
-#include "hal/video_decoder.h"
+#include "hal/media/video_decoder.h"
 #include "platform/log.h"
 #include "platform/unique_fd.h"
 

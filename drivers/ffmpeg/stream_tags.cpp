@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "hal/stream_tags.h"
+#include "hal/media/stream_tags.h"
 
 namespace relievo::ffmpeg {
 namespace {

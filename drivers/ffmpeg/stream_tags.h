@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the tags inside a video stream (hal/stream_tags.h).
+// Reads the tags inside a video stream (hal/media/stream_tags.h).
 #pragma once
 
 #include <map>

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "drivers/floats/picture_file_decoder.h"
-#include "hal/media_source.h"
+#include "hal/media/media_source.h"
 
 namespace relievo {
 

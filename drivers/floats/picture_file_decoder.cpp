@@ -7,7 +7,7 @@
 #include <deque>
 #include <utility>
 
-#include "hal/float_codes.h"
+#include "hal/media/float_codes.h"
 #include "platform/log.h"
 
 namespace relievo {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "drivers/floats/number.h"
-#include "hal/video_decoder.h"
+#include "hal/media/video_decoder.h"
 
 namespace relievo {
 
@@ -38,8 +38,8 @@ struct PictureFormat {
 [[nodiscard]] bool isSoundSize(std::uint64_t width, std::uint64_t height) noexcept;
 
 // One component, or three that are equal throughout the first picture, become 16-bit gray codes by one scale for the
-// whole film (hal/float_codes.h); Frame::value_per_code says it. Whole numbers that fit become codes as they are, those
-// of 8 bits stretched to 16. Other colours become 16-bit RGB, floating-point ones as light that is encoded for a
+// whole film (hal/media/float_codes.h); Frame::value_per_code says it. Whole numbers that fit become codes as they are,
+// those of 8 bits stretched to 16. Other colours become 16-bit RGB, floating-point ones as light that is encoded for a
 // screen.
 [[nodiscard]] std::unique_ptr<VideoDecoder> makePictureFileDecoder(PictureFormat format);
 

@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "hal/audio_decoder.h"
 #include "hal/audio_output.h"
 #include "hal/display.h"
 #include "hal/haptic_device.h"
-#include "hal/media_source.h"
-#include "hal/video_decoder.h"
+#include "hal/media/audio_decoder.h"
+#include "hal/media/media_source.h"
+#include "hal/media/video_decoder.h"
 #include "platform/clock.h"
 
 namespace relievo {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "hal/media_source.h"
+#include "hal/media/media_source.h"
 
 namespace relievo {
 

@@ -14,7 +14,7 @@
 
 #include "drivers/pictures/lists.h"
 #include "drivers/pictures/roles.h"
-#include "hal/media_names.h"
+#include "hal/media/media_names.h"
 #include "platform/whole_file.h"
 
 namespace relievo::pictures {

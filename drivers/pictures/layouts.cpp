@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "hal/media_names.h"
+#include "hal/media/media_names.h"
 #include "platform/print.h"
 #include "platform/whole_file.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "drivers/pictures/names.h"
-#include "hal/media_names.h"
+#include "hal/media/media_names.h"
 
 namespace relievo::pictures {
 namespace {

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <set>
 
-#include "hal/media_names.h"
+#include "hal/media/media_names.h"
 
 namespace relievo::pictures {
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "hal/media_source.h"
+#include "hal/media/media_source.h"
 #include "platform/error.h"
 
 namespace relievo {

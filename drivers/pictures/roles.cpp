@@ -6,7 +6,7 @@
 #include <cctype>
 #include <tuple>
 
-#include "hal/media_names.h"
+#include "hal/media/media_names.h"
 
 namespace relievo::pictures {
 namespace {

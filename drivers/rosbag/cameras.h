@@ -12,8 +12,9 @@ namespace relievo::rosbag {
 // mm per code of a depth topic; nullopt if the bag does not say.
 [[nodiscard]] std::optional<double> unitOf(BagFile& bag, const Topic& depth);
 
-// The TOML of app/media/registration.h. Nullopt if the depth is in the colour's view already, or the bag does not say
-// how the cameras stand to each other, or a lens has a model other than Brown-Conrady's or the rational one.
+// The TOML of app/media/registration/registration.h. Nullopt if the depth is in the colour's view already, or the bag
+// does not say how the cameras stand to each other, or a lens has a model other than Brown-Conrady's or the rational
+// one.
 [[nodiscard]] std::optional<std::string> registrationOf(BagFile& bag, const Topic& depth, const Topic& color,
                                                         double unit_mm);
 

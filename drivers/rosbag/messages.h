@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "drivers/rosbag/record.h"
-#include "hal/media_time.h"
+#include "hal/media/media_time.h"
 
 namespace relievo::rosbag {
 

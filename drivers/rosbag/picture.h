@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "drivers/rosbag/messages.h"
-#include "hal/media_source.h"
+#include "hal/media/media_source.h"
 
 namespace relievo::rosbag {
 

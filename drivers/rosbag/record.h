@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "hal/media_time.h"
+#include "hal/media/media_time.h"
 
 namespace relievo::rosbag {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "hal/media_source.h"
+#include "hal/media/media_source.h"
 
 namespace relievo {
 
@@ -18,7 +18,7 @@ namespace relievo {
 // Each topic of pictures (sensor_msgs/Image, sensor_msgs/CompressedImage) is a stream whose tag TITLE is the topic. One
 // depth topic, and the colour topic nearest to it by name, are Video; all others are Other. Infrared takes the place of
 // a missing colour. Depth has the tags DEPTH_UNIT and DEPTH_INVALID, and DEPTH_REGISTRATION (the TOML of
-// app/media/registration.h) if the bag has both cameras' parameters and how they stand to each other.
+// app/media/registration/registration.h) if the bag has both cameras' parameters and how they stand to each other.
 //
 // Pictures are raw ("rawvideo" with StreamInfo::pixel_format), JPEG or PNG, all key frames. Their times are the
 // messages' own stamps; the times of recording if a stamp is absent or the two streams' stamps come from different

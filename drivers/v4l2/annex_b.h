@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "hal/media_source.h"
+#include "hal/media/media_source.h"
 #include "platform/error.h"
 
 namespace relievo::v4l2 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Describes the pixel formats of cameras in the types of hal/frame.h.
+// Describes the pixel formats of cameras in the types of hal/media/frame.h.
 #pragma once
 
 #include <linux/videodev2.h>
@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 
 namespace relievo::v4l2 {
 

@@ -12,7 +12,7 @@
 
 #include "drivers/v4l2/annex_b.h"
 #include "drivers/v4l2/v4l2.h"
-#include "hal/media_source.h"
+#include "hal/media/media_source.h"
 #include "platform/error.h"
 #include "platform/unique_fd.h"
 

@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "drivers/v4l2/m2m_buffers.h"
-#include "hal/frame.h"
-#include "hal/media_source.h"
+#include "hal/media/frame.h"
+#include "hal/media/media_source.h"
 
 namespace relievo::v4l2 {
 

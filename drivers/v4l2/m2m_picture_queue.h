@@ -8,8 +8,8 @@
 #include "drivers/v4l2/m2m_buffers.h"
 #include "drivers/v4l2/m2m_node.h"
 #include "drivers/v4l2/m2m_picture.h"
-#include "hal/frame.h"
-#include "hal/media_source.h"
+#include "hal/media/frame.h"
+#include "hal/media/media_source.h"
 #include "platform/error.h"
 
 namespace relievo::v4l2 {

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "drivers/v4l2/formats.h"
-#include "hal/media_source.h"
+#include "hal/media/media_source.h"
 
 namespace relievo::v4l2 {
 

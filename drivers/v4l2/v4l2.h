@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "hal/media_source.h"
-#include "hal/video_decoder.h"
+#include "hal/media/media_source.h"
+#include "hal/media/video_decoder.h"
 
 namespace relievo {
 

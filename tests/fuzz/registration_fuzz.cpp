@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/media/own_registration.h"
+#include "app/media/registration/own_registration.h"
 
 namespace {
 

@@ -12,7 +12,7 @@
 
 #include "app/render/gl/scene_renderer.h"
 #include "hal/display.h"
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 #include "platform/clock.h"
 
 namespace relievo::test {

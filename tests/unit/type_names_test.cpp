@@ -17,7 +17,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-// Where each type of namespace scope is defined: "relievo::Frame" in "hal/frame.h".
+// Where each type of namespace scope is defined: "relievo::Frame" in "hal/media/frame.h".
 class TypeNames {
  public:
   void read(const std::string& path, std::istream& text) {

@@ -8,7 +8,7 @@
 namespace relievo {
 namespace {
 
-// One component of a frame, read as hal/frame.h describes and reduced to 8 bits.
+// One component of a frame, read as hal/media/frame.h describes and reduced to 8 bits.
 class Samples {
  public:
   Samples(const Frame& frame, std::size_t component) : c_(frame.components[component]), plane_(frame.planes[c_.plane]) {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "app/author/package/picture.h"
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 #include "platform/error.h"
 
 namespace relievo {

@@ -9,7 +9,7 @@
 #include "app/author/package/depth_coding.h"
 #include "app/author/package/picture.h"
 #include "app/scene/depth_calibration.h"
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 #include "platform/error.h"
 
 namespace relievo {

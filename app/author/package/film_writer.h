@@ -10,7 +10,7 @@
 #include "app/author/package/depth_coding.h"
 #include "app/author/package/kept_tracks.h"
 #include "app/author/package/picture.h"
-#include "hal/media_time.h"
+#include "hal/media/media_time.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 
@@ -46,7 +46,7 @@ struct FilmTotals {
 //
 //   Matroska           tags of the track
 //   MP4, QuickTime     tags of the file; the tracks are named by their handlers
-//   H.264 and HEVC     in the stream, with each key frame, whatever the container (hal/stream_tags.h)
+//   H.264 and HEVC     in the stream, with each key frame, whatever the container (hal/media/stream_tags.h)
 //   transport streams  additionally the stream's type: auxiliary video
 //
 // After them come the kept tracks, if there are any.

@@ -14,8 +14,8 @@ extern "C" {
 
 #include "app/author/package/film_kind.h"
 #include "app/author/package/text_subtitles.h"
-#include "hal/continuous_time.h"
-#include "hal/media_time.h"
+#include "hal/media/continuous_time.h"
+#include "hal/media/media_time.h"
 #include "platform/error.h"
 
 namespace relievo {

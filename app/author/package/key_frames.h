@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "hal/media_time.h"
+#include "hal/media/media_time.h"
 
 namespace relievo {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 
 namespace relievo {
 

@@ -13,7 +13,7 @@ constexpr std::size_t kHeader = 3, kChecksum = 4;  // bytes of a section up to i
 
 // Auxiliary_video_stream_descriptor (2.6.74): the coding, then one message of ISO/IEC 23002-3: depth, of whole
 // pictures, not shifted, from 2/16 of the picture's width behind the screen to 8/64 in front of it. The exact
-// calibration is in the stream (hal/stream_tags.h).
+// calibration is in the stream (hal/media/stream_tags.h).
 constexpr std::array<std::uint8_t, 10> descriptorFor(std::uint8_t coding) {
   return {0x2f, 8, coding, 0 /* depth */, 5, 0x3f, 0, 0, 2, 8};
 }

@@ -5,7 +5,7 @@
 
 #include "app/haptics/baseline/surface_in_time.h"
 #include "app/haptics/method/method.h"
-#include "hal/media_time.h"
+#include "hal/media/media_time.h"
 
 namespace relievo {
 

@@ -9,7 +9,7 @@
 #include "app/depth_window/felt_scale.h"
 #include "app/depth_window/surface_window.h"
 #include "app/haptics/method/surface_level.h"
-#include "hal/media_time.h"
+#include "hal/media/media_time.h"
 #include "platform/realtime.h"
 
 namespace relievo {

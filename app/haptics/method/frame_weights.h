@@ -6,7 +6,7 @@
 
 #include "app/depth_window/parts.h"
 #include "app/depth_window/surface_window.h"
-#include "hal/media_time.h"
+#include "hal/media/media_time.h"
 #include "platform/realtime.h"
 
 namespace relievo {

@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 
 #include "app/depth_window/surface_window.h"
-#include "hal/media_time.h"
+#include "hal/media/media_time.h"
 #include "platform/realtime.h"
 
 namespace relievo {

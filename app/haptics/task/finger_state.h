@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
-#include "hal/media_time.h"
+#include "hal/media/media_time.h"
 #include "platform/clock.h"
 
 namespace relievo {

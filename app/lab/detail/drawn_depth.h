@@ -8,7 +8,7 @@
 #include "app/lab/detail/drawn_level.h"
 #include "app/scene/display_volume.h"
 #include "app/scene/height_field.h"
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 
 namespace relievo {
 

@@ -7,7 +7,7 @@
 
 #include "app/lab/detail/picture_quality.h"
 #include "app/render/relief/stereo.h"
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 
 namespace relievo {
 

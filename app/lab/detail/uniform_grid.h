@@ -10,7 +10,7 @@
 #include "app/render/relief/stereo.h"
 #include "app/scene/display_volume.h"
 #include "hal/display.h"
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 #include "platform/error.h"
 
 namespace relievo {

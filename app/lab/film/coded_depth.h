@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/coding/video_encoder.h"
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 #include "platform/error.h"
 
 namespace relievo {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "app/scene/depth_calibration.h"
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 
 namespace relievo {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/lab/truth/true_surface.h"
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 
 namespace relievo {
 

@@ -9,7 +9,7 @@
 
 #include "app/scene/depth_calibration.h"
 #include "app/scene/height_field.h"
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 
 namespace relievo {
 

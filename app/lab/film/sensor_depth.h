@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "app/scene/depth_calibration.h"
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 
 namespace relievo {
 

@@ -7,7 +7,7 @@
 
 #include "app/media/reading/known_kind.h"
 #include "app/scene/code_set.h"
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 
 namespace relievo {
 

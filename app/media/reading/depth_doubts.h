@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/scene/depth_calibration.h"
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 
 namespace relievo {
 

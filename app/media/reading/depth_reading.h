@@ -7,7 +7,7 @@
 #include "app/media/reading/code_count.h"
 #include "app/media/reading/known_kind.h"
 #include "app/scene/depth_calibration.h"
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 
 namespace relievo {
 

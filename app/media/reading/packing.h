@@ -7,8 +7,8 @@
 #include <string>
 
 #include "app/scene/depth_calibration.h"
-#include "hal/frame.h"
-#include "hal/media_source.h"
+#include "hal/media/frame.h"
+#include "hal/media/media_source.h"
 #include "platform/error.h"
 
 namespace relievo {

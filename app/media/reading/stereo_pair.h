@@ -6,7 +6,7 @@
 #include <string>
 
 #include "app/media/reading/packing.h"
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 
 namespace relievo {
 

@@ -10,8 +10,8 @@
 
 #include "app/player/control/command.h"
 #include "app/player/state_table.h"
-#include "hal/media_source.h"
-#include "hal/media_time.h"
+#include "hal/media/media_source.h"
+#include "hal/media/media_time.h"
 #include "platform/clock.h"
 
 namespace relievo {

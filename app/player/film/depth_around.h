@@ -6,7 +6,7 @@
 #include <cstddef>
 
 #include "app/depth_window/surface_window.h"
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 
 namespace relievo {
 

@@ -15,7 +15,7 @@
 #include "app/player/film/played_time.h"
 #include "app/player/film/sound.h"
 #include "app/player/journal.h"
-#include "hal/media_clock.h"
+#include "hal/media/media_clock.h"
 #include "platform/clock.h"
 #include "platform/failure.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "hal/media_time.h"
+#include "hal/media/media_time.h"
 #include "platform/clock.h"
 
 namespace relievo {

@@ -12,7 +12,7 @@
 #include "app/media/pair_reader.h"
 #include "app/player/film/probe_tracks.h"
 #include "app/scene/display_volume.h"
-#include "hal/media_source.h"
+#include "hal/media/media_source.h"
 #include "platform/failure.h"
 
 namespace relievo {

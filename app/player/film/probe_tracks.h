@@ -8,7 +8,7 @@
 
 #include "app/media/frame_rate.h"
 #include "app/media/pair_reader.h"
-#include "hal/media_source.h"
+#include "hal/media/media_source.h"
 #include "platform/failure.h"
 
 namespace relievo {

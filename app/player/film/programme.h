@@ -11,7 +11,7 @@
 
 #include "app/media/playlist.h"
 #include "app/player/film/resume.h"
-#include "hal/media_time.h"
+#include "hal/media/media_time.h"
 #include "platform/clock.h"
 #include "platform/error.h"
 

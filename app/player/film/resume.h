@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "hal/media_time.h"
+#include "hal/media/media_time.h"
 
 namespace relievo {
 

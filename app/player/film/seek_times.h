@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "hal/media_time.h"
+#include "hal/media/media_time.h"
 #include "platform/clock.h"
 
 namespace relievo {

@@ -12,7 +12,7 @@
 #include "app/player/film/sound_gain.h"
 #include "app/player/film/sound_window.h"
 #include "hal/audio_output.h"
-#include "hal/media_clock.h"
+#include "hal/media/media_clock.h"
 #include "platform/clock.h"
 
 namespace relievo {

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "hal/audio_decoder.h"
-#include "hal/media_time.h"
+#include "hal/media/audio_decoder.h"
+#include "hal/media/media_time.h"
 
 namespace relievo {
 

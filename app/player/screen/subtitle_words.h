@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "app/render/text/ass_text.h"
-#include "hal/subtitle_decoder.h"
+#include "hal/media/subtitle_decoder.h"
 
 namespace relievo {
 

@@ -15,7 +15,7 @@
 #include "app/scene/depth_calibration.h"
 #include "app/scene/display_volume.h"
 #include "hal/haptic_device.h"
-#include "hal/media_clock.h"
+#include "hal/media/media_clock.h"
 #include "platform/clock.h"
 
 namespace relievo {

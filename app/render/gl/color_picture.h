@@ -15,7 +15,7 @@
 #include "app/render/gl/plane_texture.h"
 #include "app/render/relief/stereo.h"
 #include "app/scene/display_volume.h"
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 #include "platform/error.h"
 
 namespace relievo {

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "app/render/gl/gl_objects.h"
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 
 namespace relievo {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/render/gl/gl_objects.h"
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 
 namespace relievo {
 

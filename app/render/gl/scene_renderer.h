@@ -14,7 +14,7 @@
 #include "app/scene/depth_calibration.h"
 #include "app/scene/display_volume.h"
 #include "hal/display.h"
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 #include "platform/error.h"
 
 namespace relievo {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 #include "platform/clock.h"
 
 namespace relievo::test {
@@ -53,7 +53,7 @@ struct ClipSound {
 void makeClip(const std::string& path, const std::vector<ClipTrack>& tracks,
               const std::map<std::string, std::string>& tags = {}, const std::vector<ClipSound>& sounds = {});
 
-// The sample of component `component` at (column, row), read as hal/frame.h says.
+// The sample of component `component` at (column, row), read as hal/media/frame.h says.
 [[nodiscard]] std::uint32_t sampleAt(const Frame& frame, int component, int column, int row) noexcept;
 
 // A new folder for a test's files, removed with all that is in it when the object goes.

@@ -11,7 +11,7 @@
 #include "app/depth_window/surface_window.h"
 #include "app/scene/depth_calibration.h"
 #include "app/scene/height_field.h"
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 
 namespace relievo::test {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 
 namespace relievo::test {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "app/author/package/preview.h"
+#include "app/author/preview/preview.h"
 #include "tests/support/film/depth_frames.h"
 
 namespace relievo {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "app/media/registration.h"
+#include "app/media/registration/registration.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "tests/support/film/bag_writer.h"
 #include "tests/support/film/clip_maker.h"

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "hal/continuous_time.h"
+#include "hal/media/continuous_time.h"
 
 namespace relievo {
 namespace {

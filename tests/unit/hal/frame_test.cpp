@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gray frames; cropping: the part has the samples of the whole, in every memory layout of a picture, without copies.
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 
 #include <gtest/gtest.h>
 

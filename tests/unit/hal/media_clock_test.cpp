@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The film's clock: unset until started, continuous, exact at its own rate.
-#include "hal/media_clock.h"
+#include "hal/media/media_clock.h"
 
 #include <gtest/gtest.h>
 

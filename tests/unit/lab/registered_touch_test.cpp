@@ -9,7 +9,7 @@
 
 #include "app/haptics/method/relievo_method.h"
 #include "app/lab/truth/oracle.h"
-#include "app/media/registration.h"
+#include "app/media/registration/registration.h"
 #include "tests/support/film/depth_frames.h"
 
 namespace relievo {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which sound and which subtitles a film begins with.
-#include "app/media/film_tracks.h"
+#include "app/media/tracks/film_tracks.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Interlaced pictures made whole, sample by sample.
-#include "app/media/deinterlaced.h"
+#include "app/media/tracks/deinterlaced.h"
 
 #include <gtest/gtest.h>
 

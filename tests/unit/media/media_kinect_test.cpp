@@ -6,8 +6,8 @@
 
 #include <fstream>
 
-#include "app/media/own_registration.h"
 #include "app/media/pair_reader.h"
+#include "app/media/registration/own_registration.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/kinect_mkv.h"

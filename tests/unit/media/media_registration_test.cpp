@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Depth registered to the colour camera's view, against numbers worked out on paper.
-#include "app/media/registration.h"
+#include "app/media/registration/registration.h"
 
 #include <gtest/gtest.h>
 

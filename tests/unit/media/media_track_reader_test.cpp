@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "app/media/track_reader.h"
+#include "app/media/tracks/track_reader.h"
 
 namespace relievo {
 namespace {

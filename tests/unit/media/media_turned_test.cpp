@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "app/media/turned.h"
+#include "app/media/tracks/turned.h"
 #include "tests/support/film/clip_maker.h"
 
 namespace relievo {

@@ -11,7 +11,7 @@
 
 #include "app/scene/color_curve.h"
 #include "app/scene/height_field.h"
-#include "hal/frame.h"
+#include "hal/media/frame.h"
 
 namespace relievo {
 namespace {

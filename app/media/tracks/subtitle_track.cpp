@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// A queue before a decoder.
+#include "app/media/tracks/subtitle_track.h"
+
+#include <utility>
+
+namespace relievo {
+
+Result<void> SubtitleTrack::open(std::unique_ptr<SubtitleDecoder> decoder, const StreamInfo& stream) {
+  close();
+  if (auto opened = decoder->open(stream); !opened) return opened;
+  decoder_ = std::move(decoder);
+  stream_ = stream.index;
+  return {};
+}
+
+void SubtitleTrack::close() noexcept {
+  decoder_.reset();
+  stream_ = -1;
+  waiting_.clear();
+}
+
+void SubtitleTrack::keep(Packet packet) {
+  waiting_.push_back(std::move(packet));
+  if (waiting_.size() > kMaxWaiting) waiting_.pop_front();
+}
+
+std::optional<Subtitle> SubtitleTrack::next() {
+  while (decoder_ != nullptr && !waiting_.empty()) {
+    auto subtitle = decoder_->decode(waiting_.front());
+    waiting_.pop_front();
+    if (subtitle) return subtitle;
+  }
+  return std::nullopt;
+}
+
+void SubtitleTrack::restart() {
+  waiting_.clear();
+  if (decoder_ != nullptr) decoder_->flush();
+}
+
+}  // namespace relievo

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hal/media/media_names.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+namespace relievo {
+namespace {
+
+constexpr std::array<std::string_view, 32> kFilms{"mkv", "mk3d", "webm", "mp4", "m4v",  "mov", "qt",   "avi",
+                                                  "ts",  "m2ts", "mts",  "mpg", "mpeg", "vob", "flv",  "wmv",
+                                                  "asf", "ogv",  "ogm",  "nut", "ivf",  "y4m", "m3u8", "3gp",
+                                                  "3g2", "mxf",  "dv",   "264", "h264", "265", "bag",  "oni"};
+constexpr std::array<std::string_view, 29> kPictures{
+    "png", "pgm", "ppm", "pbm",  "pnm",  "pam",  "jpg", "jpeg", "jpe", "jps", "mpo", "tif", "tiff", "bmp", "webp",
+    "exr", "pfm", "npy", "heic", "heif", "avif", "jp2", "j2k",  "dpx", "tga", "sgi", "hdr", "qoi",  "phm"};
+
+bool isDigit(char c) noexcept {
+  return c >= '0' && c <= '9';
+}
+
+// The run of digits at the beginning, without leading zeros.
+std::string_view numberOf(std::string_view text) noexcept {
+  const auto end = std::find_if_not(text.begin(), text.end(), isDigit);
+  text = text.substr(0, static_cast<std::size_t>(end - text.begin()));
+  return text.substr(std::min(text.find_first_not_of('0'), text.size()));
+}
+
+std::string_view behindNumber(std::string_view text) noexcept {
+  const auto end = std::find_if_not(text.begin(), text.end(), isDigit);
+  return text.substr(static_cast<std::size_t>(end - text.begin()));
+}
+
+}  // namespace
+
+std::string endingOf(std::string_view name) {
+  name = name.substr(name.rfind('/') + 1);
+  const std::size_t dot = name.rfind('.');
+  if (dot == std::string_view::npos) return "";
+  std::string ending(name.substr(dot + 1));
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending;
+}
+
+MediaKind mediaKindOf(std::string_view name) noexcept {
+  const std::string ending = endingOf(name);
+  if (std::ranges::find(kFilms, ending) != kFilms.end()) return MediaKind::Film;
+  return std::ranges::find(kPictures, ending) != kPictures.end() ? MediaKind::Picture : MediaKind::Neither;
+}
+
+bool naturalLess(std::string_view a, std::string_view b) noexcept {
+  const std::string_view whole_a = a, whole_b = b;
+  while (!a.empty() && !b.empty()) {
+    if (isDigit(a.front()) && isDigit(b.front())) {
+      const std::string_view left = numberOf(a), right = numberOf(b);
+      if (left.size() != right.size()) return left.size() < right.size();
+      if (left != right) return left < right;
+      a = behindNumber(a), b = behindNumber(b);
+      continue;
+    }
+    if (a.front() != b.front()) return a.front() < b.front();
+    a.remove_prefix(1), b.remove_prefix(1);
+  }
+  if (a.empty() != b.empty()) return a.empty();
+  return whole_a < whole_b;
+}
+
+}  // namespace relievo
