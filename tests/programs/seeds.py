@@ -10,7 +10,7 @@ COLS, ROWS, PICTURES, RATE = 64, 48, 8, 25
 COLOR = f"testsrc2=size={COLS}x{ROWS}:rate={RATE}"
 DEPTH = f"gradients=size={COLS}x{ROWS}:rate={RATE}:seed=1:n=2:c0=black:c1=white:speed=0.05"
 # The depth as distances in mm, from 500 to 4000.
-DISTANCE = f"{DEPTH},format=gray16le,lutyuv=y=500+val*3500/65535"
+DISTANCE = f"{DEPTH},format=gray16le,lut=c0=500+val*3500/65535"
 
 
 @dataclasses.dataclass
