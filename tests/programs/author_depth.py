@@ -28,8 +28,8 @@ OUTPUTS += [("ffv1", bits, "mkv") for bits in (8, 10, 12, 16)]
 ENHANCEMENTS = ("none", "median", "dibm", "space-time")
 LAWS = ("source", "linear", "inverse")
 # Largest and mean error of heights, of the relief's depth, beside half a code.
-LOSSY = (0.035, 0.006)
-ENHANCED = (0.02, 0.004)
+LOSSY = (0.02, 0.002)
+ENHANCED = (0.01, 0.002)
 
 
 def scene(c, r, k):
