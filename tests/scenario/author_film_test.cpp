@@ -294,6 +294,10 @@ TEST_F(AuthorFilm, TellsWhatItDoesNotKeep) {
     EXPECT_THAT(summary->notes, testing::Contains(HasSubstr(line)));
   }
 
+  const auto all = make({.url = folder_ / "film.mkv", .command_line = {{"codes", "1-2"}}}, "clipped.mkv");
+  ASSERT_TRUE(all.has_value());
+  EXPECT_THAT(all->notes, testing::Contains(testing::StartsWith("100 % of the depth was outside the codes 1 .. 2")));
+
   color.options.clear();
   color.transfer = 14;
   makeClip(folder_ / "wide.mkv", {color, depth});

@@ -40,7 +40,7 @@ void tellClipped(Notes& notes, const FilmInfo& info, const DepthCoder::Counts& c
   if (codes.clipped == 0) return;
   const DepthCalibration& c = info.calibration.calibration;
   notes.push_back(
-      print("%.2g %% of the depth was outside the codes %.0f .. %.0f and was clipped; if that range is "
+      print("%.3g %% of the depth was outside the codes %.0f .. %.0f and was clipped; if that range is "
             "wrong, give the codes with --calibration",
             100 * static_cast<double>(codes.clipped) / static_cast<double>(codes.samples), c.lowCode(), c.highCode()));
 }
