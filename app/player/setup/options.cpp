@@ -214,6 +214,22 @@ void addStereoOptions(CLI::App& command, StereoSettings& stereo) {
       ->type_name("X");
 }
 
+void addSoundAndTextOptions(CLI::App& command, PlayerConfig& player) {
+  command
+      .add_option("--volume", player.volume_percent,
+                  "Loudness, in percent [as it was left on this sound output, else 100]")
+      ->check(between(0.0, Loudness::kMostPercent))
+      ->type_name("P");
+  command
+      .add_option("--alang", player.source.sound_languages,
+                  "Sound in the first of these languages that the film has, such as jpn,en")
+      ->type_name("LANG,..");
+  command
+      .add_option("--slang", player.source.subtitle_languages,
+                  "Subtitles likewise [those beside the film, or that it marks as its default]")
+      ->type_name("LANG,..");
+}
+
 void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& names) {
   play.player.stereo.layout = StereoLayout::Mono;
   play.player.display.film_size = true;
@@ -237,19 +253,7 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
              "Where the sound goes [of a window or a whole screen alsa, else none]");
   command.add_flag("--software", play.software, "Decode without the video hardware, where that shows faults");
   addBoxOption(command, play.player.volume);
-  command
-      .add_option("--volume", play.player.volume_percent,
-                  "Loudness, in percent [as it was left on this sound output, else 100]")
-      ->check(between(0.0, Loudness::kMostPercent))
-      ->type_name("P");
-  command
-      .add_option("--alang", play.player.source.sound_languages,
-                  "Sound in the first of these languages that the film has, such as jpn,en")
-      ->type_name("LANG,..");
-  command
-      .add_option("--slang", play.player.source.subtitle_languages,
-                  "Subtitles likewise [those beside the film, or that it marks as its default]")
-      ->type_name("LANG,..");
+  addSoundAndTextOptions(command, play.player);
   command.add_flag("--osd", play.osd, "Write bar, keys and notices over an off-screen picture too");
   command.add_flag("--loop", play.player.loop, "Begin again at the end");
   command
