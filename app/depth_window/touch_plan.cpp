@@ -38,7 +38,9 @@ constexpr double kBSplineNoise = 0.48, kFittedNoise = 0.75;
 
 // The B-spline in time flattens a motion: where its acceleration is a and a frame lasts T, the surface is off by a
 // T^2/6, the spline's variance in time being T^2/3. A face that nods by 5 mm once a second has 200 mm/s^2. At 30 frames
-// a second that is .04 mm; at 15 it is .15 mm, as much as a step of 8 bits, which the spline is to smooth.
+// a second that is .04 mm; at 15 it is .15 mm, as much as a step of 8 bits, which the spline is to smooth. Where frames
+// are quick enough, what it averages of a codec's errors is worth more than what it flattens (crf 23, worst smooth
+// scene: 2.2 % of the force with the fitted spline, 2.0 % with this one).
 constexpr double kNodMmPerS2 = 200;
 
 // White noise s of samples p apart leaves an error of kNoiseOverSlope s p/w^2 in the slope: the integral of the squared
@@ -159,9 +161,11 @@ TouchPlan planTouch(const ClipMeasure& m) {
   s.narrow_mm = fine ? kFineNarrowMm : kNarrowMm;
   s.wide_mm = kTimesTheNarrow * s.narrow_mm;
   plan.error = errorOf(s.wide_mm);
-  for (double wider = s.wide_mm * 1.02; wider <= kWidestMm && errorOf(wider) < plan.error; wider *= 1.02) {
+  double wider = s.wide_mm * 1.02;
+  while (wider <= kWidestMm && errorOf(wider) < plan.error) {
     s.wide_mm = wider;
     plan.error = errorOf(wider);
+    wider *= 1.02;
   }
 
   // The narrow level's error must fit under the clamp: four standard deviations of its noise plus one step. Within that

@@ -24,7 +24,8 @@ bool isUtf8(const std::uint8_t* data, std::size_t bytes) noexcept {
     const int more = first < 0x80 ? 0 : first >> 5 == 6 ? 1 : first >> 4 == 14 ? 2 : first >> 3 == 30 ? 3 : -1;
     if (more < 0) return false;
     for (int k = 0; k < more; ++k) {
-      if (i == bytes || data[i++] >> 6 != 2) return false;
+      if (i == bytes || data[i] >> 6 != 2) return false;
+      ++i;
     }
   }
   return true;

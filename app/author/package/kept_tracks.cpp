@@ -190,7 +190,7 @@ Result<void> KeptTracks::addChapters() {
     const AVChapter& from = *file_->chapters[i];
     auto* const chapter = static_cast<AVChapter*>(av_mallocz(sizeof(AVChapter)));
     int added = static_cast<int>(film_->nb_chapters);
-    if (chapter != nullptr) av_dynarray_add(&film_->chapters, &added, chapter);
+    if (chapter != nullptr) av_dynarray_add(static_cast<void*>(&film_->chapters), &added, chapter);
     if (chapter == nullptr || film_->chapters == nullptr) return std::unexpected(kNoMemory);
     film_->nb_chapters = static_cast<unsigned>(added);  // the muxer frees them
     const std::int64_t shift = av_rescale_q(start_.count(), kNanosecond, from.time_base);

@@ -103,8 +103,11 @@ double blurWidthMm(const ClipMeasure& clip) {
     return std::hypot(kNoise * clip.noise_mm * clip.sample_mm / (w * w), clip.quantum_mm / (kSteps * w),
                       kFlattening * w * w);
   };
-  double width = kLeastMm;
-  for (double wider = width * 1.02; wider <= kMostMm && error(wider) < error(width); wider *= 1.02) width = wider;
+  double width = kLeastMm, wider = width * 1.02;
+  while (wider <= kMostMm && error(wider) < error(width)) {
+    width = wider;
+    wider *= 1.02;
+  }
   return width;
 }
 

@@ -110,7 +110,7 @@ std::vector<FilmTrack> subtitleFilesOf(const std::string& film) {
   const std::string stem = path.stem().string();
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
-    const std::string name = entry.path().filename().string(), ending = lower(entry.path().extension().string());
+    const std::string ending = lower(entry.path().extension().string());
     if (std::ranges::find(kEndings, ending) == kEndings.end() || !entry.is_regular_file(none)) continue;
     const std::string own = entry.path().stem().string();  // FILM or FILM.en
     if (own != stem && !own.starts_with(stem + ".")) continue;

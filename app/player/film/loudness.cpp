@@ -19,7 +19,7 @@ using Json = nlohmann::json;
 // An unreadable file counts as empty.
 Json load(const std::string& path) {
   const auto text = readWholeFile(path, FileSize::Settings, "");
-  Json json = text ? Json::parse(*text, nullptr, false) : Json::object();
+  const Json json = text ? Json::parse(*text, nullptr, false) : Json::object();
   return json.is_object() ? json : Json::object();
 }
 
