@@ -33,24 +33,15 @@ Error openError(int code) noexcept {
   switch (code) {
     case AVERROR(ENOENT):
       return {ErrorCode::NotFound, ENOENT, "no such file; check the path"};
-    case AVERROR_HTTP_NOT_FOUND:
-      return {ErrorCode::NotFound, 0, "the server does not have it; check the address"};
     case AVERROR(EACCES):
     case AVERROR(EPERM):
       return {ErrorCode::PermissionDenied, osError(code), "no permission to read it; check the file's permissions"};
-    case AVERROR_HTTP_UNAUTHORIZED:
-    case AVERROR_HTTP_FORBIDDEN:
-      return {ErrorCode::PermissionDenied, 0, "the server refuses access; check user name and password in the address"};
     case AVERROR_PROTOCOL_NOT_FOUND:
       return {ErrorCode::Unsupported, 0, "this FFmpeg was built without this protocol; use another address"};
     case AVERROR(EISDIR):
       return {ErrorCode::Unsupported, EISDIR, "it is a folder; give a file in it"};
     case AVERROR(ETIMEDOUT):
       return {ErrorCode::Timeout, ETIMEDOUT, "no answer from the source in time; check the network"};
-    case AVERROR(ECONNREFUSED):
-    case AVERROR(EHOSTUNREACH):
-    case AVERROR(ENETUNREACH):
-      return {ErrorCode::Io, osError(code), "no connection to the server; check the address and the network"};
     case AVERROR(ENOMEM):
       return {ErrorCode::Exhausted, ENOMEM, "out of memory while opening the source"};
     case AVERROR_EOF:

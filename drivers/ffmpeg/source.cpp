@@ -15,6 +15,7 @@
 #include "drivers/ffmpeg/container.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/ffmpeg/library.h"
+#include "drivers/ffmpeg/network_error.h"
 #include "drivers/ffmpeg/stream_tags.h"
 #include "drivers/ffmpeg/watch.h"
 #include "hal/media/video_decoder.h"
@@ -81,15 +82,16 @@ class FfmpegSource final : public MediaSource {
     open_file_ = std::exchange(context->io_open, openCounted);
     opens_ = 0;
     AVDictionary* options = optionsFor(*address);
+    const LibraryWords words;
     const int opened = avformat_open_input(&context, address->url.c_str(), nullptr, &options);
     av_dict_free(&options);
-    if (opened < 0) return std::unexpected(watch_.explain(refusal(*address, opened)));
+    if (opened < 0) return std::unexpected(watch_.explain(refusal(*address, opened, words.last())));
     arrival_ = watch_.now();
 
     FormatPtr owned(context);
     watch_.begin(kOpenPatience);
     const int found = findStreams(*context);
-    if (found < 0 || watch_.cancelled()) return std::unexpected(watch_.explain(refusal(*address, found)));
+    if (found < 0 || watch_.cancelled()) return std::unexpected(watch_.explain(refusal(*address, found, words.last())));
     if (isTextArt(*context)) return std::unexpected(openError(AVERROR_INVALIDDATA));
     timed_ = isTimed(*context);
     start_ = startOf(*context);
@@ -171,8 +173,9 @@ class FfmpegSource final : public MediaSource {
   }
 
   // FFmpeg returns EINVAL for what the whitelists of `optionsFor` forbid.
-  static Error refusal(const Address& address, int code) noexcept {
-    if (code != AVERROR(EINVAL) || !address.remote()) return openError(code);
+  static Error refusal(const Address& address, int code, const std::string& words) noexcept {
+    if (!address.remote()) return openError(code);
+    if (code != AVERROR(EINVAL) || address.way != Way::Http) return networkError(code, words);
     return {ErrorCode::Unsupported, 0,
             "it is no film, or a playlist that names files or protocols forbidden to network sources; check the "
             "address"};

@@ -5,6 +5,7 @@
 #include "drivers/ffmpeg/address.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/ffmpeg/library.h"
+#include "drivers/ffmpeg/network_error.h"
 
 extern "C" {
 #include <libavformat/avio.h>
@@ -18,11 +19,13 @@ Result<std::string> readFfmpegText(const std::string& url, std::size_t most_byte
   silenceLibrary();
   const auto cancel = [](void* flag) { return static_cast<const std::atomic<bool>*>(flag)->load() ? 1 : 0; };
   const AVIOInterruptCB interrupt{.callback = cancel, .opaque = const_cast<std::atomic<bool>*>(&cancelled)};
-  const auto explain = [&cancelled](int code) {
-    return cancelled ? Error{ErrorCode::Cancelled, 0, "interrupted while waiting for the text"} : openError(code);
-  };
   auto address = parseAddress(url);
   if (!address) return std::unexpected(address.error());
+  const LibraryWords words;
+  const auto explain = [&](int code) {
+    if (cancelled) return Error{ErrorCode::Cancelled, 0, "interrupted while waiting for the text"};
+    return address->remote() ? networkError(code, words.last()) : openError(code);
+  };
   if (address->way == Way::Pipe) *address = {"file:" + url, Way::File};
   AVDictionary* options = optionsFor(*address);
   AVIOContext* file = nullptr;

@@ -537,6 +537,41 @@ struct Server {
   [[nodiscard]] UniqueFd accept() const { return UniqueFd(::accept(listener.get(), nullptr, nullptr)); }
 };
 
+// What a server answers to everything, and the sentence for it.
+TEST(FfmpegSource, EachKindOfNetworkErrorHasItsSentence) {
+  const auto answered = [](const std::string& answer) {
+    Server server;
+    std::atomic<bool> ending{false};
+    std::thread other([&] {
+      while (!ending) {
+        const UniqueFd to = server.accept();
+        std::string request(4096, '\0');
+        static_cast<void>(::recv(to.get(), request.data(), request.size(), 0));
+        static_cast<void>(::send(to.get(), answer.data(), answer.size(), MSG_NOSIGNAL));
+      }
+    });
+    const std::string message = openErrorOf(server.url).message;
+    ending = true;
+    ::shutdown(server.listener.get(), SHUT_RDWR);  // wakes accept()
+    other.join();
+    return message;
+  };
+  const auto status = [&](const std::string& line) {
+    return answered("HTTP/1.1 " + line + "\r\nContent-Length: 0\r\nConnection: close\r\n\r\n");
+  };
+  EXPECT_THAT(status("400 Bad Request"), HasSubstr("HTTP 4xx"));
+  EXPECT_THAT(status("410 Gone"), HasSubstr("HTTP 4xx"));
+  EXPECT_THAT(status("404 Not Found"), HasSubstr("the server does not have it"));
+  EXPECT_THAT(status("403 Forbidden"), HasSubstr("refuses access"));
+  EXPECT_THAT(status("503 Service Unavailable"), HasSubstr("HTTP 5xx"));
+  EXPECT_THAT(status("302 Found\r\nLocation: /film.mkv"), HasSubstr("redirects without end"));
+  EXPECT_THAT(answered("HTTP/1.1 200 OK\r\nContent-Length: 5\r\n\r\nhello"), HasSubstr("is no film"));
+
+  EXPECT_THAT(openErrorOf("http://no-host.invalid/film.mkv").message, HasSubstr("no host has this name"));
+  EXPECT_THAT(openErrorOf("tcp://127.0.0.1").message, HasSubstr("not a whole address"));
+  EXPECT_THAT(openErrorOf("http://127.0.0.1:1/film.mkv").message, HasSubstr("refuses the connection"));
+}
+
 TEST(FfmpegSource, ABrokenConnectionIsTakenUpWhereItBroke) {
   TemporaryFolder folder;
   makeClip(folder / "a.mkv", {kH264});
