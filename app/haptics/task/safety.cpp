@@ -33,6 +33,7 @@ glm::dvec3 SafetyFilter::apply(const glm::dvec3& wanted_n, const glm::dvec3& dev
     size = 0;
   }
   if (size > limits_.force_n) target *= limits_.force_n / size;
+  target *= share();
 
   glm::dvec3 moved = primed_ ? device_mm - last_device_mm_ : glm::dvec3(0);
   if (!std::isfinite(glm::dot(moved, moved))) moved = glm::dvec3(0);
@@ -53,9 +54,16 @@ glm::dvec3 SafetyFilter::apply(const glm::dvec3& wanted_n, const glm::dvec3& dev
   if (std::isfinite(glm::dot(device_mm, device_mm))) {
     primed_ = true;
     last_device_mm_ = device_mm;
+    const double before = books_.artefactMj();
     books_.tick(device_mm, spring, target, sent, elapsed);
+    const double paid = tank_mj_ - (books_.artefactMj() - before) + limits_.tank_mj_per_s * elapsed;
+    tank_mj_ = std::clamp(paid, -limits_.tank_mj, limits_.tank_mj);
   }
   return sent;
+}
+
+double SafetyFilter::share() const RELIEVO_RT {
+  return limits_.limit_energy ? std::clamp(2 * tank_mj_ / limits_.tank_mj, 0.0, 1.0) : 1.0;
 }
 
 // Assumes that the next movement resembles the last: the same motion, the same change of force.

@@ -200,7 +200,7 @@ TEST(SafetyFilter, AFingerThatStopsIsLeantAgainstNoLonger) {
 }
 
 TEST(SafetyFilter, LeansAgainstTheMotionByNoMoreThanTheSpringOfTwoTicks) {
-  SafetyFilter filter({}, 0.5);
+  SafetyFilter filter({.tank_mj = 1e9}, 0.5);  // never empty: so wild a walk costs more than leaning recovers
   SafetyFilter plain({.limit_energy = false}, 0.5);
   std::mt19937 random(3);
   std::normal_distribution<double> step(0, 0.3);
@@ -214,6 +214,35 @@ TEST(SafetyFilter, LeansAgainstTheMotionByNoMoreThanTheSpringOfTwoTicks) {
     before = hip;
     hip += glm::dvec3(step(random), step(random), step(random));
     hip.z = std::clamp(hip.z, -5.0, 1.0);
+  }
+}
+
+// A wall that comes and goes every 40 ms pushes the hand on after it has gone.
+TEST(SafetyFilter, AWallThatLeapsAgainAndAgainPumpsNoMoreThanItsTank) {
+  constexpr double kSeconds = 20;
+  const auto pumped = [&](const SafetyLimits& limits) {
+    SafetyFilter filter(limits, 0.5);
+    double z = 0, least = 1;
+    for (int i = 0; i < 1000 * kSeconds; ++i) {
+      const bool there = i / 40 % 2 == 0;
+      static_cast<void>(filter.apply({0, 0, there ? 4.0 : 0.0}, {0, 0, z}, kTick));
+      z += there ? -0.05 : 0.1;  // the hand goes where it is pushed, and comes back against the wall
+      least = std::min(least, filter.share());
+    }
+    EXPECT_EQ(least < 0.5, limits.tank_mj < 1e6);
+    return filter.books().artefactMj();
+  };
+  const SafetyLimits limits;
+  EXPECT_GT(pumped({.tank_mj = 1e9}), 4 * (limits.tank_mj + limits.tank_mj_per_s * kSeconds)) << "is it hostile?";
+  EXPECT_LE(pumped(limits), 2 * limits.tank_mj + limits.tank_mj_per_s * kSeconds);
+}
+
+TEST(SafetyFilter, ACutLeavesTheTankHalfFull) {
+  SafetyFilter filter({}, 0.5);
+  double z = 0;
+  for (int i = 0; i < 500; ++i) {
+    static_cast<void>(filter.apply({0, 0, i < 200 ? 2.0 : 0.0}, {0, 0, z += 0.1}, kTick));
+    ASSERT_EQ(filter.share(), 1) << i;
   }
 }
 
