@@ -54,12 +54,17 @@ glm::dvec3 SafetyFilter::apply(const glm::dvec3& wanted_n, const glm::dvec3& dev
   if (std::isfinite(glm::dot(device_mm, device_mm))) {
     primed_ = true;
     last_device_mm_ = device_mm;
-    const double before = books_.artefactMj();
     books_.tick(device_mm, spring, target, sent, elapsed);
-    const double paid = tank_mj_ - (books_.artefactMj() - before) + limits_.tank_mj_per_s * elapsed;
-    tank_mj_ = std::clamp(paid, -limits_.tank_mj, limits_.tank_mj);
+    payForLag(target, moved, elapsed);
   }
   return sent;
+}
+
+// Only what pushes the hand along counts: a force that is still too small against it gives nothing.
+void SafetyFilter::payForLag(const glm::dvec3& wanted_n, const glm::dvec3& moved_mm, double elapsed_s) RELIEVO_RT {
+  const double given = std::max(glm::dot(spring_n_, moved_mm), 0.0), due = std::max(glm::dot(wanted_n, moved_mm), 0.0);
+  const double left = tank_mj_ - std::max(given - due, 0.0) + limits_.tank_mj_per_s * elapsed_s;
+  tank_mj_ = std::clamp(left, -limits_.tank_mj, limits_.tank_mj);
 }
 
 double SafetyFilter::share() const RELIEVO_RT {

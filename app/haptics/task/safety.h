@@ -14,8 +14,8 @@ struct SafetyLimits {
   double force_n = 10.0;             // never above the device's peak
   double scene_slew_n_per_s = 50.0;  // largest rate at which the scene may change the force
   bool limit_energy = true;          // remove the energy that sampling adds
-  double tank_mj = 10.0;             // artefact energy that is borne at once
-  double tank_mj_per_s = 5.0;        // and in the long run
+  double tank_mj = 20.0;             // work of a force that lags behind the scene, at once
+  double tank_mj_per_s = 10.0;       // and in the long run
 };
 
 // The hand may change the force at any rate, the scene only at a limited rate. The spring separates the two: a hand
@@ -31,11 +31,11 @@ struct SafetyLimits {
 // position only in every other tick, dx is the movement between positions, and the force stays tilted until the next
 // position is overdue.
 //
-// A surface that leaps leaves a force that follows at the slew limit, and pushes on after the surface has gone: up to
-// force^2/(2 slew) x the hand's speed, 4 mJ for 2 N at 0.1 m/s. A cut costs that once; depth that leaps in every frame
-// would pump. A tank (after Franken et al. 2011) pays for artefacts: it is refilled slowly, and when less than half is
-// left, the force that is wanted fades with the rest. So the artefacts give at most tank_mj + tank_mj_per_s x t, and
-// what the fading force itself leaves.
+// A surface that leaps leaves a force that lags, and pushes on after the surface has gone: up to force^2/(2 slew) x the
+// hand's speed, 4 mJ for 2 N at 0.1 m/s. A cut costs that once; depth that leaps in every frame would pump. A tank
+// (after Franken et al. 2011) pays for the lag's work: it is refilled slowly, and when less than half is left, the
+// force that is wanted fades with the rest. So a lag gives at most twice tank_mj, plus tank_mj_per_s x t. A finger that
+// goes over a still step at 0.5 m/s again and again pays less than 10 mJ/s (energy-loop of relievo-lab stability).
 class SafetyFilter {
  public:
   SafetyFilter() = default;
@@ -56,6 +56,7 @@ class SafetyFilter {
 
  private:
   void lean(const glm::dvec3& spring_n, const glm::dvec3& moved_mm, double elapsed_s) RELIEVO_RT;
+  void payForLag(const glm::dvec3& wanted_n, const glm::dvec3& moved_mm, double elapsed_s) RELIEVO_RT;
 
   SafetyLimits limits_;
   double stiffness_ = 0;
