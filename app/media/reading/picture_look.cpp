@@ -20,6 +20,8 @@ constexpr double kRedAlone = 0.25, kBright = 0.9;  // hues of full saturation ar
 
 // A half is depth if nearly all its samples are gray (or vivid) and clearly fewer of the other half's are.
 constexpr double kAllGray = 0.99, kPhotoGray = 0.7;
+// A pale scene has little colour: it is the other half if the picture breaks at the seam, which no photo does there.
+constexpr double kPaleGray = 0.97, kSeamStep = 0.05, kSeamTimes = 3;
 constexpr double kAllVivid = 0.85, kPhotoVivid = 0.3;
 constexpr double kLeastSpread = 0.03;  // a half of one brightness is not depth
 constexpr double kMostDark = 0.95;
@@ -77,8 +79,32 @@ std::optional<Sides> halvesOf(const Frame& picture, Packing packing) noexcept {
   return Sides{std::move(halves->color), std::move(halves->depth)};
 }
 
-bool isGrayDepth(const PictureLook& half, const PictureLook& other) noexcept {
-  return half.gray >= kAllGray && other.gray <= kPhotoGray && half.spread >= kLeastSpread;
+// Whether the two halves of `picture` meet in a step: the brightness changes far more across the middle than beside it.
+bool breaksInTheMiddle(const Frame& picture, bool side_by_side) noexcept {
+  constexpr int kApart = 3;  // coding smears a seam over a sample or two
+  const int length = side_by_side ? picture.width : picture.height,
+            across = side_by_side ? picture.height : picture.width;
+  if (length < 8 * kApart) return false;
+  const auto stepAt = [&](int at, int place) {
+    const auto brightness = [&](int along) {
+      const Color color = side_by_side ? colorAt(picture, along, place) : colorAt(picture, place, along);
+      return (color.red + color.green + color.blue) / 3;
+    };
+    return std::abs(brightness(at) - brightness(at + kApart));
+  };
+  double seam = 0, beside = 0;
+  const int places = std::min(kDown, across), before_seam = length / 2 - 2;
+  for (int i = 0; i < places; ++i) {
+    const int place = (2 * i + 1) * across / (2 * places);
+    seam += stepAt(before_seam, place) / places;
+    beside += (stepAt(before_seam - kApart, place) + stepAt(before_seam + kApart, place)) / (2 * places);
+  }
+  return seam >= kSeamStep && seam >= kSeamTimes * beside;
+}
+
+bool isGrayDepth(const PictureLook& half, const PictureLook& other, bool breaks) noexcept {
+  if (half.gray < kAllGray || half.spread < kLeastSpread) return false;
+  return other.gray <= kPhotoGray || (other.gray <= kPaleGray && breaks);
 }
 bool isHueDepth(const PictureLook& half, const PictureLook& other) noexcept {
   return isHue(half) && other.vivid <= kPhotoVivid;
@@ -87,15 +113,16 @@ bool isRedDepth(const PictureLook& half, const PictureLook& other) noexcept {
   return isRedAlone(half) && other.red <= kPhotoVivid && half.spread >= kLeastSpread;
 }
 
-// Whether `picture`, not the half beside it, is depth.
-std::optional<FoundPacking> found(const Frame& picture, const Frame& beside, Packing packing, const char* where) {
+// Whether `picture`, not the half beside it, is depth. `breaks`: the whole breaks between the two.
+std::optional<FoundPacking> found(const Frame& picture, const Frame& beside, bool breaks, Packing packing,
+                                  const char* where) {
   const PictureLook half = lookAt(picture), other = lookAt(beside);
   if (isRedDepth(half, other)) {
     return FoundPacking{packing, DepthCode::Luma, GrayFrom::Red,
                         print("%s, in red alone: %.0f %% of that half is shades of red, against %.0f %% of the other",
                               where, 100 * half.red, 100 * other.red)};
   }
-  if (isGrayDepth(half, other)) {
+  if (isGrayDepth(half, other, breaks)) {
     return FoundPacking{packing, DepthCode::Luma, GrayFrom::Luma,
                         print("%s: %.0f %% of that half is gray, against %.0f %% of the other", where, 100 * half.gray,
                               100 * other.gray)};
@@ -173,8 +200,9 @@ std::optional<FoundPacking> findPacking(const Frame& picture) {
   for (const auto& way : ways) {
     const auto halves = halvesOf(picture, way.second);
     if (!halves) continue;
-    if (auto is = found(halves->second, halves->first, way.second, way.second_where)) return is;
-    if (auto is = found(halves->first, halves->second, way.first, way.first_where)) return is;
+    const bool breaks = breaksInTheMiddle(picture, way.second == Packing::SideBySide);
+    if (auto is = found(halves->second, halves->first, breaks, way.second, way.second_where)) return is;
+    if (auto is = found(halves->first, halves->second, breaks, way.first, way.first_where)) return is;
   }
   return std::nullopt;
 }

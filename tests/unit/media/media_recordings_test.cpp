@@ -295,6 +295,34 @@ TEST(Recordings, BrightnessBesideThePhotoIsFoundInGrayAndInRed) {
   }
 }
 
+// A white room with one blue thing is nearly as gray as its depth; where the halves meet, the picture breaks.
+TEST(Recordings, TheDepthOfAPaleSceneIsFoundByTheBreakInTheMiddle) {
+  const auto cup = [](int c, int r) { return c >= 60 && c < 100 && r >= 30 && r < 60; };
+  const Half pale{[=](int c, int r) {
+    const double wall = 0.7 + 0.1 * std::sin(c * 0.4);
+    return cup(c, r) ? std::array{0.1, 0.15, 0.6} : std::array{wall, wall, wall};
+  }};
+  const Half depth{[=](int c, int r) {
+    const double near_bright = cup(c, r) ? 0.6 : 0.15 + 0.001 * c;
+    return std::array{near_bright, near_bright, near_bright};
+  }};
+  // A film whose left half is a gray wall, which goes on to the right of a coloured thing.
+  const Half wall{[](int c, int) { return std::array{0.3 + 0.003 * c, 0.3 + 0.003 * c, 0.3 + 0.003 * c}; }};
+  const Half goes_on{[=](int c, int r) {
+    const double gray = 0.3 + 0.003 * (kSceneCols - c);
+    return cup(c, r) ? std::array{0.1, 0.15, 0.6} : std::array{gray, gray, gray};
+  }};
+  TemporaryFolder folder;
+  makeHalves(folder / "right.mp4", true, pale, depth);
+  makeHalves(folder / "left.mp4", true, depth, pale);
+  makeHalves(folder / "below.mp4", false, pale, depth);
+  makeHalves(folder / "film.mp4", true, wall, goes_on);
+  EXPECT_EQ(open({.url = folder / "right.mp4"}).info.packing, Packing::SideBySide);
+  EXPECT_EQ(open({.url = folder / "left.mp4"}).info.packing, Packing::SideBySideDepthFirst);
+  EXPECT_EQ(open({.url = folder / "below.mp4"}).info.packing, Packing::TopBottom);
+  EXPECT_FALSE(open({.url = folder / "film.mp4"}).info.has_depth);
+}
+
 TEST(Recordings, TwoViewsAreToldAndNeverFelt) {
   const Half left{photoOf};
   const Half right{[](int c, int r) { return photoOf(c + 4 + (r > 50 ? 3 : 0), r); }};
