@@ -2,6 +2,7 @@
 #include "app/media/film_folder.h"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 
 #include "hal/media/media_names.h"
@@ -15,10 +16,17 @@ std::string stemOf(const std::string& name) {
   return name.substr(0, name.rfind('.'));
 }
 
-// The film in `names` that holds the depth of `film`; empty if there is none.
+// The file in `names` that holds the depth of `film`: "a-depth" beside "a", or "depth_a" beside "color_a"; empty if
+// there is none.
 std::string depthOf(const std::string& film, const std::vector<std::string>& names) {
-  for (const char* mark : {"-depth", "_depth", ".depth"}) {
-    const auto found = std::ranges::find(names, stemOf(film) + mark, stemOf);
+  const std::string stem = stemOf(film);
+  std::vector<std::string> stems{stem + "-depth", stem + "_depth", stem + ".depth"};
+  for (const char* word : {"color", "colour", "rgb"}) {
+    const std::size_t at = stem.find(word);
+    if (at != stem.npos) stems.push_back(std::string(stem).replace(at, std::char_traits<char>::length(word), "depth"));
+  }
+  for (const std::string& wanted : stems) {
+    const auto found = std::ranges::find(names, wanted, stemOf);
     if (found != names.end()) return *found;
   }
   return "";
@@ -52,6 +60,32 @@ std::optional<std::vector<PlaylistEntry>> filmsIn(const std::string& url) {
                      .title = stemOf(names[i])});
   }
   return films;
+}
+
+std::string depthBeside(const std::string& film) {
+  std::error_code failed;
+  const fs::path path(film);
+  const MediaKind kind = mediaKindOf(film);
+  if (kind == MediaKind::Neither || !fs::is_regular_file(path, failed)) return "";
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  std::vector<std::string> names;
+  fs::directory_iterator entries(folder, failed);
+  for (; !failed && entries != fs::directory_iterator(); entries.increment(failed)) {
+    const std::string name = entries->path().filename().string();
+    if (mediaKindOf(name) == kind && entries->is_regular_file(failed)) names.push_back(name);
+  }
+  const std::string depth = depthOf(path.filename().string(), names);
+  return depth.empty() ? "" : (path.has_parent_path() ? folder / depth : fs::path(depth)).string();
+}
+
+bool saysDepth(const std::string& url) {
+  std::string name = stemOf(url.substr(url.rfind('/') + 1));
+  std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::size_t at = name.find("depth");
+  const auto isLetter = [&](std::size_t i) {
+    return i < name.size() && std::isalpha(static_cast<unsigned char>(name[i])) != 0;
+  };
+  return at != name.npos && (at == 0 || !isLetter(at - 1)) && !isLetter(at + 5);
 }
 
 std::optional<std::string> seriesOf(const std::vector<std::string>& sources) {

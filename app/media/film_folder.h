@@ -11,8 +11,14 @@
 namespace relievo {
 
 // The films in the folder `url`, in natural order; nullopt if it is no folder or no list of films (a recording with a
-// folder `depth`, a series of pictures). "a-depth.mp4" beside "a.mp4" is that film's depth. At most kMostEntries.
+// folder `depth`, a series of pictures). At most kMostEntries. A film's depth may lie beside it: `depthBeside`.
 [[nodiscard]] std::optional<std::vector<PlaylistEntry>> filmsIn(const std::string& url);
+
+// The file that by its name holds the depth of the file `film`, in the same folder and of the same kind (film or
+// picture): a-depth, a_depth or a.depth for a; depth_a for color_a, colour_a or rgb_a. Empty if there is none.
+[[nodiscard]] std::string depthBeside(const std::string& film);
+// Whether the name of the file has the word depth in it, as "clip_depth.mp4"; the folder does not count.
+[[nodiscard]] bool saysDepth(const std::string& url);
 
 // The pattern ("a/frame-*.png") that names exactly these pictures, all of one folder: what a shell has spread. nullopt
 // if they are fewer than two, or no such series.

@@ -27,6 +27,7 @@ struct PairReader::Impl {
   Result<void> openFilm();
   Result<void> openColor(const StreamInfo& color);
   Result<void> selectDepth(const StreamInfo* depth);
+  void takeDepthBeside();
   Result<void> openDepth(const StreamInfo& color);
   void openSound();
   void openWords();

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/media/film_folder.h"
 #include "app/media/frame_rate.h"
 #include "app/media/pair_film.h"
 #include "app/media/registration/own_registration.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {
@@ -71,6 +73,7 @@ Result<void> PairReader::Impl::openFilm() {
   // The colour track leads, so it is selected first.
   const auto chosen = color_reader->select(asTold(*plan->color));
   if (!chosen) return failOn(options.url, chosen.error());
+  if (plan->depth == nullptr && !isPacked() && !two_sources && options.packing == Packing::Auto) takeDepthBeside();
   if (auto selected = selectDepth(plan->depth); !selected) return selected;
   if (depth_source) info.notes.insert(info.notes.end(), depth_source->notes().begin(), depth_source->notes().end());
   countTracks(*plan);
@@ -78,6 +81,22 @@ Result<void> PairReader::Impl::openFilm() {
   openWords();
   if (auto opened = openColor(*plan->color); !opened) return opened;
   return openDepth(*plan->color);
+}
+
+void PairReader::Impl::takeDepthBeside() {
+  const std::string beside = depthBeside(options.url);
+  if (beside.empty()) return;
+  options.depth_url = beside;
+  const auto opened = selectDepth(nullptr);
+  if (opened) {
+    info.notes.push_back(print("its depth is %s, which lies beside it; --depth FILE takes another", beside.c_str()));
+    return;
+  }
+  info.notes.push_back(print("%s beside it is no depth that can be read: %s", beside.c_str(), opened.error().message));
+  options.depth_url.clear();
+  failed_thing.clear();
+  const std::scoped_lock lock(readers_mutex);
+  depth_source.reset();
 }
 
 // Decodes two pictures, whose timestamps give the frame period.

@@ -2,6 +2,7 @@
 // Finds out where a film's depth is and what it means, while the film is opened.
 #include <algorithm>
 
+#include "app/media/film_folder.h"
 #include "app/media/pair_film.h"
 #include "app/media/reading/code_count.h"
 #include "app/media/reading/color_map_fit.h"
@@ -28,10 +29,12 @@ bool isStereo(const StreamInfo& track) {
   return mode != track.tags.end() && mode->second != "mono" && mode->second != "0";
 }
 
-// Numbers, or the codes of a sensor, are no colour.
-bool isDepthAlone(const Frame& picture) {
+// Numbers, or the codes of a sensor, are no colour; nor is gray in a file that is called depth.
+bool isDepthAlone(const Frame& picture, const std::string& url) {
   if (picture.value_per_code != 0) return true;
-  return picture.model == ColorModel::Gray && sensorKind(picture, CodeCount(picture)) != nullptr;
+  if (picture.model == ColorModel::Gray && sensorKind(picture, CodeCount(picture)) != nullptr) return true;
+  constexpr double kAllGray = 0.99;
+  return saysDepth(url) && lookAt(picture).gray >= kAllGray;
 }
 
 // The luma of shades of red alone: from black to the share of red in white.
@@ -94,7 +97,7 @@ void PairReader::Impl::lookForHalves(const StreamInfo& color) {
     return;
   }
   const Frame look = tellingPicture(color_ahead[0], options.url, color.index);
-  if (isDepthAlone(look)) {
+  if (isDepthAlone(look, options.url)) {
     info.packing = Packing::DepthAlone;
     clues.packing_by = CalibrationOrigin::FirstPicture;
     clues.why.emplace_back("depth without colour: it is shown as gray");

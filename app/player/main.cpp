@@ -14,6 +14,7 @@
 #include "app/cli/options.h"
 #include "app/cli/output_guard.h"
 #include "app/cli/program.h"
+#include "app/media/film_folder.h"
 #include "app/player/control/control_socket.h"
 #include "app/player/control/player_control.h"
 #include "app/player/film/probe.h"
@@ -95,8 +96,8 @@ Outcome<void> complete(PlayOptions& options) {
 Outcome<void> keepOutputsApart(const PlayOptions& options, const FileConfig& config) {
   const SourceOptions& source = options.player.source;
   std::vector<std::string> inputs = source.named_files;
-  inputs.insert(inputs.end(),
-                {source.url, source.depth_url, options.keys_path, config.path, config.falcon_firmware.value_or("")});
+  inputs.insert(inputs.end(), {source.url, source.depth_url, depthBeside(source.url), options.keys_path, config.path,
+                               config.falcon_firmware.value_or("")});
   std::vector<std::string> outputs{options.report_path, options.record_path, options.control_path};
   for (const BackEndName* name : {&options.display, &options.haptic, &options.remote, &options.audio}) {
     const drivers::NamedFiles files = drivers::filesNamedBy(*name);

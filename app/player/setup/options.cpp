@@ -128,7 +128,10 @@ constexpr const char* kSourceHelp =
     "address: http, https (HLS as well), rtsp, rtp, udp, tcp; v4l2:DEVICE; mock:, which needs no file";
 
 void addDepthSource(CLI::App& command, SourceOptions& source) {
-  command.add_option("--depth", source.depth_url, "A second file or address that holds the depth")
+  command
+      .add_option(
+          "--depth", source.depth_url,
+          "A second file or address that holds the depth [one beside the film, as film-depth.mkv, if there is one]")
       ->type_name("SOURCE2");
   addDepthOptions(command, source);
   addRateOption(command, source);

@@ -30,6 +30,25 @@ TEST_F(FilmFolder, ListsItsFilmsInNaturalOrderWithTheirDepth) {
   EXPECT_EQ(*films, expected);
 }
 
+TEST_F(FilmFolder, AFilesDepthLiesBesideItByName) {
+  files({"a.mp4", "a_depth.mkv", "a-depth.png", "color_output.webm", "depth_output.webm", "photo.jpg",
+         "photo.depth.png", "b.mp4", "b_depth.txt"});
+  std::filesystem::create_directory(folder_ / "c-depth.mp4");
+  files({"c.mp4"});
+  EXPECT_EQ(depthBeside(folder_ / "a.mp4"), folder_ / "a_depth.mkv");
+  EXPECT_EQ(depthBeside(folder_ / "color_output.webm"), folder_ / "depth_output.webm");
+  EXPECT_EQ(depthBeside(folder_ / "photo.jpg"), folder_ / "photo.depth.png");
+  for (const char* none : {"a_depth.mkv", "b.mp4", "c.mp4", "absent.mp4", "depth_output.webm"}) {
+    EXPECT_EQ(depthBeside(folder_ / none), "") << none;
+  }
+}
+
+TEST(FilmNames, SayDepthByTheWord) {
+  for (const char* name : {"clip_depth.mp4", "/a/Depth.mkv", "depth-2.webm"}) EXPECT_TRUE(saysDepth(name)) << name;
+  for (const char* name : {"clip.mp4", "depth/1.png", "depths.mkv", "outdepth.mkv"})
+    EXPECT_FALSE(saysDepth(name)) << name;
+}
+
 TEST_F(FilmFolder, ASeriesOfPicturesAndARecordingAreNone) {
   EXPECT_EQ(filmsIn(folder_ / "none"), std::nullopt);
   EXPECT_EQ(filmsIn(folder_ / ""), std::nullopt) << "an empty folder";

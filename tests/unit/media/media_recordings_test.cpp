@@ -323,6 +323,37 @@ TEST(Recordings, TheDepthOfAPaleSceneIsFoundByTheBreakInTheMiddle) {
   EXPECT_FALSE(open({.url = folder / "film.mp4"}).info.has_depth);
 }
 
+TEST(Recordings, GrayInAFileThatIsCalledDepthIsFelt) {
+  TemporaryFolder folder;
+  ClipTrack gray{.codec = "libx264", .pix_fmt = "yuv420p", .width = kSceneCols, .height = kSceneRows, .frames = 2};
+  gray.sample = [](int k, int c, int r, int) { return k > 0 ? 128u : 16 + static_cast<std::uint32_t>(c + r / 2); };
+  for (const char* name : {"clip_depth.mp4", "clip.mp4"}) {
+    makeClip(folder / name, {gray});
+    const Seen seen = open({.url = folder / name});
+    ASSERT_EQ(seen.failure, "");
+    EXPECT_EQ(seen.info.packing == Packing::DepthAlone, std::string(name) == "clip_depth.mp4");
+  }
+}
+
+TEST(Recordings, DepthThatLiesBesideTheFilmIsTakenAndSaid) {
+  TemporaryFolder folder;
+  makeClip(folder / "clip.mkv", {photo()});
+  ClipTrack depth = coded([](double mm, int, int) { return rounded(mm); });
+  depth.codec = "ffv1";
+  depth.pix_fmt = "gray16le";
+  makeClip(folder / "clip-depth.mkv", {depth});
+  const Seen seen = open({.url = folder / "clip.mkv"});
+  EXPECT_TRUE(seen.info.has_depth);
+  EXPECT_THAT(seen.info.notes, Contains(HasSubstr("clip-depth.mkv, which lies beside it")));
+  EXPECT_THAT(open({.url = folder / "clip.mkv", .packing = Packing::SideBySide}).info.notes,
+              testing::Not(Contains(HasSubstr("lies beside it"))));
+  std::ofstream(folder / "clip-depth.mkv") << "no film";
+  const Seen flat = open({.url = folder / "clip.mkv"});
+  EXPECT_EQ(flat.failure, "");
+  EXPECT_FALSE(flat.info.has_depth);
+  EXPECT_THAT(flat.info.notes, Contains(HasSubstr("no depth that can be read")));
+}
+
 TEST(Recordings, TwoViewsAreToldAndNeverFelt) {
   const Half left{photoOf};
   const Half right{[](int c, int r) { return photoOf(c + 4 + (r > 50 ? 3 : 0), r); }};
