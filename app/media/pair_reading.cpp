@@ -10,6 +10,7 @@
 #include "app/media/reading/depth_reading.h"
 #include "app/media/reading/picture_look.h"
 #include "app/media/reading/stereo_pair.h"
+#include "hal/media/media_names.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -196,8 +197,9 @@ Result<void> PairReader::Impl::describe(const Frame& first, const Frame& look, c
   clues.packing = info.packing;
   clues.live = !isFile(depthUrl());
   clues.codec = stream.codec;
-  clues.path = depthUrl();
   takeTags(stream);
+  const auto file = stream.tags.find(kFileTag);
+  clues.path = file != stream.tags.end() ? file->second : depthUrl();
   if (registrar) {
     clues.tags.insert({{"DEPTH_UNIT", print("%.9g", registrar->registration().unit_mm)}, {"DEPTH_INVALID", "0"}});
     const auto by = options.registration ? CalibrationOrigin::SideFile : CalibrationOrigin::ContainerTags;

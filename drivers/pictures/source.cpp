@@ -15,6 +15,7 @@
 #include "drivers/pictures/layouts.h"
 #include "drivers/pictures/pictures.h"
 #include "drivers/pictures/recording.h"
+#include "hal/media/media_names.h"
 #include "platform/unique_fd.h"
 
 namespace relievo {
@@ -107,6 +108,7 @@ class PicturesSource final : public MediaSource {
     stream->duration = pictures.size() > 1 ? pictures.back().time + recording_.period : Duration(0);
     if (depth) stream->tags.insert(recording_.depth_tags.begin(), recording_.depth_tags.end());
     if (depth && !recording_.color.empty()) stream->tags["TITLE"] = "depth";
+    if (depth) stream->tags[kFileTag] = pictures.front().path;
     return stream;
   }
 

@@ -9,6 +9,9 @@
 
 namespace relievo {
 
+// The tag of a depth stream of pictures that names its first file.
+inline constexpr const char* kFileTag = "FILE";
+
 enum class MediaKind : std::uint8_t { Film, Picture, Neither };
 
 // By the ending alone, in upper or lower case.

@@ -11,6 +11,7 @@
 
 #include "app/media/reading/float_reading.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/film/float_tiff.h"
 #include "tests/support/film/opened_film.h"
 
 namespace relievo {
@@ -104,6 +105,21 @@ TEST(FloatReading, DepthWithoutColourIsFeltAndShownAsGray) {
   EXPECT_GT(test::sampleAt(film.pair.color, 0, 30, 40), test::sampleAt(film.pair.color, 0, 30, 10) + 50);
   EXPECT_THAT(film.info.reading.why,
               Contains(HasSubstr("distances in m; if they are disparities, give --calibration")));
+}
+
+TEST(FloatReading, InAFolderTheDepthsOwnNameTells) {
+  for (const char* name : {"disp_left.tif", "depth_left.tif"}) {
+    const TemporaryFolder folder;
+    test::makeClip(folder / "left_rgb.png",
+                   {{.codec = "png", .pix_fmt = "rgb24", .width = kCols, .height = kRows, .frames = 1}});
+    test::FloatTiff tiff{.width = kCols, .height = kRows};
+    for (int i = 0; i < kCols * kRows; ++i) tiff.samples.push_back(17.25F + static_cast<float>(i % kCols));
+    test::writeFloatTiff(folder / name, tiff);
+    const test::OpenedFilm film = test::openFilm({.url = folder / ""});
+    ASSERT_TRUE(film.info.has_depth) << name;
+    const bool disparities = std::string(name) == "disp_left.tif";
+    EXPECT_THAT(film.info.reading.why, Contains(HasSubstr(disparities ? ": disparities" : ": distances"))) << name;
+  }
 }
 
 TEST(FloatReading, NamesTellWhatTheNumbersAre) {
