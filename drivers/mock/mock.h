@@ -179,9 +179,9 @@ struct MockHapticProfile {
                                   .continuous_force_n = 5,
                                   .max_stiffness_n_per_mm = 2,
                                   .rate_hz = 1000};
-  // The finger's position, which no force changes: `path_mm`, one position per read, then the last one; if that is
-  // empty, `position_mm` of the seconds since `start`, which must be real-time safe; without either, at rest in the
-  // middle.
+  // Where the finger is; no force moves it. Each read takes the next position of `path_mm` and stays at the last one.
+  // If `path_mm` is empty, `position_mm` gives the position from the seconds since `start`; it must be real-time safe.
+  // If both are empty, the finger rests in the middle.
   std::vector<glm::dvec3> path_mm;
   std::function<glm::dvec3(double)> position_mm;
   std::uint32_t buttons = 0;

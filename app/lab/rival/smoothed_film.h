@@ -16,10 +16,10 @@
 
 namespace relievo {
 
-// The blur with the least expected error of the force, as TouchPlan's for a kernel that flattens with the square of its
-// width: a Gaussian leaves noise x sample / (sqrt(4 pi) w^2) of white noise in the slope, half of step / (7.09 w) of
-// the codes' steps, and takes 1.2 % of the force on a bump of 8 mm curvature radius for 1 mm of width (as measured, 16
-// bits).
+// The width w of the Gaussian that leaves the least expected error in the force. TouchPlan chooses its own width the
+// same way. Three errors are weighed: white noise leaves noise x sample / (sqrt(4 pi) w^2) in the slope; the codes'
+// steps leave half of step / (7.09 w); and a bump of 8 mm curvature radius loses 1.2 % of its force x (w/1 mm)^2
+// (measured, 16 bits).
 [[nodiscard]] double blurWidthMm(const ClipMeasure& clip);
 
 // The film with every frame blurred by a Gaussian of this standard deviation (DepthSmoother), in 16 bits. A frame that

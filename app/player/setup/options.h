@@ -64,7 +64,7 @@ struct Machine {
 //
 // Options are the command line's, then the configuration's, then the machine's: a window on a desktop, else the screen,
 // else off screen; in a window, and on a screen, the force-feedback device that is plugged in, else the mouse. On wrong
-// use, and when help or the configuration was asked for, it has printed what there is to say and answers the exit code.
+// use, and when help or the configuration was asked for, it prints what there is to say and returns the exit code.
 [[nodiscard]] std::expected<Options, int> parseOptions(int argc, const char* const* argv, const DeviceNames& names,
                                                        const Machine& machine = {});
 
