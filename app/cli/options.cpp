@@ -213,12 +213,15 @@ void addDepthOptions(CLI::App& app, SourceOptions& source) {
        {"sbs", Packing::SideBySide},
        {"tb", Packing::TopBottom},
        {"sbs-depth-first", Packing::SideBySideDepthFirst},
-       {"tb-depth-first", Packing::TopBottomDepthFirst}},
+       {"tb-depth-first", Packing::TopBottomDepthFirst},
+       {"stereo-sbs", Packing::StereoSideBySide},
+       {"stereo-tb", Packing::StereoTopBottom}},
       "Where the film stores its depth\n"
       "auto: two tracks, a DEPTH_PACKING tag, or a picture whose halves differ clearly; tracks: two video tracks, or "
       "--depth;\n"
       "sbs: one picture, colour left, depth right; tb: colour on top, depth below; ..-depth-first: the other way "
-      "round");
+      "round;\n"
+      "stereo-sbs, stereo-tb: two views without depth, the left eye's left or on top; each eye is shown its own");
   addChoice(app, "--depth-code", source.depth_code, depthCodes(),
             "How depth is coded\n"
             "auto: hue if half of the picture is pure colour, else luma; luma: as brightness; hue: from red (near) "

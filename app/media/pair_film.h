@@ -39,6 +39,8 @@ struct PairReader::Impl {
   Result<TrackPlan> planFilm();
   void lookForRegistration(const StreamInfo& color);
   void lookForHalves(const StreamInfo& color);
+  [[nodiscard]] bool lookForViews(const StreamInfo& color, const Frame& look);
+  void showViews(Packing packing, const char* by);
   void lookForCode(const Frame& first);
   Result<const Frame*> firstDepth();
   Result<void> describeHalves(const StreamInfo& color);
@@ -65,7 +67,7 @@ struct PairReader::Impl {
     if (options.frames_per_s) told.frame_period = fromSeconds(1 / *options.frames_per_s);
     return told;
   }
-  [[nodiscard]] bool isPacked() const noexcept { return info.packing != Packing::Tracks; }
+  [[nodiscard]] bool isPacked() const noexcept { return relievo::isPacked(info.packing); }
   [[nodiscard]] bool isLoss(const Error& error) const noexcept {
     using enum ErrorCode;
     return remote && (error.code == Lost || error.code == Timeout || error.code == Io);
@@ -97,6 +99,7 @@ struct PairReader::Impl {
   std::deque<Subtitle> words_ahead;  // of a subtitle file
   DepthClues clues;                  // of the depth, as far as they were looked at
   GrayFrom gray = GrayFrom::Luma;    // of packed depth
+  bool right_first = false;          // of two views
   // Depth of its own whose samples are put in another order.
   struct Reordering {
     SampleOrder order = SampleOrder::AsStored;

@@ -6,6 +6,7 @@
 
 #include "app/media/depth_picture.h"
 #include "app/media/pair_film.h"
+#include "app/media/reading/stereo_pair.h"
 #include "platform/log.h"
 
 namespace relievo {
@@ -65,16 +66,20 @@ Result<DepthFollower::Supplied> PairReader::Impl::supplyOwnDepth() {
 Result<FramePair> PairReader::Impl::pairFor(Frame color) {
   if (info.packing == Packing::DepthAlone) {
     Frame shown = depthPicture(color, info.calibration.calibration);
-    return FramePair{std::move(shown), std::move(color), true, {}};
+    return FramePair{std::move(shown), std::move(color), true, {}, {}};
   }
   if (isPacked()) {
     auto halves = splitPacked(color, info.packing, clues.code, gray);
     if (!halves) return failOn(options.url, halves.error());
-    return FramePair{std::move(halves->color), std::move(halves->depth), true, {}};
+    return FramePair{std::move(halves->color), std::move(halves->depth), true, {}, {}};
+  }
+  if (isStereo(info.packing)) {
+    auto views = viewsOf(color, info.packing, right_first);
+    if (views) return FramePair{std::move(views->left), {}, true, {}, std::move(views->right)};
   }
   auto match = depthAt(color.pts);
   if (!match) return std::unexpected(match.error());
-  return FramePair{std::move(color), std::move(match->depth), match->matched, {}};
+  return FramePair{std::move(color), std::move(match->depth), match->matched, {}, {}};
 }
 
 // An error in the depth ends the depth only; just an interruption is returned to the caller.

@@ -46,6 +46,7 @@ struct FramePair {
   Frame depth;  // empty: none at this time
   bool matched = true;
   std::optional<MonotonicTime> taken;  // live films: when the colour was captured, or else received
+  Frame right;                         // of a stereo film: the right eye's picture, `color` being the left one's
 };
 
 struct FilmInfo {

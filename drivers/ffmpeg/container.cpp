@@ -18,6 +18,7 @@
 extern "C" {
 #include <libavutil/display.h>
 #include <libavutil/opt.h>
+#include <libavutil/stereo3d.h>
 }
 
 namespace relievo::ffmpeg {
@@ -42,24 +43,36 @@ std::string layoutOf(const AVChannelLayout& layout) {
   return known ? text.data() : "";
 }
 
-// Nine numbers; null if the container has no display matrix.
-const std::int32_t* displayMatrixOf(const AVStream& stream) noexcept {
+// What the container says beside the stream, of at least `bytes`; null if it does not.
+const std::uint8_t* besideStream(const AVStream& stream, AVPacketSideDataType type, std::size_t bytes) noexcept {
 #if LIBAVFORMAT_VERSION_INT >= AV_VERSION_INT(60, 15, 100)  // FFmpeg 6.1
   const AVCodecParameters& parameters = *stream.codecpar;
   const AVPacketSideData* const data =
-      av_packet_side_data_get(parameters.coded_side_data, parameters.nb_coded_side_data, AV_PKT_DATA_DISPLAYMATRIX);
-  if (data == nullptr || data->size < 9 * sizeof(std::int32_t)) return nullptr;
-  return reinterpret_cast<const std::int32_t*>(data->data);
+      av_packet_side_data_get(parameters.coded_side_data, parameters.nb_coded_side_data, type);
+  return data == nullptr || data->size < bytes ? nullptr : data->data;
 #else
-  std::size_t bytes = 0;
-  const std::uint8_t* const data = av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, &bytes);
-  return bytes < 9 * sizeof(std::int32_t) ? nullptr : reinterpret_cast<const std::int32_t*>(data);
+  std::size_t found = 0;
+  const std::uint8_t* const data = av_stream_get_side_data(&stream, type, &found);
+  return found < bytes ? nullptr : data;
 #endif
+}
+
+// How two views are stored, in the words that FFmpeg has for Matroska's StereoMode; empty if the container does not
+// say, or in a way that is not shown.
+std::string stereoModeOf(const AVStream& stream) {
+  const auto* const said =
+      reinterpret_cast<const AVStereo3D*>(besideStream(stream, AV_PKT_DATA_STEREO3D, sizeof(AVStereo3D)));
+  if (said == nullptr) return "";
+  const bool inverted = (said->flags & AV_STEREO3D_FLAG_INVERT) != 0;
+  if (said->type == AV_STEREO3D_SIDEBYSIDE) return inverted ? "right_left" : "left_right";
+  if (said->type == AV_STEREO3D_TOPBOTTOM) return inverted ? "bottom_top" : "top_bottom";
+  return "";
 }
 
 // StreamInfo::rotation. Warns about a transformation that is not supported.
 int rotationOf(const AVStream& stream) noexcept {
-  const std::int32_t* const m = displayMatrixOf(stream);
+  const auto* const m =
+      reinterpret_cast<const std::int32_t*>(besideStream(stream, AV_PKT_DATA_DISPLAYMATRIX, 9 * sizeof(std::int32_t)));
   if (m == nullptr) return 0;
   const double degrees = -av_display_rotation_get(m);  // clockwise; NaN for an invalid matrix
   const bool mirrored = static_cast<double>(m[0]) * m[4] < static_cast<double>(m[1]) * m[3];
@@ -225,6 +238,7 @@ Result<StreamInfo> describeStream(const AVStream& stream, bool timed) {
   if (timed) info.base_rate = {stream.r_frame_rate.num, stream.r_frame_rate.den};
   if (timed && stream.duration > 0) info.duration = durationFrom(stream.duration, stream.time_base);
   info.tags = tagsOf(stream.metadata);
+  if (const std::string mode = stereoModeOf(stream); !mode.empty()) info.tags.insert({"STEREO_MODE", mode});
   if (parameters.codec_tag == kGray16Big && isKinectDepth(info)) {
     info.tags.insert({{"DEPTH_UNIT", "1"}, {"DEPTH_INVALID", "0"}});
   }

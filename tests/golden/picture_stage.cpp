@@ -60,7 +60,9 @@ Stage::~Stage() {
 Result<void> Stage::tryShow(const Scene& scene) {
   renderer_->setStereo(scene.stereo);
   renderer_->setError(scene.error_px);
-  if (auto set = renderer_->setFrame(scene.color, scene.depth, scene.calibration, scene.volume); !set) return set;
+  if (auto set = renderer_->setFrame(scene.color, scene.depth, scene.calibration, scene.volume, scene.right); !set) {
+    return set;
+  }
   return renderer_->draw(surface_, scene.finger);
 }
 

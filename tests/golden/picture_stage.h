@@ -48,6 +48,7 @@ struct Scene {
   StereoSettings stereo{.layout = StereoLayout::Mono};
   std::optional<FingerMark> finger;
   double error_px = 0.05;
+  Frame right;  // of two views
 };
 
 class Stage {

@@ -205,5 +205,24 @@ TEST(RenderLayouts, QuiltBeginsAtTheLowerLeft) {
   expectLike({.layout = Quilt, .quilt_cols = 2, .quilt_rows = 2}, golden);
 }
 
+TEST(RenderLayouts, EachEyeOfTwoViewsSeesItsOwnPicture) {
+  const auto stage = Stage::make(640, 360);
+  if (!stage) GTEST_SKIP() << "this machine has no EGL with GLES 3";
+  Scene scene{.color = makePlane(160, 90, 8, 60), .volume = kVolume, .right = makePlane(160, 90, 8, 200)};
+  const auto lightAt = [&](int x, int y) { return stage->show(scene).at(x, y)[0]; };
+  EXPECT_NEAR(lightAt(320, 180), 60, 2) << "mono: the left one";
+  scene.stereo = {.layout = SideBySide};
+  EXPECT_NEAR(lightAt(160, 180), 60, 2);
+  EXPECT_NEAR(lightAt(480, 180), 200, 2);
+  scene.stereo.swap_eyes = true;
+  EXPECT_NEAR(lightAt(160, 180), 200, 2);
+  EXPECT_NEAR(lightAt(480, 180), 60, 2);
+  scene.stereo = {.layout = Rows};
+  EXPECT_NEAR(lightAt(320, 180), 60, 2);
+  EXPECT_NEAR(lightAt(320, 181), 200, 2);
+  scene.right = {};
+  EXPECT_NEAR(lightAt(320, 181), 60, 2) << "one view again";
+}
+
 }  // namespace
 }  // namespace relievo::test

@@ -120,6 +120,10 @@ const char* name(Packing packing) noexcept {
       return "tb-depth-first";
     case Packing::DepthAlone:
       return "depth-alone";
+    case Packing::StereoSideBySide:
+      return "stereo-sbs";
+    case Packing::StereoTopBottom:
+      return "stereo-tb";
   }
   return "";
 }
@@ -127,7 +131,7 @@ const char* name(Packing packing) noexcept {
 Result<TrackPlan> planTracks(const MediaSource& source, Packing packing, bool depth_elsewhere) {
   const auto tracks = videoTracks(source);
   if (tracks.empty()) return fail(ErrorCode::NotFound, "there is no video in it");
-  if (isPacked(packing)) return TrackPlan{tracks[0], nullptr, packing};
+  if (isPacked(packing) || isStereo(packing)) return TrackPlan{tracks[0], nullptr, packing};
   if (!depth_elsewhere && packing == Packing::Auto) {
     auto tagged = packingTag(tracks[0]->tags);
     if (!tagged) tagged = packingTag(source.tags());

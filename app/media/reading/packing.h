@@ -21,7 +21,12 @@ enum class Packing : std::uint8_t {
   SideBySideDepthFirst,  // depth left, colour right
   TopBottomDepthFirst,   // depth on top, colour below
   DepthAlone,            // one picture: depth without colour
+  StereoSideBySide,      // one picture: two views, left and right, no depth
+  StereoTopBottom,       // one picture: two views, above and below, no depth
 };
+[[nodiscard]] constexpr bool isStereo(Packing packing) noexcept {
+  return packing == Packing::StereoSideBySide || packing == Packing::StereoTopBottom;
+}
 
 // Which streams to decode, as pointers into the source's list. A null depth stream means no depth, or packed depth.
 struct TrackPlan {
@@ -32,7 +37,7 @@ struct TrackPlan {
 };
 [[nodiscard]] const char* name(Packing packing) noexcept;
 [[nodiscard]] constexpr bool isPacked(Packing packing) noexcept {
-  return packing != Packing::Auto && packing != Packing::Tracks;
+  return packing != Packing::Auto && packing != Packing::Tracks && !isStereo(packing);
 }
 // Whether the track itself says that it is depth: signalled as auxiliary, DEPTH_ tags, or its name.
 [[nodiscard]] bool isMarkedAsDepth(const StreamInfo& track);

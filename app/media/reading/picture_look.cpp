@@ -79,29 +79,6 @@ std::optional<Sides> halvesOf(const Frame& picture, Packing packing) noexcept {
   return Sides{std::move(halves->color), std::move(halves->depth)};
 }
 
-// Whether the two halves of `picture` meet in a step: the brightness changes far more across the middle than beside it.
-bool breaksInTheMiddle(const Frame& picture, bool side_by_side) noexcept {
-  constexpr int kApart = 3;  // coding smears a seam over a sample or two
-  const int length = side_by_side ? picture.width : picture.height,
-            across = side_by_side ? picture.height : picture.width;
-  if (length < 8 * kApart) return false;
-  const auto stepAt = [&](int at, int place) {
-    const auto brightness = [&](int along) {
-      const Color color = side_by_side ? colorAt(picture, along, place) : colorAt(picture, place, along);
-      return (color.red + color.green + color.blue) / 3;
-    };
-    return std::abs(brightness(at) - brightness(at + kApart));
-  };
-  double seam = 0, beside = 0;
-  const int places = std::min(kDown, across), before_seam = length / 2 - 2;
-  for (int i = 0; i < places; ++i) {
-    const int place = (2 * i + 1) * across / (2 * places);
-    seam += stepAt(before_seam, place) / places;
-    beside += (stepAt(before_seam - kApart, place) + stepAt(before_seam + kApart, place)) / (2 * places);
-  }
-  return seam >= kSeamStep && seam >= kSeamTimes * beside;
-}
-
 bool isGrayDepth(const PictureLook& half, const PictureLook& other, bool breaks) noexcept {
   if (half.gray < kAllGray || half.spread < kLeastSpread) return false;
   return other.gray <= kPhotoGray || (other.gray <= kPaleGray && breaks);
@@ -188,6 +165,28 @@ bool isBlank(const Frame& picture) noexcept {
   const CodeCount count(picture);
   const std::uint32_t median = count.quantile(0.5, 0, 0xffff);
   return count.share(median, median) > kOneCode;
+}
+
+bool breaksInTheMiddle(const Frame& picture, bool side_by_side) noexcept {
+  constexpr int kApart = 3;  // coding smears a seam over a sample or two
+  const int length = side_by_side ? picture.width : picture.height,
+            across = side_by_side ? picture.height : picture.width;
+  if (length < 8 * kApart) return false;
+  const auto stepAt = [&](int at, int place) {
+    const auto brightness = [&](int along) {
+      const Color color = side_by_side ? colorAt(picture, along, place) : colorAt(picture, place, along);
+      return (color.red + color.green + color.blue) / 3;
+    };
+    return std::abs(brightness(at) - brightness(at + kApart));
+  };
+  double seam = 0, beside = 0;
+  const int places = std::min(kDown, across), before_seam = length / 2 - 2;
+  for (int i = 0; i < places; ++i) {
+    const int place = (2 * i + 1) * across / (2 * places);
+    seam += stepAt(before_seam, place) / places;
+    beside += (stepAt(before_seam - kApart, place) + stepAt(before_seam + kApart, place)) / (2 * places);
+  }
+  return seam >= kSeamStep && seam >= kSeamTimes * beside;
 }
 
 std::optional<FoundPacking> findPacking(const Frame& picture) {

@@ -29,6 +29,10 @@ struct PictureLook {
 // True if it is dark or even, as before a fade-in or behind a cap: it tells nothing.
 [[nodiscard]] bool isBlank(const Frame& picture) noexcept;
 
+// Whether the two halves of the picture meet in a step: the brightness changes far more across the middle than beside
+// it.
+[[nodiscard]] bool breaksInTheMiddle(const Frame& picture, bool side_by_side) noexcept;
+
 struct FoundPacking {
   Packing packing = Packing::Tracks;
   DepthCode code = DepthCode::Luma;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace relievo {
@@ -120,9 +121,24 @@ bool areViews(const Frame& first, const Frame& second) {
 std::optional<Packing> findViews(const Frame& picture) {
   for (const Packing packing : {Packing::SideBySide, Packing::TopBottom}) {
     const auto halves = splitPacked(picture, packing, DepthCode::Hue);
-    if (halves && areViews(halves->color, halves->depth)) return packing;
+    if (!halves || !areViews(halves->color, halves->depth)) continue;
+    return packing == Packing::SideBySide ? Packing::StereoSideBySide : Packing::StereoTopBottom;
   }
   return std::nullopt;
+}
+
+std::optional<Views> viewsOf(const Frame& picture, Packing packing, bool right_first) {
+  constexpr double kTwoBeside = 2.5, kTwoAbove = 1.1;  // films are 1.33 to 2.4 times as wide as high
+  const bool beside = packing == Packing::StereoSideBySide;
+  const auto halves = splitPacked(picture, beside ? Packing::SideBySide : Packing::TopBottom, DepthCode::Hue);
+  if (!halves) return std::nullopt;
+  Views views{halves->color, halves->depth};
+  if (right_first) std::swap(views.left, views.right);
+  const double shape = picture.width * picture.sample_aspect / picture.height;
+  const double unsqueezed = beside ? (shape < kTwoBeside ? 2.0 : 1.0) : (shape > kTwoAbove ? 0.5 : 1.0);
+  views.left.sample_aspect *= unsqueezed;
+  views.right.sample_aspect *= unsqueezed;
+  return views;
 }
 
 }  // namespace relievo

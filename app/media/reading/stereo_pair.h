@@ -14,7 +14,14 @@ namespace relievo {
 // the width. A depth picture lacks the colour's texture.
 [[nodiscard]] bool areViews(const Frame& first, const Frame& second);
 
-// Whether the picture's halves are two views: side by side, or one above the other.
+// Whether the picture's halves are two views: StereoSideBySide or StereoTopBottom.
 [[nodiscard]] std::optional<Packing> findViews(const Frame& picture);
+
+struct Views {
+  Frame left, right;
+};
+// The two views of a stereo picture, `right_first` or not, in the shape in which they are shown: where both together
+// are no wider (or higher) than one view is, each was squeezed by half. Nullopt: it is too small.
+[[nodiscard]] std::optional<Views> viewsOf(const Frame& picture, Packing packing, bool right_first);
 
 }  // namespace relievo

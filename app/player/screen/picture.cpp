@@ -99,7 +99,7 @@ Result<void> Picture::draw(const DisplaySurface& surface, const std::optional<Fi
     renewed = true;
   }
   if (!uploaded_ && !pair_.color.empty()) {
-    if (auto set = renderer_->setFrame(pair_.color, pair_.depth, calibration_, volume_); !set) return set;
+    if (auto set = renderer_->setFrame(pair_.color, pair_.depth, calibration_, volume_, pair_.right); !set) return set;
     uploaded_ = true;
   }
   const TextFrame frame = textFrame(eyeViews(stereo_, volume_, surface.width, surface.height));

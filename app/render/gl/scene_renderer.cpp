@@ -24,6 +24,7 @@ namespace relievo {
 namespace {
 
 constexpr GLuint kPictureUnit = 3;  // after the colour planes' units
+constexpr GLuint kRightUnit = 7;    // after the mixer's and the text's
 constexpr Duration::rep kSmoothing = 8;
 
 constexpr double kShadowSlant = 0.35, kShadowRadiusMm = 4.5, kShadowGrowth = 0.15;
@@ -72,6 +73,8 @@ struct SceneRenderer::Impl {
   HeightField field;
 
   ColorPicture picture;
+  ColorPicture right;  // of a film of two views
+  bool has_right = false;
   ReliefTriangles triangles;
   ReliefSurface surface_of_triangles;
   ReliefDetail made;  // the detail the triangles were made for
@@ -140,7 +143,7 @@ void SceneRenderer::cut() noexcept {
 }
 
 Result<void> SceneRenderer::setFrame(const Frame& color, const Frame& depth, const DepthCalibration& calibration,
-                                     const DisplayVolume& volume) {
+                                     const DisplayVolume& volume, const Frame& right) {
   Impl& impl = *impl_;
   if (auto drawable = ColorPicture::check(color); !drawable) return drawable;
   if (!depth.empty()) {
@@ -149,6 +152,10 @@ Result<void> SceneRenderer::setFrame(const Frame& color, const Frame& depth, con
     impl.field = *field;
   }
   if (auto set = impl.picture.setFrame(color); !set) return set;
+  impl.has_right = !right.empty();
+  if (impl.has_right) {
+    if (auto set = impl.right.setFrame(right); !set) return set;
+  }
   impl.depth = depth;
   impl.volume = volume;
   impl.is_made = false;
@@ -204,6 +211,7 @@ Result<void> SceneRenderer::Impl::drawViews(const DisplaySurface& surface, const
   const EyeViews eyes = eyeViews(shown, volume, surface.width, surface.height);
   if (has_picture) {
     picture.bind(kPictureUnit, eyes.views[0].area, volume);
+    if (has_right) right.bind(kRightUnit, eyes.views[0].area, volume);
     if (depth.empty()) surface_of_triangles.uploadFlat(volume, stereo.screen_z_mm);
     else makeTriangles(eyes);
     placeWords(eyes);
@@ -263,7 +271,8 @@ void SceneRenderer::Impl::drawView(const EyeView& view, const std::optional<Fing
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
   glFrontFace(GL_CCW);
-  surface_of_triangles.draw(glm::mat4(view.view_projection), kPictureUnit);
+  const bool is_right = has_right && view.eye_x_mm > 0;
+  surface_of_triangles.draw(glm::mat4(view.view_projection), is_right ? kRightUnit : kPictureUnit);
   if (mark) drawFinger(view, *mark);
   glDisable(GL_CULL_FACE);
   subtitles.draw(words.shiftPx(view.eye_x_mm, stereo) * subtitles.frame().width / view.area.width);

@@ -64,9 +64,10 @@ class SceneRenderer {
 
   // Uploads a pair; keeps a reference to the depth until the next one. Empty depth shows the colour as a flat picture
   // in the screen plane. Unsupported if the pixel format cannot be uploaded; the previous pair then stays.
-  // `calibration` and `volume` must be those of the haptic side.
+  // `calibration` and `volume` must be those of the haptic side. `right`, of a film of two views: what the right eye
+  // sees instead of `color`.
   [[nodiscard]] Result<void> setFrame(const Frame& color, const Frame& depth, const DepthCalibration& calibration,
-                                      const DisplayVolume& volume);
+                                      const DisplayVolume& volume, const Frame& right = {});
   // Draws the last pair into `surface`, black if there is none. Blocks until the GPU has finished, so that the time can
   // be measured.
   [[nodiscard]] Result<void> draw(const DisplaySurface& surface, const std::optional<FingerMark>& finger);

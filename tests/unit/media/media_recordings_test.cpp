@@ -14,6 +14,7 @@
 #include "app/scene/height_field.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/film/opened_film.h"
 #include "tests/support/film/recorded_scene.h"
 
 namespace relievo {
@@ -323,6 +324,14 @@ TEST(Recordings, TheDepthOfAPaleSceneIsFoundByTheBreakInTheMiddle) {
   EXPECT_FALSE(open({.url = folder / "film.mp4"}).info.has_depth);
 }
 
+TEST(Recordings, AnAlphaChannelIsToldOf) {
+  TemporaryFolder folder;
+  makeClip(folder / "a.png", {{.codec = "png", .pix_fmt = "rgba", .width = 64, .height = 48, .frames = 1}});
+  makeClip(folder / "b.png", {{.codec = "png", .pix_fmt = "rgb24", .width = 64, .height = 48, .frames = 1}});
+  EXPECT_THAT(open({.url = folder / "a.png"}).info.reading.doubts, Contains(HasSubstr("alphaextract")));
+  EXPECT_THAT(open({.url = folder / "b.png"}).info.reading.doubts, IsEmpty());
+}
+
 TEST(Recordings, GrayInAFileThatIsCalledDepthIsFelt) {
   TemporaryFolder folder;
   ClipTrack gray{.codec = "libx264", .pix_fmt = "yuv420p", .width = kSceneCols, .height = kSceneRows, .frames = 2};
@@ -372,6 +381,32 @@ TEST(Recordings, TwoViewsAreToldAndNeverFelt) {
   }
   EXPECT_THAT(open({.url = folder / "sbs.mp4", .packing = Packing::SideBySide}).info.reading.doubts,
               Contains(HasSubstr("the same picture")));
+}
+
+TEST(Recordings, EachEyeOfTwoViewsIsShownItsOwn) {
+  const Half dark{[](int, int) { return std::array{0.2, 0.2, 0.2}; }},
+      bright{[](int, int) { return std::array{0.8, 0.8, 0.8}; }};
+  TemporaryFolder folder;
+  makeHalves(folder / "sbs.mp4", true, dark, bright);
+  makeHalves(folder / "tb.mp4", false, dark, bright);
+  const test::OpenedFilm beside = test::openFilm({.url = folder / "sbs.mp4", .packing = Packing::StereoSideBySide});
+  const test::OpenedFilm above = test::openFilm({.url = folder / "tb.mp4", .packing = Packing::StereoTopBottom});
+  for (const test::OpenedFilm* film : {&beside, &above}) {
+    EXPECT_FALSE(film->info.has_depth);
+    ASSERT_FALSE(film->pair.right.empty());
+    EXPECT_EQ(film->pair.color.width, kSceneCols);
+    EXPECT_EQ(film->pair.right.height, kSceneRows);
+    EXPECT_LT(test::sampleAt(film->pair.color, 0, 20, 20) + 50, test::sampleAt(film->pair.right, 0, 20, 20));
+  }
+  // 320 x 108 is wide enough for two whole views; 160 x 216 is two whole ones above each other.
+  EXPECT_EQ(beside.pair.color.sample_aspect, 1);
+  EXPECT_EQ(above.pair.color.sample_aspect, 1);
+  ClipTrack squeezed{.codec = "libx264", .pix_fmt = "yuv420p", .width = 160, .height = 90, .frames = 2};
+  makeClip(folder / "half.mp4", {squeezed});
+  EXPECT_EQ(test::openFilm({.url = folder / "half.mp4", .packing = Packing::StereoSideBySide}).pair.color.sample_aspect,
+            2);
+  EXPECT_EQ(test::openFilm({.url = folder / "half.mp4", .packing = Packing::StereoTopBottom}).pair.color.sample_aspect,
+            0.5);
 }
 
 TEST(Recordings, OrdinaryFilmsAreNeitherDepthNorViews) {
