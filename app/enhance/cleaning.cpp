@@ -162,6 +162,22 @@ class Surroundings {
   int count_ = 0;
 };
 
+// Whether the 5 x 5 samples, row by row, lie on a plane: what the plane of least squares leaves is little beside their
+// reach. Of a step it leaves a quarter, of one over two samples a tenth.
+bool isSlope(const std::array<float, 25>& samples, float reach) {
+  constexpr float kLeft = 0.06F, kSpread = 50;  // the sum of the squares of x over the window, from its middle
+  float sum = 0, squares = 0, across = 0, down = 0;
+  for (int i = 0; i < 25; ++i) {
+    const float code = samples[static_cast<std::size_t>(i)] - samples[12];
+    sum += code;
+    squares += code * code;
+    across += static_cast<float>(i % 5 - kReach) * code;
+    down += static_cast<float>(i / 5 - kReach) * code;
+  }
+  const float left = squares - sum * sum / 25 - (across * across + down * down) / kSpread;
+  return left <= 25 * kLeft * kLeft * reach * reach;
+}
+
 // The median of the samples around (c, r) that lie on its side of a step, if there is one.
 float medianOfSide(const DepthMap& map, int c, int r, float alike) {
   std::array<float, 25> samples{};
@@ -175,7 +191,8 @@ float medianOfSide(const DepthMap& map, int c, int r, float alike) {
   auto* first = samples.data();
   auto* last = first + count;
   const auto [low, high] = std::minmax_element(first, last);
-  if (*high - *low > alike) {
+  const bool whole = count == static_cast<int>(samples.size());
+  if (*high - *low > alike && !(whole && isSlope(samples, *high - *low))) {
     // The sample's own code votes with a weight from -1 to 1, and so does the majority, at 3 to 10, so that the corner
     // of a square (9 of 25) and a line two samples wide (10) survive, and samples between two surfaces join the
     // majority.

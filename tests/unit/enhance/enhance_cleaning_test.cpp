@@ -148,6 +148,16 @@ TEST(EnhanceCleaning, IsTheMedianWhereThereIsNoStep) {
   }
 }
 
+// A slope of 1,500 codes a sample reaches over three times as far in 5 x 5 as what counts as a step.
+TEST(EnhanceCleaning, ASteepSlopeIsNoStep) {
+  auto map = mapOf(40, 30, [](int c, int r) { return static_cast<float>(2000 + 1500 * c + 40 * r); });
+  const DepthMap before = map;
+  filterByMedian(map, 0);
+  for (int r = 2; r < 28; ++r) {
+    for (int c = 2; c < 38; ++c) EXPECT_EQ(map.codes[map.at(c, r)], before.codes[before.at(c, r)]) << c << " " << r;
+  }
+}
+
 TEST(EnhanceCleaning, KeepsStepsCornersAndThinLines) {
   auto map = mapOf(60, 40, [](int c, int r) {
     const bool block = c >= 8 && c < 30 && r >= 6 && r < 22, line = c >= 44 && c < 46;
