@@ -171,8 +171,9 @@ bool isSlope(const std::array<float, 25>& samples, float reach) {
     const float code = samples[static_cast<std::size_t>(i)] - samples[12];
     sum += code;
     squares += code * code;
-    across += static_cast<float>(i % 5 - kReach) * code;
-    down += static_cast<float>(i / 5 - kReach) * code;
+    const int col = i % 5, row = i / 5;
+    across += static_cast<float>(col - kReach) * code;
+    down += static_cast<float>(row - kReach) * code;
   }
   const float left = squares - sum * sum / 25 - (across * across + down * down) / kSpread;
   return left <= 25 * kLeft * kLeft * reach * reach;
