@@ -14,6 +14,8 @@ const char* name(TimeLaw law) noexcept {
       return "bspline";
     case TimeLaw::Fitted:
       return "fitted";
+    case TimeLaw::Mean:
+      return "mean";
   }
   return "";
 }

@@ -9,10 +9,12 @@
 #include <numbers>
 #include <vector>
 
+#include "app/depth_window/flicker.h"
+#include "app/depth_window/lattice.h"
+
 namespace relievo {
 namespace {
 
-constexpr int kAcross = 64, kDown = 48;
 constexpr double kEdgeMm = 3.0;
 constexpr double kRoundingMm = 1e-6;
 constexpr double kLeastErrorTold = 0.001;
@@ -43,6 +45,12 @@ constexpr double kBSplineNoise = 0.48, kFittedNoise = 0.75;
 // scene: 2.2 % of the force with the fitted spline, 2.0 % with this one).
 constexpr double kNodMmPerS2 = 200;
 
+// Flicker moves the whole surface, so that no smoothing in space removes it. The mean of five frame periods passes
+// 14/75 = .187 of its power (the sum of the squared weights, averaged over the time between two frames), and flattens a
+// motion by a 25 T^2/24, its variance in time being 25 T^2/12. It is taken where both together are less than what a
+// B-spline leaves.
+constexpr double kMeanNoise = 14.0 / 75, kMeanFlattens = 25.0 / 24;
+
 // White noise s of samples p apart leaves an error of kNoiseOverSlope s p/w^2 in the slope: the integral of the squared
 // transfer function, times the frequency, of block means under a cubic B-spline that keeps curvature (ControlGrid),
 // pitch h = w sqrt(12/5).
@@ -64,22 +72,10 @@ double quantile(std::vector<double>& values, double share) {
   return *at;
 }
 
-// Visits the middle sample of each lattice field; its two neighbours are inside the picture.
-template <class Visit>
-void forPlaces(const HeightField& field, Visit&& visit) {
-  if (field.cols() < 3 || field.rows() < 1) return;
-  for (int r = 0; r < kDown; ++r) {
-    for (int c = 0; c < kAcross; ++c) {
-      visit(std::clamp((2 * c + 1) * field.cols() / (2 * kAcross), 1, field.cols() - 2),
-            (2 * r + 1) * field.rows() / (2 * kDown));
-    }
-  }
-}
-
 // A smooth surface is straight across neighbouring samples of a row, so the second difference is noise with 6 times its
 // variance; the median ignores edges.
 void lookAcross(const HeightField& field, std::vector<double>& bends, std::size_t& edges, double& quantum) {
-  forPlaces(field, [&](int c, int r) {
+  Lattice::forPlaces(field, [&](int c, int r) {
     const double left = field.heightMm(c - 1, r), here = field.heightMm(c, r), right = field.heightMm(c + 1, r);
     const double bend = std::abs(left - 2 * here + right);
     // Values at either end of the range are often painted and free of noise.
@@ -96,7 +92,7 @@ void lookAcross(const HeightField& field, std::vector<double>& bends, std::size_
 
 void lookAhead(const TimedSurface& from, const TimedSurface& to, std::vector<double>& speeds, bool& still) {
   const double period = toSeconds(to.time - from.time);
-  forPlaces(from.field, [&](int c, int r) {
+  Lattice::forPlaces(from.field, [&](int c, int r) {
     const double moved = std::abs(to.field.heightMm(c, r) - from.field.heightMm(c, r));
     if (std::isnan(moved)) return;
     speeds.push_back(moved / period);
@@ -126,6 +122,7 @@ ClipMeasure measureClip(std::span<const TimedSurface> frames) {
   if (bends.empty()) return m;  // every value is at an end of the range, so later values are unknown
   m.edges = static_cast<double>(edges) / static_cast<double>(bends.size());
   if (std::isfinite(quantum)) m.quantum_mm = quantum;
+  m.flicker_mm = flickerMm(frames);
   // A quantised slope bends by one step at every other sample: subtract what the quantum explains.
   const double deviation = quantile(bends, 0.5) / (kMedianOfNormal * std::sqrt(kBendVariance));
   const double of_quantum = kStepAsNoise * m.quantum_mm;
@@ -134,6 +131,20 @@ ClipMeasure measureClip(std::span<const TimedSurface> frames) {
       std::max(quantile(speeds, 0.95) - (m.noise_mm * kNoiseAsMotion + m.quantum_mm) / std::max(m.period_s, 1e-3), 0.0);
   return m;
 }
+
+namespace {
+
+bool needsMean(const ClipMeasure& m) {
+  const double nod = kNodMmPerS2 * m.period_s * m.period_s;
+  return std::hypot(std::sqrt(kMeanNoise) * m.flicker_mm, kMeanFlattens * nod) <
+         std::hypot(std::sqrt(kBSplineNoise) * m.flicker_mm, nod / 6);
+}
+
+double noiseThrough(TimeLaw law) {
+  return law == TimeLaw::Mean ? kMeanNoise : law == TimeLaw::BSpline ? kBSplineNoise : kFittedNoise;
+}
+
+}  // namespace
 
 TouchPlan planTouch(const ClipMeasure& m) {
   const bool noisy = m.noise_mm > std::max(m.quantum_mm, kFineMm);
@@ -147,9 +158,10 @@ TouchPlan planTouch(const ClipMeasure& m) {
   if (noisy) s.narrow_time = TimeLaw::BSpline;
   const bool slow_frames = kNodMmPerS2 * m.period_s * m.period_s / 6 > m.quantum_mm / 2;
   s.wide_time = noisy || (!fine && !slow_frames) ? TimeLaw::BSpline : TimeLaw::Fitted;
+  if (needsMean(m)) s.narrow_time = s.wide_time = TimeLaw::Mean;
 
   // Repeated frames carry the same noise, so averaging them does not reduce it.
-  const double through = std::sqrt(m.still ? 1.0 : s.wide_time == TimeLaw::BSpline ? kBSplineNoise : kFittedNoise);
+  const double through = std::sqrt(m.still ? 1.0 : noiseThrough(s.wide_time));
   // In a fine picture only about `read` x `read` samples of a block are read, w/(kSigmaPerPitch x read) apart, so that
   // a finer picture is no less noisy.
   const auto apart = [&](double w, int read) { return std::max(m.sample_mm, w / (kSigmaPerPitch * read)); };
@@ -175,8 +187,12 @@ TouchPlan planTouch(const ClipMeasure& m) {
   s.clamp_mm = std::max({0.15, 1.5 * std::min(m.quantum_mm, 0.2), 4 * narrow_noise});
 
   char depth[120], error[40] = "under 0.1 %";
-  std::snprintf(depth, sizeof depth, "steps of %.3f mm, noise %.3f mm, %.0f mm/s%s", m.quantum_mm, m.noise_mm,
-                m.speed_mm_per_s, m.still ? " (still)" : "");
+  const int written = std::snprintf(depth, sizeof depth, "steps of %.3f mm, noise %.3f mm, %.0f mm/s%s", m.quantum_mm,
+                                    m.noise_mm, m.speed_mm_per_s, m.still ? " (still)" : "");
+  if (s.wide_time == TimeLaw::Mean) {
+    std::snprintf(depth + written, sizeof depth - static_cast<std::size_t>(written), ", flicker of %.2f mm",
+                  m.flicker_mm);
+  }
   if (plan.error >= kLeastErrorTold) std::snprintf(error, sizeof error, "about %.1f %%", 100 * plan.error);
   plan.reason = std::string(depth) + ": " + describe(s) + "; expected force error " + error;
   return plan;

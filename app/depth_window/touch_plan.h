@@ -17,6 +17,7 @@ struct ClipMeasure {
   double quantum_mm = 0;      // smallest step between depth values, in mm
   double noise_mm = 0;        // standard deviation between samples, beyond what the quantum explains
   double speed_mm_per_s = 0;  // of the fastest 5 % of the readable places
+  double flicker_mm = 0;      // standard deviation of what whole frames do at random (flickerMm)
   double edges = 0;           // share of the places beside a step of more than 3 mm
   double sample_mm = 0;       // pitch of the samples
   double period_s = 0;        // of the frames

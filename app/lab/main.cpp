@@ -71,9 +71,10 @@ void addTrace(CLI::App& app, TraceOptions& options) {
             {{"hold", TimeLaw::Hold},
              {"linear", TimeLaw::Linear},
              {"bspline", TimeLaw::BSpline},
-             {"fitted", TimeLaw::Fitted}},
+             {"fitted", TimeLaw::Fitted},
+             {"mean", TimeLaw::Mean}},
             "The surface between frames [the method's own]\nhold: the newest frame; linear: the paper's; bspline, "
-            "fitted: splines, only for relievo on smooth patches");
+            "fitted: splines; mean: of five frames; these three only for relievo on smooth patches");
   addChoice(app, "--guard", options.guard,
             {{"off", TraceGuard::Off}, {"threshold", TraceGuard::Threshold}, {"full", TraceGuard::Full}},
             "Limits on the force [the method's own]\noff: nothing; threshold: the paper's; full: all limits of the "

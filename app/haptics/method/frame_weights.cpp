@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Four laws of time as weights of six frames: two before the present one, itself, three after it.
+// Five laws of time as weights of six frames: two before the present one, itself, three after it.
 #include "app/haptics/method/frame_weights.h"
 
 #include <algorithm>
@@ -28,6 +28,15 @@ Taps fitted(double s) RELIEVO_RT {
     taps[i + 1] -= b[i] / 6;
   }
   return taps;
+}
+
+// Five periods around the present: the oldest frame leaves as the newest comes.
+Taps mean(double s) RELIEVO_RT {
+  return {(1 - s) / 5, 0.2, 0.2, 0.2, 0.2, s / 5};
+}
+
+Taps tapsOf(TimeLaw law, double s) RELIEVO_RT {
+  return law == TimeLaw::BSpline ? bspline(s) : law == TimeLaw::Fitted ? fitted(s) : mean(s);
 }
 
 }  // namespace
@@ -64,8 +73,9 @@ FrameWeights frameWeights(const FrameMoment& moment, TimeLaw law) RELIEVO_RT {
       give(moment.present + 1, s);
       break;
     case TimeLaw::BSpline:
-    case TimeLaw::Fitted: {
-      const Taps taps = law == TimeLaw::BSpline ? bspline(s) : fitted(s);
+    case TimeLaw::Fitted:
+    case TimeLaw::Mean: {
+      const Taps taps = tapsOf(law, s);
       for (int i = 0; i < 6; ++i) give(moment.present - 2 + i, taps[static_cast<std::size_t>(i)]);
       break;
     }

@@ -28,7 +28,8 @@ using FrameWeights = std::array<float, SurfaceWindow::kCapacity>;
 [[nodiscard]] FrameWeights frameWeights(const FrameMoment& moment, TimeLaw law) RELIEVO_RT;
 // How many frames after the present one have a weight, at most.
 [[nodiscard]] constexpr int framesAhead(TimeLaw law) RELIEVO_RT {
-  return static_cast<int>(law);  // hold 0, linear 1, bspline 2, fitted 3
+  return law == TimeLaw::Mean ? 3 : static_cast<int>(law);  // hold 0, linear 1, bspline 2, fitted 3
 }
+static_assert(framesAhead(TimeLaw::Mean) < SurfaceWindow::kAhead, "the writer may come late by a frame");
 
 }  // namespace relievo

@@ -59,7 +59,7 @@ Outcome<void> checkParts(const TraceOptions& options) {
   if (time && !go({}, time)) {
     return refuse(
         std::string("--time ") + name(*time), method,
-        "they cannot be combined; only relievo has bspline and fitted, proxy-blend uses hold, the others hold "
+        "they cannot be combined; only relievo has bspline, fitted and mean, proxy-blend uses hold, the others hold "
         "or linear");
   }
   if (!go(space, time)) {

@@ -449,7 +449,7 @@ TEST(FeltSurface, MotionAfterStillnessIsTheMotionThatItWas) {
   ASSERT_TRUE(frames[5].repeats && !frames[12].repeats && frames[20].repeats);
   auto unmarked = frames;
   for (TimedSurface& f : unmarked) f.repeats = false;
-  for (const TimeLaw law : {TimeLaw::Linear, TimeLaw::BSpline, TimeLaw::Fitted}) {
+  for (const TimeLaw law : {TimeLaw::Linear, TimeLaw::BSpline, TimeLaw::Fitted, TimeLaw::Mean}) {
     FeltSurface merged({.narrow_time = law, .wide_time = law}), plain({.narrow_time = law, .wide_time = law});
     for (double t = 0; t < 0.75; t += 0.001) {
       const glm::dvec2 here = strokeAt(t), next = strokeAt(t + 0.001);

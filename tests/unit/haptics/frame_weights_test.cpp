@@ -43,12 +43,29 @@ TEST(FrameWeights, EveryLawGivesALineBackAndTheFittedOneACubic) {
   EXPECT_GT(std::abs(at(w, TimeLaw::BSpline, 3.0 * kPeriod, cubic) - c(3)), 0.1) << "a B-spline smooths";
 }
 
+// The mean over a box of five periods around the moment: what alternates from frame to frame is left with a fifth, and
+// a parabola k^2 is off by the box's variance of 25/12.
+TEST(FrameWeights, TheMeanAveragesFivePeriods) {
+  const SurfaceWindow w = emptyFrames(8);
+  std::vector<double> line, parabola, alternating;
+  for (int k = 0; k < 8; ++k) {
+    line.push_back(3 - 0.5 * k);
+    parabola.push_back(k * k);
+    alternating.push_back(k % 2 == 0 ? 1 : -1);
+  }
+  for (double k = 2; k < 4.99; k += 0.13) {
+    ASSERT_NEAR(at(w, TimeLaw::Mean, k * kPeriod, line), 3 - 0.5 * k, 1e-5) << k;
+    ASSERT_LE(std::abs(at(w, TimeLaw::Mean, k * kPeriod, alternating)), 0.2 + 1e-5) << k;
+  }
+  EXPECT_NEAR(at(w, TimeLaw::Mean, 3 * kPeriod, parabola), 9 + (4 + 1 + 0 + 1 + 4) / 5.0, 1e-4);
+}
+
 TEST(FrameWeights, AShotsFirstAndLastFramesHoldAndNothingComesFromBeyondACut) {
   SurfaceWindow w = emptyFrames(8);
   for (std::size_t k = 4; k < 8; ++k) w.frames[k].shot = 1;
   const std::vector<double> values{1, 1, 1, 1, 9, 9, 9, 9};
   for (double k = 0; k < 7.9; k += 0.09) {
-    for (const TimeLaw law : {TimeLaw::Hold, TimeLaw::Linear, TimeLaw::BSpline, TimeLaw::Fitted}) {
+    for (const TimeLaw law : {TimeLaw::Hold, TimeLaw::Linear, TimeLaw::BSpline, TimeLaw::Fitted, TimeLaw::Mean}) {
       ASSERT_NEAR(at(w, law, k * kPeriod, values), k + 1e-6 < 4 ? 1 : 9, 1e-5) << name(law) << ' ' << k;
     }
   }
@@ -69,7 +86,7 @@ TEST(FrameWeights, TheLastFrameIsReachedWithinAPeriodAndThenHolds) {
 
 TEST(FrameWeights, BeforeTheFirstFrameAndOnAPictureItIsTheFirst) {
   const SurfaceWindow film = emptyFrames(3), picture = emptyFrames(1);
-  for (const TimeLaw law : {TimeLaw::Hold, TimeLaw::Linear, TimeLaw::BSpline, TimeLaw::Fitted}) {
+  for (const TimeLaw law : {TimeLaw::Hold, TimeLaw::Linear, TimeLaw::BSpline, TimeLaw::Fitted, TimeLaw::Mean}) {
     EXPECT_NEAR(at(film, law, -1, {1, 1, 9}), at(film, law, 0, {1, 1, 9}), 1e-6) << name(law);
     EXPECT_NEAR(at(picture, law, 7, {3}), 3, 1e-5) << name(law);
   }

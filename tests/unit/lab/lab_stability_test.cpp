@@ -99,22 +99,19 @@ TEST(Scenarios, EachIsFailedByAtLeastOneMethodOfTheLiterature) {
 }
 
 // The figure that decided and its limit are in the message of one that is failed.
-TEST(Scenarios, AreAllPassedByRelievoButFlicker) {
+TEST(Scenarios, AreAllPassedByRelievo) {
   for (const Scenario& s : scenarios()) {
-    if (std::string(s.name) == "flicker") continue;
     const Verdict v = s.judge(challengerNamed("relievo"), true);
     EXPECT_TRUE(v.pass) << s.name << ": " << v.figure << " " << v.limit.unit << ", limit " << v.limit.value << ": "
                         << v.why;
   }
 }
 
-// What is scaled and shifted as a whole is followed and not averaged: 7.9 %, where people notice 6. The triangles of
-// the literature feel twice as much.
-TEST(Scenarios, FlickerIsFeltThroughRelievoHalfAsMuchAsThroughThePapersMethod) {
+// What is scaled and shifted as a whole is averaged over five frames; the triangles of the literature feel three times
+// as much.
+TEST(Scenarios, FlickerIsFeltThroughRelievoAThirdAsMuchAsThroughThePapersMethod) {
   const Verdict own = judge("flicker", challengerNamed("relievo"));
-  EXPECT_FALSE(own.pass) << "it is mended: move it to the test above";
-  EXPECT_LE(own.figure, 8);
-  EXPECT_GE(judge("flicker", challengerNamed("modified-proxy-graph")).figure, 1.5 * own.figure);
+  EXPECT_GE(judge("flicker", challengerNamed("modified-proxy-graph")).figure, 2.5 * own.figure);
 }
 
 TEST(Scenarios, TheLastFiveWereWrittenFirst) {
