@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/depth_window/surface_window.h"
 #include "app/player/film/film_changes.h"
 #include "platform/log.h"
 
 namespace relievo {
 namespace {
 
+static_assert(Playhead::kAhead == SurfaceWindow::kAhead, "the window shows what the playhead buffers");
 constexpr std::size_t kQueuedPairs = 4;  // beyond those that the playhead holds
 constexpr Duration kUnknownPeriod = std::chrono::milliseconds(40);
 constexpr Duration kSoundFirst = std::chrono::milliseconds(300);  // that must be buffered when the film starts
