@@ -1,40 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 // The display without a screen: a framebuffer object, read back after each frame if it is captured.
 #include <EGL/egl.h>
-#include <EGL/eglext.h>
 #include <GLES3/gl3.h>
 
 #include <array>
 #include <charconv>
 #include <optional>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "drivers/egl/egl.h"
 #include "drivers/egl/egl_context.h"
+#include "drivers/egl/offscreen_platform.h"
 #include "drivers/egl/y4m_writer.h"
 
 namespace relievo {
 namespace {
 
-// Client extensions can be queried without a display; if not supported, the string is null.
-bool hasSurfacelessPlatform() {
-  const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-  return extensions != nullptr &&
-         std::string_view(extensions).find("EGL_MESA_platform_surfaceless") != std::string_view::npos;
-}
-
-EGLDisplay surfacelessDisplay() {
-  const auto get = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
-  if (get == nullptr || !hasSurfacelessPlatform()) return EGL_NO_DISPLAY;
-  return get(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr);
-}
-
+// On the first display that can draw; else the error is the first one's.
 Result<EglContext> createContext() {
-  auto surfaceless = EglContext::createForPbuffers(surfacelessDisplay());
-  if (surfaceless) return surfaceless;
-  return EglContext::createForPbuffers(eglGetDisplay(EGL_DEFAULT_DISPLAY));
+  std::optional<Error> first;
+  for (EGLDisplay display : offscreenDisplays()) {
+    auto context = EglContext::createForPbuffers(display);
+    if (context) return context;
+    if (!first) first = context.error();
+  }
+  if (first) return std::unexpected(*first);
+  return EglContext::createForPbuffers(EGL_NO_DISPLAY);  // says what to install
 }
 
 class OffscreenDisplay final : public Display {

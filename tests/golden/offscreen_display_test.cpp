@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The offscreen display: reopens any number of times, keeps instances separate, and captures what was presented.
+#include <EGL/egl.h>
 #include <GLES3/gl3.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -12,6 +13,8 @@
 #include <string>
 
 #include "drivers/egl/egl.h"
+#include "drivers/egl/egl_context.h"
+#include "drivers/egl/offscreen_platform.h"
 #include "platform/clock.h"
 #include "tests/support/machine/sanitizers.h"
 
@@ -55,6 +58,27 @@ class CaptureFile {
  private:
   std::filesystem::path path_;
 };
+
+// Mesa has EGL devices of its own (its software renderer among them), so that the way to a driver without Mesa is
+// tried.
+TEST(OffscreenDisplay, CanDrawOnEachEglDeviceThatHasGles3) {
+  int drawn = 0;
+  for (EGLDisplay shown : offscreenDisplays()) {
+    auto context = EglContext::createForPbuffers(shown);
+    if (!context) continue;
+    constexpr std::array<EGLint, 5> kOnePixel{EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};
+    EGLSurface surface = eglCreatePbufferSurface(shown, context->config(), kOnePixel.data());
+    ASSERT_NE(surface, EGL_NO_SURFACE);
+    ASSERT_TRUE(context->makeCurrent(surface));
+    fill(0, 1, 0);
+    EXPECT_EQ(pixel(0, 0), (std::array<int, 3>{0, 255, 0}));
+    ++drawn;
+    eglMakeCurrent(shown, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    eglDestroySurface(shown, surface);
+  }
+  if (drawn == 0) GTEST_SKIP() << "no EGL display with GLES 3";
+  EXPECT_GE(drawn, 2) << "the surfaceless platform and at least one device";
+}
 
 TEST(OffscreenDisplay, GivesTheSizeAskedForAndGles3) {
   const auto display = makeOffscreenDisplay({}, kStill);
