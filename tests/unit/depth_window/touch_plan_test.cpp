@@ -126,6 +126,20 @@ TEST(TouchPlan, SmoothsStepsInTimeWhereFramesAreQuick) {
   EXPECT_EQ(planTouch(steps).scale.wide_time, TimeLaw::BSpline) << "noise is worse";
 }
 
+// Where the worst slope's q/(5.06 w) and the flattening's .0005 w^4 grow as fast, w^5 = q/(2 x 5.06 x .0005); the
+// search goes in steps of 2 %.
+TEST(TouchPlan, TheWidthSuitsTheSlopeOnWhichStepsAreWorst) {
+  const ClipMeasure steps{.frames = 4, .quantum_mm = 40.0 / 255, .sample_mm = 0.22, .period_s = kPeriod};
+  EXPECT_NEAR(planTouch(steps).scale.wide_mm, std::pow(40.0 / 255 / 0.00506, 0.2), 0.02 * 2);
+}
+
+TEST(TouchPlan, NoiseDithersTheStepsAway) {
+  ClipMeasure m{.frames = 4, .quantum_mm = 40.0 / 255, .noise_mm = 0.4, .sample_mm = 0.22, .period_s = kPeriod};
+  const double noisy = planTouch(m).scale.wide_mm;
+  m.quantum_mm = 1e-6;
+  EXPECT_EQ(planTouch(m).scale.wide_mm, noisy);
+}
+
 TEST(TouchPlan, OfAFilmItsFirstFourFramesTell) {
   std::vector<TimedSurface> surfaces;
   for (int k = 0; k < 8; ++k) {
