@@ -2,9 +2,23 @@
 // State guards of the haptic device, and the last check of a force before it is sent.
 #include "hal/haptic_device.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace relievo {
+
+Result<double> HapticDevice::setRate(double hz) {
+  if (state_ != State::Closed)
+    return fail(ErrorCode::InvalidState, "the rate of a haptic device is set before it is opened; close it first");
+  if (!(hz >= kLeastRateHz && hz <= kMostRateHz))
+    return fail(ErrorCode::InvalidArgument, "a haptic device takes a rate from 500 to 8000 Hz");
+  asked_hz_ = hz;
+  return capabilities().rate_hz;
+}
+
+double HapticDevice::rateWithin(double own_hz, double most_hz) const RELIEVO_RT {
+  return asked_hz_ > 0 ? std::min(asked_hz_, most_hz) : own_hz;
+}
 
 Result<void> HapticDevice::open() {
   if (state_ != State::Closed)

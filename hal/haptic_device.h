@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
+#include "hal/haptic_rate.h"
 #include "platform/clock.h"
 #include "platform/error.h"
 #include "platform/realtime.h"
@@ -42,6 +43,10 @@ class HapticDevice {
   enum class State : std::uint8_t { Closed, Opened, Ready, Running, Lost };
   virtual ~HapticDevice() = default;
 
+  // Asks for that many ticks a second in place of the device's own best. Returns what it will be, as `capabilities`
+  // tells from then on: `hz`, or the most that the device can, or its own where it has only one. InvalidArgument if not
+  // from kLeastRateHz to kMostRateHz; Closed only.
+  [[nodiscard]] Result<double> setRate(double hz);
   // NotFound, PermissionDenied, Unsupported, Timeout.
   [[nodiscard]] Result<void> open();
   // Finds the device's zero. Opened or Ready. After a failure the state is Opened, since the zero is then unknown.
@@ -65,6 +70,8 @@ class HapticDevice {
  protected:
   // For a back end whose `open` or `home` waits.
   [[nodiscard]] const std::atomic<bool>& cancelled() const noexcept { return cancelled_; }
+  // For `capabilities`: the rate that `setRate` asked for, but at most `most_hz`; `own_hz` if it did not.
+  [[nodiscard]] double rateWithin(double own_hz, double most_hz) const RELIEVO_RT;
 
  private:
   virtual Result<void> openDevice() = 0;
@@ -76,6 +83,7 @@ class HapticDevice {
   virtual void closeDevice() noexcept = 0;
 
   State state_ = State::Closed;
+  double asked_hz_ = 0;  // 0: `setRate` was not called
   std::atomic<bool> cancelled_{false};
 };
 

@@ -115,6 +115,17 @@ struct Devices {
   std::unique_ptr<AudioOutput> audio;
 };
 
+// A device that cannot have the rate runs at its best, and that is said.
+Outcome<void> askForRate(HapticDevice& device, double hz) {
+  const auto rate = device.setRate(hz);
+  if (!rate) return failOn("--rate", rate.error());
+  if (*rate != hz) {
+    log(LogLevel::Info, "haptic", "%s runs at %.0f Hz, its best; it cannot have the %.0f of --rate",
+        device.capabilities().name, *rate, hz);
+  }
+  return {};
+}
+
 Outcome<Devices> makeDevices(const PlayOptions& options, const FileConfig& config, Clock& clock) {
   auto display = drivers::makeDisplay(options.display);
   if (!display) return std::unexpected(display.error());
@@ -123,6 +134,9 @@ Outcome<Devices> makeDevices(const PlayOptions& options, const FileConfig& confi
   if (*haptic == nullptr && !options.record_path.empty()) {
     return failOn("--record " + options.record_path,
                   {ErrorCode::InvalidArgument, 0, "there is no finger to record with --haptic none; leave one out"});
+  }
+  if (*haptic != nullptr && options.rate_hz) {
+    if (auto asked = askForRate(**haptic, *options.rate_hz); !asked) return std::unexpected(asked.error());
   }
   auto remote = drivers::makeRemoteInput(options.remote, clock);
   if (!remote) return std::unexpected(remote.error());

@@ -19,7 +19,9 @@ namespace {
 using namespace std::chrono_literals;
 using namespace falcon;
 
-constexpr Duration kTick = 1ms;
+constexpr double kRateHz = 1000;  // of the USB frames; at most one exchange in each
+constexpr double kStiffnessNPerMm = 0.8;
+constexpr Duration kHomingTick = 1ms;
 constexpr int kLoads = 10;        // tries to load the firmware
 constexpr int kMostPackets = 16;  // per tick, so that a device that floods the bus cannot delay it
 constexpr int kFirmHomed = 3;     // replies in a row that all say "homed"
@@ -43,13 +45,14 @@ class Falcon final : public HapticDevice {
   // The peak is the saturated force in the middle of the workspace, limited to the maker's figure. Its continuous force
   // and stiffness are not published: a third of the peak is assumed, and HAPI's stiffness for it (0.8 N/mm).
   [[nodiscard]] HapticCapabilities capabilities() const noexcept override {
+    const double rate_hz = rateWithin(kRateHz, kRateHz);
     return {.name = "Novint Falcon",
             .workspace_min_mm = {-50, -50, 75},
             .workspace_max_mm = {50, 50, 175},
             .peak_force_n = 8.0,
             .continuous_force_n = 2.7,
-            .max_stiffness_n_per_mm = 0.8,
-            .rate_hz = 1000};
+            .max_stiffness_n_per_mm = stiffnessAtRate(kStiffnessNPerMm, kRateHz, rate_hz),
+            .rate_hz = rate_hz};
   }
 
  private:
@@ -104,7 +107,7 @@ class Falcon final : public HapticDevice {
       if (auto sent = port_->post(encode(Command{.homing = true, .red = true})); !sent) {
         return std::unexpected(sent.error());
       }
-      clock_.sleepUntil(clock_.now() + kTick);
+      clock_.sleepUntil(clock_.now() + kHomingTick);
       const auto reply = newestReply();
       if (!reply) return std::unexpected(reply.error());
       if (auto alive = session_.listened(reply->has_value()); !alive) return alive;
@@ -119,6 +122,7 @@ class Falcon final : public HapticDevice {
     const auto position = forward(anglesOf(counts), kCentreMm);
     if (!position) return fail(ErrorCode::Corrupt, "the Falcon's encoders show an impossible pose; home it again");
     sample_ = {.position_mm = *position};
+    gate_ = EncoderGate(kMmPerCount, capabilities().rate_hz);
     gate_.reset(counts);
     return {};
   }
@@ -196,7 +200,7 @@ class Falcon final : public HapticDevice {
   Motors motors_;
   ForceSession session_;
   PacketStream stream_;
-  EncoderGate gate_{kGateSlack};
+  EncoderGate gate_{kMmPerCount, kRateHz};
   HapticSample sample_;
   int unhomed_ = 0;  // replies in a row in which a leg has not found its index
 };

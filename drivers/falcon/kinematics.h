@@ -23,11 +23,10 @@ namespace relievo::falcon {
 inline constexpr glm::dvec3 kCentreMm{0, 0, 115};
 
 // Converts encoder counts of the three homed motors to thigh angles: 1280 counts per turn of the motor, a 14.25 mm
-// capstan on a 110 mm drum, 35 degrees at the index. One count is 0.64 mrad, or 38 um at the knee.
+// capstan on a 110 mm drum, 35 degrees at the index. One count is 0.64 mrad.
 using Counts = EncoderCounts;
 [[nodiscard]] glm::dvec3 anglesOf(const Counts& counts) RELIEVO_RT;
-// One count is 38 um, so the highest acceleration makes 4 counts in a tick.
-inline constexpr int kGateSlack = EncoderGate::kRounding + 4;
+inline constexpr double kMmPerCount = 0.0382;  // at the knee
 // The nearest counts; for models of the device and for tests.
 [[nodiscard]] Counts countsOf(const glm::dvec3& theta_rad) RELIEVO_RT;
 

@@ -179,6 +179,7 @@ struct MockHapticProfile {
                                   .continuous_force_n = 5,
                                   .max_stiffness_n_per_mm = 2,
                                   .rate_hz = 1000};
+  double most_rate_hz = kMostRateHz;
   // Where the finger is; no force moves it. Each read takes the next position of `path_mm` and stays at the last one.
   // If `path_mm` is empty, `position_mm` gives the position from the seconds since `start`; it must be real-time safe.
   // If both are empty, the finger rests in the middle.

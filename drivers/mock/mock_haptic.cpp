@@ -17,7 +17,13 @@ class MockHaptic final : public HapticDevice {
         bench_(bench ? std::move(bench) : std::make_shared<MockHapticBench>()) {}
   ~MockHaptic() override { close(); }
 
-  [[nodiscard]] HapticCapabilities capabilities() const noexcept override { return profile_.capabilities; }
+  [[nodiscard]] HapticCapabilities capabilities() const noexcept override {
+    HapticCapabilities now = profile_.capabilities;
+    now.rate_hz = rateWithin(now.rate_hz, profile_.most_rate_hz);
+    now.max_stiffness_n_per_mm =
+        stiffnessAtRate(now.max_stiffness_n_per_mm, profile_.capabilities.rate_hz, now.rate_hz);
+    return now;
+  }
 
  private:
   Result<void> openDevice() override {

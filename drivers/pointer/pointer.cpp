@@ -12,6 +12,7 @@
 namespace relievo {
 namespace {
 
+constexpr double kRateHz = 1000;  // of the quickest mice
 constexpr double kFarMm = -20, kNearMm = 60;
 constexpr double kAboveMm = 6;  // of the finger over the display volume
 constexpr double kUsualDepthMm = 40;
@@ -39,7 +40,7 @@ class Pointer final : public HapticDevice {
             .peak_force_n = 8,
             .continuous_force_n = 8,
             .max_stiffness_n_per_mm = 1,
-            .rate_hz = 1000,
+            .rate_hz = rateWithin(kRateHz, kRateHz),
             .in_scene = port_->overPicture()};
   }
 

@@ -74,11 +74,10 @@ double Arm::forceInEveryDirection(double milliamps) const {
   return strongest_n;
 }
 
-int Arm::gateSlack() const {
+double Arm::mmPerCount() const {
   const glm::dvec3 levers(std::min(upper_mm_, lower_mm_), upper_mm_, lower_mm_);
   const glm::dvec3 mm_per_count = levers * glm::abs(rad_per_count_);
-  const double finest = std::min({mm_per_count.x, mm_per_count.y, mm_per_count.z});
-  return EncoderGate::kRounding + static_cast<int>(std::ceil(EncoderGate::kHighestAccelerationMmPerTick2 / finest));
+  return std::min({mm_per_count.x, mm_per_count.y, mm_per_count.z});
 }
 
 }  // namespace relievo::polhem

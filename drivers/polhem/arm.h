@@ -34,8 +34,8 @@ class Arm {
   // The strongest force that currents of `milliamps` can apply in every direction, in the middle of the workspace, or
   // in the calibration pose if the arm cannot reach the middle.
   [[nodiscard]] double forceInEveryDirection(double milliamps) const;
-  // For the encoder gate: the counts that the highest acceleration makes in a tick.
-  [[nodiscard]] int gateSlack() const;
+  // For the encoder gate: of the joint whose counts are the finest.
+  [[nodiscard]] double mmPerCount() const;
 
  private:
   // Column i: the tip's motion, mm per rad of body i.

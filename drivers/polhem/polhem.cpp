@@ -16,7 +16,8 @@ namespace {
 using namespace std::chrono_literals;
 using namespace polhem;
 
-constexpr Duration kTick = 1ms;
+constexpr double kRateHz = 1000;  // of the HID reports
+constexpr Duration kHomingTick = 1ms;
 constexpr Duration kAnswer = 20ms;
 constexpr Duration kHeldStill = 500ms;  // before calibration
 constexpr Duration kSettled = 20ms;     // after calibration
@@ -35,7 +36,7 @@ class Polhem final : public HapticDevice {
         arm_(config.description),
         limit_(mostMilliamps(), kLastingShare),
         session_(*port_, clock),
-        gate_(arm_.gateSlack()) {
+        gate_(arm_.mmPerCount(), kRateHz) {
     const double reachable_n = arm_.forceInEveryDirection(mostMilliamps());
     peak_n_ = std::min(config.description.max_linear_force, reachable_n);
     continuous_n_ = std::min(peak_n_, kLastingShare * reachable_n);
@@ -46,14 +47,16 @@ class Polhem final : public HapticDevice {
 
   // The peak is the force that the current limit allows in every direction, limited to the maker's figure.
   [[nodiscard]] HapticCapabilities capabilities() const noexcept override {
+    const double rate_hz = rateWithin(kRateHz, kRateHz);
     const glm::dvec3 radius_mm(1e3 * config_.description.workspace_radius);
-    return {.name = "Polhem",
-            .workspace_min_mm = -radius_mm,
-            .workspace_max_mm = radius_mm,
-            .peak_force_n = peak_n_,
-            .continuous_force_n = continuous_n_,
-            .max_stiffness_n_per_mm = 1e-3 * config_.description.max_linear_stiffness,
-            .rate_hz = 1000};
+    return {
+        .name = "Polhem",
+        .workspace_min_mm = -radius_mm,
+        .workspace_max_mm = radius_mm,
+        .peak_force_n = peak_n_,
+        .continuous_force_n = continuous_n_,
+        .max_stiffness_n_per_mm = stiffnessAtRate(1e-3 * config_.description.max_linear_stiffness, kRateHz, rate_hz),
+        .rate_hz = rate_hz};
   }
 
  private:
@@ -99,7 +102,7 @@ class Polhem final : public HapticDevice {
     for (auto sent = port_->post(bytesOf(command)); !sent || !*sent; sent = port_->post(bytesOf(command))) {
       if (!sent) return std::unexpected(sent.error());
       if (cancelled()) return fail(ErrorCode::Cancelled, "homing the Polhem was called off");
-      clock_.sleepUntil(clock_.now() + kTick);
+      clock_.sleepUntil(clock_.now() + kHomingTick);
     }
     const auto shown = waitUntilStill(kSettled);
     if (!shown) return std::unexpected(shown.error());
@@ -107,6 +110,7 @@ class Polhem final : public HapticDevice {
       correction_[i] = static_cast<std::uint16_t>(config_.description.calibrate_enc[i] - (*shown)[i]);
     }
     const EncoderCounts counts = corrected(*shown);
+    gate_ = EncoderGate(arm_.mmPerCount(), capabilities().rate_hz);
     gate_.reset(counts);
     theta_rad_ = arm_.anglesOf(counts);
     sample_ = {.position_mm = arm_.positionOf(theta_rad_)};
@@ -120,7 +124,7 @@ class Polhem final : public HapticDevice {
     for (;;) {
       if (cancelled()) return fail(ErrorCode::Cancelled, "homing the Polhem was called off");
       if (auto sent = port_->post(bytesOf(Command{})); !sent) return std::unexpected(sent.error());
-      clock_.sleepUntil(clock_.now() + kTick);
+      clock_.sleepUntil(clock_.now() + kHomingTick);
       const auto report = newestReport();
       if (!report) return std::unexpected(report.error());
       if (auto alive = session_.listened(report->has_value()); !alive) return std::unexpected(alive.error());

@@ -7,6 +7,8 @@
 namespace relievo {
 namespace {
 
+constexpr double kRateHz = 1000, kMostHz = 1000;  // its own best; the most that --rate can have
+constexpr double kStiffnessNPerMm = 1;            // that was stable at kRateHz
 constexpr Duration kWatchdog = std::chrono::milliseconds(20);
 
 class SampleHaptic final : public HapticDevice {
@@ -16,13 +18,14 @@ class SampleHaptic final : public HapticDevice {
 
   // Measured figures of the motors, not those of a data sheet: the player never requests more than the peak.
   [[nodiscard]] HapticCapabilities capabilities() const noexcept override {
+    const double rate_hz = rateWithin(kRateHz, kMostHz);
     return {.name = "sample",
             .workspace_min_mm = {-80, -60, -40},
             .workspace_max_mm = {80, 60, 40},
             .peak_force_n = 8,
             .continuous_force_n = 3,
-            .max_stiffness_n_per_mm = 1,
-            .rate_hz = 1000};
+            .max_stiffness_n_per_mm = stiffnessAtRate(kStiffnessNPerMm, kRateHz, rate_hz),
+            .rate_hz = rate_hz};
   }
 
  private:

@@ -104,6 +104,7 @@ std::span<const SimDeviceName> simDevices() {
                      .most_stiffness_n_per_mm = 0.8,
                      .workspace_min_mm = {-50, -50, -30},
                      .workspace_max_mm = {50, 50, 70},
+                     .most_rate_hz = 1000,
                      .delay_ticks = 2}},
       SimDeviceName{"polhem",
                     {.name = "sim polhem",
@@ -114,6 +115,7 @@ std::span<const SimDeviceName> simDevices() {
                      .peak_force_n = 5.0,
                      .continuous_force_n = 2.0,
                      .most_stiffness_n_per_mm = 2.0,
+                     .most_rate_hz = 1000,
                      .delay_ticks = 2}},
   };
   return devices;

@@ -29,14 +29,16 @@ class SimHaptic final : public HapticDevice {
       : profile_(profile), path_(std::move(path)), clock_(clock) {}
 
   [[nodiscard]] HapticCapabilities capabilities() const noexcept override {
-    const double bound = std::min(profile_.viscousBound(), profile_.frictionBound());
+    DeviceProfile now = profile_;
+    now.rate_hz = rate();
+    const double bound = std::min(now.viscousBound(), now.frictionBound());
     return {.name = profile_.name,
             .workspace_min_mm = profile_.workspace_min_mm,
             .workspace_max_mm = profile_.workspace_max_mm,
             .peak_force_n = profile_.peak_force_n,
             .continuous_force_n = profile_.continuous_force_n,
             .max_stiffness_n_per_mm = std::min(kMargin * bound, profile_.most_stiffness_n_per_mm),
-            .rate_hz = profile_.rate_hz};
+            .rate_hz = now.rate_hz};
   }
 
  private:
@@ -82,6 +84,8 @@ class SimHaptic final : public HapticDevice {
   void stopDevice() noexcept override { release(); }
   void closeDevice() noexcept override { release(); }
 
+  [[nodiscard]] double rate() const RELIEVO_RT { return rateWithin(profile_.rate_hz, profile_.most_rate_hz); }
+
   void release() RELIEVO_RT { pipeline_.fill(glm::dvec3(0)); }
 
   // 0 to 1; splitmix64 (Steele, Lea and Flood 2014).
@@ -94,7 +98,7 @@ class SimHaptic final : public HapticDevice {
 
   // Interpolates the hand's target linearly over the tick, so that the path is evaluated once per tick, not per step.
   void advance(double elapsed_s) RELIEVO_RT {
-    const auto steps = static_cast<int>(std::ceil(elapsed_s * profile_.rate_hz * profile_.substeps_per_tick - 1e-6));
+    const auto steps = static_cast<int>(std::ceil(elapsed_s * rate() * profile_.substeps_per_tick - 1e-6));
     const double dt_s = elapsed_s / steps;
     time_s_ += elapsed_s;
     const HandPoint goal = path_.at(time_s_);
@@ -104,7 +108,7 @@ class SimHaptic final : public HapticDevice {
     const HandProfile& hand = profile_.hand;
     const glm::dvec3 pull_n = hand.damping_n_s_per_mm * target_velocity;
     // Until the due force arrives, the previous one acts.
-    const double late_s = jitterOf(profile_) * nextRandom() / profile_.rate_hz;
+    const double late_s = jitterOf(profile_) * nextRandom() / rate();
     const auto late_steps = static_cast<int>(std::lround(late_s / dt_s));
     const std::size_t due = delayOf(profile_);
     glm::dvec3 target = target_.position_mm;

@@ -2,7 +2,9 @@
 // Rejects encoder readings that no hand can have caused, since the packets have no checksum.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 
@@ -13,16 +15,23 @@ namespace relievo {
 // Of a device's three motors.
 using EncoderCounts = std::array<std::int16_t, 3>;
 
-// A reading is accepted if it is within `slack_per_tick` counts, for each tick that has passed, of the extrapolation of
-// the last two. The slack is the counts that kHighestAccelerationMmPerTick2 makes in a tick, plus rounding; a smaller
-// error looks like motion. A reading further off is accepted once the next one confirms it, so that hitting an end stop
-// costs one tick.
+// A reading is accepted if it is within the slack, for each tick that has passed, of the extrapolation of the last two.
+// The slack is the counts that the highest acceleration of a hand makes in a tick, plus rounding; a smaller error looks
+// like motion. A reading further off is accepted once the next one confirms it, so that hitting an end stop costs one
+// tick.
 class EncoderGate {
  public:
-  static constexpr double kHighestAccelerationMmPerTick2 = 0.15;  // 150 m/s^2 at 1 kHz
   static constexpr int kRounding = 2;
 
-  explicit EncoderGate(int slack_per_tick) RELIEVO_RT : slack_(slack_per_tick) {}
+  // `mm_per_count`: of the joint with the finest counts. `rate_hz`: ticks a second.
+  EncoderGate(double mm_per_count, double rate_hz)
+      : slack_(slackFor(mm_per_count, rate_hz)),
+        longest_wait_(std::max(1, static_cast<int>(std::lround(kLongestWaitS * rate_hz)))) {}
+
+  // Counts per tick.
+  [[nodiscard]] static int slackFor(double mm_per_count, double rate_hz) {
+    return kRounding + static_cast<int>(std::ceil(kHighestAccelerationMmPerS2 / (rate_hz * rate_hz) / mm_per_count));
+  }
 
   void reset(const EncoderCounts& counts) RELIEVO_RT {
     last_ = before_ = counts;
@@ -32,7 +41,7 @@ class EncoderGate {
   }
 
   // Call on a tick without a reading.
-  void skip() RELIEVO_RT { waited_ = waited_ < kLongestWait ? waited_ + 1 : waited_; }
+  void skip() RELIEVO_RT { waited_ = std::min(waited_ + 1, longest_wait_); }
 
   // True: accepted as the current position. False: kept until the next one confirms it.
   bool accept(const EncoderCounts& counts) RELIEVO_RT {
@@ -59,8 +68,10 @@ class EncoderGate {
   }
 
  private:
-  static constexpr int kLongestWait = 10;
+  static constexpr double kHighestAccelerationMmPerS2 = 150e3;
+  static constexpr double kLongestWaitS = 0.01;
   int slack_;
+  int longest_wait_;  // ticks
   EncoderCounts last_{}, before_{}, suspect_{};
   int apart_ = 1;   // ticks between `before_` and `last_`
   int waited_ = 0;  // ticks since `last_`

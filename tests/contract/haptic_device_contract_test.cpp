@@ -283,6 +283,30 @@ TEST_P(HapticDeviceContract, CapabilitiesAreSensibleAndStayTheSame) {
   expectSame();
 }
 
+TEST_P(HapticDeviceContract, ARateIsTakenOrTheMostThatItCan) {
+  const Rig usual = bring(State::Opened);
+  const HapticCapabilities own = usual.device->capabilities();
+  EXPECT_EQ(usual.device->setRate(500).error().code, ErrorCode::InvalidState);
+  for (const double hz : {500.0, 1000.0, 4000.0, 8000.0}) {
+    const Rig rig = bring(State::Closed);
+    HapticDevice& device = *rig.device;
+    const auto rate = device.setRate(hz);
+    ASSERT_TRUE(rate);
+    EXPECT_TRUE(*rate == hz || *rate >= own.rate_hz) << hz << ": " << *rate;
+    EXPECT_EQ(device.capabilities().rate_hz, *rate);
+    if (*rate < own.rate_hz) {
+      EXPECT_LE(device.capabilities().max_stiffness_n_per_mm, own.max_stiffness_n_per_mm);
+    }
+    ASSERT_TRUE(device.open() && device.home() && device.start());
+    for (int i = 0; i < 100; ++i) {
+      ASSERT_TRUE(device.read());
+      ASSERT_TRUE(device.write({0, 0, 1}));
+      clock_.advance(fromSeconds(1 / *rate));
+    }
+    EXPECT_EQ(device.capabilities().rate_hz, *rate);
+  }
+}
+
 TEST_P(HapticDeviceContract, TheFingerIsInsideTheWorkspace) {
   const Rig rig = bring(State::Running);
   const HapticCapabilities capabilities = rig.device->capabilities();

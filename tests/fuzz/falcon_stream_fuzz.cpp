@@ -29,7 +29,7 @@ void checkWords(FuzzedDataProvider& data, const Counts& counts, const glm::dvec3
 
 void fuzz(FuzzedDataProvider& data) {
   PacketStream stream;
-  EncoderGate gate(kGateSlack);
+  EncoderGate gate(kMmPerCount, 1000);
   gate.reset({});
   Motors motors(kDefaultCountsPerNm);
   glm::dvec3 near = kCentreMm;

@@ -41,7 +41,7 @@ void fuzz(const std::string& text) {
   require(capabilities.peak_force_n > 0 && capabilities.peak_force_n <= description->max_linear_force, "a peak");
   require(capabilities.continuous_force_n > 0 && capabilities.continuous_force_n <= capabilities.peak_force_n,
           "what lasts is no more than the peak");
-  require(arm.gateSlack() > 0, "the gate lets some motion through");
+  require(EncoderGate::slackFor(arm.mmPerCount(), 1000) > EncoderGate::kRounding, "the gate lets some motion through");
 }
 
 }  // namespace

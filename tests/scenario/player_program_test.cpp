@@ -283,11 +283,26 @@ TEST_F(PlayerProgram, WrongUseIsCodeTwoAndOneLine) {
   expectOneLine(play("film.mkv --haptic none --record " + at("t.csv")), 2, "--record");
   expectOneLine(play("film.mkv --depth-strength nan"), 2, "--depth-strength: nan");
   expectOneLine(play("film.mkv --depth-strength 2.1"), 2, "--depth-strength: 2.1");
+  expectOneLine(play("film.mkv --rate 9000"), 2, "--rate: 9000 is not between 500 and 8000");
+  expectOneLine(play("film.mkv --rate 499"), 2, "--rate: 499 is not between 500 and 8000");
   expectOneLine(play("film.mkv --haptic replay:" + at("t.csv") + " --record " + at("t.csv")), 2,
                 "would be overwritten");
   expectOneLine(play("film.mkv --haptic sim:tense," + at("t.csv") + " --record " + at("t.csv")), 2,
                 "would be overwritten");
   expectNothingLeft({});
+}
+
+TEST_F(PlayerProgram, ADeviceThatCannotTickAsOftenIsToldOfInOneLineAndPlays) {
+  test::makeClip(at("film.mkv"), {color(10), depth(10)});
+  const std::string words = at("film.mkv") + " --report " + at("r.json") + " --haptic ";
+  const auto fast = play(words + "sim --rate 2000");
+  EXPECT_EQ(fast.exit_code, 0) << fast.err;
+  EXPECT_THAT(fast.err, testing::Not(HasSubstr("--rate")));
+  EXPECT_EQ(reportOf("r.json")["haptic"]["rate_hz"], 2000);
+  const auto slow = play(words + "sim:falcon --rate 2000");
+  EXPECT_EQ(slow.exit_code, 0) << slow.err;
+  EXPECT_THAT(slow.err, HasSubstr("sim falcon runs at 1000 Hz, its best; it cannot have the 2000 of --rate\n"));
+  EXPECT_EQ(reportOf("r.json")["haptic"]["rate_hz"], 1000);
 }
 
 // Some words can be judged only beside the film.

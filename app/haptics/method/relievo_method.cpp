@@ -13,7 +13,7 @@ namespace relievo {
 namespace {
 
 constexpr int kMostPasses = 4;
-// 128 samples half a pitch apart: 28 mm, as for a finger at 5 m/s after a gap of 5 ticks.
+// 128 samples half a pitch apart: 28 mm, as for a finger at 5 m/s after a gap of 5 ms.
 constexpr int kMostSamples = 128;
 constexpr int kBisections = 6;
 constexpr Duration kLongestStep = std::chrono::milliseconds(10);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "app/lab/film/made_film.h"
 #include "app/lab/film/memory_feed.h"
@@ -12,8 +13,8 @@
 namespace relievo {
 namespace {
 
-constexpr double kPushN = 1, kOffMm = 0.2;
-constexpr int kTicks = 2000;
+constexpr double kPushNPerKhz = 1, kOffMm = 0.2;
+constexpr double kSeconds = 2;
 
 // With dry friction or an encoder, a cycle is what is larger than two steps of the encoder; without them, a swing that
 // is larger than it began or does not get smaller.
@@ -29,20 +30,23 @@ Swing swingOnWall(const Challenger& challenger, const DeviceProfile& profile, do
   const auto method = challenger.make(stiffness, film);
   MemoryFeed feed(film);
   SurfaceWindow window;
-  const glm::dvec3 above(0.1, 0.1, 20.5), rest(0.1, 0.1, 20 - kPushN / stiffness);
+  // Stiffer walls are stable at higher rates: the finger rests in them as deep as at 1 kHz, and does not leave them.
+  const double push_n = kPushNPerKhz * profile.rate_hz / 1000;
+  const glm::dvec3 above(0.1, 0.1, 20.5), rest(0.1, 0.1, 20 - push_n / stiffness);
   // Comes in from outside, as every method wants it.
   static_cast<void>(feed.update({}, 0, 0, window));
   static_cast<void>(method->update(above, window, {}));
   HandLoop hand(profile, rest + glm::dvec3(0, 0, kOffMm));
   std::array<glm::dvec2, 4> extremes;  // low and high of each quarter
   extremes.fill({1e9, -1e9});
-  for (int tick = 0; tick < kTicks; ++tick) {
-    const MediaTime now = mediaTime(1e-3 * (tick + 1));
+  const auto ticks = static_cast<int>(std::lround(kSeconds * profile.rate_hz));
+  for (int tick = 0; tick < ticks; ++tick) {
+    const MediaTime now = mediaTime((tick + 1) / profile.rate_hz);
     static_cast<void>(feed.update(now, 0, 0, window));
     const Touch touch = method->update(hand.encoded(), window, now);
-    hand.tick(touch.force_n, rest, {0, 0, -kPushN});
+    hand.tick(touch.force_n, rest, {0, 0, -push_n});
     method->upkeep(window, now);
-    glm::dvec2& extreme = extremes[static_cast<std::size_t>(tick * 4 / kTicks)];
+    glm::dvec2& extreme = extremes[static_cast<std::size_t>(static_cast<std::int64_t>(tick) * 4 / ticks)];
     extreme = {std::min(extreme.x, hand.position().z), std::max(extreme.y, hand.position().z)};
   }
   return {extremes[2].y - extremes[2].x, extremes[3].y - extremes[3].x};

@@ -8,7 +8,8 @@
 namespace relievo {
 
 // The method's own force, without the limits of the haptic task, on a still and nearly level wall that the device is
-// pushed against with 1 N. Found by halving; stiffness in N/mm, within 1 %. Nothing when it rests even at `most`.
+// pushed against with 1 N, at another rate of the profile than 1 kHz with as many more. Found by halving; stiffness in
+// N/mm, within 1 %. Nothing when it rests even at `most`.
 [[nodiscard]] std::optional<double> loopOnset(const Challenger& challenger, const DeviceProfile& profile,
                                               double most_n_per_mm);
 

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "app/lab/chart/csv_table.h"
 #include "app/lab/film/parallel.h"
 #include "app/lab/scenario/guard_sensitivity.h"
 #include "app/lab/scenario/loop_onset.h"
 #include "app/lab/scenario/verdict_table.h"
+#include "hal/haptic_rate.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -19,12 +21,19 @@ namespace {
 constexpr std::array kMethods{"relievo",     "god-object", "god-object-smoothed", "modified-proxy-graph", "proxy-graph",
                               "proxy-blend", "penalty"};
 
+constexpr double kUsualHz = 1000;
+constexpr int kUsualDelay = 1;  // ticks
+
 struct Onset {
   const char* method;
   const char* profile;
   DeviceProfile loop;
   double bound = 0;
   std::optional<double> found;
+
+  // Dry friction and encoder keep a device from swinging beyond their bound, too.
+  [[nodiscard]] double highestTried() const { return 4 * loop.viscousBound(); }
+  [[nodiscard]] double shareOfBound() const { return found.value_or(highestTried()) / bound; }
 };
 
 std::vector<Challenger> challengers() {
@@ -34,21 +43,26 @@ std::vector<Challenger> challengers() {
   return all;
 }
 
+// The device alone, and with its dry friction and encoder.
+void addLoops(std::vector<Onset>& onsets, int delay_ticks, double rate_hz) {
+  DeviceProfile alone = deviceAlone(delay_ticks);
+  alone.rate_hz = rate_hz;
+  DeviceProfile full = alone;
+  full.coulomb_friction_n = DeviceProfile{}.coulomb_friction_n;
+  full.encoder_step_mm = DeviceProfile{}.encoder_step_mm;
+  for (const char* method : kMethods) {
+    onsets.push_back({method, "viscous", alone, alone.viscousBound(), {}});
+    onsets.push_back({method, "full", full, std::min(full.viscousBound(), full.frictionBound()), {}});
+  }
+}
+
 std::vector<Onset> findOnsets(const MeasureOptions& options) {
   std::vector<Onset> onsets;
-  for (const char* method : kMethods) {
-    for (int delay = 0; delay <= 3; ++delay) {
-      const auto alone = deviceAlone(delay);
-      onsets.push_back({method, "viscous", alone, alone.viscousBound(), {}});
-      DeviceProfile full = alone;
-      full.coulomb_friction_n = DeviceProfile{}.coulomb_friction_n;
-      full.encoder_step_mm = DeviceProfile{}.encoder_step_mm;
-      onsets.push_back({method, "full", full, std::min(full.viscousBound(), full.frictionBound()), {}});
-    }
-  }
+  for (int delay = 0; delay <= 3; ++delay) addLoops(onsets, delay, kUsualHz);
+  for (const double rate_hz : {500.0, 2000.0, 4000.0, 8000.0}) addLoops(onsets, kUsualDelay, rate_hz);
   const auto find = [&](std::size_t i) {
     Onset& o = onsets[i];
-    o.found = loopOnset(challengerNamed(o.method), o.loop, 4 * o.bound);
+    o.found = loopOnset(challengerNamed(o.method), o.loop, o.highestTried());
   };
   inParallel(onsets.size(), find,
              [&](std::size_t done) { options.tell(print("closed loops, %zu of %zu", done, onsets.size())); });
@@ -56,9 +70,11 @@ std::vector<Onset> findOnsets(const MeasureOptions& options) {
 }
 
 Outcome<void> writeOnsets(const std::string& folder, const std::vector<Onset>& onsets) {
-  CsvTable table({"method", "profile", "delay_ticks", "bound_n_per_mm", "onset_n_per_mm"});
+  CsvTable table(
+      {"method", "profile", "rate_hz", "delay_ticks", "bound_n_per_mm", "choi_tan_n_per_mm", "onset_n_per_mm"});
   for (const Onset& o : onsets) {
-    table.row({o.method, o.profile, o.loop.delay_ticks, o.bound, o.found.value_or(std::nan(""))});
+    table.row({o.method, o.profile, o.loop.rate_hz, o.loop.delay_ticks, o.bound, perceivedOnset(o.loop.rate_hz),
+               o.found.value_or(std::nan(""))});
   }
   return table.write(folder + "/stability-onset.csv");
 }
@@ -93,16 +109,23 @@ ChartWords mapWords(const VerdictTable& map) {
 
 ChartWords onsetWords(const std::vector<Onset>& onsets) {
   double furthest = 0, least = 1e9;
+  std::map<double, double> by_rate;  // with friction and encoder
   for (const Onset& o : onsets) {
     if (o.method != kMethods[0]) continue;
-    const double share = o.found.value_or(4 * o.bound) / o.bound;
-    if (std::string_view(o.profile) == "viscous") furthest = std::max(furthest, std::abs(share - 1));
-    else least = std::min(least, share);
+    const bool viscous = std::string_view(o.profile) == "viscous";
+    if (viscous) furthest = std::max(furthest, std::abs(o.shareOfBound() - 1));
+    else least = std::min(least, o.shareOfBound());
+    if (!viscous && o.loop.delay_ticks == kUsualDelay) by_rate[o.loop.rate_hz] = o.shareOfBound() * o.bound;
   }
-  return {"Stiffness from which a device swings on a wall",
-          print("relievo: without dry friction within %.0f %% of 2b/((1+2n)T); with friction and encoder from %.2f "
-                "times the lesser of that and 2fc/step on.",
-                100 * furthest, least)};
+  const auto& [low_hz, low] = *by_rate.begin();
+  const auto& [high_hz, high] = *by_rate.rbegin();
+  return {
+      "Stiffness from which a device swings on a wall",
+      print("relievo: without dry friction within %.0f %% of 2b/((1+2n)T); with friction and encoder from %.2f "
+            "times the lesser of that and 2fc/step on. From %.0f Hz to %.0f Hz it grows from %.2f to %.2f N/mm, %.1f "
+            "times; what people feel as unstable grew %.1f times (Choi and Tan 2004).",
+            100 * furthest, least, low_hz, high_hz, low, high, high / low,
+            perceivedOnset(high_hz) / perceivedOnset(low_hz))};
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace relievo {
 
 // Charts: stability (a cell per scenario and method, with the figure that decided it), guard-sensitivity (the paper's
 // method by the threshold of its guard) and stability-onset (stiffness from which a device swings on a wall, over its
-// delay, with the bounds).
+// delay at 1 kHz and over its rate with a force one tick late, with the bounds and Choi and Tan's measured law).
 [[nodiscard]] Outcome<std::vector<ChartWords>> measureStability(const MeasureOptions& options);
 
 }  // namespace relievo

@@ -18,6 +18,7 @@
 #include "app/player/control/key_table.h"
 #include "app/player/screen/stereo_word.h"
 #include "app/player/setup/config_options.h"
+#include "hal/haptic_rate.h"
 #include "platform/log.h"
 #include "platform/near_words.h"
 #include "platform/print.h"
@@ -248,6 +249,12 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
   addStereoOptions(command, play.player.stereo);
   addBackEnd(command, "--haptic", play.haptic, "haptic device", names.haptic,
              "What the finger holds [the device that is plugged in, else the mouse; off screen sim]");
+  command
+      .add_option("--rate", play.rate_hz,
+                  "Ticks of touch per second, 500 to 8000; a device that cannot runs at its best [the device's own, "
+                  "mostly 1000]")
+      ->check(between(kLeastRateHz, kMostRateHz))
+      ->type_name("HZ");
   addBackEnd(
       command, "--remote", play.remote, "remote", names.remote,
       "Where keys come from [of a window its own and the terminal's; of a screen evdev, all remote controls; else "

@@ -4,6 +4,7 @@
 
 #include <expected>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "app/player/player.h"
@@ -18,8 +19,9 @@ struct PlayOptions {
   BackEndName haptic;
   BackEndName remote;
   BackEndName audio;
-  bool software = false;    // no hardware decodes the film
-  std::string report_path;  // empty: none
+  std::optional<double> rate_hz;  // of the haptic task; none: the device's own
+  bool software = false;          // no hardware decodes the film
+  std::string report_path;        // empty: none
   std::string record_path;
   std::string keys_path;  // empty: the usual keys
   bool resume = false;

@@ -215,6 +215,21 @@ TEST(LoopOnset, OfAPlainSpringIsThatOfTheory) {
   }
 }
 
+// 2 b/((1 + 2 n) T), one tick late: 2 x 0.002/3 N/mm for each 1/s.
+TEST(LoopOnset, GrowsWithTheRateAsInTheory) {
+  for (const double rate_hz : {500.0, 2000.0, 4000.0, 8000.0}) {
+    DeviceProfile device = deviceAlone(1);
+    device.rate_hz = rate_hz;
+    const double bound = 2 * 0.002 / 3 * rate_hz;
+    const auto spring = loopOnset(plainSpring(), device, 4 * bound);
+    ASSERT_TRUE(spring.has_value()) << rate_hz;
+    EXPECT_NEAR(*spring, bound, 0.05 * bound) << rate_hz;
+    const auto relievo = loopOnset(challengerNamed("relievo"), device, 4 * bound);
+    ASSERT_TRUE(relievo.has_value()) << rate_hz;
+    EXPECT_NEAR(*relievo, bound, 0.2 * bound) << rate_hz;
+  }
+}
+
 TEST(LoopOnset, DryFrictionHoldsADeviceStillUpToItsBound) {
   DeviceProfile full = deviceAlone(1);
   full.coulomb_friction_n = 0.04;

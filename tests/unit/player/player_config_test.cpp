@@ -125,6 +125,7 @@ TEST_F(PlayConfig, EveryOptionCanStandInTheFileAndIsPrintedAsItReadsBack) {
                                                       {"swap-eyes", "true"},
                                                       {"depth-strength", "0.25"},
                                                       {"haptic", R"("mock")"},
+                                                      {"rate", "2000"},
                                                       {"remote", R"("none")"},
                                                       {"audio", R"("null")"},
                                                       {"box", R"("200x100.5x30")"},

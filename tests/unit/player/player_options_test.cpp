@@ -208,6 +208,16 @@ TEST(Options, TakeEveryWordOfPlay) {
   EXPECT_EQ(play.player.display.height, 360);
 }
 
+TEST(Options, TheRateOfTouchIsTheDevicesUnlessItIsAskedFor) {
+  EXPECT_FALSE(parse({"film.mkv"}).options->play.rate_hz);
+  for (const char* word : {"500", "1000", "8000"}) {
+    EXPECT_EQ(parse({"film.mkv", "--rate", word}).options->play.rate_hz, std::stod(word));
+  }
+  for (const char* word : {"9000", "499", "0", "-1000", "nan", "fast"}) {
+    expectRefused({"film.mkv", "--rate", word}, "--rate");
+  }
+}
+
 TEST(Options, AWindowBringsItsKeysAndItsMouseAlong) {
   const auto parsedPlay = [](std::vector<const char*> words) {
     words.insert(words.begin(), {"play", "film.mkv"});

@@ -121,7 +121,7 @@ TEST(FalconStream, MoreThanItHoldsCostsTheOldest) {
 }
 
 TEST(FalconGate, MotionPassesAndALeapDoesNot) {
-  EncoderGate gate(kGateSlack);
+  EncoderGate gate(kMmPerCount, 1000);
   gate.reset({0, 0, 0});
   int place = 0;
   for (int tick = 1; tick < 200; ++tick) {  // accelerates by 3 counts per tick^2, then slows down as gently
@@ -133,7 +133,7 @@ TEST(FalconGate, MotionPassesAndALeapDoesNot) {
 }
 
 TEST(FalconGate, ALeapThatStaysIsBelievedTheSecondTime) {
-  EncoderGate gate(kGateSlack);
+  EncoderGate gate(kMmPerCount, 1000);
   gate.reset({0, 0, 0});
   EXPECT_FALSE(gate.accept({500, 0, 0}));
   EXPECT_TRUE(gate.accept({501, 0, 0}));
@@ -143,7 +143,7 @@ TEST(FalconGate, ALeapThatStaysIsBelievedTheSecondTime) {
 }
 
 TEST(FalconGate, ATickWithoutAWordWidensIt) {
-  EncoderGate gate(kGateSlack);
+  EncoderGate gate(kMmPerCount, 1000);
   gate.reset({0, 0, 0});
   gate.skip();
   gate.skip();

@@ -158,7 +158,7 @@ TEST(PolhemArmByHand, AMotorThatIsAlignedTurnsBackwards) {
 
 TEST(PolhemArmByHand, TheGateLetsThroughWhatAHandCanDoAndNoMore) {
   // The finest count: 205 mm x 2 pi / 2000 / 16 = 0.040 mm; 0.15 mm are 4 counts, plus 2 for rounding.
-  EXPECT_EQ(Arm(kWoodenHaptics2019).gateSlack(), 6);
+  EXPECT_EQ(EncoderGate::slackFor(Arm(kWoodenHaptics2019).mmPerCount(), 1000), 6);
 }
 
 }  // namespace

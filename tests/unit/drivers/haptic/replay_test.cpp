@@ -116,5 +116,37 @@ TEST(Replay, WhereTheDeviceDidNotAnswerItDoesNot) {
   EXPECT_EQ(device->read()->position_mm.z, 4);
 }
 
+// At 1 kHz: 0, 3 and 9 mm, then a tick without an answer, then 1 mm.
+std::vector<double> replayedAt(double rate_hz, int reads) {
+  const auto device =
+      makeReplay(parsed(std::string(kDevice) + "0,9,9,9,0,0,0,1,1,-50,-40,-75,50,60,175,8,2.7,0.64,1000\n"
+                                               "0.001,9,9,9,3,0,0,2,1,,,,,,,,,,\n0.002,9,9,9,9,0,0,3,1,,,,,,,,,,\n"
+                                               "0.003,9,9,9,0,0,0,0,0,,,,,,,,,,\n0.004,9,9,9,1,0,0,4,1,,,,,,,,,,\n"));
+  EXPECT_TRUE(device->setRate(rate_hz));
+  EXPECT_TRUE(device->open() && device->home() && device->start());
+  std::vector<double> places;
+  for (int i = 0; i < reads; ++i) {
+    const auto sample = device->read();
+    places.push_back(sample ? sample->position_mm.x : -1);
+  }
+  return places;
+}
+
+TEST(Replay, AtAnotherRateTakesAsLongAndGoesInBetween) {
+  using testing::ElementsAre;
+  EXPECT_THAT(replayedAt(1000, 6), ElementsAre(0, 3, 9, -1, 1, 1));
+  EXPECT_THAT(replayedAt(500, 4), ElementsAre(0, 9, 1, 1));
+  EXPECT_THAT(replayedAt(4000, 18), ElementsAre(0, 0.75, 1.5, 2.25, 3, 4.5, 6, 7.5, 9, 9, 9, 9, -1, -1, -1, -1, 1, 1));
+}
+
+TEST(Replay, KeepsTheRecordedStiffnessAtEveryRate) {
+  const auto device = makeReplay(parsed("x_mm,y_mm,z_mm\n1,2,3\n"));
+  const double own = device->capabilities().max_stiffness_n_per_mm;
+  for (const double hz : {500.0, 8000.0}) {
+    ASSERT_EQ(device->setRate(hz).value(), hz);
+    EXPECT_EQ(device->capabilities().max_stiffness_n_per_mm, own) << "it has no motors that could swing";
+  }
+}
+
 }  // namespace
 }  // namespace relievo

@@ -8,6 +8,7 @@
 #include <ostream>
 #include <vector>
 
+#include "drivers/sim/profiles.h"
 #include "drivers/sim/sim.h"
 #include "platform/allocation_counter.h"
 
@@ -291,6 +292,34 @@ TEST(SimHaptic, RefusesAProfileThatCannotMove) {
   const auto opened = makeSimHaptic(profile, HandPath(), clock)->open();
   ASSERT_FALSE(opened);
   EXPECT_EQ(opened.error().code, ErrorCode::InvalidArgument);
+}
+
+// One newton on 0.075 kg: 0.5 x 13.333 mm/s x t/ms, that is 66.7 mm after 0.1 s, at every rate. Where the mass's own
+// friction is 0.002 N s/mm and a force one tick late, a wall swings from 2 b/(3 T) on; 0.8 of that is told.
+TEST(SimHaptic, AnotherRateIsTheSameMotionAndAnotherStiffness) {
+  for (const double hz : {500.0, 1000.0, 2000.0, 8000.0}) {
+    ManualClock clock;
+    const auto device = makeSimHaptic(freeMass(), stillAt({0, 0, 0}), clock);
+    ASSERT_EQ(device->setRate(hz).value(), hz);
+    ASSERT_TRUE(device->open() && device->home() && device->start());
+    for (int i = 0; i < static_cast<int>(0.1 * hz); ++i) {
+      ASSERT_TRUE(device->read() && device->write({1, 0, 0}));
+      clock.advance(fromSeconds(1 / hz));
+    }
+    EXPECT_NEAR(device->read()->position_mm.x, 66.667, 0.01) << hz;
+
+    DeviceProfile profile;
+    profile.coulomb_friction_n = 10;  // the encoder's bound is far
+    const auto stiff = makeSimHaptic(profile, stillAt({0, 0, 0}), clock);
+    ASSERT_TRUE(stiff->setRate(hz));
+    EXPECT_NEAR(stiff->capabilities().max_stiffness_n_per_mm, std::min(0.8 * 2 * 0.002 / 3 * hz, 3.5), 1e-9) << hz;
+  }
+}
+
+TEST(SimHaptic, AsAFalconItCannotTickFasterThanAFalcon) {
+  ManualClock clock;
+  const auto device = makeSimHaptic(parseSim("falcon")->profile, stillAt({0, 0, 0}), clock);
+  EXPECT_EQ(device->setRate(4000).value(), 1000);
 }
 
 }  // namespace
