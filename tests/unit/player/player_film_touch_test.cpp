@@ -34,7 +34,7 @@ class FilmTouchTest : public testing::Test {
     touch_->begin();
   }
   void startOn(const DepthAround& depth) {
-    touch_->setScene({}, DisplayVolume{});
+    touch_->setScene({}, DisplayVolume{}, {});
     touch_->feed(depth, standing(depth));
     ASSERT_TRUE(touch_->followDevice());
     touch_->start();
@@ -95,7 +95,7 @@ TEST_F(FilmTouchTest, TheFirstTickAfterASeekTellsWhichFrameIsFelt) {
 
 TEST_F(FilmTouchTest, DepthThatIsMissingIsNotedOnceUntilItIsBack) {
   make();
-  touch_->setScene({}, DisplayVolume{});
+  touch_->setScene({}, DisplayVolume{}, {});
   const DepthAround there = planeAt(1);
   DepthAround missing = there;
   missing.present = {};
@@ -129,7 +129,7 @@ TEST_F(FilmTouchTest, ADeviceThatGoesAwayIsLookedForAndComesBack) {
 TEST_F(FilmTouchTest, WithoutADeviceTheFilmIsFollowedAndNothingIsFelt) {
   touch_.emplace(nullptr, nullptr, clock_, Ticking::ByHand, journal_);
   touch_->begin();
-  touch_->setScene({}, DisplayVolume{});
+  touch_->setScene({}, DisplayVolume{}, {});
   touch_->feed(planeAt(1), standing(planeAt(1)));
   EXPECT_FALSE(touch_->followDevice());
   goOn(10);
