@@ -45,6 +45,24 @@ std::optional<Texture> parseTexture(std::string_view text) {
   return wavelength ? std::optional(Texture{*amplitude, *wavelength}) : std::nullopt;
 }
 
+// Sets what "key=value" says; what is wrong with it, or null.
+const char* take(std::string_view item, Material& material) {
+  const std::size_t equals = item.find('=');
+  if (equals == std::string_view::npos) return kForm;
+  const std::string_view key = item.substr(0, equals), value = item.substr(equals + 1);
+  if (key == "stiffness") {
+    material.stiffness_n_per_mm = number(value, kLeastStiffness, kMostStiffness);
+    return material.stiffness_n_per_mm ? nullptr : kBadStiffness;
+  }
+  if (key == "friction") {
+    material.friction = parseFriction(value);
+    return material.friction ? nullptr : kBadFriction;
+  }
+  if (key != "texture") return kForm;
+  material.texture = parseTexture(value);
+  return material.texture ? nullptr : kBadTexture;
+}
+
 // The shortest that reads back as the same number.
 std::string shortest(double value) {
   char text[32];
@@ -68,25 +86,7 @@ Result<Material> parseMaterial(std::string_view text) {
     const std::size_t end = text.find(',');
     const std::string_view item = text.substr(0, end);
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    const std::size_t equals = item.find('=');
-    const std::string_view key = item.substr(0, equals);
-    const std::string_view value = equals == std::string_view::npos ? "" : item.substr(equals + 1);
-    const char* wrong = nullptr;
-    if (equals == std::string_view::npos) {
-      wrong = kForm;
-    } else if (key == "stiffness") {
-      material.stiffness_n_per_mm = number(value, kLeastStiffness, kMostStiffness);
-      wrong = material.stiffness_n_per_mm ? nullptr : kBadStiffness;
-    } else if (key == "friction") {
-      material.friction = parseFriction(value);
-      wrong = material.friction ? nullptr : kBadFriction;
-    } else if (key == "texture") {
-      material.texture = parseTexture(value);
-      wrong = material.texture ? nullptr : kBadTexture;
-    } else {
-      wrong = kForm;
-    }
-    if (wrong != nullptr) return fail(ErrorCode::InvalidArgument, wrong);
+    if (const char* wrong = take(item, material); wrong != nullptr) return fail(ErrorCode::InvalidArgument, wrong);
   }
   if (material.empty()) return fail(ErrorCode::InvalidArgument, kForm);
   return material;
