@@ -42,7 +42,8 @@ std::optional<Texture> parseTexture(std::string_view text) {
   if (!amplitude) return std::nullopt;
   if (at == std::string_view::npos) return *amplitude == 0 ? std::optional(Texture{}) : std::nullopt;
   const auto wavelength = number(text.substr(at + 1), kLeastWavelengthMm, kMostWavelengthMm);
-  return wavelength ? std::optional(Texture{*amplitude, *wavelength}) : std::nullopt;
+  if (!wavelength) return std::nullopt;
+  return *amplitude == 0 ? Texture{} : Texture{*amplitude, *wavelength};
 }
 
 // Sets what "key=value" says; what is wrong with it, or null.

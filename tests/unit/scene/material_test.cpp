@@ -49,6 +49,7 @@ TEST(Material, ReadsBackWhatItWrites) {
                            "stiffness=0.1,friction=0/0,texture=2@100"}) {
     EXPECT_EQ(materialText(*parseMaterial(text)), text);
   }
+  EXPECT_EQ(*parseMaterial("texture=.0@.8"), *parseMaterial("texture=0")) << "no ripple has no length";
   EXPECT_EQ(materialText({}), "");
 }
 
