@@ -117,7 +117,6 @@ TEST(Scenarios, FlickerIsFeltThroughRelievoAThirdAsMuchAsThroughThePapersMethod)
 // A scenario of a material is passed, or it fails by no more than theory says.
 void expectOf(const Challenger& challenger, const std::map<std::string, double>& most) {
   for (const Scenario& s : scenarios()) {
-    if (std::string(s.name) == "flicker") continue;  // fails without a material
     const Verdict v = s.judge(challenger, true);
     const auto allowed = most.find(s.name);
     EXPECT_EQ(v.pass, allowed == most.end())
@@ -146,11 +145,10 @@ TEST(Scenarios, ASofterSurfaceIsPassedButForHoles) {
   expectOf(challengerMadeOf(*parseMaterial("stiffness=.25")), {{"dropout", 12}});
 }
 
-// 11 mm of 1 N/mm are more than the 10 N that there are. What a held force gives grows with the stiffness, and stays
-// below the 0.5 mJ that the device's dry friction takes.
-TEST(Scenarios, AStifferSurfaceIsPassedButForTheForceAndTheHoldOfATick) {
+// 11 mm of 1 N/mm are more than the 10 N that there are.
+TEST(Scenarios, AStifferSurfaceIsPassedButForTheForce) {
   const Challenger stiffer = challengerMadeOf(*parseMaterial("stiffness=1"));
-  expectOf(stiffer, {{"fast-hip", 95}, {"energy-loop", 0.5}});
+  expectOf(stiffer, {{"fast-hip", 95}});
   EXPECT_NEAR(judge("fast-hip", stiffer).figure, 100 * 10.0 / 11, 0.5);
 }
 
