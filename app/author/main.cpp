@@ -106,6 +106,7 @@ void addSceneOption(CLI::App& app, std::string& scene) {
       ->excludes("--packing")
       ->excludes("--depth-code")
       ->excludes("--calibration")
+      ->excludes("--material")
       ->excludes("--enhance")
       ->excludes("--preview");
 }

@@ -47,6 +47,12 @@ void readCalibration(const std::string& word, SourceOptions& source) {
   for (const auto& [key, value] : *settings) source.command_line[key] = value;  // overrides earlier ones
 }
 
+Material readMaterial(const std::string& word) {
+  const auto material = parseMaterial(inSmallLetters(word));
+  if (!material) throw WordFailure({"--material " + word, material.error()});
+  return *material;
+}
+
 Registration readRegistration(const std::string& path) {
   const std::string thing = "--registration " + path;
   auto registration = parseRegistration(readFile(thing, path, "cannot be read; give the path of a file"));
@@ -249,6 +255,12 @@ void addDepthOptions(CLI::App& app, SourceOptions& source) {
          },
          "TOML file with the poses of the depth and colour cameras; aligns the depth with the colour picture")
       ->type_name("FILE.toml");
+  app.add_option_function<std::string>(
+         "--material", [&source](const std::string& word) { source.material = readMaterial(word); },
+         "What the surface feels like; overrides the film's tag DEPTH_MATERIAL\n"
+         "stiffness=N/MM [0.5, or what the device holds]; friction=STATIC/DYNAMIC: shares of what presses [0];\n"
+         "texture=AMPLITUDE@WAVELENGTH: ripples, mm [0], such as stiffness=.3,friction=.2/.15,texture=.1@.8")
+      ->type_name("KEY=VALUE,..");
 }
 
 void addRateOption(CLI::App& app, SourceOptions& source) {

@@ -60,7 +60,8 @@ void addTrace(CLI::App& app, TraceOptions& options) {
       "Method of touch\nrelievo: the player's own; modified-proxy-graph: the paper's; proxy-graph, proxy-blend: its "
       "predecessors;\npenalty: penetration depth, no proxy. The charts' god-object is relievo with --space triangles")
       ->required();
-  app.add_option("--stiffness", options.stiffness_n_per_mm, "Stiffness between finger and proxy, N/mm [0.5]")
+  app.add_option("--stiffness", options.stiffness_n_per_mm,
+                 "Stiffness between finger and proxy, N/mm [the material's, else 0.5]")
       ->type_name("N_PER_MM")
       ->check(between(1e-6, 1e3));
   addChoice(app, "--space", options.space,

@@ -15,6 +15,7 @@
 #include "app/media/registration/registration.h"
 #include "app/media/tracks/film_tracks.h"
 #include "app/scene/depth_calibration.h"
+#include "app/scene/material.h"
 #include "hal/media/audio_decoder.h"
 #include "hal/media/frame.h"
 #include "hal/media/media_source.h"
@@ -35,6 +36,7 @@ struct SourceOptions {
   std::vector<std::string> named_files;             // files that the side file and the registration were read from
   std::optional<double> frames_per_s;               // of pictures that have numbers but no times
   std::optional<Registration> registration;         // for depth from a camera of its own; not for packed depth
+  Material material;                                // what --material says
   std::optional<AudioFormat> sound;                 // the format to deliver sound in; nullopt: no sound
   std::string sound_languages, subtitle_languages;  // "jpn,en": the first that is there; see film_tracks.h
 };
@@ -61,6 +63,7 @@ struct FilmInfo {
   Duration duration{0};                                                                  // 0: unknown
   Duration container_start{0};     // of the colour: the container's time of media time 0
   CalibrationChoice calibration;   // of a film with depth
+  Material material;               // what --material says, else the depth's tags
   FilmReading reading;             // how that calibration and the packing were found
   std::vector<std::string> notes;  // what the sources found out about themselves; one line each
   std::string color_codec, depth_codec;

@@ -251,11 +251,18 @@ Result<void> PairReader::Impl::describe(const Frame& first, const Frame& look, c
   if (stream.rotation != 0) {
     clues.more.push_back({"rotation", print("%d degrees", 90 * stream.rotation), CalibrationOrigin::StreamSignalling});
   }
+  const auto tagged = materialFromTags(clues.tags);
+  info.material = layered(options.material, tagged.value_or(Material{}));
+  if (!info.material.empty()) {
+    const auto by = options.material.empty() ? CalibrationOrigin::ContainerTags : CalibrationOrigin::CommandLine;
+    clues.more.push_back({"material", materialText(info.material), by});
+  }
   auto meaning = readMeaning(clues, reordering.kind != nullptr ? reordering.kind : kindOf(clues, look), look);
   if (!meaning) return failOn("calibration", meaning.error());
   info.calibration = std::move(meaning->calibration);
   info.reading = std::move(meaning->reading);
   info.reading.doubts = doubtsOf(look, info.calibration.calibration, color.empty() ? nullptr : &color);
+  if (!tagged) info.reading.doubts.push_back(print("its tag %s is left out: %s", kMaterialTag, tagged.error().message));
   info.has_depth = true;
   info.depth_width = first.width;
   info.depth_height = first.height;

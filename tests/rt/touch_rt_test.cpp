@@ -52,7 +52,7 @@ struct Taken {
 // The complete task in simulated time, with a simulated device and a synthetic film.
 class Stage {
  public:
-  explicit Stage(const std::string& method) : method_(makeMethod(method, {})) {
+  explicit Stage(const std::string& method) : method_(made(method)) {
     static_cast<void>(device_.open() && device_.home() && device_.start());
     task_ = std::make_unique<HapticTask>(device_, *method_, clock_, kVolume, SafetyLimits{}, 0.5);
   }
@@ -77,6 +77,11 @@ class Stage {
   }
 
  private:
+  // "rough": relievo on a surface with friction and texture.
+  static std::unique_ptr<TouchMethod> made(const std::string& method) {
+    if (method != "rough") return makeMethod(method, {});
+    return makeMethod("relievo", {.friction = {0.3, 0.2}, .texture = {0.1, 0.8}});
+  }
   void show(int tick) {
     const int now = static_cast<int>(tick * kTickS / kPeriodS + 1e-9), first = std::max(now - 2, 0);
     SurfaceWindow& window = task_->windowToFill();
@@ -122,7 +127,8 @@ TEST_P(TouchRt, ATickDoesNotCallTheSystem) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, TouchRt,
-                         testing::Values("relievo", "modified-proxy-graph", "proxy-graph", "proxy-blend", "penalty"),
+                         testing::Values("relievo", "rough", "modified-proxy-graph", "proxy-graph", "proxy-blend",
+                                         "penalty"),
                          [](const auto& test) {
                            std::string name = test.param;
                            std::erase(name, '-');

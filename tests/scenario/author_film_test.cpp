@@ -688,16 +688,18 @@ TEST_F(AuthorFilm, ProgramWritesWhatItsWordsSay) {
            {depthTrack("gray16le", [](int c, int, int) { return static_cast<std::uint32_t>(1000 * c); })});
   const auto said =
       run("--color @/color.mkv --depth @/depth.mkv -o @/out.ts --depth-codec hevc --depth-bits 12 --depth-chroma flat "
-          "--depth-law inverse --calibration near=500,far=2000");
+          "--depth-law inverse --calibration near=500,far=2000 --material friction=.3");
   EXPECT_EQ(said.exit_code, 0) << said.err;
   EXPECT_THAT(said.out, HasSubstr("HEVC 4:2:0, 12 bits"));
   EXPECT_THAT(said.out, HasSubstr("linear steps converted to inverse ones"));
+  EXPECT_THAT(said.out, HasSubstr("material: friction=0.3/0.3"));
   EXPECT_EQ(said.err, "");
   const Film film = readFilm(folder_ / "out.ts");
   EXPECT_EQ(film.info.calibration.calibration.law, DepthLaw::Inverse);
   EXPECT_EQ(film.info.calibration.calibration.bits, 12);
   EXPECT_EQ(film.info.calibration.calibration.near_mm, 500);
   EXPECT_EQ(film.info.depth_codec, "hevc");
+  EXPECT_EQ(film.info.material.friction, (Friction{0.3, 0.3}));
 }
 
 // Other players treat it as ordinary video: they show every colour picture and ignore the depth.

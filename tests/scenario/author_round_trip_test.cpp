@@ -24,6 +24,7 @@ using test::Way;
 
 constexpr Duration kPeriod = std::chrono::nanoseconds(1'000'000'000 / 30);
 
+constexpr const char* kMaterial = "stiffness=0.3,friction=0.2/0.15,texture=0.1@0.8";
 constexpr int kCols = test::kWayCols, kRows = test::kWayRows;
 
 // The full range in every picture, without pattern (a multiplicative hash); the first sample identifies the picture.
@@ -81,7 +82,9 @@ TEST_P(AuthorRoundTrip, BringsBackCodesTimesAndMeaning) {
   std::vector<MediaTime> times;  // with a gap and uneven steps
   for (const int ms : {0, 33, 67, 100, 400, 417, 500, 533, 567, 600}) times.emplace_back(std::chrono::milliseconds(ms));
   {
-    auto writer = FilmWriter::create(path(), formatOf(way, 0, meaningOf(way)));
+    FilmFormat format = formatOf(way, 0, meaningOf(way));
+    format.depth_tags[kMaterialTag] = kMaterial;
+    auto writer = FilmWriter::create(path(), format);
     ASSERT_TRUE(writer) << writer.error().message;
     for (int k = 0; k < static_cast<int>(times.size()); ++k) {
       const MediaTime time = times[static_cast<std::size_t>(k)];
@@ -94,6 +97,7 @@ TEST_P(AuthorRoundTrip, BringsBackCodesTimesAndMeaning) {
   }
   const ReadFilm film = readFilm(path());
   expectMeaning(film.info, meaningOf(way));
+  EXPECT_EQ(materialText(film.info.material), kMaterial);
   ASSERT_EQ(film.pairs.size(), times.size());
   for (std::size_t k = 0; k < times.size(); ++k) {
     EXPECT_NEAR(toSeconds(film.pairs[k].color.pts), toSeconds(times[k]), 12e-6) << k;

@@ -188,6 +188,7 @@ std::string toText(const std::string& path, const AuthorSummary& summary) {
   text += "  depth means: " + tag("DEPTH_LAW") + " law, near is high, full range";
   if (tag("DEPTH_LAW") == "inverse") text += ", near " + tag("DEPTH_NEAR") + " mm, far " + tag("DEPTH_FAR") + " mm";
   text += "\n";
+  if (f.depth_tags.contains(kMaterialTag)) text += "  material: " + tag(kMaterialTag) + "\n";
   if (totals.latest > kLate) {
     text += print("  note: sent up to %.1f s late: this machine is too slow for the film; use a smaller picture\n",
                   toSeconds(totals.latest));

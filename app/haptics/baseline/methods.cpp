@@ -68,6 +68,8 @@ std::unique_ptr<TouchMethod> makeMethod(std::string_view method, const MethodCon
   if (parts->scale) {
     return std::make_unique<RelievoMethod>(RelievoMethod::Config{.stiffness_n_per_mm = stiffness,
                                                                  .scale = *parts->scale,
+                                                                 .friction = config.friction,
+                                                                 .texture = config.texture,
                                                                  .jump_threshold_n = threshold(false),
                                                                  .tick_s = config.tick_s});
   }

@@ -9,6 +9,7 @@
 #include "app/depth_window/parts.h"
 #include "app/haptics/method/felt_surface.h"
 #include "app/haptics/method/method.h"
+#include "app/scene/material.h"
 
 namespace relievo {
 
@@ -18,7 +19,9 @@ struct MethodConfig {
   std::optional<SpaceLaw> space;       // nothing: the method's own
   std::optional<TimeLaw> time;         // nothing: the method's own
   std::optional<bool> jump_threshold;  // the paper's guard (IV-C); nothing: the method's own
-  std::optional<FeltScale> scale;      // of `relievo`: what the scene needs (see touch_plan.h)
+  Friction friction;                   // of `relievo` on a smooth surface alone, as is the texture
+  Texture texture;
+  std::optional<FeltScale> scale;  // of `relievo`: what the scene needs (see touch_plan.h)
 };
 
 extern const char* const kMethodNames;    // "relievo modified-proxy-graph .."

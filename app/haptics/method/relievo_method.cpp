@@ -123,12 +123,11 @@ RELIEVO_TICK_CODE void RelievoMethod::slideAlong(const glm::dvec3& hip_mm) RELIE
 RELIEVO_TICK_CODE Touch RelievoMethod::touchAt(const glm::dvec3& hip_mm) RELIEVO_RT {
   Touch touch{.proxy_mm = hip_mm};
   if (state_ == State::Contact) {
-    rub(hip_mm);
     touch.contact = true;
-    touch.proxy_mm = proxy();
+    touch.proxy_mm = feltPlace(hip_mm);
     touch.force_n = config_.stiffness_n_per_mm * (touch.proxy_mm - hip_mm);
   }
-  rubbing_ = rubbing_ && touch.contact;
+  if (!touch.contact) letGo();
   if (config_.jump_threshold_n > 0 && glm::distance(touch.force_n, force_n_) > config_.jump_threshold_n) {
     touch = Touch{.proxy_mm = hip_mm};
     state_ = State::Buried;
@@ -158,7 +157,7 @@ void RelievoMethod::upkeep(const SurfaceWindow& window, MediaTime now) RELIEVO_R
   }
   if (offTheEdge()) {
     state_ = State::Free;
-    rubbing_ = false;
+    letGo();
     force_n_ = {};
     ahead_mm_ = {hip_mm_.x, hip_mm_.y};
   }
@@ -180,7 +179,7 @@ void RelievoMethod::prefetch(const SurfaceWindow& window) const RELIEVO_RT {
 void RelievoMethod::enterScene(const glm::dvec3& hip_mm) RELIEVO_RT {
   const double depth = surface_.height(hip_mm.x, hip_mm.y) - hip_mm.z;
   force_before_cut_n_ = glm::length(force_n_);
-  rubbing_ = false;  // the point where friction held belongs to the old scene
+  letGo();  // the point where friction held belongs to the old scene
   lowered_mm_ = std::max(depth - force_before_cut_n_ / config_.stiffness_n_per_mm, 0.0);
   if (depth <= 0) {
     state_ = State::Free;
@@ -242,6 +241,7 @@ RELIEVO_TICK_CODE void RelievoMethod::follow(glm::dvec3 from_mm, const glm::dvec
     if (state_ == State::Contact) {
       if (proxy().z > hip_mm.z) return;
       state_ = State::Free;
+      letGo();
       from_mm = proxy();
     }
     if (!enterOnPath(from_mm, hip_mm)) return;
@@ -283,31 +283,21 @@ bool RelievoMethod::enterOnPath(const glm::dvec3& from_mm, const glm::dvec3& hip
   return false;
 }
 
-// The proxy sticks while the finger pulls less than static friction, then slides against dynamic friction until that
-// holds it (Coulomb; the cone is around the normal at the proxy's previous position).
-void RelievoMethod::rub(const glm::dvec3& hip_mm) RELIEVO_RT {
-  if (config_.friction.static_coefficient <= 0) return;
-  if (!rubbing_) {
-    rubbing_ = true;
-    sliding_ = false;
-    stuck_ = contact_;
-    return;
+// Where the finger's spring ends: the proxy, unless the material holds it elsewhere.
+RELIEVO_TICK_CODE glm::dvec3 RelievoMethod::feltPlace(const glm::dvec3& hip_mm) RELIEVO_RT {
+  glm::dvec3 place = proxy();
+  const double depth = ripple_.exists() ? glm::distance(place, hip_mm) : 0;
+  if (stick_.exists()) place = stick_.follow(surface_, contact_, hip_mm, lowered_mm_);
+  if (ripple_.exists()) {
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(-contact_.surface.zx, -contact_.surface.zy, 1));
+    place += ripple_.offset(hip_mm, normal, depth);
   }
-  const SurfacePoint s = surface_.at(stuck_.x_mm, stuck_.y_mm);
-  const glm::dvec3 place(stuck_.x_mm, stuck_.y_mm, s.z - lowered_mm_);
-  const glm::dvec3 normal = glm::normalize(glm::dvec3(-s.zx, -s.zy, 1));
-  const glm::dvec3 pull = hip_mm - place;
-  const double pressed = -glm::dot(pull, normal);
-  const double aside = glm::length(pull + pressed * normal);
-  const Friction& friction = config_.friction;
-  const double hold = (sliding_ ? friction.dynamic_coefficient : friction.static_coefficient) * pressed;
-  sliding_ = aside > hold;
-  // Share of the way to the closest point; dynamic friction holds the rest.
-  const double share = sliding_ ? 1 - std::clamp(friction.dynamic_coefficient * pressed / aside, 0.0, 1.0) : 0;
-  contact_.x_mm = stuck_.x_mm + share * (contact_.x_mm - stuck_.x_mm);
-  contact_.y_mm = stuck_.y_mm + share * (contact_.y_mm - stuck_.y_mm);
-  contact_.surface = surface_.at(contact_.x_mm, contact_.y_mm);
-  stuck_ = contact_;
+  return place;
+}
+
+void RelievoMethod::letGo() RELIEVO_RT {
+  stick_.release();
+  ripple_.release();
 }
 
 void RelievoMethod::settleLowering(const glm::dvec3& hip_mm) RELIEVO_RT {

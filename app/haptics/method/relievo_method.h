@@ -7,13 +7,11 @@
 #include "app/haptics/method/closest_point.h"
 #include "app/haptics/method/felt_surface.h"
 #include "app/haptics/method/method.h"
+#include "app/haptics/method/ripple.h"
+#include "app/haptics/method/stick_point.h"
+#include "app/scene/material.h"
 
 namespace relievo {
-
-// Coulomb friction between proxy and surface; 0: none.
-struct Friction {
-  double static_coefficient = 0, dynamic_coefficient = 0;
-};
 
 // Contact depends on being inside or outside, not on crossing: a finger that was outside makes contact in the first
 // tick in which it is inside the solid, no matter whether the finger or the surface moved. Its path within the tick is
@@ -24,17 +22,24 @@ struct Friction {
 // At a cut, and at any other discontinuity of the film, a finger left inside the new solid is re-seated: the new
 // surface is lowered under it until the finger is as deep as before, so that it feels the new shape at once and with no
 // more force. The lowering is undone while the force does not exceed its previous value, and when the finger lifts.
+//
+// Friction and texture change where the finger's spring ends, not which point is the closest (StickPoint, Ripple).
 class RelievoMethod final : public TouchMethod {
  public:
   struct Config {
     double stiffness_n_per_mm = 0.5;
     FeltScale scale;
     Friction friction;
+    Texture texture;
     double jump_threshold_n = 0;   // additionally the paper's guard (IV-C); 0: off, re-seating does not need it
     double rise_mm_per_s = 100.0;  // rate at which a lowered surface rises back: 50 N/s at 0.5 N/mm
     double tick_s = 0.001;         // the task's period
   };
-  explicit RelievoMethod(const Config& config) noexcept : config_(config), surface_(config.scale) {}
+  explicit RelievoMethod(const Config& config) noexcept
+      : config_(config),
+        surface_(config.scale),
+        stick_(config.friction, config.tick_s),
+        ripple_(config.texture, config.stiffness_n_per_mm, config.tick_s) {}
 
   [[nodiscard]] Touch update(const glm::dvec3& hip_mm, const SurfaceWindow& window, MediaTime now) RELIEVO_RT override;
   void prefetch(const SurfaceWindow& window) const RELIEVO_RT override;
@@ -45,6 +50,8 @@ class RelievoMethod final : public TouchMethod {
   // finger is free because it started inside.
   [[nodiscard]] double depthMm() RELIEVO_RT;
   [[nodiscard]] bool buried() const RELIEVO_RT { return state_ == State::Buried; }
+  // For tests: whether friction drags, or has dragged just now.
+  [[nodiscard]] bool slides() const RELIEVO_RT { return stick_.slides(); }
   // For tests: blocks read in all ticks so far.
   [[nodiscard]] std::uint64_t blocksRead() const RELIEVO_RT { return surface_.blocksRead(); }
 
@@ -65,7 +72,8 @@ class RelievoMethod final : public TouchMethod {
   void slide(const glm::dvec3& hip_mm, SlideUntil until) RELIEVO_RT;
   [[nodiscard]] bool sweptAway(const glm::dvec3& hip_mm) RELIEVO_RT;
   [[nodiscard]] bool offTheEdge() RELIEVO_RT;
-  void rub(const glm::dvec3& hip_mm) RELIEVO_RT;
+  [[nodiscard]] glm::dvec3 feltPlace(const glm::dvec3& hip_mm) RELIEVO_RT;
+  void letGo() RELIEVO_RT;
   [[nodiscard]] bool enterOnPath(const glm::dvec3& from_mm, const glm::dvec3& hip_mm) RELIEVO_RT;
   void follow(glm::dvec3 from_mm, const glm::dvec3& hip_mm) RELIEVO_RT;
   void settleLowering(const glm::dvec3& hip_mm) RELIEVO_RT;
@@ -84,8 +92,8 @@ class RelievoMethod final : public TouchMethod {
   glm::dvec2 own_place_mm_{0};
   glm::dvec3 own_hip_mm_{0};
   bool on_its_way_ = false;  // the proxy has not yet reached the place where the finger sent it
-  bool rubbing_ = false, sliding_ = false;
-  Contact stuck_;          // the point where friction last held the proxy
+  StickPoint stick_;
+  Ripple ripple_;
   double lowered_mm_ = 0;  // how far the surface is lowered, after a cut
   double force_before_cut_n_ = 0;
   glm::dvec3 force_n_{0};

@@ -10,6 +10,7 @@
 #include "app/lab/measure/enhance.h"
 #include "app/lab/measure/smoothness.h"
 #include "app/lab/measure/speed_accuracy.h"
+#include "app/lab/scenario/material_stability.h"
 #include "app/lab/scenario/stability.h"
 
 namespace relievo {
@@ -32,6 +33,7 @@ constexpr std::array kStabilityCharts{
     ChartEntry{"guard-sensitivity", "a row without a failure"},
     ChartEntry{"stability-onset", "higher"},
 };
+constexpr std::array kMaterialCharts{ChartEntry{"stability-material", "a row without a failure"}};
 constexpr std::array kDetailCharts{ChartEntry{"detail", "to the left; higher for PSNR, lower for the force error"}};
 constexpr std::array kEnhanceCharts{ChartEntry{"enhance", "lower"}, ChartEntry{"enhance-points", "lower left"}};
 constexpr std::array kBitrateCharts{ChartEntry{"bitrate", "lower left"}};
@@ -46,6 +48,9 @@ constexpr std::array kMeasurements{
     Measurement{"stability",
                 "every method in scenarios where methods fail, and the stiffness at which closed loops oscillate",
                 kStabilityCharts, measureStability},
+    Measurement{"stability-material",
+                "relievo in the same scenarios on surfaces with friction, softer, stiffer, textured", kMaterialCharts,
+                measureMaterialStability},
     Measurement{"detail", "cost of the drawn relief by level of detail, against the errors of picture and touch",
                 kDetailCharts, measureDetail},
     Measurement{"enhance", "effect of depth enhancement on force and edges, and the points that a mesh needs",

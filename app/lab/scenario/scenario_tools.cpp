@@ -45,9 +45,9 @@ glm::dvec3 closestOn(const Relief& relief, const glm::dvec3& hip, double t) {
   return p;
 }
 
-glm::dvec3 forceOnFlat(const Relief& relief, const glm::dvec3& hip, double t) {
+glm::dvec3 depthOnFlat(const Relief& relief, const glm::dvec3& hip, double t) {
   const glm::dvec3 normal = normalOf(relief, hip.x, hip.y, t);
-  return kStiffness * std::max(relief(hip.x, hip.y, t) - hip.z, 0.0) * normal.z * normal;
+  return std::max(relief(hip.x, hip.y, t) - hip.z, 0.0) * normal.z * normal;
 }
 
 std::span<const StageTick> between(std::span<const StageTick> ticks, double from, double until) {
@@ -80,13 +80,13 @@ double degreesBetween(const glm::dvec3& a, const glm::dvec3& b) {
 
 constexpr double kFelt = 0.3;  // share of the force straight up from which on a surface counts as felt
 
-double longestLostMs(std::span<const StageTick> ticks, const Relief& relief, double deep) {
+double longestLostMs(std::span<const StageTick> ticks, const Relief& relief, double deep, double stiffness) {
   double longest = 0, since = -1;
   for (const StageTick& tick : ticks) {
     const glm::dvec3& p = tick.hip_mm;
     const double below = relief(p.x, p.y, toSeconds(tick.media)) - p.z;
     // Not written as "less than": what is not a number is not felt.
-    const bool felt = tick.asked.contact && glm::length(tick.asked.force_n) >= kFelt * kStiffness * below;
+    const bool felt = tick.asked.contact && glm::length(tick.asked.force_n) >= kFelt * stiffness * below;
     if (!tick.exchanged || felt || !(below > deep)) {
       since = -1;
       continue;

@@ -13,8 +13,6 @@
 
 namespace relievo::scenario {
 
-inline constexpr double kStiffness = 0.5;  // N/mm
-
 // Straight and steady from one point to the next; at rest before the first and after the last.
 class Way {
  public:
@@ -45,8 +43,8 @@ inline constexpr double kEdgeSlant = 0.3, kEdgeLength = 1.0440306508910550;  // 
 [[nodiscard]] glm::dvec3 normalOf(const Relief& relief, double x_mm, double y_mm, double t_s);
 // The point of a gently curved relief that is closest to the finger.
 [[nodiscard]] glm::dvec3 closestOn(const Relief& relief, const glm::dvec3& hip_mm, double t_s);
-// Of a finger close under a nearly flat place: stiffness x distance along the normal.
-[[nodiscard]] glm::dvec3 forceOnFlat(const Relief& relief, const glm::dvec3& hip_mm, double t_s);
+// Of a finger close under a nearly flat place: the distance along the normal; the force is stiffness times that.
+[[nodiscard]] glm::dvec3 depthOnFlat(const Relief& relief, const glm::dvec3& hip_mm, double t_s);
 
 [[nodiscard]] std::span<const StageTick> between(std::span<const StageTick> ticks, double from_s, double until_s);
 [[nodiscard]] glm::dvec3 meanForce(std::span<const StageTick> ticks);
@@ -57,6 +55,7 @@ inline constexpr double kEdgeSlant = 0.3, kEdgeLength = 1.0440306508910550;  // 
 [[nodiscard]] double degreesBetween(const glm::dvec3& a, const glm::dvec3& b);
 // The longest time with the finger more than `deep_mm` below the relief, as it is at that moment of the film, and no
 // contact by the method or hardly any force, ms.
-[[nodiscard]] double longestLostMs(std::span<const StageTick> ticks, const Relief& relief, double deep_mm);
+[[nodiscard]] double longestLostMs(std::span<const StageTick> ticks, const Relief& relief, double deep_mm,
+                                   double stiffness_n_per_mm);
 
 }  // namespace relievo::scenario

@@ -55,6 +55,17 @@ Challenger challengerNamed(const std::string& method) {
           }};
 }
 
+Challenger challengerMadeOf(const Material& material) {
+  Challenger challenger{materialText(material), [material](double stiffness, std::span<const TimedSurface> film) {
+                          return makeMethod("relievo", {.stiffness_n_per_mm = stiffness,
+                                                        .friction = material.friction.value_or(Friction{}),
+                                                        .texture = material.texture.value_or(Texture{}),
+                                                        .scale = planFilm(film).scale});
+                        }};
+  if (material.stiffness_n_per_mm) challenger.stiffness_n_per_mm = *material.stiffness_n_per_mm;
+  return challenger;
+}
+
 std::span<const Scenario> scenarios() {
   return kScenarios;
 }

@@ -9,6 +9,7 @@
 
 #include "app/haptics/method/method.h"
 #include "app/lab/scenario/judge.h"
+#include "app/scene/material.h"
 
 namespace relievo {
 
@@ -16,10 +17,13 @@ namespace relievo {
 struct Challenger {
   std::string name;
   std::function<std::unique_ptr<TouchMethod>(double stiffness_n_per_mm, std::span<const TimedSurface> film)> make;
+  double stiffness_n_per_mm = 0.5;  // that the task has, and that `make` is given; not in `stiff-wall`
 };
 // A method as the player makes it: `relievo` on the scale that its plan picks when the film begins; `god-object`, and
 // `god-object-smoothed` on every frame blurred by the width that suits the film best (blurWidthMm).
 [[nodiscard]] Challenger challengerNamed(const std::string& method);
+// `relievo` on a film of this material.
+[[nodiscard]] Challenger challengerMadeOf(const Material& material);
 
 // The method runs in the haptic task itself, with all its limits, on virtual time: the same verdict at every run.
 struct Scenario {

@@ -63,12 +63,14 @@ struct Loop {
 };
 
 std::vector<StageTick> runTwoLaps(const Challenger& challenger, const Scene& scene, const Loop& loop) {
-  const auto method = challenger.make(kStiffness, scene.film);
+  const auto method = challenger.make(challenger.stiffness_n_per_mm, scene.film);
   const auto finger = [&](double t, const glm::dvec3&) -> std::optional<glm::dvec3> {
     return loop.at(t, scene.finger);
   };
-  return playThrough(
-      *method, {.film = scene.film, .duration_s = 1e-3 * (kLeadTicks + 2 * loop.lap_ticks + 1), .finger = finger});
+  return playThrough(*method, {.film = scene.film,
+                               .duration_s = 1e-3 * (kLeadTicks + 2 * loop.lap_ticks + 1),
+                               .stiffness_n_per_mm = challenger.stiffness_n_per_mm,
+                               .finger = finger});
 }
 
 struct Gain {
@@ -120,7 +122,7 @@ Verdict energyLoop(const Challenger& challenger, bool quick) {
       for (const StageTick& tick : between(ticks, 1e-3 * kLeadTicks, 10))
         touched += glm::length(tick.asked.force_n) > 0 ? 1 : 0;
       counted += 2 * loop.lap_ticks + 1;
-      bounds.bounds(ticks, kStiffness);
+      bounds.bounds(ticks, challenger.stiffness_n_per_mm);
     }
   }
   for (const Speed& speed : speeds) {

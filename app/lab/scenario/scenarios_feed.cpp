@@ -39,13 +39,14 @@ Verdict frameDrop(const Challenger& challenger, bool quick) {
   }
   // Deep enough to be inside all the time.
   const Way finger{{0, {1.2, 0.8, 30}}, {0.2, {1.2, 0.8, 13}}};
-  const auto method = challenger.make(kStiffness, film);
-  Play play{.film = film, .duration_s = duration, .finger = finger};
+  const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
+  Play play{
+      .film = film, .duration_s = duration, .stiffness_n_per_mm = challenger.stiffness_n_per_mm, .finger = finger};
   play.supply = [&](std::size_t i, double t) { return comes[i] <= t; };
   const auto ticks = playThrough(*method, play);
   Judge judge;
-  judge.atMost(longestLostMs(ticks, relief, 0.3), kDropBack, "inside and nothing felt");
-  judge.bounds(ticks, kStiffness);
+  judge.atMost(longestLostMs(ticks, relief, 0.3, challenger.stiffness_n_per_mm), kDropBack, "inside and nothing felt");
+  judge.bounds(ticks, challenger.stiffness_n_per_mm);
   return judge.verdict();
 }
 
@@ -56,8 +57,8 @@ Verdict underrun(const Challenger& challenger, bool /*quick*/) {
   const auto film = makeFilm(relief, {}, kEnd);
   const glm::dvec3 rest(1.2, 0.8, relief(1.2, 0.8, 0) - 3);
   const Way finger{{0, rest + glm::dvec3(0, 0, 6)}, {0.2, rest}};
-  const auto method = challenger.make(kStiffness, film);
-  Play play{.film = film, .duration_s = kEnd, .finger = finger};
+  const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
+  Play play{.film = film, .duration_s = kEnd, .stiffness_n_per_mm = challenger.stiffness_n_per_mm, .finger = finger};
   // What should have been seen meanwhile never comes.
   play.supply = [&](std::size_t i, double t) {
     const double due = toSeconds(film[i].time);
@@ -65,15 +66,15 @@ Verdict underrun(const Challenger& challenger, bool /*quick*/) {
   };
   const auto ticks = playThrough(*method, play);
   const glm::dvec3 back = meanForce(between(ticks, kGoesOn + 0.2, kGoesOn + 0.25));
-  const glm::dvec3 truth = forceOnFlat(relief, rest, kEnd);
+  const glm::dvec3 truth = challenger.stiffness_n_per_mm * depthOnFlat(relief, rest, kEnd);
   Judge judge;
   // The scene that comes back may be felt from the force before on, no deeper than it was; gone it must not be.
-  judge.atLeast(100 * glm::length(back) / (kStiffness * 3), kHalfIsFelt,
+  judge.atLeast(100 * glm::length(back) / (challenger.stiffness_n_per_mm * 3), kHalfIsFelt,
                 "of the force before is felt 200 ms after frames are back");
   judge.atMost(glm::length(back) / glm::length(truth) * 100, kForceNotAbove, "of the true force");
-  judge.atMost(100 * peakForce(between(ticks, 0.3, kGoesOn)) / (kStiffness * 3), kForceNotAbove,
+  judge.atMost(100 * peakForce(between(ticks, 0.3, kGoesOn)) / (challenger.stiffness_n_per_mm * 3), kForceNotAbove,
                "of the force before meanwhile");
-  judge.bounds(ticks, kStiffness);
+  judge.bounds(ticks, challenger.stiffness_n_per_mm);
   return judge.verdict();
 }
 
@@ -106,12 +107,15 @@ Verdict packetLoss(const Challenger& challenger, bool quick) {
     const double x = 6 * std::sin(turn), y = 4 * std::sin(2 * turn);
     return glm::dvec3(x, y, 18 + 0.1 * x - 0.06 * y - 5 + 10 * (1 - ramp(t, 0, 0.2)));
   };
-  const auto method = challenger.make(kStiffness, film);
-  const auto ticks = playThrough(*method, {.film = film, .duration_s = duration, .finger = finger});
+  const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
+  const auto ticks = playThrough(
+      *method,
+      {.film = film, .duration_s = duration, .stiffness_n_per_mm = challenger.stiffness_n_per_mm, .finger = finger});
   // In a hole made by damage there is nothing to touch: it counts from when the picture is whole again, two frames.
   Judge judge;
-  judge.atMost(longestLostMs(ticks, relief, 0.3), kDamageBack, "inside and nothing felt");
-  judge.bounds(ticks, kStiffness);
+  judge.atMost(longestLostMs(ticks, relief, 0.3, challenger.stiffness_n_per_mm), kDamageBack,
+               "inside and nothing felt");
+  judge.bounds(ticks, challenger.stiffness_n_per_mm);
   return judge.verdict();
 }
 

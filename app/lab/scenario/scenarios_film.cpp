@@ -53,8 +53,10 @@ Verdict cutUp(const Challenger& challenger, bool /*quick*/) {
                    {kLift, below(before, 2)},
                    {kOut, below(after, -3)},
                    {kBack, below(after, 2)}};
-  const auto method = challenger.make(kStiffness, film);
-  const auto ticks = playThrough(*method, {.film = film, .duration_s = kEnd, .finger = finger});
+  const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
+  const auto ticks = playThrough(
+      *method,
+      {.film = film, .duration_s = kEnd, .stiffness_n_per_mm = challenger.stiffness_n_per_mm, .finger = finger});
   const double pressed = glm::length(meanForce(between(ticks, 0.35, 0.45)));
   const glm::dvec3 soon = meanForce(between(ticks, kCut + 0.05, kCut + 0.07));
   Judge judge;
@@ -63,9 +65,10 @@ Verdict cutUp(const Challenger& challenger, bool /*quick*/) {
   judge.atLeast(100 * glm::length(soon) / pressed, kHalfIsFelt, "of the force before is felt 50 ms after the cut");
   judge.atMost(degreesBetween(soon, normalOf(after, kPlace.x, kPlace.y, 0)), kDirectionMatches,
                "from the new shape 50 ms after the cut");
-  judge.atMost(percentOff(meanForce(between(ticks, kEnd - 0.1, kEnd)), forceOnFlat(after, finger.at(kEnd), 0)),
+  judge.atMost(percentOff(meanForce(between(ticks, kEnd - 0.1, kEnd)),
+                          challenger.stiffness_n_per_mm * depthOnFlat(after, finger.at(kEnd), 0)),
                kForceMatches, "force off for a finger that comes from outside");
-  judge.bounds(ticks, kStiffness);
+  judge.bounds(ticks, challenger.stiffness_n_per_mm);
   return judge.verdict();
 }
 
@@ -77,8 +80,10 @@ Verdict cutDown(const Challenger& challenger, bool /*quick*/) {
   const auto film = makeFilm(relief, {.frames_per_s = 15}, kEnd);
   const Way finger{
       {0, below(before, -3)}, {0.2, below(before, 2)}, {kDown, below(before, 2)}, {kThere, below(after, 2)}};
-  const auto method = challenger.make(kStiffness, film);
-  const auto ticks = playThrough(*method, {.film = film, .duration_s = kEnd, .finger = finger});
+  const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
+  const auto ticks = playThrough(
+      *method,
+      {.film = film, .duration_s = kEnd, .stiffness_n_per_mm = challenger.stiffness_n_per_mm, .finger = finger});
   const double pressed = glm::length(meanForce(between(ticks, 0.3, 0.4)));
   double early = 0, late = 0;  // ms before and after the cut
   for (const StageTick& tick : between(ticks, 0.4, kDown)) {
@@ -91,9 +96,10 @@ Verdict cutDown(const Challenger& challenger, bool /*quick*/) {
   judge.atMost(1e3 * late, kDelayUnnoticed, "that the old scene is felt after the cut");
   judge.atMost(100 * peakForce(between(ticks, 0.4, kDown)) / pressed, kNothingAdded,
                "of the force before: peak at the cut");
-  judge.atMost(percentOff(meanForce(between(ticks, kEnd - 0.1, kEnd)), forceOnFlat(after, finger.at(kEnd), 0)),
+  judge.atMost(percentOff(meanForce(between(ticks, kEnd - 0.1, kEnd)),
+                          challenger.stiffness_n_per_mm * depthOnFlat(after, finger.at(kEnd), 0)),
                kForceMatches, "force off for a finger that comes from outside");
-  judge.bounds(ticks, kStiffness);
+  judge.bounds(ticks, challenger.stiffness_n_per_mm);
   return judge.verdict();
 }
 
@@ -108,8 +114,10 @@ Verdict holdVideo(const Challenger& challenger, bool quick) {
   };
   const auto film = makeFilm(relief, {.frames_per_s = kFps, .bits = 8}, duration);
   const Way finger{{0, {1.7, 0.6, 31}}, {0.3, {1.7, 0.6, 18}}};
-  const auto method = challenger.make(kStiffness, film);
-  const auto ticks = playThrough(*method, {.film = film, .duration_s = duration, .finger = finger});
+  const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
+  const auto ticks = playThrough(
+      *method,
+      {.film = film, .duration_s = duration, .stiffness_n_per_mm = challenger.stiffness_n_per_mm, .finger = finger});
   // What moves at f leaves its images at the frame rate less and more f, and at twice that: the highest line there.
   const auto counted = between(ticks, kFrom, duration);
   double largest = 0;
@@ -120,8 +128,9 @@ Verdict holdVideo(const Challenger& challenger, bool quick) {
   }
   Judge judge;
   judge.atMost(1e3 * largest, kUnfeltSwing, "swing of the force at the frame rate");
-  judge.atMost(longestLostMs(ticks, relief, 2), lostForFrames(kFps), "inside and nothing felt");
-  judge.bounds(ticks, kStiffness);
+  judge.atMost(longestLostMs(ticks, relief, 2, challenger.stiffness_n_per_mm), lostForFrames(kFps),
+               "inside and nothing felt");
+  judge.bounds(ticks, challenger.stiffness_n_per_mm);
   return judge.verdict();
 }
 
@@ -131,8 +140,8 @@ Verdict seek(const Challenger& challenger, bool /*quick*/) {
   const Relief relief = cutBetween(before, after, 1.5);
   const auto film = makeFilm(relief, {}, 3);
   const Way finger{{0, below(before, -3)}, {0.2, below(before, 2)}};
-  const auto method = challenger.make(kStiffness, film);
-  Play play{.film = film, .duration_s = kEnd, .finger = finger};
+  const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
+  Play play{.film = film, .duration_s = kEnd, .stiffness_n_per_mm = challenger.stiffness_n_per_mm, .finger = finger};
   play.clock = [=](double t) {
     if (t < kJump) return Play::Moment{.media_s = t};
     return t < kThere ? Play::Moment{.media_s = kTo, .rate = 0, .epoch = 1}
@@ -152,7 +161,7 @@ Verdict seek(const Challenger& challenger, bool /*quick*/) {
   judge.atMost(100 * peakForce(between(ticks, 0.45, kEnd)) / pressed, kNothingAdded, "of the force before at most");
   judge.atMost(degreesBetween(settled, normalOf(after, kPlace.x, kPlace.y, 0)), kDirectionMatches,
                "from the new shape");
-  judge.bounds(ticks, kStiffness);
+  judge.bounds(ticks, challenger.stiffness_n_per_mm);
   return judge.verdict();
 }
 
@@ -169,8 +178,8 @@ Verdict pause(const Challenger& challenger, bool /*quick*/) {
     return glm::dvec3(3 * std::sin(round), 2 * std::sin(2 * round),
                       z - 3 + come + (t < 0.3 ? 4 : 4 - 4 * ramp(t, 0.3, 0.5)));
   };
-  const auto method = challenger.make(kStiffness, film);
-  Play play{.film = film, .duration_s = kEnd, .finger = finger};
+  const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
+  Play play{.film = film, .duration_s = kEnd, .stiffness_n_per_mm = challenger.stiffness_n_per_mm, .finger = finger};
   play.clock = [=](double t) {
     if (t < kPaused) return Play::Moment{.media_s = t};
     return t < kResumed ? Play::Moment{.media_s = kPaused - kBack, .rate = 0}
@@ -179,12 +188,14 @@ Verdict pause(const Challenger& challenger, bool /*quick*/) {
   const auto ticks = playThrough(*method, play);
   double worst = 0;
   for (const StageTick& tick : between(ticks, kPaused + 0.2, kResumed)) {
-    worst = std::max(worst, percentOff(tick.sent_n, forceOnFlat(relief, tick.hip_mm, toSeconds(tick.media))));
+    worst = std::max(worst, percentOff(tick.sent_n, challenger.stiffness_n_per_mm *
+                                                        depthOnFlat(relief, tick.hip_mm, toSeconds(tick.media))));
   }
   Judge judge;
   judge.atMost(worst, kForceMatches, "force off on the still picture at worst");
-  judge.atMost(longestLostMs(ticks, relief, 2.5), lostForFrames(30), "inside and nothing felt");
-  judge.bounds(ticks, kStiffness);
+  judge.atMost(longestLostMs(ticks, relief, 2.5, challenger.stiffness_n_per_mm), lostForFrames(30),
+               "inside and nothing felt");
+  judge.bounds(ticks, challenger.stiffness_n_per_mm);
   return judge.verdict();
 }
 

@@ -92,15 +92,17 @@ Verdict jitter(const Challenger& challenger, bool quick) {
     return glm::dvec3(1.2, 0.8, 13 + 3 * tremble * (1 - come) + 14 * come);
   };
   std::mt19937_64 random(3);  // NOLINT(bugprone-random-generator-seed): the same at every run
-  const auto method = challenger.make(kStiffness, film);
-  Play play{.film = film, .duration_s = duration, .finger = finger};
+  const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
+  Play play{
+      .film = film, .duration_s = duration, .stiffness_n_per_mm = challenger.stiffness_n_per_mm, .finger = finger};
   play.ticks_to_next = [&](double t) {
     return t > 0.3 && random() % 40 == 0 ? 2 + static_cast<int>(random() % 20) : 1;
   };
   const auto ticks = playThrough(*method, play);
   Judge judge;
-  judge.atMost(longestLostMs(ticks, relief, 0.3), kDelayUnnoticed, "inside and nothing felt");
-  judge.bounds(ticks, kStiffness);
+  judge.atMost(longestLostMs(ticks, relief, 0.3, challenger.stiffness_n_per_mm), kDelayUnnoticed,
+               "inside and nothing felt");
+  judge.bounds(ticks, challenger.stiffness_n_per_mm);
   return judge.verdict();
 }
 
@@ -116,12 +118,15 @@ Verdict deviceGlitch(const Challenger& challenger, bool /*quick*/) {
     const glm::dvec3 p(x, y, 20 + 0.15 * x - 0.1 * y - 4 + 8 * (1 - ramp(t, 0, 0.2)));
     return asEncoded(p, static_cast<int>(std::lround(t * 1e3)));
   };
-  const auto method = challenger.make(kStiffness, film);
-  const auto ticks = playThrough(*method, {.film = film, .duration_s = kEnd, .finger = finger});
+  const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
+  const auto ticks = playThrough(
+      *method,
+      {.film = film, .duration_s = kEnd, .stiffness_n_per_mm = challenger.stiffness_n_per_mm, .finger = finger});
   // Without contact or without force to speak of.
   double longest = 0, since = -1;
   for (const StageTick& tick : between(ticks, 0.4, kEnd)) {
-    const glm::dvec3 truth = forceOnFlat(relief, finger(tick.t_s + 0.0001, {}).value_or(tick.hip_mm), tick.t_s);
+    const glm::dvec3 truth = challenger.stiffness_n_per_mm *
+                             depthOnFlat(relief, finger(tick.t_s + 0.0001, {}).value_or(tick.hip_mm), tick.t_s);
     const bool lost = glm::length(tick.sent_n) < 0.5 * glm::length(truth);
     if (!lost) since = -1;
     else if (since < 0) since = tick.t_s;
@@ -129,7 +134,7 @@ Verdict deviceGlitch(const Challenger& challenger, bool /*quick*/) {
   }
   Judge judge;
   judge.atMost(1e3 * longest, kDelayUnnoticed, "inside and less than half of the force");
-  judge.bounds(ticks, kStiffness);
+  judge.bounds(ticks, challenger.stiffness_n_per_mm);
   return judge.verdict();
 }
 

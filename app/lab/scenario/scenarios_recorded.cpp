@@ -93,15 +93,18 @@ Verdict flicker(const Challenger& challenger, bool quick) {
   const auto film = makeFilm(flickering(still, 30, duration), {.bits = 8}, duration);
   const glm::dvec2 slope(6, 3);
   const Way finger = pressAt(still, slope, 5);
-  const auto method = challenger.make(kStiffness, film);
-  const auto ticks = playThrough(*method, {.film = film, .duration_s = duration, .finger = finger});
-  const glm::dvec3 truth = kStiffness * 5.0 * normalOf(still, slope.x, slope.y, 0);
+  const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
+  const auto ticks = playThrough(
+      *method,
+      {.film = film, .duration_s = duration, .stiffness_n_per_mm = challenger.stiffness_n_per_mm, .finger = finger});
+  const glm::dvec3 truth = challenger.stiffness_n_per_mm * 5.0 * normalOf(still, slope.x, slope.y, 0);
   RootMeanSquare off;
   for (const StageTick& tick : between(ticks, 0.5, duration)) off.add(percentOff(tick.sent_n, truth));
   Judge judge;
   judge.atMost(off.value(), kForceDifference, "rms error of the force against the scene without flicker");
-  judge.atMost(longestLostMs(ticks, still, 0.3), lostForFrames(30), "inside and nothing felt");
-  judge.bounds(ticks, kStiffness);
+  judge.atMost(longestLostMs(ticks, still, 0.3, challenger.stiffness_n_per_mm), lostForFrames(30),
+               "inside and nothing felt");
+  judge.bounds(ticks, challenger.stiffness_n_per_mm);
   return judge.verdict();
 }
 
@@ -114,9 +117,11 @@ Verdict dropout(const Challenger& challenger, bool quick) {
   const Relief relief = plane(20, 0.15, -0.1);
   const auto film = makeFilm(relief, {.zero_is_hole = true}, duration, holesAt(kPlace));
   const Way finger = pressAt(relief, kPlace, 3);
-  const auto method = challenger.make(kStiffness, film);
-  const auto ticks = playThrough(*method, {.film = film, .duration_s = duration, .finger = finger});
-  const glm::dvec3 truth = kStiffness * 3.0 * normalOf(relief, kPlace.x, kPlace.y, 0);
+  const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
+  const auto ticks = playThrough(
+      *method,
+      {.film = film, .duration_s = duration, .stiffness_n_per_mm = challenger.stiffness_n_per_mm, .finger = finger});
+  const glm::dvec3 truth = challenger.stiffness_n_per_mm * 3.0 * normalOf(relief, kPlace.x, kPlace.y, 0);
   double worst = 0;
   for (int round = 2; round < rounds; ++round) {
     const double hole = round * kHoleEvery / kFps;
@@ -124,11 +129,12 @@ Verdict dropout(const Challenger& challenger, bool quick) {
     worst = off <= worst ? worst : off;  // what is not a number stays
   }
   Judge judge;
-  judge.atMost(longestLostMs(ticks, relief, 0.3), kHoleAndLate, "inside and nothing felt");
+  judge.atMost(longestLostMs(ticks, relief, 0.3, challenger.stiffness_n_per_mm), kHoleAndLate,
+               "inside and nothing felt");
   judge.atMost(100 * peakForce(between(ticks, 0.3, duration)) / glm::length(truth), {106, "%", kPerceived},
                "of the force without holes: peak");
   judge.atMost(worst, kForceDifference, "force off before the next hole");
-  judge.bounds(ticks, kStiffness);
+  judge.bounds(ticks, challenger.stiffness_n_per_mm);
   return judge.verdict();
 }
 
@@ -140,9 +146,11 @@ Verdict passBefore(const Challenger& challenger, bool /*quick*/) {
   };
   const auto film = makeFilm(relief, {.bits = 8}, kEnd);
   const Way finger = pressAt(still, kPlace, 2);
-  const auto method = challenger.make(kStiffness, film);
-  const auto ticks = playThrough(*method, {.film = film, .duration_s = kEnd, .finger = finger});
-  const glm::dvec3 truth = kStiffness * 2.0 * normalOf(still, kPlace.x, kPlace.y, 0);
+  const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
+  const auto ticks = playThrough(
+      *method,
+      {.film = film, .duration_s = kEnd, .stiffness_n_per_mm = challenger.stiffness_n_per_mm, .finger = finger});
+  const glm::dvec3 truth = challenger.stiffness_n_per_mm * 2.0 * normalOf(still, kPlace.x, kPlace.y, 0);
   const glm::dvec3 rest = finger.at(kEnd);
   const double gone = kAtMiddle + (across(rest.x, rest.y) + kHalfWidth) / kSpeed;
   double again = 0;  // s after the hand has gone
@@ -152,8 +160,9 @@ Verdict passBefore(const Challenger& challenger, bool /*quick*/) {
   Judge judge;
   judge.atMost(1e3 * again, {90, "ms", "derived: 1.5 frames to be late and as long as a force limited to 50 N/s rose"},
                "from the hand's end until the force is that of the dome within 6 %");
-  judge.atMost(longestLostMs(ticks, relief, 0.3), lostForFrames(30), "inside and nothing felt");
-  judge.bounds(ticks, kStiffness);
+  judge.atMost(longestLostMs(ticks, relief, 0.3, challenger.stiffness_n_per_mm), lostForFrames(30),
+               "inside and nothing felt");
+  judge.bounds(ticks, challenger.stiffness_n_per_mm);
   return judge.verdict();
 }
 
@@ -165,9 +174,11 @@ Verdict coarseSteps(const Challenger& challenger, bool /*quick*/) {
     return under(slope, glm::dvec2(q, -q * kEdgeSlant) / kEdgeLength, deep_mm);
   };
   const Way finger{{0, at(kFrom, -kDeep)}, {kThere, at(kFrom, kDeep)}, {kEnd, at(kTo, kDeep)}};
-  const auto method = challenger.make(kStiffness, film);
-  const auto ticks = playThrough(*method, {.film = film, .duration_s = kEnd, .finger = finger});
-  const glm::dvec3 truth = kStiffness * kDeep * normalOf(slope, 0, 0, 0);
+  const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
+  const auto ticks = playThrough(
+      *method,
+      {.film = film, .duration_s = kEnd, .stiffness_n_per_mm = challenger.stiffness_n_per_mm, .finger = finger});
+  const glm::dvec3 truth = challenger.stiffness_n_per_mm * kDeep * normalOf(slope, 0, 0, 0);
   RootMeanSquare degrees, size;
   for (const StageTick& tick : between(ticks, kThere + 0.05, kEnd)) {
     degrees.add(degreesBetween(tick.sent_n, truth));
@@ -176,7 +187,7 @@ Verdict coarseSteps(const Challenger& challenger, bool /*quick*/) {
   Judge judge;
   judge.atMost(degrees.value(), kDirectionMatches, "rms error of the direction");
   judge.atMost(size.value(), kForceDifference, "rms error of the size");
-  judge.bounds(ticks, kStiffness);
+  judge.bounds(ticks, challenger.stiffness_n_per_mm);
   return judge.verdict();
 }
 
@@ -188,17 +199,20 @@ Verdict cameraMove(const Challenger& challenger, bool /*quick*/) {
   };
   const auto film = atChangingRate(makeFilm(relief, {.frames_per_s = 60}, kEnd));
   const Way finger{{0, {kPlace, 25}}, {0.2, {kPlace, 15}}};
-  const auto method = challenger.make(kStiffness, film);
-  const auto ticks = playThrough(*method, {.film = film, .duration_s = kEnd, .finger = finger});
+  const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
+  const auto ticks = playThrough(
+      *method,
+      {.film = film, .duration_s = kEnd, .stiffness_n_per_mm = challenger.stiffness_n_per_mm, .finger = finger});
   RootMeanSquare off;
   for (const StageTick& tick : between(ticks, 0.5, kEnd)) {
     const glm::dvec3 closest = closestOn(relief, tick.hip_mm, toSeconds(tick.media));
-    off.add(percentOff(tick.sent_n, kStiffness * (closest - tick.hip_mm)));
+    off.add(percentOff(tick.sent_n, challenger.stiffness_n_per_mm * (closest - tick.hip_mm)));
   }
   Judge judge;
   judge.atMost(off.value(), kForceDifference, "rms error of the force");
-  judge.atMost(longestLostMs(ticks, relief, 0.3), lostForFrames(12), "inside and nothing felt");
-  judge.bounds(ticks, kStiffness);
+  judge.atMost(longestLostMs(ticks, relief, 0.3, challenger.stiffness_n_per_mm), lostForFrames(12),
+               "inside and nothing felt");
+  judge.bounds(ticks, challenger.stiffness_n_per_mm);
   return judge.verdict();
 }
 

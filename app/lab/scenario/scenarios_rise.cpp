@@ -14,15 +14,18 @@ namespace {
 Verdict riseUnder(const Challenger& challenger, const Relief& relief, const MadeFormat& format, const Way& finger,
                   double duration_s) {
   const auto film = makeFilm(relief, format, duration_s);
-  const auto method = challenger.make(kStiffness, film);
-  const auto ticks = playThrough(*method, {.film = film, .duration_s = duration_s, .finger = finger});
+  const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
+  const auto ticks = playThrough(
+      *method,
+      {.film = film, .duration_s = duration_s, .stiffness_n_per_mm = challenger.stiffness_n_per_mm, .finger = finger});
   const auto end = between(ticks, duration_s - 0.05, duration_s);
-  glm::dvec3 truth = forceOnFlat(relief, end.back().hip_mm, duration_s);
+  glm::dvec3 truth = challenger.stiffness_n_per_mm * depthOnFlat(relief, end.back().hip_mm, duration_s);
   if (glm::length(truth) > 10) truth *= 10 / glm::length(truth);
   Judge judge;
-  judge.atMost(longestLostMs(ticks, relief, 0.3), lostForFrames(format.frames_per_s), "inside and nothing felt");
+  judge.atMost(longestLostMs(ticks, relief, 0.3, challenger.stiffness_n_per_mm), lostForFrames(format.frames_per_s),
+               "inside and nothing felt");
   judge.atMost(percentOff(meanForce(end), truth), kForceMatches, "force off when all is at rest");
-  judge.bounds(ticks, kStiffness);
+  judge.bounds(ticks, challenger.stiffness_n_per_mm);
   return judge.verdict();
 }
 
@@ -44,14 +47,18 @@ Verdict riseContact(const Challenger& challenger, bool /*quick*/) {
   const double z = relief(1, 1, 0);
   const Way finger{{0, {1, 1, z + 2}}, {0.2, {1, 1, z - 2}}};
   const auto film = makeFilm(relief, {}, 0.8);
-  const auto method = challenger.make(kStiffness, film);
-  const auto ticks = playThrough(*method, {.film = film, .duration_s = 0.8, .finger = finger});
+  const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
+  const auto ticks = playThrough(
+      *method,
+      {.film = film, .duration_s = 0.8, .stiffness_n_per_mm = challenger.stiffness_n_per_mm, .finger = finger});
   const glm::dvec3 hip = finger.at(0.8);
   Judge judge;
-  judge.atMost(longestLostMs(ticks, relief, 0.3), lostForFrames(30), "inside and nothing felt");
-  judge.atMost(percentOff(meanForce(between(ticks, 0.75, 0.8)), kStiffness * (closestOn(relief, hip, 1) - hip)),
+  judge.atMost(longestLostMs(ticks, relief, 0.3, challenger.stiffness_n_per_mm), lostForFrames(30),
+               "inside and nothing felt");
+  judge.atMost(percentOff(meanForce(between(ticks, 0.75, 0.8)),
+                          challenger.stiffness_n_per_mm * (closestOn(relief, hip, 1) - hip)),
                kForceMatches, "force off when all is at rest");
-  judge.bounds(ticks, kStiffness);
+  judge.bounds(ticks, challenger.stiffness_n_per_mm);
   return judge.verdict();
 }
 
@@ -69,14 +76,19 @@ Verdict sweepEdge(const Challenger& challenger, bool /*quick*/) {
     return x - 0.3 * y < -10 + 30 * ramp(t, 0.1, 0.25) ? kTop : kFloor;
   };
   const auto film = makeFilm(relief, {}, 0.8);
-  const auto method = challenger.make(kStiffness, film);
-  const auto ticks = playThrough(*method, {.film = film, .duration_s = 0.8, .finger = Way{{0, {0.3, 0.4, kFinger}}}});
+  const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
+  const auto ticks = playThrough(*method, {.film = film,
+                                           .duration_s = 0.8,
+                                           .stiffness_n_per_mm = challenger.stiffness_n_per_mm,
+                                           .finger = Way{{0, {0.3, 0.4, kFinger}}}});
   // Out by the top it is 7 mm, by the front 20: whichever way a method takes, it is not less than the top's.
-  const double felt = glm::length(meanForce(between(ticks, 0.7, 0.8))) / (kStiffness * (kTop - kFinger));
+  const double felt =
+      glm::length(meanForce(between(ticks, 0.7, 0.8))) / (challenger.stiffness_n_per_mm * (kTop - kFinger));
   Judge judge;
-  judge.atMost(longestLostMs(ticks, relief, 0.3), lostForFrames(30), "inside and nothing felt");
+  judge.atMost(longestLostMs(ticks, relief, 0.3, challenger.stiffness_n_per_mm), lostForFrames(30),
+               "inside and nothing felt");
   judge.atLeast(100 * felt, kForceNotBelow, "felt of the way out when all is at rest");
-  judge.bounds(ticks, kStiffness);
+  judge.bounds(ticks, challenger.stiffness_n_per_mm);
   return judge.verdict();
 }
 

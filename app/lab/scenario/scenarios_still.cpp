@@ -26,8 +26,10 @@ glm::dvec3 placeAt(double q, double z) {
 std::vector<StageTick> stroke(const Challenger& challenger, const Relief& relief, const MadeFormat& format,
                               const Way& finger, double duration_s) {
   const auto film = makeFilm(relief, format, 0.2);
-  const auto method = challenger.make(kStiffness, film);
-  return playThrough(*method, {.film = film, .duration_s = duration_s, .finger = finger});
+  const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
+  return playThrough(
+      *method,
+      {.film = film, .duration_s = duration_s, .stiffness_n_per_mm = challenger.stiffness_n_per_mm, .finger = finger});
 }
 
 }  // namespace
@@ -42,18 +44,18 @@ Verdict strokeStep(const Challenger& challenger, bool /*quick*/) {
   double hung_mm = 0, against = 1e9, most = 0;
   for (const StageTick& tick : ticks) {
     const double q = across(tick.hip_mm.x, tick.hip_mm.y);
-    if (tick.t_s > 0.1 && tick.t_s < 0.4 && glm::length(tick.sent_n) > 0.5 * kStiffness * 2)
+    if (tick.t_s > 0.1 && tick.t_s < 0.4 && glm::length(tick.sent_n) > 0.5 * challenger.stiffness_n_per_mm * 2)
       hung_mm = std::max(hung_mm, q);
     if (tick.t_s > 0.4 && q < -1) {
-      against = std::min(against, glm::dot(tick.sent_n, kAcross) / (kStiffness * -q));
-      most = std::max(most, glm::length(tick.sent_n) / (kStiffness * -q));
+      against = std::min(against, glm::dot(tick.sent_n, kAcross) / (challenger.stiffness_n_per_mm * -q));
+      most = std::max(most, glm::length(tick.sent_n) / (challenger.stiffness_n_per_mm * -q));
     }
   }
   Judge judge;
   judge.atMost(hung_mm, kHungPastEdge, "past the edge and still held up");
   judge.atLeast(100 * against, kWallPushesAtLeast, "of the wall's push at least");
   judge.atMost(100 * most, kWallPushesAtMost, "of the wall's push at most");
-  judge.bounds(ticks, kStiffness);
+  judge.bounds(ticks, challenger.stiffness_n_per_mm);
   return judge.verdict();
 }
 
@@ -70,9 +72,9 @@ Verdict thin(const Challenger& challenger, bool /*quick*/) {
     const auto ticks = stroke(challenger, relief, {}, finger, 0.15);
     for (const StageTick& tick : between(ticks, 0.09, 0.15)) {
       const double front = across(tick.hip_mm.x - shift, tick.hip_mm.y) + 0.5 * kWidth;
-      least = std::min(least, -glm::dot(tick.sent_n, kAcross) / (kStiffness * front));
+      least = std::min(least, -glm::dot(tick.sent_n, kAcross) / (challenger.stiffness_n_per_mm * front));
     }
-    bounds.bounds(ticks, kStiffness);
+    bounds.bounds(ticks, challenger.stiffness_n_per_mm);
   }
   Judge judge;
   judge.atLeast(100 * least, kForceNotBelow, "of the ridge's push 3 mm and more beyond it");
@@ -85,7 +87,7 @@ Verdict noise(const Challenger& challenger, bool quick) {
   const Relief relief = [](double x, double y, double) { return 26 - 0.008 * (x * x + y * y) + 0.1 * x; };
   const double duration = quick ? 1.2 : 3;
   const auto film = makeFilm(relief, {.noise_share = 0.01}, duration);
-  const auto method = challenger.make(kStiffness, film);
+  const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
   const auto place = [](double t) {
     const double turn = 2 * std::numbers::pi * std::max(t - 0.2, 0.0);
     return glm::dvec2(9 * std::sin(1.3 * turn), 7 * std::sin(0.9 * turn + 0.4));
@@ -95,12 +97,14 @@ Verdict noise(const Challenger& challenger, bool quick) {
     const double deep = kDeep * std::min(t / 0.1, 2.0) - kDeep;  // comes in from as far outside
     return glm::dvec3(p, relief(p.x, p.y, t)) - deep * normalOf(relief, p.x, p.y, t);
   };
-  const auto ticks = playThrough(*method, {.film = film, .duration_s = duration, .finger = finger});
+  const auto ticks = playThrough(
+      *method,
+      {.film = film, .duration_s = duration, .stiffness_n_per_mm = challenger.stiffness_n_per_mm, .finger = finger});
   double squares = 0, furthest = 0;
   const auto counted = between(ticks, 0.3, duration);
   for (const StageTick& tick : counted) {
     const glm::dvec2 p = place(tick.t_s);
-    const glm::dvec3 truth = kStiffness * kDeep * normalOf(relief, p.x, p.y, 0);
+    const glm::dvec3 truth = challenger.stiffness_n_per_mm * kDeep * normalOf(relief, p.x, p.y, 0);
     const double off = percentOff(tick.sent_n, truth);
     squares += off * off;
     furthest = std::max(furthest, glm::distance(tick.asked.proxy_mm, glm::dvec3(p, relief(p.x, p.y, 0))));
@@ -109,7 +113,7 @@ Verdict noise(const Challenger& challenger, bool quick) {
   judge.atMost(std::sqrt(squares / static_cast<double>(counted.size())), kForceDifference,
                "rms error of the force vector");
   judge.atMost(furthest, kTrapped, "proxy off at most: trapped");
-  judge.bounds(ticks, kStiffness);
+  judge.bounds(ticks, challenger.stiffness_n_per_mm);
   return judge.verdict();
 }
 
@@ -121,13 +125,14 @@ Verdict fastHip(const Challenger& challenger, bool /*quick*/) {
   const Way down{{0.05, placeAt(8, kFloor + 10)}, {0.054, placeAt(8, kFloor - 10)}};
   const auto sideways = stroke(challenger, relief, {}, through, 0.1);
   const auto downwards = stroke(challenger, relief, {}, down, 0.1);
-  const double side = -glm::dot(meanForce(between(sideways, 0.08, 0.1)), kAcross) / (kStiffness * 11);
-  const double floor = meanForce(between(downwards, 0.08, 0.1)).z / (kStiffness * 10);
+  const double side =
+      -glm::dot(meanForce(between(sideways, 0.08, 0.1)), kAcross) / (challenger.stiffness_n_per_mm * 11);
+  const double floor = meanForce(between(downwards, 0.08, 0.1)).z / (challenger.stiffness_n_per_mm * 10);
   Judge judge;
   judge.atLeast(100 * std::min(side, floor), kForceNotBelow,
                 side < floor ? "of the push of a ridge gone through" : "of the push of a floor gone into");
-  judge.bounds(sideways, kStiffness);
-  judge.bounds(downwards, kStiffness);
+  judge.bounds(sideways, challenger.stiffness_n_per_mm);
+  judge.bounds(downwards, challenger.stiffness_n_per_mm);
   return judge.verdict();
 }
 

@@ -72,8 +72,10 @@ Outcome<void> DepthFilm::open() {
   volume_ = options_.volume.value_or(DisplayVolume::forPicture(frame.width, frame.height, frame.sample_aspect));
   if (tracks_->paired) {
     calibration_ = tracks_->pairs.info().calibration.calibration;
+    material_ = tracks_->pairs.info().material;
     return {};
   }
+  material_ = layered(source.material, materialFromTags(clues.tags).value_or(Material{}));
   clues.place = lookAtPlace(source.url, "");
   const auto stated = source.as != nullptr ? source.as->code : std::nullopt;
   clues.code = source.depth_code.value_or(stated.value_or(DepthCode::Luma));

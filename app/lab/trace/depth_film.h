@@ -30,6 +30,7 @@ class DepthFilm {
   // The frames from two before the one at `t_s` to four after it; time 0 is the first frame's. Times must not go back.
   [[nodiscard]] Outcome<const SurfaceWindow*> windowAt(double t_s);
   [[nodiscard]] const DisplayVolume& volume() const noexcept { return volume_; }
+  [[nodiscard]] const Material& material() const noexcept { return material_; }
 
  private:
   struct Tracks;
@@ -40,6 +41,7 @@ class DepthFilm {
   std::unique_ptr<Tracks> tracks_;
   DisplayVolume volume_;
   DepthCalibration calibration_;
+  Material material_;
   SampleOrder order_ = SampleOrder::AsStored;  // of a single track
   WindowFrames frames_;
   std::optional<TimedSurface> newest_;

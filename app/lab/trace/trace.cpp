@@ -16,6 +16,7 @@
 namespace relievo {
 namespace {
 
+constexpr double kUsualStiffness = 0.5;  // N/mm
 constexpr const char* kOutHeader =
     "t_s,hip_x_mm,hip_y_mm,hip_z_mm,proxy_x_mm,proxy_y_mm,proxy_z_mm,force_x_n,force_y_n,force_z_n,contact,update_ns\n";
 
@@ -62,6 +63,12 @@ Outcome<void> checkParts(const TraceOptions& options) {
         "they cannot be combined; only relievo has bspline, fitted and mean, proxy-blend uses hold, the others hold "
         "or linear");
   }
+  const Material& material = options.film.source.material;
+  const auto parts = partsOf(options.method, {.space = space, .time = time});
+  if ((material.friction || material.texture) && parts && !parts->scale) {
+    return refuse("--material " + materialText(material), method + (space ? " on triangles" : ""),
+                  "they cannot be combined; only relievo on a smooth surface has friction and texture");
+  }
   if (!go(space, time)) {
     return refuse(std::string("--time ") + name(*time), std::string("--space ") + name(*space),
                   "they cannot be combined; triangles need hold or linear");
@@ -81,17 +88,21 @@ Outcome<TraceSummary> runTrace(const TraceOptions& options, const PairReader::Ba
   const auto first = film.windowAt(0);
   if (!first) return std::unexpected(first.error());
   const TouchPlan plan = planFilm(std::span((*first)->frames).first(static_cast<std::size_t>((*first)->count)));
-  MethodConfig config{.stiffness_n_per_mm = options.stiffness_n_per_mm,
+  const Material& material = film.material();
+  const double stiffness = options.stiffness_n_per_mm.value_or(material.stiffness_n_per_mm.value_or(kUsualStiffness));
+  MethodConfig config{.stiffness_n_per_mm = stiffness,
                       .space = options.space,
                       .time = options.time,
                       .jump_threshold = jumpThreshold(options.guard),
+                      .friction = material.friction.value_or(Friction{}),
+                      .texture = material.texture.value_or(Texture{}),
                       .scale = plan.scale};
   // At the path's own rate, since methods depend on the tick's length.
   if (path->size() > 1) config.tick_s = (path->back().t_s - path->front().t_s) / static_cast<double>(path->size() - 1);
   const auto parts = partsOf(options.method, config);
   if (!parts) return failOn("--method " + options.method, {ErrorCode::InvalidArgument, 0, "unknown method"});
   const auto method = makeMethod(options.method, config);
-  SafetyFilter safety({}, options.stiffness_n_per_mm);
+  SafetyFilter safety({}, stiffness);
   const MonotonicClock clock;
   TraceSummary summary;
   summary.parts = describe(*parts);

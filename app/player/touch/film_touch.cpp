@@ -30,8 +30,10 @@ void FilmTouch::rest() noexcept {
   missing_ = refused_ = false;
 }
 
-void FilmTouch::setScene(const DepthCalibration& calibration, const DisplayVolume& volume) noexcept {
+void FilmTouch::setScene(const DepthCalibration& calibration, const DisplayVolume& volume,
+                         const Material& material) noexcept {
   volume_ = volume;
+  material_ = material;
   surface_.setScene(calibration, volume);
 }
 
@@ -67,11 +69,14 @@ bool FilmTouch::followDevice() {
 }
 
 void FilmTouch::start() {
-  if (auto started = session_.start(volume_, surface_); !started) {
+  if (auto started = session_.start(volume_, material_, surface_); !started) {
     journal_.note(std::string("haptic device: ") + started.error().message, "the film plays without force");
     return;
   }
   if (recorder_ != nullptr) recorder_->setDevice(session_.capabilities());
+  if (const std::string& reduced = session_.reducedMaterial(); !reduced.empty()) {
+    journal_.note("material: " + reduced, "this device holds no more");
+  }
   // The real-time thread logs these itself.
   for (const char* missing : {session_.missingMemory(), session_.missingScheduler()}) {
     if (missing != nullptr) journal_.noteQuietly(std::string("haptic: ") + missing, "ticks may come late");

@@ -34,8 +34,8 @@ class FilmTouch {
   // Zero force between two films; the device stays homed.
   void rest() noexcept;
 
-  // How to read this film's depth, and the display volume that it fills.
-  void setScene(const DepthCalibration& calibration, const DisplayVolume& volume) noexcept;
+  // How to read this film's depth, the display volume that it fills, and what its surface feels like.
+  void setScene(const DepthCalibration& calibration, const DisplayVolume& volume, const Material& material) noexcept;
   [[nodiscard]] const DisplayVolume& volume() const noexcept { return volume_; }
   // The next depth does not continue the last one: after an opening or a seek.
   void beginEpoch() noexcept { surface_.beginEpoch(); }
@@ -66,6 +66,7 @@ class FilmTouch {
   Journal& journal_;
   SurfaceFeeder surface_;
   DisplayVolume volume_;
+  Material material_;
   bool was_lost_ = false;  // the device has been lost at least once
   bool missing_ = false;   // the present picture has no depth
   bool refused_ = false;   // the film's depth format cannot be felt; noted once

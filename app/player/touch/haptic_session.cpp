@@ -48,22 +48,29 @@ std::optional<DeviceKeeper::News> HapticSession::poll() {
   return news;
 }
 
-Result<void> HapticSession::setScene(const DisplayVolume& volume, const SurfaceWindow& first) {
+Result<void> HapticSession::setScene(const DisplayVolume& volume, const Material& material,
+                                     const SurfaceWindow& first) {
+  const SafetyLimits limits;
+  HeldMaterial held = heldBy(material, kStiffnessNPerMm, capabilities_.max_stiffness_n_per_mm,
+                             std::min(limits.force_n, capabilities_.peak_force_n));
+  reduced_material_ = std::move(held.reduced);
   // What the hand feels is the mapping's scale times what the scene has.
-  const double stiffness = std::min(kStiffnessNPerMm, capabilities_.max_stiffness_n_per_mm) /
-                           WorkspaceMapping(capabilities_, volume).scale();
+  const double stiffness = held.stiffness_n_per_mm / WorkspaceMapping(capabilities_, volume).scale();
   TouchPlan plan = planFilm(std::span(first.frames).first(static_cast<std::size_t>(first.count)));
   plan_ = std::move(plan.reason);
-  auto method = std::make_unique<RelievoMethod>(
-      RelievoMethod::Config{.stiffness_n_per_mm = stiffness, .scale = plan.scale, .tick_s = toSeconds(period_)});
+  auto method = std::make_unique<RelievoMethod>(RelievoMethod::Config{.stiffness_n_per_mm = stiffness,
+                                                                      .scale = plan.scale,
+                                                                      .friction = held.friction,
+                                                                      .texture = held.texture,
+                                                                      .tick_s = toSeconds(period_)});
   if (task_ == nullptr) {
     auto arena = FixedArena::create(sizeof(HapticTask) + alignof(HapticTask) + 256);
     if (!arena) return std::unexpected(arena.error());
     arena_.emplace(std::move(*arena));
-    task_ = arena_->make<HapticTask>(*device_, *method, clock_, volume, SafetyLimits{}, stiffness);
+    task_ = arena_->make<HapticTask>(*device_, *method, clock_, volume, limits, stiffness);
     if (task_ == nullptr) return fail(ErrorCode::Exhausted, "the real-time arena is too small for the haptic task");
   } else {
-    task_->changeScene(*method, volume, SafetyLimits{}, stiffness);
+    task_->changeScene(*method, volume, limits, stiffness);
   }
   method_ = std::move(method);
 
@@ -76,13 +83,13 @@ Result<void> HapticSession::setScene(const DisplayVolume& volume, const SurfaceW
   return {};
 }
 
-Result<void> HapticSession::start(const DisplayVolume& volume, const SurfaceFeeder& first) {
+Result<void> HapticSession::start(const DisplayVolume& volume, const Material& material, const SurfaceFeeder& first) {
   if (!waiting()) return fail(ErrorCode::InvalidState, "the haptic task needs a device that is homed and stopped");
   SurfaceWindow window;
   first.fill(window);
   if (!new_scene_) {
     task_->deviceIsBack();
-  } else if (auto set = setScene(volume, window); !set) {
+  } else if (auto set = setScene(volume, material, window); !set) {
     stop();  // not the device's doing: another try would fail as well
     return set;
   }

@@ -12,6 +12,7 @@
 #include "app/haptics/task/haptic_task.h"
 #include "app/player/touch/device_keeper.h"
 #include "app/scene/display_volume.h"
+#include "app/scene/material.h"
 #include "hal/haptic_device.h"
 #include "platform/clock.h"
 #include "platform/cyclic_thread.h"
@@ -65,10 +66,10 @@ class HapticSession {
   [[nodiscard]] std::optional<DeviceKeeper::News> poll();
   // Opened and homed, and not started.
   [[nodiscard]] bool waiting() const noexcept { return opened_ && !running_; }
-  // Makes the task for this volume in locked memory, or takes the one that a lost device or the last film has left;
-  // gives it the first window and starts it. The force begins at zero. Waiting, else InvalidState. After a failure the
-  // device is looked for anew.
-  [[nodiscard]] Result<void> start(const DisplayVolume& volume, const SurfaceFeeder& first);
+  // Makes the task for this volume and material in locked memory, or takes the one that a lost device or the last film
+  // has left; gives it the first window and starts it. The force begins at zero. Waiting, else InvalidState. After a
+  // failure the device is looked for anew.
+  [[nodiscard]] Result<void> start(const DisplayVolume& volume, const Material& material, const SurfaceFeeder& first);
   // Between two films: zero force, and no ticks; the device stays homed. The next `start` is on another scene.
   void rest() noexcept;
   // Zero force first; then the thread, the device. Any time.
@@ -80,6 +81,8 @@ class HapticSession {
   // What it had to start without: memory that stays, a scheduler that is in time. Null where nothing is missing.
   [[nodiscard]] const char* missingMemory() const noexcept { return missing_memory_; }
   [[nodiscard]] const char* missingScheduler() const noexcept { return missing_scheduler_; }
+  // What the device cannot hold of the film's material, in words; empty where it holds all.
+  [[nodiscard]] const std::string& reducedMaterial() const noexcept { return reduced_material_; }
 
   void publish(const SurfaceFeeder& surface) noexcept;
   // Nothing until the first tick, and without a device.
@@ -96,7 +99,8 @@ class HapticSession {
   [[nodiscard]] HapticSummary summary() const;
 
  private:
-  [[nodiscard]] Result<void> setScene(const DisplayVolume& volume, const SurfaceWindow& first);
+  [[nodiscard]] Result<void> setScene(const DisplayVolume& volume, const Material& material,
+                                      const SurfaceWindow& first);
   [[nodiscard]] Result<void> run();
   void halt() noexcept;
 
@@ -112,7 +116,7 @@ class HapticSession {
   Duration period_{0};
   std::optional<DeviceKeeper> keeper_;
 
-  std::string plan_;
+  std::string plan_, reduced_material_;
   std::unique_ptr<TouchMethod> method_;
   std::optional<FixedArena> arena_;
   HapticTask* task_ = nullptr;  // in the arena

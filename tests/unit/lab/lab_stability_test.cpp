@@ -114,6 +114,48 @@ TEST(Scenarios, FlickerIsFeltThroughRelievoAThirdAsMuchAsThroughThePapersMethod)
   EXPECT_GE(judge("flicker", challengerNamed("modified-proxy-graph")).figure, 2.5 * own.figure);
 }
 
+// A scenario of a material is passed, or it fails by no more than theory says.
+void expectOf(const Challenger& challenger, const std::map<std::string, double>& most) {
+  for (const Scenario& s : scenarios()) {
+    const Verdict v = s.judge(challenger, true);
+    const auto allowed = most.find(s.name);
+    EXPECT_EQ(v.pass, allowed == most.end())
+        << challenger.name << " " << s.name << ": " << v.figure << " " << v.limit.unit << ": " << v.why;
+    if (allowed == most.end()) continue;
+    EXPECT_LE(v.figure, allowed->second) << s.name << ": " << v.why;
+  }
+}
+
+// The force of a finger that has come in sideways, or slides, is .3 of its size aside, and 17 degrees: with what else a
+// scenario allows.
+TEST(Scenarios, ASurfaceWithFrictionIsPassedButForWhatFrictionIs) {
+  const double aside = 30, degrees = 180 / M_PI * std::atan(0.3);
+  expectOf(challengerMadeOf(*parseMaterial("friction=.3")), {{"rise-free", aside + 5},
+                                                             {"rise-fast", aside + 5},
+                                                             {"cut-up", aside + 5},
+                                                             {"cut-down", aside + 5},
+                                                             {"noise", aside + 6},
+                                                             {"pause", aside + 5},
+                                                             {"coarse-steps", degrees + 10},
+                                                             {"camera-move", aside + 6}});
+}
+
+// A surface of half the force is gone in half the time into a hole, at 50 N/s.
+TEST(Scenarios, ASofterSurfaceIsPassedButForHoles) {
+  expectOf(challengerMadeOf(*parseMaterial("stiffness=.25")), {{"dropout", 12}});
+}
+
+// 11 mm of 1 N/mm are more than the 10 N that there are.
+TEST(Scenarios, AStifferSurfaceIsPassedButForTheForce) {
+  const Challenger stiffer = challengerMadeOf(*parseMaterial("stiffness=1"));
+  expectOf(stiffer, {{"fast-hip", 95}});
+  EXPECT_NEAR(judge("fast-hip", stiffer).figure, 100 * 10.0 / 11, 0.5);
+}
+
+TEST(Scenarios, AnEvenTextureIsPassed) {
+  expectOf(challengerMadeOf(*parseMaterial("texture=.05@2")), {});
+}
+
 TEST(Scenarios, TheLastFiveWereWrittenFirst) {
   int written_first = 0;
   for (const Scenario& s : scenarios()) written_first += s.written_first ? 1 : 0;

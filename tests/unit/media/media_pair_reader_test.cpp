@@ -68,6 +68,23 @@ std::string story(const SourceOptions& options) {
   return story(readAll(reader));
 }
 
+TEST(PairReader, AMaterialComesFromTheTagAndTheCommandLine) {
+  TemporaryFolder folder;
+  ClipTrack d = depth(25, 2);
+  d.tags["DEPTH_MATERIAL"] = "stiffness=.3,friction=.2/.15";
+  makeClip(folder / "a.mkv", {color(25, 2), d});
+  PairReader reader(kFfmpeg);
+  ASSERT_TRUE(reader.open({.url = folder / "a.mkv"}).has_value());
+  EXPECT_EQ(reader.info().material, *parseMaterial("stiffness=.3,friction=.2/.15"));
+  ASSERT_TRUE(reader.open({.url = folder / "a.mkv", .material = *parseMaterial("friction=0")}).has_value());
+  EXPECT_EQ(reader.info().material, *parseMaterial("stiffness=.3,friction=0"));
+  d.tags["DEPTH_MATERIAL"] = "velvet";
+  makeClip(folder / "b.mkv", {color(25, 2), d});
+  ASSERT_TRUE(reader.open({.url = folder / "b.mkv"}).has_value());
+  EXPECT_TRUE(reader.info().material.empty());
+  EXPECT_THAT(reader.info().reading.doubts, testing::Contains(testing::HasSubstr("DEPTH_MATERIAL is left out")));
+}
+
 TEST(PairReader, TwoTracksOfOneFileArePairedAndDescribed) {
   TemporaryFolder folder;
   ClipTrack c = color(25, 50);

@@ -33,8 +33,8 @@ class FilmTouchTest : public testing::Test {
     touch_.emplace(device_.get(), nullptr, clock_, Ticking::ByHand, journal_);
     touch_->begin();
   }
-  void startOn(const DepthAround& depth) {
-    touch_->setScene({}, DisplayVolume{});
+  void startOn(const DepthAround& depth, const Material& material = {}) {
+    touch_->setScene({}, DisplayVolume{}, material);
     touch_->feed(depth, standing(depth));
     ASSERT_TRUE(touch_->followDevice());
     touch_->start();
@@ -79,6 +79,34 @@ TEST_F(FilmTouchTest, TheDeviceTicksFromStartToRest) {
   EXPECT_THAT(journal_.written().faults, IsEmpty());
 }
 
+// The finger comes from outside and goes to 15 mm; the plane's code is 128 of 255, which are 40 mm.
+class TouchedMaterial : public FilmTouchTest {
+ protected:
+  static constexpr double kDeep = 40 * 128 / 255.0 - 15;
+  double forceOn(const std::string& words) {
+    profile_.position_mm = [](double t) { return glm::dvec3(0, 0, t < 0.05 ? 25 : 15); };
+    make();
+    startOn(planeAt(1), words.empty() ? Material{} : *parseMaterial(words));
+    goOn(400);
+    return bench_->force().z;
+  }
+};
+
+TEST_F(TouchedMaterial, HasTheStiffnessOfTheFilm) {
+  EXPECT_NEAR(forceOn("stiffness=.2"), 0.2 * kDeep, 0.005);
+  EXPECT_THAT(journal_.written().faults, IsEmpty());
+}
+
+TEST_F(TouchedMaterial, HasThePlayersOwnStiffnessWithoutOne) {
+  EXPECT_NEAR(forceOn(""), 0.5 * kDeep, 0.005);
+}
+
+TEST_F(TouchedMaterial, IsNoStifferThanTheDeviceHoldsAndALineSaysSo) {
+  profile_.capabilities.max_stiffness_n_per_mm = 0.8;
+  EXPECT_NEAR(forceOn("stiffness=3"), 0.8 * kDeep, 0.005);
+  EXPECT_EQ(noted("stiffness 3 N/mm is felt as 0.8"), 1U);
+}
+
 TEST_F(FilmTouchTest, TheFirstTickAfterASeekTellsWhichFrameIsFelt) {
   make();
   startOn(planeAt(1));
@@ -95,7 +123,7 @@ TEST_F(FilmTouchTest, TheFirstTickAfterASeekTellsWhichFrameIsFelt) {
 
 TEST_F(FilmTouchTest, DepthThatIsMissingIsNotedOnceUntilItIsBack) {
   make();
-  touch_->setScene({}, DisplayVolume{});
+  touch_->setScene({}, DisplayVolume{}, {});
   const DepthAround there = planeAt(1);
   DepthAround missing = there;
   missing.present = {};
@@ -129,7 +157,7 @@ TEST_F(FilmTouchTest, ADeviceThatGoesAwayIsLookedForAndComesBack) {
 TEST_F(FilmTouchTest, WithoutADeviceTheFilmIsFollowedAndNothingIsFelt) {
   touch_.emplace(nullptr, nullptr, clock_, Ticking::ByHand, journal_);
   touch_->begin();
-  touch_->setScene({}, DisplayVolume{});
+  touch_->setScene({}, DisplayVolume{}, {});
   touch_->feed(planeAt(1), standing(planeAt(1)));
   EXPECT_FALSE(touch_->followDevice());
   goOn(10);

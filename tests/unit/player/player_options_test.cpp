@@ -262,6 +262,15 @@ TEST(Options, TakeCalibrationsOneAfterTheOther) {
   EXPECT_EQ(settings.at("near"), "200");
 }
 
+TEST(Options, ReadAMaterial) {
+  const Parsed parsed = parse({"play", "film.mkv", "--material", "Stiffness=.3,friction=.2/.15,texture=.1@.8"});
+  ASSERT_TRUE(parsed.options) << parsed.err;
+  const Material& material = parsed.options->play.player.source.material;
+  EXPECT_EQ(material.stiffness_n_per_mm, 0.3);
+  EXPECT_EQ(material.friction, (Friction{0.2, 0.15}));
+  EXPECT_EQ(material.texture, (Texture{0.1, 0.8}));
+}
+
 TEST(Options, ReadACalibrationFromAFileAsTheSideFile) {
   const test::TemporaryFolder folder;
   const std::string path = folder / "camera.calibration";
@@ -294,6 +303,8 @@ TEST(Options, RefuseWrongWordsInOneLine) {
   expectRefused({"play", "film.mkv", "--calibration", "bits=8,invalid=300"}, "invalid=300");
   expectRefused({"play", "film.mkv", "--calibration", "near=1e-9"}, "near=1e-9");
   expectRefused({"play", "film.mkv", "--calibration", "far=1e300"}, "far=1e300");
+  expectRefused({"play", "film.mkv", "--material", "stiffness=soft"}, "--material stiffness=soft");
+  expectRefused({"probe", "film.mkv", "--material", "friction=.1/.2"}, "friction=.1/.2");
   expectRefused({"probe", "one.mkv", "two.mkv"}, "two.mkv: one too many");
 }
 

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Texture: a surface with ripples, at the place under the finger.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "app/scene/material.h"
+#include "platform/realtime.h"
+
+namespace relievo {
+
+// A (sin 2 pi x/L + sin 2 pi y/L), added to the surface along its normal; x and y are the finger's, which do not jump
+// with the noise of the depth. A finger that moves at v along x feels stiffness x A at v/L. What passes more than
+// kFlat ripples a tick fades out, and at half of one nothing is left: the device could not hold it. A finger that has
+// just come in feels none, and no ripple pulls.
+//
+// The finger feels heights and not slopes, since the slope of a ripple (2 pi A/L x the force) would be stiffer than
+// devices are. Such a force does work: a finger that goes in at a valley and out at a crest would be given energy. So
+// it pays from what it has taken since it came in and kGiftMj, and is smaller where that is not enough.
+class Ripple {
+ public:
+  static constexpr double kFlat = 0.35;     // ripples a tick
+  static constexpr double kGiftMj = 0.005;  // less than anybody feels
+  static constexpr double kMostOwnMj = 1;   // of what was taken
+  static constexpr double kSpeedWithinS =
+      4e-3;  // over which the speed is averaged; devices may answer every other tick
+
+  Ripple(const Texture& texture, double stiffness_n_per_mm, double tick_s) noexcept;
+
+  [[nodiscard]] bool exists() const RELIEVO_RT { return amplitude_mm_ > 0; }
+  // What to add to the proxy in this tick of contact. `normal`: the surface's, of length 1; `depth_mm`: the finger's,
+  // along it, without the ripples.
+  [[nodiscard]] glm::dvec3 offset(const glm::dvec3& hip_mm, const glm::dvec3& normal, double depth_mm) RELIEVO_RT;
+  void release() RELIEVO_RT { feels_ = false; }
+
+ private:
+  [[nodiscard]] double heightAt(const glm::dvec3& hip_mm) const RELIEVO_RT;
+  [[nodiscard]] double paidFor(double height_mm, double out_mm, const glm::dvec3& moved_mm) RELIEVO_RT;
+
+  double amplitude_mm_, per_mm_, stiffness_;
+  double newest_;  // share of the newest tick in the speed
+  bool feels_ = false;
+  glm::dvec3 hip_mm_{0};
+  glm::dvec3 offset_mm_{0};
+  glm::dvec2 ripples_a_tick_{0};
+  double own_mj_ = 0;
+};
+
+}  // namespace relievo

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Friction: the point of the surface that holds the finger, until it pulls too far aside.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "app/haptics/method/closest_point.h"
+#include "app/haptics/method/felt_surface.h"
+#include "app/scene/material.h"
+#include "platform/realtime.h"
+
+namespace relievo {
+
+// A spring from the finger to a point of the surface instead of to the closest one (the friction cone of Harwin and
+// Melder 2002). The point rests while the spring's force lies within the cone of the static coefficient around the
+// surface's normal there; beyond it the point slides towards the closest one, until the force lies on the cone of the
+// dynamic coefficient. Where the closest point has gone to another side of the solid, so has the point. A spring to a
+// resting point gives back what it has taken, and no more; each slide makes it shorter. So friction takes energy and
+// gives none.
+//
+// A point that has just moved is held by the dynamic coefficient, and by the static one after kSettleS of rest (as in
+// friction that ages, Dieterich 1979): without it the noise of a sensor makes a finger that slides stick again and
+// again.
+class StickPoint {
+ public:
+  static constexpr double kSettleS = 0.1;
+
+  StickPoint(const Friction& friction, double tick_s) noexcept : friction_(friction), tick_s_(tick_s) {}
+
+  [[nodiscard]] bool exists() const RELIEVO_RT { return friction_.static_coefficient > 0; }
+  // The point that holds the finger in this tick of contact; scene mm. `closest` is the closest point of the surface,
+  // which is `lowered_mm` lower than it is stored.
+  [[nodiscard]] glm::dvec3 follow(FeltSurface& surface, const Contact& closest, const glm::dvec3& hip_mm,
+                                  double lowered_mm) RELIEVO_RT;
+  // There is no contact, or it begins anew.
+  void release() RELIEVO_RT { holds_ = false; }
+
+  // It moves, or has moved less than kSettleS ago.
+  [[nodiscard]] bool slides() const RELIEVO_RT { return holds_ && rested_s_ < kSettleS; }
+
+ private:
+  Friction friction_;
+  double tick_s_;
+  bool holds_ = false;
+  double x_mm_ = 0, y_mm_ = 0;
+  double rested_s_ = 0;
+};
+
+}  // namespace relievo

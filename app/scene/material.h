@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a film's surface feels like besides its shape: stiffness, friction and texture.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "platform/error.h"
+
+namespace relievo {
+
+// Coulomb friction between the proxy and the surface, as shares of what presses; 0: none.
+struct Friction {
+  double static_coefficient = 0, dynamic_coefficient = 0;  // dynamic <= static
+  bool operator==(const Friction&) const = default;
+};
+
+// Ripples of the surface, along x and along y; amplitude 0: none.
+struct Texture {
+  double amplitude_mm = 0, wavelength_mm = 1;
+  bool operator==(const Texture&) const = default;
+};
+
+// Of a whole film. What is not said is the player's own choice: its stiffness, and neither friction nor texture.
+struct Material {
+  std::optional<double> stiffness_n_per_mm;
+  std::optional<Friction> friction;
+  std::optional<Texture> texture;
+
+  [[nodiscard]] bool empty() const noexcept { return !stiffness_n_per_mm && !friction && !texture; }
+  bool operator==(const Material&) const = default;
+};
+
+// The tag of a film's depth track that holds a material, in the words of `parseMaterial`.
+inline constexpr const char* kMaterialTag = "DEPTH_MATERIAL";
+
+// Parses "stiffness=.3,friction=.2/.15,texture=.1@.8": N/mm from .01 to 100; static/dynamic coefficients up to 2, the
+// second at most the first, which also stands for both; amplitude up to 2 mm, at a wavelength from .1 to 100 mm, or 0.
+// InvalidArgument with a message that says what is wrong.
+[[nodiscard]] Result<Material> parseMaterial(std::string_view text);
+// What a film's tags say of it; an empty one without kMaterialTag, and InvalidArgument if that is no material.
+[[nodiscard]] Result<Material> materialFromTags(const std::map<std::string, std::string>& tags);
+// In the form that `parseMaterial` reads; "" for an empty one.
+[[nodiscard]] std::string materialText(const Material& material);
+// What `above` does not say is as `below` says.
+[[nodiscard]] Material layered(const Material& above, const Material& below) noexcept;
+
+// What a device can hold: its own stable stiffness and largest force, N/mm and N, at the handle.
+struct HeldMaterial {
+  double stiffness_n_per_mm = 0;
+  Friction friction;
+  Texture texture;
+  std::string reduced;  // what was asked for and is not held, in one line; "" if nothing was reduced
+};
+// `usual_n_per_mm` holds for a film without a stiffness of its own. A texture is a stiffness, too: its force changes by
+// stiffness x slope on the way over a ripple. That stays below the device's, and its amplitude below a quarter of the
+// force.
+[[nodiscard]] HeldMaterial heldBy(const Material& material, double usual_n_per_mm, double most_n_per_mm, double most_n);
+
+}  // namespace relievo
