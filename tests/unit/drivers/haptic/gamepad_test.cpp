@@ -247,6 +247,16 @@ TEST_F(GamepadTest, UnpluggedItIsLostAndComesBackSilent) {
   EXPECT_TRUE(pad_->pushes());
 }
 
+TEST_F(GamepadTest, WhatItIsNotIsSaidOnceInOneLine) {
+  testing::internal::CaptureStderr();
+  run(test::xboxPad());
+  device_->close();
+  run(test::xboxPad());
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(std::ranges::count(said, '\n'), 1) << said;
+  EXPECT_NE(said.find("no device of 1 kHz and three axes"), std::string::npos) << said;
+}
+
 TEST(Pads, AreToldByTheirStickAndForceAlone) {
   EXPECT_TRUE(isPad(test::xboxPad()));
   EXPECT_TRUE(isPad(test::wheel()));
