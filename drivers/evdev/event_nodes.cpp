@@ -37,6 +37,7 @@ std::vector<EventNode> listEventNodes() {
     by_number.emplace(number, std::move(node));
   }
   std::vector<EventNode> nodes;
+  nodes.reserve(by_number.size());
   for (auto& [number, node] : by_number) nodes.push_back(std::move(node));
   return nodes;
 }

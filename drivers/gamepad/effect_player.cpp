@@ -101,9 +101,9 @@ Result<void> EffectPlayer::bring(Slot<Level>& slot, const Level& level, Monotoni
 template <class Level>
 void EffectPlayer::unmake(Slot<Level>& slot) noexcept {
   if (slot.id < 0) return;
-  static_cast<void>(
-      port_.send(static_cast<std::uint16_t>(slot.id), 0));  // nothing more can be done for one that is gone
-  static_cast<void>(port_.erase(slot.id));
+  // Nothing more can be done for a device that is gone.
+  (void)port_.send(static_cast<std::uint16_t>(slot.id), 0);
+  (void)port_.erase(slot.id);
   slot = {};
 }
 

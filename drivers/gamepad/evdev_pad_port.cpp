@@ -24,14 +24,20 @@ constexpr const char* kNoPad =
     "no gamepad, joystick or wheel with force feedback was found; plug one in, or give its path: "
     "gamepad:/dev/input/eventN";
 
-UniqueFd openNode(const std::string& path) {
-  return UniqueFd(::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC));
+struct Opened {
+  UniqueFd fd;
+  int error = 0;  // errno, if it is not open
+};
+Opened openNode(const std::string& path) {
+  UniqueFd fd(::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC));
+  const int error = fd.valid() ? 0 : errno;
+  return {std::move(fd), error};
 }
 
 // Its data, or zeros.
 template <std::size_t Codes>
-CodeSet<Codes> codesOf(int fd, unsigned type) {
-  CodeSet<Codes> codes;
+InputCodes<Codes> codesOf(int fd, unsigned type) {
+  InputCodes<Codes> codes;
   if (::ioctl(fd, EVIOCGBIT(type, sizeof codes.bytes), codes.bytes.data()) < 0) return {};
   return codes;
 }
@@ -74,8 +80,8 @@ class EvdevPadPort final : public PadPort {
     if (bytes < 0 && (errno == EAGAIN || errno == EINTR)) return 0;
     return gone();
   }
-  Result<KeySet> keysDown() RELIEVO_RT override {
-    KeySet keys;
+  Result<InputKeys> keysDown() RELIEVO_RT override {
+    InputKeys keys;
     if (::ioctl(fd_.get(), EVIOCGKEY(sizeof keys.bytes), keys.bytes.data()) < 0) return gone();
     return keys;
   }
@@ -102,26 +108,31 @@ class EvdevPadPort final : public PadPort {
 
  private:
   Result<PadFacts> openPath() {
-    fd_ = openNode(path_);
-    if (!fd_.valid() && errno == EACCES) return fail(ErrorCode::PermissionDenied, kNoRight, EACCES);
-    if (!fd_.valid())
-      return fail(ErrorCode::NotFound, "there is no such gamepad; ls /dev/input lists the devices", errno);
-    if (auto facts = ask(fd_.get()); facts && isPad(*facts)) return std::move(*facts);
-    fd_.reset();
+    Opened node = openNode(path_);
+    if (node.error == EACCES) return fail(ErrorCode::PermissionDenied, kNoRight, EACCES);
+    if (node.error != 0)
+      return fail(ErrorCode::NotFound, "there is no such gamepad; ls /dev/input lists the devices", node.error);
+    if (auto facts = take(node)) return std::move(*facts);
     return fail(ErrorCode::Unsupported, "this input device has no stick or no force feedback; choose another");
   }
 
   Result<PadFacts> openFirst() {
     bool refused = false;
     for (const EventNode& node : listEventNodes()) {
-      fd_ = openNode(node.path);
-      refused = refused || (!fd_.valid() && errno == EACCES);
-      if (!fd_.valid()) continue;
-      if (auto facts = ask(fd_.get()); facts && isPad(*facts)) return std::move(*facts);
+      Opened opened = openNode(node.path);
+      refused = refused || opened.error == EACCES;
+      if (auto facts = take(opened)) return std::move(*facts);
     }
-    fd_.reset();
     if (refused) return fail(ErrorCode::PermissionDenied, kNoRight, EACCES);
     return fail(ErrorCode::NotFound, kNoPad);
+  }
+
+  // Keeps it open if it is a pad.
+  std::optional<PadFacts> take(Opened& node) {
+    auto facts = node.fd.valid() ? ask(node.fd.get()) : std::nullopt;
+    if (!facts || !isPad(*facts)) return std::nullopt;
+    fd_ = std::move(node.fd);
+    return facts;
   }
 
   static std::unexpected<Error> gone() RELIEVO_RT {
@@ -158,9 +169,9 @@ std::vector<PadSeen> lookAtGamepads() {
   std::vector<PadSeen> seen;
   bool refused = false;
   for (const EventNode& node : listEventNodes()) {
-    const UniqueFd fd = openNode(node.path);
-    refused = refused || (!fd.valid() && errno == EACCES);
-    const auto facts = fd.valid() ? ask(fd.get()) : std::nullopt;
+    const Opened opened = openNode(node.path);
+    refused = refused || opened.error == EACCES;
+    const auto facts = opened.fd.valid() ? ask(opened.fd.get()) : std::nullopt;
     if (facts && isPad(*facts)) seen.push_back({node.path, true, stateOf(*facts)});
   }
   if (seen.empty()) seen.push_back({"", false, refused ? kNoRight : kNoPad});

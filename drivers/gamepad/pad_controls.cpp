@@ -59,7 +59,7 @@ void PadControls::findTriggers(const PadFacts& facts) noexcept {
   }
 }
 
-void PadControls::findKeys(const KeySet& keys) noexcept {
+void PadControls::findKeys(const InputKeys& keys) noexcept {
   const bool analog = triggers_[0].code != ABS_CNT;
   for (const unsigned key : {BTN_TR2, BTN_TR, BTN_TRIGGER, BTN_SOUTH}) {
     if (!analog && press_key_ == KEY_CNT && keys.has(key)) press_key_ = key;

@@ -24,7 +24,7 @@ class PadControls {
 
   void take(const input_event& event) RELIEVO_RT;
   // After lost events: the state as the kernel has it.
-  void setKeys(const KeySet& down) RELIEVO_RT { down_ = down; }
+  void setKeys(const InputKeys& down) RELIEVO_RT { down_ = down; }
   void setAxis(unsigned code, std::int32_t value) RELIEVO_RT;
   // The axes that matter, to be asked for after lost events.
   [[nodiscard]] bool uses(unsigned code) const RELIEVO_RT;
@@ -44,14 +44,14 @@ class PadControls {
   };
   static Axis axisOf(const PadFacts& facts, unsigned code) noexcept;
   void findTriggers(const PadFacts& facts) noexcept;
-  void findKeys(const KeySet& keys) noexcept;
+  void findKeys(const InputKeys& keys) noexcept;
 
   bool wheel_ = false;
   std::array<Axis, 2> stick_{};
   std::array<Axis, 5> triggers_{};
   unsigned press_key_ = KEY_CNT;
   std::array<unsigned, 2> button_keys_{KEY_CNT, KEY_CNT};
-  KeySet down_;
+  InputKeys down_;
 };
 
 }  // namespace relievo

@@ -19,7 +19,7 @@ namespace relievo {
 
 // A set of the kernel's codes, as its requests fill it.
 template <std::size_t Codes>
-struct CodeSet {
+struct InputCodes {
   std::array<std::uint8_t, (Codes + 7) / 8> bytes{};
   [[nodiscard]] bool has(unsigned code) const RELIEVO_RT {
     return code < Codes && (bytes[code / 8] >> (code % 8) & 1U) != 0;
@@ -30,14 +30,14 @@ struct CodeSet {
     bytes[code / 8] = static_cast<std::uint8_t>(in ? bytes[code / 8] | bit : bytes[code / 8] & ~bit);
   }
 };
-using KeySet = CodeSet<KEY_CNT>;
+using InputKeys = InputCodes<KEY_CNT>;
 
 // What a device says of itself.
 struct PadFacts {
   std::string name;
-  KeySet keys;
-  CodeSet<ABS_CNT> axes;
-  CodeSet<FF_CNT> forces;
+  InputKeys keys;
+  InputCodes<ABS_CNT> axes;
+  InputCodes<FF_CNT> forces;
   std::array<input_absinfo, ABS_CNT> ranges{};  // of the axes that it has, with their present values
   int effects_at_once = 0;
 };
@@ -56,7 +56,7 @@ class PadPort {
 
   // Reads the oldest pending events and returns their number, or 0.
   [[nodiscard]] virtual Result<std::size_t> take(std::span<input_event> events) RELIEVO_RT = 0;
-  [[nodiscard]] virtual Result<KeySet> keysDown() RELIEVO_RT = 0;
+  [[nodiscard]] virtual Result<InputKeys> keysDown() RELIEVO_RT = 0;
   [[nodiscard]] virtual Result<std::int32_t> axis(unsigned code) RELIEVO_RT = 0;
 
   // Makes a new effect (id -1) or changes one; returns its id.

@@ -46,6 +46,15 @@ class PlayerOnAGamepad : public testing::Test {
     }
     return so();
   }
+  // Whether it is the same for half a second, but for 1 %.
+  bool stays(const std::function<double()>& value) {
+    const double first = value();
+    for (int i = 0; i < 50; ++i) {
+      clock_.sleepUntil(clock_.now() + 10ms);
+      if (std::abs(value() - first) > 0.01 * first) return false;
+    }
+    return true;
+  }
   std::string said() {
     std::ifstream file(folder_ / "said.txt");
     return {std::istreambuf_iterator<char>(file), {}};
@@ -84,16 +93,15 @@ TEST_F(PlayerOnAGamepad, FeelsTheFilmInItsRumbleAndRestsInAPause) {
   ASSERT_TRUE(until(player, [&] { return pad.hasEffects(); })) << said();
   pad.turn(ABS_RZ, 255);  // presses
   ASSERT_TRUE(until(player, [&] { return pad.plays(); })) << said();
-  clock_.sleepUntil(clock_.now() + 500ms);  // at rest on the slope
-  const double strong = pad.effect(FF_RUMBLE).level.u.rumble.strong_magnitude;
-  EXPECT_TRUE(pad.plays());
+  const auto level = [&] { return pad.effect(FF_RUMBLE).level.u.rumble.strong_magnitude; };
+  // A slow machine may have to buffer, and the force then fades; at rest on the slope it stays.
+  EXPECT_TRUE(until(player, [&] { return level() > 0.5 * 65535 && stays(level); })) << said();
+  const double strong = level();
   const auto pressPause = [&] {
     for (const bool down : {true, false}) remote.press(KEY_PLAYPAUSE, down);
   };
   pressPause();
-  EXPECT_TRUE(until(player, [&] { return !pad.plays(); })) << "the pause";
-  clock_.sleepUntil(clock_.now() + 500ms);
-  EXPECT_FALSE(pad.plays());
+  EXPECT_TRUE(until(player, [&] { return !pad.plays() && stays([&] { return pad.plays(); }); })) << "the pause";
   pressPause();
   EXPECT_TRUE(until(player, [&] { return pad.plays(); })) << "it goes on";
   player.send(SIGTERM);

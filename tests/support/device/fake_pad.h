@@ -53,7 +53,7 @@ inline PadFacts joystick() {
 struct FakePad {
   PadFacts facts = xboxPad();
   std::deque<input_event> events;
-  KeySet down;  // as the kernel knows it, besides the axes' values in `facts`
+  InputKeys down;  // as the kernel knows it, besides the axes' values in `facts`
   bool plugged = true;
   bool comes_back = false;         // it is plugged in again before the next `open`
   bool goes_when_started = false;  // is unplugged after its keys were read
@@ -112,7 +112,7 @@ class FakePadPort final : public PadPort {
     pad_->events.erase(pad_->events.begin(), pad_->events.begin() + static_cast<std::ptrdiff_t>(count));
     return count;
   }
-  Result<KeySet> keysDown() RELIEVO_RT override {
+  Result<InputKeys> keysDown() RELIEVO_RT override {
     if (!pad_->plugged) return gone();
     return pad_->down;
   }

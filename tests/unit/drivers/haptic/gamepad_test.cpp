@@ -8,8 +8,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "app/haptics/method/relievo_method.h"
+#include "app/haptics/task/haptic_task.h"
 #include "drivers/gamepad/pad_controls.h"
 #include "tests/support/device/fake_pad.h"
+#include "tests/support/film/depth_frames.h"
 
 namespace relievo {
 namespace {
@@ -255,6 +258,38 @@ TEST_F(GamepadTest, WhatItIsNotIsSaidOnceInOneLine) {
   const std::string said = testing::internal::GetCapturedStderr();
   EXPECT_EQ(std::ranges::count(said, '\n'), 1) << said;
   EXPECT_NE(said.find("no device of 1 kHz and three axes"), std::string::npos) << said;
+}
+
+// The whole chain on a slope: the trigger, pulled all the way, ends at rest, with what it and the surface push.
+TEST_F(GamepadTest, OnTheHapticTaskItComesToRestOnASlope) {
+  run(test::xboxPad());
+  const DisplayVolume volume{160, 107, 40};
+  RelievoMethod method({.stiffness_n_per_mm = 0.5});
+  HapticTask task(*device_, method, clock_, volume, SafetyLimits{}, 0.5);
+  std::vector<Frame> frames;
+  for (int i = 0; i < 6; ++i) {
+    frames.push_back(test::makeReliefFrame(180, 120, volume, mediaTime(0.04 * i),
+                                           [](double x, double y) { return 20 + 0.15 * x - 0.1 * y; }));
+  }
+  task.windowToFill() = test::makeWindow(frames, volume);
+  task.windowToFill().ended = true;
+  task.windowToFill().clock = {.media = {}, .monotonic = clock_.now(), .rate = 1};
+  task.publishWindow();
+  std::vector<double> strong;
+  std::uint64_t index = 0;
+  for (int i = 0; i < 1500; ++i) {
+    if (i == 100) pad_->turn(ABS_RZ, 255);
+    clock_.advance(1ms);
+    ASSERT_EQ(task.loop({index++, clock_.now(), clock_.now()}), LoopControl::Continue);
+    const ff_effect* const rumble = pad_->playing(FF_RUMBLE);
+    strong.push_back(rumble == nullptr ? 0 : rumble->u.rumble.strong_magnitude / 65535.0);
+  }
+  EXPECT_EQ(strong[250], 0) << "on its way";
+  // Along the surface's normal n the surface gives 0.5 N/mm; the trigger 0.1 N/mm in depth. At x = y = 0, where the
+  // surface is at 20: F n_z = 0.1 (z + 15), F = 0.5 n_z (20 - z).
+  const double nz2 = 1 / (1 + 0.15 * 0.15 + 0.1 * 0.1);
+  const double z = (0.5 * nz2 * 20 - 0.1 * 15) / (0.1 + 0.5 * nz2), force_n = 0.5 * std::sqrt(nz2) * (20 - z);
+  for (std::size_t i = 400; i < strong.size(); ++i) EXPECT_NEAR(strong[i], force_n / 4, 0.02 * force_n / 4) << i;
 }
 
 TEST(Pads, AreToldByTheirStickAndForceAlone) {
