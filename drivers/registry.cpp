@@ -21,6 +21,8 @@
 #include "drivers/falcon/link.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/floats/floats.h"
+#include "drivers/gamepad/gamepad.h"
+#include "drivers/gamepad/pad_list.h"
 #ifdef RELIEVO_HEIF
 #include "drivers/heif/heif.h"
 #endif
@@ -44,8 +46,8 @@
 #include "drivers/window/window_remote.h"
 
 #define RELIEVO_DISPLAY_NAMES "kms[:/dev/dri/cardN] window offscreen[:FILE.y4m] mock"
-#define RELIEVO_HAPTIC_NAMES                                                         \
-  "falcon[:FIRMWARE] polhem[:DESCRIPTION.json] pointer[:window|:/dev/input/eventN] " \
+#define RELIEVO_HAPTIC_NAMES                                                                                     \
+  "falcon[:FIRMWARE] polhem[:DESCRIPTION.json] gamepad[:/dev/input/eventN] pointer[:window|:/dev/input/eventN] " \
   "sim[:phantom|falcon|polhem][,stroking|resting|tapping|tense|shaking][,SCRIPT.csv] replay:FILE mock none"
 #define RELIEVO_REMOTE_NAMES "evdev keys window script:FILE none"
 #define RELIEVO_AUDIO_NAMES "alsa[:DEVICE] null none"
@@ -183,6 +185,7 @@ Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(const BackEndName& name,
     if (!setup) return std::unexpected(setup.error());
     return makeSimHaptic(setup->profile, std::move(setup->path), clock);
   }
+  if (name.plain("gamepad") || name.withArgument("gamepad")) return makeGamepad(name.argument.value_or(""), clock);
   if (name.with("pointer", "window")) return makePointer(theWindow(), clock);
   if (name.plain("pointer") || name.withArgument("pointer")) return makePointer(name.argument.value_or(""), clock);
   if (name.withArgument("replay")) {
@@ -309,13 +312,17 @@ std::vector<DeviceState> lookAtDevices(const HapticSettings& settings, Clock& cl
   const bool desktop = states.back().there;
   states.insert(states.end(), {look("alsa", *makeAlsaOutput("default", clock)),
                                look("falcon", *makeFalcon(falconConfig(settings, std::nullopt), clock)),
-                               look("polhem", *makePolhem({}, clock)),
-                               look("pointer", *makePointer(std::string(), clock)), windowsMouse(desktop)});
+                               look("polhem", *makePolhem({}, clock))});
+  for (const PadSeen& pad : lookAtGamepads()) {
+    states.push_back({"haptic", pad.path.empty() ? "gamepad" : "gamepad:" + pad.path, pad.there, pad.state});
+  }
+  states.insert(states.end(), {look("pointer", *makePointer(std::string(), clock)), windowsMouse(desktop)});
   return states;
 }
 
 void stopAllMotors() noexcept {
   quietenAllUsbDevices();
+  quietenAllPads();
 }
 
 }  // namespace relievo::drivers

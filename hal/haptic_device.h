@@ -9,6 +9,7 @@
 #include "hal/haptic_rate.h"
 #include "platform/clock.h"
 #include "platform/error.h"
+#include "platform/histogram.h"
 #include "platform/realtime.h"
 
 namespace relievo {
@@ -21,7 +22,8 @@ struct HapticCapabilities {
   double continuous_force_n = 0;
   double max_stiffness_n_per_mm = 0;  // stable at rate_hz
   double rate_hz = 1000;
-  bool in_scene = false;  // its frame is the scene's: it points at the picture
+  bool in_scene = false;        // its frame is the scene's: it points at the picture
+  bool rests_in_pause = false;  // it tells of the force by signs that would go on while the film is paused
 };
 
 struct HapticSample {
@@ -66,6 +68,9 @@ class HapticDevice {
   [[nodiscard]] State state() const noexcept { return state_; }
   // Known from `open` on; never changes while open.
   [[nodiscard]] virtual HapticCapabilities capabilities() const noexcept = 0;
+  // Of a device that passes forces on by a thread of its own: the times from the first `write` of a contact until the
+  // device has taken it, since its making. Null for others. Any thread.
+  [[nodiscard]] virtual const Histogram* contactDelays() const noexcept { return nullptr; }
 
  protected:
   // For a back end whose `open` or `home` waits.

@@ -116,6 +116,7 @@ Json hapticPart(const PlayReport& r) {
           {"page_faults", h.page_faults},
           {"update_ns", toJson(h.update)},
           {"wakeup_ns", toJson(h.wakeup)},
+          {"contact_told_ns", h.contact_told ? toJson(*h.contact_told) : Json()},
           {"wakeup_histogram", histogram}};
 }
 

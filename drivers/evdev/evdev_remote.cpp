@@ -2,15 +2,14 @@
 // Finds the devices and reads them through libevdev, which resynchronises after dropped events.
 #include <fcntl.h>
 #include <libevdev/libevdev.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "drivers/evdev/evdev.h"
+#include "drivers/evdev/event_nodes.h"
 #include "drivers/evdev/key_hold.h"
 #include "platform/log.h"
 #include "platform/unique_fd.h"
@@ -18,7 +17,6 @@
 namespace relievo {
 namespace {
 
-constexpr const char* kFolder = "/dev/input";
 constexpr Duration kLookEvery = std::chrono::seconds(1);
 
 struct FreeDevice {
@@ -89,22 +87,13 @@ class EvdevRemote final : public RemoteInput {
   // False if a device may not be read.
   bool look() {
     bool allowed = true;
-    std::vector<Node> nodes;
-    std::error_code error;
-    for (std::filesystem::directory_iterator entry(kFolder, error), end; !error && entry != end;
-         entry.increment(error)) {
-      if (!entry->path().filename().string().starts_with("event")) continue;
-      Node node{entry->path(), {}};
-      struct stat about{};
-      if (::stat(node.path.c_str(), &about) == 0) node.changed = about.st_ctim;
-      nodes.push_back(node);
-    }
+    std::vector<EventNode> nodes = listEventNodes();
     for (const auto& remote : remotes_) {
-      const auto isIts = [&](const Node& node) { return node.path == remote->path; };
+      const auto isIts = [&](const EventNode& node) { return node.path == remote->path; };
       remote->there = remote->there && std::ranges::any_of(nodes, isIts);
     }
     // A new node, or another device of the same number, or one whose permissions have changed.
-    for (const Node& node : nodes) {
+    for (const EventNode& node : nodes) {
       const bool known = std::ranges::any_of(remotes_, [&](const auto& r) { return r->path == node.path; }) ||
                          std::ranges::find(looked_at_, node) != looked_at_.end();
       if (!known) allowed = take(node.path) && allowed;
@@ -146,15 +135,8 @@ class EvdevRemote final : public RemoteInput {
     }
   }
 
-  struct Node {
-    std::string path;
-    timespec changed;
-    bool operator==(const Node& other) const noexcept {
-      return path == other.path && changed.tv_sec == other.changed.tv_sec && changed.tv_nsec == other.changed.tv_nsec;
-    }
-  };
   std::vector<std::unique_ptr<Remote>> remotes_;
-  std::vector<Node> looked_at_;
+  std::vector<EventNode> looked_at_;
   std::optional<MonotonicTime> looked_;
 };
 

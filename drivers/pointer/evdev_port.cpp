@@ -7,22 +7,17 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
-#include <filesystem>
-#include <string_view>
 #include <utility>
-#include <vector>
 
+#include "drivers/evdev/event_nodes.h"
 #include "drivers/pointer/mouse_port.h"
 #include "platform/unique_fd.h"
 
 namespace relievo {
 namespace {
 
-constexpr const char* kFolder = "/dev/input";
 constexpr const char* kNoRight =
     "no permission to read the mouse; add the user to the group input (sudo usermod -aG input $USER) and log in "
     "again";
@@ -39,23 +34,6 @@ bool isMouse(int fd) {
 
 UniqueFd openEvents(const std::string& path) {
   return UniqueFd(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
-}
-
-// The number N of each eventN, in ascending order.
-std::vector<int> eventNumbers() {
-  constexpr std::string_view kBefore = "event";
-  std::vector<int> numbers;
-  std::error_code error;
-  for (std::filesystem::directory_iterator entry(kFolder, error), end; !error && entry != end; entry.increment(error)) {
-    const std::string name = entry->path().filename();
-    int number = 0;
-    const char* const last = name.data() + name.size();
-    if (name.starts_with(kBefore) && std::from_chars(name.data() + kBefore.size(), last, number).ptr == last) {
-      numbers.push_back(number);
-    }
-  }
-  std::ranges::sort(numbers);
-  return numbers;
 }
 
 class EvdevPort final : public MousePort {
@@ -97,8 +75,8 @@ class EvdevPort final : public MousePort {
 
   Result<void> openFirst() {
     bool refused = false;
-    for (const int number : eventNumbers()) {
-      fd_ = openEvents(kFolder + ("/event" + std::to_string(number)));
+    for (const EventNode& node : listEventNodes()) {
+      fd_ = openEvents(node.path);
       refused = refused || (!fd_.valid() && errno == EACCES);
       if (fd_.valid() && isMouse(fd_.get())) return {};
     }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "drivers/falcon/falcon.h"
+#include "drivers/gamepad/gamepad.h"
 #include "drivers/mock/mock.h"
 #include "drivers/pointer/pointer.h"
 #include "drivers/polhem/polhem.h"
@@ -16,6 +17,7 @@
 #include "platform/allocation_counter.h"
 #include "tests/contract/state_table.h"
 #include "tests/support/device/fake_mouse.h"
+#include "tests/support/device/fake_pad.h"
 #include "tests/support/device/falcon_model.h"
 #include "tests/support/device/model_port.h"
 #include "tests/support/device/polhem_model.h"
@@ -100,6 +102,16 @@ Rig falcon(ManualClock& clock, bool loses) {
           [bench] { return bench->cable.model_allocations; }, 600};
 }
 
+// A pad that rumbles, or a wheel.
+Rig gamepad(ManualClock& clock, const PadFacts& facts, bool loses) {
+  auto pad = std::make_shared<test::FakePad>();
+  pad->facts = facts;
+  pad->comes_back = true;
+  pad->goes_when_started = loses;
+  auto device = makeGamepad(std::make_unique<test::FakePadPort>(pad), clock, {.effect_thread = false});
+  return {pad, std::move(device), [pad] { return pad->pushes(); }};
+}
+
 // A mouse.
 Rig pointer(ManualClock& clock, bool loses) {
   auto mouse = std::make_shared<test::FakeMouse>();
@@ -177,6 +189,9 @@ Rig sample(ManualClock& clock, bool loses) {
 const Backend kBackends[] = {
     {"falcon", [](ManualClock& clock) { return falcon(clock, false); },
      [](ManualClock& clock) { return falcon(clock, true); }},
+    {"gamepad", [](ManualClock& clock) { return gamepad(clock, test::xboxPad(), false); },
+     [](ManualClock& clock) { return gamepad(clock, test::xboxPad(), true); }},
+    {"wheel", [](ManualClock& clock) { return gamepad(clock, test::wheel(), false); }, nullptr},
     {"mock", [](ManualClock& clock) { return mock({}, clock); },
      [](ManualClock& clock) {
        MockHapticProfile profile;

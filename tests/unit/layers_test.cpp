@@ -87,7 +87,9 @@ bool mayInclude(std::string_view path, std::string_view included) {
   if (isUnder(included, "hal")) return true;
   if (isUnder(path, "hal")) return false;
   if (isRegistry(path)) return isUnder(included, "drivers");
-  if (isUnder(path, "drivers")) {  // a bus, what a window hears, what kinds of pictures share
+  if (isUnder(path,
+              "drivers")) {  // a bus, what a window hears, what kinds of pictures share, which input devices there are
+    if (included == "drivers/evdev/event_nodes.h") return true;
     return isUnder(included, "drivers/usb") || isUnder(included, "drivers/window") ||
            isUnder(included, "drivers/floats") || isUnder(included, "drivers/photo");
   }

@@ -55,6 +55,7 @@ void HapticTask::changeScene(TouchMethod& method, const DisplayVolume& volume, c
   method_ = &method;
   mapping_ = WorkspaceMapping(device_.capabilities(), volume);
   SafetyLimits within_device = limits;
+  rests_in_pause_ = device_.capabilities().rests_in_pause;
   within_device.force_n = std::min(limits.force_n, device_.capabilities().peak_force_n);
   scenes_before_mj_ += safety_.books().sceneMj();
   artefacts_before_mj_ += safety_.books().artefactMj();
@@ -94,7 +95,8 @@ LoopControl HapticTask::loop(const Cycle& cycle) RELIEVO_RT {
   noteFeed(isStale(window, state.media_time), cycle.woken);
   const double elapsed = primed_ ? toSeconds(cycle.woken - last_woken_) : 0.0;
   // Limits and energies apply to the hand, in the device's frame.
-  const bool felt = !stale_ && !finger.clutched;
+  const bool rests = rests_in_pause_ && window.clock.rate == 0;
+  const bool felt = !stale_ && !finger.clutched && !rests;
   const glm::dvec3 wanted = finger.edge_force_n + (felt ? touch.force_n : glm::dvec3(0));
   state.force_n = safety_.apply(wanted, sample->position_mm, elapsed);
   state.proxy_mm = touch.proxy_mm;

@@ -90,6 +90,7 @@ class HapticTask final : public CyclicTask {
   WorkspaceMapping mapping_;
   SafetyFilter safety_;
   double scenes_before_mj_ = 0, artefacts_before_mj_ = 0;  // sums over earlier scenes
+  bool rests_in_pause_ = false;                            // of the device
   bool stale_ = false;
   bool device_lost_ = false;
   bool primed_ = false;  // a previous tick exists

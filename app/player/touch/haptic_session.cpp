@@ -210,6 +210,7 @@ HapticSummary HapticSession::summary() const {
   s.page_faults = before_.page_faults + cyclic.page_faults;
   s.update = times(counters.update);
   s.wakeup = times(cyclic.wakeup);
+  if (const Histogram* const told = device_->contactDelays()) s.contact_told = times(*told);
   cyclic.wakeup.forEachBucket(
       [&](Duration time, std::uint64_t ticks) { s.wakeup_histogram.push_back({time.count(), ticks}); });
   s.max_force_n = counters.max_force_n;

@@ -36,6 +36,7 @@ struct HapticSummary {
   struct Times {
     std::int64_t p50 = 0, p99 = 0, p999 = 0, max = 0;  // ns
   } update, wakeup;
+  std::optional<Times> contact_told;  // from a contact's first force until the device has taken it; see HapticDevice
   struct Bucket {
     std::int64_t ns = 0;
     std::uint64_t ticks = 0;

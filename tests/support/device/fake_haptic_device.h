@@ -16,9 +16,10 @@ class FakeHapticDevice final : public HapticDevice {
   ErrorCode next_error = ErrorCode::InvalidState;  // of one reading; InvalidState: none
   ErrorCode next_write_error = ErrorCode::InvalidState;
   int reads = 0, writes = 0;
+  bool rests_in_pause = false;
 
   HapticCapabilities capabilities() const noexcept override {
-    return {"fake", glm::dvec3(-100, -100, -50), glm::dvec3(100, 100, 50), 4.0, 2.0, 1.0, 1000};
+    return {"fake", glm::dvec3(-100, -100, -50), glm::dvec3(100, 100, 50), 4.0, 2.0, 1.0, 1000, false, rests_in_pause};
   }
 
  private:

@@ -136,6 +136,15 @@ TEST_F(Registry, AMouseIsThePointerByItselfOrByItsPath) {
                "there is no window to point in; add --display window");
 }
 
+TEST_F(Registry, AGamepadIsTheFirstOneOrTheOneOfThatPath) {
+  EXPECT_STREQ(makeHapticDevice("gamepad", clock_).value()->capabilities().name, "gamepad");
+  const auto device = makeHapticDevice("gamepad:/nonexistent/event0", clock_).value();
+  EXPECT_EQ(device->open().error().code, ErrorCode::NotFound);
+  EXPECT_FALSE(makeHapticDevice("gamepad:", clock_));
+  const auto null = makeHapticDevice("gamepad:/dev/null", clock_).value();
+  EXPECT_EQ(null->open().error().code, ErrorCode::Unsupported);
+}
+
 TEST_F(Registry, ARecordingIsPlayedAgain) {
   const std::string file = fileWith("registry_touch.csv", "t_s,x_mm,y_mm,z_mm\n0,30,-12,6\n");
   const auto device = makeHapticDevice("replay:" + file, clock_).value();

@@ -223,6 +223,23 @@ TEST_F(HapticTaskTest, APausedOrEndedFilmStaysTouchable) {
   EXPECT_TRUE(faults().empty());
 }
 
+TEST_F(HapticTaskTest, ADeviceThatTellsBySignsRestsInAPause) {
+  device_.rests_in_pause = true;
+  task_ = std::make_unique<HapticTask>(device_, *method_, clock_, kVolume, SafetyLimits{}, kStiffness);
+  publishPlane(20, 1, true);
+  press(2);
+  tick(50);
+  ASSERT_NEAR(device_.force.z, 1.0, 0.05);
+  publishPlane(20, 0, true);
+  tick(30);  // 50 N/s
+  EXPECT_EQ(device_.force, glm::dvec3(0));
+  ASSERT_TRUE(task_->refreshFinger());
+  EXPECT_TRUE(task_->finger().contact) << "the picture shows it all the same";
+  publishPlane(20, 1, true);
+  tick(30);
+  EXPECT_NEAR(device_.force.z, 1.0, 0.05) << "the film goes on";
+}
+
 TEST_F(HapticTaskTest, HandsEveryTickToTheRecorderInOrder) {
   tick(100);
   for (int i = 0; i < 100; ++i) {

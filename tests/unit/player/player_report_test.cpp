@@ -47,6 +47,13 @@ PlayReport example() {
   return r;
 }
 
+TEST(Report, HasTheTimeUntilADeviceToldAContact) {
+  PlayReport r = example();
+  r.haptic.contact_told = {1, 2, 3, 4};
+  EXPECT_EQ(json::parse(toJson(r))["haptic"]["contact_told_ns"],
+            (json{{"p50", 1}, {"p99", 2}, {"p999", 3}, {"max", 4}}));
+}
+
 TEST(Report, HoldsTheFieldsThatProgramsReadAtTheirPlaces) {
   const json j = json::parse(toJson(example()));
   EXPECT_EQ(j["video"]["frames_shown"], 58);
@@ -63,6 +70,7 @@ TEST(Report, HoldsTheFieldsThatProgramsReadAtTheirPlaces) {
   EXPECT_EQ(j["haptic"]["update_ns"], (json{{"p50", 1000}, {"p99", 2000}, {"p999", 3000}, {"max", 4000}}));
   EXPECT_EQ(j["haptic"]["wakeup_histogram"], (json{{5000, 3}, {8000, 1}}));
   EXPECT_EQ(j["haptic"]["wakeup_ns"], (json{{"p50", 5000}, {"p99", 6000}, {"p999", 7000}, {"max", 8000}}));
+  EXPECT_TRUE(j["haptic"]["contact_told_ns"].is_null()) << "a device that pushes in its tick has none";
   EXPECT_EQ(j["haptic"]["memory_bytes"],
             (json{{"task", 600}, {"method", 50}, {"stack", 40}, {"counters", 30}, {"stack_used", 7}}));
   EXPECT_EQ(j["force"], (json{{"max_n", 1.25}, {"max_scene_slew_n_per_s", 49.5}}));

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// The nodes of the kernel's input devices, /dev/input/eventN, as they are now.
+#pragma once
+
+#include <ctime>
+#include <string>
+#include <vector>
+
+namespace relievo {
+
+struct EventNode {
+  std::string path;
+  timespec changed{};  // another device of the same number, or other permissions: another time
+  bool operator==(const EventNode& other) const noexcept {
+    return path == other.path && changed.tv_sec == other.changed.tv_sec && changed.tv_nsec == other.changed.tv_nsec;
+  }
+};
+
+// In ascending order of their numbers. Opens nothing. Any thread; not real-time.
+[[nodiscard]] std::vector<EventNode> listEventNodes();
+
+}  // namespace relievo
