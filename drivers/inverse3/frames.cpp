@@ -9,7 +9,7 @@ namespace relievo::inverse3 {
 namespace {
 
 constexpr unsigned kFinal = 0x80, kReserved = 0x70, kKind = 0x0F, kMasked = 0x80, kLength = 0x7F;
-constexpr std::size_t kLength16 = 126, kLength64 = 127, kMostShort = 125;
+constexpr std::size_t kLength16 = 126, kMostShort = 125;
 
 bool isKnown(unsigned kind) RELIEVO_RT {
   return kind <= 2 || (kind >= 8 && kind <= 10);
