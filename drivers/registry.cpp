@@ -26,6 +26,7 @@
 #ifdef RELIEVO_HEIF
 #include "drivers/heif/heif.h"
 #endif
+#include "drivers/inverse3/inverse3.h"
 #include "drivers/mock/mock.h"
 #include "drivers/mock/scripted_remote.h"
 #include "drivers/photo/photo.h"
@@ -46,8 +47,9 @@
 #include "drivers/window/window_remote.h"
 
 #define RELIEVO_DISPLAY_NAMES "kms[:/dev/dri/cardN] window offscreen[:FILE.y4m] mock"
-#define RELIEVO_HAPTIC_NAMES                                                                                     \
-  "falcon[:FIRMWARE] polhem[:DESCRIPTION.json] gamepad[:/dev/input/eventN] pointer[:window|:/dev/input/eventN] " \
+#define RELIEVO_HAPTIC_NAMES                                                                        \
+  "falcon[:FIRMWARE] polhem[:DESCRIPTION.json] inverse3[:HOST[:PORT]] gamepad[:/dev/input/eventN] " \
+  "pointer[:window|:/dev/input/eventN] "                                                            \
   "sim[:phantom|falcon|polhem][,stroking|resting|tapping|tense|shaking][,SCRIPT.csv] replay:FILE mock none"
 #define RELIEVO_REMOTE_NAMES "evdev keys window script:FILE none"
 #define RELIEVO_AUDIO_NAMES "alsa[:DEVICE] null none"
@@ -180,6 +182,13 @@ Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(const BackEndName& name,
     if (!description) return std::unexpected(description.error());
     return makePolhem({.description = *description}, clock);
   }
+  if (name.plain("inverse3")) return makeInverse3({}, clock);
+  if (name.withArgument("inverse3")) {
+    const auto address = inverse3::Address::parse(*name.argument);
+    if (!address)
+      return unknown("--haptic", name, "is no place of a service; write inverse3:HOST or inverse3:HOST:PORT");
+    return makeInverse3({.address = *address}, clock);
+  }
   if (name.plain("sim") || name.withArgument("sim")) {
     auto setup = parseSim(name.argument.value_or(""));
     if (!setup) return std::unexpected(setup.error());
@@ -310,9 +319,10 @@ std::vector<DeviceState> lookAtDevices(const HapticSettings& settings, Clock& cl
   }
   states.push_back(look("window", *makeWindowDisplay(theWindow(), clock)));
   const bool desktop = states.back().there;
-  states.insert(states.end(), {look("alsa", *makeAlsaOutput("default", clock)),
-                               look("falcon", *makeFalcon(falconConfig(settings, std::nullopt), clock)),
-                               look("polhem", *makePolhem({}, clock))});
+  states.insert(states.end(),
+                {look("alsa", *makeAlsaOutput("default", clock)),
+                 look("falcon", *makeFalcon(falconConfig(settings, std::nullopt), clock)),
+                 look("polhem", *makePolhem({}, clock)), look("inverse3:localhost:10001", *makeInverse3({}, clock))});
   for (const PadSeen& pad : lookAtGamepads()) {
     states.push_back({"haptic", pad.path.empty() ? "gamepad" : "gamepad:" + pad.path, pad.there, pad.state});
   }

@@ -14,16 +14,17 @@ constexpr double kFadeInS = 0.5;
 
 }  // namespace
 
-Result<void> ForceSession::begin(UsbBytes quiet) {
+Result<void> ForceSession::begin(PortBytes quiet) {
   auto begun = port_.startExchange(quiet);
   exchanging_ = begun.has_value();
   heard_ = clock_.now();
   return begun;
 }
 
-Result<void> ForceSession::beginForces(UsbBytes quiet, bool watchdog_thread) {
+Result<void> ForceSession::beginForces(PortBytes quiet, bool watchdog_thread) {
   if (auto begun = begin(quiet); !begun) return begun;
   fade_ = 0;
+  blind_ = false;
   last_share_ = heard_;
   auto watched = watchdog_.start(watchdog_thread);
   if (!watched) end();
@@ -38,12 +39,13 @@ void ForceSession::end() noexcept {
   exchanging_ = false;
 }
 
-Result<void> ForceSession::listened(bool answered) RELIEVO_RT {
+Result<void> ForceSession::listened(bool answered, bool known) RELIEVO_RT {
   const MonotonicTime now = clock_.now();
   if (answered) heard_ = now;
   if (now - heard_ > kSilence)
     return fail(ErrorCode::Lost, "the device stopped answering; unplug it and plug it in again");
-  if (watchdog_.check(now) || now - heard_ > Watchdog::kPatience) fade_ = 0;
+  blind_ = !known || now - heard_ > watchdog_.patience();
+  if (watchdog_.check(now)) fade_ = 0;
   return {};
 }
 
@@ -51,11 +53,11 @@ ForceSession::Share ForceSession::nextShare() RELIEVO_RT {
   const MonotonicTime now = clock_.now();
   const double elapsed_s = toSeconds(now - last_share_);
   last_share_ = now;
-  fade_ = std::min(1.0, fade_ + elapsed_s / kFadeInS);
+  fade_ = blind_ ? 0 : std::min(1.0, fade_ + elapsed_s / kFadeInS);
   return {.of_force = fade_, .elapsed_s = elapsed_s};
 }
 
-Result<void> ForceSession::send(UsbBytes command) RELIEVO_RT {
+Result<void> ForceSession::send(PortBytes command) RELIEVO_RT {
   const auto sent = port_.post(command);
   if (!sent) return std::unexpected(sent.error());
   if (*sent) watchdog_.feed(last_share_);

@@ -3,7 +3,7 @@
 // force, and reports a device that stops answering.
 #pragma once
 
-#include "drivers/usb/usb_port.h"
+#include "drivers/usb/force_port.h"
 #include "drivers/usb/watchdog.h"
 #include "platform/clock.h"
 
@@ -12,20 +12,23 @@ namespace relievo {
 // `begin`, `beginForces` and `end` on the owner's thread, the rest on the real-time one.
 class ForceSession {
  public:
-  ForceSession(UsbPort& port, Clock& clock) : port_(port), clock_(clock), watchdog_(port) {}
+  // `patience`: the watchdog's.
+  ForceSession(ForcePort& port, Clock& clock, Duration patience = Watchdog::kPatience)
+      : port_(port), clock_(clock), watchdog_(port, patience) {}
   ~ForceSession() { end(); }
   ForceSession(const ForceSession&) = delete;
   ForceSession& operator=(const ForceSession&) = delete;
 
   // Starts the port's exchange; `quiet` is the command that stops the motors. For homing: no force flows.
-  [[nodiscard]] Result<void> begin(UsbBytes quiet);
+  [[nodiscard]] Result<void> begin(PortBytes quiet);
   // As `begin`, but forces follow. Without a thread of its own the watchdog checks only in `listened`.
-  [[nodiscard]] Result<void> beginForces(UsbBytes quiet, bool watchdog_thread);
+  [[nodiscard]] Result<void> beginForces(PortBytes quiet, bool watchdog_thread);
   // Sends zero force and stops the exchange. Does nothing if none is running.
   void end() noexcept;
 
-  // Call once a tick, after reading what has arrived. Lost after 100 ms without an answer.
-  [[nodiscard]] Result<void> listened(bool answered) RELIEVO_RT;
+  // Call once a tick, after reading what has arrived. `known`: whether the hand's position is. Lost after 100 ms
+  // without an answer.
+  [[nodiscard]] Result<void> listened(bool answered, bool known = true) RELIEVO_RT;
 
   struct Share {
     // The fraction of the force to send: rises from 0 to 1 within half a second, again from 0 after the watchdog has
@@ -36,13 +39,14 @@ class ForceSession {
   };
   // Call once for each force.
   [[nodiscard]] Share nextShare() RELIEVO_RT;
-  [[nodiscard]] Result<void> send(UsbBytes command) RELIEVO_RT;
+  [[nodiscard]] Result<void> send(PortBytes command) RELIEVO_RT;
 
  private:
-  UsbPort& port_;
+  ForcePort& port_;
   Clock& clock_;
   Watchdog watchdog_;
   bool exchanging_ = false;
+  bool blind_ = false;  // the hand's position is not known
   double fade_ = 0;
   MonotonicTime last_share_, heard_;
 };

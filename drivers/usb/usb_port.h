@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "drivers/usb/force_port.h"
 #include "platform/clock.h"
 #include "platform/error.h"
 #include "platform/realtime.h"
@@ -24,7 +25,7 @@ struct UsbDeviceId {
 };
 
 inline constexpr std::size_t kUsbPacketBytes = 64;  // of a full-speed endpoint
-using UsbBytes = std::span<const std::uint8_t>;
+using UsbBytes = PortBytes;
 
 // A received packet: the first `bytes` of `data`.
 struct UsbPacket {
@@ -36,10 +37,8 @@ struct UsbPacket {
 // Calls are on the owner's thread, except that `take` and `post` are on one real-time thread, only between
 // `startExchange` and `stopExchange`; they never wait. `control`, `send` and `receive` are for set-up, outside of an
 // exchange, and may wait. Every call returns Lost once the device has gone.
-class UsbPort {
+class UsbPort : public ForcePort {
  public:
-  virtual ~UsbPort() = default;
-
   // Opens the first device with one of its ids that no other program uses, and claims interface 0. NotFound,
   // PermissionDenied, Unsupported (in use).
   [[nodiscard]] virtual Result<void> open() = 0;
@@ -51,17 +50,8 @@ class UsbPort {
   // Returns one packet; Timeout if none came.
   [[nodiscard]] virtual Result<UsbPacket> receive(Duration timeout) = 0;
 
-  // `quiet` is what `quieten` sends: the command that stops the motors.
-  [[nodiscard]] virtual Result<void> startExchange(UsbBytes quiet) = 0;
   // The oldest received packet not yet taken; empty if there is none.
   [[nodiscard]] virtual Result<UsbPacket> take() RELIEVO_RT = 0;
-  // Sends a packet. False if the previous one is still on its way; this one is then not sent.
-  [[nodiscard]] virtual Result<bool> post(UsbBytes bytes) RELIEVO_RT = 0;
-  virtual void stopExchange() noexcept = 0;
-
-  // Discards a posted packet that was not sent yet, sends the quiet packet and waits for it, 20 ms at most. False if
-  // the device did not accept it. Any thread, while an exchange runs.
-  virtual bool quieten() noexcept = 0;
 };
 
 // A port by libusb to a device with any of the ids. Allocates nothing and takes no lock between startExchange and

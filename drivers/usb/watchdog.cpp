@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks four times within kPatience.
+// Checks four times within its patience.
 #include "drivers/usb/watchdog.h"
 
 namespace relievo {
@@ -9,7 +9,7 @@ Result<void> Watchdog::start(bool own_thread) {
   barked_ = false;
   own_thread_ = own_thread;
   if (!own_thread) return {};
-  const CyclicConfig config{.name = "relievo-watch", .period = kPatience / 4, .priority = kWatchPriority};
+  const CyclicConfig config{.name = "relievo-watch", .period = patience_ / 4, .priority = kWatchPriority};
   const auto started = thread_.start(config, *this);
   if (!started) return std::unexpected(started.error());
   return {};
@@ -27,7 +27,7 @@ bool Watchdog::check(MonotonicTime now) RELIEVO_RT {
 
 void Watchdog::bark(MonotonicTime now) RELIEVO_RT {
   Duration::rep fed = fed_ns_.load(std::memory_order_relaxed);
-  if (fed == kQuiet || now.time_since_epoch().count() - fed <= kPatience.count()) return;
+  if (fed == kQuiet || now.time_since_epoch().count() - fed <= patience_.count()) return;
   // If it was fed meanwhile, there is nothing to do.
   if (!fed_ns_.compare_exchange_strong(fed, kQuiet, std::memory_order_relaxed)) return;
   barked_.store(true, std::memory_order_relaxed);

@@ -4,7 +4,7 @@
 
 #include <atomic>
 
-#include "drivers/usb/usb_port.h"
+#include "drivers/usb/force_port.h"
 #include "platform/clock.h"
 #include "platform/cyclic_thread.h"
 
@@ -14,10 +14,12 @@ namespace relievo {
 // higher priority and on the system's clock, it acts even if the real-time thread hangs.
 class Watchdog final : private CyclicTask {
  public:
-  static constexpr Duration kPatience = std::chrono::milliseconds(20);
-  static constexpr int kWatchPriority = 85;  // of SCHED_FIFO, above the haptic task's
+  static constexpr Duration kPatience = std::chrono::milliseconds(20);  // unless asked for another
+  static constexpr int kWatchPriority = 85;                             // of SCHED_FIFO, above the haptic task's
 
-  explicit Watchdog(UsbPort& port) : port_(port), thread_(clock_) {}
+  explicit Watchdog(ForcePort& port, Duration patience = kPatience)
+      : port_(port), patience_(patience), thread_(clock_) {}
+  [[nodiscard]] Duration patience() const RELIEVO_RT { return patience_; }
 
   // Exhausted if no thread can be created.
   [[nodiscard]] Result<void> start(bool own_thread);
@@ -33,7 +35,8 @@ class Watchdog final : private CyclicTask {
   LoopControl loop(const Cycle& cycle) RELIEVO_RT override;
   void bark(MonotonicTime now) RELIEVO_RT;
 
-  UsbPort& port_;
+  ForcePort& port_;
+  const Duration patience_;
   MonotonicClock clock_;
   bool own_thread_ = false;
   std::atomic<Duration::rep> fed_ns_{kQuiet};

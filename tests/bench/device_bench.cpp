@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "drivers/falcon/falcon.h"
+#include "drivers/inverse3/inverse3.h"
 #include "drivers/polhem/polhem.h"
 #include "drivers/polhem/report.h"
 #include "platform/histogram.h"
+#include "tests/support/device/inverse3_service.h"
 
 namespace relievo {
 namespace {
@@ -67,7 +69,42 @@ glm::dvec3 figure(std::size_t i) {
   return {20 * std::sin(phase), 20 * std::sin(0.8 * phase), 20 * std::cos(0.6 * phase)};
 }
 
-void run(benchmark::State& state, HapticDevice& device, NullPort& port) {
+// The emulator's; from `moving` on it repeats one answer, once for each message.
+class NullWire final : public inverse3::Wire {
+ public:
+  NullWire(test::Inverse3Service& service, Clock& clock) : wire_(service, clock) {}
+
+  Result<void> open(const std::atomic<bool>& cancelled) override { return wire_.open(cancelled); }
+  void close() noexcept override { wire_.close(); }
+  Result<std::size_t> receive(std::span<char> to) RELIEVO_RT override {
+    if (!moving) {
+      const auto bytes = wire_.receive(to);
+      if (bytes && *bytes > 0) answer_.assign(to.data(), *bytes);
+      return bytes;
+    }
+    const std::size_t bytes = asked_ ? answer_.size() : 0;
+    asked_ = false;
+    std::copy_n(answer_.begin(), bytes, to.begin());
+    return bytes;
+  }
+  Result<std::size_t> send(std::span<const char> bytes) RELIEVO_RT override {
+    if (!moving) return wire_.send(bytes);
+    benchmark::DoNotOptimize(bytes.data());
+    asked_ = true;
+    return bytes.size();
+  }
+  void cut() noexcept override { wire_.cut(); }
+
+  bool moving = false;
+
+ private:
+  test::EmulatedWire wire_;
+  std::string answer_;
+  bool asked_ = true;
+};
+
+template <class Port>
+void run(benchmark::State& state, HapticDevice& device, Port& port) {
   const MonotonicClock clock;
   if (!device.open() || !device.home() || !device.start()) return state.SkipWithError("the device does not run");
   port.moving = true;
@@ -119,6 +156,16 @@ void polhemTick(benchmark::State& state) {
   run(state, *device, null);
 }
 
+void inverse3Tick(benchmark::State& state) {
+  MonotonicClock clock;
+  test::Inverse3Service service(test::Inverse3Service::Version::V3_5);
+  auto wire = std::make_unique<NullWire>(service, clock);
+  NullWire& null = *wire;
+  const auto device = makeInverse3({.watchdog_thread = false}, std::move(wire), clock);
+  run(state, *device, null);
+}
+
+BENCHMARK(inverse3Tick)->Iterations(500000);
 BENCHMARK(falconTick)->Iterations(500000);
 BENCHMARK(polhemTick)->Iterations(500000);
 

@@ -8,6 +8,7 @@
 
 #include "drivers/falcon/falcon.h"
 #include "drivers/gamepad/gamepad.h"
+#include "drivers/inverse3/inverse3.h"
 #include "drivers/mock/mock.h"
 #include "drivers/pointer/pointer.h"
 #include "drivers/polhem/polhem.h"
@@ -19,6 +20,7 @@
 #include "tests/support/device/fake_mouse.h"
 #include "tests/support/device/fake_pad.h"
 #include "tests/support/device/falcon_model.h"
+#include "tests/support/device/inverse3_service.h"
 #include "tests/support/device/model_port.h"
 #include "tests/support/device/polhem_model.h"
 
@@ -157,6 +159,21 @@ Rig polhem(ManualClock& clock, bool loses) {
           [bench] { return bench->cable.model_allocations; }, 600};
 }
 
+// The driver on an emulator of the maker's service.
+Rig inverse3(ManualClock& clock, bool loses) {
+  auto service = std::make_shared<test::Inverse3Service>(test::Inverse3Service::Version::V3_5);
+  auto wire = std::make_unique<test::EmulatedWire>(*service, clock);
+  auto& own = *wire;
+  auto device = makeInverse3({.watchdog_thread = false}, std::move(wire), clock);
+  if (loses) {
+    service->comes_back = true;
+    own.before_each = [service = service.get(), device = device.get()] {
+      if (device->state() == State::Running && service->connections() == 1) service->running = false;
+    };
+  }
+  return {service, std::move(device), [service] { return service->pushes(); }, [&own] { return own.allocations; }, 600};
+}
+
 // The sample driver on a fake wire.
 struct SampleWire {
   glm::dvec3 force_n{0};
@@ -192,6 +209,8 @@ const Backend kBackends[] = {
     {"gamepad", [](ManualClock& clock) { return gamepad(clock, test::xboxPad(), false); },
      [](ManualClock& clock) { return gamepad(clock, test::xboxPad(), true); }},
     {"wheel", [](ManualClock& clock) { return gamepad(clock, test::wheel(), false); }, nullptr},
+    {"inverse3", [](ManualClock& clock) { return inverse3(clock, false); },
+     [](ManualClock& clock) { return inverse3(clock, true); }},
     {"mock", [](ManualClock& clock) { return mock({}, clock); },
      [](ManualClock& clock) {
        MockHapticProfile profile;
@@ -352,9 +371,10 @@ TEST_P(HapticDeviceContract, ExactlyThePeakIsAllowedInAnyDirection) {
 TEST_P(HapticDeviceContract, AForceThatIsNoneOrTooMuchIsRefusedAndZeroIsSent) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  for (const glm::dvec3& force :
-       {glm::dvec3(nan, 0, 0), glm::dvec3(0, nan, 0), glm::dvec3(0, 0, nan), glm::dvec3(infinity, 0, 0),
-        glm::dvec3(0, 0, -infinity), glm::dvec3(1e200, 0, 0), glm::dvec3(0, kPeakN * 1.001, 0), glm::dvec3(5, 5, 5)}) {
+  const double peak_n = bring(State::Closed).device->capabilities().peak_force_n;
+  for (const glm::dvec3& force : {glm::dvec3(nan, 0, 0), glm::dvec3(0, nan, 0), glm::dvec3(0, 0, nan),
+                                  glm::dvec3(infinity, 0, 0), glm::dvec3(0, 0, -infinity), glm::dvec3(1e200, 0, 0),
+                                  glm::dvec3(0, peak_n * 1.001, 0), glm::dvec3(0.6 * peak_n)}) {
     SCOPED_TRACE(testing::Message() << force.x << ", " << force.y << ", " << force.z);
     const Rig rig = pushing();
     const auto written = rig.device->write(force);

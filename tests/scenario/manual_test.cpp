@@ -100,6 +100,7 @@ TEST(Completion, KnowsTheWordsOfAChoiceAndTheNamesOfDevices) {
   EXPECT_EQ(offered("relievo play --display \"\""), (Words{"kms", "window", "offscreen", "mock"}));
   EXPECT_EQ(offered("relievo play --haptic p"), (Words{"polhem", "pointer"}));
   EXPECT_EQ(offered("relievo play --haptic g"), Words{"gamepad"});
+  EXPECT_EQ(offered("relievo play --haptic i"), Words{"inverse3"});
   EXPECT_EQ(offered("relievo-lab trace --method p"), (Words{"penalty", "proxy-graph", "proxy-blend"}));
   EXPECT_EQ(offered("relievo play film"), Words{}) << "a file is bash's to complete";
   EXPECT_EQ(offered("relievo film.mkv --stereo t"), Words{"tab"}) << "without the command play";

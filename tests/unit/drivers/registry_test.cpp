@@ -30,6 +30,8 @@ TEST_F(Registry, MakesEachByItsName) {
   EXPECT_STREQ(makeHapticDevice("falcon", clock_).value()->capabilities().name, "Novint Falcon");
   EXPECT_STREQ(makeHapticDevice("falcon:image.bin", clock_).value()->capabilities().name, "Novint Falcon");
   EXPECT_STREQ(makeHapticDevice("polhem", clock_).value()->capabilities().name, "Polhem");
+  EXPECT_STREQ(makeHapticDevice("inverse3", clock_).value()->capabilities().name, "Haply Inverse3");
+  EXPECT_STREQ(makeHapticDevice("inverse3:box:81", clock_).value()->capabilities().name, "Haply Inverse3");
   EXPECT_STREQ(makeHapticDevice("sim", clock_).value()->capabilities().name, "sim");
   EXPECT_STREQ(makeHapticDevice("mock", clock_).value()->capabilities().name, "mock");
   EXPECT_STREQ(makeAudioOutput("alsa", clock_).value()->capabilities().name, "alsa");
@@ -39,6 +41,15 @@ TEST_F(Registry, MakesEachByItsName) {
   EXPECT_NE(makeMediaSource("film.mkv"), nullptr);
   EXPECT_STREQ(makeVideoDecoder({})->capabilities().name, "ffmpeg");
   EXPECT_EQ(makeMediaSource("v4l2:/nonexistent")->open("v4l2:/nonexistent").error().code, ErrorCode::NotFound);
+}
+
+TEST_F(Registry, AServiceIsAtAHostAndAPort) {
+  for (const char* name : {"inverse3:box:", "inverse3:box:0", "inverse3:a b", "inverse3:box:1:2"}) {
+    const auto device = makeHapticDevice(name, clock_);
+    ASSERT_FALSE(device) << name;
+    EXPECT_EQ(device.error().error.code, ErrorCode::InvalidArgument);
+    EXPECT_THAT(device.error().error.message, testing::HasSubstr("HOST:PORT"));
+  }
 }
 
 TEST_F(Registry, NoneIsNoDeviceAndNoError) {
@@ -73,7 +84,8 @@ TEST_F(Registry, RefusesOtherNamesAndListsTheRightOnes) {
     EXPECT_EQ(display.error().thing, std::string("--display ") + name);
     EXPECT_THAT(display.error().error.message, testing::HasSubstr(kDisplayNames));
   }
-  for (const char* name : {"", "falcon:", "polhem:", "sim:", "mock:x", "none:", "SIM", "replay", "replay:"}) {
+  for (const char* name :
+       {"", "falcon:", "polhem:", "inverse3:", "sim:", "mock:x", "none:", "SIM", "replay", "replay:"}) {
     const auto device = makeHapticDevice(name, clock_);
     ASSERT_FALSE(device) << name;
     EXPECT_EQ(device.error().error.code, ErrorCode::InvalidArgument);

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// The shape of the messages is that of docs.haply.co, "Simulation channel", versions 3.1 to 3.5.
+#include "drivers/inverse3/snapshot.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "drivers/inverse3/json_cursor.h"
+
+namespace relievo::inverse3 {
+namespace {
+
+constexpr double kFarthestM = 1;  // the arms reach 0.3 m
+
+bool isPlain(char c) RELIEVO_RT {
+  return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' || c == '_' ||
+         c == '.' || c == ':';
+}
+
+// All three coordinates, each within reach.
+std::optional<glm::dvec3> readPosition(JsonCursor& json) RELIEVO_RT {
+  std::optional<double> x, y, z;
+  json.object([&](std::string_view key) RELIEVO_RT {
+    if (key == "x") x = json.number();
+    else if (key == "y") y = json.number();
+    else if (key == "z") z = json.number();
+    else json.skip();
+  });
+  for (const auto& each : {x, y, z}) {
+    if (!each || !(std::abs(*each) <= kFarthestM)) return std::nullopt;
+  }
+  return glm::dvec3(*x, *y, *z);
+}
+
+struct Arm {
+  DeviceId id;
+  std::optional<glm::dvec3> position_m;
+  bool powered = true, ready = true, from_3_5 = false;
+};
+
+Arm readArm(JsonCursor& json) RELIEVO_RT {
+  Arm arm;
+  json.object([&](std::string_view key) RELIEVO_RT {
+    if (key == "device_id") arm.id = DeviceId(json.string().value_or(""));
+    else if (key == "state") {
+      json.object([&](std::string_view field) RELIEVO_RT {
+        arm.from_3_5 = arm.from_3_5 || field == "control_mode";
+        if (field == "cursor_position") arm.position_m = readPosition(json);
+        else json.skip();
+      });
+    } else if (key == "status") {
+      json.object([&](std::string_view field) RELIEVO_RT {
+        if (field == "power_supply") arm.powered = json.boolean().value_or(true);
+        else if (field == "ready") arm.ready = json.boolean().value_or(true);
+        else json.skip();
+      });
+    } else json.skip();
+  });
+  return arm;
+}
+
+std::uint32_t bit(std::optional<bool> down, unsigned place) RELIEVO_RT {
+  return down.value_or(false) ? 1U << place : 0U;
+}
+
+// A wired grip has one `button`, a wireless one has `buttons`.
+std::uint32_t readGrip(JsonCursor& json) RELIEVO_RT {
+  std::uint32_t down = 0;
+  const auto buttons = [&](std::string_view key) RELIEVO_RT {
+    if (key == "a") down |= bit(json.boolean(), 0);
+    else if (key == "b") down |= bit(json.boolean(), 1);
+    else if (key == "c") down |= bit(json.boolean(), 2);
+    else json.skip();
+  };
+  json.object([&](std::string_view key) RELIEVO_RT {
+    if (key != "state") return json.skip();
+    json.object([&](std::string_view field) RELIEVO_RT {
+      if (field == "button") down |= bit(json.boolean(), 0);
+      else if (field == "buttons") json.object(buttons);
+      else json.skip();
+    });
+  });
+  return down;
+}
+
+void take(const Arm& arm, std::string_view wanted, Snapshot& to) RELIEVO_RT {
+  to.from_3_5 = to.from_3_5 || arm.from_3_5;
+  const bool good = !arm.id.text().empty() && to.id.text().empty();
+  if (!good || (!wanted.empty() && arm.id.text() != wanted)) return;
+  to.id = arm.id;
+  to.position_m = arm.position_m;
+  to.powered = arm.powered;
+  to.ready = arm.ready;
+}
+
+}  // namespace
+
+DeviceId::DeviceId(std::string_view text) RELIEVO_RT {
+  if (text.size() > text_.size() || !std::all_of(text.begin(), text.end(), isPlain)) return;
+  std::copy(text.begin(), text.end(), text_.begin());
+  size_ = static_cast<std::uint8_t>(text.size());
+}
+
+std::optional<Snapshot> readSnapshot(std::string_view text, std::string_view wanted) RELIEVO_RT {
+  JsonCursor json(text);
+  Snapshot snapshot;
+  if (!json.isObject()) return std::nullopt;
+  bool strange = false, known = false;
+  json.object([&](std::string_view key) RELIEVO_RT {
+    const bool grip = key == "verse_grip" || key == "wireless_verse_grip";
+    (grip || key == "inverse3" || key == "session_id" ? known : strange) = true;
+    if (key == "inverse3") {
+      json.array([&]() RELIEVO_RT { take(readArm(json), wanted, snapshot); });
+    } else if (grip) {
+      json.array([&]() RELIEVO_RT { snapshot.buttons |= readGrip(json); });
+    } else {
+      snapshot.from_3_5 = snapshot.from_3_5 || key == "session_id";
+      json.skip();
+    }
+  });
+  if (!json.atEnd()) return std::nullopt;
+  snapshot.known = known || !strange;
+  return snapshot;
+}
+
+}  // namespace relievo::inverse3

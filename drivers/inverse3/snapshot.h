@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is needed of a message from the Haply Inverse service: where the handle is, its buttons, the device's state.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string_view>
+
+#include "platform/realtime.h"
+
+namespace relievo::inverse3 {
+
+// A device's name. Only letters, digits, '-', '_', '.' and ':', so that it is the same in JSON.
+class DeviceId {
+ public:
+  DeviceId() = default;
+  // Empty unless `text` is such a name of at most 63 characters.
+  explicit DeviceId(std::string_view text) RELIEVO_RT;
+  [[nodiscard]] std::string_view text() const RELIEVO_RT { return {text_.data(), size_}; }
+
+ private:
+  std::array<char, 63> text_{};
+  std::uint8_t size_ = 0;
+};
+
+struct Snapshot {
+  bool from_3_5 = false;  // has what only versions from 3.5 on send
+  bool known = false;     // lists devices, or nothing at all
+  DeviceId id;            // of the first Inverse3 listed, or of the one asked for; empty if it is not listed
+  std::optional<glm::dvec3> position_m;  // the service's frame: x right, y forward, z up
+  bool powered = true, ready = true;     // unless the service says otherwise
+  std::uint32_t buttons = 0;             // of any grip: a, b, c are the bits 0, 1, 2
+};
+
+// Empty unless `text` is one whole JSON object. `wanted`: the device asked for; empty: the first one. Fields of other
+// kinds than expected and numbers beyond a metre are as if absent.
+[[nodiscard]] std::optional<Snapshot> readSnapshot(std::string_view text, std::string_view wanted) RELIEVO_RT;
+
+}  // namespace relievo::inverse3

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// The Inverse3 over real sockets of the loopback interface, with the emulator of its service in another thread.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "drivers/inverse3/inverse3.h"
+#include "platform/allocation_counter.h"
+#include "tests/rt/forbidden_calls.h"
+#include "tests/support/device/inverse3_server.h"
+
+namespace relievo {
+namespace {
+
+using namespace std::chrono_literals;
+using test::Inverse3Server;
+using Version = test::Inverse3Service::Version;
+
+class Inverse3Loopback : public testing::Test {
+ protected:
+  std::unique_ptr<HapticDevice> deviceAt(const inverse3::Address& address) {
+    return makeInverse3({.address = address}, clock_);
+  }
+  static void bringUp(HapticDevice& device) {
+    const auto opened = device.open();
+    ASSERT_TRUE(opened) << opened.error().message;
+    const auto homed = device.home();
+    ASSERT_TRUE(homed) << homed.error().message;
+    ASSERT_TRUE(device.start());
+  }
+  Result<HapticSample> tick(HapticDevice& device) {
+    auto sample = device.read();
+    if (sample) static_cast<void>(device.write({0, 0, 1}));
+    clock_.sleepUntil(clock_.now() + 1ms);
+    return sample;
+  }
+  MonotonicClock clock_;
+};
+
+TEST_F(Inverse3Loopback, ATickAllocatesNothingAndTakesNoLock) {
+  Inverse3Server server(Version::V3_5);
+  const glm::dvec3 place(12.5, -7, 3.25);
+  server.with([&](auto& service) { service.hand = [place](double) { return place; }; });
+  const auto device = deviceAt(server.address());
+  ASSERT_NO_FATAL_FAILURE(bringUp(*device));
+  const std::uint64_t allocations = threadAllocations(), locks = test::threadLocks();
+  int there = 0;
+  for (int i = 0; i < 500; ++i) {
+    const auto sample = tick(*device);
+    there += sample && std::abs(sample->position_mm.x - place.x) < 1e-4 &&
+                     std::abs(sample->position_mm.y - place.y) < 1e-4 &&
+                     std::abs(sample->position_mm.z - place.z) < 1e-4
+                 ? 1
+                 : 0;
+  }
+  EXPECT_EQ(threadAllocations(), allocations);
+  EXPECT_EQ(test::threadLocks(), locks);
+  EXPECT_GT(there, 400) << "on a loaded machine some ticks may lose the service";
+  device->stop();
+  EXPECT_EQ(server.with([](auto& service) { return service.error(); }), "");
+}
+
+TEST_F(Inverse3Loopback, AServiceThatEndsIsLostAndIsFoundAgain) {
+  auto server = std::make_unique<Inverse3Server>(Version::V3_1);
+  const inverse3::Address address = server->address();
+  const auto device = deviceAt(address);
+  ASSERT_NO_FATAL_FAILURE(bringUp(*device));
+  EXPECT_TRUE(tick(*device));
+  server.reset();
+  Result<HapticSample> read;
+  while (read) read = tick(*device);
+  EXPECT_EQ(read.error().code, ErrorCode::Lost);
+  device->close();
+  const auto refused = device->open();
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::NotFound);
+  EXPECT_THAT(refused.error().message, testing::HasSubstr("systemctl start haply-inverse-service"));
+  server = std::make_unique<Inverse3Server>(Version::V3_5, address.port);
+  ASSERT_NO_FATAL_FAILURE(bringUp(*device));
+}
+
+// The last `write` is long ago and nobody reads: the watchdog's own thread stops the motors.
+TEST_F(Inverse3Loopback, TheWatchdogActsWhileTheTickHangs) {
+  Inverse3Server server(Version::V3_5);
+  const auto device = deviceAt(server.address());
+  ASSERT_NO_FATAL_FAILURE(bringUp(*device));
+  const auto pushes = [&server] { return server.with([](auto& service) { return service.pushes(); }); };
+  for (int i = 0; i < 5000 && !pushes(); ++i) static_cast<void>(tick(*device));
+  ASSERT_TRUE(pushes());
+  while (pushes()) std::this_thread::sleep_for(1ms);
+}
+
+TEST_F(Inverse3Loopback, WhatIsNoSuchServiceIsRefused) {
+  const UniqueFd listener = test::bindLoopback(SOCK_STREAM);
+  std::thread web([&listener] {
+    const UniqueFd client(::accept4(listener.get(), nullptr, nullptr, SOCK_CLOEXEC));
+    static_cast<void>(test::sendAll(client, "HTTP/1.1 404 Not Found\r\nContent-Length: 0\r\n\r\n"));
+    char byte = 0;
+    while (::recv(client.get(), &byte, 1, 0) > 0) {
+    }
+  });
+  const auto opened = deviceAt({.host = "127.0.0.1", .port = test::portOf(listener)})->open();
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().code, ErrorCode::Unsupported);
+  web.join();
+}
+
+// It listens, but never answers.
+TEST_F(Inverse3Loopback, OpeningEndsWhenItIsCalledOff) {
+  const UniqueFd listener = test::bindLoopback(SOCK_STREAM);
+  const auto device = deviceAt({.host = "127.0.0.1", .port = test::portOf(listener)});
+  std::thread caller([&device] {
+    std::this_thread::sleep_for(20ms);
+    device->cancel();
+  });
+  EXPECT_EQ(device->open().error().code, ErrorCode::Cancelled);
+  caller.join();
+}
+
+}  // namespace
+}  // namespace relievo
