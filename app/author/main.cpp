@@ -13,6 +13,7 @@
 #include "app/cli/progress_line.h"
 #include "drivers/registry.h"
 #include "platform/clock.h"
+#include "platform/files/file_system_answer.h"
 
 namespace relievo {
 namespace {
@@ -136,6 +137,7 @@ void addOptions(CLI::App& app, Arguments& a) {
 
 int run(Arguments& a) {
   const std::atomic<bool>& stop = stopOnSignals();
+  const CancelsAnswers cancels(stop);
   if (a.scene.empty() && a.source.url.empty()) {
     return tell({"--color", {ErrorCode::InvalidArgument, 0, "missing; give the film's colour, or use --scene sample"}});
   }
