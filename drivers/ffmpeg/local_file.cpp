@@ -91,7 +91,7 @@ bool isLocalFile(const AVIOContext* file) noexcept {
 
 void closeLocalFile(AVIOContext* file) noexcept {
   const std::unique_ptr<LocalFile> local(static_cast<LocalFile*>(file->opaque));
-  av_freep(&file->buffer);
+  av_free(std::exchange(file->buffer, nullptr));
   avio_context_free(&file);
 }
 

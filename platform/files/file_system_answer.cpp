@@ -22,11 +22,13 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostThreads = 64;
-constexpr auto kLook = std::chrono::milliseconds(10);  // between looks at the flag of CancelsAnswers
+constexpr auto kLook = std::chrono::milliseconds(10);    // between looks at the flag of CancelsAnswers
+constexpr auto kGrace = std::chrono::milliseconds(100);  // in which a file system that works answers
 constexpr Error kNoAnswer{ErrorCode::Timeout, 0, "the file system does not answer within 10 s; check the mount"};
 constexpr Error kInterrupted{ErrorCode::Cancelled, 0, "interrupted while waiting for the file system"};
 
 thread_local const std::atomic<bool>* cancels = nullptr;
+thread_local bool cancelled_before = false;  // the flag has ended a question, and is still set
 
 std::string fullPath(const std::string& path) {
   std::error_code failed;
@@ -139,10 +141,12 @@ struct FileSystemAnswers::Shared {
 
   // Whether the answer has come. Looks at the caller's flag from time to time.
   [[nodiscard]] bool wait(std::unique_lock<std::mutex>& lock, const Task& task) {
-    const auto until = std::chrono::steady_clock::now() + patience;
+    const auto begun = std::chrono::steady_clock::now(), until = begun + patience;
     const std::atomic<bool>* const flag = cancels;
+    cancelled_before = cancelled_before && flag != nullptr && *flag;
     while (!task.done && std::chrono::steady_clock::now() < until) {
-      if (flag != nullptr && *flag) break;
+      const bool in_grace = !cancelled_before && std::chrono::steady_clock::now() < begun + kGrace;
+      if (flag != nullptr && *flag && !in_grace) break;
       answered.wait_until(lock, flag == nullptr ? until : std::min(until, std::chrono::steady_clock::now() + kLook));
     }
     return task.done;
@@ -164,7 +168,10 @@ Result<void> FileSystemAnswers::ask(const std::string& path, std::function<void(
   std::unique_lock lock(shared_->mutex);
   if (shared_->isStuck(full) || !Shared::give(shared_, task)) return std::unexpected(kNoAnswer);
   if (shared_->wait(lock, *task)) return {};
-  if (cancels != nullptr && *cancels) return std::unexpected(kInterrupted);
+  if (cancels != nullptr && *cancels) {
+    cancelled_before = true;
+    return std::unexpected(kInterrupted);
+  }
   lock.unlock();
   std::string place = placeOf(full);
   lock.lock();

@@ -41,8 +41,8 @@ class FileSystemAnswers {
 // The program's own, with the patience of 10 s. It is never destroyed.
 [[nodiscard]] FileSystemAnswers& fileSystem();
 
-// While this lives, questions of the thread that made it end with Cancelled soon after the flag is set. The flag must
-// outlive it.
+// While this lives, questions of the thread that made it end with Cancelled soon after the flag is set, unless they are
+// answered within 0.1 s. The flag must outlive it.
 class CancelsAnswers {
  public:
   explicit CancelsAnswers(const std::atomic<bool>& flag) noexcept;

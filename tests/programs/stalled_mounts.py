@@ -209,6 +209,19 @@ def author_stops(case):
     return at_once(case, "SIGTERM", met and code is not None and not os.listdir(case.home))
 
 
+def author_copies(case):
+    """The file is opened for its sound when its pictures are read already."""
+    case.start("relievo-author --color @/film.mkv -o out.mkv")
+    code, opens = case.code(), case.files.count("open", "film.mkv")
+    os.remove(os.path.join(case.home, "out.mkv"))
+    if code != 0 or opens < 2:
+        return f"exit code {code}: {case.words()}"
+    case.files.stall("open", "film.mkv", opens - 1)
+    case.start("relievo-author --color @/film.mkv -o out.mkv")
+    code = case.code()
+    return "" if code == 1 and SAID in case.words() else f"exit code {code}: {case.words()}"
+
+
 AT_ONCE = (
     ("quit", quit_works),
     ("SIGTERM", signal_works),
@@ -217,6 +230,7 @@ AT_ONCE = (
     ("the next open, after subtitles beside the film", lambda case: next_open_works(case, "read", "film.srt")),
     ("a release", plays_when_released),
     ("SIGTERM to the author", author_stops),
+    ("sound of the author's colour", author_copies),
 )
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """A file system of FUSE that shows a folder and stalls on request: the kernel's protocol (linux/fuse.h), no library."""
+import collections
 import ctypes
 import errno
 import os
@@ -43,7 +44,8 @@ class StallingFiles:
     def __init__(self, shown, place):
         self.shown, self.place = shown, place
         self.paths = {ROOT: ""}
-        self.stalls, self.waiting, self.arrived = set(), [], threading.Event()
+        self.stalls, self.waiting, self.arrived = {}, [], threading.Event()
+        self.seen = collections.Counter()  # requests by operation and name
         self.guard, self.ending = threading.Lock(), False
         self.fd = os.open("/dev/fuse", os.O_RDWR | os.O_CLOEXEC)
         try:
@@ -54,10 +56,15 @@ class StallingFiles:
         self.thread = threading.Thread(target=self.serve, daemon=True)
         self.thread.start()
 
-    def stall(self, operation, name):
-        """From now on: `operation` on the file or folder `name`, of the folder shown."""
+    def stall(self, operation, name, spared=0):
+        """From now on: `operation` on the file or folder `name`, of the folder shown. The first ones may be spared."""
         with self.guard:
-            self.stalls.add((NAMES[operation], name))
+            self.seen.clear()
+            self.stalls[NAMES[operation], name] = spared
+
+    def count(self, operation, name):
+        with self.guard:
+            return self.seen[NAMES[operation], name]
 
     def release(self):
         with self.guard:
@@ -106,7 +113,8 @@ class StallingFiles:
         if operation == LOOKUP:
             name = os.path.join(name, self.text(request))
         with self.guard:
-            return (operation, name) in self.stalls
+            self.seen[operation, name] += 1
+            return self.seen[operation, name] > self.stalls.get((operation, name), float("inf"))
 
     @staticmethod
     def text(request):
