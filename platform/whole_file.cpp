@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens without blocking and checks the kind of file before reading.
+// Checks the kind of file before reading, and reads until the end: files of /proc report a size of 0.
 #include "platform/whole_file.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <array>
-#include <cerrno>
 
-#include "platform/unique_fd.h"
+#include "platform/files/answered_file.h"
 
 namespace relievo {
 namespace {
@@ -22,24 +17,25 @@ std::unexpected<Error> tooLarge(FileSize size) noexcept {
                                         : "is larger than the 256 MiB allowed for such a file; use a part of it");
 }
 
+bool isMissing(const Error& error) noexcept {
+  return error.code == ErrorCode::NotFound || error.code == ErrorCode::PermissionDenied;
+}
+
 }  // namespace
 
 Result<std::string> readWholeFile(const std::string& path, FileSize size, const char* cannot_read) {
-  const UniqueFd fd(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
-  if (!fd.valid()) return fail(ErrorCode::NotFound, cannot_read, errno);
-  struct stat status{};
-  if (::fstat(fd.get(), &status) != 0) return fail(ErrorCode::NotFound, cannot_read, errno);
-  if (S_ISDIR(status.st_mode)) return fail(ErrorCode::Unsupported, "is a folder; give the name of a file", EISDIR);
-  if (!S_ISREG(status.st_mode)) return fail(ErrorCode::Unsupported, "is a device or a pipe; name a file");
+  const auto file = AnsweredFile::open(path);
+  if (!file && isMissing(file.error())) return fail(ErrorCode::NotFound, cannot_read, file.error().os_error);
+  if (!file) return std::unexpected(file.error());
+  if (!file->regular()) return fail(ErrorCode::Unsupported, "is a device or a pipe; name a file");
   const std::size_t most = size == FileSize::Settings ? kSettingsBytes : kRecordingBytes;
   std::string text;
-  std::array<char, 65536> part{};
-  for (;;) {  // until the end: files of /proc report a size of 0
-    const ssize_t got = ::read(fd.get(), part.data(), part.size());
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) return fail(ErrorCode::Io, "reading failed; check the disk", errno);
-    if (got == 0) return text;
-    text.append(part.data(), static_cast<std::size_t>(got));
+  std::array<std::uint8_t, 65536> part{};
+  for (;;) {
+    const auto got = file->readSome(text.size(), part);
+    if (!got) return std::unexpected(got.error());
+    if (*got == 0) return text;
+    text.append(reinterpret_cast<const char*>(part.data()), *got);
     if (text.size() > most) return tooLarge(size);
   }
 }

@@ -16,8 +16,9 @@ enum class FileSize : std::uint8_t {
 };
 
 // NotFound, with the message `cannot_read`, if the file cannot be opened; Unsupported for a folder, a device or a
-// pipe, which may never end; Exhausted for a file that is too large; Io. Never waits for a pipe or a device. Any
-// thread. `cannot_read` must outlive the error.
+// pipe, which may never end; Exhausted for a file that is too large; Io; Timeout and Cancelled as
+// platform/files/file_system_answer.h says. Never waits for a pipe or a device. Any thread. `cannot_read` must outlive
+// the error.
 [[nodiscard]] Result<std::string> readWholeFile(const std::string& path, FileSize size, const char* cannot_read);
 
 }  // namespace relievo

@@ -13,6 +13,7 @@
 #include "app/cli/progress_line.h"
 #include "drivers/registry.h"
 #include "platform/clock.h"
+#include "platform/files/file_system_answer.h"
 
 namespace relievo {
 namespace {
@@ -135,8 +136,15 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_flag("--force", a.output.force, "Overwrite OUT if it exists");
 }
 
+// A wait for the file system that a signal has ended is an interruption like any other.
+int tellEnd(const Failure& failure, const std::string& output) {
+  if (failure.error.code != ErrorCode::Cancelled) return tell(failure);
+  return tell({output, {ErrorCode::Cancelled, 0, "interrupted; nothing was written"}});
+}
+
 int run(Arguments& a) {
   const std::atomic<bool>& stop = stopOnSignals();
+  const CancelsAnswers cancels(stop);
   if (a.scene.empty() && a.source.url.empty()) {
     return tell({"--color", {ErrorCode::InvalidArgument, 0, "missing; give the film's colour, or use --scene sample"}});
   }
@@ -145,7 +153,7 @@ int run(Arguments& a) {
 
   std::vector<std::string> inputs = a.source.named_files;
   inputs.insert(inputs.end(), {a.source.url, a.source.depth_url});
-  if (auto apart = keepApart(filesWrittenBy(a.output), inputs); !apart) return tell(apart.error());
+  if (auto apart = keepApart(filesWrittenBy(a.output), inputs); !apart) return tellEnd(apart.error(), a.output.path);
 
   Outcome<AuthorSummary> summary;
   {
@@ -161,7 +169,7 @@ int run(Arguments& a) {
       summary = authorSample({.threads = threads}, a.output, stop, progress);
     }
   }
-  if (!summary) return tell(summary.error());
+  if (!summary) return tellEnd(summary.error(), a.output.path);
   std::fputs(toText(a.output.path, *summary).c_str(), stdout);
   return kExitDone;
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/cli/output_guard.h"
 
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -11,6 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include "platform/files/answered_place.h"
+#include "platform/files/file_system_answer.h"
 #include "platform/whole_file.h"
 
 namespace relievo {
@@ -22,18 +22,24 @@ constexpr int kDeepest = 4;
 constexpr std::size_t kMostFiles = 200'000;
 
 using Inode = std::pair<dev_t, ino_t>;
-std::optional<Inode> inodeOf(const std::string& path) {
-  struct stat status{};
-  if (path.empty() || ::stat(path.c_str(), &status) != 0) return std::nullopt;
-  // Writing to a device or a pipe destroys nothing: several outputs may be /dev/null.
+// Writing to a device or a pipe destroys nothing: several outputs may be /dev/null.
+std::optional<Inode> inodeIn(const struct stat& status) {
   if (!S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) return std::nullopt;
   return Inode{status.st_dev, status.st_ino};
 }
+std::optional<Inode> inodeOf(const std::string& path) {
+  const auto status = statusOf(path);
+  return status ? inodeIn(*status) : std::nullopt;
+}
 
 std::string fullName(const std::string& path) {
-  std::error_code failed;
-  const fs::path full = fs::weakly_canonical(fs::absolute(path, failed), failed);
-  return failed ? path : full.string();
+  return answerOf(path,
+                  [path] {
+                    std::error_code failed;
+                    const fs::path full = fs::weakly_canonical(fs::absolute(path, failed), failed);
+                    return failed ? path : full.string();
+                  })
+      .value_or(path);
 }
 
 // The local path that an address names; empty for other addresses.
@@ -69,10 +75,9 @@ fs::path folderOf(const fs::path& path) {
 }
 
 void addSeries(const fs::path& folder, const Numbered& series, std::vector<std::string>& files) {
-  std::error_code failed;
-  for (const auto& entry : fs::directory_iterator(folder, failed)) {
+  for (const auto& [name, is] : entriesOf(folder)) {
     if (files.size() >= kMostFiles) return;
-    if (isOf(series, entry.path().filename().string())) files.push_back(entry.path().string());
+    if (isOf(series, name)) files.push_back(folder / name);
   }
 }
 
@@ -104,12 +109,10 @@ void addNamed(std::string line, const fs::path& folder, int depth, std::vector<s
 
 // A folder of pictures, and its folders of colour and depth.
 void addFolder(const fs::path& folder, int depth, std::vector<std::string>& files) {
-  std::error_code failed;
-  if (depth >= 2 || !fs::is_directory(folder, failed)) return;
-  for (const auto& entry : fs::directory_iterator(folder, failed)) {
+  for (const auto& [name, is] : entriesOf(folder)) {
     if (files.size() >= kMostFiles) return;
-    files.push_back(entry.path().string());
-    addFolder(entry.path(), depth + 1, files);
+    files.push_back(folder / name);
+    if (is == FolderEntry::Kind::Folder && depth == 0) addFolder(folder / name, 1, files);
   }
 }
 
@@ -118,7 +121,7 @@ void addFiles(const std::string& address, int depth, std::vector<std::string>& f
   if (path.empty() || files.size() >= kMostFiles) return;
   if (inodeOf(path)) {
     files.push_back(path);
-    addFolder(path, depth, files);
+    if (depth < 2 && isFolder(path)) addFolder(path, depth, files);
     if (depth == kDeepest || !isList(path)) return;
     const auto text = readWholeFile(path, FileSize::Settings, "");
     for (std::size_t at = 0; text && at < text->size();) {
@@ -137,6 +140,25 @@ std::unexpected<Failure> refuse(const std::string& output, const char* why) {
   return failOn(output, {ErrorCode::InvalidArgument, 0, why});
 }
 
+// Of all files that the inputs name.
+std::set<Inode> inodesOf(const std::vector<std::string>& inputs) {
+  std::set<Inode> inodes;
+  for (const std::string& input : inputs) {
+    for (const std::string& file : filesReadBy(input)) {
+      if (const auto inode = inodeOf(file)) inodes.insert(*inode);
+    }
+  }
+  return inodes;
+}
+
+// Whether one of the inputs has the name of this file, which is not there yet. Asks about no other file.
+bool isNamed(const std::string& path, const std::vector<std::string>& inputs) {
+  return std::ranges::any_of(inputs, [&](const std::string& input) {
+    const fs::path named = pathIn(input);
+    return !named.empty() && named.filename() == fs::path(path).filename() && fullName(named) == fullName(path);
+  });
+}
+
 }  // namespace
 
 std::vector<std::string> filesReadBy(const std::string& address) {
@@ -146,21 +168,17 @@ std::vector<std::string> filesReadBy(const std::string& address) {
 }
 
 Outcome<void> keepApart(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
-  std::set<Inode> read, written;
-  std::set<std::string> read_names, written_names;
-  for (const std::string& input : inputs) {
-    if (const std::string path = pathIn(input); !path.empty()) read_names.insert(fullName(path));
-    for (const std::string& file : filesReadBy(input)) {
-      if (const auto inode = inodeOf(file)) read.insert(*inode);
-    }
-  }
+  std::set<Inode> written;
+  std::set<std::string> written_names;
+  std::optional<std::set<Inode>> read;
   for (const std::string& output : outputs) {
     const std::string path = pathIn(output);
-    const auto inode = inodeOf(path);
-    struct stat status{};
-    const bool device = !inode && ::stat(path.c_str(), &status) == 0;
-    if (path.empty() || device) continue;
-    const bool is_read = inode ? read.contains(*inode) : read_names.contains(fullName(path));
+    const auto status = statusOf(path);
+    if (!status && status.error().code != ErrorCode::NotFound) return failOn(output, status.error());
+    const auto inode = status ? inodeIn(*status) : std::nullopt;
+    if (path.empty() || (status && !inode)) continue;
+    if (inode && !read) read = inodesOf(inputs);
+    const bool is_read = inode ? read->contains(*inode) : isNamed(path, inputs);
     if (is_read) return refuse(output, "is also an input and would be overwritten; choose another file");
     const bool twice = inode ? !written.insert(*inode).second : !written_names.insert(fullName(path)).second;
     if (twice) return refuse(output, "is given for two outputs; choose different files");

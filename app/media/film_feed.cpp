@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/media/film_folder.h"
+#include "platform/files/file_system_answer.h"
 
 namespace relievo {
 
@@ -376,6 +377,7 @@ void FilmFeed::failed(std::string thing, const Error& error) {
 }
 
 void FilmFeed::threadMain() {
+  const CancelsAnswers cancels(interrupted_);
   for (;;) {
     {
       std::unique_lock lock(mutex_);

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "hal/media/media_names.h"
+#include "platform/files/answered_place.h"
 
 namespace relievo {
 namespace {
@@ -35,14 +36,11 @@ std::string depthOf(const std::string& film, const std::vector<std::string>& nam
 }  // namespace
 
 std::optional<std::vector<PlaylistEntry>> filmsIn(const std::string& url) {
-  std::error_code failed;
   const fs::path folder(url);
-  if (!fs::is_directory(folder, failed) || fs::is_directory(folder / "depth", failed)) return std::nullopt;
+  if (!isFolder(folder) || isFolder(folder / "depth")) return std::nullopt;
   std::vector<std::string> names;
   std::size_t pictures = 0;
-  fs::directory_iterator entries(folder, failed);
-  for (; !failed && entries != fs::directory_iterator(); entries.increment(failed)) {
-    const std::string name = entries->path().filename().string();
+  for (const auto& [name, is] : entriesOf(folder)) {
     const MediaKind kind = name.starts_with('.') ? MediaKind::Neither : mediaKindOf(name);
     pictures += kind == MediaKind::Picture ? 1 : 0;
     if (kind == MediaKind::Film && names.size() < kMostEntries) names.push_back(name);
@@ -63,16 +61,13 @@ std::optional<std::vector<PlaylistEntry>> filmsIn(const std::string& url) {
 }
 
 std::string depthBeside(const std::string& film) {
-  std::error_code failed;
   const fs::path path(film);
   const MediaKind kind = mediaKindOf(film);
-  if (kind == MediaKind::Neither || !fs::is_regular_file(path, failed)) return "";
+  if (kind == MediaKind::Neither || !isRegularFile(path)) return "";
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   std::vector<std::string> names;
-  fs::directory_iterator entries(folder, failed);
-  for (; !failed && entries != fs::directory_iterator(); entries.increment(failed)) {
-    const std::string name = entries->path().filename().string();
-    if (mediaKindOf(name) == kind && entries->is_regular_file(failed)) names.push_back(name);
+  for (const auto& [name, is] : entriesOf(folder)) {
+    if (mediaKindOf(name) == kind && is == FolderEntry::Kind::File) names.push_back(name);
   }
   const std::string depth = depthOf(path.filename().string(), names);
   return depth.empty() ? "" : (path.has_parent_path() ? folder / depth : fs::path(depth)).string();
@@ -104,10 +99,8 @@ std::optional<std::string> seriesOf(const std::vector<std::string>& sources) {
   }
   const std::string folder = before.substr(0, before.rfind('/') + 1);
   std::size_t named = 0;
-  std::error_code failed;
-  fs::directory_iterator entries(folder.empty() ? "." : folder, failed);
-  for (; !failed && entries != fs::directory_iterator(); entries.increment(failed)) {
-    const std::string path = folder + entries->path().filename().string();
+  for (const auto& entry : entriesOf(folder.empty() ? "." : folder)) {
+    const std::string path = folder + entry.name;
     const bool long_enough = path.size() >= before.size() + behind.size();
     if (long_enough && path.starts_with(before) && path.ends_with(behind)) ++named;
   }

@@ -27,6 +27,7 @@
 #include "drivers/registry.h"
 #include "platform/atomic_file.h"
 #include "platform/clock.h"
+#include "platform/files/file_system_answer.h"
 #include "platform/log.h"
 
 namespace relievo {
@@ -175,6 +176,7 @@ Outcome<Outputs> makeOutputs(const PlayOptions& options) {
 
 int play(PlayOptions options, const FileConfig& config) {
   const std::atomic<bool>& stop = stopOnSignals(drivers::stopAllMotors);
+  const CancelsAnswers cancels(stop);
   applyLogLevels(config);
   if (options.verbose) setLogLevel(LogLevel::Debug);
   if (auto completed = complete(options); !completed) return tell(completed.error());

@@ -3,12 +3,14 @@
 #include "drivers/ffmpeg/address.h"
 
 #include <linux/magic.h>
-#include <sys/stat.h>
 #include <sys/statfs.h>
 
 #include <algorithm>
 #include <array>
 #include <string_view>
+
+#include "platform/files/answered_place.h"
+#include "platform/files/file_system_answer.h"
 
 namespace relievo::ffmpeg {
 namespace {
@@ -27,14 +29,6 @@ constexpr std::array kProtocols{
     Protocol{"rtsp", Way::Rtsp},   Protocol{"rtsps", Way::Rtsp}, Protocol{"rtp", Way::Packets},
     Protocol{"udp", Way::Packets}, Protocol{"tcp", Way::Tcp},
 };
-
-// As FFmpeg parses it: "http" of "http://..", "concat" of "concat:a|b", "subfile" of "subfile,,start,1,:a".
-std::string_view schemeOf(std::string_view url) noexcept {
-  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789+-.";
-  const std::size_t end = std::min(url.find_first_not_of(kLetters), url.size());
-  const bool has_options = url.starts_with("subfile,") && url.find(':') != url.npos;
-  return end < url.size() && (url[end] == ':' || has_options) ? url.substr(0, end) : std::string_view();
-}
 
 // Containers and streams. Excluded: lists of other addresses (concat), sessions that open ports (sdp), image sequences.
 constexpr const char* kFilms =
@@ -76,12 +70,22 @@ bool mayNeverEnd(const std::string& path, const struct stat& status) noexcept {
 
 }  // namespace
 
+std::string_view schemeOf(std::string_view url) noexcept {
+  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789+-.";
+  const std::size_t end = std::min(url.find_first_not_of(kLetters), url.size());
+  const bool has_options = url.starts_with("subfile,") && url.find(':') != url.npos;
+  return end < url.size() && (url[end] == ':' || has_options) ? url.substr(0, end) : std::string_view();
+}
+
 Result<Address> parseAddress(const std::string& url) {
   for (const std::string& path : {url, url.starts_with("file:") ? url.substr(5) : std::string()}) {
-    struct stat status{};
-    if (path.empty() || ::stat(path.c_str(), &status) != 0) continue;
-    if (S_ISFIFO(status.st_mode)) return Address{path, Way::Pipe};
-    if (mayNeverEnd(path, status)) return fail(ErrorCode::Unsupported, kDevice);
+    const auto status = statusOf(path);
+    if (!status && status.error().code != ErrorCode::NotFound) return std::unexpected(status.error());
+    if (!status) continue;
+    if (S_ISFIFO(status->st_mode)) return Address{path, Way::Pipe};
+    const auto endless = answerOf(path, [path, status = *status] { return mayNeverEnd(path, status); });
+    if (!endless) return std::unexpected(endless.error());
+    if (*endless) return fail(ErrorCode::Unsupported, kDevice);
     return Address{"file:" + path, Way::File};
   }
   const std::string_view scheme = schemeOf(url);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 extern "C" {
 #include <libavutil/dict.h>
@@ -30,6 +31,9 @@ struct Address {
   // A real-time stream: sent once, at its own pace, and its end cannot be told from a broken connection.
   [[nodiscard]] bool flows() const noexcept { return remote() && way != Way::Http; }
 };
+
+// As FFmpeg parses it: "http" of "http://..", "concat" of "concat:a|b", "subfile" of "subfile,,start,1,:a".
+[[nodiscard]] std::string_view schemeOf(std::string_view url) noexcept;
 
 // The name of an existing file is a file even if it looks like a URL ("12:30.mkv"). Unsupported: a protocol that is not
 // in the list, such as those that read several files, parts of files or other processes.

@@ -15,6 +15,7 @@
 #include "drivers/ffmpeg/container.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/ffmpeg/library.h"
+#include "drivers/ffmpeg/local_file.h"
 #include "drivers/ffmpeg/network_error.h"
 #include "drivers/ffmpeg/stream_tags.h"
 #include "drivers/ffmpeg/watch.h"
@@ -50,7 +51,11 @@ constexpr Duration kReordering = std::chrono::seconds(1);  // behind a jump FFmp
 constexpr Duration kAnyGap = std::chrono::hours(24 * 365);
 
 struct FormatCloser {
-  void operator()(AVFormatContext* context) const noexcept { avformat_close_input(&context); }
+  void operator()(AVFormatContext* context) const noexcept {
+    AVIOContext* const file = isLocalFile(context->pb) ? context->pb : nullptr;
+    avformat_close_input(&context);
+    if (file != nullptr) closeLocalFile(file);
+  }
 };
 using FormatPtr = std::unique_ptr<AVFormatContext, FormatCloser>;
 
@@ -80,11 +85,19 @@ class FfmpegSource final : public MediaSource {
     context->interrupt_callback = {Watch::callback, &watch_};
     context->opaque = this;
     open_file_ = std::exchange(context->io_open, openCounted);
+    close_file_ = std::exchange(context->io_close2, closeAny);
     opens_ = 0;
+    AVIOContext* file = nullptr;
+    if (const auto opened = openFile(*address, file); !opened) {
+      avformat_free_context(context);
+      return std::unexpected(watch_.explain(opened.error()));
+    }
+    context->pb = file;
     AVDictionary* options = optionsFor(*address);
     const LibraryWords words;
     const int opened = avformat_open_input(&context, address->url.c_str(), nullptr, &options);
     av_dict_free(&options);
+    if (opened < 0 && file != nullptr) closeLocalFile(file);
     if (opened < 0) return std::unexpected(watch_.explain(refusal(*address, opened, words.last())));
     arrival_ = watch_.now();
 
@@ -107,6 +120,17 @@ class FfmpegSource final : public MediaSource {
     return {};
   }
 
+  // What FFmpeg opens itself stays null: what is remote, and names that are patterns.
+  Result<void> openFile(const Address& address, AVIOContext*& file) {
+    reads_files_ = address.way == Way::File;
+    if (!reads_files_) return {};
+    const auto opened = openLocalFile(localPathOf(address.url), watch_);
+    if (opened) file = *opened;
+    if (opened || opened.error().code == ErrorCode::NotFound) return {};
+    const Error& error = opened.error();
+    return std::unexpected(error.os_error == 0 ? error : openError(AVERROR(error.os_error)));
+  }
+
   void expectFirstPacket() noexcept {
     continuous_.begin(kAnyGap);
     highest_.clear();
@@ -118,7 +142,16 @@ class FfmpegSource final : public MediaSource {
                          AVDictionary** options) {
     auto& self = *static_cast<FfmpegSource*>(context->opaque);
     if (++self.opens_ > kMostOpens) return AVERROR(ELOOP);
-    return self.open_file_(context, file, url, flags, options);
+    const std::string path = self.reads_files_ ? localPathOf(url) : "";
+    if (path.empty()) return self.open_file_(context, file, url, flags, options);
+    const auto opened = openLocalFile(path, self.watch_);
+    if (opened) *file = *opened;
+    return opened ? 0 : codeOf(opened.error());
+  }
+  static int closeAny(AVFormatContext* context, AVIOContext* file) {
+    if (!isLocalFile(file)) return static_cast<FfmpegSource*>(context->opaque)->close_file_(context, file);
+    closeLocalFile(file);
+    return 0;
   }
 
   // FFmpeg decodes pictures to analyse a stream: it must skip those that are too large for the decoder.
@@ -355,8 +388,10 @@ class FfmpegSource final : public MediaSource {
   Address address_;
   MonotonicTime arrival_;
   decltype(AVFormatContext::io_open) open_file_ = nullptr;  // FFmpeg's own
-  int opens_ = 0;                                           // since the current `open` or `read` began
-  UniqueFd pipe_;                                           // outlives the context that reads from it
+  decltype(AVFormatContext::io_close2) close_file_ = nullptr;
+  bool reads_files_ = false;
+  int opens_ = 0;  // since the current `open` or `read` began
+  UniqueFd pipe_;  // outlives the context that reads from it
   FormatPtr context_;
   bool timed_ = true;
   Duration start_{0};                                              // the container's start time

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads the text at an address through libavformat's protocols.
 #include <array>
+#include <vector>
 
 #include "drivers/ffmpeg/address.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/ffmpeg/library.h"
+#include "drivers/ffmpeg/local_file.h"
 #include "drivers/ffmpeg/network_error.h"
+#include "platform/files/answered_file.h"
 
 extern "C" {
 #include <libavformat/avio.h>
@@ -14,6 +17,23 @@ extern "C" {
 namespace relievo {
 
 using namespace ffmpeg;
+
+namespace {
+
+constexpr const char* kTooLong = "it is too long for a text file; check the address";
+
+Result<std::string> readFile(const std::string& path, std::size_t most_bytes) {
+  const auto file = AnsweredFile::open(path);
+  if (!file)
+    return std::unexpected(file.error().os_error == 0 ? file.error() : openError(AVERROR(file.error().os_error)));
+  std::vector<std::uint8_t> text(most_bytes + 1);
+  const auto got = file->read(0, text);
+  if (!got) return std::unexpected(got.error());
+  if (*got > most_bytes) return fail(ErrorCode::Corrupt, kTooLong);
+  return std::string(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(*got));
+}
+
+}  // namespace
 
 Result<std::string> readFfmpegText(const std::string& url, std::size_t most_bytes, const std::atomic<bool>& cancelled) {
   silenceLibrary();
@@ -26,6 +46,7 @@ Result<std::string> readFfmpegText(const std::string& url, std::size_t most_byte
     if (cancelled) return Error{ErrorCode::Cancelled, 0, "interrupted while waiting for the text"};
     return address->remote() ? networkError(code, words.last()) : openError(code);
   };
+  if (address->way == Way::File) return readFile(localPathOf(address->url), most_bytes);
   if (address->way == Way::Pipe) *address = {"file:" + url, Way::File};
   AVDictionary* options = optionsFor(*address);
   AVIOContext* file = nullptr;
@@ -41,7 +62,7 @@ Result<std::string> readFfmpegText(const std::string& url, std::size_t most_byte
   }
   avio_closep(&file);
   if (got < 0 && got != AVERROR_EOF) return std::unexpected(explain(got));
-  if (text.size() > most_bytes) return fail(ErrorCode::Corrupt, "it is too long for a text file; check the address");
+  if (text.size() > most_bytes) return fail(ErrorCode::Corrupt, kTooLong);
   return text;
 }
 

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cerrno>
+#include <optional>
 
 #include "drivers/ffmpeg/library.h"
 #include "platform/clock.h"
@@ -16,6 +17,7 @@ class Watch {
   // Starts a call that may wait for `patience`.
   void begin(Duration patience) noexcept {
     expired_ = false;
+    unanswered_.reset();
     deadline_ = clock_.now() + patience;
   }
   void forgive() noexcept { cancelled_ = false; }
@@ -29,9 +31,13 @@ class Watch {
   }
   static int callback(void* watch) noexcept { return static_cast<Watch*>(watch)->givesUp() ? 1 : 0; }
 
-  // The error of a failed call: cancelled or timed out if so, else `otherwise`.
+  // The file system has not answered. Only on the thread that began the call.
+  void noteUnanswered(const Error& error) noexcept { unanswered_ = error; }
+
+  // The error of a failed call: cancelled, unanswered or timed out if so, else `otherwise`.
   [[nodiscard]] Error explain(Error otherwise) const noexcept {
     if (cancelled_) return {ErrorCode::Cancelled, 0, "interrupted while waiting for the source"};
+    if (unanswered_) return *unanswered_;
     if (expired_) return openError(AVERROR(ETIMEDOUT));
     return otherwise;
   }
@@ -41,6 +47,7 @@ class Watch {
   std::atomic<MonotonicTime> deadline_;  // atomic, since FFmpeg's threads read it as well
   std::atomic<bool> expired_{false};
   std::atomic<bool> cancelled_{false};
+  std::optional<Error> unanswered_;
 };
 
 }  // namespace relievo::ffmpeg

@@ -1,44 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // Media source of a npy file: reads one picture of the array at a time.
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <algorithm>
 #include <atomic>
-#include <cerrno>
+#include <span>
 #include <string>
 
 #include "drivers/floats/floats.h"
 #include "drivers/floats/npy_header.h"
+#include "platform/files/answered_file.h"
 #include "platform/print.h"
-#include "platform/unique_fd.h"
 
 namespace relievo {
 namespace {
 
 constexpr Duration kPeriod = std::chrono::milliseconds(40);  // as FFmpeg's of numbered pictures
 
-// Reads until `bytes` are there or the file ends; the number read, or -1.
-ssize_t readAt(int file, std::uint8_t* to, std::size_t bytes, std::uint64_t offset) noexcept {
-  std::size_t done = 0;
-  while (done < bytes) {
-    const ssize_t got = ::pread(file, to + done, bytes - done, static_cast<off_t>(offset + done));
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) return -1;
-    if (got == 0) break;
-    done += static_cast<std::size_t>(got);
-  }
-  return static_cast<ssize_t>(done);
-}
-
-UniqueFd openFile(const std::string& path) noexcept {
-  return UniqueFd(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-}
-
-std::vector<std::uint8_t> beginningOf(int file, std::size_t bytes) {
+std::vector<std::uint8_t> beginningOf(const AnsweredFile& file, std::size_t bytes) {
   std::vector<std::uint8_t> begin(bytes);
-  begin.resize(static_cast<std::size_t>(std::max<ssize_t>(0, readAt(file, begin.data(), bytes, 0))));
+  begin.resize(file.read(0, begin).value_or(0));
   return begin;
 }
 
@@ -62,9 +40,10 @@ class NpySource final : public MediaSource {
  private:
   Result<Description> openSource(const std::string& url) override {
     interrupted_ = false;
-    file_ = openFile(url);
-    if (!file_.valid()) return fail(ErrorCode::NotFound, "cannot be opened; check the path", errno);
-    const auto header = npy::parseHeader(beginningOf(file_.get(), npy::kLongestHeader));
+    auto file = AnsweredFile::open(url);
+    if (!file) return std::unexpected(file.error());
+    file_ = std::move(*file);
+    const auto header = npy::parseHeader(beginningOf(file_, npy::kLongestHeader));
     if (!header) {
       return fail(ErrorCode::Unsupported,
                   "this array is no picture: give floats or whole numbers of rows x columns, or pictures x rows x "
@@ -90,9 +69,9 @@ class NpySource final : public MediaSource {
     const auto bytes = static_cast<std::size_t>(header_.pictureBytes());
     auto data = std::make_shared<std::vector<std::uint8_t>>(header.begin(), header.end());
     data->resize(header.size() + bytes);
-    const ssize_t got = readAt(file_.get(), data->data() + header.size(), bytes, header_.begin + next_ * bytes);
-    if (got < 0) return fail(ErrorCode::Io, "cannot be read; check the disk", errno);
-    if (static_cast<std::size_t>(got) < bytes) {
+    const auto got = file_.read(header_.begin + next_ * bytes, std::span(*data).subspan(header.size()));
+    if (!got) return std::unexpected(got.error());
+    if (*got < bytes) {
       cut_off_ = header_.pictures - next_;
       return std::nullopt;
     }
@@ -107,13 +86,13 @@ class NpySource final : public MediaSource {
   }
   [[nodiscard]] Duration missingTime() const noexcept override { return static_cast<std::int64_t>(cut_off_) * kPeriod; }
   void closeSource() noexcept override {
-    file_.reset();
+    file_.close();
     cut_off_ = 0;
   }
   void interrupted() noexcept override { interrupted_ = true; }
 
   std::atomic<bool> interrupted_ = false;
-  UniqueFd file_;
+  AnsweredFile file_;
   npy::Header header_;
   std::uint64_t next_ = 0;
   std::uint64_t cut_off_ = 0;  // pictures that the file's end has cut off
@@ -122,10 +101,8 @@ class NpySource final : public MediaSource {
 }  // namespace
 
 bool isNpyFile(const std::string& path) {
-  struct stat status{};
-  if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return false;  // opening a pipe disturbs it
-  const UniqueFd file = openFile(path);
-  return file.valid() && npy::isNpy(beginningOf(file.get(), 16));
+  const auto file = AnsweredFile::open(path);
+  return file && npy::isNpy(beginningOf(*file, 16));
 }
 
 std::unique_ptr<MediaSource> makeNpySource() {

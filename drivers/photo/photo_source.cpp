@@ -1,32 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <atomic>
-#include <fstream>
 
 #include "drivers/photo/photo.h"
+#include "platform/files/answered_file.h"
 
 namespace relievo {
 namespace {
 
-constexpr std::int64_t kMostBytes = std::int64_t{256} << 20, kFirstBytes = 64;
+constexpr std::uint64_t kMostBytes = std::uint64_t{256} << 20, kFirstBytes = 64;
 
 // Empty unless it is a regular file of a photo's size that begins like one of the kinds.
 PhotoBytes bytesOf(const std::string& path, std::span<const PhotoKind> kinds) {
-  struct stat status{};
   auto bytes = std::make_shared<std::vector<std::uint8_t>>();
-  if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode) || status.st_size > kMostBytes) return bytes;
-  std::ifstream file(path, std::ios::binary);
-  const auto readTo = [&](std::int64_t end) {
-    const auto begin = static_cast<std::int64_t>(bytes->size());
+  const auto file = AnsweredFile::open(path);
+  const std::uint64_t size = file && file->regular() ? file->bytes().value_or(0) : 0;
+  if (size == 0 || size > kMostBytes) return bytes;
+  const auto readTo = [&](std::uint64_t end) {
+    const std::size_t begin = bytes->size();
     bytes->resize(static_cast<std::size_t>(end));
-    file.read(reinterpret_cast<char*>(bytes->data()) + begin, end - begin);
-    bytes->resize(static_cast<std::size_t>(begin + file.gcount()));
+    bytes->resize(begin + file->read(begin, std::span(*bytes).subspan(begin)).value_or(0));
   };
-  readTo(std::min<std::int64_t>(kFirstBytes, status.st_size));
+  readTo(std::min(kFirstBytes, size));
   if (std::any_of(kinds.begin(), kinds.end(), [&](const PhotoKind& kind) { return kind.begins(*bytes); })) {
-    readTo(status.st_size);
+    readTo(size);
   } else {
     bytes->clear();
   }

@@ -2,12 +2,10 @@
 #include "drivers/pictures/folder.h"
 
 #include <fnmatch.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <filesystem>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -15,12 +13,11 @@
 #include "drivers/pictures/lists.h"
 #include "drivers/pictures/roles.h"
 #include "hal/media/media_names.h"
+#include "platform/files/answered_place.h"
 #include "platform/whole_file.h"
 
 namespace relievo::pictures {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 4> kAssociations{"associations.txt", "associate.txt", "association.txt",
                                                         "assoc.txt"};
@@ -29,15 +26,6 @@ constexpr const char* kHasFilms =
     "this folder is a list of films; name one of them, or play them all with relievo play";
 constexpr const char* kNoMatch = "no picture has a name of this pattern; check the folder and the pattern";
 constexpr const char* kNoList = "cannot be read; name a list of pictures such as associations.txt";
-
-bool isFolder(const std::string& path) {
-  std::error_code failed;
-  return fs::is_directory(path, failed);
-}
-bool isFile(const std::string& path) {
-  std::error_code failed;
-  return fs::is_regular_file(path, failed);
-}
 
 struct Path {
   std::string folder, name;
@@ -80,18 +68,16 @@ struct Listing {
   std::vector<std::string> pictures, folders;
   std::size_t films = 0;
 };
-Listing listingOf(const std::string& folder) {
+Result<Listing> listingOf(const std::string& folder) {
+  const auto entries = listFolder(folder.empty() ? "." : folder);
+  if (!entries) return std::unexpected(entries.error());
   Listing listing;
-  std::error_code failed;
-  fs::directory_iterator entries(folder.empty() ? "." : folder, failed);
-  for (; !failed && entries != fs::directory_iterator(); entries.increment(failed)) {
-    const std::string name = entries->path().filename().string();
+  for (const auto& [name, is] : *entries) {
     if (name.starts_with('.')) continue;
     const MediaKind kind = mediaKindOf(name);
-    std::error_code unknown;
     if (kind == MediaKind::Picture) listing.pictures.push_back(name);
     else if (kind == MediaKind::Film) ++listing.films;
-    else if (entries->is_directory(unknown)) listing.folders.push_back(name);
+    else if (is == FolderEntry::Kind::Folder) listing.folders.push_back(name);
   }
   return listing;
 }
@@ -125,7 +111,7 @@ bool sortByFolder(const std::string& folder, const Listing& listing, FoundPictur
   const auto open = [&](Role role) -> PictureFiles {
     const std::string name = bestOf(listing.folders, role);
     if (name.empty()) return {};
-    return {folder + name + "/", oneKind(listingOf(folder + name).pictures, found.left_out)};
+    return {folder + name + "/", oneKind(listingOf(folder + name).value_or(Listing{}).pictures, found.left_out)};
   };
   found.color = open(Role::Color);
   found.depth = open(Role::Depth);
@@ -188,19 +174,22 @@ Result<FoundPictures> findInFolder(const std::string& folder) {
     if (const auto list = readList(folder + std::string(name), 2)) return fromAssociations(folder, *list);
   }
   if (auto found = fromTwoLists(folder)) return *std::move(found);
-  const Listing listing = listingOf(folder);
+  const auto listing = listingOf(folder);
+  if (!listing) return std::unexpected(listing.error());
   FoundPictures found;
-  if (sortByFolder(folder, listing, found)) return found;
-  if (isListOfFilms(listing.films, listing.pictures.size())) return fail(ErrorCode::NotFound, kHasFilms);
-  if (listing.pictures.empty()) return fail(ErrorCode::NotFound, kNoPictures);
-  sortByRole(folder, listing.pictures, found);
+  if (sortByFolder(folder, *listing, found)) return found;
+  if (isListOfFilms(listing->films, listing->pictures.size())) return fail(ErrorCode::NotFound, kHasFilms);
+  if (listing->pictures.empty()) return fail(ErrorCode::NotFound, kNoPictures);
+  sortByRole(folder, listing->pictures, found);
   return found;
 }
 
 Result<FoundPictures> findByPattern(const Path& path) {
   const auto pattern = patternOf(path.name);
   FoundPictures found{.color = {path.folder, {}}};
-  for (std::string& name : listingOf(path.folder).pictures) {
+  auto listing = listingOf(path.folder);
+  if (!listing) return std::unexpected(listing.error());
+  for (std::string& name : listing->pictures) {
     const bool wanted = pattern ? matches(*pattern, name) : ::fnmatch(path.name.c_str(), name.c_str(), FNM_PERIOD) == 0;
     if (wanted) found.color.names.push_back(std::move(name));
   }
@@ -211,14 +200,14 @@ Result<FoundPictures> findByPattern(const Path& path) {
 }  // namespace
 
 std::string pathOf(const std::string& url) {
-  if (!url.starts_with("file:") || isFile(url) || isFolder(url)) return url;
+  if (!url.starts_with("file:") || isRegularFile(url) || isFolder(url)) return url;
   return url.substr(url.starts_with("file:///") ? 7 : 5);
 }
 
 bool namesPictures(const std::string& url) {
   const std::string path = pathOf(url);
   if (isFolder(path)) return true;
-  if (isFile(path)) return mediaKindOf(path) == MediaKind::Picture || endingOf(path) == "txt";
+  if (isRegularFile(path)) return mediaKindOf(path) == MediaKind::Picture || endingOf(path) == "txt";
   return isPattern(Path(path).name) && url.find("://") == url.npos;
 }
 
@@ -226,7 +215,7 @@ Result<FoundPictures> findPictures(const std::string& url) {
   const std::string path = pathOf(url);
   if (isFolder(path)) return findInFolder(path.ends_with('/') ? path : path + "/");
   const Path parts(path);
-  if (!isFile(path)) return findByPattern(parts);
+  if (!isRegularFile(path)) return findByPattern(parts);
   if (endingOf(path) != "txt") return FoundPictures{.color = {parts.folder, {parts.name}}};
   const auto text = readWholeFile(path, FileSize::Recording, kNoList);
   if (!text) return std::unexpected(text.error());

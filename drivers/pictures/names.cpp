@@ -12,6 +12,7 @@ namespace relievo::pictures {
 namespace {
 
 constexpr std::size_t kLeastUnixDigits = 9;
+constexpr std::int64_t kMostSeconds = 9'000'000'000;
 
 // A run of digits, or of anything else.
 struct Run {
@@ -44,8 +45,14 @@ std::optional<std::int64_t> integer(std::string_view text) noexcept {
 
 std::optional<std::int64_t> scaled(std::string_view digits, std::int64_t ns) noexcept {
   const auto value = integer(digits);
-  constexpr std::int64_t kMost = std::int64_t{9'000'000'000} * 1'000'000'000;
+  constexpr std::int64_t kMost = kMostSeconds * 1'000'000'000;
   return value && *value <= kMost / ns ? std::optional(*value * ns) : std::nullopt;
+}
+
+// Greater numbers would be times beyond what 64 bits of ns hold.
+std::optional<std::int64_t> countIn(std::string_view digits) noexcept {
+  const auto value = integer(digits);
+  return value && *value <= kMostSeconds ? value : std::nullopt;
 }
 
 std::optional<std::int64_t> secondsIn(const std::vector<Run>& runs) noexcept {
@@ -118,7 +125,7 @@ std::optional<std::vector<std::int64_t>> numbersIn(const std::vector<std::string
     }
   }
   if (!place) return std::nullopt;
-  return readAll(names, [&](std::string_view stem) { return integer(runsOf(stem)[*place].text); });
+  return readAll(names, [&](std::string_view stem) { return countIn(runsOf(stem)[*place].text); });
 }
 
 std::vector<std::int64_t> ranksOf(const std::vector<std::string>& names) {

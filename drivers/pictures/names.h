@@ -27,7 +27,7 @@ struct NameValues {
 //   1305031102.175304.png            seconds: the whole name, or nine digits and more with a fraction anywhere in it
 //   1403636579763555584.png          19 digits are ns, 16 us, 13 ms since 1970
 //   0000012-000000400431.png         a number and 12 digits of us (Redwood)
-// A number is the only run of digits that differs between names that are otherwise alike.
+// A number is the only run of digits that differs between names that are otherwise alike, and at most 9e9.
 [[nodiscard]] NameValues valuesOf(const std::vector<std::string>& names);
 
 }  // namespace relievo::pictures

@@ -124,12 +124,18 @@ void Timing::noteGaps() {
                         static_cast<long long>(leading.back().value)));
 }
 
+// The latest time, 285 years, is for slow rates of great numbers.
+Duration timeAfter(std::int64_t periods, double period_ns) {
+  constexpr long double kLatest = 9e18L;
+  return Duration(
+      std::llround(std::min(static_cast<long double>(periods) * static_cast<long double>(period_ns), kLatest)));
+}
+
 std::vector<TimedPicture> timed(const PictureFiles& files, const Series& series, std::int64_t first, double period_ns) {
   std::vector<TimedPicture> pictures;
   for (const Valued& each : series) {
     if (each.value < first) continue;
-    const auto ns = std::llround(static_cast<long double>(each.value - first) * static_cast<long double>(period_ns));
-    pictures.push_back({files.folder + files.names[each.place], Duration(ns)});
+    pictures.push_back({files.folder + files.names[each.place], timeAfter(each.value - first, period_ns)});
   }
   return pictures;
 }
@@ -169,7 +175,7 @@ Recording recordingOf(const FoundPictures& found, std::optional<double> frames_p
   recording.period = counted ? Duration(std::llround(period_ns)) : usualStep(leading);
   if (leading.size() < 2) recording.period = Duration(0);
   if (timing.kind != NameKind::Ranks) {
-    recording.start = Duration(std::llround(static_cast<long double>(first) * static_cast<long double>(period_ns)));
+    recording.start = timeAfter(first, period_ns);
   }
   recording.numbered = counted;
   recording.notes = std::move(timing.notes);

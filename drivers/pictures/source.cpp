@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hands out the files of a recording as packets, in order of time.
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
-#include <cerrno>
 #include <cmath>
 #include <compare>
 #include <filesystem>
@@ -16,7 +11,9 @@
 #include "drivers/pictures/pictures.h"
 #include "drivers/pictures/recording.h"
 #include "hal/media/media_names.h"
-#include "platform/unique_fd.h"
+#include "platform/files/answered_file.h"
+#include "platform/files/answered_place.h"
+#include "platform/files/file_system_answer.h"
 
 namespace relievo {
 namespace {
@@ -30,22 +27,22 @@ constexpr const char* kGone = "the disk failed during playback; check it";
 using Bytes = std::vector<std::uint8_t>;
 
 Result<std::shared_ptr<Bytes>> readPicture(const std::string& path) {
-  const UniqueFd fd(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
-  struct stat status{};
-  if (!fd.valid() || ::fstat(fd.get(), &status) != 0) return fail(ErrorCode::NotFound, "cannot be opened", errno);
-  if (!S_ISREG(status.st_mode)) return fail(ErrorCode::Unsupported, "is no file");
-  if (static_cast<std::uint64_t>(status.st_size) > kMostBytes) return fail(ErrorCode::Exhausted, "is too large");
-  auto bytes = std::make_shared<Bytes>(static_cast<std::size_t>(status.st_size));
-  std::size_t done = 0;
-  while (done < bytes->size()) {
-    const ssize_t got = ::read(fd.get(), bytes->data() + done, bytes->size() - done);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) return fail(ErrorCode::Lost, kGone, errno);
-    if (got == 0) break;
-    done += static_cast<std::size_t>(got);
-  }
-  bytes->resize(done);
+  const auto file = AnsweredFile::open(path);
+  if (!file) return std::unexpected(file.error());
+  const auto size = file->bytes();
+  if (!size) return std::unexpected(size.error());
+  if (*size > kMostBytes) return fail(ErrorCode::Exhausted, "is too large");
+  auto bytes = std::make_shared<Bytes>(static_cast<std::size_t>(*size));
+  const auto got = file->read(0, *bytes);
+  if (!got && got.error().code == ErrorCode::Io) return fail(ErrorCode::Lost, kGone, got.error().os_error);
+  if (!got) return std::unexpected(got.error());
+  bytes->resize(*got);
   return bytes;
+}
+
+// A picture that is missing or damaged is passed over; these end the reading.
+bool endsReading(const Error& error) noexcept {
+  return error.code == ErrorCode::Lost || error.code == ErrorCode::Timeout || error.code == ErrorCode::Cancelled;
 }
 
 // A folder's name.
@@ -53,7 +50,7 @@ std::string titleOf(const std::string& url) {
   std::error_code failed;
   std::filesystem::path path = std::filesystem::absolute(pictures::pathOf(url), failed).lexically_normal();
   if (!path.has_filename()) path = path.parent_path();
-  return std::filesystem::is_directory(path, failed) ? path.filename().string() : "";
+  return isFolder(path) ? path.filename().string() : "";
 }
 
 // A picture in the order of reading.
@@ -98,7 +95,11 @@ class PicturesSource final : public MediaSource {
     Result<StreamInfo> stream = fail(ErrorCode::Corrupt, "");
     for (std::size_t i = 0; i < std::min(pictures.size(), kMostTries) && !stream; ++i) {
       if (cancelled_) return fail(ErrorCode::Cancelled, "interrupted while opening pictures");
-      stream = describe_(pictures[i].path);
+      const auto described = answerOf(pictures[i].path, [describe = describe_, path = pictures[i].path] {
+        return std::make_shared<Result<StreamInfo>>(describe(path));
+      });
+      if (!described) return std::unexpected(described.error());
+      stream = **described;
     }
     if (!stream) return stream;
     stream->kind = StreamKind::Video;
@@ -142,7 +143,7 @@ class PicturesSource final : public MediaSource {
       if (cancelled_) return fail(ErrorCode::Cancelled, "interrupted while reading pictures");
       const Entry entry = takeNext();
       auto bytes = readPicture(pathOf(entry));
-      if (!bytes && bytes.error().code == ErrorCode::Lost) return std::unexpected(bytes.error());
+      if (!bytes && endsReading(bytes.error())) return std::unexpected(bytes.error());
       if (!bytes || (*bytes)->empty()) {
         countMissed(1);
         continue;

@@ -2,12 +2,8 @@
 // Reads a bag's index, or makes one by going from record to record.
 #include "drivers/rosbag/bag_file.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <utility>
 
 #include "drivers/rosbag/unpack.h"
@@ -21,28 +17,30 @@ constexpr std::size_t kMostConnections = std::size_t{1} << 16;
 constexpr std::size_t kMostEntries = std::size_t{1} << 24;      // of chunks by connection
 constexpr std::size_t kMostDescription = std::size_t{4} << 20;  // bytes of a connection's or a chunk's description
 
-Error openError(int code) noexcept {
-  if (code == ENOENT) return {ErrorCode::NotFound, code, "there is no such file"};
-  if (code == EACCES) return {ErrorCode::PermissionDenied, code, "the file may not be read; check its permissions"};
-  return {ErrorCode::Io, code, "the file cannot be read; check the disk"};
+Error openError(const Error& error) noexcept {
+  if (error.code == ErrorCode::NotFound) return {error.code, error.os_error, "there is no such file"};
+  if (error.code != ErrorCode::PermissionDenied) return error;
+  return {error.code, error.os_error, "the file may not be read; check its permissions"};
 }
 
 }  // namespace
 
 Result<void> BagFile::open(const std::string& path, const std::atomic<bool>& cancelled) {
-  fd_.reset(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (!fd_.valid()) return std::unexpected(openError(errno));
-  struct stat status{};
-  if (::fstat(fd_.get(), &status) != 0) return std::unexpected(openError(errno));
-  file_ = {.fd = fd_.get(), .begin = 0, .bytes = static_cast<std::uint64_t>(status.st_size), .memory = nullptr};
+  auto file = AnsweredFile::open(path);
+  if (!file) return std::unexpected(openError(file.error()));
+  const auto bytes = file->bytes();
+  if (!bytes) return std::unexpected(bytes.error());
+  file_ = {.file = std::move(*file), .begin = 0, .bytes = *bytes, .memory = nullptr};
   std::array<std::uint8_t, kMagic.size()> magic{};
   if (file_.read(0, magic) < magic.size() || !std::equal(kMagic.begin(), kMagic.end(), magic.begin())) {
+    if (const auto error = file_.errorAt(0)) return std::unexpected(*error);
     return fail(ErrorCode::Unsupported, "only bags of the format 2.0 are supported; convert it (rosbag fix)");
   }
   const auto header = readRecord(file_, kMagic.size());
   const bool indexed = header && header->op == Op::BagHeader && readIndex(*header, cancelled);
   if (!indexed) scan(cancelled);
   if (cancelled) return fail(ErrorCode::Cancelled, "interrupted while the bag was opened");
+  if (const auto error = file_.errorAt(0)) return std::unexpected(*error);
   if (chunks_.empty()) return fail(ErrorCode::Corrupt, "the bag holds no data; it was cut off before the first chunk");
   return {};
 }
@@ -148,7 +146,7 @@ const Range& BagFile::content(std::uint32_t chunk) {
   unpacked_ = {};
   const auto record = readRecord(file_, chunks_[chunk]);
   if (!record || record->data_begin > file_.bytes) return unpacked_;
-  const Range packed{.fd = fd_.get(),
+  const Range packed{.file = file_.file,
                      .begin = record->data_begin,
                      .bytes = std::min<std::uint64_t>(record->data_bytes, file_.bytes - record->data_begin),
                      .memory = nullptr};

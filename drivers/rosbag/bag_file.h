@@ -11,7 +11,6 @@
 
 #include "drivers/rosbag/record.h"
 #include "platform/error.h"
-#include "platform/unique_fd.h"
 
 namespace relievo::rosbag {
 
@@ -52,7 +51,6 @@ class BagFile {
   void addToChunk(std::uint32_t connection, std::uint32_t chunk, std::uint64_t messages);
   void addChunkInfo(const Record& record, std::uint32_t chunk);
 
-  UniqueFd fd_;
   Range file_;
   std::vector<std::uint64_t> chunks_;  // where their records begin
   std::map<std::uint32_t, Connection> connections_;

@@ -2,11 +2,8 @@
 // Reads records by position, in the file or in an unpacked chunk.
 #include "drivers/rosbag/record.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
-#include <cerrno>
 
 namespace relievo::rosbag {
 namespace {
@@ -38,27 +35,21 @@ bool parseHeader(Bytes header, Record& record) {
 
 }  // namespace
 
-std::size_t Range::read(std::uint64_t at, std::span<std::uint8_t> out) const noexcept {
+std::size_t Range::read(std::uint64_t at, std::span<std::uint8_t> out) const {
   if (at >= bytes) return 0;
   const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(out.size(), bytes - at));
   if (memory) {
     std::memcpy(out.data(), memory->data() + at, count);
     return count;
   }
-  std::size_t done = 0;
-  while (done < count) {
-    const ssize_t got = ::pread(fd, out.data() + done, count - done, static_cast<off_t>(begin + at + done));
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) break;
-    done += static_cast<std::size_t>(got);
-  }
-  return done;
+  return file.read(begin + at, out.first(count)).value_or(0);
 }
 
-int Range::errorAt(std::uint64_t at) const noexcept {
-  std::uint8_t byte = 0;
-  if (memory || at >= bytes) return 0;
-  return ::pread(fd, &byte, 1, static_cast<off_t>(begin + at)) < 0 ? errno : 0;
+std::optional<Error> Range::errorAt(std::uint64_t at) const {
+  if (memory || at >= bytes) return std::nullopt;
+  std::array<std::uint8_t, 1> byte{};
+  const auto got = file.read(begin + at, byte);
+  return got ? std::nullopt : std::optional(got.error());
 }
 
 std::optional<Record> readRecord(const Range& range, std::uint64_t at) {

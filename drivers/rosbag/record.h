@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "hal/media/media_time.h"
+#include "platform/files/answered_file.h"
 
 namespace relievo::rosbag {
 
@@ -61,14 +62,14 @@ class ByteReader {
 
 // A part of the file, or a chunk that was unpacked into memory.
 struct Range {
-  int fd = -1;
+  AnsweredFile file;
   std::uint64_t begin = 0, bytes = 0;
   std::shared_ptr<const std::vector<std::uint8_t>> memory;  // instead of the file
 
   // The number of bytes read; fewer than asked for at the end of the range, or if the file cannot be read.
-  [[nodiscard]] std::size_t read(std::uint64_t at, std::span<std::uint8_t> out) const noexcept;
-  // The errno if the file cannot be read at `at`, else 0.
-  [[nodiscard]] int errorAt(std::uint64_t at) const noexcept;
+  [[nodiscard]] std::size_t read(std::uint64_t at, std::span<std::uint8_t> out) const;
+  // Why the file cannot be read at `at`, if so.
+  [[nodiscard]] std::optional<Error> errorAt(std::uint64_t at) const;
 };
 
 enum class Op : std::uint8_t {

@@ -2,9 +2,6 @@
 // Media source on a bag: which topics are streams, their times, and seeking.
 #include "drivers/rosbag/rosbag.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -13,7 +10,7 @@
 #include "drivers/rosbag/bag_file.h"
 #include "drivers/rosbag/cameras.h"
 #include "drivers/rosbag/topics.h"
-#include "platform/unique_fd.h"
+#include "platform/files/answered_file.h"
 
 namespace relievo {
 namespace {
@@ -170,8 +167,9 @@ class RosbagSource final : public MediaSource {
       MessageWalk walk(content, place_.at);
       const auto record = walk.next();
       if (!record) {
-        if (const int error = content.errorAt(walk.at()); error != 0) {
-          return fail(ErrorCode::Lost, "the bag can no longer be read; check the disk", error);
+        if (const auto error = content.errorAt(walk.at())) {
+          if (error->code != ErrorCode::Io) return std::unexpected(*error);
+          return fail(ErrorCode::Lost, "the bag can no longer be read; check the disk", error->os_error);
         }
         place_ = {.chunk = place_.chunk + 1, .at = 0};
         continue;
@@ -263,12 +261,9 @@ class RosbagSource final : public MediaSource {
 
 bool isRosbag(const std::string& path) {
   const std::string plain = path.starts_with("file:") ? path.substr(5) : path;
-  struct stat status{};
-  if (::stat(plain.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return false;  // a pipe would be emptied
-  const UniqueFd file(::open(plain.c_str(), O_RDONLY | O_CLOEXEC));
-  std::array<char, kAnyMagic.size()> magic{};
-  return file.valid() && ::read(file.get(), magic.data(), magic.size()) == static_cast<ssize_t>(magic.size()) &&
-         std::string_view(magic.data(), magic.size()) == kAnyMagic;
+  const auto file = AnsweredFile::open(plain);
+  std::array<std::uint8_t, kAnyMagic.size()> magic{};
+  return file && file->read(0, magic).value_or(0) == magic.size() && std::ranges::equal(magic, kAnyMagic);
 }
 
 std::unique_ptr<MediaSource> makeRosbagSource() {

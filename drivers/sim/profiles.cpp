@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <utility>
 #include <vector>
+
+#include "platform/files/answered_place.h"
 
 namespace relievo {
 
@@ -32,11 +33,6 @@ const Named* find(std::span<const Named> all, const std::string& word) {
   return found == all.end() ? nullptr : &*found;
 }
 
-bool isFile(const std::string& path) {
-  std::error_code ignored;
-  return std::filesystem::is_regular_file(path, ignored);
-}
-
 // A word with a dot or a slash is a path, not a mistyped name.
 bool looksLikePath(const std::string& word) {
   return word.find_first_of("./") != std::string::npos;
@@ -49,7 +45,7 @@ double reachOf(const DeviceProfile& profile) {
 }
 
 std::vector<std::string> partsOf(const std::string& words) {
-  if (isFile(words)) return {words};  // its name may have a comma
+  if (isRegularFile(words)) return {words};  // its name may have a comma
   std::vector<std::string> parts;
   for (std::size_t at = 0; at <= words.size();) {
     const std::size_t comma = std::min(words.find(',', at), words.size());
@@ -78,7 +74,7 @@ Outcome<SimWords> readWords(const std::string& words) {
     } else if (const auto* held = find(simHands(), word)) {
       if (read.hand != nullptr) return wrongWord(word, "is a second hand; name one");
       read.hand = held;
-    } else if (isFile(word) || looksLikePath(word)) {
+    } else if (isRegularFile(word) || looksLikePath(word)) {
       if (!read.script.empty()) return wrongWord(word, "is a second hand script; name one");
       read.script = word;
     } else {

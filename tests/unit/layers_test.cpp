@@ -82,8 +82,8 @@ const Room* roomOf(std::string_view path) {
 bool mayInclude(std::string_view path, std::string_view included) {
   const std::string folder = folderOf(path);
   if (folderOf(included) == folder) return !isRegistry(included) || isRegistry(path);
-  if (isUnder(path, "platform")) return false;
   if (isUnder(included, "platform")) return true;
+  if (isUnder(path, "platform")) return false;
   if (isUnder(included, "hal")) return true;
   if (isUnder(path, "hal")) return false;
   if (isRegistry(path)) return isUnder(included, "drivers");

@@ -6,7 +6,6 @@
 #include <condition_variable>
 #include <cstdio>
 #include <deque>
-#include <filesystem>
 #include <mutex>
 #include <thread>
 
@@ -19,6 +18,7 @@
 #include "app/author/preview/preview.h"
 #include "app/depth_window/shots.h"
 #include "app/scene/height_field.h"
+#include "platform/files/answered_place.h"
 #include "platform/log.h"
 #include "platform/print.h"
 
@@ -159,8 +159,7 @@ Outcome<void> Packager::begin(const FramePair& pair) {
 
 // Sound and subtitles are read from files alone: a camera or a stream cannot be opened twice.
 std::unique_ptr<KeptTracks> Packager::keptTracks() const {
-  std::error_code none;
-  if (!std::filesystem::is_regular_file(source_.url, none)) return nullptr;
+  if (!isRegularFile(source_.url)) return nullptr;
   auto kept = KeptTracks::open(source_.url, reader_.info().container_start, output_.keep);
   if (kept) return std::move(*kept);
   log(LogLevel::Warning, source_.url.c_str(), "%s; the film is made without", kept.error().message);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "app/author/package/film_place.h"
+#include "platform/files/file_system_answer.h"
 
 namespace relievo {
 namespace {
@@ -96,18 +97,32 @@ bool isOfProgramme(AVFormatContext& file, int stream) {
 
 }  // namespace
 
-Result<std::unique_ptr<KeptTracks>> KeptTracks::open(const std::string& file, Duration start,
-                                                     const KeptWishes& wishes) {
-  auto tracks = std::make_unique<KeptTracks>();
+KeptTracks::Opened KeptTracks::openNow(const std::string& path) {
   AVDictionary* options = nullptr;
   av_dict_set(&options, "protocol_whitelist", "file,crypto,data", 0);
-  AVFormatContext* opened = nullptr;
-  const int code = avformat_open_input(&opened, ("file:" + file).c_str(), nullptr, &options);
+  AVFormatContext* file = nullptr;
+  const int code = avformat_open_input(&file, ("file:" + path).c_str(), nullptr, &options);
   av_dict_free(&options);
-  tracks->file_.reset(opened);
-  if (code < 0 || avformat_find_stream_info(opened, nullptr) < 0) {
-    return fail(ErrorCode::Corrupt, "it cannot be read a second time for its sound", osErrorOf(code));
+  const Opened opened{std::shared_ptr<AVFormatContext>(file, Close{}), code};
+  return code < 0 ? opened : Opened{opened.file, avformat_find_stream_info(file, nullptr)};
+}
+
+KeptTracks::Read KeptTracks::readNow(AVFormatContext& file) {
+  Read read{.packet = PacketPtr(av_packet_alloc())};
+  if (read.packet) read.code = av_read_frame(&file, read.packet.get());
+  return read;
+}
+
+Result<std::unique_ptr<KeptTracks>> KeptTracks::open(const std::string& file, Duration start,
+                                                     const KeptWishes& wishes) {
+  const auto opened = answerOf(file, [file] { return openNow(file); });
+  if (!opened) return std::unexpected(opened.error());
+  if (opened->code < 0) {
+    return fail(ErrorCode::Corrupt, "it cannot be read a second time for its sound", osErrorOf(opened->code));
   }
+  auto tracks = std::make_unique<KeptTracks>();
+  tracks->path_ = file;
+  tracks->file_ = opened->file;
   tracks->start_ = start;
   if (tracks->jumps()) tracks->times_.begin(kLongestGap);
   tracks->wishes_ = wishes;
@@ -208,12 +223,14 @@ Result<void> KeptTracks::addChapters() {
 Result<KeptTracks::PacketPtr> KeptTracks::next() {
   if (waiting_ || ended_) return std::move(waiting_);
   for (;;) {
-    PacketPtr packet(av_packet_alloc());
-    if (!packet) return std::unexpected(kNoMemory);
-    if (av_read_frame(file_.get(), packet.get()) < 0) {
+    auto read = answerOf(path_, [file = file_] { return readNow(*file); });
+    if (!read) return std::unexpected(read.error());
+    if (!read->packet) return std::unexpected(kNoMemory);
+    if (read->code < 0) {
       ended_ = true;
       return nullptr;
     }
+    PacketPtr packet = std::move(read->packet);
     makeContinuous(*packet);
     if (packet->size > 0 && copies_.contains(packet->stream_index)) return packet;
   }

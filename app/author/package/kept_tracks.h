@@ -29,7 +29,8 @@ struct KeptWishes {
 // another form of text; what it cannot hold is left out, and said. Use from one thread.
 class KeptTracks {
  public:
-  // `start`: the time of the file that is media time 0. NotFound, Corrupt.
+  // `start`: the time of the file that is media time 0. NotFound, Corrupt; Timeout and Cancelled as
+  // platform/files/file_system_answer.h says, also of writing.
   [[nodiscard]] static Result<std::unique_ptr<KeptTracks>> open(const std::string& file, Duration start,
                                                                 const KeptWishes& wishes);
   // Adds tracks, chapters and titles to the film: after the tracks of its pictures, before its header.
@@ -68,7 +69,20 @@ class KeptTracks {
   [[nodiscard]] MediaTime begins(const AVPacket& packet) const noexcept;
   [[nodiscard]] Result<void> write(PacketPtr packet);
 
-  std::unique_ptr<AVFormatContext, Close> file_;
+  // The state of the file is shared with questions to the file system that are not answered.
+  struct Opened {
+    std::shared_ptr<AVFormatContext> file;
+    int code = 0;
+  };
+  [[nodiscard]] static Opened openNow(const std::string& path);
+  struct Read {
+    PacketPtr packet;
+    int code = 0;
+  };
+  [[nodiscard]] static Read readNow(AVFormatContext& file);
+
+  std::string path_;
+  std::shared_ptr<AVFormatContext> file_;
   Duration start_{0};
   ContinuousTime times_;
   KeptWishes wishes_;

@@ -2,14 +2,12 @@
 // Formats the summary and checks the output's name.
 #include "app/author/package/output.h"
 
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "app/author/package/film_kind.h"
 #include "app/scene/display_volume.h"
+#include "platform/files/answered_place.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -96,20 +94,18 @@ std::string enhancementLines(Enhancement how, const EnhancementSummary& e) {
 
 // --force deletes such a folder, so it must contain only files of an earlier run.
 bool ownSegmentsAlone(const std::string& folder) {
-  std::error_code none;
-  if (!std::filesystem::exists(folder, none)) return true;
-  const auto own = [](const std::filesystem::directory_entry& entry) {
-    const std::string name = entry.path().filename().string();
-    return entry.is_regular_file() && (name == "init.mp4" || name.ends_with(".m4s"));
+  if (!isThere(folder)) return true;
+  const auto own = [](const FolderEntry& entry) {
+    return entry.kind == FolderEntry::Kind::File && (entry.name == "init.mp4" || entry.name.ends_with(".m4s"));
   };
-  const std::filesystem::directory_iterator entries(folder, none);
-  return !none && std::all_of(begin(entries), end(entries), own);
+  return isFolder(folder) && std::ranges::all_of(entriesOf(folder), own);
 }
 
 Result<void> checkPlace(const std::string& path, bool force) {
-  struct stat status{};
-  if (::stat(path.c_str(), &status) != 0) return {};
-  if (!S_ISREG(status.st_mode)) return fail(ErrorCode::Io, "exists and is not a file; choose another name");
+  const auto status = statusOf(path);
+  if (!status && status.error().code != ErrorCode::NotFound) return std::unexpected(status.error());
+  if (!status) return {};
+  if (!S_ISREG(status->st_mode)) return fail(ErrorCode::Io, "exists and is not a file; choose another name");
   if (!force) return fail(ErrorCode::Io, "already exists; choose another name, or overwrite it with --force");
   return {};
 }
@@ -125,8 +121,7 @@ Result<void> checkOutput(const OutputOptions& output) {
                 "the codec does not support this bit depth; h264 has 8 and 10, hevc also 12, ffv1 also 12 and 16");
   }
   if (kind == FilmKind::Live) return {};
-  struct stat status{};
-  if (kind == FilmKind::Hls && !output.force && ::stat(segmentFolderOf(output.path).c_str(), &status) == 0) {
+  if (kind == FilmKind::Hls && !output.force && isThere(segmentFolderOf(output.path))) {
     return fail(ErrorCode::Io,
                 "its folder of segments already exists; choose another name, or overwrite it with --force");
   }
@@ -139,10 +134,8 @@ Result<void> checkOutput(const OutputOptions& output) {
 std::vector<std::string> filesWrittenBy(const OutputOptions& output) {
   std::vector<std::string> files{output.path, output.preview};
   if (filmKindOf(output.path) != FilmKind::Hls) return files;
-  std::error_code none;
-  for (const auto& entry : std::filesystem::directory_iterator(segmentFolderOf(output.path), none)) {
-    files.push_back(entry.path().string());
-  }
+  const std::string folder = segmentFolderOf(output.path);
+  for (const FolderEntry& entry : entriesOf(folder)) files.push_back(folder + "/" + entry.name);
   return files;
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 
+#include "platform/files/answered_place.h"
 #include "platform/print.h"
 #include "platform/whole_file.h"
 
@@ -26,13 +27,7 @@ std::string number(double value) {
   return print("%.6g", value);
 }
 
-bool isFile(const fs::path& path) {
-  std::error_code error;
-  return fs::is_regular_file(path, error);
-}
-
 std::optional<Json> readJson(const fs::path& path) {
-  if (!isFile(path)) return std::nullopt;
   const auto text = readWholeFile(path.string(), FileSize::Settings, "cannot be read");
   if (!text) return std::nullopt;
   Json json = Json::parse(*text, nullptr, false);
@@ -111,8 +106,8 @@ bool isRawNyu(std::string_view stem) {
 
 bool isTum(const fs::path& path, const fs::path& folder) {
   const fs::path above = folder.parent_path();
-  return isSeconds(path.stem().string()) || isFile(above / "associations.txt") ||
-         (isFile(above / "depth.txt") && isFile(above / "rgb.txt"));
+  return isSeconds(path.stem().string()) || isRegularFile(above / "associations.txt") ||
+         (isRegularFile(above / "depth.txt") && isRegularFile(above / "rgb.txt"));
 }
 
 RecordingPlace named(const char* kind, const char* sign) {
@@ -160,7 +155,7 @@ RecordingPlace lookAtPlace(const std::string& url, const std::string& depth_url)
   std::error_code error;
   const fs::path path = fs::absolute(depth, error);
   if (error) return {};
-  const fs::path folder = fs::is_directory(path, error) ? path : path.parent_path();
+  const fs::path folder = isFolder(path) ? path : path.parent_path();
   if (auto depthkit = lookForDepthkit(path); depthkit.kind != nullptr) return depthkit;
   if (auto scale = lookForScale(folder); scale.kind != nullptr) return scale;
   return lookAtNames(path, folder);

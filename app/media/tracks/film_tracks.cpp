@@ -9,6 +9,8 @@
 #include <sstream>
 #include <string_view>
 
+#include "platform/files/answered_place.h"
+
 namespace relievo {
 namespace {
 
@@ -104,18 +106,18 @@ std::vector<FilmTrack> tracksOf(const std::vector<StreamInfo>& streams, StreamKi
 std::vector<FilmTrack> subtitleFilesOf(const std::string& film) {
   constexpr std::array kEndings{".srt", ".ass", ".ssa", ".vtt"};
   std::vector<FilmTrack> tracks;
-  std::error_code none;
   const fs::path path(film);
-  if (!fs::is_regular_file(path, none)) return tracks;
+  if (!isRegularFile(path)) return tracks;
   const std::string stem = path.stem().string();
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
-    const std::string ending = lower(entry.path().extension().string());
-    if (std::ranges::find(kEndings, ending) == kEndings.end() || !entry.is_regular_file(none)) continue;
-    const std::string own = entry.path().stem().string();  // FILM or FILM.en
+  for (const auto& [name, is] : entriesOf(folder)) {
+    const fs::path beside = folder / name;
+    const std::string ending = lower(beside.extension().string());
+    if (std::ranges::find(kEndings, ending) == kEndings.end() || is != FolderEntry::Kind::File) continue;
+    const std::string own = beside.stem().string();  // FILM or FILM.en
     if (own != stem && !own.starts_with(stem + ".")) continue;
     const std::string between = own.size() > stem.size() ? own.substr(stem.size() + 1) : "";
-    tracks.push_back({.path = entry.path().string(), .codec = ending.substr(1), .language = between});
+    tracks.push_back({.path = beside.string(), .codec = ending.substr(1), .language = between});
   }
   std::ranges::sort(tracks, {}, &FilmTrack::path);
   return tracks;

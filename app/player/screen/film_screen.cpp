@@ -10,6 +10,7 @@
 #include "app/player/screen/png_file.h"
 #include "app/player/screen/screen_script.h"
 #include "app/player/screen/stereo_word.h"
+#include "platform/files/answered_place.h"
 #include "platform/log.h"
 #include "platform/print.h"
 
@@ -28,16 +29,15 @@ bool movedVisibly(const std::optional<FingerMark>& a, const std::optional<Finger
 // A free name in the pictures' folder of the desktop, or here.
 std::string screenshotPath(const std::string& title) {
   namespace fs = std::filesystem;
-  std::error_code none;
   fs::path folder = ".";
   const char* const told = std::getenv("XDG_PICTURES_DIR");
   const char* const home = std::getenv("HOME");
-  if (told != nullptr && fs::is_directory(told, none)) folder = told;
-  else if (home != nullptr && fs::is_directory(fs::path(home) / "Pictures", none)) folder = fs::path(home) / "Pictures";
+  if (told != nullptr && isFolder(told)) folder = told;
+  else if (home != nullptr && isFolder(fs::path(home) / "Pictures")) folder = fs::path(home) / "Pictures";
   const std::string stem = "relievo-" + fs::path(title).filename().stem().string();
   for (int number = 1;; ++number) {
     const fs::path path = folder / (stem + print("-%04d.png", number));
-    if (!fs::exists(path, none)) return path.string();
+    if (!isThere(path)) return path.string();
   }
 }
 

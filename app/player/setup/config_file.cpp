@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "platform/atomic_file.h"
+#include "platform/files/answered_place.h"
 #include "platform/log.h"
 #include "platform/whole_file.h"
 
@@ -99,8 +100,7 @@ std::string defaultConfigPath() {
   std::filesystem::path own;
   if (xdg != nullptr && *xdg != '\0') own = xdg;
   else if (home != nullptr && *home != '\0') own = std::filesystem::path(home) / ".config";
-  std::error_code none;
-  if (!own.empty() && std::filesystem::exists(own / "relievo/relievo.toml", none)) return own / "relievo/relievo.toml";
+  if (!own.empty() && isThere(own / "relievo/relievo.toml")) return own / "relievo/relievo.toml";
   return kSystemPath;
 }
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <filesystem>
 #include <sstream>
 #include <string_view>
 #include <system_error>
@@ -19,6 +18,7 @@
 #include "app/player/screen/stereo_word.h"
 #include "app/player/setup/config_options.h"
 #include "hal/haptic_rate.h"
+#include "platform/files/answered_place.h"
 #include "platform/log.h"
 #include "platform/near_words.h"
 #include "platform/print.h"
@@ -373,7 +373,7 @@ Outcome<void> refuseMisspeltCommand(const CLI::App& program, const std::string& 
   }
   const std::string near = nearestWord(word, commands);
   if (near.empty() || near == word || word.find_first_of("./:") != std::string::npos) return {};
-  if (std::error_code none; std::filesystem::exists(word, none)) return {};
+  if (isThere(word)) return {};
   return failOn(word + " (" + near + "?)",
                 {ErrorCode::InvalidArgument, 0, "is neither a file nor a command; see relievo --help"});
 }

@@ -156,6 +156,14 @@ TEST_F(Pictures, ANumbersTimeIsExactHoweverFarItIs) {
   EXPECT_EQ((*source->read())->pts, MediaTime(3'333'333'333'333ns)) << "100,000 / 30 s, not 100,000 rounded periods";
 }
 
+// At 25 pictures a second the greater number would be 8.9e16 s after the other: 64 bits of ns hold 9.2e9 s.
+TEST(PictureNames, GreatNumbersCountNoPictures) {
+  EXPECT_EQ(valuesOf({"9000000000.png", "1.png"}).kind, NameKind::Numbers);
+  const auto great = valuesOf({"2222222222222222222.png", "1.png"});
+  EXPECT_EQ(great.kind, NameKind::Ranks);
+  EXPECT_EQ(great.values, (std::vector<std::int64_t>{1, 0}));
+}
+
 TEST_F(Pictures, NaturalOrderWhereNamesAreNoNumbers) {
   file("a-2.png"), file("a-10.png"), file("cover.png"), file("b.png");
   EXPECT_THAT(read(folder_ / "", 10).color, ElementsAre("0 a-2.png", "100 a-10.png", "200 b.png", "300 cover.png"));

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Questions to the file system that may never be answered, as on a dead network or FUSE mount: asked on helper threads.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "platform/clock.h"
+#include "platform/error.h"
+
+namespace relievo {
+
+inline constexpr Duration kAnswerPatience = std::chrono::seconds(10);
+
+// A system call on a stalled mount cannot be ended from outside: its thread is given up. The thread goes on when the
+// kernel gives it back. Any thread; not real-time.
+class FileSystemAnswers {
+ public:
+  explicit FileSystemAnswers(Duration patience = kAnswerPatience);
+  // Threads that still wait for the kernel stay behind.
+  ~FileSystemAnswers();
+  FileSystemAnswers(const FileSystemAnswers&) = delete;
+  FileSystemAnswers& operator=(const FileSystemAnswers&) = delete;
+
+  // Runs `question`, which concerns the file `path`, and waits for its end. Timeout after the patience, or at once
+  // while an earlier question about the same mount is still unanswered after that time; Cancelled (CancelsAnswers).
+  // After an error `question` may still run, now or later: it must own all that it uses.
+  [[nodiscard]] Result<void> ask(const std::string& path, std::function<void()> question);
+  // Runs `act`, such as a close, and waits for nothing.
+  void leave(std::function<void()> act);
+
+ private:
+  struct Shared;
+  std::shared_ptr<Shared> shared_;
+};
+
+// The program's own, with the patience of 10 s. It is never destroyed.
+[[nodiscard]] FileSystemAnswers& fileSystem();
+
+// While this lives, questions of the thread that made it end with Cancelled soon after the flag is set, unless they are
+// answered within 0.1 s. The flag must outlive it.
+class CancelsAnswers {
+ public:
+  explicit CancelsAnswers(const std::atomic<bool>& flag) noexcept;
+  ~CancelsAnswers();
+  CancelsAnswers(const CancelsAnswers&) = delete;
+  CancelsAnswers& operator=(const CancelsAnswers&) = delete;
+
+ private:
+  const std::atomic<bool>* before_;
+};
+
+// What `question` returns. It must own all that it uses.
+template <class Question>
+[[nodiscard]] auto answerOf(const std::string& path, Question question) -> Result<decltype(question())> {
+  auto answer = std::make_shared<std::optional<decltype(question())>>();
+  const auto asked = fileSystem().ask(path, [answer, question = std::move(question)] { answer->emplace(question()); });
+  if (!asked) return std::unexpected(asked.error());
+  return std::move(**answer);
+}
+
+}  // namespace relievo

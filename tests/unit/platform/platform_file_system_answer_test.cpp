@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+// A question that is never answered costs its thread, and whoever asked goes on.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <atomic>
+#include <fstream>
+#include <future>
+#include <numeric>
+#include <thread>
+#include <vector>
+
+#include "platform/files/answered_file.h"
+#include "platform/files/answered_place.h"
+#include "platform/files/file_system_answer.h"
+#include "tests/support/film/clip_maker.h"
+
+namespace relievo {
+namespace {
+
+constexpr Duration kShort = std::chrono::milliseconds(30), kLong = std::chrono::hours(1);
+
+// A question about a file that is not answered until it is released.
+class Stall {
+ public:
+  ~Stall() { release(); }
+  [[nodiscard]] std::function<void()> question() {
+    return [released = released_, done = done_] {
+      released.wait();
+      done->set_value();
+    };
+  }
+  void release() {
+    if (!std::exchange(open_, true)) gate_.set_value();
+  }
+  void awaitEnd() { done_->get_future().wait(); }
+
+ private:
+  bool open_ = false;
+  std::promise<void> gate_;
+  std::shared_future<void> released_ = gate_.get_future().share();
+  std::shared_ptr<std::promise<void>> done_ = std::make_shared<std::promise<void>>();
+};
+
+TEST(FileSystemAnswers, RunOnAnotherThreadAndAreWaitedFor) {
+  FileSystemAnswers answers(kLong);
+  std::thread::id where;
+  ASSERT_TRUE(answers.ask("/a", [&where] { where = std::this_thread::get_id(); }));
+  EXPECT_NE(where, std::thread::id());
+  EXPECT_NE(where, std::this_thread::get_id());
+}
+
+TEST(FileSystemAnswers, AreGivenUpAfterThePatience) {
+  FileSystemAnswers answers(kShort);
+  Stall stall;
+  const auto asked = answers.ask("/a", stall.question());
+  ASSERT_FALSE(asked);
+  EXPECT_EQ(asked.error().code, ErrorCode::Timeout);
+  EXPECT_STREQ(asked.error().message, "the file system does not answer within 10 s; check the mount");
+}
+
+TEST(FileSystemAnswers, OfTheSamePlaceAreRefusedAtOnceUntilItAnswers) {
+  FileSystemAnswers answers(kShort);
+  Stall stall;
+  ASSERT_FALSE(answers.ask("/nowhere/a", stall.question()));
+  int asked = 0;
+  EXPECT_FALSE(answers.ask("/nowhere/a/b", [&] { ++asked; }));
+  EXPECT_EQ(asked, 0);
+  EXPECT_TRUE(answers.ask("/nowhere/another", [&] { ++asked; }));  // no mount, so another file may well be elsewhere
+  EXPECT_EQ(asked, 1);
+  stall.release();
+  stall.awaitEnd();
+  while (!answers.ask("/nowhere/a/b", [&] { ++asked; })) std::this_thread::yield();
+  EXPECT_EQ(asked, 2);
+}
+
+TEST(FileSystemAnswers, EndAtOnceWhereTheFlagIsSet) {
+  FileSystemAnswers answers(kLong);
+  Stall stall;
+  std::atomic<bool> stop = false;
+  const CancelsAnswers cancels(stop);
+  std::jthread later([&stop] { stop = true; });
+  const auto asked = answers.ask("/a", stall.question());
+  ASSERT_FALSE(asked);
+  EXPECT_EQ(asked.error().code, ErrorCode::Cancelled);
+}
+
+TEST(FileSystemAnswers, AreNotEndedByAnotherThreadsFlag) {
+  FileSystemAnswers answers(kLong);
+  const std::atomic<bool> stop = true;
+  std::jthread([&stop] { const CancelsAnswers cancels(stop); }).join();
+  EXPECT_TRUE(answers.ask("/a", [] {}));
+}
+
+TEST(FileSystemAnswers, ComeAlthoughManyOthersDoNot) {
+  FileSystemAnswers answers(std::chrono::milliseconds(1));
+  std::vector<Stall> stalls(20);
+  for (std::size_t i = 0; i < stalls.size(); ++i) {
+    EXPECT_FALSE(answers.ask("/nowhere/" + std::to_string(i), stalls[i].question()));
+  }
+  while (!answers.ask("/nowhere/last", [] {})) std::this_thread::yield();
+}
+
+TEST(FileSystemAnswers, AreRefusedWhenTooManyThreadsWait) {
+  FileSystemAnswers answers(std::chrono::milliseconds(1));
+  std::vector<Stall> stalls(70);
+  std::atomic<int> begun = 0;
+  for (std::size_t i = 0; i < stalls.size(); ++i) {
+    EXPECT_FALSE(answers.ask("/nowhere/" + std::to_string(i), [&begun, wait = stalls[i].question()] {
+      ++begun;
+      wait();
+    }));
+  }
+  EXPECT_LE(begun, 64);
+}
+
+class AnsweredFileTest : public testing::Test {
+ protected:
+  [[nodiscard]] std::string at(const char* name) const { return folder_ / name; }
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(AnsweredFileTest, GivesTheBytesOfAnyPart) {
+  std::vector<std::uint8_t> bytes(3'000'000);
+  std::iota(bytes.begin(), bytes.end(), std::uint8_t{0});
+  std::ofstream(at("a"), std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), 3'000'000);
+  const auto file = AnsweredFile::open(at("a"));
+  ASSERT_TRUE(file);
+  EXPECT_EQ(file->bytes(), 3'000'000u);
+  std::vector<std::uint8_t> all(4'000'000);
+  ASSERT_EQ(file->read(0, all), 3'000'000u);
+  all.resize(bytes.size());
+  EXPECT_EQ(all, bytes);
+  std::vector<std::uint8_t> end(10);
+  EXPECT_EQ(file->read(2'999'997, end), 3u);
+  EXPECT_EQ(end[2], bytes.back());
+  EXPECT_EQ(file->read(3'000'000, end), 0u);
+}
+
+TEST_F(AnsweredFileTest, ReadsFilesOfTheKernel) {
+  const auto file = AnsweredFile::open("/proc/self/comm");
+  ASSERT_TRUE(file);
+  std::vector<std::uint8_t> name(64);
+  EXPECT_GT(file->read(0, name).value_or(0), 3u);
+}
+
+TEST_F(AnsweredFileTest, RefusesWhatIsNoFile) {
+  ASSERT_EQ(::mkfifo(at("pipe").c_str(), 0600), 0);
+  EXPECT_EQ(AnsweredFile::open(at("pipe")).error().code, ErrorCode::Unsupported);
+  EXPECT_EQ(AnsweredFile::open("/dev/zero").error().code, ErrorCode::Unsupported);
+  EXPECT_EQ(AnsweredFile::open(at("")).error().os_error, EISDIR);
+  EXPECT_EQ(AnsweredFile::open(at("none")).error().code, ErrorCode::NotFound);
+  EXPECT_EQ(AnsweredFile::open(at("none")).error().os_error, ENOENT);
+}
+
+TEST_F(AnsweredFileTest, TellsWhatIsInAFolder) {
+  std::ofstream(at("a")) << "a";
+  ASSERT_EQ(::mkdir(at("b").c_str(), 0700), 0);
+  ASSERT_EQ(::symlink("a", at("link").c_str()), 0);
+  ASSERT_EQ(::symlink("none", at("dead").c_str()), 0);
+  std::string told;
+  auto entries = entriesOf(at(""));
+  std::ranges::sort(entries, {}, &FolderEntry::name);
+  for (const auto& [name, kind] : entries) told += name + "=" + "fdo"[static_cast<int>(kind)] + " ";
+  EXPECT_EQ(told, "a=f b=d dead=o link=f ");
+  EXPECT_TRUE(isRegularFile(at("link")));
+  EXPECT_FALSE(isRegularFile(at("b")));
+  EXPECT_TRUE(isFolder(at("b")));
+  EXPECT_FALSE(isThere(at("dead")));
+  EXPECT_FALSE(isThere(""));
+  EXPECT_TRUE(entriesOf(at("none")).empty());
+}
+
+}  // namespace
+}  // namespace relievo
