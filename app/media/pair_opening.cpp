@@ -118,6 +118,10 @@ Result<void> PairReader::Impl::openColor(const StreamInfo& color) {
   info.color_primaries = color_ahead[0].primaries;
   info.color_transfer = color_ahead[0].transfer;
   return {};
+  const bool depth_is_counted = depth_source && depth_source->stream().counted;
+  if (options.frames_per_s && !color.counted && !depth_is_counted) {
+    info.notes.emplace_back("--fps has no effect: the pictures have times of their own");
+  }
 }
 
 Result<void> PairReader::Impl::selectDepth(const StreamInfo* stream) {

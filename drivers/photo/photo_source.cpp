@@ -57,6 +57,7 @@ class PhotoSource final : public MediaSource {
     for (PhotoPart& part : parts_) {
       part.stream.index = static_cast<int>(description.streams.size());
       part.stream.kind = StreamKind::Video;
+      part.stream.counted = true;
       description.streams.push_back(part.stream);
     }
     return description;
