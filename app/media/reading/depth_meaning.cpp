@@ -64,6 +64,12 @@ HueSpan addKind(const DepthClues& clues, const KnownKind* kind, CalibrationLayer
   return span;
 }
 
+// Either end of a colour map may be near.
+std::string otherEnd(const CalibrationLayers& layers) {
+  if (layers.find("polarity") != nullptr) return "";
+  return "near is taken to be at the end of the colour map; if it is at its beginning: --calibration polarity=near-low";
+}
+
 }  // namespace
 
 const KnownKind* kindOf(const DepthClues& clues, const Frame& stored) {
@@ -88,7 +94,7 @@ Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind,
       read.kind = findKind("record3d");
     }
   } else if (clues.code != DepthCode::Luma) {
-    read = {};  // an entry of a colour map says nothing of its own
+    read.offer = otherEnd(layers);  // an entry of a colour map says nothing of its own
   } else if (isOfStereoCamera(clues, kind)) {
     read = readDisparities(look, CodeCount(look), *clues.place.camera);
   } else if (look.value_per_code != 0) {
