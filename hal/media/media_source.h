@@ -59,6 +59,12 @@ struct StreamInfo {
   std::shared_ptr<const void> native;
 };
 
+// Whether the container says that the stream has an alpha channel (WebM).
+[[nodiscard]] inline bool saysAlpha(const StreamInfo& stream) {
+  const auto mode = stream.tags.find("ALPHA_MODE");
+  return mode != stream.tags.end() && mode->second == "1";
+}
+
 struct Chapter {
   Duration begin{0}, end{0};  // media times
   std::string title;
