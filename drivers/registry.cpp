@@ -133,7 +133,7 @@ std::optional<PictureFormat> pictureFormat(const StreamInfo& stream) {
       kExr,       kExrColor,
 #endif
 #ifdef RELIEVO_HEIF
-      kHeifColor, kHeifDepth,
+      kHeifColor, kHeifDepth, kHeifLeft, kHeifRight,
 #endif
   };
   for (const PictureFormat& format : formats) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "drivers/ffmpeg/ffmpeg.h"
+#include "drivers/heif/heif.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/opened_film.h"
 
@@ -59,6 +60,7 @@ struct Portrait {
   int quarter_turns = 0;  // anticlockwise, as irot says
   std::string xmp;
   bool auxiliary = true;
+  std::string groups;  // between the properties and the end of meta
 };
 std::string heic(const Coded& color, const Coded& depth, const Portrait& how) {
   const std::string size = number(kCols, 4) + number(kRows, 4);
@@ -68,7 +70,8 @@ std::string heic(const Coded& color, const Coded& depth, const Portrait& how) {
                       fullBox("auxC", std::string("urn:mpeg:hevc:2015:auxid:2\0", 27)));
   // Essential properties have the high bit.
   const std::string of_color = number(1, 2) + "\x03" + "\x81\x03\x84";
-  const std::string of_depth = number(2, 2) + "\x04" + "\x82\x03\x84\x05";
+  const std::string of_depth =
+      number(2, 2) + (how.auxiliary ? "\x04" + std::string("\x82\x03\x84\x05") : "\x02" + std::string("\x82\x03"));
   const std::string associations = fullBox("ipma", number(2, 4) + of_color + of_depth);
   const auto entry = [](std::uint32_t item, const std::string& type, const std::string& more) {
     return fullBox("infe", number(item, 2) + number(0, 2) + type + std::string(1, '\0') + more, 2);
@@ -88,10 +91,11 @@ std::string heic(const Coded& color, const Coded& depth, const Portrait& how) {
                 number(static_cast<std::uint32_t>(data.size()), 4);
       at += static_cast<std::uint32_t>(data.size());
     }
-    return fullBox(
-        "meta", fullBox("hdlr", number(0, 4) + "pict" + std::string(13, '\0')) + fullBox("pitm", number(1, 2)) +
-                    fullBox("iloc", places) + fullBox("iinf", number(with_xmp ? 3 : 2, 2) + items) +
-                    (references.empty() ? "" : fullBox("iref", references)) + box("iprp", properties + associations));
+    return fullBox("meta", fullBox("hdlr", number(0, 4) + "pict" + std::string(13, '\0')) +
+                               fullBox("pitm", number(1, 2)) + fullBox("iloc", places) +
+                               fullBox("iinf", number(with_xmp ? 3 : 2, 2) + items) +
+                               (references.empty() ? "" : fullBox("iref", references)) +
+                               box("iprp", properties + associations) + how.groups);
   };
   const std::string type = box("ftyp", "heic" + number(0, 4) + "mif1heic");
   const auto begin = static_cast<std::uint32_t>(type.size() + meta(0).size() + 8);
@@ -105,12 +109,15 @@ const std::string kXmp =
 
 class HeifPhoto : public testing::Test {
  protected:
-  test::OpenedFilm photo(const Portrait& how) {
+  static std::string make(const Portrait& how) {
     static const Coded color =
         hevc([](int k, int c, int, int) { return static_cast<std::uint32_t>(k == 0 ? 2 * c : 128); });
     static const Coded depth = hevc([](int k, int c, int r, int) { return k == 0 ? disparityCode(c, r) : 128u; });
+    return heic(color, depth, how);
+  }
+  test::OpenedFilm photo(const Portrait& how) {
     const std::string path = folder_ / "a.heic";
-    std::ofstream(path, std::ios::binary) << heic(color, depth, how);
+    std::ofstream(path, std::ios::binary) << make(how);
     return test::openFilm({.url = path});
   }
   test::TemporaryFolder folder_;
@@ -150,6 +157,40 @@ TEST_F(HeifPhoto, WithoutARangeItIsStillDisparity) {
   EXPECT_EQ(film.info.calibration.calibration.law, DepthLaw::Inverse);
   EXPECT_EQ(film.info.calibration.calibration.polarity, DepthPolarity::NearIsHigh);
   EXPECT_GT(film.heightAt(90, 30), film.heightAt(10, 30));
+}
+
+std::string group(const std::string& type, const std::vector<std::uint32_t>& items) {
+  std::string content = number(900, 4) + number(static_cast<std::uint32_t>(items.size()), 4);
+  for (const std::uint32_t item : items) content += number(item, 4);
+  return fullBox(type, content);
+}
+
+TEST_F(HeifPhoto, TheTwoPicturesOfAStereoPairAreViews) {
+  // Item 2 is darker in the middle; the group says which one is the left.
+  for (const bool second_left : {false, true}) {
+    const std::string pair = group("ster", second_left ? std::vector{2u, 1u} : std::vector{1u, 2u});
+    const test::OpenedFilm film = photo({.auxiliary = false, .groups = box("grpl", group("altr", {7, 8}) + pair)});
+    EXPECT_EQ(film.info.packing, Packing::StereoTracks);
+    EXPECT_FALSE(film.info.has_depth);
+    ASSERT_FALSE(film.pair.right.empty());
+    const Frame &first = second_left ? film.pair.right : film.pair.color,
+                &second = second_left ? film.pair.color : film.pair.right;
+    EXPECT_NEAR(test::sampleAt(first, 1, 90, 30), 180, 8);
+    EXPECT_NEAR(test::sampleAt(second, 1, 90, 30), disparityCode(90, 30), 8);
+  }
+}
+
+TEST_F(HeifPhoto, DamagedGroupsAreNoViews) {
+  const auto views = [&](const std::string& groups) {
+    const std::string file = make({.auxiliary = false, .groups = groups});
+    return kHeif.parts(std::make_shared<const std::vector<std::uint8_t>>(file.begin(), file.end())).size();
+  };
+  EXPECT_EQ(views(box("grpl", group("ster", {1, 2}))), 2u);
+  for (const std::string& groups :
+       {std::string(), box("grpl", group("ster", {1, 2, 3})), box("grpl", ""), box("grpl", box("ster", "")),
+        box("grpl", group("altr", {1, 2})), box("grpl", "\xff\xff\xff\xffster" + std::string(24, '\1'))}) {
+    EXPECT_EQ(views(groups), 0u);
+  }
 }
 
 }  // namespace
