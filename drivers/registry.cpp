@@ -137,7 +137,7 @@ std::optional<PictureFormat> pictureFormat(const StreamInfo& stream) {
       kExr,       kExrColor,
 #endif
 #ifdef RELIEVO_HEIF
-      kHeifColor, kHeifDepth,
+      kHeifColor, kHeifDepth, kHeifLeft, kHeifRight,
 #endif
   };
   for (const PictureFormat& format : formats) {
@@ -148,6 +148,7 @@ std::optional<PictureFormat> pictureFormat(const StreamInfo& stream) {
 
 const PhotoKind kPhotoKinds[] = {
     kDepthJpeg,
+    kStereoJpeg,
 #ifdef RELIEVO_EXR
     kExrWithDepth,
 #endif
@@ -260,7 +261,8 @@ std::unique_ptr<VideoDecoder> makeSoftwareDecoder(const StreamInfo& stream) {
 }
 
 std::unique_ptr<VideoDecoder> makeVideoDecoder(const StreamInfo& stream) {
-  const bool own = isMock(stream) || isV4l2Raw(stream) || pictureFormat(stream);
+  // Hardware leaves an alpha channel out.
+  const bool own = isMock(stream) || isV4l2Raw(stream) || pictureFormat(stream) || saysAlpha(stream);
   if (own || lookAtV4l2M2mNodes().empty()) return makeSoftwareDecoder(stream);
   std::vector<std::unique_ptr<VideoDecoder>> decoders;
   decoders.push_back(makeV4l2M2mDecoder());

@@ -220,14 +220,17 @@ void addDepthOptions(CLI::App& app, SourceOptions& source) {
        {"tb", Packing::TopBottom},
        {"sbs-depth-first", Packing::SideBySideDepthFirst},
        {"tb-depth-first", Packing::TopBottomDepthFirst},
+       {"alpha", Packing::Alpha},
        {"stereo-sbs", Packing::StereoSideBySide},
-       {"stereo-tb", Packing::StereoTopBottom}},
+       {"stereo-tb", Packing::StereoTopBottom},
+       {"stereo-tracks", Packing::StereoTracks}},
       "Where the film stores its depth\n"
       "auto: two tracks, a DEPTH_PACKING tag, or a picture whose halves differ clearly; tracks: two video tracks, or "
       "--depth;\n"
       "sbs: one picture, colour left, depth right; tb: colour on top, depth below; ..-depth-first: the other way "
-      "round;\n"
-      "stereo-sbs, stereo-tb: two views without depth, the left eye's left or on top; each eye is shown its own");
+      "round; alpha: in its alpha channel;\n"
+      "stereo-sbs, stereo-tb, stereo-tracks: two views without depth, the left eye's left, on top, or in the first of "
+      "two tracks; each eye is shown its own");
   addChoice(app, "--depth-code", source.depth_code, depthCodes(),
             "How depth is coded\n"
             "auto: hue if half of the picture is pure colour, else luma; luma: as brightness; hue: from red (near) "

@@ -39,7 +39,10 @@ struct PairReader::Impl {
   Result<TrackPlan> planFilm();
   void lookForRegistration(const StreamInfo& color);
   void lookForHalves(const StreamInfo& color);
-  [[nodiscard]] bool lookForViews(const StreamInfo& color, const Frame& look);
+  // In pair_views.cpp: what one picture holds beside its colour.
+  [[nodiscard]] bool takeSaidViews(const StreamInfo& color, const Frame& look);
+  void lookForViews(const Frame& look);
+  [[nodiscard]] bool lookForAlpha(const StreamInfo& color, const Frame& look);
   void showViews(Packing packing, const char* by);
   void lookForCode(const Frame& first);
   Result<const Frame*> firstDepth();
@@ -95,11 +98,12 @@ struct PairReader::Impl {
   std::unique_ptr<TrackReader> color_reader;
   std::unique_ptr<DepthSource> depth_source;  // reads `depth_url`
 
-  std::deque<Frame> color_ahead;     // read, not yet delivered
-  std::deque<Subtitle> words_ahead;  // of a subtitle file
-  DepthClues clues;                  // of the depth, as far as they were looked at
-  GrayFrom gray = GrayFrom::Luma;    // of packed depth
-  bool right_first = false;          // of two views
+  std::deque<Frame> color_ahead;       // read, not yet delivered
+  std::deque<Subtitle> words_ahead;    // of a subtitle file
+  DepthClues clues;                    // of the depth, as far as they were looked at
+  GrayFrom gray = GrayFrom::Luma;      // of packed depth
+  bool right_first = false;            // of two views in one picture
+  std::optional<bool> views_squeezed;  // likewise, if the film says it
   // Depth of its own whose samples are put in another order.
   struct Reordering {
     SampleOrder order = SampleOrder::AsStored;

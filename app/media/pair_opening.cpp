@@ -57,7 +57,8 @@ Result<void> PairReader::Impl::openFilm() {
   if (!depth) lookAround();
   const auto plan = planFilm();
   if (!plan) return failOn(options.url, plan.error());
-  info.packing = plan->packing;
+  const bool were_views = depth && info.packing == Packing::StereoTracks;
+  info.packing = were_views ? Packing::StereoTracks : plan->packing;
   info.duration = source.duration();
   info.container_start = source.senderStart().value_or(Duration(0));
   info.notes = source.notes();
@@ -117,6 +118,10 @@ Result<void> PairReader::Impl::openColor(const StreamInfo& color) {
   info.interlaced = color_reader->deinterlaced() > 0;
   info.color_primaries = color_ahead[0].primaries;
   info.color_transfer = color_ahead[0].transfer;
+  const bool depth_is_counted = depth_source && depth_source->stream().counted;
+  if (options.frames_per_s && !color.counted && !depth_is_counted) {
+    info.notes.emplace_back("--fps has no effect: the pictures have times of their own");
+  }
   return {};
 }
 
@@ -166,6 +171,12 @@ Result<void> PairReader::Impl::openDepth(const StreamInfo& color) {
   if (depth) {  // already known from the first opening
     depth->restart();
     own.lost = false;
+    return {};
+  }
+  if (info.packing == Packing::StereoTracks) {
+    depth.emplace([this] { return supplyDepth(); });
+    const bool told = options.packing == Packing::StereoTracks;
+    showViews(Packing::StereoTracks, told ? "the command line says" : "the film's tags say");
     return {};
   }
   lookForRegistration(color);

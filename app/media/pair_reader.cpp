@@ -74,11 +74,14 @@ Result<FramePair> PairReader::Impl::pairFor(Frame color) {
     return FramePair{std::move(halves->color), std::move(halves->depth), true, {}, {}};
   }
   if (isStereo(info.packing)) {
-    auto views = viewsOf(color, info.packing, right_first);
+    auto views = viewsOf(color, info.packing, right_first, views_squeezed);
     if (views) return FramePair{std::move(views->left), {}, true, {}, std::move(views->right)};
   }
   auto match = depthAt(color.pts);
   if (!match) return std::unexpected(match.error());
+  if (info.packing == Packing::StereoTracks) {
+    return FramePair{std::move(color), {}, true, {}, std::move(match->depth)};
+  }
   return FramePair{std::move(color), std::move(match->depth), match->matched, {}, {}};
 }
 

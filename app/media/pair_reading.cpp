@@ -18,35 +18,10 @@ namespace relievo {
 namespace {
 
 constexpr double kMostlyGray = 0.9;
-constexpr const char* kViews = "two views of one scene (stereo), no depth";
-constexpr const char* kShown = "each eye is shown its own, and there is nothing to feel; --depth FILE gives depth";
-constexpr const char* kWhatToDo = "it plays flat; give its depth with --depth FILE, or --packing if a half is depth";
-
-// By the format's name in FFmpeg, or WebM's tag.
-bool hasAlpha(const StreamInfo& stream) {
-  constexpr std::array kFormats{"yuva", "rgba", "bgra", "argb", "abgr", "gbrap", "ya8", "ya16"};
-  const auto tag = stream.tags.find("ALPHA_MODE");
-  if (tag != stream.tags.end() && tag->second == "1") return true;
-  return std::ranges::any_of(kFormats, [&](const char* f) { return stream.pixel_format.starts_with(f); });
-}
 
 // A source that can be opened a second time at no cost to others.
 bool isFile(const std::string& url) {
   return url.find("://") == std::string::npos && !url.starts_with("v4l2:");
-}
-
-struct StereoTag {
-  Packing packing = Packing::Auto;  // Auto: a way to store two views that is not shown
-  bool right_first = false;
-};
-// Matroska's StereoMode, or what the driver writes for mp4's st3d, in FFmpeg's words.
-std::optional<StereoTag> stereoTag(const StreamInfo& track) {
-  const auto mode = track.tags.find("STEREO_MODE");
-  if (mode == track.tags.end() || mode->second == "mono" || mode->second == "0") return std::nullopt;
-  const std::string& word = mode->second;
-  if (word == "left_right" || word == "right_left") return StereoTag{Packing::StereoSideBySide, word == "right_left"};
-  if (word == "top_bottom" || word == "bottom_top") return StereoTag{Packing::StereoTopBottom, word == "bottom_top"};
-  return StereoTag{};
 }
 
 // Numbers, or the codes of a sensor, are no colour; nor is gray in a file that is called depth.
@@ -73,6 +48,8 @@ void PairReader::Impl::lookAround() {
   const MediaSource& source = color_reader->source();
   clues = {.command_line = options.command_line, .side_file = options.side_file, .as = options.as, .place = {}};
   gray = GrayFrom::Luma;
+  right_first = false;
+  views_squeezed.reset();
   reordering.kind = nullptr;
   clues.place = lookAtTags(source.tags());
   if (clues.place.kind == nullptr) clues.place = lookAtPlace(options.url, options.depth_url);
@@ -113,7 +90,7 @@ void PairReader::Impl::lookForHalves(const StreamInfo& color) {
   if (options.packing != Packing::Auto || !options.depth_url.empty() || depth_stream != nullptr || isPacked()) return;
   if (options.registration) return;
   const Frame look = tellingPicture(color_ahead[0], options.url, color.index);
-  if (stereoTag(color) && lookForViews(color, look)) return;
+  if (takeSaidViews(color, look) || lookForAlpha(color, look)) return;
   if (isDepthAlone(look, options.url)) {
     info.packing = Packing::DepthAlone;
     clues.packing_by = CalibrationOrigin::FirstPicture;
@@ -122,15 +99,7 @@ void PairReader::Impl::lookForHalves(const StreamInfo& color) {
   }
   auto found = findPacking(look);
   if (!found) {
-    if (lookForViews(color, look)) return;
-    if (hasAlpha(color)) {
-      info.reading.doubts.push_back(print(
-          "its alpha channel is not read; if that is depth: ffmpeg %s-i FILE -vf alphaextract -c:v ffv1 depth.mkv, and "
-          "--depth depth.mkv",
-          color.codec == "vp9" || color.codec == "vp8"
-              ? print("-c:v libvpx%s ", color.codec == "vp9" ? "-vp9" : "").c_str()
-              : ""));
-    }
+    lookForViews(look);
     return;
   }
   info.packing = found->packing;
@@ -142,29 +111,6 @@ void PairReader::Impl::lookForHalves(const StreamInfo& color) {
     if (gray == GrayFrom::Red) clues.pictures.merge(redAsLuma(look));
   }
   clues.why.push_back(std::move(found->why));
-}
-
-// Two views: by the tags, else by the likeness of the halves and the break between them.
-bool PairReader::Impl::lookForViews(const StreamInfo& color, const Frame& look) {
-  if (const auto tag = stereoTag(color)) {
-    right_first = tag->right_first;
-    if (tag->packing == Packing::Auto)
-      info.reading.doubts.push_back(print("the film's tags say %s; %s", kViews, kWhatToDo));
-    else showViews(tag->packing, "the film's tags say");
-    return true;
-  }
-  const auto views = findViews(look);
-  if (!views) return false;
-  const bool beside = *views == Packing::StereoSideBySide;
-  const std::string halves = beside ? "the left and right halves" : "the upper and lower halves";
-  if (breaksInTheMiddle(look, beside)) showViews(*views, (halves + " are").c_str());
-  else info.reading.doubts.push_back(print("%s may be %s; if so, --packing %s", halves.c_str(), kViews, name(*views)));
-  return true;
-}
-
-void PairReader::Impl::showViews(Packing packing, const char* by) {
-  info.packing = packing;
-  info.reading.doubts.push_back(print("%s %s; %s", by, kViews, kShown));
 }
 
 void PairReader::Impl::lookForCode(const Frame& look) {
@@ -219,9 +165,7 @@ Result<void> PairReader::Impl::describeTrack(const Frame& first) {
   const bool guessed = !depth_source && options.packing == Packing::Auto && !isMarkedAsDepth(stream);
   const bool colored = look->model != ColorModel::Gray && lookAt(*look).gray < kMostlyGray;
   if (guessed && options.as == nullptr && colored && areViews(color_ahead[0], *look)) {
-    info.reading.doubts.push_back(print("the film's two tracks are %s; %s", kViews, kWhatToDo));
-    depth_track.reset();
-    depth.reset();
+    showViews(Packing::StereoTracks, "the film's two tracks are");
     return {};
   }
   lookForCode(*look);

@@ -234,6 +234,7 @@ Result<StreamInfo> describeStream(const AVStream& stream, bool timed) {
   info.channels = parameters.ch_layout.nb_channels;
   info.channel_layout = layoutOf(parameters.ch_layout);
   info.frame_period = framePeriodOf(stream);
+  info.counted = !timed;
   if (timed) info.average_rate = {stream.avg_frame_rate.num, stream.avg_frame_rate.den};
   if (timed) info.base_rate = {stream.r_frame_rate.num, stream.r_frame_rate.den};
   if (timed && stream.duration > 0) info.duration = durationFrom(stream.duration, stream.time_base);

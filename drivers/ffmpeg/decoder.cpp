@@ -24,6 +24,16 @@ bool isMended(const AVFrame& picture) noexcept {
   return (picture.flags & AV_FRAME_FLAG_CORRUPT) != 0 || picture.decode_error_flags != 0;
 }
 
+// FFmpeg's own decoders of WebM's codecs leave the alpha channel out; libvpx's read it.
+const AVCodec* decoderOf(AVCodecID id, bool alpha) noexcept {
+  const char* const name = !alpha                  ? nullptr
+                           : id == AV_CODEC_ID_VP9 ? "libvpx-vp9"
+                           : id == AV_CODEC_ID_VP8 ? "libvpx"
+                                                   : nullptr;
+  const AVCodec* const with_alpha = name == nullptr ? nullptr : avcodec_find_decoder_by_name(name);
+  return with_alpha != nullptr ? with_alpha : avcodec_find_decoder(id);
+}
+
 class FfmpegDecoder final : public VideoDecoder {
  public:
   FfmpegDecoder() noexcept { silenceLibrary(); }
@@ -47,15 +57,15 @@ class FfmpegDecoder final : public VideoDecoder {
     if (const auto* described = native<NativeStream, NativeStreamDeleter>(stream.native)) {
       time_base_ = described->time_base;
       sample_aspect_ = described->sample_aspect;
-      return openCodec(*described->parameters);
+      return openCodec(*described->parameters, saysAlpha(stream));
     }
     const ParametersPtr parameters = parametersFromWords(stream, AVMEDIA_TYPE_VIDEO);
     if (!parameters) return fail(ErrorCode::Exhausted, kNoMemory, ENOMEM);
     return openCodec(*parameters);
   }
 
-  Result<void> openCodec(const AVCodecParameters& parameters) {
-    const AVCodec* const codec = avcodec_find_decoder(parameters.codec_id);
+  Result<void> openCodec(const AVCodecParameters& parameters, bool alpha = false) {
+    const AVCodec* const codec = decoderOf(parameters.codec_id, alpha);
     if (codec == nullptr) {
       return fail(ErrorCode::Unsupported, "this FFmpeg has no decoder for this codec; convert the film");
     }

@@ -9,6 +9,7 @@
 extern "C" {
 #include <libavutil/error.h>
 #include <libavutil/pixdesc.h>
+#include <libavutil/stereo3d.h>
 #include <libswscale/swscale.h>
 }
 
@@ -20,7 +21,7 @@ static_assert(std::endian::native == std::endian::little, "hal/media/frame.h des
 constexpr std::uint64_t kOtherLayouts = AV_PIX_FMT_FLAG_BE | AV_PIX_FMT_FLAG_PAL | AV_PIX_FMT_FLAG_BITSTREAM |
                                         AV_PIX_FMT_FLAG_HWACCEL | AV_PIX_FMT_FLAG_FLOAT | AV_PIX_FMT_FLAG_BAYER;
 
-// Alpha, if any, comes last and is ignored.
+// Without alpha, which comes last.
 int componentCount(const AVPixFmtDescriptor& format) noexcept {
   return format.nb_components <= 2 ? 1 : 3;
 }
@@ -39,6 +40,35 @@ ColorModel modelOf(const AVPixFmtDescriptor& format) noexcept {
 bool readableInPlace(const AVComponentDescriptor& c) noexcept {
   if (c.depth <= 8) return c.depth == 8 && c.shift == 0;
   return c.shift + c.depth <= 16 && c.offset % 2 == 0 && c.step % 2 == 0;
+}
+
+Component componentOf(const AVComponentDescriptor& c) noexcept {
+  return {.plane = static_cast<std::uint8_t>(c.plane),
+          .offset_bytes = static_cast<std::uint8_t>(c.offset),
+          .step_bytes = static_cast<std::uint8_t>(c.step),
+          .shift = static_cast<std::uint8_t>(c.shift),
+          .bits = static_cast<std::uint8_t>(c.depth)};
+}
+
+// Frame packing SEI of H.264 and HEVC, and the stereo header of a JPEG picture.
+ViewLayout viewsOf(const AVFrame& picture) noexcept {
+  const AVFrameSideData* const data = av_frame_get_side_data(&picture, AV_FRAME_DATA_STEREO3D);
+  if (data == nullptr || data->size < sizeof(AVStereo3D)) return {};
+  const auto& stereo = *reinterpret_cast<const AVStereo3D*>(data->data);
+  ViewLayout views{.right_first = (stereo.flags & AV_STEREO3D_FLAG_INVERT) != 0};
+  switch (stereo.type) {
+    case AV_STEREO3D_2D:
+      return {};
+    case AV_STEREO3D_SIDEBYSIDE:
+      views.way = ViewLayout::Way::SideBySide;
+      return views;
+    case AV_STEREO3D_TOPBOTTOM:
+      views.way = ViewLayout::Way::TopBottom;
+      return views;
+    default:
+      views.way = ViewLayout::Way::Other;
+      return views;
+  }
 }
 
 bool isFullRangeYuv(int format) noexcept {
@@ -192,15 +222,11 @@ Frame frameOf(FramePtr picture, AVRational sample_aspect) {
     frame.chroma_shift_y = format.log2_chroma_h;
   }
   for (int i = 0; i < componentCount(format); ++i) {
-    const AVComponentDescriptor& c = format.comp[i];
-    frame.components[static_cast<std::size_t>(i)] = {
-        .plane = static_cast<std::uint8_t>(c.plane),
-        .offset_bytes = static_cast<std::uint8_t>(c.offset),
-        .step_bytes = static_cast<std::uint8_t>(c.step),
-        .shift = static_cast<std::uint8_t>(c.shift),
-        .bits = static_cast<std::uint8_t>(c.depth),
-    };
+    frame.components[static_cast<std::size_t>(i)] = componentOf(format.comp[i]);
   }
+  const AVComponentDescriptor& last = format.comp[format.nb_components - 1];
+  if ((format.flags & AV_PIX_FMT_FLAG_ALPHA) != 0 && readableInPlace(last)) frame.alpha = componentOf(last);
+  frame.views = viewsOf(*picture);
   for (std::size_t i = 0; i < frame.planes.size() && picture->data[i] != nullptr; ++i) {
     frame.planes[i] = {picture->data[i], picture->linesize[i]};
     ++frame.plane_count;

@@ -55,7 +55,7 @@ class NpySource final : public MediaSource {
     }
     header_ = *header;
     next_ = 0;
-    StreamInfo stream{.kind = StreamKind::Video, .codec = kNpy.codec, .frame_period = kPeriod};
+    StreamInfo stream{.kind = StreamKind::Video, .codec = kNpy.codec, .counted = true, .frame_period = kPeriod};
     stream.width = static_cast<int>(header_.cols);
     stream.height = static_cast<int>(header_.rows);
     stream.range = ColorRange::Full;

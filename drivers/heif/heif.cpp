@@ -59,15 +59,33 @@ std::optional<FilePicture> pictureOf(std::shared_ptr<const heif_image> image, he
   return FilePicture{.width = frame.width, .height = frame.height, .frame = std::move(frame)};
 }
 
-std::optional<FilePicture> readColor(std::span<const std::uint8_t> file) {
-  const Photo photo = openPhoto(file);
-  if (!photo.color) return std::nullopt;
-  auto picture =
-      pictureOf(decode(photo.color.get(), heif_colorspace_RGB, heif_chroma_interleaved_RGB), heif_channel_interleaved);
+std::optional<FilePicture> readRgb(const heif_image_handle* handle) {
+  if (handle == nullptr) return std::nullopt;
+  auto picture = pictureOf(decode(handle, heif_colorspace_RGB, heif_chroma_interleaved_RGB), heif_channel_interleaved);
   if (!picture) return picture;
   picture->frame.model = ColorModel::Rgb;
   for (std::uint8_t k = 0; k < 3; ++k) picture->frame.components[k] = {.offset_bytes = k, .step_bytes = 3, .bits = 8};
   return picture;
+}
+
+std::optional<FilePicture> readColor(std::span<const std::uint8_t> file) {
+  return readRgb(openPhoto(file).color.get());
+}
+
+std::optional<FilePicture> readView(std::span<const std::uint8_t> file, heif_item_id StereoPair::* which) {
+  const auto pair = stereoPairIn(file);
+  const Photo photo = openPhoto(file);
+  heif_image_handle* handle = nullptr;
+  if (!pair || !photo.color || failed(heif_context_get_image_handle(photo.context.get(), *pair.*which, &handle)))
+    return std::nullopt;
+  return readRgb(HandlePtr(handle).get());
+}
+
+std::optional<FilePicture> readLeft(std::span<const std::uint8_t> file) {
+  return readView(file, &StereoPair::left);
+}
+std::optional<FilePicture> readRight(std::span<const std::uint8_t> file) {
+  return readView(file, &StereoPair::right);
 }
 
 // Luma alone: the depth may be coded with flat chroma.
@@ -88,5 +106,7 @@ std::optional<FilePicture> readDepth(std::span<const std::uint8_t> file) {
 
 const PictureFormat kHeifColor{"heif-color", readColor};
 const PictureFormat kHeifDepth{"heif-depth", readDepth};
+const PictureFormat kHeifLeft{"heif-left", readLeft};
+const PictureFormat kHeifRight{"heif-right", readRight};
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// HEIF photos with depth (portraits of phones) by libheif.
+// HEIF photos with depth (portraits of phones) or two views (spatial photos) by libheif.
 #pragma once
 
 #include "drivers/floats/picture_file_decoder.h"
@@ -8,10 +8,11 @@
 namespace relievo {
 
 // The primary picture and its depth map, an auxiliary picture: both upright. The depth's meaning comes from its
-// representation info (ISO/IEC 23008-2, G.14.2) or, without that, from the XMP metadata that phones attach.
+// representation info (ISO/IEC 23008-2, G.14.2) or, without that, from the XMP metadata that phones attach. Without
+// depth, the two pictures of a stereo pair (ISO/IEC 23008-12, 6.8.5), with kViewTag.
 extern const PhotoKind kHeif;
 
-// The decoders of the two streams.
-extern const PictureFormat kHeifColor, kHeifDepth;
+// The decoders of the streams.
+extern const PictureFormat kHeifColor, kHeifDepth, kHeifLeft, kHeifRight;
 
 }  // namespace relievo

@@ -9,6 +9,7 @@
 #include "drivers/heif/heif.h"
 #include "drivers/heif/heif_handle.h"
 #include "drivers/photo/jpeg_xmp.h"
+#include "hal/media/media_names.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -103,9 +104,15 @@ bool beginsLikeHeif(std::span<const std::uint8_t> bytes) {
   return false;
 }
 
+std::vector<PhotoPart> viewsOf(const PhotoBytes& file) {
+  return {
+      PhotoPart{.stream = {.codec = kHeifLeft.codec, .tags = {{kViewTag, "left"}}}, .coded = *file, .owner = file},
+      PhotoPart{.stream = {.codec = kHeifRight.codec, .tags = {{kViewTag, "right"}}}, .coded = *file, .owner = file}};
+}
+
 std::vector<PhotoPart> partsOf(const PhotoBytes& file) {
   const Photo photo = openPhoto(*file);
-  if (!photo.depth) return {};
+  if (!photo.depth) return photo.color && stereoPairIn(*file) ? viewsOf(file) : std::vector<PhotoPart>{};
   return {PhotoPart{.stream = {.codec = kHeifColor.codec}, .coded = *file, .owner = file},
           PhotoPart{.stream = {.codec = kHeifDepth.codec, .tags = tagsOf(photo)}, .coded = *file, .owner = file}};
 }

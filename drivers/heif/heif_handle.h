@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 
 namespace relievo::heif {
@@ -30,5 +31,11 @@ struct Photo {
   heif_item_id depth_id = 0;
 };
 [[nodiscard]] Photo openPhoto(std::span<const std::uint8_t> file);
+
+// The item numbers of a stereo pair's pictures.
+struct StereoPair {
+  heif_item_id left = 0, right = 0;
+};
+[[nodiscard]] std::optional<StereoPair> stereoPairIn(std::span<const std::uint8_t> file);
 
 }  // namespace relievo::heif

@@ -7,6 +7,7 @@
 namespace relievo::photo {
 namespace {
 
+constexpr std::uint8_t kApp1 = 0xe1;
 constexpr std::string_view kStandard("http://ns.adobe.com/xap/1.0/\0", 29);
 constexpr std::string_view kExtended("http://ns.adobe.com/xmp/extension/\0", 35);
 constexpr std::string_view kExif("Exif\0\0", 6);
@@ -28,26 +29,6 @@ void place(std::string_view part, std::string& extended, std::size_t file_bytes)
   if (whole > std::min(kMostExtended, file_bytes) || offset > whole || part.size() > whole - offset) return;
   if (extended.size() < whole) extended.resize(whole, ' ');
   std::copy(part.begin(), part.end(), extended.begin() + static_cast<std::ptrdiff_t>(offset));
-}
-
-// The contents of a JPEG's APP1 segments before its picture.
-std::vector<std::string_view> app1SegmentsOf(std::span<const std::uint8_t> jpeg) {
-  constexpr std::uint8_t kStartOfScan = 0xda, kApp1 = 0xe1, kFill = 0xff;
-  const std::string_view bytes(reinterpret_cast<const char*>(jpeg.data()), jpeg.size());
-  std::vector<std::string_view> segments;
-  if (!bytes.starts_with("\xff\xd8")) return segments;
-  std::size_t at = 2;
-  while (at + 4 <= jpeg.size() && jpeg[at] == 0xff && jpeg[at + 1] != kStartOfScan) {
-    if (jpeg[at + 1] == kFill) {
-      ++at;
-      continue;
-    }
-    const std::size_t length = std::size_t{jpeg[at + 2]} << 8 | jpeg[at + 3];  // with these two bytes
-    if (length < 2 || at + 2 + length > jpeg.size()) break;
-    if (jpeg[at + 1] == kApp1) segments.push_back(bytes.substr(at + 4, length - 2));
-    at += 2 + length;
-  }
-  return segments;
 }
 
 // Of EXIF's orientations that do not mirror.
@@ -74,9 +55,28 @@ std::optional<std::string_view> valueAt(std::string_view rest, bool element) {
 
 }  // namespace
 
+std::vector<std::string_view> segmentsOf(std::span<const std::uint8_t> jpeg, std::uint8_t marker) {
+  constexpr std::uint8_t kStartOfScan = 0xda, kFill = 0xff;
+  const std::string_view bytes(reinterpret_cast<const char*>(jpeg.data()), jpeg.size());
+  std::vector<std::string_view> segments;
+  if (!bytes.starts_with("\xff\xd8")) return segments;
+  std::size_t at = 2;
+  while (at + 4 <= jpeg.size() && jpeg[at] == 0xff && jpeg[at + 1] != kStartOfScan) {
+    if (jpeg[at + 1] == kFill) {
+      ++at;
+      continue;
+    }
+    const std::size_t length = std::size_t{jpeg[at + 2]} << 8 | jpeg[at + 3];  // with these two bytes
+    if (length < 2 || at + 2 + length > jpeg.size()) break;
+    if (jpeg[at + 1] == marker) segments.push_back(bytes.substr(at + 4, length - 2));
+    at += 2 + length;
+  }
+  return segments;
+}
+
 std::string xmpOf(std::span<const std::uint8_t> jpeg) {
   std::string standard, extended;
-  for (const std::string_view segment : app1SegmentsOf(jpeg)) {
+  for (const std::string_view segment : segmentsOf(jpeg, kApp1)) {
     if (segment.starts_with(kStandard)) standard += segment.substr(kStandard.size());
     if (segment.starts_with(kExtended)) place(segment.substr(kExtended.size()), extended, jpeg.size());
   }
@@ -84,7 +84,7 @@ std::string xmpOf(std::span<const std::uint8_t> jpeg) {
 }
 
 std::optional<int> exifRotation(std::span<const std::uint8_t> jpeg) {
-  for (std::string_view exif : app1SegmentsOf(jpeg)) {
+  for (std::string_view exif : segmentsOf(jpeg, kApp1)) {
     if (!exif.starts_with(kExif)) continue;
     exif.remove_prefix(kExif.size());
     if (exif.size() < 8) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The metadata of a JPEG file: XMP and rotation.
+// The metadata of a JPEG file: segments, XMP and rotation.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +14,9 @@ namespace relievo::photo {
 // The standard XMP packet, followed by the extended one, whose parts are put together (Adobe, "XMP specification",
 // part 3, 1.1.3). Empty if there is none, or if the file is no JPEG.
 [[nodiscard]] std::string xmpOf(std::span<const std::uint8_t> jpeg);
+
+// The contents of the segments of this marker (0xe0 to 0xef: APP0 to APP15) before the picture, in order.
+[[nodiscard]] std::vector<std::string_view> segmentsOf(std::span<const std::uint8_t> jpeg, std::uint8_t marker);
 
 // The clockwise quarter turns that make the picture upright, as its EXIF metadata says; nullopt if it says nothing.
 [[nodiscard]] std::optional<int> exifRotation(std::span<const std::uint8_t> jpeg);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Media source of a photo that holds colour and depth in one file.
+// Media source of a photo that holds colour and depth, or two views, in one file.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct PhotoPart {
 };
 
 // A kind of photo: whether a file that begins with these bytes (64, or all of it) may be one; and its pictures, colour
-// first, or none if the file is of another kind or holds no depth.
+// or the left view first, or none if the file is of another kind or holds nothing beside its colour.
 struct PhotoKind {
   bool (*begins)(std::span<const std::uint8_t> first_bytes) = nullptr;
   std::vector<PhotoPart> (*parts)(const PhotoBytes& file) = nullptr;
@@ -31,6 +31,10 @@ struct PhotoKind {
 
 // JPEG with a depth map in its XMP metadata (GDepth, standard or extended) or behind the picture (Dynamic Depth).
 extern const PhotoKind kDepthJpeg;
+
+// JPEG of two views: several pictures in one file (MPO; CIPA DC-007) as two streams with kViewTag, or both views in one
+// picture (JPS), with the tags STEREO_MODE and kSqueezedTag.
+extern const PhotoKind kStereoJpeg;
 
 // True if the path is a file of at most 256 MiB that one of the kinds takes. Reads it if it begins like one.
 [[nodiscard]] bool isPhoto(const std::string& path, std::span<const PhotoKind> kinds);

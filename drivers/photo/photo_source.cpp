@@ -49,11 +49,12 @@ class PhotoSource final : public MediaSource {
     interrupted_ = false;
     parts_ = partsOf(url, kinds_);
     next_ = 0;
-    if (parts_.empty()) return fail(ErrorCode::Corrupt, "is no photo with depth; check the file");
+    if (parts_.empty()) return fail(ErrorCode::Corrupt, "is no photo with depth or two views; check the file");
     Description description;
     for (PhotoPart& part : parts_) {
       part.stream.index = static_cast<int>(description.streams.size());
       part.stream.kind = StreamKind::Video;
+      part.stream.counted = true;
       description.streams.push_back(part.stream);
     }
     return description;

@@ -103,6 +103,7 @@ class PicturesSource final : public MediaSource {
     }
     if (!stream) return stream;
     stream->kind = StreamKind::Video;
+    stream->counted = recording_.numbered || pictures.size() == 1;
     stream->frame_period = recording_.period;
     stream->average_rate = rateOf(pictures);
     stream->base_rate = recording_.numbered ? stream->average_rate : Ratio{};

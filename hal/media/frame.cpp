@@ -36,19 +36,20 @@ Frame crop(const Frame& frame, int x, int y, int width, int height) noexcept {
   part.width = width;
   part.height = height;
   std::array<bool, 4> moved{};
-  const int component_count = frame.model == ColorModel::Gray ? 1 : 3;
-  for (int i = 0; i < component_count; ++i) {
-    const Component& component = frame.components[static_cast<std::size_t>(i)];
-    if (moved[component.plane]) continue;
-    moved[component.plane] = true;
-    const bool chroma = frame.model == ColorModel::Yuv && i > 0;
-    const int column = chroma ? x >> frame.chroma_shift_x : x;
-    const int row = chroma ? y >> frame.chroma_shift_y : y;
+  const auto move = [&](const Component& component, int column, int row) {
+    if (std::exchange(moved[component.plane], true)) return;
     Plane& plane = part.planes[component.plane];
     const std::ptrdiff_t offset = row * plane.stride_bytes + static_cast<std::ptrdiff_t>(column) * component.step_bytes;
     plane.data += offset;
     part.dma_bufs[component.plane].offset_bytes += static_cast<std::uint32_t>(offset);
+  };
+  const int component_count = frame.model == ColorModel::Gray ? 1 : 3;
+  for (int i = 0; i < component_count; ++i) {
+    const bool chroma = frame.model == ColorModel::Yuv && i > 0;
+    move(frame.components[static_cast<std::size_t>(i)], chroma ? x >> frame.chroma_shift_x : x,
+         chroma ? y >> frame.chroma_shift_y : y);
   }
+  if (frame.alpha) move(*frame.alpha, x, y);
   return part;
 }
 

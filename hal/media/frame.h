@@ -41,6 +41,13 @@ struct Component {
   std::uint8_t bits = 8;
 };
 
+// How a picture stores two views of one scene, as its coded data say. Other: in a way that is not shown.
+struct ViewLayout {
+  enum class Way : std::uint8_t { OneView, SideBySide, TopBottom, Other };
+  Way way = Way::OneView;
+  bool right_first = false;
+};
+
 // The code of the sample that begins at `sample`.
 [[nodiscard]] inline std::uint32_t codeAt(const Component& component, const std::uint8_t* sample) noexcept {
   const std::uint32_t low = sample[0];
@@ -66,11 +73,13 @@ struct Frame {
   bool interlaced = false;                     // odd and even rows were taken at different times,
   bool top_field_first = true;                 // even rows (from 0) before odd ones
   double sample_aspect = 1.0;                  // width of a sample over its height
+  ViewLayout views;
   double value_per_code = 0;  // of floating-point samples: hal/media/float_codes.h; 0: codes are all there is
   std::uint8_t chroma_shift_x = 0;
   std::uint8_t chroma_shift_y = 0;
   std::uint8_t plane_count = 0;
   std::array<Component, 3> components{};
+  std::optional<Component> alpha;  // full range, as large as the picture, whatever the range of the others
   std::array<Plane, 4> planes{};
   std::array<DmaBuf, 4> dma_bufs{};           // one for each plane
   std::optional<std::uint64_t> dma_modifier;  // their memory layout (drm_fourcc.h), if known

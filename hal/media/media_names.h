@@ -12,6 +12,11 @@ namespace relievo {
 // The tag of a depth stream of pictures that names its first file.
 inline constexpr const char* kFileTag = "FILE";
 
+// The tag of a stream of two views that says whether each was squeezed by half: 1 or 0.
+inline constexpr const char* kSqueezedTag = "STEREO_SQUEEZED";
+// The tag of a stream that is one of two views: left or right.
+inline constexpr const char* kViewTag = "STEREO_VIEW";
+
 enum class MediaKind : std::uint8_t { Film, Picture, Neither };
 
 // By the ending alone, in upper or lower case.

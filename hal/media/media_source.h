@@ -49,6 +49,7 @@ struct StreamInfo {
   int sample_rate_hz = 0;  // of sound
   int channels = 0;
   std::string channel_layout;               // "stereo", "5.1", ..
+  bool counted = false;                     // no times of its own: its pictures are counted, or there is only one
   Duration frame_period{0};                 // the container's hint; the true one comes from the timestamps
   Duration duration{0};                     // 0 if unknown
   std::map<std::string, std::string> tags;  // upper-case keys: TITLE, HANDLER_NAME, DEPTH_NEAR, ..
@@ -57,6 +58,12 @@ struct StreamInfo {
   // The source's own description, for a decoder of the same library; null otherwise.
   std::shared_ptr<const void> native;
 };
+
+// Whether the container says that the stream has an alpha channel (WebM).
+[[nodiscard]] inline bool saysAlpha(const StreamInfo& stream) {
+  const auto mode = stream.tags.find("ALPHA_MODE");
+  return mode != stream.tags.end() && mode->second == "1";
+}
 
 struct Chapter {
   Duration begin{0}, end{0};  // media times

@@ -3,5 +3,6 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   relievo::fuzzPhoto(relievo::kDepthJpeg, {}, {bytes, size});
+  relievo::fuzzPhoto(relievo::kStereoJpeg, {}, {bytes, size});
   return 0;
 }

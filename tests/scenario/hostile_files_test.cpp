@@ -6,13 +6,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <fstream>
 #include <random>
 
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "tests/scenario/player_bench.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/film/damage.h"
 #include "tests/support/machine/sanitizers.h"
 
 namespace relievo {
@@ -26,40 +26,6 @@ constexpr int kPlayed = 10, kRefused = 11;
 std::string bytesOf(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
-}
-
-// Bits flipped, bytes overwritten, pieces removed, doubled or moved, the end cut off; more often in the head of the
-// file, which holds sizes and tables.
-std::string damaged(std::string bytes, std::mt19937& random) {
-  const auto place = [&random](std::size_t size) {
-    const std::size_t reach = random() % 2 == 0 ? std::min<std::size_t>(size, 1024) : size;
-    return random() % std::max<std::size_t>(reach, 1);
-  };
-  for (auto times = 1 + random() % 12; times > 0 && !bytes.empty(); --times) {
-    const std::size_t at = place(bytes.size());
-    const std::size_t length = std::min<std::size_t>(1 + random() % 64, bytes.size() - at);
-    switch (random() % 6) {
-      case 0:
-        bytes[at] = static_cast<char>(bytes[at] ^ (1 << random() % 8));
-        break;
-      case 1:
-        for (std::size_t i = 0; i < length; ++i) bytes[at + i] = static_cast<char>(random());
-        break;
-      case 2:
-        bytes.erase(at, length);
-        break;
-      case 3:
-        bytes.insert(at, bytes.substr(at, length));
-        break;
-      case 4:
-        std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), length,
-                    static_cast<char>(random() % 2 == 0 ? 0 : 255));
-        break;
-      default:
-        if (random() % 4 == 0) bytes.resize(place(bytes.size()));
-    }
-  }
-  return bytes;
 }
 
 // Exit status of the process that played `film`, and its peak memory.
@@ -104,7 +70,7 @@ TEST_P(HostileFiles, PlayOrFailCleanly) {
   int played = 0;
   for (int i = 0; i < kFilesOfAKind; ++i) {
     std::mt19937 random(static_cast<unsigned>(i));
-    std::ofstream(film, std::ios::binary) << damaged(bytes, random);
+    std::ofstream(film, std::ios::binary) << test::damaged(bytes, random);
     const End end = playApart(film);
     ASSERT_TRUE(WIFEXITED(end.status)) << "file " << i << " ended it with signal " << WTERMSIG(end.status);
     const int code = WEXITSTATUS(end.status);

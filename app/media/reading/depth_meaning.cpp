@@ -26,6 +26,10 @@ bool fits(const KnownKind& kind, DepthCode code, const Frame& frame) {
   return frame.model == ColorModel::Gray && frame.components[0].bits == 16;
 }
 
+bool isOfStereoCamera(const DepthClues& clues, const KnownKind* kind) {
+  return kind != nullptr && clues.place.camera && kind->name == std::string_view("middlebury");
+}
+
 bool isRecord3d(const KnownKind* kind) {
   return kind != nullptr && kind->name == std::string_view("record3d");
 }
@@ -60,10 +64,19 @@ HueSpan addKind(const DepthClues& clues, const KnownKind* kind, CalibrationLayer
   return span;
 }
 
+// Either end of a colour map may be near.
+std::string otherEnd(const CalibrationLayers& layers) {
+  if (layers.find("polarity") != nullptr) return "";
+  return "near is taken to be at the end of the colour map; if it is at its beginning: --calibration polarity=near-low";
+}
+
 }  // namespace
 
 const KnownKind* kindOf(const DepthClues& clues, const Frame& stored) {
   if (clues.as != nullptr) return clues.as;
+  if (isOfStereoCamera(clues, clues.place.kind) && clues.code == DepthCode::Luma && !definesCodes(saidLayers(clues))) {
+    return clues.place.kind;
+  }
   if (stored.value_per_code != 0 || definesCodes(saidLayers(clues))) return nullptr;
   if (clues.place.kind != nullptr && fits(*clues.place.kind, clues.code, stored)) return clues.place.kind;
   return clues.code == DepthCode::Luma ? sensorKind(stored, CodeCount(stored)) : nullptr;
@@ -81,7 +94,9 @@ Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind,
       read.kind = findKind("record3d");
     }
   } else if (clues.code != DepthCode::Luma) {
-    read = {};  // an entry of a colour map says nothing of its own
+    read.offer = otherEnd(layers);  // an entry of a colour map says nothing of its own
+  } else if (isOfStereoCamera(clues, kind)) {
+    read = readDisparities(look, CodeCount(look), *clues.place.camera);
   } else if (look.value_per_code != 0) {
     scaleToCodes(layers, look.value_per_code);
     read = readFloats(look, CodeCount(look), namesDisparity(clues.codec, clues.path), layers);

@@ -20,6 +20,7 @@ std::string where(const FilmReading& reading) {
   if (packing->value == "sbs") return "right of the colour, ";
   if (packing->value == "tb") return "below the colour, ";
   if (packing->value == "sbs-depth-first") return "left of the colour, ";
+  if (packing->value == "alpha") return "in the alpha channel, ";
   return packing->value == "tb-depth-first" ? "above the colour, " : "";
 }
 

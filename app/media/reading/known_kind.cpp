@@ -31,6 +31,8 @@ constexpr KnownKind kKinds[] = {
      .help = "KITTI stereo",
      .calibration = "law=inverse,polarity=near-high,invalid=0",
      .inverse = kKitti},
+    {"middlebury", "disparities in pixels", "Middlebury: PFM or PNG with the cameras of the calib.txt beside it",
+     "law=inverse,polarity=near-high,invalid=0"},
     {.name = "sun",
      .what = "distances in mm, rotated left by three bits",
      .help = "SUN RGB-D, SUN3D",

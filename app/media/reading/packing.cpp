@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "hal/media/media_names.h"
+
 namespace relievo {
 namespace {
 
@@ -61,6 +63,11 @@ const StreamInfo* colorAmong(const std::vector<const StreamInfo*>& tracks, const
   return depth == tracks[0] ? tracks[1] : tracks[0];
 }
 
+bool isRightView(const StreamInfo* track) {
+  const auto view = track->tags.find(kViewTag);
+  return view != track->tags.end() && view->second == "right";
+}
+
 std::optional<Packing> packingTag(const Tags& tags) {
   const auto found = tags.find(kPackingTag);
   if (found == tags.end()) return std::nullopt;
@@ -69,6 +76,7 @@ std::optional<Packing> packingTag(const Tags& tags) {
   if (value == "tb") return Packing::TopBottom;
   if (value == "sbs-depth-first") return Packing::SideBySideDepthFirst;
   if (value == "tb-depth-first") return Packing::TopBottomDepthFirst;
+  if (value == "alpha") return Packing::Alpha;
   return std::nullopt;
 }
 
@@ -87,6 +95,17 @@ Frame componentOf(const Frame& picture, std::size_t component) noexcept {
   Frame gray = picture;
   gray.model = ColorModel::Gray;
   gray.components[0] = picture.components[component];
+  return gray;
+}
+
+// The alpha channel as a gray picture.
+Frame alphaOf(const Frame& picture) noexcept {
+  Frame gray = picture;
+  gray.model = ColorModel::Gray;
+  gray.range = ColorRange::Full;
+  gray.chroma_shift_x = gray.chroma_shift_y = 0;
+  gray.components[0] = *picture.alpha;
+  gray.alpha.reset();
   return gray;
 }
 
@@ -118,12 +137,16 @@ const char* name(Packing packing) noexcept {
       return "sbs-depth-first";
     case Packing::TopBottomDepthFirst:
       return "tb-depth-first";
+    case Packing::Alpha:
+      return "alpha";
     case Packing::DepthAlone:
       return "depth-alone";
     case Packing::StereoSideBySide:
       return "stereo-sbs";
     case Packing::StereoTopBottom:
       return "stereo-tb";
+    case Packing::StereoTracks:
+      return "stereo-tracks";
   }
   return "";
 }
@@ -132,6 +155,11 @@ Result<TrackPlan> planTracks(const MediaSource& source, Packing packing, bool de
   const auto tracks = videoTracks(source);
   if (tracks.empty()) return fail(ErrorCode::NotFound, "there is no video in it");
   if (isPacked(packing) || isStereo(packing)) return TrackPlan{tracks[0], nullptr, packing};
+  if (packing == Packing::StereoTracks) {
+    if (depth_elsewhere) return TrackPlan{tracks[0], nullptr, packing};
+    if (tracks.size() < 2) return fail(ErrorCode::NotFound, "two views in two tracks need a second video track");
+    return TrackPlan{tracks[0], tracks[1], packing};
+  }
   if (!depth_elsewhere && packing == Packing::Auto) {
     auto tagged = packingTag(tracks[0]->tags);
     if (!tagged) tagged = packingTag(source.tags());
@@ -144,12 +172,20 @@ Result<TrackPlan> planTracks(const MediaSource& source, Packing packing, bool de
     }
     return TrackPlan{tracks[0], nullptr, Packing::Tracks};
   }
+  const auto right = std::find_if(tracks.begin(), tracks.end(), isRightView);
+  if (packing == Packing::Auto && !depth_elsewhere && right != tracks.end()) {
+    return TrackPlan{*right == tracks[0] ? tracks[1] : tracks[0], *right, Packing::StereoTracks, true};
+  }
   const StreamInfo* const depth = depthAmong(tracks);
   const StreamInfo* const color = colorAmong(tracks, depth);
   return TrackPlan{color, depth_elsewhere ? nullptr : depth, Packing::Tracks};
 }
 
 Result<Halves> splitPacked(const Frame& picture, Packing packing, DepthCode code, GrayFrom gray) noexcept {
+  if (packing == Packing::Alpha) {
+    if (!picture.alpha) return fail(ErrorCode::Unsupported, "the picture has no alpha channel; leave out --packing");
+    return Halves{picture, alphaOf(picture)};
+  }
   const bool beside = packing == Packing::SideBySide || packing == Packing::SideBySideDepthFirst;
   const bool depth_first = packing == Packing::SideBySideDepthFirst || packing == Packing::TopBottomDepthFirst;
   const int whole = beside ? picture.width : picture.height;

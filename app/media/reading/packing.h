@@ -20,10 +20,13 @@ enum class Packing : std::uint8_t {
   TopBottom,             // one picture: colour on top, depth below
   SideBySideDepthFirst,  // depth left, colour right
   TopBottomDepthFirst,   // depth on top, colour below
+  Alpha,                 // one picture: depth in its alpha channel
   DepthAlone,            // one picture: depth without colour
   StereoSideBySide,      // one picture: two views, left and right, no depth
   StereoTopBottom,       // one picture: two views, above and below, no depth
+  StereoTracks,          // two tracks: the left view and the right one, no depth
 };
+// Two views in one picture.
 [[nodiscard]] constexpr bool isStereo(Packing packing) noexcept {
   return packing == Packing::StereoSideBySide || packing == Packing::StereoTopBottom;
 }
@@ -37,7 +40,8 @@ struct TrackPlan {
 };
 [[nodiscard]] const char* name(Packing packing) noexcept;
 [[nodiscard]] constexpr bool isPacked(Packing packing) noexcept {
-  return packing != Packing::Auto && packing != Packing::Tracks && !isStereo(packing);
+  return packing != Packing::Auto && packing != Packing::Tracks && packing != Packing::StereoTracks &&
+         !isStereo(packing);
 }
 // Whether the track itself says that it is depth: signalled as auxiliary, DEPTH_ tags, or its name.
 [[nodiscard]] bool isMarkedAsDepth(const StreamInfo& track);
@@ -48,9 +52,9 @@ struct TrackPlan {
 [[nodiscard]] const StreamInfo* findDepthTrack(const MediaSource& source);
 
 // Plans a source that holds the colour, and the depth too unless `depth_elsewhere`. Auto decides first by a tag
-// DEPTH_PACKING=sbs|tb|sbs-depth-first|tb-depth-first of the container or the track, then by the presence of a second
-// video track. A picture's shape decides nothing: a wide film is not assumed to be packed. NotFound if the source lacks
-// the tracks that the packing needs.
+// DEPTH_PACKING=sbs|tb|sbs-depth-first|tb-depth-first|alpha of the container or the track, then by the presence of a
+// second video track. A picture's shape decides nothing: a wide film is not assumed to be packed. NotFound if the
+// source lacks the tracks that the packing needs.
 [[nodiscard]] Result<TrackPlan> planTracks(const MediaSource& source, Packing packing, bool depth_elsewhere);
 
 // Which component of a colour picture holds brightness.
@@ -64,7 +68,8 @@ struct Halves {
 // The two halves of a packed picture, by reference; the depth is as large as the colour. If the number of columns
 // (rows) is odd, the middle one belongs to neither. Depth read from luma (`code`) becomes a gray view that begins at
 // the exact sample; depth that needs chroma begins at a whole chroma sample, at most one pixel late. `gray`: red is
-// read from RGB as it is, and from YUV as luma. Unsupported if the picture is too small to be halved.
+// read from RGB as it is, and from YUV as luma. Of Packing::Alpha they are the whole picture and its alpha channel.
+// Unsupported if the picture is too small to be halved, or has no alpha channel.
 [[nodiscard]] Result<Halves> splitPacked(const Frame& picture, Packing packing, DepthCode code,
                                          GrayFrom gray = GrayFrom::Luma) noexcept;
 

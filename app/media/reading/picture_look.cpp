@@ -167,6 +167,19 @@ bool isBlank(const Frame& picture) noexcept {
   return count.share(median, median) > kOneCode;
 }
 
+std::optional<AlphaLook> lookAtAlpha(const Frame& picture) {
+  const auto halves = splitPacked(picture, Packing::Alpha, DepthCode::Luma);
+  if (!halves) return std::nullopt;
+  const CodeCount count(halves->depth);
+  return AlphaLook{count.kinds(), count.share(1, (1u << count.bits()) - 2)};
+}
+
+bool isAlphaDepth(const AlphaLook& look) noexcept {
+  constexpr int kLeastShades = 32;
+  constexpr double kLeastBetween = 0.3;  // the rest are holes, or at the ends of the range
+  return look.shades >= kLeastShades && look.between >= kLeastBetween;
+}
+
 bool breaksInTheMiddle(const Frame& picture, bool side_by_side) noexcept {
   constexpr int kApart = 3;  // coding smears a seam over a sample or two
   const int length = side_by_side ? picture.width : picture.height,

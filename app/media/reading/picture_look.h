@@ -29,6 +29,15 @@ struct PictureLook {
 // True if it is dark or even, as before a fade-in or behind a cap: it tells nothing.
 [[nodiscard]] bool isBlank(const Frame& picture) noexcept;
 
+struct AlphaLook {
+  int shades = 0;
+  double between = 0;  // share of the samples that are neither transparent nor opaque
+};
+// Nullopt if the picture has no alpha channel.
+[[nodiscard]] std::optional<AlphaLook> lookAtAlpha(const Frame& picture);
+// True if it varies as depth does; a matte is transparent or opaque nearly everywhere.
+[[nodiscard]] bool isAlphaDepth(const AlphaLook& look) noexcept;
+
 // Whether the two halves of the picture meet in a step: the brightness changes far more across the middle than beside
 // it.
 [[nodiscard]] bool breaksInTheMiddle(const Frame& picture, bool side_by_side) noexcept;

@@ -8,6 +8,8 @@
 #include <optional>
 #include <string_view>
 
+#include "app/media/reading/depthkit_file.h"
+#include "app/media/reading/float_reading.h"
 #include "platform/files/answered_place.h"
 #include "platform/print.h"
 #include "platform/whole_file.h"
@@ -64,27 +66,6 @@ RecordingPlace lookForScale(const fs::path& folder) {
     }
     if (!at.has_parent_path() || at.parent_path() == at) break;
     at = at.parent_path();
-  }
-  return {};
-}
-
-// Depthkit gives metres, of the whole clip or of its first camera.
-RecordingPlace lookForDepthkit(const fs::path& film) {
-  for (const char* extension : {".txt", ".json"}) {
-    fs::path beside = film;
-    beside.replace_extension(extension);
-    const auto json = readJson(beside);
-    if (!json) continue;
-    const auto cameras = json->find("perspectives");
-    const bool listed =
-        cameras != json->end() && cameras->is_array() && !cameras->empty() && cameras->at(0).is_object();
-    const Json& camera = listed ? cameras->at(0) : *json;
-    const auto near = numberIn(camera, "nearClip"), far = numberIn(camera, "farClip");
-    if (!near || !far || *near <= 0 || *far <= *near) continue;
-    return {findKind("depthkit"),
-            CalibrationOrigin::FileBeside,
-            {{"near", number(1000 * *near)}, {"far", number(1000 * *far)}},
-            print("%s says %.3g to %.3g m", beside.c_str(), *near, *far)};
   }
   return {};
 }
@@ -147,6 +128,17 @@ RecordingPlace lookAtNames(const fs::path& path, const fs::path& folder) {
   return {};
 }
 
+// Middlebury's calib.txt. Its cameras count where the name says that the numbers are disparities, or --as says it.
+void addStereoCamera(const fs::path& path, const fs::path& folder, RecordingPlace& place) {
+  const fs::path file = folder / "calib.txt";
+  place.camera = stereoCameraIn(file);
+  if (!place.camera || place.kind != nullptr) return;
+  if (!namesDisparity(lowerCase(path.extension().string()) == ".pfm" ? "pfm" : "", path.string())) return;
+  place.kind = findKind("middlebury");
+  place.origin = CalibrationOrigin::FileBeside;
+  place.why = print("%s has the cameras, %.4g mm apart", file.c_str(), place.camera->baseline_mm);
+}
+
 }  // namespace
 
 RecordingPlace lookAtPlace(const std::string& url, const std::string& depth_url) {
@@ -158,7 +150,9 @@ RecordingPlace lookAtPlace(const std::string& url, const std::string& depth_url)
   const fs::path folder = isFolder(path) ? path : path.parent_path();
   if (auto depthkit = lookForDepthkit(path); depthkit.kind != nullptr) return depthkit;
   if (auto scale = lookForScale(folder); scale.kind != nullptr) return scale;
-  return lookAtNames(path, folder);
+  RecordingPlace place = lookAtNames(path, folder);
+  addStereoCamera(path, folder, place);
+  return place;
 }
 
 RecordingPlace lookAtTags(const std::map<std::string, std::string>& tags) {

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include "app/media/reading/known_kind.h"
+#include "app/media/reading/stereo_camera.h"
 
 namespace relievo {
 
@@ -16,10 +18,11 @@ struct RecordingPlace {
   CalibrationOrigin origin = CalibrationOrigin::Name;  // of the kind
   CalibrationSettings settings;                        // read from a file or a tag: near, far, unit
   std::string why;
+  std::optional<StereoCamera> camera;  // of disparities; calib.txt
 };
 
 // Looks at `depth_url`, or at `url` if that is empty; addresses of networks and devices tell nothing. Reads small files
-// only: a camera's JSON, Depthkit's.
+// only: a camera's JSON, Depthkit's, calib.txt.
 [[nodiscard]] RecordingPlace lookAtPlace(const std::string& url, const std::string& depth_url);
 // A JSON text among the container's tags (Record3D).
 [[nodiscard]] RecordingPlace lookAtTags(const std::map<std::string, std::string>& tags);

@@ -127,7 +127,7 @@ std::optional<Packing> findViews(const Frame& picture) {
   return std::nullopt;
 }
 
-std::optional<Views> viewsOf(const Frame& picture, Packing packing, bool right_first) {
+std::optional<Views> viewsOf(const Frame& picture, Packing packing, bool right_first, std::optional<bool> squeezed) {
   constexpr double kTwoBeside = 2.5, kTwoAbove = 1.1;  // films are 1.33 to 2.4 times as wide as high
   const bool beside = packing == Packing::StereoSideBySide;
   const auto halves = splitPacked(picture, beside ? Packing::SideBySide : Packing::TopBottom, DepthCode::Hue);
@@ -135,7 +135,8 @@ std::optional<Views> viewsOf(const Frame& picture, Packing packing, bool right_f
   Views views{halves->color, halves->depth};
   if (right_first) std::swap(views.left, views.right);
   const double shape = picture.width * picture.sample_aspect / picture.height;
-  const double unsqueezed = beside ? (shape < kTwoBeside ? 2.0 : 1.0) : (shape > kTwoAbove ? 0.5 : 1.0);
+  const bool half = squeezed.value_or(beside ? shape < kTwoBeside : shape > kTwoAbove);
+  const double unsqueezed = !half ? 1.0 : beside ? 2.0 : 0.5;
   views.left.sample_aspect *= unsqueezed;
   views.right.sample_aspect *= unsqueezed;
   return views;

@@ -20,8 +20,9 @@ namespace relievo {
 struct Views {
   Frame left, right;
 };
-// The two views of a stereo picture, `right_first` or not, in the shape in which they are shown: where both together
-// are no wider (or higher) than one view is, each was squeezed by half. Nullopt: it is too small.
-[[nodiscard]] std::optional<Views> viewsOf(const Frame& picture, Packing packing, bool right_first);
+// The two views of a stereo picture, `right_first` or not, in the shape in which they are shown. `squeezed`: each was
+// squeezed by half; nullopt: where both together are no wider (or higher) than one view is. Nullopt: it is too small.
+[[nodiscard]] std::optional<Views> viewsOf(const Frame& picture, Packing packing, bool right_first,
+                                           std::optional<bool> squeezed = std::nullopt);
 
 }  // namespace relievo

@@ -29,6 +29,10 @@ PlaneSize sizeOf(const Frame& frame, std::size_t plane) noexcept {
     size.rows = std::max(size.rows, (frame.height + (1 << shift_y) - 1) >> shift_y);
     size.bytes = std::max(size.bytes, static_cast<std::size_t>(cols) * c.step_bytes);
   }
+  if (frame.alpha && frame.alpha->plane == plane) {
+    size.rows = frame.height;
+    size.bytes = std::max(size.bytes, static_cast<std::size_t>(frame.width) * frame.alpha->step_bytes);
+  }
   return size;
 }
 

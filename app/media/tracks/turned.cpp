@@ -14,8 +14,9 @@ struct Size {
   int cols = 0, rows = 0;
 };
 
+// `component`: 0 to 2, or more for alpha.
 Size sizeOf(const Frame& frame, std::size_t component) noexcept {
-  if (frame.model != ColorModel::Yuv || component == 0) return {frame.width, frame.height};
+  if (frame.model != ColorModel::Yuv || component == 0 || component > 2) return {frame.width, frame.height};
   const auto part = [](int whole, int shift) { return (whole + (1 << shift) - 1) >> shift; };
   return {part(frame.width, frame.chroma_shift_x), part(frame.height, frame.chroma_shift_y)};
 }
@@ -26,10 +27,7 @@ struct Walk {
   std::ptrdiff_t right, down;
 };
 
-Walk walkOf(const Frame& frame, std::size_t component, int quarter_turns) noexcept {
-  const Component& c = frame.components[component];
-  const Plane& plane = frame.planes[c.plane];
-  const Size size = sizeOf(frame, component);
+Walk walkOf(const Component& c, const Plane& plane, Size size, int quarter_turns) noexcept {
   const std::ptrdiff_t col = c.step_bytes, row = plane.stride_bytes;
   const std::uint8_t* const top_left = plane.data + c.offset_bytes;
   const std::uint8_t* const bottom_left = top_left + (size.rows - 1) * row;
@@ -92,14 +90,18 @@ Result<Frame> turned(const Frame& frame, int quarter_turns) noexcept {
   upright.dma_bufs = {};
   upright.dma_modifier.reset();
   const bool packed = isPackedRgb(frame);
-  upright.plane_count = frame.model == ColorModel::Gray || packed ? 1 : 3;
+  const std::size_t colors = frame.model == ColorModel::Gray || packed ? 1 : 3;
+  const bool own_alpha = frame.alpha && !packed;  // in a plane of its own
+  upright.plane_count = static_cast<std::uint8_t>(colors + (own_alpha ? 1 : 0));
 
+  const auto componentOf = [&](auto& of, std::size_t i) -> auto& { return i < colors ? of.components[i] : *of.alpha; };
+  const auto sizeAt = [&](const Frame& of, std::size_t i) { return sizeOf(of, i < colors ? i : 3); };
   const auto bytesOf = [&](std::size_t i) {
-    return packed ? frame.components[0].step_bytes : frame.components[i].bits > 8 ? 2 : 1;
+    return packed ? frame.components[0].step_bytes : componentOf(frame, i).bits > 8 ? 2 : 1;
   };
   std::size_t bytes = 0;
   for (std::size_t i = 0; i < upright.plane_count; ++i) {
-    const Size size = sizeOf(upright, i);
+    const Size size = sizeAt(upright, i);
     upright.planes[i].stride_bytes = std::ptrdiff_t{size.cols} * bytesOf(i);
     bytes += static_cast<std::size_t>(size.cols) * static_cast<std::size_t>(size.rows * bytesOf(i));
   }
@@ -111,14 +113,15 @@ Result<Frame> turned(const Frame& frame, int quarter_turns) noexcept {
   }
   std::uint8_t* at = memory.get();
   for (std::size_t i = 0; i < upright.plane_count; ++i) {
-    const Size size = sizeOf(upright, i);
-    Walk walk = walkOf(frame, i, quarter_turns);
+    const Size size = sizeAt(upright, i);
+    const Component& from = componentOf(frame, i);
+    Walk walk = walkOf(from, frame.planes[from.plane], sizeAt(frame, i), quarter_turns);
     if (packed) walk.first -= frame.components[i].offset_bytes;  // the start of a pixel, not of its red component
     copyTurned(walk, size, bytesOf(i), at);
     upright.planes[i].data = at;
     at += upright.planes[i].stride_bytes * size.rows;
     if (packed) break;
-    Component& c = upright.components[i];
+    Component& c = componentOf(upright, i);
     c = {.plane = static_cast<std::uint8_t>(i),
          .offset_bytes = 0,
          .step_bytes = static_cast<std::uint8_t>(bytesOf(i)),

@@ -161,6 +161,9 @@ std::string probeToText(const ProbeResult& r) {
   } else {
     text += "depth   none\n";
   }
+  if (isStereo(f.packing) || f.packing == Packing::StereoTracks) {
+    text += print("views   left and right, packing %s\n", name(f.packing));
+  }
   text += print("volume  %.0f x %.0f x %.0f mm\n", r.volume.width_mm, r.volume.height_mm, r.volume.depth_mm);
   for (const auto& notes : {f.notes, changesOf(f)}) {
     for (const std::string& note : notes) text += "note    " + note + "\n";

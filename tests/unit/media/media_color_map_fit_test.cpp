@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which colour map a coded picture shows, and that photos, gray and noise show none; and the depth read from it.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -116,6 +117,20 @@ TEST(ColorMapFit, RefusesPhotosGrayNoiseBlackAndOneColour) {
     ASSERT_FALSE(picture.empty()) << what;
     EXPECT_FALSE(bestColorMap(picture)) << what;
   }
+}
+
+// Either end of a colour map may be near: the other is offered until it is said.
+TEST(ColorMapFit, TheOtherEndIsOffered) {
+  const TemporaryFolder folder;
+  makeClip(folder / "color.mkv", {{.pix_fmt = "yuv420p", .frames = 2}});
+  makeClip(folder / "depth.mkv", {coded([](int c, int r) { return jet(depthAt(c, r)); }, "18")});
+  const auto offersFor = [&](const CalibrationSettings& said) {
+    PairReader reader(kFfmpeg);
+    EXPECT_TRUE(reader.open({.url = folder / "color.mkv", .depth_url = folder / "depth.mkv", .command_line = said}));
+    return reader.info().reading.offers;
+  };
+  EXPECT_THAT(offersFor({}), testing::Contains(testing::HasSubstr("--calibration polarity=near-low")));
+  EXPECT_THAT(offersFor({{"polarity", "near-low"}}), testing::IsEmpty());
 }
 
 }  // namespace

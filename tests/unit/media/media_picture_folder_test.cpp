@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -93,6 +94,24 @@ TEST_F(PictureFolder, ADamagedFirstPictureHidesNoOther) {
   std::ofstream(folder_ / "1.ppm") << "P6";
   picture("2.ppm", 2), picture("3.ppm", 3);
   EXPECT_EQ(story({.url = folder_ / "%d.ppm", .frames_per_s = 10}), "100 2:-1, 200 3:-1");
+}
+
+TEST_F(PictureFolder, ARateThatHasNoEffectIsTold) {
+  const auto toldFor = [&](const std::string& url, double rate) {
+    PairReader reader(kReal);
+    EXPECT_TRUE(reader.open({.url = url, .frames_per_s = rate})) << url;
+    const auto& notes = reader.info().notes;
+    return std::ranges::any_of(notes, [](const std::string& note) { return note.starts_with("--fps has no effect"); });
+  };
+  test::makeClip(folder_ / "film.mkv", {{.frames = 3}});
+  test::makeClip(folder_ / "raw.h264", {{.codec = "libx264", .pix_fmt = "yuv420p", .frames = 3}});
+  picture("s/1305031102.175304.ppm", 1), picture("s/1305031102.211214.ppm", 2);
+  picture("n/1.ppm", 1), picture("n/2.ppm", 2);
+  EXPECT_TRUE(toldFor(folder_ / "film.mkv", 10));
+  EXPECT_TRUE(toldFor(folder_ / "s", 10));
+  EXPECT_FALSE(toldFor(folder_ / "raw.h264", 10));
+  EXPECT_FALSE(toldFor(folder_ / "n", 10));
+  EXPECT_FALSE(toldFor(folder_ / "n/1.ppm", 10)) << "one picture";
 }
 
 }  // namespace

@@ -324,14 +324,6 @@ TEST(Recordings, TheDepthOfAPaleSceneIsFoundByTheBreakInTheMiddle) {
   EXPECT_FALSE(open({.url = folder / "film.mp4"}).info.has_depth);
 }
 
-TEST(Recordings, AnAlphaChannelIsToldOf) {
-  TemporaryFolder folder;
-  makeClip(folder / "a.png", {{.codec = "png", .pix_fmt = "rgba", .width = 64, .height = 48, .frames = 1}});
-  makeClip(folder / "b.png", {{.codec = "png", .pix_fmt = "rgb24", .width = 64, .height = 48, .frames = 1}});
-  EXPECT_THAT(open({.url = folder / "a.png"}).info.reading.doubts, Contains(HasSubstr("alphaextract")));
-  EXPECT_THAT(open({.url = folder / "b.png"}).info.reading.doubts, IsEmpty());
-}
-
 TEST(Recordings, GrayInAFileThatIsCalledDepthIsFelt) {
   TemporaryFolder folder;
   ClipTrack gray{.codec = "libx264", .pix_fmt = "yuv420p", .width = kSceneCols, .height = kSceneRows, .frames = 2};

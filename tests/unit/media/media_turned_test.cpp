@@ -93,5 +93,40 @@ TEST(Turned, PackedColourKeepsItsChroma) {
   }
 }
 
+// An alpha channel, in a plane of its own or in the pixels, is turned and cropped as the rest is.
+TEST(Turned, AlphaGoesAlong) {
+  constexpr int kCols = 6, kRows = 4;
+  std::vector<std::uint8_t> gray(kCols * kRows), alpha(kCols * kRows), pixels(4 * kCols * kRows);
+  for (std::size_t i = 0; i < gray.size(); ++i) {
+    gray[i] = static_cast<std::uint8_t>(i);
+    alpha[i] = pixels[4 * i + 3] = static_cast<std::uint8_t>(100 + i);
+  }
+  Frame own;
+  own.width = kCols, own.height = kRows;
+  own.plane_count = 2;
+  own.planes = {Plane{gray.data(), kCols}, Plane{alpha.data(), kCols}};
+  own.alpha = Component{.plane = 1};
+  Frame packed;
+  packed.width = kCols, packed.height = kRows;
+  packed.model = ColorModel::Rgb;
+  packed.plane_count = 1;
+  packed.planes[0] = {pixels.data(), 4 * kCols};
+  for (std::uint8_t i = 0; i < 3; ++i) packed.components[i] = {.offset_bytes = i, .step_bytes = 4};
+  packed.alpha = Component{.offset_bytes = 3, .step_bytes = 4};
+  const auto alphaAt = [](const Frame& f, int c, int r) {
+    const Plane& plane = f.planes[f.alpha->plane];
+    return *(plane.data + r * plane.stride_bytes + f.alpha->offset_bytes + c * f.alpha->step_bytes);
+  };
+  for (const Frame* frame : {&own, &packed}) {
+    const Frame upright = turned(*frame, 1).value();
+    const Frame part = crop(*frame, 2, 1, 3, 2);
+    for (int r = 0; r < kRows; ++r) {
+      for (int c = 0; c < kCols; ++c)
+        ASSERT_EQ(alphaAt(upright, kRows - 1 - r, c), 100 + r * kCols + c) << c << " " << r;
+    }
+    EXPECT_EQ(alphaAt(part, 1, 1), 100 + 2 * kCols + 3);
+  }
+}
+
 }  // namespace
 }  // namespace relievo

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds out whether a film's one picture holds more than its colour: two views of one scene, or depth in its alpha
+// channel.
+#include <optional>
+
+#include "app/media/pair_film.h"
+#include "app/media/reading/picture_look.h"
+#include "app/media/reading/stereo_pair.h"
+#include "hal/media/media_names.h"
+#include "platform/print.h"
+
+namespace relievo {
+namespace {
+
+constexpr const char* kViews = "two views of one scene (stereo), no depth";
+constexpr const char* kShown = "each eye is shown its own, and there is nothing to feel; --depth FILE gives depth";
+constexpr const char* kWhatToDo = "it plays flat; give its depth with --depth FILE, or --packing if a half is depth";
+
+struct SaidViews {
+  const char* by = "";
+  Packing packing = Packing::Auto;  // Auto: a way to store two views that is not shown
+  bool right_first = false;
+};
+
+// Matroska's StereoMode, or what the driver writes for mp4's st3d, in FFmpeg's words.
+std::optional<SaidViews> viewsByTag(const StreamInfo& track) {
+  constexpr const char* kBy = "the film's tags say";
+  const auto mode = track.tags.find("STEREO_MODE");
+  if (mode == track.tags.end() || mode->second == "mono" || mode->second == "0") return std::nullopt;
+  const std::string& word = mode->second;
+  if (word == "left_right" || word == "right_left")
+    return SaidViews{kBy, Packing::StereoSideBySide, word == "right_left"};
+  if (word == "top_bottom" || word == "bottom_top")
+    return SaidViews{kBy, Packing::StereoTopBottom, word == "bottom_top"};
+  return SaidViews{kBy};
+}
+
+std::optional<SaidViews> viewsByPicture(const Frame& picture) {
+  constexpr const char* kBy = "its coded pictures say";
+  switch (picture.views.way) {
+    case ViewLayout::Way::OneView:
+      return std::nullopt;
+    case ViewLayout::Way::SideBySide:
+      return SaidViews{kBy, Packing::StereoSideBySide, picture.views.right_first};
+    case ViewLayout::Way::TopBottom:
+      return SaidViews{kBy, Packing::StereoTopBottom, picture.views.right_first};
+    case ViewLayout::Way::Other:
+      break;
+  }
+  return SaidViews{kBy};
+}
+
+// Without a header, a JPS holds its views for cross-eyed viewing.
+std::optional<SaidViews> saidViews(const StreamInfo& track, const Frame& picture, const std::string& url) {
+  if (const auto tag = viewsByTag(track)) return tag;
+  if (const auto coded = viewsByPicture(picture)) return coded;
+  if (endingOf(url) == "jps") return SaidViews{"its ending .jps says", Packing::StereoSideBySide, true};
+  return std::nullopt;
+}
+
+}  // namespace
+
+// Two views, as the film itself says. False if it says nothing.
+bool PairReader::Impl::takeSaidViews(const StreamInfo& color, const Frame& look) {
+  const auto said = saidViews(color, look, options.url);
+  if (!said) return false;
+  right_first = said->right_first;
+  const auto squeezed = color.tags.find(kSqueezedTag);
+  if (squeezed != color.tags.end()) views_squeezed = squeezed->second == "1";
+  if (said->packing == Packing::Auto)
+    info.reading.doubts.push_back(print("%s %s, in a way that is not shown; %s", said->by, kViews, kWhatToDo));
+  else showViews(said->packing, said->by);
+  return true;
+}
+
+// By the likeness of the halves and the break between them.
+void PairReader::Impl::lookForViews(const Frame& look) {
+  const auto views = findViews(look);
+  if (!views) return;
+  const bool beside = *views == Packing::StereoSideBySide;
+  const std::string halves = beside ? "the left and right halves" : "the upper and lower halves";
+  if (breaksInTheMiddle(look, beside)) showViews(*views, (halves + " are").c_str());
+  else info.reading.doubts.push_back(print("%s may be %s; if so, --packing %s", halves.c_str(), kViews, name(*views)));
+}
+
+void PairReader::Impl::showViews(Packing packing, const char* by) {
+  info.packing = packing;
+  info.reading.doubts.push_back(print("%s %s; %s", by, kViews, kShown));
+}
+
+// Depth, or a matte, which is told if it is one.
+bool PairReader::Impl::lookForAlpha(const StreamInfo& color, const Frame& look) {
+  const auto alpha = lookAtAlpha(look);
+  if (!alpha) {
+    if (saysAlpha(color))
+      info.reading.doubts.emplace_back("its alpha channel cannot be decoded here: that needs FFmpeg with libvpx");
+    return false;
+  }
+  if (!isAlphaDepth(*alpha)) {
+    if (alpha->shades > 1)
+      info.reading.doubts.emplace_back("its alpha channel is taken for transparency; if it is depth: --packing alpha");
+    return false;
+  }
+  info.packing = Packing::Alpha;
+  clues.packing_by = CalibrationOrigin::FirstPicture;
+  clues.why.push_back(print("depth in the alpha channel: %d shades, %.0f %% of it neither transparent nor opaque",
+                            alpha->shades, 100 * alpha->between));
+  return true;
+}
+
+}  // namespace relievo
