@@ -11,6 +11,7 @@
 #include "drivers/gamepad/pad_controls.h"
 #include "drivers/gamepad/pad_effects.h"
 #include "drivers/gamepad/pad_finger.h"
+#include "hal/haptic_rate.h"
 #include "platform/log.h"
 
 namespace relievo {
@@ -33,6 +34,8 @@ PadMotors motorsOf(const PadFacts& facts, bool wheel) noexcept {
   return motors;
 }
 
+constexpr double kRateHz = 1000, kStiffnessNPerMm = 0.5;
+
 class Gamepad final : public HapticDevice {
  public:
   Gamepad(std::unique_ptr<PadPort> port, Clock& clock, const GamepadConfig& config)
@@ -43,13 +46,14 @@ class Gamepad final : public HapticDevice {
 
   // Rumble has no newtons: the peak is what presses it fully. How strong a wheel is, nobody says.
   [[nodiscard]] HapticCapabilities capabilities() const noexcept override {
+    const double rate_hz = rateWithin(kRateHz, kRateHz);
     return {.name = "gamepad",
             .workspace_min_mm = PadFinger::kMinMm,
             .workspace_max_mm = PadFinger::kMaxMm,
             .peak_force_n = PadEffects::kPeakN,
             .continuous_force_n = PadEffects::kPeakN,
-            .max_stiffness_n_per_mm = 0.5,
-            .rate_hz = 1000,
+            .max_stiffness_n_per_mm = stiffnessAtRate(kStiffnessNPerMm, kRateHz, rate_hz),
+            .rate_hz = rate_hz,
             .rests_in_pause = true};
   }
   [[nodiscard]] const Histogram* contactDelays() const noexcept override { return &player_.contactDelays(); }

@@ -11,6 +11,7 @@
 #include "drivers/inverse3/motion_gate.h"
 #include "drivers/inverse3/snapshot.h"
 #include "drivers/usb/force_session.h"
+#include "hal/haptic_rate.h"
 
 namespace relievo {
 namespace {
@@ -42,6 +43,8 @@ PortBytes bytesOf(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
+constexpr double kRateHz = 1000, kStiffnessNPerMm = 0.8;
+
 class Inverse3 final : public HapticDevice {
  public:
   Inverse3(const Inverse3Config& config, std::unique_ptr<Wire> wire, Clock& clock)
@@ -55,13 +58,14 @@ class Inverse3 final : public HapticDevice {
 
   // The maker's figures, but for the stiffness, which is not published: the Falcon's is assumed.
   [[nodiscard]] HapticCapabilities capabilities() const noexcept override {
+    const double rate_hz = rateWithin(kRateHz, kRateHz);
     return {.name = "Haply Inverse3",
             .workspace_min_mm = {-100, -100, -100},
             .workspace_max_mm = {100, 100, 100},
             .peak_force_n = 10,
             .continuous_force_n = 3,
-            .max_stiffness_n_per_mm = 0.8,
-            .rate_hz = 1000};
+            .max_stiffness_n_per_mm = stiffnessAtRate(kStiffnessNPerMm, kRateHz, rate_hz),
+            .rate_hz = rate_hz};
   }
 
  private:

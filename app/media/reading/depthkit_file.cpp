@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "platform/files/answered_place.h"
 #include "platform/print.h"
 #include "platform/whole_file.h"
 
@@ -53,8 +54,7 @@ bool liesOnItsSide(const std::string& text) {
 }
 
 std::optional<RecordingPlace> readFile(const fs::path& file) {
-  std::error_code error;
-  if (!fs::is_regular_file(file, error)) return std::nullopt;
+  if (!isRegularFile(file.string())) return std::nullopt;
   const auto text = readWholeFile(file.string(), FileSize::Settings, "cannot be read");
   if (!text) return std::nullopt;
   const auto near = numberNamed(*text, "nearClip"), far = numberNamed(*text, "farClip");

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "platform/files/answered_place.h"
 #include "platform/print.h"
 #include "platform/whole_file.h"
 
@@ -42,8 +43,7 @@ double pixelsPerCode(const Frame& depth, const CodeCount& count, const StereoCam
 }  // namespace
 
 std::optional<StereoCamera> stereoCameraIn(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
+  if (!isRegularFile(file.string())) return std::nullopt;
   const auto text = readWholeFile(file.string(), FileSize::Settings, "cannot be read");
   if (!text) return std::nullopt;
   const auto number = [&](const char* name) { return numberIn(*text, name).value_or(0); };
