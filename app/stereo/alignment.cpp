@@ -14,6 +14,8 @@ namespace {
 
 constexpr float kAlone = 0.8F;  // of the second-best description's distance
 constexpr double kWidest = 0.25, kHighest = 0.1;
+constexpr float kFaint = 0.0001F;  // least response of a point
+constexpr int kMostPoints = 2000;  // of a view
 constexpr int kRounds = 20;
 
 double medianOf(std::vector<double> values) {
@@ -28,8 +30,11 @@ struct Described {
 };
 Described describe(const ViewPicture& view) {
   Described found;
-  const auto finder = cv::AKAZE::create(cv::AKAZE::DESCRIPTOR_MLDB, 0, 3, 0.0005F);
-  finder->detectAndCompute(lumaOf(view), cv::noArray(), found.points, found.words);
+  const cv::Mat luma = lumaOf(view);
+  const auto finder = cv::AKAZE::create(cv::AKAZE::DESCRIPTOR_MLDB, 0, 3, kFaint);
+  finder->detect(luma, found.points);
+  cv::KeyPointsFilter::retainBest(found.points, kMostPoints);
+  finder->compute(luma, found.points, found.words);
   return found;
 }
 

@@ -27,7 +27,7 @@ double ViewTone::spread(std::size_t component) const {
 }
 
 bool Exposure::isNeeded() const {
-  constexpr double kContrast = 0.03, kLevels = 2, kMiddle = 128;
+  constexpr double kContrast = 0.06, kLevels = 4, kMiddle = 128;
   for (std::size_t k = 0; k < 3; ++k) {
     const double shift = gain[k] * kMiddle + offset[k] - kMiddle;
     if (std::abs(shift) > kLevels || (k == 0 && std::abs(gain[k] - 1) > kContrast)) return true;
