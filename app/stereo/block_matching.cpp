@@ -18,8 +18,8 @@ constexpr float kAgree = 1;    // pixels
 constexpr int kSpeck = 60;     // pixels of a speck, in a picture of 450 x 375
 constexpr double kSpeckOf = 450.0 * 375;
 constexpr int kBlock = 3;
-constexpr int kSlope = 2, kStep = 8;  // costs of a disparity's change by one and by more, for each byte of a block
-constexpr int kCap = 31;              // levels: of the gradient
+constexpr int kSlope = 5, kStep = 32;  // costs of a disparity's change by one and by more, for each byte of a block
+constexpr int kCap = 63;               // levels: of the gradient
 
 }  // namespace
 
@@ -33,21 +33,43 @@ cv::Mat lumaOf(const ViewPicture& view) {
   return luma;
 }
 
+namespace {
+
+int countIn(DisparityRange range) {
+  return (range.highest - range.lowest + kMultiple) / kMultiple * kMultiple;
+}
+
 // Margins on both sides, in which a match may lie that the picture does not hold.
-cv::Mat matchAlone(const cv::Mat& left, const cv::Mat& right, DisparityRange range, int block) {
+cv::Mat matched(cv::StereoSGBM& matcher, const cv::Mat& left, const cv::Mat& right, DisparityRange range) {
   const int margin = std::max({std::abs(range.lowest), std::abs(range.highest), 1}) + kMultiple;
-  const int count = (range.highest - range.lowest + kMultiple) / kMultiple * kMultiple;
   cv::Mat wide_left, wide_right, found;
   cv::copyMakeBorder(left, wide_left, 0, 0, margin, margin, cv::BORDER_REPLICATE);
   cv::copyMakeBorder(right, wide_right, 0, 0, margin, margin, cv::BORDER_REPLICATE);
-  const int smooth = left.channels() * block * block;
-  const auto matcher = cv::StereoSGBM::create(range.lowest, count, block, kSlope * smooth, kStep * smooth, -1, kCap, 0,
-                                              0, 0, cv::StereoSGBM::MODE_SGBM_3WAY);
-  matcher->compute(wide_left, wide_right, found);
+  matcher.compute(wide_left, wide_right, found);
   const cv::Mat inner = found.colRange(margin, margin + left.cols);
   cv::Mat pixels;
   inner.convertTo(pixels, CV_32F, 1.0 / kSteps);
   pixels.setTo(kNothing, inner < range.lowest * kSteps);
+  return pixels;
+}
+
+}  // namespace
+
+cv::Mat matchAlone(const cv::Mat& left, const cv::Mat& right, DisparityRange range, int block) {
+  const int smooth = left.channels() * block * block;
+  const auto matcher = cv::StereoSGBM::create(range.lowest, countIn(range), block, kSlope * smooth, kStep * smooth, -1,
+                                              kCap, 0, 0, 0, cv::StereoSGBM::MODE_HH);
+  return matched(*matcher, left, right, range);
+}
+
+cv::Mat matchPlainly(const cv::Mat& left, const cv::Mat& right, DisparityRange range) {
+  constexpr int kPlain = 5, kArea = kPlain * kPlain;
+  const auto matcher = cv::StereoSGBM::create(range.lowest, countIn(range), kPlain, 8 * kArea, 32 * kArea, 1, 63, 10,
+                                              100, 32, cv::StereoSGBM::MODE_SGBM);
+  cv::Mat found, pixels;
+  matcher->compute(left, right, found);
+  found.convertTo(pixels, CV_32F, 1.0 / kSteps);
+  pixels.setTo(kNothing, found < range.lowest * kSteps);
   return pixels;
 }
 

@@ -16,6 +16,9 @@ namespace relievo {
 // OpenCV's matcher alone (CV_32F): what is not found is -infinity.
 [[nodiscard]] cv::Mat matchAlone(const cv::Mat& left, const cv::Mat& right, DisparityRange range, int block);
 
+// The same as its documentation uses it, with its own check of both eyes, of uniqueness and of specks.
+[[nodiscard]] cv::Mat matchPlainly(const cv::Mat& left, const cv::Mat& right, DisparityRange range);
+
 // From both eyes: a point is `seen` if the right view finds it where the left view did, to within a pixel, and if it is
 // no speck. Other pixels keep what the left view found, or -infinity.
 [[nodiscard]] DisparityMap matchFromBoth(const ViewPicture& left, const ViewPicture& right, DisparityRange range);

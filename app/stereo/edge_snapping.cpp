@@ -15,11 +15,13 @@ namespace {
 
 constexpr int kReach = 6;  // pixels: of the neighbours that are looked at
 constexpr int kWidth = 2 * kReach + 1;
-constexpr int kNear = 4;           // pixels: as far a step may lie from its outline
+constexpr int kStrideCols = 300;   // columns of a picture in which every neighbour is looked at
+constexpr int kNear = 5;           // pixels: as far a step may lie from its outline
 constexpr float kStep = 1.5F;      // pixels of disparity between two surfaces
 constexpr float kColor = 12;       // levels: of a colour's likeness
 constexpr float kWorst = 30;       // levels: the most that a pixel counts against a disparity
 constexpr float kInferred = 0.3F;  // weight of a neighbour that was not seen
+constexpr float kSupport = 0.5F;   // of the neighbours' disparities, beside how they fit the right view
 constexpr float kLight = 0.05F;    // lesser weights are left out
 constexpr std::size_t kMostChoices = 6;
 constexpr int kPasses = 2;
@@ -54,7 +56,7 @@ struct Neighbours {
 class Snapper {
  public:
   Snapper(const DisparityMap& map, const ViewPicture& left, const ViewPicture& right)
-      : map_(map), left_(left), right_(right) {
+      : map_(map), left_(left), right_(right), stride_(std::max(1, (map.cols + kStrideCols / 2) / kStrideCols)) {
     for (std::size_t i = 0; i < of_color_.size(); ++i) of_color_[i] = std::exp(-static_cast<float>(i) / kColor);
     for (int r = -kReach; r <= kReach; ++r) {
       for (int c = -kReach; c <= kReach; ++c)
@@ -87,12 +89,12 @@ class Snapper {
     cv::Mat steps(map_.rows, map_.cols, CV_8U), near;
     for (int r = 0; r < map_.rows; ++r) {
       for (int c = 0; c < map_.cols; ++c) {
-        const bool step = map_.seen[map_.at(c, r)] == 0 || leaps(c, r, 1, 0) || leaps(c, r, 0, 1) ||
-                          leaps(c, r, 2, 0) || leaps(c, r, 0, 2);
+        const bool step = leaps(c, r, 1, 0) || leaps(c, r, 0, 1) || leaps(c, r, 2, 0) || leaps(c, r, 0, 2);
         steps.at<std::uint8_t>(r, c) = step ? 1 : 0;
       }
     }
-    cv::dilate(steps, near, cv::getStructuringElement(cv::MORPH_RECT, {2 * kNear + 1, 2 * kNear + 1}));
+    cv::dilate(steps, near,
+               cv::getStructuringElement(cv::MORPH_RECT, {2 * kNear * stride_ + 1, 2 * kNear * stride_ + 1}));
     return near;
   }
   [[nodiscard]] int unlikeness(std::size_t a, std::size_t b) const {
@@ -102,11 +104,12 @@ class Snapper {
   [[nodiscard]] Neighbours around(int c, int r) const {
     Neighbours found;
     const std::size_t here = map_.at(c, r);
-    for (int y = std::max(0, r - kReach); y <= std::min(map_.rows - 1, r + kReach); ++y) {
-      for (int x = std::max(0, c - kReach); x <= std::min(map_.cols - 1, c + kReach); ++x) {
+    for (int j = -kReach; j <= kReach; ++j) {
+      for (int i = -kReach; i <= kReach; ++i) {
+        const int x = c + i * stride_, y = r + j * stride_;
+        if (x < 0 || x >= map_.cols || y < 0 || y >= map_.rows) continue;
         const std::size_t there = map_.at(x, y);
-        const float weight =
-            of_color_[static_cast<std::size_t>(unlikeness(here, there))] * of_place_[place(x - c, y - r)];
+        const float weight = of_color_[static_cast<std::size_t>(unlikeness(here, there))] * of_place_[place(i, j)];
         if (weight > kLight) found.all[found.count++] = {x, y, weight};
         found.support(map_.pixels[there], map_.seen[there] != 0 ? weight : kInferred * weight);
       }
@@ -140,20 +143,22 @@ class Snapper {
   }
   [[nodiscard]] float best(int c, int r) const {
     const Neighbours found = around(c, r);
-    if (found.choice_count == 1) return map_.pixels[map_.at(c, r)];
-    float least = 2, chosen = map_.pixels[map_.at(c, r)];
+    const float own = map_.pixels[map_.at(c, r)];
+    if (found.choice_count == 1) return own;
+    float least = 2, chosen = own;
     for (std::size_t i = 0; i < found.choice_count; ++i) {
       const Choice& choice = found.choices[i];
-      const float cost = misfit(found, choice.disparity()) - choice.weight / found.weight;
+      const float cost = misfit(found, choice.disparity()) - kSupport * choice.weight / found.weight;
       if (cost >= least) continue;
       least = cost;
       chosen = choice.disparity();
     }
-    return chosen;
+    return std::abs(chosen - own) <= kStep ? own : chosen;  // its surface may slant
   }
 
   const DisparityMap& map_;
   const ViewPicture &left_, &right_;
+  int stride_;  // pixels between the neighbours
   std::array<float, 3 * 256> of_color_{};
   std::array<float, std::size_t{kWidth} * kWidth> of_place_{};
 };

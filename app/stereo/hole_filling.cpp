@@ -50,6 +50,8 @@ class Filler {
     for (int r = 0; r < map_.rows; ++r) {
       for (int c = 0; c < map_.cols; ++c) {
         if (!isSeen(c, r)) continue;
+        lowest_ = std::min(lowest_, map_.pixels[map_.at(c, r)]);
+        highest_ = std::max(highest_, map_.pixels[map_.at(c, r)]);
         cost_[map_.at(c, r)] = 0;
         if (isAtHole(c, r)) slopes_[map_.at(c, r)] = slopeAt(c, r);
       }
@@ -105,7 +107,7 @@ class Filler {
         cost_[from] + length + kPerLevel * unlikeness(here, from) + (isAgainstSight(c, r, d) ? kAgainstSight : 0);
     if (cost >= cost_[here]) return;
     cost_[here] = cost;
-    map_.pixels[here] = d;
+    map_.pixels[here] = std::clamp(d, lowest_, highest_);
     slopes_[here] = slope;
   }
   // A point at this disparity would stand before what the right eye sees there.
@@ -122,6 +124,7 @@ class Filler {
   const ViewPicture& left_;
   std::vector<float> cost_;
   std::vector<Slope> slopes_;
+  float lowest_ = kUnreached, highest_ = -kUnreached;  // of the seen points
 };
 
 }  // namespace

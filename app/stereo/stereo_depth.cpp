@@ -37,6 +37,25 @@ DisparityMap disparityOf(const ViewPicture& left, const ViewPicture& right, Disp
   return map;
 }
 
+DisparityMap plainDisparityOf(const ViewPicture& left, const ViewPicture& right, DisparityRange range) {
+  const cv::Mat found = matchPlainly(lumaOf(left), lumaOf(right), range);
+  DisparityMap map(left.cols, left.rows);
+  for (int r = 0; r < map.rows; ++r) {
+    const float* const row = found.ptr<float>(r);
+    for (int c = 0; c < map.cols; ++c) {
+      int end = c;
+      while (end < map.cols && !std::isfinite(row[end])) ++end;
+      const float before = c > 0 ? map.pixels[map.at(c - 1, r)] : static_cast<float>(range.highest);
+      const float after = end < map.cols ? row[end] : static_cast<float>(range.highest);
+      for (; c < end; ++c) map.pixels[map.at(c, r)] = std::min(before, after);
+      if (c == map.cols) break;
+      map.pixels[map.at(c, r)] = row[c];
+      map.seen[map.at(c, r)] = 1;
+    }
+  }
+  return map;
+}
+
 DepthCalibration StereoDepth::calibration() {
   return {.law = DepthLaw::Linear, .range = ColorRange::Full, .bits = 16};
 }

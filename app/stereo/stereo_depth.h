@@ -14,6 +14,10 @@ namespace relievo {
 // Of one pair of views that lie row by row: matched from both eyes, holes filled, steps moved to the outlines.
 [[nodiscard]] DisparityMap disparityOf(const ViewPicture& left, const ViewPicture& right, DisparityRange range);
 
+// What charts and tests hold it against: OpenCV's matcher alone, as its documentation uses it, on brightness; each hole
+// takes the farther of its two sides in its row.
+[[nodiscard]] DisparityMap plainDisparityOf(const ViewPicture& left, const ViewPicture& right, DisparityRange range);
+
 class StereoDepth {
  public:
   explicit StereoDepth(StereoPlan plan) : plan_(std::move(plan)) {}

@@ -19,7 +19,7 @@ constexpr float kCut = 18;              // levels between two pictures, on avera
 constexpr float kCutOver = 3;           // times the change before
 constexpr double kBlackSpread = 3;      // levels
 constexpr double kSame = 0.75;          // levels between two views, on average
-constexpr double kLeastShift = 0.3;     // pixels, that are worth to correct
+constexpr double kLeastShift = 0.5;     // pixels, that are worth to correct
 constexpr double kBadRest = 1.5;        // pixels
 
 ViewPicture reduced(const ViewPicture& view) {
