@@ -49,7 +49,7 @@ cv::Mat matched(cv::StereoSGBM& matcher, const cv::Mat& left, const cv::Mat& rig
   const cv::Mat inner = found.colRange(margin, margin + left.cols);
   cv::Mat pixels;
   inner.convertTo(pixels, CV_32F, 1.0 / kSteps);
-  pixels.setTo(kNothing, inner < range.lowest * kSteps);
+  pixels.setTo(cv::Scalar(static_cast<double>(kNothing)), inner < range.lowest * kSteps);
   return pixels;
 }
 
@@ -69,7 +69,7 @@ cv::Mat matchPlainly(const cv::Mat& left, const cv::Mat& right, DisparityRange r
   cv::Mat found, pixels;
   matcher->compute(left, right, found);
   found.convertTo(pixels, CV_32F, 1.0 / kSteps);
-  pixels.setTo(kNothing, found < range.lowest * kSteps);
+  pixels.setTo(cv::Scalar(static_cast<double>(kNothing)), found < range.lowest * kSteps);
   return pixels;
 }
 

@@ -18,7 +18,7 @@ std::shared_ptr<std::vector<std::uint16_t>> codesOf(const DisparityMap& map, Dis
   auto codes = std::make_shared<std::vector<std::uint16_t>>(map.size());
   const auto low = static_cast<float>(range.lowest), span = static_cast<float>(range.highest - range.lowest);
   std::ranges::transform(map.pixels, codes->begin(), [&](float d) {
-    return static_cast<std::uint16_t>(std::clamp((d - low) / span, 0.0F, 1.0F) * kHighest + 0.5F);
+    return static_cast<std::uint16_t>(std::lround(std::clamp((d - low) / span, 0.0F, 1.0F) * kHighest));
   });
   return codes;
 }

@@ -41,7 +41,6 @@ class StereoSurvey {
   StereoPlan plan_;
   std::optional<Thumb> before_;
   float change_ = 0;  // between the last two pictures
-  int views_cols_ = 0, views_rows_ = 0;
   MediaTime looked_at_;
   // Of the present shot.
   std::vector<PointPair> pairs_;

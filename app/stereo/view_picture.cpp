@@ -51,7 +51,7 @@ ViewPicture fromRgb(const Frame& frame) {
     const double red = codeOf(frame, 0, c, r) * to_byte[0], green = codeOf(frame, 1, c, r) * to_byte[1],
                  blue = codeOf(frame, 2, c, r) * to_byte[2];
     const double luma = 0.299 * red + 0.587 * green + 0.114 * blue;
-    out[0] = static_cast<std::uint8_t>(luma + 0.5);
+    out[0] = static_cast<std::uint8_t>(std::lround(luma));
     out[1] = static_cast<std::uint8_t>(std::clamp(128.5 + 0.564 * (blue - luma), 0.0, 255.0));
     out[2] = static_cast<std::uint8_t>(std::clamp(128.5 + 0.713 * (red - luma), 0.0, 255.0));
   });

@@ -42,9 +42,9 @@ class RightRow {
   void draw(float x0, float d0, float x1, float d1) {
     const float begin = x0 - d0, end = x1 - d1;
     if (end <= begin) return;  // turned away
-    const auto last = std::min(std::floor(end), static_cast<float>(nearest_.size()) - 1);
-    for (float x = std::max(std::ceil(begin), 0.0F); x <= last; ++x) {
-      const float t = (x - begin) / (end - begin), d = d0 + t * (d1 - d0);
+    const int last = std::min(static_cast<int>(std::floor(end)), static_cast<int>(nearest_.size()) - 1);
+    for (int x = std::max(static_cast<int>(std::ceil(begin)), 0); x <= last; ++x) {
+      const float t = (static_cast<float>(x) - begin) / (end - begin), d = d0 + t * (d1 - d0);
       const auto place = static_cast<std::size_t>(x);
       if (d <= nearest_[place]) continue;
       nearest_[place] = d;
