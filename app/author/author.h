@@ -11,6 +11,7 @@
 
 #include "app/author/package/depth_coder.h"
 #include "app/author/package/film_writer.h"
+#include "app/author/package/stereo_film.h"
 #include "app/author/sample/sample_scene.h"
 #include "app/enhance/enhancer.h"
 #include "app/media/pair_reader.h"
@@ -24,6 +25,7 @@ struct OutputOptions {
   int color_crf = 18;
   DepthCoding depth;
   KeptWishes keep;
+  std::optional<SwapEyes> from_views;      // make the depth from a film's two views; nullopt: the film has depth
   std::optional<Enhancement> enhancement;  // nullopt: no enhancement
   std::string preview;                     // path of a PNG, see preview.h; empty: none
 };

@@ -22,6 +22,8 @@ struct Arguments {
   SourceOptions source;
   OutputOptions output;
   std::string scene;
+  std::string depth_from;
+  SwapEyes swap_eyes = SwapEyes::Auto;
   int crf = -1, depth_crf = -1;
 };
 
@@ -36,6 +38,8 @@ constexpr const char* kFooter =
     "    relievo-author --color v4l2:/dev/video4 --depth v4l2:/dev/video2 --registration rig.toml -o film.mkv\n"
     "  convert a film with colour above and hue-coded depth below, giving its depth range:\n"
     "    relievo-author --color desk.mov --packing tb --depth-code hue --calibration near=520,far=1260 -o desk.mp4\n"
+    "  make depth for a 3D film that has two views and none:\n"
+    "    relievo-author --color holiday-3d.mkv --depth-from stereo -o film.mkv\n"
     "  send a transport stream in real time; receive it with relievo play udp://@:5000\n"
     "    relievo-author --color street.mp4 --depth street-depth.mkv -o udp://192.168.1.20:5000\n"
     "\n"
@@ -61,6 +65,19 @@ void addQualityOptions(CLI::App& app, Arguments& a) {
   app.add_option("--depth-crf", a.depth_crf, "Quality of the depth; 0 is lossless, which not all hardware decodes")
       ->type_name("N")
       ->check(CLI::Range(0, 51).description(""));
+}
+
+void addDepthFromOptions(CLI::App& app, Arguments& a) {
+  app.add_option(
+         "--depth-from", a.depth_from,
+         "Make the depth from a 3D film's two views: left and right, or above and below each other. The film's\n"
+         "colour is the left view")
+      ->type_name("stereo")
+      ->check(CLI::IsMember({"stereo"}).description(""))
+      ->excludes("--depth");
+  addChoice(app, "--swap-eyes", a.swap_eyes, {{"auto", SwapEyes::Auto}, {"no", SwapEyes::No}, {"yes", SwapEyes::Yes}},
+            "With --depth-from: whether the right eye's view comes first\nauto: as the pictures show")
+      ->needs("--depth-from");
 }
 
 void addEnhanceOptions(CLI::App& app, OutputOptions& output) {
@@ -103,6 +120,7 @@ void addSceneOption(CLI::App& app, std::string& scene) {
       ->check(CLI::IsMember({"sample"}).description(""))
       ->excludes("--color")
       ->excludes("--depth")
+      ->excludes("--depth-from")
       ->excludes("--as")
       ->excludes("--packing")
       ->excludes("--depth-code")
@@ -128,6 +146,7 @@ void addOptions(CLI::App& app, Arguments& a) {
       ->required()
       ->type_name("OUT");
   addDepthOptions(app, a.source);
+  addDepthFromOptions(app, a);
   addQualityOptions(app, a);
   addEnhanceOptions(app, a.output);
   addCodingOptions(app, a.output.depth);
@@ -148,6 +167,7 @@ int run(Arguments& a) {
   if (a.scene.empty() && a.source.url.empty()) {
     return tell({"--color", {ErrorCode::InvalidArgument, 0, "missing; give the film's colour, or use --scene sample"}});
   }
+  if (!a.depth_from.empty()) a.output.from_views = a.swap_eyes;
   if (a.crf >= 0) a.output.color_crf = a.output.depth.crf = a.crf;
   if (a.depth_crf >= 0) a.output.depth.crf = a.depth_crf;
 

@@ -13,7 +13,8 @@ namespace relievo {
 namespace {
 
 constexpr const char* kViews = "two views of one scene (stereo), no depth";
-constexpr const char* kShown = "each eye is shown its own, and there is nothing to feel; --depth FILE gives depth";
+constexpr const char* kShown =
+    "each eye is shown its own, and there is nothing to feel; relievo-author --depth-from stereo makes depth from them";
 constexpr const char* kWhatToDo = "it plays flat; give its depth with --depth FILE, or --packing if a half is depth";
 
 struct SaidViews {

@@ -15,6 +15,7 @@
 #include "app/author/package/key_frames.h"
 #include "app/author/package/output.h"
 #include "app/author/package/source_notes.h"
+#include "app/author/package/stereo_film.h"
 #include "app/author/preview/preview.h"
 #include "app/depth_window/shots.h"
 #include "app/scene/height_field.h"
@@ -83,8 +84,9 @@ std::optional<std::uint64_t> expectedFrames(const FilmInfo& info) {
 // Everything between the reader and the writer.
 class Packager {
  public:
-  Packager(PairReader& reader, const SourceOptions& source, const OutputOptions& output)
-      : reader_(reader), source_(source), output_(output) {}
+  // `info` is the film's as it is read here: with depth, be it the film's own or made.
+  Packager(PairReader& reader, FilmInfo info, const SourceOptions& source, const OutputOptions& output)
+      : reader_(reader), info_(std::move(info)), source_(source), output_(output) {}
 
   Outcome<void> begin(const FramePair& pair);
   Outcome<void> write(const FramePair& pair);
@@ -95,11 +97,12 @@ class Packager {
   Outcome<void> writeDepth(const Frame& depth);
   Outcome<void> writeEnhanced();
   [[nodiscard]] std::unique_ptr<KeptTracks> keptTracks() const;
-  [[nodiscard]] const DepthCalibration& sourceCalibration() const { return reader_.info().calibration.calibration; }
+  [[nodiscard]] const DepthCalibration& sourceCalibration() const { return info_.calibration.calibration; }
   static constexpr std::size_t kRecent = 3;
   [[nodiscard]] bool beginsShot(const Frame& depth);
 
   PairReader& reader_;
+  FilmInfo info_;
   const SourceOptions& source_;
   const OutputOptions& output_;
   std::unique_ptr<FilmWriter> writer_;
@@ -120,7 +123,7 @@ class Packager {
 };
 
 Outcome<void> Packager::begin(const FramePair& pair) {
-  const FilmInfo& info = reader_.info();
+  const FilmInfo& info = info_;
   Frame whole_depth;  // only its size is used; the first pair may have no depth yet
   whole_depth.width = info.depth_width;
   whole_depth.height = info.depth_height;
@@ -160,7 +163,7 @@ Outcome<void> Packager::begin(const FramePair& pair) {
 // Sound and subtitles are read from files alone: a camera or a stream cannot be opened twice.
 std::unique_ptr<KeptTracks> Packager::keptTracks() const {
   if (!isRegularFile(source_.url)) return nullptr;
-  auto kept = KeptTracks::open(source_.url, reader_.info().container_start, output_.keep);
+  auto kept = KeptTracks::open(source_.url, info_.container_start, output_.keep);
   if (kept) return std::move(*kept);
   log(LogLevel::Warning, source_.url.c_str(), "%s; the film is made without", kept.error().message);
   return nullptr;
@@ -190,7 +193,7 @@ Outcome<void> Packager::write(const FramePair& pair) {
     return failOn("depth", {ErrorCode::Unsupported, 0, "the picture size changes; cut the film there"});
   }
   depth_keys_.push_back(key);
-  if (!output_.preview.empty()) preview_.before(color_, depth, sourceCalibration(), expectedFrames(reader_.info()));
+  if (!output_.preview.empty()) preview_.before(color_, depth, sourceCalibration(), expectedFrames(info_));
   if (!enhancer_) return writeDepth(depth);
   if (auto added = enhancer_->add(depth); !added) return failOn("depth", added.error());
   return writeEnhanced();
@@ -241,10 +244,10 @@ Outcome<AuthorSummary> Packager::finish() {
                         .codes = coder_.counts(),
                         .enhancement = output_.enhancement,
                         .enhanced = enhancer_ ? enhancer_->summary() : EnhancementSummary{},
-                        .read_as = plainLine(reader_.info().reading, sourceCalibration()),
-                        .read_because = reader_.info().reading.why,
+                        .read_as = plainLine(info_.reading, sourceCalibration()),
+                        .read_because = info_.reading.why,
                         .notes = code_notes_};
-  const auto& offers = reader_.info().reading.offers;
+  const auto& offers = info_.reading.offers;
   summary.read_because.insert(summary.read_because.end(), offers.begin(), offers.end());
   const bool lossy = format_.depth.crf > 0 && format_.depth.codec != VideoCodec::Ffv1;
   if (!coder_.outcome().invalid.empty() && lossy) {
@@ -255,14 +258,14 @@ Outcome<AuthorSummary> Packager::finish() {
                                                 static_cast<unsigned long long>(not_later_)));
   }
   if (auto line = cut_.explain(); !line.empty()) summary.notes.push_back(std::move(line));
-  for (std::string& line : sourceNotes(source_, reader_, format_, coder_.counts())) {
+  for (std::string& line : sourceNotes(source_, info_, reader_.counters(), format_, coder_.counts())) {
     summary.notes.push_back(std::move(line));
   }
   if (const KeptTracks* const kept = writer_->kept()) {
     summary.kept = kept->kept();
     summary.notes.insert(summary.notes.end(), kept->leftOut().begin(), kept->leftOut().end());
   } else {
-    for (std::string& line : notKept(reader_.info(), output_.keep)) summary.notes.push_back(std::move(line));
+    for (std::string& line : notKept(info_, output_.keep)) summary.notes.push_back(std::move(line));
   }
   return summary;
 }
@@ -274,17 +277,27 @@ Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader:
                                   const ProgressReport& progress) {
   if (auto ready = checkOutput(output); !ready) return failOn(output.path, ready.error());
   if (auto ready = checkPreview(output); !ready) return failOn(output.preview, ready.error());
+  std::optional<StereoFilm> views;
+  if (output.from_views) {
+    auto surveyed = StereoFilm::survey(source, backends, *output.from_views, stop, progress);
+    if (!surveyed) return std::unexpected(surveyed.error());
+    views = std::move(*surveyed);
+  }
   PairReader reader(backends);
   const StopWatch watch(reader, stop);
   const auto failed = [&](const std::string& thing, const Error& error) {
     if (stop.load(std::memory_order_relaxed)) return failOn(output.path, kCancelled);
     return failOn(thing, error);
   };
-  if (auto opened = reader.open(source); !opened) return failed(reader.failedThing(), opened.error());
-  if (!reader.info().has_depth) {
-    return failOn(source.url, {ErrorCode::NotFound, 0, "no depth in this source; give --depth SOURCE"});
+  if (auto opened = reader.open(views ? views->source() : source); !opened)
+    return failed(reader.failedThing(), opened.error());
+  FilmInfo info = views ? views->described(reader.info()) : reader.info();
+  if (!info.has_depth) {
+    const char* const what = isStereo(info.packing) ? "two views without depth; --depth-from stereo makes it from them"
+                                                    : "no depth in this source; give --depth SOURCE";
+    return failOn(source.url, {ErrorCode::NotFound, 0, what});
   }
-  Packager packager(reader, source, output);
+  Packager packager(reader, std::move(info), source, output);
   bool live = false;  // ends on request or when its camera is unplugged, and is complete then
   for (std::uint64_t done = 1;; ++done) {
     auto pair = reader.next();
@@ -298,6 +311,11 @@ Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader:
     }
     if (!pair) return failed(reader.failedThing(), pair.error());
     if (!*pair) break;
+    if (views) {
+      auto made = views->withDepth(std::move(**pair));
+      if (!made) return failed(source.url, made.error());
+      *pair = std::move(*made);
+    }
     live = (*pair)->taken.has_value();
     if (!packager.begun()) {
       if (auto begun = packager.begin(**pair); !begun) return failed(begun.error().thing, begun.error().error);
@@ -305,7 +323,9 @@ Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader:
     if (auto written = packager.write(**pair); !written) return failed(written.error().thing, written.error().error);
     progress(done, expectedFrames(reader.info()));
   }
-  return packager.finish();
+  auto summary = packager.finish();
+  if (summary && views) summary->notes.insert(summary->notes.begin(), views->notes().begin(), views->notes().end());
+  return summary;
 }
 
 }  // namespace relievo

@@ -59,10 +59,9 @@ std::vector<std::string> notKept(const FilmInfo& info, const KeptWishes& keep) {
   return notes;
 }
 
-std::vector<std::string> sourceNotes(const SourceOptions& source, const PairReader& reader, const FilmFormat& format,
-                                     const DepthCoder::Counts& codes) {
+std::vector<std::string> sourceNotes(const SourceOptions& source, const FilmInfo& info, const PairCounters& counters,
+                                     const FilmFormat& format, const DepthCoder::Counts& codes) {
   Notes notes;
-  const PairCounters counters = reader.counters();
   tellMissing(notes, source.url, counters.missing);
   tellMissing(notes, source.depth_url, counters.depth_missing);
   tell(notes, counters.without_depth, " colour pictures have no depth: the depth begins later or ends earlier");
@@ -70,7 +69,7 @@ std::vector<std::string> sourceNotes(const SourceOptions& source, const PairRead
   tell(notes, counters.depth_skipped, " depth pictures matched no colour picture and were left out");
   tell(notes, counters.missed_pictures, " camera pictures were lost on the way");
   tell(notes, counters.damaged, " damaged packets or pictures were left out");
-  if (const int more = reader.info().video_tracks_unused; more > 0) {
+  if (const int more = info.video_tracks_unused; more > 0) {
     notes.push_back(print("%d more video %s left out; if the depth is one of them, save it to a file for --depth", more,
                           more == 1 ? "track is" : "tracks are"));
   }
@@ -79,8 +78,7 @@ std::vector<std::string> sourceNotes(const SourceOptions& source, const PairRead
       " pictures were interlaced: each was made of its first field; for more detail deinterlace the source first, with "
       "FFmpeg's bwdif");
   tellColor(notes, format);
-  tellClipped(notes, reader.info(), codes);
-  const FilmInfo& info = reader.info();
+  tellClipped(notes, info, codes);
   notes.insert(notes.end(), info.notes.begin(), info.notes.end());
   notes.insert(notes.end(), info.reading.doubts.begin(), info.reading.doubts.end());
   return notes;

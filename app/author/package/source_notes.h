@@ -13,8 +13,9 @@
 namespace relievo {
 
 // One line each; none if the film preserves everything of the source.
-[[nodiscard]] std::vector<std::string> sourceNotes(const SourceOptions& source, const PairReader& reader,
-                                                   const FilmFormat& format, const DepthCoder::Counts& codes);
+[[nodiscard]] std::vector<std::string> sourceNotes(const SourceOptions& source, const FilmInfo& info,
+                                                   const PairCounters& counters, const FilmFormat& format,
+                                                   const DepthCoder::Counts& codes);
 
 // Of a source whose sound and subtitles cannot be kept, though they are wished for.
 [[nodiscard]] std::vector<std::string> notKept(const FilmInfo& info, const KeptWishes& keep);

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// A film of two views as one of colour and depth: the left view, and depth made from both.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/media/pair_reader.h"
+#include "app/stereo/stereo_depth.h"
+#include "platform/failure.h"
+
+namespace relievo {
+
+enum class SwapEyes : std::uint8_t { Auto, No, Yes };  // Auto: if the pictures show that they are in the wrong order
+
+class StereoFilm {
+ public:
+  using Progress = std::function<void(std::uint64_t done, std::optional<std::uint64_t> total)>;
+
+  // Reads the whole film once, or twice if the eyes turn out to be swapped. Fails on a source that cannot be read
+  // again, on a film that is not one of two views, and on views that hold no depth; Cancelled when `stop` is set.
+  [[nodiscard]] static Outcome<StereoFilm> survey(const SourceOptions& source, const PairReader::Backends& backends,
+                                                  SwapEyes swap, const std::atomic<bool>& stop,
+                                                  const Progress& progress);
+
+  // The source with its layout told, to be opened for `withDepth`.
+  [[nodiscard]] const SourceOptions& source() const noexcept { return source_; }
+  // What the film is, its depth being there.
+  [[nodiscard]] FilmInfo described(FilmInfo info) const;
+  // The left view and its depth, in place of the two views.
+  [[nodiscard]] Result<FramePair> withDepth(FramePair views) const;
+  // What was corrected; one line each.
+  [[nodiscard]] const std::vector<std::string>& notes() const noexcept { return notes_; }
+
+ private:
+  StereoFilm(SourceOptions source, StereoPlan plan, bool swapped);
+
+  SourceOptions source_;
+  StereoDepth depth_;
+  bool swapped_;
+  std::vector<std::string> notes_;
+};
+
+}  // namespace relievo

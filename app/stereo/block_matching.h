@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Semi-global matching by OpenCV, seen from both eyes.
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "app/stereo/disparity_map.h"
+#include "app/stereo/view_picture.h"
+
+namespace relievo {
+
+// The picture's bytes as OpenCV takes them, not copied.
+[[nodiscard]] cv::Mat asMat(const ViewPicture& view);
+[[nodiscard]] cv::Mat lumaOf(const ViewPicture& view);
+
+// OpenCV's matcher alone (CV_32F): what is not found is -infinity.
+[[nodiscard]] cv::Mat matchAlone(const cv::Mat& left, const cv::Mat& right, DisparityRange range, int block);
+
+// The same as its documentation uses it, with its own check of both eyes, of uniqueness and of specks.
+[[nodiscard]] cv::Mat matchPlainly(const cv::Mat& left, const cv::Mat& right, DisparityRange range);
+
+// From both eyes: a point is `seen` if the right view finds it where the left view did, to within a pixel, and if it is
+// no speck. Other pixels keep what the left view found, or -infinity.
+[[nodiscard]] DisparityMap matchFromBoth(const ViewPicture& left, const ViewPicture& right, DisparityRange range);
+
+}  // namespace relievo

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// Weights by colour and distance as in adaptive support weights (Yoon and Kweon, PAMI 2006), for few candidates alone.
+#include "app/stereo/edge_snapping.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+namespace relievo {
+namespace {
+
+constexpr int kReach = 6;  // pixels: of the neighbours that are looked at
+constexpr int kWidth = 2 * kReach + 1;
+constexpr int kStrideCols = 300;   // columns of a picture in which every neighbour is looked at
+constexpr int kNear = 5;           // pixels: as far a step may lie from its outline
+constexpr float kStep = 1.5F;      // pixels of disparity between two surfaces
+constexpr float kColor = 12;       // levels: of a colour's likeness
+constexpr float kWorst = 30;       // levels: the most that a pixel counts against a disparity
+constexpr float kInferred = 0.3F;  // weight of a neighbour that was not seen
+constexpr float kSupport = 0.5F;   // of the neighbours' disparities, beside how they fit the right view
+constexpr float kLight = 0.05F;    // lesser weights are left out
+constexpr std::size_t kMostChoices = 6;
+constexpr int kPasses = 2;
+
+struct Choice {
+  float first = 0, weight = 0, sum = 0;
+  [[nodiscard]] float disparity() const { return weight > 0 ? sum / weight : first; }
+};
+
+struct Neighbours {
+  struct One {
+    int c = 0, r = 0;
+    float weight = 0;
+  };
+  std::array<One, std::size_t{kWidth} * kWidth> all;
+  std::size_t count = 0;
+  std::array<Choice, kMostChoices> choices;
+  std::size_t choice_count = 0;
+  float weight = 0;  // of all that support a choice
+
+  void support(float disparity, float by) {
+    std::size_t i = 0;
+    while (i < choice_count && std::abs(choices[i].first - disparity) > kStep) ++i;
+    if (i == kMostChoices) return;
+    if (i == choice_count) choices[choice_count++] = {.first = disparity};
+    choices[i].weight += by;
+    choices[i].sum += by * disparity;
+    weight += by;
+  }
+};
+
+class Snapper {
+ public:
+  Snapper(const DisparityMap& map, const ViewPicture& left, const ViewPicture& right)
+      : map_(map), left_(left), right_(right), stride_(std::max(1, (map.cols + kStrideCols / 2) / kStrideCols)) {
+    for (std::size_t i = 0; i < of_color_.size(); ++i) of_color_[i] = std::exp(-static_cast<float>(i) / kColor);
+    for (int r = -kReach; r <= kReach; ++r) {
+      for (int c = -kReach; c <= kReach; ++c)
+        of_place_[place(c, r)] = std::exp(-std::hypot(static_cast<float>(c), static_cast<float>(r)) / kReach);
+    }
+  }
+
+  [[nodiscard]] std::vector<float> snapped() const {
+    const cv::Mat near = nearSteps();
+    std::vector<float> result = map_.pixels;
+    cv::parallel_for_(cv::Range(0, map_.rows), [&](const cv::Range& rows) {
+      for (int r = rows.start; r < rows.end; ++r) {
+        for (int c = 0; c < map_.cols; ++c) {
+          if (near.at<std::uint8_t>(r, c) != 0) result[map_.at(c, r)] = best(c, r);
+        }
+      }
+    });
+    return result;
+  }
+
+ private:
+  static std::size_t place(int c, int r) {
+    return static_cast<std::size_t>(r + kReach) * kWidth + static_cast<std::size_t>(c + kReach);
+  }
+  [[nodiscard]] bool leaps(int c, int r, int across, int down) const {
+    if (c + across >= map_.cols || r + down >= map_.rows) return false;
+    return std::abs(map_.pixels[map_.at(c + across, r + down)] - map_.pixels[map_.at(c, r)]) > 1;
+  }
+  [[nodiscard]] cv::Mat nearSteps() const {
+    cv::Mat steps(map_.rows, map_.cols, CV_8U), near;
+    for (int r = 0; r < map_.rows; ++r) {
+      for (int c = 0; c < map_.cols; ++c) {
+        const bool step = leaps(c, r, 1, 0) || leaps(c, r, 0, 1) || leaps(c, r, 2, 0) || leaps(c, r, 0, 2);
+        steps.at<std::uint8_t>(r, c) = step ? 1 : 0;
+      }
+    }
+    cv::dilate(steps, near,
+               cv::getStructuringElement(cv::MORPH_RECT, {2 * kNear * stride_ + 1, 2 * kNear * stride_ + 1}));
+    return near;
+  }
+  [[nodiscard]] int unlikeness(std::size_t a, std::size_t b) const {
+    const std::uint8_t *p = &left_.yuv[3 * a], *q = &left_.yuv[3 * b];
+    return std::abs(p[0] - q[0]) + std::abs(p[1] - q[1]) + std::abs(p[2] - q[2]);
+  }
+  [[nodiscard]] Neighbours around(int c, int r) const {
+    Neighbours found;
+    const std::size_t here = map_.at(c, r);
+    for (int j = -kReach; j <= kReach; ++j) {
+      for (int i = -kReach; i <= kReach; ++i) {
+        const int x = c + i * stride_, y = r + j * stride_;
+        if (x < 0 || x >= map_.cols || y < 0 || y >= map_.rows) continue;
+        const std::size_t there = map_.at(x, y);
+        const float weight = of_color_[static_cast<std::size_t>(unlikeness(here, there))] * of_place_[place(i, j)];
+        if (weight > kLight) found.all[found.count++] = {x, y, weight};
+        found.support(map_.pixels[there], map_.seen[there] != 0 ? weight : kInferred * weight);
+      }
+    }
+    return found;
+  }
+  // Of one pixel of the left view at a disparity.
+  [[nodiscard]] float misfit(int c, int r, int whole, float rest) const {
+    const int x = c - whole;
+    if (x < 1 || x >= map_.cols) return kWorst;
+    const std::uint8_t* p = &left_.yuv[3 * map_.at(c, r)];
+    const std::uint8_t* q = &right_.yuv[3 * map_.at(x - 1, r)];
+    float sum = 0;
+    for (int i = 0; i < 3; ++i) {
+      const float there = rest * static_cast<float>(q[i]) + (1 - rest) * static_cast<float>(q[i + 3]);
+      sum += std::abs(static_cast<float>(p[i]) - there);
+    }
+    return std::min(sum, kWorst);
+  }
+  // From 0, where all neighbours fit the right view, to 1.
+  [[nodiscard]] float misfit(const Neighbours& around, float disparity) const {
+    const int whole = static_cast<int>(std::floor(disparity));
+    const float rest = disparity - static_cast<float>(whole);
+    float misfits = 0, weights = 0;
+    for (std::size_t i = 0; i < around.count; ++i) {
+      const auto& n = around.all[i];
+      misfits += n.weight * misfit(n.c, n.r, whole, rest);
+      weights += n.weight;
+    }
+    return misfits / weights / kWorst;
+  }
+  [[nodiscard]] float best(int c, int r) const {
+    const Neighbours found = around(c, r);
+    const float own = map_.pixels[map_.at(c, r)];
+    if (found.choice_count == 1) return own;
+    float least = 2, chosen = own;
+    for (std::size_t i = 0; i < found.choice_count; ++i) {
+      const Choice& choice = found.choices[i];
+      const float cost = misfit(found, choice.disparity()) - kSupport * choice.weight / found.weight;
+      if (cost >= least) continue;
+      least = cost;
+      chosen = choice.disparity();
+    }
+    return std::abs(chosen - own) <= kStep ? own : chosen;  // its surface may slant
+  }
+
+  const DisparityMap& map_;
+  const ViewPicture &left_, &right_;
+  int stride_;  // pixels between the neighbours
+  std::array<float, 3 * 256> of_color_{};
+  std::array<float, std::size_t{kWidth} * kWidth> of_place_{};
+};
+
+}  // namespace
+
+void snapEdges(DisparityMap& map, const ViewPicture& left, const ViewPicture& right) {
+  for (int i = 0; i < kPasses; ++i) map.pixels = Snapper(map, left, right).snapped();
+}
+
+}  // namespace relievo

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tells from two views which eye's is which.
+#pragma once
+
+#include <cstdint>
+
+#include "app/stereo/disparity_map.h"
+#include "app/stereo/view_picture.h"
+
+namespace relievo {
+
+// Where the disparity rises from left to right, points lie between that one eye alone sees. They belong to the far
+// side: with the eyes in order that is their left one, with the eyes swapped their right one. The colours tell.
+struct EyeVotes {
+  std::uint64_t in_order = 0, swapped = 0;  // pixels
+
+  EyeVotes& operator+=(const EyeVotes& other) noexcept;
+  [[nodiscard]] bool areSwapped() const noexcept;
+};
+
+// `map` as matched, `seen` told.
+[[nodiscard]] EyeVotes voteOnEyes(const DisparityMap& map, const ViewPicture& left);
+
+}  // namespace relievo

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/stereo/stereo_depth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "app/stereo/block_matching.h"
+#include "app/stereo/edge_snapping.h"
+#include "app/stereo/hole_filling.h"
+
+namespace relievo {
+namespace {
+
+constexpr float kHighest = 65535;
+
+std::shared_ptr<std::vector<std::uint16_t>> codesOf(const DisparityMap& map, DisparityRange range) {
+  auto codes = std::make_shared<std::vector<std::uint16_t>>(map.size());
+  const auto low = static_cast<float>(range.lowest), span = static_cast<float>(range.highest - range.lowest);
+  std::ranges::transform(map.pixels, codes->begin(), [&](float d) {
+    return static_cast<std::uint16_t>(std::lround(std::clamp((d - low) / span, 0.0F, 1.0F) * kHighest));
+  });
+  return codes;
+}
+
+// A shot without depth lies in the middle.
+std::shared_ptr<std::vector<std::uint16_t>> flatCodes(std::size_t size) {
+  return std::make_shared<std::vector<std::uint16_t>>(size, static_cast<std::uint16_t>(kHighest / 2));
+}
+
+}  // namespace
+
+DisparityMap disparityOf(const ViewPicture& left, const ViewPicture& right, DisparityRange range) {
+  DisparityMap map = matchFromBoth(left, right, range);
+  fillHoles(map, left);
+  snapEdges(map, left, right);
+  return map;
+}
+
+DisparityMap plainDisparityOf(const ViewPicture& left, const ViewPicture& right, DisparityRange range) {
+  const cv::Mat found = matchPlainly(lumaOf(left), lumaOf(right), range);
+  DisparityMap map(left.cols, left.rows);
+  for (int r = 0; r < map.rows; ++r) {
+    const float* const row = found.ptr<float>(r);
+    for (int c = 0; c < map.cols; ++c) {
+      int end = c;
+      while (end < map.cols && !std::isfinite(row[end])) ++end;
+      const float before = c > 0 ? map.pixels[map.at(c - 1, r)] : static_cast<float>(range.highest);
+      const float after = end < map.cols ? row[end] : static_cast<float>(range.highest);
+      for (; c < end; ++c) map.pixels[map.at(c, r)] = std::min(before, after);
+      if (c == map.cols) break;
+      map.pixels[map.at(c, r)] = row[c];
+      map.seen[map.at(c, r)] = 1;
+    }
+  }
+  return map;
+}
+
+DepthCalibration StereoDepth::calibration() {
+  return {.law = DepthLaw::Linear, .range = ColorRange::Full, .bits = 16};
+}
+
+Result<Frame> StereoDepth::depthOf(const Frame& left, const Frame& right) const {
+  for (const Frame* view : {&left, &right}) {
+    if (view->width == plan_.cols && view->height == plan_.rows) continue;
+    return fail(ErrorCode::Unsupported, "the picture size changes; cut the film there");
+  }
+  const ShotPlan& shot = plan_.at(left.pts);
+  std::shared_ptr<std::vector<std::uint16_t>> codes;
+  if (shot.has_depth) {
+    ViewPicture moved = readView(right);
+    if (shot.is_balanced) balance(moved, shot.exposure);
+    if (shot.is_aligned) moved = aligned(moved, shot.alignment);
+    codes = codesOf(disparityOf(readView(left), moved, shot.range), shot.range);
+  } else {
+    codes = flatCodes(static_cast<std::size_t>(left.width) * static_cast<std::size_t>(left.height));
+  }
+  Frame depth = grayFrame(std::move(codes), left.width, left.height);
+  depth.pts = left.pts;
+  depth.duration = left.duration;
+  depth.sample_aspect = left.sample_aspect;
+  return depth;
+}
+
+}  // namespace relievo

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Depth pictures from two views.
+#pragma once
+
+#include "app/scene/depth_calibration.h"
+#include "app/stereo/disparity_map.h"
+#include "app/stereo/stereo_plan.h"
+#include "app/stereo/view_picture.h"
+#include "hal/media/frame.h"
+#include "platform/error.h"
+
+namespace relievo {
+
+// Of one pair of views that lie row by row: matched from both eyes, holes filled, steps moved to the outlines.
+[[nodiscard]] DisparityMap disparityOf(const ViewPicture& left, const ViewPicture& right, DisparityRange range);
+
+// What charts and tests hold it against: OpenCV's matcher alone, as its documentation uses it, on brightness; each hole
+// takes the farther of its two sides in its row.
+[[nodiscard]] DisparityMap plainDisparityOf(const ViewPicture& left, const ViewPicture& right, DisparityRange range);
+
+class StereoDepth {
+ public:
+  explicit StereoDepth(StereoPlan plan) : plan_(std::move(plan)) {}
+
+  // Codes of 16 bits, linear in disparity over the shot's range, near high; none is a hole.
+  [[nodiscard]] static DepthCalibration calibration();
+  [[nodiscard]] const StereoPlan& plan() const noexcept { return plan_; }
+
+  // As large as the left view, with its time. Unsupported if the size is not the plan's.
+  [[nodiscard]] Result<Frame> depthOf(const Frame& left, const Frame& right) const;
+
+ private:
+  StereoPlan plan_;
+};
+
+}  // namespace relievo

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/stereo/stereo_survey.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "app/stereo/block_matching.h"
+#include "platform/print.h"
+
+namespace relievo {
+namespace {
+
+constexpr Duration kLookEvery = std::chrono::milliseconds(500);
+constexpr std::size_t kMostLooks = 24;  // kept of a shot; of a longer one every second is left out, and so on
+constexpr int kReducedCols = 320;       // in which the range is measured
+constexpr int kWidest = 6;              // a part of the width: the largest disparity
+constexpr float kCut = 18;              // levels between two pictures, on average
+constexpr float kCutOver = 3;           // times the change before
+constexpr double kBlackSpread = 3;      // levels
+constexpr double kSame = 0.75;          // levels between two views, on average
+constexpr double kLeastShift = 0.5;     // pixels, that are worth to correct
+constexpr double kBadRest = 1.5;        // pixels
+
+ViewPicture reduced(const ViewPicture& view) {
+  const int cols = std::min(view.cols, kReducedCols);
+  ViewPicture small(cols, std::max(1, view.rows * cols / view.cols));
+  cv::Mat result = asMat(small);
+  cv::resize(asMat(view), result, result.size(), 0, 0, cv::INTER_AREA);
+  return small;
+}
+
+bool isBlack(const ViewPicture& view) {
+  ViewTone tone;
+  tone.add(view);
+  return tone.spread(0) < kBlackSpread;
+}
+
+double difference(const ViewPicture& a, const ViewPicture& b) {
+  return cv::norm(asMat(a), asMat(b), cv::NORM_L1) / static_cast<double>(a.size());
+}
+
+// The alignment of the reduced views.
+Alignment scaledBy(Alignment alignment, double scale) {
+  alignment.shift *= scale;
+  return alignment;
+}
+
+// Disparities by their counts, in quarters of a pixel.
+class DisparityCount {
+ public:
+  explicit DisparityCount(int widest) : widest_(widest), counts_(static_cast<std::size_t>(2 * widest + 1) * 4) {}
+  void add(const DisparityMap& map) {
+    for (std::size_t i = 0; i < map.size(); ++i) {
+      if (map.seen[i] == 0) continue;
+      const auto place = static_cast<std::ptrdiff_t>((map.pixels[i] + static_cast<float>(widest_)) * 4);
+      ++counts_[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(place, 0, std::ssize(counts_) - 1))];
+      ++all_;
+    }
+  }
+  [[nodiscard]] std::uint64_t all() const { return all_; }
+  // The disparity below which this share lies.
+  [[nodiscard]] double below(double share) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+      sum += static_cast<double>(counts_[i]);
+      if (sum >= share * static_cast<double>(all_)) return static_cast<double>(i) / 4 - widest_;
+    }
+    return widest_;
+  }
+
+ private:
+  int widest_;
+  std::vector<std::uint64_t> counts_;
+  std::uint64_t all_ = 0;
+};
+
+}  // namespace
+
+const ShotPlan& StereoPlan::at(MediaTime time) const {
+  const auto after = std::ranges::upper_bound(shots, time, {}, &ShotPlan::begin);
+  return after == shots.begin() ? shots.front() : *std::prev(after);
+}
+
+StereoSurvey::Thumb StereoSurvey::thumbOf(const Frame& frame) {
+  const Component& k = frame.components[frame.model == ColorModel::Rgb ? 1 : 0];
+  const Plane& plane = frame.planes[k.plane];
+  const float scale = 255.0F / static_cast<float>((1U << k.bits) - 1);
+  Thumb thumb{};
+  constexpr int kTaken = 4;  // samples of a cell, in each direction
+  for (int r = 0; r < kThumbRows * kTaken; ++r) {
+    for (int c = 0; c < kThumbCols * kTaken; ++c) {
+      const std::ptrdiff_t x = c * frame.width / (kThumbCols * kTaken), y = r * frame.height / (kThumbRows * kTaken);
+      const auto code = codeAt(k, plane.data + y * plane.stride_bytes + k.offset_bytes + x * k.step_bytes);
+      thumb[static_cast<std::size_t>(r / kTaken) * kThumbCols + static_cast<std::size_t>(c / kTaken)] +=
+          static_cast<float>(code) * scale / (kTaken * kTaken);
+    }
+  }
+  return thumb;
+}
+
+bool StereoSurvey::beginsShot(const Frame& left) {
+  const Thumb now = thumbOf(left);
+  if (!before_) {
+    before_ = now;
+    return true;
+  }
+  float change = 0;
+  for (std::size_t i = 0; i < now.size(); ++i)
+    change += std::abs(now[i] - (*before_)[i]) / static_cast<float>(now.size());
+  const bool cut = change > kCut && change > kCutOver * change_;
+  change_ = change;
+  before_ = now;
+  return cut;
+}
+
+Result<void> StereoSurvey::add(const Frame& left, const Frame& right) {
+  if (plan_.cols == 0) {
+    plan_.cols = left.width;
+    plan_.rows = left.height;
+  }
+  for (const Frame* view : {&left, &right}) {
+    if (view->width == plan_.cols && view->height == plan_.rows) continue;
+    return fail(ErrorCode::Unsupported, "the picture size changes; cut the film there");
+  }
+  const bool begins = beginsShot(left);
+  if (begins) beginShot(left.pts);
+  if (begins || left.pts >= looked_at_ + kLookEvery) look(left, right);
+  return {};
+}
+
+void StereoSurvey::beginShot(MediaTime begin) {
+  endShot();
+  plan_.shots.push_back({.begin = begin});
+  pairs_.clear();
+  left_tone_ = right_tone_ = {};
+  looked_.clear();
+  stride_ = 1;
+  until_next_ = 0;
+}
+
+void StereoSurvey::look(const Frame& left, const Frame& right) {
+  looked_at_ = left.pts;
+  if (until_next_-- > 0) return;
+  until_next_ = stride_ - 1;
+  const ViewPicture a = readView(left), b = readView(right);
+  ++pictures_;
+  const bool left_black = isBlack(a), right_black = isBlack(b);
+  if (left_black != right_black) ++one_black_;
+  if (left_black || right_black) return;
+  if (difference(a, b) < kSame) ++alike_;
+  left_tone_.add(a);
+  right_tone_.add(b);
+  const auto found = findPairs(a, b);
+  pairs_.insert(pairs_.end(), found.begin(), found.end());
+  looked_.push_back({reduced(a), reduced(b)});
+  if (looked_.size() < kMostLooks) return;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < looked_.size(); i += 2) looked_[kept++] = std::move(looked_[i]);
+  looked_.resize(kept);
+  stride_ *= 2;
+}
+
+void StereoSurvey::endShot() {
+  if (plan_.shots.empty() || looked_.empty()) return;
+  ShotPlan& shot = plan_.shots.back();
+  const AlignmentFit fit = fitAlignment(pairs_);
+  if (fit.points > 0 && fit.rest > kBadRest) ++unfitting_;
+  shot.is_aligned = fit.points > 0 && fit.rest <= kBadRest && fit.alignment.reach(plan_.cols, plan_.rows) > kLeastShift;
+  if (shot.is_aligned) shot.alignment = fit.alignment;
+  shot.exposure = exposureBetween(left_tone_, right_tone_);
+  shot.is_balanced = shot.exposure.isNeeded();
+  measureRange(shot);
+}
+
+// By matching reduced pictures over the widest range.
+void StereoSurvey::measureRange(ShotPlan& shot) {
+  constexpr double kLeastFound = 0.1, kOutliers = 0.002, kSpare = 0.05;
+  const int cols = looked_.front().left.cols, widest = std::max(cols / kWidest, 1);
+  const double scale = static_cast<double>(plan_.cols) / cols;
+  DisparityCount count(widest + 1);
+  std::uint64_t all = 0;
+  for (Looked& looked : looked_) {
+    if (shot.is_balanced) balance(looked.right, shot.exposure);
+    if (shot.is_aligned) looked.right = aligned(looked.right, scaledBy(shot.alignment, 1 / scale));
+    const DisparityMap map = matchFromBoth(looked.left, looked.right, {-widest, widest});
+    count.add(map);
+    all += map.size();
+    eyes_ += voteOnEyes(map, looked.left);
+  }
+  shot.has_depth = static_cast<double>(count.all()) > kLeastFound * static_cast<double>(all);
+  const double low = scale * count.below(kOutliers), high = scale * (count.below(1 - kOutliers) + 0.25);
+  const double spare = scale + kSpare * (high - low);
+  shot.range = {static_cast<int>(std::floor(low - spare)), static_cast<int>(std::ceil(high + spare))};
+}
+
+void StereoSurvey::explain() {
+  std::size_t moved = 0, toned = 0, flat = 0;
+  const ShotPlan *most = nullptr, *brightest = nullptr;
+  const auto reach = [&](const ShotPlan& shot) { return shot.alignment.reach(plan_.cols, plan_.rows); };
+  const auto contrast = [](const ShotPlan& shot) { return std::abs(std::log(shot.exposure.gain[0])); };
+  for (const ShotPlan& shot : plan_.shots) {
+    flat += shot.has_depth ? 0 : 1;
+    moved += shot.is_aligned ? 1 : 0;
+    toned += shot.is_balanced ? 1 : 0;
+    if (shot.is_aligned && (most == nullptr || reach(shot) > reach(*most))) most = &shot;
+    if (shot.is_balanced && (brightest == nullptr || contrast(shot) > contrast(*brightest))) brightest = &shot;
+  }
+  const auto of = print("of %zu %s", plan_.shots.size(), plan_.shots.size() == 1 ? "shot" : "shots");
+  if (most != nullptr) {
+    constexpr double kDegrees = 57.29577951;
+    plan_.notes.push_back(print(
+        "the right view was straightened in %zu %s: by up to %.1f pixels in height, %.2f degrees, %.1f %% in size",
+        moved, of.c_str(), std::abs(most->alignment.shift), kDegrees * std::abs(most->alignment.turn),
+        100 * std::abs(most->alignment.zoom - 1)));
+  }
+  if (brightest != nullptr) {
+    plan_.notes.push_back(print("the right view's exposure was balanced in %zu %s: contrast by up to %.2f times", toned,
+                                of.c_str(), brightest->exposure.gain[0]));
+  }
+  if (unfitting_ > 0) {
+    plan_.notes.push_back(
+        print("in %d %s the views do not lie row by row and could not be straightened", unfitting_, of.c_str()));
+  }
+  if (flat > 0) plan_.notes.push_back(print("%zu %s have nothing that both views show and are flat", flat, of.c_str()));
+}
+
+Result<StereoPlan> StereoSurvey::finish() {
+  endShot();
+  if (plan_.shots.empty()) return fail(ErrorCode::NotFound, "there are no pictures in it");
+  if (2 * one_black_ > pictures_) {
+    return fail(ErrorCode::Unsupported, "one of its two views is black: there is no depth to be had from it");
+  }
+  if (2 * alike_ > pictures_) {
+    return fail(ErrorCode::Unsupported, "both views are the same picture: there is no depth to be had from it");
+  }
+  plan_.views_swapped = eyes_.areSwapped();
+  explain();
+  return std::move(plan_);
+}
+
+}  // namespace relievo

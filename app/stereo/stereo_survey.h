@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Looks through a film of two views: where its shots begin, how the views lie, and how near and far it reaches.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "app/stereo/eye_order.h"
+#include "app/stereo/stereo_plan.h"
+#include "app/stereo/view_picture.h"
+#include "hal/media/frame.h"
+#include "platform/error.h"
+
+namespace relievo {
+
+// Use from one thread; OpenCV's threads help. Memory does not grow with the film's length but for its shots.
+class StereoSurvey {
+ public:
+  // The next pictures, in order, of one size each. Unsupported if a size changes.
+  [[nodiscard]] Result<void> add(const Frame& left, const Frame& right);
+  // After the last picture. Unsupported if there is no depth to be had: one view is black, or both are the same
+  // picture.
+  [[nodiscard]] Result<StereoPlan> finish();
+
+ private:
+  static constexpr int kThumbCols = 32, kThumbRows = 18;
+  using Thumb = std::array<float, std::size_t{kThumbCols} * kThumbRows>;
+  struct Looked {
+    ViewPicture left, right;  // reduced
+  };
+
+  [[nodiscard]] static Thumb thumbOf(const Frame& frame);
+  [[nodiscard]] bool beginsShot(const Frame& left);
+  void look(const Frame& left, const Frame& right);
+  void beginShot(MediaTime begin);
+  void endShot();
+  void measureRange(ShotPlan& shot);
+  void explain();
+
+  StereoPlan plan_;
+  std::optional<Thumb> before_;
+  float change_ = 0;  // between the last two pictures
+  MediaTime looked_at_;
+  // Of the present shot.
+  std::vector<PointPair> pairs_;
+  ViewTone left_tone_, right_tone_;
+  std::vector<Looked> looked_;
+  int stride_ = 1, until_next_ = 0;
+  // Of the film.
+  EyeVotes eyes_;
+  std::uint64_t pictures_ = 0, one_black_ = 0, alike_ = 0;
+  int unfitting_ = 0;
+};
+
+}  // namespace relievo

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// Depth from two views against the scene's exact disparity.
+#include "app/stereo/stereo_depth.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "app/stereo/stereo_survey.h"
+#include "tests/support/film/two_views.h"
+
+namespace relievo {
+namespace {
+
+using test::boards;
+using test::RightEye;
+using test::TwoViews;
+
+struct Errors {
+  double wrong = 0;   // share of the pixels off by more than 2 pixels of disparity
+  double median = 0;  // pixels
+};
+
+// The codes are read as `calibration` says: linear over the plan's range.
+Errors errorsOf(const Frame& depth, const TwoViews& scene, DisparityRange range) {
+  std::vector<double> errors;
+  for (int r = 0; r < depth.height; ++r) {
+    for (int c = 0; c < depth.width; ++c) {
+      const std::uint8_t* at = depth.planes[0].data + r * depth.planes[0].stride_bytes + std::ptrdiff_t{2} * c;
+      const double s = codeAt(depth.components[0], at) / 65535.0;
+      errors.push_back(std::abs(range.lowest + s * (range.highest - range.lowest) - scene.disparity(c, r)));
+    }
+  }
+  const auto wrong = std::ranges::count_if(errors, [](double e) { return e > 2; });
+  std::ranges::nth_element(errors, errors.begin() + std::ssize(errors) / 2);
+  return {static_cast<double>(wrong) / static_cast<double>(errors.size()), errors[errors.size() / 2]};
+}
+
+Errors errorsWith(const RightEye& eye) {
+  const TwoViews scene = boards();
+  StereoSurvey survey;
+  EXPECT_TRUE(survey.add(scene.left(), scene.right(eye)).has_value());
+  const StereoDepth stereo(survey.finish().value());
+  const auto depth = stereo.depthOf(scene.left(), scene.right(eye));
+  EXPECT_TRUE(depth.has_value());
+  const Errors errors = errorsOf(*depth, scene, stereo.plan().shots[0].range);
+  std::printf("wrong by over 2 pixels: %.2f %%, median %.3f pixels\n", 100 * errors.wrong, errors.median);
+  return errors;
+}
+
+TEST(StereoDepth, FindsTheBoardsOnBothSidesOfTheScreen) {
+  const Errors errors = errorsWith({});
+  EXPECT_LT(errors.wrong, 0.02);
+  EXPECT_LT(errors.median, 0.25);
+}
+
+TEST(StereoDepth, IsAsGoodWithAViewTooLow) {
+  const Errors errors = errorsWith({.down = 12});
+  EXPECT_LT(errors.wrong, 0.04);  // 12 of the 200 rows are in the left view alone
+  EXPECT_LT(errors.median, 0.25);
+}
+
+TEST(StereoDepth, IsAsGoodWithATurnedView) {
+  const Errors errors = errorsWith({.degrees = 1});
+  EXPECT_LT(errors.wrong, 0.03);
+  EXPECT_LT(errors.median, 0.25);
+}
+
+TEST(StereoDepth, IsAsGoodWithAnotherExposure) {
+  const Errors errors = errorsWith({.gain = 0.7, .offset = 20});
+  EXPECT_LT(errors.wrong, 0.03);
+  EXPECT_LT(errors.median, 0.25);
+}
+
+// What stands still keeps its code while something else comes nearer: the range is the shot's.
+TEST(StereoDepth, DoesNotBreatheWithinAShot) {
+  TwoViews scene = boards();
+  StereoSurvey survey;
+  std::vector<Frame> lefts, rights;
+  for (int k = 0; k < 4; ++k) {
+    scene.boards[2].disparity = 12 + 3 * k;
+    lefts.push_back(scene.left());
+    rights.push_back(scene.right());
+    lefts.back().pts = rights.back().pts = mediaTime(0.5 * k);
+    ASSERT_TRUE(survey.add(lefts.back(), rights.back()).has_value());
+  }
+  const StereoDepth stereo(survey.finish().value());
+  ASSERT_EQ(stereo.plan().shots.size(), 1u);
+  const DisparityRange range = stereo.plan().shots[0].range;
+  std::vector<double> means;
+  for (std::size_t k = 0; k < lefts.size(); ++k) {
+    const Frame depth = stereo.depthOf(lefts[k], rights[k]).value();
+    double sum = 0;
+    for (int r = 0; r < 30; ++r) {
+      for (int c = 100; c < 150; ++c) {
+        sum += codeAt(depth.components[0],
+                      depth.planes[0].data + r * depth.planes[0].stride_bytes + std::ptrdiff_t{2} * c);
+      }
+    }
+    means.push_back(sum / (30 * 50) / 65535 * (range.highest - range.lowest));
+  }
+  const auto [least, most] = std::ranges::minmax(means);
+  EXPECT_LT(most - least, 0.1) << "pixels of disparity";
+}
+
+TEST(StereoDepth, AShotWithABlackViewIsFlat) {
+  const TwoViews scene = boards();
+  StereoPlan plan{.cols = scene.cols, .rows = scene.rows, .shots = {{}}};
+  const Frame depth = StereoDepth(plan).depthOf(scene.left(), scene.right()).value();
+  EXPECT_EQ(codeAt(depth.components[0], depth.planes[0].data), 32767u);
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is found out about a film of two views before its depth is made.
+#include "app/stereo/stereo_survey.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "tests/support/film/two_views.h"
+
+namespace relievo {
+namespace {
+
+using test::boards;
+using test::RightEye;
+using test::TwoViews;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+Frame at(Frame frame, double seconds) {
+  frame.pts = mediaTime(seconds);
+  return frame;
+}
+
+// The plan of one still pair, shown for a second.
+Result<StereoPlan> planOf(const Frame& left, const Frame& right) {
+  StereoSurvey survey;
+  for (int k = 0; k < 2; ++k) {
+    EXPECT_TRUE(survey.add(at(left, 0.5 * k), at(right, 0.5 * k)).has_value());
+  }
+  return survey.finish();
+}
+
+TEST(StereoSurvey, ReachesFromBehindTheScreenToBeforeIt) {
+  const TwoViews scene = boards();
+  const auto plan = planOf(scene.left(), scene.right()).value();
+  ASSERT_THAT(plan.shots, SizeIs(1));
+  EXPECT_THAT(plan.notes, IsEmpty());
+  EXPECT_FALSE(plan.views_swapped);
+  const ShotPlan& shot = plan.shots[0];
+  EXPECT_TRUE(shot.has_depth);
+  EXPECT_FALSE(shot.is_aligned);
+  EXPECT_FALSE(shot.is_balanced);
+  EXPECT_LE(shot.range.lowest, -8);  // the wall's farthest
+  EXPECT_GE(shot.range.lowest, -14);
+  EXPECT_GE(shot.range.highest, 13);
+  EXPECT_LE(shot.range.highest, 19);
+}
+
+TEST(StereoSurvey, SeesThatTheViewsAreSwapped) {
+  const TwoViews scene = boards();
+  EXPECT_TRUE(planOf(scene.right(), scene.left()).value().views_swapped);
+}
+
+TEST(StereoSurvey, MeasuresAViewThatLiesTooLow) {
+  const TwoViews scene = boards();
+  const auto plan = planOf(scene.left(), scene.right({.down = 12})).value();
+  EXPECT_TRUE(plan.shots[0].is_aligned);
+  EXPECT_NEAR(plan.shots[0].alignment.shift, -12, 0.2);
+  EXPECT_NEAR(plan.shots[0].alignment.turn, 0, 0.002);
+  EXPECT_NEAR(plan.shots[0].alignment.zoom, 1, 0.003);
+  EXPECT_THAT(plan.notes, ElementsAre(HasSubstr("straightened in 1 of 1 shot: by up to 12")));
+}
+
+TEST(StereoSurvey, MeasuresAViewThatIsTurned) {
+  const TwoViews scene = boards();
+  const auto plan = planOf(scene.left(), scene.right({.degrees = 1})).value();
+  EXPECT_TRUE(plan.shots[0].is_aligned);
+  EXPECT_NEAR(plan.shots[0].alignment.turn, -0.01745, 0.002);
+  EXPECT_THAT(plan.notes, ElementsAre(HasSubstr("straightened")));
+}
+
+TEST(StereoSurvey, MeasuresTheExposuresDifference) {
+  const TwoViews scene = boards();
+  const auto plan = planOf(scene.left(), scene.right({.gain = 0.7, .offset = 20})).value();
+  const ShotPlan& shot = plan.shots[0];
+  EXPECT_TRUE(shot.is_balanced);
+  EXPECT_NEAR(shot.exposure.gain[0], 1 / 0.7, 0.08);  // the eyes see a little more or less of each board
+  EXPECT_NEAR(shot.exposure.offset[0], -20 / 0.7, 8);
+  EXPECT_THAT(plan.notes, ElementsAre(HasSubstr("exposure was balanced in 1 of 1 shot")));
+}
+
+TEST(StereoSurvey, RefusesABlackView) {
+  const TwoViews scene = boards();
+  const auto plan = planOf(scene.left(), scene.right({.gain = 0}));
+  ASSERT_FALSE(plan.has_value());
+  EXPECT_THAT(plan.error().message, HasSubstr("one of its two views is black"));
+}
+
+TEST(StereoSurvey, RefusesOnePictureTwice) {
+  const TwoViews scene = boards();
+  const auto plan = planOf(scene.left(), scene.left());
+  ASSERT_FALSE(plan.has_value());
+  EXPECT_THAT(plan.error().message, HasSubstr("the same picture"));
+}
+
+TEST(StereoSurvey, EachShotHasItsOwnRangeFromItsFirstPictureOn) {
+  TwoViews first = boards(), second = boards();
+  for (auto& board : second.boards) std::swap(board.color[0], board.color[2]), board.color[1] = 255 - board.color[1];
+  second.boards[2].disparity = 5;
+  StereoSurvey survey;
+  for (int k = 0; k < 12; ++k) {
+    TwoViews& scene = k < 6 ? first : second;
+    if (k < 6) first.boards[2].disparity = 12.5 + k;  // comes nearer within the shot
+    ASSERT_TRUE(survey.add(at(scene.left(), 0.5 * k), at(scene.right(), 0.5 * k)).has_value());
+  }
+  const auto plan = survey.finish().value();
+  ASSERT_THAT(plan.shots, SizeIs(2));
+  EXPECT_EQ(plan.shots[1].begin, mediaTime(3));
+  EXPECT_GE(plan.shots[0].range.highest, 17);
+  EXPECT_LE(plan.shots[1].range.highest, 11);
+  EXPECT_EQ(&plan.at(mediaTime(2.9)), &plan.shots[0]);
+  EXPECT_EQ(&plan.at(mediaTime(3)), &plan.shots[1]);
+}
+
+TEST(StereoSurvey, RefusesAPictureOfAnotherSize) {
+  StereoSurvey survey;
+  const TwoViews scene = boards(), smaller = boards(160, 100);
+  ASSERT_TRUE(survey.add(scene.left(), scene.right()).has_value());
+  EXPECT_FALSE(survey.add(at(smaller.left(), 1), at(smaller.right(), 1)).has_value());
+}
+
+}  // namespace
+}  // namespace relievo
