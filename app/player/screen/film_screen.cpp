@@ -163,11 +163,11 @@ void FilmScreen::writeScreenshot(MonotonicTime now) {
 
 void FilmScreen::obey(const PlayerCommand& command) {
   switch (command.verb) {
-    case PlayerVerb::Info:
     case PlayerVerb::FullScreen:
       return picture_.fillScreen(command.value == 0  ? FullScreen::Toggle
                                  : command.value > 0 ? FullScreen::On
                                                      : FullScreen::Off);
+    case PlayerVerb::Info:
       return text_.toggleBar();
     case PlayerVerb::Statistics:
       return text_.toggleStatistics();
