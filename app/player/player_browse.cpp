@@ -28,8 +28,8 @@ bool Player::obeyBrowsing(const PlayerCommand& command, MonotonicTime now) {
       goBack(now);
       return true;
     case PlayerVerb::Escape:
-      if (screen_.isFullScreen()) screen_.obey({PlayerVerb::FullScreen, -1});
-      else if (!browsing && returnsToBrowser()) goBack(now);
+      if (!browsing && returnsToBrowser() && !screen_.isFullScreen()) goBack(now);
+      else screen_.obey({PlayerVerb::FullScreen, -1});
       return true;
     default:
       return false;

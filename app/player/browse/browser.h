@@ -20,8 +20,8 @@ namespace relievo {
 using LeftFilms = std::vector<std::pair<std::string, double>>;
 
 struct BrowserConfig {
-  std::vector<std::string> folders;                    // of films
-  std::vector<std::string> stick_roots = kStickRoots;  // below these a mount is a stick
+  std::vector<std::string> folders;                     // of films
+  std::vector<std::string> stick_roots = stickRoots();  // below these a mount is a stick
 };
 
 // The player's thread; no verb waits.

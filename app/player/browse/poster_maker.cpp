@@ -19,7 +19,7 @@
 namespace relievo {
 namespace {
 
-constexpr int kNice = 10;
+constexpr int kNice = 5;
 
 // A picture that is not blank, not far into the film; the first one of a film without a length.
 std::optional<Frame> tellingPictureOf(PairReader& reader) {

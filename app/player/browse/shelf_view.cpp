@@ -41,7 +41,7 @@ ScreenListRow rowOf(const ShelfFilm& film, std::size_t number, const PosterOf& p
 }  // namespace
 
 std::string timesOf(const ShelfFilm& film, double length_s) {
-  const std::string length = length_s > 0 ? clockTime(length_s) : "";
+  std::string length = length_s > 0 ? clockTime(length_s) : "";
   if (!film.left_s) return length;
   return clockTime(*film.left_s) + (length.empty() ? "" : " of " + length);
 }

@@ -63,6 +63,10 @@ std::string readAll(int fd) {
 
 }  // namespace
 
+std::vector<std::string> stickRoots() {
+  return {"/media", "/run/media", "/mnt"};
+}
+
 std::vector<std::string> sticksIn(std::string_view mountinfo, const std::vector<std::string>& roots) {
   std::vector<std::string> sticks;
   while (!mountinfo.empty()) {

@@ -11,7 +11,7 @@
 namespace relievo {
 
 // Where desktops and boxes mount what is plugged in.
-inline const std::vector<std::string> kStickRoots{"/media", "/run/media", "/mnt"};
+[[nodiscard]] std::vector<std::string> stickRoots();
 
 // The mount points at or below `roots` in the text of /proc/PID/mountinfo (proc(5)), each once, sorted.
 [[nodiscard]] std::vector<std::string> sticksIn(std::string_view mountinfo, const std::vector<std::string>& roots);

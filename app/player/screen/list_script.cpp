@@ -79,7 +79,7 @@ void addList(Script& script, const ScreenList& list) {
     if (row.left) addSeen(script, row);
   }
   addRail(script, list);
-  const auto message = folded(list.message, cellsIn(script.width() - 4 * kMargin, 30), 4);
+  const auto message = folded(list.message, cellsIn(script.width() - 2 * kMargin, 30), 4);
   for (std::size_t i = 0; i < message.size(); ++i) {
     script.text(message[i], 5, 0.5 * script.width(), 340 + 40.0 * static_cast<double>(i), 30);
   }

@@ -30,9 +30,9 @@ TEST(Sticks, AreTheMountPointsBelowTheirRoots) {
       "94 22 8:17 / /media/anna/MY\\040STICK rw - vfat /dev/sdb1 rw\n"
       "95 22 0:5 / /home/anna/media rw - tmpfs tmpfs rw\n"
       "short line\n";
-  EXPECT_THAT(sticksIn(kMounts, kStickRoots), ElementsAre("/media/anna/MY STICK", "/mnt", "/run/media/anna/B"));
-  EXPECT_THAT(sticksIn("", kStickRoots), IsEmpty());
-  EXPECT_THAT(sticksIn("1 2 3:4 / /mnt/a\\04", kStickRoots), ElementsAre("/mnt/a\\04"));
+  EXPECT_THAT(sticksIn(kMounts, stickRoots()), ElementsAre("/media/anna/MY STICK", "/mnt", "/run/media/anna/B"));
+  EXPECT_THAT(sticksIn("", stickRoots()), IsEmpty());
+  EXPECT_THAT(sticksIn("1 2 3:4 / /mnt/a\\04", stickRoots()), ElementsAre("/mnt/a\\04"));
 }
 
 // In name spaces of its own, where a user may mount.
