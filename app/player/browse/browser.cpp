@@ -74,11 +74,13 @@ std::optional<std::string> Browser::takenAway(const std::string& film) {
 }
 
 void Browser::selectBy(std::ptrdiff_t films) {
+  moved_ = true;
   shelf_.selectBy(films);
   draw();
 }
 
 void Browser::select(std::size_t film) {
+  moved_ = true;
   shelf_.select(film);
   draw();
 }
@@ -131,6 +133,7 @@ void Browser::fill() {
   }
   if (sections.front().films.empty()) sections.erase(sections.begin());
   shelf_.put(std::move(sections));
+  if (!moved_) shelf_.select(0);
   draw();
 }
 

@@ -64,6 +64,7 @@ class Browser {
   LeftFilms left_;
   MonotonicTime next_look_;
   std::vector<std::string> sticks_before_;  // while a film is played
+  bool moved_ = false;                      // the viewer has selected a film; before that it is the first one
   bool changed_ = false;
 };
 

@@ -147,6 +147,17 @@ TEST_F(PlayerWithAList, FilmsThatWereLeftComeFirst) {
   EXPECT_EQ(sections[1].films[1].left_s, 2.5) << "the same film in its folder";
 }
 
+// Folders are read before it is known which films were left.
+TEST_F(PlayerWithAList, TheFirstFilmIsSelectedUntilTheViewerSelectsAnother) {
+  Browser browser(*bench_.config.browser, {}, {}, false);
+  browser.open({}, MonotonicTime{});
+  browser.open({{videos() + "/b.mkv", 2.5}}, MonotonicTime{});
+  EXPECT_EQ(browser.shelf().selected(), 0u);
+  browser.selectBy(1);
+  browser.open({}, MonotonicTime{});
+  EXPECT_EQ(browser.shelf().film(browser.shelf().selected()).title, "a");
+}
+
 // The stick is taken away at the touch's 25th tick. In a name space of mounts of its own, where a user may mount.
 TEST_F(PlayerWithAList, AFilmWhoseStickIsTakenAwayLeadsBackToIt) {
   const std::string root = std::filesystem::canonical(videos()).parent_path(), stick = root + "/STICK";
