@@ -66,8 +66,10 @@ struct SceneViews {
 struct SurfaceMouse {
   double across = 0, down = 0;
   bool pressed = false;  // the left button
+  int notches = 0;       // that the wheel has been turned by just now, forward positive
 };
 // True if what is drawn there takes the press: until the button is released, the press does not reach the finger.
+// Likewise the wheel.
 using MouseListener = std::function<bool(const SurfaceMouse&)>;
 
 enum class FullScreen : std::uint8_t { Off, On, Toggle };
@@ -115,7 +117,9 @@ class Display {
   // How the surface shows the scene from now on.
   void setViews(const SceneViews& views);
   void fillScreen(FullScreen wish);
-  // `attend` calls it for every press of the left button and every move of the mouse. Empty: nobody listens.
+  [[nodiscard]] bool isFullScreen() const noexcept { return state_ != State::Closed && fillsScreen(); }
+  // `attend` calls it for every press and release of the left button, every move of the mouse and every turn of its
+  // wheel. Empty: nobody listens.
   void hearMouse(MouseListener listener) { mouse_listener_ = std::move(listener); }
   // The files and addresses that the viewer has dropped on the window since the last call.
   [[nodiscard]] std::vector<std::string> takeDropped() { return droppedOnIt(); }
@@ -135,6 +139,7 @@ class Display {
   virtual void nameFilm(const AnnouncedFilm& /*film*/) {}
   virtual void showViews(const SceneViews& /*views*/) {}
   virtual void setFullScreen(FullScreen /*wish*/) {}
+  [[nodiscard]] virtual bool fillsScreen() const noexcept { return false; }
   virtual std::vector<std::string> droppedOnIt() { return {}; }
   virtual void closeDisplay() noexcept = 0;
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <utility>
 
 #include "hal/media/media_names.h"
 #include "platform/files/answered_place.h"
@@ -35,6 +36,22 @@ std::string depthOf(const std::string& film, const std::vector<std::string>& nam
 
 }  // namespace
 
+std::vector<PlaylistEntry> pairedFilms(const std::string& folder, std::vector<std::string> names) {
+  std::ranges::sort(names, naturalLess);
+  std::vector<std::string> depths;
+  depths.reserve(names.size());
+  for (const std::string& name : names) depths.push_back(depthOf(name, names));
+  const fs::path place(folder);
+  std::vector<PlaylistEntry> films;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (std::ranges::find(depths, names[i]) != depths.end()) continue;
+    films.push_back({.url = place / names[i],
+                     .depth_url = depths[i].empty() ? "" : (place / depths[i]).string(),
+                     .title = stemOf(names[i])});
+  }
+  return films;
+}
+
 std::optional<std::vector<PlaylistEntry>> filmsIn(const std::string& url) {
   const fs::path folder(url);
   if (!isFolder(folder) || isFolder(folder / "depth")) return std::nullopt;
@@ -46,18 +63,7 @@ std::optional<std::vector<PlaylistEntry>> filmsIn(const std::string& url) {
     if (kind == MediaKind::Film && names.size() < kMostEntries) names.push_back(name);
   }
   if (!isListOfFilms(names.size(), pictures)) return std::nullopt;
-  std::ranges::sort(names, naturalLess);
-  std::vector<std::string> depths;
-  depths.reserve(names.size());
-  for (const std::string& name : names) depths.push_back(depthOf(name, names));
-  std::vector<PlaylistEntry> films;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (std::ranges::find(depths, names[i]) != depths.end()) continue;
-    films.push_back({.url = folder / names[i],
-                     .depth_url = depths[i].empty() ? "" : (folder / depths[i]).string(),
-                     .title = stemOf(names[i])});
-  }
-  return films;
+  return pairedFilms(url, std::move(names));
 }
 
 std::string depthBeside(const std::string& film) {

@@ -13,6 +13,8 @@ namespace relievo {
 // The films in the folder `url`, in natural order; nullopt if it is no folder or no list of films (a recording with a
 // folder `depth`, a series of pictures). At most kMostEntries. A film's depth may lie beside it: `depthBeside`.
 [[nodiscard]] std::optional<std::vector<PlaylistEntry>> filmsIn(const std::string& url);
+// These files of `folder` as films, in natural order: one that holds another one's depth is part of that film.
+[[nodiscard]] std::vector<PlaylistEntry> pairedFilms(const std::string& folder, std::vector<std::string> names);
 
 // The file that by its name holds the depth of the file `film`, in the same folder and of the same kind (film or
 // picture): a-depth, a_depth or a.depth for a; depth_a for color_a, colour_a or rgb_a. Empty if there is none.

@@ -83,14 +83,17 @@ Outcome<void> complete(PlayOptions& options) {
   if (const std::string state = Resume::defaultPath(); !state.empty()) {
     options.player.volume_path = (std::filesystem::path(state).parent_path() / "volume.json").string();
   }
-  if (!options.resume) return {};
-  const std::string path = options.player.resume_path = Resume::defaultPath();
+  if (!options.resume && !options.player.browser) return {};
+  const std::string path = Resume::defaultPath();
   if (path.empty()) {
+    if (!options.resume) return {};
     return failOn("--resume", {ErrorCode::NotFound, 0, "there is no home to remember in; set HOME or STATE_DIRECTORY"});
   }
   std::error_code none;
   std::filesystem::create_directories(std::filesystem::path(path).parent_path(), none);
-  if (const auto place = AtomicFile::create(path); !place) return failOn("--resume " + path, place.error());
+  const auto place = AtomicFile::create(path);
+  if (!place && options.resume) return failOn("--resume " + path, place.error());
+  if (place) options.player.resume_path = path;
   return {};
 }
 
@@ -200,7 +203,8 @@ int play(PlayOptions options, const FileConfig& config) {
                                             .recorder = recorder,
                                             .control = &control,
                                             .status = &status,
-                                            .backends = realBackends(options.software)});
+                                            .backends = realBackends(options.software),
+                                            .posters = realBackends(true)});
   const auto played = player.run(stop);
   const PlayReport report = player.report();
   const int files = finishFiles(report, report_file, recorder);

@@ -60,6 +60,7 @@ Player::Player(PlayerConfig config, PlayerParts parts)
       loudness_(config_.volume_path, config_.sound_device) {
   if (config_.volume_percent) loudness_.set(*config_.volume_percent);
   film_.soundOutput().setGain(loudness_.gain());
+  if (config_.browser) browser_.emplace(*config_.browser, parts_.posters, config_.source, config_.own_threads);
   parts_.display.hearMouse([this](const SurfaceMouse& mouse) { return hearMouse(mouse); });
   journal_.stateChanged(state_);
 }
@@ -128,7 +129,7 @@ void Player::boot() {
   touch_.begin();
   apply(PlayerEvent::Ready);
   if (parts_.control != nullptr) parts_.control->ready();
-  if (config_.source.url.empty()) return;
+  if (config_.source.url.empty()) return openBrowser(journal_.began());
   std::vector<PlaylistEntry> films{{.url = config_.source.url, .depth_url = config_.source.depth_url, .title = ""}};
   for (const std::string& url : config_.more) films.push_back({.url = url, .depth_url = "", .title = ""});
   openList(films, journal_.began());
@@ -154,6 +155,7 @@ void Player::step(MonotonicTime now) {
   touch_.drain(seeks_);
   followStatistics(now);
   screen_.write(facts(), film_.nextPicture(now), now);
+  followBrowser(now);
   followFault(now);
   tellStatus(now);
   if (parts_.control != nullptr) parts_.control->attend(*this, now);
@@ -167,7 +169,7 @@ void Player::tellStatus(MonotonicTime now) {
 
 // The next picture, but soon enough for keys.
 MonotonicTime Player::nextWake(MonotonicTime now) const {
-  if (state_ == PlayerState::Idle) return now + kIdleWait;
+  if (state_ == PlayerState::Idle || state_ == PlayerState::Browsing) return now + kIdleWait;
   if (state_ == PlayerState::Playing) return std::min(film_.nextPicture(now), now + kLongestWait);
   return now + (state_ == PlayerState::Paused ? kLongestWait : kReaderWait);
 }
@@ -205,6 +207,8 @@ void Player::readRemote(MonotonicTime now) {
 
 // Within the display's `attend`.
 bool Player::hearMouse(const SurfaceMouse& mouse) {
+  if (state_ == PlayerState::Browsing) return hearMouseInList(mouse);
+  if (mouse.notches != 0) return false;
   const auto share = screen_.barAt(mouse, parts_.clock.now());
   if (share && mouse.pressed) dragged_to_ = share;
   return share.has_value();
@@ -251,6 +255,7 @@ void Player::obey(const PlayerCommand& command, MonotonicTime now) {
     default:
       break;
   }
+  if (obeyBrowsing(command, now)) return;
   if (!obeySound(command, now)) obeyPicture(command, now);
   if (auto notice = noticeOf(command, facts())) screen_.text().notice(std::move(*notice), now);
   else screen_.wake(now);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/player/browse/browser.h"
 #include "app/player/control/command.h"
 #include "app/player/control/key_table.h"
 #include "app/player/control/wishes.h"
@@ -42,7 +43,8 @@ struct PlayerConfig {
   std::string volume_path;   // the volume of each sound output is kept there; empty: each run begins at 100 %
   std::string sound_device;  // what it is kept by
   std::optional<double> volume_percent;
-  bool stays = false;       // without a film it waits for the next one, until it is asked to quit
+  bool stays = false;                    // without a film it waits for the next one, until it is asked to quit
+  std::optional<BrowserConfig> browser;  // without a film it shows the films of these folders
   std::string resume_path;  // where each film was left is kept there; empty: every film begins at its beginning
   std::optional<Duration> duration;  // of the machine's time
   bool own_threads = true;           // false: reader and ticks run inside `step`, for simulated time
@@ -59,6 +61,7 @@ struct PlayerParts {
   PlayerControl* control = nullptr;
   StatusLine* status = nullptr;
   PairReader::Backends backends;
+  PairReader::Backends posters;  // of the list of films; without a source: no posters
 };
 
 // Runs on one thread, the display's. Waits only for the display's refresh, never for the film or the device.
@@ -81,6 +84,8 @@ class Player {
 
   // What is going on, and the URL of the film; empty if there is none. On its thread.
   [[nodiscard]] ScreenFacts facts() const;
+  // The list of films, while it is shown; else null.
+  [[nodiscard]] const FilmShelf* list() const { return state_ == PlayerState::Browsing ? &browser_->shelf() : nullptr; }
   [[nodiscard]] std::string source() const { return film_.isOpen() ? programme_.film().url : ""; }
 
  private:
@@ -130,6 +135,16 @@ class Player {
   void setVolume(double percent);
   void mute(bool muted);
 
+  // player_browse.cpp: the list of films to choose from
+  [[nodiscard]] bool obeyBrowsing(const PlayerCommand& command, MonotonicTime now);
+  [[nodiscard]] bool returnsToBrowser() const noexcept { return browser_ && (browsed_ || config_.stays); }
+  void openBrowser(MonotonicTime now);
+  void closeBrowser();
+  void followBrowser(MonotonicTime now);
+  void chooseFilm(MonotonicTime now);
+  void goBack(MonotonicTime now);
+  [[nodiscard]] bool hearMouseInList(const SurfaceMouse& mouse);
+
   // player_list.cpp: from film to film
   void openList(const std::vector<PlaylistEntry>& films, MonotonicTime now);
   void followDrops(MonotonicTime now);
@@ -150,6 +165,10 @@ class Player {
   KeyReader keys_;
   std::set<std::uint16_t> unbound_;  // keys without a meaning that were told
   Loudness loudness_;
+  std::optional<Browser> browser_;
+  bool browsed_ = false;        // the list was shown
+  bool mouse_pressed_ = false;  // in the list
+  bool chosen_ = false;         // the mouse has chosen the selected film
   Statistics statistics_;
   std::optional<double> dragged_to_;  // the film's place, 0 to 1, that the mouse has pressed on the bar
   bool words_shown_ = true;

@@ -23,6 +23,7 @@ void Player::followDrops(MonotonicTime now) {
 
 void Player::openFilm(std::size_t film, Programme::Way way, MonotonicTime now) {
   if (!apply(PlayerEvent::Open)) return;
+  closeBrowser();
   leaveFilm(now);
   programme_.choose(film, way);
   const PlaylistEntry& entry = programme_.film();
@@ -52,8 +53,11 @@ void Player::leaveFilm(MonotonicTime now) {
 
 void Player::stopFilm(MonotonicTime now) {
   if (!nextState(state_, PlayerEvent::Stop)) return;
+  const bool had_film = state_ != PlayerState::Browsing;
   leaveFilm(now);
+  closeBrowser();
   apply(PlayerEvent::Stop);
+  if (had_film && returnsToBrowser()) return openBrowser(now);
   if (!config_.stays) return;
   if (auto cleared = screen_.clear(touch_.mark(), now); !cleared) failDrawing(cleared.error());
 }
@@ -74,13 +78,16 @@ void Player::endFilm(MonotonicTime now) {
 void Player::followFault(MonotonicTime now) {
   if (state_ != PlayerState::Fault || display_failed_) return;
   const auto other = programme_.afterFault();
-  if (!other && !config_.stays && !programme_.seenOne()) return;  // it ends with that failure
+  if (!other && !config_.stays && !programme_.seenOne() && !returnsToBrowser()) return;  // it ends with that failure
   const std::string what = failure_->thing + ": " + failure_->error.message;
   log(LogLevel::Error, "play", "%s; %s", what.c_str(), other ? "another film is played" : "it is stopped");
-  screen_.text().tell(what, now);
-  if (other) return openFilm(*other, programme_.passOver(*other), now);
+  if (other) {
+    screen_.text().tell(what, now);
+    return openFilm(*other, programme_.passOver(*other), now);
+  }
   failure_.reset();
   stopFilm(now);
+  screen_.text().tell(what, now);
 }
 
 }  // namespace relievo

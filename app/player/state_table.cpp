@@ -23,6 +23,11 @@ constexpr std::array kTransitions{
     Transition{S::Boot, E::Fail, S::Fault},
 
     Transition{S::Idle, E::Open, S::Opening},
+    Transition{S::Idle, E::Browse, S::Browsing},
+
+    Transition{S::Browsing, E::Open, S::Opening},
+    Transition{S::Browsing, E::Stop, S::Idle},
+    Transition{S::Browsing, E::Fail, S::Fault},
 
     Transition{S::Opening, E::Open, S::Opening},  // another one, or the first of a list
     Transition{S::Opening, E::Opened, S::Buffering},
@@ -87,11 +92,11 @@ constexpr bool hasOneRowPerPair() {
 }
 static_assert(hasOneRowPerPair());
 
-constexpr std::array<const char*, kPlayerStateCount> kNames{"boot",   "idle",    "opening", "buffering", "playing",
-                                                            "paused", "seeking", "ended",   "fault"};
+constexpr std::array<const char*, kPlayerStateCount> kNames{"boot",    "idle",   "browsing", "opening", "buffering",
+                                                            "playing", "paused", "seeking",  "ended",   "fault"};
 constexpr std::array<const char*, kPlayerEventCount> kEventNames{
-    "ready", "open", "opened", "filled",  "filled, held", "play", "pause", "step",
-    "rate",  "seek", "sought", "starved", "end of film",  "loop", "stop",  "fail"};
+    "ready", "browse", "open",   "opened",  "filled",      "filled, held", "play", "pause", "step",
+    "rate",  "seek",   "sought", "starved", "end of film", "loop",         "stop", "fail"};
 
 }  // namespace
 

@@ -12,6 +12,7 @@ namespace relievo {
 enum class PlayerState : std::uint8_t {
   Boot,       // devices are being opened
   Idle,       // no film
+  Browsing,   // the list of films is shown
   Opening,    // the source is being opened
   Buffering,  // pairs are being read ahead; the picture stands
   Playing,
@@ -20,10 +21,11 @@ enum class PlayerState : std::uint8_t {
   Ended,    // the last picture has had its time
   Fault,    // the film cannot go on
 };
-inline constexpr std::size_t kPlayerStateCount = 9;
+inline constexpr std::size_t kPlayerStateCount = 10;
 
 enum class PlayerEvent : std::uint8_t {
   Ready,       // the devices are open, or are known to be missing
+  Browse,      // the list of films is wanted
   Open,        // a film is wanted, or another one
   Opened,      // its source is open
   Filled,      // enough pairs are read ahead: play
@@ -40,7 +42,7 @@ enum class PlayerEvent : std::uint8_t {
   Stop,        // the viewer's wish, a signal, or the time is up
   Fail,        // something the film cannot go on without is lost
 };
-inline constexpr std::size_t kPlayerEventCount = 16;
+inline constexpr std::size_t kPlayerEventCount = 17;
 
 // Where `event` leads from `state`; nothing where it is refused. A wish that changes no state but is heard (pause while
 // buffering) leads back to the same state.

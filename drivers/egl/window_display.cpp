@@ -77,14 +77,17 @@ class WindowDisplay final : public Display {
   Result<void> makeCurrent() noexcept;
   void readRefresh() noexcept;
   void takeSize(int width, int height) noexcept;
-  [[nodiscard]] bool fillsScreen() const noexcept { return (SDL_GetWindowFlags(window_) & SDL_WINDOW_FULLSCREEN) != 0; }
+  [[nodiscard]] bool fillsScreen() const noexcept override {
+    return (SDL_GetWindowFlags(window_) & SDL_WINDOW_FULLSCREEN) != 0;
+  }
 
   void hear(const SDL_Event& event);
   void hearWindow(const SDL_WindowEvent& event);
   void hearKey(const SDL_KeyboardEvent& event);
   void hearButton(const SDL_MouseButtonEvent& event);
+  void hearWheel(int notches);
   void moveMouse(int x, int y) noexcept;
-  [[nodiscard]] bool tellMouse(bool pressed) const;
+  [[nodiscard]] bool tellMouse(bool pressed, int notches = 0) const;
   void publishMouse() noexcept;
   void hearDrop(const SDL_DropEvent& event);
 
@@ -189,8 +192,7 @@ void WindowDisplay::hear(const SDL_Event& event) {
     case SDL_MOUSEBUTTONUP:
       return hearButton(event.button);
     case SDL_MOUSEWHEEL:
-      mouse_.notches += event.wheel.direction == SDL_MOUSEWHEEL_FLIPPED ? -event.wheel.y : event.wheel.y;
-      return publishMouse();
+      return hearWheel(event.wheel.direction == SDL_MOUSEWHEEL_FLIPPED ? -event.wheel.y : event.wheel.y);
     default:
       return;
   }
@@ -227,17 +229,23 @@ void WindowDisplay::hearButton(const SDL_MouseButtonEvent& event) {
   if (event.button == SDL_BUTTON_LEFT) {
     mouse_x_ = event.x;
     mouse_y_ = event.y;
-    press_taken_ = down && tellMouse(true);
+    const bool taken = tellMouse(down);
+    press_taken_ = down && taken;
     mouse_.left = down && !press_taken_;
   }
   moveMouse(event.x, event.y);
   if (mouse_.left && event.button == SDL_BUTTON_LEFT && event.clicks == 2) setFullScreen(FullScreen::Toggle);
 }
 
-bool WindowDisplay::tellMouse(bool pressed) const {
+void WindowDisplay::hearWheel(int notches) {
+  if (!tellMouse(false, notches)) mouse_.notches += notches;
+  publishMouse();
+}
+
+bool WindowDisplay::tellMouse(bool pressed, int notches) const {
   int width = 0, height = 0;
   SDL_GetWindowSize(window_, &width, &height);
-  return Display::tellMouse({shareOf(mouse_x_, width), shareOf(mouse_y_, height), pressed});
+  return Display::tellMouse({shareOf(mouse_x_, width), shareOf(mouse_y_, height), pressed, notches});
 }
 
 void WindowDisplay::moveMouse(int x, int y) noexcept {

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -121,6 +122,34 @@ TEST_F(PlayerWindow, AFileAloneOpensAWindowOfItsSizeAndTheMouseIsTheFinger) {
   EXPECT_GT(r["force"]["max_n"].get<double>(), 0.5);
   EXPECT_EQ(textOf("said.txt").find("unit="), std::string::npos) << "a developer's line: " << textOf("said.txt");
   EXPECT_THAT(textOf("said.txt"), testing::HasSubstr("near bright"));
+}
+
+// Without a film: the list, its poster, a click on its row, and back. The view is 960 units wide and 720 high.
+TEST_F(PlayerWindow, WithoutAFilmItShowsTheListAndAClickPlaysOne) {
+  ::setenv("XDG_STATE_HOME", (folder_ / "state").c_str(), 1);
+  test::Process player(
+      {RELIEVO_BIN_DIR "/relievo", "--films", std::filesystem::path(folder_ / "x").parent_path(), "--display", "window",
+       "--size", "640x480", "--haptic", "pointer", "--report", folder_ / "r.json"},
+      folder_ / "said.txt");
+  window_ = screen_->find("relievo");
+  ASSERT_NE(window_, 0u) << textOf("said.txt");
+  place_ = screen_->place(window_).value_or(test::XScreen::Place{});
+  screen_->focus(window_);
+  const auto poster = [&] { return screen_->pixel(place_.x + 80, place_.y + 112)[0] > 100; };
+  EXPECT_TRUE(until(poster)) << "the film's gray";
+  EXPECT_LT(screen_->pixel(place_.x + 320, place_.y + 300)[0], 60) << "below the only row";
+  screen_->moveMouse(place_.x + 320, place_.y + 116);
+  screen_->button(1, true);
+  screen_->button(1, false);
+  EXPECT_TRUE(until([&] { return screen_->pixel(place_.x + 320, place_.y + 300)[0] > 100; })) << "the film";
+  std::this_thread::sleep_for(300ms);
+  screen_->tap("Escape");
+  EXPECT_TRUE(until([&] { return screen_->pixel(place_.x + 320, place_.y + 300)[0] < 60 && poster(); }));
+  screen_->tap("q");
+  EXPECT_EQ(player.wait(), 0) << textOf("said.txt");
+  EXPECT_EQ(report()["states"],
+            (json{"boot", "idle", "browsing", "opening", "buffering", "playing", "idle", "browsing", "idle"}));
+  ::unsetenv("XDG_STATE_HOME");
 }
 
 TEST_F(PlayerWindow, FFillsTheScreenAndEscapeLeavesItButNotTheFilm) {

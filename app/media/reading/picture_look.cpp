@@ -26,10 +26,7 @@ constexpr double kAllVivid = 0.85, kPhotoVivid = 0.3;
 constexpr double kLeastSpread = 0.03;  // a half of one brightness is not depth
 constexpr double kMostDark = 0.95;
 
-// Red, green and blue, each 0 to 1.
-struct Color {
-  double red = 0, green = 0, blue = 0;
-};
+using Color = PictureColor;
 
 double sampleOf(const Frame& f, int component, int c, int r) noexcept {
   const Component& k = f.components[static_cast<std::size_t>(component)];
@@ -46,16 +43,6 @@ Color fromYuv(double y, double u, double v, const Frame& f) noexcept {
   const double red = y + 2 * (1 - kr) * cr, blue = y + 2 * (1 - kb) * cb;
   const double green = (y - kr * red - kb * blue) / (1 - kr - kb);
   return {std::clamp(red, 0.0, 1.0), std::clamp(green, 0.0, 1.0), std::clamp(blue, 0.0, 1.0)};
-}
-
-Color colorAt(const Frame& f, int c, int r) noexcept {
-  if (f.model == ColorModel::Gray) {
-    const double y = sampleOf(f, 0, c, r);
-    return {y, y, y};
-  }
-  if (f.model == ColorModel::Rgb) return {sampleOf(f, 0, c, r), sampleOf(f, 1, c, r), sampleOf(f, 2, c, r)};
-  const int cc = c >> f.chroma_shift_x, cr = r >> f.chroma_shift_y;
-  return fromYuv(sampleOf(f, 0, c, r), sampleOf(f, 1, cc, cr), sampleOf(f, 2, cc, cr), f);
 }
 
 // Visits the (column, row) of each examined sample.
@@ -117,6 +104,16 @@ std::optional<FoundPacking> found(const Frame& picture, const Frame& beside, boo
 }
 
 }  // namespace
+
+PictureColor colorAt(const Frame& f, int c, int r) noexcept {
+  if (f.model == ColorModel::Gray) {
+    const double y = sampleOf(f, 0, c, r);
+    return {y, y, y};
+  }
+  if (f.model == ColorModel::Rgb) return {sampleOf(f, 0, c, r), sampleOf(f, 1, c, r), sampleOf(f, 2, c, r)};
+  const int cc = c >> f.chroma_shift_x, cr = r >> f.chroma_shift_y;
+  return fromYuv(sampleOf(f, 0, c, r), sampleOf(f, 1, cc, cr), sampleOf(f, 2, cc, cr), f);
+}
 
 PictureLook lookAt(const Frame& picture) noexcept {
   PictureLook look;

@@ -10,6 +10,13 @@
 
 namespace relievo {
 
+// Red, green and blue, each 0 to 1.
+struct PictureColor {
+  double red = 0, green = 0, blue = 0;
+};
+// Of a sample, in the picture's own primaries and transfer.
+[[nodiscard]] PictureColor colorAt(const Frame& picture, int c, int r) noexcept;
+
 // Statistics of about ten thousand evenly spaced samples. Shares are 0 to 1.
 struct PictureLook {
   double gray = 0;   // share of samples without colour

@@ -2,6 +2,7 @@
 // The table of the verbs, and their words both ways.
 #include "app/player/control/command.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -12,9 +13,9 @@
 namespace relievo {
 namespace {
 
-// Step: a number with its sign; Time: also without, or with %; Level: also without; Track: a number from 1 on, or off.
-// OnOff, Layout, Shape and Track may be left away.
-enum class Operand : std::uint8_t { None, Step, Time, Url, OnOff, Layout, Level, Track, Shape };
+// Step: a number with its sign; Time: also without, or with %; Level: also without; Track: a number from 1 on, or off;
+// Row: a whole number, with its sign or without. OnOff, Layout, Shape and Track may be left away.
+enum class Operand : std::uint8_t { None, Step, Time, Url, OnOff, Layout, Level, Track, Shape, Row };
 
 struct Entry {
   PlayerVerb verb;
@@ -43,6 +44,11 @@ constexpr std::array kEntries{
           "this film from the beginning; within its first 3 s, the previous film"},
     Entry{PlayerVerb::Loop, "loop", Operand::OnOff, "begin again at the end, or no longer"},
     Entry{PlayerVerb::Open, "open", Operand::Url, "another film"},
+    Entry{PlayerVerb::SelectBy, "select", Operand::Row, "", true},
+    Entry{PlayerVerb::SelectTo, "select", Operand::Row, ""},
+    Entry{PlayerVerb::Choose, "choose", Operand::None, "play the selected film"},
+    Entry{PlayerVerb::Back, "back", Operand::None, "to the list of films, or end the film"},
+    Entry{PlayerVerb::Escape, "escape", Operand::None, "out of full screen, then to the list"},
     Entry{PlayerVerb::Stop, "stop", Operand::None, "end the film"},
     Entry{PlayerVerb::Quit, "quit", Operand::None, "end the program"},
     Entry{PlayerVerb::Layout, "layout", Operand::Layout, "the next way to show stereo"},
@@ -115,6 +121,16 @@ std::optional<PlayerCommand> levelIn(std::string_view text) {
   return PlayerCommand{relative ? PlayerVerb::VolumeBy : PlayerVerb::VolumeTo, *value};
 }
 
+// Of the list of films.
+std::optional<PlayerCommand> rowIn(std::string_view text) {
+  constexpr double kMostRows = 1e6;
+  const auto value = numberIn(text);
+  if (!value || *value != std::floor(*value) || std::abs(*value) > kMostRows) return std::nullopt;
+  const bool relative = text.starts_with('+') || text.starts_with('-');
+  if (!relative && *value < 1) return std::nullopt;
+  return PlayerCommand{relative ? PlayerVerb::SelectBy : PlayerVerb::SelectTo, *value};
+}
+
 std::optional<PlayerCommand> withOperand(const Entry& entry, std::string_view operand) {
   switch (entry.operand) {
     case Operand::None:
@@ -127,6 +143,8 @@ std::optional<PlayerCommand> withOperand(const Entry& entry, std::string_view op
     }
     case Operand::Level:
       return levelIn(operand);
+    case Operand::Row:
+      return rowIn(operand);
     case Operand::Track:
       return trackIn(entry.verb, operand);
     case Operand::Shape:
@@ -170,6 +188,7 @@ std::string wordsOf(const PlayerCommand& command) {
     case PlayerVerb::AudioDelayBy:
     case PlayerVerb::SubtitleDelayBy:
     case PlayerVerb::ChapterBy:
+    case PlayerVerb::SelectBy:
       return word + print(" %+.6g", command.value);
     case PlayerVerb::AudioTrack:
     case PlayerVerb::SubtitleTrack:
@@ -177,6 +196,7 @@ std::string wordsOf(const PlayerCommand& command) {
       return word + (command.value < 0 ? std::string(" off") : print(" %.0f", command.value));
     case PlayerVerb::SeekTo:
     case PlayerVerb::VolumeTo:
+    case PlayerVerb::SelectTo:
       return word + print(" %.6g", command.value);
     case PlayerVerb::SeekShare:
       return word + print(" %.6g%%", 100 * command.value);
@@ -195,8 +215,8 @@ std::string wordsOf(const PlayerCommand& command) {
 }
 
 std::string commandWords() {
-  constexpr std::array kOperands{"",        " +X|-X",   " +S|-S|S|P%", " URL",  " [on|off]",
-                                 " [WORD]", " +P|-P|P", " [N|off]",    " [W:H]"};
+  constexpr std::array kOperands{"",        " +X|-X",   " +S|-S|S|P%", " URL",   " [on|off]",
+                                 " [WORD]", " +P|-P|P", " [N|off]",    " [W:H]", " +N|-N|N"};
   std::string text;
   const char* last = "";
   for (const Entry& entry : kEntries) {
@@ -217,6 +237,13 @@ std::string meaningOf(const PlayerCommand& command) {
   if (command.verb == PlayerVerb::ChapterBy && std::abs(command.value) == 1) {
     return command.value < 0 ? "this chapter from its beginning, or the one before" : "the next chapter";
   }
+  if (command.verb == PlayerVerb::SelectBy) {
+    const double films = std::abs(command.value);
+    const char* const where = command.value < 0 ? "up" : "down";
+    return films == 1 ? print("one film %s", where) : print("%.0f films %s", films, where);
+  }
+  if (command.verb == PlayerVerb::SelectTo)
+    return command.value == 1 ? "the first film" : print("film %.0f", command.value);
   if (command.verb == PlayerVerb::VolumeBy)
     return print("%.6g %% %s", std::abs(command.value), command.value < 0 ? "quieter" : "louder");
   if (command.verb == PlayerVerb::VolumeTo) return print("%.6g %s", command.value, entry.meaning);
@@ -236,6 +263,14 @@ std::string meaningOf(const PlayerCommand& command) {
   }
   if (command.verb == PlayerVerb::Layout && !command.word.empty()) return "show stereo as " + command.word;
   return entry.meaning;
+}
+
+bool needsFilm(PlayerVerb verb) noexcept {
+  constexpr std::array kFree{PlayerVerb::Open,       PlayerVerb::SelectBy, PlayerVerb::SelectTo, PlayerVerb::Choose,
+                             PlayerVerb::Back,       PlayerVerb::Escape,   PlayerVerb::Stop,     PlayerVerb::Quit,
+                             PlayerVerb::FullScreen, PlayerVerb::Layout,   PlayerVerb::Keys,     PlayerVerb::VolumeBy,
+                             PlayerVerb::VolumeTo,   PlayerVerb::Mute};
+  return std::ranges::find(kFree, verb) == kFree.end();
 }
 
 bool repeats(PlayerVerb verb) noexcept {

@@ -25,6 +25,11 @@ enum class PlayerVerb : std::uint8_t {
   Previous,    // film of the list, or this one from its beginning
   Loop,        // begins again at the end, or no longer; value 1: does, -1: does not, 0: the other of the two
   Open,        // another film or list
+  SelectBy,    // films in the list of films that is shown
+  SelectTo,    // a film there, by its number from 1 on
+  Choose,      // plays the selected film
+  Back,        // to the list of films, where one was shown; else as Stop. In the list, to its first film
+  Escape,      // out of full screen; in a window, to the list of films
   Stop,        // ends the film
   Quit,        // ends the program
   Layout,      // another way to show stereo; without its word the next one
@@ -67,6 +72,8 @@ struct PlayerCommand {
 [[nodiscard]] std::string commandWords();
 // What it does, for the help: "pause, or go on", "10 s forward".
 [[nodiscard]] std::string meaningOf(const PlayerCommand& command);
+// What it does it does to a film, so that it means nothing in the list of films.
+[[nodiscard]] bool needsFilm(PlayerVerb verb) noexcept;
 // Done again and again while its key is held down.
 [[nodiscard]] bool repeats(PlayerVerb verb) noexcept;
 

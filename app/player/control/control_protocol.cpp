@@ -24,6 +24,23 @@ double rounded(double value) {
   return std::isfinite(value) ? std::round(value * 1e3) / 1e3 : 0.0;
 }
 
+// The selected film's number as `select` takes it.
+Json listOf(const FilmShelf& shelf) {
+  Json films = Json::array();
+  for (const ShelfSection& section : shelf.sections()) {
+    for (const ShelfFilm& film : section.films) {
+      if (films.size() == kMostListed) break;
+      films.push_back({{"section", section.name},
+                       {"title", film.title},
+                       {"source", film.url},
+                       {"left_s", film.left_s ? Json(rounded(*film.left_s)) : Json(nullptr)}});
+    }
+  }
+  return {{"selected", shelf.empty() ? Json(nullptr) : Json(shelf.selected() + 1)},
+          {"count", shelf.size()},
+          {"films", std::move(films)}};
+}
+
 Json answer(const std::string& id, bool ok) {
   Json json;
   if (!id.empty()) json["id"] = Json::parse(id, nullptr, false);
@@ -85,7 +102,8 @@ std::string errorLine(const std::string& id, const std::string& error) {
   return lineOf(json);
 }
 
-std::string statusLine(const std::string& id, const ScreenFacts& facts, const std::string& source) {
+std::string statusLine(const std::string& id, const ScreenFacts& facts, const std::string& source,
+                       const FilmShelf* list) {
   Json json = answer(id, true);
   json["state"] = name(facts.state);
   const bool film = !source.empty();
@@ -102,6 +120,7 @@ std::string statusLine(const std::string& id, const ScreenFacts& facts, const st
   json["has_depth"] = film && facts.has_depth;
   json["haptic"] = facts.haptic.empty() ? Json(nullptr) : Json(facts.haptic);
   json["contact"] = facts.contact;
+  json["list"] = list != nullptr ? listOf(*list) : Json(nullptr);
   return lineOf(json);
 }
 

@@ -21,6 +21,7 @@
 #include <string_view>
 #include <variant>
 
+#include "app/player/browse/film_shelf.h"
 #include "app/player/control/command.h"
 #include "app/player/report.h"
 #include "app/player/screen/screen_text.h"
@@ -48,7 +49,10 @@ struct ControlLine {
 // Each one line, without its end.
 [[nodiscard]] std::string okLine(const std::string& id);
 [[nodiscard]] std::string errorLine(const std::string& id, const std::string& error);
-[[nodiscard]] std::string statusLine(const std::string& id, const ScreenFacts& facts, const std::string& source);
+// `list`: the films to choose from, if they are shown; it tells at most kMostListed of them.
+inline constexpr std::size_t kMostListed = 200;
+[[nodiscard]] std::string statusLine(const std::string& id, const ScreenFacts& facts, const std::string& source,
+                                     const FilmShelf* list = nullptr);
 [[nodiscard]] std::string stateLine(PlayerState state, double time_s);
 [[nodiscard]] std::string faultLine(const FaultEntry& fault);
 [[nodiscard]] std::string metricsLine(const PlayReport& report);

@@ -24,7 +24,7 @@ SPACE = "play-pause"
 P = "play-pause"
 F = "full-screen"
 F11 = "full-screen"
-ESC = "full-screen off"
+ESC = "escape"
 Q = "quit"
 RIGHT = "seek +5"
 LEFT = "seek -5"
@@ -83,7 +83,7 @@ PAUSE = "pause"
 PLAYPAUSE = "play-pause"
 OK = { press = "play-pause", hold = "info" }
 STOP = "stop"
-BACK = "stop"
+BACK = "back"
 POWER = "stop"
 FORWARD = "seek +10"
 REWIND = "seek -10"
@@ -113,6 +113,20 @@ NUMERIC_6 = "seek 60%"
 NUMERIC_7 = "seek 70%"
 NUMERIC_8 = "seek 80%"
 NUMERIC_9 = "seek 90%"
+
+[browsing]
+UP = "select -1"
+DOWN = "select +1"
+PAGEUP = "select -5"
+PAGEDOWN = "select +5"
+HOME = "select 1"
+OK = "choose"
+RIGHT = "choose"
+SPACE = "choose"
+PLAY = "choose"
+PLAYPAUSE = "choose"
+LEFT = ""
+STOP = ""
 
 [paused]
 FASTFORWARD = "step"
@@ -281,6 +295,7 @@ std::vector<std::pair<std::string, std::string>> KeyTable::rowsIn(PlayerState st
   for (const std::size_t t : {static_cast<std::size_t>(state), kAlways}) {
     for (const auto& [code, binding] : tables_[t]) {
       if (find(state, code) != &binding) continue;  // the state's own row holds
+      if (state == PlayerState::Browsing && binding.press && needsFilm(binding.press->verb)) continue;
       const std::string key(keyName(code));
       lines.put(binding.press, key);
       lines.put(binding.hold, key + " (held)");

@@ -38,7 +38,8 @@ std::string PlayerControl::carryOut(Player& player, const ControlLine& line, Con
                                     MonotonicTime now) {
   if (!line.asked) return errorLine(line.id, line.asked.error());
   const ControlRequest& asked = *line.asked;
-  if (std::holds_alternative<StatusRequest>(asked)) return statusLine(line.id, player.facts(), player.source());
+  if (std::holds_alternative<StatusRequest>(asked))
+    return statusLine(line.id, player.facts(), player.source(), player.list());
   if (const auto* metrics = std::get_if<MetricsRequest>(&asked)) {
     if (metrics->on) metered_.insert(client);
     else metered_.erase(client);

@@ -59,6 +59,10 @@ std::optional<MediaTime> Programme::whereLeft(Duration length) const {
   return left && left->time_since_epoch() < length ? left : std::nullopt;
 }
 
+std::vector<std::pair<std::string, double>> Programme::leftFilms() const {
+  return resume_ ? resume_->all() : std::vector<std::pair<std::string, double>>{};
+}
+
 void Programme::keep(std::optional<MediaTime> place, MonotonicTime now) {
   if (now >= keep_due_) keepAtOnce(place, now);
 }

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/media/playlist.h"
@@ -60,6 +61,8 @@ class Programme {
 
   // Where the viewer left the present film, whose length is `length`; nullopt if unknown or if the film has no length.
   [[nodiscard]] std::optional<MediaTime> whereLeft(Duration length) const;
+  // What each film that was left is kept by (Resume::keyOf) and where in seconds, the last one first.
+  [[nodiscard]] std::vector<std::pair<std::string, double>> leftFilms() const;
   // Keeps the viewer's position, at most every kKeepPeriod. Nullopt: unknown, nothing is kept.
   void keep(std::optional<MediaTime> place, MonotonicTime now);
   // Keeps it at once, when the film is closed.

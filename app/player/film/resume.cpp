@@ -75,6 +75,11 @@ std::optional<MediaTime> Resume::find(const std::string& url) const {
   return mediaTime(film->second);
 }
 
+std::vector<std::pair<std::string, double>> Resume::all() const {
+  const std::scoped_lock lock(mutex_);
+  return films_;
+}
+
 void Resume::keep(const std::string& url, MediaTime position) {
   if (position.time_since_epoch() < kLeast) return forget(url);
   const std::scoped_lock lock(mutex_);

@@ -36,6 +36,8 @@ class Resume {
   // The key of the film that was seen last.
   [[nodiscard]] std::optional<std::string> last() const;
   [[nodiscard]] std::optional<MediaTime> find(const std::string& url) const;
+  // All of them: keys and seconds, the film seen last first.
+  [[nodiscard]] std::vector<std::pair<std::string, double>> all() const;
   // Never waits. The newest position is on the disk soon afterwards.
   void keep(const std::string& url, MediaTime position);
   // The film has been seen to its end.

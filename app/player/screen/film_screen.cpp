@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <glm/geometric.hpp>
 
+#include "app/player/screen/list_script.h"
 #include "app/player/screen/png_file.h"
 #include "app/player/screen/screen_script.h"
 #include "app/player/screen/stereo_word.h"
@@ -115,8 +116,8 @@ Result<bool> FilmScreen::draw(const std::optional<FingerMark>& finger, Monotonic
 }
 
 void FilmScreen::write(const ScreenFacts& facts, MonotonicTime next_picture, MonotonicTime now) {
-  if (!first_shown_ || !osd_) return;
-  auto content = text_.content(facts, statistics_, now);
+  const bool any = text_.hasList() || (first_shown_ && osd_);
+  auto content = any ? text_.content(facts, statistics_, now) : ScreenContent{};
   if (content == written_) return;
   written_ = content;
   picture_.setText(std::move(content));
@@ -163,11 +164,11 @@ void FilmScreen::writeScreenshot(MonotonicTime now) {
 
 void FilmScreen::obey(const PlayerCommand& command) {
   switch (command.verb) {
-    case PlayerVerb::Info:
     case PlayerVerb::FullScreen:
       return picture_.fillScreen(command.value == 0  ? FullScreen::Toggle
                                  : command.value > 0 ? FullScreen::On
                                                      : FullScreen::Off);
+    case PlayerVerb::Info:
       return text_.toggleBar();
     case PlayerVerb::Statistics:
       return text_.toggleStatistics();
@@ -209,6 +210,11 @@ std::optional<double> FilmScreen::barAt(const SurfaceMouse& mouse, MonotonicTime
   if (point->down > kNear) text_.wake(now);
   if (!written_.bar || !written_.bar->has_length) return std::nullopt;
   return barShareAt(point->across, point->down, point->aspect);
+}
+
+std::optional<std::size_t> FilmScreen::filmAt(const SurfaceMouse& mouse) const {
+  const auto point = written_.list ? picture_.viewPoint(mouse.across, mouse.down) : std::nullopt;
+  return point ? listFilmAt(*written_.list, point->across, point->down, point->aspect) : std::nullopt;
 }
 
 void FilmScreen::describe(PlayReport& report) const {

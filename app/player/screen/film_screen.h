@@ -60,7 +60,7 @@ class FilmScreen {
                                     MonotonicTime now);
   // Draws a black picture: there is no film.
   [[nodiscard]] Result<void> clear(const std::optional<FingerMark>& finger, MonotonicTime now);
-  // Updates what is written over the picture; from the first picture on.
+  // Updates what is written over the picture, from the first picture on, and the list of films.
   void write(const ScreenFacts& facts, MonotonicTime next_picture, MonotonicTime now);
   // The statistics, if they are wished for.
   [[nodiscard]] bool wantsStatistics() const noexcept { return text_.showsStatistics(); }
@@ -68,6 +68,10 @@ class FilmScreen {
   // The film's place, 0 to 1, that the mouse is over on the bar; nullopt where no bar is. A mouse near its place shows
   // it.
   [[nodiscard]] std::optional<double> barAt(const SurfaceMouse& mouse, MonotonicTime now);
+
+  // The film that the mouse is over in the list of films; nullopt: none.
+  [[nodiscard]] std::optional<std::size_t> filmAt(const SurfaceMouse& mouse) const;
+  [[nodiscard]] bool isFullScreen() const noexcept { return picture_.isFullScreen(); }
 
   // The viewer has pressed a key: the text is shown for a while.
   void wake(MonotonicTime now) noexcept { text_.wake(now); }

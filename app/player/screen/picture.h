@@ -46,6 +46,7 @@ class Picture {
   // A film begins: for the window's title and size.
   void announce(const AnnouncedFilm& film);
   void fillScreen(FullScreen wish) { display_.fillScreen(wish); }
+  [[nodiscard]] bool isFullScreen() const noexcept { return display_.isFullScreen(); }
   [[nodiscard]] std::vector<std::string> takeDropped() { return display_.takeDropped(); }
   // What `show` shows from now on; a reference is kept, for a screen that comes back.
   void setPair(const FramePair& pair);

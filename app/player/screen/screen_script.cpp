@@ -7,61 +7,18 @@
 #include <utility>
 
 #include "app/player/screen/fold.h"
-#include "app/render/text/ass_text.h"
+#include "app/player/screen/list_script.h"
+#include "app/player/screen/script.h"
 #include "platform/print.h"
 
 namespace relievo {
 namespace {
 
-constexpr double kMargin = 40;
 constexpr double kBarTop = 658, kBarHeight = 12, kBarReach = 14;  // so far above and below the bar a click is on it
 constexpr double kTitleSize = 30, kTitleLine = 38, kTimesSize = 24, kTimesTop = 680;
-constexpr double kLetterOfSize = 0.52;  // the mean width of a letter
 constexpr double kGaugeTop = 280, kGaugeHeight = 200, kGaugeWidth = 16, kGaugeNewtons = 10;
 constexpr double kEdge = 30;  // of the mark for a finger beside the picture
 constexpr double kMostKeyRows = 24;
-
-constexpr const char* kWhite = "FFFFFF";  // blue, green, red
-constexpr const char* kBlack = "000000";
-constexpr const char* kGray = "A0A0A0";
-constexpr const char* kAccent = "47C7FF";  // the colour of the finger's glow
-constexpr const char* kWarn = "60B0FF";
-
-struct Area {
-  double x, y, width, height;
-};
-
-// Collects lines, each over those before it.
-class Script {
- public:
-  explicit Script(double width) : width_(width) {}
-
-  void box(const Area& at, const char* color, double opacity) {
-    shape(print("m 0 0 l %.1f 0 %.1f %.1f 0 %.1f", at.width, at.width, at.height, at.height), at.x, at.y, color,
-          opacity);
-  }
-  void shape(const std::string& path, double x, double y, const char* color, double opacity) {
-    add(print("{\\an7\\pos(%.1f,%.1f)\\bord0\\shad0\\1c&H%s&\\1a&H%02X&\\p1}", x, y, color,
-              static_cast<unsigned>(std::lround(255 * (1 - opacity)))) +
-        path + "{\\p0}");
-  }
-  // `corner`: as on a keypad, 7 is the top left one of the text.
-  void text(const std::string& words, int corner, double x, double y, double size, const char* color = kWhite) {
-    if (words.empty()) return;
-    add(print("{\\an%d\\pos(%.1f,%.1f)\\fs%.1f\\1c&H%s&}", corner, x, y, size, color) + AssText::escaped(words));
-  }
-  [[nodiscard]] double width() const noexcept { return width_; }
-  [[nodiscard]] std::vector<std::string> take() { return std::move(lines_); }
-
- private:
-  void add(const std::string& text) { lines_.push_back(print("%zu,0,Default,,0,0,0,,", lines_.size()) + text); }
-  double width_;
-  std::vector<std::string> lines_;
-};
-
-int cellsIn(double width, double size) noexcept {
-  return std::max(8, static_cast<int>(width / (kLetterOfSize * size)));
-}
 
 void addBar(Script& script, const ScreenBar& bar) {
   const double inner = script.width() - 2 * kMargin;
@@ -121,12 +78,12 @@ void addNotice(Script& script, const ScreenNotice& notice) {
   script.box({kMargin, 80, 300 * std::clamp(*notice.level, 0.0, 1.0), 10}, kAccent, 1);
 }
 
-void addWarning(Script& script, const std::string& why) {
+void addWarning(Script& script, const std::string& why, double top) {
   const auto lines = folded(why, cellsIn(script.width() - 2 * kMargin, 26), 3);
-  script.box({kMargin - 14, 100, script.width() - 2 * kMargin + 28, 34.0 * static_cast<double>(lines.size()) + 10},
+  script.box({kMargin - 14, top, script.width() - 2 * kMargin + 28, 34.0 * static_cast<double>(lines.size()) + 10},
              kBlack, 0.6);
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    script.text(lines[i], 7, kMargin, 104 + 34.0 * static_cast<double>(i), 26, kWarn);
+    script.text(lines[i], 7, kMargin, top + 4 + 34.0 * static_cast<double>(i), 26, kWarn);
   }
 }
 
@@ -186,12 +143,13 @@ std::string screenHead(double aspect) {
 
 std::vector<std::string> screenLines(const ScreenContent& content, double aspect) {
   Script script(kScreenRows * aspect);
+  if (content.list) addList(script, *content.list);
   if (content.finger) addFinger(script, *content.finger);
   if (content.bar) addBar(script, *content.bar);
   if (content.force_n) addForce(script, *content.force_n);
   if (!content.hint.empty()) script.text(content.hint, 2, 0.5 * script.width(), 560, 32);
   if (!content.statistics.empty()) addStatistics(script, content.statistics);
-  if (!content.warning.empty()) addWarning(script, content.warning);
+  if (!content.warning.empty()) addWarning(script, content.warning, content.list ? 590 : 100);
   if (!content.keys.empty()) addKeys(script, content.keys);
   if (content.notice) addNotice(script, *content.notice);
   return script.take();

@@ -102,13 +102,15 @@ ScreenContent ScreenText::content(const ScreenFacts& facts, const ScreenRows& st
   if (now < noticed_until_) content.notice = notice_;
   content.keys = keys_;
   if (!keys_.empty()) return content;
+  if (now < told_until_) content.warning = why_;
+  content.list = list_;
+  if (list_) return content;
   content.finger = fingerOf(facts);
   const bool shows_bar = showsBar(facts, now);
   if (shows_bar) content.bar = bar(facts);
   if (shows_bar && facts.has_depth && !facts.haptic.empty()) {
     content.force_n = rounded(facts.force_n, kForceStepsPerN);
   }
-  if (now < told_until_) content.warning = why_;
   if (now < hinted_until_) content.hint = hint_;
   if (statistics_) content.statistics = statistics;
   return content;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/player/screen/screen_facts.h"
+#include "app/player/screen/screen_list.h"
 #include "platform/clock.h"
 
 namespace relievo {
@@ -47,6 +48,7 @@ struct ScreenContent {
   std::optional<ScreenNotice> notice;
   std::string warning, hint;
   ScreenRows statistics, keys;
+  std::optional<ScreenList> list;  // of films, in place of a film
 
   [[nodiscard]] bool empty() const { return *this == ScreenContent{}; }
   bool operator==(const ScreenContent&) const = default;
@@ -70,9 +72,13 @@ class ScreenText {
   void toggleKeys(ScreenRows keys) { keys_ = keys_.empty() ? std::move(keys) : ScreenRows{}; }
   // Why something is off.
   void tell(std::string why, MonotonicTime now);
+  void forgetWarning() noexcept { told_until_ = {}; }
   // What a key has done.
   void notice(ScreenNotice notice, MonotonicTime now);
   void hint(std::string words, MonotonicTime now);
+  // The list of films, and beside it warnings, notices and keys alone; nullopt: a film.
+  void setList(std::optional<ScreenList> list) { list_ = std::move(list); }
+  [[nodiscard]] bool hasList() const noexcept { return list_.has_value(); }
   void setChapters(std::vector<double> starts_s) { chapters_s_ = std::move(starts_s); }
 
   [[nodiscard]] bool showsBar(const ScreenFacts& facts, MonotonicTime now) const noexcept;
@@ -91,6 +97,7 @@ class ScreenText {
   ScreenNotice notice_;
   MonotonicTime told_until_, noticed_until_, hinted_until_;
   std::vector<double> chapters_s_;
+  std::optional<ScreenList> list_;
 };
 
 }  // namespace relievo

@@ -2,6 +2,11 @@
 // Draws a script of one moment.
 #include "app/player/screen/screen_words.h"
 
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "app/player/screen/list_script.h"
 #include "app/player/screen/screen_script.h"
 #include "platform/log.h"
 
@@ -32,7 +37,12 @@ bool ScreenWords::draw(const ScreenContent& content, const TextFrame& frame) {
   frame_ = frame;
   TextFrame whole = frame;  // the display has the margins beside the picture as well
   whole.margin_x = whole.margin_y = 0;
-  return text_->draw(whole, Duration(0), pictures_, anew);
+  pictures_.resize(words_);  // posters are made anew
+  const bool changed = text_->draw(whole, Duration(0), pictures_, anew);
+  const bool had_posters = std::exchange(words_, pictures_.size()) < shown_;
+  if (content.list) std::ranges::move(postersOf(*content.list, frame), std::back_inserter(pictures_));
+  shown_ = pictures_.size();
+  return changed || had_posters || shown_ > words_;
 }
 
 }  // namespace relievo

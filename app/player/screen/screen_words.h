@@ -27,7 +27,8 @@ class ScreenWords {
   double aspect_ = 0;  // of the script
   ScreenContent drawn_;
   std::optional<TextFrame> frame_;
-  std::vector<TextPicture> pictures_;
+  std::vector<TextPicture> pictures_;  // of words, then posters
+  std::size_t words_ = 0, shown_ = 0;  // of words; all
 };
 
 }  // namespace relievo

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <sstream>
 #include <string_view>
 #include <system_error>
@@ -52,6 +54,7 @@ constexpr const char* kPlayAbout =
     "  relievo film.mkv --display kms           on a whole screen without a desktop\n"
     "  relievo film.mkv --haptic falcon         felt with a force-feedback device\n"
     "  relievo film.mkv --resume                from where it was left\n"
+    "  relievo                                  a list of films to choose from; --films FOLDER: those of a folder\n"
     "  relievo https://example.org/film.m3u8    from the network\n"
     "  relievo v4l2:/dev/video0 --calibration near=400,far=1500\n"
     "                                           a depth camera, live\n"
@@ -272,6 +275,13 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
           "Stop after so many seconds")
       ->type_name("S");
   command.add_flag("--resume", play.resume, "Begin where the film was left, and remember where it is left");
+  command
+      .add_option(
+          "--films", play.films,
+          "Without SOURCE, in a window and on a screen: choose from the films of this folder (again for more),\n"
+          "those on USB sticks, and those seen lately; remembers where each is left [the folder Videos]")
+      ->type_name("FOLDER")
+      ->allow_extra_args(false);
   command.add_option("--keys", play.keys_path, "Which key means what (see --print-keys) [the usual]")
       ->type_name("FILE");
   command.add_flag("--print-keys", play.print_keys, "Print the table of keys, to begin one of your own from")
@@ -304,9 +314,7 @@ void settleDisplay(PlayOptions& play, const Machine& machine) {
 
 // A window brings its keys and its mouse along; nothing else has them. A whole screen is watched from a sofa. Who sees
 // the film hears it, and feels it with what is at hand.
-Outcome<void> settleDevices(PlayOptions& play, const Machine& machine) {
-  const bool chosen = !play.display.word.empty();
-  settleDisplay(play, machine);
+Outcome<void> settleDevices(PlayOptions& play, const Machine& machine, bool chosen) {
   const bool window = play.display.plain("window");
   const bool seen = window || play.display.word == "kms";
   if (play.haptic.word.empty()) {
@@ -335,15 +343,38 @@ Outcome<ConfigLines> readConfig(CLI::App& play, const std::string& path, FileCon
   return play.parsed() ? applyConfig(play, config) : ConfigLines{};
 }
 
+std::string usualFilms() {
+  const auto set = [](const char* name) -> std::filesystem::path {
+    const char* value = std::getenv(name);
+    return value == nullptr ? "" : value;
+  };
+  if (const auto xdg = set("XDG_VIDEOS_DIR"); !xdg.empty()) return xdg;
+  if (const auto home = set("HOME"); !home.empty()) return home / "Videos";
+  return "/srv/films";
+}
+
+// The list is for who can see it, or for programs that know its folders.
+void settleBrowser(PlayOptions& play) {
+  const bool no_film = play.player.source.url.empty();
+  const bool seen = play.display.plain("window") || play.display.word == "kms";
+  if (no_film ? !seen && play.films.empty() : !play.player.stays || play.films.empty()) return;
+  if (play.films.empty()) play.films.push_back(usualFilms());
+  play.player.browser = BrowserConfig{.folders = play.films};
+  if (no_film) play.player.display.film_size = false;  // one size for the list and all films
+}
+
 Outcome<void> settlePlay(PlayOptions& play, const Machine& machine) {
   if (play.print_keys || play.print_states) return {};
   play.player.stays = !play.control_path.empty();
   play.player.osd = play.osd || play.display.word != "offscreen";  // never in a capture unasked
-  if (play.player.source.url.empty() && !play.player.stays) {
+  const bool chosen = !play.display.word.empty();
+  settleDisplay(play, machine);
+  settleBrowser(play);
+  if (play.player.source.url.empty() && !play.player.stays && !play.player.browser) {
     return failOn("SOURCE", {ErrorCode::InvalidArgument, 0,
                              "is missing; name a film, as in relievo film.mkv; see relievo --help"});
   }
-  return settleDevices(play, machine);
+  return settleDevices(play, machine, chosen);
 }
 
 // "relievo film.mkv" and "relievo --loop film.mkv" as "relievo play ..", "relievo help play" as "relievo play --help".

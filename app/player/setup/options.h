@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/player/player.h"
 #include "app/player/setup/config_file.h"
@@ -25,7 +26,8 @@ struct PlayOptions {
   std::string record_path;
   std::string keys_path;  // empty: the usual keys
   bool resume = false;
-  bool osd = false;  // also off screen
+  std::vector<std::string> films;  // folders of the list of films
+  bool osd = false;                // also off screen
   bool print_keys = false, print_states = false;
   bool verbose = false;      // a developer's lines and figures, too
   std::string control_path;  // empty: no control socket
@@ -65,8 +67,9 @@ struct Machine {
 // A first word that is no command is a film: "relievo FILM.." is "relievo play FILM..".
 //
 // Options are the command line's, then the configuration's, then the machine's: a window on a desktop, else the screen,
-// else off screen; in a window, and on a screen, the force-feedback device that is plugged in, else the mouse. On wrong
-// use, and when help or the configuration was asked for, it prints what there is to say and returns the exit code.
+// else off screen; without a film, the list of films there; in a window, and on a screen, the force-feedback device
+// that is plugged in, else the mouse. On wrong use, and when help or the configuration was asked for, it prints what
+// there is to say and returns the exit code.
 [[nodiscard]] std::expected<Options, int> parseOptions(int argc, const char* const* argv, const DeviceNames& names,
                                                        const Machine& machine = {});
 

@@ -226,7 +226,6 @@ Result<void> SceneRenderer::Impl::drawViews(const DisplaySurface& surface, const
   };
   glBindFramebuffer(GL_FRAMEBUFFER, surface.framebuffer);
   clear();
-  if (!has_picture) return {};
   for (std::size_t i = 0; i < eyes.views.size(); ++i) {
     if (eyes.mixed) {
       if (auto bound = mixer.bindEye(i, surface.width, surface.height); !bound) return bound;
@@ -265,6 +264,7 @@ void SceneRenderer::Impl::makeTriangles(const EyeViews& eyes) {
 void SceneRenderer::Impl::drawView(const EyeView& view, const std::optional<FingerMark>& mark) {
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);  // keep the surface opaque whatever is blended on it
   glViewport(view.area.x, view.area.y, view.area.width, view.area.height);
+  if (!has_picture) return text.draw(0);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   // The relief is never seen from below, and the finger's shapes are closed.

@@ -68,8 +68,8 @@ class SceneRenderer {
   // sees instead of `color`.
   [[nodiscard]] Result<void> setFrame(const Frame& color, const Frame& depth, const DepthCalibration& calibration,
                                       const DisplayVolume& volume, const Frame& right = {});
-  // Draws the last pair into `surface`, black if there is none. Blocks until the GPU has finished, so that the time can
-  // be measured.
+  // Draws the last pair into `surface`, or without one the text on black. Blocks until the GPU has finished, so that
+  // the time can be measured.
   [[nodiscard]] Result<void> draw(const DisplaySurface& surface, const std::optional<FingerMark>& finger);
   // What `draw` has drawn into `surface`, before it is presented: rows from the top, three bytes a pixel.
   [[nodiscard]] static std::vector<std::uint8_t> read(const DisplaySurface& surface);

@@ -20,6 +20,8 @@ TEST(Command, EachHasWordsThatReadBackAsItself) {
       PlayerCommand command{static_cast<V>(verb), 0};
       const std::set<V> stepped{V::SeekBy,   V::DepthBy,      V::ScreenBy,        V::ZoomBy,
                                 V::VolumeBy, V::AudioDelayBy, V::SubtitleDelayBy, V::ChapterBy};
+      if (command.verb == V::SelectBy) command.value = value < 0 ? -1 : 10;
+      if (command.verb == V::SelectTo) command.value = 3;
       if (stepped.contains(command.verb)) command.value = value;
       if (command.verb == V::SeekTo || command.verb == V::VolumeTo) command.value = 75.25;
       if (command.verb == V::SeekShare) command.value = 0.5;
@@ -31,7 +33,7 @@ TEST(Command, EachHasWordsThatReadBackAsItself) {
       all.insert(wordsOf(command));
     }
   }
-  EXPECT_EQ(all.size(), 46U);  // no two alike; eight with either sign
+  EXPECT_EQ(all.size(), 52U);  // no two alike; nine with either sign
 }
 
 TEST(Command, ASeeksNumberSaysWhatItCountsFrom) {
@@ -55,7 +57,8 @@ TEST(Command, WhatTurnsCanAlsoBeSet) {
               meaningOf(*parseCommand(std::string(words).substr(0, std::string(words).find(' ')))));
   }
   for (const char* words : {"loop maybe", "loop ", "layout 3d", "layout quilt:0x9", "layout sbs tab", "audio off",
-                            "audio 0", "audio 1.5", "subtitles -1", "aspect 16", "volume", "full-screen 1"}) {
+                            "audio 0", "audio 1.5", "subtitles -1", "aspect 16", "volume", "full-screen 1", "select",
+                            "select 0", "select 1.5", "select +x", "choose 2", "back 1"}) {
     EXPECT_FALSE(parseCommand(words)) << words;
   }
 }

@@ -137,6 +137,7 @@ TEST_F(PlayConfig, EveryOptionCanStandInTheFileAndIsPrintedAsItReadsBack) {
                                                       {"loop", "true"},
                                                       {"duration", "12.5"},
                                                       {"resume", "true"},
+                                                      {"films", R"(["/srv/a", "/srv/b"])"},
                                                       {"keys", R"("k.toml")"},
                                                       {"report", R"("r.json")"},
                                                       {"record", R"("t.csv")"},

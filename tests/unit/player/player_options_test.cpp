@@ -87,6 +87,26 @@ TEST(Options, OnADesktopItTakesAWindowOfTheFilmsSizeAndTheMouse) {
       parse({"film.mkv", "--size", "640x360"}, machineWith(true, true)).options->play.player.display.film_size);
 }
 
+TEST(Options, WithoutAFilmAWindowAndAScreenShowTheListOfFilms) {
+  ::setenv("HOME", "/home/anna", 1);
+  ::unsetenv("XDG_VIDEOS_DIR");
+  const auto folders = [](const Machine& machine, const std::vector<const char*>& words) {
+    const Parsed parsed = parse(words, machine);
+    if (!parsed.options || !parsed.options->play.player.browser) return std::vector<std::string>{"no list"};
+    return parsed.options->play.player.browser->folders;
+  };
+  const std::vector<std::string> none{"no list"};
+  EXPECT_EQ(folders(machineWith(true, false), {}), (std::vector<std::string>{"/home/anna/Videos"}));
+  EXPECT_EQ(folders(machineWith(false, true), {"play"}), (std::vector<std::string>{"/home/anna/Videos"}));
+  EXPECT_EQ(folders(machineWith(true, false), {"--films", "/a", "--films", "/b"}),
+            (std::vector<std::string>{"/a", "/b"}));
+  EXPECT_EQ(folders(machineWith(true, false), {"--films", "/a", "film.mkv"}), none) << "it has its film";
+  EXPECT_EQ(folders(machineWith(true, false), {"--films", "/a", "film.mkv", "--control", "/run/r"}),
+            (std::vector<std::string>{"/a"}))
+      << "a box shows it after its film";
+  EXPECT_EQ(folders(machineWith(false, false), {"--control", "/run/r"}), none) << "nobody sees it";
+}
+
 TEST(Options, WithoutADesktopItTakesTheScreen) {
   EXPECT_EQ(devicesOf(parse({"film.mkv"}, machineWith(false, true)).options->play), "kms pointer evdev alsa");
 }

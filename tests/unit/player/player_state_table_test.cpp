@@ -11,21 +11,23 @@ namespace relievo {
 namespace {
 
 // Written from the words of the states, not from the code. A row per state, a column per event; a letter is the state
-// that follows, '.' a refusal. Columns: Ready Open Opened Filled FilledHeld Play Pause sTep Rate Seek soUght starVed
-// EndOfFilm Loop stoP Fail. Letters: b(O)ot (I)dle (o)pening (B)uffering (P)laying pa(u)sed (S)eeking (E)nded (F)ault.
+// that follows, '.' a refusal. Columns: Ready broWse Open Opened Filled FilledHeld Play Pause sTep Rate Seek soUght
+// starVed EndOfFilm Loop stoP Fail. Letters: b(O)ot (I)dle bro(w)sing (o)pening (B)uffering (P)laying pa(u)sed
+// (S)eeking (E)nded (F)ault.
 constexpr std::array<std::string_view, kPlayerStateCount> kExpected{
-    // ROOFFPPTRSUVELPF
-    "I..............F",  // boot
-    ".o..............",  // idle
-    ".oB..oo.......IF",  // opening
-    ".o.PuBB.BS..E.IF",  // buffering
-    ".o....uuPS.BE.IF",  // playing
-    ".o...P.u.S....IF",  // paused
-    ".o...SS.SSB...IF",  // seeking
-    ".o...........SIF",  // ended
-    ".o............I.",  // fault
+    // RWOOFFPPTRSUVELPF
+    "I...............F",  // boot
+    ".wo..............",  // idle
+    "..o............IF",  // browsing
+    "..oB..oo.......IF",  // opening
+    "..o.PuBB.BS..E.IF",  // buffering
+    "..o....uuPS.BE.IF",  // playing
+    "..o...P.u.S....IF",  // paused
+    "..o...SS.SSB...IF",  // seeking
+    "..o...........SIF",  // ended
+    "..o............I.",  // fault
 };
-constexpr std::string_view kLetters = "OIoBPuSEF";
+constexpr std::string_view kLetters = "OIwoBPuSEF";
 
 TEST(StateTable, FollowsTheExpectedStateForEveryEventAndRefusesAllOthers) {
   for (std::size_t s = 0; s < kPlayerStateCount; ++s) {

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// The list of films on the screen: finds them, keeps their posters, and follows what the viewer does with them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/player/browse/film_finder.h"
+#include "app/player/browse/film_shelf.h"
+#include "app/player/browse/poster_maker.h"
+#include "app/player/browse/sticks.h"
+#include "app/player/screen/screen_list.h"
+#include "platform/clock.h"
+
+namespace relievo {
+
+// Films that were left, the last one first: what each is kept by (Resume::keyOf), and where in seconds.
+using LeftFilms = std::vector<std::pair<std::string, double>>;
+
+struct BrowserConfig {
+  std::vector<std::string> folders;                     // of films
+  std::vector<std::string> stick_roots = stickRoots();  // below these a mount is a stick
+};
+
+// The player's thread; no verb waits.
+class Browser {
+ public:
+  static constexpr Duration kLookPeriod = std::chrono::seconds(30);  // between two looks at the folders
+  static constexpr std::size_t kMostRecent = 5;
+
+  Browser(BrowserConfig config, PairReader::Backends posters, SourceOptions options, bool own_threads = true);
+
+  // The list is shown from now on: looks for films.
+  void open(LeftFilms left, MonotonicTime now);
+  // A film is played: nothing is looked for, and no poster is made.
+  void close();
+  // Once a round while it is shown. True if `view` has changed.
+  [[nodiscard]] bool attend(MonotonicTime now);
+  // Once a round while a film is played: the place among the sticks from which that film was taken away, by its path.
+  [[nodiscard]] std::optional<std::string> takenAway(const std::string& film);
+
+  [[nodiscard]] const FilmShelf& shelf() const noexcept { return shelf_; }
+  void selectBy(std::ptrdiff_t films);
+  void select(std::size_t film);
+  // The mouse is over this film of the view, or over none.
+  void point(std::optional<std::size_t> film);
+  [[nodiscard]] const ScreenList& view() const noexcept { return view_; }
+
+ private:
+  void look(MonotonicTime now);
+  void fill();
+  void draw();
+  [[nodiscard]] std::vector<std::string> places() const;
+  [[nodiscard]] std::string nothingThere() const;
+
+  const BrowserConfig config_;
+  StickWatch sticks_;
+  FilmFinder finder_;
+  PosterMaker posters_;
+  FilmShelf shelf_;
+  ScreenList view_;
+  LeftFilms left_;
+  MonotonicTime next_look_;
+  std::vector<std::string> sticks_before_;  // while a film is played
+  bool moved_ = false;                      // the viewer has selected a film; before that it is the first one
+  bool changed_ = false;
+};
+
+}  // namespace relievo

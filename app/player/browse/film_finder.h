@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds the films in folders and on sticks, without ever making the player wait for a disk.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/player/browse/film_shelf.h"
+
+namespace relievo {
+
+// The films in `folder` and the folders in it, down to kDeepest below it, in natural order: those of a folder before
+// those of its folders. A folder with depth pictures in a folder `depth` is one film. Hidden names and pictures are
+// passed over. At most kMostFilms, of at most kMostNames names. May block as long as the file system does.
+inline constexpr int kDeepest = 4;
+inline constexpr std::size_t kMostFilms = 1000, kMostNames = 50'000;
+[[nodiscard]] std::vector<ShelfFilm> filmsBelow(const std::string& folder);
+
+// Each place is read on a thread of its own, so that a disk or server that does not answer costs only its own films.
+// One thread calls it; no verb waits, but for the destructor, up to half a second.
+class FilmFinder {
+ public:
+  // `own_threads` false: `look` itself reads, for simulated time.
+  explicit FilmFinder(bool own_threads = true) noexcept : own_threads_(own_threads) {}
+  ~FilmFinder();
+  FilmFinder(const FilmFinder&) = delete;
+  FilmFinder& operator=(const FilmFinder&) = delete;
+
+  // Reads these folders, and asks which of `files` exist. A place that is being read already is not asked again; what
+  // is known of places that are not named any more is forgotten.
+  void look(const std::vector<std::string>& folders, const std::vector<std::string>& files);
+  // True if something new was found since the last call.
+  [[nodiscard]] bool hasNews();
+  // What is known of a folder; nothing: not yet read.
+  [[nodiscard]] std::vector<ShelfFilm> filmsIn(const std::string& folder) const;
+  // Those of `files` that exist.
+  [[nodiscard]] std::vector<std::string> there() const;
+
+ private:
+  struct Shared;
+  void read(const std::string& place, const std::vector<std::string>& files);
+  const bool own_threads_;
+  std::shared_ptr<Shared> shared_;
+};
+
+}  // namespace relievo

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// The list of films that a viewer chooses from: sections of films, and which one is selected. Pure.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace relievo {
+
+struct ShelfFilm {
+  std::string url, depth_url;
+  std::string title;
+  std::string folder;            // within its place; empty: directly in it
+  std::optional<double> left_s;  // where the viewer left it; nullopt: not begun, or seen to its end
+  bool operator==(const ShelfFilm&) const = default;
+};
+
+struct ShelfSection {
+  std::string name;  // "Recent", a folder's or a stick's
+  std::vector<ShelfFilm> films;
+  bool operator==(const ShelfSection&) const = default;
+};
+
+class FilmShelf {
+ public:
+  // Replaces the films. The selected one stays selected where it is still there, else the one at its place.
+  void put(std::vector<ShelfSection> sections);
+
+  // Films, without headings; a film in two sections counts twice.
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
+  [[nodiscard]] const std::vector<ShelfSection>& sections() const noexcept { return sections_; }
+  // From 0 on, over all sections; 0 if there is none.
+  [[nodiscard]] std::size_t selected() const noexcept { return selected_; }
+  // `film` below `size`.
+  [[nodiscard]] const ShelfFilm& film(std::size_t film) const noexcept;
+
+  // Stops at both ends.
+  void selectBy(std::ptrdiff_t films) noexcept;
+  // The last one for what is beyond it.
+  void select(std::size_t film) noexcept;
+
+ private:
+  [[nodiscard]] std::optional<std::size_t> find(const std::string& section, const std::string& url) const noexcept;
+
+  std::vector<ShelfSection> sections_;
+  std::size_t size_ = 0, selected_ = 0;
+};
+
+}  // namespace relievo

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the player does with the list of films that a viewer chooses from.
+#include <utility>
+
+#include "app/player/player.h"
+
+namespace relievo {
+namespace {
+
+constexpr Error kTakenAway{ErrorCode::Lost, 0, "it was unplugged, and the film with it; plug it in to go on"};
+
+}  // namespace
+
+// False for a command that is none of these.
+bool Player::obeyBrowsing(const PlayerCommand& command, MonotonicTime now) {
+  const bool browsing = state_ == PlayerState::Browsing;
+  switch (command.verb) {
+    case PlayerVerb::SelectBy:
+      if (browsing) browser_->selectBy(static_cast<std::ptrdiff_t>(command.value));
+      return true;
+    case PlayerVerb::SelectTo:
+      if (browsing) browser_->select(static_cast<std::size_t>(command.value) - 1);
+      return true;
+    case PlayerVerb::Choose:
+      chooseFilm(now);
+      return true;
+    case PlayerVerb::Back:
+      goBack(now);
+      return true;
+    case PlayerVerb::Escape:
+      if (!browsing && returnsToBrowser() && !screen_.isFullScreen()) goBack(now);
+      else screen_.obey({PlayerVerb::FullScreen, -1});
+      return true;
+    default:
+      return false;
+  }
+}
+
+void Player::openBrowser(MonotonicTime now) {
+  if (!browser_ || !apply(PlayerEvent::Browse)) return;
+  browsed_ = true;
+  screen_.text().forgetWarning();  // of the film that was played
+  browser_->open(programme_.leftFilms(), now);
+  screen_.announce({});
+  screen_.text().setList(browser_->view());
+  screen_.write(facts(), MonotonicTime::max(), now);
+  if (auto cleared = screen_.clear(touch_.mark(), now); !cleared) failDrawing(cleared.error());
+}
+
+void Player::closeBrowser() {
+  if (!screen_.text().hasList()) return;
+  browser_->close();
+  screen_.text().setList(std::nullopt);
+  mouse_pressed_ = chosen_ = false;
+}
+
+void Player::followBrowser(MonotonicTime now) {
+  if (!browser_) return;
+  if (state_ != PlayerState::Browsing) {
+    const auto place = film_.isOpen() ? browser_->takenAway(programme_.film().url) : std::nullopt;
+    if (place) failFilm(*place, kTakenAway);
+    return;
+  }
+  if (std::exchange(chosen_, false)) return chooseFilm(now);
+  if (browser_->attend(now)) screen_.text().setList(browser_->view());
+  if (auto drawn = screen_.redraw(touch_.mark(), MonotonicTime::max(), now); !drawn) failDrawing(drawn.error());
+}
+
+void Player::chooseFilm(MonotonicTime now) {
+  if (state_ != PlayerState::Browsing || browser_->shelf().empty()) return;
+  const ShelfFilm film = browser_->shelf().film(browser_->shelf().selected());
+  openList({{.url = film.url, .depth_url = film.depth_url, .title = film.title}}, now);
+}
+
+void Player::goBack(MonotonicTime now) {
+  if (state_ == PlayerState::Browsing) browser_->select(0);
+  else if (state_ == PlayerState::Idle) openBrowser(now);
+  else stopFilm(now);
+}
+
+// Within the display's `attend`: what is chosen is opened later in the round.
+bool Player::hearMouseInList(const SurfaceMouse& mouse) {
+  const auto film = screen_.filmAt(mouse);
+  browser_->point(film);
+  if (mouse.notches != 0) browser_->selectBy(-mouse.notches);
+  if (mouse.pressed && !mouse_pressed_ && film) {
+    browser_->select(*film);
+    chosen_ = true;
+  }
+  mouse_pressed_ = mouse.pressed;
+  return true;
+}
+
+}  // namespace relievo

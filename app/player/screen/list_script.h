@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// The list of films as a part of the screen's script, its posters, and which film a mouse is over. Pure.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "app/player/screen/screen_list.h"
+#include "app/player/screen/script.h"
+
+namespace relievo {
+
+void addList(Script& script, const ScreenList& list);
+// The posters of its rows, for a view of `frame`: over what `addList` draws.
+[[nodiscard]] std::vector<TextPicture> postersOf(const ScreenList& list, const TextFrame& frame);
+// `across` and `down` in shares of the view; nullopt: over no film.
+[[nodiscard]] std::optional<std::size_t> listFilmAt(const ScreenList& list, double across, double down,
+                                                    double aspect) noexcept;
+
+}  // namespace relievo

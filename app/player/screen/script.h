@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Collects the boxes and words of the screen's display as lines for AssText.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/render/text/ass_text.h"
+#include "platform/print.h"
+
+namespace relievo {
+
+// In the script's units; see screen_script.h.
+inline constexpr double kMargin = 40;
+
+inline constexpr const char* kWhite = "FFFFFF";  // blue, green, red
+inline constexpr const char* kBlack = "000000";
+inline constexpr const char* kGray = "A0A0A0";
+inline constexpr const char* kAccent = "47C7FF";  // the colour of the finger's glow
+inline constexpr const char* kWarn = "60B0FF";
+
+struct Area {
+  double x, y, width, height;
+};
+
+// Collects lines, each over those before it.
+class Script {
+ public:
+  explicit Script(double width) : width_(width) {}
+
+  void box(const Area& at, const char* color, double opacity) {
+    shape(print("m 0 0 l %.1f 0 %.1f %.1f 0 %.1f", at.width, at.width, at.height, at.height), at.x, at.y, color,
+          opacity);
+  }
+  void shape(const std::string& path, double x, double y, const char* color, double opacity) {
+    add(print("{\\an7\\pos(%.1f,%.1f)\\bord0\\shad0\\1c&H%s&\\1a&H%02X&\\p1}", x, y, color,
+              static_cast<unsigned>(std::lround(255 * (1 - opacity)))) +
+        path + "{\\p0}");
+  }
+  // `corner`: as on a keypad, 7 is the top left one of the text.
+  void text(const std::string& words, int corner, double x, double y, double size, const char* color = kWhite) {
+    if (words.empty()) return;
+    add(print("{\\an%d\\pos(%.1f,%.1f)\\fs%.1f\\1c&H%s&}", corner, x, y, size, color) + AssText::escaped(words));
+  }
+  [[nodiscard]] double width() const noexcept { return width_; }
+  [[nodiscard]] std::vector<std::string> take() { return std::move(lines_); }
+
+ private:
+  void add(const std::string& text) { lines_.push_back(print("%zu,0,Default,,0,0,0,,", lines_.size()) + text); }
+  double width_;
+  std::vector<std::string> lines_;
+};
+
+// How many letters of a font size find room in a width, about.
+inline int cellsIn(double width, double size) noexcept {
+  constexpr double kLetterOfSize = 0.52;  // the mean width of a letter
+  return std::max(8, static_cast<int>(width / (kLetterOfSize * size)));
+}
+
+}  // namespace relievo

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the rows of the list and their posters are, and which film a mouse is over.
+#include "app/player/screen/list_script.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/player/screen/screen_script.h"
+
+namespace relievo {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+using testing::SizeIs;
+
+constexpr double kAspect = 16.0 / 9;
+
+ScreenList list() {
+  ScreenList list;
+  list.films = 2;
+  list.selected = 1;
+  list.rows = {{.title = "Videos", .detail = "", .film = {}, .top = 80, .left = {}, .picture = nullptr},
+               {.title = "one", .detail = "0:30 of 2:00", .film = 0, .top = 126, .left = 0.25, .picture = nullptr},
+               {.title = "{\\fs9}", .detail = "", .film = 1, .top = 222, .left = {}, .picture = nullptr}};
+  return list;
+}
+
+TEST(ListScript, TellsTheFilmUnderAMouse) {
+  const auto at = [](double x, double y) { return listFilmAt(list(), x / 1280, y / 720, kAspect); };
+  EXPECT_EQ(at(600, 127), 0u);
+  EXPECT_EQ(at(600, 221), 0u);
+  EXPECT_EQ(at(600, 223), 1u);
+  EXPECT_EQ(at(600, 317), 1u);
+  EXPECT_FALSE(at(600, 319)) << "below the last row";
+  EXPECT_FALSE(at(600, 100)) << "a heading";
+  EXPECT_FALSE(at(10, 200)) << "beside the rows";
+}
+
+TEST(ListScript, SaysItsTitlesAsTheyAre) {
+  ScreenContent content;
+  content.list = list();
+  const auto lines = screenLines(content, kAspect);
+  EXPECT_THAT(lines, Contains(HasSubstr("}one")));
+  EXPECT_THAT(lines, Contains(HasSubstr("}0:30 of 2:00")));
+  EXPECT_THAT(lines, Contains(HasSubstr("}\\{\\\u2060fs9}")));
+  EXPECT_THAT(lines, Contains(HasSubstr("}2 of 2")));
+}
+
+TEST(ListScript, WithoutFilmsItSaysOneSentence) {
+  ScreenContent content;
+  content.list = ScreenList{.rows = {}, .message = "No films yet", .pointed = {}};
+  const auto lines = screenLines(content, kAspect);
+  EXPECT_THAT(lines, Contains(HasSubstr("}No films yet")));
+  EXPECT_THAT(lines, Not(Contains(HasSubstr("OK plays"))));
+}
+
+// The view of one eye side by side has half the pixels across: the poster has, too.
+TEST(ListScript, APosterKeepsItsShapeInEveryLayout) {
+  ScreenList one = list();
+  TextPicture picture{0, 0, 96, 108, 96, 108, std::vector<std::uint8_t>(4 * 96 * 108)};
+  one.rows[1].picture = std::make_shared<const TextPicture>(picture);
+  const auto mono = postersOf(one, {.width = 1280, .height = 720, .aspect = kAspect});
+  const auto half = postersOf(one, {.width = 640, .height = 720, .aspect = kAspect});
+  ASSERT_THAT(mono, SizeIs(1));
+  ASSERT_THAT(half, SizeIs(1));
+  EXPECT_EQ(mono[0].height, 83);
+  EXPECT_EQ(mono[0].width, 74) << "83 * 96 / 108";
+  EXPECT_EQ(half[0].height, 83);
+  EXPECT_EQ(half[0].width, 37);
+  EXPECT_NEAR(half[0].x, 0.5 * mono[0].x, 1);
+  EXPECT_EQ(mono[0].y, 131);
+  EXPECT_EQ(half[0].y, 131);
+  EXPECT_EQ(mono[0].cols, 96);
+}
+
+}  // namespace
+}  // namespace relievo
