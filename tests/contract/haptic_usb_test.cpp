@@ -10,8 +10,8 @@
 #include "drivers/falcon/falcon.h"
 #include "drivers/falcon/link.h"
 #include "tests/support/device/falcon_model.h"
-#include "tests/support/device/plugged_usb.h"
-#include "tests/support/device/usb_kinds.h"
+#include "tests/support/device/usb/plugged_usb.h"
+#include "tests/support/device/usb/usb_kinds.h"
 
 namespace relievo {
 namespace {

@@ -23,7 +23,7 @@
 
 #include "drivers/falcon/link.h"
 #include "platform/clock.h"
-#include "tests/support/device/vhci_usb.h"
+#include "tests/support/device/usb/vhci_usb.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/slope.h"
 #include "tests/support/machine/control_client.h"

@@ -18,7 +18,7 @@
 #include "drivers/falcon/falcon.h"
 #include "drivers/falcon/link.h"
 #include "tests/support/device/falcon_model.h"
-#include "tests/support/device/plugged_usb.h"
+#include "tests/support/device/usb/plugged_usb.h"
 #include "tests/support/film/slope.h"
 #include "tests/support/machine/process.h"
 #include "tests/support/machine/program.h"

@@ -237,6 +237,39 @@ void addSoundAndTextOptions(CLI::App& command, PlayerConfig& player) {
       ->type_name("LANG,..");
 }
 
+void addTouchOptions(CLI::App& command, PlayOptions& play, const DeviceNames& names) {
+  addBackEnd(command, "--haptic", play.haptic, "haptic device", names.haptic,
+             "What the finger holds [the device that is plugged in, else the mouse; off screen sim]");
+  command
+      .add_option("--rate", play.rate_hz,
+                  "Ticks of touch per second, 500 to 8000; a device that cannot runs at its best [the device's own, "
+                  "mostly 1000]")
+      ->check(between(kLeastRateHz, kMostRateHz))
+      ->type_name("HZ");
+}
+
+// What is printed, written or listened to.
+void addFileOptions(CLI::App& command, PlayOptions& play) {
+  command.add_option("--keys", play.keys_path, "Which key means what (see --print-keys) [the usual]")
+      ->type_name("FILE");
+  command.add_flag("--print-keys", play.print_keys, "Print the table of keys, to begin one of your own from")
+      ->configurable(false);
+  command
+      .add_flag("--print-states", play.print_states, "Print the player's states as a drawing: | dot -Tsvg > states.svg")
+      ->configurable(false);
+  command
+      .add_flag("-v,--verbose", play.verbose, "Say more: where each value of the depth is from, figures of the ticks")
+      ->configurable(false);
+  command.add_option("--report", play.report_path, "Write what happened, as JSON")->type_name("FILE");
+  command.add_option("--record", play.record_path, "Write every tick of the finger, as CSV")->type_name("FILE");
+  command
+      .add_option(
+          "--control", play.control_path,
+          "Listen there for commands of programs, one JSON object a line; after SOURCE, or without, wait for the next\n"
+          "film, until one says quit")
+      ->type_name("SOCKET");
+}
+
 void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& names) {
   play.player.stereo.layout = StereoLayout::Mono;
   play.player.display.film_size = true;
@@ -250,14 +283,7 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
           "favourite")
       ->type_name("WxH");
   addStereoOptions(command, play.player.stereo);
-  addBackEnd(command, "--haptic", play.haptic, "haptic device", names.haptic,
-             "What the finger holds [the device that is plugged in, else the mouse; off screen sim]");
-  command
-      .add_option("--rate", play.rate_hz,
-                  "Ticks of touch per second, 500 to 8000; a device that cannot runs at its best [the device's own, "
-                  "mostly 1000]")
-      ->check(between(kLeastRateHz, kMostRateHz))
-      ->type_name("HZ");
+  addTouchOptions(command, play, names);
   addBackEnd(
       command, "--remote", play.remote, "remote", names.remote,
       "Where keys come from [of a window its own and the terminal's; of a screen evdev, all remote controls; else "
@@ -282,24 +308,7 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
           "those on USB sticks, and those seen lately; remembers where each is left [the folder Videos]")
       ->type_name("FOLDER")
       ->allow_extra_args(false);
-  command.add_option("--keys", play.keys_path, "Which key means what (see --print-keys) [the usual]")
-      ->type_name("FILE");
-  command.add_flag("--print-keys", play.print_keys, "Print the table of keys, to begin one of your own from")
-      ->configurable(false);
-  command
-      .add_flag("--print-states", play.print_states, "Print the player's states as a drawing: | dot -Tsvg > states.svg")
-      ->configurable(false);
-  command
-      .add_flag("-v,--verbose", play.verbose, "Say more: where each value of the depth is from, figures of the ticks")
-      ->configurable(false);
-  command.add_option("--report", play.report_path, "Write what happened, as JSON")->type_name("FILE");
-  command.add_option("--record", play.record_path, "Write every tick of the finger, as CSV")->type_name("FILE");
-  command
-      .add_option(
-          "--control", play.control_path,
-          "Listen there for commands of programs, one JSON object a line; after SOURCE, or without, wait for the next\n"
-          "film, until one says quit")
-      ->type_name("SOCKET");
+  addFileOptions(command, play);
   command.footer(kPlayFooter + KeyTable::usual().help() + kExitCodes);
 }
 

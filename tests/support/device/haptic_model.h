@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "tests/support/device/usb_model.h"
+#include "tests/support/device/usb/usb_model.h"
 
 namespace relievo::test {
 

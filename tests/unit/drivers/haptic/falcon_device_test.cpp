@@ -10,7 +10,7 @@
 
 #include "tests/support/device/falcon_model.h"
 #include "tests/support/device/model_port.h"
-#include "tests/support/device/usb_kinds.h"
+#include "tests/support/device/usb/usb_kinds.h"
 
 namespace relievo {
 namespace {

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "tests/support/device/model_port.h"
-#include "tests/support/device/usb_kinds.h"
+#include "tests/support/device/usb/usb_kinds.h"
 
 namespace relievo {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "hal/moving_mass.h"
 #include "tests/support/device/model_port.h"
-#include "tests/support/device/usb_kinds.h"
+#include "tests/support/device/usb/usb_kinds.h"
 
 namespace relievo {
 namespace {

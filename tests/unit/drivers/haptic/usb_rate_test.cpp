@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "tests/support/device/model_port.h"
-#include "tests/support/device/usb_kinds.h"
+#include "tests/support/device/usb/usb_kinds.h"
 
 namespace relievo {
 namespace {

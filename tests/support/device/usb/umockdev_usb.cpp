@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Answers the requests of <linux/usbdevice_fs.h> that libusb and the driver make, by the model.
-#include "tests/support/device/umockdev_usb.h"
+#include "tests/support/device/usb/umockdev_usb.h"
 
 #include <linux/usbdevice_fs.h>
 #include <sys/ioctl.h>

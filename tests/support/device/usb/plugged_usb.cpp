@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Chooses umockdev or the kernel's virtual host controller.
-#include "tests/support/device/plugged_usb.h"
+#include "tests/support/device/usb/plugged_usb.h"
 
-#include "tests/support/device/umockdev_usb.h"
-#include "tests/support/device/vhci_usb.h"
+#include "tests/support/device/usb/umockdev_usb.h"
+#include "tests/support/device/usb/vhci_usb.h"
 
 namespace relievo::test {
 

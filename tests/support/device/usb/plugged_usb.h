@@ -6,7 +6,7 @@
 #include <mutex>
 #include <vector>
 
-#include "tests/support/device/usb_model.h"
+#include "tests/support/device/usb/usb_model.h"
 
 namespace relievo::test {
 

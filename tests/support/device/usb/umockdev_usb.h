@@ -9,8 +9,8 @@
 #include <map>
 #include <string>
 
-#include "tests/support/device/plugged_usb.h"
 #include "tests/support/device/request_loop.h"
+#include "tests/support/device/usb/plugged_usb.h"
 
 namespace relievo::test {
 

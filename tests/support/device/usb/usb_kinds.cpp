@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/support/device/usb_kinds.h"
+#include "tests/support/device/usb/usb_kinds.h"
 
 #include <unistd.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Builds the descriptors of a model.
-#include "tests/support/device/plugged_usb.h"
+#include "tests/support/device/usb/plugged_usb.h"
 
 namespace relievo::test {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Answers the kernel's USB/IP requests by the model.
-#include "tests/support/device/vhci_usb.h"
+#include "tests/support/device/usb/vhci_usb.h"
 
 #include <arpa/inet.h>
 #include <poll.h>

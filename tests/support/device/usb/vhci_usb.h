@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "platform/unique_fd.h"
-#include "tests/support/device/plugged_usb.h"
+#include "tests/support/device/usb/plugged_usb.h"
 
 namespace relievo::test {
 
