@@ -349,7 +349,7 @@ TEST_F(LabCharts, ThePageHoldsEveryChartWithItsWordsAndItsFigures) {
         << name << ": the page prints the reading as text already";
     EXPECT_TRUE(std::filesystem::exists(out(name + ".csv"))) << name;
   }
-  EXPECT_EQ(charts, withoutEgl(result_) ? 14 : 15);
+  EXPECT_EQ(charts, withoutEgl(result_) ? 15 : 16);
   EXPECT_EQ(page.find("nan"), std::string::npos);
 }
 

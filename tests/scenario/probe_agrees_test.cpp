@@ -97,8 +97,8 @@ TEST_F(ProbeAgrees, OnRatesFieldsAspectsColoursAndLayouts) {
     EXPECT_THAT(text(at(std::string("ntsc.") + ending)), HasSubstr(", 29.97 frames a second")) << ending;
   }
   expectAgreement(film(source +
-                           "-vf setsar=16/15 -c:v libx264 -pix_fmt yuv422p10le -flags +ildct+ilme -x264-params tff=1 "
-                           "-color_primaries bt2020 -color_trc smpte2084 -colorspace bt2020nc",
+                           "-vf setsar=16/15,setparams=color_primaries=bt2020:color_trc=smpte2084:colorspace=bt2020nc "
+                           "-c:v libx264 -pix_fmt yuv422p10le -flags +ildct+ilme -x264-params tff=1",
                        "hdr.mp4"));
   const std::string hdr = text(at("hdr.mp4"));
   for (const char* words : {"yuv422p10le of 10 bits", "interlaced, top field first", "sample aspect 16:15",

@@ -58,6 +58,23 @@ std::vector<double> timesOf(const std::string& film, const std::string& stream) 
   return times;
 }
 
+// "0.700 1.400 Middle", in s from the first picture: FFmpeg 7 lets all begin later by what the sound needs before its
+// first sample.
+std::vector<std::string> chaptersOf(const std::string& film) {
+  const double first_picture = timesOf(film, "v:0").at(0);
+  std::vector<std::string> chapters;
+  for (const std::string& line : linesOf(
+           say("ffprobe -v error -show_entries chapter=start_time,end_time:chapter_tags=title -of compact=p=0:nk=1 " +
+               film))) {
+    char* rest = nullptr;
+    const double start = std::strtod(line.c_str(), &rest), end = std::strtod(rest + 1, &rest);
+    std::array<char, 80> times{};
+    std::snprintf(times.data(), times.size(), "%.3f %.3f ", start - first_picture, end - first_picture);
+    chapters.push_back(times.data() + std::string(rest + 1));
+  }
+  return chapters;
+}
+
 // The text and the times of a subtitle track, as an .srt.
 std::string wordsOf(const std::string& film, int track) {
   return say("ffmpeg -v error -i " + film + " -map 0:s:" + std::to_string(track) + " -f srt -");
@@ -141,9 +158,8 @@ TEST_F(AuthorKeeps, EverythingInMatroska) {
     EXPECT_EQ(wordsOf(out, track), wordsOf(film_, track));
   }
   EXPECT_THAT(wordsOf(out, 1), HasSubstr("こんにちは"));
-  const std::string chapters = "ffprobe -v error -show_chapters -of compact ";
-  EXPECT_EQ(say(chapters + out), say(chapters + film_));
-  EXPECT_THAT(linesOf(say(chapters + out)), SizeIs(3));
+  EXPECT_EQ(chaptersOf(out), chaptersOf(film_));
+  EXPECT_THAT(chaptersOf(out), SizeIs(3));
   EXPECT_THAT(say("ffprobe -v error -show_entries format_tags=title -of default=nk=1:nw=1 " + out), "A walk\n");
 }
 
