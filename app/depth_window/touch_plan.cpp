@@ -30,6 +30,7 @@ constexpr double kNoiseAsMotion = 2.8;
 
 // Choosing the widths.
 constexpr double kNarrowMm = 0.28, kFineNarrowMm = 0.14, kWidestMm = 2.5;
+constexpr double kStepOfSearch = 1.02;
 constexpr double kTimesTheNarrow = 1.8;  // a smaller ratio would build the same level twice
 constexpr double kFineMm = 0.02;         // steps and noise imperceptible even with a width of 0.14 mm
 
@@ -182,9 +183,10 @@ TouchPlan planTouch(const ClipMeasure& m) {
   };
   s.narrow_mm = fine ? kFineNarrowMm : kNarrowMm;
   s.wide_mm = kTimesTheNarrow * s.narrow_mm;
-  for (double wider = s.wide_mm * 1.02; wider <= kWidestMm && errorOf(wider, 1) < errorOf(s.wide_mm, 1);
-       wider *= 1.02) {
+  double wider = s.wide_mm * kStepOfSearch;
+  while (wider <= kWidestMm && errorOf(wider, 1) < errorOf(s.wide_mm, 1)) {
     s.wide_mm = wider;
+    wider *= kStepOfSearch;
   }
   plan.error = errorOf(s.wide_mm, kExpectedOfWorst);
 
