@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The contract of every sound output: states, whole frames, room, and positions that advance at its rate.
+// Every sound output under the contract; what is ALSA's own.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -7,27 +7,14 @@
 #include "drivers/alsa/alsa.h"
 #include "drivers/mock/mock.h"
 #include "drivers/sample/sample.h"
-#include "tests/contract/state_table.h"
+#include "tests/contract/suite/audio_output.h"
 #include "tests/support/machine/fake_sound_card.h"
 
 namespace relievo {
 namespace {
 
-using State = AudioOutput::State;
+using Output = test::AudioOutputRig;
 using namespace std::chrono_literals;
-
-struct Output {
-  std::unique_ptr<AudioOutput> audio;
-  std::function<void(bool)> unplug;
-};
-
-struct Backend {
-  const char* name;
-  std::function<Output(ManualClock&)> make;
-};
-void PrintTo(const Backend& backend, std::ostream* out) {
-  *out << backend.name;
-}
 
 Output makeFakeCard(ManualClock& clock, bool takes_float) {
   static const bool plugged = (test::plugFakeSoundCard(), true);
@@ -36,7 +23,7 @@ Output makeFakeCard(ManualClock& clock, bool takes_float) {
   return {makeAlsaOutput("fake", clock), [](bool unplugged) { test::fakeSoundCard().unplugged = unplugged; }};
 }
 
-const Backend kBackends[] = {
+const test::AudioOutputBackend kBackends[] = {
     {"null",
      [](ManualClock& clock) {
        const auto bench = std::make_shared<MockAudioBench>();
@@ -51,135 +38,7 @@ const Backend kBackends[] = {
      }},
 };
 
-class AudioOutputContract : public testing::TestWithParam<Backend> {
- protected:
-  void SetUp() override { output_ = GetParam().make(clock_); }
-  [[nodiscard]] AudioOutput& audio() const { return *output_.audio; }
-  // Writes sound of that length and returns how many frames were taken.
-  std::int64_t write(Duration length) {
-    const AudioFormat& format = audio().format();
-    const auto frames = static_cast<std::size_t>(toSeconds(length) * format.rate_hz);
-    const std::vector<float> samples(frames * static_cast<std::size_t>(format.channels), 0.25F);
-    const auto taken = audio().write(samples);
-    EXPECT_TRUE(taken) << taken.error().message;
-    return static_cast<std::int64_t>(taken.value_or(0));
-  }
-  [[nodiscard]] std::optional<AudioPosition> position() const {
-    const auto at = audio().position();
-    EXPECT_TRUE(at) << at.error().message;
-    return at.value_or(std::nullopt);
-  }
-
-  ManualClock clock_{MonotonicTime(1h)};
-  Output output_;
-};
-INSTANTIATE_TEST_SUITE_P(Backends, AudioOutputContract, testing::ValuesIn(kBackends),
-                         [](const auto& test) { return std::string(test.param.name); });
-
-TEST_P(AudioOutputContract, EveryVerbInEveryState) {
-  const std::vector<float> frame(2);
-  const std::vector<test::Verb<AudioOutput>> verbs = {
-      {"open", [](AudioOutput& a) { return test::answerOf(a.open({})); }},
-      {"write", [&](AudioOutput& a) { return test::answerOf(a.write(frame)); }},
-      {"position", [](AudioOutput& a) { return test::answerOf(a.position()); }},
-      {"flush", [](AudioOutput& a) { return test::answerOf(a.flush()); }},
-      {"close", [](AudioOutput& a) { return a.close(), test::Answer{}; }},
-  };
-  constexpr auto no = std::nullopt;
-  const std::vector<test::Row<State>> table = {
-      // from            open         write        position     flush        close
-      {State::Closed, {State::Open, no, no, no, State::Closed}},
-      {State::Open, {no, State::Open, State::Open, State::Open, State::Closed}},
-      {State::Lost, {no, no, no, no, State::Closed}},
-  };
-  test::expectStateTable(verbs, table, [&](State state) {
-    auto [audio, unplug] = GetParam().make(clock_);
-    EXPECT_TRUE(state == State::Closed || audio->open({}));
-    if (state == State::Lost) {
-      EXPECT_TRUE(audio->write(frame));
-      unplug(true);
-      EXPECT_EQ(test::answerOf(audio->write(frame)), ErrorCode::Lost);
-    }
-    return std::move(audio);
-  });
-}
-
-TEST_P(AudioOutputContract, TakesNoMoreThanItsBufferHolds) {
-  ASSERT_TRUE(audio().open({}));
-  const double room = toSeconds(audio().capabilities().buffer) * audio().format().rate_hz;
-  EXPECT_GE(audio().capabilities().buffer, 400ms) << "longer than a picture takes to draw";
-  EXPECT_NEAR(static_cast<double>(write(3s)), room, 1);
-  EXPECT_EQ(write(1s), 0);
-  clock_.advance(100ms);
-  EXPECT_NEAR(static_cast<double>(write(1s)), 0.1 * audio().format().rate_hz, 2);
-}
-
-TEST_P(AudioOutputContract, PositionsRunAtItsRateFromTheFirstFrameOn) {
-  ASSERT_TRUE(audio().open({.rate_hz = 44100, .channels = 2}));
-  EXPECT_EQ(audio().format(), (AudioFormat{44100, 2}));
-  EXPECT_FALSE(position());
-  write(400ms);
-  for (int reading = 0; reading < 4; ++reading) {
-    const auto at = position();
-    ASSERT_TRUE(at);
-    EXPECT_EQ(at->time, clock_.now());
-    EXPECT_NEAR(static_cast<double>(at->frames), toSeconds(at->time - MonotonicTime(1h)) * 44100, 1);
-    clock_.advance(100ms);
-  }
-}
-
-TEST_P(AudioOutputContract, RunsDryIsSilentAndGoesOnWithTheNextFrame) {
-  ASSERT_TRUE(audio().open({}));
-  const std::int64_t before = write(200ms);
-  clock_.advance(1s);
-  EXPECT_FALSE(position());
-  write(200ms);
-  clock_.advance(50ms);
-  const auto at = position();
-  ASSERT_TRUE(at);
-  EXPECT_NEAR(static_cast<double>(at->frames - before), 2400, 1);
-}
-
-TEST_P(AudioOutputContract, AFlushIsSilentAndCountsAnew) {
-  ASSERT_TRUE(audio().open({}));
-  write(400ms);
-  clock_.advance(100ms);
-  ASSERT_TRUE(audio().flush());
-  EXPECT_FALSE(position());
-  clock_.advance(1s);
-  EXPECT_FALSE(position());
-  EXPECT_NEAR(static_cast<double>(write(3s)), toSeconds(audio().capabilities().buffer) * 48000, 1);
-  clock_.advance(100ms);
-  ASSERT_TRUE(position());
-  EXPECT_NEAR(static_cast<double>(position()->frames), 4800, 1);
-}
-
-TEST_P(AudioOutputContract, LostWhenItIsPulledOutAndBackWhenItIsThereAgain) {
-  ASSERT_TRUE(audio().open({}));
-  write(400ms);
-  output_.unplug(true);
-  const auto at = audio().position();
-  EXPECT_TRUE(!at || !*at);
-  if (audio().state() == State::Open) {
-    EXPECT_EQ(test::answerOf(audio().write(std::vector<float>(2))), ErrorCode::Lost);
-  }
-  EXPECT_EQ(audio().state(), State::Lost);
-  audio().close();
-  EXPECT_EQ(test::answerOf(audio().open({})), ErrorCode::NotFound);
-  EXPECT_EQ(audio().state(), State::Closed);
-  output_.unplug(false);
-  ASSERT_TRUE(audio().open({}));
-  EXPECT_GT(write(100ms), 0);
-}
-
-TEST_P(AudioOutputContract, RefusesWhatIsNoFormatAndNoWholeFrames) {
-  EXPECT_EQ(test::answerOf(audio().open({.rate_hz = 0})), ErrorCode::InvalidArgument);
-  EXPECT_EQ(test::answerOf(audio().open({.channels = 0})), ErrorCode::InvalidArgument);
-  ASSERT_TRUE(audio().open({}));
-  const std::vector<float> odd(3);
-  EXPECT_EQ(test::answerOf(audio().write(odd)), ErrorCode::InvalidArgument);
-  EXPECT_EQ(audio().write({}), std::size_t{0});
-}
+INSTANTIATE_TEST_SUITE_P(Backends, AudioOutputContract, testing::ValuesIn(kBackends), test::kBackendName);
 
 TEST(AlsaOutput, SaysWhatToDoAboutACardThatIsNotThere) {
   ManualClock clock;

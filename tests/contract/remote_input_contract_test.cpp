@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The contract of every remote control.
+// Every remote control under the contract; what is the terminal's and the window's own.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <linux/input-event-codes.h>
@@ -18,19 +18,13 @@
 #include "drivers/terminal/terminal_keys.h"
 #include "drivers/window/window_remote.h"
 #include "platform/unique_fd.h"
-#include "tests/contract/state_table.h"
+#include "tests/contract/suite/remote_input.h"
 
 namespace relievo {
 namespace {
 
-using State = RemoteInput::State;
+using Remote = test::RemoteRig;
 using namespace std::chrono_literals;
-
-struct Remote {
-  std::unique_ptr<RemoteInput> input;
-  std::function<void()> press;  // called one second after opening
-  std::uint16_t key = KEY_OK;
-};
 
 struct Terminal {
   Terminal() {
@@ -57,15 +51,7 @@ struct Wire {
   UniqueFd out, in;
 };
 
-struct Backend {
-  const char* name;
-  std::function<Remote(ManualClock&)> make;
-};
-void PrintTo(const Backend& backend, std::ostream* out) {
-  *out << backend.name;
-}
-
-const Backend kBackends[] = {
+const test::RemoteBackend kBackends[] = {
     {"script", [](ManualClock& clock) { return Remote{makeScriptedRemote({{1s, KEY_OK}}, clock), [] {}}; }},
     {"window",
      [](ManualClock& clock) {
@@ -92,54 +78,7 @@ const Backend kBackends[] = {
      }},
 };
 
-class RemoteInputContract : public testing::TestWithParam<Backend> {
- protected:
-  ManualClock clock_{MonotonicTime(1h)};
-};
-INSTANTIATE_TEST_SUITE_P(Backends, RemoteInputContract, testing::ValuesIn(kBackends),
-                         [](const auto& test) { return std::string(test.param.name); });
-
-TEST_P(RemoteInputContract, EveryVerbInEveryState) {
-  const std::vector<test::Verb<RemoteInput>> verbs = {
-      {"open", [](RemoteInput& r) { return test::answerOf(r.open()); }},
-      {"poll", [](RemoteInput& r) { return test::answerOf(r.poll(MonotonicTime(1h))); }},
-      {"close", [](RemoteInput& r) { return r.close(), test::Answer{}; }},
-  };
-  constexpr auto no = std::nullopt;
-  const std::vector<test::Row<State>> table = {
-      // from           open      poll       close
-      {State::Closed, {State::Open, no, State::Closed}},
-      {State::Open, {no, State::Open, State::Closed}},
-  };
-  std::vector<std::function<void()>> senders;  // a sender keeps its pseudo-terminal open
-  test::expectStateTable(verbs, table, [&](State state) {
-    auto [remote, press, key] = GetParam().make(clock_);
-    senders.push_back(std::move(press));
-    EXPECT_TRUE(state != State::Open || remote->open());
-    return std::move(remote);
-  });
-}
-
-TEST_P(RemoteInputContract, YieldsAKeyOnceAndNothingInBetween) {
-  const auto [remote, press, expected] = GetParam().make(clock_);
-  for (int opening = 0; opening < 2; ++opening) {
-    ASSERT_TRUE(remote->open());
-    EXPECT_FALSE(remote->poll(clock_.now()).value()) << "no key yet";
-    clock_.advance(1s);
-    press();
-    clock_.advance(1s);
-    const auto key = remote->poll(clock_.now()).value();
-    ASSERT_TRUE(key);
-    EXPECT_EQ(key->code, expected);
-    EXPECT_EQ(key->action, KeyEvent::Action::Press);
-    EXPECT_LE(key->time, clock_.now());
-    while (const auto next = remote->poll(clock_.now()).value()) {
-      EXPECT_EQ(next->code, expected);
-      EXPECT_EQ(next->action, KeyEvent::Action::Release);
-    }
-    remote->close();
-  }
-}
+INSTANTIATE_TEST_SUITE_P(Backends, RemoteInputContract, testing::ValuesIn(kBackends), test::kBackendName);
 
 std::vector<std::uint16_t> keysOf(std::string_view bytes) {
   std::vector<std::uint16_t> codes;
