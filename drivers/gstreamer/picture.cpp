@@ -28,8 +28,8 @@ guint componentCount(const GstVideoFormatInfo& format) noexcept {
 }
 
 bool describable(const GstVideoFormatInfo& format) noexcept {
-  constexpr auto kOther = static_cast<GstVideoFormatFlags>(GST_VIDEO_FORMAT_FLAG_COMPLEX |
-                                                           GST_VIDEO_FORMAT_FLAG_PALETTE | GST_VIDEO_FORMAT_FLAG_TILED);
+  constexpr unsigned kOther =
+      GST_VIDEO_FORMAT_FLAG_COMPLEX | GST_VIDEO_FORMAT_FLAG_PALETTE | GST_VIDEO_FORMAT_FLAG_TILED;
   const guint count = componentCount(format);
   if ((format.flags & kOther) != 0 || format.n_components < count) return false;
   for (guint i = 0; i < count; ++i) {

@@ -167,7 +167,7 @@ std::optional<Error> Pipeline::failure() {
   return failure_;
 }
 
-bool Pipeline::stop() noexcept {
+bool Pipeline::stop() {
   if (left_behind_) return false;
   const auto stopping = std::make_shared<Stop>();
   gst_element_call_async(pipeline_.get(), Stop::run, new std::shared_ptr<Stop>(stopping), Stop::forget);

@@ -36,7 +36,7 @@ class Pipeline {
   // The first failure since the start.
   [[nodiscard]] std::optional<Error> failure();
   // Nothing but destruction is left then. False if the element hangs.
-  bool stop() noexcept;
+  bool stop();
   // The element hangs: nothing waits for it any more.
   void abandon() noexcept { hangs_ = true; }
 
