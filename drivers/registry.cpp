@@ -23,6 +23,9 @@
 #include "drivers/floats/floats.h"
 #include "drivers/gamepad/gamepad.h"
 #include "drivers/gamepad/pad_list.h"
+#ifdef RELIEVO_GSTREAMER
+#include "drivers/gstreamer/gstreamer.h"
+#endif
 #ifdef RELIEVO_HEIF
 #include "drivers/heif/heif.h"
 #endif
@@ -53,6 +56,7 @@
   "sim[:phantom|falcon|polhem][,stroking|resting|tapping|tense|shaking][,SCRIPT.csv] replay:FILE mock none"
 #define RELIEVO_REMOTE_NAMES "evdev keys window script:FILE none"
 #define RELIEVO_AUDIO_NAMES "alsa[:DEVICE] null none"
+#define RELIEVO_DECODER_NAMES "v4l2 gstreamer[:ELEMENT] ffmpeg"
 
 namespace relievo::drivers {
 
@@ -60,6 +64,7 @@ const char* const kDisplayNames = RELIEVO_DISPLAY_NAMES;
 const char* const kHapticNames = RELIEVO_HAPTIC_NAMES;
 const char* const kRemoteNames = RELIEVO_REMOTE_NAMES;
 const char* const kAudioNames = RELIEVO_AUDIO_NAMES;
+const char* const kDecoderNames = RELIEVO_DECODER_NAMES;
 const char* const kMockFilm = "mock:";
 const double kFalconCountsPerNm = falcon::kDefaultCountsPerNm;
 
@@ -156,6 +161,24 @@ const PhotoKind kPhotoKinds[] = {
     kHeif,
 #endif
 };
+
+// Hardware leaves an alpha channel out.
+bool isLeftToSoftware(const StreamInfo& stream) {
+  return isMock(stream) || isV4l2Raw(stream) || pictureFormat(stream) || saysAlpha(stream);
+}
+
+std::unique_ptr<VideoDecoder> withSoftwareBehind(std::vector<std::unique_ptr<VideoDecoder>> decoders,
+                                                 const StreamInfo& stream) {
+  decoders.push_back(makeSoftwareDecoder(stream));
+  return decoders.size() == 1 ? std::move(decoders.front()) : makeFailoverDecoder(std::move(decoders));
+}
+
+// A decoder that was asked for by its name.
+std::unique_ptr<VideoDecoder> backed(std::unique_ptr<VideoDecoder> decoder, const StreamInfo& stream) {
+  std::vector<std::unique_ptr<VideoDecoder>> decoders;
+  if (!isLeftToSoftware(stream)) decoders.push_back(std::move(decoder));
+  return withSoftwareBehind(std::move(decoders), stream);
+}
 
 std::unexpected<Failure> unknown(const char* option, const BackEndName& name, const char* message) {
   return failOn(option + (" " + name.text()), {ErrorCode::InvalidArgument, 0, message});
@@ -261,13 +284,29 @@ std::unique_ptr<VideoDecoder> makeSoftwareDecoder(const StreamInfo& stream) {
 }
 
 std::unique_ptr<VideoDecoder> makeVideoDecoder(const StreamInfo& stream) {
-  // Hardware leaves an alpha channel out.
-  const bool own = isMock(stream) || isV4l2Raw(stream) || pictureFormat(stream) || saysAlpha(stream);
-  if (own || lookAtV4l2M2mNodes().empty()) return makeSoftwareDecoder(stream);
-  std::vector<std::unique_ptr<VideoDecoder>> decoders;
-  decoders.push_back(makeV4l2M2mDecoder());
-  decoders.push_back(makeSoftwareDecoder(stream));
-  return makeFailoverDecoder(std::move(decoders));
+  if (isLeftToSoftware(stream)) return makeSoftwareDecoder(stream);
+  std::vector<std::unique_ptr<VideoDecoder>> hardware;
+  if (!lookAtV4l2M2mNodes().empty()) hardware.push_back(makeV4l2M2mDecoder());
+#ifdef RELIEVO_GSTREAMER
+  if (gstreamerHasDevices()) hardware.push_back(makeGstreamerDecoder());
+#endif
+  return withSoftwareBehind(std::move(hardware), stream);
+}
+
+Outcome<DecoderMaker> decoderMaker(const BackEndName& name) {
+  if (name.word.empty()) return makeVideoDecoder;
+  if (name.plain("ffmpeg")) return makeSoftwareDecoder;
+  if (name.plain("v4l2")) return [](const StreamInfo& stream) { return backed(makeV4l2M2mDecoder(), stream); };
+  if (name.plain("gstreamer") || name.withArgument("gstreamer")) {
+#ifdef RELIEVO_GSTREAMER
+    return [element = name.argument.value_or("")](const StreamInfo& stream) {
+      return backed(makeGstreamerDecoder(element), stream);
+    };
+#else
+    return unknown("--decoder", name, "this relievo was built without GStreamer; build it with -DRELIEVO_GSTREAMER=ON");
+#endif
+  }
+  return unknown("--decoder", name, "no such decoder; it is one of: " RELIEVO_DECODER_NAMES);
 }
 
 Result<std::string> readText(const std::string& url, std::size_t most_bytes, const std::atomic<bool>& cancelled) {
@@ -319,6 +358,13 @@ std::vector<DeviceState> lookAtDevices(const HapticSettings& settings, Clock& cl
     for (const std::string& codec : node.codecs) codecs += " " + codec;
     states.push_back({"decoder", node.path, true, node.card + ":" + codecs});
   }
+#ifdef RELIEVO_GSTREAMER
+  if (gstreamerHasDevices()) {
+    for (const GstreamerElement& each : lookAtGstreamerElements()) {
+      states.push_back({"decoder", "gstreamer:" + each.name, true, each.title});
+    }
+  }
+#endif
   states.push_back(look("window", *makeWindowDisplay(theWindow(), clock)));
   const bool desktop = states.back().there;
   states.insert(states.end(),

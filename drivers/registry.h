@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,6 +29,7 @@ extern const char* const kDisplayNames;
 extern const char* const kHapticNames;
 extern const char* const kRemoteNames;
 extern const char* const kAudioNames;
+extern const char* const kDecoderNames;  // without GStreamer in the build, its name too
 
 extern const char* const kMockFilm;  // the URL of a built-in film of three seconds
 
@@ -55,9 +57,12 @@ struct NamedFiles {
 [[nodiscard]] NamedFiles filesNamedBy(const BackEndName& name);
 [[nodiscard]] std::unique_ptr<MediaSource> makeMediaSource(const std::string& url);
 // makeSoftwareDecoder decodes the same to the bit on every machine. makeVideoDecoder uses hardware that takes the
-// stream and falls back to software if that fails.
+// stream, a stateful V4L2 device before GStreamer's elements, and falls back to software if that fails.
 [[nodiscard]] std::unique_ptr<VideoDecoder> makeSoftwareDecoder(const StreamInfo& stream);
 [[nodiscard]] std::unique_ptr<VideoDecoder> makeVideoDecoder(const StreamInfo& stream);
+// What makes decoders of that name ("gstreamer:ELEMENT"), with software behind them; makeVideoDecoder if none is named.
+using DecoderMaker = std::function<std::unique_ptr<VideoDecoder>(const StreamInfo&)>;
+[[nodiscard]] Outcome<DecoderMaker> decoderMaker(const BackEndName& name);
 [[nodiscard]] std::unique_ptr<AudioDecoder> makeAudioDecoder();
 [[nodiscard]] std::unique_ptr<SubtitleDecoder> makeSubtitleDecoder();
 // Reads the text at a path or an address that makeMediaSource could open.

@@ -36,9 +36,9 @@ namespace {
 constexpr Error kNoPicture{ErrorCode::Timeout, 0,
                            "not one picture came in the time of --duration; is it sent, and is there a picture in it?"};
 
-PairReader::Backends realBackends(bool software = false) {
+PairReader::Backends realBackends(drivers::DecoderMaker make_decoder = drivers::makeVideoDecoder) {
   return {.make_source = drivers::makeMediaSource,
-          .make_decoder = software ? drivers::makeSoftwareDecoder : drivers::makeVideoDecoder,
+          .make_decoder = std::move(make_decoder),
           .read_text = drivers::readText,
           .make_audio_decoder = drivers::makeAudioDecoder,
           .make_subtitle_decoder = drivers::makeSubtitleDecoder};
@@ -117,6 +117,7 @@ struct Devices {
   std::unique_ptr<HapticDevice> haptic;
   std::unique_ptr<RemoteInput> remote;
   std::unique_ptr<AudioOutput> audio;
+  drivers::DecoderMaker make_decoder;
 };
 
 // A device that cannot have the rate runs at its best, and that is said.
@@ -146,7 +147,10 @@ Outcome<Devices> makeDevices(const PlayOptions& options, const FileConfig& confi
   if (!remote) return std::unexpected(remote.error());
   auto audio = drivers::makeAudioOutput(options.audio, clock);
   if (!audio) return std::unexpected(audio.error());
-  return Devices{std::move(*display), std::move(*haptic), std::move(*remote), std::move(*audio)};
+  auto make_decoder = drivers::decoderMaker(options.software ? BackEndName("ffmpeg") : options.decoder);
+  if (!make_decoder) return std::unexpected(make_decoder.error());
+  return Devices{std::move(*display), std::move(*haptic), std::move(*remote), std::move(*audio),
+                 std::move(*make_decoder)};
 }
 
 // What is written besides the picture and the sound. Empty: it was not asked for.
@@ -203,8 +207,8 @@ int play(PlayOptions options, const FileConfig& config) {
                                             .recorder = recorder,
                                             .control = &control,
                                             .status = &status,
-                                            .backends = realBackends(options.software),
-                                            .posters = realBackends(true)});
+                                            .backends = realBackends(devices->make_decoder),
+                                            .posters = realBackends(drivers::makeSoftwareDecoder)});
   const auto played = player.run(stop);
   const PlayReport report = player.report();
   const int files = finishFiles(report, report_file, recorder);
@@ -285,7 +289,8 @@ int parseAndRun(int argc, char** argv) {
                                     {.display = drivers::kDisplayNames,
                                      .haptic = drivers::kHapticNames,
                                      .remote = drivers::kRemoteNames,
-                                     .audio = drivers::kAudioNames},
+                                     .audio = drivers::kAudioNames,
+                                     .decoder = drivers::kDecoderNames},
                                     {.desktop = drivers::desktopIsThere,
                                      .screen = drivers::screenIsThere,
                                      .haptic = drivers::pluggedHaptic,

@@ -9,6 +9,7 @@
 
 #include "drivers/failover/failover.h"
 #include "drivers/v4l2/v4l2.h"
+#include "tests/contract/decoded_film.h"
 #include "tests/contract/video_decoder_contract.h"
 #include "tests/support/device/mocked_machine.h"
 #include "tests/support/device/umockdev_codec.h"
@@ -16,7 +17,13 @@
 namespace relievo {
 namespace {
 
+using test::bySoftware;
 using test::CodecKind;
+using test::feedTo;
+using test::Film;
+using test::play;
+using test::Shown;
+using test::shownOf;
 using test::UmockdevCodec;
 
 constexpr int kFrames = 72;  // three key frames, in clips of this file
@@ -31,85 +38,6 @@ INSTANTIATE_TEST_SUITE_P(V4l2, VideoDecoderContract,
                          testing::Values(test::FilmBackend{"v4l2", makeFfmpegSource, decoderOnMockedMachine,
                                                            test::encodedFilm, nullptr}),
                          [](const auto& test) { return std::string(test.param.name); });
-
-// A film's packets of one track.
-struct Film {
-  explicit Film(const std::string& path, std::size_t track = 0) {
-    const auto source = makeFfmpegSource();
-    EXPECT_TRUE(source->open(path));
-    stream = source->streams().at(track);
-    for (;;) {
-      auto packet = source->read();
-      EXPECT_TRUE(packet);
-      if (!packet || !*packet) return;
-      if ((*packet)->stream == stream.index) packets.push_back(std::move(**packet));
-    }
-  }
-  StreamInfo stream;
-  std::vector<Packet> packets;
-};
-
-struct Shown {
-  MediaTime pts;
-  int width, height;
-  std::uint64_t digest;
-  bool operator==(const Shown&) const = default;
-};
-void PrintTo(const Shown& shown, std::ostream* out) {
-  *out << toSeconds(shown.pts) << " s, " << shown.width << " x " << shown.height << ", " << std::hex << shown.digest;
-}
-
-// A digest of every sample of every component.
-Shown shownOf(const Frame& frame) {
-  std::uint64_t sum = 1469598103934665603ull;
-  for (int i = 0; i < 3; ++i) {
-    const int shift = i > 0 ? 1 : 0;
-    for (int r = 0; r < (frame.height + shift) >> shift; ++r) {
-      for (int c = 0; c < (frame.width + shift) >> shift; ++c) {
-        sum = (sum ^ test::sampleAt(frame, i, c, r)) * 1099511628211ull;
-      }
-    }
-  }
-  return {frame.pts, frame.width, frame.height, sum};
-}
-
-// Feeds packets [from, to) and collects the pictures, as a player does; `each` gets every picture.
-using Each = std::function<void(const Frame&)>;
-Result<void> feedTo(VideoDecoder& decoder, const Film& film, std::size_t from, std::size_t to,
-                    std::vector<Shown>& shown, const Each& each = {}) {
-  const auto receive = [&]() -> Result<void> {
-    for (;;) {
-      auto frame = decoder.receive();
-      if (!frame) return std::unexpected(frame.error());
-      if (!*frame) return {};
-      shown.push_back(shownOf(**frame));
-      if (each) each(**frame);
-    }
-  };
-  for (std::size_t i = from; i < to;) {
-    if (auto received = receive(); !received) return received;
-    const auto fed = decoder.feed(film.packets[i]);
-    if (!fed) return std::unexpected(fed.error());
-    EXPECT_EQ(*fed, Feed::Accepted) << "though all pictures were received";
-    ++i;
-  }
-  if (to < film.packets.size()) return receive();
-  if (auto drained = decoder.drain(); !drained) return drained;
-  auto received = receive();
-  EXPECT_TRUE(!received || decoder.state() == VideoDecoder::State::Ended);
-  return received;
-}
-std::vector<Shown> play(VideoDecoder& decoder, const Film& film, const Each& each = {}) {
-  std::vector<Shown> shown;
-  const auto played = feedTo(decoder, film, 0, film.packets.size(), shown, each);
-  EXPECT_TRUE(played) << played.error().message;
-  return shown;
-}
-std::vector<Shown> bySoftware(const Film& film) {
-  const auto decoder = makeFfmpegDecoder();
-  EXPECT_TRUE(decoder->open(film.stream));
-  return play(*decoder, film);
-}
 
 test::ClipTrack movingClip(int width = 100, int height = 70) {
   test::ClipTrack track{.codec = "libx264",

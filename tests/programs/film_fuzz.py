@@ -95,6 +95,7 @@ class Fuzzer:
         before = files_under(films) | {out}
         limit = "" if self.sanitized else f"ulimit -v {HARD_KIB}; "
         environment = {**os.environ, "HOME": home, "TMPDIR": home, "XDG_RUNTIME_DIR": home}
+        environment |= {"GST_PLUGIN_SYSTEM_PATH_1_0": "/none", "GST_REGISTRY": "/dev/null"}  # nobody's elements and home
         environment |= {"ASAN_OPTIONS": "detect_leaks=0", "DISPLAY": "", "WAYLAND_DISPLAY": ""}
         with open(said, "wb") as output:
             command = self.command(program, arguments, os.path.join(films, out))

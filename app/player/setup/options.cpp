@@ -290,7 +290,11 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
       "keys, the terminal's]");
   addBackEnd(command, "--audio", play.audio, "sound output", names.audio,
              "Where the sound goes [of a window or a whole screen alsa, else none]");
-  command.add_flag("--software", play.software, "Decode without the video hardware, where that shows faults");
+  CLI::Option* const decoder =
+      addBackEnd(command, "--decoder", play.decoder, "decoder", names.decoder,
+                 "What decodes the picture; where it cannot, FFmpeg does [the video hardware, else ffmpeg]");
+  command.add_flag("--software", play.software, "Decode without the video hardware, where that shows faults")
+      ->excludes(decoder);
   addBoxOption(command, play.player.volume);
   addSoundAndTextOptions(command, play.player);
   command.add_flag("--osd", play.osd, "Write bar, keys and notices over an off-screen picture too");

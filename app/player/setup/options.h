@@ -20,6 +20,7 @@ struct PlayOptions {
   BackEndName haptic;
   BackEndName remote;
   BackEndName audio;
+  BackEndName decoder;
   std::optional<double> rate_hz;  // of the haptic task; none: the device's own
   bool software = false;          // no hardware decodes the film
   std::string report_path;        // empty: none
@@ -53,6 +54,7 @@ struct DeviceNames {
   const char* haptic = "";
   const char* remote = "";
   const char* audio = "";
+  const char* decoder = "";
 };
 
 // What there is to play on, for what the options do not name. Each is asked only where its answer is needed; an empty

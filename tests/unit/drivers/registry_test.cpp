@@ -43,6 +43,20 @@ TEST_F(Registry, MakesEachByItsName) {
   EXPECT_EQ(makeMediaSource("v4l2:/nonexistent")->open("v4l2:/nonexistent").error().code, ErrorCode::NotFound);
 }
 
+TEST_F(Registry, ADecoderMayBeNamed) {
+  EXPECT_STREQ(decoderMaker("").value()({})->capabilities().name, "ffmpeg");
+  EXPECT_STREQ(decoderMaker("ffmpeg").value()({})->capabilities().name, "ffmpeg");
+  EXPECT_STREQ(decoderMaker("v4l2").value()({})->capabilities().name, "v4l2-m2m");
+#ifdef RELIEVO_GSTREAMER
+  EXPECT_STREQ(decoderMaker("gstreamer").value()({})->capabilities().name, "gstreamer");
+  EXPECT_STREQ(decoderMaker("gstreamer:avdec_h264").value()({})->capabilities().name, "gstreamer");
+#else
+  EXPECT_THAT(decoderMaker("gstreamer").error().error.message, testing::HasSubstr("built without GStreamer"));
+#endif
+  EXPECT_EQ(decoderMaker("gstreamer:").error().error.code, ErrorCode::InvalidArgument);
+  EXPECT_THAT(decoderMaker("vdpau").error().error.message, testing::HasSubstr(kDecoderNames));
+}
+
 TEST_F(Registry, AServiceIsAtAHostAndAPort) {
   for (const char* name : {"inverse3:box:", "inverse3:box:0", "inverse3:a b", "inverse3:box:1:2"}) {
     const auto device = makeHapticDevice(name, clock_);

@@ -29,7 +29,7 @@ Parsed parse(const std::vector<const char*>& arguments, const Machine& machine =
   auto options =
       parseOptions(static_cast<int>(words.size()), words.data(),
                    {"kms[:CARD] window offscreen[:FILE] mock", "falcon sim[:HAND] pointer replay:FILE mock none",
-                    "evdev keys window script:FILE none", "alsa[:DEVICE] null none"},
+                    "evdev keys window script:FILE none", "alsa[:DEVICE] null none", "v4l2 gstreamer[:ELEMENT] ffmpeg"},
                    machine);
   std::string out = testing::internal::GetCapturedStdout();
   std::string err = testing::internal::GetCapturedStderr();
@@ -251,6 +251,7 @@ TEST(Options, AWindowBringsItsKeysAndItsMouseAlong) {
   EXPECT_EQ(parsedPlay({"--display", "kms:/dev/dri/card1"}).audio, "alsa");
   EXPECT_EQ(parsedPlay({"--display", "window", "--audio", "none"}).audio, "none");
   EXPECT_EQ(parsedPlay({"--audio", "alsa:hdmi:CARD=vc4hdmi0"}).audio, "alsa:hdmi:CARD=vc4hdmi0");
+  EXPECT_EQ(parsedPlay({"--decoder", "gstreamer:vah264dec"}).decoder, "gstreamer:vah264dec");
   EXPECT_EQ(parsedPlay({"--display", "window"}).haptic, "pointer:window");
   EXPECT_EQ(parsedPlay({"--display", "mock"}).haptic, "sim");
   EXPECT_EQ(parsedPlay({"--display", "window", "--haptic", "pointer"}).haptic, "pointer:window");

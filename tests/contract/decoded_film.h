@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole films through a decoder, as a player feeds them, for comparison with FFmpeg's pictures.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "drivers/ffmpeg/ffmpeg.h"
+#include "tests/support/film/clip_maker.h"
+
+namespace relievo::test {
+
+// A film's packets of one track.
+struct Film {
+  explicit Film(const std::string& path, std::size_t track = 0) {
+    const auto source = makeFfmpegSource();
+    EXPECT_TRUE(source->open(path));
+    stream = source->streams().at(track);
+    for (;;) {
+      auto packet = source->read();
+      EXPECT_TRUE(packet);
+      if (!packet || !*packet) return;
+      if ((*packet)->stream == stream.index) packets.push_back(std::move(**packet));
+    }
+  }
+  StreamInfo stream;
+  std::vector<Packet> packets;
+};
+
+struct Shown {
+  MediaTime pts;
+  int width, height;
+  std::uint64_t digest;
+  bool operator==(const Shown&) const = default;
+};
+inline void PrintTo(const Shown& shown, std::ostream* out) {
+  *out << toSeconds(shown.pts) << " s, " << shown.width << " x " << shown.height << ", " << std::hex << shown.digest;
+}
+
+// A digest of every sample of every component.
+inline Shown shownOf(const Frame& frame) {
+  std::uint64_t sum = 1469598103934665603ull;
+  for (int i = 0; i < (frame.model == ColorModel::Gray ? 1 : 3); ++i) {
+    const int across = i > 0 ? frame.chroma_shift_x : 0, down = i > 0 ? frame.chroma_shift_y : 0;
+    for (int r = 0; r < (frame.height + (1 << down) - 1) >> down; ++r) {
+      for (int c = 0; c < (frame.width + (1 << across) - 1) >> across; ++c) {
+        sum = (sum ^ sampleAt(frame, i, c, r)) * 1099511628211ull;
+      }
+    }
+  }
+  return {frame.pts, frame.width, frame.height, sum};
+}
+
+// Feeds packets [from, to) and collects the pictures, as a player does; `each` gets every picture.
+using Each = std::function<void(const Frame&)>;
+inline Result<void> feedTo(VideoDecoder& decoder, const Film& film, std::size_t from, std::size_t to,
+                           std::vector<Shown>& shown, const Each& each = {}) {
+  const auto receive = [&]() -> Result<void> {
+    for (;;) {
+      auto frame = decoder.receive();
+      if (!frame) return std::unexpected(frame.error());
+      if (!*frame) return {};
+      shown.push_back(shownOf(**frame));
+      if (each) each(**frame);
+    }
+  };
+  for (std::size_t i = from; i < to;) {
+    if (auto received = receive(); !received) return received;
+    const auto fed = decoder.feed(film.packets[i]);
+    if (!fed) return std::unexpected(fed.error());
+    EXPECT_EQ(*fed, Feed::Accepted) << "though all pictures were received";
+    ++i;
+  }
+  if (to < film.packets.size()) return receive();
+  if (auto drained = decoder.drain(); !drained) return drained;
+  auto received = receive();
+  EXPECT_TRUE(!received || decoder.state() == VideoDecoder::State::Ended);
+  return received;
+}
+inline std::vector<Shown> play(VideoDecoder& decoder, const Film& film, const Each& each = {}) {
+  std::vector<Shown> shown;
+  const auto played = feedTo(decoder, film, 0, film.packets.size(), shown, each);
+  EXPECT_TRUE(played) << played.error().message;
+  return shown;
+}
+inline std::vector<Shown> bySoftware(const Film& film) {
+  const auto decoder = makeFfmpegDecoder();
+  EXPECT_TRUE(decoder->open(film.stream));
+  return play(*decoder, film);
+}
+
+}  // namespace relievo::test

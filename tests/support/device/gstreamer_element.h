@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// GStreamer elements that call themselves hardware, made of FFmpeg's, with faults that a test switches.
+#pragma once
+
+#include <string>
+
+namespace relievo::test {
+
+// Registers the element "relievotesth264", of a high rank, in this process. A test that wants it alone by rank gets it.
+class GstreamerElement {
+ public:
+  enum class Fault { None, Hangs, Fails, IsGone };
+
+  GstreamerElement();
+  // Ends every hang, so that GStreamer's threads go.
+  ~GstreamerElement();
+  GstreamerElement(const GstreamerElement&) = delete;
+  GstreamerElement& operator=(const GstreamerElement&) = delete;
+
+  // After so many pictures, counted from here over all of the element's instances; `times`: instances that it befalls.
+  void befall(Fault fault, int after, int times);
+  // Returns when an instance hangs.
+  void awaitHang();
+  // Pictures are in dma-bufs (memory that is described as such).
+  void useDmaBufs();
+  [[nodiscard]] int instances() const;
+  // Instances and pictures that are not given up yet, of the whole process.
+  [[nodiscard]] int live() const;
+
+  static constexpr const char* kName = "relievotesth264";
+};
+
+// Lets this process see the machine's elements; their list is kept at `path`, not in the user's home. Before GStreamer
+// is loaded.
+void keepGstreamerListAt(const std::string& path);
+
+}  // namespace relievo::test
