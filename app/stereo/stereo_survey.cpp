@@ -21,6 +21,7 @@ constexpr double kBlackSpread = 3;      // levels
 constexpr double kSame = 0.75;          // levels between two views, on average
 constexpr double kLeastShift = 0.5;     // pixels, that are worth to correct
 constexpr double kBadRest = 1.5;        // pixels
+constexpr const char* kSamePicture = "both views are the same picture: there is no depth to be had from it";
 
 ViewPicture reduced(const ViewPicture& view) {
   const int cols = std::min(view.cols, kReducedCols);
@@ -74,6 +75,12 @@ class DisparityCount {
   std::vector<std::uint64_t> counts_;
   std::uint64_t all_ = 0;
 };
+
+// All but the outliers lie where they would in two copies of one picture: a codec and noise move them by less.
+bool isSame(const DisparityCount& count) {
+  constexpr double kOutliers = 0.05, kMost = 0.5;  // pixels of the reduced picture
+  return count.below(kOutliers) >= -kMost && count.below(1 - kOutliers) + 0.25 <= kMost;
+}
 
 }  // namespace
 
@@ -189,6 +196,7 @@ void StereoSurvey::measureRange(ShotPlan& shot) {
     eyes_ += voteOnEyes(map, looked.left);
   }
   shot.has_depth = static_cast<double>(count.all()) > kLeastFound * static_cast<double>(all);
+  if (shot.has_depth && isSame(count)) ++same_;
   const double low = scale * count.below(kOutliers), high = scale * (count.below(1 - kOutliers) + 0.25);
   const double spare = scale + kSpare * (high - low);
   shot.range = {static_cast<int>(std::floor(low - spare)), static_cast<int>(std::ceil(high + spare))};
@@ -232,7 +240,13 @@ Result<StereoPlan> StereoSurvey::finish() {
     return fail(ErrorCode::Unsupported, "one of its two views is black: there is no depth to be had from it");
   }
   if (2 * alike_ > pictures_) {
-    return fail(ErrorCode::Unsupported, "both views are the same picture: there is no depth to be had from it");
+    return fail(ErrorCode::Unsupported, kSamePicture);
+  }
+  const auto deep = static_cast<std::size_t>(std::ranges::count_if(plan_.shots, &ShotPlan::has_depth));
+  if (deep > 0 && same_ == deep) return fail(ErrorCode::Unsupported, kSamePicture);
+  if (deep == 0) {
+    return fail(ErrorCode::Unsupported,
+                "its views have nothing in common; it is no film of two views, or they lie another way: see --packing");
   }
   plan_.views_swapped = eyes_.areSwapped();
   explain();

@@ -19,8 +19,8 @@ class StereoSurvey {
  public:
   // The next pictures, in order, of one size each. Unsupported if a size changes.
   [[nodiscard]] Result<void> add(const Frame& left, const Frame& right);
-  // After the last picture. Unsupported if there is no depth to be had: one view is black, or both are the same
-  // picture.
+  // After the last picture. Unsupported if there is no depth to be had: one view is black, both are the same picture,
+  // or they have nothing in common.
   [[nodiscard]] Result<StereoPlan> finish();
 
  private:
@@ -51,6 +51,7 @@ class StereoSurvey {
   EyeVotes eyes_;
   std::uint64_t pictures_ = 0, one_black_ = 0, alike_ = 0;
   int unfitting_ = 0;
+  std::size_t same_ = 0;  // shots whose views are the same picture
 };
 
 }  // namespace relievo

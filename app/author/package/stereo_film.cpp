@@ -26,7 +26,8 @@ bool canBeReadAgain(const std::string& url) {
 Outcome<SourceOptions> withLayout(SourceOptions source, const PairReader::Backends& backends) {
   PairReader reader(backends);
   if (auto opened = reader.open(source); !opened) return failOn(reader.failedThing(), opened.error());
-  if (isStereo(reader.info().packing)) return source;
+  const Packing packing = reader.info().packing;
+  if (isStereo(packing) || packing == Packing::StereoTracks) return source;
   if (source.packing != Packing::Auto || reader.info().has_depth) return failOn(source.url, kNotTwoViews);
   const auto first = reader.next();
   const auto views = first && *first ? findViews((*first)->color) : std::nullopt;

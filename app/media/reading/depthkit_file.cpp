@@ -74,7 +74,7 @@ std::optional<RecordingPlace> readFile(const fs::path& file) {
 
 RecordingPlace lookForDepthkit(const fs::path& film) {
   const fs::path stem = fs::path(film).replace_extension();
-  for (const char* end : {".txt", ".json", ".asset", "_meta.txt", "_meta.json", "_meta.asset"}) {
+  for (const char* end : {".txt", ".json", ".asset", "_meta.txt", "_meta.json", "_meta.asset", ".Metadata.asset"}) {
     if (auto found = readFile(stem.string() + end)) return std::move(*found);
   }
   return {};

@@ -154,6 +154,14 @@ void Browser::draw() {
 }
 
 std::string Browser::nothingThere() const {
+  for (const std::string& place : config_.folders) {
+    const std::error_code failure = finder_.failureOf(place);
+    if (failure == std::errc::no_such_file_or_directory) {
+      return "There is no folder " + place + ": make it and put films in it, or name another (--films)";
+    }
+    if (failure == std::errc::not_a_directory) return place + " is not a folder: name one (--films)";
+    if (failure) return "The folder " + place + " cannot be read: " + failure.message();
+  }
   const std::string folder = config_.folders.empty() ? "" : "put films in " + config_.folders.front() + " or ";
   return "No films yet: " + folder + "plug in a USB stick";
 }

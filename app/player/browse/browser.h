@@ -27,7 +27,7 @@ struct BrowserConfig {
 // The player's thread; no verb waits.
 class Browser {
  public:
-  static constexpr Duration kLookPeriod = std::chrono::seconds(30);  // between two looks at the folders
+  static constexpr Duration kLookPeriod = std::chrono::seconds(3);  // between two looks at the folders
   static constexpr std::size_t kMostRecent = 5;
 
   Browser(BrowserConfig config, PairReader::Backends posters, SourceOptions options, bool own_threads = true);

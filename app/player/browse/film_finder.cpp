@@ -27,16 +27,19 @@ class Search {
  public:
   Search(std::string place, const std::atomic<bool>& stop) : place_(std::move(place)), stop_(stop) {}
 
-  std::vector<ShelfFilm> films() && {
+  std::vector<ShelfFilm> films() {
     search(place_, 0);
     return std::move(films_);
   }
+  // Why the place itself could not be read.
+  [[nodiscard]] std::error_code failure() const noexcept { return failure_; }
 
  private:
   void search(const fs::path& folder, int deep) {
     std::vector<std::string> names, folders;
     std::error_code failed;
-    fs::directory_iterator entries(folder, fs::directory_options::skip_permission_denied, failed);
+    fs::directory_iterator entries(folder, failed);
+    if (failed && deep == 0) failure_ = failed;
     for (; !failed && entries != fs::directory_iterator() && goesOn(); entries.increment(failed)) {
       const std::string name = entries->path().filename().string();
       ++seen_;
@@ -71,6 +74,7 @@ class Search {
   const std::string place_;
   const std::atomic<bool>& stop_;
   std::vector<ShelfFilm> films_;
+  std::error_code failure_;
   std::size_t seen_ = 0;
 };
 
@@ -96,6 +100,7 @@ struct FilmFinder::Shared {
   std::mutex mutex;  // of all below
   std::condition_variable done;
   std::map<std::string, std::vector<ShelfFilm>> films;
+  std::map<std::string, std::error_code> failures;  // of places that could not be read
   std::vector<std::string> there;
   std::set<std::string> read_now;
   bool news = false;
@@ -131,7 +136,8 @@ void FilmFinder::read(const std::string& place, const std::vector<std::string>& 
 }
 
 void FilmFinder::Shared::read(const std::string& place, const std::vector<std::string>& files) {
-  auto found = place == kFiles ? std::vector<ShelfFilm>{} : Search(place, stop).films();
+  Search search(place, stop);
+  auto found = place == kFiles ? std::vector<ShelfFilm>{} : search.films();
   auto found_files = thoseThatExist(files, stop);
   const std::scoped_lock lock(mutex);
   if (place == kFiles) {
@@ -139,11 +145,19 @@ void FilmFinder::Shared::read(const std::string& place, const std::vector<std::s
     there = std::move(found_files);
   } else {
     const auto known = films.find(place);
-    news = news || known == films.end() || known->second != found;
+    news = news || known == films.end() || known->second != found || failures[place] != search.failure();
     films[place] = std::move(found);
+    failures[place] = search.failure();
   }
   read_now.erase(place);
   done.notify_all();
+}
+
+std::error_code FilmFinder::failureOf(const std::string& folder) const {
+  if (!shared_) return {};
+  const std::scoped_lock lock(shared_->mutex);
+  const auto known = shared_->failures.find(folder);
+  return known == shared_->failures.end() ? std::error_code{} : known->second;
 }
 
 bool FilmFinder::hasNews() {

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "app/player/browse/film_shelf.h"
@@ -36,6 +37,8 @@ class FilmFinder {
   [[nodiscard]] bool hasNews();
   // What is known of a folder; nothing: not yet read.
   [[nodiscard]] std::vector<ShelfFilm> filmsIn(const std::string& folder) const;
+  // Why a folder could not be read; none if it was, or is not yet.
+  [[nodiscard]] std::error_code failureOf(const std::string& folder) const;
   // Those of `files` that exist.
   [[nodiscard]] std::vector<std::string> there() const;
 

@@ -157,6 +157,7 @@ TEST_F(DepthkitFile, IsReadInMetresAndMillimetresAsTextAndAsset) {
       {"clip_meta.txt", R"({"_versionMajor": 0, "nearClip" : 900.0, "farClip":2400})"},
       {"clip.json", R"({"perspectives": [{"nearClip": 0.9, "farClip": 2.4}, {"nearClip": 0.3, "farClip": 3}]})"},
       {"clip.asset", "MonoBehaviour:\n  m_Name: clip\n  farClip: 2.4\n  nearClip: 0.9\n"},
+      {"clip.Metadata.asset", R"(TextAsset: "{\"nearClip\": 0.9, \"farClip\": 2.4}")"},
       {"clip_meta.asset", R"(TextAsset: "{\"nearClip\": 0.9, \"farClip\": 2.4}")"},
   };
   for (const auto& file : files) {

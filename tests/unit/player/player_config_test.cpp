@@ -126,6 +126,7 @@ TEST_F(PlayConfig, EveryOptionCanStandInTheFileAndIsPrintedAsItReadsBack) {
                                                       {"depth-strength", "0.25"},
                                                       {"haptic", R"("mock")"},
                                                       {"rate", "2000"},
+                                                      {"decoder", R"("ffmpeg")"},
                                                       {"material", R"("stiffness=.3,friction=.2/.15")"},
                                                       {"remote", R"("none")"},
                                                       {"audio", R"("null")"},

@@ -54,7 +54,7 @@ Quality qualityOf(const DisparityMap& map, const Truth& truth) {
     for (int c = 0; c < map.cols; ++c) {
       const float known = truth.pixels[map.at(c, r)];
       if (!std::isfinite(known)) continue;
-      errors.push_back(std::abs(map.pixels[map.at(c, r)] - known));
+      errors.push_back(std::abs(static_cast<double>(map.pixels[map.at(c, r)]) - static_cast<double>(known)));
       if (c + 1 == map.cols || !(std::abs(truth.pixels[map.at(c + 1, r)] - known) > 4)) continue;
       if (!std::isfinite(truth.pixels[map.at(c + 1, r)])) continue;
       ++edges;

@@ -298,6 +298,9 @@ class Watch {
       if (!bench_.service.stalled(now) && !wasThere(last_, now)) ++blind_;
     };
   }
+  ~Watch() { bench_.service.on_force = nullptr; }  // the device sends its last force when it is closed
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
 
   // After the device was brought up: its first position may be older.
   void begin(const glm::dvec3& position_mm) { last_ = position_mm; }

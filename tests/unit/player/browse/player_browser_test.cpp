@@ -130,7 +130,8 @@ TEST_F(PlayerWithAList, ProgramsSeeItAndChooseFromIt) {
 TEST(BrowserAlone, SaysWhatToDoWithoutFilms) {
   Browser browser({.folders = {"/absent/films"}, .stick_roots = {}}, {}, {}, false);
   browser.open({}, MonotonicTime{});
-  EXPECT_EQ(browser.view().message, "No films yet: put films in /absent/films or plug in a USB stick");
+  EXPECT_EQ(browser.view().message,
+            "There is no folder /absent/films: make it and put films in it, or name another (--films)");
 }
 
 TEST_F(PlayerWithAList, FilmsThatWereLeftComeFirst) {
