@@ -60,6 +60,13 @@ struct TwoViews {
   [[nodiscard]] Frame left() const {
     return picture([&](double x, double y, double* rgb) { paint(seenByLeft(x, y), x, y, rgb); });
   }
+  // The same view with errors of its own, as another encoder leaves them: a grain of so many levels.
+  [[nodiscard]] Frame leftWithGrain(double levels) const {
+    return picture([&](double x, double y, double* rgb) {
+      paint(seenByLeft(x, y), x, y, rgb);
+      for (int i = 0; i < 3; ++i) rgb[i] += levels * smoothNoise(x, y, 999);
+    });
+  }
   [[nodiscard]] Frame right(const RightEye& eye = {}) const {
     const double angle = eye.degrees * 3.14159265358979 / 180, cx = 0.5 * (cols - 1), cy = 0.5 * (rows - 1);
     return picture([&](double c, double r, double* rgb) {

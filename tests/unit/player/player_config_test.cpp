@@ -37,10 +37,10 @@ class PlayConfig : public testing::Test {
     for (const std::string& word : words) argv.push_back(word.c_str());
     testing::internal::CaptureStdout();
     testing::internal::CaptureStderr();
-    auto options =
-        parseOptions(static_cast<int>(argv.size()), argv.data(),
-                     {"kms[:CARD] window offscreen[:FILE] mock", "falcon sim[:HAND] pointer replay:FILE mock none",
-                      "evdev keys window script:FILE none", "alsa[:DEVICE] null none"});
+    auto options = parseOptions(
+        static_cast<int>(argv.size()), argv.data(),
+        {"kms[:CARD] window offscreen[:FILE] mock", "falcon sim[:HAND] pointer replay:FILE mock none",
+         "evdev keys window script:FILE none", "alsa[:DEVICE] null none", "v4l2 gstreamer[:ELEMENT] ffmpeg"});
     std::string out = testing::internal::GetCapturedStdout();
     return {std::move(options), std::move(out), testing::internal::GetCapturedStderr()};
   }

@@ -97,6 +97,14 @@ TEST(StereoSurvey, RefusesOnePictureTwice) {
   EXPECT_THAT(plan.error().message, HasSubstr("the same picture"));
 }
 
+// A film of one view, coded twice: each view has errors of its own.
+TEST(StereoSurvey, RefusesOnePictureWithOtherErrors) {
+  const TwoViews scene = boards();
+  const auto plan = planOf(scene.left(), scene.leftWithGrain(8));
+  ASSERT_FALSE(plan.has_value());
+  EXPECT_THAT(plan.error().message, HasSubstr("the same picture"));
+}
+
 TEST(StereoSurvey, EachShotHasItsOwnRangeFromItsFirstPictureOn) {
   TwoViews first = boards(), second = boards();
   for (auto& board : second.boards) std::swap(board.color[0], board.color[2]), board.color[1] = 255 - board.color[1];
