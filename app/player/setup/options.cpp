@@ -6,11 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
 #include <sstream>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include "app/cli/options.h"
@@ -19,9 +16,9 @@
 #include "app/player/control/key_table.h"
 #include "app/player/screen/stereo_word.h"
 #include "app/player/setup/config_options.h"
+#include "app/player/setup/settle_play.h"
 #include "hal/haptic_rate.h"
 #include "platform/files/answered_place.h"
-#include "platform/log.h"
 #include "platform/near_words.h"
 #include "platform/print.h"
 
@@ -316,78 +313,11 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
   command.footer(kPlayFooter + KeyTable::usual().help() + kExitCodes);
 }
 
-bool has(const std::function<bool()>& thing) {
-  return thing && thing();
-}
-
-void settleDisplay(PlayOptions& play, const Machine& machine) {
-  if (!play.display.word.empty()) return;
-  play.display = has(machine.desktop) ? "window" : has(machine.screen) ? "kms" : "offscreen";
-}
-
-// A window brings its keys and its mouse along; nothing else has them. A whole screen is watched from a sofa. Who sees
-// the film hears it, and feels it with what is at hand.
-Outcome<void> settleDevices(PlayOptions& play, const Machine& machine, bool chosen) {
-  const bool window = play.display.plain("window");
-  const bool seen = window || play.display.word == "kms";
-  if (play.haptic.word.empty()) {
-    play.haptic = !seen ? "sim" : machine.haptic ? machine.haptic() : "";
-    if (play.haptic.word.empty()) play.haptic = "pointer";
-  }
-  if (play.remote.word.empty())
-    play.remote = window ? "window" : seen ? "evdev" : has(machine.terminal) ? "keys" : "none";
-  if (play.audio.word.empty()) play.audio = seen ? "alsa" : "none";
-  if (window && play.haptic.plain("pointer")) play.haptic.argument = "window";
-  const auto none = [](const std::string& thing) {
-    return failOn(thing, {ErrorCode::InvalidArgument, 0, "there is no window; add --display window"});
-  };
-  if (!window && play.remote.plain("window")) return none("--remote window");
-  if (!window && play.haptic.with("pointer", "window")) return none("--haptic pointer:window");
-  if (!chosen && !seen) {
-    log(LogLevel::Info, "play", "there is no desktop and no screen here: it plays off screen; see --display");
-  }
-  return {};
-}
-
 Outcome<ConfigLines> readConfig(CLI::App& play, const std::string& path, FileConfig& config) {
   auto read = loadConfig(path);
   if (!read) return std::unexpected(read.error());
   config = std::move(*read);
   return play.parsed() ? applyConfig(play, config) : ConfigLines{};
-}
-
-std::string usualFilms() {
-  const auto set = [](const char* name) -> std::filesystem::path {
-    const char* value = std::getenv(name);
-    return value == nullptr ? "" : value;
-  };
-  if (const auto xdg = set("XDG_VIDEOS_DIR"); !xdg.empty()) return xdg;
-  if (const auto home = set("HOME"); !home.empty()) return home / "Videos";
-  return "/srv/films";
-}
-
-// The list is for who can see it, or for programs that know its folders.
-void settleBrowser(PlayOptions& play) {
-  const bool no_film = play.player.source.url.empty();
-  const bool seen = play.display.plain("window") || play.display.word == "kms";
-  if (no_film ? !seen && play.films.empty() : !play.player.stays || play.films.empty()) return;
-  if (play.films.empty()) play.films.push_back(usualFilms());
-  play.player.browser = BrowserConfig{.folders = play.films};
-  if (no_film) play.player.display.film_size = false;  // one size for the list and all films
-}
-
-Outcome<void> settlePlay(PlayOptions& play, const Machine& machine) {
-  if (play.print_keys || play.print_states) return {};
-  play.player.stays = !play.control_path.empty();
-  play.player.osd = play.osd || play.display.word != "offscreen";  // never in a capture unasked
-  const bool chosen = !play.display.word.empty();
-  settleDisplay(play, machine);
-  settleBrowser(play);
-  if (play.player.source.url.empty() && !play.player.stays && !play.player.browser) {
-    return failOn("SOURCE", {ErrorCode::InvalidArgument, 0,
-                             "is missing; name a film, as in relievo film.mkv; see relievo --help"});
-  }
-  return settleDevices(play, machine, chosen);
 }
 
 // "relievo film.mkv" and "relievo --loop film.mkv" as "relievo play ..", "relievo help play" as "relievo play --help".

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// A window brings other devices along than a screen, and neither is there off screen.
+#include "app/player/setup/settle_play.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "platform/log.h"
+
+namespace relievo {
+namespace {
+
+bool has(const std::function<bool()>& thing) {
+  return thing && thing();
+}
+
+void settleDisplay(PlayOptions& play, const Machine& machine) {
+  if (!play.display.word.empty()) return;
+  play.display = has(machine.desktop) ? "window" : has(machine.screen) ? "kms" : "offscreen";
+}
+
+// A window brings its keys and its mouse along; nothing else has them. A whole screen is watched from a sofa. Who sees
+// the film hears it, and feels it with what is at hand.
+Outcome<void> settleDevices(PlayOptions& play, const Machine& machine, bool chosen) {
+  const bool window = play.display.plain("window");
+  const bool seen = window || play.display.word == "kms";
+  if (play.haptic.word.empty()) {
+    play.haptic = !seen ? "sim" : machine.haptic ? machine.haptic() : "";
+    if (play.haptic.word.empty()) play.haptic = "pointer";
+  }
+  if (play.remote.word.empty())
+    play.remote = window ? "window" : seen ? "evdev" : has(machine.terminal) ? "keys" : "none";
+  if (play.audio.word.empty()) play.audio = seen ? "alsa" : "none";
+  if (window && play.haptic.plain("pointer")) play.haptic.argument = "window";
+  const auto none = [](const std::string& thing) {
+    return failOn(thing, {ErrorCode::InvalidArgument, 0, "there is no window; add --display window"});
+  };
+  if (!window && play.remote.plain("window")) return none("--remote window");
+  if (!window && play.haptic.with("pointer", "window")) return none("--haptic pointer:window");
+  if (!chosen && !seen) {
+    log(LogLevel::Info, "play", "there is no desktop and no screen here: it plays off screen; see --display");
+  }
+  return {};
+}
+
+std::string usualFilms() {
+  const auto set = [](const char* name) -> std::filesystem::path {
+    const char* value = std::getenv(name);
+    return value == nullptr ? "" : value;
+  };
+  if (const auto xdg = set("XDG_VIDEOS_DIR"); !xdg.empty()) return xdg;
+  if (const auto home = set("HOME"); !home.empty()) return home / "Videos";
+  return "/srv/films";
+}
+
+// The list is for who can see it, or for programs that know its folders.
+void settleBrowser(PlayOptions& play) {
+  const bool no_film = play.player.source.url.empty();
+  const bool seen = play.display.plain("window") || play.display.word == "kms";
+  if (no_film ? !seen && play.films.empty() : !play.player.stays || play.films.empty()) return;
+  if (play.films.empty()) play.films.push_back(usualFilms());
+  play.player.browser = BrowserConfig{.folders = play.films};
+  if (no_film) play.player.display.film_size = false;  // one size for the list and all films
+}
+
+}  // namespace
+
+Outcome<void> settlePlay(PlayOptions& play, const Machine& machine) {
+  if (play.print_keys || play.print_states) return {};
+  play.player.stays = !play.control_path.empty();
+  play.player.osd = play.osd || play.display.word != "offscreen";  // never in a capture unasked
+  const bool chosen = !play.display.word.empty();
+  settleDisplay(play, machine);
+  settleBrowser(play);
+  if (play.player.source.url.empty() && !play.player.stays && !play.player.browser) {
+    return failOn("SOURCE", {ErrorCode::InvalidArgument, 0,
+                             "is missing; name a film, as in relievo film.mkv; see relievo --help"});
+  }
+  return settleDevices(play, machine, chosen);
+}
+
+}  // namespace relievo
