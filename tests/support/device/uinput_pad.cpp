@@ -9,13 +9,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
 namespace relievo::test {
 
 bool UinputPad::canBeMade() {
-  return ::access("/dev/uinput", W_OK) == 0;
+  return std::getenv("RELIEVO_GUEST") != nullptr && ::access("/dev/uinput", W_OK) == 0;
 }
 
 UinputPad::UinputPad(const PadFacts& facts) : fd_(::open("/dev/uinput", O_RDWR | O_NONBLOCK | O_CLOEXEC)) {

@@ -16,7 +16,8 @@ namespace relievo::test {
 
 class UinputPad {
  public:
-  static bool canBeMade();  // toolchain/guest has a kernel that can
+  // In toolchain/guest alone: its kernel can, and its time is virtual, which limits of milliseconds need.
+  static bool canBeMade();
   explicit UinputPad(const PadFacts& facts);
   UinputPad(const UinputPad&) = delete;
   UinputPad& operator=(const UinputPad&) = delete;
