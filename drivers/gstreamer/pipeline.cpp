@@ -18,25 +18,34 @@
 namespace relievo::gstreamer {
 namespace {
 
-constexpr std::chrono::milliseconds kStopPatience{300};
+constexpr std::chrono::milliseconds kStopPatience{300}, kDrainPatience{200};
 
 constexpr const char* kNoStart = "the GStreamer element does not start; is its device free?";
 constexpr const char* kGone = "the GStreamer element's device has gone";
 constexpr const char* kFailed = "the GStreamer element failed";
 constexpr const char* kNotItsKind = "the GStreamer element cannot decode this kind of stream";
 
-// A stop, on a thread of GStreamer's.
+// A stop, on a thread of GStreamer's. The end of the stream is let through first: the decoders of gst-libav 1.26 access
+// what is gone if they are stopped while they drain.
 struct Stop {
+  GstAppSink* draining;  // null: the stream goes on
   std::mutex mutex;
   std::condition_variable changed;
   bool done = false;
 
   static void run(GstElement* pipeline, gpointer given) {
     Stop& stopping = **static_cast<std::shared_ptr<Stop>*>(given);
+    if (stopping.draining != nullptr) letEnd(*stopping.draining);
     gst_element_set_state(pipeline, GST_STATE_NULL);
     const std::lock_guard lock(stopping.mutex);
     stopping.done = true;
     stopping.changed.notify_all();
+  }
+  static void letEnd(GstAppSink& sink) {
+    const auto until = std::chrono::steady_clock::now() + kDrainPatience;
+    while (gst_app_sink_is_eos(&sink) != TRUE && std::chrono::steady_clock::now() < until) {
+      const SamplePtr picture(gst_app_sink_try_pull_sample(&sink, GST_MSECOND));
+    }
   }
   static void forget(gpointer given) { delete static_cast<std::shared_ptr<Stop>*>(given); }
 };
@@ -145,6 +154,7 @@ void Pipeline::push(BufferPtr packet) {
 }
 
 void Pipeline::end() {
+  draining_ = true;
   gst_app_src_end_of_stream(GST_APP_SRC(source_));
 }
 
@@ -169,7 +179,7 @@ std::optional<Error> Pipeline::failure() {
 
 bool Pipeline::stop() {
   if (left_behind_) return false;
-  const auto stopping = std::make_shared<Stop>();
+  const auto stopping = std::make_shared<Stop>(draining_ && !hangs_ && !failure_ ? GST_APP_SINK(sink_) : nullptr);
   gst_element_call_async(pipeline_.get(), Stop::run, new std::shared_ptr<Stop>(stopping), Stop::forget);
   std::unique_lock lock(stopping->mutex);
   const auto patience = hangs_ ? std::chrono::milliseconds(0) : kStopPatience;

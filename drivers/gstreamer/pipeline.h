@@ -51,6 +51,7 @@ class Pipeline {
   CapsPtr caps_;
   BusPtr bus_;
   std::optional<Error> failure_;
+  bool draining_ = false;
   bool hangs_ = false;
   bool left_behind_ = false;  // a thread waits for the element
 };
