@@ -11,12 +11,14 @@ namespace relievo {
 inline constexpr double kSigmaPerPitch = 0.645497;  // sqrt(5/12)
 
 // Approximate number of samples read per control point's block, across and down, for each level.
-inline constexpr int kNarrowSamples = 3, kWideSamples = 15;
+inline constexpr int kNarrowSamples = 3, kWideSamples = 15, kBroadSamples = 10;
 
 // Widths of the smoothing (standard deviations), and the laws of interpolation.
 struct FeltScale {
   double narrow_mm = 0.28;  // of the narrow level, which keeps edges
-  double wide_mm = 0.72;   // of the wide level, used away from edges; if not wider than narrow, only one level is built
+  double wide_mm = 0.72;  // of the wide level, used away from edges; if not wider than narrow, only one level is built
+  double broad_mm = 0;  // of the broad level, used where the surface is straight; if not wider than wide, there is none
+  double straight_mm = 0;  // second differences of the broad level's control points that count as straight
   double clamp_mm = 0.25;  // how far the wide level may deviate from the narrow one
   TimeLaw narrow_time = TimeLaw::Linear;
   TimeLaw wide_time = TimeLaw::Fitted;

@@ -66,6 +66,11 @@ constexpr double kStepsOverWorstSlope = 5.06, kExpectedOfWorst = 0.5;
 // the sphere and the face of relievo-lab speed-accuracy (noise of 1 %, widths of 2.4 to 3.8 mm: .03 to .05 %).
 constexpr double kFlattening = 5e-4;
 
+// Where the surface is straight, nothing is flattened by a broader level: twice as wide, it leaves half of the steps
+// and a quarter of the noise. Its control points then bend by less than half a step and by less than three standard
+// deviations of their noise; those of a ball of 45 mm, 6 mm apart, bend by .8 mm.
+constexpr double kBroadOverWide = 2, kStepsBend = 0.5, kNoiseBends = 3;
+
 // What noise of a standard deviation s leaves of the steps q, as dither does: the first harmonic of the sawtooth is
 // multiplied by the noise's characteristic function, exp(-2 pi^2 s^2/q^2) (Widrow and Kollar, Quantization Noise).
 double stepsUnderNoise(const ClipMeasure& m) {
@@ -189,6 +194,11 @@ TouchPlan planTouch(const ClipMeasure& m) {
     wider *= kStepOfSearch;
   }
   plan.error = errorOf(s.wide_mm, kExpectedOfWorst);
+  if (!fine) {
+    s.broad_mm = kBroadOverWide * s.wide_mm;
+    const double samples = s.broad_mm / kSigmaPerPitch / apart(s.broad_mm, kBroadSamples);
+    s.straight_mm = kStepsBend * steps + kNoiseBends * m.noise_mm * through * std::sqrt(kBendVariance) / samples;
+  }
 
   // The narrow level's error must fit under the clamp: four standard deviations of its noise plus one step. Within that
   // the wide level alone counts (FeltSurface).
@@ -209,9 +219,10 @@ TouchPlan planTouch(const ClipMeasure& m) {
 }
 
 std::string describe(const FeltScale& s) {
-  char text[120];
+  char text[120], broad[40] = "";
+  if (s.broad_mm > 0) std::snprintf(broad, sizeof broad, ", %.2f where straight", s.broad_mm);
   const bool alike = s.narrow_time == s.wide_time;
-  std::snprintf(text, sizeof text, "levels of %.2f and %.2f mm, %s%s%s in time", s.narrow_mm, s.wide_mm,
+  std::snprintf(text, sizeof text, "levels of %.2f and %.2f mm%s, %s%s%s in time", s.narrow_mm, s.wide_mm, broad,
                 alike ? "" : name(s.narrow_time), alike ? "" : " and ", name(s.wide_time));
   return text;
 }

@@ -39,7 +39,7 @@ struct TouchPlan {
 // first four frames, which a player has when it begins. Player, probe and laboratory all use this function.
 inline constexpr std::size_t kPlanFrames = 4;
 [[nodiscard]] TouchPlan planFilm(std::span<const TimedSurface> first_frames);
-// "levels of 0.28 and 0.72 mm, linear and fitted in time"
+// "levels of 0.28 and 1.98 mm, 3.96 where straight, linear and fitted in time"
 [[nodiscard]] std::string describe(const FeltScale& scale);
 
 }  // namespace relievo

@@ -42,6 +42,10 @@ class Episode {
         config.scale.clamp_mm = random_.within(0.1, 0.6);
         config.scale.narrow_time = laws[random_.below(std::size(laws))];
         config.scale.wide_time = laws[random_.below(std::size(laws))];
+        if (random_.chance(0.5)) {
+          config.scale.broad_mm = random_.within(1.2, 3) * config.scale.wide_mm;
+          config.scale.straight_mm = random_.within(0.01, 0.5);
+        }
       }
       if (random_.chance(0.3)) config.friction = {random_.within(0, 1), random_.within(0, 0.5)};
       auto own = std::make_unique<RelievoMethod>(config);

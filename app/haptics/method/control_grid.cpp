@@ -125,7 +125,7 @@ void ControlGrid::complete(int i, int j, const Frames& frames) RELIEVO_RT {
   keepCurvature(p, {slotOf(i - 1, j), slotOf(i + 1, j), slotOf(i, j - 1), slotOf(i, j + 1)}, missing);
 }
 
-// A direction in which a neighbour is a hole counts as straight.
+// A direction in which a neighbour is a hole is not corrected.
 void ControlGrid::keepCurvature(std::size_t p, const std::array<std::size_t, 4>& around,
                                 std::uint32_t missing) RELIEVO_RT {
   const auto [left, right, above, below] = around;
@@ -134,14 +134,20 @@ void ControlGrid::keepCurvature(std::size_t p, const std::array<std::size_t, 4>&
   for (; missing != 0; missing &= missing - 1) {
     const auto slot = static_cast<std::size_t>(__builtin_ctz(missing));
     const float mean = mean_[p][slot];
+    float most = 0;
     const auto bent = [&](std::size_t before, std::size_t after, std::uint32_t holes) RELIEVO_RT {
-      if ((holes >> slot & 1U) != 0) return 0.F;
+      if ((holes >> slot & 1U) != 0) {
+        most = 2 * straight_mm_;
+        return 0.F;
+      }
       const float bend = mean_[before][slot] - 2 * mean + mean_[after][slot];
       const float size = std::abs(bend);
+      most = std::max(most, size);
       return std::copysign(std::max(std::min(size, 2 * most_bend_mm_ - size), 0.F), bend);
     };
     const float bends = bend_ > 0 ? bent(left, right, across_hole) + bent(above, below, down_hole) : 0;
     height_[p][slot] = mean - bend_ * bends;
+    if (straight_mm_ > 0) straight_[p][slot] = std::min(std::max(2 - most / straight_mm_, 0.F), 1.F);
   }
 }
 
@@ -167,7 +173,7 @@ float ControlGrid::withHoles(std::size_t p, const Frames& frames) const RELIEVO_
 }
 
 void ControlGrid::patch(int i0, int j0, const Frames& frames, Patch& out) RELIEVO_RT {
-  if (i0 != patch_i_ || j0 != patch_j_ || frames.wanted != patch_slots_) {
+  if (!wasPatch(i0, j0, frames.wanted)) {
     const int rim = bend_ > 0 ? 1 : 0;
     for (int j = j0 - rim; j < j0 + 4 + rim; ++j) prefetchRow(i0 - rim, 4 + 2 * rim, j, frames);
     std::uint32_t holes = 0;
@@ -182,16 +188,27 @@ void ControlGrid::patch(int i0, int j0, const Frames& frames, Patch& out) RELIEV
     patch_slots_ = frames.wanted;
     patch_holes_ = holes != 0;
   }
+  weighted(height_, i0, j0, frames, out);
+  if (!patch_holes_) return;
+  for (int j = 0; j < 4; ++j) {
+    for (int i = 0; i < 4; ++i) out[static_cast<std::size_t>(j)][i] = withHoles(slotOf(i0 + i, j0 + j), frames);
+  }
+}
+
+void ControlGrid::straightness(int i0, int j0, const Frames& frames, Patch& out) const RELIEVO_RT {
+  weighted(straight_, i0, j0, frames, out);
+}
+
+void ControlGrid::weighted(const Heights& of_points, int i0, int j0, const Frames& frames,
+                           Patch& out) const RELIEVO_RT {
   const Float4 low = load4(frames.weight.data()), high = load4(frames.weight.data() + 4);
   const auto blend = [&](int i, int j) RELIEVO_RT {
-    const float* height = height_[slotOf(i, j)].data();
-    return load4(height) * low + load4(height + 4) * high;
+    const float* heights = of_points[slotOf(i, j)].data();
+    return load4(heights) * low + load4(heights + 4) * high;
   };
   for (int j = 0; j < 4; ++j) {
-    Float4& row = out[static_cast<std::size_t>(j)];
-    row = sums(blend(i0, j0 + j), blend(i0 + 1, j0 + j), blend(i0 + 2, j0 + j), blend(i0 + 3, j0 + j));
-    if (!patch_holes_) continue;
-    for (int i = 0; i < 4; ++i) row[i] = withHoles(slotOf(i0 + i, j0 + j), frames);
+    out[static_cast<std::size_t>(j)] =
+        sums(blend(i0, j0 + j), blend(i0 + 1, j0 + j), blend(i0 + 2, j0 + j), blend(i0 + 3, j0 + j));
   }
 }
 

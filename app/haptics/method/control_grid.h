@@ -24,17 +24,23 @@ using Patch = std::array<Float4, 4>;
 // than half of it, and of its neighbourhood, has a reading. Holes and everything outside the picture are pits one
 // volume depth below the far plane: free space with the same rounded rim as any other edge.
 //
+// A point is straight (1) if its second differences are at most `straight_mm`, and not (0) from twice that on or beside
+// a hole.
+//
 // Nothing is built in advance: a block is read when it is first needed and kept in a toroidal cache of 16 x 16 points
-// while its frame is in the window. 19 KiB, fixed.
+// while its frame is in the window. 27 KiB, fixed.
 class ControlGrid {
  public:
   static constexpr int kFrames = SurfaceWindow::kCapacity;
   static_assert(kFrames == 8, "a byte holds a bit for each frame, and two Float4 hold their weights and heights");
   // `samples`: approximate number read per block, across and down (SampledBlock). `bend`: 5/24 keeps the curvature
   // under a cubic B-spline, 1/6 under a quadratic one (half the variance of block and spline); 0 takes the means as
-  // they are.
-  ControlGrid(double pitch_mm, int most_samples, float bend) noexcept
-      : pitch_wanted_mm_(pitch_mm), most_samples_(most_samples), bend_(bend) {}
+  // they are. `straight_mm`: 0 if nobody asks what is straight; needs `bend`.
+  ControlGrid(double pitch_mm, int most_samples, float bend, double straight_mm = 0) noexcept
+      : pitch_wanted_mm_(pitch_mm),
+        most_samples_(most_samples),
+        bend_(bend),
+        straight_mm_(static_cast<float>(straight_mm)) {}
   static constexpr double kSharpestMm = 5, kMostBendMm = 3;
 
   // Discards everything, for a picture of another shape.
@@ -62,6 +68,12 @@ class ControlGrid {
   };
   // The control points (i0 .. i0+3, j0 .. j0+3), weighted over the frames.
   void patch(int i0, int j0, const Frames& frames, Patch& out) RELIEVO_RT;
+  // The last patch was of this place and these frames, which are still there.
+  [[nodiscard]] bool wasPatch(int i0, int j0, std::uint32_t wanted) const RELIEVO_RT {
+    return i0 == patch_i_ && j0 == patch_j_ && wanted == patch_slots_;
+  }
+  // How straight the same points are, 0 .. 1; after `patch` with the same frames.
+  void straightness(int i0, int j0, const Frames& frames, Patch& out) const RELIEVO_RT;
   // Reads points around the same place of frames that will be weighted soon; stops once it has read `most` blocks, or
   // those of one point.
   void readAhead(int i0, int j0, const Frames& frames, int most) RELIEVO_RT;
@@ -73,6 +85,7 @@ class ControlGrid {
  private:
   static constexpr int kSide = 16;
   static constexpr std::size_t kPoints = static_cast<std::size_t>(kSide) * kSide;
+  using Heights = std::array<std::array<float, kFrames>, kPoints>;
   [[nodiscard]] static std::size_t slotOf(int i, int j) RELIEVO_RT {
     return static_cast<std::size_t>(j & (kSide - 1)) * kSide + static_cast<std::size_t>(i & (kSide - 1));
   }
@@ -86,11 +99,13 @@ class ControlGrid {
   void read(std::size_t point, const Frames& frames, std::uint32_t missing) RELIEVO_RT;
   [[nodiscard]] double meanOrBridged(const HeightField& field, int c, int r,
                                      const SampledBlock& block) const RELIEVO_RT;
+  void weighted(const Heights& of_points, int i0, int j0, const Frames& frames, Patch& out) const RELIEVO_RT;
   [[nodiscard]] float withHoles(std::size_t point, const Frames& frames) const RELIEVO_RT;
 
   double pitch_wanted_mm_;
   int most_samples_;
   float bend_;
+  float straight_mm_;
   float most_bend_mm_ = 0;  // of a second difference that counts in full
   int cols_ = 0, rows_ = 0;
   SampledBlock block_;
@@ -107,7 +122,7 @@ class ControlGrid {
   // One element per point. Bits, means and heights by slot; those of a hole are 0.
   std::array<std::int32_t, kPoints> i_{}, j_{};
   std::array<std::uint8_t, kPoints> filled_{}, hole_{}, complete_{};
-  alignas(16) std::array<std::array<float, kFrames>, kPoints> mean_{}, height_{};
+  alignas(16) Heights mean_{}, height_{}, straight_{};
 };
 
 }  // namespace relievo

@@ -37,7 +37,7 @@ struct SoftClamp {
 FeltSurface::FeltSurface(const FeltScale& scale) noexcept
     : scale_(scale),
       narrow_(scale.narrow_mm, kNarrowSamples, scale.space, scale.narrow_time, SurfaceLevel::Curvature::Flattened),
-      wide_(scale.wide_mm, kWideSamples, scale.space, scale.wide_time, SurfaceLevel::Curvature::Kept),
+      smooth_(scale),
       two_levels_(scale.wide_mm > scale.narrow_mm) {}
 
 RELIEVO_TICK_CODE bool FeltSurface::moveTo(const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
@@ -61,7 +61,7 @@ RELIEVO_TICK_CODE bool FeltSurface::moveTo(const SurfaceWindow& window, MediaTim
   edge_.moves = two_levels_ && edge_.way_mm != glm::dvec2(0) && window.frames[present_].time == edge_.from;
   edge_.share = moment.share;
   narrow_.begin(slots_, moment, since_prepared_s);
-  if (two_levels_) wide_.begin(slots_, moment, since_prepared_s);
+  if (two_levels_) smooth_.begin(slots_, moment, since_prepared_s);
   return true;
 }
 
@@ -76,11 +76,9 @@ void FeltSurface::setPicture(const SurfaceWindow& window) RELIEVO_RT {
   count_ = 0;
   edge_.from = MediaTime::min();
   ControlGrid& narrow = narrow_.grid();
-  ControlGrid& wide = wide_.grid();
   narrow.setPicture(field);
-  wide.setPicture(field);
-  two_levels_ = scale_.wide_mm > scale_.narrow_mm &&
-                (wide.blockCols() > narrow.blockCols() || wide.blockRows() > narrow.blockRows());
+  smooth_.setPicture(field);
+  two_levels_ = scale_.wide_mm > scale_.narrow_mm && smooth_.isWiderThan(narrow);
   sample_mm_ = 0.5 / std::max(std::abs(narrow.aPerMm()), std::abs(narrow.bPerMm()));
 }
 
@@ -118,7 +116,7 @@ RELIEVO_TICK_CODE void FeltSurface::placeFrames(const SurfaceWindow& window) REL
       slots_.in_use |= 1U << s;
       slots_.of_frame[f] = static_cast<std::uint8_t>(s);
       narrow_.grid().forgetFrame(static_cast<int>(s));
-      wide_.grid().forgetFrame(static_cast<int>(s));
+      smooth_.forgetFrame(static_cast<int>(s));
     }
     slots_.frame[slots_.of_frame[f]] = static_cast<std::uint8_t>(f);
     time_of_slot_[slots_.of_frame[f]] = window.frames[f].time;
@@ -137,7 +135,7 @@ SurfacePoint FeltSurface::narrowAt(double x_mm, double y_mm) RELIEVO_RT {
 
 RELIEVO_TICK_CODE SurfacePoint FeltSurface::at(double x_mm, double y_mm) RELIEVO_RT {
   if (!two_levels_) return narrow_.at(x_mm, y_mm);
-  const SurfacePoint w = wide_.at(x_mm, y_mm);
+  const SurfacePoint w = smooth_.at(x_mm, y_mm);
   if (!edge_.moves && std::abs(w.z - narrow_.height(x_mm, y_mm)) <= kWideAlone * scale_.clamp_mm) return w;
   const SurfacePoint n = narrowAt(x_mm, y_mm);
   if (std::abs(w.z - n.z) <= kWideAlone * scale_.clamp_mm) return w;
@@ -154,7 +152,7 @@ RELIEVO_TICK_CODE SurfacePoint FeltSurface::at(double x_mm, double y_mm) RELIEVO
 RELIEVO_TICK_CODE double FeltSurface::height(double x_mm, double y_mm) RELIEVO_RT {
   const double n = edge_.moves ? narrowAt(x_mm, y_mm).z : narrow_.height(x_mm, y_mm);
   if (!two_levels_) return n;
-  const double w = wide_.height(x_mm, y_mm);
+  const double w = smooth_.height(x_mm, y_mm);
   return std::abs(w - n) <= kWideAlone * scale_.clamp_mm ? w : n + SoftClamp(w - n, scale_.clamp_mm).value;
 }
 
@@ -213,14 +211,13 @@ void FeltSurface::prepare(const SurfaceWindow& window, MediaTime next, double x_
   narrow_.prepare(slots_, x_mm, y_mm, moment, comparable, toSeconds(kStep));
   narrow_.readAhead(slots_, x_mm, y_mm, moment);
   if (!two_levels_) return;
-  wide_.prepare(slots_, x_mm, y_mm, moment, comparable, toSeconds(kStep));
-  wide_.readAhead(slots_, x_mm, y_mm, moment);
+  smooth_.prepare(slots_, x_mm, y_mm, moment, comparable, toSeconds(kStep));
 }
 
 void FeltSurface::prefetch() const RELIEVO_RT {
   relievo::prefetch(&scale_, &narrow_);
   narrow_.prefetch();
-  wide_.prefetch();
+  smooth_.prefetch();
   relievo::prefetch(&two_levels_, this + 1);
 }
 

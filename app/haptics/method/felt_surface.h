@@ -8,6 +8,7 @@
 
 #include "app/depth_window/felt_scale.h"
 #include "app/depth_window/surface_window.h"
+#include "app/haptics/method/smooth_level.h"
 #include "app/haptics/method/surface_level.h"
 #include "hal/media/media_time.h"
 #include "platform/realtime.h"
@@ -17,8 +18,8 @@ namespace relievo {
 // Blocks counted per frame. A tick that has read more leaves optional work to later ticks.
 inline constexpr std::uint64_t kBlocksOfTick = 256;
 
-// S = N + c(W - N): the narrow level N keeps edges, the wide level W has little noise, and c is a soft clamp, so that W
-// can remove N's noise but cannot round an edge by more than `clamp_mm`. Away from edges S equals W. c is monotone,
+// S = N + c(W - N): the narrow level N keeps edges, the smooth level W has little noise, and c is a soft clamp, so that
+// W can remove N's noise but cannot round an edge by more than `clamp_mm`. Away from edges S equals W. c is monotone,
 // since otherwise an edge would get a lip. A moving edge is displaced in N from frame to frame instead of being
 // cross-faded. Frames that repeat each other count as one, so that a still film costs no more than a picture.
 // A view of one window at one moment; reads depth on demand.
@@ -41,7 +42,7 @@ class FeltSurface {
   [[nodiscard]] double volumeDepthMm() const RELIEVO_RT { return depth_mm_; }
   // Blocks of samples read so far, in total.
   [[nodiscard]] std::uint64_t blocksRead() const RELIEVO_RT {
-    return narrow_.grid().blocksRead() + wide_.grid().blocksRead();
+    return narrow_.grid().blocksRead() + smooth_.blocksRead();
   }
   // More than kBlocksOfTick since `moveTo`.
   [[nodiscard]] bool hasReadMuch() const RELIEVO_RT { return blocksRead() - read_before_ > kBlocksOfTick; }
@@ -60,7 +61,8 @@ class FeltSurface {
   void placeFrames(const SurfaceWindow& window) RELIEVO_RT;
 
   FeltScale scale_;
-  SurfaceLevel narrow_, wide_;
+  SurfaceLevel narrow_;
+  SmoothLevel smooth_;
   bool two_levels_;
   double sample_mm_ = 0.2;
   double depth_mm_ = 40;

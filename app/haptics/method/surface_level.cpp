@@ -30,14 +30,16 @@ constexpr std::array<Float4, 4> kQuadratic{Float4{0.125F, 0.75F, 0.125F, 0}, Flo
 
 }  // namespace
 
-SurfaceLevel::SurfaceLevel(double sigma_mm, int most_samples, SpaceLaw space, TimeLaw time,
-                           Curvature curvature) noexcept
+SurfaceLevel::SurfaceLevel(double sigma_mm, int most_samples, SpaceLaw space, TimeLaw time, Curvature curvature,
+                           double straight_mm) noexcept
     : grid_(sigma_mm / kSigmaPerPitch, most_samples,
             curvature == Curvature::Flattened ? 0
             : space == SpaceLaw::Quadratic    ? 1.F / 6
-                                              : 5.F / 24),
+                                              : 5.F / 24,
+            straight_mm),
       time_(time),
-      cubic_(space != SpaceLaw::Quadratic) {}
+      cubic_(space != SpaceLaw::Quadratic),
+      tells_straight_(straight_mm > 0) {}
 
 void SurfaceLevel::weigh(const FrameSlots& slots, const FrameMoment& moment,
                          ControlGrid::Frames& frames) const RELIEVO_RT {
@@ -79,11 +81,33 @@ RELIEVO_TICK_CODE const Patch& SurfaceLevel::patchAt(const Cell& cell) RELIEVO_R
     if (!weighed_) weigh(*slots_, moment_, frames_);
     weighed_ = true;
     grid_.patch(cell.i, cell.j, frames_, patch_.points);
+    if (tells_straight_) readStraightness(cell, straight_);
   }
   patch_.i = cell.i;
   patch_.j = cell.j;
   patch_.valid = true;
   return patch_.points;
+}
+
+void SurfaceLevel::readStraightness(const Cell& cell, StraightPatch& out) const RELIEVO_RT {
+  grid_.straightness(cell.i, cell.j, frames_, out.points);
+  constexpr float kRounding = 1e-5F;  // of the frames' weights, whose sum is 1
+  out.all = out.none = true;
+  for (const Float4& row : out.points) {
+    for (int i = 0; i < 4; ++i) {
+      out.all = out.all && row[i] >= 1 - kRounding;
+      out.none = out.none && row[i] <= kRounding;
+    }
+  }
+}
+
+RELIEVO_TICK_CODE SurfaceLevel::Straightness SurfaceLevel::straightness(double x_mm, double y_mm) RELIEVO_RT {
+  const Cell cell = cellOf(x_mm, y_mm);
+  const bool prepared = since_prepared_s_ && cell.i == prepared_i_ && cell.j == prepared_j_;
+  if (!prepared) static_cast<void>(patchAt(cell));
+  const StraightPatch& straight = prepared ? prepared_straight_ : straight_;
+  if (straight.all || straight.none) return {.all = straight.all, .share = {}};
+  return {.all = false, .share = pointOn(straight.points, cell)};
 }
 
 SurfacePoint SurfaceLevel::atFrame(std::size_t which, double x_mm, double y_mm) RELIEVO_RT {
@@ -132,12 +156,17 @@ RELIEVO_TICK_CODE SurfacePoint SurfaceLevel::pointOn(const Patch& p, const Cell&
 void SurfaceLevel::prepare(const FrameSlots& slots, double x_mm, double y_mm, const FrameMoment& next,
                            const FrameMoment& later, double step_s) RELIEVO_RT {
   const Cell cell = cellOf(x_mm, y_mm);
+  if (prepared_straight_.none && cell.i == prepared_i_ && cell.j == prepared_j_) {
+    weigh(slots, next, frames_);
+    if (grid_.wasPatch(cell.i, cell.j, frames_.wanted)) return;  // still none of it, and no height is asked for
+  }
   prepared_i_ = cell.i;
   prepared_j_ = cell.j;
   weigh(slots, later, frames_);
   grid_.patch(cell.i, cell.j, frames_, prepared_rate_);
   weigh(slots, next, frames_);
   grid_.patch(cell.i, cell.j, frames_, prepared_);
+  if (tells_straight_) readStraightness(cell, prepared_straight_);
   // A point where a hole opens or closes in between jumps and has no rate.
   const float pit = grid_.pitMm();
   for (std::size_t j = 0; j < 4; ++j) {

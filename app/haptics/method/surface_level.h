@@ -33,7 +33,9 @@ class SurfaceLevel {
  public:
   // Whether the surface keeps the depth's curvature (ControlGrid), or takes the means of blocks as they are.
   enum class Curvature : std::uint8_t { Flattened, Kept };
-  SurfaceLevel(double sigma_mm, int most_samples, SpaceLaw space, TimeLaw time, Curvature curvature) noexcept;
+  // `straight_mm`: of ControlGrid; 0 if `straightness` is not asked for.
+  SurfaceLevel(double sigma_mm, int most_samples, SpaceLaw space, TimeLaw time, Curvature curvature,
+               double straight_mm = 0) noexcept;
 
   [[nodiscard]] ControlGrid& grid() RELIEVO_RT { return grid_; }
   [[nodiscard]] const ControlGrid& grid() const RELIEVO_RT { return grid_; }
@@ -43,7 +45,15 @@ class SurfaceLevel {
   void begin(const FrameSlots& slots, const FrameMoment& moment, std::optional<double> since_prepared_s) RELIEVO_RT;
   [[nodiscard]] SurfacePoint at(double x_mm, double y_mm) RELIEVO_RT;
   [[nodiscard]] double height(double x_mm, double y_mm) RELIEVO_RT;
-  // The same on a single frame: the present one (0) or the next (1).
+  // How straight the surface is around a place, 0 .. 1: all of the same continuity as its height.
+  struct Straightness {
+    bool all = false;
+    SurfacePoint share;  // if not all of it
+  };
+  [[nodiscard]] Straightness straightness(double x_mm, double y_mm) RELIEVO_RT;
+  // The same for the place and the moment that were prepared for: none of it is bent.
+  [[nodiscard]] bool preparedStraight() const RELIEVO_RT { return prepared_straight_.all; }
+  // The height on a single frame: the present one (0) or the next (1).
   [[nodiscard]] SurfacePoint atFrame(std::size_t which, double x_mm, double y_mm) RELIEVO_RT;
 
   // Prepares for the moment `next` near a place: reads the control points around it and weights them for `next` and for
@@ -69,13 +79,19 @@ class SurfaceLevel {
     bool valid = false;  // at this moment
     [[nodiscard]] bool isOf(const Cell& cell) const RELIEVO_RT { return valid && cell.i == i && cell.j == j; }
   };
+  // The points' straightness, and whether all of them have the same.
+  struct StraightPatch {
+    Patch points{};
+    bool all = false, none = false;  // of the points
+  };
   [[nodiscard]] const Patch& patchAt(const Cell& cell) RELIEVO_RT;
+  void readStraightness(const Cell& cell, StraightPatch& out) const RELIEVO_RT;
   [[nodiscard]] SurfacePoint pointOn(const Patch& patch, const Cell& cell) const RELIEVO_RT;
   void weigh(const FrameSlots& slots, const FrameMoment& moment, ControlGrid::Frames& frames) const RELIEVO_RT;
 
   ControlGrid grid_;
   TimeLaw time_;
-  bool cubic_;
+  bool cubic_, tells_straight_;
 
   const FrameSlots* slots_ = nullptr;
   FrameMoment moment_;
@@ -84,7 +100,10 @@ class SurfaceLevel {
   CellPatch patch_;
   std::array<CellPatch, 2> frame_patch_;  // of the present frame and of the next one
 
+  StraightPatch straight_;  // with `patch_`
+
   Patch prepared_{}, prepared_rate_{};  // mm, mm/s
+  StraightPatch prepared_straight_;
   int prepared_i_ = 0, prepared_j_ = 0;
   std::optional<float> since_prepared_s_;
 };

@@ -88,7 +88,9 @@ TEST(TouchPlan, TellsWhatNoiseLeavesHoweverFineThePictureIs) {
       surface = {HeightField::make(frame, {.bits = 16}, kSmall).value(), frame.pts, frame.owner};
     }
     const TouchPlan plan = planTouch(measureClip(window.frames));
-    FeltSurface felt(plan.scale);
+    FeltScale scale = plan.scale;
+    scale.broad_mm = 0;  // the error told is that of a place with curves
+    FeltSurface felt(scale);
     double sum = 0;
     int places = 0;
     for (int k = 0; k < 10; ++k) {
@@ -131,6 +133,15 @@ TEST(TouchPlan, SmoothsStepsInTimeWhereFramesAreQuick) {
 TEST(TouchPlan, TheWidthSuitsTheSlopeOnWhichStepsAreWorst) {
   const ClipMeasure steps{.frames = 4, .quantum_mm = 40.0 / 255, .sample_mm = 0.22, .period_s = kPeriod};
   EXPECT_NEAR(planTouch(steps).scale.wide_mm, std::pow(40.0 / 255 / 0.00506, 0.2), 0.02 * 2);
+}
+
+TEST(TouchPlan, WhatIsSmoothAlreadyNeedsNoBroadLevel) {
+  EXPECT_EQ(planFor(16, 0, true).scale.broad_mm, 0);
+  const FeltScale coarse = planFor(8, 0, true).scale, noisy = planFor(8, 0.4, true).scale;
+  EXPECT_EQ(coarse.broad_mm, 2 * coarse.wide_mm);
+  EXPECT_NEAR(coarse.straight_mm, 40.0 / 255 / 2, 1e-9);
+  EXPECT_GT(noisy.straight_mm, 0.02) << "three deviations of what is left of .4 mm of noise in a block";
+  EXPECT_LT(noisy.straight_mm, 0.8) << "the bend of a ball of 45 mm";
 }
 
 TEST(TouchPlan, NoiseDithersTheStepsAway) {

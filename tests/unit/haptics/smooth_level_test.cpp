@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// The felt surface away from edges: broad where it is straight, wide where it is not, and smooth in between.
+#include "app/haptics/method/smooth_level.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "app/haptics/method/felt_surface.h"
+#include "tests/support/film/depth_frames.h"
+
+namespace relievo {
+namespace {
+
+constexpr DisplayVolume kVolume{160, 108, 40};
+constexpr double kPeriod = 1.0 / 30, kStepMm = 40.0 / 255;
+constexpr FeltScale kWide{.wide_mm = 2};
+constexpr FeltScale kBroad{.wide_mm = 2, .broad_mm = 4, .straight_mm = kStepMm / 2};
+
+template <class Height>
+std::vector<Frame> film(Height&& height) {
+  return test::makeReliefFilm(6, kPeriod, 720, 486, kVolume, height);
+}
+
+// A shallow plane to the left of a ball of 45 mm, in 8 bits.
+double plane(double x, double y) {
+  return 12 + 0.033 * x + 0.01 * y;
+}
+double planeAndBall(double x, double y, double) {
+  const double r2 = (x - 40) * (x - 40) + y * y;
+  return kStepMm * std::round(1 / kStepMm * std::max(plane(x, y), r2 < 45 * 45 ? std::sqrt(45 * 45 - r2) - 15 : 0.0));
+}
+
+double worstSlope(FeltSurface& surface, double from_x, double to_x) {
+  double worst = 0;
+  for (double x = from_x; x <= to_x; x += 0.7) {
+    for (double y = -20; y <= 20; y += 3.1) {
+      const SurfacePoint p = surface.at(x, y);
+      worst = std::max(worst, std::hypot(p.zx - 0.033, p.zy - 0.01));
+    }
+  }
+  return worst;
+}
+
+TEST(SmoothLevel, AShallowPlaneHasLessOfItsStepsAndABallIsAsBefore) {
+  const auto frames = film(planeAndBall);
+  const SurfaceWindow window = test::makeWindow(frames, kVolume);
+  FeltSurface wide(kWide), broad(kBroad);
+  ASSERT_TRUE(wide.moveTo(window, mediaTime(0.07)) && broad.moveTo(window, mediaTime(0.07)));
+  const double of_wide = worstSlope(wide, -60, -25), of_broad = worstSlope(broad, -60, -25);
+  EXPECT_GT(of_wide, 0.004);
+  EXPECT_LT(of_broad, 0.5 * of_wide);
+  for (double x = 30; x <= 50; x += 0.9) EXPECT_EQ(broad.height(x, 3), wide.height(x, 3)) << x;
+}
+
+TEST(SmoothLevel, TheBroadLevelAloneIsReadWhereItCounts) {
+  const auto frames = film(planeAndBall);
+  const SurfaceWindow window = test::makeWindow(frames, kVolume);
+  const auto blocksAt = [&](const FeltScale& scale, double x) {
+    FeltSurface surface(scale);
+    EXPECT_TRUE(surface.moveTo(window, mediaTime(0.07)));
+    const auto before = surface.blocksRead();
+    (void)surface.at(x, 0);
+    return surface.blocksRead() - before;
+  };
+  EXPECT_EQ(blocksAt(kBroad, -45), blocksAt(kWide, -45)) << "as many blocks, twice as large";
+  EXPECT_GT(blocksAt(kBroad, 40), blocksAt(kWide, 40));
+}
+
+// Beside a hole, further away than the wide level's control points reach and nearer than the broad level's do. A block
+// that the hole just cuts has the height of the rest of it.
+TEST(SmoothLevel, WhatLiesBeyondAPointThatIsNotStraightIsNotFelt) {
+  const auto frames = film([](double x, double, double) { return x > 0 ? 0.0 : 12.0; });
+  const SurfaceWindow window = test::makeWindow(frames, kVolume, {.bits = 16, .invalid = 0});
+  FeltSurface broad(kBroad);
+  ASSERT_TRUE(broad.moveTo(window, mediaTime(0.07)));
+  ASSERT_LT(broad.height(3, 1), 0);
+  for (double x = -40; x < -5; x += 0.1) {
+    ASSERT_NEAR(broad.height(x, 1), 12, 0.002) << x;
+    ASSERT_NEAR(broad.at(x, 1).zx, 0, 0.002) << x;
+  }
+}
+
+TEST(SmoothLevel, ItsDerivativesAreThoseOfItsHeightWhereBothLevelsCount) {
+  const auto frames = film(planeAndBall);
+  const SurfaceWindow window = test::makeWindow(frames, kVolume);
+  FeltSurface surface(kBroad);
+  FeltSurface wide(kWide);
+  ASSERT_TRUE(surface.moveTo(window, mediaTime(0.07)) && wide.moveTo(window, mediaTime(0.07)));
+  constexpr double kStep = 0.02;
+  int mixed = 0;
+  for (double x = -30; x < 0; x += 0.037) {
+    const SurfacePoint p = surface.at(x, 2), e = surface.at(x + kStep, 2), o = surface.at(x - kStep, 2),
+                       n = surface.at(x, 2 + kStep), s = surface.at(x, 2 - kStep);
+    ASSERT_NEAR(p.zx, (e.z - o.z) / (2 * kStep), 5e-4) << x;
+    ASSERT_NEAR(p.zy, (n.z - s.z) / (2 * kStep), 5e-4) << x;
+    ASSERT_NEAR(p.zxx, (e.zx - o.zx) / (2 * kStep), 2e-3) << x;
+    ASSERT_NEAR(p.zxy, (n.zx - s.zx) / (2 * kStep), 2e-3) << x;
+    ASSERT_NEAR(p.zyy, (n.zy - s.zy) / (2 * kStep), 2e-3) << x;
+    ASSERT_NEAR(p.z, surface.height(x, 2), 1e-5);
+    mixed += p.z != wide.at(x, 2).z ? 1 : 0;
+  }
+  EXPECT_GT(mixed, 50);
+  EXPECT_LT(mixed, 800);
+}
+
+TEST(SmoothLevel, WhatWasPreparedIsWhatWouldHaveBeenComputed) {
+  const auto frames = film(planeAndBall);
+  const SurfaceWindow window = test::makeWindow(frames, kVolume);
+  FeltSurface ahead(kBroad), plain(kBroad);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> x(-30, 10), y(-10, 10), jitter(-0.0002, 0.0002);
+  double t = 0.07;
+  for (int i = 0; i < 60; ++i) {
+    const double px = x(random), py = y(random), next = t + 0.001;
+    ASSERT_TRUE(ahead.moveTo(window, mediaTime(t)));
+    ahead.prepare(window, mediaTime(next), px, py);
+    t = next + jitter(random);
+    ASSERT_TRUE(ahead.moveTo(window, mediaTime(t)) && plain.moveTo(window, mediaTime(t)));
+    ASSERT_NEAR(ahead.at(px, py).z, plain.at(px, py).z, 1e-4) << i;
+    ASSERT_NEAR(ahead.at(px, py).zx, plain.at(px, py).zx, 1e-3) << i;
+  }
+}
+
+}  // namespace
+}  // namespace relievo
