@@ -155,6 +155,19 @@ TEST_F(LabCharts, TheSmoothedGodObjectIsExactOnSmoothScenesAndPaysForEveryFrame)
       5);
 }
 
+TEST_F(LabCharts, NoOneWidthForTheWholePictureIsAsExact) {
+  std::map<std::string, double> own, best;
+  const Csv widths(out("widths.csv"));
+  for (const CsvRow& row : widths.rows()) {
+    const double percent = std::strtod(row.at("worst_percent").c_str(), nullptr);
+    double& least = (row.at("order") == "0" ? own : best).try_emplace(row.at("depth"), percent).first->second;
+    least = std::min(least, percent);
+  }
+  ASSERT_EQ(own.size(), 4U);
+  for (const auto& [depth, percent] : own) EXPECT_LT(percent, best.at(depth)) << depth;
+  EXPECT_LT(best.at("8-bit"), 5) << "the rival is no straw man";
+}
+
 TEST_F(LabCharts, TheMapHoldsEveryMethodInEveryScenario) {
   std::map<std::string, int> methods;
   const Csv map(out("stability.csv"));
@@ -349,7 +362,7 @@ TEST_F(LabCharts, ThePageHoldsEveryChartWithItsWordsAndItsFigures) {
         << name << ": the page prints the reading as text already";
     EXPECT_TRUE(std::filesystem::exists(out(name + ".csv"))) << name;
   }
-  EXPECT_EQ(charts, withoutEgl(result_) ? 15 : 16);
+  EXPECT_EQ(charts, withoutEgl(result_) ? 16 : 17);
   EXPECT_EQ(page.find("nan"), std::string::npos);
 }
 
@@ -379,7 +392,8 @@ TEST_F(LabCharts, AReportRunsOnlyWhatIsMissing) {
 TEST(LabChartsWords, WrongUseAndAFolderThatCannotBeMadeAreOneLineEach) {
   const test::TemporaryFolder folder;
   std::ofstream(folder / "file") << "in the way";
-  for (const char* command : {"speed-accuracy", "edges", "smoothness", "stability", "detail", "bitrate", "report"}) {
+  for (const char* command :
+       {"speed-accuracy", "widths", "edges", "smoothness", "stability", "detail", "bitrate", "report"}) {
     const auto without = test::runProgram(std::string("relievo-lab ") + command, folder / ".");
     EXPECT_EQ(without.exit_code, 2) << command;
     EXPECT_NE(without.err.find("--out"), std::string::npos) << without.err;

@@ -10,6 +10,7 @@
 #include "app/lab/measure/enhance.h"
 #include "app/lab/measure/smoothness.h"
 #include "app/lab/measure/speed_accuracy.h"
+#include "app/lab/measure/widths.h"
 #include "app/lab/scenario/material_stability.h"
 #include "app/lab/scenario/stability.h"
 
@@ -22,6 +23,7 @@ constexpr std::array kSpeedAccuracyCharts{
     ChartEntry{"parts", "to the left"},
     ChartEntry{"tick-time", "lower"},
 };
+constexpr std::array kWidthsCharts{ChartEntry{"widths", "lower"}};
 constexpr std::array kEdgesCharts{ChartEntry{"edges", "lower"}};
 constexpr std::array kSmoothnessCharts{
     ChartEntry{"smoothness", "lower"},
@@ -41,6 +43,8 @@ constexpr std::array kBitrateCharts{ChartEntry{"bitrate", "lower left"}};
 constexpr std::array kMeasurements{
     Measurement{"speed-accuracy", "time of a tick against the error of the force, by method and parts",
                 kSpeedAccuracyCharts, measureSpeedAndAccuracy},
+    Measurement{"widths", "relievo against depth smoothed per frame with one width, of every width", kWidthsCharts,
+                measureWidths},
     Measurement{"edges", "error of the felt surface at edges, by smoothing width and kind of depth", kEdgesCharts,
                 measureEdges},
     Measurement{"smoothness", "spectrum of the force on a moving face, and its peak at the frame rate",

@@ -51,29 +51,50 @@ void writeCodes(const float* heights, float per_mm, std::span<std::uint16_t> out
   }
 }
 
+// A Gaussian from its centre outwards, the centre at half its weight; their sum is a half.
+std::vector<double> gaussian(double sigma) {
+  std::vector<double> weights;
+  double sum = 0;
+  for (int k = 0; k <= static_cast<int>(std::ceil(kCutOff * sigma)); ++k) {
+    weights.push_back((k == 0 ? 0.5 : 1.0) * std::exp(-0.5 * k * k / (sigma * sigma)));
+    sum += 2 * weights.back();
+  }
+  for (double& w : weights) w /= sum;
+  return weights;
+}
+
+// 2 g - g * g, in the same form.
+std::vector<double> twiced(const std::vector<double>& g) {
+  const int reach = static_cast<int>(g.size()) - 1;
+  const auto at = [&](int k) {
+    const auto from_centre = static_cast<std::size_t>(std::abs(k));
+    return std::abs(k) > reach ? 0 : k == 0 ? 2 * g[0] : g[from_centre];
+  };
+  std::vector<double> weights;
+  for (int k = 0; k <= 2 * reach; ++k) {
+    double convolved = 0;
+    for (int i = -reach; i <= reach; ++i) convolved += at(i) * at(k - i);
+    weights.push_back((k == 0 ? 0.5 : 1.0) * (2 * at(k) - convolved));
+  }
+  return weights;
+}
+
 }  // namespace
 
-DepthSmoother::Axis::Axis(int samples, double pitch_mm, double sigma_mm) {
+DepthSmoother::Axis::Axis(int samples, double pitch_mm, double sigma_mm, Order order) {
   for (int n = 1; n * kSamplesOfSigma * pitch_mm <= sigma_mm; ++n) {
     if (samples % n == 0) factor = n;
   }
   size = samples / factor;
   // A block of n samples has a variance of (n^2 - 1)/12 of its own.
   const double wanted = sigma_mm * sigma_mm / (pitch_mm * pitch_mm), own = (factor * factor - 1) / 12.0;
-  const double sigma = std::sqrt(wanted - own) / factor;
-  const int reach = static_cast<int>(std::ceil(kCutOff * sigma));
-  double sum = 0;
-  std::vector<double> weights;
-  for (int k = 0; k <= reach; ++k) {
-    weights.push_back((k == 0 ? 0.5 : 1.0) * std::exp(-0.5 * k * k / (sigma * sigma)));
-    sum += 2 * weights.back();
-  }
-  for (const double w : weights) taps.push_back(static_cast<float>(w / sum));
+  const std::vector<double> first = gaussian(std::sqrt(wanted - own) / factor);
+  for (const double w : order == Order::First ? first : twiced(first)) taps.push_back(static_cast<float>(w));
 }
 
-DepthSmoother::DepthSmoother(const HeightField& like, double sigma_mm)
-    : across_(like.cols(), 1 / like.grid().u_per_mm, sigma_mm),
-      down_(like.rows(), -1 / like.grid().v_per_mm, sigma_mm),
+DepthSmoother::DepthSmoother(const HeightField& like, double sigma_mm, Order order)
+    : across_(like.cols(), 1 / like.grid().u_per_mm, sigma_mm, order),
+      down_(like.rows(), -1 / like.grid().v_per_mm, sigma_mm, order),
       stride_(wholeLanes(across_.size)),
       columns_(static_cast<std::size_t>(like.cols())),
       samples_(columns_.size() * static_cast<std::size_t>(down_.factor)),

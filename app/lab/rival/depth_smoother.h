@@ -17,13 +17,17 @@ namespace relievo {
 //   standard deviation spans six samples or more, the mean of a block of samples is taken first, so that three samples
 //   or more are left in it; the kernel is the narrower by the block's own variance. So a fine picture costs little more
 //   than reading it. The picture that comes out is the smaller by whole factors; it covers the same volume.
+// - Of the third order the kernel is 2 g - g * g (twicing): it leaves parabolas as they are, in either direction, where
+// a
+//   Gaussian g flattens them.
 // - Holes do not affect heights: the mean is over the samples that are not holes (normalised convolution). If these
 // have
 //   less than half of the weight, the result is a hole, as in HeightField::meanHeight.
 // - Beyond the border the outermost samples are repeated.
 class DepthSmoother {
  public:
-  DepthSmoother(const HeightField& like, double sigma_mm);
+  enum class Order : std::uint8_t { First, Third };
+  DepthSmoother(const HeightField& like, double sigma_mm, Order order = Order::First);
 
   [[nodiscard]] int cols() const { return across_.size; }
   [[nodiscard]] int rows() const { return down_.size; }
@@ -41,7 +45,7 @@ class DepthSmoother {
  private:
   // One direction: how many samples go into one, how many are left, and the kernel from its centre outwards.
   struct Axis {
-    Axis(int samples, double pitch_mm, double sigma_mm);
+    Axis(int samples, double pitch_mm, double sigma_mm, Order order);
     int factor = 1, size = 0;
     std::vector<float> taps;
     [[nodiscard]] int radius() const { return static_cast<int>(taps.size()) - 1; }

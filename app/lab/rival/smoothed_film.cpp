@@ -19,14 +19,14 @@ struct SmoothedPictures {
   DepthCalibration calibration{.bits = 16};
 };
 
-SmoothedPictures smoothAll(std::span<const TimedSurface> frames, double sigma_mm) {
+SmoothedPictures smoothAll(std::span<const TimedSurface> frames, double sigma_mm, DepthSmoother::Order order) {
   SmoothedPictures done;
   done.pictures.resize(frames.size());
   std::atomic<bool> hole = false;
   const std::size_t parts = std::max(1U, std::thread::hardware_concurrency());
   inParallel(parts, [&](std::size_t part) {
     if (frames.empty()) return;
-    DepthSmoother smoother(frames.front().field, sigma_mm);
+    DepthSmoother smoother(frames.front().field, sigma_mm, order);
     for (std::size_t i = part; i < frames.size(); i += parts) {
       if (frames[i].repeats && i > 0) continue;
       const auto codes = std::make_shared<std::vector<std::uint16_t>>(static_cast<std::size_t>(smoother.cols()) *
@@ -53,7 +53,7 @@ class OnSmoothedDepth final : public TouchMethod {
  public:
   OnSmoothedDepth(std::unique_ptr<TouchMethod> method, std::span<const TimedSurface> film, double sigma_mm)
       : method_(std::move(method)) {
-    const SmoothedPictures smoothed = smoothAll(film, sigma_mm);
+    const SmoothedPictures smoothed = smoothAll(film, sigma_mm, DepthSmoother::Order::First);
     for (std::size_t i = 0; i < film.size(); ++i) {
       TimedSurface frame = film[i];
       const Frame& picture = smoothed.pictures[i];
@@ -111,8 +111,8 @@ double blurWidthMm(const ClipMeasure& clip) {
   return width;
 }
 
-MemoryFilm smoothedFilm(const MemoryFilm& film, double sigma_mm) {
-  const SmoothedPictures smoothed = smoothAll(film.frames(), sigma_mm);
+MemoryFilm smoothedFilm(const MemoryFilm& film, double sigma_mm, DepthSmoother::Order order) {
+  const SmoothedPictures smoothed = smoothAll(film.frames(), sigma_mm, order);
   return *MemoryFilm::of(smoothed.pictures, smoothed.calibration);  // gray pictures are always readable
 }
 

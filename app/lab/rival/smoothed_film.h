@@ -24,7 +24,8 @@ namespace relievo {
 
 // The film with every frame blurred by a Gaussian of this standard deviation (DepthSmoother), in 16 bits. A frame that
 // repeats the previous one is not blurred again. Uses all processors.
-[[nodiscard]] MemoryFilm smoothedFilm(const MemoryFilm& film, double sigma_mm);
+[[nodiscard]] MemoryFilm smoothedFilm(const MemoryFilm& film, double sigma_mm,
+                                      DepthSmoother::Order order = DepthSmoother::Order::First);
 
 // A method that runs on the smoothed frames in place of those in its window. The frames of `film` are smoothed here;
 // `film` must contain every frame that the windows will show, in any order.

@@ -50,8 +50,8 @@ struct Smoothed {
   std::vector<std::uint16_t> codes;
   bool hole;
 
-  Smoothed(const Picture& picture, double sigma_mm) {
-    DepthSmoother smoother(picture.field(), sigma_mm);
+  Smoothed(const Picture& picture, double sigma_mm, DepthSmoother::Order order = DepthSmoother::Order::First) {
+    DepthSmoother smoother(picture.field(), sigma_mm, order);
     cols = smoother.cols();
     rows = smoother.rows();
     codes.resize(static_cast<std::size_t>(cols) * static_cast<std::size_t>(rows));
@@ -87,6 +87,18 @@ TEST(DepthSmoother, IsAsWideAsItIsAskedToBe) {
     }
     EXPECT_NEAR(sum, 36, 0.02) << sigma_mm;
     EXPECT_NEAR(std::sqrt(squares / sum), sigma_mm, 0.02 * sigma_mm) << "cut off at 3.5 standard deviations";
+  }
+}
+
+// A Gaussian of width w lifts a parabola z = a (x^2 + y^2) by 2 a w^2; the third order does not.
+TEST(DepthSmoother, OfTheThirdOrderKeepsAParabola) {
+  const auto bowl = [](int c, int r) { return 2 + 0.02 * (std::pow(0.2 * (c - 75), 2) + std::pow(0.2 * (r - 75), 2)); };
+  const double sigma_mm = 1;
+  const Smoothed first(Picture(150, 150, bowl), sigma_mm);
+  const Smoothed third(Picture(150, 150, bowl), sigma_mm, DepthSmoother::Order::Third);
+  for (int c = 50; c < 100; c += 7) {
+    EXPECT_NEAR(first.mm(c, 75) - bowl(c, 75), 2 * 0.02 * sigma_mm * sigma_mm, 0.002) << c;
+    EXPECT_NEAR(third.mm(c, 75), bowl(c, 75), 2 * kRoundedMm) << c;
   }
 }
 
