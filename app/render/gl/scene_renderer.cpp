@@ -243,13 +243,11 @@ Result<void> SceneRenderer::Impl::drawViews(const DisplaySurface& surface, const
 
 // Makes the triangles for the present picture at the resolution of the views.
 void SceneRenderer::Impl::makeTriangles(const EyeViews& eyes) {
-  // Detail below half a pixel of a view is invisible, and a wider lattice than this takes too long.
-  constexpr int kLeastAcross = 64, kMostAcross = 1024;
   double eye_mm = 0;
   for (const EyeView& view : eyes.views) eye_mm = std::max(eye_mm, std::abs(view.eye_x_mm));
   const double pixel_mm = heightOfPixelMm(stereo, volume, eyes.pixels_per_mm);
   const ReliefDetail wanted{
-      .most_across = std::clamp(static_cast<int>(2 * eyes.pixels_per_mm * volume.width_mm), kLeastAcross, kMostAcross),
+      .most_across = ReliefDetail::cellsFor(eyes.pixels_per_mm * volume.width_mm),
       .error_mm = error_px * level.factor() * pixel_mm,
       .view = {.eye_mm = eye_mm, .distance_mm = stereo.viewing_distance_mm, .screen_z_mm = stereo.screen_z_mm}};
   if (is_made && wanted == made) return;

@@ -2,7 +2,15 @@
 // The network's triangles, the frame around them and the silhouettes.
 #include "app/render/relief/relief_triangles.h"
 
+#include <algorithm>
+
 namespace relievo {
+
+int ReliefDetail::cellsFor(double pixels) noexcept {
+  constexpr double kCellsPerPixel = 4.0 / 3;
+  constexpr int kLeast = 64, kMost = 1024;  // more take too long
+  return std::clamp(static_cast<int>(kCellsPerPixel * pixels), kLeast, kMost);
+}
 
 void ReliefTriangles::build(const HeightField& field, const DisplayVolume& volume, const ReliefDetail& detail) {
   lattice_.read(field, detail.most_across);

@@ -22,6 +22,10 @@ struct ReliefDetail {
   double error_mm = 0.5;   // error bound of a height
   ViewSpan view;
   bool operator==(const ReliefDetail&) const = default;
+
+  // `most_across` for a picture that a view shows `pixels` wide. Outlines lie half way between vertices: so they are
+  // within half a pixel of where they should be, whatever the size of the depth picture.
+  [[nodiscard]] static int cellsFor(double pixels) noexcept;
 };
 
 // Pure arithmetic for one thread; memory is kept from frame to frame.
@@ -35,6 +39,8 @@ class ReliefTriangles {
   // all of them meets the picture's own colours.
   [[nodiscard]] const OutputArray<std::uint32_t>& indices() const noexcept { return indices_; }
   [[nodiscard]] std::size_t surfaceTriangles() const noexcept { return network_.triangles().size(); }
+  // Samples that the last picture was looked at in, those that had not changed included.
+  [[nodiscard]] std::size_t samples() const noexcept { return lattice_.size(); }
   [[nodiscard]] std::size_t cutCells() const noexcept { return cuts_.cells().size(); }
 
  private:

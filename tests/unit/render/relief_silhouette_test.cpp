@@ -13,6 +13,7 @@
 
 #include "app/render/relief/cut_cells.h"
 #include "app/render/relief/relief_triangles.h"
+#include "app/render/relief/stereo.h"
 #include "tests/support/film/depth_frames.h"
 
 namespace relievo {
@@ -316,6 +317,34 @@ TEST(ReliefTriangles, AFrameJoinsTheReliefToThePicturesRectangle) {
     below += y == -40;
   }
   for (const int side : {left, right, above, below}) EXPECT_GT(side, 1);
+}
+
+// The same scene side by side on 1280 x 720, from depth pictures of three sizes: waves, and a disc before them.
+TEST(ReliefTriangles, ALargerDepthPictureTakesNoMoreTrianglesOnTheSameScreen) {
+  const StereoSettings stereo{.layout = StereoLayout::SideBySide};
+  const DisplayVolume volume{160.0, 108.0, 40.0};
+  const EyeViews eyes = eyeViews(stereo, volume, 1280, 720);
+  const ReliefDetail detail{.most_across = ReliefDetail::cellsFor(eyes.pixels_per_mm * volume.width_mm),
+                            .error_mm = 0.5 * heightOfPixelMm(stereo, volume, eyes.pixels_per_mm)};
+  EXPECT_GE(detail.most_across, 533) << "a cell for each of the picture's pixels";
+  std::size_t small = 0, small_cuts = 0;
+  for (const int times : {1, 2, 4}) {
+    const int cols = 720 * times, rows = 486 * times;
+    const Frame frame = test::makeGrayFrame(cols, rows, 16, MediaTime{}, [&](int c, int r) {
+      const float x = static_cast<float>(c) / static_cast<float>(cols),
+                  y = static_cast<float>(r) / static_cast<float>(rows);
+      const bool on_disc = (x - 0.4F) * (x - 0.4F) + (y - 0.5F) * (y - 0.5F) < 0.04F;
+      return static_cast<std::uint32_t>((on_disc ? 50'000.0F : 15'000.0F) + 30'000.0F * x * (1 - x) * (1 - y));
+    });
+    ReliefTriangles relief;
+    relief.build(HeightField::make(frame, {.bits = 16}, volume).value(), volume, detail);
+    const std::size_t count = relief.indices().size() / 3;
+    if (times == 1) small = count, small_cuts = relief.cutCells();
+    EXPECT_LE(static_cast<double>(count), 1.2 * static_cast<double>(small)) << times;
+    EXPECT_LE(static_cast<double>(relief.cutCells()), 1.2 * static_cast<double>(small_cuts)) << times;
+    EXPECT_GT(relief.cutCells(), 500U);
+    EXPECT_LE(static_cast<double>(relief.samples()), 1.2 * 720 * 486) << times;
+  }
 }
 
 }  // namespace
