@@ -247,7 +247,7 @@ void SceneRenderer::Impl::makeTriangles(const EyeViews& eyes) {
   for (const EyeView& view : eyes.views) eye_mm = std::max(eye_mm, std::abs(view.eye_x_mm));
   const double pixel_mm = heightOfPixelMm(stereo, volume, eyes.pixels_per_mm);
   const ReliefDetail wanted{
-      .most_across = ReliefDetail::cellsFor(eyes.pixels_per_mm * volume.width_mm),
+      .most_across = ReliefDetail::cellsFor(eyes.pixels_per_mm * volume.width_mm, level.factor()),
       .error_mm = error_px * level.factor() * pixel_mm,
       .view = {.eye_mm = eye_mm, .distance_mm = stereo.viewing_distance_mm, .screen_z_mm = stereo.screen_z_mm}};
   if (is_made && wanted == made) return;

@@ -6,10 +6,10 @@
 
 namespace relievo {
 
-int ReliefDetail::cellsFor(double pixels) noexcept {
-  constexpr double kCellsPerPixel = 4.0 / 3;
+int ReliefDetail::cellsFor(double pixels, double factor) noexcept {
+  constexpr double kCellsPerPixel = 4.0 / 3, kWidest = 2;
   constexpr int kLeast = 64, kMost = 1024;  // more take too long
-  return std::clamp(static_cast<int>(kCellsPerPixel * pixels), kLeast, kMost);
+  return std::clamp(static_cast<int>(kCellsPerPixel * pixels / std::min(factor, kWidest)), kLeast, kMost);
 }
 
 void ReliefTriangles::build(const HeightField& field, const DisplayVolume& volume, const ReliefDetail& detail) {

@@ -24,8 +24,9 @@ struct ReliefDetail {
   bool operator==(const ReliefDetail&) const = default;
 
   // `most_across` for a picture that a view shows `pixels` wide. Outlines lie half way between vertices: so they are
-  // within half a pixel of where they should be, whatever the size of the depth picture.
-  [[nodiscard]] static int cellsFor(double pixels) noexcept;
+  // within half a pixel of where they should be, whatever the size of the depth picture. Since most triangles stand
+  // along outlines, an error that is allowed to grow by `factor` widens the vertices' pitch too, up to twice.
+  [[nodiscard]] static int cellsFor(double pixels, double factor = 1) noexcept;
 };
 
 // Pure arithmetic for one thread; memory is kept from frame to frame.

@@ -347,5 +347,21 @@ TEST(ReliefTriangles, ALargerDepthPictureTakesNoMoreTrianglesOnTheSameScreen) {
   }
 }
 
+// An error of 2 px instead of half of one hardly matters to a picture of outlines; a wider pitch does.
+TEST(ReliefTriangles, ALargerErrorTakesFewerTrianglesAlongOutlinesToo) {
+  EXPECT_EQ(ReliefDetail::cellsFor(540), 720);
+  EXPECT_EQ(ReliefDetail::cellsFor(540, 1.5), 480);
+  EXPECT_EQ(ReliefDetail::cellsFor(540, 8), 360) << "at most twice as wide";
+  const Frame frame = test::makeGrayFrame(720, 486, 16, MediaTime{},
+                                          [](int c, int r) { return (c / 60 + r / 60) % 2 == 0 ? 10'000U : 50'000U; });
+  const HeightField field = HeightField::make(frame, {.bits = 16}, kVolume).value();
+  const auto count = [&](double factor) {
+    ReliefTriangles relief;
+    relief.build(field, kVolume, {.most_across = ReliefDetail::cellsFor(540, factor), .error_mm = 0.5 * factor});
+    return static_cast<double>(relief.indices().size());
+  };
+  EXPECT_LT(count(2), 0.6 * count(1));
+}
+
 }  // namespace
 }  // namespace relievo
