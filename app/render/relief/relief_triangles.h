@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "app/render/relief/cut_cells.h"
 #include "app/render/relief/height_lattice.h"
@@ -32,7 +33,8 @@ struct ReliefDetail {
 // Pure arithmetic for one thread; memory is kept from frame to frame.
 class ReliefTriangles {
  public:
-  void build(const HeightField& field, const DisplayVolume& volume, const ReliefDetail& detail);
+  // Returns false if the last picture's triangles are this one's too: nothing was made then.
+  bool build(const HeightField& field, const DisplayVolume& volume, const ReliefDetail& detail);
 
   [[nodiscard]] const OutputArray<TexturedVertex>& vertices() const noexcept { return vertices_; }
   // Three indices per triangle, counterclockwise for the viewer: first the surface, then the frame that joins it to the
@@ -48,6 +50,10 @@ class ReliefTriangles {
   void addFrame(const DisplayVolume& volume, float screen_z_mm);
   void addFloor(const DisplayVolume& volume, float screen_z_mm);
 
+  void make(const DisplayVolume& volume, const ReliefDetail& detail);
+
+  DisplayVolume made_volume_;
+  std::optional<ReliefDetail> made_;
   HeightLattice lattice_;
   CutCells cuts_;
   TriangleNetwork network_;

@@ -363,5 +363,27 @@ TEST(ReliefTriangles, ALargerErrorTakesFewerTrianglesAlongOutlinesToo) {
   EXPECT_LT(count(2), 0.6 * count(1));
 }
 
+TEST(ReliefTriangles, WhatStandsStillIsNotMadeAgain) {
+  const auto pictureOf = [](int raised) {
+    return frameOf([=](int c, int r) { return c == raised && r == 7 ? 30.0 : c < kEdge ? 5.0 : 25.0; });
+  };
+  const Frame first = pictureOf(-1), same = pictureOf(-1), other = pictureOf(12);
+  ReliefTriangles relief;
+  ReliefDetail detail;
+  EXPECT_TRUE(relief.build(fieldOf(first), kVolume, detail));
+  const std::size_t triangles = relief.indices().size();
+  EXPECT_FALSE(relief.build(fieldOf(same), kVolume, detail));
+  EXPECT_EQ(relief.indices().size(), triangles);
+  EXPECT_TRUE(relief.build(fieldOf(other), kVolume, detail)) << "one sample has risen";
+  EXPECT_GT(relief.indices().size(), triangles);
+  EXPECT_TRUE(relief.build(fieldOf(same), kVolume, detail)) << "it has sunk again";
+  EXPECT_EQ(relief.indices().size(), triangles);
+  detail.view.eye_mm *= 2;
+  EXPECT_TRUE(relief.build(fieldOf(same), kVolume, detail)) << "seen from elsewhere";
+  DisplayVolume deeper = kVolume;
+  deeper.depth_mm *= 2;
+  EXPECT_TRUE(relief.build(HeightField::make(same, {.bits = 16}, deeper).value(), deeper, detail));
+}
+
 }  // namespace
 }  // namespace relievo
