@@ -310,6 +310,16 @@ TEST(RenderRelief, WithoutDepthThePictureIsFlatAndTheSameForBothEyes) {
   EXPECT_EQ(stage.renderer().statistics().triangles, 0U);
 }
 
+TEST(RenderRelief, TheSameDepthAfterAFlatPictureIsDrawnAsBefore) {
+  STAGE_OR_SKIP(stage, kSurfaceWidth, kSurfaceHeight);
+  const Marker marker{200, 100};
+  const Scene relief = sideBySide(marker, makePlane(160, 90, 16, code16(35)));
+  const Image before = stage.show(relief);
+  EXPECT_EQ(stage.show(relief).meanDifference(before), 0);
+  EXPECT_GT(stage.show(sideBySide(marker, {})).meanDifference(before), 0);
+  EXPECT_EQ(stage.show(relief).meanDifference(before), 0);
+}
+
 TEST(RenderRelief, LetterboxKeepsTheAspect) {
   // 160 x 90 mm on a square of 720: 4.5 pixels a mm both ways, 405 rows from 157.5 on.
   STAGE_OR_SKIP(stage, 720, 720);

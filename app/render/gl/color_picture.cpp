@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Uploads colour planes and converts them to RGB in one pass.
+// Uploads colour planes and converts them to RGB in one pass, or uploads what SeenColor made of them.
 #include "app/render/gl/color_picture.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/mat3x3.hpp>
+#include <string_view>
 #include <utility>
 
 #include "app/render/gl/dma_import.h"
@@ -129,8 +130,9 @@ Result<void> ColorPicture::setFrame(const Frame& frame) {
   width_ = frame.width;
   height_ = frame.height;
   glActiveTexture(GL_TEXTURE0);
-  imported_ = import(frame);
-  if (!imported_) upload(frame);
+  imported_ = in_planes_ = import(frame);
+  uploaded_bytes_ = 0;
+  seen_samples_ = {};
   // If the picture's size is odd, the last chroma sample extends beyond its edge.
   const glm::ivec2 chroma = samplesOf(frame, 1);
   chroma_scale_ = {static_cast<float>(width_) / static_cast<float>(chroma.x << frame.chroma_shift_x),
@@ -171,6 +173,7 @@ bool ColorPicture::import(const Frame& frame) {
 }
 
 void ColorPicture::upload(const Frame& frame) {
+  in_planes_ = true;
   const Component& first = frame.components[0];
   const bool narrow = first.bits > 8;
   const int narrowing = first.shift + first.bits - 8;
@@ -179,6 +182,8 @@ void ColorPicture::upload(const Frame& frame) {
     const Plane& plane = frame.planes[component.plane];
     const glm::ivec2 samples = samplesOf(frame, i);
     const auto channels = static_cast<std::uint8_t>(component.step_bytes / (narrow ? 2 : 1));
+    uploaded_bytes_ +=
+        std::size_t{channels} * static_cast<std::size_t>(samples.x) * static_cast<std::size_t>(samples.y);
     if (narrow) {
       planes_[i].uploadNarrowed(channels, plane, samples.x, samples.y, narrowing);
     } else {
@@ -187,12 +192,32 @@ void ColorPicture::upload(const Frame& frame) {
   }
 }
 
+// Whether GL has no GPU: what it would do to a picture's planes is done here in a tenth of the time.
+bool ColorPicture::drawsOnCpu() {
+  if (!draws_on_cpu_) {
+    const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    const std::string_view name = renderer == nullptr ? "" : renderer;
+    constexpr std::array<std::string_view, 3> kSoftware{"llvmpipe", "softpipe", "SwiftShader"};
+    draws_on_cpu_ = std::ranges::any_of(
+        kSoftware, [&](std::string_view each) { return name.find(each) != std::string_view::npos; });
+  }
+  return *draws_on_cpu_;
+}
+
+void ColorPicture::makeSeen(glm::ivec2 samples) {
+  seen_samples_ = samples;
+  seen_.make(frame_, samples, components_to_rgb_, bias_);
+  seen_texture_.upload(4, {seen_.rgba().data(), std::ptrdiff_t{4} * seen_.width()}, seen_.width(), seen_.height());
+  uploaded_bytes_ += seen_.rgba().size();
+}
+
 // Codes arrive as fractions of 255: rgb = sum of column x scale x (fraction - zero point).
 void ColorPicture::setColors(const Frame& frame) noexcept {
   const glm::mat3 columns = rgbFromComponents(frame);
   const bool is_limited = limited(frame);
   const int count = frame.model == ColorModel::Gray ? 1 : 3;
   to_rgb_ = glm::mat4x3(0);
+  components_to_rgb_ = glm::mat3(0);
   bias_ = glm::vec3(0);
   for (int i = 0; i < count; ++i) {
     const Component& component = frame.components[static_cast<std::size_t>(i)];
@@ -204,7 +229,7 @@ void ColorPicture::setColors(const Frame& frame) noexcept {
     const int sampled = arrangement_ == Arrangement::Packed                ? channel
                         : arrangement_ == Arrangement::SemiPlanar && i > 0 ? 1 + channel
                                                                            : i;
-    to_rgb_[sampled] = scale * columns[i];
+    to_rgb_[sampled] = components_to_rgb_[i] = scale * columns[i];
     bias_ -= zero * scale * columns[i];
   }
 }
@@ -212,11 +237,19 @@ void ColorPicture::setColors(const Frame& frame) noexcept {
 void ColorPicture::bind(GLuint unit, const PixelArea& area, const DisplayVolume& volume) {
   const double area_aspect = static_cast<double>(area.width) / area.height;
   const double picture_aspect = volume.width_mm / volume.height_mm;
-  const int shown_width = static_cast<int>(area.width * std::min(1.0, picture_aspect / area_aspect));
-  const int shown_height = static_cast<int>(area.height * std::min(1.0, area_aspect / picture_aspect));
-  const auto reduced = [](int samples, int shown) { return samples >= 2 * shown ? (samples + 1) / 2 : samples; };
-  const int width = reduced(width_, std::max(shown_width, 1));
-  const int height = reduced(height_, std::max(shown_height, 1));
+  const int shown_width = std::max(1, static_cast<int>(area.width * std::min(1.0, picture_aspect / area_aspect)));
+  const int shown_height = std::max(1, static_cast<int>(area.height * std::min(1.0, area_aspect / picture_aspect)));
+  const glm::ivec2 samples(SeenColor::factorFor(width_, shown_width), SeenColor::factorFor(height_, shown_height));
+  const bool by_cpu = converter_ == Converter::Cpu ||
+                      (converter_ == Converter::Automatic && (samples != glm::ivec2(1) || drawsOnCpu()));
+  glActiveTexture(GL_TEXTURE0 + unit);
+  if (by_cpu && !imported_) {
+    if (seen_samples_ != samples) makeSeen(samples);
+    return seen_texture_.bind(unit);
+  }
+  if (!in_planes_) upload(frame_);
+  const auto reduced = [](int all, int factor) { return factor > 1 ? (all + 1) / 2 : all; };
+  const int width = reduced(width_, samples.x), height = reduced(height_, samples.y);
   if (width != target_width_ || height != target_height_) {
     allocateTarget(width, height);
     converted_ = false;

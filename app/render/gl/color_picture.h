@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A frame's colour picture as one RGBA texture, converted from the decoder's planes by the GPU.
+// A frame's colour picture as one RGBA texture, converted from the decoder's planes.
 #pragma once
 
 #include <array>
@@ -13,6 +13,7 @@
 #include "app/render/gl/gl_objects.h"
 #include "app/render/gl/gl_program.h"
 #include "app/render/gl/plane_texture.h"
+#include "app/render/gl/seen_color.h"
 #include "app/render/relief/stereo.h"
 #include "app/scene/display_volume.h"
 #include "hal/media/frame.h"
@@ -21,9 +22,13 @@
 namespace relievo {
 
 // Converted once per frame into a texture that every eye's view samples: sampling three planes for every pixel of both
-// eyes doubled the frame time in software rendering.
+// eyes doubled the frame time in software rendering. The GPU converts it, unless there is none, or the picture has at
+// least twice as many samples in a direction as are seen: then SeenColor does, and no more than that is uploaded.
 class ColorPicture {
  public:
+  enum class Converter : std::uint8_t { Automatic, Gpu, Cpu };  // imported planes are always converted by the GPU
+  explicit ColorPicture(Converter converter = Converter::Automatic) noexcept : converter_(converter) {}
+
   // Accepts planar and semi-planar YUV, packed and planar RGB, and gray, of 8 to 16 bits; Unsupported for anything
   // else.
   [[nodiscard]] static Result<void> check(const Frame& frame) noexcept;
@@ -35,9 +40,12 @@ class ColorPicture {
   // Whether the planes of the last frame were used without a copy.
   [[nodiscard]] bool isImported() const noexcept { return imported_; }
 
-  // Converts the last frame, if that has not been done, and leaves the texture bound to `unit`, row 0 at the top. The
-  // picture will fill `area`, in the aspect ratio of `volume`, minus bars; a picture with twice as many pixels or more
-  // is halved during conversion, to avoid aliasing. Changes the framebuffer and the viewport.
+  // Bytes that were uploaded of the last frame: 0 until it is bound, and if it is imported.
+  [[nodiscard]] std::size_t uploadedBytes() const noexcept { return uploaded_bytes_; }
+
+  // Uploads and converts the last frame, if that has not been done, and leaves the texture bound to `unit`, row 0 at
+  // the top. The picture will fill `area`, in the aspect ratio of `volume`, minus bars; a picture with twice as many
+  // pixels or more is averaged, to avoid aliasing. Changes the framebuffer and the viewport.
   void bind(GLuint unit, const PixelArea& area, const DisplayVolume& volume);
 
  private:
@@ -48,6 +56,8 @@ class ColorPicture {
   [[nodiscard]] static glm::ivec2 samplesOf(const Frame& frame, std::size_t component) noexcept;
   [[nodiscard]] bool import(const Frame& frame);
   void upload(const Frame& frame);
+  [[nodiscard]] bool drawsOnCpu();
+  void makeSeen(glm::ivec2 samples);
   void setColors(const Frame& frame) noexcept;
   void allocateTarget(int width, int height);
   void convert();
@@ -56,11 +66,19 @@ class ColorPicture {
   int width_ = 0;
   int height_ = 0;
   glm::mat4x3 to_rgb_{0};  // from the four numbers that the shader samples
+  glm::mat3 components_to_rgb_{0};
   glm::vec3 bias_{0};
   glm::vec2 chroma_scale_{1};
   std::array<PlaneTexture, 3> planes_;
   std::optional<bool> takes_dma_bufs_;  // false after the first refusal
+  Converter converter_;
+  std::optional<bool> draws_on_cpu_;
+  SeenColor seen_;
+  PlaneTexture seen_texture_;
+  glm::ivec2 seen_samples_{0};  // per pixel of the texture; 0 if it does not hold the last frame
+  std::size_t uploaded_bytes_ = 0;
   bool imported_ = false;
+  bool in_planes_ = false;  // the last frame
   bool converted_ = false;
   Frame frame_;  // kept because a texture may use its memory
 

@@ -79,6 +79,7 @@ struct SceneRenderer::Impl {
   ReliefSurface surface_of_triangles;
   ReliefDetail made;  // the detail the triangles were made for
   bool is_made = false;
+  bool is_flat = false;    // the surface is not that of the triangles
   bool words_due = false;  // a picture has come since they were placed
   EyeMixer mixer;
   SurfaceMark on_surface;
@@ -212,6 +213,7 @@ Result<void> SceneRenderer::Impl::drawViews(const DisplaySurface& surface, const
   if (has_picture) {
     picture.bind(kPictureUnit, eyes.views[0].area, volume);
     if (has_right) right.bind(kRightUnit, eyes.views[0].area, volume);
+    is_flat = is_flat || depth.empty();
     if (depth.empty()) surface_of_triangles.uploadFlat(volume, stereo.screen_z_mm);
     else makeTriangles(eyes);
     placeWords(eyes);
@@ -243,19 +245,18 @@ Result<void> SceneRenderer::Impl::drawViews(const DisplaySurface& surface, const
 
 // Makes the triangles for the present picture at the resolution of the views.
 void SceneRenderer::Impl::makeTriangles(const EyeViews& eyes) {
-  // Detail below half a pixel of a view is invisible, and a wider lattice than this takes too long.
-  constexpr int kLeastAcross = 64, kMostAcross = 1024;
   double eye_mm = 0;
   for (const EyeView& view : eyes.views) eye_mm = std::max(eye_mm, std::abs(view.eye_x_mm));
   const double pixel_mm = heightOfPixelMm(stereo, volume, eyes.pixels_per_mm);
   const ReliefDetail wanted{
-      .most_across = std::clamp(static_cast<int>(2 * eyes.pixels_per_mm * volume.width_mm), kLeastAcross, kMostAcross),
+      .most_across = ReliefDetail::cellsFor(eyes.pixels_per_mm * volume.width_mm, level.factor()),
       .error_mm = error_px * level.factor() * pixel_mm,
       .view = {.eye_mm = eye_mm, .distance_mm = stereo.viewing_distance_mm, .screen_z_mm = stereo.screen_z_mm}};
   if (is_made && wanted == made) return;
   const MonotonicTime start = clock.now();
-  triangles.build(field, volume, wanted);
-  surface_of_triangles.upload(triangles);
+  const bool is_new = triangles.build(field, volume, wanted);
+  if (is_new || is_flat) surface_of_triangles.upload(triangles);
+  is_flat = false;
   smooth(meshing, clock.now() - start, meshes++ == 0);
   made = wanted;
   is_made = true;

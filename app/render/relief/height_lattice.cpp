@@ -71,22 +71,24 @@ void HeightLattice::lay(const HeightField& field, int most_across) {
   holes_.resize(runsOf(columns_.size()) * rows_.size());
 }
 
-void HeightLattice::read(const HeightField& field, int most_across) {
+bool HeightLattice::read(const HeightField& field, int most_across) {
   const bool follows = !field.readsBeside() && field.readsLike(last_) && most_across == most_across_;
   if (!follows) lay(field, most_across);
   last_ = field;
   const std::size_t width = columns_.size();
   filled_.assign(width, 0);
   bool has_holes = false;  // in the row above
+  bool changed = !follows;
   for (int j = 0; j < rows(); ++j) {
     float* line = heights_.data() + static_cast<std::size_t>(j) * width;
     if (j > 0 && rows_[static_cast<std::size_t>(j)] == rows_[static_cast<std::size_t>(j) - 1]) {
       std::copy_n(line - width, width, line);
       continue;
     }
-    const bool holes_here = readChanged(field, j, follows);
+    const RowRead row_read = readChanged(field, j, follows);
+    changed = changed || row_read.changed;
     std::copy_n(read_.data() + static_cast<std::size_t>(j) * width, width, line);
-    if (holes_here) {
+    if (row_read.has_holes) {
       fillHoles(j);
       has_holes = true;
     } else if (has_holes) {
@@ -94,10 +96,11 @@ void HeightLattice::read(const HeightField& field, int most_across) {
       has_holes = false;
     }
   }
+  return changed;
 }
 
-// Reads a row into `read_`, only the runs that have changed; returns whether there is a hole in it.
-bool HeightLattice::readChanged(const HeightField& field, int j, bool follows) {
+// Reads a row into `read_`, only the runs that have changed.
+HeightLattice::RowRead HeightLattice::readChanged(const HeightField& field, int j, bool follows) {
   const std::span<const std::uint8_t> bytes = field.rowBytes(row(j));
   std::uint8_t* const seen = seen_.data() + static_cast<std::size_t>(j) * bytes.size();
   const auto step = static_cast<std::size_t>(field.stepBytes());
@@ -120,7 +123,7 @@ bool HeightLattice::readChanged(const HeightField& field, int j, bool follows) {
     any = any || holes[run] != Holes::None;
   }
   if (changed) std::copy(bytes.begin(), bytes.end(), seen);
-  return any;
+  return {changed, any};
 }
 
 // Between rows a filled value changes by less than a jump, whatever its neighbours do, so that no false edge appears.

@@ -22,8 +22,9 @@ class HeightLattice {
   // coded depth.
   [[nodiscard]] float jumpMm() const noexcept { return jump_mm_; }
 
-  // At most about `most_across` cells in a row, and a number of rows that keeps the picture's aspect ratio.
-  void read(const HeightField& field, int most_across);
+  // At most about `most_across` cells in a row, and a number of rows that keeps the picture's aspect ratio. Returns
+  // whether there may be another height than in the last picture.
+  bool read(const HeightField& field, int most_across);
 
   [[nodiscard]] int tile() const noexcept { return tile_; }
   [[nodiscard]] int cols() const noexcept { return static_cast<int>(columns_.size()); }  // vertices
@@ -45,7 +46,10 @@ class HeightLattice {
 
  private:
   void lay(const HeightField& field, int most_across);
-  bool readChanged(const HeightField& field, int j, bool follows);
+  struct RowRead {
+    bool changed, has_holes;
+  };
+  RowRead readChanged(const HeightField& field, int j, bool follows);
   void fillHoles(int j);
 
   int tile_ = 1;

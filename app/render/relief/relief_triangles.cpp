@@ -2,10 +2,34 @@
 // The network's triangles, the frame around them and the silhouettes.
 #include "app/render/relief/relief_triangles.h"
 
+#include <algorithm>
+
 namespace relievo {
 
-void ReliefTriangles::build(const HeightField& field, const DisplayVolume& volume, const ReliefDetail& detail) {
-  lattice_.read(field, detail.most_across);
+namespace {
+
+bool sameBox(const DisplayVolume& a, const DisplayVolume& b) noexcept {
+  return a.width_mm == b.width_mm && a.height_mm == b.height_mm && a.depth_mm == b.depth_mm;
+}
+
+}  // namespace
+
+int ReliefDetail::cellsFor(double pixels, double factor) noexcept {
+  constexpr double kCellsPerPixel = 4.0 / 3, kWidest = 2;
+  constexpr int kLeast = 64, kMost = 1024;  // more take too long
+  return std::clamp(static_cast<int>(kCellsPerPixel * pixels / std::min(factor, kWidest)), kLeast, kMost);
+}
+
+bool ReliefTriangles::build(const HeightField& field, const DisplayVolume& volume, const ReliefDetail& detail) {
+  const bool changed = lattice_.read(field, detail.most_across);
+  if (!changed && made_ == detail && sameBox(made_volume_, volume)) return false;
+  make(volume, detail);
+  made_ = detail;
+  made_volume_ = volume;
+  return true;
+}
+
+void ReliefTriangles::make(const DisplayVolume& volume, const ReliefDetail& detail) {
   cuts_.find(lattice_, lattice_.jumpMm());
   network_.measure(lattice_, cuts_);
   network_.triangulate(static_cast<float>(detail.error_mm));

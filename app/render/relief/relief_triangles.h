@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "app/render/relief/cut_cells.h"
 #include "app/render/relief/height_lattice.h"
@@ -22,12 +23,18 @@ struct ReliefDetail {
   double error_mm = 0.5;   // error bound of a height
   ViewSpan view;
   bool operator==(const ReliefDetail&) const = default;
+
+  // `most_across` for a picture that a view shows `pixels` wide. Outlines lie half way between vertices: so they are
+  // within half a pixel of where they should be, whatever the size of the depth picture. Since most triangles stand
+  // along outlines, an error that is allowed to grow by `factor` widens the vertices' pitch too, up to twice.
+  [[nodiscard]] static int cellsFor(double pixels, double factor = 1) noexcept;
 };
 
 // Pure arithmetic for one thread; memory is kept from frame to frame.
 class ReliefTriangles {
  public:
-  void build(const HeightField& field, const DisplayVolume& volume, const ReliefDetail& detail);
+  // Returns false if the last picture's triangles are this one's too: nothing was made then.
+  bool build(const HeightField& field, const DisplayVolume& volume, const ReliefDetail& detail);
 
   [[nodiscard]] const OutputArray<TexturedVertex>& vertices() const noexcept { return vertices_; }
   // Three indices per triangle, counterclockwise for the viewer: first the surface, then the frame that joins it to the
@@ -35,12 +42,18 @@ class ReliefTriangles {
   // all of them meets the picture's own colours.
   [[nodiscard]] const OutputArray<std::uint32_t>& indices() const noexcept { return indices_; }
   [[nodiscard]] std::size_t surfaceTriangles() const noexcept { return network_.triangles().size(); }
+  // Samples that the last picture was looked at in, those that had not changed included.
+  [[nodiscard]] std::size_t samples() const noexcept { return lattice_.size(); }
   [[nodiscard]] std::size_t cutCells() const noexcept { return cuts_.cells().size(); }
 
  private:
   void addFrame(const DisplayVolume& volume, float screen_z_mm);
   void addFloor(const DisplayVolume& volume, float screen_z_mm);
 
+  void make(const DisplayVolume& volume, const ReliefDetail& detail);
+
+  DisplayVolume made_volume_;
+  std::optional<ReliefDetail> made_;
   HeightLattice lattice_;
   CutCells cuts_;
   TriangleNetwork network_;

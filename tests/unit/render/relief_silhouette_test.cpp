@@ -13,6 +13,7 @@
 
 #include "app/render/relief/cut_cells.h"
 #include "app/render/relief/relief_triangles.h"
+#include "app/render/relief/stereo.h"
 #include "tests/support/film/depth_frames.h"
 
 namespace relievo {
@@ -316,6 +317,72 @@ TEST(ReliefTriangles, AFrameJoinsTheReliefToThePicturesRectangle) {
     below += y == -40;
   }
   for (const int side : {left, right, above, below}) EXPECT_GT(side, 1);
+}
+
+// The same scene side by side on 1280 x 720, from depth pictures of three sizes: waves, and a disc before them.
+TEST(ReliefTriangles, ALargerDepthPictureTakesNoMoreTrianglesOnTheSameScreen) {
+  const StereoSettings stereo{.layout = StereoLayout::SideBySide};
+  const DisplayVolume volume{160.0, 108.0, 40.0};
+  const EyeViews eyes = eyeViews(stereo, volume, 1280, 720);
+  const ReliefDetail detail{.most_across = ReliefDetail::cellsFor(eyes.pixels_per_mm * volume.width_mm),
+                            .error_mm = 0.5 * heightOfPixelMm(stereo, volume, eyes.pixels_per_mm)};
+  EXPECT_GE(detail.most_across, 533) << "a cell for each of the picture's pixels";
+  std::size_t small = 0, small_cuts = 0;
+  for (const int times : {1, 2, 4}) {
+    const int cols = 720 * times, rows = 486 * times;
+    const Frame frame = test::makeGrayFrame(cols, rows, 16, MediaTime{}, [&](int c, int r) {
+      const float x = static_cast<float>(c) / static_cast<float>(cols),
+                  y = static_cast<float>(r) / static_cast<float>(rows);
+      const bool on_disc = (x - 0.4F) * (x - 0.4F) + (y - 0.5F) * (y - 0.5F) < 0.04F;
+      return static_cast<std::uint32_t>((on_disc ? 50'000.0F : 15'000.0F) + 30'000.0F * x * (1 - x) * (1 - y));
+    });
+    ReliefTriangles relief;
+    relief.build(HeightField::make(frame, {.bits = 16}, volume).value(), volume, detail);
+    const std::size_t count = relief.indices().size() / 3;
+    if (times == 1) small = count, small_cuts = relief.cutCells();
+    EXPECT_LE(static_cast<double>(count), 1.2 * static_cast<double>(small)) << times;
+    EXPECT_LE(static_cast<double>(relief.cutCells()), 1.2 * static_cast<double>(small_cuts)) << times;
+    EXPECT_GT(relief.cutCells(), 500U);
+    EXPECT_LE(static_cast<double>(relief.samples()), 1.2 * 720 * 486) << times;
+  }
+}
+
+// An error of 2 px instead of half of one hardly matters to a picture of outlines; a wider pitch does.
+TEST(ReliefTriangles, ALargerErrorTakesFewerTrianglesAlongOutlinesToo) {
+  EXPECT_EQ(ReliefDetail::cellsFor(540), 720);
+  EXPECT_EQ(ReliefDetail::cellsFor(540, 1.5), 480);
+  EXPECT_EQ(ReliefDetail::cellsFor(540, 8), 360) << "at most twice as wide";
+  const Frame frame = test::makeGrayFrame(720, 486, 16, MediaTime{},
+                                          [](int c, int r) { return (c / 60 + r / 60) % 2 == 0 ? 10'000U : 50'000U; });
+  const HeightField field = HeightField::make(frame, {.bits = 16}, kVolume).value();
+  const auto count = [&](double factor) {
+    ReliefTriangles relief;
+    relief.build(field, kVolume, {.most_across = ReliefDetail::cellsFor(540, factor), .error_mm = 0.5 * factor});
+    return static_cast<double>(relief.indices().size());
+  };
+  EXPECT_LT(count(2), 0.6 * count(1));
+}
+
+TEST(ReliefTriangles, WhatStandsStillIsNotMadeAgain) {
+  const auto pictureOf = [](int raised) {
+    return frameOf([=](int c, int r) { return c == raised && r == 7 ? 30.0 : c < kEdge ? 5.0 : 25.0; });
+  };
+  const Frame first = pictureOf(-1), same = pictureOf(-1), other = pictureOf(12);
+  ReliefTriangles relief;
+  ReliefDetail detail;
+  EXPECT_TRUE(relief.build(fieldOf(first), kVolume, detail));
+  const std::size_t triangles = relief.indices().size();
+  EXPECT_FALSE(relief.build(fieldOf(same), kVolume, detail));
+  EXPECT_EQ(relief.indices().size(), triangles);
+  EXPECT_TRUE(relief.build(fieldOf(other), kVolume, detail)) << "one sample has risen";
+  EXPECT_GT(relief.indices().size(), triangles);
+  EXPECT_TRUE(relief.build(fieldOf(same), kVolume, detail)) << "it has sunk again";
+  EXPECT_EQ(relief.indices().size(), triangles);
+  detail.view.eye_mm *= 2;
+  EXPECT_TRUE(relief.build(fieldOf(same), kVolume, detail)) << "seen from elsewhere";
+  DisplayVolume deeper = kVolume;
+  deeper.depth_mm *= 2;
+  EXPECT_TRUE(relief.build(HeightField::make(same, {.bits = 16}, deeper).value(), deeper, detail));
 }
 
 }  // namespace
