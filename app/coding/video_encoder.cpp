@@ -92,6 +92,16 @@ void set(AVCodecContext& codec, const char* key, const std::string& value) {
   av_opt_set(codec.priv_data, key, value.c_str(), 0);
 }
 
+// Slices are encoded at the same time without a picture more in memory; their number shapes the stream, so it is fixed.
+constexpr const char* kQuick = ":sliced-threads=1:threads=4:ref=1:bframes=2:b-pyramid=none:weightp=0";
+// A depth's predictions gain from a search as careful as that of "medium"; in colour it costs more than it gives.
+constexpr const char* kQuickDepth = ":rc-lookahead=4:trellis=0:subme=6:partitions=i8x8,i4x4";
+constexpr const char* kQuickColor = ":rc-lookahead=3:trellis=1";
+// The crf with which a depth is as exact as "medium" makes it with the given one, and colour nearly so.
+double quickQuality(const VideoEncoder::Settings& s) {
+  return std::max(s.crf - (s.to_touch ? 3.0 : 2.0), 0.5 * s.crf);
+}
+
 void configureH264(AVCodecContext& codec, const VideoEncoder::Settings& s) {
   // libx264 derives its level from the frame rate, which it takes from the time base unless set.
   std::string parameters = "fps=" + std::to_string(codec.framerate.num) + "/" + std::to_string(codec.framerate.den) +
@@ -99,7 +109,9 @@ void configureH264(AVCodecContext& codec, const VideoEncoder::Settings& s) {
   // Psycho-visual decisions distort edges: without them the largest error is 11 codes instead of 52 at the same size.
   if (s.to_touch) parameters += ":no-psy=1:aq-mode=0";
   if (s.crf == 0) parameters += ":qp=0";  // crf 0 is lossless only at 8 bits
-  set(codec, "preset", s.live ? "veryfast" : "medium");
+  const bool quick = s.quick && !s.live;
+  if (quick) parameters.append(kQuick).append(s.to_touch ? kQuickDepth : kQuickColor);
+  set(codec, "preset", s.live || (quick && !s.to_touch) ? "veryfast" : "medium");
   set(codec, "x264-params", parameters);
 }
 
@@ -129,13 +141,14 @@ void configure(AVCodecContext& codec, const VideoEncoder::Settings& s, bool glob
   if (s.codec == VideoCodec::Ffv1) {
     codec.level = 3;
     codec.gop_size = 1;
-    codec.slices = 4;
+    codec.slices = codec.thread_count = 4;
     return;
   }
   codec.gop_size = 1 << 20;  // `encode` places the key frames
   if (s.codec == VideoCodec::H264) configureH264(codec, s);
   else configureHevc(codec, s);
-  if (s.crf > 0) av_opt_set_double(codec.priv_data, "crf", s.crf, 0);
+  const bool shifted = s.quick && !s.live && s.codec == VideoCodec::H264;
+  if (s.crf > 0) av_opt_set_double(codec.priv_data, "crf", shifted ? quickQuality(s) : s.crf, 0);
   if (s.live) set(codec, "tune", "zerolatency");
   av_opt_set_int(codec.priv_data, "forced-idr", 1, 0);
   av_opt_set_int(codec.priv_data, "udu_sei", 1, 0);

@@ -33,6 +33,9 @@ class VideoEncoder {
     bool gray = false;  // 4:0:0, else 4:2:0
     // tune for accurate values instead of appearance: psycho-visual tricks would shift the surface
     bool to_touch = false;
+    // H.264 in half the time and with a short look-ahead, so that few pictures are in memory. A depth of the same error
+    // takes half more bytes. The same stream whatever the machine's number of cores.
+    bool quick = false;
     bool live = false;  // no B-frames and no look-ahead
     ColorRange range = ColorRange::Unspecified;
     ColorMatrix matrix = ColorMatrix::Unspecified;

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <mutex>
 #include <numeric>
 #include <opencv2/imgproc.hpp>
 #include <vector>
+
+#include "app/enhance/in_bands.h"
 
 namespace relievo {
 namespace {
@@ -87,13 +90,86 @@ std::vector<std::uint8_t> findOutliers(const DepthMap& map, float noise) {
   return outliers;
 }
 
-// 1 where a disc of `radius` fits into the unknown area.
-std::vector<std::uint8_t> findWide(std::vector<std::uint8_t>& unknown, const DepthMap& map, int radius) {
-  std::vector<std::uint8_t> wide(unknown.size());
+// Half the width of each row of a disc of `radius`, without its middle; the first row is the topmost.
+std::vector<int> discOf(int radius) {
   const cv::Mat disc = cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1});
-  cv::Mat opened = viewOf(wide, map);
-  cv::erode(viewOf(unknown, map), opened, disc, {-1, -1}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
-  cv::dilate(opened.clone(), opened, disc);
+  std::vector<int> half(static_cast<std::size_t>(disc.rows));
+  for (int i = 0; i < disc.rows; ++i) half[static_cast<std::size_t>(i)] = (cv::countNonZero(disc.row(i)) - 1) / 2;
+  return half;
+}
+
+// For each sample of a row of length `count`, how many marked ones it has on both sides at least, itself included.
+void measureRuns(const std::uint8_t* marks, std::uint8_t* reach, int count) {
+  constexpr int kMost = 255;
+  for (int c = 0, run = 0; c < count; ++c) {
+    run = marks[c] != 0 ? std::min(run + 1, kMost) : 0;
+    reach[c] = static_cast<std::uint8_t>(run);
+  }
+  for (int c = count - 1, run = 0; c >= 0; --c) {
+    run = marks[c] != 0 ? std::min(run + 1, kMost) : 0;
+    reach[c] = static_cast<std::uint8_t>(std::min<int>(run, reach[c]));
+  }
+}
+
+// For each sample of a row, `most` at a marked one, one less beside it, and so on down to 0.
+void measureNearness(const std::uint8_t* marks, std::uint8_t* nearness, int count, int most) {
+  for (int c = 0, near = 0; c < count; ++c) {
+    near = marks[c] != 0 ? most : std::max(near - 1, 0);
+    nearness[c] = static_cast<std::uint8_t>(near);
+  }
+  for (int c = count - 1, near = 0; c >= 0; --c) {
+    near = std::max<int>(near - 1, nearness[c]);
+    nearness[c] = static_cast<std::uint8_t>(near);
+  }
+}
+
+// The rows in which `is` holds for some sample.
+template <class Is>
+std::vector<char> rowsWith(const std::vector<std::uint8_t>& samples, const DepthMap& map, Is&& is) {
+  std::vector<char> rows(static_cast<std::size_t>(map.rows));
+  for (int r = 0; r < map.rows; ++r) {
+    const auto* const row = samples.data() + map.at(0, r);
+    rows[static_cast<std::size_t>(r)] = std::any_of(row, row + map.cols, is) ? 1 : 0;
+  }
+  return rows;
+}
+
+// 1 where a disc of `radius` fits into the unknown area: an opening by the disc, from the runs in each row.
+std::vector<std::uint8_t> findWide(const std::vector<std::uint8_t>& unknown, const DepthMap& map, int radius) {
+  std::vector<std::uint8_t> measured(unknown.size()), wide(unknown.size());
+  for (int r = 0; r < map.rows; ++r) measureRuns(&unknown[map.at(0, r)], &measured[map.at(0, r)], map.cols);
+  const auto middles = rowsWith(measured, map, [radius](std::uint8_t reach) { return reach > radius; });
+  if (std::ranges::find(middles, 1) == middles.end()) return wide;
+
+  const std::vector<int> disc = discOf(radius);
+  std::vector<std::uint8_t> centres(unknown.size());
+  inBands(map.rows, [&](int first, int end) {
+    for (int r = std::max(first, radius); r < std::min(end, map.rows - radius); ++r) {
+      if (middles[static_cast<std::size_t>(r)] == 0) continue;
+      std::uint8_t* const fits = &centres[map.at(0, r)];
+      std::fill_n(fits, map.cols, std::uint8_t{1});
+      for (int i = 0; i <= 2 * radius; ++i) {
+        const std::uint8_t* const reach = &measured[map.at(0, r - radius + i)];
+        const int half = disc[static_cast<std::size_t>(i)];
+        for (int c = 0; c < map.cols; ++c) fits[c] &= static_cast<std::uint8_t>(reach[c] > half);
+      }
+    }
+  });
+  for (int r = 0; r < map.rows; ++r) {
+    measureNearness(&centres[map.at(0, r)], &measured[map.at(0, r)], map.cols, radius + 1);
+  }
+  const auto of_centres = rowsWith(centres, map, [](std::uint8_t centre) { return centre != 0; });
+  inBands(map.rows, [&](int first, int end) {
+    for (int r = first; r < end; ++r) {
+      std::uint8_t* const out = &wide[map.at(0, r)];
+      for (int y = std::max(r - radius, 0); y <= std::min(r + radius, map.rows - 1); ++y) {
+        if (of_centres[static_cast<std::size_t>(y)] == 0) continue;
+        const std::uint8_t* const nearness = &measured[map.at(0, y)];
+        const int half = disc[static_cast<std::size_t>(y - r + radius)];
+        for (int c = 0; c < map.cols; ++c) out[c] |= static_cast<std::uint8_t>(nearness[c] > radius - half);
+      }
+    }
+  });
   return wide;
 }
 
@@ -213,61 +289,74 @@ float medianOfSide(const DepthMap& map, int c, int r, float alike) {
 
 CleaningCounts fillHoles(DepthMap& map, float noise) {
   CleaningCounts counts;
-  const std::vector<std::uint8_t> outliers = findOutliers(map, noise);
-  std::vector<std::uint8_t> unknown(map.size());
+  std::vector<std::uint8_t> unknown = findOutliers(map, noise);
   for (std::size_t i = 0; i < map.size(); ++i) {
-    unknown[i] = map.holes[i] | outliers[i];
     counts.holes += map.holes[i];
-    counts.outliers += outliers[i];
+    counts.outliers += unknown[i];
+    unknown[i] |= map.holes[i];
   }
   if (counts.holes + counts.outliers == 0) return counts;
   const int radius = std::max(2, map.cols / 80);
   const std::vector<std::uint8_t> wide = findWide(unknown, map, radius);
   const float alike = DepthMap::kStep + 2 * noise;
-  DepthMap filled = map;
-  for (int r = 0; r < map.rows; ++r) {
-    for (int c = 0; c < map.cols; ++c) {
-      const std::size_t i = map.at(c, r);
-      if (unknown[i] == 0) continue;
-      if (wide[i] == 0) {
-        const Surroundings around(map, unknown, c, r, 2 * radius + 1);
-        if (!around.empty()) {
-          filled.codes[i] = around.meanAround(around.mostSeen(alike), alike);
-          filled.holes[i] = 0;
-          ++counts.filled;
-          continue;
-        }
-      }
-      if (counts.holes > 0) {  // in a picture without holes, samples that fit nowhere keep their code
-        filled.codes[i] = 0;
-        filled.holes[i] = 1;
-      }
+  struct Filling {
+    std::size_t index = 0;
+    float code = 0;
+  };
+  std::vector<Filling> fillings;  // applied at the end, since each looks at the samples as they were
+  std::mutex mutex;
+  inBands(map.rows, [&](int first, int end) {
+    std::vector<Filling> found;
+    for (std::size_t i = map.at(0, first); i < map.at(0, end); ++i) {
+      if (unknown[i] == 0 || wide[i] != 0) continue;
+      const int r = static_cast<int>(i / map.cols), c = static_cast<int>(i % map.cols);
+      const Surroundings around(map, unknown, c, r, 2 * radius + 1);
+      if (!around.empty()) found.push_back({i, around.meanAround(around.mostSeen(alike), alike)});
+    }
+    const std::lock_guard lock(mutex);
+    fillings.insert(fillings.end(), found.begin(), found.end());
+  });
+  counts.filled = fillings.size();
+  if (counts.holes > 0) {  // in a picture without holes, samples that fit nowhere keep their code
+    for (std::size_t i = 0; i < map.size(); ++i) {
+      if (unknown[i] != 0) map.codes[i] = 0;
+      map.holes[i] = unknown[i];
     }
   }
-  map = std::move(filled);
+  for (const Filling& filling : fillings) {
+    map.codes[filling.index] = filling.code;
+    map.holes[filling.index] = 0;
+  }
   return counts;
 }
 
 void filterByMedian(DepthMap& map, float noise) {
   const float alike = DepthMap::kStep + 7 * noise;  // the spread of more than 25 samples of one side
   const cv::Mat window = cv::getStructuringElement(cv::MORPH_RECT, {2 * kReach + 1, 2 * kReach + 1});
-  const cv::Mat codes = viewOf(map.codes, map);
-  cv::Mat lowest, highest, median, near_hole;
-  cv::erode(codes, lowest, window);
-  cv::dilate(codes, highest, window);
-  cv::medianBlur(codes, median, 2 * kReach + 1);
-  cv::dilate(viewOf(map.holes, map), near_hole, window);
-  for (int r = 0; r < map.rows; ++r) {
-    const auto *const low = lowest.ptr<float>(r), *const high = highest.ptr<float>(r);
-    const auto* const hole = map.holes.data() + map.at(0, r);
-    const auto* const beside = near_hole.ptr<std::uint8_t>(r);
-    auto* const out = median.ptr<float>(r);
-    for (int c = 0; c < map.cols; ++c) {
-      if (beside[c] == 0 && high[c] - low[c] <= alike) continue;
-      out[c] = hole[c] != 0 ? 0 : medianOfSide(map, c, r, alike);
+  const cv::Mat codes = viewOf(map.codes, map), holes = viewOf(map.holes, map);
+  std::vector<float> filtered(map.size());
+  inBands(map.rows, [&](int first, int end) {
+    // With the rows around them, so that a band has the same result as the whole picture.
+    const cv::Range rows(std::max(first - kReach, 0), std::min(end + kReach, map.rows));
+    cv::Mat lowest, highest, median, near_hole;
+    cv::erode(codes.rowRange(rows), lowest, window);
+    cv::dilate(codes.rowRange(rows), highest, window);
+    cv::medianBlur(codes.rowRange(rows), median, 2 * kReach + 1);
+    cv::dilate(holes.rowRange(rows), near_hole, window);
+    for (int r = first; r < end; ++r) {
+      const int at = r - rows.start;
+      const auto *const low = lowest.ptr<float>(at), *const high = highest.ptr<float>(at);
+      const auto* const hole = map.holes.data() + map.at(0, r);
+      const auto* const beside = near_hole.ptr<std::uint8_t>(at);
+      auto* const out = median.ptr<float>(at);
+      for (int c = 0; c < map.cols; ++c) {
+        if (beside[c] == 0 && high[c] - low[c] <= alike) continue;
+        out[c] = hole[c] != 0 ? 0 : medianOfSide(map, c, r, alike);
+      }
+      std::copy_n(out, map.cols, filtered.data() + map.at(0, r));
     }
-  }
-  median.copyTo(codes);
+  });
+  map.codes = std::move(filtered);
 }
 
 }  // namespace relievo

@@ -7,6 +7,8 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "app/enhance/in_bands.h"
+
 namespace relievo {
 namespace {
 
@@ -59,21 +61,25 @@ class LineFit {
 // 1 at the last sample before a step, a hole or the end of its row.
 cv::Mat endsOfRuns(const cv::Mat& codes, const cv::Mat& holes) {
   cv::Mat ends(codes.size(), CV_8U);
-  for (int r = 0; r < codes.rows; ++r) {
-    const float* const z = codes.ptr<float>(r);
-    const auto* const hole = holes.ptr<std::uint8_t>(r);
-    auto* const end = ends.ptr<std::uint8_t>(r);
-    for (int c = 0; c + 1 < codes.cols; ++c) {
-      end[c] = std::abs(z[c + 1] - z[c]) > DepthMap::kStep || hole[c] != hole[c + 1] ? 1 : 0;
+  inBands(codes.rows, [&](int first, int last) {
+    for (int r = first; r < last; ++r) {
+      const float* const z = codes.ptr<float>(r);
+      const auto* const hole = holes.ptr<std::uint8_t>(r);
+      auto* const end = ends.ptr<std::uint8_t>(r);
+      for (int c = 0; c + 1 < codes.cols; ++c) {
+        end[c] = static_cast<std::uint8_t>((std::abs(z[c + 1] - z[c]) > DepthMap::kStep) | (hole[c] != hole[c + 1]));
+      }
+      end[codes.cols - 1] = 1;
     }
-    end[codes.cols - 1] = 1;
-  }
+  });
   return ends;
 }
 
 void fitRows(cv::Mat& codes, const cv::Mat& ends, int reach) {
-  LineFit line(codes.cols, reach);
-  for (int r = 0; r < codes.rows; ++r) line.row(ends.ptr<std::uint8_t>(r), codes.ptr<float>(r), codes.cols);
+  inBands(codes.rows, [&](int first, int last) {
+    LineFit line(codes.cols, reach);
+    for (int r = first; r < last; ++r) line.row(ends.ptr<std::uint8_t>(r), codes.ptr<float>(r), codes.cols);
+  });
 }
 
 }  // namespace
@@ -86,6 +92,7 @@ void fitLines(DepthMap& map, int reach) {
   cv::transpose(codes, turned);
   cv::transpose(holes, turned_holes);
   const cv::Mat across = endsOfRuns(codes, holes), down = endsOfRuns(turned, turned_holes);
+  turned_holes.release();
   for (int round = 0; round < 2; ++round) {
     fitRows(codes, across, reach);
     cv::transpose(codes, turned);

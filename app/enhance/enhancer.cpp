@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cleans each picture by itself, then finishes it with its neighbours in time; several pictures are processed at once.
+// Cleans each picture by itself, then finishes it with its neighbours in time. One picture at a time, on all cores: so
+// memory does not grow with the cores.
 #include "app/enhance/enhancer.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <opencv2/core/utility.hpp>
 #include <utility>
 
 #include "app/enhance/depth_mesh.h"
@@ -17,17 +17,10 @@
 namespace relievo {
 namespace {
 
-constexpr std::size_t kBefore = 2, kAhead = 2;  // neighbouring pictures used
-constexpr float kAfterMedian = 0.3F;            // share of the noise that the median of 25 leaves
-constexpr float kSmoothing = 5;                 // reach of the fit, for a mesh
-constexpr int kReferenceCols = 720;             // reaches apply to a picture of this width
-
-template <class Work>
-void inParallel(std::size_t count, Work&& work) {
-  cv::parallel_for_(cv::Range(0, static_cast<int>(count)), [&](const cv::Range& range) {
-    for (int i = range.start; i < range.end; ++i) work(static_cast<std::size_t>(i));
-  });
-}
+constexpr std::size_t kNeighbours = 2;  // pictures before and after it
+constexpr float kAfterMedian = 0.3F;    // share of the noise that the median of 25 leaves
+constexpr float kSmoothing = 5;         // reach of the fit, for a mesh
+constexpr int kReferenceCols = 720;     // reaches apply to a picture of this width
 
 int scaled(float reach, int cols) {
   return static_cast<int>(std::lround(reach * static_cast<float>(cols) / kReferenceCols));
@@ -63,21 +56,24 @@ DepthEnhancer::DepthEnhancer(Enhancement how, const DepthCalibration& source, do
       source_(source),
       outcome_(recoded(source, DepthMap::kBits)),
       bound_(static_cast<float>(bound_levels) * DepthMap::kLevel),
-      code_step_(static_cast<float>(static_cast<double>(DepthMap::kHighest) / (source.highCode() - source.lowCode()))),
-      at_once_(static_cast<std::size_t>(std::max(cv::getNumThreads(), 1))) {}
-
-Result<void> DepthEnhancer::add(const Frame& depth) {
-  if (!pictures_.empty() &&
-      (depth.width != pictures_.back().source.width || depth.height != pictures_.back().source.height)) {
-    return fail(ErrorCode::Unsupported, "the picture size changes; cut the film there");
-  }
-  pictures_.push_back({.source = depth});
-  return pictures_.size() - cleaned_ < at_once_ ? Result<void>{} : work();
+      code_step_(static_cast<float>(static_cast<double>(DepthMap::kHighest) / (source.highCode() - source.lowCode()))) {
 }
 
-Result<void> DepthEnhancer::finish() {
-  ended_ = true;
-  return work();
+Result<void> DepthEnhancer::add(const Frame& depth) {
+  if (sums_.pictures + pictures_.size() > 0 && (depth.width != width_ || depth.height != height_)) {
+    return fail(ErrorCode::Unsupported, "the picture size changes; cut the film there");
+  }
+  width_ = depth.width;
+  height_ = depth.height;
+  Picture picture{.source = depth};
+  if (!clean(picture)) return fail(ErrorCode::Unsupported, "cannot read depth from this kind of picture");
+  pictures_.push_back(std::move(picture));
+  enhanceUntil(pictures_.size() - std::min(neighbours(), pictures_.size()));
+  return {};
+}
+
+void DepthEnhancer::finish() {
+  enhanceUntil(pictures_.size());
 }
 
 std::optional<Frame> DepthEnhancer::next() {
@@ -87,22 +83,13 @@ std::optional<Frame> DepthEnhancer::next() {
   return frame;
 }
 
-Result<void> DepthEnhancer::work() {
-  std::vector<char> read(pictures_.size() - cleaned_);
-  inParallel(read.size(), [&](std::size_t i) { read[i] = clean(pictures_[cleaned_ + i]) ? 1 : 0; });
-  if (std::find(read.begin(), read.end(), 0) != read.end()) {
-    return fail(ErrorCode::Unsupported, "cannot read depth from this kind of picture");
-  }
-  cleaned_ = pictures_.size();
-  const std::size_t ahead = how_ == Enhancement::SpaceTime && !ended_ ? kAhead : 0;
-  const std::size_t end = std::max(done_, cleaned_ - std::min(ahead, cleaned_));
-  inParallel(end - done_, [&](std::size_t i) { enhance(done_ + i); });
+void DepthEnhancer::enhanceUntil(std::size_t end) {
   for (; done_ < end; ++done_) {
+    enhance(done_);
     count(pictures_[done_]);
     ready_.push_back(std::move(pictures_[done_].outcome));
   }
-  for (; done_ > kBefore; --done_, --cleaned_) pictures_.pop_front();
-  return {};
+  for (; done_ > neighbours(); --done_) pictures_.pop_front();
 }
 
 bool DepthEnhancer::clean(Picture& picture) const {
@@ -118,22 +105,28 @@ bool DepthEnhancer::clean(Picture& picture) const {
   return true;
 }
 
-// Reads the cleaned pictures around it; writes only its own result.
+std::size_t DepthEnhancer::neighbours() const noexcept {
+  return how_ == Enhancement::SpaceTime ? kNeighbours : 0;
+}
+
+// Only `space-time` needs a cleaned picture again.
 void DepthEnhancer::enhance(std::size_t index) {
   Picture& picture = pictures_[index];
-  DepthMap map = how_ == Enhancement::SpaceTime ? steadied(index) : picture.map;
+  DepthMap map = how_ == Enhancement::SpaceTime ? steadied(index) : std::move(picture.map);
+  if (index >= kNeighbours) pictures_[index - kNeighbours].map = {};  // not needed by the next one
   if (how_ == Enhancement::SpaceTime) fitLines(map, reachFor(3, grain(picture), map.cols));
   if (how_ == Enhancement::Dibm) model(picture, map);
   picture.noise_after = noiseOf(map);
   const float moved = std::max(shapeChange(picture.means, map), grain(picture) / kShapeBlock);
   picture.error = std::hypot(picture.noise_after, moved);
+  picture.samples = map.size();
   picture.outcome = writeDepth(map, !outcome_.invalid.empty(), picture.source);
 }
 
 DepthMap DepthEnhancer::steadied(std::size_t index) const {
-  std::array<const DepthMap*, kBefore> before{};
-  std::array<const DepthMap*, kAhead> after{};
-  const std::size_t pairs = std::min({kBefore, index, pictures_.size() - 1 - index});
+  std::array<const DepthMap*, kNeighbours> before{};
+  std::array<const DepthMap*, kNeighbours> after{};
+  const std::size_t pairs = std::min({kNeighbours, index, pictures_.size() - 1 - index});
   for (std::size_t k = 0; k < pairs; ++k) {
     before[k] = &pictures_[index - 1 - k].map;
     after[k] = &pictures_[index + 1 + k].map;
@@ -161,7 +154,7 @@ void DepthEnhancer::model(Picture& picture, DepthMap& map) const {
 
 void DepthEnhancer::count(const Picture& picture) {
   ++sums_.pictures;
-  sums_.samples += picture.map.size();
+  sums_.samples += picture.samples;
   sums_.holes += picture.counts.holes;
   sums_.outliers += picture.counts.outliers;
   sums_.filled += picture.counts.filled;

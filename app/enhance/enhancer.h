@@ -32,8 +32,9 @@ struct EnhancementSummary {
   double error_before = 0, error_after = 0;
 };
 
-// Use from one thread; OpenCV's threads process several pictures at once. A picture comes out after a few more have
-// gone in, so that memory use is constant. Holes are filled first; wide ones stay (see cleaning.h).
+// Use from one thread; OpenCV's threads share the work on a picture, and their number changes nothing in the result. A
+// picture comes out at once, or with `space-time` after two more have gone in, so that memory use is constant. Holes
+// are filled first; wide ones stay (see cleaning.h).
 //
 // The error is estimated without knowing the true depth, from two parts assumed independent: the noise left from sample
 // to sample, and the change of the means over blocks of samples. The second is at least an eighth of the original
@@ -53,7 +54,7 @@ class DepthEnhancer {
   // Adds the next picture; not after `finish`. Unsupported if the frame lacks the component that the calibration names,
   // or differs in size from the one before.
   [[nodiscard]] Result<void> add(const Frame& depth);
-  [[nodiscard]] Result<void> finish();
+  void finish();
   // The enhanced pictures in order, with their timestamps. Nullopt if the next is not ready, or there is none.
   [[nodiscard]] std::optional<Frame> next();
   [[nodiscard]] EnhancementSummary summary() const;
@@ -61,18 +62,20 @@ class DepthEnhancer {
  private:
   struct Picture {
     Frame source;
-    DepthMap map;
+    DepthMap map;  // cleaned
     float noise = 0;
     CleaningCounts counts;
     std::vector<float> means;  // see shape_change.h
     float noise_after = 0;
     float error = 0;
+    std::size_t samples = 0;
     std::size_t points = 0;
     float bound = 0;
     Frame outcome;
   };
 
-  [[nodiscard]] Result<void> work();
+  [[nodiscard]] std::size_t neighbours() const noexcept;
+  void enhanceUntil(std::size_t end);
   [[nodiscard]] bool clean(Picture& picture) const;
   void enhance(std::size_t index);
   [[nodiscard]] DepthMap steadied(std::size_t index) const;
@@ -83,10 +86,9 @@ class DepthEnhancer {
   Enhancement how_;
   DepthCalibration source_, outcome_;
   float bound_, code_step_;
-  std::size_t at_once_;
-  std::deque<Picture> pictures_;  // finished ones still needed as neighbours, then cleaned ones, then new ones
-  std::size_t done_ = 0, cleaned_ = 0;
-  bool ended_ = false;
+  int width_ = 0, height_ = 0;
+  std::deque<Picture> pictures_;  // finished ones still needed as neighbours, then cleaned ones
+  std::size_t done_ = 0;
   std::deque<Frame> ready_;
   EnhancementSummary sums_;
 };

@@ -5,24 +5,28 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/enhance/in_bands.h"
+
 namespace relievo {
 
 DepthMap steadyMean(const DepthMap& present, std::span<const DepthMap* const> before,
                     std::span<const DepthMap* const> after, float alike) {
   DepthMap mean = present;
   const std::size_t pairs = std::min(before.size(), after.size());
-  for (std::size_t i = 0; i < present.size(); ++i) {
-    if (present.holes[i] != 0) continue;
-    float sum = present.codes[i], count = 1;
-    for (std::size_t k = 0; k < pairs; ++k) {
-      const float earlier = before[k]->codes[i], later = after[k]->codes[i], both = earlier + later;
-      const bool known = (before[k]->holes[i] | after[k]->holes[i]) == 0;
-      if (!known || std::abs(0.5F * both - present.codes[i]) > alike) continue;
-      sum += both;
-      count += 2;
+  inBands(present.rows, [&](int first, int end) {
+    for (std::size_t i = present.at(0, first); i < present.at(0, end); ++i) {
+      if (present.holes[i] != 0) continue;
+      float sum = present.codes[i], count = 1;
+      for (std::size_t k = 0; k < pairs; ++k) {
+        const float earlier = before[k]->codes[i], later = after[k]->codes[i], both = earlier + later;
+        const bool known = (before[k]->holes[i] | after[k]->holes[i]) == 0;
+        if (!known || std::abs(0.5F * both - present.codes[i]) > alike) continue;
+        sum += both;
+        count += 2;
+      }
+      mean.codes[i] = sum / count;
     }
-    mean.codes[i] = sum / count;
-  }
+  });
   return mean;
 }
 

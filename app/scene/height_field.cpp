@@ -178,6 +178,17 @@ void HeightField::prefetch(int c0, int r0, int blocks, const SampledBlock& block
   }
 }
 
+bool HeightField::readCodes(int r, std::span<std::uint16_t> codes) const noexcept {
+  if (layout_ >= Layout::Hue) return false;
+  const std::uint8_t* sample = data_ + r * stride_bytes_;
+  if (layout_ == Layout::Bytes && step_bytes_ == 1) {  // nearly always: the compiler makes it several at a time
+    for (int c = 0; c < cols_; ++c) codes[c] = static_cast<std::uint16_t>((sample[c] >> shift_) & mask_);
+    return true;
+  }
+  for (int c = 0; c < cols_; ++c, sample += step_bytes_) codes[c] = static_cast<std::uint16_t>(codeAt(sample));
+  return true;
+}
+
 void HeightField::readColors(const Frame& depth, DepthCode code) noexcept {
   const bool rgb = depth.model == ColorModel::Rgb;
   layout_ = rgb && code == DepthCode::Hue ? Layout::Hue : Layout::Curve;

@@ -43,10 +43,16 @@ class HeightField {
   [[nodiscard]] double heightMm(int c, int r) const RELIEVO_RT {
     const std::uint8_t* sample = data_ + r * stride_bytes_ + static_cast<std::ptrdiff_t>(c) * step_bytes_;
     if (layout_ >= Layout::Hue) return fromColor(c, r);
-    const std::uint32_t code = codeAt(sample);
-    if (invalid_.contains(code)) return kHole;
-    return fromNormalised(s_offset_ + s_scale_ * static_cast<double>(code));
+    return heightOfCode(codeAt(sample));
   }
+
+  // A whole row of raw luma codes, one for each column. False, and nothing is read, if the depth is in colours.
+  bool readCodes(int r, std::span<std::uint16_t> codes) const noexcept;
+  // The height that a luma code below `codeCount` stands for.
+  [[nodiscard]] double heightOfCode(std::uint32_t code) const RELIEVO_RT {
+    return invalid_.contains(code) ? kHole : fromNormalised(s_offset_ + s_scale_ * static_cast<double>(code));
+  }
+  [[nodiscard]] std::size_t codeCount() const noexcept { return std::size_t{mask_} + 1; }
 
   // Reads the heights of some samples of a row, in the given order. Returns whether there is a hole among them.
   bool readRow(int r, std::span<const int> columns, float* heights_mm) const RELIEVO_RT;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Packages a film: reads pairs, converts their pictures for the encoders, and writes each picture once.
+// Packages a film: reads pairs, converts their pictures for the encoders, and writes each picture once. The pairs are
+// read on the caller's thread, the depth is enhanced on one of its own, and each encoder has one (see FilmWriter).
 #include <unistd.h>
 
 #include <cmath>
@@ -16,6 +17,7 @@
 #include "app/author/package/output.h"
 #include "app/author/package/source_notes.h"
 #include "app/author/package/stereo_film.h"
+#include "app/author/package/work_line.h"
 #include "app/author/preview/preview.h"
 #include "app/depth_window/shots.h"
 #include "app/scene/height_field.h"
@@ -94,6 +96,8 @@ class Packager {
   [[nodiscard]] bool begun() const { return writer_ != nullptr; }
 
  private:
+  // On the depth's thread.
+  Outcome<void> takeDepth(const Frame& depth, bool key);
   Outcome<void> writeDepth(const Frame& depth);
   Outcome<void> writeEnhanced();
   [[nodiscard]] std::unique_ptr<KeptTracks> keptTracks() const;
@@ -112,14 +116,15 @@ class Packager {
   FilmFormat format_;
   Cut cut_;
   KeyFrames key_frames_;
-  std::deque<bool> depth_keys_;      // for pictures not yet written
+  std::deque<bool> depth_keys_;      // for pictures not yet written; the depth's thread
   std::deque<TimedSurface> recent_;  // depth pictures, the newest last
   ShotFinder shots_;
   std::optional<MediaTime> last_color_, last_depth_;
   std::uint64_t not_later_ = 0;  // colour pictures whose time is not after that of the one before
   ColorPicture420 color_;
-  DepthPicture depth_;
+  std::mutex preview_mutex_;
   Preview preview_;
+  WorkLine<Outcome<void>> depth_line_;  // the last member: it ends before what it uses
 };
 
 Outcome<void> Packager::begin(const FramePair& pair) {
@@ -192,8 +197,15 @@ Outcome<void> Packager::write(const FramePair& pair) {
   if (depth.width != format_.depth_width || depth.height != format_.depth_height) {
     return failOn("depth", {ErrorCode::Unsupported, 0, "the picture size changes; cut the film there"});
   }
+  if (!output_.preview.empty()) {
+    const std::lock_guard lock(preview_mutex_);
+    preview_.before(color_, depth, sourceCalibration(), expectedFrames(info_));
+  }
+  return depth_line_.add([this, depth, key] { return takeDepth(depth, key); });
+}
+
+Outcome<void> Packager::takeDepth(const Frame& depth, bool key) {
   depth_keys_.push_back(key);
-  if (!output_.preview.empty()) preview_.before(color_, depth, sourceCalibration(), expectedFrames(info_));
   if (!enhancer_) return writeDepth(depth);
   if (auto added = enhancer_->add(depth); !added) return failOn("depth", added.error());
   return writeEnhanced();
@@ -210,9 +222,13 @@ Outcome<void> Packager::writeEnhanced() {
 Outcome<void> Packager::writeDepth(const Frame& depth) {
   const bool key = depth_keys_.front();
   depth_keys_.pop_front();
-  if (!output_.preview.empty()) preview_.after(depth, enhancer_ ? enhancer_->outcome() : sourceCalibration());
-  if (auto coded = coder_.encode(depth, depth_); !coded) return failOn("depth", coded.error());
-  if (auto written = writer_->writeDepth(depth_, depth.pts, key); !written)
+  if (!output_.preview.empty()) {
+    const std::lock_guard lock(preview_mutex_);
+    preview_.after(depth, enhancer_ ? enhancer_->outcome() : sourceCalibration());
+  }
+  DepthPicture picture;
+  if (auto coded = coder_.encode(depth, picture); !coded) return failOn("depth", coded.error());
+  if (auto written = writer_->writeDepth(picture, depth.pts, key); !written)
     return failOn(output_.path, written.error());
   return {};
 }
@@ -229,8 +245,9 @@ bool Packager::beginsShot(const Frame& depth) {
 }
 
 Outcome<AuthorSummary> Packager::finish() {
+  if (auto done = depth_line_.finish(); !done) return std::unexpected(done.error());
   if (enhancer_) {
-    if (auto ended = enhancer_->finish(); !ended) return failOn("depth", ended.error());
+    enhancer_->finish();
     if (auto written = writeEnhanced(); !written) return std::unexpected(written.error());
   }
   const auto totals = writer_->finish();

@@ -68,19 +68,22 @@ Result<void> DepthCoder::encode(const Frame& depth, DepthPicture& picture) {
   picture.codes.resize(static_cast<std::size_t>(depth.width) * static_cast<std::size_t>(depth.height));
   const bool has_holes = !outcome_.invalid.empty();
   auto out = picture.codes.begin();
+  std::vector<std::uint16_t> row(static_cast<std::size_t>(depth.width));
   for (int r = 0; r < depth.height; ++r) {
-    for (int c = 0; c < depth.width; ++c, ++out) {
-      if (source_.code == DepthCode::Luma) {
-        const std::size_t code = field->code(c, r) & (from_luma_.size() - 1);
-        *out = from_luma_[code];
+    if (field->readCodes(r, row)) {
+      out = std::transform(row.begin(), row.end(), out, [this](std::uint16_t read) {
+        const std::size_t code = read & (from_luma_.size() - 1);
         counts_.clipped += is_clipped_[code];
-      } else {
+        return from_luma_[code];
+      });
+    } else {
+      for (int c = 0; c < depth.width; ++c) {
         const double s = field->heightMm(c, r);
-        *out = std::isnan(s) ? kHole : codeOf(inLaw(s, source_, outcome_));
+        *out++ = std::isnan(s) ? kHole : codeOf(inLaw(s, source_, outcome_));
       }
-      ++counts_.of_code[*out];
     }
   }
+  for (const std::uint16_t code : picture.codes) ++counts_.of_code[code];
   counts_.samples += picture.codes.size();
   if (has_holes) {
     counts_.holes += counts_.of_code[kHole];

@@ -124,4 +124,11 @@ Result<void> FilmPlace::writeHeader(AVDictionary* options) {
   return {};
 }
 
+Result<void> FilmPlace::write(AVPacket& packet) {
+  const std::lock_guard lock(writing_);
+  const int code = av_interleaved_write_frame(muxer_.get(), &packet);
+  if (code < 0) return fail(ErrorCode::Io, kCannotWrite, osErrorOf(code));
+  return {};
+}
+
 }  // namespace relievo

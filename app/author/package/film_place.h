@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <string>
 
 extern "C" {
@@ -22,7 +23,7 @@ namespace relievo {
 inline constexpr const char* kCannotWrite = "it cannot be written; is the disk full?";
 
 // Order of calls: create, add tracks to `muxer` (first the colour, then the depth), begin, packets, finish. Without
-// `finish` nothing is left behind. Use from one thread.
+// `finish` nothing is left behind. Use from one thread, except `write`, which any thread may call.
 class FilmPlace {
  public:
   // Io or NotFound if nothing can be written there.
@@ -35,6 +36,8 @@ class FilmPlace {
   [[nodiscard]] AVFormatContext& muxer() noexcept { return *muxer_; }
   // Writes the header.
   [[nodiscard]] virtual Result<void> begin() = 0;
+  // Takes a packet with its track and the track's times, and writes those that are due.
+  [[nodiscard]] Result<void> write(AVPacket& packet);
   // Writes the end and moves the film to its final name; returns its size in bytes.
   [[nodiscard]] virtual Result<std::uint64_t> finish() = 0;
   // The largest delay of a packet sent over the network.
@@ -51,6 +54,7 @@ class FilmPlace {
     void operator()(AVFormatContext* muxer) const noexcept { avformat_free_context(muxer); }
   };
   std::unique_ptr<AVFormatContext, Free> muxer_;
+  std::mutex writing_;
 };
 
 [[nodiscard]] Result<std::unique_ptr<FilmPlace>> makeTransportStream(const std::string& path, bool live,

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two encoders, and the destination of their packets.
+// Two encoders, each on a thread of its own, and the destination of their packets.
 #include "app/author/package/film_writer.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -13,6 +15,7 @@ extern "C" {
 }
 
 #include "app/author/package/film_place.h"
+#include "app/author/package/work_line.h"
 
 namespace relievo {
 namespace {
@@ -23,26 +26,48 @@ void setTag(AVDictionary** tags, const std::string& key, const std::string& valu
   av_dict_set(tags, key.c_str(), value.c_str(), 0);
 }
 
-// One track of the film.
+// One track of the film. Pictures are copied for its thread, which encodes them.
 struct Track {
-  Result<void> open(AVFormatContext& muxer, const VideoEncoder::Settings& settings, const char* title);
-  Result<void> encode(const VideoEncoder::Planes& planes, MediaTime time, bool key);
-  Result<void> drain() { return encoder.drain(sink()); }
+  using Line = WorkLine<Result<void>>;
+  struct Picture {
+    std::vector<std::uint8_t> samples;  // of all planes
+    VideoEncoder::Planes planes{};
+    MediaTime time;
+    bool key = false;
+  };
+
+  Result<void> open(FilmPlace& place, const VideoEncoder::Settings& settings, const char* title);
+  // What the next picture is to be written to.
+  Picture& next() { return pictures[added % pictures.size()]; }
+  // Hands that picture over.
+  Result<void> add() {
+    return line.add([this, &picture = pictures[added++ % pictures.size()]] { return encode(picture); });
+  }
+  Result<void> finish() {
+    if (auto added_all = line.finish(); !added_all) return added_all;
+    return encoder.drain(sink());
+  }
+
+  Result<void> encode(const Picture& picture);
   VideoEncoder::Sink sink() {
     return [this](AVPacket& packet) { return write(packet); };
   }
   Result<void> write(AVPacket& packet);
 
   VideoEncoder encoder;
-  AVFormatContext* muxer = nullptr;
+  FilmPlace* film = nullptr;
   AVStream* stream = nullptr;
   TrackTotals totals;
+  std::size_t added = 0;
+  std::array<Picture, Line::kBuffers> pictures;
+  Line line;  // the last member: it ends before what it uses
 };
 
-Result<void> Track::open(AVFormatContext& film, const VideoEncoder::Settings& settings, const char* title) {
-  muxer = &film;
-  if (auto opened = encoder.open(settings, (film.oformat->flags & AVFMT_GLOBALHEADER) != 0); !opened) return opened;
-  stream = avformat_new_stream(&film, nullptr);
+Result<void> Track::open(FilmPlace& place, const VideoEncoder::Settings& settings, const char* title) {
+  film = &place;
+  AVFormatContext& muxer = place.muxer();
+  if (auto opened = encoder.open(settings, (muxer.oformat->flags & AVFMT_GLOBALHEADER) != 0); !opened) return opened;
+  stream = avformat_new_stream(&muxer, nullptr);
   if (stream == nullptr || avcodec_parameters_from_context(stream->codecpar, &encoder.context()) < 0) {
     return fail(ErrorCode::Exhausted, "out of memory for a track", ENOMEM);
   }
@@ -54,10 +79,10 @@ Result<void> Track::open(AVFormatContext& film, const VideoEncoder::Settings& se
   return {};
 }
 
-Result<void> Track::encode(const VideoEncoder::Planes& planes, MediaTime time, bool key) {
-  if (auto encoded = encoder.encode(planes, time, key, sink()); !encoded) return encoded;
-  if (totals.frames == 0) totals.first = time;
-  totals.last = time;
+Result<void> Track::encode(const Picture& picture) {
+  if (auto encoded = encoder.encode(picture.planes, picture.time, picture.key, sink()); !encoded) return encoded;
+  if (totals.frames == 0) totals.first = picture.time;
+  totals.last = picture.time;
   ++totals.frames;
   return {};
 }
@@ -66,9 +91,7 @@ Result<void> Track::write(AVPacket& packet) {
   totals.bytes += static_cast<std::uint64_t>(packet.size);
   packet.stream_index = stream->index;
   av_packet_rescale_ts(&packet, VideoEncoder::kTimeBase, stream->time_base);
-  const int code = av_interleaved_write_frame(muxer, &packet);
-  if (code < 0) return fail(ErrorCode::Io, kCannotWrite, osErrorOf(code));
-  return {};
+  return film->write(packet);
 }
 
 }  // namespace
@@ -76,15 +99,14 @@ Result<void> Track::write(AVPacket& packet) {
 struct FilmWriter::Impl {
   Result<void> begin(const std::string& path, const FilmFormat& format, Existing existing);
   Result<void> openTracks(const FilmFormat& format);
-  [[nodiscard]] VideoEncoder::Planes depthPlanes(const DepthPicture& picture);
+  void copy(const DepthPicture& from, Track::Picture& to);
 
   FilmKind kind = FilmKind::Matroska;
   std::unique_ptr<FilmPlace> place;
   std::unique_ptr<KeptTracks> kept;
-  Track color, depth;
   DepthCoding coding;
-  std::vector<std::uint8_t> bytes;    // of an 8-bit depth picture
   std::vector<std::uint16_t> chroma;  // of a depth picture with flat chroma
+  Track color, depth;
 };
 
 Result<void> FilmWriter::Impl::begin(const std::string& path, const FilmFormat& format, Existing existing) {
@@ -99,7 +121,7 @@ Result<void> FilmWriter::Impl::begin(const std::string& path, const FilmFormat& 
   if (auto opened = openTracks(format); !opened) return opened;
   if (kind == FilmKind::Live) place->muxer().max_interleave_delta = kLongestHeldUs;
   if (kept) {
-    if (auto added = kept->addTo(place->muxer(), kind); !added) return added;
+    if (auto added = kept->addTo(*place, kind); !added) return added;
   }
   return place->begin();
 }
@@ -107,9 +129,10 @@ Result<void> FilmWriter::Impl::begin(const std::string& path, const FilmFormat& 
 Result<void> FilmWriter::Impl::openTracks(const FilmFormat& format) {
   AVFormatContext& muxer = place->muxer();
   const bool live = kind == FilmKind::Live;
-  auto opened = color.open(muxer,
+  auto opened = color.open(*place,
                            {.width = format.color_width,
                             .height = format.color_height,
+                            .quick = true,
                             .live = live,
                             .range = format.color_range,
                             .matrix = format.color_matrix,
@@ -122,13 +145,14 @@ Result<void> FilmWriter::Impl::openTracks(const FilmFormat& format) {
   if (!opened) return opened;
   std::string lines;
   for (const auto& [key, value] : format.depth_tags) lines.append(key).append("=").append(value).append("\n");
-  opened = depth.open(muxer,
+  opened = depth.open(*place,
                       {.codec = coding.codec,
                        .width = format.depth_width,
                        .height = format.depth_height,
                        .bits = coding.bits,
                        .gray = !coding.flat_chroma,
                        .to_touch = true,
+                       .quick = true,
                        .live = live,
                        .range = ColorRange::Full,
                        .sample_aspect = format.depth_aspect,
@@ -147,20 +171,32 @@ Result<void> FilmWriter::Impl::openTracks(const FilmFormat& format) {
   return {};
 }
 
-VideoEncoder::Planes FilmWriter::Impl::depthPlanes(const DepthPicture& picture) {
-  const std::uint8_t* luma = reinterpret_cast<const std::uint8_t*>(picture.codes.data());
-  if (coding.bits == 8) {
-    bytes.resize(picture.codes.size());
-    std::transform(picture.codes.begin(), picture.codes.end(), bytes.begin(),
-                   [](std::uint16_t code) { return static_cast<std::uint8_t>(code); });
-    luma = bytes.data();
+void copy(const ColorPicture420& from, Track::Picture& to) {
+  to.samples.resize(from.y.size() + from.u.size() + from.v.size());
+  std::uint8_t* out = to.samples.data();
+  std::size_t plane = 0;
+  for (const auto* const samples : {&from.y, &from.u, &from.v}) {
+    to.planes[plane++] = out;
+    out = std::copy(samples->begin(), samples->end(), out);
   }
-  if (!coding.flat_chroma) return {luma, nullptr, nullptr};
-  // The middle value, in one byte or two.
-  chroma.assign(picture.codes.size() / 4,
-                static_cast<std::uint16_t>(coding.bits == 8 ? 0x8080 : 1 << (coding.bits - 1)));
-  const auto* const flat = reinterpret_cast<const std::uint8_t*>(chroma.data());
-  return {luma, flat, flat};
+}
+
+void FilmWriter::Impl::copy(const DepthPicture& from, Track::Picture& to) {
+  const std::size_t count = from.codes.size();
+  to.samples.resize(count * (coding.bits == 8 ? 1 : 2));
+  if (coding.bits == 8) {
+    std::transform(from.codes.begin(), from.codes.end(), to.samples.begin(),
+                   [](std::uint16_t code) { return static_cast<std::uint8_t>(code); });
+  } else {
+    std::memcpy(to.samples.data(), from.codes.data(), to.samples.size());
+  }
+  to.planes = {to.samples.data(), nullptr, nullptr};
+  if (!coding.flat_chroma) return;
+  // The middle value, in one byte or two. It never changes, so that the encoder's thread may read it.
+  if (chroma.empty()) {
+    chroma.assign(count / 4, static_cast<std::uint16_t>(coding.bits == 8 ? 0x8080 : 1 << (coding.bits - 1)));
+  }
+  to.planes[1] = to.planes[2] = reinterpret_cast<const std::uint8_t*>(chroma.data());
 }
 
 FilmWriter::FilmWriter(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -176,20 +212,28 @@ Result<std::unique_ptr<FilmWriter>> FilmWriter::create(const std::string& path, 
 }
 
 Result<void> FilmWriter::writeColor(const ColorPicture420& picture, MediaTime time, bool key) {
-  if (auto coded = impl_->color.encode({picture.y.data(), picture.u.data(), picture.v.data()}, time, key); !coded) {
-    return coded;
+  if (impl_->kept) {
+    if (auto written = impl_->kept->writeUntil(time); !written) return written;
   }
-  return impl_->kept ? impl_->kept->writeUntil(time) : Result<void>{};
+  Track::Picture& next = impl_->color.next();
+  copy(picture, next);
+  next.time = time;
+  next.key = key;
+  return impl_->color.add();
 }
 
 Result<void> FilmWriter::writeDepth(const DepthPicture& picture, MediaTime time, bool key) {
-  return impl_->depth.encode(impl_->depthPlanes(picture), time, key);
+  Track::Picture& next = impl_->depth.next();
+  impl_->copy(picture, next);
+  next.time = time;
+  next.key = key;
+  return impl_->depth.add();
 }
 
 Result<FilmTotals> FilmWriter::finish() {
   Impl& film = *impl_;
-  if (auto drained = film.color.drain(); !drained) return std::unexpected(drained.error());
-  if (auto drained = film.depth.drain(); !drained) return std::unexpected(drained.error());
+  if (auto finished = film.color.finish(); !finished) return std::unexpected(finished.error());
+  if (auto finished = film.depth.finish(); !finished) return std::unexpected(finished.error());
   if (film.kept) {
     if (auto written = film.kept->writeRest(); !written) return std::unexpected(written.error());
   }

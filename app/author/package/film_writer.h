@@ -51,9 +51,10 @@ struct FilmTotals {
 //
 // After them come the kept tracks, if there are any.
 //
-// Use from one thread; the encoders have threads of their own. A file is written under a temporary name beside the
-// target and renamed by `finish`; without that nothing is left. A network stream is sent in real time: writing blocks.
-// Timestamps of a track must increase.
+// Each track is encoded on a thread of its own, a few pictures later: a failure is told by a later call of the same
+// track, at the latest by `finish`. Use from one thread, except that `writeDepth` may be called from another one. A
+// file is written under a temporary name beside the target and renamed by `finish`; without that nothing is left. A
+// network stream is sent in real time: writing blocks. Timestamps of a track must increase.
 class FilmWriter {
  public:
   // InvalidArgument for an unknown kind of film (filmKindOf) or one that cannot hold the codec, NotFound if the folder

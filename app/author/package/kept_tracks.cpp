@@ -142,8 +142,9 @@ bool KeptTracks::isWished(const AVStream& stream) const noexcept {
   }
 }
 
-Result<void> KeptTracks::addTo(AVFormatContext& film, FilmKind kind) {
-  film_ = &film;
+Result<void> KeptTracks::addTo(FilmPlace& film, FilmKind kind) {
+  place_ = &film;
+  film_ = &film.muxer();
   kind_ = kind;
   for (unsigned i = 0; i < file_->nb_streams; ++i) {
     AVStream& stream = *file_->streams[i];
@@ -286,9 +287,7 @@ Result<void> KeptTracks::write(PacketPtr packet) {
   copy.last_dts = packet->dts;
   packet->stream_index = copy.stream->index;
   packet->pos = -1;
-  const int code = av_interleaved_write_frame(film_, packet.get());
-  if (code < 0) return fail(ErrorCode::Io, kCannotWrite, osErrorOf(code));
-  return {};
+  return place_->write(*packet);
 }
 
 }  // namespace relievo

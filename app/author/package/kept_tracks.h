@@ -13,6 +13,7 @@ extern "C" {
 }
 
 #include "app/author/package/film_kind.h"
+#include "app/author/package/film_place.h"
 #include "app/author/package/text_subtitles.h"
 #include "hal/media/continuous_time.h"
 #include "hal/media/media_time.h"
@@ -34,7 +35,7 @@ class KeptTracks {
   [[nodiscard]] static Result<std::unique_ptr<KeptTracks>> open(const std::string& file, Duration start,
                                                                 const KeptWishes& wishes);
   // Adds tracks, chapters and titles to the film: after the tracks of its pictures, before its header.
-  [[nodiscard]] Result<void> addTo(AVFormatContext& film, FilmKind kind);
+  [[nodiscard]] Result<void> addTo(FilmPlace& film, FilmKind kind);
   // Writes what begins before `time`.
   [[nodiscard]] Result<void> writeUntil(MediaTime time);
   [[nodiscard]] Result<void> writeRest() { return writeUntil(MediaTime::max()); }
@@ -86,7 +87,8 @@ class KeptTracks {
   Duration start_{0};
   ContinuousTime times_;
   KeptWishes wishes_;
-  AVFormatContext* film_ = nullptr;
+  FilmPlace* place_ = nullptr;
+  AVFormatContext* film_ = nullptr;  // the place's
   FilmKind kind_ = FilmKind::Matroska;
   std::map<int, Copy> copies_;  // by the file's stream
   PacketPtr waiting_;           // read, but not due yet

@@ -341,9 +341,11 @@ TEST(AuthorFilmWriterFile, RefusesTimesThatDoNotRise) {
   auto writer = FilmWriter::create(folder / "film.mkv", formatOf(64, 48));
   ASSERT_TRUE(writer.has_value());
   ASSERT_TRUE((*writer)->writeColor(colorPicture(64, 48, 0), mediaTime(1.0), true).has_value());
-  const auto again = (*writer)->writeColor(colorPicture(64, 48, 1), mediaTime(1.0), false);
-  ASSERT_FALSE(again.has_value());
-  EXPECT_EQ(again.error().code, ErrorCode::Corrupt);
+  static_cast<void>((*writer)->writeColor(colorPicture(64, 48, 1), mediaTime(1.0), false));
+  const auto totals = (*writer)->finish();
+  ASSERT_FALSE(totals.has_value());
+  EXPECT_EQ(totals.error().code, ErrorCode::Corrupt);
+  EXPECT_EQ((*writer)->writeColor(colorPicture(64, 48, 2), mediaTime(2.0), false).error().code, ErrorCode::Corrupt);
 }
 
 }  // namespace

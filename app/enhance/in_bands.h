@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Works on a picture's rows on all cores.
+#pragma once
+
+#include <algorithm>
+#include <opencv2/core/utility.hpp>
+
+namespace relievo {
+
+// Calls work(first, end) for bands of rows, several at once on OpenCV's threads. The bands are the same whatever the
+// number of threads, so that what is computed from a whole band is too.
+template <class Work>
+void inBands(int rows, Work&& work) {
+  constexpr int kBand = 32;
+  cv::parallel_for_(cv::Range(0, (rows + kBand - 1) / kBand), [&](const cv::Range& bands) {
+    for (int band = bands.start; band < bands.end; ++band) work(band * kBand, std::min((band + 1) * kBand, rows));
+  });
+}
+
+}  // namespace relievo
