@@ -118,7 +118,7 @@ class WindowDisplay final : public Display {
   bool closed_by_viewer_ = false;
   std::optional<MonotonicTime> fill_asked_;  // SDL was asked to fill the screen; nullopt once that is done
   bool by_hand_ = false;                     // the window fills the screen without a window manager
-  SDL_Rect before_{};                        // its place before that
+  SDL_Rect before_{};                        // the window's place before it was to fill the screen
 };
 
 Result<void> WindowDisplay::openDisplay(const DisplayConfig& config) {
@@ -291,6 +291,10 @@ void WindowDisplay::setFullScreen(FullScreen wish) {
   if (fill == fillsScreen()) return;
   SDL_ShowCursor(fill ? SDL_DISABLE : SDL_ENABLE);
   if (by_hand_) return leaveByHand();
+  if (fill) {
+    SDL_GetWindowPosition(window_, &before_.x, &before_.y);
+    SDL_GetWindowSize(window_, &before_.w, &before_.h);
+  }
   SDL_SetWindowFullscreen(window_, fill ? Uint32{SDL_WINDOW_FULLSCREEN_DESKTOP} : 0U);
   fill_asked_ = fill ? std::optional(clock_.now()) : std::nullopt;
 }
@@ -311,8 +315,6 @@ void WindowDisplay::fillByHand() noexcept {
   if (SDL_GetDisplayBounds(SDL_GetWindowDisplayIndex(window_), &screen) != 0) return;
   by_hand_ = true;
   SDL_SetWindowFullscreen(window_, 0);
-  SDL_GetWindowPosition(window_, &before_.x, &before_.y);
-  SDL_GetWindowSize(window_, &before_.w, &before_.h);
   SDL_SetWindowPosition(window_, screen.x, screen.y);
   SDL_SetWindowSize(window_, screen.w, screen.h);
 }
