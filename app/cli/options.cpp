@@ -55,7 +55,7 @@ Material readMaterial(const std::string& word) {
   std::istringstream items(small);
   for (std::string item; std::getline(items, item, ',');) {
     const auto one = parseMaterial(item.empty() ? "," : item);
-    if (!one) throw WordFailure({"--material: \"" + item + "\"", one.error()});
+    if (!one) throw WordFailure({"--material " + item, one.error()});
   }
   throw WordFailure({"--material " + word, material.error()});
 }

@@ -134,7 +134,7 @@ std::vector<std::pair<std::string, std::string>> mouseRows(bool in_list, bool to
 }
 
 std::string keyLabel(std::uint16_t code, KeyBoard held) {
-  std::string label = held == KeyBoard::Keyboard ? keyboardLabel(code) : "";
+  const std::string label = held == KeyBoard::Keyboard ? keyboardLabel(code) : "";
   return label.empty() ? remoteLabel(code) : label;
 }
 
