@@ -12,10 +12,10 @@ namespace relievo {
 namespace {
 
 constexpr double kTop = 84, kBottom = 700;
-constexpr double kLargest = 28, kSmallest = 5;  // letters
-constexpr double kLine = 1.25;                  // of the letters' size
-constexpr double kBetween = 36;                 // two columns
-constexpr std::size_t kMostLines = 12;          // of a row
+constexpr int kLargest = 28, kSmallest = 5;  // letters
+constexpr double kLine = 1.25;               // of the letters' size
+constexpr double kBetween = 36;              // two columns
+constexpr std::size_t kMostLines = 12;       // of a row
 
 struct Row {
   std::vector<std::string> keys, meaning;
@@ -65,7 +65,7 @@ bool finds(const Page& page) {
 
 Page largestOf(const ScreenRows& rows, double width) {
   constexpr int kMostColumns = 3;
-  for (double size = kLargest; size >= kSmallest; --size) {
+  for (int size = kLargest; size >= kSmallest; --size) {
     for (int columns = 1; columns <= kMostColumns; ++columns) {
       Page page = pageOf(rows, width, size, columns);
       if (finds(page)) return page;

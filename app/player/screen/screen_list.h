@@ -17,12 +17,12 @@ struct ScreenListRow {
   static constexpr double kFilm = 96, kHeading = 46;  // heights
 
   std::string title;
-  std::string detail{};               // "12:31 of 1:02:10   Holidays"
-  std::optional<std::size_t> film{};  // its number on the shelf; nullopt: a heading
+  std::string detail;               // "12:31 of 1:02:10   Holidays"
+  std::optional<std::size_t> film;  // its number on the shelf; nullopt: a heading
   double top = 0;
-  std::optional<double> left{};                  // how much of it was seen, 0 to 1
-  std::shared_ptr<const TextPicture> picture{};  // null: none
-  std::string in_poster{};                       // in place of a picture: why there is none
+  std::optional<double> left;                  // how much of it was seen, 0 to 1
+  std::shared_ptr<const TextPicture> picture;  // null: none
+  std::string in_poster;                       // in place of a picture: why there is none
   [[nodiscard]] double height() const noexcept { return film ? kFilm : kHeading; }
   bool operator==(const ScreenListRow&) const = default;
 };
