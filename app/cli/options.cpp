@@ -47,10 +47,17 @@ void readCalibration(const std::string& word, SourceOptions& source) {
   for (const auto& [key, value] : *settings) source.command_line[key] = value;  // overrides earlier ones
 }
 
+// A failure names the part of the word that is wrong.
 Material readMaterial(const std::string& word) {
-  const auto material = parseMaterial(inSmallLetters(word));
-  if (!material) throw WordFailure({"--material " + word, material.error()});
-  return *material;
+  const std::string small = inSmallLetters(word);
+  const auto material = parseMaterial(small);
+  if (material) return *material;
+  std::istringstream items(small);
+  for (std::string item; std::getline(items, item, ',');) {
+    const auto one = parseMaterial(item.empty() ? "," : item);
+    if (!one) throw WordFailure({"--material " + item, one.error()});
+  }
+  throw WordFailure({"--material " + word, material.error()});
 }
 
 Registration readRegistration(const std::string& path) {
@@ -311,9 +318,11 @@ std::expected<void, int> parseCommandLine(CLI::App& program, int argc, const cha
 CLI::Validator between(double low, double high) {
   const auto judge = [low, high](const std::string& word) -> std::string {
     double number = 0;
-    if (CLI::detail::lexical_cast(word, number) && number >= low && number <= high) return {};
+    const bool is_number = CLI::detail::lexical_cast(word, number);
+    if (is_number && number >= low && number <= high) return {};
     std::ostringstream words;
-    words << word << " is not between " << low << " and " << high;
+    words << word << (is_number ? " is not between " : " is not a number; it is one between ") << low << " and "
+          << high;
     return words.str();
   };
   return {judge, ""};

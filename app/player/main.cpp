@@ -34,7 +34,8 @@ namespace relievo {
 namespace {
 
 constexpr Error kNoPicture{ErrorCode::Timeout, 0,
-                           "not one picture came in the time of --duration; is it sent, and is there a picture in it?"};
+                           "--duration ended before the first picture came; make it longer, or look whether the source "
+                           "sends one"};
 
 PairReader::Backends realBackends(drivers::DecoderMaker make_decoder = drivers::makeVideoDecoder) {
   return {.make_source = drivers::makeMediaSource,

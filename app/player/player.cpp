@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <glm/geometric.hpp>
 #include <utility>
 
 #include "app/player/control/player_control.h"
 #include "app/player/screen/notices.h"
-#include "hal/key_names.h"
 
 namespace relievo {
 namespace {
@@ -35,6 +35,11 @@ std::string titleOf(const std::string& url) {
   const std::size_t slash = path.rfind('/', end);
   const std::size_t begin = slash == std::string::npos ? 0 : slash + 1;
   return path.substr(begin, end + 1 - begin);
+}
+
+// In the list of films the keys of a film mean nothing.
+bool isForAnotherTime(const PlayerCommand& command, PlayerState state) noexcept {
+  return state == PlayerState::Browsing && needsFilm(command.verb);
 }
 
 std::optional<double> secondsOf(std::optional<MediaTime> time) {
@@ -199,7 +204,8 @@ void Player::readRemote(MonotonicTime now) {
       return;
     }
     if (!*key) break;
-    if (const auto command = keys_.take(**key, state_)) obey(*command, now);
+    const auto command = keys_.take(**key, state_);
+    if (command && !isForAnotherTime(*command, state_)) obey(*command, now);
     else noteUnbound(**key, now);
   }
   if (const auto command = keys_.held(now)) obey(*command, now);
@@ -224,9 +230,32 @@ void Player::followMouse(MonotonicTime now) {
 void Player::noteUnbound(const KeyEvent& key, MonotonicTime now) {
   constexpr std::array<std::uint16_t, 8> kSilent{KEY_LEFTSHIFT, KEY_RIGHTSHIFT, KEY_LEFTCTRL, KEY_RIGHTCTRL,
                                                  KEY_LEFTALT,   KEY_RIGHTALT,   KEY_LEFTMETA, KEY_RIGHTMETA};
-  if (key.action != KeyEvent::Action::Press || config_.keys.find(state_, key.code) != nullptr) return;
+  if (key.action != KeyEvent::Action::Press) return;
+  const KeyTable::Binding* const binding = config_.keys.find(state_, key.code);
+  if (binding != nullptr && (!binding->press || !isForAnotherTime(*binding->press, state_))) return;
   if (std::ranges::find(kSilent, key.code) != kSilent.end() || !unbound_.insert(key.code).second) return;
-  screen_.text().notice({std::string(keyName(key.code)) + " has no meaning here", std::nullopt}, now);
+  const std::string label = keyLabel(key.code, config_.held);
+  screen_.text().notice({(label.empty() ? "This key" : label) + " has no meaning here", std::nullopt}, now);
+}
+
+ScreenRows Player::keyRows() const {
+  ScreenRows rows;
+  if (config_.has_mouse) rows = mouseRows(state_ == PlayerState::Browsing, config_.mouse_touches);
+  for (auto& row : config_.keys.rowsIn(state_, config_.held)) rows.push_back(std::move(row));
+  return rows;
+}
+
+std::optional<std::string> Player::refusal(const PlayerCommand& command) const {
+  if (auto why = browsingRefusal(command)) return why;
+  if (!needsFilm(command.verb)) return std::nullopt;
+  if (!film_.isOpen()) {
+    constexpr std::array kOpening{PlayerVerb::Play, PlayerVerb::PlayPause, PlayerVerb::Next, PlayerVerb::Previous};
+    const bool opens = std::ranges::find(kOpening, command.verb) != kOpening.end();
+    if (opens && state_ == PlayerState::Idle && programme_.asked()) return std::nullopt;
+    return state_ == PlayerState::Browsing ? "no film is open; choose one" : "no film is open; open one first";
+  }
+  if (command.verb != PlayerVerb::Next || programme_.present() + 1 < programme_.size()) return std::nullopt;
+  return programme_.size() == 1 ? "no next film: this one is played alone" : "this is the last film of the list";
 }
 
 // The report is long: it is made once a second, and only to be seen.
@@ -237,6 +266,10 @@ void Player::followStatistics(MonotonicTime now) {
 }
 
 void Player::obey(const PlayerCommand& command, MonotonicTime now) {
+  if (auto why = refusal(command)) {
+    why->front() = static_cast<char>(std::toupper(static_cast<unsigned char>(why->front())));
+    return screen_.text().notice({std::move(*why), std::nullopt}, now);
+  }
   switch (command.verb) {
     case PlayerVerb::Quit:
       quitting_ = true;
@@ -251,7 +284,7 @@ void Player::obey(const PlayerCommand& command, MonotonicTime now) {
     case PlayerVerb::Screenshot:
       return screen_.saveScreenshot(facts().title);
     case PlayerVerb::Keys:
-      return screen_.text().toggleKeys(config_.keys.rowsIn(state_));
+      return screen_.text().toggleKeys(keyRows());
     default:
       break;
   }

@@ -38,6 +38,9 @@ struct PlayerConfig {
   StereoSettings stereo;
   std::optional<DisplayVolume> volume;  // nothing: the default one of the picture's shape
   KeyTable keys = KeyTable::usual();
+  KeyBoard held = KeyBoard::Remote;  // what the viewer has in hand, for the names of keys
+  bool has_mouse = false;            // a window's
+  bool mouse_touches = false;        // it is the finger
   bool loop = false;
   bool osd = true;           // bar, keys and notices over the picture
   std::string volume_path;   // the volume of each sound output is kept there; empty: each run begins at 100 %
@@ -79,6 +82,8 @@ class Player {
   // Carries out a viewer's command; within `run`, on its thread. A command that the present state does not allow
   // changes nothing.
   void obey(const PlayerCommand& command, MonotonicTime now);
+  // Why this command can do nothing now; nullopt: it can.
+  [[nodiscard]] std::optional<std::string> refusal(const PlayerCommand& command) const;
   // What has happened so far. On its thread.
   [[nodiscard]] PlayReport report() const;
 
@@ -105,6 +110,7 @@ class Player {
   [[nodiscard]] bool hearMouse(const SurfaceMouse& mouse);
   void followMouse(MonotonicTime now);
   void noteUnbound(const KeyEvent& key, MonotonicTime now);
+  [[nodiscard]] ScreenRows keyRows() const;
   void followStatistics(MonotonicTime now);
   void tellStatus(MonotonicTime now);
 
@@ -119,6 +125,7 @@ class Player {
   void followProgress(FilmPlayback::Progress progress, MonotonicTime now);
   void begin(MonotonicTime now);
   void announce(const DisplayVolume& volume);
+  [[nodiscard]] std::string firstHint() const;
   void followClock(MonotonicTime now);
   void followDevice();
   void showPicture(MonotonicTime now);
@@ -137,6 +144,7 @@ class Player {
 
   // player_browse.cpp: the list of films to choose from
   [[nodiscard]] bool obeyBrowsing(const PlayerCommand& command, MonotonicTime now);
+  [[nodiscard]] std::optional<std::string> browsingRefusal(const PlayerCommand& command) const;
   [[nodiscard]] bool returnsToBrowser() const noexcept { return browser_ && (browsed_ || config_.stays); }
   void openBrowser(MonotonicTime now);
   void closeBrowser();

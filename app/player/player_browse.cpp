@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the player does with the list of films that a viewer chooses from.
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include "app/player/player.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {
@@ -16,10 +19,10 @@ bool Player::obeyBrowsing(const PlayerCommand& command, MonotonicTime now) {
   const bool browsing = state_ == PlayerState::Browsing;
   switch (command.verb) {
     case PlayerVerb::SelectBy:
-      if (browsing) browser_->selectBy(static_cast<std::ptrdiff_t>(command.value));
+      browser_->selectBy(static_cast<std::ptrdiff_t>(command.value));
       return true;
     case PlayerVerb::SelectTo:
-      if (browsing) browser_->select(static_cast<std::size_t>(command.value) - 1);
+      browser_->select(command.value == 0 ? browser_->shelf().size() : static_cast<std::size_t>(command.value) - 1);
       return true;
     case PlayerVerb::Choose:
       chooseFilm(now);
@@ -34,6 +37,17 @@ bool Player::obeyBrowsing(const PlayerCommand& command, MonotonicTime now) {
     default:
       return false;
   }
+}
+
+// Selecting and choosing; nullopt: they can be done, or it is another command.
+std::optional<std::string> Player::browsingRefusal(const PlayerCommand& command) const {
+  constexpr std::array kVerbs{PlayerVerb::SelectBy, PlayerVerb::SelectTo, PlayerVerb::Choose};
+  if (std::ranges::find(kVerbs, command.verb) == kVerbs.end()) return std::nullopt;
+  if (state_ != PlayerState::Browsing) return "the list of films is not shown";
+  const std::size_t films = browser_->shelf().size();
+  if (films == 0) return "the list of films is empty";
+  if (command.verb != PlayerVerb::SelectTo || command.value <= static_cast<double>(films)) return std::nullopt;
+  return print("there is no film %.0f; the list has %zu", command.value, films);
 }
 
 void Player::openBrowser(MonotonicTime now) {
@@ -68,6 +82,7 @@ void Player::followBrowser(MonotonicTime now) {
 
 void Player::chooseFilm(MonotonicTime now) {
   if (state_ != PlayerState::Browsing || browser_->shelf().empty()) return;
+  browser_->select(browser_->shelf().selected());  // the viewer's own choice from now on
   const ShelfFilm film = browser_->shelf().film(browser_->shelf().selected());
   openList({{.url = film.url, .depth_url = film.depth_url, .title = film.title}}, now);
 }

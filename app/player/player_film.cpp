@@ -124,8 +124,7 @@ void Player::begin(MonotonicTime now) {
     screen_.setScene(calibration, volume, film_.period(), now);
     announce(volume);
     if (journal_.written().films.size() == 1) {
-      screen_.text().hint(parts_.haptic == nullptr ? "h: all keys" : "Press into the picture to feel it.  h: all keys",
-                          now);
+      screen_.text().hint(firstHint(), now);
     }
   }
   if (film_.takeJump()) touch_.beginEpoch();
@@ -142,6 +141,15 @@ void Player::begin(MonotonicTime now) {
   apply(film_.held() ? PlayerEvent::FilledHeld : PlayerEvent::Filled);
   feedTouch();
   seeks_.shown(first, now, parts_.clock.now());
+}
+
+// A device that is not there, or has nothing to feel, is not spoken of.
+std::string Player::firstHint() const {
+  const char* const keys = "h: all keys";
+  const bool has_device = touch_.waiting() || !touch_.device().empty();
+  if (!has_device || !film_.info().has_depth) return keys;
+  return (config_.mouse_touches ? "Press into the picture to feel it.  " : "Reach into the picture to feel it.  ") +
+         std::string(keys);
 }
 
 void Player::announce(const DisplayVolume& volume) {

@@ -184,6 +184,14 @@ std::string metricsOf(const PlayReport& r) {
 
 namespace {
 
+std::string filmText(const PlayReport& r) {
+  if (r.frames_shown == 0) return print("film    no picture was shown in %.2f s\n", r.wall_s);
+  const double first_ms = r.first_frame_ms.value_or(0);
+  constexpr double kNoTime = 0.005;  // a still picture, or one that was never let go on
+  if (r.media_s < kNoTime) return print("film    one picture stood for %.2f s, after %.0f ms\n", r.wall_s, first_ms);
+  return print("film    %.2f s shown in %.2f s, first picture after %.0f ms\n", r.media_s, r.wall_s, first_ms);
+}
+
 std::string liveText(const PlayReport& r) {
   return print(
       "live    seen %.0f ms after it was taken, felt after %.0f ms (medians; at most %.0f and %.0f); %llu pictures "
@@ -220,8 +228,7 @@ std::string touchFigures(const PlayReport& r) {
 }  // namespace
 
 std::string toText(const PlayReport& r, bool verbose) {
-  std::string text = print("film    %.2f s shown in %.2f s, first picture after %.0f ms\n", r.media_s, r.wall_s,
-                           r.first_frame_ms.value_or(0));
+  std::string text = filmText(r);
   text += print("video   %llu frames shown, %llu dropped\n", static_cast<unsigned long long>(r.frames_shown),
                 static_cast<unsigned long long>(r.frames_dropped));
   if (verbose) text += pictureFigures(r);

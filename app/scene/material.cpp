@@ -13,7 +13,8 @@ namespace {
 constexpr double kLeastStiffness = 0.01, kMostStiffness = 100, kMostFriction = 2;
 constexpr double kMostAmplitudeMm = 2, kLeastWavelengthMm = 0.1, kMostWavelengthMm = 100;
 
-constexpr const char* kForm = "a material is written stiffness=N/MM,friction=STATIC/DYNAMIC,texture=MM@MM";
+constexpr const char* kForm =
+    "no part of a material; it is written stiffness=N/MM,friction=STATIC/DYNAMIC,texture=MM@MM";
 constexpr const char* kBadStiffness = "stiffness is a number from .01 to 100, in N/mm, such as stiffness=.3";
 constexpr const char* kBadFriction =
     "friction is one or two shares from 0 to 2, static/dynamic, the second at most the first, such as friction=.2/.15";

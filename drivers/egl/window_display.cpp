@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -54,6 +55,13 @@ double shareOf(int pixel, int pixels) noexcept {
   return (std::clamp(pixel, 0, std::max(pixels - 1, 0)) + 0.5) / std::max(pixels, 1);
 }
 
+// Of the current surface. SDL believes that a window fills the screen as soon as it has asked for that.
+int trueSize(EGLint side) noexcept {
+  EGLint pixels = 0;
+  eglQuerySurface(eglGetCurrentDisplay(), eglGetCurrentSurface(EGL_DRAW), side, &pixels);
+  return pixels;
+}
+
 class WindowDisplay final : public Display {
  public:
   WindowDisplay(std::shared_ptr<WindowInput> input, const Clock& clock) : input_(std::move(input)), clock_(clock) {}
@@ -78,8 +86,11 @@ class WindowDisplay final : public Display {
   void readRefresh() noexcept;
   void takeSize(int width, int height) noexcept;
   [[nodiscard]] bool fillsScreen() const noexcept override {
-    return (SDL_GetWindowFlags(window_) & SDL_WINDOW_FULLSCREEN) != 0;
+    return by_hand_ || (SDL_GetWindowFlags(window_) & SDL_WINDOW_FULLSCREEN) != 0;
   }
+  void followFullScreen();
+  void fillByHand() noexcept;
+  void leaveByHand() noexcept;
 
   void hear(const SDL_Event& event);
   void hearWindow(const SDL_WindowEvent& event);
@@ -105,6 +116,9 @@ class WindowDisplay final : public Display {
   std::vector<std::string> dropped_;
   bool redraw_ = false;
   bool closed_by_viewer_ = false;
+  std::optional<MonotonicTime> fill_asked_;  // SDL was asked to fill the screen; nullopt once that is done
+  bool by_hand_ = false;                     // the window fills the screen without a window manager
+  SDL_Rect before_{};                        // the window's place before it was to fill the screen
 };
 
 Result<void> WindowDisplay::openDisplay(const DisplayConfig& config) {
@@ -123,7 +137,8 @@ Result<void> WindowDisplay::openDisplay(const DisplayConfig& config) {
   paced_ = SDL_GL_SetSwapInterval(1) == 0;
   readRefresh();
 
-  redraw_ = closed_by_viewer_ = false;
+  redraw_ = closed_by_viewer_ = by_hand_ = false;
+  fill_asked_.reset();
   mouse_ = {};
   views_ = {};
   publishMouse();
@@ -147,7 +162,8 @@ Result<void> WindowDisplay::makeCurrent() noexcept {
 Result<DisplaySurface> WindowDisplay::startFrame() {
   if (auto current = makeCurrent(); !current) return std::unexpected(current.error());
   DisplaySurface surface;
-  SDL_GL_GetDrawableSize(window_, &surface.width, &surface.height);
+  if (fill_asked_) surface.width = trueSize(EGL_WIDTH), surface.height = trueSize(EGL_HEIGHT);
+  else SDL_GL_GetDrawableSize(window_, &surface.width, &surface.height);
   return surface;
 }
 
@@ -173,6 +189,7 @@ Result<bool> WindowDisplay::attendScreen() {
     if (window == nullptr) continue;
     if (void* owner = SDL_GetWindowData(window, kOwner)) static_cast<WindowDisplay*>(owner)->hear(event);
   }
+  followFullScreen();
   if (closed_by_viewer_) return fail(ErrorCode::Cancelled, "the viewer has closed the window");
   return std::exchange(redraw_, false);
 }
@@ -272,8 +289,40 @@ void WindowDisplay::showViews(const SceneViews& views) {
 void WindowDisplay::setFullScreen(FullScreen wish) {
   const bool fill = wish == FullScreen::Toggle ? !fillsScreen() : wish == FullScreen::On;
   if (fill == fillsScreen()) return;
-  SDL_SetWindowFullscreen(window_, fill ? Uint32{SDL_WINDOW_FULLSCREEN_DESKTOP} : 0U);
   SDL_ShowCursor(fill ? SDL_DISABLE : SDL_ENABLE);
+  if (by_hand_) return leaveByHand();
+  if (fill) {
+    SDL_GetWindowPosition(window_, &before_.x, &before_.y);
+    SDL_GetWindowSize(window_, &before_.w, &before_.h);
+  }
+  SDL_SetWindowFullscreen(window_, fill ? Uint32{SDL_WINDOW_FULLSCREEN_DESKTOP} : 0U);
+  fill_asked_ = fill ? std::optional(clock_.now()) : std::nullopt;
+}
+
+// A window manager fills the screen with the window on SDL's request. Without one nobody does.
+void WindowDisplay::followFullScreen() {
+  constexpr Duration kPatience = std::chrono::milliseconds(500);
+  if (!fill_asked_ || clock_.now() < *fill_asked_ + kPatience || !makeCurrent()) return;
+  fill_asked_.reset();
+  int width = 0, height = 0;
+  SDL_GL_GetDrawableSize(window_, &width, &height);
+  if (trueSize(EGL_WIDTH) != width || trueSize(EGL_HEIGHT) != height) fillByHand();
+  redraw_ = true;
+}
+
+void WindowDisplay::fillByHand() noexcept {
+  SDL_Rect screen{};
+  if (SDL_GetDisplayBounds(SDL_GetWindowDisplayIndex(window_), &screen) != 0) return;
+  by_hand_ = true;
+  SDL_SetWindowFullscreen(window_, 0);
+  SDL_SetWindowPosition(window_, screen.x, screen.y);
+  SDL_SetWindowSize(window_, screen.w, screen.h);
+}
+
+void WindowDisplay::leaveByHand() noexcept {
+  by_hand_ = false;
+  SDL_SetWindowSize(window_, before_.w, before_.h);
+  SDL_SetWindowPosition(window_, before_.x, before_.y);
 }
 
 void WindowDisplay::nameFilm(const AnnouncedFilm& film) {

@@ -465,7 +465,7 @@ TEST_F(PlayerProgram, ProbeAnnouncesThePlanOfThePlayer) {
 TEST_F(PlayerProgram, WhatWasAskedForAndDidNotHappenIsAFailure) {
   const auto silent = play("udp://127.0.0.1:47391 --duration 1");
   EXPECT_EQ(silent.exit_code, 1);
-  EXPECT_THAT(silent.err, HasSubstr("udp://127.0.0.1:47391: not one picture came in the time of --duration"));
+  EXPECT_THAT(silent.err, HasSubstr("udp://127.0.0.1:47391: --duration ended before the first picture came"));
   test::makeClip(at("film.mkv"), {color(), depth()});
   ::setenv("XDG_STATE_HOME", at("film.mkv").c_str(), 1);  // a file, where a folder is to be
   expectOneLine(play(at("film.mkv") + " --resume"), 1, "--resume " + at("film.mkv"));

@@ -341,6 +341,15 @@ TEST_F(PlayerSound, OfACardThatIsRefusedTheFilmPlaysWithoutAndSaysSoOnce) {
   EXPECT_EQ(silentMoments(), 500u);
 }
 
+TEST_F(PlayerSound, AFilmWithoutSoundIsNotSaidToHaveAnOutput) {
+  bench_.sources["film"] = PlayerBench::film(25);
+  playsWell();
+  EXPECT_EQ(bench_.report.sound.device, "");
+  film(25);
+  playsWell();
+  EXPECT_EQ(bench_.report.sound.device, "null");
+}
+
 TEST_F(PlayerSound, WhoHasNothingToHearIsNotToldOfTheCard) {
   bench_.audio->fail_open = ErrorCode::Exhausted;
   playsWell();  // a film without sound

@@ -152,17 +152,58 @@ TEST_F(PlayerWindow, WithoutAFilmItShowsTheListAndAClickPlaysOne) {
   ::unsetenv("XDG_STATE_HOME");
 }
 
+// There is no window manager here: SDL's wish alone changes nothing.
 TEST_F(PlayerWindow, FFillsTheScreenAndEscapeLeavesItButNotTheFilm) {
   const auto player = play({"--haptic", "none"});
   EXPECT_TRUE(until([&] { return shows(); }));
-  for (const auto& [key, wish] : {std::pair{"f", 1}, {"Escape", 0}, {"F11", 1}, {"f", 0}}) {
+  const auto width = [&] { return screen_->place(window_).value_or(test::XScreen::Place{}).width; };
+  for (const auto& [key, fills] : {std::pair{"f", true}, {"Escape", false}, {"F11", true}, {"f", false}}) {
     screen_->tap(key);
-    EXPECT_TRUE(until([&] { return screen_->takeFullScreenWish() == wish; })) << key;
+    EXPECT_TRUE(until([&] { return width() == (fills ? test::XScreen::kWidth : kWidth); })) << key << " " << width();
+    EXPECT_TRUE(until([&] {
+      const auto [red, green, blue] = screen_->pixel(test::XScreen::kWidth - 20, test::XScreen::kHeight - 150);
+      return fills == (red > 100 && red == green && green == blue);
+    })) << key
+        << ": the picture reaches the screen's edge";
     screen_->focus(window_);
   }
   screen_->tap("Escape");
   std::this_thread::sleep_for(300ms);
   EXPECT_TRUE(player->isRunning());
+  screen_->tap("q");
+  EXPECT_EQ(player->wait(), 0) << textOf("said.txt");
+}
+
+// The page covers the film, and tells its keys; the same key takes it away.
+TEST_F(PlayerWindow, HShowsThePageOfKeysAndTakesItAway) {
+  const auto player = play({"--haptic", "none"});
+  EXPECT_TRUE(until([&] { return shows(); }));
+  screen_->tap("h");
+  EXPECT_TRUE(until([&] { return screen_->pixel(place_.x + kWidth - 4, place_.y + 4)[0] < 60; }));
+  screen_->tap("h");
+  EXPECT_TRUE(until([&] { return screen_->pixel(place_.x + kWidth - 4, place_.y + 4)[0] > 100; }));
+  screen_->tap("q");
+  EXPECT_EQ(player->wait(), 0) << textOf("said.txt");
+}
+
+// In the finger's colour, over the bar where the mouse is and nowhere else.
+TEST_F(PlayerWindow, TheMouseOverTheBarShowsItsTime) {
+  const auto player = play({"--haptic", "none"});
+  EXPECT_TRUE(until([&] { return shows(); }));
+  const auto colored = [&](int from, int to) {
+    for (int y = static_cast<int>(624.0 / 720 * kHeight); y < static_cast<int>(646.0 / 720 * kHeight); ++y) {
+      for (int x = from; x < to; ++x) {
+        const auto [red, green, blue] = screen_->pixel(place_.x + x, place_.y + y);
+        if (red > blue + 50) return true;
+      }
+    }
+    return false;
+  };
+  screen_->moveMouse(place_.x + 240, place_.y + static_cast<int>(664.0 / 720 * kHeight));
+  EXPECT_TRUE(until([&] { return colored(225, 256); }));
+  EXPECT_FALSE(colored(20, 200));
+  screen_->moveMouse(place_.x + 240, place_.y + 60);
+  EXPECT_TRUE(until([&] { return !colored(225, 256); }));
   screen_->tap("q");
   EXPECT_EQ(player->wait(), 0) << textOf("said.txt");
 }

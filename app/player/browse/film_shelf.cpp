@@ -18,28 +18,42 @@ std::pair<std::size_t, std::size_t> placeOf(const std::vector<ShelfSection>& sec
 
 void FilmShelf::put(std::vector<ShelfSection> sections) {
   std::string section, url;
+  std::size_t number = 0;
   if (!empty()) {
-    const auto [at, number] = placeOf(sections_, selected_);
+    const auto [at, in_section] = placeOf(sections_, selected_);
     section = sections_[at].name;
-    url = sections_[at].films[number].url;
+    url = sections_[at].films[in_section].url;
+    number = in_section;
   }
   sections_ = std::move(sections);
   size_ = 0;
   for (const ShelfSection& each : sections_) size_ += each.films.size();
-  select(find(section, url).value_or(selected_));
+  auto film = find(section, url, true);
+  if (!film) film = inSection(section, number);
+  if (!film) film = find(section, url, false);
+  select(film.value_or(selected_));
 }
 
-std::optional<std::size_t> FilmShelf::find(const std::string& section, const std::string& url) const noexcept {
-  std::optional<std::size_t> elsewhere;  // in another section
+// The film at that place of a section, or the section's last one.
+std::optional<std::size_t> FilmShelf::inSection(const std::string& section, std::size_t number) const noexcept {
+  std::size_t before = 0;
+  for (const ShelfSection& each : sections_) {
+    if (each.name == section && !each.films.empty()) return before + std::min(number, each.films.size() - 1);
+    before += each.films.size();
+  }
+  return std::nullopt;
+}
+
+std::optional<std::size_t> FilmShelf::find(const std::string& section, const std::string& url,
+                                           bool there) const noexcept {
   std::size_t film = 0;
   for (const ShelfSection& each : sections_) {
     for (const ShelfFilm& one : each.films) {
-      if (one.url == url && each.name == section) return film;
-      if (one.url == url && !elsewhere) elsewhere = film;
+      if (one.url == url && (each.name == section) == there) return film;
       ++film;
     }
   }
-  return elsewhere;
+  return std::nullopt;
 }
 
 const ShelfFilm& FilmShelf::film(std::size_t film) const noexcept {

@@ -25,7 +25,8 @@ struct ShelfSection {
 
 class FilmShelf {
  public:
-  // Replaces the films. The selected one stays selected where it is still there, else the one at its place.
+  // Replaces the films. The selected one stays selected in its section; else the one at its place there; without that
+  // section the same film elsewhere, else the one at its place.
   void put(std::vector<ShelfSection> sections);
 
   // Films, without headings; a film in two sections counts twice.
@@ -43,7 +44,10 @@ class FilmShelf {
   void select(std::size_t film) noexcept;
 
  private:
-  [[nodiscard]] std::optional<std::size_t> find(const std::string& section, const std::string& url) const noexcept;
+  // `there`: in that section, else in any other.
+  [[nodiscard]] std::optional<std::size_t> find(const std::string& section, const std::string& url,
+                                                bool there) const noexcept;
+  [[nodiscard]] std::optional<std::size_t> inSection(const std::string& section, std::size_t number) const noexcept;
 
   std::vector<ShelfSection> sections_;
   std::size_t size_ = 0, selected_ = 0;

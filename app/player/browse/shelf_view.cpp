@@ -28,13 +28,14 @@ double walk(const FilmShelf& shelf, Visit&& visit) {
 }
 
 ScreenListRow rowOf(const ShelfFilm& film, std::size_t number, const PosterOf& poster_of) {
-  ScreenListRow row{.title = film.title, .detail = "", .film = number, .top = 0, .left = {}, .picture = nullptr};
+  ScreenListRow row{.title = film.title, .film = number};
   const auto poster = poster_of ? poster_of(film.url) : nullptr;
   const double length_s = poster ? poster->length_s : 0;
   row.detail = timesOf(film, length_s);
   if (!film.folder.empty()) row.detail += (row.detail.empty() ? "" : "   ") + film.folder;
   if (film.left_s && length_s > 0) row.left = std::clamp(*film.left_s / length_s, 0.0, 1.0);
   if (poster && !poster->empty()) row.picture = {poster, &poster->picture};
+  else if (poster) row.in_poster = "cannot be read";
   return row;
 }
 

@@ -13,8 +13,9 @@
 namespace relievo {
 namespace {
 
-// Step: a number with its sign; Time: also without, or with %; Level: also without; Track: a number from 1 on, or off;
-// Row: a whole number, with its sign or without. OnOff, Layout, Shape and Track may be left away.
+// Step: a number with its sign (its meaning: see stepMeaning); Time: also without, or with %; Level: also without;
+// Track: a number from 1 on, or off; Row: a whole number, with its sign or without, or last. OnOff, Layout, Shape and
+// Track may be left away.
 enum class Operand : std::uint8_t { None, Step, Time, Url, OnOff, Layout, Level, Track, Shape, Row };
 
 struct Entry {
@@ -54,9 +55,9 @@ constexpr std::array kEntries{
     Entry{PlayerVerb::Layout, "layout", Operand::Layout, "the next way to show stereo"},
     Entry{PlayerVerb::FullScreen, "full-screen", Operand::OnOff, "the whole screen, or a window again"},
     Entry{PlayerVerb::SwapEyes, "swap-eyes", Operand::None, "left eye right, right eye left"},
-    Entry{PlayerVerb::DepthBy, "depth", Operand::Step, "depth for the eyes", true},
-    Entry{PlayerVerb::ScreenBy, "screen", Operand::Step, "mm, the whole scene towards you", true},
-    Entry{PlayerVerb::ZoomBy, "zoom", Operand::Step, "zoom", true},
+    Entry{PlayerVerb::DepthBy, "depth", Operand::Step, "", true},
+    Entry{PlayerVerb::ScreenBy, "screen", Operand::Step, "", true},
+    Entry{PlayerVerb::ZoomBy, "zoom", Operand::Step, "", true},
     Entry{PlayerVerb::Aspect, "aspect", Operand::Shape, "another shape of the picture"},
     Entry{PlayerVerb::Info, "info", Operand::None, "the bar with title and times, or no more"},
     Entry{PlayerVerb::Statistics, "statistics", Operand::None, "statistics, or no more"},
@@ -66,10 +67,10 @@ constexpr std::array kEntries{
     Entry{PlayerVerb::VolumeTo, "volume", Operand::Level, "% volume"},
     Entry{PlayerVerb::Mute, "mute", Operand::OnOff, "sound off, or on again"},
     Entry{PlayerVerb::AudioTrack, "audio", Operand::Track, "the next sound track"},
-    Entry{PlayerVerb::AudioDelayBy, "audio-delay", Operand::Step, "s, sound later", true},
+    Entry{PlayerVerb::AudioDelayBy, "audio-delay", Operand::Step, "sound", true},
     Entry{PlayerVerb::SubtitleTrack, "subtitles", Operand::Track, "the next subtitles, or none"},
     Entry{PlayerVerb::ShowSubtitles, "show-subtitles", Operand::OnOff, "subtitles on or off"},
-    Entry{PlayerVerb::SubtitleDelayBy, "subtitle-delay", Operand::Step, "s, subtitles later", true},
+    Entry{PlayerVerb::SubtitleDelayBy, "subtitle-delay", Operand::Step, "subtitles", true},
     Entry{PlayerVerb::ChapterBy, "chapter", Operand::Step, "chapter"},
     Entry{PlayerVerb::LoopAB, "ab-loop", Operand::None, "repeat from here; again: to here; again: no more"},
 };
@@ -124,6 +125,7 @@ std::optional<PlayerCommand> levelIn(std::string_view text) {
 // Of the list of films.
 std::optional<PlayerCommand> rowIn(std::string_view text) {
   constexpr double kMostRows = 1e6;
+  if (text == "last") return PlayerCommand{PlayerVerb::SelectTo};
   const auto value = numberIn(text);
   if (!value || *value != std::floor(*value) || std::abs(*value) > kMostRows) return std::nullopt;
   const bool relative = text.starts_with('+') || text.starts_with('-');
@@ -194,9 +196,11 @@ std::string wordsOf(const PlayerCommand& command) {
     case PlayerVerb::SubtitleTrack:
       if (command.value == 0) return word;
       return word + (command.value < 0 ? std::string(" off") : print(" %.0f", command.value));
+    case PlayerVerb::SelectTo:
+      if (command.value == 0) return word + " last";
+      [[fallthrough]];
     case PlayerVerb::SeekTo:
     case PlayerVerb::VolumeTo:
-    case PlayerVerb::SelectTo:
       return word + print(" %.6g", command.value);
     case PlayerVerb::SeekShare:
       return word + print(" %.6g%%", 100 * command.value);
@@ -214,18 +218,62 @@ std::string wordsOf(const PlayerCommand& command) {
   }
 }
 
+namespace {
+
+const char* formOf(Operand operand) noexcept {
+  constexpr std::array kForms{"",       "+X|-X",   "+S|-S|S|P%", "URL",   "[on|off]",
+                              "[WORD]", "+P|-P|P", "[N|off]",    "[W:H]", "+N|-N|N|last"};
+  return kForms[static_cast<std::size_t>(operand)];
+}
+
+}  // namespace
+
 std::string commandWords() {
-  constexpr std::array kOperands{"",        " +X|-X",   " +S|-S|S|P%", " URL",   " [on|off]",
-                                 " [WORD]", " +P|-P|P", " [N|off]",    " [W:H]", " +N|-N|N"};
   std::string text;
   const char* last = "";
   for (const Entry& entry : kEntries) {
     if (entry.word == std::string_view(last)) continue;
     last = entry.word;
-    text += (text.empty() ? "" : ", ") + std::string(entry.word) + kOperands[static_cast<std::size_t>(entry.operand)];
+    const std::string form = formOf(entry.operand);
+    text += (text.empty() ? "" : ", ") + std::string(entry.word) + (form.empty() ? "" : " ") + form;
   }
   return text;
 }
+
+std::string whyNoCommand(std::string_view words) {
+  const std::size_t space = words.find(' ');
+  const std::string word(words.substr(0, space));
+  const std::string operand(space == std::string_view::npos ? "" : words.substr(space + 1));
+  const auto entry = std::ranges::find(kEntries, std::string_view(word), [](const Entry& e) { return e.word; });
+  if (entry == kEntries.end()) return "unknown command \"" + word + "\"; known are: " + commandWords();
+  const std::string form = formOf(entry->operand);
+  if (form.empty()) return "\"" + word + "\" takes no word after it, such as \"" + operand + "\"";
+  const std::string wrong = operand.empty() ? ": it is missing" : ", not \"" + operand + "\"";
+  return "\"" + word + "\" takes " + form + wrong;
+}
+
+namespace {
+
+// Of a Step: what it does in either direction.
+std::string stepMeaning(const PlayerCommand& command, const Entry& entry) {
+  const bool up = command.value > 0;
+  const double by = std::abs(command.value);
+  switch (command.verb) {
+    case PlayerVerb::DepthBy:
+      return print("%.6g %% %s depth for the eyes", 100 * by, up ? "more" : "less");
+    case PlayerVerb::ScreenBy:
+      return print("the scene %.6g mm %s", by, up ? "towards you" : "away from you");
+    case PlayerVerb::ZoomBy:
+      return print("%.6g %% %s", 100 * by, up ? "larger, cut at its edges" : "smaller again");
+    case PlayerVerb::AudioDelayBy:
+    case PlayerVerb::SubtitleDelayBy:
+      return print("%s %.6g s %s", entry.meaning, by, up ? "later" : "earlier");
+    default:
+      return print("%+.6g %s", command.value, entry.meaning);
+  }
+}
+
+}  // namespace
 
 std::string meaningOf(const PlayerCommand& command) {
   const Entry& entry = entryOf(command.verb);
@@ -233,6 +281,7 @@ std::string meaningOf(const PlayerCommand& command) {
     return print("%.6g s %s", std::abs(command.value), command.value < 0 ? "back" : "forward");
   }
   if (command.verb == PlayerVerb::SeekTo) return print("to %.6g s", command.value);
+  if (command.verb == PlayerVerb::SeekShare && command.value == 0) return "to the beginning";
   if (command.verb == PlayerVerb::SeekShare) return print("to %.6g %% of the film", 100 * command.value);
   if (command.verb == PlayerVerb::ChapterBy && std::abs(command.value) == 1) {
     return command.value < 0 ? "this chapter from its beginning, or the one before" : "the next chapter";
@@ -242,8 +291,11 @@ std::string meaningOf(const PlayerCommand& command) {
     const char* const where = command.value < 0 ? "up" : "down";
     return films == 1 ? print("one film %s", where) : print("%.0f films %s", films, where);
   }
-  if (command.verb == PlayerVerb::SelectTo)
-    return command.value == 1 ? "the first film" : print("film %.0f", command.value);
+  if (command.verb == PlayerVerb::SelectTo) {
+    return command.value == 0   ? "the last film"
+           : command.value == 1 ? "the first film"
+                                : print("film %.0f", command.value);
+  }
   if (command.verb == PlayerVerb::VolumeBy)
     return print("%.6g %% %s", std::abs(command.value), command.value < 0 ? "quieter" : "louder");
   if (command.verb == PlayerVerb::VolumeTo) return print("%.6g %s", command.value, entry.meaning);
@@ -254,7 +306,7 @@ std::string meaningOf(const PlayerCommand& command) {
     return command.value > 0 ? "subtitles on" : "subtitles off";
   }
   if (command.verb == PlayerVerb::Aspect && !command.word.empty()) return "show the picture as " + command.word;
-  if (entry.operand == Operand::Step) return print("%+.6g %s", command.value, entry.meaning);
+  if (entry.operand == Operand::Step) return stepMeaning(command, entry);
   if (command.verb == PlayerVerb::Loop && command.value != 0) {
     return command.value > 0 ? "begin again at the end" : "do not restart at the end";
   }
@@ -269,7 +321,7 @@ bool needsFilm(PlayerVerb verb) noexcept {
   constexpr std::array kFree{PlayerVerb::Open,       PlayerVerb::SelectBy, PlayerVerb::SelectTo, PlayerVerb::Choose,
                              PlayerVerb::Back,       PlayerVerb::Escape,   PlayerVerb::Stop,     PlayerVerb::Quit,
                              PlayerVerb::FullScreen, PlayerVerb::Layout,   PlayerVerb::Keys,     PlayerVerb::VolumeBy,
-                             PlayerVerb::VolumeTo,   PlayerVerb::Mute};
+                             PlayerVerb::VolumeTo,   PlayerVerb::Mute,     PlayerVerb::Loop,     PlayerVerb::SwapEyes};
   return std::ranges::find(kFree, verb) == kFree.end();
 }
 

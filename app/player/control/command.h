@@ -26,7 +26,7 @@ enum class PlayerVerb : std::uint8_t {
   Loop,        // begins again at the end, or no longer; value 1: does, -1: does not, 0: the other of the two
   Open,        // another film or list
   SelectBy,    // films in the list of films that is shown
-  SelectTo,    // a film there, by its number from 1 on
+  SelectTo,    // a film there, by its number from 1 on; 0: the last one
   Choose,      // plays the selected film
   Back,        // to the list of films, where one was shown; else as Stop. In the list, to its first film
   Escape,      // out of full screen; in a window, to the list of films
@@ -66,6 +66,8 @@ struct PlayerCommand {
 // "pause", "seek +10", "seek 75", "seek 50%", "depth -0.1", "loop on", "layout tab", "open URL", ..; nothing for what
 // is none.
 [[nodiscard]] std::optional<PlayerCommand> parseCommand(std::string_view words);
+// What is wrong with words that are none: "dance is not a command; ..", "select takes ..: x".
+[[nodiscard]] std::string whyNoCommand(std::string_view words);
 // Words that `parseCommand` reads back.
 [[nodiscard]] std::string wordsOf(const PlayerCommand& command);
 // All of them, "play, pause, .., seek +S|-S|S|P%, ..": for a message.

@@ -63,8 +63,8 @@ std::expected<ControlRequest, std::string> requestOf(const std::string& words) {
     return FaultRequest{words.substr(kFault.size(), space - kFault.size()), words.substr(space + 1)};
   }
   if (auto command = parseCommand(words)) return std::move(*command);
-  return std::unexpected("unknown command; known are: " + commandWords() +
-                         ", status, metrics on|off, fault DEVICE WHAT");
+  const std::string why = whyNoCommand(words);
+  return std::unexpected(why.starts_with("unknown") ? why + ", status, metrics on|off, fault DEVICE WHAT" : why);
 }
 
 }  // namespace

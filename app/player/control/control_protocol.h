@@ -7,8 +7,9 @@
 //                   {"do": "fault haptic unplug"}  of a mock device; which there are, the answer to a wrong one says
 // with an "id" of its own, if it likes: a whole number, or a text of at most 64 bytes, which comes back in the answer.
 //
-// The player answers each line in turn: {"id": .., "ok": true}, or {"id": .., "ok": false, "error": ".."}. True means
-// that it was heard; what comes of it, the events tell. To all, whoever asked:
+// The player answers each line in turn: {"id": .., "ok": true}, or {"id": .., "ok": false, "error": ".."}, also for a
+// command that can do nothing now, as "pause" without a film. True means that it was heard; what comes of it, the
+// events tell. To all, whoever asked:
 //                   {"event": "state", "state": "playing", "time_s": 12.3}   seconds since the player started
 //                   {"event": "fault", "what": "..", "done": "..", "time_s": 12.3}   likewise good news, as "display
 //                   back"

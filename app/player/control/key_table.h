@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/player/control/command.h"
+#include "app/player/control/key_label.h"
 #include "app/player/state_table.h"
 #include "hal/remote_input.h"
 #include "platform/failure.h"
@@ -46,13 +47,14 @@ class KeyTable {
 
   // Null for a key that means nothing in that state.
   [[nodiscard]] const Binding* find(PlayerState state, std::uint16_t code) const noexcept;
-  // The keys that hold in a state and their meaning: a row for each command.
-  [[nodiscard]] std::vector<std::pair<std::string, std::string>> rowsIn(PlayerState state) const;
+  // What the keys that the viewer holds mean in a state: a row for each command, in plain words.
+  [[nodiscard]] std::vector<std::pair<std::string, std::string>> rowsIn(PlayerState state, KeyBoard held) const;
   // For the help: a line for each command, with its keys' names.
   [[nodiscard]] std::string help() const;
 
  private:
   Outcome<void> add(std::string_view text, const std::string& file);
+  [[nodiscard]] std::vector<std::uint16_t> codesOf(PlayerState state, std::uint16_t code) const;
   [[nodiscard]] const Binding* row(std::size_t table, std::uint16_t code) const noexcept;
 
   static constexpr std::size_t kAlways = kPlayerStateCount;  // after one of each state

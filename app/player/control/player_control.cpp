@@ -47,7 +47,9 @@ std::string PlayerControl::carryOut(Player& player, const ControlLine& line, Con
     const auto switched = switchFault_(fault->device, fault->fault);
     if (!switched) return errorLine(line.id, switched.error().message);
   } else {
-    player.obey(std::get<PlayerCommand>(asked), now);
+    const auto& command = std::get<PlayerCommand>(asked);
+    if (const auto why = player.refusal(command)) return errorLine(line.id, *why);
+    player.obey(command, now);
   }
   return okLine(line.id);
 }

@@ -75,6 +75,7 @@ FilmPlayback::Opening FilmPlayback::opening() const {
 
 const FilmInfo& FilmPlayback::opened() {
   info_ = feed_.info();
+  if (info_.sounds.empty() && info_.sound_codec.empty()) sound_.rest();
   if (info_.has_depth) {
     const std::string line = plainLine(info_.reading, info_.calibration.calibration);
     log(LogLevel::Info, "play", "%s", line.c_str());

@@ -38,6 +38,11 @@ void Sound::forget() noexcept {
   if (window_) window_->clear();
 }
 
+void Sound::rest() noexcept {
+  if (output_ != nullptr && output_->state() == AudioOutput::State::Open) output_->close();
+  run_.reset();
+}
+
 void Sound::close() noexcept {
   if (output_ != nullptr) output_->close();
   run_.reset();
@@ -45,7 +50,7 @@ void Sound::close() noexcept {
 
 SoundSummary Sound::summary() const {
   SoundSummary summary = summary_;
-  if (output_ != nullptr) summary.device = output_->capabilities().name;
+  if (output_ != nullptr && sounds_) summary.device = output_->capabilities().name;
   if (format_) summary.rate_hz = format_->rate_hz;
   if (summary.pictures > 0) summary.mean_offset_ms = sum_offset_ms_ / static_cast<double>(summary.pictures);
   return summary;
@@ -59,6 +64,7 @@ void Sound::follow(bool plays, MediaClock& clock, FilmFeed& feed) {
   if (position) collect(*position, feed);
   if (!plays || !position) stop();
   if (run_ && !listen(clock, feed, now)) stop();
+  sounds_ = sounds_ || !window_->empty();
   if (plays && position && !window_->empty() && ready(now)) {
     if (!run_) start(*position);
     fill();

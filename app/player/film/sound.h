@@ -20,7 +20,7 @@ namespace relievo {
 // For the report. Offsets are those of the sound against each picture as it comes onto the screen, positive where the
 // sound is ahead; the first fifth of a second after each start, when they are being found out, is left out.
 struct SoundSummary {
-  std::string device;  // "" without one
+  std::string device;  // "" without one, or without sound
   int rate_hz = 0;
   std::uint64_t underruns = 0;  // silences that were not the film's
   std::uint64_t realigned = 0;  // times that it was started anew, since it was too far off
@@ -51,6 +51,8 @@ class Sound {
   // Before the film: whether the output is there or not, `format` is what the film's sound is wanted in from then on.
   void open();
   [[nodiscard]] std::optional<AudioFormat> format() const noexcept { return format_; }
+  // The film has no sound: the output is given back, and opened again for one that has.
+  void rest() noexcept;
   // The factor on the samples, from the next ones on; it changes without a click. `at_once`: what the output holds is
   // dropped, so that nothing of it is heard with the old one.
   void setGain(double gain, bool at_once = false) noexcept;
@@ -111,6 +113,7 @@ class Sound {
   int restarts_ = 0;           // without having settled
   MonotonicTime next_try_;
   bool gave_up_ = false, lost_ = false, told_ = false;
+  bool sounds_ = false;  // there was sound to be heard
 
   std::optional<News> news_;
   SoundSummary summary_;

@@ -208,8 +208,9 @@ std::optional<double> FilmScreen::barAt(const SurfaceMouse& mouse, MonotonicTime
   const auto point = osd_ ? picture_.viewPoint(mouse.across, mouse.down) : std::nullopt;
   if (!point) return std::nullopt;
   if (point->down > kNear) text_.wake(now);
-  if (!written_.bar || !written_.bar->has_length) return std::nullopt;
-  return barShareAt(point->across, point->down, point->aspect);
+  const auto share = barShareAt(point->across, point->down, point->aspect);
+  text_.point(share, now);
+  return written_.bar && written_.bar->has_length ? share : std::nullopt;
 }
 
 std::optional<std::size_t> FilmScreen::filmAt(const SurfaceMouse& mouse) const {

@@ -34,6 +34,7 @@ void addFilm(Script& script, const ScreenListRow& row, const ScreenList& list) {
     script.box(whole, kWhite, 0.07);
   }
   script.box({kPosterLeft, row.top + kPosterTop, kPosterWidth, kPosterHeight}, kBlack, 0.6);
+  script.text(row.in_poster, 5, kPosterLeft + kPosterWidth / 2, row.top + kPosterTop + kPosterHeight / 2, 19, kGray);
   const double width = right - kTextLeft - 10;
   const bool has_detail = !row.detail.empty();
   const auto title = folded(row.title, cellsIn(width, kTitle), has_detail ? 2 : 3);
@@ -62,11 +63,18 @@ void addRail(Script& script, const ScreenList& list) {
   script.box({x, ScreenList::kTop + kHeight * list.before, kRail, kHeight * list.shown}, kWhite, 0.45);
 }
 
+void addFoot(Script& script, const ScreenList& list) {
+  constexpr double kTop = 680, kSize = 22, kWide = 700;
+  script.text("h: all keys", 9, script.width() - kMargin, kTop, kSize, kGray);
+  if (list.films == 0 || script.width() < kWide) return;
+  script.text("Up and down choose, Enter or OK plays", 7, kMargin, kTop, kSize, kGray);
+}
+
 }  // namespace
 
 void addList(Script& script, const ScreenList& list) {
   script.box({0, 0, script.width(), kScreenRows}, kBackground, 1);
-  script.text("Films", 7, kMargin, 24, 38);
+  script.text("Films", 7, kMargin, kHeadingTop, kHeadingSize);
   if (list.films > 0) {
     script.text(print("%zu of %zu", list.selected + 1, list.films), 9, script.width() - kMargin, 34, 24, kGray);
   }
@@ -83,8 +91,7 @@ void addList(Script& script, const ScreenList& list) {
   for (std::size_t i = 0; i < message.size(); ++i) {
     script.text(message[i], 5, 0.5 * script.width(), 340 + 40.0 * static_cast<double>(i), 30);
   }
-  if (list.films > 0) script.text("Up and down choose, OK plays", 7, kMargin, 680, 22, kGray);
-  script.text("h: all keys", 9, script.width() - kMargin, 680, 22, kGray);
+  addFoot(script, list);
 }
 
 // Each in the middle of its place, in its own shape.

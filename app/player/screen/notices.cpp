@@ -2,6 +2,9 @@
 // A line for each value.
 #include "app/player/screen/notices.h"
 
+#include <cmath>
+#include <cstdlib>
+
 #include "app/player/screen/stereo_word.h"
 #include "platform/print.h"
 
@@ -12,6 +15,12 @@ ScreenNotice volumeNotice(const ScreenFacts& facts) {
   constexpr double kWhole = 130;  // the loudest
   if (facts.muted) return {"Sound off", 0};
   return {print("Volume %.0f %%", facts.volume_percent), facts.volume_percent / kWhole};
+}
+
+std::string delayWords(const char* what, double delay_s) {
+  const long ms = std::lround(1e3 * delay_s);
+  if (ms == 0) return std::string(what) + " on time";
+  return print("%s %ld ms %s", what, std::labs(ms), ms > 0 ? "later" : "earlier");
 }
 
 std::string rateWords(double rate) {
@@ -48,12 +57,12 @@ std::optional<ScreenNotice> noticeOf(const PlayerCommand& command, const ScreenF
     case PlayerVerb::AudioTrack:
       return words("Sound: " + facts.sound_track);
     case PlayerVerb::AudioDelayBy:
-      return words(print("Sound %+.0f ms", 1e3 * facts.sound_delay_s));
+      return words(delayWords("Sound", facts.sound_delay_s));
     case PlayerVerb::SubtitleTrack:
     case PlayerVerb::ShowSubtitles:
       return words("Subtitles: " + facts.subtitle_track);
     case PlayerVerb::SubtitleDelayBy:
-      return words(print("Subtitles %+.0f ms", 1e3 * facts.subtitle_delay_s));
+      return words(delayWords("Subtitles", facts.subtitle_delay_s));
     case PlayerVerb::LoopAB:
       return words(!facts.loop_from_s ? "A-B loop off"
                    : !facts.loop_to_s ? "A-B loop: from here"

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/player/screen/screen_script.h"
 #include "app/player/screen/stereo_word.h"
 
 namespace relievo {
@@ -103,7 +104,8 @@ Result<void> Picture::draw(const DisplaySurface& surface, const std::optional<Fi
     uploaded_ = true;
   }
   const TextFrame frame = textFrame(eyeViews(stereo_, volume_, surface.width, surface.height));
-  if (subtitles_.draw(frame, pair_.color.pts - subtitle_delay_) || renewed) {
+  const SubtitleRoom room{.none = !text_.keys.empty(), .down = roomForWords(text_, frame.aspect)};
+  if (subtitles_.draw(frame, pair_.color.pts - subtitle_delay_, room) || renewed) {
     renderer_->setSubtitles(frame, subtitles_.pictures());
   }
   if (std::exchange(cut_, false)) renderer_->cut();

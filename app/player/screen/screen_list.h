@@ -21,7 +21,8 @@ struct ScreenListRow {
   std::optional<std::size_t> film;  // its number on the shelf; nullopt: a heading
   double top = 0;
   std::optional<double> left;                  // how much of it was seen, 0 to 1
-  std::shared_ptr<const TextPicture> picture;  // null: none yet
+  std::shared_ptr<const TextPicture> picture;  // null: none
+  std::string in_poster;                       // in place of a picture: why there is none
   [[nodiscard]] double height() const noexcept { return film ? kFilm : kHeading; }
   bool operator==(const ScreenListRow&) const = default;
 };

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/player/screen/fold.h"
+#include "app/player/screen/keys_script.h"
 #include "app/player/screen/list_script.h"
 #include "app/player/screen/script.h"
 #include "platform/print.h"
@@ -16,15 +17,49 @@ namespace {
 
 constexpr double kBarTop = 658, kBarHeight = 12, kBarReach = 14;  // so far above and below the bar a click is on it
 constexpr double kTitleSize = 30, kTitleLine = 38, kTimesSize = 24, kTimesTop = 680;
+constexpr double kPointedSize = 20, kPointedTop = kBarTop - 34;  // the time that the mouse points at
 constexpr double kGaugeTop = 280, kGaugeHeight = 200, kGaugeWidth = 16, kGaugeNewtons = 10;
 constexpr double kEdge = 30;  // of the mark for a finger beside the picture
-constexpr double kMostKeyRows = 24;
+constexpr double kTop = 30;   // of what stands at the top of the view
+constexpr double kGap = 10;   // between two of its parts
+
+std::vector<std::string> titleLines(const ScreenBar& bar, double width) {
+  return folded(bar.title, cellsIn(width - 2 * kMargin, kTitleSize), 2);
+}
+
+// Of the dark ground that the bar stands on.
+double barGround(std::size_t title_lines) noexcept {
+  return kPointedTop - 16 - kTitleLine * static_cast<double>(title_lines);
+}
+
+// Over the bar, in the middle of the place that the mouse is over.
+void addPointed(Script& script, const ScreenBar& bar) {
+  if (!bar.pointed) return;
+  const double inner = script.width() - 2 * kMargin;
+  constexpr double kHalf = 40;  // of the widest time
+  const double x = std::clamp(kMargin + inner * *bar.pointed, kHalf, script.width() - kHalf);
+  script.text(bar.pointed_time, 8, x, kPointedTop, kPointedSize, kAccent);
+}
+
+// What finds no room beside the times is left out.
+void addTimes(Script& script, const ScreenBar& bar) {
+  constexpr double kFewest = 12;  // letters that are worth it
+  const double inner = script.width() - 2 * kMargin;
+  const auto times = folded(bar.times, cellsIn(inner, kTimesSize), 1);
+  if (times.empty()) return;
+  script.text(times[0], 7, kMargin, kTimesTop, kTimesSize);
+  const double room = inner - kLetterOfSize * kTimesSize * (static_cast<double>(times[0].size()) + 2);
+  if (room < kFewest * kLetterOfSize * kTimesSize) return;
+  const auto status = folded(bar.status, cellsIn(room, kTimesSize), 1);
+  if (!status.empty()) script.text(status[0], 9, script.width() - kMargin, kTimesTop, kTimesSize, kGray);
+}
 
 void addBar(Script& script, const ScreenBar& bar) {
   const double inner = script.width() - 2 * kMargin;
-  const auto title = folded(bar.title, cellsIn(inner, kTitleSize), 2);
-  const double title_top = kBarTop - 14 - kTitleLine * static_cast<double>(title.size());
-  script.box({0, title_top - 12, script.width(), kScreenRows - title_top + 12}, kBlack, 0.6);
+  const auto title = titleLines(bar, script.width());
+  const double ground = barGround(title.size()), title_top = ground + 12;
+  script.box({0, ground, script.width(), kScreenRows - ground}, kBlack, 0.6);
+  addPointed(script, bar);
   for (std::size_t i = 0; i < title.size(); ++i) {
     script.text(title[i], 7, kMargin, title_top + kTitleLine * static_cast<double>(i), kTitleSize);
   }
@@ -40,10 +75,7 @@ void addBar(Script& script, const ScreenBar& bar) {
     }
     script.box({kMargin + inner * bar.position - 3, kBarTop - 5, 6, kBarHeight + 10}, kWhite, 1);
   }
-  script.text(bar.times, 7, kMargin, kTimesTop, kTimesSize);
-  const double half = inner * 0.55;
-  const auto status = folded(bar.status, cellsIn(half, kTimesSize), 1);
-  if (!status.empty()) script.text(status[0], 9, script.width() - kMargin, kTimesTop, kTimesSize, kGray);
+  addTimes(script, bar);
 }
 
 void addForce(Script& script, double force_n) {
@@ -71,25 +103,60 @@ void addFinger(Script& script, const FingerBeside& finger) {
                x - 30, y - 30, kAccent, 0.9);
 }
 
-void addNotice(Script& script, const ScreenNotice& notice) {
-  script.text(notice.words, 7, kMargin, 30, 36);
-  if (!notice.level) return;
-  script.box({kMargin, 80, 300, 10}, kWhite, 0.3);
-  script.box({kMargin, 80, 300 * std::clamp(*notice.level, 0.0, 1.0), 10}, kAccent, 1);
-}
-
-void addWarning(Script& script, const std::string& why, double top) {
-  const auto lines = folded(why, cellsIn(script.width() - 2 * kMargin, 26), 3);
-  script.box({kMargin - 14, top, script.width() - 2 * kMargin + 28, 34.0 * static_cast<double>(lines.size()) + 10},
-             kBlack, 0.6);
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    script.text(lines[i], 7, kMargin, top + 4 + 34.0 * static_cast<double>(i), 26, kWarn);
+// Returns where the next part begins; likewise below.
+double addNotice(Script& script, const ScreenNotice& notice) {
+  constexpr double kSize = 36, kLine = 44;
+  double y = kTop;
+  for (const std::string& line : folded(notice.words, cellsIn(script.width() - 2 * kMargin, kSize), 2)) {
+    script.text(line, 7, kMargin, y, kSize);
+    y += kLine;
   }
+  if (notice.level) {
+    script.box({kMargin, y + 6, 300, 10}, kWhite, 0.3);
+    script.box({kMargin, y + 6, 300 * std::clamp(*notice.level, 0.0, 1.0), 10}, kAccent, 1);
+    y += 16;
+  }
+  return y + kGap;
 }
 
-void addStatistics(Script& script, const ScreenRows& rows) {
-  constexpr double kTop = 160, kLine = 28, kSize = 22, kLabel = 110;
-  const double width = std::min(820.0, script.width() - 2 * kMargin);
+// In the heading's line of a page that covers the film, between the heading and what stands at its right end.
+void addNoticeInHeading(Script& script, const ScreenNotice& notice) {
+  constexpr double kSize = 28, kSides = 170, kLevel = 240;
+  const double middle = 0.5 * script.width();
+  const auto line = folded(notice.words, cellsIn(script.width() - 2 * kSides, kSize), 1);
+  if (!line.empty()) script.text(line[0], 8, middle, kHeadingTop, kSize);
+  if (!notice.level) return;
+  script.box({middle - kLevel / 2, 62, kLevel, 8}, kWhite, 0.3);
+  script.box({middle - kLevel / 2, 62, kLevel * std::clamp(*notice.level, 0.0, 1.0), 8}, kAccent, 1);
+}
+
+double addWarning(Script& script, const std::string& why, double top, double opacity) {
+  constexpr double kSize = 26, kLine = 34;
+  const auto lines = folded(why, cellsIn(script.width() - 2 * kMargin, kSize), 3);
+  const double height = kLine * static_cast<double>(lines.size()) + 10;
+  script.box({kMargin - 14, top, script.width() - 2 * kMargin + 28, height}, kBlack, opacity);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    script.text(lines[i], 7, kMargin, top + 4 + kLine * static_cast<double>(i), kSize, kWarn);
+  }
+  return top + height + kGap;
+}
+
+// So high that subtitles over the bar do not reach it.
+double addHint(Script& script, const std::string& hint, double top) {
+  constexpr double kSize = 32, kLine = 40;
+  double y = std::max(top, 100.0);
+  for (const std::string& line : folded(hint, cellsIn(script.width() - 2 * kMargin, kSize), 2)) {
+    script.text(line, 8, 0.5 * script.width(), y, kSize);
+    y += kLine;
+  }
+  return y + kGap;
+}
+
+// As many lines as find room above `bottom`.
+void addStatistics(Script& script, const ScreenRows& rows, double top, double bottom) {
+  constexpr double kUsual = 160, kLine = 28, kSize = 22, kLabel = 110, kBesideForce = 90;
+  const double y_begin = std::max(kUsual, top);
+  const double width = std::min(820.0, script.width() - 2 * kMargin - kBesideForce);
   ScreenRows lines;
   for (const auto& [label, figures] : rows) {
     std::string first = label;
@@ -97,34 +164,23 @@ void addStatistics(Script& script, const ScreenRows& rows) {
       lines.emplace_back(std::exchange(first, ""), line);
     }
   }
-  script.box({kMargin - 14, kTop, width + 28, kLine * static_cast<double>(lines.size()) + 20}, kBlack, 0.6);
+  const double most = std::max(0.0, std::floor((bottom - y_begin - 20) / kLine));
+  lines.resize(std::min(lines.size(), static_cast<std::size_t>(most)));
+  script.box({kMargin - 14, y_begin, width + 28, kLine * static_cast<double>(lines.size()) + 20}, kBlack, 0.6);
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    const double y = kTop + 10 + kLine * static_cast<double>(i);
+    const double y = y_begin + 10 + kLine * static_cast<double>(i);
     script.text(lines[i].first, 7, kMargin, y, kSize, kAccent);
     script.text(lines[i].second, 7, kMargin + kLabel, y, kSize);
   }
 }
 
-void addCell(Script& script, double x, double y, double width, const std::string& words, double size,
-             const char* color) {
-  const auto line = folded(words, cellsIn(width, size), 1);
-  if (!line.empty()) script.text(line[0], 7, x, y, size, color);
-}
-
-void addKeys(Script& script, const ScreenRows& rows) {
-  const double column = (script.width() - 2 * kMargin) / 2;
-  const double count = std::max(std::ceil(static_cast<double>(rows.size()) / 2), 1.0);
-  const double line = std::min(34.0, 640 / std::max(count, kMostKeyRows * 0.5));
-  const double size = 0.74 * line;
-  script.box({0, 0, script.width(), kScreenRows}, kBlack, 0.8);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double at = static_cast<double>(i);
-    const double x = kMargin + (at >= count ? column : 0);
-    const double y = 40 + line * (at >= count ? at - count : at);
-    const double keys = 0.36 * column;
-    addCell(script, x, y, keys - 14, rows[i].first, size, kAccent);
-    addCell(script, x + keys, y, column - keys - 20, rows[i].second, size, kWhite);
-  }
+// What stands over a film, from the top down.
+void addTop(Script& script, const ScreenContent& content, double bottom) {
+  double top = kTop;
+  if (content.notice) top = addNotice(script, *content.notice);
+  if (!content.warning.empty()) top = addWarning(script, content.warning, std::max(top, 100.0), 0.6);
+  if (!content.hint.empty()) top = addHint(script, content.hint, top);
+  if (!content.statistics.empty()) addStatistics(script, content.statistics, top, bottom);
 }
 
 }  // namespace
@@ -143,16 +199,34 @@ std::string screenHead(double aspect) {
 
 std::vector<std::string> screenLines(const ScreenContent& content, double aspect) {
   Script script(kScreenRows * aspect);
-  if (content.list) addList(script, *content.list);
+  if (content.list) {
+    addList(script, *content.list);
+    return script.take();
+  }
+  if (!content.keys.empty()) {
+    addKeys(script, content.keys);
+    if (content.notice) addNoticeInHeading(script, *content.notice);
+    return script.take();
+  }
   if (content.finger) addFinger(script, *content.finger);
   if (content.bar) addBar(script, *content.bar);
   if (content.force_n) addForce(script, *content.force_n);
-  if (!content.hint.empty()) script.text(content.hint, 2, 0.5 * script.width(), 560, 32);
-  if (!content.statistics.empty()) addStatistics(script, content.statistics);
-  if (!content.warning.empty()) addWarning(script, content.warning, content.list ? 590 : 100);
-  if (!content.keys.empty()) addKeys(script, content.keys);
-  if (content.notice) addNotice(script, *content.notice);
+  addTop(script, content, kScreenRows * roomForWords(content, aspect));
   return script.take();
+}
+
+std::vector<std::string> linesOverPosters(const ScreenContent& content, double aspect) {
+  constexpr double kWarningTop = 590;
+  Script script(kScreenRows * aspect);
+  if (!content.list) return {};
+  if (!content.warning.empty()) addWarning(script, content.warning, kWarningTop, 1);
+  if (content.notice) addNoticeInHeading(script, *content.notice);
+  return script.take();
+}
+
+double roomForWords(const ScreenContent& content, double aspect) {
+  if (!content.bar) return 1;
+  return barGround(titleLines(*content.bar, kScreenRows * aspect).size()) / kScreenRows;
 }
 
 std::optional<double> barShareAt(double across, double down, double aspect) noexcept {

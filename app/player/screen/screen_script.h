@@ -15,8 +15,12 @@ constexpr double kScreenRows = 720;
 
 // Of a view `aspect` as wide as high.
 [[nodiscard]] std::string screenHead(double aspect);
-// Lines as AssText takes them.
+// Lines as AssText takes them. Of the list of films, what lies under its posters.
 [[nodiscard]] std::vector<std::string> screenLines(const ScreenContent& content, double aspect);
+// What lies over the posters of the list of films; nothing without a list.
+[[nodiscard]] std::vector<std::string> linesOverPosters(const ScreenContent& content, double aspect);
+// How far down the view is free for subtitles, as a share of it: the bar begins there.
+[[nodiscard]] double roomForWords(const ScreenContent& content, double aspect);
 
 // Where in the bar a point of the view lies, 0 to 1; nullopt beside the bar. `across` and `down` in shares of the view.
 [[nodiscard]] std::optional<double> barShareAt(double across, double down, double aspect) noexcept;

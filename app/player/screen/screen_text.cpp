@@ -76,11 +76,16 @@ void ScreenText::hint(std::string words, MonotonicTime now) {
   hinted_until_ = now + kNotice;
 }
 
+void ScreenText::point(std::optional<double> share, MonotonicTime now) {
+  pointed_ = share;
+  pointed_until_ = now + kAwake;
+}
+
 bool ScreenText::showsBar(const ScreenFacts& facts, MonotonicTime now) const noexcept {
   return bar_ || facts.held || now < awake_until_ || now < told_until_;
 }
 
-ScreenBar ScreenText::bar(const ScreenFacts& facts) const {
+ScreenBar ScreenText::bar(const ScreenFacts& facts, MonotonicTime now) const {
   ScreenBar bar{.title = facts.title,
                 .times = timesOf(facts),
                 .status = stereoWords(facts) + "   " + hapticWords(facts),
@@ -94,6 +99,10 @@ ScreenBar ScreenText::bar(const ScreenFacts& facts) const {
   for (const double start : chapters_s_) bar.chapters.push_back(share(start));
   if (facts.loop_from_s) bar.loop_from = share(*facts.loop_from_s);
   if (facts.loop_to_s) bar.loop_to = share(*facts.loop_to_s);
+  if (pointed_ && now < pointed_until_) {
+    bar.pointed = rounded(*pointed_, kBarSteps);
+    bar.pointed_time = clockTime(*pointed_ * facts.duration_s);
+  }
   return bar;
 }
 
@@ -107,7 +116,7 @@ ScreenContent ScreenText::content(const ScreenFacts& facts, const ScreenRows& st
   if (list_) return content;
   content.finger = fingerOf(facts);
   const bool shows_bar = showsBar(facts, now);
-  if (shows_bar) content.bar = bar(facts);
+  if (shows_bar) content.bar = bar(facts, now);
   if (shows_bar && facts.has_depth && !facts.haptic.empty()) {
     content.force_n = rounded(facts.force_n, kForceStepsPerN);
   }

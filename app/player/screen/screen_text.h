@@ -22,6 +22,8 @@ struct ScreenBar {
   bool has_length = false;
   std::vector<double> chapters;
   std::optional<double> loop_from, loop_to;
+  std::optional<double> pointed;  // by the mouse
+  std::string pointed_time;       // there
   bool operator==(const ScreenBar&) const = default;
 };
 
@@ -79,6 +81,8 @@ class ScreenText {
   // The list of films, and beside it warnings, notices and keys alone; nullopt: a film.
   void setList(std::optional<ScreenList> list) { list_ = std::move(list); }
   [[nodiscard]] bool hasList() const noexcept { return list_.has_value(); }
+  // The mouse is over this place of the bar, 0 to 1, or over none.
+  void point(std::optional<double> share, MonotonicTime now);
   void setChapters(std::vector<double> starts_s) { chapters_s_ = std::move(starts_s); }
 
   [[nodiscard]] bool showsBar(const ScreenFacts& facts, MonotonicTime now) const noexcept;
@@ -88,14 +92,15 @@ class ScreenText {
   [[nodiscard]] ScreenContent content(const ScreenFacts& facts, const ScreenRows& statistics, MonotonicTime now) const;
 
  private:
-  [[nodiscard]] ScreenBar bar(const ScreenFacts& facts) const;
+  [[nodiscard]] ScreenBar bar(const ScreenFacts& facts, MonotonicTime now) const;
 
   bool bar_ = false, statistics_ = false;
   ScreenRows keys_;
   MonotonicTime awake_until_;
   std::string why_, hint_;
   ScreenNotice notice_;
-  MonotonicTime told_until_, noticed_until_, hinted_until_;
+  MonotonicTime told_until_, noticed_until_, hinted_until_, pointed_until_;
+  std::optional<double> pointed_;
   std::vector<double> chapters_s_;
   std::optional<ScreenList> list_;
 };

@@ -24,25 +24,30 @@ bool ScreenWords::ready() {
   return false;
 }
 
+void ScreenWords::drawLines(const std::vector<std::string>& lines, const TextFrame& frame) {
+  if (lines.empty()) return;
+  text_->removeLines();
+  for (const std::string& line : lines) text_->add(line, Duration(0), std::chrono::hours(1));
+  TextFrame whole = frame;  // the display has the margins beside the picture as well
+  whole.margin_x = whole.margin_y = 0;
+  std::vector<TextPicture> drawn;
+  text_->draw(whole, Duration(0), drawn, true);
+  std::ranges::move(drawn, std::back_inserter(pictures_));
+}
+
 bool ScreenWords::draw(const ScreenContent& content, const TextFrame& frame) {
   if (content == drawn_ && frame_ == frame) return false;
   if (content.empty() && pictures_.empty()) return false;
-  const bool anew = !frame_.has_value();
   if (!ready()) return false;
   if (aspect_ != frame.aspect) text_->begin(screenHead(frame.aspect));
   aspect_ = frame.aspect;
-  text_->removeLines();
-  for (const std::string& line : screenLines(content, aspect_)) text_->add(line, Duration(0), std::chrono::hours(1));
   drawn_ = content;
   frame_ = frame;
-  TextFrame whole = frame;  // the display has the margins beside the picture as well
-  whole.margin_x = whole.margin_y = 0;
-  pictures_.resize(words_);  // posters are made anew
-  const bool changed = text_->draw(whole, Duration(0), pictures_, anew);
-  const bool had_posters = std::exchange(words_, pictures_.size()) < shown_;
+  pictures_.clear();
+  drawLines(screenLines(content, aspect_), frame);
   if (content.list) std::ranges::move(postersOf(*content.list, frame), std::back_inserter(pictures_));
-  shown_ = pictures_.size();
-  return changed || had_posters || shown_ > words_;
+  drawLines(linesOverPosters(content, aspect_), frame);
+  return true;
 }
 
 }  // namespace relievo

@@ -21,14 +21,14 @@ class ScreenWords {
 
  private:
   [[nodiscard]] bool ready();
+  void drawLines(const std::vector<std::string>& lines, const TextFrame& frame);
 
   std::optional<AssText> text_;
   bool gave_up_ = false;
   double aspect_ = 0;  // of the script
   ScreenContent drawn_;
   std::optional<TextFrame> frame_;
-  std::vector<TextPicture> pictures_;  // of words, then posters
-  std::size_t words_ = 0, shown_ = 0;  // of words; all
+  std::vector<TextPicture> pictures_;  // each over those before it
 };
 
 }  // namespace relievo

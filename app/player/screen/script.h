@@ -15,6 +15,7 @@ namespace relievo {
 
 // In the script's units; see screen_script.h.
 inline constexpr double kMargin = 40;
+inline constexpr double kHeadingTop = 24, kHeadingSize = 38;  // of a page that covers the film
 
 inline constexpr const char* kWhite = "FFFFFF";  // blue, green, red
 inline constexpr const char* kBlack = "000000";
@@ -54,9 +55,10 @@ class Script {
   std::vector<std::string> lines_;
 };
 
+inline constexpr double kLetterOfSize = 0.52;  // the mean width of a letter
+
 // How many letters of a font size find room in a width, about.
 inline int cellsIn(double width, double size) noexcept {
-  constexpr double kLetterOfSize = 0.52;  // the mean width of a letter
   return std::max(8, static_cast<int>(width / (kLetterOfSize * size)));
 }
 

@@ -98,15 +98,40 @@ bool SubtitleWords::drawPictures(const TextFrame& frame, MediaTime time) {
   return true;
 }
 
-bool SubtitleWords::draw(const TextFrame& frame, MediaTime time) {
-  const bool appears = shown_ && !std::exchange(was_shown_, shown_);
-  if (!shown_) {
+bool SubtitleWords::drawAll(const TextFrame& frame, MediaTime time, bool shown) {
+  const bool appears = shown && !std::exchange(was_shown_, shown);
+  if (!shown) {
+    was_shown_ = false;
     drawn_.reset();
     return !std::exchange(pictures_, {}).empty();
   }
   if (!with_pictures_.empty()) return drawPictures(frame, time);
   if (!text_) return false;
   return text_->draw(frame, time.time_since_epoch(), pictures_, appears);
+}
+
+// All in the lower half by the same way, so that lines keep their distance. `anew`: the pictures are at their places.
+bool SubtitleWords::lift(const TextFrame& frame, double down, bool anew) {
+  if (anew) lifted_ = 0;
+  const auto isLow = [&](const TextPicture& picture) {
+    return 2 * (picture.y + lifted_) + picture.height > frame.height;
+  };
+  int bottom = 0;
+  for (const TextPicture& picture : pictures_) {
+    if (isLow(picture)) bottom = std::max(bottom, picture.y + lifted_ + picture.height);
+  }
+  const int up = std::max(0, bottom - static_cast<int>(std::lround(down * frame.height)));
+  if (up == lifted_) return false;
+  for (TextPicture& picture : pictures_) {
+    if (isLow(picture)) picture.y -= up - lifted_;
+  }
+  lifted_ = up;
+  return true;
+}
+
+bool SubtitleWords::draw(const TextFrame& frame, MediaTime time, const SubtitleRoom& room) {
+  const bool changed = drawAll(frame, time, shown_ && !room.none);
+  return lift(frame, room.down, changed) || changed;
 }
 
 }  // namespace relievo

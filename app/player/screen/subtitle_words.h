@@ -16,6 +16,12 @@
 
 namespace relievo {
 
+// What the player's own display leaves of the view.
+struct SubtitleRoom {
+  bool none = false;  // a page covers all of it
+  double down = 1;    // free so far down, as a share of its height: what stands lower is lifted
+};
+
 // For one thread. Lines that come again after a seek are shown once. Without a font text stays away, and the log says
 // so once.
 class SubtitleWords {
@@ -25,7 +31,7 @@ class SubtitleWords {
   void forget();
   void show(bool shown) noexcept { shown_ = shown; }
   // True if the pictures differ from the last ones.
-  bool draw(const TextFrame& frame, MediaTime time);
+  bool draw(const TextFrame& frame, MediaTime time, const SubtitleRoom& room = {});
   [[nodiscard]] const std::vector<TextPicture>& pictures() const noexcept { return pictures_; }
 
  private:
@@ -33,6 +39,8 @@ class SubtitleWords {
   [[nodiscard]] bool ready();
   [[nodiscard]] const Subtitle* pictureAt(MediaTime time) const noexcept;
   bool drawPictures(const TextFrame& frame, MediaTime time);
+  bool drawAll(const TextFrame& frame, MediaTime time, bool shown);
+  bool lift(const TextFrame& frame, double down, bool anew);
 
   bool shown_ = true, was_shown_ = true;
   std::optional<AssText> text_;
@@ -42,6 +50,7 @@ class SubtitleWords {
   std::deque<Subtitle> with_pictures_;                    // ascending
   std::optional<std::pair<MediaTime, TextFrame>> drawn_;  // the one with pictures that is shown
   std::vector<TextPicture> pictures_;
+  int lifted_ = 0;  // by so many pixels, those in the lower half
 };
 
 }  // namespace relievo

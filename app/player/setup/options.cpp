@@ -161,7 +161,7 @@ DisplayConfig readSize(const std::string& word) {
 
 Duration readDuration(double seconds) {
   if (!(seconds > 0 && seconds <= kLongestDurationS)) {
-    throw WordFailure({"--duration", {ErrorCode::InvalidArgument, 0, kNoDuration}});
+    throw WordFailure({print("--duration %g", seconds), {ErrorCode::InvalidArgument, 0, kNoDuration}});
   }
   return fromSeconds(seconds);
 }

@@ -34,6 +34,10 @@ Outcome<void> settleDevices(PlayOptions& play, const Machine& machine, bool chos
     play.remote = window ? "window" : seen ? "evdev" : has(machine.terminal) ? "keys" : "none";
   if (play.audio.word.empty()) play.audio = seen ? "alsa" : "none";
   if (window && play.haptic.plain("pointer")) play.haptic.argument = "window";
+  play.player.has_mouse = window;
+  play.player.mouse_touches = play.haptic.with("pointer", "window");
+  const bool typed = play.remote.plain("window") || play.remote.plain("keys");
+  play.player.held = typed ? KeyBoard::Keyboard : KeyBoard::Remote;
   const auto none = [](const std::string& thing) {
     return failOn(thing, {ErrorCode::InvalidArgument, 0, "there is no window; add --display window"});
   };
@@ -73,6 +77,12 @@ Outcome<void> settlePlay(PlayOptions& play, const Machine& machine) {
   play.player.osd = play.osd || play.display.word != "offscreen";  // never in a capture unasked
   const bool chosen = !play.display.word.empty();
   settleDisplay(play, machine);
+  const bool seen = play.display.plain("window") || play.display.word == "kms";
+  if (play.player.source.url.empty() && !play.films.empty() && !seen && !play.player.stays) {
+    return failOn("--films", {ErrorCode::InvalidArgument, 0,
+                              "shows a list, and nobody sees it off screen; use --display window or kms, or add "
+                              "--control for a program to choose"});
+  }
   settleBrowser(play);
   if (play.player.source.url.empty() && !play.player.stays && !play.player.browser) {
     return failOn("SOURCE", {ErrorCode::InvalidArgument, 0,

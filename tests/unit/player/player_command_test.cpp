@@ -96,6 +96,21 @@ TEST(Command, WhatIsNoneIsNone) {
   }
 }
 
+TEST(Command, SaysWhichWordIsWrong) {
+  EXPECT_TRUE(whyNoCommand("dance").starts_with("unknown command \"dance\"; known are: play, "))
+      << whyNoCommand("dance");
+  EXPECT_EQ(whyNoCommand("select x"), "\"select\" takes +N|-N|N|last, not \"x\"");
+  EXPECT_EQ(whyNoCommand("select"), "\"select\" takes +N|-N|N|last: it is missing");
+  EXPECT_EQ(whyNoCommand("pause now"), "\"pause\" takes no word after it, such as \"now\"");
+}
+
+TEST(Command, ADelaySaysItsDirection) {
+  EXPECT_EQ(meaningOf({V::SubtitleDelayBy, -0.1}), "subtitles 0.1 s earlier");
+  EXPECT_EQ(meaningOf({V::SubtitleDelayBy, 0.1}), "subtitles 0.1 s later");
+  EXPECT_EQ(meaningOf({V::ScreenBy, 2}), "the scene 2 mm towards you");
+  EXPECT_EQ(meaningOf({V::DepthBy, -0.1}), "10 % less depth for the eyes");
+}
+
 TEST(Command, TheListOfWordsNamesEachOnce) {
   const std::string words = commandWords();
   EXPECT_NE(words.find("seek +S|-S|S|P%"), std::string::npos) << words;

@@ -149,11 +149,38 @@ TEST(KeyTable, TheListOfFilmsHasAFewKeys) {
   EXPECT_EQ(pressed(table, State::Browsing, KEY_ENTER), (PlayerCommand{PlayerVerb::Choose}));
   EXPECT_EQ(pressed(table, State::Browsing, KEY_STOP), std::nullopt);
   EXPECT_EQ(pressed(table, State::Playing, KEY_UP), (PlayerCommand{PlayerVerb::SeekBy, 60}));
-  const auto rows = table.rowsIn(State::Browsing);
+  EXPECT_EQ(pressed(table, State::Browsing, KEY_HOME), (PlayerCommand{PlayerVerb::SelectTo, 1}));
+  EXPECT_EQ(pressed(table, State::Browsing, KEY_END), (PlayerCommand{PlayerVerb::SelectTo}));
+  const auto rows = table.rowsIn(State::Browsing, KeyBoard::Remote);
   const auto meanings = rows | std::views::values;
   EXPECT_NE(std::ranges::find(meanings, "one film down"), meanings.end());
   EXPECT_EQ(std::ranges::find(meanings, "5 s forward"), meanings.end());
   EXPECT_LT(rows.size(), 20u);
+}
+
+// In the words of what the viewer has in hand.
+TEST(KeyTable, ThePageNamesKeysAsTheyAreLabelled) {
+  const KeyTable table = KeyTable::usual();
+  const auto keyOf = [&](State state, KeyBoard held, const std::string& meaning) {
+    for (const auto& [key, what] : table.rowsIn(state, held)) {
+      if (what == meaning) return key;
+    }
+    return std::string();
+  };
+  EXPECT_EQ(keyOf(State::Playing, KeyBoard::Keyboard, "pause, or go on"), "p, Space, Enter");
+  EXPECT_EQ(keyOf(State::Playing, KeyBoard::Remote, "pause, or go on"), "Play/Pause, OK");
+  EXPECT_EQ(keyOf(State::Playing, KeyBoard::Keyboard, "slower, down to 1/8, with touch"), "[");
+  EXPECT_EQ(keyOf(State::Playing, KeyBoard::Keyboard, "to 10 % .. 80 % of the film"), "1 .. 8");
+  EXPECT_EQ(keyOf(State::Playing, KeyBoard::Remote, "to 10 % .. 90 % of the film"), "1 .. 9");
+  EXPECT_EQ(keyOf(State::Playing, KeyBoard::Keyboard, "subtitles 0.1 s earlier"), "z");
+  EXPECT_EQ(keyOf(State::Playing, KeyBoard::Keyboard, "the scene 2 mm away from you"), "F4");
+  EXPECT_EQ(keyOf(State::Browsing, KeyBoard::Keyboard, "the last film"), "End");
+  EXPECT_EQ(keyOf(State::Browsing, KeyBoard::Keyboard, "play the selected film"), "Space, Right, Enter");
+  for (const auto& [key, what] : table.rowsIn(State::Playing, KeyBoard::Keyboard)) {
+    for (const char* remote : {"OK", "Channel", "Red", "BRACE", "NUMERIC"}) {
+      EXPECT_EQ(key.find(remote), std::string::npos) << key;
+    }
+  }
 }
 
 // The names that the help lists are those that a script takes.
@@ -168,7 +195,7 @@ TEST(KeyTable, HelpNamesEveryKeyAsScriptsDo) {
       ++names;
     }
   }
-  EXPECT_EQ(names, 102);
+  EXPECT_EQ(names, 103);
 }
 
 TEST(KeyTable, AFileChangesRowsAndLeavesTheRest) {

@@ -121,6 +121,15 @@ TEST(Report, TellsPeopleTheSameFigures) {
   EXPECT_THAT(toText(r, true), HasSubstr("p99 2.0 us"));
 }
 
+TEST(Report, SaysSoWhereNoTimeOfAFilmWasShown) {
+  PlayReport r = example();
+  EXPECT_THAT(toText(r), HasSubstr("film    2.00 s shown in 2.50 s, first picture after 123 ms"));
+  r.media_s = 0;
+  EXPECT_THAT(toText(r), HasSubstr("film    one picture stood for 2.50 s, after 123 ms"));
+  r.frames_shown = 0;
+  EXPECT_THAT(toText(r), HasSubstr("film    no picture was shown in 2.50 s"));
+}
+
 TEST(Report, AFilmWithoutDepthHasNothingToFeel) {
   PlayReport r = example();
   r.film.has_depth = false;

@@ -125,6 +125,18 @@ TEST(ScreenText, ForceChaptersAndBufferAreSharesOfWhatIsShown) {
   EXPECT_EQ(content.bar->chapters, (std::vector<double>{0, 0.25}));
 }
 
+TEST(ScreenText, TellsTheTimeUnderTheMouseWhileItIsOverTheBar) {
+  ScreenText text;
+  text.wake(kStart);
+  text.point(0.5, kStart);
+  const auto bar = at(text, playing()).bar;
+  ASSERT_TRUE(bar);
+  EXPECT_EQ(bar->pointed, 0.5);
+  EXPECT_EQ(bar->pointed_time, "31:02") << "3725 s by 2";
+  text.point(std::nullopt, kStart);
+  EXPECT_FALSE(at(text, playing()).bar->pointed);
+}
+
 TEST(ScreenText, MarksAFingerBesideThePictureAlone) {
   const ScreenText text;
   ScreenFacts facts = playing();

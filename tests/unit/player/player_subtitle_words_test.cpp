@@ -84,6 +84,44 @@ TEST(SubtitleWords, PicturesOfWordsLieOnTheFilmsPictureUntilTheNext) {
   EXPECT_TRUE(words.pictures().empty());
 }
 
+// A bar that begins 30 rows above the foot lifts both lines by the same way, and nothing in the upper half.
+TEST(SubtitleWords, AreLiftedOverTheBarAndComeDownAgain) {
+  FONT_OR_SKIP();
+  SubtitleWords words;
+  words.add(said("{\\an2\\pos(320,350)}low", 1, 9));
+  words.add(said("{\\an2\\pos(320,250)}higher", 1, 9));
+  words.add(said("{\\an8\\pos(320,10)}top", 1, 9));
+  ASSERT_TRUE(words.draw(kFrame, mediaTime(2)));
+  std::vector<int> before;
+  int bottom = 0;
+  for (const TextPicture& picture : words.pictures()) {
+    before.push_back(picture.y);
+    bottom = std::max(bottom, picture.y + picture.height);
+  }
+  ASSERT_EQ(before.size(), 3u);
+  const SubtitleRoom room{.down = 330.0 / 360};
+  EXPECT_TRUE(words.draw(kFrame, mediaTime(2), room));
+  EXPECT_FALSE(words.draw(kFrame, mediaTime(2), room)) << "the same";
+  const int up = bottom - 330;
+  ASSERT_GT(up, 5);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(words.pictures()[i].y, before[i] - (before[i] > 180 ? up : 0));
+  }
+  EXPECT_TRUE(words.draw(kFrame, mediaTime(2)));
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(words.pictures()[i].y, before[i]);
+}
+
+TEST(SubtitleWords, StayAwayUnderAPageThatCoversTheFilm) {
+  FONT_OR_SKIP();
+  SubtitleWords words;
+  words.add(said("hello", 1, 9));
+  ASSERT_TRUE(words.draw(kFrame, mediaTime(2)));
+  EXPECT_TRUE(words.draw(kFrame, mediaTime(2), {.none = true}));
+  EXPECT_TRUE(words.pictures().empty());
+  EXPECT_TRUE(words.draw(kFrame, mediaTime(2)));
+  EXPECT_FALSE(words.pictures().empty());
+}
+
 // ffmpeg reads what was written.
 TEST(PngFile, OtherProgramsReadItToTheBit) {
   const test::TemporaryFolder folder;

@@ -56,6 +56,21 @@ TEST(FilmShelf, TheSelectedFilmStaysSelectedWhenOthersComeAndGo) {
   EXPECT_TRUE(shelf.empty());
 }
 
+// What was seen to its end is no longer among the recent ones: the row stays, not the film.
+TEST(FilmShelf, TheRowStaysSelectedWhenItsFilmLeavesTheSection) {
+  FilmShelf shelf;
+  const std::vector<ShelfFilm> videos{film("a"), film("b"), film("c"), film("d")};
+  shelf.put({{"Recent", {film("d"), film("c"), film("b")}}, {"Videos", videos}});
+  shelf.select(1);
+  shelf.put({{"Recent", {film("d"), film("b")}}, {"Videos", videos}});
+  EXPECT_EQ(shelf.selected(), 1u);
+  EXPECT_EQ(shelf.film(1).title, "b");
+  shelf.put({{"Recent", {film("d")}}, {"Videos", videos}});
+  EXPECT_EQ(shelf.selected(), 0u) << "the section's last row";
+  shelf.put({{"Videos", videos}});
+  EXPECT_EQ(shelf.film(shelf.selected()).title, "d") << "the section has gone: the film in its folder";
+}
+
 TEST(ShelfView, TellsWhereAFilmWasLeft) {
   ShelfFilm one = film("a");
   EXPECT_EQ(timesOf(one, 0), "");
@@ -110,16 +125,22 @@ TEST(ShelfView, ARowHasItsPosterAndHowMuchWasSeen) {
   ShelfFilm left = film("a");
   left.left_s = 30;
   left.folder = "Holidays";
-  shelf.put({{"Videos", {left, film("b")}}});
+  shelf.put({{"Videos", {left, film("b"), film("broken")}}});
   auto poster = std::make_shared<Poster>();
   poster->length_s = 120;
   poster->picture = {0, 0, 1, 1, 1, 1, {1, 2, 3, 255}};
-  const ScreenList list = viewOf(shelf, [&](const std::string& url) { return url == "/v/a" ? poster : nullptr; }, "");
-  ASSERT_THAT(list.rows, SizeIs(3));
+  const auto none = std::make_shared<Poster>();
+  const auto poster_of = [&](const std::string& url) {
+    return url == "/v/a" ? poster : url == "/v/broken" ? none : nullptr;
+  };
+  const ScreenList list = viewOf(shelf, poster_of, "");
+  ASSERT_THAT(list.rows, SizeIs(4));
   EXPECT_EQ(list.rows[1].detail, "0:30 of 2:00   Holidays");
   EXPECT_DOUBLE_EQ(list.rows[1].left.value_or(0), 0.25);
   EXPECT_EQ(list.rows[1].picture.get(), &poster->picture);
   EXPECT_EQ(list.rows[2].picture, nullptr);
+  EXPECT_EQ(list.rows[2].in_poster, "") << "not yet";
+  EXPECT_EQ(list.rows[3].in_poster, "cannot be read");
 }
 
 TEST(ShelfView, WithoutFilmsItSaysSo) {

@@ -21,9 +21,9 @@ ScreenList list() {
   ScreenList list;
   list.films = 2;
   list.selected = 1;
-  list.rows = {{.title = "Videos", .detail = "", .film = {}, .top = 80, .left = {}, .picture = nullptr},
-               {.title = "one", .detail = "0:30 of 2:00", .film = 0, .top = 126, .left = 0.25, .picture = nullptr},
-               {.title = "{\\fs9}", .detail = "", .film = 1, .top = 222, .left = {}, .picture = nullptr}};
+  list.rows = {{.title = "Videos", .top = 80},
+               {.title = "one", .detail = "0:30 of 2:00", .film = 0, .top = 126, .left = 0.25},
+               {.title = "{\\fs9}", .film = 1, .top = 222}};
   return list;
 }
 
@@ -46,6 +46,20 @@ TEST(ListScript, SaysItsTitlesAsTheyAre) {
   EXPECT_THAT(lines, Contains(HasSubstr("}0:30 of 2:00")));
   EXPECT_THAT(lines, Contains(HasSubstr("}\\{\\\u2060fs9}")));
   EXPECT_THAT(lines, Contains(HasSubstr("}2 of 2")));
+}
+
+// Over the posters, and beside the heading.
+TEST(ListScript, NoticesAndWarningsLieOverThePosters) {
+  ScreenContent content;
+  content.list = list();
+  const auto under = screenLines(content, kAspect);
+  EXPECT_THAT(linesOverPosters(content, kAspect), SizeIs(0));
+  content.notice = ScreenNotice{"Volume 80 %", 0.6};
+  content.warning = "a.mkv: damaged";
+  EXPECT_EQ(screenLines(content, kAspect), under);
+  const auto over = linesOverPosters(content, kAspect);
+  EXPECT_THAT(over, Contains(HasSubstr("}Volume 80 %")));
+  EXPECT_THAT(over, Contains(HasSubstr("}a.mkv: damaged")));
 }
 
 TEST(ListScript, WithoutFilmsItSaysOneSentence) {

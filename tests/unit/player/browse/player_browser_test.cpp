@@ -43,6 +43,23 @@ class PlayerWithAList : public testing::Test {
     ASSERT_TRUE(played) << played.error().thing << ": " << played.error().error.message;
   }
 
+  // What a program is told that says this in the list.
+  std::vector<json> answersTo(std::initializer_list<const char*> sayings) {
+    std::vector<json> answers;
+    auto socket = ControlSocket::listen(folder_ / "control");
+    if (!socket) return answers;
+    PlayerControl control(std::move(*socket), [](std::string_view, std::string_view) { return Result<void>{}; });
+    bench_.control = &control;
+    test::ControlClient client(folder_ / "control");
+    for (const char* words : sayings) client.say(words);
+    play();
+    while (auto line = client.next(std::chrono::milliseconds(0))) {
+      if (line->contains("ok")) answers.push_back(*line);
+    }
+    bench_.control = nullptr;
+    return answers;
+  }
+
   test::TemporaryFolder folder_;
   PlayerBench bench_;
 };
@@ -104,17 +121,7 @@ TEST_F(PlayerWithAList, PowerPutsABoxToRestAndBackWakesIt) {
 }
 
 TEST_F(PlayerWithAList, ProgramsSeeItAndChooseFromIt) {
-  auto socket = ControlSocket::listen(folder_ / "control");
-  ASSERT_TRUE(socket);
-  PlayerControl control(std::move(*socket), [](std::string_view, std::string_view) { return Result<void>{}; });
-  bench_.control = &control;
-  test::ControlClient client(folder_ / "control");
-  for (const char* words : {"select +1", "status", "select 1", "choose", "status", "back", "quit"}) client.say(words);
-  play();
-  std::vector<json> answers;
-  while (auto line = client.next(std::chrono::milliseconds(0))) {
-    if (line->contains("ok")) answers.push_back(*line);
-  }
+  const auto answers = answersTo({"select +1", "status", "select 1", "choose", "status", "back", "quit"});
   ASSERT_EQ(answers.size(), 7u);
   const json list = answers[1]["list"];
   EXPECT_EQ(answers[1]["state"], "browsing");
@@ -125,6 +132,33 @@ TEST_F(PlayerWithAList, ProgramsSeeItAndChooseFromIt) {
   EXPECT_EQ(answers[4]["state"], "opening");
   EXPECT_TRUE(answers[4]["list"].is_null());
   EXPECT_EQ(bench_.states(), "boot idle browsing opening idle browsing idle");
+}
+
+TEST_F(PlayerWithAList, ProgramsAreToldWhatCannotBeDoneAndWhy) {
+  const auto answers = answersTo({"select x", "select 99", "pause", "seek +5", "select last", "status", "choose",
+                                  "select 1", "next", "back", "quit"});
+  ASSERT_EQ(answers.size(), 11u);
+  const auto why = [&](std::size_t line) { return answers[line].value("error", ""); };
+  EXPECT_EQ(why(0), "\"select\" takes +N|-N|N|last, not \"x\"");
+  EXPECT_EQ(why(1), "there is no film 99; the list has 2");
+  EXPECT_EQ(why(2), "no film is open; choose one");
+  EXPECT_EQ(why(3), "no film is open; choose one");
+  EXPECT_EQ(answers[4], (json{{"ok", true}}));
+  EXPECT_EQ(answers[5]["list"]["selected"], 2);
+  EXPECT_EQ(why(7), "the list of films is not shown") << "a film is played";
+  EXPECT_EQ(why(8), "no next film: this one is played alone");
+  for (const std::size_t line : {0, 1, 2, 3, 7, 8}) EXPECT_EQ(answers[line]["ok"], false) << line;
+}
+
+TEST_F(PlayerWithAList, EndGoesToTheLastFilmAndHomeToTheFirst) {
+  film("c.mkv", 100);
+  bench_.press(1, KEY_END);
+  bench_.press(1.2, KEY_HOME);
+  bench_.press(1.6, KEY_END);
+  bench_.press(2, KEY_ENTER);
+  bench_.press(10, KEY_Q);
+  play();
+  EXPECT_THAT(bench_.report.films, ElementsAre(videos() + "/c.mkv"));
 }
 
 TEST(BrowserAlone, SaysWhatToDoWithoutFilms) {

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where libass puts the display's words: inside the view, none over another, in views of every size and shape.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "app/player/control/key_table.h"
+#include "app/player/screen/screen_script.h"
+#include "app/render/text/ass_text.h"
+#include "tests/support/film/long_names.h"
+
+namespace relievo {
+namespace {
+
+struct Words {
+  std::string line;
+  int left = 1 << 20, top = 1 << 20, right = 0, bottom = 0;
+};
+
+class ScreenLayout : public testing::TestWithParam<TextFrame> {
+ protected:
+  void SetUp() override {
+    auto made = AssText::create();
+    if (!made) GTEST_SKIP() << made.error().message;
+    text_.emplace(std::move(*made));
+  }
+  // The letters of each text, drawn alone. Shapes are left out.
+  std::vector<Words> inkOf(const std::vector<std::string>& lines) {
+    std::vector<Words> all;
+    for (const std::string& line : lines) {
+      if (line.find("\\p1}") != std::string::npos) continue;
+      text_->begin(screenHead(GetParam().aspect));
+      text_->add(line, Duration(0), std::chrono::hours(1));
+      std::vector<TextPicture> pictures;
+      text_->draw(GetParam(), Duration(0), pictures, true);
+      Words words{.line = line};
+      for (const TextPicture& picture : pictures) grow(words, picture);
+      all.push_back(std::move(words));
+    }
+    return all;
+  }
+  // Without the black outline, which may lie over that of the next line.
+  static void grow(Words& words, const TextPicture& picture) {
+    for (int y = 0; y < picture.height; ++y) {
+      for (int x = 0; x < picture.width; ++x) {
+        const std::uint8_t* rgba = &picture.rgba[4 * (static_cast<std::size_t>(y) * picture.width + x)];
+        if (std::max({rgba[0], rgba[1], rgba[2]}) < 64) continue;
+        words.left = std::min(words.left, picture.x + x);
+        words.top = std::min(words.top, picture.y + y);
+        words.right = std::max(words.right, picture.x + x + 1);
+        words.bottom = std::max(words.bottom, picture.y + y + 1);
+      }
+    }
+  }
+  void expectApart(const std::vector<Words>& all) const {
+    for (auto a = all.begin(); a != all.end(); ++a) {
+      EXPECT_TRUE(a->left >= 0 && a->top >= 0 && a->right <= GetParam().width && a->bottom <= GetParam().height)
+          << a->line << " is not all in the view: " << a->left << ".." << a->right << ", " << a->top << ".."
+          << a->bottom;
+      for (auto b = a + 1; b != all.end(); ++b) {
+        const bool apart = a->right <= b->left || b->right <= a->left || a->bottom <= b->top || b->bottom <= a->top;
+        EXPECT_TRUE(apart) << a->line << "\n  and\n" << b->line;
+      }
+    }
+  }
+  void expectApart(const ScreenContent& content) {
+    std::vector<std::string> lines = screenLines(content, GetParam().aspect);
+    for (std::string& line : linesOverPosters(content, GetParam().aspect)) lines.push_back(std::move(line));
+    const auto words = inkOf(lines);
+    EXPECT_GT(words.size(), 2u);
+    expectApart(words);
+  }
+  [[nodiscard]] bool narrow() const { return GetParam().aspect < 0.9; }
+
+  std::optional<AssText> text_;
+};
+
+TEST_P(ScreenLayout, AFilmsWordsDoNotMeet) {
+  for (const char* title : {"film.mkv", test::kLongName, test::kJapaneseName, test::kArabicName}) {
+    ScreenContent content;
+    content.bar = ScreenBar{.title = title,
+                            .times = "1:01:23 / 1:02:05   paused   1/8x   film 12 of 345   again and again",
+                            .status = "3D: mono, flat: the film has no depth   touch: Novint Falcon, nothing to feel",
+                            .has_length = true,
+                            .pointed = 0.999,
+                            .pointed_time = "1:02:00"};
+    content.force_n = 9.9;
+    content.notice = ScreenNotice{std::string("Saved /home/somebody/Pictures/") + title, 0.5};
+    content.warning = std::string(title) + ": not one picture of its video could be decoded; it is empty or damaged";
+    content.hint = "Press into the picture to feel it.  h: all keys";
+    if (!narrow()) expectApart(content);
+    content.hint.clear();
+    content.warning.clear();
+    content.statistics = {{"rate", "29.9 of 30.00 frames/s, 0 dropped"},
+                          {"picture", "1920x1080 h264, depth 1920x1080 h264"},
+                          {"decoder", "ffmpeg"},
+                          {"drawing", "12.3 ms, 12345 triangles, error 0.50 px"},
+                          {"tick", "1000 Hz, 12.3 us, 99.9 % under 45.6 us, 0 late"},
+                          {"force", "1.23 N, at most 4.56 N"}};
+    expectApart(content);
+  }
+}
+
+TEST_P(ScreenLayout, TheListsWordsDoNotMeet) {
+  ScreenContent content;
+  content.list =
+      ScreenList{.rows = {{.title = "Recent", .top = 80},
+                          {.title = "broken", .film = 0, .top = 126, .in_poster = "cannot be read"},
+                          {.title = test::kLongName, .detail = "12:31 of 1:02:10   Holidays", .film = 1, .top = 222},
+                          {.title = test::kJapaneseName, .film = 2, .top = 318},
+                          {.title = test::kArabicName, .film = 3, .top = 414}},
+                 .selected = 1,
+                 .films = 100};
+  if (!narrow()) content.notice = ScreenNotice{"Show stereo as frame-packing for a screen that takes it", 0.5};
+  expectApart(content);
+  content.notice.reset();
+  content.warning = std::string(test::kLongName) + ": cannot be read";
+  expectApart(inkOf(linesOverPosters(content, GetParam().aspect)));
+}
+
+TEST_P(ScreenLayout, ThePageOfKeysHasEveryWordOfEveryKey) {
+  for (const KeyBoard held : {KeyBoard::Keyboard, KeyBoard::Remote}) {
+    for (const PlayerState state : {PlayerState::Playing, PlayerState::Browsing}) {
+      ScreenContent content;
+      content.keys = mouseRows(state == PlayerState::Browsing, true);
+      for (auto& row : KeyTable::usual().rowsIn(state, held)) content.keys.push_back(std::move(row));
+      if (!narrow()) content.notice = ScreenNotice{"Volume 100 %", 0.5};
+      for (const std::string& line : screenLines(content, GetParam().aspect)) {
+        EXPECT_EQ(line.find("…"), std::string::npos) << line;
+      }
+      expectApart(content);
+    }
+  }
+}
+
+// Subtitles are lifted to where the bar's ground begins, which is above all its words.
+TEST_P(ScreenLayout, NothingOfTheBarIsInTheSubtitlesRoom) {
+  ScreenContent content;
+  EXPECT_EQ(roomForWords(content, GetParam().aspect), 1);
+  content.bar =
+      ScreenBar{.title = test::kLongName, .times = "0:01", .has_length = true, .pointed = 0.5, .pointed_time = "1"};
+  const double room = roomForWords(content, GetParam().aspect) * GetParam().height;
+  EXPECT_GT(room, 0.6 * GetParam().height);
+  for (const Words& words : inkOf(screenLines(content, GetParam().aspect))) EXPECT_GE(words.top, room) << words.line;
+}
+
+constexpr double kWide = 16.0 / 9;
+INSTANTIATE_TEST_SUITE_P(Views, ScreenLayout,
+                         testing::Values(TextFrame{.width = 1280, .height = 720, .aspect = kWide},
+                                         TextFrame{.width = 3840, .height = 2160, .aspect = kWide},
+                                         TextFrame{.width = 640, .height = 720, .aspect = kWide},
+                                         TextFrame{.width = 1280, .height = 360, .aspect = kWide},
+                                         TextFrame{.width = 640, .height = 480, .aspect = 4.0 / 3},
+                                         TextFrame{.width = 1920, .height = 817, .aspect = 2.35},
+                                         TextFrame{.width = 600, .height = 600, .aspect = 1},
+                                         TextFrame{.width = 405, .height = 720, .aspect = 9.0 / 16}));
+
+}  // namespace
+}  // namespace relievo
