@@ -24,6 +24,12 @@ struct StereoSignals {
            (signal == StereoSignal::TopAndBottom && top_and_bottom) ||
            (signal == StereoSignal::FramePacking && frame_packing);
   }
+  // Frame packing has both eyes in full; top and bottom keeps the columns, in which the eyes differ.
+  [[nodiscard]] StereoSignal best() const noexcept {
+    if (frame_packing) return StereoSignal::FramePacking;
+    if (top_and_bottom) return StereoSignal::TopAndBottom;
+    return side_by_side_half ? StereoSignal::SideBySideHalf : StereoSignal::None;
+  }
 };
 
 struct DisplayCapabilities {
@@ -37,6 +43,7 @@ struct DisplayConfig {
   int width = 1280;  // requested; DisplaySurface has the actual size
   int height = 720;
   StereoSignal stereo = StereoSignal::None;  // requested; DisplaySurface has the signal that is sent
+  bool other_stereo = false;                 // where the screen does not support it: the best that it does
   bool film_size = false;                    // a window takes the size of each film instead (see `announce`)
 };
 
@@ -81,8 +88,8 @@ struct DisplaySurface {
   int width = 0;
   int height = 0;
   StereoSignal stereo = StereoSignal::None;  // sent with the picture
-  // For frame packing only, one tall picture: the left eye's rows on top, then this many black ones, then the right
-  // eye's.
+  // For frame packing only. Over 0: one tall picture, the left eye's rows on top, then this many black ones, then the
+  // right eye's. 0: both eyes side by side, the left one's on the left, each in full.
   int eye_gap_rows = 0;
 };
 
@@ -98,8 +105,8 @@ class Display {
   virtual ~Display() = default;
 
   // Unsupported, with the reason, without such a display or GLES 3, and for frame packing on a screen that does not
-  // support it, since no other layout has its size. NotFound if the display exists but no screen is connected: try
-  // again later.
+  // support it, since no other layout has its size, unless `other_stereo` is set. NotFound if the display exists but no
+  // screen is connected: try again later.
   [[nodiscard]] Result<void> open(const DisplayConfig& config);
   // Makes the GL context current and binds the framebuffer.
   [[nodiscard]] Result<DisplaySurface> beginFrame();
@@ -127,6 +134,9 @@ class Display {
   [[nodiscard]] State state() const noexcept { return state_; }
   // The same in every state, except for the values known only from `open` on.
   [[nodiscard]] virtual DisplayCapabilities capabilities() const noexcept = 0;
+  // For people, known from `open` on: the screen and the mode that the first frame sets. Empty: there is nothing to
+  // say.
+  [[nodiscard]] virtual std::string description() const { return {}; }
 
  protected:
   [[nodiscard]] bool tellMouse(const SurfaceMouse& mouse) const { return mouse_listener_ && mouse_listener_(mouse); }

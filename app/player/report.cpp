@@ -51,6 +51,7 @@ Json videoPart(const PlayReport& r) {
           {"time_jumps", r.pairs.jumps},
           {"first_frame_ms", orNull(r.first_frame_ms)},
           {"display", r.display},
+          {"mode", r.display_mode},
           {"stereo", r.stereo},
           {"surface", {r.surface_width, r.surface_height}},
           {"color_planes", r.imported ? "dma-buf" : "uploaded"},

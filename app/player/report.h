@@ -35,7 +35,7 @@ struct PlayReport {
   double wall_s = 0;
   double media_s = 0;  // shown, pauses left out
 
-  std::string display;
+  std::string display, display_mode;
   std::string stereo;
   int surface_width = 0, surface_height = 0;
   bool imported = false;      // the last picture's colour, from dma-bufs

@@ -49,6 +49,7 @@ class KmsDisplay final : public Display {
   [[nodiscard]] DisplayCapabilities capabilities() const noexcept override {
     return {.name = "kms", .gles = true, .refresh_period = refresh_period_, .stereo = stereo_signals_};
   }
+  [[nodiscard]] std::string description() const override { return description_; }
 
  private:
   Result<void> openDisplay(const DisplayConfig& config) override;
@@ -65,6 +66,7 @@ class KmsDisplay final : public Display {
   // The card and its GL stay open when screens come and go.
   UniqueFd card_;
   std::unique_ptr<kms::CardGl> gl_;
+  kms::Packing packing_ = kms::Packing::Tall;
 
   MonotonicClock clock_;  // the clock of the kernel's flip events
   std::unique_ptr<kms::Screen> screen_;
@@ -75,6 +77,7 @@ class KmsDisplay final : public Display {
   DisplaySurface surface_;
   Duration refresh_period_{0};
   StereoSignals stereo_signals_;
+  std::string description_;
   MonotonicTime next_look_;
 };
 
@@ -110,23 +113,25 @@ Result<kms::Connector> KmsDisplay::findConnector() {
   auto gl = kms::CardGl::start(card_.get());
   if (!gl) return std::unexpected(gl.error());
   gl_ = std::move(*gl);
+  packing_ = kms::packingOf(kms::driverOf(card_.get()));
   return std::move(found->connector);
 }
 
 Result<void> KmsDisplay::chooseMode(const kms::Connector& connector, DisplayConfig config) {
   stereo_signals_ = kms::stereoSignals(connector.modes);
   if (!stereo_signals_.has(config.stereo)) {
-    if (config.stereo == StereoSignal::FramePacking) {
+    if (config.stereo == StereoSignal::FramePacking && !config.other_stereo) {
       return fail(ErrorCode::Unsupported,
                   "the screen does not support frame packing; use --stereo sbs, or see relievo devices");
     }
-    config.stereo = StereoSignal::None;
+    config.stereo = config.other_stereo ? stereo_signals_.best() : StereoSignal::None;
   }
   const drmModeModeInfo* mode = kms::chooseMode(connector.modes, config);
   if (mode == nullptr) return fail(ErrorCode::Unsupported, "the screen has only interlaced modes; use another screen");
   mode_ = *mode;
   refresh_period_ = kms::refreshPeriod(mode_);
-  const kms::ScanOut size = kms::scanOut(mode_);
+  description_ = connector.name + ", " + kms::wordsOf(mode_, packing_);
+  const kms::ScanOut size = kms::scanOut(mode_, packing_);
   surface_ = {.framebuffer = 0,
               .width = size.width,
               .height = size.height,
@@ -156,7 +161,7 @@ Result<Duration> KmsDisplay::showFrame() {
     if (auto flipped = screen_->flip(*framebuffer); !flipped) return std::unexpected(flipped.error());
     return untilRefresh();
   }
-  if (auto set = screen_->setMode(mode_, *framebuffer); !set) return std::unexpected(set.error());
+  if (auto set = screen_->setMode(mode_, packing_, *framebuffer); !set) return std::unexpected(set.error());
   mode_is_set_ = true;
   return Duration(0);
 }

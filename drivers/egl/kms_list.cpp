@@ -9,24 +9,13 @@
 namespace relievo {
 namespace {
 
-std::string wordsOf(const StereoSignals& stereo) {
-  std::string words;
-  const auto add = [&words](bool has, const char* word) {
-    if (has) words += (words.empty() ? "" : ", ") + std::string(word);
-  };
-  add(stereo.frame_packing, "frame packing");
-  add(stereo.side_by_side_half, "side by side");
-  add(stereo.top_and_bottom, "top and bottom");
-  return words.empty() ? "no 3D signals" : "3D signals: " + words;
-}
-
 std::string wordsOf(const kms::Connector& connector) {
   const drmModeModeInfo* mode = kms::chooseMode(connector.modes, {.width = 0, .height = 0});
   if (mode == nullptr) return connector.name + ": only interlaced modes, which are not supported";
   char text[80];
   std::snprintf(text, sizeof text, "%dx%d at %.2f Hz, %zu modes; ", mode->hdisplay, mode->vdisplay,
                 1 / toSeconds(kms::refreshPeriod(*mode)), connector.modes.size());
-  return connector.name + ": " + text + wordsOf(kms::stereoSignals(connector.modes));
+  return connector.name + ": " + text + kms::wordsOf(kms::stereoSignals(connector.modes));
 }
 
 }  // namespace

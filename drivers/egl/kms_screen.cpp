@@ -13,8 +13,6 @@
 #include <filesystem>
 #include <utility>
 
-#include "drivers/egl/kms_mode.h"
-
 namespace relievo::kms {
 namespace {
 
@@ -31,6 +29,7 @@ struct Free {
   void operator()(drmModePlane* one) const noexcept { drmModeFreePlane(one); }
   void operator()(drmModeObjectProperties* all) const noexcept { drmModeFreeObjectProperties(all); }
   void operator()(drmModePropertyRes* one) const noexcept { drmModeFreeProperty(one); }
+  void operator()(drmVersion* one) const noexcept { drmFreeVersion(one); }
 };
 template <class T>
 std::unique_ptr<T, Free> own(T* object) {
@@ -110,6 +109,12 @@ Result<UniqueFd> openCard(const std::string& path) {
   return card;
 }
 
+std::string driverOf(int card) {
+  const auto version = own(drmGetVersion(card));
+  if (version == nullptr || version->name == nullptr) return {};
+  return {version->name, static_cast<std::size_t>(version->name_len)};
+}
+
 std::vector<Connector> readConnectors(int card, bool probe) {
   std::vector<Connector> connectors;
   const auto resources = own(drmModeGetResources(card));
@@ -156,13 +161,14 @@ Result<void> Screen::findParts(std::uint32_t connector_id) {
   return fail(ErrorCode::Unsupported, "the card has no free CRTC or plane for this screen; use another of its screens");
 }
 
-Result<void> Screen::setMode(const drmModeModeInfo& mode, std::uint32_t framebuffer) {
+Result<void> Screen::setMode(const drmModeModeInfo& mode, Packing packing, std::uint32_t framebuffer) {
   if (mode_blob_ != 0) drmModeDestroyPropertyBlob(card_, std::exchange(mode_blob_, 0U));
   if (drmModeCreatePropertyBlob(card_, &mode, sizeof mode, &mode_blob_) != 0) {
     return fail(ErrorCode::Exhausted, "the card cannot store the mode; choose another --size", errno);
   }
-  const ScanOut size = scanOut(mode);
-  const auto width = static_cast<std::uint64_t>(size.width), height = static_cast<std::uint64_t>(size.height);
+  const ScanOut size = scanOut(mode, packing);
+  const auto width = static_cast<std::uint64_t>(size.plane_width),
+             height = static_cast<std::uint64_t>(size.plane_height);
   const std::unique_ptr<drmModeAtomicReq, Free> request(drmModeAtomicAlloc());
   if (request == nullptr) return fail(ErrorCode::Exhausted, "no memory to set the screen's mode; close other programs");
   drmModeAtomicAddProperty(request.get(), connector_, connector_crtc_, crtc_);

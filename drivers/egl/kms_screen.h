@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/egl/kms_mode.h"
 #include "platform/clock.h"
 #include "platform/error.h"
 #include "platform/unique_fd.h"
@@ -28,6 +29,8 @@ struct Connector {
   bool connected = false;
   std::vector<drmModeModeInfo> modes;
 };
+// The name of the card's driver in the kernel: "amdgpu", "vc4". Empty if it does not say.
+[[nodiscard]] std::string driverOf(int card);
 // With `probe`, the kernel asks the screens, up to a tenth of a second each; without, its last known state is read.
 [[nodiscard]] std::vector<Connector> readConnectors(int card, bool probe);
 
@@ -43,9 +46,9 @@ class Screen {
   Screen(const Screen&) = delete;
   Screen& operator=(const Screen&) = delete;
 
-  // The only commit that may blank the screen; waits until it is done. `framebuffer` must have the mode's scan-out
-  // size.
-  [[nodiscard]] Result<void> setMode(const drmModeModeInfo& mode, std::uint32_t framebuffer);
+  // The only commit that may blank the screen; waits until it is done. `framebuffer` must have the size that
+  // scanOut(mode, packing) says.
+  [[nodiscard]] Result<void> setMode(const drmModeModeInfo& mode, Packing packing, std::uint32_t framebuffer);
   // Shows `framebuffer` at the next refresh, without waiting. InvalidState while another flip is pending.
   [[nodiscard]] Result<void> flip(std::uint32_t framebuffer);
   // Waits for a pending flip. Lost if it takes over `longest`.

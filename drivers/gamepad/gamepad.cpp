@@ -3,10 +3,10 @@
 #include "drivers/gamepad/gamepad.h"
 
 #include <algorithm>
-#include <array>
 #include <glm/vec2.hpp>
 #include <utility>
 
+#include "drivers/evdev/event_reports.h"
 #include "drivers/gamepad/effect_player.h"
 #include "drivers/gamepad/pad_controls.h"
 #include "drivers/gamepad/pad_effects.h"
@@ -17,8 +17,6 @@
 namespace relievo {
 namespace {
 
-constexpr std::size_t kEventsARead = 64;
-constexpr int kReadsATick = 4;
 constexpr double kLongestStepS = 0.02;
 constexpr std::int32_t kFull = 0xffff;
 
@@ -80,9 +78,7 @@ class Gamepad final : public HapticDevice {
     finger_ = PadFinger(motors_.axes);
     force_n_ = {};
     now_ = last_write_ = clock_.now();
-    for (int i = 0; i < kReadsATick; ++i) {
-      if (auto taken = takeEvents(); !taken) return std::unexpected(taken.error());
-    }
+    if (auto followed = followEvents(); !followed) return followed;
     if (auto known = askForState(); !known) return known;
     // Not every driver knows them; those that do not ignore them.
     if (has_gain_) static_cast<void>(port_->send(FF_GAIN, kFull));
@@ -96,11 +92,7 @@ class Gamepad final : public HapticDevice {
     const MonotonicTime now = clock_.now();
     const double elapsed_s = std::clamp(toSeconds(now - now_), 0.0, kLongestStepS);
     now_ = now;
-    for (int i = 0; i < kReadsATick; ++i) {
-      const auto taken = takeEvents();
-      if (!taken) return std::unexpected(taken.error());
-      if (*taken < kEventsARead) break;
-    }
+    if (auto followed = followEvents(); !followed) return std::unexpected(followed.error());
     if (auto alive = player_.check(now); !alive) return std::unexpected(alive.error());
     if (now - last_write_ > EffectPlayer::kWatchdog) force_n_ = {};
     const glm::dvec3 finger_mm = finger_.move(controls_.stick(), controls_.pull(), force_n_, elapsed_s);
@@ -129,25 +121,10 @@ class Gamepad final : public HapticDevice {
     if (has_centring_) static_cast<void>(port_->send(FF_AUTOCENTER, kFull));
   }
 
-  Result<std::size_t> takeEvents() RELIEVO_RT {
-    std::array<input_event, kEventsARead> events;
-    const auto taken = port_->take(events);
-    if (!taken) return taken;
-    for (std::size_t i = 0; i < *taken; ++i) {
-      if (auto followed = follow(events[i]); !followed) return std::unexpected(followed.error());
-    }
-    return taken;
-  }
-
-  // After dropped events the rest of the report is invalid (kernel, Documentation/input/event-codes.rst, SYN_DROPPED).
-  Result<void> follow(const input_event& event) RELIEVO_RT {
-    if (event.type == EV_SYN && event.code == SYN_DROPPED) dropped_ = true;
-    if (dropped_ && event.type == EV_SYN && event.code == SYN_REPORT) {
-      dropped_ = false;
-      return askForState();
-    }
-    if (!dropped_) controls_.take(event);
-    return {};
+  Result<void> followEvents() RELIEVO_RT {
+    return reports_.follow(
+        *port_, [this](const input_event& event) RELIEVO_RT { controls_.take(event); },
+        [this]() RELIEVO_RT { return askForState(); });
   }
 
   Result<void> askForState() RELIEVO_RT {
@@ -172,8 +149,8 @@ class Gamepad final : public HapticDevice {
   PadEffects effects_;
   PadFinger finger_;
   bool has_gain_ = false, has_centring_ = false;
-  bool told_ = false;     // what kind of device it is
-  bool dropped_ = false;  // within a report that lost events
+  bool told_ = false;  // what kind of device it is
+  EventReports reports_;
   glm::dvec3 force_n_{0};
   MonotonicTime now_, last_write_, contact_since_;
 };

@@ -107,6 +107,8 @@ struct MockDecoderProfile {
 struct MockDisplayProfile {
   Duration refresh_period = std::chrono::microseconds(16'667);  // 0: shows at once
 
+  StereoSignals stereo;  // that the screen takes
+
   // Faults.
   std::optional<ErrorCode> fail_open;
   std::uint64_t failing_opens = kNever;       // how often `open` fails

@@ -11,7 +11,7 @@ class MockDisplay final : public Display {
       : profile_(profile), clock_(clock), bench_(bench ? std::move(bench) : std::make_shared<MockDisplayBench>()) {}
 
   [[nodiscard]] DisplayCapabilities capabilities() const noexcept override {
-    return {.name = "mock", .gles = false, .refresh_period = profile_.refresh_period};
+    return {.name = "mock", .gles = false, .refresh_period = profile_.refresh_period, .stereo = profile_.stereo};
   }
 
  private:
@@ -19,7 +19,10 @@ class MockDisplay final : public Display {
     if (profile_.fail_open && opens_++ < profile_.failing_opens)
       return fail(*profile_.fail_open, "the mock display was told not to open");
     if (bench_->unplugged) return fail(ErrorCode::NotFound, "the mock screen is unplugged");
-    surface_ = {.framebuffer = 0, .width = config.width, .height = config.height};
+    StereoSignal stereo = config.stereo;
+    if (!profile_.stereo.has(stereo)) stereo = config.other_stereo ? profile_.stereo.best() : StereoSignal::None;
+    surface_ = {.framebuffer = 0, .width = config.width, .height = config.height, .stereo = stereo};
+    if (stereo == StereoSignal::FramePacking) pack(surface_);
     first_refresh_ = clock_.now();
     frames_ = 0;
     return {};
@@ -54,6 +57,13 @@ class MockDisplay final : public Display {
   }
 
   void closeDisplay() noexcept override {}
+
+  // As HDMI packs 720 rows.
+  static void pack(DisplaySurface& surface) noexcept {
+    surface.width = 1280;
+    surface.height = 1470;
+    surface.eye_gap_rows = 30;
+  }
 
   std::vector<std::string> droppedOnIt() override {
     return profile_.dropped ? profile_.dropped() : std::vector<std::string>();

@@ -4,10 +4,11 @@
 #include "drivers/pointer/pointer.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <utility>
+
+#include "drivers/evdev/event_reports.h"
 
 namespace relievo {
 namespace {
@@ -22,8 +23,6 @@ constexpr double kPressMmPerS = 80, kPressN = 2;
 constexpr double kSmoothS = 0.01;
 constexpr double kLongestStepS = 0.02;
 constexpr Duration kWatchdog = std::chrono::milliseconds(20);
-constexpr std::size_t kEventsARead = 64;
-constexpr int kReadsATick = 4;
 
 class Pointer final : public HapticDevice {
  public:
@@ -60,12 +59,8 @@ class Pointer final : public HapticDevice {
   // Discards motion from before the start.
   Result<void> startDevice() override {
     const glm::dvec3 place = place_mm_;
-    for (int i = 0; i < kReadsATick; ++i) {
-      if (auto taken = takeEvents(); !taken) return std::unexpected(taken.error());
-    }
-    const auto down = port_->buttonsDown();
-    if (!down) return std::unexpected(down.error());
-    down_ = *down;
+    if (auto followed = followEvents(); !followed) return followed;
+    if (auto known = askForButtons(); !known) return known;
     place_mm_ = place;
     force_z_n_ = 0;
     now_ = last_write_ = clock_.now();
@@ -77,11 +72,7 @@ class Pointer final : public HapticDevice {
     const double elapsed_s = std::clamp(toSeconds(now - now_), 0.0, kLongestStepS);
     now_ = now;
     if (now - last_write_ > kWatchdog) force_z_n_ = 0;
-    for (int i = 0; i < kReadsATick; ++i) {
-      const auto taken = takeEvents();
-      if (!taken) return std::unexpected(taken.error());
-      if (*taken < kEventsARead) break;
-    }
+    if (auto followed = followEvents(); !followed) return std::unexpected(followed.error());
     press(elapsed_s);
     if (const SceneRay* ray = port_->ray()) follow(*ray);
     const glm::dvec3 goal_mm(place_mm_.x, place_mm_.y, place_mm_.z - pressed_mm_);
@@ -112,31 +103,22 @@ class Pointer final : public HapticDevice {
     return ((down_ & kMiddleButton) != 0 ? 1U : 0U) | ((down_ & kRightButton) != 0 ? 2U : 0U);
   }
 
-  Result<std::size_t> takeEvents() RELIEVO_RT {
-    std::array<input_event, kEventsARead> events;
-    const auto taken = port_->take(events);
-    if (!taken) return taken;
-    for (std::size_t i = 0; i < *taken; ++i) {
-      if (auto followed = follow(events[i]); !followed) return std::unexpected(followed.error());
-    }
-    return taken;
+  Result<void> followEvents() RELIEVO_RT {
+    return reports_.follow(
+        *port_, [this](const input_event& event) RELIEVO_RT { follow(event); },
+        [this]() RELIEVO_RT { return askForButtons(); });
   }
 
-  // After dropped events, ignores the rest of the report and reads the buttons again (kernel,
-  // Documentation/input/event-codes.rst, SYN_DROPPED).
-  Result<void> follow(const input_event& event) RELIEVO_RT {
-    if (event.type == EV_SYN && event.code == SYN_DROPPED) dropped_ = true;
-    if (dropped_ && event.type == EV_SYN && event.code == SYN_REPORT) {
-      dropped_ = false;
-      const auto down = port_->buttonsDown();
-      if (!down) return std::unexpected(down.error());
-      down_ = *down;
-    } else if (!dropped_ && event.type == EV_REL) {
-      move(event.code, event.value);
-    } else if (!dropped_ && event.type == EV_KEY) {
-      turn(event.code, event.value != 0);
-    }
+  Result<void> askForButtons() RELIEVO_RT {
+    const auto down = port_->buttonsDown();
+    if (!down) return std::unexpected(down.error());
+    down_ = *down;
     return {};
+  }
+
+  void follow(const input_event& event) RELIEVO_RT {
+    if (event.type == EV_REL) move(event.code, event.value);
+    if (event.type == EV_KEY) turn(event.code, event.value != 0);
   }
 
   // The finger is on the line of sight, at its own height, which goes with a deeper volume.
@@ -172,7 +154,7 @@ class Pointer final : public HapticDevice {
   double pressed_mm_ = 0;            // how far below `place_mm_` the left button has pressed
   glm::dvec3 finger_mm_ = kStartMm;
   std::uint8_t down_ = 0;  // buttons of the mouse
-  bool dropped_ = false;   // within a report that lost events
+  EventReports reports_;
   double force_z_n_ = 0;
   MonotonicTime now_, last_write_;
 };

@@ -16,7 +16,7 @@ class SampleDisplay final : public Display {
  private:
   // The size is a request: a screen uses the nearest it has, and the surface has the actual one.
   Result<void> openDisplay(const DisplayConfig& config) override {
-    if (config.stereo == StereoSignal::FramePacking) {
+    if (config.stereo == StereoSignal::FramePacking && !config.other_stereo) {
       return fail(ErrorCode::Unsupported, "the sample screen has no 3D; choose another --stereo");
     }
     surface_ = {.framebuffer = 0, .width = config.width, .height = config.height};

@@ -5,15 +5,35 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <memory>
 #include <ostream>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "drivers/failover/failover.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "tests/support/film/clip_maker.h"
 
 namespace relievo::test {
+
+// A film that moves, of three key frames.
+inline constexpr int kMovingFrames = 72;
+inline ClipTrack movingClip() {
+  ClipTrack track{.codec = "libx264",
+                  .pix_fmt = "yuv420p",
+                  .width = 100,
+                  .height = 70,
+                  .fps_num = 25,
+                  .frames = kMovingFrames,
+                  .gop = 24,
+                  .b_frames = 2};
+  track.sample = [](int i, int c, int r, int n) {
+    return static_cast<std::uint32_t>(i == 0 ? 20 + (3 * c + 2 * r + 5 * n + (c * r) % 7) % 200
+                                             : 100 + (c + n + 7 * i) % 50);
+  };
+  return track;
+}
 
 // A film's packets of one track.
 struct Film {
@@ -92,6 +112,15 @@ inline std::vector<Shown> bySoftware(const Film& film) {
   const auto decoder = makeFfmpegDecoder();
   EXPECT_TRUE(decoder->open(film.stream));
   return play(*decoder, film);
+}
+// Opened for the film, with FFmpeg's decoder behind it.
+inline std::unique_ptr<VideoDecoder> openWithFailover(std::unique_ptr<VideoDecoder> best, const Film& film) {
+  std::vector<std::unique_ptr<VideoDecoder>> decoders;
+  decoders.push_back(std::move(best));
+  decoders.push_back(makeFfmpegDecoder());
+  auto decoder = makeFailoverDecoder(std::move(decoders));
+  EXPECT_TRUE(decoder->open(film.stream));
+  return decoder;
 }
 
 }  // namespace relievo::test

@@ -9,7 +9,6 @@
 #include <optional>
 #include <thread>
 
-#include "drivers/failover/failover.h"
 #include "drivers/gstreamer/gstreamer.h"
 #include "tests/contract/decoded_film.h"
 #include "tests/contract/video_decoder_contract.h"
@@ -27,7 +26,7 @@ using test::Shown;
 using test::shownOf;
 using Fault = GstreamerElement::Fault;
 
-constexpr int kFrames = 72;  // three key frames, in clips of this file
+constexpr int kFrames = test::kMovingFrames;
 
 const bool kPrepared = [] {
   test::keepGstreamerListAt(RELIEVO_BIN_DIR "/../tests/gstreamer.list");
@@ -48,18 +47,10 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return std::string(test.param.name); });
 
 test::ClipTrack movingClip(const std::string& codec = "libx264", const std::string& format = "yuv420p") {
-  test::ClipTrack track{.codec = codec,
-                        .pix_fmt = format,
-                        .width = 100,
-                        .height = 70,
-                        .fps_num = 25,
-                        .frames = kFrames,
-                        .gop = 24,
-                        .b_frames = codec.starts_with("libvpx") ? 0 : 2};
-  track.sample = [](int i, int c, int r, int n) {
-    return static_cast<std::uint32_t>(i == 0 ? 20 + (3 * c + 2 * r + 5 * n + (c * r) % 7) % 200
-                                             : 100 + (c + n + 7 * i) % 50);
-  };
+  test::ClipTrack track = test::movingClip();
+  track.codec = codec;
+  track.pix_fmt = format;
+  if (codec.starts_with("libvpx")) track.b_frames = 0;
   if (codec == "libx265") track.options = {{"x265-params", "log-level=none"}};
   return track;
 }
@@ -81,14 +72,6 @@ class Gstreamer : public testing::Test {
     auto decoder = makeGstreamerDecoder(element);
     const auto opened = decoder->open(film.stream);
     EXPECT_TRUE(opened) << opened.error().message;
-    return decoder;
-  }
-  [[nodiscard]] static std::unique_ptr<VideoDecoder> openWithFailover(const Film& film) {
-    std::vector<std::unique_ptr<VideoDecoder>> decoders;
-    decoders.push_back(makeGstreamerDecoder());
-    decoders.push_back(makeFfmpegDecoder());
-    auto decoder = makeFailoverDecoder(std::move(decoders));
-    EXPECT_TRUE(decoder->open(film.stream));
     return decoder;
   }
   static ErrorCode refusal(const Film& film, const std::string& element = "") {
@@ -326,7 +309,7 @@ TEST_F(Gstreamer, TheFilmGoesOnWhereItWasWithoutAPictureLostOrTwice) {
     SCOPED_TRACE(trouble.name);
     GstreamerElement element;
     element.befall(trouble.fault, trouble.after, trouble.times);
-    const auto decoder = openWithFailover(film);
+    const auto decoder = test::openWithFailover(makeGstreamerDecoder(), film);
     EXPECT_EQ(decoder->description(), std::string("gstreamer, ") + GstreamerElement::kName);
     std::vector<std::string> told;
     std::vector<Frame> held;

@@ -7,7 +7,6 @@
 #include <fstream>
 #include <optional>
 
-#include "drivers/failover/failover.h"
 #include "drivers/v4l2/v4l2.h"
 #include "tests/contract/decoded_film.h"
 #include "tests/contract/video_decoder_contract.h"
@@ -26,7 +25,7 @@ using test::Shown;
 using test::shownOf;
 using test::UmockdevCodec;
 
-constexpr int kFrames = 72;  // three key frames, in clips of this file
+constexpr int kFrames = test::kMovingFrames;
 constexpr CodecKind kPlanes{.pictures = V4L2_PIX_FMT_NV12M, .planes = true};
 
 // One simulated machine for the whole contract.
@@ -40,18 +39,8 @@ INSTANTIATE_TEST_SUITE_P(V4l2, VideoDecoderContract,
                          [](const auto& test) { return std::string(test.param.name); });
 
 test::ClipTrack movingClip(int width = 100, int height = 70) {
-  test::ClipTrack track{.codec = "libx264",
-                        .pix_fmt = "yuv420p",
-                        .width = width,
-                        .height = height,
-                        .fps_num = 25,
-                        .frames = kFrames,
-                        .gop = 24,
-                        .b_frames = 2};
-  track.sample = [](int i, int c, int r, int n) {
-    return static_cast<std::uint32_t>(i == 0 ? 20 + (3 * c + 2 * r + 5 * n + (c * r) % 7) % 200
-                                             : 100 + (c + n + 7 * i) % 50);
-  };
+  test::ClipTrack track = test::movingClip();
+  track.width = width, track.height = height;
   return track;
 }
 
@@ -75,14 +64,6 @@ class V4l2M2m : public test::MockedMachine {
     auto decoder = makeV4l2M2mDecoder();
     const auto opened = decoder->open(film.stream);
     EXPECT_TRUE(opened) << opened.error().message;
-    return decoder;
-  }
-  [[nodiscard]] static std::unique_ptr<VideoDecoder> openWithFailover(const Film& film) {
-    std::vector<std::unique_ptr<VideoDecoder>> decoders;
-    decoders.push_back(makeV4l2M2mDecoder());
-    decoders.push_back(makeFfmpegDecoder());
-    auto decoder = makeFailoverDecoder(std::move(decoders));
-    EXPECT_TRUE(decoder->open(film.stream));
     return decoder;
   }
   static ErrorCode refusal(const Film& film) {
@@ -343,7 +324,7 @@ TEST_F(V4l2M2m, TheFilmGoesOnWhereItWasWithoutAPictureLostOrTwice) {
   for (const Trouble& trouble : troubles) {
     UmockdevCodec codec(bed_, 10);
     trouble.befalls(codec);
-    const auto decoder = openWithFailover(film);
+    const auto decoder = test::openWithFailover(makeV4l2M2mDecoder(), film);
     EXPECT_EQ(decoder->description(), "v4l2-m2m, A decoder that is not there at /dev/video10");
     std::vector<std::string> told;
     std::deque<Frame> held;

@@ -8,65 +8,11 @@
 #include <cmath>
 #include <vector>
 
-#include "app/lab/detail/picture_quality.h"
 #include "tests/golden/picture_stage.h"
-#include "tests/support/film/depth_frames.h"
+#include "tests/golden/ray_pictures.h"
 
 namespace relievo::test {
 namespace {
-
-constexpr DisplayVolume kVolume{160.0, 90.0, 40.0};
-constexpr double kDistance = 600, kScreenZ = 20, kEyes = 63;
-
-double relief(double x, double y) {
-  return 6 + 26 * std::exp(-((x - 15) * (x - 15) + y * y) / (2 * 28.0 * 28.0)) + 0.03 * x;
-}
-
-// Smooth enough to be insensitive to antialiasing, yet a shift of one pixel is detected.
-Rgb paint(double x, double y) {
-  const auto wave = [](double phase) { return static_cast<int>(std::lround(127.5 + 120 * std::sin(phase))); };
-  return {wave(1.5 * x + 0.2 * y), wave(1.1 * x - 0.5 * y), wave(0.9 * (x + y) + 2)};
-}
-
-// The colour that an eye at (eye_x, 0, 620) sees through the point (x, y, 20) of the screen plane.
-Rgb seen(double eye_x, double x, double y) {
-  const auto above = [&](double z) {
-    const double along = (kDistance + kScreenZ - z) / kDistance;
-    return z - relief(eye_x + (x - eye_x) * along, y * along);
-  };
-  double high = 45, low = high;
-  while (low > 0 && above(low) > 0) low -= 0.5;
-  high = low + 0.5;
-  for (int i = 0; i < 20; ++i) (above(0.5 * (low + high)) > 0 ? high : low) = 0.5 * (low + high);
-  const double along = (kDistance + kScreenZ - low) / kDistance;
-  return paint(eye_x + (x - eye_x) * along, y * along);
-}
-
-// An eye's picture of the whole window, `width` x `height` pixels.
-DrawnPicture view(double eye_x, int width, int height) {
-  DrawnPicture picture{width, height, {}};
-  for (int r = 0; r < height; ++r) {
-    for (int c = 0; c < width; ++c) {
-      const double x = ((c + 0.5) / width - 0.5) * kVolume.width_mm, y = (0.5 - (r + 0.5) / height) * kVolume.height_mm;
-      for (const int value : seen(eye_x, x, y)) picture.rgba.push_back(static_cast<std::uint8_t>(value));
-      picture.rgba.push_back(255);
-    }
-  }
-  return picture;
-}
-
-void paste(const DrawnPicture& part, int x, int y, DrawnPicture& whole) {
-  for (int r = 0; r < part.height; ++r) {
-    std::copy_n(part.rgba.begin() + static_cast<std::ptrdiff_t>(r) * part.width * 4, part.width * 4,
-                whole.rgba.begin() + (static_cast<std::ptrdiff_t>(y + r) * whole.width + x) * 4);
-  }
-}
-
-DrawnPicture black(int width, int height) {
-  DrawnPicture picture{width, height, std::vector<std::uint8_t>(static_cast<std::size_t>(width) * height * 4, 0)};
-  for (std::size_t i = 3; i < picture.rgba.size(); i += 4) picture.rgba[i] = 255;
-  return picture;
-}
 
 // Combines both eyes pixel by pixel.
 template <class Mix>
@@ -86,31 +32,6 @@ DrawnPicture mixed(int width, int height, Mix&& mix) {
     }
   }
   return whole;
-}
-
-Scene sceneIn(const StereoSettings& stereo) {
-  constexpr int kWidth = 1280, kHeight = 720;
-  return {.color = makeRgbFrame(kWidth, kHeight,
-                                [](int c, int r) {
-                                  return paint(((c + 0.5) / kWidth - 0.5) * kVolume.width_mm,
-                                               (0.5 - (r + 0.5) / kHeight) * kVolume.height_mm);
-                                }),
-          .depth = makeReliefFrame(640, 360, kVolume, MediaTime{}, relief),
-          .calibration = {.bits = 16},
-          .volume = kVolume,
-          .stereo = stereo,
-          .error_px = 0.5};
-}
-
-// At the picture's edge the relief is joined to the frame, so a few pixels there are ignored.
-double similarity(const Image& image, const DrawnPicture& golden, int rim) {
-  std::vector<std::uint8_t> counted(static_cast<std::size_t>(golden.width) * golden.height, 0);
-  for (int r = rim; r < golden.height - rim; ++r) {
-    for (int c = rim; c < golden.width - rim; ++c) counted[static_cast<std::size_t>(r) * golden.width + c] = 1;
-  }
-  PictureError error;
-  error.add(differenceOf({image.width, image.height, image.rgba}, golden), counted);
-  return error.similarity();
 }
 
 void expectLike(const StereoSettings& stereo, const DrawnPicture& golden, int rim = 6) {

@@ -90,8 +90,8 @@ bool mayInclude(std::string_view path, std::string_view included) {
   if (isUnder(path, "hal")) return false;
   if (isRegistry(path)) return isUnder(included, "drivers");
   if (isUnder(path,
-              "drivers")) {  // a bus, what a window hears, what kinds of pictures share, which input devices there are
-    if (included == "drivers/evdev/event_nodes.h") return true;
+              "drivers")) {  // a bus, what a window hears, what kinds of pictures share, what input devices share
+    if (included == "drivers/evdev/event_nodes.h" || included == "drivers/evdev/event_reports.h") return true;
     return isUnder(included, "drivers/usb") || isUnder(included, "drivers/window") ||
            isUnder(included, "drivers/floats") || isUnder(included, "drivers/photo");
   }

@@ -46,6 +46,9 @@ std::string screenshotPath(const std::string& title) {
 
 Result<void> FilmScreen::open() {
   auto opened = picture_.open();
+  if (const std::string words = picture_.description(); opened && !words.empty()) {
+    log(LogLevel::Info, "display", "%s", words.c_str());
+  }
   if (opened || opened.error().code != ErrorCode::NotFound) return opened;
   journal_.note(std::string("display: ") + opened.error().message, "film and touch go on without it");
   return {};
@@ -221,6 +224,7 @@ std::optional<std::size_t> FilmScreen::filmAt(const SurfaceMouse& mouse) const {
 void FilmScreen::describe(PlayReport& report) const {
   const RenderStatistics& drawn = picture_.statistics();
   report.display = picture_.capabilities().name;
+  report.display_mode = picture_.description();
   report.stereo = stereoWord(picture_.stereo());
   report.surface_width = picture_.width();
   report.surface_height = picture_.height();

@@ -12,6 +12,32 @@ namespace {
 
 constexpr Duration kRetryPeriod = std::chrono::seconds(1);
 constexpr double kMostZoom = 4;
+constexpr const char* kBound = "the screen is told how the two pictures lie; start with --tv-signal off to change it";
+
+StereoLayout layoutOf(StereoSignal signal) noexcept {
+  switch (signal) {
+    case StereoSignal::FramePacking:
+      return StereoLayout::FramePacking;
+    case StereoSignal::SideBySideHalf:
+      return StereoLayout::SideBySide;
+    case StereoSignal::TopAndBottom:
+      return StereoLayout::TopBottom;
+    case StereoSignal::None:
+      break;
+  }
+  return StereoLayout::Mono;
+}
+
+const char* notTaken(StereoSignal signal) noexcept {
+  switch (signal) {
+    case StereoSignal::FramePacking:
+      return "the screen takes no frame packing; relievo devices lists its 3D signals";
+    case StereoSignal::SideBySideHalf:
+      return "the screen takes no side by side as a 3D signal; relievo devices lists those that it takes";
+    default:
+      return "the screen takes no top and bottom as a 3D signal; relievo devices lists those that it takes";
+  }
+}
 
 TextFrame textFrame(const EyeViews& eyes) {
   const PixelArea& area = eyes.views[0].area;
@@ -80,6 +106,7 @@ Result<void> Picture::drawAndPresent(const std::optional<FingerMark>& finger) {
   if (!surface) return std::unexpected(surface.error());
   width_ = surface->width;
   height_ = surface->height;
+  followSignal(*surface);
   fallBack(*surface);
   display_.setViews(sceneViews(stereo_, volume_, width_, height_));
   if (display_.capabilities().gles) {
@@ -125,17 +152,38 @@ Result<void> Picture::captureFrom(const DisplaySurface& surface, const std::opti
   return {};
 }
 
+// The television parts the two pictures as the signal says. A surface of the size of frame packing needs no signal: its
+// mode may be one that the viewer has made.
+void Picture::followSignal(const DisplaySurface& surface) noexcept {
+  if (std::exchange(signal_, surface.stereo) != surface.stereo && signal_ != StereoSignal::None) {
+    stereo_.layout = layoutOf(signal_);
+    stereo_.full = false;
+    stereoChanged();
+  }
+  const bool packed = config_.stereo == StereoSignal::FramePacking && stereo_.layout == StereoLayout::FramePacking &&
+                      refusal(stereo_, surface.width, surface.height) == nullptr;
+  if (signal_ == config_.stereo || !config_.other_stereo || packed || std::exchange(signal_told_, true)) return;
+  refusal_ = notTaken(config_.stereo);
+}
+
+bool Picture::isBound() noexcept {
+  if (signal_ == StereoSignal::None) return false;
+  refusal_ = kBound;
+  return true;
+}
+
 // A packed frame that nothing takes was meant for a screen that shows two eyes: side by side such a one mostly can.
 void Picture::fallBack(const DisplaySurface& surface) noexcept {
   const char* why = refusal(stereo_, surface.width, surface.height);
   if (why == nullptr) return;
-  refusal_ = why;
+  if (refusal_ == nullptr) refusal_ = why;
   const bool packed = stereo_.layout == StereoLayout::FramePacking;
   stereo_.layout = packed && surface.width > 1 ? StereoLayout::SideBySide : StereoLayout::Mono;
   stereoChanged();
 }
 
 void Picture::nextLayout() noexcept {
+  if (isBound()) return;
   do {
     stereo_.layout = static_cast<StereoLayout>((static_cast<int>(stereo_.layout) + 1) % kStereoLayouts);
   } while (refusal(stereo_, width_, height_) != nullptr);  // mono is never refused
@@ -143,7 +191,7 @@ void Picture::nextLayout() noexcept {
 }
 
 void Picture::setLayout(std::string_view word) noexcept {
-  if (parseStereo(word, stereo_)) stereoChanged();
+  if (!isBound() && parseStereo(word, stereo_)) stereoChanged();
 }
 
 void Picture::swapEyes() noexcept {

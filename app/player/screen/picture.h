@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -71,7 +72,7 @@ class Picture {
   // Between pictures, often. True when the last one should be drawn anew; Lost when the screen has gone just now, and
   // is tried again from `show`; Cancelled when the viewer has closed it.
   [[nodiscard]] Result<bool> attend(MonotonicTime now);
-  // The next one that the surface takes.
+  // The next one that the surface takes; none while the screen is sent a 3D signal, which says how the picture lies.
   void nextLayout() noexcept;
   void setLayout(std::string_view word) noexcept;  // see app/player/screen/stereo_word.h
   void swapEyes() noexcept;
@@ -87,6 +88,7 @@ class Picture {
 
   [[nodiscard]] bool away() const noexcept { return display_.state() == Display::State::Closed; }
   [[nodiscard]] DisplayCapabilities capabilities() const noexcept { return display_.capabilities(); }
+  [[nodiscard]] std::string description() const { return display_.description(); }
   [[nodiscard]] const StereoSettings& stereo() const noexcept { return stereo_; }
   [[nodiscard]] const DisplayVolume& volume() const noexcept { return volume_; }
   [[nodiscard]] int width() const noexcept { return width_; }
@@ -105,6 +107,8 @@ class Picture {
   [[nodiscard]] Result<void> drawAndPresent(const std::optional<FingerMark>& finger);
   [[nodiscard]] Result<void> draw(const DisplaySurface& surface, const std::optional<FingerMark>& finger);
   [[nodiscard]] Result<void> captureFrom(const DisplaySurface& surface, const std::optional<FingerMark>& finger);
+  [[nodiscard]] bool isBound() noexcept;
+  void followSignal(const DisplaySurface& surface) noexcept;
   void fallBack(const DisplaySurface& surface) noexcept;
   void stereoChanged() noexcept;
 
@@ -112,6 +116,8 @@ class Picture {
   DisplayConfig config_;
   AnnouncedFilm film_;
   StereoSettings stereo_;
+  StereoSignal signal_ = StereoSignal::None;  // that is sent with the picture
+  bool signal_told_ = false;                  // that it is another one than was asked for
   const char* refusal_ = nullptr;
   DepthCalibration calibration_;
   DisplayVolume volume_;

@@ -218,6 +218,28 @@ void addStereoOptions(CLI::App& command, StereoSettings& stereo) {
       ->type_name("X");
 }
 
+StereoSignal readSignal(const std::string& word) {
+  const std::pair<const char*, StereoSignal> signals[] = {{"frame-packing", StereoSignal::FramePacking},
+                                                          {"tab", StereoSignal::TopAndBottom},
+                                                          {"sbs", StereoSignal::SideBySideHalf},
+                                                          {"off", StereoSignal::None}};
+  for (const auto& [name, signal] : signals) {
+    if (inSmallLetters(word) == name) return signal;
+  }
+  throw WordFailure({"--tv-signal " + word,
+                     {ErrorCode::InvalidArgument, 0, "no such signal; it is one of: frame-packing tab sbs off"}});
+}
+
+void addSignalOption(CLI::App& command, std::optional<StereoSignal>& signal) {
+  command
+      .add_option_function<std::string>(
+          "--tv-signal", [&signal](const std::string& word) { signal = readSignal(word); },
+          "The 3D signal for a television (kms): this one, else the best that it takes; the picture is laid out for "
+          "it. "
+          "Where it\ntakes none, the picture is that of --stereo. off: no signal, whatever --stereo [that of --stereo]")
+      ->type_name("frame-packing|tab|sbs|off");
+}
+
 void addSoundAndTextOptions(CLI::App& command, PlayerConfig& player) {
   command
       .add_option("--volume", player.volume_percent,
@@ -280,6 +302,7 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
           "favourite")
       ->type_name("WxH");
   addStereoOptions(command, play.player.stereo);
+  addSignalOption(command, play.tv_signal);
   addTouchOptions(command, play, names);
   addBackEnd(
       command, "--remote", play.remote, "remote", names.remote,

@@ -21,9 +21,10 @@ struct PlayOptions {
   BackEndName remote;
   BackEndName audio;
   BackEndName decoder;
-  std::optional<double> rate_hz;  // of the haptic task; none: the device's own
-  bool software = false;          // no hardware decodes the film
-  std::string report_path;        // empty: none
+  std::optional<StereoSignal> tv_signal;  // asked for; not given: that of the picture's layout
+  std::optional<double> rate_hz;          // of the haptic task; none: the device's own
+  bool software = false;                  // no hardware decodes the film
+  std::string report_path;                // empty: none
   std::string record_path;
   std::string keys_path;  // empty: the usual keys
   bool resume = false;

@@ -49,6 +49,24 @@ Outcome<void> settleDevices(PlayOptions& play, const Machine& machine, bool chos
   return {};
 }
 
+// A television that takes the signal shows the two pictures as one; where it takes none, a picture of two halves is
+// shown all the same. Half the size of each eye's is what the signals for two halves mean.
+void settleSignal(PlayOptions& play) {
+  DisplayConfig& display = play.player.display;
+  const StereoSettings& stereo = play.player.stereo;
+  if (play.tv_signal) {
+    display.stereo = *play.tv_signal;
+    display.other_stereo = display.stereo != StereoSignal::None;
+  } else if (stereo.layout == StereoLayout::FramePacking) {
+    display.stereo = StereoSignal::FramePacking;
+    display.other_stereo = true;
+  } else if (stereo.layout == StereoLayout::SideBySide && !stereo.full) {
+    display.stereo = StereoSignal::SideBySideHalf;
+  } else if (stereo.layout == StereoLayout::TopBottom && !stereo.full) {
+    display.stereo = StereoSignal::TopAndBottom;
+  }
+}
+
 std::string usualFilms() {
   const auto set = [](const char* name) -> std::filesystem::path {
     const char* value = std::getenv(name);
@@ -77,6 +95,7 @@ Outcome<void> settlePlay(PlayOptions& play, const Machine& machine) {
   play.player.osd = play.osd || play.display.word != "offscreen";  // never in a capture unasked
   const bool chosen = !play.display.word.empty();
   settleDisplay(play, machine);
+  settleSignal(play);
   const bool seen = play.display.plain("window") || play.display.word == "kms";
   if (play.player.source.url.empty() && !play.films.empty() && !seen && !play.player.stays) {
     return failOn("--films", {ErrorCode::InvalidArgument, 0,

@@ -15,9 +15,12 @@ constexpr double kBelowMm = 100.0;
 constexpr double kNearestOfDistance = 0.1;
 
 // HDMI 1.4a, frame packing of 1080p and 720p: two pictures, one above the other, separated by the lines of a blanking
-// interval.
-constexpr int kPacked1080Width = 1920, kPacked1080Height = 2205, kPacked1080Picture = 1080;
-constexpr int kPacked720Width = 1280, kPacked720Height = 1470, kPacked720Picture = 720;
+// interval. Some cards take the two side by side and pack them.
+struct Packed {
+  int width, height;  // of a picture
+  int gap;
+};
+constexpr Packed kPacked[] = {{1920, 1080, 45}, {1280, 720, 30}};
 
 constexpr int kLeastTilePixels = 16;
 
@@ -45,11 +48,17 @@ glm::dmat4 offAxis(double eye_x_mm, const Window& window, const StereoSettings& 
   return glm::translate(projection, glm::dvec3(-eye_x_mm, 0.0, -(settings.screen_z_mm + distance)));
 }
 
-bool packs1080(int width, int height) noexcept {
-  return width == kPacked1080Width && height == kPacked1080Height;
-}
-bool packs720(int width, int height) noexcept {
-  return width == kPacked720Width && height == kPacked720Height;
+// Both eyes' areas of such a surface; none of another.
+std::vector<PixelArea> packedAreas(int width, int height) {
+  for (const Packed& each : kPacked) {
+    if (width == each.width && height == 2 * each.height + each.gap) {
+      return {{0, height - each.height, width, each.height}, {0, 0, width, each.height}};
+    }
+    if (width == 2 * each.width && height == each.height) {
+      return {{0, 0, each.width, height}, {each.width, 0, each.width, height}};
+    }
+  }
+  return {};
 }
 
 // Part `index` of `count` equal parts of a length; together they cover it exactly.
@@ -75,8 +84,8 @@ std::vector<PixelArea> areasOf(const StereoSettings& settings, int width, int he
       return {{0, top.first, width, top.length}, {0, low.first, width, low.length}};
     }
     case StereoLayout::FramePacking: {
-      const int picture = packs1080(width, height) ? kPacked1080Picture : kPacked720Picture;
-      return {{0, height - picture, width, picture}, {0, 0, width, picture}};
+      auto eyes = packedAreas(width, height);
+      return eyes.empty() ? std::vector{whole, whole} : eyes;
     }
     case StereoLayout::Quilt: {
       std::vector<PixelArea> tiles;
@@ -177,8 +186,10 @@ SceneViews sceneViews(const StereoSettings& settings, const DisplayVolume& volum
 const char* refusal(const StereoSettings& settings, int width, int height) noexcept {
   switch (settings.layout) {
     case StereoLayout::FramePacking:
-      if (packs1080(width, height) || packs720(width, height)) return nullptr;
-      return "frame packing needs a surface of 1920x2205 or 1280x1470; choose such a screen mode";
+      if (!packedAreas(width, height).empty()) return nullptr;
+      return "frame packing needs a surface of 1920x2205 or 1280x1470, or of both eyes side by side in full; choose "
+             "such "
+             "a screen mode";
     case StereoLayout::Quilt:
       if (settings.quilt_cols > 0 && settings.quilt_rows > 0 && width / settings.quilt_cols >= kLeastTilePixels &&
           height / settings.quilt_rows >= kLeastTilePixels) {

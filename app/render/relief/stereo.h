@@ -18,7 +18,7 @@ enum class StereoLayout : std::uint8_t {
   Rows,          // left eye in the first and every second row, for panels with line-wise polarisers
   Columns,       // left eye in the first and every second column
   Anaglyph,      // left eye red, right eye cyan
-  FramePacking,  // HDMI 1.4a: left eye on top, a gap, right eye below
+  FramePacking,  // HDMI 1.4a: left eye on top, a gap, right eye below; or the left eye's picture beside the right eye's
   Quilt,         // views from left to right in tiles, row by row from the bottom left
 };
 constexpr int kStereoLayouts = 8;

@@ -75,7 +75,8 @@ TEST(KmsMode, TheSignalsAreThoseOfAllModes) {
 
 // HDMI 1.4a, figure 8-1: 1080 + 45 + 1080 lines, 720 + 30 + 720.
 TEST(KmsMode, FramePackingIsBothEyesAndTheBlankingBetweenThem) {
-  const ScanOut full_hd = scanOut(kFullHdPacked), hd = scanOut(kHdPacked), plain = scanOut(kFullHdHalves);
+  const ScanOut full_hd = scanOut(kFullHdPacked, Packing::Tall), hd = scanOut(kHdPacked, Packing::Tall),
+                plain = scanOut(kFullHdHalves, Packing::Tall);
   EXPECT_EQ(full_hd.width, 1920);
   EXPECT_EQ(full_hd.height, 2205);
   EXPECT_EQ(full_hd.eye_gap_rows, 45);
@@ -83,6 +84,28 @@ TEST(KmsMode, FramePackingIsBothEyesAndTheBlankingBetweenThem) {
   EXPECT_EQ(hd.eye_gap_rows, 30);
   EXPECT_EQ(plain.height, 1080);
   EXPECT_EQ(plain.eye_gap_rows, 0);
+  EXPECT_EQ(full_hd.plane_height, 2205);
+}
+
+// As kmsprint shows it on a Raspberry Pi: a plane of 1920x1080 on a frame buffer of 3840x1080.
+TEST(KmsMode, OfTwoHalvesThePlaneIsToldOfTheLeftOne) {
+  const ScanOut halves = scanOut(kFullHdPacked, Packing::Beside), plain = scanOut(kFullHdHalves, Packing::Beside);
+  EXPECT_EQ(halves.width, 3840);
+  EXPECT_EQ(halves.height, 1080);
+  EXPECT_EQ(halves.plane_width, 1920);
+  EXPECT_EQ(halves.plane_height, 1080);
+  EXPECT_EQ(halves.eye_gap_rows, 0);
+  EXPECT_EQ(plain.width, 1920);
+  for (const char* driver : {"amdgpu", "i915", "xe", "nouveau", "vkms", ""}) {
+    EXPECT_EQ(packingOf(driver), Packing::Tall) << driver;
+  }
+  EXPECT_EQ(packingOf("vc4"), Packing::Beside);
+}
+
+TEST(KmsMode, FramePackingOfAnotherSizeIsNotChosen) {
+  const drmModeModeInfo small = make(720, 576, 864, 625, 27'000, DRM_MODE_FLAG_3D_FRAME_PACKING);
+  EXPECT_FALSE(stereoSignals(std::vector{kHd, small}).frame_packing);
+  EXPECT_EQ(chooseMode(std::vector{kHd, small}, {720, 576, StereoSignal::FramePacking}), nullptr);
 }
 
 TEST(KmsMode, ThePeriodIsThatOfItsPixelClock) {

@@ -123,6 +123,7 @@ TEST_F(PlayConfig, EveryOptionCanStandInTheFileAndIsPrintedAsItReadsBack) {
                                                       {"size", R"("640x360")"},
                                                       {"stereo", R"("quilt:5x9")"},
                                                       {"swap-eyes", "true"},
+                                                      {"tv-signal", R"("tab")"},
                                                       {"depth-strength", "0.25"},
                                                       {"haptic", R"("mock")"},
                                                       {"rate", "2000"},

@@ -16,10 +16,11 @@ class FilmScreenTest : public testing::Test {
  protected:
   FilmScreenTest() { setLogLevel(LogLevel::Error); }
   void make() {
+    screen_.reset();  // before its display
     profile_.refresh_period = Duration(0);
     profile_.shown = [this] { ++presented_; };
     display_ = makeMockDisplay(profile_, clock_, cable_);
-    screen_.emplace(*display_, DisplayConfig{}, StereoSettings{}, true, clock_, journal_);
+    screen_.emplace(*display_, config_, stereo_, true, clock_, journal_);
     ASSERT_TRUE(screen_->open());
   }
   bool show() { return screen_->show({}, std::nullopt, clock_.now()).value_or(false); }
@@ -45,11 +46,78 @@ class FilmScreenTest : public testing::Test {
   ManualClock clock_;
   Journal journal_{clock_};
   MockDisplayProfile profile_;
+  DisplayConfig config_;
+  StereoSettings stereo_;
   std::shared_ptr<MockDisplayBench> cable_ = std::make_shared<MockDisplayBench>();
   std::unique_ptr<Display> display_;
   std::optional<FilmScreen> screen_;
   int presented_ = 0;
 };
+
+struct Wish {
+  StereoSignals taken;
+  StereoSignal wished;
+  StereoLayout layout;  // of --stereo
+  const char* shown;
+  const char* told;  // null: nothing
+};
+
+TEST_F(FilmScreenTest, ThePictureLiesAsTheSignalSaysThatTheTelevisionTakes) {
+  using enum StereoSignal;
+  constexpr StereoSignals kNone, kAll{true, true, true}, kHalves{.side_by_side_half = true},
+      kMandatory{.top_and_bottom = true, .frame_packing = true};
+  const Wish wishes[] = {
+      {kAll, FramePacking, StereoLayout::Mono, "frame-packing", nullptr},
+      {kAll, TopAndBottom, StereoLayout::Mono, "tab", nullptr},
+      {kAll, SideBySideHalf, StereoLayout::Mono, "sbs", nullptr},
+      {kMandatory, SideBySideHalf, StereoLayout::Mono, "frame-packing", "takes no side by side"},
+      {kHalves, FramePacking, StereoLayout::FramePacking, "sbs", "takes no frame packing"},
+      {kNone, FramePacking, StereoLayout::FramePacking, "sbs", "takes no frame packing"},
+      {kNone, FramePacking, StereoLayout::Mono, "mono", "takes no frame packing"},
+      {kNone, TopAndBottom, StereoLayout::SideBySide, "sbs", "takes no top and bottom"},
+  };
+  for (const Wish& wish : wishes) {
+    SCOPED_TRACE(wish.shown);
+    const auto television = makeMockDisplay({.refresh_period = Duration(0), .stereo = wish.taken}, clock_);
+    Journal journal(clock_);
+    FilmScreen screen(*television, {.stereo = wish.wished, .other_stereo = true}, {.layout = wish.layout}, true, clock_,
+                      journal);
+    ASSERT_TRUE(screen.open());
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(screen.show({}, std::nullopt, clock_.now()));
+    PlayReport report;
+    screen.describe(report);
+    EXPECT_EQ(report.stereo, wish.shown);
+    const auto& faults = journal.written().faults;
+    ASSERT_EQ(faults.size(), wish.told == nullptr ? 0U : 1U);
+    if (wish.told == nullptr) continue;
+    EXPECT_NE(faults[0].what.find(wish.told), std::string::npos) << faults[0].what;
+    EXPECT_EQ(faults[0].count, 1U) << "once";
+    EXPECT_EQ(faults[0].done, std::string("shown as ") + wish.shown);
+  }
+}
+
+// The mode of such a size may be one that the viewer has made.
+TEST_F(FilmScreenTest, ASurfaceOfItsSizeNeedsNoSignalForFramePacking) {
+  for (const auto& [width, height] : {std::pair{1920, 2205}, {1280, 1470}, {3840, 1080}, {2560, 720}}) {
+    config_ = {.width = width, .height = height, .stereo = StereoSignal::FramePacking, .other_stereo = true};
+    stereo_ = {.layout = StereoLayout::FramePacking};
+    make();
+    EXPECT_TRUE(show());
+    EXPECT_EQ(report().stereo, "frame-packing");
+  }
+  EXPECT_TRUE(journal_.written().faults.empty());
+}
+
+TEST_F(FilmScreenTest, WhileASignalIsSentTheLayoutStays) {
+  profile_.stereo = {.top_and_bottom = true};
+  config_.stereo = StereoSignal::TopAndBottom;
+  make();
+  EXPECT_TRUE(show());
+  screen_->obey({.verb = PlayerVerb::Layout, .value = 0, .word = ""});
+  EXPECT_TRUE(show());
+  EXPECT_EQ(report().stereo, "tab");
+  EXPECT_TRUE(noted("--tv-signal off"));
+}
 
 TEST_F(FilmScreenTest, CountsWhatWasSeenAndWhatWasNot) {
   make();

@@ -238,6 +238,31 @@ TEST(Options, TheRateOfTouchIsTheDevicesUnlessItIsAskedFor) {
   }
 }
 
+TEST(Options, TheSignalForATelevisionIsThatOfTheLayoutOrTheOneAskedFor) {
+  using enum StereoSignal;
+  const struct {
+    std::vector<const char*> words;
+    StereoSignal signal;
+    bool or_other;
+  } cases[] = {{{}, None, false},
+               {{"--stereo", "sbs"}, SideBySideHalf, false},
+               {{"--stereo", "tab"}, TopAndBottom, false},
+               {{"--stereo", "sbs:full"}, None, false},
+               {{"--stereo", "rows"}, None, false},
+               {{"--stereo", "frame-packing"}, FramePacking, true},
+               {{"--tv-signal", "Frame-Packing"}, FramePacking, true},
+               {{"--stereo", "frame-packing", "--tv-signal", "tab"}, TopAndBottom, true},
+               {{"--stereo", "sbs", "--size", "1920x1080", "--tv-signal", "sbs"}, SideBySideHalf, true},
+               {{"--stereo", "sbs", "--tv-signal", "off"}, None, false}};
+  for (auto [words, signal, or_other] : cases) {
+    words.insert(words.begin(), {"play", "film.mkv", "--display", "kms"});
+    const DisplayConfig display = parse(words).options.value().play.player.display;
+    EXPECT_EQ(display.stereo, signal) << words.back();
+    EXPECT_EQ(display.other_stereo, or_other) << words.back();
+  }
+  expectRefused({"play", "film.mkv", "--tv-signal", "holo"}, "it is one of: frame-packing tab sbs off");
+}
+
 TEST(Options, AWindowBringsItsKeysAndItsMouseAlong) {
   const auto parsedPlay = [](std::vector<const char*> words) {
     words.insert(words.begin(), {"play", "film.mkv"});

@@ -107,6 +107,8 @@ TEST(Stereo, EachLayoutGivesEachEyeItsPart) {
   // 1080 lines, 45 of blanking, 1080 lines; 720, 30, 720.
   EXPECT_EQ(areas({.layout = FramePacking}, 1920, 2205), (Areas{{0, 1125, 1920, 1080}, {0, 0, 1920, 1080}}));
   EXPECT_EQ(areas({.layout = FramePacking}, 1280, 1470), (Areas{{0, 750, 1280, 720}, {0, 0, 1280, 720}}));
+  EXPECT_EQ(areas({.layout = FramePacking}, 3840, 1080), (Areas{{0, 0, 1920, 1080}, {1920, 0, 1920, 1080}}));
+  EXPECT_EQ(areas({.layout = FramePacking}, 2560, 720), (Areas{{0, 0, 1280, 720}, {1280, 0, 1280, 720}}));
   for (const StereoLayout mixed : {Rows, Columns, Anaglyph}) {
     EXPECT_EQ(areas({.layout = mixed}, 1280, 720), (Areas{{0, 0, 1280, 720}, {0, 0, 1280, 720}}));
     EXPECT_TRUE(eyeViews({.layout = mixed}, kVolume, 1280, 720).mixed);
