@@ -28,6 +28,7 @@ struct DepthLook {
     for (int r = 0; r < field.rows(); ++r) {
       for (int c = 0; c < field.cols(); ++c) add(field.code(c, r), field.heightMm(c, r));
     }
+    use.holes = static_cast<double>(holes) / static_cast<double>(samples);
   }
   void add(std::uint32_t code, double height_mm) {
     ++samples;
@@ -40,7 +41,6 @@ struct DepthLook {
     use.highest_code = first ? code : std::max(use.highest_code, code);
     use.lowest_mm = first ? height_mm : std::min(use.lowest_mm, height_mm);
     use.highest_mm = first ? height_mm : std::max(use.highest_mm, height_mm);
-    use.holes = static_cast<double>(holes) / static_cast<double>(samples);
   }
 };
 
