@@ -24,12 +24,16 @@ bool isFile(const std::string& url) {
   return url.find("://") == std::string::npos && !url.starts_with("v4l2:");
 }
 
-// Numbers, or the codes of a sensor, are no colour; nor is gray in a file that is called depth.
+// Numbers, the codes of a sensor, or a colour map are no colour; nor are gray, hues and a ramp of blue in a file that
+// is called depth.
 bool isDepthAlone(const Frame& picture, const std::string& url) {
   if (picture.value_per_code != 0) return true;
   if (picture.model == ColorModel::Gray && sensorKind(picture, CodeCount(picture)) != nullptr) return true;
   constexpr double kAllGray = 0.99;
-  return saysDepth(url) && lookAt(picture).gray >= kAllGray;
+  if (saysDepth(url) && lookAt(picture).gray >= kAllGray) return true;
+  const auto map = bestColorMap(picture);
+  if (!map) return false;
+  return saysDepth(url) || (map->code != DepthCode::Hue && map->code != DepthCode::Kinect);
 }
 
 // The luma of shades of red alone: from black to the share of red in white.
@@ -139,6 +143,22 @@ Result<const Frame*> PairReader::Impl::firstDepth() {
   reordering.again = **first;
   depth.emplace([this] { return supplyDepth(); });
   return depth->peek();
+}
+
+// Depth without colour; its samples are put in order as they are read (`pairFor`).
+Result<void> PairReader::Impl::describeAlone(const StreamInfo& track) {
+  Frame look = tellingPicture(color_ahead[0], options.url, track.index);
+  lookForCode(look);
+  takeTags(track);
+  const KnownKind* const kind = kindOf(clues, look);
+  if (kind != nullptr && kind->order != SampleOrder::AsStored) {
+    reordering.kind = kind;
+    reordering.order = kind->order;
+    auto ordered = inOrder(look, kind->order);
+    if (!ordered) return failOn(options.url, ordered.error());
+    look = std::move(*ordered);
+  }
+  return describe(color_ahead[0], look, {}, track);
 }
 
 Result<void> PairReader::Impl::describeHalves(const StreamInfo& color) {

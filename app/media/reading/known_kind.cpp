@@ -24,6 +24,7 @@ constexpr KnownKind kKinds[] = {
     {"scannet", "distances in mm", "ScanNet's exported pictures", kMillimetres},
     {"tum", "distances, 5000 codes a metre", "TUM RGB-D", kFiveThousand},
     {"icl", "distances, 5000 codes a metre", "ICL-NUIM", kFiveThousand},
+    {"ycb", "distances, 10000 codes a metre", "YCB-Video", "unit=0.1,invalid=0+65535"},
     {"bop", "BOP's distances", "with the depth_scale of scene_camera.json, or in mm", "invalid=0"},
     {"kitti", "distances, 256 codes a metre", "KITTI depth, from a laser scanner", "unit=3.90625,invalid=0"},
     {.name = "kitti-disparity",

@@ -142,6 +142,7 @@ TEST(Recordings, PicturesOfSixteenBitsAreReadAsTheyCome) {
       {"seq-01/frame-%06d.depth.png", or_hole(65535, mm), "mm"},
       {"rgbd_dataset_freiburg1_desk/depth/%04d.png", or_hole(0, [](double z) { return 5 * z; }), "tum", 1, 0.2},
       {"d/depth/%04d.png", or_hole(0, [](double z) { return 15 * z; }), "tum", 3, 0.2},
+      {"i/depth/%04d.png", or_hole(0, [](double z) { return 10 * std::round(z); }), "ycb"},
       {"living_room_traj0/depth/%d.png", or_hole(0, [](double z) { return 5 * z; }), "icl", 1, 0.2},
       {"proj_depth/image_02/%010d.png", or_hole(0, [](double z) { return 256 * 8e-3 * z; }), "kitti", 8, 4},
       {"sunrgbd/depth/%04d.png", or_hole(0, [](double z) { return 8 * std::round(z); }), "sun"},
@@ -171,7 +172,11 @@ TEST(Recordings, PicturesOfSixteenBitsAreReadAsTheyCome) {
     const Seen seen = open({.url = folder / "color.mkv", .depth_url = path});
     expectSame(seen, truth(each.scale), each.step_mm, each.depth);
     EXPECT_THAT(seen.info.reading.doubts, IsEmpty()) << each.depth;
-    // Stated, it is the same.
+    // Alone, and stated, it is the same.
+    const Seen alone = open({.url = path});
+    expectSame(alone, truth(each.scale), each.step_mm, each.depth);
+    EXPECT_EQ(alone.info.packing, Packing::DepthAlone) << each.depth;
+    EXPECT_THAT(alone.info.reading.doubts, IsEmpty()) << each.depth;
     const Seen stated = open({.url = folder / "color.mkv", .depth_url = path, .as = findKind(each.kind)});
     expectSame(stated, truth(each.scale), each.step_mm, each.kind);
   }
@@ -322,6 +327,32 @@ TEST(Recordings, TheDepthOfAPaleSceneIsFoundByTheBreakInTheMiddle) {
   EXPECT_EQ(open({.url = folder / "left.mp4"}).info.packing, Packing::SideBySideDepthFirst);
   EXPECT_EQ(open({.url = folder / "below.mp4"}).info.packing, Packing::TopBottom);
   EXPECT_FALSE(open({.url = folder / "film.mp4"}).info.has_depth);
+}
+
+// A blue ramp and a circle of hues may be a picture of anything, unless the name says depth.
+TEST(Recordings, AColourMapWithoutColourIsFelt) {
+  const auto ramp = [](double s) { return std::array{std::max(0.0, 2 * s - 1), s, 0.5 + 0.5 * s}; };
+  const auto jet = [](double s) {
+    const auto part = [&](double middle) { return std::clamp(1.5 - std::abs(4 * s - middle), 0.0, 1.0); };
+    return std::array{part(3), part(2), part(1)};
+  };
+  TemporaryFolder folder;
+  const auto make = [&](const char* name, auto color) {
+    ClipTrack track{.codec = "png", .pix_fmt = "rgb24", .width = kSceneCols, .height = kSceneRows, .frames = 1};
+    track.sample = [=](int k, int c, int r, int) {
+      const double mm = distanceMm(c, r);
+      return mm == 0 ? 0u : rounded(255 * color(1 - (mm - 1000) / 1100)[static_cast<std::size_t>(k)]);
+    };
+    makeClip(folder / name, {track});
+    return open({.url = folder / name}).info;
+  };
+  const FilmInfo found = make("a.png", jet);
+  EXPECT_EQ(found.packing, Packing::DepthAlone);
+  EXPECT_EQ(found.calibration.calibration.code, DepthCode::Jet);
+  EXPECT_THAT(found.reading.offers, Contains(HasSubstr("polarity=near-low")));
+  EXPECT_FALSE(make("b.png", hueColor).has_depth);
+  EXPECT_TRUE(make("b_depth.png", hueColor).has_depth);
+  EXPECT_FALSE(make("c.png", ramp).has_depth);
 }
 
 TEST(Recordings, GrayInAFileThatIsCalledDepthIsFelt) {
