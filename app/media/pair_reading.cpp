@@ -36,6 +36,14 @@ bool isDepthAlone(const Frame& picture, const std::string& url) {
   return saysDepth(url) || (map->code != DepthCode::Hue && map->code != DepthCode::Kinect);
 }
 
+// The second source; else the first picture of a recording's depth. Empty if there is neither.
+std::string depthFileOf(const MediaSource& source, const std::string& depth_url) {
+  const StreamInfo* const depth = depth_url.empty() ? findDepthTrack(source) : nullptr;
+  if (depth == nullptr) return depth_url;
+  const auto file = depth->tags.find(kFileTag);
+  return file != depth->tags.end() ? file->second : "";
+}
+
 // The luma of shades of red alone: from black to the share of red in white.
 CalibrationSettings redAsLuma(const Frame& picture) {
   if (picture.model != ColorModel::Yuv) return {};
@@ -56,7 +64,7 @@ void PairReader::Impl::lookAround() {
   views_squeezed.reset();
   reordering.kind = nullptr;
   clues.place = lookAtTags(source.tags());
-  if (clues.place.kind == nullptr) clues.place = lookAtPlace(options.url, options.depth_url);
+  if (clues.place.kind == nullptr) clues.place = lookAtPlace(options.url, depthFileOf(source, options.depth_url));
   reordering.order = options.as != nullptr ? options.as->order : SampleOrder::AsStored;
   info.reading = {};
   if (options.depth_code) {

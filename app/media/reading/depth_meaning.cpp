@@ -26,8 +26,8 @@ bool fits(const KnownKind& kind, DepthCode code, const Frame& frame) {
   return frame.model == ColorModel::Gray && frame.components[0].bits == 16;
 }
 
-bool isOfStereoCamera(const DepthClues& clues, const KnownKind* kind) {
-  return kind != nullptr && clues.place.camera && kind->name == std::string_view("middlebury");
+bool isOfStereoCamera(const KnownKind* kind) {
+  return kind != nullptr && kind->name == std::string_view("middlebury");
 }
 
 bool isRecord3d(const KnownKind* kind) {
@@ -74,7 +74,7 @@ std::string otherEnd(const CalibrationLayers& layers) {
 
 const KnownKind* kindOf(const DepthClues& clues, const Frame& stored) {
   if (clues.as != nullptr) return clues.as;
-  if (isOfStereoCamera(clues, clues.place.kind) && clues.code == DepthCode::Luma && !definesCodes(saidLayers(clues))) {
+  if (isOfStereoCamera(clues.place.kind) && clues.code == DepthCode::Luma && !definesCodes(saidLayers(clues))) {
     return clues.place.kind;
   }
   if (stored.value_per_code != 0 || definesCodes(saidLayers(clues))) return nullptr;
@@ -95,8 +95,10 @@ Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind,
     }
   } else if (clues.code != DepthCode::Luma) {
     read.offer = otherEnd(layers);  // an entry of a colour map says nothing of its own
-  } else if (isOfStereoCamera(clues, kind)) {
+  } else if (isOfStereoCamera(kind) && clues.place.camera) {
     read = readDisparities(look, CodeCount(look), *clues.place.camera);
+  } else if (isOfStereoCamera(kind) && look.value_per_code == 0) {
+    read = readFloats(look, CodeCount(look), true, layers);
   } else if (look.value_per_code != 0) {
     scaleToCodes(layers, look.value_per_code);
     read = readFloats(look, CodeCount(look), namesDisparity(clues.codec, clues.path), layers);

@@ -77,8 +77,8 @@ DepthReading distances(const Reach& reach, double value, std::optional<double> s
   return reading;
 }
 
-DepthReading disparities(const Reach& reach, double value, const CalibrationLayers& said) {
-  const double low = kNearer * reach.low, high = kFarther * std::max(reach.high, reach.low + 1);
+DepthReading disparities(const Reach& reach, double value, double top, const CalibrationLayers& said) {
+  const double low = kNearer * reach.low, high = std::min(top, kFarther * std::max(reach.high, reach.low + 1));
   DepthReading reading;
   reading.settings = {{"polarity", "near-high"}, {"codes", codeRange(low, high)}, {"invalid", "0"}};
   const bool relative = high > kMostRatio * low;
@@ -137,10 +137,11 @@ bool namesDisparity(std::string_view codec, std::string_view path) {
 DepthReading readFloats(const Frame& depth, const CodeCount& count, bool disparity, const CalibrationLayers& said) {
   if (count.share(1, kTop) == 0) return {};
   const Reach reach = reachOf(count);
-  const double value = std::abs(depth.value_per_code);
+  const double value = depth.value_per_code != 0 ? std::abs(depth.value_per_code) : 1;
   const auto unit = unitIn(said);
   const bool told = !unit && (has(said, "law") || has(said, "polarity"));
-  return told || (disparity && !unit) ? disparities(reach, value, said) : distances(reach, value, unit);
+  return told || (disparity && !unit) ? disparities(reach, value, (1u << count.bits()) - 1, said)
+                                      : distances(reach, value, unit);
 }
 
 void scaleToCodes(CalibrationLayers& said, double value_per_code) {
