@@ -34,6 +34,10 @@ bool isRecord3d(const KnownKind* kind) {
   return kind != nullptr && kind->name == std::string_view("record3d");
 }
 
+bool isHeights(const KnownKind* kind) {
+  return kind != nullptr && kind->name == std::string_view("heights");
+}
+
 // Record3D states what the whole circle of hues covers, of which a film uses a part.
 HueSpan takeSpan(CalibrationSettings& settings) {
   HueSpan span;
@@ -99,7 +103,7 @@ Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind,
     read = readDisparities(look, CodeCount(look), *clues.place.camera);
   } else if (isOfStereoCamera(kind) && look.value_per_code == 0) {
     read = readFloats(look, CodeCount(look), true, layers);
-  } else if (look.value_per_code != 0) {
+  } else if (look.value_per_code != 0 && !isHeights(kind)) {
     scaleToCodes(layers, look.value_per_code);
     read = readFloats(look, CodeCount(look), namesDisparity(clues.codec, clues.path), layers);
   } else {

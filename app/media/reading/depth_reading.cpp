@@ -114,12 +114,34 @@ bool isRotated(const CodeCount& count) {
   return count.remainders(8, 1) >= kMost && count.remainders(16, 0) < kMost;
 }
 
+// Heights: the codes in use.
+DepthReading readHeights(const CodeCount& count, const CodeSet& holes) {
+  const CodeCount valid = count.without(holes);
+  if (valid.samples() == 0) return {};
+  const Reach reach = reachOf(valid, 0, kTop);
+  const double margin = (kFarther - 1) * std::max(1.0, static_cast<double>(reach.high) - reach.low);
+  const double low = std::max(0.0, std::floor(reach.low - margin)), high = std::min<double>(kTop, reach.high + margin);
+  DepthReading reading;
+  reading.settings = {{"codes", print("%.0f-%.0f", low, std::ceil(high))}};
+  reading.why = print("codes of %u to %u: heights", reach.low, reach.high);
+  return reading;
+}
+
+// Nothing tells distances from heights if no sample is a hole.
+std::string otherEnd(const CodeCount& count) {
+  return count.share(0, 0) + count.share(kTop, kTop) > 0 ? "" : "if high codes are near (heights): --as heights";
+}
+
 // What else distances may be. The relief is the same; its depth in mm is not.
 std::string otherUnit(const KnownKind& kind, const CodeCount& count) {
   const bool fine = count.quantile(0.5, 1, kTop - 1) > kNearestOfFine;
   if (kind.name == std::string_view("tum") || kind.name == std::string_view("ycb")) return "if a code is 1 mm: --as mm";
   if (kind.name == std::string_view("mm") && fine) return "if there are 5000 codes a metre: --as tum";
   return kind.name == std::string_view("kitti") ? "if a code is 1 mm: --as mm" : "";
+}
+
+std::string both(const std::string& first, const std::string& second) {
+  return first + (first.empty() || second.empty() ? "" : "; ") + second;
 }
 
 DepthReading readRange(const CodeCount& count) {
@@ -150,8 +172,7 @@ DepthReading readShades(const Frame& depth, const CodeCount& count, const Calibr
   }
   if (depth.model != ColorModel::Yuv) readBlack(count, said, reading);
   if (!says(said, {"polarity", "unit", "law"})) {
-    if (!reading.offer.empty()) reading.offer += "; ";
-    reading.offer += "near is taken to be bright; if it is dark: --calibration polarity=near-low";
+    reading.offer = both(reading.offer, "near is taken to be bright; if it is dark: --calibration polarity=near-low");
   }
   return reading;
 }
@@ -161,6 +182,9 @@ DepthReading readReach(const CodeCount& count, const CalibrationLayers& said, co
   const std::string* const unit = said.find("unit");
   const std::string* const invalid = said.find("invalid");
   const CodeSet holes = invalid != nullptr ? CodeSet::parse(*invalid).value_or(CodeSet()) : CodeSet();
+  if (kind != nullptr && kind->name == std::string_view("heights") && !says(said, {"codes"})) {
+    return readHeights(count, holes);
+  }
   if (kind != nullptr && kind->inverse.mm > 0 && !says(said, {"codes", "near", "far"})) {
     return readInverse(count, *kind, holes);
   }
@@ -210,7 +234,7 @@ DepthReading readCodes(const Frame& depth, const CodeCount& count, const Calibra
   with.pictures = settingsOf(*kind);
   DepthReading reading = readReach(count, with, kind);
   reading.kind = kind;
-  reading.offer = otherUnit(*kind, count);
+  reading.offer = both(otherUnit(*kind, count), otherEnd(count));
   reading.settings.merge(with.pictures);
   return reading;
 }

@@ -67,13 +67,15 @@ DepthReading distances(const Reach& reach, double value, std::optional<double> s
     reading.settings = {
         {"polarity", "near-low"}, {"codes", codeRange(kNearer * reach.low, kFarther * reach.high)}, {"invalid", "0"}};
     reading.why = described(reach, value) + ": distances without a known unit";
+    reading.offer = "if great numbers are near: --calibration polarity=near-high";
     return reading;
   }
   reading.settings = {
       {"unit", print("%.9g", unit_mm)}, {"invalid", "0"}, {"near", print("%.6g", near)}, {"far", print("%.6g", far)}};
   const char* const unit = stated_unit_mm ? "" : metres ? " in m" : " in mm";
   reading.why = described(reach, value) + ": distances" + unit;
-  if (!stated_unit_mm) reading.why += "; if they are disparities, give --calibration law=inverse";
+  if (!stated_unit_mm)
+    reading.offer = "if the numbers are disparities: --calibration law=inverse; if heights: --as heights";
   return reading;
 }
 
@@ -89,7 +91,7 @@ DepthReading disparities(const Reach& reach, double value, double top, const Cal
   }
   reading.why = described(reach, value) + (relative ? ": relative disparities" : ": disparities");
   if (!has(said, "law") && !has(said, "polarity")) {
-    reading.why += "; if they are distances, give --calibration unit=1000 (metres) or unit=1 (millimetres)";
+    reading.offer = "if the numbers are distances: --calibration unit=1000 (metres) or unit=1 (millimetres)";
   }
   return reading;
 }

@@ -83,6 +83,8 @@ constexpr KnownKind kKinds[] = {
      .calibration = "polarity=near-high",
      .packing = Packing::SideBySide,
      .code = DepthCode::Luma},
+    {"heights", "heights", "terrain and relief maps of 16 bits: high codes are near; 0 is a hole",
+     "polarity=near-high,invalid=0"},
     {.name = "near-bright",
      .what = "brightness, near bright",
      .help = "disparity or inverse depth: MiDaS, Depth Anything, phones, Middlebury",

@@ -118,6 +118,9 @@ RecordingPlace lookAtNames(const fs::path& path, const fs::path& folder) {
       {".depth.png", "mm"},
       {"scannet", "scannet"},
       {"record3d", "record3d"},
+      {"heightmap", "heights"},
+      {"height_map", "heights"},
+      {"elevation", "heights"},
   };
   if (isRawNyu(path.stem().string())) {
     // The reader of pictures has put a PGM's bytes in order.

@@ -329,6 +329,35 @@ TEST(Recordings, TheDepthOfAPaleSceneIsFoundByTheBreakInTheMiddle) {
   EXPECT_FALSE(open({.url = folder / "film.mp4"}).info.has_depth);
 }
 
+// Of a picture without a hole nothing tells whether high codes are near: both readings have their word.
+TEST(Recordings, HeightsAreOfferedWhereNothingTellsThemFromDistances) {
+  TemporaryFolder folder;
+  makeClip(folder / "%04d.png", {coded([](double mm, int, int) { return 20000 - rounded(mm); })});
+  const Seen far = open({.url = folder / "%04d.png"});
+  EXPECT_THAT(far.info.reading.offers, Contains(HasSubstr("--as heights")));
+  const Seen near = open({.url = folder / "%04d.png", .as = findKind("heights")});
+  ASSERT_EQ(near.failure, "");
+  const HeightField field = HeightField::make(near.depth, near.info.calibration.calibration, kVolume).value();
+  EXPECT_GT(field.heightMm(80, 54), field.heightMm(150, 5) + 10);
+  EXPECT_THAT(near.info.reading.doubts, IsEmpty());
+  // A hole is what only a sensor has.
+  makeClip(folder / "%04d.png", {coded([](double mm, int, int) { return rounded(mm); })});
+  EXPECT_THAT(open({.url = folder / "%04d.png"}).info.reading.offers, IsEmpty());
+  std::filesystem::create_directories(folder / "elevation");
+  makeClip(folder / "elevation/%04d.png", {coded([](double mm, int, int) { return 20000 - rounded(mm); })});
+  EXPECT_THAT(open({.url = folder / "elevation/%04d.png"}).info.calibration.calibration.polarity,
+              DepthPolarity::NearIsHigh);
+}
+
+TEST(Recordings, HuesOfferTheirOtherEnd) {
+  TemporaryFolder folder;
+  const Half hue{[](int c, int r) { return hueColor(0.1 + 0.8 * (distanceMm(c, r) - 900) / 1500); }};
+  makeHalves(folder / "a.mp4", true, kPhoto, hue);
+  EXPECT_THAT(open({.url = folder / "a.mp4"}).info.reading.offers, Contains(HasSubstr("polarity=near-high")));
+  EXPECT_THAT(open({.url = folder / "a.mp4", .command_line = {{"polarity", "near-low"}}}).info.reading.offers,
+              IsEmpty());
+}
+
 // A blue ramp and a circle of hues may be a picture of anything, unless the name says depth.
 TEST(Recordings, AColourMapWithoutColourIsFelt) {
   const auto ramp = [](double s) { return std::array{std::max(0.0, 2 * s - 1), s, 0.5 + 0.5 * s}; };
