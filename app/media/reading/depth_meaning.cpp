@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/media/reading/depth_meaning.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <string_view>
 
@@ -74,6 +75,12 @@ std::string otherEnd(const CalibrationLayers& layers) {
   return "near is taken to be at the end of the colour map; if it is at its beginning: --calibration polarity=near-low";
 }
 
+bool isAssumedNearHigh(const CalibrationChoice& choice) {
+  return std::any_of(choice.parts.begin(), choice.parts.end(), [](const CalibrationPart& part) {
+    return part.key == "polarity" && part.value == "near-high" && part.origin == CalibrationOrigin::AssumedTags;
+  });
+}
+
 }  // namespace
 
 const KnownKind* kindOf(const DepthClues& clues, const Frame& stored) {
@@ -117,6 +124,7 @@ Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind,
   layers.pictures.merge(read.settings);
   auto choice = chooseCalibration(layers, look, clues.code);
   if (!choice) return std::unexpected(choice.error());
+  markGuesses(clues.tags, *choice);
 
   DepthMeaning meaning{.calibration = std::move(*choice), .reading = {}};
   FilmReading& reading = meaning.reading;
@@ -136,6 +144,10 @@ Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind,
   if (placed) reading.why.push_back(clues.place.why);
   if (!read.why.empty()) reading.why.push_back(std::move(read.why));
   if (!read.offer.empty()) reading.offers.push_back(std::move(read.offer));
+  if (isAssumedNearHigh(meaning.calibration)) {
+    reading.offers.emplace_back(
+        "near is bright, as the film's maker assumed; if it is dark: --calibration polarity=near-low");
+  }
   return meaning;
 }
 

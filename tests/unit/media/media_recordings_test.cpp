@@ -528,6 +528,46 @@ TEST(Recordings, EveryPartSaysWhoSaidIt) {
   EXPECT_THAT(partLines(shown.info.reading), Contains("unit=1: first picture, likely"));
 }
 
+// What an author assumed is not said by the film's tags.
+TEST(Recordings, AGuessStaysOneInTheFilmsTags) {
+  TemporaryFolder folder;
+  makeClip(folder / "color.mkv", {photo()});
+  makeClip(folder / "%04d.png", {coded([](double mm, int, int) { return rounded(mm); })});
+  ClipTrack gray{.pix_fmt = "gray", .width = kSceneCols, .height = kSceneRows, .frames = 2};
+  makeClip(folder / "gray.mkv", {gray});
+  const auto tagsOf = [&](const std::string& depth, const CalibrationSettings& said) {
+    return certaintyTags(
+        open({.url = folder / "color.mkv", .depth_url = folder / depth, .command_line = said}).info.reading);
+  };
+  using Tags = std::map<std::string, std::string>;
+  EXPECT_EQ(tagsOf("%04d.png", {}), (Tags{{"DEPTH_LIKELY", "law,polarity,near,far"}}));
+  EXPECT_EQ(tagsOf("%04d.png", {{"unit", "1"}, {"near", "500"}, {"far", "3000"}}), Tags{});
+  EXPECT_EQ(tagsOf("gray.mkv", {}), (Tags{{"DEPTH_ASSUMED", "law,polarity,near,far"}}));
+  EXPECT_EQ(tagsOf("gray.mkv", {{"polarity", "near-low"}}), (Tags{{"DEPTH_ASSUMED", "law,near,far"}}));
+
+  Tags tags{{"DEPTH_UNIT", "none"},
+            {"DEPTH_POLARITY", "near-high"},
+            {"DEPTH_LAW", "inverse"},
+            {"DEPTH_NEAR", "400"},
+            {"DEPTH_FAR", "900"}};
+  makeClip(folder / "said.mkv", {gray}, tags);
+  tags.insert({{"DEPTH_ASSUMED", "polarity,near,far"}, {"DEPTH_LIKELY", "law"}});
+  makeClip(folder / "guessed.mkv", {gray}, tags);
+  const auto readingOf = [&](const char* depth) {
+    return open({.url = folder / "color.mkv", .depth_url = folder / depth}).info;
+  };
+  const FilmInfo said = readingOf("said.mkv"), guessed = readingOf("guessed.mkv");
+  EXPECT_THAT(partLines(said.reading), Contains("near=400: container tags, said"));
+  EXPECT_THAT(partLines(guessed.reading), Contains("near=400: container tags, assumed by its maker, assumed"));
+  EXPECT_THAT(partLines(guessed.reading), Contains("law=inverse: container tags, likely to its maker, likely"));
+  EXPECT_EQ(guessed.calibration.calibration.near_mm, 400);
+  EXPECT_THAT(plainLine(said.reading, said.calibration.calibration), HasSubstr("0.40 to 0.90 m (container tags)"));
+  EXPECT_EQ(plainLine(guessed.reading, guessed.calibration.calibration),
+            "depth brightness, near bright (container tags, assumed by its maker)");
+  EXPECT_THAT(said.reading.offers, IsEmpty());
+  EXPECT_THAT(guessed.reading.offers, Contains(HasSubstr("polarity=near-low")));
+}
+
 // A hue reaches from near to far and has no unit.
 TEST(Recordings, AUnitOfHuesIsRefused) {
   TemporaryFolder folder;
