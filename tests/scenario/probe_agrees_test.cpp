@@ -126,6 +126,15 @@ TEST_F(ProbeAgrees, OnTracksLanguagesAndChapters) {
   }
 }
 
+// FFmpeg tells these only after it has decoded one.
+TEST_F(ProbeAgrees, OnTheSizesOfSinglePictures) {
+  for (const char* name : {"a.tif", "a.jpg", "a.png", "a.bmp"}) {
+    const json track = relievo(film("-f lavfi -i testsrc=s=48x32 -frames:v 1", name))["tracks"][0];
+    EXPECT_EQ(track["width"], 48) << name;
+    EXPECT_EQ(track["height"], 32) << name;
+  }
+}
+
 // A third of each picture, at its lower end.
 TEST_F(ProbeAgrees, OnTheShareOfHoles) {
   ClipTrack depth{.codec = "png", .pix_fmt = "gray16be", .width = 60, .height = 60, .frames = 2};
