@@ -46,6 +46,7 @@ struct PairReader::Impl {
   void showViews(Packing packing, const char* by);
   void lookForCode(const Frame& first);
   Result<const Frame*> firstDepth();
+  Result<void> describeAlone(const StreamInfo& track);
   Result<void> describeHalves(const StreamInfo& color);
   Result<void> describeTrack(const Frame& first);
   void takeTags(const StreamInfo& stream);

@@ -163,9 +163,7 @@ void PairReader::Impl::lookForRegistration(const StreamInfo& color) {
 
 Result<void> PairReader::Impl::openDepth(const StreamInfo& color) {
   lookForHalves(color);
-  if (info.packing == Packing::DepthAlone) {
-    return describe(color_ahead[0], tellingPicture(color_ahead[0], options.url, color.index), {}, color);
-  }
+  if (info.packing == Packing::DepthAlone) return describeAlone(color);
   if (isPacked()) return describeHalves(color);
   if (!depth_track && !depth_source) return {};
   if (depth) {  // already known from the first opening

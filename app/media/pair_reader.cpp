@@ -65,8 +65,10 @@ Result<DepthFollower::Supplied> PairReader::Impl::supplyOwnDepth() {
 
 Result<FramePair> PairReader::Impl::pairFor(Frame color) {
   if (info.packing == Packing::DepthAlone) {
-    Frame shown = depthPicture(color, info.calibration.calibration);
-    return FramePair{std::move(shown), std::move(color), true, {}, {}};
+    auto ordered = inOrder(color, reordering.order);
+    if (!ordered) return failOn(options.url, ordered.error());
+    Frame shown = depthPicture(*ordered, info.calibration.calibration);
+    return FramePair{std::move(shown), std::move(*ordered), true, {}, {}};
   }
   if (isPacked()) {
     auto halves = splitPacked(color, info.packing, clues.code, gray);

@@ -24,12 +24,24 @@ bool isFile(const std::string& url) {
   return url.find("://") == std::string::npos && !url.starts_with("v4l2:");
 }
 
-// Numbers, or the codes of a sensor, are no colour; nor is gray in a file that is called depth.
+// Numbers, the codes of a sensor, or a colour map are no colour; nor are gray, hues and a ramp of blue in a file that
+// is called depth.
 bool isDepthAlone(const Frame& picture, const std::string& url) {
   if (picture.value_per_code != 0) return true;
   if (picture.model == ColorModel::Gray && sensorKind(picture, CodeCount(picture)) != nullptr) return true;
   constexpr double kAllGray = 0.99;
-  return saysDepth(url) && lookAt(picture).gray >= kAllGray;
+  if (saysDepth(url) && lookAt(picture).gray >= kAllGray) return true;
+  const auto map = bestColorMap(picture);
+  if (!map) return false;
+  return saysDepth(url) || (map->code != DepthCode::Hue && map->code != DepthCode::Kinect);
+}
+
+// The second source; else the first picture of a recording's depth. Empty if there is neither.
+std::string depthFileOf(const MediaSource& source, const std::string& depth_url) {
+  const StreamInfo* const depth = depth_url.empty() ? findDepthTrack(source) : nullptr;
+  if (depth == nullptr) return depth_url;
+  const auto file = depth->tags.find(kFileTag);
+  return file != depth->tags.end() ? file->second : "";
 }
 
 // The luma of shades of red alone: from black to the share of red in white.
@@ -52,7 +64,7 @@ void PairReader::Impl::lookAround() {
   views_squeezed.reset();
   reordering.kind = nullptr;
   clues.place = lookAtTags(source.tags());
-  if (clues.place.kind == nullptr) clues.place = lookAtPlace(options.url, options.depth_url);
+  if (clues.place.kind == nullptr) clues.place = lookAtPlace(options.url, depthFileOf(source, options.depth_url));
   reordering.order = options.as != nullptr ? options.as->order : SampleOrder::AsStored;
   info.reading = {};
   if (options.depth_code) {
@@ -139,6 +151,22 @@ Result<const Frame*> PairReader::Impl::firstDepth() {
   reordering.again = **first;
   depth.emplace([this] { return supplyDepth(); });
   return depth->peek();
+}
+
+// Depth without colour; its samples are put in order as they are read (`pairFor`).
+Result<void> PairReader::Impl::describeAlone(const StreamInfo& track) {
+  Frame look = tellingPicture(color_ahead[0], options.url, track.index);
+  lookForCode(look);
+  takeTags(track);
+  const KnownKind* const kind = kindOf(clues, look);
+  if (kind != nullptr && kind->order != SampleOrder::AsStored) {
+    reordering.kind = kind;
+    reordering.order = kind->order;
+    auto ordered = inOrder(look, kind->order);
+    if (!ordered) return failOn(options.url, ordered.error());
+    look = std::move(*ordered);
+  }
+  return describe(color_ahead[0], look, {}, track);
 }
 
 Result<void> PairReader::Impl::describeHalves(const StreamInfo& color) {

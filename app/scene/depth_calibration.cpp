@@ -59,6 +59,10 @@ const char* name(CalibrationOrigin origin) noexcept {
       return "--as";
     case CalibrationOrigin::ContainerTags:
       return "container tags";
+    case CalibrationOrigin::LikelyTags:
+      return "container tags, likely to its maker";
+    case CalibrationOrigin::AssumedTags:
+      return "container tags, assumed by its maker";
     case CalibrationOrigin::FileBeside:
       return "file beside it";
     case CalibrationOrigin::Name:

@@ -78,6 +78,8 @@ enum class CalibrationOrigin : std::uint8_t {
   SideFile,       // --calibration FILE
   StatedKind,     // --as KIND
   ContainerTags,  // of the film, or of another program
+  LikelyTags,     // likewise, where the film's maker had it from names or pictures
+  AssumedTags,    // likewise, where the film's maker assumed it
   FileBeside,     // a file that the recording's own program left beside it
   Name,           // the names of files and folders
   FirstPicture,

@@ -12,6 +12,7 @@
 
 #include "drivers/pictures/lists.h"
 #include "drivers/pictures/roles.h"
+#include "drivers/pictures/stereo.h"
 #include "hal/media/media_names.h"
 #include "platform/files/answered_place.h"
 #include "platform/whole_file.h"
@@ -121,6 +122,30 @@ bool sortByFolder(const std::string& folder, const Listing& listing, FoundPictur
   return !found.color.names.empty() || !found.depth.names.empty();
 }
 
+// One picture of two cameras: of its depth if that is known, else of both views.
+bool sortByView(const std::string& folder, const std::vector<std::string>& names, FoundPictures& found) {
+  const auto stereo = stereoAmong(names);
+  if (!stereo) return false;
+  found.views = stereo->depth.empty();
+  found.color = {folder, {stereo->left}};
+  found.depth = {folder, {found.views ? stereo->right : stereo->depth}};
+  found.left_out += names.size() - (found.views ? 2 : 3);
+  return true;
+}
+
+// Two folders of views.
+bool sortByViewFolder(const std::string& folder, const Listing& listing, FoundPictures& found) {
+  const auto stereo = stereoAmong(listing.folders);
+  if (!stereo || !stereo->depth.empty()) return false;
+  const auto open = [&](const std::string& name) -> PictureFiles {
+    return {folder + name + "/", oneKind(listingOf(folder + name).value_or(Listing{}).pictures, found.left_out)};
+  };
+  found.color = open(stereo->left);
+  found.depth = open(stereo->right);
+  found.views = true;
+  return !found.color.names.empty() && !found.depth.names.empty();
+}
+
 std::optional<PictureList> readList(const std::string& path, std::size_t pictures) {
   const auto text = readWholeFile(path, FileSize::Recording, kNoList);
   const auto list = text ? parsePictureList(*text, pictures) : Result<PictureList>(std::unexpected(text.error()));
@@ -177,10 +202,11 @@ Result<FoundPictures> findInFolder(const std::string& folder) {
   const auto listing = listingOf(folder);
   if (!listing) return std::unexpected(listing.error());
   FoundPictures found;
-  if (sortByFolder(folder, *listing, found)) return found;
+  if (sortByFolder(folder, *listing, found) || sortByViewFolder(folder, *listing, found)) return found;
+  found = {};
   if (isListOfFilms(listing->films, listing->pictures.size())) return fail(ErrorCode::NotFound, kHasFilms);
   if (listing->pictures.empty()) return fail(ErrorCode::NotFound, kNoPictures);
-  sortByRole(folder, listing->pictures, found);
+  if (!sortByView(folder, listing->pictures, found)) sortByRole(folder, listing->pictures, found);
   return found;
 }
 

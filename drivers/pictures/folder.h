@@ -23,6 +23,7 @@ struct FoundPictures {
   std::vector<std::int64_t> color_values, depth_values;
   bool listed_numbers = false;  // those values are numbers, not ns
   bool paired = false;          // the list says which pictures belong together: equal values
+  bool views = false;           // `depth` is no depth but the right view, `color` the left one
   std::size_t left_out = 0;     // pictures of another ending or purpose
 };
 
@@ -33,7 +34,8 @@ struct FoundPictures {
 [[nodiscard]] bool namesPictures(const std::string& url);
 
 // A folder   with sub-folders of colour (rgb, color, image, ..) and depth (depth, disparity, ..), or pictures whose
-//            names hold such words ("frame-000000.depth.png"), else one series; associations.txt in it is read
+//            names hold such words ("frame-000000.depth.png"), or two views and their disparities (stereo.h), else one
+//            series; associations.txt in it is read
 // A pattern  "a/b%06d.png" with any first number, or "a/*.png" in the last part of the path
 // A list     associations.txt
 // A picture  alone

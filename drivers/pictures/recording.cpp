@@ -99,7 +99,8 @@ void Timing::align(NameKind depth_kind, bool paired) {
   }
   const bool comparable = kind == depth_kind && kind != NameKind::Ranks && overlap(color, depth);
   if (!comparable) {
-    notes.emplace_back("the names of colour and depth do not correspond: they are paired in their order");
+    if (color.size() > 1 || depth.size() > 1)
+      notes.emplace_back("the names of colour and depth do not correspond: they are paired in their order");
     if (kind != NameKind::Seconds || color.size() != depth.size()) countByRank(color), kind = NameKind::Ranks;
     for (std::size_t i = 0; i < depth.size(); ++i) {
       depth[i].value = kind == NameKind::Seconds ? color[i].value : static_cast<std::int64_t>(i);
@@ -183,7 +184,8 @@ Recording recordingOf(const FoundPictures& found, std::optional<double> frames_p
     recording.notes.push_back(
         print("the names tell no times: %.0f pictures a second assumed; --fps F changes that", rate));
   }
-  if (both)
+  recording.views = found.views;
+  if (both && !found.views)
     recording.depth_tags =
         depthTagsOf(recording.color.front().path, recording.depth.front().path, !counted || found.paired);
   if (found.left_out > 0) recording.notes.push_back(print("%zu other pictures are left out", found.left_out));

@@ -22,6 +22,7 @@ struct Recording {
   Duration period{0};                             // the usual step of the leading series; 0 for a single picture
   std::optional<Duration> start;                  // of time 0, as the names say
   bool numbered = false;                          // the times come from a rate
+  bool views = false;                             // `depth` is the right view
   std::map<std::string, std::string> depth_tags;  // layouts.h
   std::vector<std::string> notes;
 };

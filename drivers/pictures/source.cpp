@@ -108,6 +108,10 @@ class PicturesSource final : public MediaSource {
     stream->average_rate = rateOf(pictures);
     stream->base_rate = recording_.numbered ? stream->average_rate : Ratio{};
     stream->duration = pictures.size() > 1 ? pictures.back().time + recording_.period : Duration(0);
+    if (recording_.views) {
+      stream->tags[kViewTag] = depth ? "right" : "left";
+      return stream;
+    }
     if (depth) stream->tags.insert(recording_.depth_tags.begin(), recording_.depth_tags.end());
     if (depth && !recording_.color.empty()) stream->tags["TITLE"] = "depth";
     if (depth) stream->tags[kFileTag] = pictures.front().path;

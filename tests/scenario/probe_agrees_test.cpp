@@ -126,6 +126,23 @@ TEST_F(ProbeAgrees, OnTracksLanguagesAndChapters) {
   }
 }
 
+// FFmpeg tells these only after it has decoded one.
+TEST_F(ProbeAgrees, OnTheSizesOfSinglePictures) {
+  for (const char* name : {"a.tif", "a.jpg", "a.png", "a.bmp"}) {
+    const json track = relievo(film("-f lavfi -i testsrc=s=48x32 -frames:v 1", name))["tracks"][0];
+    EXPECT_EQ(track["width"], 48) << name;
+    EXPECT_EQ(track["height"], 32) << name;
+  }
+}
+
+// A third of each picture, at its lower end.
+TEST_F(ProbeAgrees, OnTheShareOfHoles) {
+  ClipTrack depth{.codec = "png", .pix_fmt = "gray16be", .width = 60, .height = 60, .frames = 2};
+  depth.sample = [](int, int c, int r, int) { return r >= 40 ? 0u : 1000u + 10 * static_cast<unsigned>(r) + c % 7; };
+  makeClip(at("%02d.png"), {depth});
+  EXPECT_NEAR(relievo(at("%02d.png"))["depth"]["holes"].get<double>(), 1.0 / 3, 1e-9);
+}
+
 TEST_F(ProbeAgrees, OnVariableRatesAndStills) {
   // Of 60 pictures a second 1 in 2 for a second, then 1 in 6: 30, then 10.
   const std::string path = film(

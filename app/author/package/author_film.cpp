@@ -156,6 +156,7 @@ Outcome<void> Packager::begin(const FramePair& pair) {
   format_.color_crf = output_.color_crf;
   format_.depth = output_.depth;
   format_.depth_tags = calibrationTags(coder_.outcome());
+  for (auto& [key, value] : certaintyTags(info.reading)) format_.depth_tags[key] = value;
   if (!info.material.empty()) format_.depth_tags[kMaterialTag] = materialText(info.material);
   format_.depth_tags["DEPTH_READ_AS"] = plainLine(info.reading, sourceCalibration());
   auto writer =

@@ -94,14 +94,21 @@ double aspectOf(const Frame& frame) {
   return frame.width * frame.sample_aspect / frame.height;
 }
 
+// The box for a colour that is as wide as the depth, 160 mm in its longer side.
+std::string boxOf(double aspect) {
+  constexpr double kLong = 160;
+  return print("%.0fx%.0fx40", std::min(kLong, kLong * aspect), std::min(kLong, kLong / aspect));
+}
+
 std::string doubtShape(const Frame& depth, const Frame& color) {
   constexpr double kSame = 0.03;
   const double ratio = aspectOf(depth) / aspectOf(color);
   if (std::abs(ratio - 1) <= kSame) return "";
   return print(
-      "the colour is %.2f times as wide as high, the depth %.2f: the depth is stretched onto the colour; crop "
-      "one of them, or give --registration",
-      aspectOf(color), aspectOf(depth));
+      "the colour is %.2f times as wide as high, the depth %.2f: the depth is stretched onto the colour; if both show "
+      "the same view and the colour is squeezed, play it with --box %s; if one shows more than the other, give "
+      "--registration",
+      aspectOf(color), aspectOf(depth), boxOf(aspectOf(depth)).c_str());
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/media/reading/depth_meaning.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <string_view>
 
@@ -26,12 +27,16 @@ bool fits(const KnownKind& kind, DepthCode code, const Frame& frame) {
   return frame.model == ColorModel::Gray && frame.components[0].bits == 16;
 }
 
-bool isOfStereoCamera(const DepthClues& clues, const KnownKind* kind) {
-  return kind != nullptr && clues.place.camera && kind->name == std::string_view("middlebury");
+bool isOfStereoCamera(const KnownKind* kind) {
+  return kind != nullptr && kind->name == std::string_view("middlebury");
 }
 
 bool isRecord3d(const KnownKind* kind) {
   return kind != nullptr && kind->name == std::string_view("record3d");
+}
+
+bool isHeights(const KnownKind* kind) {
+  return kind != nullptr && kind->name == std::string_view("heights");
 }
 
 // Record3D states what the whole circle of hues covers, of which a film uses a part.
@@ -70,11 +75,17 @@ std::string otherEnd(const CalibrationLayers& layers) {
   return "near is taken to be at the end of the colour map; if it is at its beginning: --calibration polarity=near-low";
 }
 
+bool isAssumedNearHigh(const CalibrationChoice& choice) {
+  return std::any_of(choice.parts.begin(), choice.parts.end(), [](const CalibrationPart& part) {
+    return part.key == "polarity" && part.value == "near-high" && part.origin == CalibrationOrigin::AssumedTags;
+  });
+}
+
 }  // namespace
 
 const KnownKind* kindOf(const DepthClues& clues, const Frame& stored) {
   if (clues.as != nullptr) return clues.as;
-  if (isOfStereoCamera(clues, clues.place.kind) && clues.code == DepthCode::Luma && !definesCodes(saidLayers(clues))) {
+  if (isOfStereoCamera(clues.place.kind) && clues.code == DepthCode::Luma && !definesCodes(saidLayers(clues))) {
     return clues.place.kind;
   }
   if (stored.value_per_code != 0 || definesCodes(saidLayers(clues))) return nullptr;
@@ -95,9 +106,11 @@ Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind,
     }
   } else if (clues.code != DepthCode::Luma) {
     read.offer = otherEnd(layers);  // an entry of a colour map says nothing of its own
-  } else if (isOfStereoCamera(clues, kind)) {
+  } else if (isOfStereoCamera(kind) && clues.place.camera) {
     read = readDisparities(look, CodeCount(look), *clues.place.camera);
-  } else if (look.value_per_code != 0) {
+  } else if (isOfStereoCamera(kind) && look.value_per_code == 0) {
+    read = readFloats(look, CodeCount(look), true, layers);
+  } else if (look.value_per_code != 0 && !isHeights(kind)) {
     scaleToCodes(layers, look.value_per_code);
     read = readFloats(look, CodeCount(look), namesDisparity(clues.codec, clues.path), layers);
   } else {
@@ -111,6 +124,7 @@ Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind,
   layers.pictures.merge(read.settings);
   auto choice = chooseCalibration(layers, look, clues.code);
   if (!choice) return std::unexpected(choice.error());
+  markGuesses(clues.tags, *choice);
 
   DepthMeaning meaning{.calibration = std::move(*choice), .reading = {}};
   FilmReading& reading = meaning.reading;
@@ -130,6 +144,10 @@ Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind,
   if (placed) reading.why.push_back(clues.place.why);
   if (!read.why.empty()) reading.why.push_back(std::move(read.why));
   if (!read.offer.empty()) reading.offers.push_back(std::move(read.offer));
+  if (isAssumedNearHigh(meaning.calibration)) {
+    reading.offers.emplace_back(
+        "near is bright, as the film's maker assumed; if it is dark: --calibration polarity=near-low");
+  }
   return meaning;
 }
 

@@ -24,8 +24,11 @@ constexpr double kHolesOfSensor = 0.002;
 constexpr std::uint32_t kRawHole = 2047, kRawLowest = 300, kRawHighest = 1084;
 
 // Most sensors see less than 12 m and half of a scene within 5 m; most scenes lie beyond 0.6 m: 3000 codes at 5000 a
-// metre.
-constexpr std::uint32_t kFarthestMm = 12000, kMiddleMm = 5000, kNearestOfFine = 3000;
+// metre. No sensor sees nearer than .2 m, which is 1000 of those.
+constexpr std::uint32_t kFarthestMm = 12000, kMiddleMm = 5000, kNearestOfFine = 3000, kLeastOfFine = 1000;
+
+// mm in tenths: steps of ten codes that 8, 10 or 12 bits stretched to 16 do not make.
+constexpr std::uint32_t kTenths = 10, kMostStep = 8;
 
 // Near and far are taken from all samples except outliers, with a margin because later pictures may show more.
 constexpr double kOutliers = 0.002, kNearer = 0.9, kFarther = 1.1;
@@ -111,12 +114,34 @@ bool isRotated(const CodeCount& count) {
   return count.remainders(8, 1) >= kMost && count.remainders(16, 0) < kMost;
 }
 
+// Heights: the codes in use.
+DepthReading readHeights(const CodeCount& count, const CodeSet& holes) {
+  const CodeCount valid = count.without(holes);
+  if (valid.samples() == 0) return {};
+  const Reach reach = reachOf(valid, 0, kTop);
+  const double margin = (kFarther - 1) * std::max(1.0, static_cast<double>(reach.high) - reach.low);
+  const double low = std::max(0.0, std::floor(reach.low - margin)), high = std::min<double>(kTop, reach.high + margin);
+  DepthReading reading;
+  reading.settings = {{"codes", print("%.0f-%.0f", low, std::ceil(high))}};
+  reading.why = print("codes of %u to %u: heights", reach.low, reach.high);
+  return reading;
+}
+
+// Nothing tells distances from heights if no sample is a hole.
+std::string otherEnd(const CodeCount& count) {
+  return count.share(0, 0) + count.share(kTop, kTop) > 0 ? "" : "if high codes are near (heights): --as heights";
+}
+
 // What else distances may be. The relief is the same; its depth in mm is not.
 std::string otherUnit(const KnownKind& kind, const CodeCount& count) {
   const bool fine = count.quantile(0.5, 1, kTop - 1) > kNearestOfFine;
-  if (kind.name == std::string_view("tum")) return "if a code is 1 mm: --as mm";
+  if (kind.name == std::string_view("tum") || kind.name == std::string_view("ycb")) return "if a code is 1 mm: --as mm";
   if (kind.name == std::string_view("mm") && fine) return "if there are 5000 codes a metre: --as tum";
   return kind.name == std::string_view("kitti") ? "if a code is 1 mm: --as mm" : "";
+}
+
+std::string both(const std::string& first, const std::string& second) {
+  return first + (first.empty() || second.empty() ? "" : "; ") + second;
 }
 
 DepthReading readRange(const CodeCount& count) {
@@ -147,8 +172,7 @@ DepthReading readShades(const Frame& depth, const CodeCount& count, const Calibr
   }
   if (depth.model != ColorModel::Yuv) readBlack(count, said, reading);
   if (!says(said, {"polarity", "unit", "law"})) {
-    if (!reading.offer.empty()) reading.offer += "; ";
-    reading.offer += "near is taken to be bright; if it is dark: --calibration polarity=near-low";
+    reading.offer = both(reading.offer, "near is taken to be bright; if it is dark: --calibration polarity=near-low");
   }
   return reading;
 }
@@ -158,6 +182,9 @@ DepthReading readReach(const CodeCount& count, const CalibrationLayers& said, co
   const std::string* const unit = said.find("unit");
   const std::string* const invalid = said.find("invalid");
   const CodeSet holes = invalid != nullptr ? CodeSet::parse(*invalid).value_or(CodeSet()) : CodeSet();
+  if (kind != nullptr && kind->name == std::string_view("heights") && !says(said, {"codes"})) {
+    return readHeights(count, holes);
+  }
   if (kind != nullptr && kind->inverse.mm > 0 && !says(said, {"codes", "near", "far"})) {
     return readInverse(count, *kind, holes);
   }
@@ -184,11 +211,12 @@ const KnownKind* sensorKind(const Frame& depth, const CodeCount& count) {
   }
   if (isRawKinect(count)) return findKind("kinect-raw");
   if (isMeasured(count) && isRotated(count)) return findKind("sun");
-  if (count.step() > 8 || !isDistances(count)) return nullptr;  // a format of fewer bits, stretched
+  const std::uint32_t step = count.step();
+  if ((step > kMostStep && step != kTenths) || !isDistances(count)) return nullptr;  // fewer bits, stretched
   if (count.share(0, 0) > 0.5 && isScattered(depth)) return findKind("kitti");
-  const bool fine =
-      count.quantile(1 - kOutliers, 1, kTop - 1) > kFarthestMm || count.quantile(0.5, 1, kTop - 1) > kMiddleMm;
-  return findKind(fine ? "tum" : "mm");
+  const auto at = [&](double q) { return count.quantile(q, 1, kTop - 1); };
+  const bool fine = (at(1 - kOutliers) > kFarthestMm || at(0.5) > kMiddleMm) && at(kOutliers) > kLeastOfFine;
+  return findKind(!fine ? "mm" : step == kTenths ? "ycb" : "tum");
 }
 
 DepthReading readCodes(const Frame& depth, const CodeCount& count, const CalibrationLayers& said,
@@ -206,7 +234,7 @@ DepthReading readCodes(const Frame& depth, const CodeCount& count, const Calibra
   with.pictures = settingsOf(*kind);
   DepthReading reading = readReach(count, with, kind);
   reading.kind = kind;
-  reading.offer = otherUnit(*kind, count);
+  reading.offer = both(otherUnit(*kind, count), otherEnd(count));
   reading.settings.merge(with.pictures);
   return reading;
 }

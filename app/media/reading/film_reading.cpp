@@ -2,6 +2,7 @@
 #include "app/media/reading/film_reading.h"
 
 #include <algorithm>
+#include <string_view>
 
 #include "platform/print.h"
 
@@ -36,6 +37,23 @@ std::string what(const FilmReading& reading, const DepthCalibration& c) {
   return code + (near_high ? ", near bright" : ", near dark");
 }
 
+constexpr const char *kLikelyTag = "DEPTH_LIKELY", *kAssumedTag = "DEPTH_ASSUMED";
+
+bool lists(const std::map<std::string, std::string>& tags, const char* tag, const std::string& key) {
+  const auto found = tags.find(tag);
+  return found != tags.end() && ("," + found->second + ",").find("," + key + ",") != std::string::npos;
+}
+
+// Of distances the unit decides law and polarity.
+Certainty certaintyOf(const FilmReading& reading, const char* key) {
+  const std::string_view word = key;
+  const CalibrationPart* const unit = find(reading, "unit");
+  const bool distances = unit != nullptr && unit->value != "none";
+  const CalibrationPart* const part = distances && (word == "law" || word == "polarity") ? unit : find(reading, key);
+  const Certainty own = part != nullptr ? certaintyOf(part->origin) : Certainty::Assumed;
+  return distances ? std::max(own, certaintyOf(unit->origin)) : own;
+}
+
 }  // namespace
 
 const char* name(Certainty certainty) noexcept {
@@ -54,25 +72,51 @@ Certainty certaintyOf(CalibrationOrigin origin) noexcept {
   switch (origin) {
     case CalibrationOrigin::Name:
     case CalibrationOrigin::FirstPicture:
+    case CalibrationOrigin::LikelyTags:
       return Certainty::Likely;
     case CalibrationOrigin::Default:
+    case CalibrationOrigin::AssumedTags:
       return Certainty::Assumed;
     default:
       return Certainty::Said;
   }
 }
 
+std::map<std::string, std::string> certaintyTags(const FilmReading& reading) {
+  std::map<std::string, std::string> tags;
+  for (const char* key : {"law", "polarity", "near", "far"}) {
+    const Certainty certainty = certaintyOf(reading, key);
+    if (certainty == Certainty::Said) continue;
+    std::string& keys = tags[certainty == Certainty::Likely ? kLikelyTag : kAssumedTag];
+    keys += (keys.empty() ? "" : ",") + std::string(key);
+  }
+  return tags;
+}
+
+void markGuesses(const std::map<std::string, std::string>& tags, CalibrationChoice& choice) {
+  choice.explanation.clear();
+  for (CalibrationPart& part : choice.parts) {
+    if (part.origin == CalibrationOrigin::ContainerTags) {
+      if (lists(tags, kLikelyTag, part.key)) part.origin = CalibrationOrigin::LikelyTags;
+      if (lists(tags, kAssumedTag, part.key)) part.origin = CalibrationOrigin::AssumedTags;
+    }
+    choice.explanation +=
+        (choice.explanation.empty() ? "" : ", ") + part.key + "=" + part.value + " (" + name(part.origin) + ")";
+  }
+}
+
 std::string plainLine(const FilmReading& reading, const DepthCalibration& c) {
   std::string line = "depth " + where(reading) + what(reading, c);
   const CalibrationPart* const near = find(reading, "near");
-  if (near != nullptr && near->origin != CalibrationOrigin::Default) {
+  if (near != nullptr && certaintyOf(near->origin) != Certainty::Assumed) {
     line += print(", %.2f to %.2f m", 1e-3 * c.near_mm, 1e-3 * c.far_mm);
   }
   line += c.invalid.empty() ? "" : ", holes " + c.invalid.text();
   const CalibrationPart* const kind = find(reading, "kind");
   auto best = kind != nullptr ? kind->origin : CalibrationOrigin::Default;
   for (const CalibrationPart& part : reading.parts) {
-    if (kind == nullptr && (part.key == "unit" || part.key == "polarity")) best = std::min(best, part.origin);
+    const bool tells = part.key == "polarity" || (part.key == "unit" && part.value != "none");
+    if (kind == nullptr && tells) best = std::min(best, part.origin);
   }
   return line + " (" + (best == CalibrationOrigin::Default ? "assumed" : name(best)) + ")";
 }

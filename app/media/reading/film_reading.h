@@ -2,6 +2,7 @@
 // What a film's depth means, part by part: who said it, and how sure that is.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,12 @@ struct FilmReading {
   std::vector<std::string> offers;  // other readings that are as likely, with the option to type; one line each
   std::vector<std::string> doubts;  // why the reading looks wrong, and the option to try; one line each
 };
+
+// What an author writes into a film, so that a guess stays one: the keys of the calibration that nobody has said, as
+// DEPTH_LIKELY=polarity,law and DEPTH_ASSUMED=near,far. A tag without keys is left out.
+[[nodiscard]] std::map<std::string, std::string> certaintyTags(const FilmReading& reading);
+// Marks the parts that a film's tags state as the guesses that they were.
+void markGuesses(const std::map<std::string, std::string>& tags, CalibrationChoice& choice);
 
 // For a viewer: "depth right of the colour as brightness, near bright, no holes".
 [[nodiscard]] std::string plainLine(const FilmReading& reading, const DepthCalibration& calibration);

@@ -67,18 +67,20 @@ DepthReading distances(const Reach& reach, double value, std::optional<double> s
     reading.settings = {
         {"polarity", "near-low"}, {"codes", codeRange(kNearer * reach.low, kFarther * reach.high)}, {"invalid", "0"}};
     reading.why = described(reach, value) + ": distances without a known unit";
+    reading.offer = "if great numbers are near: --calibration polarity=near-high";
     return reading;
   }
   reading.settings = {
       {"unit", print("%.9g", unit_mm)}, {"invalid", "0"}, {"near", print("%.6g", near)}, {"far", print("%.6g", far)}};
   const char* const unit = stated_unit_mm ? "" : metres ? " in m" : " in mm";
   reading.why = described(reach, value) + ": distances" + unit;
-  if (!stated_unit_mm) reading.why += "; if they are disparities, give --calibration law=inverse";
+  if (!stated_unit_mm)
+    reading.offer = "if the numbers are disparities: --calibration law=inverse; if heights: --as heights";
   return reading;
 }
 
-DepthReading disparities(const Reach& reach, double value, const CalibrationLayers& said) {
-  const double low = kNearer * reach.low, high = kFarther * std::max(reach.high, reach.low + 1);
+DepthReading disparities(const Reach& reach, double value, double top, const CalibrationLayers& said) {
+  const double low = kNearer * reach.low, high = std::min(top, kFarther * std::max(reach.high, reach.low + 1));
   DepthReading reading;
   reading.settings = {{"polarity", "near-high"}, {"codes", codeRange(low, high)}, {"invalid", "0"}};
   const bool relative = high > kMostRatio * low;
@@ -89,7 +91,7 @@ DepthReading disparities(const Reach& reach, double value, const CalibrationLaye
   }
   reading.why = described(reach, value) + (relative ? ": relative disparities" : ": disparities");
   if (!has(said, "law") && !has(said, "polarity")) {
-    reading.why += "; if they are distances, give --calibration unit=1000 (metres) or unit=1 (millimetres)";
+    reading.offer = "if the numbers are distances: --calibration unit=1000 (metres) or unit=1 (millimetres)";
   }
   return reading;
 }
@@ -137,10 +139,11 @@ bool namesDisparity(std::string_view codec, std::string_view path) {
 DepthReading readFloats(const Frame& depth, const CodeCount& count, bool disparity, const CalibrationLayers& said) {
   if (count.share(1, kTop) == 0) return {};
   const Reach reach = reachOf(count);
-  const double value = std::abs(depth.value_per_code);
+  const double value = depth.value_per_code != 0 ? std::abs(depth.value_per_code) : 1;
   const auto unit = unitIn(said);
   const bool told = !unit && (has(said, "law") || has(said, "polarity"));
-  return told || (disparity && !unit) ? disparities(reach, value, said) : distances(reach, value, unit);
+  return told || (disparity && !unit) ? disparities(reach, value, (1u << count.bits()) - 1, said)
+                                      : distances(reach, value, unit);
 }
 
 void scaleToCodes(CalibrationLayers& said, double value_per_code) {

@@ -76,6 +76,11 @@ DepthReading readHues(const Frame& depth, const CalibrationLayers& said, const K
   const bool record3d = kind != nullptr && kind->name == std::string_view("record3d");
   const bool apart = static_cast<double>(red) > kRedShare * static_cast<double>(count.lit) && 10 * beside < red;
   DepthReading reading;
+  if (kind == nullptr && said.find("polarity") == nullptr) {
+    reading.offer =
+        "near is taken to be the red end of the hues, as RealSense and Depthkit have it; if it is far: "
+        "--calibration polarity=near-high";
+  }
   if (count.lit == red || (!record3d && !apart) || said.find("invalid") != nullptr) return reading;
   reading.settings["invalid"] = print("0-%d+%d-%d", kRed, kSteps - kRed, kSteps);
   reading.why = print("%.1f %% red, apart from the other hues: holes",

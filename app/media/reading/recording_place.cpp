@@ -118,8 +118,14 @@ RecordingPlace lookAtNames(const fs::path& path, const fs::path& folder) {
       {".depth.png", "mm"},
       {"scannet", "scannet"},
       {"record3d", "record3d"},
+      {"heightmap", "heights"},
+      {"height_map", "heights"},
+      {"elevation", "heights"},
   };
-  if (isRawNyu(path.stem().string())) return named("nyu-raw", "NYU's form d-SECONDS-TICKS");
+  if (isRawNyu(path.stem().string())) {
+    // The reader of pictures has put a PGM's bytes in order.
+    return named(path.extension() == ".pgm" ? "kinect-raw" : "nyu-raw", "NYU's form d-SECONDS-TICKS");
+  }
   const std::string words = lowerCase(path.string());
   for (const Sign& sign : kSigns) {
     if (words.find(sign.word) != std::string::npos) return named(sign.kind, sign.word);
@@ -128,15 +134,31 @@ RecordingPlace lookAtNames(const fs::path& path, const fs::path& folder) {
   return {};
 }
 
+// Middlebury's names of disparities and of the view that they belong to.
+bool hasView(const fs::path& path, const fs::path& folder, const char* disparities, const char* view) {
+  return path.stem() == disparities && path.extension() == ".png" && isRegularFile(folder / view);
+}
+
 // Middlebury's calib.txt. Its cameras count where the name says that the numbers are disparities, or --as says it.
+// The pictures of 2005 and 2006 are all of one pair of cameras; those of 2001 and 2003 are of unknown ones.
 void addStereoCamera(const fs::path& path, const fs::path& folder, RecordingPlace& place) {
   const fs::path file = folder / "calib.txt";
   place.camera = stereoCameraIn(file);
-  if (!place.camera || place.kind != nullptr) return;
-  if (!namesDisparity(lowerCase(path.extension().string()) == ".pfm" ? "pfm" : "", path.string())) return;
+  if (place.kind != nullptr) return;
+  place.origin = CalibrationOrigin::Name;
+  if (place.camera) {
+    if (!namesDisparity(lowerCase(path.extension().string()) == ".pfm" ? "pfm" : "", path.string())) return;
+    place.origin = CalibrationOrigin::FileBeside;
+    place.why = print("%s has the cameras, %.4g mm apart", file.c_str(), place.camera->baseline_mm);
+  } else if (hasView(path, folder, "disp1", "view1.png")) {
+    place.camera = stereoCameraOf2006(folder / "dmin.txt");
+    place.why = "names as Middlebury's of 2005 and 2006";
+  } else if (hasView(path, folder, "disp2", "im2.png") || hasView(path, folder, "disp2", "im2.ppm")) {
+    place.why = "names as Middlebury's of 2001 and 2003";
+  } else {
+    return;
+  }
   place.kind = findKind("middlebury");
-  place.origin = CalibrationOrigin::FileBeside;
-  place.why = print("%s has the cameras, %.4g mm apart", file.c_str(), place.camera->baseline_mm);
 }
 
 }  // namespace

@@ -58,6 +58,16 @@ std::optional<StereoCamera> stereoCameraIn(const std::filesystem::path& file) {
   return camera;
 }
 
+StereoCamera stereoCameraOf2006(const std::filesystem::path& dmin_file) {
+  StereoCamera camera{.focal_px = 3740, .baseline_mm = 160};
+  const auto text = isRegularFile(dmin_file.string())
+                        ? readWholeFile(dmin_file.string(), FileSize::Settings, "cannot be read")
+                        : Result<std::string>(std::unexpected(Error{}));
+  const double least = text ? std::strtod(text->c_str(), nullptr) : 0;
+  if (least > 0 && std::isfinite(least)) camera.offset_px = least;
+  return camera;
+}
+
 DepthReading readDisparities(const Frame& depth, const CodeCount& count, const StereoCamera& camera) {
   if (count.share(1, kTop) == 0) return {};
   // Pictures of another size have disparities of another size.

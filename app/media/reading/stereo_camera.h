@@ -21,6 +21,10 @@ struct StereoCamera {
 // missing or lacks focal length or baseline.
 [[nodiscard]] std::optional<StereoCamera> stereoCameraIn(const std::filesystem::path& file);
 
+// The cameras of Middlebury's pictures of 2005 and 2006: 3740 pixels, 160 mm apart. Their codes are pixels of the full
+// size, whatever the pictures' size, less the number in `dmin_file`, if there is one.
+[[nodiscard]] StereoCamera stereoCameraOf2006(const std::filesystem::path& dmin_file);
+
 // The range of the codes in use and its distances. Codes that stand for no floats are pixels, or 1/256 of them where
 // pixels would be more than the camera's largest disparity.
 [[nodiscard]] DepthReading readDisparities(const Frame& depth, const CodeCount& count, const StereoCamera& camera);

@@ -28,6 +28,7 @@ struct DepthLook {
     for (int r = 0; r < field.rows(); ++r) {
       for (int c = 0; c < field.cols(); ++c) add(field.code(c, r), field.heightMm(c, r));
     }
+    use.holes = static_cast<double>(holes) / static_cast<double>(samples);
   }
   void add(std::uint32_t code, double height_mm) {
     ++samples;
@@ -40,7 +41,6 @@ struct DepthLook {
     use.highest_code = first ? code : std::max(use.highest_code, code);
     use.lowest_mm = first ? height_mm : std::min(use.lowest_mm, height_mm);
     use.highest_mm = first ? height_mm : std::max(use.highest_mm, height_mm);
-    use.holes = static_cast<double>(holes) / static_cast<double>(samples);
   }
 };
 
@@ -118,6 +118,25 @@ Outcome<void> lookAtFilm(const SourceOptions& options, const PairReader::Backend
   return {};
 }
 
+// A picture's file may not say its size before it is decoded; of two halves, only the whole's is a track's.
+void takeSizes(ProbeResult& r) {
+  using enum Packing;
+  const FilmInfo& f = r.film;
+  const bool whole = f.packing == Tracks || f.packing == DepthAlone || f.packing == Alpha || f.packing == StereoTracks;
+  if (!whole) return;
+  bool color_seen = false;
+  for (ProbedTrack& track : r.tracks) {
+    StreamInfo& s = track.stream;
+    if (s.kind != StreamKind::Video) continue;
+    const bool color = !color_seen && s.index == f.color_stream;
+    color_seen = color_seen || color;
+    if (s.width > 0 && s.height > 0) continue;
+    const bool as_color = color || f.depth_width == 0;  // a second view is as large as the first
+    s.width = as_color ? f.color_width : f.depth_width;
+    s.height = as_color ? f.color_height : f.depth_height;
+  }
+}
+
 std::string trackLines(const ProbeResult& r) {
   std::string text;
   for (const ProbedTrack& t : r.tracks) text += "track   " + trackText(t) + "\n";
@@ -137,6 +156,7 @@ Outcome<ProbeResult> probe(const SourceOptions& options, const PairReader::Backe
     if (result.chapters.empty()) result.chapters = std::move(probed->chapters);
   }
   if (auto looked = lookAtFilm(options, backends, result); !looked) result.failure = looked.error();
+  else takeSizes(result);
   return result;
 }
 

@@ -102,6 +102,19 @@ TEST(DepthReading, DistancesOfAnotherUnitHaveTheSameRelief) {
   EXPECT_GT(field.heightMm(kCols / 2, kRows / 2), field.heightMm(kCols - 2, 2));
 }
 
+// Half a metre from the camera begins what reaches to 16 m; at 5000 codes a metre it were .1 m.
+TEST(DepthReading, WhatNoSensorSeesSoNearIsInMillimetres) {
+  const auto kind = [](std::uint32_t nearest) {
+    const Frame f = makeGrayFrame(kCols, kRows, 16, {}, [=](int c, int r) {
+      const auto mm = static_cast<std::uint32_t>(8 * distanceMm(c, r));
+      return c > 140 ? nearest + static_cast<std::uint32_t>(r) : mm;
+    });
+    return std::string(sensorKind(f, CodeCount(f))->name);
+  };
+  EXPECT_EQ(kind(500), "mm");
+  EXPECT_EQ(kind(2500), "tum");
+}
+
 TEST(DepthReading, WhatIsStretchedOverItsBitsIsLeftAsItIs) {
   const auto settings = [](const Frame& f) { return readCodes(f, CodeCount(f), {}).settings; };
   const auto slope = [](int bits, std::uint32_t times) {

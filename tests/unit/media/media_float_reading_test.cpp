@@ -103,8 +103,8 @@ TEST(FloatReading, DepthWithoutColourIsFeltAndShownAsGray) {
   EXPECT_EQ(film.pair.color.model, ColorModel::Gray);
   EXPECT_EQ(test::sampleAt(film.pair.color, 0, 2, 2), 0u) << "a hole is black";
   EXPECT_GT(test::sampleAt(film.pair.color, 0, 30, 40), test::sampleAt(film.pair.color, 0, 30, 10) + 50);
-  EXPECT_THAT(film.info.reading.why,
-              Contains(HasSubstr("distances in m; if they are disparities, give --calibration")));
+  EXPECT_THAT(film.info.reading.why, Contains(HasSubstr("distances in m")));
+  EXPECT_THAT(film.info.reading.offers, Contains(HasSubstr("disparities: --calibration law=inverse")));
 }
 
 TEST(FloatReading, InAFolderTheDepthsOwnNameTells) {

@@ -142,6 +142,7 @@ TEST(Recordings, PicturesOfSixteenBitsAreReadAsTheyCome) {
       {"seq-01/frame-%06d.depth.png", or_hole(65535, mm), "mm"},
       {"rgbd_dataset_freiburg1_desk/depth/%04d.png", or_hole(0, [](double z) { return 5 * z; }), "tum", 1, 0.2},
       {"d/depth/%04d.png", or_hole(0, [](double z) { return 15 * z; }), "tum", 3, 0.2},
+      {"i/depth/%04d.png", or_hole(0, [](double z) { return 10 * std::round(z); }), "ycb"},
       {"living_room_traj0/depth/%d.png", or_hole(0, [](double z) { return 5 * z; }), "icl", 1, 0.2},
       {"proj_depth/image_02/%010d.png", or_hole(0, [](double z) { return 256 * 8e-3 * z; }), "kitti", 8, 4},
       {"sunrgbd/depth/%04d.png", or_hole(0, [](double z) { return 8 * std::round(z); }), "sun"},
@@ -171,7 +172,11 @@ TEST(Recordings, PicturesOfSixteenBitsAreReadAsTheyCome) {
     const Seen seen = open({.url = folder / "color.mkv", .depth_url = path});
     expectSame(seen, truth(each.scale), each.step_mm, each.depth);
     EXPECT_THAT(seen.info.reading.doubts, IsEmpty()) << each.depth;
-    // Stated, it is the same.
+    // Alone, and stated, it is the same.
+    const Seen alone = open({.url = path});
+    expectSame(alone, truth(each.scale), each.step_mm, each.depth);
+    EXPECT_EQ(alone.info.packing, Packing::DepthAlone) << each.depth;
+    EXPECT_THAT(alone.info.reading.doubts, IsEmpty()) << each.depth;
     const Seen stated = open({.url = folder / "color.mkv", .depth_url = path, .as = findKind(each.kind)});
     expectSame(stated, truth(each.scale), each.step_mm, each.kind);
   }
@@ -324,6 +329,61 @@ TEST(Recordings, TheDepthOfAPaleSceneIsFoundByTheBreakInTheMiddle) {
   EXPECT_FALSE(open({.url = folder / "film.mp4"}).info.has_depth);
 }
 
+// Of a picture without a hole nothing tells whether high codes are near: both readings have their word.
+TEST(Recordings, HeightsAreOfferedWhereNothingTellsThemFromDistances) {
+  TemporaryFolder folder;
+  makeClip(folder / "%04d.png", {coded([](double mm, int, int) { return 20000 - rounded(mm); })});
+  const Seen far = open({.url = folder / "%04d.png"});
+  EXPECT_THAT(far.info.reading.offers, Contains(HasSubstr("--as heights")));
+  const Seen near = open({.url = folder / "%04d.png", .as = findKind("heights")});
+  ASSERT_EQ(near.failure, "");
+  const HeightField field = HeightField::make(near.depth, near.info.calibration.calibration, kVolume).value();
+  EXPECT_GT(field.heightMm(80, 54), field.heightMm(150, 5) + 10);
+  EXPECT_THAT(near.info.reading.doubts, IsEmpty());
+  // A hole is what only a sensor has.
+  makeClip(folder / "%04d.png", {coded([](double mm, int, int) { return rounded(mm); })});
+  EXPECT_THAT(open({.url = folder / "%04d.png"}).info.reading.offers, IsEmpty());
+  std::filesystem::create_directories(folder / "elevation");
+  makeClip(folder / "elevation/%04d.png", {coded([](double mm, int, int) { return 20000 - rounded(mm); })});
+  EXPECT_THAT(open({.url = folder / "elevation/%04d.png"}).info.calibration.calibration.polarity,
+              DepthPolarity::NearIsHigh);
+}
+
+TEST(Recordings, HuesOfferTheirOtherEnd) {
+  TemporaryFolder folder;
+  const Half hue{[](int c, int r) { return hueColor(0.1 + 0.8 * (distanceMm(c, r) - 900) / 1500); }};
+  makeHalves(folder / "a.mp4", true, kPhoto, hue);
+  EXPECT_THAT(open({.url = folder / "a.mp4"}).info.reading.offers, Contains(HasSubstr("polarity=near-high")));
+  EXPECT_THAT(open({.url = folder / "a.mp4", .command_line = {{"polarity", "near-low"}}}).info.reading.offers,
+              IsEmpty());
+}
+
+// A blue ramp and a circle of hues may be a picture of anything, unless the name says depth.
+TEST(Recordings, AColourMapWithoutColourIsFelt) {
+  const auto ramp = [](double s) { return std::array{std::max(0.0, 2 * s - 1), s, 0.5 + 0.5 * s}; };
+  const auto jet = [](double s) {
+    const auto part = [&](double middle) { return std::clamp(1.5 - std::abs(4 * s - middle), 0.0, 1.0); };
+    return std::array{part(3), part(2), part(1)};
+  };
+  TemporaryFolder folder;
+  const auto make = [&](const char* name, auto color) {
+    ClipTrack track{.codec = "png", .pix_fmt = "rgb24", .width = kSceneCols, .height = kSceneRows, .frames = 1};
+    track.sample = [=](int k, int c, int r, int) {
+      const double mm = distanceMm(c, r);
+      return mm == 0 ? 0u : rounded(255 * color(1 - (mm - 1000) / 1100)[static_cast<std::size_t>(k)]);
+    };
+    makeClip(folder / name, {track});
+    return open({.url = folder / name}).info;
+  };
+  const FilmInfo found = make("a.png", jet);
+  EXPECT_EQ(found.packing, Packing::DepthAlone);
+  EXPECT_EQ(found.calibration.calibration.code, DepthCode::Jet);
+  EXPECT_THAT(found.reading.offers, Contains(HasSubstr("polarity=near-low")));
+  EXPECT_FALSE(make("b.png", hueColor).has_depth);
+  EXPECT_TRUE(make("b_depth.png", hueColor).has_depth);
+  EXPECT_FALSE(make("c.png", ramp).has_depth);
+}
+
 TEST(Recordings, GrayInAFileThatIsCalledDepthIsFelt) {
   TemporaryFolder folder;
   ClipTrack gray{.codec = "libx264", .pix_fmt = "yuv420p", .width = kSceneCols, .height = kSceneRows, .frames = 2};
@@ -466,6 +526,46 @@ TEST(Recordings, EveryPartSaysWhoSaidIt) {
   // Without a word the picture shows it.
   const Seen shown = open({.url = folder / "color.mkv", .depth_url = folder / "%04d.png"});
   EXPECT_THAT(partLines(shown.info.reading), Contains("unit=1: first picture, likely"));
+}
+
+// What an author assumed is not said by the film's tags.
+TEST(Recordings, AGuessStaysOneInTheFilmsTags) {
+  TemporaryFolder folder;
+  makeClip(folder / "color.mkv", {photo()});
+  makeClip(folder / "%04d.png", {coded([](double mm, int, int) { return rounded(mm); })});
+  ClipTrack gray{.pix_fmt = "gray", .width = kSceneCols, .height = kSceneRows, .frames = 2};
+  makeClip(folder / "gray.mkv", {gray});
+  const auto tagsOf = [&](const std::string& depth, const CalibrationSettings& said) {
+    return certaintyTags(
+        open({.url = folder / "color.mkv", .depth_url = folder / depth, .command_line = said}).info.reading);
+  };
+  using Tags = std::map<std::string, std::string>;
+  EXPECT_EQ(tagsOf("%04d.png", {}), (Tags{{"DEPTH_LIKELY", "law,polarity,near,far"}}));
+  EXPECT_EQ(tagsOf("%04d.png", {{"unit", "1"}, {"near", "500"}, {"far", "3000"}}), Tags{});
+  EXPECT_EQ(tagsOf("gray.mkv", {}), (Tags{{"DEPTH_ASSUMED", "law,polarity,near,far"}}));
+  EXPECT_EQ(tagsOf("gray.mkv", {{"polarity", "near-low"}}), (Tags{{"DEPTH_ASSUMED", "law,near,far"}}));
+
+  Tags tags{{"DEPTH_UNIT", "none"},
+            {"DEPTH_POLARITY", "near-high"},
+            {"DEPTH_LAW", "inverse"},
+            {"DEPTH_NEAR", "400"},
+            {"DEPTH_FAR", "900"}};
+  makeClip(folder / "said.mkv", {gray}, tags);
+  tags.insert({{"DEPTH_ASSUMED", "polarity,near,far"}, {"DEPTH_LIKELY", "law"}});
+  makeClip(folder / "guessed.mkv", {gray}, tags);
+  const auto readingOf = [&](const char* depth) {
+    return open({.url = folder / "color.mkv", .depth_url = folder / depth}).info;
+  };
+  const FilmInfo said = readingOf("said.mkv"), guessed = readingOf("guessed.mkv");
+  EXPECT_THAT(partLines(said.reading), Contains("near=400: container tags, said"));
+  EXPECT_THAT(partLines(guessed.reading), Contains("near=400: container tags, assumed by its maker, assumed"));
+  EXPECT_THAT(partLines(guessed.reading), Contains("law=inverse: container tags, likely to its maker, likely"));
+  EXPECT_EQ(guessed.calibration.calibration.near_mm, 400);
+  EXPECT_THAT(plainLine(said.reading, said.calibration.calibration), HasSubstr("0.40 to 0.90 m (container tags)"));
+  EXPECT_EQ(plainLine(guessed.reading, guessed.calibration.calibration),
+            "depth brightness, near bright (container tags, assumed by its maker)");
+  EXPECT_THAT(said.reading.offers, IsEmpty());
+  EXPECT_THAT(guessed.reading.offers, Contains(HasSubstr("polarity=near-low")));
 }
 
 // A hue reaches from near to far and has no unit.

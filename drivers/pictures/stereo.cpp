@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drivers/pictures/stereo.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstddef>
+#include <string_view>
+
+#include "hal/media/media_names.h"
+
+namespace relievo::pictures {
+namespace {
+
+constexpr std::size_t kMostDepths = 9;
+struct Layout {
+  std::string_view left, right;
+  std::array<std::string_view, kMostDepths> depths;  // empty at the end
+  std::string_view series;                           // a picture of this name beside the views makes them a series
+};
+constexpr std::array<std::string_view, kMostDepths> kDepths{"disp",      "disparity",      "disp_left",
+                                                            "left_disp", "disparity_left", "left_disparity",
+                                                            "depth",     "depth_left",     "left_depth"};
+constexpr std::array<Layout, 8> kLayouts{{
+    {"im2", "im6", {"disp2"}, "im3"},
+    {"view1", "view5", {"disp1"}, "view2"},
+    {"im0", "im1", {"disp0", "disp0gt", "depth0"}, "im2"},
+    {"left", "right", kDepths, ""},
+    {"left_rgb", "right_rgb", kDepths, ""},
+    {"iml", "imr", {"displ", "disp", "depthl", "depth"}, ""},
+    {"imgl", "imgr", {"displ", "disp", "depthl", "depth"}, ""},
+    {"image_2", "image_3", {}, ""},
+}};
+// Those with numbers first.
+constexpr std::array<std::string_view, 6> kEndings{"pfm", "npy", "exr", "tif", "tiff", "png"};
+
+std::string stemOf(const std::string& name) {
+  std::string stem = name.substr(0, name.rfind('.'));
+  std::ranges::transform(stem, stem.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return stem;
+}
+
+auto rankOf(const std::string& name) {
+  return std::ranges::find(kEndings, endingOf(name)) - kEndings.begin();
+}
+
+// Empty if there is none.
+std::string find(const std::vector<std::string>& names, std::string_view stem) {
+  std::string best;
+  for (const std::string& name : names) {
+    if (stemOf(name) == stem && (best.empty() || rankOf(name) < rankOf(best))) best = name;
+  }
+  return best;
+}
+
+std::string findDepth(const std::vector<std::string>& names, const Layout& layout) {
+  for (const std::string_view depth : layout.depths) {
+    if (depth.empty()) break;
+    if (std::string name = find(names, depth); !name.empty()) return name;
+  }
+  return "";
+}
+
+}  // namespace
+
+std::optional<StereoNames> stereoAmong(const std::vector<std::string>& names) {
+  std::optional<StereoNames> without_depth;
+  for (const Layout& layout : kLayouts) {
+    StereoNames found{find(names, layout.left), find(names, layout.right), findDepth(names, layout)};
+    if (found.left.empty() || found.right.empty()) continue;
+    if (!found.depth.empty()) return found;
+    if (layout.series.empty() || find(names, layout.series).empty()) without_depth = found;
+  }
+  return without_depth;
+}
+
+}  // namespace relievo::pictures

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two views of one scene, and what is known of the left one's depth, by the names that data sets give them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace relievo::pictures {
+
+struct StereoNames {
+  std::string left, right;
+  std::string depth;  // disparities or distances of the left view; empty if there are none
+};
+
+// Among the names of pictures, or of folders, in a folder:
+//   im0, im1, disp0                  Middlebury 2014 and 2021, ETH3D
+//   im2, im6, disp2                  Middlebury 2001 and 2003; the other views are left out
+//   view1, view5, disp1              Middlebury 2005 and 2006, likewise
+//   left, right, disp or depth       and other words for them
+// Of two files of disparities the one with numbers is taken: a PFM rather than a PNG. nullopt if these are no two
+// views.
+[[nodiscard]] std::optional<StereoNames> stereoAmong(const std::vector<std::string>& names);
+
+}  // namespace relievo::pictures
