@@ -164,6 +164,7 @@ void RelievoMethod::upkeep(const SurfaceWindow& window, MediaTime now) RELIEVO_R
   // Assume the same interval to the next tick as from the last; while paused it is 0.
   const Duration step = std::clamp(now - now_, Duration(0), kLongestStep);
   surface_.prepare(window, now + step, ahead_mm_.x, ahead_mm_.y);
+  if (stick_.holds() && surface_.moveTo(window, now + step)) stick_.prepare(surface_);
   now_ = now;
 }
 
@@ -287,7 +288,8 @@ bool RelievoMethod::enterOnPath(const glm::dvec3& from_mm, const glm::dvec3& hip
 RELIEVO_TICK_CODE glm::dvec3 RelievoMethod::feltPlace(const glm::dvec3& hip_mm) RELIEVO_RT {
   glm::dvec3 place = proxy();
   const double depth = ripple_.exists() ? glm::distance(place, hip_mm) : 0;
-  if (stick_.exists()) place = stick_.follow(surface_, contact_, hip_mm, lowered_mm_);
+  if (config_.friction.static_coefficient > 0)
+    place = stick_.follow(surface_, config_.friction, contact_, hip_mm, lowered_mm_);
   if (ripple_.exists()) {
     const glm::dvec3 normal = glm::normalize(glm::dvec3(-contact_.surface.zx, -contact_.surface.zy, 1));
     place += ripple_.offset(hip_mm, normal, depth);

@@ -38,7 +38,7 @@ class RelievoMethod final : public TouchMethod {
   explicit RelievoMethod(const Config& config) noexcept
       : config_(config),
         surface_(config.scale),
-        stick_(config.friction, config.tick_s),
+        stick_(config.tick_s),
         ripple_(config.texture, config.stiffness_n_per_mm, config.tick_s) {}
 
   [[nodiscard]] Touch update(const glm::dvec3& hip_mm, const SurfaceWindow& window, MediaTime now) RELIEVO_RT override;
