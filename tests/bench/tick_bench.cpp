@@ -11,6 +11,7 @@
 #include "app/haptics/baseline/methods.h"
 #include "platform/histogram.h"
 #include "tests/support/film/depth_frames.h"
+#include "tests/support/film/material_frames.h"
 
 namespace relievo {
 namespace {
@@ -105,6 +106,12 @@ void touchTick(benchmark::State& state, const char* name, MethodConfig config, D
       return relief(grid.x(c), grid.y(r), kFramePeriodS * k) / volume.depth_mm * 255 + 0.5;
     });
     pictures.push_back(test::surfaceOf(code == DepthCode::Hue ? asHue(gray) : gray, volume, {.code = code}));
+    if (!config.places.exists()) continue;
+    // Patches of 10 mm.
+    pictures.back().material = test::materialOf(cols, rows, volume, [](double x, double y) {
+      const bool odd = static_cast<int>(std::floor(x / 10) + std::floor(y / 10)) % 2 != 0;
+      return odd ? test::MaterialCodes{128, 100, 128} : test::MaterialCodes{100, 128, 60};
+    });
   }
   std::vector<SurfaceWindow> film = filmOf(pictures);
   const std::vector<glm::dvec3> path = fingerPath(speed);
@@ -148,6 +155,20 @@ BENCHMARK_CAPTURE(touchTick, relievo, "relievo", MethodConfig{})->Apply(sizesAnd
 BENCHMARK_CAPTURE(touchTick, relievo_on_hue, "relievo", MethodConfig{}, DepthCode::Hue)->Apply(sizesAndSpeeds);
 BENCHMARK_CAPTURE(touchTick, relievo_with_friction, "relievo", MethodConfig{.friction = {0.3, 0.2}})
     ->Apply(sizesAndSpeeds);
+
+// The same on a material of the whole film, and on a map of it.
+const MethodConfig kOneMaterial{.stiffness_n_per_mm = 0.5, .friction = {0.3, 0.2}, .texture = {0.05, 1}};
+MethodConfig ofPlaces(const Material& full) {
+  MethodConfig config;
+  config.places = scaleHeldBy(full, {}, 1, 8);
+  return config;
+}
+const Material kFullStiffness{.stiffness_n_per_mm = 1, .friction = {}, .texture = {}};
+const Material kFullMaterial{.stiffness_n_per_mm = 1, .friction = Friction{0.6, 0.4}, .texture = Texture{0.1, 1}};
+BENCHMARK_CAPTURE(touchTick, relievo_on_one_material, "relievo", kOneMaterial)->Apply(sizesAndSpeeds);
+BENCHMARK_CAPTURE(touchTick, relievo_on_places_of_stiffness, "relievo", ofPlaces(kFullStiffness))
+    ->Apply(sizesAndSpeeds);
+BENCHMARK_CAPTURE(touchTick, relievo_on_places, "relievo", ofPlaces(kFullMaterial))->Apply(sizesAndSpeeds);
 BENCHMARK_CAPTURE(touchTick, god_object, "relievo", MethodConfig{.space = SpaceLaw::Triangles})->Apply(sizesAndSpeeds);
 BENCHMARK_CAPTURE(touchTick, modified_proxy_graph, "modified-proxy-graph", MethodConfig{})->Apply(sizesAndSpeeds);
 BENCHMARK_CAPTURE(touchTick, proxy_graph, "proxy-graph", MethodConfig{})->Apply(sizesAndSpeeds);
