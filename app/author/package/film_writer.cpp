@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two encoders, and the destination of their packets.
+// Two or three encoders, and the destination of their packets.
 #include "app/author/package/film_writer.h"
 
 #include <algorithm>
@@ -13,6 +13,7 @@ extern "C" {
 }
 
 #include "app/author/package/film_place.h"
+#include "app/scene/material.h"
 
 namespace relievo {
 namespace {
@@ -76,12 +77,13 @@ Result<void> Track::write(AVPacket& packet) {
 struct FilmWriter::Impl {
   Result<void> begin(const std::string& path, const FilmFormat& format, Existing existing);
   Result<void> openTracks(const FilmFormat& format);
+  Result<void> openMaterial(const FilmFormat& format);
   [[nodiscard]] VideoEncoder::Planes depthPlanes(const DepthPicture& picture);
 
   FilmKind kind = FilmKind::Matroska;
   std::unique_ptr<FilmPlace> place;
   std::unique_ptr<KeptTracks> kept;
-  Track color, depth;
+  Track color, depth, material;
   DepthCoding coding;
   std::vector<std::uint8_t> bytes;    // of an 8-bit depth picture
   std::vector<std::uint16_t> chroma;  // of a depth picture with flat chroma
@@ -97,6 +99,9 @@ Result<void> FilmWriter::Impl::begin(const std::string& path, const FilmFormat& 
   if (!made) return std::unexpected(made.error());
   place = std::move(*made);
   if (auto opened = openTracks(format); !opened) return opened;
+  if (format.material_width > 0) {
+    if (auto opened = openMaterial(format); !opened) return opened;
+  }
   if (kind == FilmKind::Live) place->muxer().max_interleave_delta = kLongestHeldUs;
   if (kept) {
     if (auto added = kept->addTo(place->muxer(), kind); !added) return added;
@@ -147,6 +152,25 @@ Result<void> FilmWriter::Impl::openTracks(const FilmFormat& format) {
   return {};
 }
 
+Result<void> FilmWriter::Impl::openMaterial(const FilmFormat& format) {
+  AVFormatContext& muxer = place->muxer();
+  const std::string line = std::string(kMaterialScaleTag) + "=" + format.material_scale + "\n";
+  auto opened = material.open(muxer,
+                              {.width = format.material_width,
+                               .height = format.material_height,
+                               .to_touch = true,
+                               .live = kind == FilmKind::Live,
+                               .range = ColorRange::Full,
+                               .frame_period = format.frame_period,
+                               .crf = format.material_crf,
+                               .stream_tags = line},
+                              "material");
+  if (!opened) return opened;
+  const bool of_file = kind == FilmKind::Mp4 || kind == FilmKind::Mov;
+  setTag(of_file ? &muxer.metadata : &material.stream->metadata, kMaterialScaleTag, format.material_scale);
+  return {};
+}
+
 VideoEncoder::Planes FilmWriter::Impl::depthPlanes(const DepthPicture& picture) {
   const std::uint8_t* luma = reinterpret_cast<const std::uint8_t*>(picture.codes.data());
   if (coding.bits == 8) {
@@ -186,16 +210,23 @@ Result<void> FilmWriter::writeDepth(const DepthPicture& picture, MediaTime time,
   return impl_->depth.encode(impl_->depthPlanes(picture), time, key);
 }
 
+Result<void> FilmWriter::writeMaterial(const ColorPicture420& picture, MediaTime time, bool key) {
+  return impl_->material.encode({picture.y.data(), picture.u.data(), picture.v.data()}, time, key);
+}
+
 Result<FilmTotals> FilmWriter::finish() {
   Impl& film = *impl_;
   if (auto drained = film.color.drain(); !drained) return std::unexpected(drained.error());
   if (auto drained = film.depth.drain(); !drained) return std::unexpected(drained.error());
+  if (film.material.stream != nullptr) {
+    if (auto drained = film.material.drain(); !drained) return std::unexpected(drained.error());
+  }
   if (film.kept) {
     if (auto written = film.kept->writeRest(); !written) return std::unexpected(written.error());
   }
   const auto bytes = film.place->finish();
   if (!bytes) return std::unexpected(bytes.error());
-  return FilmTotals{film.color.totals, film.depth.totals, *bytes, film.place->latest()};
+  return FilmTotals{film.color.totals, film.depth.totals, film.material.totals, *bytes, film.place->latest()};
 }
 
 const KeptTracks* FilmWriter::kept() const noexcept {
