@@ -26,10 +26,10 @@ void MapFollower::add(GrayPicture picture) {
     std::vector<Place> places;
     places.reserve(places_.size());
     for (std::size_t i = 0; i < motion.size(); ++i) {
-      const auto cols = static_cast<std::size_t>(picture.cols);
+      const int c = static_cast<int>(i) % picture.cols, r = static_cast<int>(i) / picture.cols;
+      const Motion& from = motion[i];
       places.push_back(is_new[i] ? kNowhere
-                                 : placeBefore(static_cast<double>(i % cols) + static_cast<double>(motion[i].x),
-                                               static_cast<double>(i / cols) + static_cast<double>(motion[i].y)));
+                                 : placeBefore(c + static_cast<double>(from.x), r + static_cast<double>(from.y)));
     }
     places_ = std::move(places);
   }

@@ -64,11 +64,11 @@ class BlockSearch {
       }
     }
   }
-  void search(float step) {
+  void search(int least_quarters) {
     for (int pass = 0; pass < kPasses; ++pass) {
       for (int k = 0; k < across_ * down_; ++k) {
         const int n = pass % 2 == 0 ? k : across_ * down_ - 1 - k;
-        improve(n % across_, n / across_, step);
+        improve(n % across_, n / across_, least_quarters);
       }
     }
   }
@@ -85,7 +85,7 @@ class BlockSearch {
   }
 
   // The best of its own vector, the neighbours' and none; then steps from it, ever shorter.
-  void improve(int i, int j, float least_step) {
+  void improve(int i, int j, int least_quarters) {
     Motion best = of(i, j);
     int cost = costOf(i, j, best, kHighest);
     const auto look = [&](const Motion& other) {
@@ -97,7 +97,8 @@ class BlockSearch {
     };
     look({});
     for (const auto& [x, y] : kAround) look(of(i + x, j + y));
-    for (float step = 2; step >= least_step; step /= 2) {
+    for (int quarters = 8; quarters >= least_quarters; quarters /= 2) {
+      const float step = 0.25F * static_cast<float>(quarters);
       for (bool better = true; better;) {
         better = false;
         for (const auto& [x, y] : kAround) {
@@ -197,11 +198,11 @@ std::vector<Motion> motionBetween(const GrayPicture& before, const GrayPicture& 
     to[k] = halved(to[k - 1]);
   }
   BlockSearch blocks(from[kLevels - 1], to[kLevels - 1]);
-  blocks.search(1);
+  blocks.search(4);
   for (std::size_t k = kLevels - 1; k-- > 0;) {
     BlockSearch finer(from[k], to[k]);
     finer.begin(blocks);
-    finer.search(k == 0 ? 0.25F : 1);
+    finer.search(k == 0 ? 1 : 4);
     blocks = std::move(finer);
   }
   std::vector<Motion> motion;
