@@ -27,6 +27,7 @@ struct OutputOptions {
   KeptWishes keep;
   std::optional<SwapEyes> from_views;      // make the depth from a film's two views; nullopt: the film has depth
   std::optional<Enhancement> enhancement;  // nullopt: no enhancement
+  std::string material_map;                // a picture or film of the material of places; empty: none
   std::string preview;                     // path of a PNG, see preview.h; empty: none
 };
 

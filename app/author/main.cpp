@@ -148,6 +148,7 @@ void addOptions(CLI::App& app, Arguments& a) {
       ->required()
       ->type_name("OUT");
   addDepthOptions(app, a.source);
+  addMaterialOption(app, a.source, a.output.material_map);
   addDepthFromOptions(app, a);
   addQualityOptions(app, a);
   addEnhanceOptions(app, a.output);
@@ -174,7 +175,7 @@ int run(Arguments& a) {
   if (a.depth_crf >= 0) a.output.depth.crf = a.depth_crf;
 
   std::vector<std::string> inputs = a.source.named_files;
-  inputs.insert(inputs.end(), {a.source.url, a.source.depth_url});
+  inputs.insert(inputs.end(), {a.source.url, a.source.depth_url, a.output.material_map});
   if (auto apart = keepApart(filesWrittenBy(a.output), inputs); !apart) return tellEnd(apart.error(), a.output.path);
 
   Outcome<AuthorSummary> summary;

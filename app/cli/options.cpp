@@ -265,12 +265,34 @@ void addDepthOptions(CLI::App& app, SourceOptions& source) {
          },
          "TOML file with the poses of the depth and colour cameras; aligns the depth with the colour picture")
       ->type_name("FILE.toml");
+}
+
+void addMaterialOption(CLI::App& app, SourceOptions& source) {
   app.add_option_function<std::string>(
          "--material", [&source](const std::string& word) { source.material = readMaterial(word); },
-         "What the surface feels like; overrides the film's tag DEPTH_MATERIAL\n"
+         "What the surface feels like; overrides the film's tags and material track, part by part\n"
          "stiffness=N/MM [0.5, or what the device holds]; friction=STATIC/DYNAMIC: shares of what presses [0];\n"
          "texture=AMPLITUDE@WAVELENGTH: ripples, mm [0], such as stiffness=.3,friction=.2/.15,texture=.1@.8")
       ->type_name("KEY=VALUE,..");
+}
+
+void addMaterialOption(CLI::App& app, SourceOptions& source, std::string& map) {
+  app.add_option_function<std::vector<std::string>>(
+         "--material",
+         [&source, &map](const std::vector<std::string>& given) {
+           for (const std::string& word : given) {
+             if (word.find('=') == std::string::npos) map = word;
+             else source.material = readMaterial(word);
+           }
+         },
+         "What the surface feels like: stiffness=N/MM, friction=STATIC/DYNAMIC: shares of what presses,\n"
+         "texture=AMPLITUDE@WAVELENGTH: ripples, mm, such as stiffness=.3,friction=.2/.15,texture=.1@.8. Or at each\n"
+         "place: FILE, a picture painted over the first picture of the film, which stays on its things, or a film of\n"
+         "such pictures. Red is stiffness, green friction, blue texture; gray is stiffness alone; what is transparent\n"
+         "is not painted. With it, KEY=VALUE says what full red, green and blue stand for\n"
+         "[stiffness=1,friction=.6/.5,texture=.2@.8]")
+      ->allow_extra_args(false)
+      ->type_name("FILE|KEY=VALUE,..");
 }
 
 void addRateOption(CLI::App& app, SourceOptions& source) {

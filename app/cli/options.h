@@ -60,6 +60,10 @@ CLI::Option* addChoice(CLI::App& app, const char* option, T& value,
 // Adds --as, --packing, --depth-code, --registration and --calibration, which may be repeated: a later value of a key
 // overrides an earlier one.
 void addDepthOptions(CLI::App& app, SourceOptions& source);
+// Adds --material KEY=VALUE,..
+void addMaterialOption(CLI::App& app, SourceOptions& source);
+// Or a FILE, whose path goes to `map`.
+void addMaterialOption(CLI::App& app, SourceOptions& source, std::string& map);
 // Adds --fps.
 void addRateOption(CLI::App& app, SourceOptions& source);
 // Adds --box.

@@ -2,6 +2,8 @@
 // From the decoder's frames to those of the window.
 #include "app/depth_window/surface_feeder.h"
 
+#include <utility>
+
 namespace relievo {
 
 void SurfaceFeeder::beginEpoch() noexcept {
@@ -10,7 +12,7 @@ void SurfaceFeeder::beginEpoch() noexcept {
 }
 
 Result<bool> SurfaceFeeder::update(const Frame& present, std::span<const Frame> ahead, bool last,
-                                   const ClockSample& clock) {
+                                   const ClockSample& clock, const Materials& materials) {
   bool changed = clock.media != clock_.media || clock.monotonic != clock_.monotonic || clock.rate != clock_.rate;
   clock_ = clock;
   if (present.empty()) {
@@ -21,34 +23,35 @@ Result<bool> SurfaceFeeder::update(const Frame& present, std::span<const Frame> 
 
   changed = frames_.moveTo(present.pts) || changed;
   changed = changed || !frames_.contains(present.pts);
-  auto added = add(present);
+  auto added = add(present, materials.present);
   if (added && !*added) {
     beginEpoch();
-    added = add(present);
+    added = add(present, materials.present);
   }
   if (!added) {
     frames_.clear();
     return std::unexpected(added.error());
   }
   const auto newest = frames_.frames().back().time;
-  const bool ended = addAhead(ahead) && last;
+  const bool ended = addAhead(ahead, materials.ahead) && last;
   changed = changed || frames_.frames().back().time != newest || ended != ended_;
   ended_ = ended;
   return changed;
 }
 
-bool SurfaceFeeder::addAhead(std::span<const Frame> ahead) {
-  for (const Frame& depth : ahead) {
+bool SurfaceFeeder::addAhead(std::span<const Frame> ahead, std::span<const Frame> materials) {
+  for (std::size_t i = 0; i < ahead.size(); ++i) {
+    const Frame& depth = ahead[i];
     if (depth.empty()) return false;
     if (depth.pts <= frames_.frames().back().time) continue;
     if (frames_.full()) return false;
-    const auto added = add(depth);
+    const auto added = add(depth, i < materials.size() ? materials[i] : Frame{});
     if (!added || !*added) return false;  // told when it becomes the present one
   }
   return true;
 }
 
-Result<bool> SurfaceFeeder::add(const Frame& depth) {
+Result<bool> SurfaceFeeder::add(const Frame& depth, const Frame& material) {
   if (frames_.contains(depth.pts)) return true;
   const auto field = HeightField::make(depth, calibration_, volume_);
   if (!field) return std::unexpected(field.error());
@@ -56,7 +59,11 @@ Result<bool> SurfaceFeeder::add(const Frame& depth) {
     const HeightField& other = held.back().field;
     if (other.cols() != field->cols() || other.rows() != field->rows()) return false;
   }
-  frames_.add({*field, depth.pts, depth.owner});
+  TimedSurface surface{.field = *field, .time = depth.pts, .owner = depth.owner, .material = {}};
+  if (!material.empty()) {
+    if (auto map = MaterialMap::make(material, volume_)) surface.material = std::make_shared<const MaterialMap>(*map);
+  }
+  frames_.add(std::move(surface));
   return true;
 }
 

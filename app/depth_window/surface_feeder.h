@@ -20,6 +20,12 @@ namespace relievo {
 // HeightField is made once per depth frame.
 class SurfaceFeeder {
  public:
+  // The pictures of the film's material track at the times of the depth: empty frames where there is none.
+  struct Materials {
+    Frame present;
+    std::span<const Frame> ahead;
+  };
+
   // What depth means in this film, and the box that it fills. Before the first update.
   void setScene(const DepthCalibration& calibration, const DisplayVolume& volume) noexcept {
     calibration_ = calibration;
@@ -34,7 +40,7 @@ class SurfaceFeeder {
   // epoch. True when the frames or the clock are not those of the last call: then `fill` and publish. Fails for a depth
   // format that cannot be felt; the window is then empty.
   [[nodiscard]] Result<bool> update(const Frame& present, std::span<const Frame> ahead, bool last,
-                                    const ClockSample& clock);
+                                    const ClockSample& clock, const Materials& materials = {});
   // The whole window; what it held before is released.
   void fill(SurfaceWindow& window) const;
 
@@ -43,9 +49,9 @@ class SurfaceFeeder {
 
  private:
   // False when not all of `ahead` went in.
-  bool addAhead(std::span<const Frame> ahead);
+  bool addAhead(std::span<const Frame> ahead, std::span<const Frame> materials);
   // False when `depth` is of another size than the frames that are held.
-  [[nodiscard]] Result<bool> add(const Frame& depth);
+  [[nodiscard]] Result<bool> add(const Frame& depth, const Frame& material);
 
   DepthCalibration calibration_;
   DisplayVolume volume_;

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "app/scene/height_field.h"
+#include "app/scene/material_map.h"
 #include "hal/media/media_clock.h"
 #include "hal/media/media_time.h"
 
@@ -18,6 +19,7 @@ struct TimedSurface {
   std::shared_ptr<const void> owner;  // keeps the samples alive; only the window's writer touches it
   std::uint32_t shot = 0;             // frames of one shot continue each other; where it changes there is a cut
   bool repeats = false;               // every sample is as in the frame before it, which may be read in its place
+  std::shared_ptr<const MaterialMap> material;  // of its places; null: the whole film's holds
 };
 
 // Frames in ascending order of time, all of one size. The writer puts in the frames from two before the present one

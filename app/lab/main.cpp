@@ -49,6 +49,7 @@ void addTrace(CLI::App& app, TraceOptions& options) {
       ->required()
       ->type_name("SRC");
   addDepthOptions(app, source);
+  addMaterialOption(app, source);
   addBoxOption(app, options.film.volume);
   app.add_option("--fps", options.film.frames_per_s, "Frames per second, for a source without timestamps")
       ->check(between(0.01, 10000.0))

@@ -28,6 +28,10 @@ struct PairReader::Impl {
   Result<void> openColor(const StreamInfo& color);
   Result<void> selectDepth(const StreamInfo* depth);
   void takeDepthBeside();
+  // In pair_material.cpp: what the surface feels like at each place.
+  void selectMaterial(const TrackPlan& plan);
+  [[nodiscard]] Frame materialAt(MediaTime time);
+  void loseMaterial(const Error& error);
   Result<void> openDepth(const StreamInfo& color);
   void openSound();
   void openWords();
@@ -118,7 +122,9 @@ struct PairReader::Impl {
   Duration color_shift{0};                   // added to the session's timestamps to get the film's
   MediaTime goes_on_at;                      // film time just after the last colour picture
   std::optional<DepthFollower> depth;
-  std::optional<Registrar> registrar;  // the user's, or the film's own
+  std::optional<DepthFollower> material;   // of a track of the colour's source
+  const char* material_refused = nullptr;  // why there is none although the film has such a track
+  std::optional<Registrar> registrar;      // the user's, or the film's own
   struct OwnDepth {
     Duration shift{0};                     // added to the session's timestamps to get the film's
     std::optional<std::uint32_t> session;  // the session that `shift` applies to

@@ -76,12 +76,15 @@ Result<void> PairReader::Impl::openFilm() {
   if (!chosen) return failOn(options.url, chosen.error());
   if (plan->depth == nullptr && !isPacked() && !two_sources && options.packing == Packing::Auto) takeDepthBeside();
   if (auto selected = selectDepth(plan->depth); !selected) return selected;
+  selectMaterial(*plan);
   if (depth_source) info.notes.insert(info.notes.end(), depth_source->notes().begin(), depth_source->notes().end());
   countTracks(*plan);
   openSound();
   openWords();
   if (auto opened = openColor(*plan->color); !opened) return opened;
-  return openDepth(*plan->color);
+  if (auto opened = openDepth(*plan->color); !opened) return opened;
+  if (!info.has_depth) info.material_scale = {};
+  return {};
 }
 
 void PairReader::Impl::takeDepthBeside() {
@@ -213,7 +216,8 @@ void PairReader::Impl::countTracks(const TrackPlan& plan) {
   }
   info.sound_tracks = count(StreamKind::Audio);
   info.subtitle_tracks = count(StreamKind::Subtitle);
-  info.video_tracks_unused = count(StreamKind::Video) - (plan.depth == nullptr ? 1 : 2);
+  info.video_tracks_unused =
+      count(StreamKind::Video) - (plan.depth == nullptr ? 1 : 2) - (plan.material == nullptr ? 0 : 1);
 }
 
 // Computes the shift that aligns a new session of the depth source with the colour.

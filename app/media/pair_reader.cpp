@@ -118,11 +118,13 @@ Result<void> PairReader::Impl::passTo(MediaTime target) {
       return {};
     }
     if (auto passed = depthAt((*color)->pts); !passed) return std::unexpected(passed.error());
+    static_cast<void>(materialAt((*color)->pts));
   }
 }
 
 // The colour has already been sought, and so has a depth track in the same source.
 Result<void> PairReader::Impl::seekDepth(MediaTime target) {
+  if (material) material->restart();
   if (!depth) return {};
   depth->restart();
   own.lost = false;
@@ -140,6 +142,7 @@ Result<void> PairReader::Impl::goOn() {
   if (auto sought = color_reader->seek(target, key_step); !sought) return failOn(options.url, sought.error());
   color_ahead.clear();
   if (depth_track) depth->restart();
+  if (material) material->restart();
   return passTo(target);
 }
 
@@ -191,6 +194,7 @@ Result<std::optional<FramePair>> PairReader::next() {
   if (!*color) return std::nullopt;
   auto pair = impl_->pairFor(std::move(**color));
   if (!pair) return std::unexpected(pair.error());
+  pair->material = impl_->materialAt(pair->color.pts);
   impl_->goes_on_at = pair->color.pts + impl_->info.frame_period;
   if (impl_->live) {
     pair->taken = impl_->color_reader->source().arrival() + (pair->color.pts - impl_->color_shift).time_since_epoch();
@@ -263,6 +267,8 @@ bool PairReader::readAhead() {
 void PairReader::close() noexcept {
   Impl& film = *impl_;
   film.depth.reset();
+  film.material.reset();
+  film.material_refused = nullptr;
   film.registrar.reset();
   film.depth_track.reset();
   film.depth_stream = nullptr;

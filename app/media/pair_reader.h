@@ -49,6 +49,7 @@ struct FramePair {
   bool matched = true;
   std::optional<MonotonicTime> taken;  // live films: when the colour was captured, or else received
   Frame right;                         // of a stereo film: the right eye's picture, `color` being the left one's
+  Frame material;                      // of the film's material track; empty: none at this time
 };
 
 struct FilmInfo {
@@ -64,6 +65,7 @@ struct FilmInfo {
   Duration container_start{0};     // of the colour: the container's time of media time 0
   CalibrationChoice calibration;   // of a film with depth
   Material material;               // what --material says, else the depth's tags
+  Material material_scale;         // of the material track, but for what --material says; empty: there is none
   FilmReading reading;             // how that calibration and the packing were found
   std::vector<std::string> notes;  // what the sources found out about themselves; one line each
   std::string color_codec, depth_codec;

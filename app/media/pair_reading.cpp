@@ -229,12 +229,19 @@ Result<void> PairReader::Impl::describe(const Frame& first, const Frame& look, c
     const auto by = options.material.empty() ? CalibrationOrigin::ContainerTags : CalibrationOrigin::CommandLine;
     clues.more.push_back({"material", materialText(info.material), by});
   }
+  if (!info.material_scale.empty()) {
+    clues.more.push_back(
+        {"full codes of its material track", materialText(info.material_scale), CalibrationOrigin::ContainerTags});
+  }
   auto meaning = readMeaning(clues, reordering.kind != nullptr ? reordering.kind : kindOf(clues, look), look);
   if (!meaning) return failOn("calibration", meaning.error());
   info.calibration = std::move(meaning->calibration);
   info.reading = std::move(meaning->reading);
   info.reading.doubts = doubtsOf(look, info.calibration.calibration, color.empty() ? nullptr : &color);
   if (!tagged) info.reading.doubts.push_back(print("its tag %s is left out: %s", kMaterialTag, tagged.error().message));
+  if (material_refused != nullptr) {
+    info.reading.doubts.push_back(print("its material track is left out: %s", material_refused));
+  }
   info.has_depth = true;
   info.depth_width = first.width;
   info.depth_height = first.height;

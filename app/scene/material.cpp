@@ -80,6 +80,11 @@ void add(std::string& list, const std::string& item) {
   list += (list.empty() ? "" : ",") + item;
 }
 
+// Stiffness x amplitude.
+double mostRippleN(const Texture& texture, double most_n_per_mm, double most_n) {
+  return std::min(most_n_per_mm * texture.wavelength_mm / (2 * std::numbers::pi), 0.25 * most_n);
+}
+
 }  // namespace
 
 Result<Material> parseMaterial(std::string_view text) {
@@ -129,14 +134,33 @@ HeldMaterial heldBy(const Material& material, double usual_n_per_mm, double most
     held.reduced = "stiffness " + rounded(stiffness) + " N/mm is felt as " + rounded(held.stiffness_n_per_mm);
   }
   double& amplitude = held.texture.amplitude_mm;
-  const double steep = most_n_per_mm / held.stiffness_n_per_mm * held.texture.wavelength_mm / (2 * std::numbers::pi);
-  const double most = std::min(steep, 0.25 * most_n / held.stiffness_n_per_mm);
+  const double most = mostRippleN(held.texture, most_n_per_mm, most_n) / held.stiffness_n_per_mm;
   if (amplitude > most) {
     held.reduced +=
         (held.reduced.empty() ? "" : "; ") + ("texture of " + rounded(amplitude) + " mm is felt as ") + rounded(most);
     amplitude = most;
   }
   return held;
+}
+
+HeldScale scaleHeldBy(const Material& full, const Material& whole, double most_n_per_mm, double most_n) {
+  const Texture texture = layered(full, whole).texture.value_or(Texture{});
+  return {.stiffness_n_per_mm = full.stiffness_n_per_mm,
+          .friction = full.friction,
+          .texture = full.texture,
+          .most_n_per_mm = most_n_per_mm,
+          .most_ripple_n = mostRippleN(texture, most_n_per_mm, most_n)};
+}
+
+std::string reducedScale(const Material& full, double most_n_per_mm) {
+  if (full.stiffness_n_per_mm.value_or(0) <= most_n_per_mm) return {};
+  return "places stiffer than " + rounded(most_n_per_mm) + " N/mm are felt as that";
+}
+
+Material withoutThoseOf(const Material& above, const Material& full) noexcept {
+  return {.stiffness_n_per_mm = above.stiffness_n_per_mm ? std::nullopt : full.stiffness_n_per_mm,
+          .friction = above.friction ? std::nullopt : full.friction,
+          .texture = above.texture ? std::nullopt : full.texture};
 }
 
 }  // namespace relievo

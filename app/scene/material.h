@@ -36,6 +36,12 @@ struct Material {
 // The tag of a film's depth track that holds a material, in the words of `parseMaterial`.
 inline constexpr const char* kMaterialTag = "DEPTH_MATERIAL";
 
+// The tag of a material track: what its full codes stand for, in the same words. A part that it leaves out is not in
+// the track.
+inline constexpr const char* kMaterialScaleTag = "MATERIAL_SCALE";
+// The player's, on a device that holds it; what an author's map does not paint has it, too.
+inline constexpr double kUsualStiffnessNPerMm = 0.5;
+
 // Parses "stiffness=.3,friction=.2/.15,texture=.1@.8": N/mm from .01 to 100; static/dynamic coefficients up to 2, the
 // second at most the first, which also stands for both; amplitude up to 2 mm, at a wavelength from .1 to 100 mm, or 0.
 // InvalidArgument with a message that says what is wrong.
@@ -58,5 +64,22 @@ struct HeldMaterial {
 // stiffness x slope on the way over a ripple. That stays below the device's, and its amplitude below a quarter of the
 // force.
 [[nodiscard]] HeldMaterial heldBy(const Material& material, double usual_n_per_mm, double most_n_per_mm, double most_n);
+
+// The same for a material track: what its full codes stand for on a device, and the bounds at each place.
+struct HeldScale {
+  std::optional<double> stiffness_n_per_mm;
+  std::optional<Friction> friction;
+  std::optional<Texture> texture;
+  double most_n_per_mm = 0;  // of the stiffness
+  double most_ripple_n = 0;  // of stiffness x amplitude
+
+  [[nodiscard]] bool exists() const noexcept { return stiffness_n_per_mm || friction || texture; }
+};
+// `whole`: the whole film's, for what the track leaves out.
+[[nodiscard]] HeldScale scaleHeldBy(const Material& full, const Material& whole, double most_n_per_mm, double most_n);
+// What such a device does not hold of a track, in one line; "" if it holds all.
+[[nodiscard]] std::string reducedScale(const Material& full, double most_n_per_mm);
+// What `above` says is no longer the track's.
+[[nodiscard]] Material withoutThoseOf(const Material& above, const Material& full) noexcept;
 
 }  // namespace relievo

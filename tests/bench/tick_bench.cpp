@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The time of one haptic tick, from position to force, and of its upkeep: a finger 5 mm deep in moving 8-bit depth, by
-// picture size, speed and method.
+// picture size, speed, material and method.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include "app/haptics/baseline/methods.h"
 #include "platform/histogram.h"
 #include "tests/support/film/depth_frames.h"
+#include "tests/support/film/material_frames.h"
 
 namespace relievo {
 namespace {
@@ -76,19 +77,43 @@ Frame asHue(const Frame& gray) {
   return hue;
 }
 
+// A film of these pictures, back and forth: the window of each moment, a frame period apart.
+std::vector<SurfaceWindow> filmOf(const std::vector<TimedSurface>& pictures) {
+  const auto last = pictures.size() - 1;
+  const auto surfaceAt = [&](std::size_t k) {
+    TimedSurface surface = pictures[k / last % 2 == 0 ? k % last : last - k % last];
+    surface.time = mediaTime(kFramePeriodS * static_cast<double>(k));
+    return surface;
+  };
+  std::vector<SurfaceWindow> film(static_cast<std::size_t>(kTickS * kTicks / kFramePeriodS) + 1);
+  for (std::size_t now = 0; now < film.size(); ++now) {
+    const std::size_t first = now - std::min<std::size_t>(now, SurfaceWindow::kBefore);
+    for (std::size_t k = first; k <= now + SurfaceWindow::kAhead; ++k) {
+      film[now].frames[static_cast<std::size_t>(film[now].count++)] = surfaceAt(k);
+    }
+  }
+  return film;
+}
+
 void touchTick(benchmark::State& state, const char* name, MethodConfig config, DepthCode code = DepthCode::Luma) {
   const int cols = static_cast<int>(state.range(0)), rows = static_cast<int>(state.range(1));
   const double speed = static_cast<double>(state.range(2));
   const auto volume = DisplayVolume::forPicture(cols, rows);
-  std::vector<Frame> frames;
+  std::vector<TimedSurface> pictures;
   for (int k = 0; k < 5; ++k) {
     const GridMapping grid(volume, cols, rows);
-    frames.push_back(test::makeGrayFrame(cols, rows, 8, mediaTime(kFramePeriodS * k), [&](int c, int r) {
+    const Frame gray = test::makeGrayFrame(cols, rows, 8, {}, [&](int c, int r) {
       return relief(grid.x(c), grid.y(r), kFramePeriodS * k) / volume.depth_mm * 255 + 0.5;
-    }));
-    if (code == DepthCode::Hue) frames.back() = asHue(frames.back());
+    });
+    pictures.push_back(test::surfaceOf(code == DepthCode::Hue ? asHue(gray) : gray, volume, {.code = code}));
+    if (!config.places.exists()) continue;
+    // Patches of 10 mm.
+    pictures.back().material = test::materialOf(cols, rows, volume, [](double x, double y) {
+      const bool odd = static_cast<int>(std::floor(x / 10) + std::floor(y / 10)) % 2 != 0;
+      return odd ? test::MaterialCodes{128, 100, 128} : test::MaterialCodes{100, 128, 60};
+    });
   }
-  const SurfaceWindow window = test::makeWindow(frames, volume, {.code = code});
+  std::vector<SurfaceWindow> film = filmOf(pictures);
   const std::vector<glm::dvec3> path = fingerPath(speed);
   config.jump_threshold = false;
   const auto method = makeMethod(name, config);
@@ -97,10 +122,12 @@ void touchTick(benchmark::State& state, const char* name, MethodConfig config, D
   std::size_t i = 0;
   for (auto _ : state) {
     const std::size_t k = i++ % kTicks;
-    if (k == 0) static_cast<void>(method->update(path[0] + glm::dvec3(0, 0, 30), window, {}));  // enter from outside
-    // The film runs back and forth over the available frames.
-    const double cycle = std::fmod(kTickS * static_cast<double>(k), 8 * kFramePeriodS);
-    const double t = cycle < 4 * kFramePeriodS ? cycle : 8 * kFramePeriodS - cycle;
+    const double t = kTickS * static_cast<double>(k);
+    if (k == 0) {  // the film begins anew, and the finger enters from outside
+      for (SurfaceWindow& w : film) ++w.epoch;
+      static_cast<void>(method->update(path[0] + glm::dvec3(0, 0, 30), film[0], {}));
+    }
+    const SurfaceWindow& window = film[static_cast<std::size_t>(t / kFramePeriodS)];
     const MonotonicTime begin = clock.now();
     Touch touch = method->update(path[k], window, mediaTime(t));
     const MonotonicTime done = clock.now();
@@ -126,6 +153,22 @@ void sizesAndSpeeds(benchmark::internal::Benchmark* bench) {
 
 BENCHMARK_CAPTURE(touchTick, relievo, "relievo", MethodConfig{})->Apply(sizesAndSpeeds);
 BENCHMARK_CAPTURE(touchTick, relievo_on_hue, "relievo", MethodConfig{}, DepthCode::Hue)->Apply(sizesAndSpeeds);
+BENCHMARK_CAPTURE(touchTick, relievo_with_friction, "relievo", MethodConfig{.friction = {0.3, 0.2}})
+    ->Apply(sizesAndSpeeds);
+
+// The same on a material of the whole film, and on a map of it.
+const MethodConfig kOneMaterial{.stiffness_n_per_mm = 0.5, .friction = {0.3, 0.2}, .texture = {0.05, 1}};
+MethodConfig ofPlaces(const Material& full) {
+  MethodConfig config;
+  config.places = scaleHeldBy(full, {}, 1, 8);
+  return config;
+}
+const Material kFullStiffness{.stiffness_n_per_mm = 1, .friction = {}, .texture = {}};
+const Material kFullMaterial{.stiffness_n_per_mm = 1, .friction = Friction{0.6, 0.4}, .texture = Texture{0.1, 1}};
+BENCHMARK_CAPTURE(touchTick, relievo_on_one_material, "relievo", kOneMaterial)->Apply(sizesAndSpeeds);
+BENCHMARK_CAPTURE(touchTick, relievo_on_places_of_stiffness, "relievo", ofPlaces(kFullStiffness))
+    ->Apply(sizesAndSpeeds);
+BENCHMARK_CAPTURE(touchTick, relievo_on_places, "relievo", ofPlaces(kFullMaterial))->Apply(sizesAndSpeeds);
 BENCHMARK_CAPTURE(touchTick, god_object, "relievo", MethodConfig{.space = SpaceLaw::Triangles})->Apply(sizesAndSpeeds);
 BENCHMARK_CAPTURE(touchTick, modified_proxy_graph, "modified-proxy-graph", MethodConfig{})->Apply(sizesAndSpeeds);
 BENCHMARK_CAPTURE(touchTick, proxy_graph, "proxy-graph", MethodConfig{})->Apply(sizesAndSpeeds);

@@ -20,6 +20,7 @@
 #include "tests/rt/forbidden_calls.h"
 #include "tests/support/device/fake_haptic_device.h"
 #include "tests/support/film/depth_frames.h"
+#include "tests/support/film/material_frames.h"
 #include "tests/support/machine/sanitizers.h"
 
 namespace relievo {
@@ -40,6 +41,13 @@ std::vector<TimedSurface> movingFilm() {
       return z / 40 * 255;
     });
     film.push_back({HeightField::make(frame, {.invalid = 0}, kVolume).value(), frame.pts, frame.owner});
+  }
+  for (std::size_t k = 0; k < film.size(); ++k) {  // stripes that move; some pictures have none
+    if (k % 11 == 10) continue;
+    film[k].material = test::materialOf(90, 60, kVolume, [k](double x, double) {
+      return static_cast<int>(std::floor(0.2 * x + static_cast<double>(k))) % 2 != 0 ? test::MaterialCodes{200, 0, 250}
+                                                                                     : test::MaterialCodes{60, 200, 0};
+    });
   }
   ShotFinder().mark(film);
   return film;
@@ -77,8 +85,12 @@ class Stage {
   }
 
  private:
-  // "rough": relievo on a surface with friction and texture.
+  // "rough": relievo on a surface with friction and texture; "places": on one whose material is that of each place.
   static std::unique_ptr<TouchMethod> made(const std::string& method) {
+    if (method == "places") {
+      const Material full{.stiffness_n_per_mm = 1, .friction = Friction{0.4, 0.3}, .texture = Texture{0.1, 0.8}};
+      return makeMethod("relievo", {.places = scaleHeldBy(full, {}, 1, 8)});
+    }
     if (method != "rough") return makeMethod(method, {});
     return makeMethod("relievo", {.friction = {0.3, 0.2}, .texture = {0.1, 0.8}});
   }
@@ -127,8 +139,8 @@ TEST_P(TouchRt, ATickDoesNotCallTheSystem) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, TouchRt,
-                         testing::Values("relievo", "rough", "modified-proxy-graph", "proxy-graph", "proxy-blend",
-                                         "penalty"),
+                         testing::Values("relievo", "rough", "places", "modified-proxy-graph", "proxy-graph",
+                                         "proxy-blend", "penalty"),
                          [](const auto& test) {
                            std::string name = test.param;
                            std::erase(name, '-');

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "app/author/author.h"
+#include "app/author/material/material_track.h"
 #include "app/author/package/color_to_420.h"
 #include "app/author/package/film_kind.h"
 #include "app/author/package/key_frames.h"
@@ -87,8 +88,9 @@ std::optional<std::uint64_t> expectedFrames(const FilmInfo& info) {
 class Packager {
  public:
   // `info` is the film's as it is read here: with depth, be it the film's own or made.
-  Packager(PairReader& reader, FilmInfo info, const SourceOptions& source, const OutputOptions& output)
-      : reader_(reader), info_(std::move(info)), source_(source), output_(output) {}
+  Packager(PairReader& reader, const PairReader::Backends& backends, FilmInfo info, const SourceOptions& source,
+           const OutputOptions& output)
+      : reader_(reader), backends_(backends), info_(std::move(info)), source_(source), output_(output) {}
 
   Outcome<void> begin(const FramePair& pair);
   Outcome<void> write(const FramePair& pair);
@@ -100,12 +102,15 @@ class Packager {
   Outcome<void> takeDepth(const Frame& depth, bool key);
   Outcome<void> writeDepth(const Frame& depth);
   Outcome<void> writeEnhanced();
+  Outcome<void> planMaterial(const FramePair& pair);
+  Outcome<void> writeMaterial(const FramePair& pair, bool key, bool begins_shot);
   [[nodiscard]] std::unique_ptr<KeptTracks> keptTracks() const;
   [[nodiscard]] const DepthCalibration& sourceCalibration() const { return info_.calibration.calibration; }
   static constexpr std::size_t kRecent = 3;
   [[nodiscard]] bool beginsShot(const Frame& depth);
 
   PairReader& reader_;
+  const PairReader::Backends& backends_;
   FilmInfo info_;
   const SourceOptions& source_;
   const OutputOptions& output_;
@@ -124,7 +129,9 @@ class Packager {
   ColorPicture420 color_;
   std::mutex preview_mutex_;
   Preview preview_;
-  WorkLine<Outcome<void>> depth_line_;  // the last member: it ends before what it uses
+  std::optional<MaterialTrack> material_;  // made from a map
+  ColorPicture420 kept_material_;          // the source's own
+  WorkLine<Outcome<void>> depth_line_;     // the last member: it ends before what it uses
 };
 
 Outcome<void> Packager::begin(const FramePair& pair) {
@@ -157,12 +164,50 @@ Outcome<void> Packager::begin(const FramePair& pair) {
   format_.depth = output_.depth;
   format_.depth_tags = calibrationTags(coder_.outcome());
   for (auto& [key, value] : certaintyTags(info.reading)) format_.depth_tags[key] = value;
-  if (!info.material.empty()) format_.depth_tags[kMaterialTag] = materialText(info.material);
+  if (auto planned = planMaterial(pair); !planned) return planned;
+  const Material whole = material_ ? withoutThoseOf(material_->scale(), info.material) : info.material;
+  if (!whole.empty()) format_.depth_tags[kMaterialTag] = materialText(whole);
   format_.depth_tags["DEPTH_READ_AS"] = plainLine(info.reading, sourceCalibration());
   auto writer =
       FilmWriter::create(output_.path, format_, output_.force ? Existing::Replace : Existing::Keep, keptTracks());
   if (!writer) return failOn(output_.path, writer.error());
   writer_ = std::move(*writer);
+  return {};
+}
+
+// A map that was given, else the source's own track.
+Outcome<void> Packager::planMaterial(const FramePair& pair) {
+  if (!output_.material_map.empty()) {
+    auto track = MaterialTrack::open(output_.material_map, source_.material, backends_, format_.color_width,
+                                     format_.color_height);
+    if (!track) return std::unexpected(track.error());
+    material_ = std::move(*track);
+    format_.material_width = material_->cols();
+    format_.material_height = material_->rows();
+    format_.material_scale = materialText(material_->scale());
+  } else if (const Frame& own = pair.material; !info_.material_scale.empty() && own.range == ColorRange::Full) {
+    format_.material_width = own.width - own.width % 2;
+    format_.material_height = own.height - own.height % 2;
+    format_.material_scale = materialText(info_.material_scale);
+  }
+  return {};
+}
+
+Outcome<void> Packager::writeMaterial(const FramePair& pair, bool key, bool begins_shot) {
+  if (format_.material_width == 0) return {};
+  const ColorPicture420* picture = &kept_material_;
+  if (material_) {
+    const auto made = material_->at(color_, pair.color.pts, begins_shot);
+    if (!made) return failOn(output_.material_map, made.error());
+    picture = *made;
+  } else {
+    const Frame& own = pair.material;
+    if (own.width < format_.material_width || own.height < format_.material_height) return {};
+    const Frame cut = crop(own, 0, 0, format_.material_width, format_.material_height);
+    if (auto made = toColor420(cut, kept_material_); !made) return failOn("material", made.error());
+  }
+  if (auto written = writer_->writeMaterial(*picture, pair.color.pts, key); !written)
+    return failOn(output_.path, written.error());
   return {};
 }
 
@@ -186,12 +231,13 @@ Outcome<void> Packager::write(const FramePair& pair) {
     return failOn("colour", {ErrorCode::Unsupported, 0, "the picture size changes; cut the film there"});
   }
   const bool depth_is_new = !pair.depth.empty() && (!last_depth_ || pair.depth.pts >= *last_depth_ + kLeastStep);
-  const bool key =
-      key_frames_.isDue(color.pts, depth_is_new || pair.depth.empty(), depth_is_new && beginsShot(pair.depth));
+  const bool begins_shot = depth_is_new && beginsShot(pair.depth);
+  const bool key = key_frames_.isDue(color.pts, depth_is_new || pair.depth.empty(), begins_shot);
   if (auto made = toColor420(color, color_); !made) return failOn("colour", made.error());
   if (auto written = writer_->writeColor(color_, color.pts, key); !written)
     return failOn(output_.path, written.error());
   if (!depth_is_new) return {};
+  if (auto written = writeMaterial(pair, key, begins_shot); !written) return written;
 
   last_depth_ = pair.depth.pts;
   const Frame depth = crop(pair.depth, 0, 0, pair.depth.width - cut_.depth_cols, pair.depth.height - cut_.depth_rows);
@@ -275,6 +321,10 @@ Outcome<AuthorSummary> Packager::finish() {
     summary.notes.push_back(source_.url + print(": %llu pictures whose times do not increase were left out",
                                                 static_cast<unsigned long long>(not_later_)));
   }
+  if (const auto end = material_ ? material_->endsAt() : std::nullopt) {
+    summary.notes.push_back(print("the map of the material ends with its shot, at %.2f s; a film of maps goes on",
+                                  toSeconds(end->time_since_epoch())));
+  }
   if (auto line = cut_.explain(); !line.empty()) summary.notes.push_back(std::move(line));
   for (std::string& line : sourceNotes(source_, info_, reader_.counters(), format_, coder_.counts())) {
     summary.notes.push_back(std::move(line));
@@ -315,7 +365,7 @@ Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader:
                                                     : "no depth in this source; give --depth SOURCE";
     return failOn(source.url, {ErrorCode::NotFound, 0, what});
   }
-  Packager packager(reader, std::move(info), source, output);
+  Packager packager(reader, backends, std::move(info), source, output);
   bool live = false;  // ends on request or when its camera is unplugged, and is complete then
   for (std::uint64_t done = 1;; ++done) {
     auto pair = reader.next();

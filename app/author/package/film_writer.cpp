@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two encoders, each on a thread of its own, and the destination of their packets.
+// Two or three encoders, each on a thread of its own, and the destination of their packets.
 #include "app/author/package/film_writer.h"
 
 #include <algorithm>
@@ -16,6 +16,7 @@ extern "C" {
 
 #include "app/author/package/film_place.h"
 #include "app/author/package/work_line.h"
+#include "app/scene/material.h"
 
 namespace relievo {
 namespace {
@@ -40,8 +41,11 @@ struct Track {
   // What the next picture is to be written to.
   Picture& next() { return pictures[added % pictures.size()]; }
   // Hands that picture over.
-  Result<void> add() {
-    return line.add([this, &picture = pictures[added++ % pictures.size()]] { return encode(picture); });
+  Result<void> add(MediaTime time, bool key) {
+    Picture& picture = pictures[added++ % pictures.size()];
+    picture.time = time;
+    picture.key = key;
+    return line.add([this, &picture] { return encode(picture); });
   }
   Result<void> finish() {
     if (auto added_all = line.finish(); !added_all) return added_all;
@@ -99,6 +103,7 @@ Result<void> Track::write(AVPacket& packet) {
 struct FilmWriter::Impl {
   Result<void> begin(const std::string& path, const FilmFormat& format, Existing existing);
   Result<void> openTracks(const FilmFormat& format);
+  Result<void> openMaterial(const FilmFormat& format);
   void copy(const DepthPicture& from, Track::Picture& to);
 
   FilmKind kind = FilmKind::Matroska;
@@ -106,7 +111,7 @@ struct FilmWriter::Impl {
   std::unique_ptr<KeptTracks> kept;
   DepthCoding coding;
   std::vector<std::uint16_t> chroma;  // of a depth picture with flat chroma
-  Track color, depth;
+  Track color, depth, material;
 };
 
 Result<void> FilmWriter::Impl::begin(const std::string& path, const FilmFormat& format, Existing existing) {
@@ -119,6 +124,9 @@ Result<void> FilmWriter::Impl::begin(const std::string& path, const FilmFormat& 
   if (!made) return std::unexpected(made.error());
   place = std::move(*made);
   if (auto opened = openTracks(format); !opened) return opened;
+  if (format.material_width > 0) {
+    if (auto opened = openMaterial(format); !opened) return opened;
+  }
   if (kind == FilmKind::Live) place->muxer().max_interleave_delta = kLongestHeldUs;
   if (kept) {
     if (auto added = kept->addTo(*place, kind); !added) return added;
@@ -171,6 +179,24 @@ Result<void> FilmWriter::Impl::openTracks(const FilmFormat& format) {
   return {};
 }
 
+Result<void> FilmWriter::Impl::openMaterial(const FilmFormat& format) {
+  const std::string line = std::string(kMaterialScaleTag) + "=" + format.material_scale + "\n";
+  auto opened = material.open(*place,
+                              {.width = format.material_width,
+                               .height = format.material_height,
+                               .to_touch = true,
+                               .live = kind == FilmKind::Live,
+                               .range = ColorRange::Full,
+                               .frame_period = format.frame_period,
+                               .crf = format.material_crf,
+                               .stream_tags = line},
+                              "material");
+  if (!opened) return opened;
+  const bool of_file = kind == FilmKind::Mp4 || kind == FilmKind::Mov;
+  setTag(of_file ? &place->muxer().metadata : &material.stream->metadata, kMaterialScaleTag, format.material_scale);
+  return {};
+}
+
 void copy(const ColorPicture420& from, Track::Picture& to) {
   to.samples.resize(from.y.size() + from.u.size() + from.v.size());
   std::uint8_t* out = to.samples.data();
@@ -215,31 +241,33 @@ Result<void> FilmWriter::writeColor(const ColorPicture420& picture, MediaTime ti
   if (impl_->kept) {
     if (auto written = impl_->kept->writeUntil(time); !written) return written;
   }
-  Track::Picture& next = impl_->color.next();
-  copy(picture, next);
-  next.time = time;
-  next.key = key;
-  return impl_->color.add();
+  copy(picture, impl_->color.next());
+  return impl_->color.add(time, key);
 }
 
 Result<void> FilmWriter::writeDepth(const DepthPicture& picture, MediaTime time, bool key) {
-  Track::Picture& next = impl_->depth.next();
-  impl_->copy(picture, next);
-  next.time = time;
-  next.key = key;
-  return impl_->depth.add();
+  impl_->copy(picture, impl_->depth.next());
+  return impl_->depth.add(time, key);
+}
+
+Result<void> FilmWriter::writeMaterial(const ColorPicture420& picture, MediaTime time, bool key) {
+  copy(picture, impl_->material.next());
+  return impl_->material.add(time, key);
 }
 
 Result<FilmTotals> FilmWriter::finish() {
   Impl& film = *impl_;
   if (auto finished = film.color.finish(); !finished) return std::unexpected(finished.error());
   if (auto finished = film.depth.finish(); !finished) return std::unexpected(finished.error());
+  if (film.material.stream != nullptr) {
+    if (auto finished = film.material.finish(); !finished) return std::unexpected(finished.error());
+  }
   if (film.kept) {
     if (auto written = film.kept->writeRest(); !written) return std::unexpected(written.error());
   }
   const auto bytes = film.place->finish();
   if (!bytes) return std::unexpected(bytes.error());
-  return FilmTotals{film.color.totals, film.depth.totals, *bytes, film.place->latest()};
+  return FilmTotals{film.color.totals, film.depth.totals, film.material.totals, *bytes, film.place->latest()};
 }
 
 const KeptTracks* FilmWriter::kept() const noexcept {

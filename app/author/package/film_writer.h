@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes one film with a colour and a depth track: a file that appears whole or not at all, or a network stream.
+// Writes one film with a colour and a depth track, and perhaps a material one: a file that appears whole or not at all,
+// or a network stream.
 #pragma once
 
 #include <cstdint>
@@ -28,6 +29,9 @@ struct FilmFormat {
   int color_crf = 18;
   DepthCoding depth;
   std::map<std::string, std::string> depth_tags;  // calibrationTags()
+  int material_width = 0, material_height = 0;    // even; 0: no material track
+  int material_crf = 4;
+  std::string material_scale;  // value of kMaterialScaleTag
 };
 
 struct TrackTotals {
@@ -36,7 +40,7 @@ struct TrackTotals {
   MediaTime first, last;
 };
 struct FilmTotals {
-  TrackTotals color, depth;
+  TrackTotals color, depth, material;
   std::uint64_t file_bytes = 0;
   Duration latest{0};  // network stream: the largest delay of sending
 };
@@ -49,7 +53,8 @@ struct FilmTotals {
 //   H.264 and HEVC     in the stream, with each key frame, whatever the container (hal/media/stream_tags.h)
 //   transport streams  additionally the stream's type: auxiliary video
 //
-// After them come the kept tracks, if there are any.
+// A material track, if there is one, is track 2: H.264 4:2:0, full range, titled "material", its tag in the same
+// places. After them come the kept tracks, if there are any.
 //
 // Each track is encoded on a thread of its own, a few pictures later: a failure is told by a later call of the same
 // track, at the latest by `finish`. Use from one thread, except that `writeDepth` may be called from another one. A
@@ -67,6 +72,8 @@ class FilmWriter {
   // `key` makes it a key frame; apart from the first picture there are no others.
   [[nodiscard]] Result<void> writeColor(const ColorPicture420& picture, MediaTime time, bool key);
   [[nodiscard]] Result<void> writeDepth(const DepthPicture& picture, MediaTime time, bool key);
+  // Only if the format has a material track.
+  [[nodiscard]] Result<void> writeMaterial(const ColorPicture420& picture, MediaTime time, bool key);
   [[nodiscard]] Result<FilmTotals> finish();
   // Null: none.
   [[nodiscard]] const KeptTracks* kept() const noexcept;

@@ -169,6 +169,10 @@ std::string toText(const std::string& path, const AuthorSummary& summary) {
       trackLine("color", f.color_width, f.color_height, "H.264 4:2:0", f.color_crf, totals.color, summary.frame_period);
   text +=
       trackLine("depth", f.depth_width, f.depth_height, codingText(f), depth_crf, totals.depth, summary.frame_period);
+  if (f.material_width > 0) {
+    text += trackLine("material", f.material_width, f.material_height, "H.264 4:2:0", f.material_crf, totals.material,
+                      summary.frame_period);
+  }
   if (summary.enhancement) text += enhancementLines(*summary.enhancement, summary.enhanced);
   if (!summary.read_as.empty()) text += "  read as: " + summary.read_as + "\n";
   for (const std::string& line : summary.read_because) text += "    " + line + "\n";
@@ -182,6 +186,7 @@ std::string toText(const std::string& path, const AuthorSummary& summary) {
   if (tag("DEPTH_LAW") == "inverse") text += ", near " + tag("DEPTH_NEAR") + " mm, far " + tag("DEPTH_FAR") + " mm";
   text += "\n";
   if (f.depth_tags.contains(kMaterialTag)) text += "  material: " + tag(kMaterialTag) + "\n";
+  if (f.material_width > 0) text += "  material of each place: up to " + f.material_scale + "\n";
   if (totals.latest > kLate) {
     text += print("  note: sent up to %.1f s late: this machine is too slow for the film; use a smaller picture\n",
                   toSeconds(totals.latest));

@@ -70,6 +70,7 @@ std::unique_ptr<TouchMethod> makeMethod(std::string_view method, const MethodCon
                                                                  .scale = *parts->scale,
                                                                  .friction = config.friction,
                                                                  .texture = config.texture,
+                                                                 .places = config.places,
                                                                  .jump_threshold_n = threshold(false),
                                                                  .tick_s = config.tick_s});
   }

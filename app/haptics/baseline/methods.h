@@ -21,6 +21,7 @@ struct MethodConfig {
   std::optional<bool> jump_threshold;  // the paper's guard (IV-C); nothing: the method's own
   Friction friction;                   // of `relievo` on a smooth surface alone, as is the texture
   Texture texture;
+  HeldScale places;                // likewise
   std::optional<FeltScale> scale;  // of `relievo`: what the scene needs (see touch_plan.h)
 };
 

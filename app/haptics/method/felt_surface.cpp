@@ -58,6 +58,7 @@ RELIEVO_TICK_CODE bool FeltSurface::moveTo(const SurfaceWindow& window, MediaTim
       std::chrono::abs(now - prepared_for_) <= kPreparedWithin) {
     since_prepared_s = toSeconds(now - prepared_for_);
   }
+  as_prepared_ = since_prepared_s.has_value();
   edge_.moves = two_levels_ && edge_.way_mm != glm::dvec2(0) && window.frames[present_].time == edge_.from;
   edge_.share = moment.share;
   narrow_.begin(slots_, moment, since_prepared_s);

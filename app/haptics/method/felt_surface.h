@@ -47,6 +47,9 @@ class FeltSurface {
   // More than kBlocksOfTick since `moveTo`.
   [[nodiscard]] bool hasReadMuch() const RELIEVO_RT { return blocksRead() - read_before_ > kBlocksOfTick; }
 
+  // `prepare` was for this moment and these frames.
+  [[nodiscard]] bool asPrepared() const RELIEVO_RT { return as_prepared_; }
+
   // Call after `moveTo` with the same window: prepares for a tick expected at `next`, with the proxy near (x, y). The
   // preparation stays valid while the contributing frames are the same, even in a newer window.
   void prepare(const SurfaceWindow& window, MediaTime next, double x_mm, double y_mm) RELIEVO_RT;
@@ -95,7 +98,7 @@ class FeltSurface {
   [[nodiscard]] static Weighed weighedAt(const SurfaceWindow& window, const FrameMoment& moment) RELIEVO_RT;
 
   // The moment that the levels are prepared for, and the frames used.
-  bool prepared_ = false;
+  bool prepared_ = false, as_prepared_ = false;
   MediaTime prepared_for_;
   Weighed prepared_on_;
 };

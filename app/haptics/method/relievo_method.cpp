@@ -58,7 +58,11 @@ RELIEVO_TICK_CODE Touch RelievoMethod::update(const glm::dvec3& hip_mm, const Su
   const bool other_scene = isOtherScene(window);
   const Contact before = contact_;
   const bool continues = state_ == State::Contact && !other_scene;
+  if (material_.exists() && other_scene) material_.read(window, now, hip_mm.x, hip_mm.y);
   changeState(hip_mm, other_scene);
+  if (material_.exists() && state_ == State::Contact && !material_.isNear(now, contact_.x_mm, contact_.y_mm)) {
+    material_.read(window, now, contact_.x_mm, contact_.y_mm);
+  }
   const Touch touch = touchAt(hip_mm);
   if (lowered_mm_ > 0) settleLowering(hip_mm);
   foresee(hip_mm, before, continues);
@@ -125,7 +129,7 @@ RELIEVO_TICK_CODE Touch RelievoMethod::touchAt(const glm::dvec3& hip_mm) RELIEVO
   if (state_ == State::Contact) {
     touch.contact = true;
     touch.proxy_mm = feltPlace(hip_mm);
-    touch.force_n = config_.stiffness_n_per_mm * (touch.proxy_mm - hip_mm);
+    touch.force_n = material_.found().stiffness_n_per_mm * (touch.proxy_mm - hip_mm);
   }
   if (!touch.contact) letGo();
   if (config_.jump_threshold_n > 0 && glm::distance(touch.force_n, force_n_) > config_.jump_threshold_n) {
@@ -151,6 +155,9 @@ RELIEVO_TICK_CODE void RelievoMethod::foresee(const glm::dvec3& hip_mm, const Co
 
 void RelievoMethod::upkeep(const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
   if (!had_surface_) return;
+  // Assume the same interval to the next tick as from the last; while paused it is 0.
+  const Duration step = std::clamp(now - now_, Duration(0), kLongestStep);
+  if (material_.exists()) material_.read(window, now + step, ahead_mm_.x, ahead_mm_.y);
   if (surface_.hasReadMuch()) {  // the next tick will read the rest
     now_ = now;
     return;
@@ -161,9 +168,8 @@ void RelievoMethod::upkeep(const SurfaceWindow& window, MediaTime now) RELIEVO_R
     force_n_ = {};
     ahead_mm_ = {hip_mm_.x, hip_mm_.y};
   }
-  // Assume the same interval to the next tick as from the last; while paused it is 0.
-  const Duration step = std::clamp(now - now_, Duration(0), kLongestStep);
   surface_.prepare(window, now + step, ahead_mm_.x, ahead_mm_.y);
+  if (stick_.holds() && surface_.moveTo(window, now + step)) stick_.prepare(surface_);
   now_ = now;
 }
 
@@ -180,7 +186,8 @@ void RelievoMethod::enterScene(const glm::dvec3& hip_mm) RELIEVO_RT {
   const double depth = surface_.height(hip_mm.x, hip_mm.y) - hip_mm.z;
   force_before_cut_n_ = glm::length(force_n_);
   letGo();  // the point where friction held belongs to the old scene
-  lowered_mm_ = std::max(depth - force_before_cut_n_ / config_.stiffness_n_per_mm, 0.0);
+  spring_.release(force_before_cut_n_);
+  lowered_mm_ = std::max(depth - force_before_cut_n_ / material_.found().stiffness_n_per_mm, 0.0);
   if (depth <= 0) {
     state_ = State::Free;
     return;
@@ -285,17 +292,23 @@ bool RelievoMethod::enterOnPath(const glm::dvec3& from_mm, const glm::dvec3& hip
 
 // Where the finger's spring ends: the proxy, unless the material holds it elsewhere.
 RELIEVO_TICK_CODE glm::dvec3 RelievoMethod::feltPlace(const glm::dvec3& hip_mm) RELIEVO_RT {
+  const PlaceMaterial& material = material_.found();
   glm::dvec3 place = proxy();
-  const double depth = ripple_.exists() ? glm::distance(place, hip_mm) : 0;
-  if (stick_.exists()) place = stick_.follow(surface_, contact_, hip_mm, lowered_mm_);
-  if (ripple_.exists()) {
+  const double depth = hasTexture() ? glm::distance(place, hip_mm) : 0;
+  if (hasFriction()) place = stick_.follow(surface_, material.friction, contact_, hip_mm, lowered_mm_);
+  if (material_.changesStiffness()) {
+    const double share = spring_.share(glm::distance(place, hip_mm), material.stiffness_n_per_mm);
+    if (share < 1) place = hip_mm + share * (place - hip_mm);
+  }
+  if (hasTexture()) {
     const glm::dvec3 normal = glm::normalize(glm::dvec3(-contact_.surface.zx, -contact_.surface.zy, 1));
-    place += ripple_.offset(hip_mm, normal, depth);
+    place += ripple_.offset({hip_mm, normal, depth, material.amplitude_mm, material.stiffness_n_per_mm});
   }
   return place;
 }
 
 void RelievoMethod::letGo() RELIEVO_RT {
+  spring_.release();
   stick_.release();
   ripple_.release();
 }
@@ -303,7 +316,7 @@ void RelievoMethod::letGo() RELIEVO_RT {
 void RelievoMethod::settleLowering(const glm::dvec3& hip_mm) RELIEVO_RT {
   if (state_ == State::Contact) {
     const double rise = config_.rise_mm_per_s * config_.tick_s;
-    const double after = glm::length(force_n_) + config_.stiffness_n_per_mm * rise;
+    const double after = glm::length(force_n_) + material_.found().stiffness_n_per_mm * rise;
     if (after <= force_before_cut_n_) lowered_mm_ = std::max(lowered_mm_ - rise, 0.0);
   } else if (state_ == State::Free) {
     // The finger is above the lowered surface, which may rise by that much without being felt.

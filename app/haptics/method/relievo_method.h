@@ -7,6 +7,7 @@
 #include "app/haptics/method/closest_point.h"
 #include "app/haptics/method/felt_surface.h"
 #include "app/haptics/method/method.h"
+#include "app/haptics/method/place_material.h"
 #include "app/haptics/method/ripple.h"
 #include "app/haptics/method/stick_point.h"
 #include "app/scene/material.h"
@@ -23,7 +24,8 @@ namespace relievo {
 // surface is lowered under it until the finger is as deep as before, so that it feels the new shape at once and with no
 // more force. The lowering is undone while the force does not exceed its previous value, and when the finger lifts.
 //
-// Friction and texture change where the finger's spring ends, not which point is the closest (StickPoint, Ripple).
+// Friction and texture change where the finger's spring ends, not which point is the closest (StickPoint, Ripple). A
+// film's material track is read where the proxy is (MaterialReader, PlaceSpring).
 class RelievoMethod final : public TouchMethod {
  public:
   struct Config {
@@ -31,6 +33,7 @@ class RelievoMethod final : public TouchMethod {
     FeltScale scale;
     Friction friction;
     Texture texture;
+    HeldScale places;              // of the film's material track, if it has one
     double jump_threshold_n = 0;   // additionally the paper's guard (IV-C); 0: off, re-seating does not need it
     double rise_mm_per_s = 100.0;  // rate at which a lowered surface rises back: 50 N/s at 0.5 N/mm
     double tick_s = 0.001;         // the task's period
@@ -38,8 +41,9 @@ class RelievoMethod final : public TouchMethod {
   explicit RelievoMethod(const Config& config) noexcept
       : config_(config),
         surface_(config.scale),
-        stick_(config.friction, config.tick_s),
-        ripple_(config.texture, config.stiffness_n_per_mm, config.tick_s) {}
+        material_({config.stiffness_n_per_mm, config.friction, config.texture.amplitude_mm}, config.places),
+        stick_(config.tick_s),
+        ripple_(config.places.texture.value_or(config.texture).wavelength_mm, config.tick_s) {}
 
   [[nodiscard]] Touch update(const glm::dvec3& hip_mm, const SurfaceWindow& window, MediaTime now) RELIEVO_RT override;
   void prefetch(const SurfaceWindow& window) const RELIEVO_RT override;
@@ -74,6 +78,12 @@ class RelievoMethod final : public TouchMethod {
   [[nodiscard]] bool offTheEdge() RELIEVO_RT;
   [[nodiscard]] glm::dvec3 feltPlace(const glm::dvec3& hip_mm) RELIEVO_RT;
   void letGo() RELIEVO_RT;
+  [[nodiscard]] bool hasFriction() const RELIEVO_RT {
+    return config_.friction.static_coefficient > 0 || config_.places.friction.has_value();
+  }
+  [[nodiscard]] bool hasTexture() const RELIEVO_RT {
+    return config_.texture.amplitude_mm > 0 || config_.places.texture.has_value();
+  }
   [[nodiscard]] bool enterOnPath(const glm::dvec3& from_mm, const glm::dvec3& hip_mm) RELIEVO_RT;
   void follow(glm::dvec3 from_mm, const glm::dvec3& hip_mm) RELIEVO_RT;
   void settleLowering(const glm::dvec3& hip_mm) RELIEVO_RT;
@@ -92,6 +102,8 @@ class RelievoMethod final : public TouchMethod {
   glm::dvec2 own_place_mm_{0};
   glm::dvec3 own_hip_mm_{0};
   bool on_its_way_ = false;  // the proxy has not yet reached the place where the finger sent it
+  MaterialReader material_;
+  PlaceSpring spring_;
   StickPoint stick_;
   Ripple ripple_;
   double lowered_mm_ = 0;  // how far the surface is lowered, after a cut

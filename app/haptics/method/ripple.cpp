@@ -26,39 +26,40 @@ double withinTheRate(double ripples_a_tick) RELIEVO_RT {
 
 }  // namespace
 
-Ripple::Ripple(const Texture& texture, double stiffness_n_per_mm, double tick_s) noexcept
-    : amplitude_mm_(texture.amplitude_mm),
-      per_mm_(1 / texture.wavelength_mm),
-      stiffness_(stiffness_n_per_mm),
-      newest_(std::min(tick_s / kSpeedWithinS, 1.0)) {}
+Ripple::Ripple(double wavelength_mm, double tick_s) noexcept
+    : per_mm_(1 / wavelength_mm), newest_(std::min(tick_s / kSpeedWithinS, 1.0)) {}
 
-glm::dvec3 Ripple::offset(const glm::dvec3& hip_mm, const glm::dvec3& normal, double depth_mm) RELIEVO_RT {
+glm::dvec3 Ripple::offset(const Finger& finger) RELIEVO_RT {
   if (!feels_) {
     feels_ = true;
-    hip_mm_ = hip_mm;
-    offset_mm_ = glm::dvec3(0);
+    hip_mm_ = finger.hip_mm;
+    force_n_ = glm::dvec3(0);
     ripples_a_tick_ = glm::dvec2(0);
     own_mj_ = kGiftMj;
   }
-  const glm::dvec3 moved = hip_mm - hip_mm_;
+  const glm::dvec3 moved = finger.hip_mm - hip_mm_;
   ripples_a_tick_ += newest_ * (per_mm_ * glm::dvec2(moved.x, moved.y) - ripples_a_tick_);
-  hip_mm_ = hip_mm;
-  const double full = 2 * amplitude_mm_;  // the highest crest: two sines
-  const double entered = depth_mm / std::sqrt(depth_mm * depth_mm + full * full);
-  const double height = paidFor(heightAt(hip_mm) * entered, glm::dot(moved, normal), moved);
-  offset_mm_ = height * normal;
-  return offset_mm_;
+  hip_mm_ = finger.hip_mm;
+  double height = 0;
+  if (finger.amplitude_mm > 0) {
+    const double full = 2 * finger.amplitude_mm, depth = finger.depth_mm;  // the highest crest: two sines
+    height = finger.amplitude_mm * heightAt(finger.hip_mm) * depth / std::sqrt(depth * depth + full * full);
+  }
+  height = paidFor(height, finger.stiffness_n_per_mm, glm::dot(moved, finger.normal), moved);
+  force_n_ = finger.stiffness_n_per_mm * height * finger.normal;
+  return height * finger.normal;
 }
 
+// Of amplitude 1.
 double Ripple::heightAt(const glm::dvec3& hip_mm) const RELIEVO_RT {
-  return amplitude_mm_ * (withinTheRate(ripples_a_tick_.x) * sineOf(hip_mm.x * per_mm_) +
-                          withinTheRate(ripples_a_tick_.y) * sineOf(hip_mm.y * per_mm_));
+  return withinTheRate(ripples_a_tick_.x) * sineOf(hip_mm.x * per_mm_) +
+         withinTheRate(ripples_a_tick_.y) * sineOf(hip_mm.y * per_mm_);
 }
 
 // The work of the last tick's force and this one's, by the trapezoid rule. The next tick is taken to move as this one.
-double Ripple::paidFor(double height_mm, double out_mm, const glm::dvec3& moved_mm) RELIEVO_RT {
-  own_mj_ -= 0.5 * stiffness_ * glm::dot(offset_mm_, moved_mm);
-  double gives = stiffness_ * height_mm * out_mm;
+double Ripple::paidFor(double height_mm, double stiffness, double out_mm, const glm::dvec3& moved_mm) RELIEVO_RT {
+  own_mj_ -= 0.5 * glm::dot(force_n_, moved_mm);
+  double gives = stiffness * height_mm * out_mm;
   const double has = std::max(own_mj_, 0.0);
   if (gives > has) {
     height_mm *= has / gives;

@@ -26,23 +26,28 @@ class Ripple {
   static constexpr double kSpeedWithinS =
       4e-3;  // over which the speed is averaged; devices may answer every other tick
 
-  Ripple(const Texture& texture, double stiffness_n_per_mm, double tick_s) noexcept;
+  Ripple(double wavelength_mm, double tick_s) noexcept;
 
-  [[nodiscard]] bool exists() const RELIEVO_RT { return amplitude_mm_ > 0; }
-  // What to add to the proxy in this tick of contact. `normal`: the surface's, of length 1; `depth_mm`: the finger's,
-  // along it, without the ripples.
-  [[nodiscard]] glm::dvec3 offset(const glm::dvec3& hip_mm, const glm::dvec3& normal, double depth_mm) RELIEVO_RT;
+  // The finger in this tick of contact, and what the surface is like there.
+  struct Finger {
+    glm::dvec3 hip_mm, normal;  // `normal`: the surface's, of length 1
+    double depth_mm = 0;        // along it, without the ripples
+    double amplitude_mm = 0, stiffness_n_per_mm = 0;
+  };
+  // What to add to the proxy.
+  [[nodiscard]] glm::dvec3 offset(const Finger& finger) RELIEVO_RT;
   void release() RELIEVO_RT { feels_ = false; }
 
  private:
   [[nodiscard]] double heightAt(const glm::dvec3& hip_mm) const RELIEVO_RT;
-  [[nodiscard]] double paidFor(double height_mm, double out_mm, const glm::dvec3& moved_mm) RELIEVO_RT;
+  [[nodiscard]] double paidFor(double height_mm, double stiffness, double out_mm,
+                               const glm::dvec3& moved_mm) RELIEVO_RT;
 
-  double amplitude_mm_, per_mm_, stiffness_;
+  double per_mm_;
   double newest_;  // share of the newest tick in the speed
   bool feels_ = false;
   glm::dvec3 hip_mm_{0};
-  glm::dvec3 offset_mm_{0};
+  glm::dvec3 force_n_{0};  // of the last tick
   glm::dvec2 ripples_a_tick_{0};
   double own_mj_ = 0;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace relievo {
 namespace {
@@ -15,47 +16,79 @@ constexpr double kOfTheCone = 1e-3;
 // closest point has gone to another side of the solid, a multiple.
 constexpr double kOtherSide = 1.5;
 
+glm::dvec3 placeOf(const Contact& point, double lowered) RELIEVO_RT {
+  return {point.x_mm, point.y_mm, point.surface.z - lowered};
+}
+
 // A spring from the finger to a point of the surface.
 struct Spring {
-  glm::dvec3 place{0};
   double pressed_mm = 0, aside_mm = 0;  // along the normal at the point, and across it
 
-  Spring(const glm::dvec3& point, double zx, double zy, const glm::dvec3& hip) RELIEVO_RT : place(point) {
-    const glm::dvec3 normal = glm::dvec3(-zx, -zy, 1) / std::sqrt(1 + zx * zx + zy * zy);
-    const glm::dvec3 pull = point - hip;
-    pressed_mm = glm::dot(pull, normal);
-    aside_mm = glm::length(pull - pressed_mm * normal);
+  Spring(const Contact& point, const glm::dvec3& hip, double lowered) RELIEVO_RT {
+    const double zx = point.surface.zx, zy = point.surface.zy;
+    const glm::dvec3 pull = placeOf(point, lowered) - hip;
+    pressed_mm = (pull.z - zx * pull.x - zy * pull.y) / std::sqrt(1 + zx * zx + zy * zy);
+    aside_mm = std::sqrt(std::max(glm::dot(pull, pull) - pressed_mm * pressed_mm, 0.0));
   }
   // How far it reaches out of the cone; negative inside.
   [[nodiscard]] double beyond(double coefficient) const RELIEVO_RT { return aside_mm - coefficient * pressed_mm; }
   [[nodiscard]] double squaredMm() const RELIEVO_RT { return aside_mm * aside_mm + pressed_mm * pressed_mm; }
 };
 
-Spring springTo(FeltSurface& surface, double x, double y, const glm::dvec3& hip, double lowered) RELIEVO_RT {
-  const SurfacePoint s = surface.at(x, y);
-  return {{x, y, s.z - lowered}, s.zx, s.zy, hip};
-}
+// The surface on the way from one point to another: the cubic through both ends. `lowered` by so much.
+class Way {
+ public:
+  Way(const Contact& from, const Contact& to, const glm::dvec3& hip, double lowered) RELIEVO_RT
+      : from_(from),
+        to_(to),
+        hip_(hip),
+        lowered_(lowered),
+        dx_(to.x_mm - from.x_mm),
+        dy_(to.y_mm - from.y_mm),
+        squared_(dx_* dx_ + dy_ * dy_),
+        begins_(from.surface.zx* dx_ + from.surface.zy * dy_),
+        ends_(to.surface.zx* dx_ + to.surface.zy * dy_) {}
 
-// The point between `from`, outside the cone, and `to`, inside, where the force lies on it, or just inside.
-Spring onTheCone(FeltSurface& surface, const Spring& from, const Spring& to, double coefficient, const glm::dvec3& hip,
-                 double lowered) RELIEVO_RT {
-  Spring inside = to;
+  [[nodiscard]] double squaredMm() const RELIEVO_RT { return squared_; }
+  [[nodiscard]] Contact at(double share) const RELIEVO_RT {
+    const double rest = 1 - share, rise = to_.surface.z - from_.surface.z;
+    const double z =
+        from_.surface.z + share * share * (3 - 2 * share) * rise + share * rest * (rest * begins_ - share * ends_);
+    const double along = 6 * share * rest * rise + rest * (1 - 3 * share) * begins_ + share * (3 * share - 2) * ends_;
+    // Across the way the slope is in between; along it, it is the cubic's.
+    const double more = (along - rest * begins_ - share * ends_) / squared_;
+    return {from_.x_mm + share * dx_,
+            from_.y_mm + share * dy_,
+            {.z = z,
+             .zx = rest * from_.surface.zx + share * to_.surface.zx + more * dx_,
+             .zy = rest * from_.surface.zy + share * to_.surface.zy + more * dy_}};
+  }
+  [[nodiscard]] Spring springTo(const Contact& point) const RELIEVO_RT { return {point, hip_, lowered_}; }
+
+ private:
+  const Contact &from_, &to_;
+  const glm::dvec3& hip_;
+  double lowered_, dx_, dy_, squared_, begins_, ends_;
+};
+
+// The point between the way's begin, outside the cone, and its end, inside, where the force lies on it, or just inside.
+Contact onTheCone(const Way& way, const Spring& from, const Spring& to, double coefficient) RELIEVO_RT {
   double low = 0, high = 1, f_low = from.beyond(coefficient), f_high = to.beyond(coefficient);
   int kept = 0;  // the end that was kept in the last round: -1 low, 1 high
+  Contact inside = way.at(1);
   for (int i = 0; i < kMostEvaluations; ++i) {
     const double share = low + (high - low) * f_low / (f_low - f_high);
-    const double x = from.place.x + share * (to.place.x - from.place.x);
-    const double y = from.place.y + share * (to.place.y - from.place.y);
-    const Spring spring = springTo(surface, x, y, hip, lowered);
+    const Contact point = way.at(share);
+    const Spring spring = way.springTo(point);
     const double f = spring.beyond(coefficient);
-    if (std::abs(f) <= kOfTheCone * coefficient * spring.pressed_mm) return spring;
+    if (std::abs(f) <= kOfTheCone * coefficient * spring.pressed_mm) return point;
     if (f > 0) {
       low = share;
       f_low = f;
       if (kept == 1) f_high *= 0.5;
       kept = 1;
     } else {
-      inside = spring;
+      inside = point;
       high = share;
       f_high = f;
       if (kept == -1) f_low *= 0.5;
@@ -67,31 +100,40 @@ Spring onTheCone(FeltSurface& surface, const Spring& from, const Spring& to, dou
 
 }  // namespace
 
-glm::dvec3 StickPoint::follow(FeltSurface& surface, const Contact& closest, const glm::dvec3& hip_mm,
-                              double lowered_mm) RELIEVO_RT {
-  const glm::dvec3 close(closest.x_mm, closest.y_mm, closest.surface.z - lowered_mm);
+glm::dvec3 StickPoint::follow(FeltSurface& surface, const Friction& friction, const Contact& closest,
+                              const glm::dvec3& hip_mm, double lowered_mm) RELIEVO_RT {
+  const bool prepared = std::exchange(prepared_, false) && surface.asPrepared();
   if (!holds_) {
     holds_ = true;
     rested_s_ = kSettleS;
-    x_mm_ = close.x;
-    y_mm_ = close.y;
-    return close;
+    at_ = closest;
+    return placeOf(at_, lowered_mm);
   }
-  Spring spring = springTo(surface, x_mm_, y_mm_, hip_mm, lowered_mm);
-  const Spring shortest(close, closest.surface.zx, closest.surface.zy, hip_mm);
-  const double hold = slides() ? friction_.dynamic_coefficient : friction_.static_coefficient;
+  if (!prepared) at_.surface = surface.at(at_.x_mm, at_.y_mm);
+  const Spring spring(at_, hip_mm, lowered_mm), shortest(closest, hip_mm, lowered_mm);
+  const double moving = friction.dynamic_coefficient, hold = slides() ? moving : friction.static_coefficient;
   const bool other_side = spring.squaredMm() > kOtherSide * kOtherSide * (1 + hold * hold) * shortest.squaredMm();
   if (spring.beyond(hold) <= 0 && !other_side) {
     rested_s_ = std::min(rested_s_ + tick_s_, kSettleS);
-    return spring.place;
+    return placeOf(at_, lowered_mm);
   }
   rested_s_ = 0;
-  const bool brackets = !other_side && shortest.beyond(friction_.dynamic_coefficient) < 0;
-  spring =
-      brackets ? onTheCone(surface, spring, shortest, friction_.dynamic_coefficient, hip_mm, lowered_mm) : shortest;
-  x_mm_ = spring.place.x;
-  y_mm_ = spring.place.y;
-  return spring.place;
+  const Way way(at_, closest, hip_mm, lowered_mm);
+  if (other_side || way.squaredMm() == 0 || shortest.beyond(moving) >= 0 || spring.beyond(moving) <= 0) {
+    at_ = closest;
+    return placeOf(at_, lowered_mm);
+  }
+  const Contact slid = onTheCone(way, spring, shortest, moving);
+  const double dx = slid.x_mm - at_.x_mm, dy = slid.y_mm - at_.y_mm;
+  at_ = slid;
+  if (dx * dx + dy * dy > surface.sampleMm() * surface.sampleMm()) at_.surface = surface.at(at_.x_mm, at_.y_mm);
+  return placeOf(at_, lowered_mm);
+}
+
+void StickPoint::prepare(FeltSurface& surface) RELIEVO_RT {
+  if (!holds_) return;
+  at_.surface = surface.at(at_.x_mm, at_.y_mm);
+  prepared_ = true;
 }
 
 }  // namespace relievo

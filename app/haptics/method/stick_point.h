@@ -18,6 +18,10 @@ namespace relievo {
 // resting point gives back what it has taken, and no more; each slide makes it shorter. So friction takes energy and
 // gives none.
 //
+// The tick itself reads no surface at the point: `prepare` has read it there after the last force, and between the
+// point and the closest one the surface is the cubic through both ends' heights and slopes. A point that slides further
+// than the surface has features is put onto it at once, any other in the next tick.
+//
 // A point that has just moved is held by the dynamic coefficient, and by the static one after kSettleS of rest (as in
 // friction that ages, Dieterich 1979): without it the noise of a sensor makes a finger that slides stick again and
 // again.
@@ -25,24 +29,25 @@ class StickPoint {
  public:
   static constexpr double kSettleS = 0.1;
 
-  StickPoint(const Friction& friction, double tick_s) noexcept : friction_(friction), tick_s_(tick_s) {}
+  explicit StickPoint(double tick_s) noexcept : tick_s_(tick_s) {}
 
-  [[nodiscard]] bool exists() const RELIEVO_RT { return friction_.static_coefficient > 0; }
   // The point that holds the finger in this tick of contact; scene mm. `closest` is the closest point of the surface,
   // which is `lowered_mm` lower than it is stored.
-  [[nodiscard]] glm::dvec3 follow(FeltSurface& surface, const Contact& closest, const glm::dvec3& hip_mm,
-                                  double lowered_mm) RELIEVO_RT;
+  [[nodiscard]] glm::dvec3 follow(FeltSurface& surface, const Friction& friction, const Contact& closest,
+                                  const glm::dvec3& hip_mm, double lowered_mm) RELIEVO_RT;
+  // Reads the surface at the point; `surface` is at the next tick's moment.
+  void prepare(FeltSurface& surface) RELIEVO_RT;
   // There is no contact, or it begins anew.
-  void release() RELIEVO_RT { holds_ = false; }
+  void release() RELIEVO_RT { holds_ = prepared_ = false; }
 
+  [[nodiscard]] bool holds() const RELIEVO_RT { return holds_; }
   // It moves, or has moved less than kSettleS ago.
   [[nodiscard]] bool slides() const RELIEVO_RT { return holds_ && rested_s_ < kSettleS; }
 
  private:
-  Friction friction_;
   double tick_s_;
-  bool holds_ = false;
-  double x_mm_ = 0, y_mm_ = 0;
+  bool holds_ = false, prepared_ = false;
+  Contact at_;  // its surface is that of the next tick if it is prepared
   double rested_s_ = 0;
 };
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/scene/material.h"
 #include "hal/media/media_names.h"
 
 namespace relievo {
@@ -24,7 +25,7 @@ std::string lowerCase(std::string text) {
 std::vector<const StreamInfo*> videoTracks(const MediaSource& source) {
   std::vector<const StreamInfo*> tracks;
   for (const StreamInfo& stream : source.streams()) {
-    if (stream.kind == StreamKind::Video) tracks.push_back(&stream);
+    if (stream.kind == StreamKind::Video && !isMaterial(stream, source.tags())) tracks.push_back(&stream);
   }
   return tracks;
 }
@@ -78,6 +79,37 @@ std::optional<Packing> packingTag(const Tags& tags) {
   if (value == "tb-depth-first") return Packing::TopBottomDepthFirst;
   if (value == "alpha") return Packing::Alpha;
   return std::nullopt;
+}
+
+// Colour and depth.
+Result<TrackPlan> planPictures(const MediaSource& source, Packing packing, bool depth_elsewhere) {
+  const auto tracks = videoTracks(source);
+  if (tracks.empty()) return fail(ErrorCode::NotFound, "there is no video in it");
+  if (isPacked(packing) || isStereo(packing)) return TrackPlan{tracks[0], nullptr, nullptr, packing};
+  if (packing == Packing::StereoTracks) {
+    if (depth_elsewhere) return TrackPlan{tracks[0], nullptr, nullptr, packing};
+    if (tracks.size() < 2) return fail(ErrorCode::NotFound, "two views in two tracks need a second video track");
+    return TrackPlan{tracks[0], tracks[1], nullptr, packing};
+  }
+  if (!depth_elsewhere && packing == Packing::Auto) {
+    auto tagged = packingTag(tracks[0]->tags);
+    if (!tagged) tagged = packingTag(source.tags());
+    if (tagged) return TrackPlan{tracks[0], nullptr, nullptr, *tagged, true};
+  }
+  if (tracks.size() == 1) {
+    if (!depth_elsewhere && packing == Packing::Tracks) {
+      return fail(ErrorCode::NotFound,
+                  "the source has only one video track; give --depth SOURCE, or --packing sbs or tb");
+    }
+    return TrackPlan{tracks[0], nullptr, nullptr, Packing::Tracks};
+  }
+  const auto right = std::find_if(tracks.begin(), tracks.end(), isRightView);
+  if (packing == Packing::Auto && !depth_elsewhere && right != tracks.end()) {
+    return TrackPlan{*right == tracks[0] ? tracks[1] : tracks[0], *right, nullptr, Packing::StereoTracks, true};
+  }
+  const StreamInfo* const depth = depthAmong(tracks);
+  const StreamInfo* const color = colorAmong(tracks, depth);
+  return TrackPlan{color, depth_elsewhere ? nullptr : depth, nullptr, Packing::Tracks};
 }
 
 // The luma plane alone, as a gray picture of the same range.
@@ -151,34 +183,23 @@ const char* name(Packing packing) noexcept {
   return "";
 }
 
+bool isMaterial(const StreamInfo& track, const Tags& container_tags) {
+  if (track.tags.contains(kMaterialScaleTag)) return true;
+  if (!container_tags.contains(kMaterialScaleTag)) return false;
+  return std::ranges::any_of(track.tags, [](const auto& tag) {
+    const auto& [key, value] = tag;
+    return (key == "TITLE" || key == "NAME" || key == "HANDLER_NAME") && lowerCase(value) == "material";
+  });
+}
+
 Result<TrackPlan> planTracks(const MediaSource& source, Packing packing, bool depth_elsewhere) {
-  const auto tracks = videoTracks(source);
-  if (tracks.empty()) return fail(ErrorCode::NotFound, "there is no video in it");
-  if (isPacked(packing) || isStereo(packing)) return TrackPlan{tracks[0], nullptr, packing};
-  if (packing == Packing::StereoTracks) {
-    if (depth_elsewhere) return TrackPlan{tracks[0], nullptr, packing};
-    if (tracks.size() < 2) return fail(ErrorCode::NotFound, "two views in two tracks need a second video track");
-    return TrackPlan{tracks[0], tracks[1], packing};
-  }
-  if (!depth_elsewhere && packing == Packing::Auto) {
-    auto tagged = packingTag(tracks[0]->tags);
-    if (!tagged) tagged = packingTag(source.tags());
-    if (tagged) return TrackPlan{tracks[0], nullptr, *tagged, true};
-  }
-  if (tracks.size() == 1) {
-    if (!depth_elsewhere && packing == Packing::Tracks) {
-      return fail(ErrorCode::NotFound,
-                  "the source has only one video track; give --depth SOURCE, or --packing sbs or tb");
-    }
-    return TrackPlan{tracks[0], nullptr, Packing::Tracks};
-  }
-  const auto right = std::find_if(tracks.begin(), tracks.end(), isRightView);
-  if (packing == Packing::Auto && !depth_elsewhere && right != tracks.end()) {
-    return TrackPlan{*right == tracks[0] ? tracks[1] : tracks[0], *right, Packing::StereoTracks, true};
-  }
-  const StreamInfo* const depth = depthAmong(tracks);
-  const StreamInfo* const color = colorAmong(tracks, depth);
-  return TrackPlan{color, depth_elsewhere ? nullptr : depth, Packing::Tracks};
+  auto plan = planPictures(source, packing, depth_elsewhere);
+  if (!plan) return plan;
+  const auto found = std::ranges::find_if(source.streams(), [&](const StreamInfo& stream) {
+    return stream.kind == StreamKind::Video && isMaterial(stream, source.tags());
+  });
+  if (found != source.streams().end()) plan->material = &*found;
+  return plan;
 }
 
 Result<Halves> splitPacked(const Frame& picture, Packing packing, DepthCode code, GrayFrom gray) noexcept {

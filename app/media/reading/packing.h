@@ -35,6 +35,7 @@ enum class Packing : std::uint8_t {
 struct TrackPlan {
   const StreamInfo* color = nullptr;
   const StreamInfo* depth = nullptr;
+  const StreamInfo* material = nullptr;  // null: none
   Packing packing = Packing::Tracks;
   bool by_tag = false;  // DEPTH_PACKING
 };
@@ -46,9 +47,13 @@ struct TrackPlan {
 // Whether the track itself says that it is depth: signalled as auxiliary, DEPTH_ tags, or its name.
 [[nodiscard]] bool isMarkedAsDepth(const StreamInfo& track);
 
+// Whether the track is neither colour nor depth, but what the surface feels like: it has the tag kMaterialScaleTag, or
+// it is called "material" and the container has the tag.
+[[nodiscard]] bool isMaterial(const StreamInfo& track, const std::map<std::string, std::string>& container_tags);
+
 // The depth track of a source. Of two or more video tracks: the one signalled as auxiliary; else the one that has
 // DEPTH_ tags or whose TITLE, NAME or HANDLER_NAME mentions depth, disparity or an auxiliary picture; else the second.
-// Of one video track: that one. Null if there is none.
+// Of one video track: that one. Null if there is none. Material tracks do not count.
 [[nodiscard]] const StreamInfo* findDepthTrack(const MediaSource& source);
 
 // Plans a source that holds the colour, and the depth too unless `depth_elsewhere`. Auto decides first by a tag

@@ -25,7 +25,7 @@ Result<void> TrackReader::open(const std::string& url, std::optional<double> fra
 }
 
 Result<std::size_t> TrackReader::select(const StreamInfo& stream) {
-  if (track_count_ == kMaxTracks) return fail(ErrorCode::Exhausted, "two tracks of this source are already selected");
+  if (track_count_ == kMaxTracks) return fail(ErrorCode::Exhausted, "three tracks of this source are already selected");
   Track track;
   track.stream = stream.index;
   track.rotation = stream.rotation;

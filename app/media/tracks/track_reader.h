@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the decoded pictures of one or two video tracks of one source, each in order, and its sound.
+// Reads the decoded pictures of up to three video tracks of one source, each in order, and its sound.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ namespace relievo {
 // `readAhead` fetches them.
 class TrackReader {
  public:
-  static constexpr std::size_t kMaxTracks = 2;
+  static constexpr std::size_t kMaxTracks = 3;            // colour, depth, material
   static constexpr std::size_t kMaxWaitingPackets = 512;  // 8 s at 60 frames/s
   static constexpr std::size_t kMaxWaitingBytes = std::size_t{64} << 20;
   static constexpr Duration kReadAhead = std::chrono::seconds(2);  // largest interleaving offset that is followed
@@ -40,7 +40,7 @@ class TrackReader {
   // `frames_per_s`: MediaSource::setPictureRate.
   [[nodiscard]] Result<void> open(const std::string& url, std::optional<double> frames_per_s = std::nullopt);
   // Selects a stream for decoding; returns the track number for `next`. If the caller sets a frame period in `stream`,
-  // pictures without timestamps are numbered by it. Exhausted when two are already selected.
+  // pictures without timestamps are numbered by it. Exhausted when kMaxTracks are already selected.
   [[nodiscard]] Result<std::size_t> select(const StreamInfo& stream);
   // Selects the sound. What has been read before is missed, until a seek.
   [[nodiscard]] Result<void> listen(std::unique_ptr<AudioDecoder> decoder, const StreamInfo& stream,

@@ -14,6 +14,8 @@ struct DepthAround {
   Frame present;  // of the picture on the screen; empty if it has none or touch is off
   std::array<Frame, SurfaceWindow::kAhead> ahead;
   std::size_t ahead_count = 0;
+  Frame material;  // of the same pictures; empty where there is none
+  std::array<Frame, SurfaceWindow::kAhead> material_ahead;
   bool last = false;      // no picture follows those ahead
   bool expected = false;  // the film has depth and touch is on: an empty `present` is a fault
 };

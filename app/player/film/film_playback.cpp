@@ -221,9 +221,13 @@ void FilmPlayback::noteShown() {
 DepthAround FilmPlayback::depth() const {
   DepthAround around;
   if (!rushes()) around.present = picture().depth;
+  around.material = picture().material;
   around.expected = !rushes() && info_.has_depth;
   around.ahead_count = std::min(head_.ahead().size(), around.ahead.size());
-  for (std::size_t i = 0; i < around.ahead_count; ++i) around.ahead[i] = head_.ahead()[i].depth;
+  for (std::size_t i = 0; i < around.ahead_count; ++i) {
+    around.ahead[i] = head_.ahead()[i].depth;
+    around.material_ahead[i] = head_.ahead()[i].material;
+  }
   around.last = head_.last() && around.ahead_count == head_.ahead().size();
   return around;
 }

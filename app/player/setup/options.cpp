@@ -135,6 +135,7 @@ void addDepthSource(CLI::App& command, SourceOptions& source) {
           "A second file or address that holds the depth [one beside the film, as film-depth.mkv, if there is one]")
       ->type_name("SOURCE2");
   addDepthOptions(command, source);
+  addMaterialOption(command, source);
   addRateOption(command, source);
 }
 

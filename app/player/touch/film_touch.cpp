@@ -30,16 +30,18 @@ void FilmTouch::rest() noexcept {
   missing_ = refused_ = false;
 }
 
-void FilmTouch::setScene(const DepthCalibration& calibration, const DisplayVolume& volume,
-                         const Material& material) noexcept {
+void FilmTouch::setScene(const DepthCalibration& calibration, const DisplayVolume& volume, const Material& material,
+                         const Material& material_scale) noexcept {
   volume_ = volume;
   material_ = material;
+  material_scale_ = material_scale;
   surface_.setScene(calibration, volume);
 }
 
 void FilmTouch::feed(const DepthAround& depth, const ClockSample& clock) {
   const auto ahead = std::span(depth.ahead).first(depth.ahead_count);
-  const auto changed = surface_.update(depth.present, ahead, depth.last, clock);
+  const auto changed = surface_.update(depth.present, ahead, depth.last, clock,
+                                       {depth.material, std::span(depth.material_ahead).first(depth.ahead_count)});
   if (!changed) {
     if (!std::exchange(refused_, true)) {
       journal_.note(std::string("depth: ") + changed.error().message, "it plays without force");
@@ -69,7 +71,7 @@ bool FilmTouch::followDevice() {
 }
 
 void FilmTouch::start() {
-  if (auto started = session_.start(volume_, material_, surface_); !started) {
+  if (auto started = session_.start(volume_, material_, material_scale_, surface_); !started) {
     journal_.note(std::string("haptic device: ") + started.error().message, "the film plays without force");
     return;
   }

@@ -35,7 +35,9 @@ class FilmTouch {
   void rest() noexcept;
 
   // How to read this film's depth, the display volume that it fills, and what its surface feels like.
-  void setScene(const DepthCalibration& calibration, const DisplayVolume& volume, const Material& material) noexcept;
+  // `material_scale`: of the film's material track; empty: it has none.
+  void setScene(const DepthCalibration& calibration, const DisplayVolume& volume, const Material& material,
+                const Material& material_scale = {}) noexcept;
   [[nodiscard]] const DisplayVolume& volume() const noexcept { return volume_; }
   // The next depth does not continue the last one: after an opening or a seek.
   void beginEpoch() noexcept { surface_.beginEpoch(); }
@@ -66,7 +68,7 @@ class FilmTouch {
   Journal& journal_;
   SurfaceFeeder surface_;
   DisplayVolume volume_;
-  Material material_;
+  Material material_, material_scale_;
   bool was_lost_ = false;  // the device has been lost at least once
   bool missing_ = false;   // the present picture has no depth
   bool refused_ = false;   // the film's depth format cannot be felt; noted once

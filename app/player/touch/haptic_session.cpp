@@ -14,8 +14,13 @@
 namespace relievo {
 namespace {
 
-// What a plain spring may have at most on a device: what it holds, and no more than a firm touch needs.
-constexpr double kStiffnessNPerMm = 0.5;
+// The same track where the hand feels `scale` times what the scene has.
+HeldScale inScene(HeldScale places, double scale) {
+  if (places.stiffness_n_per_mm) *places.stiffness_n_per_mm /= scale;
+  places.most_n_per_mm /= scale;
+  places.most_ripple_n /= scale;
+  return places;
+}
 
 HapticSummary::Times times(const Histogram& histogram) noexcept {
   return {histogram.quantile(0.5).count(), histogram.quantile(0.99).count(), histogram.quantile(0.999).count(),
@@ -49,19 +54,29 @@ std::optional<DeviceKeeper::News> HapticSession::poll() {
 }
 
 Result<void> HapticSession::setScene(const DisplayVolume& volume, const Material& material,
-                                     const SurfaceWindow& first) {
+                                     const Material& material_scale, const SurfaceWindow& first) {
   const SafetyLimits limits;
-  HeldMaterial held = heldBy(material, kStiffnessNPerMm, capabilities_.max_stiffness_n_per_mm,
-                             std::min(limits.force_n, capabilities_.peak_force_n));
+  const double most = capabilities_.max_stiffness_n_per_mm;
+  const double most_n = std::min(limits.force_n, capabilities_.peak_force_n);
+  HeldMaterial held = heldBy(material, kUsualStiffnessNPerMm, most, most_n);
   reduced_material_ = std::move(held.reduced);
+  if (auto more = reducedScale(material_scale, most); !more.empty()) {
+    reduced_material_ += (reduced_material_.empty() ? "" : "; ") + more;
+  }
   // What the hand feels is the mapping's scale times what the scene has.
-  const double stiffness = held.stiffness_n_per_mm / WorkspaceMapping(capabilities_, volume).scale();
+  const double scale = WorkspaceMapping(capabilities_, volume).scale();
+  const double own = held.stiffness_n_per_mm / scale;
+  const HeldScale places = inScene(scaleHeldBy(material_scale, material, most, most_n), scale);
+  // The limits know one stiffness: the highest.
+  const double stiffness =
+      places.stiffness_n_per_mm ? std::max(own, std::min(*places.stiffness_n_per_mm, places.most_n_per_mm)) : own;
   TouchPlan plan = planFilm(std::span(first.frames).first(static_cast<std::size_t>(first.count)));
   plan_ = std::move(plan.reason);
-  auto method = std::make_unique<RelievoMethod>(RelievoMethod::Config{.stiffness_n_per_mm = stiffness,
+  auto method = std::make_unique<RelievoMethod>(RelievoMethod::Config{.stiffness_n_per_mm = own,
                                                                       .scale = plan.scale,
                                                                       .friction = held.friction,
                                                                       .texture = held.texture,
+                                                                      .places = places,
                                                                       .tick_s = toSeconds(period_)});
   if (task_ == nullptr) {
     auto arena = FixedArena::create(sizeof(HapticTask) + alignof(HapticTask) + 256);
@@ -83,13 +98,14 @@ Result<void> HapticSession::setScene(const DisplayVolume& volume, const Material
   return {};
 }
 
-Result<void> HapticSession::start(const DisplayVolume& volume, const Material& material, const SurfaceFeeder& first) {
+Result<void> HapticSession::start(const DisplayVolume& volume, const Material& material, const Material& material_scale,
+                                  const SurfaceFeeder& first) {
   if (!waiting()) return fail(ErrorCode::InvalidState, "the haptic task needs a device that is homed and stopped");
   SurfaceWindow window;
   first.fill(window);
   if (!new_scene_) {
     task_->deviceIsBack();
-  } else if (auto set = setScene(volume, material, window); !set) {
+  } else if (auto set = setScene(volume, material, material_scale, window); !set) {
     stop();  // not the device's doing: another try would fail as well
     return set;
   }

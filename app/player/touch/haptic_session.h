@@ -70,7 +70,9 @@ class HapticSession {
   // Makes the task for this volume and material in locked memory, or takes the one that a lost device or the last film
   // has left; gives it the first window and starts it. The force begins at zero. Waiting, else InvalidState. After a
   // failure the device is looked for anew.
-  [[nodiscard]] Result<void> start(const DisplayVolume& volume, const Material& material, const SurfaceFeeder& first);
+  // `material_scale`: of the film's material track, empty if it has none.
+  [[nodiscard]] Result<void> start(const DisplayVolume& volume, const Material& material,
+                                   const Material& material_scale, const SurfaceFeeder& first);
   // Between two films: zero force, and no ticks; the device stays homed. The next `start` is on another scene.
   void rest() noexcept;
   // Zero force first; then the thread, the device. Any time.
@@ -101,7 +103,7 @@ class HapticSession {
 
  private:
   [[nodiscard]] Result<void> setScene(const DisplayVolume& volume, const Material& material,
-                                      const SurfaceWindow& first);
+                                      const Material& material_scale, const SurfaceWindow& first);
   [[nodiscard]] Result<void> run();
   void halt() noexcept;
 

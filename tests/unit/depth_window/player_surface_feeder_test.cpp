@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "app/depth_window/surface_feeder.h"
 #include "app/media/pair_reader.h"
+#include "tests/support/film/material_frames.h"
 
 namespace relievo {
 namespace {
@@ -205,6 +207,27 @@ TEST_F(SurfaceFeederTest, TellsWhichFrameTheSurfaceBeginsFrom) {
   EXPECT_EQ(feeder_.frameAt(mediaTime(2.9)), mediaTime(2));
   EXPECT_EQ(feeder_.frameAt(mediaTime(3.0)), mediaTime(3));
   EXPECT_EQ(feeder_.frameAt(mediaTime(0.5)), mediaTime(1));  // before the window: its first frame
+}
+
+TEST_F(SurfaceFeederTest, AMaterialPictureGoesWithTheDepthOfItsTimeWithoutACopy) {
+  const auto pairs = film(3);
+  std::vector<Frame> materials;
+  for (int k = 0; k < 3; ++k) {
+    materials.push_back(test::makeMaterialFrame(16, 12, kVolume, mediaTime(k), [k](double, double) {
+      return test::MaterialCodes{static_cast<std::uint8_t>(51 * (k + 1)), 0, 0};
+    }));
+  }
+  materials[1] = Frame{};
+  const std::vector<Frame> ahead{pairs[1].depth, pairs[2].depth};
+  ASSERT_TRUE(feeder_.update(pairs[0].depth, ahead, true, {mediaTime(0), MonotonicTime{}, 1},
+                             {materials[0], std::span<const Frame>(materials).subspan(1)}));
+  const SurfaceWindow& w = window();
+  ASSERT_EQ(w.count, 3);
+  ASSERT_NE(w.frames[0].material, nullptr);
+  EXPECT_NEAR(w.frames[0].material->at(0, 0).stiffness, 0.2, 1e-9);
+  EXPECT_EQ(w.frames[1].material, nullptr) << "none at this time";
+  EXPECT_NEAR(w.frames[2].material->at(0, 0).stiffness, 0.6, 1e-9);
+  EXPECT_GT(materials[2].owner.use_count(), 1) << "held, not copied";
 }
 
 }  // namespace

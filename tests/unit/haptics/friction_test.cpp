@@ -205,5 +205,24 @@ TEST(StickPoint, AStrokeIsGivenNoEnergy) {
   }
 }
 
+// The surface at the point is read after the force, for the next tick: as if the tick itself had read it.
+TEST(StickPoint, WhatIsReadAheadIsTheSurfaceOfTheNextTick) {
+  constexpr DisplayVolume kVolume{160, 108, 40};
+  constexpr double kRise = 60;  // mm/s
+  const auto film = test::makeReliefFilm(7, 1.0 / 30, 240, 162, kVolume, [](double x, double y, double t) {
+    return 12 + kRise * t + 0.25 * x + std::sin(0.3 * x) * std::cos(0.2 * y);
+  });
+  const SurfaceWindow w = test::makeWindow(film, kVolume);
+  auto ahead = rough(0.5, {0.3, 0.2}), at_once = rough(0.5, {0.3, 0.2});
+  for (int i = 0; i < 150; ++i) {
+    const double t = i * kTick, x = -10 + 0.1 * i;
+    const double depth = std::min(4.0, -1 + 0.1 * i);
+    const glm::dvec3 hip(x, 2, 12 + kRise * t + 0.25 * x + std::sin(0.3 * x) * std::cos(0.4) - depth);
+    const glm::dvec3 force = ahead.update(hip, w, mediaTime(t)).force_n;
+    ahead.upkeep(w, mediaTime(t));
+    EXPECT_LT(glm::distance(force, at_once.update(hip, w, mediaTime(t)).force_n), 0.003) << i;
+  }
+}
+
 }  // namespace
 }  // namespace relievo

@@ -60,6 +60,17 @@ TEST(Packing, OfTwoTracksTheMarkedOneIsTheDepthElseTheSecond) {
   EXPECT_EQ(planOf({video(), video()}, Packing::Tracks), "0/1 tracks");
 }
 
+// A track of what the surface feels like is neither colour nor depth, whatever its place.
+TEST(Packing, AMaterialTrackIsToldByItsTagAndItsName) {
+  const StreamInfo material = video({{"MATERIAL_SCALE", "stiffness=1"}}), named = video({{"HANDLER_NAME", "material"}});
+  EXPECT_EQ(planOf({video(), material}), "0/- tracks");
+  EXPECT_EQ(planOf({material, video(), video()}), "1/2 tracks");
+  EXPECT_EQ(planOf({video(), material, video({{"DEPTH_LAW", "inverse"}})}), "0/2 tracks");
+  const ListedSource file({video(), named, video()}, {{"MATERIAL_SCALE", "stiffness=1"}});
+  EXPECT_EQ(planTracks(file, Packing::Auto, false)->material->index, 1) << "of a container with tags of its own alone";
+  EXPECT_EQ(planOf({video(), named}), "0/1 tracks") << "a name alone says nothing";
+}
+
 StreamInfo auxiliary() {
   StreamInfo stream = video();
   stream.auxiliary = true;

@@ -8,6 +8,7 @@
 #include "drivers/mock/mock.h"
 #include "platform/log.h"
 #include "tests/support/film/depth_frames.h"
+#include "tests/support/film/material_frames.h"
 
 namespace relievo {
 namespace {
@@ -33,8 +34,8 @@ class FilmTouchTest : public testing::Test {
     touch_.emplace(device_.get(), nullptr, clock_, Ticking::ByHand, journal_);
     touch_->begin();
   }
-  void startOn(const DepthAround& depth, const Material& material = {}) {
-    touch_->setScene({}, DisplayVolume{}, material);
+  void startOn(const DepthAround& depth, const Material& material = {}, const Material& scale = {}) {
+    touch_->setScene({}, DisplayVolume{}, material, scale);
     touch_->feed(depth, standing(depth));
     ASSERT_TRUE(touch_->followDevice());
     touch_->start();
@@ -105,6 +106,36 @@ TEST_F(TouchedMaterial, IsNoStifferThanTheDeviceHoldsAndALineSaysSo) {
   profile_.capabilities.max_stiffness_n_per_mm = 0.8;
   EXPECT_NEAR(forceOn("stiffness=3"), 0.8 * kDeep, 0.005);
   EXPECT_EQ(noted("stiffness 3 N/mm is felt as 0.8"), 1U);
+}
+
+// The left half is soft, the right one hard; the finger comes in at `x`.
+class TouchedPlace : public FilmTouchTest {
+ protected:
+  static constexpr double kDeep = 40 * 128 / 255.0 - 15;
+  double forceAt(double x, const std::string& scale) {
+    profile_.position_mm = [x](double t) { return glm::dvec3(x, 0, t < 0.05 ? 25 : 15); };
+    make();
+    DepthAround depth = planeAt(1);
+    depth.material = test::makeMaterialFrame(64, 48, DisplayVolume{}, depth.present.pts, [](double place, double) {
+      return test::MaterialCodes{static_cast<std::uint8_t>(place < 0 ? 51 : 204), 0, 0};
+    });
+    startOn(depth, {}, *parseMaterial(scale));
+    goOn(400);
+    return bench_->force().z;
+  }
+};
+
+TEST_F(TouchedPlace, HasTheStiffnessOfTheTrack) {
+  EXPECT_NEAR(forceAt(-20, "stiffness=1"), 0.2 * kDeep, 0.005);
+  EXPECT_NEAR(forceAt(20, "stiffness=1"), 0.8 * kDeep, 0.01);
+  EXPECT_THAT(journal_.written().faults, IsEmpty());
+}
+
+TEST_F(TouchedPlace, IsNoStifferThanTheDeviceHoldsAndALineSaysSo) {
+  profile_.capabilities.max_stiffness_n_per_mm = 0.6;
+  EXPECT_NEAR(forceAt(-20, "stiffness=1"), 0.2 * kDeep, 0.005);
+  EXPECT_NEAR(forceAt(20, "stiffness=1"), 0.6 * kDeep, 0.005);
+  EXPECT_EQ(noted("places stiffer than 0.6 N/mm"), 2U);
 }
 
 TEST_F(FilmTouchTest, TheFirstTickAfterASeekTellsWhichFrameIsFelt) {

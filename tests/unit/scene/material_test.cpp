@@ -89,5 +89,18 @@ TEST(HeldMaterial, IsBoundedByTheDevicesStiffnessAndForce) {
   EXPECT_NEAR(heldBy(*parseMaterial("texture=2@50"), 0.5, 0.8, 2).texture.amplitude_mm, 1, 1e-12);
 }
 
+TEST(Material, OfATrackIsBoundByTheDeviceAtEachPlace) {
+  const Material full = *parseMaterial("stiffness=2,texture=.2@3");
+  const HeldScale held = scaleHeldBy(full, *parseMaterial("friction=.3"), 0.8, 4);
+  EXPECT_EQ(held.stiffness_n_per_mm, 2) << "codes keep their meaning";
+  EXPECT_EQ(held.most_n_per_mm, 0.8);
+  EXPECT_NEAR(held.most_ripple_n, 0.8 * 3 / (2 * std::numbers::pi), 1e-12) << "as steep as the stiffness held";
+  EXPECT_EQ(scaleHeldBy(full, {}, 0.8, 1).most_ripple_n, 0.25) << "a quarter of the force";
+  EXPECT_FALSE(held.friction.has_value()) << "not in the track";
+  EXPECT_NE(reducedScale(full, 0.8).find("0.8 N/mm"), std::string::npos);
+  EXPECT_EQ(reducedScale(full, 2), "");
+  EXPECT_EQ(withoutThoseOf(*parseMaterial("stiffness=1"), full), *parseMaterial("texture=.2@3"));
+}
+
 }  // namespace
 }  // namespace relievo
