@@ -81,7 +81,10 @@ Result<void> PairReader::Impl::openFilm() {
   openSound();
   openWords();
   if (auto opened = openColor(*plan->color); !opened) return opened;
-  return openDepth(*plan->color);
+  if (auto opened = openDepth(*plan->color); !opened) return opened;
+  if (isStereo(options.packing)) checkViews(*plan->color);
+  takeDepthFromViews();
+  return {};
 }
 
 void PairReader::Impl::takeDepthBeside() {
