@@ -48,6 +48,8 @@ struct PairReader::Impl {
   void lookForViews(const Frame& look);
   [[nodiscard]] bool lookForAlpha(const StreamInfo& color, const Frame& look);
   void showViews(Packing packing, const char* by);
+  void checkViews(const StreamInfo& color);
+  void takeDepthFromViews();
   void lookForCode(const Frame& first);
   Result<const Frame*> firstDepth();
   Result<void> describeAlone(const StreamInfo& track);
@@ -108,6 +110,7 @@ struct PairReader::Impl {
   DepthClues clues;                    // of the depth, as far as they were looked at
   GrayFrom gray = GrayFrom::Luma;      // of packed depth
   bool right_first = false;            // of two views in one picture
+  bool other_pictures = false;         // what was said to be two views is not
   std::optional<bool> views_squeezed;  // likewise, if the film says it
   // Depth of its own whose samples are put in another order.
   struct Reordering {

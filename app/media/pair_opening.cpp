@@ -83,6 +83,8 @@ Result<void> PairReader::Impl::openFilm() {
   openWords();
   if (auto opened = openColor(*plan->color); !opened) return opened;
   if (auto opened = openDepth(*plan->color); !opened) return opened;
+  if (isStereo(options.packing)) checkViews(*plan->color);
+  takeDepthFromViews();
   if (!info.has_depth) info.material_scale = {};
   return {};
 }

@@ -201,7 +201,7 @@ Result<std::optional<FramePair>> PairReader::next() {
   }
   ++impl_->counters.pairs;
   if (!pair->matched && impl_->key_step == Duration(0)) ++impl_->counters.mismatched;
-  if (impl_->info.has_depth && pair->depth.empty()) ++impl_->counters.without_depth;
+  if (impl_->info.has_depth && !impl_->info.depth_from_views && pair->depth.empty()) ++impl_->counters.without_depth;
   return std::move(*pair);
 }
 

@@ -25,10 +25,13 @@
 
 namespace relievo {
 
+enum class DepthFrom : std::uint8_t { Film, Views };  // Views: made from two views while they are shown
+
 struct SourceOptions {
   std::string url;
   std::string depth_url;  // empty: the depth is in `url`
   Packing packing = Packing::Auto;
+  DepthFrom depth_from = DepthFrom::Film;
   std::optional<DepthCode> depth_code;              // nullopt: guessed from the picture
   const KnownKind* as = nullptr;                    // --as KIND
   CalibrationSettings command_line;                 // --calibration KEY=VALUE,..
@@ -57,6 +60,7 @@ struct FilmInfo {
   int color_width = 0, color_height = 0;
   int depth_width = 0, depth_height = 0;
   bool has_depth = false;
+  bool depth_from_views = false;    // it has, but the pairs come without: whoever plays it makes it from their views
   Packing packing = Packing::Auto;  // the one found; Tracks if there is no depth
   Duration frame_period{0};         // the usual step between pictures (frame_rate.h); 0 for a single picture
   bool interlaced = false;          // the first pictures; they are deinterlaced

@@ -62,6 +62,7 @@ void PairReader::Impl::lookAround() {
   gray = GrayFrom::Luma;
   right_first = false;
   views_squeezed.reset();
+  other_pictures = false;
   reordering.kind = nullptr;
   clues.place = lookAtTags(source.tags());
   if (clues.place.kind == nullptr) clues.place = lookAtPlace(options.url, depthFileOf(source, options.depth_url));

@@ -14,7 +14,15 @@ namespace {
 
 constexpr const char* kViews = "two views of one scene (stereo), no depth";
 constexpr const char* kShown =
-    "each eye is shown its own, and there is nothing to feel; relievo-author --depth-from stereo makes depth from them";
+    "each eye is shown its own, and there is nothing to feel; --depth-from stereo makes depth from them, here while "
+    "they "
+    "play, and better by relievo-author";
+constexpr const char* kOtherPictures =
+    "the halves of its picture do not show one scene: it is no film of two views; leave --packing out";
+constexpr const char* kHasDepth = "--depth-from is left out: the film has depth of its own";
+constexpr const char* kOneView =
+    "--depth-from stereo is left out: the film has one view; if it has two, say how they lie with --packing stereo-sbs "
+    "or stereo-tb";
 constexpr const char* kWhatToDo = "it plays flat; give its depth with --depth FILE, or --packing if a half is depth";
 
 struct SaidViews {
@@ -86,7 +94,28 @@ void PairReader::Impl::lookForViews(const Frame& look) {
 
 void PairReader::Impl::showViews(Packing packing, const char* by) {
   info.packing = packing;
-  info.reading.doubts.push_back(print("%s %s; %s", by, kViews, kShown));
+  if (options.depth_from == DepthFrom::Film) info.reading.doubts.push_back(print("%s %s; %s", by, kViews, kShown));
+}
+
+// Whether the picture can be what the user says.
+void PairReader::Impl::checkViews(const StreamInfo& color) {
+  const auto views = viewsOf(tellingPicture(color_ahead[0], options.url, color.index), info.packing, right_first);
+  if (!views || !areOtherPictures(views->left, views->right)) return;
+  other_pictures = true;
+  info.reading.doubts.emplace_back(kOtherPictures);
+}
+
+// Depth that is made of each pair's views after it was read.
+void PairReader::Impl::takeDepthFromViews() {
+  if (options.depth_from != DepthFrom::Views || other_pictures) return;
+  const bool two_views = isStereo(info.packing) || info.packing == Packing::StereoTracks;
+  if (!two_views) {
+    info.reading.doubts.emplace_back(info.has_depth ? kHasDepth : kOneView);
+    return;
+  }
+  info.has_depth = info.depth_from_views = true;
+  info.calibration.calibration = {.law = DepthLaw::Linear, .range = ColorRange::Full, .bits = 16};
+  info.reading.parts = {{"kind", "made from its two views as they play", CalibrationOrigin::CommandLine}};
 }
 
 // Depth, or a matte, which is told if it is one.

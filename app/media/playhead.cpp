@@ -33,6 +33,20 @@ std::size_t Playhead::advance(MediaTime position, FilmFeed& feed) {
 void Playhead::begin() {
   present_ = std::move(ahead_.front());
   ahead_.pop_front();
+  if (!holds_) return;
+  if (present_.depth.empty() && !held_.empty()) {
+    present_.depth = held_;
+    present_.right = {};
+  }
+  held_ = present_.depth;
+}
+
+void Playhead::attach(const Frame& depth) {
+  for (FramePair& pair : ahead_) {
+    if (pair.color.pts != depth.pts) continue;
+    pair.depth = depth;
+    pair.right = {};
+  }
 }
 
 }  // namespace relievo

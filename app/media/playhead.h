@@ -14,7 +14,17 @@ class Playhead {
  public:
   static constexpr std::size_t kAhead = 4;  // the look-ahead of the depth window
 
-  // Takes pairs from the feed until kAhead are buffered. False when no more will come.
+  // For depth that is made while the film plays: buffers more pairs, whose depth comes by `attach`, and holds the last
+  // depth where a pair has none of its own.
+  void waitForDepth(std::size_t pairs) noexcept {
+    wanted_ = pairs;
+    holds_ = true;
+  }
+  // The depth of the buffered pair of its time, in place of its right view.
+  void attach(const Frame& depth);
+
+  // Takes pairs from the feed until kAhead are buffered, or as many as `waitForDepth` says. False when no more will
+  // come.
   bool refill(FilmFeed& feed);
   // Makes the newest pair at or before `position` the present one, refilling as needed. Returns by how many pairs it
   // advanced: more than one means that pictures were skipped.
@@ -22,11 +32,14 @@ class Playhead {
   // Makes the first pair after a start or a seek the present one, whatever its time. Does nothing if there is none.
   void begin();
   // Drops the buffered pairs; the present pair stays.
-  void clear() { ahead_.clear(); }
+  void clear() {
+    ahead_.clear();
+    held_ = {};
+  }
 
   [[nodiscard]] const FramePair& present() const noexcept { return present_; }
   [[nodiscard]] const std::deque<FramePair>& ahead() const noexcept { return ahead_; }
-  [[nodiscard]] bool filled() const noexcept { return ahead_.size() >= kAhead; }
+  [[nodiscard]] bool filled() const noexcept { return ahead_.size() >= wanted_; }
   // No pair follows the buffered ones.
   [[nodiscard]] bool last() const noexcept { return last_; }
 
@@ -34,6 +47,9 @@ class Playhead {
   FramePair present_;
   std::deque<FramePair> ahead_;
   bool last_ = false;
+  std::size_t wanted_ = kAhead;
+  bool holds_ = false;
+  Frame held_;  // the last depth, if it is to be held
 };
 
 }  // namespace relievo

@@ -318,6 +318,7 @@ PlayReport Player::report() const {
   report.pairs = film_.pairs();
   report.media_s = toSeconds(film_.played());
   report.live = film_.live();
+  report.reliefs = film_.reliefs();
   report.sound = film_.sound();
   report.seeks = seeks_.entries();
   report.volume = touch_.volume();

@@ -39,6 +39,14 @@ double share(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
+Json reliefPart(const ReliefSummary& reliefs) {
+  if (reliefs.made == 0) return nullptr;
+  return {{"made", reliefs.made},
+          {"dropped", reliefs.dropped},
+          {"matched_cols", reliefs.cols},
+          {"mean_ms", rounded(reliefs.mean_ms, 1e2)}};
+}
+
 Json videoPart(const PlayReport& r) {
   return {{"frames_shown", r.frames_shown},
           {"frames_dropped", r.frames_dropped},
@@ -58,7 +66,8 @@ Json videoPart(const PlayReport& r) {
           {"triangles", r.triangles},
           {"picture_error_px", rounded(r.picture_error_px, 1e2)},
           {"mesh_ms", rounded(r.mesh_ms, 1e3)},
-          {"draw_ms", rounded(r.draw_ms, 1e3)}};
+          {"draw_ms", rounded(r.draw_ms, 1e3)},
+          {"reliefs", reliefPart(r.reliefs)}};
 }
 
 Json filmPart(const PlayReport& r) {

@@ -14,6 +14,7 @@
 #include "app/player/film/sound.h"
 #include "app/player/state_table.h"
 #include "app/player/touch/haptic_session.h"
+#include "app/player/views/relief_maker.h"
 #include "app/scene/display_volume.h"
 
 namespace relievo {
@@ -46,6 +47,7 @@ struct PlayReport {
   std::optional<double> first_frame_ms;
   std::optional<double> first_touch_ms;  // the first tick on the film's surface
   std::optional<LiveLatency> live;
+  ReliefSummary reliefs;  // made from films of two views
 
   HapticSummary haptic;
   SoundSummary sound;

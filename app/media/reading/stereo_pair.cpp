@@ -104,18 +104,36 @@ bool isFound(const Reduced& a, int c0, int r0, const Moments& moments, const Red
 
 }  // namespace
 
-bool areViews(const Frame& first, const Frame& second) {
+namespace {
+
+struct Likeness {
+  int textured = 0, found = 0;  // blocks of the first picture
+};
+Likeness likenessOf(const Frame& first, const Frame& second) {
   const Reduced a = reduce(first), b = reduce(second);
-  int textured = 0, found = 0;
+  Likeness likeness;
   for (int r = 0; r < kRows; r += kBlock) {
     for (int c = 0; c < kCols; c += kBlock) {
       const Moments moments = momentsOf(a, c, r);
       if (textureOf(a, c, r, moments) < kTexture) continue;
-      ++textured;
-      found += isFound(a, c, r, moments, b) ? 1 : 0;
+      ++likeness.textured;
+      likeness.found += isFound(a, c, r, moments, b) ? 1 : 0;
     }
   }
-  return textured >= kLeastBlocks && found >= kFound * textured;
+  return likeness;
+}
+
+}  // namespace
+
+bool areViews(const Frame& first, const Frame& second) {
+  const Likeness likeness = likenessOf(first, second);
+  return likeness.textured >= kLeastBlocks && likeness.found >= kFound * likeness.textured;
+}
+
+bool areOtherPictures(const Frame& first, const Frame& second) {
+  constexpr double kHardly = 0.3;
+  const Likeness likeness = likenessOf(first, second);
+  return likeness.textured >= kLeastBlocks && likeness.found < kHardly * likeness.textured;
 }
 
 std::optional<Packing> findViews(const Frame& picture) {

@@ -26,6 +26,7 @@ FilmPlayback::FilmPlayback(PairReader::Backends backends, AudioOutput* output, c
       journal_(journal),
       own_threads_(backends.own_threads),
       feed_(std::move(backends), kQueuedPairs),
+      reliefs_(makeQuickMatcher(), clock),
       sound_(output, clock) {}
 
 void FilmPlayback::begin() {
@@ -36,6 +37,13 @@ void FilmPlayback::begin() {
 void FilmPlayback::read() {
   while (!own_threads_ && feed_.work()) {
   }
+  while (!own_threads_ && reliefs_.work()) {
+  }
+}
+
+void FilmPlayback::stop() noexcept {
+  reliefs_.stop();
+  feed_.stop();
 }
 
 void FilmPlayback::open(SourceOptions source) {
@@ -52,6 +60,7 @@ void FilmPlayback::close(MonotonicTime now) {
   clock_.reset();
   setRate(1, now);
   head_ = {};
+  reliefs_.end();
   sound_.forget();
   info_ = {};
   held_ = begun_ = starved_ = false;
@@ -76,6 +85,7 @@ FilmPlayback::Opening FilmPlayback::opening() const {
 const FilmInfo& FilmPlayback::opened() {
   info_ = feed_.info();
   if (info_.sounds.empty() && info_.sound_codec.empty()) sound_.rest();
+  if (info_.depth_from_views) beginReliefs();
   if (info_.has_depth) {
     const std::string line = plainLine(info_.reading, info_.calibration.calibration);
     log(LogLevel::Info, "play", "%s", line.c_str());
@@ -105,8 +115,10 @@ FilmPlayback::Progress FilmPlayback::overOrFailed() const {
 
 FilmPlayback::Progress FilmPlayback::filling() {
   head_.refill(feed_);
+  followReliefs();
   if (!head_.filled() && !head_.last()) return Progress::Goes;
   if (head_.ahead().empty()) return overOrFailed();
+  if (!hasReliefs()) return Progress::Goes;
   const bool sounds = rate_ != 1 || feed_.hasSoundUntil(head_.ahead().front().color.pts + kSoundFirst);
   return sounds ? Progress::Ready : Progress::Goes;
 }
@@ -128,7 +140,10 @@ Result<void> FilmPlayback::start(MonotonicTime now) {
 }
 
 std::size_t FilmPlayback::advance(MonotonicTime now) {
-  return head_.advance(clock_.position(now).value_or(MediaTime{}), feed_);
+  followReliefs();
+  const std::size_t pictures = head_.advance(clock_.position(now).value_or(MediaTime{}), feed_);
+  if (pictures > 0) reliefs_.passed(picture().color.pts);
+  return pictures;
 }
 
 // A pair that is less than a period late is shown late; after that the film waits for the reader. The delay counts from
@@ -156,6 +171,7 @@ void FilmPlayback::seek(MediaTime target, MonotonicTime now) {
   countPlayed(now);
   clock_.reset();
   head_.clear();
+  reliefs_.jump();
   sound_.forget();
   target_ = target;
   feed_.seek(target, rushes() ? fromSeconds(kRushStepS * rate_) : Duration(0));
@@ -223,6 +239,10 @@ DepthAround FilmPlayback::depth() const {
   if (!rushes()) around.present = picture().depth;
   around.material = picture().material;
   around.expected = !rushes() && info_.has_depth;
+  if (makesReliefs()) {
+    gatherReliefs(around);
+    return around;
+  }
   around.ahead_count = std::min(head_.ahead().size(), around.ahead.size());
   for (std::size_t i = 0; i < around.ahead_count; ++i) {
     around.ahead[i] = head_.ahead()[i].depth;

@@ -15,6 +15,7 @@
 #include "app/player/film/played_time.h"
 #include "app/player/film/sound.h"
 #include "app/player/journal.h"
+#include "app/player/views/relief_maker.h"
 #include "hal/media/media_clock.h"
 #include "platform/clock.h"
 #include "platform/failure.h"
@@ -36,7 +37,7 @@ class FilmPlayback {
   // Without a reader thread: reads everything that is wanted now.
   void read();
   void silence() noexcept { sound_.close(); }
-  void stop() noexcept { feed_.stop(); }
+  void stop() noexcept;
 
   // Opens a film; its sound is decoded to the output's format.
   void open(SourceOptions source);
@@ -133,15 +134,23 @@ class FilmPlayback {
   [[nodiscard]] Duration played() const noexcept { return played_.total(); }
   [[nodiscard]] std::optional<LiveLatency> live() const { return live_.summary(); }
   [[nodiscard]] SoundSummary sound() const { return sound_.summary(); }
+  [[nodiscard]] ReliefSummary reliefs() const { return reliefs_.summary(); }
 
  private:
   [[nodiscard]] Progress overOrFailed() const;
+  // In film_reliefs.cpp: depth that is made from the film's two views.
+  [[nodiscard]] bool makesReliefs() const noexcept { return info_.depth_from_views && !rushes(); }
+  void beginReliefs();
+  void followReliefs();
+  [[nodiscard]] bool hasReliefs() const;
+  void gatherReliefs(DepthAround& around) const;
 
   const Clock& clock_source_;
   Journal& journal_;
   const bool own_threads_;
   FilmFeed feed_;
   Playhead head_;
+  ReliefMaker reliefs_;
   MediaClock clock_;
   Sound sound_;
 

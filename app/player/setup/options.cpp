@@ -53,6 +53,7 @@ constexpr const char* kPlayAbout =
     "  relievo film.mkv --resume                from where it was left\n"
     "  relievo                                  a list of films to choose from; --films FOLDER: those of a folder\n"
     "  relievo https://example.org/film.m3u8    from the network\n"
+    "  relievo film-3d.mkv --depth-from stereo  a 3D film that has two views and no depth, felt\n"
     "  relievo v4l2:/dev/video0 --calibration near=400,far=1500\n"
     "                                           a depth camera, live\n"
     "\nKeys: space pauses, arrows seek, f fills the screen, h shows all keys, q ends it.";
@@ -150,6 +151,12 @@ void addSources(CLI::App& command, PlayOptions& play) {
   };
   command.add_option_function<std::vector<std::string>>("SOURCE", take, kSourceHelp)->type_name(" ");
   addDepthSource(command, play.player.source);
+  addChoice(
+      command, "--depth-from", play.player.source.depth_from, {{"film", DepthFrom::Film}, {"stereo", DepthFrom::Views}},
+      "Where the depth comes from\n"
+      "film: the film has it; stereo: made from a 3D film's two views while it plays, so that it can be felt; the "
+      "picture is then\nthe left view in relief. `relievo-author --depth-from stereo` takes its time and makes it "
+      "better");
 }
 
 DisplayConfig readSize(const std::string& word) {

@@ -30,6 +30,7 @@ using test::photoOf;
 using test::TemporaryFolder;
 using test::yuvCode;
 using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
@@ -433,6 +434,49 @@ TEST(Recordings, TwoViewsAreToldAndNeverFelt) {
   }
   EXPECT_THAT(open({.url = folder / "sbs.mp4", .packing = Packing::SideBySide}).info.reading.doubts,
               Contains(HasSubstr("the same picture")));
+}
+
+// --depth-from stereo: the pairs keep both views, and whoever plays them makes the depth.
+TEST(Recordings, DepthIsMadeOfTwoViewsOnlyWhereThereAreTwo) {
+  const Half left{photoOf};
+  const Half right{[](int c, int r) { return photoOf(c + 4 + (r > 50 ? 3 : 0), r); }};
+  TemporaryFolder folder;
+  makeHalves(folder / "views.mp4", true, left, right);
+  makeClip(folder / "one.mkv", {photo()});
+  const auto from = [&](const char* name, Packing packing = Packing::Auto) {
+    return open({.url = folder / name, .packing = packing, .depth_from = DepthFrom::Views});
+  };
+  const Seen views = from("views.mp4");
+  EXPECT_TRUE(views.info.has_depth);
+  EXPECT_TRUE(views.info.depth_from_views);
+  EXPECT_EQ(views.info.calibration.calibration.bits, 16);
+  EXPECT_THAT(views.info.reading.doubts, IsEmpty());
+  const Seen one = from("one.mkv");
+  EXPECT_FALSE(one.info.has_depth);
+  EXPECT_THAT(one.info.reading.doubts, ElementsAre(HasSubstr("the film has one view")));
+  ClipTrack depth = coded([](double mm, int, int) { return rounded(mm); });
+  depth.codec = "ffv1";
+  depth.pix_fmt = "gray16le";
+  makeClip(folder / "both.mkv", {photo(), depth});
+  const Seen both = from("both.mkv");
+  EXPECT_TRUE(both.info.has_depth);
+  EXPECT_FALSE(both.info.depth_from_views);
+  EXPECT_THAT(both.info.reading.doubts, Contains(HasSubstr("the film has depth of its own")));
+}
+
+// What the user says of a film of one view cannot be: told in one line, and no depth is made of it.
+TEST(Recordings, AFilmOfOneViewIsNotTakenForTwo) {
+  TemporaryFolder folder;
+  makeClip(folder / "one.mkv", {photo()});
+  for (const Packing packing : {Packing::StereoSideBySide, Packing::StereoTopBottom}) {
+    const Seen seen = open({.url = folder / "one.mkv", .packing = packing, .depth_from = DepthFrom::Views});
+    EXPECT_FALSE(seen.info.has_depth);
+    EXPECT_THAT(seen.info.reading.doubts, ElementsAre(HasSubstr("do not show one scene")));
+  }
+  const Half left{photoOf};
+  const Half right{[](int c, int r) { return photoOf(c + 6, r); }};
+  makeHalves(folder / "views.mp4", true, left, right);
+  EXPECT_THAT(open({.url = folder / "views.mp4", .packing = Packing::StereoSideBySide}).info.reading.doubts, IsEmpty());
 }
 
 TEST(Recordings, EachEyeOfTwoViewsIsShownItsOwn) {

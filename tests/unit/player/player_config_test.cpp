@@ -117,6 +117,7 @@ TEST_F(PlayConfig, EveryOptionCanStandInTheFileAndIsPrintedAsItReadsBack) {
                                                       {"as", R"("tum")"},
                                                       {"fps", "24"},
                                                       {"depth-code", R"("hue")"},
+                                                      {"depth-from", R"("stereo")"},
                                                       {"calibration", R"(["near=100", "far=2000"])"},
                                                       {"registration", "\"" + rig + "\""},
                                                       {"display", R"("mock")"},

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// Makes the reliefs of a film of two views while it plays, on its own thread.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "app/media/pair_reader.h"
+#include "app/player/views/relief_pace.h"
+#include "app/player/views/stereo_matcher.h"
+#include "platform/clock.h"
+
+namespace relievo {
+
+struct ReliefSummary {
+  std::uint64_t made = 0, dropped = 0;  // pictures with a relief of their own, and without
+  int cols = 0;                         // that are matched
+  double mean_ms = 0;                   // that one takes
+};
+
+// The player's side (everything except `work`) never waits for a relief. The pictures are read so far ahead that each
+// relief is there before its picture is shown. Where they take too long, only every second or third picture gets one,
+// evenly; a relief whose picture is shown meanwhile is not made. Without the thread the caller calls `work`.
+//
+// The first picture's relief is made at one size after another: the largest that keeps within the pace's budget stays,
+// but for a size less (more) after a cut where reliefs are slow (have much time to spare).
+class ReliefMaker {
+ public:
+  static constexpr std::size_t kAhead =
+      12;  // pictures to read ahead: four reliefs at every second picture, and two more
+
+  // `matcher` null: no reliefs can be made.
+  ReliefMaker(std::unique_ptr<StereoMatcher> matcher, const Clock& clock);
+  ~ReliefMaker();
+  ReliefMaker(const ReliefMaker&) = delete;
+  ReliefMaker& operator=(const ReliefMaker&) = delete;
+
+  [[nodiscard]] bool canMake() const noexcept { return matcher_ != nullptr; }
+  // A second call does nothing.
+  void startThread();
+  void stop() noexcept;
+
+  // A film with this time between two pictures begins, or ends.
+  void begin(Duration period);
+  void end();
+  // The film goes on elsewhere: what was offered is forgotten.
+  void jump();
+  // The next picture; one that was offered before, or has no right view, changes nothing.
+  void offer(const FramePair& pair);
+  // This picture is shown: no relief is made for it and those before it any more.
+  void passed(MediaTime shown);
+  // The next relief that was made, in order, with its picture's time.
+  [[nodiscard]] std::optional<Frame> take();
+  // Nothing is to be made and nothing to be taken.
+  [[nodiscard]] bool idle() const;
+  // That this machine makes fewer reliefs than the film has pictures; once a film.
+  [[nodiscard]] std::optional<std::string> takeSlowness();
+  // Of all films.
+  [[nodiscard]] ReliefSummary summary() const;
+
+  // Makes one relief; false when there is none to make.
+  bool work();
+
+ private:
+  struct Job {
+    Frame left, right;
+  };
+  [[nodiscard]] bool hasJob() const { return !jobs_.empty(); }
+  void dropUndue();
+  [[nodiscard]] Frame makeFirst(const Job& job, Duration budget);
+  void adapt();
+  void threadMain();
+
+  const std::unique_ptr<StereoMatcher> matcher_;  // used by the maker's side only
+  const Clock& clock_;
+
+  mutable std::mutex mutex_;  // guards everything below; not held while a relief is made
+  std::condition_variable wake_;
+  std::deque<Job> jobs_;
+  std::deque<Frame> made_;
+  std::uint64_t generation_ = 0;  // films and jumps
+  bool film_is_new_ = false, begins_shot_ = false;
+  bool at_work_ = false;
+  Duration period_{0};
+  ReliefPace pace_{Duration(0)};
+  std::size_t size_ = 0;              // of the matcher's, that is asked for
+  int since_change_ = 0;              // of it; reliefs
+  std::optional<MediaTime> offered_;  // the last one
+  std::optional<MediaTime> last_;     // whose relief was made last
+  std::optional<MediaTime> shown_;    // the last picture on the screen
+  bool slowness_told_ = false;
+  ReliefSummary summary_;
+  bool stopping_ = false;
+  std::thread thread_;
+};
+
+}  // namespace relievo

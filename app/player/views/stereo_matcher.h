@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// What makes a depth picture from two views: the quick matcher, or a test's.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "hal/media/frame.h"
+
+namespace relievo {
+
+// Use from one thread at a time. Pictures come in order, not necessarily all of them.
+class StereoMatcher {
+ public:
+  virtual ~StereoMatcher() = default;
+  // The sizes that it can match at, in columns, the cheapest first; they differ in what they cost, not in the depth
+  // picture's size.
+  [[nodiscard]] virtual std::span<const int> sizes() const noexcept = 0;
+  // One of them, from the next shot on.
+  virtual void setSize(int cols) noexcept = 0;
+  // The present one.
+  [[nodiscard]] virtual int size() const noexcept = 0;
+  // The next picture does not continue the last one.
+  virtual void beginShot() noexcept = 0;
+  // 16 bits, full range, near high, with the left view's time.
+  [[nodiscard]] virtual Frame depthOf(const Frame& left, const Frame& right) = 0;
+};
+
+// Null in a build without it.
+[[nodiscard]] std::unique_ptr<StereoMatcher> makeQuickMatcher();
+
+}  // namespace relievo

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/stereo/quick/quick_depth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "app/stereo/hole_filling.h"
+#include "app/stereo/quick/outline_snapping.h"
+
+namespace relievo {
+namespace {
+
+constexpr int kSurveyCols = 160;     // in which the range is measured
+constexpr int kWidest = 6;           // a part of the width: the largest disparity
+constexpr double kLeastFound = 0.4;  // share of the pixels that both views show; of two other pictures a tenth
+constexpr double kOutliers = 0.005;
+constexpr float kSpare = 0.2F;       // of the range, on each side
+constexpr float kLeastSpare = 1.5F;  // pixels of the survey
+constexpr float kCut = 18;           // levels between two pictures, on average
+constexpr float kCutOver = 3;        // times the change before
+constexpr float kHighest = 65535;
+constexpr double kBlackSpread = 3;  // levels
+
+// The disparity below which a share of the seen pixels lies.
+float shareBelow(std::vector<float>& seen, double share) {
+  const auto place = seen.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(seen.size() - 1));
+  std::ranges::nth_element(seen, place);
+  return *place;
+}
+
+}  // namespace
+
+Frame QuickDepth::depthOf(const Frame& left, const Frame& right) {
+  const ViewSize size = reducedSize(left, kCols);
+  readSmall(left, size, left_);
+  readSmall(right, size, right_);
+  if (cutsTo(left_)) {
+    range_.reset();
+    exposure_.reset();
+    matched_cols_ = wished_cols_;
+  }
+  if (!range_) measureShot();  // also where a shot comes out of the dark
+  if (large_.cols != size.cols || large_.rows != size.rows) large_ = DisparityMap(size.cols, size.rows);
+  if (range_) match(large_);
+  Frame depth = codesOf(large_);
+  depth.pts = left.pts;
+  depth.duration = left.duration;
+  depth.sample_aspect = left.width * left.sample_aspect / left.height * size.rows / size.cols;
+  return depth;
+}
+
+bool QuickDepth::cutsTo(const ViewPicture& left) {
+  Thumb now{};
+  for (int r = 0; r < kThumbRows; ++r) {
+    for (int c = 0; c < kThumbCols; ++c) {
+      constexpr int kTaken = 4;  // samples of a cell, in each direction
+      float sum = 0;
+      for (int i = 0; i < kTaken * kTaken; ++i) {
+        const int x = (c * kTaken + i % kTaken) * left.cols / (kThumbCols * kTaken);
+        const int y = (r * kTaken + i / kTaken) * left.rows / (kThumbRows * kTaken);
+        sum += left.yuv[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(left.cols) +
+                             static_cast<std::size_t>(x))];
+      }
+      now[static_cast<std::size_t>(r) * kThumbCols + static_cast<std::size_t>(c)] = sum / (kTaken * kTaken);
+    }
+  }
+  if (!before_) {
+    before_ = now;
+    change_ = 0;
+    return true;
+  }
+  float change = 0;
+  for (std::size_t i = 0; i < now.size(); ++i)
+    change += std::abs(now[i] - (*before_)[i]) / static_cast<float>(now.size());
+  const bool cut = change > kCut && change > kCutOver * change_;
+  change_ = change;
+  before_ = now;
+  return cut;
+}
+
+// How near and far the shot reaches, by matching a small picture over the widest range.
+void QuickDepth::measureShot() {
+  ViewTone left_tone, right_tone;
+  left_tone.add(left_);
+  right_tone.add(right_);
+  if (left_tone.spread(0) < kBlackSpread || right_tone.spread(0) < kBlackSpread) return;
+  const Exposure exposure = exposureBetween(left_tone, right_tone);
+  if (exposure.isNeeded()) exposure_ = exposure;
+  const int cols = std::min(kSurveyCols, left_.cols), widest = std::max(1, cols / kWidest);
+  const ViewSize size{cols, std::max(1, left_.rows * cols / left_.cols)};
+  reduce(left_, size, small_left_);
+  reduce(right_, size, small_right_);
+  const DisparityMap& found = matching_.match(small_left_, small_right_, {-widest, widest});
+  std::vector<float> seen;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found.seen[i] != 0) seen.push_back(found.pixels[i]);
+  }
+  if (static_cast<double>(seen.size()) < kLeastFound * static_cast<double>(found.size())) return;
+  const float low = shareBelow(seen, kOutliers), high = shareBelow(seen, 1 - kOutliers);
+  const float spare = std::max(kLeastSpare, kSpare * (high - low)), width = static_cast<float>(cols);
+  range_ = {(low - spare) / width, (high + spare) / width};
+}
+
+DisparityRange QuickDepth::rangeAt(int cols) const noexcept {
+  const auto width = static_cast<float>(cols);
+  return {static_cast<int>(std::floor(range_->low * width)), static_cast<int>(std::ceil(range_->high * width))};
+}
+
+void QuickDepth::match(DisparityMap& large) {
+  if (exposure_) balance(right_, *exposure_);
+  const int cols = std::min(matched_cols_, left_.cols);
+  const ViewSize size{cols, std::max(1, left_.rows * cols / left_.cols)};
+  reduce(left_, size, small_left_);
+  reduce(right_, size, small_right_);
+  filled_ = matching_.match(small_left_, small_right_, rangeAt(cols));
+  fillHoles(filled_, small_left_);
+  enlarge(filled_, small_left_, left_, large);
+  sub_pixel_.refine(large, left_, right_);
+}
+
+Frame QuickDepth::codesOf(const DisparityMap& map) const {
+  auto codes = std::make_shared<std::vector<std::uint16_t>>(map.size(), static_cast<std::uint16_t>(kHighest / 2));
+  if (range_) {
+    const auto width = static_cast<float>(map.cols);
+    const float low = range_->low * width, scale = 1 / ((range_->high - range_->low) * width);
+    std::ranges::transform(map.pixels, codes->begin(), [&](float d) {
+      return static_cast<std::uint16_t>(std::lround(std::clamp((d - low) * scale, 0.0F, 1.0F) * kHighest));
+    });
+  }
+  return grayFrame(std::move(codes), map.cols, map.rows);
+}
+
+}  // namespace relievo

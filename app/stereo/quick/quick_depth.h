@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Depth pictures from the two views of a film while it plays.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "app/stereo/exposure.h"
+#include "app/stereo/quick/quick_matching.h"
+#include "app/stereo/quick/small_view.h"
+#include "app/stereo/quick/sub_pixel.h"
+#include "hal/media/frame.h"
+
+namespace relievo {
+
+// One shot is scaled alike from its first picture to its last, so that nothing breathes: by the range that its first
+// picture shows, with some to spare; what comes nearer or goes farther later lies at the end of the range. Pictures
+// come in order, not necessarily all of them. Use from one thread.
+class QuickDepth {
+ public:
+  static constexpr int kCols = 640;                                   // of a depth picture, at most
+  static constexpr std::array kMatchedCols{160, 240, 320, 480, 640};  // that are matched, the cheapest first
+
+  // One of kMatchedCols, from the next shot on.
+  void setMatchedCols(int cols) noexcept { wished_cols_ = cols; }
+  [[nodiscard]] int matchedCols() const noexcept { return matched_cols_; }
+  // The next picture does not continue the last one.
+  void beginShot() noexcept { before_.reset(); }
+  // Codes of 16 bits and full range, linear in disparity over the shot's range, near high, none a hole; with the left
+  // view's time, in its shape. A shot without depth, as one with a black view, lies in the middle.
+  [[nodiscard]] Frame depthOf(const Frame& left, const Frame& right);
+  // Whether both views show the same things in the present shot.
+  [[nodiscard]] bool hasDepth() const noexcept { return range_.has_value(); }
+
+ private:
+  static constexpr int kThumbCols = 32, kThumbRows = 18;
+  using Thumb = std::array<float, std::size_t{kThumbCols} * kThumbRows>;
+  struct Range {
+    float low = 0, high = 0;  // disparities as parts of the width
+  };
+
+  [[nodiscard]] bool cutsTo(const ViewPicture& left);
+  void measureShot();
+  void match(DisparityMap& large);
+  [[nodiscard]] DisparityRange rangeAt(int cols) const noexcept;
+  [[nodiscard]] Frame codesOf(const DisparityMap& map) const;
+
+  int wished_cols_ = kMatchedCols[2], matched_cols_ = kMatchedCols[2];
+  std::optional<Thumb> before_;
+  float change_ = 0;  // between the last two pictures
+  std::optional<Range> range_;
+  std::optional<Exposure> exposure_;  // that the right view needs
+  ViewPicture left_, right_, small_left_, small_right_;
+  QuickMatching matching_;
+  DisparityMap filled_, large_;
+  SubPixel sub_pixel_;
+};
+
+}  // namespace relievo

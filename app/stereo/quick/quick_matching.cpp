@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/stereo/quick/quick_matching.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+namespace relievo {
+namespace {
+
+constexpr float kNothing = -std::numeric_limits<float>::infinity();
+constexpr std::size_t kVector = 8;   // costs
+constexpr int kReach = 2;            // pixels: of the census
+constexpr std::int16_t kSlope = 12;  // cost of a disparity's change by one, in bits of the census
+constexpr int kStep = 150;           // of a greater one, where the picture is even
+constexpr int kLeastStep = 40;       // of a greater one, at an outline
+constexpr int kOutline = 20;         // levels between neighbours at which a step costs half
+constexpr float kAgree = 1;          // pixels
+constexpr int kSpeckOf = 2000;       // a smaller part of the picture is a speck
+constexpr std::int16_t kHigh = 8000;
+
+std::uint32_t bitsIn(std::uint32_t word) noexcept {
+  word -= word >> 1 & 0x55555555U;
+  word = (word & 0x33333333U) + (word >> 2 & 0x33333333U);
+  word = (word + (word >> 4)) & 0x0F0F0F0FU;
+  return (word + (word >> 8) + (word >> 16)) & 0x3FU;
+}
+
+// One pixel's costs along a path: those of the pixel before it, `least` among them, and its own.
+std::int16_t continuePath(const std::int16_t* before, std::int16_t least, const std::uint8_t* costs, std::int16_t step,
+                          std::int16_t* now, std::int16_t* sums, std::size_t levels) noexcept {
+  const auto far = static_cast<std::int16_t>(least + step);
+  std::int16_t lowest = kHigh;
+  for (std::size_t d = 0; d < levels; ++d) {  // `before` has a high cost on each side
+    const auto beside = static_cast<std::int16_t>(std::min(before[d - 1], before[d + 1]) + kSlope);
+    const std::int16_t best = std::min(std::min(before[d], beside), far);
+    const auto cost = static_cast<std::int16_t>(costs[d] + best - least);
+    now[d] = cost;
+    sums[d] = static_cast<std::int16_t>(sums[d] + cost);
+    lowest = std::min(lowest, cost);
+  }
+  return lowest;
+}
+
+std::int16_t stepCost(int a, int b) noexcept {
+  return static_cast<std::int16_t>(std::max(kLeastStep, kStep * kOutline / (kOutline + std::abs(a - b))));
+}
+
+}  // namespace
+
+const DisparityMap& QuickMatching::match(const ViewPicture& left, const ViewPicture& right, DisparityRange range) {
+  prepare(left, range);
+  readLuma(left, left_luma_);
+  readLuma(right, right_luma_);
+  takeCensus(left_luma_, left_census_);
+  takeCensus(right_luma_, right_census_);
+  downward();
+  upward();
+  removeSpecks();
+  return map_;
+}
+
+void QuickMatching::prepare(const ViewPicture& left, DisparityRange range) {
+  if (map_.cols != left.cols || map_.rows != left.rows) map_ = DisparityMap(left.cols, left.rows);
+  range_ = range;
+  levels_ = (wanted() + kVector - 1) / kVector * kVector;
+  costs_.resize(map_.size() * levels_);
+  sums_.assign(map_.size() * levels_, 0);
+  // A row of paths, each with a high cost on both sides, and the least cost of each.
+  before_.assign(static_cast<std::size_t>(map_.cols) * (levels_ + 2 * kVector), kHigh);
+  now_.assign(2 * (levels_ + 2 * kVector), kHigh);
+  reversed_.resize(static_cast<std::size_t>(map_.cols) + 2 * levels_ +
+                   2 * static_cast<std::size_t>(std::max({std::abs(range.lowest), std::abs(range.highest), 1})));
+}
+
+void QuickMatching::readLuma(const ViewPicture& view, std::vector<std::uint8_t>& luma) {
+  luma.resize(view.size());
+  for (std::size_t i = 0; i < luma.size(); ++i) luma[i] = view.yuv[3 * i];
+}
+
+void QuickMatching::takeCensus(const std::vector<std::uint8_t>& luma, Census& census) const {
+  census.assign(map_.size(), 0);
+  for (int r = 0; r < map_.rows; ++r) {
+    std::uint32_t* const out = &census[map_.at(0, r)];
+    const std::uint8_t* const middle = &luma[map_.at(0, r)];
+    for (int j = -kReach; j <= kReach; ++j) {
+      const std::uint8_t* const row = &luma[map_.at(0, std::clamp(r + j, 0, map_.rows - 1))];
+      for (int i = -kReach; i <= kReach; ++i) {
+        if (i == 0 && j == 0) continue;
+        for (int c = 0; c < map_.cols; ++c) {
+          const int x = std::clamp(c + i, 0, map_.cols - 1);
+          out[c] = out[c] << 1 | (row[x] > middle[c] + 2 ? 1U : 0U);
+        }
+      }
+    }
+  }
+}
+
+// Reversed, the right view's words lie in the order of rising disparity. Beyond its sides its border is repeated.
+void QuickMatching::costsOfRow(int r) {
+  const std::uint32_t* const right = &right_census_[map_.at(0, r)];
+  const int cols = map_.cols, low = range_.lowest;
+  const auto count = static_cast<int>(reversed_.size());
+  const int margin = (count - cols) / 2;
+  for (int k = 0; k < count; ++k)
+    reversed_[static_cast<std::size_t>(k)] = right[std::clamp(cols - 1 - (k - margin), 0, cols - 1)];
+  for (int c = 0; c < cols; ++c) {
+    const std::uint32_t own = left_census_[map_.at(c, r)];
+    const std::uint32_t* const from = reversed_.data() + margin + cols - 1 - c + low;
+    std::uint8_t* const out = &costs_[cell(c, r)];
+    for (std::size_t d = 0; d < levels_; ++d) out[d] = static_cast<std::uint8_t>(bitsIn(own ^ from[d]));
+  }
+}
+
+void QuickMatching::downward() {
+  for (int r = 0; r < map_.rows; ++r) {
+    costsOfRow(r);
+    alongRow(r, 1);
+    alongRow(r, -1);
+    fromRowBefore(r, r == 0);
+  }
+}
+
+void QuickMatching::upward() {
+  for (int r = map_.rows - 1; r >= 0; --r) {
+    fromRowBefore(r, r == map_.rows - 1);
+    chooseInRow(r);
+    checkRow(r);
+  }
+}
+
+void QuickMatching::alongRow(int r, int step) {
+  std::int16_t *before = &now_[kVector], *now = &now_[levels_ + 3 * kVector];
+  std::fill(before, before + levels_, std::int16_t{0});
+  std::int16_t least = 0;
+  const std::uint8_t* const luma = &left_luma_[map_.at(0, r)];
+  const int begin = step > 0 ? 0 : map_.cols - 1, end = step > 0 ? map_.cols : -1;
+  for (int c = begin; c != end; c += step) {
+    const std::int16_t change = stepCost(luma[c], luma[c == begin ? c : c - step]);
+    least = continuePath(before, least, &costs_[cell(c, r)], change, now, &sums_[cell(c, r)], levels_);
+    std::swap(before, now);
+  }
+}
+
+// In the order of the sweep: down, then up.
+void QuickMatching::fromRowBefore(int r, bool first) {
+  const std::size_t stride = levels_ + 2 * kVector;
+  std::int16_t* const now = &now_[kVector];
+  for (int c = 0; c < map_.cols; ++c) {
+    std::int16_t* const path = &before_[static_cast<std::size_t>(c) * stride + kVector];
+    std::int16_t& least = path[levels_ + kVector - 1];
+    if (first) {
+      std::fill(path, path + levels_, std::int16_t{0});
+      least = 0;
+    }
+    const int other = first ? r : last_row_;
+    const std::int16_t change = stepCost(left_luma_[map_.at(c, r)], left_luma_[map_.at(c, other)]);
+    least = continuePath(path, least, &costs_[cell(c, r)], change, now, &sums_[cell(c, r)], levels_);
+    std::copy(now, now + levels_, path);
+  }
+  last_row_ = r;
+}
+
+// The least sum, between two disparities where its neighbours tell.
+void QuickMatching::chooseInRow(int r) {
+  least_right_.assign(static_cast<std::size_t>(map_.cols), std::numeric_limits<Cost>::max());
+  std::fill_n(&map_.from_right[map_.at(0, r)], map_.cols, kNothing);
+  for (int c = 0; c < map_.cols; ++c) {
+    const Cost* const sums = &sums_[cell(c, r)];
+    const auto best = static_cast<std::size_t>(std::min_element(sums, sums + wanted()) - sums);
+    auto found = static_cast<float>(range_.lowest + static_cast<int>(best));
+    if (best > 0 && best + 1 < wanted()) {
+      const int before = sums[best - 1], here = sums[best], after = sums[best + 1], bend = before + after - 2 * here;
+      if (bend > 0) found += 0.5F * static_cast<float>(before - after) / static_cast<float>(bend);
+    }
+    map_.pixels[map_.at(c, r)] = found;
+    const int there = c - range_.lowest - static_cast<int>(best);
+    if (there < 0 || there >= map_.cols || sums[best] >= least_right_[static_cast<std::size_t>(there)]) continue;
+    least_right_[static_cast<std::size_t>(there)] = sums[best];
+    map_.from_right[map_.at(there, r)] = found;
+  }
+}
+
+void QuickMatching::checkRow(int r) {
+  for (int c = 0; c < map_.cols; ++c) {
+    const float found = map_.pixels[map_.at(c, r)];
+    const int there = static_cast<int>(std::lround(static_cast<float>(c) - found));
+    const bool agrees =
+        there >= 0 && there < map_.cols && std::abs(map_.from_right[map_.at(there, r)] - found) <= kAgree;
+    map_.seen[map_.at(c, r)] = agrees ? 1 : 0;
+  }
+}
+
+// Small parts whose disparity is another than that of what surrounds them.
+void QuickMatching::removeSpecks() {
+  const std::size_t least = map_.size() / kSpeckOf;
+  visited_.assign(map_.size(), 0);
+  std::vector<std::size_t>& part = speck_;
+  for (std::size_t start = 0; start < map_.size(); ++start) {
+    if (visited_[start] != 0 || map_.seen[start] == 0) continue;
+    part.assign(1, start);
+    visited_[start] = 1;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      const std::size_t here = part[i], c = here % static_cast<std::size_t>(map_.cols);
+      const auto visit = [&](std::size_t there) {
+        if (visited_[there] != 0 || map_.seen[there] == 0) return;
+        if (std::abs(map_.pixels[there] - map_.pixels[here]) > kAgree) return;
+        visited_[there] = 1;
+        part.push_back(there);
+      };
+      if (c > 0) visit(here - 1);
+      if (c + 1 < static_cast<std::size_t>(map_.cols)) visit(here + 1);
+      if (here >= static_cast<std::size_t>(map_.cols)) visit(here - static_cast<std::size_t>(map_.cols));
+      if (here + static_cast<std::size_t>(map_.cols) < map_.size()) visit(here + static_cast<std::size_t>(map_.cols));
+    }
+    if (part.size() >= least) continue;
+    for (const std::size_t i : part) map_.seen[i] = 0;
+  }
+}
+
+}  // namespace relievo

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// One eye's picture reduced for quick matching.
+#pragma once
+
+#include "app/stereo/view_picture.h"
+#include "hal/media/frame.h"
+
+namespace relievo {
+
+struct ViewSize {
+  int cols = 0, rows = 0;
+  bool operator==(const ViewSize&) const = default;
+};
+
+// As wide as `cols`, but no wider than the picture, and in the shape in which it is shown: a view that was squeezed to
+// half of its width has half as many rows.
+[[nodiscard]] ViewSize reducedSize(const Frame& view, int cols) noexcept;
+
+// The mean of up to 4 x 4 samples of each cell. `into` keeps its memory.
+void readSmall(const Frame& view, ViewSize size, ViewPicture& into);
+
+// The mean of the cells of a picture that is as large or larger.
+void reduce(const ViewPicture& view, ViewSize size, ViewPicture& into);
+
+}  // namespace relievo

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Brings disparities that are right to a pixel to a small part of one.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "app/stereo/disparity_map.h"
+#include "app/stereo/view_picture.h"
+
+namespace relievo {
+
+// Least squares on the brightness around each pixel (Lucas and Kanade 1981), along the row alone; then the mean of what
+// is near and on the same surface. Keeps its memory.
+class SubPixel {
+ public:
+  // The map is as large as the views. Pixels that were not seen, and those without texture, keep their disparity.
+  void refine(DisparityMap& map, const ViewPicture& left, const ViewPicture& right);
+
+ private:
+  void compare(const DisparityMap& map, int r);
+  void step(DisparityMap& map);
+  void smooth(DisparityMap& map, bool across);
+
+  std::vector<float> left_, right_;
+  std::vector<float> slopes_, misfits_;  // sums of squares of the slope, and of slope times misfit
+  std::vector<float> column_slopes_, column_misfits_;
+  std::vector<float> smoothed_;
+};
+
+}  // namespace relievo

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// Depth from two views, quickly: against the scene's exact disparity.
+#include "app/stereo/quick/quick_depth.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "tests/support/film/two_views.h"
+
+namespace relievo {
+namespace {
+
+using test::boards;
+using test::RightEye;
+using test::TwoViews;
+
+constexpr int kCols = 640, kRows = 360;
+
+double codeOf(const Frame& depth, int c, int r) {
+  return codeAt(depth.components[0], depth.planes[0].data + r * depth.planes[0].stride_bytes + std::ptrdiff_t{2} * c);
+}
+
+// Codes are linear in disparity over a range that the film does not tell: the line through all of them that fits best
+// gives pixels of disparity.
+struct Fit {
+  double scale = 0, offset = 0;
+  std::vector<double> errors;  // pixels
+
+  Fit(const Frame& depth, const TwoViews& scene) {
+    double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+    for (int r = 0; r < depth.height; ++r) {
+      for (int c = 0; c < depth.width; ++c) {
+        const double code = codeOf(depth, c, r), d = scene.disparity(c, r);
+        n += 1, x += code, y += d, xx += code * code, xy += code * d;
+      }
+    }
+    scale = (n * xy - x * y) / (n * xx - x * x);
+    offset = (y - scale * x) / n;
+    for (int r = 0; r < depth.height; ++r) {
+      for (int c = 0; c < depth.width; ++c)
+        errors.push_back(std::abs(offset + scale * codeOf(depth, c, r) - scene.disparity(c, r)));
+    }
+  }
+  [[nodiscard]] double median() {
+    std::ranges::nth_element(errors, errors.begin() + std::ssize(errors) / 2);
+    return errors[errors.size() / 2];
+  }
+  [[nodiscard]] double wrong() const {
+    const auto count = std::ranges::count_if(errors, [](double e) { return e > 2; });
+    return static_cast<double>(count) / static_cast<double>(errors.size());
+  }
+};
+
+Fit fitOf(int matched_cols, const RightEye& eye = {}) {
+  const TwoViews scene = boards(kCols, kRows);
+  QuickDepth quick;
+  quick.setMatchedCols(matched_cols);
+  Fit fit(quick.depthOf(scene.left(), scene.right(eye)), scene);
+  std::printf("matched at %d: median %.3f pixels, wrong by over 2 pixels %.2f %%\n", matched_cols, fit.median(),
+              100 * fit.wrong());
+  return fit;
+}
+
+TEST(QuickDepth, FindsTheBoardsAtEverySize) {
+  for (const int cols : QuickDepth::kMatchedCols) {
+    Fit fit = fitOf(cols);
+    EXPECT_GT(fit.scale, 0) << "near is high";
+    EXPECT_LT(fit.median(), 0.25) << cols;
+    EXPECT_LT(fit.wrong(), cols < 320 ? 0.06 : 0.04) << cols;
+  }
+}
+
+TEST(QuickDepth, IsAsGoodWithAnotherExposure) {
+  Fit fit = fitOf(320, {.gain = 0.7, .offset = 20});
+  EXPECT_LT(fit.median(), 0.25);
+  EXPECT_LT(fit.wrong(), 0.04);
+}
+
+// An outline is where the colours change, not where the small map has it: within a pixel of the picture.
+TEST(QuickDepth, StepsLieAtTheOutlines) {
+  const TwoViews scene = boards(kCols, kRows);
+  QuickDepth quick;
+  quick.setMatchedCols(320);
+  const Frame depth = quick.depthOf(scene.left(), scene.right());
+  const auto& board = scene.boards[2];
+  std::vector<double> away;
+  for (int r = static_cast<int>(board.top) + 20; r < static_cast<int>(board.bottom) - 20; ++r) {
+    const double middle = 0.5 * (codeOf(depth, static_cast<int>(board.left) - 30, r) +
+                                 codeOf(depth, static_cast<int>(board.left) + 30, r));
+    int c = static_cast<int>(board.left) - 30;
+    while (codeOf(depth, c, r) < middle) ++c;
+    away.push_back(std::abs(c - board.left));
+  }
+  std::ranges::nth_element(away, away.begin() + std::ssize(away) / 2);
+  EXPECT_LE(away[away.size() / 2], 1.5);
+}
+
+// What stands still keeps its code while something else comes nearer; a cut begins anew.
+TEST(QuickDepth, DoesNotBreatheWithinAShot) {
+  TwoViews scene = boards(kCols, kRows);
+  QuickDepth quick;
+  quick.setMatchedCols(320);
+  std::vector<double> means;
+  for (int k = 0; k < 4; ++k) {
+    scene.boards[2].disparity = 12 + 1.5 * k;
+    const Frame depth = quick.depthOf(scene.left(), scene.right());
+    double sum = 0;
+    for (int r = 10; r < 50; ++r) {
+      for (int c = 200; c < 300; ++c) sum += codeOf(depth, c, r) / (40 * 100);
+    }
+    means.push_back(sum);
+  }
+  const auto [least, most] = std::ranges::minmax(means);
+  EXPECT_LT(most - least, 65535 * 0.1 / 30) << "a tenth of a pixel over a range of some 30";
+}
+
+TEST(QuickDepth, ACutBeginsAnew) {
+  TwoViews scene = boards(kCols, kRows);
+  QuickDepth quick;
+  const Frame first = quick.depthOf(scene.left(), scene.right());
+  for (auto& board : scene.boards) board.disparity *= 2;
+  for (auto& board : scene.boards) board.color = {220, 220, 220};
+  scene.boards[0].color = {30, 30, 30};
+  const Frame second = quick.depthOf(scene.left(), scene.right());
+  Fit before(first, boards(kCols, kRows)), after(second, scene);
+  EXPECT_GT(after.scale, 1.5 * before.scale) << "twice the disparity fills the same depth";
+}
+
+TEST(QuickDepth, WithoutCommonThingsAShotIsFlatUntilTheyCome) {
+  const TwoViews scene = boards(kCols, kRows);
+  QuickDepth quick;
+  const Frame black = quick.depthOf(scene.left(), scene.right({.gain = 0}));
+  EXPECT_FALSE(quick.hasDepth());
+  EXPECT_EQ(codeOf(black, 10, 10), codeOf(black, 400, 200));
+  const Frame both = quick.depthOf(scene.left(), scene.right());
+  EXPECT_TRUE(quick.hasDepth());
+  EXPECT_GT(codeOf(both, 430, 170), codeOf(both, 10, 10) + 10000);
+}
+
+// A view that was squeezed to half of its width has depth in its own shape.
+TEST(QuickDepth, HasTheShapeInWhichTheViewIsShown) {
+  const TwoViews scene = boards(kCols, kRows);
+  Frame left = scene.left(), right = scene.right();
+  left.sample_aspect = right.sample_aspect = 2;
+  left.pts = mediaTime(1.5);
+  QuickDepth quick;
+  const Frame depth = quick.depthOf(left, right);
+  EXPECT_EQ(depth.width, 640);
+  EXPECT_EQ(depth.height, 180);
+  EXPECT_NEAR(depth.sample_aspect * depth.width / depth.height, 2.0 * kCols / kRows, 1e-9);
+  EXPECT_EQ(depth.pts, mediaTime(1.5));
+}
+
+}  // namespace
+}  // namespace relievo
