@@ -14,8 +14,8 @@ namespace {
 constexpr double kNodHz = 1;
 constexpr Duration kLongestToCarry(static_cast<Duration::rep>(1e9 / (std::numbers::pi * kNodHz)));
 
-// Two of a hundred frames may come later.
-constexpr std::size_t kOneInSoMany = 50;
+// Two of a hundred frames may come later; of a few, none.
+constexpr std::size_t kOneInSoMany = 50, kFew = 16;
 
 }  // namespace
 
@@ -64,7 +64,8 @@ Duration Arrivals::usualMost(std::size_t figures, Figure&& figure) const noexcep
   std::array<Duration, kCounted> sorted;
   for (std::size_t i = 0; i < figures; ++i) sorted[i] = figure(i);
   const auto end = sorted.begin() + static_cast<std::ptrdiff_t>(figures);
-  const auto place = end - 1 - static_cast<std::ptrdiff_t>(figures / kOneInSoMany);
+  const std::size_t outliers = figures < kFew ? 0 : std::max<std::size_t>(figures / kOneInSoMany, 1);
+  const auto place = end - 1 - static_cast<std::ptrdiff_t>(outliers);
   std::nth_element(sorted.begin(), place, end);
   return *place;
 }

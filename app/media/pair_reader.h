@@ -49,6 +49,7 @@ struct FramePair {
   bool matched = true;
   std::optional<MonotonicTime> taken;  // live films: when the colour was captured, or else received
   Frame right;                         // of a stereo film: the right eye's picture, `color` being the left one's
+  Duration delay{0};                   // live films: from being captured to being read
 };
 
 struct FilmInfo {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 
 #include "app/depth_window/surface_window.h"
 #include "hal/media/frame.h"
@@ -14,8 +15,9 @@ struct DepthAround {
   Frame present;  // of the picture on the screen; empty if it has none or touch is off
   std::array<Frame, SurfaceWindow::kAhead> ahead;
   std::size_t ahead_count = 0;
-  bool last = false;      // no picture follows those ahead
-  bool expected = false;  // the film has depth and touch is on: an empty `present` is a fault
+  std::optional<MediaTime> felt;  // live films: the moment that is felt, before the present picture's
+  bool last = false;              // no picture follows those ahead
+  bool expected = false;          // the film has depth and touch is on: an empty `present` is a fault
 };
 
 }  // namespace relievo

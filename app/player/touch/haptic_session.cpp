@@ -48,7 +48,7 @@ std::optional<DeviceKeeper::News> HapticSession::poll() {
   return news;
 }
 
-Result<void> HapticSession::setScene(const DisplayVolume& volume, const Material& material,
+Result<void> HapticSession::setScene(const DisplayVolume& volume, const Material& material, const LookAhead& ahead,
                                      const SurfaceWindow& first) {
   const SafetyLimits limits;
   HeldMaterial held = heldBy(material, kStiffnessNPerMm, capabilities_.max_stiffness_n_per_mm,
@@ -56,7 +56,7 @@ Result<void> HapticSession::setScene(const DisplayVolume& volume, const Material
   reduced_material_ = std::move(held.reduced);
   // What the hand feels is the mapping's scale times what the scene has.
   const double stiffness = held.stiffness_n_per_mm / WorkspaceMapping(capabilities_, volume).scale();
-  TouchPlan plan = planFilm(std::span(first.frames).first(static_cast<std::size_t>(first.count)));
+  TouchPlan plan = planFilm(std::span(first.frames).first(static_cast<std::size_t>(first.count)), ahead);
   plan_ = std::move(plan.reason);
   auto method = std::make_unique<RelievoMethod>(RelievoMethod::Config{.stiffness_n_per_mm = stiffness,
                                                                       .scale = plan.scale,
@@ -83,13 +83,14 @@ Result<void> HapticSession::setScene(const DisplayVolume& volume, const Material
   return {};
 }
 
-Result<void> HapticSession::start(const DisplayVolume& volume, const Material& material, const SurfaceFeeder& first) {
+Result<void> HapticSession::start(const DisplayVolume& volume, const Material& material, const LookAhead& ahead,
+                                  const SurfaceFeeder& first) {
   if (!waiting()) return fail(ErrorCode::InvalidState, "the haptic task needs a device that is homed and stopped");
   SurfaceWindow window;
   first.fill(window);
   if (!new_scene_) {
     task_->deviceIsBack();
-  } else if (auto set = setScene(volume, material, window); !set) {
+  } else if (auto set = setScene(volume, material, ahead, window); !set) {
     stop();  // not the device's doing: another try would fail as well
     return set;
   }
