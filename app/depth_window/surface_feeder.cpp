@@ -2,6 +2,7 @@
 // From the decoder's frames to those of the window.
 #include "app/depth_window/surface_feeder.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace relievo {
@@ -12,7 +13,8 @@ void SurfaceFeeder::beginEpoch() noexcept {
 }
 
 Result<bool> SurfaceFeeder::update(const Frame& present, std::span<const Frame> ahead, bool last,
-                                   const ClockSample& clock, const Materials& materials) {
+                                   const ClockSample& clock, const Materials& materials,
+                                   std::optional<MediaTime> felt) {
   bool changed = clock.media != clock_.media || clock.monotonic != clock_.monotonic || clock.rate != clock_.rate;
   clock_ = clock;
   if (present.empty()) {
@@ -21,7 +23,7 @@ Result<bool> SurfaceFeeder::update(const Frame& present, std::span<const Frame> 
     return changed;
   }
 
-  changed = frames_.moveTo(present.pts) || changed;
+  changed = frames_.moveTo(std::min(felt.value_or(present.pts), present.pts)) || changed;
   changed = changed || !frames_.contains(present.pts);
   auto added = add(present, materials.present);
   if (added && !*added) {
@@ -37,6 +39,12 @@ Result<bool> SurfaceFeeder::update(const Frame& present, std::span<const Frame> 
   changed = changed || frames_.frames().back().time != newest || ended != ended_;
   ended_ = ended;
   return changed;
+}
+
+bool SurfaceFeeder::hear(const Frame& depth) {
+  const auto held = frames_.frames();
+  if (held.empty() || depth.empty() || depth.pts <= held.back().time || frames_.full()) return false;
+  return add(depth, {}).value_or(false);
 }
 
 bool SurfaceFeeder::addAhead(std::span<const Frame> ahead, std::span<const Frame> materials) {
@@ -72,6 +80,7 @@ void SurfaceFeeder::fill(SurfaceWindow& window) const {
   window.epoch = epoch_;
   window.clock = clock_;
   window.ended = ended_;
+  window.carried = carried_;
 }
 
 std::optional<MediaTime> SurfaceFeeder::frameAt(MediaTime now) const noexcept {

@@ -39,8 +39,14 @@ class SurfaceFeeder {
   // none; `last`: nothing follows `ahead`. Without a present depth the window is empty, one of another size begins an
   // epoch. True when the frames or the clock are not those of the last call: then `fill` and publish. Fails for a depth
   // format that cannot be felt; the window is then empty.
+  // `felt`: the moment that is felt, where it lies before the present picture, as in a live film.
   [[nodiscard]] Result<bool> update(const Frame& present, std::span<const Frame> ahead, bool last,
-                                    const ClockSample& clock, const Materials& materials = {});
+                                    const ClockSample& clock, const Materials& materials = {},
+                                    std::optional<MediaTime> felt = {});
+  // The newest depth of a live film, before its picture is the present one. True when it went in: then publish.
+  [[nodiscard]] bool hear(const Frame& depth);
+  // How far the surface is carried forward in time. Before the first update.
+  void setCarried(Duration carried) noexcept { carried_ = carried; }
   // The whole window; what it held before is released.
   void fill(SurfaceWindow& window) const;
 
@@ -59,6 +65,7 @@ class SurfaceFeeder {
   std::uint32_t epoch_ = 0;
   ClockSample clock_;
   bool ended_ = false;
+  Duration carried_{0};
 };
 
 }  // namespace relievo

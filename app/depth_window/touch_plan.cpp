@@ -11,6 +11,7 @@
 
 #include "app/depth_window/flicker.h"
 #include "app/depth_window/lattice.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {
@@ -37,7 +38,7 @@ constexpr double kFineMm = 0.02;         // steps and noise imperceptible even w
 // Share of the noise power that the weights of the frames pass: the sum of the squared weights (frameWeights), averaged
 // over the time between two frames. For the cubic B-spline it is 151/315 = 0.479. For the fitted spline it is 0.670;
 // the charts were made with 0.75, which widens the smoothing by at most 6 %.
-constexpr double kBSplineNoise = 0.48, kFittedNoise = 0.75;
+constexpr double kBSplineNoise = 0.48, kFittedNoise = 0.75, kLinearNoise = 2.0 / 3;
 
 // The B-spline in time flattens a motion: where its acceleration is a and a frame lasts T, the surface is off by a
 // T^2/6, the spline's variance in time being T^2/3. A face that nods by 5 mm once a second has 200 mm/s^2. At 30 frames
@@ -155,13 +156,17 @@ bool needsMean(const ClipMeasure& m) {
          std::hypot(std::sqrt(kBSplineNoise) * m.flicker_mm, nod / 6);
 }
 
-double noiseThrough(TimeLaw law) {
+// Carried forward by u periods, Linear weights its frames with (1 + u) s, (1 - s)(1 + u) - s u and -(1 - s) u; the sum
+// of their squares, averaged over s, is 2/3 + u + u^2.
+double noiseThrough(TimeLaw law, double carried_periods) {
+  const double u = carried_periods;
+  if (law == TimeLaw::Linear) return kLinearNoise + u + u * u;
   return law == TimeLaw::Mean ? kMeanNoise : law == TimeLaw::BSpline ? kBSplineNoise : kFittedNoise;
 }
 
 }  // namespace
 
-TouchPlan planTouch(const ClipMeasure& m) {
+TouchPlan planTouch(const ClipMeasure& m, const LookAhead& ahead) {
   const bool noisy = m.noise_mm > std::max(m.quantum_mm, kFineMm);
   const bool fine = !noisy && m.quantum_mm < kFineMm;
   TouchPlan plan;
@@ -174,9 +179,12 @@ TouchPlan planTouch(const ClipMeasure& m) {
   const bool slow_frames = kNodMmPerS2 * m.period_s * m.period_s / 6 > m.quantum_mm / 2;
   s.wide_time = noisy || (!fine && !slow_frames) ? TimeLaw::BSpline : TimeLaw::Fitted;
   if (needsMean(m)) s.narrow_time = s.wide_time = TimeLaw::Mean;
+  s.narrow_time = lawWithin(s.narrow_time, ahead.frames);
+  s.wide_time = lawWithin(s.wide_time, ahead.frames);
+  const double carried = m.period_s > 0 ? toSeconds(ahead.carried) / m.period_s : 0;
 
   // Repeated frames carry the same noise, so averaging them does not reduce it.
-  const double through = std::sqrt(m.still ? 1.0 : noiseThrough(s.wide_time));
+  const double through = std::sqrt(m.still ? 1.0 : noiseThrough(s.wide_time, carried));
   // In a fine picture only about `read` x `read` samples of a block are read, w/(kSigmaPerPitch x read) apart, so that
   // a finer picture is no less noisy.
   const auto apart = [&](double w, int read) { return std::max(m.sample_mm, w / (kSigmaPerPitch * read)); };
@@ -214,7 +222,9 @@ TouchPlan planTouch(const ClipMeasure& m) {
                   m.flicker_mm);
   }
   if (plan.error >= kLeastErrorTold) std::snprintf(error, sizeof error, "about %.1f %%", 100 * plan.error);
-  plan.reason = std::string(depth) + ": " + describe(s) + "; expected force error " + error;
+  plan.reason = std::string(depth) + ": " + describe(s);
+  if (ahead.carried > Duration(0)) plan.reason += print(", carried forward by %.0f ms", 1e3 * toSeconds(ahead.carried));
+  plan.reason += std::string("; expected force error ") + error;
   return plan;
 }
 
@@ -227,8 +237,8 @@ std::string describe(const FeltScale& s) {
   return text;
 }
 
-TouchPlan planFilm(std::span<const TimedSurface> first_frames) {
-  return planTouch(measureClip(first_frames.first(std::min(first_frames.size(), kPlanFrames))));
+TouchPlan planFilm(std::span<const TimedSurface> first_frames, const LookAhead& ahead) {
+  return planTouch(measureClip(first_frames.first(std::min(first_frames.size(), kPlanFrames))), ahead);
 }
 
 }  // namespace relievo

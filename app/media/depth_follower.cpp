@@ -16,7 +16,7 @@ constexpr Duration kJitter = std::chrono::milliseconds(4);
 DepthFollower::DepthFollower(Supply supply) : supply_(std::move(supply)) {}
 
 Result<DepthFollower::Match> DepthFollower::at(MediaTime color) {
-  for (;;) {
+  while (!live_ || current_.empty() || color - current_.pts > tolerance()) {
     const auto there = fetch();
     if (!there) return std::unexpected(there.error());
     if (!*there || next_->pts > color + tolerance()) break;

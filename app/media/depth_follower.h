@@ -38,6 +38,9 @@ class DepthFollower {
   // `supply` returns the track's pictures in order.
   explicit DepthFollower(Supply supply);
 
+  // The depth of a live film: a picture of the colour's own time is the one, without a look at the next, which has yet
+  // to be taken.
+  void setLive(bool live) noexcept { live_ = live; }
   // The depth for this colour time. Times must not decrease from call to call.
   [[nodiscard]] Result<Match> at(MediaTime color);
   // The picture that `at` would examine next, without consuming it; null if there is none.
@@ -64,6 +67,7 @@ class DepthFollower {
   bool ended_ = false;
   bool asked_for_ = false;  // whether a colour picture has used `current_`
   bool catching_up_ = false;
+  bool live_ = false;
   std::uint64_t skipped_ = 0;
 };
 

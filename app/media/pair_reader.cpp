@@ -90,6 +90,7 @@ Result<FramePair> PairReader::Impl::pairFor(Frame color) {
 // An error in the depth ends the depth only; just an interruption is returned to the caller.
 Result<DepthFollower::Match> PairReader::Impl::depthAt(MediaTime time) {
   if (!depth || (!depth_track && !depth_source) || own.lost) return DepthFollower::Match{};
+  depth->setLive(live);
   auto match = depth->at(time);
   if (match && own.away) return DepthFollower::Match{};  // flat, rather than the shape of another moment
   if (match) return match;
@@ -198,6 +199,7 @@ Result<std::optional<FramePair>> PairReader::next() {
   impl_->goes_on_at = pair->color.pts + impl_->info.frame_period;
   if (impl_->live) {
     pair->taken = impl_->color_reader->source().arrival() + (pair->color.pts - impl_->color_shift).time_since_epoch();
+    if (impl_->backends.clock != nullptr) pair->delay = impl_->backends.clock->now() - *pair->taken;
   }
   ++impl_->counters.pairs;
   if (!pair->matched && impl_->key_step == Duration(0)) ++impl_->counters.mismatched;

@@ -53,6 +53,7 @@ struct FramePair {
   std::optional<MonotonicTime> taken;  // live films: when the colour was captured, or else received
   Frame right;                         // of a stereo film: the right eye's picture, `color` being the left one's
   Frame material;                      // of the film's material track; empty: none at this time
+  Duration delay{0};                   // live films: from being captured to being read
 };
 
 struct FilmInfo {

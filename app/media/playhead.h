@@ -31,6 +31,8 @@ class Playhead {
   std::size_t advance(MediaTime position, FilmFeed& feed);
   // Makes the first pair after a start or a seek the present one, whatever its time. Does nothing if there is none.
   void begin();
+  // Drops the first buffered pair, as of a live film whose oldest is too old.
+  void skip() { ahead_.pop_front(); }
   // Drops the buffered pairs; the present pair stays.
   void clear() {
     ahead_.clear();

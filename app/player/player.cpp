@@ -18,7 +18,7 @@ namespace {
 
 constexpr Duration kLongestWait = std::chrono::milliseconds(5);  // the most that a key waits
 constexpr Duration kIdleWait = std::chrono::milliseconds(20);    // without a film
-constexpr Duration kReaderWait = std::chrono::milliseconds(2);   // while the picture waits for the reader
+constexpr Duration kReaderWait = std::chrono::milliseconds(2);   // while the picture waits for the reader or a camera
 
 PairReader::Backends backendsOf(const PlayerParts& parts, bool own_threads) {
   PairReader::Backends backends = parts.backends;
@@ -68,9 +68,11 @@ Player::Player(PlayerConfig config, PlayerParts parts)
   if (config_.browser) browser_.emplace(*config_.browser, parts_.posters, config_.source, config_.own_threads);
   parts_.display.hearMouse([this](const SurfaceMouse& mouse) { return hearMouse(mouse); });
   journal_.stateChanged(state_);
+  film_.hearLive([this](const Frame& depth) { touch_.hear(depth); });
 }
 
 Player::~Player() {
+  film_.stop();  // its reader may be about to tell of depth
   touch_.stop();
   parts_.display.hearMouse({});
 }
@@ -157,7 +159,7 @@ void Player::step(MonotonicTime now) {
   while (auto subtitle = film_.takeSubtitle()) screen_.subtitles().add(std::move(*subtitle));
   film_.followSound(state_ == PlayerState::Playing);
   programme_.keep(film_.placeToKeep(now), now);
-  touch_.drain(seeks_);
+  touch_.drain(seeks_, state_ == PlayerState::Playing ? film_.liveTimes() : nullptr);
   followStatistics(now);
   screen_.write(facts(), film_.nextPicture(now), now);
   followBrowser(now);
@@ -175,7 +177,8 @@ void Player::tellStatus(MonotonicTime now) {
 // The next picture, but soon enough for keys.
 MonotonicTime Player::nextWake(MonotonicTime now) const {
   if (state_ == PlayerState::Idle || state_ == PlayerState::Browsing) return now + kIdleWait;
-  if (state_ == PlayerState::Playing) return std::min(film_.nextPicture(now), now + kLongestWait);
+  if (state_ == PlayerState::Playing)
+    return std::min(film_.nextPicture(now), now + (film_.isLive() ? kReaderWait : kLongestWait));
   return now + (state_ == PlayerState::Paused ? kLongestWait : kReaderWait);
 }
 
@@ -185,7 +188,7 @@ void Player::finish(MonotonicTime now) {
   loudness_.keep();
   if (parts_.status != nullptr) parts_.status->clear();
   if (parts_.control != nullptr) parts_.control->stopping();
-  touch_.drain(seeks_);
+  touch_.drain(seeks_, nullptr);
   leaveFilm(now);
   if (state_ != PlayerState::Fault) apply(PlayerEvent::Stop);
   ended_ = parts_.clock.now();

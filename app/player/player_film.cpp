@@ -121,6 +121,7 @@ void Player::begin(MonotonicTime now) {
         config_.volume.value_or(DisplayVolume::forPicture(shape.width, shape.height, shape.sample_aspect));
     const DepthCalibration& calibration = film_.info().calibration.calibration;
     touch_.setScene(calibration, volume, film_.info().material, film_.info().material_scale);
+    touch_.setLookAhead(film_.lookAhead());
     screen_.setScene(calibration, volume, film_.period(), now);
     announce(volume);
     if (journal_.written().films.size() == 1) {

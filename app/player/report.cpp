@@ -32,7 +32,10 @@ Json toJson(const LiveLatency::Times& t) {
 
 Json livePart(const std::optional<LiveLatency>& live) {
   if (!live) return nullptr;
-  return {{"picture_latency_ms", toJson(live->picture)}, {"touch_latency_ms", toJson(live->touch)}};
+  return {{"picture_latency_ms", toJson(live->picture)},
+          {"touch_latency_ms", live->touch ? toJson(*live->touch) : Json()},
+          {"touch_before_picture_ms", toJson(live->before)},
+          {"touch_behind_picture_ms", toJson(live->behind)}};
 }
 
 double share(std::uint64_t part, std::uint64_t whole) {
@@ -203,11 +206,14 @@ std::string filmText(const PlayReport& r) {
 }
 
 std::string liveText(const PlayReport& r) {
-  return print(
-      "live    seen %.0f ms after it was taken, felt after %.0f ms (medians; at most %.0f and %.0f); %llu pictures "
-      "lost on the way\n",
-      r.live->picture.p50_ms, r.live->touch.p50_ms, r.live->picture.max_ms, r.live->touch.max_ms,
-      static_cast<unsigned long long>(r.pairs.missed_pictures));
+  const LiveLatency& live = *r.live;
+  std::string text =
+      print("live    seen %.0f ms after it was taken (p99 %.0f)", live.picture.p50_ms, live.picture.p99_ms);
+  if (live.touch) {
+    text += print(", felt after %.0f ms (p99 %.0f); touch at most %.0f ms before the picture, %.0f behind (p99)",
+                  live.touch->p50_ms, live.touch->p99_ms, live.before.p99_ms, live.behind.p99_ms);
+  }
+  return text + print("; %llu pictures lost on the way\n", static_cast<unsigned long long>(r.pairs.missed_pictures));
 }
 
 std::string pictureFigures(const PlayReport& r) {

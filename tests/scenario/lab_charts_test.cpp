@@ -225,6 +225,33 @@ TEST_F(LabCharts, HoldingTheFramePeaksAtTheFrameRateFarOverInterpolation) {
   EXPECT_NEAR(value("modified-proxy-graph", "fixed point", "15", "added_latency_ms"), 1000.0 / 15, 0.01);
 }
 
+// Waiting for L frames makes the surface L periods older, and up to 12 ms for a frame that comes late; what is carried
+// forward by a period is that much younger.
+TEST_F(LabCharts, ALiveSurfaceIsAsOldAsItWaitsAndNoOlderThanFiftyMilliseconds) {
+  const Csv csv(out("latency.csv"));
+  const auto value = [&](const char* rate, const char* depth, const char* surface, const char* column) {
+    return csv.value({{"frames_per_s", rate}, {"depth", depth}, {"surface", surface}}, column);
+  };
+  for (const char* rate : {"30", "60"}) {
+    const double period = 1000 / std::strtod(rate, nullptr);
+    for (const int frames : {1, 2, 3}) {
+      const double age = value(rate, "16-bit", (std::to_string(frames) + " ahead").c_str(), "age_median_ms");
+      EXPECT_GT(age, frames * period + 8) << rate << frames;
+      EXPECT_LT(age, frames * period + 15) << rate << frames;
+    }
+    EXPECT_NEAR(value(rate, "16-bit", "carried", "age_median_ms"),
+                value(rate, "16-bit", "1 ahead", "age_median_ms") - period, 1);
+  }
+  for (const char* rate : {"15", "30", "60"}) {
+    for (const char* depth : {"16-bit", "8-bit", "noise 1 %"}) {
+      EXPECT_LE(value(rate, depth, "chosen", "age_p99_ms"), 50.5) << rate << depth;
+      EXPECT_LT(value(rate, depth, "chosen", "own_rms_percent"), value(rate, depth, "hold", "own_rms_percent"));
+    }
+  }
+  EXPECT_GE(value("30", "16-bit", "chosen", "under_hold_db"), 30);
+  EXPECT_GE(value("30", "8-bit", "chosen", "under_hold_db"), 20);
+}
+
 TEST_F(LabCharts, AnEdgeIsWithinAMillimetreAndLetsGoBeyondIt) {
   const Csv csv(out("edges.csv"));
   const auto value = [&](const char* method, const char* depth, const char* speed, const char* deep,
@@ -362,7 +389,7 @@ TEST_F(LabCharts, ThePageHoldsEveryChartWithItsWordsAndItsFigures) {
         << name << ": the page prints the reading as text already";
     EXPECT_TRUE(std::filesystem::exists(out(name + ".csv"))) << name;
   }
-  EXPECT_EQ(charts, withoutEgl(result_) ? 16 : 17);
+  EXPECT_EQ(charts, withoutEgl(result_) ? 17 : 18);
   EXPECT_EQ(page.find("nan"), std::string::npos);
 }
 
@@ -393,7 +420,7 @@ TEST(LabChartsWords, WrongUseAndAFolderThatCannotBeMadeAreOneLineEach) {
   const test::TemporaryFolder folder;
   std::ofstream(folder / "file") << "in the way";
   for (const char* command :
-       {"speed-accuracy", "widths", "edges", "smoothness", "stability", "detail", "bitrate", "report"}) {
+       {"speed-accuracy", "widths", "edges", "smoothness", "latency", "stability", "detail", "bitrate", "report"}) {
     const auto without = test::runProgram(std::string("relievo-lab ") + command, folder / ".");
     EXPECT_EQ(without.exit_code, 2) << command;
     EXPECT_NE(without.err.find("--out"), std::string::npos) << without.err;

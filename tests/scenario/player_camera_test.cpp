@@ -23,6 +23,8 @@ using test::UmockdevCamera;
 // A ball of 250 mm before a wall 1.4 m away, going to and fro.
 test::CameraKind ballCamera() {
   test::CameraKind kind{.formats = {V4L2_PIX_FMT_Z16}, .width = 160, .height = 120, .paced = true};
+  // 5 ms of jitter either way, in no order.
+  kind.delay = [](std::uint32_t number) { return std::chrono::milliseconds(number * 7 % 11); };
   kind.sample = [](std::uint32_t number, int c, int r) {
     const double x = 4 * (c - 80) - 60 * std::sin(number / 20.0), y = 4 * (r - 60), square = 250 * 250 - x * x - y * y;
     return static_cast<std::uint16_t>(1400 - (square > 0 ? std::sqrt(square) : 0));
@@ -53,8 +55,11 @@ TEST_F(PlayerOnACamera, TheLivePictureIsTouchedAndItsLatencyIsTold) {
   EXPECT_GT(r["haptic"]["contact_share"].get<double>(), 0);
   EXPECT_GT(r["force"]["max_n"].get<double>(), 0.1);
   const auto& live = r["live"];
-  EXPECT_GT(live["touch_latency_ms"]["p50"].get<double>(), 0);
-  EXPECT_LE(live["touch_latency_ms"]["p50"].get<double>(), live["picture_latency_ms"]["p50"].get<double>());
+  RecordProperty("live", live.dump());
+  EXPECT_GT(live["touch_latency_ms"]["p50"].get<double>(), 33) << "one frame ahead";
+  EXPECT_GT(live["picture_latency_ms"]["p50"].get<double>(), 0);
+  EXPECT_GE(live["touch_behind_picture_ms"]["p99"].get<double>(), 0);
+  EXPECT_NE(r["haptic"]["plan"].get<std::string>().find("linear in time"), std::string::npos) << r["haptic"]["plan"];
   // One that is lost behind the last that came is told by nothing; camera_v4l2_test counts them one by one.
   EXPECT_LE(r["video"]["pictures_lost"].get<std::uint32_t>(), camera.starved());
   EXPECT_EQ(camera.unknownRequests(), 0);

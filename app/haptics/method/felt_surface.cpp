@@ -49,6 +49,7 @@ RELIEVO_TICK_CODE bool FeltSurface::moveTo(const SurfaceWindow& window, MediaTim
   }
   placeFrames(window);
   slots_.window = &window;
+  now -= window.carried;
   const FrameMoment moment(window, now);
   present_ = static_cast<std::size_t>(moment.present);
   next_ = static_cast<std::size_t>(std::min(moment.present + 1, moment.last));
@@ -202,6 +203,7 @@ RELIEVO_TICK_CODE FeltSurface::Weighed FeltSurface::weighedAt(const SurfaceWindo
 
 void FeltSurface::prepare(const SurfaceWindow& window, MediaTime next, double x_mm, double y_mm) RELIEVO_RT {
   constexpr Duration kStep = kPreparedWithin;
+  next -= window.carried;
   const FrameMoment moment(window, next), later(window, next + kStep);
   prepared_ = true;
   prepared_for_ = next;

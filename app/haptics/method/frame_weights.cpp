@@ -83,4 +83,22 @@ FrameWeights frameWeights(const FrameMoment& moment, TimeLaw law) RELIEVO_RT {
   return weight;
 }
 
+FrameWeights carriedWeights(const SurfaceWindow& window, const FrameMoment& moment, TimeLaw law,
+                            Duration carried) RELIEVO_RT {
+  FrameWeights weight = frameWeights(moment, law);
+  if (moment.present < 0) return weight;
+  // The slope from frame i - 1 to frame i, times `share` of the duration.
+  const auto go = [&](int i, double share) RELIEVO_RT {
+    if (i - 1 < moment.first || i > moment.last) return;
+    const auto at = static_cast<std::size_t>(i);
+    const Duration period = window.frames[at].time - window.frames[at - 1].time;
+    const auto periods = static_cast<float>(share * toSeconds(carried) / toSeconds(period));
+    weight[at] += periods;
+    weight[at - 1] -= periods;
+  };
+  go(moment.present, 1 - moment.share);
+  go(moment.present + 1, moment.share);
+  return weight;
+}
+
 }  // namespace relievo

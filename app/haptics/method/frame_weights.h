@@ -26,6 +26,11 @@ struct FrameMoment {
 // last frame of a shot are held.
 using FrameWeights = std::array<float, SurfaceWindow::kCapacity>;
 [[nodiscard]] FrameWeights frameWeights(const FrameMoment& moment, TimeLaw law) RELIEVO_RT;
+// A surface carried forward in time: where it is, and where it will be a duration `carried` later if it goes on as it
+// goes, S + carried dS/dt. Both sum to 1. The rate is that of the two periods around the moment, interpolated between
+// them, so that it is continuous and needs no frame beyond those of Linear.
+[[nodiscard]] FrameWeights carriedWeights(const SurfaceWindow& window, const FrameMoment& moment, TimeLaw law,
+                                          Duration carried) RELIEVO_RT;
 // How many frames after the present one have a weight, at most.
 [[nodiscard]] constexpr int framesAhead(TimeLaw law) RELIEVO_RT {
   return law == TimeLaw::Mean ? 3 : static_cast<int>(law);  // hold 0, linear 1, bspline 2, fitted 3

@@ -28,6 +28,8 @@ constexpr std::array<Float4, 4> kCubic{Float4{1.F / 6, 4.F / 6, 1.F / 6, 0}, Flo
 constexpr std::array<Float4, 4> kQuadratic{Float4{0.125F, 0.75F, 0.125F, 0}, Float4{-0.5F, 0, 0.5F, 0},
                                            Float4{0.5F, -1, 0.5F, 0}, Float4{0, 0, 0, 0}};
 
+constexpr float kMostCarriedMm = 2;
+
 }  // namespace
 
 SurfaceLevel::SurfaceLevel(double sigma_mm, int most_samples, SpaceLaw space, TimeLaw time, Curvature curvature,
@@ -43,7 +45,11 @@ SurfaceLevel::SurfaceLevel(double sigma_mm, int most_samples, SpaceLaw space, Ti
 
 void SurfaceLevel::weigh(const FrameSlots& slots, const FrameMoment& moment,
                          ControlGrid::Frames& frames) const RELIEVO_RT {
-  const FrameWeights weights = frameWeights(moment, time_);
+  place(slots, frameWeights(moment, time_), frames);
+}
+
+void SurfaceLevel::place(const FrameSlots& slots, const FrameWeights& weights,
+                         ControlGrid::Frames& frames) const RELIEVO_RT {
   frames.window = slots.window;
   frames.frame_of_slot = slots.frame;
   frames.weight.fill(0);
@@ -52,6 +58,25 @@ void SurfaceLevel::weigh(const FrameSlots& slots, const FrameMoment& moment,
     if (weights[f] == 0) continue;
     frames.weight[slots.of_frame[f]] += weights[f];
     frames.wanted |= 1U << slots.of_frame[f];
+  }
+}
+
+// An edge that passes a point is no motion of the surface there, and to carry it on would throw it beyond both sides of
+// the edge: a way over kMostCarriedMm counts less, and one twice as long not at all.
+RELIEVO_TICK_CODE void SurfaceLevel::blend(const FrameSlots& slots, const FrameMoment& moment, const Cell& cell,
+                                           Patch& out) RELIEVO_RT {
+  grid_.patch(cell.i, cell.j, frames_, out);
+  const Duration carried = slots.window->carried;
+  if (carried == Duration(0)) return;
+  ControlGrid::Frames frames;
+  place(slots, carriedWeights(*slots.window, moment, time_, carried), frames);
+  Patch there;
+  grid_.patch(cell.i, cell.j, frames, there);
+  for (std::size_t j = 0; j < 4; ++j) {
+    for (int i = 0; i < 4; ++i) {
+      const float way = there[j][i] - out[j][i], size = std::abs(way);
+      out[j][i] += std::copysign(std::max(std::min(size, 2 * kMostCarriedMm - size), 0.F), way);
+    }
   }
 }
 
@@ -80,7 +105,7 @@ RELIEVO_TICK_CODE const Patch& SurfaceLevel::patchAt(const Cell& cell) RELIEVO_R
   } else {
     if (!weighed_) weigh(*slots_, moment_, frames_);
     weighed_ = true;
-    grid_.patch(cell.i, cell.j, frames_, patch_.points);
+    blend(*slots_, moment_, cell, patch_.points);
     if (tells_straight_) readStraightness(cell, straight_);
   }
   patch_.i = cell.i;
@@ -163,9 +188,9 @@ void SurfaceLevel::prepare(const FrameSlots& slots, double x_mm, double y_mm, co
   prepared_i_ = cell.i;
   prepared_j_ = cell.j;
   weigh(slots, later, frames_);
-  grid_.patch(cell.i, cell.j, frames_, prepared_rate_);
+  blend(slots, later, cell, prepared_rate_);
   weigh(slots, next, frames_);
-  grid_.patch(cell.i, cell.j, frames_, prepared_);
+  blend(slots, next, cell, prepared_);
   if (tells_straight_) readStraightness(cell, prepared_straight_);
   // A point where a hole opens or closes in between jumps and has no rate.
   const float pit = grid_.pitMm();

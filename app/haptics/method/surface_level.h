@@ -87,7 +87,10 @@ class SurfaceLevel {
   [[nodiscard]] const Patch& patchAt(const Cell& cell) RELIEVO_RT;
   void readStraightness(const Cell& cell, StraightPatch& out) const RELIEVO_RT;
   [[nodiscard]] SurfacePoint pointOn(const Patch& patch, const Cell& cell) const RELIEVO_RT;
+  void place(const FrameSlots& slots, const FrameWeights& weights, ControlGrid::Frames& frames) const RELIEVO_RT;
   void weigh(const FrameSlots& slots, const FrameMoment& moment, ControlGrid::Frames& frames) const RELIEVO_RT;
+  // The points weighted by `frames_`, which are weighted for `moment`; carried forward if the window says so.
+  void blend(const FrameSlots& slots, const FrameMoment& moment, const Cell& cell, Patch& out) RELIEVO_RT;
 
   ControlGrid grid_;
   TimeLaw time_;

@@ -13,6 +13,7 @@ namespace relievo {
 struct FingerState {
   MonotonicTime time;
   MediaTime media_time;
+  MediaTime surface_time;   // of the surface that was felt: earlier where the frames for `media_time` have not come
   glm::dvec3 device_mm{0};  // device frame
   glm::dvec3 hip_mm{0};     // scene frame
   glm::dvec3 proxy_mm{0};   // scene frame

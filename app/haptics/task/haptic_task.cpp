@@ -90,7 +90,11 @@ LoopControl HapticTask::loop(const Cycle& cycle) RELIEVO_RT {
   state.buttons = sample->buttons;
   const WorkspaceMapping::Finger finger = mapping_.follow(*sample);
   state.hip_mm = finger.hip_mm;
-  state.media_time = window.clock.at(cycle.woken);
+  state.media_time = state.surface_time = window.clock.at(cycle.woken);
+  if (window.count > 0) {
+    const MediaTime newest = window.frames[static_cast<std::size_t>(window.count - 1)].time + window.carried;
+    state.surface_time = std::min(state.surface_time, newest);
+  }
   const Touch touch = method_->update(state.hip_mm, window, state.media_time);
   noteFeed(isStale(window, state.media_time), cycle.woken);
   const double elapsed = primed_ ? toSeconds(cycle.woken - last_woken_) : 0.0;

@@ -30,19 +30,24 @@ struct Hold {
 
 std::vector<PlayedTick> holdFinger(const TrueSurface& face, const MemoryFilm& film, TouchMethod& method,
                                    FingerHold hold, const HoldPlan& plan) {
+  FilmRun run(film, method);
+  return holdFinger(face, [&run](const HipTick& hip) { return run.tick(hip); }, hold, plan);
+}
+
+std::vector<PlayedTick> holdFinger(const TrueSurface& face, const std::function<PlayedTick(const HipTick&)>& answer,
+                                   FingerHold hold, const HoldPlan& plan) {
   const SurfaceJet rest = face.jet(kCheek.x, kCheek.y, 0);
   const Hold target{.place_mm = {kCheek, rest.z},
                     .normal = glm::normalize(glm::dvec3(-rest.zx, -rest.zy, 1)),
                     .depth_mm = hold == FingerHold::FixedPoint ? 5.0 : 8.0};
   RestingHand hand{.position_mm = target.at(0)};
   Oracle oracle(face);
-  FilmRun run(film, method);
   std::vector<PlayedTick> measured;
   const auto ticks = std::lround((HoldPlan::kSettleS + plan.measured_s) / kTickS);
   for (long i = 0; i < ticks; ++i) {
     const double since = static_cast<double>(i) * kTickS, t = plan.from_s + since;
     const glm::dvec3 hip = hold == FingerHold::FixedPoint ? target.at(since) : hand.position_mm;
-    PlayedTick tick = run.tick({t, hip});
+    PlayedTick tick = answer({t, hip});
     tick.truth = oracle.update(hip, t);
     hand.move(target.at(since), tick.touch.force_n, kTickS);
     if (since >= HoldPlan::kSettleS - kTickS / 2) measured.push_back(tick);

@@ -2,6 +2,7 @@
 // A finger that is held on a moving face, as in the paper's section VI: the force that it feels, tick by tick.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,10 @@ struct HoldPlan {
 
 // On `face-nodding`, on the cheek. The ticks of the measured time, with the oracle's answer for the same finger.
 [[nodiscard]] std::vector<PlayedTick> holdFinger(const TrueSurface& face, const MemoryFilm& film, TouchMethod& method,
+                                                 FingerHold hold, const HoldPlan& plan);
+// The same, of whatever answers to the finger. It is asked for the ticks before the measured time as well.
+[[nodiscard]] std::vector<PlayedTick> holdFinger(const TrueSurface& face,
+                                                 const std::function<PlayedTick(const HipTick&)>& answer,
                                                  FingerHold hold, const HoldPlan& plan);
 
 }  // namespace relievo

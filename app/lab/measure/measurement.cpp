@@ -8,6 +8,7 @@
 #include "app/lab/measure/bitrate.h"
 #include "app/lab/measure/edges.h"
 #include "app/lab/measure/enhance.h"
+#include "app/lab/measure/latency.h"
 #include "app/lab/measure/smoothness.h"
 #include "app/lab/measure/speed_accuracy.h"
 #include "app/lab/measure/widths.h"
@@ -30,6 +31,7 @@ constexpr std::array kSmoothnessCharts{
     ChartEntry{"smoothness-hand", "lower"},
     ChartEntry{"smoothness-peaks", "lower right"},
 };
+constexpr std::array kLatencyCharts{ChartEntry{"latency", "to the left; lower for the errors, higher for the tremor"}};
 constexpr std::array kStabilityCharts{
     ChartEntry{"stability", "a row without a failure"},
     ChartEntry{"guard-sensitivity", "a row without a failure"},
@@ -49,6 +51,8 @@ constexpr std::array kMeasurements{
                 measureEdges},
     Measurement{"smoothness", "spectrum of the force on a moving face, and its peak at the frame rate",
                 kSmoothnessCharts, measureSmoothness},
+    Measurement{"latency", "age of a live film's felt surface against the error of the force and the tremor",
+                kLatencyCharts, measureLatency},
     Measurement{"stability",
                 "every method in scenarios where methods fail, and the stiffness at which closed loops oscillate",
                 kStabilityCharts, measureStability},

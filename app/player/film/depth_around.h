@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 
 #include "app/depth_window/surface_window.h"
 #include "hal/media/frame.h"
@@ -16,8 +17,9 @@ struct DepthAround {
   std::size_t ahead_count = 0;
   Frame material;  // of the same pictures; empty where there is none
   std::array<Frame, SurfaceWindow::kAhead> material_ahead;
-  bool last = false;      // no picture follows those ahead
-  bool expected = false;  // the film has depth and touch is on: an empty `present` is a fault
+  std::optional<MediaTime> felt;  // live films: the moment that is felt, before the present picture's
+  bool last = false;              // no picture follows those ahead
+  bool expected = false;          // the film has depth and touch is on: an empty `present` is a fault
 };
 
 }  // namespace relievo

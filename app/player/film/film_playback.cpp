@@ -17,6 +17,8 @@ constexpr std::size_t kQueuedPairs = 4;  // beyond those that the playhead holds
 constexpr Duration kUnknownPeriod = std::chrono::milliseconds(40);
 constexpr Duration kSoundFirst = std::chrono::milliseconds(300);  // that must be buffered when the film starts
 constexpr Duration kStillStands = std::chrono::seconds(5);
+constexpr Duration kLivePatience = std::chrono::milliseconds(100);  // a live picture is dry as soon as it is shown
+constexpr Duration kOutOfPace = std::chrono::milliseconds(250);     // a live film that is so far off jumps
 constexpr double kRushStepS = 0.1;  // of the machine's time, between two pictures at a rate over 1
 
 }  // namespace
@@ -63,6 +65,8 @@ void FilmPlayback::close(MonotonicTime now) {
   reliefs_.end();
   sound_.forget();
   info_ = {};
+  pace_.forget();
+  as_it_comes_ = false;
   held_ = begun_ = starved_ = false;
   jumped_ = true;
   target_.reset();
@@ -116,11 +120,29 @@ FilmPlayback::Progress FilmPlayback::overOrFailed() const {
 FilmPlayback::Progress FilmPlayback::filling() {
   head_.refill(feed_);
   followReliefs();
+  const bool taken = !head_.ahead().empty() && head_.ahead().front().taken;
+  if (taken && info_.sound_codec.empty() && rate_ == 1) return fillingLive();
   if (!head_.filled() && !head_.last()) return Progress::Goes;
   if (head_.ahead().empty()) return overOrFailed();
   if (!hasReliefs()) return Progress::Goes;
   const bool sounds = rate_ != 1 || feed_.hasSoundUntil(head_.ahead().front().color.pts + kSoundFirst);
   return sounds ? Progress::Ready : Progress::Goes;
+}
+
+void FilmPlayback::hearOfAhead() noexcept {
+  for (const FramePair& pair : head_.ahead()) pace_.hear(pair);
+}
+
+// The last few pictures are kept for the plan; the film goes on with the newest of them.
+FilmPlayback::Progress FilmPlayback::fillingLive() {
+  for (hearOfAhead(); head_.filled() && !pace_.settled(); hearOfAhead()) {
+    head_.skip();
+    head_.refill(feed_);
+  }
+  if (head_.last()) return head_.ahead().empty() ? overOrFailed() : Progress::Ready;
+  if (!head_.filled()) return Progress::Goes;
+  as_it_comes_ = pace_.choose();
+  return Progress::Ready;
 }
 
 bool FilmPlayback::takeFirst() {
@@ -133,17 +155,43 @@ Result<void> FilmPlayback::start(MonotonicTime now) {
   starved_ = false;
   target_.reset();
   clock_.reset();
-  clock_.start(first, now);
+  clock_.start(isLive() ? pace_.wanted(now) : first, now);
+  live_.begin(pace_.origin(), now);
   if (held_) return clock_.pause(now);
   played_.begin(first);
   return {};
 }
 
 std::size_t FilmPlayback::advance(MonotonicTime now) {
+  if (isLive()) return advanceLive(now);
   followReliefs();
   const std::size_t pictures = head_.advance(clock_.position(now).value_or(MediaTime{}), feed_);
   if (pictures > 0) reliefs_.passed(picture().color.pts);
   return pictures;
+}
+
+std::size_t FilmPlayback::advanceLive(MonotonicTime now) {
+  if (held_) return 0;
+  head_.refill(feed_);
+  hearOfAhead();
+  const MediaTime felt = clock_.position(now).value_or(MediaTime{});
+  const std::size_t pictures = head_.advance(felt + kMostBehind, feed_);
+  followLive(pictures > 0, now);
+  return pictures;
+}
+
+// Once a picture, for every change of the clock is published.
+void FilmPlayback::followLive(bool picture, MonotonicTime now) {
+  const auto felt = clock_.position(now);
+  if (!felt) return;
+  const Duration behind = pace_.wanted(now) - *felt;
+  if (std::chrono::abs(behind) > kOutOfPace) {
+    clock_.start(pace_.wanted(now), now);
+    live_.begin(pace_.origin(), now);
+  }
+  if (!picture) return;
+  dry_since_.reset();
+  static_cast<void>(clock_.setRate(rateToGain(behind), now));  // the clock accepts all rates of this size
 }
 
 // A pair that is less than a period late is shown late; after that the film waits for the reader. The delay counts from
@@ -160,7 +208,8 @@ FilmPlayback::Progress FilmPlayback::going(MonotonicTime now) {
     return shown && !sounds ? overOrFailed() : Progress::Goes;
   }
   if (!dry_since_) dry_since_ = now;
-  if (now < *dry_since_ + 2 * period()) return Progress::Goes;
+  const Duration patience = isLive() ? 4 * period() + kLivePatience : 2 * period();
+  if (now < *dry_since_ + patience) return Progress::Goes;
   dry_since_.reset();
   starved_ = true;
   countPlayed(now);
@@ -225,13 +274,15 @@ void FilmPlayback::followSound(bool playing) {
   if (const auto news = sound_.takeNews()) journal_.note(news->what, news->done);
 }
 
-// The surface under the finger is interpolated to the clock's time, between this picture and the next.
+// The surface under the finger is that of the clock's time.
 void FilmPlayback::noteShown() {
   sound_.noteShown(picture().color.pts, clock_);
-  if (!picture().taken) return;
   const MonotonicTime now = clock_source_.now();
-  const Duration since_shown = clock_.position(now).value_or(picture().color.pts) - picture().color.pts;
-  live_.add(now - *picture().taken, now - (*picture().taken + since_shown));
+  const auto felt = clock_.position(now);
+  if (!picture().taken || !felt) return;  // the film's first picture is shown before its clock runs
+  const Duration age = now - *picture().taken;
+  live_.shown(age, age - (*felt - picture().color.pts));
+  if (isLive()) pace_.shown(age);
 }
 
 DepthAround FilmPlayback::depth() const {
@@ -248,6 +299,7 @@ DepthAround FilmPlayback::depth() const {
     around.ahead[i] = head_.ahead()[i].depth;
     around.material_ahead[i] = head_.ahead()[i].material;
   }
+  if (isLive()) around.felt = clock_.position(clock_source_.now());
   around.last = head_.last() && around.ahead_count == head_.ahead().size();
   return around;
 }
@@ -255,8 +307,9 @@ DepthAround FilmPlayback::depth() const {
 MonotonicTime FilmPlayback::nextPicture(MonotonicTime now) const {
   const auto sample = clock_.sample();
   if (!sample || sample->rate <= 0) return MonotonicTime::max();
+  if (isLive() && head_.ahead().empty()) return std::max(pace_.next(), now);
   if (head_.ahead().empty()) return now + period();
-  return sample->when(head_.ahead().front().color.pts);
+  return sample->when(head_.ahead().front().color.pts - (isLive() ? kMostBehind : Duration(0)));
 }
 
 // While the picture has stopped for lack of the next one, the clock runs on, so that the force fades.

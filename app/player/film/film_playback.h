@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "app/media/film_feed.h"
 #include "app/media/playhead.h"
 #include "app/player/film/depth_around.h"
+#include "app/player/film/live_pace.h"
 #include "app/player/film/live_times.h"
 #include "app/player/film/played_time.h"
 #include "app/player/film/sound.h"
@@ -33,6 +35,8 @@ class FilmPlayback {
   // `output` may be null. If `backends` has no threads of its own, call `read` to do the reader's work.
   FilmPlayback(PairReader::Backends backends, AudioOutput* output, const Clock& clock, Journal& journal);
 
+  // Who hears of the depth of a live film as soon as it has been read; on the reader's thread. Before `begin`.
+  void hearLive(std::function<void(const Frame&)> hear) { feed_.hearLive(std::move(hear)); }
   void begin();
   // Without a reader thread: reads everything that is wanted now.
   void read();
@@ -133,6 +137,14 @@ class FilmPlayback {
   [[nodiscard]] PairCounters pairs() const;
   [[nodiscard]] Duration played() const noexcept { return played_.total(); }
   [[nodiscard]] std::optional<LiveLatency> live() const { return live_.summary(); }
+  // A camera's picture, or another live film without sound: pictures are shown as they come, and the clock is that of
+  // touch, as far behind as its look-ahead asks for (LivePace). With sound, or sent ahead of its time, it is
+  // played like any other.
+  [[nodiscard]] bool isLive() const noexcept { return as_it_comes_ && rate_ == 1; }
+  // How long the surface waits for frames; chosen when the first picture is taken.
+  [[nodiscard]] LookAhead lookAhead() const noexcept { return isLive() ? pace_.lookAhead() : LookAhead{}; }
+  // For the ticks of a live film; null if it is held, or another.
+  [[nodiscard]] LiveTimes* liveTimes() noexcept { return isLive() && !held_ ? &live_ : nullptr; }
   [[nodiscard]] SoundSummary sound() const { return sound_.summary(); }
   [[nodiscard]] ReliefSummary reliefs() const { return reliefs_.summary(); }
 
@@ -144,6 +156,10 @@ class FilmPlayback {
   void followReliefs();
   [[nodiscard]] bool hasReliefs() const;
   void gatherReliefs(DepthAround& around) const;
+  [[nodiscard]] Progress fillingLive();
+  void hearOfAhead() noexcept;
+  [[nodiscard]] std::size_t advanceLive(MonotonicTime now);
+  void followLive(bool picture, MonotonicTime now);
 
   const Clock& clock_source_;
   Journal& journal_;
@@ -167,6 +183,8 @@ class FilmPlayback {
   PairCounters pairs_before_;  // of earlier films
   PlayedTime played_;
   LiveTimes live_;
+  LivePace pace_;
+  bool as_it_comes_ = false;  // LivePace::choose
 };
 
 }  // namespace relievo

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the delay of a live film from camera to screen and finger. Pure.
+// Measures the delay of a live film from camera to screen and finger, and how far the two are apart. Pure.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
+#include "hal/media/media_time.h"
 #include "platform/clock.h"
 #include "platform/histogram.h"
 
@@ -12,20 +14,36 @@ namespace relievo {
 struct LiveLatency {
   struct Times {
     double p50_ms = 0, p99_ms = 0, max_ms = 0;
-  } picture, touch;
+  };
+  Times picture;               // a picture's age as it comes onto the screen
+  std::optional<Times> touch;  // the surface's age, in every tick; nothing without touch
+  // As a picture comes onto the screen: how much newer the surface is, and how much older.
+  Times before, behind;
 };
 
 class LiveTimes {
  public:
-  // The age of a picture when it came onto the screen, and of the surface under the finger then.
-  void add(Duration picture, Duration touch) noexcept {
+  // The film plays from now on; media time 0 was taken at `origin`. Ticks before that do not count.
+  void begin(MonotonicTime origin, MonotonicTime now) noexcept {
+    origin_ = origin;
+    begun_ = now;
+  }
+  // A picture has come onto the screen at this age, when the surface under the finger had that one.
+  void shown(Duration picture, Duration surface) noexcept {
     picture_.add(picture);
-    touch_.add(touch);
+    before_.add(std::max(picture - surface, Duration(0)));
+    behind_.add(std::max(surface - picture, Duration(0)));
+  }
+  // A tick has felt the surface of this moment of the film.
+  void felt(MonotonicTime tick, MediaTime surface) noexcept {
+    if (tick >= begun_) touch_.add(tick - (origin_ + surface.time_since_epoch()));
   }
   // Nullopt if no picture was counted: the film is not live.
   [[nodiscard]] std::optional<LiveLatency> summary() const {
     if (picture_.count() == 0) return std::nullopt;
-    return LiveLatency{times(picture_), times(touch_)};
+    LiveLatency latency{times(picture_), std::nullopt, times(before_), times(behind_)};
+    if (touch_.count() > 0) latency.touch = times(touch_);
+    return latency;
   }
 
  private:
@@ -34,7 +52,8 @@ class LiveTimes {
     return {ms(histogram.quantile(0.5)), ms(histogram.quantile(0.99)), ms(histogram.max())};
   }
 
-  Histogram picture_, touch_;
+  MonotonicTime origin_, begun_ = MonotonicTime::max();
+  Histogram picture_, touch_, before_, behind_;
 };
 
 }  // namespace relievo

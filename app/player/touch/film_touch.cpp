@@ -24,7 +24,13 @@ const char* answerTo(HapticFault::Kind kind) noexcept {
 
 }  // namespace
 
+void FilmTouch::stop() noexcept {
+  const std::scoped_lock lock(mutex_);
+  session_.stop();
+}
+
 void FilmTouch::rest() noexcept {
+  const std::scoped_lock lock(mutex_);
   session_.rest();
   surface_.beginEpoch();
   missing_ = refused_ = false;
@@ -32,16 +38,35 @@ void FilmTouch::rest() noexcept {
 
 void FilmTouch::setScene(const DepthCalibration& calibration, const DisplayVolume& volume, const Material& material,
                          const Material& material_scale) noexcept {
+  const std::scoped_lock lock(mutex_);
   volume_ = volume;
   material_ = material;
   material_scale_ = material_scale;
   surface_.setScene(calibration, volume);
 }
 
+void FilmTouch::setLookAhead(const LookAhead& ahead) noexcept {
+  const std::scoped_lock lock(mutex_);
+  look_ahead_ = ahead;
+  surface_.setCarried(ahead.carried);
+}
+
+void FilmTouch::beginEpoch() noexcept {
+  const std::scoped_lock lock(mutex_);
+  surface_.beginEpoch();
+}
+
+void FilmTouch::hear(const Frame& depth) {
+  const std::scoped_lock lock(mutex_);
+  if (surface_.hear(depth)) session_.publish(surface_);
+}
+
 void FilmTouch::feed(const DepthAround& depth, const ClockSample& clock) {
+  const std::scoped_lock lock(mutex_);
   const auto ahead = std::span(depth.ahead).first(depth.ahead_count);
-  const auto changed = surface_.update(depth.present, ahead, depth.last, clock,
-                                       {depth.material, std::span(depth.material_ahead).first(depth.ahead_count)});
+  const std::span<const Frame> materials = std::span(depth.material_ahead).first(depth.ahead_count);
+  const auto changed =
+      surface_.update(depth.present, ahead, depth.last, clock, {depth.material, materials}, depth.felt);
   if (!changed) {
     if (!std::exchange(refused_, true)) {
       journal_.note(std::string("depth: ") + changed.error().message, "it plays without force");
@@ -57,6 +82,7 @@ void FilmTouch::feed(const DepthAround& depth, const ClockSample& clock) {
 
 bool FilmTouch::followDevice() {
   using Kind = DeviceKeeper::News::Kind;
+  const std::scoped_lock lock(mutex_);
   while (const auto news = session_.poll()) {
     if (news->kind == Kind::Refused) {
       journal_.note(std::string("haptic device: ") + news->error.message,
@@ -71,7 +97,8 @@ bool FilmTouch::followDevice() {
 }
 
 void FilmTouch::start() {
-  if (auto started = session_.start(volume_, material_, material_scale_, surface_); !started) {
+  const std::scoped_lock lock(mutex_);
+  if (auto started = session_.start(volume_, material_, material_scale_, look_ahead_, surface_); !started) {
     journal_.note(std::string("haptic device: ") + started.error().message, "the film plays without force");
     return;
   }
@@ -85,10 +112,12 @@ void FilmTouch::start() {
   }
 }
 
-void FilmTouch::drain(SeekTimes& seeks) {
+void FilmTouch::drain(SeekTimes& seeks, LiveTimes* live) {
+  const std::scoped_lock lock(mutex_);
   while (const auto tick = session_.nextTick()) {
     if (recorder_ != nullptr) recorder_->add(*tick);
     if (!first_tick_ && tick->device_present) first_tick_ = tick->time;
+    if (live != nullptr && tick->device_present) live->felt(tick->time, tick->surface_time);
     if (seeks.waitsForTouch(tick->time)) seeks.felt(tick->time, surface_.frameAt(tick->media_time));
   }
   session_.printLog();

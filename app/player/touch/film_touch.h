@@ -2,11 +2,14 @@
 // The touch of a film: feeds the surface to the haptic session, follows the device, and collects its ticks and faults.
 #pragma once
 
+#include <mutex>
 #include <optional>
 #include <string>
 
+#include "app/depth_window/look_ahead.h"
 #include "app/depth_window/surface_feeder.h"
 #include "app/player/film/depth_around.h"
+#include "app/player/film/live_times.h"
 #include "app/player/film/seek_times.h"
 #include "app/player/journal.h"
 #include "app/player/touch/haptic_session.h"
@@ -20,7 +23,7 @@
 
 namespace relievo {
 
-// The player's thread only. No call blocks on the device.
+// The player's thread only, but for `hear`. No call blocks on the device.
 class FilmTouch {
  public:
   // `device` and `recorder` are borrowed and may be null.
@@ -30,7 +33,7 @@ class FilmTouch {
   // Starts opening and homing the device.
   void begin() { session_.begin(); }
   // Zero force first; then stops the thread and the device.
-  void stop() noexcept { session_.stop(); }
+  void stop() noexcept;
   // Zero force between two films; the device stays homed.
   void rest() noexcept;
 
@@ -39,18 +42,23 @@ class FilmTouch {
   void setScene(const DepthCalibration& calibration, const DisplayVolume& volume, const Material& material,
                 const Material& material_scale = {}) noexcept;
   [[nodiscard]] const DisplayVolume& volume() const noexcept { return volume_; }
+  // How long a live film's surface waits for frames. Before `start`.
+  void setLookAhead(const LookAhead& ahead) noexcept;
   // The next depth does not continue the last one: after an opening or a seek.
-  void beginEpoch() noexcept { surface_.beginEpoch(); }
+  void beginEpoch() noexcept;
   // Publishes the surface to the haptic task.
   void feed(const DepthAround& depth, const ClockSample& clock);
+  // The newest depth of a live film, which need not wait until the player has drawn. Any thread.
+  void hear(const Frame& depth);
 
   // Notes the device's losses and recoveries. True if it is ready and waits for `start`.
   [[nodiscard]] bool followDevice();
   [[nodiscard]] bool waiting() const noexcept { return session_.waiting(); }
   // Starts the haptic task on the surface fed last. The force fades in from zero.
   void start();
-  // Records the ticks since the last call, reports the first one after a seek to `seeks`, and notes faults.
-  void drain(SeekTimes& seeks);
+  // Records the ticks since the last call, reports the first one after a seek to `seeks`, those of a live film to
+  // `live` (null: none), and notes faults.
+  void drain(SeekTimes& seeks, LiveTimes* live);
   // Sleeps; without a haptic thread, the ticks run meanwhile.
   void sleepUntil(MonotonicTime deadline) noexcept { session_.sleepUntil(deadline); }
 
@@ -63,12 +71,14 @@ class FilmTouch {
   [[nodiscard]] HapticSummary summary() const { return session_.summary(); }
 
  private:
+  std::mutex mutex_;  // guards surface and session against `hear`
   HapticSession session_;
   Recorder* recorder_;
   Journal& journal_;
   SurfaceFeeder surface_;
   DisplayVolume volume_;
   Material material_, material_scale_;
+  LookAhead look_ahead_;
   bool was_lost_ = false;  // the device has been lost at least once
   bool missing_ = false;   // the present picture has no depth
   bool refused_ = false;   // the film's depth format cannot be felt; noted once

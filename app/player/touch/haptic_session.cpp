@@ -54,7 +54,8 @@ std::optional<DeviceKeeper::News> HapticSession::poll() {
 }
 
 Result<void> HapticSession::setScene(const DisplayVolume& volume, const Material& material,
-                                     const Material& material_scale, const SurfaceWindow& first) {
+                                     const Material& material_scale, const LookAhead& ahead,
+                                     const SurfaceWindow& first) {
   const SafetyLimits limits;
   const double most = capabilities_.max_stiffness_n_per_mm;
   const double most_n = std::min(limits.force_n, capabilities_.peak_force_n);
@@ -70,7 +71,7 @@ Result<void> HapticSession::setScene(const DisplayVolume& volume, const Material
   // The limits know one stiffness: the highest.
   const double stiffness =
       places.stiffness_n_per_mm ? std::max(own, std::min(*places.stiffness_n_per_mm, places.most_n_per_mm)) : own;
-  TouchPlan plan = planFilm(std::span(first.frames).first(static_cast<std::size_t>(first.count)));
+  TouchPlan plan = planFilm(std::span(first.frames).first(static_cast<std::size_t>(first.count)), ahead);
   plan_ = std::move(plan.reason);
   auto method = std::make_unique<RelievoMethod>(RelievoMethod::Config{.stiffness_n_per_mm = own,
                                                                       .scale = plan.scale,
@@ -99,13 +100,13 @@ Result<void> HapticSession::setScene(const DisplayVolume& volume, const Material
 }
 
 Result<void> HapticSession::start(const DisplayVolume& volume, const Material& material, const Material& material_scale,
-                                  const SurfaceFeeder& first) {
+                                  const LookAhead& ahead, const SurfaceFeeder& first) {
   if (!waiting()) return fail(ErrorCode::InvalidState, "the haptic task needs a device that is homed and stopped");
   SurfaceWindow window;
   first.fill(window);
   if (!new_scene_) {
     task_->deviceIsBack();
-  } else if (auto set = setScene(volume, material, material_scale, window); !set) {
+  } else if (auto set = setScene(volume, material, material_scale, ahead, window); !set) {
     stop();  // not the device's doing: another try would fail as well
     return set;
   }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/depth_window/look_ahead.h"
 #include "app/depth_window/surface_feeder.h"
 #include "app/haptics/task/haptic_task.h"
 #include "app/player/touch/device_keeper.h"
@@ -67,12 +68,12 @@ class HapticSession {
   [[nodiscard]] std::optional<DeviceKeeper::News> poll();
   // Opened and homed, and not started.
   [[nodiscard]] bool waiting() const noexcept { return opened_ && !running_; }
-  // Makes the task for this volume and material in locked memory, or takes the one that a lost device or the last film
-  // has left; gives it the first window and starts it. The force begins at zero. Waiting, else InvalidState. After a
-  // failure the device is looked for anew.
+  // Makes the task for this volume, material and look-ahead in locked memory, or takes the one that a lost device or
+  // the last film has left; gives it the first window and starts it. The force begins at zero. Waiting, else
+  // InvalidState. After a failure the device is looked for anew.
   // `material_scale`: of the film's material track, empty if it has none.
   [[nodiscard]] Result<void> start(const DisplayVolume& volume, const Material& material,
-                                   const Material& material_scale, const SurfaceFeeder& first);
+                                   const Material& material_scale, const LookAhead& ahead, const SurfaceFeeder& first);
   // Between two films: zero force, and no ticks; the device stays homed. The next `start` is on another scene.
   void rest() noexcept;
   // Zero force first; then the thread, the device. Any time.
@@ -103,7 +104,8 @@ class HapticSession {
 
  private:
   [[nodiscard]] Result<void> setScene(const DisplayVolume& volume, const Material& material,
-                                      const Material& material_scale, const SurfaceWindow& first);
+                                      const Material& material_scale, const LookAhead& ahead,
+                                      const SurfaceWindow& first);
   [[nodiscard]] Result<void> run();
   void halt() noexcept;
 

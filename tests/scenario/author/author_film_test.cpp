@@ -11,6 +11,7 @@
 #include <map>
 #include <set>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "app/author/author.h"
@@ -61,7 +62,7 @@ Film readFilm(const std::string& path) {
   const auto opened = reader.open({.url = path});
   EXPECT_TRUE(opened.has_value()) << (opened ? "" : opened.error().message);
   Film film{reader.info(), {}};
-  while (auto pair = reader.next().value()) film.pairs.push_back(*pair);
+  while (auto pair = reader.next().value()) film.pairs.push_back(std::move(*pair));
   return film;
 }
 

@@ -176,7 +176,8 @@ int UmockdevCamera::setFormat(void* argument) {
 int UmockdevCamera::takeBuffer(void* argument) {
   if (!streaming_) return EINVAL;
   const MonotonicTime now = clock_.now();
-  while (!silent_ && (kind_.paced ? next_time_ <= now : filled_.empty() && !empty_.empty())) {
+  while (!silent_ &&
+         (kind_.paced ? next_time_ + kind_.delay(next_number_) <= now : filled_.empty() && !empty_.empty())) {
     takePicture(next_time_);
     next_time_ += kind_.period;
   }

@@ -25,6 +25,8 @@ struct CameraKind {
   std::uint32_t buffers = 16;  // at most
   // True: in real time. False: a picture whenever one is requested, each a period later.
   bool paced = false;
+  // Paced: how long after its time a picture can be had.
+  std::function<Duration(std::uint32_t)> delay = [](std::uint32_t) { return Duration(0); };
   // Two bytes at (number, byte column / 2, row); of every format alike.
   std::function<std::uint16_t(std::uint32_t, int, int)> sample = [](std::uint32_t number, int c, int r) {
     return static_cast<std::uint16_t>(number + 64 * static_cast<std::uint32_t>(r) + static_cast<std::uint32_t>(c));

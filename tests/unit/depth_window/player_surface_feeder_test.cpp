@@ -94,6 +94,25 @@ TEST_F(SurfaceFeederTest, HoldsTwoFramesBeforeThePresentAndFourAfterIt) {
   EXPECT_THAT(times(), ElementsAre(1, 2, 3, 4, 5, 6, 7));
 }
 
+// Of a live film the newest picture is on the screen, and an earlier moment is felt; depth goes in before its picture.
+TEST_F(SurfaceFeederTest, OfALiveFilmDepthIsHeardOfBeforeItsPicture) {
+  EXPECT_FALSE(feeder_.hear(depthFrame(0))) << "nothing is shown yet";
+  const auto show = [&](double picture, double felt) {
+    ASSERT_TRUE(feeder_.update(depthFrame(picture), {}, false, {mediaTime(0), MonotonicTime{}, 1}, {}, mediaTime(felt)));
+  };
+  show(0, -1.2);
+  for (int i = 1; i < 6; ++i) {
+    EXPECT_TRUE(feeder_.hear(depthFrame(i))) << i;
+    EXPECT_FALSE(feeder_.hear(depthFrame(i))) << "once";
+    show(i, i - 1.2);
+  }
+  EXPECT_THAT(times(), ElementsAre(1, 2, 3, 4, 5)) << "two before 3.8 and its own";
+  for (int i = 6; i < 10; ++i) static_cast<void>(feeder_.hear(depthFrame(i)));
+  EXPECT_THAT(times(), ElementsAre(1, 2, 3, 4, 5, 6, 7)) << "four after it";
+  feeder_.setCarried(std::chrono::milliseconds(7));
+  EXPECT_EQ(window().carried, std::chrono::milliseconds(7));
+}
+
 TEST_F(SurfaceFeederTest, HoldsADepthFrameOfALowerRateOnce) {
   // Depth at a third of the colour's rate: three pairs share a frame.
   std::vector<FramePair> pairs;

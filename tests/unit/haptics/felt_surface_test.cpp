@@ -80,6 +80,38 @@ TEST(FeltSurface, ItsDerivativesAreThoseOfItsHeightAlsoAtAnEdge) {
   EXPECT_LT(off, 20) << "of 6000";
 }
 
+// The plane that rises by 30 mm/s, of which the window has nothing later than 40 ms before the moment that is felt.
+TEST(FeltSurface, CarriedForwardAMovingPlaneIsWhereItWillBe) {
+  const auto frames = film(4, [](double x, double, double t) { return 15 + 0.2 * x + 30 * t; });
+  SurfaceWindow w = makeWindow(frames, kVolume);
+  w.carried = std::chrono::milliseconds(40);
+  FeltSurface s({.narrow_time = TimeLaw::Linear, .wide_time = TimeLaw::Linear});
+  for (double t = 2 * kPeriod; t < 2.9 * kPeriod; t += 0.0013) {
+    ASSERT_TRUE(s.moveTo(w, mediaTime(t + 0.04)));
+    ASSERT_NEAR(s.at(7, 3).z, 15 + 0.2 * 7 + 30 * (t + 0.04), 1e-3);
+    s.prepare(w, mediaTime(t + 0.041), 7, 3);
+    ASSERT_TRUE(s.moveTo(w, mediaTime(t + 0.0412)));
+    ASSERT_NEAR(s.at(7, 3).z, 15 + 0.2 * 7 + 30 * (t + 0.0412), 1e-3) << "as prepared";
+  }
+}
+
+// A step of 15 mm that goes by: beside it there is nothing that moves, and nothing over the step's top or under its
+// foot.
+TEST(FeltSurface, CarriedForwardAnEdgeThrowsNothingBeyondItsSides) {
+  const auto frames = film(8, [](double x, double, double t) { return x < 60 * (t - 0.1) ? 25 : 10; });
+  SurfaceWindow w = makeWindow(frames, kVolume);
+  w.carried = std::chrono::milliseconds(33);
+  FeltSurface s({.narrow_time = TimeLaw::Linear, .wide_time = TimeLaw::Linear});
+  for (double t = 2 * kPeriod; t < 6 * kPeriod; t += 0.0017) {
+    ASSERT_TRUE(s.moveTo(w, mediaTime(t) + w.carried));
+    for (double x = -12; x < 12; x += 0.3) {
+      const double z = s.height(x, 1);
+      ASSERT_LE(z, 25 + 2.3) << t << ' ' << x;
+      ASSERT_GE(z, 10 - 2.3) << t << ' ' << x;
+    }
+  }
+}
+
 TEST(FeltSurface, WhatWasPreparedIsWhatWouldHaveBeenComputed) {
   const auto frames = film(8, rough);
   const SurfaceWindow w = makeWindow(frames, kVolume);

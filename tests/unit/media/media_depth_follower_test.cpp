@@ -59,6 +59,16 @@ std::vector<double> every(double period_ms, int count, double start_ms = 0) {
 
 using Times = std::vector<double>;
 
+// A camera has yet to take the next one: waiting for it would cost a period.
+TEST(DepthFollower, ForAPictureOfTheColoursOwnTimeItDoesNotLookAtTheNext) {
+  Track track(every(40, 20));
+  track.follower.setLive(true);
+  for (int k = 0; k < 10; ++k) {
+    EXPECT_EQ(track.at(40 * k + (k % 3 - 1)), 40 * k) << "within a millisecond";
+    EXPECT_EQ(track.next, static_cast<std::size_t>(k) + 1) << k;
+  }
+}
+
 TEST(DepthFollower, EqualTimesBelongTogether) {
   Track track(every(40, 5));
   EXPECT_EQ(track.at(every(40, 5)), every(40, 5));

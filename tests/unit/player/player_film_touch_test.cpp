@@ -43,7 +43,7 @@ class FilmTouchTest : public testing::Test {
   [[nodiscard]] ClockSample standing(const DepthAround& depth) const { return {depth.present.pts, clock_.now(), 0}; }
   void goOn(int ms) {
     touch_->sleepUntil(clock_.now() + std::chrono::milliseconds(ms));
-    touch_->drain(seeks_);
+    touch_->drain(seeks_, nullptr);
   }
   [[nodiscard]] std::uint64_t noted(const std::string& part) const {
     std::uint64_t count = 0;

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// What waiting for frames costs a live film in age, and what it is worth: a finger held on a nodding face.
+#pragma once
+
+#include <vector>
+
+#include "app/lab/measure/measurement.h"
+
+namespace relievo {
+
+// Chart: latency (a row per rate, kind of depth, and surface: held, with 1 to 5 frames of look-ahead, carried forward
+// by half a period and a whole one, and what the player chooses). Frames come from a camera with 5 ms of jitter.
+[[nodiscard]] Outcome<std::vector<ChartWords>> measureLatency(const MeasureOptions& options);
+
+}  // namespace relievo

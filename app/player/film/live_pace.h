@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pace of a live film: which moment of it is felt now, and when its next picture will be there. Pure.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "app/depth_window/look_ahead.h"
+#include "app/media/pair_reader.h"
+#include "hal/media/media_time.h"
+#include "platform/clock.h"
+
+namespace relievo {
+
+// Touch is as young as its frames allow (Arrivals), but not more than kMostBefore ahead of the pictures, which take
+// time to be drawn. Pictures are shown as they come, but not more than kMostBehind ahead of touch. One thread.
+class LivePace {
+ public:
+  void forget() noexcept { *this = {}; }
+  // A pair that has been read; in order. A pair that it has heard of before does not count again.
+  void hear(const FramePair& pair) noexcept;
+  // Enough has come to choose a look-ahead, and no longer from what the source had piled up.
+  [[nodiscard]] bool settled() const noexcept;
+  // Chooses the look-ahead by what has come so far; once, before the film begins. False, then and later: pairs came
+  // before their time, so that the source has a buffer of its own, and its film is played like any other.
+  bool choose() noexcept;
+  [[nodiscard]] const LookAhead& lookAhead() const noexcept { return ahead_; }
+  // A picture was on the screen when it was this old.
+  void shown(Duration age) noexcept;
+
+  // When media time 0 was taken.
+  [[nodiscard]] MonotonicTime origin() const noexcept { return origin_; }
+  // How old the surface should be that is felt, and the moment of the film that this is.
+  [[nodiscard]] Duration age() const noexcept;
+  [[nodiscard]] MediaTime wanted(MonotonicTime now) const noexcept;
+  // When the next pair is to be expected.
+  [[nodiscard]] MonotonicTime next() const noexcept;
+
+ private:
+  // A jitter that is assumed until more is known: a few frames do not show it.
+  static constexpr Duration kLeastLate = std::chrono::milliseconds(10);
+  static constexpr std::size_t kShown = 32;
+
+  Arrivals arrivals_;
+  std::optional<MediaTime> newest_;
+  MonotonicTime origin_;
+  LookAhead ahead_;
+  std::optional<bool> as_it_comes_;       // what `choose` said
+  int since_choice_ = 0;                  // pairs
+  std::array<Duration, kShown> shown_{};  // the ages of the last pictures
+  std::size_t shown_count_ = 0;
+};
+
+}  // namespace relievo
