@@ -98,7 +98,8 @@ TEST_F(SurfaceFeederTest, HoldsTwoFramesBeforeThePresentAndFourAfterIt) {
 TEST_F(SurfaceFeederTest, OfALiveFilmDepthIsHeardOfBeforeItsPicture) {
   EXPECT_FALSE(feeder_.hear(depthFrame(0))) << "nothing is shown yet";
   const auto show = [&](double picture, double felt) {
-    ASSERT_TRUE(feeder_.update(depthFrame(picture), {}, false, {mediaTime(0), MonotonicTime{}, 1}, {}, mediaTime(felt)));
+    ASSERT_TRUE(
+        feeder_.update(depthFrame(picture), {}, false, {mediaTime(0), MonotonicTime{}, 1}, {}, mediaTime(felt)));
   };
   show(0, -1.2);
   for (int i = 1; i < 6; ++i) {
