@@ -165,7 +165,7 @@ std::vector<std::uint8_t> findWide(const std::vector<std::uint8_t>& unknown, con
       for (int y = std::max(r - radius, 0); y <= std::min(r + radius, map.rows - 1); ++y) {
         if (of_centres[static_cast<std::size_t>(y)] == 0) continue;
         const std::uint8_t* const nearness = &measured[map.at(0, y)];
-        const int half = disc[static_cast<std::size_t>(y - r + radius)];
+        const int row = y - r + radius, half = disc[static_cast<std::size_t>(row)];
         for (int c = 0; c < map.cols; ++c) out[c] |= static_cast<std::uint8_t>(nearness[c] > radius - half);
       }
     }

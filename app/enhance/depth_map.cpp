@@ -53,6 +53,7 @@ DepthMap mapOf(const HeightField& field) {
 
 Frame writeDepth(const DepthMap& map, bool may_have_holes, const Frame& like) {
   const auto samples = std::make_shared<std::vector<std::uint16_t>>(map.size());
+  constexpr double kHalf = 0.5;  // codes are not negative
   const float lowest = may_have_holes ? 1 : 0;
   inBands(map.rows, [&](int first, int end) {
     const float* const codes = map.codes.data();
@@ -60,7 +61,7 @@ Frame writeDepth(const DepthMap& map, bool may_have_holes, const Frame& like) {
     std::uint16_t* const out = samples->data();
     for (std::size_t i = map.at(0, first); i < map.at(0, end); ++i) {
       const float code = std::min(std::max(codes[i], lowest), DepthMap::kHighest);
-      const int rounded = static_cast<int>(static_cast<double>(code) + 0.5);
+      const int rounded = static_cast<int>(kHalf + static_cast<double>(code));
       out[i] = static_cast<std::uint16_t>(holes[i] != 0 ? 0 : rounded);
     }
   });

@@ -15,8 +15,6 @@ constexpr Duration kLookEvery = std::chrono::milliseconds(500);
 constexpr std::size_t kMostLooks = 24;  // kept of a shot; of a longer one every second is left out, and so on
 constexpr int kReducedCols = 320;       // in which the range is measured
 constexpr int kWidest = 6;              // a part of the width: the largest disparity
-constexpr float kCut = 18;              // levels between two pictures, on average
-constexpr float kCutOver = 3;           // times the change before
 constexpr double kBlackSpread = 3;      // levels
 constexpr double kSame = 0.75;          // levels between two views, on average
 constexpr double kLeastShift = 0.5;     // pixels, that are worth to correct
@@ -89,36 +87,14 @@ const ShotPlan& StereoPlan::at(MediaTime time) const {
   return after == shots.begin() ? shots.front() : *std::prev(after);
 }
 
-StereoSurvey::Thumb StereoSurvey::thumbOf(const Frame& frame) {
-  const Component& k = frame.components[frame.model == ColorModel::Rgb ? 1 : 0];
-  const Plane& plane = frame.planes[k.plane];
-  const float scale = 255.0F / static_cast<float>((1U << k.bits) - 1);
-  Thumb thumb{};
-  constexpr int kTaken = 4;  // samples of a cell, in each direction
-  for (int r = 0; r < kThumbRows * kTaken; ++r) {
-    for (int c = 0; c < kThumbCols * kTaken; ++c) {
-      const std::ptrdiff_t x = c * frame.width / (kThumbCols * kTaken), y = r * frame.height / (kThumbRows * kTaken);
-      const auto code = codeAt(k, plane.data + y * plane.stride_bytes + k.offset_bytes + x * k.step_bytes);
-      thumb[static_cast<std::size_t>(r / kTaken) * kThumbCols + static_cast<std::size_t>(c / kTaken)] +=
-          static_cast<float>(code) * scale / (kTaken * kTaken);
-    }
-  }
-  return thumb;
-}
-
 bool StereoSurvey::beginsShot(const Frame& left) {
-  const Thumb now = thumbOf(left);
-  if (!before_) {
-    before_ = now;
-    return true;
-  }
-  float change = 0;
-  for (std::size_t i = 0; i < now.size(); ++i)
-    change += std::abs(now[i] - (*before_)[i]) / static_cast<float>(now.size());
-  const bool cut = change > kCut && change > kCutOver * change_;
-  change_ = change;
-  before_ = now;
-  return cut;
+  const Component& k = left.components[left.model == ColorModel::Rgb ? 1 : 0];
+  const Plane& plane = left.planes[k.plane];
+  const float scale = 255.0F / static_cast<float>((1U << k.bits) - 1);
+  return cuts_.begins(left.width, left.height, [&](int x, int y) {
+    const auto* const row = plane.data + y * plane.stride_bytes + k.offset_bytes;
+    return static_cast<float>(codeAt(k, row + std::ptrdiff_t{x} * k.step_bytes)) * scale;
+  });
 }
 
 Result<void> StereoSurvey::add(const Frame& left, const Frame& right) {

@@ -2,10 +2,10 @@
 // Looks through a film of two views: where its shots begin, how the views lie, and how near and far it reaches.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <vector>
 
+#include "app/stereo/cut_finder.h"
 #include "app/stereo/eye_order.h"
 #include "app/stereo/stereo_plan.h"
 #include "app/stereo/view_picture.h"
@@ -24,13 +24,10 @@ class StereoSurvey {
   [[nodiscard]] Result<StereoPlan> finish();
 
  private:
-  static constexpr int kThumbCols = 32, kThumbRows = 18;
-  using Thumb = std::array<float, std::size_t{kThumbCols} * kThumbRows>;
   struct Looked {
     ViewPicture left, right;  // reduced
   };
 
-  [[nodiscard]] static Thumb thumbOf(const Frame& frame);
   [[nodiscard]] bool beginsShot(const Frame& left);
   void look(const Frame& left, const Frame& right);
   void beginShot(MediaTime begin);
@@ -39,8 +36,7 @@ class StereoSurvey {
   void explain();
 
   StereoPlan plan_;
-  std::optional<Thumb> before_;
-  float change_ = 0;  // between the last two pictures
+  CutFinder cuts_;
   MediaTime looked_at_;
   // Of the present shot.
   std::vector<PointPair> pairs_;

@@ -47,7 +47,7 @@ std::string screenshotPath(const std::string& title) {
 Result<void> FilmScreen::open() {
   auto opened = picture_.open();
   if (const std::string words = picture_.description(); opened && !words.empty()) {
-    log(LogLevel::Info, "display", "%s", words.c_str());
+    log(LogLevel::Info, "render", "%s", words.c_str());
   }
   if (opened || opened.error().code != ErrorCode::NotFound) return opened;
   journal_.note(std::string("display: ") + opened.error().message, "film and touch go on without it");

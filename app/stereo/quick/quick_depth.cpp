@@ -17,8 +17,6 @@ constexpr double kLeastFound = 0.4;  // share of the pixels that both views show
 constexpr double kOutliers = 0.005;
 constexpr float kSpare = 0.2F;       // of the range, on each side
 constexpr float kLeastSpare = 1.5F;  // pixels of the survey
-constexpr float kCut = 18;           // levels between two pictures, on average
-constexpr float kCutOver = 3;        // times the change before
 constexpr float kHighest = 65535;
 constexpr double kBlackSpread = 3;  // levels
 
@@ -51,32 +49,10 @@ Frame QuickDepth::depthOf(const Frame& left, const Frame& right) {
 }
 
 bool QuickDepth::cutsTo(const ViewPicture& left) {
-  Thumb now{};
-  for (int r = 0; r < kThumbRows; ++r) {
-    for (int c = 0; c < kThumbCols; ++c) {
-      constexpr int kTaken = 4;  // samples of a cell, in each direction
-      float sum = 0;
-      for (int i = 0; i < kTaken * kTaken; ++i) {
-        const int x = (c * kTaken + i % kTaken) * left.cols / (kThumbCols * kTaken);
-        const int y = (r * kTaken + i / kTaken) * left.rows / (kThumbRows * kTaken);
-        sum += left.yuv[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(left.cols) +
-                             static_cast<std::size_t>(x))];
-      }
-      now[static_cast<std::size_t>(r) * kThumbCols + static_cast<std::size_t>(c)] = sum / (kTaken * kTaken);
-    }
-  }
-  if (!before_) {
-    before_ = now;
-    change_ = 0;
-    return true;
-  }
-  float change = 0;
-  for (std::size_t i = 0; i < now.size(); ++i)
-    change += std::abs(now[i] - (*before_)[i]) / static_cast<float>(now.size());
-  const bool cut = change > kCut && change > kCutOver * change_;
-  change_ = change;
-  before_ = now;
-  return cut;
+  return cuts_.begins(left.cols, left.rows, [&](int x, int y) {
+    return static_cast<float>(left.yuv[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(left.cols) +
+                                            static_cast<std::size_t>(x))]);
+  });
 }
 
 // How near and far the shot reaches, by matching a small picture over the widest range.

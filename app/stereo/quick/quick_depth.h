@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/stereo/cut_finder.h"
 #include "app/stereo/exposure.h"
 #include "app/stereo/quick/quick_matching.h"
 #include "app/stereo/quick/small_view.h"
@@ -26,7 +27,7 @@ class QuickDepth {
   void setMatchedCols(int cols) noexcept { wished_cols_ = cols; }
   [[nodiscard]] int matchedCols() const noexcept { return matched_cols_; }
   // The next picture does not continue the last one.
-  void beginShot() noexcept { before_.reset(); }
+  void beginShot() noexcept { cuts_.forget(); }
   // Codes of 16 bits and full range, linear in disparity over the shot's range, near high, none a hole; with the left
   // view's time, in its shape. A shot without depth, as one with a black view, lies in the middle.
   [[nodiscard]] Frame depthOf(const Frame& left, const Frame& right);
@@ -34,8 +35,6 @@ class QuickDepth {
   [[nodiscard]] bool hasDepth() const noexcept { return range_.has_value(); }
 
  private:
-  static constexpr int kThumbCols = 32, kThumbRows = 18;
-  using Thumb = std::array<float, std::size_t{kThumbCols} * kThumbRows>;
   struct Range {
     float low = 0, high = 0;  // disparities as parts of the width
   };
@@ -47,8 +46,7 @@ class QuickDepth {
   [[nodiscard]] Frame codesOf(const DisparityMap& map) const;
 
   int wished_cols_ = kMatchedCols[2], matched_cols_ = kMatchedCols[2];
-  std::optional<Thumb> before_;
-  float change_ = 0;  // between the last two pictures
+  CutFinder cuts_;
   std::optional<Range> range_;
   std::optional<Exposure> exposure_;  // that the right view needs
   ViewPicture left_, right_, small_left_, small_right_;

@@ -30,6 +30,7 @@ class FilmTouchTest : public testing::Test {
     profile_.position_mm = [](double) { return glm::dvec3(0, 0, 15); };  // 5 mm under the plane, once it is touched
   }
   void make() {
+    touch_.reset();  // it uses the device until its end
     device_ = makeMockHaptic(profile_, clock_, bench_);
     touch_.emplace(device_.get(), nullptr, clock_, Ticking::ByHand, journal_);
     touch_->begin();
