@@ -53,7 +53,7 @@ MockMediaProfile mockFilm() {
   depth.range = ColorRange::Full;
   depth.bits = 16;
   depth.sample = depthAt;
-  depth.tags = {{"TITLE", "depth"}};
+  depth.tags = {{"TITLE", "depth"}, {"DEPTH_LAW", "linear"}, {"DEPTH_POLARITY", "near-high"}};
   return {.tracks = {color, depth}};
 }
 
