@@ -381,6 +381,10 @@ TEST(Recordings, AColourMapWithoutColourIsFelt) {
   EXPECT_EQ(found.calibration.calibration.code, DepthCode::Jet);
   EXPECT_THAT(found.reading.offers, Contains(HasSubstr("polarity=near-low")));
   EXPECT_FALSE(make("b.png", hueColor).has_depth);
+  const FilmInfo told = open({.url = folder / "b.png", .packing = Packing::DepthAlone}).info;
+  EXPECT_EQ(told.packing, Packing::DepthAlone) << "what is said wins over what the picture shows";
+  EXPECT_EQ(told.calibration.calibration.code, DepthCode::Hue);
+  EXPECT_EQ(told.depth_width, kSceneCols);
   EXPECT_TRUE(make("b_depth.png", hueColor).has_depth);
   EXPECT_FALSE(make("c.png", ramp).has_depth);
 }
