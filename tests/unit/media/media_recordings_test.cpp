@@ -44,6 +44,17 @@ ClipTrack photo(int frames = 2) {
   return track;
 }
 
+// Spots of 2 pixels, as bright as a number without order says (Knuth's multiplicative hash): no half looks like the
+// other, while the rows of `photo` come again.
+ClipTrack spots() {
+  ClipTrack track{.pix_fmt = "yuv444p", .width = kSceneCols, .height = kSceneRows, .frames = 2};
+  track.sample = [](int k, int c, int r, int) {
+    const auto spot = static_cast<std::uint32_t>(c / 2 + 100 * (r / 2));
+    return k > 0 ? 128u : 30 + (spot * spot * 2654435761u >> 16) % 190;
+  };
+  return track;
+}
+
 // Sixteen bits of gray in numbered PNG pictures: code(mm), where mm is 0 for a hole.
 using Code = std::function<std::uint32_t(double mm, int c, int r)>;
 ClipTrack coded(const Code& code, int frames = 2) {
@@ -446,11 +457,11 @@ TEST(Recordings, DepthIsMadeOfTwoViewsOnlyWhereThereAreTwo) {
   const Half right{[](int c, int r) { return photoOf(c + 4 + (r > 50 ? 3 : 0), r); }};
   TemporaryFolder folder;
   makeHalves(folder / "views.mp4", true, left, right);
-  makeClip(folder / "one.mkv", {photo()});
+  makeClip(folder / "one.mkv", {spots()});
   const auto from = [&](const char* name, Packing packing = Packing::Auto) {
     return open({.url = folder / name, .packing = packing, .depth_from = DepthFrom::Views});
   };
-  const Seen views = from("views.mp4");
+  const Seen views = from("views.mp4", Packing::StereoSideBySide);
   EXPECT_TRUE(views.info.has_depth);
   EXPECT_TRUE(views.info.depth_from_views);
   EXPECT_EQ(views.info.calibration.calibration.bits, 16);
@@ -471,7 +482,7 @@ TEST(Recordings, DepthIsMadeOfTwoViewsOnlyWhereThereAreTwo) {
 // What the user says of a film of one view cannot be: told in one line, and no depth is made of it.
 TEST(Recordings, AFilmOfOneViewIsNotTakenForTwo) {
   TemporaryFolder folder;
-  makeClip(folder / "one.mkv", {photo()});
+  makeClip(folder / "one.mkv", {spots()});
   for (const Packing packing : {Packing::StereoSideBySide, Packing::StereoTopBottom}) {
     const Seen seen = open({.url = folder / "one.mkv", .packing = packing, .depth_from = DepthFrom::Views});
     EXPECT_FALSE(seen.info.has_depth);
