@@ -43,7 +43,7 @@ struct DisplayConfig {
   int width = 1280;  // requested; DisplaySurface has the actual size
   int height = 720;
   StereoSignal stereo = StereoSignal::None;  // requested; DisplaySurface has the signal that is sent
-  bool other_stereo = false;                 // where the screen does not support it: the best that it does
+  bool other_stereo = false;                 // if the screen does not support `stereo`: the best signal that it does
   bool film_size = false;                    // a window takes the size of each film instead (see `announce`)
 };
 
@@ -88,8 +88,8 @@ struct DisplaySurface {
   int width = 0;
   int height = 0;
   StereoSignal stereo = StereoSignal::None;  // sent with the picture
-  // For frame packing only. Over 0: one tall picture, the left eye's rows on top, then this many black ones, then the
-  // right eye's. 0: both eyes side by side, the left one's on the left, each in full.
+  // For frame packing only. Above 0: one tall picture, the left eye's rows on top, then this many black rows, then the
+  // right eye's rows. 0: the left eye's picture to the left of the right eye's, each in full.
   int eye_gap_rows = 0;
 };
 

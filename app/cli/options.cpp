@@ -228,6 +228,7 @@ void addDepthOptions(CLI::App& app, SourceOptions& source) {
        {"sbs-depth-first", Packing::SideBySideDepthFirst},
        {"tb-depth-first", Packing::TopBottomDepthFirst},
        {"alpha", Packing::Alpha},
+       {"depth-alone", Packing::DepthAlone},
        {"stereo-sbs", Packing::StereoSideBySide},
        {"stereo-tb", Packing::StereoTopBottom},
        {"stereo-tracks", Packing::StereoTracks}},
@@ -235,7 +236,7 @@ void addDepthOptions(CLI::App& app, SourceOptions& source) {
       "auto: two tracks, a DEPTH_PACKING tag, or a picture whose halves differ clearly; tracks: two video tracks, or "
       "--depth;\n"
       "sbs: one picture, colour left, depth right; tb: colour on top, depth below; ..-depth-first: the other way "
-      "round; alpha: in its alpha channel;\n"
+      "round; alpha: in its alpha channel;\ndepth-alone: the picture is depth, without colour;\n"
       "stereo-sbs, stereo-tb, stereo-tracks: two views without depth, the left eye's left, on top, or in the first of "
       "two tracks; each eye is shown its own");
   addChoice(app, "--depth-code", source.depth_code, depthCodes(),

@@ -8,13 +8,13 @@
 namespace relievo {
 namespace {
 
-// What moves to and fro once a second, as a head that nods, with the amplitude a and w = 2 pi/s: a surface that is C
-// older is off by up to a w C. One that is carried by C instead, at a rate that is that of half a period T before, is
-// off by up to a w^2 C (T + C)/2, which is less while T + C < 2/w, a third of a second.
+// A thing moves to and fro once a second, as a nodding head does, with the amplitude a and w = 2 pi/s. A surface that
+// is C older is off by up to a w C. A surface that is carried by C, at the rate of half a period T before, is off by up
+// to a w^2 C (T + C)/2, which is less while T + C < 2/w, a third of a second.
 constexpr double kNodHz = 1;
 constexpr Duration kLongestToCarry(static_cast<Duration::rep>(1e9 / (std::numbers::pi * kNodHz)));
 
-// Two of a hundred frames may come later; of a few, none.
+// One of 50 frames may come later; of fewer than 16, none.
 constexpr std::size_t kOneInSoMany = 50, kFew = 16;
 
 }  // namespace

@@ -43,7 +43,7 @@ class SurfaceFeeder {
   [[nodiscard]] Result<bool> update(const Frame& present, std::span<const Frame> ahead, bool last,
                                     const ClockSample& clock, const Materials& materials = {},
                                     std::optional<MediaTime> felt = {});
-  // The newest depth of a live film, before its picture is the present one. True when it went in: then publish.
+  // Adds the newest depth of a live film before its picture is the present one. True if it was added: then publish.
   [[nodiscard]] bool hear(const Frame& depth);
   // How far the surface is carried forward in time. Before the first update.
   void setCarried(Duration carried) noexcept { carried_ = carried; }

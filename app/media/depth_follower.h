@@ -38,8 +38,7 @@ class DepthFollower {
   // `supply` returns the track's pictures in order.
   explicit DepthFollower(Supply supply);
 
-  // The depth of a live film: a picture of the colour's own time is the one, without a look at the next, which has yet
-  // to be taken.
+  // In a live film a depth picture of the colour's own time is taken at once: the next one has yet to be captured.
   void setLive(bool live) noexcept { live_ = live; }
   // The depth for this colour time. Times must not decrease from call to call.
   [[nodiscard]] Result<Match> at(MediaTime color);

@@ -61,7 +61,7 @@ struct FilmInfo {
   int color_width = 0, color_height = 0;
   int depth_width = 0, depth_height = 0;
   bool has_depth = false;
-  bool depth_from_views = false;    // it has, but the pairs come without: whoever plays it makes it from their views
+  bool depth_from_views = false;    // has_depth holds, but pairs have none: the player makes it from their views
   Packing packing = Packing::Auto;  // the one found; Tracks if there is no depth
   Duration frame_period{0};         // the usual step between pictures (frame_rate.h); 0 for a single picture
   bool interlaced = false;          // the first pictures; they are deinterlaced
@@ -70,7 +70,7 @@ struct FilmInfo {
   Duration container_start{0};     // of the colour: the container's time of media time 0
   CalibrationChoice calibration;   // of a film with depth
   Material material;               // what --material says, else the depth's tags
-  Material material_scale;         // of the material track, but for what --material says; empty: there is none
+  Material material_scale;         // of the material track, without the parts that --material states; empty: none
   FilmReading reading;             // how that calibration and the packing were found
   std::vector<std::string> notes;  // what the sources found out about themselves; one line each
   std::string color_codec, depth_codec;

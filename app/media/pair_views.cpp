@@ -14,9 +14,8 @@ namespace {
 
 constexpr const char* kViews = "two views of one scene (stereo), no depth";
 constexpr const char* kShown =
-    "each eye is shown its own, and there is nothing to feel; --depth-from stereo makes depth from them, here while "
-    "they "
-    "play, and better by relievo-author";
+    "each eye is shown its own, and there is nothing to feel; --depth-from stereo makes depth from them: while they "
+    "play, or better beforehand with relievo-author";
 constexpr const char* kOtherPictures =
     "the halves of its picture do not show one scene: it is no film of two views; leave --packing out";
 constexpr const char* kHasDepth = "--depth-from is left out: the film has depth of its own";

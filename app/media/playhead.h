@@ -14,13 +14,13 @@ class Playhead {
  public:
   static constexpr std::size_t kAhead = 4;  // the look-ahead of the depth window
 
-  // For depth that is made while the film plays: buffers more pairs, whose depth comes by `attach`, and holds the last
-  // depth where a pair has none of its own.
+  // For depth that is made while the film plays: buffers `pairs` pairs, whose depth comes by `attach`. A pair that has
+  // no depth of its own when it becomes the present one gets the last depth.
   void waitForDepth(std::size_t pairs) noexcept {
     wanted_ = pairs;
     holds_ = true;
   }
-  // The depth of the buffered pair of its time, in place of its right view.
+  // Gives the buffered pair of the same time this depth; its right view is dropped.
   void attach(const Frame& depth);
 
   // Takes pairs from the feed until kAhead are buffered, or as many as `waitForDepth` says. False when no more will

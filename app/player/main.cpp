@@ -34,7 +34,7 @@ namespace relievo {
 namespace {
 
 constexpr Error kNoPicture{ErrorCode::Timeout, 0,
-                           "--duration ended before the first picture came; make it longer, or look whether the source "
+                           "--duration ended before the first picture came; make it longer, or check that the source "
                            "sends one"};
 
 PairReader::Backends realBackends(drivers::DecoderMaker make_decoder = drivers::makeVideoDecoder) {

@@ -154,7 +154,7 @@ HeldScale scaleHeldBy(const Material& full, const Material& whole, double most_n
 
 std::string reducedScale(const Material& full, double most_n_per_mm) {
   if (full.stiffness_n_per_mm.value_or(0) <= most_n_per_mm) return {};
-  return "places stiffer than " + rounded(most_n_per_mm) + " N/mm are felt as that";
+  return "places stiffer than " + rounded(most_n_per_mm) + " N/mm are felt at that stiffness";
 }
 
 Material withoutThoseOf(const Material& above, const Material& full) noexcept {

@@ -96,8 +96,8 @@ TEST_P(Manual, ThePageHasThemAll) {
 
 TEST(Completion, KnowsTheWordsOfAChoiceAndTheNamesOfDevices) {
   EXPECT_EQ(offered("relievo play film.mkv --packing \"\""),
-            (Words{"auto", "tracks", "sbs", "tb", "sbs-depth-first", "tb-depth-first", "alpha", "stereo-sbs",
-                   "stereo-tb", "stereo-tracks"}));
+            (Words{"auto", "tracks", "sbs", "tb", "sbs-depth-first", "tb-depth-first", "alpha", "depth-alone",
+                   "stereo-sbs", "stereo-tb", "stereo-tracks"}));
   EXPECT_EQ(offered("relievo play --display \"\""), (Words{"kms", "window", "offscreen", "mock"}));
   EXPECT_EQ(offered("relievo play --haptic p"), (Words{"polhem", "pointer"}));
   EXPECT_EQ(offered("relievo play --haptic g"), Words{"gamepad"});

@@ -38,7 +38,7 @@ std::string trackLine(const char* name, int width, int height, const std::string
   const std::string rate =
       length > 0 ? print("%.0f kbit/s", static_cast<double>(track.bytes) * 8e-3 / length) : std::string("still");
   const std::string quality = crf > 0 ? print("crf %d", crf) : std::string("lossless");
-  return print("  %-6s %-10s %-21s %-8s %6llu frames  %10s  %12s\n", name, size.c_str(), coding.c_str(),
+  return print("  %-8s %-10s %-21s %-8s %6llu frames  %10s  %12s\n", name, size.c_str(), coding.c_str(),
                quality.c_str(), static_cast<unsigned long long>(track.frames), sizeText(track.bytes).c_str(),
                rate.c_str());
 }

@@ -28,7 +28,7 @@ class MaterialReader {
   [[nodiscard]] bool exists() const RELIEVO_RT { return exists_; }
   [[nodiscard]] bool changesStiffness() const RELIEVO_RT { return scale_.stiffness > 0; }
   [[nodiscard]] const PlaceMaterial& found() const RELIEVO_RT { return found_; }
-  // So near to the place and the moment of the last `read` that another would tell nothing.
+  // The place and the moment are so near to those of the last `read` that another would find the same.
   [[nodiscard]] bool isNear(MediaTime now, double x_mm, double y_mm) const RELIEVO_RT;
   void read(const SurfaceWindow& window, MediaTime now, double x_mm, double y_mm) RELIEVO_RT;
 
@@ -37,7 +37,7 @@ class MaterialReader {
 
   PlaceMaterial whole_, found_;
   struct Scale {
-    double stiffness = 0;  // below 0: not in the track; so are those below
+    double stiffness = 0;  // here and below: less than 0 if the track has no such part
     double most_stiffness = 0;
     double still = 0, moving = 0;
     double amplitude = 0, most_ripple_n = 0;

@@ -25,7 +25,7 @@ struct HoldPlan {
 // On `face-nodding`, on the cheek. The ticks of the measured time, with the oracle's answer for the same finger.
 [[nodiscard]] std::vector<PlayedTick> holdFinger(const TrueSurface& face, const MemoryFilm& film, TouchMethod& method,
                                                  FingerHold hold, const HoldPlan& plan);
-// The same, of whatever answers to the finger. It is asked for the ticks before the measured time as well.
+// The same with any source of ticks. `answer` is also called for the ticks before the measured time.
 [[nodiscard]] std::vector<PlayedTick> holdFinger(const TrueSurface& face,
                                                  const std::function<PlayedTick(const HipTick&)>& answer,
                                                  FingerHold hold, const HoldPlan& plan);

@@ -17,12 +17,10 @@ namespace relievo {
 //   standard deviation spans six samples or more, the mean of a block of samples is taken first, so that three samples
 //   or more are left in it; the kernel is the narrower by the block's own variance. So a fine picture costs little more
 //   than reading it. The picture that comes out is the smaller by whole factors; it covers the same volume.
-// - Of the third order the kernel is 2 g - g * g (twicing): it leaves parabolas as they are, in either direction, where
-// a
+// - Of the third order the kernel is 2 g - g * g (twicing). It leaves parabolas as they are, in either direction; a
 //   Gaussian g flattens them.
 // - Holes do not affect heights: the mean is over the samples that are not holes (normalised convolution). If these
-// have
-//   less than half of the weight, the result is a hole, as in HeightField::meanHeight.
+//   have less than half of the weight, the result is a hole, as in HeightField::meanHeight.
 // - Beyond the border the outermost samples are repeated.
 class DepthSmoother {
  public:

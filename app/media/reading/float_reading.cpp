@@ -67,7 +67,7 @@ DepthReading distances(const Reach& reach, double value, std::optional<double> s
     reading.settings = {
         {"polarity", "near-low"}, {"codes", codeRange(kNearer * reach.low, kFarther * reach.high)}, {"invalid", "0"}};
     reading.why = described(reach, value) + ": distances without a known unit";
-    reading.offer = "if great numbers are near: --calibration polarity=near-high";
+    reading.offer = "if large numbers are near: --calibration polarity=near-high";
     return reading;
   }
   reading.settings = {

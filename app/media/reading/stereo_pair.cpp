@@ -102,10 +102,6 @@ bool isFound(const Reduced& a, int c0, int r0, const Moments& moments, const Red
   return false;
 }
 
-}  // namespace
-
-namespace {
-
 struct Likeness {
   int textured = 0, found = 0;  // blocks of the first picture
 };

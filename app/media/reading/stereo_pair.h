@@ -14,7 +14,7 @@ namespace relievo {
 // the width. A depth picture lacks the colour's texture.
 [[nodiscard]] bool areViews(const Frame& first, const Frame& second);
 
-// True if both pictures have texture, and that of one is hardly found in the other, so that they are no two views.
+// True if both pictures have texture and hardly any of it is in both: then they are not two views of one scene.
 [[nodiscard]] bool areOtherPictures(const Frame& first, const Frame& second);
 
 // Whether the picture's halves are two views: StereoSideBySide or StereoTopBottom.

@@ -25,8 +25,8 @@ struct ShelfSection {
 
 class FilmShelf {
  public:
-  // Replaces the films. The selected one stays selected in its section; else the one at its place there; without that
-  // section the same film elsewhere, else the one at its place.
+  // Replaces the films. Selected is then the first of these that exists: the same film in its section, the film at the
+  // same place of that section, the same film in another section, the film at the same place of the list.
   void put(std::vector<ShelfSection> sections);
 
   // Films, without headings; a film in two sections counts twice.

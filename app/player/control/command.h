@@ -66,7 +66,8 @@ struct PlayerCommand {
 // "pause", "seek +10", "seek 75", "seek 50%", "depth -0.1", "loop on", "layout tab", "open URL", ..; nothing for what
 // is none.
 [[nodiscard]] std::optional<PlayerCommand> parseCommand(std::string_view words);
-// What is wrong with words that are none: "dance is not a command; ..", "select takes ..: x".
+// What is wrong with words that are no command: `unknown command "dance"; known are: ..`, `"loop" takes [on|off], not
+// "x"`.
 [[nodiscard]] std::string whyNoCommand(std::string_view words);
 // Words that `parseCommand` reads back.
 [[nodiscard]] std::string wordsOf(const PlayerCommand& command);

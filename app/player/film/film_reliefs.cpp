@@ -23,7 +23,7 @@ void FilmPlayback::followReliefs() {
   while (const auto relief = reliefs_.take()) head_.attach(*relief);
   for (const FramePair& pair : head_.ahead()) reliefs_.offer(pair);
   if (const auto slow = reliefs_.takeSlowness())
-    journal_.note(*slow, "the picture plays on; the finger feels it smoothly");
+    journal_.note(*slow, "every picture is shown; the finger feels the surface between two reliefs");
 }
 
 // Enough to begin with: the first picture's, and as many ahead as touch looks at.

@@ -18,12 +18,13 @@ namespace relievo {
 class LivePace {
  public:
   void forget() noexcept { *this = {}; }
-  // A pair that has been read; in order. A pair that it has heard of before does not count again.
+  // The next pair that has been read, in order. A pair that was heard before does not count again.
   void hear(const FramePair& pair) noexcept;
   // Enough has come to choose a look-ahead, and no longer from what the source had piled up.
   [[nodiscard]] bool settled() const noexcept;
-  // Chooses the look-ahead by what has come so far; once, before the film begins. False, then and later: pairs came
-  // before their time, so that the source has a buffer of its own, and its film is played like any other.
+  // Chooses the look-ahead by what has come so far; once, before the film begins; a later call repeats the answer.
+  // False if pairs came before their time: then the source has a buffer of its own, and its film is played like any
+  // other.
   bool choose() noexcept;
   [[nodiscard]] const LookAhead& lookAhead() const noexcept { return ahead_; }
   // A picture was on the screen when it was this old.

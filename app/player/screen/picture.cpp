@@ -12,7 +12,8 @@ namespace {
 
 constexpr Duration kRetryPeriod = std::chrono::seconds(1);
 constexpr double kMostZoom = 4;
-constexpr const char* kBound = "the screen is told how the two pictures lie; start with --tv-signal off to change it";
+constexpr const char* kBound =
+    "the television expects this layout of the two pictures; start with --tv-signal off to choose another";
 
 StereoLayout layoutOf(StereoSignal signal) noexcept {
   switch (signal) {

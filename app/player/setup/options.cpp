@@ -154,9 +154,8 @@ void addSources(CLI::App& command, PlayOptions& play) {
   addChoice(
       command, "--depth-from", play.player.source.depth_from, {{"film", DepthFrom::Film}, {"stereo", DepthFrom::Views}},
       "Where the depth comes from\n"
-      "film: the film has it; stereo: made from a 3D film's two views while it plays, so that it can be felt; the "
-      "picture is then\nthe left view in relief. `relievo-author --depth-from stereo` takes its time and makes it "
-      "better");
+      "film: the film has it; stereo: it is made from a 3D film's two views while they play; the picture is then the "
+      "left view\nin relief. `relievo-author --depth-from stereo` takes longer and makes better depth");
 }
 
 DisplayConfig readSize(const std::string& word) {
@@ -242,9 +241,9 @@ void addSignalOption(CLI::App& command, std::optional<StereoSignal>& signal) {
   command
       .add_option_function<std::string>(
           "--tv-signal", [&signal](const std::string& word) { signal = readSignal(word); },
-          "The 3D signal for a television (kms): this one, else the best that it takes; the picture is laid out for "
-          "it. "
-          "Where it\ntakes none, the picture is that of --stereo. off: no signal, whatever --stereo [that of --stereo]")
+          "The 3D signal that tells a television how the two pictures lie (kms); they are laid out for it. If the "
+          "television\ndoes not take this signal, it is sent the best that it takes; if it takes none, the layout is "
+          "that of --stereo.\noff: no signal [the one of --stereo, if it has one]")
       ->type_name("frame-packing|tab|sbs|off");
 }
 

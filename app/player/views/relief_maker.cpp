@@ -85,8 +85,9 @@ std::optional<std::string> ReliefMaker::takeSlowness() {
   const std::scoped_lock lock(mutex_);
   if (slowness_told_ || !pace_.isSlow()) return std::nullopt;
   slowness_told_ = true;
-  return print("this computer makes about %.0f reliefs a second of the film's two views, not all %.0f",
-               pace_.reliefsPerSecond(), 1 / toSeconds(period_));
+  return print(
+      "this computer makes about %.0f reliefs a second from the film's two views, which has %.0f pictures a second",
+      pace_.reliefsPerSecond(), 1 / toSeconds(period_));
 }
 
 ReliefSummary ReliefMaker::summary() const {

@@ -20,20 +20,21 @@ namespace relievo {
 
 struct ReliefSummary {
   std::uint64_t made = 0, dropped = 0;  // pictures with a relief of their own, and without
-  int cols = 0;                         // that are matched
-  double mean_ms = 0;                   // that one takes
+  int cols = 0;                         // columns of the views as they are matched
+  double mean_ms = 0;                   // the time to make one relief
 };
 
-// The player's side (everything except `work`) never waits for a relief. The pictures are read so far ahead that each
-// relief is there before its picture is shown. Where they take too long, only every second or third picture gets one,
-// evenly; a relief whose picture is shown meanwhile is not made. Without the thread the caller calls `work`.
+// The player's side (everything except `work`) never waits for a relief. Pictures are read so far ahead that a relief
+// is there before its picture is shown. Where reliefs take too long, only every second or third picture gets one; a
+// picture that is shown before its relief was begun gets none. Without the thread the caller calls `work`.
 //
-// The first picture's relief is made at one size after another: the largest that keeps within the pace's budget stays,
-// but for a size less (more) after a cut where reliefs are slow (have much time to spare).
+// The first picture's relief is made at one size after another, and the largest size that keeps within the pace's
+// budget is taken. After a cut the size becomes one smaller if reliefs were slow, one larger if they had much time to
+// spare.
 class ReliefMaker {
  public:
-  static constexpr std::size_t kAhead =
-      12;  // pictures to read ahead: four reliefs at every second picture, and two more
+  // Pictures to read ahead: as many as touch looks at if every second one has a relief, and two more.
+  static constexpr std::size_t kAhead = 12;
 
   // `matcher` null: no reliefs can be made.
   ReliefMaker(std::unique_ptr<StereoMatcher> matcher, const Clock& clock);
@@ -59,7 +60,7 @@ class ReliefMaker {
   [[nodiscard]] std::optional<Frame> take();
   // Nothing is to be made and nothing to be taken.
   [[nodiscard]] bool idle() const;
-  // That this machine makes fewer reliefs than the film has pictures; once a film.
+  // A line that says that this machine makes fewer reliefs than the film has pictures; once a film.
   [[nodiscard]] std::optional<std::string> takeSlowness();
   // Of all films.
   [[nodiscard]] ReliefSummary summary() const;

@@ -131,7 +131,8 @@ TEST_F(ReliefMakerTest, ItSaysOnceThatTheMachineIsSlow) {
   play(60);
   const auto told = maker_->takeSlowness();
   ASSERT_TRUE(told);
-  EXPECT_NE(told->find("makes about 5 reliefs a second of the film's two views, not all 25"), std::string::npos)
+  EXPECT_NE(told->find("makes about 5 reliefs a second from the film's two views, which has 25 pictures"),
+            std::string::npos)
       << *told;
   play(20);
   EXPECT_EQ(maker_->takeSlowness(), std::nullopt);
