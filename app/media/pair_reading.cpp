@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds out where a film's depth is and what it means, while the film is opened.
 #include <algorithm>
-#include <array>
 
 #include "app/media/film_folder.h"
 #include "app/media/pair_film.h"
@@ -18,11 +17,6 @@ namespace relievo {
 namespace {
 
 constexpr double kMostlyGray = 0.9;
-
-// A source that can be opened a second time at no cost to others.
-bool isFile(const std::string& url) {
-  return url.find("://") == std::string::npos && !url.starts_with("v4l2:");
-}
 
 // Numbers, the codes of a sensor, or a colour map are no colour; nor are gray, hues and a ramp of blue in a file that
 // is called depth.
@@ -234,8 +228,15 @@ Result<void> PairReader::Impl::describe(const Frame& first, const Frame& look, c
     clues.more.push_back(
         {"full codes of its material track", materialText(info.material_scale), CalibrationOrigin::ContainerTags});
   }
-  auto meaning = readMeaning(clues, reordering.kind != nullptr ? reordering.kind : kindOf(clues, look), look);
+  const KnownKind* const kind = reordering.kind != nullptr ? reordering.kind : kindOf(clues, look);
+  auto meaning = readMeaning(clues, kind, look);
   if (!meaning) return failOn("calibration", meaning.error());
+  reach_open = isReachSeen(meaning->calibration);
+  if (reach_open) {
+    const std::vector<Frame> later = laterPictures(look.pts, stream.index);
+    if (!later.empty()) meaning = readMeaning(clues, kind, look, later);
+    if (!meaning) return failOn("calibration", meaning.error());
+  }
   info.calibration = std::move(meaning->calibration);
   info.reading = std::move(meaning->reading);
   info.reading.doubts = doubtsOf(look, info.calibration.calibration, color.empty() ? nullptr : &color);
@@ -251,31 +252,6 @@ Result<void> PairReader::Impl::describe(const Frame& first, const Frame& look, c
                        : depth_source ? depth_source->decoder()
                                       : color_reader->decoder(*depth_track);
   return {};
-}
-
-// `first`, or if it is blank a later picture of the same stream.
-Frame PairReader::Impl::tellingPicture(const Frame& first, const std::string& url, int stream) {
-  constexpr int kMostPictures = 40;
-  constexpr std::array kLater{2, 5, 10, 20, 40};  // seconds
-  if (remote || !isFile(url) || !isBlank(first)) return first;
-  TrackReader scout(backends.make_source(url), backends.make_decoder);
-  if (!scout.open(url)) return first;
-  const auto& streams = scout.source().streams();
-  const auto same =
-      std::find_if(streams.begin(), streams.end(), [&](const StreamInfo& s) { return s.index == stream; });
-  if (same == streams.end() || !scout.select(asTold(*same))) return first;
-  for (int i = 0; i < kMostPictures; ++i) {
-    const auto picture = scout.next(0);
-    if (!picture || !*picture) break;
-    if (!isBlank(**picture)) return **picture;
-  }
-  for (const int seconds : kLater) {
-    if (!scout.seek(mediaTime(seconds))) break;
-    const auto picture = scout.next(0);
-    if (!picture || !*picture) break;
-    if (!isBlank(**picture)) return **picture;
-  }
-  return first;
 }
 
 }  // namespace relievo

@@ -8,6 +8,7 @@
 #include "app/media/reading/code_count.h"
 #include "app/media/reading/depth_reading.h"
 #include "app/media/reading/float_reading.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {
@@ -81,6 +82,12 @@ bool isAssumedNearHigh(const CalibrationChoice& choice) {
   });
 }
 
+CodeCount countOf(const Frame& look, std::span<const Frame> later) {
+  CodeCount count(look);
+  for (const Frame& picture : later) count.addLater(picture);
+  return count;
+}
+
 }  // namespace
 
 const KnownKind* kindOf(const DepthClues& clues, const Frame& stored) {
@@ -93,33 +100,42 @@ const KnownKind* kindOf(const DepthClues& clues, const Frame& stored) {
   return clues.code == DepthCode::Luma ? sensorKind(stored, CodeCount(stored)) : nullptr;
 }
 
-Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind, const Frame& look) {
+bool isReachSeen(const CalibrationChoice& choice) {
+  return std::any_of(choice.parts.begin(), choice.parts.end(), [](const CalibrationPart& part) {
+    const bool of_reach = part.key == "near" || part.key == "far" || part.key == "codes";
+    return of_reach && part.origin == CalibrationOrigin::FirstPicture;
+  });
+}
+
+Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind, const Frame& look,
+                                 std::span<const Frame> later) {
   CalibrationLayers layers = saidLayers(clues);
   const HueSpan span = addKind(clues, kind, layers);
   DepthReading read;
   if (clues.code == DepthCode::Hue) {
-    read = readHues(look, layers, kind, span);
+    read = readHues(look, layers, kind, span, later);
     const bool like_record3d = kind == nullptr && clues.packing == Packing::SideBySideDepthFirst;
     if (like_record3d && !read.settings.empty()) {
-      read = readHues(look, layers, findKind("record3d"), span);
+      read = readHues(look, layers, findKind("record3d"), span, later);
       read.kind = findKind("record3d");
     }
   } else if (clues.code != DepthCode::Luma) {
     read.offer = otherEnd(layers);  // an entry of a colour map says nothing of its own
   } else if (isOfStereoCamera(kind) && clues.place.camera) {
-    read = readDisparities(look, CodeCount(look), *clues.place.camera);
+    read = readDisparities(look, countOf(look, later), *clues.place.camera);
   } else if (isOfStereoCamera(kind) && look.value_per_code == 0) {
-    read = readFloats(look, CodeCount(look), true, layers);
+    read = readFloats(look, countOf(look, later), true, layers);
   } else if (look.value_per_code != 0 && !isHeights(kind)) {
     scaleToCodes(layers, look.value_per_code);
-    read = readFloats(look, CodeCount(look), namesDisparity(clues.codec, clues.path), layers);
+    read = readFloats(look, countOf(look, later), namesDisparity(clues.codec, clues.path), layers);
   } else {
-    read = readCodes(look, CodeCount(look), layers, kind);
+    read = readCodes(look, countOf(look, later), layers, kind);
   }
   if (clues.live && read.kind == nullptr) {
     read.settings.erase("near");
     read.settings.erase("far");
   }
+  if (!later.empty() && !read.why.empty()) read.why += print(", in %zu pictures of it", later.size() + 1);
   layers.pictures = clues.pictures;
   layers.pictures.merge(read.settings);
   auto choice = chooseCalibration(layers, look, clues.code);

@@ -44,8 +44,9 @@ struct Reach {
   double low = 0, median = 0, high = 0, holes = 0;
 };
 Reach reachOf(const CodeCount& count) {
-  const auto at = [&](double q) { return static_cast<double>(count.quantile(q, 1, kTop)); };
-  return {at(kOutliers), at(0.5), at(1 - kOutliers), count.share(0, 0)};
+  const auto [low, high] = count.reach(kOutliers, 1, kTop);
+  const std::uint32_t median = count.quantile(0.5, 1, kTop);
+  return {static_cast<double>(low), static_cast<double>(median), static_cast<double>(high), count.share(0, 0)};
 }
 
 std::string codeRange(double low, double high) {
