@@ -119,7 +119,7 @@ Frame PairReader::Impl::tellingPicture(const Frame& first, const std::string& ur
 // Up to seven depth pictures, spread over the film from its start to its end; fewer if they are large or reading them
 // takes long.
 std::vector<Frame> PairReader::Impl::laterPictures(MediaTime seen, int stream) {
-  constexpr int kMost = 7;
+  constexpr std::array kPlaces{1 - 1e-3, 4.0 / 7, 2.0 / 7, 6.0 / 7, 1.0 / 7, 5.0 / 7, 3.0 / 7};  // of the duration
   constexpr double kMostSamples = 1 << 24;
   constexpr Duration kLongest = std::chrono::seconds(1);
   std::vector<Frame> pictures;
@@ -131,15 +131,17 @@ std::vector<Frame> PairReader::Impl::laterPictures(MediaTime seen, int stream) {
   // The scale of floating-point numbers is that of the first picture that is decoded.
   const auto first = scout->next(0);
   if (!first || !*first) return pictures;
-  const int count = std::clamp(static_cast<int>(kMostSamples / (1.0 * (**first).width * (**first).height)), 1, kMost);
-  MediaTime last = seen;
-  for (int i = 1; i <= count && clock.now() < until; ++i) {
-    const double share = i < count ? static_cast<double>(i) / count : 1 - 1e-3;
-    if (!scout->seek(MediaTime(fromSeconds(share * toSeconds(duration))))) break;
+  const double samples = static_cast<double>((**first).width) * (**first).height;
+  std::vector<MediaTime> met{seen};
+  for (const double place : kPlaces) {
+    const bool enough = !pictures.empty() && static_cast<double>(pictures.size() + 1) * samples > kMostSamples;
+    if (enough || clock.now() > until) break;
+    if (!scout->seek(MediaTime(fromSeconds(place * toSeconds(duration))))) break;
     const auto picture = scout->next(0);
     if (!picture) break;
-    if (!*picture || (*picture)->pts == last || (*picture)->value_per_code != (**first).value_per_code) continue;
-    last = (*picture)->pts;
+    if (!*picture || (*picture)->value_per_code != (**first).value_per_code) continue;
+    if (std::ranges::find(met, (*picture)->pts) != met.end()) continue;
+    met.push_back((*picture)->pts);
     auto later = depthIn(**picture);
     if (later && !isBlank(*later)) pictures.push_back(std::move(*later));
   }
@@ -160,7 +162,7 @@ Result<Frame> PairReader::Impl::depthIn(const Frame& stored) {
 
 // Says once that a picture lies beyond near and far as far as these are a guess.
 void PairReader::Impl::checkReach(const Frame& picture) {
-  constexpr double kTold = 0.01;
+  constexpr double kTold = 0.02;
   const DepthCalibration& calibration = info.calibration.calibration;
   if (calibration.code != DepthCode::Luma) return;
   const Beyond beyond = beyondIn(picture, calibration);
