@@ -82,6 +82,24 @@ bool isAssumedNearHigh(const CalibrationChoice& choice) {
   });
 }
 
+// Eight bits, not coded with loss, that a name says are disparities.
+bool isNamedDisparity(const DepthClues& clues, const KnownKind* kind, const Frame& look) {
+  return kind == nullptr && look.model != ColorModel::Yuv && look.components[0].bits == 8 &&
+         !definesCodes(saidLayers(clues)) && saysDisparity(clues.path);
+}
+
+// The name says that near is bright and 1/distance; only the codes in use are read off the picture.
+DepthReading readNamedDisparity(const Frame& look, const CodeCount& count, CalibrationLayers& layers) {
+  DepthReading read = readFloats(look, count, true, layers);
+  for (const char* key : {"law", "polarity"}) {
+    if (auto part = read.settings.extract(key); !part.empty()) layers.names.insert(std::move(part));
+  }
+  if (!read.why.empty()) read.why = "the name says disparity: " + read.why;
+  if (!read.offer.empty())
+    read.offer = "if it is brightness from far to near: --as near-bright; if from near to far: --as near-dark";
+  return read;
+}
+
 CodeCount countOf(const Frame& look, std::span<const Frame> later) {
   CodeCount count(look);
   for (const Frame& picture : later) count.addLater(picture);
@@ -128,6 +146,8 @@ Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind,
   } else if (look.value_per_code != 0 && !isHeights(kind)) {
     scaleToCodes(layers, look.value_per_code);
     read = readFloats(look, countOf(look, later), namesDisparity(clues.codec, clues.path), layers);
+  } else if (isNamedDisparity(clues, kind, look)) {
+    read = readNamedDisparity(look, countOf(look, later), layers);
   } else {
     read = readCodes(look, countOf(look, later), layers, kind);
   }

@@ -137,6 +137,22 @@ bool namesDisparity(std::string_view codec, std::string_view path) {
   return codec == "pfm";
 }
 
+bool saysDisparity(std::string_view path) {
+  constexpr std::array<std::string_view, 4> kWords{"disp", "disparity", "disparities", "disparitymap"};
+  const std::string lower = lowerCase(path);
+  const std::size_t file = lower.rfind('/'), folder = file == lower.npos ? file : lower.rfind('/', file - 1);
+  std::string word;
+  for (std::size_t i = folder == lower.npos ? 0 : folder + 1; i <= lower.size(); ++i) {
+    if (i < lower.size() && std::isalpha(static_cast<unsigned char>(lower[i])) != 0) {
+      word += lower[i];
+    } else {
+      if (std::ranges::find(kWords, word) != kWords.end()) return true;
+      word.clear();
+    }
+  }
+  return false;
+}
+
 DepthReading readFloats(const Frame& depth, const CodeCount& count, bool disparity, const CalibrationLayers& said) {
   if (count.share(1, kTop) == 0) return {};
   const Reach reach = reachOf(count);
