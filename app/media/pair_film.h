@@ -53,6 +53,7 @@ struct PairReader::Impl {
   void takeDepthFromViews();
   void lookForCode(const Frame& first);
   Result<const Frame*> firstDepth();
+  Result<const Frame*> firstAsStated(const Frame& first);
   Result<void> describeAlone(const StreamInfo& track);
   Result<void> describeHalves(const StreamInfo& color);
   Result<void> describeTrack(const Frame& first);

@@ -136,7 +136,8 @@ void PairReader::Impl::lookForCode(const Frame& look) {
 // The first depth picture, its samples in order; the order may be found out only by looking at it.
 Result<const Frame*> PairReader::Impl::firstDepth() {
   auto first = depth->peek();
-  if (!first || *first == nullptr || reordering.order != SampleOrder::AsStored || registrar) return first;
+  if (!first || *first == nullptr || registrar) return first;
+  if (reordering.order != SampleOrder::AsStored) return firstAsStated(**first);
   const StreamInfo& stream = depth_source ? depth_source->stream() : *depth_stream;
   takeTags(stream);
   const KnownKind* const kind = kindOf(clues, tellingPicture(**first, depthUrl(), stream.index));
@@ -144,6 +145,18 @@ Result<const Frame*> PairReader::Impl::firstDepth() {
   reordering.kind = kind;
   reordering.order = kind->order;
   reordering.again = **first;
+  depth.emplace([this] { return supplyDepth(); });
+  return depth->peek();
+}
+
+// The first depth picture of a stated kind, whose order a reader of pictures may have made already.
+Result<const Frame*> PairReader::Impl::firstAsStated(const Frame& first) {
+  if (options.as == nullptr || reordering.order != SampleOrder::Swapped) return &first;
+  auto stored = inOrder(first, SampleOrder::Swapped);  // back
+  if (!stored) return std::unexpected(stored.error());
+  reordering.order = orderOf(*options.as, *stored);
+  if (reordering.order != SampleOrder::AsStored) return &first;
+  reordering.again = std::move(*stored);
   depth.emplace([this] { return supplyDepth(); });
   return depth->peek();
 }
@@ -156,8 +169,8 @@ Result<void> PairReader::Impl::describeAlone(const StreamInfo& track) {
   const KnownKind* const kind = kindOf(clues, look);
   if (kind != nullptr && kind->order != SampleOrder::AsStored) {
     reordering.kind = kind;
-    reordering.order = kind->order;
-    auto ordered = inOrder(look, kind->order);
+    reordering.order = orderOf(*kind, look);
+    auto ordered = inOrder(look, reordering.order);
     if (!ordered) return failOn(options.url, ordered.error());
     look = std::move(*ordered);
   }

@@ -143,6 +143,12 @@ bool isScattered(const Frame& depth) {
   return readings > 0 && 2 * alone > readings;
 }
 
+SampleOrder orderOf(const KnownKind& kind, const Frame& stored) {
+  constexpr std::uint32_t kRawHole = 2047;
+  const bool raw = kind.order == SampleOrder::Swapped && kind.inverse.offset > 0 && isGray16(stored);
+  return raw && CodeCount(stored).share(kRawHole + 1, kTop) == 0 ? SampleOrder::AsStored : kind.order;
+}
+
 Result<Frame> inOrder(const Frame& depth, SampleOrder order) {
   if (order == SampleOrder::AsStored || !isGray16(depth)) return depth;
   try {

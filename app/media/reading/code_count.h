@@ -53,6 +53,10 @@ class CodeCount {
 // True if most samples with a reading have none beside, above and below: the points of a laser scanner.
 [[nodiscard]] bool isScattered(const Frame& depth);
 
+// The order of the samples of a kind's pictures, of which `stored` is one: as stored if a reader of pictures has put a
+// Kinect's raw codes in order already.
+[[nodiscard]] SampleOrder orderOf(const KnownKind& kind, const Frame& stored);
+
 // The picture with its 16-bit gray codes put in order: a copy; other pictures, and those as stored, by reference.
 // Exhausted if out of memory.
 [[nodiscard]] Result<Frame> inOrder(const Frame& depth, SampleOrder order);
