@@ -161,6 +161,22 @@ TEST_F(PictureFolder, NyusRawDepthIsReadAsItWasMeant) {
   EXPECT_EQ(last(folder_ / "m/depth-*.pgm"), 300);
 }
 
+// As depthy leaves them: each is a photo, and no film of 30 a second.
+TEST_F(PictureFolder, PairsWithUnrelatedNamesArePhotosThatStand) {
+  picture("p/cat-image.ppm", 1), picture("p/cat-depth.pgm", 1001);
+  picture("p/old house-image.ppm", 2), picture("p/old house-depth.pgm", 1002);
+  EXPECT_EQ(story({.url = folder_ / "p"}), "0 1:1001, 5000 2:1002");
+  EXPECT_EQ(story({.url = folder_ / "p/old house-image.ppm"}), "0 2:1002");
+  EXPECT_EQ(story({.url = folder_ / "p", .frames_per_s = 10}), "0 1:1001, 100 2:1002");
+  PairReader reader(kReal);
+  ASSERT_TRUE(reader.open({.url = folder_ / "p"}));
+  ASSERT_FALSE(reader.info().notes.empty());
+  EXPECT_NE(reader.info().notes.back().find("photos"), std::string::npos) << reader.info().notes.back();
+  picture("q/a-1-x-image.ppm", 1), picture("q/a-1-x-depth.pgm", 1001);
+  picture("q/a-2-x-image.ppm", 2), picture("q/a-2-x-depth.pgm", 1002);
+  EXPECT_EQ(story({.url = folder_ / "q"}), "0 1:1001, 33.3333 2:1002");
+}
+
 TEST_F(PictureFolder, ADamagedFirstPictureHidesNoOther) {
   std::ofstream(folder_ / "1.ppm") << "P6";
   picture("2.ppm", 2), picture("3.ppm", 3);
