@@ -95,4 +95,13 @@ void closeLocalFile(AVIOContext* file) noexcept {
   avio_context_free(&file);
 }
 
+bool isHeic(const std::string& path) {
+  std::array<std::uint8_t, 12> head{};
+  const auto file = AnsweredFile::open(path);
+  if (!file || file->read(0, head).value_or(0) < head.size()) return false;
+  const std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());
+  constexpr std::array<std::string_view, 6> kBrands{"heic", "heix", "heim", "heis", "mif1", "msf1"};
+  return text.substr(4, 4) == "ftyp" && std::ranges::find(kBrands, text.substr(8)) != kBrands.end();
+}
+
 }  // namespace relievo::ffmpeg
