@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/ffmpeg/local_file.h"
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
+#include <string_view>
 #include <utility>
 
 #include "drivers/ffmpeg/address.h"
