@@ -23,7 +23,7 @@ std::string stemOf(const std::string& name) {
 std::string depthOf(const std::string& film, const std::vector<std::string>& names) {
   const std::string stem = stemOf(film);
   std::vector<std::string> stems{stem + "-depth", stem + "_depth", stem + ".depth"};
-  for (const char* word : {"color", "colour", "rgb"}) {
+  for (const char* word : {"color", "colour", "rgb", "image"}) {
     const std::size_t at = stem.find(word);
     if (at != stem.npos) stems.push_back(std::string(stem).replace(at, std::char_traits<char>::length(word), "depth"));
   }

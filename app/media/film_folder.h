@@ -17,7 +17,7 @@ namespace relievo {
 [[nodiscard]] std::vector<PlaylistEntry> pairedFilms(const std::string& folder, std::vector<std::string> names);
 
 // The file that by its name holds the depth of the file `film`, in the same folder and of the same kind (film or
-// picture): a-depth, a_depth or a.depth for a; depth_a for color_a, colour_a or rgb_a. Empty if there is none.
+// picture): a-depth, a_depth or a.depth for a; depth_a for color_a, colour_a, rgb_a or image_a. Empty if there is none.
 [[nodiscard]] std::string depthBeside(const std::string& film);
 // Whether the name of the file has the word depth in it, as "clip_depth.mp4"; the folder does not count.
 [[nodiscard]] bool saysDepth(const std::string& url);

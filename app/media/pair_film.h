@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/media/depth_follower.h"
 #include "app/media/depth_source.h"
@@ -52,12 +53,19 @@ struct PairReader::Impl {
   void takeDepthFromViews();
   void lookForCode(const Frame& first);
   Result<const Frame*> firstDepth();
+  Result<const Frame*> firstAsStated(const Frame& first);
   Result<void> describeAlone(const StreamInfo& track);
   Result<void> describeHalves(const StreamInfo& color);
   Result<void> describeTrack(const Frame& first);
   void takeTags(const StreamInfo& stream);
   Result<void> describe(const Frame& first, const Frame& look, const Frame& color, const StreamInfo& stream);
-  Frame tellingPicture(const Frame& first, const std::string& url, int stream);
+  // In pair_ahead.cpp: what later pictures show.
+  [[nodiscard]] static bool isFile(const std::string& url);
+  [[nodiscard]] std::unique_ptr<TrackReader> scoutOf(const std::string& url, int stream) const;
+  [[nodiscard]] std::vector<Frame> laterPictures(MediaTime seen, int stream);
+  [[nodiscard]] Result<Frame> depthIn(const Frame& stored);
+  void checkReach(const Frame& picture);
+  [[nodiscard]] Frame tellingPicture(const Frame& first, const std::string& url, int stream) const;
   Result<std::optional<Frame>> readColor();
   Result<std::optional<Frame>> nextColor();
   Result<DepthFollower::Supplied> supplyDepth();
@@ -134,8 +142,9 @@ struct PairReader::Impl {
     bool away = false;                     // late or lost, and being retried
     bool lost = false, loss_told = false;
   };
-  OwnDepth own;          // of `depth_source`
-  Duration key_step{0};  // of the last seek
+  OwnDepth own;             // of `depth_source`
+  Duration key_step{0};     // of the last seek
+  bool reach_open = false;  // near and far are those of a few pictures, and no later one was told to lie beyond
 };
 
 }  // namespace relievo

@@ -202,6 +202,7 @@ Result<std::optional<FramePair>> PairReader::next() {
     if (impl_->backends.clock != nullptr) pair->delay = impl_->backends.clock->now() - *pair->taken;
   }
   ++impl_->counters.pairs;
+  if (impl_->reach_open && !pair->depth.empty()) impl_->checkReach(pair->depth);
   if (!pair->matched && impl_->key_step == Duration(0)) ++impl_->counters.mismatched;
   if (impl_->info.has_depth && !impl_->info.depth_from_views && pair->depth.empty()) ++impl_->counters.without_depth;
   return std::move(*pair);
@@ -283,6 +284,7 @@ void PairReader::close() noexcept {
   film.remote = film.live = false;
   film.counters = {};
   film.key_step = Duration(0);
+  film.reach_open = false;
   film.info = {};
   std::unique_ptr<DepthSource> depth_source;  // destroyed outside the lock, because that joins its thread
   const std::scoped_lock lock(film.readers_mutex);

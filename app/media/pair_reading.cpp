@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds out where a film's depth is and what it means, while the film is opened.
 #include <algorithm>
-#include <array>
 
 #include "app/media/film_folder.h"
 #include "app/media/pair_film.h"
@@ -18,11 +17,6 @@ namespace relievo {
 namespace {
 
 constexpr double kMostlyGray = 0.9;
-
-// A source that can be opened a second time at no cost to others.
-bool isFile(const std::string& url) {
-  return url.find("://") == std::string::npos && !url.starts_with("v4l2:");
-}
 
 // Numbers, the codes of a sensor, or a colour map are no colour; nor are gray, hues and a ramp of blue in a file that
 // is called depth.
@@ -142,7 +136,8 @@ void PairReader::Impl::lookForCode(const Frame& look) {
 // The first depth picture, its samples in order; the order may be found out only by looking at it.
 Result<const Frame*> PairReader::Impl::firstDepth() {
   auto first = depth->peek();
-  if (!first || *first == nullptr || reordering.order != SampleOrder::AsStored || registrar) return first;
+  if (!first || *first == nullptr || registrar) return first;
+  if (reordering.order != SampleOrder::AsStored) return firstAsStated(**first);
   const StreamInfo& stream = depth_source ? depth_source->stream() : *depth_stream;
   takeTags(stream);
   const KnownKind* const kind = kindOf(clues, tellingPicture(**first, depthUrl(), stream.index));
@@ -150,6 +145,18 @@ Result<const Frame*> PairReader::Impl::firstDepth() {
   reordering.kind = kind;
   reordering.order = kind->order;
   reordering.again = **first;
+  depth.emplace([this] { return supplyDepth(); });
+  return depth->peek();
+}
+
+// The first depth picture of a stated kind, whose order a reader of pictures may have made already.
+Result<const Frame*> PairReader::Impl::firstAsStated(const Frame& first) {
+  if (options.as == nullptr || reordering.order != SampleOrder::Swapped) return &first;
+  auto stored = inOrder(first, SampleOrder::Swapped);  // back
+  if (!stored) return std::unexpected(stored.error());
+  reordering.order = orderOf(*options.as, *stored);
+  if (reordering.order != SampleOrder::AsStored) return &first;
+  reordering.again = std::move(*stored);
   depth.emplace([this] { return supplyDepth(); });
   return depth->peek();
 }
@@ -162,8 +169,8 @@ Result<void> PairReader::Impl::describeAlone(const StreamInfo& track) {
   const KnownKind* const kind = kindOf(clues, look);
   if (kind != nullptr && kind->order != SampleOrder::AsStored) {
     reordering.kind = kind;
-    reordering.order = kind->order;
-    auto ordered = inOrder(look, kind->order);
+    reordering.order = orderOf(*kind, look);
+    auto ordered = inOrder(look, reordering.order);
     if (!ordered) return failOn(options.url, ordered.error());
     look = std::move(*ordered);
   }
@@ -234,8 +241,15 @@ Result<void> PairReader::Impl::describe(const Frame& first, const Frame& look, c
     clues.more.push_back(
         {"full codes of its material track", materialText(info.material_scale), CalibrationOrigin::ContainerTags});
   }
-  auto meaning = readMeaning(clues, reordering.kind != nullptr ? reordering.kind : kindOf(clues, look), look);
+  const KnownKind* const kind = reordering.kind != nullptr ? reordering.kind : kindOf(clues, look);
+  auto meaning = readMeaning(clues, kind, look);
   if (!meaning) return failOn("calibration", meaning.error());
+  reach_open = isReachSeen(meaning->calibration);
+  if (reach_open) {
+    const std::vector<Frame> later = laterPictures(look.pts, stream.index);
+    if (!later.empty()) meaning = readMeaning(clues, kind, look, later);
+    if (!meaning) return failOn("calibration", meaning.error());
+  }
   info.calibration = std::move(meaning->calibration);
   info.reading = std::move(meaning->reading);
   info.reading.doubts = doubtsOf(look, info.calibration.calibration, color.empty() ? nullptr : &color);
@@ -251,31 +265,6 @@ Result<void> PairReader::Impl::describe(const Frame& first, const Frame& look, c
                        : depth_source ? depth_source->decoder()
                                       : color_reader->decoder(*depth_track);
   return {};
-}
-
-// `first`, or if it is blank a later picture of the same stream.
-Frame PairReader::Impl::tellingPicture(const Frame& first, const std::string& url, int stream) {
-  constexpr int kMostPictures = 40;
-  constexpr std::array kLater{2, 5, 10, 20, 40};  // seconds
-  if (remote || !isFile(url) || !isBlank(first)) return first;
-  TrackReader scout(backends.make_source(url), backends.make_decoder);
-  if (!scout.open(url)) return first;
-  const auto& streams = scout.source().streams();
-  const auto same =
-      std::find_if(streams.begin(), streams.end(), [&](const StreamInfo& s) { return s.index == stream; });
-  if (same == streams.end() || !scout.select(asTold(*same))) return first;
-  for (int i = 0; i < kMostPictures; ++i) {
-    const auto picture = scout.next(0);
-    if (!picture || !*picture) break;
-    if (!isBlank(**picture)) return **picture;
-  }
-  for (const int seconds : kLater) {
-    if (!scout.seek(mediaTime(seconds))) break;
-    const auto picture = scout.next(0);
-    if (!picture || !*picture) break;
-    if (!isBlank(**picture)) return **picture;
-  }
-  return first;
 }
 
 }  // namespace relievo

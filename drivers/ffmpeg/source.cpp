@@ -207,6 +207,12 @@ class FfmpegSource final : public MediaSource {
 
   // FFmpeg returns EINVAL for what the whitelists of `optionsFor` forbid.
   static Error refusal(const Address& address, int code, const std::string& words) noexcept {
+    if (code == AVERROR_INVALIDDATA && address.way == Way::File && isHeic(localPathOf(address.url))) {
+      return {
+          ErrorCode::Unsupported, 0,
+          "it is a HEIC photo, which this FFmpeg cannot read; with libheif (RELIEVO_HEIF) those with a depth map or "
+          "two views are read; save it as JPEG or PNG"};
+    }
     if (!address.remote()) return openError(code);
     if (code != AVERROR(EINVAL) || address.way != Way::Http) return networkError(code, words);
     return {ErrorCode::Unsupported, 0,

@@ -159,4 +159,13 @@ NameValues valuesOf(const std::vector<std::string>& names) {
   return {NameKind::Ranks, ranksOf(names)};
 }
 
+bool areUnrelated(const std::vector<std::string>& names) {
+  const auto wordsOf = [](const std::string& name) {
+    std::string words(stemOf(name));
+    std::erase_if(words, [](char c) { return c >= '0' && c <= '9'; });
+    return words;
+  };
+  return std::ranges::any_of(names, [&](const auto& name) { return wordsOf(name) != wordsOf(names.front()); });
+}
+
 }  // namespace relievo::pictures

@@ -30,4 +30,7 @@ struct NameValues {
 // A number is the only run of digits that differs between names that are otherwise alike, and at most 9e9.
 [[nodiscard]] NameValues valuesOf(const std::vector<std::string>& names);
 
+// Whether names of one series differ in more than digits, as those of photos do that have nothing in common.
+[[nodiscard]] bool areUnrelated(const std::vector<std::string>& names);
+
 }  // namespace relievo::pictures

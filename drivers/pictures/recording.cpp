@@ -13,7 +13,7 @@
 namespace relievo::pictures {
 namespace {
 
-constexpr double kUsualRate = 25, kSensorRate = 30;
+constexpr double kUsualRate = 25, kSensorRate = 30, kPhotoRate = 0.2;
 constexpr std::int64_t kNearest = 20'000'000;  // ns between colour and depth
 
 struct Valued {
@@ -165,7 +165,8 @@ Recording recordingOf(const FoundPictures& found, std::optional<double> frames_p
   timing.noteGaps();
   const bool both = !timing.color.empty() && !timing.depth.empty();
   const bool counted = timing.kind != NameKind::Seconds;
-  const double rate = frames_per_s.value_or(both ? kSensorRate : kUsualRate);
+  const bool photos = both && !found.views && timing.kind == NameKind::Ranks && areUnrelated(found.color.names);
+  const double rate = frames_per_s.value_or(photos ? kPhotoRate : both ? kSensorRate : kUsualRate);
   const std::int64_t first = (timing.color.empty() ? timing.depth : timing.color).front().value;
   const double period_ns = counted ? 1e9 / rate : 1;
 
@@ -182,7 +183,11 @@ Recording recordingOf(const FoundPictures& found, std::optional<double> frames_p
   recording.notes = std::move(timing.notes);
   if (counted && !frames_per_s && leading.size() > 1) {
     recording.notes.push_back(
-        print("the names tell no times: %.0f pictures a second assumed; --fps F changes that", rate));
+        photos
+            ? print("the names have nothing in common, as those of photos: each stands for %.0f s; give one of them to "
+                    "play it alone, --fps F for a film",
+                    1 / rate)
+            : print("the names tell no times: %.0f pictures a second assumed; --fps F changes that", rate));
   }
   recording.views = found.views;
   if (both && !found.views)

@@ -80,7 +80,7 @@ Outcome<void> DepthFilm::open() {
   const auto stated = source.as != nullptr ? source.as->code : std::nullopt;
   clues.code = source.depth_code.value_or(stated.value_or(DepthCode::Luma));
   const KnownKind* const kind = kindOf(clues, frame);
-  order_ = kind != nullptr ? kind->order : SampleOrder::AsStored;
+  order_ = kind != nullptr ? orderOf(*kind, frame) : SampleOrder::AsStored;
   const auto ordered = inOrder(frame, order_);
   if (!ordered) return failOn(source.url, ordered.error());
   tracks_->first = *ordered;

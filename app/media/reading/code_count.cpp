@@ -66,6 +66,16 @@ std::uint32_t CodeCount::quantile(double q, std::uint32_t low, std::uint32_t hig
   return low;
 }
 
+CodeCount::Reach CodeCount::reach(double outliers, std::uint32_t low, std::uint32_t high) const {
+  Reach reach{quantile(outliers, low, high), quantile(1 - outliers, low, high)};
+  for (const CodeCount& later : later_) {
+    if (later.bits_ != bits_ || later.share(low, high) == 0) continue;
+    reach.low = std::min(reach.low, later.quantile(outliers, low, high));
+    reach.high = std::max(reach.high, later.quantile(1 - outliers, low, high));
+  }
+  return reach;
+}
+
 std::uint32_t CodeCount::step() const {
   std::uint32_t step = 0;
   for (std::uint32_t code = 0; code < of_code_.size(); ++code) {
@@ -94,6 +104,7 @@ CodeCount CodeCount::without(const CodeSet& set) const {
     rest.samples_ -= rest.of_code_[code];
     rest.of_code_[code] = 0;
   }
+  for (CodeCount& later : rest.later_) later = later.without(set);
   return rest;
 }
 
@@ -130,6 +141,12 @@ bool isScattered(const Frame& depth) {
     }
   }
   return readings > 0 && 2 * alone > readings;
+}
+
+SampleOrder orderOf(const KnownKind& kind, const Frame& stored) {
+  constexpr std::uint32_t kRawHole = 2047;
+  const bool raw = kind.order == SampleOrder::Swapped && kind.inverse.offset > 0 && isGray16(stored);
+  return raw && CodeCount(stored).share(kRawHole + 1, kTop) == 0 ? SampleOrder::AsStored : kind.order;
 }
 
 Result<Frame> inOrder(const Frame& depth, SampleOrder order) {

@@ -15,6 +15,8 @@ class CodeCount {
  public:
   // Counts all samples of a gray or YUV picture, or of an RGB picture whose three components are equal.
   explicit CodeCount(const Frame& depth);
+  // A later picture of the same film: it counts for `reach` alone.
+  void addLater(const Frame& depth) { later_.emplace_back(depth); }
 
   [[nodiscard]] int bits() const noexcept { return bits_; }
   [[nodiscard]] std::uint64_t samples() const noexcept { return samples_; }
@@ -24,25 +26,36 @@ class CodeCount {
   [[nodiscard]] double share(const CodeSet& set) const;
   // The quantile `q` of the codes in `low` .. `high`; `low` if there are none.
   [[nodiscard]] std::uint32_t quantile(double q, std::uint32_t low, std::uint32_t high) const;
+  struct Reach {
+    std::uint32_t low = 0, high = 0;
+  };
+  // The codes from the quantile `outliers` to the quantile 1 - `outliers`, of those in `low` .. `high`: the widest that
+  // this picture and the later ones span together.
+  [[nodiscard]] Reach reach(double outliers, std::uint32_t low, std::uint32_t high) const;
   // The greatest common divisor of the codes that occur; 0 if only code 0 occurs.
   [[nodiscard]] std::uint32_t step() const;
   // The share, among the samples whose code is neither 0 nor 65535, of those that leave at most `most` when divided.
   [[nodiscard]] double remainders(std::uint32_t divisor, std::uint32_t most) const;
   // How many different codes occur.
   [[nodiscard]] int kinds() const;
-  // The same samples without those of the codes `set`.
+  // The same samples, also of the later pictures, without those of the codes `set`.
   [[nodiscard]] CodeCount without(const CodeSet& set) const;
 
  private:
   int bits_ = 8;
   std::uint64_t samples_ = 0;
   std::vector<std::uint64_t> of_code_;
+  std::vector<CodeCount> later_;
 };
 
 // True for a picture of 16-bit gray whose neighbouring samples are alike only after their bytes are swapped.
 [[nodiscard]] bool isSwapped(const Frame& depth);
 // True if most samples with a reading have none beside, above and below: the points of a laser scanner.
 [[nodiscard]] bool isScattered(const Frame& depth);
+
+// The order of the samples of a kind's pictures, of which `stored` is one: as stored if a reader of pictures has put a
+// Kinect's raw codes in order already.
+[[nodiscard]] SampleOrder orderOf(const KnownKind& kind, const Frame& stored);
 
 // The picture with its 16-bit gray codes put in order: a copy; other pictures, and those as stored, by reference.
 // Exhausted if out of memory.

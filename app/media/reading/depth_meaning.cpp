@@ -8,6 +8,7 @@
 #include "app/media/reading/code_count.h"
 #include "app/media/reading/depth_reading.h"
 #include "app/media/reading/float_reading.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {
@@ -81,6 +82,30 @@ bool isAssumedNearHigh(const CalibrationChoice& choice) {
   });
 }
 
+// Eight bits, not coded with loss, that a name says are disparities.
+bool isNamedDisparity(const DepthClues& clues, const KnownKind* kind, const Frame& look) {
+  return kind == nullptr && look.model != ColorModel::Yuv && look.components[0].bits == 8 &&
+         !definesCodes(saidLayers(clues)) && saysDisparity(clues.path);
+}
+
+// The name says that near is bright and 1/distance; only the codes in use are read off the picture.
+DepthReading readNamedDisparity(const Frame& look, const CodeCount& count, CalibrationLayers& layers) {
+  DepthReading read = readFloats(look, count, true, layers);
+  for (const char* key : {"law", "polarity"}) {
+    if (auto part = read.settings.extract(key); !part.empty()) layers.names.insert(std::move(part));
+  }
+  if (!read.why.empty()) read.why = "the name says disparity: " + read.why;
+  if (!read.offer.empty())
+    read.offer = "if it is brightness from far to near: --as near-bright; if from near to far: --as near-dark";
+  return read;
+}
+
+CodeCount countOf(const Frame& look, std::span<const Frame> later) {
+  CodeCount count(look);
+  for (const Frame& picture : later) count.addLater(picture);
+  return count;
+}
+
 }  // namespace
 
 const KnownKind* kindOf(const DepthClues& clues, const Frame& stored) {
@@ -93,33 +118,44 @@ const KnownKind* kindOf(const DepthClues& clues, const Frame& stored) {
   return clues.code == DepthCode::Luma ? sensorKind(stored, CodeCount(stored)) : nullptr;
 }
 
-Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind, const Frame& look) {
+bool isReachSeen(const CalibrationChoice& choice) {
+  return std::any_of(choice.parts.begin(), choice.parts.end(), [](const CalibrationPart& part) {
+    const bool of_reach = part.key == "near" || part.key == "far" || part.key == "codes";
+    return of_reach && part.origin == CalibrationOrigin::FirstPicture;
+  });
+}
+
+Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind, const Frame& look,
+                                 std::span<const Frame> later) {
   CalibrationLayers layers = saidLayers(clues);
   const HueSpan span = addKind(clues, kind, layers);
   DepthReading read;
   if (clues.code == DepthCode::Hue) {
-    read = readHues(look, layers, kind, span);
+    read = readHues(look, layers, kind, span, later);
     const bool like_record3d = kind == nullptr && clues.packing == Packing::SideBySideDepthFirst;
     if (like_record3d && !read.settings.empty()) {
-      read = readHues(look, layers, findKind("record3d"), span);
+      read = readHues(look, layers, findKind("record3d"), span, later);
       read.kind = findKind("record3d");
     }
   } else if (clues.code != DepthCode::Luma) {
     read.offer = otherEnd(layers);  // an entry of a colour map says nothing of its own
   } else if (isOfStereoCamera(kind) && clues.place.camera) {
-    read = readDisparities(look, CodeCount(look), *clues.place.camera);
+    read = readDisparities(look, countOf(look, later), *clues.place.camera);
   } else if (isOfStereoCamera(kind) && look.value_per_code == 0) {
-    read = readFloats(look, CodeCount(look), true, layers);
+    read = readFloats(look, countOf(look, later), true, layers);
   } else if (look.value_per_code != 0 && !isHeights(kind)) {
     scaleToCodes(layers, look.value_per_code);
-    read = readFloats(look, CodeCount(look), namesDisparity(clues.codec, clues.path), layers);
+    read = readFloats(look, countOf(look, later), namesDisparity(clues.codec, clues.path), layers);
+  } else if (isNamedDisparity(clues, kind, look)) {
+    read = readNamedDisparity(look, countOf(look, later), layers);
   } else {
-    read = readCodes(look, CodeCount(look), layers, kind);
+    read = readCodes(look, countOf(look, later), layers, kind);
   }
   if (clues.live && read.kind == nullptr) {
     read.settings.erase("near");
     read.settings.erase("far");
   }
+  if (!later.empty() && !read.why.empty()) read.why += print(", in %zu pictures of it", later.size() + 1);
   layers.pictures = clues.pictures;
   layers.pictures.merge(read.settings);
   auto choice = chooseCalibration(layers, look, clues.code);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,8 +40,11 @@ struct DepthMeaning {
 // whose samples are as stored. Null if none is known or the codes' meaning was said.
 [[nodiscard]] const KnownKind* kindOf(const DepthClues& clues, const Frame& stored);
 
-// `kind`: kindOf; `look`: a depth picture that is not blank, its samples in the kind's order. Errors as
-// chooseCalibration.
-[[nodiscard]] Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind, const Frame& look);
+// `kind`: kindOf; `look`: a depth picture that is not blank, its samples in the kind's order; `later`: further ones, so
+// that near and far hold for the whole film. Errors as chooseCalibration.
+[[nodiscard]] Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind, const Frame& look,
+                                               std::span<const Frame> later = {});
+// Whether near, far or the codes in use are those of the pictures that were looked at, beyond which others may lie.
+[[nodiscard]] bool isReachSeen(const CalibrationChoice& choice);
 
 }  // namespace relievo

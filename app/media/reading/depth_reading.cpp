@@ -41,12 +41,10 @@ std::string number(double value) {
   return print("%.6g", value);
 }
 
-struct Reach {
-  std::uint32_t low = 0, high = 0;
-};
+using Reach = CodeCount::Reach;
 // The range of the codes between `lowest` and `highest`, without the outliers.
 Reach reachOf(const CodeCount& count, std::uint32_t lowest, std::uint32_t highest) {
-  return {count.quantile(kOutliers, lowest, highest), count.quantile(1 - kOutliers, lowest, highest)};
+  return count.reach(kOutliers, lowest, highest);
 }
 
 std::string holesText(double share) {

@@ -2,6 +2,7 @@
 // Tells from a depth track's first telling picture what its codes are, as far as nobody has said it.
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "app/media/reading/code_count.h"
@@ -36,8 +37,9 @@ struct DepthReading {
 struct HueSpan {
   double near_mm = 0, far_mm = 3000;  // Record3D's
 };
-// For depth that is coded as a hue: which hues are holes; for Record3D also the range in use. `kind` as above.
+// For depth that is coded as a hue: which hues are holes; for Record3D also the range in use, of the later pictures
+// too. `kind` as above.
 [[nodiscard]] DepthReading readHues(const Frame& depth, const CalibrationLayers& said, const KnownKind* kind,
-                                    HueSpan span);
+                                    HueSpan span, std::span<const Frame> later = {});
 
 }  // namespace relievo

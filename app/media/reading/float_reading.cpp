@@ -44,8 +44,9 @@ struct Reach {
   double low = 0, median = 0, high = 0, holes = 0;
 };
 Reach reachOf(const CodeCount& count) {
-  const auto at = [&](double q) { return static_cast<double>(count.quantile(q, 1, kTop)); };
-  return {at(kOutliers), at(0.5), at(1 - kOutliers), count.share(0, 0)};
+  const auto [low, high] = count.reach(kOutliers, 1, kTop);
+  const std::uint32_t median = count.quantile(0.5, 1, kTop);
+  return {static_cast<double>(low), static_cast<double>(median), static_cast<double>(high), count.share(0, 0)};
 }
 
 std::string codeRange(double low, double high) {
@@ -134,6 +135,22 @@ bool namesDisparity(std::string_view codec, std::string_view path) {
     if (names(name, std::array{"depth", "dist", "zbuf"})) return false;
   }
   return codec == "pfm";
+}
+
+bool saysDisparity(std::string_view path) {
+  constexpr std::array<std::string_view, 4> kWords{"disp", "disparity", "disparities", "disparitymap"};
+  const std::string lower = lowerCase(path);
+  const std::size_t file = lower.rfind('/'), folder = file == lower.npos ? file : lower.rfind('/', file - 1);
+  std::string word;
+  for (std::size_t i = folder == lower.npos ? 0 : folder + 1; i <= lower.size(); ++i) {
+    if (i < lower.size() && std::isalpha(static_cast<unsigned char>(lower[i])) != 0) {
+      word += lower[i];
+    } else {
+      if (std::ranges::find(kWords, word) != kWords.end()) return true;
+      word.clear();
+    }
+  }
+  return false;
 }
 
 DepthReading readFloats(const Frame& depth, const CodeCount& count, bool disparity, const CalibrationLayers& said) {

@@ -12,6 +12,9 @@ namespace relievo {
 // "zbuf"); otherwise as is usual for the codec: PFM holds disparities, all others hold distances.
 [[nodiscard]] bool namesDisparity(std::string_view codec, std::string_view path);
 
+// True if the name of the file or of its folder has the word disparity ("disp.png", "disparity/0001.png").
+[[nodiscard]] bool saysDisparity(std::string_view path);
+
 // For codes that stand for floats (Frame::value_per_code), or are the numbers themselves. Distances are metres, or
 // millimetres if half of them are beyond 200. Disparities follow the inverse law unless their range shows that they
 // begin at an arbitrary zero. What `said` states overrides the guess: unit= makes them distances, law= or polarity=

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string_view>
 
 #include "app/media/reading/depth_reading.h"
@@ -56,9 +57,16 @@ struct HueCount {
 };
 
 // The hues in use fill the box; near and far become theirs.
-void readReach(const HueCount& count, HueSpan span, DepthReading& reading) {
-  const int low = std::max(kRed + 1, static_cast<int>(kNearer * count.quantile(kOutliers)));
-  const int high = std::min(kSteps - kRed - 1, static_cast<int>(std::ceil(kFarther * count.quantile(1 - kOutliers))));
+void readReach(const HueCount& count, std::span<const Frame> later, HueSpan span, DepthReading& reading) {
+  int least = count.quantile(kOutliers), most = count.quantile(1 - kOutliers);
+  for (const Frame& picture : later) {
+    const HueCount of_later(picture);
+    if (of_later.lit == of_later.red(kRed)) continue;
+    least = std::min(least, of_later.quantile(kOutliers));
+    most = std::max(most, of_later.quantile(1 - kOutliers));
+  }
+  const int low = std::max(kRed + 1, static_cast<int>(kNearer * least));
+  const int high = std::min(kSteps - kRed - 1, static_cast<int>(std::ceil(kFarther * most)));
   if (high <= low) return;
   const auto mm = [&](int code) { return span.near_mm + (span.far_mm - span.near_mm) * code / kSteps; };
   reading.settings["codes"] = print("%d-%d", low, high);
@@ -69,7 +77,8 @@ void readReach(const HueCount& count, HueSpan span, DepthReading& reading) {
 
 }  // namespace
 
-DepthReading readHues(const Frame& depth, const CalibrationLayers& said, const KnownKind* kind, HueSpan span) {
+DepthReading readHues(const Frame& depth, const CalibrationLayers& said, const KnownKind* kind, HueSpan span,
+                      std::span<const Frame> later) {
   if (depth.model == ColorModel::Gray) return {};
   const HueCount count(depth);
   const std::uint64_t red = count.red(kRed), beside = count.red(kBeside) - red;
@@ -86,7 +95,7 @@ DepthReading readHues(const Frame& depth, const CalibrationLayers& said, const K
   reading.why = print("%.1f %% red, apart from the other hues: holes",
                       100 * static_cast<double>(red) / static_cast<double>(count.lit));
   const bool reach_said = said.find("codes") != nullptr || said.find("near") != nullptr || said.find("far") != nullptr;
-  if (record3d && !reach_said) readReach(count, span, reading);
+  if (record3d && !reach_said) readReach(count, later, span, reading);
   return reading;
 }
 

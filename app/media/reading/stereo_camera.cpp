@@ -75,8 +75,9 @@ DepthReading readDisparities(const Frame& depth, const CodeCount& count, const S
   StereoCamera here = camera;
   for (double* px : {&here.focal_px, &here.offset_px, &here.least, &here.most}) *px *= size;
   const double pixels = pixelsPerCode(depth, count, here);
-  const double first = here.most > 0 ? here.least / pixels : kLower * count.quantile(kOutliers, 1, kTop);
-  const double last = here.most > 0 ? here.most / pixels : kHigher * count.quantile(1 - kOutliers, 1, kTop);
+  const CodeCount::Reach reach = count.reach(kOutliers, 1, kTop);
+  const double first = here.most > 0 ? here.least / pixels : kLower * reach.low;
+  const double last = here.most > 0 ? here.most / pixels : kHigher * reach.high;
   const double low = std::clamp(std::floor(first), 1.0, kTop - 1.0);
   const double high = std::clamp(std::ceil(last), low + 1, static_cast<double>((1u << count.bits()) - 1));
   const auto mm = [&](double code) { return here.baseline_mm * here.focal_px / (pixels * code + here.offset_px); };

@@ -285,6 +285,20 @@ TEST(FfmpegSource, SaysWhatIsWrongWithWhatItCannotOpen) {
   }
 }
 
+TEST(FfmpegSource, AHeicPhotoItCannotReadIsSaidToBeOne) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder / "portrait.heic";
+  std::ofstream(path, std::ios::binary) << std::string(
+      "\0\0\0\x18"
+      "ftypheic\0\0\0\0mif1heic",
+      24);
+  const auto opened = makeFfmpegSource()->open(path);
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().code, ErrorCode::Unsupported);
+  for (const char* word : {"HEIC", "libheif", "JPEG"})
+    EXPECT_NE(std::string(opened.error().message).find(word), std::string::npos) << opened.error().message;
+}
+
 TEST(FfmpegSource, AFileThatMayNotBeReadIsSaidToBe) {
   TemporaryFolder folder;
   makeClip(folder / "a.mkv", {ClipTrack{.frames = 1}});

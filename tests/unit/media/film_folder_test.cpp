@@ -32,12 +32,13 @@ TEST_F(FilmFolder, ListsItsFilmsInNaturalOrderWithTheirDepth) {
 
 TEST_F(FilmFolder, AFilesDepthLiesBesideItByName) {
   files({"a.mp4", "a_depth.mkv", "a-depth.png", "color_output.webm", "depth_output.webm", "photo.jpg",
-         "photo.depth.png", "b.mp4", "b_depth.txt"});
+         "photo.depth.png", "b.mp4", "b_depth.txt", "cat-image.jpg", "cat-depth.jpg"});
   std::filesystem::create_directory(folder_ / "c-depth.mp4");
   files({"c.mp4"});
   EXPECT_EQ(depthBeside(folder_ / "a.mp4"), folder_ / "a_depth.mkv");
   EXPECT_EQ(depthBeside(folder_ / "color_output.webm"), folder_ / "depth_output.webm");
   EXPECT_EQ(depthBeside(folder_ / "photo.jpg"), folder_ / "photo.depth.png");
+  EXPECT_EQ(depthBeside(folder_ / "cat-image.jpg"), folder_ / "cat-depth.jpg");
   for (const char* none : {"a_depth.mkv", "b.mp4", "c.mp4", "absent.mp4", "depth_output.webm"}) {
     EXPECT_EQ(depthBeside(folder_ / none), "") << none;
   }

@@ -84,10 +84,97 @@ TEST_F(PictureFolder, TwoFoldersWhoseNamesAreFromOneClockKeepTheirDistance) {
             "0 2:1, 100 3:2, 200 4:-1, 300 5:-1, 400 6:-1");
 }
 
+// Distances from `near` to `far` mm, row by row, with a hole in each row; RealSense's and many others' 16 bits.
+void slope(const std::filesystem::path& path, int near, int far) {
+  std::filesystem::create_directories(path.parent_path());
+  std::ofstream file(path, std::ios::binary);
+  file << "P5\n32 24\n65535\n";
+  for (int i = 0; i < 32 * 24; ++i) {
+    const int mm = i % 32 == 0 ? 0 : near + (far - near) * i / (32 * 24 - 1);
+    file.put(static_cast<char>(mm >> 8)).put(static_cast<char>(mm & 255));
+  }
+}
+
+TEST_F(PictureFolder, NearAndFarHoldForTheWholeRecording) {
+  for (int k = 10; k < 40; ++k) {
+    picture("f/rgb/" + std::to_string(k) + ".ppm", k);
+    // As a hand and the room behind come in.
+    slope(folder_ / ("f/depth/" + std::to_string(k) + ".pgm"), k < 20 ? 570 : 220, k < 25 ? 2130 : 3640);
+  }
+  PairReader reader(kReal);
+  ASSERT_TRUE(reader.open({.url = folder_ / "f"}));
+  const DepthCalibration& read = reader.info().calibration.calibration;
+  EXPECT_EQ(read.unit_mm, 1.0);
+  EXPECT_LE(read.near_mm, 220);
+  EXPECT_GE(read.near_mm, 0.85 * 220);
+  EXPECT_GE(read.far_mm, 3640);
+  EXPECT_LE(read.far_mm, 1.15 * 3640);
+  ASSERT_FALSE(reader.info().reading.why.empty());
+  EXPECT_NE(reader.info().reading.why.back().find("0.2"), std::string::npos) << reader.info().reading.why.back();
+  // The pictures come in their order all the same.
+  const auto pair = reader.next();
+  ASSERT_TRUE(pair && *pair);
+  EXPECT_EQ(sampleAt((*pair)->depth, 0, 31, 23), 2130u);
+}
+
+TEST_F(PictureFolder, APictureBeyondThoseLookedAtIsToldOnce) {
+  for (int k = 0; k < 64; ++k) {
+    picture("o/rgb/" + std::to_string(100 + k) + ".ppm", k);
+    const bool strange = k == 4 || k == 5;  // none of those that are spread over the recording
+    slope(folder_ / ("o/depth/" + std::to_string(100 + k) + ".pgm"), 570, strange ? 4000 : 2130);
+  }
+  PairReader reader(kReal);
+  ASSERT_TRUE(reader.open({.url = folder_ / "o"}));
+  EXPECT_LT(reader.info().calibration.calibration.far_mm, 2500);
+  testing::internal::CaptureStderr();
+  for (auto pair = reader.next(); pair && *pair; pair = reader.next()) {
+  }
+  const std::string said = testing::internal::GetCapturedStderr();
+  const std::size_t option = said.find("--calibration near=");
+  ASSERT_NE(option, std::string::npos) << said;
+  EXPECT_EQ(said.find("--calibration", option + 1), std::string::npos) << said;
+  // What it says to type takes the picture in.
+  int near = 0, far = 0;
+  ASSERT_EQ(std::sscanf(said.c_str() + option, "--calibration near=%d,far=%d", &near, &far), 2);
+  EXPECT_LE(near, 570);
+  EXPECT_GE(far, 4000);
+  EXPECT_LE(far, 4600);
+}
+
 TEST_F(PictureFolder, NyusRawDepthIsReadAsItWasMeant) {
   picture("n/r-1294886362.665769-31.ppm", 9), picture("n/r-1294886363.665769-32.ppm", 9);
   picture("n/d-1294886362.660000-41.pgm", 0x2c01), picture("n/d-1294886363.660000-42.pgm", 0xff07);  // bytes swapped
   EXPECT_EQ(story({.url = folder_ / "n"}), "0 9:300, 1000 9:2047");
+  // Their bytes are in order by then: to say what they are changes nothing.
+  EXPECT_EQ(story({.url = folder_ / "n", .as = findKind("nyu-raw")}), "0 9:300, 1000 9:2047");
+  const auto last = [&](const std::string& url) {
+    PairReader reader(kReal);
+    if (!reader.open({.url = url, .as = findKind("nyu-raw")})) return -1;
+    const auto pair = reader.next();
+    if (!pair || !*pair || (*pair)->depth.empty()) return -1;
+    const Frame& depth = (*pair)->depth;
+    return static_cast<int>(sampleAt(depth, 0, depth.width - 1, depth.height - 1));
+  };
+  slope(folder_ / "o/d-1294886362.660000-41.pgm", 400, 900);  // in order from the beginning
+  EXPECT_EQ(last(folder_ / "o/d-*.pgm"), 900);
+  picture("m/depth-1.pgm", 0x2c01), picture("m/depth-2.pgm", 0xff07);  // by a name that no reader knows
+  EXPECT_EQ(last(folder_ / "m/depth-*.pgm"), 300);
+}
+
+// As depthy leaves them: each is a photo, and no film of 30 a second.
+TEST_F(PictureFolder, PairsWithUnrelatedNamesArePhotosThatStand) {
+  picture("p/cat-image.ppm", 1), picture("p/cat-depth.pgm", 1001);
+  picture("p/old house-image.ppm", 2), picture("p/old house-depth.pgm", 1002);
+  EXPECT_EQ(story({.url = folder_ / "p"}), "0 1:1001, 5000 2:1002");
+  EXPECT_EQ(story({.url = folder_ / "p/old house-image.ppm"}), "0 2:1002");
+  EXPECT_EQ(story({.url = folder_ / "p", .frames_per_s = 10}), "0 1:1001, 100 2:1002");
+  PairReader reader(kReal);
+  ASSERT_TRUE(reader.open({.url = folder_ / "p"}));
+  ASSERT_FALSE(reader.info().notes.empty());
+  EXPECT_NE(reader.info().notes.back().find("photos"), std::string::npos) << reader.info().notes.back();
+  picture("q/a-1-x-image.ppm", 1), picture("q/a-1-x-depth.pgm", 1001);
+  picture("q/a-2-x-image.ppm", 2), picture("q/a-2-x-depth.pgm", 1002);
+  EXPECT_EQ(story({.url = folder_ / "q"}), "0 1:1001, 33.3333 2:1002");
 }
 
 TEST_F(PictureFolder, ADamagedFirstPictureHidesNoOther) {

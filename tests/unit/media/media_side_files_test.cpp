@@ -134,6 +134,29 @@ TEST_F(CalibTxt, IsForDisparitiesAlone) {
   }
 }
 
+// Without the cameras the distances have no scale, but the law is known: Z = k / d.
+TEST_F(CalibTxt, NamesAloneMakeEightBitsInverseDepth) {
+  for (const char* name : {"disp.png", "disparity/left.png"}) {
+    std::filesystem::create_directory(folder_ / "disparity");
+    writePng(folder_ / name, "gray", 4);
+    const test::OpenedFilm film = open(name);
+    const DepthCalibration& read = film.info.calibration.calibration;
+    EXPECT_EQ(read.law, DepthLaw::Inverse) << name;
+    EXPECT_EQ(read.polarity, DepthPolarity::NearIsHigh) << name;
+    EXPECT_THAT(partLines(film.info.reading), Contains("law=inverse: name, likely")) << name;
+    EXPECT_THAT(film.info.reading.why, Contains(HasSubstr("the name says disparity"))) << name;
+    for (int c = 20; c < kSceneCols; c += 7) {
+      const double ratio = disparityAt(80, 54) / disparityAt(c, 60);
+      EXPECT_NEAR(film.distanceAt(c, 60) / film.distanceAt(80, 54), ratio, 0.06 * ratio) << name << " " << c;
+    }
+    EXPECT_TRUE(std::isnan(film.heightAt(5, 60))) << name;
+    EXPECT_EQ(open(name, {.as = findKind("near-dark")}).info.calibration.calibration.polarity,
+              DepthPolarity::NearIsLow);
+  }
+  writePng(folder_ / "display.png", "gray", 4);
+  EXPECT_EQ(open("display.png").info.calibration.calibration.law, DepthLaw::Linear);
+}
+
 // Colour above, hue from 0.9 to 2.4 m below.
 class DepthkitFile : public testing::Test {
  protected:
