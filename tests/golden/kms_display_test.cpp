@@ -256,7 +256,9 @@ void expectTheSameFromDmaBufs(Display& display, const std::string& card) {
   }
   EXPECT_TRUE(imported) << "Mesa takes the dma-bufs of both cards";
   EXPECT_GT(*std::max_element(drawn[0].begin(), drawn[0].end() - 4), 100);
-  EXPECT_EQ(drawn[0], drawn[1]);
+  int furthest = 0;
+  for (std::size_t i = 0; i < drawn[0].size(); ++i) furthest = std::max(furthest, std::abs(drawn[0][i] - drawn[1][i]));
+  EXPECT_LE(furthest, 2) << "of 255: an upload is made RGB by the CPU, a dma-buf by the GPU";
 }
 
 TEST_F(KmsDisplay, APictureInADmaBufIsShownAsItIs) {
