@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <iterator>
 #include <tuple>
 #include <vector>
@@ -59,13 +60,13 @@ class TelevisionModes {
   }
   // Preferred ones first, then by size and rate (drm_mode_compare).
   [[nodiscard]] std::vector<drmModeModeInfo> listed() const {
-    std::vector<drmModeModeInfo> modes = modes_;
-    std::ranges::stable_sort(modes, [](const drmModeModeInfo& a, const drmModeModeInfo& b) {
-      const auto key = [](const drmModeModeInfo& m) {
-        return std::tuple((m.type & DRM_MODE_TYPE_PREFERRED) != 0, m.hdisplay * m.vdisplay, m.vrefresh, m.clock);
-      };
-      return key(a) > key(b);
-    });
+    const auto key = [](const drmModeModeInfo& m) {
+      return std::tuple((m.type & DRM_MODE_TYPE_PREFERRED) != 0, m.hdisplay * m.vdisplay, m.vrefresh, m.clock);
+    };
+    std::vector<drmModeModeInfo> modes;
+    for (const drmModeModeInfo& m : modes_) {
+      modes.insert(std::ranges::upper_bound(modes, key(m), std::ranges::greater{}, key), m);
+    }
     return modes;
   }
 
