@@ -32,8 +32,10 @@ std::int16_t continuePath(const std::int16_t* before, std::int16_t least, const 
                           std::int16_t* now, std::int16_t* sums, std::size_t levels) noexcept {
   const auto far = static_cast<std::int16_t>(least + step);
   std::int16_t lowest = kHigh;
-  for (std::size_t d = 0; d < levels; ++d) {  // `before` has a high cost on each side
-    const auto beside = static_cast<std::int16_t>(std::min(before[d - 1], before[d + 1]) + kSlope);
+  const std::int16_t* const nearer = before - 1;  // a high cost is on each side of them all
+  const std::int16_t* const farther = before + 1;
+  for (std::size_t d = 0; d < levels; ++d) {
+    const auto beside = static_cast<std::int16_t>(std::min(nearer[d], farther[d]) + kSlope);
     const std::int16_t best = std::min(std::min(before[d], beside), far);
     const auto cost = static_cast<std::int16_t>(costs[d] + best - least);
     now[d] = cost;
