@@ -114,8 +114,8 @@ constexpr int kWide = 160, kHigh = 120, kLong = 26, kCut = 20, kRadius = 22;
 
 double marks(double x, double y, int seed) {
   const auto value = [seed](int c, int r) {
-    auto n = static_cast<std::uint32_t>(c * 73856093) ^ static_cast<std::uint32_t>(r * 19349663) ^
-             static_cast<std::uint32_t>(seed * 83492791);
+    auto n = static_cast<std::uint32_t>(c) * 73856093U ^ static_cast<std::uint32_t>(r) * 19349663U ^
+             static_cast<std::uint32_t>(seed) * 83492791U;
     n = (n ^ n >> 13) * 1274126177U;
     return static_cast<double>((n >> 16) & 255);
   };
