@@ -92,16 +92,16 @@ void SubPixel::step(DisparityMap& map) {
 // Along rows, or down columns.
 void SubPixel::smooth(DisparityMap& map, bool across) {
   smoothed_ = map.pixels;
-  const std::size_t stride = across ? 1 : static_cast<std::size_t>(map.cols);
+  const std::ptrdiff_t stride = across ? 1 : map.cols;
   const int margin_c = across ? kNear : 0, margin_r = across ? 0 : kNear;
   for (int r = margin_r; r < map.rows - margin_r; ++r) {
     const float* const from = &map.pixels[map.at(margin_c, r)];
     float* const to = &smoothed_[map.at(margin_c, r)];
-    const auto count = static_cast<std::size_t>(map.cols - 2 * margin_c);
-    for (std::size_t c = 0; c < count; ++c) {
+    const int count = map.cols - 2 * margin_c;
+    for (std::ptrdiff_t c = 0; c < count; ++c) {
       float sum = 0, weights = 0;
       for (int k = -kNear; k <= kNear; ++k) {
-        const float there = from[c + static_cast<std::size_t>(k) * stride], away = std::abs(there - from[c]);
+        const float there = from[c + k * stride], away = std::abs(there - from[c]);
         const float weight = std::max(0.0F, kSurface - away);
         sum += weight * there;
         weights += weight;
