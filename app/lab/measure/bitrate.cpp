@@ -102,9 +102,11 @@ Result<void> addScene(const Scene& scene, Figures& figures) {
   std::vector<Frame> steps;
   steps.reserve(scene.frames.size());
   for (const Frame& frame : scene.frames) steps.push_back(requantised(frame, coding.bits, coding.steps));
-  auto coded = codeDepth(
-      steps,
-      {.codec = coding.codec, .bits = coding.bits, .to_touch = coding.steps < DepthSteps::Hue, .crf = coding.crf});
+  auto coded = codeDepth(steps, {.codec = coding.codec,
+                                 .bits = coding.bits,
+                                 .to_touch = coding.steps < DepthSteps::Hue,
+                                 .quick = true,
+                                 .crf = coding.crf});
   if (!coded) return std::unexpected(coded.error());
   figures.bytes += coded->bytes;
   const DepthCalibration meaning = meaningOf(coding.bits, coding.steps);
