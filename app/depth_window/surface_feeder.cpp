@@ -41,10 +41,10 @@ Result<bool> SurfaceFeeder::update(const Frame& present, std::span<const Frame> 
   return changed;
 }
 
-bool SurfaceFeeder::hear(const Frame& depth) {
+bool SurfaceFeeder::hear(const Frame& depth, const Frame& material) {
   const auto held = frames_.frames();
   if (held.empty() || depth.empty() || depth.pts <= held.back().time || frames_.full()) return false;
-  return add(depth, {}).value_or(false);
+  return add(depth, material).value_or(false);
 }
 
 bool SurfaceFeeder::addAhead(std::span<const Frame> ahead, std::span<const Frame> materials) {

@@ -44,7 +44,7 @@ class SurfaceFeeder {
                                     const ClockSample& clock, const Materials& materials = {},
                                     std::optional<MediaTime> felt = {});
   // Adds the newest depth of a live film before its picture is the present one. True if it was added: then publish.
-  [[nodiscard]] bool hear(const Frame& depth);
+  [[nodiscard]] bool hear(const Frame& depth, const Frame& material = {});
   // How far the surface is carried forward in time. Before the first update.
   void setCarried(Duration carried) noexcept { carried_ = carried; }
   // The whole window; what it held before is released.

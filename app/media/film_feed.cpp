@@ -290,7 +290,7 @@ void FilmFeed::workSeek(MediaTime target, Duration key_step, std::uint64_t gener
 
 void FilmFeed::workRead(std::uint64_t generation) {
   auto pair = reader_.next();
-  if (hear_live_ && pair && *pair && (*pair)->taken) hear_live_((*pair)->depth);
+  if (hear_live_ && pair && *pair && (*pair)->taken) hear_live_(**pair);
   auto words = readWords();
   const PairCounters counters = reader_.counters();
   const auto depth_loss = reader_.depthLoss();

@@ -56,7 +56,7 @@ class FilmFeed {
   FilmFeed& operator=(const FilmFeed&) = delete;
 
   // Who hears of the depth of a live film as soon as it has been read, on the reader's side. Before `startThread`.
-  void hearLive(std::function<void(const Frame&)> hear) { hear_live_ = std::move(hear); }
+  void hearLive(std::function<void(const FramePair&)> hear) { hear_live_ = std::move(hear); }
   void startThread();
   // Interrupts any blocking read, ends the thread and closes the film. A second call does nothing.
   void stop() noexcept;
@@ -125,7 +125,7 @@ class FilmFeed {
 
   const std::size_t capacity_;
   const PairReader::Backends backends_;
-  std::function<void(const Frame&)> hear_live_;
+  std::function<void(const FramePair&)> hear_live_;
   mutable std::atomic<bool> interrupted_{false};  // stops the reading of a playlist
   mutable PairReader reader_;                     // used by the reader's side only, except `interrupt`
 

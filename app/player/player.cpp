@@ -68,7 +68,7 @@ Player::Player(PlayerConfig config, PlayerParts parts)
   if (config_.browser) browser_.emplace(*config_.browser, parts_.posters, config_.source, config_.own_threads);
   parts_.display.hearMouse([this](const SurfaceMouse& mouse) { return hearMouse(mouse); });
   journal_.stateChanged(state_);
-  film_.hearLive([this](const Frame& depth) { touch_.hear(depth); });
+  film_.hearLive([this](const FramePair& pair) { touch_.hear(pair.depth, pair.material); });
 }
 
 Player::~Player() {

@@ -36,7 +36,7 @@ class FilmPlayback {
   FilmPlayback(PairReader::Backends backends, AudioOutput* output, const Clock& clock, Journal& journal);
 
   // Who hears of the depth of a live film as soon as it has been read; on the reader's thread. Before `begin`.
-  void hearLive(std::function<void(const Frame&)> hear) { feed_.hearLive(std::move(hear)); }
+  void hearLive(std::function<void(const FramePair&)> hear) { feed_.hearLive(std::move(hear)); }
   void begin();
   // Without a reader thread: reads everything that is wanted now.
   void read();

@@ -56,9 +56,9 @@ void FilmTouch::beginEpoch() noexcept {
   surface_.beginEpoch();
 }
 
-void FilmTouch::hear(const Frame& depth) {
+void FilmTouch::hear(const Frame& depth, const Frame& material) {
   const std::scoped_lock lock(mutex_);
-  if (surface_.hear(depth)) session_.publish(surface_);
+  if (surface_.hear(depth, material)) session_.publish(surface_);
 }
 
 void FilmTouch::feed(const DepthAround& depth, const ClockSample& clock) {

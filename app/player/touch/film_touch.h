@@ -49,7 +49,7 @@ class FilmTouch {
   // Publishes the surface to the haptic task.
   void feed(const DepthAround& depth, const ClockSample& clock);
   // The newest depth of a live film, which need not wait until the player has drawn. Any thread.
-  void hear(const Frame& depth);
+  void hear(const Frame& depth, const Frame& material);
 
   // Notes the device's losses and recoveries. True if it is ready and waits for `start`.
   [[nodiscard]] bool followDevice();

@@ -114,6 +114,17 @@ TEST_F(SurfaceFeederTest, OfALiveFilmDepthIsHeardOfBeforeItsPicture) {
   EXPECT_EQ(window().carried, std::chrono::milliseconds(7));
 }
 
+TEST_F(SurfaceFeederTest, OfALiveFilmWhatIsHeardOfBringsItsMaterial) {
+  ASSERT_TRUE(feeder_.update(depthFrame(0), {}, false, {}, {}, mediaTime(0)));
+  const Frame material = test::makeMaterialFrame(16, 12, kVolume, mediaTime(1),
+                                                 [](double, double) { return test::MaterialCodes{51, 0, 0}; });
+  ASSERT_TRUE(feeder_.hear(depthFrame(1), material));
+  const SurfaceWindow w = window();
+  ASSERT_EQ(w.count, 2);
+  ASSERT_NE(w.frames[1].material, nullptr);
+  EXPECT_NEAR(w.frames[1].material->at(0, 0).stiffness, 0.2, 1e-9);
+}
+
 TEST_F(SurfaceFeederTest, HoldsADepthFrameOfALowerRateOnce) {
   // Depth at a third of the colour's rate: three pairs share a frame.
   std::vector<FramePair> pairs;
