@@ -79,7 +79,7 @@ inline void runFfmpeg(const std::string& arguments, const std::string& words) {
 // The sums of all pictures of a film, as FFmpeg's program decodes them.
 inline std::vector<std::string> sumsByFfmpeg(const std::string& film, const TemporaryFolder& folder,
                                              const std::string& filter = "null") {
-  runFfmpeg("-threads 1 -i " + film + " -map 0:v:0 -fps_mode passthrough -autoscale 0 -vf " + filter + " -f framemd5 " +
+  runFfmpeg("-threads 1 -i " + film + " -map 0:v:0 -fps_mode passthrough -noautoscale -vf " + filter + " -f framemd5 " +
                 (folder / "sums.txt"),
             folder / "said.txt");
   std::ifstream file(folder / "sums.txt");
