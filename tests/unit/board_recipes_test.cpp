@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// The recipes of Buildroot and Yocto name options, packages and a version that the build knows.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
+#include <string>
+
+namespace {
+
+using testing::IsEmpty;
+using testing::IsSupersetOf;
+using Words = std::set<std::string>;
+
+std::string textOf(const std::string& path) {
+  std::ifstream file(RELIEVO_SOURCE_DIR "/" + path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// The first group of each match.
+Words wordsOf(const std::string& text, const std::string& pattern) {
+  const std::regex expression(pattern);
+  Words words;
+  std::transform(std::sregex_iterator(text.begin(), text.end(), expression), {}, std::inserter(words, words.end()),
+                 [](const std::smatch& match) { return match[1].str(); });
+  return words;
+}
+
+const std::string kBuildroot = "toolchain/buildroot/package/relievo/relievo.mk";
+const std::string kYocto = "toolchain/yocto/meta-relievo/recipes-multimedia/relievo/relievo.bb";
+
+class BoardRecipes : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(, BoardRecipes, testing::Values(kBuildroot, kYocto),
+                         [](const auto& recipe) { return recipe.param == kYocto ? "Yocto" : "Buildroot"; });
+
+TEST_P(BoardRecipes, EachOptionIsOneOfTheBuild) {
+  const Words options = wordsOf(textOf("CMakeLists.txt"), R"(option\((RELIEVO_\w+))");
+  const Words used = wordsOf(textOf(GetParam()), R"(-D(RELIEVO_\w+))");
+  EXPECT_THAT(used, testing::Contains("RELIEVO_DESK"));
+  EXPECT_THAT(options, IsSupersetOf(used));
+}
+
+TEST_P(BoardRecipes, TheVersionIsTheProjects) {
+  const Words version = wordsOf(textOf("CMakeLists.txt"), R"(project\(relievo VERSION ([0-9.]+))");
+  EXPECT_EQ(wordsOf(textOf(GetParam()), R"((?:RELIEVO_VERSION|PV) = "?([0-9.]+))"), version);
+}
+
+// Debian's development packages of a box, in the words of the recipe; what is optional there stands with its option.
+TEST_P(BoardRecipes, EachLibraryOfTheBoxIsADependency) {
+  const std::string recipe = textOf(GetParam());
+  const bool yocto = GetParam() == kYocto;
+  Words missing;
+  for (const std::string name : {"alsa-lib", "cli11", "ffmpeg", "glm", "libass", "libdrm", "libevdev", "tomlplusplus",
+                                 "tiff", "lz4", "bzip2", "libheif", yocto ? "libusb1" : "libusb",
+                                 yocto ? "libsdl2" : "sdl2", yocto ? "nlohmann-json" : "json-for-modern-cpp"}) {
+    if (!std::regex_search(recipe, std::regex("[\\s\",]" + name + "[\\s\",]"))) missing.insert(name);
+  }
+  EXPECT_THAT(missing, IsEmpty());
+  // A package that is new in CMakeLists.txt is new here, and in the list above.
+  EXPECT_EQ(wordsOf(textOf("CMakeLists.txt"), R"((?:find_package|pkg_check_modules)\((\w+))"),
+            (Words{"Threads", "PkgConfig", "glm",      "CLI11",     "tomlplusplus", "nlohmann_json", "FFMPEG", "TIFF",
+                   "ALSA",    "LIBUSB",    "LIBEVDEV", "EGL",       "LIBDRM",       "GBM",           "SDL2",   "GLES",
+                   "ASS",     "LZ4",       "BZip2",    "GSTREAMER", "OPENEXR",      "HEIF"}));
+}
+
+}  // namespace
