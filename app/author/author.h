@@ -20,7 +20,7 @@
 namespace relievo {
 
 struct OutputOptions {
-  std::string path;    // or udp://HOST:PORT: sent in real time
+  std::string path;    // or udp://HOST:PORT, srt://HOST:PORT: sent in real time
   bool force = false;  // replace an existing file
   int color_crf = 18;
   DepthCoding depth;

@@ -144,7 +144,7 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.footer(kFooter);
   addSourceOptions(app, a.source);
   app.add_option("-o,--output", a.output.path,
-                 "Output film: .mkv, .mp4, .m4v, .mov, .ts, .m3u8 (HLS) or udp://HOST:PORT")
+                 "Output film: .mkv, .mp4, .m4v, .mov, .ts, .m3u8 (HLS), udp://HOST:PORT or srt://HOST:PORT")
       ->required()
       ->type_name("OUT");
   addDepthOptions(app, a.source);

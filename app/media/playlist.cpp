@@ -12,7 +12,7 @@ namespace relievo {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-constexpr std::array<std::string_view, 7> kNetwork{"http", "https", "rtsp", "rtsps", "rtp", "udp", "tcp"};
+constexpr std::array<std::string_view, 8> kNetwork{"http", "https", "rtsp", "rtsps", "rtp", "udp", "srt", "tcp"};
 
 std::string lower(std::string_view text) {
   std::string result(text);

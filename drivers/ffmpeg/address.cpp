@@ -18,16 +18,16 @@ namespace {
 constexpr const char* kDevice =
     "it is a device or a file of the kernel, not a film; give a film's file (a camera is v4l2:/dev/videoN)";
 constexpr const char* kUnknown =
-    "this protocol is not supported; use a file, http, https, rtsp, rtsps, rtp, udp or tcp";
+    "this protocol is not supported; use a file, http, https, rtsp, rtsps, rtp, udp, srt or tcp";
 
 struct Protocol {
   std::string_view name;
   Way way;
 };
 constexpr std::array kProtocols{
-    Protocol{"file", Way::File},   Protocol{"http", Way::Http},  Protocol{"https", Way::Http},
-    Protocol{"rtsp", Way::Rtsp},   Protocol{"rtsps", Way::Rtsp}, Protocol{"rtp", Way::Packets},
-    Protocol{"udp", Way::Packets}, Protocol{"tcp", Way::Tcp},
+    Protocol{"file", Way::File},   Protocol{"http", Way::Http},   Protocol{"https", Way::Http},
+    Protocol{"rtsp", Way::Rtsp},   Protocol{"rtsps", Way::Rtsp},  Protocol{"rtp", Way::Packets},
+    Protocol{"udp", Way::Packets}, Protocol{"srt", Way::Packets}, Protocol{"tcp", Way::Tcp},
 };
 
 // Containers and streams. Excluded: lists of other addresses (concat), sessions that open ports (sdp), image sequences.
@@ -52,7 +52,7 @@ const char* protocolsOf(Way way) noexcept {
     case Way::Rtsp:
       return "rtsp,rtsps,rtp,srtp,udp,tcp,tls";
     case Way::Packets:
-      return "rtp,udp";
+      return "rtp,udp,srt";
     case Way::Tcp:
       return "tcp";
   }

@@ -15,8 +15,9 @@
 namespace relievo {
 
 // Files, named pipes, numbered pictures ("frames/%03d.png"), and addresses that begin with http, https (HLS and DASH as
-// well), rtsp, rtsps, rtp, udp or tcp; Unsupported for any other. A source may refer only to sources of its own kind: a
-// file to other files, a network source never to a local file (see address.h). RTSP uses TCP unless the address ends in
+// well), rtsp, rtsps, rtp, udp, srt or tcp; Unsupported for any other. A source may refer only to sources of its own
+// kind: a file to other files, a network source never to a local file (see address.h). RTSP uses TCP unless the address
+// ends in
 // "?udp".
 //
 // A read returns Timeout after ten seconds without data, or after three for a real-time stream (rtsp, rtp, udp, tcp);

@@ -12,10 +12,10 @@ namespace relievo {
 
 enum class FilmKind : std::uint8_t { Matroska, Mp4, Mov, TransportStream, Hls, Live };
 
-// By the file extension or the prefix "udp://"; nullopt for unknown ones.
+// By the file extension or the prefix "udp://" or "srt://"; nullopt for unknown ones.
 [[nodiscard]] std::optional<FilmKind> filmKindOf(const std::string& path);
 inline constexpr const char* kUnknownKind =
-    "unknown kind of film; use .mkv, .mp4, .m4v, .mov, .ts, .m3u8 or udp://HOST:PORT";
+    "unknown kind of film; use .mkv, .mp4, .m4v, .mov, .ts, .m3u8, udp://HOST:PORT or srt://HOST:PORT";
 // Whether players support this codec in films of this kind: FFV1 only in Matroska.
 [[nodiscard]] bool holds(FilmKind kind, VideoCodec codec) noexcept;
 inline constexpr const char* kNotHeld =

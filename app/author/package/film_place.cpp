@@ -71,7 +71,7 @@ class PlainFile final : public FilmPlace {
 }  // namespace
 
 std::optional<FilmKind> filmKindOf(const std::string& path) {
-  if (path.starts_with("udp://")) return FilmKind::Live;
+  if (path.starts_with("udp://") || path.starts_with("srt://")) return FilmKind::Live;
   std::string ending = std::filesystem::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
   const auto known = std::find_if(kEndings.begin(), kEndings.end(), [&](const Ending& e) { return ending == e.text; });

@@ -36,7 +36,9 @@ class TransportStream final : public FilmPlace {
   Result<void> begin() override {
     if (const int code = avio_open(&out_, url_.c_str(), AVIO_FLAG_WRITE); code < 0) {
       if (!live_) return fail(ErrorCode::Io, kCannotWrite, osErrorOf(code));
-      return fail(ErrorCode::Io, "cannot send to this address; write udp://HOST:PORT", osErrorOf(code));
+      return fail(ErrorCode::Io,
+                  "cannot send to this address; write udp://HOST:PORT, or srt://HOST:PORT of a receiver that listens",
+                  osErrorOf(code));
     }
     auto* const buffer = static_cast<std::uint8_t*>(av_malloc(kBuffer));
     packets_ = avio_alloc_context(buffer, kBuffer, 1, this, nullptr, takePackets, nullptr);

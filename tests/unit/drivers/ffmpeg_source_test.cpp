@@ -650,7 +650,7 @@ TEST(FfmpegSource, InterruptEndsEveryWaitSoon) {
   const std::string port = silent.url.substr(17, silent.url.rfind('/') - 17);
   for (const std::string& url :
        {"http://127.0.0.1:" + port + "/a.ts", "rtsp://127.0.0.1:" + port + "/a", "tcp://127.0.0.1:" + port,
-        std::string("udp://127.0.0.1:0"), std::string("rtp://127.0.0.1:15004")}) {
+        std::string("udp://127.0.0.1:0"), std::string("srt://127.0.0.1:9"), std::string("rtp://127.0.0.1:15004")}) {
     const auto source = makeFfmpegSource();
     MonotonicClock clock;
     MonotonicTime interrupted;
