@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# One Debian package for each program. Compressed files contain no timestamps, so that equal sources give equal packages.
+# One Debian package for each program, and one of librelievo (toolchain/library). Compressed files contain no timestamps, so that equal sources give equal packages.
 set(RELIEVO_MAINTAINER "relievo maintainers <maintainers@relievo.invalid>" CACHE STRING "Who stands behind the packages")
 set(made ${CMAKE_CURRENT_BINARY_DIR}/debian)
 configure_file(debian/changelog.in ${made}/changelog @ONLY)
@@ -9,11 +9,12 @@ install(FILES ${made}/relievo.toml.5.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man5
 foreach(program ${programs})
   install(FILES debian/copyright ${made}/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${program} COMPONENT ${program})
 endforeach()
+install(FILES debian/copyright ${made}/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/librelievo-dev COMPONENT hal EXCLUDE_FROM_ALL)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME relievo)
 set(CPACK_PACKAGE_CONTACT "${RELIEVO_MAINTAINER}")
-set(CPACK_COMPONENTS_ALL ${programs})
+set(CPACK_COMPONENTS_ALL ${programs} hal)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_SET_DESTDIR ON)  # for the one absolute path
 set(CPACK_INSTALL_PREFIX /usr)
@@ -50,4 +51,14 @@ speed against accuracy, smoothness, stability, detail and bit rate, each as a
 chart with its figures.")
 set(CPACK_DEBIAN_RELIEVO-LAB_PACKAGE_DEPENDS "gnuplot-nox | gnuplot")
 set(CPACK_DEBIAN_RELIEVO-LAB_PACKAGE_RECOMMENDS "libgl1-mesa-dri")
+
+set(CPACK_DEBIAN_HAL_PACKAGE_NAME librelievo-dev)
+set(CPACK_DEBIAN_HAL_PACKAGE_SECTION libdevel)
+set(CPACK_COMPONENT_HAL_DESCRIPTION "drivers for relievo outside of its tree
+The interfaces of relievo's hardware abstraction layer as headers, static
+libraries and a package of CMake, with the contract suites that a driver of a
+haptic device, a display, a decoder or a source has to pass.")
+set(CPACK_DEBIAN_HAL_PACKAGE_DEPENDS "libglm-dev")
+set(CPACK_DEBIAN_HAL_PACKAGE_RECOMMENDS "cmake, g++, libgmock-dev")
+set(CPACK_DEBIAN_HAL_PACKAGE_SHLIBDEPS OFF)
 include(CPack)
