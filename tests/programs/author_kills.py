@@ -23,17 +23,6 @@ LENGTHS = {"old": 20, "new": 60}  # pictures
 QUIET = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
 
 
-def pictures_of(film):
-    """How many pictures of each track ffmpeg decodes; -1 if it complains."""
-    counts = []
-    for track in (0, 1):
-        command = ["ffmpeg", "-v", "error", "-xerror", "-i", film, "-map", f"0:v:{track}", "-f", "framecrc", "-"]
-        said = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True)
-        lines = [line for line in said.stdout.splitlines() if line and not line.startswith("#")]
-        counts.append(-1 if said.returncode != 0 or said.stderr else len(lines))
-    return counts
-
-
 def litter(folder, out):
     """Files and folders that are not of the film."""
     mine = {out, os.path.splitext(out)[0] + ".segments"} if out.endswith("m3u8") else {out}
@@ -77,7 +66,7 @@ class Killer:
         wrong = []
         lengths = {-1}
         if os.path.exists(out):
-            lengths = set(pictures_of(out))
+            lengths = set(seeds.pictures_of(out))
             end += ", old film" if lengths == {LENGTHS["old"]} else ", new film"
         else:
             end += ", no film"
@@ -89,8 +78,8 @@ class Killer:
         again = subprocess.run(self.command("new", out, "--force"), capture_output=True, text=True)
         if again.returncode != 0:
             wrong.append("the next run says: " + again.stderr.strip())
-        elif pictures_of(out) != [LENGTHS["new"]] * 2:
-            wrong.append(f"the next film has {pictures_of(out)} pictures")
+        elif seeds.pictures_of(out) != [LENGTHS["new"]] * 2:
+            wrong.append(f"the next film has {seeds.pictures_of(out)} pictures")
         if litter(folder, f"film.{ending}"):
             wrong.append("after the next run: " + " ".join(litter(folder, f"film.{ending}")))
         shutil.rmtree(folder)

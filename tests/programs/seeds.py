@@ -13,6 +13,17 @@ DEPTH = f"gradients=size={COLS}x{ROWS}:rate={RATE}:seed=1:n=2:c0=black:c1=white:
 DISTANCE = f"{DEPTH},format=gray16le,lut=c0=500+val*3500/65535"
 
 
+def pictures_of(film):
+    """How many pictures of each track ffmpeg decodes; -1 if it complains."""
+    counts = []
+    for track in (0, 1):
+        command = ["ffmpeg", "-v", "error", "-xerror", "-i", film, "-map", f"0:v:{track}", "-f", "framecrc", "-"]
+        said = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True)
+        lines = [line for line in said.stdout.splitlines() if line and not line.startswith("#")]
+        counts.append(-1 if said.returncode != 0 or said.stderr else len(lines))
+    return counts
+
+
 @dataclasses.dataclass
 class Seed:
     """Arguments that name a film, `@` being its folder, the files to damage, and which programs read it."""
