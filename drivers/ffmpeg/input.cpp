@@ -80,7 +80,9 @@ Result<Input::Opened> Input::open(const std::string& url) {
 Result<void> Input::openFile(const Address& address, AVIOContext*& file) {
   reads_files_ = address.way == Way::File;
   if (!reads_files_) return {};
-  const auto opened = openLocalFile(localPathOf(address.url), watch_);
+  const std::string path = localPathOf(address.url);
+  if (const auto unread = unreadFormat(path)) return std::unexpected(*unread);
+  const auto opened = openLocalFile(path, watch_);
   if (opened) file = *opened;
   if (opened || opened.error().code == ErrorCode::NotFound) return {};
   const Error& error = opened.error();

@@ -14,6 +14,8 @@
 namespace relievo::ffmpeg {
 namespace {
 
+using namespace std::string_view_literals;
+
 constexpr std::size_t kHeadBytes = 16;
 
 // Fewer bytes if the file is shorter or cannot be read.
@@ -24,6 +26,23 @@ std::string headOf(const std::string& path) {
   return {head.begin(), head.begin() + static_cast<std::ptrdiff_t>(bytes)};
 }
 
+struct UnreadFormat {
+  std::string_view magic;
+  const char* line;
+};
+constexpr std::array<UnreadFormat, 5> kUnread{{
+    {"SQLite format 3\0"sv,
+     "it is a database of SQLite: a ROS 2 bag, if its name ends in .db3; convert its folder to a ROS 1 bag, which is "
+     "read: pip install rosbags; rosbags-convert --src FOLDER --dst film.bag"},
+    {"\x89MCAP0\r\n"sv,
+     "it is an MCAP recording; convert its folder to a ROS 1 bag, which is read: pip install rosbags; rosbags-convert "
+     "--src FOLDER --dst film.bag"},
+    {"\x89HDF\r\n\x1a\n"sv, "it is an HDF5 file; write its depth as .npy or as 16-bit PNG pictures, which are read"},
+    // A build with their readers gives these to them.
+    {"#ROSBAG V"sv, "it is a ROS bag, which this relievo was built without; build it with -DRELIEVO_ROSBAG=ON"},
+    {"NI10"sv, "it is a recording of OpenNI, which this relievo was built without; build it with -DRELIEVO_OPENNI=ON"},
+}};
+
 // ISO/IEC 23008-12.
 bool isHeic(const std::string& path) {
   const std::string head = headOf(path);
@@ -33,6 +52,14 @@ bool isHeic(const std::string& path) {
 }
 
 }  // namespace
+
+std::optional<Error> unreadFormat(const std::string& path) {
+  const std::string head = headOf(path);
+  const auto found =
+      std::ranges::find_if(kUnread, [&](const UnreadFormat& format) { return head.starts_with(format.magic); });
+  if (found == kUnread.end()) return std::nullopt;
+  return Error{ErrorCode::Unsupported, 0, found->line};
+}
 
 Error refusal(const Address& address, int code, const std::string& words) {
   if (code == AVERROR_INVALIDDATA && address.way == Way::File && isHeic(localPathOf(address.url))) {
