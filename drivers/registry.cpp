@@ -32,6 +32,9 @@
 #include "drivers/inverse3/inverse3.h"
 #include "drivers/mock/mock.h"
 #include "drivers/mock/scripted_remote.h"
+#ifdef RELIEVO_OPENNI
+#include "drivers/openni/openni.h"
+#endif
 #include "drivers/photo/photo.h"
 #include "drivers/pictures/pictures.h"
 #include "drivers/pointer/pointer.h"
@@ -269,6 +272,9 @@ std::unique_ptr<MediaSource> makeMediaSource(const std::string& url) {
   if (name == kMockFilm) return makeMockSource(mockFilm(), clock);
 #ifdef RELIEVO_ROSBAG
   if (isRosbag(url)) return makeRosbagSource();
+#endif
+#ifdef RELIEVO_OPENNI
+  if (isOpenni(url)) return makeOpenniSource();
 #endif
   if (name.word == "v4l2" && name.argument) return makeV4l2Source();
   if (isNpyFile(url)) return makeNpySource();

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/ffmpeg/local_file.h"
 
-#include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
-#include <string_view>
 #include <utility>
 
 #include "drivers/ffmpeg/address.h"
@@ -96,15 +93,6 @@ void closeLocalFile(AVIOContext* file) noexcept {
   const std::unique_ptr<LocalFile> local(static_cast<LocalFile*>(file->opaque));
   av_free(std::exchange(file->buffer, nullptr));
   avio_context_free(&file);
-}
-
-bool isHeic(const std::string& path) {
-  std::array<std::uint8_t, 12> head{};
-  const auto file = AnsweredFile::open(path);
-  if (!file || file->read(0, head).value_or(0) < head.size()) return false;
-  const std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());
-  constexpr std::array<std::string_view, 6> kBrands{"heic", "heix", "heim", "heis", "mif1", "msf1"};
-  return text.substr(4, 4) == "ftyp" && std::ranges::find(kBrands, text.substr(8)) != kBrands.end();
 }
 
 }  // namespace relievo::ffmpeg

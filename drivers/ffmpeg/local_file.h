@@ -20,8 +20,6 @@ namespace relievo::ffmpeg {
 // Fails as AnsweredFile::open. `watch` must outlive it; it learns when the file system does not answer.
 [[nodiscard]] Result<AVIOContext*> openLocalFile(const std::string& path, Watch& watch);
 // FFmpeg's code for an error of a local file.
-// Whether the file begins as a HEIC photo (ISO/IEC 23008-12): FFmpeg has no word for it.
-[[nodiscard]] bool isHeic(const std::string& path);
 [[nodiscard]] int codeOf(const Error& error) noexcept;
 [[nodiscard]] bool isLocalFile(const AVIOContext* file) noexcept;
 void closeLocalFile(AVIOContext* file) noexcept;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Media source on libavformat: opens files and URLs; every wait is interruptible and has a time-out.
-#include <fcntl.h>
-#include <poll.h>
+// Media source on libavformat: describes a container, reads it and seeks; every wait is interruptible and has a
+// time-out.
 
 #include <algorithm>
 #include <cerrno>
@@ -9,19 +8,14 @@
 #include <map>
 #include <thread>
 #include <utility>
-#include <vector>
 
-#include "drivers/ffmpeg/address.h"
 #include "drivers/ffmpeg/container.h"
 #include "drivers/ffmpeg/ffmpeg.h"
+#include "drivers/ffmpeg/file_times.h"
+#include "drivers/ffmpeg/input.h"
 #include "drivers/ffmpeg/library.h"
-#include "drivers/ffmpeg/local_file.h"
-#include "drivers/ffmpeg/network_error.h"
 #include "drivers/ffmpeg/stream_tags.h"
 #include "drivers/ffmpeg/watch.h"
-#include "hal/media/video_decoder.h"
-#include "platform/log.h"
-#include "platform/unique_fd.h"
 
 extern "C" {
 #include <libavformat/avformat.h>
@@ -34,30 +28,17 @@ namespace {
 using namespace ffmpeg;
 
 constexpr Duration kReadPatience = std::chrono::seconds(10);
-constexpr Duration kFlowPatience = std::chrono::seconds(3);   // for a real-time stream
-constexpr Duration kOpenPatience = std::chrono::seconds(30);  // an index may be long and the connection slow
-constexpr Duration kNap = std::chrono::milliseconds(2);       // between retries after AVERROR(EAGAIN)
+constexpr Duration kFlowPatience = std::chrono::seconds(3);  // for a real-time stream
+constexpr Duration kNap = std::chrono::milliseconds(2);      // between retries after AVERROR(EAGAIN)
 constexpr const char* kCannotSeek = "a live stream or a pipe cannot seek; save it to a file first";
 constexpr std::size_t kTagPackets = 512;      // searched for a key frame of each stream
 constexpr std::size_t kFlowTagPackets = 128;  // of a real-time stream: about as many as opening has read
-constexpr int kMostOpens = 200;               // files and addresses opened by one `open` or one `read`
 constexpr int kDamagedReads = 64;             // in a row, until a broken container counts as ended
 // A container's duration may include a last picture longer than its packet, or sound that a codec adds at the end.
 constexpr Duration kWholeWithin = std::chrono::milliseconds(250);
 // A gap from lost data is waited out; in a real-time stream that time has already passed.
 constexpr Duration kLongestGap = std::chrono::seconds(10);
 constexpr Duration kLongestFlowGap = std::chrono::seconds(2);
-constexpr Duration kReordering = std::chrono::seconds(1);  // behind a jump FFmpeg gives out decoding times that fall
-constexpr Duration kAnyGap = std::chrono::hours(24 * 365);
-
-struct FormatCloser {
-  void operator()(AVFormatContext* context) const noexcept {
-    AVIOContext* const file = isLocalFile(context->pb) ? context->pb : nullptr;
-    avformat_close_input(&context);
-    if (file != nullptr) closeLocalFile(file);
-  }
-};
-using FormatPtr = std::unique_ptr<AVFormatContext, FormatCloser>;
 
 class FfmpegSource final : public MediaSource {
  public:
@@ -74,95 +55,22 @@ class FfmpegSource final : public MediaSource {
 
   // If it fails, the previously open context stays open.
   Result<void> openContext() {
-    watch_.begin(kOpenPatience);
-    auto address = parseAddress(url_);
-    if (!address) return std::unexpected(address.error());
-    if (address->way == Way::Pipe) {
-      if (auto piped = openPipe(*address); !piped) return piped;
-    }
-    AVFormatContext* context = avformat_alloc_context();
-    if (context == nullptr) return std::unexpected(openError(AVERROR(ENOMEM)));
-    context->interrupt_callback = {Watch::callback, &watch_};
-    context->opaque = this;
-    open_file_ = std::exchange(context->io_open, openCounted);
-    close_file_ = std::exchange(context->io_close2, closeAny);
-    opens_ = 0;
-    AVIOContext* file = nullptr;
-    if (const auto opened = openFile(*address, file); !opened) {
-      avformat_free_context(context);
-      return std::unexpected(watch_.explain(opened.error()));
-    }
-    context->pb = file;
-    AVDictionary* options = optionsFor(*address);
-    const LibraryWords words;
-    const int opened = avformat_open_input(&context, address->url.c_str(), nullptr, &options);
-    av_dict_free(&options);
-    if (opened < 0 && file != nullptr) closeLocalFile(file);
-    if (opened < 0) return std::unexpected(watch_.explain(refusal(*address, opened, words.last())));
-    arrival_ = watch_.now();
-
-    FormatPtr owned(context);
-    watch_.begin(kOpenPatience);
-    const int found = findStreams(*context);
-    if (found < 0 || watch_.cancelled()) return std::unexpected(watch_.explain(refusal(*address, found, words.last())));
-    if (isTextArt(*context)) return std::unexpected(openError(AVERROR_INVALIDDATA));
-    timed_ = isTimed(*context);
-    start_ = startOf(*context);
+    auto opened = input_.open(url_);
+    if (!opened) return std::unexpected(opened.error());
+    AVFormatContext& context = *opened->container;
+    arrival_ = opened->arrival;
+    timed_ = isTimed(context);
+    start_ = startOf(context);
     latest_end_ = Duration(0);
-    expectFirstPacket();
-    chooseProgramme(*context);
-    leading_stream_ = std::max(av_find_default_stream_index(context), 0);
-    earliest_stream_ = earliestStream(*context, leading_stream_);
-    context_ = std::move(owned);
-    address_ = std::move(*address);
+    times_.begin();
+    chooseProgramme(context);
+    leading_stream_ = std::max(av_find_default_stream_index(&context), 0);
+    earliest_stream_ = earliestStream(context, leading_stream_);
+    context_ = std::move(opened->container);
+    address_ = std::move(opened->address);
     ahead_.clear();
     readStreamTags();
     return {};
-  }
-
-  // What FFmpeg opens itself stays null: what is remote, and names that are patterns.
-  Result<void> openFile(const Address& address, AVIOContext*& file) {
-    reads_files_ = address.way == Way::File;
-    if (!reads_files_) return {};
-    const auto opened = openLocalFile(localPathOf(address.url), watch_);
-    if (opened) file = *opened;
-    if (opened || opened.error().code == ErrorCode::NotFound) return {};
-    const Error& error = opened.error();
-    return std::unexpected(error.os_error == 0 ? error : openError(AVERROR(error.os_error)));
-  }
-
-  void expectFirstPacket() noexcept {
-    continuous_.begin(kAnyGap);
-    highest_.clear();
-    mended_by_ = Duration(0);
-  }
-
-  // Bounds the opens of a playlist that names itself, or of endlessly nested lists.
-  static int openCounted(AVFormatContext* context, AVIOContext** file, const char* url, int flags,
-                         AVDictionary** options) {
-    auto& self = *static_cast<FfmpegSource*>(context->opaque);
-    if (++self.opens_ > kMostOpens) return AVERROR(ELOOP);
-    const std::string path = self.reads_files_ ? localPathOf(url) : "";
-    if (path.empty()) return self.open_file_(context, file, url, flags, options);
-    const auto opened = openLocalFile(path, self.watch_);
-    if (opened) *file = *opened;
-    return opened ? 0 : codeOf(opened.error());
-  }
-  static int closeAny(AVFormatContext* context, AVIOContext* file) {
-    if (!isLocalFile(file)) return static_cast<FfmpegSource*>(context->opaque)->close_file_(context, file);
-    closeLocalFile(file);
-    return 0;
-  }
-
-  // FFmpeg decodes pictures to analyse a stream: it must skip those that are too large for the decoder.
-  static int findStreams(AVFormatContext& context) {
-    std::vector<AVDictionary*> options(context.nb_streams, nullptr);
-    for (AVDictionary*& of_stream : options) {
-      av_dict_set_int(&of_stream, "max_pixels", VideoDecoder::kMostSamples, 0);
-    }
-    const int found = avformat_find_stream_info(&context, options.empty() ? nullptr : options.data());
-    for (AVDictionary*& of_stream : options) av_dict_free(&of_stream);
-    return found;
   }
 
   // If the container has no depth tags, looks for tags at the streams' first key frames. The packets read for that are
@@ -191,33 +99,6 @@ class FfmpegSource final : public MediaSource {
   }
   static bool saysDepth(const AVDictionary* tags) noexcept {
     return av_dict_get(tags, "DEPTH_", nullptr, AV_DICT_IGNORE_SUFFIX) != nullptr;
-  }
-
-  // Opens the pipe without blocking: a blocking open(2) waits for the writer and could not be interrupted.
-  Result<void> openPipe(Address& address) {
-    pipe_.reset(::open(address.url.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
-    if (!pipe_.valid()) return std::unexpected(openError(AVERROR(errno)));
-    pollfd wait{.fd = pipe_.get(), .events = POLLIN, .revents = 0};
-    while (::poll(&wait, 1, 50) <= 0) {
-      if (watch_.givesUp()) return std::unexpected(watch_.explain({}));
-    }
-    address.url = "pipe:" + std::to_string(pipe_.get());
-    return {};
-  }
-
-  // FFmpeg returns EINVAL for what the whitelists of `optionsFor` forbid.
-  static Error refusal(const Address& address, int code, const std::string& words) noexcept {
-    if (code == AVERROR_INVALIDDATA && address.way == Way::File && isHeic(localPathOf(address.url))) {
-      return {
-          ErrorCode::Unsupported, 0,
-          "it is a HEIC photo, which this FFmpeg cannot read; with libheif (RELIEVO_HEIF) those with a depth map or "
-          "two views are read; save it as JPEG or PNG"};
-    }
-    if (!address.remote()) return openError(code);
-    if (code != AVERROR(EINVAL) || address.way != Way::Http) return networkError(code, words);
-    return {ErrorCode::Unsupported, 0,
-            "it is no film, or a playlist that names files or protocols forbidden to network sources; check the "
-            "address"};
   }
 
   Result<Description> describe() const {
@@ -250,7 +131,7 @@ class FfmpegSource final : public MediaSource {
 
   Result<std::optional<Packet>> readPacket() override {
     watch_.begin(address_.flows() ? kFlowPatience : kReadPatience);
-    opens_ = 0;
+    input_.countAnew();
     PacketPtr packet(av_packet_alloc());
     if (!packet) return fail(ErrorCode::Exhausted, "out of memory for a packet", ENOMEM);
     int damaged_reads = 0;
@@ -275,27 +156,6 @@ class FfmpegSource final : public MediaSource {
     packet = std::move(ahead_.front());
     ahead_.pop_front();
     return 0;
-  }
-
-  // A file's decoding times never fall, whatever its gaps. Where they do, as in files that were cut together without
-  // care, the film continues where it was. Pictures without a decoding time may be reordered and judge nothing.
-  void mend(Packet& packet) {
-    if (origin().longest_gap > Duration(0)) return;
-    if (packet.dts) {
-      const auto [known, first] = highest_.try_emplace(packet.stream, *packet.dts);
-      if (first || *packet.dts > known->second || *packet.dts < known->second - kReordering)
-        known->second = *packet.dts;
-      const Duration offset = continuous_.offsetFor(packet.stream, known->second);
-      if (offset > mended_by_) {
-        log(LogLevel::Warning, "media", "%s: its times jump back by %.1f s at %.1f s; they are made continuous",
-            url_.c_str(), toSeconds(offset - mended_by_), toSeconds(*packet.dts + offset));
-      }
-      mended_by_ = std::max(mended_by_, offset);
-      *packet.dts += offset;
-      if (packet.pts) *packet.pts += offset;
-    } else if (packet.pts) {
-      *packet.pts += mended_by_;
-    }
   }
 
   void noteEnd(const Packet& packet, Duration length) noexcept {
@@ -336,7 +196,7 @@ class FfmpegSource final : public MediaSource {
     out.bytes = static_cast<std::size_t>(packet->size);
     out.pts = timeOf(packet->pts, stream);
     out.dts = timeOf(packet->dts, stream);
-    mend(out);
+    if (origin().longest_gap == Duration(0)) times_.mend(out, url_);
     noteEnd(out, durationFrom(packet->duration, stream.time_base));
     out.keyframe = (packet->flags & AV_PKT_FLAG_KEY) != 0;
     out.owner = std::shared_ptr<AVPacket>(std::move(packet));
@@ -350,11 +210,11 @@ class FfmpegSource final : public MediaSource {
 
   Result<void> seekTo(MediaTime target) override {
     if (watch_.cancelled()) return std::unexpected(watch_.explain({}));
-    if (pipe_.valid()) return fail(ErrorCode::Unsupported, kCannotSeek);
+    if (input_.isPipe()) return fail(ErrorCode::Unsupported, kCannotSeek);
     if (!timed_) return openContext();  // pictures without times are counted from the beginning
     watch_.begin(kReadPatience);
     ahead_.clear();
-    expectFirstPacket();
+    times_.begin();
     latest_end_ = target.time_since_epoch();  // what is skipped is not missing
     const bool to_beginning = target <= MediaTime{};
     if (to_beginning && seeksByBytes() && av_seek_frame(context_.get(), -1, 0, AVSEEK_FLAG_BYTE) >= 0) return {};
@@ -384,7 +244,7 @@ class FfmpegSource final : public MediaSource {
   void closeSource() noexcept override {
     ahead_.clear();
     context_.reset();
-    pipe_.reset();
+    input_.closePipe();
   }
 
   void interrupted() noexcept override { watch_.cancel(); }
@@ -393,18 +253,12 @@ class FfmpegSource final : public MediaSource {
   std::string url_;
   Address address_;
   MonotonicTime arrival_;
-  decltype(AVFormatContext::io_open) open_file_ = nullptr;  // FFmpeg's own
-  decltype(AVFormatContext::io_close2) close_file_ = nullptr;
-  bool reads_files_ = false;
-  int opens_ = 0;  // since the current `open` or `read` began
-  UniqueFd pipe_;  // outlives the context that reads from it
+  Input input_{watch_};
   FormatPtr context_;
   bool timed_ = true;
-  Duration start_{0};                                              // the container's start time
-  Duration latest_end_{0};                                         // of all packets read so far, from `start_` on
-  std::map<int, MediaTime> highest_;                               // decoding time of each stream since its last jump
-  ContinuousTime continuous_;                                      // of a file
-  Duration mended_by_{0};                                          // added to its times, since its beginning or a seek
+  Duration start_{0};       // the container's start time
+  Duration latest_end_{0};  // of all packets read so far, from `start_` on
+  FileTimes times_;
   std::deque<PacketPtr> ahead_;                                    // read while looking for tags, not returned yet
   std::map<int, std::map<std::string, std::string>> stream_tags_;  // by stream index
   int leading_stream_ = 0;

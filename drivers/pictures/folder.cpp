@@ -23,6 +23,9 @@ namespace {
 constexpr std::array<std::string_view, 4> kAssociations{"associations.txt", "associate.txt", "association.txt",
                                                         "assoc.txt"};
 constexpr const char* kNoPictures = "there is no picture in this folder; name a folder of pictures or a film";
+constexpr const char* kRos2Bag =
+    "this folder is a ROS 2 bag; convert it to a ROS 1 bag, which is read: pip install rosbags; rosbags-convert --src "
+    "FOLDER --dst film.bag";
 constexpr const char* kHasFilms =
     "this folder is a list of films; name one of them, or play them all with relievo play";
 constexpr const char* kNoMatch = "no picture has a name of this pattern; check the folder and the pattern";
@@ -68,6 +71,7 @@ bool matches(const Pattern& pattern, const std::string& name) {
 struct Listing {
   std::vector<std::string> pictures, folders;
   std::size_t films = 0;
+  bool ros2_bag = false;
 };
 Result<Listing> listingOf(const std::string& folder) {
   const auto entries = listFolder(folder.empty() ? "." : folder);
@@ -75,6 +79,7 @@ Result<Listing> listingOf(const std::string& folder) {
   Listing listing;
   for (const auto& [name, is] : *entries) {
     if (name.starts_with('.')) continue;
+    listing.ros2_bag = listing.ros2_bag || name.ends_with(".db3") || name.ends_with(".mcap");
     const MediaKind kind = mediaKindOf(name);
     if (kind == MediaKind::Picture) listing.pictures.push_back(name);
     else if (kind == MediaKind::Film) ++listing.films;
@@ -205,6 +210,7 @@ Result<FoundPictures> findInFolder(const std::string& folder) {
   if (sortByFolder(folder, *listing, found) || sortByViewFolder(folder, *listing, found)) return found;
   found = {};
   if (isListOfFilms(listing->films, listing->pictures.size())) return fail(ErrorCode::NotFound, kHasFilms);
+  if (listing->pictures.empty() && listing->ros2_bag) return fail(ErrorCode::Unsupported, kRos2Bag);
   if (listing->pictures.empty()) return fail(ErrorCode::NotFound, kNoPictures);
   if (!sortByView(folder, listing->pictures, found)) sortByRole(folder, listing->pictures, found);
   return found;

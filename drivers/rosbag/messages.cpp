@@ -14,7 +14,7 @@ struct Header {
 };
 Header readHeader(ByteReader& reader) {
   static_cast<void>(reader.value<std::uint32_t>());  // a counter
-  const Duration stamp = reader.time();
+  const Duration stamp = takeTime(reader);
   return {stamp, std::string(reader.text())};
 }
 
@@ -25,7 +25,7 @@ constexpr double kLengthToWithin = 1e-2;  // of a quaternion
 std::optional<Duration> parseStamp(Bytes message) {
   ByteReader reader(message);
   static_cast<void>(reader.value<std::uint32_t>());
-  const Duration stamp = reader.time();
+  const Duration stamp = takeTime(reader);
   return reader.ok() ? std::optional(stamp) : std::nullopt;
 }
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
+#include <string_view>
 
 namespace relievo::rosbag {
 namespace {
@@ -25,7 +27,7 @@ bool parseHeader(Bytes header, Record& record) {
     if (name == "chunk_count") record.chunk_count = value.value<std::uint32_t>();
     if (name == "index_pos") record.index_pos = value.value<std::uint64_t>();
     if (name == "chunk_pos") record.chunk_pos = value.value<std::uint64_t>();
-    if (name == "time") record.time = value.time();
+    if (name == "time") record.time = takeTime(value);
     if (name == "topic") record.topic = text;
     if (name == "compression") record.compression = text;
     if (!value.ok()) return false;

@@ -3,62 +3,25 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "hal/media/media_time.h"
 #include "platform/files/answered_file.h"
+#include "platform/files/byte_reader.h"
 
 namespace relievo::rosbag {
 
 using Bytes = std::span<const std::uint8_t>;
 
-// Reads little-endian values one after another. Once a value does not fit, this one and all later ones are zero or
-// empty, and `ok` is false.
-class ByteReader {
- public:
-  explicit ByteReader(Bytes bytes) noexcept : bytes_(bytes) {}
-
-  template <class T>
-  [[nodiscard]] T value() noexcept {
-    T value{};
-    const Bytes bytes = take(sizeof value);
-    if (!bytes.empty()) std::memcpy(&value, bytes.data(), sizeof value);
-    return value;
-  }
-  [[nodiscard]] Bytes take(std::size_t count) noexcept {
-    if (!ok_ || count > bytes_.size() - at_) {
-      ok_ = false;
-      return {};
-    }
-    at_ += count;
-    return bytes_.subspan(at_ - count, count);
-  }
-  // A length of 32 bits, and as many bytes.
-  [[nodiscard]] Bytes block() noexcept { return take(value<std::uint32_t>()); }
-  [[nodiscard]] std::string_view text() noexcept {
-    const Bytes bytes = block();
-    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-  }
-  // Seconds and nanoseconds since 1970, or since whatever the recorder counts from.
-  [[nodiscard]] Duration time() noexcept {
-    const auto seconds = value<std::uint32_t>();
-    return std::chrono::seconds(seconds) + Duration(value<std::uint32_t>());
-  }
-  [[nodiscard]] std::size_t position() const noexcept { return at_; }
-  [[nodiscard]] std::size_t left() const noexcept { return bytes_.size() - at_; }
-  [[nodiscard]] bool ok() const noexcept { return ok_; }
-
- private:
-  Bytes bytes_;
-  std::size_t at_ = 0;
-  bool ok_ = true;
-};
+// Seconds and nanoseconds since 1970, or since whatever the recorder counts from.
+[[nodiscard]] inline Duration takeTime(ByteReader& reader) noexcept {
+  const auto seconds = reader.value<std::uint32_t>();
+  return std::chrono::seconds(seconds) + Duration(reader.value<std::uint32_t>());
+}
 
 // A part of the file, or a chunk that was unpacked into memory.
 struct Range {

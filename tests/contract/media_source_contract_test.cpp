@@ -6,6 +6,10 @@
 #include "tests/contract/films.h"
 #include "tests/contract/state_table.h"
 #include "tests/contract/suite/media_source.h"
+#ifdef RELIEVO_OPENNI
+#include "drivers/openni/openni.h"
+#include "tests/contract/oni_film.h"
+#endif
 #ifdef RELIEVO_ROSBAG
 #include "drivers/rosbag/rosbag.h"
 #include "tests/contract/bag_film.h"
@@ -43,6 +47,12 @@ const test::FilmBackend kPictures{"pictures",
 
 INSTANTIATE_TEST_SUITE_P(Backends, MediaSourceContract, testing::ValuesIn(test::kFilmBackends), test::kBackendName);
 INSTANTIATE_TEST_SUITE_P(Pictures, MediaSourceContract, testing::Values(kPictures), test::kBackendName);
+#ifdef RELIEVO_OPENNI
+INSTANTIATE_TEST_SUITE_P(OpenniRecordings, MediaSourceContract,
+                         testing::Values(test::FilmBackend{"openni", makeOpenniSource, makeFfmpegDecoder, test::oniFilm,
+                                                           "/nonexistent/film.oni", test::kFilmPeriod, false}),
+                         test::kBackendName);
+#endif
 #ifdef RELIEVO_ROSBAG
 INSTANTIATE_TEST_SUITE_P(Bags, MediaSourceContract,
                          testing::Values(test::FilmBackend{"rosbag", makeRosbagSource, makeFfmpegDecoder, test::bagFilm,

@@ -21,6 +21,7 @@
 #include "tests/support/film/damage.h"
 #include "tests/support/film/heic_writer.h"
 #include "tests/support/film/kinect_mkv.h"
+#include "tests/support/film/oni_writer.h"
 #include "tests/support/machine/sanitizers.h"
 
 namespace relievo {
@@ -114,6 +115,20 @@ std::string bag() {
   return writer.finish();
 }
 
+std::string oni() {
+  std::vector<std::uint16_t> depth;
+  for (int i = 0; i < kCols * kRows; ++i) depth.push_back(static_cast<std::uint16_t>(1000 + i));
+  test::OniWriter writer;
+  const auto color =
+      writer.add({.kind = test::kOniColor, .codec = "NONE", .cols = kCols, .rows = kRows, .format = test::kOniRgb});
+  const auto distances = writer.add({.cols = kCols, .rows = kRows});
+  for (std::uint64_t k = 0; k < 4; ++k) {
+    writer.write(color, k * 33'000, std::string(3 * depth.size(), static_cast<char>(50 * k)));
+    writer.write(distances, k * 33'000, test::oni16zTable(depth));
+  }
+  return writer.finish();
+}
+
 std::string heic() {
   static const test::HevcPicture picture = test::hevcPicture(
       [](int k, int c, int r, int) { return k == 0 ? static_cast<std::uint32_t>(40 + c + r / 2) : 128u; });
@@ -196,8 +211,8 @@ std::vector<std::string> alone(const std::string& folder, const std::string& byt
   write(folder + "/x" + kEnding, bytes);
   return {folder + "/x" + kEnding};
 }
-constexpr char kBag[] = ".bag", kExr[] = ".exr", kPfm[] = ".pfm", kNpy[] = ".npy", kHeic[] = ".heic", kJpg[] = ".jpg",
-               kMpo[] = ".mpo";
+constexpr char kBag[] = ".bag", kOni[] = ".oni", kExr[] = ".exr", kPfm[] = ".pfm", kNpy[] = ".npy", kHeic[] = ".heic",
+               kJpg[] = ".jpg", kMpo[] = ".mpo";
 
 std::vector<std::string> besideColor(const std::string& folder, const std::string& depth) {
   static const std::string color = picture("a.png", "png", "rgb24");
@@ -206,6 +221,7 @@ std::vector<std::string> besideColor(const std::string& folder, const std::strin
 }
 const Kind kKinds[] = {
     {"bag", bag, alone<kBag>},
+    {"oni", oni, alone<kOni>},
     {"exr", exr, alone<kExr>},
     {"pfm", pfm, alone<kPfm>},
     {"npy", npy, alone<kNpy>},

@@ -10,29 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/film/byte_writer.h"
+
 namespace relievo::test {
-
-// Little-endian values one after another.
-class ByteWriter {
- public:
-  template <class T>
-  ByteWriter& add(T value) {
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
-    return *this;
-  }
-  ByteWriter& raw(std::string_view bytes) { return bytes_.append(bytes), *this; }
-  // With its length in front.
-  ByteWriter& text(std::string_view text) { return add(static_cast<std::uint32_t>(text.size())).raw(text); }
-  ByteWriter& time(std::int64_t ns) {
-    return add(static_cast<std::uint32_t>(ns / 1'000'000'000)).add(static_cast<std::uint32_t>(ns % 1'000'000'000));
-  }
-  // std_msgs/Header
-  ByteWriter& header(std::int64_t ns, std::string_view frame) { return add(std::uint32_t{7}).time(ns).text(frame); }
-  [[nodiscard]] const std::string& bytes() const { return bytes_; }
-
- private:
-  std::string bytes_;
-};
 
 struct BagImage {
   std::int64_t stamp_ns = 0;

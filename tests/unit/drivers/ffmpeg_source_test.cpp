@@ -285,6 +285,29 @@ TEST(FfmpegSource, SaysWhatIsWrongWithWhatItCannotOpen) {
   }
 }
 
+// Told by their first bytes, even where FFmpeg would find something like sound in what follows.
+TEST(FfmpegSource, RecordingsThatNothingReadsAreNamedWithTheCommandThatConvertsThem) {
+  const TemporaryFolder folder;
+  using namespace std::string_view_literals;
+  const struct {
+    const char* name;
+    std::string_view begin;
+    std::vector<const char*> words;
+  } kFormats[] = {
+      {"a.db3", "SQLite format 3\0"sv, {"ROS 2 bag", "rosbags-convert --src FOLDER --dst film.bag"}},
+      {"a.mcap", "\x89MCAP0\r\n"sv, {"MCAP", "rosbags-convert --src FOLDER --dst film.bag"}},
+      {"a.h5", "\x89HDF\r\n\x1a\n"sv, {"HDF5", ".npy"}},
+      {"a.bag", "#ROSBAG V2.0\n"sv, {"ROS bag", "RELIEVO_ROSBAG"}},
+      {"a.oni", "NI10\1"sv, {"OpenNI", "RELIEVO_OPENNI"}},
+  };
+  for (const auto& format : kFormats) {
+    writeFile(folder / format.name, std::string(format.begin) + std::string(5000, '\x47'));
+    const Error error = openErrorOf(folder / format.name);
+    EXPECT_EQ(error.code, ErrorCode::Unsupported) << format.name;
+    for (const char* const word : format.words) EXPECT_THAT(error.message, HasSubstr(word));
+  }
+}
+
 TEST(FfmpegSource, AHeicPhotoItCannotReadIsSaidToBeOne) {
   const test::TemporaryFolder folder;
   const std::string path = folder / "portrait.heic";

@@ -266,6 +266,10 @@ TEST_F(Pictures, SaysWhatAFolderLacks) {
   EXPECT_THAT(read(folder_ / "empty").error->message, HasSubstr("no picture"));
   file("films/a.mkv"), file("films/poster.jpg");
   EXPECT_THAT(read(folder_ / "films").error->message, HasSubstr("list of films"));
+  file("db3/metadata.yaml"), file("db3/db3_0.db3"), file("mcap/mcap_0.mcap");
+  for (const char* const bag : {"db3", "mcap"}) {
+    EXPECT_THAT(read(folder_ / bag).error->message, HasSubstr("rosbags-convert --src FOLDER --dst film.bag"));
+  }
 }
 
 TEST_F(Pictures, WhatTheyAreIsToldFromNamesAlone) {

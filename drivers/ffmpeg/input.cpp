@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drivers/ffmpeg/input.h"
+
+#include <fcntl.h>
+#include <poll.h>
+
+#include <cerrno>
+#include <utility>
+#include <vector>
+
+#include "drivers/ffmpeg/container.h"
+#include "drivers/ffmpeg/library.h"
+#include "drivers/ffmpeg/local_file.h"
+#include "drivers/ffmpeg/network_error.h"
+#include "drivers/ffmpeg/refusal.h"
+#include "hal/media/video_decoder.h"
+
+namespace relievo::ffmpeg {
+namespace {
+
+constexpr Duration kPatience = std::chrono::seconds(30);  // an index may be long and the connection slow
+constexpr int kMostOpens = 200;                           // files and addresses that a container opens at once
+
+// FFmpeg decodes pictures to analyse a stream: it must skip those that are too large for the decoder.
+int findStreams(AVFormatContext& context) {
+  std::vector<AVDictionary*> options(context.nb_streams, nullptr);
+  for (AVDictionary*& of_stream : options) {
+    av_dict_set_int(&of_stream, "max_pixels", VideoDecoder::kMostSamples, 0);
+  }
+  const int found = avformat_find_stream_info(&context, options.empty() ? nullptr : options.data());
+  for (AVDictionary*& of_stream : options) av_dict_free(&of_stream);
+  return found;
+}
+
+}  // namespace
+
+void FormatCloser::operator()(AVFormatContext* context) const noexcept {
+  AVIOContext* const file = isLocalFile(context->pb) ? context->pb : nullptr;
+  avformat_close_input(&context);
+  if (file != nullptr) closeLocalFile(file);
+}
+
+Result<Input::Opened> Input::open(const std::string& url) {
+  watch_.begin(kPatience);
+  auto address = parseAddress(url);
+  if (!address) return std::unexpected(address.error());
+  if (address->way == Way::Pipe) {
+    if (auto piped = openPipe(*address); !piped) return std::unexpected(piped.error());
+  }
+  AVFormatContext* context = avformat_alloc_context();
+  if (context == nullptr) return std::unexpected(openError(AVERROR(ENOMEM)));
+  context->interrupt_callback = {Watch::callback, &watch_};
+  context->opaque = this;
+  open_file_ = std::exchange(context->io_open, openCounted);
+  close_file_ = std::exchange(context->io_close2, closeAny);
+  opens_ = 0;
+  AVIOContext* file = nullptr;
+  if (const auto opened = openFile(*address, file); !opened) {
+    avformat_free_context(context);
+    return std::unexpected(watch_.explain(opened.error()));
+  }
+  context->pb = file;
+  AVDictionary* options = optionsFor(*address);
+  const LibraryWords words;
+  const int opened = avformat_open_input(&context, address->url.c_str(), nullptr, &options);
+  av_dict_free(&options);
+  if (opened < 0 && file != nullptr) closeLocalFile(file);
+  if (opened < 0) return std::unexpected(watch_.explain(refusal(*address, opened, words.last())));
+  const MonotonicTime arrival = watch_.now();
+
+  FormatPtr owned(context);
+  watch_.begin(kPatience);
+  const int found = findStreams(*context);
+  if (found < 0 || watch_.cancelled()) return std::unexpected(watch_.explain(refusal(*address, found, words.last())));
+  if (isTextArt(*context)) return std::unexpected(openError(AVERROR_INVALIDDATA));
+  return Opened{.container = std::move(owned), .address = std::move(*address), .arrival = arrival};
+}
+
+// What FFmpeg opens itself stays null: what is remote, and names that are patterns.
+Result<void> Input::openFile(const Address& address, AVIOContext*& file) {
+  reads_files_ = address.way == Way::File;
+  if (!reads_files_) return {};
+  const std::string path = localPathOf(address.url);
+  if (const auto unread = unreadFormat(path)) return std::unexpected(*unread);
+  const auto opened = openLocalFile(path, watch_);
+  if (opened) file = *opened;
+  if (opened || opened.error().code == ErrorCode::NotFound) return {};
+  const Error& error = opened.error();
+  return std::unexpected(error.os_error == 0 ? error : openError(AVERROR(error.os_error)));
+}
+
+// Bounds the opens of a playlist that names itself, or of endlessly nested lists.
+int Input::openCounted(AVFormatContext* context, AVIOContext** file, const char* url, int flags,
+                       AVDictionary** options) {
+  auto& self = *static_cast<Input*>(context->opaque);
+  if (++self.opens_ > kMostOpens) return AVERROR(ELOOP);
+  const std::string path = self.reads_files_ ? localPathOf(url) : "";
+  if (path.empty()) return self.open_file_(context, file, url, flags, options);
+  const auto opened = openLocalFile(path, self.watch_);
+  if (opened) *file = *opened;
+  return opened ? 0 : codeOf(opened.error());
+}
+
+int Input::closeAny(AVFormatContext* context, AVIOContext* file) {
+  if (!isLocalFile(file)) return static_cast<Input*>(context->opaque)->close_file_(context, file);
+  closeLocalFile(file);
+  return 0;
+}
+
+// Without blocking: a blocking open(2) waits for the writer and could not be interrupted.
+Result<void> Input::openPipe(Address& address) {
+  pipe_.reset(::open(address.url.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  if (!pipe_.valid()) return std::unexpected(openError(AVERROR(errno)));
+  pollfd wait{.fd = pipe_.get(), .events = POLLIN, .revents = 0};
+  while (::poll(&wait, 1, 50) <= 0) {
+    if (watch_.givesUp()) return std::unexpected(watch_.explain({}));
+  }
+  address.url = "pipe:" + std::to_string(pipe_.get());
+  return {};
+}
+
+}  // namespace relievo::ffmpeg

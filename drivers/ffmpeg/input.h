@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Opens an address as a container of FFmpeg's: what it may open is bounded, and every wait is interruptible.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "drivers/ffmpeg/address.h"
+#include "drivers/ffmpeg/watch.h"
+#include "platform/error.h"
+#include "platform/unique_fd.h"
+
+extern "C" {
+#include <libavformat/avformat.h>
+}
+
+namespace relievo::ffmpeg {
+
+struct FormatCloser {
+  void operator()(AVFormatContext* context) const noexcept;
+};
+using FormatPtr = std::unique_ptr<AVFormatContext, FormatCloser>;
+
+class Input {
+ public:
+  // `watch` must outlive it, and it must outlive its containers.
+  explicit Input(Watch& watch) noexcept : watch_(watch) {}
+
+  struct Opened {
+    FormatPtr container;  // its streams have been found
+    Address address;
+    MonotonicTime arrival;
+  };
+  // A container that was opened before stays open.
+  [[nodiscard]] Result<Opened> open(const std::string& url);
+  // The container may open as many files and addresses again as it could at first.
+  void countAnew() noexcept { opens_ = 0; }
+  [[nodiscard]] bool isPipe() const noexcept { return pipe_.valid(); }
+  void closePipe() noexcept { pipe_.reset(); }
+
+ private:
+  [[nodiscard]] Result<void> openPipe(Address& address);
+  [[nodiscard]] Result<void> openFile(const Address& address, AVIOContext*& file);
+  static int openCounted(AVFormatContext* context, AVIOContext** file, const char* url, int flags,
+                         AVDictionary** options);
+  static int closeAny(AVFormatContext* context, AVIOContext* file);
+
+  Watch& watch_;
+  decltype(AVFormatContext::io_open) open_file_ = nullptr;  // FFmpeg's own
+  decltype(AVFormatContext::io_close2) close_file_ = nullptr;
+  bool reads_files_ = false;
+  int opens_ = 0;
+  UniqueFd pipe_;  // outlives the container that reads from it
+};
+
+}  // namespace relievo::ffmpeg

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drivers/ffmpeg/refusal.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "drivers/ffmpeg/library.h"
+#include "drivers/ffmpeg/local_file.h"
+#include "drivers/ffmpeg/network_error.h"
+#include "platform/files/answered_file.h"
+
+namespace relievo::ffmpeg {
+namespace {
+
+using namespace std::string_view_literals;
+
+constexpr std::size_t kHeadBytes = 16;
+
+// Fewer bytes if the file is shorter or cannot be read.
+std::string headOf(const std::string& path) {
+  std::array<std::uint8_t, kHeadBytes> head{};
+  const auto file = AnsweredFile::open(path);
+  const std::size_t bytes = file ? file->read(0, head).value_or(0) : 0;
+  return {head.begin(), head.begin() + static_cast<std::ptrdiff_t>(bytes)};
+}
+
+struct UnreadFormat {
+  std::string_view magic;
+  const char* line;
+};
+constexpr std::array<UnreadFormat, 5> kUnread{{
+    {"SQLite format 3\0"sv,
+     "it is a database of SQLite: a ROS 2 bag, if its name ends in .db3; convert its folder to a ROS 1 bag, which is "
+     "read: pip install rosbags; rosbags-convert --src FOLDER --dst film.bag"},
+    {"\x89MCAP0\r\n"sv,
+     "it is an MCAP recording; convert its folder to a ROS 1 bag, which is read: pip install rosbags; rosbags-convert "
+     "--src FOLDER --dst film.bag"},
+    {"\x89HDF\r\n\x1a\n"sv, "it is an HDF5 file; write its depth as .npy or as 16-bit PNG pictures, which are read"},
+    // A build with their readers gives these to them.
+    {"#ROSBAG V"sv, "it is a ROS bag, which this relievo was built without; build it with -DRELIEVO_ROSBAG=ON"},
+    {"NI10"sv, "it is a recording of OpenNI, which this relievo was built without; build it with -DRELIEVO_OPENNI=ON"},
+}};
+
+// ISO/IEC 23008-12.
+bool isHeic(const std::string& path) {
+  const std::string head = headOf(path);
+  if (head.size() < 12) return false;
+  constexpr std::array<std::string_view, 6> kBrands{"heic", "heix", "heim", "heis", "mif1", "msf1"};
+  return head.substr(4, 4) == "ftyp" && std::ranges::find(kBrands, head.substr(8, 4)) != kBrands.end();
+}
+
+}  // namespace
+
+std::optional<Error> unreadFormat(const std::string& path) {
+  const std::string head = headOf(path);
+  const auto found =
+      std::ranges::find_if(kUnread, [&](const UnreadFormat& format) { return head.starts_with(format.magic); });
+  if (found == kUnread.end()) return std::nullopt;
+  return Error{ErrorCode::Unsupported, 0, found->line};
+}
+
+Error refusal(const Address& address, int code, const std::string& words) {
+  if (code == AVERROR_INVALIDDATA && address.way == Way::File && isHeic(localPathOf(address.url))) {
+    return {ErrorCode::Unsupported, 0,
+            "it is a HEIC photo, which this FFmpeg cannot read; with libheif (RELIEVO_HEIF) those with a depth map or "
+            "two views are read; save it as JPEG or PNG"};
+  }
+  if (!address.remote()) return openError(code);
+  // FFmpeg returns EINVAL for what the whitelists of `optionsFor` forbid.
+  if (code != AVERROR(EINVAL) || address.way != Way::Http) return networkError(code, words);
+  return {ErrorCode::Unsupported, 0,
+          "it is no film, or a playlist that names files or protocols forbidden to network sources; check the "
+          "address"};
+}
+
+}  // namespace relievo::ffmpeg
