@@ -13,6 +13,7 @@
 #include "app/cli/output_guard.h"
 #include "app/cli/program.h"
 #include "app/cli/progress_line.h"
+#include "app/media/film_folder.h"
 #include "drivers/registry.h"
 #include "platform/clock.h"
 #include "platform/files/file_system_answer.h"
@@ -176,6 +177,7 @@ int run(Arguments& a) {
 
   std::vector<std::string> inputs = a.source.named_files;
   inputs.insert(inputs.end(), {a.source.url, a.source.depth_url, a.output.material_map});
+  if (a.source.depth_url.empty() && !a.output.from_views) inputs.push_back(depthBeside(a.source.url));
   if (auto apart = keepApart(filesWrittenBy(a.output), inputs); !apart) return tellEnd(apart.error(), a.output.path);
 
   Outcome<AuthorSummary> summary;

@@ -67,6 +67,7 @@ std::optional<RecordingPlace> readFile(const fs::path& file) {
                         .origin = CalibrationOrigin::FileBeside,
                         .settings = {{"near", print("%.6g", mm * *near)}, {"far", print("%.6g", mm * *far)}},
                         .why = std::move(why),
+                        .file = file.string(),
                         .camera = std::nullopt};
 }
 

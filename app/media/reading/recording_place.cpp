@@ -62,7 +62,8 @@ RecordingPlace lookForScale(const fs::path& folder) {
       return {findKind("bop"),
               CalibrationOrigin::FileBeside,
               {{"unit", number(*scale)}},
-              print("%s says depth_scale %g mm", (at / name).c_str(), *scale)};
+              print("%s says depth_scale %g mm", (at / name).c_str(), *scale),
+              (at / name).string()};
     }
     if (!at.has_parent_path() || at.parent_path() == at) break;
     at = at.parent_path();
@@ -144,6 +145,7 @@ bool hasView(const fs::path& path, const fs::path& folder, const char* dispariti
 void addStereoCamera(const fs::path& path, const fs::path& folder, RecordingPlace& place) {
   const fs::path file = folder / "calib.txt";
   place.camera = stereoCameraIn(file);
+  if (place.camera) place.file = file.string();
   if (place.kind != nullptr) return;
   place.origin = CalibrationOrigin::Name;
   if (place.camera) {
@@ -152,6 +154,7 @@ void addStereoCamera(const fs::path& path, const fs::path& folder, RecordingPlac
     place.why = print("%s has the cameras, %.4g mm apart", file.c_str(), place.camera->baseline_mm);
   } else if (hasView(path, folder, "disp1", "view1.png")) {
     place.camera = stereoCameraOf2006(folder / "dmin.txt");
+    place.file = (folder / "dmin.txt").string();
     place.why = "names as Middlebury's of 2005 and 2006";
   } else if (hasView(path, folder, "disp2", "im2.png") || hasView(path, folder, "disp2", "im2.ppm")) {
     place.why = "names as Middlebury's of 2001 and 2003";

@@ -18,6 +18,7 @@ struct RecordingPlace {
   CalibrationOrigin origin = CalibrationOrigin::Name;  // of the kind
   CalibrationSettings settings;                        // read from a file or a tag: near, far, unit
   std::string why;
+  std::string file;                    // beside it, that this was read from; empty: none
   std::optional<StereoCamera> camera;  // of disparities; calib.txt
 };
 

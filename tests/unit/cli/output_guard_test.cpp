@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "app/cli/output_guard.h"
+#include "app/cli/read_files.h"
 #include "platform/whole_file.h"
 #include "tests/support/film/clip_maker.h"
 
@@ -73,6 +74,52 @@ TEST_F(OutputGuard, KnowsWhatAListNamesAndListsInLists) {
   EXPECT_FALSE(refused({film}, {master}));
   file("self.m3u8", "#EXTM3U\nself.m3u8\nself.m3u8\n");
   EXPECT_LE(filesReadBy(folder_ / "self.m3u8").size(), 31u) << "1 + 2 + 4 + 8 + 16: four deep";
+}
+
+TEST_F(OutputGuard, KnowsTheRenditionsOfHlsBehindOtherQuotedWords) {
+  const std::string sound = file("hls/sound.m3u8", "#EXTM3U\nsound.ts\n"), part = file("hls/sound.ts"),
+                    key = file("hls/key.bin");
+  const std::string master = file("hls/master",
+                                  "#EXTM3U\n#EXT-X-MEDIA:TYPE=AUDIO,GROUP-ID=\"a\",NAME=\"one\",URI=\"sound.m3u8\"\n"
+                                  "#EXT-X-KEY:METHOD=AES-128,URI=\"key.bin\",IV=0x1\n");
+  for (const std::string& read : {sound, part, key}) EXPECT_TRUE(refused({read}, {master})) << read;
+  EXPECT_FALSE(refused({file("hls/one")}, {file("list.m3u8", "#EXTM3U\nother.ts\n")}));
+}
+
+TEST_F(OutputGuard, KnowsTheFilesOfAConcatUnderAnyName) {
+  std::vector<std::string> read;
+  for (const char* name : {"a.mkv", "b.mkv", "c.mkv", "deep/d.mkv"}) read.push_back(file(name));
+  read.push_back(file("inner.txt", "ffconcat version 1.0\nfile deep/d.mkv\n"));
+  const std::string list = file("list.txt",
+                                "ffconcat version 1.0\n# file free.mkv\nfile a.mkv\r\n  file 'b.mkv'\nduration 3\n"
+                                "file c\\.mkv\nfile inner.txt\n");
+  for (const std::string& name : read) {
+    EXPECT_TRUE(refused({name}, {list})) << name;
+    fs::create_hard_link(name, folder_ / "link");
+    EXPECT_TRUE(refused({folder_ / "link"}, {list})) << "a link to " << name;
+    fs::remove(folder_ / "link");
+  }
+  EXPECT_FALSE(refused({file("free.mkv")}, {list}));
+}
+
+TEST_F(OutputGuard, KnowsTheFilesOfADashFilm) {
+  const std::string start = file("dash/init-0.mp4"), part = file("dash/part-00001.m4s"), far = file("far/film.mp4");
+  const std::string film = file("dash/film.mpd",
+                                "<?xml version=\"1.0\"?>\n<MPD><BaseURL>../far/film.mp4</BaseURL>"
+                                "<SegmentTemplate media=\"part-$Number%05d$.m4s\"/></MPD>\n");
+  for (const std::string& read : {start, part, far}) EXPECT_TRUE(refused({read}, {film})) << read;
+  EXPECT_FALSE(refused({file("far/other.mp4")}, {film}));
+}
+
+TEST_F(OutputGuard, KnowsWhatIsReadBecauseOfAFilmsName) {
+  const std::string words = file("film.en.srt");
+  const std::string camera = file("film.json", R"({"nearClip": 0.5, "farClip": 3.0})");
+  const std::string report = file("film.report.json", "{}");
+  const std::string film = file("film.mp4");
+  for (const std::string& read : {words, camera}) EXPECT_TRUE(refused({read}, {film})) << read;
+  EXPECT_FALSE(refused({report}, {film}));
+  file("film.json", R"({"force": {"max_n": 1}})");
+  EXPECT_FALSE(refused({camera}, {film})) << "a report of an earlier run";
 }
 
 TEST_F(OutputGuard, OneFileIsNoTwoOutputs) {
