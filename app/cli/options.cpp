@@ -4,16 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <sstream>
 #include <string>
 
-#include "app/cli/program.h"
-#include "platform/log.h"
 #include "platform/whole_file.h"
 
 namespace relievo {
@@ -65,110 +61,6 @@ Registration readRegistration(const std::string& path) {
   auto registration = parseRegistration(readFile(thing, path, "cannot be read; give the path of a file"));
   if (!registration) throw WordFailure({thing, {ErrorCode::Corrupt, 0, registration.error().message}});
   return *registration;
-}
-
-// "relievo play": the program and the command, if one was given.
-std::string commandOf(const CLI::App& program) {
-  std::string command = program.get_name();
-  for (const CLI::App* given : program.get_subcommands()) command += " " + given->get_name();
-  return command;
-}
-
-std::vector<std::string> namesOf(const std::vector<CLI::App*>& commands) {
-  std::vector<std::string> names;
-  names.reserve(commands.size());
-  for (const CLI::App* command : commands) names.push_back(command->get_name());
-  return names;
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
-// The given command, its own command, ..
-const CLI::App* innermost(const CLI::App* program) {
-  const auto given = program->get_subcommands();
-  return given.empty() ? program : innermost(given.back());
-}
-
-std::vector<std::string> optionsOf(const CLI::App& command) {
-  std::vector<std::string> names;
-  for (const CLI::Option* option : command.get_options([](const CLI::Option*) { return true; })) {
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  }
-  return names;
-}
-
-// CLI11 says that an argument "was not expected"; this names what was meant, too.
-void tellUnexpected(const CLI::App& program, const std::string& word) {
-  const std::string option = word.substr(0, word.find('='));
-  log(LogLevel::Error, word.c_str(), "%s%s; see %s --help", word.starts_with('-') ? "no such option" : "one too many",
-      meant(option, optionsOf(*innermost(&program))).c_str(), commandOf(program).c_str());
-}
-
-void tellWrongUse(CLI::App& program, const CLI::ParseError& error) {
-  const auto commands = namesOf(program.get_subcommands([](const CLI::App*) { return true; }));
-  const auto words = program.remaining(true);
-  const bool known = commands.empty() || !program.get_subcommands().empty();
-  if (known && !words.empty() && dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
-    tellUnexpected(program, words.front());
-  } else if (known) {
-    log(LogLevel::Error, "usage error", "%s; see %s --help", error.what(), commandOf(program).c_str());
-  } else if (!words.empty()) {
-    log(LogLevel::Error, words.front().c_str(), "unknown command%s; use one of %s; see %s --help",
-        meant(words.front(), commands).c_str(), joined(commands).c_str(), program.get_name().c_str());
-  } else {
-    log(LogLevel::Error, "usage error", "missing command; use one of %s; see %s --help", joined(commands).c_str(),
-        program.get_name().c_str());
-  }
-}
-
-// Thrown by --as help.
-struct KindsAsked final : std::exception {};
-
-// Prints an option as "--packing auto|tracks|sbs|tb     Where the depth is [auto]".
-class Help final : public CLI::Formatter {
- public:
-  using CLI::Formatter::Formatter;
-
-  std::string make_description(const CLI::App* app) const override {
-    const std::string text = app->get_description();
-    return text.substr(0, text.find('\n')) + "\n";
-  }
-  std::string make_usage(const CLI::App* app, std::string name) const override {
-    const std::string text = app->get_description();
-    const std::size_t end = text.find('\n');
-    return CLI::Formatter::make_usage(app, std::move(name)) +
-           (end == std::string::npos ? "" : text.substr(end + 1) + "\n");
-  }
-  std::string make_subcommand(const CLI::App* command) const override {
-    std::stringstream out;
-    const std::string text = command->get_description();
-    CLI::detail::format_help(out, command->get_name(), text.substr(0, text.find('\n')), get_column_width());
-    return out.str();
-  }
-  std::string make_option_opts(const CLI::Option* option) const override {
-    const bool named = option->get_type_size() != 0 && option->get_type_name() != " ";
-    const std::string type = named ? option->get_type_name() : "";
-    const bool many = option->get_expected_max() == CLI::detail::expected_max_vector_size;
-    return (type.empty() ? "" : " " + type) + (many ? " ..." : "") +
-           (option->get_required() ? " " + get_label("REQUIRED") : "");
-  }
-  std::string make_option_desc(const CLI::Option* option) const override {
-    std::string text = option->get_description();
-    const std::string& usual = option->get_default_str();
-    if (!usual.empty() && !option->get_required())
-      text.insert(std::min(text.find('\n'), text.size()), " [" + usual + "]");
-    return text;
-  }
-};
-
-void setHelp(CLI::App& app, const std::string& version) {
-  app.formatter(std::make_shared<Help>());
-  app.set_version_flag("-V,--version", version, "Print the version and exit")->configurable(false);
-  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) setHelp(*command, version);
 }
 
 }  // namespace
@@ -316,26 +208,6 @@ void addBoxOption(CLI::App& app, std::optional<DisplayVolume>& volume) {
          },
          "Box that the relief fills, mm\n[160 wide, 40 deep, height from the depth picture's aspect ratio]")
       ->type_name("WxHxD");
-}
-
-std::expected<void, int> parseCommandLine(CLI::App& program, int argc, const char* const* argv) {
-  setHelp(program, program.get_name() + " " RELIEVO_VERSION);
-  try {
-    program.parse(argc, argv);
-    return {};
-  } catch (const KindsAsked&) {
-    std::fputs(kindsText().c_str(), stdout);
-    return std::unexpected(kExitDone);
-  } catch (const WordFailure& failure) {
-    return std::unexpected(tell(failure));
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
-      program.exit(error);  // prints the help or the version
-      return std::unexpected(kExitDone);
-    }
-    tellWrongUse(program, error);
-    return std::unexpected(kExitWrongUse);
-  }
 }
 
 CLI::Validator between(double low, double high) {

@@ -25,6 +25,9 @@ struct WordFailure final : std::exception, Failure {
   explicit WordFailure(Failure failure) : Failure(std::move(failure)) {}
 };
 
+// Thrown through CLI11 by --as help; `parseCommandLine` prints the kinds.
+struct KindsAsked final : std::exception {};
+
 // Parses "160x90x40" into as many positive, finite numbers as `sizes` holds; false for anything else.
 [[nodiscard]] bool parseSizes(std::string_view text, std::span<double> sizes) noexcept;
 

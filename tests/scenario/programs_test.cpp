@@ -45,6 +45,17 @@ TEST_P(Programs, NameTheWordThatTheyDoNotKnow) {
   }
 }
 
+TEST_P(Programs, AnOptionWithoutItsValueIsOneLineThatSaysHowItIsWritten) {
+  const std::string program = GetParam();
+  const std::string words = program == "relievo"       ? "film.mkv --fps"
+                            : program == "relievo-lab" ? "trace --fps"
+                                                       : "--fps";
+  const auto said = run(words);
+  EXPECT_EQ(said.exit_code, 2);
+  const std::string command = program == "relievo" ? " play" : program == "relievo-lab" ? " trace" : "";
+  EXPECT_EQ(said.err, program + ": --fps: its value is missing; write --fps F; see " + program + command + " --help\n");
+}
+
 TEST_P(Programs, HelpIsOnStdoutAndNamesTheVersionsOption) {
   const auto said = run("--help");
   EXPECT_EQ(said.exit_code, 0);

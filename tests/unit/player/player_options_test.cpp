@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <fstream>
+#include <sstream>
+#include <string>
 #include <vector>
 
 #include "app/player/setup/options.h"
@@ -357,6 +359,26 @@ TEST(Options, RefuseWrongWordsInOneLine) {
   expectRefused({"play", "film.mkv", "--duration", "-1"}, "--duration -1: ");
   expectRefused({"play", "--films", "Videos", "--display", "offscreen"}, "--films: shows a list, and nobody sees it");
   expectRefused({"probe", "one.mkv", "two.mkv"}, "two.mkv: one too many");
+}
+
+// Each one that the help shows with a value: "  --fps F  ..".
+TEST(Options, EachThatNeedsAValueSaysSoInTheProjectsWords) {
+  std::istringstream help(parse({"play", "--help"}).out);
+  std::size_t options = 0;
+  for (std::string line, dash, type; std::getline(help, line);) {
+    std::istringstream words(line);
+    const bool is_option = line.starts_with("  --") && words >> dash >> type;
+    const std::size_t begin = is_option ? line.find(type) : 0;
+    if (!is_option || begin != 2 + dash.size() + 1) continue;  // a flag: its meaning stands in a column of its own
+    ++options;
+    const std::string said = dash + ": its value is missing; write " + dash + " ";
+    expectRefused({"play", "film.mkv", dash.c_str()}, said.c_str());
+    expectRefused({"play", "film.mkv", dash.c_str(), "--loop"}, said.c_str());
+  }
+  EXPECT_GT(options, 20u);
+  expectRefused({"play", "film.mkv", "--report", "--loop"}, "--report: its value is missing; write --report FILE");
+  expectRefused({"play", "film.mkv", "--osd=maybe"}, "--osd: takes no value");
+  expectRefused({"play", "film.mkv", "--size", "640x360", "--size", "64x36"}, "--size: was given more than once");
 }
 
 TEST(Options, ACalibrationFileThatIsMissingIsAFailureNotWrongUse) {

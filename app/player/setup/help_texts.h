@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the help of `relievo` and of its commands begins and ends with.
+#pragma once
+
+namespace relievo {
+
+inline constexpr const char* kAbout =
+    "relievo: 3D video you can touch. Plays colour + depth video; a force-feedback device feels its relief.\n";
+inline constexpr const char* kProgramAbout =
+    "\n  relievo film.mkv          plays it: in a window on a desktop, else on the screen\n"
+    "  relievo help COMMAND      tells what a command takes; `relievo help play` begins with what people do most\n";
+inline constexpr const char* kProgramFooter =
+    "\nExamples:\n"
+    "  relievo film.mkv                               in a window; press into the picture with the mouse to feel it\n"
+    "  relievo probe scan.mov --packing tb --depth-code hue\n"
+    "                                                 what is in it: colour on top, depth as hue below\n"
+    "  relievo devices                                what hardware is there, and why a thing is refused\n"
+    "  relievo selftest                               whether it works here, without any hardware\n"
+    "\nA file that is named like a command is reached by its path, as ./play. `relievo-author --help` tells how to "
+    "make "
+    "a film.\n";
+inline constexpr const char* kProbeFooter =
+    "\nExamples:\n"
+    "  relievo probe film.mkv                         its tracks, what its depth means, what a finger will feel of it\n"
+    "  relievo probe color.webm --depth depth.webm    two files\n"
+    "  relievo probe --json film.mkv                  for programs\n"
+    "\nWhat it tells: tracks; `meaning`: each value of the calibration and who said it; `relief`: the codes and "
+    "heights in\n"
+    "use; `touch`: the widths that the finger will feel the relief through, and the error that is left; `needs`: what "
+    "the\n"
+    "film asks for or lacks, and the option to try. Exit code: 0 done, 1 failed at run time, 2 usage error.\n";
+inline constexpr const char* kDevicesFooter =
+    "\nEach display and device is opened as `play` would; where it is refused, the line says why and what to do. Of a "
+    "screen\nit tells the mode and the 3D signals that it takes.\n"
+    "\nIn the configuration (TOML; `relievo play --print-config` shows one) stands of them:\n"
+    "  [falcon]\n"
+    "  firmware = \"/path/to/image\"    the maker's firmware, from the SDK that came with the device\n"
+    "  counts_per_nm = 6000           how strong it is, as `relievo devices calibrate` finds it\n";
+inline constexpr const char* kCalibrateFooter =
+    "\nHook a spring scale to the Falcon's grip and pull it out to the middle of its way. The grip pushes toward you "
+    "with "
+    "2,\n3 and 4 N in turn: type what the scale shows each time, in newtons. The result goes into the configuration, "
+    "where\n`relievo play` finds it. Until then the Falcon is taken for as strong as any is said to be, so "
+    "that it is\nnever stronger than asked.\n";
+inline constexpr const char* kSelfTestFooter =
+    "\nIt looks for a font and the decoders, and plays a film of its own for three seconds off screen, touched by the\n"
+    "simulated hand. Each line begins with `good`, `note` (it goes without, less well) or `bad`. Exit code: 0 nothing "
+    "is\n"
+    "bad, 1 something is, 2 usage error.\n";
+inline constexpr const char* kExitCodes = "\nExit code: 0 done, 1 failed at run time, 2 usage error.\n";
+inline constexpr const char* kPlayAbout =
+    "Play a film: shown in stereo, felt by the finger\n"
+    "\n  relievo film.mkv                         in a window; press into the picture with the mouse to feel it\n"
+    "  relievo one.mkv two.mkv films/           one film after the other, and those of a folder; --loop: again and "
+    "again\n"
+    "  relievo color.mp4 --depth depth.mkv      colour and depth are two files\n"
+    "  relievo scan.mov --packing tb            colour on top, depth below in one picture; sbs: side by side\n"
+    "  relievo film.mkv --stereo anaglyph       for red-cyan glasses; sbs, tab: for a 3D screen\n"
+    "  relievo film.mkv --display kms           on a whole screen without a desktop\n"
+    "  relievo film.mkv --haptic falcon         felt with a force-feedback device\n"
+    "  relievo film.mkv --resume                from where it was left\n"
+    "  relievo                                  a list of films to choose from; --films FOLDER: those of a folder\n"
+    "  relievo https://example.org/film.m3u8    from the network\n"
+    "  relievo film-3d.mkv --depth-from stereo  a 3D film that has two views and no depth, felt\n"
+    "  relievo v4l2:/dev/video0 --calibration near=400,far=1500\n"
+    "                                           a depth camera, live\n"
+    "\nKeys: space pauses, arrows seek, f fills the screen, h shows all keys, q ends it.";
+inline constexpr const char* kPlayFooter =
+    "\nExamples:\n"
+    "  relievo color.webm --depth depth.webm --display offscreen --report run.json\n"
+    "      two files, shown off screen, touched by the simulated hand; the figures go to run.json\n"
+    "  relievo play scan.mov --packing tb --depth-code hue --stereo anaglyph --loop --duration 60\n"
+    "      one file with colour on top and depth as hue below, for red-cyan glasses, again and again for a minute\n"
+    "  relievo play film.mkv --display offscreen:film.y4m --haptic sim:hand.csv --remote script:keys.txt\n"
+    "      the picture into a file that ffmpeg reads, finger and keys by scripts\n"
+    "  relievo play film.mkv --display kms --size 1920x1080 --haptic falcon\n"
+    "      on a whole screen of the box, without a desktop\n"
+    "  relievo play evening.m3u --loop --resume\n"
+    "      the films of a list, from where they were left\n"
+    "  relievo play --control /run/user/1000/relievo\n"
+    "      waits; a program opens films by lines such as {\"do\": \"open film.mkv\"}, and is told what happens\n"
+    "\nEvery option can stand in the configuration by its long name, SOURCE as source:\n"
+    "  [play]\n"
+    "  display = \"kms\"\n"
+    "  loop = true\n"
+    "  [log]\n"
+    "  all = \"warning\"                error, warning, info, debug; or for an area, as haptic = \"debug\"\n"
+    "\nA hand script has the line t_s,x_mm,y_mm,z_mm and a row a moment; x right, y up, z toward the viewer, 0,0,0 in "
+    "the\n"
+    "middle of the far plane. A key script has lines such as: 2.5 PLAYPAUSE (seconds, a key's name). Keys, by their "
+    "names:\n";
+inline constexpr const char* kSourceHelp =
+    "A film, a folder of films or pictures, pictures (\"a/%06d.png\", \"a/*.png\"), associations.txt, a playlist, or "
+    "an "
+    "address: http, https (HLS as well), rtsp, rtp, udp, tcp; v4l2:DEVICE; mock:, which needs no file";
+
+}  // namespace relievo

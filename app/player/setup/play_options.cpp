@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options of `relievo play`, for CLI11.
+#include "app/player/setup/play_options.h"
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+#include <vector>
+
+#include "app/cli/options.h"
+#include "app/media/film_folder.h"
+#include "app/player/control/key_table.h"
+#include "app/player/screen/stereo_word.h"
+#include "app/player/setup/help_texts.h"
+#include "hal/haptic_rate.h"
+#include "platform/print.h"
+
+namespace relievo {
+namespace {
+
+constexpr double kLongestDurationS = 1e9;
+constexpr double kMostPixels = 16384;  // of a display, across and down
+constexpr const char* kNoSize = "a size is WIDTHxHEIGHT in pixels, each from 1 to 16384, such as 1280x720";
+constexpr const char* kStereoHelp =
+    "How it is shown\n"
+    "mono: one picture; sbs, tab: left and right eye side by side, or one above the other,\n"
+    "each squeezed by half; sbs:full, tab:full: each in its own shape; rows, columns: line by line;\n"
+    "anaglyph[:gray|color]: for red-cyan glasses; frame-packing: HDMI 3D; quilt[:COLSxROWS]: many views [8x6]";
+constexpr const char* kNoStereo =
+    "no such layout; it is one of: mono sbs[:full] tab[:full] rows columns anaglyph[:gray|color] frame-packing "
+    "quilt[:COLSxROWS]";
+constexpr const char* kNoDuration = "a duration is more than 0 and at most a billion seconds";
+
+void addSources(CLI::App& command, PlayOptions& play) {
+  const auto take = [&player = play.player](const std::vector<std::string>& sources) {
+    if (auto series = seriesOf(sources)) {
+      player.source.url = std::move(*series);
+      return;
+    }
+    player.source.url = sources.front();
+    player.more.assign(sources.begin() + 1, sources.end());
+  };
+  command.add_option_function<std::vector<std::string>>("SOURCE", take, kSourceHelp)->type_name(" ");
+  addDepthSource(command, play.player.source);
+  addChoice(
+      command, "--depth-from", play.player.source.depth_from, {{"film", DepthFrom::Film}, {"stereo", DepthFrom::Views}},
+      "Where the depth comes from\n"
+      "film: the film has it; stereo: it is made from a 3D film's two views while they play; the picture is then the "
+      "left view\nin relief. `relievo-author --depth-from stereo` takes longer and makes better depth");
+}
+
+DisplayConfig readSize(const std::string& word) {
+  std::array<double, 2> size{};
+  if (!parseSizes(word, size) || std::min(size[0], size[1]) < 1 || std::max(size[0], size[1]) > kMostPixels) {
+    throw WordFailure({"--size " + word, {ErrorCode::InvalidArgument, 0, kNoSize}});
+  }
+  return {.width = static_cast<int>(size[0]), .height = static_cast<int>(size[1])};
+}
+
+Duration readDuration(double seconds) {
+  if (!(seconds > 0 && seconds <= kLongestDurationS)) {
+    throw WordFailure({print("--duration %g", seconds), {ErrorCode::InvalidArgument, 0, kNoDuration}});
+  }
+  return fromSeconds(seconds);
+}
+
+// An option that names a back end. Its word is one of `names`: those stand parted by spaces, each with what may follow
+// it in brackets or behind a colon.
+CLI::Option* addBackEnd(CLI::App& command, const char* option, BackEndName& chosen, const char* kind, const char* names,
+                        const char* help) {
+  const auto judge = [kind, names](const std::string& given) -> std::string {
+    const std::string word = inSmallLetters(BackEndName(given).word);
+    std::istringstream all(names);
+    std::vector<std::string> words;
+    for (std::string known; all >> known;) {
+      words.push_back(known.substr(0, known.find_first_of(":[")));
+      if (words.back() == word) return "";
+    }
+    return given + ": no such " + kind + "; it is one of: " + names + meant(word, words);
+  };
+  return command
+      .add_option_function<std::string>(
+          option,
+          [&chosen](const std::string& given) {
+            chosen = given;
+            chosen.word = inSmallLetters(chosen.word);
+          },
+          std::string(help) + "\n" + names)
+      ->default_str(chosen.text())
+      ->check(CLI::Validator(judge, ""))
+      ->type_name("NAME");
+}
+
+void addStereoOptions(CLI::App& command, StereoSettings& stereo) {
+  const auto readStereo = [&stereo](const std::string& word) {
+    if (!parseStereo(inSmallLetters(word), stereo))
+      throw WordFailure({"--stereo " + word, {ErrorCode::InvalidArgument, 0, kNoStereo}});
+  };
+  command.add_option_function<std::string>("--stereo", readStereo, kStereoHelp)
+      ->type_name("mono|sbs|tab|rows|columns|anaglyph|frame-packing|quilt")
+      ->default_str(stereoWord(stereo));
+  command.add_flag("--swap-eyes", stereo.swap_eyes, "The left eye's picture for the right eye");
+  command
+      .add_option("--depth-strength", stereo.strength,
+                  "How deep the picture looks, to the eye alone: 0 flat, 1 as the viewer's eyes stand")
+      ->capture_default_str()
+      ->check(between(0.0, StereoSettings::kMostStrength))
+      ->type_name("X");
+}
+
+StereoSignal readSignal(const std::string& word) {
+  const std::pair<const char*, StereoSignal> signals[] = {{"frame-packing", StereoSignal::FramePacking},
+                                                          {"tab", StereoSignal::TopAndBottom},
+                                                          {"sbs", StereoSignal::SideBySideHalf},
+                                                          {"off", StereoSignal::None}};
+  for (const auto& [name, signal] : signals) {
+    if (inSmallLetters(word) == name) return signal;
+  }
+  throw WordFailure({"--tv-signal " + word,
+                     {ErrorCode::InvalidArgument, 0, "no such signal; it is one of: frame-packing tab sbs off"}});
+}
+
+void addSignalOption(CLI::App& command, std::optional<StereoSignal>& signal) {
+  command
+      .add_option_function<std::string>(
+          "--tv-signal", [&signal](const std::string& word) { signal = readSignal(word); },
+          "The 3D signal that tells a television how the two pictures lie (kms); they are laid out for it. If the "
+          "television\ndoes not take this signal, it is sent the best that it takes; if it takes none, the layout is "
+          "that of --stereo.\noff: no signal [the one of --stereo, if it has one]")
+      ->type_name("frame-packing|tab|sbs|off");
+}
+
+void addSoundAndTextOptions(CLI::App& command, PlayerConfig& player) {
+  command
+      .add_option("--volume", player.volume_percent,
+                  "Loudness, in percent [as it was left on this sound output, else 100]")
+      ->check(between(0.0, Loudness::kMostPercent))
+      ->type_name("P");
+  command
+      .add_option("--alang", player.source.sound_languages,
+                  "Sound in the first of these languages that the film has, such as jpn,en")
+      ->type_name("LANG,..");
+  command
+      .add_option("--slang", player.source.subtitle_languages,
+                  "Subtitles likewise [those beside the film, or that it marks as its default]")
+      ->type_name("LANG,..");
+}
+
+void addTouchOptions(CLI::App& command, PlayOptions& play, const DeviceNames& names) {
+  addBackEnd(command, "--haptic", play.haptic, "haptic device", names.haptic,
+             "What the finger holds [the device that is plugged in, else the mouse; off screen sim]");
+  command
+      .add_option("--rate", play.rate_hz,
+                  "Ticks of touch per second, 500 to 8000; a device that cannot runs at its best [the device's own, "
+                  "mostly 1000]")
+      ->check(between(kLeastRateHz, kMostRateHz))
+      ->type_name("HZ");
+}
+
+// What is printed, written or listened to.
+void addFileOptions(CLI::App& command, PlayOptions& play) {
+  command.add_option("--keys", play.keys_path, "Which key means what (see --print-keys) [the usual]")
+      ->type_name("FILE");
+  command.add_flag("--print-keys", play.print_keys, "Print the table of keys, to begin one of your own from")
+      ->configurable(false);
+  command
+      .add_flag("--print-states", play.print_states, "Print the player's states as a drawing: | dot -Tsvg > states.svg")
+      ->configurable(false);
+  command
+      .add_flag("-v,--verbose", play.verbose, "Say more: where each value of the depth is from, figures of the ticks")
+      ->configurable(false);
+  command.add_option("--report", play.report_path, "Write what happened, as JSON")->type_name("FILE");
+  command.add_option("--record", play.record_path, "Write every tick of the finger, as CSV")->type_name("FILE");
+  command
+      .add_option(
+          "--control", play.control_path,
+          "Listen there for commands of programs, one JSON object a line; after SOURCE, or without, wait for the next\n"
+          "film, until one says quit")
+      ->type_name("SOCKET");
+}
+
+}  // namespace
+
+void addDepthSource(CLI::App& command, SourceOptions& source) {
+  command
+      .add_option(
+          "--depth", source.depth_url,
+          "A second file or address that holds the depth [one beside the film, as film-depth.mkv, if there is one]")
+      ->type_name("SOURCE2");
+  addDepthOptions(command, source);
+  addMaterialOption(command, source);
+  addRateOption(command, source);
+}
+
+void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& names) {
+  play.player.stereo.layout = StereoLayout::Mono;
+  play.player.display.film_size = true;
+  addSources(command, play);
+  addBackEnd(command, "--display", play.display, "display", names.display,
+             "Where the picture goes [a window on a desktop, else the screen, else off screen]");
+  command
+      .add_option_function<std::string>(
+          "--size", [&play](const std::string& word) { play.player.display = readSize(word); },
+          "Pixels of the picture [a window: the film's; else 1280x720]; of kms a mode that the screen has, else its\n"
+          "favourite")
+      ->type_name("WxH");
+  addStereoOptions(command, play.player.stereo);
+  addSignalOption(command, play.tv_signal);
+  addTouchOptions(command, play, names);
+  addBackEnd(
+      command, "--remote", play.remote, "remote", names.remote,
+      "Where keys come from [of a window its own and the terminal's; of a screen evdev, all remote controls; else "
+      "keys, the terminal's]");
+  addBackEnd(command, "--audio", play.audio, "sound output", names.audio,
+             "Where the sound goes [of a window or a whole screen alsa, else none]");
+  CLI::Option* const decoder =
+      addBackEnd(command, "--decoder", play.decoder, "decoder", names.decoder,
+                 "What decodes the picture; where it cannot, FFmpeg does [the video hardware, else ffmpeg]");
+  command.add_flag("--software", play.software, "Decode without the video hardware, where that shows faults")
+      ->excludes(decoder);
+  addBoxOption(command, play.player.volume);
+  addSoundAndTextOptions(command, play.player);
+  command.add_flag("--osd", play.osd, "Write bar, keys and notices over an off-screen picture too");
+  command.add_flag("--loop", play.player.loop, "Begin again at the end");
+  command
+      .add_option_function<double>(
+          "--duration", [&play](double seconds) { play.player.duration = readDuration(seconds); },
+          "Stop after so many seconds")
+      ->type_name("S");
+  command.add_flag("--resume", play.resume, "Begin where the film was left, and remember where it is left");
+  command
+      .add_option(
+          "--films", play.films,
+          "Without SOURCE, in a window and on a screen: choose from the films of this folder (again for more),\n"
+          "those on USB sticks, and those seen lately; remembers where each is left [the folder Videos]")
+      ->type_name("FOLDER")
+      ->allow_extra_args(false);
+  addFileOptions(command, play);
+  command.footer(kPlayFooter + KeyTable::usual().help() + kExitCodes);
+}
+
+}  // namespace relievo

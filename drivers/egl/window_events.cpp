@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the window hears: keys, the mouse, dropped files, the desktop.
+#include <algorithm>
+
+#include "drivers/egl/window_display.h"
+#include "drivers/egl/window_keys.h"
+
+namespace relievo {
+namespace {
+
+// The middle of the pixel, as a share of the pixels; the nearest one's outside.
+double shareOf(int pixel, int pixels) noexcept {
+  return (std::clamp(pixel, 0, std::max(pixels - 1, 0)) + 0.5) / std::max(pixels, 1);
+}
+
+}  // namespace
+
+// SDL has one event queue for the process: events of another window are passed to its display.
+Result<bool> WindowDisplay::attendScreen() {
+  for (SDL_Event event; SDL_PollEvent(&event) != 0;) {
+    if (event.type == SDL_DROPFILE || event.type == SDL_DROPTEXT) {
+      hearDrop(event.drop);
+      continue;
+    }
+    SDL_Window* window =
+        SDL_GetWindowFromID(event.window.windowID);  // windowID is at the same offset in the other kinds of event
+    if (window == nullptr) continue;
+    if (void* owner = SDL_GetWindowData(window, kWindowOwner)) static_cast<WindowDisplay*>(owner)->hear(event);
+  }
+  followFullScreen();
+  if (closed_by_viewer_) return fail(ErrorCode::Cancelled, "the viewer has closed the window");
+  return std::exchange(redraw_, false);
+}
+
+void WindowDisplay::hear(const SDL_Event& event) {
+  switch (event.type) {
+    case SDL_WINDOWEVENT:
+      return hearWindow(event.window);
+    case SDL_KEYDOWN:
+    case SDL_KEYUP:
+      return hearKey(event.key);
+    case SDL_MOUSEMOTION:
+      moveMouse(event.motion.x, event.motion.y);
+      static_cast<void>(tellMouse(press_taken_));
+      return;
+    case SDL_MOUSEBUTTONDOWN:
+    case SDL_MOUSEBUTTONUP:
+      return hearButton(event.button);
+    case SDL_MOUSEWHEEL:
+      return hearWheel(event.wheel.direction == SDL_MOUSEWHEEL_FLIPPED ? -event.wheel.y : event.wheel.y);
+    default:
+      return;
+  }
+}
+
+void WindowDisplay::hearWindow(const SDL_WindowEvent& event) {
+  if (event.event == SDL_WINDOWEVENT_CLOSE) closed_by_viewer_ = true;
+  if (event.event == SDL_WINDOWEVENT_EXPOSED) redraw_ = true;
+  if (event.event == SDL_WINDOWEVENT_RESIZED && !fillsScreen()) film_size_ = false;  // by the viewer, or the desktop
+  if (event.event != SDL_WINDOWEVENT_SIZE_CHANGED) return;
+  redraw_ = true;
+  publishMouse();
+}
+
+void WindowDisplay::hearDrop(const SDL_DropEvent& event) {
+  if (event.file == nullptr) return;
+  dropped_.emplace_back(event.file);
+  SDL_free(event.file);
+}
+
+void WindowDisplay::hearKey(const SDL_KeyboardEvent& event) {
+  const bool down = event.state == SDL_PRESSED;
+  const auto code = linuxKey(event.keysym);
+  if (!code) return;
+  using Action = KeyEvent::Action;
+  const Action action = !down ? Action::Release : event.repeat != 0 ? Action::Repeat : Action::Press;
+  static_cast<void>(input_->keys.tryPush({.code = *code, .action = action, .time = clock_.now()}));
+}
+
+void WindowDisplay::hearButton(const SDL_MouseButtonEvent& event) {
+  const bool down = event.state == SDL_PRESSED;
+  if (event.button == SDL_BUTTON_MIDDLE) mouse_.middle = down;
+  if (event.button == SDL_BUTTON_RIGHT) mouse_.right = down;
+  if (event.button == SDL_BUTTON_LEFT) {
+    mouse_x_ = event.x;
+    mouse_y_ = event.y;
+    const bool taken = tellMouse(down);
+    press_taken_ = down && taken;
+    mouse_.left = down && !press_taken_;
+  }
+  moveMouse(event.x, event.y);
+  if (mouse_.left && event.button == SDL_BUTTON_LEFT && event.clicks == 2) setFullScreen(FullScreen::Toggle);
+}
+
+void WindowDisplay::hearWheel(int notches) {
+  if (!tellMouse(false, notches)) mouse_.notches += notches;
+  publishMouse();
+}
+
+bool WindowDisplay::tellMouse(bool pressed, int notches) const {
+  int width = 0, height = 0;
+  SDL_GetWindowSize(window_, &width, &height);
+  return Display::tellMouse({shareOf(mouse_x_, width), shareOf(mouse_y_, height), pressed, notches});
+}
+
+void WindowDisplay::moveMouse(int x, int y) noexcept {
+  mouse_x_ = x;
+  mouse_y_ = y;
+  publishMouse();
+}
+
+// Where no eye sees the scene, the mouse points where it pointed last.
+void WindowDisplay::publishMouse() noexcept {
+  int width = 0, height = 0;
+  SDL_GetWindowSize(window_, &width, &height);
+  if (const auto ray = rayThrough(views_, shareOf(mouse_x_, width), shareOf(mouse_y_, height))) mouse_.ray = ray;
+  input_->mouse.back() = mouse_;
+  input_->mouse.publish();
+}
+
+void WindowDisplay::showViews(const SceneViews& views) {
+  if (views == views_) return;
+  views_ = views;
+  publishMouse();
+}
+
+}  // namespace relievo

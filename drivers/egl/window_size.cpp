@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// The window's size: a film's own, and the whole screen.
+#include <EGL/egl.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "drivers/egl/window_display.h"
+
+namespace relievo {
+namespace {
+
+int trueSize(EGLint side) noexcept {
+  EGLint pixels = 0;
+  eglQuerySurface(eglGetCurrentDisplay(), eglGetCurrentSurface(EGL_DRAW), side, &pixels);
+  return pixels;
+}
+
+}  // namespace
+
+int WindowDisplay::trueWidth() noexcept {
+  return trueSize(EGL_WIDTH);
+}
+
+int WindowDisplay::trueHeight() noexcept {
+  return trueSize(EGL_HEIGHT);
+}
+
+void WindowDisplay::setFullScreen(FullScreen wish) {
+  const bool fill = wish == FullScreen::Toggle ? !fillsScreen() : wish == FullScreen::On;
+  if (fill == fillsScreen()) return;
+  SDL_ShowCursor(fill ? SDL_DISABLE : SDL_ENABLE);
+  if (by_hand_) return leaveByHand();
+  if (fill) {
+    SDL_GetWindowPosition(window_, &before_.x, &before_.y);
+    SDL_GetWindowSize(window_, &before_.w, &before_.h);
+  }
+  SDL_SetWindowFullscreen(window_, fill ? Uint32{SDL_WINDOW_FULLSCREEN_DESKTOP} : 0U);
+  fill_asked_ = fill ? std::optional(clock_.now()) : std::nullopt;
+}
+
+// A window manager fills the screen with the window on SDL's request. Without one nobody does.
+void WindowDisplay::followFullScreen() {
+  constexpr Duration kPatience = std::chrono::milliseconds(500);
+  if (!fill_asked_ || clock_.now() < *fill_asked_ + kPatience || !makeCurrent()) return;
+  fill_asked_.reset();
+  int width = 0, height = 0;
+  SDL_GL_GetDrawableSize(window_, &width, &height);
+  if (trueWidth() != width || trueHeight() != height) fillByHand();
+  redraw_ = true;
+}
+
+void WindowDisplay::fillByHand() noexcept {
+  SDL_Rect screen{};
+  if (SDL_GetDisplayBounds(SDL_GetWindowDisplayIndex(window_), &screen) != 0) return;
+  by_hand_ = true;
+  SDL_SetWindowFullscreen(window_, 0);
+  SDL_SetWindowPosition(window_, screen.x, screen.y);
+  SDL_SetWindowSize(window_, screen.w, screen.h);
+}
+
+void WindowDisplay::leaveByHand() noexcept {
+  by_hand_ = false;
+  SDL_SetWindowSize(window_, before_.w, before_.h);
+  SDL_SetWindowPosition(window_, before_.x, before_.y);
+}
+
+// Smaller in its own shape where the desktop has not so much room; a frame around the window takes some of it.
+void WindowDisplay::takeSize(int width, int height) noexcept {
+  constexpr double kRoom = 0.95;
+  SDL_Rect room{};
+  if (SDL_GetDisplayUsableBounds(SDL_GetWindowDisplayIndex(window_), &room) == 0) {
+    const double scale = std::min({1.0, kRoom * room.w / width, kRoom * room.h / height});
+    width = std::max(1, static_cast<int>(std::lround(scale * width)));
+    height = std::max(1, static_cast<int>(std::lround(scale * height)));
+  }
+  SDL_SetWindowSize(window_, width, height);
+  SDL_SetWindowPosition(window_, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED);
+}
+
+}  // namespace relievo
