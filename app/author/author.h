@@ -11,8 +11,8 @@
 
 #include "app/author/package/depth_coder.h"
 #include "app/author/package/film_writer.h"
-#include "app/author/package/stereo_film.h"
 #include "app/author/sample/sample_scene.h"
+#include "app/author/views/stereo_film.h"
 #include "app/enhance/enhancer.h"
 #include "app/media/pair_reader.h"
 #include "platform/failure.h"

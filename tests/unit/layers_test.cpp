@@ -57,12 +57,13 @@ const std::vector<Room>& rooms() {
        {"app/player", "app/scene", "app/media", "app/depth_window", "app/haptics/method", "app/haptics/task",
         "app/render", "app/cli", "app/stereo/quick"}},
       {"app/enhance", {"app/scene"}},
+      {"app/motion", {}},                                 // how the things of a picture have moved
       {"app/stereo", {"app/stereo", "app/scene"}},        // depth from two views
       {"app/stereo/quick", {"app/stereo", "app/scene"}},  // the same, while a film plays, without a library
       {"app/author/sample", {"app/author", "app/scene", "app/coding"}},
       {"app/author",
        {"app/author", "app/scene", "app/media", "app/coding", "app/depth_window", "app/cli", "app/enhance",
-        "app/stereo"}},
+        "app/motion", "app/stereo"}},
       {"app/lab/truth", {"app/scene"}},  // what the methods are held against is made without them
       {"app/lab",
        {"app/lab", "app/scene", "app/media", "app/coding", "app/depth_window", "app/haptics", "app/render", "app/cli",
