@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "app/author/material/motion_field.h"
+#include "app/motion/motion_field.h"
 
 namespace relievo {
 

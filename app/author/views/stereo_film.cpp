@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/author/package/stereo_film.h"
+#include "app/author/views/stereo_film.h"
 
 #include <cmath>
 #include <utility>

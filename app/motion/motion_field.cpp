@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Recursive block matching on a pyramid of three levels.
-#include "app/author/material/motion_field.h"
+#include "app/motion/motion_field.h"
 
 #include <algorithm>
 #include <array>

@@ -1,26 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Packages a film: reads pairs, converts their pictures for the encoders, and writes each picture once. The pairs are
-// read on the caller's thread, the depth is enhanced on one of its own, and each encoder has one (see FilmWriter).
-#include <unistd.h>
+#include "app/author/package/packager.h"
 
 #include <cmath>
-#include <condition_variable>
-#include <cstdio>
-#include <deque>
-#include <mutex>
-#include <thread>
 
-#include "app/author/author.h"
-#include "app/author/material/material_track.h"
 #include "app/author/package/color_to_420.h"
-#include "app/author/package/film_kind.h"
-#include "app/author/package/key_frames.h"
 #include "app/author/package/output.h"
 #include "app/author/package/source_notes.h"
-#include "app/author/package/stereo_film.h"
-#include "app/author/package/work_line.h"
-#include "app/author/preview/preview.h"
-#include "app/depth_window/shots.h"
 #include "app/scene/height_field.h"
 #include "platform/files/answered_place.h"
 #include "platform/log.h"
@@ -30,116 +15,20 @@ namespace relievo {
 namespace {
 
 constexpr Duration kLeastStep = std::chrono::nanoseconds(11'112);  // one tick of a film's 90 kHz clock
-constexpr Error kCancelled{ErrorCode::Cancelled, 0, "interrupted; nothing was written"};
 
-// Interrupts a reader that waits for a disk or a network when the program is to stop.
-class StopWatch {
- public:
-  StopWatch(PairReader& reader, const std::atomic<bool>& stop)
-      : thread_([&reader, &stop, this](const std::stop_token& done) {
-          std::unique_lock lock(mutex_);
-          while (!done.stop_requested()) {
-            if (stop.load(std::memory_order_relaxed)) return reader.interrupt();
-            wake_.wait_for(lock, done, std::chrono::milliseconds(50), [] { return false; });
-          }
-        }) {}
-
- private:
-  std::mutex mutex_;
-  std::condition_variable_any wake_;
-  std::jthread thread_;
-};
-
-// What to crop at the right and bottom: the odd column or row of a 4:2:0 picture, and of the other picture the same
-// share of the view, to within half a depth sample.
-struct Cut {
-  int color_cols = 0, color_rows = 0, depth_cols = 0, depth_rows = 0;
-
-  Cut() = default;
-  Cut(const Frame& color, const Frame& depth, bool even_depth) {
-    cut(color.width, depth.width, even_depth, color_cols, depth_cols);
-    cut(color.height, depth.height, even_depth, color_rows, depth_rows);
-  }
-
-  // The least crop after which both sizes are even where required.
-  static void cut(int color, int depth, bool even_depth, int& off_color, int& off_depth) {
-    const auto isOdd = [&] { return even_depth && (depth - off_depth) % 2 != 0; };
-    for (off_color = color % 2; off_color + 2 < color; off_color += 2) {
-      off_depth = static_cast<int>(std::lround(off_color * static_cast<double>(depth) / color));
-      if (isOdd() && depth > color) ++off_depth;  // less than one colour sample
-      if (!isOdd()) return;
-    }
-  }
-  [[nodiscard]] std::string explain() const {
-    char line[160];
-    std::snprintf(line, sizeof line,
-                  "4:2:0 needs even sizes: cropped %d column and %d row of the colour, %d and %d of the depth",
-                  color_cols, color_rows, depth_cols, depth_rows);
-    return color_cols + color_rows + depth_cols + depth_rows == 0 ? "" : line;
-  }
-};
+}  // namespace
 
 std::optional<std::uint64_t> expectedFrames(const FilmInfo& info) {
   if (info.duration <= Duration(0) || info.frame_period <= Duration(0)) return std::nullopt;
   return static_cast<std::uint64_t>(std::llround(toSeconds(info.duration) / toSeconds(info.frame_period)));
 }
 
-// Everything between the reader and the writer.
-class Packager {
- public:
-  // `info` is the film's as it is read here: with depth, be it the film's own or made.
-  Packager(PairReader& reader, const PairReader::Backends& backends, FilmInfo info, const SourceOptions& source,
-           const OutputOptions& output)
-      : reader_(reader), backends_(backends), info_(std::move(info)), source_(source), output_(output) {}
-
-  Outcome<void> begin(const FramePair& pair);
-  Outcome<void> write(const FramePair& pair);
-  Outcome<AuthorSummary> finish();
-  [[nodiscard]] bool begun() const { return writer_ != nullptr; }
-
- private:
-  // On the depth's thread.
-  Outcome<void> takeDepth(const Frame& depth, bool key);
-  Outcome<void> writeDepth(const Frame& depth);
-  Outcome<void> writeEnhanced();
-  Outcome<void> planMaterial(const FramePair& pair);
-  Outcome<void> writeMaterial(const FramePair& pair, bool key, bool begins_shot);
-  [[nodiscard]] std::unique_ptr<KeptTracks> keptTracks() const;
-  [[nodiscard]] const DepthCalibration& sourceCalibration() const { return info_.calibration.calibration; }
-  static constexpr std::size_t kRecent = 3;
-  [[nodiscard]] bool beginsShot(const Frame& depth);
-
-  PairReader& reader_;
-  const PairReader::Backends& backends_;
-  FilmInfo info_;
-  const SourceOptions& source_;
-  const OutputOptions& output_;
-  std::unique_ptr<FilmWriter> writer_;
-  std::optional<DepthEnhancer> enhancer_;
-  DepthCoder coder_{DepthCalibration{}};  // replaced in `begin` by the film's
-  std::vector<std::string> code_notes_;
-  FilmFormat format_;
-  Cut cut_;
-  KeyFrames key_frames_;
-  std::deque<bool> depth_keys_;      // for pictures not yet written; the depth's thread
-  std::deque<TimedSurface> recent_;  // depth pictures, the newest last
-  ShotFinder shots_;
-  std::optional<MediaTime> last_color_, last_depth_;
-  std::uint64_t not_later_ = 0;  // colour pictures whose time is not after that of the one before
-  ColorPicture420 color_;
-  std::mutex preview_mutex_;
-  Preview preview_;
-  std::optional<MaterialTrack> material_;  // made from a map
-  ColorPicture420 kept_material_;          // the source's own
-  WorkLine<Outcome<void>> depth_line_;     // the last member: it ends before what it uses
-};
-
 Outcome<void> Packager::begin(const FramePair& pair) {
   const FilmInfo& info = info_;
   Frame whole_depth;  // only its size is used; the first pair may have no depth yet
   whole_depth.width = info.depth_width;
   whole_depth.height = info.depth_height;
-  cut_ = Cut(pair.color, whole_depth, output_.depth.flat_chroma);
+  cut_ = EvenCut(pair.color, whole_depth, output_.depth.flat_chroma);
   coder_ = DepthCoder(sourceCalibration(), output_.depth);
   code_notes_ = coder_.explain();
   if (output_.enhancement) {
@@ -337,64 +226,6 @@ Outcome<AuthorSummary> Packager::finish() {
   } else {
     for (std::string& line : notKept(info_, output_.keep)) summary.notes.push_back(std::move(line));
   }
-  return summary;
-}
-
-}  // namespace
-
-Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader::Backends& backends,
-                                  const OutputOptions& output, const std::atomic<bool>& stop,
-                                  const ProgressReport& progress) {
-  if (auto ready = checkOutput(output); !ready) return failOn(output.path, ready.error());
-  if (auto ready = checkPreview(output); !ready) return failOn(output.preview, ready.error());
-  std::optional<StereoFilm> views;
-  if (output.from_views) {
-    auto surveyed = StereoFilm::survey(source, backends, *output.from_views, stop, progress);
-    if (!surveyed) return std::unexpected(surveyed.error());
-    views = std::move(*surveyed);
-  }
-  PairReader reader(backends);
-  const StopWatch watch(reader, stop);
-  const auto failed = [&](const std::string& thing, const Error& error) {
-    if (stop.load(std::memory_order_relaxed)) return failOn(output.path, kCancelled);
-    return failOn(thing, error);
-  };
-  if (auto opened = reader.open(views ? views->source() : source); !opened)
-    return failed(reader.failedThing(), opened.error());
-  FilmInfo info = views ? views->described(reader.info()) : reader.info();
-  if (!info.has_depth) {
-    const char* const what = isStereo(info.packing) ? "two views without depth; --depth-from stereo makes it from them"
-                                                    : "no depth in this source; give --depth SOURCE";
-    return failOn(source.url, {ErrorCode::NotFound, 0, what});
-  }
-  Packager packager(reader, backends, std::move(info), source, output);
-  bool live = false;  // ends on request or when its camera is unplugged, and is complete then
-  for (std::uint64_t done = 1;; ++done) {
-    auto pair = reader.next();
-    if (stop.load(std::memory_order_relaxed)) {
-      if (live || (packager.begun() && filmKindOf(output.path) == FilmKind::Live)) break;
-      return failOn(output.path, kCancelled);
-    }
-    if (!pair && live && reader.isSourceLost(pair.error())) {
-      log(LogLevel::Warning, source.url.c_str(), "%s; the film ends there", pair.error().message);
-      break;
-    }
-    if (!pair) return failed(reader.failedThing(), pair.error());
-    if (!*pair) break;
-    if (views) {
-      auto made = views->withDepth(std::move(**pair));
-      if (!made) return failed(source.url, made.error());
-      *pair = std::move(*made);
-    }
-    live = (*pair)->taken.has_value();
-    if (!packager.begun()) {
-      if (auto begun = packager.begin(**pair); !begun) return failed(begun.error().thing, begun.error().error);
-    }
-    if (auto written = packager.write(**pair); !written) return failed(written.error().thing, written.error().error);
-    progress(done, expectedFrames(reader.info()));
-  }
-  auto summary = packager.finish();
-  if (summary && views) summary->notes.insert(summary->notes.begin(), views->notes().begin(), views->notes().end());
   return summary;
 }
 

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// Packages a film: converts the pictures of its pairs for the encoders, and writes each picture once.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/author/author.h"
+#include "app/author/material/material_track.h"
+#include "app/author/package/even_cut.h"
+#include "app/author/package/key_frames.h"
+#include "app/author/package/work_line.h"
+#include "app/author/preview/preview.h"
+#include "app/depth_window/shots.h"
+#include "app/media/pair_reader.h"
+
+namespace relievo {
+
+// How many pictures a film has, as far as it tells.
+[[nodiscard]] std::optional<std::uint64_t> expectedFrames(const FilmInfo& info);
+
+// Everything between the reader and the writer. Pairs are written on the caller's thread, the depth is enhanced on one
+// of its own, and each encoder has one (see FilmWriter). What it is given by reference outlives it.
+class Packager {
+ public:
+  // `info` is the film's as it is read here: with depth, be it the film's own or made.
+  Packager(PairReader& reader, const PairReader::Backends& backends, FilmInfo info, const SourceOptions& source,
+           const OutputOptions& output)
+      : reader_(reader), backends_(backends), info_(std::move(info)), source_(source), output_(output) {}
+
+  // Before the first `write`, with the pair that is written first.
+  [[nodiscard]] Outcome<void> begin(const FramePair& pair);
+  [[nodiscard]] Outcome<void> write(const FramePair& pair);
+  [[nodiscard]] Outcome<AuthorSummary> finish();
+
+ private:
+  // On the depth's thread.
+  [[nodiscard]] Outcome<void> takeDepth(const Frame& depth, bool key);
+  [[nodiscard]] Outcome<void> writeDepth(const Frame& depth);
+  [[nodiscard]] Outcome<void> writeEnhanced();
+  [[nodiscard]] Outcome<void> planMaterial(const FramePair& pair);
+  [[nodiscard]] Outcome<void> writeMaterial(const FramePair& pair, bool key, bool begins_shot);
+  [[nodiscard]] std::unique_ptr<KeptTracks> keptTracks() const;
+  [[nodiscard]] const DepthCalibration& sourceCalibration() const { return info_.calibration.calibration; }
+  static constexpr std::size_t kRecent = 3;
+  [[nodiscard]] bool beginsShot(const Frame& depth);
+
+  PairReader& reader_;
+  const PairReader::Backends& backends_;
+  FilmInfo info_;
+  const SourceOptions& source_;
+  const OutputOptions& output_;
+  std::unique_ptr<FilmWriter> writer_;
+  std::optional<DepthEnhancer> enhancer_;
+  DepthCoder coder_{DepthCalibration{}};  // replaced in `begin` by the film's
+  std::vector<std::string> code_notes_;
+  FilmFormat format_;
+  EvenCut cut_;
+  KeyFrames key_frames_;
+  std::deque<bool> depth_keys_;      // for pictures not yet written; the depth's thread
+  std::deque<TimedSurface> recent_;  // depth pictures, the newest last
+  ShotFinder shots_;
+  std::optional<MediaTime> last_color_, last_depth_;
+  std::uint64_t not_later_ = 0;  // colour pictures whose time is not after that of the one before
+  ColorPicture420 color_;
+  std::mutex preview_mutex_;
+  Preview preview_;
+  std::optional<MaterialTrack> material_;  // made from a map
+  ColorPicture420 kept_material_;          // the source's own
+  WorkLine<Outcome<void>> depth_line_;     // the last member: it ends before what it uses
+};
+
+}  // namespace relievo
