@@ -62,15 +62,35 @@ cv::Mat matchAlone(const cv::Mat& left, const cv::Mat& right, DisparityRange ran
   return matched(*matcher, left, right, range);
 }
 
+namespace {
+
+// Without margins: what the matcher itself gives up is a hole.
+cv::Mat asTheyAre(cv::StereoMatcher& matcher, const cv::Mat& left, const cv::Mat& right, DisparityRange range) {
+  cv::Mat found, pixels;
+  matcher.compute(left, right, found);
+  found.convertTo(pixels, CV_32F, 1.0 / kSteps);
+  pixels.setTo(cv::Scalar(static_cast<double>(kNothing)), found < range.lowest * kSteps);
+  return pixels;
+}
+
+}  // namespace
+
 cv::Mat matchPlainly(const cv::Mat& left, const cv::Mat& right, DisparityRange range) {
   constexpr int kPlain = 5, kArea = kPlain * kPlain;
   const auto matcher = cv::StereoSGBM::create(range.lowest, countIn(range), kPlain, 8 * kArea, 32 * kArea, 1, 63, 10,
                                               100, 32, cv::StereoSGBM::MODE_SGBM);
-  cv::Mat found, pixels;
-  matcher->compute(left, right, found);
-  found.convertTo(pixels, CV_32F, 1.0 / kSteps);
-  pixels.setTo(cv::Scalar(static_cast<double>(kNothing)), found < range.lowest * kSteps);
-  return pixels;
+  return asTheyAre(*matcher, left, right, range);
+}
+
+cv::Mat matchBlocks(const cv::Mat& left, const cv::Mat& right, DisparityRange range) {
+  constexpr int kWide = 21;  // pixels: the default of StereoBM
+  const auto matcher = cv::StereoBM::create(countIn(range), kWide);
+  matcher->setMinDisparity(range.lowest);
+  matcher->setUniquenessRatio(10);
+  matcher->setSpeckleWindowSize(100);
+  matcher->setSpeckleRange(32);
+  matcher->setDisp12MaxDiff(1);
+  return asTheyAre(*matcher, left, right, range);
 }
 
 DisparityMap matchFromBoth(const ViewPicture& left, const ViewPicture& right, DisparityRange range) {

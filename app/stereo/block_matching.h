@@ -18,6 +18,8 @@ namespace relievo {
 
 // The same as its documentation uses it, with its own check of both eyes, of uniqueness and of specks.
 [[nodiscard]] cv::Mat matchPlainly(const cv::Mat& left, const cv::Mat& right, DisparityRange range);
+// OpenCV's block matching, likewise.
+[[nodiscard]] cv::Mat matchBlocks(const cv::Mat& left, const cv::Mat& right, DisparityRange range);
 
 // From both eyes: a point is `seen` if the right view finds it where the left view did, to within a pixel, and if it is
 // no speck. Other pixels keep what the left view found, or -infinity.

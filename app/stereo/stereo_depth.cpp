@@ -37,8 +37,10 @@ DisparityMap disparityOf(const ViewPicture& left, const ViewPicture& right, Disp
   return map;
 }
 
-DisparityMap plainDisparityOf(const ViewPicture& left, const ViewPicture& right, DisparityRange range) {
-  const cv::Mat found = matchPlainly(lumaOf(left), lumaOf(right), range);
+DisparityMap plainDisparityOf(const ViewPicture& left, const ViewPicture& right, DisparityRange range,
+                              PlainMatcher matcher) {
+  const bool blocks = matcher == PlainMatcher::Blocks;
+  const cv::Mat found = (blocks ? matchBlocks : matchPlainly)(lumaOf(left), lumaOf(right), range);
   DisparityMap map(left.cols, left.rows);
   for (int r = 0; r < map.rows; ++r) {
     const float* const row = found.ptr<float>(r);

@@ -2,6 +2,8 @@
 // Depth pictures from two views.
 #pragma once
 
+#include <cstdint>
+
 #include "app/scene/depth_calibration.h"
 #include "app/stereo/disparity_map.h"
 #include "app/stereo/stereo_plan.h"
@@ -14,9 +16,11 @@ namespace relievo {
 // Of one pair of views that lie row by row: matched from both eyes, holes filled, steps moved to the outlines.
 [[nodiscard]] DisparityMap disparityOf(const ViewPicture& left, const ViewPicture& right, DisparityRange range);
 
-// What charts and tests hold it against: OpenCV's matcher alone, as its documentation uses it, on brightness; each hole
-// takes the farther of its two sides in its row.
-[[nodiscard]] DisparityMap plainDisparityOf(const ViewPicture& left, const ViewPicture& right, DisparityRange range);
+// What charts and tests hold it against: one of OpenCV's matchers alone, as its documentation uses it, on brightness;
+// each hole takes the farther of its two sides in its row.
+enum class PlainMatcher : std::uint8_t { SemiGlobal, Blocks };
+[[nodiscard]] DisparityMap plainDisparityOf(const ViewPicture& left, const ViewPicture& right, DisparityRange range,
+                                            PlainMatcher matcher = PlainMatcher::SemiGlobal);
 
 class StereoDepth {
  public:

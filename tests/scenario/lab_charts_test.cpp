@@ -301,6 +301,26 @@ TEST_F(LabCharts, FinerDepthCostsMoreAndIsTruer) {
   }
 }
 
+// Every matcher is beside the truth, and the settings that people get are marked on every film.
+TEST_F(LabCharts, DepthFromTwoViewsIsTruerWithTextureAndWithoutACodec) {
+  const Csv csv(out("stereo.csv"));
+  const auto percent = [&](const char* axis, const char* value, const char* matcher) {
+    return csv.value({{"axis", axis}, {"value", value}, {"matcher", matcher}}, "force_rms_percent");
+  };
+  for (const char* matcher : {"author", "SGBM", "quick 320"}) {
+    EXPECT_LT(percent("texture", "rich", matcher), percent("texture", "weak", matcher)) << matcher;
+    EXPECT_LT(percent("codec", "none", matcher), percent("codec", "crf 28", matcher)) << matcher;
+  }
+  EXPECT_LT(percent("size", "320", "exact"), 1);
+  int author = 0, player = 0;
+  for (const CsvRow& row : csv.rows()) {
+    author += row.at("marked") == "author" ? 1 : 0;
+    player += row.at("marked") == "player" ? 1 : 0;
+  }
+  EXPECT_EQ(author, 8) << "two places on each of four axes";
+  EXPECT_EQ(player, 8);
+}
+
 // One run of this chart alone.
 class LabDetail : public testing::Test {
  protected:
@@ -419,8 +439,8 @@ TEST_F(LabCharts, AReportRunsOnlyWhatIsMissing) {
 TEST(LabChartsWords, WrongUseAndAFolderThatCannotBeMadeAreOneLineEach) {
   const test::TemporaryFolder folder;
   std::ofstream(folder / "file") << "in the way";
-  for (const char* command :
-       {"speed-accuracy", "widths", "edges", "smoothness", "latency", "stability", "detail", "bitrate", "report"}) {
+  for (const char* command : {"speed-accuracy", "widths", "edges", "smoothness", "latency", "stability", "detail",
+                              "bitrate", "stereo", "report"}) {
     const auto without = test::runProgram(std::string("relievo-lab ") + command, folder / ".");
     EXPECT_EQ(without.exit_code, 2) << command;
     EXPECT_NE(without.err.find("--out"), std::string::npos) << without.err;

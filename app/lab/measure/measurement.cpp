@@ -11,6 +11,7 @@
 #include "app/lab/measure/latency.h"
 #include "app/lab/measure/smoothness.h"
 #include "app/lab/measure/speed_accuracy.h"
+#include "app/lab/measure/stereo.h"
 #include "app/lab/measure/widths.h"
 #include "app/lab/scenario/material_stability.h"
 #include "app/lab/scenario/stability.h"
@@ -41,6 +42,7 @@ constexpr std::array kMaterialCharts{ChartEntry{"stability-material", "a row wit
 constexpr std::array kDetailCharts{ChartEntry{"detail", "to the left; higher for PSNR, lower for the force error"}};
 constexpr std::array kEnhanceCharts{ChartEntry{"enhance", "lower"}, ChartEntry{"enhance-points", "lower left"}};
 constexpr std::array kBitrateCharts{ChartEntry{"bitrate", "lower left"}};
+constexpr std::array kStereoCharts{ChartEntry{"stereo", "lower left"}};
 
 constexpr std::array kMeasurements{
     Measurement{"speed-accuracy", "time of a tick against the error of the force, by method and parts",
@@ -65,6 +67,8 @@ constexpr std::array kMeasurements{
                 kEnhanceCharts, measureEnhancement},
     Measurement{"bitrate", "bit rate of the depth by codec, bits and quality, against the error of the force",
                 kBitrateCharts, measureBitrate},
+    Measurement{"stereo", "time to make depth from two views against the error of the force, by matcher and film",
+                kStereoCharts, measureStereo},
 };
 
 }  // namespace

@@ -33,12 +33,13 @@ class QuickDepth {
   [[nodiscard]] Frame depthOf(const Frame& left, const Frame& right);
   // Whether both views show the same things in the present shot.
   [[nodiscard]] bool hasDepth() const noexcept { return range_.has_value(); }
+  // What the lowest and the highest code of the present shot mean: disparities as parts of the width.
+  struct Range {
+    float low = 0, high = 0;
+  };
+  [[nodiscard]] std::optional<Range> range() const noexcept { return range_; }
 
  private:
-  struct Range {
-    float low = 0, high = 0;  // disparities as parts of the width
-  };
-
   [[nodiscard]] bool cutsTo(const ViewPicture& left);
   void measureShot();
   void match(DisparityMap& large);
