@@ -70,6 +70,7 @@ Json videoPart(const PlayReport& r) {
           {"picture_error_px", rounded(r.picture_error_px, 1e2)},
           {"mesh_ms", rounded(r.mesh_ms, 1e3)},
           {"draw_ms", rounded(r.draw_ms, 1e3)},
+          {"drawn_size", rounded(r.drawn_size, 1e2)},
           {"reliefs", reliefPart(r.reliefs)}};
 }
 

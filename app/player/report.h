@@ -44,6 +44,7 @@ struct PlayReport {
   double picture_error_px = 0;
   double mesh_ms = 0, draw_ms = 0;  // a picture's, smoothed
   std::uint64_t frames_shown = 0, frames_dropped = 0;
+  double drawn_size = 1;  // RenderStatistics::size
   std::optional<double> first_frame_ms;
   std::optional<double> first_touch_ms;  // the first tick on the film's surface
   std::optional<LiveLatency> live;

@@ -231,6 +231,7 @@ void FilmScreen::describe(PlayReport& report) const {
   report.imported = drawn.imported;
   report.triangles = drawn.triangles;
   report.picture_error_px = drawn.error_px;
+  report.drawn_size = drawn.size;
   report.mesh_ms = drawn.mesh_ms;
   report.draw_ms = drawn.frame_ms;
   report.frames_shown = shown_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include "app/render/gl/gl_objects.h"
 #include "app/render/gl/gl_program.h"
@@ -20,6 +21,7 @@ class EyeMixer {
 
   // Binds the framebuffer of this size for eye 0 or 1; subsequent drawing goes into its picture.
   [[nodiscard]] Result<void> bindEye(std::size_t eye, int width, int height);
+  [[nodiscard]] GLuint framebuffer(std::size_t eye) const noexcept { return eyes_[eye].framebuffer.get(); }
   // Mixes both pictures into the framebuffer that is bound. `settings` must have a mixed layout.
   void mix(const StereoSettings& settings) const;
 

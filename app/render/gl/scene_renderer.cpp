@@ -4,16 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <utility>
 
 #include "app/render/gl/color_picture.h"
 #include "app/render/gl/eye_mixer.h"
-#include "app/render/gl/finger_model.h"
+#include "app/render/gl/finger_scene.h"
 #include "app/render/gl/gl_objects.h"
 #include "app/render/gl/overlay.h"
+#include "app/render/gl/reduced_view.h"
 #include "app/render/gl/relief_surface.h"
-#include "app/render/gl/surface_mark.h"
 #include "app/render/relief/detail_level.h"
 #include "app/render/relief/relief_triangles.h"
 #include "app/render/relief/words_place.h"
@@ -26,11 +25,6 @@ namespace {
 constexpr GLuint kPictureUnit = 3;  // after the colour planes' units
 constexpr GLuint kRightUnit = 7;    // after the mixer's and the text's
 constexpr Duration::rep kSmoothing = 8;
-
-constexpr double kShadowSlant = 0.35, kShadowRadiusMm = 4.5, kShadowGrowth = 0.15;
-constexpr double kShadowOpacity = 0.65, kShadowHalfMm = 15;
-constexpr double kGlowRadiusMm = 7.0, kGlowOpacity = 0.35, kGlowPerN = 0.1;
-constexpr glm::vec3 kGlowColor{1.0F, 0.78F, 0.35F};
 
 // The rectangle around all pictures, in shares of the view's width and height, from its middle; y up.
 std::optional<WordsBox> boxOf(const TextFrame& frame, const std::vector<TextPicture>& pictures) {
@@ -50,6 +44,12 @@ bool continues(const std::optional<WordsBox>& last, const std::optional<WordsBox
          next->bottom < last->top;
 }
 
+PixelArea reducedBy(double size, PixelArea area) noexcept {
+  area.width = std::max(1, static_cast<int>(std::lround(area.width * size)));
+  area.height = std::max(1, static_cast<int>(std::lround(area.height * size)));
+  return area;
+}
+
 void smooth(Duration& smoothed, Duration took, bool first) noexcept {
   smoothed = first ? took : smoothed + (took - smoothed) / kSmoothing;
 }
@@ -62,8 +62,8 @@ struct SceneRenderer::Impl {
 
   [[nodiscard]] Result<void> drawViews(const DisplaySurface& surface, const std::optional<FingerMark>& mark);
   void makeTriangles(const EyeViews& eyes);
-  void drawView(const EyeView& view, const std::optional<FingerMark>& mark);
-  void drawFinger(const EyeView& view, const FingerMark& mark);
+  [[nodiscard]] Result<void> drawView(const EyeView& view, GLuint framebuffer, const std::optional<FingerMark>& mark);
+  void drawScene(const EyeView& view, const std::optional<FingerMark>& mark);
   void placeWords(const EyeViews& eyes);
 
   StereoSettings stereo;
@@ -82,8 +82,8 @@ struct SceneRenderer::Impl {
   bool is_flat = false;    // the surface is not that of the triangles
   bool words_due = false;  // a picture has come since they were placed
   EyeMixer mixer;
-  SurfaceMark on_surface;
-  FingerModel finger;
+  ReducedView reduced;
+  FingerScene finger;
   Overlay text, subtitles;
   std::optional<WordsBox> words_box;  // in the screen plane, as shares of the view: see setSubtitles
   WordsPlace words;
@@ -105,10 +105,9 @@ Result<void> SceneRenderer::Impl::createParts() {
   };
   if (auto made_surface = take(surface_of_triangles, ReliefSurface::create()); !made_surface) return made_surface;
   if (auto made_mixer = take(mixer, EyeMixer::create()); !made_mixer) return made_mixer;
-  if (auto made_mark = take(on_surface, SurfaceMark::create()); !made_mark) return made_mark;
   if (auto made_text = take(text, Overlay::create()); !made_text) return made_text;
   if (auto made_words = take(subtitles, Overlay::create()); !made_words) return made_words;
-  if (auto made_finger = take(finger, FingerModel::create()); !made_finger) return made_finger;
+  if (auto made_finger = take(finger, FingerScene::create()); !made_finger) return made_finger;
   return glOutcome();
 }
 
@@ -194,6 +193,7 @@ RenderStatistics SceneRenderer::statistics() const noexcept {
   const Impl& impl = *impl_;
   RenderStatistics result{.frames = impl.frames,
                           .imported = impl.picture.isImported(),
+                          .size = impl.level.size(),
                           .frame_ms = toSeconds(impl.drawing) * 1e3,
                           .words_px = impl.words.disparity(),
                           .behind_words_px = impl.words.behind(),
@@ -201,7 +201,7 @@ RenderStatistics SceneRenderer::statistics() const noexcept {
   if (impl.depth.empty()) return result;
   result.triangles = impl.triangles.indices().size() / 3;
   result.cut_cells = impl.triangles.cutCells();
-  result.error_px = impl.error_px * impl.level.factor();
+  result.error_px = impl.error_px * impl.level.factor() / impl.level.size();
   result.mesh_ms = toSeconds(impl.meshing) * 1e3;
   return result;
 }
@@ -211,8 +211,9 @@ Result<void> SceneRenderer::Impl::drawViews(const DisplaySurface& surface, const
   if (refusal(shown, surface.width, surface.height) != nullptr) shown.layout = StereoLayout::Mono;
   const EyeViews eyes = eyeViews(shown, volume, surface.width, surface.height);
   if (has_picture) {
-    picture.bind(kPictureUnit, eyes.views[0].area, volume);
-    if (has_right) right.bind(kRightUnit, eyes.views[0].area, volume);
+    const PixelArea drawn = reducedBy(level.size(), eyes.views[0].area);
+    picture.bind(kPictureUnit, drawn, volume);
+    if (has_right) right.bind(kRightUnit, drawn, volume);
     is_flat = is_flat || depth.empty();
     if (depth.empty()) surface_of_triangles.uploadFlat(volume, stereo.screen_z_mm);
     else makeTriangles(eyes);
@@ -229,11 +230,13 @@ Result<void> SceneRenderer::Impl::drawViews(const DisplaySurface& surface, const
   glBindFramebuffer(GL_FRAMEBUFFER, surface.framebuffer);
   clear();
   for (std::size_t i = 0; i < eyes.views.size(); ++i) {
+    GLuint framebuffer = surface.framebuffer;
     if (eyes.mixed) {
       if (auto bound = mixer.bindEye(i, surface.width, surface.height); !bound) return bound;
+      framebuffer = mixer.framebuffer(i);
       clear();
     }
-    drawView(eyes.views[i], mark);
+    if (auto drawn = drawView(eyes.views[i], framebuffer, mark); !drawn) return drawn;
   }
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   if (eyes.mixed) {
@@ -247,9 +250,10 @@ Result<void> SceneRenderer::Impl::drawViews(const DisplaySurface& surface, const
 void SceneRenderer::Impl::makeTriangles(const EyeViews& eyes) {
   double eye_mm = 0;
   for (const EyeView& view : eyes.views) eye_mm = std::max(eye_mm, std::abs(view.eye_x_mm));
-  const double pixel_mm = heightOfPixelMm(stereo, volume, eyes.pixels_per_mm);
+  const double pixels_per_mm = eyes.pixels_per_mm * level.size();
+  const double pixel_mm = heightOfPixelMm(stereo, volume, pixels_per_mm);
   const ReliefDetail wanted{
-      .most_across = ReliefDetail::cellsFor(eyes.pixels_per_mm * volume.width_mm, level.factor()),
+      .most_across = ReliefDetail::cellsFor(pixels_per_mm * volume.width_mm, level.factor()),
       .error_mm = error_px * level.factor() * pixel_mm,
       .view = {.eye_mm = eye_mm, .distance_mm = stereo.viewing_distance_mm, .screen_z_mm = stereo.screen_z_mm}};
   if (is_made && wanted == made) return;
@@ -262,10 +266,33 @@ void SceneRenderer::Impl::makeTriangles(const EyeViews& eyes) {
   is_made = true;
 }
 
-void SceneRenderer::Impl::drawView(const EyeView& view, const std::optional<FingerMark>& mark) {
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);  // keep the surface opaque whatever is blended on it
-  glViewport(view.area.x, view.area.y, view.area.width, view.area.height);
-  if (!has_picture) return text.draw(0);
+// The scene may be drawn smaller, the words never are.
+Result<void> SceneRenderer::Impl::drawView(const EyeView& view, GLuint framebuffer,
+                                           const std::optional<FingerMark>& mark) {
+  const auto bindView = [&] {
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);  // keep the surface opaque whatever is blended on it
+    glViewport(view.area.x, view.area.y, view.area.width, view.area.height);
+  };
+  if (has_picture && level.size() < 1) {
+    const PixelArea small = reducedBy(level.size(), view.area);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    if (auto bound = reduced.bind(small.width, small.height); !bound) return bound;
+    glViewport(0, 0, small.width, small.height);
+    drawScene(view, mark);
+    reduced.showOn(framebuffer, view.area);
+    bindView();
+  } else {
+    bindView();
+    if (has_picture) drawScene(view, mark);
+  }
+  if (has_picture) {
+    subtitles.draw(words.shiftPx(view.eye_x_mm, stereo) * subtitles.frame().width / view.area.width);
+  }
+  text.draw(0);
+  return {};
+}
+
+void SceneRenderer::Impl::drawScene(const EyeView& view, const std::optional<FingerMark>& mark) {
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   // The relief is never seen from below, and the finger's shapes are closed.
@@ -274,10 +301,8 @@ void SceneRenderer::Impl::drawView(const EyeView& view, const std::optional<Fing
   glFrontFace(GL_CCW);
   const bool is_right = has_right && view.eye_x_mm > 0;
   surface_of_triangles.draw(glm::mat4(view.view_projection), is_right ? kRightUnit : kPictureUnit);
-  if (mark) drawFinger(view, *mark);
+  if (mark) finger.draw(view.view_projection, depth.empty() ? nullptr : &field, *mark);
   glDisable(GL_CULL_FACE);
-  subtitles.draw(words.shiftPx(view.eye_x_mm, stereo) * subtitles.frame().width / view.area.width);
-  text.draw(0);
 }
 
 // Once for each picture, so that a redrawn one shows the words where they were.
@@ -291,29 +316,6 @@ void SceneRenderer::Impl::placeWords(const EyeViews& eyes) {
   words.follow({triangles.vertices().data(), triangles.vertices().size()},
                {triangles.indices().data(), 3 * triangles.surfaceTriangles()}, box, stereo, eyes.views[0].area.width,
                eyes.pixels_per_mm);
-}
-
-// A shadow to the lower right, farther away and fainter the higher the finger is above the surface, and a glow at the
-// contact, brighter the larger the force.
-void SceneRenderer::Impl::drawFinger(const EyeView& view, const FingerMark& mark) {
-  if (!depth.empty()) {
-    const glm::dvec2 under(mark.position_mm);
-    const double gap = std::max(0.0, mark.position_mm.z - SurfaceMark::heightUnder(field, under.x, under.y));
-    on_surface.draw(view.view_projection, field,
-                    {.center_mm = under + glm::dvec2(kShadowSlant, -kShadowSlant) * gap,
-                     .radius_mm = kShadowRadiusMm + kShadowGrowth * gap,
-                     .color = glm::vec3(0),
-                     .opacity = static_cast<float>(kShadowOpacity / (1 + gap / kShadowHalfMm))});
-    const double force = glm::length(mark.force_n);
-    if (mark.contact) {
-      on_surface.draw(view.view_projection, field,
-                      {.center_mm = under,
-                       .radius_mm = kGlowRadiusMm,
-                       .color = kGlowColor,
-                       .opacity = static_cast<float>(std::min(1.0, kGlowOpacity + kGlowPerN * force))});
-    }
-  }
-  finger.draw(view.view_projection, mark);
 }
 
 }  // namespace relievo

@@ -31,6 +31,7 @@ struct RenderStatistics {
   std::size_t cut_cells = 0;   // cells cut at silhouettes
   bool imported = false;       // the colour planes are read from the decoder's memory (dma-buf), not uploaded
   double error_px = 0;         // error bound in effect, pixels
+  double size = 1;             // share of a view's width and height in which it is drawn; less: it is stretched
   double mesh_ms = 0;          // making the triangles of one picture; moving average
   double frame_ms = 0;         // drawing one frame with all views, making the triangles included; moving average
   double words_px = 0;         // disparity of the subtitles; see WordsPlace
@@ -44,8 +45,8 @@ class SceneRenderer {
  public:
   static constexpr double kErrorPx = 0.5;  // default of setError
 
-  // `frame_budget`: how long drawing one frame may take. The relief gets coarser until drawing keeps within it, and
-  // finer again when there is time to spare.
+  // `frame_budget`: how long drawing one frame may take. The relief gets coarser, then the views are drawn
+  // smaller, until drawing keeps within it; it gets finer again when there is time to spare (DetailLevel).
   [[nodiscard]] static Result<std::unique_ptr<SceneRenderer>> create(Duration frame_budget);
   ~SceneRenderer();
 

@@ -3,7 +3,9 @@
 #include "app/render/relief/detail_level.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <cstddef>
+#include <numbers>
 
 namespace relievo {
 namespace {
@@ -12,6 +14,13 @@ constexpr int kWarmUpFrames = 3;  // after a change, until textures, caches and 
 constexpr int kOverFrames = 6;    // frames over budget before the level gets coarser
 constexpr int kLongPatience = 30 * 128;  // two minutes at 30 frames/s
 constexpr Duration::rep kSmoothing = 8;
+
+struct Step {
+  double factor, size;
+};
+constexpr double kRoot = std::numbers::sqrt2;
+constexpr std::array<Step, DetailLevel::kCoarsest + 1> kSteps{
+    {{1, 1}, {kRoot, 1}, {2, 1}, {2 * kRoot, 1}, {2 * kRoot, 0.8}, {2 * kRoot, 0.64}, {2 * kRoot, 0.5}, {4, 0.5}}};
 
 }  // namespace
 
@@ -28,7 +37,8 @@ void DetailLevel::drew(Duration took) noexcept {
     if (frames_at_level_ < kWarmUpFrames + kOverFrames || level_ == kCoarsest) return;
     if (refined_) patience_ = std::min(2 * patience_, kLongPatience);
     refined_ = false;
-    change(level_ + 1);
+    const bool far_over = smoothed_ > budget_ * 3 / 2;
+    change(std::min(level_ + (far_over ? 2 : 1), kCoarsest));
     return;
   }
   room_frames_ = smoothed_ < budget_ / 2 ? room_frames_ + 1 : 0;
@@ -38,7 +48,11 @@ void DetailLevel::drew(Duration took) noexcept {
 }
 
 double DetailLevel::factor() const noexcept {
-  return std::exp2(0.5 * level_);
+  return kSteps[static_cast<std::size_t>(level_)].factor;
+}
+
+double DetailLevel::size() const noexcept {
+  return kSteps[static_cast<std::size_t>(level_)].size;
 }
 
 void DetailLevel::change(int level) noexcept {

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chooses how coarse the relief may be drawn so that a frame keeps within its budget. Pure arithmetic.
+// Chooses how coarse and how small the relief is drawn so that a frame keeps within its budget. Pure arithmetic.
 #pragma once
 
 #include "platform/clock.h"
 
 namespace relievo {
 
-// The error is the one asked for, multiplied in steps of sqrt(2), up to 8 times, while the smoothed frame time exceeds
-// the budget. It gets finer again after half the budget has been unused for some time. If it then has to get coarser
-// again, the next attempt waits twice as long.
+// While the smoothed frame time exceeds the budget, first the relief gets coarser: the error is the one asked for,
+// multiplied in steps of sqrt(2). Then the view is drawn smaller, down to half its width and height, and stretched; at
+// last the relief gets coarser once more. It gets finer again after half the budget has been unused for some time. If
+// it then has to get coarser again, the next attempt waits twice as long.
 class DetailLevel {
  public:
-  static constexpr int kCoarsest = 6;
+  static constexpr int kCoarsest = 7;
 
   explicit DetailLevel(Duration budget) noexcept : budget_(budget) {}
 
@@ -19,8 +20,10 @@ class DetailLevel {
   void drew(Duration took) noexcept;
 
   [[nodiscard]] int level() const noexcept { return level_; }
-  // Factor on the error asked for.
+  // Factor on the error asked for, in pixels as drawn.
   [[nodiscard]] double factor() const noexcept;
+  // Share of the view's width and height in which it is drawn.
+  [[nodiscard]] double size() const noexcept;
 
  private:
   void change(int level) noexcept;

@@ -55,6 +55,18 @@ TEST(DetailLevel, StopsAtTheCoarsest) {
   DetailLevel detail(kBudget);
   run(detail, 500, 100.0, 0.0);
   EXPECT_EQ(detail.level(), DetailLevel::kCoarsest);
+  EXPECT_EQ(detail.factor() / detail.size(), 8.0);
+}
+
+TEST(DetailLevel, DrawsSmallerWhereThePixelsCost) {
+  // 2 + 40 x size^2 ms: 42 ms at its size; 27.6 at .8; 18.4 at .64.
+  DetailLevel detail(kBudget);
+  for (int i = 0; i < 300; ++i) detail.drew(fromSeconds(1e-3 * (2 + 40 * detail.size() * detail.size())));
+  EXPECT_EQ(detail.size(), 0.64);
+  EXPECT_NEAR(detail.factor(), 2.828, 0.001);  // the relief was made coarser first
+  for (int i = 0; i < 500; ++i) detail.drew(fromSeconds(1e-3 * (1 + 10 * detail.size() * detail.size())));
+  EXPECT_EQ(detail.size(), 1.0);
+  EXPECT_EQ(detail.factor(), 1.0);
 }
 
 TEST(DetailLevel, SettlesAndStaysOnASteadyMachine) {

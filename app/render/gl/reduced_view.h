@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// A view that is drawn smaller than it is shown, and stretched: for machines that cannot draw all pixels in time.
+#pragma once
+
+#include "app/render/gl/gl_objects.h"
+#include "app/render/relief/stereo.h"
+#include "platform/error.h"
+
+namespace relievo {
+
+// For the GL context's thread. Allocates a picture when a size is first drawn, another one when it changes.
+class ReducedView {
+ public:
+  // Binds an empty framebuffer of this size, for what is drawn next.
+  [[nodiscard]] Result<void> bind(int width, int height);
+  // Stretches what was drawn over `area` of `framebuffer`, and binds that.
+  void showOn(GLuint framebuffer, const PixelArea& area) const;
+
+ private:
+  void allocate(int width, int height);
+
+  GlTexture color_, depth_;
+  GlFramebuffer framebuffer_;
+  int width_ = 0, height_ = 0;
+};
+
+}  // namespace relievo
