@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A relief given by a formula, as each eye sees it: rays are marched into it. Shares no code with the renderer.
+// A relief given by a formula, as each eye sees it along rays. Shares no code with the renderer.
 #pragma once
 
 #include <algorithm>
@@ -26,18 +26,15 @@ inline Rgb paint(double x, double y) {
   return {wave(1.5 * x + 0.2 * y), wave(1.1 * x - 0.5 * y), wave(0.9 * (x + y) + 2)};
 }
 
-// The colour that an eye at (eye_x, 0, 620) sees through the point (x, y, 20) of the screen plane.
+// The colour that an eye at (eye_x, 0, 620) sees through the point (x, y, 20) of the screen plane. A ray goes aside by
+// at most 0.36 mm per mm of depth, and the relief is no steeper than 0.6: a ray meets it once, and each round is at
+// least four times as near to that point, 40 mm in the beginning and 1e-8 in the end.
 inline Rgb seen(double eye_x, double x, double y) {
-  const auto above = [&](double z) {
-    const double along = (kDistance + kScreenZ - z) / kDistance;
-    return z - relief(eye_x + (x - eye_x) * along, y * along);
-  };
-  double high = 45, low = high;
-  while (low > 0 && above(low) > 0) low -= 0.5;
-  high = low + 0.5;
-  for (int i = 0; i < 20; ++i) (above(0.5 * (low + high)) > 0 ? high : low) = 0.5 * (low + high);
-  const double along = (kDistance + kScreenZ - low) / kDistance;
-  return paint(eye_x + (x - eye_x) * along, y * along);
+  const auto along = [](double z) { return (kDistance + kScreenZ - z) / kDistance; };
+  const auto across = [&](double z) { return eye_x + (x - eye_x) * along(z); };
+  double z = kScreenZ;
+  for (int i = 0; i < 16; ++i) z = relief(across(z), y * along(z));
+  return paint(across(z), y * along(z));
 }
 
 // An eye's picture of the whole window, `width` x `height` pixels.

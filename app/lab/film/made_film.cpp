@@ -50,4 +50,12 @@ std::vector<TimedSurface> makeFilm(const Relief& relief, const MadeFormat& forma
   return film;
 }
 
+const std::vector<TimedSurface>& KeptFilm::make(const Relief& relief, const MadeFormat& format, double duration_s,
+                                                const Damage& damage) {
+  const std::lock_guard guard(lock_);
+  auto& film = by_duration_[duration_s];
+  if (film.empty()) film = makeFilm(relief, format, duration_s, damage);
+  return film;
+}
+
 }  // namespace relievo

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <mutex>
 #include <vector>
 
 #include "app/depth_window/surface_window.h"
@@ -32,5 +34,17 @@ using Damage = std::function<void(int frame, std::vector<std::uint16_t>& codes)>
 // Frames at 0, 1/f, 2/f .. up to the first one at or after `duration_s`.
 [[nodiscard]] std::vector<TimedSurface> makeFilm(const Relief& relief, const MadeFormat& format, double duration_s,
                                                  const Damage& damage = {});
+
+// A film that is made at the first call and then kept, for all who ask for it, from any thread.
+class KeptFilm {
+ public:
+  // As makeFilm. Only the duration may differ from call to call.
+  [[nodiscard]] const std::vector<TimedSurface>& make(const Relief& relief, const MadeFormat& format, double duration_s,
+                                                      const Damage& damage = {});
+
+ private:
+  std::mutex lock_;
+  std::map<double, std::vector<TimedSurface>> by_duration_;
+};
 
 }  // namespace relievo

@@ -26,7 +26,7 @@ bool swings(const Swing& swing, const DeviceProfile& profile) {
 }  // namespace
 
 Swing swingOnWall(const Challenger& challenger, const DeviceProfile& profile, double stiffness) {
-  const auto film = makeFilm(scenario::plane(20, 0, 0), {}, 0.1);
+  static const auto film = makeFilm(scenario::plane(20, 0, 0), {}, 0.1);
   const auto method = challenger.make(stiffness, film);
   MemoryFeed feed(film);
   SurfaceWindow window;

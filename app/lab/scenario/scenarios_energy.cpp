@@ -108,7 +108,7 @@ constexpr Limit kPathTouched{90, "%",
 }  // namespace
 
 Verdict energyLoop(const Challenger& challenger, bool quick) {
-  const auto scenes = hillScenes();
+  static const auto scenes = hillScenes();
   std::mt19937_64 random(7);  // NOLINT(bugprone-random-generator-seed): the same at every run
   std::array speeds{Speed{100, {}}, Speed{500, {}}};
   Judge judge, bounds;

@@ -25,7 +25,8 @@ Verdict frameDrop(const Challenger& challenger, bool quick) {
   const Relief relief = [](double x, double y, double t) {
     return 20 + 0.15 * x - 0.1 * y + 6 * std::sin(2 * std::numbers::pi * 1.6 * t);
   };
-  const auto film = makeFilm(relief, {}, duration);
+  static KeptFilm kept;
+  const auto& film = kept.make(relief, {}, duration);
   // A third of the frames is lost, in bursts of up to four; the others come up to 80 ms after they should be seen, or
   // 100 ms ahead.
   std::mt19937_64 random(11);  // NOLINT(bugprone-random-generator-seed): the same at every run
@@ -54,7 +55,8 @@ Verdict underrun(const Challenger& challenger, bool /*quick*/) {
   constexpr double kStops = 0.5, kGoesOn = 1.0, kEnd = 1.4;
   // While no frame comes the scene rises by 8 mm.
   const Relief relief = [](double x, double y, double t) { return 16 + 0.12 * x - 0.07 * y + 8 * ramp(t, 0.55, 0.95); };
-  const auto film = makeFilm(relief, {}, kEnd);
+  static KeptFilm kept;
+  const auto& film = kept.make(relief, {}, kEnd);
   const glm::dvec3 rest(1.2, 0.8, relief(1.2, 0.8, 0) - 3);
   const Way finger{{0, rest + glm::dvec3(0, 0, 6)}, {0.2, rest}};
   const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
@@ -101,7 +103,8 @@ Verdict packetLoss(const Challenger& challenger, bool quick) {
       }
     }
   };
-  const auto film = makeFilm(relief, {}, duration, damage);
+  static KeptFilm kept;
+  const auto& film = kept.make(relief, {}, duration, damage);
   const auto finger = [&](double t, const glm::dvec3&) -> std::optional<glm::dvec3> {
     const double turn = 2 * std::numbers::pi * 0.3 * t;
     const double x = 6 * std::sin(turn), y = 4 * std::sin(2 * turn);

@@ -47,7 +47,8 @@ Verdict cutUp(const Challenger& challenger, bool /*quick*/) {
   constexpr double kCut = 0.5, kLift = 0.8, kOut = 1.1, kBack = 1.3, kEnd = 1.5;
   const Relief before = plane(12, 0.15, 0), after = plane(30, -0.25, 0.1);
   const Relief relief = cutBetween(before, after, kCut - 0.001);
-  const auto film = makeFilm(relief, {}, kEnd);
+  static KeptFilm kept;
+  const auto& film = kept.make(relief, {}, kEnd);
   const Way finger{{0, below(before, -3)},
                    {0.2, below(before, 2)},
                    {kLift, below(before, 2)},
@@ -77,7 +78,8 @@ Verdict cutDown(const Challenger& challenger, bool /*quick*/) {
   constexpr double kCut = 8.0 / 15, kDown = kCut + 0.06, kThere = kCut + 0.15, kEnd = kCut + 0.35;
   const Relief before = plane(23, 0.15, 0), after = plane(14, -0.25, 0.1);
   const Relief relief = cutBetween(before, after, kCut - 0.001);
-  const auto film = makeFilm(relief, {.frames_per_s = 15}, kEnd);
+  static KeptFilm kept;
+  const auto& film = kept.make(relief, {.frames_per_s = 15}, kEnd);
   const Way finger{
       {0, below(before, -3)}, {0.2, below(before, 2)}, {kDown, below(before, 2)}, {kThere, below(after, 2)}};
   const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
@@ -112,7 +114,8 @@ Verdict holdVideo(const Challenger& challenger, bool quick) {
     const double dx = x - 3 * std::sin(0.53 * turn);
     return 24 + 3 * std::sin(0.71 * turn) - 0.015 * (dx * dx + y * y);
   };
-  const auto film = makeFilm(relief, {.frames_per_s = kFps, .bits = 8}, duration);
+  static KeptFilm kept;
+  const auto& film = kept.make(relief, {.frames_per_s = kFps, .bits = 8}, duration);
   const Way finger{{0, {1.7, 0.6, 31}}, {0.3, {1.7, 0.6, 18}}};
   const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
   const auto ticks = playThrough(
@@ -138,7 +141,8 @@ Verdict seek(const Challenger& challenger, bool /*quick*/) {
   constexpr double kJump = 0.5, kThere = 0.6, kEnd = 1.0, kTo = 2.0;
   const Relief before = plane(14, 0.15, 0), after = plane(24, -0.2, 0.1);
   const Relief relief = cutBetween(before, after, 1.5);
-  const auto film = makeFilm(relief, {}, 3);
+  static KeptFilm kept;
+  const auto& film = kept.make(relief, {}, 3);
   const Way finger{{0, below(before, -3)}, {0.2, below(before, 2)}};
   const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
   Play play{.film = film, .duration_s = kEnd, .stiffness_n_per_mm = challenger.stiffness_n_per_mm, .finger = finger};
@@ -170,7 +174,8 @@ Verdict pause(const Challenger& challenger, bool /*quick*/) {
   const Relief relief = [](double x, double y, double t) {
     return 20 + 0.12 * x - 0.07 * y + 5 * std::sin(2 * std::numbers::pi * 1.9 * (t - 0.4));
   };
-  const auto film = makeFilm(relief, {}, kEnd);
+  static KeptFilm kept;
+  const auto& film = kept.make(relief, {}, kEnd);
   const double z = relief(0, 0, kPaused - kBack);
   // Comes in while the scene is low, and presses on through the pause with small strokes.
   const auto finger = [&](double t, const glm::dvec3&) -> std::optional<glm::dvec3> {

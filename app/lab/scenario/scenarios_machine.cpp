@@ -25,11 +25,10 @@ struct Rest {
 };
 
 // A hand comes in and presses on for two seconds.
-Rest pressOn(const Challenger& challenger, const Relief& relief, const MadeFormat& format, double stiffness,
+Rest pressOn(const Challenger& challenger, std::span<const TimedSurface> film, double stiffness,
              const glm::dvec3& from_mm, const glm::dvec3& to_mm) {
   const DeviceProfile profile;
   HandLoop hand(profile, from_mm);
-  const auto film = makeFilm(relief, format, 0.1);
   const auto method = challenger.make(stiffness, film);
   glm::dvec3 low(1e9), high(-1e9);
   const auto finger = [&](double t, const glm::dvec3& held_n) -> std::optional<glm::dvec3> {
@@ -66,9 +65,10 @@ Verdict stiffWall(const Challenger& challenger, bool /*quick*/) {
   const double stiffness = 0.8 * std::min(profile.viscousBound(), profile.frictionBound());
   // A crease of 90 degrees, slanted to the grid; and a wall in 8 bits, whose terraces are 2 mm wide.
   const Relief crease = [](double x, double y, double) { return 12 + std::abs(x - 0.3 * y) * 0.96; };
-  const Rest in_crease = pressOn(challenger, crease, {}, stiffness, {0.9, 0.3, 20}, {0.4, 0.3, 2});
-  const Relief wall = plane(20, 0.07, 0.03);
-  const Rest on_wall = pressOn(challenger, wall, {.bits = 8}, stiffness, {2.2, 1.1, 25}, {2.2, 1.1, 12});
+  static const auto crease_film = makeFilm(crease, {}, 0.1);
+  static const auto wall_film = makeFilm(plane(20, 0.07, 0.03), {.bits = 8}, 0.1);
+  const Rest in_crease = pressOn(challenger, crease_film, stiffness, {0.9, 0.3, 20}, {0.4, 0.3, 2});
+  const Rest on_wall = pressOn(challenger, wall_film, stiffness, {2.2, 1.1, 25}, {2.2, 1.1, 12});
   const bool crease_worse = in_crease.swing_mm > on_wall.swing_mm;
   Judge judge;
   judge.atMost(1e3 * std::max(in_crease.swing_mm, on_wall.swing_mm), kSwing,
@@ -85,7 +85,8 @@ Verdict jitter(const Challenger& challenger, bool quick) {
   const Relief relief = [](double x, double y, double t) {
     return 20 + 0.15 * x - 0.1 * y + 3 * std::sin(2 * std::numbers::pi * 1.5 * t);
   };
-  const auto film = makeFilm(relief, {}, duration);
+  static KeptFilm kept;
+  const auto& film = kept.make(relief, {}, duration);
   // A finger that trembles, always inside.
   const auto finger = [](double t, const glm::dvec3&) -> std::optional<glm::dvec3> {
     const double come = 1 - ramp(t, 0, 0.15), tremble = std::sin(2 * std::numbers::pi * 5 * t);
@@ -111,7 +112,8 @@ Verdict deviceGlitch(const Challenger& challenger, bool /*quick*/) {
   const Relief relief = [](double x, double y, double t) {
     return 20 + 0.15 * x - 0.1 * y + 1.5 * std::sin(2 * std::numbers::pi * 0.5 * t);
   };
-  const auto film = makeFilm(relief, {}, kEnd);
+  static KeptFilm kept;
+  const auto& film = kept.make(relief, {}, kEnd);
   const auto finger = [](double t, const glm::dvec3&) -> std::optional<glm::dvec3> {
     const double turn = 2 * std::numbers::pi * 0.5 * t;
     const double x = 4 * std::sin(turn), y = 3 * std::cos(turn);

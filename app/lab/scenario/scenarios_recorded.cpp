@@ -90,7 +90,8 @@ std::vector<TimedSurface> atChangingRate(const std::vector<TimedSurface>& film) 
 Verdict flicker(const Challenger& challenger, bool quick) {
   const double duration = quick ? 2.5 : 6;
   const Relief still = dome(24);
-  const auto film = makeFilm(flickering(still, 30, duration), {.bits = 8}, duration);
+  static KeptFilm kept;
+  const auto& film = kept.make(flickering(still, 30, duration), {.bits = 8}, duration);
   const glm::dvec2 slope(6, 3);
   const Way finger = pressAt(still, slope, 5);
   const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
@@ -115,7 +116,8 @@ Verdict dropout(const Challenger& challenger, bool quick) {
   const int rounds = quick ? 5 : 11;
   const double duration = rounds * kHoleEvery / kFps;
   const Relief relief = plane(20, 0.15, -0.1);
-  const auto film = makeFilm(relief, {.zero_is_hole = true}, duration, holesAt(kPlace));
+  static KeptFilm kept;
+  const auto& film = kept.make(relief, {.zero_is_hole = true}, duration, holesAt(kPlace));
   const Way finger = pressAt(relief, kPlace, 3);
   const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
   const auto ticks = playThrough(
@@ -144,7 +146,8 @@ Verdict passBefore(const Challenger& challenger, bool /*quick*/) {
   const Relief relief = [=](double x, double y, double t) {
     return std::abs(across(x, y) - kSpeed * (t - kAtMiddle)) < kHalfWidth ? 30 : still(x, y, t);
   };
-  const auto film = makeFilm(relief, {.bits = 8}, kEnd);
+  static KeptFilm kept;
+  const auto& film = kept.make(relief, {.bits = 8}, kEnd);
   const Way finger = pressAt(still, kPlace, 2);
   const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
   const auto ticks = playThrough(
@@ -169,7 +172,8 @@ Verdict passBefore(const Challenger& challenger, bool /*quick*/) {
 Verdict coarseSteps(const Challenger& challenger, bool /*quick*/) {
   constexpr double kFrom = -9, kTo = 9, kSpeed = 20, kDeep = 5, kThere = 0.2, kEnd = kThere + (kTo - kFrom) / kSpeed;
   const Relief slope = [](double x, double y, double) { return 20 + 0.1 * across(x, y); };
-  const auto film = makeFilm(slope, {.bits = 6}, 0.2);
+  static KeptFilm kept;
+  const auto& film = kept.make(slope, {.bits = 6}, 0.2);
   const auto at = [&](double q, double deep_mm) {
     return under(slope, glm::dvec2(q, -q * kEdgeSlant) / kEdgeLength, deep_mm);
   };
@@ -197,7 +201,7 @@ Verdict cameraMove(const Challenger& challenger, bool /*quick*/) {
     const double zoom = 1 + 0.25 * t / kEnd;
     return 20 + 1.5 * std::sin(kWave * (x / zoom + 30 * t)) * std::cos(kWave * y / zoom);
   };
-  const auto film = atChangingRate(makeFilm(relief, {.frames_per_s = 60}, kEnd));
+  static const auto film = atChangingRate(makeFilm(relief, {.frames_per_s = 60}, kEnd));
   const Way finger{{0, {kPlace, 25}}, {0.2, {kPlace, 15}}};
   const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
   const auto ticks = playThrough(

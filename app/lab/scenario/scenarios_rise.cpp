@@ -11,9 +11,9 @@
 namespace relievo::scenario {
 namespace {
 
-Verdict riseUnder(const Challenger& challenger, const Relief& relief, const MadeFormat& format, const Way& finger,
-                  double duration_s) {
-  const auto film = makeFilm(relief, format, duration_s);
+Verdict riseUnder(const Challenger& challenger, const Relief& relief, KeptFilm& kept, const MadeFormat& format,
+                  const Way& finger, double duration_s) {
+  const auto& film = kept.make(relief, format, duration_s);
   const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
   const auto ticks = playThrough(
       *method,
@@ -35,7 +35,8 @@ Verdict riseFree(const Challenger& challenger, bool /*quick*/) {
   const Relief relief = [](double x, double y, double t) {
     return 12 + 0.15 * x + 0.08 * y + 60 * std::clamp(t - 0.2, 0.0, 0.14);
   };
-  return riseUnder(challenger, relief, {}, Way{{0, {1.3, 0.7, 15}}}, 0.8);
+  static KeptFilm kept;
+  return riseUnder(challenger, relief, kept, {}, Way{{0, {1.3, 0.7, 15}}}, 0.8);
 }
 
 Verdict riseContact(const Challenger& challenger, bool /*quick*/) {
@@ -46,7 +47,8 @@ Verdict riseContact(const Challenger& challenger, bool /*quick*/) {
   };
   const double z = relief(1, 1, 0);
   const Way finger{{0, {1, 1, z + 2}}, {0.2, {1, 1, z - 2}}};
-  const auto film = makeFilm(relief, {}, 0.8);
+  static KeptFilm kept;
+  const auto& film = kept.make(relief, {}, 0.8);
   const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
   const auto ticks = playThrough(
       *method,
@@ -66,7 +68,8 @@ Verdict riseFast(const Challenger& challenger, bool /*quick*/) {
   const Relief relief = [](double x, double y, double t) {
     return 8 + 0.05 * x + 0.03 * y + 3000 * std::clamp(t - 0.1, 0.0, 0.008);
   };
-  return riseUnder(challenger, relief, {.frames_per_s = 240}, Way{{0, {1.3, 0.7, 13}}}, 0.6);
+  static KeptFilm kept;
+  return riseUnder(challenger, relief, kept, {.frames_per_s = 240}, Way{{0, {1.3, 0.7, 13}}}, 0.6);
 }
 
 Verdict sweepEdge(const Challenger& challenger, bool /*quick*/) {
@@ -75,7 +78,8 @@ Verdict sweepEdge(const Challenger& challenger, bool /*quick*/) {
   const Relief relief = [](double x, double y, double t) {
     return x - 0.3 * y < -10 + 30 * ramp(t, 0.1, 0.25) ? kTop : kFloor;
   };
-  const auto film = makeFilm(relief, {}, 0.8);
+  static KeptFilm kept;
+  const auto& film = kept.make(relief, {}, 0.8);
   const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
   const auto ticks = playThrough(*method, {.film = film,
                                            .duration_s = 0.8,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A still scene, and a finger that goes where it is hard: edges, thin things, noise, haste.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -23,9 +24,10 @@ glm::dvec3 placeAt(double q, double z) {
   return q * kAcross + glm::dvec3(0, 0, z);
 }
 
-std::vector<StageTick> stroke(const Challenger& challenger, const Relief& relief, const MadeFormat& format,
-                              const Way& finger, double duration_s) {
-  const auto film = makeFilm(relief, format, 0.2);
+constexpr double kStillS = 0.2;  // of a film on which nothing moves
+
+std::vector<StageTick> stroke(const Challenger& challenger, std::span<const TimedSurface> film, const Way& finger,
+                              double duration_s) {
   const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
   return playThrough(
       *method,
@@ -40,7 +42,8 @@ Verdict strokeStep(const Challenger& challenger, bool /*quick*/) {
   // Over the edge, 2 mm deep; then down, and back against the wall, 3 mm into it.
   const Way finger{{0, placeAt(-8, kTop + 1)},     {0.1, placeAt(-8, kTop - 2)},    {0.28, placeAt(10, kTop - 2)},
                    {0.4, placeAt(10, kTop - 6.5)}, {0.53, placeAt(-3, kTop - 6.5)}, {0.6, placeAt(-3, kTop - 6.5)}};
-  const auto ticks = stroke(challenger, relief, {}, finger, 0.6);
+  static KeptFilm kept;
+  const auto ticks = stroke(challenger, kept.make(relief, {}, kStillS), finger, 0.6);
   double hung_mm = 0, against = 1e9, most = 0;
   for (const StageTick& tick : ticks) {
     const double q = across(tick.hip_mm.x, tick.hip_mm.y);
@@ -63,13 +66,15 @@ Verdict thin(const Challenger& challenger, bool /*quick*/) {
   constexpr double kWidth = 3 * MadeFormat::kPitchMm, kCrest = 20, kFloor = 10, kFinger = 15, kBeyond = 4;
   double least = 1e9;
   Judge bounds;
-  // Three places between the samples.
-  for (const double shift : {0.0, 0.07, 0.15}) {
+  constexpr std::array kBetweenSamples{0.0, 0.07, 0.15};
+  static std::array<KeptFilm, kBetweenSamples.size()> kept;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    const double shift = kBetweenSamples[i];
     const Relief relief = [shift](double x, double y, double) {
       return std::abs(across(x - shift, y)) < 0.5 * kWidth ? kCrest : kFloor;
     };
     const Way finger{{0, placeAt(-6, kFinger)}, {0.1, placeAt(kBeyond, kFinger)}};
-    const auto ticks = stroke(challenger, relief, {}, finger, 0.15);
+    const auto ticks = stroke(challenger, kept[i].make(relief, {}, kStillS), finger, 0.15);
     for (const StageTick& tick : between(ticks, 0.09, 0.15)) {
       const double front = across(tick.hip_mm.x - shift, tick.hip_mm.y) + 0.5 * kWidth;
       least = std::min(least, -glm::dot(tick.sent_n, kAcross) / (challenger.stiffness_n_per_mm * front));
@@ -86,7 +91,8 @@ Verdict noise(const Challenger& challenger, bool quick) {
   constexpr double kDeep = 5;
   const Relief relief = [](double x, double y, double) { return 26 - 0.008 * (x * x + y * y) + 0.1 * x; };
   const double duration = quick ? 1.2 : 3;
-  const auto film = makeFilm(relief, {.noise_share = 0.01}, duration);
+  static KeptFilm kept;
+  const auto& film = kept.make(relief, {.noise_share = 0.01}, duration);
   const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
   const auto place = [](double t) {
     const double turn = 2 * std::numbers::pi * std::max(t - 0.2, 0.0);
@@ -123,8 +129,10 @@ Verdict fastHip(const Challenger& challenger, bool /*quick*/) {
   // Through the ridge, out again, and down into the floor; 5 m/s each time.
   const Way through{{0.05, placeAt(-14, kSide)}, {0.0542, placeAt(7, kSide)}};
   const Way down{{0.05, placeAt(8, kFloor + 10)}, {0.054, placeAt(8, kFloor - 10)}};
-  const auto sideways = stroke(challenger, relief, {}, through, 0.1);
-  const auto downwards = stroke(challenger, relief, {}, down, 0.1);
+  static KeptFilm kept;
+  const auto& film = kept.make(relief, {}, kStillS);
+  const auto sideways = stroke(challenger, film, through, 0.1);
+  const auto downwards = stroke(challenger, film, down, 0.1);
   const double side =
       -glm::dot(meanForce(between(sideways, 0.08, 0.1)), kAcross) / (challenger.stiffness_n_per_mm * 11);
   const double floor = meanForce(between(downwards, 0.08, 0.1)).z / (challenger.stiffness_n_per_mm * 10);
