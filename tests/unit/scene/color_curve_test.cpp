@@ -32,6 +32,8 @@ const Map kMaps[] = {
     {DepthCode::Plasma, {{{32, 6, 143}, {160, 26, 156}, {232, 112, 89}, {252, 210, 37}}}},
     {DepthCode::Rainbow, {{{114, 22, 255}, {48, 225, 218}, {198, 231, 137}, {255, 71, 36}}}},
     {DepthCode::Spectral, {{{82, 95, 169}, {198, 232, 159}, {254, 204, 123}, {208, 56, 78}}}},
+    // Between ColorBrewer's nine colours, worked out.
+    {DepthCode::YlGnBu, {{{251, 253, 208}, {144, 212, 185}, {30, 139, 189}, {29, 46, 131}}}},
     // Jet, worked out from red min(4x - 3/2, 9/2 - 4x), green min(4x - 1/2, 7/2 - 4x), blue min(4x + 1/2, 5/2 - 4x).
     {DepthCode::Jet, {{{0, 0, 155.5}, {0, 224.5, 255}, {255, 240.5, 0}, {219.5, 0, 0}}}},
     // The sum of the three is three times the entry.
