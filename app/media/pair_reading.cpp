@@ -241,12 +241,13 @@ Result<void> PairReader::Impl::describe(const Frame& first, const Frame& look, c
     clues.more.push_back(
         {"full codes of its material track", materialText(info.material_scale), CalibrationOrigin::ContainerTags});
   }
-  const KnownKind* const kind = reordering.kind != nullptr ? reordering.kind : kindOf(clues, look);
+  const KnownKind* kind = reordering.kind != nullptr ? reordering.kind : kindOf(clues, look);
   auto meaning = readMeaning(clues, kind, look);
   if (!meaning) return failOn("calibration", meaning.error());
   reach_open = isReachSeen(meaning->calibration);
   if (reach_open) {
     const std::vector<Frame> later = laterPictures(look.pts, stream.index);
+    if (!later.empty() && reordering.kind == nullptr) kind = kindOf(clues, look, later);
     if (!later.empty()) meaning = readMeaning(clues, kind, look, later);
     if (!meaning) return failOn("calibration", meaning.error());
   }

@@ -76,6 +76,17 @@ CodeCount::Reach CodeCount::reach(double outliers, std::uint32_t low, std::uint3
   return reach;
 }
 
+CodeCount CodeCount::together() const {
+  CodeCount all = *this;
+  all.later_.clear();
+  for (const CodeCount& later : later_) {
+    if (later.bits_ != bits_) continue;
+    all.samples_ += later.samples_;
+    for (std::size_t code = 0; code < of_code_.size(); ++code) all.of_code_[code] += later.of_code_[code];
+  }
+  return all;
+}
+
 std::uint32_t CodeCount::step() const {
   std::uint32_t step = 0;
   for (std::uint32_t code = 0; code < of_code_.size(); ++code) {

@@ -15,7 +15,7 @@ class CodeCount {
  public:
   // Counts all samples of a gray or YUV picture, or of an RGB picture whose three components are equal.
   explicit CodeCount(const Frame& depth);
-  // A later picture of the same film: it counts for `reach` alone.
+  // A later picture of the same film: it counts for `reach` and `together` alone.
   void addLater(const Frame& depth) { later_.emplace_back(depth); }
 
   [[nodiscard]] int bits() const noexcept { return bits_; }
@@ -32,6 +32,8 @@ class CodeCount {
   // The codes from the quantile `outliers` to the quantile 1 - `outliers`, of those in `low` .. `high`: the widest that
   // this picture and the later ones span together.
   [[nodiscard]] Reach reach(double outliers, std::uint32_t low, std::uint32_t high) const;
+  // This picture and the later ones as one.
+  [[nodiscard]] CodeCount together() const;
   // The greatest common divisor of the codes that occur; 0 if only code 0 occurs.
   [[nodiscard]] std::uint32_t step() const;
   // The share, among the samples whose code is neither 0 nor 65535, of those that leave at most `most` when divided.
