@@ -52,6 +52,9 @@ class CodeCount {
 
 // True for a picture of 16-bit gray whose neighbouring samples are alike only after their bytes are swapped.
 [[nodiscard]] bool isSwapped(const Frame& depth);
+// How the two bytes of 16-bit codes lie in the red and green of a picture of RGB in 8 bits, whose blue is one code; as
+// stored unless the lower byte carries into the upper one nearly wherever that changes by one.
+[[nodiscard]] SampleOrder packedOrder(const Frame& depth);
 // True if most samples with a reading have none beside, above and below: the points of a laser scanner.
 [[nodiscard]] bool isScattered(const Frame& depth);
 
@@ -59,7 +62,7 @@ class CodeCount {
 // Kinect's raw codes in order already.
 [[nodiscard]] SampleOrder orderOf(const KnownKind& kind, const Frame& stored);
 
-// The picture with its 16-bit gray codes put in order: a copy; other pictures, and those as stored, by reference.
+// The picture with its 16-bit codes put in order, as gray: a copy; other pictures, and those as stored, by reference.
 // Exhausted if out of memory.
 [[nodiscard]] Result<Frame> inOrder(const Frame& depth, SampleOrder order);
 

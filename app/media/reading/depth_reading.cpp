@@ -199,6 +199,11 @@ bool definesCodes(const CalibrationLayers& said) {
 }
 
 const KnownKind* sensorKind(const Frame& depth, const CodeCount& count) {
+  if (const SampleOrder packed = packedOrder(depth); packed != SampleOrder::AsStored) {
+    const auto ordered = inOrder(depth, packed);
+    const bool distances = ordered && isDistances(CodeCount(*ordered));
+    return distances ? findKind(packed == SampleOrder::RedGreen ? "rg-packed" : "gr-packed") : nullptr;
+  }
   if (depth.model != ColorModel::Gray || count.bits() != 16) return nullptr;
   if (isSwapped(depth)) {
     const auto ordered = inOrder(depth, SampleOrder::Swapped);
