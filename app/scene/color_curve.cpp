@@ -114,6 +114,25 @@ ColorCurve::Point ColorCurve::nearest(const YuvColor& color) const RELIEVO_RT {
   return {s, std::sqrt(place.distance)};
 }
 
+ColorCurve::Between ColorCurve::between(const YuvColor& color, float low, float high) const RELIEVO_RT {
+  const auto weighted = [](const YuvColor& a, const YuvColor& b) {
+    return a.y * b.y + kChromaWeight * (a.u * b.u + a.v * b.v);
+  };
+  const auto count = static_cast<float>(pieces_.size());
+  const float from = low * count, to = high * count;
+  Between best{low, std::numeric_limits<float>::infinity()};
+  for (auto k = static_cast<std::size_t>(from); k < pieces_.size() && static_cast<float>(k) <= to; ++k) {
+    const auto first = static_cast<float>(k);
+    const YuvColor off = minus(color, pieces_[k].from), &along = pieces_[k].along;
+    const float t = std::clamp(weighted(off, along) / weighted(along, along), std::max(from - first, 0.0F),
+                               std::min(to - first, 1.0F));
+    const YuvColor left{off.y - t * along.y, off.u - t * along.u, off.v - t * along.v};
+    const float error = weighted(left, left);
+    if (error < best.error) best = {(first + t) * per_piece_, error};
+  }
+  return best;
+}
+
 YuvColor ColorCurve::at(double s) const noexcept {
   const double place = std::clamp(s, 0.0, 1.0) * static_cast<double>(pieces_.size());
   const std::size_t k = std::min(static_cast<std::size_t>(place), pieces_.size() - 1);

@@ -151,6 +151,19 @@ TEST(HueOverYuv, EverySampleAtAnEdgeIsOneSideOrTheOther) {
   }
 }
 
+// Of an edge that takes five samples, those in its middle are on neither side.
+TEST(HueOverYuv, ASoftEdgeHasItsSlope) {
+  for (const auto& [left, right] : {std::pair(0.5, 0.8), {0.8, 0.5}, {0.1, 0.4}, {0.25, 0.65}}) {
+    const auto truth = [&](int c) { return left + (right - left) / (1 + std::exp(-(c - 20.3))); };
+    const Film film{.color = [&](int c, int) { return hue(truth(c)); }};
+    const Frame frame = film.frame();
+    const auto field = HeightField::make(frame, kHue, kUnit).value();
+    for (int c = 0; c < 48; ++c) {
+      EXPECT_NEAR(field.heightMm(c, 10), truth(c), 0.06) << left << ' ' << right << " at " << c;
+    }
+  }
+}
+
 // The mean of two hues that are close is between them, a slope and not a wall.
 TEST(HueOverYuv, AMixtureOfCloseHuesIsBetweenThem) {
   const Film film{.color = [](int c, int) { return hue(c >= 17 ? 0.45 : 0.3); }};
