@@ -135,7 +135,8 @@ void addDepthOptions(CLI::App& app, SourceOptions& source) {
             "How depth is coded\n"
             "auto: hue if half of the picture is pure colour, else luma; luma: as brightness; hue: from red (near) "
             "through the colours back to red (far), also as RealSense and Record3D write it;\n"
-            "others: colour maps; spectral: from blue to red, kinect: black (no depth), blue, cyan, white");
+            "others: colour maps; spectral: from blue to red, ylgnbu: from yellow to blue, kinect: black (no depth), "
+            "blue, cyan, white");
   app.add_option_function<std::vector<std::string>>(
          "--calibration",
          [&source](const std::vector<std::string>& given) {

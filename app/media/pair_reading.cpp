@@ -22,7 +22,8 @@ constexpr double kMostlyGray = 0.9;
 // is called depth.
 bool isDepthAlone(const Frame& picture, const std::string& url) {
   if (picture.value_per_code != 0) return true;
-  if (picture.model == ColorModel::Gray && sensorKind(picture, CodeCount(picture)) != nullptr) return true;
+  const bool may_be_codes = picture.model == ColorModel::Gray || packedOrder(picture) != SampleOrder::AsStored;
+  if (may_be_codes && sensorKind(picture, CodeCount(picture)) != nullptr) return true;
   constexpr double kAllGray = 0.99;
   if (saysDepth(url) && lookAt(picture).gray >= kAllGray) return true;
   const auto map = bestColorMap(picture);
@@ -123,7 +124,7 @@ void PairReader::Impl::lookForHalves(const StreamInfo& color) {
 void PairReader::Impl::lookForCode(const Frame& look) {
   if (clues.code_by != CalibrationOrigin::Default || look.model == ColorModel::Gray) return;
   const PictureLook seen = lookAt(look);
-  if (isRedAlone(seen)) return;
+  if (isRedAlone(seen) || packedOrder(look) != SampleOrder::AsStored) return;
   const auto map = bestColorMap(look);
   if (!map && !isHue(seen)) return;
   clues.code = map ? map->code : DepthCode::Hue;
@@ -241,12 +242,13 @@ Result<void> PairReader::Impl::describe(const Frame& first, const Frame& look, c
     clues.more.push_back(
         {"full codes of its material track", materialText(info.material_scale), CalibrationOrigin::ContainerTags});
   }
-  const KnownKind* const kind = reordering.kind != nullptr ? reordering.kind : kindOf(clues, look);
+  const KnownKind* kind = reordering.kind != nullptr ? reordering.kind : kindOf(clues, look);
   auto meaning = readMeaning(clues, kind, look);
   if (!meaning) return failOn("calibration", meaning.error());
   reach_open = isReachSeen(meaning->calibration);
   if (reach_open) {
     const std::vector<Frame> later = laterPictures(look.pts, stream.index);
+    if (!later.empty() && reordering.kind == nullptr) kind = kindOf(clues, look, later);
     if (!later.empty()) meaning = readMeaning(clues, kind, look, later);
     if (!meaning) return failOn("calibration", meaning.error());
   }

@@ -29,6 +29,9 @@ constexpr std::array<std::uint32_t, 9> kJet{0x000080, 0x0000ff, 0x0080ff, 0x00ff
 // ColorBrewer's, from blue to red: matplotlib's Spectral_r.
 constexpr std::array<std::uint32_t, 11> kSpectral{0x5e4fa2, 0x3387bc, 0x66c2a5, 0xaadca4, 0xe6f598, 0xfffebe,
                                                   0xfee08b, 0xfdad60, 0xf46d43, 0xd53e4f, 0x9e0142};
+// ColorBrewer's, from yellow to blue: matplotlib's YlGnBu.
+constexpr std::array<std::uint32_t, 9> kYlGnBu{0xffffd9, 0xedf8b1, 0xc7e9b4, 0x7fcdbb, 0x41b6c4,
+                                               0x1d91c0, 0x225ea8, 0x253494, 0x081d58};
 // Black, blue, cyan, white: s is the mean of red, green and blue, as viewers of such Kinect films read it (three.js).
 constexpr std::array<std::uint32_t, 4> kKinect{0x000000, 0x0000ff, 0x00ffff, 0xffffff};
 constexpr std::array<std::uint32_t, 7> kHue{0xff0000, 0xffff00, 0x00ff00, 0x00ffff, 0x0000ff, 0xff00ff, 0xff0000};
@@ -111,6 +114,25 @@ ColorCurve::Point ColorCurve::nearest(const YuvColor& color) const RELIEVO_RT {
   return {s, std::sqrt(place.distance)};
 }
 
+ColorCurve::Between ColorCurve::between(const YuvColor& color, float low, float high) const RELIEVO_RT {
+  const auto weighted = [](const YuvColor& a, const YuvColor& b) {
+    return a.y * b.y + kChromaWeight * (a.u * b.u + a.v * b.v);
+  };
+  const auto count = static_cast<float>(pieces_.size());
+  const float from = low * count, to = high * count;
+  Between best{low, std::numeric_limits<float>::infinity()};
+  for (auto k = static_cast<std::size_t>(from); k < pieces_.size() && static_cast<float>(k) <= to; ++k) {
+    const auto first = static_cast<float>(k);
+    const YuvColor off = minus(color, pieces_[k].from), &along = pieces_[k].along;
+    const float t = std::clamp(weighted(off, along) / weighted(along, along), std::max(from - first, 0.0F),
+                               std::min(to - first, 1.0F));
+    const YuvColor left{off.y - t * along.y, off.u - t * along.u, off.v - t * along.v};
+    const float error = weighted(left, left);
+    if (error < best.error) best = {(first + t) * per_piece_, error};
+  }
+  return best;
+}
+
 YuvColor ColorCurve::at(double s) const noexcept {
   const double place = std::clamp(s, 0.0, 1.0) * static_cast<double>(pieces_.size());
   const std::size_t k = std::min(static_cast<std::size_t>(place), pieces_.size() - 1);
@@ -142,6 +164,8 @@ const ColorCurve& curveOf(DepthCode code) {
       return made<kSpectral>();
     case DepthCode::Kinect:
       return made<kKinect>();
+    case DepthCode::YlGnBu:
+      return made<kYlGnBu>();
   }
   return made<kHue>();
 }

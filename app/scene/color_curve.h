@@ -32,6 +32,14 @@ class ColorCurve {
   explicit ColorCurve(std::span<const std::uint32_t> knots);
 
   [[nodiscard]] Point nearest(const YuvColor& color) const RELIEVO_RT;
+  // The place from `low` to `high` that is nearest when an error of chroma counts less than one of luma, as where
+  // chroma is mixed; and the colour's squared distance from it in that measure.
+  struct Between {
+    float s = 0, error = 0;
+  };
+  [[nodiscard]] Between between(const YuvColor& color, float low, float high) const RELIEVO_RT;
+  // The weight of chroma in `Between::error`.
+  static constexpr float kChromaWeight = 0.3F;
   // The colour at s, 0 to 1.
   [[nodiscard]] YuvColor at(double s) const noexcept;
   [[nodiscard]] bool closed() const RELIEVO_RT { return closed_; }

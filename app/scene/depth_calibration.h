@@ -33,11 +33,12 @@ enum class DepthCode : std::uint8_t {
   Plasma,
   Rainbow,
   Spectral,  // from blue to red
-  Kinect     // black (no depth), blue, cyan, white
+  Kinect,    // black (no depth), blue, cyan, white
+  YlGnBu     // from yellow to blue
 };
 inline constexpr std::array kDepthCodes{DepthCode::Luma,    DepthCode::Hue,      DepthCode::Turbo,   DepthCode::Jet,
                                         DepthCode::Inferno, DepthCode::Magma,    DepthCode::Viridis, DepthCode::Plasma,
-                                        DepthCode::Rainbow, DepthCode::Spectral, DepthCode::Kinect};
+                                        DepthCode::Rainbow, DepthCode::Spectral, DepthCode::Kinect,  DepthCode::YlGnBu};
 // The word on the command line.
 [[nodiscard]] const char* name(DepthCode code) noexcept;
 

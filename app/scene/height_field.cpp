@@ -35,6 +35,20 @@ inline double hueOf(int red, int green, int blue) noexcept {
   return static_cast<double>(sixth * spread + ahead) / (6 * spread);  // gray is 0/0, not a number
 }
 
+// The squared distance of a colour from what a sample at an edge between two colours holds: the luma of the side that
+// it is off by `luma`, and chroma that is mixed of both.
+float errorOfMixture(const YuvColor& color, float luma, const YuvColor& one, const YuvColor& other) noexcept {
+  const float along_u = other.u - one.u, along_v = other.v - one.v, u = color.u - one.u, v = color.v - one.v;
+  const float length = along_u * along_u + along_v * along_v;
+  const float share = length > 0 ? std::clamp((u * along_u + v * along_v) / length, 0.0F, 1.0F) : 0;
+  const float off_u = u - share * along_u, off_v = v - share * along_v;
+  return luma * luma + ColorCurve::kChromaWeight * (off_u * off_u + off_v * off_v);
+}
+
+// How much better one side of an edge must fit than a place between the two. Measured on hard and soft edges, H.264
+// 4:2:0 at crf 18 and 23.
+constexpr float kSideFits = 2;
+
 }  // namespace
 
 Result<HeightField> HeightField::make(const Frame& depth, const DepthCalibration& calibration,
@@ -223,8 +237,8 @@ double HeightField::shareAt(int c, int r) const RELIEVO_RT {
   const float far_off = curve_->closed() ? kFarOffHues : kFarOffMap;
   constexpr float kNone = std::numeric_limits<float>::infinity();
   const bool at_seam = reading.distance <= kOnCurve;
-  float least = kNone, least_empty = kNone;
-  double share = kHole;
+  float least = kNone, least_empty = kNone, share = 0, low = 1, high = 0;
+  YuvColor low_color, high_color;
   for (const auto& [across, down] : kBeside) {
     const int col = c + across, row = r + down;
     if (col < 0 || col >= cols_ || row < 0 || row >= rows_) continue;
@@ -232,16 +246,21 @@ double HeightField::shareAt(int c, int r) const RELIEVO_RT {
     const ColorCurve::Point point = curve_->nearest(color);
     const float difference = std::abs(color.y - own.y);
     if (isSure(point)) {
-      if (difference >= least || (at_seam && std::min(point.s, 1 - point.s) > kBesideSeam)) continue;
-      least = difference;
-      share = static_cast<double>(point.s);
+      if (at_seam && std::min(point.s, 1 - point.s) > kBesideSeam) continue;
+      if (point.s < low) low = point.s, low_color = color;
+      if (point.s > high) high = point.s, high_color = color;
+      if (difference < least) least = difference, share = point.s;
     } else if (point.distance <= kOnCurve || (point.distance > far_off && isBlack(color))) {
       least_empty = std::min(least_empty, difference);
     }
   }
   // A dark colour whose chroma is mixed with its complement's looks black as well.
   if (!at_seam && least_empty + kDarker < least) return kHole;
-  if (least < kNone) return share;
+  if (least < kNone && !at_seam) {
+    const ColorCurve::Between between = curve_->between(own, low, high);
+    if (between.error < kSideFits * errorOfMixture(own, least, low_color, high_color)) share = between.s;
+  }
+  if (least < kNone) return static_cast<double>(share);
   return at_seam || reading.distance > far_off ? kHole : static_cast<double>(reading.s);
 }
 

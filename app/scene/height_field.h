@@ -25,7 +25,8 @@ namespace relievo {
 //
 // Depth in colours is the point of the code's ColorCurve that is nearest to the colour. Subsampled chroma mixes the two
 // sides of a depth edge to a colour off the curve. Such a sample takes the reading of the near sample whose brightness
-// is most like its own, since brightness is not subsampled; if that one is black or red, it is a hole. If no near
+// is most like its own, since brightness is not subsampled; if that one is black or red, it is a hole. Where the edge
+// is soft, and a place of the curve between the two sides explains the colour better, it is that place. If no near
 // sample is on the curve, its own reading counts if it is not far off. Red, where both ends of the depth meet on the
 // circle of hues, is a hole in YUV unless a surface beside it ends there.
 class HeightField {

@@ -25,10 +25,47 @@ bool isGray16(const Frame& frame) noexcept {
   return frame.model == ColorModel::Gray && frame.components[0].bits == 16;
 }
 
-std::uint32_t grayAt(const Frame& frame, int c, int r) noexcept {
-  const Component& k = frame.components[0];
+bool isPackable(const Frame& frame) noexcept {
+  return frame.model == ColorModel::Rgb && frame.components[0].bits == 8;
+}
+bool isPackedOrder(SampleOrder order) noexcept {
+  return order == SampleOrder::RedGreen || order == SampleOrder::GreenRed;
+}
+
+std::uint32_t partAt(const Frame& frame, std::size_t part, int c, int r) noexcept {
+  const Component& k = frame.components[part];
   const Plane& plane = frame.planes[k.plane];
   return codeAt(k, plane.data + r * plane.stride_bytes + k.offset_bytes + std::ptrdiff_t{c} * k.step_bytes);
+}
+
+// Whether the lower byte runs on where the upper one changes by one: on a slope that is so nearly everywhere, beside a
+// colour that has nothing to do with it hardly ever.
+bool carries(const Frame& frame, std::size_t upper, std::size_t lower) noexcept {
+  constexpr std::uint64_t kLeast = 32;
+  constexpr int kMostStep = 64;
+  std::uint64_t changes = 0, carried = 0;
+  for (int r = 0; r < frame.height; ++r) {
+    for (int c = 1; c < frame.width; ++c) {
+      const auto step = [&](std::size_t part) {
+        return static_cast<int>(partAt(frame, part, c, r)) - static_cast<int>(partAt(frame, part, c - 1, r));
+      };
+      const int rise = step(upper);
+      if (std::abs(rise) != 1) continue;
+      ++changes;
+      if (std::abs(256 * rise + step(lower)) <= kMostStep) ++carried;
+    }
+  }
+  return carried >= kLeast && 10 * carried >= 7 * changes;
+}
+
+std::uint32_t grayAt(const Frame& frame, int c, int r) noexcept {
+  return partAt(frame, 0, c, r);
+}
+
+std::uint32_t orderedAt(const Frame& frame, int c, int r, SampleOrder order) noexcept {
+  if (!isPackedOrder(order)) return ordered(grayAt(frame, c, r), order);
+  const std::uint32_t red = partAt(frame, 0, c, r), green = partAt(frame, 1, c, r);
+  return order == SampleOrder::RedGreen ? red << 8 | green : green << 8 | red;
 }
 
 }  // namespace
@@ -74,6 +111,17 @@ CodeCount::Reach CodeCount::reach(double outliers, std::uint32_t low, std::uint3
     reach.high = std::max(reach.high, later.quantile(1 - outliers, low, high));
   }
   return reach;
+}
+
+CodeCount CodeCount::together() const {
+  CodeCount all = *this;
+  all.later_.clear();
+  for (const CodeCount& later : later_) {
+    if (later.bits_ != bits_) continue;
+    all.samples_ += later.samples_;
+    for (std::size_t code = 0; code < of_code_.size(); ++code) all.of_code_[code] += later.of_code_[code];
+  }
+  return all;
 }
 
 std::uint32_t CodeCount::step() const {
@@ -128,6 +176,19 @@ bool isSwapped(const Frame& depth) {
   return different >= kLeastDifferent && as_stored > kClearly * as_swapped;
 }
 
+SampleOrder packedOrder(const Frame& depth) {
+  if (!isPackable(depth)) return SampleOrder::AsStored;
+  std::uint64_t other_blue = 0;
+  const std::uint32_t blue = partAt(depth, 2, depth.width / 2, depth.height / 2);
+  for (int r = 0; r < depth.height; ++r) {
+    for (int c = 0; c < depth.width; ++c) other_blue += partAt(depth, 2, c, r) != blue ? 1 : 0;
+  }
+  const std::uint64_t samples = static_cast<std::uint64_t>(depth.width) * static_cast<std::uint64_t>(depth.height);
+  if (100 * other_blue > samples) return SampleOrder::AsStored;
+  if (carries(depth, 0, 1)) return SampleOrder::RedGreen;
+  return carries(depth, 1, 0) ? SampleOrder::GreenRed : SampleOrder::AsStored;
+}
+
 bool isScattered(const Frame& depth) {
   if (!isGray16(depth)) return false;
   std::uint64_t readings = 0, alone = 0;
@@ -150,13 +211,14 @@ SampleOrder orderOf(const KnownKind& kind, const Frame& stored) {
 }
 
 Result<Frame> inOrder(const Frame& depth, SampleOrder order) {
-  if (order == SampleOrder::AsStored || !isGray16(depth)) return depth;
+  const bool stored_so = isPackedOrder(order) ? isPackable(depth) : isGray16(depth);
+  if (order == SampleOrder::AsStored || !stored_so) return depth;
   try {
     auto samples = std::make_shared<std::vector<std::uint16_t>>();
     samples->reserve(static_cast<std::size_t>(depth.width) * static_cast<std::size_t>(depth.height));
     for (int r = 0; r < depth.height; ++r) {
       for (int c = 0; c < depth.width; ++c) {
-        samples->push_back(static_cast<std::uint16_t>(ordered(grayAt(depth, c, r), order)));
+        samples->push_back(static_cast<std::uint16_t>(orderedAt(depth, c, r, order)));
       }
     }
     Frame frame = grayFrame(std::move(samples), depth.width, depth.height);

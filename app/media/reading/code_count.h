@@ -15,7 +15,7 @@ class CodeCount {
  public:
   // Counts all samples of a gray or YUV picture, or of an RGB picture whose three components are equal.
   explicit CodeCount(const Frame& depth);
-  // A later picture of the same film: it counts for `reach` alone.
+  // A later picture of the same film: it counts for `reach` and `together` alone.
   void addLater(const Frame& depth) { later_.emplace_back(depth); }
 
   [[nodiscard]] int bits() const noexcept { return bits_; }
@@ -32,6 +32,8 @@ class CodeCount {
   // The codes from the quantile `outliers` to the quantile 1 - `outliers`, of those in `low` .. `high`: the widest that
   // this picture and the later ones span together.
   [[nodiscard]] Reach reach(double outliers, std::uint32_t low, std::uint32_t high) const;
+  // This picture and the later ones as one.
+  [[nodiscard]] CodeCount together() const;
   // The greatest common divisor of the codes that occur; 0 if only code 0 occurs.
   [[nodiscard]] std::uint32_t step() const;
   // The share, among the samples whose code is neither 0 nor 65535, of those that leave at most `most` when divided.
@@ -50,6 +52,9 @@ class CodeCount {
 
 // True for a picture of 16-bit gray whose neighbouring samples are alike only after their bytes are swapped.
 [[nodiscard]] bool isSwapped(const Frame& depth);
+// How the two bytes of 16-bit codes lie in the red and green of a picture of RGB in 8 bits, whose blue is one code; as
+// stored unless the lower byte carries into the upper one nearly wherever that changes by one.
+[[nodiscard]] SampleOrder packedOrder(const Frame& depth);
 // True if most samples with a reading have none beside, above and below: the points of a laser scanner.
 [[nodiscard]] bool isScattered(const Frame& depth);
 
@@ -57,7 +62,7 @@ class CodeCount {
 // Kinect's raw codes in order already.
 [[nodiscard]] SampleOrder orderOf(const KnownKind& kind, const Frame& stored);
 
-// The picture with its 16-bit gray codes put in order: a copy; other pictures, and those as stored, by reference.
+// The picture with its 16-bit codes put in order, as gray: a copy; other pictures, and those as stored, by reference.
 // Exhausted if out of memory.
 [[nodiscard]] Result<Frame> inOrder(const Frame& depth, SampleOrder order);
 

@@ -108,14 +108,14 @@ CodeCount countOf(const Frame& look, std::span<const Frame> later) {
 
 }  // namespace
 
-const KnownKind* kindOf(const DepthClues& clues, const Frame& stored) {
+const KnownKind* kindOf(const DepthClues& clues, const Frame& stored, std::span<const Frame> later) {
   if (clues.as != nullptr) return clues.as;
   if (isOfStereoCamera(clues.place.kind) && clues.code == DepthCode::Luma && !definesCodes(saidLayers(clues))) {
     return clues.place.kind;
   }
   if (stored.value_per_code != 0 || definesCodes(saidLayers(clues))) return nullptr;
   if (clues.place.kind != nullptr && fits(*clues.place.kind, clues.code, stored)) return clues.place.kind;
-  return clues.code == DepthCode::Luma ? sensorKind(stored, CodeCount(stored)) : nullptr;
+  return clues.code == DepthCode::Luma ? sensorKind(stored, countOf(stored, later)) : nullptr;
 }
 
 bool isReachSeen(const CalibrationChoice& choice) {

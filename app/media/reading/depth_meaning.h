@@ -37,8 +37,8 @@ struct DepthMeaning {
 };
 
 // The recording's kind: stated, else told by its place if its pictures are of that form, else shown by the picture,
-// whose samples are as stored. Null if none is known or the codes' meaning was said.
-[[nodiscard]] const KnownKind* kindOf(const DepthClues& clues, const Frame& stored);
+// whose samples are as stored, and by `later` ones. Null if none is known or the codes' meaning was said.
+[[nodiscard]] const KnownKind* kindOf(const DepthClues& clues, const Frame& stored, std::span<const Frame> later = {});
 
 // `kind`: kindOf; `look`: a depth picture that is not blank, its samples in the kind's order; `later`: further ones, so
 // that near and far hold for the whole film. Errors as chooseCalibration.

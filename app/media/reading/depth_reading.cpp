@@ -199,6 +199,11 @@ bool definesCodes(const CalibrationLayers& said) {
 }
 
 const KnownKind* sensorKind(const Frame& depth, const CodeCount& count) {
+  if (const SampleOrder packed = packedOrder(depth); packed != SampleOrder::AsStored) {
+    const auto ordered = inOrder(depth, packed);
+    const bool distances = ordered && isDistances(CodeCount(*ordered));
+    return distances ? findKind(packed == SampleOrder::RedGreen ? "rg-packed" : "gr-packed") : nullptr;
+  }
   if (depth.model != ColorModel::Gray || count.bits() != 16) return nullptr;
   if (isSwapped(depth)) {
     const auto ordered = inOrder(depth, SampleOrder::Swapped);
@@ -212,8 +217,9 @@ const KnownKind* sensorKind(const Frame& depth, const CodeCount& count) {
   const std::uint32_t step = count.step();
   if ((step > kMostStep && step != kTenths) || !isDistances(count)) return nullptr;  // fewer bits, stretched
   if (count.share(0, 0) > 0.5 && isScattered(depth)) return findKind("kitti");
-  const auto at = [&](double q) { return count.quantile(q, 1, kTop - 1); };
-  const bool fine = (at(1 - kOutliers) > kFarthestMm || at(0.5) > kMiddleMm) && at(kOutliers) > kLeastOfFine;
+  const Reach reach = reachOf(count, 1, kTop - 1);
+  const bool fine =
+      (reach.high > kFarthestMm || count.together().quantile(0.5, 1, kTop - 1) > kMiddleMm) && reach.low > kLeastOfFine;
   return findKind(!fine ? "mm" : step == kTenths ? "ycb" : "tum");
 }
 

@@ -30,7 +30,8 @@ struct DepthReading {
 [[nodiscard]] DepthReading readCodes(const Frame& depth, const CodeCount& count, const CalibrationLayers& said,
                                      const KnownKind* kind = nullptr);
 
-// The kind that `readCodes` will find, before the samples are put in its order. Null if nothing is certain.
+// The kind that `readCodes` will find, before the samples are put in its order. The unit of distances is told from all
+// pictures of `count`. Null if nothing is certain.
 [[nodiscard]] const KnownKind* sensorKind(const Frame& depth, const CodeCount& count);
 
 // The distances at both ends of the hues.

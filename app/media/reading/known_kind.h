@@ -18,6 +18,8 @@ enum class SampleOrder : std::uint8_t {
   AsStored,
   RotatedLeft3,  // SUN RGB-D: the upper three bits are the lowest
   Swapped,       // big and little endian are confused
+  RedGreen,      // of RGB in 8 bits: red is the upper byte, green the lower one
+  GreenRed       // likewise, the other way round
 };
 
 // Codes that are inversely proportional to the distance: mm / (offset - code) for a positive offset, else mm / code.

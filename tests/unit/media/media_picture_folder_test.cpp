@@ -117,6 +117,32 @@ TEST_F(PictureFolder, NearAndFarHoldForTheWholeRecording) {
   EXPECT_EQ(sampleAt((*pair)->depth, 0, 31, 23), 2130u);
 }
 
+// 5000 codes a metre look like mm while all is near, mm look like 5000 a metre while all is far.
+TEST_F(PictureFolder, TheUnitIsToldFromTheWholeRecording) {
+  const struct {
+    const char* name;
+    int first_low, first_high, later_low, later_high;
+    double unit_mm, near_mm, far_mm;
+  } kFolders[] = {{"tum", 4000, 4900, 4100, 17000, 0.2, 800, 3400}, {"mm", 5200, 8100, 640, 7900, 1, 640, 8100}};
+  for (const auto& folder : kFolders) {
+    const std::string name = folder.name;
+    for (int k = 10; k < 40; ++k) {
+      picture(name + "/rgb/" + std::to_string(k) + ".ppm", k);
+      const bool later = k > 25;
+      slope(folder_ / (name + "/depth/" + std::to_string(k) + ".pgm"), later ? folder.later_low : folder.first_low,
+            later ? folder.later_high : folder.first_high);
+    }
+    PairReader reader(kReal);
+    ASSERT_TRUE(reader.open({.url = folder_ / name}));
+    const DepthCalibration& read = reader.info().calibration.calibration;
+    EXPECT_EQ(read.unit_mm, folder.unit_mm) << name;
+    EXPECT_LE(read.near_mm, folder.near_mm) << name;
+    EXPECT_GE(read.near_mm, 0.85 * folder.near_mm) << name;
+    EXPECT_GE(read.far_mm, folder.far_mm) << name;
+    EXPECT_LE(read.far_mm, 1.15 * folder.far_mm) << name;
+  }
+}
+
 TEST_F(PictureFolder, APictureBeyondThoseLookedAtIsToldOnce) {
   for (int k = 0; k < 64; ++k) {
     picture("o/rgb/" + std::to_string(100 + k) + ".ppm", k);

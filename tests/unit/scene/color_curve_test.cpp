@@ -32,6 +32,8 @@ const Map kMaps[] = {
     {DepthCode::Plasma, {{{32, 6, 143}, {160, 26, 156}, {232, 112, 89}, {252, 210, 37}}}},
     {DepthCode::Rainbow, {{{114, 22, 255}, {48, 225, 218}, {198, 231, 137}, {255, 71, 36}}}},
     {DepthCode::Spectral, {{{82, 95, 169}, {198, 232, 159}, {254, 204, 123}, {208, 56, 78}}}},
+    // Between ColorBrewer's nine colours, worked out.
+    {DepthCode::YlGnBu, {{{251, 253, 208}, {144, 212, 185}, {30, 139, 189}, {29, 46, 131}}}},
     // Jet, worked out from red min(4x - 3/2, 9/2 - 4x), green min(4x - 1/2, 7/2 - 4x), blue min(4x + 1/2, 5/2 - 4x).
     {DepthCode::Jet, {{{0, 0, 155.5}, {0, 224.5, 255}, {255, 240.5, 0}, {219.5, 0, 0}}}},
     // The sum of the three is three times the entry.
@@ -146,6 +148,19 @@ TEST(HueOverYuv, EverySampleAtAnEdgeIsOneSideOrTheOther) {
     }
     EXPECT_LE(holes, 1) << left << ' ' << right << ": in the corner";
     EXPECT_LE(wrong_side, 8) << left << ' ' << right << ": brightness tells the sides apart";
+  }
+}
+
+// Of an edge that takes five samples, those in its middle are on neither side.
+TEST(HueOverYuv, ASoftEdgeHasItsSlope) {
+  for (const auto& [left, right] : {std::pair(0.5, 0.8), {0.8, 0.5}, {0.1, 0.4}, {0.25, 0.65}}) {
+    const auto truth = [&](int c) { return left + (right - left) / (1 + std::exp(-(c - 20.3))); };
+    const Film film{.color = [&](int c, int) { return hue(truth(c)); }};
+    const Frame frame = film.frame();
+    const auto field = HeightField::make(frame, kHue, kUnit).value();
+    for (int c = 0; c < 48; ++c) {
+      EXPECT_NEAR(field.heightMm(c, 10), truth(c), 0.06) << left << ' ' << right << " at " << c;
+    }
   }
 }
 

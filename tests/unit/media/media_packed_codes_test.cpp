@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// Depth whose 16-bit codes lie in two bytes of an RGB picture: read, and not taken for hue; hues and photos are not
+// taken for it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "app/media/pair_reader.h"
+#include "app/media/reading/code_count.h"
+#include "app/scene/height_field.h"
+#include "drivers/registry.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/film/recorded_scene.h"
+
+namespace relievo {
+namespace {
+
+using test::ClipTrack;
+using test::distanceMm;
+using test::hueColor;
+using test::makeClip;
+using test::TemporaryFolder;
+
+constexpr DisplayVolume kVolume{160, 108, 40};
+const PairReader::Backends kReal{.make_source = drivers::makeMediaSource, .make_decoder = drivers::makeSoftwareDecoder};
+
+// Pictures of RGB in 8 bits: the value of component k.
+ClipTrack pictures(std::function<std::uint32_t(int, int, int)> value) {
+  ClipTrack track{
+      .codec = "png", .pix_fmt = "rgb24", .width = test::kSceneCols, .height = test::kSceneRows, .frames = 1};
+  track.sample = [value = std::move(value)](int k, int c, int r, int) { return value(k, c, r); };
+  return track;
+}
+ClipTrack packed(int upper, std::uint32_t blue = 0) {
+  return pictures([=](int k, int c, int r) {
+    const auto code = static_cast<std::uint32_t>(std::lround(distanceMm(c, r)));
+    return k == 2 ? blue : k == upper ? code >> 8 : code & 0xff;
+  });
+}
+
+FramePair firstPair(PairReader& reader, const SourceOptions& options) {
+  const auto opened = reader.open(options);
+  EXPECT_TRUE(opened) << opened.error().message;
+  auto pair = reader.next();
+  return pair && *pair ? std::move(**pair) : FramePair{};
+}
+
+// The distance of each sample, and holes; z = D (far - Z)/(far - near).
+void expectDistances(const Frame& depth, const DepthCalibration& calibration) {
+  const HeightField field = HeightField::make(depth, calibration, kVolume).value();
+  for (int r = 0; r < test::kSceneRows; ++r) {
+    for (int c = 0; c < test::kSceneCols; ++c) {
+      const double mm = distanceMm(c, r), height = field.heightMm(c, r);
+      ASSERT_EQ(std::isnan(height), mm == 0) << c << ", " << r;
+      if (mm == 0) continue;
+      const double read = calibration.far_mm - height / kVolume.depth_mm * (calibration.far_mm - calibration.near_mm);
+      ASSERT_NEAR(read, mm, 0.51) << c << ", " << r;
+    }
+  }
+}
+
+TEST(PackedCodes, RedAndGreenAreTheBytesOfADistance) {
+  for (const int upper : {0, 1}) {
+    TemporaryFolder folder;
+    makeClip(folder / "color.png", {pictures([](int, int c, int r) { return static_cast<std::uint32_t>(c + r); })});
+    makeClip(folder / "depth.png", {packed(upper, upper == 0 ? 0 : 255)});
+    PairReader reader(kReal);
+    const FramePair pair = firstPair(reader, {.url = folder / "color.png", .depth_url = folder / "depth.png"});
+    ASSERT_FALSE(pair.depth.empty());
+    expectDistances(pair.depth, reader.info().calibration.calibration);
+    const FilmReading& reading = reader.info().reading;
+    EXPECT_NE(plainLine(reading, reader.info().calibration.calibration).find("two bytes"), std::string::npos);
+  }
+}
+
+TEST(PackedCodes, AloneTheyAreFeltAsWell) {
+  TemporaryFolder folder;
+  makeClip(folder / "a.png", {packed(0)});
+  PairReader reader(kReal);
+  const FramePair pair = firstPair(reader, {.url = folder / "a.png"});
+  EXPECT_EQ(reader.info().packing, Packing::DepthAlone);
+  ASSERT_FALSE(pair.depth.empty());
+  expectDistances(pair.depth, reader.info().calibration.calibration);
+  EXPECT_EQ(pair.color.components[0].bits, pair.color.components[1].bits) << "shown as gray";
+}
+
+// Red to yellow to green is one byte at its top while the other runs; blue is 0 in all of it.
+TEST(PackedCodes, HuesAndPhotosAreNone) {
+  const auto orderOf = [](const ClipTrack& track) {
+    TemporaryFolder folder;
+    makeClip(folder / "a.png", {track});
+    PairReader reader(kReal);
+    const FramePair pair = firstPair(reader, {.url = folder / "a.png", .packing = Packing::DepthAlone});
+    return packedOrder(pair.depth);
+  };
+  EXPECT_EQ(orderOf(pictures([](int k, int c, int r) {
+              const double mm = distanceMm(c, r), s = mm == 0 ? 0 : (mm - 1000) / 3300;
+              return static_cast<std::uint32_t>(std::lround(255 * hueColor(s)[static_cast<std::size_t>(k)]));
+            })),
+            SampleOrder::AsStored);
+  EXPECT_EQ(orderOf(pictures([](int k, int c, int r) {
+              return k == 2 ? 0u : static_cast<std::uint32_t>(k == 0 ? c / 2 + r / 3 : 2 * c % 256 + (c * r) % 7);
+            })),
+            SampleOrder::AsStored);
+}
+
+}  // namespace
+}  // namespace relievo
