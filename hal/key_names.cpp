@@ -186,6 +186,15 @@ std::string_view withoutPrefix(std::string_view name) noexcept {
   return name;
 }
 
+constexpr std::string_view kCtrl = "CTRL_", kShift = "SHIFT_";
+
+// Takes the prefix off; `held` if it was there, else 0.
+std::uint16_t takeHeld(std::string_view& name, std::string_view prefix, std::uint16_t held) noexcept {
+  if (!equalInUpperCase(name.substr(0, prefix.size()), prefix)) return 0;
+  name.remove_prefix(prefix.size());
+  return held;
+}
+
 // Keeps letters and digits only, in upper case.
 std::string essence(std::string_view word) {
   std::string kept;
@@ -200,18 +209,20 @@ std::string essence(std::string_view word) {
 }  // namespace
 
 std::optional<std::uint16_t> keyCode(std::string_view name) noexcept {
+  const std::uint16_t held = takeHeld(name, kCtrl, kWithCtrl) | takeHeld(name, kShift, kWithShift);
   name = withoutPrefix(name);
   for (const KeyName& key : kKeys) {
-    if (equalInUpperCase(name, key.name)) return key.code;
+    if (equalInUpperCase(name, key.name)) return key.code | held;
   }
   return std::nullopt;
 }
 
-std::string_view keyName(std::uint16_t code) noexcept {
-  for (const KeyName& key : kKeys) {
-    if (key.code == code) return key.name;
-  }
-  return {};
+std::string keyName(std::uint16_t code) {
+  const auto* const key = std::ranges::find(kKeys, withoutShiftAndCtrl(code), &KeyName::code);
+  if (key == std::end(kKeys)) return "";
+  std::string name((code & kWithCtrl) != 0 ? kCtrl : "");
+  if ((code & kWithShift) != 0) name += kShift;
+  return name.append(key->name);
 }
 
 std::string_view nearestKeyName(std::string_view word) {

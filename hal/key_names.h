@@ -4,15 +4,22 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace relievo {
 
-// `name`: with or without "KEY_", in upper or lower case. nullopt for an unknown key.
+// Of a key that is pressed while Shift or Ctrl is held: the key's code, and these.
+inline constexpr std::uint16_t kWithShift = 0x4000, kWithCtrl = 0x8000;
+[[nodiscard]] constexpr std::uint16_t withoutShiftAndCtrl(std::uint16_t code) noexcept {
+  return code & static_cast<std::uint16_t>(~(kWithShift | kWithCtrl));
+}
+
+// `name`: with or without "KEY_", in upper or lower case; "SHIFT_G", "CTRL_EQUAL". nullopt for an unknown key.
 [[nodiscard]] std::optional<std::uint16_t> keyCode(std::string_view name) noexcept;
 
 // Without "KEY_"; empty for an unknown code.
-[[nodiscard]] std::string_view keyName(std::uint16_t code) noexcept;
+[[nodiscard]] std::string keyName(std::uint16_t code);
 
 // The name whose spelling is nearest to `word`, ignoring blanks, '-', '_' and case: FASTFORWARD for "fast forward".
 // Empty if none is near.

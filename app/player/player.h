@@ -105,12 +105,16 @@ class Player {
   [[nodiscard]] bool alive() const noexcept;
   [[nodiscard]] MonotonicTime nextWake(MonotonicTime now) const;
   void finish(MonotonicTime now);
+
+  // player_keys.cpp: keys, the mouse, commands
   void obeyPicture(const PlayerCommand& command, MonotonicTime now);
   void readRemote(MonotonicTime now);
   [[nodiscard]] bool hearMouse(const SurfaceMouse& mouse);
   void followMouse(MonotonicTime now);
   void noteUnbound(const KeyEvent& key, MonotonicTime now);
   [[nodiscard]] ScreenRows keyRows() const;
+
+  // player_facts.cpp: what is told
   void followStatistics(MonotonicTime now);
   void tellStatus(MonotonicTime now);
 
@@ -178,6 +182,7 @@ class Player {
   bool mouse_pressed_ = false;  // in the list
   bool chosen_ = false;         // the mouse has chosen the selected film
   Statistics statistics_;
+  int notches_ = 0;                   // of the mouse's wheel that are not obeyed yet
   std::optional<double> dragged_to_;  // the film's place, 0 to 1, that the mouse has pressed on the bar
   bool words_shown_ = true;
   Duration subtitle_delay_{0};

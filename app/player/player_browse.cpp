@@ -76,6 +76,7 @@ void Player::followBrowser(MonotonicTime now) {
     return;
   }
   if (std::exchange(chosen_, false)) return chooseFilm(now);
+  browser_->warn(screen_.text().showsWarning(now));
   if (browser_->attend(now)) screen_.text().setList(browser_->view());
   if (auto drawn = screen_.redraw(touch_.mark(), MonotonicTime::max(), now); !drawn) failDrawing(drawn.error());
 }

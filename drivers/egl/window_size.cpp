@@ -36,7 +36,9 @@ void WindowDisplay::setFullScreen(FullScreen wish) {
     SDL_GetWindowSize(window_, &before_.w, &before_.h);
   }
   SDL_SetWindowFullscreen(window_, fill ? Uint32{SDL_WINDOW_FULLSCREEN_DESKTOP} : 0U);
+  const bool unanswered = fill_asked_.has_value();  // SDL may have a size that the window never got
   fill_asked_ = fill ? std::optional(clock_.now()) : std::nullopt;
+  if (!fill && unanswered) leaveByHand();
 }
 
 // A window manager fills the screen with the window on SDL's request. Without one nobody does.

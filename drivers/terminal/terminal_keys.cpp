@@ -55,8 +55,11 @@ std::optional<std::uint16_t> takeTerminalKey(std::string_view& bytes) noexcept {
   }
   const auto* const known = std::ranges::find(kCharacters, first, &Character::character);
   if (known != std::end(kCharacters)) return known->code;
-  const bool named = (first >= '0' && first <= '9') || (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z');
-  return named ? keyCode({&first, 1}) : std::nullopt;
+  const bool capital = first >= 'A' && first <= 'Z';
+  const bool named = capital || (first >= '0' && first <= '9') || (first >= 'a' && first <= 'z');
+  if (!named) return std::nullopt;
+  const auto code = keyCode({&first, 1});
+  return code && capital ? std::optional<std::uint16_t>(*code | kWithShift) : code;
 }
 
 }  // namespace relievo

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <utility>
 
 #include "app/player/browse/shelf_view.h"
 #include "app/player/film/resume.h"
@@ -91,6 +92,10 @@ void Browser::point(std::optional<std::size_t> film) {
   changed_ = true;
 }
 
+void Browser::warn(bool warned) {
+  if (std::exchange(warned_, warned) != warned) draw();
+}
+
 void Browser::look(MonotonicTime now) {
   next_look_ = now + kLookPeriod;
   std::vector<std::string> files;
@@ -139,7 +144,9 @@ void Browser::fill() {
 
 void Browser::draw() {
   const auto pointed = view_.pointed;
-  view_ = viewOf(shelf_, [this](const std::string& url) { return posters_.find(url); }, nothingThere());
+  view_ = viewOf(
+      shelf_, [this](const std::string& url) { return posters_.find(url); }, nothingThere(),
+      warned_ ? ScreenList::kBottomOverWarning : ScreenList::kBottom);
   view_.pointed = pointed;
   changed_ = true;
   std::vector<WishedPoster> wishes;

@@ -46,6 +46,8 @@ class Browser {
   void select(std::size_t film);
   // The mouse is over this film of the view, or over none.
   void point(std::optional<std::size_t> film);
+  // Rows stand no lower than a warning, while there is one.
+  void warn(bool warned);
   [[nodiscard]] const ScreenList& view() const noexcept { return view_; }
 
  private:
@@ -66,6 +68,7 @@ class Browser {
   std::vector<std::string> sticks_before_;  // while a film is played
   bool moved_ = false;                      // the viewer has selected a film; before that it is the first one
   bool changed_ = false;
+  bool warned_ = false;
 };
 
 }  // namespace relievo

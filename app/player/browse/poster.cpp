@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/media/reading/picture_look.h"
+#include "app/player/browse/sdr_color.h"
 
 namespace relievo {
 namespace {
@@ -42,7 +43,8 @@ TextPicture posterOf(const Frame& frame) {
   poster.rgba.reserve(std::size_t{4} * static_cast<std::size_t>(poster.cols) * static_cast<std::size_t>(poster.rows));
   for (int y = 0; y < poster.rows; ++y) {
     for (int x = 0; x < poster.cols; ++x) {
-      const PictureColor color = meanOf(frame, x, y, poster.cols, poster.rows);
+      const PictureColor color =
+          asSdr(meanOf(frame, x, y, poster.cols, poster.rows), frame.transfer, frame.primaries);
       poster.rgba.insert(poster.rgba.end(), {byteOf(color.red), byteOf(color.green), byteOf(color.blue), 255});
     }
   }

@@ -9,8 +9,6 @@
 namespace relievo {
 namespace {
 
-constexpr double kArea = ScreenList::kBottom - ScreenList::kTop;
-
 // Calls `visit(section, film, top, height)` for each row from the top of the whole list down; film null: a heading.
 template <class Visit>
 double walk(const FilmShelf& shelf, Visit&& visit) {
@@ -47,7 +45,8 @@ std::string timesOf(const ShelfFilm& film, double length_s) {
   return clockTime(*film.left_s) + (length.empty() ? "" : " of " + length);
 }
 
-ScreenList viewOf(const FilmShelf& shelf, const PosterOf& poster, const std::string& empty) {
+ScreenList viewOf(const FilmShelf& shelf, const PosterOf& poster, const std::string& empty, double bottom) {
+  const double area = bottom - ScreenList::kTop;
   ScreenList list{.rows = {}, .selected = shelf.selected(), .films = shelf.size(), .message = {}, .pointed = {}};
   if (shelf.empty()) {
     list.message = empty;
@@ -58,12 +57,12 @@ ScreenList viewOf(const FilmShelf& shelf, const PosterOf& poster, const std::str
   const double whole = walk(shelf, [&](const ShelfSection&, const ShelfFilm* film, double top) {
     if (film != nullptr && number++ == shelf.selected()) middle = top + ScreenListRow::kFilm / 2;
   });
-  const double offset = std::clamp(middle - kArea / 2, 0.0, std::max(0.0, whole - kArea));
+  const double offset = std::clamp(middle - area / 2, 0.0, std::max(0.0, whole - area));
   number = 0;
   walk(shelf, [&](const ShelfSection& section, const ShelfFilm* film, double top) {
     const double height = film == nullptr ? ScreenListRow::kHeading : ScreenListRow::kFilm;
     const std::size_t this_one = film == nullptr ? 0 : number++;
-    if (top < offset || top + height > offset + kArea) return;
+    if (top < offset || top + height > offset + area) return;
     ScreenListRow row;
     if (film != nullptr) row = rowOf(*film, this_one, poster);
     else row.title = section.name;
@@ -75,7 +74,7 @@ ScreenList viewOf(const FilmShelf& shelf, const PosterOf& poster, const std::str
     for (ScreenListRow& row : list.rows) row.top -= gap;
   }
   list.before = offset / whole;
-  list.shown = std::min(1.0, kArea / whole);
+  list.shown = std::min(1.0, area / whole);
   return list;
 }
 

@@ -16,8 +16,9 @@ namespace relievo {
 using PosterOf = std::function<std::shared_ptr<const Poster>(const std::string& url)>;
 
 // The selected film stands in the middle, except near the list's ends. Only whole rows are shown. `empty`: what it says
-// without any film. Pure.
-[[nodiscard]] ScreenList viewOf(const FilmShelf& shelf, const PosterOf& poster, const std::string& empty);
+// without any film. `bottom`: of the rows. Pure.
+[[nodiscard]] ScreenList viewOf(const FilmShelf& shelf, const PosterOf& poster, const std::string& empty,
+                                double bottom = ScreenList::kBottom);
 
 // "12:31 of 1:02:10", "1:02:10", "12:31", "": of what is known.
 [[nodiscard]] std::string timesOf(const ShelfFilm& film, double length_s);

@@ -49,10 +49,10 @@ constexpr std::array kEntries{
     Entry{PlayerVerb::SelectTo, "select", Operand::Row, ""},
     Entry{PlayerVerb::Choose, "choose", Operand::None, "play the selected film"},
     Entry{PlayerVerb::Back, "back", Operand::None, "to the list of films, or end the film"},
-    Entry{PlayerVerb::Escape, "escape", Operand::None, "out of full screen, then to the list"},
+    Entry{PlayerVerb::Escape, "escape", Operand::None, "out of this page or of full screen, then to the list"},
     Entry{PlayerVerb::Stop, "stop", Operand::None, "end the film"},
     Entry{PlayerVerb::Quit, "quit", Operand::None, "end the program"},
-    Entry{PlayerVerb::Layout, "layout", Operand::Layout, "the next way to show stereo"},
+    Entry{PlayerVerb::Layout, "layout", Operand::Layout, "the next way to show 3D: side by side, .."},
     Entry{PlayerVerb::FullScreen, "full-screen", Operand::OnOff, "the whole screen, or a window again"},
     Entry{PlayerVerb::SwapEyes, "swap-eyes", Operand::None, "left eye right, right eye left"},
     Entry{PlayerVerb::DepthBy, "depth", Operand::Step, "", true},
@@ -71,6 +71,7 @@ constexpr std::array kEntries{
     Entry{PlayerVerb::SubtitleTrack, "subtitles", Operand::Track, "the next subtitles, or none"},
     Entry{PlayerVerb::ShowSubtitles, "show-subtitles", Operand::OnOff, "subtitles on or off"},
     Entry{PlayerVerb::SubtitleDelayBy, "subtitle-delay", Operand::Step, "subtitles", true},
+    Entry{PlayerVerb::SubtitleSizeBy, "subtitle-size", Operand::Step, "subtitles", true},
     Entry{PlayerVerb::ChapterBy, "chapter", Operand::Step, "chapter"},
     Entry{PlayerVerb::LoopAB, "ab-loop", Operand::None, "repeat from here; again: to here; again: no more"},
 };
@@ -189,6 +190,7 @@ std::string wordsOf(const PlayerCommand& command) {
     case PlayerVerb::VolumeBy:
     case PlayerVerb::AudioDelayBy:
     case PlayerVerb::SubtitleDelayBy:
+    case PlayerVerb::SubtitleSizeBy:
     case PlayerVerb::ChapterBy:
     case PlayerVerb::SelectBy:
       return word + print(" %+.6g", command.value);
@@ -268,6 +270,8 @@ std::string stepMeaning(const PlayerCommand& command, const Entry& entry) {
     case PlayerVerb::AudioDelayBy:
     case PlayerVerb::SubtitleDelayBy:
       return print("%s %.6g s %s", entry.meaning, by, up ? "later" : "earlier");
+    case PlayerVerb::SubtitleSizeBy:
+      return print("subtitles %.6g %% %s", 100 * by, up ? "larger" : "smaller");
     default:
       return print("%+.6g %s", command.value, entry.meaning);
   }

@@ -51,6 +51,7 @@ enum class PlayerVerb : std::uint8_t {
   SubtitleTrack,    // value: its number, from 1 on, -1: none, 0: the next one, or none after the last
   ShowSubtitles,    // on, off, or the other of the two, as Loop
   SubtitleDelayBy,  // seconds
+  SubtitleSizeBy,   // of 1
   ChapterBy,        // chapters; -1: this one's beginning, or the one before it
   LoopAB,           // first the beginning of what is repeated, then its end, then no more
 };

@@ -98,8 +98,11 @@ bool isDigit(std::uint16_t code) noexcept {
 }  // namespace
 
 std::string keyboardLabel(std::uint16_t code) {
+  if (const std::uint16_t alone = withoutShiftAndCtrl(code); alone != code) {
+    return ((code & kWithCtrl) != 0 ? "Ctrl+" : "Shift+") + keyboardLabel(alone);
+  }
   if (const auto label = find(kOnKeyboards, code); !label.empty()) return std::string(label);
-  std::string name(keyName(code));
+  std::string name = keyName(code);
   const bool function = name.size() > 1 && name.size() <= 3 && name[0] == 'F' && std::isdigit(name[1]) != 0;
   if (name.size() != 1) return function ? name : "";
   name[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(name[0])));
@@ -115,7 +118,7 @@ std::string remoteLabel(std::uint16_t code) {
   if (isDigit(code)) return std::to_string(code - KEY_NUMERIC_0);
   if (const auto label = find(kOnRemotes, code); !label.empty()) return std::string(label);
   if (std::string label = keyboardLabel(code); !label.empty()) return label;
-  std::string name(keyName(code));
+  std::string name = keyName(code);
   for (std::size_t i = 1; i < name.size(); ++i) {
     name[i] = static_cast<char>(std::tolower(static_cast<unsigned char>(name[i])));
   }
@@ -128,6 +131,7 @@ std::vector<std::pair<std::string, std::string>> mouseRows(bool in_list, bool to
   if (touches) {
     rows = {{"Hold the mouse button", "touch the film there"}, {"Wheel", "the finger away from you, or nearer"}};
   }
+  if (!touches) rows.emplace_back("Wheel", "louder, or quieter");
   rows.emplace_back("Click or drag on the bar", "to that time");
   rows.emplace_back("Double click", "the whole screen, or a window again");
   return rows;

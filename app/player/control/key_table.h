@@ -27,6 +27,7 @@ namespace relievo {
 //   [paused]
 //   RIGHT = "step"
 //   BLUE = ""                                      # means nothing
+//   SHIFT_G = "subtitle-size +0.1"                 # with Shift or Ctrl; without such a row, as the key alone
 //
 // Keys by their names in linux/input-event-codes.h, without KEY_; commands in the words of
 // app/player/control/command.h. Of two codes that remotes send for one word (PLAYCD for PLAY, ENTER and SELECT for OK,
@@ -80,6 +81,7 @@ class KeyReader {
   };
   KeyTable table_;
   std::optional<Pending> pending_;
+  std::uint16_t held_ = 0;  // Shift and Ctrl
 };
 
 }  // namespace relievo

@@ -178,6 +178,9 @@ void FilmScreen::obey(const PlayerCommand& command) {
     case PlayerVerb::ZoomBy:
       picture_.changeZoom(command.value);
       break;
+    case PlayerVerb::SubtitleSizeBy:
+      subtitles().changeSize(command.value);
+      break;
     case PlayerVerb::Aspect:
       changeAspect(command.word);
       break;

@@ -47,6 +47,7 @@ class FilmScreen {
   [[nodiscard]] Result<bool> show(const FramePair& pair, const std::optional<FingerMark>& finger, MonotonicTime now);
   // The subtitles of a film; see Picture.
   [[nodiscard]] SubtitleWords& subtitles() noexcept { return picture_.subtitles(); }
+  [[nodiscard]] double subtitleSize() const noexcept { return picture_.subtitles().size(); }
   void delaySubtitles(Duration delay);
   // The film goes on elsewhere: after an opening or a seek.
   void jump();
@@ -76,8 +77,8 @@ class FilmScreen {
   // The viewer has pressed a key: the text is shown for a while.
   void wake(MonotonicTime now) noexcept { text_.wake(now); }
   [[nodiscard]] ScreenText& text() noexcept { return text_; }
-  // Handles FullScreen, Layout, SwapEyes, DepthBy, ScreenBy, ZoomBy, Aspect, Info and Statistics; ignores other
-  // commands.
+  // Handles FullScreen, Layout, SwapEyes, DepthBy, ScreenBy, ZoomBy, Aspect, SubtitleSizeBy, Info and Statistics;
+  // ignores other commands.
   void obey(const PlayerCommand& command);
 
   [[nodiscard]] const StereoSettings& stereo() const noexcept { return picture_.stereo(); }

@@ -38,7 +38,7 @@ std::optional<ScreenNotice> noticeOf(const PlayerCommand& command, const ScreenF
     case PlayerVerb::Loop:
       return words(facts.loop ? "Plays again and again" : "Plays once");
     case PlayerVerb::Layout:
-      return words("3D: " + stereoWord(facts.stereo));
+      return words("3D: " + stereoTitle(facts.stereo));
     case PlayerVerb::SwapEyes:
       return words(facts.stereo.swap_eyes ? "Eyes swapped" : "Eyes not swapped");
     case PlayerVerb::DepthBy:
@@ -63,6 +63,8 @@ std::optional<ScreenNotice> noticeOf(const PlayerCommand& command, const ScreenF
       return words("Subtitles: " + facts.subtitle_track);
     case PlayerVerb::SubtitleDelayBy:
       return words(delayWords("Subtitles", facts.subtitle_delay_s));
+    case PlayerVerb::SubtitleSizeBy:
+      return words(print("Subtitles %.0f %%", 100 * facts.subtitle_size));
     case PlayerVerb::LoopAB:
       return words(!facts.loop_from_s ? "A-B loop off"
                    : !facts.loop_to_s ? "A-B loop: from here"

@@ -57,6 +57,7 @@ class Picture {
   void setText(ScreenContent content) { text_ = std::move(content); }
   // Shown with the pictures of their times, `delay` later.
   [[nodiscard]] SubtitleWords& subtitles() noexcept { return subtitles_; }
+  [[nodiscard]] const SubtitleWords& subtitles() const noexcept { return subtitles_; }
   void delaySubtitles(Duration delay) noexcept { subtitle_delay_ = delay; }
   // The next picture does not continue this one.
   void cut() noexcept { cut_ = true; }

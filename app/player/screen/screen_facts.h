@@ -29,8 +29,9 @@ struct ScreenFacts {
   double volume_percent = 100;
   bool muted = false;
   std::string sound_track, subtitle_track;  // "2 of 3, jpn, Director"; "off"
-  double sound_delay_s = 0, subtitle_delay_s = 0;
-  std::string aspect;                            // the shape's word
+  double sound_delay_s = 0, subtitle_delay_s = 0, subtitle_size = 1;
+  std::string aspect;  // the shape's word
+  bool full_screen = false;
   std::optional<double> loop_from_s, loop_to_s;  // of an A-B loop
   // Where the finger is in the picture, in shares from its middle, right and up: inside within 0.5.
   std::optional<double> finger_across, finger_up;

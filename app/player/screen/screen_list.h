@@ -29,6 +29,7 @@ struct ScreenListRow {
 
 struct ScreenList {
   static constexpr double kTop = 80, kBottom = 664;  // of the rows
+  static constexpr double kBottomOverWarning = 560;  // likewise, while a warning stands below them
 
   std::vector<ScreenListRow> rows;  // those that find room, from the top down
   std::size_t selected = 0, films = 0;

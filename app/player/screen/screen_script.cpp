@@ -216,7 +216,7 @@ std::vector<std::string> screenLines(const ScreenContent& content, double aspect
 }
 
 std::vector<std::string> linesOverPosters(const ScreenContent& content, double aspect) {
-  constexpr double kWarningTop = 590;
+  constexpr double kWarningTop = ScreenList::kBottomOverWarning + 2;
   Script script(kScreenRows * aspect);
   if (!content.list) return {};
   if (!content.warning.empty()) addWarning(script, content.warning, kWarningTop, 1);

@@ -28,7 +28,7 @@ std::string timesOf(const ScreenFacts& facts) {
 }
 
 std::string stereoWords(const ScreenFacts& facts) {
-  std::string words = "3D: " + stereoWord(facts.stereo);
+  std::string words = "3D: " + stereoTitle(facts.stereo);
   if (!facts.has_depth) return words + ", flat: the film has no depth";
   if (facts.stereo.swap_eyes) words += ", eyes swapped";
   if (facts.stereo.strength != 1.0) words += print(", depth %.0f %%", 100 * facts.stereo.strength);
@@ -37,8 +37,9 @@ std::string stereoWords(const ScreenFacts& facts) {
 
 std::string hapticWords(const ScreenFacts& facts) {
   if (facts.haptic.empty()) return "touch: no device";
-  if (!facts.has_depth) return "touch: " + facts.haptic + ", nothing to feel";
-  return "touch: " + facts.haptic + (facts.contact ? ", in contact" : "");
+  const std::string device = facts.haptic == "pointer" ? "mouse" : facts.haptic;
+  if (!facts.has_depth) return "touch: " + device + ", nothing to feel";
+  return "touch: " + device + (facts.contact ? ", in contact" : "");
 }
 
 double rounded(double value, double steps) noexcept {

@@ -72,6 +72,8 @@ class ScreenText {
   void toggleStatistics() noexcept { statistics_ = !statistics_; }
   // Shows these keys, or no longer.
   void toggleKeys(ScreenRows keys) { keys_ = keys_.empty() ? std::move(keys) : ScreenRows{}; }
+  [[nodiscard]] bool showsKeys() const noexcept { return !keys_.empty(); }
+  [[nodiscard]] bool showsWarning(MonotonicTime now) const noexcept { return now < told_until_; }
   // Why something is off.
   void tell(std::string why, MonotonicTime now);
   void forgetWarning() noexcept { told_until_ = {}; }

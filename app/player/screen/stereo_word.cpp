@@ -5,6 +5,8 @@
 #include <charconv>
 #include <string>
 
+#include "platform/print.h"
+
 namespace relievo {
 namespace {
 
@@ -66,6 +68,28 @@ std::string stereoWord(const StereoSettings& settings) {
     default:
       return word;
   }
+}
+
+std::string stereoTitle(const StereoSettings& settings) {
+  switch (settings.layout) {
+    case StereoLayout::Mono:
+      return "off";
+    case StereoLayout::SideBySide:
+      return settings.full ? "side by side, full width" : "side by side";
+    case StereoLayout::TopBottom:
+      return settings.full ? "top and bottom, full height" : "top and bottom";
+    case StereoLayout::Rows:
+      return "row by row";
+    case StereoLayout::Columns:
+      return "column by column";
+    case StereoLayout::Anaglyph:
+      return "red-cyan glasses";
+    case StereoLayout::FramePacking:
+      return "frame packing";
+    case StereoLayout::Quilt:
+      return print("quilt of %dx%d views", settings.quilt_cols, settings.quilt_rows);
+  }
+  return "";
 }
 
 std::optional<double> parseAspect(std::string_view word) {

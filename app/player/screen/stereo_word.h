@@ -15,6 +15,8 @@ namespace relievo {
 [[nodiscard]] bool parseStereo(std::string_view word, StereoSettings& settings);
 // The other way.
 [[nodiscard]] std::string stereoWord(const StereoSettings& settings);
+// For a viewer: "side by side", "red-cyan glasses", "off" for one picture.
+[[nodiscard]] std::string stereoTitle(const StereoSettings& settings);
 
 // "16:9", "2.35:1": the width over the height, 0.1 to 10. "film": 0, the picture's own. Nothing for another word.
 [[nodiscard]] std::optional<double> parseAspect(std::string_view word);

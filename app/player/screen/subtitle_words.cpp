@@ -19,15 +19,17 @@ std::string_view withoutOrder(std::string_view line) noexcept {
   return comma == std::string_view::npos ? line : line.substr(comma + 1);
 }
 
-TextPicture placed(const SubtitlePicture& picture, const Subtitle& subtitle, const TextFrame& frame) {
+// A larger one grows from the middle of its foot.
+TextPicture placed(const SubtitlePicture& picture, const Subtitle& subtitle, const TextFrame& frame, double size) {
   const double width = frame.width - 2 * frame.margin_x, height = frame.height - 2 * frame.margin_y;
   const double across = subtitle.canvas_width > 0 ? width / subtitle.canvas_width : 1.0;
   const double down = subtitle.canvas_height > 0 ? height / subtitle.canvas_height : 1.0;
   const auto pixels = [](double value) { return static_cast<int>(std::lround(value)); };
-  return {frame.margin_x + pixels(picture.x * across),
-          frame.margin_y + pixels(picture.y * down),
-          std::max(pixels(picture.width * across), 1),
-          std::max(pixels(picture.height * down), 1),
+  const double x = picture.x + 0.5 * picture.width * (1 - size), y = picture.y + picture.height * (1 - size);
+  return {frame.margin_x + pixels(x * across),
+          frame.margin_y + pixels(y * down),
+          std::max(pixels(picture.width * across * size), 1),
+          std::max(pixels(picture.height * down * size), 1),
           picture.width,
           picture.height,
           picture.rgba};
@@ -40,6 +42,7 @@ bool SubtitleWords::ready() {
   auto text = AssText::create();
   if (text) {
     text_.emplace(std::move(*text));
+    text_->setSize(size_);
     return true;
   }
   gave_up_ = true;
@@ -71,6 +74,13 @@ void SubtitleWords::addLines(const Subtitle& subtitle) {
   }
 }
 
+void SubtitleWords::changeSize(double by) noexcept {
+  constexpr double kLeast = 0.5, kMost = 3;
+  size_ = std::clamp(size_ + by, kLeast, kMost);
+  if (text_) text_->setSize(size_);
+  drawn_.reset();
+}
+
 void SubtitleWords::forget() {
   styles_.reset();
   seen_.clear();
@@ -94,7 +104,7 @@ bool SubtitleWords::drawPictures(const TextFrame& frame, MediaTime time) {
   if (drawn_ == std::pair(now->begin, frame)) return false;
   drawn_ = {now->begin, frame};
   pictures_.clear();
-  for (const SubtitlePicture& picture : now->pictures) pictures_.push_back(placed(picture, *now, frame));
+  for (const SubtitlePicture& picture : now->pictures) pictures_.push_back(placed(picture, *now, frame, size_));
   return true;
 }
 

@@ -30,6 +30,9 @@ class SubtitleWords {
   // Another track or film.
   void forget();
   void show(bool shown) noexcept { shown_ = shown; }
+  // Larger than the film has them, or smaller: 0.5 to 3.
+  void changeSize(double by) noexcept;
+  [[nodiscard]] double size() const noexcept { return size_; }
   // True if the pictures differ from the last ones.
   bool draw(const TextFrame& frame, MediaTime time, const SubtitleRoom& room = {});
   [[nodiscard]] const std::vector<TextPicture>& pictures() const noexcept { return pictures_; }
@@ -43,6 +46,7 @@ class SubtitleWords {
   bool lift(const TextFrame& frame, double down, bool anew);
 
   bool shown_ = true, was_shown_ = true;
+  double size_ = 1;
   std::optional<AssText> text_;
   bool gave_up_ = false;
   std::shared_ptr<const std::string> styles_;             // of the script in `text_`

@@ -139,6 +139,10 @@ void AssText::removeLines() {
   if (parts_->track) ass_flush_events(parts_->track.get());
 }
 
+void AssText::setSize(double factor) noexcept {
+  ass_set_font_scale(parts_->renderer.get(), factor);
+}
+
 bool AssText::draw(const TextFrame& frame, Duration time, std::vector<TextPicture>& pictures, bool anew) {
   if (!parts_->track) return std::exchange(pictures, {}).size() != 0;
   ASS_Renderer* const renderer = parts_->renderer.get();

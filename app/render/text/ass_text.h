@@ -27,6 +27,8 @@ class AssText {
   // "ReadOrder,Layer,Style,Name,MarginL,MarginR,MarginV,Effect,Text"; shown from `begin` on for `length`.
   void add(std::string_view line, Duration begin, Duration length);
   void removeLines();
+  // Of the letters, 1: as the script says.
+  void setSize(double factor) noexcept;
 
   // What is shown at `time`, as few pictures that do not overlap, in `pictures`. False if they are the same as the last
   // time: nothing is changed then, unless it is made `anew`.

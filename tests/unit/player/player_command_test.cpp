@@ -18,8 +18,8 @@ TEST(Command, EachHasWordsThatReadBackAsItself) {
   for (int verb = 0; verb <= static_cast<int>(V::LoopAB); ++verb) {
     for (const double value : {10.0, -0.5}) {
       PlayerCommand command{static_cast<V>(verb), 0};
-      const std::set<V> stepped{V::SeekBy,   V::DepthBy,      V::ScreenBy,        V::ZoomBy,
-                                V::VolumeBy, V::AudioDelayBy, V::SubtitleDelayBy, V::ChapterBy};
+      const std::set<V> stepped{V::SeekBy,       V::DepthBy,         V::ScreenBy,  V::ZoomBy,        V::VolumeBy,
+                                V::AudioDelayBy, V::SubtitleDelayBy, V::ChapterBy, V::SubtitleSizeBy};
       if (command.verb == V::SelectBy) command.value = value < 0 ? -1 : 10;
       if (command.verb == V::SelectTo) command.value = 3;
       if (stepped.contains(command.verb)) command.value = value;
@@ -33,7 +33,7 @@ TEST(Command, EachHasWordsThatReadBackAsItself) {
       all.insert(wordsOf(command));
     }
   }
-  EXPECT_EQ(all.size(), 52U);  // no two alike; nine with either sign
+  EXPECT_EQ(all.size(), 54U);  // no two alike; ten with either sign
 }
 
 TEST(Command, ASeeksNumberSaysWhatItCountsFrom) {
@@ -107,6 +107,7 @@ TEST(Command, SaysWhichWordIsWrong) {
 TEST(Command, ADelaySaysItsDirection) {
   EXPECT_EQ(meaningOf({V::SubtitleDelayBy, -0.1}), "subtitles 0.1 s earlier");
   EXPECT_EQ(meaningOf({V::SubtitleDelayBy, 0.1}), "subtitles 0.1 s later");
+  EXPECT_EQ(meaningOf({V::SubtitleSizeBy, -0.1}), "subtitles 10 % smaller");
   EXPECT_EQ(meaningOf({V::ScreenBy, 2}), "the scene 2 mm towards you");
   EXPECT_EQ(meaningOf({V::DepthBy, -0.1}), "10 % less depth for the eyes");
 }

@@ -174,6 +174,8 @@ TEST(KeyTable, ThePageNamesKeysAsTheyAreLabelled) {
   EXPECT_EQ(keyOf(State::Playing, KeyBoard::Remote, "to 10 % .. 90 % of the film"), "1 .. 9");
   EXPECT_EQ(keyOf(State::Playing, KeyBoard::Keyboard, "subtitles 0.1 s earlier"), "z");
   EXPECT_EQ(keyOf(State::Playing, KeyBoard::Keyboard, "the scene 2 mm away from you"), "F4");
+  EXPECT_EQ(keyOf(State::Playing, KeyBoard::Keyboard, "sound 0.1 s earlier"), "Ctrl+-");
+  EXPECT_EQ(keyOf(State::Playing, KeyBoard::Keyboard, "subtitles 10 % larger"), "Shift+g");
   EXPECT_EQ(keyOf(State::Browsing, KeyBoard::Keyboard, "the last film"), "End");
   EXPECT_EQ(keyOf(State::Browsing, KeyBoard::Keyboard, "play the selected film"), "Space, Right, Enter");
   for (const auto& [key, what] : table.rowsIn(State::Playing, KeyBoard::Keyboard)) {
@@ -195,7 +197,7 @@ TEST(KeyTable, HelpNamesEveryKeyAsScriptsDo) {
       ++names;
     }
   }
-  EXPECT_EQ(names, 103);
+  EXPECT_EQ(names, 111);
 }
 
 TEST(KeyTable, AFileChangesRowsAndLeavesTheRest) {
@@ -248,6 +250,18 @@ TEST(KeyTable, ItsOwnTextReadsBack) {
   EXPECT_TRUE(KeyTable::parse(KeyTable::usualText(), "usual"));
 }
 
+TEST(KeyTable, AKeyWithShiftOrCtrlIsARowOfItsOwn) {
+  const auto table = KeyTable::parse("[always]\nCTRL_Q = \"\"\nSHIFT_RIGHT = \"seek +1\"\n", "keys.toml");
+  ASSERT_TRUE(table) << table.error().thing;
+  EXPECT_EQ(keyName(KEY_RIGHT | kWithShift), "SHIFT_RIGHT");
+  EXPECT_EQ(keyName(KEY_Q | kWithShift | kWithCtrl), "CTRL_SHIFT_Q");
+  EXPECT_EQ(keyCode("key_ctrl_q"), std::nullopt);
+  EXPECT_EQ(wordsOf(*pressed(*table, State::Playing, KEY_RIGHT | kWithShift)), "seek +1");
+  EXPECT_EQ(wordsOf(*pressed(*table, State::Playing, KEY_RIGHT | kWithCtrl)), "seek +5");
+  EXPECT_FALSE(pressed(*table, State::Playing, KEY_Q | kWithCtrl)) << "it is told to mean nothing";
+  EXPECT_EQ(wordsOf(*pressed(*table, State::Playing, KEY_Q)), "quit");
+}
+
 class KeyReaderTest : public testing::Test {
  protected:
   std::string words(const std::optional<PlayerCommand>& command) { return command ? wordsOf(*command) : "-"; }
@@ -268,6 +282,22 @@ TEST_F(KeyReaderTest, AHeldKeySeeksOnAndDoesNothingElse) {
   EXPECT_EQ(take(KEY_PLAYPAUSE, Action::Repeat, 1300), "-");
   EXPECT_EQ(take(KEY_3D_MODE, Action::Repeat, 1400), "-");
   EXPECT_EQ(held(5000), "-");
+}
+
+TEST_F(KeyReaderTest, ShiftAndCtrlMakeAnotherKeyWhereTheTableHasIt) {
+  EXPECT_EQ(take(KEY_LEFTSHIFT, Action::Press, 0), "-");
+  EXPECT_EQ(take(KEY_G, Action::Press, 100), "subtitle-size +0.1");
+  EXPECT_EQ(take(KEY_F, Action::Press, 150), "subtitle-size -0.1");
+  EXPECT_EQ(take(KEY_1, Action::Press, 200), "chapter -1");
+  EXPECT_EQ(take(KEY_Q, Action::Press, 250), "quit") << "it has no row of its own";
+  EXPECT_EQ(take(KEY_LEFTSHIFT, Action::Release, 300), "-");
+  EXPECT_EQ(take(KEY_1, Action::Press, 400), "seek 10%");
+  EXPECT_EQ(take(KEY_F, Action::Press, 450), "full-screen");
+  EXPECT_EQ(take(KEY_RIGHTCTRL, Action::Press, 500), "-");
+  EXPECT_EQ(take(KEY_KPPLUS, Action::Press, 550), "audio-delay +0.1");
+  EXPECT_EQ(take(KEY_KPPLUS, Action::Repeat, 900), "audio-delay +0.1");
+  EXPECT_EQ(take(KEY_RIGHTCTRL, Action::Release, 950), "-");
+  EXPECT_EQ(take(KEY_KPPLUS, Action::Press, 990), "volume +5");
 }
 
 TEST_F(KeyReaderTest, AKeyWithTwoMeaningsIsObeyedWhenItIsLetGoOf) {

@@ -35,7 +35,7 @@ TEST(ScreenText, TellsTitleTimeStereoAndTouch) {
   ASSERT_TRUE(bar);
   EXPECT_EQ(bar->title, "film.mkv");
   EXPECT_EQ(bar->times, "1:23 / 1:02:05");
-  EXPECT_EQ(bar->status, "3D: tab   touch: Novint Falcon, in contact");
+  EXPECT_EQ(bar->status, "3D: top and bottom   touch: Novint Falcon, in contact");
   EXPECT_NEAR(bar->position, 83.9 / 3725, 1e-3);
 }
 
@@ -92,14 +92,14 @@ TEST(ScreenText, TellsWhyThereIsNothingToSeeOrFeel) {
   facts.stereo = {.layout = StereoLayout::Mono};
   const auto bar = at(text, facts).bar;
   EXPECT_EQ(bar->times, "1:23   buffering");
-  EXPECT_EQ(bar->status, "3D: mono, flat: the film has no depth   touch: Novint Falcon, nothing to feel");
+  EXPECT_EQ(bar->status, "3D: off, flat: the film has no depth   touch: Novint Falcon, nothing to feel");
   EXPECT_FALSE(bar->has_length);
   EXPECT_FALSE(at(text, facts).force_n) << "nothing is felt";
   facts.haptic.clear();
   facts.has_depth = true;
   facts.stereo.swap_eyes = true;
   facts.stereo.strength = 0.7;
-  EXPECT_EQ(at(text, facts).bar->status, "3D: mono, eyes swapped, depth 70 %   touch: no device");
+  EXPECT_EQ(at(text, facts).bar->status, "3D: off, eyes swapped, depth 70 %   touch: no device");
 }
 
 TEST(ScreenText, ANoticeAndTheHintStandForTwoSeconds) {

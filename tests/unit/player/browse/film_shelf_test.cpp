@@ -120,6 +120,18 @@ TEST(ShelfView, EverySelectedFilmIsOnTheScreen) {
   }
 }
 
+// A warning stands below the rows, and the selected film is still among them.
+TEST(ShelfView, AWarningHidesNoRow) {
+  FilmShelf shelf;
+  shelf.put(sections("f2", 40));
+  for (const std::size_t k : {0U, 3U, 20U, 40U}) {
+    shelf.select(k);
+    const ScreenList list = viewOf(shelf, {}, "", ScreenList::kBottomOverWarning);
+    EXPECT_EQ(std::ranges::count(list.rows, std::optional(k), &ScreenListRow::film), 1) << k;
+    for (const ScreenListRow& row : list.rows) EXPECT_LE(row.top + row.height(), ScreenList::kBottomOverWarning);
+  }
+}
+
 TEST(ShelfView, ARowHasItsPosterAndHowMuchWasSeen) {
   FilmShelf shelf;
   ShelfFilm left = film("a");

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the player does with keys, the mouse and commands.
+#include <linux/input-event-codes.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
+
+#include "app/player/player.h"
+#include "app/player/screen/notices.h"
+
+namespace relievo {
+namespace {
+
+// In the list of films the keys of a film mean nothing.
+bool isForAnotherTime(const PlayerCommand& command, PlayerState state) noexcept {
+  return state == PlayerState::Browsing && needsFilm(command.verb);
+}
+
+}  // namespace
+
+void Player::readRemote(MonotonicTime now) {
+  while (parts_.remote != nullptr) {
+    const auto key = parts_.remote->poll(now);
+    if (!key) {
+      journal_.note(std::string("remote: ") + key.error().message, "the film goes on without one");
+      parts_.remote->close();
+      parts_.remote = nullptr;
+      return;
+    }
+    if (!*key) break;
+    const auto command = keys_.take(**key, state_);
+    if (command && !isForAnotherTime(*command, state_)) obey(*command, now);
+    else noteUnbound(**key, now);
+  }
+  if (const auto command = keys_.held(now)) obey(*command, now);
+}
+
+// Within the display's `attend`.
+bool Player::hearMouse(const SurfaceMouse& mouse) {
+  if (state_ == PlayerState::Browsing) return hearMouseInList(mouse);
+  if (mouse.notches != 0) {
+    if (!config_.mouse_touches) notches_ += mouse.notches;
+    return !config_.mouse_touches;
+  }
+  const auto share = screen_.barAt(mouse, parts_.clock.now());
+  if (share && mouse.pressed) dragged_to_ = share;
+  return share.has_value();
+}
+
+// While one seek is under way the mouse may move on; the last place counts.
+void Player::followMouse(MonotonicTime now) {
+  constexpr double kLouder = 5;  // percent a notch of the wheel
+  if (const int notches = std::exchange(notches_, 0); notches != 0)
+    obey({PlayerVerb::VolumeBy, kLouder * notches}, now);
+  if (!dragged_to_ || state_ == PlayerState::Seeking) return;
+  obey({PlayerVerb::SeekShare, *std::exchange(dragged_to_, std::nullopt)}, now);
+}
+
+// A key that means nothing says so once. Keys that only change the meaning of others are silent.
+void Player::noteUnbound(const KeyEvent& key, MonotonicTime now) {
+  constexpr std::array<std::uint16_t, 8> kSilent{KEY_LEFTSHIFT, KEY_RIGHTSHIFT, KEY_LEFTCTRL, KEY_RIGHTCTRL,
+                                                 KEY_LEFTALT,   KEY_RIGHTALT,   KEY_LEFTMETA, KEY_RIGHTMETA};
+  if (key.action != KeyEvent::Action::Press) return;
+  const KeyTable::Binding* const binding = config_.keys.find(state_, key.code);
+  if (binding != nullptr && (!binding->press || !isForAnotherTime(*binding->press, state_))) return;
+  if (std::ranges::find(kSilent, key.code) != kSilent.end() || !unbound_.insert(key.code).second) return;
+  const std::string label = keyLabel(key.code, config_.held);
+  screen_.text().notice({(label.empty() ? "This key" : label) + " has no meaning here", std::nullopt}, now);
+}
+
+ScreenRows Player::keyRows() const {
+  ScreenRows rows;
+  if (config_.has_mouse) rows = mouseRows(state_ == PlayerState::Browsing, config_.mouse_touches);
+  for (auto& row : config_.keys.rowsIn(state_, config_.held)) rows.push_back(std::move(row));
+  return rows;
+}
+
+std::optional<std::string> Player::refusal(const PlayerCommand& command) const {
+  if (auto why = browsingRefusal(command)) return why;
+  if (!needsFilm(command.verb)) return std::nullopt;
+  if (!film_.isOpen()) {
+    constexpr std::array kOpening{PlayerVerb::Play, PlayerVerb::PlayPause, PlayerVerb::Next, PlayerVerb::Previous};
+    const bool opens = std::ranges::find(kOpening, command.verb) != kOpening.end();
+    if (opens && state_ == PlayerState::Idle && programme_.asked()) return std::nullopt;
+    return state_ == PlayerState::Browsing ? "no film is open; choose one" : "no film is open; open one first";
+  }
+  if (command.verb != PlayerVerb::Next || programme_.present() + 1 < programme_.size()) return std::nullopt;
+  return programme_.size() == 1 ? "no next film: this one is played alone" : "this is the last film of the list";
+}
+
+void Player::obey(const PlayerCommand& command, MonotonicTime now) {
+  const bool leaves = command.verb == PlayerVerb::Escape || command.verb == PlayerVerb::Back;
+  if (leaves && screen_.text().showsKeys()) return screen_.text().toggleKeys({});
+  if (auto why = refusal(command)) {
+    why->front() = static_cast<char>(std::toupper(static_cast<unsigned char>(why->front())));
+    return screen_.text().notice({std::move(*why), std::nullopt}, now);
+  }
+  switch (command.verb) {
+    case PlayerVerb::Quit:
+      quitting_ = true;
+      return;
+    case PlayerVerb::Open:
+      return openList({{.url = command.word, .depth_url = "", .title = ""}}, now);
+    case PlayerVerb::Stop:
+      return stopFilm(now);
+    case PlayerVerb::Loop:
+      programme_.setLoop(command.value == 0 ? !programme_.loops() : command.value > 0);
+      break;
+    case PlayerVerb::Screenshot:
+      return screen_.saveScreenshot(facts().title);
+    case PlayerVerb::Keys:
+      return screen_.text().toggleKeys(keyRows());
+    default:
+      break;
+  }
+  if (obeyBrowsing(command, now)) return;
+  if (!obeySound(command, now)) obeyPicture(command, now);
+  if (auto notice = noticeOf(command, facts())) screen_.text().notice(std::move(*notice), now);
+  else screen_.wake(now);
+}
+
+void Player::obeyPicture(const PlayerCommand& command, MonotonicTime now) {
+  screen_.obey(command);
+  const Situation situation{.state = state_,
+                            .held = film_.held(),
+                            .rate = film_.rate(),
+                            .here = film_.goal(now),
+                            .length = film_.info().duration,
+                            .chapters = film_.info().chapters,
+                            .picture = film_.picture().color.pts,
+                            .period = film_.period(),
+                            .film = programme_.present(),
+                            .films = programme_.size(),
+                            .film_asked = programme_.asked()};
+  for (const Deed& deed : deedsFor(command, situation)) carryOut(deed, now);
+}
+
+}  // namespace relievo
