@@ -57,13 +57,14 @@ const std::vector<Room>& rooms() {
        {"app/player", "app/scene", "app/media", "app/depth_window", "app/haptics/method", "app/haptics/task",
         "app/render", "app/cli", "app/stereo/quick"}},
       {"app/enhance", {"app/scene"}},
-      {"app/motion", {}},                                 // how the things of a picture have moved
-      {"app/stereo", {"app/stereo", "app/scene"}},        // depth from two views
-      {"app/stereo/quick", {"app/stereo", "app/scene"}},  // the same, while a film plays, without a library
+      {"app/motion", {}},                                           // how the things of a picture have moved
+      {"app/stereo", {"app/stereo", "app/scene"}},                  // depth from two views
+      {"app/stereo/quick", {"app/stereo", "app/scene"}},            // the same, while a film plays, without a library
+      {"app/estimate", {"app/scene", "app/motion", "app/stereo"}},  // depth guessed from one view
       {"app/author/sample", {"app/author", "app/scene", "app/coding"}},
       {"app/author",
        {"app/author", "app/scene", "app/media", "app/coding", "app/depth_window", "app/cli", "app/enhance",
-        "app/motion", "app/stereo"}},
+        "app/estimate", "app/motion", "app/stereo"}},
       {"app/lab/truth", {"app/scene"}},  // what the methods are held against is made without them
       {"app/lab",
        {"app/lab", "app/scene", "app/media", "app/coding", "app/depth_window", "app/haptics", "app/render", "app/cli",
@@ -155,10 +156,10 @@ std::vector<std::string> offences(const std::string& path, const std::string& te
     };
     if (const auto include = parseInclude(line)) {
       if (include->quoted && !mayInclude(path, include->name)) report("may not include " + include->name);
-      const bool offline =
-          isUnder(path, "app/enhance") || (isUnder(path, "app/stereo") && !isUnder(path, "app/stereo/quick"));
+      const bool offline = isUnder(path, "app/enhance") || isUnder(path, "app/estimate") ||
+                           (isUnder(path, "app/stereo") && !isUnder(path, "app/stereo/quick"));
       if (include->name.starts_with("opencv2/") && !offline) {
-        report("OpenCV is for enhancement and depth from two views alone");  // not on the box
+        report("OpenCV is for enhancement and for depth made from views alone");  // not on the box
       }
       if (!include->quoted && isPure(path) && isImpureHeader(include->name)) {
         report("pure code does not include <" + include->name + ">");
@@ -240,6 +241,7 @@ TEST(Layers, EachKindOfOffenceIsSeen) {
       Example{"app/enhance/enhancer.cpp", "#include \"app/author/author.h\"\n"},
       Example{"app/render/relief/stereo.cpp", "#include <opencv2/core.hpp>\n"},
       Example{"app/player/player.cpp", "#include \"app/stereo/stereo_depth.h\"\n"},
+      Example{"app/player/player.cpp", "#include \"app/estimate/steady_relief.h\"\n"},
       Example{"app/stereo/stereo_depth.cpp", "#include \"app/media/pair_reader.h\"\n"},
       Example{"app/player/player.cpp", "#include \"drivers/registry.h\"\n"},
       Example{"app/player/main.cpp", "#include \"drivers/mock/mock.h\"\n"},

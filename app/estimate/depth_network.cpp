@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/estimate/depth_network.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/core/utils/logger.hpp>
+#include <opencv2/dnn.hpp>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "app/estimate/onnx_input.h"
+#include "platform/files/answered_file.h"
+
+namespace relievo {
+namespace {
+
+constexpr Error kNotRead{ErrorCode::Unsupported, 0,
+                         "OpenCV cannot run this network; a command that runs it elsewhere can stand here instead"};
+constexpr Error kNotDepth{ErrorCode::Unsupported, 0, "the network must give depth in one channel"};
+
+// protobuf allows no larger message.
+constexpr std::size_t kMostBytes = (std::size_t{1} << 31U) - 1;
+
+Result<std::vector<std::uint8_t>> readNetwork(const std::string& path) {
+  const auto file = AnsweredFile::open(path);
+  if (!file) return std::unexpected(file.error());
+  if (!file->regular()) return fail(ErrorCode::Unsupported, "is a device or a pipe; name a file");
+  std::vector<std::uint8_t> bytes;
+  std::vector<std::uint8_t> part(std::size_t{1} << 20U);
+  for (;;) {
+    const auto got = file->readSome(bytes.size(), part);
+    if (!got) return std::unexpected(got.error());
+    if (*got == 0) return bytes;
+    if (bytes.size() + *got > kMostBytes) return fail(ErrorCode::Exhausted, "is larger than an ONNX model can be");
+    bytes.insert(bytes.end(), part.begin(), part.begin() + static_cast<std::ptrdiff_t>(*got));
+  }
+}
+
+// OpenCV's words in one line, without its own place in them.
+std::string wordsOf(const cv::Exception& e) {
+  std::string words = e.err.empty() ? std::string(e.what()) : e.err;
+  words.resize(std::min(words.find('\n'), words.size()));
+  return words.substr(0, 120);
+}
+
+int inPatches(double length) {
+  return std::max(static_cast<int>(std::lround(length / DepthNetwork::kPatch)), 1) * DepthNetwork::kPatch;
+}
+
+// Its own size, else the user's, else the picture's shape.
+cv::Size inputSize(const OnnxInput& own, std::optional<std::pair<int, int>> wished, int cols, int rows) {
+  const double scale = static_cast<double>(DepthNetwork::kLongSide) / std::max(cols, rows);
+  const auto [wide, high] = wished.value_or(std::pair(inPatches(scale * cols), inPatches(scale * rows)));
+  return {own.cols > 0 ? own.cols : wide, own.rows > 0 ? own.rows : high};
+}
+
+// As fine as the network's, in the picture's shape, and no finer than the picture.
+cv::Size outcomeSize(cv::Size network, int cols, int rows) {
+  const double scale =
+      std::min(std::max(static_cast<double>(network.width) / cols, static_cast<double>(network.height) / rows), 1.0);
+  return {std::max(static_cast<int>(std::lround(scale * cols)), 2),
+          std::max(static_cast<int>(std::lround(scale * rows)), 2)};
+}
+
+// 1 x 3 x rows x cols, each part by its mean and deviation over many photographs (ImageNet).
+cv::Mat blobOf(const RawPicture& picture, cv::Size size) {
+  const cv::Mat whole(picture.rows, picture.cols, CV_8UC3, const_cast<std::uint8_t*>(picture.bytes.data()));
+  cv::Mat scaled, shares;
+  const bool smaller = size.width < picture.cols || size.height < picture.rows;
+  cv::resize(whole, scaled, size, 0, 0, smaller ? cv::INTER_AREA : cv::INTER_CUBIC);
+  scaled.convertTo(shares, CV_32F, 1.0 / 255);
+  shares -= cv::Scalar(0.485, 0.456, 0.406);
+  cv::divide(shares, cv::Scalar(0.229, 0.224, 0.225), shares);
+  return cv::dnn::blobFromImage(shares);
+}
+
+}  // namespace
+
+struct DepthNetwork::Impl {
+  std::string path;
+  cv::dnn::Net net;
+  cv::Size input;
+};
+
+DepthNetwork::DepthNetwork(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+DepthNetwork::~DepthNetwork() = default;
+
+Outcome<std::unique_ptr<DepthNetwork>> DepthNetwork::open(const std::string& path, int cols, int rows,
+                                                          std::optional<std::pair<int, int>> input) {
+  const auto bytes = readNetwork(path);
+  if (!bytes) return failOn(path, bytes.error());
+  const auto own = onnxInputOf(*bytes);
+  if (!own) return failOn(path, own.error());
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // what it says is in the exception, too
+  try {
+    auto impl = std::make_unique<Impl>(
+        Impl{path, cv::dnn::readNetFromONNX(reinterpret_cast<const char*>(bytes->data()), bytes->size()),
+             inputSize(*own, input, cols, rows)});
+    return std::unique_ptr<DepthNetwork>(new DepthNetwork(std::move(impl)));
+  } catch (const cv::Exception& e) {
+    return failOn(path + ": " + wordsOf(e), kNotRead);
+  }
+}
+
+Outcome<void> DepthNetwork::give(RawPicture picture) {
+  try {
+    impl_->net.setInput(blobOf(picture, impl_->input));
+    const cv::Mat out = impl_->net.forward();
+    const bool one_channel = out.dims == 3 || (out.dims == 4 && out.size[1] == 1);
+    if (!one_channel || out.size[0] != 1 || out.type() != CV_32F) return failOn(impl_->path, kNotDepth);
+    const cv::Mat map(out.size[out.dims - 2], out.size[out.dims - 1], CV_32F, out.data);
+    cv::Mat shaped;
+    cv::resize(map, shaped, outcomeSize(map.size(), picture.cols, picture.rows));
+    DepthEstimate answer{shaped.cols, shaped.rows, {shaped.begin<float>(), shaped.end<float>()}};
+    std::ranges::replace_if(answer.values, [](float value) { return !std::isfinite(value); }, 0.0F);
+    answers_.push_back(std::move(answer));
+  } catch (const cv::Exception& e) {
+    return failOn(impl_->path + ": " + wordsOf(e), kNotRead);
+  }
+  return {};
+}
+
+Outcome<std::optional<DepthEstimate>> DepthNetwork::take() {
+  if (answers_.empty()) return std::nullopt;
+  std::optional<DepthEstimate> answer(std::move(answers_.front()));
+  answers_.pop_front();
+  return answer;
+}
+
+}  // namespace relievo
