@@ -12,6 +12,7 @@
 #include "app/author/package/depth_coder.h"
 #include "app/author/package/film_writer.h"
 #include "app/author/sample/sample_scene.h"
+#include "app/author/views/estimated_film.h"
 #include "app/author/views/stereo_film.h"
 #include "app/enhance/enhancer.h"
 #include "app/media/pair_reader.h"
@@ -25,10 +26,11 @@ struct OutputOptions {
   int color_crf = 18;
   DepthCoding depth;
   KeptWishes keep;
-  std::optional<SwapEyes> from_views;      // make the depth from a film's two views; nullopt: the film has depth
-  std::optional<Enhancement> enhancement;  // nullopt: no enhancement
-  std::string material_map;                // a picture or film of the material of places; empty: none
-  std::string preview;                     // path of a PNG, see preview.h; empty: none
+  std::optional<SwapEyes> from_views;          // make the depth from a film's two views; nullopt: the film has depth
+  std::optional<OneViewWishes> from_one_view;  // or guess it
+  std::optional<Enhancement> enhancement;      // nullopt: no enhancement
+  std::string material_map;                    // a picture or film of the material of places; empty: none
+  std::string preview;                         // path of a PNG, see preview.h; empty: none
 };
 
 struct SampleOptions {

@@ -8,6 +8,7 @@
 #include "app/author/package/film_kind.h"
 #include "app/author/package/output.h"
 #include "app/author/package/packager.h"
+#include "app/author/views/estimated_film.h"
 #include "app/author/views/stereo_film.h"
 #include "platform/log.h"
 
@@ -34,6 +35,58 @@ class StopWatch {
   std::jthread thread_;
 };
 
+// Where a film's pairs come from: the reader, with the depth made on the way where the film has none.
+class FilmSupply {
+ public:
+  [[nodiscard]] Outcome<void> open(const SourceOptions& source, const PairReader::Backends& backends,
+                                   const OutputOptions& output, const std::atomic<bool>& stop,
+                                   const ProgressReport& progress) {
+    if (output.from_views) {
+      auto surveyed = StereoFilm::survey(source, backends, *output.from_views, stop, progress);
+      if (!surveyed) return std::unexpected(surveyed.error());
+      views_ = std::move(*surveyed);
+    }
+    const SourceOptions& told = views_ ? views_->source() : source;
+    if (auto opened = reader_.open(told); !opened) return failOn(reader_.failedThing(), opened.error());
+    const FilmInfo& info = reader_.info();
+    if (output.from_one_view) {
+      auto estimated = EstimatedFilm::of(source, info, *output.from_one_view, stop);
+      if (!estimated) return std::unexpected(estimated.error());
+      estimated_ = std::move(*estimated);
+    } else if (!views_ && !info.has_depth) {
+      return failOn(source.url, {ErrorCode::NotFound, 0,
+                                 isStereo(info.packing)
+                                     ? "two views without depth; --depth-from stereo makes it from them"
+                                     : "no depth in this source; give --depth SOURCE, or let --depth-from guess it"});
+    }
+    return {};
+  }
+  [[nodiscard]] Outcome<std::optional<FramePair>> next() {
+    if (estimated_) return estimated_->next(reader_);
+    auto pair = reader_.next();
+    if (!pair) return failOn(reader_.failedThing(), pair.error());
+    if (!views_ || !*pair) return std::move(*pair);
+    auto made = views_->withDepth(std::move(**pair));
+    if (!made) return failOn(views_->source().url, made.error());
+    return std::move(*made);
+  }
+  [[nodiscard]] FilmInfo infoWith(const FramePair& first) const {
+    if (estimated_) return EstimatedFilm::described(reader_.info(), first);
+    return views_ ? views_->described(reader_.info()) : reader_.info();
+  }
+  [[nodiscard]] std::vector<std::string> notes() const {
+    if (estimated_) return estimated_->notes();
+    return views_ ? views_->notes() : std::vector<std::string>{};
+  }
+  explicit FilmSupply(const PairReader::Backends& backends) : reader_(backends) {}
+  [[nodiscard]] PairReader& reader() noexcept { return reader_; }
+
+ private:
+  PairReader reader_;
+  std::optional<StereoFilm> views_;
+  std::optional<EstimatedFilm> estimated_;
+};
+
 }  // namespace
 
 Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader::Backends& backends,
@@ -41,54 +94,41 @@ Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader:
                                   const ProgressReport& progress) {
   if (auto ready = checkOutput(output); !ready) return failOn(output.path, ready.error());
   if (auto ready = checkPreview(output); !ready) return failOn(output.preview, ready.error());
-  std::optional<StereoFilm> views;
-  if (output.from_views) {
-    auto surveyed = StereoFilm::survey(source, backends, *output.from_views, stop, progress);
-    if (!surveyed) return std::unexpected(surveyed.error());
-    views = std::move(*surveyed);
-  }
-  PairReader reader(backends);
+  FilmSupply supply(backends);
+  PairReader& reader = supply.reader();
   const StopWatch watch(reader, stop);
-  const auto failed = [&](const std::string& thing, const Error& error) {
+  const auto failed = [&](const Failure& failure) {
     if (stop.load(std::memory_order_relaxed)) return failOn(output.path, kCancelled);
-    return failOn(thing, error);
+    return failOn(failure.thing, failure.error);
   };
-  if (auto opened = reader.open(views ? views->source() : source); !opened)
-    return failed(reader.failedThing(), opened.error());
-  FilmInfo info = views ? views->described(reader.info()) : reader.info();
-  if (!info.has_depth) {
-    const char* const what = isStereo(info.packing) ? "two views without depth; --depth-from stereo makes it from them"
-                                                    : "no depth in this source; give --depth SOURCE";
-    return failOn(source.url, {ErrorCode::NotFound, 0, what});
-  }
-  Packager packager(reader, backends, std::move(info), source, output);
+  if (auto opened = supply.open(source, backends, output, stop, progress); !opened) return failed(opened.error());
+  std::optional<Packager> packager;
   bool live = false;  // ends on request or when its camera is unplugged, and is complete then
   for (std::uint64_t done = 1;; ++done) {
-    auto pair = reader.next();
+    auto pair = supply.next();
     if (stop.load(std::memory_order_relaxed)) {
-      if (live || (packager.begun() && filmKindOf(output.path) == FilmKind::Live)) break;
+      if (live || (packager && filmKindOf(output.path) == FilmKind::Live)) break;
       return failOn(output.path, kCancelled);
     }
-    if (!pair && live && reader.isSourceLost(pair.error())) {
-      log(LogLevel::Warning, source.url.c_str(), "%s; the film ends there", pair.error().message);
+    if (!pair && live && reader.isSourceLost(pair.error().error)) {
+      log(LogLevel::Warning, source.url.c_str(), "%s; the film ends there", pair.error().error.message);
       break;
     }
-    if (!pair) return failed(reader.failedThing(), pair.error());
+    if (!pair) return failed(pair.error());
     if (!*pair) break;
-    if (views) {
-      auto made = views->withDepth(std::move(**pair));
-      if (!made) return failed(source.url, made.error());
-      *pair = std::move(*made);
-    }
     live = (*pair)->taken.has_value();
-    if (!packager.begun()) {
-      if (auto begun = packager.begin(**pair); !begun) return failed(begun.error().thing, begun.error().error);
+    if (!packager) {
+      packager.emplace(reader, backends, supply.infoWith(**pair), source, output);
+      if (auto begun = packager->begin(**pair); !begun) return failed(begun.error());
     }
-    if (auto written = packager.write(**pair); !written) return failed(written.error().thing, written.error().error);
+    if (auto written = packager->write(**pair); !written) return failed(written.error());
     progress(done, expectedFrames(reader.info()));
   }
-  auto summary = packager.finish();
-  if (summary && views) summary->notes.insert(summary->notes.begin(), views->notes().begin(), views->notes().end());
+  if (!packager) return failOn(source.url, {ErrorCode::Corrupt, 0, "holds no pictures"});
+  auto summary = packager->finish();
+  if (!summary) return summary;
+  const std::vector<std::string> notes = supply.notes();
+  summary->notes.insert(summary->notes.begin(), notes.begin(), notes.end());
   return summary;
 }
 

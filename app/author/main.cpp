@@ -3,6 +3,8 @@
 #include <malloc.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <string>
 #include <thread>
@@ -26,6 +28,7 @@ struct Arguments {
   std::string scene;
   std::string depth_from;
   SwapEyes swap_eyes = SwapEyes::Auto;
+  std::optional<PictureSize> depth_size;
   int crf = -1, depth_crf = -1;
 };
 
@@ -42,6 +45,9 @@ constexpr const char* kFooter =
     "    relievo-author --color desk.mov --packing tb --depth-code hue --calibration near=520,far=1260 -o desk.mp4\n"
     "  make depth for a 3D film that has two views and none:\n"
     "    relievo-author --color holiday-3d.mkv --depth-from stereo -o film.mkv\n"
+    "  guess depth for a film of one view:\n"
+    "    relievo-author --color holiday.mp4 --depth-from midas-small.onnx -o film.mkv\n"
+    "    relievo-author --color holiday.mp4 --depth-from 'python3 guess.py' -o film.mkv\n"
     "  send a transport stream in real time; receive it with relievo play udp://@:5000\n"
     "    relievo-author --color street.mp4 --depth street-depth.mkv -o udp://192.168.1.20:5000\n"
     "\n"
@@ -69,17 +75,53 @@ void addQualityOptions(CLI::App& app, Arguments& a) {
       ->check(CLI::Range(0, 51).description(""));
 }
 
+PictureSize depthSize(const std::string& word) {
+  constexpr double kMost = 16384;
+  std::array<double, 2> size{};
+  if (!parseSizes(word, size) || std::min(size[0], size[1]) < 2 || std::max(size[0], size[1]) > kMost) {
+    throw WordFailure({"--depth-size " + word, {ErrorCode::InvalidArgument, 0, "give WIDTHxHEIGHT, such as 518x294"}});
+  }
+  return {static_cast<int>(size[0]), static_cast<int>(size[1])};
+}
+
 void addDepthFromOptions(CLI::App& app, Arguments& a) {
   app.add_option(
          "--depth-from", a.depth_from,
-         "Make the depth from a 3D film's two views: left and right, or above and below each other. The film's\n"
-         "colour is the left view")
-      ->type_name("stereo")
-      ->check(CLI::IsMember({"stereo"}).description(""))
+         "Make the depth of a film that has none\nstereo: from a 3D film's two views, left and right, or above and "
+         "below "
+         "each other; the film's\ncolour is the left view\nCMD: a command that guesses it from one view. /bin/sh runs "
+         "it; "
+         "it reads raw pictures (RGB24 of\n$RELIEVO_WIDTH x $RELIEVO_HEIGHT) and writes as many of 16 bits, little "
+         "endian, "
+         "larger is nearer, in\ntheir order, up to 64 pictures late\nMODEL.onnx: a network that does so, as MiDaS and "
+         "Depth Anything do, through OpenCV")
+      ->type_name("stereo|CMD|MODEL.onnx")
       ->excludes("--depth");
-  addChoice(app, "--swap-eyes", a.swap_eyes, {{"auto", SwapEyes::Auto}, {"no", SwapEyes::No}, {"yes", SwapEyes::Yes}},
-            "With --depth-from: whether the right eye's view comes first\nauto: as the pictures show")
+  app.add_option_function<std::string>(
+         "--depth-size", [&a](const std::string& word) { a.depth_size = depthSize(word); },
+         "With --depth-from: the size of the depth that CMD writes ($RELIEVO_DEPTH_WIDTH,\n$RELIEVO_DEPTH_HEIGHT) [the "
+         "pictures'], or of what a network takes that takes any size")
+      ->type_name("WxH")
       ->needs("--depth-from");
+  addChoice(app, "--swap-eyes", a.swap_eyes, {{"auto", SwapEyes::Auto}, {"no", SwapEyes::No}, {"yes", SwapEyes::Yes}},
+            "With --depth-from stereo: whether the right eye's view comes first\nauto: as the pictures show")
+      ->needs("--depth-from");
+}
+
+// What the options about missing depth say together.
+Outcome<void> chooseDepth(Arguments& a) {
+  if (a.depth_from.empty()) return {};
+  const bool stereo = a.depth_from == "stereo";
+  if (stereo && a.depth_size) {
+    return failOn("--depth-size",
+                  {ErrorCode::InvalidArgument, 0, "two views give depth of their own size; leave it out"});
+  }
+  if (!stereo && a.swap_eyes != SwapEyes::Auto) {
+    return failOn("--swap-eyes", {ErrorCode::InvalidArgument, 0, "is for --depth-from stereo; leave it out"});
+  }
+  if (stereo) a.output.from_views = a.swap_eyes;
+  else a.output.from_one_view = OneViewWishes{a.depth_from, a.depth_size};
+  return {};
 }
 
 void addEnhanceOptions(CLI::App& app, OutputOptions& output) {
@@ -170,7 +212,7 @@ int run(Arguments& a) {
   if (a.scene.empty() && a.source.url.empty()) {
     return tell({"--color", {ErrorCode::InvalidArgument, 0, "missing; give the film's colour, or use --scene sample"}});
   }
-  if (!a.depth_from.empty()) a.output.from_views = a.swap_eyes;
+  if (auto chosen = chooseDepth(a); !chosen) return tell(chosen.error());
   if (a.crf >= 0) a.output.color_crf = a.output.depth.crf = a.crf;
   if (a.depth_crf >= 0) a.output.depth.crf = a.depth_crf;
 

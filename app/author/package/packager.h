@@ -38,7 +38,6 @@ class Packager {
   [[nodiscard]] Outcome<void> begin(const FramePair& pair);
   [[nodiscard]] Outcome<void> write(const FramePair& pair);
   [[nodiscard]] Outcome<AuthorSummary> finish();
-  [[nodiscard]] bool begun() const { return writer_ != nullptr; }
 
  private:
   // On the depth's thread.

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// A film of one view as one of colour and depth: the depth is guessed by a command or a network, and made steady.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/estimate/depth_estimator.h"
+#include "app/estimate/steady_relief.h"
+#include "app/media/pair_reader.h"
+#include "platform/failure.h"
+
+namespace relievo {
+
+struct PictureSize {
+  int cols = 0, rows = 0;
+};
+
+struct OneViewWishes {
+  std::string how;                  // a command for /bin/sh, or the path of a network, which ends with .onnx
+  std::optional<PictureSize> size;  // of the depth that the command writes, or of what the network takes
+};
+
+// Use from one thread. It holds the pictures that the estimator has not answered, up to DepthCommand::kMostLate.
+class EstimatedFilm {
+ public:
+  // Fails if the film has depth of its own.
+  [[nodiscard]] static Outcome<EstimatedFilm> of(const SourceOptions& source, const FilmInfo& info,
+                                                 OneViewWishes wishes, const std::atomic<bool>& stop);
+
+  // The next pair with its depth; nullopt after the last one. Starts the estimator at the first.
+  [[nodiscard]] Outcome<std::optional<FramePair>> next(PairReader& reader);
+  // What the film is, its depth being there.
+  [[nodiscard]] static FilmInfo described(FilmInfo info, const FramePair& first);
+  // What was done, once all pairs have been taken; one line each.
+  [[nodiscard]] std::vector<std::string> notes() const;
+
+ private:
+  struct Waiting {
+    FramePair pair;
+    RawPicture picture;  // for the motion
+  };
+
+  EstimatedFilm(OneViewWishes wishes, const std::atomic<bool>& stop) : wishes_(std::move(wishes)), stop_(&stop) {}
+  [[nodiscard]] Outcome<void> start(const Frame& color);
+  [[nodiscard]] Outcome<bool> readOne(PairReader& reader);
+  [[nodiscard]] FramePair withDepth(const DepthEstimate& estimate);
+
+  OneViewWishes wishes_;
+  const std::atomic<bool>* stop_;
+  std::unique_ptr<DepthEstimator> estimator_;
+  PictureSize color_;
+  std::deque<Waiting> waiting_;  // given to the estimator, not answered
+  SteadyRelief relief_;
+  bool at_end_ = false;
+};
+
+}  // namespace relievo
