@@ -141,7 +141,7 @@ std::unexpected<Failure> DepthCommand::endedEarly(Lock& lock) {
   const std::string how = !end             ? "closed its output"
                           : end->by_signal ? print("was ended by signal %d", end->number)
                                            : print("ended with exit code %d", end->number);
-  const std::string part = part_.empty() ? "" : print(" and %zu of %zu bytes", part_.size(), depthBytes());
+  const std::string part = part_bytes_ == 0 ? "" : print(" and %zu of %zu bytes", part_bytes_, depthBytes());
   return failed(how + print(" after %zu depth pictures", answered_) + part, kNotEach);
 }
 
@@ -162,29 +162,33 @@ void DepthCommand::serve(const std::stop_token& done) {
   sigaddset(&broken_pipe, SIGPIPE);
   ::pthread_sigmask(SIG_BLOCK, &broken_pipe, nullptr);  // a write then fails instead
   while (!done.stop_requested()) {
-    std::array<pollfd, 4> files{};
-    {
-      const Lock lock(mutex_);
-      if (no_more_ && waiting_.empty()) child_.input.reset();
-      files = {pollfd{waiting_.empty() ? -1 : child_.input.get(), POLLOUT, 0},
-               pollfd{too_much_ ? -1 : child_.output.get(), POLLIN, 0}, pollfd{child_.messages.get(), POLLIN, 0},
-               pollfd{wake_.get(), POLLIN, 0}};
-    }
+    const RawPicture* const next = nextToWrite();
+    std::array<pollfd, 4> files{pollfd{next != nullptr ? child_.input.get() : -1, POLLOUT, 0},
+                                pollfd{too_much_ ? -1 : child_.output.get(), POLLIN, 0},
+                                pollfd{child_.messages.get(), POLLIN, 0}, pollfd{wake_.get(), POLLIN, 0}};
     ::poll(files.data(), files.size(), -1);
-    const Lock lock(mutex_);
     if (files[2].revents != 0) listenSome();
     if (files[1].revents != 0) readSome();
-    if (files[0].revents != 0) writeSome();
+    if (files[0].revents != 0) writeSome(*next);
     std::uint64_t count = 0;
     if (files[3].revents != 0 && ::read(wake_.get(), &count, sizeof count) < 0) continue;
     moved_.notify_all();
   }
 }
 
-void DepthCommand::writeSome() {
-  const auto& bytes = waiting_.front().bytes;
+// Valid until this thread has written it. After the last one the command's input ends.
+const RawPicture* DepthCommand::nextToWrite() {
+  const Lock lock(mutex_);
+  if (!waiting_.empty()) return &waiting_.front();
+  if (no_more_) child_.input.reset();
+  return nullptr;
+}
+
+void DepthCommand::writeSome(const RawPicture& picture) {
+  const auto& bytes = picture.bytes;
   const ssize_t n = ::write(child_.input.get(), bytes.data() + written_, bytes.size() - written_);
   if (n < 0 && (errno == EAGAIN || errno == EINTR)) return;
+  const Lock lock(mutex_);
   if (n < 0) {  // it reads no more; its output says why
     child_.input.reset();
     waiting_.clear();
@@ -199,26 +203,24 @@ void DepthCommand::writeSome() {
 }
 
 void DepthCommand::readSome() {
-  const std::size_t before = part_.size();
   part_.resize(depthBytes());
-  const ssize_t n = ::read(child_.output.get(), part_.data() + before, part_.size() - before);
-  part_.resize(before + static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
+  const ssize_t n = ::read(child_.output.get(), part_.data() + part_bytes_, part_.size() - part_bytes_);
   if (n < 0 && (errno == EAGAIN || errno == EINTR)) return;
-  if (n <= 0) {
-    output_ended_ = true;
-    child_.output.reset();
-    return;
-  }
+  if (n <= 0) child_.output.reset();
+  const Lock lock(mutex_);
+  output_ended_ = n <= 0;
+  if (output_ended_) return;
   last_moved_ = std::chrono::steady_clock::now();
+  part_bytes_ += static_cast<std::size_t>(n);
   too_much_ = answered_ == given_;
-  if (too_much_ || part_.size() < depthBytes()) return;
+  if (too_much_ || part_bytes_ < part_.size()) return;
   DepthEstimate answer{setup_.depth_cols, setup_.depth_rows, {}};
   answer.values.reserve(part_.size() / 2);
   for (std::size_t i = 0; i < part_.size(); i += 2) {
     answer.values.push_back(static_cast<float>(part_[i] | part_[i + 1] << 8));
   }
   answers_.push_back(std::move(answer));
-  part_.clear();
+  part_bytes_ = 0;
   ++answered_;
 }
 
@@ -227,6 +229,7 @@ void DepthCommand::listenSome() {
   const ssize_t n = ::read(child_.messages.get(), heard.data(), heard.size());
   if (n < 0 && (errno == EAGAIN || errno == EINTR)) return;
   if (n <= 0) return child_.messages.reset();
+  const Lock lock(mutex_);
   said_.append(heard.data(), static_cast<std::size_t>(n));
   if (said_.size() > kSaidBytes) said_.erase(0, said_.size() - kSaidBytes);
 }

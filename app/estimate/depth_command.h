@@ -46,7 +46,8 @@ class DepthCommand final : public DepthEstimator {
 
   // On the pipes' thread.
   void serve(const std::stop_token& done);
-  void writeSome();
+  [[nodiscard]] const RawPicture* nextToWrite();
+  void writeSome(const RawPicture& picture);
   void readSome();
   void listenSome();
   // On the owner's.
@@ -64,14 +65,17 @@ class DepthCommand final : public DepthEstimator {
   UniqueFd wake_;
   mutable std::mutex mutex_;
   std::condition_variable moved_;
+  // Of the pipes' thread.
+  std::size_t written_ = 0;         // bytes of the first picture that waits
+  std::vector<std::uint8_t> part_;  // the next answer
   // Guarded by the mutex.
-  std::deque<RawPicture> waiting_;
-  std::size_t written_ = 0;  // bytes of the first one that waits
+  std::deque<RawPicture> waiting_;  // to be written
   std::deque<DepthEstimate> answers_;
-  std::vector<std::uint8_t> part_;  // of the next answer
-  std::string said_;                // the end of its messages
+  std::size_t part_bytes_ = 0;  // of the next answer
+  std::string said_;            // the end of its messages
   std::size_t given_ = 0, answered_ = 0;
-  bool no_more_ = false, output_ended_ = false, too_much_ = false;
+  bool no_more_ = false, output_ended_ = false;
+  std::atomic<bool> too_much_ = false;
   std::chrono::steady_clock::time_point last_moved_;
   std::jthread thread_;  // the last member: it ends before what it uses
 };

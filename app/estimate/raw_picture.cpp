@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace relievo {
 namespace {
@@ -33,7 +34,7 @@ class Part {
 };
 
 std::uint8_t byteOf(float share) noexcept {
-  return static_cast<std::uint8_t>(255 * std::clamp(share, 0.0F, 1.0F) + 0.5F);
+  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0F, 1.0F)));
 }
 
 template <class Pixel>

@@ -57,9 +57,9 @@ const std::vector<Room>& rooms() {
        {"app/player", "app/scene", "app/media", "app/depth_window", "app/haptics/method", "app/haptics/task",
         "app/render", "app/cli", "app/stereo/quick"}},
       {"app/enhance", {"app/scene"}},
-      {"app/motion", {}},                                 // how the things of a picture have moved
-      {"app/stereo", {"app/stereo", "app/scene"}},        // depth from two views
-      {"app/stereo/quick", {"app/stereo", "app/scene"}},  // the same, while a film plays, without a library
+      {"app/motion", {}},                                           // how the things of a picture have moved
+      {"app/stereo", {"app/stereo", "app/scene"}},                  // depth from two views
+      {"app/stereo/quick", {"app/stereo", "app/scene"}},            // the same, while a film plays, without a library
       {"app/estimate", {"app/scene", "app/motion", "app/stereo"}},  // depth guessed from one view
       {"app/author/sample", {"app/author", "app/scene", "app/coding"}},
       {"app/author",
@@ -156,8 +156,8 @@ std::vector<std::string> offences(const std::string& path, const std::string& te
     };
     if (const auto include = parseInclude(line)) {
       if (include->quoted && !mayInclude(path, include->name)) report("may not include " + include->name);
-      const bool offline =
-          isUnder(path, "app/enhance") || isUnder(path, "app/estimate") || (isUnder(path, "app/stereo") && !isUnder(path, "app/stereo/quick"));
+      const bool offline = isUnder(path, "app/enhance") || isUnder(path, "app/estimate") ||
+                           (isUnder(path, "app/stereo") && !isUnder(path, "app/stereo/quick"));
       if (include->name.starts_with("opencv2/") && !offline) {
         report("OpenCV is for enhancement and for depth made from views alone");  // not on the box
       }
