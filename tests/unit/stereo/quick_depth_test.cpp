@@ -64,6 +64,28 @@ Fit fitOf(int matched_cols, const RightEye& eye = {}) {
   return fit;
 }
 
+// A finger feels slopes: where a matcher finds whole pixels, a slope has terraces, level with walls between them.
+TEST(QuickDepth, ASlopeHasNoTerraces) {
+  constexpr double kPerRow = 0.1;
+  constexpr int kStep = 4, kMargin = 24;
+  const TwoViews scene{.cols = kCols, .rows = kRows, .boards = {{0, 0, kCols, kRows, -18, kPerRow, {120, 120, 120}}}};
+  for (const int cols : {160, 320, 640}) {
+    QuickDepth quick;
+    quick.setMatchedCols(cols);
+    const Frame depth = quick.depthOf(scene.left(), scene.right());
+    const double scale = Fit(depth, scene).scale;
+    double squares = 0, count = 0;
+    for (int r = kMargin; r + kStep < kRows - kMargin; ++r) {
+      for (int c = 60; c < kCols - 60; ++c, ++count) {
+        const double slope = scale * (codeOf(depth, c, r + kStep) - codeOf(depth, c, r)) / kStep;
+        squares += std::pow((slope - kPerRow) / kPerRow, 2);
+      }
+    }
+    EXPECT_LT(std::sqrt(squares / count), cols < 320 ? 0.35 : 0.15) << cols;
+    std::printf("matched at %d: slope off by %.1f %% rms\n", cols, 100 * std::sqrt(squares / count));
+  }
+}
+
 TEST(QuickDepth, FindsTheBoardsAtEverySize) {
   for (const int cols : QuickDepth::kMatchedCols) {
     Fit fit = fitOf(cols);
