@@ -16,7 +16,8 @@
 namespace relievo {
 
 // One shot is scaled alike from its first picture to its last, so that nothing breathes: by the range that its first
-// picture shows, with some to spare; what comes nearer or goes farther later lies at the end of the range. Pictures
+// picture shows, with some to spare; what comes nearer or goes farther later lies at the end of the range, and is
+// matched where it is, since a matcher that looks elsewhere finds another place in each picture. Pictures
 // come in order, not necessarily all of them. Use from one thread.
 class QuickDepth {
  public:
@@ -41,7 +42,9 @@ class QuickDepth {
 
  private:
   [[nodiscard]] bool cutsTo(const ViewPicture& left);
+  [[nodiscard]] std::optional<Range> reach();
   void measureShot();
+  void lookAgain();
   void match(DisparityMap& large);
   [[nodiscard]] DisparityRange rangeAt(int cols) const noexcept;
   [[nodiscard]] Frame codesOf(const DisparityMap& map) const;
@@ -49,6 +52,8 @@ class QuickDepth {
   int wished_cols_ = kMatchedCols[2], matched_cols_ = kMatchedCols[2];
   CutFinder cuts_;
   std::optional<Range> range_;
+  Range matched_;                     // the same and what has come since
+  int since_look_ = 0;                // pictures
   std::optional<Exposure> exposure_;  // that the right view needs
   ViewPicture left_, right_, small_left_, small_right_;
   QuickMatching matching_;

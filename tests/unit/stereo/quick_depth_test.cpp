@@ -64,6 +64,24 @@ Fit fitOf(int matched_cols, const RightEye& eye = {}) {
   return fit;
 }
 
+// A hand that comes before everything else: all of it lies at the near end, and nothing around it changes.
+TEST(QuickDepth, WhatComesNearerLaterIsFoundAndLiesAtTheEnd) {
+  TwoViews scene = boards(kCols, kRows);
+  QuickDepth quick;
+  const Frame before = quick.depthOf(scene.left(), scene.right());
+  scene.boards.push_back({100, 60, 300, 260, 60, 0, {150, 150, 90}});
+  Frame after;
+  for (int i = 0; i < 5; ++i) after = quick.depthOf(scene.left(), scene.right());
+  int at_end = 0, all = 0;
+  double moved = 0;
+  for (int r = 80; r < 240; ++r) {
+    for (int c = 120; c < 280; ++c, ++all) at_end += codeOf(after, c, r) > 65000 ? 1 : 0;
+    for (int c = 520; c < 620; ++c) moved = std::max(moved, std::abs(codeOf(after, c, r) - codeOf(before, c, r)));
+  }
+  EXPECT_GT(at_end, 0.98 * all);
+  EXPECT_LT(moved, 2000);
+}
+
 // A finger feels slopes: where a matcher finds whole pixels, a slope has terraces, level with walls between them.
 TEST(QuickDepth, ASlopeHasNoTerraces) {
   constexpr double kPerRow = 0.1;
