@@ -7,6 +7,7 @@
 
 #include "app/stereo/hole_filling.h"
 #include "app/stereo/quick/outline_snapping.h"
+#include "app/stereo/quick/row_shift.h"
 
 namespace relievo {
 namespace {
@@ -33,14 +34,19 @@ float shareBelow(std::vector<float>& seen, double share) {
 Frame QuickDepth::depthOf(const Frame& left, const Frame& right) {
   const ViewSize size = reducedSize(left, kCols);
   readSmall(left, size, left_);
-  readSmall(right, size, right_);
   if (cutsTo(left_)) {
     range_.reset();
     exposure_.reset();
     matched_cols_ = wished_cols_;
   }
-  if (!range_) measureShot();  // also where a shot comes out of the dark
-  else if (++since_look_ == kLookEvery) lookAgain();
+  if (!range_) lower_ = 0;
+  readSmall(right, size, right_, lower_);
+  if (!range_) {  // also where a shot comes out of the dark
+    level(right, size);
+    measureShot();
+  } else if (++since_look_ == kLookEvery) {
+    lookAgain();
+  }
   if (large_.cols != size.cols || large_.rows != size.rows) large_ = DisparityMap(size.cols, size.rows);
   if (range_) match(large_);
   Frame depth = codesOf(large_);
@@ -55,6 +61,13 @@ bool QuickDepth::cutsTo(const ViewPicture& left) {
     return static_cast<float>(left.yuv[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(left.cols) +
                                             static_cast<std::size_t>(x))]);
   });
+}
+
+void QuickDepth::level(const Frame& right, ViewSize size) {
+  const double rows = rowShift(left_, right_);
+  if (rows == 0) return;
+  lower_ = static_cast<int>(std::lround(rows * right.height / size.rows));
+  readSmall(right, size, right_, lower_);
 }
 
 // How near and far the picture reaches, by matching a small one over the widest range.

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <vector>
 
+#include "app/stereo/quick/row_shift.h"
+#include "app/stereo/quick/small_view.h"
 #include "tests/support/film/two_views.h"
 
 namespace relievo {
@@ -62,6 +64,26 @@ Fit fitOf(int matched_cols, const RightEye& eye = {}) {
   std::printf("matched at %d: median %.3f pixels, wrong by over 2 pixels %.2f %%\n", matched_cols, fit.median(),
               100 * fit.wrong());
   return fit;
+}
+
+TEST(QuickDepth, ARightViewThatLiesTooLowOrTooHighIsBroughtToTheHeightOfTheLeftOne) {
+  for (const double down : {12.0, -7.5, 3.0}) {
+    Fit fit = fitOf(320, {.down = down});
+    EXPECT_LT(fit.median(), 0.25) << down;
+    EXPECT_LT(fit.wrong(), 0.07) << down << ": what only one view shows, at the bottom, is more";
+  }
+}
+
+TEST(QuickDepth, ViewsOfOneHeightStayAsTheyAre) {
+  const TwoViews scene = boards(kCols, kRows);
+  const auto view = [](const Frame& frame) {
+    ViewPicture small;
+    readSmall(frame, {kCols, kRows}, small);
+    return small;
+  };
+  EXPECT_EQ(rowShift(view(scene.left()), view(scene.right())), 0);
+  EXPECT_EQ(rowShift(view(scene.left()), view(scene.right({.down = 0.3}))), 0);
+  EXPECT_NEAR(rowShift(view(scene.left()), view(scene.right({.down = 5.5}))), 5.5, 0.3);
 }
 
 // A hand that comes before everything else: all of it lies at the near end, and nothing around it changes.
