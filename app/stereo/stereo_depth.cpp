@@ -8,6 +8,7 @@
 #include "app/stereo/block_matching.h"
 #include "app/stereo/edge_snapping.h"
 #include "app/stereo/hole_filling.h"
+#include "app/stereo/quick/sub_pixel.h"
 
 namespace relievo {
 namespace {
@@ -34,6 +35,7 @@ DisparityMap disparityOf(const ViewPicture& left, const ViewPicture& right, Disp
   DisparityMap map = matchFromBoth(left, right, range);
   fillHoles(map, left);
   snapEdges(map, left, right);
+  SubPixel().refine(map, left, right);
   return map;
 }
 

@@ -312,6 +312,7 @@ TEST_F(LabCharts, DepthFromTwoViewsIsTruerWithTextureAndWithoutACodec) {
     EXPECT_LT(percent("texture", "rich", matcher), percent("texture", "weak", matcher)) << matcher;
     EXPECT_LT(percent("codec", "none", matcher), percent("codec", "crf 28", matcher)) << matcher;
   }
+  EXPECT_LT(percent("size", "320", "author"), 10);
   EXPECT_LT(percent("size", "320", "exact"), 1);
   int author = 0, player = 0;
   for (const CsvRow& row : csv.rows()) {

@@ -7,6 +7,7 @@
 
 #include "app/stereo/hole_filling.h"
 #include "app/stereo/quick/outline_snapping.h"
+#include "app/stereo/quick/row_shift.h"
 
 namespace relievo {
 namespace {
@@ -19,6 +20,7 @@ constexpr float kSpare = 0.2F;       // of the range, on each side
 constexpr float kLeastSpare = 1.5F;  // pixels of the survey
 constexpr float kHighest = 65535;
 constexpr double kBlackSpread = 3;  // levels
+constexpr int kLookEvery = 4;       // pictures: something may have come nearer than all before
 
 // The disparity below which a share of the seen pixels lies.
 float shareBelow(std::vector<float>& seen, double share) {
@@ -32,13 +34,19 @@ float shareBelow(std::vector<float>& seen, double share) {
 Frame QuickDepth::depthOf(const Frame& left, const Frame& right) {
   const ViewSize size = reducedSize(left, kCols);
   readSmall(left, size, left_);
-  readSmall(right, size, right_);
   if (cutsTo(left_)) {
     range_.reset();
     exposure_.reset();
     matched_cols_ = wished_cols_;
   }
-  if (!range_) measureShot();  // also where a shot comes out of the dark
+  if (!range_) lower_ = 0;
+  readSmall(right, size, right_, lower_);
+  if (!range_) {  // also where a shot comes out of the dark
+    level(right, size);
+    measureShot();
+  } else if (++since_look_ == kLookEvery) {
+    lookAgain();
+  }
   if (large_.cols != size.cols || large_.rows != size.rows) large_ = DisparityMap(size.cols, size.rows);
   if (range_) match(large_);
   Frame depth = codesOf(large_);
@@ -55,14 +63,15 @@ bool QuickDepth::cutsTo(const ViewPicture& left) {
   });
 }
 
-// How near and far the shot reaches, by matching a small picture over the widest range.
-void QuickDepth::measureShot() {
-  ViewTone left_tone, right_tone;
-  left_tone.add(left_);
-  right_tone.add(right_);
-  if (left_tone.spread(0) < kBlackSpread || right_tone.spread(0) < kBlackSpread) return;
-  const Exposure exposure = exposureBetween(left_tone, right_tone);
-  if (exposure.isNeeded()) exposure_ = exposure;
+void QuickDepth::level(const Frame& right, ViewSize size) {
+  const double rows = rowShift(left_, right_);
+  if (rows == 0) return;
+  lower_ = static_cast<int>(std::lround(rows * right.height / size.rows));
+  readSmall(right, size, right_, lower_);
+}
+
+// How near and far the picture reaches, by matching a small one over the widest range.
+std::optional<QuickDepth::Range> QuickDepth::reach() {
   const int cols = std::min(kSurveyCols, left_.cols), widest = std::max(1, cols / kWidest);
   const ViewSize size{cols, std::max(1, left_.rows * cols / left_.cols)};
   reduce(left_, size, small_left_);
@@ -72,15 +81,33 @@ void QuickDepth::measureShot() {
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (found.seen[i] != 0) seen.push_back(found.pixels[i]);
   }
-  if (static_cast<double>(seen.size()) < kLeastFound * static_cast<double>(found.size())) return;
+  if (static_cast<double>(seen.size()) < kLeastFound * static_cast<double>(found.size())) return std::nullopt;
   const float low = shareBelow(seen, kOutliers), high = shareBelow(seen, 1 - kOutliers);
   const float spare = std::max(kLeastSpare, kSpare * (high - low)), width = static_cast<float>(cols);
-  range_ = {(low - spare) / width, (high + spare) / width};
+  return Range{(low - spare) / width, (high + spare) / width};
+}
+
+void QuickDepth::measureShot() {
+  ViewTone left_tone, right_tone;
+  left_tone.add(left_);
+  right_tone.add(right_);
+  if (left_tone.spread(0) < kBlackSpread || right_tone.spread(0) < kBlackSpread) return;
+  const Exposure exposure = exposureBetween(left_tone, right_tone);
+  if (exposure.isNeeded()) exposure_ = exposure;
+  range_ = reach();
+  since_look_ = 0;
+  if (range_) matched_ = *range_;
+}
+
+void QuickDepth::lookAgain() {
+  since_look_ = 0;
+  const auto now = reach();
+  if (now) matched_ = {std::min(range_->low, now->low), std::max(range_->high, now->high)};
 }
 
 DisparityRange QuickDepth::rangeAt(int cols) const noexcept {
   const auto width = static_cast<float>(cols);
-  return {static_cast<int>(std::floor(range_->low * width)), static_cast<int>(std::ceil(range_->high * width))};
+  return {static_cast<int>(std::floor(matched_.low * width)), static_cast<int>(std::ceil(matched_.high * width))};
 }
 
 void QuickDepth::match(DisparityMap& large) {

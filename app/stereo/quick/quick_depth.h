@@ -16,7 +16,9 @@
 namespace relievo {
 
 // One shot is scaled alike from its first picture to its last, so that nothing breathes: by the range that its first
-// picture shows, with some to spare; what comes nearer or goes farther later lies at the end of the range. Pictures
+// picture shows, with some to spare; what comes nearer or goes farther later lies at the end of the range, and is
+// matched where it is, since a matcher that looks elsewhere finds another place in each picture. A right view that
+// lies lower or higher is brought to the left one's height, by what the shot's first picture shows. Pictures
 // come in order, not necessarily all of them. Use from one thread.
 class QuickDepth {
  public:
@@ -41,7 +43,10 @@ class QuickDepth {
 
  private:
   [[nodiscard]] bool cutsTo(const ViewPicture& left);
+  void level(const Frame& right, ViewSize size);
+  [[nodiscard]] std::optional<Range> reach();
   void measureShot();
+  void lookAgain();
   void match(DisparityMap& large);
   [[nodiscard]] DisparityRange rangeAt(int cols) const noexcept;
   [[nodiscard]] Frame codesOf(const DisparityMap& map) const;
@@ -49,6 +54,9 @@ class QuickDepth {
   int wished_cols_ = kMatchedCols[2], matched_cols_ = kMatchedCols[2];
   CutFinder cuts_;
   std::optional<Range> range_;
+  Range matched_;                     // the same and what has come since
+  int since_look_ = 0;                // pictures
+  int lower_ = 0;                     // rows of the right view by which it lies too low
   std::optional<Exposure> exposure_;  // that the right view needs
   ViewPicture left_, right_, small_left_, small_right_;
   QuickMatching matching_;

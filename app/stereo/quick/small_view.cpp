@@ -15,9 +15,12 @@ struct Places {
   int taken = 1;
   std::vector<int> at;  // `taken` a cell
 
-  Places(int samples, int cells) : taken(std::clamp(samples / cells, 1, kMostTaken)) {
+  Places(int samples, int cells, int further = 0) : taken(std::clamp(samples / cells, 1, kMostTaken)) {
     const std::int64_t all = std::int64_t{cells} * taken;
-    for (std::int64_t i = 0; i < all; ++i) at.push_back(static_cast<int>((2 * i + 1) * samples / (2 * all)));
+    for (std::int64_t i = 0; i < all; ++i) {
+      const auto place = static_cast<int>((2 * i + 1) * samples / (2 * all));
+      at.push_back(std::clamp(place + further, 0, samples - 1));
+    }
   }
 };
 
@@ -39,12 +42,12 @@ void sumRow(const Component& k, const std::uint8_t* row, const Places& across, s
   }
 }
 
-Sums sumsOf(const Frame& frame, std::size_t component, ViewSize size) {
+Sums sumsOf(const Frame& frame, std::size_t component, ViewSize size, int lower) {
   const Component& k = frame.components[component];
   const bool chroma = frame.model == ColorModel::Yuv && component > 0;
   const int shift_x = chroma ? frame.chroma_shift_x : 0, shift_y = chroma ? frame.chroma_shift_y : 0;
   const Places across((frame.width + (1 << shift_x) - 1) >> shift_x, size.cols);
-  const Places down((frame.height + (1 << shift_y) - 1) >> shift_y, size.rows);
+  const Places down((frame.height + (1 << shift_y) - 1) >> shift_y, size.rows, lower >> shift_y);
   Sums sums{std::vector<std::uint32_t>(static_cast<std::size_t>(size.cols) * static_cast<std::size_t>(size.rows)),
             across.taken * down.taken};
   const Plane& plane = frame.planes[k.plane];
@@ -64,8 +67,8 @@ std::uint8_t byteOf(float value) {
 }
 
 // A component of YUV as bytes of full range.
-void takeYuv(const Frame& frame, std::size_t component, ViewSize size, ViewPicture& into) {
-  const Sums sums = sumsOf(frame, component, size);
+void takeYuv(const Frame& frame, std::size_t component, ViewSize size, int lower, ViewPicture& into) {
+  const Sums sums = sumsOf(frame, component, size, lower);
   const bool limited =
       frame.range == ColorRange::Limited || (frame.model == ColorModel::Yuv && frame.range == ColorRange::Unspecified);
   const bool chroma = component > 0;
@@ -76,11 +79,11 @@ void takeYuv(const Frame& frame, std::size_t component, ViewSize size, ViewPictu
     into.yuv[3 * i + component] = byteOf(base + (static_cast<float>(sums.cells[i]) - low) * scale);
 }
 
-void takeRgb(const Frame& frame, ViewSize size, ViewPicture& into) {
+void takeRgb(const Frame& frame, ViewSize size, int lower, ViewPicture& into) {
   std::array<Sums, 3> sums;
   std::array<float, 3> scale{};
   for (std::size_t k = 0; k < 3; ++k) {
-    sums[k] = sumsOf(frame, k, size);
+    sums[k] = sumsOf(frame, k, size, lower);
     scale[k] = 255.0F / static_cast<float>((1U << frame.components[k].bits) - 1) / static_cast<float>(sums[k].count);
   }
   for (std::size_t i = 0; i < into.size(); ++i) {
@@ -110,13 +113,13 @@ ViewSize reducedSize(const Frame& view, int cols) noexcept {
   return {width, std::clamp(rows, std::min(kLeastRows, view.height), view.height)};
 }
 
-void readSmall(const Frame& view, ViewSize size, ViewPicture& into) {
+void readSmall(const Frame& view, ViewSize size, ViewPicture& into, int lower) {
   fit(into, size);
-  if (view.model == ColorModel::Rgb) return takeRgb(view, size, into);
-  takeYuv(view, 0, size, into);
+  if (view.model == ColorModel::Rgb) return takeRgb(view, size, lower, into);
+  takeYuv(view, 0, size, lower, into);
   for (std::size_t k = 1; k < 3; ++k) {
     if (view.model == ColorModel::Yuv) {
-      takeYuv(view, k, size, into);
+      takeYuv(view, k, size, lower, into);
       continue;
     }
     for (std::size_t i = 0; i < into.size(); ++i) into.yuv[3 * i + k] = 128;

@@ -16,8 +16,9 @@ struct ViewSize {
 // half of its width has half as many rows.
 [[nodiscard]] ViewSize reducedSize(const Frame& view, int cols) noexcept;
 
-// The mean of up to 4 x 4 samples of each cell. `into` keeps its memory.
-void readSmall(const Frame& view, ViewSize size, ViewPicture& into);
+// The mean of up to 4 x 4 samples of each cell, taken so many of the view's rows further down, its last one repeated.
+// `into` keeps its memory.
+void readSmall(const Frame& view, ViewSize size, ViewPicture& into, int lower = 0);
 
 // The mean of the cells of a picture that is as large or larger.
 void reduce(const ViewPicture& view, ViewSize size, ViewPicture& into);

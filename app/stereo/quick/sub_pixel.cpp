@@ -13,6 +13,7 @@ constexpr float kWild = 12;        // levels: a misfit that counts half
 constexpr float kFlat = 2 * 81;    // squared slopes of a place without texture: 9 x 9 pixels
 constexpr int kNear = 5;           // pixels on each side whose mean is taken
 constexpr float kSurface = 1;      // pixels of disparity between two surfaces
+constexpr float kTerrace = 2;      // likewise, before the first round: what was found is right to a pixel
 constexpr float kFarthest = 0.5F;  // pixels in a round
 
 void lumaOf(const ViewPicture& view, std::vector<float>& luma) {
@@ -27,12 +28,14 @@ void SubPixel::refine(DisparityMap& map, const ViewPicture& left, const ViewPict
   lumaOf(right, right_);
   slopes_.resize(map.size());
   misfits_.resize(map.size());
+  smooth(map, true, kTerrace);
+  smooth(map, false, kTerrace);
   for (int i = 0; i < kRounds; ++i) {
     for (int r = 0; r < map.rows; ++r) compare(map, r);
     step(map);
+    smooth(map, true, kSurface);
+    smooth(map, false, kSurface);
   }
-  smooth(map, true);
-  smooth(map, false);
 }
 
 // Each pixel with what the right view has at its disparity.
@@ -90,7 +93,7 @@ void SubPixel::step(DisparityMap& map) {
 }
 
 // Along rows, or down columns.
-void SubPixel::smooth(DisparityMap& map, bool across) {
+void SubPixel::smooth(DisparityMap& map, bool across, float surface) {
   smoothed_ = map.pixels;
   const std::ptrdiff_t stride = across ? 1 : map.cols;
   const int margin_c = across ? kNear : 0, margin_r = across ? 0 : kNear;
@@ -102,7 +105,7 @@ void SubPixel::smooth(DisparityMap& map, bool across) {
       float sum = 0, weights = 0;
       for (int k = -kNear; k <= kNear; ++k) {
         const float there = from[c + k * stride], away = std::abs(there - from[c]);
-        const float weight = std::max(0.0F, kSurface - away);
+        const float weight = std::max(0.0F, surface - away);
         sum += weight * there;
         weights += weight;
       }

@@ -10,8 +10,8 @@
 
 namespace relievo {
 
-// Least squares on the brightness around each pixel (Lucas and Kanade 1981), along the row alone; then the mean of what
-// is near and on the same surface. Keeps its memory.
+// Least squares on the brightness around each pixel (Lucas and Kanade 1981), along the row alone; before it and after
+// each round the mean of what is near and on the same surface, so that a slope has no terraces. Keeps its memory.
 class SubPixel {
  public:
   // The map is as large as the views. Pixels that were not seen, and those without texture, keep their disparity.
@@ -20,7 +20,7 @@ class SubPixel {
  private:
   void compare(const DisparityMap& map, int r);
   void step(DisparityMap& map);
-  void smooth(DisparityMap& map, bool across);
+  void smooth(DisparityMap& map, bool across, float surface);
 
   std::vector<float> left_, right_;
   std::vector<float> slopes_, misfits_;  // sums of squares of the slope, and of slope times misfit

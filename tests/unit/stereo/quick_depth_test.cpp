@@ -8,6 +8,8 @@
 #include <cmath>
 #include <vector>
 
+#include "app/stereo/quick/row_shift.h"
+#include "app/stereo/quick/small_view.h"
 #include "tests/support/film/two_views.h"
 
 namespace relievo {
@@ -62,6 +64,66 @@ Fit fitOf(int matched_cols, const RightEye& eye = {}) {
   std::printf("matched at %d: median %.3f pixels, wrong by over 2 pixels %.2f %%\n", matched_cols, fit.median(),
               100 * fit.wrong());
   return fit;
+}
+
+TEST(QuickDepth, ARightViewThatLiesTooLowOrTooHighIsBroughtToTheHeightOfTheLeftOne) {
+  for (const double down : {12.0, -7.5, 3.0}) {
+    Fit fit = fitOf(320, {.down = down});
+    EXPECT_LT(fit.median(), 0.25) << down;
+    EXPECT_LT(fit.wrong(), 0.07) << down << ": what only one view shows, at the bottom, is more";
+  }
+}
+
+TEST(QuickDepth, ViewsOfOneHeightStayAsTheyAre) {
+  const TwoViews scene = boards(kCols, kRows);
+  const auto view = [](const Frame& frame) {
+    ViewPicture small;
+    readSmall(frame, {kCols, kRows}, small);
+    return small;
+  };
+  EXPECT_EQ(rowShift(view(scene.left()), view(scene.right())), 0);
+  EXPECT_EQ(rowShift(view(scene.left()), view(scene.right({.down = 0.3}))), 0);
+  EXPECT_NEAR(rowShift(view(scene.left()), view(scene.right({.down = 5.5}))), 5.5, 0.3);
+}
+
+// A hand that comes before everything else: all of it lies at the near end, and nothing around it changes.
+TEST(QuickDepth, WhatComesNearerLaterIsFoundAndLiesAtTheEnd) {
+  TwoViews scene = boards(kCols, kRows);
+  QuickDepth quick;
+  const Frame before = quick.depthOf(scene.left(), scene.right());
+  scene.boards.push_back({100, 60, 300, 260, 60, 0, {150, 150, 90}});
+  Frame after;
+  for (int i = 0; i < 5; ++i) after = quick.depthOf(scene.left(), scene.right());
+  int at_end = 0, all = 0;
+  double moved = 0;
+  for (int r = 80; r < 240; ++r) {
+    for (int c = 120; c < 280; ++c, ++all) at_end += codeOf(after, c, r) > 65000 ? 1 : 0;
+    for (int c = 520; c < 620; ++c) moved = std::max(moved, std::abs(codeOf(after, c, r) - codeOf(before, c, r)));
+  }
+  EXPECT_GT(at_end, 0.98 * all);
+  EXPECT_LT(moved, 2000);
+}
+
+// A finger feels slopes: where a matcher finds whole pixels, a slope has terraces, level with walls between them.
+TEST(QuickDepth, ASlopeHasNoTerraces) {
+  constexpr double kPerRow = 0.1;
+  constexpr int kStep = 4, kMargin = 24;
+  const TwoViews scene{.cols = kCols, .rows = kRows, .boards = {{0, 0, kCols, kRows, -18, kPerRow, {120, 120, 120}}}};
+  for (const int cols : {160, 320, 640}) {
+    QuickDepth quick;
+    quick.setMatchedCols(cols);
+    const Frame depth = quick.depthOf(scene.left(), scene.right());
+    const double scale = Fit(depth, scene).scale;
+    double squares = 0, count = 0;
+    for (int r = kMargin; r + kStep < kRows - kMargin; ++r) {
+      for (int c = 60; c < kCols - 60; ++c, ++count) {
+        const double slope = scale * (codeOf(depth, c, r + kStep) - codeOf(depth, c, r)) / kStep;
+        squares += std::pow((slope - kPerRow) / kPerRow, 2);
+      }
+    }
+    EXPECT_LT(std::sqrt(squares / count), cols < 320 ? 0.35 : 0.15) << cols;
+    std::printf("matched at %d: slope off by %.1f %% rms\n", cols, 100 * std::sqrt(squares / count));
+  }
 }
 
 TEST(QuickDepth, FindsTheBoardsAtEverySize) {
