@@ -49,7 +49,7 @@ constexpr const char* kPlayAbout =
     "  relievo scan.mov --packing tb            colour on top, depth below in one picture; sbs: side by side\n"
     "  relievo film.mkv --stereo anaglyph       for red-cyan glasses; sbs, tab: for a 3D screen\n"
     "  relievo film.mkv --display kms           on a whole screen without a desktop\n"
-    "  relievo film.mkv --haptic falcon         felt with a force-feedback device\n"
+    "  relievo film.mkv --haptic falcon         felt with a force-feedback device; with a second --haptic, by two\n"
     "  relievo film.mkv --resume                from where it was left\n"
     "  relievo                                  a list of films to choose from; --films FOLDER: those of a folder\n"
     "  relievo https://example.org/film.m3u8    from the network\n"
@@ -173,10 +173,16 @@ Duration readDuration(double seconds) {
   return fromSeconds(seconds);
 }
 
+BackEndName nameOf(const std::string& given) {
+  BackEndName name = given;
+  name.word = inSmallLetters(name.word);
+  return name;
+}
+
 // An option that names a back end. Its word is one of `names`: those stand parted by spaces, each with what may follow
-// it in brackets or behind a colon.
+// it in brackets or behind a colon. `second`: it may be given twice; null: once.
 CLI::Option* addBackEnd(CLI::App& command, const char* option, BackEndName& chosen, const char* kind, const char* names,
-                        const char* help) {
+                        const char* help, BackEndName* second = nullptr) {
   const auto judge = [kind, names](const std::string& given) -> std::string {
     const std::string word = inSmallLetters(BackEndName(given).word);
     std::istringstream all(names);
@@ -187,14 +193,16 @@ CLI::Option* addBackEnd(CLI::App& command, const char* option, BackEndName& chos
     }
     return given + ": no such " + kind + "; it is one of: " + names + meant(word, words);
   };
-  return command
-      .add_option_function<std::string>(
-          option,
-          [&chosen](const std::string& given) {
-            chosen = given;
-            chosen.word = inSmallLetters(chosen.word);
-          },
-          std::string(help) + "\n" + names)
+  const auto take = [option, second, &chosen](const std::vector<std::string>& given) {
+    if (given.size() > (second != nullptr ? 2U : 1U)) {
+      throw WordFailure(
+          {option + (" " + given.back()), {ErrorCode::InvalidArgument, 0, "is one too many; see relievo play --help"}});
+    }
+    chosen = nameOf(given.front());
+    if (given.size() > 1) *second = nameOf(given.back());
+  };
+  return command.add_option_function<std::vector<std::string>>(option, take, std::string(help) + "\n" + names)
+      ->allow_extra_args(false)
       ->default_str(chosen.text())
       ->check(CLI::Validator(judge, ""))
       ->type_name("NAME");
@@ -264,8 +272,11 @@ void addSoundAndTextOptions(CLI::App& command, PlayerConfig& player) {
 }
 
 void addTouchOptions(CLI::App& command, PlayOptions& play, const DeviceNames& names) {
-  addBackEnd(command, "--haptic", play.haptic, "haptic device", names.haptic,
-             "What the finger holds [the device that is plugged in, else the mouse; off screen sim]");
+  addBackEnd(
+      command, "--haptic", play.haptic, "haptic device", names.haptic,
+      "What the finger holds; given twice: what two fingers hold, each in a colour of its own [the device that\nis "
+      "plugged in, else the mouse; off screen sim]",
+      &play.second_haptic);
   command
       .add_option("--rate", play.rate_hz,
                   "Ticks of touch per second, 500 to 8000; a device that cannot runs at its best [the device's own, "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One frame: converts the picture, then draws the relief and the finger for each eye.
+// One frame: converts the picture, then draws the relief and the fingers for each eye.
 #include "app/render/gl/scene_renderer.h"
 
 #include <algorithm>
@@ -30,7 +30,6 @@ constexpr Duration::rep kSmoothing = 8;
 constexpr double kShadowSlant = 0.35, kShadowRadiusMm = 4.5, kShadowGrowth = 0.15;
 constexpr double kShadowOpacity = 0.65, kShadowHalfMm = 15;
 constexpr double kGlowRadiusMm = 7.0, kGlowOpacity = 0.35, kGlowPerN = 0.1;
-constexpr glm::vec3 kGlowColor{1.0F, 0.78F, 0.35F};
 
 // The rectangle around all pictures, in shares of the view's width and height, from its middle; y up.
 std::optional<WordsBox> boxOf(const TextFrame& frame, const std::vector<TextPicture>& pictures) {
@@ -60,10 +59,10 @@ struct SceneRenderer::Impl {
   explicit Impl(Duration frame_budget) : level(frame_budget) {}
   [[nodiscard]] Result<void> createParts();
 
-  [[nodiscard]] Result<void> drawViews(const DisplaySurface& surface, const std::optional<FingerMark>& mark);
+  [[nodiscard]] Result<void> drawViews(const DisplaySurface& surface, const FingerMarks& marks);
   void makeTriangles(const EyeViews& eyes);
-  void drawView(const EyeView& view, const std::optional<FingerMark>& mark);
-  void drawFinger(const EyeView& view, const FingerMark& mark);
+  void drawView(const EyeView& view, const FingerMarks& marks);
+  void drawFinger(const EyeView& view, const FingerMark& mark, const FingerPaint& paint);
   void placeWords(const EyeViews& eyes);
 
   StereoSettings stereo;
@@ -165,10 +164,10 @@ Result<void> SceneRenderer::setFrame(const Frame& color, const Frame& depth, con
   return glOutcome();
 }
 
-Result<void> SceneRenderer::draw(const DisplaySurface& surface, const std::optional<FingerMark>& finger) {
+Result<void> SceneRenderer::draw(const DisplaySurface& surface, const FingerMarks& fingers) {
   Impl& impl = *impl_;
   const MonotonicTime start = impl.clock.now();
-  if (auto drawn = impl.drawViews(surface, finger); !drawn) return drawn;
+  if (auto drawn = impl.drawViews(surface, fingers); !drawn) return drawn;
   glFinish();
   const Duration took = impl.clock.now() - start;
   smooth(impl.drawing, took, impl.frames == 0);
@@ -206,7 +205,7 @@ RenderStatistics SceneRenderer::statistics() const noexcept {
   return result;
 }
 
-Result<void> SceneRenderer::Impl::drawViews(const DisplaySurface& surface, const std::optional<FingerMark>& mark) {
+Result<void> SceneRenderer::Impl::drawViews(const DisplaySurface& surface, const FingerMarks& marks) {
   StereoSettings shown = stereo;
   if (refusal(shown, surface.width, surface.height) != nullptr) shown.layout = StereoLayout::Mono;
   const EyeViews eyes = eyeViews(shown, volume, surface.width, surface.height);
@@ -233,7 +232,7 @@ Result<void> SceneRenderer::Impl::drawViews(const DisplaySurface& surface, const
       if (auto bound = mixer.bindEye(i, surface.width, surface.height); !bound) return bound;
       clear();
     }
-    drawView(eyes.views[i], mark);
+    drawView(eyes.views[i], marks);
   }
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   if (eyes.mixed) {
@@ -262,7 +261,7 @@ void SceneRenderer::Impl::makeTriangles(const EyeViews& eyes) {
   is_made = true;
 }
 
-void SceneRenderer::Impl::drawView(const EyeView& view, const std::optional<FingerMark>& mark) {
+void SceneRenderer::Impl::drawView(const EyeView& view, const FingerMarks& marks) {
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);  // keep the surface opaque whatever is blended on it
   glViewport(view.area.x, view.area.y, view.area.width, view.area.height);
   if (!has_picture) return text.draw(0);
@@ -274,7 +273,9 @@ void SceneRenderer::Impl::drawView(const EyeView& view, const std::optional<Fing
   glFrontFace(GL_CCW);
   const bool is_right = has_right && view.eye_x_mm > 0;
   surface_of_triangles.draw(glm::mat4(view.view_projection), is_right ? kRightUnit : kPictureUnit);
-  if (mark) drawFinger(view, *mark);
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    if (marks[i]) drawFinger(view, *marks[i], kFingerPaints[i]);
+  }
   glDisable(GL_CULL_FACE);
   subtitles.draw(words.shiftPx(view.eye_x_mm, stereo) * subtitles.frame().width / view.area.width);
   text.draw(0);
@@ -295,7 +296,7 @@ void SceneRenderer::Impl::placeWords(const EyeViews& eyes) {
 
 // A shadow to the lower right, farther away and fainter the higher the finger is above the surface, and a glow at the
 // contact, brighter the larger the force.
-void SceneRenderer::Impl::drawFinger(const EyeView& view, const FingerMark& mark) {
+void SceneRenderer::Impl::drawFinger(const EyeView& view, const FingerMark& mark, const FingerPaint& paint) {
   if (!depth.empty()) {
     const glm::dvec2 under(mark.position_mm);
     const double gap = std::max(0.0, mark.position_mm.z - SurfaceMark::heightUnder(field, under.x, under.y));
@@ -309,11 +310,11 @@ void SceneRenderer::Impl::drawFinger(const EyeView& view, const FingerMark& mark
       on_surface.draw(view.view_projection, field,
                       {.center_mm = under,
                        .radius_mm = kGlowRadiusMm,
-                       .color = kGlowColor,
+                       .color = paint.glow,
                        .opacity = static_cast<float>(std::min(1.0, kGlowOpacity + kGlowPerN * force))});
     }
   }
-  finger.draw(view.view_projection, mark);
+  finger.draw(view.view_projection, mark, paint);
 }
 
 }  // namespace relievo
