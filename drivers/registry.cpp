@@ -109,13 +109,22 @@ DeviceState windowsMouse(bool desktop) {
 
 // The benches of existing mocks. Used on the main thread only.
 std::weak_ptr<MockDisplayBench> display_bench;
-std::weak_ptr<MockHapticBench> haptic_bench;
+std::vector<std::weak_ptr<MockHapticBench>> haptic_benches;  // as they were made
 
 template <class Bench>
 std::shared_ptr<Bench> newBench(std::weak_ptr<Bench>& known) {
   auto bench = std::make_shared<Bench>();
   known = bench;
   return bench;
+}
+
+std::shared_ptr<MockHapticBench> newHapticBench() {
+  std::erase_if(haptic_benches, [](const auto& known) { return known.expired(); });
+  return newBench(haptic_benches.emplace_back());
+}
+
+std::weak_ptr<MockHapticBench> hapticBench(std::size_t number) {
+  return number < haptic_benches.size() ? haptic_benches[number] : std::weak_ptr<MockHapticBench>();
 }
 
 template <class Bench>
@@ -229,7 +238,7 @@ Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(const BackEndName& name,
     if (!recording) return std::unexpected(recording.error());
     return makeReplay(std::move(*recording));
   }
-  if (name.plain("mock")) return makeMockHaptic(MockHapticProfile{}, clock, newBench(haptic_bench));
+  if (name.plain("mock")) return makeMockHaptic(MockHapticProfile{}, clock, newHapticBench());
   if (name.plain("none")) return nullptr;
   return unknown("--haptic", name, "no such haptic device; it is one of: " RELIEVO_HAPTIC_NAMES);
 }
@@ -329,12 +338,15 @@ std::unique_ptr<SubtitleDecoder> makeSubtitleDecoder() {
 
 Result<void> switchFault(std::string_view device, std::string_view fault) {
   const bool unplug = fault == "unplug";
-  if (device == "haptic" && fault == "glitch") return turn(haptic_bench, &MockHapticBench::glitch, true);
+  const bool haptic = device == "haptic" || device == "haptic2";
+  const auto finger = hapticBench(device == "haptic2" ? 1 : 0);
+  if (haptic && fault == "glitch") return turn(finger, &MockHapticBench::glitch, true);
   if (unplug || fault == "plug") {
-    if (device == "haptic") return turn(haptic_bench, &MockHapticBench::unplugged, unplug);
+    if (haptic) return turn(finger, &MockHapticBench::unplugged, unplug);
     if (device == "display") return turn(display_bench, &MockDisplayBench::unplugged, unplug);
   }
-  return fail(ErrorCode::InvalidArgument, "no such fault; use haptic unplug|plug|glitch or display unplug|plug");
+  return fail(ErrorCode::InvalidArgument,
+              "no such fault; use haptic unplug|plug|glitch, haptic2 for a second one, display unplug|plug");
 }
 
 bool desktopIsThere() {

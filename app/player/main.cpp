@@ -45,19 +45,6 @@ PairReader::Backends realBackends(drivers::DecoderMaker make_decoder = drivers::
           .make_subtitle_decoder = drivers::makeSubtitleDecoder};
 }
 
-// One that cannot be written costs the other nothing.
-int finishFiles(const PlayReport& report, AtomicFile* report_file, Recorder* recorder) {
-  int result = kExitDone;
-  if (recorder != nullptr && report.haptic.ticks > 0) {
-    if (auto finished = recorder->finish(); !finished) result = tell({recorder->path(), finished.error()});
-  }
-  if (report_file != nullptr) {
-    report_file->write(toJson(report));
-    if (auto written = report_file->commit(); !written) result = tell({report_file->path(), written.error()});
-  }
-  return result;
-}
-
 std::optional<double> askForReading(double asked_n) {
   for (;;) {
     std::printf("It is asked for %.0f N. The scale shows (N): ", asked_n);
@@ -98,13 +85,22 @@ Outcome<void> complete(PlayOptions& options) {
   return {};
 }
 
+// "hand-2.csv" beside "hand.csv"; empty without a second finger or a recording.
+std::string secondRecordPath(const PlayOptions& options) {
+  if (options.record_path.empty() || options.second_haptic.word.empty()) return "";
+  const std::filesystem::path path = options.record_path;
+  return (path.parent_path() / (path.stem().string() + "-2" + path.extension().string())).string();
+}
+
 Outcome<void> keepOutputsApart(const PlayOptions& options, const FileConfig& config) {
   const SourceOptions& source = options.player.source;
   std::vector<std::string> inputs = source.named_files;
   inputs.insert(inputs.end(), {source.url, source.depth_url, depthBeside(source.url), options.keys_path, config.path,
                                config.falcon_firmware.value_or("")});
-  std::vector<std::string> outputs{options.report_path, options.record_path, options.control_path};
-  for (const BackEndName* name : {&options.display, &options.haptic, &options.remote, &options.audio}) {
+  std::vector<std::string> outputs{options.report_path, options.record_path, secondRecordPath(options),
+                                   options.control_path};
+  for (const BackEndName* name :
+       {&options.display, &options.haptic, &options.second_haptic, &options.remote, &options.audio}) {
     const drivers::NamedFiles files = drivers::filesNamedBy(*name);
     inputs.push_back(files.read);
     outputs.push_back(files.written);
@@ -115,7 +111,7 @@ Outcome<void> keepOutputsApart(const PlayOptions& options, const FileConfig& con
 // What a film is played on. Null: there is none.
 struct Devices {
   std::unique_ptr<Display> display;
-  std::unique_ptr<HapticDevice> haptic;
+  std::unique_ptr<HapticDevice> haptic, second_haptic;
   std::unique_ptr<RemoteInput> remote;
   std::unique_ptr<AudioOutput> audio;
   drivers::DecoderMaker make_decoder;
@@ -132,32 +128,40 @@ Outcome<void> askForRate(HapticDevice& device, double hz) {
   return {};
 }
 
+Outcome<std::unique_ptr<HapticDevice>> makeHaptic(const BackEndName& name, const PlayOptions& options,
+                                                  const FileConfig& config, Clock& clock) {
+  if (name.word.empty()) return nullptr;
+  auto device = drivers::makeHapticDevice(name, clock, settingsOf(config));
+  if (!device || *device == nullptr || !options.rate_hz) return device;
+  if (auto asked = askForRate(**device, *options.rate_hz); !asked) return std::unexpected(asked.error());
+  return device;
+}
+
 Outcome<Devices> makeDevices(const PlayOptions& options, const FileConfig& config, Clock& clock) {
   auto display = drivers::makeDisplay(options.display);
   if (!display) return std::unexpected(display.error());
-  auto haptic = drivers::makeHapticDevice(options.haptic, clock, settingsOf(config));
+  auto haptic = makeHaptic(options.haptic, options, config, clock);
   if (!haptic) return std::unexpected(haptic.error());
   if (*haptic == nullptr && !options.record_path.empty()) {
     return failOn("--record " + options.record_path,
                   {ErrorCode::InvalidArgument, 0, "there is no finger to record with --haptic none; leave one out"});
   }
-  if (*haptic != nullptr && options.rate_hz) {
-    if (auto asked = askForRate(**haptic, *options.rate_hz); !asked) return std::unexpected(asked.error());
-  }
+  auto second = makeHaptic(options.second_haptic, options, config, clock);
+  if (!second) return std::unexpected(second.error());
   auto remote = drivers::makeRemoteInput(options.remote, clock);
   if (!remote) return std::unexpected(remote.error());
   auto audio = drivers::makeAudioOutput(options.audio, clock);
   if (!audio) return std::unexpected(audio.error());
   auto make_decoder = drivers::decoderMaker(options.software ? BackEndName("ffmpeg") : options.decoder);
   if (!make_decoder) return std::unexpected(make_decoder.error());
-  return Devices{std::move(*display), std::move(*haptic), std::move(*remote), std::move(*audio),
-                 std::move(*make_decoder)};
+  return Devices{std::move(*display), std::move(*haptic), std::move(*second),
+                 std::move(*remote),  std::move(*audio),  std::move(*make_decoder)};
 }
 
 // What is written besides the picture and the sound. Empty: it was not asked for.
 struct Outputs {
   std::optional<AtomicFile> report;
-  std::optional<Recorder> recorder;
+  std::optional<Recorder> recorder, second_recorder;
   std::unique_ptr<ControlSocket> socket;
 };
 
@@ -174,12 +178,33 @@ Outcome<Outputs> makeOutputs(const PlayOptions& options) {
     if (!created) return failOn(options.record_path, created.error());
     outputs.recorder = std::move(*created);
   }
+  if (const std::string path = secondRecordPath(options); !path.empty()) {
+    auto created = Recorder::create(path);
+    if (!created) return failOn(path, created.error());
+    outputs.second_recorder = std::move(*created);
+  }
   if (!options.control_path.empty()) {
     auto listening = ControlSocket::listen(options.control_path);
     if (!listening) return std::unexpected(listening.error());
     outputs.socket = std::move(*listening);
   }
   return outputs;
+}
+
+// One that cannot be written costs the others nothing.
+int finishFiles(const PlayReport& report, Outputs& outputs) {
+  int result = kExitDone;
+  const auto finish = [&result](std::optional<Recorder>& recorder, const HapticSummary& haptic) {
+    if (!recorder || haptic.ticks == 0) return;
+    if (auto finished = recorder->finish(); !finished) result = tell({recorder->path(), finished.error()});
+  };
+  finish(outputs.recorder, report.haptic);
+  if (report.second_finger) finish(outputs.second_recorder, report.second_finger->haptic);
+  if (outputs.report) {
+    outputs.report->write(toJson(report));
+    if (auto written = outputs.report->commit(); !written) result = tell({outputs.report->path(), written.error()});
+  }
+  return result;
 }
 
 int play(PlayOptions options, const FileConfig& config) {
@@ -195,24 +220,25 @@ int play(PlayOptions options, const FileConfig& config) {
   auto outputs = makeOutputs(options);
   if (!outputs) return tell(outputs.error());
   PlayerControl control(std::move(outputs->socket), drivers::switchFault);
-  AtomicFile* const report_file = outputs->report ? &*outputs->report : nullptr;
-  Recorder* const recorder = outputs->recorder ? &*outputs->recorder : nullptr;
+  const auto recorderOf = [](std::optional<Recorder>& recorder) { return recorder ? &*recorder : nullptr; };
 
   const bool for_a_time = options.player.duration.has_value();
   StatusLine status;
-  Player player(std::move(options.player), {.clock = clock,
-                                            .display = *devices->display,
-                                            .haptic = devices->haptic.get(),
-                                            .remote = devices->remote.get(),
-                                            .audio = devices->audio.get(),
-                                            .recorder = recorder,
-                                            .control = &control,
-                                            .status = &status,
-                                            .backends = realBackends(devices->make_decoder),
-                                            .posters = realBackends(drivers::makeSoftwareDecoder)});
+  Player player(std::move(options.player),
+                {.clock = clock,
+                 .display = *devices->display,
+                 .haptic = devices->haptic.get(),
+                 .remote = devices->remote.get(),
+                 .audio = devices->audio.get(),
+                 .recorder = recorderOf(outputs->recorder),
+                 .second_finger = {devices->second_haptic.get(), recorderOf(outputs->second_recorder)},
+                 .control = &control,
+                 .status = &status,
+                 .backends = realBackends(devices->make_decoder),
+                 .posters = realBackends(drivers::makeSoftwareDecoder)});
   const auto played = player.run(stop);
   const PlayReport report = player.report();
-  const int files = finishFiles(report, report_file, recorder);
+  const int files = finishFiles(report, *outputs);
   if (!played) return tell(played.error());
   std::fputs(toText(report, options.verbose).c_str(), stdout);
   if (for_a_time && report.frames_shown == 0 && !report.source.empty() && !stop)

@@ -33,8 +33,8 @@ Player::Player(PlayerConfig config, PlayerParts parts)
                }),
       programme_(config_.resume_path, config_.loop),
       film_(backendsOf(parts_, config_.own_threads), parts_.audio, parts_.clock, journal_),
-      touch_(parts_.haptic, parts_.recorder, parts_.clock, config_.own_threads ? Ticking::Thread : Ticking::ByHand,
-             journal_),
+      touch_({parts_.haptic, parts_.recorder}, parts_.second_finger, parts_.clock,
+             config_.own_threads ? Ticking::Thread : Ticking::ByHand, journal_),
       screen_(parts_.display, config_.display, config_.stereo, config_.osd, parts_.clock, journal_),
       keys_(config_.keys),
       loudness_(config_.volume_path, config_.sound_device) {

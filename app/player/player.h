@@ -57,10 +57,11 @@ struct PlayerConfig {
 struct PlayerParts {
   Clock& clock;
   Display& display;
-  HapticDevice* haptic = nullptr;
+  HapticDevice* haptic = nullptr;  // of the first finger
   RemoteInput* remote = nullptr;
   AudioOutput* audio = nullptr;
-  Recorder* recorder = nullptr;
+  Recorder* recorder = nullptr;  // of the first finger
+  FingerParts second_finger;
   PlayerControl* control = nullptr;
   StatusLine* status = nullptr;
   PairReader::Backends backends;

@@ -18,6 +18,21 @@ std::string titleOf(const std::string& url) {
   return path.substr(begin, end + 1 - begin);
 }
 
+FingerForces forcesOf(const FingerMarks& marks) {
+  const auto force = [](const std::optional<FingerMark>& mark) { return mark ? glm::length(mark->force_n) : 0.0; };
+  return {force(marks[0]), force(marks[1])};
+}
+
+FingerFacts fingerFacts(std::string device, const std::optional<FingerMark>& mark, const DisplayVolume& volume) {
+  FingerFacts facts{.haptic = std::move(device)};
+  if (!mark) return facts;
+  facts.contact = mark->contact;
+  facts.force_n = glm::length(mark->force_n);
+  if (volume.width_mm > 0) facts.across = mark->position_mm.x / volume.width_mm;
+  if (volume.height_mm > 0) facts.up = mark->position_mm.y / volume.height_mm;
+  return facts;
+}
+
 std::optional<double> secondsOf(std::optional<MediaTime> time) {
   return time ? std::optional(toSeconds(*time)) : std::nullopt;
 }
@@ -26,15 +41,13 @@ std::optional<double> secondsOf(std::optional<MediaTime> time) {
 
 void Player::tellStatus(MonotonicTime now) {
   if (parts_.status == nullptr || !parts_.status->isDue(now) || !film_.isOpen()) return;
-  const auto finger = touch_.mark();
-  parts_.status->show(facts(), report(), finger ? glm::length(finger->force_n) : 0, now);
+  parts_.status->show(facts(), report(), forcesOf(touch_.marks()), now);
 }
 
 // The report is long: it is made once a second, and only to be seen.
 void Player::followStatistics(MonotonicTime now) {
   if (!screen_.wantsStatistics() || !statistics_.isDue(now)) return;
-  const auto& finger = screen_.finger();
-  screen_.setStatistics(statistics_.rows(report(), finger ? glm::length(finger->force_n) : 0.0, now));
+  screen_.setStatistics(statistics_.rows(report(), forcesOf(screen_.fingers()), now));
 }
 
 PlayReport Player::report() const {
@@ -49,23 +62,26 @@ PlayReport Player::report() const {
   report.sound = film_.sound();
   report.seeks = seeks_.entries();
   report.volume = touch_.volume();
-  report.haptic = touch_.summary();
+  report.haptic = touch_.fingers()[0].session().summary();
   screen_.describe(report);
   const auto msSinceBegin = [this](std::optional<MonotonicTime> time) {
     return time ? std::optional(1e3 * journal_.sinceBegin(*time)) : std::nullopt;
   };
   report.first_frame_ms = msSinceBegin(screen_.firstShown());
-  report.first_touch_ms = msSinceBegin(touch_.firstTick());
+  report.first_touch_ms = msSinceBegin(touch_.fingers()[0].firstTick());
+  if (touch_.fingers().size() > 1) {
+    const Finger& second = touch_.fingers()[1];
+    report.second_finger = {second.session().summary(), msSinceBegin(second.firstTick())};
+  }
   return report;
 }
 
 ScreenFacts Player::facts() const {
   const PlaylistEntry& film = programme_.film();
-  const auto& finger = screen_.finger();
-  const DisplayVolume& volume = screen_.volume();
-  const auto share = [&](double mm, double whole_mm) {
-    return finger && whole_mm > 0 ? std::optional(mm / whole_mm) : std::nullopt;
-  };
+  std::array<FingerFacts, 2> fingers;
+  for (std::size_t i = 0; i < touch_.fingers().size(); ++i) {
+    fingers[i] = fingerFacts(touch_.fingers()[i].device(), screen_.fingers()[i], screen_.volume());
+  }
   const MediaTime position = film_.place(parts_.clock.now()).value_or(film_.picture().color.pts);
   return {.title = film.title.empty() ? titleOf(film.url) : film.title,
           .position_s = toSeconds(position),
@@ -79,9 +95,7 @@ ScreenFacts Player::facts() const {
           .films = programme_.size(),
           .stereo = screen_.stereo(),
           .has_depth = film_.info().has_depth,
-          .haptic = touch_.device(),
-          .contact = finger && finger->contact,
-          .force_n = finger ? glm::length(finger->force_n) : 0.0,
+          .fingers = fingers,
           .volume_percent = loudness_.percent(),
           .muted = loudness_.muted(),
           .sound_track = describeTrack(film_.info().sounds, film_.info().sound),
@@ -92,9 +106,7 @@ ScreenFacts Player::facts() const {
           .aspect = screen_.aspectWord(),
           .full_screen = screen_.isFullScreen(),
           .loop_from_s = secondsOf(loop_from_),
-          .loop_to_s = secondsOf(loop_to_),
-          .finger_across = share(finger ? finger->position_mm.x : 0.0, volume.width_mm),
-          .finger_up = share(finger ? finger->position_mm.y : 0.0, volume.height_mm)};
+          .loop_to_s = secondsOf(loop_to_)};
 }
 
 }  // namespace relievo

@@ -147,7 +147,7 @@ void Player::begin(MonotonicTime now) {
 // A device that is not there, or has nothing to feel, is not spoken of.
 std::string Player::firstHint() const {
   const char* const keys = "h: all keys";
-  const bool has_device = touch_.waiting() || !touch_.device().empty();
+  const bool has_device = touch_.waiting() || touch_.running();
   if (!has_device || !film_.info().has_depth) return keys;
   return (config_.mouse_touches ? "Press into the picture to feel it.  " : "Reach into the picture to feel it.  ") +
          std::string(keys);
@@ -165,7 +165,7 @@ void Player::followClock(MonotonicTime now) {
   if (pictures > 0) {
     screen_.skip(pictures - 1);
     showPicture(now);
-  } else if (auto drawn = screen_.redraw(touch_.mark(), film_.nextPicture(now), now); !drawn) {
+  } else if (auto drawn = screen_.redraw(touch_.marks(), film_.nextPicture(now), now); !drawn) {
     failDrawing(drawn.error());
   }
   if (state_ == PlayerState::Playing) followProgress(film_.going(now), now);
@@ -180,7 +180,7 @@ void Player::followDevice() {
 }
 
 void Player::showPicture(MonotonicTime now) {
-  const auto seen = screen_.show(film_.picture(), touch_.mark(), now);
+  const auto seen = screen_.show(film_.picture(), touch_.marks(), now);
   if (!seen) failDrawing(seen.error());
   else if (*seen) film_.noteShown();
 }

@@ -59,7 +59,7 @@ void Player::stopFilm(MonotonicTime now) {
   apply(PlayerEvent::Stop);
   if (had_film && returnsToBrowser()) return openBrowser(now);
   if (!config_.stays) return;
-  if (auto cleared = screen_.clear(touch_.mark(), now); !cleared) failDrawing(cleared.error());
+  if (auto cleared = screen_.clear(touch_.marks(), now); !cleared) failDrawing(cleared.error());
 }
 
 void Player::endFilm(MonotonicTime now) {

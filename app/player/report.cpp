@@ -107,8 +107,7 @@ Json audioPart(const PlayReport& r) {
           {"drift_ppm", rounded(s.drift_ppm, 1e1)}};
 }
 
-Json hapticPart(const PlayReport& r) {
-  const HapticSummary& h = r.haptic;
+Json hapticPart(const HapticSummary& h, const std::optional<double>& first_touch_ms) {
   Json histogram = Json::array();
   for (const auto& [ns, ticks] : h.wakeup_histogram) histogram.push_back({ns, ticks});
   return {{"device", h.device},
@@ -123,7 +122,7 @@ Json hapticPart(const PlayReport& r) {
             {"stack_used", h.memory.stack_used}}},
           {"rate_hz", rounded(h.rate_hz, 1e3)},
           {"ticks", h.ticks},
-          {"first_touch_ms", orNull(r.first_touch_ms)},
+          {"first_touch_ms", orNull(first_touch_ms)},
           {"contact_share", rounded(share(h.contact_ticks, h.ticks))},
           {"overruns", h.overruns},
           {"allocations", h.allocations},
@@ -140,6 +139,16 @@ Json forcePart(const HapticSummary& h) {
 
 Json energyPart(const HapticSummary& h) {
   return {{"scene_mj", rounded(h.scene_mj)}, {"artefact_mj", rounded(h.artefact_mj)}};
+}
+
+Json touchPart(const HapticSummary& h, const std::optional<double>& first_touch_ms) {
+  return {{"haptic", hapticPart(h, first_touch_ms)}, {"force", forcePart(h)}, {"energy", energyPart(h)}};
+}
+
+void addTouch(Json& json, const PlayReport& r) {
+  json.update(touchPart(r.haptic, r.first_touch_ms));
+  if (!r.second_finger) return;
+  json["second_finger"] = touchPart(r.second_finger->haptic, r.second_finger->first_touch_ms);
 }
 
 }  // namespace
@@ -168,9 +177,7 @@ std::string toJson(const PlayReport& r) {
   json["video"] = videoPart(r);
   json["live"] = livePart(r.live);
   json["audio"] = audioPart(r);
-  json["haptic"] = hapticPart(r);
-  json["force"] = forcePart(r.haptic);
-  json["energy"] = energyPart(r.haptic);
+  addTouch(json, r);
   json["states"] = Json::array();
   for (const PlayerState state : r.states) json["states"].push_back(name(state));
   json["seeks"] = Json::array();
@@ -190,9 +197,12 @@ std::string toJson(const PlayReport& r) {
 }
 
 std::string metricsOf(const PlayReport& r) {
-  const Json json{{"wall_s", rounded(r.wall_s)},  {"media_s", rounded(r.media_s)}, {"video", videoPart(r)},
-                  {"live", livePart(r.live)},     {"audio", audioPart(r)},         {"haptic", hapticPart(r)},
-                  {"force", forcePart(r.haptic)}, {"energy", energyPart(r.haptic)}};
+  Json json{{"wall_s", rounded(r.wall_s)},
+            {"media_s", rounded(r.media_s)},
+            {"video", videoPart(r)},
+            {"live", livePart(r.live)},
+            {"audio", audioPart(r)}};
+  addTouch(json, r);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -223,8 +233,7 @@ std::string pictureFigures(const PlayReport& r) {
                static_cast<unsigned long long>(r.pairs.mismatched));
 }
 
-std::string touchText(const PlayReport& r) {
-  const HapticSummary& h = r.haptic;
+std::string touchText(const PlayReport& r, const HapticSummary& h) {
   if (h.ticks == 0) return "touch   none\n";
   if (!r.film.has_depth) return "touch   nothing to feel: the film has no depth\n";
   return print("touch   %s, %.0f %% of the time in contact, at most %.2f N, %llu of %llu ticks late\n",
@@ -232,8 +241,7 @@ std::string touchText(const PlayReport& r) {
                static_cast<unsigned long long>(h.overruns), static_cast<unsigned long long>(h.ticks));
 }
 
-std::string touchFigures(const PlayReport& r) {
-  const HapticSummary& h = r.haptic;
+std::string touchFigures(const PlayReport& r, const HapticSummary& h) {
   const auto us = [](std::int64_t ns) { return static_cast<double>(ns) * 1e-3; };
   std::string text = r.film.has_depth ? "felt    " + h.plan + "\n" : "";
   text += print("tick    %.0f Hz (%s), median %.1f us, p99 %.1f us, longest %.1f us; woken late by %.1f us (p99)\n",
@@ -250,8 +258,12 @@ std::string toText(const PlayReport& r, bool verbose) {
                 static_cast<unsigned long long>(r.frames_dropped));
   if (verbose) text += pictureFigures(r);
   if (r.live) text += liveText(r);
-  text += touchText(r);
-  if (verbose && r.haptic.ticks > 0) text += touchFigures(r);
+  const auto addFinger = [&](const HapticSummary& h) {
+    text += touchText(r, h);
+    if (verbose && h.ticks > 0) text += touchFigures(r, h);
+  };
+  addFinger(r.haptic);
+  if (r.second_finger) addFinger(r.second_finger->haptic);
   return text;
 }
 

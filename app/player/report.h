@@ -2,6 +2,7 @@
 // What a run of the player did, as numbers; as JSON for programs and as a few lines for people.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -27,6 +28,12 @@ struct FaultEntry {
   std::uint64_t count = 1;
 };
 
+// The second finger's part of the report, where two devices were asked for.
+struct SecondFinger {
+  HapticSummary haptic;
+  std::optional<double> first_touch_ms;
+};
+
 struct PlayReport {
   std::string source, depth_source;
   std::vector<std::string> films;  // opened, in order
@@ -50,7 +57,8 @@ struct PlayReport {
   std::optional<LiveLatency> live;
   ReliefSummary reliefs;  // made from films of two views
 
-  HapticSummary haptic;
+  HapticSummary haptic;  // of the first finger
+  std::optional<SecondFinger> second_finger;
   SoundSummary sound;
   std::vector<PlayerState> states;
   std::vector<FaultEntry> faults;
@@ -59,6 +67,9 @@ struct PlayReport {
   // The last one again is counted there. True for the first of its name: that one is worth a line.
   bool addFault(double time_s, std::string what, std::string done);
 };
+
+// The force on each finger, N; 0 without one.
+using FingerForces = std::array<double, 2>;
 
 [[nodiscard]] std::string toJson(const PlayReport& report);
 // A few lines for a viewer; `verbose`: for a developer.

@@ -29,13 +29,18 @@ std::string timesOf(const ScreenFacts& facts) {
 
 }  // namespace
 
-std::string statusText(const ScreenFacts& facts, const PlayReport& report, double force_n, std::size_t columns) {
+std::string statusText(const ScreenFacts& facts, const PlayReport& report, const FingerForces& forces_n,
+                       std::size_t columns) {
   std::string text = std::string(name(facts.state)) + " " + timesOf(facts);
   if (facts.rate != 1) text += print("  %gx", facts.rate);
   if (facts.films > 1) text += print("  film %zu of %zu", facts.film, facts.films);
   text += print("  dropped %llu", static_cast<unsigned long long>(report.frames_dropped));
-  if (report.haptic.ticks > 0) {
-    text += print("  force %.2f N  late ticks %llu", force_n, static_cast<unsigned long long>(report.haptic.overruns));
+  const auto late = [](const HapticSummary& haptic) { return static_cast<unsigned long long>(haptic.overruns); };
+  if (const auto& second = report.second_finger) {
+    text += print("  force %.2f N, %.2f N  late ticks %llu, %llu", forces_n[0], forces_n[1], late(report.haptic),
+                  late(second->haptic));
+  } else if (report.haptic.ticks > 0) {
+    text += print("  force %.2f N  late ticks %llu", forces_n[0], late(report.haptic));
   }
   return text.substr(0, columns > 0 ? columns - 1 : 0);
 }
@@ -45,9 +50,10 @@ StatusLine::StatusLine() : on_terminal_(::isatty(STDERR_FILENO) == 1) {
   if (kind == nullptr || std::string_view(kind) == "dumb") on_terminal_ = false;
 }
 
-void StatusLine::show(const ScreenFacts& facts, const PlayReport& report, double force_n, MonotonicTime now) {
+void StatusLine::show(const ScreenFacts& facts, const PlayReport& report, const FingerForces& forces_n,
+                      MonotonicTime now) {
   due_ = now + kPeriod;
-  showStatusLine(statusText(facts, report, force_n, columnsOfTerminal()));
+  showStatusLine(statusText(facts, report, forces_n, columnsOfTerminal()));
 }
 
 void StatusLine::clear() noexcept {

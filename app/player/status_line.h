@@ -12,7 +12,7 @@
 namespace relievo {
 
 // "playing 0:12 / 1:30 (13 %)  2x  dropped 0  force 1.25 N  late ticks 0", at most `columns` long.
-[[nodiscard]] std::string statusText(const ScreenFacts& facts, const PlayReport& report, double force_n,
+[[nodiscard]] std::string statusText(const ScreenFacts& facts, const PlayReport& report, const FingerForces& forces_n,
                                      std::size_t columns);
 
 // On standard error, if that is a terminal. The player's thread only.
@@ -27,7 +27,7 @@ class StatusLine {
 
   // False on what is no terminal, and too soon after the last one.
   [[nodiscard]] bool isDue(MonotonicTime now) const noexcept { return on_terminal_ && now >= due_; }
-  void show(const ScreenFacts& facts, const PlayReport& report, double force_n, MonotonicTime now);
+  void show(const ScreenFacts& facts, const PlayReport& report, const FingerForces& forces_n, MonotonicTime now);
   void clear() noexcept;
 
  private:

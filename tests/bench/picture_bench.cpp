@@ -147,7 +147,7 @@ void drawFrames(benchmark::State& state, const Film& film) {
     for (auto _ : state) {
       const FramePair& pair = film.pairs[i++ % film.pairs.size()];
       if (!renderer->setFrame(pair.color, pair.depth, film.calibration, film.volume) ||
-          !renderer->draw(*surface, FingerMark{.position_mm = {0, 0, 30}, .force_n = {0, 0, 2}, .contact = true})) {
+          !renderer->draw(*surface, {FingerMark{.position_mm = {0, 0, 30}, .force_n = {0, 0, 2}, .contact = true}})) {
         return state.SkipWithError("a frame was not drawn");
       }
     }
@@ -205,7 +205,7 @@ int drawInTurns(const std::vector<Film>& all) {
       const MonotonicTime begin = clock.now();
       const std::clock_t cpu_begin = std::clock();
       if (!renderer.setFrame(pair.color, pair.depth, all[k].calibration, all[k].volume)) return 1;
-      if (!renderer.draw(*surface, FingerMark{.position_mm = {0, 0, 30}})) return 1;
+      if (!renderer.draw(*surface, {FingerMark{.position_mm = {0, 0, 30}}})) return 1;
       drawn[k].frame_ms.push_back(toSeconds(clock.now() - begin) * 1e3);
       drawn[k].cpu_ms.push_back(static_cast<double>(std::clock() - cpu_begin) * 1e3 / CLOCKS_PER_SEC);
       drawn[k].triangles += static_cast<double>(renderer.statistics().triangles);

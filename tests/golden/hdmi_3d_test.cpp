@@ -26,7 +26,7 @@ class Television {
     const auto surface = display_->beginFrame();
     ASSERT_TRUE(surface);
     ASSERT_TRUE(renderer->setFrame(scene.color, scene.depth, scene.calibration, scene.volume));
-    ASSERT_TRUE(renderer->draw(*surface, std::nullopt));
+    ASSERT_TRUE(renderer->draw(*surface, {}));
     const auto presented = display_->present();
     ASSERT_TRUE(presented) << presented.error().message;
   }

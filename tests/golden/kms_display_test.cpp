@@ -137,7 +137,7 @@ TEST_F(KmsDisplay, TheReliefOnTheScreenIsThatOfTheOffscreenDisplay) {
     const auto surface = display_->beginFrame();
     ASSERT_TRUE(surface);
     ASSERT_TRUE(renderer->setFrame(scene.color, scene.depth, scene.calibration, scene.volume));
-    ASSERT_TRUE(renderer->draw(*surface, scene.finger));
+    ASSERT_TRUE(renderer->draw(*surface, {scene.finger}));
     ASSERT_TRUE(display_->present());
   }
   // GL draws a window upside down but not a framebuffer object: a pixel whose middle lies on an edge is drawn in only
@@ -246,7 +246,7 @@ void expectTheSameFromDmaBufs(Display& display, const std::string& card) {
     {
       auto renderer = SceneRenderer::create(1h).value();
       ASSERT_TRUE(renderer->setFrame(picture.frame(with_dma_buf), {}, {}, {160, 100, 40}));
-      ASSERT_TRUE(renderer->draw(*surface, std::nullopt));
+      ASSERT_TRUE(renderer->draw(*surface, {}));
       imported = renderer->statistics().imported;
       auto& pixels = drawn[with_dma_buf ? 1 : 0];
       pixels.resize(std::size_t{640} * 480 * 4);

@@ -63,7 +63,7 @@ Result<void> Stage::tryShow(const Scene& scene) {
   if (auto set = renderer_->setFrame(scene.color, scene.depth, scene.calibration, scene.volume, scene.right); !set) {
     return set;
   }
-  return renderer_->draw(surface_, scene.finger);
+  return renderer_->draw(surface_, {scene.finger, scene.second_finger});
 }
 
 Image Stage::show(const Scene& scene) {
@@ -73,7 +73,7 @@ Image Stage::show(const Scene& scene) {
 }
 
 Image Stage::again() {
-  EXPECT_TRUE(renderer_->draw(surface_, std::nullopt));
+  EXPECT_TRUE(renderer_->draw(surface_, {}));
   return read();
 }
 

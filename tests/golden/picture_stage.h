@@ -46,7 +46,7 @@ struct Scene {
   DepthCalibration calibration;
   DisplayVolume volume;
   StereoSettings stereo{.layout = StereoLayout::Mono};
-  std::optional<FingerMark> finger;
+  std::optional<FingerMark> finger, second_finger;
   double error_px = 0.05;
   Frame right;  // of two views
 };

@@ -184,6 +184,24 @@ TEST(RenderFinger, ContactGlowsOnTheSurfaceTheMoreTheHarder) {
   EXPECT_GT(glow(true, 4), glow(true, 0) + 20);
 }
 
+// The first finger on the left, the second on the right, or the second alone.
+TEST(RenderFinger, TheSecondOneIsAsLargeAndBlueWhereTheFirstIsAmber) {
+  STAGE_OR_SKIP(stage, 1280, 720);
+  Scene scene = blackPlane(20, {.position_mm = {-30, 0, 20}, .contact = true});
+  scene.second_finger = FingerMark{.position_mm = {30, 0, 20}, .force_n = {0, 2, 0}, .contact = true};
+  const Image both = stage.show(scene);
+  const int first_x = 640 - 30 * 8, second_x = 640 + 30 * 8;
+  EXPECT_GT(both.channel(first_x, 355, 0), both.channel(first_x, 355, 2) + 100);
+  EXPECT_GT(both.channel(second_x, 355, 2), both.channel(second_x, 355, 0) + 100);
+  EXPECT_GT(both.channel(first_x - 32, 360, 0), both.channel(first_x - 32, 360, 2)) << "its glow";
+  EXPECT_GT(both.channel(second_x - 32, 360, 2), both.channel(second_x - 32, 360, 0)) << "its glow";
+  EXPECT_NEAR(litBox(both, 640, 1280).top, 360 - kPixelsPerMm * (2.5 + 5.0 * 2), 2.0) << "its arrow";
+  scene.finger.reset();
+  const Image alone = stage.show(scene);
+  EXPECT_EQ(litBox(alone, 0, 640).right, -1);
+  EXPECT_EQ(alone.at(second_x, 355), both.at(second_x, 355));
+}
+
 TEST(RenderFinger, GoesWhenThereIsNone) {
   STAGE_OR_SKIP(stage, 320, 180);
   Scene scene = blackPlane(0, {.position_mm = {0, 0, 20}});

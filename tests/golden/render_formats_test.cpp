@@ -337,7 +337,7 @@ TEST(RenderFormats, AThousandRenderersLeaveNoGlObject) {
     for (const auto layout : {StereoLayout::SideBySide, StereoLayout::Anaglyph}) {
       renderer->setStereo({.layout = layout});
       ASSERT_TRUE(renderer->setFrame(makeYuvFrame(64, 36, {.name = ""}), makePlane(64, 36, 8, 128), {}, kVolume));
-      ASSERT_TRUE(renderer->draw(*surface, FingerMark{.contact = true}));
+      ASSERT_TRUE(renderer->draw(*surface, {FingerMark{.contact = true}}));
     }
   }
   glUseProgram(0);  // the one in use stays until another is

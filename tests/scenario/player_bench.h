@@ -51,6 +51,7 @@ class PlayerBench {
   MockDisplayProfile display{.refresh_period = Duration(0)};
   MockHapticProfile haptic;
   std::function<std::unique_ptr<HapticDevice>(Clock&)> make_haptic;  // another device in place of the mock
+  std::function<std::unique_ptr<HapticDevice>(Clock&)> make_second;  // of a second finger
   std::function<std::unique_ptr<MediaSource>()> make_source;         // of real films, with a decoder for them
   std::function<std::unique_ptr<VideoDecoder>()> make_decoder = [] { return makeMockDecoder({.max_held_frames = 32}); };
   std::vector<ScriptedKey> keys;
@@ -72,6 +73,7 @@ class PlayerBench {
   Outcome<void> runOn(Clock& time) {
     const auto screen = makeMockDisplay(display, time, cable);
     const auto device = make_haptic ? make_haptic(time) : makeMockHaptic(haptic, time, hand);
+    const auto second = make_second ? make_second(time) : nullptr;
     const auto remote = makeScriptedRemote(keys, time);
     const auto output = audio ? makeMockAudio(*audio, time, ear) : nullptr;
     Player player(config, {.clock = time,
@@ -80,6 +82,7 @@ class PlayerBench {
                            .remote = remote.get(),
                            .audio = output.get(),
                            .recorder = recorder,
+                           .second_finger = {second.get(), second_recorder},
                            .control = control,
                            .backends = backends(time)});
     auto played = player.run(stop);
@@ -89,6 +92,7 @@ class PlayerBench {
   }
 
   Recorder* recorder = nullptr;
+  Recorder* second_recorder = nullptr;
   PlayerControl* control = nullptr;
   PlayReport report;
   glm::dvec3 force_left{1e9};  // in the motors when `run` returned

@@ -61,8 +61,7 @@ Result<void> DrawingStage::take(const Frame& color, const Frame& depth) {
 }
 
 Result<void> DrawingStage::draw() {
-  return level_.grid_step > 0 ? grid_->draw(surface_, kStereo, level_.grid_step)
-                              : renderer_->draw(surface_, std::nullopt);
+  return level_.grid_step > 0 ? grid_->draw(surface_, kStereo, level_.grid_step) : renderer_->draw(surface_, {});
 }
 
 DrawnPicture DrawingStage::picture() const {

@@ -41,6 +41,10 @@ Json listOf(const FilmShelf& shelf) {
           {"films", std::move(films)}};
 }
 
+Json fingerOf(const FingerFacts& finger) {
+  return {{"haptic", finger.haptic.empty() ? Json(nullptr) : Json(finger.haptic)}, {"contact", finger.contact}};
+}
+
 Json answer(const std::string& id, bool ok) {
   Json json;
   if (!id.empty()) json["id"] = Json::parse(id, nullptr, false);
@@ -130,8 +134,8 @@ std::string statusLine(const std::string& id, const ScreenFacts& facts, const st
   json["loop_from_s"] = facts.loop_from_s ? Json(rounded(*facts.loop_from_s)) : Json(nullptr);
   json["loop_to_s"] = facts.loop_to_s ? Json(rounded(*facts.loop_to_s)) : Json(nullptr);
   json["has_depth"] = film && facts.has_depth;
-  json["haptic"] = facts.haptic.empty() ? Json(nullptr) : Json(facts.haptic);
-  json["contact"] = facts.contact;
+  json.update(fingerOf(facts.fingers[0]));
+  json["second_finger"] = facts.fingers[1].haptic.empty() ? Json(nullptr) : fingerOf(facts.fingers[1]);
   json["list"] = list != nullptr ? listOf(*list) : Json(nullptr);
   return lineOf(json);
 }

@@ -2,7 +2,7 @@
 // What programs and the player say to one another: one JSON object a line, both ways. Pure.
 //
 // A program asks:   {"do": "seek +10"}      any words of app/player/control/command.h, and:
-//                   {"do": "status"}        what is going on
+//                   {"do": "status"}        what is going on; "second_finger" is null without a second device
 //                   {"do": "metrics on"}    counters and histograms, once a second until "metrics off"
 //                   {"do": "fault haptic unplug"}  of a mock device; which there are, the answer to a wrong one says
 // with an "id" of its own, if it likes: a whole number, or a text of at most 64 bytes, which comes back in the answer.

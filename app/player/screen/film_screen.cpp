@@ -22,9 +22,13 @@ constexpr double kDrawShare = 0.6;  // of the film's frame period; the rest is l
 constexpr Duration kRedrawPeriod = std::chrono::milliseconds(33);  // of a paused picture while the finger moves
 constexpr double kMovedMm = 0.2;                                   // smaller movements are invisible
 
-bool movedVisibly(const std::optional<FingerMark>& a, const std::optional<FingerMark>& b) {
+bool movedVisibly(const std::optional<FingerMark>& a, const std::optional<FingerMark>& b) noexcept {
   if (a.has_value() != b.has_value()) return true;
   return a && (a->contact != b->contact || glm::distance(a->position_mm, b->position_mm) > kMovedMm);
+}
+
+bool movedVisibly(const FingerMarks& a, const FingerMarks& b) noexcept {
+  return movedVisibly(a[0], b[0]) || movedVisibly(a[1], b[1]);
 }
 
 // A free name in the pictures' folder of the desktop, or here.
@@ -73,10 +77,10 @@ void FilmScreen::setScene(const DepthCalibration& calibration, const DisplayVolu
   text_.wake(now);
 }
 
-Result<bool> FilmScreen::show(const FramePair& pair, const std::optional<FingerMark>& finger, MonotonicTime now) {
+Result<bool> FilmScreen::show(const FramePair& pair, const FingerMarks& fingers, MonotonicTime now) {
   picture_.setPair(pair);
   noteCut(pair);
-  const auto seen = draw(finger, now);
+  const auto seen = draw(fingers, now);
   if (!seen || !*seen) {
     ++dropped_;
     return seen;
@@ -86,28 +90,27 @@ Result<bool> FilmScreen::show(const FramePair& pair, const std::optional<FingerM
   return true;
 }
 
-Result<void> FilmScreen::redraw(const std::optional<FingerMark>& finger, MonotonicTime next_picture,
-                                MonotonicTime now) {
+Result<void> FilmScreen::redraw(const FingerMarks& fingers, MonotonicTime next_picture, MonotonicTime now) {
   if (!redraw_) {
     if (now < drawn_at_ + kRedrawPeriod || next_picture < now + kRedrawPeriod) return {};
-    if (!picture_.away() && !movedVisibly(finger, drawn_finger_)) return {};
+    if (!picture_.away() && !movedVisibly(fingers, drawn_fingers_)) return {};
   }
-  const auto drawn = draw(finger, now);
+  const auto drawn = draw(fingers, now);
   return drawn ? Result<void>{} : std::unexpected(drawn.error());
 }
 
-Result<void> FilmScreen::clear(const std::optional<FingerMark>& finger, MonotonicTime now) {
+Result<void> FilmScreen::clear(const FingerMarks& fingers, MonotonicTime now) {
   picture_.clear();
-  const auto drawn = draw(finger, now);
+  const auto drawn = draw(fingers, now);
   return drawn ? Result<void>{} : std::unexpected(drawn.error());
 }
 
 // False if the screen is lost.
-Result<bool> FilmScreen::draw(const std::optional<FingerMark>& finger, MonotonicTime now) {
-  drawn_finger_ = finger;
+Result<bool> FilmScreen::draw(const FingerMarks& fingers, MonotonicTime now) {
+  drawn_fingers_ = fingers;
   drawn_at_ = now;
   redraw_ = false;
-  const auto shown = picture_.show(finger, now);
+  const auto shown = picture_.show(fingers, now);
   if (!shown) return std::unexpected(shown.error());
   writeScreenshot(now);
   if (const char* why = picture_.takeRefusal()) {

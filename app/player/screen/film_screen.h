@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The film on the screen: draws pictures, redraws them for the finger or the text, and counts those shown and dropped.
+// The film on the screen: draws pictures, redraws them for the fingers or the text, and counts those shown and dropped.
 #pragma once
 
 #include <cstdint>
@@ -44,7 +44,7 @@ class FilmScreen {
   // What the viewer has dropped on the window since the last call.
   [[nodiscard]] std::vector<std::string> takeDropped() { return picture_.takeDropped(); }
   // Draws a picture of the film. False if the screen is lost: the picture counts as dropped.
-  [[nodiscard]] Result<bool> show(const FramePair& pair, const std::optional<FingerMark>& finger, MonotonicTime now);
+  [[nodiscard]] Result<bool> show(const FramePair& pair, const FingerMarks& fingers, MonotonicTime now);
   // The subtitles of a film; see Picture.
   [[nodiscard]] SubtitleWords& subtitles() noexcept { return picture_.subtitles(); }
   [[nodiscard]] double subtitleSize() const noexcept { return picture_.subtitles().size(); }
@@ -55,12 +55,11 @@ class FilmScreen {
   void saveScreenshot(const std::string& title);
   // Counts pictures that were never shown.
   void skip(std::uint64_t pictures) noexcept { dropped_ += pictures; }
-  // Between two pictures of the film: draws the present one again if finger or text have changed and there is time
+  // Between two pictures of the film: draws the present one again if a finger or the text has changed and there is time
   // until `next_picture`.
-  [[nodiscard]] Result<void> redraw(const std::optional<FingerMark>& finger, MonotonicTime next_picture,
-                                    MonotonicTime now);
+  [[nodiscard]] Result<void> redraw(const FingerMarks& fingers, MonotonicTime next_picture, MonotonicTime now);
   // Draws a black picture: there is no film.
-  [[nodiscard]] Result<void> clear(const std::optional<FingerMark>& finger, MonotonicTime now);
+  [[nodiscard]] Result<void> clear(const FingerMarks& fingers, MonotonicTime now);
   // Updates what is written over the picture, from the first picture on, and the list of films.
   void write(const ScreenFacts& facts, MonotonicTime next_picture, MonotonicTime now);
   // The statistics, if they are wished for.
@@ -85,7 +84,7 @@ class FilmScreen {
   [[nodiscard]] const std::string& aspectWord() const noexcept { return aspect_word_; }
   [[nodiscard]] DisplayCapabilities capabilities() const noexcept { return picture_.capabilities(); }
   // As drawn last.
-  [[nodiscard]] const std::optional<FingerMark>& finger() const noexcept { return drawn_finger_; }
+  [[nodiscard]] const FingerMarks& fingers() const noexcept { return drawn_fingers_; }
   [[nodiscard]] const DisplayVolume& volume() const noexcept { return picture_.volume(); }
   // When the first picture was shown.
   [[nodiscard]] std::optional<MonotonicTime> firstShown() const noexcept { return first_shown_; }
@@ -93,7 +92,7 @@ class FilmScreen {
   void describe(PlayReport& report) const;
 
  private:
-  [[nodiscard]] Result<bool> draw(const std::optional<FingerMark>& finger, MonotonicTime now);
+  [[nodiscard]] Result<bool> draw(const FingerMarks& fingers, MonotonicTime now);
   void noteCut(const FramePair& pair);
   void writeScreenshot(MonotonicTime now);
   void changeAspect(const std::string& word);
@@ -109,12 +108,12 @@ class FilmScreen {
   const Clock& clock_;
   Journal& journal_;
   MonotonicTime drawn_at_;
-  std::optional<FingerMark> drawn_finger_;
+  FingerMarks drawn_fingers_;
   ScreenContent written_;
   ScreenRows statistics_;
   std::string aspect_word_ = "film";
   std::size_t next_aspect_ = 0;
-  bool redraw_ = false;  // even if the finger has not moved
+  bool redraw_ = false;  // even if no finger has moved
   std::uint64_t shown_ = 0, dropped_ = 0;
   std::optional<MonotonicTime> first_shown_;
 };

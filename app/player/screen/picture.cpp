@@ -75,7 +75,7 @@ void Picture::clear() noexcept {
   renderer_.reset();
 }
 
-Result<Picture::Shown> Picture::show(const std::optional<FingerMark>& finger, MonotonicTime now) {
+Result<Picture::Shown> Picture::show(const FingerMarks& fingers, MonotonicTime now) {
   const bool was_away = away();
   if (was_away) {
     if (now < next_retry_) return Shown::NoScreen;
@@ -83,7 +83,7 @@ Result<Picture::Shown> Picture::show(const std::optional<FingerMark>& finger, Mo
     if (!display_.open(config_)) return Shown::NoScreen;  // not back yet; it was told when it went
     display_.announce(film_);
   }
-  const auto drawn = drawAndPresent(finger);
+  const auto drawn = drawAndPresent(fingers);
   if (drawn) return was_away ? Shown::Back : Shown::OnScreen;
   if (drawn.error().code != ErrorCode::Lost) return std::unexpected(drawn.error());
   lose(now);
@@ -102,7 +102,7 @@ Result<bool> Picture::attend(MonotonicTime now) {
   return attended;
 }
 
-Result<void> Picture::drawAndPresent(const std::optional<FingerMark>& finger) {
+Result<void> Picture::drawAndPresent(const FingerMarks& fingers) {
   const auto surface = display_.beginFrame();
   if (!surface) return std::unexpected(surface.error());
   width_ = surface->width;
@@ -111,14 +111,14 @@ Result<void> Picture::drawAndPresent(const std::optional<FingerMark>& finger) {
   fallBack(*surface);
   display_.setViews(sceneViews(stereo_, volume_, width_, height_));
   if (display_.capabilities().gles) {
-    if (auto drawn = draw(*surface, finger); !drawn) return drawn;
+    if (auto drawn = draw(*surface, fingers); !drawn) return drawn;
   }
   const auto presented = display_.present();
   if (!presented) return std::unexpected(presented.error());
   return {};
 }
 
-Result<void> Picture::draw(const DisplaySurface& surface, const std::optional<FingerMark>& finger) {
+Result<void> Picture::draw(const DisplaySurface& surface, const FingerMarks& fingers) {
   bool renewed = false;
   if (renderer_ == nullptr) {
     auto renderer = SceneRenderer::create(frame_budget_);
@@ -137,17 +137,17 @@ Result<void> Picture::draw(const DisplaySurface& surface, const std::optional<Fi
     renderer_->setSubtitles(frame, subtitles_.pictures());
   }
   if (std::exchange(cut_, false)) renderer_->cut();
-  if (auto captured = captureFrom(surface, finger); !captured) return captured;
+  if (auto captured = captureFrom(surface, fingers); !captured) return captured;
   if (words_.draw(text_, frame) || renewed) renderer_->setText(frame, words_.pictures());
-  if (auto drawn = renderer_->draw(surface, finger); !drawn) return drawn;
+  if (auto drawn = renderer_->draw(surface, fingers); !drawn) return drawn;
   statistics_ = renderer_->statistics();
   return {};
 }
 
-Result<void> Picture::captureFrom(const DisplaySurface& surface, const std::optional<FingerMark>& finger) {
+Result<void> Picture::captureFrom(const DisplaySurface& surface, const FingerMarks& fingers) {
   if (!std::exchange(capture_due_, false)) return {};
   renderer_->setText({.width = 1, .height = 1}, {});
-  if (auto drawn = renderer_->draw(surface, finger); !drawn) return drawn;
+  if (auto drawn = renderer_->draw(surface, fingers); !drawn) return drawn;
   captured_ = Capture{surface.width, surface.height, SceneRenderer::read(surface)};
   words_.forget();
   return {};

@@ -69,7 +69,7 @@ class Picture {
   void capture() noexcept { capture_due_ = true; }
   [[nodiscard]] std::optional<Capture> takeCapture() noexcept { return std::exchange(captured_, std::nullopt); }
   // Fails for what no retry helps: no renderer, a pixel format that cannot be drawn.
-  [[nodiscard]] Result<Shown> show(const std::optional<FingerMark>& finger, MonotonicTime now);
+  [[nodiscard]] Result<Shown> show(const FingerMarks& fingers, MonotonicTime now);
   // Between pictures, often. True when the last one should be drawn anew; Lost when the screen has gone just now, and
   // is tried again from `show`; Cancelled when the viewer has closed it.
   [[nodiscard]] Result<bool> attend(MonotonicTime now);
@@ -105,9 +105,9 @@ class Picture {
 
  private:
   void lose(MonotonicTime now) noexcept;
-  [[nodiscard]] Result<void> drawAndPresent(const std::optional<FingerMark>& finger);
-  [[nodiscard]] Result<void> draw(const DisplaySurface& surface, const std::optional<FingerMark>& finger);
-  [[nodiscard]] Result<void> captureFrom(const DisplaySurface& surface, const std::optional<FingerMark>& finger);
+  [[nodiscard]] Result<void> drawAndPresent(const FingerMarks& fingers);
+  [[nodiscard]] Result<void> draw(const DisplaySurface& surface, const FingerMarks& fingers);
+  [[nodiscard]] Result<void> captureFrom(const DisplaySurface& surface, const FingerMarks& fingers);
   [[nodiscard]] bool isBound() noexcept;
   void followSignal(const DisplaySurface& surface) noexcept;
   void fallBack(const DisplaySurface& surface) noexcept;

@@ -2,6 +2,7 @@
 // What there is to tell of a moment of playing.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -11,6 +12,14 @@
 #include "app/render/relief/stereo.h"
 
 namespace relievo {
+
+// Where it is in the picture, in shares from its middle, right and up: inside within 0.5.
+struct FingerFacts {
+  std::string haptic;  // the device's name; empty: none
+  bool contact = false;
+  double force_n = 0;
+  std::optional<double> across, up;
+};
 
 struct ScreenFacts {
   std::string title;
@@ -23,9 +32,7 @@ struct ScreenFacts {
   std::size_t film = 1, films = 1;  // the how manieth of the list
   StereoSettings stereo;
   bool has_depth = false;
-  std::string haptic;  // the device's name; empty: none
-  bool contact = false;
-  double force_n = 0;
+  std::array<FingerFacts, 2> fingers;  // the second one is seldom there
   double volume_percent = 100;
   bool muted = false;
   std::string sound_track, subtitle_track;  // "2 of 3, jpn, Director"; "off"
@@ -33,8 +40,6 @@ struct ScreenFacts {
   std::string aspect;  // the shape's word
   bool full_screen = false;
   std::optional<double> loop_from_s, loop_to_s;  // of an A-B loop
-  // Where the finger is in the picture, in shares from its middle, right and up: inside within 0.5.
-  std::optional<double> finger_across, finger_up;
 };
 
 }  // namespace relievo

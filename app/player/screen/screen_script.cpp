@@ -78,21 +78,33 @@ void addBar(Script& script, const ScreenBar& bar) {
   addTimes(script, bar);
 }
 
-void addForce(Script& script, double force_n) {
-  const double x = script.width() - kMargin - kGaugeWidth;
-  const double level = kGaugeHeight * std::clamp(force_n / kGaugeNewtons, 0.0, 1.0);
-  script.box({x - 56, kGaugeTop - 14, kGaugeWidth + 70, kGaugeHeight + 62}, kBlack, 0.5);
-  script.box({x, kGaugeTop, kGaugeWidth, kGaugeHeight}, kWhite, 0.25);
-  script.box({x, kGaugeTop + kGaugeHeight - level, kGaugeWidth, level}, kAccent, 1);
+// One scale; a column and a figure for each finger that has a device.
+void addForces(Script& script, const std::array<std::optional<double>, 2>& forces_n) {
+  constexpr double kColumn = kGaugeWidth + 6, kLine = 28;
+  const auto fingers =
+      static_cast<double>(std::ranges::count_if(forces_n, [](const auto& n) { return n.has_value(); }));
+  if (fingers == 0) return;
+  double x = script.width() - kMargin - kGaugeWidth - (fingers - 1) * kColumn;
+  double y = kGaugeTop + kGaugeHeight + 12;
+  const double right = script.width() - kMargin;
+  script.box({x - 56, kGaugeTop - 14, right - x + 70, kGaugeHeight + 34 + fingers * kLine}, kBlack, 0.5);
   for (const int newtons : {0, 5, 10}) {
-    const double y = kGaugeTop + kGaugeHeight * (1 - newtons / kGaugeNewtons);
-    script.text(std::to_string(newtons), 6, x - 10, y, 20, kGray);
+    script.text(std::to_string(newtons), 6, x - 10, kGaugeTop + kGaugeHeight * (1 - newtons / kGaugeNewtons), 20,
+                kGray);
   }
-  script.text(print("%.1f N", force_n), 9, x + kGaugeWidth + 4, kGaugeTop + kGaugeHeight + 12, 26);
+  for (std::size_t i = 0; i < forces_n.size(); ++i) {
+    if (!forces_n[i]) continue;
+    const double level = kGaugeHeight * std::clamp(*forces_n[i] / kGaugeNewtons, 0.0, 1.0);
+    script.box({x, kGaugeTop, kGaugeWidth, kGaugeHeight}, kWhite, 0.25);
+    script.box({x, kGaugeTop + kGaugeHeight - level, kGaugeWidth, level}, kFingerColors[i], 1);
+    script.text(print("%.1f N", *forces_n[i]), 9, right + 4, y, 26, fingers > 1 ? kFingerColors[i] : kWhite);
+    x += kColumn;
+    y += kLine;
+  }
 }
 
 // An arrowhead at the edge that is nearest to the finger, pointing to it.
-void addFinger(Script& script, const FingerBeside& finger) {
+void addFinger(Script& script, std::size_t which, const FingerBeside& finger) {
   const double x = std::clamp(script.width() * (0.5 + finger.across), kEdge, script.width() - kEdge);
   const double y = std::clamp(kScreenRows * (0.5 - finger.up), kEdge, kScreenRows - kEdge);
   const double to_x = script.width() * (0.5 + finger.across) - x, to_y = kScreenRows * (0.5 - finger.up) - y;
@@ -100,7 +112,7 @@ void addFinger(Script& script, const FingerBeside& finger) {
   const double along_x = 24 * to_x / length, along_y = 24 * to_y / length;
   script.shape(print("m %.1f %.1f l %.1f %.1f %.1f %.1f", 30 + along_x, 30 + along_y, 30 - along_x - along_y,
                      30 - along_y + along_x, 30 - along_x + along_y, 30 - along_y - along_x),
-               x - 30, y - 30, kAccent, 0.9);
+               x - 30, y - 30, kFingerColors[which], 0.9);
 }
 
 // Returns where the next part begins; likewise below.
@@ -208,9 +220,11 @@ std::vector<std::string> screenLines(const ScreenContent& content, double aspect
     if (content.notice) addNoticeInHeading(script, *content.notice);
     return script.take();
   }
-  if (content.finger) addFinger(script, *content.finger);
+  for (std::size_t i = 0; i < content.fingers.size(); ++i) {
+    if (content.fingers[i]) addFinger(script, i, *content.fingers[i]);
+  }
   if (content.bar) addBar(script, *content.bar);
-  if (content.force_n) addForce(script, *content.force_n);
+  addForces(script, content.forces_n);
   addTop(script, content, kScreenRows * roomForWords(content, aspect));
   return script.take();
 }

@@ -36,21 +36,25 @@ std::string stereoWords(const ScreenFacts& facts) {
 }
 
 std::string hapticWords(const ScreenFacts& facts) {
-  if (facts.haptic.empty()) return "touch: no device";
-  const std::string device = facts.haptic == "pointer" ? "mouse" : facts.haptic;
-  if (!facts.has_depth) return "touch: " + device + ", nothing to feel";
-  return "touch: " + device + (facts.contact ? ", in contact" : "");
+  std::string words;
+  for (const FingerFacts& finger : facts.fingers) {
+    if (finger.haptic.empty()) continue;
+    const std::string device = finger.haptic == "pointer" ? "mouse" : finger.haptic;
+    words += (words.empty() ? "" : " and ") + device + (facts.has_depth && finger.contact ? ", in contact" : "");
+  }
+  if (words.empty()) return "touch: no device";
+  return "touch: " + words + (facts.has_depth ? "" : ", nothing to feel");
 }
 
 double rounded(double value, double steps) noexcept {
   return std::round(value * steps) / steps;
 }
 
-std::optional<FingerBeside> fingerOf(const ScreenFacts& facts) {
-  if (!facts.finger_across || !facts.finger_up) return std::nullopt;
-  const FingerBeside finger{rounded(*facts.finger_across, kFingerSteps), rounded(*facts.finger_up, kFingerSteps)};
-  const bool inside = std::abs(finger.across) <= 0.5 && std::abs(finger.up) <= 0.5;
-  return inside ? std::nullopt : std::optional(finger);
+std::optional<FingerBeside> besideOf(const FingerFacts& finger) {
+  if (!finger.across || !finger.up) return std::nullopt;
+  const FingerBeside beside{rounded(*finger.across, kFingerSteps), rounded(*finger.up, kFingerSteps)};
+  const bool inside = std::abs(beside.across) <= 0.5 && std::abs(beside.up) <= 0.5;
+  return inside ? std::nullopt : std::optional(beside);
 }
 
 }  // namespace
@@ -115,11 +119,14 @@ ScreenContent ScreenText::content(const ScreenFacts& facts, const ScreenRows& st
   if (now < told_until_) content.warning = why_;
   content.list = list_;
   if (list_) return content;
-  content.finger = fingerOf(facts);
   const bool shows_bar = showsBar(facts, now);
   if (shows_bar) content.bar = bar(facts, now);
-  if (shows_bar && facts.has_depth && !facts.haptic.empty()) {
-    content.force_n = rounded(facts.force_n, kForceStepsPerN);
+  for (std::size_t i = 0; i < facts.fingers.size(); ++i) {
+    const FingerFacts& finger = facts.fingers[i];
+    content.fingers[i] = besideOf(finger);
+    if (shows_bar && facts.has_depth && !finger.haptic.empty()) {
+      content.forces_n[i] = rounded(finger.force_n, kForceStepsPerN);
+    }
   }
   if (now < hinted_until_) content.hint = hint_;
   if (statistics_) content.statistics = statistics;

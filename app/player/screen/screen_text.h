@@ -2,6 +2,7 @@
 // What the player shows over the picture, and for how long: pure.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -34,7 +35,7 @@ struct ScreenNotice {
   bool operator==(const ScreenNotice&) const = default;
 };
 
-// The finger beside the picture, in shares from the picture's middle, right and up.
+// A finger beside the picture, in shares from the picture's middle, right and up.
 struct FingerBeside {
   double across = 0, up = 0;
   bool operator==(const FingerBeside&) const = default;
@@ -45,8 +46,8 @@ using ScreenRows = std::vector<std::pair<std::string, std::string>>;
 
 struct ScreenContent {
   std::optional<ScreenBar> bar;
-  std::optional<double> force_n;
-  std::optional<FingerBeside> finger;
+  std::array<std::optional<double>, 2> forces_n;
+  std::array<std::optional<FingerBeside>, 2> fingers;
   std::optional<ScreenNotice> notice;
   std::string warning, hint;
   ScreenRows statistics, keys;

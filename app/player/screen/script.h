@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -20,7 +21,8 @@ inline constexpr double kHeadingTop = 24, kHeadingSize = 38;  // of a page that 
 inline constexpr const char* kWhite = "FFFFFF";  // blue, green, red
 inline constexpr const char* kBlack = "000000";
 inline constexpr const char* kGray = "A0A0A0";
-inline constexpr const char* kAccent = "47C7FF";  // the colour of the finger's glow
+inline constexpr const char* kAccent = "47C7FF";                               // the colour of the finger's glow
+inline constexpr std::array<const char*, 2> kFingerColors{kAccent, "FFC75A"};  // as their glows
 inline constexpr const char* kWarn = "60B0FF";
 
 struct Area {

@@ -13,9 +13,18 @@ unsigned long long count(std::uint64_t value) noexcept {
   return value;
 }
 
+void addTouch(ScreenRows& rows, const HapticSummary& haptic, const std::string& which, double force_n) {
+  if (haptic.ticks == 0) return;
+  rows.emplace_back("tick" + which, print("%.0f Hz, %.1f us, 99.9 %% under %.1f us, %llu late", haptic.rate_hz,
+                                          static_cast<double>(haptic.update.p50) * 1e-3,
+                                          static_cast<double>(haptic.update.p999) * 1e-3, count(haptic.overruns)));
+  rows.emplace_back("force" + which, print("%.2f N, at most %.2f N", force_n, haptic.max_force_n));
+  if (which.empty()) rows.emplace_back("felt", haptic.plan);
+}
+
 }  // namespace
 
-ScreenRows Statistics::rows(const PlayReport& report, double force_n, MonotonicTime now) {
+ScreenRows Statistics::rows(const PlayReport& report, const FingerForces& forces_n, MonotonicTime now) {
   const double seconds = last_ == MonotonicTime{} ? 0 : toSeconds(now - last_);
   const double rate = seconds > 0 ? static_cast<double>(report.frames_shown - shown_) / seconds : 0;
   shown_ = report.frames_shown;
@@ -30,14 +39,8 @@ ScreenRows Statistics::rows(const PlayReport& report, double force_n, MonotonicT
       {"decoder", film.color_decoder},
       {"drawing",
        print("%.1f ms, %zu triangles, error %.2f px", report.draw_ms, report.triangles, report.picture_error_px)}};
-  const HapticSummary& haptic = report.haptic;
-  if (haptic.ticks > 0) {
-    rows.emplace_back("tick", print("%.0f Hz, %.1f us, 99.9 %% under %.1f us, %llu late", haptic.rate_hz,
-                                    static_cast<double>(haptic.update.p50) * 1e-3,
-                                    static_cast<double>(haptic.update.p999) * 1e-3, count(haptic.overruns)));
-    rows.emplace_back("force", print("%.2f N, at most %.2f N", force_n, haptic.max_force_n));
-    rows.emplace_back("felt", haptic.plan);
-  }
+  addTouch(rows, report.haptic, "", forces_n[0]);
+  if (report.second_finger) addTouch(rows, report.second_finger->haptic, " 2", forces_n[1]);
   if (!report.sound.device.empty()) {
     rows.emplace_back("sound", print("%s, %.1f ms off at most, %llu gaps", report.sound.device.c_str(),
                                      report.sound.max_offset_ms, count(report.sound.underruns)));

@@ -15,7 +15,7 @@ class Statistics {
  public:
   // Whether the rows should be made anew.
   [[nodiscard]] bool isDue(MonotonicTime now) const noexcept { return now >= next_; }
-  [[nodiscard]] ScreenRows rows(const PlayReport& report, double force_n, MonotonicTime now);
+  [[nodiscard]] ScreenRows rows(const PlayReport& report, const FingerForces& forces_n, MonotonicTime now);
 
  private:
   MonotonicTime next_, last_;

@@ -57,7 +57,7 @@ inline constexpr const char* kPlayAbout =
     "  relievo scan.mov --packing tb            colour on top, depth below in one picture; sbs: side by side\n"
     "  relievo film.mkv --stereo anaglyph       for red-cyan glasses; sbs, tab: for a 3D screen\n"
     "  relievo film.mkv --display kms           on a whole screen without a desktop\n"
-    "  relievo film.mkv --haptic falcon         felt with a force-feedback device\n"
+    "  relievo film.mkv --haptic falcon         felt with a force-feedback device; with a second --haptic, by two\n"
     "  relievo film.mkv --resume                from where it was left\n"
     "  relievo                                  a list of films to choose from; --films FOLDER: those of a folder\n"
     "  relievo https://example.org/film.m3u8    from the network\n"

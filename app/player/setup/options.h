@@ -18,6 +18,7 @@ struct PlayOptions {
   PlayerConfig player;
   BackEndName display;  // not named: what the machine has; see Machine
   BackEndName haptic;
+  BackEndName second_haptic;  // of a second finger; not named: none
   BackEndName remote;
   BackEndName audio;
   BackEndName decoder;

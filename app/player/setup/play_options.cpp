@@ -64,10 +64,16 @@ Duration readDuration(double seconds) {
   return fromSeconds(seconds);
 }
 
+BackEndName nameOf(const std::string& given) {
+  BackEndName name = given;
+  name.word = inSmallLetters(name.word);
+  return name;
+}
+
 // An option that names a back end. Its word is one of `names`: those stand parted by spaces, each with what may follow
-// it in brackets or behind a colon.
+// it in brackets or behind a colon. `second`: it may be given twice; null: once.
 CLI::Option* addBackEnd(CLI::App& command, const char* option, BackEndName& chosen, const char* kind, const char* names,
-                        const char* help) {
+                        const char* help, BackEndName* second = nullptr) {
   const auto judge = [kind, names](const std::string& given) -> std::string {
     const std::string word = inSmallLetters(BackEndName(given).word);
     std::istringstream all(names);
@@ -78,14 +84,16 @@ CLI::Option* addBackEnd(CLI::App& command, const char* option, BackEndName& chos
     }
     return given + ": no such " + kind + "; it is one of: " + names + meant(word, words);
   };
-  return command
-      .add_option_function<std::string>(
-          option,
-          [&chosen](const std::string& given) {
-            chosen = given;
-            chosen.word = inSmallLetters(chosen.word);
-          },
-          std::string(help) + "\n" + names)
+  const auto take = [option, second, &chosen](const std::vector<std::string>& given) {
+    if (given.size() > (second != nullptr ? 2U : 1U)) {
+      throw WordFailure(
+          {option + (" " + given.back()), {ErrorCode::InvalidArgument, 0, "is one too many; see relievo play --help"}});
+    }
+    chosen = nameOf(given.front());
+    if (given.size() > 1) *second = nameOf(given.back());
+  };
+  return command.add_option_function<std::vector<std::string>>(option, take, std::string(help) + "\n" + names)
+      ->allow_extra_args(false)
       ->default_str(chosen.text())
       ->check(CLI::Validator(judge, ""))
       ->type_name("NAME");
@@ -147,8 +155,11 @@ void addSoundAndTextOptions(CLI::App& command, PlayerConfig& player) {
 }
 
 void addTouchOptions(CLI::App& command, PlayOptions& play, const DeviceNames& names) {
-  addBackEnd(command, "--haptic", play.haptic, "haptic device", names.haptic,
-             "What the finger holds [the device that is plugged in, else the mouse; off screen sim]");
+  addBackEnd(
+      command, "--haptic", play.haptic, "haptic device", names.haptic,
+      "What the finger holds; given twice: what two fingers hold, each in a colour of its own [the device that\nis "
+      "plugged in, else the mouse; off screen sim]",
+      &play.second_haptic);
   command
       .add_option("--rate", play.rate_hz,
                   "Ticks of touch per second, 500 to 8000; a device that cannot runs at its best [the device's own, "

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <utility>
 
 #include "platform/log.h"
 
@@ -21,11 +22,19 @@ void settleDisplay(PlayOptions& play, const Machine& machine) {
   play.display = has(machine.desktop) ? "window" : has(machine.screen) ? "kms" : "offscreen";
 }
 
+// "none" beside a device is one finger.
+void settleFingers(PlayOptions& play) {
+  if (play.second_haptic.plain("none")) play.second_haptic = {};
+  if (play.haptic.plain("none") && !play.second_haptic.word.empty())
+    play.haptic = std::exchange(play.second_haptic, {});
+}
+
 // A window brings its keys and its mouse along; nothing else has them. A whole screen is watched from a sofa. Who sees
 // the film hears it, and feels it with what is at hand.
 Outcome<void> settleDevices(PlayOptions& play, const Machine& machine, bool chosen) {
   const bool window = play.display.plain("window");
   const bool seen = window || play.display.word == "kms";
+  settleFingers(play);
   if (play.haptic.word.empty()) {
     play.haptic = !seen ? "sim" : machine.haptic ? machine.haptic() : "";
     if (play.haptic.word.empty()) play.haptic = "pointer";
@@ -33,16 +42,18 @@ Outcome<void> settleDevices(PlayOptions& play, const Machine& machine, bool chos
   if (play.remote.word.empty())
     play.remote = window ? "window" : seen ? "evdev" : has(machine.terminal) ? "keys" : "none";
   if (play.audio.word.empty()) play.audio = seen ? "alsa" : "none";
-  if (window && play.haptic.plain("pointer")) play.haptic.argument = "window";
+  for (BackEndName* const finger : {&play.haptic, &play.second_haptic}) {
+    if (window && finger->plain("pointer")) finger->argument = "window";
+  }
   play.player.has_mouse = window;
-  play.player.mouse_touches = play.haptic.with("pointer", "window");
+  play.player.mouse_touches = play.haptic.with("pointer", "window") || play.second_haptic.with("pointer", "window");
   const bool typed = play.remote.plain("window") || play.remote.plain("keys");
   play.player.held = typed ? KeyBoard::Keyboard : KeyBoard::Remote;
   const auto none = [](const std::string& thing) {
     return failOn(thing, {ErrorCode::InvalidArgument, 0, "there is no window; add --display window"});
   };
   if (!window && play.remote.plain("window")) return none("--remote window");
-  if (!window && play.haptic.with("pointer", "window")) return none("--haptic pointer:window");
+  if (!window && play.player.mouse_touches) return none("--haptic pointer:window");
   if (!chosen && !seen) {
     log(LogLevel::Info, "play", "there is no desktop and no screen here: it plays off screen; see --display");
   }

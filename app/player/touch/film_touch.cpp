@@ -1,37 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-// Publishes surfaces; drains ticks and faults.
+// Publishes one surface to all fingers.
 #include "app/player/touch/film_touch.h"
 
+#include <algorithm>
 #include <span>
 #include <utility>
 
 namespace relievo {
-namespace {
 
-const char* answerTo(HapticFault::Kind kind) noexcept {
-  switch (kind) {
-    case HapticFault::Kind::DeviceLost:
-      return "zero force; the film plays on, and the player looks for the device";
-    case HapticFault::Kind::DeviceError:
-      return "the tick was left out";
-    case HapticFault::Kind::FeedStale:
-      return "force faded";
-    case HapticFault::Kind::FeedRecovered:
-      return "force faded in again";
-  }
-  return "";
+FilmTouch::FilmTouch(const FingerParts& first, const FingerParts& second, Clock& clock, Ticking ticking,
+                     Journal& journal)
+    : clock_(clock), journal_(journal) {
+  const bool two = second.device != nullptr;
+  fingers_.emplace_back(first, two ? "first finger: " : "", clock, ticking, journal);
+  if (two) fingers_.emplace_back(second, "second finger: ", clock, ticking, journal);
 }
 
-}  // namespace
+void FilmTouch::begin() {
+  for (Finger& finger : fingers_) finger.session().begin();
+}
 
 void FilmTouch::stop() noexcept {
   const std::scoped_lock lock(mutex_);
-  session_.stop();
+  for (Finger& finger : fingers_) finger.session().rest();  // no force waits for the other device's end
+  for (Finger& finger : fingers_) finger.session().stop();
 }
 
 void FilmTouch::rest() noexcept {
   const std::scoped_lock lock(mutex_);
-  session_.rest();
+  for (Finger& finger : fingers_) finger.session().rest();
   surface_.beginEpoch();
   missing_ = refused_ = false;
 }
@@ -58,7 +55,7 @@ void FilmTouch::beginEpoch() noexcept {
 
 void FilmTouch::hear(const Frame& depth, const Frame& material) {
   const std::scoped_lock lock(mutex_);
-  if (surface_.hear(depth, material)) session_.publish(surface_);
+  if (surface_.hear(depth, material)) publish();
 }
 
 void FilmTouch::feed(const DepthAround& depth, const ClockSample& clock) {
@@ -71,66 +68,58 @@ void FilmTouch::feed(const DepthAround& depth, const ClockSample& clock) {
     if (!std::exchange(refused_, true)) {
       journal_.note(std::string("depth: ") + changed.error().message, "it plays without force");
     }
-    session_.publish(surface_);
+    publish();
     return;
   }
-  if (*changed) session_.publish(surface_);
+  if (*changed) publish();
   const bool missing = depth.expected && depth.present.empty();
   if (missing && !missing_) journal_.note("no depth at this time", "the picture is flat there, without force");
   missing_ = missing;
 }
 
+void FilmTouch::publish() noexcept {
+  for (Finger& finger : fingers_) finger.session().publish(surface_);
+}
+
 bool FilmTouch::followDevice() {
-  using Kind = DeviceKeeper::News::Kind;
   const std::scoped_lock lock(mutex_);
-  while (const auto news = session_.poll()) {
-    if (news->kind == Kind::Refused) {
-      journal_.note(std::string("haptic device: ") + news->error.message,
-                    "the film plays without force; the player tries again");
-    } else if (news->kind == Kind::Homing) {
-      journal_.note("haptic device: not calibrated; move the handle through its whole range", "no force until then");
-    } else if (was_lost_) {
-      journal_.note("haptic device back", "the force fades in");
-    }
-  }
+  for (Finger& finger : fingers_) finger.follow();
   return waiting();
+}
+
+bool FilmTouch::waiting() const noexcept {
+  return std::ranges::any_of(fingers_, [](const Finger& finger) { return finger.session().waiting(); });
+}
+
+bool FilmTouch::running() const noexcept {
+  return std::ranges::any_of(fingers_, [](const Finger& finger) { return finger.session().running(); });
 }
 
 void FilmTouch::start() {
   const std::scoped_lock lock(mutex_);
-  if (auto started = session_.start(volume_, material_, material_scale_, look_ahead_, surface_); !started) {
-    journal_.note(std::string("haptic device: ") + started.error().message, "the film plays without force");
-    return;
-  }
-  if (recorder_ != nullptr) recorder_->setDevice(session_.capabilities());
-  if (const std::string& reduced = session_.reducedMaterial(); !reduced.empty()) {
-    journal_.note("material: " + reduced, "this device holds no more");
-  }
-  // The real-time thread logs these itself.
-  for (const char* missing : {session_.missingMemory(), session_.missingScheduler()}) {
-    if (missing != nullptr) journal_.noteQuietly(std::string("haptic: ") + missing, "ticks may come late");
-  }
+  for (Finger& finger : fingers_) finger.start(volume_, material_, material_scale_, look_ahead_, surface_);
 }
 
 void FilmTouch::drain(SeekTimes& seeks, LiveTimes* live) {
   const std::scoped_lock lock(mutex_);
-  while (const auto tick = session_.nextTick()) {
-    if (recorder_ != nullptr) recorder_->add(*tick);
-    if (!first_tick_ && tick->device_present) first_tick_ = tick->time;
-    if (live != nullptr && tick->device_present) live->felt(tick->time, tick->surface_time);
-    if (seeks.waitsForTouch(tick->time)) seeks.felt(tick->time, surface_.frameAt(tick->media_time));
-  }
-  session_.printLog();
-  while (const auto fault = session_.nextFault()) {
-    was_lost_ = was_lost_ || fault->kind == HapticFault::Kind::DeviceLost;
-    journal_.note(name(fault->kind), answerTo(fault->kind), fault->time);
-  }
+  for (Finger& finger : fingers_) finger.drain(surface_, seeks, live);
 }
 
-std::optional<FingerMark> FilmTouch::mark() noexcept {
-  const FingerState* finger = session_.finger();
-  if (finger == nullptr) return std::nullopt;
-  return FingerMark{finger->proxy_mm, finger->force_n, finger->contact};
+// Ticks of two fingers run in the order of their times.
+void FilmTouch::sleepUntil(MonotonicTime deadline) noexcept {
+  const auto due = [](const Finger& finger) { return finger.session().nextTickByHand(); };
+  for (;;) {
+    Finger& next = *std::ranges::min_element(fingers_, {}, due);
+    if (due(next) > deadline) break;
+    next.session().tickByHand();
+  }
+  clock_.sleepUntil(deadline);
+}
+
+FingerMarks FilmTouch::marks() noexcept {
+  FingerMarks marks;
+  for (std::size_t i = 0; i < fingers_.size(); ++i) marks[i] = fingers_[i].mark();
+  return marks;
 }
 
 }  // namespace relievo

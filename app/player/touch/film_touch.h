@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The touch of a film: feeds the surface to the haptic session, follows the device, and collects its ticks and faults.
+// The touch of a film: feeds its surface to one finger or two, each with a device, and follows them.
 #pragma once
 
+#include <deque>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -12,8 +13,7 @@
 #include "app/player/film/live_times.h"
 #include "app/player/film/seek_times.h"
 #include "app/player/journal.h"
-#include "app/player/touch/haptic_session.h"
-#include "app/player/touch/recorder.h"
+#include "app/player/touch/finger.h"
 #include "app/render/gl/scene_renderer.h"
 #include "app/scene/depth_calibration.h"
 #include "app/scene/display_volume.h"
@@ -23,18 +23,18 @@
 
 namespace relievo {
 
-// The player's thread only, but for `hear`. No call blocks on the device.
+// The player's thread only, but for `hear`. No call blocks on the device. Two fingers share the surface and nothing
+// else: each has its own task, thread and limits, and feels what it would feel alone.
 class FilmTouch {
  public:
-  // `device` and `recorder` are borrowed and may be null.
-  FilmTouch(HapticDevice* device, Recorder* recorder, Clock& clock, Ticking ticking, Journal& journal) noexcept
-      : session_(device, clock, ticking), recorder_(recorder), journal_(journal) {}
+  // The parts are borrowed. Without a first device there is nothing to feel with; without a second one, one finger.
+  FilmTouch(const FingerParts& first, const FingerParts& second, Clock& clock, Ticking ticking, Journal& journal);
 
-  // Starts opening and homing the device.
-  void begin() { session_.begin(); }
-  // Zero force first; then stops the thread and the device.
+  // Starts opening and homing the devices.
+  void begin();
+  // Zero force first, in all fingers; then stops the threads and the devices.
   void stop() noexcept;
-  // Zero force between two films; the device stays homed.
+  // Zero force between two films; the devices stay homed.
   void rest() noexcept;
 
   // How to read this film's depth, the display volume that it fills, and what its surface feels like.
@@ -46,43 +46,41 @@ class FilmTouch {
   void setLookAhead(const LookAhead& ahead) noexcept;
   // The next depth does not continue the last one: after an opening or a seek.
   void beginEpoch() noexcept;
-  // Publishes the surface to the haptic task.
+  // Publishes the surface to the haptic tasks.
   void feed(const DepthAround& depth, const ClockSample& clock);
   // The newest depth of a live film, which need not wait until the player has drawn. Any thread.
   void hear(const Frame& depth, const Frame& material);
 
-  // Notes the device's losses and recoveries. True if it is ready and waits for `start`.
+  // Notes losses and recoveries of devices. True if one is ready and waits for `start`.
   [[nodiscard]] bool followDevice();
-  [[nodiscard]] bool waiting() const noexcept { return session_.waiting(); }
-  // Starts the haptic task on the surface fed last. The force fades in from zero.
+  [[nodiscard]] bool waiting() const noexcept;
+  [[nodiscard]] bool running() const noexcept;
+  // Starts the haptic task of each device that waits, on the surface fed last. The force fades in from zero.
   void start();
   // Records the ticks since the last call, reports the first one after a seek to `seeks`, those of a live film to
   // `live` (null: none), and notes faults.
   void drain(SeekTimes& seeks, LiveTimes* live);
-  // Sleeps; without a haptic thread, the ticks run meanwhile.
-  void sleepUntil(MonotonicTime deadline) noexcept { session_.sleepUntil(deadline); }
+  // Sleeps; without haptic threads, the ticks run meanwhile.
+  void sleepUntil(MonotonicTime deadline) noexcept;
 
-  // Where the finger is; nullopt without a device.
-  [[nodiscard]] std::optional<FingerMark> mark() noexcept;
-  // The name of the running device; empty if there is none.
-  [[nodiscard]] std::string device() const { return session_.running() ? session_.capabilities().name : ""; }
-  // The first tick with a device.
-  [[nodiscard]] std::optional<MonotonicTime> firstTick() const noexcept { return first_tick_; }
-  [[nodiscard]] HapticSummary summary() const { return session_.summary(); }
+  // Where each finger is; nullopt without its device.
+  [[nodiscard]] FingerMarks marks() noexcept;
+  // One or two.
+  [[nodiscard]] const std::deque<Finger>& fingers() const noexcept { return fingers_; }
 
  private:
-  std::mutex mutex_;  // guards surface and session against `hear`
-  HapticSession session_;
-  Recorder* recorder_;
+  void publish() noexcept;
+
+  std::mutex mutex_;  // guards surface and fingers against `hear`
+  std::deque<Finger> fingers_;
+  Clock& clock_;
   Journal& journal_;
   SurfaceFeeder surface_;
   DisplayVolume volume_;
   Material material_, material_scale_;
   LookAhead look_ahead_;
-  bool was_lost_ = false;  // the device has been lost at least once
-  bool missing_ = false;   // the present picture has no depth
-  bool refused_ = false;   // the film's depth format cannot be felt; noted once
-  std::optional<MonotonicTime> first_tick_;
+  bool missing_ = false;  // the present picture has no depth
+  bool refused_ = false;  // the film's depth format cannot be felt; noted once
 };
 
 }  // namespace relievo

@@ -193,14 +193,14 @@ void HapticSession::printLog() noexcept {
   if (task_ != nullptr) task_->printLog();
 }
 
-void HapticSession::sleepUntil(MonotonicTime deadline) noexcept {
-  if (running_ && ticking_ == Ticking::ByHand) {
-    for (; next_tick_ <= deadline; next_tick_ += period_) {
-      clock_.sleepUntil(next_tick_);
-      static_cast<void>(task_->loop({.index = tick_index_++, .scheduled = next_tick_, .woken = clock_.now()}));
-    }
-  }
-  clock_.sleepUntil(deadline);
+MonotonicTime HapticSession::nextTickByHand() const noexcept {
+  return running_ && ticking_ == Ticking::ByHand ? next_tick_ : MonotonicTime::max();
+}
+
+void HapticSession::tickByHand() noexcept {
+  clock_.sleepUntil(next_tick_);
+  static_cast<void>(task_->loop({.index = tick_index_++, .scheduled = next_tick_, .woken = clock_.now()}));
+  next_tick_ += period_;
 }
 
 HapticSummary HapticSession::summary() const {

@@ -22,7 +22,7 @@
 
 namespace relievo {
 
-// Who runs the ticks: a thread of its own, or `sleepUntil`, for simulated time.
+// Who runs the ticks: a thread of its own, or `tickByHand`, for simulated time.
 enum class Ticking : std::uint8_t { Thread, ByHand };
 
 // What the haptic side did, for the report. All zero when it never ran.
@@ -97,8 +97,10 @@ class HapticSession {
   // What the real-time side has had to say since.
   void printLog() noexcept;
 
-  // The owner's wait. ByHand, the ticks that are due meanwhile run in it, each at its time.
-  void sleepUntil(MonotonicTime deadline) noexcept;
+  // ByHand: when the next tick is due; never where none is.
+  [[nodiscard]] MonotonicTime nextTickByHand() const noexcept;
+  // Sleeps until then and runs it.
+  void tickByHand() noexcept;
 
   [[nodiscard]] HapticSummary summary() const;
 

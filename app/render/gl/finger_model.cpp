@@ -24,8 +24,6 @@ constexpr double kHeadRadiusMm = 1.7;
 constexpr double kHeadLengthMm = 4.0;
 constexpr double kSmallestForceN = 0.02;
 constexpr float kHiddenOpacity = 0.3f;
-constexpr glm::vec3 kFreeColor{0.62f, 0.70f, 0.78f};
-constexpr glm::vec3 kContactColor{1.0f, 0.72f, 0.15f};
 
 constexpr const char* kVertexShader = R"(
 precision highp float;
@@ -141,23 +139,25 @@ Result<FingerModel> FingerModel::create() {
   return finger;
 }
 
-void FingerModel::draw(const glm::dmat4& view_projection, const FingerMark& mark) const {
+void FingerModel::draw(const glm::dmat4& view_projection, const FingerMark& mark, const FingerPaint& paint) const {
   program_.use();
   glBindVertexArray(vertices_.get());
-  const glm::vec3 color = mark.contact ? kContactColor : kFreeColor;
-  const auto paint = [&](float opacity) { glUniform4f(program_.uniform("paint"), color.r, color.g, color.b, opacity); };
+  const glm::vec3 color = mark.contact ? paint.contact : paint.free;
+  const auto paintAt = [&](float opacity) {
+    glUniform4f(program_.uniform("paint"), color.r, color.g, color.b, opacity);
+  };
 
-  // The hidden part first, while the depth buffer holds only the relief.
+  // The hidden part first, while the depth buffer does not hold the finger itself.
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glDepthFunc(GL_GREATER);
   glDepthMask(GL_FALSE);
-  paint(kHiddenOpacity);
+  paintAt(kHiddenOpacity);
   drawParts(view_projection, mark);
   glDisable(GL_BLEND);
   glDepthFunc(GL_LESS);
   glDepthMask(GL_TRUE);
-  paint(1.0f);
+  paintAt(1.0f);
   drawParts(view_projection, mark);
 }
 

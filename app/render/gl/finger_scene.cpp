@@ -16,7 +16,6 @@ namespace {
 constexpr double kShadowSlant = 0.35, kShadowRadiusMm = 4.5, kShadowGrowth = 0.15;
 constexpr double kShadowOpacity = 0.65, kShadowHalfMm = 15;
 constexpr double kGlowRadiusMm = 7.0, kGlowOpacity = 0.35, kGlowPerN = 0.1;
-constexpr glm::vec3 kGlowColor{1.0F, 0.78F, 0.35F};
 
 }  // namespace
 
@@ -31,7 +30,8 @@ Result<FingerScene> FingerScene::create() {
   return scene;
 }
 
-void FingerScene::draw(const glm::dmat4& view_projection, const HeightField* field, const FingerMark& mark) {
+void FingerScene::draw(const glm::dmat4& view_projection, const HeightField* field, const FingerMark& mark,
+                       const FingerPaint& paint) {
   if (field != nullptr) {
     const glm::dvec2 under(mark.position_mm);
     const double gap = std::max(0.0, mark.position_mm.z - SurfaceMark::heightUnder(*field, under.x, under.y));
@@ -45,11 +45,11 @@ void FingerScene::draw(const glm::dmat4& view_projection, const HeightField* fie
       on_surface_.draw(view_projection, *field,
                        {.center_mm = under,
                         .radius_mm = kGlowRadiusMm,
-                        .color = kGlowColor,
+                        .color = paint.glow,
                         .opacity = static_cast<float>(std::min(1.0, kGlowOpacity + kGlowPerN * force))});
     }
   }
-  finger_.draw(view_projection, mark);
+  finger_.draw(view_projection, mark, paint);
 }
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The finger in the picture, with its shadow and the glow of its contact on the relief.
+// A finger in the picture, with its shadow and the glow of its contact on the relief.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -16,7 +16,8 @@ class FingerScene {
   [[nodiscard]] static Result<FingerScene> create();
 
   // `field` must be the relief that is in the depth buffer; null: there is none, and so neither shadow nor glow.
-  void draw(const glm::dmat4& view_projection, const HeightField* field, const FingerMark& mark);
+  void draw(const glm::dmat4& view_projection, const HeightField* field, const FingerMark& mark,
+            const FingerPaint& paint);
 
  private:
   SurfaceMark on_surface_;

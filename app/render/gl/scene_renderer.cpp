@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One frame: converts the picture, then draws the relief and the finger for each eye.
+// One frame: converts the picture, then draws the relief and the fingers for each eye.
 #include "app/render/gl/scene_renderer.h"
 
 #include <algorithm>
@@ -60,10 +60,10 @@ struct SceneRenderer::Impl {
   explicit Impl(Duration frame_budget) : level(frame_budget) {}
   [[nodiscard]] Result<void> createParts();
 
-  [[nodiscard]] Result<void> drawViews(const DisplaySurface& surface, const std::optional<FingerMark>& mark);
+  [[nodiscard]] Result<void> drawViews(const DisplaySurface& surface, const FingerMarks& marks);
   void makeTriangles(const EyeViews& eyes);
-  [[nodiscard]] Result<void> drawView(const EyeView& view, GLuint framebuffer, const std::optional<FingerMark>& mark);
-  void drawScene(const EyeView& view, const std::optional<FingerMark>& mark);
+  [[nodiscard]] Result<void> drawView(const EyeView& view, GLuint framebuffer, const FingerMarks& marks);
+  void drawScene(const EyeView& view, const FingerMarks& marks);
   void placeWords(const EyeViews& eyes);
 
   StereoSettings stereo;
@@ -164,10 +164,10 @@ Result<void> SceneRenderer::setFrame(const Frame& color, const Frame& depth, con
   return glOutcome();
 }
 
-Result<void> SceneRenderer::draw(const DisplaySurface& surface, const std::optional<FingerMark>& finger) {
+Result<void> SceneRenderer::draw(const DisplaySurface& surface, const FingerMarks& fingers) {
   Impl& impl = *impl_;
   const MonotonicTime start = impl.clock.now();
-  if (auto drawn = impl.drawViews(surface, finger); !drawn) return drawn;
+  if (auto drawn = impl.drawViews(surface, fingers); !drawn) return drawn;
   glFinish();
   const Duration took = impl.clock.now() - start;
   smooth(impl.drawing, took, impl.frames == 0);
@@ -206,7 +206,7 @@ RenderStatistics SceneRenderer::statistics() const noexcept {
   return result;
 }
 
-Result<void> SceneRenderer::Impl::drawViews(const DisplaySurface& surface, const std::optional<FingerMark>& mark) {
+Result<void> SceneRenderer::Impl::drawViews(const DisplaySurface& surface, const FingerMarks& marks) {
   StereoSettings shown = stereo;
   if (refusal(shown, surface.width, surface.height) != nullptr) shown.layout = StereoLayout::Mono;
   const EyeViews eyes = eyeViews(shown, volume, surface.width, surface.height);
@@ -236,7 +236,7 @@ Result<void> SceneRenderer::Impl::drawViews(const DisplaySurface& surface, const
       framebuffer = mixer.framebuffer(i);
       clear();
     }
-    if (auto drawn = drawView(eyes.views[i], framebuffer, mark); !drawn) return drawn;
+    if (auto drawn = drawView(eyes.views[i], framebuffer, marks); !drawn) return drawn;
   }
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   if (eyes.mixed) {
@@ -267,8 +267,7 @@ void SceneRenderer::Impl::makeTriangles(const EyeViews& eyes) {
 }
 
 // The scene may be drawn smaller, the words never are.
-Result<void> SceneRenderer::Impl::drawView(const EyeView& view, GLuint framebuffer,
-                                           const std::optional<FingerMark>& mark) {
+Result<void> SceneRenderer::Impl::drawView(const EyeView& view, GLuint framebuffer, const FingerMarks& marks) {
   const auto bindView = [&] {
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);  // keep the surface opaque whatever is blended on it
     glViewport(view.area.x, view.area.y, view.area.width, view.area.height);
@@ -278,12 +277,12 @@ Result<void> SceneRenderer::Impl::drawView(const EyeView& view, GLuint framebuff
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     if (auto bound = reduced.bind(small.width, small.height); !bound) return bound;
     glViewport(0, 0, small.width, small.height);
-    drawScene(view, mark);
+    drawScene(view, marks);
     reduced.showOn(framebuffer, view.area);
     bindView();
   } else {
     bindView();
-    if (has_picture) drawScene(view, mark);
+    if (has_picture) drawScene(view, marks);
   }
   if (has_picture) {
     subtitles.draw(words.shiftPx(view.eye_x_mm, stereo) * subtitles.frame().width / view.area.width);
@@ -292,7 +291,7 @@ Result<void> SceneRenderer::Impl::drawView(const EyeView& view, GLuint framebuff
   return {};
 }
 
-void SceneRenderer::Impl::drawScene(const EyeView& view, const std::optional<FingerMark>& mark) {
+void SceneRenderer::Impl::drawScene(const EyeView& view, const FingerMarks& marks) {
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   // The relief is never seen from below, and the finger's shapes are closed.
@@ -301,7 +300,9 @@ void SceneRenderer::Impl::drawScene(const EyeView& view, const std::optional<Fin
   glFrontFace(GL_CCW);
   const bool is_right = has_right && view.eye_x_mm > 0;
   surface_of_triangles.draw(glm::mat4(view.view_projection), is_right ? kRightUnit : kPictureUnit);
-  if (mark) finger.draw(view.view_projection, depth.empty() ? nullptr : &field, *mark);
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    if (marks[i]) finger.draw(view.view_projection, depth.empty() ? nullptr : &field, *marks[i], kFingerPaints[i]);
+  }
   glDisable(GL_CULL_FACE);
 }
 

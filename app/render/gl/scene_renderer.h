@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws a colour picture as the relief of its depth picture, for every eye, with the finger and text in it.
+// Draws a colour picture as the relief of its depth picture, for every eye, with the fingers and text in it.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -24,6 +25,8 @@ struct FingerMark {
   glm::dvec3 force_n{0};      // drawn as an arrow, 5 mm per N
   bool contact = false;
 };
+// The first finger and the second, each in colours of its own.
+using FingerMarks = std::array<std::optional<FingerMark>, 2>;
 
 struct RenderStatistics {
   std::uint64_t frames = 0;
@@ -71,7 +74,7 @@ class SceneRenderer {
                                       const DisplayVolume& volume, const Frame& right = {});
   // Draws the last pair into `surface`, or without one the text on black. Blocks until the GPU has finished, so that
   // the time can be measured.
-  [[nodiscard]] Result<void> draw(const DisplaySurface& surface, const std::optional<FingerMark>& finger);
+  [[nodiscard]] Result<void> draw(const DisplaySurface& surface, const FingerMarks& fingers);
   // What `draw` has drawn into `surface`, before it is presented: rows from the top, three bytes a pixel.
   [[nodiscard]] static std::vector<std::uint8_t> read(const DisplaySurface& surface);
   [[nodiscard]] RenderStatistics statistics() const noexcept;

@@ -23,12 +23,12 @@ class FilmScreenTest : public testing::Test {
     screen_.emplace(*display_, config_, stereo_, true, clock_, journal_);
     ASSERT_TRUE(screen_->open());
   }
-  bool show() { return screen_->show({}, std::nullopt, clock_.now()).value_or(false); }
+  bool show() { return screen_->show({}, {}, clock_.now()).value_or(false); }
   // How many pictures are presented when it is asked to draw again, `later` than before.
   int redraw(const std::optional<FingerMark>& finger, Duration later, MonotonicTime next = MonotonicTime::max()) {
     clock_.sleepUntil(clock_.now() + later);
     const int before = presented_;
-    EXPECT_TRUE(screen_->redraw(finger, next, clock_.now()));
+    EXPECT_TRUE(screen_->redraw({finger}, next, clock_.now()));
     return presented_ - before;
   }
   [[nodiscard]] PlayReport report() const {
@@ -83,7 +83,7 @@ TEST_F(FilmScreenTest, ThePictureLiesAsTheSignalSaysThatTheTelevisionTakes) {
     FilmScreen screen(*television, {.stereo = wish.wished, .other_stereo = true}, {.layout = wish.layout}, true, clock_,
                       journal);
     ASSERT_TRUE(screen.open());
-    for (int i = 0; i < 3; ++i) EXPECT_TRUE(screen.show({}, std::nullopt, clock_.now()));
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(screen.show({}, {}, clock_.now()));
     PlayReport report;
     screen.describe(report);
     EXPECT_EQ(report.stereo, wish.shown);
@@ -157,7 +157,7 @@ TEST_F(FilmScreenTest, DrawsAgainForAFingerThatMovesVisiblyAndOnlyWhereThereIsTi
   EXPECT_EQ(redraw(FingerMark{{0, 0, 11}, {0, 0, 0}, false}, 40 * kMs), 1);
   EXPECT_EQ(redraw(FingerMark{{0, 0, 14}, {0, 0, 0}, false}, 10 * kMs), 0) << "too soon";
   EXPECT_EQ(redraw(FingerMark{{0, 0, 11}, {0, 0, 0}, true}, 40 * kMs), 1) << "it touches";
-  EXPECT_TRUE(screen_->finger()->contact);
+  EXPECT_TRUE(screen_->fingers()[0]->contact);
 }
 
 TEST_F(FilmScreenTest, ANewTextOnAStandingPictureIsDrawnAtOnce) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "drivers/mock/mock.h"
+#include "platform/allocation_counter.h"
 #include "platform/log.h"
 #include "tests/support/film/depth_frames.h"
 #include "tests/support/film/material_frames.h"
@@ -32,7 +33,7 @@ class FilmTouchTest : public testing::Test {
   void make() {
     touch_.reset();  // it uses the device until its end
     device_ = makeMockHaptic(profile_, clock_, bench_);
-    touch_.emplace(device_.get(), nullptr, clock_, Ticking::ByHand, journal_);
+    touch_.emplace(FingerParts{device_.get()}, FingerParts{}, clock_, Ticking::ByHand, journal_);
     touch_->begin();
   }
   void startOn(const DepthAround& depth, const Material& material = {}, const Material& scale = {}) {
@@ -65,17 +66,17 @@ class FilmTouchTest : public testing::Test {
 
 TEST_F(FilmTouchTest, TheDeviceTicksFromStartToRest) {
   make();
-  EXPECT_EQ(touch_->device(), "");
+  EXPECT_EQ(touch_->fingers()[0].device(), "");
   startOn(planeAt(1));
-  EXPECT_EQ(touch_->device(), "mock");
+  EXPECT_EQ(touch_->fingers()[0].device(), "mock");
   goOn(100);
-  EXPECT_NEAR(static_cast<double>(touch_->summary().ticks), 100, 1);
-  EXPECT_TRUE(touch_->firstTick());
-  EXPECT_TRUE(touch_->mark());
+  EXPECT_NEAR(static_cast<double>(touch_->fingers()[0].session().summary().ticks), 100, 1);
+  EXPECT_TRUE(touch_->fingers()[0].firstTick());
+  EXPECT_TRUE(touch_->marks()[0]);
   touch_->rest();
-  const auto ticks = touch_->summary().ticks;
+  const auto ticks = touch_->fingers()[0].session().summary().ticks;
   goOn(100);
-  EXPECT_EQ(touch_->summary().ticks, ticks);
+  EXPECT_EQ(touch_->fingers()[0].session().summary().ticks, ticks);
   EXPECT_EQ(bench_->force(), glm::dvec3(0));
   EXPECT_TRUE(touch_->waiting()) << "homed, for the next film";
   EXPECT_THAT(journal_.written().faults, IsEmpty());
@@ -178,7 +179,7 @@ TEST_F(FilmTouchTest, ADeviceThatGoesAwayIsLookedForAndComesBack) {
   bench_->unplugged = true;
   goOn(10);
   EXPECT_EQ(noted("haptic device lost"), 1U);
-  EXPECT_FALSE(touch_->mark());
+  EXPECT_FALSE(touch_->marks()[0]);
   EXPECT_FALSE(touch_->followDevice());
   bench_->unplugged = false;
   goOn(2000);
@@ -186,15 +187,36 @@ TEST_F(FilmTouchTest, ADeviceThatGoesAwayIsLookedForAndComesBack) {
   EXPECT_EQ(noted("haptic device back"), 1U);
 }
 
+// One ticks at 1 kHz, the other at 4.
+TEST_F(FilmTouchTest, TwoFingersTickEachAtItsRateAndAllocateNothing) {
+  const auto first = makeMockHaptic(profile_, clock_, bench_);
+  const auto second = makeMockHaptic(profile_, clock_);
+  ASSERT_EQ(second->setRate(4000).value(), 4000);
+  touch_.emplace(FingerParts{first.get()}, FingerParts{second.get()}, clock_, Ticking::ByHand, journal_);
+  touch_->begin();
+  startOn(planeAt(1));
+  goOn(10);
+  const std::uint64_t before = threadAllocations();
+  touch_->sleepUntil(clock_.now() + std::chrono::milliseconds(500));
+  EXPECT_EQ(threadAllocations(), before);
+  touch_->drain(seeks_, nullptr);
+  ASSERT_EQ(touch_->fingers().size(), 2U);
+  EXPECT_NEAR(static_cast<double>(touch_->fingers()[0].session().summary().ticks), 511, 1);
+  EXPECT_NEAR(static_cast<double>(touch_->fingers()[1].session().summary().ticks), 4 * 510 + 1, 4);
+  EXPECT_TRUE(touch_->marks()[0] && touch_->marks()[1]);
+  touch_->stop();
+  touch_.reset();
+}
+
 TEST_F(FilmTouchTest, WithoutADeviceTheFilmIsFollowedAndNothingIsFelt) {
-  touch_.emplace(nullptr, nullptr, clock_, Ticking::ByHand, journal_);
+  touch_.emplace(FingerParts{}, FingerParts{}, clock_, Ticking::ByHand, journal_);
   touch_->begin();
   touch_->setScene({}, DisplayVolume{}, {});
   touch_->feed(planeAt(1), standing(planeAt(1)));
   EXPECT_FALSE(touch_->followDevice());
   goOn(10);
-  EXPECT_FALSE(touch_->mark());
-  EXPECT_EQ(touch_->device(), "");
+  EXPECT_FALSE(touch_->marks()[0]);
+  EXPECT_EQ(touch_->fingers()[0].device(), "");
   EXPECT_THAT(journal_.written().faults, IsEmpty());
 }
 

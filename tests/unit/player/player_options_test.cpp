@@ -292,6 +292,26 @@ TEST(Options, AWindowBringsItsKeysAndItsMouseAlong) {
   expectRefused({"play", "film.mkv", "--haptic", "pointer:window"}, "--haptic pointer:window: there is no window");
 }
 
+TEST(Options, TakeADeviceForEachOfTwoFingers) {
+  const auto parsedPlay = [](std::vector<const char*> words) {
+    words.insert(words.begin(), {"play", "film.mkv"});
+    return parse(words).options.value().play;
+  };
+  const PlayOptions both = parsedPlay({"--haptic", "Sim:a.csv", "--haptic", "mock"});
+  EXPECT_EQ(both.haptic, "sim:a.csv");
+  EXPECT_EQ(both.second_haptic, "mock");
+  EXPECT_EQ(parsedPlay({"--haptic", "sim"}).second_haptic, "");
+  const PlayOptions window = parsedPlay({"--display", "window", "--haptic", "sim", "--haptic", "pointer"});
+  EXPECT_EQ(window.second_haptic, "pointer:window");
+  EXPECT_TRUE(window.player.mouse_touches);
+  const PlayOptions one = parsedPlay({"--haptic", "none", "--haptic", "mock"});
+  EXPECT_EQ(one.haptic, "mock") << "none beside a device is one finger";
+  EXPECT_EQ(one.second_haptic, "");
+  expectRefused({"play", "film.mkv", "--haptic", "mock", "--haptic", "sim", "--haptic", "none"},
+                "--haptic none: is one too many");
+  expectRefused({"play", "film.mkv", "--haptic", "mock", "--haptic", "hand"}, "no such haptic device");
+}
+
 TEST(Options, TakeASourceAfterAnOption) {
   const Parsed parsed = parse({"probe", "--calibration", "near=100", "film.mkv", "--json"});
   ASSERT_TRUE(parsed.options) << parsed.err;

@@ -87,7 +87,7 @@ TEST_P(ScreenLayout, AFilmsWordsDoNotMeet) {
                             .has_length = true,
                             .pointed = 0.999,
                             .pointed_time = "1:02:00"};
-    content.force_n = 9.9;
+    content.forces_n = {9.9, 9.8};
     content.notice = ScreenNotice{std::string("Saved /home/somebody/Pictures/") + title, 0.5};
     content.warning = std::string(title) + ": not one picture of its video could be decoded; it is empty or damaged";
     content.hint = "Press into the picture to feel it.  h: all keys";

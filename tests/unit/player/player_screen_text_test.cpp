@@ -18,8 +18,7 @@ ScreenFacts playing() {
           .state = PlayerState::Playing,
           .stereo = {.layout = StereoLayout::TopBottom},
           .has_depth = true,
-          .haptic = "Novint Falcon",
-          .contact = true};
+          .fingers = {{{.haptic = "Novint Falcon", .contact = true}}}};
 }
 
 const ScreenRows kNone;
@@ -37,6 +36,23 @@ TEST(ScreenText, TellsTitleTimeStereoAndTouch) {
   EXPECT_EQ(bar->times, "1:23 / 1:02:05");
   EXPECT_EQ(bar->status, "3D: top and bottom   touch: Novint Falcon, in contact");
   EXPECT_NEAR(bar->position, 83.9 / 3725, 1e-3);
+}
+
+TEST(ScreenText, TellsBothFingers) {
+  ScreenText text;
+  text.wake(kStart);
+  ScreenFacts facts = playing();
+  facts.fingers[1] = {.haptic = "Xbox pad", .force_n = 0.5, .across = 0.6, .up = 0};
+  const ScreenContent content = at(text, facts);
+  EXPECT_EQ(content.bar->status, "3D: tab   touch: Novint Falcon, in contact and Xbox pad");
+  EXPECT_TRUE(content.forces_n[0]);
+  EXPECT_EQ(content.forces_n[1], 0.5);
+  EXPECT_FALSE(content.fingers[0]);
+  EXPECT_EQ(content.fingers[1], (FingerBeside{0.6, 0}));
+  facts.has_depth = false;
+  EXPECT_EQ(at(text, facts).bar->status.substr(3),
+            " tab, flat: the film has no depth   touch: Novint Falcon and "
+            "Xbox pad, nothing to feel");
 }
 
 TEST(ScreenText, TellsSpeedAndPlaceInTheList) {
@@ -94,8 +110,8 @@ TEST(ScreenText, TellsWhyThereIsNothingToSeeOrFeel) {
   EXPECT_EQ(bar->times, "1:23   buffering");
   EXPECT_EQ(bar->status, "3D: off, flat: the film has no depth   touch: Novint Falcon, nothing to feel");
   EXPECT_FALSE(bar->has_length);
-  EXPECT_FALSE(at(text, facts).force_n) << "nothing is felt";
-  facts.haptic.clear();
+  EXPECT_FALSE(at(text, facts).forces_n[0]) << "nothing is felt";
+  facts.fingers[0].haptic.clear();
   facts.has_depth = true;
   facts.stereo.swap_eyes = true;
   facts.stereo.strength = 0.7;
@@ -117,10 +133,10 @@ TEST(ScreenText, ForceChaptersAndBufferAreSharesOfWhatIsShown) {
   text.wake(kStart);
   text.setChapters({0, 931.25});
   ScreenFacts facts = playing();
-  facts.force_n = 1.234;
+  facts.fingers[0].force_n = 1.234;
   facts.buffered_s = 186.25;
   const ScreenContent content = at(text, facts);
-  EXPECT_NEAR(*content.force_n, 1.25, 1e-9);
+  EXPECT_NEAR(*content.forces_n[0], 1.25, 1e-9);
   EXPECT_NEAR(content.bar->buffered, 0.05, 1e-9);
   EXPECT_EQ(content.bar->chapters, (std::vector<double>{0, 0.25}));
 }
@@ -140,10 +156,10 @@ TEST(ScreenText, TellsTheTimeUnderTheMouseWhileItIsOverTheBar) {
 TEST(ScreenText, MarksAFingerBesideThePictureAlone) {
   const ScreenText text;
   ScreenFacts facts = playing();
-  facts.finger_across = 0.49, facts.finger_up = -0.5;
-  EXPECT_FALSE(at(text, facts).finger);
-  facts.finger_across = 0.6;
-  EXPECT_EQ(at(text, facts).finger, (FingerBeside{0.6, -0.5}));
+  facts.fingers[0].across = 0.49, facts.fingers[0].up = -0.5;
+  EXPECT_FALSE(at(text, facts).fingers[0]);
+  facts.fingers[0].across = 0.6;
+  EXPECT_EQ(at(text, facts).fingers[0], (FingerBeside{0.6, -0.5}));
 }
 
 TEST(ScreenText, KeysAndStatisticsComeAndGo) {

@@ -11,18 +11,21 @@ TEST(StatusText, TellsTimeSpeedDropsForceAndLateTicks) {
   ScreenFacts facts{.title = "film.mkv", .position_s = 12.7, .duration_s = 90, .state = PlayerState::Playing};
   PlayReport report;
   report.frames_dropped = 3;
-  EXPECT_EQ(statusText(facts, report, 0, 100), "playing 0:12 / 1:30 (14 %)  dropped 3") << "without a device";
+  EXPECT_EQ(statusText(facts, report, {}, 100), "playing 0:12 / 1:30 (14 %)  dropped 3") << "without a device";
   report.haptic.ticks = 1000;
   report.haptic.overruns = 2;
   facts.rate = 0.5;
   facts.films = 4;
   facts.film = 2;
-  EXPECT_EQ(statusText(facts, report, 1.254, 100),
+  EXPECT_EQ(statusText(facts, report, {1.254}, 100),
             "playing 0:12 / 1:30 (14 %)  0.5x  film 2 of 4  dropped 3  force 1.25 N  late ticks 2");
-  EXPECT_EQ(statusText(facts, report, 1.254, 20), "playing 0:12 / 1:30") << "it does not wrap";
+  EXPECT_EQ(statusText(facts, report, {1.254}, 20), "playing 0:12 / 1:30") << "it does not wrap";
+  report.second_finger.emplace().haptic.overruns = 1;
+  EXPECT_EQ(statusText(facts, report, {1.254, 0.5}, 120),
+            "playing 0:12 / 1:30 (14 %)  0.5x  film 2 of 4  dropped 3  force 1.25 N, 0.50 N  late ticks 2, 1");
   facts.duration_s = 0;
   facts.state = PlayerState::Paused;
-  EXPECT_EQ(statusText(facts, report, 0, 12), "paused 0:12");
+  EXPECT_EQ(statusText(facts, report, {}, 12), "paused 0:12");
 }
 
 }  // namespace
