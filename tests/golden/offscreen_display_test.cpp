@@ -131,7 +131,7 @@ TEST(OffscreenDisplay, ClosingOneLeavesTheOtherAlone) {
   EXPECT_EQ(pixel(5, 5), (std::array{0, 255, 0}));
 }
 
-TEST(OffscreenDisplay, GoesWhileOpen) {
+TEST(OffscreenDisplay, LeavesNoContextCurrentWhenItIsDestroyedWhileOpen) {
   auto display = makeOffscreenDisplay({}, kStill);
   OPEN_OR_SKIP(*display, {32, 32});
   ASSERT_TRUE(display->beginFrame());

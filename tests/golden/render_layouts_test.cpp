@@ -48,25 +48,25 @@ void expectLike(const StereoSettings& stereo, const DrawnPicture& golden, int ri
 
 using enum StereoLayout;
 
-TEST(RenderLayouts, Mono) {
+TEST(RenderLayouts, MonoIsSeenFromBetweenTheEyes) {
   expectLike({.layout = Mono}, view(0, 640, 360));
 }
 
-TEST(RenderLayouts, SideBySide) {
+TEST(RenderLayouts, SideBySideHasTheLeftEyesViewOnTheLeft) {
   DrawnPicture golden = black(1280, 720);
   paste(view(-kEyes / 2, 640, 720), 0, 0, golden);
   paste(view(kEyes / 2, 640, 720), 640, 0, golden);
   expectLike({.layout = SideBySide}, golden);
 }
 
-TEST(RenderLayouts, SideBySideInFull) {
+TEST(RenderLayouts, SideBySideInFullKeepsTheAspectRatioOfEachView) {
   DrawnPicture golden = black(1280, 360);
   paste(view(-kEyes / 2, 640, 360), 0, 0, golden);
   paste(view(kEyes / 2, 640, 360), 640, 0, golden);
   expectLike({.layout = SideBySide, .full = true}, golden);
 }
 
-TEST(RenderLayouts, TopBottom) {
+TEST(RenderLayouts, TopBottomHasTheLeftEyesViewAbove) {
   DrawnPicture golden = black(1280, 720);
   paste(view(-kEyes / 2, 1280, 360), 0, 0, golden);
   paste(view(kEyes / 2, 1280, 360), 0, 360, golden);
@@ -86,23 +86,23 @@ TEST(RenderLayouts, FramePackingHasItsGap) {
   EXPECT_NE(image.at(640, 750), (Rgb{0, 0, 0}));
 }
 
-TEST(RenderLayouts, Rows) {
+TEST(RenderLayouts, EvenRowsShowTheLeftEyesView) {
   expectLike({.layout = Rows},
              mixed(640, 360, [](int, int r, auto left, auto right) { return r % 2 == 0 ? left : right; }));
 }
 
-TEST(RenderLayouts, Columns) {
+TEST(RenderLayouts, EvenColumnsShowTheLeftEyesView) {
   expectLike({.layout = Columns},
              mixed(640, 360, [](int c, int, auto left, auto right) { return c % 2 == 0 ? left : right; }));
 }
 
-TEST(RenderLayouts, AnaglyphOfPlainColours) {
+TEST(RenderLayouts, AnaglyphOfPlainColoursTakesRedFromTheLeftEye) {
   const auto golden =
       mixed(640, 360, [](int, int, auto left, auto right) { return std::array{left[0], right[1], right[2]}; });
   expectLike({.layout = Anaglyph, .anaglyph = AnaglyphColors::Color}, golden);
 }
 
-TEST(RenderLayouts, AnaglyphInGray) {
+TEST(RenderLayouts, AnaglyphInGrayShowsTheLeftEyesBrightnessInRed) {
   const auto golden = mixed(640, 360, [](int, int, auto left, auto right) {
     const auto gray = [](const auto& rgb) { return 0.299 * rgb[0] + 0.587 * rgb[1] + 0.114 * rgb[2]; };
     return std::array{gray(left), gray(right), gray(right)};
@@ -110,7 +110,7 @@ TEST(RenderLayouts, AnaglyphInGray) {
   expectLike({.layout = Anaglyph, .anaglyph = AnaglyphColors::Gray}, golden);
 }
 
-TEST(RenderLayouts, AnaglyphByLeastSquares) {
+TEST(RenderLayouts, AnaglyphMixesByThePublishedLeastSquares) {
   // The published numbers, in thousandths.
   const auto golden = mixed(640, 360, [](int, int, auto l, auto r) {
     return std::array{(456 * l[0] + 500 * l[1] + 176 * l[2] - 43 * r[0] - 88 * r[1] - 2 * r[2]) / 1000,

@@ -358,6 +358,9 @@ TEST_F(LabDetail, PictureAndTouchGetNoBetterWithALargerErrorOrStep) {
   }
   EXPECT_GT(of("force_rms_percent", "network", "1"), 2 * of("force_rms_percent", "network", "0.125"));
   EXPECT_GT(of("force_rms_percent", "network", "0.125"), of("force_rms_percent", "grid", "1"));
+  // A proxy on the triangles of all samples feels the terraces of 8 bits, unless every frame is smoothed.
+  EXPECT_GT(of("god_object_rms_percent", "grid", "1"), 15);
+  EXPECT_LT(of("god_object_smoothed_rms_percent", "grid", "1"), 2);
 }
 
 // What it draws at silhouettes pays: on the whole picture no grid of as many triangles, or of up to twice as many,

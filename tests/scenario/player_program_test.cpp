@@ -82,7 +82,7 @@ class PlayerProgram : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
-TEST_F(PlayerProgram, TestsItself) {
+TEST_F(PlayerProgram, SelftestPassesWithoutAnyHardware) {
   const auto said = test::runProgram("relievo selftest", at(""));
   EXPECT_EQ(said.exit_code, 0) << said.out << said.err;
   EXPECT_THAT(said.out, HasSubstr("good  display   offscreen, 640x360"));

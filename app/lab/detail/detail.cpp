@@ -145,7 +145,7 @@ class Detail {
     if (!touch) return std::unexpected(touch.error());
     for (std::size_t i = 0; i < touch->size(); ++i) {
       DetailFigures& row = figures_[figures_.size() - touch->size() + i];
-      row.touch = (*touch)[i].error;
+      row.touch = (*touch)[i].errors;
       row.touch_triangles = (*touch)[i].triangles;
     }
     return {};

@@ -20,14 +20,33 @@ bool isPlayers(const DetailFigures& row) {
 }  // namespace
 
 Outcome<void> writeDetail(std::span<const DetailFigures> figures, const std::string& path) {
-  CsvTable table({"depth",       "model",           "error_px",          "grid_step",         "players",
-                  "triangles",   "mesh_ms",         "draw_ms",           "frame_ms",          "away_psnr_db",
-                  "away_ssim",   "away_percent",    "whole_psnr_db",     "whole_ssim",        "truth_psnr_db",
-                  "truth_ssim",  "touch_triangles", "force_rms_percent", "direction_rms_deg", "lost_ticks",
-                  "contact_lost"});
+  CsvTable table({"depth",
+                  "model",
+                  "error_px",
+                  "grid_step",
+                  "players",
+                  "triangles",
+                  "mesh_ms",
+                  "draw_ms",
+                  "frame_ms",
+                  "away_psnr_db",
+                  "away_ssim",
+                  "away_percent",
+                  "whole_psnr_db",
+                  "whole_ssim",
+                  "truth_psnr_db",
+                  "truth_ssim",
+                  "touch_triangles",
+                  "force_rms_percent",
+                  "direction_rms_deg",
+                  "lost_ticks",
+                  "contact_lost",
+                  "god_object_rms_percent",
+                  "god_object_smoothed_rms_percent"});
   for (const DetailFigures& f : figures) {
     const double mesh_ms = std::max(0.0, f.frame_ms - f.draw_ms);
     const double away = static_cast<double>(f.away.pixels()) / static_cast<double>(f.whole.pixels());
+    const auto& [own, god_object, smoothed] = f.touch;
     table.row({f.depth->name,
                isGrid(f) ? "grid" : "network",
                isGrid(f) ? Cell("") : Cell(f.level.error_px),
@@ -45,10 +64,12 @@ Outcome<void> writeDetail(std::span<const DetailFigures> figures, const std::str
                f.truth.psnrDb(),
                f.truth.similarity(),
                f.touch_triangles,
-               f.touch.rms_percent,
-               f.touch.direction_rms_deg,
-               f.touch.lost_ticks,
-               f.touch.contactLost() ? 1 : 0});
+               own.rms_percent,
+               own.direction_rms_deg,
+               own.lost_ticks,
+               own.contactLost() ? 1 : 0,
+               god_object.rms_percent,
+               smoothed.rms_percent});
   }
   return table.write(path);
 }
@@ -73,11 +94,12 @@ ChartWords detailWords(std::span<const DetailFigures> figures) {
           "what the eyes would see; the full grid %.1f (%.3f), a grid of %.0f thousand %.1f. Near silhouettes the full "
           "mesh is no measure; away from them (%.0f %% of the pixels) the player's is %.1f dB from it, the grid of "
           "%.0f thousand %.1f. A finger on these triangles is off by %.2g %% of the force, on all samples by %.2g %%: "
-          "it feels those.",
+          "it feels those. By god-object it is %.2g and %.2g %%, by god-object-smoothed %.2g and %.2g %%.",
           own.depth->name, own.level.error_px, own.triangles / 1e3, 100 * own.triangles / all.triangles,
           own.truth.psnrDb(), own.truth.similarity(), all.truth.psnrDb(), all.truth.similarity(), alike.triangles / 1e3,
           alike.truth.psnrDb(), 100 * away, own.away.psnrDb(), alike.triangles / 1e3, alike.away.psnrDb(),
-          own.touch.rms_percent, all.touch.rms_percent)};
+          own.touch[0].rms_percent, all.touch[0].rms_percent, own.touch[1].rms_percent, all.touch[1].rms_percent,
+          own.touch[2].rms_percent, all.touch[2].rms_percent)};
 }
 
 }  // namespace relievo

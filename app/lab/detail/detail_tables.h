@@ -22,6 +22,8 @@ inline constexpr std::array kDetails{
     DrawnLevel{.grid_step = 4},    DrawnLevel{.grid_step = 6},   DrawnLevel{.grid_step = 8},
     DrawnLevel{.grid_step = 12},
 };
+// Who feels the triangles: the player's method first, then its rivals.
+inline constexpr std::array kDetailFeltBy{"relievo", "god-object", "god-object-smoothed"};
 inline constexpr std::array kDrawnDepths{&kDepthKinds[1], &kDepthKinds[2]};
 // What a coder smears, and what the grid of all samples stretches. Farther away a stretched triangle is a level's own.
 inline constexpr int kNearSilhouetteSamples = 3;
@@ -33,7 +35,7 @@ struct DetailFigures {
   double frame_ms = 0, draw_ms = 0;  // of a new picture; of the same once more
   PictureError away, whole;          // from the grid of all samples
   PictureError truth;                // from what the eyes would see
-  ForceError touch;
+  std::array<ForceError, kDetailFeltBy.size()> touch;
   double touch_triangles = 0;  // of a picture of the film that is felt
 };
 

@@ -35,7 +35,10 @@ Outcome<std::vector<DetailTouch>> touchOfDetails(const DepthKind& depth, double 
     }
     const auto felt = MemoryFilm::of(frames, {.bits = 16});
     if (!felt) return failOn(kScene, felt.error());
-    touch.error = forceErrors(playPath(*felt, *contender("relievo")->make(*felt), path, truth), kSettledS).result();
+    const FilmViews views(*felt);
+    inParallel(kDetailFeltBy.size(), [&](std::size_t m) {
+      touch.errors[m] = forceErrors(playPath(views, *contender(kDetailFeltBy[m]), path, truth), kSettledS).result();
+    });
     found.push_back(touch);
   }
   return found;

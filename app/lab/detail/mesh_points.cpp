@@ -71,7 +71,7 @@ class MeshPoints {
     return ChartWords{"Points of a mesh by its error bound",
                       "Within half a level of 255: points" + told_.substr(1) +
                           ". A plane takes its four corners whatever the bound; the others as many as their shape asks "
-                          "for."};
+                          "for. Methods of touch are not in this chart: nothing is felt in it."};
   }
 
  private:

@@ -494,7 +494,7 @@ TEST_F(AuthorFilm, ProgramSaysWhenThereIsNoDepth) {
   EXPECT_TRUE(made().empty());
 }
 
-TEST_F(AuthorFilm, ProgramTeaches) {
+TEST_F(AuthorFilm, ProgramsHelpNamesItsMainOptions) {
   const auto said = run("--help");
   EXPECT_EQ(said.exit_code, 0);
   for (const char* word :

@@ -146,7 +146,7 @@ class AuthorKeeps : public testing::Test {
   std::string film_;
 };
 
-TEST_F(AuthorKeeps, EverythingInMatroska) {
+TEST_F(AuthorKeeps, KeepsEverythingInMatroska) {
   const std::string said = author("-o @/out.mkv");
   EXPECT_THAT(said, HasSubstr("kept: sound aac eng, sound aac jpn \"Director\", subtitles subrip eng, subtitles subrip "
                               "jpn, title \"A walk\", 3 chapters"));

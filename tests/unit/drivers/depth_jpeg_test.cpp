@@ -88,7 +88,7 @@ std::string standardXmp(const std::string& inside) {
   return app1(std::string("http://ns.adobe.com/xap/1.0/\0", 29) + "<x:xmpmeta xmlns:x=\"adobe:ns:meta/\"><rdf:RDF>" +
               inside + "</rdf:RDF></x:xmpmeta>");
 }
-// Segments of at most `most` bytes of the packet, in an order that is none.
+// Segments of at most `most` bytes of the packet, shuffled.
 std::string extendedXmp(const std::string& packet, std::size_t most) {
   std::string segments;
   const std::size_t count = (packet.size() + most - 1) / most;
@@ -147,7 +147,7 @@ TEST(DepthJpeg, ExtendedXmpOverSeveralSegments) {
   expectPhoto(folder / "a.jpg");
 }
 
-TEST(DepthJpeg, DynamicDepthBehindThePicture) {
+TEST(DepthJpeg, FindsDynamicDepthBehindThePicture) {
   const test::TemporaryFolder folder;
   const std::string map = inversePng();
   const auto item = [](const std::string& mime, std::size_t bytes, const std::string& uri) {

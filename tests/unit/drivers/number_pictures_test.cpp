@@ -214,7 +214,7 @@ TEST(Npy, FloatsComeInEveryWidthOrderAndByteOrder) {
   }
 }
 
-TEST(Npy, HalfPrecision) {
+TEST(Npy, NumbersOfHalfPrecisionAreReadExactly) {
   const test::TemporaryFolder folder;
   // 1, -2, 4, infinity, the smallest number 2^-24, 0.333251953125
   std::string bytes;

@@ -58,7 +58,7 @@ struct Picture {
   [[nodiscard]] const std::uint8_t* at(std::size_t i) const { return bytes.data() + i; }
 };
 
-TEST(FrameCrop, Gray8) {
+TEST(FrameCrop, OfGrayBytesBeginsAtTheirFirstByte) {
   Picture picture(ColorModel::Gray);
   picture.frame.planes[0] = {picture.at(0), 20};
   expectPartOf(picture.frame, 3, 5, 7, 4);
@@ -73,14 +73,14 @@ TEST(FrameCrop, GrayOfTwelveBitsInTheUpperPartOfTwoBytes) {
   expectPartOf(picture.frame, 1, 1, 5, 5);
 }
 
-TEST(FrameCrop, UpsideDown) {
+TEST(FrameCrop, OfAPictureUpsideDownGoesFromBelowToAbove) {
   Picture picture(ColorModel::Gray);
   picture.frame.planes[0] = {picture.at(11 * 20), -20};
   expectPartOf(picture.frame, 4, 2, 12, 10);
   EXPECT_EQ(crop(picture.frame, 4, 2, 12, 10).planes[0].data, picture.at(9 * 20 + 4));
 }
 
-TEST(FrameCrop, PlanarYuv420) {
+TEST(FrameCrop, OfPlanarYuvMovesChromaByHalfAsMuch) {
   Picture picture(ColorModel::Yuv);
   picture.frame.chroma_shift_x = picture.frame.chroma_shift_y = 1;
   for (std::uint8_t i = 0; i < 3; ++i) picture.frame.components[i].plane = i;
@@ -98,7 +98,7 @@ TEST(FrameCrop, SemiPlanarChromaMovesOnce) {
   EXPECT_EQ(crop(picture.frame, 6, 4, 8, 6).planes[1].data, picture.at(1000 + 2 * 18 + 6));
 }
 
-TEST(FrameCrop, PackedYuv422) {
+TEST(FrameCrop, OfPackedYuvKeepsEachPixelsChroma) {
   Picture picture(ColorModel::Yuv);
   picture.frame.chroma_shift_x = 1;
   picture.frame.components[0] = {.offset_bytes = 0, .step_bytes = 2};

@@ -72,7 +72,7 @@ TEST_F(FilmWords, SrtBesideTheFilmKeepsItsTimes) {
   EXPECT_THAT(wordsBeside(), ElementsAre("1.5-2.5 Hello {\\i1}there{\\i0}", "3-3.25 Bye"));
 }
 
-TEST_F(FilmWords, WebVttAndAss) {
+TEST_F(FilmWords, WebVttAndAssAreRead) {
   write("film.vtt", "WEBVTT\n\n00:01.000 --> 00:02.000\nこんにちは\n");
   EXPECT_THAT(wordsBeside(), ElementsAre("1-2 こんにちは"));
   std::filesystem::remove(folder_ / "film.vtt");

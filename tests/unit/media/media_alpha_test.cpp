@@ -106,7 +106,7 @@ TEST(AlphaDepth, HolesAreWhereTheyAreSaidToBe) {
   EXPECT_EQ(other.heightAt(5, 60), 0);
 }
 
-TEST(AlphaDepth, AMatteIsNone) {
+TEST(AlphaDepth, AMatteIsNotTakenForDepth) {
   const test::TemporaryFolder folder;
   // A disc with a soft edge.
   const auto matte = [](int c, int r) {

@@ -113,7 +113,7 @@ TEST(Packing, WithTheDepthElsewhereTheSourceIsColour) {
   EXPECT_EQ(planOf({video({{"DEPTH_PACKING", "sbs"}})}, Packing::Auto, true), "0/- tracks");
 }
 
-TEST(Packing, TheDepthTrackOfADepthSource) {
+TEST(Packing, TheDepthTrackOfADepthSourceIsFound) {
   EXPECT_EQ(findDepthTrack(ListedSource({video()}, {}))->index, 0);
   EXPECT_EQ(findDepthTrack(ListedSource({video(), video()}, {}))->index, 1);
   EXPECT_EQ(findDepthTrack(ListedSource({video({{"TITLE", "depth"}}), video()}, {}))->index, 0);

@@ -9,7 +9,7 @@
 namespace relievo {
 namespace {
 
-TEST(StereoWord, EveryLayoutByItsName) {
+TEST(StereoWord, EveryLayoutIsReadByItsName) {
   for (int i = 0; i < kStereoLayouts; ++i) {
     const auto layout = static_cast<StereoLayout>(i);
     StereoSettings settings;
@@ -19,7 +19,7 @@ TEST(StereoWord, EveryLayoutByItsName) {
   }
 }
 
-TEST(StereoWord, Variants) {
+TEST(StereoWord, VariantsChangeWhatTheyNameAlone) {
   StereoSettings settings{.strength = 0.5};
   EXPECT_TRUE(parseStereo("sbs:full", settings));
   EXPECT_TRUE(settings.full);

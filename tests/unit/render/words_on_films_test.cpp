@@ -65,13 +65,13 @@ class WordsOnFilm : public testing::Test {
   }
 };
 
-TEST_F(WordsOnFilm, AHandAndACup) {
+TEST_F(WordsOnFilm, StayInFrontOfAHandAndACup) {
   const std::string folder = RELIEVO_TEST_DATA "/cup/";
   if (!std::filesystem::exists(folder + "color_output.webm")) GTEST_SKIP() << "no real depth video at " << folder;
   expectSteady(play({.url = folder + "color_output.webm", .depth_url = folder + "depth_output.webm"}, 150));
 }
 
-TEST_F(WordsOnFilm, AManAtADesk) {
+TEST_F(WordsOnFilm, StayInFrontOfAManAtADesk) {
   const std::string film = RELIEVO_TEST_DATA "/desk/Test.mov";
   if (!std::filesystem::exists(film)) GTEST_SKIP() << "no real depth video at " << film;
   expectSteady(play({.url = film, .packing = Packing::TopBottom, .depth_code = DepthCode::Hue}, 100));

@@ -7,12 +7,16 @@ KINDS = '"8-bit" "H.264 crf 23"'
 array TINTS[2] = ["#d81b60", "#1e88e5"]
 array SHAPE[2] = [7, 6]
 array DASH[2] = [1, 2]
+RIVALS = "god-object god-object-smoothed"
+RIVAL_COLUMNS = "god_object_rms_percent god_object_smoothed_rms_percent"
+array RIVAL_SHAPE[2] = [5, 9]
 K = 1  # a quick run has no coded depth
 stats ARG1 using (K = strcol("depth") eq word(KINDS, 2) ? 2 : K) nooutput
 LEGEND_Y = 0.96
 @LEGEND
 plot NaN notitle, \
      for [m = 1:2] for [k = 1:K] keyentry with linespoints pt SHAPE[k] ps 1.1 dt DASH[k] lw 1.5 lc rgb TINTS[m] title word(MODELS, m) . ", " . word(KINDS, k), \
+     for [r = 1:2] keyentry with linespoints pt RIVAL_SHAPE[r] ps 0.9 dt 3 lw 1 lc rgb "#757575" title word(RIVALS, r) . ", 8-bit", \
      keyentry with points pt 6 ps 2.6 lw 2 lc rgb "black" title "the player's level"
 @END_LEGEND
 
@@ -34,7 +38,7 @@ do for [p = 0:5] {
   stats ARG1 using (column(abscissa)) name "X" nooutput
   set xrange [X_min * (p == 4 ? 0.35 : 0.55) : X_max * 1.6]
   set offsets 0, 0, graph 0.12, graph 0.06
-  if (row == 3) { set logscale y; set format y "%g"; set yrange [0.8:30]; unset offsets }
+  if (row == 3) { set logscale y; set format y "%g"; set yrange [0.6:60]; unset offsets }
   set lmargin at screen 0.075 + 0.48 * (p % 2)
   set rmargin at screen 0.075 + 0.48 * (p % 2) + 0.435
   set tmargin at screen 0.88 - 0.265 * (row - 1)
@@ -44,6 +48,8 @@ do for [p = 0:5] {
   set xlabel (p % 2 ? "time of a frame, ms" : row < 3 ? "triangles" : "triangles of the face that is felt") offset 0, 0.5
   plot for [m = 1:2] for [k = 1:K] ARG1 using (mine(m, k, column(abscissa))):(column(value)) \
          with linespoints pt SHAPE[k] ps 0.8 dt DASH[k] lw 1.5 lc rgb TINTS[m] notitle, \
+       for [m = 1:2] for [r = 1:(row == 3 ? 2 : 0)] ARG1 using (mine(m, 1, column(abscissa))):(column(word(RIVAL_COLUMNS, r))) \
+         with linespoints pt RIVAL_SHAPE[r] ps 0.6 dt 3 lw 1 lc rgb TINTS[m] notitle, \
        ARG1 using (mine(1, 1, column(abscissa))):(column(value)):(coarse(row)) \
          with labels right font ",10" tc rgb TINTS[1] offset -1.4, -0.1 noenhanced notitle, \
        ARG1 using (mine(1, 1, column(abscissa))):(column(value)):(finest(row)) \

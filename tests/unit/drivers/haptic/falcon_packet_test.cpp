@@ -50,7 +50,7 @@ TEST(FalconPacket, TheNineOnRecordDecodeAndEncodeExactly) {
   }
 }
 
-TEST(FalconPacket, TheNullPacket) {
+TEST(FalconPacket, AnEmptyCommandIsWrittenAsZeros) {
   const Packet packet = encode(Command{});
   EXPECT_EQ(std::string(packet.begin(), packet.end()), "<AAAAAAAAAAAAAA>");
 }

@@ -128,7 +128,7 @@ TEST(Inverse3Frames, AFrameIsMaskedAsTheStandardSays) {
 }
 
 // Section 1.3: the key "dGhlIHNhbXBsZSBub25jZQ==" is "the sample nonce".
-TEST(Inverse3Handshake, TheExampleOfTheStandard) {
+TEST(Inverse3Handshake, SendsAndAcceptsTheStandardsExample) {
   Nonce nonce{};
   std::copy_n("the sample nonce", nonce.size(), nonce.begin());
   EXPECT_EQ(upgradeRequest("box:10001", nonce),

@@ -169,7 +169,7 @@ TEST(Inverse3ForceMessage, TheLongestFitsAndTheHelloNamesTheProgram) {
   EXPECT_EQ(hello["inverse3"][0]["configure"]["preset"]["preset"], "arm_front_centered");
 }
 
-TEST(Inverse3Address, AHostAndItsPort) {
+TEST(Inverse3Address, IsReadAsAHostAndItsPort) {
   EXPECT_EQ(Address().text(), "localhost:10001");
   EXPECT_EQ(Address::parse("box")->text(), "box:10001");
   EXPECT_EQ(Address::parse("192.168.1.7:81")->text(), "192.168.1.7:81");

@@ -130,7 +130,7 @@ TEST(PolhemArmByHand, AWoodenHapticsIsCalibratedWithItsUpperLinkUprightAndItsLow
   EXPECT_LT(glm::distance(arm.positionOf(theta), {0, 205, 25}), 1e-9);
 }
 
-TEST(PolhemArmByHand, RightUpAndTowardTheViewer) {
+TEST(PolhemArmByHand, ItsAxesPointRightUpAndTowardTheViewer) {
   const Arm arm(kWoodenHaptics2019);
   const glm::dvec3 rest = arm.anglesOf({0, 0, 6000}), place = arm.positionOf(rest);
   EXPECT_GT(arm.positionOf(rest + glm::dvec3(0.1, 0, 0)).x, place.x + 20) << "a turns counter-clockwise from above";

@@ -31,7 +31,7 @@ TEST(SimMovingMass, ConstantForceAgainstViscousDamping) {
 }
 
 // 0.1 N on 0.1 kg is 1 m/s^2: after 0.1 s 100 mm/s and 5 mm.
-TEST(SimMovingMass, ConstantForceWithoutFriction) {
+TEST(SimMovingMass, GainsSpeedSteadilyUnderAConstantForce) {
   MovingMass mass{.mass_kg = 0.1};
   run(mass, {0, 0, -0.1}, 0.1);
   EXPECT_NEAR(mass.velocity_mm_per_s.z, -100.0, 1e-9);

@@ -28,7 +28,7 @@ TEST(SimWords, NothingIsThePhantomInAStrokingHand) {
   EXPECT_EQ(setup.path.at(7.7).position_mm, HandPath().at(7.7).position_mm);
 }
 
-TEST(SimWords, ADeviceAHandAndAScriptInAnyOrder) {
+TEST(SimWords, ADeviceAHandAndAScriptMayComeInAnyOrder) {
   const std::string script = scriptFile("sim_words.csv");
   EXPECT_STREQ(parseSim("falcon")->profile.name, "sim falcon");
   EXPECT_STREQ(parseSim("polhem,tense")->profile.name, "sim polhem");

@@ -30,7 +30,7 @@ std::string matchOf(const UsbDeviceId& id) {
   return text;
 }
 
-TEST(UdevRules, OneForEveryDevice) {
+TEST(UdevRules, ThereIsOneForEveryDevice) {
   using testing::HasSubstr;
   EXPECT_THAT(rules(),
               testing::UnorderedElementsAre(HasSubstr(matchOf(falcon::kUsbId)), HasSubstr(matchOf(polhem::kMbedId)),
