@@ -47,6 +47,7 @@ PairReader::Backends realBackends(drivers::DecoderMaker make_decoder = drivers::
 
 // One that cannot be written costs the other nothing.
 int finishFiles(const PlayReport& report, AtomicFile* report_file, Recorder* recorder) {
+  const CancelsAnswers kept(nullptr);  // the signal that has ended the player does not cost its files
   int result = kExitDone;
   if (recorder != nullptr && report.haptic.ticks > 0) {
     if (auto finished = recorder->finish(); !finished) result = tell({recorder->path(), finished.error()});

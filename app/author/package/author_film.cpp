@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <condition_variable>
-#include <cstdio>
 #include <deque>
 #include <mutex>
 #include <thread>
@@ -13,6 +12,7 @@
 #include "app/author/author.h"
 #include "app/author/material/material_track.h"
 #include "app/author/package/color_to_420.h"
+#include "app/author/package/even_cut.h"
 #include "app/author/package/film_kind.h"
 #include "app/author/package/key_frames.h"
 #include "app/author/package/output.h"
@@ -23,6 +23,7 @@
 #include "app/depth_window/shots.h"
 #include "app/scene/height_field.h"
 #include "platform/files/answered_place.h"
+#include "platform/files/file_system_answer.h"
 #include "platform/log.h"
 #include "platform/print.h"
 
@@ -48,35 +49,6 @@ class StopWatch {
   std::mutex mutex_;
   std::condition_variable_any wake_;
   std::jthread thread_;
-};
-
-// What to crop at the right and bottom: the odd column or row of a 4:2:0 picture, and of the other picture the same
-// share of the view, to within half a depth sample.
-struct Cut {
-  int color_cols = 0, color_rows = 0, depth_cols = 0, depth_rows = 0;
-
-  Cut() = default;
-  Cut(const Frame& color, const Frame& depth, bool even_depth) {
-    cut(color.width, depth.width, even_depth, color_cols, depth_cols);
-    cut(color.height, depth.height, even_depth, color_rows, depth_rows);
-  }
-
-  // The least crop after which both sizes are even where required.
-  static void cut(int color, int depth, bool even_depth, int& off_color, int& off_depth) {
-    const auto isOdd = [&] { return even_depth && (depth - off_depth) % 2 != 0; };
-    for (off_color = color % 2; off_color + 2 < color; off_color += 2) {
-      off_depth = static_cast<int>(std::lround(off_color * static_cast<double>(depth) / color));
-      if (isOdd() && depth > color) ++off_depth;  // less than one colour sample
-      if (!isOdd()) return;
-    }
-  }
-  [[nodiscard]] std::string explain() const {
-    char line[160];
-    std::snprintf(line, sizeof line,
-                  "4:2:0 needs even sizes: cropped %d column and %d row of the colour, %d and %d of the depth",
-                  color_cols, color_rows, depth_cols, depth_rows);
-    return color_cols + color_rows + depth_cols + depth_rows == 0 ? "" : line;
-  }
 };
 
 std::optional<std::uint64_t> expectedFrames(const FilmInfo& info) {
@@ -119,7 +91,7 @@ class Packager {
   DepthCoder coder_{DepthCalibration{}};  // replaced in `begin` by the film's
   std::vector<std::string> code_notes_;
   FilmFormat format_;
-  Cut cut_;
+  EvenCut cut_;
   KeyFrames key_frames_;
   std::deque<bool> depth_keys_;      // for pictures not yet written; the depth's thread
   std::deque<TimedSurface> recent_;  // depth pictures, the newest last
@@ -139,7 +111,7 @@ Outcome<void> Packager::begin(const FramePair& pair) {
   Frame whole_depth;  // only its size is used; the first pair may have no depth yet
   whole_depth.width = info.depth_width;
   whole_depth.height = info.depth_height;
-  cut_ = Cut(pair.color, whole_depth, output_.depth.flat_chroma);
+  cut_ = EvenCut(pair.color, whole_depth, output_.depth.flat_chroma);
   coder_ = DepthCoder(sourceCalibration(), output_.depth);
   code_notes_ = coder_.explain();
   if (output_.enhancement) {
@@ -367,6 +339,7 @@ Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader:
   }
   Packager packager(reader, backends, std::move(info), source, output);
   bool live = false;  // ends on request or when its camera is unplugged, and is complete then
+  std::optional<CancelsAnswers> kept;
   for (std::uint64_t done = 1;; ++done) {
     auto pair = reader.next();
     if (stop.load(std::memory_order_relaxed)) {
@@ -386,6 +359,7 @@ Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader:
     }
     live = (*pair)->taken.has_value();
     if (!packager.begun()) {
+      if (live) kept.emplace(nullptr);  // a request ends the film and not its writing
       if (auto begun = packager.begin(**pair); !begun) return failed(begun.error().thing, begun.error().error);
     }
     if (auto written = packager.write(**pair); !written) return failed(written.error().thing, written.error().error);
