@@ -7,9 +7,13 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <utility>
 
+#include "platform/files/file_system_answer.h"
 #include "platform/litter.h"
 #include "platform/unique_fd.h"
 
@@ -18,6 +22,7 @@ namespace {
 
 constexpr const char* kThereMeanwhile =
     "another program created this file meanwhile, so it was not replaced; choose another name";
+constexpr std::size_t kTextAtOnce = 65536;
 constexpr const char* kCannotWrite = "could not be written completely; is the disk full?";
 
 // mkstemp makes files that only the owner can read; reports get the usual permissions.
@@ -27,12 +32,12 @@ mode_t ordinaryMode() noexcept {
   return 0666 & ~mask;
 }
 
-std::unexpected<Error> cannotCreate(int os_error) noexcept {
-  if (os_error == ENOENT) return fail(ErrorCode::NotFound, "its folder does not exist; create it first", os_error);
+Error cannotCreate(int os_error) noexcept {
+  if (os_error == ENOENT) return {ErrorCode::NotFound, os_error, "its folder does not exist; create it first"};
   if (os_error == EACCES || os_error == EROFS) {
-    return fail(ErrorCode::PermissionDenied, "no permission to write there; choose another folder", os_error);
+    return {ErrorCode::PermissionDenied, os_error, "no permission to write there; choose another folder"};
   }
-  return fail(ErrorCode::Io, "cannot create a file there; choose another folder", os_error);
+  return {ErrorCode::Io, os_error, "cannot create a file there; choose another folder"};
 }
 
 // Invalid where the file system has no unnamed files, or without /proc, whose path is the file's only name.
@@ -64,25 +69,84 @@ bool linkInto(const std::string& target, const std::string& nameless, Existing e
   return false;
 }
 
+// A file that has no place yet. Deleted if nobody takes it: the question that made it may be answered too late.
+struct Made {
+  Made() = default;
+  Made(const Made&) = delete;
+  Made& operator=(const Made&) = delete;
+  ~Made() {
+    if (fd.valid() && !temporary.empty() && !nameless) ::unlink(temporary.c_str());
+  }
+
+  UniqueFd fd;
+  std::string target, temporary;
+  bool nameless = false;
+  std::optional<Error> error;
+};
+
+void makeTemporary(Made& made) {
+  if (made.fd = openNameless(made.target); made.fd.valid()) {
+    made.nameless = true;
+    made.temporary = "/proc/self/fd/" + std::to_string(made.fd.get());
+    return;
+  }
+  made.temporary = litterPattern(made.target);
+  made.fd.reset(::mkostemp(made.temporary.data(), O_CLOEXEC));
+}
+
+void makeNow(const std::string& path, Made& made) {
+  made.target = path;
+  std::error_code missing;
+  if (const auto real = std::filesystem::canonical(path, missing); !missing) made.target = real.string();
+  removeLitter(made.target);
+  struct stat status{};
+  const bool exists = ::stat(made.target.c_str(), &status) == 0;
+  if (exists && S_ISDIR(status.st_mode)) {
+    made.error = Error{ErrorCode::Io, EISDIR, "is a folder; give the name of a file"};
+    return;
+  }
+  if (exists && !S_ISREG(status.st_mode)) {
+    made.fd.reset(::open(made.target.c_str(), O_WRONLY | O_CLOEXEC));
+  } else {
+    makeTemporary(made);
+  }
+  if (!made.fd.valid()) made.error = cannotCreate(errno);
+  if (made.error || made.temporary.empty()) return;
+  ::fchmod(made.fd.get(), exists ? status.st_mode & 0777 : ordinaryMode());
+  holdLitter(made.fd.get());
+}
+
+// 0 or errno.
+int putInPlace(const std::string& target, const std::string& temporary, bool nameless, Existing existing) {
+  const unsigned how = existing == Existing::Keep ? RENAME_NOREPLACE : 0;
+  const bool done = nameless ? linkInto(target, temporary, existing)
+                             : ::renameat2(AT_FDCWD, temporary.c_str(), AT_FDCWD, target.c_str(), how) == 0;
+  return done ? 0 : errno;
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(AtomicFile&& other) noexcept
-    : file_(std::exchange(other.file_, nullptr)),
+    : output_(std::move(other.output_)),
+      text_(std::move(other.text_)),
       path_(std::move(other.path_)),
       target_(std::move(other.target_)),
       temporary_(std::exchange(other.temporary_, {})),
       existing_(other.existing_),
-      nameless_(other.nameless_) {}
+      nameless_(other.nameless_),
+      answers_(other.answers_) {}
 
 AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
   if (this == &other) return *this;
   discard();
-  file_ = std::exchange(other.file_, nullptr);
+  output_ = std::move(other.output_);
+  text_ = std::move(other.text_);
   path_ = std::move(other.path_);
   target_ = std::move(other.target_);
   temporary_ = std::exchange(other.temporary_, {});
   existing_ = other.existing_;
   nameless_ = other.nameless_;
+  answers_ = other.answers_;
   return *this;
 }
 
@@ -91,65 +155,70 @@ AtomicFile::~AtomicFile() {
 }
 
 Result<AtomicFile> AtomicFile::create(const std::string& path, Existing existing) {
-  AtomicFile made;
-  made.existing_ = existing;
-  made.path_ = path;
-  made.target_ = path;
-  std::error_code missing;
-  if (const auto real = std::filesystem::canonical(path, missing); !missing) made.target_ = real.string();
   if (path.empty()) return fail(ErrorCode::InvalidArgument, "the file name is empty; give a path", ENOENT);
-
-  removeLitter(made.target_);
-  UniqueFd fd;
-  struct stat status{};
-  const bool exists = ::stat(made.target_.c_str(), &status) == 0;
-  if (exists && S_ISDIR(status.st_mode)) return fail(ErrorCode::Io, "is a folder; give the name of a file", EISDIR);
-  if (exists && !S_ISREG(status.st_mode)) {
-    fd.reset(::open(made.target_.c_str(), O_WRONLY | O_CLOEXEC));
-  } else if (fd = openNameless(made.target_); fd.valid()) {
-    made.nameless_ = true;
-    made.temporary_ = "/proc/self/fd/" + std::to_string(fd.get());
-  } else {
-    made.temporary_ = litterPattern(made.target_);
-    fd.reset(::mkostemp(made.temporary_.data(), O_CLOEXEC));
-    if (!fd.valid()) made.temporary_.clear();
-  }
-  if (!fd.valid()) return cannotCreate(errno);
-  if (!made.temporary_.empty()) ::fchmod(fd.get(), exists ? status.st_mode & 0777 : ordinaryMode());
-  if (!made.temporary_.empty()) holdLitter(fd.get());
-  made.file_ = ::fdopen(fd.get(), "w");
-  if (made.file_ == nullptr) return cannotCreate(errno);
-  static_cast<void>(fd.release());
-  return made;
+  auto answer = answerOf(path, [path] {
+    auto made = std::make_shared<Made>();
+    makeNow(path, *made);
+    return made;
+  });
+  if (!answer) return std::unexpected(answer.error());
+  Made& made = **answer;
+  if (made.error) return std::unexpected(*made.error);
+  AtomicFile file;
+  file.path_ = path;
+  file.target_ = made.target;
+  file.temporary_ = made.temporary;
+  file.existing_ = existing;
+  file.nameless_ = made.nameless;
+  file.output_ = AnsweredOutput(std::move(made.fd), made.target);
+  return file;
 }
 
-void AtomicFile::write(std::string_view text) noexcept {
-  if (file_ != nullptr) static_cast<void>(std::fwrite(text.data(), 1, text.size(), file_));  // commit asks ferror
+void AtomicFile::write(std::string_view text) {
+  text_ += text;
+  if (text_.size() >= kTextAtOnce) writeText();
+}
+
+void AtomicFile::writeText() {
+  const auto* const bytes = reinterpret_cast<const std::uint8_t*>(text_.data());
+  if (output_.valid()) static_cast<void>(output_.write(output_.bytes(), {bytes, text_.size()}));  // `commit` asks
+  text_.clear();
 }
 
 Result<void> AtomicFile::commit() {
-  if (file_ == nullptr) return fail(ErrorCode::InvalidState, "the file is not open");
-  bool good = std::fflush(file_) == 0 && std::ferror(file_) == 0;
-  if (good && !temporary_.empty()) good = ::fsync(::fileno(file_)) == 0 && putInPlace();
-  const int os_error = errno;
-  good = std::fclose(std::exchange(file_, nullptr)) == 0 && good;
-  if (good) return {};
+  if (!output_.valid()) return fail(ErrorCode::InvalidState, "the file is not open");
+  if (!text_.empty()) writeText();
+  auto done = temporary_.empty() ? output_.flush() : output_.sync();
+  if (done && !temporary_.empty()) done = moveIntoPlace();
+  answers_ = done || done.error().code == ErrorCode::Io;
   discard();
-  if (os_error == EEXIST) return fail(ErrorCode::Io, kThereMeanwhile, os_error);
-  return fail(ErrorCode::Io, kCannotWrite, os_error);
-}
-
-bool AtomicFile::putInPlace() {
-  const unsigned how = existing_ == Existing::Keep ? RENAME_NOREPLACE : 0;
-  const bool done = nameless_ ? linkInto(target_, temporary_, existing_)
-                              : ::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), how) == 0;
-  if (done) temporary_.clear();
   return done;
 }
 
+Result<void> AtomicFile::moveIntoPlace() {
+  const CancelsAnswers cancels(output_.cancelFlag());
+  const auto moved =
+      answerOf(target_, [target = target_, temporary = temporary_, nameless = nameless_, existing = existing_,
+                         held = output_] { return putInPlace(target, temporary, nameless, existing); });
+  if (!moved) return std::unexpected(moved.error());
+  if (*moved == EEXIST) return fail(ErrorCode::Io, kThereMeanwhile, EEXIST);
+  if (*moved != 0) return fail(ErrorCode::Io, kCannotWrite, *moved);
+  temporary_.clear();
+  return {};
+}
+
 void AtomicFile::discard() noexcept {
-  if (file_ != nullptr) std::fclose(std::exchange(file_, nullptr));
-  if (!temporary_.empty() && !nameless_) ::unlink(temporary_.c_str());
+  if (const auto error = output_.valid() ? output_.error() : std::nullopt; error && error->code != ErrorCode::Io) {
+    answers_ = false;
+  }
+  output_.close();
+  text_.clear();
+  if (!temporary_.empty() && !nameless_) {
+    const auto remove = [name = temporary_] { ::unlink(name.c_str()); };
+    const CancelsAnswers kept(nullptr);
+    if (answers_) static_cast<void>(fileSystem().ask(target_, remove));  // not left behind when the program ends
+    if (!answers_) fileSystem().leave(remove);
+  }
   temporary_.clear();
 }
 

@@ -3,11 +3,11 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
 #include <string>
 #include <string_view>
 
 #include "platform/error.h"
+#include "platform/files/answered_output.h"
 
 namespace relievo {
 
@@ -16,9 +16,10 @@ enum class Existing : std::uint8_t {
   Keep,  // if the file exists at the commit, the commit fails: the first of several writers wins
 };
 
-// Not thread-safe. A device or a pipe is written to directly, since it cannot be replaced. Where the file system
-// supports unnamed files (ext4, xfs, btrfs, tmpfs, ..), nothing is left behind however the program ends; elsewhere a
-// killed program leaves its temporary file, which the next `create` for that path removes.
+// Not thread-safe. No call waits longer than 10 s for the file system (file_system_answer.h): Timeout. A device or a
+// pipe is written to directly, since it cannot be replaced. Where the file system supports unnamed files (ext4, xfs,
+// btrfs, tmpfs, ..), nothing is left behind however the program ends; elsewhere a killed program leaves its temporary
+// file, which the next `create` for that path removes.
 class AtomicFile {
  public:
   AtomicFile() = default;
@@ -29,26 +30,28 @@ class AtomicFile {
   // Creates the temporary file, so that an unwritable path is reported before any work is done.
   [[nodiscard]] static Result<AtomicFile> create(const std::string& path, Existing existing = Existing::Replace);
 
-  // Buffered; `commit` reports a failure.
-  void write(std::string_view text) noexcept;
+  // Buffered, and written on another thread; `commit` reports a failure.
+  void write(std::string_view text);
   // Syncs the file to disk, then puts it in place. Call once.
   [[nodiscard]] Result<void> commit();
 
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
-  // The file's path until the commit, for a library that writes to a path instead of through `write`. The library must
-  // close the file before the commit. Valid in this process only.
-  [[nodiscard]] const std::string& writtenPath() const noexcept { return temporary_.empty() ? target_ : temporary_; }
+  // The file until the commit, for who writes to places of their own instead of through `write`.
+  [[nodiscard]] AnsweredOutput& output() noexcept { return output_; }
 
  private:
-  [[nodiscard]] bool putInPlace();
+  void writeText();
+  [[nodiscard]] Result<void> moveIntoPlace();
   void discard() noexcept;
 
-  std::FILE* file_ = nullptr;
+  AnsweredOutput output_;
+  std::string text_;       // not yet written
   std::string path_;       // as given
   std::string target_;     // `path_` with symbolic links resolved
   std::string temporary_;  // empty: `target_` is written directly
   Existing existing_ = Existing::Replace;
   bool nameless_ = false;  // `temporary_` is the open file's path in /proc
+  bool answers_ = true;    // the file system does
 };
 
 }  // namespace relievo

@@ -10,6 +10,7 @@
 #include "app/author/package/packager.h"
 #include "app/author/views/estimated_film.h"
 #include "app/author/views/stereo_film.h"
+#include "platform/files/file_system_answer.h"
 #include "platform/log.h"
 
 namespace relievo {
@@ -104,6 +105,7 @@ Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader:
   if (auto opened = supply.open(source, backends, output, stop, progress); !opened) return failed(opened.error());
   std::optional<Packager> packager;
   bool live = false;  // ends on request or when its camera is unplugged, and is complete then
+  std::optional<CancelsAnswers> kept;
   for (std::uint64_t done = 1;; ++done) {
     auto pair = supply.next();
     if (stop.load(std::memory_order_relaxed)) {
@@ -118,6 +120,7 @@ Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader:
     if (!*pair) break;
     live = (*pair)->taken.has_value();
     if (!packager) {
+      if (live) kept.emplace(nullptr);  // a request ends the film and not its writing
       packager.emplace(reader, backends, supply.infoWith(**pair), source, output);
       if (auto begun = packager->begin(**pair); !begun) return failed(begun.error());
     }

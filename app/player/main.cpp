@@ -193,6 +193,7 @@ Outcome<Outputs> makeOutputs(const PlayOptions& options) {
 
 // One that cannot be written costs the others nothing.
 int finishFiles(const PlayReport& report, Outputs& outputs) {
+  const CancelsAnswers kept(nullptr);  // the signal that has ended the player does not cost its files
   int result = kExitDone;
   const auto finish = [&result](std::optional<Recorder>& recorder, const HapticSummary& haptic) {
     if (!recorder || haptic.ticks == 0) return;

@@ -24,8 +24,6 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMostThreads = 64;
 constexpr auto kLook = std::chrono::milliseconds(10);    // between looks at the flag of CancelsAnswers
 constexpr auto kGrace = std::chrono::milliseconds(100);  // in which a file system that works answers
-constexpr Error kNoAnswer{ErrorCode::Timeout, 0, "the file system does not answer within 10 s; check the mount"};
-constexpr Error kInterrupted{ErrorCode::Cancelled, 0, "interrupted while waiting for the file system"};
 
 thread_local const std::atomic<bool>* cancels = nullptr;
 thread_local bool cancelled_before = false;  // the flag has ended a question, and is still set
@@ -181,11 +179,21 @@ Result<void> FileSystemAnswers::ask(const std::string& path, std::function<void(
   return std::unexpected(kNoAnswer);
 }
 
-void FileSystemAnswers::leave(std::function<void()> act) {
+std::shared_ptr<void> FileSystemAnswers::leave(std::function<void()> act) {
   auto task = std::make_shared<Task>();
   task->question = std::move(act);
   const std::scoped_lock lock(shared_->mutex);
-  if (!Shared::give(shared_, task)) shared_->queue.push_back(std::move(task));
+  if (!Shared::give(shared_, task)) shared_->queue.push_back(task);
+  return task;
+}
+
+void FileSystemAnswers::giveUp(const std::string& path, const std::shared_ptr<void>& act) {
+  std::string place = placeOf(fullPath(path));
+  const std::scoped_lock lock(shared_->mutex);
+  auto task = std::static_pointer_cast<Task>(act);
+  if (task->done) return;
+  task->stuck_at = std::move(place);
+  shared_->stuck.push_back(std::move(task));
 }
 
 FileSystemAnswers& fileSystem() {
@@ -193,10 +201,14 @@ FileSystemAnswers& fileSystem() {
   return answers;
 }
 
-CancelsAnswers::CancelsAnswers(const std::atomic<bool>& flag) noexcept : before_(std::exchange(cancels, &flag)) {}
+CancelsAnswers::CancelsAnswers(const std::atomic<bool>* flag) noexcept : before_(std::exchange(cancels, flag)) {}
 
 CancelsAnswers::~CancelsAnswers() {
   cancels = before_;
+}
+
+const std::atomic<bool>* CancelsAnswers::flag() noexcept {
+  return cancels;
 }
 
 }  // namespace relievo

@@ -15,6 +15,8 @@
 namespace relievo {
 
 inline constexpr Duration kAnswerPatience = std::chrono::seconds(10);
+inline constexpr Error kNoAnswer{ErrorCode::Timeout, 0, "the file system does not answer within 10 s; check the mount"};
+inline constexpr Error kInterrupted{ErrorCode::Cancelled, 0, "interrupted while waiting for the file system"};
 
 // A system call on a stalled mount cannot be ended from outside: its thread is given up. The thread goes on when the
 // kernel gives it back. Any thread; not real-time.
@@ -30,8 +32,10 @@ class FileSystemAnswers {
   // while an earlier question about the same mount is still unanswered after that time; Cancelled (CancelsAnswers).
   // After an error `question` may still run, now or later: it must own all that it uses.
   [[nodiscard]] Result<void> ask(const std::string& path, std::function<void()> question);
-  // Runs `act`, such as a close, and waits for nothing.
-  void leave(std::function<void()> act);
+  // Runs `act`, such as a close, and waits for nothing. What it returns is for `giveUp`.
+  std::shared_ptr<void> leave(std::function<void()> act);
+  // Until this act ends, questions about the mount of `path` fail at once.
+  void giveUp(const std::string& path, const std::shared_ptr<void>& act);
 
  private:
   struct Shared;
@@ -45,10 +49,15 @@ class FileSystemAnswers {
 // answered within 0.1 s. The flag must outlive it.
 class CancelsAnswers {
  public:
-  explicit CancelsAnswers(const std::atomic<bool>& flag) noexcept;
+  explicit CancelsAnswers(const std::atomic<bool>& flag) noexcept : CancelsAnswers(&flag) {}
+  // Null: none is cancelled.
+  explicit CancelsAnswers(const std::atomic<bool>* flag) noexcept;
   ~CancelsAnswers();
   CancelsAnswers(const CancelsAnswers&) = delete;
   CancelsAnswers& operator=(const CancelsAnswers&) = delete;
+
+  // Of this thread; null if nothing cancels.
+  [[nodiscard]] static const std::atomic<bool>* flag() noexcept;
 
  private:
   const std::atomic<bool>* before_;

@@ -143,12 +143,12 @@ class Inputs(seeds.Maker):
         heights = [[value / 255 for value in picture] for picture in gray]
         chroma = bytes([128]) * (COLS * ROWS // 2)
         color = [bytes([40 + 10 * k + c % 50 for _, c in PLACES]) for k in range(PICTURES)]
-        full = ("-c:v", "ffv1", "-pix_fmt", "yuvj420p")
+        full = ("-c:v", "ffv1", "-color_range", "pc")  # FFV1 has no yuvj420p: FFmpeg would make it limited
         beside = [b"".join(a[r * COLS:(r + 1) * COLS] + b[r * COLS:(r + 1) * COLS] for r in range(ROWS)) + chroma * 2
                   for a, b in zip(color, gray)]
-        path = self.raw("sbs.mkv", beside, "yuvj420p", *full, cols=2 * COLS)
+        path = self.raw("sbs.mkv", beside, "yuv420p", *full, cols=2 * COLS)
         yield Input("sbs", ["--color", path, "--packing", "sbs"], heights)
-        self.raw("two-color.mkv", [picture + chroma for picture in color], "yuvj420p", *full)
+        self.raw("two-color.mkv", [picture + chroma for picture in color], "yuv420p", *full)
         self.raw("two-depth.mkv", gray, "gray", "-c:v", "ffv1")
         self.ffmpeg("-i", self.path("two-color.mkv"), "-i", self.path("two-depth.mkv"), "-map", "0:v", "-map", "1:v",
                     "-c", "copy", self.path("tracks.mkv"))
@@ -156,17 +156,17 @@ class Inputs(seeds.Maker):
         yield self.hue()
 
     def hue(self):
-        """From red (near) through yellow, green, cyan, blue and magenta; 1536 steps."""
+        """The hue over 360 degrees, from red (near) through yellow, green, cyan, blue and magenta: 1530 colours."""
         def rgb(step):
-            up = step % 256
+            up = step % 255
             return ((255, up, 0), (255 - up, 255, 0), (0, 255, up), (0, 255 - up, 255), (up, 0, 255),
-                    (255, 0, 255 - up))[step // 256]
+                    (255, 0, 255 - up))[step // 255]
 
-        steps = [[round(1535 * (1 - s)) for s in picture] for picture in SCENE]
+        steps = [[round(1529 * (1 - s)) for s in picture] for picture in SCENE]
         pixels = [b"".join(bytes((*rgb(step)[::-1], 0)) for step in picture) for picture in steps]
         path = self.raw("hue.mkv", pixels, "bgr0", "-c:v", "ffv1")
         return Input("hue", ["--color", self.color, "--depth", path, "--depth-code", "hue"],
-                     [[1 - step / 1535 for step in picture] for picture in steps])
+                     [[1 - step / 1530 for step in picture] for picture in steps])
 
 
 def output_of(*command):

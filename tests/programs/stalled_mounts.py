@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Gives the three programs files of a mount that stalls at one operation.
+"""Gives the three programs files of a mount that stalls at one operation, to read and to write (stalled_writing.py).
 
 Each program says so in one line after 10 s and ends with exit code 1. Until then, quit, a signal and the next open work
 at once: without that line. Nothing is left behind. Ends with code 77 where a file system of FUSE may not be mounted."""
@@ -18,6 +18,7 @@ import time
 
 sys.dont_write_bytecode = True  # beside the sources
 import seeds
+import stalled_writing
 import stalling_files
 
 SAID = "does not answer within 10 s; check the mount"
@@ -65,31 +66,32 @@ def make_files(folder, programs):
 
 
 class Case:
-    """A mount, a program that meets it, and what the program said."""
+    """A mount, a program that meets it, and what the program said. The mount shows the films, or an empty folder."""
 
-    def __init__(self, programs, films, scratch):
+    def __init__(self, programs, films, scratch, writes):
         self.programs, self.films, self.scratch = programs, films, scratch
-        self.place, self.home = (os.path.join(scratch, name) for name in ("mount", "home"))
+        self.place, self.home, self.shown = (os.path.join(scratch, name) for name in ("mount", "home", "shown"))
         self.said = os.path.join(scratch, "said")
-        os.makedirs(self.place)
-        os.makedirs(self.home)
-        self.files = stalling_files.StallingFiles(films, self.place)
+        for folder in (self.place, self.home, self.shown):
+            os.makedirs(folder)
+        self.files = stalling_files.StallingFiles(self.shown if writes else films, self.place)
         self.process = self.socket = None
         self.asked = 0
 
     def start(self, line):
-        """`line` may name the mount as @."""
-        program, *arguments = line.replace("@", self.place).split()
+        """`line` may name the mount as @, and a film elsewhere as &."""
+        film = os.path.join(self.films, "film.mkv")
+        program, *arguments = line.replace("@", self.place).replace("&", film).split()
         environment = {**os.environ, "HOME": self.home, "XDG_RUNTIME_DIR": self.home, "DISPLAY": "",
                        "WAYLAND_DISPLAY": "", "XDG_CONFIG_HOME": self.home}
         with open(self.said, "wb") as said:
             self.process = subprocess.Popen([os.path.join(self.programs, program), *arguments], cwd=self.home,
                                             env=environment, stdin=subprocess.DEVNULL, stdout=said, stderr=said)
 
-    def start_player(self):
+    def start_player(self, more=""):
         """A player that waits for commands."""
         address = os.path.join(self.scratch, "socket")
-        self.start(f"relievo play --control {address} --display mock --haptic mock --audio null --remote none")
+        self.start(f"relievo play --control {address} --display mock --haptic mock --audio null --remote none {more}")
         self.socket = socket.socket(socket.AF_UNIX)
         end = time.monotonic() + END_S
         while time.monotonic() < end:
@@ -235,16 +237,19 @@ AT_ONCE = (
 
 
 def tests():
-    """Name and function of each case."""
+    """Name and function of each case, and whether it writes."""
     for given in GIVEN_UP:
-        yield f"{given[0]} ({given[1]} of {given[2]})", lambda case, given=given: given_up(case, *given)
-    yield from AT_ONCE
+        yield f"{given[0]} ({given[1]} of {given[2]})", lambda case, given=given: given_up(case, *given), False
+    for each in AT_ONCE:
+        yield *each, False
+    for each in stalled_writing.tests():
+        yield *each, True
 
 
-def run(programs, films, folder, number, test):
+def run(programs, films, folder, number, test, writes):
     scratch = os.path.join(folder, str(number))
     os.makedirs(scratch)
-    case = Case(programs, films, scratch)
+    case = Case(programs, films, scratch, writes)
     try:
         return test(case)
     finally:
@@ -288,7 +293,7 @@ def main():
         make_files(films, programs)
         chosen = [test for test in tests() if options.only in test[0]]
         with concurrent.futures.ThreadPoolExecutor(8) as pool:
-            jobs = [pool.submit(run, programs, films, folder, number, test[1]) for number, test in enumerate(chosen)]
+            jobs = [pool.submit(run, programs, films, folder, number, *test[1:]) for number, test in enumerate(chosen)]
             findings = [f"{test[0]}: {job.result()}" for test, job in zip(chosen, jobs) if job.result()]
     finally:
         shutil.rmtree(folder, ignore_errors=True)

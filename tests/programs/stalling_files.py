@@ -10,8 +10,11 @@ import struct
 import threading
 
 LOOKUP, FORGET, GETATTR, OPEN, READ, STATFS, RELEASE, FLUSH = 1, 2, 3, 14, 15, 17, 18, 25
+SETATTR, MKDIR, UNLINK, RMDIR, RENAME, WRITE, FSYNC, CREATE, RENAME2 = 4, 9, 10, 11, 12, 16, 20, 35, 45
 INIT, OPENDIR, READDIR, RELEASEDIR, ACCESS, INTERRUPT, DESTROY, BATCH_FORGET = 26, 27, 28, 29, 34, 36, 38, 42
-NAMES = {"lookup": LOOKUP, "getattr": GETATTR, "open": OPEN, "read": READ, "readdir": READDIR}
+NAMES = {"lookup": LOOKUP, "getattr": GETATTR, "open": OPEN, "read": READ, "readdir": READDIR,
+         "mkdir": MKDIR, "create": CREATE, "write": WRITE, "fsync": FSYNC, "rename": RENAME}
+ANY = "*"
 ROOT, DIRECT_IO, MNT_DETACH, SIGKILL_BIT = 1, 1, 2, 1 << 8
 IN, OUT, ATTR = struct.Struct("<IIQQIIIHH"), struct.Struct("<IiQ"), struct.Struct("<6Q10I")
 
@@ -57,7 +60,8 @@ class StallingFiles:
         self.thread.start()
 
     def stall(self, operation, name, spared=0):
-        """From now on: `operation` on the file or folder `name`, of the folder shown. The first ones may be spared."""
+        """From now on: `operation` on the file or folder `name`, of the folder shown, or on ANY. The first ones may be
+        spared."""
         with self.guard:
             self.seen.clear()
             self.stalls[NAMES[operation], name] = spared
@@ -109,12 +113,15 @@ class StallingFiles:
 
     def is_stalled(self, request):
         _, operation, _, node, *_ = IN.unpack_from(request)
+        operation = RENAME if operation == RENAME2 else operation
         name = self.paths.get(node, "")
         if operation == LOOKUP:
             name = os.path.join(name, self.text(request))
         with self.guard:
-            self.seen[operation, name] += 1
-            return self.seen[operation, name] > self.stalls.get((operation, name), float("inf"))
+            for each in (name, ANY):
+                self.seen[operation, each] += 1
+            return any(self.seen[key] > spared for key, spared in self.stalls.items() if key[1] in (name, ANY)
+                       and key[0] == operation)
 
     @staticmethod
     def text(request):
@@ -144,7 +151,7 @@ class StallingFiles:
         body = request[IN.size:]
         try:
             if operation == INIT:
-                return struct.pack("<4I2H2I2H8I", 7, 31, 1 << 17, 0, 0, 0, 4096, 1, 0, 0, *[0] * 8)
+                return struct.pack("<4I2H2I2H8I", 7, 31, 1 << 17, 0, 0, 0, 1 << 16, 1, 0, 0, *[0] * 8)
             if operation == LOOKUP:
                 return self.look_up(node, self.text(request))
             if operation == GETATTR:
@@ -154,13 +161,15 @@ class StallingFiles:
             if operation in (READ, READDIR):
                 _, offset, size = struct.unpack_from("<2QI", body)
                 return self.read(node, offset, size) if operation == READ else self.list(node, offset, size)
-        except FileNotFoundError:
-            return -errno.ENOENT
+            if operation in CHANGES:
+                return CHANGES[operation](self, node, body)
+        except OSError as error:
+            return -error.errno
         if operation == STATFS:
             return struct.pack("<5Q4I6I", *[0] * 5, 4096, 255, 4096, 0, *[0] * 6)
         if operation in (FORGET, BATCH_FORGET, INTERRUPT):
             return None
-        return b"" if operation in (RELEASE, RELEASEDIR, FLUSH, DESTROY) else -errno.ENOSYS
+        return b"" if operation in (RELEASE, RELEASEDIR, FLUSH, FSYNC, DESTROY) else -errno.ENOSYS
 
     def look_up(self, parent, name):
         path = os.path.join(self.paths[parent], name)
@@ -184,3 +193,63 @@ class StallingFiles:
             if number >= offset and len(content) + len(entry) <= size:
                 content += entry
         return content
+
+    def child(self, parent, name):
+        return os.path.join(self.shown, self.paths[parent], os.fsdecode(name.split(b"\0", 1)[0]))
+
+    def create(self, parent, body):
+        flags, mode = struct.unpack_from("<2I", body)
+        how = flags & (os.O_EXCL | os.O_TRUNC) | os.O_CREAT
+        os.close(os.open(self.child(parent, body[16:]), how, mode))
+        return self.look_up(parent, os.fsdecode(body[16:].split(b"\0", 1)[0])) + struct.pack("<Q2I", 0, DIRECT_IO, 0)
+
+    def make_folder(self, parent, body):
+        os.mkdir(self.child(parent, body[8:]), struct.unpack_from("<I", body)[0])
+        return self.look_up(parent, os.fsdecode(body[8:].split(b"\0", 1)[0]))
+
+    def remove(self, parent, body):
+        path = self.child(parent, body)
+        (os.rmdir if os.path.isdir(path) else os.unlink)(path)
+        return b""
+
+    def write(self, node, body):
+        _, offset, size = struct.unpack_from("<2QI", body)
+        with open(self.real(node), "r+b") as file:
+            file.seek(offset)
+            file.write(body[40:40 + size])
+        return struct.pack("<2I", size, 0)
+
+    def change(self, node, body):
+        """Mode and size."""
+        valid, size, mode = (struct.unpack_from(kind, body, at)[0] for kind, at in (("<I", 0), ("<Q", 16), ("<I", 68)))
+        if valid & 1:
+            os.chmod(self.real(node), stat.S_IMODE(mode))
+        if valid & 8:
+            os.truncate(self.real(node), size)
+        return struct.pack("<Q2I", 0, 0, 0) + self.attributes(node)
+
+    def rename(self, parent, body):
+        return self.rename_so(parent, struct.unpack_from("<Q", body)[0], 0, body[8:])
+
+    def rename2(self, parent, body):
+        return self.rename_so(parent, *struct.unpack_from("<QI", body), body[16:])
+
+    def rename_so(self, parent, to_folder, flags, names):
+        """Also as an exchange, or only to a name that is free."""
+        old, new = names.split(b"\0")[:2]
+        old, new = self.child(parent, old), self.child(to_folder, new)
+        if ctypes.CDLL(None, use_errno=True).renameat2(-100, os.fsencode(old), -100, os.fsencode(new), flags) != 0:
+            return -ctypes.get_errno()
+        old, new = (os.path.relpath(path, self.shown) for path in (old, new))
+        swapped = {old: new, new: old} if flags & 2 else {old: new}
+        for node, path in self.paths.items():
+            for of, to in swapped.items():
+                if path == of or path.startswith(of + "/"):
+                    self.paths[node] = to + path[len(of):]
+                    break
+        return b""
+
+
+CHANGES = {SETATTR: StallingFiles.change, MKDIR: StallingFiles.make_folder, UNLINK: StallingFiles.remove,
+           RMDIR: StallingFiles.remove, WRITE: StallingFiles.write, CREATE: StallingFiles.create,
+           RENAME: StallingFiles.rename, RENAME2: StallingFiles.rename2}

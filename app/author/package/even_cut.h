@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a film's pictures lose so that 4:2:0 can hold them.
+// Makes sizes even, as 4:2:0 needs them.
 #pragma once
 
 #include <cmath>

@@ -14,7 +14,7 @@ extern "C" {
 #include <libavutil/log.h>
 }
 
-#include "app/author/package/film_place.h"
+#include "app/author/package/place/film_place.h"
 #include "app/author/package/work_line.h"
 #include "app/scene/material.h"
 

@@ -10,7 +10,7 @@
 #include <span>
 #include <utility>
 
-#include "app/author/package/film_place.h"
+#include "app/author/package/place/film_place.h"
 #include "platform/files/file_system_answer.h"
 
 namespace relievo {

@@ -13,7 +13,7 @@ extern "C" {
 }
 
 #include "app/author/package/film_kind.h"
-#include "app/author/package/film_place.h"
+#include "app/author/package/place/film_place.h"
 #include "app/author/package/text_subtitles.h"
 #include "hal/media/continuous_time.h"
 #include "hal/media/media_time.h"

@@ -8,6 +8,7 @@
 #include "app/author/package/source_notes.h"
 #include "app/scene/height_field.h"
 #include "platform/files/answered_place.h"
+#include "platform/files/file_system_answer.h"
 #include "platform/log.h"
 #include "platform/print.h"
 

@@ -56,7 +56,7 @@ Result<Recorder> Recorder::create(const std::string& path) {
   return Recorder(std::move(*file));
 }
 
-void Recorder::add(const FingerState& tick) noexcept {
+void Recorder::add(const FingerState& tick) {
   if (!first_) first_ = tick.time;
   Line line;
   line << secondsOf(tick.time - *first_) << tick.hip_mm << tick.proxy_mm << tick.force_n << (tick.contact ? 1 : 0)

@@ -21,7 +21,7 @@ class Recorder {
   [[nodiscard]] static Result<Recorder> create(const std::string& path);
   // Whose ticks follow.
   void setDevice(const HapticCapabilities& device) noexcept { device_ = device; }
-  void add(const FingerState& tick) noexcept;
+  void add(const FingerState& tick);
   [[nodiscard]] Result<void> finish() { return file_.commit(); }
   [[nodiscard]] const std::string& path() const noexcept { return file_.path(); }
 

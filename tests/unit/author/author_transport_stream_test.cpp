@@ -7,8 +7,8 @@
 #include <array>
 #include <vector>
 
-#include "app/author/package/ts_depth_signal.h"
-#include "app/author/package/ts_pacer.h"
+#include "app/author/package/place/ts_depth_signal.h"
+#include "app/author/package/place/ts_pacer.h"
 
 namespace relievo {
 namespace {

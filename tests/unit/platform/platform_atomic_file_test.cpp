@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <array>
 #include <cerrno>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -89,11 +91,16 @@ TEST_F(AtomicFileTest, SaysBeforehandThatAPathCannotBeWritten) {
   EXPECT_EQ(filesInFolder(), 0);
 }
 
-TEST_F(AtomicFileTest, AnotherWriterMayFillItByItsName) {
+TEST_F(AtomicFileTest, AnotherWriterMayFillItAtPlacesOfItsOwn) {
   std::ofstream(at("film.mkv")) << "old";
   auto file = AtomicFile::create(at("film.mkv"));
   ASSERT_TRUE(file);
-  std::ofstream(file->writtenPath()) << "new";
+  const std::array<std::uint8_t, 2> end{'e', 'w'}, begin{'n', 'e'};
+  ASSERT_TRUE(file->output().write(1, end));
+  ASSERT_TRUE(file->output().write(0, begin));
+  std::array<std::uint8_t, 8> whole{};
+  EXPECT_EQ(file->output().read(1, whole), 2u);
+  EXPECT_EQ(whole[1], 'w');
   EXPECT_EQ(textOf(at("film.mkv")), "old");
   ASSERT_TRUE(file->commit());
   EXPECT_EQ(textOf(at("film.mkv")), "new");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Edits the programme map, ISO/IEC 13818-1, 2.4.4.8.
-#include "app/author/package/ts_depth_signal.h"
+#include "app/author/package/place/ts_depth_signal.h"
 
 #include <algorithm>
 #include <array>

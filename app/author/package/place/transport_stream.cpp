@@ -4,10 +4,12 @@
 #include <array>
 #include <cerrno>
 
-#include "app/author/package/film_place.h"
-#include "app/author/package/ts_depth_signal.h"
-#include "app/author/package/ts_pacer.h"
+#include "app/author/package/place/film_io.h"
+#include "app/author/package/place/film_place.h"
+#include "app/author/package/place/ts_depth_signal.h"
+#include "app/author/package/place/ts_pacer.h"
 #include "platform/atomic_file.h"
+#include "platform/files/file_system_answer.h"
 
 namespace relievo {
 namespace {
@@ -17,7 +19,7 @@ constexpr int kBuffer = 64 * static_cast<int>(TsPacer::kDatagram);  // whole pac
 class TransportStream final : public FilmPlace {
  public:
   ~TransportStream() override {
-    avio_closep(&out_);
+    closeOut();
     freePackets();
   }
 
@@ -28,14 +30,16 @@ class TransportStream final : public FilmPlace {
       auto made = AtomicFile::create(path, existing);
       if (!made) return std::unexpected(made.error());
       place_ = std::move(*made);
-      url_ = "file:" + place_.writtenPath();  // the name may contain a colon
+      place_.output().cancelBy(CancelsAnswers::flag());
     }
     return makeMuxer("mpegts", url_);
   }
 
   Result<void> begin() override {
-    if (const int code = avio_open(&out_, url_.c_str(), AVIO_FLAG_WRITE); code < 0) {
-      if (!live_) return fail(ErrorCode::Io, kCannotWrite, osErrorOf(code));
+    if (!live_) {
+      out_ = makeFilmIo(place_.output());
+      if (out_ == nullptr) return fail(ErrorCode::Exhausted, "out of memory for a film", ENOMEM);
+    } else if (const int code = avio_open(&out_, url_.c_str(), AVIO_FLAG_WRITE); code < 0) {
       return fail(ErrorCode::Io,
                   "cannot send to this address; write udp://HOST:PORT, or srt://HOST:PORT of a receiver that listens",
                   osErrorOf(code));
@@ -62,9 +66,10 @@ class TransportStream final : public FilmPlace {
     avio_flush(packets_);
     if (code >= 0) code = packets_->error;
     if (live_ && code >= 0 && !pacer_.finish()) code = out_->error;
-    const int closed = avio_closep(&out_);
+    const int closed = closeOut();
     if (code >= 0) code = closed;
-    if (code < 0) return fail(ErrorCode::Io, live_ ? kLineFailed : kCannotWrite, osErrorOf(code));
+    if (code < 0 && live_) return fail(ErrorCode::Io, kLineFailed, osErrorOf(code));
+    if (code < 0) return std::unexpected(failureOf(code));
     if (!live_) {
       if (auto committed = place_.commit(); !committed) return std::unexpected(committed.error());
     }
@@ -98,6 +103,18 @@ class TransportStream final : public FilmPlace {
     avio_write(out_, packets.data(), static_cast<int>(packets.size()));
     if (live_) avio_flush(out_);
     return out_->error >= 0;
+  }
+  // 0 or FFmpeg's code of what could not be sent or written.
+  int closeOut() noexcept {
+    if (live_) return avio_closep(&out_);
+    if (out_ == nullptr) return 0;
+    avio_flush(out_);
+    const int code = out_->error;
+    freeFilmIo(out_);
+    return code;
+  }
+  [[nodiscard]] std::optional<Error> fileError() override {
+    return place_.output().valid() ? place_.output().error() : std::nullopt;
   }
   void freePackets() noexcept {
     if (packets_ == nullptr) return;

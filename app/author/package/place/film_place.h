@@ -26,7 +26,8 @@ inline constexpr const char* kCannotWrite = "it cannot be written; is the disk f
 // `finish` nothing is left behind. Use from one thread, except `write`, which any thread may call.
 class FilmPlace {
  public:
-  // Io or NotFound if nothing can be written there.
+  // Io or NotFound if nothing can be written there. No call waits longer than 10 s for the file system: Timeout. What
+  // cancels the waits of the calling thread (CancelsAnswers) cancels all that follow.
   [[nodiscard]] static Result<std::unique_ptr<FilmPlace>> create(const std::string& path, FilmKind kind,
                                                                  Existing existing);
   virtual ~FilmPlace() = default;
@@ -48,6 +49,10 @@ class FilmPlace {
   [[nodiscard]] Result<void> makeMuxer(const char* format, const std::string& url);
   // Takes ownership of the options.
   [[nodiscard]] Result<void> writeHeader(AVDictionary* options);
+  // What went wrong when FFmpeg failed with this code.
+  [[nodiscard]] Error failureOf(int code);
+  // Of the file that is written, if it is one.
+  [[nodiscard]] virtual std::optional<Error> fileError() { return std::nullopt; }
 
  private:
   struct Free {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads programme clock references, ISO/IEC 13818-1, 2.4.3.5.
-#include "app/author/package/ts_pacer.h"
+#include "app/author/package/place/ts_pacer.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Destinations of films, what their muxers share, and the plain file.
-#include "app/author/package/film_place.h"
+#include "app/author/package/place/film_place.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,9 @@
 #include <filesystem>
 #include <optional>
 
+#include "app/author/package/place/film_io.h"
 #include "platform/atomic_file.h"
+#include "platform/files/file_system_answer.h"
 
 namespace relievo {
 namespace {
@@ -26,25 +28,28 @@ constexpr std::array kEndings{Ending{".mkv", FilmKind::Matroska},
                               Ending{".ts", FilmKind::TransportStream},
                               Ending{".m3u8", FilmKind::Hls}};
 
-// Matroska and MP4: FFmpeg writes to the temporary file by name, since it seeks back and forth.
+// Matroska and MP4, whose muxers seek back and forth.
 class PlainFile final : public FilmPlace {
  public:
-  ~PlainFile() override { avio_closep(&file_); }
+  ~PlainFile() override { freeFilmIo(file_); }
 
   Result<void> open(const std::string& path, FilmKind kind, Existing existing) {
     auto made = AtomicFile::create(path, existing);
     if (!made) return std::unexpected(made.error());
     place_ = std::move(*made);
+    place_.output().cancelBy(CancelsAnswers::flag());
     matroska_ = kind == FilmKind::Matroska;
-    url_ = "file:" + place_.writtenPath();  // the name may contain a colon
-    return makeMuxer(matroska_ ? "matroska" : kind == FilmKind::Mov ? "mov" : "mp4", url_);
+    return makeMuxer(matroska_ ? "matroska" : kind == FilmKind::Mov ? "mov" : "mp4", path);
   }
 
   Result<void> begin() override {
-    if (const int code = avio_open(&file_, url_.c_str(), AVIO_FLAG_WRITE); code < 0) {
-      return fail(ErrorCode::Io, kCannotWrite, osErrorOf(code));
-    }
+    file_ = makeFilmIo(place_.output());
+    if (file_ == nullptr) return fail(ErrorCode::Exhausted, "out of memory for a film", ENOMEM);
     muxer().pb = file_;
+    muxer().flags |= AVFMT_FLAG_CUSTOM_IO;
+    muxer().opaque = this;
+    muxer().io_open = openAgain;
+    muxer().io_close2 = closeAgain;
     AVDictionary* options = nullptr;
     if (!matroska_) av_dict_set(&options, "movflags", "use_metadata_tags+faststart", 0);
     return writeHeader(options);
@@ -52,18 +57,31 @@ class PlainFile final : public FilmPlace {
 
   Result<std::uint64_t> finish() override {
     int code = av_write_trailer(&muxer());
-    const int closed = avio_closep(&file_);
-    if (code >= 0) code = closed;
-    if (code < 0) return fail(ErrorCode::Io, kCannotWrite, osErrorOf(code));
-    std::error_code unknown;
-    const std::uintmax_t bytes = std::filesystem::file_size(place_.writtenPath(), unknown);
+    avio_flush(file_);
+    if (code >= 0) code = file_->error;
+    if (code < 0) return std::unexpected(failureOf(code));
+    const std::uint64_t bytes = place_.output().bytes();
     if (auto committed = place_.commit(); !committed) return std::unexpected(committed.error());
-    return unknown ? 0 : bytes;
+    return bytes;
   }
 
  private:
+  // MP4's muxer reads what it has written, to move its index to the front.
+  static int openAgain(AVFormatContext* muxer, AVIOContext** file, const char*, int flags, AVDictionary**) {
+    if ((flags & AVIO_FLAG_WRITE) != 0) return AVERROR(EINVAL);
+    *file = makeFilmReader(static_cast<PlainFile*>(muxer->opaque)->place_.output());
+    return *file == nullptr ? AVERROR(ENOMEM) : 0;
+  }
+  static int closeAgain(AVFormatContext*, AVIOContext* file) {
+    freeFilmIo(file);
+    return 0;
+  }
+
+  [[nodiscard]] std::optional<Error> fileError() override {
+    return place_.output().valid() ? place_.output().error() : std::nullopt;
+  }
+
   AtomicFile place_;
-  std::string url_;
   AVIOContext* file_ = nullptr;
   bool matroska_ = false;
 };
@@ -120,15 +138,21 @@ Result<void> FilmPlace::makeMuxer(const char* format, const std::string& url) {
 Result<void> FilmPlace::writeHeader(AVDictionary* options) {
   const int code = avformat_write_header(muxer_.get(), &options);
   av_dict_free(&options);
-  if (code < 0) return fail(ErrorCode::Io, kCannotWrite, osErrorOf(code));
+  if (code < 0) return std::unexpected(failureOf(code));
   return {};
 }
 
 Result<void> FilmPlace::write(AVPacket& packet) {
   const std::lock_guard lock(writing_);
   const int code = av_interleaved_write_frame(muxer_.get(), &packet);
-  if (code < 0) return fail(ErrorCode::Io, kCannotWrite, osErrorOf(code));
+  if (code < 0) return std::unexpected(failureOf(code));
   return {};
+}
+
+Error FilmPlace::failureOf(int code) {
+  const auto of_file = fileError();
+  const bool unanswered = of_file && (of_file->code == ErrorCode::Timeout || of_file->code == ErrorCode::Cancelled);
+  return unanswered ? *of_file : Error{ErrorCode::Io, osErrorOf(code), kCannotWrite};
 }
 
 }  // namespace relievo
