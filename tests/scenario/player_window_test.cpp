@@ -174,18 +174,6 @@ TEST_F(PlayerWindow, FFillsTheScreenAndEscapeLeavesItButNotTheFilm) {
   EXPECT_EQ(player->wait(), 0) << textOf("said.txt");
 }
 
-// The page covers the film, and tells its keys; the same key takes it away.
-TEST_F(PlayerWindow, HShowsThePageOfKeysAndTakesItAway) {
-  const auto player = play({"--haptic", "none"});
-  EXPECT_TRUE(until([&] { return shows(); }));
-  screen_->tap("h");
-  EXPECT_TRUE(until([&] { return screen_->pixel(place_.x + kWidth - 4, place_.y + 4)[0] < 60; }));
-  screen_->tap("h");
-  EXPECT_TRUE(until([&] { return screen_->pixel(place_.x + kWidth - 4, place_.y + 4)[0] > 100; }));
-  screen_->tap("q");
-  EXPECT_EQ(player->wait(), 0) << textOf("said.txt");
-}
-
 // In the finger's colour, over the bar where the mouse is and nowhere else.
 TEST_F(PlayerWindow, TheMouseOverTheBarShowsItsTime) {
   const auto player = play({"--haptic", "none"});

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -43,6 +44,14 @@ class Process {
     for (std::string line; std::getline(status, line);) {
       if (!line.starts_with("SigCgt:")) continue;
       return (std::stoull(line.substr(7), nullptr, 16) >> (number - 1) & 1) != 0;
+    }
+    return false;
+  }
+  // True while it has that file open.
+  [[nodiscard]] bool holds(const std::string& path) const {
+    std::error_code failed;
+    for (const auto& fd : std::filesystem::directory_iterator("/proc/" + std::to_string(pid_) + "/fd", failed)) {
+      if (std::filesystem::read_symlink(fd.path(), failed) == path) return true;
     }
     return false;
   }

@@ -48,6 +48,43 @@ Window childOf(Display* display, Window parent, const std::string& title) {
   return found;
 }
 
+// The next event of that type for the window; false if none comes.
+bool waitFor(Display* display, Window window, int type, XEvent& event) {
+  constexpr int kStepMs = 5;
+  for (int waited_ms = 0; waited_ms < kPatienceMs; waited_ms += kStepMs) {
+    if (XCheckTypedWindowEvent(display, window, type, &event) != 0) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(kStepMs));
+  }
+  return false;
+}
+
+void sendXdnd(Display* display, Window from, Window to, const char* type, const std::array<long, 4>& data) {
+  XEvent event{};
+  event.xclient.type = ClientMessage;
+  event.xclient.window = to;
+  event.xclient.message_type = XInternAtom(display, type, False);
+  event.xclient.format = 32;
+  event.xclient.data.l[0] = static_cast<long>(from);
+  for (std::size_t i = 0; i < data.size(); ++i) event.xclient.data.l[i + 1] = data[i];
+  XSendEvent(display, to, False, NoEventMask, &event);
+  XSync(display, False);
+}
+
+// Answers the one who asks for what is dropped.
+void handOver(Display* display, const XSelectionRequestEvent& asked, const std::string& uri) {
+  XChangeProperty(display, asked.requestor, asked.property, asked.target, 8, PropModeReplace,
+                  reinterpret_cast<const unsigned char*>(uri.data()), static_cast<int>(uri.size()));
+  XEvent answer{};
+  answer.xselection.type = SelectionNotify;
+  answer.xselection.requestor = asked.requestor;
+  answer.xselection.selection = asked.selection;
+  answer.xselection.target = asked.target;
+  answer.xselection.property = asked.property;
+  answer.xselection.time = asked.time;
+  XSendEvent(display, asked.requestor, False, NoEventMask, &answer);
+  XSync(display, False);
+}
+
 }  // namespace
 
 std::unique_ptr<XScreen> XScreen::start() {
@@ -96,13 +133,19 @@ void XScreen::kill() {
   server_ = 0;
 }
 
-std::array<int, 3> XScreen::pixel(int x, int y) const {
-  XImage* image = XGetImage(connection_, DefaultRootWindow(connection_), x, y, 1, 1, AllPlanes, ZPixmap);
-  if (image == nullptr) return {-1, -1, -1};
-  const unsigned long value = XGetPixel(image, 0, 0);
+std::vector<std::array<int, 3>> XScreen::pixels(int x, int y, int width, int height) const {
+  std::vector<std::array<int, 3>> all(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), {-1, -1, -1});
+  XImage* image = XGetImage(connection_, DefaultRootWindow(connection_), x, y, static_cast<unsigned>(width),
+                            static_cast<unsigned>(height), AllPlanes, ZPixmap);
+  if (image == nullptr) return all;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const int at = static_cast<int>(i);
+    const unsigned long value = XGetPixel(image, at % width, at / width);
+    const auto part = [value](int shift) { return static_cast<int>(value >> shift & 0xff); };
+    all[i] = {part(16), part(8), part(0)};
+  }
   XDestroyImage(image);
-  const auto part = [value](int shift) { return static_cast<int>(value >> shift & 0xff); };
-  return {part(16), part(8), part(0)};
+  return all;
 }
 
 unsigned long XScreen::find(const std::string& title) const {
@@ -148,6 +191,25 @@ std::optional<int> XScreen::takeFullScreenWish() const {
     return static_cast<int>(event.xclient.data.l[0]);
   }
   return std::nullopt;
+}
+
+bool XScreen::drop(unsigned long window, const std::string& path) const {
+  const auto atom = [this](const char* name) { return static_cast<long>(XInternAtom(connection_, name, False)); };
+  const Window from = XCreateSimpleWindow(connection_, DefaultRootWindow(connection_), 0, 0, 1, 1, 0, 0, 0);
+  XSetSelectionOwner(connection_, static_cast<Atom>(atom("XdndSelection")), from, CurrentTime);
+  constexpr long kVersion = 5L << 24, kPlace = (20L << 16) | 20;
+  XEvent event{};
+  sendXdnd(connection_, from, window, "XdndEnter", {kVersion, atom("text/uri-list"), 0, 0});
+  sendXdnd(connection_, from, window, "XdndPosition", {0, kPlace, CurrentTime, atom("XdndActionCopy")});
+  bool taken = waitFor(connection_, from, ClientMessage, event);  // XdndStatus
+  if (taken) {
+    sendXdnd(connection_, from, window, "XdndDrop", {0, CurrentTime, 0, 0});
+    taken = waitFor(connection_, from, SelectionRequest, event);
+  }
+  if (taken) handOver(connection_, event.xselectionrequest, "file://" + path + "\r\n");
+  taken = taken && waitFor(connection_, from, ClientMessage, event);  // XdndFinished
+  XDestroyWindow(connection_, from);
+  return taken;
 }
 
 void XScreen::key(const char* name, bool down) const {

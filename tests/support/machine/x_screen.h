@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 struct _XDisplay;
 
@@ -28,7 +29,9 @@ class XScreen {
   XScreen& operator=(const XScreen&) = delete;
 
   // Red, green and blue of a pixel of the screen; the origin is at the top left.
-  [[nodiscard]] std::array<int, 3> pixel(int x, int y) const;
+  [[nodiscard]] std::array<int, 3> pixel(int x, int y) const { return pixels(x, y, 1, 1)[0]; }
+  // Of an area, row by row.
+  [[nodiscard]] std::vector<std::array<int, 3>> pixels(int x, int y, int width, int height) const;
 
   // A mapped window with that title; 0 if none appears within some seconds.
   [[nodiscard]] unsigned long find(const std::string& title) const;
@@ -50,9 +53,18 @@ class XScreen {
     key(name, true);
     key(name, false);
   }
+  // While another one is held: "Shift_L", "Control_L".
+  void tapWith(const char* held, const char* name) const {
+    key(held, true);
+    tap(name);
+    key(held, false);
+  }
   void moveMouse(int x, int y) const;
   // 1 left, 2 middle, 3 right; 4 and 5 are a notch of the wheel, forward and back.
   void button(unsigned number, bool down) const;
+
+  // Drops a file on the window, as a file manager does (XDND 5). False if the window does not take it within seconds.
+  [[nodiscard]] bool drop(unsigned long window, const std::string& path) const;
 
   // Kills the server, as at the end of a session.
   void kill();
