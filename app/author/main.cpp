@@ -29,7 +29,7 @@ struct Arguments {
   std::string scene;
   std::string depth_from;
   SwapEyes swap_eyes = SwapEyes::Auto;
-  std::optional<PictureSize> depth_size;
+  std::optional<DepthSize> depth_size;
   int crf = -1, depth_crf = -1;
 };
 
@@ -76,7 +76,7 @@ void addQualityOptions(CLI::App& app, Arguments& a) {
       ->check(CLI::Range(0, 51).description(""));
 }
 
-PictureSize depthSize(const std::string& word) {
+DepthSize depthSize(const std::string& word) {
   constexpr double kMost = 16384;
   std::array<double, 2> size{};
   if (!parseSizes(word, size) || std::min(size[0], size[1]) < 2 || std::max(size[0], size[1]) > kMost) {

@@ -42,7 +42,7 @@ Outcome<void> EstimatedFilm::start(const Frame& color) {
     estimator_ = std::move(*network);
     return {};
   }
-  const PictureSize depth = wishes_.size.value_or(color_);
+  const DepthSize depth = wishes_.size.value_or(color_);
   auto command = DepthCommand::start({.command = wishes_.how,
                                       .cols = color_.cols,
                                       .rows = color_.rows,

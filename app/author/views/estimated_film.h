@@ -17,13 +17,13 @@
 
 namespace relievo {
 
-struct PictureSize {
+struct DepthSize {
   int cols = 0, rows = 0;
 };
 
 struct OneViewWishes {
-  std::string how;                  // a command for /bin/sh, or the path of a network, which ends with .onnx
-  std::optional<PictureSize> size;  // of the depth that the command writes, or of what the network takes
+  std::string how;                // a command for /bin/sh, or the path of a network, which ends with .onnx
+  std::optional<DepthSize> size;  // of the depth that the command writes, or of what the network takes
 };
 
 // Use from one thread. It holds the pictures that the estimator has not answered, up to DepthCommand::kMostLate.
@@ -54,7 +54,7 @@ class EstimatedFilm {
   OneViewWishes wishes_;
   const std::atomic<bool>* stop_;
   std::unique_ptr<DepthEstimator> estimator_;
-  PictureSize color_;
+  DepthSize color_;
   std::deque<Waiting> waiting_;  // given to the estimator, not answered
   SteadyRelief relief_;
   bool at_end_ = false;
