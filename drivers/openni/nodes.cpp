@@ -31,13 +31,21 @@ std::string_view takeText(ByteReader& fields) noexcept {
   return text.substr(0, text.find('\0'));
 }
 
+// Nullopt for devices, sound and what middleware makes.
+std::optional<NodeKind> kindOf(std::uint32_t number) noexcept {
+  for (const NodeKind kind : {NodeKind::Depth, NodeKind::Color, NodeKind::Infrared}) {
+    if (number == static_cast<std::uint32_t>(kind)) return kind;
+  }
+  return std::nullopt;
+}
+
 std::optional<Node> readNode(const Record& record, Bytes bytes, bool wide) {
   ByteReader fields(bytes);
   Node node{.id = record.node, .codec = {}, .pictures = {}};
   static_cast<void>(fields.text());
-  const auto kind = static_cast<NodeKind>(fields.value<std::uint32_t>());
-  if (kind != NodeKind::Depth && kind != NodeKind::Color && kind != NodeKind::Infrared) return std::nullopt;
-  node.kind = kind;
+  const auto kind = kindOf(fields.value<std::uint32_t>());
+  if (!kind) return std::nullopt;
+  node.kind = *kind;
   const Bytes codec = fields.take(4);
   node.codec.assign(codec.begin(), codec.end());
   if (!fields.ok()) return std::nullopt;

@@ -106,9 +106,8 @@ std::unique_ptr<KeptTracks> Packager::keptTracks() const {
   if (!isRegularFile(source_.url)) return nullptr;
   auto kept = KeptTracks::open(source_.url, info_.container_start, output_.keep);
   if (kept) return std::move(*kept);
-  if (info_.sound_tracks + info_.subtitle_tracks > 0) {
-    log(LogLevel::Warning, source_.url.c_str(), "%s; the film is made without", kept.error().message);
-  }
+  if (info_.sound_tracks + info_.subtitle_tracks == 0) return nullptr;
+  log(LogLevel::Warning, source_.url.c_str(), "%s; the film is made without", kept.error().message);
   return nullptr;
 }
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/support/film/byte_writer.h"
+#include "tests/support/byte_writer.h"
 
 namespace relievo::test {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tests/support/film/byte_writer.h"
+#include "tests/support/byte_writer.h"
 
 namespace relievo::test {
 
