@@ -7,10 +7,12 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <thread>
 #include <utility>
 
 #include "platform/files/file_system_answer.h"
@@ -33,6 +35,7 @@ mode_t ordinaryMode() noexcept {
 }
 
 Error cannotCreate(int os_error) noexcept {
+  if (os_error == ENXIO) return {ErrorCode::Timeout, 0, "no program reads this pipe; start its reader first"};
   if (os_error == ENOENT) return {ErrorCode::NotFound, os_error, "its folder does not exist; create it first"};
   if (os_error == EACCES || os_error == EROFS) {
     return {ErrorCode::PermissionDenied, os_error, "no permission to write there; choose another folder"};
@@ -94,6 +97,18 @@ void makeTemporary(Made& made) {
   made.fd.reset(::mkostemp(made.temporary.data(), O_CLOEXEC));
 }
 
+// Waits for a pipe's reader, but less than the file system may take: its mount is not to blame.
+UniqueFd openDirectly(const std::string& path, bool pipe) {
+  constexpr std::chrono::milliseconds kPatience{9000}, kLook{20};
+  const auto until = std::chrono::steady_clock::now() + kPatience;
+  for (;;) {
+    UniqueFd fd(::open(path.c_str(), O_WRONLY | O_CLOEXEC | (pipe ? O_NONBLOCK : 0)));
+    if (fd.valid() && pipe) ::fcntl(fd.get(), F_SETFL, O_WRONLY);
+    if (fd.valid() || errno != ENXIO || !pipe || std::chrono::steady_clock::now() >= until) return fd;
+    std::this_thread::sleep_for(kLook);
+  }
+}
+
 void makeNow(const std::string& path, Made& made) {
   made.target = path;
   std::error_code missing;
@@ -106,7 +121,7 @@ void makeNow(const std::string& path, Made& made) {
     return;
   }
   if (exists && !S_ISREG(status.st_mode)) {
-    made.fd.reset(::open(made.target.c_str(), O_WRONLY | O_CLOEXEC));
+    made.fd = openDirectly(made.target, S_ISFIFO(status.st_mode));
   } else {
     makeTemporary(made);
   }

@@ -2,6 +2,8 @@
 // Error messages are printed through the log: as one write, without control characters.
 #include "app/cli/program.h"
 
+#include <fcntl.h>
+
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -26,6 +28,14 @@ void endNow(int number) {
 
 void onSignal(int number) {
   if (stop_wanted.exchange(true, std::memory_order_relaxed)) endNow(number);
+}
+
+// Otherwise a file that is opened later would get the number of a closed stream, and its messages.
+void fillClosedStreams() noexcept {
+  for (int fd = 0; fd <= 2; ++fd) {
+    if (::fcntl(fd, F_GETFD) >= 0) continue;
+    static_cast<void>(::open("/dev/null", fd == 2 ? O_WRONLY : O_RDONLY));  // the lowest number; output still fails
+  }
 }
 
 // Output may still be buffered, so flush it and check for errors.
@@ -65,6 +75,7 @@ int tell(const Failure& failure, int exit_code) {
 }
 
 int runProgram(const char* name, const std::function<int()>& body) noexcept {
+  fillClosedStreams();
   setLogProgram(name);
   std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is a write error, not the end of the program
   std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit is a write error too

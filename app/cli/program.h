@@ -30,7 +30,8 @@ inline int tell(const Failure& failure) {
 
 // Runs the body of a main, which returns the exit code. `name` (a literal) starts each line on stderr. Exceptions (out
 // of memory, out of threads) and a failed write to standard output become ordinary failures. Writes to closed pipes or
-// beyond the file size limit fail instead of ending the program.
+// beyond the file size limit fail instead of ending the program. Streams that are closed stay so for everybody: no file
+// that is opened later takes their place.
 [[nodiscard]] int runProgram(const char* name, const std::function<int()>& body) noexcept;
 
 }  // namespace relievo

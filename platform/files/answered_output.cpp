@@ -23,6 +23,7 @@ constexpr std::size_t kAtOnce = std::size_t{1} << 20;       // bytes of one syst
 constexpr std::uint64_t kSyncedAtOnce = std::uint64_t{4} << 20;
 constexpr auto kLook = std::chrono::milliseconds(10);    // between looks at the flag
 constexpr auto kGrace = std::chrono::milliseconds(100);  // after the flag was set
+constexpr Error kNotRead{ErrorCode::Timeout, 0, "nobody reads what is written to it for 10 s; check the reader"};
 constexpr const char* kFailed = "could not be written completely; is the disk full?";
 
 struct Part {
@@ -109,8 +110,8 @@ struct AnsweredOutput::State {
   // Notes a wait that has lasted too long.
   void look() {
     if (!busy || error || now() - since < kAnswerPatience) return;
-    stop(kNoAnswer);
-    fileSystem().giveUp(path, helper);
+    stop(seekable ? kNoAnswer : kNotRead);
+    if (seekable) fileSystem().giveUp(path, helper);  // a pipe tells nothing about its mount
   }
 
   // Until no more than so many bytes are on their way.

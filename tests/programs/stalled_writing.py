@@ -65,6 +65,13 @@ def records_on(case):
     return "" if code == 1 and words.count(SAID) == 1 else f"exit code {code}: {words}"
 
 
+def pipe_without_reader(case):
+    os.mkfifo(os.path.join(case.home, "pipe"))
+    case.start(f"{PLAY} --record {case.home}/pipe")
+    code, words = case.code(), case.words()
+    return "" if code == 1 and "no program reads this pipe" in words else f"exit code {code}: {words}"
+
+
 def tests():
     """Name and function of each case."""
     for line, operation, output in GIVEN_UP:
@@ -75,3 +82,4 @@ def tests():
         yield f"SIGTERM to the author of {kind}", lambda case, kind=kind: author_stops(case, kind)
     yield "a whole report", lambda case: written(case, f"{PLAY} --report @/report.json", "report.json")
     yield "a recording that stalls", records_on
+    yield "a pipe without a reader", pipe_without_reader

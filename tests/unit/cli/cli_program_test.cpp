@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The last actions of a program, however it ends.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 
 #include "app/cli/program.h"
@@ -26,6 +28,20 @@ TEST(ProgramDeathTest, ALibraryThatEndsTheProgramDoesNotLeaveTheMotorsOn) {
 TEST(ProgramDeathTest, NeitherDoesASecondSignal) {
   EXPECT_EXIT((begin(), std::raise(SIGTERM), std::raise(SIGTERM), ::pause()), testing::KilledBySignal(SIGTERM),
               "^quiet$");
+}
+
+// Else a film would be written to by whoever prints a line.
+TEST(ProgramDeathTest, AFileIsNoStreamThatWasClosed) {
+  const auto opened = [] { return ::open("/dev/null", O_WRONLY | O_CLOEXEC) > STDERR_FILENO ? 5 : 6; };
+  EXPECT_EXIT((::close(STDIN_FILENO), ::close(STDOUT_FILENO), ::close(STDERR_FILENO),
+               std::_Exit(runProgram("relievo", opened))),
+              testing::ExitedWithCode(5), "");
+}
+
+TEST(ProgramDeathTest, AClosedOutputIsAFailure) {
+  const auto say = [] { return std::puts("words") >= 0 ? kExitDone : kExitFailed; };
+  EXPECT_EXIT((::close(STDOUT_FILENO), std::_Exit(runProgram("relievo", say))), testing::ExitedWithCode(kExitFailed),
+              "standard output: it cannot be written");
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ AnsweredOutput& fileOf(AVIOContext& io) noexcept {
 void freeFilmIo(AVIOContext*& io) noexcept {
   if (io == nullptr) return;
   const std::unique_ptr<FilmIo> held(static_cast<FilmIo*>(io->opaque));
-  av_freep(&io->buffer);
+  av_free(std::exchange(io->buffer, nullptr));
   avio_context_free(&io);
 }
 
