@@ -26,11 +26,12 @@ struct Character {
   std::uint16_t code;
 };
 constexpr Character kCharacters[] = {
-    {' ', KEY_SPACE},         {'\r', KEY_ENTER},     {'\n', KEY_ENTER},     {'\t', KEY_TAB},
-    {'\x7f', KEY_BACKSPACE},  {'.', KEY_DOT},        {',', KEY_COMMA},      {'-', KEY_MINUS},
-    {'=', KEY_EQUAL},         {'/', KEY_SLASH},      {'[', KEY_LEFTBRACE},  {']', KEY_RIGHTBRACE},
-    {'#', KEY_NUMERIC_POUND}, {'?', KEY_QUESTION},   {'<', KEY_PREVIOUS},   {'>', KEY_NEXT},
-    {'+', KEY_KPPLUS},        {'*', KEY_KPASTERISK}, {'\b', KEY_BACKSPACE},
+    {' ', KEY_SPACE},          {'\r', KEY_ENTER},     {'\n', KEY_ENTER},     {'\t', KEY_TAB},
+    {'\x7f', KEY_BACKSPACE},   {'.', KEY_DOT},        {',', KEY_COMMA},      {'-', KEY_MINUS},
+    {'=', KEY_EQUAL},          {'/', KEY_SLASH},      {'[', KEY_LEFTBRACE},  {']', KEY_RIGHTBRACE},
+    {'#', KEY_NUMERIC_POUND},  {'?', KEY_QUESTION},   {'<', KEY_PREVIOUS},   {'>', KEY_NEXT},
+    {'+', KEY_KPPLUS},         {'*', KEY_KPASTERISK}, {'\b', KEY_BACKSPACE}, {'!', KEY_1 | kWithShift},
+    {'@', KEY_2 | kWithShift},
 };
 
 // The final byte of a sequence is its first one at or above '@'.

@@ -17,6 +17,7 @@
 #include "drivers/terminal/terminal.h"
 #include "drivers/terminal/terminal_keys.h"
 #include "drivers/window/window_remote.h"
+#include "hal/key_names.h"
 #include "platform/unique_fd.h"
 #include "tests/contract/suite/remote_input.h"
 
@@ -90,7 +91,8 @@ std::vector<std::uint16_t> keysOf(std::string_view bytes) {
 
 TEST(TerminalKeys, AreThoseOfTheKernel) {
   using Keys = std::vector<std::uint16_t>;
-  EXPECT_EQ(keysOf("pP 7."), (Keys{KEY_P, KEY_P, KEY_SPACE, KEY_7, KEY_DOT}));
+  EXPECT_EQ(keysOf("pP 7."), (Keys{KEY_P, KEY_P | kWithShift, KEY_SPACE, KEY_7, KEY_DOT}));
+  EXPECT_EQ(keysOf("!@"), (Keys{KEY_1 | kWithShift, KEY_2 | kWithShift}));
   EXPECT_EQ(keysOf("\x1b[A\x1b[B\x1b[C\x1b[D\x1bOC"), (Keys{KEY_UP, KEY_DOWN, KEY_RIGHT, KEY_LEFT, KEY_RIGHT}));
   EXPECT_EQ(keysOf("\x1b[5~\x1b[6~\x1b[H\x1b[4~"), (Keys{KEY_PAGEUP, KEY_PAGEDOWN, KEY_HOME, KEY_END}));
   EXPECT_EQ(keysOf("\x1b"), (Keys{KEY_ESC}));

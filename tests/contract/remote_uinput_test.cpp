@@ -1,48 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 // A remote control that the kernel creates and removes (uinput). toolchain/guest runs this in a virtual machine.
 #include <gtest/gtest.h>
-#include <libevdev/libevdev-uinput.h>
-#include <libevdev/libevdev.h>
-#include <unistd.h>
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "drivers/evdev/evdev.h"
 #include "platform/clock.h"
+#include "tests/support/device/uinput_remote.h"
 
 namespace relievo {
 namespace {
 
 using namespace std::chrono_literals;
 
-class UinputRemote {
- public:
-  UinputRemote() {
-    libevdev* codes = libevdev_new();
-    libevdev_set_name(codes, "infra-red");
-    for (const unsigned key : {KEY_LEFT, KEY_RIGHT, KEY_OK, KEY_PLAYPAUSE}) {
-      libevdev_enable_event_code(codes, EV_KEY, key, nullptr);
-    }
-    libevdev_uinput_create_from_device(codes, LIBEVDEV_UINPUT_OPEN_MANAGED, &device_);
-    libevdev_free(codes);
-  }
-  ~UinputRemote() {
-    if (device_ != nullptr) libevdev_uinput_destroy(device_);
-  }
-  void press(unsigned key, int value) {
-    libevdev_uinput_write_event(device_, EV_KEY, key, value);
-    libevdev_uinput_write_event(device_, EV_SYN, SYN_REPORT, 0);
-  }
-
- private:
-  libevdev_uinput* device_ = nullptr;
-};
+const std::vector<unsigned> kKeys{KEY_LEFT, KEY_RIGHT, KEY_OK, KEY_PLAYPAUSE};
 
 class RemoteUinput : public testing::Test {
  protected:
   void SetUp() override {
-    if (::access("/dev/uinput", W_OK) != 0) GTEST_SKIP() << "/dev/uinput is not there; toolchain/guest has one";
+    if (!test::UinputRemote::available()) GTEST_SKIP() << test::kNoUinput;
   }
   // The next key, in at most ten seconds.
   std::optional<KeyEvent> next() {
@@ -67,7 +45,7 @@ class RemoteUinput : public testing::Test {
 TEST_F(RemoteUinput, IsHeardWheneverItComesAndHoldsNothingWhenItGoes) {
   ASSERT_TRUE(remote_->open());
   {
-    UinputRemote late;
+    test::UinputRemote late(kKeys);
     EXPECT_FALSE(remote_->poll(clock_.now()).value());
     clock_.sleepUntil(clock_.now() + 1500ms);  // new devices are searched for every second
     EXPECT_FALSE(remote_->poll(clock_.now()).value());
@@ -90,7 +68,7 @@ TEST_F(RemoteUinput, IsHeardWheneverItComesAndHoldsNothingWhenItGoes) {
 
 // The player gets the keys; a login console in the background does not.
 TEST_F(RemoteUinput, IsGrabbedUntilItIsClosed) {
-  UinputRemote there;
+  test::UinputRemote there(kKeys);
   clock_.sleepUntil(clock_.now() + 100ms);
   ASSERT_TRUE(remote_->open());
   auto another = makeEvdevRemote();

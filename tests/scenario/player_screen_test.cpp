@@ -10,7 +10,9 @@
 #include <sstream>
 
 #include "platform/clock.h"
+#include "tests/support/device/uinput_remote.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/machine/control_client.h"
 #include "tests/support/machine/guest_screen.h"
 #include "tests/support/machine/process.h"
 #include "tests/support/machine/program.h"
@@ -56,6 +58,36 @@ class PlayerScreen : public testing::Test {
   bool waitForWords(test::Process& player, const char* words) {
     return waitFor(player, [&] { return textOf("said.txt").find(words) != std::string::npos; });
   }
+  // What Kodi's users press on a remote control, and what the player then says of itself.
+  void pressEachKeyOfTheRemote(test::Process& player) {
+    const struct {
+      unsigned key;
+      const char* what;
+      json value;
+    } keys[] = {
+        {KEY_PLAYPAUSE, "state", "paused"},  {KEY_NUMERIC_5, "position_s", 2.0}, {KEY_NUMERIC_0, "position_s", 0.0},
+        {KEY_VOLUMEUP, "volume", 105.0},     {KEY_VOLUMEDOWN, "volume", 100.0},  {KEY_MUTE, "muted", true},
+        {KEY_3D_MODE, "stereo", "sbs"},      {KEY_BLUE, "swap_eyes", true},      {KEY_GREEN, "depth_strength", 0.9},
+        {KEY_YELLOW, "depth_strength", 1.0}, {KEY_RED, "loop", false},           {KEY_RED, "loop", true},
+        {KEY_SLOW, "position_s", 0.2},       {KEY_OK, "state", "playing"},       {KEY_SLOW, "rate", 0.5},
+        {KEY_FASTFORWARD, "rate", 1.0},      {KEY_PLAY, "state", "playing"},     {KEY_BACK, "state", "idle"}};
+    std::vector<unsigned> all;
+    for (const auto& each : keys) all.push_back(each.key);
+    test::UinputRemote remote(all);
+    test::ControlClient control(folder_ / "control", std::chrono::seconds(600));
+    wait(1500ms);  // new devices are searched for every second
+    for (const auto& [key, what, value] : keys) {
+      remote.press(key, 1);
+      wait(50ms);
+      remote.press(key, 0);
+      json last;
+      EXPECT_TRUE(waitFor(player, [&, tries = 0]() mutable {
+        last = control.ask("status")[what];
+        return last == value || ++tries > 40;
+      })) << textOf("said.txt");
+      EXPECT_EQ(last, value) << what << " after key " << key;
+    }
+  }
   // The film's gray, in the middle of the screen of the size that was asked for.
   bool waitForPicture(test::Process& player) {
     return waitFor(player, [&] {
@@ -74,7 +106,7 @@ TEST_F(PlayerScreen, ItStartsWithoutAScreenAndPlaysOnWhileItIsAway) {
   screen_->plug(false);
   test::Process player({std::string(RELIEVO_BIN_DIR) + "/relievo", "play", folder_ / "film.mkv", "--loop", "--display",
                         "kms:" + screen_->card(), "--size", "640x480", "--stereo", "mono", "--haptic", "none",
-                        "--report", folder_ / "r.json"},
+                        "--report", folder_ / "r.json", "--control", folder_ / "control"},
                        folder_ / "said.txt");
   EXPECT_TRUE(waitForWords(player, "no screen is connected")) << textOf("said.txt");
   screen_->plug(true);
@@ -85,6 +117,7 @@ TEST_F(PlayerScreen, ItStartsWithoutAScreenAndPlaysOnWhileItIsAway) {
   EXPECT_TRUE(player.isRunning()) << textOf("said.txt");
   screen_->plug(true);
   EXPECT_TRUE(waitForPicture(player)) << textOf("said.txt");
+  pressEachKeyOfTheRemote(player);
   player.send(SIGINT);
   EXPECT_EQ(player.wait(), 0) << textOf("said.txt");
 

@@ -43,8 +43,7 @@ TextPicture posterOf(const Frame& frame) {
   poster.rgba.reserve(std::size_t{4} * static_cast<std::size_t>(poster.cols) * static_cast<std::size_t>(poster.rows));
   for (int y = 0; y < poster.rows; ++y) {
     for (int x = 0; x < poster.cols; ++x) {
-      const PictureColor color =
-          asSdr(meanOf(frame, x, y, poster.cols, poster.rows), frame.transfer, frame.primaries);
+      const PictureColor color = asSdr(meanOf(frame, x, y, poster.cols, poster.rows), frame.transfer, frame.primaries);
       poster.rgba.insert(poster.rgba.end(), {byteOf(color.red), byteOf(color.green), byteOf(color.blue), 255});
     }
   }

@@ -84,6 +84,31 @@ TEST(SubtitleWords, PicturesOfWordsLieOnTheFilmsPictureUntilTheNext) {
   EXPECT_TRUE(words.pictures().empty());
 }
 
+TEST(SubtitleWords, LettersAndPicturesGrowAndShrink) {
+  FONT_OR_SKIP();
+  SubtitleWords words;
+  words.changeSize(0.5);  // before the first word
+  words.add(said("{\\an2}hello", 1, 2));
+  ASSERT_TRUE(words.draw(kFrame, mediaTime(1.5)));
+  const double large = words.pictures().at(0).width;
+  words.changeSize(-0.5);
+  ASSERT_TRUE(words.draw(kFrame, mediaTime(1.5)));
+  EXPECT_NEAR(large / words.pictures().at(0).width, 1.5, 0.2) << "its outline does not grow as much";
+  for (int i = 0; i < 40; ++i) words.changeSize(-0.1);
+  EXPECT_DOUBLE_EQ(words.size(), 0.5) << "no smaller";
+
+  SubtitleWords pictures;
+  const SubtitlePicture picture{
+      .x = 100, .y = 400, .width = 200, .height = 50, .rgba = std::vector<std::uint8_t>(40000, 255)};
+  pictures.add({.begin = mediaTime(1), .pictures = {picture}, .canvas_width = 640, .canvas_height = 720});
+  pictures.changeSize(0.5);
+  ASSERT_TRUE(pictures.draw(kFrame, mediaTime(2)));
+  const TextPicture& grown = pictures.pictures().at(0);
+  EXPECT_EQ(grown.width, 300);
+  EXPECT_EQ(grown.x, 50) << "its middle stays at 200";
+  EXPECT_NEAR(grown.y + grown.height, 225, 1) << "its foot stays";
+}
+
 // A bar that begins 30 rows above the foot lifts both lines by the same way, and nothing in the upper half.
 TEST(SubtitleWords, AreLiftedOverTheBarAndComeDownAgain) {
   FONT_OR_SKIP();
