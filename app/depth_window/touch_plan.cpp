@@ -164,6 +164,21 @@ double noiseThrough(TimeLaw law, double carried_periods) {
   return law == TimeLaw::Mean ? kMeanNoise : law == TimeLaw::BSpline ? kBSplineNoise : kFittedNoise;
 }
 
+std::string reasonFor(const TouchPlan& plan, const LookAhead& ahead) {
+  const ClipMeasure& m = plan.measure;
+  char depth[120], error[40] = "under 0.1 %";
+  const int written = std::snprintf(depth, sizeof depth, "steps of %.3f mm, noise %.3f mm, %.0f mm/s%s", m.quantum_mm,
+                                    m.noise_mm, m.speed_mm_per_s, m.still ? " (still)" : "");
+  if (plan.scale.wide_time == TimeLaw::Mean) {
+    std::snprintf(depth + written, sizeof depth - static_cast<std::size_t>(written), ", flicker of %.2f mm",
+                  m.flicker_mm);
+  }
+  if (plan.error >= kLeastErrorTold) std::snprintf(error, sizeof error, "about %.1f %%", 100 * plan.error);
+  std::string reason = std::string(depth) + ": " + describe(plan.scale);
+  if (ahead.carried > Duration(0)) reason += print(", carried forward by %.0f ms", 1e3 * toSeconds(ahead.carried));
+  return reason + "; expected force error " + error;
+}
+
 }  // namespace
 
 TouchPlan planTouch(const ClipMeasure& m, const LookAhead& ahead) {
@@ -213,18 +228,7 @@ TouchPlan planTouch(const ClipMeasure& m, const LookAhead& ahead) {
   const double narrow_noise =
       m.noise_mm * apart(s.narrow_mm, kNarrowSamples) * through / (s.narrow_mm * std::sqrt(4 * std::numbers::pi));
   s.clamp_mm = std::max({0.15, 1.5 * std::min(m.quantum_mm, 0.2), 4 * narrow_noise});
-
-  char depth[120], error[40] = "under 0.1 %";
-  const int written = std::snprintf(depth, sizeof depth, "steps of %.3f mm, noise %.3f mm, %.0f mm/s%s", m.quantum_mm,
-                                    m.noise_mm, m.speed_mm_per_s, m.still ? " (still)" : "");
-  if (s.wide_time == TimeLaw::Mean) {
-    std::snprintf(depth + written, sizeof depth - static_cast<std::size_t>(written), ", flicker of %.2f mm",
-                  m.flicker_mm);
-  }
-  if (plan.error >= kLeastErrorTold) std::snprintf(error, sizeof error, "about %.1f %%", 100 * plan.error);
-  plan.reason = std::string(depth) + ": " + describe(s);
-  if (ahead.carried > Duration(0)) plan.reason += print(", carried forward by %.0f ms", 1e3 * toSeconds(ahead.carried));
-  plan.reason += std::string("; expected force error ") + error;
+  plan.reason = reasonFor(plan, ahead);
   return plan;
 }
 

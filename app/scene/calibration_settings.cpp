@@ -25,13 +25,13 @@ constexpr const char* kBadValue =
 constexpr const char* kNoValue = "calibration is written KEY=VALUE,KEY=VALUE,..";
 constexpr const char* kFarBeforeNear = "calibration has far <= near; give both in mm, far the larger";
 constexpr const char* kUnitIsLinear =
-    "calibration has codes that are distances (unit), but not law=linear; leave one out";
+    "calibration has unit=, by which codes are distances, and another law than linear; leave one out";
 constexpr const char* kUnitHasCodes =
-    "calibration has codes that are distances (unit), which reach from near to far; leave codes= out";
+    "calibration has unit=, by which codes are distances from near to far, and codes=; leave codes= out";
 constexpr const char* kUnitIsNearLow =
-    "calibration has codes that are distances (unit), which are low where near, but polarity=near-high; leave one out";
+    "calibration has unit=, by which codes are distances, low where near, and polarity=near-high; leave one out";
 constexpr const char* kUnitIsLuma =
-    "calibration has codes that are distances (unit), but the depth is coded as a hue, which reaches from near to far; "
+    "calibration has unit=, by which codes are distances, but the depth is coded as a hue from near to far; "
     "give near and far instead of unit";
 constexpr const char* kTooManyBits = "calibration has more bits than the depth's samples; leave bits out";
 constexpr const char* kNoSuchCode =

@@ -8,7 +8,7 @@
 namespace relievo {
 namespace {
 
-// The middle of the pixel, as a share of the pixels; the nearest one's outside.
+// Where the centre of a pixel lies, from 0 to 1 across all pixels. A pixel outside counts as the nearest one inside.
 double shareOf(int pixel, int pixels) noexcept {
   return (std::clamp(pixel, 0, std::max(pixels - 1, 0)) + 0.5) / std::max(pixels, 1);
 }

@@ -53,7 +53,7 @@ class Channel final : public ForcePort {
 
   [[nodiscard]] Result<void> upgrade(const std::atomic<bool>& cancelled);
   [[nodiscard]] Result<std::string> answerTo(const std::string& request, const std::atomic<bool>& cancelled);
-  // These three need the turn. `put` is false if an earlier frame is not yet gone.
+  // These three are for who holds `turn_`. `put` is false if an earlier frame is not yet gone.
   [[nodiscard]] Result<bool> put(Opcode kind, std::string_view payload) RELIEVO_RT;
   [[nodiscard]] Result<bool> putText(PortBytes text, bool quiet) RELIEVO_RT;
   [[nodiscard]] Result<bool> flush() RELIEVO_RT;

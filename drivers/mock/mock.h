@@ -135,7 +135,8 @@ struct MockDisplayBench {
 
 // For a test: what can be heard, and the cable. On the thread that uses the device.
 struct MockAudioBench {
-  // The first channel's sample that is heard at a time at or after the device's last call; nullopt for silence.
+  // The sample of the first channel that a listener hears at a time; nullopt for silence. The time must not be before
+  // the last call of the device.
   std::function<std::optional<float>(MonotonicTime)> heard;
   bool unplugged = false;  // every call returns Lost until closed
 };

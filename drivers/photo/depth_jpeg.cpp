@@ -93,7 +93,7 @@ std::vector<Listed> directoryOf(std::string_view xmp) {
   return items;
 }
 
-// The items end with the file.
+// The items lie one after the other at the end of the file.
 std::span<const std::uint8_t> appendedDepth(std::string_view xmp, std::span<const std::uint8_t> file) {
   const std::vector<Listed> items = directoryOf(xmp);
   std::size_t behind = 0;

@@ -12,7 +12,7 @@ namespace relievo {
 // `begin`, `beginForces` and `end` on the owner's thread, the rest on the real-time one.
 class ForceSession {
  public:
-  // `patience`: the watchdog's.
+  // `patience`: after that time without a command the watchdog takes the force away.
   ForceSession(ForcePort& port, Clock& clock, Duration patience = Watchdog::kPatience)
       : port_(port), clock_(clock), watchdog_(port, patience) {}
   ~ForceSession() { end(); }

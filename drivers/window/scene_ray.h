@@ -10,7 +10,7 @@
 
 namespace relievo {
 
-// From an eye through a point of the screen plane. Scene frame.
+// The ray from an eye through a point of the screen plane, in the scene frame.
 struct SceneRay {
   glm::dvec2 screen_mm{0};  // where it meets the screen plane
   double eye_x_mm = 0;

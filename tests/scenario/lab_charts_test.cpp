@@ -363,8 +363,8 @@ TEST_F(LabDetail, PictureAndTouchGetNoBetterWithALargerErrorOrStep) {
   EXPECT_LT(of("god_object_smoothed_rms_percent", "grid", "1"), 2);
 }
 
-// What it draws at silhouettes pays: on the whole picture no grid of as many triangles, or of up to twice as many,
-// comes near what the eyes would see.
+// The network cuts the relief at silhouettes: its whole picture is nearer to what the eyes would see than that of any
+// grid with up to twice as many triangles.
 TEST_F(LabDetail, TheNetworkIsNearerToTheTruthThanAGridOfMoreTriangles) {
   for (const char* error : {"0.125", "0.25", "0.5", "1"}) {
     const double triangles = of("triangles", "network", error);

@@ -56,7 +56,7 @@ falcon::Words wordsOf(const Tick& tick, const WorkspaceMapping& mapping) {
   return falcon::Motors(falcon::kDefaultCountsPerNm).wordsFor(falcon::torquesOf(tick.force_n, *pose), 0.001);
 }
 
-// The share of `whole` that `part` is, both in motor words, to a count; none if it is none.
+// The factor from 0 to 1 by which `part` is `whole`, within one count of each motor word; nullopt if there is none.
 std::optional<double> shareOf(const falcon::Words& part, const falcon::Words& whole) {
   const glm::dvec3 p{part[0], part[1], part[2]}, w{whole[0], whole[1], whole[2]};
   if (whole == falcon::Words{}) return {};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "platform/prefetch.h"
 
@@ -33,14 +34,14 @@ void ControlGrid::setPicture(const HeightField& field) RELIEVO_RT {
   const double pitch2 = 1 / std::abs(a_per_mm_ * b_per_mm_);  // a parabola of radius R bends by pitch^2/R
   most_bend_mm_ = static_cast<float>(std::min(pitch2 / kSharpestMm, kMostBendMm));
   pit_mm_ = static_cast<float>(-field.depthMm());
-  patch_slots_ = ahead_slots_ = 0;
+  patch_ = ahead_ = {};
   filled_.fill(0);
   hole_.fill(0);
   complete_.fill(0);
 }
 
 void ControlGrid::forgetFrame(int slot) RELIEVO_RT {
-  patch_slots_ = ahead_slots_ = 0;
+  patch_ = ahead_ = {};
   const auto keep = static_cast<std::uint8_t>(~(1U << slot));
   for (std::uint8_t& bits : filled_) bits &= keep;
   for (std::uint8_t& bits : hole_) bits &= keep;
@@ -137,7 +138,7 @@ void ControlGrid::keepCurvature(std::size_t p, const std::array<std::size_t, 4>&
     float most = 0;
     const auto bent = [&](std::size_t before, std::size_t after, std::uint32_t holes) RELIEVO_RT {
       if ((holes >> slot & 1U) != 0) {
-        most = 2 * straight_mm_;
+        most = std::numeric_limits<float>::infinity();
         return 0.F;
       }
       const float bend = mean_[before][slot] - 2 * mean + mean_[after][slot];
@@ -147,7 +148,8 @@ void ControlGrid::keepCurvature(std::size_t p, const std::array<std::size_t, 4>&
     };
     const float bends = bend_ > 0 ? bent(left, right, across_hole) + bent(above, below, down_hole) : 0;
     height_[p][slot] = mean - bend_ * bends;
-    if (straight_mm_ > 0) straight_[p][slot] = std::min(std::max(2 - most / straight_mm_, 0.F), 1.F);
+    if (straight_ == nullptr) continue;
+    straight_->of_points[p][slot] = std::min(std::max(2 - most / straight_->most_mm, 0.F), 1.F);
   }
 }
 
@@ -183,9 +185,7 @@ void ControlGrid::patch(int i0, int j0, const Frames& frames, Patch& out) RELIEV
         holes |= hole_[slotOf(i, j)] & frames.wanted;
       }
     }
-    patch_i_ = i0;
-    patch_j_ = j0;
-    patch_slots_ = frames.wanted;
+    patch_ = {i0, j0, frames.wanted};
     patch_holes_ = holes != 0;
   }
   weighted(height_, i0, j0, frames, out);
@@ -196,7 +196,7 @@ void ControlGrid::patch(int i0, int j0, const Frames& frames, Patch& out) RELIEV
 }
 
 void ControlGrid::straightness(int i0, int j0, const Frames& frames, Patch& out) const RELIEVO_RT {
-  weighted(straight_, i0, j0, frames, out);
+  weighted(straight_->of_points, i0, j0, frames, out);
 }
 
 void ControlGrid::weighted(const Heights& of_points, int i0, int j0, const Frames& frames,
@@ -213,8 +213,8 @@ void ControlGrid::weighted(const Heights& of_points, int i0, int j0, const Frame
 }
 
 void ControlGrid::readAhead(int i0, int j0, const Frames& frames, int most) RELIEVO_RT {
-  if (i0 == ahead_i_ && j0 == ahead_j_ && frames.wanted == ahead_slots_) return;
-  ahead_slots_ = 0;
+  if (ahead_ == Place{i0, j0, frames.wanted}) return;
+  ahead_ = {};
   const std::uint64_t until = blocks_read_ + static_cast<std::uint64_t>(most);
   for (int j = j0; j < j0 + 4; ++j) {
     for (int i = i0; i < i0 + 4; ++i) {
@@ -222,9 +222,7 @@ void ControlGrid::readAhead(int i0, int j0, const Frames& frames, int most) RELI
       complete(i, j, frames);
     }
   }
-  ahead_i_ = i0;
-  ahead_j_ = j0;
-  ahead_slots_ = frames.wanted;
+  ahead_ = {i0, j0, frames.wanted};
 }
 
 void ControlGrid::prefetch() const RELIEVO_RT {

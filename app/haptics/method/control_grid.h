@@ -24,23 +24,28 @@ using Patch = std::array<Float4, 4>;
 // than half of it, and of its neighbourhood, has a reading. Holes and everything outside the picture are pits one
 // volume depth below the far plane: free space with the same rounded rim as any other edge.
 //
-// A point is straight (1) if its second differences are at most `straight_mm`, and not (0) from twice that on or beside
-// a hole.
+// A point is straight (1) if its second differences are at most `StraightPoints::most_mm`, and not (0) from twice that
+// on or beside a hole.
 //
 // Nothing is built in advance: a block is read when it is first needed and kept in a toroidal cache of 16 x 16 points
-// while its frame is in the window. 27 KiB, fixed.
+// while its frame is in the window. 19 KiB, fixed.
 class ControlGrid {
  public:
   static constexpr int kFrames = SurfaceWindow::kCapacity;
   static_assert(kFrames == 8, "a byte holds a bit for each frame, and two Float4 hold their weights and heights");
+  static constexpr int kSide = 16;
+  static constexpr std::size_t kPoints = static_cast<std::size_t>(kSide) * kSide;
+  using Heights = std::array<std::array<float, kFrames>, kPoints>;  // of each point, by slot
+  struct StraightPoints {
+    float most_mm = 0;
+    alignas(16) Heights of_points{};
+  };
+
   // `samples`: approximate number read per block, across and down (SampledBlock). `bend`: 5/24 keeps the curvature
   // under a cubic B-spline, 1/6 under a quadratic one (half the variance of block and spline); 0 takes the means as
-  // they are. `straight_mm`: 0 if nobody asks what is straight; needs `bend`.
-  ControlGrid(double pitch_mm, int most_samples, float bend, double straight_mm = 0) noexcept
-      : pitch_wanted_mm_(pitch_mm),
-        most_samples_(most_samples),
-        bend_(bend),
-        straight_mm_(static_cast<float>(straight_mm)) {}
+  // they are. `straight`: where to keep what is straight, and outlives the grid; null if nobody asks. It needs `bend`.
+  ControlGrid(double pitch_mm, int most_samples, float bend, StraightPoints* straight = nullptr) noexcept
+      : pitch_wanted_mm_(pitch_mm), most_samples_(most_samples), bend_(bend), straight_(straight) {}
   static constexpr double kSharpestMm = 5, kMostBendMm = 3;
 
   // Discards everything, for a picture of another shape.
@@ -70,7 +75,7 @@ class ControlGrid {
   void patch(int i0, int j0, const Frames& frames, Patch& out) RELIEVO_RT;
   // The last patch was of this place and these frames, which are still there.
   [[nodiscard]] bool wasPatch(int i0, int j0, std::uint32_t wanted) const RELIEVO_RT {
-    return i0 == patch_i_ && j0 == patch_j_ && wanted == patch_slots_;
+    return patch_ == Place{i0, j0, wanted};
   }
   // How straight the same points are, 0 .. 1; after `patch` with the same frames.
   void straightness(int i0, int j0, const Frames& frames, Patch& out) const RELIEVO_RT;
@@ -83,9 +88,11 @@ class ControlGrid {
   [[nodiscard]] std::uint64_t blocksRead() const RELIEVO_RT { return blocks_read_; }
 
  private:
-  static constexpr int kSide = 16;
-  static constexpr std::size_t kPoints = static_cast<std::size_t>(kSide) * kSide;
-  using Heights = std::array<std::array<float, kFrames>, kPoints>;
+  struct Place {
+    int i = 0, j = 0;
+    std::uint32_t slots = 0;  // of the frames
+    bool operator==(const Place&) const = default;
+  };
   [[nodiscard]] static std::size_t slotOf(int i, int j) RELIEVO_RT {
     return static_cast<std::size_t>(j & (kSide - 1)) * kSide + static_cast<std::size_t>(i & (kSide - 1));
   }
@@ -105,24 +112,21 @@ class ControlGrid {
   double pitch_wanted_mm_;
   int most_samples_;
   float bend_;
-  float straight_mm_;
+  StraightPoints* straight_;
   float most_bend_mm_ = 0;  // of a second difference that counts in full
   int cols_ = 0, rows_ = 0;
   SampledBlock block_;
   double a_per_mm_ = 1, a_origin_ = 0, b_per_mm_ = -1, b_origin_ = 0;
   float pit_mm_ = -40;
-  // The last patch: all its points are valid unless something was discarded or replaced since.
-  int patch_i_ = 0, patch_j_ = 0;
-  std::uint32_t patch_slots_ = 0;
+  // Of the last patch, all of whose points are valid, and of the points that `readAhead` has read. Without slots when
+  // something was discarded or replaced since.
+  Place patch_, ahead_;
   bool patch_holes_ = false;
-  // The place and the frames whose points `readAhead` has read.
-  int ahead_i_ = 0, ahead_j_ = 0;
-  std::uint32_t ahead_slots_ = 0;
   std::uint64_t blocks_read_ = 0;
   // One element per point. Bits, means and heights by slot; those of a hole are 0.
   std::array<std::int32_t, kPoints> i_{}, j_{};
   std::array<std::uint8_t, kPoints> filled_{}, hole_{}, complete_{};
-  alignas(16) Heights mean_{}, height_{}, straight_{};
+  alignas(16) Heights mean_{}, height_{};
 };
 
 }  // namespace relievo

@@ -28,9 +28,10 @@ SurfacePoint shareOf(const SurfacePoint& t) RELIEVO_RT {
 }  // namespace
 
 SmoothLevel::SmoothLevel(const FeltScale& scale) noexcept
-    : wide_(scale.wide_mm, kWideSamples, scale.space, scale.wide_time, SurfaceLevel::Curvature::Kept),
+    : straight_{.most_mm = static_cast<float>(scale.straight_mm)},
+      wide_(scale.wide_mm, kWideSamples, scale.space, scale.wide_time, SurfaceLevel::Curvature::Kept),
       broad_(scale.broad_mm, kBroadSamples, scale.space, scale.wide_time, SurfaceLevel::Curvature::Kept,
-             scale.straight_mm),
+             scale.straight_mm > 0 ? &straight_ : nullptr),
       has_broad_(scale.broad_mm > scale.wide_mm && scale.straight_mm > 0) {}
 
 void SmoothLevel::setPicture(const HeightField& field) RELIEVO_RT {

@@ -20,6 +20,8 @@ class SmoothLevel {
  public:
   // Without a broad level if it is not wider than the wide one.
   explicit SmoothLevel(const FeltScale& scale) noexcept;
+  SmoothLevel(const SmoothLevel&) = delete;
+  SmoothLevel& operator=(const SmoothLevel&) = delete;
 
   void setPicture(const HeightField& field) RELIEVO_RT;
   void forgetFrame(int slot) RELIEVO_RT;
@@ -39,6 +41,7 @@ class SmoothLevel {
   }
 
  private:
+  ControlGrid::StraightPoints straight_;  // of the broad level's points
   SurfaceLevel wide_, broad_;
   bool has_broad_;
 };

@@ -33,15 +33,15 @@ constexpr float kMostCarriedMm = 2;
 }  // namespace
 
 SurfaceLevel::SurfaceLevel(double sigma_mm, int most_samples, SpaceLaw space, TimeLaw time, Curvature curvature,
-                           double straight_mm) noexcept
+                           ControlGrid::StraightPoints* straight) noexcept
     : grid_(sigma_mm / kSigmaPerPitch, most_samples,
             curvature == Curvature::Flattened ? 0
             : space == SpaceLaw::Quadratic    ? 1.F / 6
                                               : 5.F / 24,
-            straight_mm),
+            straight),
       time_(time),
       cubic_(space != SpaceLaw::Quadratic),
-      tells_straight_(straight_mm > 0) {}
+      tells_straight_(straight != nullptr) {}
 
 void SurfaceLevel::weigh(const FrameSlots& slots, const FrameMoment& moment,
                          ControlGrid::Frames& frames) const RELIEVO_RT {

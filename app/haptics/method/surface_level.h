@@ -33,9 +33,9 @@ class SurfaceLevel {
  public:
   // Whether the surface keeps the depth's curvature (ControlGrid), or takes the means of blocks as they are.
   enum class Curvature : std::uint8_t { Flattened, Kept };
-  // `straight_mm`: of ControlGrid; 0 if `straightness` is not asked for.
+  // `straight`: of ControlGrid; null if `straightness` is not asked for.
   SurfaceLevel(double sigma_mm, int most_samples, SpaceLaw space, TimeLaw time, Curvature curvature,
-               double straight_mm = 0) noexcept;
+               ControlGrid::StraightPoints* straight = nullptr) noexcept;
 
   [[nodiscard]] ControlGrid& grid() RELIEVO_RT { return grid_; }
   [[nodiscard]] const ControlGrid& grid() const RELIEVO_RT { return grid_; }

@@ -28,7 +28,7 @@ struct ChartWords {
 // Text in HTML and SVG.
 [[nodiscard]] std::string escaped(std::string_view text);
 
-// The script of a chart, app/lab/chart/scripts/NAME.gnuplot, behind what all scripts begin with.
+// The script of a chart, app/lab/chart/scripts/NAME.gnuplot, after the lines that all scripts have in common.
 [[nodiscard]] std::string chartScript(std::string_view name);
 
 }  // namespace relievo

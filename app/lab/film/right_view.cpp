@@ -51,7 +51,7 @@ class RightRow {
       from_[place] = x0 + t * (x1 - x0);
     }
   }
-  // The far side of an unseen run goes on behind the near one.
+  // What the left view does not show between two sides is filled with the colours beside its farther side.
   void fillUnseen() {
     const std::size_t cols = nearest_.size();
     for (std::size_t c = 0; c < cols; ++c) {

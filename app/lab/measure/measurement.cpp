@@ -47,8 +47,9 @@ constexpr std::array kStereoCharts{ChartEntry{"stereo", "lower left"}};
 constexpr std::array kMeasurements{
     Measurement{"speed-accuracy", "time of a tick against the error of the force, by method and parts",
                 kSpeedAccuracyCharts, measureSpeedAndAccuracy},
-    Measurement{"widths", "relievo against depth smoothed per frame with one width, of every width", kWidthsCharts,
-                measureWidths},
+    Measurement{"widths",
+                "error of relievo beside that of depth smoothed per frame with one width, over a range of widths",
+                kWidthsCharts, measureWidths},
     Measurement{"edges", "error of the felt surface at edges, by smoothing width and kind of depth", kEdgesCharts,
                 measureEdges},
     Measurement{"smoothness", "spectrum of the force on a moving face, and its peak at the frame rate",

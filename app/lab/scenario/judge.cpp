@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Demands, one by one.
+// Each demand is compared with its limit; the first one that is not met decides.
 #include "app/lab/scenario/judge.h"
 
 #include <algorithm>

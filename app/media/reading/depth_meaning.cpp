@@ -106,29 +106,9 @@ CodeCount countOf(const Frame& look, std::span<const Frame> later) {
   return count;
 }
 
-}  // namespace
-
-const KnownKind* kindOf(const DepthClues& clues, const Frame& stored, std::span<const Frame> later) {
-  if (clues.as != nullptr) return clues.as;
-  if (isOfStereoCamera(clues.place.kind) && clues.code == DepthCode::Luma && !definesCodes(saidLayers(clues))) {
-    return clues.place.kind;
-  }
-  if (stored.value_per_code != 0 || definesCodes(saidLayers(clues))) return nullptr;
-  if (clues.place.kind != nullptr && fits(*clues.place.kind, clues.code, stored)) return clues.place.kind;
-  return clues.code == DepthCode::Luma ? sensorKind(stored, countOf(stored, later)) : nullptr;
-}
-
-bool isReachSeen(const CalibrationChoice& choice) {
-  return std::any_of(choice.parts.begin(), choice.parts.end(), [](const CalibrationPart& part) {
-    const bool of_reach = part.key == "near" || part.key == "far" || part.key == "codes";
-    return of_reach && part.origin == CalibrationOrigin::FirstPicture;
-  });
-}
-
-Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind, const Frame& look,
-                                 std::span<const Frame> later) {
-  CalibrationLayers layers = saidLayers(clues);
-  const HueSpan span = addKind(clues, kind, layers);
+// What the pictures themselves say, as the clues ask; `layers` may get what they mean.
+DepthReading readPictures(const DepthClues& clues, const KnownKind* kind, const Frame& look,
+                          std::span<const Frame> later, const HueSpan& span, CalibrationLayers& layers) {
   DepthReading read;
   if (clues.code == DepthCode::Hue) {
     read = readHues(look, layers, kind, span, later);
@@ -156,6 +136,33 @@ Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind,
     read.settings.erase("far");
   }
   if (!later.empty() && !read.why.empty()) read.why += print(", in %zu pictures of it", later.size() + 1);
+  return read;
+}
+
+}  // namespace
+
+const KnownKind* kindOf(const DepthClues& clues, const Frame& stored, std::span<const Frame> later) {
+  if (clues.as != nullptr) return clues.as;
+  if (isOfStereoCamera(clues.place.kind) && clues.code == DepthCode::Luma && !definesCodes(saidLayers(clues))) {
+    return clues.place.kind;
+  }
+  if (stored.value_per_code != 0 || definesCodes(saidLayers(clues))) return nullptr;
+  if (clues.place.kind != nullptr && fits(*clues.place.kind, clues.code, stored)) return clues.place.kind;
+  return clues.code == DepthCode::Luma ? sensorKind(stored, countOf(stored, later)) : nullptr;
+}
+
+bool isReachSeen(const CalibrationChoice& choice) {
+  return std::any_of(choice.parts.begin(), choice.parts.end(), [](const CalibrationPart& part) {
+    const bool of_reach = part.key == "near" || part.key == "far" || part.key == "codes";
+    return of_reach && part.origin == CalibrationOrigin::FirstPicture;
+  });
+}
+
+Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind, const Frame& look,
+                                 std::span<const Frame> later) {
+  CalibrationLayers layers = saidLayers(clues);
+  const HueSpan span = addKind(clues, kind, layers);
+  DepthReading read = readPictures(clues, kind, look, later, span, layers);
   layers.pictures = clues.pictures;
   layers.pictures.merge(read.settings);
   auto choice = chooseCalibration(layers, look, clues.code);

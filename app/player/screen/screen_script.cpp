@@ -32,7 +32,7 @@ double barGround(std::size_t title_lines) noexcept {
   return kPointedTop - 16 - kTitleLine * static_cast<double>(title_lines);
 }
 
-// Over the bar, in the middle of the place that the mouse is over.
+// The time that the mouse points at, above the bar and centred on the mouse.
 void addPointed(Script& script, const ScreenBar& bar) {
   if (!bar.pointed) return;
   const double inner = script.width() - 2 * kMargin;
@@ -153,7 +153,7 @@ double addWarning(Script& script, const std::string& why, double top, double opa
   return top + height + kGap;
 }
 
-// So high that subtitles over the bar do not reach it.
+// Near the top of the picture, where subtitles above the bar do not reach the hint. Returns the end of it.
 double addHint(Script& script, const std::string& hint, double top) {
   constexpr double kSize = 32, kLine = 40;
   double y = std::max(top, 100.0);

@@ -32,7 +32,7 @@ inline constexpr const char* kProbeFooter =
 inline constexpr const char* kDevicesFooter =
     "\nEach display and device is opened as `play` would; where it is refused, the line says why and what to do. Of a "
     "screen\nit tells the mode and the 3D signals that it takes.\n"
-    "\nIn the configuration (TOML; `relievo play --print-config` shows one) stands of them:\n"
+    "\nThe configuration (TOML; `relievo play --print-config` shows one) has a section for a Falcon:\n"
     "  [falcon]\n"
     "  firmware = \"/path/to/image\"    the maker's firmware, from the SDK that came with the device\n"
     "  counts_per_nm = 6000           how strong it is, as `relievo devices calibrate` finds it\n";

@@ -16,7 +16,7 @@ class DetailLevel {
 
   explicit DetailLevel(Duration budget) noexcept : budget_(budget) {}
 
-  // Reports the drawing time of a frame with the present factor.
+  // Tells how long it took to draw a frame at the present level.
   void drew(Duration took) noexcept;
 
   [[nodiscard]] int level() const noexcept { return level_; }

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -60,6 +61,11 @@ class MethodStage : public testing::Test {
     return makeWindow(std::span(&frame, 1), kVolume);
   }
 
+  // Another method instead; one cannot be assigned.
+  void make(const RelievoMethod::Config& config) {
+    std::destroy_at(&method_);
+    std::construct_at(&method_, config);
+  }
   RelievoMethod method_{{.stiffness_n_per_mm = kStiffness}};
   std::vector<TimedSurface> surfaces_;
   WindowFrames frames_;

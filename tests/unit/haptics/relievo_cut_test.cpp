@@ -206,7 +206,7 @@ TEST_F(RelievoCutTest, ALoweredSurfaceComesBackInTheSameTimeAtAnyRate) {
   for (const double tick_s : {kTick, kTick / 8}) {
     clear();
     film(0.5, [&](double, double, double t) { return t < cut - 1e-6 ? 12.0 : 28.0; });
-    method_ = RelievoMethod({.stiffness_n_per_mm = kStiffness, .tick_s = tick_s});
+    make({.stiffness_n_per_mm = kStiffness, .tick_s = tick_s});
     const auto hold = [&](double from, double until, double z) {
       double force = 0;
       for (auto i = std::lround(from / tick_s); i < std::lround(until / tick_s); ++i) {

@@ -122,7 +122,7 @@ TEST_F(SweptOff, AHollowAsDeepAsNoiseDoesNotHoldTheProxyBehindTheEdge) {
 // After its release the finger meets the low floor in the next tick; the point where friction held it is up on the
 // edge.
 TEST_F(SweptOff, WhatHasFallenOffIsNotDrawnBack) {
-  method_ = RelievoMethod({.stiffness_n_per_mm = kStiffness, .friction = {0.9, 0.9}});
+  make({.stiffness_n_per_mm = kStiffness, .friction = {0.9, 0.9}});
   film(0.4, [](double x, double, double) { return x > 0 ? 9.0 : 35.0; });
   // Sweeps until the first free tick; returns its force with the finger lower by `dip_mm`.
   const auto sweep = [&](int until, double dip_mm) {
@@ -140,7 +140,7 @@ TEST_F(SweptOff, WhatHasFallenOffIsNotDrawnBack) {
   EXPECT_LT(force_n, 0.5) << "of a finger .2 mm deep at the foot of a wall";
 }
 
-TEST_F(SweptOff, ARidgeDoes) {
+TEST_F(SweptOff, ARidgeHigherThanNoiseHoldsTheProxyBehindTheEdge) {
   EXPECT_EQ(letGoAt(1.5), 20);
 }
 

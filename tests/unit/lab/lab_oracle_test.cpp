@@ -261,7 +261,7 @@ TEST(Oracle, DoesNotBalanceOnACrest) {
   EXPECT_NEAR(glm::distance(touch.proxy_mm, hip), glm::distance(bruteForceNearest(*s, hip, 0), hip), 1e-9);
 }
 
-// The step in section: q in front of the wall, z the height, and a place along it.
+// Places by the step: q mm in front of its wall, at height z, and so far along the wall.
 class OnTheStep : public testing::Test {
  protected:
   std::unique_ptr<TrueSurface> surface_ = makeTrueSurface("step");

@@ -33,14 +33,14 @@ class FilmPlaybackTest : public testing::Test {
     ASSERT_EQ(film_.opening(), Opening::Opened);
     film_.opened();
   }
-  // Until its first picture stands, or goes.
+  // Reads until the film can start, and starts it with its first picture.
   void start() {
     film_.read();
     ASSERT_EQ(film_.filling(), Progress::Ready);
     film_.takeFirst();
     ASSERT_TRUE(film_.start(clock_.now()));
   }
-  // As long as it goes.
+  // Plays until the film stops by itself, or for `most_ms`.
   Progress play(int most_ms) {
     for (int i = 0; i < most_ms; ++i) {
       clock_.sleepUntil(clock_.now() + std::chrono::milliseconds(1));

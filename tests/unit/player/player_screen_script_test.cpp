@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Long words in short lines, and the bar's place.
+// Long texts are broken into lines that fit, and the bar stands where it should.
 #include "app/player/screen/screen_script.h"
 
 #include <gmock/gmock.h>
