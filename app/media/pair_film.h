@@ -71,6 +71,9 @@ struct PairReader::Impl {
   Result<DepthFollower::Supplied> supplyDepth();
   Result<DepthFollower::Supplied> supplyOwnDepth();
   Result<FramePair> pairFor(Frame color);
+  // In pair_late.cpp: pictures that are left out for lack of time.
+  [[nodiscard]] std::optional<FramePair> depthBefore(const Frame& color);
+  void countLeftOut(const FramePair& pair) noexcept;
   Result<DepthFollower::Match> depthAt(MediaTime time);
   Result<void> seekDepth(MediaTime target);
   Result<void> passTo(MediaTime target);
@@ -144,6 +147,8 @@ struct PairReader::Impl {
   };
   OwnDepth own;             // of `depth_source`
   Duration key_step{0};     // of the last seek
+  bool leaves_out = false;  // has left out pictures of this film
+  std::optional<MediaTime> last_color, last_pair;
   bool reach_open = false;  // near and far are those of a few pictures, and no later one was told to lie beyond
 };
 
