@@ -16,6 +16,7 @@ class DetailLevel {
 
   explicit DetailLevel(Duration budget) noexcept : budget_(budget) {}
 
+  void setBudget(Duration budget) noexcept { budget_ = budget; }
   // Reports the drawing time of a frame with the present factor.
   void drew(Duration took) noexcept;
 
