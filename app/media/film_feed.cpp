@@ -101,8 +101,9 @@ void FilmFeed::leaveOut(bool unreferenced, std::optional<MediaTime> until) {
 
 FilmFeed::Effort FilmFeed::effort() const {
   const std::scoped_lock lock(mutex_);
-  Effort effort{.rested = rested_, .decodes = counts_.at_work == counts_.film && !reader_.waitsForSource()};
-  if (rests_since_) effort.rested += backends_.clock->now() - *rests_since_;
+  // A thread that has been woken may have to wait for a processor: it counts as at work.
+  Effort effort{.rested = rested_, .decodes = wantsPair() && !reader_.waitsForSource()};
+  if (rests_since_ && !wantsPair()) effort.rested += backends_.clock->now() - *rests_since_;
   return effort;
 }
 

@@ -2,6 +2,7 @@
 // The private state of a PairReader, shared by its opening (pair_opening.cpp) and its reading (pair_reader.cpp).
 #pragma once
 
+#include <atomic>
 #include <deque>
 #include <map>
 #include <memory>
@@ -115,6 +116,7 @@ struct PairReader::Impl {
   bool interrupted = false;
   std::unique_ptr<TrackReader> color_reader;
   std::unique_ptr<DepthSource> depth_source;  // reads `depth_url`
+  std::optional<MonotonicTime> waits_since;   // for a source that is a file; guarded by `readers_mutex` too
 
   std::deque<Frame> color_ahead;       // read, not yet delivered
   std::deque<Subtitle> words_ahead;    // of a subtitle file
@@ -132,7 +134,8 @@ struct PairReader::Impl {
   Reordering reordering;
   std::optional<std::size_t> depth_track;    // index in the colour's source
   const StreamInfo* depth_stream = nullptr;  // likewise; valid while the film is open
-  bool remote = false, live = false;         // of the colour's source
+  std::atomic<bool> remote{false};           // the colour's source; asked by any thread
+  bool live = false;                         // likewise
   Duration color_shift{0};                   // added to the session's timestamps to get the film's
   MediaTime goes_on_at;                      // film time just after the last colour picture
   std::optional<DepthFollower> depth;

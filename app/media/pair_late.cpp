@@ -9,7 +9,8 @@
 namespace relievo {
 namespace {
 
-constexpr double kGap = 1.5;  // of the frame period, from which on a picture is missing
+constexpr Duration kStall = std::chrono::milliseconds(300);  // a file's read that takes longer is not the machine's
+constexpr double kGap = 1.5;                                 // of the frame period, from which on a picture is missing
 
 }  // namespace
 
@@ -22,9 +23,15 @@ void PairReader::leaveOut(bool unreferenced, std::optional<MediaTime> until) {
   if (until) static_cast<void>(film.color_reader->hurryTo(*until - film.color_shift));
 }
 
+// A file is read by a thread of its own, which waits for a processor as any other does.
 bool PairReader::waitsForSource() const noexcept {
   const std::scoped_lock lock(impl_->readers_mutex);
-  return impl_->color_reader && impl_->color_reader->waitsForSource();
+  const bool waits = impl_->color_reader && impl_->color_reader->waitsForSource();
+  if (impl_->remote || impl_->backends.clock == nullptr) return waits;
+  const MonotonicTime now = impl_->backends.clock->now();
+  if (!waits) impl_->waits_since.reset();
+  else if (!impl_->waits_since) impl_->waits_since = now;
+  return waits && now >= *impl_->waits_since + kStall;
 }
 
 // The depth of a time between the last colour picture and this one, where pictures between them were left out.
