@@ -69,6 +69,14 @@ class FilmFeed {
   // effect once the source is back); ignored in other states. `key_step` as in PairReader::seek.
   void seek(MediaTime target, Duration key_step = Duration(0));
   [[nodiscard]] State state() const;
+  // PairReader::leaveOut, before the next pair is read. Sound is then read ahead of late pictures.
+  void leaveOut(bool unreferenced, std::optional<MediaTime> until = {});
+  // How busy the reader is.
+  struct Effort {
+    Duration rested{0};    // the time in which its thread had nothing to do, in all; without Backends::clock 0
+    bool decodes = false;  // it is at work now, and does not wait for the source
+  };
+  [[nodiscard]] Effort effort() const;
   // The next pair in order; nullopt if none is ready.
   [[nodiscard]] std::optional<FramePair> take();
   // The next samples in order; nullopt if none are ready.
@@ -121,6 +129,7 @@ class FilmFeed {
   void failed(std::string thing, const Error& error);
   void begin(State state);
   void interruptStale() const;
+  void rest(bool begins);
   void threadMain();
 
   const std::size_t capacity_;
@@ -128,6 +137,7 @@ class FilmFeed {
   std::function<void(const FramePair&)> hear_live_;
   mutable std::atomic<bool> interrupted_{false};  // stops the reading of a playlist
   mutable PairReader reader_;                     // used by the reader's side only, except `interrupt`
+  bool left_out_ = false;                         // likewise: what the reader was told last
 
   mutable std::mutex mutex_;  // guards everything below
   std::condition_variable wake_;
@@ -138,6 +148,8 @@ class FilmFeed {
     Duration key_step{0};
     bool tracks_due = false;
     std::optional<std::size_t> sound, words;
+    bool leave_out = false;
+    std::optional<MediaTime> until;  // once
   };
   Request request_;  // what was asked for last
   struct Counts {
@@ -163,6 +175,8 @@ class FilmFeed {
   Loss loss_;  // valid in Reconnecting
   bool depth_away_ = false;
   std::deque<News> news_;
+  Duration rested_{0};
+  std::optional<MonotonicTime> rests_since_;
   bool stopping_ = false;
   bool thread_ended_ = false;
 

@@ -2,6 +2,7 @@
 // The private state of a PairReader, shared by its opening (pair_opening.cpp) and its reading (pair_reader.cpp).
 #pragma once
 
+#include <atomic>
 #include <deque>
 #include <map>
 #include <memory>
@@ -71,6 +72,9 @@ struct PairReader::Impl {
   Result<DepthFollower::Supplied> supplyDepth();
   Result<DepthFollower::Supplied> supplyOwnDepth();
   Result<FramePair> pairFor(Frame color);
+  // In pair_late.cpp: pictures that are left out for lack of time.
+  [[nodiscard]] std::optional<FramePair> depthBefore(const Frame& color);
+  void countLeftOut(const FramePair& pair) noexcept;
   Result<DepthFollower::Match> depthAt(MediaTime time);
   Result<void> seekDepth(MediaTime target);
   Result<void> passTo(MediaTime target);
@@ -112,6 +116,7 @@ struct PairReader::Impl {
   bool interrupted = false;
   std::unique_ptr<TrackReader> color_reader;
   std::unique_ptr<DepthSource> depth_source;  // reads `depth_url`
+  std::optional<MonotonicTime> waits_since;   // for a source that is a file; guarded by `readers_mutex` too
 
   std::deque<Frame> color_ahead;       // read, not yet delivered
   std::deque<Subtitle> words_ahead;    // of a subtitle file
@@ -129,7 +134,8 @@ struct PairReader::Impl {
   Reordering reordering;
   std::optional<std::size_t> depth_track;    // index in the colour's source
   const StreamInfo* depth_stream = nullptr;  // likewise; valid while the film is open
-  bool remote = false, live = false;         // of the colour's source
+  std::atomic<bool> remote{false};           // the colour's source; asked by any thread
+  bool live = false;                         // likewise
   Duration color_shift{0};                   // added to the session's timestamps to get the film's
   MediaTime goes_on_at;                      // film time just after the last colour picture
   std::optional<DepthFollower> depth;
@@ -144,6 +150,8 @@ struct PairReader::Impl {
   };
   OwnDepth own;             // of `depth_source`
   Duration key_step{0};     // of the last seek
+  bool leaves_out = false;  // has left out pictures of this film
+  std::optional<MediaTime> last_color, last_pair;
   bool reach_open = false;  // near and far are those of a few pictures, and no later one was told to lie beyond
 };
 

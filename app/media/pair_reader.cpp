@@ -164,6 +164,7 @@ PairCounters& PairCounters::operator+=(const PairCounters& other) noexcept {
   damaged += other.damaged;
   deinterlaced += other.deinterlaced;
   jumps += other.jumps;
+  left_out += other.left_out;
   missed_pictures += other.missed_pictures;
   reconnects += other.reconnects;
   depth_reconnects += other.depth_reconnects;
@@ -193,8 +194,11 @@ Result<std::optional<FramePair>> PairReader::next() {
   auto color = impl_->nextColor();
   if (!color) return std::unexpected(color.error());
   if (!*color) return std::nullopt;
-  auto pair = impl_->pairFor(std::move(**color));
+  auto standing = impl_->depthBefore(**color);
+  if (standing) impl_->color_ahead.push_front(std::move(**color));
+  auto pair = standing ? Result<FramePair>(std::move(*standing)) : impl_->pairFor(std::move(**color));
   if (!pair) return std::unexpected(pair.error());
+  impl_->countLeftOut(*pair);
   pair->material = impl_->materialAt(pair->color.pts);
   impl_->goes_on_at = pair->color.pts + impl_->info.frame_period;
   if (impl_->live) {
@@ -214,6 +218,7 @@ Result<void> PairReader::seek(MediaTime target, Duration key_step) {
     return impl_->failOn(impl_->options.url, sought.error());
   }
   impl_->color_ahead.clear();
+  impl_->last_color = impl_->last_pair = std::nullopt;
   impl_->key_step = key_step;
   if (auto sought = impl_->seekDepth(target); !sought) return sought;
   return impl_->passTo(target);
@@ -284,6 +289,8 @@ void PairReader::close() noexcept {
   film.remote = film.live = false;
   film.counters = {};
   film.key_step = Duration(0);
+  film.leaves_out = false;
+  film.last_color = film.last_pair = std::nullopt;
   film.reach_open = false;
   film.info = {};
   std::unique_ptr<DepthSource> depth_source;  // destroyed outside the lock, because that joins its thread

@@ -54,6 +54,7 @@ struct FramePair {
   Frame right;                         // of a stereo film: the right eye's picture, `color` being the left one's
   Frame material;                      // of the film's material track; empty: none at this time
   Duration delay{0};                   // live films: from being captured to being read
+  bool stands = false;                 // only the depth is new: the colour, which has just its time, was left out
 };
 
 struct FilmInfo {
@@ -91,6 +92,7 @@ struct PairCounters {
   std::uint64_t damaged = 0;           // packets and pictures dropped by the decoders
   std::uint64_t deinterlaced = 0;      // pictures that were interlaced, colour and depth
   std::uint64_t jumps = 0;             // discontinuities of container timestamps (ContinuousTime)
+  std::uint64_t left_out = 0;          // colour pictures that were not decoded, for lack of time
   std::uint64_t missed_pictures = 0;   // pictures captured but never delivered by the sources (MediaSource)
   std::uint64_t reconnects = 0;        // times the colour source was lost and reopened
   std::uint64_t depth_reconnects = 0;  // the same for `depth_url`
@@ -158,9 +160,15 @@ class PairReader {
   void chooseTracks(std::optional<std::size_t> sound, std::optional<std::size_t> words);
   // Reads one more packet, for containers that store sound later than its pictures; false when that cannot help.
   [[nodiscard]] bool readAhead();
+  // For a machine that cannot decode all pictures in time. `unreferenced`: those of the colour that no other picture
+  // refers to are left out. Depth of a track of its own goes on at its own pace: where its colour was left out, a pair
+  // `stands`. `until`: pictures before it are late already and left out, as far as key frames allow.
+  void leaveOut(bool unreferenced, std::optional<MediaTime> until = {});
   void close() noexcept;
   // Makes a blocked call, and all later ones until the next `open`, return Cancelled.
   void interrupt() noexcept;
+  // Blocked in the read of the colour's source. Any thread.
+  [[nodiscard]] bool waitsForSource() const noexcept;
 
   [[nodiscard]] const FilmInfo& info() const noexcept;
   [[nodiscard]] PairCounters counters() const noexcept;

@@ -31,8 +31,16 @@ std::size_t Playhead::advance(MediaTime position, FilmFeed& feed) {
 }
 
 void Playhead::begin() {
-  present_ = std::move(ahead_.front());
+  FramePair next = std::move(ahead_.front());
   ahead_.pop_front();
+  if (next.stands) {
+    const MediaTime time = next.color.pts;
+    next.color = std::move(present_.color);
+    next.color.pts = time;
+  } else {
+    ++colors_;
+  }
+  present_ = std::move(next);
   if (!holds_) return;
   if (present_.depth.empty() && !held_.empty()) {
     present_.depth = held_;

@@ -2,6 +2,7 @@
 // The pair on the screen and the few after it, selected by timestamp.
 #pragma once
 
+#include <cstdint>
 #include <deque>
 
 #include "app/media/film_feed.h"
@@ -40,6 +41,8 @@ class Playhead {
   }
 
   [[nodiscard]] const FramePair& present() const noexcept { return present_; }
+  // Counts the pairs that have been the present one, but for those whose colour is that of the pair before.
+  [[nodiscard]] std::uint64_t colors() const noexcept { return colors_; }
   [[nodiscard]] const std::deque<FramePair>& ahead() const noexcept { return ahead_; }
   [[nodiscard]] bool filled() const noexcept { return ahead_.size() >= wanted_; }
   // No pair follows the buffered ones.
@@ -51,6 +54,7 @@ class Playhead {
   bool last_ = false;
   std::size_t wanted_ = kAhead;
   bool holds_ = false;
+  std::uint64_t colors_ = 0;
   Frame held_;  // the last depth, if it is to be held
 };
 

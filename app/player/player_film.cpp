@@ -162,8 +162,9 @@ void Player::followClock(MonotonicTime now) {
   if (state_ != PlayerState::Playing && state_ != PlayerState::Paused) return;
   const std::size_t pictures = film_.advance(now);
   feedTouch();
-  if (pictures > 0) {
-    screen_.skip(pictures - 1);
+  const bool shows = pictures > 0 && film_.hasNewPicture();
+  if (pictures > 0) screen_.skip(shows ? pictures - 1 : pictures);
+  if (shows) {
     showPicture(now);
   } else if (auto drawn = screen_.redraw(touch_.marks(), film_.nextPicture(now), now); !drawn) {
     failDrawing(drawn.error());

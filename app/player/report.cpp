@@ -57,6 +57,7 @@ Json videoPart(const PlayReport& r) {
           {"pairs_without_depth", r.pairs.without_depth},
           {"pairs_damaged", r.pairs.damaged},
           {"pictures_lost", r.pairs.missed_pictures},
+          {"pictures_left_out", r.pairs.left_out},
           {"reconnects", r.pairs.reconnects},
           {"depth_reconnects", r.pairs.depth_reconnects},
           {"time_jumps", r.pairs.jumps},

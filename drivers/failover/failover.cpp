@@ -42,6 +42,7 @@ class FailoverDecoder final : public VideoDecoder {
     stream_ = stream;
     current_ = 0;
     began_anew_ = false;
+    leaves_out_ = false;
     refusal_ = nullptr;
     forget();
     return openBest();
@@ -60,6 +61,11 @@ class FailoverDecoder final : public VideoDecoder {
       log(LogLevel::Info, "media", "%s cannot decode %s: %s", decoder().capabilities().name, stream_.codec.c_str(),
           error.message);
     }
+  }
+
+  void leaveOut(bool unreferenced) noexcept override {
+    leaves_out_ = unreferenced;
+    if (decoder().state() != State::Closed) static_cast<void>(decoder().leaveOutUnreferenced(unreferenced));
   }
 
   Result<Feed> feedPacket(const Packet& packet) override {
@@ -134,6 +140,7 @@ class FailoverDecoder final : public VideoDecoder {
       ++current_;
     }
     auto opened = openBest();
+    leaveOut(leaves_out_);
     noteRestart({error.message, current_ == before ? "the decoder was restarted at the same picture"
                                                    : "another decoder, in software, continues at the same picture"});
     repeated_ = 0;
@@ -188,6 +195,7 @@ class FailoverDecoder final : public VideoDecoder {
   std::size_t current_ = 0;
   StreamInfo stream_;
   bool began_anew_ = false;
+  bool leaves_out_ = false;
   const char* refusal_ = nullptr;  // why the last better decoder is not used
   std::deque<Packet> kept_;        // in the order of decoding
   std::size_t kept_bytes_ = 0;

@@ -162,6 +162,11 @@ class FfmpegDecoder final : public VideoDecoder {
     picture_.reset();
   }
 
+  // Each codec of FFmpeg reads these at each picture.
+  void leaveOut(bool unreferenced) noexcept override {
+    context_->skip_frame = unreferenced ? AVDISCARD_NONREF : AVDISCARD_DEFAULT;
+  }
+
   CodecContextPtr context_;
   PacketPtr packet_;  // reused by each feed
   FramePtr picture_;  // reused by each receive

@@ -103,9 +103,12 @@ class MockDecoder final : public VideoDecoder {
       return fail(ErrorCode::Corrupt, "a mock track must have a size and 8 to 16 bits");
     }
     packets_ = 0;
+    leaves_out_ = false;
     forget();
     return {};
   }
+
+  void leaveOut(bool unreferenced) noexcept override { leaves_out_ = unreferenced; }
 
   Result<Feed> feedPacket(const Packet& packet) override {
     if (packets_ >= profile_.lose_after_packets) return fail(ErrorCode::Lost, "the mock decoder has died");
@@ -118,7 +121,7 @@ class MockDecoder final : public VideoDecoder {
     if (packet.keyframe) has_key_frame_ = true;
     if (!whole || content.damaged || !has_key_frame_) {
       countDamaged();
-    } else {
+    } else if (!leaves_out_ || content.frame % profile_.referenced_every == 0) {
       queue_.push_back({content.frame, packet.pts.value_or(track_->pts(content.frame))});
     }
     return Feed::Accepted;
@@ -167,6 +170,7 @@ class MockDecoder final : public VideoDecoder {
   std::uint64_t packets_ = 0;
   bool draining_ = false;
   bool has_key_frame_ = false;
+  bool leaves_out_ = false;
   // The number of held pictures; shared with them, since they may outlive the decoder.
   std::shared_ptr<std::atomic<int>> outside_ = std::make_shared<std::atomic<int>>(0);
 };

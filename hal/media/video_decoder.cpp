@@ -57,6 +57,12 @@ Result<void> VideoDecoder::flush() {
   return flushed;
 }
 
+Result<void> VideoDecoder::leaveOutUnreferenced(bool leave_out) {
+  if (state_ == State::Closed) return fail(ErrorCode::InvalidState, "the decoder is closed; open it first");
+  leaveOut(leave_out);
+  return {};
+}
+
 void VideoDecoder::close() noexcept {
   if (state_ == State::Closed) return;
   closeDecoder();

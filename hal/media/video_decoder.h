@@ -51,6 +51,10 @@ class VideoDecoder {
   // Discards packets and pictures inside, for a seek. Open, Draining, Ended.
   [[nodiscard]] Result<void> flush();
   void close() noexcept;
+  // Leaves out the pictures that no other picture refers to, from about the next packet on, to save time: they never
+  // come out. A back end that cannot tell them apart decodes all. Kept over a flush; `open` begins with all pictures.
+  // Open, Draining, Ended.
+  [[nodiscard]] Result<void> leaveOutUnreferenced(bool leave_out);
 
   [[nodiscard]] State state() const noexcept { return state_; }
   [[nodiscard]] virtual Capabilities capabilities() const noexcept = 0;
@@ -78,6 +82,7 @@ class VideoDecoder {
   virtual Result<void> startDrain() = 0;
   virtual Result<void> flushDecoder() = 0;
   virtual void closeDecoder() noexcept = 0;
+  virtual void leaveOut(bool /*unreferenced*/) noexcept {}
 
   State state_ = State::Closed;
   std::uint64_t damaged_ = 0;

@@ -111,7 +111,9 @@ Result<bool> TrackReader::feed(Track& track) {
 
 // False at the end of the source.
 Result<bool> TrackReader::readOnePacket() {
+  waits_for_source_ = true;
   auto packet = source_->read();
+  waits_for_source_ = false;
   if (!packet) return std::unexpected(packet.error());
   if (!*packet) return false;
   const Packet& read = **packet;
@@ -160,6 +162,43 @@ void TrackReader::keep(Track& track, Packet packet) {
   track.awaits_keyframe = false;
   track.waiting_bytes += packet.bytes;
   track.waiting.push_back(std::move(packet));
+}
+
+void TrackReader::leaveOutUnreferenced(bool leave_out) {
+  // It fails only where no track has been selected yet.
+  static_cast<void>(tracks_[0].decoder->leaveOutUnreferenced(leave_out));
+}
+
+Result<bool> TrackReader::hurryTo(MediaTime until) {
+  Track& lead = tracks_[0];
+  while (!isFull(lead) && (!read_ || *read_ <= until)) {
+    const auto read = readOnePacket();
+    if (!read) return std::unexpected(read.error());
+    if (!*read) break;
+  }
+  const auto landing = dropBeforeKey(lead, until);
+  if (!landing) return std::unexpected(landing.error());
+  if (!*landing) return false;
+  for (std::size_t i = 1; i < track_count_; ++i) {
+    if (const auto dropped = dropBeforeKey(tracks_[i], **landing); !dropped) return std::unexpected(dropped.error());
+  }
+  return true;
+}
+
+// The time of the key frame that is now the next packet; nullopt where none lies ahead, or where pictures could not be
+// told apart by their times.
+Result<std::optional<MediaTime>> TrackReader::dropBeforeKey(Track& track, MediaTime until) {
+  if (track.decoder->state() != VideoDecoder::State::Open) return std::nullopt;
+  const auto key = std::find_if(track.waiting.rbegin(), track.waiting.rend(), [&](const Packet& packet) {
+    return packet.keyframe && packet.pts && *packet.pts <= until;
+  });
+  if (key == track.waiting.rend() || key + 1 == track.waiting.rend()) return std::nullopt;
+  const MediaTime landing = *key->pts;
+  const auto first = key.base() - 1;
+  for (auto packet = track.waiting.begin(); packet != first; ++packet) track.waiting_bytes -= packet->bytes;
+  track.waiting.erase(track.waiting.begin(), first);
+  if (auto flushed = track.decoder->flush(); !flushed) return std::unexpected(flushed.error());
+  return landing;
 }
 
 bool TrackReader::isFull(const Track& track) noexcept {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -68,7 +69,15 @@ class TrackReader {
   // first. A track that has no picture so early, or has ended before, may return a later one or none. With `key_step`
   // over 0 only key frames follow, at least `key_step` apart, each decoded by itself.
   [[nodiscard]] Result<void> seek(MediaTime target, Duration key_step = Duration(0));
+  // Of the leading track: VideoDecoder::leaveOutUnreferenced.
+  void leaveOutUnreferenced(bool leave_out);
+  // For pictures that are decoded too late. Leaves out what lies before the leading track's last key frame at or before
+  // `until`, and before the other tracks' last key frames at or before that one; packets are read as far as `until`,
+  // and the sound with them. False where no key frame lies ahead: then nothing is left out.
+  [[nodiscard]] Result<bool> hurryTo(MediaTime until);
   void interrupt() noexcept { source_->interrupt(); }
+  // Blocked in the source's read. Any thread.
+  [[nodiscard]] bool waitsForSource() const noexcept { return waits_for_source_; }
   [[nodiscard]] const MediaSource& source() const noexcept { return *source_; }
   // Packets and pictures dropped by the decoders.
   [[nodiscard]] std::uint64_t damaged() const noexcept;
@@ -97,6 +106,7 @@ class TrackReader {
   [[nodiscard]] Result<bool> feed(Track& track);
   [[nodiscard]] Result<bool> readOnePacket();
   void keep(Track& track, Packet packet);
+  [[nodiscard]] static Result<std::optional<MediaTime>> dropBeforeKey(Track& track, MediaTime until);
   [[nodiscard]] Result<void> restart(Track& track, bool await_keyframe);
   [[nodiscard]] static bool isFull(const Track& track) noexcept;
 
@@ -106,6 +116,7 @@ class TrackReader {
   std::size_t track_count_ = 0;
   std::uint64_t deinterlaced_ = 0;
   Duration key_step_{0};
+  std::atomic<bool> waits_for_source_{false};
   SoundTrack sound_;
   SubtitleTrack words_;
   std::optional<MediaTime> given_, read_;  // the leading track's newest picture and newest packet

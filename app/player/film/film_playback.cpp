@@ -68,6 +68,8 @@ void FilmPlayback::close(MonotonicTime now) {
   pace_.forget();
   as_it_comes_ = false;
   held_ = begun_ = starved_ = false;
+  decode_pace_ = {};
+  leaves_out_ = slowness_told_ = false;
   jumped_ = true;
   target_.reset();
   dry_since_.reset();
@@ -167,6 +169,7 @@ std::size_t FilmPlayback::advance(MonotonicTime now) {
   followReliefs();
   const std::size_t pictures = head_.advance(clock_.position(now).value_or(MediaTime{}), feed_);
   if (pictures > 0) reliefs_.passed(picture().color.pts);
+  followDecoder(now);
   return pictures;
 }
 
@@ -194,7 +197,7 @@ void FilmPlayback::followLive(bool picture, MonotonicTime now) {
   static_cast<void>(clock_.setRate(rateToGain(behind), now));  // the clock accepts all rates of this size
 }
 
-// A pair that is less than a period late is shown late; after that the film waits for the reader. The delay counts from
+// A pair that is less than a period late is shown late; after that the film waits for its source. The delay counts from
 // the moment when the pair was missed, not from the last picture, which may have taken long to draw.
 FilmPlayback::Progress FilmPlayback::going(MonotonicTime now) {
   if (!head_.ahead().empty()) {
@@ -209,7 +212,8 @@ FilmPlayback::Progress FilmPlayback::going(MonotonicTime now) {
   }
   if (!dry_since_) dry_since_ = now;
   const Duration patience = isLive() ? 4 * period() + kLivePatience : 2 * period();
-  if (now < *dry_since_ + patience) return Progress::Goes;
+  // Where the decoder is too slow, stopping would help nobody: it leaves out pictures until it is in time.
+  if (now < *dry_since_ + patience || waitsForDecoder()) return Progress::Goes;
   dry_since_.reset();
   starved_ = true;
   countPlayed(now);
@@ -220,6 +224,7 @@ void FilmPlayback::seek(MediaTime target, MonotonicTime now) {
   countPlayed(now);
   clock_.reset();
   head_.clear();
+  decode_pace_.pause();
   reliefs_.jump();
   sound_.forget();
   target_ = target;
@@ -276,6 +281,7 @@ void FilmPlayback::followSound(bool playing) {
 
 // The surface under the finger is that of the clock's time.
 void FilmPlayback::noteShown() {
+  shown_color_ = head_.colors();
   sound_.noteShown(picture().color.pts, clock_);
   const MonotonicTime now = clock_source_.now();
   const auto felt = clock_.position(now);

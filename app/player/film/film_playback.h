@@ -11,6 +11,7 @@
 
 #include "app/media/film_feed.h"
 #include "app/media/playhead.h"
+#include "app/player/film/decode_pace.h"
 #include "app/player/film/depth_around.h"
 #include "app/player/film/live_pace.h"
 #include "app/player/film/live_times.h"
@@ -110,6 +111,8 @@ class FilmPlayback {
   void noteShown();
 
   [[nodiscard]] const FramePair& picture() const noexcept { return head_.present(); }
+  // The present picture has not been shown; false also where only its depth is new (FramePair::stands).
+  [[nodiscard]] bool hasNewPicture() const noexcept { return head_.colors() != shown_color_; }
   // The film's first picture was shown or is about to be.
   [[nodiscard]] bool begun() const noexcept { return begun_; }
   // True once after the film was opened or sought: the present picture does not continue the one before it.
@@ -156,6 +159,9 @@ class FilmPlayback {
   void followReliefs();
   [[nodiscard]] bool hasReliefs() const;
   void gatherReliefs(DepthAround& around) const;
+  // In film_late.cpp.
+  void followDecoder(MonotonicTime now);
+  [[nodiscard]] bool waitsForDecoder() const noexcept;
   [[nodiscard]] Progress fillingLive();
   void hearOfAhead() noexcept;
   [[nodiscard]] std::size_t advanceLive(MonotonicTime now);
@@ -179,6 +185,10 @@ class FilmPlayback {
   std::optional<MediaTime> target_;         // of a seek whose first picture has not been shown yet
   std::optional<MonotonicTime> dry_since_;  // since when no picture has been buffered
   bool starved_ = false;                    // the picture has stopped while the clock runs on
+  std::uint64_t shown_color_ = 0;           // Playhead::colors, of the picture on the screen
+  DecodePace decode_pace_;
+  bool leaves_out_ = false;     // what the feed was told last
+  bool slowness_told_ = false;  // of this film
 
   PairCounters pairs_before_;  // of earlier films
   PlayedTime played_;

@@ -121,6 +121,10 @@ void SceneRenderer::setStereo(const StereoSettings& settings) noexcept {
   impl_->stereo = settings;
 }
 
+void SceneRenderer::setFrameBudget(Duration frame_budget) noexcept {
+  impl_->level.setBudget(frame_budget);
+}
+
 void SceneRenderer::setError(double pixels) noexcept {
   impl_->error_px = pixels;
 }

@@ -53,6 +53,7 @@ class SceneRenderer {
   [[nodiscard]] static Result<std::unique_ptr<SceneRenderer>> create(Duration frame_budget);
   ~SceneRenderer();
 
+  void setFrameBudget(Duration frame_budget) noexcept;
   // If the surface cannot show the layout, mono is drawn.
   void setStereo(const StereoSettings& settings) noexcept;
   // Allowed error of the shift between the eyes, traded for fewer triangles; the frame budget may enlarge it. Call

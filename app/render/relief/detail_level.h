@@ -16,6 +16,7 @@ class DetailLevel {
 
   explicit DetailLevel(Duration budget) noexcept : budget_(budget) {}
 
+  void setBudget(Duration budget) noexcept { budget_ = budget; }
   // Tells how long it took to draw a frame at the present level.
   void drew(Duration took) noexcept;
 

@@ -23,14 +23,15 @@ TEST_P(VideoDecoderContract, EveryVerbInEveryState) {
       {"drain", [](VideoDecoder& d) { return test::answerOf(d.drain()); }},
       {"flush", [](VideoDecoder& d) { return test::answerOf(d.flush()); }},
       {"close", [](VideoDecoder& d) { return d.close(), test::Answer{}; }},
+      {"leaveOutUnreferenced", [](VideoDecoder& d) { return test::answerOf(d.leaveOutUnreferenced(false)); }},
   };
   constexpr auto no = std::nullopt;
   const std::vector<test::Row<State>> table = {
-      // from              open         feed         receive          drain            flush        close
-      {State::Closed, {State::Open, no, no, no, no, State::Closed}},
-      {State::Open, {no, State::Open, State::Open, State::Draining, State::Open, State::Closed}},
-      {State::Draining, {no, no, State::Draining, no, State::Open, State::Closed}},
-      {State::Ended, {no, no, State::Ended, no, State::Open, State::Closed}},
+      // from              open         feed         receive          drain            flush        close  leave out
+      {State::Closed, {State::Open, no, no, no, no, State::Closed, no}},
+      {State::Open, {no, State::Open, State::Open, State::Draining, State::Open, State::Closed, State::Open}},
+      {State::Draining, {no, no, State::Draining, no, State::Open, State::Closed, State::Draining}},
+      {State::Ended, {no, no, State::Ended, no, State::Open, State::Closed, State::Ended}},
   };
   test::expectStateTable(verbs, table, [&](State state) { return bring(state); });
 }

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <set>
@@ -407,6 +408,38 @@ TEST(FfmpegDecoder, FloatingPointBecomesCodesWithTheirScale) {
   EXPECT_EQ((*converted)->format, AV_PIX_FMT_GRAY16LE);
   const auto* const row = reinterpret_cast<const std::uint16_t*>((*converted)->data[0] + (*converted)->linesize[0]);
   EXPECT_EQ(std::vector<std::uint16_t>(row, row + mm.size()), mm);
+}
+
+// Every other picture is a B picture that no other refers to: the second, the fourth, ..
+TEST(FfmpegDecoder, LeavesOutJustThePicturesThatNoOtherRefersTo) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "b.mkv";
+  makeClip(path, {ClipTrack{.codec = "libx264",
+                            .pix_fmt = "yuv420p",
+                            .frames = 24,
+                            .gop = 12,
+                            .b_frames = 1,
+                            .sample = [](int i, int c, int r, int frame) { return scattered(i, c, r, frame) & 255; },
+                            .options = {{"crf", "20"}, {"b_strategy", "0"}, {"sc_threshold", "0"}}}});
+  Clip clip(path);
+  const std::vector<Frame> whole = clip.decode();
+  ASSERT_EQ(whole.size(), 24U);
+  ASSERT_TRUE(clip.decoder->flush());
+  ASSERT_TRUE(clip.decoder->leaveOutUnreferenced(true));
+  const std::vector<Frame> less = clip.decodeOpen();
+  EXPECT_GE(less.size(), 12U);
+  EXPECT_LE(less.size(), 14U);  // the last before a key frame is a reference too
+  for (const Frame& frame : less) {
+    const auto same = std::ranges::find(whole, frame.pts, &Frame::pts);
+    ASSERT_NE(same, whole.end());
+    for (int r = 0; r < frame.height; ++r) {
+      for (int c = 0; c < frame.width; ++c) ASSERT_EQ(sampleAt(frame, 0, c, r), sampleAt(*same, 0, c, r));
+    }
+  }
+  ASSERT_TRUE(clip.decoder->flush());
+  ASSERT_TRUE(clip.decoder->leaveOutUnreferenced(false));
+  EXPECT_EQ(clip.decodeOpen().size(), 24U);
+  EXPECT_EQ(clip.decoder->damaged(), 0U);
 }
 
 TEST(FfmpegDecoder, FlushForgetsAndStartsAgain) {

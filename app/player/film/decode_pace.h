@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether this machine decodes a film in time, and which pictures it leaves out if not. Pure.
+#pragma once
+
+#include <optional>
+#include <utility>
+
+#include "platform/clock.h"
+
+namespace relievo {
+
+// A machine that is too slow leaves out pictures in two steps. While the reader is never at rest and its buffers run
+// empty, the pictures that no other refers to are not decoded. If the film is late all the same, the reader hurries to
+// a later key frame. Both end when the reader has been at rest for half of its time, for some seconds; if that was too
+// early, the next attempt waits twice as long. One thread.
+class DecodePace {
+ public:
+  // What is seen in a round.
+  struct Seen {
+    bool filled = false;   // as many pictures are buffered as are wished for
+    Duration rested{0};    // FilmFeed::Effort
+    bool decodes = false;  // likewise
+    Duration late{0};      // how long the last buffered picture has been over; 0 or less: it is not
+  };
+  void look(const Seen& seen, MonotonicTime now) noexcept;
+  // The film stood still, or was sought: what was seen before tells nothing. What is left out stays left out.
+  void pause() noexcept;
+
+  // Pictures that no other refers to are to be left out.
+  [[nodiscard]] bool leavesOut() const noexcept { return leaves_out_; }
+  // True when the reader should hurry now, told once.
+  [[nodiscard]] bool takeHurry() noexcept { return std::exchange(hurry_, false); }
+  // While nothing is buffered: it is the source that is waited for, not the decoder. A thread that waits for a busy
+  // processor may do so anywhere: only what lasts tells.
+  [[nodiscard]] bool waitsForSource() const noexcept { return dry_for_ >= kTelling && 2 * dry_decodes_ <= dry_rounds_; }
+
+ private:
+  void judge(double rest, bool decodes, MonotonicTime now) noexcept;
+  void leaveOut(MonotonicTime now) noexcept;
+
+  static constexpr Duration kTelling = std::chrono::milliseconds(200);
+  static constexpr Duration kShortPatience = std::chrono::seconds(3);
+
+  bool leaves_out_ = false, hurry_ = false;
+  std::optional<MonotonicTime> since_;  // of the present span
+  Duration rested_{0};                  // at its begin
+  int rounds_ = 0, decodes_ = 0;        // in it
+  int dry_rounds_ = 0, dry_decodes_ = 0;
+  std::optional<MonotonicTime> dry_since_;
+  Duration dry_for_{0};
+  bool filled_ = false;
+  Duration idle_{0};  // for how long the reader has had time to spare
+  Duration patience_ = kShortPatience;
+  std::optional<MonotonicTime> recovered_, hurried_;
+};
+
+}  // namespace relievo

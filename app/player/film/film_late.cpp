@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// A film that this machine cannot decode in time: what is left out of it, and what the viewer is told.
+#include "app/player/film/film_playback.h"
+
+namespace relievo {
+namespace {
+
+constexpr Duration kAfterHurry = std::chrono::milliseconds(300);  // how much of the film a hurry gains on the clock
+
+}  // namespace
+
+void FilmPlayback::followDecoder(MonotonicTime now) {
+  const auto position = clock_.position(now);
+  if (!own_threads_ || held_ || rushes() || !position) return decode_pace_.pause();
+  const FilmFeed::Effort effort = feed_.effort();
+  const bool dry = head_.ahead().empty() && !head_.last();
+  decode_pace_.look({.filled = head_.filled() || head_.last(),
+                     .rested = effort.rested,
+                     .decodes = effort.decodes,
+                     .late = dry ? *position - (picture().color.pts + period()) : Duration(0)},
+                    now);
+  const bool hurry = decode_pace_.takeHurry();
+  if (decode_pace_.leavesOut() == leaves_out_ && !hurry) return;
+  leaves_out_ = decode_pace_.leavesOut();
+  feed_.leaveOut(leaves_out_, hurry ? std::optional(*position + kAfterHurry) : std::nullopt);
+  if (!leaves_out_ || std::exchange(slowness_told_, true)) return;
+  journal_.note("this computer is too slow for all pictures of the film",
+                "some are left out; sound and touch go on as they are");
+}
+
+bool FilmPlayback::waitsForDecoder() const noexcept {
+  return own_threads_ && !held_ && !rushes() && !isLive() && !decode_pace_.waitsForSource();
+}
+
+}  // namespace relievo
