@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <sstream>
 #include <string_view>
 #include <vector>
 
@@ -15,11 +14,11 @@
 #include "app/media/film_folder.h"
 #include "app/player/control/key_table.h"
 #include "app/player/screen/stereo_word.h"
+#include "app/player/setup/back_end_option.h"
 #include "app/player/setup/config_options.h"
+#include "app/player/setup/first_word.h"
 #include "app/player/setup/settle_play.h"
 #include "hal/haptic_rate.h"
-#include "platform/files/answered_place.h"
-#include "platform/near_words.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -173,41 +172,6 @@ Duration readDuration(double seconds) {
   return fromSeconds(seconds);
 }
 
-BackEndName nameOf(const std::string& given) {
-  BackEndName name = given;
-  name.word = inSmallLetters(name.word);
-  return name;
-}
-
-// An option that names a back end. Its word is one of `names`: those stand parted by spaces, each with what may follow
-// it in brackets or behind a colon. `second`: it may be given twice; null: once.
-CLI::Option* addBackEnd(CLI::App& command, const char* option, BackEndName& chosen, const char* kind, const char* names,
-                        const char* help, BackEndName* second = nullptr) {
-  const auto judge = [kind, names](const std::string& given) -> std::string {
-    const std::string word = inSmallLetters(BackEndName(given).word);
-    std::istringstream all(names);
-    std::vector<std::string> words;
-    for (std::string known; all >> known;) {
-      words.push_back(known.substr(0, known.find_first_of(":[")));
-      if (words.back() == word) return "";
-    }
-    return given + ": no such " + kind + "; it is one of: " + names + meant(word, words);
-  };
-  const auto take = [option, second, &chosen](const std::vector<std::string>& given) {
-    if (given.size() > (second != nullptr ? 2U : 1U)) {
-      throw WordFailure(
-          {option + (" " + given.back()), {ErrorCode::InvalidArgument, 0, "is one too many; see relievo play --help"}});
-    }
-    chosen = nameOf(given.front());
-    if (given.size() > 1) *second = nameOf(given.back());
-  };
-  return command.add_option_function<std::vector<std::string>>(option, take, std::string(help) + "\n" + names)
-      ->allow_extra_args(false)
-      ->default_str(chosen.text())
-      ->check(CLI::Validator(judge, ""))
-      ->type_name("NAME");
-}
-
 void addConfigOption(CLI::App& command, std::string& path) {
   command
       .add_option("--config", path,
@@ -359,38 +323,6 @@ Outcome<ConfigLines> readConfig(CLI::App& play, const std::string& path, FileCon
   if (!read) return std::unexpected(read.error());
   config = std::move(*read);
   return play.parsed() ? applyConfig(play, config) : ConfigLines{};
-}
-
-// "relievo film.mkv" and "relievo --loop film.mkv" as "relievo play ..", "relievo help play" as "relievo play --help".
-std::vector<const char*> withCommand(const CLI::App& program, int argc, const char* const* argv) {
-  std::vector<const char*> words(argv, argv + argc);
-  const std::string first = argc > 1 ? argv[1] : "";
-  const auto isCommand = [&program](const std::string& word) {
-    const auto commands = program.get_subcommands([](const CLI::App*) { return true; });
-    return std::ranges::any_of(commands, [&word](const CLI::App* each) { return each->get_name() == word; });
-  };
-  if (first == "help") {
-    words.erase(words.begin() + 1);
-    words.push_back("--help");
-    return words;
-  }
-  if (argc == 2 && first == "-v") return {argv[0], "--version"};
-  constexpr std::array<std::string_view, 4> kOwn{"-h", "--help", "-V", "--version"};
-  if (!isCommand(first) && std::ranges::find(kOwn, first) == kOwn.end()) words.insert(words.begin() + 1, "play");
-  return words;
-}
-
-// A misspelt command would be taken for a film.
-Outcome<void> refuseMisspeltCommand(const CLI::App& program, const std::string& word) {
-  std::vector<std::string> commands;
-  for (const CLI::App* each : program.get_subcommands([](const CLI::App*) { return true; })) {
-    commands.push_back(each->get_name());
-  }
-  const std::string near = nearestWord(word, commands);
-  if (near.empty() || near == word || word.find_first_of("./:") != std::string::npos) return {};
-  if (isThere(word)) return {};
-  return failOn(word + " (" + near + "?)",
-                {ErrorCode::InvalidArgument, 0, "is neither a file nor a command; see relievo --help"});
 }
 
 }  // namespace
