@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <optional>
 #include <utility>
 
@@ -14,32 +15,98 @@ namespace {
 
 constexpr int kHighest = 1 << 30;
 constexpr int kBlock = 8, kLevels = 3, kPasses = 3;
+constexpr int kNear = 5;       // samples across and down that tell what a single one shows
 constexpr int kMargin = 2;     // a block is compared with so much of its neighbourhood
 constexpr float kUnlike = 12;  // cost of a sample's difference from the neighbours' vectors: noise moves nothing
+
+// A picture as it is between its samples, at each quarter of one to the right and down: made where it is asked for,
+// once, with its last samples going on beyond its edge.
+class QuarterPictures {
+ public:
+  explicit QuarterPictures(GrayPicture picture) : picture_(std::move(picture)) {}
+  [[nodiscard]] const GrayPicture& picture() const noexcept { return picture_; }
+  // At `fx`, `fy` quarters, kEdge samples wider on each side.
+  [[nodiscard]] const GrayPicture& at(int fx, int fy) const {
+    GrayPicture& made = made_[4 * static_cast<std::size_t>(fy) + static_cast<std::size_t>(fx)];
+    if (made.codes.empty()) made = between(fx, fy);
+    return made;
+  }
+  static constexpr int kEdge = 32;
+
+ private:
+  [[nodiscard]] GrayPicture between(int fx, int fy) const {
+    const GrayPicture& p = picture_;
+    const int w00 = (4 - fx) * (4 - fy), w01 = fx * (4 - fy), w10 = (4 - fx) * fy, w11 = fx * fy;
+    GrayPicture made(p.cols + 2 * kEdge, p.rows + 2 * kEdge);
+    std::vector<std::uint8_t> upper, lower = wideRow(-kEdge);
+    auto out = made.codes.begin();
+    for (int r = 0; r < made.rows; ++r) {
+      upper = std::exchange(lower, wideRow(r + 1 - kEdge));
+      const std::uint8_t *const a = upper.data(), *const b = lower.data();
+      std::uint8_t* const to = &*out;
+      for (int c = 0; c < made.cols; ++c) {
+        to[c] = static_cast<std::uint8_t>((w00 * a[c] + w01 * a[c + 1] + w10 * b[c] + w11 * b[c + 1] + 8) >> 4);
+      }
+      out += made.cols;
+    }
+    return made;
+  }
+  // One sample more than a row that is made.
+  [[nodiscard]] std::vector<std::uint8_t> wideRow(int row) const {
+    const GrayPicture& p = picture_;
+    const int r = std::clamp(row, 0, p.rows - 1);
+    const auto first = p.codes.begin() + static_cast<std::ptrdiff_t>(r) * p.cols;
+    std::vector<std::uint8_t> wide(static_cast<std::size_t>(p.cols + 2 * kEdge + 1), first[p.cols - 1]);
+    std::fill_n(wide.begin(), kEdge, *first);
+    std::copy_n(first, p.cols, wide.begin() + kEdge);
+    return wide;
+  }
+
+  GrayPicture picture_;
+  mutable std::array<GrayPicture, 16> made_;
+};
+
+constexpr int kWhole = kBlock + 2 * kMargin;
+
+// Of Size x Size samples, laid in one row, of which the compiler makes vector instructions.
+template <int Size>
+int squareDifference(const std::uint8_t* a, int a_stride, const std::uint8_t* b, int b_stride) {
+  constexpr std::size_t kCount = (Size * Size + 15) / 16 * 16;
+  std::array<std::uint8_t, kCount> x{}, y{};
+  for (std::size_t r = 0; r < Size; ++r, a += a_stride, b += b_stride) {
+    std::memcpy(&x[r * Size], a, Size);
+    std::memcpy(&y[r * Size], b, Size);
+  }
+  int sum = 0;
+  for (std::size_t i = 0; i < kCount; ++i) sum += std::abs(x[i] - y[i]);
+  return sum;
+}
 
 // The part of `now` from (left, top) to before (right, bottom), within the picture, as one of `before` at a distance:
 // the sum of the differences, or a sum above `most`. Beyond the last samples of `before` they go on.
 struct Part {
   int left, top, right, bottom;
 };
-int differenceOf(const GrayPicture& before, const GrayPicture& now, const Part& part, const Motion& v, int most) {
-  const int x4 = static_cast<int>(std::lround(4 * v.x)), y4 = static_cast<int>(std::lround(4 * v.y));
-  const int dx = x4 >> 2, dy = y4 >> 2, fx = x4 & 3, fy = y4 & 3;
-  const int w00 = (4 - fx) * (4 - fy), w01 = fx * (4 - fy), w10 = (4 - fx) * fy, w11 = fx * fy;
-  const bool inside = part.left + dx >= 0 && part.right + dx < before.cols;
+int differenceOf(const QuarterPictures& before, const GrayPicture& now, const Part& part, const Motion& v, int most) {
+  constexpr int kEdge = QuarterPictures::kEdge;
+  const int x4 = static_cast<int>(std::floor(4 * v.x + 0.5F)), y4 = static_cast<int>(std::floor(4 * v.y + 0.5F));
+  const GrayPicture& then = before.at(x4 & 3, y4 & 3);
+  // Farther out all rows, and all columns, are the same.
+  const int left = part.left + (x4 >> 2) + kEdge, top = part.top + (y4 >> 2) + kEdge;
+  const int width = part.right - part.left, height = part.bottom - part.top;
+  if (left >= 0 && left + width <= then.cols && top >= 0 && top + height <= then.rows && width == height) {
+    const std::uint8_t* const a = now.codes.data() + static_cast<std::ptrdiff_t>(part.top) * now.cols + part.left;
+    const std::uint8_t* const b = then.codes.data() + static_cast<std::ptrdiff_t>(top) * then.cols + left;
+    if (width == kWhole) return squareDifference<kWhole>(a, now.cols, b, then.cols);
+    if (width == kNear) return squareDifference<kNear>(a, now.cols, b, then.cols);
+  }
   int sum = 0;
   for (int r = part.top; r < part.bottom && sum <= most; ++r) {
     const std::uint8_t* const here = &now.codes[static_cast<std::size_t>(r) * static_cast<std::size_t>(now.cols)];
-    const auto rowOf = [&](int row) {
-      row = std::clamp(row, 0, before.rows - 1);
-      return &before.codes[static_cast<std::size_t>(row) * static_cast<std::size_t>(before.cols)];
-    };
-    const std::uint8_t *const upper = rowOf(r + dy), *const lower = rowOf(r + dy + 1);
+    const int row = std::clamp(top + r - part.top, 0, then.rows - 1);
+    const std::uint8_t* const there = &then.codes[static_cast<std::size_t>(row) * static_cast<std::size_t>(then.cols)];
     for (int c = part.left; c < part.right; ++c) {
-      const int x = inside ? c + dx : std::clamp(c + dx, 0, before.cols - 1);
-      const int next = inside ? x + 1 : std::clamp(c + dx + 1, 0, before.cols - 1);
-      const int there = (w00 * upper[x] + w01 * upper[next] + w10 * lower[x] + w11 * lower[next] + 8) >> 4;
-      sum += std::abs(here[c] - there);
+      sum += std::abs(here[c] - there[std::clamp(left + c - part.left, 0, then.cols - 1)]);
     }
   }
   return sum;
@@ -48,7 +115,7 @@ int differenceOf(const GrayPicture& before, const GrayPicture& now, const Part& 
 // The vectors of a level's blocks.
 class BlockSearch {
  public:
-  BlockSearch(const GrayPicture& before, const GrayPicture& now)
+  BlockSearch(const QuarterPictures& before, const GrayPicture& now)
       : before_(&before),
         now_(&now),
         across_((now.cols + kBlock - 1) / kBlock),
@@ -95,8 +162,16 @@ class BlockSearch {
       cost = there;
       return true;
     };
-    look({});
-    for (const auto& [x, y] : kAround) look(of(i + x, j + y));
+    std::array<Motion, 6> looked{best};
+    std::size_t count = 1;
+    const auto lookOnce = [&](const Motion& other) {
+      const auto end = looked.begin() + static_cast<std::ptrdiff_t>(count);
+      if (std::find(looked.begin(), end, other) != end) return;
+      looked[count++] = other;
+      look(other);
+    };
+    lookOnce({});
+    for (const auto& [x, y] : kAround) lookOnce(of(i + x, j + y));
     for (int quarters = 8; quarters >= least_quarters; quarters /= 2) {
       const float step = 0.25F * static_cast<float>(quarters);
       for (bool better = true; better;) {
@@ -121,7 +196,8 @@ class BlockSearch {
     return own + differenceOf(*before_, *now_, part, v, most - own);
   }
 
-  const GrayPicture *before_, *now_;
+  const QuarterPictures* before_;
+  const GrayPicture* now_;
   int across_, down_;
   std::vector<Motion> vectors_;
 };
@@ -131,7 +207,9 @@ GrayPicture halved(const GrayPicture& p) {
 }
 
 Part around(const GrayPicture& p, int c, int r) {
-  return {std::max(c - 2, 0), std::max(r - 2, 0), std::min(c + 3, p.cols), std::min(r + 3, p.rows)};
+  constexpr int kReach = kNear / 2;
+  return {std::max(c - kReach, 0), std::max(r - kReach, 0), std::min(c + kReach + 1, p.cols),
+          std::min(r + kReach + 1, p.rows)};
 }
 
 // A sample that has been there by chance, among those that have not.
@@ -153,15 +231,15 @@ std::vector<bool> withoutIslands(const std::vector<bool>& is_new, const GrayPict
 }
 
 // The vector of the nine blocks around a sample that fits best over 5 x 5 samples; of equal ones the own block's.
-Motion bestHere(const BlockSearch& blocks, const GrayPicture& before, const GrayPicture& now, int c, int r) {
+Motion bestHere(const BlockSearch& blocks, const QuarterPictures& before, const GrayPicture& now, int c, int r) {
   const Motion own = blocks.of(c / kBlock, r / kBlock);
   const Part part = around(now, c, r);
-  Motion best = own;
+  Motion best = own, last = own;
   std::optional<int> cost;
   for (int j = -1; j <= 1; ++j) {
     for (int i = -1; i <= 1; ++i) {
       const Motion& other = blocks.of(c / kBlock + i, r / kBlock + j);
-      if (std::abs(other.x - own.x) + std::abs(other.y - own.y) < 0.5F) continue;
+      if (other == std::exchange(last, other) || std::abs(other.x - own.x) + std::abs(other.y - own.y) < 0.5F) continue;
       if (!cost) cost = differenceOf(before, now, part, own, kHighest) - 1;
       const int there = differenceOf(before, now, part, other, *cost);
       if (there >= *cost) continue;
@@ -192,12 +270,13 @@ GrayPicture scaledTo(int cols, int rows, const std::uint8_t* codes, int width, i
 }
 
 std::vector<Motion> motionBetween(const GrayPicture& before, const GrayPicture& now) {
-  std::array<GrayPicture, kLevels> from{before}, to{now};
+  std::vector<QuarterPictures> from{QuarterPictures(before)};
+  std::vector<GrayPicture> to{now};
   for (std::size_t k = 1; k < kLevels; ++k) {
-    from[k] = halved(from[k - 1]);
-    to[k] = halved(to[k - 1]);
+    from.emplace_back(halved(from.back().picture()));
+    to.push_back(halved(to.back()));
   }
-  BlockSearch blocks(from[kLevels - 1], to[kLevels - 1]);
+  BlockSearch blocks(from.back(), to.back());
   blocks.search(4);
   for (std::size_t k = kLevels - 1; k-- > 0;) {
     BlockSearch finer(from[k], to[k]);
@@ -208,7 +287,7 @@ std::vector<Motion> motionBetween(const GrayPicture& before, const GrayPicture& 
   std::vector<Motion> motion;
   motion.reserve(now.codes.size());
   for (int r = 0; r < now.rows; ++r) {
-    for (int c = 0; c < now.cols; ++c) motion.push_back(bestHere(blocks, before, now, c, r));
+    for (int c = 0; c < now.cols; ++c) motion.push_back(bestHere(blocks, from[0], now, c, r));
   }
   return motion;
 }
@@ -217,6 +296,7 @@ std::vector<bool> uncovered(const GrayPicture& before, const GrayPicture& now, c
                             const std::vector<Motion>& back) {
   constexpr float kElsewhere = 1.5F;  // samples
   constexpr int kUnlikeIt = 6;        // codes, in the mean
+  const QuarterPictures from(before);
   std::vector<bool> result(motion.size());
   for (std::size_t i = 0; i < motion.size(); ++i) {
     const int c = static_cast<int>(i) % now.cols, r = static_cast<int>(i) / now.cols;
@@ -228,7 +308,7 @@ std::vector<bool> uncovered(const GrayPicture& before, const GrayPicture& now, c
     if (std::abs(u.x + v.x) + std::abs(u.y + v.y) < kElsewhere) continue;
     const Part part = around(now, c, r);
     const int samples = (part.right - part.left) * (part.bottom - part.top);
-    result[i] = differenceOf(before, now, part, v, kHighest) > kUnlikeIt * samples;
+    result[i] = differenceOf(from, now, part, v, kHighest) > kUnlikeIt * samples;
   }
   return withoutIslands(result, now);
 }

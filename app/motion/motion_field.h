@@ -24,6 +24,7 @@ struct GrayPicture {
 
 struct Motion {
   float x = 0, y = 0;  // samples
+  bool operator==(const Motion&) const = default;
 };
 
 // For each sample of `now` where it was in `before`, relative to its own place: the best vector of blocks of 8 x 8 by

@@ -213,8 +213,10 @@ Outcome<AuthorSummary> Packager::finish() {
                                                 static_cast<unsigned long long>(not_later_)));
   }
   if (const auto end = material_ ? material_->endsAt() : std::nullopt) {
-    summary.notes.push_back(print("the map of the material ends with its shot, at %.2f s; a film of maps goes on",
-                                  toSeconds(end->time_since_epoch())));
+    summary.notes.push_back(
+        print("the painted material ends at the cut at %.2f s, the rest feels as if unpainted; for several "
+              "shots give --material a film of maps, one map for each time",
+              toSeconds(end->time_since_epoch())));
   }
   if (auto line = cut_.explain(); !line.empty()) summary.notes.push_back(std::move(line));
   for (std::string& line : sourceNotes(source_, info_, reader_.counters(), format_, coder_.counts())) {

@@ -187,7 +187,7 @@ class PaintedFilm : public testing::Test {
 TEST_F(PaintedFilm, AMapOverTheFirstPictureStaysOnItsThingUntilTheCut) {
   const AuthorSummary summary = author("map.png", {});
   EXPECT_EQ(summary.format.material_scale, "stiffness=1,friction=0.6/0.5,texture=0.2@0.8");
-  EXPECT_THAT(summary.notes, testing::Contains(testing::HasSubstr("ends with its shot, at 0.67 s")));
+  EXPECT_THAT(summary.notes, testing::Contains(testing::HasSubstr("painted material ends at the cut at 0.67 s")));
   EXPECT_THAT(toText("film", summary), testing::HasSubstr("material of each place: up to stiffness=1"));
   const test::ReadFilm film = readFilm(folder_ / "film.mkv");
   ASSERT_EQ(film.pairs.size(), static_cast<std::size_t>(kLong));
@@ -227,7 +227,8 @@ TEST_F(PaintedFilm, AFilmOfMapsIsTakenByItsTimes) {
   ClipTrack maps{.pix_fmt = "gray", .width = kWide, .height = kHigh, .fps_num = 10, .frames = 3};
   maps.sample = [](int, int, int, int k) { return 50U + 60U * static_cast<unsigned>(k); };
   makeClip(folder_ / "maps.mkv", {maps});
-  EXPECT_THAT(author("maps.mkv", {}).notes, testing::Not(testing::Contains(testing::HasSubstr("ends with its shot"))));
+  EXPECT_THAT(author("maps.mkv", {}).notes,
+              testing::Not(testing::Contains(testing::HasSubstr("painted material ends"))));
   const test::ReadFilm film = readFilm(folder_ / "film.mkv");
   for (std::size_t k = 0; k < film.pairs.size(); ++k) {
     EXPECT_NEAR(255 * at(film, k, 80, 60).stiffness, 50 + 60 * static_cast<double>(std::min<std::size_t>(k / 3, 2)),

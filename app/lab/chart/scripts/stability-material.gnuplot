@@ -23,7 +23,7 @@ set tmargin at screen 0.89
 set bmargin at screen 0.27
 unset key
 set style fill solid border lc rgb "#ffffff"
-size(v) = abs(v) < 0.0005 ? "0" : abs(v) < 0.995 ? sprintf("%.2g", v) : abs(v) < 9.95 ? sprintf("%.1f", v) : sprintf("%.0f", v)
+size(v) = abs(v) < 0.0005 ? "0" : abs(v) < 0.00995 ? sprintf("%.1g", v) : abs(v) < 0.995 ? sprintf("%.2g", v) : abs(v) < 9.95 ? sprintf("%.1f", v) : sprintf("%.0f", v)
 # A cell says it by its colour, by its mark and, where it failed, by a heavy border.
 cell(i, wanted) = int(column("pass")) == wanted ? x(i) : NaN
 plot ARG1 using (cell($0, 1)):(y($0)):(0.47):(0.45) with boxxyerror lc rgb "#cfe6f5", \
