@@ -23,7 +23,7 @@ ScreenContent everything(const char* title) {
                           .chapters = {0, 0.25},
                           .pointed = 0.7,
                           .pointed_time = "43:27"};
-  content.force_n = 3.2;
+  content.forces_n[0] = 3.2;
   content.notice = ScreenNotice{"Volume 80 %", 0.6};
   content.warning = "haptic device lost";
   return content;

@@ -404,7 +404,7 @@ TEST_F(LabCharts, ThePageHoldsEveryChartWithItsWordsAndItsFigures) {
         << name << ": the page prints the reading as text already";
     EXPECT_TRUE(std::filesystem::exists(out(name + ".csv"))) << name;
   }
-  EXPECT_EQ(charts, withoutEgl(result_) ? 17 : 18);
+  EXPECT_EQ(charts, withoutEgl(result_) ? 18 : 19);
   EXPECT_EQ(page.find("nan"), std::string::npos);
 }
 

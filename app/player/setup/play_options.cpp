@@ -93,7 +93,8 @@ CLI::Option* addBackEnd(CLI::App& command, const char* option, BackEndName& chos
     if (given.size() > 1) *second = nameOf(given.back());
   };
   return command.add_option_function<std::vector<std::string>>(option, take, std::string(help) + "\n" + names)
-      ->allow_extra_args(false)
+      ->expected(1)
+      ->take_all()
       ->default_str(chosen.text())
       ->check(CLI::Validator(judge, ""))
       ->type_name("NAME");

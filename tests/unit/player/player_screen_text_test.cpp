@@ -44,14 +44,14 @@ TEST(ScreenText, TellsBothFingers) {
   ScreenFacts facts = playing();
   facts.fingers[1] = {.haptic = "Xbox pad", .force_n = 0.5, .across = 0.6, .up = 0};
   const ScreenContent content = at(text, facts);
-  EXPECT_EQ(content.bar->status, "3D: tab   touch: Novint Falcon, in contact and Xbox pad");
+  EXPECT_EQ(content.bar->status, "3D: top and bottom   touch: Novint Falcon, in contact and Xbox pad");
   EXPECT_TRUE(content.forces_n[0]);
   EXPECT_EQ(content.forces_n[1], 0.5);
   EXPECT_FALSE(content.fingers[0]);
   EXPECT_EQ(content.fingers[1], (FingerBeside{0.6, 0}));
   facts.has_depth = false;
   EXPECT_EQ(at(text, facts).bar->status.substr(3),
-            " tab, flat: the film has no depth   touch: Novint Falcon and "
+            " top and bottom, flat: the film has no depth   touch: Novint Falcon and "
             "Xbox pad, nothing to feel");
 }
 
