@@ -95,6 +95,7 @@ CLI::Option* addBackEnd(CLI::App& command, const char* option, BackEndName& chos
   return command.add_option_function<std::vector<std::string>>(option, take, std::string(help) + "\n" + names)
       ->expected(1)
       ->take_all()
+      ->allow_extra_args(false)
       ->default_str(chosen.text())
       ->check(CLI::Validator(judge, ""))
       ->type_name("NAME");
