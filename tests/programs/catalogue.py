@@ -78,8 +78,12 @@ class Catalogue:
                     with open(f"/proc/{process}/cmdline", "rb") as line:
                         words = line.read().decode().split("\0")
                     if words[0].endswith("relievo-author") and os.readlink(f"/proc/{process}/cwd") == self.folder:
-                        os.kill(int(process), signal.SIGKILL)
-                        return os.path.basename(words[words.index("-o") + 1])
+                        film = os.path.basename(words[words.index("-o") + 1])
+                        os.kill(int(process), signal.SIGSTOP)
+                        if film not in self.made():
+                            os.kill(int(process), signal.SIGKILL)
+                            return film
+                        os.kill(int(process), signal.SIGCONT)
             time.sleep(.01)
         raise SystemExit("catalogue: no author was at work")
 
