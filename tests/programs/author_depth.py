@@ -143,7 +143,8 @@ class Inputs(seeds.Maker):
         heights = [[value / 255 for value in picture] for picture in gray]
         chroma = bytes([128]) * (COLS * ROWS // 2)
         color = [bytes([40 + 10 * k + c % 50 for _, c in PLACES]) for k in range(PICTURES)]
-        full = ("-c:v", "ffv1", "-color_range", "pc")  # FFV1 has no yuvj420p: FFmpeg would make it limited
+        # Declared before the encoder, which would scale it (FFmpeg 7) or, as yuvj420p, make it limited (FFV1 has none).
+        full = ("-vf", "setparams=range=pc", "-c:v", "ffv1", "-color_range", "pc")
         beside = [b"".join(a[r * COLS:(r + 1) * COLS] + b[r * COLS:(r + 1) * COLS] for r in range(ROWS)) + chroma * 2
                   for a, b in zip(color, gray)]
         path = self.raw("sbs.mkv", beside, "yuv420p", *full, cols=2 * COLS)
