@@ -12,7 +12,7 @@
 #include "app/media/pair_reader.h"
 #include "app/player/film/live_times.h"
 #include "app/player/film/seek_times.h"
-#include "app/player/film/sound.h"
+#include "app/player/sound/sound.h"
 #include "app/player/state_table.h"
 #include "app/player/touch/haptic_session.h"
 #include "app/player/views/relief_maker.h"

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "tests/contract/films.h"
-#include "tests/support/film/bag_writer.h"
+#include "tests/support/film/recording/bag_writer.h"
 
 namespace relievo::test {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "tests/contract/films.h"
-#include "tests/support/film/oni_writer.h"
+#include "tests/support/film/recording/oni_writer.h"
 
 namespace relievo::test {
 

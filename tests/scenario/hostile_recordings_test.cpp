@@ -16,12 +16,12 @@
 #include <iterator>
 #include <random>
 
-#include "tests/support/film/bag_writer.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/damage.h"
-#include "tests/support/film/heic_writer.h"
-#include "tests/support/film/kinect_mkv.h"
-#include "tests/support/film/oni_writer.h"
+#include "tests/support/film/recording/bag_writer.h"
+#include "tests/support/film/recording/heic_writer.h"
+#include "tests/support/film/recording/kinect_mkv.h"
+#include "tests/support/film/recording/oni_writer.h"
 #include "tests/support/machine/sanitizers.h"
 
 namespace relievo {

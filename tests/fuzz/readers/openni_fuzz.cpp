@@ -5,7 +5,7 @@
 
 #include "drivers/openni/openni.h"
 #include "tests/fuzz/film_fuzz.h"
-#include "tests/support/film/oni_writer.h"
+#include "tests/support/film/recording/oni_writer.h"
 
 namespace relievo {
 namespace {

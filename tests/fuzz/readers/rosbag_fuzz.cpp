@@ -5,7 +5,7 @@
 
 #include "drivers/rosbag/rosbag.h"
 #include "tests/fuzz/film_fuzz.h"
-#include "tests/support/film/bag_writer.h"
+#include "tests/support/film/recording/bag_writer.h"
 
 namespace relievo {
 namespace {

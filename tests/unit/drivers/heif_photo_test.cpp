@@ -8,8 +8,8 @@
 
 #include "drivers/heif/heif.h"
 #include "tests/support/film/clip_maker.h"
-#include "tests/support/film/heic_writer.h"
 #include "tests/support/film/opened_film.h"
+#include "tests/support/film/recording/heic_writer.h"
 
 namespace relievo {
 namespace {

@@ -11,7 +11,7 @@
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/openni/depth_codec.h"
 #include "tests/support/film/clip_maker.h"
-#include "tests/support/film/oni_writer.h"
+#include "tests/support/film/recording/oni_writer.h"
 
 namespace relievo {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "app/media/registration/registration.h"
 #include "drivers/ffmpeg/ffmpeg.h"
-#include "tests/support/film/bag_writer.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/film/recording/bag_writer.h"
 
 namespace relievo {
 namespace {

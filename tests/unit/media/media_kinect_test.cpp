@@ -10,7 +10,7 @@
 #include "app/media/registration/own_registration.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "tests/support/film/clip_maker.h"
-#include "tests/support/film/kinect_mkv.h"
+#include "tests/support/film/recording/kinect_mkv.h"
 
 namespace relievo {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A small file of numbers.
-#include "app/player/film/loudness.h"
+#include "app/player/sound/loudness.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/support/film/oni_writer.h"
+#include "tests/support/film/recording/oni_writer.h"
 
 #include <algorithm>
 #include <cstdlib>

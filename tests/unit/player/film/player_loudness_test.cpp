@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Volume, mute, and what is remembered of them.
-#include "app/player/film/loudness.h"
+#include "app/player/sound/loudness.h"
 
 #include <gtest/gtest.h>
 

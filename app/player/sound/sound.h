@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "app/media/film_feed.h"
-#include "app/player/film/sound_gain.h"
-#include "app/player/film/sound_window.h"
+#include "app/player/sound/sound_gain.h"
+#include "app/player/sound/sound_window.h"
 #include "hal/audio_output.h"
 #include "hal/media/media_clock.h"
 #include "platform/clock.h"

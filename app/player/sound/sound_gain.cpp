@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A straight line from one gain to the next.
-#include "app/player/film/sound_gain.h"
+#include "app/player/sound/sound_gain.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes bags by the published description of the format.
-#include "tests/support/film/bag_writer.h"
+#include "tests/support/film/recording/bag_writer.h"
 
 #include <bzlib.h>
 #include <lz4frame.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/support/film/heic_writer.h"
+#include "tests/support/film/recording/heic_writer.h"
 
 #include <stdexcept>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes EBML by Matroska's element list.
-#include "tests/support/film/kinect_mkv.h"
+#include "tests/support/film/recording/kinect_mkv.h"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/player/film/sound_window.h"
+#include "app/player/sound/sound_window.h"
 
 namespace relievo {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pieces of sound on a line of frames.
-#include "app/player/film/sound_window.h"
+#include "app/player/sound/sound_window.h"
 
 #include <algorithm>
 #include <cmath>

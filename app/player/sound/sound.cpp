@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The loop between the output's position and the film's clock.
-#include "app/player/film/sound.h"
+#include "app/player/sound/sound.h"
 
 #include <algorithm>
 #include <cmath>
