@@ -28,7 +28,7 @@ std::string folderOf(std::string_view path) {
 }
 
 bool isRegistry(std::string_view path) {
-  return path == "drivers/registry.h" || path == "drivers/registry.cpp";
+  return folderOf(path) == "drivers" && path.starts_with("drivers/registry");
 }
 
 // What the rooms of the application may use of one another, besides hal and platform. A file's room is the longest
