@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "app/media/depth_picture.h"
-#include "app/media/pair_film.h"
+#include "app/media/pairs/pair_film.h"
 #include "app/media/reading/stereo_pair.h"
 #include "platform/log.h"
 

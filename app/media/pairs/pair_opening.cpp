@@ -5,7 +5,7 @@
 
 #include "app/media/film_folder.h"
 #include "app/media/frame_rate.h"
-#include "app/media/pair_film.h"
+#include "app/media/pairs/pair_film.h"
 #include "app/media/registration/own_registration.h"
 #include "platform/print.h"
 

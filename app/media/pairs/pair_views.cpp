@@ -3,7 +3,7 @@
 // channel.
 #include <optional>
 
-#include "app/media/pair_film.h"
+#include "app/media/pairs/pair_film.h"
 #include "app/media/reading/picture_look.h"
 #include "app/media/reading/stereo_pair.h"
 #include "hal/media/media_names.h"

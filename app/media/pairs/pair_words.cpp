@@ -2,7 +2,7 @@
 // The sound and the subtitles of a film of pairs.
 #include <utility>
 
-#include "app/media/pair_film.h"
+#include "app/media/pairs/pair_film.h"
 #include "platform/log.h"
 
 namespace relievo {

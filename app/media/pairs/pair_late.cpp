@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "app/media/pair_film.h"
+#include "app/media/pairs/pair_film.h"
 #include "app/media/pair_reader.h"
 
 namespace relievo {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "app/media/film_folder.h"
-#include "app/media/pair_film.h"
+#include "app/media/pairs/pair_film.h"
 #include "app/media/reading/code_count.h"
 #include "app/media/reading/color_map_fit.h"
 #include "app/media/reading/depth_doubts.h"

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "app/media/pair_film.h"
+#include "app/media/pairs/pair_film.h"
 #include "app/media/reading/picture_look.h"
 #include "platform/files/answered_place.h"
 #include "platform/log.h"

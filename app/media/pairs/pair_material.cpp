@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads the material track beside the colour: a film without it, or whose track fails, is felt as a whole.
-#include "app/media/pair_film.h"
+#include "app/media/pairs/pair_film.h"
 #include "platform/log.h"
 
 namespace relievo {
