@@ -72,9 +72,9 @@ std::optional<SaidViews> saidViews(const StreamInfo& track, const Frame& picture
 bool PairReader::Impl::takeSaidViews(const StreamInfo& color, const Frame& look) {
   const auto said = saidViews(color, look, options.url);
   if (!said) return false;
-  right_first = said->right_first;
+  views.right_first = said->right_first;
   const auto squeezed = color.tags.find(kSqueezedTag);
-  if (squeezed != color.tags.end()) views_squeezed = squeezed->second == "1";
+  if (squeezed != color.tags.end()) views.squeezed = squeezed->second == "1";
   if (said->packing == Packing::Auto)
     info.reading.doubts.push_back(print("%s %s, in a way that is not shown; %s", said->by, kViews, kWhatToDo));
   else showViews(said->packing, said->by);
@@ -83,12 +83,12 @@ bool PairReader::Impl::takeSaidViews(const StreamInfo& color, const Frame& look)
 
 // By the likeness of the halves and the break between them.
 void PairReader::Impl::lookForViews(const Frame& look) {
-  const auto views = findViews(look);
-  if (!views) return;
-  const bool beside = *views == Packing::StereoSideBySide;
+  const auto found = findViews(look);
+  if (!found) return;
+  const bool beside = *found == Packing::StereoSideBySide;
   const std::string halves = beside ? "the left and right halves" : "the upper and lower halves";
-  if (breaksInTheMiddle(look, beside)) showViews(*views, (halves + " are").c_str());
-  else info.reading.doubts.push_back(print("%s may be %s; if so, --packing %s", halves.c_str(), kViews, name(*views)));
+  if (breaksInTheMiddle(look, beside)) showViews(*found, (halves + " are").c_str());
+  else info.reading.doubts.push_back(print("%s may be %s; if so, --packing %s", halves.c_str(), kViews, name(*found)));
 }
 
 void PairReader::Impl::showViews(Packing packing, const char* by) {
@@ -98,15 +98,16 @@ void PairReader::Impl::showViews(Packing packing, const char* by) {
 
 // Whether the picture can be what the user says.
 void PairReader::Impl::checkViews(const StreamInfo& color) {
-  const auto views = viewsOf(tellingPicture(color_ahead[0], options.url, color.index), info.packing, right_first);
-  if (!views || !areOtherPictures(views->left, views->right)) return;
-  other_pictures = true;
+  const Frame look = tellingPicture(color_ahead[0], options.url, color.index);
+  const auto seen = viewsOf(look, info.packing, views.right_first);
+  if (!seen || !areOtherPictures(seen->left, seen->right)) return;
+  views.are_other_pictures = true;
   info.reading.doubts.emplace_back(kOtherPictures);
 }
 
 // Depth that is made of each pair's views after it was read.
 void PairReader::Impl::takeDepthFromViews() {
-  if (options.depth_from != DepthFrom::Views || other_pictures) return;
+  if (options.depth_from != DepthFrom::Views || views.are_other_pictures) return;
   const bool two_views = isStereo(info.packing) || info.packing == Packing::StereoTracks;
   if (!two_views) {
     info.reading.doubts.emplace_back(info.has_depth ? kHasDepth : kOneView);
