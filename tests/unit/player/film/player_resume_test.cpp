@@ -3,7 +3,6 @@
 #include "app/player/film/resume.h"
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -12,6 +11,7 @@
 #include <fstream>
 
 #include "platform/log.h"
+#include "tests/support/machine/process.h"
 
 namespace relievo {
 namespace {
@@ -95,27 +95,15 @@ TEST_F(ResumeTest, WhereNothingCanBeWrittenItGoesOnWithout) {
   EXPECT_EQ(at(resume, "a"), 10);
 }
 
-// The program that the next test kills.
-TEST(KilledResume, DISABLED_KeepsWithoutEnd) {
-  Resume resume(std::getenv("RELIEVO_TEST_RESUME"));
-  for (int i = 1;; ++i) resume.keep("film " + std::to_string(i % 150) + std::string(2000, 'x'), mediaTime(2 + i));
-}
-
 // Killed at any moment, the file is the old one or the new one.
 TEST_F(ResumeTest, AKillLeavesAWholeFile) {
-  ::setenv("RELIEVO_TEST_RESUME", path_.c_str(), 1);
   for (int round = 0; round < 10; ++round) {
-    const pid_t child = ::fork();
-    if (child == 0) {  // a program of its own, since files are written by threads, which a fork does not have
-      ::execl("/proc/self/exe", "player_resume_test", "--gtest_filter=KilledResume.*",
-              "--gtest_also_run_disabled_tests", "--gtest_brief=1", nullptr);
-      ::_exit(1);
-    }
+    test::Process keeper({PLACE_KEEPER, path_}, testing::TempDir() + "place-keeper.txt");
     // A busy machine may be long in coming to the first file.
     for (int i = 0; i < 10'000 && !std::filesystem::exists(path_); ++i) ::usleep(1'000);
     ::usleep(static_cast<useconds_t>(3'000 * round));
-    ::kill(child, SIGKILL);
-    ::waitpid(child, nullptr, 0);
+    keeper.send(SIGKILL);
+    ASSERT_EQ(keeper.wait(), -SIGKILL);
     ASSERT_TRUE(std::filesystem::exists(path_));
     std::ifstream file(path_);
     const std::string text((std::istreambuf_iterator<char>(file)), {});
