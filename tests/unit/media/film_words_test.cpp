@@ -121,6 +121,10 @@ TEST_F(FilmWords, TracksChaptersAndLanguagesInTheFilm) {
   reader.chooseTracks(info.sound, 0);
   ASSERT_TRUE(reader.seek(mediaTime(1)));
   EXPECT_THAT(readAll(reader), testing::Contains("3-3.5 Two"));
+
+  // Switched on while a line runs: what was read before the switch comes at once, of that track alone.
+  reader.chooseTracks(info.sound, 1);
+  EXPECT_THAT(takeWords(reader), testing::IsSupersetOf({"0.6-1 Un", "3.2-3.6 Deux"}));
   reader.chooseTracks(info.sound, std::nullopt);
   ASSERT_TRUE(reader.seek(mediaTime(0)));
   EXPECT_THAT(readAll(reader), IsEmpty());
