@@ -93,6 +93,14 @@ TEST_F(FilmWords, AFileThatIsNoneIsLeftOut) {
   EXPECT_THAT(wordsBeside(), IsEmpty());
 }
 
+TEST_F(FilmWords, ASubtitleFileIsNoFilmAndSaysWhatIs) {
+  write("alone.srt", "1\n00:00:00,400 --> 00:00:00,800\nOne\n");
+  PairReader reader(backends());
+  const auto opened = reader.open({.url = folder_ / "alone.srt"});
+  ASSERT_FALSE(opened);
+  EXPECT_THAT(opened.error().message, HasSubstr("subtitles; give the film"));
+}
+
 TEST_F(FilmWords, TracksChaptersAndLanguagesInTheFilm) {
   write("a.srt", "1\n00:00:00,400 --> 00:00:00,800\nOne\n\n2\n00:00:03,000 --> 00:00:03,500\nTwo\n");
   write("b.srt", "1\n00:00:00,600 --> 00:00:01,000\nUn\n\n2\n00:00:03,200 --> 00:00:03,600\nDeux\n");
