@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program of the box: chooses the back ends, plays or probes, and says in one line what went wrong.
 #include <atomic>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
@@ -18,6 +19,7 @@
 #include "app/player/film/probe.h"
 #include "app/player/player.h"
 #include "app/player/setup/config_file.h"
+#include "app/player/setup/near_file.h"
 #include "app/player/setup/options.h"
 #include "app/player/setup/play_files.h"
 #include "app/player/setup/self_test.h"
@@ -123,6 +125,14 @@ Outcome<Devices> makeDevices(const PlayOptions& options, const FileConfig& confi
                  std::move(*remote),  std::move(*audio),  std::move(*make_decoder)};
 }
 
+// "sampel.mkv (sample.mkv?): no such file; .."
+int tellWithNearFile(Failure failure) {
+  if (failure.error.code == ErrorCode::NotFound && failure.error.os_error == ENOENT) {
+    if (const std::string near = nearFile(failure.thing); !near.empty()) failure.thing += " (" + near + "?)";
+  }
+  return tell(failure);
+}
+
 int play(PlayOptions options, const FileConfig& config) {
   const std::atomic<bool>& stop = stopOnSignals(drivers::stopAllMotors);
   const CancelsAnswers cancels(stop);
@@ -155,7 +165,7 @@ int play(PlayOptions options, const FileConfig& config) {
   const auto played = player.run(stop);
   const PlayReport report = player.report();
   const int files = finishFiles(report, *outputs);
-  if (!played) return tell(played.error());
+  if (!played) return tellWithNearFile(played.error());
   std::fputs(toText(report, options.verbose).c_str(), stdout);
   if (for_a_time && report.frames_shown == 0 && !report.source.empty() && !stop)
     return tell({report.source, kNoPicture});
@@ -173,7 +183,7 @@ int listDevices(const FileConfig& config) {
   MonotonicClock clock;
   bool any = false;
   for (const auto& each : drivers::lookAtDevices(settingsOf(config), clock)) {
-    std::printf("%-7s %-20s %-6s %s\n", each.kind, each.name.c_str(), each.there ? "there" : "-", each.state.c_str());
+    std::printf("%-7s %-24s %-6s %s\n", each.kind, each.name.c_str(), each.there ? "there" : "-", each.state.c_str());
     any = any || each.there;
   }
   std::puts(any ? "`relievo FILM` takes a haptic device that is there, else the mouse; --haptic NAME chooses one."

@@ -81,10 +81,22 @@ std::optional<Packing> packingTag(const Tags& tags) {
   return std::nullopt;
 }
 
+Error noPicture(const MediaSource& source) noexcept {
+  const auto has = [&source](StreamKind kind) {
+    return std::ranges::any_of(source.streams(), [kind](const StreamInfo& each) { return each.kind == kind; });
+  };
+  if (has(StreamKind::Audio)) return {ErrorCode::NotFound, 0, "it is sound without a picture; give a film"};
+  if (has(StreamKind::Subtitle)) {
+    return {ErrorCode::NotFound, 0,
+            "it holds subtitles; give the film: a subtitle file of its name is found beside it"};
+  }
+  return {ErrorCode::NotFound, 0, "there is no video in it"};
+}
+
 // Colour and depth.
 Result<TrackPlan> planPictures(const MediaSource& source, Packing packing, bool depth_elsewhere) {
   const auto tracks = videoTracks(source);
-  if (tracks.empty()) return fail(ErrorCode::NotFound, "there is no video in it");
+  if (tracks.empty()) return std::unexpected(noPicture(source));
   if (isPacked(packing) || isStereo(packing)) return TrackPlan{tracks[0], nullptr, nullptr, packing};
   if (packing == Packing::StereoTracks) {
     if (depth_elsewhere) return TrackPlan{tracks[0], nullptr, nullptr, packing};

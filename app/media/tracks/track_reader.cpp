@@ -121,7 +121,7 @@ Result<bool> TrackReader::readOnePacket() {
     sound_.keep(std::move(**packet));
     return true;
   }
-  if (read.stream == words_.stream()) {
+  if (isWords(read.stream)) {
     words_.keep(std::move(**packet));
     return true;
   }
@@ -130,6 +130,12 @@ Result<bool> TrackReader::readOnePacket() {
     if (tracks_[i].stream == (*packet)->stream) keep(tracks_[i], std::move(**packet));
   }
   return true;
+}
+
+bool TrackReader::isWords(int stream) const {
+  return std::ranges::any_of(source_->streams(), [stream](const StreamInfo& each) {
+    return each.index == stream && each.kind == StreamKind::Subtitle;
+  });
 }
 
 bool TrackReader::isWanted(Track& track, const Packet& packet) const {
