@@ -27,6 +27,7 @@
 #include "drivers/registry.h"
 #include "platform/atomic_file.h"
 #include "platform/clock.h"
+#include "platform/files/answered_place.h"
 #include "platform/files/file_system_answer.h"
 #include "platform/log.h"
 
@@ -77,8 +78,7 @@ Outcome<void> complete(PlayOptions& options) {
     if (!options.resume) return {};
     return failOn("--resume", {ErrorCode::NotFound, 0, "there is no home to remember in; set HOME or STATE_DIRECTORY"});
   }
-  std::error_code none;
-  std::filesystem::create_directories(std::filesystem::path(path).parent_path(), none);
+  makeFolders(std::filesystem::path(path).parent_path());
   const auto place = AtomicFile::create(path);
   if (!place && options.resume) return failOn("--resume " + path, place.error());
   if (place) options.player.resume_path = path;

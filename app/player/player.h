@@ -13,6 +13,7 @@
 #include "app/player/control/command.h"
 #include "app/player/control/key_table.h"
 #include "app/player/control/wishes.h"
+#include "app/player/file_writer.h"
 #include "app/player/film/film_playback.h"
 #include "app/player/film/programme.h"
 #include "app/player/film/seek_times.h"
@@ -170,6 +171,7 @@ class Player {
   PlayerConfig config_;
   PlayerParts parts_;
   Journal journal_;
+  FileWriter files_;
   Programme programme_;
   FilmPlayback film_;
   FilmTouch touch_;
