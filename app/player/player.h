@@ -15,6 +15,7 @@
 #include "app/player/control/loop_ab.h"
 #include "app/player/control/mouse_wishes.h"
 #include "app/player/control/wishes.h"
+#include "app/player/file_writer.h"
 #include "app/player/film/film_playback.h"
 #include "app/player/film/programme.h"
 #include "app/player/film/seek_times.h"
@@ -171,6 +172,7 @@ class Player {
   PlayerConfig config_;
   PlayerParts parts_;
   Journal journal_;
+  FileWriter files_;
   Programme programme_;
   FilmPlayback film_;
   FilmTouch touch_;

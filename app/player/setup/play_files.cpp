@@ -3,10 +3,10 @@
 #include "app/player/setup/play_files.h"
 
 #include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include "app/cli/program.h"
+#include "platform/files/answered_place.h"
 #include "platform/files/file_system_answer.h"
 
 namespace relievo {
@@ -27,8 +27,7 @@ Outcome<void> loadPlayFiles(PlayOptions& options) {
     if (!options.resume) return {};
     return failOn("--resume", {ErrorCode::NotFound, 0, "there is no home to remember in; set HOME or STATE_DIRECTORY"});
   }
-  std::error_code none;
-  std::filesystem::create_directories(std::filesystem::path(path).parent_path(), none);
+  makeFolders(std::filesystem::path(path).parent_path());
   const auto place = AtomicFile::create(path);
   if (!place && options.resume) return failOn("--resume " + path, place.error());
   if (place) options.player.resume_path = path;

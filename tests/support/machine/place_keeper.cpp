@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <string>
 
+#include "app/player/file_writer.h"
 #include "app/player/film/resume.h"
 
 int main(int argc, char** argv) {
@@ -10,7 +11,8 @@ int main(int argc, char** argv) {
     std::fputs("place_keeper: one argument is needed: the file to keep places in\n", stderr);
     return 2;
   }
-  relievo::Resume resume(argv[1]);
+  relievo::FileWriter files;
+  relievo::Resume resume(argv[1], files);
   for (int i = 1;; ++i) {
     resume.keep("film " + std::to_string(i % 150) + std::string(2000, 'x'), relievo::mediaTime(2 + i));
   }

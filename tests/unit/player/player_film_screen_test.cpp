@@ -20,7 +20,7 @@ class FilmScreenTest : public testing::Test {
     profile_.refresh_period = Duration(0);
     profile_.shown = [this] { ++presented_; };
     display_ = makeMockDisplay(profile_, clock_, cable_);
-    screen_.emplace(*display_, config_, stereo_, true, clock_, journal_);
+    screen_.emplace(*display_, config_, stereo_, true, clock_, journal_, files_);
     ASSERT_TRUE(screen_->open());
   }
   bool show() { return screen_->show({}, {}, clock_.now()).value_or(false); }
@@ -45,6 +45,7 @@ class FilmScreenTest : public testing::Test {
 
   ManualClock clock_;
   Journal journal_{clock_};
+  FileWriter files_{FileWriter::Where::AtOnce};
   MockDisplayProfile profile_;
   DisplayConfig config_;
   StereoSettings stereo_;
@@ -81,7 +82,7 @@ TEST_F(FilmScreenTest, ThePictureLiesAsTheSignalSaysThatTheTelevisionTakes) {
     const auto television = makeMockDisplay({.refresh_period = Duration(0), .stereo = wish.taken}, clock_);
     Journal journal(clock_);
     FilmScreen screen(*television, {.stereo = wish.wished, .other_stereo = true}, {.layout = wish.layout}, true, clock_,
-                      journal);
+                      journal, files_);
     ASSERT_TRUE(screen.open());
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(screen.show({}, {}, clock_.now()));
     PlayReport report;

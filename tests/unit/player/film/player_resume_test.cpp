@@ -30,19 +30,21 @@ class ResumeTest : public testing::Test {
     std::ofstream(path_) << text;
   }
 
+  FileWriter files_{FileWriter::Where::AtOnce};
   std::filesystem::path folder_ = testing::TempDir() + "resume-" + std::to_string(::getpid());
   std::string path_ = folder_ / "deep/resume.json";
 };
 
 TEST_F(ResumeTest, PositionsOutliveTheProgram) {
   {
-    Resume resume(path_);
+    FileWriter files;
+    Resume resume(path_, files);
     EXPECT_FALSE(resume.last());
     resume.keep("a.mkv", mediaTime(61.5));
     resume.keep("http://b/c d.mkv?e=\"f\"", mediaTime(7));
     resume.keep("a.mkv", mediaTime(62.5));
   }
-  const Resume again(path_);
+  const Resume again(path_, files_);
   EXPECT_DOUBLE_EQ(at(again, "a.mkv"), 62.5);
   EXPECT_EQ(at(again, "http://b/c d.mkv?e=\"f\""), 7);
   EXPECT_EQ(at(again, "other"), -1);
@@ -50,7 +52,7 @@ TEST_F(ResumeTest, PositionsOutliveTheProgram) {
 }
 
 TEST_F(ResumeTest, AFilmIsTheSameByWhateverPathItIsNamed) {
-  Resume resume(path_);
+  Resume resume(path_, files_);
   resume.keep("films/a.mkv", mediaTime(10));
   const auto here = std::filesystem::current_path();
   EXPECT_EQ(at(resume, here / "lists/../films/a.mkv"), 10);
@@ -59,7 +61,7 @@ TEST_F(ResumeTest, AFilmIsTheSameByWhateverPathItIsNamed) {
 }
 
 TEST_F(ResumeTest, WhatHasEndedOrHardlyBegunIsForgotten) {
-  Resume resume(path_);
+  Resume resume(path_, files_);
   resume.keep("a", mediaTime(10));
   resume.keep("b", mediaTime(10));
   resume.forget("a");
@@ -69,7 +71,7 @@ TEST_F(ResumeTest, WhatHasEndedOrHardlyBegunIsForgotten) {
 }
 
 TEST_F(ResumeTest, TheOldestFilmsAreDropped) {
-  Resume resume(path_);
+  Resume resume(path_, files_);
   for (int i = 0; i < 250; ++i) resume.keep(std::to_string(i), mediaTime(10));
   EXPECT_EQ(at(resume, "49"), -1);
   EXPECT_EQ(at(resume, "50"), 10);
@@ -79,18 +81,18 @@ TEST_F(ResumeTest, OfADamagedFileWhatMakesSenseIsKept) {
   path_ = folder_ / "resume.json";
   write(
       R"([["/good", 5], ["late", 1e9], ["before", -1], [7, 7], ["long", 1, 2], "x", ["word", "5"], ["/good too", 6.5]])");
-  const Resume resume(path_);
+  const Resume resume(path_, files_);
   EXPECT_EQ(at(resume, "/good"), 5);
   EXPECT_DOUBLE_EQ(at(resume, "/good too"), 6.5);
   for (const char* url : {"late", "before", "long", "x", "word"}) EXPECT_EQ(at(resume, url), -1) << url;
   for (const char* text : {"", "{", "[[\"good\", 5]", "{\"good\": 5}", "\xff\xfe"}) {
     write(text);
-    EXPECT_FALSE(Resume(path_).last()) << text;
+    EXPECT_FALSE(Resume(path_, files_).last()) << text;
   }
 }
 
 TEST_F(ResumeTest, WhereNothingCanBeWrittenItGoesOnWithout) {
-  Resume resume("/proc/nowhere/resume.json");
+  Resume resume("/proc/nowhere/resume.json", files_);
   resume.keep("a", mediaTime(10));
   EXPECT_EQ(at(resume, "a"), 10);
 }
@@ -108,7 +110,7 @@ TEST_F(ResumeTest, AKillLeavesAWholeFile) {
     std::ifstream file(path_);
     const std::string text((std::istreambuf_iterator<char>(file)), {});
     EXPECT_TRUE(text.starts_with("[") && text.ends_with("]\n")) << text.size();
-    EXPECT_TRUE(Resume(path_).last());
+    EXPECT_TRUE(Resume(path_, files_).last());
   }
 }
 
