@@ -57,9 +57,10 @@ const std::vector<Room>& rooms() {
        {"app/player", "app/scene", "app/media", "app/depth_window", "app/haptics/method", "app/haptics/task",
         "app/render", "app/cli", "app/stereo/quick"}},
       {"app/enhance", {"app/scene"}},
-      {"app/motion", {}},                                           // how the things of a picture have moved
-      {"app/stereo", {"app/stereo", "app/scene"}},                  // depth from two views
-      {"app/stereo/quick", {"app/stereo", "app/scene"}},            // the same, while a film plays, without a library
+      {"app/motion", {}},                           // how the things of a picture have moved
+      {"app/stereo", {"app/stereo", "app/scene"}},  // depth from two views
+      {"app/stereo/quick",
+       {"app/stereo", "app/scene", "app/motion"}},                  // the same, while a film plays, without a library
       {"app/estimate", {"app/scene", "app/motion", "app/stereo"}},  // depth guessed from one view
       {"app/author/sample", {"app/author", "app/scene", "app/coding"}},
       {"app/author",

@@ -37,6 +37,7 @@ Frame QuickDepth::depthOf(const Frame& left, const Frame& right) {
   if (cutsTo(left_)) {
     range_.reset();
     exposure_.reset();
+    steady_.begin();
     matched_cols_ = wished_cols_;
   }
   if (!range_) lower_ = 0;
@@ -120,6 +121,7 @@ void QuickDepth::match(DisparityMap& large) {
   fillHoles(filled_, small_left_);
   enlarge(filled_, small_left_, left_, large);
   sub_pixel_.refine(large, left_, right_);
+  steady_.steady(large, left_, right_);
 }
 
 Frame QuickDepth::codesOf(const DisparityMap& map) const {

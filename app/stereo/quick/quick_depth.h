@@ -10,6 +10,7 @@
 #include "app/stereo/exposure.h"
 #include "app/stereo/quick/quick_matching.h"
 #include "app/stereo/quick/small_view.h"
+#include "app/stereo/quick/steady_disparity.h"
 #include "app/stereo/quick/sub_pixel.h"
 #include "hal/media/frame.h"
 
@@ -62,6 +63,7 @@ class QuickDepth {
   QuickMatching matching_;
   DisparityMap filled_, large_;
   SubPixel sub_pixel_;
+  SteadyDisparity steady_;
 };
 
 }  // namespace relievo

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// How disparities change on the whole, place by place and surface by surface.
+#pragma once
+
+#include <vector>
+
+namespace relievo {
+
+// Means over cells of the picture and of disparity (a bilateral grid; Chen, Paris and Durand 2007), so that what moves
+// in front of a still wall leaves the wall still.
+class MotionGrid {
+ public:
+  // Empty, for a picture of this size and disparities from `lowest` to `highest`.
+  void begin(int cols, int rows, float lowest, float highest);
+  void add(int c, int r, float disparity, float change) noexcept;
+  // After all were added.
+  void smooth();
+  struct Change {
+    float pixels = 0;     // the mean around, between the cells; one that is no more than their noise counts little
+    float stillness = 1;  // near 1 where it is no more than noise, near 0 where it is much more
+  };
+  [[nodiscard]] Change at(int c, int r, float disparity) const noexcept;
+
+ private:
+  static constexpr int kCell = 16;       // pixels
+  static constexpr float kLayer = 1.5F;  // pixels of disparity
+
+  struct Cell {
+    float count = 0, sum = 0;
+  };
+  [[nodiscard]] std::size_t place(int x, int y, int layer) const noexcept {
+    return (static_cast<std::size_t>(layer) * static_cast<std::size_t>(rows_) + static_cast<std::size_t>(y)) *
+               static_cast<std::size_t>(cols_) +
+           static_cast<std::size_t>(x);
+  }
+  void smoothAlong(std::size_t stride, int length);
+
+  int cols_ = 0, rows_ = 0, layers_ = 0;
+  float lowest_ = 0;
+  std::vector<Cell> cells_, smoothed_;
+};
+
+}  // namespace relievo

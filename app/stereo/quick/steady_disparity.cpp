@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/stereo/quick/steady_disparity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace relievo {
+namespace {
+
+constexpr int kMotionCols = 160;       // in which motion is looked for
+constexpr int kSameColor = 12;         // levels of the three components, over 3 x 3 pixels in the mean
+constexpr float kSurface = 0.75F;      // pixels of disparity between two surfaces
+constexpr std::uint8_t kMemory = 24;   // pictures
+constexpr std::uint8_t kPatience = 8;  // pictures in a row that found another surface
+constexpr int kInferred = 3;           // seen pictures that an inferred disparity counts less than
+constexpr int kBeside = 3;             // pixels on each side that tell which surface both views show
+constexpr int kPlainly = 2;            // levels a pixel by which the other surface must fit better
+
+void lumaOf(const ViewPicture& view, std::vector<std::uint8_t>& luma) {
+  luma.resize(view.size());
+  for (std::size_t i = 0; i < luma.size(); ++i) luma[i] = view.yuv[3 * i];
+}
+
+// Of two pixels' colours, in levels.
+int unlikeness(const std::uint8_t* p, const std::uint8_t* q) {
+  return std::abs(p[0] - q[0]) + std::abs(p[1] - q[1]) + std::abs(p[2] - q[2]);
+}
+
+}  // namespace
+
+void SteadyDisparity::steady(DisparityMap& map, const ViewPicture& left, const ViewPicture& right) {
+  left_ = left.yuv;
+  lumaOf(left, left_luma_);
+  lumaOf(right, right_luma_);
+  const int cols = std::min(kMotionCols, map.cols), rows = std::max(1, map.rows * cols / map.cols);
+  GrayPicture now = scaledTo(cols, rows, left_luma_.data(), map.cols, map.rows);
+  const bool goes_on =
+      before_ && before_->cols == now.cols && before_->rows == now.rows && disparity_.size() == map.size();
+  was_.assign(map.size(), {});
+  if (goes_on) follow(map, now);
+  average(map);
+  before_ = std::move(now);
+  left_before_.swap(left_);
+}
+
+// Where it stands still, or where its neighbourhood has moved from: whichever has the surface that was found now.
+void SteadyDisparity::follow(DisparityMap& map, const GrayPicture& now) {
+  const std::vector<Motion> motion =
+      before_->codes == now.codes ? std::vector<Motion>(now.codes.size()) : motionBetween(*before_, now);
+  const float scale = static_cast<float>(map.cols) / static_cast<float>(now.cols);
+  findStill(map);
+  for (int r = 0; r < map.rows; ++r) {
+    const int y = std::min(r * now.rows / map.rows, now.rows - 1);
+    const Motion* const row = &motion[static_cast<std::size_t>(y) * static_cast<std::size_t>(now.cols)];
+    for (int c = 0; c < map.cols; ++c) {
+      const std::size_t i = map.at(c, r);
+      const Motion& v = row[c * now.cols / map.cols];
+      const Was still{still_[i] != 0, disparity_[i], age_[i], strays_[i]};
+      const auto agrees = [&](const Was& was) {
+        return was.same && std::abs(map.pixels[i] - was.disparity) < kSurface;
+      };
+      if (agrees(still) || v == Motion{}) {
+        was_[i] = still;
+      } else {
+        const Was moved = movedTo(map, c, r, {v.x * scale, v.y * scale});
+        was_[i] = still.same && !agrees(moved) ? still : moved;
+        was_[i].moved = !still.same;
+      }
+      if (was_[i].same) choose(map, c, r, was_[i]);
+    }
+  }
+}
+
+SteadyDisparity::Was SteadyDisparity::movedTo(const DisparityMap& map, int c, int r, const Motion& motion) const {
+  const float x = static_cast<float>(c) + motion.x, y = static_cast<float>(r) + motion.y;
+  const int dx = static_cast<int>(std::lround(motion.x)), dy = static_cast<int>(std::lround(motion.y));
+  if (x < 0 || y < 0 || x > static_cast<float>(map.cols - 1) || y > static_cast<float>(map.rows - 1)) return {};
+  if (!showsTheSame(map, c, r, dx, dy)) return {};
+  const std::size_t nearest = map.at(std::clamp(c + dx, 0, map.cols - 1), std::clamp(r + dy, 0, map.rows - 1));
+  Was was{true, disparity_[nearest], age_[nearest], strays_[nearest]};
+  const int i = std::min(static_cast<int>(x), map.cols - 2), j = std::min(static_cast<int>(y), map.rows - 2);
+  const float u = x - static_cast<float>(i), v = y - static_cast<float>(j);
+  const float* const p = &disparity_[map.at(i, j)];
+  const float a = p[0], b = p[1], d = p[map.cols], e = p[map.cols + 1];
+  const float least = std::min(std::min(a, b), std::min(d, e)), most = std::max(std::max(a, b), std::max(d, e));
+  if (most - least < kSurface) was.disparity = (1 - v) * ((1 - u) * a + u * b) + v * ((1 - u) * d + u * e);
+  return was;
+}
+
+bool SteadyDisparity::showsTheSame(const DisparityMap& map, int c, int r, int dx, int dy) const {
+  int sum = 0, count = 0;
+  for (int y = std::max({r - 1, 0, -dy}); y <= std::min({r + 1, map.rows - 1, map.rows - 1 - dy}); ++y) {
+    for (int x = std::max({c - 1, 0, -dx}); x <= std::min({c + 1, map.cols - 1, map.cols - 1 - dx}); ++x, ++count) {
+      sum += unlikeness(&left_[3 * map.at(x, y)], &left_before_[3 * map.at(x + dx, y + dy)]);
+    }
+  }
+  return count > 0 && sum < kSameColor * count;
+}
+
+// What showsTheSame tells of a place that has not moved, of all places at once.
+void SteadyDisparity::findStill(const DisparityMap& map) {
+  changes_.resize(map.size());
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    changes_[i] = static_cast<std::uint16_t>(unlikeness(&left_[3 * i], &left_before_[3 * i]));
+  }
+  still_.assign(map.size(), 0);
+  for (int r = 1; r + 1 < map.rows; ++r) {
+    const std::uint16_t* const above = &changes_[map.at(0, r - 1)];
+    const std::uint16_t *const here = above + map.cols, *const below = here + map.cols;
+    std::uint8_t* const out = &still_[map.at(0, r)];
+    for (std::ptrdiff_t c = 1; c + 1 < map.cols; ++c) {
+      const int sum = above[c - 1] + above[c] + above[c + 1] + here[c - 1] + here[c] + here[c + 1] + below[c - 1] +
+                      below[c] + below[c + 1];
+      out[c] = sum < 9 * kSameColor ? 1 : 0;
+    }
+  }
+  for (int r = 0; r < map.rows; ++r) {  // along the border
+    const bool outer = r == 0 || r + 1 == map.rows;
+    for (int c = 0; c < map.cols; c += outer ? 1 : std::max(1, map.cols - 1)) {
+      still_[map.at(c, r)] = showsTheSame(map, c, r, 0, 0) ? 1 : 0;
+    }
+  }
+}
+
+// Another surface than before at the same thing: the one at which both views look alike. What was seen often is kept
+// longer; what moves is not kept against what was seen now, since beside its edge lies something else.
+void SteadyDisparity::choose(DisparityMap& map, int c, int r, Was& was) const {
+  const std::size_t i = map.at(c, r);
+  if (std::abs(map.pixels[i] - was.disparity) < kSurface) {
+    was.strays = 0;
+    return;
+  }
+  if (map.seen[i] != 0) ++was.strays;
+  const bool given_up = was.strays >= (was.moved ? 1 : std::min(was.age, kPatience));
+  const bool plainly =
+      map.seen[i] != 0 && misfit(map, c, r, map.pixels[i]) + kPlainly < misfit(map, c, r, was.disparity);
+  if (plainly || given_up) was = {};
+  else map.pixels[i] = was.disparity;
+}
+
+// Levels a pixel between the left view around a pixel and the right one at that disparity.
+int SteadyDisparity::misfit(const DisparityMap& map, int c, int r, float disparity) const {
+  const int away = static_cast<int>(std::lround(disparity));
+  int sum = 0, count = 0;
+  for (int y = std::max(r - kBeside, 0); y <= std::min(r + kBeside, map.rows - 1); ++y) {
+    for (int x = std::max({c - kBeside, 0, away}); x <= std::min({c + kBeside, map.cols - 1, map.cols - 1 + away});
+         ++x) {
+      sum += std::abs(left_luma_[map.at(x, y)] - right_luma_[map.at(x - away, y)]);
+      ++count;
+    }
+  }
+  return count > 0 ? sum / count : 255;
+}
+
+void SteadyDisparity::average(DisparityMap& map) {
+  const auto [lowest, highest] = std::ranges::minmax(map.pixels);
+  towards_.begin(map.cols, map.rows, lowest, highest);
+  for (int r = 0; r < map.rows; ++r) {
+    for (int c = 0; c < map.cols; ++c) {
+      const std::size_t i = map.at(c, r);
+      if (was_[i].same && was_[i].strays == 0 && map.seen[i] != 0)
+        towards_.add(c, r, map.pixels[i], map.pixels[i] - was_[i].disparity);
+    }
+  }
+  towards_.smooth();
+  age_.resize(map.size());
+  strays_.resize(map.size());
+  for (int r = 0; r < map.rows; ++r) {
+    for (int c = 0; c < map.cols; ++c) {
+      const std::size_t i = map.at(c, r);
+      const Was& was = was_[i];
+      int age = was.age + (map.seen[i] != 0 ? 1 : 0);  // an inferred disparity tells little
+      if (was.same) {
+        const MotionGrid::Change change = towards_.at(c, r, map.pixels[i]);
+        age = std::min(age, static_cast<int>(kMemory * change.stillness));
+        const int weight = map.seen[i] != 0 ? std::max(age, 1) : age + kInferred;
+        const float moved = was.disparity + change.pixels;
+        map.pixels[i] = moved + (map.pixels[i] - moved) / static_cast<float>(weight);
+      }
+      age_[i] = static_cast<std::uint8_t>(age);
+      strays_[i] = was.strays;
+    }
+  }
+  disparity_ = map.pixels;
+}
+
+}  // namespace relievo
