@@ -28,6 +28,7 @@
 #endif
 #include "drivers/tiff/tiff.h"
 #include "drivers/v4l2/v4l2.h"
+#include "hal/media/media_names.h"
 
 #define RELIEVO_DECODER_NAMES "v4l2 gstreamer[:ELEMENT] ffmpeg"
 
@@ -76,9 +77,14 @@ const PhotoKind kPhotoKinds[] = {
 #endif
 };
 
-// Hardware leaves an alpha channel out.
+bool holdsTwoLayers(const StreamInfo& stream) {
+  const auto layers = stream.tags.find(kLayersTag);
+  return layers != stream.tags.end() && layers->second == "2" && ffmpegDecodesBothViews();
+}
+
+// Hardware leaves an alpha channel out, and the second of two views.
 bool isLeftToSoftware(const StreamInfo& stream) {
-  return isMock(stream) || isV4l2Raw(stream) || pictureFormat(stream) || saysAlpha(stream);
+  return isMock(stream) || isV4l2Raw(stream) || pictureFormat(stream) || saysAlpha(stream) || holdsTwoLayers(stream);
 }
 
 std::unique_ptr<VideoDecoder> withSoftwareBehind(std::vector<std::unique_ptr<VideoDecoder>> decoders,

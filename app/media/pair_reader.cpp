@@ -73,6 +73,12 @@ Result<FramePair> PairReader::Impl::pairFor(Frame color) {
     auto both = viewsOf(color, info.packing, views.right_first, views.squeezed);
     if (both) return FramePair{std::move(both->left), {}, true, {}, std::move(both->right)};
   }
+  if (info.packing == Packing::StereoLayers) {
+    Frame right = color.right ? *color.right : Frame{};
+    right.pts = color.pts;
+    color.right.reset();
+    return FramePair{std::move(color), {}, true, {}, std::move(right)};
+  }
   auto match = depthAt(color.pts);
   if (!match) return std::unexpected(match.error());
   if (info.packing == Packing::StereoTracks) {
