@@ -96,7 +96,7 @@ void addDepthFromOptions(CLI::App& app, Arguments& a) {
          "it reads raw pictures (RGB24 of\n$RELIEVO_WIDTH x $RELIEVO_HEIGHT) and writes as many of 16 bits, little "
          "endian, "
          "larger is nearer, in\ntheir order, up to 64 pictures late\nMODEL.onnx: a network that does so, as MiDaS and "
-         "Depth Anything do, through OpenCV")
+         "Depth Anything do")
       ->type_name("stereo|CMD|MODEL.onnx")
       ->excludes("--depth");
   app.add_option_function<std::string>(
