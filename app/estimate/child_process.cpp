@@ -94,7 +94,8 @@ int spawnShell(const std::string& command, const std::vector<std::string>& varia
 
 Result<ChildProcess> ChildProcess::start(const std::string& command, const std::vector<std::string>& variables) {
   auto in = makePipe(), out = makePipe(), said = makePipe(), life = makePipe();
-  if (!in || !out || !said || !life) return fail(ErrorCode::Exhausted, "no pipes for the command can be had", errno);
+  if (!in || !out || !said || !life)
+    return fail(ErrorCode::Exhausted, "no pipes can be made for the command; close other programs", errno);
   ChildProcess child;
   const int error =
       spawnShell(command, variables, {in->from.get(), out->to.get(), said->to.get(), life->from.get()}, child.pid_);

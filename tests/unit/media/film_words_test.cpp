@@ -125,7 +125,7 @@ TEST_F(FilmWords, TracksChaptersAndLanguagesInTheFilm) {
   EXPECT_EQ(info.chapters[1].begin, fromSeconds(2));
   EXPECT_THAT(readAll(reader), ElementsAre("0.6-1 Un", "3.2-3.6 Deux"));
 
-  // The other track, from a place in the film.
+  // The viewer chooses the other track in the middle of the film.
   reader.chooseTracks(info.sound, 0);
   ASSERT_TRUE(reader.seek(mediaTime(1)));
   EXPECT_THAT(readAll(reader), testing::Contains("3-3.5 Two"));
