@@ -183,10 +183,14 @@ std::optional<double> FilmScreen::barAt(const SurfaceMouse& mouse, MonotonicTime
   constexpr double kNear = 0.8;  // of the view's height
   const auto point = osd_ ? picture_.viewPoint(mouse.across, mouse.down) : std::nullopt;
   if (!point) return std::nullopt;
-  if (point->down > kNear) text_.wake(now);
-  const auto share = barShareAt(point->across, point->down, point->aspect);
+  drags_bar_ = drags_bar_ && mouse.pressed;
+  if (point->down > kNear || drags_bar_) text_.wake(now);
+  const auto share =
+      drags_bar_ ? barShareAlong(point->across, point->aspect) : barShareAt(point->across, point->down, point->aspect);
   text_.point(share, now);
-  return written_.bar && written_.bar->has_length ? share : std::nullopt;
+  if (!written_.bar || !written_.bar->has_length) return std::nullopt;
+  drags_bar_ = share && mouse.pressed;
+  return share;
 }
 
 std::optional<std::size_t> FilmScreen::filmAt(const SurfaceMouse& mouse) const {

@@ -69,7 +69,7 @@ class FilmScreen {
   [[nodiscard]] bool wantsStatistics() const noexcept { return text_.showsStatistics(); }
   void setStatistics(ScreenRows rows) { statistics_ = std::move(rows); }
   // The film's place, 0 to 1, that the mouse is over on the bar; nullopt where no bar is. A mouse near its place shows
-  // it.
+  // it. A press on the bar holds it: until the button is released, the mouse may leave it.
   [[nodiscard]] std::optional<double> barAt(const SurfaceMouse& mouse, MonotonicTime now);
 
   // The film that the mouse is over in the list of films; nullopt: none.
@@ -119,6 +119,7 @@ class FilmScreen {
   ScreenRows statistics_;
   std::string aspect_word_ = "film";
   std::size_t next_aspect_ = 0;
+  bool drags_bar_ = false;
   bool redraw_ = false;  // even if no finger has moved
   std::uint64_t shown_ = 0, dropped_ = 0;
   std::optional<MonotonicTime> first_shown_;

@@ -254,11 +254,14 @@ double roomForWords(const ScreenContent& content, double aspect) {
 
 std::optional<double> barShareAt(double across, double down, double aspect) noexcept {
   const double x = across * kScreenRows * aspect, y = down * kScreenRows;
-  const double inner = kScreenRows * aspect - 2 * kMargin;
   const bool on_it = y >= kBarTop - kBarReach && y <= kBarTop + kBarHeight + kBarReach && x >= 0.5 * kMargin &&
-                     x <= inner + 1.5 * kMargin;
-  if (!on_it) return std::nullopt;
-  return std::clamp((x - kMargin) / inner, 0.0, 1.0);
+                     x <= kScreenRows * aspect - 0.5 * kMargin;
+  return on_it ? std::optional(barShareAlong(across, aspect)) : std::nullopt;
+}
+
+double barShareAlong(double across, double aspect) noexcept {
+  const double width = kScreenRows * aspect;
+  return std::clamp((across * width - kMargin) / (width - 2 * kMargin), 0.0, 1.0);
 }
 
 }  // namespace relievo

@@ -64,11 +64,12 @@ void SdrTable::applyTo(std::span<std::uint8_t> rgba) const noexcept {
       light *= valueAt(system_, rootOf(glm::dot(light, glm::vec3(kBt2020Luminance))));
     }
     light = glm::max(to_bt709_ * light, 0.0F);
+    constexpr float kRounds = 0.5F;
     const glm::vec3 roots(rootOf(light.r), rootOf(light.g), rootOf(light.b));
     const float factor = valueAt(factor_, std::max({roots.r, roots.g, roots.b}));
     for (int k = 0; k < 3; ++k) {
       const float code = light[k] > 0 ? valueAt(code_, roots[k]) * factor : 0;
-      rgba[i + static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(std::min(code, 255.0F) + 0.5F);
+      rgba[i + static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(std::min(code, 255.0F) + kRounds);
     }
   }
 }

@@ -138,6 +138,26 @@ TEST_F(FilmScreenTest, CountsWhatWasSeenAndWhatWasNot) {
   EXPECT_EQ(report().frames_dropped, 4U);
 }
 
+// The display is 1280 x 720: the bar is 1200 long and begins at 40; its middle is 664 down.
+TEST_F(FilmScreenTest, APressOnTheBarHoldsItUntilTheButtonIsReleased) {
+  stereo_ = {.layout = StereoLayout::Mono};
+  make();
+  EXPECT_TRUE(show());
+  screen_->wake(clock_.now());
+  screen_->write({.duration_s = 100}, MonotonicTime::max(), clock_.now());
+  constexpr double kOnIt = 664.0 / 720, kAbove = 0.4;
+  const auto at = [&](double x, double down, bool pressed) {
+    return screen_->barAt({.across = x / 1280, .down = down, .pressed = pressed}, clock_.now());
+  };
+  EXPECT_EQ(at(340, kAbove, true), std::nullopt) << "a press on the picture";
+  EXPECT_EQ(at(340, kAbove, false), std::nullopt);
+  EXPECT_NEAR(at(340, kOnIt, false).value_or(-1), 0.25, 1e-9);
+  EXPECT_NEAR(at(340, kOnIt, true).value_or(-1), 0.25, 1e-9);
+  EXPECT_NEAR(at(940, kAbove, true).value_or(-1), 0.75, 1e-9) << "dragged, above it";
+  EXPECT_EQ(at(940, kAbove, false), std::nullopt);
+  EXPECT_EQ(at(940, kAbove, true), std::nullopt) << "another press";
+}
+
 TEST_F(FilmScreenTest, WithoutAScreenItGoesOnAndSaysSo) {
   cable_->unplugged = true;
   make();
