@@ -16,6 +16,8 @@ namespace {
 
 constexpr Error kNotDepth{ErrorCode::Unsupported, 0, "the network must give depth in one channel"};
 
+constexpr const char* kTooLarge = "is larger than an ONNX model can be";
+
 // protobuf allows no larger message.
 constexpr std::size_t kMostBytes = (std::size_t{1} << 31U) - 1;
 
@@ -23,13 +25,16 @@ Result<std::vector<std::uint8_t>> readNetwork(const std::string& path) {
   const auto file = AnsweredFile::open(path);
   if (!file) return std::unexpected(file.error());
   if (!file->regular()) return fail(ErrorCode::Unsupported, "is a device or a pipe; name a file");
+  const auto size = file->bytes();
+  if (!size) return std::unexpected(size.error());
+  if (*size > kMostBytes) return fail(ErrorCode::Exhausted, kTooLarge);
   std::vector<std::uint8_t> bytes;
   std::vector<std::uint8_t> part(std::size_t{1} << 20U);
   for (;;) {
     const auto got = file->readSome(bytes.size(), part);
     if (!got) return std::unexpected(got.error());
     if (*got == 0) return bytes;
-    if (bytes.size() + *got > kMostBytes) return fail(ErrorCode::Exhausted, "is larger than an ONNX model can be");
+    if (bytes.size() + *got > kMostBytes) return fail(ErrorCode::Exhausted, kTooLarge);  // it grows
     bytes.insert(bytes.end(), part.begin(), part.begin() + static_cast<std::ptrdiff_t>(*got));
   }
 }

@@ -171,6 +171,12 @@ TEST(RawPicture, ReadsColourByItsMatrixAndRange) {
   for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(picture.bytes[i], expected[i], 1) << i;
 }
 
+TEST(DepthCommand, ALongMessageStaysALine) {
+  const std::string told = Trial().failureOf("printf '%5000s\\n' x | tr ' ' y >&2; exit 1");
+  EXPECT_THAT(told, HasSubstr("(yyyy"));
+  EXPECT_LT(told.size(), 500U);
+}
+
 // The pipe is held by the command and by what it has started, until they have ended.
 TEST(ChildProcess, EndsWithThisProgramHoweverThatEnds) {
   std::array<int, 2> ends{};
