@@ -64,6 +64,7 @@ Outcome<void> keepOutputsApart(const PlayOptions& options, const FileConfig& con
   std::vector<std::string> inputs = source.named_files;
   inputs.insert(inputs.end(), {source.url, source.depth_url, depthBeside(source.url), options.keys_path, config.path,
                                config.falcon_firmware.value_or("")});
+  for (const std::string& film : options.player.more) inputs.insert(inputs.end(), {film, depthBeside(film)});
   std::vector<std::string> outputs{options.report_path, options.record_path, secondRecordPath(options),
                                    options.control_path};
   for (const BackEndName* name :
