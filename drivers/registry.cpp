@@ -36,6 +36,7 @@
 #include "drivers/openni/openni.h"
 #endif
 #include "drivers/photo/photo.h"
+#include "drivers/picture_description.h"
 #include "drivers/pictures/pictures.h"
 #include "drivers/pointer/pointer.h"
 #include "drivers/polhem/polhem.h"
@@ -47,7 +48,6 @@
 #include "drivers/sim/profiles.h"
 #include "drivers/terminal/joined_remote.h"
 #include "drivers/terminal/terminal.h"
-#include "drivers/tiff/tiff.h"
 #include "drivers/usb/usb_port.h"
 #include "drivers/v4l2/v4l2.h"
 #include "drivers/window/window_remote.h"
@@ -134,33 +134,6 @@ Result<void> turn(const std::weak_ptr<Bench>& known, std::atomic<bool> Bench::* 
     return fail(ErrorCode::InvalidState, "that device is no mock; start with --display mock or --haptic mock");
   *bench.*which = on;
   return {};
-}
-
-Result<StreamInfo> describePicture(const std::string& path) {
-  const auto source = isNpyFile(path) ? makeNpySource() : makeFfmpegSource();
-  if (auto opened = source->open(path); !opened) return std::unexpected(opened.error());
-  for (const StreamInfo& stream : source->streams()) {
-    if (stream.kind == StreamKind::Video) return stream;
-  }
-  return fail(ErrorCode::Corrupt, "is no picture; check the file");
-}
-
-// The project's own reader of the stream's pictures; nullopt if FFmpeg decodes them.
-std::optional<PictureFormat> pictureFormat(const StreamInfo& stream) {
-  if (isFloatTiff(stream)) return kTiff;
-  const PictureFormat formats[] = {
-      kPfm,       kNpy,
-#ifdef RELIEVO_EXR
-      kExr,       kExrColor,
-#endif
-#ifdef RELIEVO_HEIF
-      kHeifColor, kHeifDepth, kHeifLeft, kHeifRight,
-#endif
-  };
-  for (const PictureFormat& format : formats) {
-    if (stream.codec == format.codec) return format;
-  }
-  return std::nullopt;
 }
 
 const PhotoKind kPhotoKinds[] = {
