@@ -45,6 +45,9 @@
 #ifdef RELIEVO_ROSBAG
 #include "drivers/rosbag/rosbag.h"
 #endif
+#ifdef RELIEVO_SCAN
+#include "drivers/scan/scan.h"
+#endif
 #include "drivers/sim/profiles.h"
 #include "drivers/terminal/joined_remote.h"
 #include "drivers/terminal/terminal.h"
@@ -257,6 +260,9 @@ std::unique_ptr<MediaSource> makeMediaSource(const std::string& url) {
 #endif
 #ifdef RELIEVO_OPENNI
   if (isOpenni(url)) return makeOpenniSource();
+#endif
+#ifdef RELIEVO_SCAN
+  if (isScan(url)) return makeScanSource();
 #endif
   if (name.word == "v4l2" && name.argument) return makeV4l2Source();
   if (isNpyFile(url)) return makeNpySource();
