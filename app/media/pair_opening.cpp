@@ -28,6 +28,12 @@ Duration distanceByName(const MediaSource& color, const DepthSource::Session& de
   return 2 * common >= std::min(color.duration(), depth.duration) ? distance : Duration(0);
 }
 
+// The rate of depth pictures that have no times: the user's, else that of the film that they were recorded with.
+std::optional<double> rateForDepth(std::optional<double> told, const StreamInfo& color) {
+  if (told || color.counted || !color.average_rate.known()) return told;
+  return static_cast<double>(color.average_rate.num) / color.average_rate.den;
+}
+
 }  // namespace
 
 Result<void> PairReader::Impl::openReader() {
@@ -43,8 +49,18 @@ Result<void> PairReader::Impl::openReader() {
   return {};
 }
 
+// A folder of a film and its depth pictures is opened as both.
+void PairReader::Impl::takeFilmOverDepth() {
+  if (!options.depth_url.empty() || options.packing != Packing::Auto) return;
+  const auto pair = filmOverDepth(options.url);
+  if (!pair) return;
+  options.url = pair->film;
+  options.depth_url = pair->depth;
+}
+
 // Opens for the first time or again. In the second case a separate depth source has continued meanwhile.
 Result<void> PairReader::Impl::openFilm() {
+  takeFilmOverDepth();
   const bool two_sources = !options.depth_url.empty();
   if (two_sources && relievo::isPacked(options.packing)) {
     return failOn(options.depth_url,
@@ -74,8 +90,9 @@ Result<void> PairReader::Impl::openFilm() {
   // The colour track leads, so it is selected first.
   const auto chosen = color_reader->select(asTold(*plan->color));
   if (!chosen) return failOn(options.url, chosen.error());
-  if (plan->depth == nullptr && !isPacked() && !two_sources && options.packing == Packing::Auto) takeDepthBeside();
-  if (auto selected = selectDepth(plan->depth); !selected) return selected;
+  if (plan->depth == nullptr && !isPacked() && !two_sources && options.packing == Packing::Auto)
+    takeDepthBeside(*plan->color);
+  if (auto selected = selectDepth(plan->depth, *plan->color); !selected) return selected;
   selectMaterial(*plan);
   if (depth_source) info.notes.insert(info.notes.end(), depth_source->notes().begin(), depth_source->notes().end());
   countTracks(*plan);
@@ -89,11 +106,11 @@ Result<void> PairReader::Impl::openFilm() {
   return {};
 }
 
-void PairReader::Impl::takeDepthBeside() {
+void PairReader::Impl::takeDepthBeside(const StreamInfo& color) {
   const std::string beside = depthBeside(options.url);
   if (beside.empty()) return;
   options.depth_url = beside;
-  const auto opened = selectDepth(nullptr);
+  const auto opened = selectDepth(nullptr, color);
   if (opened) {
     info.notes.push_back(print("its depth is %s, which lies beside it; --depth FILE takes another", beside.c_str()));
     return;
@@ -130,17 +147,23 @@ Result<void> PairReader::Impl::openColor(const StreamInfo& color) {
   return {};
 }
 
-Result<void> PairReader::Impl::selectDepth(const StreamInfo* stream) {
+Result<void> PairReader::Impl::selectDepth(const StreamInfo* stream, const StreamInfo& color) {
   depth_track.reset();
   depth_stream = stream;
   if (!options.depth_url.empty()) {
     if (depth_source) return {};
+    const auto rate = rateForDepth(options.frames_per_s, color);
     {
       const std::scoped_lock lock(readers_mutex);
       if (interrupted) return failOn(depthUrl(), {ErrorCode::Cancelled, 0, "interrupted before it was opened"});
-      depth_source = std::make_unique<DepthSource>(backends, options.frames_per_s);
+      depth_source = std::make_unique<DepthSource>(backends, rate);
     }
     if (auto opened = depth_source->open(depthUrl()); !opened) return failOn(depthUrl(), opened.error());
+    const StreamInfo& pictures = depth_source->stream();
+    if (rate && !options.frames_per_s && pictures.counted && pictures.average_rate.known()) {
+      info.notes.push_back(
+          print("the depth pictures tell no times: %.6g a second as in the film; --fps F changes that", *rate));
+    }
     return {};
   }
   if (stream == nullptr) return {};
