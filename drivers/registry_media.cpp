@@ -6,6 +6,7 @@
 
 #include "drivers/failover/failover.h"
 #include "drivers/registry.h"
+#include "drivers/registry_pictures.h"
 #ifdef RELIEVO_EXR
 #include "drivers/exr/exr.h"
 #endif
@@ -26,7 +27,9 @@
 #ifdef RELIEVO_ROSBAG
 #include "drivers/rosbag/rosbag.h"
 #endif
-#include "drivers/tiff/tiff.h"
+#ifdef RELIEVO_SCAN
+#include "drivers/scan/scan.h"
+#endif
 #include "drivers/v4l2/v4l2.h"
 #include "hal/media/media_names.h"
 
@@ -38,33 +41,6 @@ const char* const kDecoderNames = RELIEVO_DECODER_NAMES;
 const char* const kMockFilm = "mock:";
 
 namespace {
-
-Result<StreamInfo> describePicture(const std::string& path) {
-  const auto source = isNpyFile(path) ? makeNpySource() : makeFfmpegSource();
-  if (auto opened = source->open(path); !opened) return std::unexpected(opened.error());
-  for (const StreamInfo& stream : source->streams()) {
-    if (stream.kind == StreamKind::Video) return stream;
-  }
-  return fail(ErrorCode::Corrupt, "is no picture; check the file");
-}
-
-// The project's own reader of the stream's pictures; nullopt if FFmpeg decodes them.
-std::optional<PictureFormat> pictureFormat(const StreamInfo& stream) {
-  if (isFloatTiff(stream)) return kTiff;
-  const PictureFormat formats[] = {
-      kPfm,       kNpy,
-#ifdef RELIEVO_EXR
-      kExr,       kExrColor,
-#endif
-#ifdef RELIEVO_HEIF
-      kHeifColor, kHeifDepth, kHeifLeft, kHeifRight,
-#endif
-  };
-  for (const PictureFormat& format : formats) {
-    if (stream.codec == format.codec) return format;
-  }
-  return std::nullopt;
-}
 
 const PhotoKind kPhotoKinds[] = {
     kDepthJpeg,
@@ -115,6 +91,9 @@ std::unique_ptr<MediaSource> makeMediaSource(const std::string& url) {
 #endif
 #ifdef RELIEVO_OPENNI
   if (isOpenni(url)) return makeOpenniSource();
+#endif
+#ifdef RELIEVO_SCAN
+  if (isScan(url)) return makeScanSource();
 #endif
   if (name.word == "v4l2" && name.argument) return makeV4l2Source();
   if (isNpyFile(url)) return makeNpySource();

@@ -65,7 +65,7 @@ Result<FramePair> PairReader::Impl::pairFor(Frame color) {
     return FramePair{std::move(shown), std::move(*ordered), true, {}, {}};
   }
   if (isPacked()) {
-    auto halves = splitPacked(color, info.packing, clues.code, gray);
+    auto halves = halvesOf(color);
     if (!halves) return failOn(options.url, halves.error());
     return FramePair{std::move(halves->color), std::move(halves->depth), true, {}, {}};
   }

@@ -7,6 +7,7 @@
 #include "app/author/package/output.h"
 #include "app/author/package/source_notes.h"
 #include "app/scene/height_field.h"
+#include "hal/media/media_names.h"
 #include "platform/files/answered_place.h"
 #include "platform/files/file_system_answer.h"
 #include "platform/log.h"
@@ -104,6 +105,8 @@ Outcome<void> Packager::writeMaterial(const FramePair& pair, bool key, bool begi
 // Sound and subtitles are read from files alone: a camera or a stream cannot be opened twice.
 std::unique_ptr<KeptTracks> Packager::keptTracks() const {
   if (!isRegularFile(source_.url)) return nullptr;
+  const std::string ending = endingOf(source_.url);
+  if (ending == "sens" || ending == "klg") return nullptr;  // FFmpeg would take a scan's pictures for sound
   auto kept = KeptTracks::open(source_.url, info_.container_start, output_.keep);
   if (kept) return std::move(*kept);
   if (info_.sound_tracks + info_.subtitle_tracks == 0) return nullptr;

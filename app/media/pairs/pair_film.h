@@ -31,8 +31,10 @@ struct PairReader::Impl {
   Result<void> openReader();
   Result<void> openFilm();
   Result<void> openColor(const StreamInfo& color);
-  Result<void> selectDepth(const StreamInfo* depth);
-  void takeDepthBeside();
+  void takeFilmOverDepth();
+  // `depth`: of the colour's source, if the depth is no other source.
+  Result<void> selectDepth(const StreamInfo* depth, const StreamInfo& color);
+  void takeDepthBeside(const StreamInfo& color);
   [[nodiscard]] Frame materialAt(MediaTime time);
   Result<void> openDepth(const StreamInfo& color);
   void openSound();
@@ -53,6 +55,7 @@ struct PairReader::Impl {
   void showViews(Packing packing, const char* by);
   void checkViews(const StreamInfo& color);
   void takeDepthFromViews();
+  [[nodiscard]] Result<Halves> halvesOf(const Frame& stored) const;
   void lookForCode(const Frame& first);
   Result<const Frame*> firstDepth();
   Result<const Frame*> firstAsStated(const Frame& first);
@@ -117,6 +120,7 @@ struct PairReader::Impl {
   std::deque<Subtitle> words_ahead;  // of a subtitle file
   DepthClues clues;                  // of the depth, as far as they were looked at
   GrayFrom gray = GrayFrom::Luma;    // of packed depth
+  int seam = 0;                      // columns of a margin between the halves
   // Two views in one picture.
   struct Views {
     bool right_first = false;

@@ -28,6 +28,12 @@ Duration distanceByName(const MediaSource& color, const DepthSource::Session& de
   return 2 * common >= std::min(color.duration(), depth.duration) ? distance : Duration(0);
 }
 
+// The rate of depth pictures that have no times: the user's, else that of the film that they were recorded with.
+std::optional<double> rateForDepth(std::optional<double> told, const StreamInfo& color) {
+  if (told || color.counted || !color.average_rate.known()) return told;
+  return static_cast<double>(color.average_rate.num) / color.average_rate.den;
+}
+
 }  // namespace
 
 Result<void> PairReader::Impl::openReader() {
@@ -38,8 +44,18 @@ Result<void> PairReader::Impl::openReader() {
   return {};
 }
 
+// A folder of a film and its depth pictures is opened as both.
+void PairReader::Impl::takeFilmOverDepth() {
+  if (!options.depth_url.empty() || options.packing != Packing::Auto) return;
+  const auto pair = filmOverDepth(options.url);
+  if (!pair) return;
+  options.url = pair->film;
+  options.depth_url = pair->depth;
+}
+
 // Opens for the first time or again. In the second case a separate depth source has continued meanwhile.
 Result<void> PairReader::Impl::openFilm() {
+  takeFilmOverDepth();
   const bool two_sources = !options.depth_url.empty();
   if (two_sources && relievo::isPacked(options.packing)) {
     return failOn(options.depth_url,
@@ -69,8 +85,9 @@ Result<void> PairReader::Impl::openFilm() {
   // The colour track leads, so it is selected first.
   const auto chosen = sources.color()->select(asTold(*plan->color));
   if (!chosen) return failOn(options.url, chosen.error());
-  if (plan->depth == nullptr && !isPacked() && !two_sources && options.packing == Packing::Auto) takeDepthBeside();
-  if (auto selected = selectDepth(plan->depth); !selected) return selected;
+  if (plan->depth == nullptr && !isPacked() && !two_sources && options.packing == Packing::Auto)
+    takeDepthBeside(*plan->color);
+  if (auto selected = selectDepth(plan->depth, *plan->color); !selected) return selected;
   const auto of_places = plan->material ? std::optional(asTold(*plan->material)) : std::nullopt;
   material.select(*sources.color(), of_places, color_shift);
   info.material_scale = withoutThoseOf(options.material, material.scale());
@@ -87,11 +104,11 @@ Result<void> PairReader::Impl::openFilm() {
   return {};
 }
 
-void PairReader::Impl::takeDepthBeside() {
+void PairReader::Impl::takeDepthBeside(const StreamInfo& color) {
   const std::string file = depthBeside(options.url);
   if (file.empty()) return;
   options.depth_url = file;
-  const auto opened = selectDepth(nullptr);
+  const auto opened = selectDepth(nullptr, color);
   if (opened) {
     info.notes.push_back(print("its depth is %s, which lies beside it; --depth FILE takes another", file.c_str()));
     return;
@@ -127,14 +144,20 @@ Result<void> PairReader::Impl::openColor(const StreamInfo& color) {
   return {};
 }
 
-Result<void> PairReader::Impl::selectDepth(const StreamInfo* stream) {
+Result<void> PairReader::Impl::selectDepth(const StreamInfo* stream, const StreamInfo& color) {
   depth_beside.track.reset();
   depth_beside.stream = stream;
   if (!options.depth_url.empty()) {
     if (sources.depth()) return {};
-    auto taken = sources.take(std::make_unique<DepthSource>(backends, options.frames_per_s));
+    const auto rate = rateForDepth(options.frames_per_s, color);
+    auto taken = sources.take(std::make_unique<DepthSource>(backends, rate));
     if (!taken) return failOn(depthUrl(), taken.error());
     if (auto opened = sources.depth()->open(depthUrl()); !opened) return failOn(depthUrl(), opened.error());
+    const StreamInfo& pictures = sources.depth()->stream();
+    if (rate && !options.frames_per_s && pictures.counted && pictures.average_rate.known()) {
+      info.notes.push_back(
+          print("the depth pictures tell no times: %.6g a second as in the film; --fps F changes that", *rate));
+    }
     return {};
   }
   if (stream == nullptr) return {};

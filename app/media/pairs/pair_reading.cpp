@@ -177,12 +177,27 @@ Result<void> PairReader::Impl::describeAlone(const StreamInfo& track) {
   return describe(color_ahead[0], look, {}, track);
 }
 
+// Colour and depth of a packed picture, the depth's samples in order.
+Result<Halves> PairReader::Impl::halvesOf(const Frame& stored) const {
+  const bool bytes = reordering.order != SampleOrder::AsStored && stored.model == ColorModel::Rgb;
+  auto halves = splitPacked(stored, info.packing, bytes ? DepthCode::Hue : clues.code, gray, seam);
+  if (!halves || !bytes) return halves;
+  auto ordered = inOrder(halves->depth, reordering.order);
+  if (!ordered) return std::unexpected(ordered.error());
+  halves->depth = std::move(*ordered);
+  return halves;
+}
+
 Result<void> PairReader::Impl::describeHalves(const StreamInfo& color) {
   const Frame look = tellingPicture(color_ahead[0], options.url, color.index);
-  const auto whole = splitPacked(look, info.packing, DepthCode::Hue);
+  const bool beside = info.packing == Packing::SideBySide || info.packing == Packing::SideBySideDepthFirst;
+  seam = beside ? whiteSeam(look) : 0;
+  if (seam > 0) clues.why.push_back(print("the %d white columns between the halves are left out", seam));
+  const auto whole = splitPacked(look, info.packing, DepthCode::Hue, GrayFrom::Luma, seam);
   if (whole) lookForCode(whole->depth);
-  const auto seen = splitPacked(look, info.packing, clues.code, gray);
-  const auto halves = splitPacked(color_ahead[0], info.packing, clues.code, gray);
+  if (whole && clues.code == DepthCode::Luma && options.as == nullptr) reordering.order = packedOrder(whole->depth);
+  const auto seen = halvesOf(look);
+  const auto halves = halvesOf(color_ahead[0]);
   if (!halves || !seen) return failOn(options.url, halves ? seen.error() : halves.error());
   info.color_width = halves->color.width;
   info.color_height = halves->color.height;

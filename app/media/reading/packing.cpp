@@ -216,7 +216,7 @@ Result<TrackPlan> planTracks(const MediaSource& source, Packing packing, bool de
   return plan;
 }
 
-Result<Halves> splitPacked(const Frame& picture, Packing packing, DepthCode code, GrayFrom gray) noexcept {
+Result<Halves> splitPacked(const Frame& picture, Packing packing, DepthCode code, GrayFrom gray, int seam) noexcept {
   if (packing == Packing::Alpha) {
     if (!picture.alpha) return fail(ErrorCode::Unsupported, "the picture has no alpha channel; leave out --packing");
     return Halves{picture, alphaOf(picture)};
@@ -228,7 +228,7 @@ Result<Halves> splitPacked(const Frame& picture, Packing packing, DepthCode code
   const Frame depth = code != DepthCode::Luma ? picture : red ? componentOf(picture, 0) : lumaOf(picture);
   // A half that is read with chroma begins at a whole chroma sample.
   const Frame& second = depth_first ? picture : depth;
-  const int start = alignUp(whole - whole / 2, beside ? second.chroma_shift_x : second.chroma_shift_y);
+  const int start = alignUp(whole - (whole - seam) / 2, beside ? second.chroma_shift_x : second.chroma_shift_y);
   const int half = whole - start;
   if (half < 1) return fail(ErrorCode::Unsupported, "the picture is too small to be packed colour and depth");
   const auto cut = [&](const Frame& from, bool first) {

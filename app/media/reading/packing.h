@@ -76,11 +76,12 @@ struct Halves {
 };
 
 // The two halves of a packed picture, by reference; the depth is as large as the colour. If the number of columns
-// (rows) is odd, the middle one belongs to neither. Depth read from luma (`code`) becomes a gray view that begins at
-// the exact sample; depth that needs chroma begins at a whole chroma sample, at most one pixel late. `gray`: red is
-// read from RGB as it is, and from YUV as luma. Of Packing::Alpha they are the whole picture and its alpha channel.
-// Unsupported if the picture is too small to be halved, or has no alpha channel.
+// (rows) is odd, the middle one belongs to neither, nor do the `seam` ones there of a margin. Depth read from luma
+// (`code`) becomes a gray view that begins at the exact sample; depth that needs chroma begins at a whole chroma
+// sample, at most one pixel late. `gray`: red is read from RGB as it is, and from YUV as luma. Of Packing::Alpha they
+// are the whole picture and its alpha channel. Unsupported if the picture is too small to be halved, or has no alpha
+// channel.
 [[nodiscard]] Result<Halves> splitPacked(const Frame& picture, Packing packing, DepthCode code,
-                                         GrayFrom gray = GrayFrom::Luma) noexcept;
+                                         GrayFrom gray = GrayFrom::Luma, int seam = 0) noexcept;
 
 }  // namespace relievo

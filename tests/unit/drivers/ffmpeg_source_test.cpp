@@ -300,6 +300,15 @@ TEST(FfmpegSource, RecordingsThatNothingReadsAreNamedWithTheCommandThatConvertsT
       {"a.h5", "\x89HDF\r\n\x1a\n"sv, {"HDF5", ".npy"}},
       {"a.bag", "#ROSBAG V2.0\n"sv, {"ROS bag", "RELIEVO_ROSBAG"}},
       {"a.oni", "NI10\1"sv, {"OpenNI", "RELIEVO_OPENNI"}},
+      {"a.klg", "\6\0\0\0"sv, {"scan", "RELIEVO_SCAN"}},
+      {"a.r3d", "PK\3\4"sv, {"Record3D", "EXR"}},
+      {"a.npz", "PK\3\4"sv, {"unzip", ".npy"}},
+      {"a.zip", "PK\3\4"sv, {"unpack", "folder"}},
+      {"a.svo2", "\x89MCAP0\r\n"sv, {"ZED", "ZED_SVO_Export"}},
+      {"a.ply", "ply\nformat"sv, {"cloud of points", "recording"}},
+      {"a.pcd", "# .PCD v0.7"sv, {"cloud of points", "recording"}},
+      {"a.mat", "MATLAB 5.0 MAT-file"sv, {"MATLAB", ".npy"}},
+      {"a.raw", "\1\2"sv, {"tell no size", "gray16le"}},
   };
   for (const auto& format : kFormats) {
     writeFile(folder / format.name, std::string(format.begin) + std::string(5000, '\x47'));
