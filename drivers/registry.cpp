@@ -51,6 +51,7 @@
 #include "drivers/usb/usb_port.h"
 #include "drivers/v4l2/v4l2.h"
 #include "drivers/window/window_remote.h"
+#include "hal/media/media_names.h"
 
 #define RELIEVO_DISPLAY_NAMES "kms[:/dev/dri/cardN] window offscreen[:FILE.y4m] mock"
 #define RELIEVO_HAPTIC_NAMES                                                                        \
@@ -174,9 +175,14 @@ const PhotoKind kPhotoKinds[] = {
 #endif
 };
 
-// Hardware leaves an alpha channel out.
+bool holdsTwoLayers(const StreamInfo& stream) {
+  const auto layers = stream.tags.find(kLayersTag);
+  return layers != stream.tags.end() && layers->second == "2" && ffmpegDecodesBothViews();
+}
+
+// Hardware leaves an alpha channel out, and the second of two views.
 bool isLeftToSoftware(const StreamInfo& stream) {
-  return isMock(stream) || isV4l2Raw(stream) || pictureFormat(stream) || saysAlpha(stream);
+  return isMock(stream) || isV4l2Raw(stream) || pictureFormat(stream) || saysAlpha(stream) || holdsTwoLayers(stream);
 }
 
 std::unique_ptr<VideoDecoder> withSoftwareBehind(std::vector<std::unique_ptr<VideoDecoder>> decoders,

@@ -46,6 +46,7 @@ struct PairReader::Impl {
   void lookForRegistration(const StreamInfo& color);
   void lookForHalves(const StreamInfo& color);
   // In pair_views.cpp: what one picture holds beside its colour.
+  [[nodiscard]] bool takeLayers(const StreamInfo& color);
   [[nodiscard]] bool takeSaidViews(const StreamInfo& color, const Frame& look);
   void lookForViews(const Frame& look);
   [[nodiscard]] bool lookForAlpha(const StreamInfo& color, const Frame& look);

@@ -79,6 +79,12 @@ Result<FramePair> PairReader::Impl::pairFor(Frame color) {
     auto views = viewsOf(color, info.packing, right_first, views_squeezed);
     if (views) return FramePair{std::move(views->left), {}, true, {}, std::move(views->right)};
   }
+  if (info.packing == Packing::StereoLayers) {
+    Frame right = color.right ? *color.right : Frame{};
+    right.pts = color.pts;
+    color.right.reset();
+    return FramePair{std::move(color), {}, true, {}, std::move(right)};
+  }
   auto match = depthAt(color.pts);
   if (!match) return std::unexpected(match.error());
   if (info.packing == Packing::StereoTracks) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds out whether a film's one picture holds more than its colour: two views of one scene, or depth in its alpha
 // channel.
+#include <algorithm>
 #include <optional>
 
 #include "app/media/pair_film.h"
@@ -22,6 +23,10 @@ constexpr const char* kHasDepth = "--depth-from is left out: the film has depth 
 constexpr const char* kOneView =
     "--depth-from stereo is left out: the film has one view; if it has two, say how they lie with --packing stereo-sbs "
     "or stereo-tb";
+constexpr const char* kSecondMissing = "it is coded as two views (MV-HEVC), but holds the first alone: it plays as 2D";
+constexpr const char* kSecondUnread =
+    "its second view (MV-HEVC) cannot be decoded, and it plays as 2D: the second needs FFmpeg 7.1 or later, and the "
+    "film's parameters of that view";
 constexpr const char* kWhatToDo = "it plays flat; give its depth with --depth FILE, or --packing if a half is depth";
 
 struct SaidViews {
@@ -68,8 +73,19 @@ std::optional<SaidViews> saidViews(const StreamInfo& track, const Frame& picture
 
 }  // namespace
 
+// Two views in two layers. False if there are none.
+bool PairReader::Impl::takeLayers(const StreamInfo& color) {
+  const auto layers = color.tags.find(kLayersTag);
+  const bool decoded = std::ranges::any_of(color_ahead, [](const Frame& frame) { return frame.right != nullptr; });
+  if (decoded) showViews(Packing::StereoLayers, "the two layers of its pictures (MV-HEVC) are");
+  else if (layers != color.tags.end())
+    info.reading.doubts.emplace_back(layers->second == "2" ? kSecondUnread : kSecondMissing);
+  return decoded;
+}
+
 // Two views, as the film itself says. False if it says nothing.
 bool PairReader::Impl::takeSaidViews(const StreamInfo& color, const Frame& look) {
+  if (takeLayers(color)) return true;
   const auto said = saidViews(color, look, options.url);
   if (!said) return false;
   right_first = said->right_first;
@@ -107,8 +123,7 @@ void PairReader::Impl::checkViews(const StreamInfo& color) {
 // Depth that is made of each pair's views after it was read.
 void PairReader::Impl::takeDepthFromViews() {
   if (options.depth_from != DepthFrom::Views || other_pictures) return;
-  const bool two_views = isStereo(info.packing) || info.packing == Packing::StereoTracks;
-  if (!two_views) {
+  if (!hasTwoViews(info.packing)) {
     info.reading.doubts.emplace_back(info.has_depth ? kHasDepth : kOneView);
     return;
   }

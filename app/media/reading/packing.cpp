@@ -179,6 +179,8 @@ const char* name(Packing packing) noexcept {
       return "stereo-tb";
     case Packing::StereoTracks:
       return "stereo-tracks";
+    case Packing::StereoLayers:
+      return "stereo-layers";
   }
   return "";
 }

@@ -25,10 +25,16 @@ enum class Packing : std::uint8_t {
   StereoSideBySide,      // one picture: two views, left and right, no depth
   StereoTopBottom,       // one picture: two views, above and below, no depth
   StereoTracks,          // two tracks: the left view and the right one, no depth
+  StereoLayers,          // one track whose packets hold two pictures, the left view and the right one, no depth
 };
 // Two views in one picture.
 [[nodiscard]] constexpr bool isStereo(Packing packing) noexcept {
   return packing == Packing::StereoSideBySide || packing == Packing::StereoTopBottom;
+}
+
+// Two views, however they are stored.
+[[nodiscard]] constexpr bool hasTwoViews(Packing packing) noexcept {
+  return isStereo(packing) || packing == Packing::StereoTracks || packing == Packing::StereoLayers;
 }
 
 // Which streams to decode, as pointers into the source's list. A null depth stream means no depth, or packed depth.
@@ -41,8 +47,7 @@ struct TrackPlan {
 };
 [[nodiscard]] const char* name(Packing packing) noexcept;
 [[nodiscard]] constexpr bool isPacked(Packing packing) noexcept {
-  return packing != Packing::Auto && packing != Packing::Tracks && packing != Packing::StereoTracks &&
-         !isStereo(packing);
+  return packing != Packing::Auto && packing != Packing::Tracks && !hasTwoViews(packing);
 }
 // Whether the track itself says that it is depth: signalled as auxiliary, DEPTH_ tags, or its name.
 [[nodiscard]] bool isMarkedAsDepth(const StreamInfo& track);

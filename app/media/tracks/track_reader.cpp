@@ -13,6 +13,17 @@ namespace {
 
 constexpr Duration kFirstStepBack = std::chrono::seconds(1);
 
+// The picture as `change` makes it, and the right eye's with it.
+template <class Change>
+Result<Frame> changed(const Frame& frame, Change change) {
+  auto made = change(frame);
+  if (!made || !frame.right) return made;
+  auto right = change(*frame.right);
+  if (!right) return right;
+  made->right = std::make_shared<const Frame>(std::move(*right));
+  return made;
+}
+
 }  // namespace
 
 TrackReader::TrackReader(std::unique_ptr<MediaSource> source,
@@ -61,11 +72,11 @@ std::optional<VideoDecoder::Restart> TrackReader::takeRestart() noexcept {
 Result<std::optional<Frame>> TrackReader::receiveWhole(Track& track) {
   auto frame = track.decoder->receive();
   if (frame && *frame && (*frame)->interlaced) {
-    frame = relievo::deinterlaced(**frame);
+    frame = changed(**frame, relievo::deinterlaced);
     ++deinterlaced_;
   }
   if (track.rotation == 0 || !frame || !*frame) return frame;
-  return turned(**frame, track.rotation);
+  return changed(**frame, [&](const Frame& picture) { return turned(picture, track.rotation); });
 }
 
 Result<std::optional<Frame>> TrackReader::decode(Track& track) {
