@@ -148,9 +148,9 @@ TEST_F(ColorPictures, HdrIsSeenAsOnAUsualScreen) {
   for (const auto converter : {ColorPicture::Converter::Gpu, ColorPicture::Converter::Cpu}) {
     ColorPicture picture(converter);
     for (const HdrColor& color : kHdrColors) {
-      std::vector<std::uint8_t> samples;
-      for (int i = 0; i < 16 * 9 * 3; ++i) {
-        samples.push_back(static_cast<std::uint8_t>(std::lround(255 * color.code[static_cast<std::size_t>(i % 3)])));
+      std::vector<std::uint8_t> samples(std::size_t{16} * 9 * 3);
+      for (std::size_t i = 0; i < samples.size(); ++i) {
+        samples[i] = static_cast<std::uint8_t>(std::lround(255 * color.code[i % 3]));
       }
       Frame frame{.width = 16, .height = 9, .model = ColorModel::Rgb, .range = ColorRange::Full};
       frame.primaries = 9;
