@@ -7,15 +7,15 @@
 #include <optional>
 #include <vector>
 
+#include "app/scene/byte_picture.h"
 #include "platform/failure.h"
 
 namespace relievo {
 
-// Red, green, blue; 8 bits each, row by row without gaps.
-struct RawPicture {
-  int cols = 0, rows = 0;
-  std::vector<std::uint8_t> bytes;
+struct RedGreenBlue {
+  static constexpr std::size_t kCount = 3;
 };
+using RawPicture = BytePicture<RedGreenBlue>;
 
 // Relative inverse depth, row by row: larger is nearer. Scale and offset may differ from picture to picture. It shows
 // the whole picture that it was made from, whatever its size.

@@ -39,8 +39,7 @@ std::uint8_t byteOf(float share) noexcept {
 
 template <class Pixel>
 RawPicture filled(const Frame& frame, Pixel&& pixel) {
-  RawPicture picture{frame.width, frame.height, {}};
-  picture.bytes.resize(3 * static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
+  RawPicture picture(frame.width, frame.height);
   std::uint8_t* out = picture.bytes.data();
   for (int r = 0; r < frame.height; ++r) {
     for (int c = 0; c < frame.width; ++c) {

@@ -22,9 +22,9 @@ constexpr float kSameHeight = 0.06F, kSameColor = 16;  // shares of the relief, 
 constexpr float kHighest = 65535;
 
 GrayPicture grayOf(const RawPicture& picture) {
-  std::vector<std::uint8_t> luma(picture.bytes.size() / 3);
+  std::vector<std::uint8_t> luma(picture.size());
   for (std::size_t i = 0; i < luma.size(); ++i) {
-    const std::uint8_t* const rgb = &picture.bytes[3 * i];
+    const std::uint8_t* const rgb = picture.pixel(i);
     luma[i] = static_cast<std::uint8_t>((77 * rgb[0] + 150 * rgb[1] + 29 * rgb[2]) >> 8);
   }
   const int cols = std::min(picture.cols, kMotionCols);
@@ -102,7 +102,7 @@ void SteadyRelief::begin(const DepthEstimate& estimate) {
 
 // Finds the estimate's scale and offset from the points; false if the picture continues nothing.
 bool SteadyRelief::follow(const GrayPicture& gray, const DepthEstimate& estimate) {
-  motion_ = before_->codes == gray.codes ? std::vector<Motion>(gray.codes.size()) : motionBetween(*before_, gray);
+  motion_ = before_->bytes == gray.bytes ? std::vector<Motion>(gray.size()) : motionBetween(*before_, gray);
   const std::size_t had = tracks_.points().size();
   tracks_.follow(*before_, gray, motion_);
   const std::vector<TrackedPoint>& points = tracks_.points();

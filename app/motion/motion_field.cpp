@@ -28,7 +28,7 @@ class QuarterPictures {
   // At `fx`, `fy` quarters, kEdge samples wider on each side.
   [[nodiscard]] const GrayPicture& at(int fx, int fy) const {
     GrayPicture& made = made_[4 * static_cast<std::size_t>(fy) + static_cast<std::size_t>(fx)];
-    if (made.codes.empty()) made = between(fx, fy);
+    if (made.bytes.empty()) made = between(fx, fy);
     return made;
   }
   static constexpr int kEdge = 32;
@@ -39,7 +39,7 @@ class QuarterPictures {
     const int w00 = (4 - fx) * (4 - fy), w01 = fx * (4 - fy), w10 = (4 - fx) * fy, w11 = fx * fy;
     GrayPicture made(p.cols + 2 * kEdge, p.rows + 2 * kEdge);
     std::vector<std::uint8_t> upper, lower = wideRow(-kEdge);
-    auto out = made.codes.begin();
+    auto out = made.bytes.begin();
     for (int r = 0; r < made.rows; ++r) {
       upper = std::exchange(lower, wideRow(r + 1 - kEdge));
       const std::uint8_t *const a = upper.data(), *const b = lower.data();
@@ -55,7 +55,7 @@ class QuarterPictures {
   [[nodiscard]] std::vector<std::uint8_t> wideRow(int row) const {
     const GrayPicture& p = picture_;
     const int r = std::clamp(row, 0, p.rows - 1);
-    const auto first = p.codes.begin() + static_cast<std::ptrdiff_t>(r) * p.cols;
+    const auto first = p.bytes.begin() + static_cast<std::ptrdiff_t>(r) * p.cols;
     std::vector<std::uint8_t> wide(static_cast<std::size_t>(p.cols + 2 * kEdge + 1), first[p.cols - 1]);
     std::fill_n(wide.begin(), kEdge, *first);
     std::copy_n(first, p.cols, wide.begin() + kEdge);
@@ -95,16 +95,16 @@ int differenceOf(const QuarterPictures& before, const GrayPicture& now, const Pa
   const int left = part.left + (x4 >> 2) + kEdge, top = part.top + (y4 >> 2) + kEdge;
   const int width = part.right - part.left, height = part.bottom - part.top;
   if (left >= 0 && left + width <= then.cols && top >= 0 && top + height <= then.rows && width == height) {
-    const std::uint8_t* const a = now.codes.data() + static_cast<std::ptrdiff_t>(part.top) * now.cols + part.left;
-    const std::uint8_t* const b = then.codes.data() + static_cast<std::ptrdiff_t>(top) * then.cols + left;
+    const std::uint8_t* const a = now.bytes.data() + static_cast<std::ptrdiff_t>(part.top) * now.cols + part.left;
+    const std::uint8_t* const b = then.bytes.data() + static_cast<std::ptrdiff_t>(top) * then.cols + left;
     if (width == kWhole) return squareDifference<kWhole>(a, now.cols, b, then.cols);
     if (width == kNear) return squareDifference<kNear>(a, now.cols, b, then.cols);
   }
   int sum = 0;
   for (int r = part.top; r < part.bottom && sum <= most; ++r) {
-    const std::uint8_t* const here = &now.codes[static_cast<std::size_t>(r) * static_cast<std::size_t>(now.cols)];
+    const std::uint8_t* const here = &now.bytes[static_cast<std::size_t>(r) * static_cast<std::size_t>(now.cols)];
     const int row = std::clamp(top + r - part.top, 0, then.rows - 1);
-    const std::uint8_t* const there = &then.codes[static_cast<std::size_t>(row) * static_cast<std::size_t>(then.cols)];
+    const std::uint8_t* const there = &then.bytes[static_cast<std::size_t>(row) * static_cast<std::size_t>(then.cols)];
     for (int c = part.left; c < part.right; ++c) {
       sum += std::abs(here[c] - there[std::clamp(left + c - part.left, 0, then.cols - 1)]);
     }
@@ -203,7 +203,7 @@ class BlockSearch {
 };
 
 GrayPicture halved(const GrayPicture& p) {
-  return scaledTo(std::max(p.cols / 2, 1), std::max(p.rows / 2, 1), p.codes.data(), p.cols, p.rows);
+  return scaledTo(std::max(p.cols / 2, 1), std::max(p.rows / 2, 1), p.bytes.data(), p.cols, p.rows);
 }
 
 Part around(const GrayPicture& p, int c, int r) {
@@ -254,7 +254,7 @@ Motion bestHere(const BlockSearch& blocks, const QuarterPictures& before, const 
 
 GrayPicture scaledTo(int cols, int rows, const std::uint8_t* codes, int width, int height) {
   GrayPicture scaled(cols, rows);
-  auto out = scaled.codes.begin();
+  auto out = scaled.bytes.begin();
   for (int r = 0; r < rows; ++r) {
     const int top = r * height / rows, bottom = std::max((r + 1) * height / rows, top + 1);
     for (int c = 0; c < cols; ++c) {
@@ -285,7 +285,7 @@ std::vector<Motion> motionBetween(const GrayPicture& before, const GrayPicture& 
     blocks = std::move(finer);
   }
   std::vector<Motion> motion;
-  motion.reserve(now.codes.size());
+  motion.reserve(now.bytes.size());
   for (int r = 0; r < now.rows; ++r) {
     for (int c = 0; c < now.cols; ++c) motion.push_back(bestHere(blocks, from[0], now, c, r));
   }

@@ -6,19 +6,14 @@
 #include <cstdint>
 #include <vector>
 
+#include "app/scene/byte_picture.h"
+
 namespace relievo {
 
-// Brightness, row by row without gaps.
-struct GrayPicture {
-  int cols = 0, rows = 0;
-  std::vector<std::uint8_t> codes;
-
-  GrayPicture() = default;
-  GrayPicture(int width, int height) : cols(width), rows(height), codes(static_cast<std::size_t>(width) * height) {}
-  [[nodiscard]] int at(int c, int r) const noexcept {
-    return codes[static_cast<std::size_t>(r) * static_cast<std::size_t>(cols) + static_cast<std::size_t>(c)];
-  }
+struct Brightness {
+  static constexpr std::size_t kCount = 1;
 };
+using GrayPicture = BytePicture<Brightness>;
 // The mean of each `cols` x `rows` part; never larger than the picture.
 [[nodiscard]] GrayPicture scaledTo(int cols, int rows, const std::uint8_t* codes, int width, int height);
 

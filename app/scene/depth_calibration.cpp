@@ -60,7 +60,7 @@ const char* name(CalibrationOrigin origin) noexcept {
     case CalibrationOrigin::ContainerTags:
       return "container tags";
     case CalibrationOrigin::LikelyTags:
-      return "container tags, likely to its maker";
+      return "container tags, thought likely by its maker";
     case CalibrationOrigin::AssumedTags:
       return "container tags, assumed by its maker";
     case CalibrationOrigin::FileBeside:

@@ -24,7 +24,7 @@ constexpr int kCap = 63;               // levels: of the gradient
 }  // namespace
 
 cv::Mat asMat(const ViewPicture& view) {
-  return {view.rows, view.cols, CV_8UC3, const_cast<std::uint8_t*>(view.yuv.data())};
+  return {view.rows, view.cols, CV_8UC3, const_cast<std::uint8_t*>(view.bytes.data())};
 }
 
 cv::Mat lumaOf(const ViewPicture& view) {

@@ -98,8 +98,7 @@ class Snapper {
     return near;
   }
   [[nodiscard]] int unlikeness(std::size_t a, std::size_t b) const {
-    const std::uint8_t *p = &left_.yuv[3 * a], *q = &left_.yuv[3 * b];
-    return std::abs(p[0] - q[0]) + std::abs(p[1] - q[1]) + std::abs(p[2] - q[2]);
+    return relievo::unlikeness(left_.pixel(a), left_.pixel(b));
   }
   [[nodiscard]] Neighbours around(int c, int r) const {
     Neighbours found;
@@ -120,8 +119,8 @@ class Snapper {
   [[nodiscard]] float misfit(int c, int r, int whole, float rest) const {
     const int x = c - whole;
     if (x < 1 || x >= map_.cols) return kWorst;
-    const std::uint8_t* p = &left_.yuv[3 * map_.at(c, r)];
-    const std::uint8_t* q = &right_.yuv[3 * map_.at(x - 1, r)];
+    const std::uint8_t* p = left_.pixel(c, r);
+    const std::uint8_t* q = right_.pixel(x - 1, r);
     float sum = 0;
     for (int i = 0; i < 3; ++i) {
       const float there = rest * static_cast<float>(q[i]) + (1 - rest) * static_cast<float>(q[i + 3]);

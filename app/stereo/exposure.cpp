@@ -7,9 +7,9 @@
 namespace relievo {
 
 void ViewTone::add(const ViewPicture& view) {
-  for (std::size_t i = 0; i < view.yuv.size(); i += 3) {
+  for (std::size_t i = 0; i < view.bytes.size(); i += 3) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const double code = view.yuv[i + k];
+      const double code = view.bytes[i + k];
       sum_[k] += code;
       squares_[k] += code * code;
     }
@@ -54,8 +54,8 @@ void balance(ViewPicture& right, const Exposure& exposure) {
       table[k][code] = static_cast<std::uint8_t>(std::clamp(value, 0.0, 255.0));
     }
   }
-  for (std::size_t i = 0; i < right.yuv.size(); i += 3) {
-    for (std::size_t k = 0; k < 3; ++k) right.yuv[i + k] = table[k][right.yuv[i + k]];
+  for (std::size_t i = 0; i < right.bytes.size(); i += 3) {
+    for (std::size_t k = 0; k < 3; ++k) right.bytes[i + k] = table[k][right.bytes[i + k]];
   }
 }
 

@@ -19,7 +19,7 @@ using Color = std::array<float, 3>;
 Color meanOf(const ViewPicture& view, int r, int begin, int end) {
   Color mean{};
   for (int c = begin; c < end; ++c) {
-    const std::uint8_t* p = &view.yuv[3 * (static_cast<std::size_t>(r) * view.cols + c)];
+    const std::uint8_t* p = view.pixel(c, r);
     for (std::size_t k = 0; k < 3; ++k) mean[k] += static_cast<float>(p[k]) / static_cast<float>(end - begin);
   }
   return mean;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kPerLevel = 0.3F;     // cost of a level's difference between neighbours, in pixels
 constexpr float kAgainstSight = 100;  // cost of a place where the right eye would see the point, but does not
-constexpr float kFront = 1;           // pixels
+constexpr float kFront = 1;           // pixels of disparity by which a point is in front of another
 constexpr int kSweeps = 2;            // there and back
 constexpr int kSlopeReach = 10;       // pixels around, of which a slope is measured
 constexpr float kSteepest = 0.3F;     // pixels of disparity a pixel
@@ -116,8 +116,7 @@ class Filler {
     return there >= 0 && there < map_.cols && map_.from_right[map_.at(there, r)] < d - kFront;
   }
   [[nodiscard]] float unlikeness(std::size_t a, std::size_t b) const {
-    const std::uint8_t *p = &left_.yuv[3 * a], *q = &left_.yuv[3 * b];
-    return static_cast<float>(std::abs(p[0] - q[0]) + std::abs(p[1] - q[1]) + std::abs(p[2] - q[2]));
+    return static_cast<float>(relievo::unlikeness(left_.pixel(a), left_.pixel(b)));
   }
 
   DisparityMap& map_;

@@ -37,7 +37,7 @@ std::uint32_t codeOf(const Frame& f, std::size_t component, int c, int r) noexce
 template <class Pixel>
 ViewPicture filled(const Frame& frame, Pixel&& pixel) {
   ViewPicture view(frame.width, frame.height);
-  std::uint8_t* out = view.yuv.data();
+  std::uint8_t* out = view.bytes.data();
   for (int r = 0; r < frame.height; ++r) {
     for (int c = 0; c < frame.width; ++c, out += 3) pixel(c, r, out);
   }
@@ -58,6 +58,11 @@ ViewPicture fromRgb(const Frame& frame) {
 }
 
 }  // namespace
+
+void lumaOf(const ViewPicture& view, std::vector<std::uint8_t>& luma) {
+  luma.resize(view.size());
+  for (std::size_t i = 0; i < luma.size(); ++i) luma[i] = *view.pixel(i);
+}
 
 ViewPicture readView(const Frame& frame) {
   if (frame.model == ColorModel::Rgb) return fromRgb(frame);

@@ -4,21 +4,27 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <vector>
 
+#include "app/scene/byte_picture.h"
 #include "hal/media/frame.h"
 
 namespace relievo {
 
-// Row by row without gaps; three bytes a pixel: luma of full range, blue and red difference around 128.
-struct ViewPicture {
-  int cols = 0, rows = 0;
-  std::vector<std::uint8_t> yuv;
-
-  ViewPicture() = default;
-  ViewPicture(int width, int height) : cols(width), rows(height), yuv(3 * size()) {}
-  [[nodiscard]] std::size_t size() const noexcept { return static_cast<std::size_t>(cols) * rows; }
+// Luma of full range, blue and red difference around 128.
+struct LumaAndColor {
+  static constexpr std::size_t kCount = 3;
 };
+using ViewPicture = BytePicture<LumaAndColor>;
+
+// The luma alone, pixel by pixel.
+void lumaOf(const ViewPicture& view, std::vector<std::uint8_t>& luma);
+
+// The sum of the differences of two pixels' parts, in levels.
+[[nodiscard]] inline int unlikeness(const std::uint8_t* p, const std::uint8_t* q) noexcept {
+  return std::abs(p[0] - q[0]) + std::abs(p[1] - q[1]) + std::abs(p[2] - q[2]);
+}
 
 // Any colour picture: YUV as it is but for its range and bits, RGB by the weights of BT.601, gray without colour.
 [[nodiscard]] ViewPicture readView(const Frame& frame);

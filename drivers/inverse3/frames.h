@@ -52,8 +52,6 @@ class FrameReader {
   bool broken_ = false;
 };
 
-inline constexpr std::size_t kMostHeaderBytes = 8;  // of the frames written here: two, a length of two, a mask of four
-
 // Writes one masked frame with a payload of less than 64 KiB; returns its length, 0 if `out` is too small.
 [[nodiscard]] std::size_t writeFrame(Opcode kind, std::string_view payload, std::uint32_t mask,
                                      std::span<char> out) RELIEVO_RT;

@@ -62,7 +62,7 @@ const std::vector<Room>& rooms() {
        {"app/player", "app/scene", "app/media", "app/depth_window", "app/haptics/method", "app/haptics/task",
         "app/render", "app/cli", "app/stereo/quick"}},
       {"app/enhance", {"app/scene"}},
-      {"app/motion", {}},                           // how the things of a picture have moved
+      {"app/motion", {"app/scene"}},                // how the things of a picture have moved
       {"app/stereo", {"app/stereo", "app/scene"}},  // depth from two views
       {"app/stereo/quick",
        {"app/stereo", "app/scene", "app/motion"}},                  // the same, while a film plays, without a library

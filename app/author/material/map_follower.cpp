@@ -16,7 +16,7 @@ constexpr double kOutside = 0.75;  // samples beyond the last one
 }  // namespace
 
 void MapFollower::add(GrayPicture picture) {
-  if (last_ && last_->codes != picture.codes) {
+  if (last_ && last_->bytes != picture.bytes) {
     const std::vector<Motion> motion = motionBetween(*last_, picture), back = motionBetween(picture, *last_);
     const std::vector<bool> is_new = uncovered(*last_, picture, motion, back);
     std::vector<Place> places;

@@ -81,7 +81,7 @@ class StillLife {
  private:
   enum Part : Parts { kBowl = 1, kFruit = 2, kBall = 4, kLemons = 8 };
   static constexpr double kTableZ = 24.5, kUpY = 0.36, kUpZ = 0.932952;  // the table's upward direction on the stage
-  static constexpr double kBowlX = -27, kBowlY = 4, kBowlRadius = 28, kBowlRim = 17;
+  static constexpr double kBowlX = -27, kBowlY = 4, kBowlRadius = 28;
   static constexpr double kBallX = 37, kBallY = 17, kBallRadius = 15;
 
   [[nodiscard]] static Vec3<T> at(double x, double y, double z) { return {T(x), T(y), T(z)}; }

@@ -116,8 +116,9 @@ FilmInfo EstimatedFilm::described(FilmInfo info, const FramePair& first) {
 
 std::vector<std::string> EstimatedFilm::notes() const {
   const std::size_t shots = relief_.shots();
-  return {print("the depth is a guess, made steady over %zu %s: within one its scale differed by up to %.0f %%", shots,
-                shots == 1 ? "shot" : "shots", 100 * relief_.wandered())};
+  return {print(
+      "the depth is a guess, made steady over %zu %s; before that, its scale changed within a shot by up to %.0f %%",
+      shots, shots == 1 ? "shot" : "shots", 100 * relief_.wandered())};
 }
 
 }  // namespace relievo

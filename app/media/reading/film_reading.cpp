@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 #include "platform/print.h"
 
@@ -125,8 +126,11 @@ std::vector<std::string> partLines(const FilmReading& reading) {
   std::vector<std::string> lines;
   lines.reserve(reading.parts.size());
   for (const CalibrationPart& part : reading.parts) {
-    lines.push_back(print("%s=%s: %s, %s", part.key.c_str(), part.value.c_str(), name(part.origin),
-                          name(certaintyOf(part.origin))));
+    std::string line = part.key + "=" + part.value + ": " + name(part.origin);
+    const bool says_how_sure =
+        part.origin == CalibrationOrigin::LikelyTags || part.origin == CalibrationOrigin::AssumedTags;
+    if (!says_how_sure) line += std::string(", ") + name(certaintyOf(part.origin));
+    lines.push_back(std::move(line));
   }
   return lines;
 }

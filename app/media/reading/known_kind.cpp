@@ -122,10 +122,6 @@ constexpr KnownKind kKinds[] = {
 
 }  // namespace
 
-std::span<const KnownKind> knownKinds() noexcept {
-  return kKinds;
-}
-
 const KnownKind* findKind(std::string_view name) noexcept {
   const auto kind =
       std::find_if(std::begin(kKinds), std::end(kKinds), [&](const KnownKind& k) { return name == k.name; });

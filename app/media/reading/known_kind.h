@@ -41,8 +41,6 @@ struct KnownKind {
   InverseCodes inverse = {};
 };
 
-// In the order in which they are listed.
-[[nodiscard]] std::span<const KnownKind> knownKinds() noexcept;
 // Null for an unknown name.
 [[nodiscard]] const KnownKind* findKind(std::string_view name) noexcept;
 [[nodiscard]] CalibrationSettings settingsOf(const KnownKind& kind);

@@ -104,9 +104,7 @@ class Enlarger {
     return side.sum / side.weight;
   }
   [[nodiscard]] std::size_t unlikeness(std::size_t here, std::size_t there) const {
-    const std::uint8_t *p = &left_.yuv[3 * here], *q = &small_left_.yuv[3 * there];
-    const int levels = std::abs(p[0] - q[0]) + std::abs(p[1] - q[1]) + std::abs(p[2] - q[2]);
-    return static_cast<std::size_t>(levels);
+    return static_cast<std::size_t>(relievo::unlikeness(left_.pixel(here), small_left_.pixel(there)));
   }
 
   const DisparityMap& small_;

@@ -58,10 +58,7 @@ Frame QuickDepth::depthOf(const Frame& left, const Frame& right) {
 }
 
 bool QuickDepth::cutsTo(const ViewPicture& left) {
-  return cuts_.begins(left.cols, left.rows, [&](int x, int y) {
-    return static_cast<float>(left.yuv[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(left.cols) +
-                                            static_cast<std::size_t>(x))]);
-  });
+  return cuts_.begins(left.cols, left.rows, [&](int x, int y) { return static_cast<float>(*left.pixel(x, y)); });
 }
 
 void QuickDepth::level(const Frame& right, ViewSize size) {

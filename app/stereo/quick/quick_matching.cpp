@@ -53,8 +53,8 @@ std::int16_t stepCost(int a, int b) noexcept {
 
 const DisparityMap& QuickMatching::match(const ViewPicture& left, const ViewPicture& right, DisparityRange range) {
   prepare(left, range);
-  readLuma(left, left_luma_);
-  readLuma(right, right_luma_);
+  lumaOf(left, left_luma_);
+  lumaOf(right, right_luma_);
   takeCensus(left_luma_, left_census_);
   takeCensus(right_luma_, right_census_);
   downward();
@@ -74,11 +74,6 @@ void QuickMatching::prepare(const ViewPicture& left, DisparityRange range) {
   now_.assign(2 * (levels_ + 2 * kVector), kHigh);
   reversed_.resize(static_cast<std::size_t>(map_.cols) + 2 * levels_ +
                    2 * static_cast<std::size_t>(std::max({std::abs(range.lowest), std::abs(range.highest), 1})));
-}
-
-void QuickMatching::readLuma(const ViewPicture& view, std::vector<std::uint8_t>& luma) {
-  luma.resize(view.size());
-  for (std::size_t i = 0; i < luma.size(); ++i) luma[i] = view.yuv[3 * i];
 }
 
 void QuickMatching::takeCensus(const std::vector<std::uint8_t>& luma, Census& census) const {

@@ -23,7 +23,6 @@ class QuickMatching {
   using Cost = std::int16_t;
 
   void prepare(const ViewPicture& left, DisparityRange range);
-  static void readLuma(const ViewPicture& view, std::vector<std::uint8_t>& luma);
   void takeCensus(const std::vector<std::uint8_t>& luma, Census& census) const;
   void costsOfRow(int r);
   void downward();

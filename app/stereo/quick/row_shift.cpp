@@ -15,7 +15,7 @@ constexpr double kLeastShift = 0.6;  // rows
 // How the mean brightness changes from each row to the next but one.
 std::vector<double> changesDown(const ViewPicture& view) {
   std::vector<double> means, changes;
-  const std::uint8_t* pixel = view.yuv.data();
+  const std::uint8_t* pixel = view.bytes.data();
   for (int r = 0; r < view.rows; ++r) {
     double sum = 0;
     for (int c = 0; c < view.cols; ++c, pixel += 3) sum += *pixel;

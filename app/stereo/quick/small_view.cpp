@@ -76,7 +76,7 @@ void takeYuv(const Frame& frame, std::size_t component, ViewSize size, int lower
   const float low = chroma ? 128 * unit : limited ? 16 * unit : 0;
   const float scale = (limited ? 255.0F / (chroma ? 224 : 219) : 1.0F) / unit, base = chroma ? 128 : 0;
   for (std::size_t i = 0; i < sums.cells.size(); ++i)
-    into.yuv[3 * i + component] = byteOf(base + (static_cast<float>(sums.cells[i]) - low) * scale);
+    into.bytes[3 * i + component] = byteOf(base + (static_cast<float>(sums.cells[i]) - low) * scale);
 }
 
 void takeRgb(const Frame& frame, ViewSize size, int lower, ViewPicture& into) {
@@ -91,16 +91,16 @@ void takeRgb(const Frame& frame, ViewSize size, int lower, ViewPicture& into) {
                 green = static_cast<float>(sums[1].cells[i]) * scale[1],
                 blue = static_cast<float>(sums[2].cells[i]) * scale[2];
     const float luma = 0.299F * red + 0.587F * green + 0.114F * blue;
-    into.yuv[3 * i] = byteOf(luma);
-    into.yuv[3 * i + 1] = byteOf(128 + 0.564F * (blue - luma));
-    into.yuv[3 * i + 2] = byteOf(128 + 0.713F * (red - luma));
+    into.bytes[3 * i] = byteOf(luma);
+    into.bytes[3 * i + 1] = byteOf(128 + 0.564F * (blue - luma));
+    into.bytes[3 * i + 2] = byteOf(128 + 0.713F * (red - luma));
   }
 }
 
 void fit(ViewPicture& picture, ViewSize size) {
   picture.cols = size.cols;
   picture.rows = size.rows;
-  picture.yuv.resize(3 * picture.size());
+  picture.bytes.resize(LumaAndColor::kCount * picture.size());
 }
 
 }  // namespace
@@ -122,7 +122,7 @@ void readSmall(const Frame& view, ViewSize size, ViewPicture& into, int lower) {
       takeYuv(view, k, size, lower, into);
       continue;
     }
-    for (std::size_t i = 0; i < into.size(); ++i) into.yuv[3 * i + k] = 128;
+    for (std::size_t i = 0; i < into.size(); ++i) into.bytes[3 * i + k] = 128;
   }
 }
 
@@ -137,15 +137,13 @@ void reduce(const ViewPicture& view, ViewSize size, ViewPicture& into) {
       const int first = edge(c, size.cols, view.cols), last = edge(c + 1, size.cols, view.cols);
       std::array<std::uint32_t, 3> sums{};
       for (int y = top; y < bottom; ++y) {
-        const std::uint8_t* p = &view.yuv[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(view.cols) +
-                                               static_cast<std::size_t>(first))];
+        const std::uint8_t* p = view.pixel(first, y);
         for (int x = first; x < last; ++x, p += 3) {
           for (std::size_t k = 0; k < 3; ++k) sums[k] += p[k];
         }
       }
       const auto count = static_cast<std::uint32_t>((bottom - top) * (last - first));
-      std::uint8_t* out = &into.yuv[3 * (static_cast<std::size_t>(r) * static_cast<std::size_t>(size.cols) +
-                                         static_cast<std::size_t>(c))];
+      std::uint8_t* const out = into.pixel(into.indexOf(c, r));
       for (std::size_t k = 0; k < 3; ++k) out[k] = static_cast<std::uint8_t>((sums[k] + count / 2) / count);
     }
   }

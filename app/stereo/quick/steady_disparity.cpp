@@ -17,20 +17,10 @@ constexpr int kInferred = 3;           // seen pictures that an inferred dispari
 constexpr int kBeside = 3;             // pixels on each side that tell which surface both views show
 constexpr int kPlainly = 2;            // levels a pixel by which the other surface must fit better
 
-void lumaOf(const ViewPicture& view, std::vector<std::uint8_t>& luma) {
-  luma.resize(view.size());
-  for (std::size_t i = 0; i < luma.size(); ++i) luma[i] = view.yuv[3 * i];
-}
-
-// Of two pixels' colours, in levels.
-int unlikeness(const std::uint8_t* p, const std::uint8_t* q) {
-  return std::abs(p[0] - q[0]) + std::abs(p[1] - q[1]) + std::abs(p[2] - q[2]);
-}
-
 }  // namespace
 
 void SteadyDisparity::steady(DisparityMap& map, const ViewPicture& left, const ViewPicture& right) {
-  left_ = left.yuv;
+  left_ = left.bytes;
   lumaOf(left, left_luma_);
   lumaOf(right, right_luma_);
   const int cols = std::min(kMotionCols, map.cols), rows = std::max(1, map.rows * cols / map.cols);
@@ -47,7 +37,7 @@ void SteadyDisparity::steady(DisparityMap& map, const ViewPicture& left, const V
 // Where it stands still, or where its neighbourhood has moved from: whichever has the surface that was found now.
 void SteadyDisparity::follow(DisparityMap& map, const GrayPicture& now) {
   const std::vector<Motion> motion =
-      before_->codes == now.codes ? std::vector<Motion>(now.codes.size()) : motionBetween(*before_, now);
+      before_->bytes == now.bytes ? std::vector<Motion>(now.size()) : motionBetween(*before_, now);
   const float scale = static_cast<float>(map.cols) / static_cast<float>(now.cols);
   findStill(map);
   for (int r = 0; r < map.rows; ++r) {

@@ -18,7 +18,7 @@ constexpr float kFarthest = 0.5F;  // pixels in a round
 
 void lumaOf(const ViewPicture& view, std::vector<float>& luma) {
   luma.resize(view.size());
-  for (std::size_t i = 0; i < luma.size(); ++i) luma[i] = static_cast<float>(view.yuv[3 * i]);
+  for (std::size_t i = 0; i < luma.size(); ++i) luma[i] = static_cast<float>(*view.pixel(i));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "drivers/floats/floats.h"
 #include "drivers/registry.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/film/recording/recorded_frames.h"
 
 namespace relievo {
 namespace {
@@ -32,21 +33,7 @@ Read read(const std::string& url) {
   read.stream = source->streams()[0];
   const auto decoder = drivers::makeVideoDecoder(read.stream);
   EXPECT_TRUE(decoder->open(read.stream));
-  const auto receive = [&] {
-    for (;;) {
-      auto frame = decoder->receive();
-      if (!frame || !*frame) return;
-      read.frames.push_back(std::move(**frame));
-    }
-  };
-  for (;;) {
-    const auto packet = source->read();
-    if (!packet || !*packet) break;
-    EXPECT_EQ(decoder->feed(**packet), Feed::Accepted);
-    receive();
-  }
-  EXPECT_TRUE(decoder->drain());
-  receive();
+  read.frames = test::framesOf(*source, read.stream, *decoder);
   read.damaged = decoder->damaged();
   return read;
 }

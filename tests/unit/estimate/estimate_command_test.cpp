@@ -35,7 +35,7 @@ struct Trial {
     return static_cast<std::uint8_t>(31 * k + 7 * static_cast<int>(i));
   }
   [[nodiscard]] RawPicture picture(int k) const {
-    RawPicture picture{cols, rows, std::vector<std::uint8_t>(3 * static_cast<std::size_t>(cols * rows))};
+    RawPicture picture(cols, rows);
     for (std::size_t i = 0; i < picture.bytes.size(); ++i) picture.bytes[i] = byteOf(k, i);
     return picture;
   }

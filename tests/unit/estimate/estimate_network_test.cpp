@@ -95,12 +95,11 @@ class Network : public testing::Test {
   }
   // Left half red and right half a gray; as wide as high twice.
   static RawPicture picture(int cols, int rows) {
-    RawPicture picture{cols, rows, {}};
-    for (int i = 0; i < cols * rows; ++i) {
-      const bool left = i % cols < cols / 2;
-      for (const int part : {left ? 255 : 51, left ? 0 : 51, left ? 0 : 51}) {
-        picture.bytes.push_back(static_cast<std::uint8_t>(part));
-      }
+    RawPicture picture(cols, rows);
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+      const bool left = static_cast<int>(i) % cols < cols / 2;
+      const std::array<std::uint8_t, 3> red{255, 0, 0}, gray{51, 51, 51};
+      std::ranges::copy(left ? red : gray, picture.pixel(i));
     }
     return picture;
   }

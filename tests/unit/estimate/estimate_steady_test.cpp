@@ -28,8 +28,8 @@ StillView viewOf(const StillScene& scene, const StillCamera& camera) {
   return {scene, camera, kCols, kRows};
 }
 RawPicture pictureOf(const StillView& view) {
-  RawPicture picture{view.cols, view.rows, {}};
-  for (const std::uint8_t light : view.light) picture.bytes.insert(picture.bytes.end(), 3, light);
+  RawPicture picture(view.cols, view.rows);
+  for (std::size_t i = 0; i < picture.size(); ++i) std::fill_n(picture.pixel(i), 3, view.light[i]);
   return picture;
 }
 
@@ -197,7 +197,7 @@ TEST(PointTracks, StayOnTheirThings) {
   const auto grayAt = [&](int k) {
     const StillView view(scene, test::pan(k), 128, 72);
     GrayPicture gray(view.cols, view.rows);
-    gray.codes = view.light;
+    gray.bytes = view.light;
     return gray;
   };
   PointTracks tracks;

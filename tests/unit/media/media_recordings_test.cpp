@@ -617,8 +617,8 @@ TEST(Recordings, AGuessStaysOneInTheFilmsTags) {
   };
   const FilmInfo said = readingOf("said.mkv"), guessed = readingOf("guessed.mkv");
   EXPECT_THAT(partLines(said.reading), Contains("near=400: container tags, said"));
-  EXPECT_THAT(partLines(guessed.reading), Contains("near=400: container tags, assumed by its maker, assumed"));
-  EXPECT_THAT(partLines(guessed.reading), Contains("law=inverse: container tags, likely to its maker, likely"));
+  EXPECT_THAT(partLines(guessed.reading), Contains("near=400: container tags, assumed by its maker"));
+  EXPECT_THAT(partLines(guessed.reading), Contains("law=inverse: container tags, thought likely by its maker"));
   EXPECT_EQ(guessed.calibration.calibration.near_mm, 400);
   EXPECT_THAT(plainLine(said.reading, said.calibration.calibration), HasSubstr("0.40 to 0.90 m (container tags)"));
   EXPECT_EQ(plainLine(guessed.reading, guessed.calibration.calibration),

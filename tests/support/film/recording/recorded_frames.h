@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All pictures of one stream of a recording, decoded.
+// All pictures of one stream of a recording or a folder of pictures, decoded.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -9,17 +9,16 @@
 
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "hal/media/media_source.h"
+#include "hal/media/video_decoder.h"
 
 namespace relievo::test {
 
-// From where the source stands to its end. In a recording every picture is a key frame, and none is damaged.
-[[nodiscard]] inline std::vector<Frame> framesOf(MediaSource& source, const StreamInfo& stream) {
+// From where the source stands to its end, by a decoder that is open for the stream. Every picture is a key frame.
+[[nodiscard]] inline std::vector<Frame> framesOf(MediaSource& source, const StreamInfo& stream, VideoDecoder& decoder) {
   std::vector<Frame> frames;
-  const auto decoder = makeFfmpegDecoder();
-  EXPECT_TRUE(decoder->open(stream));
   const auto receive = [&] {
     for (;;) {
-      auto frame = decoder->receive();
+      auto frame = decoder.receive();
       if (!frame || !*frame) return;
       frames.push_back(std::move(**frame));
     }
@@ -29,11 +28,19 @@ namespace relievo::test {
     if (!packet || !*packet) break;
     if ((*packet)->stream != stream.index) continue;
     EXPECT_TRUE((*packet)->keyframe);
-    EXPECT_EQ(decoder->feed(**packet), Feed::Accepted);
+    EXPECT_EQ(decoder.feed(**packet), Feed::Accepted);
     receive();
   }
-  EXPECT_TRUE(decoder->drain());
+  EXPECT_TRUE(decoder.drain());
   receive();
+  return frames;
+}
+
+// The same by FFmpeg, which finds no damage.
+[[nodiscard]] inline std::vector<Frame> framesOf(MediaSource& source, const StreamInfo& stream) {
+  const auto decoder = makeFfmpegDecoder();
+  EXPECT_TRUE(decoder->open(stream));
+  auto frames = framesOf(source, stream, *decoder);
   EXPECT_EQ(decoder->damaged(), 0u);
   return frames;
 }
