@@ -152,7 +152,7 @@ Result<void> FilmPlace::write(AVPacket& packet) {
 Error FilmPlace::failureOf(int code) {
   const auto of_file = fileError();
   const bool unanswered = of_file && (of_file->code == ErrorCode::Timeout || of_file->code == ErrorCode::Cancelled);
-  return unanswered ? *of_file : Error{ErrorCode::Io, osErrorOf(code), kCannotWrite};
+  return unanswered ? *of_file : Error{ErrorCode::Io, osErrorOf(code), usualFailure()};
 }
 
 }  // namespace relievo

@@ -53,6 +53,8 @@ class FilmPlace {
   [[nodiscard]] Error failureOf(int code);
   // Of the file that is written, if it is one.
   [[nodiscard]] virtual std::optional<Error> fileError() { return std::nullopt; }
+  // What a failure without a reason of the file's means.
+  [[nodiscard]] virtual const char* usualFailure() const noexcept { return kCannotWrite; }
 
  private:
   struct Free {

@@ -79,7 +79,8 @@ class TransportStream final : public FilmPlace {
   [[nodiscard]] Duration latest() const noexcept override { return pacer_.latest(); }
 
  private:
-  static constexpr const char* kLineFailed = "sending failed; check the network";
+  static constexpr const char* kLineFailed =
+      "sending failed: the receiver has gone, or the network; start again when it is back";
 
   // The library's call-back; its buffer is whole packets, which are its own to change.
 #if LIBAVFORMAT_VERSION_MAJOR >= 61  // FFmpeg 7
@@ -113,6 +114,7 @@ class TransportStream final : public FilmPlace {
     freeFilmIo(out_);
     return code;
   }
+  [[nodiscard]] const char* usualFailure() const noexcept override { return live_ ? kLineFailed : kCannotWrite; }
   [[nodiscard]] std::optional<Error> fileError() override {
     return place_.output().valid() ? place_.output().error() : std::nullopt;
   }
