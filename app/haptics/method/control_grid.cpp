@@ -214,6 +214,8 @@ void ControlGrid::weighted(const Heights& of_points, int i0, int j0, const Frame
 
 void ControlGrid::readAhead(int i0, int j0, const Frames& frames, int most) RELIEVO_RT {
   if (ahead_ == Place{i0, j0, frames.wanted}) return;
+  constexpr int kFarthest = kSide - 6;  // beyond, a point would take the place of one of the last patch or its rim
+  if (patch_.slots != 0 && std::max(std::abs(i0 - patch_.i), std::abs(j0 - patch_.j)) > kFarthest) return;
   ahead_ = {};
   const std::uint64_t until = blocks_read_ + static_cast<std::uint64_t>(most);
   for (int j = j0; j < j0 + 4; ++j) {
