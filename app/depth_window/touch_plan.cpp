@@ -11,6 +11,7 @@
 
 #include "app/depth_window/flicker.h"
 #include "app/depth_window/lattice.h"
+#include "app/depth_window/ripples.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -18,6 +19,7 @@ namespace {
 
 constexpr double kEdgeMm = 3.0;
 constexpr double kRoundingMm = 1e-6;
+constexpr int kWideBlock = 64;  // wide enough to tell whether its rows are read whole
 constexpr double kLeastErrorTold = 0.001;
 
 // Measuring a clip. For normally distributed noise the median of the magnitude is 0.6745 standard deviations; the
@@ -59,10 +61,14 @@ constexpr double kMeanNoise = 14.0 / 75, kMeanFlattens = 25.0 / 24;
 constexpr double kNoiseOverSlope = 0.578;
 // Quantising a slope in steps of q adds a sawtooth whose first harmonic has a slope of sqrt(2) q/l for steps l wide.
 // The transfer function T leaves of it at most q/(5.06 w), where T(f) f is largest, at l = 5.3 w. Few slopes are the
-// worst one: the expected error is half of it. The width is chosen for the worst one all the same, since a finger may
-// stay on it, and what a codec adds to the steps is the same kind of error (worst smooth scene, 8 bits: .81 % of the
-// force with this width, .99 with the one for half; H.264 at crf 23: 1.80 and 2.30).
-constexpr double kStepsOverWorstSlope = 5.06, kExpectedOfWorst = 0.5;
+// worst one: the expected error is half of it. What a codec makes of the steps is the same kind of error and four times
+// as much. Three paths over the smooth scenes of relievo-lab, the worst: H.264 at crf 18, 23, 28 1.41, 1.80, 2.84 % of
+// the force with the width for the worst slope, 1.34, 1.80, 2.41 with that for twice as much; 8 bits without a codec
+// .65 with the width for the worst slope, .46 with that for half.
+constexpr double kStepsOverWorstSlope = 5.06, kExpectedOfWorst = 0.5, kCodedOfWorst = 2;
+// In the smooth scenes of relievo-lab, rounded to 8 bits, no step is a ripple; after H.264 at crf 18 to 28 .0024 and
+// more are, but for a plane so shallow that it has hardly any steps.
+constexpr double kRipplesOfCodec = 0.001;
 // Smoothing flattens what is narrower than itself, with the fourth power of the width: .05 % of the force at 1 mm on
 // the sphere and the face of relievo-lab speed-accuracy (noise of 1 %, widths of 2.4 to 3.8 mm: .03 to .05 %).
 constexpr double kFlattening = 5e-4;
@@ -135,10 +141,12 @@ ClipMeasure measureClip(std::span<const TimedSurface> frames) {
   }
   m.sample_mm = 1 / std::abs(frames.front().field.grid().u_per_mm);
   m.quantum_mm = frames.front().field.stepMm();
+  m.whole_rows = frames.front().field.blockOf(kWideBlock, kWideBlock, 1).across.count == kWideBlock;
   if (bends.empty()) return m;  // every value is at an end of the range, so later values are unknown
   m.edges = static_cast<double>(edges) / static_cast<double>(bends.size());
   if (std::isfinite(quantum)) m.quantum_mm = quantum;
   m.flicker_mm = flickerMm(frames);
+  m.ripples = ripplesOf(frames);
   // A quantised slope bends by one step at every other sample: subtract what the quantum explains.
   const double deviation = quantile(bends, 0.5) / (kMedianOfNormal * std::sqrt(kBendVariance));
   const double of_quantum = kStepAsNoise * m.quantum_mm;
@@ -200,9 +208,14 @@ TouchPlan planTouch(const ClipMeasure& m, const LookAhead& ahead) {
 
   // Repeated frames carry the same noise, so averaging them does not reduce it.
   const double through = std::sqrt(m.still ? 1.0 : noiseThrough(s.wide_time, carried));
-  // In a fine picture only about `read` x `read` samples of a block are read, w/(kSigmaPerPitch x read) apart, so that
-  // a finer picture is no less noisy.
-  const auto apart = [&](double w, int read) { return std::max(m.sample_mm, w / (kSigmaPerPitch * read)); };
+  // In a fine picture only about `read` x `read` samples of a block are read, or a few whole rows of them, so that a
+  // finer picture is hardly less noisy. The distance of as many samples spread evenly:
+  const auto apart = [&](double w, int read) {
+    const double block = w / kSigmaPerPitch, across = block / m.sample_mm;
+    if (across <= read) return m.sample_mm;
+    const double down = m.whole_rows ? std::max<double>(SampledBlock::kFewestRows, read * read / across) : read;
+    return block / std::sqrt((m.whole_rows ? across : read) * down);
+  };
   // The error of the force's direction is the error of the slope.
   const double steps = stepsUnderNoise(m);
   const auto errorOf = [&](double w, double of_worst) {
@@ -212,7 +225,8 @@ TouchPlan planTouch(const ClipMeasure& m, const LookAhead& ahead) {
   s.narrow_mm = fine ? kFineNarrowMm : kNarrowMm;
   s.wide_mm = kTimesTheNarrow * s.narrow_mm;
   double wider = s.wide_mm * kStepOfSearch;
-  while (wider <= kWidestMm && errorOf(wider, 1) < errorOf(s.wide_mm, 1)) {
+  const double of_worst = m.ripples > kRipplesOfCodec ? kCodedOfWorst : kExpectedOfWorst;
+  while (wider <= kWidestMm && errorOf(wider, of_worst) < errorOf(s.wide_mm, of_worst)) {
     s.wide_mm = wider;
     wider *= kStepOfSearch;
   }
@@ -223,11 +237,11 @@ TouchPlan planTouch(const ClipMeasure& m, const LookAhead& ahead) {
     s.straight_mm = kStepsBend * steps + kNoiseBends * m.noise_mm * through * std::sqrt(kBendVariance) / samples;
   }
 
-  // The narrow level's error must fit under the clamp: four standard deviations of its noise plus one step. Within that
+  // The narrow level's error must fit under the clamp: 4.5 standard deviations of its noise plus one step. Within that
   // the wide level alone counts (FeltSurface).
   const double narrow_noise =
       m.noise_mm * apart(s.narrow_mm, kNarrowSamples) * through / (s.narrow_mm * std::sqrt(4 * std::numbers::pi));
-  s.clamp_mm = std::max({0.15, 1.5 * std::min(m.quantum_mm, 0.2), 4 * narrow_noise});
+  s.clamp_mm = std::max({0.15, 1.5 * std::min(m.quantum_mm, 0.2), 4.5 * narrow_noise});
   plan.reason = reasonFor(plan, ahead);
   return plan;
 }

@@ -12,7 +12,7 @@
 
 namespace relievo {
 
-// Reads about ten thousand samples of a few frames; not for the real-time thread.
+// Reads up to seventy thousand samples of each of a few frames; not for the real-time thread.
 struct ClipMeasure {
   int frames = 0;
   double quantum_mm = 0;      // smallest step between depth values, in mm
@@ -20,9 +20,11 @@ struct ClipMeasure {
   double speed_mm_per_s = 0;  // of the fastest 5 % of the readable places
   double flicker_mm = 0;      // standard deviation of what whole frames do at random (flickerMm)
   double edges = 0;           // share of the places beside a step of more than 3 mm
+  double ripples = 0;         // share of the steps between samples that are ripples (ripplesOf)
   double sample_mm = 0;       // pitch of the samples
   double period_s = 0;        // of the frames
   bool still = false;         // no sampled place changes
+  bool whole_rows = false;    // HeightField::blockOf
 };
 // Frames in ascending order, all of one size. All zero without frames.
 [[nodiscard]] ClipMeasure measureClip(std::span<const TimedSurface> frames);

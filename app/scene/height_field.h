@@ -68,6 +68,11 @@ class HeightField {
   // True if the other field has the same size and format, so that equal bytes mean equal heights.
   [[nodiscard]] bool readsLike(const HeightField& other) const noexcept;
 
+  // A block of about `most` x `most` samples, read as this field reads them best.
+  [[nodiscard]] SampledBlock blockOf(int width, int height, int most) const RELIEVO_RT {
+    return plain_ && step_bytes_ == sampleBytes() ? SampledBlock::ofWholeRows(width, height, most)
+                                                  : SampledBlock(width, height, most);
+  }
   // The mean height of the samples read from a block that begins at sample (c0, r0) and lies inside the picture. NaN if
   // fewer than half of them have a height.
   [[nodiscard]] double meanHeight(int c0, int r0, const SampledBlock& block) const RELIEVO_RT;
@@ -116,7 +121,7 @@ class HeightField {
   template <class Sample>
   [[nodiscard]] double meanOfCodes(int c0, int r0, const SampledBlock& block) const RELIEVO_RT;
   template <class Sample, int kAcross>
-  [[nodiscard]] double meanOfRows(int c0, int r0, const SampledBlock& block) const RELIEVO_RT;
+  [[nodiscard]] std::uint32_t sumOfRows(const std::uint8_t* first, const SampledBlock& block) const RELIEVO_RT;
 
   const std::uint8_t* data_ = nullptr;
   std::ptrdiff_t stride_bytes_ = 0;

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+// Evenly spaced and centred places along a length.
 #include "app/scene/sampled_block.h"
+
+#include <algorithm>
 
 namespace relievo {
 
@@ -7,8 +10,18 @@ SampledBlock::Places::Places(int length, int most) RELIEVO_RT : count(length) {
   if (length <= most) return;
   count = most + ((length ^ most) & 1);  // same parity as the length
   step = length / count;
-  if (count % 2 == 0 && step % 2 == 0) step += (step + 1) * (count - 1) < length ? 1 : -1;
+  if (count % 2 == 0 && step % 2 == 0) {  // an even number is centred with an odd step only
+    ++step;
+    while (step * (count - 1) >= length) count -= 2;
+  }
   first = (length - 1 - step * (count - 1)) / 2;
+}
+
+SampledBlock SampledBlock::ofWholeRows(int block_width, int block_height, int most) RELIEVO_RT {
+  const int rows = std::max(std::min(most, kFewestRows), (most * most + block_width - 1) / block_width);
+  SampledBlock block(block_width, block_height, rows);
+  block.across = Places(block_width, block_width);
+  return block;
 }
 
 }  // namespace relievo

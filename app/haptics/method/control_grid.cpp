@@ -24,8 +24,8 @@ void ControlGrid::setPicture(const HeightField& field) RELIEVO_RT {
   cols_ = field.cols();
   rows_ = field.rows();
   const GridMapping& grid = field.grid();
-  block_ =
-      SampledBlock(blockFor(pitch_wanted_mm_, grid.u_per_mm), blockFor(pitch_wanted_mm_, grid.v_per_mm), most_samples_);
+  block_ = field.blockOf(blockFor(pitch_wanted_mm_, grid.u_per_mm), blockFor(pitch_wanted_mm_, grid.v_per_mm),
+                         most_samples_);
   // Block i covers samples i m .. i m + m - 1, so its centre is at u = (i + 1/2) m - 1/2.
   a_per_mm_ = grid.u_per_mm / block_.width;
   a_origin_ = (grid.u_origin + 0.5) / block_.width - 0.5;
@@ -97,7 +97,7 @@ void ControlGrid::read(std::size_t p, const Frames& frames, std::uint32_t missin
   const bool outside =
       c0 >= c1 || r0 >= r1 || 2 * std::int64_t{cols} * rows < std::int64_t{block_.width} * block_.height;
   const bool cut = !outside && (cols < block_.width || rows < block_.height);
-  const SampledBlock block = cut ? SampledBlock(cols, rows, most_samples_) : block_;
+  const SampledBlock block = cut ? frames.window->frames[0].field.blockOf(cols, rows, most_samples_) : block_;
   for (; missing != 0; missing &= missing - 1) {
     const auto slot = static_cast<std::size_t>(__builtin_ctz(missing));
     const auto bit = static_cast<std::uint8_t>(1U << slot);
@@ -159,7 +159,7 @@ double ControlGrid::meanOrBridged(const HeightField& field, int c, int r, const 
   if (!std::isnan(mean)) return mean;
   const int left = std::max(c - block_.width, 0), right = std::min(c + block.width + block_.width, cols_);
   const int top = std::max(r - block_.height, 0), bottom = std::min(r + block.height + block_.height, rows_);
-  return field.meanHeight(left, top, SampledBlock(right - left, bottom - top, 3 * most_samples_));
+  return field.meanHeight(left, top, field.blockOf(right - left, bottom - top, 3 * most_samples_));
 }
 
 // A depth camera's holes come and go between frames: a point counts as a hole only if less than half its weight has
@@ -214,6 +214,8 @@ void ControlGrid::weighted(const Heights& of_points, int i0, int j0, const Frame
 
 void ControlGrid::readAhead(int i0, int j0, const Frames& frames, int most) RELIEVO_RT {
   if (ahead_ == Place{i0, j0, frames.wanted}) return;
+  constexpr int kFarthest = kSide - 6;  // beyond, a point would take the place of one of the last patch or its rim
+  if (patch_.slots != 0 && std::max(std::abs(i0 - patch_.i), std::abs(j0 - patch_.j)) > kFarthest) return;
   ahead_ = {};
   const std::uint64_t until = blocks_read_ + static_cast<std::uint64_t>(most);
   for (int j = j0; j < j0 + 4; ++j) {

@@ -79,8 +79,8 @@ class ControlGrid {
   }
   // How straight the same points are, 0 .. 1; after `patch` with the same frames.
   void straightness(int i0, int j0, const Frames& frames, Patch& out) const RELIEVO_RT;
-  // Reads points around the same place of frames that will be weighted soon; stops once it has read `most` blocks, or
-  // those of one point.
+  // Reads points around a place of frames that will be weighted soon; stops once it has read `most` blocks, or those of
+  // one point. Nothing is read so far away that the last patch would have to go.
   void readAhead(int i0, int j0, const Frames& frames, int most) RELIEVO_RT;
   // Prefetches everything except the points.
   void prefetch() const RELIEVO_RT;

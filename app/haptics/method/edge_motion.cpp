@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "app/haptics/method/float4.h"
+
 namespace relievo {
 namespace {
 
@@ -39,18 +41,26 @@ struct Places {
 // Reads the lattice; returns the largest step between two neighbours in a row or a column.
 float look(const HeightField& field, const Places& places, Lattice& out) RELIEVO_RT {
   float* line = out.data();
+  bool holes = false;
   for (const int r : places.rows) {
-    field.readRow(r, places.columns, line);
+    holes |= field.readRow(r, places.columns, line);
     line += kSide;
   }
-  const auto pit = static_cast<float>(-field.depthMm());  // a hole counts as a pit
-  for (float& z : out) z = std::isnan(z) ? pit : z;
-  float step = 0;
-  for (std::size_t k = kSide; k < out.size(); ++k) step = std::max(step, std::abs(out[k] - out[k - kSide]));
-  for (std::size_t row = 0; row < out.size(); row += kSide) {
-    for (std::size_t k = row + 1; k < row + kSide; ++k) step = std::max(step, std::abs(out[k] - out[k - 1]));
+  if (holes) {  // a hole counts as a pit
+    const auto pit = static_cast<float>(-field.depthMm());
+    for (float& z : out) z = std::isnan(z) ? pit : z;
   }
-  return step;
+  static_assert(kSide % 4 == 1, "the differences within a row, and those between rows, are taken four at a time");
+  Float4 most{};
+  const auto see = [&](std::size_t k, std::size_t before) RELIEVO_RT {
+    const Float4 step = load4(&out[k]) - load4(&out[k - before]), size = step > -step ? step : -step;
+    most = size > most ? size : most;
+  };
+  for (std::size_t k = kSide; k < out.size(); k += 4) see(k, kSide);
+  for (std::size_t row = 0; row < out.size(); row += kSide) {
+    for (std::size_t k = row + 1; k < row + kSide; k += 4) see(k, 1);
+  }
+  return std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
 }
 
 float at(const Lattice& f, int i, int j) RELIEVO_RT {

@@ -201,7 +201,20 @@ RELIEVO_TICK_CODE FeltSurface::Weighed FeltSurface::weighedAt(const SurfaceWindo
   return {time(moment.present - 2), time(moment.present), time(moment.present + 3)};
 }
 
-void FeltSurface::prepare(const SurfaceWindow& window, MediaTime next, double x_mm, double y_mm) RELIEVO_RT {
+// In the last ticks before the next frame, a few blocks in each: a finger that moves fast would be elsewhere by then.
+void FeltSurface::readAhead(const SurfaceWindow& window, MediaTime next, const FrameMoment& moment,
+                            const glm::dvec2& place_mm, const glm::dvec2& mm_per_s) RELIEVO_RT {
+  constexpr Duration kAhead = std::chrono::milliseconds(20);
+  if (moment.present >= moment.last) return;
+  const Duration left = window.frames[static_cast<std::size_t>(moment.present) + 1].time - next;
+  if (left > kAhead) return;
+  const glm::dvec2 then = place_mm + toSeconds(left) * mm_per_s;
+  narrow_.readAhead(slots_, then.x, then.y, moment);
+  if (two_levels_) smooth_.readAhead(slots_, then.x, then.y, moment);
+}
+
+void FeltSurface::prepare(const SurfaceWindow& window, MediaTime next, double x_mm, double y_mm,
+                          const glm::dvec2& mm_per_s) RELIEVO_RT {
   constexpr Duration kStep = kPreparedWithin;
   next -= window.carried;
   const FrameMoment moment(window, next), later(window, next + kStep);
@@ -212,9 +225,8 @@ void FeltSurface::prepare(const SurfaceWindow& window, MediaTime next, double x_
   // If a new frame begins in between, the later moment does not give the surface's rate of change.
   const FrameMoment& comparable = later.present == moment.present ? later : moment;
   narrow_.prepare(slots_, x_mm, y_mm, moment, comparable, toSeconds(kStep));
-  narrow_.readAhead(slots_, x_mm, y_mm, moment);
-  if (!two_levels_) return;
-  smooth_.prepare(slots_, x_mm, y_mm, moment, comparable, toSeconds(kStep));
+  if (two_levels_) smooth_.prepare(slots_, x_mm, y_mm, moment, comparable, toSeconds(kStep));
+  readAhead(window, next, moment, {x_mm, y_mm}, mm_per_s);
 }
 
 void FeltSurface::prefetch() const RELIEVO_RT {

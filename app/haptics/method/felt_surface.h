@@ -51,8 +51,10 @@ class FeltSurface {
   [[nodiscard]] bool asPrepared() const RELIEVO_RT { return as_prepared_; }
 
   // Call after `moveTo` with the same window: prepares for a tick expected at `next`, with the proxy near (x, y). The
-  // preparation stays valid while the contributing frames are the same, even in a newer window.
-  void prepare(const SurfaceWindow& window, MediaTime next, double x_mm, double y_mm) RELIEVO_RT;
+  // preparation stays valid while the contributing frames are the same, even in a newer window. `mm_per_s`: the proxy's
+  // velocity, by which the frame after those is read where the proxy will be when it begins to count.
+  void prepare(const SurfaceWindow& window, MediaTime next, double x_mm, double y_mm,
+               const glm::dvec2& mm_per_s = glm::dvec2(0)) RELIEVO_RT;
   // Prefetches everything except the control points, which a prepared tick does not need.
   void prefetch() const RELIEVO_RT;
 
@@ -60,6 +62,8 @@ class FeltSurface {
   [[nodiscard]] SurfacePoint narrowAt(double x_mm, double y_mm) RELIEVO_RT;
   void followEdge(const SurfaceWindow& window, MediaTime next, const FrameMoment& moment, double x_mm,
                   double y_mm) RELIEVO_RT;
+  void readAhead(const SurfaceWindow& window, MediaTime next, const FrameMoment& moment, const glm::dvec2& place_mm,
+                 const glm::dvec2& mm_per_s) RELIEVO_RT;
   void setPicture(const SurfaceWindow& window) RELIEVO_RT;
   void placeFrames(const SurfaceWindow& window) RELIEVO_RT;
 

@@ -168,7 +168,9 @@ void RelievoMethod::upkeep(const SurfaceWindow& window, MediaTime now) RELIEVO_R
     force_n_ = {};
     ahead_mm_ = {hip_mm_.x, hip_mm_.y};
   }
-  surface_.prepare(window, now + step, ahead_mm_.x, ahead_mm_.y);
+  const glm::dvec2 here = state_ == State::Contact ? glm::dvec2(contact_.x_mm, contact_.y_mm) : glm::dvec2(hip_mm_);
+  const glm::dvec2 mm_per_s = step > Duration(0) ? (ahead_mm_ - here) / toSeconds(step) : glm::dvec2(0);
+  surface_.prepare(window, now + step, ahead_mm_.x, ahead_mm_.y, mm_per_s);
   if (stick_.holds() && surface_.moveTo(window, now + step)) stick_.prepare(surface_);
   now_ = now;
 }

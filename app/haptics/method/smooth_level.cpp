@@ -85,11 +85,14 @@ void SmoothLevel::prepare(const FrameSlots& slots, double x_mm, double y_mm, con
                           const FrameMoment& later, double step_s) RELIEVO_RT {
   if (has_broad_) {
     broad_.prepare(slots, x_mm, y_mm, next, later, step_s);
-    broad_.readAhead(slots, x_mm, y_mm, next);
     if (broad_.preparedStraight()) return;
   }
   wide_.prepare(slots, x_mm, y_mm, next, later, step_s);
-  wide_.readAhead(slots, x_mm, y_mm, next);
+}
+
+void SmoothLevel::readAhead(const FrameSlots& slots, double x_mm, double y_mm, const FrameMoment& next) RELIEVO_RT {
+  if (has_broad_) broad_.readAhead(slots, x_mm, y_mm, next);
+  if (!has_broad_ || !broad_.preparedStraight()) wide_.readAhead(slots, x_mm, y_mm, next);
 }
 
 void SmoothLevel::prefetch() const RELIEVO_RT {

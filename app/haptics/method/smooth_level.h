@@ -29,9 +29,10 @@ class SmoothLevel {
   [[nodiscard]] SurfacePoint at(double x_mm, double y_mm) RELIEVO_RT;
   [[nodiscard]] double height(double x_mm, double y_mm) RELIEVO_RT;
 
-  // As SurfaceLevel::prepare and readAhead.
+  // As SurfaceLevel's.
   void prepare(const FrameSlots& slots, double x_mm, double y_mm, const FrameMoment& next, const FrameMoment& later,
                double step_s) RELIEVO_RT;
+  void readAhead(const FrameSlots& slots, double x_mm, double y_mm, const FrameMoment& next) RELIEVO_RT;
   void prefetch() const RELIEVO_RT;
 
   // The wide level's blocks are larger than those of `narrow`.

@@ -30,6 +30,12 @@ constexpr std::array<Float4, 4> kQuadratic{Float4{0.125F, 0.75F, 0.125F, 0}, Flo
 
 constexpr float kMostCarriedMm = 2;
 
+// std::floor is a call on processors without an instruction for it.
+int below(double v) RELIEVO_RT {
+  const int whole = static_cast<int>(v);
+  return v < whole ? whole - 1 : whole;
+}
+
 }  // namespace
 
 SurfaceLevel::SurfaceLevel(double sigma_mm, int most_samples, SpaceLaw space, TimeLaw time, Curvature curvature,
@@ -94,8 +100,8 @@ RELIEVO_TICK_CODE SurfaceLevel::Cell SurfaceLevel::cellOf(double x_mm, double y_
   constexpr double kFar = 1e6;
   const double shift = cubic_ ? 0 : 0.5;
   const double a = grid_.a(std::min(std::max(x_mm, -kFar), kFar)), b = grid_.b(std::min(std::max(y_mm, -kFar), kFar));
-  const double fa = std::floor(a + shift), fb = std::floor(b + shift);
-  return {static_cast<int>(fa) - 1, static_cast<int>(fb) - 1, static_cast<float>(a - fa), static_cast<float>(b - fb)};
+  const int fa = below(a + shift), fb = below(b + shift);
+  return {fa - 1, fb - 1, static_cast<float>(a - fa), static_cast<float>(b - fb)};
 }
 
 RELIEVO_TICK_CODE const Patch& SurfaceLevel::patchAt(const Cell& cell) RELIEVO_RT {

@@ -128,11 +128,28 @@ TEST(TouchPlan, SmoothsStepsInTimeWhereFramesAreQuick) {
   EXPECT_EQ(planTouch(steps).scale.wide_time, TimeLaw::BSpline) << "noise is worse";
 }
 
-// Where the worst slope's q/(5.06 w) and the flattening's .0005 w^4 grow as fast, w^5 = q/(2 x 5.06 x .0005); the
-// search goes in steps of 2 %.
-TEST(TouchPlan, TheWidthSuitsTheSlopeOnWhichStepsAreWorst) {
-  const ClipMeasure steps{.frames = 4, .quantum_mm = 40.0 / 255, .sample_mm = 0.22, .period_s = kPeriod};
-  EXPECT_NEAR(planTouch(steps).scale.wide_mm, std::pow(40.0 / 255 / 0.00506, 0.2), 0.02 * 2);
+// Where a share e of the worst slope's q/(5.06 w) and the flattening's .0005 w^4 grow as fast, w^5 = e q/(2 x 5.06 x
+// .0005); the search goes in steps of 2 %. e is 1/2 for rounded depth, and four times that where a codec was at work.
+TEST(TouchPlan, TheWidthSuitsTheStepsAndWhatACodecMadeOfThem) {
+  ClipMeasure steps{.frames = 4, .quantum_mm = 40.0 / 255, .sample_mm = 0.22, .period_s = kPeriod};
+  EXPECT_NEAR(planTouch(steps).scale.wide_mm, std::pow(0.5 * 40.0 / 255 / 0.00506, 0.2), 0.02 * 2);
+  steps.ripples = 0.0005;
+  EXPECT_NEAR(planTouch(steps).scale.wide_mm, std::pow(0.5 * 40.0 / 255 / 0.00506, 0.2), 0.02 * 2);
+  steps.ripples = 0.003;
+  EXPECT_NEAR(planTouch(steps).scale.wide_mm, std::pow(2 * 40.0 / 255 / 0.00506, 0.2), 0.02 * 2);
+}
+
+// A slope of 5 codes in 32 samples with hills 64 samples long, and the same with every third column a code higher.
+TEST(TouchPlan, TellsRipplesFromHills) {
+  const auto ripples = [](bool coded) {
+    const Frame frame = makeGrayFrame(640, 64, 8, {}, [&](int c, int) {
+      return 30 + 5.0 * c / 32 + 20 * std::sin(0.098 * c) + (coded && c % 3 == 0 ? 1 : 0);
+    });
+    const TimedSurface alone{HeightField::make(frame, {.bits = 8}, kVolume).value(), {}, frame.owner};
+    return measureClip(std::span(&alone, 1)).ripples;
+  };
+  EXPECT_EQ(ripples(false), 0);
+  EXPECT_GT(ripples(true), 0.1);
 }
 
 TEST(TouchPlan, WhatIsSmoothAlreadyNeedsNoBroadLevel) {

@@ -122,6 +122,18 @@ TEST_F(ControlGridTest, WhatWasReadAheadIsNotReadAgain) {
   EXPECT_EQ(curved_.blocksRead(), 32U);
 }
 
+// The cache holds 16 x 16 points: one 16 points further on would take the place of one of the patch.
+TEST_F(ControlGridTest, WhatIsReadAheadFarAwayLeavesTheLastPatchAsItWas) {
+  show({picture(0, [](int c, int r) { return 100 + c + r; })}, {1});
+  const Patch before = curvedPatch(2, 5);
+  for (int away = 0; away < 20; ++away) curved_.readAhead(2 + away, 5, frames_, 40);
+  Patch after;
+  curved_.patch(2, 5, frames_, after);
+  for (std::size_t j = 0; j < 4; ++j) {
+    for (int i = 0; i < 4; ++i) EXPECT_EQ(after[j][i], before[j][i]);
+  }
+}
+
 TEST_F(ControlGridTest, ABlockOnTheBorderCountsFromHalfOfItOn) {
   // 41 columns: one of block 10's four columns is inside; 42 rows: two of its four rows are.
   show({picture(0, [](int, int) { return 1000; })}, {1});

@@ -177,6 +177,36 @@ TEST(HeightField, TheMeanOfAWideBlockIsReadAtAFewPlacesWithTheSameMarginsAllArou
   }
 }
 
+// Of a block of plain codes whole rows are read, several samples at a time.
+TEST(HeightField, TheMeanOfWholeRowsIsThatOfTheirSamples) {
+  for (const int bits : {8, 10, 16}) {
+    const int top = 1 << bits;
+    const Frame frame =
+        test::makeGrayFrame(320, 40, bits, {}, [&](int c, int r) { return (c * 7919 + r * 104729 + c * r) % top; });
+    const auto field = HeightField::make(frame, {.bits = bits}, kVolume).value();
+    for (const int width : {4, 5, 7, 8, 9, 14, 15, 16, 23, 63, 255, 256, 257, 263, 264, 300}) {
+      const SampledBlock block = field.blockOf(width, 36, 3);
+      EXPECT_EQ(block.across.count, width);
+      double sum = 0;
+      for (int k = 0; k < block.down.count; ++k) {
+        const int r = 2 + block.down.first + k * block.down.step;
+        for (int c = 11; c < 11 + width; ++c) sum += field.heightMm(c, r);
+      }
+      EXPECT_NEAR(field.meanHeight(11, 2, block), sum / (width * block.down.count), 1e-9) << bits << ' ' << width;
+    }
+  }
+}
+
+TEST(SampledBlock, ReachesOverMostOfItsLength) {
+  for (int length = 1; length <= 200; ++length) {
+    for (int most = 2; most <= 15; ++most) {
+      const SampledBlock::Places places(length, most);
+      EXPECT_GE(2 * (places.step * (places.count - 1) + 1), length) << length << ' ' << most;
+      EXPECT_EQ(2 * places.first + places.step * (places.count - 1), length - 1) << length << ' ' << most;
+    }
+  }
+}
+
 TEST(HeightField, ABlockWithReadingsInLessThanHalfOfItIsAHole) {
   const auto mean = [](int holes) {
     const Frame frame = test::makeGrayFrame(4, 4, 8, {}, [&](int c, int r) { return 4 * r + c < holes ? 0 : 51; });
