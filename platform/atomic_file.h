@@ -36,7 +36,7 @@ class AtomicFile {
   [[nodiscard]] Result<void> commit();
 
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
-  // The file until the commit, for who writes to places of their own instead of through `write`.
+  // The file before the commit, for a caller that writes at positions of its own choice instead of through `write`.
   [[nodiscard]] AnsweredOutput& output() noexcept { return output_; }
 
  private:

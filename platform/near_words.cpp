@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One row of the table of distances is held at a time.
+// Three rows of the table of distances are held at a time.
 #include "platform/near_words.h"
 
 #include <algorithm>
@@ -10,17 +10,19 @@
 namespace relievo {
 
 std::size_t editDistance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
+  std::vector<std::size_t> before, above(b.size() + 1), row;  // the rows of the last two letters of `a`, and this one
+  std::iota(above.begin(), above.end(), std::size_t{0});
   for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i);
+    row.assign(1, i);
     for (std::size_t k = 1; k <= b.size(); ++k) {
-      const std::size_t changed = diagonal + (a[i - 1] == b[k - 1] ? 0 : 1);
-      diagonal = row[k];
-      row[k] = std::min({changed, row[k] + 1, row[k - 1] + 1});
+      const std::size_t changed = above[k - 1] + (a[i - 1] == b[k - 1] ? 0 : 1);
+      row.push_back(std::min({changed, above[k] + 1, row[k - 1] + 1}));
+      const bool swapped = i > 1 && k > 1 && a[i - 1] == b[k - 2] && a[i - 2] == b[k - 1];
+      if (swapped) row[k] = std::min(row[k], before[k - 2] + 1);
     }
+    before = std::exchange(above, row);
   }
-  return row.back();
+  return above.back();
 }
 
 std::string nearestWord(std::string_view wanted, std::span<const std::string> words) {

@@ -9,7 +9,7 @@
 
 namespace relievo {
 
-// The number of letters to insert, delete or change (Levenshtein 1966).
+// The number of letters to insert, delete or change, or of neighbours to swap (Damerau 1964).
 [[nodiscard]] std::size_t editDistance(std::string_view a, std::string_view b);
 // A word is near `wanted` if its distance is below this.
 [[nodiscard]] constexpr std::size_t leastDifference(std::string_view wanted) noexcept {

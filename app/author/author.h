@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/author/material/painting.h"
 #include "app/author/package/depth_coder.h"
 #include "app/author/package/film_writer.h"
 #include "app/author/sample/sample_scene.h"
@@ -29,7 +30,7 @@ struct OutputOptions {
   std::optional<SwapEyes> from_views;          // make the depth from a film's two views; nullopt: the film has depth
   std::optional<OneViewWishes> from_one_view;  // or guess it
   std::optional<Enhancement> enhancement;      // nullopt: no enhancement
-  std::string material_map;                    // a picture or film of the material of places; empty: none
+  std::vector<Painting> paintings;             // the material of places; empty: none
   std::string preview;                         // path of a PNG, see preview.h; empty: none
 };
 

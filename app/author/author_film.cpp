@@ -56,7 +56,7 @@ class FilmSupply {
       estimated_ = std::move(*estimated);
     } else if (!views_ && !info.has_depth) {
       return failOn(source.url, {ErrorCode::NotFound, 0,
-                                 isStereo(info.packing)
+                                 hasTwoViews(info.packing)
                                      ? "two views without depth; --depth-from stereo makes it from them"
                                      : "no depth in this source; give --depth SOURCE, or let --depth-from guess it"});
     }
@@ -65,6 +65,7 @@ class FilmSupply {
   [[nodiscard]] Outcome<std::optional<FramePair>> next() {
     if (estimated_) return estimated_->next(reader_);
     auto pair = reader_.next();
+    while (views_ && pair && *pair && (*pair)->right.empty()) pair = reader_.next();  // a view is lost: left out
     if (!pair) return failOn(reader_.failedThing(), pair.error());
     if (!views_ || !*pair) return std::move(*pair);
     auto made = views_->withDepth(std::move(**pair));

@@ -27,6 +27,7 @@ struct Arguments {
   SourceOptions source;
   OutputOptions output;
   std::string scene;
+  std::string paintings;
   std::string depth_from;
   SwapEyes swap_eyes = SwapEyes::Auto;
   std::optional<DepthSize> depth_size;
@@ -95,7 +96,7 @@ void addDepthFromOptions(CLI::App& app, Arguments& a) {
          "it reads raw pictures (RGB24 of\n$RELIEVO_WIDTH x $RELIEVO_HEIGHT) and writes as many of 16 bits, little "
          "endian, "
          "larger is nearer, in\ntheir order, up to 64 pictures late\nMODEL.onnx: a network that does so, as MiDaS and "
-         "Depth Anything do, through OpenCV")
+         "Depth Anything do")
       ->type_name("stereo|CMD|MODEL.onnx")
       ->excludes("--depth");
   app.add_option_function<std::string>(
@@ -122,6 +123,14 @@ Outcome<void> chooseDepth(Arguments& a) {
   }
   if (stereo) a.output.from_views = a.swap_eyes;
   else a.output.from_one_view = OneViewWishes{a.depth_from, a.depth_size};
+  return {};
+}
+
+Outcome<void> choosePaintings(Arguments& a) {
+  if (a.paintings.empty()) return {};
+  auto paintings = parsePaintings(a.paintings);
+  if (!paintings) return failOn("--material " + a.paintings, paintings.error());
+  a.output.paintings = std::move(*paintings);
   return {};
 }
 
@@ -191,7 +200,7 @@ void addOptions(CLI::App& app, Arguments& a) {
       ->required()
       ->type_name("OUT");
   addDepthOptions(app, a.source);
-  addMaterialOption(app, a.source, a.output.material_map);
+  addMaterialOption(app, a.source, a.paintings);
   addDepthFromOptions(app, a);
   addQualityOptions(app, a);
   addEnhanceOptions(app, a.output);
@@ -214,11 +223,13 @@ int run(Arguments& a) {
     return tell({"--color", {ErrorCode::InvalidArgument, 0, "missing; give the film's colour, or use --scene sample"}});
   }
   if (auto chosen = chooseDepth(a); !chosen) return tell(chosen.error());
+  if (auto chosen = choosePaintings(a); !chosen) return tell(chosen.error());
   if (a.crf >= 0) a.output.color_crf = a.output.depth.crf = a.crf;
   if (a.depth_crf >= 0) a.output.depth.crf = a.depth_crf;
 
   std::vector<std::string> inputs = a.source.named_files;
-  inputs.insert(inputs.end(), {a.source.url, a.source.depth_url, a.output.material_map});
+  inputs.insert(inputs.end(), {a.source.url, a.source.depth_url});
+  for (const Painting& painting : a.output.paintings) inputs.push_back(painting.path);
   if (a.source.depth_url.empty() && !a.output.from_views) inputs.push_back(depthBeside(a.source.url));
   if (auto apart = keepApart(filesWrittenBy(a.output), inputs); !apart) return tellEnd(apart.error(), a.output.path);
 

@@ -56,6 +56,11 @@ Material readMaterial(const std::string& word) {
   throw WordFailure({"--material " + word, material.error()});
 }
 
+// FILE or SECONDS=FILE,..; the parts of a material have names.
+bool namesMaps(const std::string& word) {
+  return word.find('=') == std::string::npos || std::string_view("0123456789.").contains(word.front());
+}
+
 Registration readRegistration(const std::string& path) {
   const std::string thing = "--registration " + path;
   auto registration = parseRegistration(readFile(thing, path, "cannot be read; give the path of a file"));
@@ -150,7 +155,7 @@ void addDepthOptions(CLI::App& app, SourceOptions& source) {
          "far;\n"
          "near=MM, far=MM: limits for distances and for the inverse law")
       ->allow_extra_args(false)
-      ->type_name("FILE|KEY=VALUE,..");
+      ->type_name("FILE|SECONDS=FILE,..|KEY=VALUE,..");
   app.add_option_function<std::string>(
          "--registration",
          [&source](const std::string& path) {
@@ -170,23 +175,24 @@ void addMaterialOption(CLI::App& app, SourceOptions& source) {
       ->type_name("KEY=VALUE,..");
 }
 
-void addMaterialOption(CLI::App& app, SourceOptions& source, std::string& map) {
+void addMaterialOption(CLI::App& app, SourceOptions& source, std::string& maps) {
   app.add_option_function<std::vector<std::string>>(
          "--material",
-         [&source, &map](const std::vector<std::string>& given) {
+         [&source, &maps](const std::vector<std::string>& given) {
            for (const std::string& word : given) {
-             if (word.find('=') == std::string::npos) map = word;
+             if (namesMaps(word)) maps = word;
              else source.material = readMaterial(word);
            }
          },
          "What the surface feels like: stiffness=N/MM, friction=STATIC/DYNAMIC: shares of what presses,\n"
          "texture=AMPLITUDE@WAVELENGTH: ripples, mm, such as stiffness=.3,friction=.2/.15,texture=.1@.8. Or at each\n"
-         "place: FILE, a picture painted over the first picture of the film, which stays on its things, or a film of\n"
-         "such pictures. Red is stiffness, green friction, blue texture; gray is stiffness alone; what is transparent\n"
-         "is not painted. With it, KEY=VALUE says what full red, green and blue stand for\n"
-         "[stiffness=1,friction=.6/.5,texture=.2@.8]")
+         "place: FILE, a picture painted over the first picture of the film, which stays on its things until the cut,\n"
+         "0=FILE,SECONDS=FILE,..: a painting for each shot, from its first picture on, or a film of such pictures. "
+         "Red\n"
+         "is stiffness, green friction, blue texture; gray is stiffness alone; what is transparent is not painted.\n"
+         "With it, KEY=VALUE says what full red, green and blue stand for [stiffness=1,friction=.6/.5,texture=.2@.8]")
       ->allow_extra_args(false)
-      ->type_name("FILE|KEY=VALUE,..");
+      ->type_name("FILE|SECONDS=FILE,..|KEY=VALUE,..");
 }
 
 void addRateOption(CLI::App& app, SourceOptions& source) {

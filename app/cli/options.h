@@ -65,8 +65,8 @@ CLI::Option* addChoice(CLI::App& app, const char* option, T& value,
 void addDepthOptions(CLI::App& app, SourceOptions& source);
 // Adds --material KEY=VALUE,..
 void addMaterialOption(CLI::App& app, SourceOptions& source);
-// Or a FILE, whose path goes to `map`.
-void addMaterialOption(CLI::App& app, SourceOptions& source, std::string& map);
+// Or FILE or SECONDS=FILE,.., which goes to `maps` as it is.
+void addMaterialOption(CLI::App& app, SourceOptions& source, std::string& maps);
 // Adds --fps.
 void addRateOption(CLI::App& app, SourceOptions& source);
 // Adds --box.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the decoder's frames to those of the window.
+// Turns the decoder's frames into those of the window.
 #include "app/depth_window/surface_feeder.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shell is reaped last: as long as it is not, its number cannot be given to another group.
+// The shell is reaped last: as long as it is not, its number cannot be given to another group. A second shell stands
+// guard in the group: a pipe tells it that this program has ended in whatever way.
 #include "app/estimate/child_process.h"
 
 #include <fcntl.h>
@@ -21,6 +22,11 @@ namespace relievo {
 namespace {
 
 constexpr int kTidyUpMs = 1000;
+constexpr int kGuardsFile = 3;  // its end of the pipe
+// Nobody's child, so that no program of the command waits for it; `kill 0` is for the group.
+constexpr const char* kGuardAndCommand =
+    "({ trap '' HUP INT TERM; read -r end; kill -KILL 0; } <&3 3<&- >/dev/null 2>&1 &); exec 3<&-; exec /bin/sh -c "
+    "\"$1\"";
 constexpr int kPipeBytes = 1 << 20;  // if the system grants it
 
 struct Pipe {
@@ -58,11 +64,13 @@ std::vector<char*> pointersTo(std::vector<std::string>& words) {
   return pointers;
 }
 
-int spawnShell(const std::string& command, const std::vector<std::string>& variables, const std::array<int, 3>& files,
+// `files`: 0, 1, 2 and the guard's.
+int spawnShell(const std::string& command, const std::vector<std::string>& variables, const std::array<int, 4>& files,
                pid_t& pid) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  for (int i = 0; i < 3; ++i) posix_spawn_file_actions_adddup2(&actions, files[static_cast<std::size_t>(i)], i);
+  for (int i = 0; i <= kGuardsFile; ++i)
+    posix_spawn_file_actions_adddup2(&actions, files[static_cast<std::size_t>(i)], i);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   sigset_t none, usual;
@@ -73,7 +81,8 @@ int spawnShell(const std::string& command, const std::vector<std::string>& varia
   posix_spawnattr_setsigdefault(&attributes, &usual);
   posix_spawnattr_setpgroup(&attributes, 0);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-  std::vector<std::string> words{"/bin/sh", "-c", command}, environment = environmentWith(variables);
+  std::vector<std::string> words{"/bin/sh", "-c", kGuardAndCommand, "/bin/sh", command},
+      environment = environmentWith(variables);
   const int error =
       ::posix_spawn(&pid, "/bin/sh", &actions, &attributes, pointersTo(words).data(), pointersTo(environment).data());
   posix_spawnattr_destroy(&attributes);
@@ -84,10 +93,12 @@ int spawnShell(const std::string& command, const std::vector<std::string>& varia
 }  // namespace
 
 Result<ChildProcess> ChildProcess::start(const std::string& command, const std::vector<std::string>& variables) {
-  auto in = makePipe(), out = makePipe(), said = makePipe();
-  if (!in || !out || !said) return fail(ErrorCode::Exhausted, "no pipes for the command can be had", errno);
+  auto in = makePipe(), out = makePipe(), said = makePipe(), life = makePipe();
+  if (!in || !out || !said || !life)
+    return fail(ErrorCode::Exhausted, "no pipes can be made for the command; close other programs", errno);
   ChildProcess child;
-  const int error = spawnShell(command, variables, {in->from.get(), out->to.get(), said->to.get()}, child.pid_);
+  const int error =
+      spawnShell(command, variables, {in->from.get(), out->to.get(), said->to.get(), life->from.get()}, child.pid_);
   if (error != 0) {
     child.pid_ = -1;
     return fail(ErrorCode::Io, "the command cannot be started", error);
@@ -95,6 +106,7 @@ Result<ChildProcess> ChildProcess::start(const std::string& command, const std::
   child.input = ours(std::move(in->to));
   child.output = ours(std::move(out->from));
   child.messages = ours(std::move(said->from));
+  child.life_ = std::move(life->to);
   return child;
 }
 
@@ -102,6 +114,7 @@ ChildProcess::ChildProcess(ChildProcess&& other) noexcept
     : input(std::move(other.input)),
       output(std::move(other.output)),
       messages(std::move(other.messages)),
+      life_(std::move(other.life_)),
       pid_(std::exchange(other.pid_, -1)) {}
 
 ChildProcess::~ChildProcess() {

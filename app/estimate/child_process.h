@@ -14,7 +14,8 @@
 namespace relievo {
 
 // Run by /bin/sh -c in a process group of its own. This side's ends of the pipes do not block. The destructor ends the
-// whole group: SIGTERM, a second to tidy up, SIGKILL.
+// whole group: SIGTERM, a second to tidy up, SIGKILL. If this program is killed, so is the group. What leaves the group
+// (setsid) is the command's own affair.
 class ChildProcess {
  public:
   // `variables`: NAME=VALUE, besides this program's own.
@@ -37,6 +38,7 @@ class ChildProcess {
 
  private:
   ChildProcess() = default;
+  UniqueFd life_;  // closed by the kernel at the latest when this program ends
   pid_t pid_ = -1;
 };
 

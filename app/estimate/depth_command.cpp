@@ -19,6 +19,7 @@ namespace {
 constexpr std::size_t kWaiting = 2;       // pictures that the command has not read
 constexpr std::size_t kSaidBytes = 4096;  // of its messages
 constexpr std::size_t kNamed = 60;        // letters of the command in a line
+constexpr std::size_t kTold = 160;        // letters of its last message
 constexpr auto kLook = std::chrono::milliseconds(50);
 
 constexpr Error kCancelled{ErrorCode::Cancelled, 0, "interrupted; nothing was written"};
@@ -35,7 +36,7 @@ std::string lastLine(std::string text) {
   const char* const ends = "\r\n ";
   text.erase(std::min(text.find_last_not_of(ends) + 1, text.size()));
   const std::size_t before = text.find_last_of("\r\n");
-  return before == text.npos ? text : text.substr(before + 1);
+  return text.substr(before == text.npos ? 0 : before + 1, kTold);
 }
 
 }  // namespace

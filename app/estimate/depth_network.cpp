@@ -4,20 +4,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <opencv2/core/utils/logger.hpp>
-#include <opencv2/dnn.hpp>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "app/estimate/network_engine.h"
 #include "app/estimate/onnx_input.h"
 #include "platform/files/answered_file.h"
 
 namespace relievo {
 namespace {
 
-constexpr Error kNotRead{ErrorCode::Unsupported, 0,
-                         "OpenCV cannot run this network; a command that runs it elsewhere can stand here instead"};
 constexpr Error kNotDepth{ErrorCode::Unsupported, 0, "the network must give depth in one channel"};
+
+constexpr const char* kTooLarge = "is larger than an ONNX model can be";
 
 // protobuf allows no larger message.
 constexpr std::size_t kMostBytes = (std::size_t{1} << 31U) - 1;
@@ -26,22 +25,18 @@ Result<std::vector<std::uint8_t>> readNetwork(const std::string& path) {
   const auto file = AnsweredFile::open(path);
   if (!file) return std::unexpected(file.error());
   if (!file->regular()) return fail(ErrorCode::Unsupported, "is a device or a pipe; name a file");
+  const auto size = file->bytes();
+  if (!size) return std::unexpected(size.error());
+  if (*size > kMostBytes) return fail(ErrorCode::Exhausted, kTooLarge);
   std::vector<std::uint8_t> bytes;
   std::vector<std::uint8_t> part(std::size_t{1} << 20U);
   for (;;) {
     const auto got = file->readSome(bytes.size(), part);
     if (!got) return std::unexpected(got.error());
     if (*got == 0) return bytes;
-    if (bytes.size() + *got > kMostBytes) return fail(ErrorCode::Exhausted, "is larger than an ONNX model can be");
+    if (bytes.size() + *got > kMostBytes) return fail(ErrorCode::Exhausted, kTooLarge);  // it grows
     bytes.insert(bytes.end(), part.begin(), part.begin() + static_cast<std::ptrdiff_t>(*got));
   }
-}
-
-// OpenCV's words in one line, without its own place in them.
-std::string wordsOf(const cv::Exception& e) {
-  std::string words = e.err.empty() ? std::string(e.what()) : e.err;
-  words.resize(std::min(words.find('\n'), words.size()));
-  return words.substr(0, 120);
 }
 
 int inPatches(double length) {
@@ -63,8 +58,8 @@ cv::Size outcomeSize(cv::Size network, int cols, int rows) {
           std::max(static_cast<int>(std::lround(scale * rows)), 2)};
 }
 
-// 1 x 3 x rows x cols, each part by its mean and deviation over many photographs (ImageNet).
-cv::Mat blobOf(const RawPicture& picture, cv::Size size) {
+// Red, green, blue, one plane after the other, each by its mean and deviation over many photographs (ImageNet).
+NetworkPlanes planesOf(const RawPicture& picture, cv::Size size) {
   const cv::Mat whole(picture.rows, picture.cols, CV_8UC3, const_cast<std::uint8_t*>(picture.bytes.data()));
   cv::Mat scaled, shares;
   const bool smaller = size.width < picture.cols || size.height < picture.rows;
@@ -72,14 +67,18 @@ cv::Mat blobOf(const RawPicture& picture, cv::Size size) {
   scaled.convertTo(shares, CV_32F, 1.0 / 255);
   shares -= cv::Scalar(0.485, 0.456, 0.406);
   cv::divide(shares, cv::Scalar(0.229, 0.224, 0.225), shares);
-  return cv::dnn::blobFromImage(shares);
+  NetworkPlanes planes{size.width, size.height, std::vector<float>(3 * shares.total())};
+  std::array<cv::Mat, 3> parts;
+  for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = {size, CV_32F, planes.values.data() + i * shares.total()};
+  cv::split(shares, parts.data());
+  return planes;
 }
 
 }  // namespace
 
 struct DepthNetwork::Impl {
   std::string path;
-  cv::dnn::Net net;
+  std::unique_ptr<NetworkEngine> engine;
   cv::Size input;
 };
 
@@ -92,32 +91,22 @@ Outcome<std::unique_ptr<DepthNetwork>> DepthNetwork::open(const std::string& pat
   if (!bytes) return failOn(path, bytes.error());
   const auto own = onnxInputOf(*bytes);
   if (!own) return failOn(path, own.error());
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // what it says is in the exception, too
-  try {
-    auto impl = std::make_unique<Impl>(
-        Impl{path, cv::dnn::readNetFromONNX(reinterpret_cast<const char*>(bytes->data()), bytes->size()),
-             inputSize(*own, input, cols, rows)});
-    return std::unique_ptr<DepthNetwork>(new DepthNetwork(std::move(impl)));
-  } catch (const cv::Exception& e) {
-    return failOn(path + ": " + wordsOf(e), kNotRead);
-  }
+  auto engine = openNetwork(path, *bytes);
+  if (!engine) return std::unexpected(engine.error());
+  return std::unique_ptr<DepthNetwork>(
+      new DepthNetwork(std::make_unique<Impl>(Impl{path, std::move(*engine), inputSize(*own, input, cols, rows)})));
 }
 
 Outcome<void> DepthNetwork::give(RawPicture picture) {
-  try {
-    impl_->net.setInput(blobOf(picture, impl_->input));
-    const cv::Mat out = impl_->net.forward();
-    const bool one_channel = out.dims == 3 || (out.dims == 4 && out.size[1] == 1);
-    if (!one_channel || out.size[0] != 1 || out.type() != CV_32F) return failOn(impl_->path, kNotDepth);
-    const cv::Mat map(out.size[out.dims - 2], out.size[out.dims - 1], CV_32F, out.data);
-    cv::Mat shaped;
-    cv::resize(map, shaped, outcomeSize(map.size(), picture.cols, picture.rows));
-    DepthEstimate answer{shaped.cols, shaped.rows, {shaped.begin<float>(), shaped.end<float>()}};
-    std::ranges::replace_if(answer.values, [](float value) { return !std::isfinite(value); }, 0.0F);
-    answers_.push_back(std::move(answer));
-  } catch (const cv::Exception& e) {
-    return failOn(impl_->path + ": " + wordsOf(e), kNotRead);
-  }
+  auto out = impl_->engine->run(planesOf(picture, impl_->input));
+  if (!out) return std::unexpected(out.error());
+  if (out->values.empty()) return failOn(impl_->path, kNotDepth);
+  const cv::Mat map(out->rows, out->cols, CV_32F, out->values.data());
+  cv::Mat shaped;
+  cv::resize(map, shaped, outcomeSize(map.size(), picture.cols, picture.rows));
+  DepthEstimate answer{shaped.cols, shaped.rows, {shaped.begin<float>(), shaped.end<float>()}};
+  std::ranges::replace_if(answer.values, [](float value) { return !std::isfinite(value); }, 0.0F);
+  answers_.push_back(std::move(answer));
   return {};
 }
 

@@ -99,7 +99,7 @@ std::vector<std::uint64_t> shapeOf(Bytes value_info) {
 }  // namespace
 
 Result<OnnxInput> onnxInputOf(Bytes model) {
-  constexpr std::uint64_t kMost = 1 << 14;
+  constexpr std::uint64_t kMost = 1 << 14, kMostSamples = 1 << 24;
   const Bytes graph = messageIn(model, 7);
   if (graph.empty()) return fail(ErrorCode::Corrupt, "this is not an ONNX model");
   std::vector<std::string_view> weights;  // old models list them among the inputs
@@ -114,6 +114,9 @@ Result<OnnxInput> onnxInputOf(Bytes model) {
   const auto shape = inputs.size() == 1 ? shapeOf(inputs.front()) : std::vector<std::uint64_t>{};
   if (shape.size() != 4 || shape[0] > 1 || shape[1] != 3 || shape[2] > kMost || shape[3] > kMost) {
     return fail(ErrorCode::Unsupported, "the network must take one picture, as 1 x 3 x height x width");
+  }
+  if (shape[2] * shape[3] > kMostSamples) {
+    return fail(ErrorCode::Unsupported, "the network takes pictures of over 16.7 million samples; take a smaller one");
   }
   return OnnxInput{static_cast<int>(shape[3]), static_cast<int>(shape[2])};
 }

@@ -53,7 +53,7 @@ Result<void> DepthSource::connect() {
   const StreamInfo* const stream = findDepthTrack(source);
   if (stream == nullptr) return fail(ErrorCode::NotFound, "there is no video in it");
   StreamInfo told = *stream;
-  if (frames_per_s_) told.frame_period = fromSeconds(1 / *frames_per_s_);
+  if (frames_per_s_ && stream->counted) told.frame_period = fromSeconds(1 / *frames_per_s_);
   const auto track = reader_->select(told);
   if (!track) return std::unexpected(track.error());
   track_ = *track;

@@ -15,27 +15,27 @@ FilmFeed::~FilmFeed() {
 }
 
 void FilmFeed::startThread() {
-  if (!thread_.joinable()) thread_ = std::thread([this] { threadMain(); });
+  if (!reader_side_.thread.joinable()) reader_side_.thread = std::thread([this] { threadMain(); });
 }
 
 void FilmFeed::stop() noexcept {
   {
     std::unique_lock lock(mutex_);
-    if (std::exchange(stopping_, true)) return;
+    if (std::exchange(reader_side_.stopping, true)) return;
     wake_.notify_all();
     // Repeated, because an interrupt that arrives just before the reader opens a source has no effect.
-    while (thread_.joinable() && !thread_ended_) {
+    while (reader_side_.thread.joinable() && !reader_side_.ended) {
       lock.unlock();
       interrupted_ = true;
       reader_.interrupt();
       lock.lock();
-      wake_.wait_for(lock, std::chrono::milliseconds(10), [this] { return thread_ended_; });
+      wake_.wait_for(lock, std::chrono::milliseconds(10), [this] { return reader_side_.ended; });
     }
     queue_.clear();
     sound_.forget();
     state_ = State::Closed;
   }
-  if (thread_.joinable()) thread_.join();
+  if (reader_side_.thread.joinable()) reader_side_.thread.join();
   reader_.close();
 }
 
@@ -62,8 +62,7 @@ void FilmFeed::begin(State state) {
   request_.until.reset();
   films_.clear();
   seek_error_.reset();
-  news_.clear();
-  depth_away_ = false;
+  news_ = {};
   info_ = {};
   counters_ = {};
   state_ = state;
@@ -102,9 +101,8 @@ void FilmFeed::leaveOut(bool unreferenced, std::optional<MediaTime> until) {
 FilmFeed::Effort FilmFeed::effort() const {
   const std::scoped_lock lock(mutex_);
   // A thread that has been woken may have to wait for a processor: it counts as at work.
-  Effort effort{.rested = rested_, .decodes = wantsPair() && !reader_.waitsForSource()};
-  if (rests_since_ && !wantsPair()) effort.rested += backends_.clock->now() - *rests_since_;
-  return effort;
+  return {.rested = wantsPair() ? rest_.ended() : rest_.until(now()),
+          .decodes = wantsPair() && !reader_.waitsForSource()};
 }
 
 FilmFeed::State FilmFeed::state() const {
@@ -178,10 +176,7 @@ std::optional<Error> FilmFeed::takeSeekError() {
 
 std::optional<FilmFeed::News> FilmFeed::takeNews() {
   const std::scoped_lock lock(mutex_);
-  if (news_.empty()) return std::nullopt;
-  const News news = news_.front();
-  news_.pop_front();
-  return news;
+  return news_.take();
 }
 
 }  // namespace relievo

@@ -14,8 +14,10 @@
 #include <vector>
 
 #include "app/media/back_off.h"
+#include "app/media/feed_news.h"
 #include "app/media/pair_reader.h"
 #include "app/media/playlist.h"
+#include "app/media/rest_time.h"
 #include "app/media/tracks/sound_queue.h"
 #include "hal/media/media_time.h"
 #include "platform/failure.h"
@@ -40,14 +42,7 @@ class FilmFeed {
   // How long a lost colour source is retried, at the intervals of BackOff, before the film fails. A lost depth source
   // is retried for as long as the film plays.
   static constexpr Duration kPatience = std::chrono::seconds(30);
-  // An event of a source or a decoder.
-  struct News {
-    enum class Kind : std::uint8_t { ColorLost, ColorBack, DepthLost, DepthBack, DecoderRestarted };
-    Kind kind;
-    const char* why = "";   // cause of a loss or a restart
-    const char* done = "";  // what a restart did
-    MonotonicTime time;
-  };
+  using News = FeedNews::Item;
 
   // Without Backends::clock a lost source fails at once.
   FilmFeed(PairReader::Backends backends, std::size_t capacity);
@@ -123,13 +118,11 @@ class FilmFeed {
   void takeWords(std::deque<Subtitle> words);
   [[nodiscard]] std::deque<Subtitle> readWords();
   [[nodiscard]] bool loses(const Error& error);
-  void noteRestart(const std::optional<VideoDecoder::Restart>& restart);
-  void noteDepth(const std::optional<Error>& loss);
   bool workSound(bool may_read, std::uint64_t generation);
   void failed(std::string thing, const Error& error);
   void begin(State state);
   void interruptStale() const;
-  void rest(bool begins);
+  [[nodiscard]] MonotonicTime now() const;
   void threadMain();
 
   const std::size_t capacity_;
@@ -173,14 +166,13 @@ class FilmFeed {
     BackOff back_off;
   };
   Loss loss_;  // valid in Reconnecting
-  bool depth_away_ = false;
-  std::deque<News> news_;
-  Duration rested_{0};
-  std::optional<MonotonicTime> rests_since_;
-  bool stopping_ = false;
-  bool thread_ended_ = false;
-
-  std::thread thread_;
+  FeedNews news_;
+  RestTime rest_;
+  struct Reader {
+    std::thread thread;
+    bool stopping = false, ended = false;
+  };
+  Reader reader_side_;
 };
 
 }  // namespace relievo

@@ -21,7 +21,7 @@ bool FilmFeed::wantsSound() const {
 
 bool FilmFeed::work() {
   std::unique_lock lock(mutex_);
-  if (stopping_ || !hasWork()) return false;
+  if (reader_side_.stopping || !hasWork()) return false;
   const State task = state_;
   const std::uint64_t generation = counts_.generation;
   counts_.at_work = counts_.film;
@@ -144,8 +144,8 @@ void FilmFeed::workRead(std::uint64_t generation) {
   if (counts_.at_work != counts_.film) return;
   counters_ = counters;
   takeWords(std::move(words));
-  noteRestart(restart);
-  noteDepth(depth_loss);
+  if (restart) news_.restarted(*restart, now());
+  news_.depth(depth_loss, now());
   if (!pair && loses(pair.error())) return;
   if (generation != counts_.generation) return;
   sound_.may_come = hasSound();
@@ -180,17 +180,16 @@ void FilmFeed::workReopen() {
   const std::scoped_lock lock(mutex_);
   if (counts_.at_work != counts_.film) return;
   counters_ = counters;
-  const MonotonicTime now = backends_.clock->now();
   if (reopened) {
     state_ = loss_.before;
     sound_.may_come = hasSound();
     if (state_ == State::Reading && sound_.until())
       request_.target = *sound_.until();  // do not repeat sound that was delivered
-    news_.push_back({News::Kind::ColorBack, "", "", now});
-  } else if (loss_.back_off.away(now) >= kPatience) {
+    news_.colorBack(now());
+  } else if (loss_.back_off.away(now()) >= kPatience) {
     failed(request_.options.url, loss_.error);
   } else {
-    loss_.back_off.failed(now);
+    loss_.back_off.failed(now());
   }
 }
 
@@ -199,22 +198,9 @@ bool FilmFeed::loses(const Error& error) {
   if (backends_.clock == nullptr || !reader_.isSourceLost(error)) return false;
   loss_.error = error;
   loss_.before = std::exchange(state_, State::Reconnecting);
-  loss_.back_off.begin(backends_.clock->now());
-  news_.push_back({News::Kind::ColorLost, error.message, "", backends_.clock->now()});
+  loss_.back_off.begin(now());
+  news_.colorLost(error, now());
   return true;
-}
-
-void FilmFeed::noteRestart(const std::optional<VideoDecoder::Restart>& restart) {
-  if (!restart) return;
-  const MonotonicTime now = backends_.clock == nullptr ? MonotonicTime{} : backends_.clock->now();
-  news_.push_back({News::Kind::DecoderRestarted, restart->why, restart->done, now});
-}
-
-void FilmFeed::noteDepth(const std::optional<Error>& loss) {
-  if (loss.has_value() == depth_away_) return;
-  depth_away_ = loss.has_value();
-  const auto kind = loss ? News::Kind::DepthLost : News::Kind::DepthBack;
-  news_.push_back({kind, loss ? loss->message : "", "", backends_.clock->now()});
 }
 
 void FilmFeed::failed(std::string thing, const Error& error) {
@@ -222,11 +208,8 @@ void FilmFeed::failed(std::string thing, const Error& error) {
   state_ = State::Failed;
 }
 
-void FilmFeed::rest(bool begins) {
-  if (backends_.clock == nullptr) return;
-  const MonotonicTime now = backends_.clock->now();
-  if (rests_since_) rested_ += now - *rests_since_;
-  rests_since_ = begins ? std::optional(now) : std::nullopt;
+MonotonicTime FilmFeed::now() const {
+  return backends_.clock == nullptr ? MonotonicTime{} : backends_.clock->now();
 }
 
 void FilmFeed::threadMain() {
@@ -234,20 +217,20 @@ void FilmFeed::threadMain() {
   for (;;) {
     {
       std::unique_lock lock(mutex_);
-      const auto wanted = [this] { return stopping_ || hasWork(); };
+      const auto wanted = [this] { return reader_side_.stopping || hasWork(); };
       if (state_ == State::Reconnecting) {
         wake_.wait_for(lock, loss_.back_off.next() - backends_.clock->now(), wanted);
       } else {
-        rest(true);
+        rest_.begin(now());
         wake_.wait(lock, wanted);
-        rest(false);
+        rest_.end(now());
       }
-      if (stopping_) break;
+      if (reader_side_.stopping) break;
     }
     work();
   }
   const std::scoped_lock lock(mutex_);
-  thread_ended_ = true;
+  reader_side_.ended = true;
   wake_.notify_all();
 }
 

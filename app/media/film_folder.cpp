@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <initializer_list>
 #include <utility>
 
 #include "hal/media/media_names.h"
@@ -27,6 +28,11 @@ std::string depthOf(const std::string& film, const std::vector<std::string>& nam
     const std::size_t at = stem.find(word);
     if (at != stem.npos) stems.push_back(std::string(stem).replace(at, std::char_traits<char>::length(word), "depth"));
   }
+  for (const char* const of_source : {"_src", "_input"}) {  // Video Depth Anything, DepthCrafter
+    if (!stem.ends_with(of_source)) continue;
+    const std::string base = stem.substr(0, stem.rfind('_'));
+    stems.insert(stems.end(), {base + "_depth", base + "_vis"});
+  }
   for (const std::string& wanted : stems) {
     const auto found = std::ranges::find(names, wanted, stemOf);
     if (found != names.end()) return *found;
@@ -34,7 +40,36 @@ std::string depthOf(const std::string& film, const std::vector<std::string>& nam
   return "";
 }
 
+bool isOneOf(const std::string& word, std::initializer_list<const char*> words) {
+  return std::ranges::find(words, word) != words.end();
+}
+
+bool hasPictures(const fs::path& folder) {
+  const auto isPicture = [](const FolderEntry& entry) { return mediaKindOf(entry.name) == MediaKind::Picture; };
+  return std::ranges::any_of(entriesOf(folder), isPicture);
+}
+
 }  // namespace
+
+std::optional<FilmOverDepth> filmOverDepth(const std::string& folder) {
+  if (!isFolder(folder)) return std::nullopt;
+  const fs::path place(folder);
+  std::vector<std::string> films;
+  FilmOverDepth found;
+  for (const auto& [name, is] : entriesOf(folder)) {
+    if (is == FolderEntry::Kind::File && mediaKindOf(name) == MediaKind::Film) films.push_back(name);
+    if (is != FolderEntry::Kind::Folder || !hasPictures(place / name)) continue;
+    if (isOneOf(name, {"rgb", "color", "colour", "image", "images"})) return std::nullopt;
+    if (isOneOf(name, {"depth", "depths", "depth_images"})) found.depth = place / name;
+  }
+  const auto isColor = [](const std::string& name) {
+    return isOneOf(stemOf(name), {"rgb", "color", "colour", "video", "image"});
+  };
+  const auto film = films.size() == 1 ? films.begin() : std::ranges::find_if(films, isColor);
+  if (found.depth.empty() || film == films.end() || saysDepth(*film)) return std::nullopt;
+  found.film = place / *film;
+  return found;
+}
 
 std::vector<PlaylistEntry> pairedFilms(const std::string& folder, std::vector<std::string> names) {
   std::ranges::sort(names, naturalLess);
@@ -54,7 +89,7 @@ std::vector<PlaylistEntry> pairedFilms(const std::string& folder, std::vector<st
 
 std::optional<std::vector<PlaylistEntry>> filmsIn(const std::string& url) {
   const fs::path folder(url);
-  if (!isFolder(folder) || isFolder(folder / "depth")) return std::nullopt;
+  if (!isFolder(folder) || isFolder(folder / "depth") || filmOverDepth(url)) return std::nullopt;
   std::vector<std::string> names;
   std::size_t pictures = 0;
   for (const auto& [name, is] : entriesOf(folder)) {
@@ -73,9 +108,14 @@ std::string depthBeside(const std::string& film) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   std::vector<std::string> names;
   for (const auto& [name, is] : entriesOf(folder)) {
-    if (mediaKindOf(name) == kind && is == FolderEntry::Kind::File) names.push_back(name);
+    const bool numbers = kind == MediaKind::Film && endingOf(name) == "npy";
+    if ((mediaKindOf(name) == kind || numbers) && is == FolderEntry::Kind::File) names.push_back(name);
   }
   const std::string depth = depthOf(path.filename().string(), names);
+  if (depth.empty() && kind == MediaKind::Film) {
+    const auto pair = filmOverDepth(folder);
+    return pair && fs::path(pair->film).filename() == path.filename() ? pair->depth : "";
+  }
   return depth.empty() ? "" : (path.has_parent_path() ? folder / depth : fs::path(depth)).string();
 }
 

@@ -5,20 +5,14 @@
 #include <utility>
 
 #include "app/media/depth_picture.h"
-#include "app/media/pair_film.h"
+#include "app/media/pairs/pair_film.h"
 #include "app/media/reading/stereo_pair.h"
 #include "platform/log.h"
 
 namespace relievo {
-namespace {
-
-constexpr const char* kNotOpen = "no film is open; open one first";
-
-}  // namespace
-
 // The next colour picture, with the film's timestamp.
 Result<std::optional<Frame>> PairReader::Impl::readColor() {
-  auto frame = color_reader->next(kColorTrack);
+  auto frame = sources.color()->next(kColorTrack);
   if (frame && *frame) (*frame)->pts += color_shift;
   return frame;
 }
@@ -48,13 +42,13 @@ Result<DepthFollower::Supplied> PairReader::Impl::supplyDepth() {
 
 Result<DepthFollower::Supplied> PairReader::Impl::supplyOwnDepth() {
   if (reordering.again) return DepthFollower::Supplied{std::exchange(reordering.again, std::nullopt), false};
-  if (!depth_source) {
-    auto frame = color_reader->next(*depth_track);
+  if (!sources.depth()) {
+    auto frame = sources.color()->next(*depth_beside.track);
     if (!frame) return std::unexpected(frame.error());
     if (*frame) (*frame)->pts += color_shift;
-    return DepthFollower::Supplied{std::move(*frame), color_reader->ended(*depth_track)};
+    return DepthFollower::Supplied{std::move(*frame), sources.color()->ended(*depth_beside.track)};
   }
-  auto given = depth_source->next();
+  auto given = sources.depth()->next();
   if (!given) return std::unexpected(given.error());
   own.away = given->away;
   if (given->frame.empty()) return DepthFollower::Supplied{std::nullopt, given->ended};
@@ -71,13 +65,19 @@ Result<FramePair> PairReader::Impl::pairFor(Frame color) {
     return FramePair{std::move(shown), std::move(*ordered), true, {}, {}};
   }
   if (isPacked()) {
-    auto halves = splitPacked(color, info.packing, clues.code, gray);
+    auto halves = halvesOf(color);
     if (!halves) return failOn(options.url, halves.error());
     return FramePair{std::move(halves->color), std::move(halves->depth), true, {}, {}};
   }
   if (isStereo(info.packing)) {
-    auto views = viewsOf(color, info.packing, right_first, views_squeezed);
-    if (views) return FramePair{std::move(views->left), {}, true, {}, std::move(views->right)};
+    auto both = viewsOf(color, info.packing, views.right_first, views.squeezed);
+    if (both) return FramePair{std::move(both->left), {}, true, {}, std::move(both->right)};
+  }
+  if (info.packing == Packing::StereoLayers) {
+    Frame right = color.right ? *color.right : Frame{};
+    right.pts = color.pts;
+    color.right.reset();
+    return FramePair{std::move(color), {}, true, {}, std::move(right)};
   }
   auto match = depthAt(color.pts);
   if (!match) return std::unexpected(match.error());
@@ -89,7 +89,7 @@ Result<FramePair> PairReader::Impl::pairFor(Frame color) {
 
 // An error in the depth ends the depth only; just an interruption is returned to the caller.
 Result<DepthFollower::Match> PairReader::Impl::depthAt(MediaTime time) {
-  if (!depth || (!depth_track && !depth_source) || own.lost) return DepthFollower::Match{};
+  if (!depth || (!depth_beside.track && !sources.depth()) || own.lost) return DepthFollower::Match{};
   depth->setLive(live);
   auto match = depth->at(time);
   if (match && own.away) return DepthFollower::Match{};  // flat, rather than the shape of another moment
@@ -97,63 +97,26 @@ Result<DepthFollower::Match> PairReader::Impl::depthAt(MediaTime time) {
   if (match.error().code == ErrorCode::Cancelled) {
     return failOn(depthUrl(), match.error());
   }
-  if (depth_track && isLoss(match.error())) return failOn(depthUrl(), match.error());  // the colour is lost too
+  if (depth_beside.track && isLoss(match.error())) return failOn(depthUrl(), match.error());  // the colour is lost too
   loseDepth(match.error());
   return DepthFollower::Match{};
+}
+
+// An error in the material ends it; whatever ends the colour as well is told when the colour is read.
+Frame PairReader::Impl::materialAt(MediaTime time) {
+  auto found = material.at(time);
+  if (found) return std::move(*found);
+  if (found.error().code == ErrorCode::Cancelled || isLoss(found.error())) return {};
+  material.giveUp();
+  log(LogLevel::Warning, "media", "%s: no material of places from here on: %s", options.url.c_str(),
+      found.error().message);
+  return {};
 }
 
 void PairReader::Impl::loseDepth(const Error& error) {
   own.lost = true;
   if (std::exchange(own.loss_told, true)) return;
   log(LogLevel::Warning, "media", "%s: no depth from here on: %s", depthUrl().c_str(), error.message);
-}
-
-// Drops the colour pictures before the target, and reads the depth along so that its packets do not pile up.
-Result<void> PairReader::Impl::passTo(MediaTime target) {
-  for (;;) {
-    auto color = nextColor();
-    if (!color) return std::unexpected(color.error());
-    if (!*color) return {};
-    if ((*color)->pts >= target) {
-      color_ahead.push_front(std::move(**color));
-      return {};
-    }
-    if (auto passed = depthAt((*color)->pts); !passed) return std::unexpected(passed.error());
-    static_cast<void>(materialAt((*color)->pts));
-  }
-}
-
-// The colour has already been sought, and so has a depth track in the same source.
-Result<void> PairReader::Impl::seekDepth(MediaTime target) {
-  if (material) material->restart();
-  if (!depth) return {};
-  depth->restart();
-  own.lost = false;
-  if (!depth_source) return {};
-  const auto sought = depth_source->seek(target - own.shift, key_step);
-  if (sought) return {};
-  if (sought.error().code == ErrorCode::Cancelled) return failOn(depthUrl(), sought.error());
-  loseDepth(sought.error());
-  return {};
-}
-
-// Resumes with the picture after the last one; a separate depth source has kept its position.
-Result<void> PairReader::Impl::goOn() {
-  const MediaTime target = goes_on_at - info.frame_period / 2;  // containers round their timestamps
-  if (auto sought = color_reader->seek(target, key_step); !sought) return failOn(options.url, sought.error());
-  color_ahead.clear();
-  if (depth_track) depth->restart();
-  if (material) material->restart();
-  return passTo(target);
-}
-
-// Closes the colour source but keeps its counters.
-void PairReader::Impl::leaveColor() {
-  counters.damaged += color_reader->damaged();
-  counters.deinterlaced += color_reader->deinterlaced();
-  counters.jumps += color_reader->source().jumps();
-  counters.missed_pictures += color_reader->source().missedPictures();
-  color_ahead.clear();
 }
 
 PairCounters& PairCounters::operator+=(const PairCounters& other) noexcept {
@@ -178,10 +141,7 @@ PairReader::~PairReader() = default;
 
 Result<void> PairReader::open(const SourceOptions& options) {
   close();
-  {
-    const std::scoped_lock lock(impl_->readers_mutex);
-    impl_->interrupted = false;
-  }
+  impl_->sources.allow();
   impl_->failed_thing.clear();
   impl_->options = options;
   auto opened = impl_->openFilm();
@@ -190,7 +150,7 @@ Result<void> PairReader::open(const SourceOptions& options) {
 }
 
 Result<std::optional<FramePair>> PairReader::next() {
-  if (!impl_->color_reader) return fail(ErrorCode::InvalidState, kNotOpen);
+  if (!impl_->sources.color()) return fail(ErrorCode::InvalidState, Impl::kNotOpen);
   auto color = impl_->nextColor();
   if (!color) return std::unexpected(color.error());
   if (!*color) return std::nullopt;
@@ -198,11 +158,12 @@ Result<std::optional<FramePair>> PairReader::next() {
   if (standing) impl_->color_ahead.push_front(std::move(**color));
   auto pair = standing ? Result<FramePair>(std::move(*standing)) : impl_->pairFor(std::move(**color));
   if (!pair) return std::unexpected(pair.error());
-  impl_->countLeftOut(*pair);
+  impl_->counters.left_out += impl_->left_out.countBefore(*pair, impl_->info.frame_period);
   pair->material = impl_->materialAt(pair->color.pts);
   impl_->goes_on_at = pair->color.pts + impl_->info.frame_period;
   if (impl_->live) {
-    pair->taken = impl_->color_reader->source().arrival() + (pair->color.pts - impl_->color_shift).time_since_epoch();
+    pair->taken =
+        impl_->sources.color()->source().arrival() + (pair->color.pts - impl_->color_shift).time_since_epoch();
     if (impl_->backends.clock != nullptr) pair->delay = impl_->backends.clock->now() - *pair->taken;
   }
   ++impl_->counters.pairs;
@@ -212,39 +173,13 @@ Result<std::optional<FramePair>> PairReader::next() {
   return std::move(*pair);
 }
 
-Result<void> PairReader::seek(MediaTime target, Duration key_step) {
-  if (!impl_->color_reader) return fail(ErrorCode::InvalidState, kNotOpen);
-  if (auto sought = impl_->color_reader->seek(target, key_step); !sought) {
-    return impl_->failOn(impl_->options.url, sought.error());
-  }
-  impl_->color_ahead.clear();
-  impl_->last_color = impl_->last_pair = std::nullopt;
-  impl_->key_step = key_step;
-  if (auto sought = impl_->seekDepth(target); !sought) return sought;
-  return impl_->passTo(target);
-}
-
 bool PairReader::isSourceLost(const Error& error) const noexcept {
   return impl_->isLoss(error) && impl_->failed_thing == impl_->options.url;
 }
 
-Result<void> PairReader::reopen() {
-  Impl& film = *impl_;
-  if (!film.color_reader) return fail(ErrorCode::InvalidState, kNotOpen);
-  film.leaveColor();
-  film.color_shift = Duration(0);
-  if (auto opened = film.openFilm(); !opened) return opened;
-  ++film.counters.reconnects;
-  if (!film.live) return film.goOn();
-  film.color_shift = film.goes_on_at - film.color_ahead.front().pts;
-  for (Frame& frame : film.color_ahead) frame.pts += film.color_shift;
-  film.own.session.reset();  // because the colour's shift has changed
-  return {};
-}
-
 // The next sound, with the film's timestamp.
 std::optional<AudioChunk> PairReader::nextSound() {
-  auto chunk = impl_->color_reader ? impl_->color_reader->nextSound() : std::nullopt;
+  auto chunk = impl_->sources.color() ? impl_->sources.color()->nextSound() : std::nullopt;
   if (chunk) chunk->pts += impl_->color_shift;
   return chunk;
 }
@@ -255,7 +190,7 @@ std::optional<Subtitle> PairReader::nextSubtitle() {
     impl_->words_ahead.pop_front();
     return subtitle;
   }
-  auto subtitle = impl_->color_reader ? impl_->color_reader->nextWords() : std::nullopt;
+  auto subtitle = impl_->sources.color() ? impl_->sources.color()->nextWords() : std::nullopt;
   if (!subtitle) return subtitle;
   subtitle->begin += impl_->color_shift;
   if (subtitle->end) *subtitle->end += impl_->color_shift;
@@ -263,23 +198,21 @@ std::optional<Subtitle> PairReader::nextSubtitle() {
 }
 
 void PairReader::chooseTracks(std::optional<std::size_t> sound, std::optional<std::size_t> words) {
-  if (!impl_->color_reader) return;
+  if (!impl_->sources.color()) return;
   if (std::exchange(impl_->info.sound, sound) != sound) impl_->openSound();
   if (std::exchange(impl_->info.words, words) != words) impl_->openWords();
 }
 
 bool PairReader::readAhead() {
-  return impl_->color_reader && impl_->color_reader->readAhead();
+  return impl_->sources.color() && impl_->sources.color()->readAhead();
 }
 
 void PairReader::close() noexcept {
   Impl& film = *impl_;
   film.depth.reset();
-  film.material.reset();
-  film.material_refused = nullptr;
+  film.material = {};
   film.registrar.reset();
-  film.depth_track.reset();
-  film.depth_stream = nullptr;
+  film.depth_beside = {};
   film.reordering = {};
   film.own = {};
   film.color_ahead.clear();
@@ -289,21 +222,14 @@ void PairReader::close() noexcept {
   film.remote = film.live = false;
   film.counters = {};
   film.key_step = Duration(0);
-  film.leaves_out = false;
-  film.last_color = film.last_pair = std::nullopt;
+  film.left_out = {};
   film.reach_open = false;
   film.info = {};
-  std::unique_ptr<DepthSource> depth_source;  // destroyed outside the lock, because that joins its thread
-  const std::scoped_lock lock(film.readers_mutex);
-  film.color_reader.reset();
-  depth_source.swap(film.depth_source);
+  film.sources.close();
 }
 
 void PairReader::interrupt() noexcept {
-  const std::scoped_lock lock(impl_->readers_mutex);
-  impl_->interrupted = true;
-  if (impl_->color_reader) impl_->color_reader->interrupt();
-  if (impl_->depth_source) impl_->depth_source->interrupt();
+  impl_->sources.interrupt();
 }
 
 const FilmInfo& PairReader::info() const noexcept {
@@ -317,15 +243,15 @@ const std::string& PairReader::failedThing() const noexcept {
 PairCounters PairReader::counters() const noexcept {
   PairCounters counters = impl_->counters;
   if (impl_->depth) counters.depth_skipped = impl_->depth->skipped();
-  if (impl_->color_reader) {
-    counters.damaged += impl_->color_reader->damaged();
-    counters.deinterlaced += impl_->color_reader->deinterlaced();
-    counters.jumps += impl_->color_reader->source().jumps();
-    counters.missed_pictures += impl_->color_reader->source().missedPictures();
-    counters.missing = impl_->color_reader->source().missing();
+  if (impl_->sources.color()) {
+    counters.damaged += impl_->sources.color()->damaged();
+    counters.deinterlaced += impl_->sources.color()->deinterlaced();
+    counters.jumps += impl_->sources.color()->source().jumps();
+    counters.missed_pictures += impl_->sources.color()->source().missedPictures();
+    counters.missing = impl_->sources.color()->source().missing();
   }
-  if (impl_->depth_source) {
-    const DepthSource::Counters depth = impl_->depth_source->counters();
+  if (impl_->sources.depth()) {
+    const DepthSource::Counters depth = impl_->sources.depth()->counters();
     counters.damaged += depth.damaged;
     counters.deinterlaced += depth.deinterlaced;
     counters.jumps += depth.jumps;
@@ -337,12 +263,12 @@ PairCounters PairReader::counters() const noexcept {
 }
 
 std::optional<VideoDecoder::Restart> PairReader::takeRestart() noexcept {
-  auto restart = impl_->color_reader ? impl_->color_reader->takeRestart() : std::nullopt;
-  return restart || !impl_->depth_source ? restart : impl_->depth_source->takeRestart();
+  auto restart = impl_->sources.color() ? impl_->sources.color()->takeRestart() : std::nullopt;
+  return restart || !impl_->sources.depth() ? restart : impl_->sources.depth()->takeRestart();
 }
 
 std::optional<Error> PairReader::depthLoss() const noexcept {
-  return impl_->depth_source ? impl_->depth_source->loss() : std::nullopt;
+  return impl_->sources.depth() ? impl_->sources.depth()->loss() : std::nullopt;
 }
 
 }  // namespace relievo

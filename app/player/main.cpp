@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program of the box: chooses the back ends, plays or probes, and says in one line what went wrong.
 #include <atomic>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -15,17 +15,16 @@
 #include "app/cli/output_guard.h"
 #include "app/cli/program.h"
 #include "app/media/film_folder.h"
-#include "app/player/control/control_socket.h"
 #include "app/player/control/player_control.h"
 #include "app/player/film/probe.h"
 #include "app/player/player.h"
 #include "app/player/setup/config_file.h"
+#include "app/player/setup/near_file.h"
 #include "app/player/setup/options.h"
+#include "app/player/setup/play_files.h"
 #include "app/player/setup/self_test.h"
 #include "app/player/touch/calibrate.h"
-#include "app/player/touch/recorder.h"
 #include "drivers/registry.h"
-#include "platform/atomic_file.h"
 #include "platform/clock.h"
 #include "platform/files/file_system_answer.h"
 #include "platform/log.h"
@@ -60,43 +59,12 @@ drivers::HapticSettings settingsOf(const FileConfig& config) {
   return {.falcon_firmware = config.falcon_firmware.value_or(""), .falcon_counts_per_nm = config.falcon_counts_per_nm};
 }
 
-// What `play` needs besides devices: its keys, and a place to remember positions.
-Outcome<void> complete(PlayOptions& options) {
-  if (!options.keys_path.empty()) {
-    auto keys = KeyTable::load(options.keys_path);
-    if (!keys) return std::unexpected(keys.error());
-    options.player.keys = std::move(*keys);
-  }
-  options.player.sound_device = options.audio.text();
-  if (const std::string state = Resume::defaultPath(); !state.empty()) {
-    options.player.volume_path = (std::filesystem::path(state).parent_path() / "volume.json").string();
-  }
-  if (!options.resume && !options.player.browser) return {};
-  const std::string path = Resume::defaultPath();
-  if (path.empty()) {
-    if (!options.resume) return {};
-    return failOn("--resume", {ErrorCode::NotFound, 0, "there is no home to remember in; set HOME or STATE_DIRECTORY"});
-  }
-  std::error_code none;
-  std::filesystem::create_directories(std::filesystem::path(path).parent_path(), none);
-  const auto place = AtomicFile::create(path);
-  if (!place && options.resume) return failOn("--resume " + path, place.error());
-  if (place) options.player.resume_path = path;
-  return {};
-}
-
-// "hand-2.csv" beside "hand.csv"; empty without a second finger or a recording.
-std::string secondRecordPath(const PlayOptions& options) {
-  if (options.record_path.empty() || options.second_haptic.word.empty()) return "";
-  const std::filesystem::path path = options.record_path;
-  return (path.parent_path() / (path.stem().string() + "-2" + path.extension().string())).string();
-}
-
 Outcome<void> keepOutputsApart(const PlayOptions& options, const FileConfig& config) {
   const SourceOptions& source = options.player.source;
   std::vector<std::string> inputs = source.named_files;
   inputs.insert(inputs.end(), {source.url, source.depth_url, depthBeside(source.url), options.keys_path, config.path,
                                config.falcon_firmware.value_or("")});
+  for (const std::string& film : options.player.more) inputs.insert(inputs.end(), {film, depthBeside(film)});
   std::vector<std::string> outputs{options.report_path, options.record_path, secondRecordPath(options),
                                    options.control_path};
   for (const BackEndName* name :
@@ -158,54 +126,12 @@ Outcome<Devices> makeDevices(const PlayOptions& options, const FileConfig& confi
                  std::move(*remote),  std::move(*audio),  std::move(*make_decoder)};
 }
 
-// What is written besides the picture and the sound. Empty: it was not asked for.
-struct Outputs {
-  std::optional<AtomicFile> report;
-  std::optional<Recorder> recorder, second_recorder;
-  std::unique_ptr<ControlSocket> socket;
-};
-
-// An output that cannot be written is found out before the film begins.
-Outcome<Outputs> makeOutputs(const PlayOptions& options) {
-  Outputs outputs;
-  if (!options.report_path.empty()) {
-    auto created = AtomicFile::create(options.report_path);
-    if (!created) return failOn(options.report_path, created.error());
-    outputs.report = std::move(*created);
+// "sampel.mkv (sample.mkv?): no such file; .."
+int tellWithNearFile(Failure failure) {
+  if (failure.error.code == ErrorCode::NotFound && failure.error.os_error == ENOENT) {
+    if (const std::string near = nearFile(failure.thing); !near.empty()) failure.thing += " (" + near + "?)";
   }
-  if (!options.record_path.empty()) {
-    auto created = Recorder::create(options.record_path);
-    if (!created) return failOn(options.record_path, created.error());
-    outputs.recorder = std::move(*created);
-  }
-  if (const std::string path = secondRecordPath(options); !path.empty()) {
-    auto created = Recorder::create(path);
-    if (!created) return failOn(path, created.error());
-    outputs.second_recorder = std::move(*created);
-  }
-  if (!options.control_path.empty()) {
-    auto listening = ControlSocket::listen(options.control_path);
-    if (!listening) return std::unexpected(listening.error());
-    outputs.socket = std::move(*listening);
-  }
-  return outputs;
-}
-
-// One that cannot be written costs the others nothing.
-int finishFiles(const PlayReport& report, Outputs& outputs) {
-  const CancelsAnswers kept(nullptr);  // the signal that has ended the player does not cost its files
-  int result = kExitDone;
-  const auto finish = [&result](std::optional<Recorder>& recorder, const HapticSummary& haptic) {
-    if (!recorder || haptic.ticks == 0) return;
-    if (auto finished = recorder->finish(); !finished) result = tell({recorder->path(), finished.error()});
-  };
-  finish(outputs.recorder, report.haptic);
-  if (report.second_finger) finish(outputs.second_recorder, report.second_finger->haptic);
-  if (outputs.report) {
-    outputs.report->write(toJson(report));
-    if (auto written = outputs.report->commit(); !written) result = tell({outputs.report->path(), written.error()});
-  }
-  return result;
+  return tell(failure);
 }
 
 int play(PlayOptions options, const FileConfig& config) {
@@ -213,7 +139,7 @@ int play(PlayOptions options, const FileConfig& config) {
   const CancelsAnswers cancels(stop);
   applyLogLevels(config);
   if (options.verbose) setLogLevel(LogLevel::Debug);
-  if (auto completed = complete(options); !completed) return tell(completed.error());
+  if (auto loaded = loadPlayFiles(options); !loaded) return tell(loaded.error());
   if (auto apart = keepOutputsApart(options, config); !apart) return tell(apart.error());
   MonotonicClock clock;
   const auto devices = makeDevices(options, config, clock);
@@ -240,7 +166,7 @@ int play(PlayOptions options, const FileConfig& config) {
   const auto played = player.run(stop);
   const PlayReport report = player.report();
   const int files = finishFiles(report, *outputs);
-  if (!played) return tell(played.error());
+  if (!played) return tellWithNearFile(played.error());
   std::fputs(toText(report, options.verbose).c_str(), stdout);
   if (for_a_time && report.frames_shown == 0 && !report.source.empty() && !stop)
     return tell({report.source, kNoPicture});
@@ -258,7 +184,7 @@ int listDevices(const FileConfig& config) {
   MonotonicClock clock;
   bool any = false;
   for (const auto& each : drivers::lookAtDevices(settingsOf(config), clock)) {
-    std::printf("%-7s %-20s %-6s %s\n", each.kind, each.name.c_str(), each.there ? "there" : "-", each.state.c_str());
+    std::printf("%-7s %-24s %-6s %s\n", each.kind, each.name.c_str(), each.there ? "there" : "-", each.state.c_str());
     any = any || each.there;
   }
   std::puts(any ? "`relievo FILM` takes a haptic device that is there, else the mouse; --haptic NAME chooses one."

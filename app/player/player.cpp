@@ -31,11 +31,12 @@ Player::Player(PlayerConfig config, PlayerParts parts)
                  if (parts_.control != nullptr) parts_.control->happened(fault);
                  if (fresh) screen_.text().tell(fault.what, when);
                }),
-      programme_(config_.resume_path, config_.loop),
+      files_(config_.own_threads ? FileWriter::Where::OwnThread : FileWriter::Where::AtOnce),
+      programme_(config_.resume_path, files_, config_.loop),
       film_(backendsOf(parts_, config_.own_threads), parts_.audio, parts_.clock, journal_),
       touch_({parts_.haptic, parts_.recorder}, parts_.second_finger, parts_.clock,
              config_.own_threads ? Ticking::Thread : Ticking::ByHand, journal_),
-      screen_(parts_.display, config_.display, config_.stereo, config_.osd, parts_.clock, journal_),
+      screen_(parts_.display, config_.display, config_.stereo, config_.osd, parts_.clock, journal_, files_),
       keys_(config_.keys),
       loudness_(config_.volume_path, config_.sound_device) {
   if (config_.volume_percent) loudness_.set(*config_.volume_percent);
@@ -154,7 +155,7 @@ MonotonicTime Player::nextWake(MonotonicTime now) const {
 void Player::finish(MonotonicTime now) {
   touch_.stop();  // zero force before anything else
   film_.silence();
-  loudness_.keep();
+  loudness_.keep(files_);
   if (parts_.status != nullptr) parts_.status->clear();
   if (parts_.control != nullptr) parts_.control->stopping();
   touch_.drain(seeks_, nullptr);
@@ -164,6 +165,7 @@ void Player::finish(MonotonicTime now) {
   film_.stop();
   screen_.close();
   if (parts_.remote != nullptr) parts_.remote->close();
+  files_.finish();
 }
 
 }  // namespace relievo

@@ -12,7 +12,10 @@
 #include "app/player/browse/browser.h"
 #include "app/player/control/command.h"
 #include "app/player/control/key_table.h"
+#include "app/player/control/loop_ab.h"
+#include "app/player/control/mouse_wishes.h"
 #include "app/player/control/wishes.h"
+#include "app/player/file_writer.h"
 #include "app/player/film/film_playback.h"
 #include "app/player/film/programme.h"
 #include "app/player/film/seek_times.h"
@@ -142,7 +145,6 @@ class Player {
   void nextWords(double number, MonotonicTime now);
   void showWords(bool shown, MonotonicTime now);
   void beginWords();
-  void setLoopAB(MonotonicTime now);
   void followLoopAB(MonotonicTime now);
   void setVolume(double percent);
   void mute(bool muted);
@@ -170,6 +172,7 @@ class Player {
   PlayerConfig config_;
   PlayerParts parts_;
   Journal journal_;
+  FileWriter files_;
   Programme programme_;
   FilmPlayback film_;
   FilmTouch touch_;
@@ -179,15 +182,12 @@ class Player {
   std::set<std::uint16_t> unbound_;  // keys without a meaning that were told
   Loudness loudness_;
   std::optional<Browser> browser_;
-  bool browsed_ = false;        // the list was shown
-  bool mouse_pressed_ = false;  // in the list
-  bool chosen_ = false;         // the mouse has chosen the selected film
+  bool browsed_ = false;  // the list was shown
+  MouseWishes mouse_;
   Statistics statistics_;
-  int notches_ = 0;                   // of the mouse's wheel that are not obeyed yet
-  std::optional<double> dragged_to_;  // the film's place, 0 to 1, that the mouse has pressed on the bar
   bool words_shown_ = true;
   Duration subtitle_delay_{0};
-  std::optional<MediaTime> loop_from_, loop_to_;  // of an A-B loop
+  LoopAB loop_ab_;
 
   PlayerState state_ = PlayerState::Boot;
   std::optional<Failure> failure_;  // of a film that could not be played, until another one opens

@@ -2,7 +2,6 @@
 // What the player does with the list of films that a viewer chooses from.
 #include <algorithm>
 #include <array>
-#include <utility>
 
 #include "app/player/player.h"
 #include "platform/print.h"
@@ -65,7 +64,7 @@ void Player::closeBrowser() {
   if (!screen_.text().hasList()) return;
   browser_->close();
   screen_.text().setList(std::nullopt);
-  mouse_pressed_ = chosen_ = false;
+  mouse_.leaveList();
 }
 
 void Player::followBrowser(MonotonicTime now) {
@@ -75,7 +74,7 @@ void Player::followBrowser(MonotonicTime now) {
     if (place) failFilm(*place, kTakenAway);
     return;
   }
-  if (std::exchange(chosen_, false)) return chooseFilm(now);
+  if (mouse_.takeChoice()) return chooseFilm(now);
   browser_->warn(screen_.text().showsWarning(now));
   if (browser_->attend(now)) screen_.text().setList(browser_->view());
   if (auto drawn = screen_.redraw(touch_.marks(), MonotonicTime::max(), now); !drawn) failDrawing(drawn.error());
@@ -99,11 +98,7 @@ bool Player::hearMouseInList(const SurfaceMouse& mouse) {
   const auto film = screen_.filmAt(mouse);
   browser_->point(film);
   if (mouse.notches != 0) browser_->selectBy(-mouse.notches);
-  if (mouse.pressed && !mouse_pressed_ && film) {
-    browser_->select(*film);
-    chosen_ = true;
-  }
-  mouse_pressed_ = mouse.pressed;
+  if (mouse_.press(mouse.pressed, film.has_value())) browser_->select(*film);
   return true;
 }
 

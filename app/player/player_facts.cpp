@@ -105,8 +105,8 @@ ScreenFacts Player::facts() const {
           .subtitle_size = screen_.subtitleSize(),
           .aspect = screen_.aspectWord(),
           .full_screen = screen_.isFullScreen(),
-          .loop_from_s = secondsOf(loop_from_),
-          .loop_to_s = secondsOf(loop_to_)};
+          .loop_from_s = secondsOf(loop_ab_.from()),
+          .loop_to_s = secondsOf(loop_ab_.to())};
 }
 
 }  // namespace relievo

@@ -41,21 +41,20 @@ void Player::readRemote(MonotonicTime now) {
 bool Player::hearMouse(const SurfaceMouse& mouse) {
   if (state_ == PlayerState::Browsing) return hearMouseInList(mouse);
   if (mouse.notches != 0) {
-    if (!config_.mouse_touches) notches_ += mouse.notches;
+    if (!config_.mouse_touches) mouse_.turn(mouse.notches);
     return !config_.mouse_touches;
   }
   const auto share = screen_.barAt(mouse, parts_.clock.now());
-  if (share && mouse.pressed) dragged_to_ = share;
+  if (share && mouse.pressed) mouse_.drag(*share);
   return share.has_value();
 }
 
 // While one seek is under way the mouse may move on; the last place counts.
 void Player::followMouse(MonotonicTime now) {
   constexpr double kLouder = 5;  // percent a notch of the wheel
-  if (const int notches = std::exchange(notches_, 0); notches != 0)
-    obey({PlayerVerb::VolumeBy, kLouder * notches}, now);
-  if (!dragged_to_ || state_ == PlayerState::Seeking) return;
-  obey({PlayerVerb::SeekShare, *std::exchange(dragged_to_, std::nullopt)}, now);
+  if (const int notches = mouse_.takeNotches(); notches != 0) obey({PlayerVerb::VolumeBy, kLouder * notches}, now);
+  if (state_ == PlayerState::Seeking) return;
+  if (const auto share = mouse_.takeDrag()) obey({PlayerVerb::SeekShare, *share}, now);
 }
 
 // A key that means nothing says so once. Keys that only change the meaning of others are silent.

@@ -38,7 +38,7 @@ bool Player::obeySound(const PlayerCommand& command, MonotonicTime now) {
       screen_.delaySubtitles(subtitle_delay_);
       return true;
     case PlayerVerb::LoopAB:
-      setLoopAB(now);
+      loop_ab_.mark(film_.place(now));
       return true;
     default:
       return false;
@@ -89,29 +89,15 @@ void Player::showWords(bool shown, MonotonicTime now) {
 void Player::beginWords() {
   words_shown_ = film_.info().words.has_value();
   screen_.subtitles().show(words_shown_);
-  loop_from_.reset();
-  loop_to_.reset();
+  loop_ab_.forget();
   std::vector<double> starts;
   for (const Chapter& chapter : film_.info().chapters) starts.push_back(toSeconds(chapter.begin));
   screen_.text().setChapters(std::move(starts));
 }
 
-void Player::setLoopAB(MonotonicTime now) {
-  const auto here = film_.place(now);
-  if (loop_to_ || !here) {
-    loop_from_.reset();
-    loop_to_.reset();
-  } else if (!loop_from_) {
-    loop_from_ = here;
-  } else if (*here > *loop_from_) {
-    loop_to_ = here;
-  }
-}
-
 void Player::followLoopAB(MonotonicTime now) {
-  if (state_ != PlayerState::Playing || !loop_to_) return;
-  const auto here = film_.place(now);
-  if (here && *here >= *loop_to_) seek(*loop_from_, PlayerEvent::Seek, false, now);
+  if (state_ != PlayerState::Playing) return;
+  if (const auto begin = loop_ab_.backFrom(film_.place(now))) seek(*begin, PlayerEvent::Seek, false, now);
 }
 
 }  // namespace relievo

@@ -5,6 +5,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <string_view>
 
@@ -24,7 +25,8 @@ std::size_t columnsOfTerminal() noexcept {
 std::string timesOf(const ScreenFacts& facts) {
   std::string text = clockTime(facts.position_s);
   if (facts.duration_s <= 0) return text;
-  return text + " / " + clockTime(facts.duration_s) + print(" (%.0f %%)", 100 * facts.position_s / facts.duration_s);
+  return text + " / " + clockTime(facts.duration_s) +
+         print(" (%.0f %%)", 100 * std::min(1.0, facts.position_s / facts.duration_s));
 }
 
 }  // namespace
@@ -42,6 +44,8 @@ std::string statusText(const ScreenFacts& facts, const PlayReport& report, const
   } else if (report.haptic.ticks > 0) {
     text += print("  force %.2f N  late ticks %llu", forces_n[0], late(report.haptic));
   }
+  // Parts that find no room are left out, the last first; a first part that finds none is cut.
+  while (text.size() >= columns && text.rfind("  ") != std::string::npos) text.resize(text.rfind("  "));
   return text.substr(0, columns > 0 ? columns - 1 : 0);
 }
 

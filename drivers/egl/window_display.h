@@ -54,6 +54,7 @@ class WindowDisplay final : public Display {
   void hearWindow(const SDL_WindowEvent& event);
   void hearKey(const SDL_KeyboardEvent& event);
   void hearButton(const SDL_MouseButtonEvent& event);
+  void hearOtherButton(std::uint8_t button);
   void hearWheel(int notches);
   void moveMouse(int x, int y) noexcept;
   [[nodiscard]] bool tellMouse(bool pressed, int notches = 0) const;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the window hears: keys, the mouse, dropped files, the desktop.
+#include <linux/input-event-codes.h>
+
 #include <algorithm>
+#include <cstdint>
 
 #include "drivers/egl/window_display.h"
 #include "drivers/egl/window_keys.h"
@@ -88,8 +91,21 @@ void WindowDisplay::hearButton(const SDL_MouseButtonEvent& event) {
     press_taken_ = down && taken;
     mouse_.left = down && !press_taken_;
   }
+  if (down) hearOtherButton(event.button);
   moveMouse(event.x, event.y);
   if (mouse_.left && event.button == SDL_BUTTON_LEFT && event.clicks == 2) setFullScreen(FullScreen::Toggle);
+}
+
+// As in other players: the right button pauses, those at the side change the film.
+void WindowDisplay::hearOtherButton(std::uint8_t button) {
+  const std::uint16_t code = button == SDL_BUTTON_RIGHT ? KEY_PLAYPAUSE
+                             : button == SDL_BUTTON_X1  ? KEY_PREVIOUS
+                             : button == SDL_BUTTON_X2  ? KEY_NEXT
+                                                        : KEY_RESERVED;
+  if (code == KEY_RESERVED) return;
+  for (const auto action : {KeyEvent::Action::Press, KeyEvent::Action::Release}) {
+    static_cast<void>(input_->keys.tryPush({.code = code, .action = action, .time = clock_.now()}));
+  }
 }
 
 void WindowDisplay::hearWheel(int notches) {

@@ -7,6 +7,7 @@
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/ffmpeg/library.h"
 #include "drivers/ffmpeg/picture.h"
+#include "drivers/ffmpeg/views/view_pairs.h"
 
 namespace relievo {
 namespace {
@@ -52,6 +53,7 @@ class FfmpegDecoder final : public VideoDecoder {
     period_ = stream.frame_period > Duration(0) ? stream.frame_period : kDefaultPeriod;
     next_pts_ = MediaTime{};
     end_pending_ = false;
+    views_ = {};
     converter_.forgetScale();
 
     if (const auto* described = native<NativeStream, NativeStreamDeleter>(stream.native)) {
@@ -79,6 +81,7 @@ class FfmpegDecoder final : public VideoDecoder {
     context_->thread_type = FF_THREAD_FRAME | FF_THREAD_SLICE;
     context_->pkt_timebase = kNanosecond;
     context_->flags |= AV_CODEC_FLAG_UNALIGNED;  // crop exactly to the sample
+    static_cast<void>(askForViews(*context_));
     if (avcodec_open2(context_.get(), codec, nullptr) < 0) {
       return fail(ErrorCode::Corrupt, "the video decoder rejects the stream's parameters; convert the film");
     }
@@ -104,36 +107,59 @@ class FfmpegDecoder final : public VideoDecoder {
         static_cast<void>(avcodec_send_packet(context_.get(), nullptr));  // fails only if it is draining already
         continue;
       }
-      if (got == AVERROR_EOF) return Progress::EndOfStream;
       if (got == AVERROR(ENOMEM)) return fail(ErrorCode::Exhausted, kNoMemory, ENOMEM);
-      if (got >= 0) {
-        const MediaTime pts = nextTime(picture_->best_effort_timestamp);
-        if (!isMended(*picture_)) return deliver(frame, pts);
+      ViewPairs::Moment moment;
+      if (got == AVERROR_EOF) {
+        moment = views_.rest();
+        if (!moment.base) return Progress::EndOfStream;
+      } else if (got >= 0) {
+        FramePtr picture(av_frame_alloc());
+        if (!picture) return fail(ErrorCode::Exhausted, kNoMemory, ENOMEM);
+        av_frame_move_ref(picture.get(), picture_.get());
+        moment = views_.add(std::move(picture));
+        if (!moment.base) continue;
+      }
+      if (moment.base) {
+        const MediaTime pts = nextTime(moment.base->best_effort_timestamp);
+        if (!isMended(*moment.base)) return deliver(frame, std::move(moment), pts);
       }
       countDamaged();  // the loop ends, since each try consumes a packet or a picture
     }
   }
 
-  Result<Progress> deliver(Frame& frame, MediaTime pts) {
+  Result<Progress> deliver(Frame& frame, ViewPairs::Moment moment, MediaTime pts) {
+    auto base = describe(std::move(moment.base), pts);
+    if (!base) return std::unexpected(base.error());
+    frame = std::move(*base);
+    if (moment.second && isMended(*moment.second)) {
+      countDamaged();
+      moment.second.reset();
+    }
+    if (!moment.second) return Progress::Picture;
+    auto second = describe(std::move(moment.second), pts);
+    if (!second) return std::unexpected(second.error());
+    if (moment.base_is_right) std::swap(frame, *second);
+    frame.right = std::make_shared<const Frame>(std::move(*second));
+    return Progress::Picture;
+  }
+
+  Result<Frame> describe(FramePtr picture, MediaTime pts) {
 #if LIBAVUTIL_VERSION_INT >= AV_VERSION_INT(57, 30, 100)  // FFmpeg 6; older versions have only pkt_duration
-    const Duration duration(picture_->duration);
+    const Duration duration(picture->duration);
 #else
-    const Duration duration(picture_->pkt_duration);
+    const Duration duration(picture->pkt_duration);
 #endif
-    FramePtr picture(av_frame_alloc());
-    if (!picture) return fail(ErrorCode::Exhausted, kNoMemory, ENOMEM);
-    av_frame_move_ref(picture.get(), picture_.get());
     const bool floats = isGrayFloat(picture->format);
     if (!describable(picture->format)) {
       auto converted = converter_.convert(*picture);
       if (!converted) return std::unexpected(converted.error());
       picture = std::move(*converted);
     }
-    frame = frameOf(std::move(picture), sample_aspect_);
+    Frame frame = frameOf(std::move(picture), sample_aspect_);
     if (floats) frame.value_per_code = converter_.valuePerCode();
     frame.pts = pts;
     frame.duration = duration;
-    return Progress::Picture;
+    return frame;
   }
 
   // The picture's own time, or one period after the previous picture.
@@ -153,6 +179,7 @@ class FfmpegDecoder final : public VideoDecoder {
     avcodec_flush_buffers(context_.get());
     next_pts_ = MediaTime{};
     end_pending_ = false;
+    views_.dropWaiting();
     return {};
   }
 
@@ -160,6 +187,7 @@ class FfmpegDecoder final : public VideoDecoder {
     context_.reset();
     packet_.reset();
     picture_.reset();
+    views_ = {};
   }
 
   // Each codec of FFmpeg reads these at each picture.
@@ -170,6 +198,7 @@ class FfmpegDecoder final : public VideoDecoder {
   CodecContextPtr context_;
   PacketPtr packet_;  // reused by each feed
   FramePtr picture_;  // reused by each receive
+  ViewPairs views_;
   Converter converter_;
   AVRational time_base_ = kNanosecond;  // of the durations in the source's packets
   AVRational sample_aspect_{0, 1};
@@ -182,6 +211,11 @@ class FfmpegDecoder final : public VideoDecoder {
 
 std::unique_ptr<VideoDecoder> makeFfmpegDecoder() {
   return std::make_unique<FfmpegDecoder>();
+}
+
+bool ffmpegDecodesBothViews() noexcept {
+  const CodecContextPtr context(avcodec_alloc_context3(avcodec_find_decoder(AV_CODEC_ID_HEVC)));
+  return context && askForViews(*context);
 }
 
 }  // namespace relievo

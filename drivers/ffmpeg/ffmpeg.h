@@ -42,6 +42,10 @@ namespace relievo {
 // not be felt.
 [[nodiscard]] std::unique_ptr<VideoDecoder> makeFfmpegDecoder();
 
+// Whether it returns both views of a stream with kLayersTag 2 (Frame::right): FFmpeg 7.1 or later; else the first
+// alone.
+[[nodiscard]] bool ffmpegDecodesBothViews() noexcept;
+
 // Decodes any codec, rate and channel layout, which may change within the film. Channels are mixed down by their
 // layout's standard rule, scaled so that the sum does not clip.
 [[nodiscard]] std::unique_ptr<AudioDecoder> makeFfmpegAudioDecoder();

@@ -54,6 +54,9 @@ Component componentOf(const AVComponentDescriptor& c) noexcept {
 ViewLayout viewsOf(const AVFrame& picture) noexcept {
   const AVFrameSideData* const data = av_frame_get_side_data(&picture, AV_FRAME_DATA_STEREO3D);
   if (data == nullptr || data->size < sizeof(AVStereo3D)) return {};
+#if LIBAVCODEC_VERSION_INT >= AV_VERSION_INT(61, 19, 100)  // FFmpeg 7.1: one of several views (views/view_pairs.h)
+  if (av_frame_get_side_data(&picture, AV_FRAME_DATA_VIEW_ID) != nullptr) return {};
+#endif
   const auto& stereo = *reinterpret_cast<const AVStereo3D*>(data->data);
   ViewLayout views{.right_first = (stereo.flags & AV_STEREO3D_FLAG_INVERT) != 0};
   switch (stereo.type) {

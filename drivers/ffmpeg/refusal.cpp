@@ -9,6 +9,7 @@
 #include "drivers/ffmpeg/library.h"
 #include "drivers/ffmpeg/local_file.h"
 #include "drivers/ffmpeg/network_error.h"
+#include "hal/media/media_names.h"
 #include "platform/files/answered_file.h"
 
 namespace relievo::ffmpeg {
@@ -26,11 +27,38 @@ std::string headOf(const std::string& path) {
   return {head.begin(), head.begin() + static_cast<std::ptrdiff_t>(bytes)};
 }
 
+constexpr const char* kCloud =
+    "it is a cloud of points without pictures; relievo plays depth as pictures: name the recording that it was made of";
+
+// By the ending, where files of several kinds begin alike or in no fixed way.
+struct UnreadEnding {
+  std::string_view ending;
+  const char* line;
+};
+constexpr const char* kRaw =
+    "it is bare numbers that tell no size; convert it: ffmpeg -f rawvideo -pix_fmt gray16le -video_size WIDTHxHEIGHT "
+    "-framerate F -i FILE -c:v ffv1 depth.mkv";
+constexpr const char* kZed = "it is a recording of a ZED camera; convert it: ZED_SVO_Export FILE FOLDER 4";
+constexpr std::array<UnreadEnding, 12> kUnreadEndings{{
+    {"r3d", "it is a Record3D recording in its own coding; export it in Record3D as RGBD video or as EXR + JPG"},
+    {"npz", "it is an archive of arrays; unzip it and name the .npy with the depth"},
+    {"zip", "it is an archive; unpack it and name its folder"},
+    {"svo", kZed},
+    {"svo2", kZed},
+    {"raw", kRaw},
+    {"sens", "it is a scan, which this relievo was built without; build it with -DRELIEVO_SCAN=ON"},
+    {"klg", "it is a scan, which this relievo was built without; build it with -DRELIEVO_SCAN=ON"},
+    {"dpt", "it is one picture of Sintel's depth; write it as .npy or PFM, in metres, which are read"},
+    {"mat", "it is a MATLAB file; write its depth as .npy or as 16-bit PNG pictures, which are read"},
+    {"usdz", "it is a 3D model; relievo plays depth as pictures: name the recording that it was made of"},
+    {"obj", "it is a 3D model; relievo plays depth as pictures: name the recording that it was made of"},
+}};
+
 struct UnreadFormat {
   std::string_view magic;
   const char* line;
 };
-constexpr std::array<UnreadFormat, 5> kUnread{{
+constexpr std::array<UnreadFormat, 10> kUnread{{
     {"SQLite format 3\0"sv,
      "it is a database of SQLite: a ROS 2 bag, if its name ends in .db3; convert its folder to a ROS 1 bag, which is "
      "read: pip install rosbags; rosbags-convert --src FOLDER --dst film.bag"},
@@ -38,6 +66,12 @@ constexpr std::array<UnreadFormat, 5> kUnread{{
      "it is an MCAP recording; convert its folder to a ROS 1 bag, which is read: pip install rosbags; rosbags-convert "
      "--src FOLDER --dst film.bag"},
     {"\x89HDF\r\n\x1a\n"sv, "it is an HDF5 file; write its depth as .npy or as 16-bit PNG pictures, which are read"},
+    {"MATLAB 5.0 MAT"sv, "it is a MATLAB file; write its depth as .npy or as 16-bit PNG pictures, which are read"},
+    {"ply\n"sv, kCloud},
+    {"ply\r\n"sv, kCloud},
+    {"# .PCD"sv, kCloud},
+    {"EVENTS1"sv,
+     "it is a recording of Kinect Studio; write its depth as 16-bit pictures in mm, such as KinectXEFTools does"},
     // A build with their readers gives these to them.
     {"#ROSBAG V"sv, "it is a ROS bag, which this relievo was built without; build it with -DRELIEVO_ROSBAG=ON"},
     {"NI10"sv, "it is a recording of OpenNI, which this relievo was built without; build it with -DRELIEVO_OPENNI=ON"},
@@ -57,6 +91,8 @@ std::optional<Error> unreadFormat(const std::string& path) {
   const std::string head = headOf(path);
   const auto found =
       std::ranges::find_if(kUnread, [&](const UnreadFormat& format) { return head.starts_with(format.magic); });
+  const auto by_ending = std::ranges::find(kUnreadEndings, endingOf(path), &UnreadEnding::ending);
+  if (by_ending != kUnreadEndings.end() && !head.empty()) return Error{ErrorCode::Unsupported, 0, by_ending->line};
   if (found == kUnread.end()) return std::nullopt;
   return Error{ErrorCode::Unsupported, 0, found->line};
 }

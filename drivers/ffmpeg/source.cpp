@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <deque>
 #include <map>
+#include <span>
 #include <thread>
 #include <utility>
 
@@ -62,6 +63,7 @@ class FfmpegSource final : public MediaSource {
     timed_ = isTimed(context);
     start_ = startOf(context);
     latest_end_ = Duration(0);
+    sought_ = false;
     times_.begin();
     chooseProgramme(context);
     leading_stream_ = std::max(av_find_default_stream_index(&context), 0);
@@ -163,12 +165,19 @@ class FfmpegSource final : public MediaSource {
     if (begin) latest_end_ = std::max(latest_end_, begin->time_since_epoch() + length);
   }
 
-  // Uses only a duration that the container itself states, and only with a single programme.
+  // Uses only a duration that the container itself states, and only with a single programme. A subtitle that begins
+  // before the place sought is not read, and may be what lasts to the film's end.
   Duration missingTime() const noexcept override {
+    if (sought_ && hasSubtitles()) return Duration(0);
     const bool told = timed_ && context_->nb_programs < 2 && context_->duration > 0 &&
                       context_->duration_estimation_method == AVFMT_DURATION_FROM_STREAM;
     const Duration missing = told ? lengthOf(*context_, start_) - latest_end_ : Duration(0);
     return missing > kWholeWithin ? missing : Duration(0);
+  }
+
+  bool hasSubtitles() const noexcept {
+    const std::span streams(context_->streams, context_->nb_streams);
+    return std::ranges::any_of(streams, [](const AVStream* stream) { return kindOf(*stream) == StreamKind::Subtitle; });
   }
 
   // False for packets with only side data, and for those of another programme that were read before this one was
@@ -217,6 +226,7 @@ class FfmpegSource final : public MediaSource {
     times_.begin();
     latest_end_ = target.time_since_epoch();  // what is skipped is not missing
     const bool to_beginning = target <= MediaTime{};
+    sought_ = !to_beginning;
     if (to_beginning && seeksByBytes() && av_seek_frame(context_.get(), -1, 0, AVSEEK_FLAG_BYTE) >= 0) return {};
     // Seeks by key frames of the leading stream; to the beginning, of the stream that begins first.
     const AVStream& stream = *context_->streams[to_beginning ? earliest_stream_ : leading_stream_];
@@ -258,6 +268,7 @@ class FfmpegSource final : public MediaSource {
   bool timed_ = true;
   Duration start_{0};       // the container's start time
   Duration latest_end_{0};  // of all packets read so far, from `start_` on
+  bool sought_ = false;     // since then, and not to the beginning
   FileTimes times_;
   std::deque<PacketPtr> ahead_;                                    // read while looking for tags, not returned yet
   std::map<int, std::map<std::string, std::string>> stream_tags_;  // by stream index

@@ -11,12 +11,13 @@
 #include <string_view>
 #include <vector>
 
+#include "drivers/ffmpeg/views/view_layers.h"
+#include "hal/media/media_names.h"
 #include "hal/media/stream_tags.h"
 
 namespace relievo::ffmpeg {
 namespace {
 
-using Bytes = std::span<const std::uint8_t>;
 using Tags = std::map<std::string, std::string>;
 constexpr unsigned kUserDataUnregistered = 5;
 
@@ -39,31 +40,13 @@ void eachUnitByLength(Bytes data, std::size_t length_bytes, const std::function<
   }
 }
 
-void eachUnitByStartCode(Bytes data, const std::function<void(Bytes)>& visit) {
-  constexpr std::array<std::uint8_t, 3> kStartCode{0, 0, 1};
-  auto at = std::search(data.begin(), data.end(), kStartCode.begin(), kStartCode.end());
-  while (at != data.end()) {
-    const auto begin = at + kStartCode.size();
-    at = std::search(begin, data.end(), kStartCode.begin(), kStartCode.end());
-    visit(Bytes(begin, at));
-  }
-}
-
 // An SEI unit's payload, without its header and the emulation prevention bytes; empty for any other unit.
 std::vector<std::uint8_t> messagesOf(Bytes unit, AVCodecID codec) {
   const bool hevc = codec == AV_CODEC_ID_HEVC;
   const std::size_t header = hevc ? 2 : 1;
   if (unit.size() <= header) return {};
   const bool supplemental = hevc ? (unit[0] >> 1 & 0x3f) == 39 : (unit[0] & 0x1f) == 6;
-  if (!supplemental) return {};
-  std::vector<std::uint8_t> plain;
-  int zeros = 0;
-  for (const std::uint8_t byte : unit.subspan(header)) {
-    const bool kept_out = zeros >= 2 && byte == 3;
-    zeros = byte == 0 ? zeros + 1 : 0;
-    if (!kept_out) plain.push_back(byte);
-  }
-  return plain;
+  return supplemental ? withoutPrevention(unit.subspan(header)) : std::vector<std::uint8_t>{};
 }
 
 void addLines(std::string_view text, Tags& tags) {
@@ -107,6 +90,34 @@ void addMessages(Bytes data, Tags& tags) {
 
 }  // namespace
 
+void eachUnitByStartCode(Bytes data, const std::function<void(Bytes)>& visit) {
+  constexpr std::array<std::uint8_t, 3> kStartCode{0, 0, 1};
+  auto at = std::search(data.begin(), data.end(), kStartCode.begin(), kStartCode.end());
+  while (at != data.end()) {
+    const auto begin = at + kStartCode.size();
+    at = std::search(begin, data.end(), kStartCode.begin(), kStartCode.end());
+    visit(Bytes(begin, at));
+  }
+}
+
+void eachUnit(const AVPacket& packet, const AVCodecParameters& parameters, const std::function<void(Bytes)>& visit) {
+  const Bytes data(packet.data, static_cast<std::size_t>(std::max(packet.size, 0)));
+  const std::size_t length_bytes = lengthBytes(parameters);
+  if (length_bytes > 0) eachUnitByLength(data, length_bytes, visit);
+  else eachUnitByStartCode(data, visit);
+}
+
+std::vector<std::uint8_t> withoutPrevention(Bytes bytes) {
+  std::vector<std::uint8_t> plain;
+  int zeros = 0;
+  for (const std::uint8_t byte : bytes) {
+    const bool kept_out = zeros >= 2 && byte == 3;
+    zeros = byte == 0 ? zeros + 1 : 0;
+    if (!kept_out) plain.push_back(byte);
+  }
+  return plain;
+}
+
 bool mayCarryTags(AVCodecID codec) noexcept {
   return codec == AV_CODEC_ID_H264 || codec == AV_CODEC_ID_HEVC;
 }
@@ -114,11 +125,8 @@ bool mayCarryTags(AVCodecID codec) noexcept {
 Tags streamTags(const AVPacket& packet, const AVCodecParameters& parameters) {
   Tags tags;
   if (!mayCarryTags(parameters.codec_id) || packet.size <= 0) return tags;
-  const Bytes data(packet.data, static_cast<std::size_t>(packet.size));
-  const auto visit = [&](Bytes unit) { addMessages(messagesOf(unit, parameters.codec_id), tags); };
-  const std::size_t length_bytes = lengthBytes(parameters);
-  if (length_bytes > 0) eachUnitByLength(data, length_bytes, visit);
-  else eachUnitByStartCode(data, visit);
+  eachUnit(packet, parameters, [&](Bytes unit) { addMessages(messagesOf(unit, parameters.codec_id), tags); });
+  if (const int layers = viewLayers(packet, parameters); layers > 0) tags[kLayersTag] = std::to_string(layers);
   return tags;
 }
 

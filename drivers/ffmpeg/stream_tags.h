@@ -2,8 +2,12 @@
 // Reads the tags inside a video stream (hal/media/stream_tags.h).
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <map>
+#include <span>
 #include <string>
+#include <vector>
 
 extern "C" {
 #include <libavcodec/avcodec.h>
@@ -11,10 +15,19 @@ extern "C" {
 
 namespace relievo::ffmpeg {
 
+using Bytes = std::span<const std::uint8_t>;
+
+// The NAL units of a packet of H.264 or HEVC.
+void eachUnit(const AVPacket& packet, const AVCodecParameters& parameters, const std::function<void(Bytes)>& visit);
+void eachUnitByStartCode(Bytes data, const std::function<void(Bytes)>& visit);
+// What the bytes of a unit mean: without its emulation prevention bytes.
+[[nodiscard]] std::vector<std::uint8_t> withoutPrevention(Bytes bytes);
+
 // Whether streams of this codec may carry tags.
 [[nodiscard]] bool mayCarryTags(AVCodecID codec) noexcept;
 
-// The tags in `packet`; keys in upper case. Empty if there are none, and for other codecs.
+// The tags in `packet`, a key frame; keys in upper case. Of two views in two layers also kLayersTag. Empty if there are
+// none, and for other codecs.
 [[nodiscard]] std::map<std::string, std::string> streamTags(const AVPacket& packet,
                                                             const AVCodecParameters& parameters);
 

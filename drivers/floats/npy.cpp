@@ -90,6 +90,7 @@ std::optional<Header> parseHeader(std::span<const std::uint8_t> begin) {
   const std::size_t length_bytes = begin[6] == 1 ? 2 : 4;
   std::size_t length = 0;
   for (std::size_t i = 0; i < length_bytes; ++i) length |= std::size_t{begin[kFixedPart + i]} << (8 * i);
+  if (length > kLongestHeader) return std::nullopt;  // what is added below has to fit into 32 bits
   Header header;
   header.begin = kFixedPart + length_bytes + length;
   if (begin[6] < 1 || begin[6] > 3 || header.begin > begin.size() || header.begin > kLongestHeader) return std::nullopt;
@@ -114,7 +115,8 @@ std::optional<FilePicture> readNpy(std::span<const std::uint8_t> file) {
   FilePicture picture{.width = static_cast<int>(header->cols),
                       .height = static_cast<int>(header->rows),
                       .components = static_cast<int>(header->components)};
-  const std::size_t rows = header->rows, cols = header->cols, components = header->components;
+  const auto rows = static_cast<std::size_t>(header->rows), cols = static_cast<std::size_t>(header->cols);
+  const auto components = static_cast<std::size_t>(header->components);
   const std::size_t down = header->fortran ? 1 : cols * components;
   const std::size_t right = header->fortran ? rows : components;
   const std::size_t deep = header->fortran ? rows * cols : 1;

@@ -102,7 +102,8 @@ class EvdevPadPort final : public PadPort {
   }
   Result<void> send(std::uint16_t code, std::int32_t value) noexcept override {
     const input_event event{.time = {}, .type = EV_FF, .code = code, .value = value};
-    if (::write(fd_.get(), &event, sizeof event) < 0) return failed("the gamepad took no command; plug it in again");
+    if (::write(fd_.get(), &event, sizeof event) < 0)
+      return failed("the gamepad does not accept commands; unplug it and plug it in again");
     return {};
   }
 

@@ -15,7 +15,7 @@ namespace relievo::gstreamer {
 // Raw video in memory that this machine's processor reads, in every format that hal/media/frame.h can describe.
 [[nodiscard]] CapsPtr readableCaps();
 
-// How many of an element's own buffers are in frames.
+// How many buffers of an element's own pool are held by frames now.
 using HeldCount = std::shared_ptr<std::atomic<int>>;
 
 // Without times. The stream's colour signalling holds, as the container and FFmpeg read it. With `copied`, the samples

@@ -25,8 +25,8 @@ constexpr const char* kGone = "the GStreamer element's device has gone";
 constexpr const char* kFailed = "the GStreamer element failed";
 constexpr const char* kNotItsKind = "the GStreamer element cannot decode this kind of stream";
 
-// A stop, on a thread of GStreamer's. The end of the stream is let through first: the decoders of gst-libav 1.26 access
-// what is gone if they are stopped while they drain.
+// Stops a pipeline on a thread of GStreamer's. It first waits for the end of the stream: the decoders of gst-libav 1.26
+// use freed memory if they are stopped while they drain.
 struct Stop {
   GstAppSink* draining;  // null: the stream goes on
   std::mutex mutex;

@@ -22,10 +22,15 @@ std::size_t number32(std::string_view bytes, std::size_t at) noexcept {
 std::string_view contentOf(std::string_view boxes, std::string_view type) noexcept {
   constexpr std::size_t kHeader = 8, kLongHeader = 16;
   while (boxes.size() >= kHeader) {
-    std::size_t size = number32(boxes, 0), header = kHeader;
-    if (size == 1) size = number32(boxes, 8) << 32 | number32(boxes, 12), header = kLongHeader;
-    if (size == 0) size = boxes.size();
-    if (size < header || size > boxes.size()) return {};
+    std::uint64_t announced = number32(boxes, 0);
+    std::size_t header = kHeader;
+    if (announced == 1) {
+      announced = std::uint64_t{number32(boxes, 8)} << 32 | number32(boxes, 12);
+      header = kLongHeader;
+    }
+    if (announced == 0) announced = boxes.size();
+    if (announced < header || announced > boxes.size()) return {};
+    const auto size = static_cast<std::size_t>(announced);
     if (boxes.substr(4, 4) == type) return boxes.substr(header, size - header);
     boxes.remove_prefix(size);
   }

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "drivers/pictures/lists.h"
+#include "drivers/pictures/odometry.h"
 #include "drivers/pictures/roles.h"
 #include "drivers/pictures/stereo.h"
 #include "hal/media/media_names.h"
@@ -113,11 +114,23 @@ void sortByRole(const std::string& folder, const std::vector<std::string>& names
   found.color = {folder, oneKind(color, found.left_out)};
 }
 
+// The pictures in `folder`, or else in the first of its own folders that has any ("depth/Camera_0").
+PictureFiles picturesIn(const std::string& folder, FoundPictures& found) {
+  auto listing = listingOf(folder).value_or(Listing{});
+  if (!listing.pictures.empty()) return {folder, oneKind(std::move(listing.pictures), found.left_out)};
+  std::ranges::sort(listing.folders, naturalLess);
+  for (const std::string& name : listing.folders) {
+    auto inner = listingOf(folder + name).value_or(Listing{}).pictures;
+    if (!inner.empty()) return {folder + name + "/", oneKind(std::move(inner), found.left_out)};
+  }
+  return {folder, {}};
+}
+
 bool sortByFolder(const std::string& folder, const Listing& listing, FoundPictures& found) {
   const auto open = [&](Role role) -> PictureFiles {
     const std::string name = bestOf(listing.folders, role);
     if (name.empty()) return {};
-    return {folder + name + "/", oneKind(listingOf(folder + name).value_or(Listing{}).pictures, found.left_out)};
+    return picturesIn(folder + name + "/", found);
   };
   found.color = open(Role::Color);
   found.depth = open(Role::Depth);
@@ -199,7 +212,23 @@ std::optional<FoundPictures> fromTwoLists(const std::string& folder) {
   return found;
 }
 
-Result<FoundPictures> findInFolder(const std::string& folder) {
+Result<FoundPictures> findInFolder(const std::string& folder, bool goes_down = true);
+
+// Of a folder without pictures: its only folder with a recording of colour and depth ("keyframes", "results").
+std::optional<FoundPictures> findBelow(const std::string& folder, const Listing& listing) {
+  constexpr std::size_t kMostFolders = 16;
+  std::optional<FoundPictures> found;
+  if (listing.folders.size() > kMostFolders) return std::nullopt;
+  for (const std::string& name : listing.folders) {
+    auto below = findInFolder(folder + name + "/", false);
+    if (!below || below->color.names.empty() || below->depth.names.empty()) continue;
+    if (found) return std::nullopt;
+    found = *std::move(below);
+  }
+  return found;
+}
+
+Result<FoundPictures> findInFolder(const std::string& folder, bool goes_down) {
   for (const std::string_view name : kAssociations) {
     if (const auto list = readList(folder + std::string(name), 2)) return fromAssociations(folder, *list);
   }
@@ -208,11 +237,15 @@ Result<FoundPictures> findInFolder(const std::string& folder) {
   if (!listing) return std::unexpected(listing.error());
   FoundPictures found;
   if (sortByFolder(folder, *listing, found) || sortByViewFolder(folder, *listing, found)) return found;
+  if (auto below =
+          goes_down && listing->pictures.empty() && listing->films == 0 ? findBelow(folder, *listing) : std::nullopt)
+    return *std::move(below);
   found = {};
   if (isListOfFilms(listing->films, listing->pictures.size())) return fail(ErrorCode::NotFound, kHasFilms);
   if (listing->pictures.empty() && listing->ros2_bag) return fail(ErrorCode::Unsupported, kRos2Bag);
   if (listing->pictures.empty()) return fail(ErrorCode::NotFound, kNoPictures);
   if (!sortByView(folder, listing->pictures, found)) sortByRole(folder, listing->pictures, found);
+  if (found.depth.names.empty()) takeOdometryTimes(found);
   return found;
 }
 

@@ -67,6 +67,12 @@ std::optional<std::int64_t> secondsIn(const std::vector<Run>& runs) noexcept {
 std::optional<std::int64_t> timeIn(std::string_view stem) {
   const std::vector<Run> runs = runsOf(stem);
   if (const auto seconds = secondsIn(runs)) return seconds;
+  // ARKitScenes: "41069021_305.377", the recording and the time.
+  constexpr std::size_t kMilliseconds = 3;
+  if (runs.size() == 5 && runs[0].digits && runs[1].text == "_" && runs[2].digits && runs[3].text == "." &&
+      runs[4].digits && runs[4].text.size() >= kMilliseconds) {
+    return nanosecondsIn({runs[2].text.data(), runs[2].text.size() + 1 + runs[4].text.size()});
+  }
   if (runs.size() == 1 && runs[0].digits) {
     switch (stem.size()) {
       case 19:

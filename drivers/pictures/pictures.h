@@ -14,6 +14,10 @@ namespace relievo {
 // Describes the video of one picture's file, as a source that opens it would: codec, size, signalling.
 using DescribePicture = std::function<Result<StreamInfo>(const std::string& path)>;
 
+// The tag of a described picture whose file holds its depth too: the codec that reads it there. Alone or as colour it
+// makes a second stream.
+inline constexpr const char* kInsideTag = "DEPTH_INSIDE";
+
 // Whether makePicturesSource opens `url`: a folder, a picture or a list of pictures (.txt) that exists, or a pattern of
 // names ("a/%06d.png", "a/*.png"). Reads no file.
 [[nodiscard]] bool isPictures(const std::string& url);

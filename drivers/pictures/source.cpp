@@ -82,12 +82,21 @@ class PicturesSource final : public MediaSource {
       addEntries(pictures, stream->index);
       description.duration = std::max(description.duration, stream->duration);
       description.streams.push_back(std::move(*stream));
+      if (!depth) splitInside(description.streams.back());
     }
     std::ranges::sort(entries_);
     description.notes = recording_.notes;
     if (const std::string title = titleOf(url); !title.empty()) description.tags["TITLE"] = title;
     description.origin.named_start = recording_.start;
     return description;
+  }
+
+  // Colour pictures that hold their depth are both series, unless there is a depth of its own.
+  void splitInside(StreamInfo& color) {
+    const auto inside = color.tags.find(kInsideTag);
+    if (inside == color.tags.end()) return;
+    if (recording_.depth.empty()) recording_.depth = recording_.color;
+    color.tags.erase(inside);
   }
 
   // As the first picture that can be described.
@@ -113,6 +122,10 @@ class PicturesSource final : public MediaSource {
       return stream;
     }
     if (depth) stream->tags.insert(recording_.depth_tags.begin(), recording_.depth_tags.end());
+    if (const auto inside = stream->tags.find(kInsideTag); depth && inside != stream->tags.end()) {
+      stream->codec = inside->second;
+      stream->tags.erase(inside);
+    }
     if (depth && !recording_.color.empty()) stream->tags["TITLE"] = "depth";
     if (depth) stream->tags[kFileTag] = pictures.front().path;
     return stream;

@@ -180,7 +180,7 @@ class M2mDecoder final : public VideoDecoder {
     if (timeOf(tag)) countDamaged();
   }
 
-  // "Drain".
+  // The kernel's document of stateful decoders, section "Drain".
   Result<void> startDrain() override {
     draining_ = true;
     return {};

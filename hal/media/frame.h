@@ -84,6 +84,8 @@ struct Frame {
   std::array<DmaBuf, 4> dma_bufs{};           // one for each plane
   std::optional<std::uint64_t> dma_modifier;  // their memory layout (drm_fourcc.h), if known
   std::shared_ptr<const void> owner;
+  // The right eye's picture of the same moment, which the same packet held (MV-HEVC); this one is then the left eye's.
+  std::shared_ptr<const Frame> right;
 
   [[nodiscard]] bool empty() const noexcept { return planes[0].data == nullptr; }
 };

@@ -16,6 +16,9 @@ inline constexpr const char* kFileTag = "FILE";
 inline constexpr const char* kSqueezedTag = "STEREO_SQUEEZED";
 // The tag of a stream that is one of two views: left or right.
 inline constexpr const char* kViewTag = "STEREO_VIEW";
+// The tag of a stream that announces two views, each in a layer of its own (MV-HEVC): how many of them its pictures
+// hold, 2 or 1.
+inline constexpr const char* kLayersTag = "STEREO_LAYERS";
 
 enum class MediaKind : std::uint8_t { Film, Picture, Neither };
 

@@ -66,4 +66,11 @@ std::vector<FolderEntry> entriesOf(const std::string& path) {
   return listFolder(path).value_or(std::vector<FolderEntry>());
 }
 
+void makeFolders(const std::string& path) {
+  static_cast<void>(answerOf(path, [path] {
+    std::error_code failed;
+    return std::filesystem::create_directories(path, failed);
+  }));
+}
+
 }  // namespace relievo

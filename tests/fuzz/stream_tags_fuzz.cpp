@@ -69,10 +69,15 @@ Tags linesOf(const std::string& text) {
   return tags;
 }
 
-Tags tagsIn(Bytes& bytes, bool hevc, bool lengths) {
+// `sets`: the bytes are the container's parameter sets as well.
+Tags tagsIn(Bytes& bytes, bool hevc, bool lengths, bool sets = false) {
   Bytes extra(23, 0);
   extra[0] = lengths ? 1 : 0;
   extra[hevc ? 21 : 4] = 3;
+  if (sets) {
+    extra[22] = 3;
+    extra.insert(extra.end(), bytes.begin(), bytes.end());
+  }
   AVCodecParameters parameters{};
   parameters.codec_id = hevc ? AV_CODEC_ID_HEVC : AV_CODEC_ID_H264;
   parameters.extradata = extra.data();
@@ -99,9 +104,10 @@ void readBy(const Tags& tags) {
 
 void fuzz(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return;
-  const bool hevc = (data[0] & 1) != 0, lengths = (data[0] & 2) != 0, raw = (data[0] & 4) != 0;
+  const bool hevc = (data[0] & 1) != 0, lengths = (data[0] & 2) != 0, raw = (data[0] & 4) != 0,
+             sets = (data[0] & 8) != 0;
   Bytes bytes(data + 1, data + size);
-  if (raw) return readBy(tagsIn(bytes, hevc, lengths));
+  if (raw) return readBy(tagsIn(bytes, hevc, lengths, sets));
   const std::string text(bytes.begin(), bytes.end());
   Bytes packet = written(text, hevc, lengths);
   const Tags tags = tagsIn(packet, hevc, lengths);

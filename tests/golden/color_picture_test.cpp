@@ -119,5 +119,80 @@ TEST_F(ColorPictures, APictureIsUploadedOnceUntilItIsSeenLarger) {
   }
 }
 
+// HDR against what was computed on paper. A colour of ITU-T H.273: 9 BT.2020, 16 PQ, 18 HLG.
+struct HdrColor {
+  const char* what;
+  std::array<double, 3> code;  // shares of full range
+  std::uint8_t transfer;
+  std::array<int, 3> seen;
+};
+
+// ITU-R BT.2390 leaves light below its knee as it is: with 203 of 1000 cd/m2 the knee is at 88. The code of a screen is
+// 255 (light / 203)^(1 / 2.4). Reference white is a third of the way along the spline, whose weights there are 20/27,
+// 4/27 and 7/27: 159 cd/m2. 26 cd/m2 is gray of 18 %.
+constexpr std::array<HdrColor, 10> kHdrColors{{
+    {"black", {0, 0, 0}, 16, {0, 0, 0}},
+    {"gray of 26 cd/m2", {0.3818, 0.3818, 0.3818}, 16, {108, 108, 108}},
+    {"white of 203 cd/m2", {0.5807, 0.5807, 0.5807}, 16, {230, 230, 230}},
+    {"1000 cd/m2", {0.7518, 0.7518, 0.7518}, 16, {255, 255, 255}},
+    {"10000 cd/m2", {1, 1, 1}, 16, {255, 255, 255}},
+    // BT.709's red of 80 cd/m2 is 50.2, 5.5 and 1.3 of BT.2020; (80 / 203)^(1 / 2.4) = 0.678.
+    {"red of 80 cd/m2", {0.4433, 0.2554, 0.1655}, 16, {173, 0, 0}},
+    {"HLG's black", {0, 0, 0}, 18, {0, 0, 0}},
+    {"HLG's gray of 26 cd/m2", {0.38, 0.38, 0.38}, 18, {108, 108, 108}},
+    {"HLG's white of 203 cd/m2", {0.75, 0.75, 0.75}, 18, {230, 230, 230}},
+    {"HLG's most", {1, 1, 1}, 18, {255, 255, 255}},
+}};
+
+TEST_F(ColorPictures, HdrIsSeenAsOnAUsualScreen) {
+  for (const auto converter : {ColorPicture::Converter::Gpu, ColorPicture::Converter::Cpu}) {
+    ColorPicture picture(converter);
+    for (const HdrColor& color : kHdrColors) {
+      std::vector<std::uint8_t> samples(std::size_t{16} * 9 * 3);
+      for (std::size_t i = 0; i < samples.size(); ++i) {
+        samples[i] = static_cast<std::uint8_t>(std::lround(255 * color.code[i % 3]));
+      }
+      Frame frame{.width = 16, .height = 9, .model = ColorModel::Rgb, .range = ColorRange::Full};
+      frame.primaries = 9;
+      frame.transfer = color.transfer;
+      frame.plane_count = 1;
+      for (std::uint8_t i = 0; i < 3; ++i) frame.components[i] = {.offset_bytes = i, .step_bytes = 3};
+      frame.planes[0] = {samples.data(), std::ptrdiff_t{3} * 16};
+      ASSERT_TRUE(picture.setFrame(frame));
+      picture.bind(0, {0, 0, 16, 9}, kVolume);
+      const auto pixels = textureOf(16, 9);
+      for (std::size_t k = 0; k < 3; ++k) {
+        // Half a code of PQ is 2 of the screen's; what is left of green and blue in a red of 8 bits is up to 25.
+        const int tolerance = color.seen[k] == 0 && color.seen[0] > 0 ? 25 : 3;
+        EXPECT_NEAR(pixels[k], color.seen[k], tolerance)
+            << color.what << ", " << k << (converter == ColorPicture::Converter::Gpu ? ", GPU" : ", CPU");
+      }
+      // An SDR film after an HDR one: its codes are shown as they are.
+      frame.transfer = kBt709;
+      ASSERT_TRUE(picture.setFrame(frame));
+      picture.bind(0, {0, 0, 16, 9}, kVolume);
+      EXPECT_NEAR(textureOf(16, 9)[0], samples[0], 1) << color.what;
+    }
+  }
+}
+
+TEST_F(ColorPictures, GpuAndCpuMapHdrAlike) {
+  Waves waves(160, 90);
+  waves.frame.matrix = ColorMatrix::Bt2020;
+  for (const auto transfer : std::array<std::uint8_t, 2>{16, 18}) {
+    waves.frame.transfer = transfer;
+    std::array<std::vector<std::uint8_t>, 2> pixels;
+    for (std::size_t i = 0; i < 2; ++i) {
+      ColorPicture picture(i == 0 ? ColorPicture::Converter::Gpu : ColorPicture::Converter::Cpu);
+      ASSERT_TRUE(picture.setFrame(waves.frame));
+      picture.bind(0, {0, 0, 160, 90}, kVolume);
+      pixels[i] = textureOf(160, 90);
+    }
+    double sum = 0;
+    for (std::size_t i = 0; i < pixels[0].size(); ++i) sum += std::abs(pixels[0][i] - pixels[1][i]);
+    EXPECT_LT(sum / static_cast<double>(pixels[0].size()), 2) << "the CPU's codes are rounded before they are mapped";
+  }
+}
+
 }  // namespace
 }  // namespace relievo

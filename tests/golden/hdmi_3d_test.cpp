@@ -7,6 +7,7 @@
 #include "drivers/egl/egl.h"
 #include "tests/golden/ray_pictures.h"
 #include "tests/support/device/card/fake_card.h"
+#include "tests/support/device/card/real_televisions.h"
 #include "tests/support/device/card/television_modes.h"
 
 namespace relievo::test {
@@ -137,6 +138,20 @@ TEST(Hdmi3d, TheModeIsSaidInWordsAndSet) {
        "HDMI-A-1, 1920x1080 at 60.00 Hz, top and bottom"},
       {"amdgpu", halvesTelevision(), wish(FramePacking), SideBySideHalf,
        "HDMI-A-1, 1920x1080 at 60.00 Hz, side by side"},
+      {"i915", sonyTelevision(), wish(FramePacking, kFullHd), FramePacking,
+       "HDMI-A-1, 1920x1080 at 30.00 Hz, frame packing in one picture of 1920x2205"},
+      {"vc4", samsungTelevision(), wish(FramePacking, kFullHd), FramePacking,
+       "HDMI-A-1, 1920x1080 at 30.00 Hz, frame packing as two halves of 3840x1080"},
+      {"amdgpu", samsungTelevision(), wish(SideBySideHalf, kFullHd), SideBySideHalf,
+       "HDMI-A-1, 1920x1080 at 60.00 Hz, side by side"},
+      {"i915", lgTelevision(), wish(FramePacking), FramePacking,
+       "HDMI-A-1, 1280x720 at 60.00 Hz, frame packing in one picture of 1280x1470"},
+      {"i915", lgTelevision(), wish(SideBySideHalf, kFullHd), SideBySideHalf,
+       "HDMI-A-1, 1920x1080 at 30.00 Hz, side by side"},
+      {"amdgpu", panasonicTelevision(), wish(FramePacking, kFullHd), FramePacking,
+       "HDMI-A-1, 1920x1080 at 24.00 Hz, frame packing in one picture of 1920x2205"},
+      {"amdgpu", panasonicTelevision(), wish(TopAndBottom, kFullHd), TopAndBottom,
+       "HDMI-A-1, 1920x1080 at 60.00 Hz, top and bottom"},
       {"nvidia-drm", plainTelevision(), wish(FramePacking, kFullHd), None,
        "HDMI-A-1, 1920x1080 at 60.00 Hz, no 3D signal"},
       {"nvidia-drm", plainTelevision(), wish(None), None, "HDMI-A-1, 1280x720 at 60.00 Hz, no 3D signal"},

@@ -78,20 +78,21 @@ class Case:
         self.process = self.socket = None
         self.asked = 0
 
-    def start(self, line):
-        """`line` may name the mount as @, and a film elsewhere as &."""
+    def start(self, line, **more):
+        """`line` may name the mount as @, and a film elsewhere as &; `more` is of the environment."""
         film = os.path.join(self.films, "film.mkv")
         program, *arguments = line.replace("@", self.place).replace("&", film).split()
         environment = {**os.environ, "HOME": self.home, "XDG_RUNTIME_DIR": self.home, "DISPLAY": "",
-                       "WAYLAND_DISPLAY": "", "XDG_CONFIG_HOME": self.home}
+                       "WAYLAND_DISPLAY": "", "XDG_CONFIG_HOME": self.home, **more}
         with open(self.said, "wb") as said:
             self.process = subprocess.Popen([os.path.join(self.programs, program), *arguments], cwd=self.home,
                                             env=environment, stdin=subprocess.DEVNULL, stdout=said, stderr=said)
 
-    def start_player(self, more=""):
+    def start_player(self, more="", display="mock", **environment):
         """A player that waits for commands."""
         address = os.path.join(self.scratch, "socket")
-        self.start(f"relievo play --control {address} --display mock --haptic mock --audio null --remote none {more}")
+        self.start(f"relievo play --control {address} --display {display} --haptic mock --audio null --remote none {more}",
+                   **environment)
         self.socket = socket.socket(socket.AF_UNIX)
         end = time.monotonic() + END_S
         while time.monotonic() < end:

@@ -65,6 +65,40 @@ def records_on(case):
     return "" if code == 1 and words.count(SAID) == 1 else f"exit code {code}: {words}"
 
 
+def goes_on(case, film):
+    """The player answers, plays and ends before the mount is given up, and tells of its file in one line."""
+    played = case.plays(film)
+    case.ask("quit")
+    code, words = case.code(), case.words()
+    told = [line for line in words.splitlines() if case.place in line]
+    return "" if played and code == 0 and SAID not in words and len(told) == 1 else f"exit code {code}: {words}"
+
+
+def screenshot_stalls(case, operation):
+    """The first picture does not wait for the screenshot before it, nor does the end."""
+    film = os.path.join(case.films, "film.mkv")
+    case.start_player("--size 160x90", "offscreen", XDG_PICTURES_DIR=case.place)
+    case.ask("loop on")
+    case.ask("open " + film)
+    if not case.plays(film):
+        return f"does not play: {case.words()}"
+    case.files.stall(operation, "*")
+    case.ask("screenshot")
+    if not case.meets_stall():
+        return f"no screenshot: {case.words()}"
+    return goes_on(case, film)
+
+
+def volume_stalls(case):
+    film = os.path.join(case.films, "film.mkv")
+    case.start_player(XDG_STATE_HOME=case.place)
+    case.ask("loop on")
+    case.ask("open " + film)
+    case.ask("volume -10")
+    case.files.stall("mkdir", "*")
+    return goes_on(case, film)
+
+
 def pipe_without_reader(case):
     os.mkfifo(os.path.join(case.home, "pipe"))
     case.start(f"{PLAY} --record {case.home}/pipe")
@@ -82,4 +116,7 @@ def tests():
         yield f"SIGTERM to the author of {kind}", lambda case, kind=kind: author_stops(case, kind)
     yield "a whole report", lambda case: written(case, f"{PLAY} --report @/report.json", "report.json")
     yield "a recording that stalls", records_on
+    for operation in ("lookup", "create", "write"):
+        yield f"a screenshot ({operation})", lambda case, operation=operation: screenshot_stalls(case, operation)
+    yield "the volume", volume_stalls
     yield "a pipe without a reader", pipe_without_reader

@@ -289,6 +289,7 @@ TEST_F(PlayerProgram, WrongUseIsCodeTwoAndOneLine) {
                 "would be overwritten");
   expectOneLine(play("film.mkv --haptic sim:tense," + at("t.csv") + " --record " + at("t.csv")), 2,
                 "would be overwritten");
+  expectOneLine(play("film.mkv " + at("next.mkv") + " --report " + at("next.mkv")), 2, "would be overwritten");
   expectNothingLeft({});
 }
 

@@ -71,7 +71,7 @@ TEST_F(PlayerScenario, APauseStandsStillAndStaysTouchable) {
   EXPECT_NEAR(bench_.report.media_s, 4.0, 0.01);
   EXPECT_NEAR(bench_.report.wall_s, 9.0, 0.02);
   EXPECT_GT(bench_.report.haptic.contact_ticks, 8000u);  // all the five seconds of the pause
-  EXPECT_EQ(bench_.faults("depth late"), 0u);
+  EXPECT_EQ(bench_.faults("depth delayed"), 0u);
 }
 
 TEST_F(PlayerScenario, PlayAndPauseKeysSayWhatTheyMeanWhateverTheState) {
@@ -219,7 +219,7 @@ TEST_F(PlayerScenario, LoopsWithTheSurfaceBegunAnew) {
   EXPECT_EQ(bench_.states(),
             "boot idle opening buffering playing ended seeking buffering playing ended seeking buffering playing idle");
   EXPECT_NEAR(bench_.report.wall_s, 5.0, 0.01);
-  EXPECT_EQ(bench_.faults("depth late"), 0u);
+  EXPECT_EQ(bench_.faults("depth delayed"), 0u);
   EXPECT_THAT(bench_.report.seeks, IsEmpty());  // nobody asked for them
   EXPECT_LE(bench_.report.haptic.max_scene_slew_n_per_s, 50.0 + 1e-6);
 }
@@ -265,7 +265,7 @@ TEST_F(PlayerScenario, DepthOfALowerRateIsHeld) {
   bench_.haptic.path_mm = comingDown();
   playsWell();
   EXPECT_EQ(bench_.report.frames_shown, 100u);
-  EXPECT_EQ(bench_.faults("depth late"), 0u);
+  EXPECT_EQ(bench_.faults("depth delayed"), 0u);
   EXPECT_GT(bench_.report.haptic.contact_ticks, 3000u);
 }
 
@@ -319,7 +319,7 @@ TEST_F(PlayerScenario, APhotoStandsAndStaysTouchableUntilItIsLeft) {
   EXPECT_EQ(bench_.report.frames_shown, 1u);
   EXPECT_NEAR(bench_.report.wall_s, 20.0, 0.1);
   EXPECT_GT(bench_.report.haptic.contact_ticks, 19'000u);
-  EXPECT_EQ(bench_.faults("depth late"), 0u);
+  EXPECT_EQ(bench_.faults("depth delayed"), 0u);
 }
 
 TEST_F(PlayerScenario, InAListAPhotoGivesWayToTheNextFilm) {
@@ -355,7 +355,7 @@ TEST_F(PlayerScenario, ABroadcastWhoseTimesJumpGoesOn) {
     EXPECT_NEAR(bench.report.wall_s, 4.0, 0.05);
     EXPECT_EQ(bench.report.pairs.jumps, 1u);
     EXPECT_EQ(bench.report.pairs.mismatched, 0u);
-    EXPECT_EQ(bench.faults("depth late"), 0u);
+    EXPECT_EQ(bench.faults("depth delayed"), 0u);
     EXPECT_GT(bench.report.haptic.contact_ticks, 3400u);
   }
 }
@@ -379,7 +379,7 @@ TEST_F(PlayerScenario, PicturesAtUnevenTimesAreShownAtTheirTimes) {
   EXPECT_EQ(bench_.report.frames_shown, 86u);
   EXPECT_EQ(bench_.report.frames_dropped, 0u);
   EXPECT_NEAR(bench_.report.wall_s, 4.0, 0.02);
-  EXPECT_EQ(bench_.faults("depth late"), 0u);
+  EXPECT_EQ(bench_.faults("depth delayed"), 0u);
 }
 
 // 40 pairs, then the line is dead; 0.25 s later it is tried again and begins a session of its own.
@@ -414,7 +414,7 @@ TEST_F(PlayerScenario, WhileABroadcastIsAwayThePictureStandsAndTheForceFades) {
   playsWell();
   EXPECT_EQ(bench_.states(), "boot idle opening buffering playing buffering playing ended idle");
   EXPECT_EQ(bench_.report.pairs.reconnects, 1u);
-  EXPECT_EQ(bench_.faults("depth late"), 1u);
+  EXPECT_EQ(bench_.faults("depth delayed"), 1u);
   EXPECT_EQ(bench_.faults("depth back"), 1u);
   EXPECT_GE(bench_.report.frames_shown, 39u + 60u);
   const auto timeOf = [&](const std::string& what) {
@@ -659,7 +659,7 @@ TEST_F(PlayerScenario, ADisplayTooSlowForTheFilmDropsPicturesAndKeepsTheTime) {
   EXPECT_NEAR(static_cast<double>(bench_.report.frames_shown), 40.0, 3.0);
   EXPECT_GE(bench_.report.wall_s, 4.0);  // and at most a refresh before the first picture and one after the last
   EXPECT_LE(bench_.report.wall_s, 4.0 + 0.21);
-  EXPECT_EQ(bench_.faults("depth late"), 0u);  // the finger does not feel the slow screen
+  EXPECT_EQ(bench_.faults("depth delayed"), 0u);  // the finger does not feel the slow screen
 }
 
 TEST_F(PlayerScenario, TheSameFilmHandAndKeysGiveTheSameRun) {
@@ -688,7 +688,7 @@ TEST_F(PlayerScenario, AnUnderrunStandsStillFadesTheForceAndGoesOn) {
   EXPECT_THAT(bench_.states(), HasSubstr("playing buffering playing"));
   EXPECT_THAT(bench_.states(), HasSubstr("ended idle"));
   EXPECT_GE(bench_.faults("buffering: the source or this computer is too slow"), 1u);
-  EXPECT_GE(bench_.faults("depth late"), 1u);
+  EXPECT_GE(bench_.faults("depth delayed"), 1u);
   EXPECT_GE(bench_.faults("depth back"), 1u);
   EXPECT_EQ(bench_.report.frames_shown + bench_.report.frames_dropped, 60u);
 }

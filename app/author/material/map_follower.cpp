@@ -16,11 +16,7 @@ constexpr double kOutside = 0.75;  // samples beyond the last one
 }  // namespace
 
 void MapFollower::add(GrayPicture picture) {
-  if (!last_) {
-    for (int r = 0; r < picture.rows; ++r) {
-      for (int c = 0; c < picture.cols; ++c) places_.push_back({static_cast<float>(c), static_cast<float>(r)});
-    }
-  } else if (last_->codes != picture.codes) {
+  if (last_ && last_->codes != picture.codes) {
     const std::vector<Motion> motion = motionBetween(*last_, picture), back = motionBetween(picture, *last_);
     const std::vector<bool> is_new = uncovered(*last_, picture, motion, back);
     std::vector<Place> places;
@@ -33,7 +29,16 @@ void MapFollower::add(GrayPicture picture) {
     }
     places_ = std::move(places);
   }
+  const bool is_first = !last_;
   last_ = std::move(picture);
+  if (is_first) begin();
+}
+
+void MapFollower::begin() {
+  places_.clear();
+  for (int r = 0; r < last_->rows; ++r) {
+    for (int c = 0; c < last_->cols; ++c) places_.push_back({static_cast<float>(c), static_cast<float>(r)});
+  }
 }
 
 void MapFollower::cut() {

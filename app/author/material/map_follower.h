@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where each place of a film's picture was in the first one: a map painted over the first picture stays on its things.
+// Where each place of a film's picture was in an earlier one: a map painted over that one stays on its things.
 #pragma once
 
 #include <optional>
@@ -13,12 +13,14 @@ namespace relievo {
 // from behind a thing or after a cut, was nowhere.
 class MapFollower {
  public:
-  // A place of the first picture, in samples; x below 0: the place was not in it.
+  // A place of the picture that was painted over, in samples; x below 0: the place was not in it.
   using Place = Motion;
 
   // The next picture; all of one size.
   void add(GrayPicture picture);
-  // Nothing of the first picture is left.
+  // The last picture is the one that was painted over; before the first call it is the first one.
+  void begin();
+  // Nothing of the picture that was painted over is left.
   void cut();
 
   // Row by row.

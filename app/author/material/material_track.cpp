@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens the map, follows the film with it, and codes it as 4:2:0.
+// Opens the maps, follows the film with it, and codes it as 4:2:0.
 #include "app/author/material/material_track.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "platform/clock.h"
+#include "platform/print.h"
+
 namespace relievo {
 namespace {
 
+constexpr std::size_t kMostCutsTold = 5;
 constexpr Duration kRounding = std::chrono::milliseconds(4);  // of two containers' times
+constexpr Error kFilmOfMaps{ErrorCode::InvalidArgument, 0,
+                            "a film of maps has times of its own; give it alone, or a picture for each time"};
 constexpr Error kNoPicture{ErrorCode::Corrupt, 0, "no picture in it; give a picture or a film of the material"};
 
 Result<std::unique_ptr<TrackReader>> openMaps(const std::string& path, const PairReader::Backends& backends) {
@@ -28,25 +34,38 @@ int even(double length) {
 
 }  // namespace
 
-Outcome<MaterialTrack> MaterialTrack::open(const std::string& path, const Material& words,
+Outcome<MaterialTrack> MaterialTrack::open(const std::vector<Painting>& paintings, const Material& words,
                                            const PairReader::Backends& backends, int width, int height) {
-  auto reader = openMaps(path, backends);
-  if (!reader) return failOn(path, reader.error());
-  const auto first = (*reader)->next(0);
-  if (!first || !*first) return failOn(path, first ? kNoPicture : first.error());
-  auto second = (*reader)->next(0);
-  if (!second) return failOn(path, second.error());
   MaterialTrack track;
   track.cols_ = even(std::min(width, kMostCols));
   track.rows_ = even(static_cast<double>(track.cols_) * height / width);
   track.scale_ = layered(words, kFull);
-  if ((*first)->model == ColorModel::Gray) track.scale_.friction = {}, track.scale_.texture = {};
-  track.map_ = readMap(**first, track.cols_, track.rows_);
-  if (*second) {
-    track.next_ = std::move(*second);
-    track.reader_ = std::move(*reader);
+  bool all_gray = true;
+  for (const Painting& painting : paintings) {
+    const auto model = track.read(painting, paintings.size() == 1 && painting.from_s == 0, backends);
+    if (!model) return failOn(painting.path, model.error());
+    all_gray = all_gray && *model == ColorModel::Gray;
   }
+  if (all_gray) track.scale_.friction = {}, track.scale_.texture = {};
   return track;
+}
+
+Result<ColorModel> MaterialTrack::read(const Painting& painting, bool alone, const PairReader::Backends& backends) {
+  auto reader = openMaps(painting.path, backends);
+  if (!reader) return std::unexpected(reader.error());
+  const auto first = (*reader)->next(0);
+  if (!first || !*first) return std::unexpected(first ? kNoPicture : first.error());
+  auto second = (*reader)->next(0);
+  if (!second) return std::unexpected(second.error());
+  if (*second) {
+    if (!alone) return std::unexpected(kFilmOfMaps);
+    map_ = readMap(**first, cols_, rows_);
+    next_ = std::move(*second);
+    reader_ = std::move(*reader);
+  } else {
+    coming_.emplace_back(painting, readMap(**first, cols_, rows_));
+  }
+  return (*first)->model;
 }
 
 Result<const ColorPicture420*> MaterialTrack::at(const ColorPicture420& color, MediaTime time, bool begins_shot) {
@@ -71,9 +90,11 @@ Result<void> MaterialTrack::passTo(MediaTime time) {
 
 void MaterialTrack::follow(const ColorPicture420& color, MediaTime time, bool begins_shot) {
   follower_.add(scaledTo(cols_, rows_, color.y.data(), color.width, color.height));
-  if (begins_shot) {
+  if (beginPainting(time)) {
+    follower_.begin();
+  } else if (begins_shot || !has_begun_) {
     follower_.cut();
-    if (!ends_at_) ends_at_ = time;
+    if (has_begun_) ends_at_.push_back(time);
   }
   std::vector<PaintedMap::Codes> codes;
   codes.reserve(follower_.places().size());
@@ -85,6 +106,39 @@ void MaterialTrack::follow(const ColorPicture420& color, MediaTime time, bool be
     codes.push_back(place.x >= 0 && map_.painted[from] ? map_.codes[from] : none);
   }
   draw(codes);
+}
+
+bool MaterialTrack::beginPainting(MediaTime time) {
+  bool begins = false;
+  for (; !coming_.empty(); coming_.pop_front()) {
+    auto& [painting, map] = coming_.front();
+    if (MediaTime(fromSeconds(painting.from_s)) > time + kRounding) break;
+    map_ = std::move(map);
+    begins = has_begun_ = true;
+  }
+  return begins;
+}
+
+std::vector<std::string> MaterialTrack::notes() const {
+  std::vector<std::string> notes;
+  if (!ends_at_.empty()) {
+    std::string cuts;
+    for (std::size_t i = 0; i < std::min(ends_at_.size(), kMostCutsTold); ++i) {
+      // Rounded down: the picture of the cut is the first one from there on.
+      const auto time = std::chrono::floor<std::chrono::milliseconds>(ends_at_[i].time_since_epoch());
+      cuts += print("%s%.3f s", i == 0 ? "" : ", ", toSeconds(time));
+    }
+    if (ends_at_.size() > kMostCutsTold) cuts += print(" and %zu more", ends_at_.size() - kMostCutsTold);
+    notes.push_back(
+        print("nothing is painted after the cut%s at %s; --material 0=FILE,SECONDS=FILE,.. has a painting "
+              "for each shot",
+              ends_at_.size() == 1 ? "" : "s", cuts.c_str()));
+  }
+  for (const auto& [painting, map] : coming_) {
+    notes.push_back(
+        print("%s: the film ends before %g s, where this painting begins", painting.path.c_str(), painting.from_s));
+  }
+  return notes;
 }
 
 std::vector<PaintedMap::Codes> MaterialTrack::asPainted() const {

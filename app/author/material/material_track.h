@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pictures of a film's material track: from a painted map that follows the film, or from a film of maps.
+// The pictures of a film's material track: from painted maps that follow the film, or from a film of maps.
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "app/author/material/map_follower.h"
 #include "app/author/material/painted_map.h"
+#include "app/author/material/painting.h"
 #include "app/author/package/picture.h"
 #include "app/media/pair_reader.h"
 #include "app/media/tracks/track_reader.h"
@@ -17,8 +19,9 @@
 
 namespace relievo {
 
-// One picture is painted over the film's first one: it stays on the things that it was painted on, until the shot ends
-// or they leave the picture. A film of maps is taken as it is, by its times; its last picture holds.
+// What is painted over a picture of the film stays on the things that it was painted on, until the shot ends, they
+// leave the picture, or the next painting begins. A film of maps is taken as it is, by its times; its last picture
+// holds.
 class MaterialTrack {
  public:
   // What full codes stand for if the words do not say it.
@@ -27,24 +30,28 @@ class MaterialTrack {
   // Wider ones are scaled down: a map is as fine as a finger feels.
   static constexpr int kMostCols = 320;
 
-  // `words`: what full codes stand for. The track has the shape of a film of `width` x `height`.
-  [[nodiscard]] static Outcome<MaterialTrack> open(const std::string& path, const Material& words,
+  // `paintings`: one or more, by their times, or a film of maps. `words`: what full codes stand for. The track has the
+  // shape of a film of `width` x `height`.
+  [[nodiscard]] static Outcome<MaterialTrack> open(const std::vector<Painting>& paintings, const Material& words,
                                                    const PairReader::Backends& backends, int width, int height);
 
   [[nodiscard]] int cols() const noexcept { return cols_; }
   [[nodiscard]] int rows() const noexcept { return rows_; }
-  // Of the parts that the map has: a gray one has stiffness alone.
+  // Of the parts that the maps have: gray ones have stiffness alone.
   [[nodiscard]] const Material& scale() const noexcept { return scale_; }
 
   // The next picture of the film; `begins_shot`: nothing in it continues the one before. The result is valid until the
   // next call.
   [[nodiscard]] Result<const ColorPicture420*> at(const ColorPicture420& color, MediaTime time, bool begins_shot);
-  // When the painted things were lost to a cut.
-  [[nodiscard]] std::optional<MediaTime> endsAt() const noexcept { return ends_at_; }
+  // For the author: the cuts after which nothing is painted, and the paintings that come after the film's end.
+  [[nodiscard]] std::vector<std::string> notes() const;
 
  private:
   MaterialTrack() = default;
+  // Adds to what is coming; the colour model of its picture.
+  [[nodiscard]] Result<ColorModel> read(const Painting& painting, bool alone, const PairReader::Backends& backends);
   [[nodiscard]] Result<void> passTo(MediaTime time);
+  [[nodiscard]] bool beginPainting(MediaTime time);
   void follow(const ColorPicture420& color, MediaTime time, bool begins_shot);
   void draw(const std::vector<PaintedMap::Codes>& codes);
   [[nodiscard]] std::vector<PaintedMap::Codes> asPainted() const;
@@ -52,11 +59,13 @@ class MaterialTrack {
 
   int cols_ = 0, rows_ = 0;
   Material scale_;
-  PaintedMap map_;                       // the painted one, or the film's present one
-  std::unique_ptr<TrackReader> reader_;  // of a film of maps
+  PaintedMap map_;                                      // the present one
+  std::deque<std::pair<Painting, PaintedMap>> coming_;  // those that have not begun
+  std::unique_ptr<TrackReader> reader_;                 // of a film of maps
   std::optional<Frame> next_;
   MapFollower follower_;
-  std::optional<MediaTime> ends_at_;
+  bool has_begun_ = false;          // the first painting
+  std::vector<MediaTime> ends_at_;  // cuts without a painting
   ColorPicture420 picture_;
 };
 

@@ -81,8 +81,13 @@ PaintedMap readMap(const Frame& picture, int cols, int rows) {
   }
   const bool gray = picture.model == ColorModel::Gray, limited = gray && picture.range == ColorRange::Limited;
   const auto part = [&](std::size_t k) {
-    return Shares(picture, picture.components[gray ? 0 : k], limited ? 16 : 0, limited ? 235 : 255);
+    return Shares(picture, picture.components[k], limited ? 16 : 0, limited ? 235 : 255);
   };
+  if (gray) {
+    fill(map, picture,
+         [stiffness = part(0)](int x, int y) { return PaintedMap::Codes{codeOf(stiffness.at(x, y)), 0, 0}; });
+    return map;
+  }
   fill(map, picture, [red = part(0), green = part(1), blue = part(2)](int x, int y) {
     return PaintedMap::Codes{codeOf(red.at(x, y)), codeOf(green.at(x, y)), codeOf(blue.at(x, y))};
   });

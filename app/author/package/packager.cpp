@@ -7,6 +7,7 @@
 #include "app/author/package/output.h"
 #include "app/author/package/source_notes.h"
 #include "app/scene/height_field.h"
+#include "hal/media/media_names.h"
 #include "platform/files/answered_place.h"
 #include "platform/files/file_system_answer.h"
 #include "platform/log.h"
@@ -67,9 +68,9 @@ Outcome<void> Packager::begin(const FramePair& pair) {
 
 // A map that was given, else the source's own track.
 Outcome<void> Packager::planMaterial(const FramePair& pair) {
-  if (!output_.material_map.empty()) {
-    auto track = MaterialTrack::open(output_.material_map, source_.material, backends_, format_.color_width,
-                                     format_.color_height);
+  if (!output_.paintings.empty()) {
+    auto track =
+        MaterialTrack::open(output_.paintings, source_.material, backends_, format_.color_width, format_.color_height);
     if (!track) return std::unexpected(track.error());
     material_ = std::move(*track);
     format_.material_width = material_->cols();
@@ -88,7 +89,7 @@ Outcome<void> Packager::writeMaterial(const FramePair& pair, bool key, bool begi
   const ColorPicture420* picture = &kept_material_;
   if (material_) {
     const auto made = material_->at(color_, pair.color.pts, begins_shot);
-    if (!made) return failOn(output_.material_map, made.error());
+    if (!made) return failOn(output_.paintings.front().path, made.error());
     picture = *made;
   } else {
     const Frame& own = pair.material;
@@ -104,6 +105,8 @@ Outcome<void> Packager::writeMaterial(const FramePair& pair, bool key, bool begi
 // Sound and subtitles are read from files alone: a camera or a stream cannot be opened twice.
 std::unique_ptr<KeptTracks> Packager::keptTracks() const {
   if (!isRegularFile(source_.url)) return nullptr;
+  const std::string ending = endingOf(source_.url);
+  if (ending == "sens" || ending == "klg") return nullptr;  // FFmpeg would take a scan's pictures for sound
   auto kept = KeptTracks::open(source_.url, info_.container_start, output_.keep);
   if (kept) return std::move(*kept);
   if (info_.sound_tracks + info_.subtitle_tracks == 0) return nullptr;
@@ -212,11 +215,8 @@ Outcome<AuthorSummary> Packager::finish() {
     summary.notes.push_back(source_.url + print(": %llu pictures whose times do not increase were left out",
                                                 static_cast<unsigned long long>(not_later_)));
   }
-  if (const auto end = material_ ? material_->endsAt() : std::nullopt) {
-    summary.notes.push_back(
-        print("the painted material ends at the cut at %.2f s, the rest feels as if unpainted; for several "
-              "shots give --material a film of maps, one map for each time",
-              toSeconds(end->time_since_epoch())));
+  for (std::string& line : material_ ? material_->notes() : std::vector<std::string>{}) {
+    summary.notes.push_back(std::move(line));
   }
   if (auto line = cut_.explain(); !line.empty()) summary.notes.push_back(std::move(line));
   for (std::string& line : sourceNotes(source_, info_, reader_.counters(), format_, coder_.counts())) {

@@ -27,7 +27,7 @@ Outcome<SourceOptions> withLayout(SourceOptions source, const PairReader::Backen
   PairReader reader(backends);
   if (auto opened = reader.open(source); !opened) return failOn(reader.failedThing(), opened.error());
   const Packing packing = reader.info().packing;
-  if (isStereo(packing) || packing == Packing::StereoTracks) return source;
+  if (hasTwoViews(packing)) return source;
   if (source.packing != Packing::Auto || reader.info().has_depth) return failOn(source.url, kNotTwoViews);
   const auto first = reader.next();
   const auto views = first && *first ? findViews((*first)->color) : std::nullopt;
@@ -52,6 +52,7 @@ Outcome<StereoPlan> planOf(const SourceOptions& source, const PairReader::Backen
     if (!pair) return failOn(reader.failedThing(), pair.error());
     if (!*pair) break;
     const FramePair& views = **pair;
+    if (views.right.empty()) continue;
     auto added = swapped ? survey.add(views.right, views.color) : survey.add(views.color, views.right);
     if (!added) return failOn(source.url, added.error());
     progress(done, total);

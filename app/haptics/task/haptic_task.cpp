@@ -37,7 +37,7 @@ const char* name(HapticFault::Kind kind) noexcept {
     case HapticFault::Kind::DeviceError:
       return "haptic exchange failed";
     case HapticFault::Kind::FeedStale:
-      return "depth late";
+      return "depth delayed";
     case HapticFault::Kind::FeedRecovered:
       return "depth back";
   }

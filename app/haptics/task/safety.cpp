@@ -60,7 +60,7 @@ glm::dvec3 SafetyFilter::apply(const glm::dvec3& wanted_n, const glm::dvec3& dev
   return sent;
 }
 
-// Only what pushes the hand along counts: a force that is still too small against it gives nothing.
+// Only a force that pushes the hand along gives it energy; one that brakes the hand too little does not.
 void SafetyFilter::payForLag(const glm::dvec3& wanted_n, const glm::dvec3& moved_mm, double elapsed_s) RELIEVO_RT {
   const double given = std::max(glm::dot(spring_n_, moved_mm), 0.0), due = std::max(glm::dot(wanted_n, moved_mm), 0.0);
   const double left = tank_mj_ - std::max(given - due, 0.0) + limits_.tank_mj_per_s * elapsed_s;

@@ -52,8 +52,11 @@ class CodeCount {
 
 // True for a picture of 16-bit gray whose neighbouring samples are alike only after their bytes are swapped.
 [[nodiscard]] bool isSwapped(const Frame& depth);
-// How the two bytes of 16-bit codes lie in the red and green of a picture of RGB in 8 bits, whose blue is one code; as
-// stored unless the lower byte carries into the upper one nearly wherever that changes by one.
+// True for a picture of 16-bit gray whose neighbouring samples are alike only without their upper three bits.
+[[nodiscard]] bool hasConfidence(const Frame& depth);
+// How the two bytes of 16-bit codes lie in the red and green of a picture of RGB in 8 bits, whose blue is one code, or
+// the three of 24-bit codes, the lowest in red; as
+// stored unless the lower byte carries into the upper one often where that changes by one.
 [[nodiscard]] SampleOrder packedOrder(const Frame& depth);
 // True if most samples with a reading have none beside, above and below: the points of a laser scanner.
 [[nodiscard]] bool isScattered(const Frame& depth);

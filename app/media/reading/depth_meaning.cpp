@@ -125,7 +125,10 @@ DepthReading readPictures(const DepthClues& clues, const KnownKind* kind, const 
     read = readFloats(look, countOf(look, later), true, layers);
   } else if (look.value_per_code != 0 && !isHeights(kind)) {
     scaleToCodes(layers, look.value_per_code);
-    read = readFloats(look, countOf(look, later), namesDisparity(clues.codec, clues.path), layers);
+    const CodeCount count = countOf(look, later);
+    const bool named = namesDisparity("", clues.path);  // else the format alone speaks for it
+    const bool disparity = named || (namesDisparity(clues.codec, clues.path) && !mayBeMetres(look, count));
+    read = readFloats(look, count, disparity, layers);
   } else if (isNamedDisparity(clues, kind, look)) {
     read = readNamedDisparity(look, countOf(look, later), layers);
   } else {

@@ -135,11 +135,22 @@ std::string otherUnit(const KnownKind& kind, const CodeCount& count) {
   const bool fine = count.quantile(0.5, 1, kTop - 1) > kNearestOfFine;
   if (kind.name == std::string_view("tum") || kind.name == std::string_view("ycb")) return "if a code is 1 mm: --as mm";
   if (kind.name == std::string_view("mm") && fine) return "if there are 5000 codes a metre: --as tum";
+  constexpr std::uint32_t kNearMm = 1500;  // few sensors in mm see nothing beyond
+  if (kind.name == std::string_view("mm") && count.quantile(1 - kOutliers, 1, kTop - 1) < kNearMm)
+    return "if there are 256 codes a metre: --as kitti";
   return kind.name == std::string_view("kitti") ? "if a code is 1 mm: --as mm" : "";
 }
 
 std::string both(const std::string& first, const std::string& second) {
   return first + (first.empty() || second.empty() ? "" : "; ") + second;
+}
+
+// Folders that look like TUM's are made by other recorders too.
+std::string offerMillimetres(const Frame& depth, const CodeCount& count, const CalibrationLayers& said) {
+  const std::string* const unit = said.find("unit");
+  if (unit == nullptr || *unit != "0.2" || said.command_line.contains("unit")) return "";
+  const KnownKind* const kind = sensorKind(depth, count);
+  return kind != nullptr && kind->name == std::string_view("mm") ? "if a code is 1 mm: --as mm" : "";
 }
 
 DepthReading readRange(const CodeCount& count) {
@@ -202,6 +213,7 @@ const KnownKind* sensorKind(const Frame& depth, const CodeCount& count) {
   if (const SampleOrder packed = packedOrder(depth); packed != SampleOrder::AsStored) {
     const auto ordered = inOrder(depth, packed);
     const bool distances = ordered && isDistances(CodeCount(*ordered));
+    if (packed == SampleOrder::BlueGreen) return findKind("carla");
     return distances ? findKind(packed == SampleOrder::RedGreen ? "rg-packed" : "gr-packed") : nullptr;
   }
   if (depth.model != ColorModel::Gray || count.bits() != 16) return nullptr;
@@ -213,6 +225,7 @@ const KnownKind* sensorKind(const Frame& depth, const CodeCount& count) {
     if (isMeasured(of_ordered) && isDistances(of_ordered)) return findKind("mm-swapped");
   }
   if (isRawKinect(count)) return findKind("kinect-raw");
+  if (isMeasured(count) && hasConfidence(depth)) return findKind("depth16");
   if (isMeasured(count) && isRotated(count)) return findKind("sun");
   const std::uint32_t step = count.step();
   if ((step > kMostStep && step != kTenths) || !isDistances(count)) return nullptr;  // fewer bits, stretched
@@ -228,6 +241,7 @@ DepthReading readCodes(const Frame& depth, const CodeCount& count, const Calibra
   if (definesCodes(said)) {
     if (says(said, {"unit"}) || kind != nullptr) {
       DepthReading reading = readReach(count, said, kind);
+      reading.offer = both(reading.offer, offerMillimetres(depth, count, said));
       if (!reading.settings.empty() || depth.model != ColorModel::Yuv) return reading;
     }
     return depth.model == ColorModel::Yuv ? readShades(depth, count, said) : DepthReading{};

@@ -153,6 +153,15 @@ bool saysDisparity(std::string_view path) {
   return false;
 }
 
+bool mayBeMetres(const Frame& depth, const CodeCount& count) {
+  // A stereo camera's disparities reach more pixels, a network's numbers begin at 0.
+  constexpr double kMost = 16, kLeast = 0.1;
+  if (count.share(1, kTop) == 0) return false;
+  const double value = depth.value_per_code != 0 ? std::abs(depth.value_per_code) : 1;
+  const Reach reach = reachOf(count);
+  return value * reach.low >= kLeast && value * reach.high <= kMost;
+}
+
 DepthReading readFloats(const Frame& depth, const CodeCount& count, bool disparity, const CalibrationLayers& said) {
   if (count.share(1, kTop) == 0) return {};
   const Reach reach = reachOf(count);

@@ -15,6 +15,9 @@ namespace relievo {
 // True if the name of the file or of its folder has the word disparity ("disp.png", "disparity/0001.png").
 [[nodiscard]] bool saysDisparity(std::string_view path);
 
+// Whether the numbers are those of a room in metres, and hardly disparities in pixels: all from 0.1 to 16.
+[[nodiscard]] bool mayBeMetres(const Frame& depth, const CodeCount& count);
+
 // For codes that stand for floats (Frame::value_per_code), or are the numbers themselves. Distances are metres, or
 // millimetres if half of them are beyond 200. Disparities follow the inverse law unless their range shows that they
 // begin at an arbitrary zero. What `said` states overrides the guess: unit= makes them distances, law= or polarity=

@@ -19,7 +19,9 @@ enum class SampleOrder : std::uint8_t {
   RotatedLeft3,  // SUN RGB-D: the upper three bits are the lowest
   Swapped,       // big and little endian are confused
   RedGreen,      // of RGB in 8 bits: red is the upper byte, green the lower one
-  GreenRed       // likewise, the other way round
+  GreenRed,      // likewise, the other way round
+  BlueGreen,     // of 24-bit codes in red, green and blue, the lowest first: the upper two bytes
+  Low13          // Android's DEPTH16: three bits of confidence above
 };
 
 // Codes that are inversely proportional to the distance: mm / (offset - code) for a positive offset, else mm / code.

@@ -81,10 +81,22 @@ std::optional<Packing> packingTag(const Tags& tags) {
   return std::nullopt;
 }
 
+Error noPicture(const MediaSource& source) noexcept {
+  const auto has = [&source](StreamKind kind) {
+    return std::ranges::any_of(source.streams(), [kind](const StreamInfo& each) { return each.kind == kind; });
+  };
+  if (has(StreamKind::Audio)) return {ErrorCode::NotFound, 0, "it is sound without a picture; give a film"};
+  if (has(StreamKind::Subtitle)) {
+    return {ErrorCode::NotFound, 0,
+            "it holds subtitles; give the film: a subtitle file of its name is found beside it"};
+  }
+  return {ErrorCode::NotFound, 0, "there is no video in it"};
+}
+
 // Colour and depth.
 Result<TrackPlan> planPictures(const MediaSource& source, Packing packing, bool depth_elsewhere) {
   const auto tracks = videoTracks(source);
-  if (tracks.empty()) return fail(ErrorCode::NotFound, "there is no video in it");
+  if (tracks.empty()) return std::unexpected(noPicture(source));
   if (isPacked(packing) || isStereo(packing)) return TrackPlan{tracks[0], nullptr, nullptr, packing};
   if (packing == Packing::StereoTracks) {
     if (depth_elsewhere) return TrackPlan{tracks[0], nullptr, nullptr, packing};
@@ -179,6 +191,8 @@ const char* name(Packing packing) noexcept {
       return "stereo-tb";
     case Packing::StereoTracks:
       return "stereo-tracks";
+    case Packing::StereoLayers:
+      return "stereo-layers";
   }
   return "";
 }
@@ -202,7 +216,7 @@ Result<TrackPlan> planTracks(const MediaSource& source, Packing packing, bool de
   return plan;
 }
 
-Result<Halves> splitPacked(const Frame& picture, Packing packing, DepthCode code, GrayFrom gray) noexcept {
+Result<Halves> splitPacked(const Frame& picture, Packing packing, DepthCode code, GrayFrom gray, int seam) noexcept {
   if (packing == Packing::Alpha) {
     if (!picture.alpha) return fail(ErrorCode::Unsupported, "the picture has no alpha channel; leave out --packing");
     return Halves{picture, alphaOf(picture)};
@@ -214,7 +228,7 @@ Result<Halves> splitPacked(const Frame& picture, Packing packing, DepthCode code
   const Frame depth = code != DepthCode::Luma ? picture : red ? componentOf(picture, 0) : lumaOf(picture);
   // A half that is read with chroma begins at a whole chroma sample.
   const Frame& second = depth_first ? picture : depth;
-  const int start = alignUp(whole - whole / 2, beside ? second.chroma_shift_x : second.chroma_shift_y);
+  const int start = alignUp(whole - (whole - seam) / 2, beside ? second.chroma_shift_x : second.chroma_shift_y);
   const int half = whole - start;
   if (half < 1) return fail(ErrorCode::Unsupported, "the picture is too small to be packed colour and depth");
   const auto cut = [&](const Frame& from, bool first) {

@@ -25,10 +25,16 @@ enum class Packing : std::uint8_t {
   StereoSideBySide,      // one picture: two views, left and right, no depth
   StereoTopBottom,       // one picture: two views, above and below, no depth
   StereoTracks,          // two tracks: the left view and the right one, no depth
+  StereoLayers,          // one track whose packets hold two pictures, the left view and the right one, no depth
 };
 // Two views in one picture.
 [[nodiscard]] constexpr bool isStereo(Packing packing) noexcept {
   return packing == Packing::StereoSideBySide || packing == Packing::StereoTopBottom;
+}
+
+// Two views, however they are stored.
+[[nodiscard]] constexpr bool hasTwoViews(Packing packing) noexcept {
+  return isStereo(packing) || packing == Packing::StereoTracks || packing == Packing::StereoLayers;
 }
 
 // Which streams to decode, as pointers into the source's list. A null depth stream means no depth, or packed depth.
@@ -41,8 +47,7 @@ struct TrackPlan {
 };
 [[nodiscard]] const char* name(Packing packing) noexcept;
 [[nodiscard]] constexpr bool isPacked(Packing packing) noexcept {
-  return packing != Packing::Auto && packing != Packing::Tracks && packing != Packing::StereoTracks &&
-         !isStereo(packing);
+  return packing != Packing::Auto && packing != Packing::Tracks && !hasTwoViews(packing);
 }
 // Whether the track itself says that it is depth: signalled as auxiliary, DEPTH_ tags, or its name.
 [[nodiscard]] bool isMarkedAsDepth(const StreamInfo& track);
@@ -71,11 +76,12 @@ struct Halves {
 };
 
 // The two halves of a packed picture, by reference; the depth is as large as the colour. If the number of columns
-// (rows) is odd, the middle one belongs to neither. Depth read from luma (`code`) becomes a gray view that begins at
-// the exact sample; depth that needs chroma begins at a whole chroma sample, at most one pixel late. `gray`: red is
-// read from RGB as it is, and from YUV as luma. Of Packing::Alpha they are the whole picture and its alpha channel.
-// Unsupported if the picture is too small to be halved, or has no alpha channel.
+// (rows) is odd, the middle one belongs to neither, nor do the `seam` ones there of a margin. Depth read from luma
+// (`code`) becomes a gray view that begins at the exact sample; depth that needs chroma begins at a whole chroma
+// sample, at most one pixel late. `gray`: red is read from RGB as it is, and from YUV as luma. Of Packing::Alpha they
+// are the whole picture and its alpha channel. Unsupported if the picture is too small to be halved, or has no alpha
+// channel.
 [[nodiscard]] Result<Halves> splitPacked(const Frame& picture, Packing packing, DepthCode code,
-                                         GrayFrom gray = GrayFrom::Luma) noexcept;
+                                         GrayFrom gray = GrayFrom::Luma, int seam = 0) noexcept;
 
 }  // namespace relievo

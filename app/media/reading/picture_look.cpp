@@ -60,8 +60,8 @@ struct Sides {
   Frame first, second;
 };
 // The two complete halves of a picture, with chroma.
-std::optional<Sides> halvesOf(const Frame& picture, Packing packing) noexcept {
-  auto halves = splitPacked(picture, packing, DepthCode::Hue);
+std::optional<Sides> halvesOf(const Frame& picture, Packing packing, int seam) noexcept {
+  auto halves = splitPacked(picture, packing, DepthCode::Hue, GrayFrom::Luma, seam);
   if (!halves) return std::nullopt;
   return Sides{std::move(halves->color), std::move(halves->depth)};
 }
@@ -81,6 +81,9 @@ bool isRedDepth(const PictureLook& half, const PictureLook& other) noexcept {
 std::optional<FoundPacking> found(const Frame& picture, const Frame& beside, bool breaks, Packing packing,
                                   const char* where) {
   const PictureLook half = lookAt(picture), other = lookAt(beside);
+  if (packedOrder(picture) != SampleOrder::AsStored && packedOrder(beside) == SampleOrder::AsStored) {
+    return FoundPacking{packing, DepthCode::Luma, GrayFrom::Luma, print("%s, in several bytes of its colours", where)};
+  }
   if (isRedDepth(half, other)) {
     return FoundPacking{packing, DepthCode::Luma, GrayFrom::Red,
                         print("%s, in red alone: %.0f %% of that half is shades of red, against %.0f %% of the other",
@@ -199,6 +202,24 @@ bool breaksInTheMiddle(const Frame& picture, bool side_by_side) noexcept {
   return seam >= kSeamStep && seam >= kSeamTimes * beside;
 }
 
+int whiteSeam(const Frame& picture) noexcept {
+  constexpr int kLeast = 8, kUsual = 50, kSmeared = 6;  // coding smears its ends
+  constexpr double kWhite = 0.9, kNearlyAll = 0.95;
+  const int places = std::min(kDown, picture.height), middle = picture.width / 2;
+  const auto isWhite = [&](int column) {
+    int white = 0;
+    for (int i = 0; i < places; ++i) {
+      const Color color = colorAt(picture, column, (2 * i + 1) * picture.height / (2 * places));
+      white += std::min({color.red, color.green, color.blue}) >= kWhite ? 1 : 0;
+    }
+    return white >= kNearlyAll * places;
+  };
+  int half = 0;
+  while (half < middle / 4 && isWhite(middle - 1 - half) && isWhite(middle + half)) ++half;
+  if (2 * half < kLeast || half >= middle / 4) return 0;
+  return std::abs(2 * half - kUsual) <= kSmeared ? kUsual : 2 * half;
+}
+
 std::optional<FoundPacking> findPacking(const Frame& picture) {
   if (picture.model == ColorModel::Gray) return std::nullopt;
   const struct {
@@ -207,9 +228,11 @@ std::optional<FoundPacking> findPacking(const Frame& picture) {
   } ways[] = {{Packing::SideBySideDepthFirst, Packing::SideBySide, "depth left", "depth right"},
               {Packing::TopBottomDepthFirst, Packing::TopBottom, "depth above", "depth below"}};
   for (const auto& way : ways) {
-    const auto halves = halvesOf(picture, way.second);
+    const bool beside = way.second == Packing::SideBySide;
+    const int seam = beside ? whiteSeam(picture) : 0;
+    const auto halves = halvesOf(picture, way.second, seam);
     if (!halves) continue;
-    const bool breaks = breaksInTheMiddle(picture, way.second == Packing::SideBySide);
+    const bool breaks = seam > 0 || breaksInTheMiddle(picture, beside);
     if (auto is = found(halves->second, halves->first, breaks, way.second, way.second_where)) return is;
     if (auto is = found(halves->first, halves->second, breaks, way.first, way.first_where)) return is;
   }

@@ -49,6 +49,10 @@ struct AlphaLook {
 // it.
 [[nodiscard]] bool breaksInTheMiddle(const Frame& picture, bool side_by_side) noexcept;
 
+// The white columns in the middle of the picture that part two halves, as Depth Anything's films have them; 0 if there
+// are none.
+[[nodiscard]] int whiteSeam(const Frame& picture) noexcept;
+
 struct FoundPacking {
   Packing packing = Packing::Tracks;
   DepthCode code = DepthCode::Luma;

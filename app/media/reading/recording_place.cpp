@@ -41,6 +41,12 @@ std::optional<double> numberIn(const Json& json, const char* key) {
   return found != json.end() && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
 }
 
+// NICE-SLAM's Replica: {"camera": {.., "scale": 6553.5}}, in codes a metre.
+std::optional<double> codesPerMetre(const Json& json) {
+  const auto camera = json.find("camera");
+  return camera != json.end() && camera->is_object() ? numberIn(*camera, "scale") : std::nullopt;
+}
+
 // BOP: {"0": {"cam_K": [..], "depth_scale": 0.1}, "1": ..}, or one camera.json for all of a data set.
 std::optional<double> depthScale(const Json& json) {
   if (const auto scale = numberIn(json, "depth_scale")) return scale;
@@ -64,6 +70,15 @@ RecordingPlace lookForScale(const fs::path& folder) {
               {{"unit", number(*scale)}},
               print("%s says depth_scale %g mm", (at / name).c_str(), *scale),
               (at / name).string()};
+    }
+    const auto cameras = readJson(at / "cam_params.json");
+    const auto per_metre = cameras ? codesPerMetre(*cameras) : std::nullopt;
+    if (per_metre && *per_metre > 0) {
+      return {findKind("replica"),
+              CalibrationOrigin::FileBeside,
+              {{"unit", number(1000 / *per_metre)}},
+              print("%s says %g codes a metre", (at / "cam_params.json").c_str(), *per_metre),
+              (at / "cam_params.json").string()};
     }
     if (!at.has_parent_path() || at.parent_path() == at) break;
     at = at.parent_path();
@@ -107,6 +122,13 @@ RecordingPlace lookAtNames(const fs::path& path, const fs::path& folder) {
       {"proj_depth", "kitti"},
       {"velodyne_raw", "kitti"},
       {"depth_selection", "kitti"},
+
+      {"vkitti", "vkitti"},
+      {"virtual_kitti", "vkitti"},
+      {"depth/camera_0/depth_", "vkitti"},
+      {"depth/camera_1/depth_", "vkitti"},
+      {"undistorted_depth_images", "matterport"},
+      {"matterport_depth_images", "matterport"},
       {"kitti", "kitti"},
       {"sunrgbd", "sun"},
       {"sun3d", "sun"},

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A queue before a decoder.
+// A queue before a decoder, and one of what has been read lately.
 #include "app/media/tracks/subtitle_track.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace relievo {
@@ -11,6 +13,7 @@ Result<void> SubtitleTrack::open(std::unique_ptr<SubtitleDecoder> decoder, const
   if (auto opened = decoder->open(stream); !opened) return opened;
   decoder_ = std::move(decoder);
   stream_ = stream.index;
+  std::ranges::copy_if(recent_, std::back_inserter(waiting_), [this](const Packet& p) { return p.stream == stream_; });
   return {};
 }
 
@@ -21,8 +24,14 @@ void SubtitleTrack::close() noexcept {
 }
 
 void SubtitleTrack::keep(Packet packet) {
-  waiting_.push_back(std::move(packet));
+  if (packet.stream == stream_) waiting_.push_back(packet);
   if (waiting_.size() > kMaxWaiting) waiting_.pop_front();
+  recent_bytes_ += packet.bytes;
+  recent_.push_back(std::move(packet));
+  while (recent_.size() > kMaxRecent || recent_bytes_ > kMaxRecentBytes) {
+    recent_bytes_ -= recent_.front().bytes;
+    recent_.pop_front();
+  }
 }
 
 std::optional<Subtitle> SubtitleTrack::next() {

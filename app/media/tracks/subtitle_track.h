@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The subtitles of a film: packets are queued as they are read with the pictures, and decoded on request.
+// The subtitles of a film: packets are queued as they are read with the pictures, and decoded on request. Those of all
+// tracks read lately are remembered, so that a track shows the line that already runs when it is switched on.
 #pragma once
 
 #include <cstddef>
@@ -17,20 +18,24 @@ namespace relievo {
 class SubtitleTrack {
  public:
   static constexpr std::size_t kMaxWaiting = 1024;
+  static constexpr std::size_t kMaxRecent = 256, kMaxRecentBytes = std::size_t{1} << 20;
 
-  // Opens the decoder for `stream`, in place of the last one.
+  // Opens the decoder for `stream`, in place of the last one. What is remembered of the stream comes first.
   [[nodiscard]] Result<void> open(std::unique_ptr<SubtitleDecoder> decoder, const StreamInfo& stream);
   void close() noexcept;
   [[nodiscard]] int stream() const noexcept { return stream_; }
+  // Of any subtitle stream.
   void keep(Packet packet);
   [[nodiscard]] std::optional<Subtitle> next();
-  // Call after a seek.
+  // Call after a seek. What was read before it stays remembered: its times hold.
   void restart();
 
  private:
   std::unique_ptr<SubtitleDecoder> decoder_;
   int stream_ = -1;
-  std::deque<Packet> waiting_;
+  std::deque<Packet> waiting_;  // of the selected stream
+  std::deque<Packet> recent_;   // of all of them
+  std::size_t recent_bytes_ = 0;
 };
 
 }  // namespace relievo

@@ -13,6 +13,17 @@ namespace {
 
 constexpr Duration kFirstStepBack = std::chrono::seconds(1);
 
+// The picture as `change` makes it, and the right eye's with it.
+template <class Change>
+Result<Frame> changed(const Frame& frame, Change change) {
+  auto made = change(frame);
+  if (!made || !frame.right) return made;
+  auto right = change(*frame.right);
+  if (!right) return right;
+  made->right = std::make_shared<const Frame>(std::move(*right));
+  return made;
+}
+
 }  // namespace
 
 TrackReader::TrackReader(std::unique_ptr<MediaSource> source,
@@ -61,11 +72,11 @@ std::optional<VideoDecoder::Restart> TrackReader::takeRestart() noexcept {
 Result<std::optional<Frame>> TrackReader::receiveWhole(Track& track) {
   auto frame = track.decoder->receive();
   if (frame && *frame && (*frame)->interlaced) {
-    frame = relievo::deinterlaced(**frame);
+    frame = changed(**frame, relievo::deinterlaced);
     ++deinterlaced_;
   }
   if (track.rotation == 0 || !frame || !*frame) return frame;
-  return turned(**frame, track.rotation);
+  return changed(**frame, [&](const Frame& picture) { return turned(picture, track.rotation); });
 }
 
 Result<std::optional<Frame>> TrackReader::decode(Track& track) {
@@ -121,7 +132,7 @@ Result<bool> TrackReader::readOnePacket() {
     sound_.keep(std::move(**packet));
     return true;
   }
-  if (read.stream == words_.stream()) {
+  if (isWords(read.stream)) {
     words_.keep(std::move(**packet));
     return true;
   }
@@ -130,6 +141,12 @@ Result<bool> TrackReader::readOnePacket() {
     if (tracks_[i].stream == (*packet)->stream) keep(tracks_[i], std::move(**packet));
   }
   return true;
+}
+
+bool TrackReader::isWords(int stream) const {
+  return std::ranges::any_of(source_->streams(), [stream](const StreamInfo& each) {
+    return each.index == stream && each.kind == StreamKind::Subtitle;
+  });
 }
 
 bool TrackReader::isWanted(Track& track, const Packet& packet) const {

@@ -48,7 +48,7 @@ class TrackReader {
                                     const AudioFormat& format) {
     return sound_.open(std::move(decoder), stream, format);
   }
-  // Selects the subtitles, likewise.
+  // Selects the subtitles. What has been read lately comes again, so that a line that already runs is not missed.
   [[nodiscard]] Result<void> readWords(std::unique_ptr<SubtitleDecoder> decoder, const StreamInfo& stream) {
     return words_.open(std::move(decoder), stream);
   }
@@ -100,6 +100,7 @@ class TrackReader {
     std::optional<MediaTime> last_key;  // last key frame kept, when only key frames are read
   };
   [[nodiscard]] Result<bool> seekOnce(MediaTime from, MediaTime target, Duration key_step);
+  [[nodiscard]] bool isWords(int stream) const;
   [[nodiscard]] bool isWanted(Track& track, const Packet& packet) const;
   [[nodiscard]] Result<std::optional<Frame>> decode(Track& track);
   [[nodiscard]] Result<std::optional<Frame>> receiveWhole(Track& track);

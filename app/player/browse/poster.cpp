@@ -6,25 +6,25 @@
 #include <cmath>
 
 #include "app/media/reading/picture_look.h"
-#include "app/player/browse/sdr_color.h"
+#include "app/scene/sdr_color.h"
 
 namespace relievo {
 namespace {
 
 constexpr int kTaps = 3;  // samples across and down a pixel
 
-PictureColor meanOf(const Frame& frame, int x, int y, int cols, int rows) noexcept {
-  PictureColor sum;
+glm::dvec3 meanOf(const Frame& frame, int x, int y, int cols, int rows) noexcept {
+  glm::dvec3 sum(0);
   for (int j = 0; j < kTaps; ++j) {
     const auto r = static_cast<int>((y + (j + 0.5) / kTaps) * frame.height / rows);
     for (int i = 0; i < kTaps; ++i) {
       const auto c = static_cast<int>((x + (i + 0.5) / kTaps) * frame.width / cols);
       const PictureColor color = colorAt(frame, std::min(c, frame.width - 1), std::min(r, frame.height - 1));
-      sum.red += color.red, sum.green += color.green, sum.blue += color.blue;
+      sum += glm::dvec3(color.red, color.green, color.blue);
     }
   }
   constexpr double kShare = 1.0 / (kTaps * kTaps);
-  return {sum.red * kShare, sum.green * kShare, sum.blue * kShare};
+  return sum * kShare;
 }
 
 std::uint8_t byteOf(double share) noexcept {
@@ -43,8 +43,8 @@ TextPicture posterOf(const Frame& frame) {
   poster.rgba.reserve(std::size_t{4} * static_cast<std::size_t>(poster.cols) * static_cast<std::size_t>(poster.rows));
   for (int y = 0; y < poster.rows; ++y) {
     for (int x = 0; x < poster.cols; ++x) {
-      const PictureColor color = asSdr(meanOf(frame, x, y, poster.cols, poster.rows), frame.transfer, frame.primaries);
-      poster.rgba.insert(poster.rgba.end(), {byteOf(color.red), byteOf(color.green), byteOf(color.blue), 255});
+      const glm::dvec3 color = asSdr(meanOf(frame, x, y, poster.cols, poster.rows), frame.transfer, frame.primaries);
+      poster.rgba.insert(poster.rgba.end(), {byteOf(color.r), byteOf(color.g), byteOf(color.b), 255});
     }
   }
   return poster;

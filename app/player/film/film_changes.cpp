@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/player/film/film_changes.h"
 
+#include "app/scene/sdr_color.h"
 #include "platform/print.h"
 
 namespace relievo {
 namespace {
 
 // ITU-T H.273.
-constexpr std::uint8_t kPq = 16, kHlg = 18, kBt2020 = 9, kDciP3 = 11, kDisplayP3 = 12;
+constexpr std::uint8_t kBt2020 = 9, kDciP3 = 11, kDisplayP3 = 12;
 
 bool isWide(std::uint8_t primaries) {
   return primaries == kBt2020 || primaries == kDciP3 || primaries == kDisplayP3;
@@ -18,11 +19,8 @@ bool isWide(std::uint8_t primaries) {
 std::vector<std::string> changesOf(const FilmInfo& film) {
   std::vector<std::string> changes;
   if (film.interlaced) changes.emplace_back("the film is interlaced: each picture is made of its first field");
-  const bool hdr = film.color_transfer == kPq || film.color_transfer == kHlg;
-  if (hdr) {
-    changes.push_back(
-        print("the colour is HDR (%s) and is shown without tone mapping, so it looks pale; convert it to SDR",
-              film.color_transfer == kPq ? "PQ" : "HLG"));
+  if (const char* const hdr = hdrName(film.color_transfer)) {
+    changes.push_back(print("the colour is HDR (%s): it is mapped to the range of an SDR screen", hdr));
   } else if (isWide(film.color_primaries)) {
     changes.emplace_back(
         "the colour has wide primaries and is shown as BT.709, so it looks pale; convert it to BT.709");

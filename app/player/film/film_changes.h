@@ -9,7 +9,8 @@
 
 namespace relievo {
 
-// One line each: fields that are made whole, HDR and wide colour that are shown as they are, tracks that are not used.
+// One line each: fields that are made whole, HDR that is mapped to SDR, wide colour that is
+// shown as it is, tracks that are not used.
 [[nodiscard]] std::vector<std::string> changesOf(const FilmInfo& film);
 
 }  // namespace relievo

@@ -23,9 +23,7 @@ void FilmPlayback::followDecoder(MonotonicTime now) {
   if (decode_pace_.leavesOut() == leaves_out_ && !hurry) return;
   leaves_out_ = decode_pace_.leavesOut();
   feed_.leaveOut(leaves_out_, hurry ? std::optional(*position + kAfterHurry) : std::nullopt);
-  if (!leaves_out_ || std::exchange(slowness_told_, true)) return;
-  journal_.note("this computer is too slow for all pictures of the film",
-                "some are left out; sound and touch go on as they are");
+  if (leaves_out_) notes_.slow();
 }
 
 bool FilmPlayback::waitsForDecoder() const noexcept {

@@ -1,45 +1,72 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the player tells of a film's sources: lost and found again, damaged, cut off; of decoders that begin anew.
-#include "app/player/film/film_playback.h"
+// Plain sentences, each with what is done about it.
+#include "app/player/film/film_notes.h"
+
+#include <utility>
+
+#include "app/player/film/film_changes.h"
+#include "platform/log.h"
 #include "platform/print.h"
 
 namespace relievo {
 
-void FilmPlayback::noteNews() {
-  using Kind = FilmFeed::News::Kind;
-  while (const auto news = feed_.takeNews()) {
-    const bool color = news->kind == Kind::ColorLost || news->kind == Kind::ColorBack;
-    const std::string& url = color || depth_url_.empty() ? url_ : depth_url_;
-    switch (news->kind) {
-      case Kind::ColorLost:
-        journal_.note(url + " lost: " + news->why,
-                      print("reconnecting; the film stops after %.0f s without it", toSeconds(FilmFeed::kPatience)),
-                      news->time);
-        break;
-      case Kind::DepthLost:
-        journal_.note(url + " lost: " + news->why, "the film plays on without depth and force; reconnecting",
-                      news->time);
-        break;
-      case Kind::ColorBack:
-        jumped_ = true;  // should the picture have stood meanwhile
-        journal_.note(url + " found again", "the film goes on", news->time);
-        break;
-      case Kind::DepthBack:
-        journal_.note(url + " found again", "its depth is felt again", news->time);
-        break;
-      case Kind::DecoderRestarted:
-        journal_.note(news->why, news->done, news->time);
-        break;
-    }
+void FilmNotes::begin(const SourceOptions& source) {
+  url_ = source.url;
+  depth_url_ = source.depth_url;
+  slowness_told_ = false;
+}
+
+void FilmNotes::opened(const FilmInfo& info) {
+  if (info.has_depth) {
+    const std::string line = plainLine(info.reading, info.calibration.calibration);
+    log(LogLevel::Info, "play", "%s", line.c_str());
+  }
+  for (const std::string& line : info.notes) log(LogLevel::Info, "play", "%s", line.c_str());
+  for (const std::string& change : changesOf(info)) log(LogLevel::Warning, "play", "%s", change.c_str());
+  for (const std::string& offer : info.reading.offers) log(LogLevel::Info, "play", "%s", offer.c_str());
+  for (const std::string& doubt : info.reading.doubts) log(LogLevel::Warning, "play", "%s", doubt.c_str());
+  if (!info.has_depth) journal_.note("no depth in this film", "it plays flat, without force");
+  if (info.sound_refused != nullptr) {
+    journal_.note(std::string("sound: ") + info.sound_refused, "the film plays without");
   }
 }
 
-void FilmPlayback::noteMissing() {
+void FilmNotes::happened(const FilmFeed::News& news) {
+  using Kind = FilmFeed::News::Kind;
+  const bool color = news.kind == Kind::ColorLost || news.kind == Kind::ColorBack;
+  const std::string& url = color || depth_url_.empty() ? url_ : depth_url_;
+  switch (news.kind) {
+    case Kind::ColorLost:
+      return journal_.note(
+          url + " lost: " + news.why,
+          print("reconnecting; the film stops after %.0f s without it", toSeconds(FilmFeed::kPatience)), news.time);
+    case Kind::DepthLost:
+      return journal_.note(url + " lost: " + news.why, "the film plays on without depth and force; reconnecting",
+                           news.time);
+    case Kind::ColorBack:
+      return journal_.note(url + " found again", "the film goes on", news.time);
+    case Kind::DepthBack:
+      return journal_.note(url + " found again", "its depth is felt again", news.time);
+    case Kind::DecoderRestarted:
+      return journal_.note(news.why, news.done, news.time);
+  }
+}
+
+void FilmNotes::refused(const Error& seek) {
+  journal_.note(std::string("seek: ") + seek.message, "the film goes on from where it stands");
+}
+
+void FilmNotes::slow() {
+  if (std::exchange(slowness_told_, true)) return;
+  journal_.note("this computer is too slow for all pictures of the film",
+                "some are left out; sound and touch go on as they are");
+}
+
+void FilmNotes::missing(const PairCounters& pairs) {
   const auto noteOne = [this](const std::string& url, Duration missing, const char* done) {
     if (missing <= Duration(0)) return;
     journal_.note(print("%s ends %.1f s too early: truncated or damaged", url.c_str(), toSeconds(missing)), done);
   };
-  const PairCounters pairs = feed_.counters();
   if (pairs.damaged > 0) {
     journal_.note(
         print("%llu pictures of %s are damaged", static_cast<unsigned long long>(pairs.damaged), url_.c_str()),

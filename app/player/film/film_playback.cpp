@@ -6,8 +6,6 @@
 #include <utility>
 
 #include "app/depth_window/surface_window.h"
-#include "app/player/film/film_changes.h"
-#include "platform/log.h"
 
 namespace relievo {
 namespace {
@@ -18,18 +16,18 @@ constexpr Duration kUnknownPeriod = std::chrono::milliseconds(40);
 constexpr Duration kSoundFirst = std::chrono::milliseconds(300);  // that must be buffered when the film starts
 constexpr Duration kStillStands = std::chrono::seconds(5);
 constexpr Duration kLivePatience = std::chrono::milliseconds(100);  // a live picture is dry as soon as it is shown
-constexpr Duration kOutOfPace = std::chrono::milliseconds(250);     // a live film that is so far off jumps
 constexpr double kRushStepS = 0.1;  // of the machine's time, between two pictures at a rate over 1
 
 }  // namespace
 
 FilmPlayback::FilmPlayback(PairReader::Backends backends, AudioOutput* output, const Clock& clock, Journal& journal)
     : clock_source_(clock),
-      journal_(journal),
       own_threads_(backends.own_threads),
       feed_(std::move(backends), kQueuedPairs),
       reliefs_(makeQuickMatcher(), clock),
-      sound_(output, clock) {}
+      sound_(output, clock),
+      journal_(journal),
+      notes_(journal) {}
 
 void FilmPlayback::begin() {
   sound_.open();
@@ -49,8 +47,7 @@ void FilmPlayback::stop() noexcept {
 }
 
 void FilmPlayback::open(SourceOptions source) {
-  url_ = source.url;
-  depth_url_ = source.depth_url;
+  notes_.begin(source);
   source.sound = sound_.format();
   feed_.open(std::move(source));
 }
@@ -66,10 +63,9 @@ void FilmPlayback::close(MonotonicTime now) {
   sound_.forget();
   info_ = {};
   pace_.forget();
-  as_it_comes_ = false;
   held_ = begun_ = starved_ = false;
   decode_pace_ = {};
-  leaves_out_ = slowness_told_ = false;
+  leaves_out_ = false;
   jumped_ = true;
   target_.reset();
   dry_since_.reset();
@@ -92,18 +88,7 @@ const FilmInfo& FilmPlayback::opened() {
   info_ = feed_.info();
   if (info_.sounds.empty() && info_.sound_codec.empty()) sound_.rest();
   if (info_.depth_from_views) beginReliefs();
-  if (info_.has_depth) {
-    const std::string line = plainLine(info_.reading, info_.calibration.calibration);
-    log(LogLevel::Info, "play", "%s", line.c_str());
-  }
-  for (const std::string& line : info_.notes) log(LogLevel::Info, "play", "%s", line.c_str());
-  for (const std::string& change : changesOf(info_)) log(LogLevel::Warning, "play", "%s", change.c_str());
-  for (const std::string& offer : info_.reading.offers) log(LogLevel::Info, "play", "%s", offer.c_str());
-  for (const std::string& doubt : info_.reading.doubts) log(LogLevel::Warning, "play", "%s", doubt.c_str());
-  if (!info_.has_depth) journal_.note("no depth in this film", "it plays flat, without force");
-  if (info_.sound_refused != nullptr) {
-    journal_.note(std::string("sound: ") + info_.sound_refused, "the film plays without");
-  }
+  notes_.opened(info_);
   return info_;
 }
 
@@ -131,22 +116,6 @@ FilmPlayback::Progress FilmPlayback::filling() {
   return sounds ? Progress::Ready : Progress::Goes;
 }
 
-void FilmPlayback::hearOfAhead() noexcept {
-  for (const FramePair& pair : head_.ahead()) pace_.hear(pair);
-}
-
-// The last few pictures are kept for the plan; the film goes on with the newest of them.
-FilmPlayback::Progress FilmPlayback::fillingLive() {
-  for (hearOfAhead(); head_.filled() && !pace_.settled(); hearOfAhead()) {
-    head_.skip();
-    head_.refill(feed_);
-  }
-  if (head_.last()) return head_.ahead().empty() ? overOrFailed() : Progress::Ready;
-  if (!head_.filled()) return Progress::Goes;
-  as_it_comes_ = pace_.choose();
-  return Progress::Ready;
-}
-
 bool FilmPlayback::takeFirst() {
   head_.begin();
   return !std::exchange(begun_, true);
@@ -171,30 +140,6 @@ std::size_t FilmPlayback::advance(MonotonicTime now) {
   if (pictures > 0) reliefs_.passed(picture().color.pts);
   followDecoder(now);
   return pictures;
-}
-
-std::size_t FilmPlayback::advanceLive(MonotonicTime now) {
-  if (held_) return 0;
-  head_.refill(feed_);
-  hearOfAhead();
-  const MediaTime felt = clock_.position(now).value_or(MediaTime{});
-  const std::size_t pictures = head_.advance(felt + kMostBehind, feed_);
-  followLive(pictures > 0, now);
-  return pictures;
-}
-
-// Once a picture, for every change of the clock is published.
-void FilmPlayback::followLive(bool picture, MonotonicTime now) {
-  const auto felt = clock_.position(now);
-  if (!felt) return;
-  const Duration behind = pace_.wanted(now) - *felt;
-  if (std::chrono::abs(behind) > kOutOfPace) {
-    clock_.start(pace_.wanted(now), now);
-    live_.begin(pace_.origin(), now);
-  }
-  if (!picture) return;
-  dry_since_.reset();
-  static_cast<void>(clock_.setRate(rateToGain(behind), now));  // the clock accepts all rates of this size
 }
 
 // A pair that is less than a period late is shown late; after that the film waits for its source. The delay counts from
@@ -235,7 +180,7 @@ void FilmPlayback::seek(MediaTime target, MonotonicTime now) {
 bool FilmPlayback::arriving(MonotonicTime now) {
   if (feed_.state() == FilmFeed::State::Seeking) return false;
   if (const auto refused = feed_.takeSeekError()) {
-    journal_.note(std::string("seek: ") + refused->message, "the film goes on from where it stands");
+    notes_.refused(*refused);
     setRate(1, now);
   }
   return true;
@@ -279,16 +224,10 @@ void FilmPlayback::followSound(bool playing) {
   if (const auto news = sound_.takeNews()) journal_.note(news->what, news->done);
 }
 
-// The surface under the finger is that of the clock's time.
 void FilmPlayback::noteShown() {
   shown_color_ = head_.colors();
   sound_.noteShown(picture().color.pts, clock_);
-  const MonotonicTime now = clock_source_.now();
-  const auto felt = clock_.position(now);
-  if (!picture().taken || !felt) return;  // the film's first picture is shown before its clock runs
-  const Duration age = now - *picture().taken;
-  live_.shown(age, age - (*felt - picture().color.pts));
-  if (isLive()) pace_.shown(age);
+  noteLiveShown();
 }
 
 DepthAround FilmPlayback::depth() const {
@@ -341,6 +280,13 @@ MediaTime FilmPlayback::bufferedUntil() const {
 
 std::optional<MediaTime> FilmPlayback::placeToKeep(MonotonicTime now) const {
   return target_ || info_.duration <= Duration(0) ? std::nullopt : place(now);
+}
+
+void FilmPlayback::noteNews() {
+  while (const auto news = feed_.takeNews()) {
+    if (news->kind == FilmFeed::News::Kind::ColorBack) jumped_ = true;  // should the picture have stood meanwhile
+    notes_.happened(*news);
+  }
 }
 
 PairCounters FilmPlayback::pairs() const {

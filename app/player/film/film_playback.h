@@ -13,6 +13,7 @@
 #include "app/media/playhead.h"
 #include "app/player/film/decode_pace.h"
 #include "app/player/film/depth_around.h"
+#include "app/player/film/film_notes.h"
 #include "app/player/film/live_pace.h"
 #include "app/player/film/live_times.h"
 #include "app/player/film/played_time.h"
@@ -106,7 +107,7 @@ class FilmPlayback {
   void followSound(bool playing);
   void noteNews();
   // Notes which parts of the film were missing; after its end.
-  void noteMissing();
+  void noteMissing() { notes_.missing(feed_.counters()); }
   // The present picture is now on the screen.
   void noteShown();
 
@@ -143,7 +144,7 @@ class FilmPlayback {
   // A camera's picture, or another live film without sound: pictures are shown as they come, and the clock is that of
   // touch, as far behind as its look-ahead asks for (LivePace). With sound, or sent ahead of its time, it is
   // played like any other.
-  [[nodiscard]] bool isLive() const noexcept { return as_it_comes_ && rate_ == 1; }
+  [[nodiscard]] bool isLive() const noexcept { return pace_.asItComes() && rate_ == 1; }
   // How long the surface waits for frames; chosen when the first picture is taken.
   [[nodiscard]] LookAhead lookAhead() const noexcept { return isLive() ? pace_.lookAhead() : LookAhead{}; }
   // For the ticks of a live film; null if it is held, or another.
@@ -162,21 +163,23 @@ class FilmPlayback {
   // In film_late.cpp.
   void followDecoder(MonotonicTime now);
   [[nodiscard]] bool waitsForDecoder() const noexcept;
+  // In film_live.cpp.
   [[nodiscard]] Progress fillingLive();
   void hearOfAhead() noexcept;
   [[nodiscard]] std::size_t advanceLive(MonotonicTime now);
   void followLive(bool picture, MonotonicTime now);
+  void noteLiveShown();
 
   const Clock& clock_source_;
-  Journal& journal_;
   const bool own_threads_;
   FilmFeed feed_;
   Playhead head_;
   ReliefMaker reliefs_;
   MediaClock clock_;
   Sound sound_;
+  Journal& journal_;
+  FilmNotes notes_;
 
-  std::string url_, depth_url_;
   FilmInfo info_;
   bool begun_ = false;
   bool held_ = false;
@@ -187,14 +190,12 @@ class FilmPlayback {
   bool starved_ = false;                    // the picture has stopped while the clock runs on
   std::uint64_t shown_color_ = 0;           // Playhead::colors, of the picture on the screen
   DecodePace decode_pace_;
-  bool leaves_out_ = false;     // what the feed was told last
-  bool slowness_told_ = false;  // of this film
+  bool leaves_out_ = false;  // what the feed was told last
 
   PairCounters pairs_before_;  // of earlier films
   PlayedTime played_;
   LiveTimes live_;
   LivePace pace_;
-  bool as_it_comes_ = false;  // LivePace::choose
 };
 
 }  // namespace relievo

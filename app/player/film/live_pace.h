@@ -26,6 +26,8 @@ class LivePace {
   // False if pairs came before their time: then the source has a buffer of its own, and its film is played like any
   // other.
   bool choose() noexcept;
+  // What `choose` said; false before it.
+  [[nodiscard]] bool asItComes() const noexcept { return as_it_comes_.value_or(false); }
   [[nodiscard]] const LookAhead& lookAhead() const noexcept { return ahead_; }
   // A picture was on the screen when it was this old.
   void shown(Duration age) noexcept;

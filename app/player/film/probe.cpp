@@ -122,7 +122,8 @@ Outcome<void> lookAtFilm(const SourceOptions& options, const PairReader::Backend
 void takeSizes(ProbeResult& r) {
   using enum Packing;
   const FilmInfo& f = r.film;
-  const bool whole = f.packing == Tracks || f.packing == DepthAlone || f.packing == Alpha || f.packing == StereoTracks;
+  const bool whole = f.packing == Tracks || f.packing == DepthAlone || f.packing == Alpha ||
+                     f.packing == StereoTracks || f.packing == StereoLayers;
   if (!whole) return;
   bool color_seen = false;
   for (ProbedTrack& track : r.tracks) {
@@ -181,7 +182,7 @@ std::string probeToText(const ProbeResult& r) {
   } else {
     text += "depth   none\n";
   }
-  if (isStereo(f.packing) || f.packing == Packing::StereoTracks) {
+  if (hasTwoViews(f.packing)) {
     text += print("views   left and right, packing %s\n", name(f.packing));
   }
   text += print("volume  %.0f x %.0f x %.0f mm\n", r.volume.width_mm, r.volume.height_mm, r.volume.depth_mm);

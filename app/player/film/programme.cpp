@@ -7,8 +7,8 @@
 
 namespace relievo {
 
-Programme::Programme(const std::string& resume_path, bool loop) : loop_(loop) {
-  if (!resume_path.empty()) resume_.emplace(resume_path);
+Programme::Programme(const std::string& resume_path, FileWriter& files, bool loop) : loop_(loop) {
+  if (!resume_path.empty()) resume_.emplace(resume_path, files);
 }
 
 void Programme::begin(std::vector<PlaylistEntry> films) {

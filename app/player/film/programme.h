@@ -24,8 +24,8 @@ class Programme {
   static constexpr Duration kKeepPeriod = std::chrono::seconds(2);
   enum class Way : std::uint8_t { Forward, Back };  // which neighbour is tried if a film cannot be played
 
-  // `resume_path`: the file of positions; if empty, each film starts from the beginning.
-  Programme(const std::string& resume_path, bool loop);
+  // `resume_path`: the file of positions; if empty, each film starts from the beginning. `files` must outlive it.
+  Programme(const std::string& resume_path, FileWriter& files, bool loop);
 
   // Replaces the whole list by these films or lists, at least one.
   void begin(std::vector<PlaylistEntry> films);

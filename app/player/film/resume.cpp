@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A short list under a mutex, and a thread that writes it when it has changed.
+// A short list, given to the file writer when it has changed.
 #include "app/player/film/resume.h"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "platform/atomic_file.h"
+#include "platform/files/answered_place.h"
 #include "platform/log.h"
 #include "platform/whole_file.h"
 
@@ -16,12 +16,14 @@ namespace {
 
 using Json = nlohmann::json;
 
-// What of the file makes sense.
-std::vector<std::pair<std::string, double>> load(const std::string& path) {
-  std::vector<std::pair<std::string, double>> films;
+using Films = std::vector<std::pair<std::string, double>>;
+
+// What of the file makes sense; nothing where none is.
+Result<Films> load(const std::string& path) {
+  Films films;
   const auto text = readWholeFile(path, FileSize::Settings, "");
-  if (!text) return films;
-  const Json json = Json::parse(*text, nullptr, false);
+  if (!text && text.error().code != ErrorCode::NotFound) return std::unexpected(text.error());
+  const Json json = text ? Json::parse(*text, nullptr, false) : Json();
   if (!json.is_array()) return films;
   for (const Json& row : json) {
     if (films.size() == Resume::kMostFilms) break;
@@ -30,6 +32,15 @@ std::vector<std::pair<std::string, double>> load(const std::string& path) {
     if (seconds >= 0 && seconds < 1e6) films.emplace_back(row[0].get<std::string>(), seconds);
   }
   return films;
+}
+
+void tell(const std::string& path, const Error& error) {
+  log(LogLevel::Warning, "play", "%s: %s; films will start from the beginning", path.c_str(), error.message);
+}
+
+Result<void> write(const std::string& path, const Films& films) {
+  makeFolders(std::filesystem::path(path).parent_path());
+  return writeFile(path, Json(films).dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace
@@ -52,37 +63,28 @@ std::string Resume::keyOf(const std::string& url) {
   return none ? url : path.lexically_normal().string();
 }
 
-Resume::Resume(std::string path) : path_(std::move(path)), films_(load(path_)), thread_([this] { threadMain(); }) {}
-
-Resume::~Resume() {
-  {
-    const std::scoped_lock lock(mutex_);
-    stopping_ = true;
-    wake_.notify_all();
-  }
-  thread_.join();
+Resume::Resume(std::string path, FileWriter& files) : path_(std::move(path)), files_(files) {
+  auto films = load(path_);
+  if (films) films_ = std::move(*films);
+  else tell(std::exchange(path_, {}), films.error());
 }
 
 std::optional<std::string> Resume::last() const {
-  const std::scoped_lock lock(mutex_);
   return films_.empty() ? std::nullopt : std::optional(films_.front().first);
 }
 
 std::optional<MediaTime> Resume::find(const std::string& url) const {
-  const std::scoped_lock lock(mutex_);
   const auto film = std::ranges::find(films_, keyOf(url), &Films::value_type::first);
   if (film == films_.end()) return std::nullopt;
   return mediaTime(film->second);
 }
 
 std::vector<std::pair<std::string, double>> Resume::all() const {
-  const std::scoped_lock lock(mutex_);
   return films_;
 }
 
 void Resume::keep(const std::string& url, MediaTime position) {
   if (position.time_since_epoch() < kLeast) return forget(url);
-  const std::scoped_lock lock(mutex_);
   const std::string key = keyOf(url);
   std::erase_if(films_, [&](const auto& film) { return film.first == key; });
   films_.emplace(films_.begin(), key, toSeconds(position));
@@ -91,40 +93,18 @@ void Resume::keep(const std::string& url, MediaTime position) {
 }
 
 void Resume::forget(const std::string& url) {
-  const std::scoped_lock lock(mutex_);
   const std::string key = keyOf(url);
   if (std::erase_if(films_, [&](const auto& film) { return film.first == key; }) > 0) changed();
 }
 
 void Resume::changed() {
-  dirty_ = true;
-  wake_.notify_all();
-}
-
-void Resume::write(const Films& films) {
-  const Json json(films);
-  std::error_code none;
-  std::filesystem::create_directories(std::filesystem::path(path_).parent_path(), none);
-  auto file = AtomicFile::create(path_);
-  Result<void> written = file ? Result<void>{} : std::unexpected(file.error());
-  if (file) {
-    file->write(json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
-    written = file->commit();
-  }
-  if (written || std::exchange(told_, true)) return;
-  log(LogLevel::Warning, "play", "%s: %s; films will start from the beginning", path_.c_str(), written.error().message);
-}
-
-void Resume::threadMain() {
-  std::unique_lock lock(mutex_);
-  while (!stopping_ || dirty_) {
-    wake_.wait(lock, [this] { return dirty_ || stopping_; });
-    if (!std::exchange(dirty_, false)) continue;
-    const Films films = films_;
-    lock.unlock();
-    write(films);
-    lock.lock();
-  }
+  if (path_.empty()) return;
+  // A newer one replaces one that waits, so that there is always a place for it.
+  files_.give(path_, [path = path_, films = films_, told = told_] {
+    const auto written = write(path, films);
+    if (written || std::exchange(*told, true)) return;
+    tell(path, written.error());
+  });
 }
 
 }  // namespace relievo

@@ -2,20 +2,19 @@
 // Where the viewer left each film: kept in a file that survives a power cut.
 #pragma once
 
-#include <condition_variable>
-#include <mutex>
+#include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
+#include "app/player/file_writer.h"
 #include "hal/media/media_time.h"
 
 namespace relievo {
 
-// JSON: [["URL", seconds], ..], the film seen last first. Written whole or not at all, on a thread of its own, since a
-// disk may take its time. A file that cannot be read counts as empty and is replaced; what cannot be written is told
+// JSON: [["URL", seconds], ..], the film seen last first. Written whole or not at all, by the file writer. A damaged
+// file counts as empty and is replaced; one that cannot be read stays as it is. What cannot be read or written is told
 // once, in the log.
 class Resume {
  public:
@@ -25,10 +24,8 @@ class Resume {
   // $STATE_DIRECTORY (of a service), else $XDG_STATE_HOME/relievo, else ~/.local/state/relievo; empty without a home.
   [[nodiscard]] static std::string defaultPath();
 
-  explicit Resume(std::string path);
-  ~Resume();  // what was kept last is written
-  Resume(const Resume&) = delete;
-  Resume& operator=(const Resume&) = delete;
+  // `files` must outlive it.
+  Resume(std::string path, FileWriter& files);
 
   // What a film is kept by: a path without its detours from the root on, an address as it is.
   [[nodiscard]] static std::string keyOf(const std::string& url);
@@ -46,16 +43,11 @@ class Resume {
  private:
   using Films = std::vector<std::pair<std::string, double>>;
   void changed();
-  void write(const Films& films);
-  void threadMain();
 
-  const std::string path_;
-  mutable std::mutex mutex_;  // of all below
-  std::condition_variable wake_;
+  std::string path_;  // empty: nothing is written
+  FileWriter& files_;
   Films films_;
-  bool dirty_ = false, stopping_ = false;
-  bool told_ = false;  // the thread's own
-  std::thread thread_;
+  std::shared_ptr<bool> told_ = std::make_shared<bool>(false);  // the writer's
 };
 
 }  // namespace relievo

@@ -3,15 +3,11 @@
 #include "app/player/screen/film_screen.h"
 
 #include <array>
-#include <cstdlib>
-#include <filesystem>
 #include <glm/geometric.hpp>
 
 #include "app/player/screen/list_script.h"
-#include "app/player/screen/png_file.h"
 #include "app/player/screen/screen_script.h"
 #include "app/player/screen/stereo_word.h"
-#include "platform/files/answered_place.h"
 #include "platform/log.h"
 #include "platform/print.h"
 
@@ -31,21 +27,6 @@ bool movedVisibly(const FingerMarks& a, const FingerMarks& b) noexcept {
   return movedVisibly(a[0], b[0]) || movedVisibly(a[1], b[1]);
 }
 
-// A free name in the pictures' folder of the desktop, or here.
-std::string screenshotPath(const std::string& title) {
-  namespace fs = std::filesystem;
-  fs::path folder = ".";
-  const char* const told = std::getenv("XDG_PICTURES_DIR");
-  const char* const home = std::getenv("HOME");
-  if (told != nullptr && isFolder(told)) folder = told;
-  else if (home != nullptr && isFolder(fs::path(home) / "Pictures")) folder = fs::path(home) / "Pictures";
-  const std::string stem = "relievo-" + fs::path(title).filename().stem().string();
-  for (int number = 1;; ++number) {
-    const fs::path path = folder / (stem + print("-%04d.png", number));
-    if (!isThere(path)) return path.string();
-  }
-}
-
 }  // namespace
 
 Result<void> FilmScreen::open() {
@@ -59,6 +40,7 @@ Result<void> FilmScreen::open() {
 }
 
 Result<void> FilmScreen::attend(MonotonicTime now) {
+  noteSaved(now);
   const auto redraw = picture_.attend(now);
   if (redraw) {
     redraw_ = redraw_ || *redraw;
@@ -153,21 +135,6 @@ void FilmScreen::noteCut(const FramePair& pair) {
   if (recent_.size() > 1 && recent_.back().shot != recent_[recent_.size() - 2].shot) picture_.cut();
 }
 
-void FilmScreen::saveScreenshot(const std::string& title) {
-  screenshot_ = screenshotPath(title);
-  picture_.capture();
-  redraw_ = true;
-}
-
-void FilmScreen::writeScreenshot(MonotonicTime now) {
-  const auto capture = picture_.takeCapture();
-  if (!capture) return;
-  const auto written = writePng(screenshot_, capture->width, capture->height, capture->rgb);
-  const std::string what = written ? "Saved " + screenshot_ : screenshot_ + ": " + written.error().message;
-  log(written ? LogLevel::Info : LogLevel::Warning, "play", "%s", what.c_str());
-  text_.notice({what, std::nullopt}, now);
-}
-
 void FilmScreen::obey(const PlayerCommand& command) {
   switch (command.verb) {
     case PlayerVerb::FullScreen:
@@ -216,10 +183,14 @@ std::optional<double> FilmScreen::barAt(const SurfaceMouse& mouse, MonotonicTime
   constexpr double kNear = 0.8;  // of the view's height
   const auto point = osd_ ? picture_.viewPoint(mouse.across, mouse.down) : std::nullopt;
   if (!point) return std::nullopt;
-  if (point->down > kNear) text_.wake(now);
-  const auto share = barShareAt(point->across, point->down, point->aspect);
+  drags_bar_ = drags_bar_ && mouse.pressed;
+  if (point->down > kNear || drags_bar_) text_.wake(now);
+  const auto share =
+      drags_bar_ ? barShareAlong(point->across, point->aspect) : barShareAt(point->across, point->down, point->aspect);
   text_.point(share, now);
-  return written_.bar && written_.bar->has_length ? share : std::nullopt;
+  if (!written_.bar || !written_.bar->has_length) return std::nullopt;
+  drags_bar_ = share && mouse.pressed;
+  return share;
 }
 
 std::optional<std::size_t> FilmScreen::filmAt(const SurfaceMouse& mouse) const {

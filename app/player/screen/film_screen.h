@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <future>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "app/depth_window/shots.h"
 #include "app/media/pair_reader.h"
 #include "app/player/control/command.h"
+#include "app/player/file_writer.h"
 #include "app/player/journal.h"
 #include "app/player/screen/picture.h"
 #include "app/player/screen/screen_text.h"
@@ -29,8 +31,8 @@ class FilmScreen {
  public:
   // `osd`: whether anything is written over the picture.
   FilmScreen(Display& display, const DisplayConfig& config, const StereoSettings& stereo, bool osd, const Clock& clock,
-             Journal& journal) noexcept
-      : picture_(display, config, stereo), osd_(osd), clock_(clock), journal_(journal) {}
+             Journal& journal, FileWriter& files) noexcept
+      : picture_(display, config, stereo), osd_(osd), clock_(clock), journal_(journal), files_(files) {}
 
   // A missing screen (NotFound) is noted and is no failure.
   [[nodiscard]] Result<void> open();
@@ -51,7 +53,8 @@ class FilmScreen {
   void delaySubtitles(Duration delay);
   // The film goes on elsewhere: after an opening or a seek.
   void jump();
-  // Saves the picture that is shown, without what is written over it. `title`: of the file's name.
+  // Has the picture saved that is shown, without what is written over it. `title`: of the file's name. A notice tells
+  // how it went.
   void saveScreenshot(const std::string& title);
   // Counts pictures that were never shown.
   void skip(std::uint64_t pictures) noexcept { dropped_ += pictures; }
@@ -66,7 +69,7 @@ class FilmScreen {
   [[nodiscard]] bool wantsStatistics() const noexcept { return text_.showsStatistics(); }
   void setStatistics(ScreenRows rows) { statistics_ = std::move(rows); }
   // The film's place, 0 to 1, that the mouse is over on the bar; nullopt where no bar is. A mouse near its place shows
-  // it.
+  // it. A press on the bar holds it: until the button is released, the mouse may leave it.
   [[nodiscard]] std::optional<double> barAt(const SurfaceMouse& mouse, MonotonicTime now);
 
   // The film that the mouse is over in the list of films; nullopt: none.
@@ -95,6 +98,7 @@ class FilmScreen {
   [[nodiscard]] Result<bool> draw(const FingerMarks& fingers, MonotonicTime now);
   void noteCut(const FramePair& pair);
   void writeScreenshot(MonotonicTime now);
+  void noteSaved(MonotonicTime now);
   void changeAspect(const std::string& word);
   void noteLost();
 
@@ -102,17 +106,20 @@ class FilmScreen {
   DepthCalibration calibration_;
   std::deque<TimedSurface> recent_;  // depth pictures, the newest last
   ShotFinder shots_;
-  std::string screenshot_;  // the path of the one that is due; empty: none
+  std::string screenshot_title_;                 // of the one that is due
+  std::deque<std::future<std::string>> saving_;  // screenshots that are being written: what to tell of them
   ScreenText text_;
   const bool osd_;
   const Clock& clock_;
   Journal& journal_;
+  FileWriter& files_;
   MonotonicTime drawn_at_;
   FingerMarks drawn_fingers_;
   ScreenContent written_;
   ScreenRows statistics_;
   std::string aspect_word_ = "film";
   std::size_t next_aspect_ = 0;
+  bool drags_bar_ = false;
   bool redraw_ = false;  // even if no finger has moved
   std::uint64_t shown_ = 0, dropped_ = 0;
   std::optional<MonotonicTime> first_shown_;

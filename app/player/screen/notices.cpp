@@ -36,7 +36,7 @@ std::optional<ScreenNotice> noticeOf(const PlayerCommand& command, const ScreenF
     case PlayerVerb::Slower:
       return words(rateWords(facts.rate));
     case PlayerVerb::Loop:
-      return words(facts.loop ? "Plays again and again" : "Plays once");
+      return words(facts.loop ? "Repeat: on" : "Repeat: off");
     case PlayerVerb::Layout:
       return words("3D: " + stereoTitle(facts.stereo));
     case PlayerVerb::SwapEyes:

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "platform/atomic_file.h"
+#include "app/player/file_writer.h"
 
 namespace relievo {
 namespace {
@@ -76,10 +76,7 @@ Result<void> writePng(const std::string& path, int width, int height, std::span<
   addChunk(file, "IHDR", head);
   addChunk(file, "IDAT", stored(rows));
   addChunk(file, "IEND", "");
-  auto made = AtomicFile::create(path, Existing::Keep);
-  if (!made) return std::unexpected(made.error());
-  made->write(file);
-  return made->commit();
+  return writeFile(path, file, Existing::Keep);
 }
 
 }  // namespace relievo

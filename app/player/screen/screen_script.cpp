@@ -41,11 +41,20 @@ void addPointed(Script& script, const ScreenBar& bar) {
   script.text(bar.pointed_time, 8, x, kPointedTop, kPointedSize, kAccent);
 }
 
+// Without its last parts where they find no room, so that the times stay whole.
+std::string shortened(std::string times, int cells) {
+  for (std::size_t end = times.rfind("   "); static_cast<int>(times.size()) > cells && end != std::string::npos;
+       end = times.rfind("   ")) {
+    times.resize(end);
+  }
+  return times;
+}
+
 // What finds no room beside the times is left out.
 void addTimes(Script& script, const ScreenBar& bar) {
   constexpr double kFewest = 12;  // letters that are worth it
   const double inner = script.width() - 2 * kMargin;
-  const auto times = folded(bar.times, cellsIn(inner, kTimesSize), 1);
+  const auto times = folded(shortened(bar.times, cellsIn(inner, kTimesSize)), cellsIn(inner, kTimesSize), 1);
   if (times.empty()) return;
   script.text(times[0], 7, kMargin, kTimesTop, kTimesSize);
   const double room = inner - kLetterOfSize * kTimesSize * (static_cast<double>(times[0].size()) + 2);
@@ -245,11 +254,14 @@ double roomForWords(const ScreenContent& content, double aspect) {
 
 std::optional<double> barShareAt(double across, double down, double aspect) noexcept {
   const double x = across * kScreenRows * aspect, y = down * kScreenRows;
-  const double inner = kScreenRows * aspect - 2 * kMargin;
   const bool on_it = y >= kBarTop - kBarReach && y <= kBarTop + kBarHeight + kBarReach && x >= 0.5 * kMargin &&
-                     x <= inner + 1.5 * kMargin;
-  if (!on_it) return std::nullopt;
-  return std::clamp((x - kMargin) / inner, 0.0, 1.0);
+                     x <= kScreenRows * aspect - 0.5 * kMargin;
+  return on_it ? std::optional(barShareAlong(across, aspect)) : std::nullopt;
+}
+
+double barShareAlong(double across, double aspect) noexcept {
+  const double width = kScreenRows * aspect;
+  return std::clamp((across * width - kMargin) / (width - 2 * kMargin), 0.0, 1.0);
 }
 
 }  // namespace relievo

@@ -24,5 +24,7 @@ constexpr double kScreenRows = 720;
 
 // Where in the bar a point of the view lies, 0 to 1; nullopt beside the bar. `across` and `down` in shares of the view.
 [[nodiscard]] std::optional<double> barShareAt(double across, double down, double aspect) noexcept;
+// The same however far above or below the bar.
+[[nodiscard]] double barShareAlong(double across, double aspect) noexcept;
 
 }  // namespace relievo

@@ -16,20 +16,21 @@ constexpr double kFingerSteps = 200;  // likewise the finger's place
 constexpr double kForceStepsPerN = 20;
 
 std::string timesOf(const ScreenFacts& facts) {
-  std::string times = clockTime(facts.position_s);
-  if (facts.duration_s > 0) times += " / " + clockTime(facts.duration_s);
+  const bool has_length = facts.duration_s > 0;
+  // A last picture stands beyond the film's length while the film is held or begins again.
+  std::string times = clockTime(has_length ? std::min(facts.position_s, facts.duration_s) : facts.position_s);
+  if (has_length) times += " / " + clockTime(facts.duration_s);
   const auto add = [&times](const std::string& word) { times += "   " + word; };
   if (facts.held) add("paused");
   else if (facts.state != PlayerState::Playing) add(name(facts.state));
   if (facts.rate != 1) add(facts.rate > 1 ? print("%gx", facts.rate) : print("1/%gx", 1 / facts.rate));
   if (facts.films > 1) add(print("film %zu of %zu", facts.film, facts.films));
-  if (facts.loop) add("again and again");
+  if (facts.loop) add("repeat");
   return times;
 }
 
 std::string stereoWords(const ScreenFacts& facts) {
   std::string words = "3D: " + stereoTitle(facts.stereo);
-  if (!facts.has_depth) return words + ", flat: the film has no depth";
   if (facts.stereo.swap_eyes) words += ", eyes swapped";
   if (facts.stereo.strength != 1.0) words += print(", depth %.0f %%", 100 * facts.stereo.strength);
   return words;
@@ -37,13 +38,13 @@ std::string stereoWords(const ScreenFacts& facts) {
 
 std::string hapticWords(const ScreenFacts& facts) {
   std::string words;
+  if (!facts.has_depth) return "no depth in this film, nothing to feel";
   for (const FingerFacts& finger : facts.fingers) {
     if (finger.haptic.empty()) continue;
     const std::string device = finger.haptic == "pointer" ? "mouse" : finger.haptic;
-    words += (words.empty() ? "" : " and ") + device + (facts.has_depth && finger.contact ? ", in contact" : "");
+    words += (words.empty() ? "" : " and ") + device + (finger.contact ? ", in contact" : "");
   }
-  if (words.empty()) return "touch: no device";
-  return "touch: " + words + (facts.has_depth ? "" : ", nothing to feel");
+  return "touch: " + (words.empty() ? "no device" : words);
 }
 
 double rounded(double value, double steps) noexcept {

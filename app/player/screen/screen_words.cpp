@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws a script of one moment.
+// Each picture of text is drawn from a script that holds just what is shown at that moment.
 #include "app/player/screen/screen_words.h"
 
 #include <algorithm>

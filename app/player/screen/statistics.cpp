@@ -2,6 +2,7 @@
 // One row for each part of the player.
 #include "app/player/screen/statistics.h"
 
+#include "app/scene/sdr_color.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -13,13 +14,23 @@ unsigned long long count(std::uint64_t value) noexcept {
   return value;
 }
 
-void addTouch(ScreenRows& rows, const HapticSummary& haptic, const std::string& which, double force_n) {
+std::string depthOf(const FilmInfo& film) {
+  if (!film.has_depth) return "no depth";
+  return print("depth %dx%d %s", film.depth_width, film.depth_height, film.depth_codec.c_str());
+}
+
+std::string colorOf(const FilmInfo& film) {
+  const char* const hdr = hdrName(film.color_transfer);
+  return hdr == nullptr ? "SDR" : print("HDR (%s), mapped to SDR by ITU-R BT.2390", hdr);
+}
+
+void addTouch(ScreenRows& rows, const HapticSummary& haptic, const std::string& which, double force_n, bool has_depth) {
   if (haptic.ticks == 0) return;
   rows.emplace_back("tick" + which, print("%.0f Hz, %.1f us, 99.9 %% under %.1f us, %llu late", haptic.rate_hz,
                                           static_cast<double>(haptic.update.p50) * 1e-3,
                                           static_cast<double>(haptic.update.p999) * 1e-3, count(haptic.overruns)));
   rows.emplace_back("force" + which, print("%.2f N, at most %.2f N", force_n, haptic.max_force_n));
-  if (which.empty()) rows.emplace_back("felt", haptic.plan);
+  if (which.empty() && has_depth) rows.emplace_back("felt", haptic.plan);
 }
 
 }  // namespace
@@ -34,13 +45,13 @@ ScreenRows Statistics::rows(const PlayReport& report, const FingerForces& forces
   const double nominal = film.frame_period > Duration(0) ? 1 / toSeconds(film.frame_period) : 0;
   ScreenRows rows{
       {"rate", print("%.1f of %.2f frames/s, %llu dropped", rate, nominal, count(report.frames_dropped))},
-      {"picture", print("%dx%d %s, depth %dx%d %s", film.color_width, film.color_height, film.color_codec.c_str(),
-                        film.depth_width, film.depth_height, film.has_depth ? film.depth_codec.c_str() : "none")},
+      {"picture", print("%dx%d %s, ", film.color_width, film.color_height, film.color_codec.c_str()) + depthOf(film)},
+      {"colour", colorOf(film)},
       {"decoder", film.color_decoder},
       {"drawing",
        print("%.1f ms, %zu triangles, error %.2f px", report.draw_ms, report.triangles, report.picture_error_px)}};
-  addTouch(rows, report.haptic, "", forces_n[0]);
-  if (report.second_finger) addTouch(rows, report.second_finger->haptic, " 2", forces_n[1]);
+  addTouch(rows, report.haptic, "", forces_n[0], film.has_depth);
+  if (report.second_finger) addTouch(rows, report.second_finger->haptic, " 2", forces_n[1], film.has_depth);
   if (!report.sound.device.empty()) {
     rows.emplace_back("sound", print("%s, %.1f ms off at most, %llu gaps", report.sound.device.c_str(),
                                      report.sound.max_offset_ms, count(report.sound.underruns)));

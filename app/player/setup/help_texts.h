@@ -51,8 +51,7 @@ inline constexpr const char* kExitCodes = "\nExit code: 0 done, 1 failed at run 
 inline constexpr const char* kPlayAbout =
     "Play a film: shown in stereo, felt by the finger\n"
     "\n  relievo film.mkv                         in a window; press into the picture with the mouse to feel it\n"
-    "  relievo one.mkv two.mkv films/           one film after the other, and those of a folder; --loop: again and "
-    "again\n"
+    "  relievo one.mkv two.mkv films/           one film after the other, and those of a folder; --loop repeats\n"
     "  relievo color.mp4 --depth depth.mkv      colour and depth are two files\n"
     "  relievo scan.mov --packing tb            colour on top, depth below in one picture; sbs: side by side\n"
     "  relievo film.mkv --stereo anaglyph       for red-cyan glasses; sbs, tab: for a 3D screen\n"
@@ -70,7 +69,7 @@ inline constexpr const char* kPlayFooter =
     "  relievo color.webm --depth depth.webm --display offscreen --report run.json\n"
     "      two files, shown off screen, touched by the simulated hand; the figures go to run.json\n"
     "  relievo play scan.mov --packing tb --depth-code hue --stereo anaglyph --loop --duration 60\n"
-    "      one file with colour on top and depth as hue below, for red-cyan glasses, again and again for a minute\n"
+    "      one file with colour on top and depth as hue below, for red-cyan glasses, repeated for a minute\n"
     "  relievo play film.mkv --display offscreen:film.y4m --haptic sim:hand.csv --remote script:keys.txt\n"
     "      the picture into a file that ffmpeg reads, finger and keys by scripts\n"
     "  relievo play film.mkv --display kms --size 1920x1080 --haptic falcon\n"
@@ -92,6 +91,6 @@ inline constexpr const char* kPlayFooter =
 inline constexpr const char* kSourceHelp =
     "A film, a folder of films or pictures, pictures (\"a/%06d.png\", \"a/*.png\"), associations.txt, a playlist, or "
     "an "
-    "address: http, https (HLS as well), rtsp, rtp, udp, tcp; v4l2:DEVICE; mock:, which needs no file";
+    "address: http, https (HLS as well), rtsp, rtp, udp, tcp, srt; v4l2:DEVICE; mock:, which needs no file";
 
 }  // namespace relievo

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "platform/atomic_file.h"
+#include "platform/files/answered_place.h"
 #include "platform/log.h"
 #include "platform/whole_file.h"
 
@@ -16,18 +16,28 @@ namespace {
 
 using Json = nlohmann::json;
 
-// An unreadable file counts as empty.
-Json load(const std::string& path) {
+// A damaged file counts as empty, as one that is not there.
+Result<Json> load(const std::string& path) {
   const auto text = readWholeFile(path, FileSize::Settings, "");
+  if (!text && text.error().code != ErrorCode::NotFound) return std::unexpected(text.error());
   const Json json = text ? Json::parse(*text, nullptr, false) : Json::object();
   return json.is_object() ? json : Json::object();
+}
+
+// What is kept for other devices stays.
+Result<void> write(const std::string& path, const std::string& device, double percent) {
+  auto json = load(path);
+  if (!json) return std::unexpected(json.error());
+  (*json)[device] = percent;
+  makeFolders(std::filesystem::path(path).parent_path());
+  return writeFile(path, json->dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace
 
 Loudness::Loudness(std::string path, std::string device) : path_(std::move(path)), device_(std::move(device)) {
   if (path_.empty()) return;
-  const Json json = load(path_);
+  const Json json = load(path_).value_or(Json::object());
   const auto found = json.find(device_);
   if (found != json.end() && found->is_number()) set(found->get<double>());
   kept_percent_ = percent_;
@@ -42,18 +52,13 @@ double Loudness::gain() const noexcept {
   return muted_ ? 0.0 : share * share * share;
 }
 
-void Loudness::keep() {
+void Loudness::keep(FileWriter& files) {
   if (path_.empty() || percent_ == kept_percent_) return;
   kept_percent_ = percent_;
-  Json json = load(path_);
-  json[device_] = percent_;
-  std::error_code none;
-  std::filesystem::create_directories(std::filesystem::path(path_).parent_path(), none);
-  auto file = AtomicFile::create(path_);
-  const auto written =
-      file ? (file->write(json.dump() + "\n"), file->commit()) : Result<void>(std::unexpected(file.error()));
-  if (!written)
-    log(LogLevel::Warning, "play", "%s: the volume is not remembered: %s", path_.c_str(), written.error().message);
+  files.give(path_, [path = path_, device = device_, percent = percent_] {
+    if (const auto written = write(path, device, percent); !written)
+      log(LogLevel::Warning, "play", "%s: the volume is not remembered: %s", path.c_str(), written.error().message);
+  });
 }
 
 }  // namespace relievo

@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "app/player/file_writer.h"
+
 namespace relievo {
 
 class Loudness {
@@ -19,8 +21,8 @@ class Loudness {
   [[nodiscard]] bool muted() const noexcept { return muted_; }
   // The factor on the samples: the cube of the share, which sounds even.
   [[nodiscard]] double gain() const noexcept;
-  // Writes the file if the volume has changed. What cannot be written is told in the log.
-  void keep();
+  // Has the file written if the volume has changed. What cannot be written is told in the log.
+  void keep(FileWriter& files);
 
  private:
   std::string path_, device_;

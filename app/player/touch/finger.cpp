@@ -12,9 +12,9 @@ const char* answerTo(HapticFault::Kind kind) noexcept {
     case HapticFault::Kind::DeviceError:
       return "the tick was left out";
     case HapticFault::Kind::FeedStale:
-      return "force faded";
+      return "force off until it catches up";
     case HapticFault::Kind::FeedRecovered:
-      return "force faded in again";
+      return "force on again";
   }
   return "";
 }

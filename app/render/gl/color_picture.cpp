@@ -9,37 +9,11 @@
 #include <string_view>
 #include <utility>
 
+#include "app/render/gl/color_shader.h"
 #include "app/render/gl/dma_import.h"
 
 namespace relievo {
 namespace {
-
-constexpr const char* kVertexShader = R"(
-uniform vec2 chroma_scale;
-out highp vec2 luma_at;
-out highp vec2 chroma_at;
-void main() {
-  luma_at = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0;  // one triangle that covers the whole target
-  chroma_at = luma_at * chroma_scale;
-  gl_Position = vec4(luma_at * 2.0 - 1.0, 0.0, 1.0);
-}
-)";
-
-constexpr const char* kFragmentShader = R"(
-precision mediump float;
-in highp vec2 luma_at;
-in highp vec2 chroma_at;
-uniform sampler2D plane0;
-uniform sampler2D plane1;
-uniform sampler2D plane2;
-uniform mat4x3 to_rgb;
-uniform vec3 bias;
-out vec4 color;
-void main() {
-  vec3 rgb = clamp(to_rgb * SAMPLE + bias, 0.0, 1.0);
-  color = vec4(rgb, 1.0);
-}
-)";
 
 // Column k: the contribution of component k to red, green and blue.
 glm::mat3 rgbFromComponents(const Frame& frame) noexcept {
@@ -121,11 +95,13 @@ Result<void> ColorPicture::setFrame(const Frame& frame) {
   if (std::max(frame.width, frame.height) > largest) {
     return fail(ErrorCode::Unsupported, "the picture is larger than this GL driver's textures; use a smaller video");
   }
-  if (arrangement_ != *arrangement) {
-    auto program = GlProgram::create(sampling(*arrangement), kVertexShader, kFragmentShader);
+  std::string defines = sampling(*arrangement) + sdrDefines(frame.transfer, frame.primaries);
+  if (arrangement_ != *arrangement || defines_ != defines) {
+    auto program = GlProgram::create(defines, kColorVertexShader, kColorFragmentShader);
     if (!program) return std::unexpected(program.error());
     program_ = std::move(*program);
     arrangement_ = *arrangement;
+    defines_ = std::move(defines);
   }
   width_ = frame.width;
   height_ = frame.height;
@@ -207,6 +183,8 @@ bool ColorPicture::drawsOnCpu() {
 void ColorPicture::makeSeen(glm::ivec2 samples) {
   seen_samples_ = samples;
   seen_.make(frame_, samples, components_to_rgb_, bias_);
+  sdr_.prepare(frame_.transfer, frame_.primaries);
+  sdr_.apply(seen_.rgba());
   seen_texture_.upload(4, {seen_.rgba().data(), std::ptrdiff_t{4} * seen_.width()}, seen_.width(), seen_.height());
   uploaded_bytes_ += seen_.rgba().size();
 }

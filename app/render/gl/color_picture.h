@@ -9,10 +9,12 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <string>
 
 #include "app/render/gl/gl_objects.h"
 #include "app/render/gl/gl_program.h"
 #include "app/render/gl/plane_texture.h"
+#include "app/render/gl/sdr_table.h"
 #include "app/render/gl/seen_color.h"
 #include "app/render/relief/stereo.h"
 #include "app/scene/display_volume.h"
@@ -35,7 +37,7 @@ class ColorPicture {
 
   // Takes the planes of a frame that passes `check`: 8 bits unchanged, from dma-bufs without a copy if the GL driver
   // allows it; more bits are cut to the top 8, which is what a display shows. Keeps a reference to the frame until the
-  // next one.
+  // next one. HDR (PQ, HLG) is shown as a usual screen can: asSdr of the 8 bits.
   [[nodiscard]] Result<void> setFrame(const Frame& frame);
   // Whether the planes of the last frame were used without a copy.
   [[nodiscard]] bool isImported() const noexcept { return imported_; }
@@ -63,6 +65,7 @@ class ColorPicture {
   void convert();
 
   std::optional<Arrangement> arrangement_;
+  std::string defines_;  // of the program
   int width_ = 0;
   int height_ = 0;
   glm::mat4x3 to_rgb_{0};  // from the four numbers that the shader samples
@@ -74,6 +77,7 @@ class ColorPicture {
   Converter converter_;
   std::optional<bool> draws_on_cpu_;
   SeenColor seen_;
+  SdrTable sdr_;
   PlaneTexture seen_texture_;
   glm::ivec2 seen_samples_{0};  // per pixel of the texture; 0 if it does not hold the last frame
   std::size_t uploaded_bytes_ = 0;

@@ -70,6 +70,7 @@ void ReliefSurface::replace(std::span<const TexturedVertex> vertices, std::span<
 
 void ReliefSurface::upload(const ReliefTriangles& triangles) {
   replace(triangles.vertices(), triangles.indices());
+  flat_ = false;
 }
 
 void ReliefSurface::uploadFlat(const DisplayVolume& volume, double z_mm) {
@@ -79,6 +80,7 @@ void ReliefSurface::uploadFlat(const DisplayVolume& volume, double z_mm) {
       {{-right, top, z, 0, 0}, {-right, -top, z, 0, 1}, {right, top, z, 1, 0}, {right, -top, z, 1, 1}}};
   constexpr std::array<std::uint32_t, 6> kTwoTriangles{0, 1, 2, 2, 1, 3};
   replace(corners, kTwoTriangles);
+  flat_ = true;
 }
 
 void ReliefSurface::draw(const glm::mat4& view_projection, GLuint picture_unit) const {

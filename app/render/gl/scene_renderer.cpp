@@ -13,9 +13,10 @@
 #include "app/render/gl/overlay.h"
 #include "app/render/gl/reduced_view.h"
 #include "app/render/gl/relief_surface.h"
+#include "app/render/gl/words_in_scene.h"
 #include "app/render/relief/detail_level.h"
-#include "app/render/relief/relief_triangles.h"
-#include "app/render/relief/words_place.h"
+#include "app/render/relief/made_relief.h"
+#include "app/render/relief/moving_average.h"
 #include "app/scene/height_field.h"
 #include "platform/clock.h"
 
@@ -24,34 +25,11 @@ namespace {
 
 constexpr GLuint kPictureUnit = 3;  // after the colour planes' units
 constexpr GLuint kRightUnit = 7;    // after the mixer's and the text's
-constexpr Duration::rep kSmoothing = 8;
-
-// The rectangle around all pictures, in shares of the view's width and height, from its middle; y up.
-std::optional<WordsBox> boxOf(const TextFrame& frame, const std::vector<TextPicture>& pictures) {
-  if (pictures.empty()) return std::nullopt;
-  int left = frame.width, top = frame.height, right = 0, bottom = 0;
-  for (const TextPicture& picture : pictures) {
-    left = std::min(left, picture.x), top = std::min(top, picture.y);
-    right = std::max(right, picture.x + picture.width), bottom = std::max(bottom, picture.y + picture.height);
-  }
-  const double width = frame.width, height = frame.height;
-  return WordsBox{left / width - 0.5, 0.5 - bottom / height, right / width - 0.5, 0.5 - top / height};
-}
-
-// Words that move, or lines that follow one another at the same place, move on in depth from where they were.
-bool continues(const std::optional<WordsBox>& last, const std::optional<WordsBox>& next) noexcept {
-  return last && next && last->left < next->right && next->left < last->right && last->bottom < next->top &&
-         next->bottom < last->top;
-}
 
 PixelArea reducedBy(double size, PixelArea area) noexcept {
   area.width = std::max(1, static_cast<int>(std::lround(area.width * size)));
   area.height = std::max(1, static_cast<int>(std::lround(area.height * size)));
   return area;
-}
-
-void smooth(Duration& smoothed, Duration took, bool first) noexcept {
-  smoothed = first ? took : smoothed + (took - smoothed) / kSmoothing;
 }
 
 }  // namespace
@@ -64,7 +42,6 @@ struct SceneRenderer::Impl {
   void makeTriangles(const EyeViews& eyes);
   [[nodiscard]] Result<void> drawView(const EyeView& view, GLuint framebuffer, const FingerMarks& marks);
   void drawScene(const EyeView& view, const FingerMarks& marks);
-  void placeWords(const EyeViews& eyes);
 
   StereoSettings stereo;
   double error_px = kErrorPx;
@@ -75,23 +52,17 @@ struct SceneRenderer::Impl {
   ColorPicture picture;
   ColorPicture right;  // of a film of two views
   bool has_right = false;
-  ReliefTriangles triangles;
-  ReliefSurface surface_of_triangles;
-  ReliefDetail made;  // the detail the triangles were made for
-  bool is_made = false;
-  bool is_flat = false;    // the surface is not that of the triangles
-  bool words_due = false;  // a picture has come since they were placed
+  MadeRelief relief;
+  ReliefSurface relief_surface;
   EyeMixer mixer;
   ReducedView reduced;
   FingerScene finger;
-  Overlay text, subtitles;
-  std::optional<WordsBox> words_box;  // in the screen plane, as shares of the view: see setSubtitles
-  WordsPlace words;
+  Overlay text;
+  WordsInScene words;
   DetailLevel level;
   MonotonicClock clock;
   bool has_picture = false;
-  std::uint64_t frames = 0, meshes = 0;
-  Duration drawing{0}, meshing{0};  // moving averages
+  MovingAverage drawing;
 };
 
 SceneRenderer::SceneRenderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -103,10 +74,10 @@ Result<void> SceneRenderer::Impl::createParts() {
     part = std::move(*created);
     return {};
   };
-  if (auto made_surface = take(surface_of_triangles, ReliefSurface::create()); !made_surface) return made_surface;
+  if (auto made_surface = take(relief_surface, ReliefSurface::create()); !made_surface) return made_surface;
   if (auto made_mixer = take(mixer, EyeMixer::create()); !made_mixer) return made_mixer;
   if (auto made_text = take(text, Overlay::create()); !made_text) return made_text;
-  if (auto made_words = take(subtitles, Overlay::create()); !made_words) return made_words;
+  if (auto made_words = take(words, WordsInScene::create()); !made_words) return made_words;
   if (auto made_finger = take(finger, FingerScene::create()); !made_finger) return made_finger;
   return glOutcome();
 }
@@ -134,16 +105,11 @@ void SceneRenderer::setText(const TextFrame& frame, const std::vector<TextPictur
 }
 
 void SceneRenderer::setSubtitles(const TextFrame& frame, const std::vector<TextPicture>& pictures) {
-  Impl& impl = *impl_;
-  impl.subtitles.set(frame, pictures);
-  const auto box = boxOf(frame, pictures);
-  if (!continues(impl.words_box, box)) impl.words.begin();
-  impl.words_box = box;
-  impl.words_due = true;
+  impl_->words.set(frame, pictures);
 }
 
 void SceneRenderer::cut() noexcept {
-  impl_->words.begin();
+  impl_->words.cut();
 }
 
 Result<void> SceneRenderer::setFrame(const Frame& color, const Frame& depth, const DepthCalibration& calibration,
@@ -162,8 +128,8 @@ Result<void> SceneRenderer::setFrame(const Frame& color, const Frame& depth, con
   }
   impl.depth = depth;
   impl.volume = volume;
-  impl.is_made = false;
-  impl.words_due = true;
+  impl.relief.forgetPicture();
+  impl.words.newPicture();
   impl.has_picture = true;
   return glOutcome();
 }
@@ -174,8 +140,7 @@ Result<void> SceneRenderer::draw(const DisplaySurface& surface, const FingerMark
   if (auto drawn = impl.drawViews(surface, fingers); !drawn) return drawn;
   glFinish();
   const Duration took = impl.clock.now() - start;
-  smooth(impl.drawing, took, impl.frames == 0);
-  ++impl.frames;
+  impl.drawing.add(took);
   if (!impl.depth.empty()) impl.level.drew(took);
   return glOutcome();
 }
@@ -195,18 +160,18 @@ std::vector<std::uint8_t> SceneRenderer::read(const DisplaySurface& surface) {
 
 RenderStatistics SceneRenderer::statistics() const noexcept {
   const Impl& impl = *impl_;
-  RenderStatistics result{.frames = impl.frames,
+  RenderStatistics result{.frames = impl.drawing.count(),
                           .imported = impl.picture.isImported(),
                           .size = impl.level.size(),
-                          .frame_ms = toSeconds(impl.drawing) * 1e3,
-                          .words_px = impl.words.disparity(),
-                          .behind_words_px = impl.words.behind(),
-                          .words_lifted = impl.words.lifted()};
+                          .frame_ms = toSeconds(impl.drawing.value()) * 1e3,
+                          .words_px = impl.words.place().disparity(),
+                          .behind_words_px = impl.words.place().behind(),
+                          .words_lifted = impl.words.place().lifted()};
   if (impl.depth.empty()) return result;
-  result.triangles = impl.triangles.indices().size() / 3;
-  result.cut_cells = impl.triangles.cutCells();
+  result.triangles = impl.relief.triangles().indices().size() / 3;
+  result.cut_cells = impl.relief.triangles().cutCells();
   result.error_px = impl.error_px * impl.level.factor() / impl.level.size();
-  result.mesh_ms = toSeconds(impl.meshing) * 1e3;
+  result.mesh_ms = toSeconds(impl.relief.making()) * 1e3;
   return result;
 }
 
@@ -218,10 +183,9 @@ Result<void> SceneRenderer::Impl::drawViews(const DisplaySurface& surface, const
     const PixelArea drawn = reducedBy(level.size(), eyes.views[0].area);
     picture.bind(kPictureUnit, drawn, volume);
     if (has_right) right.bind(kRightUnit, drawn, volume);
-    is_flat = is_flat || depth.empty();
-    if (depth.empty()) surface_of_triangles.uploadFlat(volume, stereo.screen_z_mm);
+    if (depth.empty()) relief_surface.uploadFlat(volume, stereo.screen_z_mm);
     else makeTriangles(eyes);
-    placeWords(eyes);
+    words.find(depth.empty() ? nullptr : &relief.triangles(), eyes, stereo);
   }
   const auto clear = [] {
     glDisable(GL_SCISSOR_TEST);
@@ -260,14 +224,7 @@ void SceneRenderer::Impl::makeTriangles(const EyeViews& eyes) {
       .most_across = ReliefDetail::cellsFor(pixels_per_mm * volume.width_mm, level.factor()),
       .error_mm = error_px * level.factor() * pixel_mm,
       .view = {.eye_mm = eye_mm, .distance_mm = stereo.viewing_distance_mm, .screen_z_mm = stereo.screen_z_mm}};
-  if (is_made && wanted == made) return;
-  const MonotonicTime start = clock.now();
-  const bool is_new = triangles.build(field, volume, wanted);
-  if (is_new || is_flat) surface_of_triangles.upload(triangles);
-  is_flat = false;
-  smooth(meshing, clock.now() - start, meshes++ == 0);
-  made = wanted;
-  is_made = true;
+  if (relief.make(field, volume, wanted) || relief_surface.isFlat()) relief_surface.upload(relief.triangles());
 }
 
 // The scene may be drawn smaller, the words never are.
@@ -288,9 +245,7 @@ Result<void> SceneRenderer::Impl::drawView(const EyeView& view, GLuint framebuff
     bindView();
     if (has_picture) drawScene(view, marks);
   }
-  if (has_picture) {
-    subtitles.draw(words.shiftPx(view.eye_x_mm, stereo) * subtitles.frame().width / view.area.width);
-  }
+  if (has_picture) words.draw(view, stereo);
   text.draw(0);
   return {};
 }
@@ -303,24 +258,11 @@ void SceneRenderer::Impl::drawScene(const EyeView& view, const FingerMarks& mark
   glCullFace(GL_BACK);
   glFrontFace(GL_CCW);
   const bool is_right = has_right && view.eye_x_mm > 0;
-  surface_of_triangles.draw(glm::mat4(view.view_projection), is_right ? kRightUnit : kPictureUnit);
+  relief_surface.draw(glm::mat4(view.view_projection), is_right ? kRightUnit : kPictureUnit);
   for (std::size_t i = 0; i < marks.size(); ++i) {
     if (marks[i]) finger.draw(view.view_projection, depth.empty() ? nullptr : &field, *marks[i], kFingerPaints[i]);
   }
   glDisable(GL_CULL_FACE);
-}
-
-// Once for each picture, so that a redrawn one shows the words where they were.
-void SceneRenderer::Impl::placeWords(const EyeViews& eyes) {
-  if (!std::exchange(words_due, false) || !words_box) return;
-  if (depth.empty()) return words.stayInScreen();
-  const double width_mm = eyes.views[0].area.width / eyes.pixels_per_mm;
-  const double height_mm = width_mm * stereo.stretch / eyes.aspect;
-  const WordsBox box{words_box->left * width_mm, words_box->bottom * height_mm, words_box->right * width_mm,
-                     words_box->top * height_mm};
-  words.follow({triangles.vertices().data(), triangles.vertices().size()},
-               {triangles.indices().data(), 3 * triangles.surfaceTriangles()}, box, stereo, eyes.views[0].area.width,
-               eyes.pixels_per_mm);
 }
 
 }  // namespace relievo

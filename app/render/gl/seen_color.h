@@ -29,7 +29,9 @@ class SeenColor {
 
   [[nodiscard]] int width() const noexcept { return width_; }
   [[nodiscard]] int height() const noexcept { return height_; }
-  [[nodiscard]] std::span<const std::uint8_t> rgba() const noexcept { return rgba_; }  // row by row from the top
+  // Row by row from the top.
+  [[nodiscard]] std::span<const std::uint8_t> rgba() const noexcept { return rgba_; }
+  [[nodiscard]] std::span<std::uint8_t> rgba() noexcept { return rgba_; }
 
  private:
   using Values = std::vector<std::int16_t>;  // codes x 64

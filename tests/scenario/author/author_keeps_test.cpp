@@ -58,8 +58,8 @@ std::vector<double> timesOf(const std::string& film, const std::string& stream) 
   return times;
 }
 
-// "0.700 1.400 Middle", in s from the first picture: FFmpeg 7 lets all begin later by what the sound needs before its
-// first sample.
+// Each chapter as "0.700 1.400 Middle": begin and end, in s from the first picture. Not from the file's time 0, because
+// FFmpeg 7 shifts all times by the sound's encoder delay.
 std::vector<std::string> chaptersOf(const std::string& film) {
   const double first_picture = timesOf(film, "v:0").at(0);
   std::vector<std::string> chapters;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A material per place through the author's containers, and from a map that is painted over a film's first picture.
+// A material per place through the author's containers, and from maps that are painted over pictures of a film.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -157,23 +157,26 @@ class PaintedFilm : public testing::Test {
     makeClip(folder_ / "depth.mkv", {depth});
     makeClip(folder_ / "map.png", {map});
   }
-  AuthorSummary author(const SourceOptions& source, const std::string& map, const std::string& out) {
+  AuthorSummary author(const SourceOptions& source, const std::vector<Painting>& paintings, const std::string& out) {
     const PairReader::Backends backends{[](const std::string&) { return makeFfmpegSource(); },
                                         [](const StreamInfo&) { return makeFfmpegDecoder(); }};
     const std::atomic<bool> stop{false};
     OutputOptions output;
     output.path = folder_ / out;
-    if (!map.empty()) output.material_map = folder_ / map;
+    for (const Painting& painting : paintings) {
+      output.paintings.push_back({.path = folder_ / painting.path, .from_s = painting.from_s});
+    }
     auto summary = authorFilm(source, backends, output, stop, [](std::uint64_t, std::optional<std::uint64_t>) {});
     EXPECT_TRUE(summary.has_value()) << (summary ? "" : summary.error().thing + ": " + summary.error().error.message);
     return summary.value_or(AuthorSummary{});
   }
-  AuthorSummary author(const std::string& map, const Material& words, const std::string& out = "film.mkv") {
+  AuthorSummary author(const std::string& map, const Material& words) { return author({{.path = map}}, words); }
+  AuthorSummary author(const std::vector<Painting>& paintings, const Material& words) {
     SourceOptions source;
     source.url = folder_ / "color.mkv";
     source.depth_url = folder_ / "depth.mkv";
     source.material = words;
-    return author(source, map, out);
+    return author(source, paintings, "film.mkv");
   }
   static MaterialMap::Shares at(const test::ReadFilm& film, std::size_t k, double c, double r) {
     constexpr DisplayVolume kBox = DisplayVolume::forPicture(kWide, kHigh);
@@ -187,7 +190,7 @@ class PaintedFilm : public testing::Test {
 TEST_F(PaintedFilm, AMapOverTheFirstPictureStaysOnItsThingUntilTheCut) {
   const AuthorSummary summary = author("map.png", {});
   EXPECT_EQ(summary.format.material_scale, "stiffness=1,friction=0.6/0.5,texture=0.2@0.8");
-  EXPECT_THAT(summary.notes, testing::Contains(testing::HasSubstr("painted material ends at the cut at 0.67 s")));
+  EXPECT_THAT(summary.notes, testing::Contains(testing::HasSubstr("nothing is painted after the cut at 0.667 s;")));
   EXPECT_THAT(toText("film", summary), testing::HasSubstr("material of each place: up to stiffness=1"));
   const test::ReadFilm film = readFilm(folder_ / "film.mkv");
   ASSERT_EQ(film.pairs.size(), static_cast<std::size_t>(kLong));
@@ -227,8 +230,7 @@ TEST_F(PaintedFilm, AFilmOfMapsIsTakenByItsTimes) {
   ClipTrack maps{.pix_fmt = "gray", .width = kWide, .height = kHigh, .fps_num = 10, .frames = 3};
   maps.sample = [](int, int, int, int k) { return 50U + 60U * static_cast<unsigned>(k); };
   makeClip(folder_ / "maps.mkv", {maps});
-  EXPECT_THAT(author("maps.mkv", {}).notes,
-              testing::Not(testing::Contains(testing::HasSubstr("painted material ends"))));
+  EXPECT_THAT(author("maps.mkv", {}).notes, testing::Not(testing::Contains(testing::HasSubstr("painted"))));
   const test::ReadFilm film = readFilm(folder_ / "film.mkv");
   for (std::size_t k = 0; k < film.pairs.size(); ++k) {
     EXPECT_NEAR(255 * at(film, k, 80, 60).stiffness, 50 + 60 * static_cast<double>(std::min<std::size_t>(k / 3, 2)),
@@ -237,11 +239,48 @@ TEST_F(PaintedFilm, AFilmOfMapsIsTakenByItsTimes) {
   }
 }
 
+TEST_F(PaintedFilm, EachShotHasAPaintingOfItsOwn) {
+  ClipTrack half{.codec = "png", .pix_fmt = "gray", .width = kWide, .height = kHigh, .frames = 1};
+  half.sample = [](int, int c, int, int) { return c < kWide / 2 ? 51U : 230U; };
+  makeClip(folder_ / "half.png", {half});
+  const AuthorSummary summary = author({{.path = "map.png"}, {.path = "half.png", .from_s = 0.666}}, {});
+  EXPECT_THAT(summary.notes, testing::Not(testing::Contains(testing::HasSubstr("painted"))));
+  EXPECT_EQ(summary.format.material_scale, "stiffness=1,friction=0.6/0.5,texture=0.2@0.8") << "one of them has colours";
+  const test::ReadFilm film = readFilm(folder_ / "film.mkv");
+  EXPECT_NEAR(at(film, kCut - 1, centreX(kCut - 1), centreY(kCut - 1)).stiffness, 0.8, 0.01);
+  EXPECT_NEAR(at(film, kCut - 1, 20, 100).stiffness, 128.0 / 255, 0.01);
+  for (const std::size_t k : {kCut, kLong - 1}) {
+    EXPECT_NEAR(at(film, k, 20, 60).stiffness, 0.2, 0.01) << k;
+    EXPECT_NEAR(at(film, k, 140, 60).stiffness, 230.0 / 255, 0.01) << k;
+    EXPECT_NEAR(at(film, k, 140, 60).friction, 0, 0.01) << "gray is stiffness alone";
+  }
+}
+
+TEST_F(PaintedFilm, APaintingMayBeginWithinAShot) {
+  constexpr int kFrom = 10;
+  ClipTrack later{.codec = "png", .pix_fmt = "rgba", .width = kWide, .height = kHigh, .frames = 1};
+  later.sample = [](int component, int c, int r, int) {
+    const std::uint32_t painted[] = {255, 0, 0, 255};
+    return onDisc(c, r, kFrom) ? painted[component] : 0U;
+  };
+  makeClip(folder_ / "later.png", {later});
+  const AuthorSummary summary = author({{"later.png", kFrom / 30.0}, {"map.png", 99}}, {});
+  EXPECT_THAT(summary.notes, testing::IsSupersetOf({testing::HasSubstr("after the cut at 0.667 s"),
+                                                    testing::HasSubstr("map.png: the film ends before 99 s")}));
+  const test::ReadFilm film = readFilm(folder_ / "film.mkv");
+  EXPECT_NEAR(at(film, kFrom - 1, centreX(kFrom - 1), centreY(kFrom - 1)).stiffness, 128.0 / 255, 0.01);
+  for (const int k : {kFrom, kCut - 1}) {
+    EXPECT_NEAR(at(film, static_cast<std::size_t>(k), centreX(k), centreY(k)).stiffness, 1, 0.01) << k;
+    EXPECT_NEAR(at(film, static_cast<std::size_t>(k), 20, 100).stiffness, 128.0 / 255, 0.01) << k;
+  }
+  EXPECT_NEAR(at(film, kCut, centreX(kCut), centreY(kCut)).stiffness, 128.0 / 255, 0.01);
+}
+
 TEST_F(PaintedFilm, AFilmThatIsMadeAgainKeepsItsTrack) {
   static_cast<void>(author("map.png", {}));
   SourceOptions source;
   source.url = folder_ / "film.mkv";
-  EXPECT_EQ(author(source, "", "again.mp4").format.material_scale, "stiffness=1,friction=0.6/0.5,texture=0.2@0.8");
+  EXPECT_EQ(author(source, {}, "again.mp4").format.material_scale, "stiffness=1,friction=0.6/0.5,texture=0.2@0.8");
   const test::ReadFilm again = readFilm(folder_ / "again.mp4");
   EXPECT_NEAR(at(again, 10, centreX(10), centreY(10)).stiffness, 0.8, 0.01);
   EXPECT_NEAR(at(again, 10, 20, 100).stiffness, 128.0 / 255, 0.01);
@@ -255,11 +294,11 @@ TEST_F(PaintedFilm, AFileThatIsNoPictureIsNamed) {
   source.depth_url = folder_ / "depth.mkv";
   OutputOptions output;
   output.path = folder_ / "film.mkv";
-  output.material_map = folder_ / "none.png";
+  output.paintings = {{.path = folder_ / "none.png"}};
   const std::atomic<bool> stop{false};
   const auto made = authorFilm(source, backends, output, stop, [](std::uint64_t, std::optional<std::uint64_t>) {});
   ASSERT_FALSE(made.has_value());
-  EXPECT_EQ(made.error().thing, output.material_map);
+  EXPECT_EQ(made.error().thing, output.paintings[0].path);
 }
 
 }  // namespace

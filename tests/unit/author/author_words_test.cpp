@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Placement of key frames, and the author's messages during and after its work.
+// Placement of key frames, the words for paintings, and the author's messages during and after its work.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <vector>
 
+#include "app/author/material/painting.h"
 #include "app/author/package/key_frames.h"
 #include "app/author/package/output.h"
 
@@ -115,6 +116,19 @@ TEST(AuthorSummary, TellsTracksCodesAndWhatWasDone) {
   EXPECT_THAT(text, HasSubstr("inverse law"));
   EXPECT_THAT(text, HasSubstr("near 500 mm, far 4000 mm"));
   EXPECT_THAT(text, HasSubstr("note: 16 bits rescaled to 8"));
+}
+
+TEST(Paintings, HaveTimesThatIncrease) {
+  EXPECT_EQ(parsePaintings("paint.png"), (std::vector<Painting>{{"paint.png", 0}}));
+  EXPECT_EQ(parsePaintings("0=a.png,12.5=b=2.png"), (std::vector<Painting>{{"a.png", 0}, {"b=2.png", 12.5}}));
+  for (const char* const wrong : {"0=a.png,b.png", "0=a.png,", "0=", "-1=a.png", "nan=a.png", "1s=a.png"}) {
+    ASSERT_FALSE(parsePaintings(wrong)) << wrong;
+    EXPECT_THAT(parsePaintings(wrong).error().message, HasSubstr("SECONDS=FILE")) << wrong;
+  }
+  for (const char* const wrong : {"2=a.png,1=b.png", "1=a.png,1=b.png"}) {
+    ASSERT_FALSE(parsePaintings(wrong)) << wrong;
+    EXPECT_THAT(parsePaintings(wrong).error().message, HasSubstr("increase")) << wrong;
+  }
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <limits>
@@ -178,6 +179,24 @@ TEST(Exr, ColoursWithAZBufferAreColourAndDepth) {
   // Light of 0.5 and 0.25 on a screen: IEC 61966-2-1.
   EXPECT_NEAR(test::sampleAt(film.pair.color, 0, 25, 3) / 65535.0, 0.7354, 0.002);
   EXPECT_NEAR(test::sampleAt(film.pair.color, 2, 25, 3) / 65535.0, 0.5371, 0.002);
+}
+
+TEST(Exr, ASeriesWithColoursAndAZBufferIsBothToo) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "render");
+  for (const char* name : {"render/0001.exr", "render/0002.exr"}) {
+    write(folder / name, exr({{"ViewLayer.Combined.B", Type::Half, flat},
+                              {"ViewLayer.Combined.G", Type::Half, flat},
+                              {"ViewLayer.Combined.R", Type::Half, gradient},
+                              {"ViewLayer.Depth.Z", Type::Float, depthWith(1e10F)}}));
+  }
+  for (const char* name : {"render", "render/%04d.exr"}) {
+    const test::OpenedFilm film = test::openFilm({.url = folder / name});
+    EXPECT_EQ(film.info.packing, Packing::Tracks);
+    expectDepth(film);
+    EXPECT_EQ(film.pair.color.model, ColorModel::Rgb);
+    EXPECT_NEAR(test::sampleAt(film.pair.color, 0, 25, 3) / 65535.0, 0.7354, 0.002);
+  }
 }
 
 TEST(Exr, ColoursAloneAreAPictureWithoutDepth) {

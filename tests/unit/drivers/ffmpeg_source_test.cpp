@@ -9,6 +9,7 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string_view>
@@ -299,6 +300,15 @@ TEST(FfmpegSource, RecordingsThatNothingReadsAreNamedWithTheCommandThatConvertsT
       {"a.h5", "\x89HDF\r\n\x1a\n"sv, {"HDF5", ".npy"}},
       {"a.bag", "#ROSBAG V2.0\n"sv, {"ROS bag", "RELIEVO_ROSBAG"}},
       {"a.oni", "NI10\1"sv, {"OpenNI", "RELIEVO_OPENNI"}},
+      {"a.klg", "\6\0\0\0"sv, {"scan", "RELIEVO_SCAN"}},
+      {"a.r3d", "PK\3\4"sv, {"Record3D", "EXR"}},
+      {"a.npz", "PK\3\4"sv, {"unzip", ".npy"}},
+      {"a.zip", "PK\3\4"sv, {"unpack", "folder"}},
+      {"a.svo2", "\x89MCAP0\r\n"sv, {"ZED", "ZED_SVO_Export"}},
+      {"a.ply", "ply\nformat"sv, {"cloud of points", "recording"}},
+      {"a.pcd", "# .PCD v0.7"sv, {"cloud of points", "recording"}},
+      {"a.mat", "MATLAB 5.0 MAT-file"sv, {"MATLAB", ".npy"}},
+      {"a.raw", "\1\2"sv, {"tell no size", "gray16le"}},
   };
   for (const auto& format : kFormats) {
     writeFile(folder / format.name, std::string(format.begin) + std::string(5000, '\x47'));
@@ -390,6 +400,26 @@ TEST(FfmpegSource, TellsHowMuchOfACutFileIsMissing) {
     // With reordering, a later picture's packet precedes those of earlier pictures.
     const double there = static_cast<double>(packets.size()) / 24;
     EXPECT_NEAR(toSeconds(source->missing()), 2 - there, 0.25) << name;
+  }
+}
+
+// 48 pictures are 2 s. Where a seek skips the subtitle, nothing that was read lasts to the end that the container
+// states.
+TEST(FfmpegSource, SubtitlesThatOutlastThePictureAreNoMissingPart) {
+  TemporaryFolder folder;
+  ClipTrack track = kH264;
+  track.gop = 12;
+  makeClip(folder / "a.mkv", {track});
+  std::ofstream(folder / "a.srt") << "1\n00:00:00,600 --> 00:00:09,000\nlong\n";
+  const std::string mux = "cd '" + folder / "" + "' && ffmpeg -v error -i a.mkv -i a.srt -c copy b.mkv";
+  if (std::system(mux.c_str()) != 0) GTEST_SKIP() << "no ffmpeg program here";  // NOLINT(bugprone-command-processor)
+  const auto source = makeFfmpegSource();
+  ASSERT_TRUE(source->open(folder / "b.mkv").has_value());
+  EXPECT_NEAR(toSeconds(source->duration()), 9, 0.01);
+  for (const double place : {0.0, 1.6, 0.0}) {
+    ASSERT_TRUE(source->seek(mediaTime(place)).has_value()) << place;
+    EXPECT_GT(readAll(*source).size(), 0U) << place;
+    EXPECT_EQ(source->missing(), Duration(0)) << place;
   }
 }
 

@@ -8,15 +8,16 @@
 #include <fstream>
 #include <iterator>
 
-#include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/openni/depth_codec.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/recording/oni_writer.h"
+#include "tests/support/film/recording/recorded_frames.h"
 
 namespace relievo {
 namespace {
 
 using namespace std::chrono_literals;
+using test::framesOf;
 using test::OniNode;
 using test::OniWriter;
 
@@ -141,31 +142,6 @@ StreamInfo streamOf(const MediaSource& source, const std::string& title) {
     if (stream.tags.at("TITLE") == title) return stream;
   }
   return {};
-}
-
-std::vector<Frame> framesOf(MediaSource& source, const StreamInfo& stream) {
-  std::vector<Frame> frames;
-  const auto decoder = makeFfmpegDecoder();
-  EXPECT_TRUE(decoder->open(stream));
-  const auto receive = [&] {
-    for (;;) {
-      auto frame = decoder->receive();
-      if (!frame || !*frame) return;
-      frames.push_back(std::move(**frame));
-    }
-  };
-  for (;;) {
-    const auto packet = source.read();
-    if (!packet || !*packet) break;
-    if ((*packet)->stream != stream.index) continue;
-    EXPECT_TRUE((*packet)->keyframe);
-    EXPECT_EQ(decoder->feed(**packet), Feed::Accepted);
-    receive();
-  }
-  EXPECT_TRUE(decoder->drain());
-  receive();
-  EXPECT_EQ(decoder->damaged(), 0u);
-  return frames;
 }
 
 std::uint32_t sample(const Frame& frame, std::uint32_t c, std::uint32_t r, int component = 0) {

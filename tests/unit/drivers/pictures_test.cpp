@@ -40,6 +40,12 @@ TEST(PictureNames, SecondsAreExact) {
   EXPECT_THAT(redwood.values, ElementsAre(33369000, 0));
 }
 
+TEST(PictureNames, ARecordingsNumberMayStandBeforeItsSeconds) {
+  const auto names = valuesOf({"41069021_305.377.png", "41069021_306.010.png"});  // ARKitScenes
+  EXPECT_EQ(names.kind, NameKind::Seconds);
+  EXPECT_THAT(names.values, ElementsAre(305377000000, 306010000000));
+}
+
 TEST(PictureNames, TheOnlyRunOfDigitsThatDiffersIsTheNumber) {
   const auto scene = valuesOf({"scene_1_10.png", "scene_1_9.png"});
   EXPECT_EQ(scene.kind, NameKind::Numbers);

@@ -7,6 +7,9 @@
 
 #include <fstream>
 
+#include "drivers/ffmpeg/ffmpeg.h"
+#include "hal/media/media_names.h"
+
 namespace relievo::drivers {
 namespace {
 
@@ -55,6 +58,16 @@ TEST_F(Registry, ADecoderMayBeNamed) {
 #endif
   EXPECT_EQ(decoderMaker("gstreamer:").error().error.code, ErrorCode::InvalidArgument);
   EXPECT_THAT(decoderMaker("vdpau").error().error.message, testing::HasSubstr(kDecoderNames));
+}
+
+// Hardware would decode the first of them alone.
+TEST_F(Registry, TwoViewsInTwoLayersAreLeftToFfmpeg) {
+  StreamInfo stream{.codec = "hevc"};
+  for (const char* layers : {"1", "2"}) {
+    stream.tags[kLayersTag] = layers;
+    const bool both = stream.tags[kLayersTag] == "2" && ffmpegDecodesBothViews();
+    EXPECT_STREQ(decoderMaker("v4l2").value()(stream)->capabilities().name, both ? "ffmpeg" : "v4l2-m2m");
+  }
 }
 
 TEST_F(Registry, AServiceIsAtAHostAndAPort) {

@@ -9,9 +9,9 @@
 #include <fstream>
 
 #include "app/media/registration/registration.h"
-#include "drivers/ffmpeg/ffmpeg.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/recording/bag_writer.h"
+#include "tests/support/film/recording/recorded_frames.h"
 
 namespace relievo {
 namespace {
@@ -19,6 +19,7 @@ namespace {
 using namespace std::chrono_literals;
 using test::BagImage;
 using test::BagWriter;
+using test::framesOf;
 
 constexpr std::uint32_t kCols = 24, kRows = 16;
 constexpr int kPictures = 12;
@@ -121,35 +122,8 @@ const StreamInfo* streamOf(const MediaSource& source, const std::string& title) 
   return nullptr;
 }
 
-std::vector<Frame> framesOf(MediaSource& source, const StreamInfo& stream) {
-  std::vector<Frame> frames;
-  const auto decoder = makeFfmpegDecoder();
-  EXPECT_TRUE(decoder->open(stream));
-  const auto receive = [&] {
-    for (;;) {
-      auto frame = decoder->receive();
-      if (!frame || !*frame) return;
-      frames.push_back(std::move(**frame));
-    }
-  };
-  for (;;) {
-    const auto packet = source.read();
-    if (!packet || !*packet) break;
-    if ((*packet)->stream != stream.index) continue;
-    EXPECT_TRUE((*packet)->keyframe);
-    EXPECT_EQ(decoder->feed(**packet), Feed::Accepted);
-    receive();
-  }
-  EXPECT_TRUE(decoder->drain());
-  receive();
-  EXPECT_EQ(decoder->damaged(), 0u);
-  return frames;
-}
-
-std::uint32_t sample(const Frame& frame, std::uint32_t c, std::uint32_t r, std::size_t component = 0) {
-  const Component& where = frame.components[component];
-  return codeAt(where, frame.planes[where.plane].data + r * frame.planes[where.plane].stride_bytes +
-                           where.offset_bytes + c * where.step_bytes);
+std::uint32_t sample(const Frame& frame, std::uint32_t c, std::uint32_t r, int component = 0) {
+  return test::sampleAt(frame, component, static_cast<int>(c), static_cast<int>(r));
 }
 
 void expectDepth(const std::vector<Frame>& frames, int first = 0, int count = kPictures) {

@@ -2,7 +2,11 @@
 // Commands of the shell in the place of an estimator: a picture of 2 x 2 has as many bytes as depth of 3 x 2.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <array>
 #include <csignal>
 #include <fstream>
 #include <string>
@@ -165,6 +169,31 @@ TEST(RawPicture, ReadsColourByItsMatrixAndRange) {
   ASSERT_THAT(picture.bytes, SizeIs(6));
   const std::array<int, 6> expected{254, 0, 0, 255, 255, 255};
   for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(picture.bytes[i], expected[i], 1) << i;
+}
+
+TEST(DepthCommand, ALongMessageStaysALine) {
+  const std::string told = Trial().failureOf("printf '%5000s\\n' x | tr ' ' y >&2; exit 1");
+  EXPECT_THAT(told, HasSubstr("(yyyy"));
+  EXPECT_LT(told.size(), 500U);
+}
+
+// The pipe is held by the command and by what it has started, until they have ended.
+TEST(ChildProcess, EndsWithThisProgramHoweverThatEnds) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::pipe(ends.data()), 0);  // NOLINT(android-cloexec-pipe): they are to have it
+  const pid_t program = ::fork();
+  if (program == 0) {
+    ::close(ends[0]);
+    const auto child = ChildProcess::start("trap '' TERM; (trap '' HUP TERM; sleep 40) & echo; sleep 40", {});
+    pollfd begun{child->output.get(), POLLIN, 0};
+    ::poll(&begun, 1, -1);
+    ::kill(::getpid(), SIGKILL);
+  }
+  ::close(ends[1]);
+  ::waitpid(program, nullptr, 0);
+  pollfd held{ends[0], POLLIN, 0};
+  EXPECT_EQ(::poll(&held, 1, 30'000), 1) << "a part of it is still there";
+  ::close(ends[0]);
 }
 
 }  // namespace

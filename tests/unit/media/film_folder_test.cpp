@@ -32,16 +32,41 @@ TEST_F(FilmFolder, ListsItsFilmsInNaturalOrderWithTheirDepth) {
 
 TEST_F(FilmFolder, AFilesDepthLiesBesideItByName) {
   files({"a.mp4", "a_depth.mkv", "a-depth.png", "color_output.webm", "depth_output.webm", "photo.jpg",
-         "photo.depth.png", "b.mp4", "b_depth.txt", "cat-image.jpg", "cat-depth.jpg"});
+         "photo.depth.png", "c_src.mp4", "c_vis.mp4", "color.mp4", "depth.npy", "b.mp4", "b_depth.txt", "cat-image.jpg",
+         "cat-depth.jpg"});
   std::filesystem::create_directory(folder_ / "c-depth.mp4");
   files({"c.mp4"});
   EXPECT_EQ(depthBeside(folder_ / "a.mp4"), folder_ / "a_depth.mkv");
   EXPECT_EQ(depthBeside(folder_ / "color_output.webm"), folder_ / "depth_output.webm");
+  EXPECT_EQ(depthBeside(folder_ / "c_src.mp4"), folder_ / "c_vis.mp4");
+  EXPECT_EQ(depthBeside(folder_ / "color.mp4"), folder_ / "depth.npy");
   EXPECT_EQ(depthBeside(folder_ / "photo.jpg"), folder_ / "photo.depth.png");
   EXPECT_EQ(depthBeside(folder_ / "cat-image.jpg"), folder_ / "cat-depth.jpg");
   for (const char* none : {"a_depth.mkv", "b.mp4", "c.mp4", "absent.mp4", "depth_output.webm"}) {
     EXPECT_EQ(depthBeside(folder_ / none), "") << none;
   }
+}
+
+TEST_F(FilmFolder, AFilmOverAFolderOfDepthPicturesIsOneRecording) {
+  for (const char* name : {"depth", "confidence"}) {
+    std::filesystem::create_directory(folder_ / name);
+    files({std::string(name) + "/000000.png"});
+  }
+  files({"rgb.mp4", "odometry.csv"});
+  const std::string place = std::filesystem::path(folder_ / "x").parent_path();
+  const auto found = filmOverDepth(place);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->film, folder_ / "rgb.mp4");
+  EXPECT_EQ(found->depth, folder_ / "depth");
+  EXPECT_EQ(depthBeside(folder_ / "rgb.mp4"), folder_ / "depth");
+  EXPECT_EQ(filmsIn(place), std::nullopt);
+  files({"preview.mp4"});
+  EXPECT_TRUE(filmOverDepth(place)) << "one of the films is called rgb";
+  EXPECT_EQ(depthBeside(folder_ / "preview.mp4"), "");
+  std::filesystem::create_directory(folder_ / "rgb");
+  EXPECT_TRUE(filmOverDepth(place)) << "an empty folder";
+  files({"rgb/000000.jpg"});
+  EXPECT_FALSE(filmOverDepth(place)) << "the colour is a folder too";
 }
 
 TEST(FilmNames, SayDepthByTheWord) {

@@ -93,6 +93,14 @@ TEST_F(FilmWords, AFileThatIsNoneIsLeftOut) {
   EXPECT_THAT(wordsBeside(), IsEmpty());
 }
 
+TEST_F(FilmWords, ASubtitleFileIsNoFilmAndSaysWhatIs) {
+  write("alone.srt", "1\n00:00:00,400 --> 00:00:00,800\nOne\n");
+  PairReader reader(backends());
+  const auto opened = reader.open({.url = folder_ / "alone.srt"});
+  ASSERT_FALSE(opened);
+  EXPECT_THAT(opened.error().message, HasSubstr("subtitles; give the film"));
+}
+
 TEST_F(FilmWords, TracksChaptersAndLanguagesInTheFilm) {
   write("a.srt", "1\n00:00:00,400 --> 00:00:00,800\nOne\n\n2\n00:00:03,000 --> 00:00:03,500\nTwo\n");
   write("b.srt", "1\n00:00:00,600 --> 00:00:01,000\nUn\n\n2\n00:00:03,200 --> 00:00:03,600\nDeux\n");
@@ -117,10 +125,14 @@ TEST_F(FilmWords, TracksChaptersAndLanguagesInTheFilm) {
   EXPECT_EQ(info.chapters[1].begin, fromSeconds(2));
   EXPECT_THAT(readAll(reader), ElementsAre("0.6-1 Un", "3.2-3.6 Deux"));
 
-  // The other track, from a place in the film.
+  // The viewer chooses the other track in the middle of the film.
   reader.chooseTracks(info.sound, 0);
   ASSERT_TRUE(reader.seek(mediaTime(1)));
   EXPECT_THAT(readAll(reader), testing::Contains("3-3.5 Two"));
+
+  // Switched on while a line runs: what was read before the switch comes at once, of that track alone.
+  reader.chooseTracks(info.sound, 1);
+  EXPECT_THAT(takeWords(reader), testing::IsSupersetOf({"0.6-1 Un", "3.2-3.6 Deux"}));
   reader.chooseTracks(info.sound, std::nullopt);
   ASSERT_TRUE(reader.seek(mediaTime(0)));
   EXPECT_THAT(readAll(reader), IsEmpty());

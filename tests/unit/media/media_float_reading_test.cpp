@@ -72,6 +72,14 @@ TEST(FloatReading, MetresMillimetresAndDisparitiesComeOutAlike) {
   EXPECT_NEAR(mm.near_mm, metres.near_mm, 1);
 }
 
+TEST(FloatReading, APfmWithoutANameOfDepthMayBeMetres) {
+  const TemporaryFolder folder;
+  writePfm(folder / "img_0_1.pfm", [](double m) { return m; });  // AirSim
+  const test::OpenedFilm film = test::openFilm({.url = folder / "img_0_1.pfm"});
+  expectDistances(film);
+  EXPECT_NEAR(film.distanceAt(30, 20), 1000 * metresAt(30, 20), 4);
+}
+
 TEST(FloatReading, TheCommandLineSpeaksOfTheFilesNumbers) {
   const TemporaryFolder folder;
   writePfm(folder / "0006.pfm", [](double m) { return 10 * m; });  // decimetres

@@ -85,6 +85,93 @@ TEST(PackedCodes, AloneTheyAreFeltAsWell) {
   EXPECT_EQ(pair.color.components[0].bits, pair.color.components[1].bits) << "shown as gray";
 }
 
+// CARLA: (R + 256 G + 65536 B) / (2^24 - 1) km; the scene at ten times its distance, white for its holes.
+TEST(PackedCodes, CarlasThreeBytesAreAKilometre) {
+  TemporaryFolder folder;
+  makeClip(folder / "a.png", {pictures([](int k, int c, int r) {
+             const double mm = 10 * distanceMm(c, r);
+             const auto code = mm == 0 ? 0xffffffu : static_cast<std::uint32_t>(mm / 1e6 * 0xffffff);
+             return code >> (8 * k) & 0xff;
+           })});
+  PairReader reader(kReal);
+  const FramePair pair = firstPair(reader, {.url = folder / "a.png"});
+  ASSERT_FALSE(pair.depth.empty());
+  const DepthCalibration& calibration = reader.info().calibration.calibration;
+  const HeightField field = HeightField::make(pair.depth, calibration, kVolume).value();
+  for (int r = 0; r < test::kSceneRows; ++r) {
+    for (int c = 0; c < test::kSceneCols; ++c) {
+      const double mm = 10 * distanceMm(c, r), height = field.heightMm(c, r);
+      ASSERT_EQ(std::isnan(height), mm == 0) << c << ", " << r;
+      if (mm == 0) continue;
+      const double read = calibration.far_mm - height / kVolume.depth_mm * (calibration.far_mm - calibration.near_mm);
+      ASSERT_NEAR(read, mm, 16) << "a code is 15.26 mm, at " << c << ", " << r;
+    }
+  }
+}
+
+// Android's DEPTH16: the confidence stands in the upper three bits.
+TEST(PackedCodes, ConfidenceAboveTheDistanceIsLeftOut) {
+  for (const bool with : {true, false}) {
+    TemporaryFolder folder;
+    ClipTrack track{
+        .codec = "png", .pix_fmt = "gray16be", .width = test::kSceneCols, .height = test::kSceneRows, .frames = 1};
+    track.sample = [with](int, int c, int r, int) {
+      const auto code = static_cast<std::uint32_t>(std::lround(distanceMm(c, r)));
+      const auto confidence = static_cast<std::uint32_t>((c * 5 + r * 3) % 7 + 1);
+      return code == 0 || !with ? code : code | confidence << 13;
+    };
+    makeClip(folder / "a.png", {track});
+    PairReader reader(kReal);
+    const FramePair pair = firstPair(reader, {.url = folder / "a.png"});
+    ASSERT_FALSE(pair.depth.empty());
+    expectDistances(pair.depth, reader.info().calibration.calibration);
+  }
+}
+
+// Colour left, of many shades; the depth right of `seam` white columns.
+ClipTrack besideColor(int seam, std::function<std::uint32_t(int, int, int)> depth) {
+  constexpr int kDepthBegins = test::kSceneCols;
+  ClipTrack track = pictures([=](int k, int c, int r) -> std::uint32_t {
+    if (c < kDepthBegins) return static_cast<std::uint32_t>((40 * k + 5 * c + 3 * r + (c * r) % 23) % 256);
+    return c < kDepthBegins + seam ? 255 : depth(k, c - kDepthBegins - seam, r);
+  });
+  track.width = 2 * test::kSceneCols + seam;
+  return track;
+}
+
+TEST(PackedCodes, BesideTheirColourTheyAreFeltAsWell) {
+  for (const bool with_blue : {false, true}) {
+    TemporaryFolder folder;
+    const auto code = [](int c, int r) { return static_cast<std::uint32_t>(std::lround(10 * distanceMm(c, r))); };
+    makeClip(folder / "a.png", {besideColor(0, [&](int k, int c, int r) -> std::uint32_t {
+               if (k == 2) return with_blue ? static_cast<std::uint32_t>(c * 37 + r * 11) % 256 : 0;
+               return k == 0 ? code(c, r) >> 8 : code(c, r) & 0xff;
+             })});
+    PairReader reader(kReal);
+    const FramePair pair = firstPair(reader, {.url = folder / "a.png"});
+    EXPECT_EQ(reader.info().packing, Packing::SideBySide);
+    ASSERT_EQ(pair.depth.width, test::kSceneCols);
+    for (int r = 0; r < test::kSceneRows; ++r) {
+      for (int c = 0; c < test::kSceneCols; ++c) ASSERT_EQ(test::sampleAt(pair.depth, 0, c, r), code(c, r));
+    }
+  }
+}
+
+// Depth Anything's films: 50 white columns between the picture and its depth.
+TEST(PackedCodes, AWhiteMarginBetweenTheHalvesBelongsToNeither) {
+  TemporaryFolder folder;
+  const auto shade = [](int c, int r) { return static_cast<std::uint32_t>(20 + 2 * c % 200 + r % 30); };
+  makeClip(folder / "a.png", {besideColor(50, [&](int, int c, int r) { return shade(c, r); })});
+  PairReader reader(kReal);
+  const FramePair pair = firstPair(reader, {.url = folder / "a.png"});
+  EXPECT_EQ(reader.info().packing, Packing::SideBySide);
+  ASSERT_EQ(pair.depth.width, test::kSceneCols);
+  EXPECT_EQ(pair.color.width, test::kSceneCols);
+  for (int r = 0; r < test::kSceneRows; ++r) {
+    for (int c = 0; c < test::kSceneCols; ++c) ASSERT_EQ(test::sampleAt(pair.depth, 0, c, r), shade(c, r)) << c;
+  }
+}
+
 // Red to yellow to green is one byte at its top while the other runs; blue is 0 in all of it.
 TEST(PackedCodes, HuesAndPhotosAreNone) {
   const auto orderOf = [](const ClipTrack& track) {

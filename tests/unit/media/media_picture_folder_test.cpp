@@ -61,6 +61,56 @@ TEST_F(PictureFolder, SecondsInNamesAreTheFilmsTimesAndPairIt) {
   EXPECT_EQ(story({.url = folder_ / "t"}), "0 1:1001, 35.91 2:1002, 67.907 3:1003");
 }
 
+// ARKitScenes, Polycam and NICE-SLAM's Replica, Virtual KITTI.
+TEST_F(PictureFolder, OtherNamesAndDeeperFoldersAreFound) {
+  picture("a/lowres_wide/41069021_305.377.ppm", 1), picture("a/lowres_wide/41069021_305.477.ppm", 2);
+  picture("a/lowres_depth/41069021_305.377.pgm", 1001), picture("a/lowres_depth/41069021_305.477.pgm", 1002);
+  EXPECT_EQ(story({.url = folder_ / "a"}), "0 1:1001, 100 2:1002");
+  picture("b/keyframes/images/7.ppm", 3), picture("b/keyframes/depth/7.pgm", 1003), picture("b/mesh/1/2.ppm", 9);
+  EXPECT_EQ(story({.url = folder_ / "b"}), "0 3:1003");
+  picture("c/rgb/Camera_0/rgb_00000.ppm", 4), picture("c/depth/Camera_0/depth_00000.pgm", 1004);
+  picture("c/rgb/Camera_1/rgb_00000.ppm", 9), picture("c/depth/Camera_1/depth_00000.pgm", 9);
+  EXPECT_EQ(story({.url = folder_ / "c"}), "0 4:1004");
+}
+
+TEST_F(PictureFolder, NamesAndCameraFilesGiveTheUnit) {
+  picture("m/undistorted_color_images/a_i0_0.ppm", 1), picture("m/undistorted_depth_images/a_d0_0.pgm", 8000);
+  picture("v/rgb/Camera_0/rgb_00000.ppm", 1), picture("v/depth/Camera_0/depth_00000.pgm", 2000);
+  picture("r/results/frame000000.ppm", 1), picture("r/results/depth000000.pgm", 13107);
+  std::ofstream(folder_ / "r/cam_params.json") << R"({"camera": {"w": 1200, "h": 680, "scale": 6553.5}})";
+  const auto unit = [&](const char* name) {
+    PairReader reader(kReal);
+    EXPECT_TRUE(reader.open({.url = folder_ / name}));
+    return reader.info().calibration.calibration.unit_mm.value_or(0);
+  };
+  EXPECT_EQ(unit("m"), 0.25);
+  EXPECT_EQ(unit("v"), 10);
+  EXPECT_NEAR(unit("r"), 1000 / 6553.5, 1e-6);
+}
+
+// Stray Scanner: times that are no multiples of a period.
+TEST_F(PictureFolder, APosesTableBesideTheDepthHasItsTimes) {
+  for (const int k : {0, 1, 2}) picture("s/depth/00000" + std::to_string(k) + ".pgm", 1000 + k);
+  const auto write = [&](const char* last) {
+    std::ofstream(folder_ / "s/odometry.csv")
+        << "timestamp, frame, x, y, z, qx, qy, qz, qw\n5363.400000, 000000, 0, 0, 0, 0, 0, 0, 1\n"
+           "5363.416700, 000001, 0, 0, 0, 0, 0, 0, 1\n"
+        << last;
+  };
+  const auto times = [&] {
+    PairReader reader(kReal);
+    std::string text;
+    EXPECT_TRUE(reader.open({.url = folder_ / "s/depth"}));
+    for (auto pair = reader.next(); pair && *pair; pair = reader.next())
+      text += std::to_string((*pair)->color.pts.time_since_epoch() / 1us) + " ";
+    return text;
+  };
+  write("5363.500001, 000002, 0, 0, 0, 0, 0, 0, 1\n");
+  EXPECT_EQ(times(), "0 16700 100001 ");
+  write("5363.500001, 000007, 0, 0, 0, 0, 0, 0, 1\n");
+  EXPECT_EQ(times(), "0 40000 80000 ") << "a picture without a line";
+}
+
 TEST_F(PictureFolder, AGapInTheNumbersIsTimeAndSeeksFindEveryPicture) {
   for (const int k : {5, 6, 9, 10})
     picture("frame-" + std::to_string(k) + ".color.ppm", k),

@@ -14,6 +14,8 @@ TEST(NearWords, CountTheLettersToChange) {
   EXPECT_EQ(editDistance("kitten", "sitting"), 3U);
   EXPECT_EQ(editDistance("", "abc"), 3U);
   EXPECT_EQ(editDistance("same", "same"), 0U);
+  EXPECT_EQ(editDistance("paly", "play"), 1U) << "two neighbours are swapped";
+  EXPECT_EQ(editDistance("abcd", "badc"), 2U);
 }
 
 TEST(NearWords, FindTheNearestWhateverItsCaseAndNoneThatIsFar) {
@@ -22,6 +24,7 @@ TEST(NearWords, FindTheNearestWhateverItsCaseAndNoneThatIsFar) {
   EXPECT_EQ(nearestWord("--repot", words), "--report");
   EXPECT_EQ(nearestWord("--window", words), "");
   EXPECT_EQ(nearestWord("x", {}), "");
+  EXPECT_EQ(nearestWord("paly", std::vector<std::string>{"probe", "play"}), "play");
   EXPECT_EQ(inSmallLetters("SBS:Full-1\xc3\x84"), "sbs:full-1\xc3\x84");
 }
 

@@ -20,7 +20,7 @@ class FilmScreenTest : public testing::Test {
     profile_.refresh_period = Duration(0);
     profile_.shown = [this] { ++presented_; };
     display_ = makeMockDisplay(profile_, clock_, cable_);
-    screen_.emplace(*display_, config_, stereo_, true, clock_, journal_);
+    screen_.emplace(*display_, config_, stereo_, true, clock_, journal_, files_);
     ASSERT_TRUE(screen_->open());
   }
   bool show() { return screen_->show({}, {}, clock_.now()).value_or(false); }
@@ -45,6 +45,7 @@ class FilmScreenTest : public testing::Test {
 
   ManualClock clock_;
   Journal journal_{clock_};
+  FileWriter files_{FileWriter::Where::AtOnce};
   MockDisplayProfile profile_;
   DisplayConfig config_;
   StereoSettings stereo_;
@@ -81,7 +82,7 @@ TEST_F(FilmScreenTest, ThePictureLiesAsTheSignalSaysThatTheTelevisionTakes) {
     const auto television = makeMockDisplay({.refresh_period = Duration(0), .stereo = wish.taken}, clock_);
     Journal journal(clock_);
     FilmScreen screen(*television, {.stereo = wish.wished, .other_stereo = true}, {.layout = wish.layout}, true, clock_,
-                      journal);
+                      journal, files_);
     ASSERT_TRUE(screen.open());
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(screen.show({}, {}, clock_.now()));
     PlayReport report;
@@ -135,6 +136,26 @@ TEST_F(FilmScreenTest, CountsWhatWasSeenAndWhatWasNot) {
   screen_->skip(3);
   EXPECT_EQ(report().frames_shown, 2U);
   EXPECT_EQ(report().frames_dropped, 4U);
+}
+
+// The display is 1280 x 720: the bar is 1200 long and begins at 40; its middle is 664 down.
+TEST_F(FilmScreenTest, APressOnTheBarHoldsItUntilTheButtonIsReleased) {
+  stereo_ = {.layout = StereoLayout::Mono};
+  make();
+  EXPECT_TRUE(show());
+  screen_->wake(clock_.now());
+  screen_->write({.duration_s = 100}, MonotonicTime::max(), clock_.now());
+  constexpr double kOnIt = 664.0 / 720, kAbove = 0.4;
+  const auto at = [&](double x, double down, bool pressed) {
+    return screen_->barAt({.across = x / 1280, .down = down, .pressed = pressed}, clock_.now());
+  };
+  EXPECT_EQ(at(340, kAbove, true), std::nullopt) << "a press on the picture";
+  EXPECT_EQ(at(340, kAbove, false), std::nullopt);
+  EXPECT_NEAR(at(340, kOnIt, false).value_or(-1), 0.25, 1e-9);
+  EXPECT_NEAR(at(340, kOnIt, true).value_or(-1), 0.25, 1e-9);
+  EXPECT_NEAR(at(940, kAbove, true).value_or(-1), 0.75, 1e-9) << "dragged, above it";
+  EXPECT_EQ(at(940, kAbove, false), std::nullopt);
+  EXPECT_EQ(at(940, kAbove, true), std::nullopt) << "another press";
 }
 
 TEST_F(FilmScreenTest, WithoutAScreenItGoesOnAndSaysSo) {

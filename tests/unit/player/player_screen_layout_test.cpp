@@ -82,8 +82,8 @@ TEST_P(ScreenLayout, AFilmsWordsDoNotMeet) {
   for (const char* title : {"film.mkv", test::kLongName, test::kJapaneseName, test::kArabicName}) {
     ScreenContent content;
     content.bar = ScreenBar{.title = title,
-                            .times = "1:01:23 / 1:02:05   paused   1/8x   film 12 of 345   again and again",
-                            .status = "3D: mono, flat: the film has no depth   touch: Novint Falcon, nothing to feel",
+                            .times = "1:01:23 / 1:02:05   paused   1/8x   film 12 of 345   repeat",
+                            .status = "3D: mono   no depth in this film, nothing to feel",
                             .has_length = true,
                             .pointed = 0.999,
                             .pointed_time = "1:02:00"};

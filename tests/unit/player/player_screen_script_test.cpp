@@ -49,6 +49,16 @@ TEST(ScreenScript, WordsHaveNoMeaningOfTheirOwn) {
   EXPECT_THAT(lines[0], HasSubstr("}\\{\\\u2060fs200}"));
 }
 
+TEST(ScreenScript, TheTimesStayWholeInANarrowWindow) {
+  ScreenContent content;
+  content.bar = ScreenBar{.times = "0:07 / 0:12   paused   repeat"};
+  const auto isShown = [&](double aspect, const std::string& words) {
+    return testing::Value(screenLines(content, aspect), testing::Contains(testing::EndsWith(words)));
+  };
+  EXPECT_TRUE(isShown(16.0 / 9, "}0:07 / 0:12   paused   repeat"));
+  EXPECT_TRUE(isShown(0.4, "}0:07 / 0:12")) << "16 letters";
+}
+
 TEST(ScreenScript, TheBarIsWhereItIsDrawn) {
   constexpr double kAspect = 16.0 / 9, kDown = 664.0 / 720;
   EXPECT_NEAR(*barShareAt(0.5, kDown, kAspect), 0.5, 1e-9);

@@ -50,9 +50,7 @@ TEST(ScreenText, TellsBothFingers) {
   EXPECT_FALSE(content.fingers[0]);
   EXPECT_EQ(content.fingers[1], (FingerBeside{0.6, 0}));
   facts.has_depth = false;
-  EXPECT_EQ(at(text, facts).bar->status.substr(3),
-            " top and bottom, flat: the film has no depth   touch: Novint Falcon and "
-            "Xbox pad, nothing to feel");
+  EXPECT_EQ(at(text, facts).bar->status.substr(3), " top and bottom   no depth in this film, nothing to feel");
 }
 
 TEST(ScreenText, TellsSpeedAndPlaceInTheList) {
@@ -66,7 +64,10 @@ TEST(ScreenText, TellsSpeedAndPlaceInTheList) {
   facts = playing();
   facts.rate = 0.125;
   facts.loop = true;
-  EXPECT_EQ(at(text, facts).bar->times, "1:23 / 1:02:05   1/8x   again and again");
+  EXPECT_EQ(at(text, facts).bar->times, "1:23 / 1:02:05   1/8x   repeat");
+  facts = playing();
+  facts.position_s = facts.duration_s + 0.9;
+  EXPECT_EQ(at(text, facts).bar->times, "1:02:05 / 1:02:05") << "the last picture of a loop";
 }
 
 TEST(ScreenText, FallsSilentFourSecondsAfterTheLastKey) {
@@ -108,7 +109,7 @@ TEST(ScreenText, TellsWhyThereIsNothingToSeeOrFeel) {
   facts.stereo = {.layout = StereoLayout::Mono};
   const auto bar = at(text, facts).bar;
   EXPECT_EQ(bar->times, "1:23   buffering");
-  EXPECT_EQ(bar->status, "3D: off, flat: the film has no depth   touch: Novint Falcon, nothing to feel");
+  EXPECT_EQ(bar->status, "3D: off   no depth in this film, nothing to feel");
   EXPECT_FALSE(bar->has_length);
   EXPECT_FALSE(at(text, facts).forces_n[0]) << "nothing is felt";
   facts.fingers[0].haptic.clear();

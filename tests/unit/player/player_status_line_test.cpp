@@ -20,9 +20,14 @@ TEST(StatusText, TellsTimeSpeedDropsForceAndLateTicks) {
   EXPECT_EQ(statusText(facts, report, {1.254}, 100),
             "playing 0:12 / 1:30 (14 %)  0.5x  film 2 of 4  dropped 3  force 1.25 N  late ticks 2");
   EXPECT_EQ(statusText(facts, report, {1.254}, 20), "playing 0:12 / 1:30") << "it does not wrap";
+  EXPECT_EQ(statusText(facts, report, {1.254}, 60), "playing 0:12 / 1:30 (14 %)  0.5x  film 2 of 4  dropped 3")
+      << "no part is cut";
   report.second_finger.emplace().haptic.overruns = 1;
   EXPECT_EQ(statusText(facts, report, {1.254, 0.5}, 120),
             "playing 0:12 / 1:30 (14 %)  0.5x  film 2 of 4  dropped 3  force 1.25 N, 0.50 N  late ticks 2, 1");
+  facts.position_s = 90.9;
+  EXPECT_EQ(statusText(facts, report, {}, 30), "playing 1:30 / 1:30 (100 %)") << "the last picture of a loop";
+  facts.position_s = 12.7;
   facts.duration_s = 0;
   facts.state = PlayerState::Paused;
   EXPECT_EQ(statusText(facts, report, {}, 12), "paused 0:12");

@@ -27,7 +27,11 @@ inline constexpr CeaTiming kCeaTimings[] = {
     {16, 1920, 1080, 2200, 1125, 148'500}, {18, 720, 576, 864, 625, 27'000},
     {19, 1280, 720, 1980, 750, 74'250},    {20, 1920, 1080, 2640, 1125, 74'250, true},
     {31, 1920, 1080, 2640, 1125, 148'500}, {32, 1920, 1080, 2750, 1125, 74'250},
-    {34, 1920, 1080, 2200, 1125, 74'250},  {95, 3840, 2160, 4400, 2250, 297'000},
+    {33, 1920, 1080, 2640, 1125, 74'250},  {34, 1920, 1080, 2200, 1125, 74'250},
+    {60, 1280, 720, 3300, 750, 59'400},    {62, 1280, 720, 3300, 750, 74'250},
+    {93, 3840, 2160, 5500, 2250, 297'000}, {94, 3840, 2160, 5280, 2250, 297'000},
+    {95, 3840, 2160, 4400, 2250, 297'000}, {96, 3840, 2160, 5280, 2250, 594'000},
+    {97, 3840, 2160, 4400, 2250, 594'000},
 };
 
 // At 60, 30 and 24 Hz the kernel adds the rate divided by 1.001.
@@ -73,7 +77,7 @@ class TelevisionModes {
  private:
   void add(int vic, std::uint32_t flag, bool preferred) {
     modes_.push_back(ceaMode(vic, flag, false, preferred));
-    if (modes_.back().vrefresh != 50 && vic > 3) modes_.push_back(ceaMode(vic, flag, true));
+    if (modes_.back().vrefresh % 25 != 0 && vic > 3) modes_.push_back(ceaMode(vic, flag, true));
   }
   std::vector<drmModeModeInfo> modes_;
 };

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "tests/support/film/clip_maker.h"
@@ -34,19 +35,29 @@ TEST(Loudness, MutedIsSilentAndKeepsTheVolume) {
 TEST(Loudness, EachDeviceHasItsOwn) {
   const test::TemporaryFolder folder;
   const std::string path = folder / "state/volume.json";
+  FileWriter files(FileWriter::Where::AtOnce);
   {
     Loudness loudness(path, "alsa:hdmi");
     loudness.set(35);
-    loudness.keep();
+    loudness.keep(files);
   }
   {
     Loudness other(path, "alsa");
     EXPECT_EQ(other.percent(), 100);
     other.set(70);
-    other.keep();
+    other.keep(files);
   }
   EXPECT_EQ(Loudness(path, "alsa:hdmi").percent(), 35);
   EXPECT_EQ(Loudness(path, "alsa").percent(), 70);
+}
+
+TEST(Loudness, AnOutputMayHaveAnyName) {
+  const test::TemporaryFolder folder;
+  FileWriter files(FileWriter::Where::AtOnce);
+  Loudness loudness(folder / "volume.json", "alsa:\xff");  // no UTF-8
+  loudness.set(35);
+  loudness.keep(files);
+  EXPECT_TRUE(std::filesystem::exists(folder / "volume.json"));
 }
 
 TEST(Loudness, ABrokenFileCountsAsEmpty) {

@@ -14,6 +14,11 @@ using Way = Programme::Way;
 
 constexpr MonotonicTime kStart{};
 
+FileWriter& writer() {
+  static FileWriter at_once(FileWriter::Where::AtOnce);
+  return at_once;
+}
+
 std::vector<PlaylistEntry> films(const std::vector<std::string>& urls) {
   std::vector<PlaylistEntry> list;
   for (const std::string& url : urls) list.push_back({.url = url, .depth_url = "", .title = ""});
@@ -27,7 +32,7 @@ void begin(Programme& programme, const std::vector<std::string>& urls) {
 }
 
 TEST(Programme, IsOneNamelessFilmUntilOneIsAskedFor) {
-  Programme programme("", false);
+  Programme programme("", writer(), false);
   EXPECT_FALSE(programme.asked());
   EXPECT_EQ(programme.film().url, "");
   programme.begin(films({"a"}));
@@ -37,7 +42,7 @@ TEST(Programme, IsOneNamelessFilmUntilOneIsAskedFor) {
 }
 
 TEST(Programme, AListTakesThePlaceOfItsEntry) {
-  Programme programme("", false);
+  Programme programme("", writer(), false);
   begin(programme, {"a", "inner", "d"});
   programme.choose(1, Way::Forward);
   EXPECT_EQ(programme.spread(films({"b", "c"})), 1U);
@@ -50,7 +55,7 @@ TEST(Programme, AListTakesThePlaceOfItsEntry) {
 }
 
 TEST(Programme, AListThatNamesItselfEnds) {
-  Programme programme("", false);
+  Programme programme("", writer(), false);
   programme.begin(films({"list"}));
   int lists = 0;
   while (lists < 100 && programme.spread(films({"list"}))) ++lists;
@@ -58,7 +63,7 @@ TEST(Programme, AListThatNamesItselfEnds) {
 }
 
 TEST(Programme, AfterTheLastFilmItEndsOrBeginsAgain) {
-  Programme programme("", false);
+  Programme programme("", writer(), false);
   begin(programme, {"a", "b"});
   EXPECT_EQ(programme.afterEnd(), 1U);
   programme.choose(1, Way::Forward);
@@ -68,13 +73,13 @@ TEST(Programme, AfterTheLastFilmItEndsOrBeginsAgain) {
 }
 
 TEST(Programme, ASingleFilmThatLoopsFollowsItself) {
-  Programme programme("", true);
+  Programme programme("", writer(), true);
   programme.begin(films({"a"}));
   EXPECT_EQ(programme.afterEnd(), programme.present());
 }
 
 TEST(Programme, AFaultIsPassedOverOnTheViewersWay) {
-  Programme programme("", false);
+  Programme programme("", writer(), false);
   begin(programme, {"a", "b", "c"});
   programme.choose(1, Way::Back);
   EXPECT_EQ(programme.afterFault(), 0U);
@@ -85,7 +90,7 @@ TEST(Programme, AFaultIsPassedOverOnTheViewersWay) {
 }
 
 TEST(Programme, BackAtTheFirstFilmAFaultGoesForward) {
-  Programme programme("", false);
+  Programme programme("", writer(), false);
   begin(programme, {"a", "b"});
   programme.choose(0, Way::Back);
   EXPECT_EQ(programme.afterFault(), 1U);
@@ -93,7 +98,7 @@ TEST(Programme, BackAtTheFirstFilmAFaultGoesForward) {
 }
 
 TEST(Programme, ALoopWithoutAPlayableFilmEnds) {
-  Programme programme("", true);
+  Programme programme("", writer(), true);
   begin(programme, {"a", "b"});
   programme.left(true);  // once all of it could be played
   int faults = 0;
@@ -114,7 +119,7 @@ class ProgrammeWithPlaces : public testing::Test {
 };
 
 TEST_F(ProgrammeWithPlaces, AFilmGoesOnWhereItWasLeftUnlessItIsOver) {
-  Programme programme(path_, false);
+  Programme programme(path_, writer(), false);
   programme.begin(films({"http://a"}));
   programme.keepAtOnce(mediaTime(30), kStart);
   EXPECT_EQ(programme.whereLeft(std::chrono::seconds(60)), mediaTime(30));
@@ -125,7 +130,7 @@ TEST_F(ProgrammeWithPlaces, AFilmGoesOnWhereItWasLeftUnlessItIsOver) {
 }
 
 TEST_F(ProgrammeWithPlaces, APlaceIsKeptNowAndThenAndAtOnceWhereTheFilmIsLeft) {
-  Programme programme(path_, false);
+  Programme programme(path_, writer(), false);
   programme.begin(films({"http://a"}));
   const Duration length = std::chrono::seconds(60);
   programme.keep(mediaTime(10), kStart);
@@ -140,11 +145,11 @@ TEST_F(ProgrammeWithPlaces, APlaceIsKeptNowAndThenAndAtOnceWhereTheFilmIsLeft) {
 
 TEST_F(ProgrammeWithPlaces, AListBeginsWithTheFilmSeenLast) {
   {
-    Programme before(path_, false);
+    Programme before(path_, writer(), false);
     before.begin(films({"http://b"}));
     before.keepAtOnce(mediaTime(30), kStart);
   }
-  Programme programme(path_, false);
+  Programme programme(path_, writer(), false);
   programme.begin(films({"list"}));
   EXPECT_EQ(programme.spread(films({"http://a", "http://b", "http://c"})), 1U);
 }

@@ -3,7 +3,6 @@
 #include "app/player/film/resume.h"
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -12,6 +11,7 @@
 #include <fstream>
 
 #include "platform/log.h"
+#include "tests/support/machine/process.h"
 
 namespace relievo {
 namespace {
@@ -30,19 +30,21 @@ class ResumeTest : public testing::Test {
     std::ofstream(path_) << text;
   }
 
+  FileWriter files_{FileWriter::Where::AtOnce};
   std::filesystem::path folder_ = testing::TempDir() + "resume-" + std::to_string(::getpid());
   std::string path_ = folder_ / "deep/resume.json";
 };
 
 TEST_F(ResumeTest, PositionsOutliveTheProgram) {
   {
-    Resume resume(path_);
+    FileWriter files;
+    Resume resume(path_, files);
     EXPECT_FALSE(resume.last());
     resume.keep("a.mkv", mediaTime(61.5));
     resume.keep("http://b/c d.mkv?e=\"f\"", mediaTime(7));
     resume.keep("a.mkv", mediaTime(62.5));
   }
-  const Resume again(path_);
+  const Resume again(path_, files_);
   EXPECT_DOUBLE_EQ(at(again, "a.mkv"), 62.5);
   EXPECT_EQ(at(again, "http://b/c d.mkv?e=\"f\""), 7);
   EXPECT_EQ(at(again, "other"), -1);
@@ -50,7 +52,7 @@ TEST_F(ResumeTest, PositionsOutliveTheProgram) {
 }
 
 TEST_F(ResumeTest, AFilmIsTheSameByWhateverPathItIsNamed) {
-  Resume resume(path_);
+  Resume resume(path_, files_);
   resume.keep("films/a.mkv", mediaTime(10));
   const auto here = std::filesystem::current_path();
   EXPECT_EQ(at(resume, here / "lists/../films/a.mkv"), 10);
@@ -59,7 +61,7 @@ TEST_F(ResumeTest, AFilmIsTheSameByWhateverPathItIsNamed) {
 }
 
 TEST_F(ResumeTest, WhatHasEndedOrHardlyBegunIsForgotten) {
-  Resume resume(path_);
+  Resume resume(path_, files_);
   resume.keep("a", mediaTime(10));
   resume.keep("b", mediaTime(10));
   resume.forget("a");
@@ -69,7 +71,7 @@ TEST_F(ResumeTest, WhatHasEndedOrHardlyBegunIsForgotten) {
 }
 
 TEST_F(ResumeTest, TheOldestFilmsAreDropped) {
-  Resume resume(path_);
+  Resume resume(path_, files_);
   for (int i = 0; i < 250; ++i) resume.keep(std::to_string(i), mediaTime(10));
   EXPECT_EQ(at(resume, "49"), -1);
   EXPECT_EQ(at(resume, "50"), 10);
@@ -79,48 +81,36 @@ TEST_F(ResumeTest, OfADamagedFileWhatMakesSenseIsKept) {
   path_ = folder_ / "resume.json";
   write(
       R"([["/good", 5], ["late", 1e9], ["before", -1], [7, 7], ["long", 1, 2], "x", ["word", "5"], ["/good too", 6.5]])");
-  const Resume resume(path_);
+  const Resume resume(path_, files_);
   EXPECT_EQ(at(resume, "/good"), 5);
   EXPECT_DOUBLE_EQ(at(resume, "/good too"), 6.5);
   for (const char* url : {"late", "before", "long", "x", "word"}) EXPECT_EQ(at(resume, url), -1) << url;
   for (const char* text : {"", "{", "[[\"good\", 5]", "{\"good\": 5}", "\xff\xfe"}) {
     write(text);
-    EXPECT_FALSE(Resume(path_).last()) << text;
+    EXPECT_FALSE(Resume(path_, files_).last()) << text;
   }
 }
 
 TEST_F(ResumeTest, WhereNothingCanBeWrittenItGoesOnWithout) {
-  Resume resume("/proc/nowhere/resume.json");
+  Resume resume("/proc/nowhere/resume.json", files_);
   resume.keep("a", mediaTime(10));
   EXPECT_EQ(at(resume, "a"), 10);
 }
 
-// The program that the next test kills.
-TEST(KilledResume, DISABLED_KeepsWithoutEnd) {
-  Resume resume(std::getenv("RELIEVO_TEST_RESUME"));
-  for (int i = 1;; ++i) resume.keep("film " + std::to_string(i % 150) + std::string(2000, 'x'), mediaTime(2 + i));
-}
-
 // Killed at any moment, the file is the old one or the new one.
 TEST_F(ResumeTest, AKillLeavesAWholeFile) {
-  ::setenv("RELIEVO_TEST_RESUME", path_.c_str(), 1);
   for (int round = 0; round < 10; ++round) {
-    const pid_t child = ::fork();
-    if (child == 0) {  // a program of its own, since files are written by threads, which a fork does not have
-      ::execl("/proc/self/exe", "player_resume_test", "--gtest_filter=KilledResume.*",
-              "--gtest_also_run_disabled_tests", "--gtest_brief=1", nullptr);
-      ::_exit(1);
-    }
+    test::Process keeper({PLACE_KEEPER, path_}, testing::TempDir() + "place-keeper.txt");
     // A busy machine may be long in coming to the first file.
     for (int i = 0; i < 10'000 && !std::filesystem::exists(path_); ++i) ::usleep(1'000);
     ::usleep(static_cast<useconds_t>(3'000 * round));
-    ::kill(child, SIGKILL);
-    ::waitpid(child, nullptr, 0);
+    keeper.send(SIGKILL);
+    ASSERT_EQ(keeper.wait(), -SIGKILL);
     ASSERT_TRUE(std::filesystem::exists(path_));
     std::ifstream file(path_);
     const std::string text((std::istreambuf_iterator<char>(file)), {});
     EXPECT_TRUE(text.starts_with("[") && text.ends_with("]\n")) << text.size();
-    EXPECT_TRUE(Resume(path_).last());
+    EXPECT_TRUE(Resume(path_, files_).last());
   }
 }
 

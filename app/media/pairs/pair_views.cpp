@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds out whether a film's one picture holds more than its colour: two views of one scene, or depth in its alpha
 // channel.
+#include <algorithm>
 #include <optional>
 
-#include "app/media/pair_film.h"
+#include "app/media/pairs/pair_film.h"
 #include "app/media/reading/picture_look.h"
 #include "app/media/reading/stereo_pair.h"
 #include "hal/media/media_names.h"
@@ -22,6 +23,10 @@ constexpr const char* kHasDepth = "--depth-from is left out: the film has depth 
 constexpr const char* kOneView =
     "--depth-from stereo is left out: the film has one view; if it has two, say how they lie with --packing stereo-sbs "
     "or stereo-tb";
+constexpr const char* kSecondMissing = "it is coded as two views (MV-HEVC), but holds the first alone: it plays as 2D";
+constexpr const char* kSecondUnread =
+    "its second view (MV-HEVC) cannot be decoded, and it plays as 2D: the second needs FFmpeg 7.1 or later, and the "
+    "film's parameters of that view";
 constexpr const char* kWhatToDo = "it plays flat; give its depth with --depth FILE, or --packing if a half is depth";
 
 struct SaidViews {
@@ -68,13 +73,24 @@ std::optional<SaidViews> saidViews(const StreamInfo& track, const Frame& picture
 
 }  // namespace
 
+// Two views in two layers. False if there are none.
+bool PairReader::Impl::takeLayers(const StreamInfo& color) {
+  const auto layers = color.tags.find(kLayersTag);
+  const bool decoded = std::ranges::any_of(color_ahead, [](const Frame& frame) { return frame.right != nullptr; });
+  if (decoded) showViews(Packing::StereoLayers, "the two layers of its pictures (MV-HEVC) are");
+  else if (layers != color.tags.end())
+    info.reading.doubts.emplace_back(layers->second == "2" ? kSecondUnread : kSecondMissing);
+  return decoded;
+}
+
 // Two views, as the film itself says. False if it says nothing.
 bool PairReader::Impl::takeSaidViews(const StreamInfo& color, const Frame& look) {
+  if (takeLayers(color)) return true;
   const auto said = saidViews(color, look, options.url);
   if (!said) return false;
-  right_first = said->right_first;
+  views.right_first = said->right_first;
   const auto squeezed = color.tags.find(kSqueezedTag);
-  if (squeezed != color.tags.end()) views_squeezed = squeezed->second == "1";
+  if (squeezed != color.tags.end()) views.squeezed = squeezed->second == "1";
   if (said->packing == Packing::Auto)
     info.reading.doubts.push_back(print("%s %s, in a way that is not shown; %s", said->by, kViews, kWhatToDo));
   else showViews(said->packing, said->by);
@@ -83,12 +99,12 @@ bool PairReader::Impl::takeSaidViews(const StreamInfo& color, const Frame& look)
 
 // By the likeness of the halves and the break between them.
 void PairReader::Impl::lookForViews(const Frame& look) {
-  const auto views = findViews(look);
-  if (!views) return;
-  const bool beside = *views == Packing::StereoSideBySide;
+  const auto found = findViews(look);
+  if (!found) return;
+  const bool beside = *found == Packing::StereoSideBySide;
   const std::string halves = beside ? "the left and right halves" : "the upper and lower halves";
-  if (breaksInTheMiddle(look, beside)) showViews(*views, (halves + " are").c_str());
-  else info.reading.doubts.push_back(print("%s may be %s; if so, --packing %s", halves.c_str(), kViews, name(*views)));
+  if (breaksInTheMiddle(look, beside)) showViews(*found, (halves + " are").c_str());
+  else info.reading.doubts.push_back(print("%s may be %s; if so, --packing %s", halves.c_str(), kViews, name(*found)));
 }
 
 void PairReader::Impl::showViews(Packing packing, const char* by) {
@@ -98,17 +114,17 @@ void PairReader::Impl::showViews(Packing packing, const char* by) {
 
 // Whether the picture can be what the user says.
 void PairReader::Impl::checkViews(const StreamInfo& color) {
-  const auto views = viewsOf(tellingPicture(color_ahead[0], options.url, color.index), info.packing, right_first);
-  if (!views || !areOtherPictures(views->left, views->right)) return;
-  other_pictures = true;
+  const Frame look = tellingPicture(color_ahead[0], options.url, color.index);
+  const auto seen = viewsOf(look, info.packing, views.right_first);
+  if (!seen || !areOtherPictures(seen->left, seen->right)) return;
+  views.are_other_pictures = true;
   info.reading.doubts.emplace_back(kOtherPictures);
 }
 
 // Depth that is made of each pair's views after it was read.
 void PairReader::Impl::takeDepthFromViews() {
-  if (options.depth_from != DepthFrom::Views || other_pictures) return;
-  const bool two_views = isStereo(info.packing) || info.packing == Packing::StereoTracks;
-  if (!two_views) {
+  if (options.depth_from != DepthFrom::Views || views.are_other_pictures) return;
+  if (!hasTwoViews(info.packing)) {
     info.reading.doubts.emplace_back(info.has_depth ? kHasDepth : kOneView);
     return;
   }

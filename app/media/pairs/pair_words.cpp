@@ -2,7 +2,7 @@
 // The sound and the subtitles of a film of pairs.
 #include <utility>
 
-#include "app/media/pair_film.h"
+#include "app/media/pairs/pair_film.h"
 #include "platform/log.h"
 
 namespace relievo {
@@ -13,7 +13,7 @@ constexpr std::size_t kMostLines = 100'000;  // of a subtitle file
 }  // namespace
 
 const StreamInfo* PairReader::Impl::streamOf(const FilmTrack& track) const {
-  for (const StreamInfo& stream : color_reader->source().streams()) {
+  for (const StreamInfo& stream : sources.color()->source().streams()) {
     if (stream.index == track.stream) return &stream;
   }
   return nullptr;
@@ -27,19 +27,19 @@ void PairReader::Impl::openSound() {
   const StreamInfo* const stream = streamOf(track);
   if (stream == nullptr) return;
   info.sound_codec = track.codec;
-  const auto opened = color_reader->listen(backends.make_audio_decoder(), *stream, *options.sound);
+  const auto opened = sources.color()->listen(backends.make_audio_decoder(), *stream, *options.sound);
   if (!opened) info.sound_refused = opened.error().message;
 }
 
 void PairReader::Impl::openWords() {
-  color_reader->ignoreWords();
+  sources.color()->ignoreWords();
   words_ahead.clear();
   if (!backends.make_subtitle_decoder || !info.words || *info.words >= info.subtitles.size()) return;
   const FilmTrack& track = info.subtitles[*info.words];
   if (track.stream < 0) return readWordsOf(track.path);
   const StreamInfo* const stream = streamOf(track);
   if (stream == nullptr) return;
-  const auto opened = color_reader->readWords(backends.make_subtitle_decoder(), *stream);
+  const auto opened = sources.color()->readWords(backends.make_subtitle_decoder(), *stream);
   if (!opened) log(LogLevel::Warning, "media", "no subtitles: %s", opened.error().message);
 }
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "app/media/pair_film.h"
+#include "app/media/pairs/pair_film.h"
 #include "app/media/reading/picture_look.h"
 #include "platform/files/answered_place.h"
 #include "platform/log.h"
@@ -152,7 +152,7 @@ std::vector<Frame> PairReader::Impl::laterPictures(MediaTime seen, int stream) {
 Result<Frame> PairReader::Impl::depthIn(const Frame& stored) {
   if (isPacked() && info.packing != Packing::DepthAlone) {
     const bool in_yuv = stored.model == ColorModel::Yuv && gray == GrayFrom::Luma;
-    auto halves = splitPacked(stored, info.packing, in_yuv ? DepthCode::Hue : clues.code, gray);
+    auto halves = in_yuv ? splitPacked(stored, info.packing, DepthCode::Hue, GrayFrom::Luma, seam) : halvesOf(stored);
     if (!halves) return std::unexpected(halves.error());
     return std::move(halves->depth);
   }

@@ -12,8 +12,10 @@
 #include <vector>
 
 #include "app/media/depth_follower.h"
-#include "app/media/depth_source.h"
 #include "app/media/pair_reader.h"
+#include "app/media/pairs/left_out_pictures.h"
+#include "app/media/pairs/material_pictures.h"
+#include "app/media/pairs/open_sources.h"
 #include "app/media/reading/code_count.h"
 #include "app/media/reading/depth_meaning.h"
 #include "app/media/tracks/track_reader.h"
@@ -22,18 +24,18 @@ namespace relievo {
 
 struct PairReader::Impl {
   static constexpr std::size_t kColorTrack = 0;
+  static constexpr const char* kNotOpen = "no film is open; open one first";
 
   explicit Impl(Backends b) : backends(std::move(b)) {}
 
   Result<void> openReader();
   Result<void> openFilm();
   Result<void> openColor(const StreamInfo& color);
-  Result<void> selectDepth(const StreamInfo* depth);
-  void takeDepthBeside();
-  // In pair_material.cpp: what the surface feels like at each place.
-  void selectMaterial(const TrackPlan& plan);
+  void takeFilmOverDepth();
+  // `depth`: of the colour's source, if the depth is no other source.
+  Result<void> selectDepth(const StreamInfo* depth, const StreamInfo& color);
+  void takeDepthBeside(const StreamInfo& color);
   [[nodiscard]] Frame materialAt(MediaTime time);
-  void loseMaterial(const Error& error);
   Result<void> openDepth(const StreamInfo& color);
   void openSound();
   void openWords();
@@ -46,12 +48,14 @@ struct PairReader::Impl {
   void lookForRegistration(const StreamInfo& color);
   void lookForHalves(const StreamInfo& color);
   // In pair_views.cpp: what one picture holds beside its colour.
+  [[nodiscard]] bool takeLayers(const StreamInfo& color);
   [[nodiscard]] bool takeSaidViews(const StreamInfo& color, const Frame& look);
   void lookForViews(const Frame& look);
   [[nodiscard]] bool lookForAlpha(const StreamInfo& color, const Frame& look);
   void showViews(Packing packing, const char* by);
   void checkViews(const StreamInfo& color);
   void takeDepthFromViews();
+  [[nodiscard]] Result<Halves> halvesOf(const Frame& stored) const;
   void lookForCode(const Frame& first);
   Result<const Frame*> firstDepth();
   Result<const Frame*> firstAsStated(const Frame& first);
@@ -74,7 +78,6 @@ struct PairReader::Impl {
   Result<FramePair> pairFor(Frame color);
   // In pair_late.cpp: pictures that are left out for lack of time.
   [[nodiscard]] std::optional<FramePair> depthBefore(const Frame& color);
-  void countLeftOut(const FramePair& pair) noexcept;
   Result<DepthFollower::Match> depthAt(MediaTime time);
   Result<void> seekDepth(MediaTime target);
   Result<void> passTo(MediaTime target);
@@ -112,19 +115,19 @@ struct PairReader::Impl {
   std::string failed_thing;
   PairCounters counters;
 
-  std::mutex readers_mutex;  // guards the pointers to the readers, and `interrupted`, against a concurrent `interrupt`
-  bool interrupted = false;
-  std::unique_ptr<TrackReader> color_reader;
-  std::unique_ptr<DepthSource> depth_source;  // reads `depth_url`
-  std::optional<MonotonicTime> waits_since;   // for a source that is a file; guarded by `readers_mutex` too
-
-  std::deque<Frame> color_ahead;       // read, not yet delivered
-  std::deque<Subtitle> words_ahead;    // of a subtitle file
-  DepthClues clues;                    // of the depth, as far as they were looked at
-  GrayFrom gray = GrayFrom::Luma;      // of packed depth
-  bool right_first = false;            // of two views in one picture
-  bool other_pictures = false;         // what was said to be two views is not
-  std::optional<bool> views_squeezed;  // likewise, if the film says it
+  OpenSources sources;
+  std::deque<Frame> color_ahead;     // read, not yet delivered
+  std::deque<Subtitle> words_ahead;  // of a subtitle file
+  DepthClues clues;                  // of the depth, as far as they were looked at
+  GrayFrom gray = GrayFrom::Luma;    // of packed depth
+  int seam = 0;                      // columns of a margin between the halves
+  // Two views in one picture.
+  struct Views {
+    bool right_first = false;
+    std::optional<bool> squeezed;     // if the film says it
+    bool are_other_pictures = false;  // what was said to be two views is not
+  };
+  Views views;
   // Depth of its own whose samples are put in another order.
   struct Reordering {
     SampleOrder order = SampleOrder::AsStored;
@@ -132,26 +135,28 @@ struct PairReader::Impl {
     std::optional<Frame> again;       // a picture that was supplied before the order was known
   };
   Reordering reordering;
-  std::optional<std::size_t> depth_track;    // index in the colour's source
-  const StreamInfo* depth_stream = nullptr;  // likewise; valid while the film is open
-  std::atomic<bool> remote{false};           // the colour's source; asked by any thread
-  bool live = false;                         // likewise
-  Duration color_shift{0};                   // added to the session's timestamps to get the film's
-  MediaTime goes_on_at;                      // film time just after the last colour picture
+  // Depth beside the colour, in the same source.
+  struct DepthBeside {
+    std::optional<std::size_t> track;    // TrackReader::select
+    const StreamInfo* stream = nullptr;  // valid while the film is open
+  };
+  DepthBeside depth_beside;
+  std::atomic<bool> remote{false};  // the colour's source; asked by any thread
+  bool live = false;                // likewise
+  Duration color_shift{0};          // added to the session's timestamps to get the film's
+  MediaTime goes_on_at;             // film time just after the last colour picture
   std::optional<DepthFollower> depth;
-  std::optional<DepthFollower> material;   // of a track of the colour's source
-  const char* material_refused = nullptr;  // why there is none although the film has such a track
-  std::optional<Registrar> registrar;      // the user's, or the film's own
+  MaterialPictures material;
+  std::optional<Registrar> registrar;  // the user's, or the film's own
   struct OwnDepth {
     Duration shift{0};                     // added to the session's timestamps to get the film's
     std::optional<std::uint32_t> session;  // the session that `shift` applies to
     bool away = false;                     // late or lost, and being retried
     bool lost = false, loss_told = false;
   };
-  OwnDepth own;             // of `depth_source`
-  Duration key_step{0};     // of the last seek
-  bool leaves_out = false;  // has left out pictures of this film
-  std::optional<MediaTime> last_color, last_pair;
+  OwnDepth own;          // of `sources.depth()`, which reads `depth_url`
+  Duration key_step{0};  // of the last seek
+  LeftOutPictures left_out;
   bool reach_open = false;  // near and far are those of a few pictures, and no later one was told to lie beyond
 };
 

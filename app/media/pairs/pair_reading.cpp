@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "app/media/film_folder.h"
-#include "app/media/pair_film.h"
+#include "app/media/pairs/pair_film.h"
 #include "app/media/reading/code_count.h"
 #include "app/media/reading/color_map_fit.h"
 #include "app/media/reading/depth_doubts.h"
@@ -52,12 +52,10 @@ CalibrationSettings redAsLuma(const Frame& picture) {
 
 // What was said, and what the place of the recording tells.
 void PairReader::Impl::lookAround() {
-  const MediaSource& source = color_reader->source();
+  const MediaSource& source = sources.color()->source();
   clues = {.command_line = options.command_line, .side_file = options.side_file, .as = options.as, .place = {}};
   gray = GrayFrom::Luma;
-  right_first = false;
-  views_squeezed.reset();
-  other_pictures = false;
+  views = {};
   reordering.kind = nullptr;
   clues.place = lookAtTags(source.tags());
   if (clues.place.kind == nullptr) clues.place = lookAtPlace(options.url, depthFileOf(source, options.depth_url));
@@ -74,7 +72,7 @@ void PairReader::Impl::lookAround() {
 
 Result<TrackPlan> PairReader::Impl::planFilm() {
   using enum CalibrationOrigin;
-  const MediaSource& source = color_reader->source();
+  const MediaSource& source = sources.color()->source();
   const bool two_sources = !options.depth_url.empty();
   const KnownKind *const as = options.as, *const place = clues.place.kind;
   auto plan = planTracks(source, options.packing, two_sources);
@@ -95,7 +93,8 @@ Result<TrackPlan> PairReader::Impl::planFilm() {
 
 // If nobody has said where the depth is and there is only one track, the picture itself may show it.
 void PairReader::Impl::lookForHalves(const StreamInfo& color) {
-  if (options.packing != Packing::Auto || !options.depth_url.empty() || depth_stream != nullptr || isPacked()) return;
+  if (options.packing != Packing::Auto || !options.depth_url.empty() || depth_beside.stream != nullptr || isPacked())
+    return;
   if (options.registration) return;
   const Frame look = tellingPicture(color_ahead[0], options.url, color.index);
   if (takeSaidViews(color, look) || lookForAlpha(color, look)) return;
@@ -139,7 +138,7 @@ Result<const Frame*> PairReader::Impl::firstDepth() {
   auto first = depth->peek();
   if (!first || *first == nullptr || registrar) return first;
   if (reordering.order != SampleOrder::AsStored) return firstAsStated(**first);
-  const StreamInfo& stream = depth_source ? depth_source->stream() : *depth_stream;
+  const StreamInfo& stream = sources.depth() ? sources.depth()->stream() : *depth_beside.stream;
   takeTags(stream);
   const KnownKind* const kind = kindOf(clues, tellingPicture(**first, depthUrl(), stream.index));
   if (kind == nullptr || kind->order == SampleOrder::AsStored) return first;
@@ -178,12 +177,27 @@ Result<void> PairReader::Impl::describeAlone(const StreamInfo& track) {
   return describe(color_ahead[0], look, {}, track);
 }
 
+// Colour and depth of a packed picture, the depth's samples in order.
+Result<Halves> PairReader::Impl::halvesOf(const Frame& stored) const {
+  const bool bytes = reordering.order != SampleOrder::AsStored && stored.model == ColorModel::Rgb;
+  auto halves = splitPacked(stored, info.packing, bytes ? DepthCode::Hue : clues.code, gray, seam);
+  if (!halves || !bytes) return halves;
+  auto ordered = inOrder(halves->depth, reordering.order);
+  if (!ordered) return std::unexpected(ordered.error());
+  halves->depth = std::move(*ordered);
+  return halves;
+}
+
 Result<void> PairReader::Impl::describeHalves(const StreamInfo& color) {
   const Frame look = tellingPicture(color_ahead[0], options.url, color.index);
-  const auto whole = splitPacked(look, info.packing, DepthCode::Hue);
+  const bool beside = info.packing == Packing::SideBySide || info.packing == Packing::SideBySideDepthFirst;
+  seam = beside ? whiteSeam(look) : 0;
+  if (seam > 0) clues.why.push_back(print("the %d white columns between the halves are left out", seam));
+  const auto whole = splitPacked(look, info.packing, DepthCode::Hue, GrayFrom::Luma, seam);
   if (whole) lookForCode(whole->depth);
-  const auto seen = splitPacked(look, info.packing, clues.code, gray);
-  const auto halves = splitPacked(color_ahead[0], info.packing, clues.code, gray);
+  if (whole && clues.code == DepthCode::Luma && options.as == nullptr) reordering.order = packedOrder(whole->depth);
+  const auto seen = halvesOf(look);
+  const auto halves = halvesOf(color_ahead[0]);
   if (!halves || !seen) return failOn(options.url, halves ? seen.error() : halves.error());
   info.color_width = halves->color.width;
   info.color_height = halves->color.height;
@@ -194,12 +208,12 @@ Result<void> PairReader::Impl::describeHalves(const StreamInfo& color) {
 }
 
 Result<void> PairReader::Impl::describeTrack(const Frame& first) {
-  const StreamInfo& stream = depth_source ? depth_source->stream() : *depth_stream;
+  const StreamInfo& stream = sources.depth() ? sources.depth()->stream() : *depth_beside.stream;
   auto look = registrar ? Result<Frame>(first) : tellingPicture(first, depthUrl(), stream.index);
   // Of a later picture the samples are as stored.
   if (look && look->pts != first.pts) look = inOrder(*look, reordering.order);
   if (!look) return failOn(depthUrl(), look.error());
-  const bool guessed = !depth_source && options.packing == Packing::Auto && !isMarkedAsDepth(stream);
+  const bool guessed = !sources.depth() && options.packing == Packing::Auto && !isMarkedAsDepth(stream);
   const bool colored = look->model != ColorModel::Gray && lookAt(*look).gray < kMostlyGray;
   if (guessed && options.as == nullptr && colored && areViews(color_ahead[0], *look)) {
     showViews(Packing::StereoTracks, "the film's two tracks are");
@@ -212,7 +226,7 @@ Result<void> PairReader::Impl::describeTrack(const Frame& first) {
 // What the tags of the depth's track and container say.
 void PairReader::Impl::takeTags(const StreamInfo& stream) {
   clues.tags = stream.tags;  // the track's tags override the container's
-  const auto& container_tags = depth_source ? depth_source->tags() : color_reader->source().tags();
+  const auto& container_tags = sources.depth() ? sources.depth()->tags() : sources.color()->source().tags();
   clues.tags.insert(container_tags.begin(), container_tags.end());
 }
 
@@ -256,16 +270,16 @@ Result<void> PairReader::Impl::describe(const Frame& first, const Frame& look, c
   info.reading = std::move(meaning->reading);
   info.reading.doubts = doubtsOf(look, info.calibration.calibration, color.empty() ? nullptr : &color);
   if (!tagged) info.reading.doubts.push_back(print("its tag %s is left out: %s", kMaterialTag, tagged.error().message));
-  if (material_refused != nullptr) {
-    info.reading.doubts.push_back(print("its material track is left out: %s", material_refused));
+  if (material.refused() != nullptr) {
+    info.reading.doubts.push_back(print("its material track is left out: %s", material.refused()));
   }
   info.has_depth = true;
   info.depth_width = first.width;
   info.depth_height = first.height;
   info.depth_codec = stream.codec;
-  info.depth_decoder = isPacked()     ? info.color_decoder
-                       : depth_source ? depth_source->decoder()
-                                      : color_reader->decoder(*depth_track);
+  info.depth_decoder = isPacked()        ? info.color_decoder
+                       : sources.depth() ? sources.depth()->decoder()
+                                         : sources.color()->decoder(*depth_beside.track);
   return {};
 }
 

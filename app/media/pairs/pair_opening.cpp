@@ -5,7 +5,7 @@
 
 #include "app/media/film_folder.h"
 #include "app/media/frame_rate.h"
-#include "app/media/pair_film.h"
+#include "app/media/pairs/pair_film.h"
 #include "app/media/registration/own_registration.h"
 #include "platform/print.h"
 
@@ -28,23 +28,34 @@ Duration distanceByName(const MediaSource& color, const DepthSource::Session& de
   return 2 * common >= std::min(color.duration(), depth.duration) ? distance : Duration(0);
 }
 
+// The rate of depth pictures that have no times: the user's, else that of the film that they were recorded with.
+std::optional<double> rateForDepth(std::optional<double> told, const StreamInfo& color) {
+  if (told || color.counted || !color.average_rate.known()) return told;
+  return static_cast<double>(color.average_rate.num) / color.average_rate.den;
+}
+
 }  // namespace
 
 Result<void> PairReader::Impl::openReader() {
-  auto reader = std::make_unique<TrackReader>(backends.make_source(options.url), backends.make_decoder);
-  {
-    const std::scoped_lock lock(readers_mutex);
-    if (interrupted) return failOn(options.url, {ErrorCode::Cancelled, 0, "interrupted before it was opened"});
-    color_reader.swap(reader);
-  }
-  reader.reset();
-  if (auto opened = color_reader->open(options.url, options.frames_per_s); !opened)
+  auto taken = sources.take(std::make_unique<TrackReader>(backends.make_source(options.url), backends.make_decoder));
+  if (!taken) return failOn(options.url, taken.error());
+  if (auto opened = sources.color()->open(options.url, options.frames_per_s); !opened)
     return failOn(options.url, opened.error());
   return {};
 }
 
+// A folder of a film and its depth pictures is opened as both.
+void PairReader::Impl::takeFilmOverDepth() {
+  if (!options.depth_url.empty() || options.packing != Packing::Auto) return;
+  const auto pair = filmOverDepth(options.url);
+  if (!pair) return;
+  options.url = pair->film;
+  options.depth_url = pair->depth;
+}
+
 // Opens for the first time or again. In the second case a separate depth source has continued meanwhile.
 Result<void> PairReader::Impl::openFilm() {
+  takeFilmOverDepth();
   const bool two_sources = !options.depth_url.empty();
   if (two_sources && relievo::isPacked(options.packing)) {
     return failOn(options.depth_url,
@@ -53,7 +64,7 @@ Result<void> PairReader::Impl::openFilm() {
                    "--packing or --depth"});
   }
   if (auto opened = openReader(); !opened) return opened;
-  const MediaSource& source = color_reader->source();
+  const MediaSource& source = sources.color()->source();
   if (!depth) lookAround();
   const auto plan = planFilm();
   if (!plan) return failOn(options.url, plan.error());
@@ -72,12 +83,16 @@ Result<void> PairReader::Impl::openFilm() {
   }
 
   // The colour track leads, so it is selected first.
-  const auto chosen = color_reader->select(asTold(*plan->color));
+  const auto chosen = sources.color()->select(asTold(*plan->color));
   if (!chosen) return failOn(options.url, chosen.error());
-  if (plan->depth == nullptr && !isPacked() && !two_sources && options.packing == Packing::Auto) takeDepthBeside();
-  if (auto selected = selectDepth(plan->depth); !selected) return selected;
-  selectMaterial(*plan);
-  if (depth_source) info.notes.insert(info.notes.end(), depth_source->notes().begin(), depth_source->notes().end());
+  if (plan->depth == nullptr && !isPacked() && !two_sources && options.packing == Packing::Auto)
+    takeDepthBeside(*plan->color);
+  if (auto selected = selectDepth(plan->depth, *plan->color); !selected) return selected;
+  const auto of_places = plan->material ? std::optional(asTold(*plan->material)) : std::nullopt;
+  material.select(*sources.color(), of_places, color_shift);
+  info.material_scale = withoutThoseOf(options.material, material.scale());
+  if (sources.depth())
+    info.notes.insert(info.notes.end(), sources.depth()->notes().begin(), sources.depth()->notes().end());
   countTracks(*plan);
   openSound();
   openWords();
@@ -89,20 +104,19 @@ Result<void> PairReader::Impl::openFilm() {
   return {};
 }
 
-void PairReader::Impl::takeDepthBeside() {
-  const std::string beside = depthBeside(options.url);
-  if (beside.empty()) return;
-  options.depth_url = beside;
-  const auto opened = selectDepth(nullptr);
+void PairReader::Impl::takeDepthBeside(const StreamInfo& color) {
+  const std::string file = depthBeside(options.url);
+  if (file.empty()) return;
+  options.depth_url = file;
+  const auto opened = selectDepth(nullptr, color);
   if (opened) {
-    info.notes.push_back(print("its depth is %s, which lies beside it; --depth FILE takes another", beside.c_str()));
+    info.notes.push_back(print("its depth is %s, which lies beside it; --depth FILE takes another", file.c_str()));
     return;
   }
-  info.notes.push_back(print("%s beside it is no depth that can be read: %s", beside.c_str(), opened.error().message));
+  info.notes.push_back(print("%s beside it is no depth that can be read: %s", file.c_str(), opened.error().message));
   options.depth_url.clear();
   failed_thing.clear();
-  const std::scoped_lock lock(readers_mutex);
-  depth_source.reset();
+  sources.dropDepth();
 }
 
 // Decodes two pictures, whose timestamps give the frame period.
@@ -118,35 +132,38 @@ Result<void> PairReader::Impl::openColor(const StreamInfo& color) {
   info.color_height = color_ahead[0].height;
   info.color_stream = color.index;
   info.color_codec = color.codec;
-  info.color_decoder = color_reader->decoder(kColorTrack);
+  info.color_decoder = sources.color()->decoder(kColorTrack);
   if (color_ahead.size() == 2) info.frame_period = framePeriod(color_ahead[1].pts - color_ahead[0].pts, color);
-  info.interlaced = color_reader->deinterlaced() > 0;
+  info.interlaced = sources.color()->deinterlaced() > 0;
   info.color_primaries = color_ahead[0].primaries;
   info.color_transfer = color_ahead[0].transfer;
-  const bool depth_is_counted = depth_source && depth_source->stream().counted;
+  const bool depth_is_counted = sources.depth() && sources.depth()->stream().counted;
   if (options.frames_per_s && !color.counted && !depth_is_counted) {
     info.notes.emplace_back("--fps has no effect: the pictures have times of their own");
   }
   return {};
 }
 
-Result<void> PairReader::Impl::selectDepth(const StreamInfo* stream) {
-  depth_track.reset();
-  depth_stream = stream;
+Result<void> PairReader::Impl::selectDepth(const StreamInfo* stream, const StreamInfo& color) {
+  depth_beside.track.reset();
+  depth_beside.stream = stream;
   if (!options.depth_url.empty()) {
-    if (depth_source) return {};
-    {
-      const std::scoped_lock lock(readers_mutex);
-      if (interrupted) return failOn(depthUrl(), {ErrorCode::Cancelled, 0, "interrupted before it was opened"});
-      depth_source = std::make_unique<DepthSource>(backends, options.frames_per_s);
+    if (sources.depth()) return {};
+    const auto rate = rateForDepth(options.frames_per_s, color);
+    auto taken = sources.take(std::make_unique<DepthSource>(backends, rate));
+    if (!taken) return failOn(depthUrl(), taken.error());
+    if (auto opened = sources.depth()->open(depthUrl()); !opened) return failOn(depthUrl(), opened.error());
+    const StreamInfo& pictures = sources.depth()->stream();
+    if (rate && !options.frames_per_s && pictures.counted && pictures.average_rate.known()) {
+      info.notes.push_back(
+          print("the depth pictures tell no times: %.6g a second as in the film; --fps F changes that", *rate));
     }
-    if (auto opened = depth_source->open(depthUrl()); !opened) return failOn(depthUrl(), opened.error());
     return {};
   }
   if (stream == nullptr) return {};
-  const auto number = color_reader->select(asTold(*stream));
+  const auto number = sources.color()->select(asTold(*stream));
   if (number) {
-    depth_track = *number;
+    depth_beside.track = *number;
   } else if (isDepthRequired()) {
     return failOn(depthUrl(), number.error());
   } else {
@@ -159,8 +176,9 @@ Result<void> PairReader::Impl::selectDepth(const StreamInfo* stream) {
 void PairReader::Impl::lookForRegistration(const StreamInfo& color) {
   if (options.registration) {
     registrar.emplace(*options.registration);
-  } else if (const auto recorded =
-                 depth_track ? ownRegistration(color_reader->source(), color, *depth_stream) : std::nullopt) {
+  } else if (const auto recorded = depth_beside.track
+                                       ? ownRegistration(sources.color()->source(), color, *depth_beside.stream)
+                                       : std::nullopt) {
     registrar.emplace(*recorded);
     clues.why.emplace_back("the recording describes both cameras: its depth is moved to the colour's view");
   }
@@ -170,7 +188,7 @@ Result<void> PairReader::Impl::openDepth(const StreamInfo& color) {
   lookForHalves(color);
   if (info.packing == Packing::DepthAlone) return describeAlone(color);
   if (isPacked()) return describeHalves(color);
-  if (!depth_track && !depth_source) return {};
+  if (!depth_beside.track && !sources.depth()) return {};
   if (depth) {  // already known from the first opening
     depth->restart();
     own.lost = false;
@@ -186,7 +204,7 @@ Result<void> PairReader::Impl::openDepth(const StreamInfo& color) {
   depth.emplace([this] { return supplyDepth(); });
   const auto first = firstDepth();
   if (first && *first != nullptr) {
-    if (!depth_source) return describeTrack(**first);
+    if (!sources.depth()) return describeTrack(**first);
     const MediaTime begins = (*first)->pts;
     auto described = describeTrack(**first);
     // With two live sources the second opens later; pictures of the first from before that are dropped.
@@ -196,18 +214,18 @@ Result<void> PairReader::Impl::openDepth(const StreamInfo& color) {
   const Error missing = first ? Error{ErrorCode::Corrupt, 0, kNoPicture} : first.error();
   if (isDepthRequired() || missing.code == ErrorCode::Cancelled) return failOn(depthUrl(), missing);
   loseDepth(missing);
-  depth_track.reset();
+  depth_beside.track.reset();
   depth.reset();
   return {};
 }
 
 void PairReader::Impl::countTracks(const TrackPlan& plan) {
-  const auto& streams = color_reader->source().streams();
+  const auto& streams = sources.color()->source().streams();
   const auto count = [&](StreamKind kind) {
     return static_cast<int>(
         std::count_if(streams.begin(), streams.end(), [&](const StreamInfo& s) { return s.kind == kind; }));
   };
-  info.chapters = color_reader->source().chapters();
+  info.chapters = sources.color()->source().chapters();
   std::ranges::sort(info.chapters, {}, &Chapter::begin);
   if (info.sounds.empty() && info.subtitles.empty()) {  // not when the source is opened again
     info.sounds = tracksOf(streams, StreamKind::Audio);
@@ -226,7 +244,7 @@ void PairReader::Impl::countTracks(const TrackPlan& plan) {
 void PairReader::Impl::meet(const DepthSource::Session& session, MediaTime first) {
   if (own.session) depth->restart();
   own.session = session.number;
-  const MediaSource& color = color_reader->source();
+  const MediaSource& color = sources.color()->source();
   own.shift = session.live ? Duration(0) : distanceByName(color, session);
   if (!session.live) return;
   if (!color.live()) {  // align what arrives now with what is shown now

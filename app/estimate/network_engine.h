@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// What computes an ONNX network: ONNX Runtime where the build has found it, else OpenCV, which knows fewer operations
+// (none of those that newer exporters write for transformers, before OpenCV 4.10).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "platform/failure.h"
+
+namespace relievo {
+
+// One plane after the other, each row by row.
+struct NetworkPlanes {
+  int cols = 0, rows = 0;
+  std::vector<float> values;
+};
+
+// Use from one thread. Failures name the file and say in one line what the library says.
+class NetworkEngine {
+ public:
+  virtual ~NetworkEngine() = default;
+
+  // The first output for this input of 1 x planes x rows x cols.
+  [[nodiscard]] virtual Outcome<NetworkPlanes> run(NetworkPlanes input) = 0;
+};
+
+// `path` is for messages alone.
+[[nodiscard]] Outcome<std::unique_ptr<NetworkEngine>> openNetwork(const std::string& path,
+                                                                  std::span<const std::uint8_t> model);
+
+// A network's output of 1 x rows x cols or 1 x 1 x rows x cols; without values where its shape is another.
+[[nodiscard]] NetworkPlanes planesOfOutput(std::span<const std::int64_t> shape, const float* values);
+
+// The library's words in one short line.
+[[nodiscard]] std::string inOneLine(const std::string& words);
+
+}  // namespace relievo

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <opencv2/core/utils/logger.hpp>
+#include <opencv2/dnn.hpp>
+
+#include "app/estimate/network_engine.h"
+
+namespace relievo {
+namespace {
+
+constexpr Error kNotRun{ErrorCode::Unsupported, 0,
+                        "OpenCV cannot run this network; a command that runs it elsewhere can stand here instead"};
+
+std::unexpected<Failure> notRun(const std::string& path, const cv::Exception& e) {
+  return failOn(path + ": " + inOneLine(e.err.empty() ? std::string(e.what()) : e.err), kNotRun);
+}
+
+class OpenCvNetwork final : public NetworkEngine {
+ public:
+  OpenCvNetwork(std::string path, cv::dnn::Net net) : path_(std::move(path)), net_(std::move(net)) {}
+
+  Outcome<NetworkPlanes> run(NetworkPlanes input) override {
+    try {
+      const int planes = static_cast<int>(input.values.size()) / (input.cols * input.rows);
+      net_.setInput(cv::Mat({1, planes, input.rows, input.cols}, CV_32F, input.values.data()));
+      const cv::Mat out = net_.forward();
+      if (out.type() != CV_32F) return NetworkPlanes{};
+      const std::vector<std::int64_t> shape(out.size.p, out.size.p + out.dims);
+      return planesOfOutput(shape, out.ptr<float>());
+    } catch (const cv::Exception& e) {
+      return notRun(path_, e);
+    }
+  }
+
+ private:
+  std::string path_;
+  cv::dnn::Net net_;
+};
+
+}  // namespace
+
+Outcome<std::unique_ptr<NetworkEngine>> openNetwork(const std::string& path, std::span<const std::uint8_t> model) {
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // what it says is in the exception, too
+  try {
+    return std::make_unique<OpenCvNetwork>(
+        path, cv::dnn::readNetFromONNX(reinterpret_cast<const char*>(model.data()), model.size()));
+  } catch (const cv::Exception& e) {
+    return notRun(path, e);
+  }
+}
+
+}  // namespace relievo

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// What has happened to the sources and decoders of a film that is read ahead, until the player asks. Pure.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <utility>
+
+#include "hal/media/video_decoder.h"
+#include "platform/clock.h"
+#include "platform/error.h"
+
+namespace relievo {
+
+class FeedNews {
+ public:
+  struct Item {
+    enum class Kind : std::uint8_t { ColorLost, ColorBack, DepthLost, DepthBack, DecoderRestarted };
+    Kind kind;
+    const char* why = "";   // cause of a loss or a restart
+    const char* done = "";  // what a restart did
+    MonotonicTime time;
+  };
+
+  void colorLost(const Error& error, MonotonicTime now) { items_.push_back({Kind::ColorLost, error.message, "", now}); }
+  void colorBack(MonotonicTime now) { items_.push_back({Kind::ColorBack, "", "", now}); }
+  // Why the depth is away now; nullopt: it is there. Only a change is news.
+  void depth(const std::optional<Error>& loss, MonotonicTime now) {
+    if (std::exchange(depth_away_, loss.has_value()) == loss.has_value()) return;
+    items_.push_back({loss ? Kind::DepthLost : Kind::DepthBack, loss ? loss->message : "", "", now});
+  }
+  void restarted(const VideoDecoder::Restart& restart, MonotonicTime now) {
+    items_.push_back({Kind::DecoderRestarted, restart.why, restart.done, now});
+  }
+  // In order, each once.
+  [[nodiscard]] std::optional<Item> take() {
+    if (items_.empty()) return std::nullopt;
+    const Item first = items_.front();
+    items_.pop_front();
+    return first;
+  }
+
+ private:
+  using Kind = Item::Kind;
+
+  std::deque<Item> items_;
+  bool depth_away_ = false;
+};
+
+}  // namespace relievo

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// The part of a film that the viewer has marked to be played again and again. Pure.
+#pragma once
+
+#include <optional>
+
+#include "hal/media/media_time.h"
+
+namespace relievo {
+
+class LoopAB {
+ public:
+  // The first call marks the part's begin, the second its end, a third forgets both; so does one without a place.
+  void mark(std::optional<MediaTime> here) noexcept {
+    if (to_ || !here) forget();
+    else if (!from_) from_ = here;
+    else if (*here > *from_) to_ = here;
+  }
+  void forget() noexcept {
+    from_.reset();
+    to_.reset();
+  }
+  // Where the film goes on from `here`, at the part's end or behind it; nullopt before that.
+  [[nodiscard]] std::optional<MediaTime> backFrom(std::optional<MediaTime> here) const noexcept {
+    return to_ && here && *here >= *to_ ? from_ : std::nullopt;
+  }
+
+  [[nodiscard]] std::optional<MediaTime> from() const noexcept { return from_; }
+  [[nodiscard]] std::optional<MediaTime> to() const noexcept { return to_; }
+
+ private:
+  std::optional<MediaTime> from_, to_;
+};
+
+}  // namespace relievo

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// An output that cannot be written is found out before the film begins.
+#include "app/player/setup/play_files.h"
+
+#include <filesystem>
+#include <utility>
+
+#include "app/cli/program.h"
+#include "platform/files/answered_place.h"
+#include "platform/files/file_system_answer.h"
+
+namespace relievo {
+
+Outcome<void> loadPlayFiles(PlayOptions& options) {
+  if (!options.keys_path.empty()) {
+    auto keys = KeyTable::load(options.keys_path);
+    if (!keys) return std::unexpected(keys.error());
+    options.player.keys = std::move(*keys);
+  }
+  options.player.sound_device = options.audio.text();
+  if (const std::string state = Resume::defaultPath(); !state.empty()) {
+    options.player.volume_path = (std::filesystem::path(state).parent_path() / "volume.json").string();
+  }
+  if (!options.resume && !options.player.browser) return {};
+  const std::string path = Resume::defaultPath();
+  if (path.empty()) {
+    if (!options.resume) return {};
+    return failOn("--resume", {ErrorCode::NotFound, 0, "there is no home to remember in; set HOME or STATE_DIRECTORY"});
+  }
+  makeFolders(std::filesystem::path(path).parent_path());
+  const auto place = AtomicFile::create(path);
+  if (!place && options.resume) return failOn("--resume " + path, place.error());
+  if (place) options.player.resume_path = path;
+  return {};
+}
+
+std::string secondRecordPath(const PlayOptions& options) {
+  if (options.record_path.empty() || options.second_haptic.word.empty()) return "";
+  const std::filesystem::path path = options.record_path;
+  return (path.parent_path() / (path.stem().string() + "-2" + path.extension().string())).string();
+}
+
+Outcome<PlayOutputs> makeOutputs(const PlayOptions& options) {
+  PlayOutputs outputs;
+  if (!options.report_path.empty()) {
+    auto created = AtomicFile::create(options.report_path);
+    if (!created) return failOn(options.report_path, created.error());
+    outputs.report = std::move(*created);
+  }
+  if (!options.record_path.empty()) {
+    auto created = Recorder::create(options.record_path);
+    if (!created) return failOn(options.record_path, created.error());
+    outputs.recorder = std::move(*created);
+  }
+  if (const std::string path = secondRecordPath(options); !path.empty()) {
+    auto created = Recorder::create(path);
+    if (!created) return failOn(path, created.error());
+    outputs.second_recorder = std::move(*created);
+  }
+  if (!options.control_path.empty()) {
+    auto listening = ControlSocket::listen(options.control_path);
+    if (!listening) return std::unexpected(listening.error());
+    outputs.socket = std::move(*listening);
+  }
+  return outputs;
+}
+
+int finishFiles(const PlayReport& report, PlayOutputs& outputs) {
+  const CancelsAnswers kept(nullptr);  // the signal that has ended the player does not cost its files
+  int result = kExitDone;
+  const auto finish = [&result](std::optional<Recorder>& recorder, const HapticSummary& haptic) {
+    if (!recorder || haptic.ticks == 0) return;
+    if (auto finished = recorder->finish(); !finished) result = tell({recorder->path(), finished.error()});
+  };
+  finish(outputs.recorder, report.haptic);
+  if (report.second_finger) finish(outputs.second_recorder, report.second_finger->haptic);
+  if (outputs.report) {
+    outputs.report->write(toJson(report));
+    if (auto written = outputs.report->commit(); !written) result = tell({outputs.report->path(), written.error()});
+  }
+  return result;
+}
+
+}  // namespace relievo
