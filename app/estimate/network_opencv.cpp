@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/dnn.hpp>
+#include <string_view>
 
 #include "app/estimate/network_engine.h"
 
@@ -8,10 +9,21 @@ namespace relievo {
 namespace {
 
 constexpr Error kNotRun{ErrorCode::Unsupported, 0,
-                        "OpenCV cannot run this network; a command that runs it elsewhere can stand here instead"};
+                        "OpenCV " CV_VERSION
+                        " cannot run this network; a command that runs it elsewhere can stand here instead"};
+
+// Which layer OpenCV stumbled over, where it says so ("Node [Clip@ai.onnx]"); else its words.
+std::string wordsOf(const cv::Exception& e) {
+  constexpr std::string_view kNode = "Node [";
+  const std::string words = e.err.empty() ? std::string(e.what()) : e.err;
+  const auto node = words.find(kNode);
+  if (node == std::string::npos) return inOneLine(words);
+  const auto name = node + kNode.size();
+  return "layer " + words.substr(name, words.find_first_of("@]", name) - name);
+}
 
 std::unexpected<Failure> notRun(const std::string& path, const cv::Exception& e) {
-  return failOn(path + ": " + inOneLine(e.err.empty() ? std::string(e.what()) : e.err), kNotRun);
+  return failOn(path + ": " + wordsOf(e), kNotRun);
 }
 
 class OpenCvNetwork final : public NetworkEngine {

@@ -24,6 +24,7 @@ void FilmPlayback::followReliefs() {
   for (const FramePair& pair : head_.ahead()) reliefs_.offer(pair);
   if (const auto slow = reliefs_.takeSlowness())
     journal_.note(*slow, "every picture is shown; the finger feels the surface between two reliefs");
+  if (const auto caution = reliefs_.takeCaution()) journal_.note(caution->what, caution->done);
 }
 
 // Enough to begin with: the first picture's, and as many ahead as touch looks at.

@@ -13,6 +13,13 @@ class QuickMatcher final : public StereoMatcher {
   void setSize(int cols) noexcept override { depth_.setMatchedCols(cols); }
   [[nodiscard]] int size() const noexcept override { return depth_.matchedCols(); }
   void beginShot() noexcept override { depth_.beginShot(); }
+  [[nodiscard]] Caution caution() const noexcept override {
+    if (depth_.isOnePicture())
+      return {"both views of this shot are the same picture", "it has no depth and is felt flat"};
+    if (depth_.areSwapped())
+      return {"the right eye's view comes first", "touch has it in order; --swap-eyes shows it so"};
+    return {};
+  }
   [[nodiscard]] Frame depthOf(const Frame& left, const Frame& right) override { return depth_.depthOf(left, right); }
 
  private:

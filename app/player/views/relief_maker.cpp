@@ -3,6 +3,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "platform/print.h"
@@ -37,6 +38,8 @@ void ReliefMaker::begin(Duration period) {
   pace_ = ReliefPace(period);
   film_is_new_ = true;
   slowness_told_ = false;
+  cautions_told_.clear();
+  caution_.reset();
 }
 
 void ReliefMaker::end() {
@@ -90,6 +93,11 @@ std::optional<std::string> ReliefMaker::takeSlowness() {
       pace_.reliefsPerSecond(), 1 / toSeconds(period_));
 }
 
+std::optional<StereoMatcher::Caution> ReliefMaker::takeCaution() {
+  const std::scoped_lock lock(mutex_);
+  return std::exchange(caution_, std::nullopt);
+}
+
 ReliefSummary ReliefMaker::summary() const {
   const std::scoped_lock lock(mutex_);
   return summary_;
@@ -125,9 +133,14 @@ bool ReliefMaker::work() {
   const MonotonicTime start = clock_.now();
   if (!first) relief = matcher_->depthOf(job.left, job.right);
   const Duration cost = clock_.now() - start;
+  const StereoMatcher::Caution caution = matcher_->caution();
   lock.lock();
   at_work_ = false;
   if (generation != generation_) return true;  // another film, or elsewhere in it
+  if (caution.what != nullptr && std::ranges::find(cautions_told_, caution.what) == cautions_told_.end()) {
+    cautions_told_.push_back(caution.what);
+    caution_ = caution;
+  }
   last_ = relief.pts;
   made_.push_back(std::move(relief));
   ++summary_.made;

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "app/media/pair_reader.h"
 #include "app/player/views/relief_pace.h"
@@ -62,6 +63,8 @@ class ReliefMaker {
   [[nodiscard]] bool idle() const;
   // A line that says that this machine makes fewer reliefs than the film has pictures; once a film.
   [[nodiscard]] std::optional<std::string> takeSlowness();
+  // What the matcher says against the views; each once a film.
+  [[nodiscard]] std::optional<StereoMatcher::Caution> takeCaution();
   // Of all films.
   [[nodiscard]] ReliefSummary summary() const;
 
@@ -96,6 +99,8 @@ class ReliefMaker {
   std::optional<MediaTime> last_;     // whose relief was made last
   std::optional<MediaTime> shown_;    // the last picture on the screen
   bool slowness_told_ = false;
+  std::vector<const char*> cautions_told_;
+  std::optional<StereoMatcher::Caution> caution_;
   ReliefSummary summary_;
   bool stopping_ = false;
   std::thread thread_;

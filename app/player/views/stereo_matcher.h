@@ -22,6 +22,11 @@ class StereoMatcher {
   [[nodiscard]] virtual int size() const noexcept = 0;
   // The next picture does not continue the last one.
   virtual void beginShot() noexcept = 0;
+  // What is wrong with the present shot's views, and what is done about it; null: nothing.
+  struct Caution {
+    const char *what = nullptr, *done = nullptr;
+  };
+  [[nodiscard]] virtual Caution caution() const noexcept { return {}; }
   // 16 bits, full range, near high, with the left view's time.
   [[nodiscard]] virtual Frame depthOf(const Frame& left, const Frame& right) = 0;
 };

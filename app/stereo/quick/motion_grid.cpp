@@ -22,9 +22,12 @@ void MotionGrid::begin(int cols, int rows, float lowest, float highest) {
                 Cell{});
 }
 
+int MotionGrid::layerOf(float disparity) const noexcept {
+  return std::clamp(static_cast<int>(std::lround((disparity - lowest_) / kLayer)), 0, layers_ - 1);
+}
+
 void MotionGrid::add(int c, int r, float disparity, float change) noexcept {
-  const int layer = std::clamp(static_cast<int>((disparity - lowest_) / kLayer + 0.5F), 0, layers_ - 1);
-  Cell& cell = cells_[place((c + kCell / 2) / kCell, (r + kCell / 2) / kCell, layer)];
+  Cell& cell = cells_[place((c + kCell / 2) / kCell, (r + kCell / 2) / kCell, layerOf(disparity))];
   cell.count += 1;
   cell.sum += change;
 }
@@ -57,7 +60,7 @@ void MotionGrid::smoothAlong(std::size_t stride, int length) {
 MotionGrid::Change MotionGrid::at(int c, int r, float disparity) const noexcept {
   const float x = static_cast<float>(c) / kCell, y = static_cast<float>(r) / kCell;
   const int i = static_cast<int>(x), j = static_cast<int>(y);
-  const int k = std::clamp(static_cast<int>((disparity - lowest_) / kLayer + 0.5F), 0, layers_ - 1);
+  const int k = layerOf(disparity);
   const float u = x - static_cast<float>(i), v = y - static_cast<float>(j);
   const auto mean = [&](int column, int row) {
     const Cell& cell = cells_[place(column, row, k)];

@@ -33,6 +33,7 @@ class MotionGrid {
                static_cast<std::size_t>(cols_) +
            static_cast<std::size_t>(x);
   }
+  [[nodiscard]] int layerOf(float disparity) const noexcept;
   void smoothAlong(std::size_t stride, int length);
 
   int cols_ = 0, rows_ = 0, layers_ = 0;

@@ -16,6 +16,9 @@ constexpr int kSurveyCols = 160;     // in which the range is measured
 constexpr int kWidest = 6;           // a part of the width: the largest disparity
 constexpr double kLeastFound = 0.4;  // share of the pixels that both views show; of two other pictures a tenth
 constexpr double kOutliers = 0.005;
+constexpr double kMoved = 0.05;      // share of the pixels, at each end, that may lie elsewhere in one picture twice
+constexpr float kSamePlace = 0.25F;  // pixels of the survey
+constexpr int kVoteCols = 320;       // in which the eyes are told apart
 constexpr float kSpare = 0.2F;       // of the range, on each side
 constexpr float kLeastSpare = 1.5F;  // pixels of the survey
 constexpr float kHighest = 65535;
@@ -37,13 +40,15 @@ Frame QuickDepth::depthOf(const Frame& left, const Frame& right) {
   if (cutsTo(left_)) {
     range_.reset();
     exposure_.reset();
+    one_picture_ = false;
     steady_.begin();
     matched_cols_ = wished_cols_;
   }
   if (!range_) lower_ = 0;
   readSmall(right, size, right_, lower_);
+  if (!range_) level(right, size);
+  if (swapped_) mirrorBoth();
   if (!range_) {  // also where a shot comes out of the dark
-    level(right, size);
     measureShot();
   } else if (++since_look_ == kLookEvery) {
     lookAgain();
@@ -68,6 +73,12 @@ void QuickDepth::level(const Frame& right, ViewSize size) {
   readSmall(right, size, right_, lower_);
 }
 
+// A mirror shows swapped views as views in order.
+void QuickDepth::mirrorBoth() {
+  mirror(left_);
+  mirror(right_);
+}
+
 // How near and far the picture reaches, by matching a small one over the widest range.
 std::optional<QuickDepth::Range> QuickDepth::reach() {
   const int cols = std::min(kSurveyCols, left_.cols), widest = std::max(1, cols / kWidest);
@@ -80,6 +91,8 @@ std::optional<QuickDepth::Range> QuickDepth::reach() {
     if (found.seen[i] != 0) seen.push_back(found.pixels[i]);
   }
   if (static_cast<double>(seen.size()) < kLeastFound * static_cast<double>(found.size())) return std::nullopt;
+  one_picture_ = shareBelow(seen, kMoved) >= -kSamePlace && shareBelow(seen, 1 - kMoved) <= kSamePlace;
+  if (one_picture_) return std::nullopt;
   const float low = shareBelow(seen, kOutliers), high = shareBelow(seen, 1 - kOutliers);
   const float spare = std::max(kLeastSpare, kSpare * (high - low)), width = static_cast<float>(cols);
   return Range{(low - spare) / width, (high + spare) / width};
@@ -94,12 +107,33 @@ void QuickDepth::measureShot() {
   if (exposure.isNeeded()) exposure_ = exposure;
   range_ = reach();
   since_look_ = 0;
-  if (range_) matched_ = *range_;
+  if (!range_) return;
+  matched_ = *range_;
+  orderEyes();
+}
+
+// The strips that one eye alone sees lie on the other side of things if the views are swapped.
+void QuickDepth::orderEyes() {
+  const int cols = std::min(kVoteCols, left_.cols);
+  const ViewSize size{cols, std::max(1, left_.rows * cols / left_.cols)};
+  reduce(left_, size, small_left_);
+  reduce(right_, size, small_right_);
+  EyeVotes now = voteOnEyes(matching_.match(small_left_, small_right_, rangeAt(cols)), small_left_);
+  if (swapped_) std::swap(now.in_order, now.swapped);
+  eyes_.in_order /= 2;
+  eyes_.swapped /= 2;
+  eyes_ += now;
+  if (eyes_.areSwapped() == swapped_) return;
+  swapped_ = !swapped_;
+  mirrorBoth();
+  range_ = Range{-matched_.high, -matched_.low};
+  matched_ = *range_;
 }
 
 void QuickDepth::lookAgain() {
   since_look_ = 0;
   const auto now = reach();
+  one_picture_ = false;  // of the shot: something else in it has depth
   if (now) matched_ = {std::min(range_->low, now->low), std::max(range_->high, now->high)};
 }
 
@@ -129,6 +163,9 @@ Frame QuickDepth::codesOf(const DisparityMap& map) const {
     std::ranges::transform(map.pixels, codes->begin(), [&](float d) {
       return static_cast<std::uint16_t>(std::lround(std::clamp((d - low) * scale, 0.0F, 1.0F) * kHighest));
     });
+    if (swapped_) {
+      for (auto row = codes->begin(); row != codes->end(); row += map.cols) std::reverse(row, row + map.cols);
+    }
   }
   return grayFrame(std::move(codes), map.cols, map.rows);
 }

@@ -8,6 +8,7 @@
 
 #include "app/stereo/cut_finder.h"
 #include "app/stereo/exposure.h"
+#include "app/stereo/eye_order.h"
 #include "app/stereo/quick/quick_matching.h"
 #include "app/stereo/quick/small_view.h"
 #include "app/stereo/quick/steady_disparity.h"
@@ -19,8 +20,9 @@ namespace relievo {
 // One shot is scaled alike from its first picture to its last, so that nothing breathes: by the range that its first
 // picture shows, with some to spare; what comes nearer or goes farther later lies at the end of the range, and is
 // matched where it is, since a matcher that looks elsewhere finds another place in each picture. A right view that
-// lies lower or higher is brought to the left one's height, by what the shot's first picture shows. Pictures
-// come in order, not necessarily all of them. Use from one thread.
+// lies lower or higher is brought to the left one's height, by what the shot's first picture shows. Views in the wrong
+// order are told by what one eye alone sees, and matched in the right one. Pictures come in order, not necessarily all
+// of them. Use from one thread.
 class QuickDepth {
  public:
   static constexpr int kCols = 640;                                   // of a depth picture, at most
@@ -34,9 +36,13 @@ class QuickDepth {
   // Codes of 16 bits and full range, linear in disparity over the shot's range, near high, none a hole; with the left
   // view's time, in its shape. A shot without depth, as one with a black view, lies in the middle.
   [[nodiscard]] Frame depthOf(const Frame& left, const Frame& right);
-  // Whether both views show the same things in the present shot.
+  // Whether both views show the same things in the present shot, and not the same picture.
   [[nodiscard]] bool hasDepth() const noexcept { return range_.has_value(); }
-  // What the lowest and the highest code of the present shot mean: disparities as parts of the width.
+  // Whether the present shot's views are one picture twice: there is no depth to be had from it.
+  [[nodiscard]] bool isOnePicture() const noexcept { return one_picture_; }
+  // Whether the right eye's view came first. The depth is that of the view that came first all the same.
+  [[nodiscard]] bool areSwapped() const noexcept { return swapped_; }
+  // What the lowest and the highest code of the present shot mean: disparities as parts of the width, near is high.
   struct Range {
     float low = 0, high = 0;
   };
@@ -45,8 +51,10 @@ class QuickDepth {
  private:
   [[nodiscard]] bool cutsTo(const ViewPicture& left);
   void level(const Frame& right, ViewSize size);
+  void mirrorBoth();
   [[nodiscard]] std::optional<Range> reach();
   void measureShot();
+  void orderEyes();
   void lookAgain();
   void match(DisparityMap& large);
   [[nodiscard]] DisparityRange rangeAt(int cols) const noexcept;
@@ -55,9 +63,11 @@ class QuickDepth {
   int wished_cols_ = kMatchedCols[2], matched_cols_ = kMatchedCols[2];
   CutFinder cuts_;
   std::optional<Range> range_;
-  Range matched_;                     // the same and what has come since
-  int since_look_ = 0;                // pictures
-  int lower_ = 0;                     // rows of the right view by which it lies too low
+  Range matched_;       // the same and what has come since
+  int since_look_ = 0;  // pictures
+  int lower_ = 0;       // rows of the right view by which it lies too low
+  bool one_picture_ = false, swapped_ = false;
+  EyeVotes eyes_;                     // of the shots, older ones less
   std::optional<Exposure> exposure_;  // that the right view needs
   ViewPicture left_, right_, small_left_, small_right_;
   QuickMatching matching_;

@@ -23,4 +23,7 @@ void readSmall(const Frame& view, ViewSize size, ViewPicture& into, int lower = 
 // The mean of the cells of a picture that is as large or larger.
 void reduce(const ViewPicture& view, ViewSize size, ViewPicture& into);
 
+// Left and right exchanged.
+void mirror(ViewPicture& view);
+
 }  // namespace relievo

@@ -30,7 +30,9 @@ class SlowMatcher final : public StereoMatcher {
     depth.pts = left.pts;
     return depth;
   }
+  [[nodiscard]] Caution caution() const noexcept override { return wrong; }
   std::array<Duration, 3> costs;  // of the three sizes
+  Caution wrong;
 
  private:
   static constexpr std::array kSizes{160, 320, 640};
@@ -90,6 +92,20 @@ TEST_F(ReliefMakerTest, AQuickMachineMakesOneForEachPictureAtTheLargestSize) {
   ASSERT_GE(made.size(), 50U);
   for (std::size_t i = 0; i < made.size(); ++i) EXPECT_EQ(made[i], static_cast<int>(i));
   EXPECT_EQ(maker_->takeSlowness(), std::nullopt);
+}
+
+TEST_F(ReliefMakerTest, WhatIsWrongWithTheViewsIsSaidOnceAFilm) {
+  with({Ms(2), Ms(8), Ms(20)});
+  static_cast<void>(play(3));
+  EXPECT_FALSE(maker_->takeCaution());
+  matcher_->wrong = {"both views are one", "it is flat"};
+  for (const bool first : {true, false}) {
+    maker_->begin(kPeriod);
+    static_cast<void>(play(10));
+    ASSERT_TRUE(maker_->takeCaution()) << first;
+    static_cast<void>(play(10));
+    EXPECT_FALSE(maker_->takeCaution()) << first;
+  }
 }
 
 TEST_F(ReliefMakerTest, TheSizeIsTheLargestThatKeepsWithinThePicturesTime) {

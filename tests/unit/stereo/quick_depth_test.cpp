@@ -135,6 +135,39 @@ TEST(QuickDepth, FindsTheBoardsAtEverySize) {
   }
 }
 
+// What came first is the right eye's view, and the depth is that of it: the board of 12.5 pixels is near, where it is.
+TEST(QuickDepth, ViewsInTheWrongOrderAreMatchedInTheRightOne) {
+  const TwoViews scene = boards(kCols, kRows);
+  QuickDepth quick;
+  quick.setMatchedCols(320);
+  const Frame depth = quick.depthOf(scene.right(), scene.left());
+  EXPECT_TRUE(quick.areSwapped());
+  const auto& board = scene.boards[2];
+  const int middle = static_cast<int>(0.5 * (board.left + board.right) - board.disparity);
+  const double near = codeOf(depth, middle, 170);
+  EXPECT_GT(near, codeOf(depth, static_cast<int>(board.left - board.disparity) - 8, 170) + 10000);
+  EXPECT_GT(near, codeOf(depth, static_cast<int>(board.right - board.disparity) + 8, 170) + 10000);
+  static_cast<void>(quick.depthOf(scene.right(), scene.left()));
+  EXPECT_TRUE(quick.hasDepth()) << "it is one shot";
+  QuickDepth in_order;
+  static_cast<void>(in_order.depthOf(scene.left(), scene.right()));
+  EXPECT_FALSE(in_order.areSwapped());
+}
+
+// A film of one view in both halves, as another encoder leaves them; a shot with depth after it has depth.
+TEST(QuickDepth, OnePictureTwiceIsFlat) {
+  const TwoViews scene = boards(kCols, kRows);
+  QuickDepth quick;
+  const Frame flat = quick.depthOf(scene.left(), scene.leftWithGrain(4));
+  EXPECT_TRUE(quick.isOnePicture());
+  EXPECT_FALSE(quick.hasDepth());
+  EXPECT_EQ(codeOf(flat, 10, 10), codeOf(flat, 430, 170));
+  quick.beginShot();
+  static_cast<void>(quick.depthOf(scene.left(), scene.right()));
+  EXPECT_FALSE(quick.isOnePicture());
+  EXPECT_TRUE(quick.hasDepth());
+}
+
 TEST(QuickDepth, IsAsGoodWithAnotherExposure) {
   Fit fit = fitOf(320, {.gain = 0.7, .offset = 20});
   EXPECT_LT(fit.median(), 0.25);
