@@ -123,4 +123,34 @@ inline std::unique_ptr<VideoDecoder> openWithFailover(std::unique_ptr<VideoDecod
   return decoder;
 }
 
+// Seeks forget what is inside the decoder, `inside` packets of the film, and the pictures go on exactly.
+inline void expectSeeksToGoOnExactly(VideoDecoder& decoder, const Film& film, std::size_t inside) {
+  const auto software = bySoftware(film);
+  for (const std::size_t key : {48u, 0u, 24u}) {
+    std::vector<Shown> before, after;
+    ASSERT_TRUE(feedTo(decoder, film, 0, inside, before));
+    EXPECT_GT(before.size(), 10u);
+    ASSERT_TRUE(decoder.flush());
+    ASSERT_TRUE(feedTo(decoder, film, key, film.packets.size(), after));
+    EXPECT_EQ(after, std::vector(software.begin() + static_cast<std::ptrdiff_t>(key), software.end()));
+    ASSERT_TRUE(decoder.flush());
+  }
+  EXPECT_EQ(decoder.damaged(), 0u);
+}
+// As in fast forward: each key frame is drained by itself.
+inline void expectKeyFramesDrainedOneByOne(VideoDecoder& decoder, const Film& film) {
+  const auto software = bySoftware(film);
+  for (std::size_t key = 0; key < film.packets.size(); key += 24) {
+    ASSERT_TRUE(film.packets[key].keyframe);
+    ASSERT_EQ(decoder.feed(film.packets[key]).value(), Feed::Accepted);
+    ASSERT_TRUE(decoder.drain());
+    const auto frame = decoder.receive().value();
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(shownOf(*frame), software[key]);
+    EXPECT_FALSE(decoder.receive().value());
+    EXPECT_EQ(decoder.state(), VideoDecoder::State::Ended);
+    ASSERT_TRUE(decoder.flush());
+  }
+}
+
 }  // namespace relievo::test

@@ -124,38 +124,16 @@ TEST_F(V4l2M2m, ColoursAreAsTheStreamSaysThem) {
 TEST_F(V4l2M2m, ASeekForgetsWhatWasInsideAndGoesOnExactly) {
   UmockdevCodec codec(bed_, 10);
   const Film film(clip());
-  const auto software = bySoftware(film);
   const auto decoder = open(film);
-  for (const std::size_t key : {48u, 0u, 24u}) {
-    std::vector<Shown> before, after;
-    ASSERT_TRUE(feedTo(*decoder, film, 0, 30, before));
-    EXPECT_GT(before.size(), 10u);
-    ASSERT_TRUE(decoder->flush());
-    ASSERT_TRUE(feedTo(*decoder, film, key, film.packets.size(), after));
-    EXPECT_EQ(after, std::vector(software.begin() + static_cast<std::ptrdiff_t>(key), software.end()));
-    ASSERT_TRUE(decoder->flush());
-  }
+  expectSeeksToGoOnExactly(*decoder, film, 30);
   EXPECT_EQ(codec.openings(), 1);
-  EXPECT_EQ(decoder->damaged(), 0u);
 }
 
-// As in fast forward: each key frame is drained by itself.
 TEST_F(V4l2M2m, DrainsAgainAndAgain) {
   UmockdevCodec codec(bed_, 10);
   const Film film(clip());
-  const auto software = bySoftware(film);
   const auto decoder = open(film);
-  for (std::size_t key = 0; key < film.packets.size(); key += 24) {
-    ASSERT_TRUE(film.packets[key].keyframe);
-    ASSERT_EQ(decoder->feed(film.packets[key]).value(), Feed::Accepted);
-    ASSERT_TRUE(decoder->drain());
-    const auto frame = decoder->receive().value();
-    ASSERT_TRUE(frame);
-    EXPECT_EQ(shownOf(*frame), software[key]);
-    EXPECT_FALSE(decoder->receive().value());
-    EXPECT_EQ(decoder->state(), VideoDecoder::State::Ended);
-    ASSERT_TRUE(decoder->flush());
-  }
+  expectKeyFramesDrainedOneByOne(*decoder, film);
   EXPECT_EQ(codec.drains(), 3);
 }
 

@@ -56,7 +56,7 @@ const std::vector<Room>& rooms() {
       {"app/haptics/baseline", {"app/scene", "app/depth_window", "app/haptics/method"}},
       {"app/render/relief", {"app/scene"}},
       {"app/render/text", {}},
-      {"app/render/gl", {"app/scene", "app/render/relief", "app/render/text"}},
+      {"app/render/gl", {"app/render/gl", "app/scene", "app/render/relief", "app/render/text"}},
       {"app/cli", {"app/scene", "app/media"}},
       {"app/player",
        {"app/player", "app/scene", "app/media", "app/depth_window", "app/haptics/method", "app/haptics/task",

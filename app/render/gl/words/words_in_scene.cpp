@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // All lines that are shown at a time stand at one depth.
-#include "app/render/gl/words_in_scene.h"
+#include "app/render/gl/words/words_in_scene.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // One rectangle per picture, in the view's own pixels.
-#include "app/render/gl/overlay.h"
+#include "app/render/gl/words/overlay.h"
 
 #include <utility>
 

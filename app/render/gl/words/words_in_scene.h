@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "app/render/gl/overlay.h"
+#include "app/render/gl/words/overlay.h"
 #include "app/render/relief/relief_triangles.h"
 #include "app/render/relief/stereo.h"
 #include "app/render/relief/words_place.h"
