@@ -153,7 +153,7 @@ void mirror(ViewPicture& view) {
   const auto cols = static_cast<std::size_t>(view.cols);
   for (std::size_t row = 0; row < view.size(); row += cols) {
     for (std::size_t a = row, b = row + cols - 1; a < b; ++a, --b) {
-      std::swap_ranges(&view.yuv[3 * a], &view.yuv[3 * a] + 3, &view.yuv[3 * b]);
+      std::swap_ranges(&view.bytes[3 * a], &view.bytes[3 * a] + 3, &view.bytes[3 * b]);
     }
   }
 }

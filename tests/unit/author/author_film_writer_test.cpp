@@ -73,7 +73,9 @@ ReadFilm readFilm(const std::string& path) {
     EXPECT_TRUE(decoders[stream.index]->open(stream).has_value());
   }
   const auto receiveAll = [&](int stream) {
-    while (auto frame = decoders[stream]->receive().value()) film.frames[stream].push_back(*frame);
+    for (auto got = decoders[stream]->receive(); got.value(); got = decoders[stream]->receive()) {
+      film.frames[stream].push_back(std::move(**got));
+    }
   };
   while (auto packet = source->read().value()) {
     if (packet->keyframe) film.keys[packet->stream].push_back(*packet->pts);
