@@ -28,7 +28,7 @@ std::unexpected<Failure> notRun(const std::string& path, const cv::Exception& e)
 
 class OpenCvNetwork final : public NetworkEngine {
  public:
-  OpenCvNetwork(std::string path, cv::dnn::Net net) : path_(std::move(path)), net_(std::move(net)) {}
+  OpenCvNetwork(std::string path, const cv::dnn::Net& net) : path_(std::move(path)), net_(net) {}
 
   Outcome<NetworkPlanes> run(NetworkPlanes input) override {
     try {
