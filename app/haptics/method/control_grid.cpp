@@ -35,6 +35,7 @@ void ControlGrid::setPicture(const HeightField& field) RELIEVO_RT {
   most_bend_mm_ = static_cast<float>(std::min(pitch2 / kSharpestMm, kMostBendMm));
   pit_mm_ = static_cast<float>(-field.depthMm());
   patch_ = ahead_ = {};
+  slots_read_ = 0;
   filled_.fill(0);
   hole_.fill(0);
   complete_.fill(0);
@@ -42,6 +43,7 @@ void ControlGrid::setPicture(const HeightField& field) RELIEVO_RT {
 
 void ControlGrid::forgetFrame(int slot) RELIEVO_RT {
   patch_ = ahead_ = {};
+  slots_read_ &= ~(1U << slot);
   const auto keep = static_cast<std::uint8_t>(~(1U << slot));
   for (std::uint8_t& bits : filled_) bits &= keep;
   for (std::uint8_t& bits : hole_) bits &= keep;
@@ -187,6 +189,7 @@ void ControlGrid::patch(int i0, int j0, const Frames& frames, Patch& out) RELIEV
     }
     patch_ = {i0, j0, frames.wanted};
     patch_holes_ = holes != 0;
+    slots_read_ |= frames.wanted;
   }
   weighted(height_, i0, j0, frames, out);
   if (!patch_holes_) return;
@@ -225,6 +228,7 @@ void ControlGrid::readAhead(int i0, int j0, const Frames& frames, int most) RELI
     }
   }
   ahead_ = {i0, j0, frames.wanted};
+  slots_read_ |= frames.wanted;
 }
 
 void ControlGrid::prefetch() const RELIEVO_RT {

@@ -82,6 +82,8 @@ class ControlGrid {
   // Reads points around a place of frames that will be weighted soon; stops once it has read `most` blocks, or those of
   // one point. Nothing is read so far away that the last patch would have to go.
   void readAhead(int i0, int j0, const Frames& frames, int most) RELIEVO_RT;
+  // The frames, one bit per slot, of which a whole patch or place has been read.
+  [[nodiscard]] std::uint32_t slotsRead() const RELIEVO_RT { return slots_read_; }
   // Prefetches everything except the points.
   void prefetch() const RELIEVO_RT;
   // Total so far, counted per frame.
@@ -122,6 +124,7 @@ class ControlGrid {
   // something was discarded or replaced since.
   Place patch_, ahead_;
   bool patch_holes_ = false;
+  std::uint32_t slots_read_ = 0;
   std::uint64_t blocks_read_ = 0;
   // One element per point. Bits, means and heights by slot; those of a hole are 0.
   std::array<std::int32_t, kPoints> i_{}, j_{};

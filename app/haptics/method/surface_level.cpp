@@ -3,6 +3,7 @@
 #include "app/haptics/method/surface_level.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "platform/prefetch.h"
@@ -49,9 +50,17 @@ SurfaceLevel::SurfaceLevel(double sigma_mm, int most_samples, SpaceLaw space, Ti
       cubic_(space != SpaceLaw::Quadratic),
       tells_straight_(straight != nullptr) {}
 
-void SurfaceLevel::weigh(const FrameSlots& slots, const FrameMoment& moment,
-                         ControlGrid::Frames& frames) const RELIEVO_RT {
-  place(slots, frameWeights(moment, time_), frames);
+// Frames that come together, after a late picture, a seek or a cut, are read in several ticks, two in each: until then
+// the surface in time is that of fewer frames.
+void SurfaceLevel::weigh(const FrameSlots& slots, const FrameMoment& moment, Weighed& out) const RELIEVO_RT {
+  constexpr int kNewAtOnce = 2;
+  out.moment = moment;
+  out.law = time_;
+  place(slots, frameWeights(moment, out.law), out.frames);
+  while (framesAhead(out.law) > 1 && std::popcount(out.frames.wanted & ~grid_.slotsRead()) > kNewAtOnce) {
+    out.law = framesAhead(out.law) > framesAhead(TimeLaw::BSpline) ? TimeLaw::BSpline : TimeLaw::Linear;
+    place(slots, frameWeights(moment, out.law), out.frames);
+  }
 }
 
 void SurfaceLevel::place(const FrameSlots& slots, const FrameWeights& weights,
@@ -69,13 +78,13 @@ void SurfaceLevel::place(const FrameSlots& slots, const FrameWeights& weights,
 
 // An edge that passes a point is no motion of the surface there, and to carry it on would throw it beyond both sides of
 // the edge: a way over kMostCarriedMm counts less, and one twice as long not at all.
-RELIEVO_TICK_CODE void SurfaceLevel::blend(const FrameSlots& slots, const FrameMoment& moment, const Cell& cell,
+RELIEVO_TICK_CODE void SurfaceLevel::blend(const FrameSlots& slots, const Weighed& weighed, const Cell& cell,
                                            Patch& out) RELIEVO_RT {
-  grid_.patch(cell.i, cell.j, frames_, out);
+  grid_.patch(cell.i, cell.j, weighed.frames, out);
   const Duration carried = slots.window->carried;
   if (carried == Duration(0)) return;
   ControlGrid::Frames frames;
-  place(slots, carriedWeights(*slots.window, moment, time_, carried), frames);
+  place(slots, carriedWeights(*slots.window, weighed.moment, weighed.law, carried), frames);
   Patch there;
   grid_.patch(cell.i, cell.j, frames, there);
   for (std::size_t j = 0; j < 4; ++j) {
@@ -90,7 +99,7 @@ RELIEVO_TICK_CODE void SurfaceLevel::begin(const FrameSlots& slots, const FrameM
                                            std::optional<double> since_prepared_s) RELIEVO_RT {
   slots_ = &slots;
   moment_ = moment;
-  weighed_ = patch_.valid = frame_patch_[0].valid = frame_patch_[1].valid = false;
+  is_weighed_ = patch_.valid = frame_patch_[0].valid = frame_patch_[1].valid = false;
   since_prepared_s_.reset();
   if (since_prepared_s) since_prepared_s_ = static_cast<float>(*since_prepared_s);
 }
@@ -109,9 +118,9 @@ RELIEVO_TICK_CODE const Patch& SurfaceLevel::patchAt(const Cell& cell) RELIEVO_R
   if (since_prepared_s_ && cell.i == prepared_i_ && cell.j == prepared_j_) {
     for (std::size_t j = 0; j < 4; ++j) patch_.points[j] = prepared_[j] + prepared_rate_[j] * *since_prepared_s_;
   } else {
-    if (!weighed_) weigh(*slots_, moment_, frames_);
-    weighed_ = true;
-    blend(*slots_, moment_, cell, patch_.points);
+    if (!is_weighed_) weigh(*slots_, moment_, weighed_);
+    is_weighed_ = true;
+    blend(*slots_, weighed_, cell, patch_.points);
     if (tells_straight_) readStraightness(cell, straight_);
   }
   patch_.i = cell.i;
@@ -121,7 +130,7 @@ RELIEVO_TICK_CODE const Patch& SurfaceLevel::patchAt(const Cell& cell) RELIEVO_R
 }
 
 void SurfaceLevel::readStraightness(const Cell& cell, StraightPatch& out) const RELIEVO_RT {
-  grid_.straightness(cell.i, cell.j, frames_, out.points);
+  grid_.straightness(cell.i, cell.j, weighed_.frames, out.points);
   constexpr float kRounding = 1e-5F;  // of the frames' weights, whose sum is 1
   out.all = out.none = true;
   for (const Float4& row : out.points) {
@@ -188,15 +197,16 @@ void SurfaceLevel::prepare(const FrameSlots& slots, double x_mm, double y_mm, co
                            const FrameMoment& later, double step_s) RELIEVO_RT {
   const Cell cell = cellOf(x_mm, y_mm);
   if (prepared_straight_.none && cell.i == prepared_i_ && cell.j == prepared_j_) {
-    weigh(slots, next, frames_);
-    if (grid_.wasPatch(cell.i, cell.j, frames_.wanted)) return;  // still none of it, and no height is asked for
+    weigh(slots, next, weighed_);
+    if (grid_.wasPatch(cell.i, cell.j, weighed_.frames.wanted)) return;  // still none of it, and no height is asked for
   }
   prepared_i_ = cell.i;
   prepared_j_ = cell.j;
-  weigh(slots, later, frames_);
-  blend(slots, later, cell, prepared_rate_);
-  weigh(slots, next, frames_);
-  blend(slots, next, cell, prepared_);
+  Weighed then;
+  weigh(slots, later, then);
+  weigh(slots, next, weighed_);
+  blend(slots, then, cell, prepared_rate_);
+  blend(slots, weighed_, cell, prepared_);
   if (tells_straight_) readStraightness(cell, prepared_straight_);
   // A point where a hole opens or closes in between jumps and has no rate.
   const float pit = grid_.pitMm();

@@ -88,9 +88,15 @@ class SurfaceLevel {
   void readStraightness(const Cell& cell, StraightPatch& out) const RELIEVO_RT;
   [[nodiscard]] SurfacePoint pointOn(const Patch& patch, const Cell& cell) const RELIEVO_RT;
   void place(const FrameSlots& slots, const FrameWeights& weights, ControlGrid::Frames& frames) const RELIEVO_RT;
-  void weigh(const FrameSlots& slots, const FrameMoment& moment, ControlGrid::Frames& frames) const RELIEVO_RT;
-  // The points weighted by `frames_`, which are weighted for `moment`; carried forward if the window says so.
-  void blend(const FrameSlots& slots, const FrameMoment& moment, const Cell& cell, Patch& out) RELIEVO_RT;
+  // Frames with their weights at a moment, by a law.
+  struct Weighed {
+    FrameMoment moment;
+    TimeLaw law = TimeLaw::Hold;
+    ControlGrid::Frames frames;
+  };
+  void weigh(const FrameSlots& slots, const FrameMoment& moment, Weighed& out) const RELIEVO_RT;
+  // The points so weighted; carried forward if the window says so.
+  void blend(const FrameSlots& slots, const Weighed& weighed, const Cell& cell, Patch& out) RELIEVO_RT;
 
   ControlGrid grid_;
   TimeLaw time_;
@@ -98,8 +104,8 @@ class SurfaceLevel {
 
   const FrameSlots* slots_ = nullptr;
   FrameMoment moment_;
-  ControlGrid::Frames frames_;
-  bool weighed_ = false;  // `frames_` are weighted for `moment_`: done on first use
+  Weighed weighed_;
+  bool is_weighed_ = false;  // for `moment_`: done on first use
   CellPatch patch_;
   std::array<CellPatch, 2> frame_patch_;  // of the present frame and of the next one
 
