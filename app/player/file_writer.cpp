@@ -15,7 +15,11 @@ FileWriter::FileWriter(Where where, Duration last_patience) : last_patience_(las
 bool FileWriter::give(const std::string& name, std::function<void()> write) {
   std::unique_lock lock(mutex_);
   if (finishing_) return false;
-  if (!thread_.joinable()) return lock.unlock(), write(), true;
+  if (!thread_.joinable()) {
+    lock.unlock();
+    write();
+    return true;
+  }
   const auto waits = name.empty() ? jobs_.end() : std::ranges::find(jobs_, name, &Job::name);
   if (waits == jobs_.end() && jobs_.size() == kMost) return false;
   if (waits != jobs_.end()) waits->write = std::move(write);

@@ -62,11 +62,11 @@ TEST(FileWriter, ItsEndDoesNotWaitForADeadDisk) {
   auto dead = std::make_shared<std::latch>(1);  // the question is left behind
   std::optional<ErrorCode> first, second;
   {
-    FileWriter files(FileWriter::Where::OwnThread, Duration(1));
     const auto ask = [dead](std::optional<ErrorCode>& code) {
       const auto asked = fileSystem().ask("/dead", [dead] { dead->wait(); });
       if (!asked) code = asked.error().code;
     };
+    FileWriter files(FileWriter::Where::OwnThread, Duration(1));
     files.give("", [&] { ask(first); });
     files.give("", [&] { ask(second); });
   }
