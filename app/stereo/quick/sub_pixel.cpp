@@ -101,16 +101,19 @@ void SubPixel::smooth(DisparityMap& map, bool across, float surface) {
     const float* const from = &map.pixels[map.at(margin_c, r)];
     float* const to = &smoothed_[map.at(margin_c, r)];
     const int count = map.cols - 2 * margin_c;
-    for (std::ptrdiff_t c = 0; c < count; ++c) {
-      float sum = 0, weights = 0;
-      for (int k = -kNear; k <= kNear; ++k) {
-        const float there = from[c + k * stride], away = std::abs(there - from[c]);
-        const float weight = std::max(0.0F, surface - away);
-        sum += weight * there;
-        weights += weight;
+    sums_.assign(static_cast<std::size_t>(count), 0);
+    weights_.assign(static_cast<std::size_t>(count), 0);
+    float* const sums = sums_.data();
+    float* const weights = weights_.data();
+    for (int k = -kNear; k <= kNear; ++k) {  // a neighbour at a time, for all of the row
+      const float* const near = from + k * stride;
+      for (int c = 0; c < count; ++c) {
+        const float weight = std::max(0.0F, surface - std::abs(near[c] - from[c]));
+        sums[c] += weight * near[c];
+        weights[c] += weight;
       }
-      to[c] = sum / weights;
     }
+    for (int c = 0; c < count; ++c) to[c] = sums[c] / weights[c];
   }
   map.pixels.swap(smoothed_);
 }

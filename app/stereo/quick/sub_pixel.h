@@ -25,7 +25,7 @@ class SubPixel {
   std::vector<float> left_, right_;
   std::vector<float> slopes_, misfits_;  // sums of squares of the slope, and of slope times misfit
   std::vector<float> column_slopes_, column_misfits_;
-  std::vector<float> smoothed_;
+  std::vector<float> smoothed_, sums_, weights_;  // the last two of a row
 };
 
 }  // namespace relievo
