@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What computes an ONNX network: ONNX Runtime where the build has found it, else OpenCV, which knows fewer operations
-// (none of those that newer exporters write for transformers, before OpenCV 4.10).
+// What computes an ONNX network: ONNX Runtime where the build has found it, else OpenCV, which knows fewer operations:
+// 4.6 and 4.10 refuse Depth Anything and DPT as PyTorch 2.11 exports them, or end the program by a signal.
 #pragma once
 
 #include <cstdint>
