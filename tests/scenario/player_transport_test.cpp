@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists, rates, steps and places in films, in simulated time.
+// Rates, steps and places in films, and where films go on, in simulated time.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <linux/input-event-codes.h>
@@ -7,10 +7,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <glm/geometric.hpp>
+#include <string>
 
 #include "app/player/film/resume.h"
-#include "tests/scenario/player_bench.h"
+#include "tests/scenario/player_transport.h"
 
 namespace relievo {
 namespace {
@@ -19,129 +19,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
-
-class PlayerTransport : public testing::Test {
- protected:
-  void playsWell() {
-    const auto played = bench_.run();
-    ASSERT_TRUE(played) << played.error().thing << ": " << played.error().error.message;
-  }
-  // Films of 1, 2, 3 s.
-  void aList() {
-    bench_.sources = {{"./a", PlayerBench::film(25)}, {"./b", PlayerBench::film(50)}, {"./c", PlayerBench::film(75)}};
-    bench_.texts["list.m3u"] = "#EXTM3U\na\nb\nc\n";
-    bench_.config.source.url = "list.m3u";
-  }
-  // At rest in the highest plane of the film (code 109, 17.1 mm).
-  void aFingerInside() {
-    bench_.haptic.position_mm = [](double t) { return glm::dvec3(0, 0, t < 0.3 ? 25 : 15); };
-  }
-
-  PlayerBench bench_;
-};
-
-TEST_F(PlayerTransport, AListIsPlayedFromItsFirstFilmToItsLast) {
-  aList();
-  playsWell();
-  EXPECT_EQ(
-      bench_.states(),
-      "boot idle opening buffering playing ended opening buffering playing ended opening buffering playing ended idle");
-  EXPECT_THAT(bench_.report.films, ElementsAre("./a", "./b", "./c"));
-  EXPECT_EQ(bench_.report.frames_shown, 150u);
-  EXPECT_EQ(bench_.report.pairs.pairs, 150u);
-  EXPECT_EQ(bench_.report.pairs.mismatched, 0u);
-  EXPECT_NEAR(bench_.report.media_s, 6.0, 0.02);
-  EXPECT_THAT(bench_.report.faults, IsEmpty());
-}
-
-TEST_F(PlayerTransport, AListOnLoopBeginsAgain) {
-  aList();
-  bench_.config.loop = true;
-  bench_.config.duration = std::chrono::seconds(10);
-  playsWell();
-  EXPECT_THAT(bench_.report.films, ElementsAre("./a", "./b", "./c", "./a", "./b", "./c"));
-}
-
-TEST_F(PlayerTransport, NextAndPreviousGoFromFilmToFilm) {
-  aList();
-  bench_.sources["./b"] = PlayerBench::film(500);
-  bench_.press(0.5, KEY_NEXT);      // to b
-  bench_.press(4.5, KEY_PREVIOUS);  // more than 3 s into it: its beginning
-  bench_.press(5.0, KEY_PREVIOUS);  // to a
-  bench_.press(5.5, KEY_NEXTSONG);
-  bench_.press(6.0, KEY_CHANNELUP);
-  bench_.press(6.5, KEY_NEXT);  // there is none
-  playsWell();
-  EXPECT_THAT(bench_.report.films, ElementsAre("./a", "./b", "./a", "./b", "./c"));
-  ASSERT_THAT(bench_.report.seeks, SizeIs(1));
-  EXPECT_EQ(bench_.report.seeks[0].target_s, 0.0);
-}
-
-TEST_F(PlayerTransport, TheForceIsZeroBetweenFilmsAndFadesInOnTheNext) {
-  aList();
-  bench_.sources["./b"].tracks[0].width = 24;  // another shape: another volume
-  bench_.sources["./b"].tracks[1].width = 24;
-  aFingerInside();
-  playsWell();
-  EXPECT_GT(bench_.report.haptic.contact_ticks, 1000u);
-  EXPECT_NEAR(static_cast<double>(bench_.report.haptic.ticks), 6000, 30);
-  EXPECT_LE(bench_.report.haptic.max_scene_slew_n_per_s, 50.0 + 1e-6);
-  EXPECT_EQ(bench_.force_left, glm::dvec3(0));
-}
-
-TEST_F(PlayerTransport, PastTheLastFilmThereIsNoNext) {
-  aList();
-  for (const double at_s : {0.2, 0.4, 0.6, 0.8}) bench_.press(at_s, KEY_NEXT);
-  playsWell();
-  EXPECT_THAT(bench_.report.films, ElementsAre("./a", "./b", "./c"));
-  EXPECT_NEAR(bench_.report.media_s, 0.4 + 3.0, 0.1);
-}
-
-TEST_F(PlayerTransport, AListOnLoopGoesOnWithoutAScreen) {
-  aList();
-  bench_.config.loop = true;
-  bench_.config.duration = std::chrono::seconds(13);
-  bench_.display.shown = [this] { bench_.cable->unplugged = true; };
-  playsWell();
-  EXPECT_THAT(bench_.report.films, SizeIs(7));
-}
-
-TEST_F(PlayerTransport, AFilmIsFeltByItsOwnCalibration) {
-  aList();
-  MockTrack& deeper = bench_.sources["./b"].tracks[1];  // the same heights in other codes
-  deeper.bits = 16;
-  deeper.sample = [](int frame, int, int, int) { return static_cast<std::uint16_t>(257 * (100 + frame % 10)); };
-  double hardest_n = 0;
-  bench_.haptic.position_mm = [&](double t) {
-    hardest_n = std::max(hardest_n, bench_.hand->force().z);
-    return glm::dvec3(0, 0, t < 0.3 ? 60 : 15);
-  };
-  playsWell();
-  EXPECT_GT(hardest_n, 0.1);
-  EXPECT_LT(hardest_n, 3.0) << "2.1 mm inside, not 25";
-}
-
-TEST_F(PlayerTransport, WhatIsDroppedOnTheWindowIsPlayedInstead) {
-  bench_.sources = {{"film", PlayerBench::film(100)}, {"b", PlayerBench::film(25)}, {"c", PlayerBench::film(25)}};
-  std::vector<std::string> drop{"b", "c"};
-  bench_.display.dropped = [&] {
-    const bool now = bench_.clock.now().time_since_epoch() > std::chrono::seconds(1);
-    return now ? std::exchange(drop, {}) : std::vector<std::string>();
-  };
-  std::vector<std::string> titles;
-  bench_.display.announced = [&](const AnnouncedFilm& film) { titles.push_back(film.title); };
-  playsWell();
-  EXPECT_THAT(bench_.report.films, testing::ElementsAre("film", "b", "c"));
-  EXPECT_EQ(titles, (std::vector<std::string>{"film", "b", "c"}));
-  EXPECT_NEAR(static_cast<double>(bench_.report.frames_shown), 25 + 25 + 25, 2);
-}
-
-TEST_F(PlayerTransport, SeveralSourcesArePlayedOneAfterTheOther) {
-  bench_.sources = {{"film", PlayerBench::film(25)}, {"b", PlayerBench::film(25)}, {"c", PlayerBench::film(25)}};
-  bench_.config.more = {"b", "c"};
-  playsWell();
-  EXPECT_THAT(bench_.report.films, testing::ElementsAre("film", "b", "c"));
-}
 
 // 32 x 24 pixels in a box that is twice as wide as high.
 TEST_F(PlayerTransport, TheWindowIsToldThePicturesSizeInTheShapeOfItsBox) {
@@ -193,102 +70,6 @@ TEST_F(PlayerTransport, WhereNothingIsPlayedTheDeviceIsAtRest) {
   EXPECT_GT(ticks_s.size(), 4000u);
   EXPECT_TRUE(std::ranges::none_of(ticks_s, [](double t) { return t > 2.1 && t < 5.0; }));
   EXPECT_EQ(left_n, 0.0) << "in the motors, from one film to the next";
-}
-
-TEST_F(PlayerTransport, AFilmThatCannotBePlayedIsPassedOver) {
-  aList();
-  bench_.sources.erase("./b");
-  playsWell();
-  EXPECT_THAT(bench_.report.films, ElementsAre("./a", "./b", "./c"));
-  EXPECT_EQ(bench_.faults("./b"), 1u);
-  EXPECT_EQ(bench_.report.frames_shown, 100u);
-}
-
-TEST_F(PlayerTransport, AMissingLastFilmIsPassedOverAsWell) {
-  aList();
-  bench_.sources.erase("./c");
-  playsWell();
-  EXPECT_EQ(bench_.faults("./c"), 1u);
-  EXPECT_EQ(bench_.report.frames_shown, 75u);
-  bench_.config.loop = true;
-  bench_.config.duration = std::chrono::seconds(5);
-  playsWell();
-  EXPECT_THAT(bench_.report.films, ElementsAre("./a", "./b", "./c", "./a", "./b"));
-}
-
-TEST_F(PlayerTransport, BackwardsWhatIsMissingIsPassedOverBackwards) {
-  aList();
-  bench_.sources.erase("./b");
-  bench_.press(2.0, KEY_PREVIOUS);  // out of c
-  playsWell();
-  EXPECT_THAT(bench_.report.films, ElementsAre("./a", "./b", "./c", "./b", "./a", "./b", "./c"));
-}
-
-TEST_F(PlayerTransport, AListInAListIsPlayedInItsPlace) {
-  aList();
-  bench_.texts["./inner.m3u"] = "b\nc\n";
-  bench_.texts["list.m3u"] = "inner.m3u\na\n";
-  playsWell();
-  EXPECT_THAT(bench_.report.films, ElementsAre("./b", "./c", "./a"));
-}
-
-TEST_F(PlayerTransport, AListThatNamesItselfEnds) {
-  bench_.texts["./self.m3u"] = "self.m3u\n";
-  bench_.config.source.url = "./self.m3u";
-  const auto played = bench_.run();
-  ASSERT_FALSE(played);
-  EXPECT_THAT(played.error().error.message, HasSubstr("may contain itself"));
-}
-
-TEST_F(PlayerTransport, AListOfWhichNothingCanBePlayedFails) {
-  aList();
-  bench_.sources.clear();
-  bench_.config.loop = true;
-  const auto played = bench_.run();
-  ASSERT_FALSE(played);
-  EXPECT_EQ(played.error().thing, "./c");
-}
-
-TEST_F(PlayerTransport, AListThatNamesFilesOfTheBoxFromTheNetworkOpensNothing) {
-  bench_.texts["http://host/list.m3u"] = "#EXTM3U\nfile:///etc/passwd\n";
-  bench_.sources["file:///etc/passwd"] = bench_.sources["film"];
-  bench_.config.source.url = "http://host/list.m3u";
-  const auto played = bench_.run();
-  ASSERT_FALSE(played);
-  EXPECT_EQ(played.error().thing, "file:///etc/passwd");
-  EXPECT_EQ(bench_.states(), "boot idle opening fault");
-}
-
-TEST_F(PlayerTransport, WhatAListMayNotNameIsPassedOver) {
-  aList();
-  bench_.texts["list.m3u"] = "#EXTM3U\na\nconcat:a|b\nb\n";
-  playsWell();
-  EXPECT_THAT(bench_.report.films, ElementsAre("./a", "concat:a|b", "./b"));
-  EXPECT_EQ(bench_.faults("concat:a|b: not allowed in a playlist"), 1u);
-}
-
-TEST_F(PlayerTransport, APlayerThatStaysWaitsForTheNextFilm) {
-  bench_.config.stays = true;
-  bench_.config.duration = std::chrono::seconds(20);
-  bench_.press(6.0, KEY_PLAY);  // the same again; it ended at 4
-  bench_.press(7.0, KEY_STOP);
-  bench_.press(8.0, KEY_OK);
-  playsWell();
-  EXPECT_EQ(
-      bench_.states(),
-      "boot idle opening buffering playing ended idle opening buffering playing idle opening buffering playing ended "
-      "idle");
-  EXPECT_NEAR(bench_.report.wall_s, 20.0, 0.02);
-  EXPECT_NEAR(bench_.report.media_s, 9.0, 0.1);
-}
-
-TEST_F(PlayerTransport, APlayerThatStaysOutlivesAFilmThatFails) {
-  bench_.config.stays = true;
-  bench_.config.duration = std::chrono::seconds(5);
-  bench_.sources.clear();
-  playsWell();
-  EXPECT_EQ(bench_.states(), "boot idle opening fault idle");
-  EXPECT_EQ(bench_.faults("film"), 1u);
 }
 
 TEST_F(PlayerTransport, SlowMotionShowsEveryPictureLongerAndIsFelt) {
