@@ -1,25 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Creates the view of a depth plane and decodes depth that is coded in colours.
+// Creates the view of a depth plane, and reads its samples, rows and blocks.
 #include "app/scene/height_field.h"
 
-#include <bit>
 #include <cmath>
-#include <cstring>
+
+#include "app/scene/code_sums.h"
 
 namespace relievo {
 namespace {
-
-// Distances of a colour from the curve, in ColorCurve's coordinates. Measured on H.264 4:2:0 at crf 18 to 23: nine of
-// ten samples are nearer than 0.01, mixed ones farther than 0.05.
-constexpr float kOnCurve = 0.06F;
-constexpr float kFarOffHues = 0.2F, kFarOffMap = 0.12F;
-constexpr float kNearBlack = 0.2F, kDarker = 0.04F;
-bool isBlack(const YuvColor& color) noexcept {
-  return color.y * color.y + color.u * color.u + color.v * color.v < kNearBlack * kNearBlack;
-}
-
-// Half the width of the circle's seam: coding moves a hue by 0.0044 in one sample of twenty.
-constexpr float kSeam = 0.006F, kBesideSeam = 0.03F;
 
 // A pixel whose three bytes sum to less than this has no reading: 0.3 of one channel's full scale. The hue of a dark
 // pixel is noise, and footage in this coding paints black where the sensor saw nothing.
@@ -36,20 +24,6 @@ inline double hueOf(int red, int green, int blue) noexcept {
   const int sixth = is_red ? (ahead < 0 ? 6 : 0) : is_green ? 2 : 4;
   return static_cast<double>(sixth * spread + ahead) / (6 * spread);  // gray is 0/0, not a number
 }
-
-// The squared distance of a colour from what a sample at an edge between two colours holds: the luma of the side that
-// it is off by `luma`, and chroma that is mixed of both.
-float errorOfMixture(const YuvColor& color, float luma, const YuvColor& one, const YuvColor& other) noexcept {
-  const float along_u = other.u - one.u, along_v = other.v - one.v, u = color.u - one.u, v = color.v - one.v;
-  const float length = along_u * along_u + along_v * along_v;
-  const float share = length > 0 ? std::clamp((u * along_u + v * along_v) / length, 0.0F, 1.0F) : 0;
-  const float off_u = u - share * along_u, off_v = v - share * along_v;
-  return luma * luma + ColorCurve::kChromaWeight * (off_u * off_u + off_v * off_v);
-}
-
-// How much better one side of an edge must fit than a place between the two. Measured on hard and soft edges, H.264
-// 4:2:0 at crf 18 and 23.
-constexpr float kSideFits = 2;
 
 }  // namespace
 
@@ -104,108 +78,21 @@ Result<HeightField> HeightField::make(const Frame& depth, const DepthCalibration
   return field;
 }
 
-namespace {
-
-std::uint64_t eightBytes(const std::uint8_t* p) RELIEVO_RT {
-  std::uint64_t bytes;
-  std::memcpy(&bytes, p, sizeof bytes);
-  return bytes;
-}
-
-// The sum of `count` lanes of a row that starts at `p`, kLanes of them in eight bytes, by adding neighbouring lanes
-// first: `add` takes eight bytes. The last eight overlap those before; what was added already is shifted out.
-template <int kLanes, class Add>
-void eachEightBytes(const std::uint8_t* p, int count, Add&& add) RELIEVO_RT {
-  constexpr int kBits = 64 / kLanes;
-  for (; count >= kLanes; count -= kLanes, p += 8) add(eightBytes(p));
-  if (count > 0) add(eightBytes(p - (kLanes - count) * (kBits / 8)) >> (kBits * (kLanes - count)));
-}
-
-// Samples of plain codes, in memory one after the other. kInWords: how many of a row make it worth to add several at
-// once; 0 where the machine's byte order does not allow it.
-constexpr bool kLittle = std::endian::native == std::endian::little;
-struct Byte {
-  static constexpr int kBytes = 1, kInWords = kLittle ? 8 : 0;
-  static std::uint32_t code(const std::uint8_t* s, std::uint32_t) RELIEVO_RT { return s[0]; }
-  static std::uint32_t sumOfRow(const std::uint8_t* row, int count, std::uint32_t) RELIEVO_RT {
-    constexpr std::uint64_t kEven = 0x00ff00ff00ff00ff, kOnes = 0x0001000100010001;
-    constexpr int kMost = 256;  // of four sums of 16 bits each, together
-    std::uint32_t sum = 0;
-    for (; count > 0; count -= kMost, row += kMost) {
-      std::uint64_t sums = 0;
-      const auto add = [&](std::uint64_t x) RELIEVO_RT { sums += (x & kEven) + (x >> 8 & kEven); };
-      if (count < 8) {
-        for (int c = 0; c < count; ++c) sums += row[c];
-      } else {
-        eachEightBytes<8>(row, std::min(count, kMost), add);
-      }
-      sum += static_cast<std::uint32_t>(sums * kOnes >> 48);
-    }
-    return sum;
-  }
-};
-struct Word {
-  static constexpr int kBytes = 2, kInWords = kLittle ? 4 : 0;
-  static std::uint32_t code(const std::uint8_t* s, std::uint32_t mask) RELIEVO_RT {
-    return (static_cast<std::uint32_t>(s[0]) | static_cast<std::uint32_t>(s[1]) << 8) & mask;
-  }
-  static std::uint32_t sumOfRow(const std::uint8_t* row, int count, std::uint32_t mask) RELIEVO_RT {
-    const std::uint64_t even = mask | std::uint64_t{mask} << 32;
-    std::uint64_t sums = 0;
-    eachEightBytes<4>(row, count, [&](std::uint64_t x) RELIEVO_RT { sums += (x & even) + (x >> 16 & even); });
-    return static_cast<std::uint32_t>(sums) + static_cast<std::uint32_t>(sums >> 32);
-  }
-};
-
-}  // namespace
-
-// kAcross 0: the width is known only at run time.
-template <class Sample, int kAcross>
-std::uint32_t HeightField::sumOfRows(const std::uint8_t* first, const SampledBlock& block) const RELIEVO_RT {
-  const int across = kAcross > 0 ? kAcross : block.across.count, down = block.down.count;
-  const std::ptrdiff_t step = static_cast<std::ptrdiff_t>(block.across.step) * step_bytes_;
-  const std::ptrdiff_t stride = block.down.step * stride_bytes_;
-  std::uint32_t sum = 0;
-  if (Sample::kInWords && step == Sample::kBytes && across >= Sample::kInWords) {
-    for (int r = 0; r < down; ++r) sum += Sample::sumOfRow(first + r * stride, across, mask_);
-    return sum;
-  }
-  for (int r = 0; r < down; ++r) {
-    for (int c = 0; c < across; ++c) sum += Sample::code(first + r * stride + c * step, mask_);
-  }
-  return sum;
-}
-
-// With the row length known at compile time this takes half the instructions.
-template <class Sample>
 double HeightField::meanOfCodes(int c0, int r0, const SampledBlock& block) const RELIEVO_RT {
-  const std::uint8_t* first = data_ + (r0 + block.down.first) * stride_bytes_ +
-                              static_cast<std::ptrdiff_t>(c0 + block.across.first) * step_bytes_;
-  const auto sum = [&]() RELIEVO_RT {
-    switch (block.across.count) {
-      case 2:
-        return sumOfRows<Sample, 2>(first, block);
-      case 3:
-        return sumOfRows<Sample, 3>(first, block);
-      case 4:
-        return sumOfRows<Sample, 4>(first, block);
-      case 5:
-        return sumOfRows<Sample, 5>(first, block);
-      case 6:
-        return sumOfRows<Sample, 6>(first, block);
-      default:
-        return sumOfRows<Sample, 0>(first, block);
-    }
-  }();
-  return depth_mm_ * (s_offset_ + s_scale_ * static_cast<double>(sum) / (block.across.count * block.down.count));
+  const CodeBlock codes{.first = data_ + (r0 + block.down.first) * stride_bytes_ +
+                                 static_cast<std::ptrdiff_t>(c0 + block.across.first) * step_bytes_,
+                        .step_bytes = static_cast<std::ptrdiff_t>(block.across.step) * step_bytes_,
+                        .stride_bytes = block.down.step * stride_bytes_,
+                        .across = block.across.count,
+                        .down = block.down.count};
+  const std::uint32_t sum = layout_ == Layout::Bytes ? sumOfBytes(codes) : sumOfWords(codes, mask_);
+  return depth_mm_ * (s_offset_ + s_scale_ * static_cast<double>(sum) / (codes.across * codes.down));
 }
 
 double HeightField::meanHeight(int c0, int r0, const SampledBlock& block) const RELIEVO_RT {
-  if (plain_) {
-    return layout_ == Layout::Bytes ? meanOfCodes<Byte>(c0, r0, block) : meanOfCodes<Word>(c0, r0, block);
-  }
+  if (plain_) return meanOfCodes(c0, r0, block);
   if (layout_ == Layout::Curve) {
-    const double mean = meanOfColors(c0, r0, block);
+    const double mean = heightOfColor(steps_ * colors_.shareOfBlock(c0, r0, block));
     if (!std::isnan(mean)) return mean;
   }
   // Colours are costly: of a block with an edge every other one is read, as on a chessboard.
@@ -222,17 +109,6 @@ double HeightField::meanHeight(int c0, int r0, const SampledBlock& block) const 
     }
   }
   return 2 * count < looked ? kHole : sum / count;
-}
-
-// Colours that differ little lie on one straight piece of the curve, or nearly so: their mean is the colour of the mean
-// height. A hole (NaN) if they differ more, or stand for no depth.
-double HeightField::meanOfColors(int c0, int r0, const SampledBlock& block) const RELIEVO_RT {
-  const auto mean = colors_.meanOfEvenBlock(c0, r0, block);
-  if (!mean) return kHole;
-  const ColorCurve::Point point = curve_->nearest(*mean);
-  const double code = steps_ * static_cast<double>(point.s);
-  if (!isSure(point) || invalid_.contains(static_cast<std::uint32_t>(code))) return kHole;
-  return fromNormalised(s_offset_ + s_scale_ * code);
 }
 
 void HeightField::prefetch(int c0, int r0, int blocks, const SampledBlock& block) const RELIEVO_RT {
@@ -270,65 +146,17 @@ void HeightField::readColors(const Frame& depth, DepthCode code) noexcept {
     blue_ = depth.components[2].offset_bytes;
   }
   if (layout_ == Layout::Hue) return;
-  colors_ = ColorSamples(depth);
-  curve_ = &curveOf(code);
-}
-
-bool HeightField::isSure(const ColorCurve::Point& point) const RELIEVO_RT {
-  if (point.distance > kOnCurve) return false;
-  return !curve_->closed() || (point.s > kSeam && point.s < 1 - kSeam);
-}
-
-// Position on the curve, 0 to 1, or a hole.
-double HeightField::shareAt(int c, int r) const RELIEVO_RT {
-  const YuvColor own = colors_.at(c, r);
-  const ColorCurve::Point reading = curve_->nearest(own);
-  return isSure(reading) ? static_cast<double>(reading.s) : shareBeside(c, r, own, reading);
-}
-
-[[gnu::noinline]] double HeightField::shareBeside(int c, int r, const YuvColor& own,
-                                                  const ColorCurve::Point& reading) const RELIEVO_RT {
-  // Chroma is mixed over two samples, and by some encoders' filters over four.
-  static constexpr int kBeside[][2] = {{-2, 0}, {2, 0}, {0, -2}, {0, 2}, {-4, 0}, {4, 0}, {0, -4}, {0, 4}};
-  const float far_off = curve_->closed() ? kFarOffHues : kFarOffMap;
-  constexpr float kNone = std::numeric_limits<float>::infinity();
-  const bool at_seam = reading.distance <= kOnCurve;
-  float least = kNone, least_empty = kNone, share = 0, low = 1, high = 0;
-  YuvColor low_color, high_color;
-  for (const auto& [across, down] : kBeside) {
-    const int col = c + across, row = r + down;
-    if (col < 0 || col >= cols_ || row < 0 || row >= rows_) continue;
-    const YuvColor color = colors_.at(col, row);
-    const ColorCurve::Point point = curve_->nearest(color);
-    const float difference = std::abs(color.y - own.y);
-    if (isSure(point)) {
-      if (at_seam && std::min(point.s, 1 - point.s) > kBesideSeam) continue;
-      if (point.s < low) low = point.s, low_color = color;
-      if (point.s > high) high = point.s, high_color = color;
-      if (difference < least) least = difference, share = point.s;
-    } else if (point.distance <= kOnCurve || (point.distance > far_off && isBlack(color))) {
-      least_empty = std::min(least_empty, difference);
-    }
-  }
-  // A dark colour whose chroma is mixed with its complement's looks black as well.
-  if (!at_seam && least_empty + kDarker < least) return kHole;
-  if (least < kNone && !at_seam) {
-    const ColorCurve::Between between = curve_->between(own, low, high);
-    if (between.error < kSideFits * errorOfMixture(own, least, low_color, high_color)) share = between.s;
-  }
-  if (least < kNone) return static_cast<double>(share);
-  return at_seam || reading.distance > far_off ? kHole : static_cast<double>(reading.s);
+  colors_ = ColorReading(depth, code);
 }
 
 // The code of a sample, or a hole.
 double HeightField::colorCodeAt(int c, int r) const RELIEVO_RT {
-  if (layout_ == Layout::Curve) return steps_ * shareAt(c, r);
+  if (layout_ == Layout::Curve) return steps_ * colors_.shareAt(c, r);
   const std::uint8_t* sample = data_ + r * stride_bytes_ + static_cast<std::ptrdiff_t>(c) * step_bytes_;
   return steps_ * hueOf(sample[red_], sample[green_], sample[blue_]);
 }
 
-double HeightField::fromColor(int c, int r) const RELIEVO_RT {
-  const double code = colorCodeAt(c, r);
+double HeightField::heightOfColor(double code) const RELIEVO_RT {
   if (std::isnan(code) || invalid_.contains(static_cast<std::uint32_t>(code))) return kHole;
   return fromNormalised(s_offset_ + s_scale_ * code);
 }
@@ -366,7 +194,7 @@ bool HeightField::sameSamples(const HeightField& other) const noexcept {
   for (int r = 0; r < rows_; ++r) {
     if (!std::ranges::equal(rowBytes(r), other.rowBytes(r))) return false;
   }
-  return layout_ != Layout::Curve || colors_.sameChroma(other.colors_, cols_, rows_);
+  return layout_ != Layout::Curve || colors_.sameChroma(other.colors_);
 }
 
 std::uint32_t HeightField::code(int c, int r) const RELIEVO_RT {

@@ -9,7 +9,7 @@
 #include <limits>
 #include <span>
 
-#include "app/scene/color_samples.h"
+#include "app/scene/color_reading.h"
 #include "app/scene/depth_calibration.h"
 #include "app/scene/display_volume.h"
 #include "app/scene/sampled_block.h"
@@ -23,12 +23,7 @@ namespace relievo {
 // colour that stands for no depth) is NaN: every comparison with it is false, so that a hole cannot be touched by
 // accident. Every other height is finite, in [0, volume depth].
 //
-// Depth in colours is the point of the code's ColorCurve that is nearest to the colour. Subsampled chroma mixes the two
-// sides of a depth edge to a colour off the curve. Such a sample takes the reading of the near sample whose brightness
-// is most like its own, since brightness is not subsampled; if that one is black or red, it is a hole. Where the edge
-// is soft, and a place of the curve between the two sides explains the colour better, it is that place. If no near
-// sample is on the curve, its own reading counts if it is not far off. Red, where both ends of the depth meet on the
-// circle of hues, is a hole in YUV unless a surface beside it ends there.
+// How depth in colours is read: see ColorReading. RGB that holds hues is read as it is, without its neighbours.
 class HeightField {
  public:
   HeightField() = default;
@@ -43,7 +38,7 @@ class HeightField {
   // Requires 0 <= c < cols, 0 <= r < rows; not checked.
   [[nodiscard]] double heightMm(int c, int r) const RELIEVO_RT {
     const std::uint8_t* sample = data_ + r * stride_bytes_ + static_cast<std::ptrdiff_t>(c) * step_bytes_;
-    if (layout_ >= Layout::Hue) return fromColor(c, r);
+    if (layout_ >= Layout::Hue) return heightOfColor(colorCodeAt(c, r));
     return heightOfCode(codeAt(sample));
   }
 
@@ -112,16 +107,10 @@ class HeightField {
   }
   void readColors(const Frame& depth, DepthCode code) noexcept;
   [[nodiscard]] double colorCodeAt(int c, int r) const RELIEVO_RT;
-  [[nodiscard]] double shareAt(int c, int r) const RELIEVO_RT;
-  [[nodiscard]] bool isSure(const ColorCurve::Point& point) const RELIEVO_RT;
-  [[nodiscard]] double shareBeside(int c, int r, const YuvColor& own,
-                                   const ColorCurve::Point& reading) const RELIEVO_RT;
-  [[nodiscard]] double fromColor(int c, int r) const RELIEVO_RT;
-  [[nodiscard]] double meanOfColors(int c0, int r0, const SampledBlock& block) const RELIEVO_RT;
-  template <class Sample>
+  // NaN, which is no code, stands for a hole.
+  [[nodiscard]] double heightOfColor(double code) const RELIEVO_RT;
+  // Of a plain field.
   [[nodiscard]] double meanOfCodes(int c0, int r0, const SampledBlock& block) const RELIEVO_RT;
-  template <class Sample, int kAcross>
-  [[nodiscard]] std::uint32_t sumOfRows(const std::uint8_t* first, const SampledBlock& block) const RELIEVO_RT;
 
   const std::uint8_t* data_ = nullptr;
   std::ptrdiff_t stride_bytes_ = 0;
@@ -140,8 +129,7 @@ class HeightField {
   double near_inverse_ = 0, far_inverse_ = 0;  // 1/near, 1/far
   double far_mm_ = 0, depth_per_mm_ = 0;       // depth_per_mm = D/(far - near)
   GridMapping grid_;
-  ColorSamples colors_;
-  const ColorCurve* curve_ = nullptr;
+  ColorReading colors_;
   double steps_ = 0;  // codes from the curve's first colour to its last
 };
 

@@ -26,7 +26,6 @@ class MaterialReader {
 
   // Whether places differ.
   [[nodiscard]] bool exists() const RELIEVO_RT { return exists_; }
-  [[nodiscard]] bool changesStiffness() const RELIEVO_RT { return scale_.stiffness > 0; }
   [[nodiscard]] const PlaceMaterial& found() const RELIEVO_RT { return found_; }
   // The place and the moment are so near to those of the last `read` that another would find the same.
   [[nodiscard]] bool isNear(MediaTime now, double x_mm, double y_mm) const RELIEVO_RT;

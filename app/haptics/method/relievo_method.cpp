@@ -94,7 +94,7 @@ RELIEVO_TICK_CODE void RelievoMethod::changeState(const glm::dvec3& hip_mm, bool
   } else {
     follow(hip_mm_, hip_mm);
   }
-  if (state_ != State::Contact) on_its_way_ = false;
+  if (state_ != State::Contact) carried_.release();
 }
 
 // Extrapolates the finger's motion and the surface's rise from the previous tick: a good first guess saves an
@@ -117,7 +117,7 @@ RELIEVO_TICK_CODE void RelievoMethod::slideAlong(const glm::dvec3& hip_mm) RELIE
       slide(hip_mm, SlideUntil::MuchRead);
     }
   }
-  if (sweptAway(hip_mm)) {
+  if (carried_.sweptAway(surface_, contact_, hip_mm, lowered_mm_)) {
     contact_.x_mm = hip_mm.x;
     contact_.y_mm = hip_mm.y;
     slide(hip_mm, SlideUntil::MuchRead);
@@ -128,10 +128,10 @@ RELIEVO_TICK_CODE Touch RelievoMethod::touchAt(const glm::dvec3& hip_mm) RELIEVO
   Touch touch{.proxy_mm = hip_mm};
   if (state_ == State::Contact) {
     touch.contact = true;
-    touch.proxy_mm = feltPlace(hip_mm);
+    touch.proxy_mm = spring_.end(surface_, material_.found(), contact_, hip_mm, lowered_mm_);
     touch.force_n = material_.found().stiffness_n_per_mm * (touch.proxy_mm - hip_mm);
   }
-  if (!touch.contact) letGo();
+  if (!touch.contact) spring_.release();
   if (config_.jump_threshold_n > 0 && glm::distance(touch.force_n, force_n_) > config_.jump_threshold_n) {
     touch = Touch{.proxy_mm = hip_mm};
     state_ = State::Buried;
@@ -164,14 +164,14 @@ void RelievoMethod::upkeep(const SurfaceWindow& window, MediaTime now) RELIEVO_R
   }
   if (offTheEdge()) {
     state_ = State::Free;
-    letGo();
+    spring_.release();
     force_n_ = {};
     ahead_mm_ = {hip_mm_.x, hip_mm_.y};
   }
   const glm::dvec2 here = state_ == State::Contact ? glm::dvec2(contact_.x_mm, contact_.y_mm) : glm::dvec2(hip_mm_);
   const glm::dvec2 mm_per_s = step > Duration(0) ? (ahead_mm_ - here) / toSeconds(step) : glm::dvec2(0);
   surface_.prepare(window, now + step, ahead_mm_.x, ahead_mm_.y, mm_per_s);
-  if (stick_.holds() && surface_.moveTo(window, now + step)) stick_.prepare(surface_);
+  if (spring_.sticks() && surface_.moveTo(window, now + step)) spring_.prepare(surface_);
   now_ = now;
 }
 
@@ -187,8 +187,7 @@ void RelievoMethod::prefetch(const SurfaceWindow& window) const RELIEVO_RT {
 void RelievoMethod::enterScene(const glm::dvec3& hip_mm) RELIEVO_RT {
   const double depth = surface_.height(hip_mm.x, hip_mm.y) - hip_mm.z;
   force_before_cut_n_ = glm::length(force_n_);
-  letGo();  // the point where friction held belongs to the old scene
-  spring_.release(force_before_cut_n_);
+  spring_.release(force_before_cut_n_);  // the point where friction held belongs to the old scene
   lowered_mm_ = std::max(depth - force_before_cut_n_ / material_.found().stiffness_n_per_mm, 0.0);
   if (depth <= 0) {
     state_ = State::Free;
@@ -199,27 +198,6 @@ void RelievoMethod::enterScene(const glm::dvec3& hip_mm) RELIEVO_RT {
   state_ = State::Contact;
   slide(hip_mm, SlideUntil::MuchRead);
   follow(proxy(), hip_mm);
-}
-
-// True if a moving wall has passed over the finger and carried the proxy along, although by now the way straight up is
-// much shorter. This applies only if the scene moved: a finger that pushes itself deep into a wall stays at that wall,
-// even if it rests there, is read only in every other tick, or leaps further than the search follows in one tick; the
-// proxy then still moves towards the place where the finger has sent it.
-RELIEVO_TICK_CODE bool RelievoMethod::sweptAway(const glm::dvec3& hip_mm) RELIEVO_RT {
-  constexpr double kFurtherMm = 3, kCarriedMm = 0.5;
-  const glm::dvec2 place(contact_.x_mm, contact_.y_mm);
-  const double away = glm::distance(proxy(), hip_mm);
-  const double carried = glm::distance(place, own_place_mm_);
-  const bool by_finger = carried <= 2 * glm::distance(hip_mm, own_hip_mm_);
-  if (away < 2 * kFurtherMm || by_finger || on_its_way_) {
-    on_its_way_ = !contact_.settled && (by_finger || on_its_way_);
-    own_place_mm_ = place;
-    own_hip_mm_ = hip_mm;
-    return false;
-  }
-  if (carried < kCarriedMm) return false;
-  const double up = surface_.height(hip_mm.x, hip_mm.y) - lowered_mm_ - hip_mm.z;
-  return up > 0 && away > up + kFurtherMm;
 }
 
 // A finger that left through a wall is off the edge above it, but a hollow in the noise may still hold its proxy up
@@ -250,7 +228,7 @@ RELIEVO_TICK_CODE void RelievoMethod::follow(glm::dvec3 from_mm, const glm::dvec
     if (state_ == State::Contact) {
       if (proxy().z > hip_mm.z) return;
       state_ = State::Free;
-      letGo();
+      spring_.release();
       from_mm = proxy();
     }
     if (!enterOnPath(from_mm, hip_mm)) return;
@@ -290,29 +268,6 @@ bool RelievoMethod::enterOnPath(const glm::dvec3& from_mm, const glm::dvec3& hip
     return true;
   }
   return false;
-}
-
-// Where the finger's spring ends: the proxy, unless the material holds it elsewhere.
-RELIEVO_TICK_CODE glm::dvec3 RelievoMethod::feltPlace(const glm::dvec3& hip_mm) RELIEVO_RT {
-  const PlaceMaterial& material = material_.found();
-  glm::dvec3 place = proxy();
-  const double depth = hasTexture() ? glm::distance(place, hip_mm) : 0;
-  if (hasFriction()) place = stick_.follow(surface_, material.friction, contact_, hip_mm, lowered_mm_);
-  if (material_.changesStiffness()) {
-    const double share = spring_.share(glm::distance(place, hip_mm), material.stiffness_n_per_mm);
-    if (share < 1) place = hip_mm + share * (place - hip_mm);
-  }
-  if (hasTexture()) {
-    const glm::dvec3 normal = glm::normalize(glm::dvec3(-contact_.surface.zx, -contact_.surface.zy, 1));
-    place += ripple_.offset({hip_mm, normal, depth, material.amplitude_mm, material.stiffness_n_per_mm});
-  }
-  return place;
-}
-
-void RelievoMethod::letGo() RELIEVO_RT {
-  spring_.release();
-  stick_.release();
-  ripple_.release();
 }
 
 void RelievoMethod::settleLowering(const glm::dvec3& hip_mm) RELIEVO_RT {

@@ -4,12 +4,12 @@
 
 #include <cstdint>
 
+#include "app/haptics/method/carried_proxy.h"
 #include "app/haptics/method/closest_point.h"
 #include "app/haptics/method/felt_surface.h"
+#include "app/haptics/method/finger_spring.h"
 #include "app/haptics/method/method.h"
 #include "app/haptics/method/place_material.h"
-#include "app/haptics/method/ripple.h"
-#include "app/haptics/method/stick_point.h"
 #include "app/scene/material.h"
 
 namespace relievo {
@@ -24,8 +24,8 @@ namespace relievo {
 // surface is lowered under it until the finger is as deep as before, so that it feels the new shape at once and with no
 // more force. The lowering is undone while the force does not exceed its previous value, and when the finger lifts.
 //
-// Friction and texture change where the finger's spring ends, not which point is the closest (StickPoint, Ripple). A
-// film's material track is read where the proxy is (MaterialReader, PlaceSpring).
+// Friction and texture change where the finger's spring ends, not which point is the closest (FingerSpring). A film's
+// material track is read where the proxy is (MaterialReader).
 class RelievoMethod final : public TouchMethod {
  public:
   struct Config {
@@ -42,8 +42,7 @@ class RelievoMethod final : public TouchMethod {
       : config_(config),
         surface_(config.scale),
         material_({config.stiffness_n_per_mm, config.friction, config.texture.amplitude_mm}, config.places),
-        stick_(config.tick_s),
-        ripple_(config.places.texture.value_or(config.texture).wavelength_mm, config.tick_s) {}
+        spring_(config.friction, config.texture, config.places, config.tick_s) {}
 
   [[nodiscard]] Touch update(const glm::dvec3& hip_mm, const SurfaceWindow& window, MediaTime now) RELIEVO_RT override;
   void prefetch(const SurfaceWindow& window) const RELIEVO_RT override;
@@ -55,7 +54,7 @@ class RelievoMethod final : public TouchMethod {
   [[nodiscard]] double depthMm() RELIEVO_RT;
   [[nodiscard]] bool buried() const RELIEVO_RT { return state_ == State::Buried; }
   // For tests: whether friction drags, or has dragged just now.
-  [[nodiscard]] bool slides() const RELIEVO_RT { return stick_.slides(); }
+  [[nodiscard]] bool slides() const RELIEVO_RT { return spring_.slides(); }
   // For tests: blocks read in all ticks so far.
   [[nodiscard]] std::uint64_t blocksRead() const RELIEVO_RT { return surface_.blocksRead(); }
 
@@ -74,16 +73,7 @@ class RelievoMethod final : public TouchMethod {
   void foresee(const glm::dvec3& hip_mm, const Contact& before, bool continues) RELIEVO_RT;
   void enterScene(const glm::dvec3& hip_mm) RELIEVO_RT;
   void slide(const glm::dvec3& hip_mm, SlideUntil until) RELIEVO_RT;
-  [[nodiscard]] bool sweptAway(const glm::dvec3& hip_mm) RELIEVO_RT;
   [[nodiscard]] bool offTheEdge() RELIEVO_RT;
-  [[nodiscard]] glm::dvec3 feltPlace(const glm::dvec3& hip_mm) RELIEVO_RT;
-  void letGo() RELIEVO_RT;
-  [[nodiscard]] bool hasFriction() const RELIEVO_RT {
-    return config_.friction.static_coefficient > 0 || config_.places.friction.has_value();
-  }
-  [[nodiscard]] bool hasTexture() const RELIEVO_RT {
-    return config_.texture.amplitude_mm > 0 || config_.places.texture.has_value();
-  }
   [[nodiscard]] bool enterOnPath(const glm::dvec3& from_mm, const glm::dvec3& hip_mm) RELIEVO_RT;
   void follow(glm::dvec3 from_mm, const glm::dvec3& hip_mm) RELIEVO_RT;
   void settleLowering(const glm::dvec3& hip_mm) RELIEVO_RT;
@@ -98,14 +88,9 @@ class RelievoMethod final : public TouchMethod {
   glm::dvec3 hip_mm_{0};
   Contact contact_;
   double rise_mm_ = 0;  // rise of the surface under the proxy in the last tick
-  // Proxy and finger positions when the finger's motion last explained the proxy's.
-  glm::dvec2 own_place_mm_{0};
-  glm::dvec3 own_hip_mm_{0};
-  bool on_its_way_ = false;  // the proxy has not yet reached the place where the finger sent it
+  CarriedProxy carried_;
   MaterialReader material_;
-  PlaceSpring spring_;
-  StickPoint stick_;
-  Ripple ripple_;
+  FingerSpring spring_;
   double lowered_mm_ = 0;  // how far the surface is lowered, after a cut
   double force_before_cut_n_ = 0;
   glm::dvec3 force_n_{0};
