@@ -27,6 +27,7 @@ void lookInside([[maybe_unused]] const std::string& path, [[maybe_unused]] Strea
 }  // namespace
 
 Result<StreamInfo> describePicture(const std::string& path) {
+  if (auto dpt = describeDpt(path)) return *std::move(dpt);
   const auto source = isNpyFile(path) ? makeNpySource() : makeFfmpegSource();
   if (auto opened = source->open(path); !opened) return std::unexpected(opened.error());
   for (const StreamInfo& stream : source->streams()) {
@@ -41,7 +42,7 @@ Result<StreamInfo> describePicture(const std::string& path) {
 std::optional<PictureFormat> pictureFormat(const StreamInfo& stream) {
   if (isFloatTiff(stream)) return kTiff;
   const PictureFormat formats[] = {
-      kPfm,       kNpy,
+      kPfm,       kNpy,       kDpt,
 #ifdef RELIEVO_EXR
       kExr,       kExrColor,
 #endif
