@@ -18,7 +18,12 @@ namespace {
 void lookInside([[maybe_unused]] const std::string& path, [[maybe_unused]] StreamInfo& stream) {
 #ifdef RELIEVO_EXR
   const PhotoKind kinds[] = {kExrWithDepth};
-  if (stream.codec != kExr.codec || !isPhoto(path, kinds)) return;
+  if (stream.codec != kExr.codec) return;
+  const auto parts = photoParts(path, kinds);
+  if (parts.empty()) return;
+  for (const auto& [key, value] : parts.back().stream.tags) {
+    if (key != "TITLE") stream.tags[key] = value;
+  }
   stream.codec = kExrColor.codec;
   stream.tags[kInsideTag] = kExr.codec;
 #endif
