@@ -18,7 +18,12 @@ namespace {
 void lookInside([[maybe_unused]] const std::string& path, [[maybe_unused]] StreamInfo& stream) {
 #ifdef RELIEVO_EXR
   const PhotoKind kinds[] = {kExrWithDepth};
-  if (stream.codec != kExr.codec || !isPhoto(path, kinds)) return;
+  if (stream.codec != kExr.codec) return;
+  const auto parts = photoParts(path, kinds);
+  if (parts.empty()) return;
+  for (const auto& [key, value] : parts.back().stream.tags) {
+    if (key != "TITLE") stream.tags[key] = value;
+  }
   stream.codec = kExrColor.codec;
   stream.tags[kInsideTag] = kExr.codec;
 #endif
@@ -27,6 +32,7 @@ void lookInside([[maybe_unused]] const std::string& path, [[maybe_unused]] Strea
 }  // namespace
 
 Result<StreamInfo> describePicture(const std::string& path) {
+  if (auto dpt = describeDpt(path)) return *std::move(dpt);
   const auto source = isNpyFile(path) ? makeNpySource() : makeFfmpegSource();
   if (auto opened = source->open(path); !opened) return std::unexpected(opened.error());
   for (const StreamInfo& stream : source->streams()) {
@@ -41,7 +47,7 @@ Result<StreamInfo> describePicture(const std::string& path) {
 std::optional<PictureFormat> pictureFormat(const StreamInfo& stream) {
   if (isFloatTiff(stream)) return kTiff;
   const PictureFormat formats[] = {
-      kPfm,       kNpy,
+      kPfm,       kNpy,       kDpt,
 #ifdef RELIEVO_EXR
       kExr,       kExrColor,
 #endif

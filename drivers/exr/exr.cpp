@@ -64,6 +64,12 @@ bool isReadable(const Imf::Channel& channel) noexcept {
   return channel.xSampling == 1 && channel.ySampling == 1;
 }
 
+bool says(const char* word, const std::string& name) {
+  return lowerCase(name).find(word) != name.npos;
+}
+
+constexpr const char* kCentimetres = "worlddepth";  // Unreal Engine's
+
 // The first channel of one of the `words`, without a layer if there is one; empty: none.
 std::string channelNamed(const Imf::ChannelList& channels, std::initializer_list<const char*> words) {
   std::string found;
@@ -80,7 +86,14 @@ std::string channelNamed(const Imf::ChannelList& channels, std::initializer_list
 
 using Names = std::vector<std::string>;  // one, or three: red, green, blue
 
-Names colorChannels(const Imf::ChannelList& channels) {
+Names colorChannels(const Imf::ChannelList& all) {
+  constexpr std::array<const char*, 4> kOthers{"depth", "mask", "motion", "normal"};
+  Imf::ChannelList channels;
+  for (auto channel = all.begin(); channel != all.end(); ++channel) {
+    const bool other =
+        std::any_of(kOthers.begin(), kOthers.end(), [&](const char* word) { return says(word, channel.name()); });
+    if (!other) channels.insert(channel.name(), channel.channel());
+  }
   Names names{channelNamed(channels, {"r", "red"}), channelNamed(channels, {"g", "green"}),
               channelNamed(channels, {"b", "blue"})};
   if (!names[0].empty() && !names[1].empty() && !names[2].empty()) return names;
@@ -88,8 +101,21 @@ Names colorChannels(const Imf::ChannelList& channels) {
   return gray.empty() ? Names{} : Names{gray};
 }
 
+// The channel of a layer whose own name says depth: "FinalImageMovieRenderQueue_WorldDepth.R".
+std::string channelOfDepth(const Imf::ChannelList& channels) {
+  for (const char* const word : {kCentimetres, "depth"}) {
+    for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
+      const std::string name = channel.name(), last = lastPart(name);
+      const bool first = last == "r" || last == "red" || last == "v";
+      if (first && isReadable(channel.channel()) && says(word, name)) return name;
+    }
+  }
+  return "";
+}
+
 Names namedDepth(const Imf::ChannelList& channels) {
-  const std::string depth = channelNamed(channels, {"z", "depth", "distance", "zdepth", "disparity", "disp"});
+  std::string depth = channelNamed(channels, {"z", "depth", "distance", "zdepth", "disparity", "disp"});
+  if (depth.empty()) depth = channelOfDepth(channels);
   return depth.empty() ? Names{} : Names{depth};
 }
 
@@ -201,15 +227,18 @@ bool beginsLikeExr(std::span<const std::uint8_t> bytes) {
 
 std::vector<PhotoPart> partsOf(const PhotoBytes& file) {
   if (!exr::fitsItsHeaders(*file)) return {};
+  StreamInfo depth{.codec = kExr.codec, .tags = {{"TITLE", "depth"}}};
   try {
     Bytes bytes(*file);
     const Imf::MultiPartInputFile parts(bytes, 0);
-    if (choosePart(parts, namedDepth).names.empty() || chooseColor(parts).names.size() != 3) return {};
+    const Choice named = choosePart(parts, namedDepth);
+    if (named.names.empty() || chooseColor(parts).names.size() != 3) return {};
+    if (says(kCentimetres, named.names[0])) depth.tags["DEPTH_UNIT"] = "10";
   } catch (const std::exception&) {
     return {};
   }
   return {PhotoPart{.stream = {.codec = kExrColor.codec}, .coded = *file, .owner = file},
-          PhotoPart{.stream = {.codec = kExr.codec, .tags = {{"TITLE", "depth"}}}, .coded = *file, .owner = file}};
+          PhotoPart{.stream = depth, .coded = *file, .owner = file}};
 }
 
 }  // namespace

@@ -48,7 +48,6 @@ constexpr std::array<UnreadEnding, 12> kUnreadEndings{{
     {"raw", kRaw},
     {"sens", "it is a scan, which this relievo was built without; build it with -DRELIEVO_SCAN=ON"},
     {"klg", "it is a scan, which this relievo was built without; build it with -DRELIEVO_SCAN=ON"},
-    {"dpt", "it is one picture of Sintel's depth; write it as .npy or PFM, in metres, which are read"},
     {"mat", "it is a MATLAB file; write its depth as .npy or as 16-bit PNG pictures, which are read"},
     {"usdz", "it is a 3D model; relievo plays depth as pictures: name the recording that it was made of"},
     {"obj", "it is a 3D model; relievo plays depth as pictures: name the recording that it was made of"},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of numbers that need no library: PFM (portable float map) and NumPy's npy.
+// Pictures of numbers that need no library: PFM (portable float map), NumPy's npy and Sintel's dpt.
 #pragma once
 
 #include <memory>
@@ -12,6 +12,11 @@ namespace relievo {
 
 // "Pf" and "PF": 32-bit floats of either byte order, rows from the bottom up.
 extern const PictureFormat kPfm;
+
+// 32-bit floats, rows from the top down.
+extern const PictureFormat kDpt;
+// The picture of a dpt file, as a stream; nullopt if the file does not begin like one.
+[[nodiscard]] std::optional<StreamInfo> describeDpt(const std::string& path);
 
 // One picture: an array of rows x columns, or rows x columns x 1 or 3, with leading dimensions of 1. Floats of 16, 32
 // and 64 bits, whole numbers of 8 to 64 bits, of either byte order, in C or Fortran order.

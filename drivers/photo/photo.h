@@ -36,7 +36,9 @@ extern const PhotoKind kDepthJpeg;
 // picture (JPS), with the tags STEREO_MODE and kSqueezedTag.
 extern const PhotoKind kStereoJpeg;
 
-// True if the path is a file of at most 256 MiB that one of the kinds takes. Reads it if it begins like one.
+// The pictures of a file of at most 256 MiB that one of the kinds takes; none if it is another. Reads the file if it
+// begins like one.
+[[nodiscard]] std::vector<PhotoPart> photoParts(const std::string& path, std::span<const PhotoKind> kinds);
 [[nodiscard]] bool isPhoto(const std::string& path, std::span<const PhotoKind> kinds);
 
 // One stream for each picture, with one packet at time 0. `kinds` must outlive it.

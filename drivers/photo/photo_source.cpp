@@ -30,15 +30,6 @@ PhotoBytes bytesOf(const std::string& path, std::span<const PhotoKind> kinds) {
   return bytes;
 }
 
-std::vector<PhotoPart> partsOf(const std::string& path, std::span<const PhotoKind> kinds) {
-  const PhotoBytes file = bytesOf(path, kinds);
-  for (const PhotoKind& kind : kinds) {
-    if (!kind.begins(*file)) continue;
-    if (auto parts = kind.parts(file); !parts.empty()) return parts;
-  }
-  return {};
-}
-
 class PhotoSource final : public MediaSource {
  public:
   explicit PhotoSource(std::span<const PhotoKind> kinds) noexcept : kinds_(kinds) {}
@@ -47,7 +38,7 @@ class PhotoSource final : public MediaSource {
  private:
   Result<Description> openSource(const std::string& url) override {
     interrupted_ = false;
-    parts_ = partsOf(url, kinds_);
+    parts_ = photoParts(url, kinds_);
     next_ = 0;
     if (parts_.empty()) return fail(ErrorCode::Corrupt, "is no photo with depth or two views; check the file");
     Description description;
@@ -88,8 +79,17 @@ class PhotoSource final : public MediaSource {
 
 }  // namespace
 
+std::vector<PhotoPart> photoParts(const std::string& path, std::span<const PhotoKind> kinds) {
+  const PhotoBytes file = bytesOf(path, kinds);
+  for (const PhotoKind& kind : kinds) {
+    if (!kind.begins(*file)) continue;
+    if (auto parts = kind.parts(file); !parts.empty()) return parts;
+  }
+  return {};
+}
+
 bool isPhoto(const std::string& path, std::span<const PhotoKind> kinds) {
-  return !partsOf(path, kinds).empty();
+  return !photoParts(path, kinds).empty();
 }
 
 std::unique_ptr<MediaSource> makePhotoSource(std::span<const PhotoKind> kinds) {

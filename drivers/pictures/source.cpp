@@ -96,7 +96,7 @@ class PicturesSource final : public MediaSource {
     const auto inside = color.tags.find(kInsideTag);
     if (inside == color.tags.end()) return;
     if (recording_.depth.empty()) recording_.depth = recording_.color;
-    color.tags.erase(inside);
+    std::erase_if(color.tags, [](const auto& tag) { return tag.first.starts_with("DEPTH_"); });  // they say its depth
   }
 
   // As the first picture that can be described.

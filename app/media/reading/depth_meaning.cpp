@@ -40,6 +40,10 @@ bool isHeights(const KnownKind* kind) {
   return kind != nullptr && kind->name == std::string_view("heights");
 }
 
+bool isUnreal(const KnownKind* kind) {
+  return kind != nullptr && kind->name == std::string_view("unreal");
+}
+
 // Record3D states what the whole circle of hues covers, of which a film uses a part.
 HueSpan takeSpan(CalibrationSettings& settings) {
   HueSpan span;
@@ -149,7 +153,8 @@ const KnownKind* kindOf(const DepthClues& clues, const Frame& stored, std::span<
   if (isOfStereoCamera(clues.place.kind) && clues.code == DepthCode::Luma && !definesCodes(saidLayers(clues))) {
     return clues.place.kind;
   }
-  if (stored.value_per_code != 0 || definesCodes(saidLayers(clues))) return nullptr;
+  if (definesCodes(saidLayers(clues))) return nullptr;
+  if (stored.value_per_code != 0) return isUnreal(clues.place.kind) ? clues.place.kind : nullptr;
   if (clues.place.kind != nullptr && fits(*clues.place.kind, clues.code, stored)) return clues.place.kind;
   return clues.code == DepthCode::Luma ? sensorKind(stored, countOf(stored, later)) : nullptr;
 }

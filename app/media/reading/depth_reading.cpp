@@ -130,19 +130,23 @@ std::string otherEnd(const CodeCount& count) {
   return count.share(0, 0) + count.share(kTop, kTop) > 0 ? "" : "if high codes are near (heights): --as heights";
 }
 
+std::string both(const std::string& first, const std::string& second) {
+  return first + (first.empty() || second.empty() ? "" : "; ") + second;
+}
+
 // What else distances may be. The relief is the same; its depth in mm is not.
 std::string otherUnit(const KnownKind& kind, const CodeCount& count) {
   const bool fine = count.quantile(0.5, 1, kTop - 1) > kNearestOfFine;
-  if (kind.name == std::string_view("tum") || kind.name == std::string_view("ycb")) return "if a code is 1 mm: --as mm";
-  if (kind.name == std::string_view("mm") && fine) return "if there are 5000 codes a metre: --as tum";
+  // Sensors leave holes, networks do not.
+  const char* const zoedepth = count.share(0, 0) == 0 ? "if there are 256 codes a metre: --as zoedepth" : "";
+  if (kind.name == std::string_view("tum") || kind.name == std::string_view("ycb"))
+    return both("if a code is 1 mm: --as mm", zoedepth);
+  if (kind.name == std::string_view("mm") && fine) return both("if there are 5000 codes a metre: --as tum", zoedepth);
   constexpr std::uint32_t kNearMm = 1500;  // few sensors in mm see nothing beyond
   if (kind.name == std::string_view("mm") && count.quantile(1 - kOutliers, 1, kTop - 1) < kNearMm)
-    return "if there are 256 codes a metre: --as kitti";
+    return *zoedepth != '\0' ? zoedepth : "if there are 256 codes a metre: --as kitti";
+  if (kind.name == std::string_view("mm")) return zoedepth;
   return kind.name == std::string_view("kitti") ? "if a code is 1 mm: --as mm" : "";
-}
-
-std::string both(const std::string& first, const std::string& second) {
-  return first + (first.empty() || second.empty() ? "" : "; ") + second;
 }
 
 // Folders that look like TUM's are made by other recorders too.

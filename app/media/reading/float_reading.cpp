@@ -16,7 +16,8 @@ namespace {
 constexpr std::uint32_t kTop = 0xffff;
 constexpr double kOutliers = 0.002, kNearer = 0.9, kFarther = 1.1;
 constexpr double kMmPerMetre = 1000;
-constexpr double kFarthestMetres = 200;  // half of the samples beyond: millimetres
+constexpr double kFarthestMetres = 200;   // half of the samples beyond: millimetres
+constexpr double kLeastCentimetres = 20;  // a scene that is nearer is rare
 constexpr double kLeastMm = 1e-3, kMostMm = 1e9;
 // Disparities whose largest is so many times their smallest are relative: their zero is no infinite distance.
 constexpr double kMostRatio = 64;
@@ -28,15 +29,11 @@ bool has(const CalibrationLayers& said, const char* key) {
 }
 
 std::optional<double> unitIn(const CalibrationLayers& said) {
-  for (const CalibrationSettings* layer : {&said.command_line, &said.side_file, &said.tags}) {
-    const auto found = layer->find("unit");
-    if (found == layer->end()) continue;
-    double unit = 0;
-    const std::string& text = found->second;
-    const auto read = std::from_chars(text.data(), text.data() + text.size(), unit);
-    return read.ec == std::errc() && unit > 0 ? std::optional(unit) : std::nullopt;
-  }
-  return std::nullopt;
+  const std::string* const text = said.find("unit");
+  if (text == nullptr) return std::nullopt;
+  double unit = 0;
+  const auto read = std::from_chars(text->data(), text->data() + text->size(), unit);
+  return read.ec == std::errc() && unit > 0 ? std::optional(unit) : std::nullopt;
 }
 
 // The codes in use, without outliers.
@@ -75,8 +72,9 @@ DepthReading distances(const Reach& reach, double value, std::optional<double> s
       {"unit", print("%.9g", unit_mm)}, {"invalid", "0"}, {"near", print("%.6g", near)}, {"far", print("%.6g", far)}};
   const char* const unit = stated_unit_mm ? "" : metres ? " in m" : " in mm";
   reading.why = described(reach, value) + ": distances" + unit;
-  if (!stated_unit_mm)
-    reading.offer = "if the numbers are disparities: --calibration law=inverse; if heights: --as heights";
+  if (stated_unit_mm) return reading;
+  reading.offer = "if the numbers are disparities: --calibration law=inverse; if heights: --as heights";
+  if (value * reach.median > kLeastCentimetres) reading.offer += "; if cm: --as unreal";
   return reading;
 }
 
@@ -174,7 +172,9 @@ DepthReading readFloats(const Frame& depth, const CodeCount& count, bool dispari
 
 void scaleToCodes(CalibrationLayers& said, double value_per_code) {
   const double value = std::abs(value_per_code);
-  for (CalibrationSettings* layer : {&said.command_line, &said.side_file, &said.tags}) scale(*layer, value);
+  for (CalibrationSettings* layer : {&said.command_line, &said.side_file, &said.stated_kind, &said.tags, &said.names}) {
+    scale(*layer, value);
+  }
 }
 
 }  // namespace relievo

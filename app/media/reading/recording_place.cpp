@@ -141,6 +141,7 @@ RecordingPlace lookAtNames(const fs::path& path, const fs::path& folder) {
       {".depth.png", "mm"},
       {"scannet", "scannet"},
       {"record3d", "record3d"},
+      {"worlddepth", "unreal"},
       {"heightmap", "heights"},
       {"height_map", "heights"},
       {"elevation", "heights"},

@@ -199,6 +199,33 @@ TEST(Exr, ASeriesWithColoursAndAZBufferIsBothToo) {
   }
 }
 
+TEST(Exr, UnrealsWorldDepthIsInCentimetres) {
+  const test::TemporaryFolder folder;
+  const auto depth = depthWith(65504, 100);
+  const std::string layer = "FinalImageMovieRenderQueue_WorldDepth.";
+  const std::string layers = exr({{"ActorHitProxyMask00.B", Type::Half, depth},
+                                  {"ActorHitProxyMask00.G", Type::Half, depth},
+                                  {"ActorHitProxyMask00.R", Type::Half, depth},
+                                  {"FinalImageCustomDepth.R", Type::Half, flat},
+                                  {"FinalImageMovieRenderQueue_Beauty.B", Type::Half, flat},
+                                  {"FinalImageMovieRenderQueue_Beauty.G", Type::Half, flat},
+                                  {"FinalImageMovieRenderQueue_Beauty.R", Type::Half, gradient},
+                                  {layer + "B", Type::Half, depth},
+                                  {layer + "G", Type::Half, depth},
+                                  {layer + "R", Type::Half, depth}});
+  std::filesystem::create_directory(folder / "render");
+  for (const char* name : {"one.exr", "render/0001.exr", "render/0002.exr"}) write(folder / name, layers);
+  write(folder / "Shot.WorldDepth.0001.exr",
+        exr({{"B", Type::Half, depth}, {"G", Type::Half, depth}, {"R", Type::Half, depth}}));
+  for (const char* name : {"one.exr", "render", "Shot.WorldDepth.0001.exr"}) {
+    SCOPED_TRACE(name);
+    const test::OpenedFilm film = test::openFilm({.url = folder / name});
+    expectDepth(film, 0.003);
+    if (film.info.packing == Packing::DepthAlone) continue;
+    EXPECT_NEAR(test::sampleAt(film.pair.color, 0, 25, 3) / 65535.0, 0.7354, 0.002);
+  }
+}
+
 TEST(Exr, ColoursAloneAreAPictureWithoutDepth) {
   const test::TemporaryFolder folder;
   write(folder / "a.exr", exr({{"B", Type::Half, flat}, {"G", Type::Half, flat}, {"R", Type::Half, gradient}}));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// PFM and npy files, written here byte by byte: every type of number, byte order and shape, and damaged files.
+// PFM, dpt and npy files, written here byte by byte: every type of number, byte order and shape, and damaged files.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -151,6 +151,40 @@ TEST(Pfm, ThreeComponentsAreColourUnlessTheyAreEqual) {
     EXPECT_EQ(test::sampleAt(frame, 1, 0, 1), 0u);
     EXPECT_EQ(test::sampleAt(frame, 2, 0, 0), 65535u);
   }
+}
+
+std::string dpt(std::uint32_t rows, const std::string& samples) {
+  return "PIEH" + bytesOf(static_cast<std::uint32_t>(kCols), false) + bytesOf(rows, false) + samples;
+}
+
+TEST(Dpt, RowsComeFromTheTopAndTheSkyIsAHole) {
+  const test::TemporaryFolder folder;
+  std::string samples;
+  for (std::size_t r = 0; r < kRows; ++r) {
+    for (std::size_t c = 0; c < kCols; ++c) {
+      samples += bytesOf(r == 3 && c == 4 ? 1e10F : static_cast<float>(slope(r, c)), false);
+    }
+  }
+  for (const char* const name : {"frame_0001.dpt", "frame_0002.dpt"}) write(folder / name, dpt(kRows, samples));
+  const Read picture = read(folder / "frame_0001.dpt");
+  EXPECT_EQ(picture.stream.codec, "dpt");
+  EXPECT_EQ(picture.stream.width, static_cast<int>(kCols));
+  ASSERT_EQ(picture.frames.size(), 1u);
+  expectValues(picture.frames[0], slopeWithHole);
+  EXPECT_EQ(read(folder / "").frames.size(), 2u) << "a folder of them";
+}
+
+TEST(Dpt, OpticalFlowAndCutFilesAreNoDepth) {
+  const test::TemporaryFolder folder;
+  const std::string samples(kRows * kCols * sizeof(float), '\x3f');
+  for (const std::string& bytes : {samples + samples, samples.substr(4)}) {
+    write(folder / "frame_0001.dpt", dpt(kRows, bytes));
+    const Read picture = read(folder / "frame_0001.dpt");
+    EXPECT_TRUE(picture.frames.empty());
+    EXPECT_EQ(picture.damaged, 1u);
+  }
+  write(folder / "frame_0001.dpt", dpt(0x80000000, samples));
+  EXPECT_FALSE(drivers::makeMediaSource(folder / "frame_0001.dpt")->open(folder / "frame_0001.dpt"));
 }
 
 std::string npy(const std::string& type, bool fortran, const std::string& shape, const std::string& numbers,

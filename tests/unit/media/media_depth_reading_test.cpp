@@ -115,6 +115,18 @@ TEST(DepthReading, WhatNoSensorSeesSoNearIsInMillimetres) {
   EXPECT_EQ(kind(2500), "tum");
 }
 
+// A network leaves no hole, a sensor does.
+TEST(DepthReading, DistancesWithoutAHoleMayHave256CodesAMetre) {
+  const auto offer = [](std::uint32_t lift) {
+    const Frame f = makeGrayFrame(kCols, kRows, 16, {},
+                                  [=](int c, int r) { return lift + static_cast<std::uint32_t>(distanceMm(c, r)); });
+    return readCodes(f, CodeCount(f), {}).offer;
+  };
+  EXPECT_THAT(offer(400), HasSubstr("if there are 256 codes a metre: --as zoedepth"));
+  EXPECT_THAT(offer(6000), HasSubstr("--as zoedepth"));
+  EXPECT_THAT(offer(0), Not(HasSubstr("zoedepth")));
+}
+
 TEST(DepthReading, WhatIsStretchedOverItsBitsIsLeftAsItIs) {
   const auto settings = [](const Frame& f) { return readCodes(f, CodeCount(f), {}).settings; };
   const auto slope = [](int bits, std::uint32_t times) {

@@ -20,6 +20,7 @@ namespace {
 using test::TemporaryFolder;
 using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr int kCols = 64, kRows = 48;
 constexpr float kHole = std::numeric_limits<float>::infinity();
@@ -93,6 +94,20 @@ TEST(FloatReading, TheCommandLineSpeaksOfTheFilesNumbers) {
   SourceOptions inverse{.url = folder / "depth.pfm"};
   inverse.command_line = {{"law", "inverse"}};
   expectDistances(test::openFilm(inverse));
+}
+
+TEST(FloatReading, CentimetresAreOfferedAndSaid) {
+  const TemporaryFolder folder;
+  writePfm(folder / "depth.pfm", [](double m) { return 100 * m; });
+  const test::OpenedFilm guessed = test::openFilm({.url = folder / "depth.pfm"});
+  EXPECT_THAT(guessed.info.reading.offers, Contains(HasSubstr("if cm: --as unreal")));
+  SourceOptions said{.url = folder / "depth.pfm"};
+  said.as = findKind("unreal");
+  const test::OpenedFilm film = test::openFilm(said);
+  expectDistances(film);
+  EXPECT_NEAR(film.distanceAt(30, 20), 1000 * metresAt(30, 20), 4);
+  writePfm(folder / "depth.pfm", [](double m) { return m; });
+  EXPECT_THAT(test::openFilm({.url = folder / "depth.pfm"}).info.reading.offers, Not(Contains(HasSubstr("cm"))));
 }
 
 TEST(FloatReading, RelativeDisparitiesThatBeginAtZeroAreLinear) {
