@@ -24,6 +24,7 @@ namespace {
 
 constexpr const char* kThereMeanwhile =
     "another program created this file meanwhile, so it was not replaced; choose another name";
+constexpr const char* kLongName = "its name is too long; choose a shorter one";
 constexpr std::size_t kTextAtOnce = 65536;
 constexpr const char* kCannotWrite = "could not be written completely; is the disk full?";
 
@@ -35,6 +36,8 @@ mode_t ordinaryMode() noexcept {
 }
 
 Error cannotCreate(int os_error) noexcept {
+  if (os_error == ELOOP) return {ErrorCode::Io, os_error, "is a link that leads back to itself; delete the link"};
+  if (os_error == ENAMETOOLONG) return {ErrorCode::Io, os_error, kLongName};
   if (os_error == ENXIO) return {ErrorCode::Timeout, 0, "no program reads this pipe; start its reader first"};
   if (os_error == ENOENT) return {ErrorCode::NotFound, os_error, "its folder does not exist; create it first"};
   if (os_error == EACCES || os_error == EROFS) {
@@ -110,12 +113,14 @@ UniqueFd openDirectly(const std::string& path, bool pipe) {
 }
 
 void makeNow(const std::string& path, Made& made) {
-  made.target = path;
-  std::error_code missing;
-  if (const auto real = std::filesystem::canonical(path, missing); !missing) made.target = real.string();
-  removeLitter(made.target);
+  made.target = placeOf(path);
   struct stat status{};
   const bool exists = ::stat(made.target.c_str(), &status) == 0;
+  if (!exists && (errno == ELOOP || errno == ENAMETOOLONG)) {
+    made.error = cannotCreate(errno);
+    return;
+  }
+  removeLitter(made.target);
   if (exists && S_ISDIR(status.st_mode)) {
     made.error = Error{ErrorCode::Io, EISDIR, "is a folder; give the name of a file"};
     return;
@@ -140,6 +145,21 @@ int putInPlace(const std::string& target, const std::string& temporary, bool nam
 }
 
 }  // namespace
+
+std::string placeOf(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code failed;
+  if (const auto real = fs::canonical(path, failed); !failed) return real.string();
+  fs::path place = path;
+  for (int links = 0; failed == std::errc::no_such_file_or_directory && links < 40; ++links) {
+    std::error_code no_link;
+    const fs::path next = fs::read_symlink(place, no_link);
+    struct stat status{};
+    if (no_link || ::stat(place.c_str(), &status) == 0) break;
+    place = place.parent_path() / next;
+  }
+  return place.string();
+}
 
 AtomicFile::AtomicFile(AtomicFile&& other) noexcept
     : output_(std::move(other.output_)),

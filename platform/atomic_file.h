@@ -16,6 +16,10 @@ enum class Existing : std::uint8_t {
   Keep,  // if the file exists at the commit, the commit fails: the first of several writers wins
 };
 
+// Where a file that is written to `path` is put: links are followed, also one to a file that is not there yet. `path`
+// if that cannot be told. Waits for the file system.
+[[nodiscard]] std::string placeOf(const std::string& path);
+
 // Not thread-safe. No call waits longer than 10 s for the file system (file_system_answer.h): Timeout. A device or a
 // pipe is written to directly, since it cannot be replaced. Where the file system supports unnamed files (ext4, xfs,
 // btrfs, tmpfs, ..), nothing is left behind however the program ends; elsewhere a killed program leaves its temporary

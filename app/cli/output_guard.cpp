@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/cli/read_files.h"
+#include "platform/atomic_file.h"
 #include "platform/files/answered_place.h"
 #include "platform/files/file_system_answer.h"
 
@@ -31,7 +32,7 @@ std::string fullName(const std::string& path) {
   return answerOf(path,
                   [path] {
                     std::error_code failed;
-                    const fs::path full = fs::weakly_canonical(fs::absolute(path, failed), failed);
+                    const fs::path full = fs::weakly_canonical(fs::absolute(placeOf(path), failed), failed);
                     return failed ? path : full.string();
                   })
       .value_or(path);

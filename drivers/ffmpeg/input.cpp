@@ -18,8 +18,7 @@
 namespace relievo::ffmpeg {
 namespace {
 
-constexpr Duration kPatience = std::chrono::seconds(30);  // an index may be long and the connection slow
-constexpr int kMostOpens = 200;                           // files and addresses that a container opens at once
+constexpr int kMostOpens = 200;  // files and addresses that a container opens at once
 
 // FFmpeg decodes pictures to analyse a stream: it must skip those that are too large for the decoder.
 int findStreams(AVFormatContext& context) {
@@ -41,9 +40,11 @@ void FormatCloser::operator()(AVFormatContext* context) const noexcept {
 }
 
 Result<Input::Opened> Input::open(const std::string& url) {
-  watch_.begin(kPatience);
+  watch_.begin(kOpenPatience);
   auto address = parseAddress(url);
   if (!address) return std::unexpected(address.error());
+  const Error late = lateOpening(address->way);
+  watch_.begin(kOpenPatience, late);
   if (address->way == Way::Pipe) {
     if (auto piped = openPipe(*address); !piped) return std::unexpected(piped.error());
   }
@@ -69,7 +70,7 @@ Result<Input::Opened> Input::open(const std::string& url) {
   const MonotonicTime arrival = watch_.now();
 
   FormatPtr owned(context);
-  watch_.begin(kPatience);
+  watch_.begin(kOpenPatience, late);
   const int found = findStreams(*context);
   if (found < 0 || watch_.cancelled()) return std::unexpected(watch_.explain(refusal(*address, found, words.last())));
   if (isTextArt(*context)) return std::unexpected(openError(AVERROR_INVALIDDATA));

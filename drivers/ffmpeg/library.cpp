@@ -41,7 +41,7 @@ Error openError(int code) noexcept {
     case AVERROR(EISDIR):
       return {ErrorCode::Unsupported, EISDIR, "it is a folder; give a file in it"};
     case AVERROR(ETIMEDOUT):
-      return {ErrorCode::Timeout, ETIMEDOUT, "no answer from the source in time; check the network"};
+      return kLateAnswer;
     case AVERROR(ENOMEM):
       return {ErrorCode::Exhausted, ENOMEM, "out of memory while opening the source"};
     case AVERROR_EOF:

@@ -2,6 +2,7 @@
 // Shared by the source and the decoders: owners of FFmpeg's objects, time units, errors.
 #pragma once
 
+#include <cerrno>
 #include <memory>
 #include <optional>
 
@@ -17,6 +18,8 @@ extern "C" {
 namespace relievo::ffmpeg {
 
 inline constexpr AVRational kNanosecond{1, 1'000'000'000};
+inline constexpr Error kLateAnswer{ErrorCode::Timeout, ETIMEDOUT,
+                                   "no answer from the source in time; check the network"};
 
 // The deleters' types identify this back end's objects behind a shared_ptr<const void>.
 struct PacketDeleter {

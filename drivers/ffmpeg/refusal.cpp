@@ -96,6 +96,22 @@ std::optional<Error> unreadFormat(const std::string& path) {
   return Error{ErrorCode::Unsupported, 0, found->line};
 }
 
+Error lateOpening(Way way) noexcept {
+  if (way == Way::File) {
+    return {ErrorCode::Timeout, 0, "nothing to play was found in it within 30 s; check whether it is a film"};
+  }
+  if (way != Way::Pipe) return kLateAnswer;
+  return {ErrorCode::Timeout, 0, "no film came through the pipe within 30 s; check the program that writes to it"};
+}
+
+Error lateReading(Way way) noexcept {
+  if (way == Way::File) {
+    return {ErrorCode::Timeout, 0, "nothing more to play was found in it within 10 s; check whether it is whole"};
+  }
+  if (way != Way::Pipe) return kLateAnswer;
+  return {ErrorCode::Timeout, 0, "nothing came through the pipe for 10 s; check the program that writes to it"};
+}
+
 Error refusal(const Address& address, int code, const std::string& words) {
   if (code == AVERROR_INVALIDDATA && address.way == Way::File && isHeic(localPathOf(address.url))) {
     return {ErrorCode::Unsupported, 0,

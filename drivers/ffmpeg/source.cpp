@@ -15,6 +15,7 @@
 #include "drivers/ffmpeg/file_times.h"
 #include "drivers/ffmpeg/input.h"
 #include "drivers/ffmpeg/library.h"
+#include "drivers/ffmpeg/refusal.h"
 #include "drivers/ffmpeg/stream_tags.h"
 #include "drivers/ffmpeg/watch.h"
 
@@ -28,7 +29,6 @@ namespace {
 
 using namespace ffmpeg;
 
-constexpr Duration kReadPatience = std::chrono::seconds(10);
 constexpr Duration kFlowPatience = std::chrono::seconds(3);  // for a real-time stream
 constexpr Duration kNap = std::chrono::milliseconds(2);      // between retries after AVERROR(EAGAIN)
 constexpr const char* kCannotSeek = "a live stream or a pipe cannot seek; save it to a file first";
@@ -132,7 +132,7 @@ class FfmpegSource final : public MediaSource {
   }
 
   Result<std::optional<Packet>> readPacket() override {
-    watch_.begin(address_.flows() ? kFlowPatience : kReadPatience);
+    watch_.begin(address_.flows() ? kFlowPatience : kReadPatience, lateReading(address_.way));
     input_.countAnew();
     PacketPtr packet(av_packet_alloc());
     if (!packet) return fail(ErrorCode::Exhausted, "out of memory for a packet", ENOMEM);
@@ -221,7 +221,7 @@ class FfmpegSource final : public MediaSource {
     if (watch_.cancelled()) return std::unexpected(watch_.explain({}));
     if (input_.isPipe()) return fail(ErrorCode::Unsupported, kCannotSeek);
     if (!timed_) return openContext();  // pictures without times are counted from the beginning
-    watch_.begin(kReadPatience);
+    watch_.begin(kReadPatience, lateReading(address_.way));
     ahead_.clear();
     times_.begin();
     latest_end_ = target.time_since_epoch();  // what is skipped is not missing

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <atomic>
-#include <cerrno>
 #include <optional>
 
 #include "drivers/ffmpeg/library.h"
@@ -14,8 +13,9 @@ namespace relievo::ffmpeg {
 
 class Watch {
  public:
-  // Starts a call that may wait for `patience`.
-  void begin(Duration patience) noexcept {
+  // Starts a call that may wait for `patience`, after which it fails with `late`.
+  void begin(Duration patience, const Error& late = kLateAnswer) noexcept {
+    late_ = late;
     expired_ = false;
     unanswered_.reset();
     deadline_ = clock_.now() + patience;
@@ -38,7 +38,7 @@ class Watch {
   [[nodiscard]] Error explain(Error otherwise) const noexcept {
     if (cancelled_) return {ErrorCode::Cancelled, 0, "interrupted while waiting for the source"};
     if (unanswered_) return *unanswered_;
-    if (expired_) return openError(AVERROR(ETIMEDOUT));
+    if (expired_) return late_;
     return otherwise;
   }
 
@@ -48,6 +48,7 @@ class Watch {
   std::atomic<bool> expired_{false};
   std::atomic<bool> cancelled_{false};
   std::optional<Error> unanswered_;
+  Error late_ = kLateAnswer;
 };
 
 }  // namespace relievo::ffmpeg

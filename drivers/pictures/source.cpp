@@ -20,18 +20,24 @@ namespace {
 
 using namespace pictures;
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 29;  // of a file
-constexpr std::size_t kMostTries = 8;                     // damaged pictures at the beginning
+// Of a file, which is held whole: the most samples of a picture in four channels of 32 bits are 268 MB.
+constexpr std::uint64_t kMostBytes = 300'000'000;
+constexpr Error kTooLarge{ErrorCode::Exhausted, 0, "is larger than 300 MB, the most that a picture's file may have"};
+constexpr std::size_t kMostTries = 8;  // damaged pictures at the beginning
 constexpr const char* kGone = "the disk failed during playback; check it";
 
 using Bytes = std::vector<std::uint8_t>;
 
+Result<std::uint64_t> sizeOf(const AnsweredFile& file) {
+  const auto size = file.bytes();
+  return size && *size > kMostBytes ? std::unexpected(kTooLarge) : size;
+}
+
 Result<std::shared_ptr<Bytes>> readPicture(const std::string& path) {
   const auto file = AnsweredFile::open(path);
   if (!file) return std::unexpected(file.error());
-  const auto size = file->bytes();
+  const auto size = sizeOf(*file);
   if (!size) return std::unexpected(size.error());
-  if (*size > kMostBytes) return fail(ErrorCode::Exhausted, "is too large");
   auto bytes = std::make_shared<Bytes>(static_cast<std::size_t>(*size));
   const auto got = file->read(0, *bytes);
   if (!got && got.error().code == ErrorCode::Io) return fail(ErrorCode::Lost, kGone, got.error().os_error);
@@ -99,16 +105,24 @@ class PicturesSource final : public MediaSource {
     std::erase_if(color.tags, [](const auto& tag) { return tag.first.starts_with("DEPTH_"); });  // they say its depth
   }
 
+  // Not a file that is too large: what describes it may read it whole.
+  Result<StreamInfo> describePicture(const std::string& path) {
+    if (cancelled_) return fail(ErrorCode::Cancelled, "interrupted while opening pictures");
+    const auto file = AnsweredFile::open(path);
+    const auto size =
+        file ? sizeOf(*file) : Result<std::uint64_t>(0);  // what describes it says why it cannot be opened
+    if (!size) return std::unexpected(size.error());
+    const auto described =
+        answerOf(path, [describe = describe_, path] { return std::make_shared<Result<StreamInfo>>(describe(path)); });
+    return described ? **described : std::unexpected(described.error());
+  }
+
   // As the first picture that can be described.
   Result<StreamInfo> describeStream(const std::vector<TimedPicture>& pictures, bool depth) {
     Result<StreamInfo> stream = fail(ErrorCode::Corrupt, "");
     for (std::size_t i = 0; i < std::min(pictures.size(), kMostTries) && !stream; ++i) {
-      if (cancelled_) return fail(ErrorCode::Cancelled, "interrupted while opening pictures");
-      const auto described = answerOf(pictures[i].path, [describe = describe_, path = pictures[i].path] {
-        return std::make_shared<Result<StreamInfo>>(describe(path));
-      });
-      if (!described) return std::unexpected(described.error());
-      stream = **described;
+      stream = describePicture(pictures[i].path);
+      if (!stream && endsReading(stream.error())) return stream;
     }
     if (!stream) return stream;
     stream->kind = StreamKind::Video;

@@ -51,6 +51,11 @@ void OpenSources::interrupt() noexcept {
   if (depth_) depth_->interrupt();
 }
 
+bool OpenSources::interrupted() noexcept {
+  const std::scoped_lock lock(mutex_);
+  return interrupted_;
+}
+
 bool OpenSources::waitsForColor(const Clock* file_clock) noexcept {
   const std::scoped_lock lock(mutex_);
   const bool waits = color_ && color_->waitsForSource();

@@ -29,6 +29,8 @@ class OpenSources {
 
   // Any thread: makes blocked calls of the sources, and of those to come, return Cancelled.
   void interrupt() noexcept;
+  // Any thread: since `allow`. For work that no source knows of.
+  [[nodiscard]] bool interrupted() noexcept;
   // Any thread: the colour's source is waited for. With `file_clock`, which is for a file, only a long wait counts: a
   // file is read by a thread of its own, which waits for a processor as any other does.
   [[nodiscard]] bool waitsForColor(const Clock* file_clock) noexcept;

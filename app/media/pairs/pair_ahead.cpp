@@ -95,20 +95,22 @@ std::unique_ptr<TrackReader> PairReader::Impl::scoutOf(const std::string& url, i
   return scout;
 }
 
-// `first`, or if it is blank a later picture of the same stream.
-Frame PairReader::Impl::tellingPicture(const Frame& first, const std::string& url, int stream) const {
-  constexpr int kMostPictures = 40;
+// `first`, or if it is blank a later picture of the same stream. Fewer are looked at if they are large.
+Frame PairReader::Impl::tellingPicture(const Frame& first, const std::string& url, int stream) {
+  constexpr std::int64_t kMostPictures = 40, kMostSamples = 1 << 27;
   constexpr std::array kLater{2, 5, 10, 20, 40};  // seconds
-  if (!isBlank(first)) return first;
+  if (!isBlank(first) || sources.interrupted()) return first;
   const auto scout = scoutOf(url, stream);
   if (!scout) return first;
-  for (int i = 0; i < kMostPictures; ++i) {
+  const std::int64_t samples = std::max(std::int64_t{first.width} * first.height, std::int64_t{1});
+  for (std::int64_t i = 0; i < std::min(kMostPictures, kMostSamples / samples); ++i) {
+    if (sources.interrupted()) return first;
     const auto picture = scout->next(0);
     if (!picture || !*picture) break;
     if (!isBlank(**picture)) return **picture;
   }
   for (const int seconds : kLater) {
-    if (!scout->seek(mediaTime(seconds))) break;
+    if (sources.interrupted() || !scout->seek(mediaTime(seconds))) break;
     const auto picture = scout->next(0);
     if (!picture || !*picture) break;
     if (!isBlank(**picture)) return **picture;
@@ -135,7 +137,7 @@ std::vector<Frame> PairReader::Impl::laterPictures(MediaTime seen, int stream) {
   std::vector<MediaTime> met{seen};
   for (const double place : kPlaces) {
     const bool enough = !pictures.empty() && static_cast<double>(pictures.size() + 1) * samples > kMostSamples;
-    if (enough || clock.now() > until) break;
+    if (enough || clock.now() > until || sources.interrupted()) break;
     if (!scout->seek(MediaTime(fromSeconds(place * toSeconds(duration))))) break;
     const auto picture = scout->next(0);
     if (!picture) break;

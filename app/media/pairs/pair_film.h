@@ -70,7 +70,7 @@ struct PairReader::Impl {
   [[nodiscard]] std::vector<Frame> laterPictures(MediaTime seen, int stream);
   [[nodiscard]] Result<Frame> depthIn(const Frame& stored);
   void checkReach(const Frame& picture);
-  [[nodiscard]] Frame tellingPicture(const Frame& first, const std::string& url, int stream) const;
+  [[nodiscard]] Frame tellingPicture(const Frame& first, const std::string& url, int stream);
   Result<std::optional<Frame>> readColor();
   Result<std::optional<Frame>> nextColor();
   Result<DepthFollower::Supplied> supplyDepth();

@@ -130,6 +130,13 @@ TEST_F(OutputGuard, OneFileIsNoTwoOutputs) {
   EXPECT_FALSE(refused({there, folder_ / "d.json"}, {}));
 }
 
+TEST_F(OutputGuard, ALinkToNoFileYetIsTheFileThatItNames) {
+  fs::create_symlink("a.json", folder_ / "link.json");
+  EXPECT_TRUE(refused({folder_ / "a.json", folder_ / "link.json"}, {}));
+  EXPECT_TRUE(refused({folder_ / "link.json", folder_ / "a.json"}, {}));
+  EXPECT_FALSE(refused({folder_ / "link.json", folder_ / "b.json"}, {}));
+}
+
 TEST_F(OutputGuard, OnlyFilesOfABoundedSizeAreReadWhole) {
   const auto code = [](const std::string& path) { return readWholeFile(path, FileSize::Settings, "no").error().code; };
   EXPECT_EQ(readWholeFile(file("a.toml", "text"), FileSize::Settings, "no").value(), "text");

@@ -16,6 +16,8 @@
 #include <thread>
 
 #include "drivers/ffmpeg/ffmpeg.h"
+#include "drivers/ffmpeg/refusal.h"
+#include "drivers/ffmpeg/watch.h"
 #include "platform/unique_fd.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/mkv_patch.h"
@@ -363,6 +365,23 @@ TEST(FfmpegSource, APictureThatIsTooLargeIsNotDecodedToKnowItsSize) {
   const auto fits = makeFfmpegSource();
   ASSERT_TRUE(fits->open(folder / "b.png"));
   EXPECT_EQ(fits->streams()[0].width, 4096);
+}
+
+TEST(FfmpegWatch, WhatIsLateIsSaidOfAFileAPipeAndANetwork) {
+  using namespace ffmpeg;
+  const auto said = [](const Error& late) {
+    Watch watch;
+    watch.begin(Duration(0), late);
+    EXPECT_TRUE(watch.givesUp());
+    return std::string(watch.explain({}).message);
+  };
+  for (const auto& late : {lateOpening, lateReading}) {
+    EXPECT_THAT(said(late(Way::Http)), testing::HasSubstr("check the network"));
+    for (const Way way : {Way::File, Way::Pipe}) {
+      EXPECT_THAT(said(late(way)), testing::HasSubstr(late == lateOpening ? "30 s" : "10 s"));
+      EXPECT_THAT(said(late(way)), testing::Not(testing::HasSubstr("network")));
+    }
+  }
 }
 
 TEST(FfmpegSource, ACutFileEndsLikeAWholeOne) {

@@ -254,6 +254,19 @@ TEST_F(Pictures, OneThatHasGoneIsPassedOverAndCounted) {
   EXPECT_FALSE(*source->read());
 }
 
+// Of 3 GB, nothing of which takes room on the disk.
+TEST_F(Pictures, AFileThatIsTooLargeIsNotLookedInto) {
+  file("1.png"), file("2.png");
+  std::filesystem::resize_file(folder_ / "1.png", 3'000'000'000);
+  const auto alone = read(folder_ / "1.png");
+  ASSERT_TRUE(alone.error);
+  EXPECT_EQ(alone.error->code, ErrorCode::Exhausted);
+  EXPECT_THAT(alone.error->message, HasSubstr("larger than 300 MB"));
+  EXPECT_THAT(read(folder_ / "%d.png").color, ElementsAre("40 2.png"));
+  std::filesystem::resize_file(folder_ / "1.png", 300'000'000);
+  EXPECT_TRUE(makePicturesSource(describe)->open(folder_ / "1.png"));
+}
+
 TEST_F(Pictures, ALargeFolderIsListedNotRead) {
   for (int k = 0; k < 10'000; ++k) std::ofstream(folder_ / (std::to_string(k) + ".png")) << k;
   int described = 0;

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <tuple>
 
 #include "app/media/pair_reader.h"
@@ -761,6 +762,53 @@ TEST(PairReader, InterruptHoldsUntilTheNextOpen) {
   film.sources = 0;
   EXPECT_TRUE(film.reader.open({.url = "color", .depth_url = "depth"}).has_value());
   EXPECT_TRUE(film.reader.next().has_value());
+}
+
+// Calls `at_read` before each read.
+class ToldSource final : public MediaSource {
+ public:
+  ToldSource(std::unique_ptr<MediaSource> source, std::function<void()> at_read)
+      : source_(std::move(source)), at_read_(std::move(at_read)) {}
+
+ private:
+  Result<Description> openSource(const std::string& url) override {
+    if (auto opened = source_->open(url); !opened) return std::unexpected(opened.error());
+    return Description{source_->streams(), source_->tags(), source_->duration()};
+  }
+  Result<std::optional<Packet>> readPacket() override {
+    at_read_();
+    return source_->read();
+  }
+  Result<void> seekTo(MediaTime target) override { return source_->seek(target); }
+  void closeSource() noexcept override { source_->close(); }
+  void interrupted() noexcept override { source_->interrupt(); }
+  std::unique_ptr<MediaSource> source_;
+  std::function<void()> at_read_;
+};
+
+// A black film of 60 pictures, of which 40 and those that follow are looked at for one that tells something.
+TEST(PairReader, AnInterruptEndsTheLookAtLaterPictures) {
+  TemporaryFolder folder;
+  ClipTrack black = color(30, 60);
+  black.sample = [](int, int, int, int) { return 0u; };
+  makeClip(folder / "a.mkv", {black});
+  PairReader* reading = nullptr;
+  int scouted = 0, interrupt_at = 1000;
+  const auto atRead = [&] {
+    if (++scouted == interrupt_at) reading->interrupt();
+  };
+  PairReader::Backends backends = kFfmpeg;
+  backends.make_source = [&, sources = 0](const std::string&) mutable -> std::unique_ptr<MediaSource> {
+    if (sources++ % 2 == 0) return makeFfmpegSource();
+    return std::make_unique<ToldSource>(makeFfmpegSource(), atRead);
+  };
+  PairReader reader(backends);
+  reading = &reader;
+  ASSERT_TRUE(reader.open({.url = folder / "a.mkv"}).has_value());
+  EXPECT_GE(scouted, 40);
+  scouted = 0, interrupt_at = 3;
+  static_cast<void>(reader.open({.url = folder / "a.mkv"}));
+  EXPECT_EQ(scouted, 3);
 }
 
 TEST(PairReader, ALiveFilmThatCannotSeekGoesOnWhereItWas) {

@@ -84,6 +84,55 @@ TEST_F(AtomicFileTest, WritesWhereALinkPointsAndLeavesTheLink) {
   EXPECT_EQ(textOf(at("real.json")), "new");
 }
 
+TEST_F(AtomicFileTest, WritesWhereALinkPointsThatHasNoFileYet) {
+  fs::create_directory(at("elsewhere"));
+  fs::create_symlink("elsewhere/second.json", at("first.json"));
+  fs::create_symlink("real.json", at("elsewhere/second.json"));
+  auto file = AtomicFile::create(at("first.json"), Existing::Keep);
+  ASSERT_TRUE(file);
+  file->write("new");
+  ASSERT_TRUE(file->commit());
+  EXPECT_TRUE(fs::is_symlink(at("first.json")) && fs::is_symlink(at("elsewhere/second.json")));
+  EXPECT_EQ(textOf(at("elsewhere/real.json")), "new");
+  EXPECT_EQ(placeOf(at("first.json")), fs::canonical(at("elsewhere/real.json")).string());
+}
+
+TEST_F(AtomicFileTest, RefusesALinkThatLeadsBackToItselfBeforehand) {
+  fs::create_symlink("round.json", at("a.json"));
+  fs::create_symlink("a.json", at("round.json"));
+  for (const Existing existing : {Existing::Keep, Existing::Replace}) {
+    const auto file = AtomicFile::create(at("a.json"), existing);
+    ASSERT_FALSE(file);
+    EXPECT_EQ(file.error().os_error, ELOOP);
+    EXPECT_THAT(file.error().message, testing::HasSubstr("leads back to itself"));
+  }
+  EXPECT_TRUE(fs::is_symlink(at("a.json")));
+}
+
+TEST_F(AtomicFileTest, RefusesANameThatIsTooLongBeforehand) {
+  const auto file = AtomicFile::create(at("") + std::string(256, 'x'));
+  ASSERT_FALSE(file);
+  EXPECT_EQ(file.error().os_error, ENAMETOOLONG);
+  EXPECT_THAT(file.error().message, testing::HasSubstr("choose a shorter one"));
+}
+
+// 252 bytes and ".ab", so that no mark fits behind it; the cut would fall into the last character.
+TEST_F(AtomicFileTest, ReplacesAFileOfTheLongestName) {
+  std::string name;
+  while (name.size() < 252) name += "\xe6\xb5\xae";
+  const std::string path = at("") + name + ".ab";
+  std::ofstream(path) << "old";
+  std::ofstream(litterPattern(path)) << "left by a killed writer";
+  EXPECT_EQ(filesInFolder(), 2);
+  EXPECT_EQ(fs::path(litterPattern(path)).filename().string(), name.substr(0, 228) + ".relievo-XXXXXX");
+  auto file = AtomicFile::create(path);
+  ASSERT_TRUE(file);
+  file->write("new");
+  ASSERT_TRUE(file->commit());
+  EXPECT_EQ(textOf(path), "new");
+  EXPECT_EQ(filesInFolder(), 1);
+}
+
 TEST_F(AtomicFileTest, SaysBeforehandThatAPathCannotBeWritten) {
   EXPECT_FALSE(AtomicFile::create(at("missing/a.json")));
   EXPECT_FALSE(AtomicFile::create(at("")));

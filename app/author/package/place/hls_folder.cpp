@@ -53,7 +53,8 @@ struct Apart {
     held.reset(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     holdLitter(held.get());
     if (::chmod(folder.c_str(), 0777 & ~mask()) != 0 || ::mkdir((folder / segments).c_str(), 0777) != 0) {
-      error = Error{ErrorCode::Io, errno, kCannotWrite};
+      const bool is_long = errno == ENAMETOOLONG;
+      error = Error{ErrorCode::Io, errno, is_long ? "its name is too long; choose a shorter one" : kCannotWrite};
     }
   }
   ~Apart() { remove(); }
