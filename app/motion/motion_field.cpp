@@ -5,112 +5,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <cstring>
 #include <optional>
 #include <utility>
+
+#include "app/motion/part_difference.h"
 
 namespace relievo {
 namespace {
 
 constexpr int kHighest = 1 << 30;
 constexpr int kBlock = 8, kLevels = 3, kPasses = 3;
-constexpr int kNear = 5;       // samples across and down that tell what a single one shows
-constexpr int kMargin = 2;     // a block is compared with so much of its neighbourhood
+constexpr int kNear = kSmallPart;  // samples across and down that tell what a single one shows
+constexpr int kMargin = 2;         // a block is compared with so much of its neighbourhood
+static_assert(kBlock + 2 * kMargin == kLargePart);
 constexpr float kUnlike = 12;  // cost of a sample's difference from the neighbours' vectors: noise moves nothing
-
-// A picture as it is between its samples, at each quarter of one to the right and down: made where it is asked for,
-// once, with its last samples going on beyond its edge.
-class QuarterPictures {
- public:
-  explicit QuarterPictures(GrayPicture picture) : picture_(std::move(picture)) {}
-  [[nodiscard]] const GrayPicture& picture() const noexcept { return picture_; }
-  // At `fx`, `fy` quarters, kEdge samples wider on each side.
-  [[nodiscard]] const GrayPicture& at(int fx, int fy) const {
-    GrayPicture& made = made_[4 * static_cast<std::size_t>(fy) + static_cast<std::size_t>(fx)];
-    if (made.bytes.empty()) made = between(fx, fy);
-    return made;
-  }
-  static constexpr int kEdge = 32;
-
- private:
-  [[nodiscard]] GrayPicture between(int fx, int fy) const {
-    const GrayPicture& p = picture_;
-    const int w00 = (4 - fx) * (4 - fy), w01 = fx * (4 - fy), w10 = (4 - fx) * fy, w11 = fx * fy;
-    GrayPicture made(p.cols + 2 * kEdge, p.rows + 2 * kEdge);
-    std::vector<std::uint8_t> upper, lower = wideRow(-kEdge);
-    auto out = made.bytes.begin();
-    for (int r = 0; r < made.rows; ++r) {
-      upper = std::exchange(lower, wideRow(r + 1 - kEdge));
-      const std::uint8_t *const a = upper.data(), *const b = lower.data();
-      std::uint8_t* const to = &*out;
-      for (int c = 0; c < made.cols; ++c) {
-        to[c] = static_cast<std::uint8_t>((w00 * a[c] + w01 * a[c + 1] + w10 * b[c] + w11 * b[c + 1] + 8) >> 4);
-      }
-      out += made.cols;
-    }
-    return made;
-  }
-  // One sample more than a row that is made.
-  [[nodiscard]] std::vector<std::uint8_t> wideRow(int row) const {
-    const GrayPicture& p = picture_;
-    const int r = std::clamp(row, 0, p.rows - 1);
-    const auto first = p.bytes.begin() + static_cast<std::ptrdiff_t>(r) * p.cols;
-    std::vector<std::uint8_t> wide(static_cast<std::size_t>(p.cols + 2 * kEdge + 1), first[p.cols - 1]);
-    std::fill_n(wide.begin(), kEdge, *first);
-    std::copy_n(first, p.cols, wide.begin() + kEdge);
-    return wide;
-  }
-
-  GrayPicture picture_;
-  mutable std::array<GrayPicture, 16> made_;
-};
-
-constexpr int kWhole = kBlock + 2 * kMargin;
-
-// Of Size x Size samples, laid in one row, of which the compiler makes vector instructions.
-template <int Size>
-int squareDifference(const std::uint8_t* a, int a_stride, const std::uint8_t* b, int b_stride) {
-  constexpr std::size_t kCount = (Size * Size + 15) / 16 * 16;
-  std::array<std::uint8_t, kCount> x{}, y{};
-  for (std::size_t r = 0; r < Size; ++r, a += a_stride, b += b_stride) {
-    std::memcpy(&x[r * Size], a, Size);
-    std::memcpy(&y[r * Size], b, Size);
-  }
-  int sum = 0;
-  for (std::size_t i = 0; i < kCount; ++i) sum += std::abs(x[i] - y[i]);
-  return sum;
-}
-
-// The part of `now` from (left, top) to before (right, bottom), within the picture, as one of `before` at a distance:
-// the sum of the differences, or a sum above `most`. Beyond the last samples of `before` they go on.
-struct Part {
-  int left, top, right, bottom;
-};
-int differenceOf(const QuarterPictures& before, const GrayPicture& now, const Part& part, const Motion& v, int most) {
-  constexpr int kEdge = QuarterPictures::kEdge;
-  const int x4 = static_cast<int>(std::floor(4 * v.x + 0.5F)), y4 = static_cast<int>(std::floor(4 * v.y + 0.5F));
-  const GrayPicture& then = before.at(x4 & 3, y4 & 3);
-  // Farther out all rows, and all columns, are the same.
-  const int left = part.left + (x4 >> 2) + kEdge, top = part.top + (y4 >> 2) + kEdge;
-  const int width = part.right - part.left, height = part.bottom - part.top;
-  if (left >= 0 && left + width <= then.cols && top >= 0 && top + height <= then.rows && width == height) {
-    const std::uint8_t* const a = now.bytes.data() + static_cast<std::ptrdiff_t>(part.top) * now.cols + part.left;
-    const std::uint8_t* const b = then.bytes.data() + static_cast<std::ptrdiff_t>(top) * then.cols + left;
-    if (width == kWhole) return squareDifference<kWhole>(a, now.cols, b, then.cols);
-    if (width == kNear) return squareDifference<kNear>(a, now.cols, b, then.cols);
-  }
-  int sum = 0;
-  for (int r = part.top; r < part.bottom && sum <= most; ++r) {
-    const std::uint8_t* const here = &now.bytes[static_cast<std::size_t>(r) * static_cast<std::size_t>(now.cols)];
-    const int row = std::clamp(top + r - part.top, 0, then.rows - 1);
-    const std::uint8_t* const there = &then.bytes[static_cast<std::size_t>(row) * static_cast<std::size_t>(then.cols)];
-    for (int c = part.left; c < part.right; ++c) {
-      sum += std::abs(here[c] - there[std::clamp(left + c - part.left, 0, then.cols - 1)]);
-    }
-  }
-  return sum;
-}
 
 // The vectors of a level's blocks.
 class BlockSearch {
@@ -190,8 +98,9 @@ class BlockSearch {
       const Motion& other = of(i + x, j + y);
       unlike += std::min(std::abs(v.x - other.x) + std::abs(v.y - other.y), 2.0F);
     }
-    const Part part{std::max(i * kBlock - kMargin, 0), std::max(j * kBlock - kMargin, 0),
-                    std::min((i + 1) * kBlock + kMargin, now_->cols), std::min((j + 1) * kBlock + kMargin, now_->rows)};
+    const PicturePart part{std::max(i * kBlock - kMargin, 0), std::max(j * kBlock - kMargin, 0),
+                           std::min((i + 1) * kBlock + kMargin, now_->cols),
+                           std::min((j + 1) * kBlock + kMargin, now_->rows)};
     const int own = static_cast<int>(0.25F * kUnlike * unlike);
     return own + differenceOf(*before_, *now_, part, v, most - own);
   }
@@ -206,7 +115,7 @@ GrayPicture halved(const GrayPicture& p) {
   return scaledTo(std::max(p.cols / 2, 1), std::max(p.rows / 2, 1), p.bytes.data(), p.cols, p.rows);
 }
 
-Part around(const GrayPicture& p, int c, int r) {
+PicturePart around(const GrayPicture& p, int c, int r) {
   constexpr int kReach = kNear / 2;
   return {std::max(c - kReach, 0), std::max(r - kReach, 0), std::min(c + kReach + 1, p.cols),
           std::min(r + kReach + 1, p.rows)};
@@ -216,7 +125,7 @@ Part around(const GrayPicture& p, int c, int r) {
 std::vector<bool> withoutIslands(const std::vector<bool>& is_new, const GrayPicture& p) {
   std::vector<bool> result = is_new;
   for (std::size_t i = 0; i < is_new.size(); ++i) {
-    const Part part = around(p, static_cast<int>(i) % p.cols, static_cast<int>(i) / p.cols);
+    const PicturePart part = around(p, static_cast<int>(i) % p.cols, static_cast<int>(i) / p.cols);
     int count = 0;
     for (int r = part.top; r < part.bottom; ++r) {
       for (int c = part.left; c < part.right; ++c) {
@@ -233,7 +142,7 @@ std::vector<bool> withoutIslands(const std::vector<bool>& is_new, const GrayPict
 // The vector of the nine blocks around a sample that fits best over 5 x 5 samples; of equal ones the own block's.
 Motion bestHere(const BlockSearch& blocks, const QuarterPictures& before, const GrayPicture& now, int c, int r) {
   const Motion own = blocks.of(c / kBlock, r / kBlock);
-  const Part part = around(now, c, r);
+  const PicturePart part = around(now, c, r);
   Motion best = own, last = own;
   std::optional<int> cost;
   for (int j = -1; j <= 1; ++j) {
@@ -306,7 +215,7 @@ std::vector<bool> uncovered(const GrayPicture& before, const GrayPicture& now, c
     const Motion& u =
         back[static_cast<std::size_t>(from_r) * static_cast<std::size_t>(now.cols) + static_cast<std::size_t>(from_c)];
     if (std::abs(u.x + v.x) + std::abs(u.y + v.y) < kElsewhere) continue;
-    const Part part = around(now, c, r);
+    const PicturePart part = around(now, c, r);
     const int samples = (part.right - part.left) * (part.bottom - part.top);
     result[i] = differenceOf(from, now, part, v, kHighest) > kUnlikeIt * samples;
   }

@@ -11,7 +11,7 @@
 #include "app/lab/detail/drawn_level.h"
 #include "app/lab/detail/picture_quality.h"
 #include "app/lab/measure/accuracy.h"
-#include "app/lab/measure/statistics.h"
+#include "app/lab/numbers/statistics.h"
 
 namespace relievo {
 

@@ -16,7 +16,7 @@
 #include "app/lab/finger/finger_paths.h"
 #include "app/lab/finger/held_finger.h"
 #include "app/lab/measure/accuracy.h"
-#include "app/lab/measure/spectrum.h"
+#include "app/lab/numbers/spectrum.h"
 #include "platform/print.h"
 
 namespace relievo {

@@ -32,6 +32,13 @@ struct SpeedAccuracyRow {
   ContenderParts parts;  // empty over all scenes: the plan picks for each film
   std::optional<ForceError> error;
   std::optional<TickTimes> times;
+
+  // What was measured is the same, whatever it came to.
+  [[nodiscard]] bool sameKind(const SpeedAccuracyRow& other) const;
+  // It is one of the rows in which the scenes are compared, not one of those in which times are.
+  [[nodiscard]] bool isAccuracy() const {
+    return sameKind(SpeedAccuracyRow{.who = who, .depth = depth, .scene = scene});
+  }
 };
 
 struct SpeedAccuracyFigures {

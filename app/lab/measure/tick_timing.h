@@ -7,7 +7,7 @@
 
 #include "app/lab/film/film_run.h"
 #include "app/lab/measure/contenders.h"
-#include "app/lab/measure/statistics.h"
+#include "app/lab/numbers/statistics.h"
 
 namespace relievo {
 

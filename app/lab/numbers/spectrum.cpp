@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // FFTW, real to complex.
-#include "app/lab/measure/spectrum.h"
+#include "app/lab/numbers/spectrum.h"
 
 #include <fftw3.h>
 

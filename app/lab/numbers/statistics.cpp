@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sums of squares, so that ticks of several runs can be put together.
-#include "app/lab/measure/statistics.h"
+#include "app/lab/numbers/statistics.h"
 
 #include <algorithm>
 #include <cmath>

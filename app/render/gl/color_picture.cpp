@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <glm/gtc/type_ptr.hpp>
 #include <glm/mat3x3.hpp>
 #include <string_view>
 #include <utility>
@@ -95,14 +94,9 @@ Result<void> ColorPicture::setFrame(const Frame& frame) {
   if (std::max(frame.width, frame.height) > largest) {
     return fail(ErrorCode::Unsupported, "the picture is larger than this GL driver's textures; use a smaller video");
   }
-  std::string defines = sampling(*arrangement) + sdrDefines(frame.transfer, frame.primaries);
-  if (arrangement_ != *arrangement || defines_ != defines) {
-    auto program = GlProgram::create(defines, kColorVertexShader, kColorFragmentShader);
-    if (!program) return std::unexpected(program.error());
-    program_ = std::move(*program);
-    arrangement_ = *arrangement;
-    defines_ = std::move(defines);
-  }
+  auto prepared = gpu_.prepare(sampling(*arrangement) + sdrDefines(frame.transfer, frame.primaries));
+  if (!prepared) return prepared;
+  arrangement_ = *arrangement;
   width_ = frame.width;
   height_ = frame.height;
   glActiveTexture(GL_TEXTURE0);
@@ -111,8 +105,8 @@ Result<void> ColorPicture::setFrame(const Frame& frame) {
   seen_samples_ = {};
   // If the picture's size is odd, the last chroma sample extends beyond its edge.
   const glm::ivec2 chroma = samplesOf(frame, 1);
-  chroma_scale_ = {static_cast<float>(width_) / static_cast<float>(chroma.x << frame.chroma_shift_x),
-                   static_cast<float>(height_) / static_cast<float>(chroma.y << frame.chroma_shift_y)};
+  colors_.chroma_scale = {static_cast<float>(width_) / static_cast<float>(chroma.x << frame.chroma_shift_x),
+                          static_cast<float>(height_) / static_cast<float>(chroma.y << frame.chroma_shift_y)};
   frame_ = frame;
   setColors(frame);
   converted_ = false;
@@ -182,7 +176,7 @@ bool ColorPicture::drawsOnCpu() {
 
 void ColorPicture::makeSeen(glm::ivec2 samples) {
   seen_samples_ = samples;
-  seen_.make(frame_, samples, components_to_rgb_, bias_);
+  seen_.make(frame_, samples, components_to_rgb_, colors_.bias);
   sdr_.prepare(frame_.transfer, frame_.primaries);
   sdr_.apply(seen_.rgba());
   seen_texture_.upload(4, {seen_.rgba().data(), std::ptrdiff_t{4} * seen_.width()}, seen_.width(), seen_.height());
@@ -194,9 +188,9 @@ void ColorPicture::setColors(const Frame& frame) noexcept {
   const glm::mat3 columns = rgbFromComponents(frame);
   const bool is_limited = limited(frame);
   const int count = frame.model == ColorModel::Gray ? 1 : 3;
-  to_rgb_ = glm::mat4x3(0);
+  colors_.to_rgb = glm::mat4x3(0);
   components_to_rgb_ = glm::mat3(0);
-  bias_ = glm::vec3(0);
+  colors_.bias = glm::vec3(0);
   for (int i = 0; i < count; ++i) {
     const Component& component = frame.components[static_cast<std::size_t>(i)];
     const int channel = component.offset_bytes / (component.bits > 8 ? 2 : 1);
@@ -207,8 +201,8 @@ void ColorPicture::setColors(const Frame& frame) noexcept {
     const int sampled = arrangement_ == Arrangement::Packed                ? channel
                         : arrangement_ == Arrangement::SemiPlanar && i > 0 ? 1 + channel
                                                                            : i;
-    to_rgb_[sampled] = components_to_rgb_[i] = scale * columns[i];
-    bias_ -= zero * scale * columns[i];
+    colors_.to_rgb[sampled] = components_to_rgb_[i] = scale * columns[i];
+    colors_.bias -= zero * scale * columns[i];
   }
 }
 
@@ -227,59 +221,11 @@ void ColorPicture::bind(GLuint unit, const PixelArea& area, const DisplayVolume&
   }
   if (!in_planes_) upload(frame_);
   const auto reduced = [](int all, int factor) { return factor > 1 ? (all + 1) / 2 : all; };
-  const int width = reduced(width_, samples.x), height = reduced(height_, samples.y);
-  if (width != target_width_ || height != target_height_) {
-    allocateTarget(width, height);
-    converted_ = false;
-  }
-  if (!converted_) convert();
+  const glm::ivec2 size(reduced(width_, samples.x), reduced(height_, samples.y));
+  if (!converted_ || size != gpu_.size()) gpu_.convert(planes_, colors_, size, size == glm::ivec2(width_, height_));
   converted_ = true;
   glActiveTexture(GL_TEXTURE0 + unit);
-  glBindTexture(GL_TEXTURE_2D, target_.get());
-}
-
-void ColorPicture::allocateTarget(int width, int height) {
-  target_width_ = width;
-  target_height_ = height;
-  target_ = gl::generate<GlTexture>(glGenTextures);
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, target_.get());
-  glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA8, width, height);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  if (framebuffer_.get() == 0) {
-    framebuffer_ = gl::generate<GlFramebuffer>(glGenFramebuffers);
-    no_vertices_ = gl::generate<GlVertexArray>(glGenVertexArrays);
-  }
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target_.get(), 0);
-}
-
-void ColorPicture::convert() {
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
-  glViewport(0, 0, target_width_, target_height_);
-  glDisable(GL_DEPTH_TEST);
-  glDisable(GL_CULL_FACE);
-  glDisable(GL_BLEND);
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  program_.use();
-  glUniform2fv(program_.uniform("chroma_scale"), 1, glm::value_ptr(chroma_scale_));
-  glUniformMatrix4x3fv(program_.uniform("to_rgb"), 1, GL_FALSE, glm::value_ptr(to_rgb_));
-  glUniform3fv(program_.uniform("bias"), 1, glm::value_ptr(bias_));
-  const bool as_it_is = target_width_ == width_ && target_height_ == height_;  // one luma sample per pixel
-  constexpr std::array<const char*, 3> kPlanes{"plane0", "plane1", "plane2"};
-  for (GLuint unit = 0; unit < kPlanes.size(); ++unit) {
-    planes_[unit].bind(unit);
-    const GLint filter = unit == 0 && as_it_is ? GL_NEAREST : GL_LINEAR;
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
-    glUniform1i(program_.uniform(kPlanes[unit]), static_cast<GLint>(unit));
-  }
-  glBindVertexArray(no_vertices_.get());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-  glFlush();  // starts the conversion while the CPU computes the relief
+  gpu_.bind();
 }
 
 }  // namespace relievo

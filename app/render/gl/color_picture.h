@@ -5,14 +5,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <glm/mat4x3.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 #include <optional>
-#include <string>
 
+#include "app/render/gl/color_converter.h"
 #include "app/render/gl/gl_objects.h"
-#include "app/render/gl/gl_program.h"
 #include "app/render/gl/plane_texture.h"
 #include "app/render/gl/sdr_table.h"
 #include "app/render/gl/seen_color.h"
@@ -61,17 +59,12 @@ class ColorPicture {
   [[nodiscard]] bool drawsOnCpu();
   void makeSeen(glm::ivec2 samples);
   void setColors(const Frame& frame) noexcept;
-  void allocateTarget(int width, int height);
-  void convert();
 
   std::optional<Arrangement> arrangement_;
-  std::string defines_;  // of the program
   int width_ = 0;
   int height_ = 0;
-  glm::mat4x3 to_rgb_{0};  // from the four numbers that the shader samples
+  ColorUniforms colors_;
   glm::mat3 components_to_rgb_{0};
-  glm::vec3 bias_{0};
-  glm::vec2 chroma_scale_{1};
   std::array<PlaneTexture, 3> planes_;
   std::optional<bool> takes_dma_bufs_;  // false after the first refusal
   Converter converter_;
@@ -85,13 +78,7 @@ class ColorPicture {
   bool in_planes_ = false;  // the last frame
   bool converted_ = false;
   Frame frame_;  // kept because a texture may use its memory
-
-  GlProgram program_;
-  GlVertexArray no_vertices_;
-  GlTexture target_;
-  GlFramebuffer framebuffer_;
-  int target_width_ = 0;
-  int target_height_ = 0;
+  ColorConverter gpu_;
 };
 
 }  // namespace relievo

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Power spectral densities of signals whose spectrum is known on paper.
-#include "app/lab/measure/spectrum.h"
+#include "app/lab/numbers/spectrum.h"
 
 #include <gtest/gtest.h>
 

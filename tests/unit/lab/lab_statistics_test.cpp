@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Force errors and spreads of times, against figures worked out by hand.
-#include "app/lab/measure/statistics.h"
+#include "app/lab/numbers/statistics.h"
 
 #include <gtest/gtest.h>
 
