@@ -72,7 +72,8 @@ Result<Input::Opened> Input::open(const std::string& url) {
   FormatPtr owned(context);
   watch_.begin(kOpenPatience, late);
   const int found = findStreams(*context);
-  if (found < 0 || watch_.cancelled()) return std::unexpected(watch_.explain(refusal(*address, found, words.last())));
+  const bool gave_up = reads_files_ ? watch_.givesUp() : watch_.cancelled();  // of a slow network enough may be known
+  if (found < 0 || gave_up) return std::unexpected(watch_.explain(refusal(*address, found, words.last())));
   if (isTextArt(*context)) return std::unexpected(openError(AVERROR_INVALIDDATA));
   return Opened{.container = std::move(owned), .address = std::move(*address), .arrival = arrival};
 }

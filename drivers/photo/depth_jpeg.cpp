@@ -122,6 +122,6 @@ std::vector<PhotoPart> partsOf(const PhotoBytes& file) {
 
 }  // namespace
 
-const PhotoKind kDepthJpeg{beginsLikeJpeg, partsOf};
+const PhotoKind kDepthJpeg{beginsLikeJpeg, partsOf, kMostJpegBytes};
 
 }  // namespace relievo

@@ -27,7 +27,11 @@ struct PhotoPart {
 struct PhotoKind {
   bool (*begins)(std::span<const std::uint8_t> first_bytes) = nullptr;
   std::vector<PhotoPart> (*parts)(const PhotoBytes& file) = nullptr;
+  std::uint64_t most_bytes = std::uint64_t{256} << 20;  // of a file, which is held whole
 };
+
+// A JPEG's, which FFmpeg's decoder holds two times more.
+inline constexpr std::uint64_t kMostJpegBytes = 140'000'000;
 
 // JPEG with a depth map in its XMP metadata (GDepth, standard or extended) or behind the picture (Dynamic Depth).
 extern const PhotoKind kDepthJpeg;
@@ -36,9 +40,10 @@ extern const PhotoKind kDepthJpeg;
 // picture (JPS), with the tags STEREO_MODE and kSqueezedTag.
 extern const PhotoKind kStereoJpeg;
 
-// The pictures of a file of at most 256 MiB that one of the kinds takes; none if it is another. Reads the file if it
-// begins like one.
+// The pictures of a file that one of the kinds takes; none if it is another. Reads the file if it begins
+// like one.
 [[nodiscard]] std::vector<PhotoPart> photoParts(const std::string& path, std::span<const PhotoKind> kinds);
+// True if the path is a file that one of the kinds takes. Reads it if it begins like one.
 [[nodiscard]] bool isPhoto(const std::string& path, std::span<const PhotoKind> kinds);
 
 // One stream for each picture, with one packet at time 0. `kinds` must outlive it.

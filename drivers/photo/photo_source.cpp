@@ -8,21 +8,22 @@
 namespace relievo {
 namespace {
 
-constexpr std::uint64_t kMostBytes = std::uint64_t{256} << 20, kFirstBytes = 64;
+constexpr std::uint64_t kFirstBytes = 64;
 
 // Empty unless it is a regular file of a photo's size that begins like one of the kinds.
 PhotoBytes bytesOf(const std::string& path, std::span<const PhotoKind> kinds) {
   auto bytes = std::make_shared<std::vector<std::uint8_t>>();
   const auto file = AnsweredFile::open(path);
   const std::uint64_t size = file && file->regular() ? file->bytes().value_or(0) : 0;
-  if (size == 0 || size > kMostBytes) return bytes;
+  if (size == 0) return bytes;
   const auto readTo = [&](std::uint64_t end) {
     const std::size_t begin = bytes->size();
     bytes->resize(static_cast<std::size_t>(end));
     bytes->resize(begin + file->read(begin, std::span(*bytes).subspan(begin)).value_or(0));
   };
   readTo(std::min(kFirstBytes, size));
-  if (std::any_of(kinds.begin(), kinds.end(), [&](const PhotoKind& kind) { return kind.begins(*bytes); })) {
+  const auto takes = [&](const PhotoKind& kind) { return size <= kind.most_bytes && kind.begins(*bytes); };
+  if (std::ranges::any_of(kinds, takes)) {
     readTo(size);
   } else {
     bytes->clear();

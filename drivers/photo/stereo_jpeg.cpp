@@ -110,6 +110,6 @@ std::vector<PhotoPart> partsOf(const PhotoBytes& file) {
 
 }  // namespace
 
-const PhotoKind kStereoJpeg{beginsLikeJpeg, partsOf};
+const PhotoKind kStereoJpeg{beginsLikeJpeg, partsOf, kMostJpegBytes};
 
 }  // namespace relievo

@@ -22,10 +22,11 @@ inline constexpr const char* kInsideTag = "DEPTH_INSIDE";
 // names ("a/%06d.png", "a/*.png"). Reads no file.
 [[nodiscard]] bool isPictures(const std::string& url);
 
-// One packet for each file (of at most 300 MB), whole, with its exact time (drivers/pictures/recording.h); every packet
-// is a key frame, and a seek finds the picture by index. A recording of colour and depth has two streams, colour first;
-// the depth has the tag TITLE=depth. A folder is listed but only the first picture of each stream is opened before it
-// is read. A picture that cannot be opened any more is passed over and counted (`missedPictures`).
+// One packet for each file (of at most 140 MB; EXR, PFM and npy 300 MB), whole, with its exact time
+// (drivers/pictures/recording.h); every packet is a key frame, and a seek finds the picture by index. A recording of
+// colour and depth has two streams, colour first; the depth has the tag TITLE=depth. A folder is listed but only the
+// first picture of each stream is opened before it is read. A picture that cannot be opened any more is passed over and
+// counted (`missedPictures`).
 [[nodiscard]] std::unique_ptr<MediaSource> makePicturesSource(DescribePicture describe);
 
 }  // namespace relievo

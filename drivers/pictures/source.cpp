@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hands out the files of a recording as packets, in order of time.
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <compare>
 #include <filesystem>
+#include <string_view>
 #include <utility>
 
 #include "drivers/pictures/layouts.h"
@@ -20,23 +22,29 @@ namespace {
 
 using namespace pictures;
 
-// Of a file, which is held whole: the most samples of a picture in four channels of 32 bits are 268 MB.
-constexpr std::uint64_t kMostBytes = 300'000'000;
-constexpr Error kTooLarge{ErrorCode::Exhausted, 0, "is larger than 300 MB, the most that a picture's file may have"};
+// Of a file, which is held whole, by FFmpeg's decoders two or three times. The most samples of a picture in four
+// channels of 16 bits are 134 MB, of 32 bits 268 MB.
+constexpr std::uint64_t kMostBytes = 140'000'000, kMostBytesOfFloats = 300'000'000;
+constexpr Error kTooLarge{ErrorCode::Exhausted, 0, "is larger than 140 MB, the most that a picture's file may have"};
+constexpr Error kTooLargeForFloats{ErrorCode::Exhausted, 0,
+                                   "is larger than 300 MB, the most that a picture's file may have"};
 constexpr std::size_t kMostTries = 8;  // damaged pictures at the beginning
 constexpr const char* kGone = "the disk failed during playback; check it";
 
 using Bytes = std::vector<std::uint8_t>;
 
-Result<std::uint64_t> sizeOf(const AnsweredFile& file) {
+Result<std::uint64_t> sizeOf(const std::string& path, const AnsweredFile& file) {
+  constexpr std::array<std::string_view, 3> kFloats{"exr", "pfm", "npy"};  // of which no more is held than the file
+  const bool floats = std::ranges::find(kFloats, endingOf(path)) != kFloats.end();
   const auto size = file.bytes();
-  return size && *size > kMostBytes ? std::unexpected(kTooLarge) : size;
+  if (!size || *size <= (floats ? kMostBytesOfFloats : kMostBytes)) return size;
+  return std::unexpected(floats ? kTooLargeForFloats : kTooLarge);
 }
 
 Result<std::shared_ptr<Bytes>> readPicture(const std::string& path) {
   const auto file = AnsweredFile::open(path);
   if (!file) return std::unexpected(file.error());
-  const auto size = sizeOf(*file);
+  const auto size = sizeOf(path, *file);
   if (!size) return std::unexpected(size.error());
   auto bytes = std::make_shared<Bytes>(static_cast<std::size_t>(*size));
   const auto got = file->read(0, *bytes);
@@ -110,7 +118,7 @@ class PicturesSource final : public MediaSource {
     if (cancelled_) return fail(ErrorCode::Cancelled, "interrupted while opening pictures");
     const auto file = AnsweredFile::open(path);
     const auto size =
-        file ? sizeOf(*file) : Result<std::uint64_t>(0);  // what describes it says why it cannot be opened
+        file ? sizeOf(path, *file) : Result<std::uint64_t>(0);  // what describes it says why it cannot be opened
     if (!size) return std::unexpected(size.error());
     const auto described =
         answerOf(path, [describe = describe_, path] { return std::make_shared<Result<StreamInfo>>(describe(path)); });

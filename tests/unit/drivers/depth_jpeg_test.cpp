@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <vector>
 
+#include "drivers/photo/photo.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/opened_film.h"
 
@@ -192,6 +194,17 @@ TEST(DepthJpeg, OtherPhotosAreColourAlone) {
     EXPECT_FALSE(photo.info.has_depth) << segments.substr(0, 200);
     EXPECT_EQ(photo.info.color_width, kCols);
   }
+}
+
+// Nothing of which takes room on the disk.
+TEST(DepthJpeg, AFileThatIsTooLargeIsNotRead) {
+  const test::TemporaryFolder folder;
+  write(folder / "a.jpg", standardXmp("<rdf:Description " + meaning("RangeInverse", "0.5", "4.0", "m") +
+                                      "GDepth:Data=\"" + base64(inversePng()) + "\"/>"));
+  const PhotoKind kinds[] = {kDepthJpeg, kStereoJpeg};
+  EXPECT_TRUE(isPhoto(folder / "a.jpg", kinds));
+  std::filesystem::resize_file(folder / "a.jpg", 140'000'001);
+  EXPECT_FALSE(isPhoto(folder / "a.jpg", kinds));
 }
 
 TEST(DepthJpeg, ASizeThatLiesMakesNoMemory) {

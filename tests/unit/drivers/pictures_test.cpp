@@ -254,17 +254,23 @@ TEST_F(Pictures, OneThatHasGoneIsPassedOverAndCounted) {
   EXPECT_FALSE(*source->read());
 }
 
-// Of 3 GB, nothing of which takes room on the disk.
+// Nothing of which takes room on the disk.
 TEST_F(Pictures, AFileThatIsTooLargeIsNotLookedInto) {
-  file("1.png"), file("2.png");
+  for (const auto& [name, most] : {std::pair("1.png", 140'000'000), std::pair("1.pfm", 300'000'000)}) {
+    const std::string path = file(name);
+    std::filesystem::resize_file(path, 3'000'000'000);
+    const auto alone = read(path);
+    ASSERT_TRUE(alone.error) << name;
+    EXPECT_EQ(alone.error->code, ErrorCode::Exhausted);
+    EXPECT_THAT(alone.error->message, HasSubstr(most < 200'000'000 ? "larger than 140 MB" : "larger than 300 MB"));
+    std::filesystem::resize_file(path, static_cast<std::uintmax_t>(most) + 1);
+    EXPECT_TRUE(read(path).error) << name;
+    std::filesystem::resize_file(path, static_cast<std::uintmax_t>(most));
+    EXPECT_TRUE(makePicturesSource(describe)->open(path)) << name;
+  }
+  file("2.png");
   std::filesystem::resize_file(folder_ / "1.png", 3'000'000'000);
-  const auto alone = read(folder_ / "1.png");
-  ASSERT_TRUE(alone.error);
-  EXPECT_EQ(alone.error->code, ErrorCode::Exhausted);
-  EXPECT_THAT(alone.error->message, HasSubstr("larger than 300 MB"));
   EXPECT_THAT(read(folder_ / "%d.png").color, ElementsAre("40 2.png"));
-  std::filesystem::resize_file(folder_ / "1.png", 300'000'000);
-  EXPECT_TRUE(makePicturesSource(describe)->open(folder_ / "1.png"));
 }
 
 TEST_F(Pictures, ALargeFolderIsListedNotRead) {
