@@ -30,6 +30,7 @@
 #ifdef RELIEVO_SCAN
 #include "drivers/scan/scan.h"
 #endif
+#include "drivers/tiff/tiff.h"
 #include "drivers/v4l2/v4l2.h"
 #include "hal/media/media_names.h"
 
@@ -97,6 +98,7 @@ std::unique_ptr<MediaSource> makeMediaSource(const std::string& url) {
 #endif
   if (name.word == "v4l2" && name.argument) return makeV4l2Source();
   if (isNpyFile(url)) return makeNpySource();
+  if (isTiffFilm(url)) return makeTiffSource(describePicture);
   if (isPhoto(url, kPhotoKinds)) return makePhotoSource(kPhotoKinds);
   return isPictures(url) ? makePicturesSource(describePicture) : makeFfmpegSource();
 }

@@ -40,6 +40,24 @@ std::string depthOf(const std::string& film, const std::vector<std::string>& nam
   return "";
 }
 
+// Films, and files that hold a series of pictures.
+bool mayHoldFilm(const std::string& name) {
+  const std::string ending = endingOf(name);
+  return mediaKindOf(name) == MediaKind::Film || ending == "npy" || ending == "tif" || ending == "tiff";
+}
+
+// The depth of the only film of a folder: a file that holds it, or the pattern of its pictures; empty if there is none.
+std::string depthFileOf(const std::string& film, std::vector<std::string> files, const fs::path& place) {
+  std::vector<std::string> pictures;
+  for (const std::string& name : files) {
+    if (mediaKindOf(name) == MediaKind::Picture && saysDepth(name)) pictures.push_back(place / name);
+  }
+  if (const auto series = seriesOf(pictures)) return *series;
+  std::erase_if(files, [](const std::string& name) { return !mayHoldFilm(name); });
+  const std::string depth = depthOf(film, files);
+  return depth.empty() ? "" : (place / depth).string();
+}
+
 bool isOneOf(const std::string& word, std::initializer_list<const char*> words) {
   return std::ranges::find(words, word) != words.end();
 }
@@ -54,10 +72,12 @@ bool hasPictures(const fs::path& folder) {
 std::optional<FilmOverDepth> filmOverDepth(const std::string& folder) {
   if (!isFolder(folder)) return std::nullopt;
   const fs::path place(folder);
-  std::vector<std::string> films;
+  std::vector<std::string> films, files;
   FilmOverDepth found;
   for (const auto& [name, is] : entriesOf(folder)) {
-    if (is == FolderEntry::Kind::File && mediaKindOf(name) == MediaKind::Film) films.push_back(name);
+    if (is == FolderEntry::Kind::File) files.push_back(name);
+    if (is == FolderEntry::Kind::File && mediaKindOf(name) == MediaKind::Film && !saysDepth(name))
+      films.push_back(name);
     if (is != FolderEntry::Kind::Folder || !hasPictures(place / name)) continue;
     if (isOneOf(name, {"rgb", "color", "colour", "image", "images"})) return std::nullopt;
     if (isOneOf(name, {"depth", "depths", "depth_images"})) found.depth = place / name;
@@ -66,7 +86,9 @@ std::optional<FilmOverDepth> filmOverDepth(const std::string& folder) {
     return isOneOf(stemOf(name), {"rgb", "color", "colour", "video", "image"});
   };
   const auto film = films.size() == 1 ? films.begin() : std::ranges::find_if(films, isColor);
-  if (found.depth.empty() || film == films.end() || saysDepth(*film)) return std::nullopt;
+  if (film == films.end()) return std::nullopt;
+  if (found.depth.empty() && films.size() == 1) found.depth = depthFileOf(*film, files, place);
+  if (found.depth.empty()) return std::nullopt;
   found.film = place / *film;
   return found;
 }
@@ -108,8 +130,8 @@ std::string depthBeside(const std::string& film) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   std::vector<std::string> names;
   for (const auto& [name, is] : entriesOf(folder)) {
-    const bool numbers = kind == MediaKind::Film && endingOf(name) == "npy";
-    if ((mediaKindOf(name) == kind || numbers) && is == FolderEntry::Kind::File) names.push_back(name);
+    const bool fits = kind == MediaKind::Film ? mayHoldFilm(name) : mediaKindOf(name) == kind;
+    if (fits && is == FolderEntry::Kind::File) names.push_back(name);
   }
   const std::string depth = depthOf(path.filename().string(), names);
   if (depth.empty() && kind == MediaKind::Film) {

@@ -16,18 +16,20 @@ namespace relievo {
 // These files of `folder` as films, in natural order: one that holds another one's depth is part of that film.
 [[nodiscard]] std::vector<PlaylistEntry> pairedFilms(const std::string& folder, std::vector<std::string> names);
 
-// A recording of a colour film and a folder of depth pictures, as iPhone scanners write them ("rgb.mp4" and "depth").
+// A recording of a colour film and its depth in one folder: a folder of depth pictures, as iPhone scanners write them
+// ("rgb.mp4" and "depth"); if it has no other film, also a file of depth by `depthBeside`'s names ("color.mp4" and
+// "depth.npy"), or pictures whose names say depth.
 struct FilmOverDepth {
-  std::string film, depth;  // paths
+  std::string film, depth;  // paths, or a pattern
 };
-// nullopt if `folder` is none, has no folder of depth pictures or one of colour pictures too, or no film that by its
-// name, or because it is the only one, is the colour.
+// nullopt if `folder` is none, has no depth or a folder of colour pictures too, or no film that by its name, or because
+// it is the only one, is the colour.
 [[nodiscard]] std::optional<FilmOverDepth> filmOverDepth(const std::string& folder);
 
 // The file that by its name holds the depth of the file `film`, in the same folder and of the same kind (film or
 // picture): a-depth, a_depth or a.depth for a; depth_a for color_a, colour_a, rgb_a or image_a; a_depth or a_vis for
-// a_src or a_input. A film's may be a .npy too. Else the folder of its depth pictures: `filmOverDepth`. Empty if there
-// is none.
+// a_src or a_input. A film's may be a .npy or .tif too. Else the folder of its depth pictures: `filmOverDepth`. Empty
+// if there is none.
 [[nodiscard]] std::string depthBeside(const std::string& film);
 // Whether the name of the file has the word depth in it, as "clip_depth.mp4"; the folder does not count.
 [[nodiscard]] bool saysDepth(const std::string& url);

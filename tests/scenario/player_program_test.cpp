@@ -357,6 +357,19 @@ TEST_F(PlayerProgram, KindsOfRecordingsAreListedAndStated) {
   EXPECT_THAT(stated.out, HasSubstr("unit=0.2: --as, said"));
 }
 
+TEST_F(PlayerProgram, ProbeTellsTheFilmAndTheDepthOfAFolder) {
+  std::filesystem::create_directory(at("take"));
+  ClipTrack pictures = depth(3);
+  pictures.codec = "png";
+  pictures.pix_fmt = "gray16be";
+  test::makeClip(at("take/color.mkv"), {color(3)});
+  test::makeClip(at("take/depth-%d.png"), {pictures});
+  const auto told = test::runProgram("relievo probe " + at("take"), at(""));
+  EXPECT_EQ(told.exit_code, 0) << told.err;
+  EXPECT_THAT(told.out, HasSubstr("track   " + at("take/color.mkv") + " 0 video"));
+  EXPECT_THAT(told.out, HasSubstr("track   " + at("take/depth-*.png") + " 0 video png"));
+}
+
 TEST_F(PlayerProgram, ProbeTellsWhatIsInASource) {
   ClipTrack plane = depth(5);
   plane.sample = [](int, int c, int, int) { return c < 32 ? 1000u : 65000u; };

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/depth_window/shots.h"
+#include "app/media/film_folder.h"
 #include "app/player/film/film_changes.h"
 #include "app/player/report.h"
 #include "app/scene/height_field.h"
@@ -149,7 +150,9 @@ std::string trackLines(const ProbeResult& r) {
 
 Outcome<ProbeResult> probe(const SourceOptions& options, const PairReader::Backends& backends) {
   ProbeResult result;
-  for (const std::string& url : {options.url, options.depth_url}) {
+  const bool may_be_folder = options.depth_url.empty() && options.packing == Packing::Auto;
+  const auto pair = may_be_folder ? filmOverDepth(options.url) : std::nullopt;
+  for (const std::string& url : {pair ? pair->film : options.url, pair ? pair->depth : options.depth_url}) {
     if (url.empty()) continue;
     auto probed = readTracks(url, options.frames_per_s, backends);
     if (!probed) return std::unexpected(probed.error());

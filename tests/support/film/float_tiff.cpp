@@ -7,9 +7,10 @@
 #include <stdexcept>
 
 namespace relievo::test {
+namespace {
 
-void writeFloatTiff(const std::string& path, const FloatTiff& picture) {
-  TIFF* const file = TIFFOpen(path.c_str(), "w");
+void write(const std::string& path, const char* mode, const FloatTiff& picture) {
+  TIFF* const file = TIFFOpen(path.c_str(), mode);
   if (file == nullptr) throw std::runtime_error(path + ": cannot be written");
   TIFFSetField(file, TIFFTAG_IMAGEWIDTH, picture.width);
   TIFFSetField(file, TIFFTAG_IMAGELENGTH, picture.height);
@@ -45,6 +46,15 @@ void writeFloatTiff(const std::string& path, const FloatTiff& picture) {
   }
   TIFFClose(file);
   if (!written) throw std::runtime_error(path + ": cannot be written");
+}
+
+}  // namespace
+
+void writeFloatTiff(const std::string& path, const FloatTiff& picture) {
+  write(path, "w", picture);
+}
+void addFloatPage(const std::string& path, const FloatTiff& picture) {
+  write(path, "a", picture);
 }
 
 }  // namespace relievo::test

@@ -17,7 +17,8 @@ struct FloatTiff {
   std::uint16_t sample_format = 3;  // SAMPLEFORMAT_IEEEFP
 };
 
-// Throws std::runtime_error when it cannot be written.
+// Throws std::runtime_error when it cannot be written. A page is added to the file that is there.
 void writeFloatTiff(const std::string& path, const FloatTiff& picture);
+void addFloatPage(const std::string& path, const FloatTiff& picture);
 
 }  // namespace relievo::test

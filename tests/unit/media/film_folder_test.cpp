@@ -69,6 +69,25 @@ TEST_F(FilmFolder, AFilmOverAFolderOfDepthPicturesIsOneRecording) {
   EXPECT_FALSE(filmOverDepth(place)) << "the colour is a folder too";
 }
 
+TEST_F(FilmFolder, AFilmAndADepthOfAnyKindAreOneRecording) {
+  int count = 0;
+  for (const char* const depth : {"depth.npy", "depth.tif", "color_depth.mkv", "depth-*.png"}) {
+    const std::string name = std::to_string(count++), place = folder_ / name;
+    std::filesystem::create_directory(place);
+    files({name + "/color.mp4"});
+    if (std::string(depth) == "depth-*.png") files({name + "/depth-1.png", name + "/depth-2.png", name + "/cover.png"});
+    else files({name + "/" + depth});
+    const auto found = filmOverDepth(place);
+    ASSERT_TRUE(found) << depth;
+    EXPECT_EQ(found->film, place + "/color.mp4");
+    EXPECT_EQ(found->depth, place + "/" + depth);
+    EXPECT_EQ(depthBeside(place + "/color.mp4"), place + "/" + depth);
+    EXPECT_EQ(filmsIn(place), std::nullopt);
+    files({name + "/other.mp4"});
+    EXPECT_FALSE(filmOverDepth(place)) << "a list of films";
+  }
+}
+
 TEST(FilmNames, SayDepthByTheWord) {
   for (const char* name : {"clip_depth.mp4", "/a/Depth.mkv", "depth-2.webm"}) EXPECT_TRUE(saysDepth(name)) << name;
   for (const char* name : {"clip.mp4", "depth/1.png", "depths.mkv", "outdepth.mkv"})

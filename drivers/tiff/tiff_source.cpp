@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// Media source of a TIFF file of several pages: reads one page at a time.
+#include <atomic>
+#include <utility>
+
+#include "drivers/tiff/tiff.h"
+#include "drivers/tiff/tiff_pages.h"
+#include "platform/print.h"
+
+namespace relievo {
+namespace {
+
+constexpr Duration kPeriod = std::chrono::milliseconds(40);  // as FFmpeg's of numbered pictures
+
+class TiffSource final : public MediaSource {
+ public:
+  explicit TiffSource(DescribeFirstPage describe) : describe_(std::move(describe)) {}
+  ~TiffSource() override { close(); }
+
+ private:
+  Result<Description> openSource(const std::string& url) override {
+    interrupted_ = false;
+    auto file = AnsweredFile::open(url);
+    if (!file) return std::unexpected(file.error());
+    file_ = std::move(*file);
+    auto pages = tiff::Pages::of(file_);
+    if (!pages) return fail(ErrorCode::Corrupt, "is no TIFF of several pages; check the file");
+    pages_ = std::move(*pages);
+    next_ = 0;
+    auto stream = describe_(url);
+    if (!stream) return std::unexpected(stream.error());
+    stream->index = 0;
+    stream->kind = StreamKind::Video;
+    stream->counted = true;
+    stream->frame_period = kPeriod;
+    Description description{.streams = {*std::move(stream)}};
+    if (pages_.leftOut() > 0) {
+      description.notes.push_back(print("%zu of its %zu pages are left out: they are of another size or type",
+                                        pages_.leftOut(), pages_.count() + pages_.leftOut()));
+    }
+    return description;
+  }
+
+  // A page that is damaged is passed over.
+  Result<std::optional<Packet>> readPacket() override {
+    while (next_ < pages_.count()) {
+      if (interrupted_) return fail(ErrorCode::Cancelled, "interrupted");
+      auto page = pages_.page(file_, next_++);
+      if (!page) {
+        countMissed(1);
+        continue;
+      }
+      const auto data = std::make_shared<const std::vector<std::uint8_t>>(std::move(*page));
+      return Packet{.data = data->data(), .bytes = data->size(), .keyframe = true, .owner = data};
+    }
+    return std::nullopt;
+  }
+
+  // Pictures without times are counted from the beginning.
+  Result<void> seekTo(MediaTime) override {
+    next_ = 0;
+    return {};
+  }
+  void closeSource() noexcept override {
+    file_.close();
+    pages_ = {};
+  }
+  void interrupted() noexcept override { interrupted_ = true; }
+
+  DescribeFirstPage describe_;
+  std::atomic<bool> interrupted_ = false;
+  AnsweredFile file_;
+  tiff::Pages pages_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+bool isTiffFilm(const std::string& path) {
+  const auto file = AnsweredFile::open(path);
+  const auto pages = file ? tiff::Pages::of(*file) : std::nullopt;
+  return pages && pages->count() > 1;
+}
+
+std::unique_ptr<MediaSource> makeTiffSource(DescribeFirstPage describe) {
+  return std::make_unique<TiffSource>(std::move(describe));
+}
+
+}  // namespace relievo
