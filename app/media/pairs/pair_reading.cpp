@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds out where a film's depth is and what it means, while the film is opened.
 #include <algorithm>
+#include <utility>
 
 #include "app/media/film_folder.h"
 #include "app/media/pairs/pair_film.h"
@@ -84,6 +85,10 @@ Result<TrackPlan> PairReader::Impl::planFilm() {
   const KnownKind *const as = options.as, *const place = clues.place.kind;
   auto plan = planTracks(source, options.packing, two_sources);
   if (!plan) return plan;
+  if (exchange == Exchange::Done && plan->depth != nullptr) {
+    std::swap(plan->color, plan->depth);
+    clues.why.emplace_back("the first track is gray and the second is not: the second is the colour");
+  }
   clues.packing_by = options.packing != Packing::Auto || two_sources ? CommandLine
                      : plan->by_tag                                  ? ContainerTags
                                                                      : StreamSignalling;
@@ -232,6 +237,11 @@ Result<void> PairReader::Impl::describeTrack(const Frame& first) {
     return {};
   }
   lookForCode(*look);
+  const bool photo = colored && clues.code == DepthCode::Luma && packedOrder(*look) == SampleOrder::AsStored;
+  if (guessed && photo && exchange == Exchange::No && lookAt(color_ahead[0]).gray >= kAllGray) {
+    exchange = Exchange::Wanted;
+    return {};
+  }
   return describe(first, *look, color_ahead[0], stream);
 }
 

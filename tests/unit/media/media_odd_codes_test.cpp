@@ -160,5 +160,25 @@ TEST(OddCodes, NearIsDarkInAFolderOfMarigold) {
   EXPECT_EQ(film.info.packing, Packing::DepthAlone);
 }
 
+TEST(OddCodes, OfTwoTracksTheGrayOneIsTheDepth) {
+  const auto photo = [](int k, int c, int r, int) {
+    return test::yuvCode(k, test::photoOf(c << (k > 0), r << (k > 0)));
+  };
+  const auto gray = [](int k, int c, int r, int) {
+    return k > 0 ? 128u : rounded(16 + 219 * (1 - distanceMm(c, r) / 2100));
+  };
+  const auto codes = [](int, int c, int r, int) { return rounded(distanceMm(c, r)); };
+  const ClipTrack color = track("ffv1", "yuv420p", photo, 4);
+  for (const ClipTrack& depth : {track("ffv1", "gray16le", codes, 4), track("ffv1", "yuv420p", gray, 4)}) {
+    TemporaryFolder folder;
+    makeClip(folder / "a.mkv", {depth, color});
+    const Opened film = openFilm(folder / "a.mkv");
+    ASSERT_FALSE(film.pair.depth.empty());
+    EXPECT_EQ(film.pair.color.model, ColorModel::Yuv);
+    EXPECT_EQ(test::sampleAt(film.pair.color, 0, 33, 44), photo(0, 33, 44, 0)) << depth.pix_fmt;
+    EXPECT_TRUE(film.info.reading.doubts.empty()) << film.info.reading.doubts.front();
+  }
+}
+
 }  // namespace
 }  // namespace relievo
