@@ -55,10 +55,13 @@ class FilmSupply {
       if (!estimated) return std::unexpected(estimated.error());
       estimated_ = std::move(*estimated);
     } else if (!views_ && !info.has_depth) {
-      return failOn(source.url, {ErrorCode::NotFound, 0,
-                                 hasTwoViews(info.packing)
-                                     ? "two views without depth; --depth-from stereo makes it from them"
-                                     : "no depth in this source; give --depth SOURCE, or let --depth-from guess it"});
+      return failOn(
+          source.url,
+          {ErrorCode::NotFound, 0,
+           hasTwoViews(info.packing)
+               ? "two views without depth; --depth-from stereo makes it from them"
+               : "no depth in this source; give --depth SOURCE, --packing depth-alone if the picture is depth, "
+                 "or let --depth-from guess it"});
     }
     return {};
   }

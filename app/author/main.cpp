@@ -60,7 +60,7 @@ constexpr const char* kFooter =
     "film's container cannot hold. At the end a table shows what was done to the depth.";
 
 void addSourceOptions(CLI::App& app, SourceOptions& source) {
-  app.add_option("--color", source.url,
+  app.add_option("FILE,--color", source.url,
                  "Colour: a file, a URL, v4l2:DEVICE; without --depth it must also hold the depth")
       ->type_name("SRC");
   app.add_option("--depth", source.depth_url, "Depth of 8 to 16 bits: a file or a URL")->type_name("SRC");

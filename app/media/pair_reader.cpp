@@ -144,7 +144,13 @@ Result<void> PairReader::open(const SourceOptions& options) {
   impl_->sources.allow();
   impl_->failed_thing.clear();
   impl_->options = options;
+  impl_->exchange = Impl::Exchange::No;
   auto opened = impl_->openFilm();
+  if (opened && impl_->exchange == Impl::Exchange::Wanted) {
+    close();
+    impl_->exchange = Impl::Exchange::Done;
+    opened = impl_->openFilm();
+  }
   if (!opened) close();
   return opened;
 }

@@ -48,7 +48,8 @@ Error openError(int code) noexcept {
     case AVERROR_INVALIDDATA:
     case AVERROR_DEMUXER_NOT_FOUND:
       return {ErrorCode::Corrupt, 0,
-              "not a media file that FFmpeg knows, or empty, or cut off before its index was written; check the file"};
+              "not a media file that FFmpeg knows, or empty, or cut off before its index was written; check the file; "
+              "depth of another program is read from .npy, 16-bit PNG, PFM, EXR or TIFF: write it as one of them"};
     default:
       return {ErrorCode::Io, osError(code), "it cannot be opened; check the path or the address"};
   }

@@ -38,19 +38,58 @@ struct UnreadEnding {
 constexpr const char* kRaw =
     "it is bare numbers that tell no size; convert it: ffmpeg -f rawvideo -pix_fmt gray16le -video_size WIDTHxHEIGHT "
     "-framerate F -i FILE -c:v ffv1 depth.mkv";
+constexpr const char* kText =
+    "it is a table of numbers as text; convert it: python3 -c 'import numpy; numpy.save(\"depth.npy\", "
+    "numpy.loadtxt(\"FILE\", delimiter=\",\"))'";
+constexpr const char* kPython =
+    "it is an object of Python; write its depth with numpy.save(\"depth.npy\", ARRAY), which is read";
+constexpr const char* kTorch =
+    "it is a tensor of PyTorch; convert it: python3 -c 'import numpy, torch; numpy.save(\"depth.npy\", "
+    "torch.load(\"FILE\").numpy())'";
+constexpr const char* kHdf5 =
+    "it is an HDF5 file; convert it: python3 -c 'import h5py, numpy; numpy.save(\"depth.npy\", "
+    "next(iter(h5py.File(\"FILE\").values())))', or name its dataset instead of the first";
+constexpr const char* kMatlab =
+    "it is a MATLAB file; convert it: python3 -c 'import scipy.io, numpy; numpy.save(\"depth.npy\", "
+    "scipy.io.loadmat(\"FILE\")[\"NAME\"])', NAME being its variable with the depth";
+constexpr const char* kOpencv =
+    "it is a matrix of OpenCV as text; convert it: python3 -c 'import cv2, numpy; numpy.save(\"depth.npy\", "
+    "cv2.FileStorage(\"FILE\", 0).getFirstTopLevelNode().mat())'";
+constexpr const char* kPacked = "it is compressed; unpack it and name what is in it";
+constexpr const char* kModel =
+    "it is a 3D model; relievo plays depth as pictures: name the recording that it was made of";
 constexpr const char* kZed = "it is a recording of a ZED camera; convert it: ZED_SVO_Export FILE FOLDER 4";
-constexpr std::array<UnreadEnding, 12> kUnreadEndings{{
+constexpr std::array<UnreadEnding, 28> kUnreadEndings{{
     {"r3d", "it is a Record3D recording in its own coding; export it in Record3D as RGBD video or as EXR + JPG"},
     {"npz", "it is an archive of arrays; unzip it and name the .npy with the depth"},
     {"zip", "it is an archive; unpack it and name its folder"},
     {"svo", kZed},
     {"svo2", kZed},
     {"raw", kRaw},
+    {"bin", kRaw},
+    {"yuv",
+     "it is bare pictures that tell no size; convert it: ffmpeg -f rawvideo -pix_fmt yuv420p -video_size "
+     "WIDTHxHEIGHT -framerate F -i FILE -c:v ffv1 film.mkv"},
     {"sens", "it is a scan, which this relievo was built without; build it with -DRELIEVO_SCAN=ON"},
     {"klg", "it is a scan, which this relievo was built without; build it with -DRELIEVO_SCAN=ON"},
-    {"mat", "it is a MATLAB file; write its depth as .npy or as 16-bit PNG pictures, which are read"},
-    {"usdz", "it is a 3D model; relievo plays depth as pictures: name the recording that it was made of"},
-    {"obj", "it is a 3D model; relievo plays depth as pictures: name the recording that it was made of"},
+    {"mat", kMatlab},
+    {"csv", kText},
+    {"pkl", kPython},
+    {"pickle", kPython},
+    {"pt", kTorch},
+    {"pth", kTorch},
+    {"yml", kOpencv},
+    {"gz", kPacked},
+    {"zst", kPacked},
+    {"xz", kPacked},
+    {"tar", kPacked},
+    {"usdz", kModel},
+    {"obj", kModel},
+    {"glb", kModel},
+    {"stl", kModel},
+    {"e57", kCloud},
+    {"las", kCloud},
+    {"blend", "it is a scene of Blender; render its depth (Z) as EXR, which is read"},
 }};
 
 struct UnreadFormat {
@@ -64,8 +103,8 @@ constexpr std::array<UnreadFormat, 10> kUnread{{
     {"\x89MCAP0\r\n"sv,
      "it is an MCAP recording; convert its folder to a ROS 1 bag, which is read: pip install rosbags; rosbags-convert "
      "--src FOLDER --dst film.bag"},
-    {"\x89HDF\r\n\x1a\n"sv, "it is an HDF5 file; write its depth as .npy or as 16-bit PNG pictures, which are read"},
-    {"MATLAB 5.0 MAT"sv, "it is a MATLAB file; write its depth as .npy or as 16-bit PNG pictures, which are read"},
+    {"\x89HDF\r\n\x1a\n"sv, kHdf5},
+    {"MATLAB 5.0 MAT"sv, kMatlab},
     {"ply\n"sv, kCloud},
     {"ply\r\n"sv, kCloud},
     {"# .PCD"sv, kCloud},

@@ -11,7 +11,7 @@
 namespace relievo::pictures {
 namespace {
 
-constexpr std::size_t kLeastUnixDigits = 9;
+constexpr std::size_t kLeastUnixDigits = 9, kUnixMsDigits = 13;
 constexpr std::int64_t kMostSeconds = 9'000'000'000;
 
 // A run of digits, or of anything else.
@@ -59,9 +59,24 @@ std::optional<std::int64_t> secondsIn(const std::vector<Run>& runs) noexcept {
   for (std::size_t i = 0; i + 2 < runs.size(); ++i) {
     if (!runs[i].digits || runs[i + 1].text != "." || !runs[i + 2].digits) continue;
     if (runs.size() != 3 && runs[i].text.size() < kLeastUnixDigits) continue;
-    return nanosecondsIn({runs[i].text.data(), runs[i].text.size() + 1 + runs[i + 2].text.size()});
+    const std::string_view text{runs[i].text.data(), runs[i].text.size() + 1 + runs[i + 2].text.size()};
+    if (runs[i].text.size() != kUnixMsDigits) return nanosecondsIn(text);
+    const auto milliseconds = nanosecondsIn(text.substr(kUnixMsDigits - 9));  // the leading digits would not fit
+    const auto leading = integer(text.substr(0, kUnixMsDigits - 9));
+    return milliseconds && leading ? std::optional(*leading * 1'000'000'000'000'000 + *milliseconds / 1000)
+                                   : std::nullopt;
   }
   return std::nullopt;
+}
+
+// Windows counts 100 ns from 1601, .NET from the year 1. Nullopt for a time before 1970 or after 2200.
+std::optional<std::int64_t> ticksIn(std::string_view digits) noexcept {
+  constexpr std::int64_t kOf1601 = 116'444'736'000'000'000, kOfYear1 = 621'355'968'000'000'000;
+  constexpr std::int64_t kMost = 72'000'000'000'000'000;
+  const auto ticks = integer(digits);
+  if (!ticks) return std::nullopt;
+  const std::int64_t since = *ticks - (*ticks < kOfYear1 ? kOf1601 : kOfYear1);
+  return since >= 0 && since < kMost ? std::optional(100 * since) : std::nullopt;
 }
 
 std::optional<std::int64_t> timeIn(std::string_view stem) {
@@ -77,6 +92,8 @@ std::optional<std::int64_t> timeIn(std::string_view stem) {
     switch (stem.size()) {
       case 19:
         return scaled(stem, 1);
+      case 18:
+        return ticksIn(stem);
       case 16:
         return scaled(stem, 1000);
       case 13:

@@ -12,11 +12,13 @@ namespace relievo::pictures {
 namespace {
 
 constexpr std::array<std::string_view, 6> kDepth{"depth", "depths", "disparity", "disparities", "disp", "depthmap"};
-constexpr std::array<std::string_view, 9> kColor{"rgb", "color",  "colour", "image", "images",
-                                                 "img", "colors", "im",     "wide"};
-constexpr std::array<std::string_view, 18> kOther{"mask",  "masks",  "maskcrop", "normal",     "normals", "seg",
-                                                  "label", "labels", "instance", "infrared",   "ir",      "pose",
-                                                  "thumb", "cover",  "preview",  "confidence", "conf",    "intrinsics"};
+constexpr std::array<std::string_view, 12> kColor{"rgb",    "color", "colour", "image", "images", "img",
+                                                  "colors", "im",    "wide",   "rgba",  "clean",  "pv"};
+constexpr std::array<std::string_view, 27> kOther{
+    "flow",     "flows", "segmentation", "coordinates", "occlusion", "occlusions", "outofframe",
+    "semantic", "ab",    "mask",         "masks",       "maskcrop",  "normal",     "normals",
+    "seg",      "label", "labels",       "instance",    "infrared",  "ir",         "pose",
+    "thumb",    "cover", "preview",      "confidence",  "conf",      "intrinsics"};
 
 std::vector<std::string> wordsOf(std::string_view name) {
   std::vector<std::string> words(1);

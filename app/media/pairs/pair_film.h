@@ -141,6 +141,9 @@ struct PairReader::Impl {
     const StreamInfo* stream = nullptr;  // valid while the film is open
   };
   DepthBeside depth_beside;
+  // Of two tracks that say nothing of themselves the first is taken for the colour, unless both show that it is not.
+  enum class Exchange : std::uint8_t { No, Wanted, Done };
+  Exchange exchange = Exchange::No;
   std::atomic<bool> remote{false};  // the colour's source; asked by any thread
   bool live = false;                // likewise
   Duration color_shift{0};          // added to the session's timestamps to get the film's

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds out where a film's depth is and what it means, while the film is opened.
 #include <algorithm>
+#include <utility>
 
 #include "app/media/film_folder.h"
 #include "app/media/pairs/pair_film.h"
@@ -8,6 +9,7 @@
 #include "app/media/reading/color_map_fit.h"
 #include "app/media/reading/depth_doubts.h"
 #include "app/media/reading/depth_reading.h"
+#include "app/media/reading/float_reading.h"
 #include "app/media/reading/picture_look.h"
 #include "app/media/reading/stereo_pair.h"
 #include "hal/media/media_names.h"
@@ -16,16 +18,22 @@
 namespace relievo {
 namespace {
 
-constexpr double kMostlyGray = 0.9;
+constexpr double kMostlyGray = 0.9, kAllGray = 0.99;
+
+// Of the file, or of its folder.
+bool namesDepth(const std::string& url) {
+  return saysDepth(url) || saysDisparity(url) || saysDepth(url.substr(0, url.rfind('/')));
+}
 
 // Numbers, the codes of a sensor, or a colour map are no colour; nor are gray, hues and a ramp of blue in a file that
 // is called depth.
 bool isDepthAlone(const Frame& picture, const std::string& url) {
   if (picture.value_per_code != 0) return true;
-  const bool may_be_codes = picture.model == ColorModel::Gray || packedOrder(picture) != SampleOrder::AsStored;
+  if (picture.model == ColorModel::Gray && picture.components[0].bits > 8) return true;  // no photo has as many shades
+  const bool may_be_codes =
+      picture.model == ColorModel::Gray || hasEqualColors(picture) || packedOrder(picture) != SampleOrder::AsStored;
   if (may_be_codes && sensorKind(picture, CodeCount(picture)) != nullptr) return true;
-  constexpr double kAllGray = 0.99;
-  if (saysDepth(url) && lookAt(picture).gray >= kAllGray) return true;
+  if (namesDepth(url) && lookAt(picture).gray >= kAllGray) return true;
   const auto map = bestColorMap(picture);
   if (!map) return false;
   return saysDepth(url) || (map->code != DepthCode::Hue && map->code != DepthCode::Kinect);
@@ -77,6 +85,10 @@ Result<TrackPlan> PairReader::Impl::planFilm() {
   const KnownKind *const as = options.as, *const place = clues.place.kind;
   auto plan = planTracks(source, options.packing, two_sources);
   if (!plan) return plan;
+  if (exchange == Exchange::Done && plan->depth != nullptr) {
+    std::swap(plan->color, plan->depth);
+    clues.why.emplace_back("the first track is gray and the second is not: the second is the colour");
+  }
   clues.packing_by = options.packing != Packing::Auto || two_sources ? CommandLine
                      : plan->by_tag                                  ? ContainerTags
                                                                      : StreamSignalling;
@@ -107,6 +119,9 @@ void PairReader::Impl::lookForHalves(const StreamInfo& color) {
   auto found = findPacking(look);
   if (!found) {
     lookForViews(look);
+    if (info.packing == Packing::Tracks && lookAt(look).gray >= kAllGray) {
+      info.notes.emplace_back("the picture is gray; if it is depth: --packing depth-alone");
+    }
     return;
   }
   info.packing = found->packing;
@@ -140,10 +155,12 @@ Result<const Frame*> PairReader::Impl::firstDepth() {
   if (reordering.order != SampleOrder::AsStored) return firstAsStated(**first);
   const StreamInfo& stream = sources.depth() ? sources.depth()->stream() : *depth_beside.stream;
   takeTags(stream);
-  const KnownKind* const kind = kindOf(clues, tellingPicture(**first, depthUrl(), stream.index));
-  if (kind == nullptr || kind->order == SampleOrder::AsStored) return first;
+  const Frame look = tellingPicture(**first, depthUrl(), stream.index);
+  const KnownKind* const kind = kindOf(clues, look);
+  const SampleOrder order = kind != nullptr && kind->order != SampleOrder::AsStored ? kind->order : orderOf(kind, look);
+  if (order == SampleOrder::AsStored) return first;
   reordering.kind = kind;
-  reordering.order = kind->order;
+  reordering.order = order;
   reordering.again = **first;
   depth.emplace([this] { return supplyDepth(); });
   return depth->peek();
@@ -167,9 +184,9 @@ Result<void> PairReader::Impl::describeAlone(const StreamInfo& track) {
   lookForCode(look);
   takeTags(track);
   const KnownKind* const kind = kindOf(clues, look);
-  if (kind != nullptr && kind->order != SampleOrder::AsStored) {
+  reordering.order = orderOf(kind, look);
+  if (reordering.order != SampleOrder::AsStored) {
     reordering.kind = kind;
-    reordering.order = orderOf(*kind, look);
     auto ordered = inOrder(look, reordering.order);
     if (!ordered) return failOn(options.url, ordered.error());
     look = std::move(*ordered);
@@ -220,6 +237,11 @@ Result<void> PairReader::Impl::describeTrack(const Frame& first) {
     return {};
   }
   lookForCode(*look);
+  const bool photo = colored && clues.code == DepthCode::Luma && packedOrder(*look) == SampleOrder::AsStored;
+  if (guessed && photo && exchange == Exchange::No && lookAt(color_ahead[0]).gray >= kAllGray) {
+    exchange = Exchange::Wanted;
+    return {};
+  }
   return describe(first, *look, color_ahead[0], stream);
 }
 
@@ -228,6 +250,8 @@ void PairReader::Impl::takeTags(const StreamInfo& stream) {
   clues.tags = stream.tags;  // the track's tags override the container's
   const auto& container_tags = sources.depth() ? sources.depth()->tags() : sources.color()->source().tags();
   clues.tags.insert(container_tags.begin(), container_tags.end());
+  const auto file = stream.tags.find(kFileTag);
+  clues.path = file != stream.tags.end() ? file->second : depthUrl();
 }
 
 Result<void> PairReader::Impl::describe(const Frame& first, const Frame& look, const Frame& color,
@@ -236,8 +260,6 @@ Result<void> PairReader::Impl::describe(const Frame& first, const Frame& look, c
   clues.live = !isFile(depthUrl());
   clues.codec = stream.codec;
   takeTags(stream);
-  const auto file = stream.tags.find(kFileTag);
-  clues.path = file != stream.tags.end() ? file->second : depthUrl();
   if (registrar) {
     clues.tags.insert({{"DEPTH_UNIT", print("%.9g", registrar->registration().unit_mm)}, {"DEPTH_INVALID", "0"}});
     const auto by = options.registration ? CalibrationOrigin::SideFile : CalibrationOrigin::ContainerTags;

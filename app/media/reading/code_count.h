@@ -56,16 +56,23 @@ class CodeCount {
 [[nodiscard]] bool hasConfidence(const Frame& depth);
 // How the two bytes of 16-bit codes lie in the red and green of a picture of RGB in 8 bits, whose blue is one code, or
 // the three of 24-bit codes, the lowest in red; as
-// stored unless the lower byte carries into the upper one often where that changes by one.
+// stored unless the lower byte carries into the upper one often where that changes by one. Or the bytes of a float lie
+// in all four.
 [[nodiscard]] SampleOrder packedOrder(const Frame& depth);
 // True if most samples with a reading have none beside, above and below: the points of a laser scanner.
 [[nodiscard]] bool isScattered(const Frame& depth);
 
+// True for RGB of more than 8 bits whose samples are all gray: each component is the code.
+[[nodiscard]] bool hasEqualColors(const Frame& depth) noexcept;
+
 // The order of the samples of a kind's pictures, of which `stored` is one: as stored if a reader of pictures has put a
 // Kinect's raw codes in order already.
 [[nodiscard]] SampleOrder orderOf(const KnownKind& kind, const Frame& stored);
+// Likewise; of no kind, or of one that is as stored, as the picture shows.
+[[nodiscard]] SampleOrder orderOf(const KnownKind* kind, const Frame& stored);
 
-// The picture with its 16-bit codes put in order, as gray: a copy; other pictures, and those as stored, by reference.
+// The picture with its 16-bit codes put in order, as gray: a copy; other pictures, those as stored and
+// those of equal colours by reference.
 // Exhausted if out of memory.
 [[nodiscard]] Result<Frame> inOrder(const Frame& depth, SampleOrder order);
 

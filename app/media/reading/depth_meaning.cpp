@@ -86,10 +86,14 @@ bool isAssumedNearHigh(const CalibrationChoice& choice) {
   });
 }
 
-// Eight bits, not coded with loss, that a name says are disparities.
-bool isNamedDisparity(const DepthClues& clues, const KnownKind* kind, const Frame& look) {
-  return kind == nullptr && look.model != ColorModel::Yuv && look.components[0].bits == 8 &&
-         !definesCodes(saidLayers(clues)) && saysDisparity(clues.path);
+// Gray or bytes of a code, not coded with loss, that a name says are disparities.
+bool isNamedDisparity(const DepthClues& clues, const Frame& look) {
+  return clues.code == DepthCode::Luma && look.model != ColorModel::Yuv && !definesCodes(saidLayers(clues)) &&
+         saysDisparity(clues.path);
+}
+
+bool isOfSintel(const KnownKind* kind) {
+  return kind != nullptr && kind->name == std::string_view("sintel-disparity");
 }
 
 // The name says that near is bright and 1/distance; only the codes in use are read off the picture.
@@ -133,7 +137,9 @@ DepthReading readPictures(const DepthClues& clues, const KnownKind* kind, const 
     const bool named = namesDisparity("", clues.path);  // else the format alone speaks for it
     const bool disparity = named || (namesDisparity(clues.codec, clues.path) && !mayBeMetres(look, count));
     read = readFloats(look, count, disparity, layers);
-  } else if (isNamedDisparity(clues, kind, look)) {
+  } else if (isOfSintel(kind)) {
+    read = readFloats(look, countOf(look, later), true, layers);
+  } else if (kind == nullptr && isNamedDisparity(clues, look)) {
     read = readNamedDisparity(look, countOf(look, later), layers);
   } else {
     read = readCodes(look, countOf(look, later), layers, kind);
@@ -150,12 +156,19 @@ DepthReading readPictures(const DepthClues& clues, const KnownKind* kind, const 
 
 const KnownKind* kindOf(const DepthClues& clues, const Frame& stored, std::span<const Frame> later) {
   if (clues.as != nullptr) return clues.as;
+  if (hasEqualColors(stored)) {
+    const auto gray = inOrder(stored, SampleOrder::EqualColors);
+    return gray ? kindOf(clues, *gray, later) : nullptr;
+  }
   if (isOfStereoCamera(clues.place.kind) && clues.code == DepthCode::Luma && !definesCodes(saidLayers(clues))) {
     return clues.place.kind;
   }
   if (definesCodes(saidLayers(clues))) return nullptr;
   if (stored.value_per_code != 0) return isUnreal(clues.place.kind) ? clues.place.kind : nullptr;
   if (clues.place.kind != nullptr && fits(*clues.place.kind, clues.code, stored)) return clues.place.kind;
+  if (isNamedDisparity(clues, stored)) {
+    return packedOrder(stored) == SampleOrder::RedGreen ? findKind("sintel-disparity") : nullptr;
+  }
   return clues.code == DepthCode::Luma ? sensorKind(stored, countOf(stored, later)) : nullptr;
 }
 

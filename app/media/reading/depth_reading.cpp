@@ -21,6 +21,9 @@ constexpr std::uint32_t kStretched = 0xc000;
 constexpr std::uint32_t kMaybeStretched = 0x8000, kLeastGap = 100;
 constexpr double kHolesOfSensor = 0.002;
 
+// Whoever knows the unit of a recording finds the option.
+constexpr const char* kAnyUnit = "in any other unit: --calibration unit=MM,invalid=0";
+
 constexpr std::uint32_t kRawHole = 2047, kRawLowest = 300, kRawHighest = 1084;
 
 // Most sensors see less than 12 m and half of a scene within 5 m; most scenes lie beyond 0.6 m: 3000 codes at 5000 a
@@ -214,9 +217,14 @@ bool definesCodes(const CalibrationLayers& said) {
 }
 
 const KnownKind* sensorKind(const Frame& depth, const CodeCount& count) {
+  if (hasEqualColors(depth)) {
+    const auto gray = inOrder(depth, SampleOrder::EqualColors);
+    return gray ? sensorKind(*gray, count) : nullptr;
+  }
   if (const SampleOrder packed = packedOrder(depth); packed != SampleOrder::AsStored) {
     const auto ordered = inOrder(depth, packed);
     const bool distances = ordered && isDistances(CodeCount(*ordered));
+    if (packed == SampleOrder::FloatBytes) return findKind("tartanair");
     if (packed == SampleOrder::BlueGreen) return findKind("carla");
     return distances ? findKind(packed == SampleOrder::RedGreen ? "rg-packed" : "gr-packed") : nullptr;
   }
@@ -256,7 +264,7 @@ DepthReading readCodes(const Frame& depth, const CodeCount& count, const Calibra
   with.pictures = settingsOf(*kind);
   DepthReading reading = readReach(count, with, kind);
   reading.kind = kind;
-  reading.offer = both(otherUnit(*kind, count), otherEnd(count));
+  reading.offer = both(both(otherUnit(*kind, count), otherEnd(count)), kAnyUnit);
   reading.settings.merge(with.pictures);
   return reading;
 }

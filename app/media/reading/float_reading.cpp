@@ -129,7 +129,7 @@ bool namesDisparity(std::string_view codec, std::string_view path) {
     const std::size_t slash = rest.rfind('/');
     const std::string_view name = slash == rest.npos ? rest : rest.substr(slash + 1);
     rest = slash == rest.npos ? std::string_view() : rest.substr(0, slash);
-    if (names(name, std::array{"disp", "parallax"})) return true;
+    if (names(name, std::array{"disp", "parallax", "inverse_depth", "invdepth", "inv_depth"})) return true;
     if (names(name, std::array{"depth", "dist", "zbuf"})) return false;
   }
   return codec == "pfm";
@@ -137,16 +137,26 @@ bool namesDisparity(std::string_view codec, std::string_view path) {
 
 bool saysDisparity(std::string_view path) {
   constexpr std::array<std::string_view, 4> kWords{"disp", "disparity", "disparities", "disparitymap"};
-  const std::string lower = lowerCase(path);
-  const std::size_t file = lower.rfind('/'), folder = file == lower.npos ? file : lower.rfind('/', file - 1);
-  std::string word;
-  for (std::size_t i = folder == lower.npos ? 0 : folder + 1; i <= lower.size(); ++i) {
-    if (i < lower.size() && std::isalpha(static_cast<unsigned char>(lower[i])) != 0) {
-      word += lower[i];
-    } else {
-      if (std::ranges::find(kWords, word) != kWords.end()) return true;
-      word.clear();
+  const auto says = [&](std::string_view name) {
+    std::string word;
+    for (const char c : std::string(name) + "/") {
+      if (std::isalpha(static_cast<unsigned char>(c)) != 0) {
+        word += c;
+      } else {
+        if (std::ranges::find(kWords, word) != kWords.end()) return true;
+        word.clear();
+      }
     }
+    return false;
+  };
+  const std::string lower = lowerCase(path);
+  std::string_view rest = lower;
+  for (int i = 0; i < kNames && !rest.empty(); ++i) {
+    const std::size_t slash = rest.rfind('/');
+    const std::string_view name = slash == rest.npos ? rest : rest.substr(slash + 1);
+    rest = slash == rest.npos ? std::string_view() : rest.substr(0, slash);
+    if (says(name)) return true;
+    if (name.find("depth") != name.npos) return false;
   }
   return false;
 }

@@ -12,7 +12,8 @@ namespace relievo {
 // "zbuf"); otherwise as is usual for the codec: PFM holds disparities, all others hold distances.
 [[nodiscard]] bool namesDisparity(std::string_view codec, std::string_view path);
 
-// True if the name of the file or of its folder has the word disparity ("disp.png", "disparity/0001.png").
+// True if one of the path's last three names has the word disparity ("disp.png", "disparity/0001.png") and none behind
+// it says depth.
 [[nodiscard]] bool saysDisparity(std::string_view path);
 
 // Whether the numbers are those of a room in metres, and hardly disparities in pixels: all from 0.1 to 16.

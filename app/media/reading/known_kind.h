@@ -21,6 +21,8 @@ enum class SampleOrder : std::uint8_t {
   RedGreen,      // of RGB in 8 bits: red is the upper byte, green the lower one
   GreenRed,      // likewise, the other way round
   BlueGreen,     // of 24-bit codes in red, green and blue, the lowest first: the upper two bytes
+  EqualColors,   // of RGB of more than 8 bits: each component is the code
+  FloatBytes,    // of RGBA in 8 bits: a float in metres, its bytes in blue, green, red and alpha; 250 codes a metre
   Low13          // Android's DEPTH16: three bits of confidence above
 };
 

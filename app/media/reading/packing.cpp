@@ -48,6 +48,9 @@ const StreamInfo* depthAmong(const std::vector<const StreamInfo*>& tracks) {
   if (signalled != tracks.end()) return *signalled;
   const auto marked = std::find_if(tracks.begin(), tracks.end(), [](auto* track) { return speaksOfDepth(*track); });
   if (marked != tracks.end()) return *marked;
+  // A camera's colour is not stored as gray.
+  const auto is_gray = [](auto* track) { return track->pixel_format.starts_with("gray"); };
+  if (std::ranges::count_if(tracks, is_gray) == 1) return *std::ranges::find_if(tracks, is_gray);
   return tracks.size() > 1 ? tracks[1] : tracks[0];
 }
 

@@ -57,7 +57,8 @@ struct TrackPlan {
 [[nodiscard]] bool isMaterial(const StreamInfo& track, const std::map<std::string, std::string>& container_tags);
 
 // The depth track of a source. Of two or more video tracks: the one signalled as auxiliary; else the one that has
-// DEPTH_ tags or whose TITLE, NAME or HANDLER_NAME mentions depth, disparity or an auxiliary picture; else the second.
+// DEPTH_ tags or whose TITLE, NAME or HANDLER_NAME mentions depth, disparity or an auxiliary picture; else the only
+// one of gray; else the second.
 // Of one video track: that one. Null if there is none. Material tracks do not count.
 [[nodiscard]] const StreamInfo* findDepthTrack(const MediaSource& source);
 

@@ -299,7 +299,7 @@ TEST(FfmpegSource, RecordingsThatNothingReadsAreNamedWithTheCommandThatConvertsT
   } kFormats[] = {
       {"a.db3", "SQLite format 3\0"sv, {"ROS 2 bag", "rosbags-convert --src FOLDER --dst film.bag"}},
       {"a.mcap", "\x89MCAP0\r\n"sv, {"MCAP", "rosbags-convert --src FOLDER --dst film.bag"}},
-      {"a.h5", "\x89HDF\r\n\x1a\n"sv, {"HDF5", ".npy"}},
+      {"a.h5", "\x89HDF\r\n\x1a\n"sv, {"HDF5", ".npy", "h5py.File"}},
       {"a.bag", "#ROSBAG V2.0\n"sv, {"ROS bag", "RELIEVO_ROSBAG"}},
       {"a.oni", "NI10\1"sv, {"OpenNI", "RELIEVO_OPENNI"}},
       {"a.klg", "\6\0\0\0"sv, {"scan", "RELIEVO_SCAN"}},
@@ -309,8 +309,14 @@ TEST(FfmpegSource, RecordingsThatNothingReadsAreNamedWithTheCommandThatConvertsT
       {"a.svo2", "\x89MCAP0\r\n"sv, {"ZED", "ZED_SVO_Export"}},
       {"a.ply", "ply\nformat"sv, {"cloud of points", "recording"}},
       {"a.pcd", "# .PCD v0.7"sv, {"cloud of points", "recording"}},
-      {"a.mat", "MATLAB 5.0 MAT-file"sv, {"MATLAB", ".npy"}},
+      {"a.mat", "MATLAB 5.0 MAT-file"sv, {"MATLAB", ".npy", "loadmat"}},
       {"a.raw", "\1\2"sv, {"tell no size", "gray16le"}},
+      {"a.bin", "\1\2"sv, {"tell no size", "gray16le"}},
+      {"a.yuv", "\1\2"sv, {"tell no size", "yuv420p"}},
+      {"a.csv", "1.2,1.3\n"sv, {"table", "numpy.loadtxt"}},
+      {"a.pth", "PK\3\4"sv, {"PyTorch", "torch.load"}},
+      {"a.yml", "%YAML:1.0"sv, {"OpenCV", "FileStorage"}},
+      {"a.gz", "\x1f\x8b"sv, {"unpack"}},
   };
   for (const auto& format : kFormats) {
     writeFile(folder / format.name, std::string(format.begin) + std::string(5000, '\x47'));

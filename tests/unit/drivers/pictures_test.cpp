@@ -46,6 +46,18 @@ TEST(PictureNames, ARecordingsNumberMayStandBeforeItsSeconds) {
   EXPECT_THAT(names.values, ElementsAre(305377000000, 306010000000));
 }
 
+// RealSense's rs-convert: milliseconds since 1970 with a fraction. HoloLens: 100 ns since 1601; .NET: since the year 1.
+// 2021-06-30 20:05:40.3874938 is 1625083540.3874938 s after 1970.
+TEST(PictureNames, OtherClocksCountAsWell) {
+  const auto ms = valuesOf({"a_Depth_1625083540387.49380000000000.png", "a_Depth_1625083540420.50000000000000.png"});
+  EXPECT_EQ(ms.kind, NameKind::Seconds);
+  EXPECT_THAT(ms.values, ElementsAre(1625083540387493800, 1625083540420500000));
+  const auto windows = valuesOf({"132695571403874938.pgm", "132695571405874938.pgm"});
+  EXPECT_EQ(windows.kind, NameKind::Seconds);
+  EXPECT_THAT(windows.values, ElementsAre(1625083540387493800, 1625083540587493800));
+  EXPECT_THAT(valuesOf({"637606803403874938.pgm"}).values, ElementsAre(1625083540387493800));
+}
+
 TEST(PictureNames, TheOnlyRunOfDigitsThatDiffersIsTheNumber) {
   const auto scene = valuesOf({"scene_1_10.png", "scene_1_9.png"});
   EXPECT_EQ(scene.kind, NameKind::Numbers);
@@ -221,6 +233,22 @@ TEST_F(Pictures, NumbersPairColourAndDepthInOneFolderAndInTwo) {
   EXPECT_THAT(scan.color, ElementsAre("0 scan/color/9.jpg", "33.3333 scan/color/10.jpg"));
   EXPECT_THAT(scan.depth, ElementsAre("0 scan/depth/9.png", "33.3333 scan/depth/10.png"));
   EXPECT_THAT(scan.notes, ElementsAre(HasSubstr("30 pictures a second assumed")));
+}
+
+// Kubric's layers in one folder; Sintel's and HoloLens' folders.
+TEST_F(Pictures, LayersBesideColourAndDepthAreLeftOut) {
+  for (const char* layer : {"rgba", "forward_flow", "backward_flow", "object_coordinates", "segmentation", "normal"}) {
+    file("kubric/" + std::string(layer) + "_00000.png"), file("kubric/" + std::string(layer) + "_00001.png");
+  }
+  file("kubric/depth_00000.tiff"), file("kubric/depth_00001.tiff");
+  const Film kubric = read(folder_ / "kubric");
+  EXPECT_THAT(kubric.color, ElementsAre("0 kubric/rgba_00000.png", "33.3333 kubric/rgba_00001.png"));
+  EXPECT_THAT(kubric.depth, ElementsAre("0 kubric/depth_00000.tiff", "33.3333 kubric/depth_00001.tiff"));
+  file("sintel/clean_left/alley/1.png"), file("sintel/disparities/alley/1.png"), file("sintel/occlusions/alley/1.png");
+  EXPECT_THAT(read(folder_ / "sintel").color, ElementsAre("0 sintel/clean_left/alley/1.png"));
+  EXPECT_THAT(read(folder_ / "sintel").depth, ElementsAre("0 sintel/disparities/alley/1.png"));
+  file("holo/PV/1.png"), file("holo/Depth Long Throw/1.pgm");
+  EXPECT_THAT(read(folder_ / "holo").color, ElementsAre("0 holo/PV/1.png"));
 }
 
 TEST_F(Pictures, NamesThatDoNotCorrespondArePairedInTheirOrder) {

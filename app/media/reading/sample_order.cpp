@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a picture stores the bits of its codes, and the codes put in order.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <new>
+
+#include "app/media/reading/code_count.h"
+
+namespace relievo {
+namespace {
+
+constexpr std::uint32_t kTop = 0xffff;
+
+std::uint32_t swapped(std::uint32_t code) noexcept {
+  return (code >> 8 | code << 8) & kTop;
+}
+std::uint32_t ordered(std::uint32_t code, SampleOrder order) noexcept {
+  if (order == SampleOrder::Low13) return code & 0x1fff;
+  if (order == SampleOrder::RotatedLeft3) return (code >> 3 | code << 13) & kTop;
+  return order == SampleOrder::Swapped ? swapped(code) : code;
+}
+
+bool isGray16(const Frame& frame) noexcept {
+  return frame.model == ColorModel::Gray && frame.components[0].bits == 16;
+}
+
+bool isPackable(const Frame& frame) noexcept {
+  return frame.model == ColorModel::Rgb && frame.components[0].bits == 8;
+}
+bool isPackedOrder(SampleOrder order) noexcept {
+  return order == SampleOrder::RedGreen || order == SampleOrder::GreenRed || order == SampleOrder::BlueGreen ||
+         order == SampleOrder::FloatBytes;
+}
+
+std::uint32_t partAt(const Frame& frame, std::size_t part, int c, int r) noexcept {
+  const Component& k = frame.components[part];
+  const Plane& plane = frame.planes[k.plane];
+  return codeAt(k, plane.data + r * plane.stride_bytes + k.offset_bytes + std::ptrdiff_t{c} * k.step_bytes);
+}
+
+std::uint32_t grayAt(const Frame& frame, int c, int r) noexcept {
+  return partAt(frame, 0, c, r);
+}
+
+// Whether the lower byte runs on where the upper one changes by one: on a slope that is so nearly everywhere, beside a
+// colour that has nothing to do with it hardly ever.
+bool carries(const Frame& frame, std::size_t upper, std::size_t lower) noexcept {
+  constexpr std::uint64_t kLeast = 32;
+  constexpr int kMostStep = 64;
+  std::uint64_t changes = 0, carried = 0;
+  const auto compare = [&](int c, int r, int left, int up) {
+    const auto step = [&](std::size_t part) {
+      return static_cast<int>(partAt(frame, part, c, r)) - static_cast<int>(partAt(frame, part, c - left, r - up));
+    };
+    const int rise = step(upper);
+    if (std::abs(rise) != 1) return;
+    ++changes;
+    if (std::abs(256 * rise + step(lower)) <= kMostStep) ++carried;
+  };
+  for (int r = 0; r < frame.height; ++r) {
+    for (int c = 0; c < frame.width; ++c) {
+      if (c > 0) compare(c, r, 1, 0);
+      if (r > 0) compare(c, r, 0, 1);
+    }
+  }
+  // Of bytes that have nothing to do with each other 3 % would; the rest of a depth's are steep or edges.
+  return carried >= kLeast && 10 * carried >= 3 * changes;
+}
+
+// TartanAir: the bytes of a float in blue, green, red and alpha, the lowest first; metres.
+float floatAt(const Frame& frame, int c, int r) noexcept {
+  const Component& k = *frame.alpha;
+  const Plane& plane = frame.planes[k.plane];
+  const std::uint32_t top =
+      codeAt(k, plane.data + r * plane.stride_bytes + k.offset_bytes + std::ptrdiff_t{c} * k.step_bytes);
+  const std::uint32_t low = partAt(frame, 1, c, r) << 8 | partAt(frame, 2, c, r);
+  return std::bit_cast<float>(top << 24 | partAt(frame, 0, c, r) << 16 | low);
+}
+
+// Whether nearly all samples are distances, of which neighbours differ little. Of a picture with an opaque or a
+// transparent alpha none is.
+bool holdsFloats(const Frame& frame) noexcept {
+  constexpr float kLeast = 0.01F, kMost = 1e5F, kAlike = 0.1F;
+  if (!frame.alpha || frame.alpha->bits != 8) return false;
+  std::uint64_t sound = 0, alike = 0, samples = 0;
+  for (int r = 0; r < frame.height; ++r) {
+    float left = 0;
+    for (int c = 0; c < frame.width; ++c, ++samples) {
+      const float here = floatAt(frame, c, r);
+      if (!(here >= kLeast && here <= kMost)) continue;  // NaN as well
+      ++sound;
+      if (std::abs(here - left) <= kAlike * here) ++alike;
+      left = here;
+    }
+  }
+  return 10 * sound >= 9 * samples && 10 * alike >= 8 * samples;
+}
+
+// Beyond what 16 bits hold is the sky: 65535.
+std::uint32_t codeOf(float metres) noexcept {
+  constexpr float kCodesAMetre = 250;
+  return metres > 0 && metres * kCodesAMetre < static_cast<float>(kTop)
+             ? static_cast<std::uint32_t>(std::lround(metres * kCodesAMetre))
+             : kTop;
+}
+
+std::uint32_t orderedAt(const Frame& frame, int c, int r, SampleOrder order) noexcept {
+  if (order == SampleOrder::FloatBytes) return codeOf(floatAt(frame, c, r));
+  if (!isPackedOrder(order)) return ordered(grayAt(frame, c, r), order);
+  const std::uint32_t red = partAt(frame, 0, c, r), green = partAt(frame, 1, c, r);
+  if (order == SampleOrder::BlueGreen) return partAt(frame, 2, c, r) << 8 | green;
+  return order == SampleOrder::RedGreen ? red << 8 | green : green << 8 | red;
+}
+
+}  // namespace
+
+bool isSwapped(const Frame& depth) {
+  constexpr int kClearly = 8, kLeastDifferent = 2;
+  if (!isGray16(depth)) return false;
+  std::uint64_t as_stored = 0, as_swapped = 0;
+  std::array<std::uint64_t, 256> low_bytes{};
+  for (int r = 0; r < depth.height; ++r) {
+    for (int c = 1; c < depth.width; ++c) {
+      const std::uint32_t left = grayAt(depth, c - 1, r), here = grayAt(depth, c, r);
+      if (left == 0 || here == 0) continue;
+      const auto difference = [](std::uint32_t a, std::uint32_t b) { return a > b ? a - b : b - a; };
+      as_stored += difference(left, here);
+      as_swapped += difference(swapped(left), swapped(here));
+      ++low_bytes[here & 0xff];
+    }
+  }
+  // 8 bits in the upper half of 16, or steps of a whole upper byte, are alike in either order.
+  const auto different = std::count_if(low_bytes.begin(), low_bytes.end(), [](std::uint64_t n) { return n > 0; });
+  return different >= kLeastDifferent && as_stored > kClearly * as_swapped;
+}
+
+bool hasConfidence(const Frame& depth) {
+  constexpr std::uint32_t kLow = 0x1fff;
+  constexpr std::uint64_t kClearly = 32;
+  if (!isGray16(depth)) return false;
+  std::uint64_t as_stored = 0, below = 0;
+  for (int r = 0; r < depth.height; ++r) {
+    for (int c = 1; c < depth.width; ++c) {
+      const auto left = static_cast<int>(grayAt(depth, c - 1, r)), here = static_cast<int>(grayAt(depth, c, r));
+      if (std::min(left, here) == 0 || std::max(left, here) == static_cast<int>(kTop)) continue;
+      as_stored += static_cast<std::uint64_t>(std::abs(here - left));
+      below += static_cast<std::uint64_t>(std::abs(static_cast<int>(here & kLow) - static_cast<int>(left & kLow)));
+    }
+  }
+  return as_stored > kClearly * below;
+}
+
+SampleOrder packedOrder(const Frame& depth) {
+  if (!isPackable(depth)) return SampleOrder::AsStored;
+  if (holdsFloats(depth)) return SampleOrder::FloatBytes;
+  std::uint64_t other_blue = 0;
+  const std::uint32_t blue = partAt(depth, 2, depth.width / 2, depth.height / 2);
+  for (int r = 0; r < depth.height; ++r) {
+    for (int c = 0; c < depth.width; ++c) other_blue += partAt(depth, 2, c, r) != blue ? 1 : 0;
+  }
+  const std::uint64_t samples = static_cast<std::uint64_t>(depth.width) * static_cast<std::uint64_t>(depth.height);
+  if (100 * other_blue > samples) {  // of 24 bits the upper 16, whichever end is the upper one
+    if (carries(depth, 0, 1)) return SampleOrder::RedGreen;
+    return carries(depth, 2, 1) ? SampleOrder::BlueGreen : SampleOrder::AsStored;
+  }
+  if (carries(depth, 0, 1)) return SampleOrder::RedGreen;
+  return carries(depth, 1, 0) ? SampleOrder::GreenRed : SampleOrder::AsStored;
+}
+
+bool hasEqualColors(const Frame& depth) noexcept {
+  if (depth.model != ColorModel::Rgb || depth.components[0].bits <= 8) return false;
+  for (int r = 0; r < depth.height; ++r) {
+    for (int c = 0; c < depth.width; ++c) {
+      const std::uint32_t red = partAt(depth, 0, c, r);
+      if (red != partAt(depth, 1, c, r) || red != partAt(depth, 2, c, r)) return false;
+    }
+  }
+  return true;
+}
+
+SampleOrder orderOf(const KnownKind* kind, const Frame& stored) {
+  if (kind != nullptr && kind->order != SampleOrder::AsStored) return orderOf(*kind, stored);
+  return hasEqualColors(stored) ? SampleOrder::EqualColors : SampleOrder::AsStored;
+}
+
+SampleOrder orderOf(const KnownKind& kind, const Frame& stored) {
+  constexpr std::uint32_t kRawHole = 2047;
+  const bool raw = kind.order == SampleOrder::Swapped && kind.inverse.offset > 0 && isGray16(stored);
+  return raw && CodeCount(stored).share(kRawHole + 1, kTop) == 0 ? SampleOrder::AsStored : kind.order;
+}
+
+Result<Frame> inOrder(const Frame& depth, SampleOrder order) {
+  if (order == SampleOrder::EqualColors && depth.model == ColorModel::Rgb) {
+    Frame gray = depth;
+    gray.model = ColorModel::Gray;
+    gray.alpha.reset();
+    return gray;
+  }
+  bool stored_so = isPackedOrder(order) ? isPackable(depth) : isGray16(depth);
+  if (order == SampleOrder::FloatBytes) stored_so = stored_so && depth.alpha.has_value();
+  if (order == SampleOrder::AsStored || !stored_so) return depth;
+  try {
+    auto samples = std::make_shared<std::vector<std::uint16_t>>();
+    samples->reserve(static_cast<std::size_t>(depth.width) * static_cast<std::size_t>(depth.height));
+    for (int r = 0; r < depth.height; ++r) {
+      for (int c = 0; c < depth.width; ++c) {
+        samples->push_back(static_cast<std::uint16_t>(orderedAt(depth, c, r, order)));
+      }
+    }
+    Frame frame = grayFrame(std::move(samples), depth.width, depth.height);
+    frame.pts = depth.pts;
+    frame.duration = depth.duration;
+    frame.sample_aspect = depth.sample_aspect;
+    return frame;
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::Exhausted, "out of memory for a picture");
+  }
+}
+
+}  // namespace relievo

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// Recordings whose codes are no plain distances in mm: disparities of 16 bits, floats in four bytes, gray in 48 bits,
+// 512 codes a metre, and depth that is the first of two tracks.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+
+#include "app/media/pair_reader.h"
+#include "app/media/reading/known_kind.h"
+#include "app/scene/height_field.h"
+#include "drivers/registry.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/film/recorded_scene.h"
+
+namespace relievo {
+namespace {
+
+using test::ClipTrack;
+using test::distanceMm;
+using test::makeClip;
+using test::TemporaryFolder;
+
+constexpr DisplayVolume kVolume{160, 108, 40};
+const PairReader::Backends kReal{.make_source = drivers::makeMediaSource, .make_decoder = drivers::makeSoftwareDecoder};
+
+using Sample = std::function<std::uint32_t(int, int, int, int)>;
+ClipTrack track(const char* codec, const char* format, Sample sample, int frames = 1) {
+  ClipTrack track{.codec = codec,
+                  .pix_fmt = format,
+                  .width = test::kSceneCols,
+                  .height = test::kSceneRows,
+                  .frames = frames,
+                  .sample = std::move(sample)};
+  return track;
+}
+std::uint32_t rounded(double code) {
+  return static_cast<std::uint32_t>(std::lround(code));
+}
+
+struct Opened {
+  FilmInfo info;
+  FramePair pair;
+};
+Opened openFilm(const std::string& url) {
+  PairReader reader(kReal);
+  const auto opened = reader.open({.url = url});
+  EXPECT_TRUE(opened) << opened.error().message;
+  auto pair = opened ? reader.next() : Result<std::optional<FramePair>>(std::nullopt);
+  return {reader.info(), pair && *pair ? std::move(**pair) : FramePair{}};
+}
+
+// By the definition in app/scene/depth_calibration.h: z = D (far - Z)/(far - near). What is read is `scale` times the
+// true distance, to within `share` of it.
+void expectScene(const Opened& film, double scale, double share) {
+  ASSERT_FALSE(film.pair.depth.empty());
+  const DepthCalibration& c = film.info.calibration.calibration;
+  const HeightField field = HeightField::make(film.pair.depth, c, kVolume).value();
+  for (int r = 0; r < test::kSceneRows; ++r) {
+    for (int x = 0; x < test::kSceneCols; ++x) {
+      const double mm = distanceMm(x, r), height = field.heightMm(x, r);
+      ASSERT_EQ(std::isnan(height), mm == 0) << x << ", " << r;
+      if (mm == 0) continue;
+      const double read = c.far_mm - height / kVolume.depth_mm * (c.far_mm - c.near_mm);
+      ASSERT_NEAR(read / (scale * mm), 1, share) << x << ", " << r;
+    }
+  }
+}
+
+// The true shape of distances whose scale nobody knows.
+void expectShape(const Opened& film, double share) {
+  const DepthCalibration& c = film.info.calibration.calibration;
+  ASSERT_FALSE(film.pair.depth.empty());
+  const HeightField field = HeightField::make(film.pair.depth, c, kVolume).value();
+  const int x = test::kSceneCols / 2, r = test::kSceneRows / 2;
+  const double read = c.far_mm - field.heightMm(x, r) / kVolume.depth_mm * (c.far_mm - c.near_mm);
+  expectScene(film, read / distanceMm(x, r), share);
+}
+
+// Cityscapes, InStereo2K, DrivingStereo and OAK-D differ in how many codes a pixel has.
+TEST(OddCodes, SixteenBitsThatAreNamedDisparityAreNearWhereHigh) {
+  for (const char* name : {"a_000000_disparity.png", "left_disp.png", "disparity-map/1.png"}) {
+    TemporaryFolder folder;
+    std::filesystem::create_directories(folder / "disparity-map");
+    makeClip(folder / name, {track("png", "gray16be", [](int, int c, int r, int) {
+               const double mm = distanceMm(c, r);
+               return mm == 0 ? 0 : rounded(1.6e7 / mm);
+             })});
+    const Opened film = openFilm(folder / name);
+    EXPECT_EQ(film.info.packing, Packing::DepthAlone);
+    expectShape(film, 0.001);
+  }
+}
+
+// MPI Sintel: a disparity of 4 R + G / 64 + B / 16384 pixels.
+TEST(OddCodes, SintelsDisparitiesAreReadFromTheBytesOfRgb) {
+  TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "disparities/alley");
+  makeClip(folder / "disparities/alley/frame_0001.png", {track("png", "rgb24", [](int k, int c, int r, int) {
+             const double mm = distanceMm(c, r);
+             const std::uint32_t code = mm == 0 ? 0 : rounded(16384 * 120000 / mm);
+             return code >> (8 * (2 - k)) & 0xff;
+           })});
+  expectShape(openFilm(folder / "disparities/alley/frame_0001.png"), 0.001);
+}
+
+// TartanAir: the bytes of a float in blue, green, red and alpha, the lowest first; its sky lies at 10 km.
+TEST(OddCodes, FloatsInFourBytesAreMetres) {
+  TemporaryFolder folder;
+  makeClip(folder / "a.png", {track("png", "rgba", [](int k, int c, int r, int) {
+             const double mm = distanceMm(c, r);
+             const auto metres = static_cast<float>(mm == 0 ? 10000 : mm / 1000);
+             std::uint32_t bits = 0;
+             std::memcpy(&bits, &metres, sizeof bits);
+             const int byte = k == 0 ? 2 : k == 2 ? 0 : k;
+             return bits >> (8 * byte) & 0xff;
+           })});
+  const Opened film = openFilm(folder / "a.png");
+  EXPECT_EQ(film.info.packing, Packing::DepthAlone);
+  expectScene(film, 1, 0.002);
+}
+
+TEST(OddCodes, GrayOfFortyEightBitsIsReadAsGrayIs) {
+  TemporaryFolder folder;
+  makeClip(folder / "a.png",
+           {track("png", "rgb48be", [](int, int c, int r, int) { return rounded(distanceMm(c, r)); })});
+  const Opened film = openFilm(folder / "a.png");
+  EXPECT_EQ(film.info.packing, Packing::DepthAlone);
+  expectScene(film, 1, 0.001);
+}
+
+TEST(OddCodes, TaskonomysNamesSay512CodesAMetre) {
+  TemporaryFolder folder;
+  const std::string path = folder / "point_0_view_1_domain_depth_zbuffer.png";
+  makeClip(path, {track("png", "gray16be", [](int, int c, int r, int) {
+             const double mm = distanceMm(c, r);
+             return mm == 0 ? 65535 : rounded(0.512 * mm);
+           })});
+  expectScene(openFilm(path), 1, 0.002);
+}
+
+// A network's 16 bits from 0 to 65535 in a file without a telling name.
+TEST(OddCodes, GrayOfMoreThanEightBitsIsDepth) {
+  TemporaryFolder folder;
+  makeClip(
+      folder / "a.png",
+      {track("png", "gray16be", [](int, int c, int r, int) { return rounded(65535 * (1 - c / 200.0 - r / 800.0)); })});
+  EXPECT_EQ(openFilm(folder / "a.png").info.packing, Packing::DepthAlone);
+}
+
+// Marigold's folder of gray pictures.
+TEST(OddCodes, NearIsDarkInAFolderOfMarigold) {
+  TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "depth_bw");
+  makeClip(folder / "depth_bw/a_pred.png",
+           {track("png", "gray16be", [](int, int c, int r, int) { return rounded(25 * distanceMm(c, r)); })});
+  const Opened film = openFilm(folder / "depth_bw/a_pred.png");
+  EXPECT_EQ(film.info.calibration.calibration.polarity, DepthPolarity::NearIsLow);
+  EXPECT_EQ(film.info.packing, Packing::DepthAlone);
+}
+
+TEST(OddCodes, OfTwoTracksTheGrayOneIsTheDepth) {
+  const auto photo = [](int k, int c, int r, int) {
+    return test::yuvCode(k, test::photoOf(c << (k > 0), r << (k > 0)));
+  };
+  const auto gray = [](int k, int c, int r, int) {
+    return k > 0 ? 128u : rounded(16 + 219 * (1 - distanceMm(c, r) / 2100));
+  };
+  const auto codes = [](int, int c, int r, int) { return rounded(distanceMm(c, r)); };
+  const ClipTrack color = track("ffv1", "yuv420p", photo, 4);
+  for (const ClipTrack& depth : {track("ffv1", "gray16le", codes, 4), track("ffv1", "yuv420p", gray, 4)}) {
+    TemporaryFolder folder;
+    makeClip(folder / "a.mkv", {depth, color});
+    const Opened film = openFilm(folder / "a.mkv");
+    ASSERT_FALSE(film.pair.depth.empty());
+    EXPECT_EQ(film.pair.color.model, ColorModel::Yuv);
+    EXPECT_EQ(test::sampleAt(film.pair.color, 0, 33, 44), photo(0, 33, 44, 0)) << depth.pix_fmt;
+    EXPECT_TRUE(film.info.reading.doubts.empty()) << film.info.reading.doubts.front();
+  }
+}
+
+}  // namespace
+}  // namespace relievo
