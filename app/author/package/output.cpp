@@ -85,6 +85,11 @@ std::string enhancementLines(Enhancement how, const EnhancementSummary& e) {
   lines += print("    noise between samples: %.2f levels of 255 before, %.2f after\n", e.noise_before, e.noise_after);
   lines += print("    estimated touch error away from edges: %.3f mm (%.3f N) before, %.3f mm (%.3f N) after\n",
                  mm(e.error_before), newtons(e.error_before), mm(e.error_after), newtons(e.error_after));
+  constexpr double kShown = 0.0005;  // mm: half of the last digit
+  if (mm(e.error_after) > mm(e.error_before) + kShown) {
+    lines +=
+        "    by this estimate it makes the depth worse: leave --enhance out, unless narrow holes shall be filled\n";
+  }
   if (e.points > 0) {
     lines += print("    mesh: %.0f points per picture, at most %zu; every sample within %.1f levels of it\n", e.points,
                    e.most_points, e.bound);

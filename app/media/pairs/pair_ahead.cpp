@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include "app/media/pairs/pair_film.h"
 #include "app/media/reading/picture_look.h"
@@ -76,6 +77,25 @@ std::string widerOption(const DepthCalibration& c, const Beyond& beyond) {
   return option;
 }
 
+// Of a film with a single key frame: pictures a `step` apart, read on from there while `take` is true and time is left,
+// which is not asked after a few small pictures.
+void readOn(TrackReader& scout, Duration step, MonotonicTime until, const std::function<bool(const Frame&)>& take) {
+  constexpr Duration kLongest = std::chrono::milliseconds(400);
+  constexpr std::int64_t kFew = 1 << 22;  // samples
+  const MonotonicClock clock;
+  until = std::min(until, clock.now() + kLongest);
+  if (!scout.seek(MediaTime{})) return;
+  std::int64_t samples = 0;
+  for (MediaTime due(step); samples < kFew || clock.now() < until;) {
+    const auto picture = scout.next(0);
+    if (!picture || !*picture) return;
+    samples += std::int64_t{(*picture)->width} * (*picture)->height;
+    if ((*picture)->pts < due) continue;
+    due = (*picture)->pts + step;
+    if (!take(**picture)) return;
+  }
+}
+
 }  // namespace
 
 // A source that can be opened a second time at no cost to others.
@@ -135,6 +155,10 @@ std::vector<Frame> PairReader::Impl::laterPictures(MediaTime seen, int stream) {
   if (!first || !*first) return pictures;
   const double samples = static_cast<double>((**first).width) * (**first).height;
   std::vector<MediaTime> met{seen};
+  const auto keep = [&](const Frame& picture) {
+    auto later = depthIn(picture);
+    if (later && !isBlank(*later)) pictures.push_back(std::move(*later));
+  };
   for (const double place : kPlaces) {
     const bool enough = !pictures.empty() && static_cast<double>(pictures.size() + 1) * samples > kMostSamples;
     if (enough || clock.now() > until || sources.interrupted()) break;
@@ -142,11 +166,18 @@ std::vector<Frame> PairReader::Impl::laterPictures(MediaTime seen, int stream) {
     const auto picture = scout->next(0);
     if (!picture) break;
     if (!*picture || (*picture)->value_per_code != (**first).value_per_code) continue;
-    if (std::ranges::find(met, (*picture)->pts) != met.end()) continue;
+    if (std::ranges::find(met, (*picture)->pts) != met.end()) {
+      if (met.size() == 1) break;  // the end is reached from the first picture alone
+      continue;
+    }
     met.push_back((*picture)->pts);
-    auto later = depthIn(**picture);
-    if (later && !isBlank(*later)) pictures.push_back(std::move(*later));
+    keep(**picture);
   }
+  if (met.size() > 1) return pictures;
+  readOn(*scout, duration / (kPlaces.size() + 1), until, [&](const Frame& picture) {
+    if (picture.value_per_code == (**first).value_per_code) keep(picture);
+    return pictures.size() < kPlaces.size() && static_cast<double>(pictures.size() + 1) * samples <= kMostSamples;
+  });
   return pictures;
 }
 

@@ -342,6 +342,23 @@ TEST(Recordings, TheDepthOfAPaleSceneIsFoundByTheBreakInTheMiddle) {
 }
 
 // Of a picture without a hole nothing tells whether high codes are near: both readings have their word.
+TEST(Recordings, AFilmOfOneKeyFrameIsLookedAtFartherOnToo) {
+  TemporaryFolder folder;
+  ClipTrack depth{.width = kSceneCols, .height = kSceneRows, .frames = 48, .gop = 1000};
+  // A wall that is seen by and by.
+  depth.sample = [](int, int c, int r, int frame) {
+    if (c < 4) return 0U;
+    return c > 100 && frame > 30 ? 3600U + static_cast<unsigned>(r) : 1000 + static_cast<unsigned>(c + r);
+  };
+  depth.fps_num = 6;
+  makeClip(folder / "a_depth.mkv", {depth});
+  const Seen seen = open({.url = folder / "a_depth.mkv"});
+  ASSERT_EQ(seen.failure, "");
+  EXPECT_EQ(seen.info.calibration.calibration.unit_mm, 1.0);
+  EXPECT_GE(seen.info.calibration.calibration.far_mm, 3600);
+  EXPECT_LE(seen.info.calibration.calibration.near_mm, 1000);
+}
+
 TEST(Recordings, HeightsAreOfferedWhereNothingTellsThemFromDistances) {
   TemporaryFolder folder;
   makeClip(folder / "%04d.png", {coded([](double mm, int, int) { return 20000 - rounded(mm); })});
