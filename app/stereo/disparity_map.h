@@ -14,6 +14,11 @@ struct DisparityRange {
   int lowest = 0, highest = 0;
 };
 
+// The nearest whole number, of those between away from 0: std::lround without its call.
+[[nodiscard]] inline int nearest(float x) noexcept {
+  return static_cast<int>(x + (x < 0 ? -0.5F : 0.5F));
+}
+
 struct DisparityMap {
   int cols = 0, rows = 0;
   std::vector<float> pixels;       // row by row

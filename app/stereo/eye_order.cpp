@@ -13,6 +13,8 @@ constexpr float kStep = 2;  // pixels of disparity
 constexpr int kLeastRun = 2;
 constexpr float kTold = 1.5F;       // times as like one side as the other
 constexpr float kLeastUnlike = 24;  // levels between the sides, of the three components together
+constexpr float kEven = 1;          // pixels of disparity: of what lies on one side
+constexpr float kMost = 0.8F;       // of the run's pixels, that are like one side
 
 using Color = std::array<float, 3>;
 
@@ -29,15 +31,30 @@ float between(const Color& a, const Color& b) {
   return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]);
 }
 
+// Whether both sides of a run were seen and are even: else the matcher's own errors look like what one eye sees alone.
+bool hasEvenSides(const DisparityMap& map, int r, int begin, int end) {
+  const std::size_t before = map.at(begin - 1, r), after = map.at(end, r);
+  for (std::size_t i = 0; i < kBeside; ++i) {
+    if (map.seen[before - i] == 0 || std::abs(map.pixels[before - i] - map.pixels[before]) > kEven) return false;
+    if (map.seen[after + i] == 0 || std::abs(map.pixels[after + i] - map.pixels[after]) > kEven) return false;
+  }
+  return true;
+}
+
+// A run belongs to one side as a whole.
 void voteOnRun(const ViewPicture& left, int r, int begin, int end, EyeVotes& votes) {
   const Color before = meanOf(left, r, begin - kBeside, begin), after = meanOf(left, r, end, end + kBeside);
   if (between(before, after) < kLeastUnlike) return;
+  int like_before = 0, like_after = 0;
   for (int c = begin; c < end; ++c) {
     const Color here = meanOf(left, r, c, c + 1);
     const float to_before = between(here, before), to_after = between(here, after);
-    if (to_after > kTold * to_before) ++votes.in_order;
-    if (to_before > kTold * to_after) ++votes.swapped;
+    if (to_after > kTold * to_before) ++like_before;
+    if (to_before > kTold * to_after) ++like_after;
   }
+  const auto run = static_cast<float>(end - begin);
+  if (static_cast<float>(like_before) >= kMost * run) votes.in_order += static_cast<std::uint64_t>(like_before);
+  if (static_cast<float>(like_after) >= kMost * run) votes.swapped += static_cast<std::uint64_t>(like_after);
 }
 
 }  // namespace
@@ -48,9 +65,9 @@ EyeVotes& EyeVotes::operator+=(const EyeVotes& other) noexcept {
   return *this;
 }
 
-bool EyeVotes::areSwapped() const noexcept {
+bool EyeVotes::tell(std::uint64_t votes, std::uint64_t others) noexcept {
   constexpr std::uint64_t kLeast = 100;
-  return swapped > kLeast && 2 * swapped > 3 * in_order;
+  return votes > kLeast && 2 * votes > 3 * others;
 }
 
 EyeVotes voteOnEyes(const DisparityMap& map, const ViewPicture& left) {
@@ -63,7 +80,8 @@ EyeVotes voteOnEyes(const DisparityMap& map, const ViewPicture& left) {
       const bool inside = end + kBeside <= map.cols && map.seen[map.at(c - 1, r)] != 0;
       const float rise = inside ? map.pixels[map.at(end, r)] - map.pixels[map.at(c - 1, r)] : 0;
       const auto run = static_cast<float>(end - c);
-      if (rise >= kStep && end - c >= kLeastRun && run < 2 * rise && rise < 2 * run) voteOnRun(left, r, c, end, votes);
+      if (rise >= kStep && end - c >= kLeastRun && run < 2 * rise && rise < 2 * run && hasEvenSides(map, r, c, end))
+        voteOnRun(left, r, c, end, votes);
       c = end;
     }
   }

@@ -15,7 +15,12 @@ struct EyeVotes {
   std::uint64_t in_order = 0, swapped = 0;  // pixels
 
   EyeVotes& operator+=(const EyeVotes& other) noexcept;
-  [[nodiscard]] bool areSwapped() const noexcept;
+  // Both may be false: too little to tell.
+  [[nodiscard]] bool areSwapped() const noexcept { return tell(swapped, in_order); }
+  [[nodiscard]] bool areInOrder() const noexcept { return tell(in_order, swapped); }
+
+ private:
+  [[nodiscard]] static bool tell(std::uint64_t votes, std::uint64_t others) noexcept;
 };
 
 // `map` as matched, `seen` told.

@@ -250,7 +250,9 @@ class Stereo {
   }
 
   [[nodiscard]] std::string tell(const ViewFilmFormat& film, const std::string& name) const {
-    return print("%.2g %% in %.3g ms", of(film, name).percent(), of(film, name).time());
+    const double percent = of(film, name).percent(), ms = of(film, name).time();
+    return print(percent < 99.5 ? "%.2g %% in " : "%.0f %% in ", percent) +
+           print(ms < 999.5 ? "%.3g ms" : "%.0f ms", ms);
   }
   [[nodiscard]] ChartWords words(const std::vector<Place>& places) const {
     const ViewFilmFormat base = plan_.base();
@@ -271,9 +273,9 @@ class Stereo {
     for (const std::string& name : {std::string(kAuthors), players, std::string("SGBM"), std::string("BM")}) {
       text += print("%s %s; ", name.c_str(), tell(base, name).c_str());
     }
-    text +=
-        print("exact depth %.2g %%. Weak texture: author %s, %s %s, SGBM %s. ", of(base, "exact").percent(),
-              tell(weak, kAuthors).c_str(), players.c_str(), tell(weak, players).c_str(), tell(weak, "SGBM").c_str());
+    text += print("exact depth %.2g %%. Weak texture: ", of(base, "exact").percent());
+    text += print("author %s, %s %s, SGBM %s. ", tell(weak, kAuthors).c_str(), players.c_str(),
+                  tell(weak, players).c_str(), tell(weak, "SGBM").c_str());
     text += print("Of %zu films the author's matcher has the least error in %td and one of the player's sizes in %td; ",
                   best.size(), wins([](const std::string& n) { return n == kAuthors; }),
                   wins([](const std::string& n) { return n.starts_with("quick"); }));

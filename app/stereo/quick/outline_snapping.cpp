@@ -31,15 +31,20 @@ class Enlarger {
   }
 
   void fill(DisparityMap& large) const {
+    std::vector<float> columns;
+    for (int c = 0; c < large.cols; ++c) {
+      columns.push_back(
+          std::clamp((static_cast<float>(c) + 0.5F) / scale_ - 0.5F, 0.0F, static_cast<float>(small_.cols - 1)));
+    }
     for (int r = 0; r < large.rows; ++r) {
       const float y =
           std::clamp((static_cast<float>(r) + 0.5F) * down_ - 0.5F, 0.0F, static_cast<float>(small_.rows - 1));
+      const int j = static_cast<int>(y);
+      const std::size_t row = small_.at(0, nearest(y));
       for (int c = 0; c < large.cols; ++c) {
-        const float x =
-            std::clamp((static_cast<float>(c) + 0.5F) / scale_ - 0.5F, 0.0F, static_cast<float>(small_.cols - 1));
-        const int i = static_cast<int>(x), j = static_cast<int>(y);
-        const std::size_t there = small_.at(static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y)));
-        const std::size_t here = large.at(c, r);
+        const float x = columns[static_cast<std::size_t>(c)];
+        const int i = static_cast<int>(x);
+        const std::size_t there = row + static_cast<std::size_t>(nearest(x)), here = large.at(c, r);
         large.pixels[here] =
             scale_ * (at_step_[there] != 0 ? chosen(x, y, here)
                                            : between(i, j, x - static_cast<float>(i), y - static_cast<float>(j)));
@@ -84,20 +89,28 @@ class Enlarger {
   }
   // The mean of the nearer or the farther side: of the one that more of what is near and alike belongs to.
   [[nodiscard]] float chosen(float x, float y, std::size_t here) const {
-    const int middle_x = static_cast<int>(std::lround(x)), middle_y = static_cast<int>(std::lround(y));
+    const int middle_x = nearest(x), middle_y = nearest(y);
     const int left = std::max(0, middle_x - kReach), right = std::min(small_.cols - 1, middle_x + kReach);
     const int top = std::max(0, middle_y - kReach), bottom = std::min(small_.rows - 1, middle_y + kReach);
     const float between = middle_[small_.at(middle_x, middle_y)];
+    std::array<float, 2 * kReach + 1> across{};  // the squared distances
+    for (int i = left; i <= right; ++i) {
+      const float dx = static_cast<float>(i) - x;
+      across[static_cast<std::size_t>(i - left)] = dx * dx;
+    }
     Side near, far;
     for (int j = top; j <= bottom; ++j) {
+      const float dy = static_cast<float>(j) - y;
       for (int i = left; i <= right; ++i) {
         const std::size_t there = small_.at(i, j);
-        const float dx = static_cast<float>(i) - x, dy = static_cast<float>(j) - y;
         const float seen = small_.seen[there] != 0 ? 1 : kInferred;
-        const float weight = seen * of_color_[unlikeness(here, there)] / (1 + dx * dx + dy * dy);
-        Side& side = small_.pixels[there] > between ? near : far;
-        side.weight += weight;
-        side.sum += weight * small_.pixels[there];
+        const float away = across[static_cast<std::size_t>(i - left)] + dy * dy;
+        const float weight = seen * of_color_[unlikeness(here, there)] / (1 + away);
+        const float of_near = small_.pixels[there] > between ? weight : 0, of_far = weight - of_near;
+        near.weight += of_near;
+        near.sum += of_near * small_.pixels[there];
+        far.weight += of_far;
+        far.sum += of_far * small_.pixels[there];
       }
     }
     const Side& side = near.weight > far.weight ? near : far;

@@ -24,6 +24,7 @@ constexpr float kLeastSpare = 1.5F;  // pixels of the survey
 constexpr float kHighest = 65535;
 constexpr double kBlackSpread = 3;  // levels
 constexpr int kLookEvery = 4;       // pictures: something may have come nearer than all before
+constexpr int kVotes = 6;           // looks of a shot that tell the eyes apart
 
 // The disparity below which a share of the seen pixels lies.
 float shareBelow(std::vector<float>& seen, double share) {
@@ -109,10 +110,14 @@ void QuickDepth::measureShot() {
   since_look_ = 0;
   if (!range_) return;
   matched_ = *range_;
+  eyes_.in_order /= 2;
+  eyes_.swapped /= 2;
+  votes_left_ = kVotes;
   orderEyes();
 }
 
-// The strips that one eye alone sees lie on the other side of things if the views are swapped.
+// The strips that one eye alone sees lie on the other side of things if the views are swapped. One picture may show
+// too few of them.
 void QuickDepth::orderEyes() {
   const int cols = std::min(kVoteCols, left_.cols);
   const ViewSize size{cols, std::max(1, left_.rows * cols / left_.cols)};
@@ -120,14 +125,14 @@ void QuickDepth::orderEyes() {
   reduce(right_, size, small_right_);
   EyeVotes now = voteOnEyes(matching_.match(small_left_, small_right_, rangeAt(cols)), small_left_);
   if (swapped_) std::swap(now.in_order, now.swapped);
-  eyes_.in_order /= 2;
-  eyes_.swapped /= 2;
+  --votes_left_;
   eyes_ += now;
-  if (eyes_.areSwapped() == swapped_) return;
+  if (swapped_ ? !eyes_.areInOrder() : !eyes_.areSwapped()) return;
   swapped_ = !swapped_;
   mirrorBoth();
   range_ = Range{-matched_.high, -matched_.low};
   matched_ = *range_;
+  steady_.begin();
 }
 
 void QuickDepth::lookAgain() {
@@ -135,6 +140,7 @@ void QuickDepth::lookAgain() {
   const auto now = reach();
   one_picture_ = false;  // of the shot: something else in it has depth
   if (now) matched_ = {std::min(range_->low, now->low), std::max(range_->high, now->high)};
+  if (now && votes_left_ > 0) orderEyes();
 }
 
 DisparityRange QuickDepth::rangeAt(int cols) const noexcept {
@@ -161,7 +167,7 @@ Frame QuickDepth::codesOf(const DisparityMap& map) const {
     const auto width = static_cast<float>(map.cols);
     const float low = range_->low * width, scale = 1 / ((range_->high - range_->low) * width);
     std::ranges::transform(map.pixels, codes->begin(), [&](float d) {
-      return static_cast<std::uint16_t>(std::lround(std::clamp((d - low) * scale, 0.0F, 1.0F) * kHighest));
+      return static_cast<std::uint16_t>(std::clamp((d - low) * scale, 0.0F, 1.0F) * kHighest + 0.5F);
     });
     if (swapped_) {
       for (auto row = codes->begin(); row != codes->end(); row += map.cols) std::reverse(row, row + map.cols);

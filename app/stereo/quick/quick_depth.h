@@ -21,8 +21,9 @@ namespace relievo {
 // picture shows, with some to spare; what comes nearer or goes farther later lies at the end of the range, and is
 // matched where it is, since a matcher that looks elsewhere finds another place in each picture. A right view that
 // lies lower or higher is brought to the left one's height, by what the shot's first picture shows. Views in the wrong
-// order are told by what one eye alone sees, and matched in the right one. Pictures come in order, not necessarily all
-// of them. Use from one thread.
+// order are told by what one eye alone sees, in the first picture or in several of the first two dozen, and matched in
+// the right one from then on: as if a shot began there. Pictures come in order, not necessarily all of them. Use from
+// one thread.
 class QuickDepth {
  public:
   static constexpr int kCols = 640;                                   // of a depth picture, at most
@@ -65,9 +66,10 @@ class QuickDepth {
   std::optional<Range> range_;
   Range matched_;       // the same and what has come since
   int since_look_ = 0;  // pictures
+  int votes_left_ = 0;  // of the shot, on the eyes
   int lower_ = 0;       // rows of the right view by which it lies too low
   bool one_picture_ = false, swapped_ = false;
-  EyeVotes eyes_;                     // of the shots, older ones less
+  EyeVotes eyes_;                     // of the shots' pictures, those of older shots less
   std::optional<Exposure> exposure_;  // that the right view needs
   ViewPicture left_, right_, small_left_, small_right_;
   QuickMatching matching_;

@@ -85,10 +85,11 @@ void QuickMatching::takeCensus(const std::vector<std::uint8_t>& luma, Census& ce
       const std::uint8_t* const row = &luma[map_.at(0, std::clamp(r + j, 0, map_.rows - 1))];
       for (int i = -kReach; i <= kReach; ++i) {
         if (i == 0 && j == 0) continue;
-        for (int c = 0; c < map_.cols; ++c) {
-          const int x = std::clamp(c + i, 0, map_.cols - 1);
-          out[c] = out[c] << 1 | (row[x] > middle[c] + 2 ? 1U : 0U);
-        }
+        const auto look = [&](int c, int x) { out[c] = out[c] << 1 | (row[x] > middle[c] + 2 ? 1U : 0U); };
+        const int first = std::min(kReach, map_.cols), last = std::max(first, map_.cols - kReach);
+        for (int c = 0; c < first; ++c) look(c, std::clamp(c + i, 0, map_.cols - 1));
+        for (int c = first; c < last; ++c) look(c, c + i);
+        for (int c = last; c < map_.cols; ++c) look(c, std::clamp(c + i, 0, map_.cols - 1));
       }
     }
   }
@@ -182,7 +183,7 @@ void QuickMatching::chooseInRow(int r) {
 void QuickMatching::checkRow(int r) {
   for (int c = 0; c < map_.cols; ++c) {
     const float found = map_.pixels[map_.at(c, r)];
-    const int there = static_cast<int>(std::lround(static_cast<float>(c) - found));
+    const int there = nearest(static_cast<float>(c) - found);
     const bool agrees =
         there >= 0 && there < map_.cols && std::abs(map_.from_right[map_.at(there, r)] - found) <= kAgree;
     map_.seen[map_.at(c, r)] = agrees ? 1 : 0;

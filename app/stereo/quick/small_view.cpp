@@ -24,43 +24,59 @@ struct Places {
   }
 };
 
-// Sums of the codes of each cell of a component, `count` codes each.
-struct Sums {
-  std::vector<std::uint32_t> cells;
-  int count = 1;
+// The sums of the codes of each cell of a component, a row of cells at a time.
+class CellSums {
+ public:
+  CellSums(const Frame& frame, std::size_t component, ViewSize size, int lower)
+      : k_(frame.components[component]),
+        plane_(frame.planes[k_.plane]),
+        across_(partOf(frame.width, shiftOf(frame, component, frame.chroma_shift_x)), size.cols),
+        down_(partOf(frame.height, shiftOf(frame, component, frame.chroma_shift_y)), size.rows,
+              lower >> shiftOf(frame, component, frame.chroma_shift_y)),
+        sums_(static_cast<std::size_t>(size.cols)) {}
+
+  // Codes in a sum.
+  [[nodiscard]] std::uint32_t count() const noexcept { return static_cast<std::uint32_t>(across_.taken * down_.taken); }
+  // Of the row's cells; until the next call.
+  [[nodiscard]] const std::vector<std::uint32_t>& row(int r) {
+    std::ranges::fill(sums_, 0U);
+    for (int i = 0; i < down_.taken; ++i) {
+      const std::ptrdiff_t y = down_.at[static_cast<std::size_t>(r * down_.taken + i)];
+      const std::uint8_t* const from = plane_.data + y * plane_.stride_bytes + k_.offset_bytes;
+      if (k_.bits != 8 || k_.shift != 0) add([&](std::ptrdiff_t x) { return codeAt(k_, from + x * k_.step_bytes); });
+      else if (k_.step_bytes == 1) add([&](std::ptrdiff_t x) { return from[x]; });
+      else add([&](std::ptrdiff_t x) { return from[x * k_.step_bytes]; });
+    }
+    return sums_;
+  }
+
+ private:
+  static int shiftOf(const Frame& frame, std::size_t component, int shift) noexcept {
+    return frame.model == ColorModel::Yuv && component > 0 ? shift : 0;
+  }
+  static int partOf(int samples, int shift) noexcept { return (samples + (1 << shift) - 1) >> shift; }
+  template <class Code>
+  void add(Code&& code) {
+    const int* at = across_.at.data();
+    if (across_.taken == 1) {
+      for (std::uint32_t& sum : sums_) sum += code(*at++);
+    } else if (across_.taken == 2) {
+      for (std::uint32_t& sum : sums_) {
+        sum += code(at[0]) + code(at[1]);
+        at += 2;
+      }
+    } else {
+      for (std::uint32_t& sum : sums_) {
+        for (int i = 0; i < across_.taken; ++i) sum += code(*at++);
+      }
+    }
+  }
+
+  const Component& k_;
+  const Plane& plane_;
+  Places across_, down_;
+  std::vector<std::uint32_t> sums_;
 };
-
-void sumRow(const Component& k, const std::uint8_t* row, const Places& across, std::uint32_t* sums) {
-  const int* at = across.at.data();
-  const std::size_t cells = across.at.size() / static_cast<std::size_t>(across.taken);
-  const bool bytes = k.bits == 8 && k.shift == 0;
-  for (std::size_t c = 0; c < cells; ++c) {
-    for (int i = 0; i < across.taken; ++i, ++at) {
-      const std::uint8_t* sample = row + std::ptrdiff_t{*at} * k.step_bytes;
-      sums[c] += bytes ? *sample : codeAt(k, sample);
-    }
-  }
-}
-
-Sums sumsOf(const Frame& frame, std::size_t component, ViewSize size, int lower) {
-  const Component& k = frame.components[component];
-  const bool chroma = frame.model == ColorModel::Yuv && component > 0;
-  const int shift_x = chroma ? frame.chroma_shift_x : 0, shift_y = chroma ? frame.chroma_shift_y : 0;
-  const Places across((frame.width + (1 << shift_x) - 1) >> shift_x, size.cols);
-  const Places down((frame.height + (1 << shift_y) - 1) >> shift_y, size.rows, lower >> shift_y);
-  Sums sums{std::vector<std::uint32_t>(static_cast<std::size_t>(size.cols) * static_cast<std::size_t>(size.rows)),
-            across.taken * down.taken};
-  const Plane& plane = frame.planes[k.plane];
-  for (int r = 0; r < size.rows; ++r) {
-    for (int i = 0; i < down.taken; ++i) {
-      const std::ptrdiff_t y =
-          down.at[static_cast<std::size_t>(r) * static_cast<std::size_t>(down.taken) + static_cast<std::size_t>(i)];
-      sumRow(k, plane.data + y * plane.stride_bytes + k.offset_bytes, across,
-             sums.cells.data() + static_cast<std::size_t>(r) * static_cast<std::size_t>(size.cols));
-    }
-  }
-  return sums;
-}
 
 std::uint8_t byteOf(float value) {
   return static_cast<std::uint8_t>(std::clamp(value + 0.5F, 0.0F, 255.0F));
@@ -68,32 +84,46 @@ std::uint8_t byteOf(float value) {
 
 // A component of YUV as bytes of full range.
 void takeYuv(const Frame& frame, std::size_t component, ViewSize size, int lower, ViewPicture& into) {
-  const Sums sums = sumsOf(frame, component, size, lower);
+  CellSums sums(frame, component, size, lower);
+  const int bits = frame.components[component].bits;
   const bool limited =
       frame.range == ColorRange::Limited || (frame.model == ColorModel::Yuv && frame.range == ColorRange::Unspecified);
   const bool chroma = component > 0;
-  const float unit = static_cast<float>(1U << (frame.components[component].bits - 8)) * static_cast<float>(sums.count);
+  const float unit = static_cast<float>(1U << (bits - 8)) * static_cast<float>(sums.count());
   const float low = chroma ? 128 * unit : limited ? 16 * unit : 0;
   const float scale = (limited ? 255.0F / (chroma ? 224 : 219) : 1.0F) / unit, base = chroma ? 128 : 0;
-  for (std::size_t i = 0; i < sums.cells.size(); ++i)
-    into.bytes[3 * i + component] = byteOf(base + (static_cast<float>(sums.cells[i]) - low) * scale);
+  const auto byte = [&](std::uint32_t sum) { return byteOf(base + (static_cast<float>(sum) - low) * scale); };
+  std::vector<std::uint8_t> bytes;  // of all sums, where those are few
+  if (bits <= 10) {
+    for (std::uint32_t sum = 0; sum <= sums.count() << bits; ++sum) bytes.push_back(byte(sum));
+  }
+  std::uint8_t* out = into.bytes.data() + component;
+  for (int r = 0; r < size.rows; ++r) {
+    for (const std::uint32_t sum : sums.row(r)) {
+      *out = sum < bytes.size() ? bytes[sum] : byte(sum);
+      out += 3;
+    }
+  }
 }
 
 void takeRgb(const Frame& frame, ViewSize size, int lower, ViewPicture& into) {
-  std::array<Sums, 3> sums;
+  std::array<CellSums, 3> sums{CellSums(frame, 0, size, lower), CellSums(frame, 1, size, lower),
+                               CellSums(frame, 2, size, lower)};
   std::array<float, 3> scale{};
   for (std::size_t k = 0; k < 3; ++k) {
-    sums[k] = sumsOf(frame, k, size, lower);
-    scale[k] = 255.0F / static_cast<float>((1U << frame.components[k].bits) - 1) / static_cast<float>(sums[k].count);
+    scale[k] = 255.0F / static_cast<float>((1U << frame.components[k].bits) - 1) / static_cast<float>(sums[k].count());
   }
-  for (std::size_t i = 0; i < into.size(); ++i) {
-    const float red = static_cast<float>(sums[0].cells[i]) * scale[0],
-                green = static_cast<float>(sums[1].cells[i]) * scale[1],
-                blue = static_cast<float>(sums[2].cells[i]) * scale[2];
-    const float luma = 0.299F * red + 0.587F * green + 0.114F * blue;
-    into.bytes[3 * i] = byteOf(luma);
-    into.bytes[3 * i + 1] = byteOf(128 + 0.564F * (blue - luma));
-    into.bytes[3 * i + 2] = byteOf(128 + 0.713F * (red - luma));
+  std::uint8_t* out = into.bytes.data();
+  for (int r = 0; r < size.rows; ++r) {
+    const auto &reds = sums[0].row(r), &greens = sums[1].row(r), &blues = sums[2].row(r);
+    for (std::size_t c = 0; c < reds.size(); ++c, out += 3) {
+      const float red = static_cast<float>(reds[c]) * scale[0], green = static_cast<float>(greens[c]) * scale[1],
+                  blue = static_cast<float>(blues[c]) * scale[2];
+      const float luma = 0.299F * red + 0.587F * green + 0.114F * blue;
+      out[0] = byteOf(luma);
+      out[1] = byteOf(128 + 0.564F * (blue - luma));
+      out[2] = byteOf(128 + 0.713F * (red - luma));
+    }
   }
 }
 

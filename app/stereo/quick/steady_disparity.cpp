@@ -17,6 +17,10 @@ constexpr int kInferred = 3;           // seen pictures that an inferred dispari
 constexpr int kBeside = 3;             // pixels on each side that tell which surface both views show
 constexpr int kPlainly = 2;            // levels a pixel by which the other surface must fit better
 
+bool isNear(float a, float b) noexcept {
+  return std::abs(a - b) < kSurface;
+}
+
 }  // namespace
 
 void SteadyDisparity::steady(DisparityMap& map, const ViewPicture& left, const ViewPicture& right) {
@@ -27,8 +31,9 @@ void SteadyDisparity::steady(DisparityMap& map, const ViewPicture& left, const V
   GrayPicture now = scaledTo(cols, rows, left_luma_.data(), map.cols, map.rows);
   const bool goes_on =
       before_ && before_->cols == now.cols && before_->rows == now.rows && disparity_.size() == map.size();
-  was_.assign(map.size(), {});
   if (goes_on) follow(map, now);
+  else was_.assign(map.size(), {});
+  findChanges(map);
   average(map);
   before_ = std::move(now);
   left_before_.swap(left_);
@@ -39,36 +44,46 @@ void SteadyDisparity::follow(DisparityMap& map, const GrayPicture& now) {
   const std::vector<Motion> motion =
       before_->bytes == now.bytes ? std::vector<Motion>(now.size()) : motionBetween(*before_, now);
   const float scale = static_cast<float>(map.cols) / static_cast<float>(now.cols);
+  std::vector<int> columns;
+  for (int c = 0; c < map.cols; ++c) columns.push_back(c * now.cols / map.cols);
+  was_.resize(map.size());
   findStill(map);
   for (int r = 0; r < map.rows; ++r) {
     const int y = std::min(r * now.rows / map.rows, now.rows - 1);
     const Motion* const row = &motion[static_cast<std::size_t>(y) * static_cast<std::size_t>(now.cols)];
     for (int c = 0; c < map.cols; ++c) {
       const std::size_t i = map.at(c, r);
-      const Motion& v = row[c * now.cols / map.cols];
-      const Was still{still_[i] != 0, disparity_[i], age_[i], strays_[i]};
-      const auto agrees = [&](const Was& was) {
-        return was.same && std::abs(map.pixels[i] - was.disparity) < kSurface;
-      };
-      if (agrees(still) || v == Motion{}) {
-        was_[i] = still;
-      } else {
+      Was& was = was_[i];
+      was.disparity = disparity_[i];
+      was.age = age_[i];
+      was.strays = strays_[i];
+      was.same = still_[i] != 0;
+      was.moved = false;
+      const Motion& v = row[columns[static_cast<std::size_t>(c)]];
+      if (!agrees(map, i) && !(v == Motion{})) {
+        const bool stays = was.same;
         const Was moved = movedTo(map, c, r, {v.x * scale, v.y * scale});
-        was_[i] = still.same && !agrees(moved) ? still : moved;
-        was_[i].moved = !still.same;
+        if (!stays || (moved.same && isNear(map.pixels[i], moved.disparity))) was = moved;
+        was.moved = !stays;
       }
-      if (was_[i].same) choose(map, c, r, was_[i]);
+      if (agrees(map, i)) was.strays = 0;
+      else if (was.same) choose(map, c, r, was);
     }
   }
 }
 
+// It shows the same as before and has the same surface.
+bool SteadyDisparity::agrees(const DisparityMap& map, std::size_t i) const noexcept {
+  return was_[i].same && isNear(map.pixels[i], was_[i].disparity);
+}
+
 SteadyDisparity::Was SteadyDisparity::movedTo(const DisparityMap& map, int c, int r, const Motion& motion) const {
   const float x = static_cast<float>(c) + motion.x, y = static_cast<float>(r) + motion.y;
-  const int dx = static_cast<int>(std::lround(motion.x)), dy = static_cast<int>(std::lround(motion.y));
+  const int dx = nearest(motion.x), dy = nearest(motion.y);
   if (x < 0 || y < 0 || x > static_cast<float>(map.cols - 1) || y > static_cast<float>(map.rows - 1)) return {};
   if (!showsTheSame(map, c, r, dx, dy)) return {};
-  const std::size_t nearest = map.at(std::clamp(c + dx, 0, map.cols - 1), std::clamp(r + dy, 0, map.rows - 1));
-  Was was{true, disparity_[nearest], age_[nearest], strays_[nearest]};
+  const std::size_t there = map.at(std::clamp(c + dx, 0, map.cols - 1), std::clamp(r + dy, 0, map.rows - 1));
+  Was was{disparity_[there], age_[there], strays_[there], true};
   const int i = std::min(static_cast<int>(x), map.cols - 2), j = std::min(static_cast<int>(y), map.rows - 2);
   const float u = x - static_cast<float>(i), v = y - static_cast<float>(j);
   const float* const p = &disparity_[map.at(i, j)];
@@ -79,7 +94,15 @@ SteadyDisparity::Was SteadyDisparity::movedTo(const DisparityMap& map, int c, in
 }
 
 bool SteadyDisparity::showsTheSame(const DisparityMap& map, int c, int r, int dx, int dy) const {
+  const bool inside =
+      std::min({r, r + dy, c, c + dx}) > 0 && std::max(r, r + dy) + 1 < map.rows && std::max(c, c + dx) + 1 < map.cols;
   int sum = 0, count = 0;
+  for (int y = -1; inside && y <= 1; ++y) {
+    const std::uint8_t* const a = &left_[3 * map.at(c - 1, r + y)];
+    const std::uint8_t* const b = &left_before_[3 * map.at(c - 1 + dx, r + y + dy)];
+    for (int i = 0; i < 9; ++i) sum += std::abs(a[i] - b[i]);
+  }
+  if (inside) return sum < 9 * kSameColor;
   for (int y = std::max({r - 1, 0, -dy}); y <= std::min({r + 1, map.rows - 1, map.rows - 1 - dy}); ++y) {
     for (int x = std::max({c - 1, 0, -dx}); x <= std::min({c + 1, map.cols - 1, map.cols - 1 - dx}); ++x, ++count) {
       sum += unlikeness(&left_[3 * map.at(x, y)], &left_before_[3 * map.at(x + dx, y + dy)]);
@@ -117,10 +140,6 @@ void SteadyDisparity::findStill(const DisparityMap& map) {
 // longer; what moves is not kept against what was seen now, since beside its edge lies something else.
 void SteadyDisparity::choose(DisparityMap& map, int c, int r, Was& was) const {
   const std::size_t i = map.at(c, r);
-  if (std::abs(map.pixels[i] - was.disparity) < kSurface) {
-    was.strays = 0;
-    return;
-  }
   if (map.seen[i] != 0) ++was.strays;
   const bool given_up = was.strays >= (was.moved ? 1 : std::min(was.age, kPatience));
   const bool plainly =
@@ -131,7 +150,7 @@ void SteadyDisparity::choose(DisparityMap& map, int c, int r, Was& was) const {
 
 // Levels a pixel between the left view around a pixel and the right one at that disparity.
 int SteadyDisparity::misfit(const DisparityMap& map, int c, int r, float disparity) const {
-  const int away = static_cast<int>(std::lround(disparity));
+  const int away = nearest(disparity);
   int sum = 0, count = 0;
   for (int y = std::max(r - kBeside, 0); y <= std::min(r + kBeside, map.rows - 1); ++y) {
     for (int x = std::max({c - kBeside, 0, away}); x <= std::min({c + kBeside, map.cols - 1, map.cols - 1 + away});
@@ -143,9 +162,17 @@ int SteadyDisparity::misfit(const DisparityMap& map, int c, int r, float dispari
   return count > 0 ? sum / count : 255;
 }
 
-void SteadyDisparity::average(DisparityMap& map) {
-  const auto [lowest, highest] = std::ranges::minmax(map.pixels);
-  towards_.begin(map.cols, map.rows, lowest, highest);
+// What comes nearer or goes away over an area.
+void SteadyDisparity::findChanges(const DisparityMap& map) {
+  std::vector<float> least(map.pixels.begin(), map.pixels.begin() + map.cols), most = least;  // of the columns
+  for (int r = 1; r < map.rows; ++r) {
+    const float* const row = &map.pixels[map.at(0, r)];
+    for (std::size_t c = 0; c < least.size(); ++c) {
+      least[c] = std::min(least[c], row[c]);
+      most[c] = std::max(most[c], row[c]);
+    }
+  }
+  towards_.begin(map.cols, map.rows, std::ranges::min(least), std::ranges::max(most));
   for (int r = 0; r < map.rows; ++r) {
     for (int c = 0; c < map.cols; ++c) {
       const std::size_t i = map.at(c, r);
@@ -154,25 +181,31 @@ void SteadyDisparity::average(DisparityMap& map) {
     }
   }
   towards_.smooth();
+}
+
+void SteadyDisparity::average(DisparityMap& map) {
   age_.resize(map.size());
   strays_.resize(map.size());
+  disparity_.resize(map.size());
   for (int r = 0; r < map.rows; ++r) {
-    for (int c = 0; c < map.cols; ++c) {
-      const std::size_t i = map.at(c, r);
-      const Was& was = was_[i];
-      int age = was.age + (map.seen[i] != 0 ? 1 : 0);  // an inferred disparity tells little
-      if (was.same) {
-        const MotionGrid::Change change = towards_.at(c, r, map.pixels[i]);
+    const Was* was = &was_[map.at(0, r)];
+    const std::uint8_t* seen = &map.seen[map.at(0, r)];
+    float *pixels = &map.pixels[map.at(0, r)], *kept = &disparity_[map.at(0, r)];
+    std::uint8_t *ages = &age_[map.at(0, r)], *strays = &strays_[map.at(0, r)];
+    for (int c = 0; c < map.cols; ++c, ++was, ++seen, ++pixels) {
+      int age = was->age + (*seen != 0 ? 1 : 0);  // an inferred disparity tells little
+      if (was->same) {
+        const MotionGrid::Change change = towards_.at(c, r, *pixels);
         age = std::min(age, static_cast<int>(kMemory * change.stillness));
-        const int weight = map.seen[i] != 0 ? std::max(age, 1) : age + kInferred;
-        const float moved = was.disparity + change.pixels;
-        map.pixels[i] = moved + (map.pixels[i] - moved) / static_cast<float>(weight);
+        const int weight = *seen != 0 ? std::max(age, 1) : age + kInferred;
+        const float moved = was->disparity + change.pixels;
+        *pixels = moved + (*pixels - moved) / static_cast<float>(weight);
       }
-      age_[i] = static_cast<std::uint8_t>(age);
-      strays_[i] = was.strays;
+      *kept++ = *pixels;
+      *ages++ = static_cast<std::uint8_t>(age);
+      *strays++ = was->strays;
     }
   }
-  disparity_ = map.pixels;
 }
 
 }  // namespace relievo

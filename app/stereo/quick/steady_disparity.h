@@ -28,18 +28,19 @@ class SteadyDisparity {
  private:
   // What a pixel had in the picture before.
   struct Was {
-    bool same = false;
     float disparity = 0;
     std::uint8_t age = 0, strays = 0;
-    bool moved = false;
+    bool same = false, moved = false;
   };
 
   void follow(DisparityMap& map, const GrayPicture& now);
+  [[nodiscard]] bool agrees(const DisparityMap& map, std::size_t i) const noexcept;
   [[nodiscard]] Was movedTo(const DisparityMap& map, int c, int r, const Motion& motion) const;
   void findStill(const DisparityMap& map);
   [[nodiscard]] bool showsTheSame(const DisparityMap& map, int c, int r, int dx, int dy) const;
   void choose(DisparityMap& map, int c, int r, Was& was) const;
   [[nodiscard]] int misfit(const DisparityMap& map, int c, int r, float disparity) const;
+  void findChanges(const DisparityMap& map);
   void average(DisparityMap& map);
 
   std::optional<GrayPicture> before_;             // small, in which motion is looked for

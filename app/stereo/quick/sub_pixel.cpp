@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 namespace relievo {
 namespace {
@@ -21,13 +23,46 @@ void lumaOf(const ViewPicture& view, std::vector<float>& luma) {
   for (std::size_t i = 0; i < luma.size(); ++i) luma[i] = static_cast<float>(*view.pixel(i));
 }
 
+// Calls take(k) for k = -Reach .. Reach, each known when this is compiled: the loop around it is made of vectors.
+template <int Reach, class Take>
+void aroundEach(Take&& take) {
+  [&]<int... k>(std::integer_sequence<int, k...>) {
+    (take(std::ptrdiff_t{k - Reach}), ...);
+  }(std::make_integer_sequence<int, 2 * Reach + 1>());
+}
+
+// The sum of the values up to kReach away on each side; there are so many more of them.
+void sumAlong(const std::vector<float>& values, float* __restrict sums, std::size_t count) {
+  const float* const from = values.data() + kReach;
+  for (std::size_t i = 0; i < count; ++i) {
+    float sum = 0;
+    aroundEach<kReach>([&](std::ptrdiff_t k) { sum += *(from + i + k); });
+    sums[i] = sum;
+  }
+}
+
+// The mean of the values near each one that lie on its surface.
+void meansOf(const float* from, std::ptrdiff_t stride, int count, float surface, float* __restrict to) {
+  for (int c = 0; c < count; ++c) {
+    const float here = from[c];
+    float sum = 0, weights = 0;
+    aroundEach<kNear>([&](std::ptrdiff_t k) {
+      const float near = from[c + k * stride];
+      const float left = surface - std::abs(near - here), weight = left + std::abs(left);  // none without a branch
+      sum += weight * near;
+      weights += weight;
+    });
+    to[c] = sum / weights;
+  }
+}
+
 }  // namespace
 
 void SubPixel::refine(DisparityMap& map, const ViewPicture& left, const ViewPicture& right) {
   lumaOf(left, left_);
   lumaOf(right, right_);
-  slopes_.resize(map.size());
-  misfits_.resize(map.size());
+  slopes_.assign(map.size(), 0);
+  misfits_.assign(map.size(), 0);
   smooth(map, true, kTerrace);
   smooth(map, false, kTerrace);
   for (int i = 0; i < kRounds; ++i) {
@@ -38,82 +73,86 @@ void SubPixel::refine(DisparityMap& map, const ViewPicture& left, const ViewPict
   }
 }
 
-// Each pixel with what the right view has at its disparity.
+// Each pixel with what the right view has at its disparity: first what is there, then by how much it differs.
 void SubPixel::compare(const DisparityMap& map, int r) {
   const float* const left = &left_[map.at(0, r)];
   const float* const right = &right_[map.at(0, r)];
-  for (int c = 0; c < map.cols; ++c) {
-    const std::size_t i = map.at(c, r);
-    const float x = static_cast<float>(c) - map.pixels[i];
-    slopes_[i] = misfits_[i] = 0;
-    if (map.seen[i] == 0 || c == 0 || c + 1 == map.cols || x < 1 || x >= static_cast<float>(map.cols - 2)) continue;
-    const int whole = static_cast<int>(x);
-    const float rest = x - static_cast<float>(whole);
+  const float* const found = &map.pixels[map.at(0, r)];
+  const std::uint8_t* const seen = &map.seen[map.at(0, r)];
+  const auto cols = static_cast<std::size_t>(map.cols);
+  if (cols < 4) return;
+  const auto last = static_cast<float>(map.cols - 2);
+  shown_.resize(cols);
+  slopes_there_.resize(cols);
+  told_.assign(cols, 0);
+  for (std::size_t c = 1; c + 1 < cols; ++c) {
+    const float x = static_cast<float>(c) - found[c];
+    const bool told = seen[c] != 0 && x >= 1 && x < last;
+    const float place = told ? x : 1;
+    const int whole = static_cast<int>(place);
+    const float rest = place - static_cast<float>(whole);
     const float* const there = right + whole;
-    const float shown = there[0] + rest * (there[1] - there[0]);
-    const float slope_there = (1 - rest) * (there[1] - there[-1]) + rest * (there[2] - there[0]);
-    const float slope = 0.25F * (slope_there + left[c + 1] - left[c - 1]);  // of both views
-    const float misfit = left[c] - shown;
-    const float weight = kWild * kWild / (kWild * kWild + misfit * misfit);
-    slopes_[i] = weight * slope * slope;
-    misfits_[i] = weight * slope * misfit;
+    shown_[c] = there[0] + rest * (there[1] - there[0]);
+    slopes_there_[c] = (1 - rest) * (there[1] - there[-1]) + rest * (there[2] - there[0]);
+    told_[c] = told ? 1.0F : 0.0F;
+  }
+  float* const slopes = &slopes_[map.at(0, r)];
+  float* const misfits = &misfits_[map.at(0, r)];
+  const float *const shown = shown_.data(), *const slopes_there = slopes_there_.data(), *const told = told_.data();
+  for (std::size_t c = 1; c + 1 < cols; ++c) {
+    const float slope = 0.25F * (slopes_there[c] + left[c + 1] - left[c - 1]);  // of both views
+    const float misfit = left[c] - shown[c];
+    const float weight = told[c] * (kWild * kWild / (kWild * kWild + misfit * misfit));
+    slopes[c] = weight * slope * slope;
+    misfits[c] = weight * slope * misfit;
   }
 }
 
 // Sums over squares around each pixel, by those of columns.
 void SubPixel::step(DisparityMap& map) {
   const auto cols = static_cast<std::size_t>(map.cols);
-  column_slopes_.assign(cols, 0);
-  column_misfits_.assign(cols, 0);
+  column_slopes_.assign(cols + 2 * kReach, 0);
+  column_misfits_.assign(cols + 2 * kReach, 0);
+  slope_sums_.resize(cols);
+  misfit_sums_.resize(cols);
   const auto add = [&](int r, float sign) {
     if (r < 0 || r >= map.rows) return;
+    float *const slopes = &column_slopes_[kReach], *const misfits = &column_misfits_[kReach];
+    const float *const slopes_here = &slopes_[map.at(0, r)], *const misfits_here = &misfits_[map.at(0, r)];
     for (std::size_t c = 0; c < cols; ++c) {
-      column_slopes_[c] += sign * slopes_[map.at(0, r) + c];
-      column_misfits_[c] += sign * misfits_[map.at(0, r) + c];
+      slopes[c] += sign * slopes_here[c];
+      misfits[c] += sign * misfits_here[c];
     }
   };
   for (int r = 0; r < kReach; ++r) add(r, 1);
   for (int r = 0; r < map.rows; ++r) {
     add(r + kReach, 1);
     add(r - kReach - 1, -1);
-    float slope = 0, misfit = 0;
-    for (int c = -kReach; c < map.cols; ++c) {
-      if (c + kReach < map.cols) {
-        slope += *(column_slopes_.data() + c + kReach);
-        misfit += *(column_misfits_.data() + c + kReach);
-      }
-      if (c > kReach) {
-        slope -= *(column_slopes_.data() + c - kReach - 1);
-        misfit -= *(column_misfits_.data() + c - kReach - 1);
-      }
-      if (c < 0 || map.seen[map.at(c, r)] == 0) continue;
-      map.pixels[map.at(c, r)] -= std::clamp(misfit / (slope + kFlat), -kFarthest, kFarthest);
+    sumAlong(column_slopes_, slope_sums_.data(), cols);
+    sumAlong(column_misfits_, misfit_sums_.data(), cols);
+    float* const pixels = &map.pixels[map.at(0, r)];
+    const std::uint8_t* const seen = &map.seen[map.at(0, r)];
+    const float *const slopes = slope_sums_.data(), *const misfits = misfit_sums_.data();
+    for (std::size_t c = 0; c < cols; ++c) {
+      const float change = std::clamp(misfits[c] / (slopes[c] + kFlat), -kFarthest, kFarthest);
+      pixels[c] -= seen[c] != 0 ? change : 0;
     }
   }
 }
 
-// Along rows, or down columns.
+// Along rows, or down columns; beside the picture's border there is nothing to take a mean of.
 void SubPixel::smooth(DisparityMap& map, bool across, float surface) {
-  smoothed_ = map.pixels;
+  smoothed_.resize(map.size());
   const std::ptrdiff_t stride = across ? 1 : map.cols;
   const int margin_c = across ? kNear : 0, margin_r = across ? 0 : kNear;
-  for (int r = margin_r; r < map.rows - margin_r; ++r) {
-    const float* const from = &map.pixels[map.at(margin_c, r)];
-    float* const to = &smoothed_[map.at(margin_c, r)];
-    const int count = map.cols - 2 * margin_c;
-    sums_.assign(static_cast<std::size_t>(count), 0);
-    weights_.assign(static_cast<std::size_t>(count), 0);
-    float* const sums = sums_.data();
-    float* const weights = weights_.data();
-    for (int k = -kNear; k <= kNear; ++k) {  // a neighbour at a time, for all of the row
-      const float* const near = from + k * stride;
-      for (int c = 0; c < count; ++c) {
-        const float weight = std::max(0.0F, surface - std::abs(near[c] - from[c]));
-        sums[c] += weight * near[c];
-        weights[c] += weight;
-      }
-    }
-    for (int c = 0; c < count; ++c) to[c] = sums[c] / weights[c];
+  for (int r = 0; r < map.rows; ++r) {
+    const float* const row = &map.pixels[map.at(0, r)];
+    float* const to = &smoothed_[map.at(0, r)];
+    const int first = r < margin_r || r >= map.rows - margin_r ? map.cols : std::min(margin_c, map.cols);
+    const int last = std::max(first, map.cols - margin_c);
+    std::copy(row, row + first, to);
+    meansOf(row + first, stride, last - first, surface, to + first);
+    std::copy(row + last, row + map.cols, to + last);
   }
   map.pixels.swap(smoothed_);
 }

@@ -23,9 +23,11 @@ class SubPixel {
   void smooth(DisparityMap& map, bool across, float surface);
 
   std::vector<float> left_, right_;
-  std::vector<float> slopes_, misfits_;  // sums of squares of the slope, and of slope times misfit
-  std::vector<float> column_slopes_, column_misfits_;
-  std::vector<float> smoothed_, sums_, weights_;  // the last two of a row
+  std::vector<float> slopes_, misfits_;                // sums of squares of the slope, and of slope times misfit
+  std::vector<float> column_slopes_, column_misfits_;  // kReach more on each side
+  std::vector<float> smoothed_;
+  std::vector<float> shown_, slopes_there_, told_;  // of a row, in the right view; told_: 1 or 0
+  std::vector<float> slope_sums_, misfit_sums_;     // of a row
 };
 
 }  // namespace relievo

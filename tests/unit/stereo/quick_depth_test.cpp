@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "app/stereo/eye_order.h"
 #include "app/stereo/quick/row_shift.h"
 #include "app/stereo/quick/small_view.h"
 #include "tests/support/film/two_views.h"
@@ -141,7 +142,6 @@ TEST(QuickDepth, ViewsInTheWrongOrderAreMatchedInTheRightOne) {
   QuickDepth quick;
   quick.setMatchedCols(320);
   const Frame depth = quick.depthOf(scene.right(), scene.left());
-  EXPECT_TRUE(quick.areSwapped());
   const auto& board = scene.boards[2];
   const int middle = static_cast<int>(0.5 * (board.left + board.right) - board.disparity);
   const double near = codeOf(depth, middle, 170);
@@ -152,6 +152,56 @@ TEST(QuickDepth, ViewsInTheWrongOrderAreMatchedInTheRightOne) {
   QuickDepth in_order;
   static_cast<void>(in_order.depthOf(scene.left(), scene.right()));
   EXPECT_FALSE(in_order.areSwapped());
+}
+
+// A shot that begins with nothing before its wall: what comes later tells.
+TEST(QuickDepth, ViewsInTheWrongOrderAreToldByALaterPictureOfTheShot) {
+  const TwoViews scene = boards(kCols, kRows);
+  TwoViews wall = scene;
+  wall.boards.resize(1);
+  const Frame wall_left = wall.left(), wall_right = wall.right(), left = scene.left(), right = scene.right();
+  QuickDepth quick, in_order;
+  Frame depth;
+  for (int i = 0; i < 6; ++i) {
+    depth = i < 3 ? quick.depthOf(wall_right, wall_left) : quick.depthOf(right, left);
+    static_cast<void>(i < 3 ? in_order.depthOf(wall_left, wall_right) : in_order.depthOf(left, right));
+    EXPECT_EQ(quick.areSwapped(), i >= 4) << i;
+  }
+  EXPECT_FALSE(in_order.areSwapped());
+  const auto& board = scene.boards[2];
+  const int begin = static_cast<int>(board.left - board.disparity),
+            end = static_cast<int>(board.right - board.disparity);
+  const double near = codeOf(depth, (begin + end) / 2, 170);
+  EXPECT_GT(near, codeOf(depth, begin - 8, 170) + 10000);
+  EXPECT_GT(near, codeOf(depth, end + 8, 170) + 10000);
+}
+
+// One row: a dark side at disparity 0, a bright one at 6, and six pixels between them that one eye alone sees.
+EyeVotes votesOn(int dark_of_run, float uneven = 0) {
+  constexpr int kWidth = 40, kRun = 16, kEnd = 22;
+  ViewPicture left(kWidth, 1);
+  DisparityMap map(kWidth, 1);
+  for (int c = 0; c < kWidth; ++c) {
+    std::fill_n(left.pixel(left.indexOf(c, 0)), 3, c < kRun + dark_of_run ? std::uint8_t{60} : std::uint8_t{180});
+    map.pixels[map.at(c, 0)] = c < kRun ? 0.0F : 6.0F;
+    map.seen[map.at(c, 0)] = c < kRun || c >= kEnd ? 1 : 0;
+  }
+  map.pixels[map.at(kRun - 3, 0)] = uneven;
+  return voteOnEyes(map, left);
+}
+
+TEST(EyeOrder, WhatOneEyeAloneSeesVotesForTheSideThatItIsLike) {
+  EXPECT_EQ(votesOn(6).in_order, 6U);
+  EXPECT_EQ(votesOn(6).swapped, 0U);
+  EXPECT_EQ(votesOn(0).in_order, 0U);
+  EXPECT_EQ(votesOn(0).swapped, 6U);
+}
+
+TEST(EyeOrder, WhatIsLikeBothSidesOrLiesBesideAnUnevenOneDoesNotVote) {
+  for (const EyeVotes& votes : {votesOn(3), votesOn(6, 3), votesOn(0, 3)}) {
+    EXPECT_EQ(votes.in_order, 0U);
+    EXPECT_EQ(votes.swapped, 0U);
+  }
 }
 
 // A film of one view in both halves, as another encoder leaves them; a shot with depth after it has depth.
