@@ -213,7 +213,7 @@ TouchPlan planTouch(const ClipMeasure& m, const LookAhead& ahead) {
   const auto apart = [&](double w, int read) {
     const double block = w / kSigmaPerPitch, across = block / m.sample_mm;
     if (across <= read) return m.sample_mm;
-    const double down = m.whole_rows ? std::max<double>(SampledBlock::kFewestRows, read * read / across) : read;
+    const double down = m.whole_rows ? std::max<double>(SampledBlock::fewestRows(across), read * read / across) : read;
     return block / std::sqrt((m.whole_rows ? across : read) * down);
   };
   // The error of the force's direction is the error of the slope.

@@ -18,7 +18,7 @@ SampledBlock::Places::Places(int length, int most) RELIEVO_RT : count(length) {
 }
 
 SampledBlock SampledBlock::ofWholeRows(int block_width, int block_height, int most) RELIEVO_RT {
-  const int rows = std::max(std::min(most, kFewestRows), (most * most + block_width - 1) / block_width);
+  const int rows = std::max(std::min(most, fewestRows(block_width)), (most * most + block_width - 1) / block_width);
   SampledBlock block(block_width, block_height, rows);
   block.across = Places(block_width, block_width);
   return block;

@@ -26,7 +26,9 @@ struct SampledBlock {
                                                                          height(block_height),
                                                                          across(block_width, most),
                                                                          down(block_height, most) {}
-  static constexpr int kFewestRows = 6;  // fewer would hit the same height of the steps on too many slopes
+  // Of a block of whole rows: fewer would hit the same height of the steps on too many slopes. A row of a wide block
+  // crosses more steps by itself.
+  [[nodiscard]] static constexpr int fewestRows(double block_width) RELIEVO_RT { return block_width < 64 ? 6 : 4; }
   [[nodiscard]] static SampledBlock ofWholeRows(int block_width, int block_height, int most) RELIEVO_RT;
 };
 

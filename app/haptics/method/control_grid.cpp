@@ -215,6 +215,16 @@ void ControlGrid::weighted(const Heights& of_points, int i0, int j0, const Frame
   }
 }
 
+// Prefetches the samples that `complete` will read.
+void ControlGrid::prefetchPoint(int i, int j, const Frames& frames) const RELIEVO_RT {
+  prefetchRow(i, 1, j, frames);
+  if (bend_ == 0) return;
+  for (const int side : {-1, 1}) {
+    if (slotsMissing(i + side, j, frames) != 0) prefetchRow(i + side, 1, j, frames);
+    if (slotsMissing(i, j + side, frames) != 0) prefetchRow(i, 1, j + side, frames);
+  }
+}
+
 void ControlGrid::readAhead(int i0, int j0, const Frames& frames, int most) RELIEVO_RT {
   if (ahead_ == Place{i0, j0, frames.wanted}) return;
   constexpr int kFarthest = kSide - 6;  // beyond, a point would take the place of one of the last patch or its rim
@@ -224,6 +234,9 @@ void ControlGrid::readAhead(int i0, int j0, const Frames& frames, int most) RELI
   for (int j = j0; j < j0 + 4; ++j) {
     for (int i = i0; i < i0 + 4; ++i) {
       if (blocks_read_ >= until) return;
+      const std::size_t p = slotOf(i, j);
+      if (i_[p] == i && j_[p] == j && (frames.wanted & ~std::uint32_t{complete_[p]}) == 0) continue;
+      prefetchPoint(i, j, frames);
       complete(i, j, frames);
     }
   }

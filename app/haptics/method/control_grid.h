@@ -104,6 +104,7 @@ class ControlGrid {
   void complete(int i, int j, const Frames& frames) RELIEVO_RT;
   void keepCurvature(std::size_t point, const std::array<std::size_t, 4>& around, std::uint32_t missing) RELIEVO_RT;
   [[nodiscard]] std::uint32_t slotsMissing(int i, int j, const Frames& frames) const RELIEVO_RT;
+  void prefetchPoint(int i, int j, const Frames& frames) const RELIEVO_RT;
   void prefetchRow(int i0, int count, int j, const Frames& frames) const RELIEVO_RT;
   void read(std::size_t point, const Frames& frames, std::uint32_t missing) RELIEVO_RT;
   [[nodiscard]] double meanOrBridged(const HeightField& field, int c, int r,

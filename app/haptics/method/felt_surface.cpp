@@ -158,14 +158,30 @@ RELIEVO_TICK_CODE double FeltSurface::height(double x_mm, double y_mm) RELIEVO_R
   return std::abs(w - n) <= kWideAlone * scale_.clamp_mm ? w : n + SoftClamp(w - n, scale_.clamp_mm).value;
 }
 
+// The sample whose place this is; false outside the picture.
+bool FeltSurface::sampleAt(double x_mm, double y_mm, int& c, int& r) const RELIEVO_RT {
+  const GridMapping& grid = slots_.window->frames[present_].field.grid();
+  const double u = grid.u(x_mm) + 0.5, v = grid.v(y_mm) + 0.5;
+  if (!(u >= 0 && u < cols_ && v >= 0 && v < rows_)) return false;
+  c = static_cast<int>(u);
+  r = static_cast<int>(v);
+  return true;
+}
+
 double FeltSurface::lowestSample(double x_mm, double y_mm) const RELIEVO_RT {
-  const HeightField& now = slots_.window->frames[present_].field;
-  const HeightField& next = slots_.window->frames[next_].field;
-  const double u = now.grid().u(x_mm) + 0.5, v = now.grid().v(y_mm) + 0.5;
-  if (!(u >= 0 && u < cols_ && v >= 0 && v < rows_)) return -depth_mm_;
-  const int c = static_cast<int>(u), r = static_cast<int>(v);
-  const double here = now.heightMm(c, r), there = next.heightMm(c, r);
+  int c, r;
+  if (!sampleAt(x_mm, y_mm, c, r)) return -depth_mm_;
+  const double here = slots_.window->frames[present_].field.heightMm(c, r);
+  const double there = slots_.window->frames[next_].field.heightMm(c, r);
   return std::isnan(here) || std::isnan(there) ? -depth_mm_ : std::min(here, there);
+}
+
+RELIEVO_TICK_CODE void FeltSurface::prefetchSample(double x_mm, double y_mm) const RELIEVO_RT {
+  int c, r;
+  if (!sampleAt(x_mm, y_mm, c, r)) return;
+  constexpr SampledBlock kOne;
+  slots_.window->frames[present_].field.prefetch(c, r, 1, kOne);
+  slots_.window->frames[next_].field.prefetch(c, r, 1, kOne);
 }
 
 // Measures the edge again for each new frame, and when the finger has moved so far that another edge may be near, at a

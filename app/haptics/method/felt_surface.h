@@ -38,6 +38,8 @@ class FeltSurface {
   // The nearest unsmoothed sample: the lower of the present frame's and the next one's. Reads two samples where the
   // smooth surface needs hundreds. Below everything at a hole or outside the picture.
   [[nodiscard]] double lowestSample(double x_mm, double y_mm) const RELIEVO_RT;
+  // Prefetches those two samples.
+  void prefetchSample(double x_mm, double y_mm) const RELIEVO_RT;
 
   // Half the narrow pitch: a path sampled this densely misses no crest of the surface.
   [[nodiscard]] double sampleMm() const RELIEVO_RT { return sample_mm_; }
@@ -63,6 +65,7 @@ class FeltSurface {
   void prefetch() const RELIEVO_RT;
 
  private:
+  [[nodiscard]] bool sampleAt(double x_mm, double y_mm, int& c, int& r) const RELIEVO_RT;
   [[nodiscard]] SurfacePoint narrowAt(double x_mm, double y_mm) RELIEVO_RT;
   void followEdge(const SurfaceWindow& window, MediaTime next, const FrameMoment& moment, double x_mm,
                   double y_mm) RELIEVO_RT;

@@ -162,15 +162,17 @@ void RelievoMethod::upkeep(const SurfaceWindow& window, MediaTime now) RELIEVO_R
     now_ = now;
     return;
   }
-  if (offTheEdge()) {
+  if (state_ == State::Contact) surface_.prefetchSample(hip_mm_.x, hip_mm_.y);
+  const glm::dvec2 here = state_ == State::Contact ? glm::dvec2(contact_.x_mm, contact_.y_mm) : glm::dvec2(hip_mm_);
+  const glm::dvec2 mm_per_s = step > Duration(0) ? (ahead_mm_ - here) / toSeconds(step) : glm::dvec2(0);
+  surface_.prepare(window, now + step, ahead_mm_.x, ahead_mm_.y, mm_per_s);
+  if (offTheEdge(window, now)) {
     state_ = State::Free;
     spring_.release();
     force_n_ = {};
     ahead_mm_ = {hip_mm_.x, hip_mm_.y};
+    surface_.prepare(window, now + step, ahead_mm_.x, ahead_mm_.y);
   }
-  const glm::dvec2 here = state_ == State::Contact ? glm::dvec2(contact_.x_mm, contact_.y_mm) : glm::dvec2(hip_mm_);
-  const glm::dvec2 mm_per_s = step > Duration(0) ? (ahead_mm_ - here) / toSeconds(step) : glm::dvec2(0);
-  surface_.prepare(window, now + step, ahead_mm_.x, ahead_mm_.y, mm_per_s);
   if (spring_.sticks() && surface_.moveTo(window, now + step)) spring_.prepare(surface_);
   now_ = now;
 }
@@ -203,8 +205,9 @@ void RelievoMethod::enterScene(const glm::dvec3& hip_mm) RELIEVO_RT {
 // A finger that left through a wall is off the edge above it, but a hollow in the noise may still hold its proxy up
 // there. No ridge separates them if nothing on the path to the finger rises above the proxy by more than the noise that
 // the surface passes.
-bool RelievoMethod::offTheEdge() RELIEVO_RT {
+bool RelievoMethod::offTheEdge(const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
   if (state_ != State::Contact || surface_.lowestSample(hip_mm_.x, hip_mm_.y) - lowered_mm_ >= hip_mm_.z) return false;
+  if (!surface_.moveTo(window, now)) return false;
   const glm::dvec2 from(contact_.x_mm, contact_.y_mm);
   const glm::dvec2 way(hip_mm_.x - from.x, hip_mm_.y - from.y);
   const double length = glm::length(way);

@@ -73,7 +73,7 @@ class RelievoMethod final : public TouchMethod {
   void foresee(const glm::dvec3& hip_mm, const Contact& before, bool continues) RELIEVO_RT;
   void enterScene(const glm::dvec3& hip_mm) RELIEVO_RT;
   void slide(const glm::dvec3& hip_mm, SlideUntil until) RELIEVO_RT;
-  [[nodiscard]] bool offTheEdge() RELIEVO_RT;
+  [[nodiscard]] bool offTheEdge(const SurfaceWindow& window, MediaTime now) RELIEVO_RT;
   [[nodiscard]] bool enterOnPath(const glm::dvec3& from_mm, const glm::dvec3& hip_mm) RELIEVO_RT;
   void follow(glm::dvec3 from_mm, const glm::dvec3& hip_mm) RELIEVO_RT;
   void settleLowering(const glm::dvec3& hip_mm) RELIEVO_RT;

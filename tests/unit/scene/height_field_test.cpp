@@ -197,6 +197,20 @@ TEST(HeightField, TheMeanOfWholeRowsIsThatOfTheirSamples) {
   }
 }
 
+TEST(HeightField, TheMeanOfAWhiteBlockOfAnySizeIsTheTop) {
+  for (const int bits : {8, 16}) {
+    const int top = (1 << bits) - 1;
+    const Frame frame = test::makeGrayFrame(2200, 29, bits, {}, [&](int, int) { return top; });
+    const auto field = HeightField::make(frame, {.bits = bits}, kVolume).value();
+    for (const int width : {8, 12, 15, 16, 31, 1023, 1025, 2047, 2199}) {
+      for (const int rows : {1, 7, 29}) {
+        const SampledBlock block(width, rows, 5000);
+        EXPECT_NEAR(field.meanHeight(1, 0, block), kVolume.depth_mm, 1e-9) << bits << ' ' << width << ' ' << rows;
+      }
+    }
+  }
+}
+
 TEST(SampledBlock, ReachesOverMostOfItsLength) {
   for (int length = 1; length <= 200; ++length) {
     for (int most = 2; most <= 15; ++most) {
