@@ -9,6 +9,7 @@
 
 #include "hal/media/media_names.h"
 #include "platform/files/answered_place.h"
+#include "platform/lower_case.h"
 
 namespace relievo {
 namespace {
@@ -142,8 +143,7 @@ std::string depthBeside(const std::string& film) {
 }
 
 bool saysDepth(const std::string& url) {
-  std::string name = stemOf(url.substr(url.rfind('/') + 1));
-  std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string name = lowerCase(stemOf(url.substr(url.rfind('/') + 1)));
   const std::size_t at = name.find("depth");
   const auto isLetter = [&](std::size_t i) {
     return i < name.size() && std::isalpha(static_cast<unsigned char>(name[i])) != 0;

@@ -8,17 +8,13 @@
 #include <filesystem>
 #include <utility>
 
+#include "platform/lower_case.h"
+
 namespace relievo {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 constexpr std::array<std::string_view, 8> kNetwork{"http", "https", "rtsp", "rtsps", "rtp", "udp", "srt", "tcp"};
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return result;
-}
 
 // "http" for "http://..", "concat" for "concat:a|b"; empty for a path. A single letter is not a scheme.
 std::string schemeOf(std::string_view url) {
@@ -28,7 +24,7 @@ std::string schemeOf(std::string_view url) {
   const bool is_one = std::ranges::all_of(scheme, [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '+' || c == '-' || c == '.';
   });
-  return is_one ? lower(scheme) : std::string{};
+  return is_one ? lowerCase(scheme) : std::string{};
 }
 
 bool isOnNetwork(std::string_view url) {
@@ -37,7 +33,7 @@ bool isOnNetwork(std::string_view url) {
 
 // The name in lower case, without an address's ? and # parts.
 std::string nameOf(std::string_view url) {
-  return lower(url.substr(0, isOnNetwork(url) ? url.find_first_of("?#") : url.size()));
+  return lowerCase(url.substr(0, isOnNetwork(url) ? url.find_first_of("?#") : url.size()));
 }
 
 // Resolves a path relative to a URL: "//host/a" keeps the scheme, "/a" the host, "a" the folder. The ? and # parts of

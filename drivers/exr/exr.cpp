@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstring>
 #include <exception>
 #include <limits>
@@ -21,6 +20,7 @@
 #include <utility>
 
 #include "drivers/exr/exr_header.h"
+#include "platform/lower_case.h"
 
 namespace relievo {
 namespace {
@@ -49,11 +49,6 @@ class Bytes final : public Imf::IStream {
   std::span<const std::uint8_t> bytes_;
   std::size_t at_ = 0;
 };
-
-std::string lowerCase(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
 
 // "View Layer.Depth.Z": layers before the last dot.
 std::string lastPart(const std::string& name) {

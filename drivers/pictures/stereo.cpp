@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstddef>
 #include <string_view>
 
 #include "hal/media/media_names.h"
+#include "platform/lower_case.h"
 
 namespace relievo::pictures {
 namespace {
@@ -35,9 +35,7 @@ constexpr std::array<Layout, 8> kLayouts{{
 constexpr std::array<std::string_view, 6> kEndings{"pfm", "npy", "exr", "tif", "tiff", "png"};
 
 std::string stemOf(const std::string& name) {
-  std::string stem = name.substr(0, name.rfind('.'));
-  std::ranges::transform(stem, stem.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return stem;
+  return lowerCase(name.substr(0, name.rfind('.')));
 }
 
 auto rankOf(const std::string& name) {

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
+
+#include "platform/lower_case.h"
 
 namespace relievo {
 namespace {
@@ -38,9 +39,7 @@ std::string endingOf(std::string_view name) {
   name = name.substr(name.rfind('/') + 1);
   const std::size_t dot = name.rfind('.');
   if (dot == std::string_view::npos) return "";
-  std::string ending(name.substr(dot + 1));
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return ending;
+  return lowerCase(name.substr(dot + 1));
 }
 
 MediaKind mediaKindOf(std::string_view name) noexcept {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 
+#include "platform/lower_case.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -93,12 +94,6 @@ DepthReading disparities(const Reach& reach, double value, double top, const Cal
     reading.offer = "if the numbers are distances: --calibration unit=1000 (metres) or unit=1 (millimetres)";
   }
   return reading;
-}
-
-std::string lowerCase(std::string_view text) {
-  std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
-  return lower;
 }
 
 void scale(CalibrationSettings& settings, double value) {

@@ -3,24 +3,19 @@
 #include "app/media/reading/packing.h"
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include "app/scene/material.h"
 #include "hal/media/media_names.h"
+#include "platform/lower_case.h"
 
 namespace relievo {
 namespace {
 
 using Tags = std::map<std::string, std::string>;
 constexpr const char* kPackingTag = "DEPTH_PACKING";
-
-std::string lowerCase(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
 
 std::vector<const StreamInfo*> videoTracks(const MediaSource& source) {
   std::vector<const StreamInfo*> tracks;

@@ -11,6 +11,7 @@
 #include "app/media/reading/depthkit_file.h"
 #include "app/media/reading/float_reading.h"
 #include "platform/files/answered_place.h"
+#include "platform/lower_case.h"
 #include "platform/print.h"
 #include "platform/whole_file.h"
 
@@ -19,11 +20,6 @@ namespace {
 
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
-
-std::string lowerCase(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
 
 std::string number(double value) {
   return print("%.6g", value);

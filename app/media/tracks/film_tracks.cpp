@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <sstream>
 #include <string_view>
 
 #include "platform/files/answered_place.h"
+#include "platform/lower_case.h"
 
 namespace relievo {
 namespace {
@@ -37,15 +37,9 @@ constexpr std::array kLanguages{
     Language{"zh", "chi", "zho"},
 };
 
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::ranges::transform(result, result.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
-}
-
 // One word for a language, however it is written; without a region ("pt-BR").
 std::string plain(std::string_view code) {
-  const std::string word = lower(code.substr(0, code.find_first_of("-_")));
+  const std::string word = lowerCase(code.substr(0, code.find_first_of("-_")));
   const auto known = std::ranges::find_if(kLanguages, [&](const Language& each) {
     return word == each.two || word == each.three || (!each.other.empty() && word == each.other);
   });
@@ -112,7 +106,7 @@ std::vector<FilmTrack> subtitleFilesOf(const std::string& film) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   for (const auto& [name, is] : entriesOf(folder)) {
     const fs::path beside = folder / name;
-    const std::string ending = lower(beside.extension().string());
+    const std::string ending = lowerCase(beside.extension().string());
     if (std::ranges::find(kEndings, ending) == kEndings.end() || is != FolderEntry::Kind::File) continue;
     const std::string own = beside.stem().string();  // FILM or FILM.en
     if (own != stem && !own.starts_with(stem + ".")) continue;

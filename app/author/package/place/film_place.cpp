@@ -13,6 +13,7 @@
 #include "app/author/package/place/film_io.h"
 #include "platform/atomic_file.h"
 #include "platform/files/file_system_answer.h"
+#include "platform/lower_case.h"
 
 namespace relievo {
 namespace {
@@ -90,8 +91,7 @@ class PlainFile final : public FilmPlace {
 
 std::optional<FilmKind> filmKindOf(const std::string& path) {
   if (path.starts_with("udp://") || path.starts_with("srt://")) return FilmKind::Live;
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string ending = lowerCase(std::filesystem::path(path).extension().string());
   const auto known = std::find_if(kEndings.begin(), kEndings.end(), [&](const Ending& e) { return ending == e.text; });
   return known == kEndings.end() ? std::nullopt : std::optional(known->kind);
 }
