@@ -24,6 +24,8 @@ namespace {
 
 constexpr const char* kThereMeanwhile =
     "another program created this file meanwhile, so it was not replaced; choose another name";
+constexpr const char* kMounted =
+    "is mounted by itself, so it cannot be replaced; name a file in a folder that is mounted";
 constexpr const char* kLongName = "its name is too long; choose a shorter one";
 constexpr std::size_t kTextAtOnce = 65536;
 constexpr const char* kCannotWrite = "could not be written completely; is the disk full?";
@@ -100,6 +102,13 @@ void makeTemporary(Made& made) {
   made.fd.reset(::mkostemp(made.temporary.data(), O_CLOEXEC));
 }
 
+// A file that is mounted over another, as containers do with single ones.
+bool isMountPoint(const std::string& path) noexcept {
+  struct statx status{};
+  if (::statx(AT_FDCWD, path.c_str(), AT_NO_AUTOMOUNT, STATX_TYPE, &status) != 0) return false;
+  return (status.stx_attributes & STATX_ATTR_MOUNT_ROOT) != 0;
+}
+
 // Waits for a pipe's reader, but less than the file system may take: its mount is not to blame.
 UniqueFd openDirectly(const std::string& path, bool pipe) {
   constexpr std::chrono::milliseconds kPatience{9000}, kLook{20};
@@ -123,6 +132,10 @@ void makeNow(const std::string& path, Made& made) {
   removeLitter(made.target);
   if (exists && S_ISDIR(status.st_mode)) {
     made.error = Error{ErrorCode::Io, EISDIR, "is a folder; give the name of a file"};
+    return;
+  }
+  if (exists && S_ISREG(status.st_mode) && isMountPoint(made.target)) {
+    made.error = Error{ErrorCode::Io, EBUSY, kMounted};
     return;
   }
   if (exists && !S_ISREG(status.st_mode)) {

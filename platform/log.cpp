@@ -14,6 +14,8 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "platform/plain_text.h"
+
 namespace relievo {
 namespace {
 
@@ -59,7 +61,7 @@ std::size_t filled(int wanted, std::size_t room) noexcept {
 
 // Replaces control characters by spaces: file names and messages of libraries may hold line breaks.
 std::size_t makeOneLine(char* text, std::size_t length) noexcept {
-  std::replace_if(text, text + length, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 0x7f; }, ' ');
+  blankControls({text, length}, Lines::Join);
   while (length > 0 && text[length - 1] == ' ') --length;
   return length;
 }

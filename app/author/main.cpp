@@ -19,6 +19,7 @@
 #include "drivers/registry.h"
 #include "platform/clock.h"
 #include "platform/files/file_system_answer.h"
+#include "platform/plain_text.h"
 
 namespace relievo {
 namespace {
@@ -248,7 +249,7 @@ int run(Arguments& a) {
     }
   }
   if (!summary) return tellEnd(summary.error(), a.output.path);
-  std::fputs(toText(a.output.path, *summary).c_str(), stdout);
+  say(toText(a.output.path, *summary));
   return kExitDone;
 }
 

@@ -28,6 +28,8 @@
 #include "platform/clock.h"
 #include "platform/files/file_system_answer.h"
 #include "platform/log.h"
+#include "platform/plain_text.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {
@@ -167,7 +169,7 @@ int play(PlayOptions options, const FileConfig& config) {
   const PlayReport report = player.report();
   const int files = finishFiles(report, *outputs);
   if (!played) return tellWithNearFile(played.error());
-  std::fputs(toText(report, options.verbose).c_str(), stdout);
+  say(toText(report, options.verbose));
   if (for_a_time && report.frames_shown == 0 && !report.source.empty() && !stop)
     return tell({report.source, kNoPicture});
   return files;
@@ -176,7 +178,8 @@ int play(PlayOptions options, const FileConfig& config) {
 int probeSource(const ProbeOptions& options) {
   const auto result = probe(options.source, realBackends());
   if (!result) return tell(result.error());
-  std::fputs((options.json ? probeToJson(*result) : probeToText(*result)).c_str(), stdout);
+  if (options.json) std::fputs(probeToJson(*result).c_str(), stdout);
+  else say(probeToText(*result));
   return result->failure ? tell(*result->failure) : kExitDone;
 }
 
@@ -184,7 +187,8 @@ int listDevices(const FileConfig& config) {
   MonotonicClock clock;
   bool any = false;
   for (const auto& each : drivers::lookAtDevices(settingsOf(config), clock)) {
-    std::printf("%-7s %-24s %-6s %s\n", each.kind, each.name.c_str(), each.there ? "there" : "-", each.state.c_str());
+    const std::string device = print("%-7s %-24s %-6s ", each.kind, each.name.c_str(), each.there ? "there" : "-");
+    say(oneLine(device + each.state) + "\n");
     any = any || each.there;
   }
   std::puts(any ? "`relievo FILM` takes a haptic device that is there, else the mouse; --haptic NAME chooses one."

@@ -12,6 +12,7 @@
 
 #include "app/author/package/place/film_place.h"
 #include "platform/files/file_system_answer.h"
+#include "platform/plain_text.h"
 
 namespace relievo {
 namespace {
@@ -71,7 +72,7 @@ std::string describe(const AVStream& stream) {
   text += avcodec_get_name(stream.codecpar->codec_id);
   const std::string language = tag(stream.metadata, "language"), title = tag(stream.metadata, "title");
   if (!language.empty() && language != "und") text += " " + language;
-  if (!title.empty()) text += " \"" + title + "\"";
+  if (!title.empty()) text += " \"" + oneLine(title) + "\"";
   return text;
 }
 
@@ -192,7 +193,7 @@ Result<void> KeptTracks::addStream(const AVStream& stream) {
 void KeptTracks::addTitles() {
   copyTags(&film_->metadata, file_->metadata);
   if (const std::string title = tag(file_->metadata, "title"); !title.empty())
-    kept_.push_back("title \"" + title + "\"");
+    kept_.push_back("title \"" + oneLine(title) + "\"");
 }
 
 Result<void> KeptTracks::addChapters() {

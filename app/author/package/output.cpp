@@ -8,6 +8,7 @@
 #include "app/author/package/film_kind.h"
 #include "app/scene/display_volume.h"
 #include "platform/files/answered_place.h"
+#include "platform/plain_text.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -167,8 +168,8 @@ std::string progressText(std::uint64_t done, std::optional<std::uint64_t> total,
 std::string toText(const std::string& path, const AuthorSummary& summary) {
   const FilmFormat& f = summary.format;
   const FilmTotals& totals = summary.totals;
-  std::string text =
-      path + print(": %.2f s, ", seconds(totals.color, summary.frame_period)) + sizeText(totals.file_bytes) + "\n";
+  std::string text = oneLine(path) + print(": %.2f s, ", seconds(totals.color, summary.frame_period)) +
+                     sizeText(totals.file_bytes) + "\n";
   const int depth_crf = f.depth.codec == VideoCodec::Ffv1 ? 0 : f.depth.crf;
   text +=
       trackLine("color", f.color_width, f.color_height, "H.264 4:2:0", f.color_crf, totals.color, summary.frame_period);

@@ -11,6 +11,7 @@
 #include "app/player/film/film_changes.h"
 #include "app/player/report.h"
 #include "app/scene/height_field.h"
+#include "platform/plain_text.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -141,7 +142,7 @@ void takeSizes(ProbeResult& r) {
 
 std::string trackLines(const ProbeResult& r) {
   std::string text;
-  for (const ProbedTrack& t : r.tracks) text += "track   " + trackText(t) + "\n";
+  for (const ProbedTrack& t : r.tracks) text += "track   " + oneLine(trackText(t)) + "\n";
   for (const Chapter& chapter : r.chapters) text += "chapter " + chapterText(chapter) + "\n";
   return text;
 }

@@ -6,6 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "platform/plain_text.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -183,7 +184,7 @@ std::string trackText(const ProbedTrack& track) {
 }
 
 std::string chapterText(const Chapter& chapter) {
-  return print("%.3f to %.3f s \"", toSeconds(chapter.begin), toSeconds(chapter.end)) + chapter.title + "\"";
+  return print("%.3f to %.3f s \"", toSeconds(chapter.begin), toSeconds(chapter.end)) + oneLine(chapter.title) + "\"";
 }
 
 Json rateJson(const FrameRate& rate) {

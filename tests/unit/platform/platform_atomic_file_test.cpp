@@ -3,7 +3,10 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/mount.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <array>
 #include <cerrno>
@@ -131,6 +134,22 @@ TEST_F(AtomicFileTest, ReplacesAFileOfTheLongestName) {
   ASSERT_TRUE(file->commit());
   EXPECT_EQ(textOf(path), "new");
   EXPECT_EQ(filesInFolder(), 1);
+}
+
+// In a process with mounts of its own; its file system's threads must begin there.
+[[noreturn]] void createOverAMount(const std::string& real, const std::string& mounted) {
+  constexpr int kRefused = 0, kTaken = 1, kMayNotMount = 0;
+  const bool mine = ::unshare(CLONE_NEWNS) == 0 || ::unshare(CLONE_NEWUSER | CLONE_NEWNS) == 0;
+  if (!mine || ::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) ::_exit(kMayNotMount);
+  if (::mount(real.c_str(), mounted.c_str(), nullptr, MS_BIND, nullptr) != 0) ::_exit(kMayNotMount);
+  const auto file = AtomicFile::create(mounted);
+  ::_exit(!file && file.error().os_error == EBUSY ? kRefused : kTaken);
+}
+TEST_F(AtomicFileTest, RefusesAFileThatIsMountedByItselfBeforehand) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  std::ofstream(at("real.json")) << "old";
+  std::ofstream(at("mounted.json")).close();
+  EXPECT_EXIT(createOverAMount(at("real.json"), at("mounted.json")), testing::ExitedWithCode(0), "");
 }
 
 TEST_F(AtomicFileTest, SaysBeforehandThatAPathCannotBeWritten) {
