@@ -193,7 +193,17 @@ std::optional<FilePicture> readFile(std::span<const std::uint8_t> file, Choose&&
   }
 }
 
+std::string viewOf(const Imf::Header& header) {
+  return header.hasView() ? header.view() : "";
+}
+
+// Of the depth's own view if there are several.
 Choice chooseColor(const Imf::MultiPartInputFile& file) {
+  const Choice depth = choosePart(file, namedDepth);
+  for (int i = 0; i < file.parts() && !depth.names.empty(); ++i) {
+    if (!isFlat(file.header(i)) || viewOf(file.header(i)) != viewOf(file.header(depth.part))) continue;
+    if (Names names = colorChannels(file.header(i).channels()); !names.empty()) return {i, std::move(names)};
+  }
   return choosePart(file, colorChannels);
 }
 // Channels with a name of depth in any part; else what else there is.

@@ -90,6 +90,12 @@ std::string doubtColor(const Frame& depth, const DepthCalibration& calibration, 
   return print("%.0f %% of the depth is coloured but read as brightness: try --depth-code hue", 100 * colored);
 }
 
+// Holes around a thing lie as its outline does in the colour; a view has none.
+bool hasManyHoles(const Frame& depth, const DepthCalibration& calibration) {
+  constexpr double kMany = 0.1;
+  return !calibration.invalid.empty() && CodeCount(depth).share(calibration.invalid) > kMany;
+}
+
 double aspectOf(const Frame& frame) {
   return frame.width * frame.sample_aspect / frame.height;
 }
@@ -119,7 +125,8 @@ std::vector<std::string> doubtsOf(const Frame& depth, const DepthCalibration& ca
     if (!doubt.empty()) doubts.push_back(std::move(doubt));
   };
   add(doubtRelief(depth, calibration));
-  if (color != nullptr && calibration.code == DepthCode::Luma && areViews(*color, depth)) {
+  const bool whole = calibration.code == DepthCode::Luma && !hasManyHoles(depth, calibration);
+  if (color != nullptr && whole && areViews(*color, depth)) {
     add("colour and depth show the same picture: two views or a copy, not depth; check --depth");
   } else {
     add(doubtColor(depth, calibration, color));

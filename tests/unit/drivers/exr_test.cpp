@@ -3,7 +3,10 @@
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
+#include <ImfMultiPartOutputFile.h>
 #include <ImfOutputFile.h>
+#include <ImfOutputPart.h>
+#include <ImfPartType.h>
 #include <ImfTiledOutputFile.h>
 #include <gtest/gtest.h>
 
@@ -197,6 +200,46 @@ TEST(Exr, ASeriesWithColoursAndAZBufferIsBothToo) {
     EXPECT_EQ(film.pair.color.model, ColorModel::Rgb);
     EXPECT_NEAR(test::sampleAt(film.pair.color, 0, 25, 3) / 65535.0, 0.7354, 0.002);
   }
+}
+
+TEST(Exr, TheColourIsOfTheDepthsOwnView) {
+  const test::TemporaryFolder folder;
+  const auto samplesOf = [](const std::function<float(int, int)>& value) {
+    std::vector<float> samples;
+    for (int i = 0; i < kCols * kRows; ++i) samples.push_back(value(i % kCols, i / kCols));
+    return samples;
+  };
+  std::vector<float> right = samplesOf(flat), left = samplesOf(gradient), depth = samplesOf(depthWith(1e10F));
+  std::vector<Imf::Header> headers;
+  for (const std::string part : {"rgb.right", "rgb.left", "depth.left"}) {
+    Imf::Header header(kCols, kRows);
+    header.setName(part);
+    header.setType(Imf::SCANLINEIMAGE);
+    header.setView(part.substr(part.find('.') + 1));
+    for (const char* const channel : {"R", "G", "B"}) {
+      if (part[0] == 'r') header.channels().insert(channel, Imf::Channel(Imf::FLOAT));
+    }
+    if (part[0] == 'd') header.channels().insert("Z", Imf::Channel(Imf::FLOAT));
+    headers.push_back(header);
+  }
+  {
+    Imf::MultiPartOutputFile file((folder / "a.exr").c_str(), headers.data(), 3);
+    for (int i = 0; i < 3; ++i) {
+      Imf::FrameBuffer buffer;
+      std::vector<float>& samples = i == 0 ? right : i == 1 ? left : depth;
+      for (const char* const channel : {"R", "G", "B", "Z"}) {
+        if ((*channel == 'Z') != (i == 2)) continue;
+        buffer.insert(channel, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(samples.data()), sizeof(float),
+                                          sizeof(float) * kCols));
+      }
+      Imf::OutputPart part(file, i);
+      part.setFrameBuffer(buffer);
+      part.writePixels(kRows);
+    }
+  }
+  const test::OpenedFilm film = test::openFilm({.url = folder / "a.exr"});
+  expectDepth(film);
+  EXPECT_GT(test::sampleAt(film.pair.color, 0, 25, 3), 4 * test::sampleAt(film.pair.color, 0, 5, 3)) << "the left one";
 }
 
 TEST(Exr, UnrealsWorldDepthIsInCentimetres) {

@@ -188,6 +188,18 @@ TEST(DepthReading, DoubtsWhatCannotBeRight) {
   EXPECT_THAT(doubts(clipped, {}), Contains(HasSubstr("50 % of the depth lies at the near end")));
 }
 
+// A renderer's depth ends where its thing does, in the colour as well; that is no second view.
+TEST(DepthReading, HolesAroundAThingAreNoSecondView) {
+  const auto isThing = [](int c, int r) { return (c * c / 90 + r * r / 60) % 5 < 3; };
+  const Frame color = makeGrayFrame(168, 96, 8, {}, [&](int c, int r) { return isThing(c, r) ? 200 : 20; });
+  const auto depth = [&](std::uint32_t around) {
+    return makeGrayFrame(168, 96, 16, {},
+                         [&](int c, int r) { return isThing(c, r) ? 40000 + static_cast<std::uint32_t>(c) : around; });
+  };
+  EXPECT_THAT(doubtsOf(depth(0), {.bits = 16, .invalid = 0}, &color), Not(Contains(HasSubstr("the same picture"))));
+  EXPECT_THAT(doubtsOf(depth(900), {.bits = 16}, &color), Contains(HasSubstr("the same picture")));
+}
+
 std::uint32_t yuv(int k, double red, double green, double blue) {
   return test::yuvCode(k, {red, green, blue});
 }
