@@ -3,6 +3,7 @@
 #include "drivers/floats/picture_file_decoder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <utility>
@@ -29,6 +30,26 @@ bool isGrayRgb(const FilePicture& picture) noexcept {
       return false;
   }
   return true;
+}
+
+// Whether the three components are the places of points, whose distance is the third: left and right of the camera, and
+// above and below, are negative as well, distances are not; OpenGL's are nothing else. Normals are all of length 1.
+bool isPoints(const FilePicture& picture) noexcept {
+  constexpr std::size_t kLeastShare = 10;
+  constexpr float kUnit = 0.02F;
+  std::array<std::size_t, 3> below{}, above{};
+  std::size_t normals = 0;
+  for (std::size_t i = 0; i < picture.samples.size(); ++i) {
+    if (picture.samples[i] < 0) ++below[i % 3];
+    if (picture.samples[i] > 0) ++above[i % 3];
+  }
+  for (std::size_t i = 0; i + 2 < picture.samples.size(); i += 3) {
+    const float length = std::hypot(picture.samples[i], picture.samples[i + 1], picture.samples[i + 2]);
+    if (std::abs(length - 1) < kUnit) ++normals;
+  }
+  const std::size_t least = picture.samples.size() / 3 / kLeastShare;
+  const auto both = [&](std::size_t k) { return std::min(below[k], above[k]) > least; };
+  return both(0) && both(1) && std::min(below[2], above[2]) == 0 && normals < picture.samples.size() / 6;
 }
 
 // IEC 61966-2-1: light, 0 to 1, as a screen's code, 0 to 1.
@@ -69,6 +90,7 @@ class PictureFileDecoder final : public VideoDecoder {
   // How the film's pictures are converted, as its first one decides.
   struct Reading {
     bool gray = true;
+    std::size_t component = 0;  // of gray
     float stretch = 1;
     bool plain = false;  // the codes are all there is
     FloatCodes codes = FloatCodes::identity();
@@ -114,9 +136,14 @@ class PictureFileDecoder final : public VideoDecoder {
     const auto step = static_cast<std::size_t>(first.components);
     reading.plain = first.whole_bits > 0;
     if (first.whole_bits == 8) reading.stretch = kStretch;
+    if (!reading.gray && !reading.plain && isPoints(first)) {
+      reading.gray = true;
+      reading.component = 2;
+    }
     if (!reading.plain && reading.gray) {
-      reading.codes =
-          FloatCodes::chosenFor([&](std::size_t i) { return first.samples[i * step]; }, first.samples.size() / step);
+      const std::size_t begin = reading.component;
+      reading.codes = FloatCodes::chosenFor([&](std::size_t i) { return first.samples[begin + i * step]; },
+                                            first.samples.size() / step);
     }
     return reading;
   }
@@ -129,7 +156,7 @@ class PictureFileDecoder final : public VideoDecoder {
     Codes codes(picture.samples.size() / step);
     bool beyond = false;
     for (std::size_t i = 0; i < codes.size(); ++i) {
-      const float value = picture.samples[i * step] * reading_->stretch;
+      const float value = picture.samples[reading_->component + i * step] * reading_->stretch;
       codes[i] = reading_->codes.codeOf(value);
       beyond = beyond || reading_->codes.isBeyond(value);
     }

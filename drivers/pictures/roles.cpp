@@ -11,7 +11,8 @@
 namespace relievo::pictures {
 namespace {
 
-constexpr std::array<std::string_view, 6> kDepth{"depth", "depths", "disparity", "disparities", "disp", "depthmap"};
+constexpr std::array<std::string_view, 7> kDepth{"xyz",         "depth", "depths",  "disparity",
+                                                 "disparities", "disp",  "depthmap"};
 constexpr std::array<std::string_view, 12> kColor{"rgb",    "color", "colour", "image", "images", "img",
                                                   "colors", "im",    "wide",   "rgba",  "clean",  "pv"};
 constexpr std::array<std::string_view, 27> kOther{

@@ -54,7 +54,8 @@ std::optional<Layout> layoutOf(TIFF* file) noexcept {
   TIFFGetField(file, TIFFTAG_PHOTOMETRIC, &meaning);
   const auto type = typeOf(bits, format);
   const bool gray = layout.components == 1 && meaning == PHOTOMETRIC_MINISBLACK;
-  const bool rgb = layout.components == 3 && meaning == PHOTOMETRIC_RGB && planes == PLANARCONFIG_CONTIG;
+  const bool rgb = layout.components == 3 && (meaning == PHOTOMETRIC_RGB || meaning == PHOTOMETRIC_MINISBLACK) &&
+                   planes == PLANARCONFIG_CONTIG;
   if (!type || !(gray || rgb) || !isSoundSize(layout.width, layout.height)) return std::nullopt;
   layout.type = *type;
   return layout;

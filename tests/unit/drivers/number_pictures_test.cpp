@@ -285,6 +285,27 @@ TEST(Npy, AnArrayOfPicturesIsAFilm) {
   EXPECT_GT(film.frames[1].pts, film.frames[0].pts);
 }
 
+// A camera's organised cloud: x to the right, y down, z away from it; 0, 0, 0 for a hole. Its normals are no cloud.
+TEST(Npy, PointsAreTheirDistances) {
+  for (const bool normals : {false, true}) {
+    const test::TemporaryFolder folder;
+    std::string bytes;
+    for (std::size_t r = 0; r < kRows; ++r) {
+      for (std::size_t c = 0; c < kCols; ++c) {
+        const double z = r == 3 ? 0 : slope(r, c), x = z * (static_cast<double>(c) - 11) / 30,
+                     y = z * (static_cast<double>(r) - 8) / 30;
+        const double length = normals ? std::max(1e-9, std::hypot(x, y, z)) : 1;
+        for (const double part : {x, y, z}) bytes += bytesOf(static_cast<float>(part / length), false);
+      }
+    }
+    write(folder / "z.npy", npy("<f4", false, shape() + ", 3", bytes));
+    const Read film = read(folder / "z.npy");
+    ASSERT_EQ(film.frames.size(), 1u);
+    if (normals) EXPECT_EQ(film.frames[0].model, ColorModel::Rgb);
+    else expectValues(film.frames[0], [](std::size_t r, std::size_t c) { return r == 3 ? 0 : slope(r, c); });
+  }
+}
+
 TEST(Npy, OtherArraysAreRefused) {
   const test::TemporaryFolder folder;
   const std::string bytes = numbers<float>(false, false);

@@ -247,6 +247,8 @@ TEST_F(Pictures, LayersBesideColourAndDepthAreLeftOut) {
   file("sintel/clean_left/alley/1.png"), file("sintel/disparities/alley/1.png"), file("sintel/occlusions/alley/1.png");
   EXPECT_THAT(read(folder_ / "sintel").color, ElementsAre("0 sintel/clean_left/alley/1.png"));
   EXPECT_THAT(read(folder_ / "sintel").depth, ElementsAre("0 sintel/disparities/alley/1.png"));
+  file("mvtec/rgb/000.png"), file("mvtec/xyz/000.tiff");
+  EXPECT_THAT(read(folder_ / "mvtec").depth, ElementsAre("0 mvtec/xyz/000.tiff"));
   file("holo/PV/1.png"), file("holo/Depth Long Throw/1.pgm");
   EXPECT_THAT(read(folder_ / "holo").color, ElementsAre("0 holo/PV/1.png"));
 }

@@ -121,6 +121,16 @@ TEST(OddCodes, FloatsInFourBytesAreMetres) {
   expectScene(film, 1, 0.002);
 }
 
+// 24 bits of a share of 3 m, the highest in red. A half of them is not the depth of the other.
+TEST(OddCodes, SteepSlopesOfCodesInThreeBytesAreDepthAsAWhole) {
+  TemporaryFolder folder;
+  makeClip(folder / "a.png", {track("png", "rgb24", [](int k, int c, int r, int) {
+             const double mm = r > 54 ? 2900 - 40 * (r - 54) : 2000 + 2.0 * c;
+             return rounded(0xffffff * mm / 6000) >> (8 * (2 - k)) & 0xff;
+           })});
+  EXPECT_EQ(openFilm(folder / "a.png").info.packing, Packing::DepthAlone);
+}
+
 TEST(OddCodes, GrayOfFortyEightBitsIsReadAsGrayIs) {
   TemporaryFolder folder;
   makeClip(folder / "a.png",
