@@ -22,6 +22,10 @@ void Player::carryOut(const Deed& deed, MonotonicTime now) {
     case Deed::Kind::Seek:
       return seek(deed.target, PlayerEvent::Seek, deed.by_viewer, now);
     case Deed::Kind::OpenFilm:
+      if (placeOnShelf()) {
+        browser_->select(deed.film);
+        return openSelected(now);
+      }
       return openFilm(deed.film, deed.back ? Programme::Way::Back : Programme::Way::Forward, now);
     case Deed::Kind::Note:
       return journal_.note(deed.what, deed.done);
