@@ -93,7 +93,7 @@ std::optional<std::string> Player::refusal(const PlayerCommand& command) const {
 
 void Player::obey(const PlayerCommand& command, MonotonicTime now) {
   const bool leaves = command.verb == PlayerVerb::Escape || command.verb == PlayerVerb::Back;
-  if (leaves && screen_.text().showsKeys()) return screen_.text().toggleKeys({});
+  if (leaves && screen_.text().showsKeys()) return screen_.text().hideKeys();
   if (auto why = refusal(command)) {
     why->front() = static_cast<char>(std::toupper(static_cast<unsigned char>(why->front())));
     return screen_.text().notice({std::move(*why), std::nullopt}, now);
@@ -112,7 +112,7 @@ void Player::obey(const PlayerCommand& command, MonotonicTime now) {
     case PlayerVerb::Screenshot:
       return screen_.saveScreenshot(facts().title);
     case PlayerVerb::Keys:
-      return screen_.text().toggleKeys(keyRows());
+      return screen_.turnKeys(keyRows());
     default:
       break;
   }
