@@ -112,6 +112,7 @@ class Player {
 
   // player_keys.cpp: keys, the mouse, commands
   void obeyPicture(const PlayerCommand& command, MonotonicTime now);
+  [[nodiscard]] Situation situation(MonotonicTime now) const;
   void readRemote(MonotonicTime now);
   [[nodiscard]] bool hearMouse(const SurfaceMouse& mouse);
   void followMouse(MonotonicTime now);
@@ -157,6 +158,8 @@ class Player {
   void closeBrowser();
   void followBrowser(MonotonicTime now);
   void chooseFilm(MonotonicTime now);
+  void openSelected(MonotonicTime now);
+  [[nodiscard]] std::optional<std::size_t> placeOnShelf() const;
   void goBack(MonotonicTime now);
   [[nodiscard]] bool hearMouseInList(const SurfaceMouse& mouse);
 

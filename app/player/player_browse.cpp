@@ -83,8 +83,19 @@ void Player::followBrowser(MonotonicTime now) {
 void Player::chooseFilm(MonotonicTime now) {
   if (state_ != PlayerState::Browsing || browser_->shelf().empty()) return;
   browser_->select(browser_->shelf().selected());  // the viewer's own choice from now on
+  openSelected(now);
+}
+
+void Player::openSelected(MonotonicTime now) {
   const ShelfFilm film = browser_->shelf().film(browser_->shelf().selected());
   openList({{.url = film.url, .depth_url = film.depth_url, .title = film.title}}, now);
+}
+
+// The film that is played alone is the selected one of the list: before and after it come that list's films.
+std::optional<std::size_t> Player::placeOnShelf() const {
+  if (!browser_ || browser_->shelf().empty() || programme_.size() > 1) return std::nullopt;
+  const std::size_t selected = browser_->shelf().selected();
+  return browser_->shelf().film(selected).url == programme_.film().url ? std::optional(selected) : std::nullopt;
 }
 
 void Player::goBack(MonotonicTime now) {

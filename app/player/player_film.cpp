@@ -22,6 +22,10 @@ void Player::carryOut(const Deed& deed, MonotonicTime now) {
     case Deed::Kind::Seek:
       return seek(deed.target, PlayerEvent::Seek, deed.by_viewer, now);
     case Deed::Kind::OpenFilm:
+      if (placeOnShelf()) {
+        browser_->select(deed.film);
+        return openSelected(now);
+      }
       return openFilm(deed.film, deed.back ? Programme::Way::Back : Programme::Way::Forward, now);
     case Deed::Kind::Note:
       return journal_.note(deed.what, deed.done);
@@ -146,11 +150,12 @@ void Player::begin(MonotonicTime now) {
 
 // A device that is not there, or has nothing to feel, is not spoken of.
 std::string Player::firstHint() const {
-  const char* const keys = "h: all keys";
+  const std::string help = config_.keys.keyFor(PlayerVerb::Keys, PlayerState::Playing, config_.held);
+  const std::string keys = help.empty() ? "" : help + ": all keys";
   const bool has_device = touch_.waiting() || touch_.running();
   if (!has_device || !film_.info().has_depth) return keys;
   return (config_.mouse_touches ? "Press into the picture to feel it.  " : "Reach into the picture to feel it.  ") +
-         std::string(keys);
+         keys;
 }
 
 void Player::announce(const DisplayVolume& volume) {

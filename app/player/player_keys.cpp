@@ -85,13 +85,15 @@ std::optional<std::string> Player::refusal(const PlayerCommand& command) const {
     if (opens && state_ == PlayerState::Idle && programme_.asked()) return std::nullopt;
     return state_ == PlayerState::Browsing ? "no film is open; choose one" : "no film is open; open one first";
   }
-  if (command.verb != PlayerVerb::Next || programme_.present() + 1 < programme_.size()) return std::nullopt;
-  return programme_.size() == 1 ? "no next film: this one is played alone" : "this is the last film of the list";
+  const std::size_t film = placeOnShelf().value_or(programme_.present());
+  const std::size_t films = placeOnShelf() ? browser_->shelf().size() : programme_.size();
+  if (command.verb != PlayerVerb::Next || film + 1 < films) return std::nullopt;
+  return films == 1 ? "no next film: this one is played alone" : "this is the last film of the list";
 }
 
 void Player::obey(const PlayerCommand& command, MonotonicTime now) {
   const bool leaves = command.verb == PlayerVerb::Escape || command.verb == PlayerVerb::Back;
-  if (leaves && screen_.text().showsKeys()) return screen_.text().toggleKeys({});
+  if (leaves && screen_.text().showsKeys()) return screen_.text().hideKeys();
   if (auto why = refusal(command)) {
     why->front() = static_cast<char>(std::toupper(static_cast<unsigned char>(why->front())));
     return screen_.text().notice({std::move(*why), std::nullopt}, now);
@@ -110,7 +112,7 @@ void Player::obey(const PlayerCommand& command, MonotonicTime now) {
     case PlayerVerb::Screenshot:
       return screen_.saveScreenshot(facts().title);
     case PlayerVerb::Keys:
-      return screen_.text().toggleKeys(keyRows());
+      return screen_.turnKeys(keyRows());
     default:
       break;
   }
@@ -122,18 +124,22 @@ void Player::obey(const PlayerCommand& command, MonotonicTime now) {
 
 void Player::obeyPicture(const PlayerCommand& command, MonotonicTime now) {
   screen_.obey(command);
-  const Situation situation{.state = state_,
-                            .held = film_.held(),
-                            .rate = film_.rate(),
-                            .here = film_.goal(now),
-                            .length = film_.info().duration,
-                            .chapters = film_.info().chapters,
-                            .picture = film_.picture().color.pts,
-                            .period = film_.period(),
-                            .film = programme_.present(),
-                            .films = programme_.size(),
-                            .film_asked = programme_.asked()};
-  for (const Deed& deed : deedsFor(command, situation)) carryOut(deed, now);
+  for (const Deed& deed : deedsFor(command, situation(now))) carryOut(deed, now);
+}
+
+Situation Player::situation(MonotonicTime now) const {
+  const auto place = placeOnShelf();
+  return {.state = state_,
+          .held = film_.held(),
+          .rate = film_.rate(),
+          .here = film_.goal(now),
+          .length = film_.info().duration,
+          .chapters = film_.info().chapters,
+          .picture = film_.picture().color.pts,
+          .period = film_.period(),
+          .film = place.value_or(programme_.present()),
+          .films = place ? browser_->shelf().size() : programme_.size(),
+          .film_asked = programme_.asked()};
 }
 
 }  // namespace relievo

@@ -214,6 +214,9 @@ std::string filmText(const PlayReport& r) {
   const double first_ms = r.first_frame_ms.value_or(0);
   constexpr double kNoTime = 0.005;  // a still picture, or one that was never let go on
   if (r.media_s < kNoTime) return print("film    one picture stood for %.2f s, after %.0f ms\n", r.wall_s, first_ms);
+  const bool chosen =
+      std::ranges::find(r.states, PlayerState::Browsing) != r.states.end();  // after a while in the list
+  if (chosen) return print("film    %.2f s shown in %.2f s\n", r.media_s, r.wall_s);
   return print("film    %.2f s shown in %.2f s, first picture after %.0f ms\n", r.media_s, r.wall_s, first_ms);
 }
 

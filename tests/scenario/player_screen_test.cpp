@@ -67,7 +67,7 @@ class PlayerScreen : public testing::Test {
     } keys[] = {
         {KEY_PLAYPAUSE, "state", "paused"},  {KEY_NUMERIC_5, "position_s", 2.0}, {KEY_NUMERIC_0, "position_s", 0.0},
         {KEY_VOLUMEUP, "volume", 105.0},     {KEY_VOLUMEDOWN, "volume", 100.0},  {KEY_MUTE, "muted", true},
-        {KEY_3D_MODE, "stereo", "sbs"},      {KEY_BLUE, "swap_eyes", true},      {KEY_GREEN, "depth_strength", 0.9},
+        {KEY_3D_MODE, "stereo", "sbs"},      {KEY_BLUE, "stereo", "tab"},        {KEY_GREEN, "depth_strength", 0.9},
         {KEY_YELLOW, "depth_strength", 1.0}, {KEY_RED, "loop", false},           {KEY_RED, "loop", true},
         {KEY_SLOW, "position_s", 0.2},       {KEY_OK, "state", "playing"},       {KEY_SLOW, "rate", 0.5},
         {KEY_FASTFORWARD, "rate", 1.0},      {KEY_PLAY, "state", "playing"},     {KEY_BACK, "state", "idle"}};

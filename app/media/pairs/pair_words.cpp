@@ -8,7 +8,8 @@
 namespace relievo {
 namespace {
 
-constexpr std::size_t kMostLines = 100'000;  // of a subtitle file
+constexpr Duration kLongestLine = std::chrono::seconds(10);  // that a seek into the middle of it shows
+constexpr std::size_t kMostLines = 100'000;                  // of a subtitle file
 
 }  // namespace
 
@@ -39,7 +40,8 @@ void PairReader::Impl::openWords() {
   if (track.stream < 0) return readWordsOf(track.path);
   const StreamInfo* const stream = streamOf(track);
   if (stream == nullptr) return;
-  const auto opened = sources.color()->readWords(backends.make_subtitle_decoder(), *stream);
+  const Duration before = remote ? Duration(0) : kLongestLine;
+  const auto opened = sources.color()->readWords(backends.make_subtitle_decoder(), *stream, before);
   if (!opened) log(LogLevel::Warning, "media", "no subtitles: %s", opened.error().message);
 }
 

@@ -225,6 +225,8 @@ bool TrackReader::isFull(const Track& track) noexcept {
 // Containers seek by one track, and some by decoding time, so another track or this track's reordered pictures may then
 // begin after the target. Retries from ever earlier times, finally from the beginning.
 Result<void> TrackReader::seek(MediaTime target, Duration key_step) {
+  words_.restart();
+  if (key_step == Duration(0)) readWordsBefore(target);
   Duration step_back{0};
   for (;;) {
     const MediaTime from = std::max(MediaTime{}, target - step_back);
@@ -235,12 +237,25 @@ Result<void> TrackReader::seek(MediaTime target, Duration key_step) {
   }
 }
 
+// A line that runs at the target may begin before the key frame that the pictures are decoded from. Errors are told by
+// the seek that follows.
+void TrackReader::readWordsBefore(MediaTime target) {
+  if (words_.stream() < 0 || words_before_ == Duration(0) || target == MediaTime{}) return;
+  if (!source_->seek(std::max(MediaTime{}, target - words_before_))) return;
+  for (;;) {
+    auto packet = source_->read();
+    if (!packet || !*packet) return;
+    const auto time = (*packet)->dts ? (*packet)->dts : (*packet)->pts;
+    if ((*packet)->stream == tracks_[0].stream && time && *time >= target) return;
+    if (isWords((*packet)->stream)) words_.keep(std::move(**packet));
+  }
+}
+
 // True when every track has a picture at or before the target, or has ended.
 Result<bool> TrackReader::seekOnce(MediaTime from, MediaTime target, Duration key_step) {
   if (auto sought = source_->seek(from); !sought) return std::unexpected(sought.error());
   key_step_ = key_step;
   sound_.restart();
-  words_.restart();
   given_.reset();
   read_.reset();
   for (std::size_t i = 0; i < track_count_; ++i) {

@@ -47,6 +47,10 @@ class CommandKeys {
   std::vector<std::pair<PlayerCommand, std::vector<std::string>>> lines_;
 };
 
+bool isOn(KeyBoard held, std::uint16_t code) {
+  return held == KeyBoard::Keyboard ? !keyboardLabel(code).empty() : isOnRemotes(code);
+}
+
 using Rows = std::vector<std::pair<std::string, std::string>>;
 
 // The digits from `first` on, one line each, that lead to as many tenths of the film.
@@ -83,16 +87,13 @@ Rows rowsOf(const std::vector<std::pair<PlayerCommand, std::string>>& lines) {
 }  // namespace
 
 Rows KeyTable::rowsIn(PlayerState state, KeyBoard held) const {
-  const auto isHeld = [held](std::uint16_t code) {
-    return held == KeyBoard::Keyboard ? !keyboardLabel(code).empty() : isOnRemotes(code);
-  };
   CommandKeys own(", "), other(", ");
   for (const std::size_t t : {static_cast<std::size_t>(state), kAlways}) {
     for (const auto& [code, binding] : tables_[t]) {
       if (find(state, code) != &binding) continue;  // the state's own row holds
       if (state == PlayerState::Browsing && binding.press && needsFilm(binding.press->verb)) continue;
       for (const std::uint16_t each : codesOf(state, code)) {
-        CommandKeys& keys = isHeld(each) ? own : other;
+        CommandKeys& keys = isOn(held, each) ? own : other;
         keys.put(binding.press, keyLabel(each, held));
         keys.put(binding.hold, keyLabel(each, held) + " (held)");
       }
@@ -104,6 +105,19 @@ Rows KeyTable::rowsIn(PlayerState state, KeyBoard held) const {
     if (!own.has(command)) rows.emplace_back(keys, meaningOf(command));
   }
   return rows;
+}
+
+std::string KeyTable::keyFor(PlayerVerb verb, PlayerState state, KeyBoard held) const {
+  std::string keys;
+  for (const std::size_t t : {static_cast<std::size_t>(state), kAlways}) {
+    for (const auto& [code, binding] : tables_[t]) {
+      const bool does = find(state, code) == &binding && binding.press && binding.press->verb == verb;
+      if (!does || !isOn(held, code)) continue;
+      if (held == KeyBoard::Keyboard) return keyLabel(code, held);
+      keys += (keys.empty() ? "" : " or ") + keyLabel(code, held);
+    }
+  }
+  return keys;
 }
 
 std::string KeyTable::help() const {

@@ -4,7 +4,9 @@
 
 #include <array>
 #include <glm/geometric.hpp>
+#include <utility>
 
+#include "app/player/screen/keys_script.h"
 #include "app/player/screen/list_script.h"
 #include "app/player/screen/screen_script.h"
 #include "app/player/screen/stereo_word.h"
@@ -110,6 +112,12 @@ void FilmScreen::write(const ScreenFacts& facts, MonotonicTime next_picture, Mon
   written_ = content;
   picture_.setText(std::move(content));
   if (next_picture > now + 2 * kRedrawPeriod) redraw_ = true;  // else the next picture shows it
+}
+
+void FilmScreen::turnKeys(ScreenRows rows) {
+  const TextFrame frame = picture_.textFrame();
+  const std::size_t pages = keyPages(rows, frame.aspect, frame.height);
+  text_.turnKeys(std::move(rows), pages);
 }
 
 void FilmScreen::jump() {

@@ -76,6 +76,8 @@ class FilmScreen {
   [[nodiscard]] std::optional<std::size_t> filmAt(const SurfaceMouse& mouse) const;
   [[nodiscard]] bool isFullScreen() const noexcept { return picture_.isFullScreen(); }
 
+  // The keys, page by page; see ScreenText.
+  void turnKeys(ScreenRows rows);
   // The viewer has pressed a key: the text is shown for a while.
   void wake(MonotonicTime now) noexcept { text_.wake(now); }
   [[nodiscard]] ScreenText& text() noexcept { return text_; }

@@ -40,7 +40,7 @@ std::size_t lineFrom(const std::vector<Letter>& letters, std::size_t first, int 
   int used = 0;
   while (end < letters.size() && used + letters[end].cells <= cells) {
     used += letters[end].cells;
-    if (mayBreakAfter(letters[end]) && used > cells / 2) good = end + 1;
+    if (mayBreakAfter(letters[end]) && 3 * used > cells) good = end + 1;
     ++end;
   }
   return end < letters.size() && good > first ? good - first : end - first;

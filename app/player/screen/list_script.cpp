@@ -63,16 +63,16 @@ void addRail(Script& script, const ScreenList& list) {
   script.box({x, ScreenList::kTop + kHeight * list.before, kRail, kHeight * list.shown}, kWhite, 0.45);
 }
 
-void addFoot(Script& script, const ScreenList& list) {
+void addFoot(Script& script, const ScreenList& list, const std::string& help_key) {
   constexpr double kTop = 680, kSize = 22, kWide = 700;
-  script.text("h: all keys", 9, script.width() - kMargin, kTop, kSize, kGray);
+  if (!help_key.empty()) script.text(help_key + ": all keys", 9, script.width() - kMargin, kTop, kSize, kGray);
   if (list.films == 0 || script.width() < kWide) return;
   script.text("Up and down choose, Enter or OK plays", 7, kMargin, kTop, kSize, kGray);
 }
 
 }  // namespace
 
-void addList(Script& script, const ScreenList& list) {
+void addList(Script& script, const ScreenList& list, const std::string& help_key) {
   script.box({0, 0, script.width(), kScreenRows}, kBackground, 1);
   script.text("Films", 7, kMargin, kHeadingTop, kHeadingSize);
   if (list.films > 0) {
@@ -91,7 +91,7 @@ void addList(Script& script, const ScreenList& list) {
   for (std::size_t i = 0; i < message.size(); ++i) {
     script.text(message[i], 5, 0.5 * script.width(), 340 + 40.0 * static_cast<double>(i), 30);
   }
-  addFoot(script, list);
+  addFoot(script, list, help_key);
 }
 
 // Each in the middle of its place, in its own shape.

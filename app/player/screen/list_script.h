@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/player/screen/screen_list.h"
@@ -11,7 +12,8 @@
 
 namespace relievo {
 
-void addList(Script& script, const ScreenList& list);
+// `help_key` shows all keys.
+void addList(Script& script, const ScreenList& list, const std::string& help_key);
 // The posters of its rows, for a view of `frame`: over what `addList` draws.
 [[nodiscard]] std::vector<TextPicture> postersOf(const ScreenList& list, const TextFrame& frame);
 // `across` and `down` in shares of the view; nullopt: over no film.

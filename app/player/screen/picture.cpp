@@ -40,11 +40,6 @@ const char* notTaken(StereoSignal signal) noexcept {
   }
 }
 
-TextFrame textFrame(const EyeViews& eyes) {
-  const PixelArea& area = eyes.views[0].area;
-  return {area.width, area.height, eyes.aspect, eyes.margin_x, eyes.margin_y};
-}
-
 }  // namespace
 
 void Picture::close() noexcept {
@@ -131,7 +126,7 @@ Result<void> Picture::draw(const DisplaySurface& surface, const FingerMarks& fin
     if (auto set = renderer_->setFrame(pair_.color, pair_.depth, calibration_, volume_, pair_.right); !set) return set;
     uploaded_ = true;
   }
-  const TextFrame frame = textFrame(eyeViews(stereo_, volume_, surface.width, surface.height));
+  const TextFrame frame = textFrame();
   const SubtitleRoom room{.none = !text_.keys.empty(), .down = roomForWords(text_, frame.aspect)};
   if (subtitles_.draw(frame, pair_.color.pts - subtitle_delay_, room) || renewed) {
     renderer_->setSubtitles(frame, subtitles_.pictures());
@@ -230,6 +225,12 @@ std::optional<Picture::ViewPoint> Picture::viewPoint(double across, double down)
     if (right >= 0 && right < 1 && below >= 0 && below < 1) return ViewPoint{right, below, eyes.aspect};
   }
   return std::nullopt;
+}
+
+TextFrame Picture::textFrame() const {
+  const EyeViews eyes = eyeViews(stereo_, volume_, width_, height_);
+  const PixelArea& area = eyes.views[0].area;
+  return {area.width, area.height, eyes.aspect, eyes.margin_x, eyes.margin_y};
 }
 
 void Picture::stereoChanged() noexcept {

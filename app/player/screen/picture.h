@@ -101,6 +101,8 @@ class Picture {
     double aspect = 1;  // of the view
   };
   [[nodiscard]] std::optional<ViewPoint> viewPoint(double across, double down) const;
+  // A view, for what is written over it.
+  [[nodiscard]] TextFrame textFrame() const;
   [[nodiscard]] const RenderStatistics& statistics() const noexcept { return statistics_; }
 
  private:

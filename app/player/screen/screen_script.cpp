@@ -218,14 +218,14 @@ std::string screenHead(double aspect) {
       kScreenRows * aspect, kScreenRows);
 }
 
-std::vector<std::string> screenLines(const ScreenContent& content, double aspect) {
+std::vector<std::string> screenLines(const ScreenContent& content, double aspect, int view_height) {
   Script script(kScreenRows * aspect);
   if (content.list) {
-    addList(script, *content.list);
+    addList(script, *content.list, content.help_key);
     return script.take();
   }
   if (!content.keys.empty()) {
-    addKeys(script, content.keys);
+    addKeys(script, {content.keys, content.keys_page, content.help_key, view_height});
     if (content.notice) addNoticeInHeading(script, *content.notice);
     return script.take();
   }

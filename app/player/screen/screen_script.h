@@ -16,7 +16,7 @@ constexpr double kScreenRows = 720;
 // Of a view `aspect` as wide as high.
 [[nodiscard]] std::string screenHead(double aspect);
 // Lines as AssText takes them. Of the list of films, what lies under its posters.
-[[nodiscard]] std::vector<std::string> screenLines(const ScreenContent& content, double aspect);
+[[nodiscard]] std::vector<std::string> screenLines(const ScreenContent& content, double aspect, int view_height = 720);
 // What lies over the posters of the list of films; nothing without a list.
 [[nodiscard]] std::vector<std::string> linesOverPosters(const ScreenContent& content, double aspect);
 // How far down the view is free for subtitles, as a share of it: the bar begins there.

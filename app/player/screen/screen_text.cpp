@@ -66,6 +66,13 @@ std::string clockTime(double seconds) {
   return print("%ld:%02ld", whole / 60, whole % 60);
 }
 
+void ScreenText::turnKeys(ScreenRows keys, std::size_t pages) {
+  const bool goes_on = showsKeys() && keys_page_ + 1 < pages;
+  keys_page_ = goes_on ? keys_page_ + 1 : 0;
+  if (showsKeys() && !goes_on) return hideKeys();
+  keys_ = std::move(keys);
+}
+
 void ScreenText::tell(std::string why, MonotonicTime now) {
   why_ = std::move(why);
   told_until_ = now + 2 * kAwake;
@@ -116,6 +123,8 @@ ScreenContent ScreenText::content(const ScreenFacts& facts, const ScreenRows& st
   ScreenContent content;
   if (now < noticed_until_) content.notice = notice_;
   content.keys = keys_;
+  if (!keys_.empty() || list_) content.help_key = help_key_;
+  if (!keys_.empty()) content.keys_page = keys_page_;
   if (!keys_.empty()) return content;
   if (now < told_until_) content.warning = why_;
   content.list = list_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
@@ -51,6 +52,8 @@ struct ScreenContent {
   std::optional<ScreenNotice> notice;
   std::string warning, hint;
   ScreenRows statistics, keys;
+  std::size_t keys_page = 0;       // from 0 on, of what finds no room on one
+  std::string help_key;            // shows the keys; beside keys and list alone
   std::optional<ScreenList> list;  // of films, in place of a film
 
   [[nodiscard]] bool empty() const { return *this == ScreenContent{}; }
@@ -71,8 +74,10 @@ class ScreenText {
   void wake(MonotonicTime now) noexcept { awake_until_ = now + kAwake; }
   void toggleBar() noexcept { bar_ = !bar_; }
   void toggleStatistics() noexcept { statistics_ = !statistics_; }
-  // Shows these keys, or no longer.
-  void toggleKeys(ScreenRows keys) { keys_ = keys_.empty() ? std::move(keys) : ScreenRows{}; }
+  // Shows these keys, then their further pages, then no longer.
+  void turnKeys(ScreenRows keys, std::size_t pages);
+  void hideKeys() noexcept { keys_.clear(); }
+  void setHelpKey(std::string label) { help_key_ = std::move(label); }
   [[nodiscard]] bool showsKeys() const noexcept { return !keys_.empty(); }
   [[nodiscard]] bool showsWarning(MonotonicTime now) const noexcept { return now < told_until_; }
   // Why something is off.
@@ -99,6 +104,8 @@ class ScreenText {
 
   bool bar_ = false, statistics_ = false;
   ScreenRows keys_;
+  std::size_t keys_page_ = 0;
+  std::string help_key_;
   MonotonicTime awake_until_;
   std::string why_, hint_;
   ScreenNotice notice_;

@@ -44,7 +44,7 @@ bool ScreenWords::draw(const ScreenContent& content, const TextFrame& frame) {
   drawn_ = content;
   frame_ = frame;
   pictures_.clear();
-  drawLines(screenLines(content, aspect_), frame);
+  drawLines(screenLines(content, aspect_, frame.height), frame);
   if (content.list) std::ranges::move(postersOf(*content.list, frame), std::back_inserter(pictures_));
   drawLines(linesOverPosters(content, aspect_), frame);
   return true;

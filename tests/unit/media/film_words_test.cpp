@@ -138,5 +138,23 @@ TEST_F(FilmWords, TracksChaptersAndLanguagesInTheFilm) {
   EXPECT_THAT(readAll(reader), IsEmpty());
 }
 
+// The ffmpeg program makes every picture a key frame, so that none of the lines is read with the pictures of a seek.
+TEST_F(FilmWords, ALineThatRunsWhereASeekLandsIsRead) {
+  write("a.srt", "1\n00:00:01,000 --> 00:00:03,900\nLong\n\n2\n00:00:03,950 --> 00:00:04,000\nLast\n");
+  const std::string folder = folder_ / "";
+  const std::string command =
+      "cd " + folder + " && ffmpeg -v error -i film.mkv -i a.srt -map 0 -map 1 -c:v mpeg4 -g 1 -c:s srt all.mkv";
+  if (std::system(command.c_str()) != 0)
+    GTEST_SKIP() << "no ffmpeg program here";  // NOLINT(bugprone-command-processor)
+  PairReader reader(backends());
+  ASSERT_TRUE(reader.open({.url = folder_ / "all.mkv", .subtitle_languages = "und"}));
+  reader.chooseTracks(std::nullopt, 0);
+  ASSERT_TRUE(reader.seek(mediaTime(2.5)));
+  EXPECT_THAT(takeWords(reader), ElementsAre("1-3.9 Long"));
+  const auto pair = reader.next();
+  ASSERT_TRUE(pair && *pair);
+  EXPECT_NEAR(toSeconds((*pair)->color.pts), 2.52, 0.021);
+}
+
 }  // namespace
 }  // namespace relievo

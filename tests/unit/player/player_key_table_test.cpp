@@ -75,7 +75,7 @@ TEST(KeyTable, KnowsTheKeysOfRemotesKeyboardsAndCec) {
       {15, "layout"},
       {0x26f, "layout"},
       {21, "swap-eyes"},
-      {0x191, "swap-eyes"},
+      {0x191, "layout"},
       {60, "depth -0.1"},
       {0x18f, "depth -0.1"},
       {61, "depth +0.1"},
@@ -116,7 +116,7 @@ TEST(KeyTable, KnowsTheKeysOfRemotesKeyboardsAndCec) {
       {0x170, "audio"},
       {0x174, "full-screen"},
       {0x166, "info"},
-      {139, "info"},
+      {139, "keys"},
       {138, "keys"},
   };
   for (int digit = 0; digit <= 9; ++digit) {
@@ -159,6 +159,15 @@ TEST(KeyTable, TheListOfFilmsHasAFewKeys) {
   EXPECT_LT(rows.size(), 20u);
 }
 
+// What a hint tells a viewer to press.
+TEST(KeyTable, NamesTheKeyOfACommandAsTheViewerReadsIt) {
+  const KeyTable table = KeyTable::usual();
+  EXPECT_EQ(table.keyFor(PlayerVerb::Keys, State::Playing, KeyBoard::Keyboard), "h");
+  EXPECT_EQ(table.keyFor(PlayerVerb::Keys, State::Playing, KeyBoard::Remote), "Help or Menu");
+  EXPECT_EQ(table.keyFor(PlayerVerb::Layout, State::Playing, KeyBoard::Remote), "Blue or 3D");
+  EXPECT_EQ(table.keyFor(PlayerVerb::Screenshot, State::Playing, KeyBoard::Remote), "");
+}
+
 // In the words of what the viewer has in hand.
 TEST(KeyTable, ThePageNamesKeysAsTheyAreLabelled) {
   const KeyTable table = KeyTable::usual();
@@ -198,7 +207,7 @@ TEST(KeyTable, HelpNamesEveryKeyAsScriptsDo) {
       ++names;
     }
   }
-  EXPECT_EQ(names, 112);
+  EXPECT_EQ(names, 113);
 }
 
 TEST(KeyTable, AFileChangesRowsAndLeavesTheRest) {

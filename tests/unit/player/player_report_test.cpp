@@ -124,6 +124,9 @@ TEST(Report, TellsPeopleTheSameFigures) {
 TEST(Report, SaysSoWhereNoTimeOfAFilmWasShown) {
   PlayReport r = example();
   EXPECT_THAT(toText(r), HasSubstr("film    2.00 s shown in 2.50 s, first picture after 123 ms"));
+  PlayReport chosen = r;
+  chosen.states.push_back(PlayerState::Browsing);
+  EXPECT_THAT(toText(chosen), HasSubstr("film    2.00 s shown in 2.50 s\n"));
   r.media_s = 0;
   EXPECT_THAT(toText(r), HasSubstr("film    one picture stood for 2.50 s, after 123 ms"));
   r.frames_shown = 0;

@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "app/player/control/key_table.h"
+#include "app/player/screen/keys_script.h"
 #include "app/player/screen/screen_script.h"
 #include "app/render/text/ass_text.h"
 #include "tests/support/film/long_names.h"
@@ -67,12 +69,18 @@ class ScreenLayout : public testing::TestWithParam<TextFrame> {
     }
   }
   void expectApart(const ScreenContent& content) {
-    std::vector<std::string> lines = screenLines(content, GetParam().aspect);
+    std::vector<std::string> lines = screenLines(content, GetParam().aspect, GetParam().height);
     for (std::string& line : linesOverPosters(content, GetParam().aspect)) lines.push_back(std::move(line));
     const auto words = inkOf(lines);
     EXPECT_GT(words.size(), 2u);
     expectApart(words);
   }
+  // The size of a line's letters in the view; of a shape more than any.
+  [[nodiscard]] double pixelsOf(const std::string& line) const {
+    const std::size_t at = line.find("\\fs");
+    return at == std::string::npos ? 1e9 : std::strtod(line.c_str() + at + 3, nullptr) * GetParam().height / 720;
+  }
+  static constexpr const char* kKeyColor = "&H47C7FF&";
   [[nodiscard]] bool narrow() const { return GetParam().aspect < 0.9; }
 
   std::optional<AssText> text_;
@@ -128,10 +136,19 @@ TEST_P(ScreenLayout, ThePageOfKeysHasEveryWordOfEveryKey) {
       content.keys = mouseRows(state == PlayerState::Browsing, true);
       for (auto& row : KeyTable::usual().rowsIn(state, held)) content.keys.push_back(std::move(row));
       if (!narrow()) content.notice = ScreenNotice{"Volume 100 %", 0.5};
-      for (const std::string& line : screenLines(content, GetParam().aspect)) {
-        EXPECT_EQ(line.find("…"), std::string::npos) << line;
+      content.help_key = "Help or Menu";
+      std::size_t shown = 0;
+      const std::size_t pages = keyPages(content.keys, GetParam().aspect, GetParam().height);
+      EXPECT_LE(pages, GetParam().height < 300 ? 8u : narrow() ? 2u : GetParam().height < 720 ? 2u : 1u);
+      for (; content.keys_page < pages; ++content.keys_page) {
+        for (const std::string& line : screenLines(content, GetParam().aspect, GetParam().height)) {
+          EXPECT_EQ(line.find("…"), std::string::npos) << line;
+          if (line.find(kKeyColor) != std::string::npos) ++shown;
+          EXPECT_GE(line.ends_with("Volume 100 %") ? 11.0 : pixelsOf(line), 10.9) << line;
+        }
+        expectApart(content);
       }
-      expectApart(content);
+      EXPECT_GE(shown, content.keys.size());
     }
   }
 }
@@ -156,6 +173,8 @@ INSTANTIATE_TEST_SUITE_P(Views, ScreenLayout,
                                          TextFrame{.width = 640, .height = 480, .aspect = 4.0 / 3},
                                          TextFrame{.width = 1920, .height = 817, .aspect = 2.35},
                                          TextFrame{.width = 600, .height = 600, .aspect = 1},
+                                         TextFrame{.width = 320, .height = 240, .aspect = 4.0 / 3},
+                                         TextFrame{.width = 640, .height = 360, .aspect = kWide},
                                          TextFrame{.width = 405, .height = 720, .aspect = 9.0 / 16}));
 
 }  // namespace

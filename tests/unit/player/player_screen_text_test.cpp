@@ -165,14 +165,31 @@ TEST(ScreenText, MarksAFingerBesideThePictureAlone) {
 
 TEST(ScreenText, KeysAndStatisticsComeAndGo) {
   ScreenText text;
-  text.toggleKeys({{"SPACE", "pause"}});
+  text.turnKeys({{"SPACE", "pause"}}, 1);
   text.toggleStatistics();
   EXPECT_EQ(text.content(playing(), {{"tick", "1 kHz"}}, kStart).statistics.size(), 0u) << "the keys stand alone";
   EXPECT_EQ(at(text, playing()).keys.front().first, "SPACE");
-  text.toggleKeys({{"SPACE", "pause"}});
+  text.turnKeys({{"SPACE", "pause"}}, 1);
   EXPECT_EQ(text.content(playing(), {{"tick", "1 kHz"}}, kStart).statistics.front().second, "1 kHz");
   text.toggleStatistics();
   EXPECT_TRUE(text.content(playing(), {{"tick", "1 kHz"}}, kStart).empty());
+}
+
+TEST(ScreenText, KeysThatFindNoRoomComePageByPage) {
+  ScreenText text;
+  text.setHelpKey("h");
+  EXPECT_EQ(at(text, playing()).help_key, "") << "no keys are shown";
+  for (const std::size_t page : {0, 1, 2}) {
+    text.turnKeys({{"SPACE", "pause"}}, 3);
+    EXPECT_EQ(at(text, playing()).keys_page, page);
+    EXPECT_EQ(at(text, playing()).help_key, "h");
+  }
+  text.turnKeys({{"SPACE", "pause"}}, 3);
+  EXPECT_FALSE(text.showsKeys());
+  text.turnKeys({{"SPACE", "pause"}}, 3);
+  EXPECT_EQ(at(text, playing()).keys_page, 0u);
+  text.hideKeys();
+  EXPECT_FALSE(text.showsKeys());
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ TEST(WordsPlace, OnlyWhatIsUnderOrNearTheBoxCounts) {
   relief.add(-80, 20, 80, 45, 40);  // far above the words
   WordsPlace words;
   relief.follow(words);
-  EXPECT_LT(words.disparity(), disparityOf(40) - 10);
+  EXPECT_LT(words.disparity(), disparityOf(40) - 5);
   EXPECT_GE(words.disparity(), words.behind());
 }
 

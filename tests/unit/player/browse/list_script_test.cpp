@@ -64,10 +64,12 @@ TEST(ListScript, NoticesAndWarningsLieOverThePosters) {
 
 TEST(ListScript, WithoutFilmsItSaysOneSentence) {
   ScreenContent content;
+  content.help_key = "Help or Menu";
   content.list = ScreenList{.rows = {}, .message = "No films yet", .pointed = {}};
   const auto lines = screenLines(content, kAspect);
   EXPECT_THAT(lines, Contains(HasSubstr("}No films yet")));
   EXPECT_THAT(lines, Not(Contains(HasSubstr("OK plays"))));
+  EXPECT_THAT(lines, Contains(HasSubstr("}Help or Menu: all keys")));
 }
 
 // The view of one eye side by side has half the pixels across: the poster has, too.

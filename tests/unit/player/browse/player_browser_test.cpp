@@ -88,6 +88,16 @@ TEST_F(PlayerWithAList, BackReturnsToItAndTheFilmGoesOnWhereItWasLeft) {
   EXPECT_THAT(bench_.report.films, ElementsAre(videos() + "/a.mkv", videos() + "/a.mkv"));
 }
 
+TEST_F(PlayerWithAList, NextAndPreviousPlayItsFilms) {
+  bench_.press(1, KEY_OK);
+  bench_.press(2, KEY_N);
+  bench_.press(3, KEY_N);  // there is no third
+  bench_.press(3.5, KEY_B);
+  bench_.press(5, KEY_Q);
+  play();
+  EXPECT_THAT(bench_.report.films, ElementsAre(videos() + "/a.mkv", videos() + "/b.mkv", videos() + "/a.mkv"));
+}
+
 TEST_F(PlayerWithAList, AFilmThatCannotBePlayedLeadsBackToIt) {
   bench_.sources[videos() + "/a.mkv"].fail_open = ErrorCode::Corrupt;
   bench_.press(1, KEY_OK);
@@ -136,8 +146,8 @@ TEST_F(PlayerWithAList, ProgramsSeeItAndChooseFromIt) {
 
 TEST_F(PlayerWithAList, ProgramsAreToldWhatCannotBeDoneAndWhy) {
   const auto answers = answersTo({"select x", "select 99", "pause", "seek +5", "select last", "status", "choose",
-                                  "select 1", "next", "back", "quit"});
-  ASSERT_EQ(answers.size(), 11u);
+                                  "select 1", "next", "previous", "back", "quit"});
+  ASSERT_EQ(answers.size(), 12u);
   const auto why = [&](std::size_t line) { return answers[line].value("error", ""); };
   EXPECT_EQ(why(0), "\"select\" takes +N|-N|N|last, not \"x\"");
   EXPECT_EQ(why(1), "there is no film 99; the list has 2");
@@ -146,7 +156,7 @@ TEST_F(PlayerWithAList, ProgramsAreToldWhatCannotBeDoneAndWhy) {
   EXPECT_EQ(answers[4], (json{{"ok", true}}));
   EXPECT_EQ(answers[5]["list"]["selected"], 2);
   EXPECT_EQ(why(7), "the list of films is not shown") << "a film is played";
-  EXPECT_EQ(why(8), "no next film: this one is played alone");
+  EXPECT_EQ(why(8), "this is the last film of the list");
   for (const std::size_t line : {0, 1, 2, 3, 7, 8}) EXPECT_EQ(answers[line]["ok"], false) << line;
 }
 
