@@ -45,9 +45,8 @@ Frame QuickDepth::depthOf(const Frame& left, const Frame& right) {
     steady_.begin();
     matched_cols_ = wished_cols_;
   }
-  if (!range_) lower_ = 0;
-  readSmall(right, size, right_, lower_);
   if (!range_) level(right, size);
+  readStraight(right, size);
   if (swapped_) mirrorBoth();
   if (!range_) {  // also where a shot comes out of the dark
     measureShot();
@@ -67,11 +66,19 @@ bool QuickDepth::cutsTo(const ViewPicture& left) {
   return cuts_.begins(left.cols, left.rows, [&](int x, int y) { return static_cast<float>(*left.pixel(x, y)); });
 }
 
+// By the shot's first picture: turned, then lower, as what is turned lies at no one height.
 void QuickDepth::level(const Frame& right, ViewSize size) {
-  const double rows = rowShift(left_, right_);
-  if (rows == 0) return;
-  lower_ = static_cast<int>(std::lround(rows * right.height / size.rows));
+  lower_ = 0;
+  turned_ = 0;
+  readStraight(right, size);
+  turned_ = turnBetween(left_, right_);
+  if (turned_ != 0) turnBack(right_, turned_);
+  lower_ = static_cast<int>(std::lround(rowShift(left_, right_) * right.height / size.rows));
+}
+
+void QuickDepth::readStraight(const Frame& right, ViewSize size) {
   readSmall(right, size, right_, lower_);
+  if (turned_ != 0) turnBack(right_, turned_);
 }
 
 // A mirror shows swapped views as views in order.

@@ -20,10 +20,10 @@ namespace relievo {
 // One shot is scaled alike from its first picture to its last, so that nothing breathes: by the range that its first
 // picture shows, with some to spare; what comes nearer or goes farther later lies at the end of the range, and is
 // matched where it is, since a matcher that looks elsewhere finds another place in each picture. A right view that
-// lies lower or higher is brought to the left one's height, by what the shot's first picture shows. Views in the wrong
-// order are told by what one eye alone sees, in the first picture or in several of the first two dozen, and matched in
-// the right one from then on: as if a shot began there. Pictures come in order, not necessarily all of them. Use from
-// one thread.
+// lies lower or higher, or is turned by up to two degrees, is straightened by what the shot's first picture shows.
+// Views in the wrong order are told by what one eye alone sees, in the first picture or in several of the first two
+// dozen, and matched in the right one from then on: as if a shot began there. Pictures come in order, not necessarily
+// all of them. Use from one thread.
 class QuickDepth {
  public:
   static constexpr int kCols = 640;                                   // of a depth picture, at most
@@ -52,6 +52,7 @@ class QuickDepth {
  private:
   [[nodiscard]] bool cutsTo(const ViewPicture& left);
   void level(const Frame& right, ViewSize size);
+  void readStraight(const Frame& right, ViewSize size);
   void mirrorBoth();
   [[nodiscard]] std::optional<Range> reach();
   void measureShot();
@@ -68,6 +69,7 @@ class QuickDepth {
   int since_look_ = 0;  // pictures
   int votes_left_ = 0;  // of the shot, on the eyes
   int lower_ = 0;       // rows of the right view by which it lies too low
+  double turned_ = 0;   // radians by which it is turned clockwise
   bool one_picture_ = false, swapped_ = false;
   EyeVotes eyes_;                     // of the shots' pictures, those of older shots less
   std::optional<Exposure> exposure_;  // that the right view needs

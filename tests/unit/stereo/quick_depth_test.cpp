@@ -75,6 +75,14 @@ TEST(QuickDepth, ARightViewThatLiesTooLowOrTooHighIsBroughtToTheHeightOfTheLeftO
   }
 }
 
+TEST(QuickDepth, ARightViewThatIsTurnedIsTurnedBack) {
+  for (const RightEye& eye : {RightEye{.degrees = 1}, RightEye{.down = 8, .degrees = -1}, RightEye{.degrees = 0.3}}) {
+    Fit fit = fitOf(160, eye);
+    EXPECT_LT(fit.median(), 0.25) << eye.degrees;
+    EXPECT_LT(fit.wrong(), 0.07) << eye.degrees << ": what only one view shows, at the border, is more";
+  }
+}
+
 TEST(QuickDepth, ViewsOfOneHeightStayAsTheyAre) {
   const TwoViews scene = boards(kCols, kRows);
   const auto view = [](const Frame& frame) {
@@ -85,6 +93,8 @@ TEST(QuickDepth, ViewsOfOneHeightStayAsTheyAre) {
   EXPECT_EQ(rowShift(view(scene.left()), view(scene.right())), 0);
   EXPECT_EQ(rowShift(view(scene.left()), view(scene.right({.down = 0.3}))), 0);
   EXPECT_NEAR(rowShift(view(scene.left()), view(scene.right({.down = 5.5}))), 5.5, 0.3);
+  EXPECT_EQ(turnBetween(view(scene.left()), view(scene.right())), 0);
+  EXPECT_EQ(turnBetween(view(scene.left()), view(scene.right({.down = 5.5}))), 0);
 }
 
 // A hand that comes before everything else: all of it lies at the near end, and nothing around it changes.
