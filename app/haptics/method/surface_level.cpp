@@ -31,6 +31,12 @@ constexpr std::array<Float4, 4> kQuadratic{Float4{0.125F, 0.75F, 0.125F, 0}, Flo
 
 constexpr float kMostCarriedMm = 2;
 
+TimeLaw fewerFrames(TimeLaw law) RELIEVO_RT {
+  return framesAhead(law) > framesAhead(TimeLaw::BSpline) ? TimeLaw::BSpline
+         : law == TimeLaw::BSpline                        ? TimeLaw::Linear
+                                                          : TimeLaw::Hold;
+}
+
 // std::floor is a call on processors without an instruction for it.
 int below(double v) RELIEVO_RT {
   const int whole = static_cast<int>(v);
@@ -50,15 +56,15 @@ SurfaceLevel::SurfaceLevel(double sigma_mm, int most_samples, SpaceLaw space, Ti
       cubic_(space != SpaceLaw::Quadratic),
       tells_straight_(straight != nullptr) {}
 
-// Frames that come together, after a late picture, a seek or a cut, are read in several ticks, two in each: until then
-// the surface in time is that of fewer frames.
+// Frames that come together, after a late picture, a seek or a cut, are read one in a tick, and what the law needs
+// besides bit by bit (`readLacking`): until then the surface in time is that of fewer frames.
 void SurfaceLevel::weigh(const FrameSlots& slots, const FrameMoment& moment, Weighed& out) const RELIEVO_RT {
-  constexpr int kNewAtOnce = 2;
+  constexpr int kNewAtOnce = 1;
   out.moment = moment;
   out.law = time_;
   place(slots, frameWeights(moment, out.law), out.frames);
-  while (framesAhead(out.law) > 1 && std::popcount(out.frames.wanted & ~grid_.slotsRead()) > kNewAtOnce) {
-    out.law = framesAhead(out.law) > framesAhead(TimeLaw::BSpline) ? TimeLaw::BSpline : TimeLaw::Linear;
+  while (out.law != TimeLaw::Hold && std::popcount(out.frames.wanted & ~grid_.slotsRead()) > kNewAtOnce) {
+    out.law = fewerFrames(out.law);
     place(slots, frameWeights(moment, out.law), out.frames);
   }
 }
@@ -198,7 +204,8 @@ void SurfaceLevel::prepare(const FrameSlots& slots, double x_mm, double y_mm, co
   const Cell cell = cellOf(x_mm, y_mm);
   if (prepared_straight_.none && cell.i == prepared_i_ && cell.j == prepared_j_) {
     weigh(slots, next, weighed_);
-    if (grid_.wasPatch(cell.i, cell.j, weighed_.frames.wanted)) return;  // still none of it, and no height is asked for
+    const bool all_read = weighed_.law == time_ && grid_.wasPatch(cell.i, cell.j, weighed_.frames.wanted);
+    if (all_read) return;  // still none of it, and no height is asked for
   }
   prepared_i_ = cell.i;
   prepared_j_ = cell.j;
@@ -207,6 +214,7 @@ void SurfaceLevel::prepare(const FrameSlots& slots, double x_mm, double y_mm, co
   weigh(slots, next, weighed_);
   blend(slots, then, cell, prepared_rate_);
   blend(slots, weighed_, cell, prepared_);
+  if (weighed_.law != time_) readLacking(slots, next, cell);
   if (tells_straight_) readStraightness(cell, prepared_straight_);
   // A point where a hole opens or closes in between jumps and has no rate.
   const float pit = grid_.pitMm();
@@ -216,6 +224,16 @@ void SurfaceLevel::prepare(const FrameSlots& slots, double x_mm, double y_mm, co
     }
     prepared_rate_[j] = (prepared_rate_[j] - prepared_[j]) / static_cast<float>(step_s);
   }
+}
+
+// A few blocks of the first frame that the law needs and of which none have been read.
+void SurfaceLevel::readLacking(const FrameSlots& slots, const FrameMoment& moment, const Cell& cell) RELIEVO_RT {
+  constexpr int kBlocksAtOnce = 8;
+  ControlGrid::Frames frames;
+  place(slots, frameWeights(moment, time_), frames);
+  frames.wanted &= ~grid_.slotsRead();
+  frames.wanted &= ~frames.wanted + 1;
+  if (frames.wanted != 0) grid_.readAhead(cell.i, cell.j, frames, kBlocksAtOnce);
 }
 
 void SurfaceLevel::readAhead(const FrameSlots& slots, double x_mm, double y_mm, const FrameMoment& next) RELIEVO_RT {

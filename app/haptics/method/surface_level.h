@@ -97,6 +97,7 @@ class SurfaceLevel {
   void weigh(const FrameSlots& slots, const FrameMoment& moment, Weighed& out) const RELIEVO_RT;
   // The points so weighted; carried forward if the window says so.
   void blend(const FrameSlots& slots, const Weighed& weighed, const Cell& cell, Patch& out) RELIEVO_RT;
+  void readLacking(const FrameSlots& slots, const FrameMoment& moment, const Cell& cell) RELIEVO_RT;
 
   ControlGrid grid_;
   TimeLaw time_;

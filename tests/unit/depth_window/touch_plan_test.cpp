@@ -93,9 +93,10 @@ TEST(TouchPlan, TellsWhatNoiseLeavesHoweverFineThePictureIs) {
     FeltSurface felt(scale);
     double sum = 0;
     int places = 0;
-    for (int tick = 0; tick < 3; ++tick) {  // frames that come together are read in three ticks
+    for (int tick = 0; tick < 20; ++tick) {  // frames that come together are read in 18 ticks
       ASSERT_TRUE(felt.moveTo(window, mediaTime(2 * kPeriod)));
       static_cast<void>(felt.at(0, 0));
+      felt.prepare(window, mediaTime(2 * kPeriod), 0, 0);
     }
     for (int k = 0; k < 10; ++k) {
       ASSERT_TRUE(felt.moveTo(window, mediaTime((2 + 0.1 * k) * kPeriod)));
