@@ -89,11 +89,6 @@ std::vector<std::string> thoseThatExist(const std::vector<std::string>& files, c
 
 }  // namespace
 
-std::vector<ShelfFilm> filmsBelow(const std::string& folder) {
-  const std::atomic<bool> never{false};
-  return Search(folder, never).films();
-}
-
 struct FilmFinder::Shared {
   void read(const std::string& place, const std::vector<std::string>& files);
 

@@ -13,13 +13,13 @@
 
 namespace relievo {
 
-// The films in `folder` and the folders in it, down to kDeepest below it, in natural order: those of a folder before
-// those of its folders. A folder with depth pictures in a folder `depth` is one film. Hidden names and pictures are
-// passed over. At most kMostFilms, of at most kMostNames names. May block as long as the file system does.
 inline constexpr int kDeepest = 4;
 inline constexpr std::size_t kMostFilms = 1000, kMostNames = 50'000;
-[[nodiscard]] std::vector<ShelfFilm> filmsBelow(const std::string& folder);
 
+// Finds the films in a folder and the folders in it, down to kDeepest below it, in natural order: those of a folder
+// before those of its folders. A folder with depth pictures in a folder `depth` is one film. Hidden names and pictures
+// are passed over. At most kMostFilms, of at most kMostNames names.
+//
 // Each place is read on a thread of its own, so that a disk or server that does not answer costs only its own films.
 // One thread calls it; no verb waits, but for the destructor, up to half a second.
 class FilmFinder {

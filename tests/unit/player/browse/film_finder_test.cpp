@@ -27,6 +27,11 @@ class Films : public testing::Test {
     std::ofstream(path) << "x";
   }
   [[nodiscard]] std::string place() const { return std::filesystem::path(folder_ / "x").parent_path(); }
+  static std::vector<ShelfFilm> filmsBelow(const std::string& folder) {
+    FilmFinder finder(false);
+    finder.look({folder}, {});
+    return finder.filmsIn(folder);
+  }
   static std::vector<std::string> titles(const std::vector<ShelfFilm>& films) {
     std::vector<std::string> all;
     for (const ShelfFilm& film : films) all.push_back(film.folder + ":" + film.title);
