@@ -90,6 +90,8 @@ ControlLine parseControlLine(std::string_view line) {
     read.asked = std::unexpected("\"do\" is missing or not text; for example {\"do\": \"pause\"}");
   } else if (json.size() > 1 + (read.id.empty() ? 0U : 1U)) {
     read.asked = std::unexpected("an object has \"do\" and \"id\", and nothing else");
+  } else if (words->get_ref<const std::string&>().find('\0') != std::string::npos) {
+    read.asked = std::unexpected("\"do\" holds a zero byte, which no file and no address has");
   } else {
     read.asked = requestOf(words->get<std::string>());
   }
