@@ -4,11 +4,19 @@
 #include "drivers/tiff/tiff.h"
 #include "tests/fuzz/film_fuzz.h"
 
+namespace relievo {
+namespace {
+
+std::unique_ptr<MediaSource> pages() {
+  return makeTiffSource([](const std::string&) -> Result<StreamInfo> {
+    return StreamInfo{.kind = StreamKind::Video, .codec = "tiff", .width = 16, .height = 16};
+  });
+}
+
+}  // namespace
+}  // namespace relievo
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
-  using namespace relievo;
-  const auto describe = [](const std::string&) -> Result<StreamInfo> {
-    return StreamInfo{.kind = StreamKind::Video, .codec = "tiff"};
-  };
-  test::playBytes({bytes, size}, [&] { return makeTiffSource(describe); });
+  relievo::test::playBytes({bytes, size}, relievo::pages);
   return 0;
 }
