@@ -68,7 +68,7 @@ bool carries(const Frame& frame, std::size_t upper, std::size_t lower) noexcept 
     }
   }
   // Of bytes that have nothing to do with each other 3 % would; the rest of a depth's are steep or edges.
-  return carried >= kLeast && 20 * carried >= 3 * changes;
+  return carried >= kLeast && 10 * carried >= changes;
 }
 
 // TartanAir: the bytes of a float in blue, green, red and alpha, the lowest first; metres.
