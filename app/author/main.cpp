@@ -103,7 +103,7 @@ void addDepthFromOptions(CLI::App& app, Arguments& a) {
   app.add_option_function<std::string>(
          "--depth-size", [&a](const std::string& word) { a.depth_size = depthSize(word); },
          "With --depth-from: the size of the depth that CMD writes ($RELIEVO_DEPTH_WIDTH,\n$RELIEVO_DEPTH_HEIGHT) [the "
-         "pictures'], or of what a network takes that takes any size")
+         "pictures'], or of the pictures that a network of any size is given")
       ->type_name("WxH")
       ->needs("--depth-from");
   addChoice(app, "--swap-eyes", a.swap_eyes, {{"auto", SwapEyes::Auto}, {"no", SwapEyes::No}, {"yes", SwapEyes::Yes}},

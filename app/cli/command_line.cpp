@@ -176,9 +176,16 @@ class Help final : public CLI::Formatter {
 };
 
 void setHelp(CLI::App& app, const std::string& version) {
-  app.formatter(std::make_shared<Help>());
+  const auto help = std::make_shared<Help>();
+  help->label("SUBCOMMAND", "COMMAND");
+  help->label("Positionals", "Arguments");
+  help->label("REQUIRED", "(required)");
+  app.formatter(help);
   app.set_version_flag("-V,--version", version, "Print the version and exit")->configurable(false);
-  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) setHelp(*command, version);
+  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
+    command->group("Commands");
+    setHelp(*command, version);
+  }
 }
 
 }  // namespace

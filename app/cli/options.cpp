@@ -18,6 +18,32 @@ namespace {
 constexpr double kLongestMm = 1e5;  // limit for a side of the volume
 constexpr const char* kNoVolume = "a box is WIDTHxHEIGHTxDEPTH in mm, such as 160x90x40";
 
+// Of --calibration, and below of --material.
+const std::vector<std::string>& calibrationWords() {
+  static const std::vector<std::string> words{"law",      "polarity", "range",   "bits",   "codes",   "invalid",
+                                              "unit",     "near",     "far",     "linear", "inverse", "near-high",
+                                              "near-low", "full",     "limited", "none"};
+  return words;
+}
+
+const std::vector<std::string>& materialWords() {
+  static const std::vector<std::string> words{"stiffness", "friction", "texture"};
+  return words;
+}
+
+// " (law?)": what the first unknown word of KEY=VALUE,.. may have been meant to be; empty where none is near.
+std::string guessed(const std::string& text, std::span<const std::string> words) {
+  const std::string small = inSmallLetters(text);
+  for (std::size_t begin = 0; begin < small.size();) {
+    const std::size_t end = std::min(small.find_first_of(",=", begin), small.size());
+    const std::string word = small.substr(begin, end - begin);
+    const std::string near = nearestWord(word, words);
+    if (word.size() > 2 && !near.empty() && near != word) return " (" + near + "?)";
+    begin = end + 1;
+  }
+  return "";
+}
+
 std::string readFile(const std::string& thing, const std::string& path, const char* otherwise) {
   auto text = readWholeFile(path, FileSize::Settings, otherwise);
   if (!text) throw WordFailure({thing, text.error()});
@@ -39,7 +65,7 @@ void readCalibration(const std::string& word, SourceOptions& source) {
     return;
   }
   const auto settings = parseCalibration(inSmallLetters(word));
-  if (!settings) throw WordFailure({thing, settings.error()});
+  if (!settings) throw WordFailure({thing + guessed(word, calibrationWords()), settings.error()});
   for (const auto& [key, value] : *settings) source.command_line[key] = value;  // overrides earlier ones
 }
 
@@ -51,7 +77,7 @@ Material readMaterial(const std::string& word) {
   std::istringstream items(small);
   for (std::string item; std::getline(items, item, ',');) {
     const auto one = parseMaterial(item.empty() ? "," : item);
-    if (!one) throw WordFailure({"--material " + item, one.error()});
+    if (!one) throw WordFailure({"--material " + item + guessed(item, materialWords()), one.error()});
   }
   throw WordFailure({"--material " + word, material.error()});
 }
@@ -92,13 +118,23 @@ bool parseSizes(std::string_view text, std::span<double> sizes) noexcept {
 
 namespace {
 
+// The first word of each line.
+std::vector<std::string> kindNames() {
+  std::istringstream lines(kindsText());
+  std::vector<std::string> names;
+  for (std::string line; std::getline(lines, line);) names.push_back(line.substr(0, line.find(' ')));
+  return names;
+}
+
 void addKindOption(CLI::App& app, SourceOptions& source) {
   app.add_option_function<std::string>(
          "--as",
          [&source](const std::string& word) {
            if (word == "help") throw KindsAsked();
            source.as = findKind(word);
-           if (source.as == nullptr) throw CLI::ValidationError("--as " + word, "unknown kind; see --as help");
+           if (source.as == nullptr) {
+             throw CLI::ValidationError("--as " + word, "unknown kind" + meant(word, kindNames()) + "; see --as help");
+           }
          },
          "Kind of recording, where it is not recognised: tum, kitti, sun, record3d, ..; --as help lists them\n"
          "Sets packing, code and calibration at once; --packing, --depth-code and --calibration override it")
@@ -155,7 +191,7 @@ void addDepthOptions(CLI::App& app, SourceOptions& source) {
          "far;\n"
          "near=MM, far=MM: limits for distances and for the inverse law")
       ->allow_extra_args(false)
-      ->type_name("FILE|SECONDS=FILE,..|KEY=VALUE,..");
+      ->type_name("FILE|KEY=VALUE,..");
   app.add_option_function<std::string>(
          "--registration",
          [&source](const std::string& path) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drivers/egl/desktop_scale.h"
 #include "drivers/egl/window_display.h"
 
 namespace relievo {
@@ -67,9 +68,13 @@ void WindowDisplay::leaveByHand() noexcept {
   SDL_SetWindowPosition(window_, before_.x, before_.y);
 }
 
-// Smaller in its own shape where the desktop has not so much room; a frame around the window takes some of it.
+// Larger on a desktop that draws everything larger. Smaller in its own shape where it has not so much room; a frame
+// around the window takes some of it.
 void WindowDisplay::takeSize(int width, int height) noexcept {
   constexpr double kRoom = 0.95;
+  const int enlarged = desktopScale();
+  width *= enlarged;
+  height *= enlarged;
   SDL_Rect room{};
   if (SDL_GetDisplayUsableBounds(SDL_GetWindowDisplayIndex(window_), &room) == 0) {
     const double scale = std::min({1.0, kRoom * room.w / width, kRoom * room.h / height});

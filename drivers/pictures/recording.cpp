@@ -120,9 +120,10 @@ void Timing::noteGaps() {
   const std::int64_t all = leading.back().value - leading.front().value + 1;
   const std::int64_t absent = all - static_cast<std::int64_t>(leading.size());
   if (absent == 0) return;
-  notes.push_back(print("%lld of the numbers %lld to %lld are absent: the picture before each stays for its time",
+  notes.push_back(print("%lld of the numbers %lld to %lld %s: the picture before %s stays for its time",
                         static_cast<long long>(absent), static_cast<long long>(leading.front().value),
-                        static_cast<long long>(leading.back().value)));
+                        static_cast<long long>(leading.back().value), absent == 1 ? "is missing" : "are missing",
+                        absent == 1 ? "it" : "each"));
 }
 
 // The latest time, 285 years, is for slow rates of great numbers.

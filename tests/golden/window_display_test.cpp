@@ -8,9 +8,11 @@
 #include <linux/input-event-codes.h>
 
 #include <array>
+#include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -315,6 +317,36 @@ TEST_F(WindowDisplay, WithAFilmsSizeItComesUpWithTheFirstFrame) {
   other->announce({"the next film", 240, 100});
   EXPECT_NE(screen_->find("the next film - relievo"), 0u);
   EXPECT_EQ(screen_->place(window)->width, 300) << "as the viewer has made it";
+}
+
+// 192 dpi: everything is drawn twice as large.
+TEST_F(WindowDisplay, AFilmsSizeIsThatOfTheDesktopsPoints) {
+  screen_->setResources("Xft.dpi:\t192\n");
+  const auto input = std::make_shared<WindowInput>();
+  const auto other = makeWindowDisplay(input, clock_);
+  ASSERT_TRUE(other->open({.width = 64, .height = 64, .film_size = true}));
+  other->announce({"fine.mkv", 240, 100});
+  const auto surface = other->beginFrame();
+  ASSERT_TRUE(surface && other->present());
+  const unsigned long window = screen_->find("fine.mkv - relievo");
+  EXPECT_TRUE(until([&] { return screen_->place(window)->width == 480 && screen_->place(window)->height == 200; }));
+  std::optional<SurfaceMouse> mouse;
+  other->hearMouse([&](const SurfaceMouse& at) {
+    mouse = at;
+    return true;
+  });
+  const auto place = *screen_->place(window);
+  screen_->moveMouse(place.x + 120, place.y + 150);
+  EXPECT_TRUE(until([&] { return other->attend() && mouse && std::abs(mouse->down - 0.75) < 0.01; }));
+  EXPECT_NEAR(mouse->across, 0.25, 0.01);
+  other->close();
+  screen_->setResources("Xft.dpi:\t120\n");
+  ASSERT_TRUE(other->open({.width = 64, .height = 64, .film_size = true}));
+  other->announce({"usual.mkv", 240, 100});
+  ASSERT_TRUE(other->beginFrame() && other->present());
+  const unsigned long usual = screen_->find("usual.mkv - relievo");
+  EXPECT_TRUE(until([&] { return screen_->place(usual)->width == 240; }));
+  screen_->setResources("");
 }
 
 TEST_F(WindowDisplay, WhatIsDroppedOnItIsTold) {

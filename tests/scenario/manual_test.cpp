@@ -53,9 +53,9 @@ class Manual : public testing::TestWithParam<const char*> {
     return found(help, std::regex("\n  (?:-\\w,)?(--[a-z-]+)", std::regex::ECMAScript));
   }
   static Words commandsIn(const std::string& help) {
-    const std::size_t list = help.find("\nSubcommands:\n");
+    const std::size_t list = help.find("\nCommands:\n");
     if (list == std::string::npos) return {};
-    return found(help.substr(list, help.find("\n\n", list + 14) - list), std::regex("\n  ([a-z-]+)"));
+    return found(help.substr(list, help.find("\n\n", list + 11) - list), std::regex("\n  ([a-z-]+)"));
   }
   // A command and all its subcommands.
   void walk(const std::string& command, const std::function<void(const std::string&)>& visit) const {

@@ -36,7 +36,8 @@ Outcome<ConfigLines> readConfig(CLI::App& play, const std::string& path, FileCon
   return play.parsed() ? applyConfig(play, config) : ConfigLines{};
 }
 
-// "relievo film.mkv" and "relievo --loop film.mkv" as "relievo play ..", "relievo help play" as "relievo play --help".
+// "relievo film.mkv" and "relievo --loop film.mkv" as "relievo play ..", "relievo help play" and "relievo play
+// help" as "relievo play --help".
 std::vector<const char*> withCommand(const CLI::App& program, int argc, const char* const* argv) {
   std::vector<const char*> words(argv, argv + argc);
   const std::string first = argc > 1 ? argv[1] : "";
@@ -49,6 +50,7 @@ std::vector<const char*> withCommand(const CLI::App& program, int argc, const ch
     words.push_back("--help");
     return words;
   }
+  if (argc == 3 && isCommand(first) && std::string_view(argv[2]) == "help" && !isThere("help")) words[2] = "--help";
   if (argc == 2 && first == "-v") return {argv[0], "--version"};
   constexpr std::array<std::string_view, 4> kOwn{"-h", "--help", "-V", "--version"};
   if (!isCommand(first) && std::ranges::find(kOwn, first) == kOwn.end()) words.insert(words.begin() + 1, "play");

@@ -26,9 +26,8 @@ constexpr const char* kStereoHelp =
     "mono: one picture; sbs, tab: left and right eye side by side, or one above the other,\n"
     "each squeezed by half; sbs:full, tab:full: each in its own shape; rows, columns: line by line;\n"
     "anaglyph[:gray|color]: for red-cyan glasses; frame-packing: HDMI 3D; quilt[:COLSxROWS]: many views [8x6]";
-constexpr const char* kNoStereo =
-    "no such layout; it is one of: mono sbs[:full] tab[:full] rows columns anaglyph[:gray|color] frame-packing "
-    "quilt[:COLSxROWS]";
+constexpr const char* kLayouts =
+    "mono sbs[:full] tab[:full] rows columns anaglyph[:gray|color] frame-packing quilt[:COLSxROWS]";
 constexpr const char* kNoDuration = "a duration is more than 0 and at most a billion seconds";
 
 void addSources(CLI::App& command, PlayOptions& play) {
@@ -103,8 +102,12 @@ CLI::Option* addBackEnd(CLI::App& command, const char* option, BackEndName& chos
 
 void addStereoOptions(CLI::App& command, StereoSettings& stereo) {
   const auto readStereo = [&stereo](const std::string& word) {
-    if (!parseStereo(inSmallLetters(word), stereo))
-      throw WordFailure({"--stereo " + word, {ErrorCode::InvalidArgument, 0, kNoStereo}});
+    static const std::vector<std::string> kWords{
+        "mono",     "sbs",           "sbs:full",       "tab",           "tab:full", "rows", "columns",
+        "anaglyph", "anaglyph:gray", "anaglyph:color", "frame-packing", "quilt"};
+    if (parseStereo(inSmallLetters(word), stereo)) return;
+    throw CLI::ValidationError("--stereo " + word,
+                               print("no such layout; it is one of: %s", kLayouts) + meant(word, kWords));
   };
   command.add_option_function<std::string>("--stereo", readStereo, kStereoHelp)
       ->type_name("mono|sbs|tab|rows|columns|anaglyph|frame-packing|quilt")
@@ -126,8 +129,9 @@ StereoSignal readSignal(const std::string& word) {
   for (const auto& [name, signal] : signals) {
     if (inSmallLetters(word) == name) return signal;
   }
-  throw WordFailure({"--tv-signal " + word,
-                     {ErrorCode::InvalidArgument, 0, "no such signal; it is one of: frame-packing tab sbs off"}});
+  static const std::vector<std::string> kWords{"frame-packing", "tab", "sbs", "off"};
+  throw CLI::ValidationError("--tv-signal " + word,
+                             "no such signal; it is one of: frame-packing tab sbs off" + meant(word, kWords));
 }
 
 void addSignalOption(CLI::App& command, std::optional<StereoSignal>& signal) {
@@ -172,7 +176,7 @@ void addTouchOptions(CLI::App& command, PlayOptions& play, const DeviceNames& na
 
 // What is printed, written or listened to.
 void addFileOptions(CLI::App& command, PlayOptions& play) {
-  command.add_option("--keys", play.keys_path, "Which key means what (see --print-keys) [the usual]")
+  command.add_option("--keys", play.keys_path, "A table of keys of your own (see --print-keys) [the usual keys]")
       ->type_name("FILE");
   command.add_flag("--print-keys", play.print_keys, "Print the table of keys, to begin one of your own from")
       ->configurable(false);
@@ -187,8 +191,8 @@ void addFileOptions(CLI::App& command, PlayOptions& play) {
   command
       .add_option(
           "--control", play.control_path,
-          "Listen there for commands of programs, one JSON object a line; after SOURCE, or without, wait for the next\n"
-          "film, until one says quit")
+          "Take commands from programs on this socket, one JSON object a line; after SOURCE, or without, wait for the\n"
+          "next film, until a program says quit")
       ->type_name("SOCKET");
 }
 
@@ -214,18 +218,18 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
   command
       .add_option_function<std::string>(
           "--size", [&play](const std::string& word) { play.player.display = readSize(word); },
-          "Pixels of the picture [a window: the film's; else 1280x720]; of kms a mode that the screen has, else its\n"
-          "favourite")
+          "Pixels of the picture [a window: the film's; else 1280x720]; kms: a mode that the screen has, else the one\n"
+          "that it prefers")
       ->type_name("WxH");
   addStereoOptions(command, play.player.stereo);
   addSignalOption(command, play.tv_signal);
   addTouchOptions(command, play, names);
   addBackEnd(
       command, "--remote", play.remote, "remote", names.remote,
-      "Where keys come from [of a window its own and the terminal's; of a screen evdev, all remote controls; else "
-      "keys, the terminal's]");
+      "Where keys come from [with a window its own and the terminal's; with a screen evdev: all remote controls; else "
+      "keys: the terminal's]");
   addBackEnd(command, "--audio", play.audio, "sound output", names.audio,
-             "Where the sound goes [of a window or a whole screen alsa, else none]");
+             "Where the sound goes [with a window or a whole screen alsa, else none]");
   CLI::Option* const decoder =
       addBackEnd(command, "--decoder", play.decoder, "decoder", names.decoder,
                  "What decodes the picture; where it cannot, FFmpeg does [the video hardware, else ffmpeg]");

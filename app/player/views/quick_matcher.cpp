@@ -17,7 +17,8 @@ class QuickMatcher final : public StereoMatcher {
     if (depth_.isOnePicture())
       return {"both views of this shot are the same picture", "it has no depth and is felt flat"};
     if (depth_.areSwapped())
-      return {"the right eye's view comes first", "touch has it in order; --swap-eyes shows it so"};
+      return {"the right eye's view comes first",
+              "the relief is made the right way round; if the picture looks inside out: --swap-eyes"};
     return {};
   }
   [[nodiscard]] Frame depthOf(const Frame& left, const Frame& right) override { return depth_.depthOf(left, right); }

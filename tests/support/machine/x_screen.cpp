@@ -2,6 +2,7 @@
 // Starts Xvfb and drives it by Xlib and XTest.
 #include "tests/support/machine/x_screen.h"
 
+#include <X11/Xatom.h>
 #include <X11/Xlib.h>
 #include <X11/Xutil.h>
 #include <X11/extensions/XTest.h>
@@ -160,6 +161,12 @@ std::optional<XScreen::Place> XScreen::place(unsigned long window) const {
   XWindowAttributes attributes{};
   if (XGetWindowAttributes(connection_, window, &attributes) == 0) return std::nullopt;
   return Place{attributes.x, attributes.y, attributes.width, attributes.height};
+}
+
+void XScreen::setResources(const std::string& text) const {
+  XChangeProperty(connection_, DefaultRootWindow(connection_), XA_RESOURCE_MANAGER, XA_STRING, 8, PropModeReplace,
+                  reinterpret_cast<const unsigned char*>(text.data()), static_cast<int>(text.size()));
+  XSync(connection_, False);
 }
 
 void XScreen::resize(unsigned long window, int width, int height) const {

@@ -39,6 +39,8 @@ class XScreen {
     int x = 0, y = 0, width = 0, height = 0;
   };
   [[nodiscard]] std::optional<Place> place(unsigned long window) const;
+  // What a desktop's settings say to all programs, as "Xft.dpi:\t192\n".
+  void setResources(const std::string& text) const;
   void resize(unsigned long window, int width, int height) const;
   // Sends the request of a window manager's close button.
   void askToClose(unsigned long window) const;

@@ -160,7 +160,7 @@ TEST_F(Pictures, APatternHasAnyFirstNumberAndGapsAreTime) {
   EXPECT_THAT(film.color, ElementsAre("0 p00099.png", "20 p00100.png", "60 p00102.png"));
   EXPECT_EQ(film.duration, 80ms);
   EXPECT_EQ(film.streams.at(0).frame_period, 20ms);
-  EXPECT_THAT(film.notes, ElementsAre(HasSubstr("1 of the numbers 99 to 102")));
+  EXPECT_THAT(film.notes, ElementsAre(HasSubstr("1 of the numbers 99 to 102 is missing: the picture before it")));
   EXPECT_EQ(read(folder_ / "p*.png", 25).color.size(), 5u);
   EXPECT_EQ(read(folder_ / "x%05d.png").error->code, ErrorCode::NotFound);
 }

@@ -163,6 +163,7 @@ TEST(Options, HelpAndVersionAreAnsweredEverywhere) {
     EXPECT_THAT(parse(words).out, HasSubstr("relievo film.mkv")) << words[0];
   }
   EXPECT_EQ(parse({"help", "play"}).out, parse({"play", "--help"}).out);
+  EXPECT_EQ(parse({"play", "help"}).out, parse({"play", "--help"}).out);
   EXPECT_EQ(parse({"help", "devices"}).out, parse({"devices", "--help"}).out);
   const std::string version = parse({"--version"}).out;
   EXPECT_THAT(version, StartsWith("relievo "));
@@ -262,6 +263,13 @@ TEST(Options, TheSignalForATelevisionIsThatOfTheLayoutOrTheOneAskedFor) {
     EXPECT_EQ(display.stereo, signal) << words.back();
     EXPECT_EQ(display.other_stereo, or_other) << words.back();
   }
+  expectRefused({"play", "film.mkv", "--tv-signal", "sbss"}, "did you mean sbs?");
+  expectRefused({"play", "film.mkv", "--stereo", "SBSS"}, "did you mean sbs?");
+  expectRefused({"play", "film.mkv", "--stereo", "anaglyph:grey"}, "did you mean anaglyph:gray?");
+  expectRefused({"play", "film.mkv", "--as", "kiti"}, "did you mean kitti?");
+  expectRefused({"play", "film.mkv", "--calibration", "lew=linear"}, "(law?)");
+  expectRefused({"play", "film.mkv", "--calibration", "law=linea,near=1"}, "(linear?)");
+  expectRefused({"play", "film.mkv", "--material", "stifness=1"}, "(stiffness?)");
   expectRefused({"play", "film.mkv", "--tv-signal", "holo"}, "it is one of: frame-packing tab sbs off");
 }
 
