@@ -32,6 +32,7 @@ class Enlarger {
 
   void fill(DisparityMap& large) const {
     std::vector<float> columns;
+    columns.reserve(static_cast<std::size_t>(large.cols));
     for (int c = 0; c < large.cols; ++c) {
       columns.push_back(
           std::clamp((static_cast<float>(c) + 0.5F) / scale_ - 0.5F, 0.0F, static_cast<float>(small_.cols - 1)));

@@ -174,7 +174,7 @@ Frame QuickDepth::codesOf(const DisparityMap& map) const {
     const auto width = static_cast<float>(map.cols);
     const float low = range_->low * width, scale = 1 / ((range_->high - range_->low) * width);
     std::ranges::transform(map.pixels, codes->begin(), [&](float d) {
-      return static_cast<std::uint16_t>(std::clamp((d - low) * scale, 0.0F, 1.0F) * kHighest + 0.5F);
+      return static_cast<std::uint16_t>(nearest(std::clamp((d - low) * scale, 0.0F, 1.0F) * kHighest));
     });
     if (swapped_) {
       for (auto row = codes->begin(); row != codes->end(); row += map.cols) std::reverse(row, row + map.cols);

@@ -41,7 +41,8 @@ class CellSums {
   [[nodiscard]] const std::vector<std::uint32_t>& row(int r) {
     std::ranges::fill(sums_, 0U);
     for (int i = 0; i < down_.taken; ++i) {
-      const std::ptrdiff_t y = down_.at[static_cast<std::size_t>(r * down_.taken + i)];
+      const std::ptrdiff_t y =
+          down_.at[static_cast<std::size_t>(r) * static_cast<std::size_t>(down_.taken) + static_cast<std::size_t>(i)];
       const std::uint8_t* const from = plane_.data + y * plane_.stride_bytes + k_.offset_bytes;
       if (k_.bits != 8 || k_.shift != 0) add([&](std::ptrdiff_t x) { return codeAt(k_, from + x * k_.step_bytes); });
       else if (k_.step_bytes == 1) add([&](std::ptrdiff_t x) { return from[x]; });

@@ -44,8 +44,8 @@ void SteadyDisparity::follow(DisparityMap& map, const GrayPicture& now) {
   const std::vector<Motion> motion =
       before_->bytes == now.bytes ? std::vector<Motion>(now.size()) : motionBetween(*before_, now);
   const float scale = static_cast<float>(map.cols) / static_cast<float>(now.cols);
-  std::vector<int> columns;
-  for (int c = 0; c < map.cols; ++c) columns.push_back(c * now.cols / map.cols);
+  std::vector<int> columns(static_cast<std::size_t>(map.cols));
+  for (int c = 0; c < map.cols; ++c) columns[static_cast<std::size_t>(c)] = c * now.cols / map.cols;
   was_.resize(map.size());
   findStill(map);
   for (int r = 0; r < map.rows; ++r) {
