@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <limits>
 #include <utility>
 #include <vector>
+
+#include "app/enhance/in_bands.h"
 
 namespace relievo {
 namespace {
@@ -64,8 +67,7 @@ class Growing {
       if (map.holes[i] != 0) known_[i] = std::numeric_limits<float>::quiet_NaN();
     }
     for (const Point& corner : delaunay_.points()) codes_.push_back(cornerCode(corner));
-    measure(0);
-    measure(1);
+    measure({0, 1});
   }
 
   // In rounds: the worst sample of each triangle beyond the bound becomes a point, in order of decreasing error; then
@@ -89,7 +91,7 @@ class Growing {
           if (std::exchange(changed_in[triangle], round) != round) changed.push_back(triangle);
         }
       }
-      for (const int triangle : changed) measure(triangle);
+      measure(changed);
     }
     return {delaunay_.points(), std::move(codes_), delaunay_.triangles()};
   }
@@ -117,7 +119,17 @@ class Growing {
     return map_.codes[found];
   }
 
-  void measure(int triangle) {
+  // On all cores. What is found stays in the order of the triangles.
+  void measure(const std::vector<int>& triangles) {
+    std::vector<Candidate> found(triangles.size());
+    inBands(static_cast<int>(triangles.size()), [&](int first, int end) {
+      for (int i = first; i < end; ++i) found[i] = farthestFrom(triangles[i]);
+    });
+    std::ranges::copy_if(found, std::back_inserter(worst_), [&](const Candidate& each) { return each.error > bound_; });
+  }
+
+  // The sample that is farthest from a triangle; `bound_` and no sample if all are within it.
+  [[nodiscard]] Candidate farthestFrom(int triangle) const {
     const auto [a, b, c] = delaunay_.triangles()[triangle];
     const auto& p = delaunay_.points();
     const std::array<Point, 3> corners{p[a], p[b], p[c]};
@@ -138,7 +150,7 @@ class Growing {
         worst.point = {first + i, row};
       }
     });
-    if (worst.error > bound_) worst_.push_back(worst);
+    return worst;
   }
 
   const DepthMap& map_;

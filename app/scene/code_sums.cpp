@@ -60,8 +60,8 @@ class Lanes {
   }
 
  private:
-  using Pair = typename Sample::Pair;
-  using Vector = typename Sample::Pairs;
+  using Pair = Sample::Pair;
+  using Vector = Sample::Pairs;
   static constexpr int kShift = 8 * Sample::kBytes;
   using Halves = std::uint64_t __attribute__((vector_size(16)));
   static std::uint64_t eightBytes(const std::uint8_t* p) RELIEVO_RT {
