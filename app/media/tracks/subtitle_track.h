@@ -20,19 +20,25 @@ class SubtitleTrack {
   static constexpr std::size_t kMaxWaiting = 1024;
   static constexpr std::size_t kMaxRecent = 256, kMaxRecentBytes = std::size_t{1} << 20;
 
-  // Opens the decoder for `stream`, in place of the last one. What is remembered of the stream comes first.
-  [[nodiscard]] Result<void> open(std::unique_ptr<SubtitleDecoder> decoder, const StreamInfo& stream);
+  // Opens the decoder for `stream`, in place of the last one. What is remembered of the stream comes first. `before` is
+  // what readBefore reads.
+  [[nodiscard]] Result<void> open(std::unique_ptr<SubtitleDecoder> decoder, const StreamInfo& stream, Duration before);
   void close() noexcept;
   [[nodiscard]] int stream() const noexcept { return stream_; }
-  // Of any subtitle stream.
+  // Takes a packet of any subtitle stream, selected or not.
   void keep(Packet packet);
   [[nodiscard]] std::optional<Subtitle> next();
   // Call after a seek. What was read before it stays remembered: its times hold.
   void restart();
+  // Call after restart and before the source's own seek: a line that runs at the target may begin before the key frame
+  // that the pictures are decoded from. Where the film has too many bytes a second, less than `before` is read, now and
+  // from then on. Errors are those of the seek that follows. `leading` is the stream of the pictures.
+  void readBefore(MediaSource& source, int leading, MediaTime target);
 
  private:
   std::unique_ptr<SubtitleDecoder> decoder_;
   int stream_ = -1;
+  Duration before_{0};
   std::deque<Packet> waiting_;  // of the selected stream
   std::deque<Packet> recent_;   // of all of them
   std::size_t recent_bytes_ = 0;

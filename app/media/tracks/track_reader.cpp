@@ -226,7 +226,7 @@ bool TrackReader::isFull(const Track& track) noexcept {
 // begin after the target. Retries from ever earlier times, finally from the beginning.
 Result<void> TrackReader::seek(MediaTime target, Duration key_step) {
   words_.restart();
-  if (key_step == Duration(0)) readWordsBefore(target);
+  if (key_step == Duration(0)) words_.readBefore(*source_, tracks_[0].stream, target);
   Duration step_back{0};
   for (;;) {
     const MediaTime from = std::max(MediaTime{}, target - step_back);
@@ -234,20 +234,6 @@ Result<void> TrackReader::seek(MediaTime target, Duration key_step) {
     if (!reached) return std::unexpected(reached.error());
     if (*reached || from == MediaTime{}) return {};
     step_back = step_back == Duration(0) ? kFirstStepBack : 2 * step_back;
-  }
-}
-
-// A line that runs at the target may begin before the key frame that the pictures are decoded from. Errors are told by
-// the seek that follows.
-void TrackReader::readWordsBefore(MediaTime target) {
-  if (words_.stream() < 0 || words_before_ == Duration(0) || target == MediaTime{}) return;
-  if (!source_->seek(std::max(MediaTime{}, target - words_before_))) return;
-  for (;;) {
-    auto packet = source_->read();
-    if (!packet || !*packet) return;
-    const auto time = (*packet)->dts ? (*packet)->dts : (*packet)->pts;
-    if ((*packet)->stream == tracks_[0].stream && time && *time >= target) return;
-    if (isWords((*packet)->stream)) words_.keep(std::move(**packet));
   }
 }
 
@@ -259,9 +245,8 @@ Result<bool> TrackReader::seekOnce(MediaTime from, MediaTime target, Duration ke
   given_.reset();
   read_.reset();
   for (std::size_t i = 0; i < track_count_; ++i) {
-    if (auto restarted = restart(tracks_[i], from > MediaTime{}); !restarted) {
-      return std::unexpected(restarted.error());
-    }
+    auto restarted = restart(tracks_[i], from > MediaTime{});
+    if (!restarted) return std::unexpected(restarted.error());
   }
   bool reached = true;
   for (std::size_t i = 0; i < track_count_; ++i) {

@@ -52,8 +52,7 @@ class TrackReader {
   // that a seek does not miss one, it reads the lines of `before` its target as well.
   [[nodiscard]] Result<void> readWords(std::unique_ptr<SubtitleDecoder> decoder, const StreamInfo& stream,
                                        Duration before = Duration(0)) {
-    words_before_ = before;
-    return words_.open(std::move(decoder), stream);
+    return words_.open(std::move(decoder), stream, before);
   }
   void ignoreWords() noexcept { words_.close(); }
   // The next subtitle among the data already read. Never reads, never fails.
@@ -102,7 +101,6 @@ class TrackReader {
     bool finished = false;              // the source has no more packets of this track
     std::optional<MediaTime> last_key;  // last key frame kept, when only key frames are read
   };
-  void readWordsBefore(MediaTime target);
   [[nodiscard]] Result<bool> seekOnce(MediaTime from, MediaTime target, Duration key_step);
   [[nodiscard]] bool isWords(int stream) const;
   [[nodiscard]] bool isWanted(Track& track, const Packet& packet) const;
@@ -124,7 +122,6 @@ class TrackReader {
   std::atomic<bool> waits_for_source_{false};
   SoundTrack sound_;
   SubtitleTrack words_;
-  Duration words_before_{0};
   std::optional<MediaTime> given_, read_;  // the leading track's newest picture and newest packet
 };
 
