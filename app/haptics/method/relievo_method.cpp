@@ -158,7 +158,7 @@ void RelievoMethod::upkeep(const SurfaceWindow& window, MediaTime now) RELIEVO_R
   // Assume the same interval to the next tick as from the last; while paused it is 0.
   const Duration step = std::clamp(now - now_, Duration(0), kLongestStep);
   if (material_.exists()) material_.read(window, now + step, ahead_mm_.x, ahead_mm_.y);
-  if (surface_.hasReadSome()) {  // the next tick will read the rest
+  if (surface_.hasReadAFrame()) {  // the next tick will read the rest
     now_ = now;
     return;
   }

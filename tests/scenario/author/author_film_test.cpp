@@ -1,114 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// relievo-author from end to end: colour and depth become one film, or no film.
+// relievo-author from end to end: colour and depth become one film, sample by sample and time by time.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <map>
-#include <set>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "app/author/author.h"
-#include "app/author/package/output.h"
-#include "app/media/pair_reader.h"
 #include "app/scene/height_field.h"
 #include "drivers/ffmpeg/ffmpeg.h"
+#include "tests/scenario/author/author_film.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/mkv_patch.h"
-#include "tests/support/machine/process.h"
-#include "tests/support/machine/program.h"
 
 namespace relievo {
 namespace {
 
 using test::ClipTrack;
 using test::makeClip;
-using test::Process;
-using test::TemporaryFolder;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-const PairReader::Backends kBackends{[](const std::string&) { return makeFfmpegSource(); },
-                                     [](const StreamInfo&) { return makeFfmpegDecoder(); }};
-const ProgressReport kNoReport = [](std::uint64_t, std::optional<std::uint64_t>) {};
-
-ClipTrack colorTrack(int width = 64, int height = 48, int fps = 30, int frames = 30) {
-  return {.pix_fmt = "yuv420p", .width = width, .height = height, .fps_num = fps, .frames = frames};
-}
-ClipTrack depthTrack(const char* pix_fmt, std::function<std::uint32_t(int, int, int)> code, int width = 64,
-                     int height = 48) {
-  return {.pix_fmt = pix_fmt, .width = width, .height = height, .sample = [code](int component, int c, int r, int k) {
-            return component == 0 ? code(c, r, k) : 128u;
-          }};
-}
-
-struct Film {
-  FilmInfo info;
-  std::vector<FramePair> pairs;
-  // The depth plane's code, as it was encoded.
-  [[nodiscard]] int code(std::size_t pair, int c, int r) const {
-    return static_cast<int>(test::sampleAt(pairs.at(pair).depth, 0, c, r));
-  }
-};
-
-Film readFilm(const std::string& path) {
-  PairReader reader(kBackends);
-  const auto opened = reader.open({.url = path});
-  EXPECT_TRUE(opened.has_value()) << (opened ? "" : opened.error().message);
-  Film film{reader.info(), {}};
-  while (auto pair = reader.next().value()) film.pairs.push_back(std::move(*pair));
-  return film;
-}
-
-std::vector<std::string> filesIn(const std::string& folder) {
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    names.push_back(entry.path().filename().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
-class AuthorFilm : public testing::Test {
- protected:
-  TemporaryFolder folder_;
-  std::atomic<bool> stop_{false};
-
-  Outcome<AuthorSummary> make(const SourceOptions& source, const std::string& out = "out.mkv") {
-    return authorFilm(source, kBackends, {.path = folder_ / out, .color_crf = 18, .depth = {.crf = 0}}, stop_,
-                      kNoReport);
-  }
-  // Packages colour and depth from two files into out.mkv.
-  AuthorSummary package(const ClipTrack& color, const ClipTrack& depth, SourceOptions source = {}) {
-    makeClip(folder_ / "color.mkv", {color});
-    makeClip(folder_ / "depth.mkv", {depth});
-    source.url = folder_ / "color.mkv";
-    source.depth_url = folder_ / "depth.mkv";
-    auto summary = make(source);
-    EXPECT_TRUE(summary.has_value()) << (summary ? "" : summary.error().thing + ": " + summary.error().error.message);
-    return summary.value_or(AuthorSummary{});
-  }
-  // Runs `relievo-author ARGUMENTS`, where @ stands for the folder.
-  test::ProgramResult run(std::string arguments) {
-    const std::string folder = (folder_ / "");
-    for (std::size_t at = arguments.find('@'); at != std::string::npos; at = arguments.find('@', at)) {
-      arguments.replace(at, 1, folder.substr(0, folder.size() - 1));
-    }
-    return test::runProgram("relievo-author " + arguments, folder_ / "said");
-  }
-  void SetUp() override { std::filesystem::create_directory(folder_ / "said"); }
-  // The files in the folder, except the inputs and the captured output.
-  [[nodiscard]] std::vector<std::string> made() const {
-    std::vector<std::string> names = filesIn(folder_ / "");
-    std::erase_if(names, [](const std::string& n) { return n == "said" || n == "color.mkv" || n == "depth.mkv"; });
-    return names;
-  }
-};
 
 TEST_F(AuthorFilm, BringsTwoFilesTogetherWithTheirCodesAndTimes) {
   const auto code = [](int c, int r, int k) { return static_cast<std::uint32_t>((c * 3 + r * 5 + k * 7) & 255); };
@@ -430,218 +345,6 @@ TEST_F(AuthorFilm, SampleIsAFilmLikeAnyOther) {
   EXPECT_NEAR(film.code(33, 80, 54), 255.0 / 40 * sampleSceneHeight(x, y, 33 / 30.0), 0.51);
 }
 
-// ---- the program ----
-
-TEST_F(AuthorFilm, ProgramPackagesAndSaysWhatItDid) {
-  makeClip(folder_ / "color.mkv", {colorTrack()});
-  makeClip(folder_ / "depth.mkv",
-           {depthTrack("gray16le", [](int c, int, int) { return static_cast<std::uint32_t>(1000 * c); })});
-  const auto said = run("--color @/color.mkv --depth @/depth.mkv -o @/out.mp4");
-  EXPECT_EQ(said.exit_code, 0) << said.err;
-  EXPECT_THAT(said.out, HasSubstr("H.264 4:2:0"));
-  EXPECT_THAT(said.out, HasSubstr("H.264 4:0:0"));
-  EXPECT_THAT(said.out, HasSubstr("16 bits rescaled to 8"));
-  EXPECT_THAT(made(), ElementsAre("out.mp4"));
-  EXPECT_EQ(readFilm(folder_ / "out.mp4").pairs.size(), 30u);
-}
-
-TEST_F(AuthorFilm, ProgramDoesNotReplaceAFileUnlessForced) {
-  makeClip(folder_ / "color.mkv", {colorTrack()});
-  makeClip(folder_ / "depth.mkv", {depthTrack("gray", [](int, int, int) { return 9u; })});
-  std::ofstream(folder_ / "out.mkv") << "mine";
-  const auto refused = run("--color @/color.mkv --depth @/depth.mkv -o @/out.mkv");
-  EXPECT_EQ(refused.exit_code, 1);
-  EXPECT_THAT(refused.err, HasSubstr("out.mkv: already exists"));
-  EXPECT_THAT(refused.err, HasSubstr("--force"));
-  std::string kept;
-  std::ifstream(folder_ / "out.mkv") >> kept;
-  EXPECT_EQ(kept, "mine");
-
-  EXPECT_EQ(run("--color @/color.mkv --depth @/depth.mkv -o @/out.mkv --force").exit_code, 0);
-  EXPECT_EQ(readFilm(folder_ / "out.mkv").pairs.size(), 30u);
-  EXPECT_THAT(made(), ElementsAre("out.mkv"));
-}
-
-TEST_F(AuthorFilm, ProgramKeepsTheOldFileWhenTheNewOneFails) {
-  std::ofstream(folder_ / "out.mkv") << "mine";
-  const auto failed = run("--color @/missing.mkv -o @/out.mkv --force");
-  EXPECT_EQ(failed.exit_code, 1);
-  EXPECT_THAT(failed.err, HasSubstr("missing.mkv: no such file"));
-  EXPECT_EQ(std::count(failed.err.begin(), failed.err.end(), '\n'), 1);
-  EXPECT_THAT(made(), ElementsAre("out.mkv"));
-}
-
-TEST_F(AuthorFilm, ProgramTellsWrongUseInOneLine) {
-  makeClip(folder_ / "color.mkv", {colorTrack()});
-  for (const char* arguments :
-       {"--color @/color.mkv", "-o @/out.mkv", "--scene moon -o @/out.mkv", "--color @/color.mkv -o @/out.avi",
-        "--scene sample --color @/color.mkv -o @/out.mkv", "--color @/color.mkv -o @/out.mkv --crf 99",
-        "--color @/color.mkv -o @/out.mkv --calibration law=steep",
-        "--color @/color.mkv -o @/out.mkv --packing pile"}) {
-    const auto said = run(arguments);
-    EXPECT_EQ(said.exit_code, 2) << arguments << ": " << said.err;
-    EXPECT_EQ(std::count(said.err.begin(), said.err.end(), '\n'), 1) << arguments << ": " << said.err;
-    EXPECT_TRUE(said.err.starts_with("relievo-author: ")) << said.err;
-  }
-  EXPECT_TRUE(made().empty());
-}
-
-TEST_F(AuthorFilm, ProgramSaysWhenThereIsNoDepth) {
-  makeClip(folder_ / "color.mkv", {colorTrack()});
-  const auto said = run("--color @/color.mkv -o @/out.mkv");
-  EXPECT_EQ(said.exit_code, 1);
-  EXPECT_THAT(said.err, HasSubstr("no depth in this source; give --depth SOURCE"));
-  EXPECT_TRUE(made().empty());
-}
-
-TEST_F(AuthorFilm, ProgramsHelpNamesItsMainOptions) {
-  const auto said = run("--help");
-  EXPECT_EQ(said.exit_code, 0);
-  for (const char* word :
-       {"--color", "--depth", "--packing", "--calibration", "--crf", "--force", "--scene", "Examples"}) {
-    EXPECT_THAT(said.out, HasSubstr(word));
-  }
-}
-
-std::string textOf(const std::string& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-TEST_F(AuthorFilm, ProgramLeavesNothingOnASignal) {
-  for (const auto& [number, out] : {std::pair{SIGINT, "out.mkv"}, {SIGTERM, "out.ts"}, {SIGHUP, "out.m3u8"}}) {
-    Process process({std::string(RELIEVO_BIN_DIR) + "/relievo-author", "--scene", "sample", "-o", folder_ / out},
-                    folder_ / "said/errors");
-    while (!process.catches(number) && process.isRunning()) std::this_thread::yield();
-    ASSERT_TRUE(process.isRunning()) << textOf(folder_ / "said/errors");
-    process.send(number);
-    EXPECT_EQ(process.wait(), 1);
-    EXPECT_THAT(textOf(folder_ / "said/errors"), HasSubstr(std::string(out) + ": interrupted; nothing was written"));
-    EXPECT_TRUE(made().empty());
-  }
-}
-
-// A killed run may leave temporary files where unnamed files are not supported, and for HLS; never an incomplete film.
-TEST_F(AuthorFilm, ProgramLeavesNoFilmWhenItIsKilled) {
-  for (const char* out : {"out.mkv", "out.mp4", "out.ts", "out.m3u8"}) {
-    Process process({std::string(RELIEVO_BIN_DIR) + "/relievo-author", "--scene", "sample", "-o", folder_ / out},
-                    folder_ / "said/errors");
-    while (!process.catches(SIGHUP) && process.isRunning()) std::this_thread::yield();
-    process.send(SIGKILL);
-    EXPECT_LT(process.wait(), 0) << "ended by a signal";
-    EXPECT_FALSE(std::filesystem::exists(folder_ / out)) << out;
-    EXPECT_FALSE(std::filesystem::exists(folder_ / "out.segments"));
-  }
-}
-
-TEST_F(AuthorFilm, ProgramEndsAtOnceOnASecondSignalAndLeavesNothing) {
-  for (const int second : {SIGINT, SIGHUP}) {
-    Process process({std::string(RELIEVO_BIN_DIR) + "/relievo-author", "--scene", "sample", "-o", folder_ / "out.mkv"},
-                    folder_ / "said/errors");
-    while (!process.catches(SIGHUP) && process.isRunning()) std::this_thread::yield();
-    process.sendBoth(SIGTERM, second);
-    EXPECT_LT(process.wait(), 0) << "ended by a signal";
-    EXPECT_THAT(made(), testing::IsEmpty());
-  }
-}
-
-TEST_F(AuthorFilm, ProgramLeavesNothingOnAFullDisk) {
-  // Files are limited to 16 blocks of 1 KiB, which simulates a full disk.
-  ClipTrack color = colorTrack(320, 240);
-  color.sample = [](int, int c, int r, int k) {
-    return static_cast<std::uint32_t>((c * 7919 + r * 104729 + k * 1299709) >> 3);
-  };
-  makeClip(folder_ / "color.mkv", {color});
-  makeClip(folder_ / "depth.mkv", {depthTrack("gray", [](int, int, int) { return 9u; })});
-  for (const char* out : {"out.mkv", "out.mp4", "out.ts", "out.m3u8"}) {
-    Process process({"/bin/bash", "-c",
-                     "ulimit -f 16; exec " RELIEVO_BIN_DIR "/relievo-author --color " + (folder_ / "color.mkv") +
-                         " --depth " + (folder_ / "depth.mkv") + " -o " + (folder_ / out)},
-                    folder_ / "said/errors");
-    EXPECT_EQ(process.wait(), 1) << out;
-    EXPECT_THAT(textOf(folder_ / "said/errors"),
-                HasSubstr(std::string(out) + ": it cannot be written; is the disk full?"));
-    EXPECT_TRUE(made().empty()) << out;
-  }
-}
-
-// A playlist contains URLs, so its segments get names without special characters.
-TEST_F(AuthorFilm, WritesAnHlsFilmOfAnyNameThatOthersCanRead) {
-  makeClip(folder_ / "color.mkv", {colorTrack()});
-  makeClip(folder_ / "depth.mkv", {depthTrack("gray", [](int, int, int k) { return 8u * static_cast<unsigned>(k); })});
-  const SourceOptions source{.url = folder_ / "color.mkv", .depth_url = folder_ / "depth.mkv"};
-  for (const char* name : {"50%.m3u8", "a%05d.m3u8", "a:b.m3u8", "a\"b.m3u8", "a\\b.m3u8", "a#b.m3u8", "a?b.m3u8",
-                           "a b.m3u8", "d\xc3\xa9j\xc3\xa0 \xe8\xa6\x8b.m3u8", "in 5% : of/a ?.m3u8"}) {
-    std::filesystem::create_directories(std::filesystem::path(folder_ / name).parent_path());
-    const auto summary = make(source, name);
-    ASSERT_TRUE(summary) << name << ": " << summary.error().error.message;
-    std::ofstream(folder_ / "said/name") << (folder_ / name);
-    Process ffmpeg(
-        {"/bin/bash", "-c", "ffmpeg -v error -i \"file:$(cat " + (folder_ / "said/name") + ")\" -map 0:v:0 -f null -"},
-        folder_ / "said/errors");
-    EXPECT_EQ(ffmpeg.wait(), 0) << name << textOf(folder_ / "said/errors");
-    EXPECT_EQ(readFilm(folder_ / name).pairs.size(), 30u) << name;
-  }
-}
-
-TEST_F(AuthorFilm, NeverRemovesSegmentsThatAreNotItsOwn) {
-  makeClip(folder_ / "film.mkv", {colorTrack(), depthTrack("gray", [](int, int, int) { return 9u; })});
-  std::filesystem::create_directories(folder_ / "out.segments");
-  std::ofstream(folder_ / "out.segments/thesis.txt") << "four years";
-  const OutputOptions forced{.path = folder_ / "out.m3u8", .force = true};
-  const auto refused = authorFilm({.url = folder_ / "film.mkv"}, kBackends, forced, stop_, kNoReport);
-  ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().error.message, HasSubstr("contains other files"));
-  EXPECT_EQ(textOf(folder_ / "out.segments/thesis.txt"), "four years");
-}
-
-TEST_F(AuthorFilm, OfThreeAuthorsOfOneNameOneWins) {
-  makeClip(folder_ / "film.mkv", {colorTrack(), depthTrack("gray", [](int, int, int) { return 9u; })});
-  for (const char* out : {"out.mkv", "out.ts", "out.m3u8"}) {
-    const std::string command = std::string(RELIEVO_BIN_DIR) + "/relievo-author --color " + (folder_ / "film.mkv") +
-                                " -o " + (folder_ / out) + " >/dev/null 2>&1; echo $? >>" + (folder_ / "said/codes");
-    std::filesystem::remove(folder_ / "said/codes");
-    Process three({"/bin/bash", "-c", "(" + command + ") & (" + command + ") & (" + command + ") & wait"},
-                  folder_ / "said/errors");
-    three.wait();
-    std::string codes = textOf(folder_ / "said/codes");
-    std::erase(codes, '\n');
-    std::sort(codes.begin(), codes.end());
-    EXPECT_EQ(codes, "011") << out;
-    EXPECT_EQ(readFilm(folder_ / out).pairs.size(), 30u) << out;
-  }
-}
-
-// Simulates a killed run: its folder exists and nobody holds the lock.
-TEST_F(AuthorFilm, RemovesWhatAKilledRunOfTheSameNameHasLeft) {
-  makeClip(folder_ / "film.mkv", {colorTrack(), depthTrack("gray", [](int, int, int) { return 9u; })});
-  for (const char* left : {"out.m3u8.relievo-Ab3dE6/film.segments", "other.m3u8.relievo-Ab3dE6/film.segments"}) {
-    std::filesystem::create_directories(folder_ / left);
-  }
-  ASSERT_TRUE(make({.url = folder_ / "film.mkv"}, "out.m3u8"));
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "out.m3u8.relievo-Ab3dE6"));
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "other.m3u8.relievo-Ab3dE6")) << "of another name";
-}
-
-TEST_F(AuthorFilm, ReplacesAnHlsFilmWholeWhenForced) {
-  makeClip(folder_ / "color.mkv", {colorTrack()});
-  makeClip(folder_ / "depth.mkv", {depthTrack("gray", [](int, int, int k) { return 8u * static_cast<unsigned>(k); })});
-  const SourceOptions source{.url = folder_ / "color.mkv", .depth_url = folder_ / "depth.mkv"};
-  ASSERT_TRUE(make(source, "out.m3u8").has_value());
-  EXPECT_THAT(made(), ElementsAre("out.m3u8", "out.segments"));
-  EXPECT_THAT(filesIn(folder_ / "out.segments"), ElementsAre("00000.m4s", "init.mp4"));
-  std::ofstream(folder_ / "out.segments/00007.m4s") << "old";
-  EXPECT_FALSE(make(source, "out.m3u8").has_value());
-  std::filesystem::remove(folder_ / "out.m3u8");
-  const auto refused = make(source, "out.m3u8");
-  ASSERT_FALSE(refused.has_value());
-  EXPECT_THAT(refused.error().error.message, HasSubstr("segments already exists"));
-  ASSERT_TRUE(authorFilm(source, kBackends, {.path = folder_ / "out.m3u8", .force = true}, stop_, kNoReport));
-  EXPECT_THAT(made(), ElementsAre("out.m3u8", "out.segments"));
-  EXPECT_THAT(filesIn(folder_ / "out.segments"), ElementsAre("00000.m4s", "init.mp4"));
-  EXPECT_EQ(readFilm(folder_ / "out.m3u8").pairs.size(), 30u);
-}
-
 TEST_F(AuthorFilm, PutsKeyFramesAtCuts) {
   // From a slope to its mirror image between 40 and 41; a second has its own at 30, and 71 is a second from the cut.
   ClipTrack depth =
@@ -681,66 +384,6 @@ TEST_F(AuthorFilm, TakesADepthThatIsAllHoles) {
   EXPECT_EQ(summary.codes.holes, summary.codes.samples);
   EXPECT_THAT(toText("out.mkv", summary), HasSubstr("none, the whole depth is holes"));
   EXPECT_EQ(readFilm(folder_ / "out.mkv").info.calibration.calibration.invalid, CodeSet(0));
-}
-
-TEST_F(AuthorFilm, ProgramWritesWhatItsWordsSay) {
-  makeClip(folder_ / "color.mkv", {colorTrack()});
-  makeClip(folder_ / "depth.mkv",
-           {depthTrack("gray16le", [](int c, int, int) { return static_cast<std::uint32_t>(1000 * c); })});
-  const auto said =
-      run("--color @/color.mkv --depth @/depth.mkv -o @/out.ts --depth-codec hevc --depth-bits 12 --depth-chroma flat "
-          "--depth-law inverse --calibration near=500,far=2000 --material friction=.3");
-  EXPECT_EQ(said.exit_code, 0) << said.err;
-  EXPECT_THAT(said.out, HasSubstr("HEVC 4:2:0, 12 bits"));
-  EXPECT_THAT(said.out, HasSubstr("linear steps converted to inverse ones"));
-  EXPECT_THAT(said.out, HasSubstr("material: friction=0.3/0.3"));
-  EXPECT_EQ(said.err, "");
-  const Film film = readFilm(folder_ / "out.ts");
-  EXPECT_EQ(film.info.calibration.calibration.law, DepthLaw::Inverse);
-  EXPECT_EQ(film.info.calibration.calibration.bits, 12);
-  EXPECT_EQ(film.info.calibration.calibration.near_mm, 500);
-  EXPECT_EQ(film.info.depth_codec, "hevc");
-  EXPECT_EQ(film.info.material.friction, (Friction{0.3, 0.3}));
-}
-
-// Other players treat it as ordinary video: they show every colour picture and ignore the depth.
-TEST_F(AuthorFilm, OtherPlayersPlayItAsOrdinaryVideo) {
-  makeClip(folder_ / "color.mkv", {colorTrack()});
-  makeClip(folder_ / "depth.mkv", {depthTrack("gray", [](int, int, int k) { return 8u * static_cast<unsigned>(k); })});
-  const SourceOptions source{.url = folder_ / "color.mkv", .depth_url = folder_ / "depth.mkv"};
-  const auto shell = [this](const std::string& command) {
-    Process process({"/bin/bash", "-c", command + " >" + (folder_ / "said/out")}, folder_ / "said/errors");
-    return process.wait();
-  };
-  const auto isThere = [&](const std::string& program) { return shell("command -v " + program) == 0; };
-  // The other program may hang for its own reasons, so one retry.
-  const auto plays = [&](const std::string& command) {
-    constexpr int kTimedOut = 124;
-    const std::string bounded = "timeout 20 " + command + " </dev/null";
-    const int code = shell(bounded);
-    return (code == kTimedOut ? shell(bounded) : code) == 0;
-  };
-  if (!isThere("ffprobe")) GTEST_SKIP() << "no ffprobe: toolchain/setup demo";
-  for (const char* out : {"out.mkv", "out.mp4", "out.mov", "out.ts", "out.m3u8"}) {
-    ASSERT_TRUE(make(source, out).has_value());
-    const std::string film = folder_ / out;
-    ASSERT_EQ(shell("ffprobe -v error -select_streams v:0 -count_frames -show_entries "
-                    "stream=codec_name,nb_read_frames,pix_fmt -of csv=p=0 " +
-                    film),
-              0);
-    EXPECT_THAT(textOf(folder_ / "said/out"), testing::StartsWith("h264,yuv420p,30")) << out;
-    EXPECT_EQ(textOf(folder_ / "said/errors"), "") << out;
-    if (isThere("mpv")) {
-      EXPECT_TRUE(plays("mpv --no-config --frames=30 --vo=null --ao=null --untimed " + film)) << out;
-    }
-    // Its demuxers of transport streams and HLS are in packages of 80 MB.
-    const bool plain = film.ends_with(".mkv") || film.ends_with(".mp4") || film.ends_with(".mov");
-    if (plain && isThere("gst-launch-1.0")) {
-      EXPECT_TRUE(plays("env -u GST_PLUGIN_SYSTEM_PATH_1_0 GST_REGISTRY=" + folder_ / "gstreamer.list" +
-                        " gst-launch-1.0 -q playbin uri=file://" + film + " video-sink=fakesink audio-sink=fakesink"))
-          << out << ": " << textOf(folder_ / "said/errors");
-    }
-  }
 }
 
 }  // namespace

@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files that the FFmpeg source refuses, cuts short or mends, each with its sentence.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+
+#include "drivers/ffmpeg/ffmpeg.h"
+#include "drivers/ffmpeg/refusal.h"
+#include "drivers/ffmpeg/watch.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/film/mkv_patch.h"
+#include "tests/support/film/ts_patch.h"
+#include "tests/support/network/http_server.h"
+#include "tests/unit/drivers/ffmpeg_sources.h"
+
+namespace relievo {
+namespace {
+
+using test::ClipTrack;
+using test::makeClip;
+using test::TemporaryFolder;
+using testing::HasSubstr;
+
+void cutFile(const std::string& path, double part) {
+  const auto size = static_cast<double>(std::filesystem::file_size(path));
+  std::filesystem::resize_file(path, static_cast<std::uintmax_t>(size * part));
+}
+
+TEST(FfmpegSource, AFileIsAFileWhateverItsNameLooksLike) {
+  TemporaryFolder folder;
+  makeClip(folder / "plain.mkv", {ClipTrack{.frames = 2}});
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder / "");
+  std::filesystem::rename("plain.mkv", "rtsp:12:30.mkv");
+  const auto source = makeFfmpegSource();
+  EXPECT_TRUE(source->open("rtsp:12:30.mkv").has_value());
+  std::filesystem::current_path(before);
+}
+
+TEST(FfmpegSource, SaysWhatIsWrongWithWhatItCannotOpen) {
+  TemporaryFolder folder;
+  EXPECT_EQ(openErrorOf(folder / "none.mkv").code, ErrorCode::NotFound);
+  EXPECT_THAT(openErrorOf(folder / "none.mkv").message, HasSubstr("no such file"));
+  EXPECT_EQ(openErrorOf(folder / "").code, ErrorCode::Unsupported);
+  EXPECT_EQ(openErrorOf("nonsense://x/y").code, ErrorCode::Unsupported);
+
+  writeFile(folder / "text.mkv", "this is not a film\n");
+  std::string letters;
+  for (int i = 0; i < 3000; ++i) letters += "nor is this, though FFmpeg would show its letters\n";
+  writeFile(folder / "text.txt", letters);
+  writeFile(folder / "empty.mkv", "");
+  makeClip(folder / "no-index.mov", {kH264});
+  cutFile(folder / "no-index.mov", 0.5);  // the index stands at the end
+  for (const char* name : {"text.mkv", "text.txt", "empty.mkv", "no-index.mov"}) {
+    EXPECT_EQ(openErrorOf(folder / name).code, ErrorCode::Corrupt) << name;
+    EXPECT_THAT(openErrorOf(folder / name).message, HasSubstr("not a media file")) << name;
+  }
+}
+
+// Told by their first bytes, even where FFmpeg would find something like sound in what follows.
+TEST(FfmpegSource, RecordingsThatNothingReadsAreNamedWithTheCommandThatConvertsThem) {
+  const TemporaryFolder folder;
+  using namespace std::string_view_literals;
+  const struct {
+    const char* name;
+    std::string_view begin;
+    std::vector<const char*> words;
+  } kFormats[] = {
+      {"a.db3", "SQLite format 3\0"sv, {"ROS 2 bag", "rosbags-convert --src FOLDER --dst film.bag"}},
+      {"a.mcap", "\x89MCAP0\r\n"sv, {"MCAP", "rosbags-convert --src FOLDER --dst film.bag"}},
+      {"a.h5", "\x89HDF\r\n\x1a\n"sv, {"HDF5", ".npy", "h5py.File"}},
+      {"a.bag", "#ROSBAG V2.0\n"sv, {"ROS bag", "RELIEVO_ROSBAG"}},
+      {"a.oni", "NI10\1"sv, {"OpenNI", "RELIEVO_OPENNI"}},
+      {"a.klg", "\6\0\0\0"sv, {"scan", "RELIEVO_SCAN"}},
+      {"a.r3d", "PK\3\4"sv, {"Record3D", "EXR"}},
+      {"a.npz", "PK\3\4"sv, {"unzip", ".npy"}},
+      {"a.zip", "PK\3\4"sv, {"unpack", "folder"}},
+      {"a.svo2", "\x89MCAP0\r\n"sv, {"ZED", "ZED_SVO_Export"}},
+      {"a.ply", "ply\nformat"sv, {"cloud of points", "recording"}},
+      {"a.pcd", "# .PCD v0.7"sv, {"cloud of points", "recording"}},
+      {"a.mat", "MATLAB 5.0 MAT-file"sv, {"MATLAB", ".npy", "loadmat"}},
+      {"a.raw", "\1\2"sv, {"tell no size", "gray16le"}},
+      {"a.bin", "\1\2"sv, {"tell no size", "gray16le"}},
+      {"a.yuv", "\1\2"sv, {"tell no size", "yuv420p"}},
+      {"a.csv", "1.2,1.3\n"sv, {"table", "numpy.loadtxt"}},
+      {"a.pth", "PK\3\4"sv, {"PyTorch", "torch.load"}},
+      {"a.yml", "%YAML:1.0"sv, {"OpenCV", "FileStorage"}},
+      {"a.gz", "\x1f\x8b"sv, {"unpack"}},
+  };
+  for (const auto& format : kFormats) {
+    writeFile(folder / format.name, std::string(format.begin) + std::string(5000, '\x47'));
+    const Error error = openErrorOf(folder / format.name);
+    EXPECT_EQ(error.code, ErrorCode::Unsupported) << format.name;
+    for (const char* const word : format.words) EXPECT_THAT(error.message, HasSubstr(word));
+  }
+}
+
+TEST(FfmpegSource, AHeicPhotoItCannotReadIsSaidToBeOne) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder / "portrait.heic";
+  std::ofstream(path, std::ios::binary) << std::string(
+      "\0\0\0\x18"
+      "ftypheic\0\0\0\0mif1heic",
+      24);
+  const auto opened = makeFfmpegSource()->open(path);
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().code, ErrorCode::Unsupported);
+  for (const char* word : {"HEIC", "libheif", "JPEG"})
+    EXPECT_NE(std::string(opened.error().message).find(word), std::string::npos) << opened.error().message;
+}
+
+TEST(FfmpegSource, AFileThatMayNotBeReadIsSaidToBe) {
+  TemporaryFolder folder;
+  makeClip(folder / "a.mkv", {ClipTrack{.frames = 1}});
+  std::filesystem::permissions(folder / "a.mkv", std::filesystem::perms::none);
+  if (::access((folder / "a.mkv").c_str(), R_OK) == 0) GTEST_SKIP() << "this user may read everything";
+  EXPECT_EQ(openErrorOf(folder / "a.mkv").code, ErrorCode::PermissionDenied);
+}
+
+// A read of these may block forever: /proc/kmsg would hold a player until the kernel logs something.
+TEST(FfmpegSource, WhatIsNoFileIsRefusedBeforeItIsRead) {
+  for (const char* path : {"/dev/zero", "/dev/ptmx", "/proc/kmsg", "/proc/self/status", "/sys/kernel/uevent_seqnum"}) {
+    for (const std::string start : {"", "file:"}) {
+      if (::access(path, F_OK) != 0) continue;
+      const Error error = openErrorOf(start + path);
+      EXPECT_EQ(error.code, ErrorCode::Unsupported) << start << path;
+      EXPECT_THAT(error.message, testing::HasSubstr("a device or a file of the kernel")) << start << path;
+    }
+  }
+}
+
+// FFmpeg determines a PNG's size by decoding the first picture; it must not do so for a picture that is too large.
+TEST(FfmpegSource, APictureThatIsTooLargeIsNotDecodedToKnowItsSize) {
+  TemporaryFolder folder;
+  makeClip(folder / "a.png", {{.codec = "png", .pix_fmt = "gray", .width = 8192, .height = 4096, .frames = 1}});
+  const auto source = makeFfmpegSource();
+  ASSERT_TRUE(source->open(folder / "a.png"));
+  EXPECT_EQ(source->streams()[0].width, 0);
+  makeClip(folder / "b.png", {{.codec = "png", .pix_fmt = "gray", .width = 4096, .height = 4096, .frames = 1}});
+  const auto fits = makeFfmpegSource();
+  ASSERT_TRUE(fits->open(folder / "b.png"));
+  EXPECT_EQ(fits->streams()[0].width, 4096);
+}
+
+TEST(FfmpegWatch, WhatIsLateIsSaidOfAFileAPipeAndANetwork) {
+  using namespace ffmpeg;
+  const auto said = [](const Error& late) {
+    Watch watch;
+    watch.begin(Duration(0), late);
+    EXPECT_TRUE(watch.givesUp());
+    return std::string(watch.explain({}).message);
+  };
+  for (const auto& late : {lateOpening, lateReading}) {
+    EXPECT_THAT(said(late(Way::Http)), testing::HasSubstr("check the network"));
+    for (const Way way : {Way::File, Way::Pipe}) {
+      EXPECT_THAT(said(late(way)), testing::HasSubstr(late == lateOpening ? "30 s" : "10 s"));
+      EXPECT_THAT(said(late(way)), testing::Not(testing::HasSubstr("network")));
+    }
+  }
+}
+
+TEST(FfmpegSource, ACutFileEndsLikeAWholeOne) {
+  TemporaryFolder folder;
+  for (const char* name : {"a.mkv", "a.ts", "a.flv"}) {
+    makeClip(folder / name, {kH264});
+    cutFile(folder / name, 0.6);
+    const auto source = makeFfmpegSource();
+    ASSERT_TRUE(source->open(folder / name).has_value()) << name;
+    const auto packets = readAll(*source);
+    EXPECT_GT(packets.size(), 10u) << name;
+    EXPECT_LT(packets.size(), 48u) << name;
+    EXPECT_EQ(source->state(), MediaSource::State::Ended) << name;
+  }
+}
+
+// 48 pictures are 2 s.
+TEST(FfmpegSource, TellsHowMuchOfACutFileIsMissing) {
+  TemporaryFolder folder;
+  for (const char* name : {"a.mkv", "a.flv", "a.avi"}) {
+    makeClip(folder / name, {kH264});
+    const auto source = makeFfmpegSource();
+    ASSERT_TRUE(source->open(folder / name).has_value()) << name;
+    readAll(*source);
+    EXPECT_EQ(source->missing(), Duration(0)) << name << " is whole";
+    ASSERT_TRUE(source->seek(mediaTime(60)).has_value()) << name;
+    readAll(*source);
+    EXPECT_EQ(source->missing(), Duration(0)) << name << " has nothing beyond its end";
+    source->close();
+
+    cutFile(folder / name, 0.6);
+    ASSERT_TRUE(source->open(folder / name).has_value()) << name;
+    EXPECT_EQ(source->missing(), Duration(0)) << name << " is not known before its end";
+    const auto packets = readAll(*source);
+    // With reordering, a later picture's packet precedes those of earlier pictures.
+    const double there = static_cast<double>(packets.size()) / 24;
+    EXPECT_NEAR(toSeconds(source->missing()), 2 - there, 0.25) << name;
+  }
+}
+
+// 48 pictures are 2 s. Where a seek skips the subtitle, nothing that was read lasts to the end that the container
+// states.
+TEST(FfmpegSource, SubtitlesThatOutlastThePictureAreNoMissingPart) {
+  TemporaryFolder folder;
+  ClipTrack track = kH264;
+  track.gop = 12;
+  makeClip(folder / "a.mkv", {track});
+  std::ofstream(folder / "a.srt") << "1\n00:00:00,600 --> 00:00:09,000\nlong\n";
+  const std::string mux = "cd '" + folder / "" + "' && ffmpeg -v error -i a.mkv -i a.srt -c copy b.mkv";
+  if (std::system(mux.c_str()) != 0) GTEST_SKIP() << "no ffmpeg program here";  // NOLINT(bugprone-command-processor)
+  const auto source = makeFfmpegSource();
+  ASSERT_TRUE(source->open(folder / "b.mkv").has_value());
+  EXPECT_NEAR(toSeconds(source->duration()), 9, 0.01);
+  for (const double place : {0.0, 1.6, 0.0}) {
+    ASSERT_TRUE(source->seek(mediaTime(place)).has_value()) << place;
+    EXPECT_GT(readAll(*source).size(), 0U) << place;
+    EXPECT_EQ(source->missing(), Duration(0)) << place;
+  }
+}
+
+// 90 pictures are 3 s. The containers state a length from time 0, or from the first picture.
+TEST(FfmpegSource, AFilmThatBeginsLateIsWholeAndIsSoughtByItsOwnTime) {
+  TemporaryFolder folder;
+  for (const char* name : {"a.mkv", "a.mp4", "a.mov", "a.flv", "a.ts"}) {
+    ClipTrack late = kH264;
+    late.frames = 90;
+    late.start = std::chrono::seconds(100);
+    makeClip(folder / name, {late});
+    const auto source = makeFfmpegSource();
+    ASSERT_TRUE(source->open(folder / name).has_value()) << name;
+    EXPECT_NEAR(toSeconds(source->duration()), 3, 0.05) << name;
+    EXPECT_EQ(readAll(*source).size(), 90u) << name;
+    EXPECT_EQ(source->missing(), Duration(0)) << name;
+    ASSERT_TRUE(source->seek(mediaTime(2.5)).has_value()) << name;
+    const auto packets = readAll(*source);
+    ASSERT_FALSE(packets.empty()) << name;
+    EXPECT_GT(packets[0].pts.value(), mediaTime(1)) << name;
+    EXPECT_EQ(source->missing(), Duration(0)) << name;
+  }
+  cutFile(folder / "a.mkv", 0.6);
+  const auto cut = makeFfmpegSource();
+  ASSERT_TRUE(cut->open(folder / "a.mkv").has_value());
+  const auto there = static_cast<double>(readAll(*cut).size()) / 30;
+  EXPECT_NEAR(toSeconds(cut->missing()), 3 - there, 0.3);
+}
+
+TEST(FfmpegSource, TimesThatJumpBackGoOnWhereTheyWere) {
+  TemporaryFolder folder;
+  const std::string path = folder / "a.mkv";
+  makeClip(path,
+           {ClipTrack{.codec = "libx264", .pix_fmt = "yuv420p", .fps_num = 5, .frames = 75, .gop = 5, .b_frames = 2}},
+           {}, {{.length = std::chrono::seconds(15)}});
+  const auto times = [&] {
+    const auto source = makeFfmpegSource();
+    EXPECT_TRUE(source->open(path).has_value());
+    std::vector<MediaTime> all;
+    for (const Packet& packet : readAll(*source)) {
+      if (packet.stream == 0) all.push_back(packet.pts.value());
+    }
+    EXPECT_EQ(source->missing(), Duration(0));
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  const auto before = times();
+  ASSERT_GT(test::moveClustersBack(path, 6000, 4000), 0);
+  testing::internal::CaptureStderr();
+  const auto after = times();
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              testing::AllOf(HasSubstr("a.mkv: its times jump back by"), HasSubstr("made continuous")));
+  ASSERT_EQ(after.size(), 75u);
+  for (std::size_t k = 0; k < after.size(); ++k) {
+    EXPECT_LE(std::chrono::abs(after[k] - before[k]), std::chrono::milliseconds(250)) << k;
+    EXPECT_TRUE(k == 0 || after[k] > after[k - 1]) << k;
+  }
+}
+
+// ISO/IEC 23002-3, signalled in the programme map, in any order of the streams.
+TEST(FfmpegSource, TellsAuxiliaryVideoOfATransportStream) {
+  TemporaryFolder folder;
+  for (const int depth : {0, 1}) {
+    makeClip(folder / "a.ts", {kH264, kH264});
+    const auto source = makeFfmpegSource();
+    ASSERT_TRUE(source->open(folder / "a.ts").has_value());
+    for (const StreamInfo& stream : source->streams()) EXPECT_FALSE(stream.auxiliary);
+    source->close();
+    ASSERT_GT(test::signalAsDepth(folder / "a.ts", depth), 0);
+    ASSERT_TRUE(source->open(folder / "a.ts").has_value());
+    ASSERT_EQ(source->streams().size(), 2u);
+    for (const StreamInfo& stream : source->streams()) {
+      EXPECT_EQ(stream.auxiliary, stream.index == depth);
+      EXPECT_EQ(stream.codec, "h264");
+      EXPECT_EQ(stream.width, 64);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace relievo
