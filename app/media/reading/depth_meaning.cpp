@@ -129,7 +129,7 @@ DepthReading readPictures(const DepthClues& clues, const KnownKind* kind, const 
     read.offer = otherEnd(layers);  // an entry of a colour map says nothing of its own
   } else if (isOfStereoCamera(kind) && clues.place.camera) {
     read = readDisparities(look, countOf(look, later), *clues.place.camera);
-  } else if (isOfStereoCamera(kind) && look.value_per_code == 0) {
+  } else if ((isOfStereoCamera(kind) || isOfSintel(kind)) && look.value_per_code == 0) {
     read = readFloats(look, countOf(look, later), true, layers);
   } else if (look.value_per_code != 0 && !isHeights(kind)) {
     scaleToCodes(layers, look.value_per_code);
@@ -137,8 +137,6 @@ DepthReading readPictures(const DepthClues& clues, const KnownKind* kind, const 
     const bool named = namesDisparity("", clues.path);  // else the format alone speaks for it
     const bool disparity = named || (namesDisparity(clues.codec, clues.path) && !mayBeMetres(look, count));
     read = readFloats(look, count, disparity, layers);
-  } else if (isOfSintel(kind)) {
-    read = readFloats(look, countOf(look, later), true, layers);
   } else if (kind == nullptr && isNamedDisparity(clues, look)) {
     read = readNamedDisparity(look, countOf(look, later), layers);
   } else {
